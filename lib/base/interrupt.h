@@ -1,0 +1,18 @@
+/* interrupt.h -- Ctrl-C arms a flag; long computations look at it and return QDOT_EINTR. */
+#ifndef QDOT_BASE_INTERRUPT_H
+#define QDOT_BASE_INTERRUPT_H
+
+#include <signal.h>
+
+#include "base/status.h"
+
+extern volatile sig_atomic_t qdot_interrupt_flag;
+
+/* Safe in a signal handler. */
+void qdot_interrupt_set(void);
+void qdot_interrupt_clear(void);
+
+/* QDOT_EINTR, recorded as a failure, while the flag is set. */
+qdot_status qdot_interrupt_check(void);
+
+#endif

@@ -1,0 +1,164 @@
+/* memory.c -- every allocation of the library, so that any of them can be made to fail. */
+#include "base/memory.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+static long fail_after = -1;
+
+static void *
+checked(void *block, size_t size)
+{
+    if (block == NULL)
+        (void)qdot_fail(QDOT_ENOMEM, "out of memory (%zu bytes wanted)", size);
+    return block;
+}
+
+static bool
+must_fail(void)
+{
+    if (fail_after < 0)
+        return false;
+    if (fail_after > 0) {
+        fail_after--;
+        return false;
+    }
+    return true;
+}
+
+void
+qdot_memory_fail_at(long n)
+{
+    fail_after = n;
+}
+
+void *
+qdot_malloc(size_t size)
+{
+    return checked(must_fail() ? NULL : malloc(size ? size : 1), size);
+}
+
+void *
+qdot_calloc(size_t count, size_t size)
+{
+    return checked(must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1),
+                   count * size);
+}
+
+void *
+qdot_realloc(void *block, size_t size)
+{
+    return checked(must_fail() ? NULL : realloc(block, size ? size : 1), size);
+}
+
+char *
+qdot_strndup(const char *text, size_t length)
+{
+    char *copy = qdot_malloc(length + 1);
+
+    if (copy != NULL) {
+        memcpy(copy, text, length);
+        copy[length] = '\0';
+    }
+    return copy;
+}
+
+char *
+qdot_strdup(const char *text)
+{
+    return qdot_strndup(text, strlen(text));
+}
+
+void
+qdot_free(void *block)
+{
+    free(block);
+}
+
+qdot_status
+qdot_grow(void *block, size_t *capacity, size_t wanted, size_t size)
+{
+    void **slot = block, *bigger;
+    size_t enough = *capacity;
+
+    if (wanted <= *capacity)
+        return QDOT_OK;
+    if (enough < 8)
+        enough = 8;
+    while (enough < wanted) {
+        if (enough > SIZE_MAX / 2 / size)
+            return qdot_fail(QDOT_ENOMEM, "out of memory (an array of %zu items)", wanted);
+        enough *= 2;
+    }
+    bigger = qdot_realloc(*slot, enough * size);
+    if (bigger == NULL)
+        return QDOT_ENOMEM;
+    *slot = bigger;
+    *capacity = enough;
+    return QDOT_OK;
+}
+
+/* --- arena --------------------------------------------------------------------------- */
+
+struct chunk {
+    struct chunk *next;
+    size_t used, size;
+    max_align_t bytes[];
+};
+
+struct qdot_arena {
+    struct chunk *chunks;
+};
+
+qdot_arena *
+qdot_arena_new(void)
+{
+    return qdot_calloc(1, sizeof(qdot_arena));
+}
+
+void
+qdot_arena_free(qdot_arena *arena)
+{
+    if (arena == NULL)
+        return;
+    for (struct chunk *c = arena->chunks, *next; c != NULL; c = next) {
+        next = c->next;
+        qdot_free(c);
+    }
+    qdot_free(arena);
+}
+
+void *
+qdot_arena_take(qdot_arena *arena, size_t size)
+{
+    const size_t unit = sizeof(max_align_t);
+    struct chunk *c = arena->chunks;
+
+    size = (size + unit - 1) / unit * unit;
+    if (c == NULL || c->size - c->used < size) {
+        size_t room = size > 65536 ? size : 65536;
+
+        c = qdot_malloc(sizeof *c + room);
+        if (c == NULL)
+            return NULL;
+        c->used = 0;
+        c->size = room;
+        c->next = arena->chunks;
+        arena->chunks = c;
+    }
+    c->used += size;
+    return (char *)c->bytes + c->used - size;
+}
+
+char *
+qdot_arena_strndup(qdot_arena *arena, const char *text, size_t length)
+{
+    char *copy = qdot_arena_take(arena, length + 1);
+
+    if (copy != NULL) {
+        memcpy(copy, text, length);
+        copy[length] = '\0';
+    }
+    return copy;
+}

@@ -1,0 +1,65 @@
+/* status.h -- how everything in qdot fails.
+ *
+ * Every function that can fail returns a qdot_status; every failure passes through
+ * qdot_fail(), which records the message for the calling thread, so one breakpoint
+ * catches them all. A caller passes a status on with QDOT_TRY. Nothing in lib/ exits,
+ * prints or jumps.
+ *
+ * Undefined (log 0), undecided (no proof) and failed (no memory, interrupted) are three
+ * different things: QDOT_EDOMAIN; a verdict, never a status; QDOT_ENOMEM, QDOT_EINTR.
+ */
+#ifndef QDOT_BASE_STATUS_H
+#define QDOT_BASE_STATUS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum {
+    QDOT_OK = 0,
+    QDOT_EINVAL,    /* an argument that makes no sense */
+    QDOT_ESYNTAX,   /* text that is not of the language */
+    QDOT_ENAME,     /* a name that is unknown, or taken */
+    QDOT_ETYPE,     /* a vector where a number belongs, wrong dimensions */
+    QDOT_EDOMAIN,   /* undefined: 1/0, log 0, outside a declared domain */
+    QDOT_EUNSET,    /* a parameter or function without a value */
+    QDOT_ESINGULAR, /* a matrix without an inverse */
+    QDOT_ELIMIT,    /* larger than the stated limit of work or size */
+    QDOT_EFAILED,   /* a numerical method gave up; the message says where and why */
+    QDOT_ENOTBUILT, /* a word of the language that this version does not have */
+    QDOT_EIO,       /* a file or pipe */
+    QDOT_ENOMEM,    /* out of memory */
+    QDOT_EINTR      /* Ctrl-C */
+} qdot_status;
+
+#define QDOT_MUST_CHECK __attribute__((warn_unused_result))
+#define QDOT_PRINTF(f, a) __attribute__((format(printf, f, a)))
+#define QDOT_API __attribute__((visibility("default")))
+
+/* Return the status of `call` from the enclosing function unless it is QDOT_OK. */
+#define QDOT_TRY(call)                                                                   \
+    do {                                                                                 \
+        qdot_status try_status_ = (call);                                                \
+        if (try_status_ != QDOT_OK)                                                      \
+            return try_status_;                                                          \
+    } while (0)
+
+/* The last failure of this thread. */
+typedef struct {
+    qdot_status status;
+    char message[512];
+    char hint[256]; /* "" where there is none */
+} qdot_error;
+
+/* Record a failure with its message (printf) and no hint; returns `status`. */
+qdot_status qdot_fail(qdot_status status, const char *format, ...) QDOT_PRINTF(2, 3);
+
+/* Add a hint (printf) to the failure just recorded; returns that failure's status. */
+qdot_status qdot_hint(const char *format, ...) QDOT_PRINTF(1, 2);
+
+/* The last failure of this thread; owned by the thread, valid until the next failure. */
+const qdot_error *qdot_last_error(void);
+
+/* Put a saved failure back as the last one; returns its status. */
+qdot_status qdot_fail_again(const qdot_error *saved);
+
+#endif

@@ -1,0 +1,132 @@
+/* text.c -- a growing string. */
+#include "base/text.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/utf8.h"
+
+void
+qdot_text_add_n(qdot_text *s, const char *text, size_t length)
+{
+    if (s->failed)
+        return;
+    if (qdot_grow(&s->at, &s->capacity, s->n + length + 1, 1) != QDOT_OK) {
+        s->failed = true;
+        return;
+    }
+    memcpy(s->at + s->n, text, length);
+    s->n += length;
+    s->at[s->n] = '\0';
+}
+
+void
+qdot_text_add(qdot_text *s, const char *text)
+{
+    qdot_text_add_n(s, text, strlen(text));
+}
+
+void
+qdot_text_char(qdot_text *s, char c)
+{
+    qdot_text_add_n(s, &c, 1);
+}
+
+void
+qdot_text_format(qdot_text *s, const char *format, ...)
+{
+    char small[256];
+    va_list ap;
+    int n;
+
+    va_start(ap, format);
+    n = vsnprintf(small, sizeof small, format, ap);
+    va_end(ap);
+    if (n < 0 || (size_t)n < sizeof small) {
+        qdot_text_add_n(s, small, n < 0 ? 0 : (size_t)n);
+        return;
+    }
+    if (s->failed || qdot_grow(&s->at, &s->capacity, s->n + (size_t)n + 1, 1) != QDOT_OK) {
+        s->failed = true;
+        return;
+    }
+    va_start(ap, format);
+    vsnprintf(s->at + s->n, (size_t)n + 1, format, ap);
+    va_end(ap);
+    s->n += (size_t)n;
+}
+
+void
+qdot_text_truncate(qdot_text *s, size_t length)
+{
+    if (length < s->n) {
+        s->n = length;
+        s->at[length] = '\0';
+    }
+}
+
+void
+qdot_text_clear(qdot_text *s)
+{
+    qdot_free(s->at);
+    *s = (qdot_text){0};
+}
+
+const char *
+qdot_text_str(const qdot_text *s)
+{
+    return s->at != NULL ? s->at : "";
+}
+
+qdot_status
+qdot_text_status(const qdot_text *s)
+{
+    return s->failed ? QDOT_ENOMEM : QDOT_OK;
+}
+
+void
+qdot_text_double(qdot_text *s, double x, int digits)
+{
+    char buffer[64];
+
+    if (isnan(x)) {
+        qdot_text_add(s, "nan");
+        return;
+    }
+    if (isinf(x)) {
+        qdot_text_add(s, x > 0 ? "inf" : "-inf");
+        return;
+    }
+    snprintf(buffer, sizeof buffer, "%.*g", digits, x);
+    /* the program sets only LC_CTYPE; an embedder's locale may still write a comma */
+    for (char *c = buffer; *c != '\0'; c++)
+        if (*c == ',')
+            *c = '.';
+    qdot_text_add(s, buffer);
+}
+
+void
+qdot_text_json(qdot_text *s, const char *text)
+{
+    qdot_text_char(s, '"');
+    for (const char *c = text; *c != '\0';) {
+        size_t n = qdot_utf8_length(c);
+
+        if (n == 0) {
+            qdot_text_add(s, "\xEF\xBF\xBD");
+            c++;
+        } else if (*c == '"' || *c == '\\') {
+            qdot_text_char(s, '\\');
+            qdot_text_char(s, *c++);
+        } else if ((unsigned char)*c < 0x20 || *c == 0x7f) {
+            qdot_text_format(s, "\\u%04x", (unsigned char)*c++);
+        } else {
+            qdot_text_add_n(s, c, n);
+            c += n;
+        }
+    }
+    qdot_text_char(s, '"');
+}

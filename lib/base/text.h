@@ -1,0 +1,35 @@
+/* text.h -- a growing string. An append that fails marks the string; ask once, at the end. */
+#ifndef QDOT_BASE_TEXT_H
+#define QDOT_BASE_TEXT_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+/* Start with `qdot_text s = {0};`; free with qdot_text_clear. */
+typedef struct {
+    char *at; /* NUL-terminated once anything was appended; else NULL */
+    size_t n, capacity;
+    bool failed;
+} qdot_text;
+
+void qdot_text_add(qdot_text *s, const char *text);
+void qdot_text_add_n(qdot_text *s, const char *text, size_t length);
+void qdot_text_char(qdot_text *s, char c);
+void qdot_text_format(qdot_text *s, const char *format, ...) QDOT_PRINTF(2, 3);
+void qdot_text_truncate(qdot_text *s, size_t length);
+void qdot_text_clear(qdot_text *s);
+
+/* The characters, "" where nothing was appended. */
+const char *qdot_text_str(const qdot_text *s);
+
+/* QDOT_ENOMEM if any append failed. */
+QDOT_MUST_CHECK qdot_status qdot_text_status(const qdot_text *s);
+
+/* A double as the C locale writes it, `digits` significant ones; inf and nan in words. */
+void qdot_text_double(qdot_text *s, double x, int digits);
+
+/* `text` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
+void qdot_text_json(qdot_text *s, const char *text);
+
+#endif

@@ -1,0 +1,17 @@
+/* utf8.h -- the little of UTF-8 that names and carets need. */
+#ifndef QDOT_BASE_UTF8_H
+#define QDOT_BASE_UTF8_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Bytes of the well-formed sequence at `text` (NUL-terminated), 0 if it is not one (or NUL). */
+size_t qdot_utf8_length(const char *text);
+
+/* Its code point; *length as above. 0 if it is not well-formed. */
+uint32_t qdot_utf8_decode(const char *text, size_t *length);
+
+/* Columns that the first `bytes` bytes take on a terminal: one a code point. */
+size_t qdot_utf8_columns(const char *text, size_t bytes);
+
+#endif
