@@ -1,0 +1,348 @@
+/* calculus.c -- derivations and substitution. */
+#include "expr/calculus.h"
+
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "expr/pool.h"
+#include "expr/walk.h"
+
+/* --- derivations --------------------------------------------------------------------------- */
+
+typedef struct {
+    qdot_pool *pool;
+    const qdot_walk *w;
+    qdot_vec(qdot_expr) terms;
+    qdot_vec(qdot_expr) factors;
+} derivation;
+
+static qdot_expr
+derived(const derivation *d, qdot_expr e)
+{
+    return (qdot_expr)qdot_walk_get(d->w, e);
+}
+
+static void
+add_term(derivation *d, qdot_expr term)
+{
+    if (qdot_vec_push(&d->terms, term) != QDOT_OK)
+        qdot_pool_fail(d->pool);
+}
+
+/* d(b^e) for one factor of a product, the other factors left out. */
+static qdot_expr
+derive_power(derivation *d, qdot_expr b, qdot_expr e)
+{
+    qdot_pool *pool = d->pool;
+    qdot_expr db = derived(d, b), de = derived(d, e);
+    qdot_expr term = QDOT_ZERO;
+
+    if (db != QDOT_ZERO)
+        term = qdot_product(pool, 3,
+                            (qdot_expr[]){e, qdot_pow(pool, b, qdot_sub(pool, e, QDOT_ONE)), db});
+    if (de != QDOT_ZERO)
+        term = qdot_add(pool, term,
+                        qdot_product(pool, 3,
+                                     (qdot_expr[]){qdot_pow(pool, b, e),
+                                                   qdot_fun1(pool, QDOT_LOG, b), de}));
+    return term;
+}
+
+static void
+derive_product(derivation *d, qdot_expr e)
+{
+    qdot_pool *pool = d->pool;
+    uint32_t n = NODE(pool, e)->n;
+
+    for (uint32_t i = 1; i < n && !qdot_pool_failed(pool); i += 2) {
+        qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
+
+        if (derived(d, b) == QDOT_ZERO && derived(d, x) == QDOT_ZERO)
+            continue;
+        d->factors.n = 0;
+        for (uint32_t k = 1; k < n; k += 2)
+            if (k != i &&
+                qdot_vec_push(&d->factors,
+                              qdot_pow(pool, ARGS(pool, e)[k], ARGS(pool, e)[k + 1])) != QDOT_OK)
+                qdot_pool_fail(pool);
+        if (qdot_vec_push(&d->factors, ARGS(pool, e)[0]) != QDOT_OK ||
+            qdot_vec_push(&d->factors, derive_power(d, b, x)) != QDOT_OK)
+            qdot_pool_fail(pool);
+        add_term(d, qdot_product(pool, d->factors.n, d->factors.at));
+    }
+}
+
+static void
+derive_ufun(derivation *d, qdot_expr e)
+{
+    qdot_pool *pool = d->pool;
+    uint32_t n = NODE(pool, e)->n / 2;
+    uint32_t orders[64];
+    qdot_expr args[64];
+
+    if (n > 64) {
+        qdot_pool_refuse(pool, QDOT_ELIMIT, "an undefined function of more than 64 arguments");
+        return;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr inner = derived(d, ARGS(pool, e)[i]);
+
+        if (inner == QDOT_ZERO)
+            continue;
+        for (uint32_t k = 0; k < n; k++) {
+            long order = 0;
+
+            args[k] = ARGS(pool, e)[k];
+            qdot_expr_to_int(pool, ARGS(pool, e)[n + k], &order);
+            orders[k] = (uint32_t)order + (k == i);
+        }
+        add_term(d, qdot_mul(pool, qdot_ufun_apply(pool, NODE(pool, e)->op, args, orders), inner));
+    }
+}
+
+static void
+derive_function(derivation *d, qdot_expr e)
+{
+    qdot_pool *pool = d->pool;
+    qdot_node node = *NODE(pool, e);
+    qdot_expr *args = qdot_malloc(node.n * sizeof *args);
+
+    if (args == NULL) {
+        qdot_pool_fail(pool);
+        return;
+    }
+    for (uint32_t i = 0; i < node.n; i++)
+        args[i] = ARGS(pool, e)[i];
+    if (node.op == QDOT_IF) {
+        qdot_expr yes = derived(d, args[1]), no = derived(d, args[2]);
+
+        if (yes != QDOT_ZERO || no != QDOT_ZERO)
+            add_term(d, qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){args[0], yes, no}));
+    } else {
+        for (uint32_t i = 0; i < node.n; i++) {
+            qdot_expr inner = derived(d, args[i]);
+
+            if (inner != QDOT_ZERO)
+                add_term(d, qdot_mul(pool, qdot_fun_derivative(pool, node.op, node.n, args, i), inner));
+        }
+    }
+    qdot_free(args);
+}
+
+/* Vectors, lists, equations: entry by entry. Inequalities and logic occur only inside
+ * conditions, where they are not derived; alone they have no derivative. */
+static qdot_expr
+derive_entries(derivation *d, qdot_expr e, bool root)
+{
+    qdot_pool *pool = d->pool;
+    qdot_node node = *NODE(pool, e);
+
+    if (node.kind == QDOT_LOGIC || (node.kind == QDOT_REL && node.op != QDOT_EQ)) {
+        if (root)
+            return qdot_pool_refuse(pool, QDOT_ETYPE, "a comparison has no derivative");
+        return QDOT_ZERO;
+    }
+    d->factors.n = 0;
+    for (uint32_t i = 0; i < node.n; i++)
+        if (qdot_vec_push(&d->factors, derived(d, ARGS(pool, e)[i])) != QDOT_OK)
+            return qdot_pool_fail(pool);
+    return qdot_rebuild(pool, e, d->factors.at);
+}
+
+qdot_expr
+qdot_derive(qdot_pool *pool, qdot_expr e,
+            qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
+{
+    qdot_walk w;
+    derivation d = {.pool = pool, .w = &w};
+    qdot_expr result = QDOT_NIL;
+
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && !qdot_pool_failed(pool); i++) {
+        qdot_expr node = w.at[i];
+
+        d.terms.n = 0;
+        switch (NODE(pool, node)->kind) {
+        case QDOT_NUM:
+            result = QDOT_ZERO;
+            break;
+        case QDOT_SYM:
+            result = pool->symbols.at[NODE(pool, node)->at].class == QDOT_CONST
+                         ? QDOT_ZERO
+                         : of(pool, node, user);
+            break;
+        case QDOT_SUM:
+            for (uint32_t k = 1; k < NODE(pool, node)->n; k += 2)
+                if (derived(&d, ARGS(pool, node)[k]) != QDOT_ZERO)
+                    add_term(&d, qdot_mul(pool, ARGS(pool, node)[k + 1],
+                                          derived(&d, ARGS(pool, node)[k])));
+            result = qdot_sum(pool, d.terms.n, d.terms.at);
+            break;
+        case QDOT_PROD:
+            derive_product(&d, node);
+            result = qdot_sum(pool, d.terms.n, d.terms.at);
+            break;
+        case QDOT_UFUN:
+            derive_ufun(&d, node);
+            result = qdot_sum(pool, d.terms.n, d.terms.at);
+            break;
+        case QDOT_FUN:
+            derive_function(&d, node);
+            result = qdot_sum(pool, d.terms.n, d.terms.at);
+            break;
+        default:
+            result = derive_entries(&d, node, i + 1 == w.n);
+        }
+        w.value[i] = result;
+    }
+    qdot_free(d.terms.at);
+    qdot_free(d.factors.at);
+    qdot_walk_end(&w);
+    return qdot_pool_failed(pool) ? QDOT_NIL : result;
+}
+
+static qdot_expr
+with_respect_to(qdot_pool *pool, qdot_expr symbol, void *user)
+{
+    (void)pool;
+    return symbol == *(qdot_expr *)user ? QDOT_ONE : QDOT_ZERO;
+}
+
+qdot_expr
+qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x)
+{
+    if (x == QDOT_NIL || e == QDOT_NIL)
+        return QDOT_NIL;
+    if (NODE(pool, x)->kind != QDOT_SYM)
+        return qdot_pool_refuse(pool, QDOT_ETYPE,
+                                "a derivative is taken with respect to a name: a coordinate, a "
+                                "velocity, a parameter or t");
+    return qdot_derive(pool, e, with_respect_to, &x);
+}
+
+static qdot_expr
+in_time(qdot_pool *pool, qdot_expr symbol, void *user)
+{
+    (void)user;
+    switch (pool->symbols.at[NODE(pool, symbol)->at].class) {
+    case QDOT_TIME:
+        return QDOT_ONE;
+    case QDOT_COORD:
+        return qdot_symbol_jet(pool, symbol, 1);
+    case QDOT_MOMENTUM:
+    case QDOT_MULTIPLIER:
+    case QDOT_DIFFERENTIAL:
+    case QDOT_DELTA:
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "%s has no time derivative here",
+                                pool->symbols.at[NODE(pool, symbol)->at].name);
+    default:
+        return QDOT_ZERO;
+    }
+}
+
+qdot_expr
+qdot_ddt(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_derive(pool, e, in_time, NULL);
+}
+
+static qdot_expr
+in_differentials(qdot_pool *pool, qdot_expr symbol, void *user)
+{
+    const qdot_symbol *s = &pool->symbols.at[NODE(pool, symbol)->at];
+
+    (void)user;
+    if (s->class == QDOT_TIME || (s->class == QDOT_COORD && s->order == 0))
+        return qdot_symbol_of(pool, QDOT_DIFFERENTIAL, symbol);
+    if (s->class == QDOT_COORD)
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "a line element is of positions; %s is a velocity",
+                                s->name);
+    return QDOT_ZERO;
+}
+
+qdot_expr
+qdot_differential(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_derive(pool, e, in_differentials, NULL);
+}
+
+/* --- substitution --------------------------------------------------------------------------- */
+
+struct replacements {
+    size_t n;
+    const qdot_expr *from, *to;
+};
+
+static qdot_expr
+replacement(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const struct replacements *r = user;
+
+    (void)pool;
+    for (size_t i = 0; i < r->n; i++)
+        if (r->from[i] == node)
+            return r->to[i];
+    return QDOT_NIL;
+}
+
+/* Many replacements: found by bisection. */
+static qdot_expr
+replacement_sorted(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const struct replacements *r = user;
+    size_t lo = 0, hi = r->n;
+
+    (void)pool;
+    while (lo < hi) {
+        size_t mid = (lo + hi) / 2;
+
+        if (r->from[mid] == node)
+            return r->to[mid];
+        if (r->from[mid] < node)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return QDOT_NIL;
+}
+
+static int
+by_from(const void *a, const void *b)
+{
+    const qdot_expr *x = a, *y = b;
+
+    return *x < *y ? -1 : *x > *y;
+}
+
+qdot_expr
+qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const qdot_expr *to)
+{
+    struct replacements r = {n, from, to};
+    qdot_expr *pairs, *split, result;
+
+    for (size_t i = 0; i < n; i++)
+        if (from[i] == QDOT_NIL || to[i] == QDOT_NIL)
+            return QDOT_NIL;
+    if (n < 8)
+        return qdot_walk_map(pool, e, replacement, &r);
+    pairs = qdot_malloc(4 * n * sizeof *pairs);
+    if (pairs == NULL)
+        return qdot_pool_fail(pool);
+    split = pairs + 2 * n;
+    for (size_t i = 0; i < n; i++) {
+        pairs[2 * i] = from[i];
+        pairs[2 * i + 1] = to[i];
+    }
+    qsort(pairs, n, 2 * sizeof *pairs, by_from);
+    for (size_t i = 0; i < n; i++) {
+        split[i] = pairs[2 * i];
+        split[n + i] = pairs[2 * i + 1];
+    }
+    r = (struct replacements){n, split, split + n};
+    result = qdot_walk_map(pool, e, replacement_sorted, &r);
+    qdot_free(pairs);
+    return result;
+}

@@ -1,0 +1,40 @@
+/* calculus.h -- derivatives, substitution, expansion.
+ *
+ * All work on any kind of value: they map over equations, vectors, matrices and lists.
+ */
+#ifndef QDOT_EXPR_CALCULUS_H
+#define QDOT_EXPR_CALCULUS_H
+
+#include "expr/expr.h"
+
+/* A derivation: linear, Leibniz, chain rule; `of` gives it on symbols (QDOT_ZERO for constants).
+ * Undefined functions by the chain rule over their arguments. */
+qdot_expr qdot_derive(qdot_pool *pool, qdot_expr e,
+                      qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user),
+                      void *user);
+
+/* de/dx, all other symbols held: q, q', q'', t, parameters are independent. x a SYM, else
+ * QDOT_ETYPE. */
+qdot_expr qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x);
+
+/* Total time derivative: q -> q', q' -> q'', t -> 1, multipliers and momenta held constant is
+ * wrong, so they are QDOT_EDOMAIN. */
+qdot_expr qdot_ddt(qdot_pool *pool, qdot_expr e);
+
+/* de = sum de/dq dq + de/dt dt. */
+qdot_expr qdot_differential(qdot_pool *pool, qdot_expr e);
+
+/* All replacements at once; `from` any nodes (symbols, usually). */
+qdot_expr qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
+                    const qdot_expr *to);
+
+/* Products over sums multiplied out, integer powers of sums too. */
+qdot_expr qdot_expand(qdot_pool *pool, qdot_expr e);
+
+/* e as a sum over powers of x (a symbol or any node): expanded in x only. */
+qdot_expr qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x);
+
+/* Coefficient of x^n in e, e polynomial in x: collected first. QDOT_EDOMAIN if it is not. */
+qdot_expr qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n);
+
+#endif

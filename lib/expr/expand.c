@@ -1,0 +1,242 @@
+/* expand.c -- products over sums multiplied out; powers of one symbol collected. */
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/pool.h"
+#include "expr/tensor.h"
+#include "expr/walk.h"
+
+enum { MOST_TERMS = 2000000 };
+
+/* Terms of e as a sum: count, and the i-th. */
+static uint32_t
+term_count(const qdot_pool *pool, qdot_expr e)
+{
+    const qdot_node *node = NODE(pool, e);
+
+    return node->kind == QDOT_SUM ? (node->n - 1) / 2 + (ARGS(pool, e)[0] != QDOT_ZERO) : 1;
+}
+
+static qdot_expr
+term_at(qdot_pool *pool, qdot_expr e, uint32_t i)
+{
+    uint32_t terms;
+
+    if (NODE(pool, e)->kind != QDOT_SUM)
+        return e;
+    terms = (NODE(pool, e)->n - 1) / 2;
+    if (i == terms)
+        return ARGS(pool, e)[0];
+    return qdot_mul(pool, ARGS(pool, e)[2 + 2 * i], ARGS(pool, e)[1 + 2 * i]);
+}
+
+/* a b, both expanded, expanded. */
+static qdot_expr
+multiply(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    uint32_t na, nb;
+    qdot_vec(qdot_expr) terms = {0};
+    qdot_expr result;
+
+    if (a == QDOT_NIL || b == QDOT_NIL)
+        return QDOT_NIL;
+    na = term_count(pool, a);
+    nb = term_count(pool, b);
+    if (na == 1 && nb == 1)
+        return qdot_mul(pool, a, b);
+    if ((uint64_t)na * nb > MOST_TERMS)
+        return qdot_pool_refuse(pool, QDOT_ELIMIT, "expanded, this has about %llu terms",
+                                (unsigned long long)na * nb);
+    for (uint32_t i = 0; i < na && !qdot_pool_failed(pool); i++) {
+        qdot_expr x = term_at(pool, a, i);
+
+        for (uint32_t k = 0; k < nb && !qdot_pool_failed(pool); k++)
+            if (qdot_vec_push(&terms, qdot_mul(pool, x, term_at(pool, b, k))) != QDOT_OK)
+                qdot_pool_fail(pool);
+    }
+    result = qdot_sum(pool, terms.n, terms.at);
+    qdot_free(terms.at);
+    return result;
+}
+
+/* s^n of an expanded sum, n >= 1, by squaring. */
+static qdot_expr
+power(qdot_pool *pool, qdot_expr s, unsigned long n)
+{
+    qdot_expr result = QDOT_ONE;
+
+    for (; n > 0 && !qdot_pool_failed(pool); n >>= 1) {
+        if (n & 1)
+            result = multiply(pool, result, s);
+        if (n > 1)
+            s = multiply(pool, s, s);
+    }
+    return result;
+}
+
+/* Whether multiplying out may still be needed in a product of already canonical parts. */
+static qdot_expr
+expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w)
+{
+    qdot_expr result = ARGS(pool, e)[0], below = QDOT_ONE;
+    uint32_t n = NODE(pool, e)->n;
+
+    for (uint32_t i = 1; i < n && !qdot_pool_failed(pool); i += 2) {
+        qdot_expr base = (qdot_expr)qdot_walk_get(w, ARGS(pool, e)[i]);
+        qdot_expr exponent = (qdot_expr)qdot_walk_get(w, ARGS(pool, e)[i + 1]);
+        long k;
+
+        if (base == QDOT_NIL || exponent == QDOT_NIL)
+            return QDOT_NIL;
+        if (!qdot_expr_to_int(pool, exponent, &k) || NODE(pool, base)->kind != QDOT_SUM)
+            result = multiply(pool, result, qdot_pow(pool, base, exponent));
+        else if (k > 0)
+            result = multiply(pool, result, power(pool, base, (unsigned long)k));
+        else
+            below = multiply(pool, below, power(pool, base, (unsigned long)-k));
+    }
+    if (below == QDOT_ONE || below == QDOT_NIL)
+        return below == QDOT_NIL ? QDOT_NIL : result;
+    return multiply(pool, result, qdot_pow(pool, below, QDOT_MINUS_ONE));
+}
+
+qdot_expr
+qdot_expand(qdot_pool *pool, qdot_expr e)
+{
+    qdot_walk w;
+    qdot_vec(qdot_expr) args = {0};
+    qdot_expr result = QDOT_NIL;
+
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && !qdot_pool_failed(pool); i++) {
+        qdot_expr node = w.at[i];
+        uint32_t n = NODE(pool, node)->n;
+
+        if (NODE(pool, node)->kind == QDOT_PROD) {
+            result = expand_product(pool, node, &w);
+        } else if (n > 0) {
+            if (qdot_grow(&args.at, &args.capacity, n, sizeof *args.at) != QDOT_OK) {
+                qdot_pool_fail(pool);
+                break;
+            }
+            for (uint32_t k = 0; k < n; k++)
+                args.at[k] = (qdot_expr)qdot_walk_get(&w, ARGS(pool, node)[k]);
+            result = qdot_rebuild(pool, node, args.at);
+        } else {
+            result = node;
+        }
+        w.value[i] = result;
+    }
+    qdot_free(args.at);
+    qdot_walk_end(&w);
+    return qdot_pool_failed(pool) ? QDOT_NIL : result;
+}
+
+/* --- collecting ----------------------------------------------------------------------------- */
+
+struct group {
+    qdot_expr power; /* of x: QDOT_ONE for x^0 */
+    qdot_vec(qdot_expr) coefficients;
+};
+
+typedef qdot_vec(struct group) groups;
+
+/* term = coefficient * x^k: the power of x in it, and the rest. */
+static qdot_expr
+split_power(qdot_pool *pool, qdot_expr term, qdot_expr x, qdot_expr *power)
+{
+    *power = QDOT_ONE;
+    if (term == x) {
+        *power = x;
+        return QDOT_ONE;
+    }
+    if (NODE(pool, term)->kind != QDOT_PROD)
+        return term;
+    for (uint32_t i = 1; i < NODE(pool, term)->n; i += 2)
+        if (ARGS(pool, term)[i] == x) {
+            *power = qdot_pow(pool, x, ARGS(pool, term)[i + 1]);
+            return qdot_div(pool, term, *power);
+        }
+    return term;
+}
+
+static void
+gather(qdot_pool *pool, groups *all, qdot_expr power, qdot_expr coefficient)
+{
+    size_t i = 0;
+
+    while (i < all->n && all->at[i].power != power)
+        i++;
+    if (i == all->n && qdot_vec_push(all, ((struct group){.power = power})) != QDOT_OK) {
+        qdot_pool_fail(pool);
+        return;
+    }
+    if (qdot_vec_push(&all->at[i].coefficients, coefficient) != QDOT_OK)
+        qdot_pool_fail(pool);
+}
+
+static void
+gather_all(qdot_pool *pool, qdot_expr e, qdot_expr x, groups *all)
+{
+    uint32_t n;
+
+    if (e == QDOT_NIL)
+        return;
+    n = term_count(pool, e);
+    for (uint32_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
+        qdot_expr power, rest = split_power(pool, term_at(pool, e, i), x, &power);
+
+        gather(pool, all, power, rest);
+    }
+}
+
+static void
+clear(groups *all)
+{
+    for (size_t i = 0; i < all->n; i++)
+        qdot_free(all->at[i].coefficients.at);
+    qdot_free(all->at);
+}
+
+static qdot_expr
+collect_scalar(qdot_pool *pool, qdot_expr e, void *user)
+{
+    qdot_expr x = *(qdot_expr *)user, result = QDOT_ZERO;
+    groups all = {0};
+
+    gather_all(pool, qdot_expand(pool, e), x, &all);
+    for (size_t i = 0; i < all.n; i++)
+        result = qdot_add(pool, result,
+                          qdot_mul(pool, all.at[i].power,
+                                   qdot_sum(pool, all.at[i].coefficients.n,
+                                            all.at[i].coefficients.at)));
+    clear(&all);
+    return qdot_pool_failed(pool) ? QDOT_NIL : result;
+}
+
+qdot_expr
+qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x)
+{
+    return qdot_value_map(pool, e, collect_scalar, &x);
+}
+
+qdot_expr
+qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n)
+{
+    groups all = {0};
+    qdot_expr wanted = qdot_pow_int(pool, x, n), result = QDOT_ZERO;
+
+    gather_all(pool, qdot_expand(pool, e), x, &all);
+    for (size_t i = 0; i < all.n; i++) {
+        qdot_expr c = qdot_sum(pool, all.at[i].coefficients.n, all.at[i].coefficients.at);
+
+        if (c != QDOT_NIL && qdot_expr_contains(pool, c, x))
+            result = qdot_pool_refuse(pool, QDOT_EDOMAIN, "not a polynomial in this name");
+        else if (all.at[i].power == wanted)
+            result = c;
+    }
+    clear(&all);
+    return qdot_pool_failed(pool) ? QDOT_NIL : result;
+}

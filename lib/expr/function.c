@@ -1,0 +1,578 @@
+/* function.c -- elementary functions: special values, parity, inverse pairs, derivatives. */
+#include "expr/pool.h"
+
+#include <string.h>
+
+#include <flint/fmpz.h>
+
+static const struct {
+    const char *name;
+    int least, most;
+} table[QDOT_FUNCTION_COUNT] = {
+#define X(ID, name, least, most) {name, least, most},
+#include "expr/function.def"
+#undef X
+};
+
+bool
+qdot_fun_find(const char *name, qdot_fun_id *id)
+{
+    for (int i = 0; i < QDOT_FUNCTION_COUNT; i++)
+        if (strcmp(table[i].name, name) == 0) {
+            *id = (qdot_fun_id)i;
+            return true;
+        }
+    return false;
+}
+
+const char *
+qdot_fun_name(qdot_fun_id id)
+{
+    return table[id].name;
+}
+
+static qdot_expr
+plain(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
+{
+    return qdot_pool_intern(pool, QDOT_FUN, (uint16_t)id, n, args,
+                            qdot_sign_of_function(pool, id, args));
+}
+
+static bool
+is_fun(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
+{
+    return NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op == id;
+}
+
+static qdot_expr
+arg0(const qdot_pool *pool, qdot_expr e)
+{
+    return ARGS(pool, e)[0];
+}
+
+/* --- circular functions at rational multiples of pi ---------------------------------------- */
+
+/* x = c pi + rest, c rational. */
+static qdot_expr
+split_pi(qdot_pool *pool, qdot_expr x, fmpq_t c)
+{
+    const qdot_node *node = NODE(pool, x);
+
+    fmpq_zero(c);
+    if (node->kind == QDOT_SUM) {
+        for (uint32_t i = 1; i < node->n; i += 2)
+            if (ARGS(pool, x)[i] == QDOT_PI) {
+                fmpq_set(c, RATIONAL(pool, ARGS(pool, x)[i + 1]));
+                return qdot_sub(pool, x,
+                                qdot_mul(pool, ARGS(pool, x)[i + 1], QDOT_PI));
+            }
+    } else if (qdot_expr_unscale(pool, x, c) == QDOT_PI) {
+        return QDOT_ZERO;
+    }
+    fmpq_zero(c);
+    return x;
+}
+
+/* sin(k pi/12), 0 <= k <= 6; the sum of two terms a sqrt(b) each. */
+static qdot_expr
+sine_of_twelfths(qdot_pool *pool, long k)
+{
+    qdot_expr root2 = qdot_sqrt(pool, qdot_expr_int(pool, 2));
+    qdot_expr root3 = qdot_sqrt(pool, qdot_expr_int(pool, 3));
+    qdot_expr root6 = qdot_sqrt(pool, qdot_expr_int(pool, 6));
+    qdot_expr quarter = qdot_expr_ratio(pool, 1, 4);
+
+    switch (k) {
+    case 0:
+        return QDOT_ZERO;
+    case 1:
+        return qdot_add(pool, qdot_mul(pool, quarter, root6),
+                        qdot_neg(pool, qdot_mul(pool, quarter, root2)));
+    case 2:
+        return QDOT_HALF;
+    case 3:
+        return qdot_mul(pool, QDOT_HALF, root2);
+    case 4:
+        return qdot_mul(pool, QDOT_HALF, root3);
+    case 5:
+        return qdot_add(pool, qdot_mul(pool, quarter, root6), qdot_mul(pool, quarter, root2));
+    default:
+        return QDOT_ONE;
+    }
+}
+
+/* sin(k pi/12), any k. */
+static qdot_expr
+sine_at(qdot_pool *pool, long k)
+{
+    k = ((k % 24) + 24) % 24;
+    if (k >= 12)
+        return qdot_neg(pool, sine_at(pool, k - 12));
+    return sine_of_twelfths(pool, k <= 6 ? k : 12 - k);
+}
+
+static qdot_expr
+quotient(qdot_pool *pool, qdot_fun_id id, qdot_expr s, qdot_expr c)
+{
+    switch (id) {
+    case QDOT_SIN:
+        return s;
+    case QDOT_COS:
+        return c;
+    case QDOT_TAN:
+        return qdot_div(pool, s, c);
+    case QDOT_SEC:
+        return qdot_div(pool, QDOT_ONE, c);
+    case QDOT_CSC:
+        return qdot_div(pool, QDOT_ONE, s);
+    default:
+        return qdot_div(pool, c, s);
+    }
+}
+
+/* f(x + quarters pi/2) in terms of f or its co-function at x. */
+static qdot_expr
+shifted(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarters)
+{
+    static const struct {
+        qdot_fun_id to;
+        int sign;
+    } rows[6][4] = {
+        {{QDOT_SIN, 1}, {QDOT_COS, 1}, {QDOT_SIN, -1}, {QDOT_COS, -1}},
+        {{QDOT_COS, 1}, {QDOT_SIN, -1}, {QDOT_COS, -1}, {QDOT_SIN, 1}},
+        {{QDOT_TAN, 1}, {QDOT_COT, -1}, {QDOT_TAN, 1}, {QDOT_COT, -1}},
+        {{QDOT_SEC, 1}, {QDOT_CSC, -1}, {QDOT_SEC, -1}, {QDOT_CSC, 1}},
+        {{QDOT_CSC, 1}, {QDOT_SEC, 1}, {QDOT_CSC, -1}, {QDOT_SEC, -1}},
+        {{QDOT_COT, 1}, {QDOT_TAN, -1}, {QDOT_COT, 1}, {QDOT_TAN, -1}},
+    };
+    int row = (int)id - QDOT_SIN;
+    qdot_expr e = qdot_fun1(pool, rows[row][quarters].to, x);
+
+    return rows[row][quarters].sign < 0 ? qdot_neg(pool, e) : e;
+}
+
+static qdot_expr
+circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+{
+    static const qdot_fun_id inverse_of[] = {QDOT_ASIN, QDOT_ACOS, QDOT_ATAN};
+    bool odd = id != QDOT_COS && id != QDOT_SEC;
+    fmpq_t c, twelve;
+    qdot_expr rest, e = QDOT_NIL;
+
+    if (id <= QDOT_TAN && is_fun(pool, x, inverse_of[id - QDOT_SIN]))
+        return arg0(pool, x);
+    fmpq_init(c);
+    fmpq_init(twelve);
+    rest = split_pi(pool, x, c);
+    fmpq_mul_si(twelve, c, 12);
+    if (rest == QDOT_ZERO && fmpz_is_one(fmpq_denref(twelve))) {
+        long k = (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24);
+
+        e = quotient(pool, id, sine_at(pool, k), sine_at(pool, k + 6));
+    } else if (rest != QDOT_ZERO && rest != QDOT_NIL && !fmpq_is_zero(c) &&
+               fmpz_divisible_si(fmpq_numref(twelve), 6) && fmpz_is_one(fmpq_denref(twelve))) {
+        e = shifted(pool, id, rest, (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
+    } else if (qdot_expr_is_negative(pool, x)) {
+        e = qdot_fun1(pool, id, qdot_neg(pool, x));
+        e = odd ? qdot_neg(pool, e) : e;
+    } else {
+        e = plain(pool, id, 1, &x);
+    }
+    fmpq_clear(c);
+    fmpq_clear(twelve);
+    return e;
+}
+
+/* --- the inverse circular functions at nice places ---------------------------------------- */
+
+static qdot_expr
+inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+{
+    const fmpq *v = qdot_expr_rational(pool, x);
+    bool out = v != NULL && (fmpq_cmp_si(v, 1) > 0 || fmpq_cmp_si(v, -1) < 0);
+
+    if (id == QDOT_ACOS) {
+        if (out)
+            return qdot_pool_refuse(pool, QDOT_EDOMAIN, "acos is defined from -1 to 1");
+        if (NODE(pool, x)->n == 0 || NODE(pool, x)->kind != QDOT_SUM) {
+            qdot_expr s = inverse_circular(pool, QDOT_ASIN, x);
+
+            if (s != QDOT_NIL && !(NODE(pool, s)->holds & QDOT_HAS_FUN))
+                return qdot_sub(pool, qdot_mul(pool, QDOT_HALF, QDOT_PI), s);
+        }
+        return plain(pool, id, 1, &x);
+    }
+    if (id == QDOT_ASIN && out)
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "asin is defined from -1 to 1");
+    if (qdot_expr_is_negative(pool, x))
+        return qdot_neg(pool, inverse_circular(pool, id, qdot_neg(pool, x)));
+    if (!(NODE(pool, x)->holds)) {
+        for (long k = 0; k <= 6; k++) {
+            qdot_expr value = id == QDOT_ASIN ? sine_at(pool, k)
+                              : k == 6 ? QDOT_NIL
+                                       : qdot_div(pool, sine_at(pool, k), sine_at(pool, k + 6));
+
+            if (value == x && value != QDOT_NIL)
+                return qdot_mul(pool, qdot_expr_ratio(pool, k, 12), QDOT_PI);
+        }
+    }
+    return plain(pool, id, 1, &x);
+}
+
+/* --- hyperbolic, exponential --------------------------------------------------------------- */
+
+static qdot_expr
+hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+{
+    static const qdot_fun_id partner[] = {QDOT_ASINH, QDOT_ACOSH, QDOT_ATANH,
+                                          QDOT_SINH,  QDOT_COSH,  QDOT_TANH};
+    bool inverse = id >= QDOT_ASINH, even = id == QDOT_COSH;
+
+    if (is_fun(pool, x, partner[id - QDOT_SINH]) && id != QDOT_ACOSH)
+        return arg0(pool, x);
+    if (x == QDOT_ZERO && id != QDOT_ACOSH)
+        return even ? QDOT_ONE : QDOT_ZERO;
+    if (id == QDOT_ACOSH && x == QDOT_ONE)
+        return QDOT_ZERO;
+    if (inverse && qdot_expr_rational(pool, x) != NULL) {
+        const fmpq *v = qdot_expr_rational(pool, x);
+
+        if (id == QDOT_ACOSH && fmpq_cmp_si(v, 1) < 0)
+            return qdot_pool_refuse(pool, QDOT_EDOMAIN, "acosh is defined from 1 up");
+        if (id == QDOT_ATANH && (fmpq_cmp_si(v, 1) >= 0 || fmpq_cmp_si(v, -1) <= 0))
+            return qdot_pool_refuse(pool, QDOT_EDOMAIN, "atanh is defined between -1 and 1");
+    }
+    if (id != QDOT_ACOSH && qdot_expr_is_negative(pool, x)) {
+        qdot_expr e = qdot_fun1(pool, id, qdot_neg(pool, x));
+
+        return even ? e : qdot_neg(pool, e);
+    }
+    return plain(pool, id, 1, &x);
+}
+
+static qdot_expr
+exponential(qdot_pool *pool, qdot_expr x)
+{
+    if (x == QDOT_ZERO)
+        return QDOT_ONE;
+    if (is_fun(pool, x, QDOT_LOG))
+        return arg0(pool, x);
+    if (NODE(pool, x)->kind == QDOT_PROD && NODE(pool, x)->n == 3 && /* exp(k log a) = a^k */
+        ARGS(pool, x)[2] == QDOT_ONE && is_fun(pool, ARGS(pool, x)[1], QDOT_LOG))
+        return qdot_pow(pool, arg0(pool, ARGS(pool, x)[1]), ARGS(pool, x)[0]);
+    return plain(pool, QDOT_EXP, 1, &x);
+}
+
+static qdot_expr
+logarithm(qdot_pool *pool, qdot_expr x)
+{
+    const fmpq *v = qdot_expr_rational(pool, x);
+
+    if (x == QDOT_ONE)
+        return QDOT_ZERO;
+    if (v != NULL && fmpq_sgn(v) <= 0)
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "log is defined for positive numbers only");
+    if (is_fun(pool, x, QDOT_EXP))
+        return arg0(pool, x);
+    return plain(pool, QDOT_LOG, 1, &x);
+}
+
+/* --- the rest -------------------------------------------------------------------------------- */
+
+static qdot_expr
+absolute(qdot_pool *pool, qdot_expr x)
+{
+    fmpq_t c;
+    qdot_expr rest, e;
+
+    if (NODE(pool, x)->sign & QDOT_GE0)
+        return x;
+    if (NODE(pool, x)->sign & QDOT_LE0)
+        return qdot_neg(pool, x);
+    fmpq_init(c);
+    rest = qdot_expr_unscale(pool, x, c);
+    if (NODE(pool, x)->kind == QDOT_PROD && !fmpq_is_one(c)) {
+        fmpq_abs(c, c);
+        e = qdot_mul(pool, qdot_expr_fmpq(pool, c), qdot_fun1(pool, QDOT_ABS, rest));
+    } else if (NODE(pool, x)->kind == QDOT_SUM && qdot_expr_is_negative(pool, x)) {
+        e = qdot_fun1(pool, QDOT_ABS, qdot_neg(pool, x));
+        if (NODE(pool, qdot_neg(pool, x))->kind != QDOT_SUM)
+            e = plain(pool, QDOT_ABS, 1, &x);
+    } else {
+        e = plain(pool, QDOT_ABS, 1, &x);
+    }
+    fmpq_clear(c);
+    return e;
+}
+
+static qdot_expr
+signum(qdot_pool *pool, qdot_expr x)
+{
+    uint8_t s = NODE(pool, x)->sign;
+
+    if ((s & QDOT_POS) == QDOT_POS)
+        return QDOT_ONE;
+    if ((s & QDOT_NEG) == QDOT_NEG)
+        return QDOT_MINUS_ONE;
+    if (x == QDOT_ZERO)
+        return QDOT_ZERO;
+    return plain(pool, QDOT_SIGN, 1, &x);
+}
+
+static qdot_expr
+extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
+{
+    qdot_expr best = args[0];
+
+    for (uint32_t i = 0; i < n; i++) {
+        const fmpq *v = qdot_expr_rational(pool, args[i]), *b = qdot_expr_rational(pool, best);
+
+        if (v == NULL || b == NULL)
+            return n == 1 ? best : plain(pool, id, n, args);
+        if ((id == QDOT_MIN) == (fmpq_cmp(v, b) < 0) && !fmpq_equal(v, b))
+            best = args[i];
+    }
+    return best;
+}
+
+static qdot_expr
+floor_of(qdot_pool *pool, qdot_expr x)
+{
+    const fmpq *v = qdot_expr_rational(pool, x);
+    fmpz_t whole;
+    fmpq_t q;
+    qdot_expr e;
+
+    if (v == NULL)
+        return plain(pool, QDOT_FLOOR, 1, &x);
+    fmpz_init(whole);
+    fmpq_init(q);
+    fmpz_fdiv_q(whole, fmpq_numref(v), fmpq_denref(v));
+    fmpq_set_fmpz(q, whole);
+    e = qdot_expr_fmpq(pool, q);
+    fmpz_clear(whole);
+    fmpq_clear(q);
+    return e;
+}
+
+static qdot_expr
+modulo(qdot_pool *pool, const qdot_expr *args)
+{
+    if (args[1] == QDOT_ZERO)
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "mod by zero");
+    if (qdot_expr_rational(pool, args[0]) == NULL || qdot_expr_rational(pool, args[1]) == NULL)
+        return plain(pool, QDOT_MOD, 2, args);
+    return qdot_sub(pool, args[0],
+                    qdot_mul(pool, args[1],
+                             floor_of(pool, qdot_div(pool, args[0], args[1]))));
+}
+
+static qdot_expr
+arctangent2(qdot_pool *pool, const qdot_expr *args)
+{
+    qdot_expr y = args[0], x = args[1];
+
+    if (y == QDOT_ZERO && x == QDOT_ZERO)
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "atan2(0, 0) is undefined");
+    if ((NODE(pool, x)->sign & QDOT_POS) == QDOT_POS)
+        return qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, y, x));
+    if (qdot_expr_rational(pool, x) != NULL && qdot_expr_rational(pool, y) != NULL) {
+        qdot_expr half = qdot_mul(pool, QDOT_HALF, QDOT_PI);
+        bool up = fmpq_sgn(qdot_expr_rational(pool, y)) >= 0;
+
+        if (x == QDOT_ZERO)
+            return up ? half : qdot_neg(pool, half);
+        return qdot_add(pool, qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, y, x)),
+                        up ? QDOT_PI : qdot_neg(pool, QDOT_PI));
+    }
+    return plain(pool, QDOT_ATAN2, 2, args);
+}
+
+static qdot_expr
+choose(qdot_pool *pool, const qdot_expr *args)
+{
+    qdot_kind kind = NODE(pool, args[0])->kind;
+
+    if (args[0] == QDOT_TRUE || args[0] == QDOT_FALSE)
+        return args[args[0] == QDOT_TRUE ? 1 : 2];
+    if (kind == QDOT_REL && NODE(pool, args[0])->op == QDOT_EQ) {
+        const fmpq *l = qdot_expr_rational(pool, arg0(pool, args[0]));
+        const fmpq *r = qdot_expr_rational(pool, ARGS(pool, args[0])[1]);
+
+        if (arg0(pool, args[0]) == ARGS(pool, args[0])[1])
+            return args[1];
+        if (l != NULL && r != NULL)
+            return args[2];
+    }
+    if (kind != QDOT_REL && kind != QDOT_LOGIC)
+        return qdot_pool_refuse(pool, QDOT_ETYPE,
+                                "the condition of if must be a comparison such as x > 0");
+    if (!qdot_expr_is_scalar(pool, args[1]) || !qdot_expr_is_scalar(pool, args[2]))
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "if chooses between numbers");
+    return args[1] == args[2] ? args[1] : plain(pool, QDOT_IF, 3, args);
+}
+
+qdot_expr
+qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
+{
+    if (qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if ((int)n < table[id].least || (table[id].most >= 0 && (int)n > table[id].most))
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes %d argument%s, not %u", table[id].name,
+                                table[id].least, table[id].least == 1 ? "" : "s", n);
+    for (uint32_t i = 0; i < n; i++) {
+        if (args[i] == QDOT_NIL)
+            return QDOT_NIL;
+        if (id != QDOT_IF && !qdot_expr_is_scalar(pool, args[i]))
+            return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes numbers", table[id].name);
+    }
+    switch (id) {
+    case QDOT_SIN:
+    case QDOT_COS:
+    case QDOT_TAN:
+    case QDOT_SEC:
+    case QDOT_CSC:
+    case QDOT_COT:
+        return circular(pool, id, args[0]);
+    case QDOT_ASIN:
+    case QDOT_ACOS:
+    case QDOT_ATAN:
+        return inverse_circular(pool, id, args[0]);
+    case QDOT_ATAN2:
+        return arctangent2(pool, args);
+    case QDOT_SINH:
+    case QDOT_COSH:
+    case QDOT_TANH:
+    case QDOT_ASINH:
+    case QDOT_ACOSH:
+    case QDOT_ATANH:
+        return hyperbolic(pool, id, args[0]);
+    case QDOT_EXP:
+        return exponential(pool, args[0]);
+    case QDOT_LOG:
+        return logarithm(pool, args[0]);
+    case QDOT_ABS:
+        return absolute(pool, args[0]);
+    case QDOT_SIGN:
+        return signum(pool, args[0]);
+    case QDOT_MIN:
+    case QDOT_MAX:
+        return extreme(pool, id, n, args);
+    case QDOT_MOD:
+        return modulo(pool, args);
+    case QDOT_FLOOR:
+        return floor_of(pool, args[0]);
+    case QDOT_IF:
+        return choose(pool, args);
+    default:
+        return qdot_pool_refuse(pool, QDOT_EINVAL, "no such function");
+    }
+}
+
+qdot_expr
+qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+{
+    return qdot_fun(pool, id, 1, &x);
+}
+
+/* --- derivatives -------------------------------------------------------------------------------- */
+
+static qdot_expr
+one_plus(qdot_pool *pool, long c, qdot_expr x) /* 1 + c x^2 */
+{
+    return qdot_add(pool, QDOT_ONE,
+                    qdot_mul(pool, qdot_expr_int(pool, c), qdot_pow_int(pool, x, 2)));
+}
+
+static qdot_expr
+inverse_root(qdot_pool *pool, qdot_expr x)
+{
+    return qdot_pow(pool, x, qdot_expr_ratio(pool, -1, 2));
+}
+
+/* d max(a1 ... an)/d ai: 1 where ai is the one chosen. */
+static qdot_expr
+derivative_of_extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args,
+                      uint32_t i)
+{
+    qdot_expr others[64], rest;
+    uint32_t k = 0;
+
+    if (n > 64)
+        return qdot_pool_refuse(pool, QDOT_ELIMIT, "min and max of more than 64 arguments have no derivative here");
+    for (uint32_t j = 0; j < n; j++)
+        if (j != i)
+            others[k++] = args[j];
+    rest = qdot_fun(pool, id, k, others);
+    return qdot_fun(pool, QDOT_IF, 3,
+                    (qdot_expr[]){id == QDOT_MIN ? qdot_rel(pool, QDOT_LT, args[i], rest)
+                                                 : qdot_rel(pool, QDOT_LT, rest, args[i]),
+                                  QDOT_ONE, QDOT_ZERO});
+}
+
+qdot_expr
+qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args, uint32_t i)
+{
+    qdot_expr a[3] = {args[0], n > 1 ? args[1] : QDOT_NIL, n > 2 ? args[2] : QDOT_NIL};
+    qdot_expr x = a[0], r;
+
+    switch (id) {
+    case QDOT_SIN:
+        return qdot_fun1(pool, QDOT_COS, x);
+    case QDOT_COS:
+        return qdot_neg(pool, qdot_fun1(pool, QDOT_SIN, x));
+    case QDOT_TAN:
+        return one_plus(pool, 1, qdot_fun1(pool, QDOT_TAN, x));
+    case QDOT_SEC:
+        return qdot_mul(pool, qdot_fun1(pool, QDOT_SEC, x), qdot_fun1(pool, QDOT_TAN, x));
+    case QDOT_CSC:
+        return qdot_neg(pool, qdot_mul(pool, qdot_fun1(pool, QDOT_CSC, x),
+                                       qdot_fun1(pool, QDOT_COT, x)));
+    case QDOT_COT:
+        return qdot_neg(pool, one_plus(pool, 1, qdot_fun1(pool, QDOT_COT, x)));
+    case QDOT_ASIN:
+        return inverse_root(pool, one_plus(pool, -1, x));
+    case QDOT_ACOS:
+        return qdot_neg(pool, inverse_root(pool, one_plus(pool, -1, x)));
+    case QDOT_ATAN:
+        return qdot_div(pool, QDOT_ONE, one_plus(pool, 1, x));
+    case QDOT_ATAN2:
+        r = qdot_add(pool, qdot_pow_int(pool, a[0], 2), qdot_pow_int(pool, a[1], 2));
+        return i == 0 ? qdot_div(pool, a[1], r) : qdot_neg(pool, qdot_div(pool, a[0], r));
+    case QDOT_SINH:
+        return qdot_fun1(pool, QDOT_COSH, x);
+    case QDOT_COSH:
+        return qdot_fun1(pool, QDOT_SINH, x);
+    case QDOT_TANH:
+        return one_plus(pool, -1, qdot_fun1(pool, QDOT_TANH, x));
+    case QDOT_ASINH:
+        return inverse_root(pool, one_plus(pool, 1, x));
+    case QDOT_ACOSH:
+        return inverse_root(pool, qdot_sub(pool, qdot_pow_int(pool, x, 2), QDOT_ONE));
+    case QDOT_ATANH:
+        return qdot_div(pool, QDOT_ONE, one_plus(pool, -1, x));
+    case QDOT_EXP:
+        return qdot_fun1(pool, QDOT_EXP, x);
+    case QDOT_LOG:
+        return qdot_div(pool, QDOT_ONE, x);
+    case QDOT_ABS:
+        return qdot_fun1(pool, QDOT_SIGN, x);
+    case QDOT_SIGN:
+    case QDOT_FLOOR:
+        return QDOT_ZERO;
+    case QDOT_MOD:
+        return i == 0 ? QDOT_ONE
+                      : qdot_neg(pool, qdot_fun1(pool, QDOT_FLOOR, qdot_div(pool, a[0], a[1])));
+    case QDOT_MIN:
+    case QDOT_MAX:
+        return derivative_of_extreme(pool, id, n, args, i);
+    case QDOT_IF:
+        if (i == 0)
+            return QDOT_ZERO;
+        a[1] = i == 1 ? QDOT_ONE : QDOT_ZERO;
+        a[2] = i == 2 ? QDOT_ONE : QDOT_ZERO;
+        return qdot_fun(pool, id, 3, a);
+    default:
+        return qdot_pool_refuse(pool, QDOT_EINVAL, "no derivative of this function");
+    }
+}

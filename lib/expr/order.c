@@ -1,0 +1,269 @@
+/* order.c -- the canonical order of factors and terms; signs of composite expressions.
+ *
+ * Interning makes comparison a loop: two different nodes of one shape first differ in some
+ * pair of children, and that pair alone decides.
+ */
+#include "expr/pool.h"
+
+/* Where a factor stands in a product: parameters, time, coordinates, velocities ... */
+static int
+level(uint32_t holds)
+{
+    static const struct {
+        uint32_t mask;
+        int level;
+    } rows[] = {
+        {QDOT_HAS_DELTA, 9},        {QDOT_HAS_DIFFERENTIAL, 8}, {QDOT_HAS_MULTIPLIER, 7},
+        {QDOT_HAS_ACCELERATION, 6}, {QDOT_HAS_VELOCITY, 5},     {QDOT_HAS_MOMENTUM, 4},
+        {QDOT_HAS_COORD, 3},        {QDOT_HAS_UFUN, 3},         {QDOT_HAS_TIME, 2},
+        {QDOT_HAS_FORMAL, 1},       {QDOT_HAS_PARAM, 1},
+    };
+
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (holds & rows[i].mask)
+            return rows[i].level;
+    return 0;
+}
+
+/* Order of kinds within a level: among parameters a sum stands first, (m1 + m2)*L^2. */
+static int
+kind_rank(const qdot_node *node)
+{
+    static const int rank[] = {0, 1, 3, 6, 5, 4, 4, 7, 8, 9, 10, 11};
+
+    if (node->kind == QDOT_SUM && level(node->holds) == 1)
+        return 2;
+    return rank[node->kind];
+}
+
+static int
+three(uint32_t a, uint32_t b)
+{
+    return a < b ? -1 : a > b;
+}
+
+static int
+compare_symbols(const qdot_symbol *a, const qdot_symbol *b)
+{
+    if (a->class != b->class)
+        return a->class < b->class ? -1 : 1;
+    if (a->rank != b->rank)
+        return three(a->rank, b->rank);
+    return three(a->order, b->order);
+}
+
+int
+qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    for (;;) {
+        const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
+        int d = level(x->holds) - level(y->holds);
+        uint32_t i = 0;
+
+        if (a == b)
+            return 0;
+        if (d == 0)
+            d = kind_rank(x) - kind_rank(y);
+        if (d != 0)
+            return d;
+        if (x->kind == QDOT_NUM)
+            return fmpq_cmp(RATIONAL(pool, a), RATIONAL(pool, b));
+        if (x->kind == QDOT_SYM)
+            return compare_symbols(&pool->symbols.at[x->at], &pool->symbols.at[y->at]);
+        if (x->op != y->op)
+            return three(x->op, y->op);
+        if (x->n != y->n)
+            return three(x->n, y->n);
+        while (ARGS(pool, a)[i] == ARGS(pool, b)[i])
+            i++;
+        d = (int)i;
+        a = ARGS(pool, a)[d];
+        b = ARGS(pool, b)[d];
+    }
+}
+
+/* The i-th (base, exponent) of a term seen as a product. */
+static void
+factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base, qdot_expr *exponent)
+{
+    if (NODE(pool, e)->kind != QDOT_PROD) {
+        *base = e;
+        *exponent = QDOT_ONE;
+        return;
+    }
+    *base = ARGS(pool, e)[1 + 2 * i];
+    *exponent = ARGS(pool, e)[2 + 2 * i];
+}
+
+static uint32_t
+factors(const qdot_pool *pool, qdot_expr e)
+{
+    return NODE(pool, e)->kind == QDOT_PROD ? (NODE(pool, e)->n - 1) / 2 : 1;
+}
+
+int
+qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    int d = level(NODE(pool, b)->holds) - level(NODE(pool, a)->holds);
+    uint32_t na = factors(pool, a), nb = factors(pool, b);
+
+    if (d != 0 || a == b)
+        return d;
+    while (na > 0 && nb > 0) {
+        qdot_expr base_a, base_b, exp_a, exp_b;
+
+        factor_at(pool, a, --na, &base_a, &exp_a);
+        factor_at(pool, b, --nb, &base_b, &exp_b);
+        d = qdot_expr_compare(pool, base_a, base_b);
+        if (d == 0)
+            d = qdot_expr_compare(pool, exp_b, exp_a);
+        if (d != 0)
+            return d;
+    }
+    return three(na, nb);
+}
+
+bool
+qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
+{
+    switch (NODE(pool, e)->kind) {
+    case QDOT_NUM:
+        return fmpq_sgn(RATIONAL(pool, e)) < 0;
+    case QDOT_PROD:
+        return fmpq_sgn(RATIONAL(pool, ARGS(pool, e)[0])) < 0;
+    case QDOT_SUM:
+        return fmpq_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;
+    default:
+        return false;
+    }
+}
+
+/* --- signs ------------------------------------------------------------------------------ */
+
+static uint8_t
+flip(uint8_t s)
+{
+    return (uint8_t)((s & QDOT_NE0) | (s & QDOT_GE0 ? QDOT_LE0 : 0) | (s & QDOT_LE0 ? QDOT_GE0 : 0));
+}
+
+static uint8_t
+times(uint8_t a, uint8_t b)
+{
+    uint8_t known = 0;
+
+    if ((a & QDOT_GE0) && (b & QDOT_GE0))
+        known = QDOT_GE0;
+    else if ((a & QDOT_LE0) && (b & QDOT_LE0))
+        known = QDOT_GE0;
+    else if ((a & (QDOT_GE0 | QDOT_LE0)) && (b & (QDOT_GE0 | QDOT_LE0)))
+        known = QDOT_LE0;
+    return (uint8_t)(known | (a & b & QDOT_NE0));
+}
+
+static uint8_t
+sign_of_power(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
+{
+    uint8_t s = NODE(pool, base)->sign;
+    const fmpq *x = qdot_expr_rational(pool, exponent);
+
+    if (x == NULL)
+        return (s & QDOT_POS) == QDOT_POS ? QDOT_POS : 0;
+    if (!fmpz_is_one(fmpq_denref(x))) /* a real root: its base is not negative */
+        return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0) | (fmpq_sgn(x) < 0 ? QDOT_NE0 : 0));
+    if (fmpz_is_even(fmpq_numref(x)))
+        s = (uint8_t)(QDOT_GE0 | (s & QDOT_NE0));
+    if (fmpq_sgn(x) < 0 && (s & (QDOT_GE0 | QDOT_LE0)))
+        s |= QDOT_NE0;
+    return s;
+}
+
+uint8_t
+qdot_sign_of_product(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
+{
+    uint8_t s = NODE(pool, args[0])->sign;
+
+    for (uint32_t i = 1; i < n && s != 0; i += 2)
+        s = times(s, sign_of_power(pool, args[i], args[i + 1]));
+    return s;
+}
+
+uint8_t
+qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
+{
+    uint8_t all = NODE(pool, args[0])->sign, any = all & QDOT_NE0;
+
+    all &= QDOT_GE0 | QDOT_LE0;
+    for (uint32_t i = 1; i < n && all != 0; i += 2) {
+        uint8_t s = NODE(pool, args[i])->sign;
+
+        if (fmpq_sgn(RATIONAL(pool, args[i + 1])) < 0)
+            s = flip(s);
+        all &= s;
+        any |= s & QDOT_NE0;
+    }
+    return all == 0 ? 0 : (uint8_t)(all | any);
+}
+
+/* Whether x is a symbol declared within [lo, hi], in units of pi/2; *open: strictly. */
+static bool
+within(const qdot_pool *pool, qdot_expr x, int lo, int hi, bool *open)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, x);
+    int bound[2];
+
+    if (s == NULL || s->lo == QDOT_NIL || s->hi == QDOT_NIL)
+        return false;
+    for (int i = 0; i < 2; i++) {
+        qdot_expr e = i == 0 ? s->lo : s->hi;
+        const fmpq *c = NULL;
+
+        if (e == QDOT_ZERO) {
+            bound[i] = 0;
+        } else if (e == QDOT_PI) {
+            bound[i] = 2;
+        } else {
+            if (NODE(pool, e)->kind == QDOT_PROD && NODE(pool, e)->n == 3 &&
+                ARGS(pool, e)[1] == QDOT_PI && ARGS(pool, e)[2] == QDOT_ONE)
+                c = RATIONAL(pool, ARGS(pool, e)[0]);
+            if (c == NULL || !fmpz_equal_si(fmpq_denref(c), 2) ||
+                (!fmpz_is_one(fmpq_numref(c)) && !fmpz_equal_si(fmpq_numref(c), -1)))
+                return false;
+            bound[i] = (int)fmpz_get_si(fmpq_numref(c));
+        }
+    }
+    *open = (s->lo_open || bound[0] > lo) && (s->hi_open || bound[1] < hi);
+    return bound[0] >= lo && bound[1] <= hi;
+}
+
+uint8_t
+qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *args)
+{
+    uint8_t s = NODE(pool, args[0])->sign;
+    bool open;
+
+    switch (id) {
+    case QDOT_EXP:
+    case QDOT_COSH:
+        return QDOT_POS;
+    case QDOT_ABS:
+        return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0));
+    case QDOT_ACOS:
+        return QDOT_GE0;
+    case QDOT_SINH:
+    case QDOT_TANH:
+    case QDOT_ASINH:
+    case QDOT_ATANH:
+    case QDOT_ASIN:
+    case QDOT_ATAN:
+    case QDOT_SIGN:
+        return s;
+    case QDOT_SIN:
+    case QDOT_CSC:
+        return within(pool, args[0], 0, 2, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
+    case QDOT_COS:
+    case QDOT_SEC:
+        return within(pool, args[0], -1, 1, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
+    default:
+        return 0;
+    }
+}

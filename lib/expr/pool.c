@@ -1,0 +1,628 @@
+/* pool.c -- the pool: interning, failure, symbols, numbers. */
+#include "expr/pool.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <flint/flint.h>
+#include <flint/fmpz.h>
+
+#include "base/interrupt.h"
+#include "base/text.h"
+
+static uint32_t
+mix(uint32_t h, uint32_t x)
+{
+    h ^= x + 0x9e3779b9u + (h << 6) + (h >> 2);
+    h *= 0x85ebca6bu;
+    return h ^ (h >> 15);
+}
+
+/* --- failure -------------------------------------------------------------------------- */
+
+qdot_expr
+qdot_pool_fail(qdot_pool *pool)
+{
+    if (pool->error.status == QDOT_OK)
+        pool->error = *qdot_last_error();
+    return QDOT_NIL;
+}
+
+qdot_expr
+qdot_pool_refuse(qdot_pool *pool, qdot_status status, const char *format, ...)
+{
+    char message[sizeof pool->error.message];
+    va_list ap;
+
+    if (pool->error.status != QDOT_OK)
+        return QDOT_NIL;
+    va_start(ap, format);
+    vsnprintf(message, sizeof message, format, ap);
+    va_end(ap);
+    (void)qdot_fail(status, "%s", message);
+    return qdot_pool_fail(pool);
+}
+
+qdot_status
+qdot_pool_check(qdot_pool *pool)
+{
+    qdot_error error = pool->error;
+
+    if (error.status == QDOT_OK)
+        return QDOT_OK;
+    pool->error.status = QDOT_OK;
+    return qdot_fail_again(&error);
+}
+
+bool
+qdot_pool_failed(const qdot_pool *pool)
+{
+    return pool->error.status != QDOT_OK;
+}
+
+uint64_t
+qdot_pool_budget(qdot_pool *pool, uint64_t work)
+{
+    uint64_t left = pool->budget;
+
+    pool->budget = work;
+    return left;
+}
+
+/* --- interning ------------------------------------------------------------------------ */
+
+static bool
+same(const qdot_pool *pool, qdot_expr e, qdot_kind kind, uint16_t op, uint32_t n,
+     const qdot_expr *args, uint32_t hash)
+{
+    const qdot_node *node = NODE(pool, e);
+
+    return node->hash == hash && node->kind == kind && node->op == op && node->n == n &&
+           memcmp(ARGS(pool, e), args, n * sizeof *args) == 0;
+}
+
+static qdot_status
+rehash(qdot_pool *pool)
+{
+    uint32_t size = (pool->mask + 1) * 2;
+    uint32_t *bigger = qdot_calloc(size, sizeof *bigger);
+
+    if (bigger == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t e = 1; e < pool->nodes.n; e++) {
+        uint32_t i = NODE(pool, e)->hash & (size - 1);
+
+        while (bigger[i] != 0)
+            i = (i + 1) & (size - 1);
+        bigger[i] = e;
+    }
+    qdot_free(pool->table);
+    pool->table = bigger;
+    pool->mask = size - 1;
+    return QDOT_OK;
+}
+
+/* Append a node and enter it in the table. */
+static qdot_expr
+append(qdot_pool *pool, const qdot_node *node)
+{
+    uint32_t i;
+
+    if (pool->nodes.n >= 0x40000000u)
+        return qdot_pool_refuse(pool, QDOT_ELIMIT, "too large: more than 10^9 nodes");
+    if (pool->nodes.n * 2 > pool->mask && rehash(pool) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    if (qdot_vec_push(&pool->nodes, *node) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    i = node->hash & pool->mask;
+    while (pool->table[i] != 0)
+        i = (i + 1) & pool->mask;
+    pool->table[i] = (uint32_t)pool->nodes.n - 1;
+    return pool->table[i];
+}
+
+/* Whether work may go on: counts the budget, looks for Ctrl-C. */
+static bool
+may_work(qdot_pool *pool)
+{
+    if (pool->error.status != QDOT_OK)
+        return false;
+    if (qdot_interrupt_flag) {
+        (void)qdot_interrupt_check();
+        qdot_pool_fail(pool);
+        return false;
+    }
+    if (pool->budget == 0) {
+        qdot_pool_refuse(pool, QDOT_ELIMIT, "the work budget is spent");
+        return false;
+    }
+    if (pool->budget != UINT64_MAX)
+        pool->budget--;
+    return true;
+}
+
+qdot_expr
+qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
+                 const qdot_expr *args, uint8_t sign)
+{
+    uint32_t hash = mix(mix(kind, op), n), i;
+    qdot_node node = {(uint8_t)kind, sign, op, n, 0, 0, 0};
+    bool inside = args >= pool->args.at && args < pool->args.at + pool->args.n;
+    size_t offset = inside ? (size_t)(args - pool->args.at) : 0;
+
+    if (!may_work(pool))
+        return QDOT_NIL;
+    for (uint32_t k = 0; k < n; k++) {
+        if (args[k] == QDOT_NIL)
+            return qdot_pool_refuse(pool, QDOT_EINVAL, "an expression without a value");
+        hash = mix(hash, args[k]);
+        node.holds |= NODE(pool, args[k])->holds;
+    }
+    for (i = hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask)
+        if (same(pool, pool->table[i], kind, op, n, args, hash))
+            return pool->table[i];
+    if (kind == QDOT_FUN)
+        node.holds |= QDOT_HAS_FUN;
+    if (kind == QDOT_UFUN)
+        node.holds |= QDOT_HAS_UFUN;
+    node.hash = hash;
+    node.at = (uint32_t)pool->args.n;
+    if (pool->args.n + n > UINT32_MAX / 2)
+        return qdot_pool_refuse(pool, QDOT_ELIMIT, "too large: more than 2^31 arguments");
+    if (qdot_grow(&pool->args.at, &pool->args.capacity, pool->args.n + n, sizeof *args))
+        return qdot_pool_fail(pool);
+    if (inside)
+        args = pool->args.at + offset;
+    if (n > 0)
+        memmove(pool->args.at + pool->args.n, args, n * sizeof *args);
+    pool->args.n += n;
+    return append(pool, &node);
+}
+
+/* --- numbers -------------------------------------------------------------------------- */
+
+static uint8_t
+sign_of_number(const fmpq_t x)
+{
+    int s = fmpq_sgn(x);
+
+    return s > 0 ? QDOT_POS : s < 0 ? QDOT_NEG : QDOT_GE0 | QDOT_LE0;
+}
+
+static uint32_t
+hash_fmpz(uint32_t h, const fmpz_t x)
+{
+    h = mix(h, (uint32_t)fmpz_fdiv_ui(x, 4294967291u));
+    return mix(h, (uint32_t)fmpz_bits(x) * 2 + (fmpz_sgn(x) < 0));
+}
+
+bool
+qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
+{
+    if (fmpz_bits(fmpq_numref(x)) <= QDOT_MAX_BITS && fmpz_bits(fmpq_denref(x)) <= QDOT_MAX_BITS)
+        return false;
+    qdot_pool_refuse(pool, QDOT_ELIMIT, "an exact number of more than 10^6 digits");
+    return true;
+}
+
+qdot_expr
+qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
+{
+    qdot_node node = {.kind = QDOT_NUM, .sign = sign_of_number(x)};
+    fmpq copy;
+
+    if (!may_work(pool) || qdot_number_too_large(pool, x))
+        return QDOT_NIL;
+    node.hash = hash_fmpz(hash_fmpz(QDOT_NUM, fmpq_numref(x)), fmpq_denref(x));
+    for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask) {
+        qdot_expr e = pool->table[i];
+
+        if (NODE(pool, e)->hash == node.hash && NODE(pool, e)->kind == QDOT_NUM &&
+            fmpq_equal(RATIONAL(pool, e), x))
+            return e;
+    }
+    node.at = (uint32_t)pool->numbers.n;
+    fmpq_init(&copy);
+    fmpq_set(&copy, x);
+    if (qdot_vec_push(&pool->numbers, copy) != QDOT_OK) {
+        fmpq_clear(&copy);
+        return qdot_pool_fail(pool);
+    }
+    return append(pool, &node);
+}
+
+qdot_expr
+qdot_expr_ratio(qdot_pool *pool, long n, long d)
+{
+    fmpq_t x;
+    fmpz_t num, den;
+    qdot_expr e;
+
+    if (d == 0)
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "division by zero");
+    fmpq_init(x);
+    fmpz_init_set_si(num, n);
+    fmpz_init_set_si(den, d);
+    fmpq_set_fmpz_frac(x, num, den);
+    e = qdot_expr_fmpq(pool, x);
+    fmpz_clear(num);
+    fmpz_clear(den);
+    fmpq_clear(x);
+    return e;
+}
+
+qdot_expr
+qdot_expr_int(qdot_pool *pool, long n)
+{
+    return n == 0 ? QDOT_ZERO : n == 1 ? QDOT_ONE : n == -1 ? QDOT_MINUS_ONE : qdot_expr_ratio(pool, n, 1);
+}
+
+qdot_expr
+qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length)
+{
+    qdot_text digits = {0};
+    long point = 0, exponent = 0;
+    bool after = false, negative = false;
+    size_t i = 0;
+    fmpz_t n, ten;
+    fmpq_t x;
+    qdot_expr e = QDOT_NIL;
+
+    for (; i < length && text[i] != 'e' && text[i] != 'E'; i++) {
+        if (text[i] == '.') {
+            after = true;
+            continue;
+        }
+        qdot_text_char(&digits, text[i]);
+        point += after;
+    }
+    if (i < length) {
+        i++;
+        if (i < length && (text[i] == '-' || text[i] == '+'))
+            negative = text[i++] == '-';
+        for (; i < length && exponent < 100000000; i++)
+            exponent = exponent * 10 + (text[i] - '0');
+    }
+    exponent = (negative ? -exponent : exponent) - point;
+    if (digits.n > 1000000 || labs(exponent) > 1000000) {
+        qdot_text_clear(&digits);
+        return qdot_pool_refuse(pool, QDOT_ELIMIT, "an exact number of more than 10^6 digits");
+    }
+    fmpz_init(n);
+    fmpz_init_set_ui(ten, 10);
+    fmpq_init(x);
+    if (digits.failed || fmpz_set_str(n, qdot_text_str(&digits), 10) != 0) {
+        qdot_pool_refuse(pool, QDOT_ESYNTAX, "not a number");
+    } else {
+        fmpz_pow_ui(ten, ten, (ulong)labs(exponent));
+        fmpz_set(fmpq_numref(x), n);
+        if (exponent >= 0) {
+            fmpz_mul(fmpq_numref(x), n, ten);
+        } else {
+            fmpz_set(fmpq_denref(x), ten);
+            fmpq_canonicalise(x);
+        }
+        e = qdot_expr_fmpq(pool, x);
+    }
+    fmpz_clear(n);
+    fmpz_clear(ten);
+    fmpq_clear(x);
+    qdot_text_clear(&digits);
+    return e;
+}
+
+/* --- symbols -------------------------------------------------------------------------- */
+
+static qdot_expr
+symbol(qdot_pool *pool, const qdot_symbol *wanted)
+{
+    qdot_node node = {.kind = QDOT_SYM, .sign = wanted->sign};
+    qdot_symbol copy = *wanted;
+
+    if (!may_work(pool))
+        return QDOT_NIL;
+    node.hash = mix(mix(mix(QDOT_SYM, wanted->class), wanted->base), wanted->order);
+    if (wanted->base == QDOT_NIL)
+        for (const char *c = wanted->name; *c != '\0'; c++)
+            node.hash = mix(node.hash, (unsigned char)*c);
+    for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask) {
+        qdot_expr e = pool->table[i];
+        const qdot_symbol *s = qdot_expr_symbol(pool, e);
+
+        if (s != NULL && s->class == wanted->class && s->base == wanted->base &&
+            s->order == wanted->order &&
+            (wanted->base != QDOT_NIL || strcmp(s->name, wanted->name) == 0))
+            return e;
+    }
+    copy.name = qdot_arena_strndup(pool->arena, wanted->name, strlen(wanted->name));
+    if (copy.name == NULL)
+        return qdot_pool_fail(pool);
+    if (wanted->base == QDOT_NIL)
+        copy.rank = (uint32_t)pool->symbols.n;
+    node.at = (uint32_t)pool->symbols.n;
+    node.holds = wanted->class == QDOT_CONST   ? 0
+                 : wanted->class != QDOT_COORD ? 1u << wanted->class
+                 : wanted->order == 0          ? QDOT_HAS_COORD
+                 : wanted->order == 1          ? QDOT_HAS_VELOCITY
+                                               : QDOT_HAS_ACCELERATION;
+    if (qdot_vec_push(&pool->symbols, copy) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    return append(pool, &node);
+}
+
+qdot_expr
+qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name)
+{
+    return symbol(pool, &(qdot_symbol){.class = class, .name = name});
+}
+
+/* A symbol that belongs to a coordinate: its name by a pattern round the coordinate's. */
+static qdot_expr
+symbol_about(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t order,
+             const char *before, const char *after)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, coordinate);
+    qdot_text name = {0};
+    qdot_expr e;
+
+    qdot_text_add(&name, before);
+    qdot_text_add(&name, s->name);
+    qdot_text_add(&name, after);
+    for (uint32_t i = 0; class == QDOT_COORD && i < order; i++)
+        qdot_text_char(&name, '\'');
+    e = symbol(pool, &(qdot_symbol){.class = class,
+                                    .name = qdot_text_str(&name),
+                                    .base = coordinate,
+                                    .order = order,
+                                    .rank = s->rank});
+    qdot_text_clear(&name);
+    return e;
+}
+
+qdot_expr
+qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, coordinate);
+
+    if (coordinate == QDOT_NIL)
+        return QDOT_NIL;
+    if (s == NULL || s->class != QDOT_COORD)
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "only a coordinate has a velocity");
+    order += s->order;
+    if (s->order > 0)
+        coordinate = s->base;
+    return order == 0 ? coordinate : symbol_about(pool, QDOT_COORD, coordinate, order, "", "");
+}
+
+qdot_expr
+qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate)
+{
+    bool known = qdot_expr_is_coordinate(pool, coordinate) ||
+                 (coordinate == QDOT_T && class == QDOT_DIFFERENTIAL);
+
+    if (coordinate == QDOT_NIL)
+        return QDOT_NIL;
+    if (!known)
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "a coordinate is needed here");
+    if (class == QDOT_DIFFERENTIAL)
+        return symbol_about(pool, class, coordinate, 0, "d", "");
+    return symbol_about(pool, class, coordinate, 0, class == QDOT_MOMENTUM ? "p[" : "delta[", "]");
+}
+
+void
+qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi,
+                   bool hi_open)
+{
+    qdot_symbol *s;
+    uint8_t sign = 0;
+
+    if (x == QDOT_NIL || NODE(pool, x)->kind != QDOT_SYM)
+        return;
+    s = &pool->symbols.at[NODE(pool, x)->at];
+    s->lo = lo;
+    s->hi = hi;
+    s->lo_open = lo_open;
+    s->hi_open = hi_open;
+    if (lo != QDOT_NIL && (NODE(pool, lo)->sign & QDOT_GE0))
+        sign |= QDOT_GE0 | (lo_open || (NODE(pool, lo)->sign & QDOT_NE0) ? QDOT_NE0 : 0);
+    if (hi != QDOT_NIL && (NODE(pool, hi)->sign & QDOT_LE0))
+        sign |= QDOT_LE0 | (hi_open || (NODE(pool, hi)->sign & QDOT_NE0) ? QDOT_NE0 : 0);
+    s->sign = sign;
+    NODE(pool, x)->sign = sign;
+}
+
+/* --- undefined functions -------------------------------------------------------------- */
+
+qdot_status
+qdot_ufun_declare(qdot_pool *pool, const char *name, uint32_t arity, const qdot_expr *formals,
+                  uint32_t *id)
+{
+    qdot_ufun f = {.arity = arity, .formals = qdot_list(pool, arity, formals)};
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (*id = 0; *id < pool->ufuns.n; ++*id)
+        if (strcmp(pool->ufuns.at[*id].name, name) == 0 &&
+            pool->ufuns.at[*id].formals == f.formals)
+            return QDOT_OK;
+    if (pool->ufuns.n > UINT16_MAX)
+        return qdot_fail(QDOT_ELIMIT, "more than 65536 undefined functions");
+    f.name = qdot_arena_strndup(pool->arena, name, strlen(name));
+    return f.name == NULL ? QDOT_ENOMEM : qdot_vec_push(&pool->ufuns, f);
+}
+
+const qdot_ufun *
+qdot_ufun_get(const qdot_pool *pool, uint32_t id)
+{
+    return &pool->ufuns.at[id];
+}
+
+qdot_expr
+qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args, const uint32_t *orders)
+{
+    uint32_t n = pool->ufuns.at[id].arity;
+    qdot_expr few[16] = {0}, *all = n > 8 ? qdot_malloc(2 * n * sizeof *all) : few, e;
+
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++) {
+        all[i] = args[i];
+        all[n + i] = orders == NULL ? QDOT_ZERO : qdot_expr_int(pool, orders[i]);
+        if (all[i] != QDOT_NIL && !qdot_expr_is_scalar(pool, all[i]))
+            qdot_pool_refuse(pool, QDOT_ETYPE, "an argument of %s must be a number, not a vector",
+                             pool->ufuns.at[id].name);
+    }
+    e = qdot_pool_intern(pool, QDOT_UFUN, (uint16_t)id, 2 * n, all, 0);
+    if (all != few)
+        qdot_free(all);
+    return e;
+}
+
+/* --- life ------------------------------------------------------------------------------ */
+
+qdot_pool *
+qdot_pool_new(void)
+{
+    qdot_pool *pool = qdot_calloc(1, sizeof *pool);
+    bool good;
+
+    if (pool == NULL)
+        return NULL;
+    pool->budget = UINT64_MAX;
+    pool->mask = 1023;
+    pool->table = qdot_calloc(pool->mask + 1, sizeof *pool->table);
+    pool->arena = qdot_arena_new();
+    if (pool->table == NULL || pool->arena == NULL ||
+        qdot_vec_push(&pool->nodes, ((qdot_node){0})) != QDOT_OK) {
+        qdot_pool_free(pool);
+        return NULL;
+    }
+    good = qdot_expr_ratio(pool, 0, 1) == QDOT_ZERO && qdot_expr_ratio(pool, 1, 1) == QDOT_ONE &&
+           qdot_expr_ratio(pool, -1, 1) == QDOT_MINUS_ONE &&
+           qdot_expr_ratio(pool, 1, 2) == QDOT_HALF &&
+           symbol(pool, &(qdot_symbol){.class = QDOT_CONST, .name = "pi", .sign = QDOT_POS}) ==
+               QDOT_PI &&
+           qdot_symbol_get(pool, QDOT_CONST, "true") == QDOT_TRUE &&
+           qdot_symbol_get(pool, QDOT_CONST, "false") == QDOT_FALSE &&
+           qdot_symbol_get(pool, QDOT_TIME, "t") == QDOT_T;
+    if (!good) {
+        qdot_pool_free(pool);
+        return NULL;
+    }
+    return pool;
+}
+
+void
+qdot_pool_free(qdot_pool *pool)
+{
+    if (pool == NULL)
+        return;
+    for (size_t i = 0; i < pool->numbers.n; i++)
+        fmpq_clear(&pool->numbers.at[i]);
+    qdot_free(pool->numbers.at);
+    qdot_free(pool->nodes.at);
+    qdot_free(pool->args.at);
+    qdot_free(pool->symbols.at);
+    qdot_free(pool->ufuns.at);
+    qdot_free(pool->table);
+    qdot_arena_free(pool->arena);
+    qdot_free(pool);
+}
+
+size_t
+qdot_pool_count(const qdot_pool *pool)
+{
+    return pool->nodes.n;
+}
+
+/* --- reading --------------------------------------------------------------------------- */
+
+const qdot_node *
+qdot_expr_node(const qdot_pool *pool, qdot_expr e)
+{
+    return NODE(pool, e);
+}
+
+const qdot_expr *
+qdot_expr_args(const qdot_pool *pool, qdot_expr e)
+{
+    return ARGS(pool, e);
+}
+
+qdot_kind
+qdot_expr_kind(const qdot_pool *pool, qdot_expr e)
+{
+    return NODE(pool, e)->kind;
+}
+
+qdot_expr
+qdot_expr_arg(const qdot_pool *pool, qdot_expr e, uint32_t i)
+{
+    return ARGS(pool, e)[i];
+}
+
+uint32_t
+qdot_expr_count(const qdot_pool *pool, qdot_expr e)
+{
+    return NODE(pool, e)->n;
+}
+
+bool
+qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e)
+{
+    return e != QDOT_NIL && NODE(pool, e)->kind <= QDOT_UFUN && e != QDOT_TRUE &&
+           e != QDOT_FALSE;
+}
+
+bool
+qdot_expr_is_zero(qdot_expr e)
+{
+    return e == QDOT_ZERO;
+}
+
+bool
+qdot_expr_is_one(qdot_expr e)
+{
+    return e == QDOT_ONE;
+}
+
+const fmpq *
+qdot_expr_rational(const qdot_pool *pool, qdot_expr e)
+{
+    return e != QDOT_NIL && NODE(pool, e)->kind == QDOT_NUM ? RATIONAL(pool, e) : NULL;
+}
+
+bool
+qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value)
+{
+    const fmpq *x = qdot_expr_rational(pool, e);
+
+    if (x == NULL || !fmpz_is_one(fmpq_denref(x)) || !fmpz_fits_si(fmpq_numref(x)))
+        return false;
+    *value = fmpz_get_si(fmpq_numref(x));
+    return true;
+}
+
+const qdot_symbol *
+qdot_expr_symbol(const qdot_pool *pool, qdot_expr e)
+{
+    return e != QDOT_NIL && NODE(pool, e)->kind == QDOT_SYM ? &pool->symbols.at[NODE(pool, e)->at]
+                                                            : NULL;
+}
+
+bool
+qdot_expr_is_class(const qdot_pool *pool, qdot_expr e, qdot_class class)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, e);
+
+    return s != NULL && s->class == class;
+}
+
+bool
+qdot_expr_is_coordinate(const qdot_pool *pool, qdot_expr e)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, e);
+
+    return s != NULL && s->class == QDOT_COORD && s->order == 0;
+}

@@ -1,0 +1,246 @@
+/* print-name.c -- symbols and numbers as text. */
+#include "expr/print-name.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <flint/flint.h>
+#include <flint/fmpz.h>
+
+#include "base/memory.h"
+
+static const struct {
+    const char *spelled, *letter;
+} greek[] = {
+    {"alpha", "α"},   {"beta", "β"},   {"gamma", "γ"},   {"delta", "δ"},   {"epsilon", "ε"},
+    {"zeta", "ζ"},    {"eta", "η"},    {"theta", "θ"},   {"iota", "ι"},    {"kappa", "κ"},
+    {"lambda", "λ"},  {"mu", "μ"},     {"nu", "ν"},      {"xi", "ξ"},      {"pi", "π"},
+    {"rho", "ρ"},     {"sigma", "σ"},  {"tau", "τ"},     {"upsilon", "υ"}, {"phi", "φ"},
+    {"chi", "χ"},     {"psi", "ψ"},    {"omega", "ω"},   {"Gamma", "Γ"},   {"Delta", "Δ"},
+    {"Theta", "Θ"},   {"Lambda", "Λ"}, {"Xi", "Ξ"},      {"Pi", "Π"},      {"Sigma", "Σ"},
+    {"Phi", "Φ"},     {"Psi", "Ψ"},    {"Omega", "Ω"},
+};
+
+static const char *const subscript[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+
+static bool
+is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+/* A name in its parts: letters, trailing digits or an index in brackets, what is left. */
+struct parts {
+    const char *letter; /* a Greek one, or NULL */
+    size_t letters, digits_at, digits, index_at, index;
+};
+
+static struct parts
+split(const char *name)
+{
+    struct parts p = {0};
+    size_t n = strcspn(name, "[");
+
+    p.letters = n;
+    while (p.letters > 1 && is_digit(name[p.letters - 1]))
+        p.letters--;
+    p.digits_at = p.letters;
+    p.digits = n - p.letters;
+    if (name[n] == '[') {
+        p.index_at = n + 1;
+        p.index = strlen(name) - n - 2;
+    }
+    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
+        if (strlen(greek[i].spelled) == p.letters && strncmp(greek[i].spelled, name, p.letters) == 0)
+            p.letter = greek[i].letter;
+    return p;
+}
+
+static bool
+all_digits(const char *text, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!is_digit(text[i]))
+            return false;
+    return n > 0;
+}
+
+static void
+small(const char *const *glyphs, const char *digits, size_t n, qdot_text *out)
+{
+    for (size_t i = 0; i < n; i++)
+        qdot_text_add(out, glyphs[digits[i] - '0']);
+}
+
+static void
+name_unicode(const char *name, uint32_t order, qdot_text *out)
+{
+    struct parts p = split(name);
+    bool one = p.letter != NULL || p.letters == 1;
+
+    if (p.letter != NULL)
+        qdot_text_add(out, p.letter);
+    else
+        qdot_text_add_n(out, name, p.letters);
+    if (one && (order == 1 || order == 2))
+        qdot_text_add(out, order == 1 ? "\u0307" : "\u0308");
+    small(subscript, name + p.digits_at, p.digits, out);
+    if (p.index > 0 && p.digits == 0 && all_digits(name + p.index_at, p.index)) {
+        small(subscript, name + p.index_at, p.index, out);
+    } else if (p.index > 0) {
+        qdot_text_char(out, '[');
+        qdot_text_add_n(out, name + p.index_at, p.index);
+        qdot_text_char(out, ']');
+    }
+    if (!one || order > 2)
+        for (uint32_t i = 0; i < order; i++)
+            qdot_text_add(out, "′");
+}
+
+static void
+name_latex(const char *name, uint32_t order, qdot_text *out)
+{
+    static const char *const dots[] = {"", "\\dot{", "\\ddot{", "\\dddot{", "\\ddddot{"};
+    struct parts p = split(name);
+
+    qdot_text_add(out, dots[order > 4 ? 0 : order]);
+    if (p.letter != NULL || p.letters == 1) {
+        if (p.letter != NULL)
+            qdot_text_char(out, '\\');
+        qdot_text_add_n(out, name, p.letters);
+    } else {
+        qdot_text_add(out, "\\mathrm{");
+        for (size_t i = 0; i < p.letters; i++) {
+            if (name[i] == '_')
+                qdot_text_char(out, '\\');
+            qdot_text_char(out, name[i]);
+        }
+        qdot_text_char(out, '}');
+    }
+    if (order > 0 && order <= 4)
+        qdot_text_char(out, '}');
+    if (p.digits + p.index > 0) {
+        qdot_text_add(out, "_{");
+        qdot_text_add_n(out, name + p.digits_at, p.digits);
+        if (p.digits > 0 && p.index > 0)
+            qdot_text_char(out, ',');
+        qdot_text_add_n(out, name + p.index_at, p.index);
+        qdot_text_char(out, '}');
+    }
+    if (order > 4)
+        qdot_text_format(out, "^{(%u)}", order);
+}
+
+void
+qdot_print_name(const char *name, qdot_style style, qdot_text *out)
+{
+    if (style == QDOT_PLAIN)
+        qdot_text_add(out, name);
+    else if (style == QDOT_UNICODE)
+        name_unicode(name, 0, out);
+    else
+        name_latex(name, 0, out);
+}
+
+void
+qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, e);
+    const char *name = s->base != QDOT_NIL ? qdot_expr_symbol(pool, s->base)->name : s->name;
+
+    if (style == QDOT_PLAIN) {
+        qdot_text_add(out, s->name);
+        return;
+    }
+    switch (s->class) {
+    case QDOT_MOMENTUM:
+        qdot_text_add(out, style == QDOT_LATEX ? "p_{" : "p_");
+        break;
+    case QDOT_DIFFERENTIAL:
+        qdot_text_add(out, style == QDOT_LATEX ? "d" : "d");
+        break;
+    case QDOT_DELTA:
+        qdot_text_add(out, style == QDOT_LATEX ? "\\delta " : "δ");
+        break;
+    default:
+        break;
+    }
+    if (style == QDOT_UNICODE)
+        name_unicode(name, s->order, out);
+    else
+        name_latex(name, s->order, out);
+    if (s->class == QDOT_MOMENTUM && style == QDOT_LATEX)
+        qdot_text_char(out, '}');
+}
+
+/* --- numbers ------------------------------------------------------------------------------------ */
+
+static const struct {
+    int p, q;
+    const char *glyph;
+} fractions[] = {
+    {1, 2, "½"}, {1, 3, "⅓"}, {2, 3, "⅔"}, {1, 4, "¼"}, {3, 4, "¾"}, {1, 5, "⅕"}, {2, 5, "⅖"},
+    {3, 5, "⅗"}, {4, 5, "⅘"}, {1, 6, "⅙"}, {5, 6, "⅚"}, {1, 8, "⅛"}, {3, 8, "⅜"}, {5, 8, "⅝"},
+    {7, 8, "⅞"},
+};
+
+static void
+integer(const fmpz_t n, qdot_text *out)
+{
+    char few[64], *digits = few;
+
+    if (fmpz_sizeinbase(n, 10) + 2 > sizeof few) {
+        digits = qdot_malloc(fmpz_sizeinbase(n, 10) + 2);
+        if (digits == NULL) {
+            out->failed = true;
+            return;
+        }
+    }
+    fmpz_get_str(digits, 10, n);
+    qdot_text_add(out, digits);
+    if (digits != few)
+        qdot_free(digits);
+}
+
+void
+qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket, qdot_text *out)
+{
+    bool whole = fmpz_is_one(fmpq_denref(x));
+    bool wrap = (bracket > 0 && fmpq_sgn(x) < 0) || (bracket == 2 && !whole);
+
+    if (raised) { /* an integer */
+        qdot_text digits = {0};
+
+        integer(fmpq_numref(x), &digits);
+        small(superscript, qdot_text_str(&digits), digits.n, out);
+        qdot_text_clear(&digits);
+        return;
+    }
+    if (wrap)
+        qdot_text_char(out, '(');
+    if (style == QDOT_UNICODE && !whole) {
+        bool minus = fmpq_sgn(x) < 0;
+
+        for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++)
+            if (fmpz_equal_si(fmpq_denref(x), fractions[i].q) &&
+                fmpz_equal_si(fmpq_numref(x), minus ? -fractions[i].p : fractions[i].p)) {
+                qdot_text_add(out, minus ? "−" : "");
+                qdot_text_add(out, fractions[i].glyph);
+                if (wrap)
+                    qdot_text_char(out, ')');
+                return;
+            }
+    }
+    if (style == QDOT_LATEX && !whole)
+        qdot_text_add(out, "\\frac{");
+    integer(fmpq_numref(x), out);
+    if (!whole) {
+        qdot_text_add(out, style == QDOT_LATEX ? "}{" : "/");
+        integer(fmpq_denref(x), out);
+        if (style == QDOT_LATEX)
+            qdot_text_char(out, '}');
+    }
+    if (wrap)
+        qdot_text_char(out, ')');
+}

@@ -1,0 +1,22 @@
+/* print.h -- expressions as text.
+ *
+ *   plain    parses back to the same expression: 1/2*m*r'^2, diff(x(s, t), s), delta[theta]
+ *   unicode  for a terminal: ½ m ṙ², ∂x/∂s, δθ
+ *   latex    \frac{1}{2} m \dot{r}^{2}
+ */
+#ifndef QDOT_EXPR_PRINT_H
+#define QDOT_EXPR_PRINT_H
+
+#include "base/text.h"
+#include "expr/expr.h"
+
+typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX } qdot_style;
+
+/* Append e. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style,
+                                       qdot_text *out);
+
+/* A name alone (a label, a family member) in that style: theta1 is θ₁. */
+void qdot_print_name(const char *name, qdot_style style, qdot_text *out);
+
+#endif

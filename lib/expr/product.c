@@ -1,0 +1,638 @@
+/* product.c -- products: maps base -> exponent with a rational coefficient; powers. */
+#include "expr/pool.h"
+
+#include <stdlib.h>
+
+#include <flint/fmpz.h>
+#include <flint/fmpz_factor.h>
+
+struct pair {
+    qdot_expr base, exponent;
+};
+
+struct product {
+    qdot_pool *pool;
+    fmpq c;
+    struct pair few[16], *at;
+    size_t n, capacity;
+    bool failed;
+};
+
+static void
+begin(struct product *p, qdot_pool *pool)
+{
+    p->pool = pool;
+    fmpq_init(&p->c);
+    fmpq_one(&p->c);
+    p->at = p->few;
+    p->n = 0;
+    p->capacity = sizeof p->few / sizeof *p->few;
+    p->failed = false;
+}
+
+static void
+end(struct product *p)
+{
+    fmpq_clear(&p->c);
+    if (p->at != p->few)
+        qdot_free(p->at);
+}
+
+static void
+push(struct product *p, qdot_expr base, qdot_expr exponent)
+{
+    if (base == QDOT_NIL || exponent == QDOT_NIL) {
+        p->failed = true;
+        return;
+    }
+    if (p->n == p->capacity) {
+        struct pair *bigger = p->at == p->few ? NULL : p->at;
+        size_t capacity = p->at == p->few ? 0 : p->capacity;
+
+        if (qdot_grow(&bigger, &capacity, p->n * 2, sizeof *bigger) != QDOT_OK) {
+            qdot_pool_fail(p->pool);
+            p->failed = true;
+            return;
+        }
+        if (p->at == p->few)
+            for (size_t i = 0; i < p->n; i++)
+                bigger[i] = p->few[i];
+        p->at = bigger;
+        p->capacity = capacity;
+    }
+    p->at[p->n++] = (struct pair){base, exponent};
+}
+
+static void
+scale(struct product *p, const fmpq *c)
+{
+    fmpq_mul(&p->c, &p->c, c);
+    if (qdot_number_too_large(p->pool, &p->c))
+        p->failed = true;
+}
+
+/* --- numbers with exponents ------------------------------------------------------------- */
+
+/* x^n by the limit on digits; x not zero if n < 0. */
+static bool
+power_of_number(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n)
+{
+    ulong bits = (ulong)fmpz_bits(fmpq_numref(x)), den = (ulong)fmpz_bits(fmpq_denref(x));
+
+    if (bits < den)
+        bits = den;
+    if (fmpq_is_zero(x) || fmpq_is_one(x)) {
+        fmpq_set(y, x);
+        return true;
+    }
+    if (fmpz_is_pm1(fmpq_numref(x)) && fmpz_is_one(fmpq_denref(x))) {
+        fmpq_set_si(y, fmpz_is_even(n) ? 1 : -1, 1);
+        return true;
+    }
+    if (!fmpz_fits_si(n) || (ulong)labs(fmpz_get_si(n)) > QDOT_MAX_BITS / (bits > 1 ? bits - 1 : 1)) {
+        qdot_pool_refuse(pool, QDOT_ELIMIT, "an exact number of more than 10^6 digits");
+        return false;
+    }
+    fmpq_pow_si(y, x, fmpz_get_si(n));
+    return true;
+}
+
+/* |n| = outside^q * inside, inside free of q-th powers of primes found by trial division. */
+static void
+extract_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
+{
+    fmpz_factor_t f;
+    fmpz_t power;
+
+    fmpz_one(outside);
+    fmpz_one(inside);
+    fmpz_init(power);
+    if (fmpz_root(power, n, (slong)q)) { /* exact */
+        fmpz_set(outside, power);
+        fmpz_clear(power);
+        return;
+    }
+    fmpz_factor_init(f);
+    /* past 64 bits only small primes are taken out: the form stays correct */
+    if (fmpz_bits(n) <= 64)
+        fmpz_factor(f, n);
+    else
+        fmpz_factor_trial_range(f, n, 0, 3000);
+    for (slong i = 0; i < f->num; i++) {
+        fmpz_pow_ui(power, f->p + i, f->exp[i] / q);
+        fmpz_mul(outside, outside, power);
+        fmpz_pow_ui(power, f->p + i, f->exp[i] % q);
+        fmpz_mul(inside, inside, power);
+    }
+    fmpz_factor_clear(f);
+    fmpz_clear(power);
+}
+
+/* Take b^e, b a rational and e = n/q not an integer, into p: b^floor(e) and the q-th powers inside
+ * go to the coefficient, the rest stays as integer^(fraction in (0, 1)). */
+static void
+push_root(struct product *p, const fmpq *b, const fmpq *e)
+{
+    qdot_pool *pool = p->pool;
+    fmpz_t whole, part, outside, inside, all;
+    fmpq_t x, rest;
+    ulong q;
+
+    if (fmpq_sgn(b) < 0) {
+        qdot_pool_refuse(pool, QDOT_EDOMAIN, "a root of a negative number is not real");
+        p->failed = true;
+        return;
+    }
+    if (!fmpz_abs_fits_ui(fmpq_denref(e)) || (q = fmpz_get_ui(fmpq_denref(e))) > 10000) {
+        push(p, qdot_expr_fmpq(pool, b), qdot_expr_fmpq(pool, e));
+        return;
+    }
+    fmpz_init(whole);
+    fmpz_init(part);
+    fmpz_init(outside);
+    fmpz_init(inside);
+    fmpz_init(all);
+    fmpq_init(x);
+    fmpq_init(rest);
+    fmpz_fdiv_qr(whole, part, fmpq_numref(e), fmpq_denref(e));
+    if (power_of_number(pool, x, b, whole)) {
+        /* (n/d)^(part/q) = (n^part d^(q - part))^(1/q) / d */
+        ulong k = fmpz_get_ui(part);
+
+        if ((ulong)(fmpz_bits(fmpq_numref(b)) + fmpz_bits(fmpq_denref(b))) * q > QDOT_MAX_BITS) {
+            scale(p, x);
+            fmpq_set_fmpz_frac(rest, part, fmpq_denref(e));
+            push(p, qdot_expr_fmpq(pool, b), qdot_expr_fmpq(pool, rest));
+        } else {
+            fmpz_pow_ui(all, fmpq_numref(b), k);
+            fmpz_pow_ui(inside, fmpq_denref(b), q - k);
+            fmpz_mul(all, all, inside);
+            fmpq_div_fmpz(x, x, fmpq_denref(b));
+            extract_root(outside, inside, all, q);
+            fmpq_mul_fmpz(x, x, outside);
+            scale(p, x);
+            if (!fmpz_is_one(inside)) {
+                /* a perfect power inside: 4^(1/4) is 2^(1/2) */
+                ulong g = q;
+
+                for (ulong d = q; d > 1; d--)
+                    if (q % d == 0 && fmpz_root(all, inside, (slong)d)) {
+                        fmpz_set(inside, all);
+                        g = q / d;
+                        break;
+                    }
+                fmpz_one(all);
+                fmpq_set_fmpz_frac(rest, inside, all);
+                push(p, qdot_expr_fmpq(pool, rest), qdot_expr_ratio(pool, 1, (long)g));
+            }
+        }
+    } else {
+        p->failed = true;
+    }
+    fmpq_clear(x);
+    fmpq_clear(rest);
+    fmpz_clear(whole);
+    fmpz_clear(part);
+    fmpz_clear(outside);
+    fmpz_clear(inside);
+    fmpz_clear(all);
+}
+
+/* Take a number b^e into p. */
+static void
+push_number(struct product *p, qdot_expr base, qdot_expr exponent)
+{
+    qdot_pool *pool = p->pool;
+    const fmpq *e = qdot_expr_rational(pool, exponent);
+    fmpq_t b, k, y;
+
+    if (e == NULL) {
+        if (base != QDOT_ONE)
+            push(p, base, exponent);
+        return;
+    }
+    fmpq_init(b);
+    fmpq_init(k);
+    fmpq_init(y);
+    fmpq_set(b, RATIONAL(pool, base));
+    fmpq_set(k, e);
+    if (fmpq_is_zero(b) && fmpq_sgn(k) < 0) {
+        qdot_pool_refuse(pool, QDOT_EDOMAIN, "division by zero");
+        p->failed = true;
+    } else if (fmpq_is_zero(b) || fmpq_is_one(b)) {
+        scale(p, b);
+    } else if (fmpz_is_one(fmpq_denref(k))) {
+        if (power_of_number(pool, y, b, fmpq_numref(k)))
+            scale(p, y);
+        else
+            p->failed = true;
+    } else {
+        push_root(p, b, k);
+    }
+    fmpq_clear(b);
+    fmpq_clear(k);
+    fmpq_clear(y);
+}
+
+/* --- powers of products ------------------------------------------------------------------ */
+
+static bool
+is_integer(const qdot_pool *pool, qdot_expr e)
+{
+    const fmpq *x = qdot_expr_rational(pool, e);
+
+    return x != NULL && fmpz_is_one(fmpq_denref(x));
+}
+
+static bool
+is_even(const qdot_pool *pool, qdot_expr e)
+{
+    return is_integer(pool, e) && fmpz_is_even(fmpq_numref(RATIONAL(pool, e)));
+}
+
+/* (c b1^e1 ...)^k, k not an integer: what is known to be positive comes out, even powers as
+ * absolute values; the rest stays under the root. */
+static void
+push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
+{
+    qdot_pool *pool = p->pool;
+    uint32_t n = NODE(pool, base)->n;
+    struct product rest;
+    fmpq_t c;
+
+    fmpq_init(c);
+    begin(&rest, pool);
+    fmpq_set(c, RATIONAL(pool, ARGS(pool, base)[0]));
+    if (fmpq_sgn(c) < 0) {
+        fmpq_neg(c, c);
+        fmpq_neg(&rest.c, &rest.c);
+    }
+    if (!fmpq_is_one(c))
+        push_number(p, qdot_expr_fmpq(pool, c), k);
+    for (uint32_t i = 1; i < n && !p->failed; i += 2) {
+        qdot_expr b = ARGS(pool, base)[i], e = ARGS(pool, base)[i + 1];
+
+        if (NODE(pool, b)->sign & QDOT_GE0)
+            push(p, b, qdot_mul(pool, e, k));
+        else if (is_even(pool, e))
+            push(p, qdot_fun1(pool, QDOT_ABS, b), qdot_mul(pool, e, k));
+        else
+            push(&rest, b, e);
+    }
+    if (rest.n > 0 || !fmpq_is_one(&rest.c)) {
+        if (rest.n == (n - 1) / 2 && fmpq_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
+            push(p, base, k); /* nothing came out */
+        } else {
+            qdot_expr f = qdot_expr_fmpq(pool, &rest.c);
+
+            for (size_t i = 0; i < rest.n; i++)
+                f = qdot_mul(pool, f, qdot_pow(pool, rest.at[i].base, rest.at[i].exponent));
+            if (f != QDOT_NIL && NODE(pool, f)->kind == QDOT_NUM)
+                push_number(p, f, k);
+            else
+                push(p, f, k);
+        }
+    }
+    fmpq_clear(c);
+    end(&rest);
+}
+
+/* --- the canonical form ------------------------------------------------------------------ */
+
+static void
+take(struct product *p, qdot_expr e)
+{
+    qdot_pool *pool = p->pool;
+
+    switch (NODE(pool, e)->kind) {
+    case QDOT_NUM:
+        scale(p, RATIONAL(pool, e));
+        return;
+    case QDOT_PROD:
+        scale(p, RATIONAL(pool, ARGS(pool, e)[0]));
+        for (uint32_t i = 1; i < NODE(pool, e)->n && !p->failed; i += 2)
+            push(p, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
+        return;
+    default:
+        push(p, e, QDOT_ONE);
+    }
+}
+
+static int
+by_id(const void *a, const void *b)
+{
+    const struct pair *x = a, *y = b;
+
+    return x->base < y->base ? -1 : x->base > y->base;
+}
+
+static int
+by_order(const void *a, const void *b, void *pool)
+{
+    const struct pair *x = a, *y = b;
+    int d = qdot_expr_compare(pool, x->base, y->base);
+
+    return d != 0 ? d : qdot_expr_compare(pool, x->exponent, y->exponent);
+}
+
+/* exp(a)^i exp(b)^j ... is one exp. Returns whether there was something to do. */
+static bool
+merge_exponentials(struct product *p)
+{
+    qdot_pool *pool = p->pool;
+    size_t count = 0, kept = 0;
+    bool plain = true;
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < p->n; i++)
+        if (NODE(pool, p->at[i].base)->kind == QDOT_FUN && NODE(pool, p->at[i].base)->op == QDOT_EXP) {
+            count++;
+            plain &= p->at[i].exponent == QDOT_ONE;
+        }
+    if (count == 0 || (count == 1 && plain))
+        return false;
+    for (size_t i = 0; i < p->n; i++) {
+        const qdot_node *node = NODE(pool, p->at[i].base);
+
+        if (node->kind == QDOT_FUN && node->op == QDOT_EXP)
+            sum = qdot_add(pool, sum,
+                           qdot_mul(pool, ARGS(pool, p->at[i].base)[0], p->at[i].exponent));
+        else
+            p->at[kept++] = p->at[i];
+    }
+    p->n = kept;
+    if (sum == QDOT_NIL)
+        p->failed = true;
+    else
+        take(p, qdot_fun1(pool, QDOT_EXP, sum));
+    return true;
+}
+
+/* Roots of numbers under one exponent are one root: sqrt(2)*sqrt(6) is 2*sqrt(3). */
+static bool
+merge_roots(struct product *p)
+{
+    qdot_pool *pool = p->pool;
+
+    for (size_t i = 0; i < p->n; i++)
+        for (size_t j = i + 1; j < p->n; j++)
+            if (p->at[i].exponent == p->at[j].exponent &&
+                qdot_expr_rational(pool, p->at[i].exponent) != NULL &&
+                NODE(pool, p->at[i].base)->kind == QDOT_NUM &&
+                NODE(pool, p->at[j].base)->kind == QDOT_NUM) {
+                qdot_expr e = p->at[i].exponent;
+                qdot_expr b = qdot_mul(pool, p->at[i].base, p->at[j].base);
+
+                p->at[j] = p->at[--p->n];
+                p->at[i] = p->at[--p->n];
+                if (b == QDOT_NIL)
+                    p->failed = true;
+                else
+                    push_number(p, b, e);
+                return true;
+            }
+    return false;
+}
+
+/* Merge equal bases, then rewrite each pair that is not canonical. Returns whether the list
+ * changed in a way that asks for another round. */
+static bool
+round_of_merging(struct product *p)
+{
+    qdot_pool *pool = p->pool;
+    size_t kept = 0, n;
+    bool again = false;
+
+    qsort(p->at, p->n, sizeof *p->at, by_id);
+    for (size_t i = 0; i < p->n; i++) {
+        if (kept > 0 && p->at[kept - 1].base == p->at[i].base) {
+            qdot_expr e = qdot_add(pool, p->at[kept - 1].exponent, p->at[i].exponent);
+
+            if (e == QDOT_NIL) {
+                p->failed = true;
+                return false;
+            }
+            p->at[kept - 1].exponent = e;
+        } else {
+            p->at[kept++] = p->at[i];
+        }
+    }
+    n = kept;
+    kept = 0;
+    for (size_t i = 0; i < n && !p->failed; i++) {
+        struct pair x = p->at[i];
+        const qdot_node *base = NODE(pool, x.base);
+
+        if (x.exponent == QDOT_ZERO)
+            continue;
+        if (base->kind == QDOT_PROD && is_integer(pool, x.exponent)) {
+            /* the list is rebuilt behind the part not looked at yet */
+            qdot_expr e = x.base;
+            fmpq_t y;
+
+            fmpq_init(y);
+            if (power_of_number(pool, y, RATIONAL(pool, ARGS(pool, e)[0]),
+                                fmpq_numref(RATIONAL(pool, x.exponent))))
+                scale(p, y);
+            else
+                p->failed = true;
+            fmpq_clear(y);
+            p->n = n;
+            for (uint32_t k = 1; k < NODE(pool, e)->n && !p->failed; k += 2) {
+                qdot_expr inner = qdot_mul(pool, ARGS(pool, e)[k + 1], x.exponent);
+
+                push(p, ARGS(pool, e)[k], inner);
+            }
+            n = p->n;
+            again = true;
+        } else if (base->kind == QDOT_FUN && base->op == QDOT_ABS && is_even(pool, x.exponent)) {
+            qdot_expr arg = ARGS(pool, x.base)[0];
+
+            p->n = n;
+            push(p, arg, x.exponent);
+            n = p->n;
+            again = true;
+        } else if (base->kind == QDOT_NUM && qdot_expr_rational(pool, x.exponent) != NULL) {
+            const fmpq *e = RATIONAL(pool, x.exponent);
+            bool done = !fmpz_is_one(fmpq_denref(e)) && fmpq_sgn(e) > 0 &&
+                        fmpz_cmp(fmpq_numref(e), fmpq_denref(e)) < 0 &&
+                        fmpz_is_one(fmpq_denref(RATIONAL(pool, x.base))) &&
+                        fmpz_is_one(fmpq_numref(e));
+
+            if (done) {
+                p->at[kept++] = x;
+            } else {
+                p->n = n;
+                push_number(p, x.base, x.exponent);
+                again |= p->n > n;
+                n = p->n;
+            }
+        } else {
+            p->at[kept++] = x;
+        }
+    }
+    p->n = kept;
+    return again;
+}
+
+static qdot_expr
+finish(struct product *p)
+{
+    qdot_pool *pool = p->pool;
+    qdot_expr few[33], *args = few, e = QDOT_NIL;
+    bool again = true;
+
+    for (int round = 0; again && !p->failed && round < 64; round++)
+        again = (p->n > 1 || (p->n == 1 && p->at[0].exponent != QDOT_ONE)) &&
+                (round_of_merging(p) | (!p->failed && merge_exponentials(p)) |
+                 (!p->failed && merge_roots(p)));
+    if (p->failed || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if (fmpq_is_zero(&p->c))
+        return QDOT_ZERO;
+    if (p->n == 0)
+        return qdot_expr_fmpq(pool, &p->c);
+    if (p->n == 1 && p->at[0].exponent == QDOT_ONE && fmpq_is_one(&p->c))
+        return p->at[0].base;
+    if (p->n > 1)
+        qsort_r(p->at, p->n, sizeof *p->at, by_order, pool);
+    if (p->n > 16 && (args = qdot_malloc((2 * p->n + 1) * sizeof *args)) == NULL)
+        return qdot_pool_fail(pool);
+    args[0] = qdot_expr_fmpq(pool, &p->c);
+    for (size_t i = 0; i < p->n; i++) {
+        args[1 + 2 * i] = p->at[i].base;
+        args[2 + 2 * i] = p->at[i].exponent;
+    }
+    if (!qdot_pool_failed(pool)) {
+        uint32_t n = (uint32_t)(2 * p->n + 1);
+
+        e = qdot_pool_intern(pool, QDOT_PROD, 0, n, args, qdot_sign_of_product(pool, n, args));
+    }
+    if (args != few)
+        qdot_free(args);
+    return e;
+}
+
+/* --- the constructors -------------------------------------------------------------------- */
+
+qdot_expr
+qdot_expr_scale(qdot_pool *pool, const fmpq_t c, qdot_expr term)
+{
+    struct product p;
+    qdot_expr e;
+
+    if (term == QDOT_NIL)
+        return QDOT_NIL;
+    begin(&p, pool);
+    fmpq_set(&p.c, c);
+    take(&p, term);
+    e = finish(&p);
+    end(&p);
+    return e;
+}
+
+qdot_expr
+qdot_expr_unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
+{
+    const qdot_node *node = NODE(pool, e);
+    qdot_expr args[64], *all = args, stripped;
+
+    if (node->kind == QDOT_NUM) {
+        fmpq_set(c, RATIONAL(pool, e));
+        return QDOT_ONE;
+    }
+    fmpq_one(c);
+    if (node->kind != QDOT_PROD || ARGS(pool, e)[0] == QDOT_ONE)
+        return e;
+    fmpq_set(c, RATIONAL(pool, ARGS(pool, e)[0]));
+    if (node->n == 3 && ARGS(pool, e)[2] == QDOT_ONE)
+        return ARGS(pool, e)[1];
+    if (node->n > 64 && (all = qdot_malloc(node->n * sizeof *all)) == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < node->n; i++)
+        all[i] = ARGS(pool, e)[i];
+    all[0] = QDOT_ONE;
+    stripped = qdot_pool_intern(pool, QDOT_PROD, 0, node->n, all,
+                                qdot_sign_of_product(pool, node->n, all));
+    if (all != args)
+        qdot_free(all);
+    return stripped;
+}
+
+qdot_expr
+qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors)
+{
+    struct product p;
+    qdot_expr e = QDOT_NIL;
+
+    for (size_t i = 0; i < n; i++) {
+        if (factors[i] == QDOT_NIL)
+            return QDOT_NIL;
+        if (!qdot_expr_is_scalar(pool, factors[i]))
+            return qdot_pool_refuse(pool, QDOT_ETYPE, "a number is needed here");
+    }
+    if (qdot_pool_failed(pool))
+        return QDOT_NIL;
+    begin(&p, pool);
+    for (size_t i = 0; i < n && !p.failed; i++)
+        take(&p, factors[i]);
+    e = finish(&p);
+    end(&p);
+    return e;
+}
+
+qdot_expr
+qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    if (a == QDOT_ONE && b != QDOT_NIL && qdot_expr_is_scalar(pool, b))
+        return b;
+    if (b == QDOT_ONE && a != QDOT_NIL && qdot_expr_is_scalar(pool, a))
+        return a;
+    return qdot_product(pool, 2, (qdot_expr[]){a, b});
+}
+
+qdot_expr
+qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    struct product p;
+    qdot_expr e;
+    uint32_t kind;
+
+    if (a == QDOT_NIL || b == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "a number is needed in a power");
+    if (b == QDOT_ONE)
+        return a;
+    if (b == QDOT_ZERO)
+        return QDOT_ONE;
+    begin(&p, pool);
+    kind = NODE(pool, a)->kind;
+    if (kind == QDOT_NUM)
+        push_number(&p, a, b);
+    else if (kind == QDOT_PROD && !is_integer(pool, b))
+        push_power_of_product(&p, a, b);
+    else
+        push(&p, a, b);
+    e = finish(&p);
+    end(&p);
+    return e;
+}
+
+qdot_expr
+qdot_pow_int(qdot_pool *pool, qdot_expr a, long n)
+{
+    return qdot_pow(pool, a, qdot_expr_int(pool, n));
+}
+
+qdot_expr
+qdot_sqrt(qdot_pool *pool, qdot_expr a)
+{
+    return qdot_pow(pool, a, QDOT_HALF);
+}
+
+qdot_expr
+qdot_div(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    return qdot_mul(pool, a, qdot_pow(pool, b, QDOT_MINUS_ONE));
+}

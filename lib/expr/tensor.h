@@ -1,0 +1,35 @@
+/* tensor.h -- arithmetic on values of any kind: scalars, vectors, matrices, lists, equations.
+ *
+ * Wrong kinds or sizes: QDOT_ETYPE with a message in the words of a user.
+ */
+#ifndef QDOT_EXPR_TENSOR_H
+#define QDOT_EXPR_TENSOR_H
+
+#include "expr/expr.h"
+
+qdot_expr qdot_value_add(qdot_pool *pool, qdot_expr a, qdot_expr b);
+qdot_expr qdot_value_sub(qdot_pool *pool, qdot_expr a, qdot_expr b);
+qdot_expr qdot_value_neg(qdot_pool *pool, qdot_expr a);
+qdot_expr qdot_value_mul(qdot_pool *pool, qdot_expr a, qdot_expr b); /* number*x, M*u, M*N */
+qdot_expr qdot_value_div(qdot_pool *pool, qdot_expr a, qdot_expr b);
+qdot_expr qdot_value_pow(qdot_pool *pool, qdot_expr a, qdot_expr b); /* scalars; M^n, n >= 0 */
+/* a = b; between vectors and matrices component by component: a VEC of equations. */
+qdot_expr qdot_value_equation(qdot_pool *pool, qdot_expr a, qdot_expr b);
+
+qdot_expr qdot_dot(qdot_pool *pool, qdot_expr a, qdot_expr b);
+qdot_expr qdot_cross(qdot_pool *pool, qdot_expr a, qdot_expr b); /* plane: a1 b2 - a2 b1 */
+qdot_expr qdot_norm(qdot_pool *pool, qdot_expr a);
+qdot_expr qdot_transpose(qdot_pool *pool, qdot_expr a);
+qdot_expr qdot_trace(qdot_pool *pool, qdot_expr a);
+qdot_expr qdot_det(qdot_pool *pool, qdot_expr a);     /* fraction-free where it can be */
+qdot_expr qdot_inverse(qdot_pool *pool, qdot_expr a); /* adjugate / det; det = 0: ESINGULAR */
+/* i-th entry counted from 1; QDOT_EDOMAIN with the range otherwise. */
+qdot_expr qdot_entry(qdot_pool *pool, qdot_expr a, long i);
+qdot_expr qdot_entry2(qdot_pool *pool, qdot_expr a, long i, long j);
+
+/* f on every scalar inside (through VEC, MAT, LIST, REL, LOGIC). */
+qdot_expr qdot_value_map(qdot_pool *pool, qdot_expr e,
+                         qdot_expr (*f)(qdot_pool *pool, qdot_expr scalar, void *user),
+                         void *user);
+
+#endif

@@ -1,0 +1,308 @@
+/* walk.c -- reachable nodes in topological order; what passes have in common. */
+#include "expr/walk.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "expr/pool.h"
+
+static uint32_t
+hash_id(uint32_t e)
+{
+    return e * 2654435761u;
+}
+
+static size_t
+find(const qdot_walk *w, qdot_expr e)
+{
+    uint32_t i = hash_id(e) & w->mask;
+
+    while (w->slot[i] != 0 && w->at[w->slot[i] - 1] != e)
+        i = (i + 1) & w->mask;
+    return i;
+}
+
+static qdot_status
+enlarge(qdot_walk *w)
+{
+    uint32_t size = (w->mask + 1) * 2;
+    uint32_t *slot = qdot_calloc(size, sizeof *slot);
+
+    if (slot == NULL)
+        return QDOT_ENOMEM;
+    qdot_free(w->slot);
+    w->slot = slot;
+    w->mask = size - 1;
+    for (size_t k = 0; k < w->n; k++)
+        slot[find(w, w->at[k])] = (uint32_t)k + 1;
+    return QDOT_OK;
+}
+
+static int
+by_id(const void *a, const void *b)
+{
+    const qdot_expr *x = a, *y = b;
+
+    return *x < *y ? -1 : *x > *y;
+}
+
+qdot_status
+qdot_walk_begin_n(const qdot_pool *pool, size_t n, const qdot_expr *roots, qdot_walk *w)
+{
+    size_t capacity = 0;
+    qdot_status status = QDOT_OK;
+
+    *w = (qdot_walk){.pool = pool, .mask = 63};
+    w->slot = qdot_calloc(w->mask + 1, sizeof *w->slot);
+    if (w->slot == NULL)
+        return QDOT_ENOMEM;
+    /* w->at is both the queue and the result: nodes behind `next` are not opened yet */
+    for (size_t next = 0, root = 0; status == QDOT_OK && (root < n || next < w->n);) {
+        const qdot_expr *children = root < n ? &roots[root] : ARGS(pool, w->at[next]);
+        uint32_t count = root < n ? 1 : NODE(pool, w->at[next])->n;
+
+        if (root < n)
+            root++;
+        else
+            next++;
+        for (uint32_t i = 0; i < count && status == QDOT_OK; i++) {
+            size_t place;
+
+            if (children[i] == QDOT_NIL)
+                continue;
+            place = find(w, children[i]);
+            if (w->slot[place] != 0)
+                continue;
+            status = qdot_grow(&w->at, &capacity, w->n + 1, sizeof *w->at);
+            if (status != QDOT_OK)
+                break;
+            w->at[w->n++] = children[i];
+            w->slot[place] = (uint32_t)w->n;
+            if (w->n * 2 > w->mask)
+                status = enlarge(w);
+        }
+        if (status == QDOT_OK)
+            status = qdot_interrupt_check();
+    }
+    if (status == QDOT_OK && (w->value = qdot_calloc(w->n, sizeof *w->value)) == NULL)
+        status = QDOT_ENOMEM;
+    if (status != QDOT_OK) {
+        qdot_walk_end(w);
+        return status;
+    }
+    qsort(w->at, w->n, sizeof *w->at, by_id);
+    memset(w->slot, 0, (w->mask + 1) * sizeof *w->slot);
+    for (size_t k = 0; k < w->n; k++)
+        w->slot[find(w, w->at[k])] = (uint32_t)k + 1;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_walk_begin(const qdot_pool *pool, qdot_expr e, qdot_walk *w)
+{
+    return qdot_walk_begin_n(pool, 1, &e, w);
+}
+
+void
+qdot_walk_end(qdot_walk *w)
+{
+    qdot_free(w->at);
+    qdot_free(w->slot);
+    qdot_free(w->value);
+    *w = (qdot_walk){0};
+}
+
+size_t
+qdot_walk_index(const qdot_walk *w, qdot_expr e)
+{
+    uint32_t slot = w->slot[find(w, e)];
+
+    return slot == 0 ? SIZE_MAX : slot - 1;
+}
+
+uint64_t
+qdot_walk_get(const qdot_walk *w, qdot_expr e)
+{
+    return w->value[qdot_walk_index(w, e)];
+}
+
+void
+qdot_walk_set(qdot_walk *w, qdot_expr e, uint64_t value)
+{
+    w->value[qdot_walk_index(w, e)] = value;
+}
+
+qdot_expr
+qdot_walk_map(qdot_pool *pool, qdot_expr e,
+              qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user), void *user)
+{
+    qdot_walk w;
+    qdot_vec(qdot_expr) args = {0};
+    qdot_expr result = QDOT_NIL;
+
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n; i++) {
+        qdot_expr node = w.at[i], to = leaf(pool, node, user);
+        uint32_t n = NODE(pool, node)->n;
+
+        if (to == QDOT_NIL && !qdot_pool_failed(pool)) {
+            to = node;
+            if (n > 0 && qdot_grow(&args.at, &args.capacity, n, sizeof *args.at) != QDOT_OK) {
+                qdot_pool_fail(pool);
+                break;
+            }
+            for (uint32_t k = 0; k < n; k++)
+                args.at[k] = (qdot_expr)qdot_walk_get(&w, ARGS(pool, node)[k]);
+            if (n > 0)
+                to = qdot_rebuild(pool, node, args.at);
+        }
+        if (to == QDOT_NIL)
+            break;
+        w.value[i] = to;
+        result = to;
+    }
+    if (qdot_pool_failed(pool))
+        result = QDOT_NIL;
+    qdot_free(args.at);
+    qdot_walk_end(&w);
+    return result;
+}
+
+bool
+qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x)
+{
+    qdot_walk w;
+    bool found;
+
+    if (e == QDOT_NIL || x > e || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return false;
+    found = qdot_walk_index(&w, x) != SIZE_MAX;
+    qdot_walk_end(&w);
+    return found;
+}
+
+static int
+by_order(const void *a, const void *b, void *pool)
+{
+    return qdot_expr_compare(pool, *(const qdot_expr *)a, *(const qdot_expr *)b);
+}
+
+qdot_expr
+qdot_expr_atoms(qdot_pool *pool, qdot_expr e, bool ufuns)
+{
+    qdot_walk w;
+    qdot_vec(qdot_expr) found = {0};
+    qdot_expr list;
+
+    if (e == QDOT_NIL)
+        return QDOT_NIL;
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n; i++) {
+        const qdot_node *node = NODE(pool, w.at[i]);
+
+        if ((node->kind == QDOT_SYM && pool->symbols.at[node->at].class != QDOT_CONST) ||
+            (ufuns && node->kind == QDOT_UFUN))
+            if (qdot_vec_push(&found, w.at[i]) != QDOT_OK)
+                qdot_pool_fail(pool);
+    }
+    qdot_walk_end(&w);
+    if (found.n > 0)
+        qsort_r(found.at, found.n, sizeof *found.at, by_order, pool);
+    list = qdot_list(pool, (uint32_t)found.n, found.at);
+    qdot_free(found.at);
+    return list;
+}
+
+/* --- operations -------------------------------------------------------------------------- */
+
+static uint64_t
+plus(uint64_t a, uint64_t b)
+{
+    return a > UINT64_MAX - b ? UINT64_MAX : a + b;
+}
+
+/* The price of writing a rational: a division, a sign. */
+static uint64_t
+size_of_number(const fmpq *x)
+{
+    return !fmpz_is_one(fmpq_denref(x)) + (uint64_t)(fmpq_sgn(x) < 0);
+}
+
+static uint64_t
+size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
+{
+    const qdot_node *node = NODE(pool, e);
+    const qdot_expr *args = ARGS(pool, e);
+    uint64_t size = 0, operands = 0;
+
+    switch (node->kind) {
+    case QDOT_NUM:
+        return size_of_number(RATIONAL(pool, e));
+    case QDOT_SYM:
+        return 0;
+    case QDOT_SUM:
+        /* a term's minus is the operator that joins it */
+        for (uint32_t i = 1; i < node->n; i += 2) {
+            const fmpq *c = RATIONAL(pool, args[i + 1]);
+
+            size = plus(size, qdot_walk_get(w, args[i]));
+            size += !fmpz_is_one(fmpq_denref(c)) + (uint64_t)!fmpz_is_pm1(fmpq_numref(c)) + (i > 1);
+        }
+        return plus(size, args[0] == QDOT_ZERO ? 0 : 1 + !fmpz_is_one(fmpq_denref(RATIONAL(pool, args[0]))));
+    case QDOT_PROD: {
+        const fmpq *c = RATIONAL(pool, args[0]);
+
+        size = fmpq_sgn(c) < 0;
+        operands = !fmpz_is_pm1(fmpq_numref(c)) + (uint64_t)!fmpz_is_one(fmpq_denref(c));
+        for (uint32_t i = 1; i < node->n; i += 2) {
+            const fmpq *x = qdot_expr_rational(pool, args[i + 1]);
+
+            size = plus(size, qdot_walk_get(w, args[i]));
+            operands++;
+            if (x == NULL)
+                size = plus(size, 1 + qdot_walk_get(w, args[i + 1]));
+            else if (!fmpz_is_pm1(fmpq_numref(x)) || !fmpz_is_one(fmpq_denref(x)))
+                size += 1 + (!fmpz_is_one(fmpq_denref(x)) && !fmpz_equal_si(fmpq_denref(x), 2));
+        }
+        /* 1/x: the quotient of a bare denominator */
+        if (fmpz_is_pm1(fmpq_numref(c))) {
+            bool above = false;
+
+            for (uint32_t i = 1; i < node->n; i += 2) {
+                const fmpq *x = qdot_expr_rational(pool, args[i + 1]);
+
+                above |= x == NULL || fmpq_sgn(x) > 0;
+            }
+            operands += !above;
+        }
+        return plus(size, operands - 1);
+    }
+    case QDOT_UFUN:
+        for (uint32_t i = 0; i < node->n / 2; i++)
+            size = plus(size, plus(qdot_walk_get(w, args[i]), args[node->n / 2 + i] != QDOT_ZERO));
+        return size;
+    default:
+        for (uint32_t i = 0; i < node->n; i++)
+            size = plus(size, qdot_walk_get(w, args[i]));
+        return plus(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC);
+    }
+}
+
+uint64_t
+qdot_expr_size(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_walk w;
+    uint64_t size = 0;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return 0;
+    for (size_t i = 0; i < w.n; i++)
+        w.value[i] = size = size_of_node(pool, w.at[i], &w);
+    qdot_walk_end(&w);
+    return size;
+}

@@ -1,0 +1,55 @@
+/* walk.h -- passes over an expression: loops over its nodes, children first.
+ *
+ *     qdot_walk w;
+ *     QDOT_TRY(qdot_walk_begin(pool, e, &w));
+ *     for (size_t i = 0; i < w.n; i++)
+ *         ... w.at[i] ...  children stand before their parents; qdot_walk_get(&w, child)
+ *         qdot_walk_set(&w, w.at[i], value);
+ *     qdot_walk_end(&w);
+ *
+ * Each reachable node once, so the work is that of the DAG, not of the tree.
+ */
+#ifndef QDOT_EXPR_WALK_H
+#define QDOT_EXPR_WALK_H
+
+#include "expr/expr.h"
+
+typedef struct {
+    const qdot_pool *pool;
+    qdot_expr *at;   /* [n] ascending ids, children before parents; owned */
+    size_t n;
+    uint32_t *slot;  /* open hash table id -> index + 1; owned */
+    uint32_t mask;
+    uint64_t *value; /* [n] a word for each node, 0 at first; owned */
+} qdot_walk;
+
+/* All nodes reachable from e (nil: none). Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_walk_begin(const qdot_pool *pool, qdot_expr e, qdot_walk *w);
+/* The same from several roots. */
+QDOT_MUST_CHECK qdot_status qdot_walk_begin_n(const qdot_pool *pool, size_t n,
+                                              const qdot_expr *roots, qdot_walk *w);
+void qdot_walk_end(qdot_walk *w);
+
+/* Index of a node in the walk; SIZE_MAX if it is not reachable. */
+size_t qdot_walk_index(const qdot_walk *w, qdot_expr e);
+uint64_t qdot_walk_get(const qdot_walk *w, qdot_expr e); /* e reachable */
+void qdot_walk_set(qdot_walk *w, qdot_expr e, uint64_t value);
+
+/* Rebuild e from the leaves: `leaf` is asked of every node first and returns its replacement,
+ * or nil for "rebuild it from the replaced children". */
+qdot_expr qdot_walk_map(qdot_pool *pool, qdot_expr e,
+                        qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
+                        void *user);
+
+/* Whether x (any node) occurs in e. */
+bool qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x);
+
+/* The symbols (and, if asked, applications of undefined functions) that occur in e, in the
+ * order of qdot_expr_compare, as a LIST. */
+qdot_expr qdot_expr_atoms(qdot_pool *pool, qdot_expr e, bool ufuns);
+
+/* Operations in e as a tree, saturating at UINT64_MAX: n - 1 for a sum or product of n, 1 for a
+ * power, a division, a sign, a function. */
+uint64_t qdot_expr_size(const qdot_pool *pool, qdot_expr e);
+
+#endif
