@@ -1,0 +1,90 @@
+/* integrate.h -- from t0 to t1 with the error of every step bounded.
+ *
+ *     |error of y_i in one step| <= tol max(1, |y_i|),   every component, every step
+ *
+ * (as the method estimates it). t1 < t0 runs backwards. The last step ends on t1 to the
+ * bit; time and, for one-step methods, the state are accumulated as sums of two doubles,
+ * so that rounding grows like a random walk of evaluations and not of additions.
+ *
+ * With ratio the largest error of a step over what it is allowed, the step is taken if
+ * ratio <= 1, and the next one is h 0.9 (ratio/0.1)^(-1/p), within a factor 0.2 to 5: it
+ * aims at a tenth of the tolerance. p is the power of h in the method's own error
+ * estimate (Hairer, Norsett & Wanner I, II.4, eq. 4.13); multistep methods keep their
+ * step unless it may grow by a half. The first one is chosen by Hairer's rule (same,
+ * "starting step size").
+ *
+ * A tolerance is a local bound. The error of the end state is companion.h's to estimate.
+ *
+ * Tests  tests/ode/test_integrate.c
+ */
+#ifndef QDOT_ODE_INTEGRATE_H
+#define QDOT_ODE_INTEGRATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/status.h"
+#include "ode/method.h"
+#include "ode/system.h"
+
+/* What a run did. */
+typedef struct {
+    uint64_t steps;          /* accepted */
+    uint64_t rejected;       /* tried and not taken, for whatever reason */
+    uint64_t evaluations;    /* of f */
+    uint64_t jacobians;      /* of df/dy */
+    uint64_t factorisations; /* LU, inside the method; for msbdf a lower bound (GSL does
+                                not tell); a step of bsimp broken off counts in full */
+    double cpu;              /* seconds of this thread */
+} qdot_ode_stats;
+
+/* All fields may be 0 / NULL for their defaults. */
+typedef struct {
+    double tol;         /* 1e-16 .. 1; default 1e-12 */
+    double h_fixed;     /* > 0: steps of (at most) this size, their error not looked at */
+    double h_first;     /* > 0: the size to try first */
+    uint64_t max_steps; /* tried; default 50 million */
+    /* After every accepted step, not for the initial state. Set *stop to end the run
+     * here. QDOT_EDOMAIN: the step is taken back and smaller ones are tried, as when f is
+     * undefined; any other failure takes the step back and ends the run with it. */
+    qdot_status (*accepted)(double t, const double *y, bool *stop, void *user);
+    void *user; /* borrowed, for `accepted` */
+} qdot_ode_options;
+
+typedef enum {
+    QDOT_ODE_DONE,    /* t1 was reached */
+    QDOT_ODE_STOPPED, /* `accepted` said so */
+    QDOT_ODE_FAILED   /* the reason says where and why; the state is the last good one */
+} qdot_ode_outcome;
+
+typedef struct {
+    qdot_ode_outcome outcome;
+    double t; /* where the state is: t1 exactly when done */
+    qdot_ode_stats stats;
+    char reason[512]; /* of a failure; else "" */
+} qdot_ode_result;
+
+/* The words of language.md: "done", "stopped", "failed". */
+const char *qdot_ode_outcome_name(qdot_ode_outcome outcome);
+
+/* Integrate y [n, in/out] from t0 to t1.
+ *
+ * Whatever is returned, y is the state at result->t, finite, and everything accepted on
+ * the way has been passed to options->accepted.
+ *   options  NULL: all defaults
+ * Returns QDOT_OK (done or stopped), or with outcome failed:
+ *   QDOT_EINVAL   tolerance, limits or initial state make no sense (t = t0)
+ *   QDOT_EFAILED  at some t no step is small enough: f is undefined, not finite or
+ *                 singular beyond it, or the step fell below 16 spacings of the numbers
+ *                 near t
+ *   QDOT_ELIMIT   max_steps
+ *   QDOT_EINTR    qdot_interrupt_flag, looked at before every step
+ *   QDOT_ENOMEM, or what f, the Jacobian or `accepted` returned
+ * and the message recorded is result->reason. */
+QDOT_MUST_CHECK qdot_status qdot_ode_integrate(const qdot_ode_system *system,
+                                               const qdot_ode_method *method,
+                                               const qdot_ode_options *options, double t0,
+                                               double t1, double *y,
+                                               qdot_ode_result *result);
+
+#endif

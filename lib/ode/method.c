@@ -1,0 +1,45 @@
+/* method.c -- the table. */
+#include "ode/method.h"
+
+#include <string.h>
+
+#include <gsl/gsl_odeiv2.h>
+
+static const qdot_ode_method methods[] = {
+    {"rk8pd", 8, false, false, false, 8, "rk8pd", 1e-2, 5e-15,
+     "Runge-Kutta of order 8: smooth scenes at any tolerance; the one to try first",
+     &gsl_odeiv2_step_rk8pd},
+    {"rkf45", 5, false, false, false, 5, "rk8pd", 1e-2, 5e-16,
+     "Runge-Kutta-Fehlberg of order 5: coarse tolerances, cheap or rough scenes",
+     &gsl_odeiv2_step_rkf45},
+    {"msadams", 12, false, true, false, 0, "rk8pd", 1e-2, 5e-16,
+     "Adams, orders 1 to 12: smooth scenes whose evaluation is expensive",
+     &gsl_odeiv2_step_msadams},
+    {"msbdf", 5, true, true, true, 0, "bsimp", 1e-4, 3e-16,
+     "backward differences, orders 1 to 5: stiff scenes, moderate tolerances",
+     &gsl_odeiv2_step_msbdf},
+    {"bsimp", 12, true, false, true, 0, "bsimp", 1e-4, 3e-16,
+     "implicit Bulirsch-Stoer: stiff scenes that are smooth, tight tolerances",
+     &gsl_odeiv2_step_bsimp},
+};
+
+size_t
+qdot_ode_method_count(void)
+{
+    return sizeof methods / sizeof methods[0];
+}
+
+const qdot_ode_method *
+qdot_ode_method_at(size_t i)
+{
+    return i < qdot_ode_method_count() ? &methods[i] : NULL;
+}
+
+const qdot_ode_method *
+qdot_ode_method_find(const char *name)
+{
+    for (size_t i = 0; i < qdot_ode_method_count(); i++)
+        if (strcmp(methods[i].name, name) == 0)
+            return &methods[i];
+    return NULL;
+}

@@ -1,0 +1,37 @@
+/* method.h -- the table of methods of integration.
+ *
+ * The steppers are GSL's (gsl_odeiv2); step control, landing, rounding and failure are
+ * ours (integrate.h). A method that comes later is a row.
+ *
+ * Tests  tests/ode/test_method.c: names, and the order of the one-step rows measured.
+ */
+#ifndef QDOT_ODE_METHOD_H
+#define QDOT_ODE_METHOD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct qdot_ode_method {
+    const char *name;
+    int order;           /* of the result; of a variable-order method the highest */
+    bool needs_jacobian; /* the system must have one */
+    bool multistep;      /* keeps a history: cannot start at full order */
+    bool stiff;          /* its step is not bound by stability */
+    int error_power;     /* its error estimate goes as h to this; 0: order now + 1 */
+    const char *partner; /* the one-step method of its companion run (companion.h) and of
+                            its output between steps (trajectory.h) */
+    double companion_ratio; /* how much tighter the companion's tolerance is */
+    double companion_tol;   /* the smallest one at which it still gains by it */
+    const char *fits;       /* one line: when to take it */
+    const void *stepper;    /* const gsl_odeiv2_step_type *const * */
+} qdot_ode_method;
+
+size_t qdot_ode_method_count(void);
+
+/* Row i of the table, static; NULL beyond its end. */
+const qdot_ode_method *qdot_ode_method_at(size_t i);
+
+/* The row of that name; NULL if there is none (no failure is recorded). */
+const qdot_ode_method *qdot_ode_method_find(const char *name);
+
+#endif

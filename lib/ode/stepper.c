@@ -1,0 +1,334 @@
+/* stepper.c -- GSL's step objects behind a state kept as a sum. */
+#include "ode/stepper.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+
+#include "base/memory.h"
+#include "num/sum.h"
+
+static pthread_once_t handler_once = PTHREAD_ONCE_INIT;
+
+static void
+handler_off(void)
+{
+    gsl_set_error_handler_off();
+}
+
+/* 0 times a finite number is 0, times anything else it is not a number. */
+static bool
+all_finite(const double *x, size_t n)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < n; i++)
+        sum += 0 * x[i];
+    return sum == 0;
+}
+
+qdot_status
+qdot_ode_stepper_rhs(qdot_ode_stepper *s, double t, const double *y, double *dydt)
+{
+    s->evaluations++;
+    QDOT_TRY(s->system->rhs(t, y, dydt, s->system->user));
+    if (!all_finite(dydt, s->system->n))
+        return qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
+    return QDOT_OK;
+}
+
+static inline void
+add_up(qdot_ode_stepper *s, const double *z, double *y)
+{
+    for (size_t i = 0; i < s->system->n; i++)
+        y[i] = s->y[i] + (s->carry[i] + s->scale[i] * z[i]);
+}
+
+/* What GSL calls. Any failure but GSL_EBADFUNC makes its multistep methods restore their
+ * history; which it was, s->broken knows. */
+static int
+inner_rhs(double t, const double *z, double *zdot, void *user)
+{
+    qdot_ode_stepper *s = user;
+
+    if (s->method->multistep) {
+        s->broken = qdot_ode_stepper_rhs(s, t, z, zdot);
+    } else {
+        add_up(s, z, s->trial);
+        s->broken = qdot_ode_stepper_rhs(s, t, s->trial, zdot);
+        if (s->method->stiff)
+            for (size_t i = 0; i < s->system->n; i++)
+                zdot[i] /= s->scale[i];
+    }
+    return s->broken == QDOT_OK ? GSL_SUCCESS : GSL_FAILURE;
+}
+
+static int
+inner_jacobian(double t, const double *z, double *dfdy, double *dfdt, void *user)
+{
+    qdot_ode_stepper *s = user;
+    const size_t n = s->system->n;
+    const double *y = z;
+
+    if (!s->method->multistep) {
+        add_up(s, z, s->trial);
+        y = s->trial;
+    }
+    s->jacobians++;
+    if (s->method->multistep)
+        s->factorisations++;
+    s->broken = s->system->jacobian(t, y, dfdy, dfdt, s->system->user);
+    if (s->broken == QDOT_OK && !(all_finite(dfdy, n * n) && all_finite(dfdt, n)))
+        s->broken = qdot_fail(QDOT_EDOMAIN, "the Jacobian is not finite");
+    if (s->broken != QDOT_OK)
+        return GSL_FAILURE;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < n; j++)
+            dfdy[i * n + j] *= s->scale[j] / s->scale[i];
+        dfdt[i] /= s->scale[i];
+    }
+    return GSL_SUCCESS;
+}
+
+/* The control object: only its error level is ever asked for, by multistep methods. */
+static int
+error_level(void *state, const double y, const double dydt, const double h,
+            const size_t ind, double *level)
+{
+    (void)dydt;
+    (void)h;
+    (void)ind;
+    *level = *(const double *)state * fmax(1, fabs(y));
+    return GSL_SUCCESS;
+}
+
+static void *
+control_alloc(void)
+{
+    return qdot_calloc(1, sizeof(double));
+}
+
+static int
+control_init(void *state, double tol, double eps_rel, double a_y, double a_dydt)
+{
+    (void)eps_rel;
+    (void)a_y;
+    (void)a_dydt;
+    *(double *)state = tol;
+    return GSL_SUCCESS;
+}
+
+static int
+control_adjust(void *state, size_t n, unsigned order, const double *y,
+               const double *error, const double *dydt, double *h)
+{
+    (void)state;
+    (void)n;
+    (void)order;
+    (void)y;
+    (void)error;
+    (void)dydt;
+    (void)h;
+    return GSL_ODEIV_HADJ_NIL;
+}
+
+static int
+control_driver(void *state, const gsl_odeiv2_driver *driver)
+{
+    (void)state;
+    (void)driver;
+    return GSL_SUCCESS;
+}
+
+static const gsl_odeiv2_control_type control_type = {
+    "qdot",      control_alloc,  control_init, control_adjust,
+    error_level, control_driver, qdot_free,
+};
+
+static bool
+allocate(qdot_ode_stepper *s, size_t n)
+{
+    const gsl_odeiv2_step_type *const *type = s->method->stepper;
+    double **arrays[] = {&s->y,    &s->carry, &s->dydt,  &s->z,         &s->error,
+                         &s->zdot, &s->scale, &s->trial, &s->trial_dydt};
+
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
+        *arrays[i] = qdot_calloc(n, sizeof(double));
+        if (!*arrays[i])
+            return false;
+    }
+    s->step = gsl_odeiv2_step_alloc(*type, n);
+    s->control = gsl_odeiv2_control_alloc(&control_type);
+    if (!s->step || !s->control)
+        return qdot_fail(QDOT_ENOMEM, "out of memory for the integrator"), false;
+    return true;
+}
+
+qdot_status
+qdot_ode_stepper_new(const qdot_ode_system *system, const qdot_ode_method *method,
+                     double tol, qdot_ode_stepper **out)
+{
+    qdot_ode_stepper *s;
+
+    *out = NULL;
+    if (system->n == 0)
+        return qdot_fail(QDOT_EINVAL, "there is nothing to integrate");
+    if (!(tol >= 1e-16 && tol <= 1)) {
+        qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", tol);
+        return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
+    }
+    if (method->needs_jacobian && !system->jacobian)
+        return qdot_fail(QDOT_EINVAL, "%s needs the Jacobian of the equations",
+                         method->name);
+    pthread_once(&handler_once, handler_off);
+    s = qdot_calloc(1, sizeof *s);
+    if (!s)
+        return QDOT_ENOMEM;
+    s->method = method;
+    s->system = system;
+    s->tol = tol;
+    if (!allocate(s, system->n)) {
+        qdot_ode_stepper_free(s);
+        return QDOT_ENOMEM;
+    }
+    s->inner = (gsl_odeiv2_system){inner_rhs, inner_jacobian, system->n, s};
+    s->driver = (gsl_odeiv2_driver){.sys = &s->inner, .s = s->step, .c = s->control};
+    gsl_odeiv2_control_init(s->control, tol, 0, 0, 0);
+    gsl_odeiv2_step_set_driver(s->step, &s->driver);
+    *out = s;
+    return QDOT_OK;
+}
+
+void
+qdot_ode_stepper_free(qdot_ode_stepper *s)
+{
+    if (!s)
+        return;
+    if (s->step)
+        gsl_odeiv2_step_free(s->step);
+    if (s->control)
+        gsl_odeiv2_control_free(s->control);
+    qdot_free(s->y);
+    qdot_free(s->carry);
+    qdot_free(s->dydt);
+    qdot_free(s->z);
+    qdot_free(s->error);
+    qdot_free(s->zdot);
+    qdot_free(s->scale);
+    qdot_free(s->trial);
+    qdot_free(s->trial_dydt);
+    qdot_free(s);
+}
+
+static void
+choose_scale(qdot_ode_stepper *s)
+{
+    bool scaled = s->method->stiff && !s->method->multistep;
+
+    for (size_t i = 0; i < s->system->n; i++)
+        s->scale[i] = scaled ? ldexp(1, ilogb(fmax(1, fabs(s->y[i])))) : 1;
+}
+
+void
+qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y)
+{
+    memcpy(s->y, y, s->system->n * sizeof *y);
+    memset(s->carry, 0, s->system->n * sizeof *y);
+    s->dydt_known = false;
+    choose_scale(s);
+    gsl_odeiv2_step_reset(s->step);
+}
+
+/* Ratio of the step tried; INFINITY where anything in it is not finite. */
+static double
+judge(const qdot_ode_stepper *s)
+{
+    double ratio = 0;
+
+    for (size_t i = 0; i < s->system->n; i++) {
+        double size = fmax(1, fmax(fabs(s->y[i]), fabs(s->trial[i])));
+        double r = fabs(s->error[i]) * s->scale[i] / (s->tol * size);
+
+        if (!(r <= ratio))
+            ratio = r;
+        if (!isfinite(s->trial[i]) || !isfinite(r))
+            return INFINITY;
+    }
+    return ratio;
+}
+
+/* A multistep method: z is the state itself. */
+static int
+apply_multistep(qdot_ode_stepper *s, double t, double h)
+{
+    const size_t n = s->system->n;
+    int gsl;
+
+    memcpy(s->z, s->y, n * sizeof *s->z);
+    gsl = gsl_odeiv2_step_apply(s->step, t, h, s->z, s->error, NULL, NULL, &s->inner);
+    memcpy(s->trial, s->z, n * sizeof *s->z);
+    return gsl;
+}
+
+static int
+apply_onestep(qdot_ode_stepper *s, double t, double h)
+{
+    const size_t n = s->system->n;
+    int gsl;
+
+    for (size_t i = 0; i < n; i++) {
+        s->z[i] = 0;
+        s->zdot[i] = s->dydt[i] / s->scale[i];
+    }
+    gsl = gsl_odeiv2_step_apply(s->step, t, h, s->z, s->error, s->zdot, NULL, &s->inner);
+    if (s->method->stiff) /* of an extrapolation of order 2k: k + 1 matrices */
+        s->factorisations += gsl_odeiv2_step_order(s->step) / 2 + 1;
+    add_up(s, s->z, s->trial);
+    return gsl;
+}
+
+qdot_status
+qdot_ode_stepper_try(qdot_ode_stepper *s, double t, double h, double *ratio)
+{
+    int gsl;
+
+    s->broken = QDOT_OK;
+    *ratio = INFINITY;
+    if (!s->method->multistep && !s->dydt_known) {
+        QDOT_TRY(qdot_ode_stepper_rhs(s, t, s->y, s->dydt));
+        s->dydt_known = true;
+    }
+    gsl = s->method->multistep ? apply_multistep(s, t, h) : apply_onestep(s, t, h);
+    if (s->broken != QDOT_OK)
+        return s->broken;
+    if (gsl == GSL_SUCCESS)
+        *ratio = judge(s);
+    if (*ratio <= 1 && !s->method->multistep)
+        return qdot_ode_stepper_rhs(s, t + h, s->trial, s->trial_dydt);
+    return QDOT_OK;
+}
+
+void
+qdot_ode_stepper_accept(qdot_ode_stepper *s)
+{
+    const size_t n = s->system->n;
+
+    if (s->method->multistep) {
+        memcpy(s->y, s->z, n * sizeof *s->y);
+        return;
+    }
+    for (size_t i = 0; i < n; i++)
+        qdot_sum_advance(&s->y[i], &s->carry[i], s->scale[i] * s->z[i]);
+    memcpy(s->dydt, s->trial_dydt, n * sizeof *s->dydt);
+    choose_scale(s);
+}
+
+double
+qdot_ode_stepper_error_power(const qdot_ode_stepper *s)
+{
+    if (s->method->error_power)
+        return s->method->error_power;
+    return gsl_odeiv2_step_order(s->step) + 1.0;
+}

@@ -1,0 +1,233 @@
+/* trajectory.c -- storing points, finding them, and stepping from them. */
+#include "ode/trajectory.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "ode/stepper.h"
+
+static const size_t most_bytes = (size_t)2 << 30;
+
+struct qdot_trajectory_cursor {
+    const qdot_trajectory *tr;
+    const qdot_ode_system *system;
+    qdot_ode_stepper *s;
+    size_t at;  /* the stored point looked from last */
+    bool fresh; /* the stepper stands at that point */
+};
+
+/* What `accepted` needs while a run is recorded. */
+typedef struct {
+    qdot_trajectory *tr;
+    const qdot_ode_options *options;
+} recorder;
+
+void
+qdot_trajectory_clear(qdot_trajectory *tr)
+{
+    qdot_free(tr->t);
+    qdot_free(tr->y);
+    *tr = (qdot_trajectory){0};
+}
+
+static qdot_status
+store(qdot_trajectory *tr, double t, const double *y)
+{
+    size_t wanted = tr->count + 1;
+
+    if (wanted > most_bytes / sizeof(double) / (tr->n + 1)) {
+        qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g: the run takes more than 2 GB", t);
+        return qdot_hint("a coarser tolerance or a shorter run needs fewer points");
+    }
+    QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, wanted, sizeof *tr->t));
+    QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, wanted * tr->n, sizeof *tr->y));
+    tr->t[tr->count] = t;
+    memcpy(tr->y + tr->count * tr->n, y, tr->n * sizeof *y);
+    tr->count = wanted;
+    return QDOT_OK;
+}
+
+static qdot_status
+record(double t, const double *y, bool *stop, void *user)
+{
+    recorder *r = user;
+
+    if (r->options->accepted)
+        QDOT_TRY(r->options->accepted(t, y, stop, r->options->user));
+    return store(r->tr, t, y);
+}
+
+qdot_status
+qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
+                    const qdot_ode_method *method, const qdot_ode_options *options,
+                    double t0, double t1, const double *y0)
+{
+    qdot_ode_options own = options ? *options : (qdot_ode_options){0};
+    const qdot_ode_options theirs = own;
+    recorder r = {.tr = tr, .options = &theirs};
+    double *y = qdot_malloc(system->n * sizeof *y);
+    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
+
+    if (y) /* first of all: y0 may be a point of the run that is dropped */
+        memcpy(y, y0, system->n * sizeof *y);
+    qdot_trajectory_clear(tr);
+    tr->n = system->n;
+    tr->method = method;
+    tr->tol = own.tol != 0 ? own.tol : 1e-12;
+    tr->result = (qdot_ode_result){.outcome = QDOT_ODE_FAILED, .t = t0};
+    own.accepted = record;
+    own.user = &r;
+    if (status == QDOT_OK)
+        status = store(tr, t0, y);
+    if (status == QDOT_OK)
+        status = qdot_ode_integrate(system, method, &own, t0, t1, y, &tr->result);
+    else
+        memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
+    qdot_free(y);
+    return status;
+}
+
+/* Is a at or before b, in the direction of the run? */
+static bool
+not_beyond(const qdot_trajectory *tr, double a, double b)
+{
+    return tr->t[0] <= tr->t[tr->count - 1] ? a <= b : a >= b;
+}
+
+size_t
+qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
+{
+    size_t low = 0, high = tr->count; /* t[low] is not beyond t, t[high] is */
+
+    if (near < tr->count && not_beyond(tr, tr->t[near], t)) {
+        low = near;
+        for (size_t k = near + 1; k < near + 3; k++) {
+            if (k >= tr->count || !not_beyond(tr, tr->t[k], t)) {
+                high = k < tr->count ? k : tr->count;
+                break;
+            }
+            low = k;
+        }
+    }
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (not_beyond(tr, tr->t[middle], t))
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+qdot_status
+qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
+                     qdot_trajectory_cursor **out)
+{
+    qdot_trajectory_cursor *c;
+    qdot_status status;
+
+    *out = NULL;
+    if (tr->count == 0)
+        return qdot_fail(QDOT_EDOMAIN, "there is no run to look at");
+    c = qdot_calloc(1, sizeof *c);
+    if (!c)
+        return QDOT_ENOMEM;
+    c->tr = tr;
+    c->system = system;
+    status = qdot_ode_stepper_new(system, qdot_ode_method_find(tr->method->partner),
+                                  tr->tol, &c->s);
+    if (status != QDOT_OK) {
+        qdot_free(c);
+        return status;
+    }
+    *out = c;
+    return QDOT_OK;
+}
+
+void
+qdot_trajectory_close(qdot_trajectory_cursor *c)
+{
+    if (!c)
+        return;
+    qdot_ode_stepper_free(c->s);
+    qdot_free(c);
+}
+
+/* From the stored point to t in as few steps as the tolerance allows; the last leaves the
+ * answer in s->trial without being taken, so that the next query can start here too. */
+static qdot_status
+walk(qdot_trajectory_cursor *c, double t)
+{
+    qdot_ode_stepper *s = c->s;
+    double now = c->tr->t[c->at], h = t - now;
+
+    for (;;) {
+        double ratio, factor = 0.25;
+        bool last = fabs(h) >= fabs(t - now);
+        qdot_status status;
+
+        if (last)
+            h = t - now;
+        status = qdot_ode_stepper_try(s, now, h, &ratio);
+        if (status != QDOT_OK && status != QDOT_EDOMAIN && status != QDOT_ESINGULAR)
+            return status;
+        if (status == QDOT_OK) {
+            if (ratio <= 1 && last)
+                return QDOT_OK;
+            factor = 0.9 * pow(ratio, -1 / qdot_ode_stepper_error_power(s));
+            factor = fmin(5, fmax(0.2, factor));
+            if (ratio <= 1) {
+                qdot_ode_stepper_accept(s);
+                c->fresh = false;
+                now += h;
+            }
+        }
+        h *= factor;
+        if (fabs(h) < 4 * DBL_EPSILON * fabs(now) || fabs(h) < DBL_MIN)
+            return qdot_fail(QDOT_EFAILED,
+                             "the state at t = %.17g cannot be found from the run", t);
+    }
+}
+
+qdot_status
+qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    double first = tr->t[0], last = tr->t[tr->count - 1];
+    size_t k;
+
+    if (!(fmin(first, last) <= t && t <= fmax(first, last)))
+        return qdot_fail(QDOT_EDOMAIN,
+                         "t = %.15g is outside the run, which covers %.15g to %.15g", t,
+                         first, last);
+    k = qdot_trajectory_locate(tr, t, c->at);
+    if (k != c->at)
+        c->fresh = false;
+    c->at = k;
+    if (tr->t[k] == t) {
+        memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
+        return QDOT_OK;
+    }
+    if (!c->fresh)
+        qdot_ode_stepper_start(c->s, tr->y + k * tr->n);
+    c->fresh = true;
+    QDOT_TRY(walk(c, t));
+    memcpy(y, c->s->trial, tr->n * sizeof *y);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_trajectory_at(const qdot_trajectory *tr, const qdot_ode_system *system, double t,
+                   double *y)
+{
+    qdot_trajectory_cursor *c;
+    qdot_status status;
+
+    QDOT_TRY(qdot_trajectory_open(tr, system, &c));
+    status = qdot_trajectory_read(c, t, y);
+    qdot_trajectory_close(c);
+    return status;
+}

@@ -1,0 +1,74 @@
+/* trajectory.h -- a run kept whole, and its state at any time.
+ *
+ * Every accepted step is stored. GSL's steppers have no dense output, so between stored
+ * points the state is found by integrating again: from the stored point t_k before t one
+ * step of h = t - t_k (more where its error estimate asks) by the partner of the run's
+ * method (method.h: rk8pd, or bsimp for stiff methods), under the tolerance of the run.
+ * A step shorter than one that was good enough is good enough: the state at t is as
+ * accurate as the run, and does not depend on what was asked before. It costs 13
+ * evaluations (rk8pd), and one more for the first query within a step.
+ *
+ * Tests  tests/ode/test_trajectory.c
+ */
+#ifndef QDOT_ODE_TRAJECTORY_H
+#define QDOT_ODE_TRAJECTORY_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "ode/integrate.h"
+
+typedef struct {
+    size_t n;     /* components of the state */
+    size_t count; /* stored points, the initial state included */
+    double *t;    /* [count] strictly monotone in the direction of the run */
+    double *y;    /* [count x n] row-major */
+    const qdot_ode_method *method;
+    double tol;
+    qdot_ode_result result; /* of the run */
+    size_t t_capacity, y_capacity;
+} qdot_trajectory;
+
+/* Start from {0}; release with qdot_trajectory_clear. */
+void qdot_trajectory_clear(qdot_trajectory *tr);
+
+/* Integrate as qdot_ode_integrate does and store the run (whatever was there is dropped).
+ *   y0  [n] initial state; borrowed during the call; may be a row of tr->y
+ * Returns what qdot_ode_integrate returns, or QDOT_ELIMIT beyond 2 GB of points, always
+ * with the run so far kept and tr->result filled. options->accepted is called before a
+ * point is stored. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_run(qdot_trajectory *tr,
+                                                const qdot_ode_system *system,
+                                                const qdot_ode_method *method,
+                                                const qdot_ode_options *options,
+                                                double t0, double t1, const double *y0);
+
+/* The state at t into y [n]; a stored point is given back bit by bit.
+ *   system  the one of the run
+ * Errors: QDOT_EDOMAIN if t is outside the run (the message says what it covers),
+ * QDOT_EFAILED if no step from the stored point works, QDOT_ENOMEM, or what a callback
+ * returned. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_at(const qdot_trajectory *tr,
+                                               const qdot_ode_system *system, double t,
+                                               double *y);
+
+/* For many times: keeps its work space, the place in the run and f at the stored point.
+ * Any order of times is right; neighbouring ones are fast. */
+typedef struct qdot_trajectory_cursor qdot_trajectory_cursor;
+
+/* `tr` and `system` are borrowed until _close. Errors: QDOT_EDOMAIN (no run is stored),
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_open(const qdot_trajectory *tr,
+                                                 const qdot_ode_system *system,
+                                                 qdot_trajectory_cursor **out);
+void qdot_trajectory_close(qdot_trajectory_cursor *c);
+
+/* As qdot_trajectory_at. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_read(qdot_trajectory_cursor *c, double t,
+                                                 double *y);
+
+/* Index k of the last stored point that is not beyond t, in the direction of the run;
+ * t must lie within it. `near`: where to look first. */
+size_t qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near);
+
+#endif

@@ -1,0 +1,244 @@
+/* gnuplot.c -- gnuplot as a child process. */
+#include "show/gnuplot.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/interrupt.h"
+
+extern char **environ;
+
+enum { IN, OUT, SAID, FDS };
+
+/* What the child gets as 0, 1, 2, kept above these so that none overwrites another. */
+typedef struct {
+    int fd[FDS];
+    int from; /* our end of the child's output; -1: none */
+} plumbing;
+
+static qdot_status
+broken(const char *what)
+{
+    return qdot_fail(QDOT_EIO, "cannot %s: %s", what, strerror(errno));
+}
+
+/* `fd` moved above the three standard ones and closed on exec; -1 stays -1. */
+static int
+above(int fd)
+{
+    int moved;
+
+    if (fd < 0)
+        return -1;
+    moved = fcntl(fd, F_DUPFD_CLOEXEC, FDS);
+    close(fd);
+    return moved;
+}
+
+/* A file without a name that holds `text`, read from its beginning; -1 on failure. */
+static int
+nameless(const char *text, size_t length)
+{
+    FILE *file = tmpfile();
+    int fd = -1;
+
+    if (file == NULL)
+        return -1;
+    if (fwrite(text, 1, length, file) == length && fflush(file) == 0 &&
+        lseek(fileno(file), 0, SEEK_SET) == 0)
+        fd = fcntl(fileno(file), F_DUPFD_CLOEXEC, FDS);
+    fclose(file);
+    return fd;
+}
+
+static void
+unplumb(plumbing *p)
+{
+    for (int i = 0; i < FDS; i++)
+        if (p->fd[i] >= 0)
+            close(p->fd[i]);
+    if (p->from >= 0)
+        close(p->from);
+}
+
+static qdot_status
+plumb(plumbing *p, const qdot_text *script, bool wants_output)
+{
+    *p = (plumbing){{-1, -1, -1}, -1};
+    p->fd[IN] = nameless(qdot_text_str(script), script->n);
+    p->fd[SAID] = nameless("", 0);
+    if (p->fd[IN] < 0 || p->fd[SAID] < 0)
+        return broken("write a temporary file");
+    if (wants_output) {
+        int ends[2];
+
+        if (pipe(ends) != 0)
+            return broken("open a pipe");
+        p->from = above(ends[0]);
+        p->fd[OUT] = above(ends[1]);
+    } else {
+        p->fd[OUT] = above(open("/dev/null", O_WRONLY));
+    }
+    if (p->fd[OUT] < 0 || (wants_output && p->from < 0))
+        return broken("open a pipe");
+    return QDOT_OK;
+}
+
+static int
+spawn_with(pid_t *child, const plumbing *p, posix_spawn_file_actions_t *actions,
+           posix_spawnattr_t *attributes)
+{
+    char name[] = "gnuplot", defaults[] = "-d", persist[] = "-persist";
+    char *image[] = {name, defaults, NULL}, *window[] = {name, defaults, persist, NULL};
+    sigset_t usual, none;
+    int failed = 0;
+
+    for (int i = 0; i < FDS && failed == 0; i++)
+        failed = posix_spawn_file_actions_adddup2(actions, p->fd[i], i);
+    sigemptyset(&none);
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGINT);
+    sigaddset(&usual, SIGPIPE);
+    if (failed == 0)
+        failed = posix_spawnattr_setsigdefault(attributes, &usual);
+    if (failed == 0)
+        failed = posix_spawnattr_setsigmask(attributes, &none);
+    if (failed == 0)
+        failed = posix_spawnattr_setflags(attributes,
+                                          POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    if (failed == 0)
+        failed = posix_spawnp(child, name, actions, attributes,
+                              p->from >= 0 ? image : window, environ);
+    return failed;
+}
+
+static qdot_status
+start(pid_t *child, const plumbing *p)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    int failed = posix_spawn_file_actions_init(&actions);
+
+    if (failed == 0) {
+        failed = posix_spawnattr_init(&attributes);
+        if (failed == 0) {
+            failed = spawn_with(child, p, &actions, &attributes);
+            posix_spawnattr_destroy(&attributes);
+        }
+        posix_spawn_file_actions_destroy(&actions);
+    }
+    if (failed == 0)
+        return QDOT_OK;
+    if (failed == ENOENT) {
+        qdot_fail(QDOT_EIO, "figures are drawn by gnuplot, which is not installed");
+        return qdot_hint("apt install gnuplot-nox");
+    }
+    errno = failed;
+    return broken("start gnuplot");
+}
+
+/* Append what comes from `fd` until it ends. */
+static qdot_status
+drain(int fd, qdot_text *out)
+{
+    char block[1 << 14];
+
+    for (;;) {
+        ssize_t n = read(fd, block, sizeof block);
+
+        if (n == 0)
+            return qdot_text_status(out);
+        if (n > 0)
+            qdot_text_add_n(out, block, (size_t)n);
+        else if (errno != EINTR)
+            return broken("read from gnuplot");
+        QDOT_TRY(qdot_interrupt_check());
+    }
+}
+
+/* Wait; the raw status, 0 where someone else has reaped the child. */
+static int
+finish(pid_t child, bool stop)
+{
+    int status = 0;
+
+    if (stop)
+        kill(child, SIGTERM);
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR)
+            return 0;
+    return status;
+}
+
+/* The first line in `said` (gnuplot's standard error) that tells what is wrong, as the
+ * failure. Its errors read `line 12: what`, after an echo of the line and a caret. */
+static qdot_status
+complain(int said)
+{
+    qdot_text all = {0};
+    const char *line = "it says nothing", *found = NULL;
+    qdot_status status;
+
+    if (lseek(said, 0, SEEK_SET) == 0 && drain(said, &all) == QDOT_OK && all.n > 0) {
+        char *next = all.at;
+
+        while (next != NULL) {
+            char *here = next;
+
+            next = strchr(here, '\n');
+            if (next != NULL)
+                *next++ = '\0';
+            here += strspn(here, " \t^");
+            if (*here == '\0' || strstr(here, "arning:") != NULL)
+                continue;
+            if (found == NULL || strncmp(found, "line ", 5) != 0)
+                found = here;
+        }
+        if (found != NULL && strncmp(found, "line ", 5) == 0 &&
+            strstr(found, ": ") != NULL)
+            found = strstr(found, ": ") + 2;
+        if (found != NULL)
+            line = found;
+    }
+    status = qdot_fail(QDOT_EIO, "gnuplot failed: %.300s", line);
+    qdot_text_clear(&all);
+    return status;
+}
+
+qdot_status
+qdot_gnuplot_run(const qdot_text *script, qdot_text *image)
+{
+    size_t before = image != NULL ? image->n : 0;
+    plumbing p;
+    pid_t child;
+    int ended;
+    qdot_status status;
+
+    QDOT_TRY(qdot_text_status(script));
+    status = plumb(&p, script, image != NULL);
+    if (status == QDOT_OK)
+        status = start(&child, &p);
+    if (status != QDOT_OK) {
+        qdot_error first = *qdot_last_error();
+
+        unplumb(&p);
+        return qdot_fail_again(&first);
+    }
+    close(p.fd[OUT]);
+    p.fd[OUT] = -1;
+    if (image != NULL)
+        status = drain(p.from, image);
+    ended = finish(child, status != QDOT_OK);
+    if (status == QDOT_OK)
+        status = qdot_interrupt_check();
+    if (status == QDOT_OK && (ended != 0 || (image != NULL && image->n == before)))
+        status = complain(p.fd[SAID]);
+    unplumb(&p);
+    return status;
+}

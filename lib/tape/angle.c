@@ -1,0 +1,522 @@
+/* angle.c -- base angles, chosen by counted cost. */
+#include "tape/angle.h"
+
+#include "tape/constant.h"
+
+enum { CALL = 20, ADDITION = 6, MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
+
+/* A base angle: unit * term; or, with term nil, a constant, whose pair costs nothing. */
+typedef struct {
+    qdot_expr term, unit;
+    qdot_expr constant;
+    bool split;    /* too many different multiples: each is a base of its own */
+    uint32_t uses; /* composed arguments that hold it */
+    bool made;
+    qdot_value sine, cosine;
+} base;
+
+/* multiple * base. The first, 1, is the base itself. */
+typedef struct {
+    uint32_t base, multiple;
+    uint32_t uses;
+    bool made;
+    qdot_value sine, cosine;
+} multiple;
+
+/* The sum of `parent` (NONE: 0) and +- a multiple. */
+typedef struct {
+    uint32_t parent, multiple;
+    bool minus;
+    uint32_t uses;
+    bool made;
+    qdot_value sine, cosine;
+} angle_sum;
+
+/* One summand of one argument. */
+typedef struct {
+    qdot_expr term, coefficient; /* coefficient * term */
+    qdot_expr source, of_source; /* a node of the walk that is of_source * term */
+    qdot_expr constant;          /* term nil: a constant */
+    uint32_t base, multiple;
+    bool minus;
+} part;
+
+typedef struct {
+    size_t first, n; /* its parts */
+    bool minus;      /* the argument is minus its sum */
+    bool composed;
+    uint32_t sum;
+} argument;
+
+struct qdot_angles {
+    qdot_pool *pool;
+    qdot_vec(part) parts;
+    qdot_vec(argument) arguments;
+    qdot_vec(base) bases;
+    qdot_vec(multiple) multiples;
+    qdot_vec(angle_sum) sums;
+    qdot_keymap by_expr;  /* argument expression -> argument */
+    qdot_keymap by_term;  /* (term, coefficient if split) or (nil, constant) -> base */
+    qdot_keymap by_times; /* (base, multiple) -> multiple */
+    qdot_keymap by_sum;   /* (parent, multiple, minus) -> sum */
+};
+
+void
+qdot_angles_free(qdot_angles *a)
+{
+    if (!a)
+        return;
+    qdot_free(a->parts.at);
+    qdot_free(a->arguments.at);
+    qdot_free(a->bases.at);
+    qdot_free(a->multiples.at);
+    qdot_free(a->sums.at);
+    qdot_keymap_clear(&a->by_expr);
+    qdot_keymap_clear(&a->by_term);
+    qdot_keymap_clear(&a->by_times);
+    qdot_keymap_clear(&a->by_sum);
+    qdot_free(a);
+}
+
+static bool
+is_trigonometric(const qdot_node *node)
+{
+    return node->kind == QDOT_FUN
+           && (node->op == QDOT_SIN || node->op == QDOT_COS || node->op == QDOT_TAN
+               || node->op == QDOT_SEC || node->op == QDOT_CSC || node->op == QDOT_COT);
+}
+
+/* --- reading the arguments --------------------------------------------------------------- */
+
+/* The rational factor of a term and the rest. */
+static qdot_expr
+strip(qdot_pool *pool, qdot_expr e, qdot_expr *coefficient)
+{
+    *coefficient = QDOT_ONE;
+    if (qdot_expr_kind(pool, e) == QDOT_PROD) {
+        *coefficient = qdot_expr_arg(pool, e, 0);
+        if (*coefficient != QDOT_ONE)
+            return qdot_div(pool, e, *coefficient);
+    }
+    return e;
+}
+
+/* The parts of factor * e. `e` is a node of the walk when factor is one. */
+static qdot_status
+read_sum(qdot_angles *a, qdot_expr e, qdot_expr factor, qdot_expr *constant)
+{
+    qdot_pool *pool = a->pool;
+    uint32_t n = qdot_expr_count(pool, e);
+
+    *constant = qdot_mul(pool, factor, qdot_expr_arg(pool, e, 0));
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        qdot_expr t = qdot_expr_arg(pool, e, i);
+        qdot_expr c = qdot_mul(pool, factor, qdot_expr_arg(pool, e, i + 1));
+
+        if (qdot_constant_is(pool, t))
+            *constant = qdot_add(pool, *constant, qdot_mul(pool, c, t));
+        else
+            QDOT_TRY(qdot_vec_push(&a->parts, ((part){.term = t, .coefficient = c,
+                                                      .source = t, .of_source = QDOT_ONE})));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+read_argument(qdot_angles *a, qdot_expr e)
+{
+    qdot_pool *pool = a->pool;
+    argument arg = {.first = a->parts.n};
+    qdot_expr c, constant = QDOT_ZERO, term = strip(pool, e, &c);
+
+    if (qdot_keymap_get(&a->by_expr, e, 0, 0, 0) != NONE)
+        return QDOT_OK;
+    if (qdot_pool_failed(pool))
+        return qdot_pool_check(pool);
+    if (qdot_expr_kind(pool, term) == QDOT_SUM)
+        QDOT_TRY(read_sum(a, term, c, &constant));
+    else
+        QDOT_TRY(qdot_vec_push(&a->parts, ((part){.term = term, .coefficient = c,
+                                                  .source = e, .of_source = c})));
+    if (qdot_pool_failed(pool))
+        return qdot_pool_check(pool);
+    /* The first part is to be positive: the sum or its negative. */
+    if (a->parts.n > arg.first)
+        arg.minus = qdot_expr_is_negative(pool, a->parts.at[arg.first].coefficient);
+    for (size_t i = arg.first; i < a->parts.n; i++) {
+        part *p = a->parts.at + i;
+
+        p->minus = qdot_expr_is_negative(pool, p->coefficient) != arg.minus;
+    }
+    if (constant != QDOT_ZERO)
+        QDOT_TRY(qdot_vec_push(
+            &a->parts, ((part){.constant = arg.minus ? qdot_neg(pool, constant) : constant})));
+    arg.n = a->parts.n - arg.first;
+    QDOT_TRY(qdot_vec_push(&a->arguments, arg));
+    return qdot_keymap_set(&a->by_expr, e, 0, 0, 0, (uint32_t)(a->arguments.n - 1));
+}
+
+/* --- bases, multiples, sums -------------------------------------------------------------- */
+
+static qdot_expr
+magnitude(qdot_pool *pool, qdot_expr number)
+{
+    return qdot_expr_is_negative(pool, number) ? qdot_neg(pool, number) : number;
+}
+
+static qdot_expr
+common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
+{
+    qdot_expr e;
+    fmpq_t g;
+
+    fmpq_init(g);
+    fmpq_gcd(g, qdot_expr_rational(pool, x), qdot_expr_rational(pool, y));
+    e = qdot_expr_fmpq(pool, g);
+    fmpq_clear(g);
+    return e;
+}
+
+/* How many units; 0 if that is no small integer. */
+static long
+units(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
+{
+    long k = 0;
+
+    if (!qdot_expr_to_int(pool, qdot_div(pool, coefficient, unit), &k) || k < 1
+        || k > MOST_MULTIPLE)
+        return 0;
+    return k;
+}
+
+static qdot_status
+find_base(qdot_angles *a, qdot_expr term, qdot_expr key, const base *fresh, uint32_t *found)
+{
+    *found = qdot_keymap_get(&a->by_term, term, key, 0, 0);
+    if (*found != NONE)
+        return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&a->bases, *fresh));
+    *found = (uint32_t)(a->bases.n - 1);
+    return qdot_keymap_set(&a->by_term, term, key, 0, 0, *found);
+}
+
+/* The base of every part: its unit is known once all parts are read. */
+static qdot_status
+find_bases(qdot_angles *a)
+{
+    qdot_pool *pool = a->pool;
+
+    for (size_t i = 0; i < a->parts.n; i++) {
+        part *p = a->parts.at + i;
+        base fresh = {.term = p->term, .constant = p->constant};
+
+        p->multiple = 1;
+        if (p->term == QDOT_NIL) {
+            QDOT_TRY(find_base(a, QDOT_NIL, p->constant, &fresh, &p->base));
+            continue;
+        }
+        fresh.unit = p->coefficient = magnitude(pool, p->coefficient);
+        QDOT_TRY(find_base(a, p->term, 0, &fresh, &p->base));
+        a->bases.at[p->base].unit =
+            common_unit(pool, a->bases.at[p->base].unit, p->coefficient);
+    }
+    for (size_t i = 0; i < a->parts.n; i++) {
+        part *p = a->parts.at + i;
+
+        if (p->term != QDOT_NIL
+            && units(pool, p->coefficient, a->bases.at[p->base].unit) == 0)
+            a->bases.at[p->base].split = true;
+    }
+    for (size_t i = 0; i < a->parts.n; i++) {
+        part *p = a->parts.at + i;
+        base fresh = {.term = p->term, .unit = p->coefficient};
+
+        if (p->term == QDOT_NIL)
+            continue;
+        if (a->bases.at[p->base].split)
+            QDOT_TRY(find_base(a, p->term, p->coefficient, &fresh, &p->base));
+        else
+            p->multiple = (uint32_t)units(pool, p->coefficient, a->bases.at[p->base].unit);
+    }
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+find_sums(qdot_angles *a)
+{
+    for (size_t i = 0; i < a->arguments.n; i++) {
+        argument *arg = a->arguments.at + i;
+
+        arg->sum = NONE;
+        for (size_t k = 0; k < arg->n; k++) {
+            part *p = a->parts.at + arg->first + k;
+            uint32_t m = qdot_keymap_get(&a->by_times, p->base, p->multiple, 0, 0), s;
+
+            if (m == NONE) {
+                m = (uint32_t)a->multiples.n;
+                QDOT_TRY(qdot_vec_push(
+                    &a->multiples, ((multiple){.base = p->base, .multiple = p->multiple})));
+                QDOT_TRY(qdot_keymap_set(&a->by_times, p->base, p->multiple, 0, 0, m));
+            }
+            s = qdot_keymap_get(&a->by_sum, arg->sum, m, p->minus, 0);
+            if (s == NONE) {
+                s = (uint32_t)a->sums.n;
+                QDOT_TRY(qdot_vec_push(&a->sums, ((angle_sum){.parent = arg->sum,
+                                                              .multiple = m,
+                                                              .minus = p->minus})));
+                QDOT_TRY(qdot_keymap_set(&a->by_sum, arg->sum, m, p->minus, 0, s));
+            }
+            arg->sum = s;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- the choice -------------------------------------------------------------------------- */
+
+/* Compose the argument, or call it for itself; what that adds to the cost. */
+static long
+turn(qdot_angles *a, argument *arg, bool composed)
+{
+    long change = composed ? -CALL : CALL;
+    const uint32_t before = composed ? 0 : 1; /* uses where this one alone matters */
+
+    if (arg->composed == composed)
+        return 0;
+    arg->composed = composed;
+    for (uint32_t s = arg->sum; s != NONE; s = a->sums.at[s].parent) {
+        angle_sum *sum = a->sums.at + s;
+        multiple *m = a->multiples.at + sum->multiple;
+        base *b = a->bases.at + m->base;
+        long cost = 0;
+
+        cost += sum->uses == before && sum->parent != NONE ? ADDITION : 0;
+        cost += m->uses == before && m->multiple > 1 ? ADDITION : 0;
+        cost += b->uses == before && b->term != QDOT_NIL ? CALL : 0;
+        change += composed ? cost : -cost;
+        sum->uses += composed ? 1 : -1u;
+        m->uses += composed ? 1 : -1u;
+        b->uses += composed ? 1 : -1u;
+    }
+    return change;
+}
+
+/* Whether the argument is a base angle itself. */
+static bool
+is_base(const qdot_angles *a, const argument *arg)
+{
+    const part *p = a->parts.at + arg->first;
+
+    return arg->n == 1 && p->multiple == 1;
+}
+
+static bool
+holds_base(const qdot_angles *a, const argument *arg, uint32_t b)
+{
+    for (size_t k = 0; k < arg->n; k++)
+        if (a->parts.at[arg->first + k].base == b)
+            return true;
+    return false;
+}
+
+/* Call for themselves all composed arguments that hold base b (NONE: all), if that is cheaper;
+ * whether it was. */
+static bool
+try_without(qdot_angles *a, uint32_t b, bool *changed)
+{
+    size_t n = 0;
+    long change = 0;
+
+    for (size_t i = 0; i < a->arguments.n; i++) {
+        argument *arg = a->arguments.at + i;
+
+        changed[i] = arg->composed && !is_base(a, arg) && (b == NONE || holds_base(a, arg, b));
+        if (changed[i]) {
+            change += turn(a, arg, false);
+            n++;
+        }
+    }
+    if (n == 0 || change < 0)
+        return n > 0;
+    for (size_t i = 0; i < a->arguments.n; i++)
+        if (changed[i])
+            turn(a, a->arguments.at + i, true);
+    return false;
+}
+
+static qdot_status
+choose(qdot_angles *a)
+{
+    bool *changed = qdot_malloc(a->arguments.n * sizeof *changed), again = true;
+
+    if (!changed)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < a->arguments.n; i++)
+        turn(a, a->arguments.at + i, true);
+    try_without(a, NONE, changed);
+    for (int round = 0; again && round < 8; round++) {
+        again = false;
+        for (uint32_t b = 0; b < a->bases.n; b++)
+            again |= a->bases.at[b].term != QDOT_NIL && try_without(a, b, changed);
+        for (size_t i = 0; i < a->arguments.n; i++) {
+            argument *arg = a->arguments.at + i;
+
+            if (!arg->composed || is_base(a, arg))
+                continue;
+            if (turn(a, arg, false) < 0)
+                again = true;
+            else
+                turn(a, arg, true);
+        }
+    }
+    qdot_free(changed);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, qdot_angles **angles)
+{
+    qdot_angles *a = qdot_calloc(1, sizeof *a);
+    qdot_status status = a ? QDOT_OK : QDOT_ENOMEM;
+
+    *angles = NULL;
+    if (!a)
+        return status;
+    a->pool = pool;
+    for (size_t i = 0; i < walk->n && status == QDOT_OK; i++) {
+        qdot_expr e = walk->at[i];
+
+        if (is_trigonometric(qdot_expr_node(pool, e)) && !qdot_constant_is(pool, e))
+            status = read_argument(a, qdot_expr_arg(pool, e, 0));
+    }
+    if (status == QDOT_OK)
+        status = find_bases(a);
+    if (status == QDOT_OK)
+        status = find_sums(a);
+    if (status == QDOT_OK)
+        status = choose(a);
+    if (status != QDOT_OK) {
+        qdot_angles_free(a);
+        a = NULL;
+    }
+    *angles = a;
+    return status;
+}
+
+/* --- writing ----------------------------------------------------------------------------- */
+
+/* (s, c) <- sine and cosine of A + B, or A - B. */
+static void
+add_angles(qdot_code *code, qdot_value *s, qdot_value *c, qdot_value sb, qdot_value cb,
+           bool minus)
+{
+    qdot_value sc = qdot_code_op(code, QDOT_OP_MUL, *s, cb, 0);
+    qdot_value cs = qdot_code_op(code, QDOT_OP_MUL, *c, sb, 0);
+    qdot_value cc = qdot_code_op(code, QDOT_OP_MUL, *c, cb, 0);
+    qdot_value ss = qdot_code_op(code, QDOT_OP_MUL, *s, sb, 0);
+
+    *s = qdot_code_op(code, minus ? QDOT_OP_SUB : QDOT_OP_ADD, sc, cs, 0);
+    *c = qdot_code_op(code, minus ? QDOT_OP_ADD : QDOT_OP_SUB, cc, ss, 0);
+}
+
+/* unit * term, from a node of the walk that is of_source * term. */
+static void
+make_base(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const part *p)
+{
+    base *b = a->bases.at + p->base;
+    qdot_value x;
+
+    if (b->made)
+        return;
+    b->made = true;
+    if (b->term == QDOT_NIL) {
+        b->sine = qdot_code_constant(code, qdot_fun1(a->pool, QDOT_SIN, b->constant));
+        b->cosine = qdot_code_constant(code, qdot_fun1(a->pool, QDOT_COS, b->constant));
+        return;
+    }
+    x = (qdot_value)qdot_walk_get(walk, p->source);
+    if (p->of_source != b->unit) {
+        qdot_expr ratio = qdot_div(a->pool, b->unit, p->of_source);
+
+        x = ratio == QDOT_MINUS_ONE
+                ? qdot_code_op(code, QDOT_OP_NEG, x, 0, 0)
+                : qdot_code_op(code, QDOT_OP_MUL, x, qdot_code_constant(code, ratio), 0);
+    }
+    qdot_code_sincos(code, x, &b->sine, &b->cosine);
+}
+
+/* Sine and cosine of `times` base angles, by doubling and adding. */
+static void
+make_multiple(qdot_angles *a, qdot_code *code, uint32_t m)
+{
+    multiple *to = a->multiples.at + m;
+    const base *b = a->bases.at + to->base;
+    uint32_t bit = 1;
+
+    if (to->made)
+        return;
+    to->made = true;
+    while (2 * bit <= to->multiple)
+        bit *= 2;
+    to->sine = b->sine;
+    to->cosine = b->cosine;
+    while ((bit /= 2) > 0) {
+        /* sin 2x = 2 s c, cos 2x = (c - s)(c + s) */
+        qdot_value sc = qdot_code_op(code, QDOT_OP_MUL, to->sine, to->cosine, 0);
+        qdot_value minus = qdot_code_op(code, QDOT_OP_SUB, to->cosine, to->sine, 0);
+        qdot_value plus = qdot_code_op(code, QDOT_OP_ADD, to->cosine, to->sine, 0);
+
+        to->sine = qdot_code_op(code, QDOT_OP_ADD, sc, sc, 0);
+        to->cosine = qdot_code_op(code, QDOT_OP_MUL, minus, plus, 0);
+        if (to->multiple & bit)
+            add_angles(code, &to->sine, &to->cosine, b->sine, b->cosine, false);
+    }
+}
+
+static void
+compose(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const argument *arg,
+        qdot_value *sine, qdot_value *cosine)
+{
+    /* The sums from the outermost in; those not made yet are then made outward. Parts and sums
+     * correspond: part k belongs to the sum k steps above the innermost. */
+    qdot_value s = 0, c = 0;
+
+    for (size_t k = 0; k < arg->n; k++) {
+        uint32_t sum = arg->sum;
+        angle_sum *at;
+        const multiple *m;
+
+        for (size_t up = arg->n - 1; up > k; up--)
+            sum = a->sums.at[sum].parent;
+        at = a->sums.at + sum;
+        if (!at->made) {
+            make_base(a, walk, code, a->parts.at + arg->first + k);
+            make_multiple(a, code, at->multiple);
+            m = a->multiples.at + at->multiple;
+            if (at->parent == NONE) {
+                s = m->sine;
+                c = m->cosine;
+            } else
+                add_angles(code, &s, &c, m->sine, m->cosine, at->minus);
+            at->made = true;
+            at->sine = s;
+            at->cosine = c;
+        }
+        s = at->sine;
+        c = at->cosine;
+    }
+    *sine = arg->minus ? qdot_code_op(code, QDOT_OP_NEG, s, 0, 0) : s;
+    *cosine = c;
+}
+
+void
+qdot_angles_pair(qdot_angles *a, const qdot_walk *walk, qdot_code *code, qdot_expr e,
+                 qdot_value *sine, qdot_value *cosine)
+{
+    const argument *arg = a->arguments.at + qdot_keymap_get(&a->by_expr, e, 0, 0, 0);
+
+    if (arg->composed)
+        compose(a, walk, code, arg, sine, cosine);
+    else
+        qdot_code_sincos(code, (qdot_value)qdot_walk_get(walk, e), sine, cosine);
+}

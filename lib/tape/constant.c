@@ -1,0 +1,400 @@
+/* constant.c -- a constant in balls (Arb) of growing precision until one double is left. */
+#include "tape/constant.h"
+
+#if __has_include(<arb.h>)
+#include <arb.h>
+#else
+#include <flint/arb.h>
+#endif
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/print.h"
+#include "expr/walk.h"
+#include "tape/tape.h"
+
+enum { FIRST_BITS = 256, MOST_BITS = 4096 };
+
+/* sign(x) as a ball; the whole of [-1, 1] where x may be 0. */
+static void
+ball_sign(arb_t y, const arb_t x, slong bits)
+{
+    (void)bits;
+    arb_sgn(y, x);
+}
+
+static void
+ball_abs(arb_t y, const arb_t x, slong bits)
+{
+    (void)bits;
+    arb_abs(y, x);
+}
+
+/* The functions of one argument. A function of function.def that stands neither here nor in
+ * apply() is refused when it is met. */
+static void (*const unary[QDOT_FUNCTION_COUNT])(arb_t, const arb_t, slong) = {
+    [QDOT_SIN] = arb_sin,     [QDOT_COS] = arb_cos,     [QDOT_TAN] = arb_tan,
+    [QDOT_SEC] = arb_sec,     [QDOT_CSC] = arb_csc,     [QDOT_COT] = arb_cot,
+    [QDOT_ASIN] = arb_asin,   [QDOT_ACOS] = arb_acos,   [QDOT_ATAN] = arb_atan,
+    [QDOT_SINH] = arb_sinh,   [QDOT_COSH] = arb_cosh,   [QDOT_TANH] = arb_tanh,
+    [QDOT_ASINH] = arb_asinh, [QDOT_ACOSH] = arb_acosh, [QDOT_ATANH] = arb_atanh,
+    [QDOT_EXP] = arb_exp,     [QDOT_LOG] = arb_log,     [QDOT_ABS] = ball_abs,
+    [QDOT_SIGN] = ball_sign,  [QDOT_FLOOR] = arb_floor,
+};
+
+bool
+qdot_constant_is(const qdot_pool *pool, qdot_expr e)
+{
+    return (qdot_expr_node(pool, e)->holds & ~(QDOT_HAS_FUN | 1u << QDOT_CONST)) == 0;
+}
+
+qdot_status
+qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
+{
+    static const char *const what[] = {
+        [QDOT_PARAM] = "parameter",       [QDOT_FORMAL] = "name",
+        [QDOT_TIME] = "the time",         [QDOT_COORD] = "coordinate",
+        [QDOT_MOMENTUM] = "momentum",     [QDOT_MULTIPLIER] = "multiplier",
+        [QDOT_DIFFERENTIAL] = "the differential", [QDOT_DELTA] = "the displacement",
+    };
+    const qdot_symbol *s = qdot_expr_symbol(pool, e);
+    qdot_text text = {0};
+    const char *name;
+
+    if (s) {
+        const char *kind = what[s->class];
+
+        if (s->class == QDOT_COORD && s->order > 0)
+            kind = s->order == 1 ? "velocity" : "acceleration";
+        qdot_fail(QDOT_EUNSET, "%s %s has no value", kind, s->name);
+        if (s->class == QDOT_PARAM || s->class == QDOT_MOMENTUM)
+            qdot_hint("set %s = ...", s->name);
+        return QDOT_EUNSET;
+    }
+    /* An application: at its declared arguments, whatever it is applied to here. */
+    name = qdot_ufun_get(pool, qdot_expr_node(pool, e)->op)->name;
+    qdot_text_format(&text, "%s", name);
+    for (uint32_t i = 0; i < qdot_ufun_get(pool, qdot_expr_node(pool, e)->op)->arity; i++) {
+        qdot_expr formals = qdot_ufun_get(pool, qdot_expr_node(pool, e)->op)->formals;
+
+        qdot_text_add(&text, i ? ", " : "(");
+        if (qdot_print(pool, qdot_expr_arg(pool, formals, i), QDOT_PLAIN, &text) != QDOT_OK)
+            break;
+    }
+    qdot_text_char(&text, ')');
+    qdot_fail(QDOT_EUNSET, "function %.200s has no value", qdot_text_str(&text));
+    qdot_hint("set %.180s = ...", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return QDOT_EUNSET;
+}
+
+/* x^e for a rational e. At the highest precision a ball around 0 counts as touching it: a
+ * square root of what is 0 in exact arithmetic is 0. */
+static void
+power(arb_t y, const arb_t x, const fmpq_t e, slong bits)
+{
+    if (fmpz_is_one(fmpq_denref(e)))
+        arb_pow_fmpz(y, x, fmpq_numref(e), bits);
+    else if (fmpz_equal_ui(fmpq_denref(e), 2) && fmpq_sgn(e) > 0) {
+        if (bits == MOST_BITS && arb_contains_zero(x)
+            && mag_cmp_2exp_si(arb_radref(x), -MOST_BITS / 2) < 0)
+            arb_sqrtpos(y, x, bits);
+        else
+            arb_sqrt(y, x, bits);
+        arb_pow_fmpz(y, y, fmpq_numref(e), bits);
+    } else
+        arb_pow_fmpq(y, x, e, bits);
+}
+
+/* 1, 0, or the ball of both where the relation is not decided. */
+static void
+relation(arb_t y, qdot_rel_op op, const arb_t a, const arb_t b)
+{
+    bool yes = false, no = false;
+
+    switch (op) {
+    case QDOT_EQ:
+        yes = arb_is_exact(a) && arb_equal(a, b);
+        no = !arb_overlaps(a, b);
+        break;
+    case QDOT_LT:
+        yes = arb_lt(a, b);
+        no = arb_ge(a, b);
+        break;
+    case QDOT_LE:
+        yes = arb_le(a, b);
+        no = arb_gt(a, b);
+        break;
+    }
+    if (yes || no)
+        arb_set_si(y, yes);
+    else
+        arb_unit_interval(y);
+}
+
+static void
+logic(arb_t y, qdot_logic_op op, uint32_t n, const arb_struct *const *x)
+{
+    bool open = false, decided = false;
+
+    if (op == QDOT_NOT) {
+        arb_sub_ui(y, x[0], 1, MOST_BITS);
+        arb_neg(y, y);
+        return;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        if (!arb_is_exact(x[i]))
+            open = true;
+        else if (arb_is_zero(x[i]) == (op == QDOT_AND))
+            decided = true; /* a false in `and`, a true in `or` */
+    }
+    if (decided)
+        arb_set_si(y, op == QDOT_OR);
+    else if (open)
+        arb_unit_interval(y);
+    else
+        arb_set_si(y, op == QDOT_AND);
+}
+
+static void
+choose(arb_t y, const arb_struct *const *x, slong bits)
+{
+    if (arb_is_exact(x[0]))
+        arb_set(y, arb_is_zero(x[0]) ? x[2] : x[1]);
+    else
+        arb_union(y, x[1], x[2], bits);
+}
+
+/* y = f(x[0] ... x[n-1]); false if f has no ball evaluation. */
+static bool
+apply(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const *x, slong bits)
+{
+    if (unary[f]) {
+        unary[f](y, x[0], bits);
+        return true;
+    }
+    switch ((int)f) {
+    case QDOT_ATAN2:
+        arb_atan2(y, x[0], x[1], bits);
+        return true;
+    case QDOT_MIN:
+    case QDOT_MAX:
+        arb_set(y, x[0]);
+        for (uint32_t i = 1; i < n; i++)
+            (f == QDOT_MIN ? arb_min : arb_max)(y, y, x[i], bits);
+        return true;
+    case QDOT_MOD: /* x - y floor(x/y) */
+        arb_div(y, x[0], x[1], bits);
+        arb_floor(y, y, bits);
+        arb_mul(y, y, x[1], bits);
+        arb_sub(y, x[0], y, bits);
+        return true;
+    case QDOT_IF:
+        choose(y, x, bits);
+        return true;
+    default:
+        return false;
+    }
+}
+
+typedef struct {
+    const qdot_pool *pool;
+    qdot_walk walk;
+    arb_struct *ball;          /* [walk.n] */
+    const arb_struct **args;   /* scratch: balls of one node's args */
+    size_t args_capacity;
+} evaluation;
+
+static const arb_struct *
+ball_of(const evaluation *v, qdot_expr e)
+{
+    return v->ball + qdot_walk_index(&v->walk, e);
+}
+
+static qdot_status
+evaluate_node(evaluation *v, size_t i, slong bits)
+{
+    const qdot_pool *pool = v->pool;
+    qdot_expr e = v->walk.at[i];
+    const qdot_node *node = qdot_expr_node(pool, e);
+    uint32_t n = qdot_expr_count(pool, e);
+    arb_struct *y = v->ball + i;
+    arb_t x;
+
+    QDOT_TRY(qdot_grow(&v->args, &v->args_capacity, n, sizeof *v->args));
+    for (uint32_t k = 0; k < n && node->kind != QDOT_NUM && node->kind != QDOT_SYM; k++)
+        v->args[k] = ball_of(v, qdot_expr_arg(pool, e, k));
+    switch ((qdot_kind)node->kind) {
+    case QDOT_NUM:
+        arb_set_fmpq(y, qdot_expr_rational(pool, e), bits);
+        return QDOT_OK;
+    case QDOT_SYM:
+        if (e == QDOT_PI)
+            arb_const_pi(y, bits);
+        else if (e == QDOT_TRUE || e == QDOT_FALSE)
+            arb_set_si(y, e == QDOT_TRUE);
+        else
+            return qdot_constant_unset(pool, e);
+        return QDOT_OK;
+    case QDOT_SUM:
+        arb_set(y, v->args[0]);
+        for (uint32_t k = 1; k + 1 < n; k += 2)
+            arb_addmul(y, v->args[k], v->args[k + 1], bits);
+        return QDOT_OK;
+    case QDOT_PROD:
+        arb_init(x);
+        arb_set(y, v->args[0]);
+        for (uint32_t k = 1; k + 1 < n; k += 2) {
+            const fmpq *p = qdot_expr_rational(pool, qdot_expr_arg(pool, e, k + 1));
+
+            if (p)
+                power(x, v->args[k], p, bits);
+            else
+                arb_pow(x, v->args[k], v->args[k + 1], bits);
+            arb_mul(y, y, x, bits);
+        }
+        arb_clear(x);
+        return QDOT_OK;
+    case QDOT_FUN:
+        if (!apply(y, (qdot_fun_id)node->op, n, v->args, bits))
+            return qdot_fail(QDOT_ENOTBUILT, "not built yet: the value of %s",
+                             qdot_fun_name((qdot_fun_id)node->op));
+        return QDOT_OK;
+    case QDOT_REL:
+        relation(y, (qdot_rel_op)node->op, v->args[0], v->args[1]);
+        return QDOT_OK;
+    case QDOT_LOGIC:
+        logic(y, (qdot_logic_op)node->op, n, v->args);
+        return QDOT_OK;
+    case QDOT_UFUN:
+        return qdot_constant_unset(pool, e);
+    case QDOT_VEC:
+    case QDOT_MAT:
+    case QDOT_LIST:
+        break;
+    }
+    return qdot_fail(QDOT_ETYPE, "a number belongs here, not a vector, matrix or list");
+}
+
+/* Where the ball lies beside `value`: 0 if it holds it. */
+static int
+side_of(const arb_t ball, double value)
+{
+    arb_t x;
+    int side = 0;
+
+    arb_init(x);
+    arb_set_d(x, value);
+    if (arb_gt(ball, x))
+        side = 1;
+    else if (arb_lt(ball, x))
+        side = -1;
+    arb_clear(x);
+    return side;
+}
+
+/* Whether every number of the ball rounds to one double, *value. */
+static bool
+decided(const arb_t ball, double *value)
+{
+    arf_t lo, hi;
+    double a, b;
+
+    if (!arb_is_finite(ball))
+        return false;
+    arf_init(lo);
+    arf_init(hi);
+    arb_get_interval_arf(lo, hi, ball, 2 * MOST_BITS);
+    a = arf_get_d(lo, ARF_RND_NEAR);
+    b = arf_get_d(hi, ARF_RND_NEAR);
+    arf_clear(lo);
+    arf_clear(hi);
+    *value = a + 0.0; /* no minus zero */
+    return a == b;
+}
+
+/* Say why `e`, whose last ball is not a number's, has no value. */
+static qdot_status
+no_value(const qdot_pool *pool, qdot_expr e, const char *why)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(pool, e, QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EDOMAIN, "%.120s%s %s", qdot_text_str(&text),
+                           text.n > 120 ? "..." : "", why);
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+evaluate(evaluation *v, qdot_expr e, double *value, int *side)
+{
+    const arb_struct *y;
+
+    for (slong bits = FIRST_BITS; bits <= MOST_BITS; bits *= 2) {
+        for (size_t i = 0; i < v->walk.n; i++) {
+            QDOT_TRY(qdot_interrupt_check());
+            QDOT_TRY(evaluate_node(v, i, bits));
+        }
+        if (decided(ball_of(v, e), value)) {
+            if (!isfinite(*value))
+                return no_value(v->pool, e, "is beyond what a double holds");
+            *side = side_of(ball_of(v, e), *value);
+            return QDOT_OK;
+        }
+    }
+    y = ball_of(v, e);
+    if (!arb_is_finite(y))
+        return no_value(v->pool, e, "is undefined or not real");
+    /* Between two doubles to 4096 bits, or a jump that is met exactly. */
+    *value = arf_get_d(arb_midref(y), ARF_RND_NEAR) + 0.0;
+    if (arb_rel_accuracy_bits(y) < 60)
+        return no_value(v->pool, e, "could not be decided in 4096 bits");
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_constant_round(qdot_pool *pool, qdot_expr e, double *value, int *side)
+{
+    evaluation v = {.pool = pool};
+    qdot_status status;
+    const fmpq *rational = e == QDOT_NIL ? NULL : qdot_expr_rational(pool, e);
+
+    *value = NAN;
+    *side = 0;
+    if (e == QDOT_NIL) {
+        QDOT_TRY(qdot_pool_check(pool));
+        return qdot_fail(QDOT_EINVAL, "no expression to evaluate");
+    }
+    if (rational && fmpz_is_one(fmpq_denref(rational))
+        && fmpz_bits(fmpq_numref(rational)) <= 53) {
+        *value = fmpz_get_d(fmpq_numref(rational));
+        return QDOT_OK;
+    }
+    QDOT_TRY(qdot_walk_begin(pool, e, &v.walk));
+    v.ball = qdot_malloc(v.walk.n * sizeof *v.ball);
+    if (!v.ball) {
+        qdot_walk_end(&v.walk);
+        return QDOT_ENOMEM;
+    }
+    for (size_t i = 0; i < v.walk.n; i++)
+        arb_init(v.ball + i);
+    status = evaluate(&v, e, value, side);
+    for (size_t i = 0; i < v.walk.n; i++)
+        arb_clear(v.ball + i);
+    qdot_free(v.ball);
+    qdot_free(v.args);
+    qdot_walk_end(&v.walk);
+    return status;
+}
+
+qdot_status
+qdot_tape_constant(qdot_pool *pool, qdot_expr e, double *value)
+{
+    int side;
+
+    return qdot_constant_round(pool, e, value, &side);
+}

@@ -1,0 +1,21 @@
+/* constant.h -- expressions without symbols, as balls and as doubles.
+ *
+ * Tests  tests/tape/test_constant.c
+ */
+#ifndef QDOT_TAPE_CONSTANT_H
+#define QDOT_TAPE_CONSTANT_H
+
+#include "expr/expr.h"
+
+/* Whether e holds no symbol but pi, true and false, and no undefined function. */
+bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);
+
+/* As qdot_tape_constant, and on which side of *value the exact value lies: -1, 0 (it is *value),
+ * 1. */
+QDOT_MUST_CHECK qdot_status qdot_constant_round(qdot_pool *pool, qdot_expr e,
+                                                double *value, int *side);
+
+/* Fail with QDOT_EUNSET for the symbol or application `e` that has no value. */
+qdot_status qdot_constant_unset(const qdot_pool *pool, qdot_expr e);
+
+#endif

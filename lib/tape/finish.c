@@ -1,0 +1,259 @@
+/* finish.c -- from what was written to what is run: dead values out, multiplications fused into
+ * sums, places shared. */
+#include <string.h>
+
+#include "tape/code.h"
+
+typedef struct {
+    qdot_code *code;
+    size_t m;
+    const qdot_value *outputs;
+    uint32_t *uses;  /* [values.n] how often each is read, outputs included */
+    uint32_t *last;  /* [values.n] the last value that reads it; outputs: never dead */
+    uint32_t *place; /* [values.n] */
+    uint32_t *constant; /* [values.n] of a constant: its number among the live ones */
+} finish;
+
+static qdot_code_value *
+at(finish *f, qdot_value v)
+{
+    return f->code->values.at + v;
+}
+
+/* The operands of a value: how many of a, b, c. */
+static int
+operands(const qdot_code_value *v)
+{
+    if (v->op == QDOT_OP_INPUT || v->op == QDOT_OP_CONSTANT)
+        return 0;
+    return v->op == QDOT_OP_SECOND ? 1 : qdot_operations[v->op].operands;
+}
+
+static void
+add_uses(finish *f, qdot_value v, uint32_t change)
+{
+    const qdot_code_value *x = at(f, v);
+    const qdot_value args[3] = {x->a, x->b, x->c};
+
+    for (int i = 0; i < operands(x); i++)
+        f->uses[args[i]] += change;
+}
+
+/* Uses counted from the outputs down: what is dead has none. */
+static void
+count_uses(finish *f)
+{
+    size_t n = f->code->values.n;
+
+    memset(f->uses, 0, n * sizeof *f->uses);
+    for (size_t i = 0; i < f->m; i++)
+        f->uses[f->outputs[i]]++;
+    for (size_t v = n; v-- > 0;)
+        if (f->uses[v] > 0)
+            add_uses(f, (qdot_value)v, 1);
+}
+
+/* Only one of sine and cosine wanted: that one. */
+static void
+split_pairs(finish *f)
+{
+    for (size_t v = 0; v < f->code->values.n; v++) {
+        qdot_code_value *x = at(f, (qdot_value)v);
+
+        if (x->op == QDOT_OP_SECOND && f->uses[v] > 0 && f->uses[x->a] == 1) {
+            /* Read by its second result alone. */
+            *x = (qdot_code_value){QDOT_OP_COS, at(f, x->a)->a, 0, 0};
+        }
+    }
+    count_uses(f);
+    for (size_t v = 0; v + 1 < f->code->values.n; v++) {
+        qdot_code_value *x = at(f, (qdot_value)v);
+
+        if (x->op == QDOT_OP_SINCOS && f->uses[v] > 0) {
+            const qdot_code_value *next = at(f, (qdot_value)v + 1);
+
+            if (next->op != QDOT_OP_SECOND || f->uses[v + 1] == 0)
+                x->op = QDOT_OP_SIN;
+        }
+    }
+}
+
+/* The product that `v` is, if `v` is read only once. */
+static const qdot_code_value *
+lone_product(finish *f, qdot_value v)
+{
+    return f->uses[v] == 1 && at(f, v)->op == QDOT_OP_MUL ? at(f, v) : NULL;
+}
+
+static void
+fuse(finish *f)
+{
+    for (size_t v = 0; v < f->code->values.n; v++) {
+        qdot_code_value *x = at(f, (qdot_value)v);
+        const qdot_code_value *p;
+
+        if (f->uses[v] == 0)
+            continue;
+        if (x->op == QDOT_OP_ADD || x->op == QDOT_OP_SUB) {
+            if ((p = lone_product(f, x->b))) {
+                f->uses[x->b] = 0;
+                *x = (qdot_code_value){x->op == QDOT_OP_ADD ? QDOT_OP_MADD : QDOT_OP_NMADD,
+                                       p->a, p->b, x->a};
+            } else if ((p = lone_product(f, x->a))) {
+                f->uses[x->a] = 0;
+                *x = (qdot_code_value){x->op == QDOT_OP_ADD ? QDOT_OP_MADD : QDOT_OP_MSUB,
+                                       p->a, p->b, x->b};
+            }
+        }
+    }
+}
+
+/* last[v] for all that is live. */
+static void
+find_last(finish *f)
+{
+    for (size_t v = 0; v < f->code->values.n; v++) {
+        const qdot_code_value *x = at(f, (qdot_value)v);
+        const qdot_value args[3] = {x->a, x->b, x->c};
+
+        f->last[v] = (uint32_t)v;
+        if (f->uses[v] > 0)
+            for (int i = 0; i < operands(x); i++)
+                f->last[args[i]] = (uint32_t)v;
+    }
+    for (size_t i = 0; i < f->m; i++)
+        f->last[f->outputs[i]] = UINT32_MAX;
+}
+
+typedef struct {
+    uint32_t *free; /* places that are free again */
+    size_t n_free;
+    uint32_t next; /* the first never used */
+} places;
+
+static uint32_t
+take_place(places *p)
+{
+    return p->n_free ? p->free[--p->n_free] : p->next++;
+}
+
+/* Whether this value is computed by an instruction of its own. */
+static bool
+is_computed(finish *f, size_t v)
+{
+    qdot_op op = at(f, (qdot_value)v)->op;
+
+    return f->uses[v] > 0 && op < QDOT_OP_COUNT;
+}
+
+static void
+pack(finish *f, qdot_tape *tape, places *p)
+{
+    qdot_instruction *out = tape->code;
+    size_t n = f->code->values.n;
+
+    for (size_t v = 0; v < n; v++) {
+        const qdot_code_value *x = at(f, (qdot_value)v);
+        const qdot_value args[3] = {x->a, x->b, x->c};
+        qdot_instruction i = {.op = x->op};
+        uint32_t *const arg_places[3] = {&i.x, &i.y, &i.z};
+
+        if (!is_computed(f, v))
+            continue;
+        for (int k = 0; k < operands(x); k++)
+            *arg_places[k] = f->place[args[k]];
+        for (int k = 0; k < operands(x); k++) {
+            qdot_value a = args[k];
+            bool again = (k > 0 && args[0] == a) || (k > 1 && args[1] == a);
+
+            if (!again && f->last[a] == v
+                && f->place[a] >= tape->inputs + tape->constants)
+                p->free[p->n_free++] = f->place[a];
+        }
+        f->place[v] = i.to = take_place(p);
+        if (x->op == QDOT_OP_SINCOS)
+            f->place[v + 1] = i.y = take_place(p);
+        *out++ = i;
+        tape->operations += (size_t)qdot_operations[x->op].operations;
+        tape->calls += (size_t)qdot_operations[x->op].calls;
+    }
+    tape->length = (size_t)(out - tape->code);
+}
+
+static qdot_status
+build(finish *f, qdot_tape *tape)
+{
+    size_t n = f->code->values.n, computed = 0;
+    places p = {0};
+
+    tape->inputs = f->code->inputs;
+    tape->outputs = f->m;
+    for (size_t v = 0; v < n; v++) {
+        const qdot_code_value *x = at(f, (qdot_value)v);
+
+        if (x->op == QDOT_OP_CONSTANT && f->uses[v] > 0)
+            f->constant[v] = (uint32_t)tape->constants++;
+        computed += is_computed(f, v);
+    }
+    tape->constant = qdot_malloc(tape->constants * sizeof *tape->constant);
+    tape->side = qdot_malloc(tape->constants * sizeof *tape->side);
+    tape->code = qdot_malloc(computed * sizeof *tape->code);
+    tape->output = qdot_malloc(f->m * sizeof *tape->output);
+    p.free = qdot_malloc((computed + 1) * 4 * sizeof *p.free);
+    if (!tape->constant || !tape->side || !tape->code || !tape->output || !p.free) {
+        qdot_free(p.free);
+        return QDOT_ENOMEM;
+    }
+    for (size_t v = 0; v < n; v++) {
+        const qdot_code_value *x = at(f, (qdot_value)v);
+
+        if (x->op == QDOT_OP_INPUT)
+            f->place[v] = x->a;
+        else if (x->op == QDOT_OP_CONSTANT && f->uses[v] > 0) {
+            f->place[v] = (uint32_t)tape->inputs + f->constant[v];
+            tape->constant[f->constant[v]] = f->code->constants.at[x->a];
+            tape->side[f->constant[v]] = f->code->sides.at[x->a];
+        }
+    }
+    p.next = (uint32_t)(tape->inputs + tape->constants);
+    pack(f, tape, &p);
+    tape->places = p.next;
+    for (size_t i = 0; i < f->m; i++)
+        tape->output[i] = f->place[f->outputs[i]];
+    qdot_free(p.free);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_code_finish(qdot_code *code, size_t m, const qdot_value *outputs, qdot_tape **tape)
+{
+    finish f = {.code = code, .m = m, .outputs = outputs};
+    size_t n = code->values.n + 1;
+    qdot_status status = code->status;
+
+    *tape = NULL;
+    if (status != QDOT_OK)
+        return status;
+    f.uses = qdot_calloc(4 * n, sizeof *f.uses);
+    *tape = qdot_calloc(1, sizeof **tape);
+    if (!f.uses || !*tape)
+        status = QDOT_ENOMEM;
+    else {
+        f.last = f.uses + n;
+        f.place = f.last + n;
+        f.constant = f.place + n;
+        count_uses(&f);
+        split_pairs(&f);
+        count_uses(&f);
+        fuse(&f);
+        count_uses(&f);
+        find_last(&f);
+        status = build(&f, *tape);
+    }
+    qdot_free(f.uses);
+    if (status != QDOT_OK) {
+        qdot_tape_free(*tape);
+        *tape = NULL;
+    }
+    return status;
+}

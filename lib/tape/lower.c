@@ -1,0 +1,495 @@
+/* lower.c -- from the DAG to the straight line: sums, products, functions, node by node. */
+#include "expr/walk.h"
+#include "tape/angle.h"
+#include "tape/code.h"
+#include "tape/constant.h"
+
+/* Terms of a sum that share a coefficient but for its sign. */
+typedef struct {
+    qdot_value value;
+    bool minus;
+    uint32_t next; /* of the same group; UINT32_MAX: none */
+} term;
+
+typedef struct {
+    qdot_expr magnitude;
+    uint32_t first, last;
+} group;
+
+/* What is known of a node, by its index in the walk. */
+typedef struct {
+    qdot_value bare;    /* the node without its constant factor */
+    qdot_expr factor;   /* the constant factor */
+    uint32_t negatives; /* products that hold it to a negative power */
+    bool root;          /* ... among them one to half an odd number */
+} known;
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_walk walk;
+    known *known; /* [walk.n] */
+    qdot_code code;
+    qdot_angles *angles;
+
+    /* Scratch of lower_sum. */
+    qdot_vec(term) terms;
+    qdot_vec(group) groups;
+    qdot_keymap by_magnitude;
+} lowering;
+
+static qdot_value
+op(lowering *l, qdot_op id, qdot_value a, qdot_value b)
+{
+    return qdot_code_op(&l->code, id, a, b, 0);
+}
+
+static qdot_value
+value_of(lowering *l, qdot_expr e)
+{
+    return qdot_constant_is(l->pool, e) ? qdot_code_constant(&l->code, e)
+                                        : (qdot_value)qdot_walk_get(&l->walk, e);
+}
+
+/* A value's sign taken into *minus. */
+static qdot_value
+without_sign(lowering *l, qdot_value v, bool *minus)
+{
+    if (l->code.status == QDOT_OK && l->code.values.at[v].op == QDOT_OP_NEG) {
+        *minus = !*minus;
+        return l->code.values.at[v].a;
+    }
+    return v;
+}
+
+/* --- sums --------------------------------------------------------------------------------- */
+
+/* Add coefficient * v to the groups of terms that share |coefficient|. */
+static qdot_status
+add_term(lowering *l, qdot_expr coefficient, qdot_value v)
+{
+    bool minus = qdot_expr_is_negative(l->pool, coefficient);
+    qdot_expr magnitude = minus ? qdot_neg(l->pool, coefficient) : coefficient;
+    uint32_t g = qdot_keymap_get(&l->by_magnitude, magnitude, 0, 0, 0);
+    uint32_t n = (uint32_t)l->terms.n;
+
+    v = without_sign(l, v, &minus);
+    QDOT_TRY(qdot_vec_push(&l->terms, ((term){v, minus, UINT32_MAX})));
+    if (g != QDOT_KEYMAP_NONE) {
+        l->terms.at[l->groups.at[g].last].next = n;
+        l->groups.at[g].last = n;
+        return QDOT_OK;
+    }
+    g = (uint32_t)l->groups.n;
+    QDOT_TRY(qdot_vec_push(&l->groups, ((group){magnitude, n, n})));
+    return qdot_keymap_set(&l->by_magnitude, magnitude, 0, 0, 0, g);
+}
+
+/* A running sum that begins with a positive term where there is one. */
+typedef struct {
+    bool begun;
+    qdot_value value;
+} total;
+
+static void
+total_add(lowering *l, total *t, qdot_value v, bool minus)
+{
+    if (!t->begun)
+        *t = (total){true, minus ? op(l, QDOT_OP_NEG, v, 0) : v};
+    else
+        t->value = op(l, minus ? QDOT_OP_SUB : QDOT_OP_ADD, t->value, v);
+}
+
+/* The sum of a group's terms, the first positive one in front; all negative: *minus and the
+ * sum of their opposites. */
+static qdot_value
+group_sum(lowering *l, const group *g, bool *minus)
+{
+    uint32_t lead = g->first;
+    total t = {0};
+
+    while (lead != UINT32_MAX && l->terms.at[lead].minus)
+        lead = l->terms.at[lead].next;
+    *minus = lead == UINT32_MAX;
+    if (*minus)
+        lead = g->first;
+    total_add(l, &t, l->terms.at[lead].value, false);
+    for (uint32_t i = g->first; i != UINT32_MAX; i = l->terms.at[i].next)
+        if (i != lead)
+            total_add(l, &t, l->terms.at[i].value, l->terms.at[i].minus != *minus);
+    return t.value;
+}
+
+static qdot_status
+lower_sum(lowering *l, qdot_expr e, known *k)
+{
+    qdot_pool *pool = l->pool;
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr constant = qdot_expr_arg(pool, e, 0);
+    struct addend {
+        qdot_value value;
+        bool minus;
+    } *addends;
+    size_t count = 0, lead = 0;
+    total t = {0};
+
+    l->terms.n = l->groups.n = 0;
+    qdot_keymap_clear(&l->by_magnitude);
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        qdot_expr x = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
+        const known *kt = l->known + qdot_walk_index(&l->walk, x);
+
+        if (qdot_constant_is(pool, x))
+            constant = qdot_add(pool, constant, qdot_mul(pool, c, x));
+        else
+            QDOT_TRY(add_term(l, qdot_mul(pool, c, kt->factor), kt->bare));
+    }
+    if (qdot_pool_failed(pool))
+        return qdot_pool_check(pool);
+    addends = qdot_malloc((l->groups.n + 1) * sizeof *addends);
+    if (!addends)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < l->groups.n; i++) {
+        const group *g = l->groups.at + i;
+        struct addend *a = addends + count++;
+
+        a->value = group_sum(l, g, &a->minus);
+        if (g->magnitude != QDOT_ONE)
+            a->value = op(l, QDOT_OP_MUL, a->value,
+                          qdot_code_constant(&l->code, g->magnitude));
+    }
+    if (constant != QDOT_ZERO)
+        addends[count++] = (struct addend){qdot_code_constant(&l->code, constant), false};
+    while (lead < count && addends[lead].minus)
+        lead++;
+    k->factor = QDOT_ONE;
+    if (lead == count) { /* minus the sum of opposites */
+        for (size_t i = 0; i < count; i++)
+            total_add(l, &t, addends[i].value, false);
+        k->factor = QDOT_MINUS_ONE;
+    } else {
+        total_add(l, &t, addends[lead].value, false);
+        for (size_t i = 0; i < count; i++)
+            if (i != lead)
+                total_add(l, &t, addends[i].value, addends[i].minus);
+    }
+    k->bare = t.value;
+    qdot_free(addends);
+    return QDOT_OK;
+}
+
+/* --- products ----------------------------------------------------------------------------- */
+
+typedef struct {
+    bool some;
+    qdot_value value;
+} product;
+
+static void
+times(lowering *l, product *p, qdot_value v)
+{
+    *p = (product){true, p->some ? op(l, QDOT_OP_MUL, p->value, v) : v};
+}
+
+/* Twice a rational exponent if that is an integer of reasonable size; else 0. */
+static long
+twice(const qdot_pool *pool, qdot_expr exponent)
+{
+    const fmpq *x = qdot_expr_rational(pool, exponent);
+    long n;
+
+    if (!x || !fmpz_fits_si(fmpq_numref(x)) || fmpz_cmp_ui(fmpq_denref(x), 2) > 0)
+        return 0;
+    n = fmpz_get_si(fmpq_numref(x));
+    if (n > 1000000 || n < -1000000)
+        return 0;
+    return fmpz_is_one(fmpq_denref(x)) ? 2 * n : n;
+}
+
+/* Multiply numerator or denominator by v^(half/2). */
+static void
+times_power(lowering *l, product *over, product *under, const known *k, qdot_value v,
+            long half)
+{
+    bool shared = k->negatives > 1;
+    qdot_value root;
+
+    if (half % 2 == 0 && !(half < 0 && shared && k->root)) {
+        if (half > 0 || shared)
+            times(l, over, qdot_code_power(&l->code, v, half / 2));
+        else
+            times(l, under, qdot_code_power(&l->code, v, -half / 2));
+        return;
+    }
+    root = op(l, QDOT_OP_SQRT, v, 0);
+    if (half < 0 && shared) {
+        times(l, over, qdot_code_power(&l->code, root, half));
+        return;
+    }
+    if (half < 0) {
+        over = under;
+        half = -half;
+    }
+    if (half > 1)
+        times(l, over, qdot_code_power(&l->code, v, half / 2));
+    times(l, over, root);
+}
+
+static qdot_status
+lower_product(lowering *l, qdot_expr e, known *k)
+{
+    qdot_pool *pool = l->pool;
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr factor = qdot_expr_arg(pool, e, 0);
+    product over = {0}, under = {0};
+    bool minus = false;
+
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
+        bool constant = qdot_constant_is(pool, b);
+        long half = twice(pool, p);
+
+        if (constant && qdot_constant_is(pool, p))
+            factor = qdot_mul(pool, factor, qdot_pow(pool, b, p));
+        else if (half != 0) {
+            const known *kb = l->known + qdot_walk_index(&l->walk, b);
+            qdot_value v = value_of(l, b);
+            bool odd = false;
+
+            if (half % 2 == 0)
+                v = without_sign(l, v, &odd);
+            if (odd && (half / 2) % 2 != 0)
+                minus = !minus;
+            times_power(l, &over, &under, kb, v, half);
+        } else
+            times(l, &over, op(l, QDOT_OP_POW, value_of(l, b), value_of(l, p)));
+    }
+    if (qdot_pool_failed(pool))
+        return qdot_pool_check(pool);
+    if (under.some && !over.some)
+        times(l, &over, qdot_code_constant(&l->code, QDOT_ONE));
+    k->bare = under.some ? op(l, QDOT_OP_DIV, over.value, under.value) : over.value;
+    k->factor = minus ? qdot_neg(pool, factor) : factor;
+    return QDOT_OK;
+}
+
+/* How the bases of all products are used. */
+static void
+count_negatives(lowering *l)
+{
+    for (size_t i = 0; i < l->walk.n; i++) {
+        qdot_expr e = l->walk.at[i];
+        uint32_t n = qdot_expr_count(l->pool, e);
+
+        if (qdot_expr_kind(l->pool, e) != QDOT_PROD)
+            continue;
+        for (uint32_t k = 1; k + 1 < n; k += 2) {
+            long half = twice(l->pool, qdot_expr_arg(l->pool, e, k + 1));
+            known *b = l->known + qdot_walk_index(&l->walk, qdot_expr_arg(l->pool, e, k));
+
+            if (half < 0) {
+                b->negatives++;
+                b->root |= half % 2 != 0;
+            }
+        }
+    }
+}
+
+/* --- functions, relations ----------------------------------------------------------------- */
+
+/* Functions that are one operation on their arguments. 0 (NEG) stands for none. */
+static const qdot_op direct[QDOT_FUNCTION_COUNT] = {
+    [QDOT_ASIN] = QDOT_OP_ASIN,   [QDOT_ACOS] = QDOT_OP_ACOS,
+    [QDOT_ATAN] = QDOT_OP_ATAN,   [QDOT_ATAN2] = QDOT_OP_ATAN2,
+    [QDOT_SINH] = QDOT_OP_SINH,   [QDOT_COSH] = QDOT_OP_COSH,
+    [QDOT_TANH] = QDOT_OP_TANH,   [QDOT_ASINH] = QDOT_OP_ASINH,
+    [QDOT_ACOSH] = QDOT_OP_ACOSH, [QDOT_ATANH] = QDOT_OP_ATANH,
+    [QDOT_EXP] = QDOT_OP_EXP,     [QDOT_LOG] = QDOT_OP_LOG,
+    [QDOT_ABS] = QDOT_OP_ABS,     [QDOT_SIGN] = QDOT_OP_SIGN,
+    [QDOT_MOD] = QDOT_OP_MOD,     [QDOT_FLOOR] = QDOT_OP_FLOOR,
+    [QDOT_MIN] = QDOT_OP_MIN,     [QDOT_MAX] = QDOT_OP_MAX,
+    [QDOT_IF] = QDOT_OP_SELECT,
+};
+
+/* a op b op c ... */
+static qdot_value
+fold(lowering *l, qdot_op id, qdot_expr e)
+{
+    qdot_value v = value_of(l, qdot_expr_arg(l->pool, e, 0));
+
+    for (uint32_t i = 1; i < qdot_expr_count(l->pool, e); i++)
+        v = op(l, id, v, value_of(l, qdot_expr_arg(l->pool, e, i)));
+    return v;
+}
+
+static qdot_status
+lower_function(lowering *l, qdot_expr e, known *k)
+{
+    qdot_fun_id f = (qdot_fun_id)qdot_expr_node(l->pool, e)->op;
+    qdot_expr x = qdot_expr_arg(l->pool, e, 0);
+    qdot_value s, c;
+
+    if (direct[f] == QDOT_OP_SELECT) {
+        k->bare = qdot_code_op(&l->code, QDOT_OP_SELECT, value_of(l, x),
+                               value_of(l, qdot_expr_arg(l->pool, e, 1)),
+                               value_of(l, qdot_expr_arg(l->pool, e, 2)));
+        return QDOT_OK;
+    }
+    if (direct[f] != QDOT_OP_NEG) {
+        k->bare = qdot_operations[direct[f]].operands == 1
+                      ? op(l, direct[f], value_of(l, x), 0)
+                      : fold(l, direct[f], e);
+        return QDOT_OK;
+    }
+    switch ((int)f) {
+    case QDOT_SIN:
+    case QDOT_COS:
+    case QDOT_TAN:
+    case QDOT_SEC:
+    case QDOT_CSC:
+    case QDOT_COT:
+        break;
+    default:
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s in numbers", qdot_fun_name(f));
+    }
+    qdot_angles_pair(l->angles, &l->walk, &l->code, x, &s, &c);
+    if (f == QDOT_SIN || f == QDOT_COS)
+        k->bare = f == QDOT_SIN ? s : c;
+    else if (f == QDOT_TAN || f == QDOT_COT)
+        k->bare = op(l, QDOT_OP_DIV, f == QDOT_TAN ? s : c, f == QDOT_TAN ? c : s);
+    else
+        k->bare = op(l, QDOT_OP_DIV, qdot_code_constant(&l->code, QDOT_ONE),
+                     f == QDOT_SEC ? c : s);
+    return QDOT_OK;
+}
+
+static qdot_status
+lower_node(lowering *l, size_t i)
+{
+    static const qdot_op relations[] = {
+        [QDOT_EQ] = QDOT_OP_EQ, [QDOT_LT] = QDOT_OP_LT, [QDOT_LE] = QDOT_OP_LE};
+    static const qdot_op logics[] = {
+        [QDOT_AND] = QDOT_OP_AND, [QDOT_OR] = QDOT_OP_OR, [QDOT_NOT] = QDOT_OP_NOT};
+    qdot_expr e = l->walk.at[i];
+    const qdot_node *node = qdot_expr_node(l->pool, e);
+    known *k = l->known + i;
+
+    k->factor = QDOT_ONE;
+    switch ((qdot_kind)node->kind) {
+    case QDOT_NUM:
+        return QDOT_OK;
+    case QDOT_SYM:
+    case QDOT_UFUN:
+        return qdot_constant_unset(l->pool, e);
+    case QDOT_SUM:
+        return lower_sum(l, e, k);
+    case QDOT_PROD:
+        return lower_product(l, e, k);
+    case QDOT_FUN:
+        return lower_function(l, e, k);
+    case QDOT_REL:
+        k->bare = fold(l, relations[node->op], e);
+        return QDOT_OK;
+    case QDOT_LOGIC:
+        k->bare = node->op == QDOT_NOT
+                      ? op(l, QDOT_OP_NOT, value_of(l, qdot_expr_arg(l->pool, e, 0)), 0)
+                      : fold(l, logics[node->op], e);
+        return QDOT_OK;
+    case QDOT_VEC:
+    case QDOT_MAT:
+    case QDOT_LIST:
+        break;
+    }
+    return qdot_fail(QDOT_ETYPE, "a number belongs here, not a vector, matrix or list");
+}
+
+/* The node itself from its parts. */
+static qdot_value
+whole(lowering *l, const known *k)
+{
+    bool minus = qdot_expr_is_negative(l->pool, k->factor);
+    qdot_expr magnitude = minus ? qdot_neg(l->pool, k->factor) : k->factor;
+    qdot_value v = k->bare;
+
+    if (magnitude != QDOT_ONE)
+        return op(l, QDOT_OP_MUL, v, qdot_code_constant(&l->code, k->factor));
+    return minus ? op(l, QDOT_OP_NEG, v, 0) : v;
+}
+
+static qdot_status
+lower_all(lowering *l, size_t n, const qdot_expr *inputs)
+{
+    count_negatives(l);
+    for (size_t i = 0; i < l->walk.n; i++) /* before what they are applied to */
+        if (qdot_expr_kind(l->pool, l->walk.at[i]) == QDOT_UFUN)
+            return qdot_constant_unset(l->pool, l->walk.at[i]);
+    for (size_t i = 0; i < n; i++) {
+        size_t at = qdot_walk_index(&l->walk, inputs[i]);
+
+        if (at != SIZE_MAX) {
+            l->known[at].bare = (qdot_value)i;
+            l->known[at].factor = QDOT_ONE;
+            qdot_walk_set(&l->walk, inputs[i], (1ull << 32) | i);
+        }
+    }
+    for (size_t i = 0; i < l->walk.n; i++) {
+        qdot_expr e = l->walk.at[i];
+
+        if (qdot_walk_get(&l->walk, e) >> 32 || qdot_constant_is(l->pool, e))
+            continue;
+        QDOT_TRY(lower_node(l, i));
+        qdot_walk_set(&l->walk, e, whole(l, l->known + i));
+        QDOT_TRY(l->code.status);
+    }
+    return qdot_pool_check(l->pool);
+}
+
+static qdot_status
+lower(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr *outputs,
+      qdot_tape **tape)
+{
+    qdot_value *results = qdot_malloc(m * sizeof *results);
+    qdot_status status = results ? QDOT_OK : QDOT_ENOMEM;
+
+    l->known = qdot_calloc(l->walk.n + 1, sizeof *l->known);
+    if (status == QDOT_OK && !l->known)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = qdot_angles_new(l->pool, &l->walk, &l->angles);
+    if (status == QDOT_OK)
+        status = lower_all(l, n, inputs);
+    if (status == QDOT_OK) {
+        for (size_t i = 0; i < m; i++)
+            results[i] = value_of(l, outputs[i]);
+        status = qdot_code_finish(&l->code, m, results, tape);
+    }
+    qdot_free(results);
+    return status;
+}
+
+qdot_status
+qdot_tape_new(qdot_pool *pool, size_t n, const qdot_expr *inputs, size_t m,
+              const qdot_expr *outputs, qdot_tape **tape)
+{
+    lowering l = {.pool = pool};
+    qdot_status status;
+
+    *tape = NULL;
+    QDOT_TRY(qdot_pool_check(pool));
+    for (size_t i = 0; i < n; i++)
+        if (inputs[i] == QDOT_NIL || qdot_expr_kind(pool, inputs[i]) != QDOT_SYM)
+            return qdot_fail(QDOT_EINVAL, "the inputs of a tape are symbols");
+    for (size_t i = 0; i < m; i++)
+        if (outputs[i] == QDOT_NIL)
+            return qdot_fail(QDOT_EINVAL, "no expression to evaluate");
+    QDOT_TRY(qdot_walk_begin_n(pool, m, outputs, &l.walk));
+    qdot_code_init(&l.code, pool, n);
+    status = lower(&l, n, inputs, m, outputs, tape);
+    qdot_code_clear(&l.code);
+    qdot_angles_free(l.angles);
+    qdot_free(l.known);
+    qdot_free(l.terms.at);
+    qdot_free(l.groups.at);
+    qdot_keymap_clear(&l.by_magnitude);
+    qdot_walk_end(&l.walk);
+    return status;
+}

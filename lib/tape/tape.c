@@ -1,0 +1,128 @@
+/* tape.c -- a finished tape: reading it, evaluating it in double. */
+#include "tape/tape.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "tape/code.h"
+#include "tape/shake.h"
+
+void
+qdot_tape_free(qdot_tape *tape)
+{
+    if (!tape)
+        return;
+    qdot_free(tape->constant);
+    qdot_free(tape->side);
+    qdot_free(tape->output);
+    qdot_free(tape->code);
+    qdot_free(tape);
+}
+
+size_t
+qdot_tape_inputs(const qdot_tape *tape)
+{
+    return tape->inputs;
+}
+
+size_t
+qdot_tape_outputs(const qdot_tape *tape)
+{
+    return tape->outputs;
+}
+
+size_t
+qdot_tape_work(const qdot_tape *tape)
+{
+    return tape->places;
+}
+
+size_t
+qdot_tape_operations(const qdot_tape *tape)
+{
+    return tape->operations;
+}
+
+size_t
+qdot_tape_calls(const qdot_tape *tape)
+{
+    return tape->calls;
+}
+
+void
+qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *work)
+{
+    static const void *const row[] = {
+#define X(ID, name, operands, operations, calls, statement) &&do_##ID,
+#include "tape/operation.def"
+#undef X
+    };
+    const qdot_instruction *i = tape->code, *const end = i + tape->length;
+
+    if (tape->inputs)
+        memcpy(work, in, tape->inputs * sizeof *work);
+    if (tape->constants)
+        memcpy(work + tape->inputs, tape->constant, tape->constants * sizeof *work);
+    if (i < end)
+        goto *row[i->op];
+    goto done;
+#define a (work[i->x])
+#define b (work[i->y])
+#define c (work[i->z])
+#define d (work[i->to])
+#define e (work[i->y])
+#define X(ID, name, operands, operations, calls, statement)                              \
+    do_##ID:                                                                             \
+    statement;                                                                           \
+    if (++i == end)                                                                      \
+        goto done;                                                                       \
+    goto *row[i->op];
+#include "tape/operation.def"
+#undef X
+#undef a
+#undef b
+#undef c
+#undef d
+#undef e
+done:
+    for (size_t k = 0; k < tape->outputs; k++)
+        out[k] = work[tape->output[k]];
+}
+
+static void *
+copy(const void *from, size_t size)
+{
+    void *to = qdot_malloc(size);
+
+    if (to && size)
+        memcpy(to, from, size);
+    return to;
+}
+
+qdot_status
+qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken)
+{
+    qdot_tape *t = copy(tape, sizeof *t);
+
+    *shaken = NULL;
+    if (!t)
+        return QDOT_ENOMEM;
+    t->constant = copy(tape->constant, t->constants * sizeof *t->constant);
+    t->side = copy(tape->side, t->constants * sizeof *t->side);
+    t->output = copy(tape->output, t->outputs * sizeof *t->output);
+    t->code = copy(tape->code, t->length * sizeof *t->code);
+    if (!t->constant || !t->side || !t->output || !t->code) {
+        qdot_tape_free(t);
+        return QDOT_ENOMEM;
+    }
+    for (size_t i = 0; i < t->constants; i++)
+        t->constant[i] = qdot_shake_double(t->constant[i], t->side[i]);
+    *shaken = t;
+    return QDOT_OK;
+}
+
+double
+qdot_shake_double(double x, int side)
+{
+    return side ? nextafter(x, side * INFINITY) : x;
+}

@@ -1,0 +1,39 @@
+/* tape.h -- expressions lowered to a straight line of operations.
+ *
+ * Common parts once (the DAG is already shared), dead parts never, integer powers by squaring,
+ * sine and cosine of one argument as a pair, angles of sums by base angles where that is cheaper:
+ * cos(a - b) = ca cb + sa sb costs no call when sin and cos of a and b are there. Constants are
+ * evaluated exactly, then rounded once. A tape is const and thread-safe; the work space is the
+ * caller's.
+ *
+ * Tests  tests/tape/
+ */
+#ifndef QDOT_TAPE_TAPE_H
+#define QDOT_TAPE_TAPE_H
+
+#include "expr/expr.h"
+
+typedef struct qdot_tape qdot_tape;
+
+/* Lower outputs [m] as functions of inputs [n] (SYMs). A symbol or undefined function that is no
+ * input: QDOT_EUNSET with its name. Relations and if() are allowed (1.0 and 0.0). */
+QDOT_MUST_CHECK qdot_status qdot_tape_new(qdot_pool *pool, size_t n, const qdot_expr *inputs,
+                                          size_t m, const qdot_expr *outputs, qdot_tape **tape);
+void qdot_tape_free(qdot_tape *tape);
+
+size_t qdot_tape_inputs(const qdot_tape *tape);
+size_t qdot_tape_outputs(const qdot_tape *tape);
+size_t qdot_tape_work(const qdot_tape *tape);       /* doubles of work space wanted */
+size_t qdot_tape_operations(const qdot_tape *tape); /* operations an evaluation */
+/* Of them: calls of elementary functions (sincos counts once). */
+size_t qdot_tape_calls(const qdot_tape *tape);
+
+/* out [m] = outputs at in [n]; work [qdot_tape_work]. Never fails; NaN and inf as IEEE 754 has
+ * them. */
+void qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *work);
+
+/* One constant expression (no symbols) as a double, correctly rounded where 256 bits decide.
+ * QDOT_EUNSET names a symbol without a value; QDOT_EDOMAIN: not real or undefined. */
+QDOT_MUST_CHECK qdot_status qdot_tape_constant(qdot_pool *pool, qdot_expr e, double *value);
+
+#endif
