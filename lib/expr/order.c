@@ -70,6 +70,8 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
             return fmpq_cmp(RATIONAL(pool, a), RATIONAL(pool, b));
         if (x->kind == QDOT_SYM)
             return compare_symbols(&pool->symbols.at[x->at], &pool->symbols.at[y->at]);
+        if (x->kind != y->kind) /* an elementary and an undefined function */
+            return three(x->kind, y->kind);
         if (x->op != y->op)
             return three(x->op, y->op);
         if (x->n != y->n)

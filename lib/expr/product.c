@@ -475,6 +475,42 @@ round_of_merging(struct product *p)
     return again;
 }
 
+/* -1 times a sum: every coefficient turned, so that -(a - b) is b - a. */
+static qdot_expr
+turn(qdot_pool *pool, qdot_expr sum)
+{
+    uint32_t n = NODE(pool, sum)->n;
+    qdot_expr few[33], *args = n > 33 ? qdot_malloc(n * sizeof *args) : few, e = QDOT_NIL;
+    fmpq_t c;
+
+    if (args == NULL)
+        return qdot_pool_fail(pool);
+    fmpq_init(c);
+    for (uint32_t i = 0; i < n; i++) {
+        args[i] = ARGS(pool, sum)[i];
+        if (i % 2 == 0) {
+            fmpq_neg(c, RATIONAL(pool, args[i]));
+            args[i] = qdot_expr_fmpq(pool, c);
+        }
+    }
+    fmpq_clear(c);
+    if (!qdot_pool_failed(pool))
+        e = qdot_pool_intern(pool, QDOT_SUM, 0, n, args, qdot_sign_of_sum(pool, n, args));
+    if (args != few)
+        qdot_free(args);
+    return e;
+}
+
+/* Whether the list may hold something that is not canonical yet. */
+static bool
+unsettled(const struct product *p)
+{
+    qdot_kind kind = p->n == 0 ? QDOT_SYM : NODE(p->pool, p->at[0].base)->kind;
+
+    return p->n > 1 || (p->n == 1 && (p->at[0].exponent != QDOT_ONE || kind == QDOT_NUM ||
+                                      kind == QDOT_PROD));
+}
+
 static qdot_expr
 finish(struct product *p)
 {
@@ -482,10 +518,11 @@ finish(struct product *p)
     qdot_expr few[33], *args = few, e = QDOT_NIL;
     bool again = true;
 
-    for (int round = 0; again && !p->failed && round < 64; round++)
-        again = (p->n > 1 || (p->n == 1 && p->at[0].exponent != QDOT_ONE)) &&
-                (round_of_merging(p) | (!p->failed && merge_exponentials(p)) |
-                 (!p->failed && merge_roots(p)));
+    for (int round = 0; again && !p->failed && round < 64 && unsettled(p); round++) {
+        again = round_of_merging(p);
+        again |= !p->failed && merge_exponentials(p);
+        again |= !p->failed && merge_roots(p);
+    }
     if (p->failed || qdot_pool_failed(pool))
         return QDOT_NIL;
     if (fmpq_is_zero(&p->c))
@@ -494,6 +531,9 @@ finish(struct product *p)
         return qdot_expr_fmpq(pool, &p->c);
     if (p->n == 1 && p->at[0].exponent == QDOT_ONE && fmpq_is_one(&p->c))
         return p->at[0].base;
+    if (p->n == 1 && p->at[0].exponent == QDOT_ONE && fmpz_equal_si(fmpq_numref(&p->c), -1) &&
+        fmpz_is_one(fmpq_denref(&p->c)) && NODE(pool, p->at[0].base)->kind == QDOT_SUM)
+        return turn(pool, p->at[0].base);
     if (p->n > 1)
         qsort_r(p->at, p->n, sizeof *p->at, by_order, pool);
     if (p->n > 16 && (args = qdot_malloc((2 * p->n + 1) * sizeof *args)) == NULL)

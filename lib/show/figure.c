@@ -50,7 +50,7 @@ static const char look[] = "set encoding utf8\n"
                            "set datafile missing 'NaN'\n"
                            "set border 3 linecolor '#404040'\n"
                            "set tics nomirror out textcolor '#202020'\n"
-                           "set grid linecolor '#c8c8c8' linewidth 0.7 dashtype solid\n"
+                           "set grid linetype 1 linecolor '#e0e0e0' linewidth 0.7\n"
                            "set samples 2\n";
 
 /* Okabe and Ito's palette: told apart by eyes that do not see all colours. */

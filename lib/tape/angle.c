@@ -86,7 +86,7 @@ is_trigonometric(const qdot_node *node)
                || node->op == QDOT_SEC || node->op == QDOT_CSC || node->op == QDOT_COT);
 }
 
-/* --- reading the arguments --------------------------------------------------------------- */
+/* --- reading the arguments ---------------------------------------------------------- */
 
 /* The rational factor of a term and the rest. */
 static qdot_expr
@@ -116,8 +116,10 @@ read_sum(qdot_angles *a, qdot_expr e, qdot_expr factor, qdot_expr *constant)
         if (qdot_constant_is(pool, t))
             *constant = qdot_add(pool, *constant, qdot_mul(pool, c, t));
         else
-            QDOT_TRY(qdot_vec_push(&a->parts, ((part){.term = t, .coefficient = c,
-                                                      .source = t, .of_source = QDOT_ONE})));
+            QDOT_TRY(qdot_vec_push(&a->parts, ((part){.term = t,
+                                                      .coefficient = c,
+                                                      .source = t,
+                                                      .of_source = QDOT_ONE})));
     }
     return QDOT_OK;
 }
@@ -148,15 +150,16 @@ read_argument(qdot_angles *a, qdot_expr e)
 
         p->minus = qdot_expr_is_negative(pool, p->coefficient) != arg.minus;
     }
+    if (arg.minus)
+        constant = qdot_neg(pool, constant);
     if (constant != QDOT_ZERO)
-        QDOT_TRY(qdot_vec_push(
-            &a->parts, ((part){.constant = arg.minus ? qdot_neg(pool, constant) : constant})));
+        QDOT_TRY(qdot_vec_push(&a->parts, ((part){.constant = constant})));
     arg.n = a->parts.n - arg.first;
     QDOT_TRY(qdot_vec_push(&a->arguments, arg));
     return qdot_keymap_set(&a->by_expr, e, 0, 0, 0, (uint32_t)(a->arguments.n - 1));
 }
 
-/* --- bases, multiples, sums -------------------------------------------------------------- */
+/* --- bases, multiples, sums --------------------------------------------------------- */
 
 static qdot_expr
 magnitude(qdot_pool *pool, qdot_expr number)
@@ -190,7 +193,8 @@ units(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
 }
 
 static qdot_status
-find_base(qdot_angles *a, qdot_expr term, qdot_expr key, const base *fresh, uint32_t *found)
+find_base(qdot_angles *a, qdot_expr term, qdot_expr key, const base *fresh,
+          uint32_t *found)
 {
     *found = qdot_keymap_get(&a->by_term, term, key, 0, 0);
     if (*found != NONE)
@@ -236,7 +240,8 @@ find_bases(qdot_angles *a)
         if (a->bases.at[p->base].split)
             QDOT_TRY(find_base(a, p->term, p->coefficient, &fresh, &p->base));
         else
-            p->multiple = (uint32_t)units(pool, p->coefficient, a->bases.at[p->base].unit);
+            p->multiple =
+                (uint32_t)units(pool, p->coefficient, a->bases.at[p->base].unit);
     }
     return qdot_pool_check(pool);
 }
@@ -255,7 +260,8 @@ find_sums(qdot_angles *a)
             if (m == NONE) {
                 m = (uint32_t)a->multiples.n;
                 QDOT_TRY(qdot_vec_push(
-                    &a->multiples, ((multiple){.base = p->base, .multiple = p->multiple})));
+                    &a->multiples,
+                    ((multiple){.base = p->base, .multiple = p->multiple})));
                 QDOT_TRY(qdot_keymap_set(&a->by_times, p->base, p->multiple, 0, 0, m));
             }
             s = qdot_keymap_get(&a->by_sum, arg->sum, m, p->minus, 0);
@@ -272,7 +278,7 @@ find_sums(qdot_angles *a)
     return QDOT_OK;
 }
 
-/* --- the choice -------------------------------------------------------------------------- */
+/* --- the choice --------------------------------------------------------------------- */
 
 /* Compose the argument, or call it for itself; what that adds to the cost. */
 static long
@@ -319,8 +325,8 @@ holds_base(const qdot_angles *a, const argument *arg, uint32_t b)
     return false;
 }
 
-/* Call for themselves all composed arguments that hold base b (NONE: all), if that is cheaper;
- * whether it was. */
+/* Call for themselves all composed arguments that hold base b (NONE: all), if that is
+ * cheaper; whether it was. */
 static bool
 try_without(qdot_angles *a, uint32_t b, bool *changed)
 {
@@ -330,7 +336,8 @@ try_without(qdot_angles *a, uint32_t b, bool *changed)
     for (size_t i = 0; i < a->arguments.n; i++) {
         argument *arg = a->arguments.at + i;
 
-        changed[i] = arg->composed && !is_base(a, arg) && (b == NONE || holds_base(a, arg, b));
+        changed[i] =
+            arg->composed && !is_base(a, arg) && (b == NONE || holds_base(a, arg, b));
         if (changed[i]) {
             change += turn(a, arg, false);
             n++;
@@ -403,7 +410,7 @@ qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, qdot_angles **angles)
     return status;
 }
 
-/* --- writing ----------------------------------------------------------------------------- */
+/* --- writing ------------------------------------------------------------------------ */
 
 /* (s, c) <- sine and cosine of A + B, or A - B. */
 static void
@@ -477,8 +484,8 @@ static void
 compose(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const argument *arg,
         qdot_value *sine, qdot_value *cosine)
 {
-    /* The sums from the outermost in; those not made yet are then made outward. Parts and sums
-     * correspond: part k belongs to the sum k steps above the innermost. */
+    /* The sums from the outermost in; those not made yet are then made outward. Parts
+     * and sums correspond: part k belongs to the sum k steps above the innermost. */
     qdot_value s = 0, c = 0;
 
     for (size_t k = 0; k < arg->n; k++) {

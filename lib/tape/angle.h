@@ -2,12 +2,12 @@
  *
  *     sin(A + B) = sA cB + cA sB,   cos(A + B) = cA cB - sA sB,   sin 2A = 2 sA cA ...
  *
- * Every argument of a trigonometric function is a sum of rational multiples of terms and a
- * constant: sum k_i (g_i t_i) + c, g_i t_i being the base angle of the term t_i (g_i the
- * greatest common divisor of its multiples, as long as no k_i is large). Arguments share
- * the sums they begin with. An argument is either composed of base angles or called for itself,
- * whichever makes the whole cheaper: a call counts as 20 operations, an addition of angles
- * as 6. For a chain of N links that is N calls and N^2/2 additions.
+ * Every argument of a trigonometric function is a sum of rational multiples of terms and
+ * a constant: sum k_i (g_i t_i) + c, g_i t_i being the base angle of the term t_i (g_i
+ * the greatest common divisor of its multiples, as long as no k_i is large). Arguments
+ * share the sums they begin with. An argument is either composed of base angles or called
+ * for itself, whichever makes the whole cheaper: a call counts as 20 operations, an
+ * addition of angles as 6. For a chain of N links that is N calls and N^2/2 additions.
  *
  * Tests  tests/tape/test_tape.c: the chain's counts, and values against libm.
  */
@@ -19,13 +19,14 @@
 
 typedef struct qdot_angles qdot_angles;
 
-/* Read all arguments of sin ... cot in the walk and decide. Constructs numbers in the pool. */
+/* Read all arguments of sin ... cot in the walk and decide. Constructs numbers in the
+ * pool. */
 QDOT_MUST_CHECK qdot_status qdot_angles_new(qdot_pool *pool, const qdot_walk *walk,
                                             qdot_angles **angles);
 void qdot_angles_free(qdot_angles *angles);
 
-/* Sine and cosine of the argument e, written into the code. The walk's value of e and of the
- * terms in it is its qdot_value. */
+/* Sine and cosine of the argument e, written into the code. The walk's value of e and
+ * of the terms in it is its qdot_value. */
 void qdot_angles_pair(qdot_angles *angles, const qdot_walk *walk, qdot_code *code,
                       qdot_expr e, qdot_value *sine, qdot_value *cosine);
 

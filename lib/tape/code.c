@@ -12,9 +12,6 @@ const qdot_operation qdot_operations[QDOT_OP_COUNT] = {
 #undef X
 };
 
-/* Powers above are left to pow(). */
-enum { MOST_POWER = 64 };
-
 static qdot_value
 append(qdot_code *code, qdot_op op, qdot_value a, qdot_value b, qdot_value c)
 {
@@ -30,12 +27,31 @@ append(qdot_code *code, qdot_op op, qdot_value a, qdot_value b, qdot_value c)
     return code->status == QDOT_OK ? (qdot_value)(code->values.n - 1) : 0;
 }
 
+/* chain[n]: a factor f, x^n = (x^f)^(n/f), or 0, x^n = x^(n-1) x, whichever takes the
+ * fewest multiplications. Knuth, TAOCP 2, 4.6.3: the factor method. */
+static void
+power_chain(unsigned char chain[QDOT_CODE_MOST_POWER + 1])
+{
+    unsigned char cost[QDOT_CODE_MOST_POWER + 1] = {0};
+
+    for (int n = 2; n <= QDOT_CODE_MOST_POWER; n++) {
+        cost[n] = cost[n - 1] + 1;
+        chain[n] = 0;
+        for (int f = 2; f * f <= n; f++)
+            if (n % f == 0 && cost[f] + cost[n / f] <= cost[n]) {
+                cost[n] = cost[f] + cost[n / f];
+                chain[n] = (unsigned char)f;
+            }
+    }
+}
+
 void
 qdot_code_init(qdot_code *code, qdot_pool *pool, size_t inputs)
 {
     memset(code, 0, sizeof *code);
     code->pool = pool;
     code->inputs = inputs;
+    power_chain(code->chain);
     for (size_t i = 0; i < inputs; i++)
         append(code, QDOT_OP_INPUT, (qdot_value)i, 0, 0);
 }
@@ -106,42 +122,23 @@ qdot_code_sincos(qdot_code *code, qdot_value a, qdot_value *sine, qdot_value *co
     *cosine = qdot_code_op(code, QDOT_OP_SECOND, *sine, 0, 0);
 }
 
-/* chain[n]: a factor f, x^n = (x^f)^(n/f), or 0, x^n = x^(n-1) x, whichever takes the fewest
- * multiplications. Knuth, TAOCP 2, 4.6.3: the factor method. */
-static void
-power_chain(unsigned char chain[MOST_POWER + 1])
-{
-    unsigned char cost[MOST_POWER + 1] = {0};
-
-    for (int n = 2; n <= MOST_POWER; n++) {
-        cost[n] = cost[n - 1] + 1;
-        chain[n] = 0;
-        for (int f = 2; f * f <= n; f++)
-            if (n % f == 0 && cost[f] + cost[n / f] <= cost[n]) {
-                cost[n] = cost[f] + cost[n / f];
-                chain[n] = (unsigned char)f;
-            }
-    }
-}
-
 qdot_value
 qdot_code_power(qdot_code *code, qdot_value a, long n)
 {
-    unsigned char chain[MOST_POWER + 1];
+    const unsigned char *chain = code->chain;
     struct {
         int power;        /* raise to it; 0: */
         qdot_value times; /* multiply by this */
-    } todo[2 * MOST_POWER];
+    } todo[2 * QDOT_CODE_MOST_POWER];
     int depth = 0;
 
     if (n < 0) {
         a = qdot_code_op(code, QDOT_OP_DIV, qdot_code_constant(code, QDOT_ONE), a, 0);
         n = -n;
     }
-    if (n > MOST_POWER)
+    if (n > QDOT_CODE_MOST_POWER)
         return qdot_code_op(code, QDOT_OP_POW, a,
                             qdot_code_constant(code, qdot_expr_int(code->pool, n)), 0);
-    power_chain(chain);
     todo[depth++].power = (int)n;
     while (depth > 0) {
         int k = todo[--depth].power;

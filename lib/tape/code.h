@@ -22,7 +22,7 @@ typedef enum {
     /* Only while written: */
     QDOT_OP_INPUT = QDOT_OP_COUNT, /* a: which */
     QDOT_OP_CONSTANT,              /* a: which */
-    QDOT_OP_SECOND                 /* a: the SINCOS whose second result (cosine) this is */
+    QDOT_OP_SECOND                 /* a: the SINCOS whose second result this is */
 } qdot_op;
 
 typedef struct {
@@ -32,6 +32,9 @@ typedef struct {
 
 extern const qdot_operation qdot_operations[QDOT_OP_COUNT];
 
+/* Powers above are left to pow(). */
+#define QDOT_CODE_MOST_POWER 64
+
 typedef uint32_t qdot_value; /* a value of the code: an index */
 
 typedef struct {
@@ -39,8 +42,8 @@ typedef struct {
     qdot_value a, b, c;
 } qdot_code_value;
 
-/* Start with qdot_code_init. A failure is kept in `status` and makes all later values 0: ask
- * once, at the end. */
+/* Start with qdot_code_init. A failure is kept in `status` and makes all later values
+ * 0: ask once, at the end. */
 typedef struct {
     size_t inputs;
     qdot_vec(qdot_code_value) values; /* first the inputs */
@@ -48,6 +51,7 @@ typedef struct {
     qdot_vec(signed char) sides; /* where the exact constants lie, see constant.h */
     qdot_keymap seen;          /* operation -> value */
     qdot_keymap by_expr;       /* constant expression -> value */
+    unsigned char chain[QDOT_CODE_MOST_POWER + 1]; /* see power_chain() */
     qdot_pool *pool;
     qdot_status status;
 } qdot_code;
@@ -55,15 +59,17 @@ typedef struct {
 void qdot_code_init(qdot_code *code, qdot_pool *pool, size_t inputs);
 void qdot_code_clear(qdot_code *code);
 
-/* One operation; operands it does not have are 0. ADD, MUL and their like in either order of
- * a and b are one. */
+/* One operation; operands it does not have are 0. ADD, MUL and their like in either
+ * order of a and b are one. */
 qdot_value qdot_code_op(qdot_code *code, qdot_op op, qdot_value a, qdot_value b,
                         qdot_value c);
 /* A constant expression, evaluated exactly and rounded once. */
 qdot_value qdot_code_constant(qdot_code *code, qdot_expr e);
 /* Sine and cosine of a value. */
-void qdot_code_sincos(qdot_code *code, qdot_value a, qdot_value *sine, qdot_value *cosine);
-/* a^n, n != 0, by the fewest multiplications a factor method finds; inverse powers by 1/a. */
+void qdot_code_sincos(qdot_code *code, qdot_value a, qdot_value *sine,
+                      qdot_value *cosine);
+/* a^n, n != 0, by the fewest multiplications a factor method finds; inverse powers by
+ * 1/a. */
 qdot_value qdot_code_power(qdot_code *code, qdot_value a, long n);
 
 /* An instruction of the finished tape: places. For SINCOS y is the second result. */
@@ -74,7 +80,7 @@ typedef struct {
 struct qdot_tape {
     size_t inputs, constants, outputs, length, places, operations, calls;
     double *constant;       /* [constants] */
-    signed char *side;      /* [constants] -1, 0, 1: where the exact value lies beside it */
+    signed char *side;      /* [constants] where the exact value lies beside it */
     uint32_t *output;       /* [outputs] places */
     qdot_instruction *code; /* [length] */
 };

@@ -1,4 +1,5 @@
-/* constant.c -- a constant in balls (Arb) of growing precision until one double is left. */
+/* constant.c -- a constant in balls (Arb) of growing precision until one double is
+ * left. */
 #include "tape/constant.h"
 
 #if __has_include(<arb.h>)
@@ -32,8 +33,8 @@ ball_abs(arb_t y, const arb_t x, slong bits)
     arb_abs(y, x);
 }
 
-/* The functions of one argument. A function of function.def that stands neither here nor in
- * apply() is refused when it is met. */
+/* The functions of one argument. A function of function.def that stands neither here
+ * nor in apply() is refused when it is met. */
 static void (*const unary[QDOT_FUNCTION_COUNT])(arb_t, const arb_t, slong) = {
     [QDOT_SIN] = arb_sin,     [QDOT_COS] = arb_cos,     [QDOT_TAN] = arb_tan,
     [QDOT_SEC] = arb_sec,     [QDOT_CSC] = arb_csc,     [QDOT_COT] = arb_cot,
@@ -61,7 +62,7 @@ qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
     };
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
     qdot_text text = {0};
-    const char *name;
+    const qdot_ufun *f;
 
     if (s) {
         const char *kind = what[s->class];
@@ -74,13 +75,12 @@ qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
         return QDOT_EUNSET;
     }
     /* An application: at its declared arguments, whatever it is applied to here. */
-    name = qdot_ufun_get(pool, qdot_expr_node(pool, e)->op)->name;
-    qdot_text_format(&text, "%s", name);
-    for (uint32_t i = 0; i < qdot_ufun_get(pool, qdot_expr_node(pool, e)->op)->arity; i++) {
-        qdot_expr formals = qdot_ufun_get(pool, qdot_expr_node(pool, e)->op)->formals;
-
+    f = qdot_ufun_get(pool, qdot_expr_node(pool, e)->op);
+    qdot_text_add(&text, f->name);
+    for (uint32_t i = 0; i < f->arity; i++) {
         qdot_text_add(&text, i ? ", " : "(");
-        if (qdot_print(pool, qdot_expr_arg(pool, formals, i), QDOT_PLAIN, &text) != QDOT_OK)
+        if (qdot_print(pool, qdot_expr_arg(pool, f->formals, i), QDOT_PLAIN, &text)
+            != QDOT_OK)
             break;
     }
     qdot_text_char(&text, ')');

@@ -1,5 +1,5 @@
-/* finish.c -- from what was written to what is run: dead values out, multiplications fused into
- * sums, places shared. */
+/* finish.c -- from what was written to what is run: dead values out, multiplications
+ * fused into sums, places shared. */
 #include <string.h>
 
 #include "tape/code.h"
@@ -97,12 +97,12 @@ fuse(finish *f)
         if (x->op == QDOT_OP_ADD || x->op == QDOT_OP_SUB) {
             if ((p = lone_product(f, x->b))) {
                 f->uses[x->b] = 0;
-                *x = (qdot_code_value){x->op == QDOT_OP_ADD ? QDOT_OP_MADD : QDOT_OP_NMADD,
-                                       p->a, p->b, x->a};
+                x->op = x->op == QDOT_OP_ADD ? QDOT_OP_MADD : QDOT_OP_NMADD;
+                *x = (qdot_code_value){x->op, p->a, p->b, x->a};
             } else if ((p = lone_product(f, x->a))) {
                 f->uses[x->a] = 0;
-                *x = (qdot_code_value){x->op == QDOT_OP_ADD ? QDOT_OP_MADD : QDOT_OP_MSUB,
-                                       p->a, p->b, x->b};
+                x->op = x->op == QDOT_OP_ADD ? QDOT_OP_MADD : QDOT_OP_MSUB;
+                *x = (qdot_code_value){x->op, p->a, p->b, x->b};
             }
         }
     }

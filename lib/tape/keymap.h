@@ -1,7 +1,7 @@
 /* keymap.h -- a hash table from four words to one: nothing is ever removed.
  *
- * What the lowering remembers is found in it: operations by what they compute, constants by
- * their expression, angles by their parts.
+ * What the lowering remembers is found in it: operations by what they compute, constants
+ * by their expression, angles by their parts.
  */
 #ifndef QDOT_TAPE_KEYMAP_H
 #define QDOT_TAPE_KEYMAP_H

@@ -1,4 +1,5 @@
-/* lower.c -- from the DAG to the straight line: sums, products, functions, node by node. */
+/* lower.c -- from the DAG to the straight line: sums, products, functions, node by
+ * node. */
 #include "expr/walk.h"
 #include "tape/angle.h"
 #include "tape/code.h"
@@ -61,7 +62,7 @@ without_sign(lowering *l, qdot_value v, bool *minus)
     return v;
 }
 
-/* --- sums --------------------------------------------------------------------------------- */
+/* --- sums --------------------------------------------------------------------------- */
 
 /* Add coefficient * v to the groups of terms that share |coefficient|. */
 static qdot_status
@@ -99,8 +100,8 @@ total_add(lowering *l, total *t, qdot_value v, bool minus)
         t->value = op(l, minus ? QDOT_OP_SUB : QDOT_OP_ADD, t->value, v);
 }
 
-/* The sum of a group's terms, the first positive one in front; all negative: *minus and the
- * sum of their opposites. */
+/* The sum of a group's terms, the first positive one in front; all negative: *minus
+ * and the sum of their opposites. */
 static qdot_value
 group_sum(lowering *l, const group *g, bool *minus)
 {
@@ -177,7 +178,7 @@ lower_sum(lowering *l, qdot_expr e, known *k)
     return QDOT_OK;
 }
 
-/* --- products ----------------------------------------------------------------------------- */
+/* --- products ----------------------------------------------------------------------- */
 
 typedef struct {
     bool some;
@@ -294,7 +295,7 @@ count_negatives(lowering *l)
     }
 }
 
-/* --- functions, relations ----------------------------------------------------------------- */
+/* --- functions, relations ----------------------------------------------------------- */
 
 /* Functions that are one operation on their arguments. 0 (NEG) stands for none. */
 static const qdot_op direct[QDOT_FUNCTION_COUNT] = {
@@ -349,7 +350,8 @@ lower_function(lowering *l, qdot_expr e, known *k)
     case QDOT_COT:
         break;
     default:
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s in numbers", qdot_fun_name(f));
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s in numbers",
+                         qdot_fun_name(f));
     }
     qdot_angles_pair(l->angles, &l->walk, &l->code, x, &s, &c);
     if (f == QDOT_SIN || f == QDOT_COS)

@@ -1,8 +1,8 @@
 /* shake.h -- the same tape with its constants rounded the other way.
  *
- * A constant that is no double was rounded to its neighbour below or above; in the shaken tape
- * it is the other one, so that the exact value lies between the two. What differs between runs
- * on both shows what the rounding of constants may do.
+ * A constant that is no double was rounded to its neighbour below or above; in the shaken
+ * tape it is the other one, so that the exact value lies between the two. What differs
+ * between runs on both shows what the rounding of constants may do.
  *
  * Tests  tests/tape/test_tape.c
  */

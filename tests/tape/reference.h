@@ -1,5 +1,5 @@
-/* reference.h -- expressions evaluated on the DAG in long double, with a bound of what rounding may
- * do in double. Written without anything of tape/. */
+/* reference.h -- expressions evaluated on the DAG in long double, with a bound of what
+ * rounding may do in double. Written without anything of tape/. */
 #ifndef QDOT_TESTS_TAPE_REFERENCE_H
 #define QDOT_TESTS_TAPE_REFERENCE_H
 
@@ -125,7 +125,8 @@ node_value(const qdot_pool *pool, qdot_expr e, const reference_value *x, unsigne
         r.err = (n + 4) * eps * fabsl(r.v);
         for (unsigned i = 1; i < n; i += 2)
             r.err += fabsl(r.v)
-                     * (fabsl(x[i + 1].v / x[i].v) * x[i].err + 4 * eps * fabsl(x[i + 1].v)
+                     * (fabsl(x[i + 1].v / x[i].v) * x[i].err
+                        + 4 * eps * fabsl(x[i + 1].v)
                         + fabsl(logl(fabsl(x[i].v))) * x[i + 1].err);
         return r;
     case QDOT_FUN:

@@ -1,4 +1,5 @@
-/* test_tape.c -- tapes against an evaluation of the DAG in long double, and their counts. */
+/* test_tape.c -- tapes against an evaluation of the DAG in long double, and their
+ * counts. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -16,7 +17,7 @@
 #include "tape/shake.h"
 #include "tape/tape.h"
 
-/* --- helpers ----------------------------------------------------------------------------------- */
+/* --- helpers ------------------------------------------------------------------------ */
 
 static uint64_t seed = 12345;
 
@@ -84,7 +85,7 @@ compare(qdot_pool *pool, size_t n, const qdot_expr *inputs, size_t m, const qdot
     return compared;
 }
 
-/* --- random expressions ------------------------------------------------------------------------ */
+/* --- random expressions ------------------------------------------------------------- */
 
 enum { LEAVES = 5, NODES = 40, OUTPUTS = 12 };
 
@@ -192,7 +193,7 @@ derivatives_agree_with_differences(void **state)
     assert_true(compared > 20);
 }
 
-/* --- counts ------------------------------------------------------------------------------------ */
+/* --- counts ------------------------------------------------------------------------- */
 
 /* cos(theta_i - theta_j) for all pairs, and sin(theta_i) alone. */
 static void
@@ -292,8 +293,8 @@ multiples_and_shifts_use_the_base_angle(void **state)
     qdot_pool_free(pool);
 }
 
-/* x^2, x^4, x^7: x2, x4, x7 = x4 x2 x or x6 x: five at most; 1/x and 1/x^3 share one division;
- * (x^2 + y^2)^(-1/2) and ^(-3/2) one root and one division. */
+/* x^2, x^4, x^7: x2, x4, x7 = x4 x2 x or x6 x: five at most; 1/x and 1/x^3 share one
+ * division; (x^2 + y^2)^(-1/2) and ^(-3/2) one root and one division. */
 static void
 powers_are_shared(void **state)
 {
@@ -408,7 +409,7 @@ shaken_constants_bracket_the_exact_ones(void **state)
     qdot_pool_free(pool);
 }
 
-/* --- errors ------------------------------------------------------------------------------------ */
+/* --- errors ------------------------------------------------------------------------- */
 
 static void
 names_without_value_are_told(void **state)

@@ -1,0 +1,461 @@
+/* ask.c -- values asked for: expressions, print, show, vars, and the parts of a scene. */
+#include "lang/statement.h"
+
+#include <string.h>
+
+#include "expr/walk.h"
+#include "lang/answer.h"
+#include "lang/ask.h"
+
+/* --- expressions -------------------------------------------------------------------- */
+
+bool
+qdot_ask_is_measured(qdot_session *session, qdot_expr e)
+{
+    if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
+        return false;
+    for (size_t i = 0; i < session->measured.n; i++)
+        if (qdot_expr_contains(session->pool, e, session->measured.at[i].symbol))
+            return true;
+    return false;
+}
+
+/* A value in which numbers of a run stand: a number, or a list of them. */
+static qdot_status
+answer_measured(qdot_session *session, const char *name, qdot_expr value)
+{
+    qdot_vec(double) values = {0}, errors = {0};
+    bool several = !qdot_expr_is_scalar(session->pool, value);
+    uint32_t n = several ? qdot_expr_count(session->pool, value) : 1;
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_expr member = several ? qdot_expr_arg(session->pool, value, i) : value;
+        double x, error;
+
+        status = qdot_session_number(session, member, &x, &error);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&values, x);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&errors, error);
+    }
+    if (status == QDOT_OK)
+        status = several ? qdot_answer_numbers(session, name, n, values.at, errors.at)
+                         : qdot_answer_number(session, name, values.at[0], errors.at[0]);
+    qdot_free(values.at);
+    qdot_free(errors.at);
+    return status;
+}
+
+/* "eom[theta1]" for the member that goes with a coordinate, else "solve(...)[1]". */
+static void
+member_name(qdot_session *session, const char *name, bool by_coordinate, uint32_t i,
+            qdot_text *out)
+{
+    qdot_text_add(out, name);
+    if (by_coordinate)
+        qdot_text_format(
+            out, "[%s]",
+            qdot_expr_symbol(session->pool, session->scene->coordinates.at[i])->name);
+    else
+        qdot_text_format(out, "[%u]", i + 1);
+}
+
+static qdot_status
+answer_list(qdot_session *session, const char *name, qdot_expr list)
+{
+    uint32_t n = qdot_expr_count(session->pool, list);
+    const qdot_quantity *row = qdot_quantity_find(name);
+    bool by_coordinate = row != NULL && row->most > 0 &&
+                         n == session->scene->coordinates.n &&
+                         qdot_names_find(session->names, name) == NULL;
+
+    if (n == 0)
+        return qdot_answer_expr(session, name, list);
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_text member = {0};
+        qdot_status status;
+
+        member_name(session, name, by_coordinate, i, &member);
+        status = qdot_text_status(&member);
+        if (status == QDOT_OK)
+            status = qdot_answer_expr(session, qdot_text_str(&member),
+                                      qdot_expr_arg(session->pool, list, i));
+        qdot_text_clear(&member);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_ask_expression(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at;
+    qdot_expr value;
+    qdot_text name = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_value(c, &value));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    qdot_statement_text(start, c->at, &name);
+    if (name.n > 200) { /* longer than it helps: by its number in the history */
+        qdot_text_truncate(&name, 0);
+        qdot_text_format(&name, "%%%zu", session->history.n + 1);
+    }
+    status = qdot_text_status(&name);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&session->history, value);
+    if (status == QDOT_OK && qdot_ask_is_measured(session, value))
+        status = answer_measured(session, qdot_text_str(&name), value);
+    else if (status == QDOT_OK && qdot_expr_kind(session->pool, value) == QDOT_LIST)
+        status = answer_list(session, qdot_text_str(&name), value);
+    else if (status == QDOT_OK)
+        status = qdot_answer_expr(session, qdot_text_str(&name), value);
+    qdot_text_clear(&name);
+    return status;
+}
+
+/* --- print -------------------------------------------------------------------------- */
+
+/* One argument as text: a quoted one as it is, numbers of runs as numbers. */
+static qdot_status
+print_one(qdot_cursor *c, qdot_text *line)
+{
+    qdot_session *session = c->session;
+    const char *text;
+    qdot_expr value;
+    double x, error;
+
+    if (c->at->kind == QDOT_TOKEN_STRING) {
+        QDOT_TRY(qdot_read_string(c, &text));
+        qdot_text_add(line, text);
+        return QDOT_OK;
+    }
+    QDOT_TRY(qdot_read_value(c, &value));
+    if (!qdot_ask_is_measured(session, value))
+        return qdot_print(session->pool, value, session->style, line);
+    for (uint32_t i = 0;; i++) {
+        bool scalar = qdot_expr_is_scalar(session->pool, value);
+
+        if (!scalar && i >= qdot_expr_count(session->pool, value))
+            return QDOT_OK;
+        QDOT_TRY(qdot_session_number(
+            session, scalar ? value : qdot_expr_arg(session->pool, value, i), &x,
+            &error));
+        qdot_text_add(line, i > 0 ? ", " : "");
+        qdot_answer_digits(line, x, error);
+        if (scalar)
+            return QDOT_OK;
+    }
+}
+
+qdot_status
+qdot_ask_print(qdot_cursor *c)
+{
+    qdot_text line = {0};
+    qdot_status status = QDOT_OK;
+
+    if (!qdot_cursor_is_end(c)) {
+        do {
+            qdot_text_add(&line, line.n > 0 ? " " : "");
+            status = print_one(c, &line);
+        } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+        if (status == QDOT_OK)
+            status = qdot_cursor_expect_end(c);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&line);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(c->session, "print", qdot_text_str(&line));
+    qdot_text_clear(&line);
+    return status;
+}
+
+/* --- names -------------------------------------------------------------------------- */
+
+static qdot_status
+print_domain(qdot_session *session, const qdot_symbol *s, qdot_text *out)
+{
+    if (s->lo != QDOT_NIL && s->hi != QDOT_NIL) {
+        QDOT_TRY(qdot_print(session->pool, s->lo, QDOT_PLAIN, out));
+        qdot_text_format(out, " %s %s %s ", s->lo_open ? "<" : "<=", s->name,
+                         s->hi_open ? "<" : "<=");
+        return qdot_print(session->pool, s->hi, QDOT_PLAIN, out);
+    }
+    qdot_text_add(out, s->name);
+    if (s->lo != QDOT_NIL) {
+        qdot_text_add(out, s->lo_open ? " > " : " >= ");
+        return qdot_print(session->pool, s->lo, QDOT_PLAIN, out);
+    }
+    if (s->hi != QDOT_NIL) {
+        qdot_text_add(out, s->hi_open ? " < " : " <= ");
+        return qdot_print(session->pool, s->hi, QDOT_PLAIN, out);
+    }
+    return QDOT_OK;
+}
+
+/* The value that `set` or `param` gave a symbol; nil: none. */
+static qdot_expr
+set_value(const qdot_session *session, qdot_expr symbol)
+{
+    for (size_t i = 0; i < session->set_symbols.n; i++)
+        if (session->set_symbols.at[i] == symbol)
+            return session->set_values.at[i];
+    return QDOT_NIL;
+}
+
+/* A declared name as a statement that declares it. */
+static qdot_status
+print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr value;
+
+    switch (name->kind) {
+    case QDOT_NAME_PARAM:
+    case QDOT_NAME_COORD:
+        qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
+        QDOT_TRY(print_domain(session, qdot_expr_symbol(pool, name->value), out));
+        value = set_value(session, name->value);
+        if (value == QDOT_NIL)
+            return QDOT_OK;
+        qdot_text_add(out, " = ");
+        return qdot_print(pool, value, QDOT_PLAIN, out);
+    case QDOT_NAME_UFUN:
+        qdot_text_add(out, "function ");
+        return qdot_print(pool, name->value, QDOT_PLAIN, out);
+    case QDOT_NAME_FUNCTION:
+        qdot_text_format(out, "%s(", name->name);
+        for (uint32_t i = 0; i < qdot_expr_count(pool, name->formals); i++)
+            qdot_text_format(
+                out, "%s%s", i > 0 ? ", " : "",
+                qdot_expr_symbol(pool, qdot_expr_arg(pool, name->formals, i))->name);
+        qdot_text_add(out, ") = ");
+        return qdot_print(pool, name->value, QDOT_PLAIN, out);
+    default:
+        qdot_text_format(out, "%s = ", name->name);
+        return qdot_print(pool, name->value, QDOT_PLAIN, out);
+    }
+}
+
+qdot_status
+qdot_ask_vars(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    for (size_t i = 0; qdot_names_at(session->names, i) != NULL && status == QDOT_OK;
+         i++) {
+        qdot_text_add(&text, i > 0 ? "\n" : "");
+        status = print_name(session, qdot_names_at(session->names, i), &text);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(
+            session, "vars", text.n > 0 ? qdot_text_str(&text) : "nothing is declared");
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* The line of the scene that declares a label. */
+static qdot_status
+print_label(qdot_session *session, const char *label, qdot_text *out)
+{
+    qdot_text scene = {0};
+    qdot_status status = qdot_scene_print(session->scene, &scene);
+    size_t n = strlen(label);
+
+    for (const char *line = qdot_text_str(&scene); status == QDOT_OK && *line != '\0';) {
+        const char *end = strchrnul(line, '\n'), *word = strchr(line, ' ');
+
+        if (word != NULL && word < end && strncmp(word + 1, label, n) == 0 &&
+            strchr(" :", word[1 + n]) != NULL) {
+            qdot_text_add_n(out, line, (size_t)(end - line));
+            break;
+        }
+        line = *end == '\0' ? end : end + 1;
+    }
+    qdot_text_clear(&scene);
+    return status;
+}
+
+qdot_status
+qdot_ask_show(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+    const qdot_quantity *quantity;
+    const qdot_builtin *builtin;
+    const qdot_name *known;
+    const char *name;
+
+    QDOT_TRY(qdot_read_name(c, &name));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    known = qdot_names_find(session->names, name);
+    quantity = qdot_quantity_find(name);
+    builtin = qdot_builtin_find(name);
+    if (known != NULL) {
+        status = print_name(session, known, &text);
+        if (status == QDOT_OK && known->file != NULL)
+            qdot_text_format(&text, "    # %s:%u", known->file, known->line);
+    } else if (qdot_scene_has_label(session->scene, name)) {
+        status = print_label(session, name, &text);
+    } else if (quantity != NULL) {
+        qdot_text_format(&text, "%s: %s", quantity->usage, quantity->summary);
+    } else if (builtin != NULL) {
+        qdot_text_format(&text, "%s: %s", builtin->usage, builtin->summary);
+    } else if (qdot_statement_find(name) != NULL) {
+        qdot_text_format(&text, "%s: %s", qdot_statement_find(name)->usage,
+                         qdot_statement_find(name)->summary);
+    } else {
+        const char *near = qdot_names_nearest(session->names, name, 0, NULL);
+
+        (void)qdot_fail(QDOT_ENAME, "`%s` is not declared", name);
+        return near != NULL ? qdot_hint("did you mean `%s`?", near) : QDOT_ENAME;
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* --- the scene ---------------------------------------------------------------------- */
+
+/* Answer with what `print` writes, and let go of it. */
+static qdot_status
+answer_text(qdot_session *session, const char *name, qdot_status status, qdot_text *text)
+{
+    if (status == QDOT_OK)
+        status = qdot_text_status(text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(text));
+    qdot_text_clear(text);
+    return status;
+}
+
+qdot_status
+qdot_ask_scene(qdot_cursor *c)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    status = qdot_scene_print(c->session->scene, &text);
+    if (status == QDOT_OK && text.n == 0)
+        qdot_text_add(&text, "the scene is empty");
+    return answer_text(c->session, "scene", status, &text);
+}
+
+qdot_status
+qdot_ask_forces(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_text text = {0};
+    qdot_expr forces;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    forces = qdot_mech_forces(session->scene);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_vec_push(&session->history, forces));
+    QDOT_TRY(answer_list(session, "forces", forces));
+    return answer_text(session, "forces", qdot_mech_forces_parts(session->scene, &text),
+                       &text);
+}
+
+qdot_status
+qdot_ask_dof(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_expr value;
+    qdot_text text = {0};
+    qdot_dof dof;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    QDOT_TRY(qdot_mech_dof(session->scene, &dof));
+    value = qdot_expr_int(session->pool, (long)dof.freedom);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_vec_push(&session->history, value));
+    QDOT_TRY(qdot_answer_expr(session, "dof", value));
+    qdot_text_format(&text,
+                     "coordinates %zu, constraints %zu, of them independent %zu: "
+                     "n = %zu - %zu = %zu",
+                     dof.coordinates, dof.constraints, dof.independent, dof.coordinates,
+                     dof.independent, dof.freedom);
+    if (dof.cartesian)
+        qdot_text_format(&text, "\nn = N*D - C = %zu*%zu - %zu = %zu", dof.particles,
+                         dof.dimension, dof.independent, dof.freedom);
+    return answer_text(session, "dof", QDOT_OK, &text);
+}
+
+/* `theta: p[theta] = ... is conserved`, or with its rate. */
+static qdot_status
+print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
+{
+    const char *name = qdot_expr_symbol(session->pool, one->coordinate)->name;
+
+    qdot_print_name(name, session->style, text);
+    qdot_text_add(text, session->style == QDOT_PLAIN ? ": p[" : ": p(");
+    qdot_print_name(name, session->style, text);
+    qdot_text_add(text, session->style == QDOT_PLAIN ? "] = " : ") = ");
+    QDOT_TRY(qdot_print(session->pool, one->momentum, session->style, text));
+    if (one->rate == QDOT_NIL) {
+        qdot_text_add(text, " is conserved");
+        return QDOT_OK;
+    }
+    qdot_text_add(text, " changes at the rate ");
+    return qdot_print(session->pool, one->rate, session->style, text);
+}
+
+/* With --json the momenta are values too: `p[theta] = ...` by the name of
+ * cyclic[theta]. */
+static qdot_status
+answer_cyclic(qdot_session *session, const qdot_cyclic *one)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
+    qdot_expr equation = qdot_rel(pool, QDOT_EQ, p, one->momentum);
+    qdot_text name = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    qdot_text_format(&name, "cyclic[%s]", qdot_expr_symbol(pool, one->coordinate)->name);
+    status = qdot_text_status(&name);
+    if (status == QDOT_OK)
+        status = qdot_answer_expr(session, qdot_text_str(&name), equation);
+    qdot_text_clear(&name);
+    return status;
+}
+
+qdot_status
+qdot_ask_cyclic(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_status status;
+    qdot_text text = {0};
+    qdot_cyclic *list;
+    size_t n;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    QDOT_TRY(qdot_mech_cyclic(session->scene, &list, &n));
+    status = QDOT_OK;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i > 0 ? "\n" : "");
+        status = print_cyclic(session, &list[i], &text);
+        if (status == QDOT_OK && session->json)
+            status = answer_cyclic(session, &list[i]);
+    }
+    if (n == 0)
+        qdot_text_add(&text, "no coordinate is cyclic");
+    qdot_free(list);
+    return answer_text(session, "cyclic", status, &text);
+}

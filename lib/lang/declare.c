@@ -1,0 +1,644 @@
+/* declare.c -- names: param, coord, function, assume, and NAME = EXPR.
+ *
+ * Every declaration is read to its end before the first of its names is declared; if one
+ * of them cannot be, those before it are taken back.
+ */
+#include "lang/statement.h"
+
+#include <string.h>
+
+#include "expr/tensor.h"
+#include "expr/walk.h"
+#include "lang/answer.h"
+#include "lang/declare.h"
+
+/* --- lists of names with domains ---------------------------------------------------- */
+
+typedef struct {
+    const char *name;
+    const qdot_token *start;
+    qdot_expr lo, hi; /* nil: none */
+    bool lo_open, hi_open;
+    bool own;        /* the domain was said for this name or spread to it */
+    qdot_expr value; /* nil: none */
+} item;
+
+typedef qdot_vec(item) items;
+
+static bool
+is_relation(const qdot_cursor *c, bool *less, bool *strict)
+{
+    static const struct {
+        const char *op;
+        bool less, strict;
+    } ops[] = {
+        {"<", true, true}, {"<=", true, false}, {">", false, true}, {">=", false, false}};
+
+    for (size_t i = 0; i < sizeof ops / sizeof *ops; i++)
+        if (qdot_cursor_is_op(c, ops[i].op)) {
+            *less = ops[i].less;
+            *strict = ops[i].strict;
+            return true;
+        }
+    return false;
+}
+
+/* One bound: x < b gives hi, x > b gives lo. */
+static qdot_status
+set_bound(qdot_cursor *c, const qdot_token *at, item *x, qdot_expr bound, bool upper,
+          bool strict)
+{
+    if (!qdot_expr_is_scalar(c->session->pool, bound)) {
+        c->error_at = at->start;
+        return qdot_fail(QDOT_ETYPE,
+                         "a bound is a number or an expression of parameters");
+    }
+    if ((upper ? x->hi : x->lo) != QDOT_NIL) {
+        c->error_at = at->start;
+        return qdot_fail(QDOT_EINVAL, "`%s` has two %s bounds", x->name,
+                         upper ? "upper" : "lower");
+    }
+    if (upper) {
+        x->hi = bound;
+        x->hi_open = strict;
+    } else {
+        x->lo = bound;
+        x->lo_open = strict;
+    }
+    x->own = true;
+    return QDOT_OK;
+}
+
+/* Whether `LO <` stands before the name: a number, a sign, a bracket, or a name that
+ * is declared followed by one that is not. */
+static bool
+begins_with_bound(const qdot_cursor *c)
+{
+    qdot_cursor look = *c;
+    const char *name;
+    bool less, strict;
+
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return true;
+    if (strcmp(c->at->text, "pi") == 0)
+        return true;
+    if (qdot_names_find(c->session->names, c->at->text) == NULL)
+        return false;
+    if (qdot_read_name(&look, &name) != QDOT_OK)
+        return false;
+    if (!is_relation(&look, &less, &strict))
+        return !qdot_cursor_is_op(&look, ",") && !qdot_cursor_is_op(&look, "=") &&
+               !qdot_cursor_is_end(&look);
+    look.at++;
+    return look.at->kind == QDOT_TOKEN_NAME && strcmp(look.at->text, "pi") != 0 &&
+           qdot_names_find(c->session->names, look.at->text) == NULL;
+}
+
+/* [LO <] NAME [< B] [> B] [= VALUE] */
+static qdot_status
+read_item(qdot_cursor *c, bool valued, item *x)
+{
+    bool less, strict;
+
+    if (c->at->kind != QDOT_TOKEN_NAME && c->at->kind != QDOT_TOKEN_NUMBER &&
+        !qdot_cursor_is_op(c, "-") && !qdot_cursor_is_op(c, "("))
+        return qdot_cursor_expected(c, "a name");
+    if (begins_with_bound(c)) {
+        const qdot_token *at = c->at;
+        qdot_expr bound;
+
+        QDOT_TRY(qdot_read_side(c, &bound));
+        if (!is_relation(c, &less, &strict))
+            return qdot_cursor_expected(c, "`<` and a name");
+        c->at++;
+        x->name = "";
+        QDOT_TRY(set_bound(c, at, x, bound, !less, strict));
+    }
+    x->start = c->at;
+    QDOT_TRY(qdot_read_name(c, &x->name));
+    while (is_relation(c, &less, &strict)) {
+        const qdot_token *at = ++c->at;
+        qdot_expr bound;
+
+        QDOT_TRY(qdot_read_side(c, &bound));
+        QDOT_TRY(set_bound(c, at, x, bound, less, strict));
+    }
+    if (qdot_cursor_is_op(c, "=")) {
+        if (!valued) {
+            c->error_at = c->at->start;
+            (void)qdot_fail(QDOT_ESYNTAX, "a coordinate is declared without a value");
+            return qdot_hint("start %s = ... gives its initial value", x->name);
+        }
+        c->at++;
+        QDOT_TRY(qdot_read_scalar(c, &x->value));
+    }
+    return QDOT_OK;
+}
+
+/* A sign spreads back over the bare names before it. */
+static void
+spread(items *list)
+{
+    const item *last = &list->at[list->n - 1];
+
+    if (!last->own || (last->lo != QDOT_NIL && last->hi != QDOT_NIL))
+        return;
+    for (size_t i = list->n - 1; i-- > 0;) {
+        item *x = &list->at[i];
+
+        if (x->own || x->value != QDOT_NIL)
+            continue;
+        x->lo = last->lo;
+        x->hi = last->hi;
+        x->lo_open = last->lo_open;
+        x->hi_open = last->hi_open;
+        x->own = true;
+    }
+}
+
+static qdot_status
+read_items(qdot_cursor *c, bool params, items *list)
+{
+    do {
+        item x = {0};
+
+        QDOT_TRY(read_item(c, params, &x));
+        QDOT_TRY(qdot_vec_push(list, x));
+        if (params)
+            spread(list);
+    } while (qdot_cursor_accept_op(c, ","));
+    return qdot_cursor_expect_end(c);
+}
+
+/* --- declaring ---------------------------------------------------------------------- */
+
+/* A user's own name that a value of the language has too: say once how to reach that. */
+static qdot_status
+tell_hidden(qdot_session *session, const char *name)
+{
+    const qdot_quantity *row = qdot_quantity_find(name), *other;
+
+    if (row == NULL || strcmp(name, "p") == 0)
+        return QDOT_OK;
+    for (size_t i = 0; (other = qdot_quantity_at(i)) != NULL; i++)
+        if (other != row && other->get == row->get &&
+            strlen(other->name) > strlen(row->name))
+            return qdot_answer_notice(session,
+                                      "`%s` is now your own; the language's is `%s`",
+                                      name, other->name);
+    return qdot_answer_notice(session, "`%s` is now your own; it hides the language's",
+                              name);
+}
+
+qdot_status
+qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
+{
+    bool again = qdot_names_find(c->session->names, entry->name) != NULL;
+
+    c->error_at = start->start;
+    qdot_statement_place(c, start, entry);
+    QDOT_TRY(qdot_names_declare(c->session->names, entry));
+    return again ? QDOT_OK : tell_hidden(c->session, entry->name);
+}
+
+void
+qdot_declare_value(qdot_session *session, qdot_expr symbol, qdot_expr value,
+                   qdot_status *status)
+{
+    for (size_t i = 0; i < session->set_symbols.n; i++)
+        if (session->set_symbols.at[i] == symbol ||
+            (qdot_expr_kind(session->pool, symbol) == QDOT_UFUN &&
+             qdot_expr_kind(session->pool, session->set_symbols.at[i]) == QDOT_UFUN &&
+             qdot_expr_node(session->pool, symbol)->op ==
+                 qdot_expr_node(session->pool, session->set_symbols.at[i])->op)) {
+            session->set_symbols.at[i] = symbol;
+            session->set_values.at[i] = value;
+            return;
+        }
+    if (*status == QDOT_OK)
+        *status = qdot_vec_push(&session->set_symbols, symbol);
+    if (*status == QDOT_OK) {
+        *status = qdot_vec_push(&session->set_values, value);
+        if (*status != QDOT_OK)
+            session->set_symbols.n--;
+    }
+}
+
+static bool
+same_domain(const qdot_symbol *s, const item *x)
+{
+    return s->lo == x->lo && s->hi == x->hi &&
+           (x->lo == QDOT_NIL || s->lo_open == x->lo_open) &&
+           (x->hi == QDOT_NIL || s->hi_open == x->hi_open);
+}
+
+/* Declare one name; *fresh: it was not there before. */
+static qdot_status
+declare_item(qdot_cursor *c, qdot_name_kind kind, const item *x, bool *fresh)
+{
+    qdot_session *session = c->session;
+    const qdot_name *old = qdot_names_find(session->names, x->name);
+    qdot_class class = kind == QDOT_NAME_PARAM ? QDOT_PARAM : QDOT_COORD;
+    qdot_name entry = {.name = (char *)x->name, .kind = kind};
+
+    *fresh = false;
+    c->error_at = x->start->start;
+    entry.value = qdot_symbol_get(session->pool, class, x->name);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    if (old != NULL && old->kind == QDOT_NAME_PARAM && kind == QDOT_NAME_PARAM) {
+        if (x->own && !same_domain(qdot_expr_symbol(session->pool, old->value), x))
+            return qdot_fail(QDOT_ENAME, "`%s` was declared with another domain at %s:%u",
+                             x->name, old->file, old->line);
+    } else {
+        QDOT_TRY(qdot_declare_name(c, x->start, &entry));
+        *fresh = true;
+        if (x->own)
+            qdot_symbol_domain(session->pool, entry.value, x->lo, x->lo_open, x->hi,
+                               x->hi_open);
+        else
+            qdot_symbol_domain(session->pool, entry.value, QDOT_NIL, false, QDOT_NIL,
+                               false);
+    }
+    if (kind == QDOT_NAME_COORD)
+        return qdot_scene_coordinate(session->scene, entry.value);
+    return QDOT_OK;
+}
+
+static qdot_status
+declare_items(qdot_cursor *c, qdot_name_kind kind, const items *list)
+{
+    qdot_vec(const char *) fresh = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < list->n && status == QDOT_OK; i++) {
+        bool is_fresh;
+
+        status = declare_item(c, kind, &list->at[i], &is_fresh);
+        if (is_fresh && qdot_vec_push(&fresh, list->at[i].name) != QDOT_OK)
+            status = QDOT_ENOMEM;
+    }
+    if (status != QDOT_OK && kind == QDOT_NAME_PARAM)
+        while (fresh.n > 0)
+            qdot_names_remove(c->session->names, fresh.at[--fresh.n]);
+    qdot_free(fresh.at);
+    return status;
+}
+
+/* That every name of a coord statement is free is seen first: a scene keeps its
+ * coordinates. */
+static qdot_status
+check_coordinates(qdot_cursor *c, const items *list)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        const item *x = &list->at[i];
+        const qdot_name *old = qdot_names_find(c->session->names, x->name);
+
+        c->error_at = x->start->start;
+        if (old != NULL)
+            return qdot_fail(QDOT_ENAME, "`%s` was declared before, at %s:%u", x->name,
+                             old->file, old->line);
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(list->at[k].name, x->name) == 0)
+                return qdot_fail(QDOT_ENAME, "`%s` stands here twice", x->name);
+    }
+    return QDOT_OK;
+}
+
+/* A value outside the domain of its parameter is an error at once where it is a
+ * number. */
+qdot_status
+qdot_declare_in_domain(qdot_session *session, qdot_expr symbol, qdot_expr value)
+{
+    const qdot_symbol s = *qdot_expr_symbol(session->pool, symbol);
+    double x, bound;
+
+    if ((s.lo == QDOT_NIL && s.hi == QDOT_NIL) ||
+        qdot_session_number(session, value, &x, NULL) != QDOT_OK)
+        return QDOT_OK; /* no number yet */
+    if (s.lo != QDOT_NIL && qdot_session_number(session, s.lo, &bound, NULL) == QDOT_OK &&
+        (x < bound || (s.lo_open && x == bound)))
+        return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g",
+                         s.name, x, s.name, s.lo_open ? ">" : ">=", bound);
+    if (s.hi != QDOT_NIL && qdot_session_number(session, s.hi, &bound, NULL) == QDOT_OK &&
+        (x > bound || (s.hi_open && x == bound)))
+        return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g",
+                         s.name, x, s.name, s.hi_open ? "<" : "<=", bound);
+    return QDOT_OK;
+}
+
+/* Parameters with their values; a value outside its domain takes all back. */
+static qdot_status
+declare_params(qdot_cursor *c, const items *list)
+{
+    qdot_session *session = c->session;
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < list->n; i++) {
+        const item *x = &list->at[i];
+        const qdot_name *old = qdot_names_find(session->names, x->name);
+        double number, bound;
+
+        c->error_at = x->start->start;
+        if (x->value != QDOT_NIL && old != NULL && old->kind == QDOT_NAME_PARAM)
+            QDOT_TRY(qdot_declare_in_domain(session, old->value, x->value));
+        if (x->value == QDOT_NIL || !x->own ||
+            qdot_session_number(session, x->value, &number, NULL) != QDOT_OK)
+            continue;
+        c->error_at = x->start->start;
+        if ((x->lo != QDOT_NIL &&
+             qdot_session_number(session, x->lo, &bound, NULL) == QDOT_OK &&
+             (number < bound || (x->lo_open && number == bound))) ||
+            (x->hi != QDOT_NIL &&
+             qdot_session_number(session, x->hi, &bound, NULL) == QDOT_OK &&
+             (number > bound || (x->hi_open && number == bound))))
+            return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its own domain",
+                             x->name, number);
+    }
+    QDOT_TRY(declare_items(c, QDOT_NAME_PARAM, list));
+    for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
+        if (list->at[i].value != QDOT_NIL)
+            qdot_declare_value(session,
+                               qdot_names_find(session->names, list->at[i].name)->value,
+                               list->at[i].value, &status);
+    return status;
+}
+
+qdot_status
+qdot_declare_param(qdot_cursor *c)
+{
+    items list = {0};
+    qdot_status status = read_items(c, true, &list);
+
+    if (status == QDOT_OK)
+        status = declare_params(c, &list);
+    qdot_free(list.at);
+    return status;
+}
+
+qdot_status
+qdot_declare_coord(qdot_cursor *c)
+{
+    items list = {0};
+    qdot_status status = read_items(c, false, &list);
+
+    if (status == QDOT_OK)
+        status = check_coordinates(c, &list);
+    if (status == QDOT_OK)
+        status = declare_items(c, QDOT_NAME_COORD, &list);
+    qdot_free(list.at);
+    return status;
+}
+
+/* --- functions ---------------------------------------------------------------------- */
+
+/* (a, b, c): the names, each a token. */
+static qdot_status
+read_arguments(qdot_cursor *c, const qdot_token ***names, size_t *n)
+{
+    qdot_vec(const qdot_token *) list = {0};
+    qdot_status status = qdot_cursor_expect_op(c, "(");
+
+    while (status == QDOT_OK) {
+        if (c->at->kind != QDOT_TOKEN_NAME) {
+            status = qdot_cursor_expected(c, "the name of an argument");
+            break;
+        }
+        for (size_t i = 0; i < list.n && status == QDOT_OK; i++)
+            if (strcmp(list.at[i]->text, c->at->text) == 0) {
+                c->error_at = c->at->start;
+                status = qdot_fail(QDOT_ENAME, "the argument `%s` stands here twice",
+                                   c->at->text);
+            }
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&list, c->at);
+        if (status != QDOT_OK)
+            break;
+        c->at++;
+        if (!qdot_cursor_accept_op(c, ",")) {
+            status = qdot_cursor_expect_op(c, ")");
+            break;
+        }
+    }
+    if (status != QDOT_OK) {
+        qdot_free(list.at);
+        list.at = NULL;
+        list.n = 0;
+    }
+    *names = list.at;
+    *n = list.n;
+    return status;
+}
+
+/* An argument t is the time itself: that name is reserved. */
+static qdot_expr
+formal_symbol(qdot_pool *pool, const qdot_token *name)
+{
+    return strcmp(name->text, "t") == 0 ? QDOT_T
+                                        : qdot_symbol_get(pool, QDOT_FORMAL, name->text);
+}
+
+qdot_status
+qdot_declare_read_formals(qdot_cursor *c, qdot_expr *formals, const qdot_token ***names,
+                          size_t *n)
+{
+    qdot_vec(qdot_expr) symbols = {0};
+    qdot_status status = read_arguments(c, names, n);
+
+    for (size_t i = 0; i < *n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&symbols, formal_symbol(c->session->pool, (*names)[i]));
+    if (status == QDOT_OK) {
+        *formals = qdot_list(c->session->pool, (uint32_t)symbols.n, symbols.at);
+        status = qdot_pool_check(c->session->pool);
+    }
+    qdot_free(symbols.at);
+    return status;
+}
+
+qdot_status
+qdot_declare_read_body(qdot_cursor *c, qdot_expr formals, size_t n,
+                       const qdot_token *const *names, qdot_expr *body)
+{
+    qdot_status status = QDOT_OK;
+    size_t pushed = 0;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_expr formal = qdot_expr_arg(c->session->pool, formals, (uint32_t)i);
+
+        if (formal == QDOT_T)
+            continue;
+        status = qdot_names_push(c->session->names, names[i]->text, formal);
+        pushed += status == QDOT_OK;
+    }
+    if (status == QDOT_OK)
+        status = qdot_read_value(c, body);
+    while (pushed-- > 0)
+        qdot_names_pop(c->session->names);
+    return status;
+}
+
+/* The symbol that an argument in `function x(s, t)` means: a declared one, the time,
+ * else a symbol of its own. */
+static qdot_expr
+argument_symbol(qdot_session *session, const char *name)
+{
+    const qdot_name *known = qdot_names_find(session->names, name);
+
+    if (strcmp(name, "t") == 0)
+        return QDOT_T;
+    if (known != NULL && qdot_expr_kind(session->pool, known->value) == QDOT_SYM)
+        return known->value;
+    return qdot_symbol_get(session->pool, QDOT_FORMAL, name);
+}
+
+static qdot_status
+declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n,
+             const qdot_token *const *names)
+{
+    qdot_pool *pool = c->session->pool;
+    qdot_name entry = {.name = (char *)name, .kind = QDOT_NAME_UFUN};
+    qdot_vec(qdot_expr) formals = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&formals, argument_symbol(c->session, names[i]->text));
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_ufun_declare(pool, name, (uint32_t)n, formals.at, &entry.ufun);
+    if (status == QDOT_OK) {
+        entry.value = qdot_ufun_apply(pool, entry.ufun, formals.at, NULL);
+        entry.formals = qdot_list(pool, (uint32_t)n, formals.at);
+        status = qdot_pool_check(pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_declare_name(c, start, &entry);
+    qdot_free(formals.at);
+    return status;
+}
+
+qdot_status
+qdot_declare_function(qdot_cursor *c)
+{
+    qdot_vec(const char *) done = {0};
+    qdot_status status = QDOT_OK;
+
+    do {
+        const qdot_token *start = c->at, **names = NULL;
+        const char *name;
+        size_t n = 0;
+
+        status = qdot_read_name(c, &name);
+        if (status == QDOT_OK)
+            status = read_arguments(c, &names, &n);
+        if (status == QDOT_OK && !qdot_cursor_is_op(c, ",")) {
+            status = qdot_cursor_expect_end(c);
+            if (status == QDOT_OK)
+                status = declare_ufun(c, start, name, n, names);
+        } else if (status == QDOT_OK) {
+            status = declare_ufun(c, start, name, n, names);
+        }
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&done, name);
+        qdot_free(names);
+    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+    if (status != QDOT_OK)
+        while (done.n > 0)
+            qdot_names_remove(c->session->names, done.at[--done.n]);
+    qdot_free(done.at);
+    return status;
+}
+
+qdot_status
+qdot_declare_assume(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_expr relation;
+
+    QDOT_TRY(qdot_read_value(c, &relation));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    return qdot_scene_assume(c->session->scene, relation);
+}
+
+/* --- NAME = EXPR -------------------------------------------------------------------- */
+
+/* An unknown name on the right that is the one being defined: say so. */
+static qdot_status
+tell_circle(qdot_cursor *c, const qdot_token *start, qdot_status status)
+{
+    if (status == QDOT_ENAME && strlen(start->text) <= c->source->length - c->error_at &&
+        c->error_at > start->start &&
+        qdot_names_find(c->session->names, start->text) == NULL) {
+        for (const qdot_token *k = start + 1; k->kind != QDOT_TOKEN_END; k++)
+            if (k->start == c->error_at && k->kind == QDOT_TOKEN_NAME &&
+                strcmp(k->text, start->text) == 0)
+                return qdot_hint(
+                    "`%s` is just being defined: it has no meaning before that",
+                    start->text);
+    }
+    return status;
+}
+
+static qdot_status
+define_function(qdot_cursor *c)
+{
+    const qdot_token *start = c->at, **names = NULL;
+    qdot_name entry = {.name = (char *)start->text, .kind = QDOT_NAME_FUNCTION};
+    qdot_status status;
+    size_t n = 0;
+
+    c->at++;
+    status = qdot_declare_read_formals(c, &entry.formals, &names, &n);
+    if (status == QDOT_OK)
+        status = qdot_cursor_expect_op(c, "=");
+    if (status == QDOT_OK)
+        status = tell_circle(
+            c, start, qdot_declare_read_body(c, entry.formals, n, names, &entry.value));
+    if (status == QDOT_OK)
+        status = qdot_cursor_expect_end(c);
+    if (status == QDOT_OK) {
+        const qdot_name *old = qdot_names_find(c->session->names, start->text);
+
+        c->error_at = start->start;
+        if (old != NULL && old->kind == QDOT_NAME_UFUN) {
+            (void)qdot_fail(QDOT_ENAME,
+                            "`%s` was declared as an undefined function at %s:%u",
+                            start->text, old->file, old->line);
+            status =
+                qdot_hint("set %s(...) = ... gives it a value for numbers", start->text);
+        } else {
+            status = qdot_declare_name(c, start, &entry);
+        }
+    }
+    qdot_free(names);
+    return status;
+}
+
+qdot_status
+qdot_declare_definition(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_name entry = {.kind = QDOT_NAME_VALUE};
+    const char *name;
+    const qdot_name *old;
+
+    if (start[1].kind == QDOT_TOKEN_OPERATOR && strcmp(start[1].text, "(") == 0)
+        return define_function(c);
+    QDOT_TRY(qdot_read_name(c, &name));
+    entry.name = (char *)name;
+    QDOT_TRY(qdot_cursor_expect_op(c, "="));
+    QDOT_TRY(tell_circle(c, start, qdot_read_value(c, &entry.value)));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    old = qdot_names_find(c->session->names, name);
+    c->error_at = start->start;
+    if (old != NULL && (old->kind == QDOT_NAME_PARAM || old->kind == QDOT_NAME_COORD)) {
+        bool param = old->kind == QDOT_NAME_PARAM;
+
+        (void)qdot_fail(QDOT_ENAME, "`%s` was declared as a %s at %s:%u", name,
+                        param ? "parameter" : "coordinate", old->file, old->line);
+        return qdot_hint(param ? "set %s = ... gives it a value"
+                               : "start %s = ... gives its initial value",
+                         name);
+    }
+    return qdot_declare_name(c, start, &entry);
+}

@@ -1,0 +1,391 @@
+/* draw.c -- table, plot, save: what is seen of a run. */
+#include "lang/statement.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lang/answer.h"
+#include "lang/draw.h"
+#include "show/show.h"
+
+/* --- operands: expressions, each along a run ---------------------------------------- */
+
+static void
+free_operand(qdot_draw_operand *o)
+{
+    qdot_free(o->label);
+    qdot_free(o->columns.at);
+}
+
+void
+qdot_draw_free(qdot_draw_operands *list)
+{
+    for (size_t i = 0; i < list->n; i++)
+        free_operand(&list->at[i]);
+    qdot_free(list->at);
+}
+
+/* [RUN .] EXPR */
+static qdot_status
+read_operand(qdot_cursor *c, qdot_draw_operand *o)
+{
+    const qdot_token *start = c->at;
+    qdot_named_run *named = NULL;
+    qdot_text label = {0};
+    qdot_status status;
+    qdot_expr e;
+
+    if (c->at->kind == QDOT_TOKEN_NAME && c->at[1].kind == QDOT_TOKEN_OPERATOR &&
+        strcmp(c->at[1].text, ".") == 0) {
+        c->error_at = start->start;
+        QDOT_TRY(qdot_number_find_run(c->session, c->at->text, &named));
+        c->at += 2;
+    }
+    QDOT_TRY(qdot_read_side(c, &e));
+    c->error_at = start->start;
+    o->run = named != NULL ? named->run : NULL;
+    o->vector = qdot_expr_kind(c->session->pool, e) == QDOT_VEC;
+    QDOT_TRY(qdot_number_flatten(c->session, e, &o->columns));
+    qdot_statement_text(start, c->at, &label);
+    status = qdot_text_status(&label);
+    if (status == QDOT_OK)
+        o->label = label.at;
+    else
+        qdot_text_clear(&label);
+    return status;
+}
+
+qdot_status
+qdot_draw_read(qdot_cursor *c, qdot_draw_operands *list)
+{
+    do {
+        qdot_draw_operand o = {0};
+        qdot_status status = read_operand(c, &o);
+
+        if (status == QDOT_OK)
+            status = qdot_vec_push(list, o);
+        if (status != QDOT_OK) {
+            free_operand(&o);
+            return status;
+        }
+    } while (qdot_cursor_accept_op(c, ","));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_draw_runs(qdot_session *session, qdot_draw_operands *list)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        qdot_named_run *latest;
+
+        if (list->at[i].run != NULL)
+            continue;
+        QDOT_TRY(qdot_number_find_run(session, NULL, &latest));
+        list->at[i].run = latest->run;
+    }
+    return QDOT_OK;
+}
+
+/* --- columns of numbers ------------------------------------------------------------- */
+
+typedef struct {
+    size_t rows, n;
+    double *values; /* column by column */
+    char **labels;
+    qdot_column *columns; /* [n] into the two */
+} grid;
+
+static void
+free_grid(grid *g)
+{
+    for (size_t i = 0; g->labels != NULL && i < g->n; i++)
+        qdot_free(g->labels[i]);
+    qdot_free(g->labels);
+    qdot_free(g->values);
+    qdot_free(g->columns);
+}
+
+static qdot_status
+new_grid(grid *g, size_t n, size_t rows)
+{
+    g->n = n;
+    g->rows = rows;
+    g->values = qdot_calloc(n * rows, sizeof *g->values);
+    g->labels = qdot_calloc(n, sizeof *g->labels);
+    g->columns = qdot_calloc(n, sizeof *g->columns);
+    if (g->values == NULL || g->labels == NULL || g->columns == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        g->columns[i].at = g->values + i * rows;
+    return QDOT_OK;
+}
+
+/* Column i: its label, "R" or "R[2]" for a component of several. */
+static qdot_status
+label_column(grid *g, size_t i, const char *label, size_t component, size_t components)
+{
+    qdot_text text = {0};
+
+    qdot_text_add(&text, label);
+    if (components > 1)
+        qdot_text_format(&text, "[%zu]", component + 1);
+    if (qdot_text_status(&text) != QDOT_OK) {
+        qdot_text_clear(&text);
+        return QDOT_ENOMEM;
+    }
+    g->labels[i] = text.at;
+    g->columns[i].label = text.at;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_draw_values(const qdot_draw_operand *o, size_t rows, const double *times,
+                 double *values)
+{
+    size_t m = o->columns.n;
+    double *by_row = qdot_calloc(rows * m, sizeof *by_row);
+    qdot_status status;
+
+    if (by_row == NULL)
+        return QDOT_ENOMEM;
+    status = qdot_run_values(o->run, m, o->columns.at, rows, times, by_row, NULL);
+    for (size_t k = 0; k < rows && status == QDOT_OK; k++)
+        for (size_t i = 0; i < m; i++)
+            values[i * rows + k] = by_row[k * m + i];
+    qdot_free(by_row);
+    return status;
+}
+
+/* t and every column of the operands at these times. */
+static qdot_status
+fill_grid(grid *g, const qdot_draw_operands *list, size_t rows, const double *times)
+{
+    size_t n = 1, next = 1;
+
+    for (size_t i = 0; i < list->n; i++)
+        n += list->at[i].columns.n;
+    QDOT_TRY(new_grid(g, n, rows));
+    memcpy(g->values, times, rows * sizeof *times);
+    QDOT_TRY(label_column(g, 0, "t", 0, 1));
+    for (size_t i = 0; i < list->n; i++) {
+        const qdot_draw_operand *o = &list->at[i];
+
+        QDOT_TRY(qdot_draw_values(o, rows, times, g->values + next * rows));
+        for (size_t k = 0; k < o->columns.n; k++)
+            QDOT_TRY(label_column(g, next + k, o->label, k, o->columns.n));
+        next += o->columns.n;
+    }
+    return QDOT_OK;
+}
+
+static const char *
+ending(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+
+    return dot == NULL || strchr(dot, '/') != NULL ? "" : dot;
+}
+
+static qdot_status
+write_text(const char *path, const grid *g)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_table_text(g->n, g->columns, g->rows, 12, &text);
+    FILE *file = NULL;
+
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK) {
+        file = fopen(path, "w");
+        if (file == NULL || fwrite(qdot_text_str(&text), 1, text.n, file) != text.n)
+            status = qdot_fail(QDOT_EIO, "`%s` cannot be written", path);
+    }
+    if (file != NULL && fclose(file) != 0 && status == QDOT_OK)
+        status = qdot_fail(QDOT_EIO, "`%s` cannot be written", path);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* To a file by its ending; path NULL: as an answer. */
+static qdot_status
+write_grid(qdot_session *session, const grid *g, const char *path)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    if (path != NULL && strcmp(ending(path), ".csv") == 0) {
+        QDOT_TRY(qdot_table_csv(g->n, g->columns, g->rows, path));
+        return qdot_answer_file(session, path);
+    }
+    if (path != NULL && strcmp(ending(path), ".txt") == 0) {
+        QDOT_TRY(write_text(path, g));
+        return qdot_answer_file(session, path);
+    }
+    if (path != NULL) {
+        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: a table in a file `%s`",
+                        ending(path));
+        return qdot_hint("`.csv` and `.txt` are built");
+    }
+    if (!session->json) {
+        status = qdot_table_text(g->n, g->columns, g->rows, 10, &text);
+        if (status == QDOT_OK)
+            status = qdot_text_status(&text);
+        if (status == QDOT_OK)
+            status = qdot_answer_text(session, "table", qdot_text_str(&text));
+        qdot_text_clear(&text);
+        return status;
+    }
+    for (size_t k = 0; k < g->rows && status == QDOT_OK; k++) {
+        double *row = qdot_calloc(g->n, sizeof *row);
+
+        if (row == NULL)
+            return QDOT_ENOMEM;
+        for (size_t i = 0; i < g->n; i++)
+            row[i] = g->values[i * g->rows + k];
+        status = qdot_answer_row(session, g->n, row);
+        qdot_free(row);
+    }
+    return status;
+}
+
+qdot_status
+qdot_draw_read_file(qdot_cursor *c, const char **path)
+{
+    if (*path != NULL)
+        return qdot_statement_once(c, "to", true);
+    if (c->at->kind != QDOT_TOKEN_STRING)
+        return qdot_cursor_expected(c, "the name of a file in quotes");
+    return qdot_read_string(c, path);
+}
+
+/* --- table -------------------------------------------------------------------------- */
+
+/* t0, t0 + step, ... up to t1, whichever way the run went. */
+static qdot_status
+ladder(const qdot_run *run, double step, double **times, size_t *n)
+{
+    const qdot_run_report *report = qdot_run_get_report(run);
+    double span = report->t1 - report->t0, count;
+
+    if (!(step > 0))
+        return qdot_fail(QDOT_EINVAL, "a table needs a step above 0");
+    count = floor(fabs(span) / step * (1 + 1e-12)) + 1;
+    if (count > 1e7)
+        return qdot_fail(QDOT_ELIMIT, "a table of %.3g rows is too long", count);
+    *n = (size_t)count;
+    *times = qdot_calloc(*n, sizeof **times);
+    if (*times == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < *n; k++) {
+        double t = report->t0 + copysign((double)k * step, span);
+
+        (*times)[k] = span >= 0 ? fmin(t, report->t1) : fmax(t, report->t1);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+read_table(qdot_cursor *c, qdot_draw_operands *list, double *step, const char **path)
+{
+    bool every = false;
+
+    QDOT_TRY(qdot_draw_read(c, list));
+    while (!qdot_cursor_is_end(c)) {
+        if (qdot_cursor_accept_word(c, "every")) {
+            QDOT_TRY(qdot_statement_once(c, "every", every));
+            every = true;
+            QDOT_TRY(qdot_read_number(c, step));
+        } else if (qdot_cursor_accept_word(c, "to")) {
+            QDOT_TRY(qdot_draw_read_file(c, path));
+        } else {
+            return qdot_cursor_expected(c, "`every` or `to`");
+        }
+    }
+    return every ? QDOT_OK : qdot_cursor_expected(c, "`every` and a step");
+}
+
+qdot_status
+qdot_draw_table(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_draw_operands list = {0};
+    const char *path = NULL;
+    double step = 0, *times = NULL;
+    size_t rows = 0;
+    grid g = {0};
+    qdot_status status = read_table(c, &list, &step, &path);
+
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = qdot_draw_runs(c->session, &list);
+    }
+    if (status == QDOT_OK)
+        status = ladder(list.at[0].run, step, &times, &rows);
+    if (status == QDOT_OK)
+        status = fill_grid(&g, &list, rows, times);
+    if (status == QDOT_OK)
+        status = write_grid(c->session, &g, path);
+    free_grid(&g);
+    qdot_free(times);
+    qdot_draw_free(&list);
+    return status;
+}
+
+/* --- save --------------------------------------------------------------------------- */
+
+/* Every coordinate and velocity of the run as operands. */
+static qdot_status
+whole_state(qdot_session *session, qdot_run *run, qdot_draw_operands *list)
+{
+    const qdot_run_report *report = qdot_run_get_report(run);
+
+    for (unsigned order = 0; order < 2; order++)
+        for (size_t i = 0; i < report->n; i++) {
+            qdot_expr jet = qdot_symbol_jet(session->pool, report->coordinates[i], order);
+            qdot_draw_operand o = {.run = run};
+            qdot_status status = qdot_pool_check(session->pool);
+
+            if (status == QDOT_OK)
+                status = qdot_vec_push(&o.columns, jet);
+            if (status == QDOT_OK) {
+                o.label = qdot_strdup(qdot_expr_symbol(session->pool, jet)->name);
+                status = o.label == NULL ? QDOT_ENOMEM : qdot_vec_push(list, o);
+            }
+            if (status != QDOT_OK) {
+                free_operand(&o);
+                return status;
+            }
+        }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_draw_save(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    const char *name = NULL, *path = NULL;
+    qdot_draw_operands list = {0};
+    qdot_named_run *named;
+    const double *times;
+    qdot_status status;
+    grid g = {0};
+    size_t rows;
+
+    if (!qdot_cursor_is_word(c, "to"))
+        QDOT_TRY(qdot_read_name(c, &name));
+    if (!qdot_cursor_accept_word(c, "to"))
+        return qdot_cursor_expected(c, "`to` and the name of a file");
+    QDOT_TRY(qdot_draw_read_file(c, &path));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_number_find_run(c->session, name, &named));
+    times = qdot_run_times(named->run, &rows);
+    status = whole_state(c->session, named->run, &list);
+    if (status == QDOT_OK)
+        status = fill_grid(&g, &list, rows, times);
+    if (status == QDOT_OK)
+        status = write_grid(c->session, &g, path);
+    free_grid(&g);
+    qdot_draw_free(&list);
+    return status;
+}

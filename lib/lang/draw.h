@@ -1,0 +1,28 @@
+/* draw.h -- expressions along runs, for tables (draw.c) and curves (plot.c). */
+#ifndef QDOT_LANG_DRAW_H
+#define QDOT_LANG_DRAW_H
+
+#include "lang/number.h"
+
+typedef struct {
+    char *label;                 /* the source text; owned */
+    qdot_run *run;               /* NULL: the latest */
+    bool vector;                 /* a path */
+    qdot_number_columns columns; /* its components */
+} qdot_draw_operand;
+
+typedef qdot_vec(qdot_draw_operand) qdot_draw_operands;
+
+void qdot_draw_free(qdot_draw_operands *list);
+/* `E1, a.E2, ...` */
+QDOT_MUST_CHECK qdot_status qdot_draw_read(qdot_cursor *c, qdot_draw_operands *list);
+/* The latest run for those that name none; QDOT_EINVAL where there is none. */
+QDOT_MUST_CHECK qdot_status qdot_draw_runs(qdot_session *session,
+                                           qdot_draw_operands *list);
+/* Along its run at times [rows]: values [components * rows], component by component. */
+QDOT_MUST_CHECK qdot_status qdot_draw_values(const qdot_draw_operand *o, size_t rows,
+                                             const double *times, double *values);
+/* The quoted name behind `to`. */
+QDOT_MUST_CHECK qdot_status qdot_draw_read_file(qdot_cursor *c, const char **path);
+
+#endif

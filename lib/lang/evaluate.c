@@ -1,0 +1,526 @@
+/* evaluate.c -- postfix code to a value: a loop over the code, with its own stacks. */
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "expr/tensor.h"
+#include "expr/walk.h"
+#include "lang/code.h"
+
+/* A value on the stack. */
+typedef struct {
+    qdot_expr value;
+    qdot_expr over;         /* coordinates its entries go by, or nil */
+    const char *run;        /* meant along this run, or NULL */
+    const qdot_token *sign; /* the + - * / before it, or NULL for the first */
+} slot;
+
+/* A sum(...) under way. */
+typedef struct {
+    const char *index;
+    long k, last;
+    uint32_t resume; /* code after it */
+    size_t terms;    /* where its terms begin */
+    bool bound;      /* the index is bound just now */
+} frame;
+
+typedef struct {
+    qdot_cursor *c;
+    qdot_session *session;
+    qdot_pool *pool;
+    const qdot_program *program;
+    qdot_vec(slot) stack;
+    qdot_vec(frame) frames;
+    qdot_vec(qdot_expr) terms; /* of all sums under way */
+    qdot_vec(qdot_expr) args;  /* scratch */
+    const qdot_token *blame;   /* where the caret goes if this fails */
+} machine;
+
+/* --- the stack ---------------------------------------------------------------------- */
+
+static qdot_status
+push(machine *m, qdot_expr value)
+{
+    slot s = {.value = value};
+
+    QDOT_TRY(qdot_resolve_check(m->pool, value));
+    return qdot_vec_push(&m->stack, s);
+}
+
+static slot *
+from_top(machine *m, size_t n)
+{
+    return &m->stack.at[m->stack.n - n];
+}
+
+static qdot_status
+along_runs(void)
+{
+    qdot_fail(QDOT_ENOTBUILT, "not built yet: comparing runs");
+    return qdot_hint("the value along a run is value(a.theta, 20)");
+}
+
+/* The top n values, popped into m->args. None may be meant along a run. */
+static qdot_status
+take(machine *m, size_t n)
+{
+    QDOT_TRY(qdot_grow(&m->args.at, &m->args.capacity, n, sizeof *m->args.at));
+    for (size_t i = 0; i < n; i++) {
+        if (from_top(m, n - i)->run != NULL)
+            return along_runs();
+        m->args.at[i] = from_top(m, n - i)->value;
+    }
+    m->args.n = n;
+    m->stack.n -= n;
+    return QDOT_OK;
+}
+
+static bool
+all_scalars(const machine *m)
+{
+    for (size_t i = 0; i < m->args.n; i++)
+        if (!qdot_expr_is_scalar(m->pool, m->args.at[i]))
+            return false;
+    return true;
+}
+
+/* --- sums and products -------------------------------------------------------------- */
+
+/* The operand after `sign`: b of a - b is negated, b of a/b is left for the product. */
+static qdot_status
+term(machine *m, const qdot_token *sign)
+{
+    slot *s = from_top(m, 1);
+
+    s->sign = sign;
+    if (sign->text[0] == '-') {
+        s->value = qdot_value_neg(m->pool, s->value);
+        return qdot_resolve_check(m->pool, s->value);
+    }
+    if (sign->text[0] == '/' && s->value == QDOT_ZERO)
+        return qdot_fail(QDOT_EDOMAIN, "division by zero");
+    return QDOT_OK;
+}
+
+/* Sums of scalars at once; of other kinds one by one: the caret finds the sign. */
+static qdot_status
+sum(machine *m, size_t n)
+{
+    const slot *s = from_top(m, n);
+    qdot_expr value = s[0].value;
+
+    QDOT_TRY(take(m, n)); /* the slots above the stack stay readable */
+    if (all_scalars(m))
+        return push(m, qdot_sum(m->pool, n, m->args.at));
+    for (size_t i = 1; i < n; i++) {
+        m->blame = s[i].sign;
+        value = qdot_value_add(m->pool, value, m->args.at[i]);
+        QDOT_TRY(qdot_resolve_check(m->pool, value));
+    }
+    return push(m, value);
+}
+
+static qdot_status
+product(machine *m, size_t n)
+{
+    enum { LONG = 16 }; /* from here on at once */
+    const slot *s = from_top(m, n);
+    qdot_expr value = s[0].value;
+    bool at_once;
+
+    QDOT_TRY(take(m, n));
+    at_once = n > LONG && all_scalars(m);
+    for (size_t i = 1; i < n; i++) {
+        bool divide = s[i].sign->text[0] == '/';
+
+        m->blame = s[i].sign;
+        if (at_once && !divide)
+            continue;
+        if (at_once)
+            m->args.at[i] = qdot_div(m->pool, QDOT_ONE, m->args.at[i]);
+        else
+            value =
+                (divide ? qdot_value_div : qdot_value_mul)(m->pool, value, m->args.at[i]);
+        QDOT_TRY(qdot_resolve_check(m->pool, at_once ? m->args.at[i] : value));
+    }
+    return push(m, at_once ? qdot_product(m->pool, n, m->args.at) : value);
+}
+
+/* --- relations and logic ------------------------------------------------------------ */
+
+static qdot_status
+relation(machine *m, const qdot_token *op, qdot_expr a, qdot_expr b, qdot_expr *value)
+{
+    bool strict = op->text[1] == '\0';
+
+    if (op->text[0] == '=') {
+        *value = qdot_value_equation(m->pool, a, b);
+        return qdot_resolve_check(m->pool, *value);
+    }
+    if (!qdot_expr_is_scalar(m->pool, a) || !qdot_expr_is_scalar(m->pool, b)) {
+        qdot_expr odd = qdot_expr_is_scalar(m->pool, a) ? b : a;
+
+        return qdot_fail(QDOT_ETYPE, "`%s` compares numbers, not %s", op->text,
+                         qdot_resolve_kind(m->pool, odd));
+    }
+    *value = op->text[0] == '<' ? qdot_rel(m->pool, strict ? QDOT_LT : QDOT_LE, a, b)
+                                : qdot_rel(m->pool, strict ? QDOT_LT : QDOT_LE, b, a);
+    return qdot_resolve_check(m->pool, *value);
+}
+
+static bool
+is_condition(const machine *m, qdot_expr e)
+{
+    qdot_kind kind = qdot_expr_kind(m->pool, e);
+
+    return e == QDOT_TRUE || e == QDOT_FALSE || kind == QDOT_REL || kind == QDOT_LOGIC;
+}
+
+static qdot_status
+logic(machine *m, qdot_logic_op op, size_t n)
+{
+    static const char *const names[] = {"and", "or", "not"};
+
+    QDOT_TRY(take(m, n));
+    for (size_t i = 0; i < n; i++)
+        if (!is_condition(m, m->args.at[i]))
+            return qdot_fail(QDOT_ETYPE, "`%s` joins conditions, not %s", names[op],
+                             qdot_resolve_kind(m->pool, m->args.at[i]));
+    return push(m, qdot_logic(m->pool, op, (uint32_t)n, m->args.at));
+}
+
+/* An equation between numbers stays one; as a condition it is true or false. */
+static qdot_expr
+decide(qdot_pool *pool, qdot_expr node, void *user)
+{
+    (void)user;
+    if (qdot_expr_kind(pool, node) == QDOT_REL &&
+        qdot_expr_node(pool, node)->op == QDOT_EQ) {
+        qdot_expr a = qdot_expr_arg(pool, node, 0), b = qdot_expr_arg(pool, node, 1);
+
+        if (a == b)
+            return QDOT_TRUE;
+        if (qdot_expr_kind(pool, a) == QDOT_NUM && qdot_expr_kind(pool, b) == QDOT_NUM)
+            return QDOT_FALSE;
+    }
+    return QDOT_NIL;
+}
+
+/* --- sum(EXPR, k, a, b) and if(C, A, B) --------------------------------------------- */
+
+/* Bind the next k, or end the sum. */
+static qdot_status
+sum_round(machine *m, uint32_t *pc, uint32_t body)
+{
+    frame *f = &m->frames.at[m->frames.n - 1];
+    qdot_expr value;
+
+    QDOT_TRY(qdot_interrupt_check());
+    if (f->k <= f->last) {
+        value = qdot_expr_int(m->pool, f->k++);
+        QDOT_TRY(qdot_resolve_check(m->pool, value));
+        QDOT_TRY(qdot_names_push(m->session->names, f->index, value));
+        f->bound = true;
+        *pc = body;
+        return QDOT_OK;
+    }
+    m->args.n = 0;
+    QDOT_TRY(qdot_grow(&m->args.at, &m->args.capacity, m->terms.n - f->terms + 1,
+                       sizeof *m->args.at));
+    for (size_t i = f->terms; i < m->terms.n; i++)
+        m->args.at[m->args.n++] = m->terms.at[i];
+    m->terms.n = f->terms;
+    *pc = f->resume;
+    m->frames.n--;
+    if (all_scalars(m))
+        return push(m, qdot_sum(m->pool, m->args.n, m->args.at));
+    value = m->args.at[0];
+    for (size_t i = 1; i < m->args.n; i++) {
+        value = qdot_value_add(m->pool, value, m->args.at[i]);
+        QDOT_TRY(qdot_resolve_check(m->pool, value));
+    }
+    return push(m, value);
+}
+
+static qdot_status
+sum_begin(machine *m, const qdot_code *code, uint32_t *pc)
+{
+    frame f = {.index = m->c->source->tokens.at[code->n].text,
+               .resume = *pc,
+               .terms = m->terms.n};
+
+    QDOT_TRY(take(m, 2));
+    QDOT_TRY(qdot_session_integer(m->session, m->args.at[0], &f.k));
+    QDOT_TRY(qdot_session_integer(m->session, m->args.at[1], &f.last));
+    QDOT_TRY(qdot_vec_push(&m->frames, f));
+    return sum_round(m, pc, code->to);
+}
+
+/* The body's value is there. The SUM_BEGIN that began it stands before frame.resume. */
+static qdot_status
+sum_next(machine *m, uint32_t *pc)
+{
+    frame *f = &m->frames.at[m->frames.n - 1];
+    uint32_t body = m->program->list.at[f->resume - 1].to;
+
+    QDOT_TRY(take(m, 1));
+    QDOT_TRY(qdot_vec_push(&m->terms, m->args.at[0]));
+    qdot_names_pop(m->session->names);
+    f->bound = false;
+    return sum_round(m, pc, body);
+}
+
+static qdot_status
+if_test(machine *m, const qdot_code *code, uint32_t *pc)
+{
+    slot *s = from_top(m, 1);
+    slot none = {0};
+
+    if (s->run != NULL)
+        return along_runs();
+    if (!is_condition(m, s->value))
+        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) asks a condition, not %s",
+                         qdot_resolve_kind(m->pool, s->value));
+    s->value = qdot_walk_map(m->pool, s->value, decide, NULL);
+    QDOT_TRY(qdot_resolve_check(m->pool, s->value));
+    if (s->value != QDOT_FALSE)
+        return QDOT_OK;
+    *pc = code->to;
+    return qdot_vec_push(&m->stack, none);
+}
+
+static void
+if_else(machine *m, const qdot_code *code, uint32_t *pc)
+{
+    if (from_top(m, 2)->value != QDOT_TRUE)
+        return;
+    *from_top(m, 2) = *from_top(m, 1);
+    m->stack.n--;
+    *pc = code->to;
+}
+
+/* Both branches, the condition open; vectors of one size component by component. */
+static qdot_status
+if_end(machine *m)
+{
+    qdot_expr c, a, b;
+    uint32_t n;
+
+    if (from_top(m, 3)->value == QDOT_FALSE) {
+        *from_top(m, 3) = *from_top(m, 1);
+        m->stack.n -= 2;
+        return QDOT_OK;
+    }
+    QDOT_TRY(take(m, 3));
+    c = m->args.at[0], a = m->args.at[1], b = m->args.at[2];
+    if (qdot_expr_is_scalar(m->pool, a) && qdot_expr_is_scalar(m->pool, b))
+        return push(m, qdot_fun(m->pool, QDOT_IF, 3, m->args.at));
+    n = qdot_expr_count(m->pool, a);
+    if (qdot_expr_kind(m->pool, a) != QDOT_VEC ||
+        qdot_expr_kind(m->pool, b) != QDOT_VEC || qdot_expr_count(m->pool, b) != n)
+        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) asks A and B of one kind");
+    QDOT_TRY(qdot_grow(&m->args.at, &m->args.capacity, n, sizeof *m->args.at));
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr parts[3] = {c, qdot_expr_arg(m->pool, a, i),
+                              qdot_expr_arg(m->pool, b, i)};
+
+        m->args.at[i] = qdot_fun(m->pool, QDOT_IF, 3, parts);
+    }
+    return push(m, qdot_vector(m->pool, n, m->args.at));
+}
+
+/* --- names, calls, entries ---------------------------------------------------------- */
+
+static qdot_status
+call(machine *m, const qdot_code *code)
+{
+    size_t n = code->n + code->to;
+    const char *run = NULL;
+    qdot_expr value, over = QDOT_NIL;
+
+    for (size_t i = 1; i <= n; i++) { /* one run for all columns of value(...) */
+        const char *one = from_top(m, i)->run;
+
+        if (one != NULL && run != NULL && strcmp(one, run) != 0)
+            return along_runs();
+        if (one != NULL)
+            run = one;
+        from_top(m, i)->run = NULL;
+    }
+    QDOT_TRY(take(m, n));
+    QDOT_TRY(qdot_resolve_call(m->c, code->token, code->primes, code->to, code->n,
+                               m->args.at, run, &value, &over));
+    QDOT_TRY(push(m, value));
+    from_top(m, 1)->over = over;
+    return QDOT_OK;
+}
+
+static qdot_status
+entry(machine *m, const qdot_code *code)
+{
+    qdot_expr over = from_top(m, code->n + 1)->over, value;
+
+    QDOT_TRY(take(m, code->n + 1));
+    QDOT_TRY(qdot_resolve_entry(m->session, m->args.at[0], over, code->n, m->args.at + 1,
+                                &value));
+    return push(m, value);
+}
+
+static qdot_status
+name(machine *m, const qdot_code *code)
+{
+    qdot_expr value;
+
+    if (code->op == QDOT_CODE_NAME) {
+        QDOT_TRY(qdot_resolve_name(m->c, code->token, code->primes, &value));
+        return push(m, value);
+    }
+    QDOT_TRY(take(m, code->n));
+    QDOT_TRY(
+        qdot_resolve_index(m->c, code->token, code->primes, code->n, m->args.at, &value));
+    return push(m, value);
+}
+
+/* A label travels as a symbol of its spelling; a loop's index stands for its value. */
+static qdot_status
+label(machine *m, const qdot_code *code)
+{
+    const qdot_name *bound = qdot_names_find(m->session->names, code->token->text);
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (code->n == 0 && bound != NULL && bound->kind == QDOT_NAME_INDEX &&
+        !qdot_scene_has_label(m->session->scene, code->token->text))
+        return push(m, bound->value);
+    QDOT_TRY(take(m, code->n));
+    status =
+        qdot_resolve_member(m->session, code->token->text, code->n, m->args.at, &text);
+    if (status == QDOT_OK)
+        status = push(m, qdot_symbol_get(m->pool, QDOT_FORMAL, qdot_text_str(&text)));
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+history(machine *m, uint32_t n)
+{
+    size_t count = m->session->history.n;
+
+    if (count == 0)
+        return qdot_fail(QDOT_EINVAL, "there is no value yet for `%%`");
+    if (n > count)
+        return qdot_fail(QDOT_EINVAL, "there are only %zu values so far", count);
+    return push(m, m->session->history.at[n == 0 ? count - 1 : n - 1]);
+}
+
+static qdot_status
+member(machine *m, const char *run)
+{
+    for (size_t i = 0; i < m->session->runs.n; i++)
+        if (strcmp(m->session->runs.at[i].name, run) == 0) {
+            if (from_top(m, 1)->run != NULL)
+                return along_runs();
+            from_top(m, 1)->run = run;
+            return QDOT_OK;
+        }
+    qdot_fail(QDOT_ENAME, "there is no run `%s`", run);
+    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
+}
+
+/* --- the loop ----------------------------------------------------------------------- */
+
+static qdot_status
+step(machine *m, const qdot_code *code, uint32_t *pc)
+{
+    qdot_expr value;
+
+    switch ((qdot_code_op)code->op) {
+    case QDOT_CODE_NUMBER:
+        return push(
+            m, qdot_expr_decimal(m->pool, code->token->text, strlen(code->token->text)));
+    case QDOT_CODE_NAME:
+    case QDOT_CODE_INDEX_NAME: return name(m, code);
+    case QDOT_CODE_LABEL: return label(m, code);
+    case QDOT_CODE_HISTORY: return history(m, code->n);
+    case QDOT_CODE_INDEX: return entry(m, code);
+    case QDOT_CODE_CALL: return call(m, code);
+    case QDOT_CODE_TERM: return term(m, code->token);
+    case QDOT_CODE_SUM: return sum(m, code->n);
+    case QDOT_CODE_PRODUCT: return product(m, code->n);
+    case QDOT_CODE_NEGATE:
+        QDOT_TRY(take(m, 1));
+        return push(m, qdot_value_neg(m->pool, m->args.at[0]));
+    case QDOT_CODE_POWER:
+        QDOT_TRY(take(m, 2));
+        return push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1]));
+    case QDOT_CODE_RELATION:
+        QDOT_TRY(take(m, 2));
+        QDOT_TRY(relation(m, code->token, m->args.at[0], m->args.at[1], &value));
+        return push(m, value);
+    case QDOT_CODE_CHAIN:
+        QDOT_TRY(take(m, 2));
+        QDOT_TRY(relation(m, code->token, m->args.at[0], m->args.at[1], &value));
+        QDOT_TRY(push(m, value));
+        return push(m, m->args.at[1]);
+    case QDOT_CODE_AND: return logic(m, QDOT_AND, code->n);
+    case QDOT_CODE_OR: return logic(m, QDOT_OR, code->n);
+    case QDOT_CODE_NOT: return logic(m, QDOT_NOT, 1);
+    case QDOT_CODE_VECTOR:
+        QDOT_TRY(take(m, code->n));
+        return push(m, qdot_vector(m->pool, code->n, m->args.at));
+    case QDOT_CODE_LIST:
+        QDOT_TRY(take(m, code->n));
+        return push(m, qdot_list(m->pool, code->n, m->args.at));
+    case QDOT_CODE_MATRIX:
+        QDOT_TRY(take(m, code->n));
+        return push(m, qdot_matrix(m->pool, code->n / code->to, code->to, m->args.at));
+    case QDOT_CODE_MEMBER: return member(m, code->token->text);
+    case QDOT_CODE_JUMP: *pc = code->to; return QDOT_OK;
+    case QDOT_CODE_SUM_BEGIN: return sum_begin(m, code, pc);
+    case QDOT_CODE_SUM_NEXT: return sum_next(m, pc);
+    case QDOT_CODE_IF_TEST: return if_test(m, code, pc);
+    case QDOT_CODE_IF_ELSE: if_else(m, code, pc); return QDOT_OK;
+    case QDOT_CODE_IF_END: return if_end(m);
+    }
+    return qdot_fail(QDOT_EFAILED, "the reader lost its way");
+}
+
+static qdot_status
+run_program(machine *m)
+{
+    for (uint32_t pc = 0; pc < m->program->list.n;) {
+        const qdot_code *code = &m->program->list.at[pc++];
+
+        m->blame = code->token;
+        if ((pc & 0x3FFF) == 0)
+            QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(step(m, code, &pc));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_evaluate(qdot_cursor *c, const qdot_program *program, qdot_expr *value,
+              const char **run)
+{
+    machine m = {
+        .c = c, .session = c->session, .pool = c->session->pool, .program = program};
+    qdot_status status = run_program(&m);
+
+    if (status == QDOT_OK) {
+        *value = m.stack.at[0].value;
+        if (run != NULL)
+            *run = m.stack.at[0].run;
+        else if (m.stack.at[0].run != NULL)
+            status = along_runs();
+    } else if (m.blame != NULL) {
+        c->error_at = m.blame->start;
+    }
+    for (size_t i = m.frames.n; i > 0; i--) /* only after a failure */
+        if (m.frames.at[i - 1].bound)
+            qdot_names_pop(m.session->names);
+    qdot_free(m.stack.at);
+    qdot_free(m.frames.at);
+    qdot_free(m.terms.at);
+    qdot_free(m.args.at);
+    return status;
+}

@@ -1,0 +1,53 @@
+/* names.h -- what the names of a session mean.
+ *
+ * A name is its canonical text: "theta", "theta[1]", "A[1,2]". Labels are not here (mech/scene.h).
+ */
+#ifndef QDOT_LANG_NAMES_H
+#define QDOT_LANG_NAMES_H
+
+#include "expr/expr.h"
+
+typedef enum {
+    QDOT_NAME_PARAM,    /* value: the symbol */
+    QDOT_NAME_COORD,    /* value: the symbol */
+    QDOT_NAME_UFUN,     /* ufun: its id; value: it at its declared arguments */
+    QDOT_NAME_VALUE,    /* value: any value */
+    QDOT_NAME_FUNCTION, /* value: the body; formals: a LIST of FORMAL symbols */
+    QDOT_NAME_INDEX     /* value: what a loop or sum binds just now; hides outer names */
+} qdot_name_kind;
+
+typedef struct {
+    char *name;
+    qdot_name_kind kind;
+    qdot_expr value, formals;
+    uint32_t ufun;
+    char *file; /* where it was declared */
+    uint32_t line;
+} qdot_name;
+
+typedef struct qdot_names qdot_names;
+
+qdot_names *qdot_names_new(void);
+void qdot_names_free(qdot_names *names);
+
+/* The innermost meaning; NULL if there is none. Valid until the next change. */
+const qdot_name *qdot_names_find(const qdot_names *names, const char *name);
+/* Whether any NAME[...] is declared. */
+bool qdot_names_is_family(const qdot_names *names, const char *name);
+/* Declare. A VALUE or FUNCTION replaces a VALUE or FUNCTION; the very same PARAM again is
+ * allowed (its value changes); any other clash, a family and a plain name of one spelling ("a name is
+ * never both" vector and family), reserved names (pi, t, p[..] Q[..] lambda[..] delta[..], dNAME of a coordinate):
+ * QDOT_ENAME with where it was declared. `entry` is copied. */
+QDOT_MUST_CHECK qdot_status qdot_names_declare(qdot_names *names, const qdot_name *entry);
+void qdot_names_remove(qdot_names *names, const char *name);
+/* Bind and unbind an index or formal, innermost first. */
+QDOT_MUST_CHECK qdot_status qdot_names_push(qdot_names *names, const char *name,
+                                            qdot_expr value);
+void qdot_names_pop(qdot_names *names);
+/* i-th in order of declaration (indices left out); NULL past the end. */
+const qdot_name *qdot_names_at(const qdot_names *names, size_t i);
+/* The declared or known name nearest in spelling (edit distance), NULL if none is near. `extra` [n]:
+ * further candidates. */
+const char *qdot_names_nearest(const qdot_names *names, const char *name, size_t n,
+                               const char *const *extra);
+#endif

@@ -1,0 +1,373 @@
+/* number.c -- run, plan, value: where floating point begins. */
+#include "lang/number.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lang/answer.h"
+#include "lang/declare.h"
+#include "lang/statement.h"
+
+/* --- run ---------------------------------------------------------------------------- */
+
+typedef struct {
+    qdot_expr from, to;
+    double tol;
+    const char *method, *name;
+    bool tol_given;
+    qdot_number_pairs with;
+} options;
+
+static qdot_status
+not_built(qdot_cursor *c)
+{
+    c->error_at = c->at->start;
+    return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", c->at->text);
+}
+
+/* NAME = VALUE of a parameter or of a coordinate or velocity. */
+static qdot_status
+read_with(qdot_cursor *c, qdot_number_pairs *with)
+{
+    do {
+        const qdot_token *start = c->at;
+        qdot_cursor look = *c;
+        qdot_expr symbol, value;
+        const char *name;
+        const qdot_name *known = NULL;
+
+        if (c->at->kind == QDOT_TOKEN_NAME && qdot_read_name(&look, &name) == QDOT_OK)
+            known = qdot_names_find(c->session->names, name);
+        if (known != NULL && known->kind == QDOT_NAME_COORD)
+            QDOT_TRY(qdot_number_read_jet(c, &symbol));
+        else
+            QDOT_TRY(qdot_number_read_parameter(c, &symbol));
+        QDOT_TRY(qdot_number_read_constant(c, &value));
+        c->error_at = start->start;
+        QDOT_TRY(qdot_declare_in_domain(c->session, symbol, value));
+        QDOT_TRY(qdot_number_push_pair(with, start, symbol, value));
+    } while (qdot_cursor_accept_op(c, ","));
+    return QDOT_OK;
+}
+
+static qdot_status
+read_tolerance(qdot_cursor *c, options *o)
+{
+    const qdot_token *start = c->at;
+
+    QDOT_TRY(qdot_statement_once(c, "tol", o->tol_given));
+    o->tol_given = true;
+    QDOT_TRY(qdot_read_number(c, &o->tol));
+    if (o->tol > 0 && o->tol < 1)
+        return QDOT_OK;
+    c->error_at = start->start;
+    return qdot_fail(QDOT_EINVAL, "a tolerance lies between 0 and 1");
+}
+
+static qdot_status
+read_options(qdot_cursor *c, options *o)
+{
+    static const char *const later[] = {"digits", "constraints"};
+
+    while (!qdot_cursor_is_end(c)) {
+        for (size_t i = 0; i < sizeof later / sizeof *later; i++)
+            if (qdot_cursor_is_word(c, later[i]))
+                return not_built(c);
+        if (qdot_cursor_accept_word(c, "tol")) {
+            QDOT_TRY(read_tolerance(c, o));
+        } else if (qdot_cursor_accept_word(c, "method")) {
+            QDOT_TRY(qdot_statement_once(c, "method", o->method != NULL));
+            if (c->at->kind != QDOT_TOKEN_NAME)
+                return qdot_cursor_expected(c, "the name of a method");
+            o->method = c->at++->text;
+        } else if (qdot_cursor_accept_word(c, "as")) {
+            QDOT_TRY(qdot_statement_once(c, "as", o->name != NULL));
+            QDOT_TRY(qdot_read_name(c, &o->name));
+        } else if (qdot_cursor_accept_word(c, "with")) {
+            QDOT_TRY(read_with(c, &o->with));
+        } else {
+            return qdot_cursor_expected(c, "`tol`, `method`, `with` or `as`");
+        }
+    }
+    return QDOT_OK;
+}
+
+/* Keep the run under its name; an older one of that name goes. Takes ownership in any
+ * case. */
+static qdot_status
+keep_run(qdot_session *session, const char *name, qdot_run *run)
+{
+    qdot_named_run named = {.name = qdot_strdup(name), .run = run};
+    qdot_status status = named.name == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t i = 0; i < session->runs.n && status == QDOT_OK; i++) {
+        if (strcmp(session->runs.at[i].name, name) != 0)
+            continue;
+        qdot_free(session->runs.at[i].name);
+        qdot_run_free(session->runs.at[i].run);
+        memmove(&session->runs.at[i], &session->runs.at[i + 1],
+                (session->runs.n - i - 1) * sizeof named);
+        session->runs.n--;
+        break;
+    }
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&session->runs, named);
+    if (status != QDOT_OK) {
+        qdot_free(named.name);
+        qdot_run_free(run);
+    }
+    return status;
+}
+
+/* run1, run2, ...: the first that is free, from the number of runs on. */
+static void
+next_name(const qdot_session *session, char *name, size_t size)
+{
+    for (size_t k = session->runs.n + 1;; k++) {
+        bool taken = false;
+
+        snprintf(name, size, "run%zu", k);
+        for (size_t i = 0; i < session->runs.n; i++)
+            taken = taken || strcmp(session->runs.at[i].name, name) == 0;
+        if (!taken)
+            return;
+    }
+}
+
+/* The request is filled with the values of `with` in force, which then go again. */
+static qdot_status
+fill_with(qdot_session *session, const qdot_number_pairs *with, qdot_number_order *o)
+{
+    qdot_vec(qdot_expr) set_symbols = {0}, set_values = {0}, start_symbols = {0},
+                        start_values = {0};
+    qdot_status status = QDOT_OK;
+
+#define SAVE(v)                                                                          \
+    for (size_t i = 0; i < session->v.n && status == QDOT_OK; i++)                       \
+        status = qdot_vec_push(&v, session->v.at[i]);
+#define RESTORE(v)                                                                       \
+    qdot_free(session->v.at);                                                            \
+    memcpy(&session->v, &v, sizeof v);
+    SAVE(set_symbols)
+    SAVE(set_values)
+    SAVE(start_symbols)
+    SAVE(start_values)
+    for (size_t i = 0; i < with->symbols.n && status == QDOT_OK; i++) {
+        if (qdot_expr_is_class(session->pool, with->symbols.at[i], QDOT_COORD))
+            status =
+                qdot_number_set_start(session, with->symbols.at[i], with->values.at[i]);
+        else
+            qdot_declare_value(session, with->symbols.at[i], with->values.at[i], &status);
+    }
+    if (status == QDOT_OK)
+        status = qdot_number_fill_order(session, o);
+    RESTORE(set_symbols)
+    RESTORE(set_values)
+    RESTORE(start_symbols)
+    RESTORE(start_values)
+#undef SAVE
+#undef RESTORE
+    return status;
+}
+
+/* Integrate, keep the run, tell how it went. */
+static qdot_status
+carry_out(qdot_cursor *c, const options *o, qdot_number_order *request)
+{
+    qdot_session *session = c->session;
+    const qdot_run_report *report;
+    qdot_run *run = NULL;
+    qdot_status status;
+    qdot_error error;
+    char name[32];
+
+    status = qdot_run_new(session->scene, &request->request, &run);
+    error = *qdot_last_error();
+    if (status == QDOT_OK)
+        QDOT_TRY(qdot_pool_check(session->pool));
+    if (run == NULL)
+        return status;
+    if (o->name == NULL)
+        next_name(session, name, sizeof name);
+    QDOT_TRY(keep_run(session, o->name != NULL ? o->name : name, run));
+    report = qdot_run_get_report(run);
+    QDOT_TRY(qdot_answer_run(session, o->name != NULL ? o->name : name, report));
+    if (status != QDOT_OK)
+        return qdot_fail_again(&error);
+    if (report->status == QDOT_RUN_FAILED)
+        return qdot_fail(QDOT_EFAILED, "the run failed: %s",
+                         report->reason != NULL ? report->reason : "no reason is known");
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_number_run(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    options o = {.tol = 1e-12};
+    qdot_number_order request = {0};
+    qdot_status status;
+
+    status = qdot_read_range(c, &o.from, &o.to);
+    if (status == QDOT_OK)
+        status = read_options(c, &o);
+    if (status == QDOT_OK)
+        c->error_at = start->start;
+    if (status == QDOT_OK)
+        status = fill_with(c->session, &o.with, &request);
+    if (status == QDOT_OK) {
+        request.request.t0 = qdot_session_bind(
+            c->session, qdot_number_without_measured(c->session, o.from));
+        request.request.t1 =
+            qdot_session_bind(c->session, qdot_number_without_measured(c->session, o.to));
+        request.request.tol = o.tol;
+        request.request.method = o.method != NULL ? o.method : "auto";
+        status = qdot_pool_check(c->session->pool);
+    }
+    if (status == QDOT_OK)
+        status = carry_out(c, &o, &request);
+    qdot_number_free_order(&request);
+    qdot_number_free_pairs(&o.with);
+    return status;
+}
+
+qdot_status
+qdot_number_plan(qdot_cursor *c)
+{
+    qdot_number_order request = {0};
+    qdot_text text = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    status = qdot_number_fill_order(c->session, &request);
+    request.request.t0 = QDOT_ZERO;
+    request.request.t1 = QDOT_ONE;
+    request.request.tol = 1e-12;
+    request.request.method = "auto";
+    if (status == QDOT_OK)
+        status = qdot_run_plan(c->session->scene, &request.request, &text);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(c->session, "plan", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    qdot_number_free_order(&request);
+    return status;
+}
+
+/* --- value -------------------------------------------------------------------------- */
+
+qdot_status
+qdot_number_find_run(qdot_session *session, const char *name, qdot_named_run **run)
+{
+    if (session->runs.n == 0) {
+        (void)qdot_fail(QDOT_EINVAL, "there is no run yet");
+        return qdot_hint("run 0..20");
+    }
+    *run = &session->runs.at[session->runs.n - 1];
+    if (name == NULL)
+        return QDOT_OK;
+    for (size_t i = 0; i < session->runs.n; i++)
+        if (strcmp(session->runs.at[i].name, name) == 0) {
+            *run = &session->runs.at[i];
+            return QDOT_OK;
+        }
+    return qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
+}
+
+qdot_expr
+qdot_number_exact(qdot_pool *pool, double x)
+{
+    int exponent;
+    long mantissa;
+
+    if (!isfinite(x)) {
+        (void)qdot_fail(QDOT_EDOMAIN, "a number of the run is not finite");
+        return qdot_pool_fail(pool);
+    }
+    mantissa = (long)ldexp(frexp(x, &exponent), 53);
+    if (mantissa == 0)
+        return QDOT_ZERO;
+    return qdot_mul(pool, qdot_expr_int(pool, mantissa),
+                    qdot_pow_int(pool, qdot_expr_int(pool, 2), exponent - 53));
+}
+
+qdot_status
+qdot_number_flatten(qdot_session *session, qdot_expr e, qdot_number_columns *columns)
+{
+    qdot_pool *pool = session->pool;
+    qdot_kind kind = qdot_expr_kind(pool, e);
+
+    e = qdot_number_without_measured(session, e);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_is_scalar(pool, e))
+        return qdot_vec_push(columns, e);
+    if (kind != QDOT_VEC && kind != QDOT_LIST)
+        return qdot_fail(QDOT_ETYPE, "only numbers and vectors have values along a run");
+    for (uint32_t i = 0; i < qdot_expr_count(pool, e); i++) {
+        qdot_expr part = qdot_expr_arg(pool, e, i);
+
+        if (!qdot_expr_is_scalar(pool, part))
+            return qdot_fail(QDOT_ETYPE,
+                             "only numbers and vectors have values along a run");
+        QDOT_TRY(qdot_vec_push(columns, part));
+    }
+    return QDOT_OK;
+}
+
+/* A number of a run, from now on a symbol. */
+static qdot_expr
+measured_symbol(qdot_session *session, double value, double error)
+{
+    char name[40];
+    qdot_measured m = {.value = value, .error = error};
+
+    snprintf(name, sizeof name, "value#%zu", session->measured.n + 1);
+    m.symbol = qdot_symbol_get(session->pool, QDOT_FORMAL, name);
+    if (m.symbol == QDOT_NIL)
+        return QDOT_NIL;
+    return qdot_vec_push(&session->measured, m) == QDOT_OK
+               ? m.symbol
+               : qdot_pool_fail(session->pool);
+}
+
+qdot_status
+qdot_number_value(qdot_session *session, const char *run, uint32_t n,
+                  const qdot_expr *args, qdot_expr *value)
+{
+    qdot_number_columns columns = {0};
+    qdot_vec(qdot_expr) symbols = {0};
+    double *values = NULL, time;
+    qdot_named_run *named;
+    qdot_status status;
+
+    if (n < 2) {
+        (void)qdot_fail(QDOT_ETYPE, "`value` needs an expression and a time");
+        return qdot_hint("value(theta, 20)");
+    }
+    QDOT_TRY(qdot_number_find_run(session, run, &named));
+    QDOT_TRY(qdot_session_number(session, args[n - 1], &time, NULL));
+    status = QDOT_OK;
+    for (uint32_t i = 0; i + 1 < n && status == QDOT_OK; i++)
+        status = qdot_number_flatten(session, args[i], &columns);
+    if (status == QDOT_OK) {
+        values = qdot_calloc(2 * columns.n, sizeof *values);
+        status = values == NULL ? QDOT_ENOMEM : QDOT_OK;
+    }
+    if (status == QDOT_OK)
+        status = qdot_run_values(named->run, columns.n, columns.at, 1, &time, values,
+                                 values + columns.n);
+    for (size_t i = 0; i < columns.n && status == QDOT_OK; i++)
+        status = qdot_vec_push(
+            &symbols, measured_symbol(session, values[i], values[columns.n + i]));
+    if (status == QDOT_OK) {
+        *value = columns.n == 1
+                     ? symbols.at[0]
+                     : qdot_list(session->pool, (uint32_t)symbols.n, symbols.at);
+        status = qdot_pool_check(session->pool);
+    }
+    qdot_free(values);
+    qdot_free(columns.at);
+    qdot_free(symbols.at);
+    return status;
+}

@@ -1,0 +1,57 @@
+/* number.h -- what statements about numbers share: runs by name, requests for them. */
+#ifndef QDOT_LANG_NUMBER_H
+#define QDOT_LANG_NUMBER_H
+
+#include "lang/read.h"
+
+/* --- start.c: values read, and a request filled with them --------------------------- */
+
+typedef struct {
+    qdot_vec(qdot_expr) symbols, values;
+    qdot_vec(const qdot_token *) places; /* where each was named; NULL: nowhere */
+} qdot_number_pairs;
+
+void qdot_number_free_pairs(qdot_number_pairs *p);
+QDOT_MUST_CHECK qdot_status qdot_number_push_pair(qdot_number_pairs *p,
+                                                  const qdot_token *place,
+                                                  qdot_expr symbol, qdot_expr value);
+
+/* The left side of `NAME = VALUE`: a parameter, or p[NAME]; q or q' of `start`; `=
+ * VALUE`, an expression of parameters. */
+QDOT_MUST_CHECK qdot_status qdot_number_read_parameter(qdot_cursor *c, qdot_expr *symbol);
+QDOT_MUST_CHECK qdot_status qdot_number_read_jet(qdot_cursor *c, qdot_expr *jet);
+QDOT_MUST_CHECK qdot_status qdot_number_read_constant(qdot_cursor *c, qdot_expr *value);
+
+/* From now on a run starts with this value of q or q'. */
+QDOT_MUST_CHECK qdot_status qdot_number_set_start(qdot_session *session, qdot_expr jet,
+                                                  qdot_expr value);
+
+/* e with the numbers of runs in it as the rationals that they are. */
+qdot_expr qdot_number_without_measured(qdot_session *session, qdot_expr e);
+
+/* A request and what it borrows. */
+typedef struct {
+    qdot_number_pairs values;
+    qdot_vec(qdot_expr) q0, v0;
+    qdot_run_request request;
+} qdot_number_order;
+
+/* Fill in the values and the start of the moment. */
+QDOT_MUST_CHECK qdot_status qdot_number_fill_order(qdot_session *session,
+                                                   qdot_number_order *o);
+void qdot_number_free_order(qdot_number_order *o);
+
+/* --- number.c: runs ----------------------------------------------------------------- */
+
+/* The run of that name, the latest for NULL. QDOT_ENAME where there is none. */
+QDOT_MUST_CHECK qdot_status qdot_number_find_run(qdot_session *session, const char *name,
+                                                 qdot_named_run **run);
+/* A double as the exact rational it is. */
+qdot_expr qdot_number_exact(qdot_pool *pool, double x);
+
+/* Components of vectors and lists side by side: append to columns; *n of them. */
+typedef qdot_vec(qdot_expr) qdot_number_columns;
+QDOT_MUST_CHECK qdot_status qdot_number_flatten(qdot_session *session, qdot_expr e,
+                                                qdot_number_columns *columns);
+
+#endif

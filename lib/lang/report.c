@@ -1,0 +1,184 @@
+/* report.c -- a run told: what a person needs to know, and the same as JSON. */
+#include "lang/answer.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *
+status_word(qdot_run_status status)
+{
+    static const char *const words[] = {[QDOT_RUN_DONE] = "done",
+                                        [QDOT_RUN_STOPPED] = "stopped",
+                                        [QDOT_RUN_FAILED] = "failed"};
+
+    return words[status];
+}
+
+/* The jets q_i and q_i' of coordinate i with their values at the end, to `each`. */
+static qdot_status
+each_state(qdot_session *session, const qdot_run_report *report, qdot_style style,
+           void (*each)(qdot_text *line, size_t k, const char *name, double value,
+                        double error),
+           qdot_text *line)
+{
+    for (size_t k = 0; k < 2 * report->n; k++) {
+        size_t i = k / 2;
+        qdot_expr jet = k % 2 == 0
+                            ? report->coordinates[i]
+                            : qdot_symbol_jet(session->pool, report->coordinates[i], 1);
+        double value = k % 2 == 0 ? report->q[i] : report->v[i];
+        qdot_text name = {0};
+
+        QDOT_TRY(qdot_pool_check(session->pool));
+        QDOT_TRY(qdot_print(session->pool, jet, style, &name));
+        each(line, k, qdot_text_str(&name), value, report->error);
+        qdot_text_clear(&name);
+    }
+    return QDOT_OK;
+}
+
+static void
+state_json(qdot_text *line, size_t k, const char *name, double value, double error)
+{
+    (void)error;
+    if (k > 0)
+        qdot_text_char(line, ',');
+    qdot_text_json(line, name);
+    qdot_text_char(line, ':');
+    qdot_answer_json_double(line, value);
+}
+
+static void
+state_text(qdot_text *line, size_t k, const char *name, double value, double error)
+{
+    qdot_text_add(line, k % 2 == 0 ? "\n    " : ", ");
+    qdot_text_add(line, name);
+    qdot_text_add(line, " = ");
+    qdot_answer_digits(line, value,
+                       isfinite(error) ? fmax(error, 2e-16) * fmax(1, fabs(value)) : NAN);
+}
+
+static void
+field(qdot_text *line, const char *name, double value)
+{
+    qdot_text_format(line, ",\"%s\":", name);
+    qdot_answer_json_double(line, value);
+}
+
+static qdot_status
+run_json(qdot_session *session, const char *name, const qdot_run_report *r,
+         qdot_text *line)
+{
+    qdot_text_add(line, "{\"kind\":\"run\",\"name\":");
+    qdot_text_json(line, name);
+    qdot_text_add(line, ",\"method\":");
+    qdot_text_json(line, r->method);
+    qdot_text_add(line, ",\"t\":[");
+    qdot_answer_json_double(line, r->t0);
+    qdot_text_char(line, ',');
+    qdot_answer_json_double(line, r->t1);
+    qdot_text_char(line, ']');
+    field(line, "tol", r->tol);
+    qdot_text_format(line,
+                     ",\"steps\":%zu,\"rejected\":%zu,\"evals\":%zu,\"jacobians\":%zu,"
+                     "\"factorizations\":%zu",
+                     r->steps, r->rejected, r->evals, r->jacobians, r->factorizations);
+    field(line, "cpu", r->cpu);
+    field(line, "cpu_total", r->cpu_total);
+    field(line, "error", r->error);
+    field(line, "energy_drift", r->energy_drift);
+    field(line, "constraint_drift", NAN);
+    qdot_text_add(line, ",\"state\":{");
+    QDOT_TRY(each_state(session, r, QDOT_PLAIN, state_json, line));
+    qdot_text_format(line, "},\"status\":\"%s\",\"reason\":", status_word(r->status));
+    if (r->reason != NULL)
+        qdot_text_json(line, r->reason);
+    else
+        qdot_text_add(line, "null");
+    qdot_text_add(line, "}\n");
+    return QDOT_OK;
+}
+
+/* A count with its noun: 1 step, 12 steps. */
+static void
+counted(qdot_text *line, size_t n, const char *noun)
+{
+    qdot_text_format(line, "%zu %s%s", n, noun, n == 1 ? "" : "s");
+}
+
+static void
+seconds(qdot_text *line, double s)
+{
+    qdot_text_double(line, s < 1 ? s * 1e3 : s, 3);
+    qdot_text_add(line, s < 1 ? " ms" : " s");
+}
+
+static qdot_status
+run_text(qdot_session *session, const char *name, const qdot_run_report *r,
+         qdot_text *line)
+{
+    qdot_text_format(line, "%s: t = ", name);
+    qdot_answer_digits(line, r->t0, 0);
+    qdot_text_add(line, "..");
+    qdot_answer_digits(line, r->t1, 0);
+    qdot_text_format(line, ", method %s, tol ", r->method);
+    qdot_answer_digits(line, r->tol, 0);
+    qdot_text_format(line, ", %s", status_word(r->status));
+    if (r->reason != NULL)
+        qdot_text_format(line, ": %s", r->reason);
+    qdot_text_add(line, "\n  ");
+    counted(line, r->steps, "step");
+    qdot_text_format(line, ", %zu rejected; ", r->rejected);
+    counted(line, r->evals, "evaluation");
+    qdot_text_add(line, " of ");
+    counted(line, r->operations, "operation");
+    if (r->jacobians > 0) {
+        qdot_text_add(line, "; ");
+        counted(line, r->jacobians, "Jacobian");
+    }
+    qdot_text_add(line, "\n  cpu ");
+    seconds(line, r->cpu);
+    qdot_text_add(line, ", in all cpu ");
+    seconds(line, r->cpu_total);
+    for (size_t i = 0; i < r->n_drifts; i++) {
+        const qdot_drift *d = &r->drifts[i];
+
+        qdot_text_add(line, i == 0 ? "\n  drift: " : ", ");
+        if (strcmp(d->name, "energy") == 0)
+            qdot_text_add(line, d->name);
+        else
+            qdot_print_name(d->name, session->style, line);
+        qdot_text_char(line, ' ');
+        qdot_answer_bound(line, d->drift);
+    }
+    if (r->n_drifts == 0)
+        qdot_text_add(line, "\n  drift: no conserved quantity is known");
+    qdot_text_add(line, "\n  error of the end state: ");
+    if (isfinite(r->error)) {
+        qdot_text_add(line, "about ");
+        qdot_answer_bound(line, r->error);
+    } else {
+        qdot_text_add(line, "unknown");
+    }
+    qdot_text_add(line, "\n  end state:");
+    QDOT_TRY(each_state(session, r, session->style, state_text, line));
+    qdot_text_char(line, '\n');
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_answer_run(qdot_session *session, const char *name, const qdot_run_report *report)
+{
+    qdot_text line = {0};
+    qdot_status status = session->json ? run_json(session, name, report, &line)
+                                       : run_text(session, name, report, &line);
+
+    if (status == QDOT_OK)
+        status = qdot_text_status(&line);
+    if (status == QDOT_OK &&
+        (fwrite(qdot_text_str(&line), 1, line.n, session->out) != line.n ||
+         fflush(session->out) != 0))
+        status = qdot_fail(QDOT_EIO, "standard output cannot be written");
+    qdot_text_clear(&line);
+    return status;
+}

@@ -1,0 +1,83 @@
+/* session.h -- one conversation: everything declared, asked and answered.
+ *
+ * A session reads statements from sources (scripts, -e texts, prompt lines) and writes answers to
+ * `out`, errors to `err`. Text goes through lang/answer.h, so that --json and styles are one matter.
+ */
+#ifndef QDOT_LANG_SESSION_H
+#define QDOT_LANG_SESSION_H
+
+#include <stdio.h>
+
+#include "expr/print.h"
+#include "lang/names.h"
+#include "mech/quantity.h"
+#include "sim/run.h"
+
+typedef struct {
+    qdot_expr value;
+} qdot_history_entry;
+
+/* A number that a run gave: stands in expressions as a FORMAL symbol. */
+typedef struct {
+    qdot_expr symbol;
+    double value, error; /* error NaN: unknown */
+} qdot_measured;
+
+typedef struct {
+    char *name;     /* "a", "run1" */
+    qdot_run *run;
+} qdot_named_run;
+
+typedef struct qdot_session {
+    qdot_pool *pool;
+    qdot_scene *scene;
+    qdot_names *names;
+    FILE *out, *err;
+    qdot_style style;
+    bool json, timing, interactive;
+    bool refuted; /* a check was refuted: exit 1 at the end */
+    qdot_vec(qdot_expr) history;                     /* %1 is history.at[0] */
+    qdot_vec(qdot_measured) measured;
+    qdot_vec(qdot_expr) set_symbols, set_values;     /* values of parameters, the latest */
+    qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
+    qdot_vec(qdot_named_run) runs;
+    qdot_vec(char *) including; /* files being read, for include cycles and relative paths */
+    size_t figures; /* NAME-1.svg ... */
+    bool quit;      /* `quit` was said */
+    size_t loops;   /* loops under way: what they hold must outlive them */
+} qdot_session;
+
+qdot_session *qdot_session_new(FILE *out, FILE *err); /* NULL: no memory */
+void qdot_session_free(qdot_session *session);
+
+/* Carry out a text. `name` is what errors call it ("a.lag", "-e", "prompt"). Stops at the
+ * first error, which is reported on err (and as JSON on out). Returns the exit status so far: 0, 1 a
+ * statement failed or a check was refuted, 2 a syntax error. */
+int qdot_session_run_text(qdot_session *session, const char *name, const char *text,
+                          size_t length);
+/* The same from a file ("-": standard input); unreadable, a directory, not UTF-8: an error. */
+int qdot_session_run_file(qdot_session *session, const char *path);
+
+/* For the prompt: whether the text so far is incomplete (an open bracket, a trailing \). */
+bool qdot_session_incomplete(const char *text, size_t length);
+
+/* Completions of a word prefix: statement words, functions, values, declared names; sorted, unique.
+ * *words [*n] and each owned by the caller (qdot_free). */
+QDOT_MUST_CHECK qdot_status qdot_session_complete(qdot_session *session, const char *prefix,
+                                                  char ***words, size_t *n);
+
+/* e with the values of parameters (`set`, `param x = v`) put in; exact. Repeated, as values may
+ * hold other parameters; a cycle is QDOT_EINVAL. */
+qdot_expr qdot_session_bind(qdot_session *session, qdot_expr e);
+/* As a double: bound, measured symbols put in; error (may be NULL) propagated from measured ones. */
+QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr e,
+                                                double *value, double *error);
+/* As an integer: QDOT_ETYPE with the value otherwise. */
+QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_expr e,
+                                                 long *value);
+/* Forget the scene's coordinates, particles, ... (`reset scene`) or everything (`reset`). */
+QDOT_MUST_CHECK qdot_status qdot_session_reset(qdot_session *session, bool everything);
+
+/* A number of a run enters expressions: value(...), in lang/number.c. `text` is the source text
+ * between the brackets' tokens, see lang/read.h. */
+#endif

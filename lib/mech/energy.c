@@ -1,0 +1,315 @@
+/* energy.c -- T, V, L and the Jacobi energy h = sum p q' - L.
+ *
+ * By Lagrange's equations
+ *
+ *     dh/dt = -dL/dt + sum (Q_i + R_i) q_i'
+ *
+ * with Q what is applied beside V and R the reactions, so h is conserved when dL/dt and
+ * the power of Q vanish and every constraint works at no power: f (q, t) = 0 at -lambda
+ * df/dt, f(q, q', t) = 0 at lambda sum df/dq' q', f(q'') at lambda sum df/dq'' q'.
+ */
+#include "expr/calculus.h"
+#include "expr/tensor.h"
+#include "expr/walk.h"
+#include "mech/derived.h"
+#include "normal/simplify.h"
+
+qdot_expr
+qdot_link_square(qdot_scene *s, bool damper, size_t k)
+{
+    qdot_derived *d = qdot_derived_get(s);
+    qdot_expr **cache = damper ? &d->square_damper : &d->square_spring;
+    const qdot_link *link = damper ? &s->dampers.at[k] : &s->springs.at[k];
+    qdot_expr u;
+
+    if (!qdot_derived_array(s, cache, damper ? s->dampers.n : s->springs.n))
+        return QDOT_NIL;
+    if ((*cache)[k] == QDOT_NIL) {
+        u = qdot_value_sub(s->pool, link->at[0], link->at[1]);
+        (*cache)[k] = qdot_mech_tidy(s, qdot_mech_dot(s->pool, u, u));
+    }
+    return (*cache)[k];
+}
+
+/* k/2 (d - rest)^2, without a root where rest = 0. */
+qdot_expr
+qdot_spring_potential(qdot_scene *s, size_t k)
+{
+    qdot_pool *pool = s->pool;
+    const qdot_link *spring = &s->springs.at[k];
+    qdot_expr square = qdot_link_square(s, false, k);
+
+    if (spring->rest != QDOT_ZERO)
+        square =
+            qdot_pow_int(pool, qdot_sub(pool, qdot_sqrt(pool, square), spring->rest), 2);
+    return qdot_mul(pool, QDOT_HALF, qdot_mul(pool, spring->stiffness, square));
+}
+
+qdot_expr
+qdot_potential_with_velocities(qdot_scene *s)
+{
+    qdot_expr V = QDOT_ZERO;
+
+    for (size_t i = 0; i < s->potentials.n; i++)
+        if (qdot_mech_holds(s, s->potentials.at[i]) & QDOT_HAS_VELOCITY)
+            V = qdot_add(s->pool, V, s->potentials.at[i]);
+    return V;
+}
+
+/* V before simplification. */
+static qdot_expr
+raw_potential(qdot_scene *s)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr V = QDOT_ZERO;
+
+    if (s->gravities.n) {
+        qdot_kinematics *k = qdot_kinematics_get(s);
+
+        if (!k)
+            return QDOT_NIL;
+        V = qdot_neg(pool, qdot_kinematics_gravity(s, k, &k->place));
+    }
+    for (size_t i = 0; i < s->potentials.n; i++)
+        V = qdot_add(pool, V, s->potentials.at[i]);
+    for (size_t i = 0; i < s->springs.n; i++)
+        V = qdot_add(pool, V, qdot_spring_potential(s, i));
+    return V;
+}
+
+/* 1/2 sum M_ij q_i' q_j', scaled terms in order. */
+static qdot_expr
+quadratic_part(qdot_scene *s)
+{
+    size_t n = s->coordinates.n, m = 0;
+    qdot_expr *terms = qdot_calloc(n * (n + 1) / 2 + 1, sizeof *terms), sum;
+
+    if (!terms)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++) {
+            qdot_expr e = qdot_mass_entry(s, i, j);
+
+            if (e == QDOT_ZERO)
+                continue;
+            e = qdot_mul(
+                s->pool, e,
+                qdot_mul(s->pool, qdot_mech_jet(s, i, 1), qdot_mech_jet(s, j, 1)));
+            terms[m++] = i == j ? qdot_mul(s->pool, QDOT_HALF, e) : e;
+        }
+    sum = qdot_sum(s->pool, m, terms);
+    qdot_free(terms);
+    return sum;
+}
+
+static qdot_expr
+linear_part(qdot_scene *s)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        if (s->derived->b[i] != QDOT_ZERO)
+            sum = qdot_add(s->pool, sum,
+                           qdot_mul(s->pool, s->derived->b[i], qdot_mech_jet(s, i, 1)));
+    return sum;
+}
+
+qdot_expr
+qdot_mech_kinetic(qdot_scene *s)
+{
+    qdot_derived *d = qdot_derived_get(s);
+    qdot_expr T;
+
+    if (d->kinetic != QDOT_NIL)
+        return d->kinetic;
+    if (!qdot_mech_needs_particles(s, "T") || !qdot_mass_get(s))
+        return QDOT_NIL;
+    T = qdot_add(s->pool, quadratic_part(s), qdot_add(s->pool, linear_part(s), d->c));
+    return d->kinetic = qdot_mech_tidy_whole(s, T);
+}
+
+qdot_expr
+qdot_mech_potential(qdot_scene *s)
+{
+    qdot_derived *d = qdot_derived_get(s);
+    qdot_expr V;
+
+    if (d->potential != QDOT_NIL)
+        return d->potential;
+    if (!qdot_mech_needs_particles(s, "V"))
+        return QDOT_NIL;
+    V = qdot_mech_tidy(s, raw_potential(s));
+    return d->potential = V;
+}
+
+qdot_expr
+qdot_mech_lagrangian(qdot_scene *s)
+{
+    qdot_expr T, V;
+
+    if (qdot_mech_stated(s))
+        return s->lagrangian;
+    T = qdot_mech_kinetic(s);
+    V = qdot_mech_potential(s);
+    return qdot_sub(s->pool, T, V);
+}
+
+qdot_expr
+qdot_mech_energy(qdot_scene *s)
+{
+    qdot_pool *pool = s->pool;
+    qdot_derived *d = qdot_derived_get(s);
+    qdot_expr F, h;
+
+    if (d->energy != QDOT_NIL)
+        return d->energy;
+    /* Of F = L or -V: sum q' dF/dq' - F; of T: its quadratic part less c. */
+    F = qdot_mech_stated(s) ? s->lagrangian : qdot_neg(pool, raw_potential(s));
+    h = qdot_neg(pool, F);
+    if (qdot_mech_holds(s, F) & QDOT_HAS_VELOCITY)
+        for (size_t i = 0; i < s->coordinates.n; i++) {
+            qdot_expr v = qdot_mech_jet(s, i, 1);
+
+            h = qdot_add(pool, h, qdot_mul(pool, v, qdot_diff(pool, F, v)));
+        }
+    if (!qdot_mech_stated(s)) {
+        if (!qdot_mass_get(s))
+            return QDOT_NIL;
+        h = qdot_add(pool, h, qdot_sub(pool, quadratic_part(s), qdot_derived_get(s)->c));
+    }
+    h = qdot_mech_tidy_whole(s, h);
+    return d->energy = h;
+}
+
+/* --- slopes of L ----------------------------------------------------------------------
+ * */
+
+bool
+qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
+{
+    qdot_expr V;
+
+    if (qdot_mech_stated(s)) {
+        *has = qdot_expr_contains(s->pool, s->lagrangian, x);
+        return !qdot_pool_failed(s->pool);
+    }
+    *has = false;
+    if (!qdot_mass_get(s))
+        return false;
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_symbol *symbol = qdot_expr_symbol(s->pool, x);
+
+        if (symbol->class == QDOT_COORD && symbol->order == 1) {
+            size_t j;
+
+            if (!qdot_derived_index(s, symbol->base, &j))
+                return false;
+            *has |=
+                qdot_mass_entry(s, i, j) != QDOT_ZERO || s->derived->b[j] != QDOT_ZERO;
+            continue;
+        }
+        for (size_t j = i; j < s->coordinates.n; j++)
+            *has |= qdot_expr_contains(s->pool, qdot_mass_entry(s, i, j), x);
+        *has |= qdot_expr_contains(s->pool, s->derived->b[i], x);
+    }
+    V = raw_potential(s);
+    if (V == QDOT_NIL)
+        return false;
+    *has |= qdot_expr_contains(s->pool, s->derived->c, x) ||
+            qdot_expr_contains(s->pool, V, x);
+    return !qdot_pool_failed(s->pool);
+}
+
+qdot_expr
+qdot_lagrangian_slope(qdot_scene *s, qdot_expr x)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr T;
+
+    if (qdot_mech_stated(s))
+        return qdot_diff(pool, s->lagrangian, x);
+    if (!qdot_mass_get(s))
+        return QDOT_NIL;
+    T = qdot_add(pool, quadratic_part(s),
+                 qdot_add(pool, linear_part(s), qdot_derived_get(s)->c));
+    return qdot_sub(pool, qdot_diff(pool, T, x), qdot_diff(pool, raw_potential(s), x));
+}
+
+/* --- conservation ---------------------------------------------------------------------
+ * */
+
+/* -dL/dt + sum Q q', Q what is applied beside V. */
+static qdot_expr
+applied_power(qdot_scene *s)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr power = QDOT_ZERO;
+    bool has;
+
+    if (!qdot_lagrangian_has(s, QDOT_T, &has))
+        return QDOT_NIL;
+    if (has)
+        power = qdot_neg(pool, qdot_lagrangian_slope(s, QDOT_T));
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr Q = qdot_force_total(s, i, false, true);
+
+        power = qdot_add(pool, power, qdot_mul(pool, Q, qdot_mech_jet(s, i, 1)));
+    }
+    return power;
+}
+
+static qdot_expr
+constraint_power(qdot_scene *s, size_t k)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr power = QDOT_ZERO;
+
+    if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
+        return qdot_diff(pool, s->constraints.at[k].f, QDOT_T);
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        power = qdot_add(
+            pool, power,
+            qdot_mul(pool, qdot_constraint_slope(s, k, i), qdot_mech_jet(s, i, 1)));
+    return power;
+}
+
+qdot_status
+qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
+{
+    qdot_pool *pool = s->pool;
+    qdot_derived *d = qdot_derived_get(s);
+    qdot_facts facts = qdot_scene_facts(s), on_manifold = facts;
+    qdot_expr *relations = NULL, power;
+    qdot_status status = qdot_pool_check(pool);
+
+    QDOT_TRY(status);
+    *conserved = d->conserved;
+    if (d->conserved_known)
+        return QDOT_OK;
+    if (s->constraints.n)
+        status = qdot_constraint_facts(s, &relations, &on_manifold);
+    if (status == QDOT_OK) {
+        power = applied_power(s);
+        *conserved = power != QDOT_NIL &&
+                     (qdot_is_zero(pool, power, &facts) ||
+                      (s->constraints.n && qdot_is_zero(pool, power, &on_manifold)));
+        for (size_t k = 0; k < s->constraints.n && *conserved; k++) {
+            qdot_expr f = s->constraints.at[k].f;
+
+            /* Linear and homogeneous in q', its power is f itself. */
+            power = constraint_power(s, k);
+            *conserved = power != QDOT_NIL &&
+                         (qdot_is_zero(pool, power, &facts) ||
+                          qdot_is_zero(pool, qdot_sub(pool, power, f), &facts) ||
+                          qdot_is_zero(pool, power, &on_manifold));
+        }
+        status = qdot_pool_check(pool);
+    }
+    qdot_free(relations);
+    if (status == QDOT_OK) {
+        d = qdot_derived_get(s);
+        d->conserved_known = true;
+        d->conserved = *conserved;
+    }
+    return status;
+}

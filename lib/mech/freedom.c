@@ -1,0 +1,395 @@
+/* freedom.c -- how many constraints are independent: the rank of their Jacobian
+ *
+ *     rows df/dq (holonomic), df/dq' (velocity), df/dq'' (acceleration)
+ *
+ * at a generic point where all constraints hold. Such points are found by damped Newton
+ * steps from random configurations with random parameters, and the largest rank seen
+ * counts. Where none is found (undefined functions of coordinates, assumed relations,
+ * constraints that contradict each other) rows are eliminated symbolically, entries that
+ * the constraints prove zero counting as zero.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/derived.h"
+
+enum { TRIALS = 12, WANTED = 3, STEPS = 200 };
+
+/* Constraints f [c] and their slopes by z = (q, q', q''), [c * 3n], as expressions and
+ * numbers. */
+typedef struct {
+    size_t n, c, m;                        /* coordinates, constraints, 3n */
+    qdot_expr *e;                          /* f, then slopes: [c + c*m] */
+    qdot_expr *z;                          /* [m] */
+    double *value;                         /* of e */
+    double *at, *step, *gram, *rhs, *rows; /* z [m], [m], [c*c], [c], [c*n] */
+} problem;
+
+static void
+problem_clear(problem *p)
+{
+    qdot_free(p->e);
+    qdot_free(p->z);
+    qdot_free(p->value);
+}
+
+static qdot_status
+problem_init(qdot_scene *s, problem *p)
+{
+    size_t n = s->coordinates.n, c = s->constraints.n, m = 3 * n, size = c + c * m;
+
+    *p = (problem){.n = n, .c = c, .m = m};
+    p->e = qdot_calloc(size + 1, sizeof *p->e);
+    p->z = qdot_calloc(m + 1, sizeof *p->z);
+    p->value = qdot_calloc(size + 2 * m + c * c + c + c * n + 1, sizeof *p->value);
+    if (!p->e || !p->z || !p->value) {
+        problem_clear(p);
+        return QDOT_ENOMEM;
+    }
+    p->at = p->value + size;
+    p->step = p->at + m;
+    p->gram = p->step + m;
+    p->rhs = p->gram + c * c;
+    p->rows = p->rhs + c;
+    for (size_t i = 0; i < m; i++)
+        p->z[i] = qdot_mech_jet(s, i % n, (uint32_t)(i / n));
+    for (size_t k = 0; k < c; k++) {
+        p->e[k] = s->constraints.at[k].f;
+        for (size_t i = 0; i < m; i++)
+            p->e[c + k * m + i] = i / n <= (size_t)s->constraints.at[k].kind
+                                      ? qdot_diff(s->pool, p->e[k], p->z[i])
+                                      : QDOT_ZERO;
+    }
+    if (qdot_pool_failed(s->pool)) {
+        problem_clear(p);
+        return qdot_pool_check(s->pool);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
+{
+    *size = 0;
+    QDOT_TRY(qdot_generic_evaluate(s->pool, p->c + p->c * p->m, p->e, p->m, p->z, p->at,
+                                   seed, p->value));
+    for (size_t k = 0; k < p->c; k++)
+        *size = isfinite(p->value[k]) ? fmax(*size, fabs(p->value[k])) : INFINITY;
+    for (size_t k = p->c; k < p->c + p->c * p->m; k++)
+        if (!isfinite(p->value[k]))
+            *size = INFINITY;
+    return QDOT_OK;
+}
+
+/* step = A^T (A A^T + mu 1)^-1 f, by Cholesky of the damped Gram matrix. */
+static void
+newton_step(problem *p, double mu)
+{
+    const double *A = p->value + p->c;
+    size_t c = p->c, m = p->m;
+    double *G = p->gram, *y = p->rhs, trace = 0;
+
+    for (size_t i = 0; i < c; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double dot = 0;
+
+            for (size_t k = 0; k < m; k++)
+                dot += A[i * m + k] * A[j * m + k];
+            G[i * c + j] = dot;
+            trace += i == j ? dot : 0;
+        }
+    for (size_t i = 0; i < c; i++)
+        G[i * c + i] += (mu + 1e-13) * (trace + 1e-30);
+    for (size_t i = 0; i < c; i++) {
+        for (size_t j = 0; j <= i; j++) {
+            double v = G[i * c + j];
+
+            for (size_t k = 0; k < j; k++)
+                v -= G[i * c + k] * G[j * c + k];
+            G[i * c + j] = i == j ? sqrt(fmax(v, 1e-300)) : v / G[j * c + j];
+        }
+        y[i] = p->value[i];
+        for (size_t k = 0; k < i; k++)
+            y[i] -= G[i * c + k] * y[k];
+        y[i] /= G[i * c + i];
+    }
+    for (size_t i = c; i-- > 0;) {
+        for (size_t k = i + 1; k < c; k++)
+            y[i] -= G[k * c + i] * y[k];
+        y[i] /= G[i * c + i];
+    }
+    for (size_t k = 0; k < m; k++) {
+        p->step[k] = 0;
+        for (size_t i = 0; i < c; i++)
+            p->step[k] += A[i * m + k] * y[i];
+    }
+}
+
+/* Bring p->at where all constraints hold; *found whether it did. */
+static qdot_status
+assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
+{
+    double size, mu = 1e-3;
+
+    *found = false;
+    for (size_t i = 0; i < p->m; i++)
+        p->at[i] = qdot_generic_value(s->pool, p->z[i], seed + 77);
+    QDOT_TRY(evaluate(s, p, seed, &size));
+    for (int k = 0; k < STEPS && isfinite(size); k++) {
+        double before = size, scale = 1;
+
+        QDOT_TRY(qdot_interrupt_check());
+        if (size < 1e-12) {
+            *found = true;
+            return QDOT_OK;
+        }
+        newton_step(p, size < 1e-3 ? 0 : mu);
+        for (int half = 0; half < 12; half++, scale /= 2) {
+            for (size_t i = 0; i < p->m; i++)
+                p->at[i] -= scale * p->step[i];
+            QDOT_TRY(evaluate(s, p, seed, &size));
+            if (size < before)
+                break;
+            for (size_t i = 0; i < p->m; i++)
+                p->at[i] += scale * p->step[i];
+        }
+        if (!(size < before)) {
+            QDOT_TRY(evaluate(s, p, seed, &size));
+            *found = size < 1e-10;
+            return QDOT_OK;
+        }
+        mu = fmax(mu * 0.3, 1e-12);
+    }
+    return QDOT_OK;
+}
+
+/* Rows one after another by Gram-Schmidt, twice; those that leave something are
+ * independent. */
+static size_t
+rank(qdot_scene *s, problem *p, bool *independent)
+{
+    size_t found = 0, n = p->n;
+
+    for (size_t k = 0; k < p->c; k++) {
+        double *row = p->rows + found * n, norm = 0, left = 0;
+        const double *slopes =
+            p->value + p->c + k * p->m + n * (size_t)s->constraints.at[k].kind;
+
+        for (size_t i = 0; i < n; i++) {
+            row[i] = slopes[i];
+            norm = fmax(norm, fabs(row[i]));
+        }
+        independent[k] = false;
+        if (!(norm > 1e-6))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            row[i] /= norm;
+        for (int twice = 0; twice < 2; twice++)
+            for (size_t j = 0; j < found; j++) {
+                double dot = 0;
+
+                for (size_t i = 0; i < n; i++)
+                    dot += row[i] * p->rows[j * n + i];
+                for (size_t i = 0; i < n; i++)
+                    row[i] -= dot * p->rows[j * n + i];
+            }
+        for (size_t i = 0; i < n; i++)
+            left += row[i] * row[i];
+        left = sqrt(left);
+        if (left < 1e-6)
+            continue;
+        for (size_t i = 0; i < n; i++)
+            row[i] /= left;
+        independent[k] = true;
+        if (++found == n) {
+            for (size_t rest = k + 1; rest < p->c; rest++)
+                independent[rest] = false;
+            break;
+        }
+    }
+    return found;
+}
+
+/* Undefined functions whose arguments move cannot be given consistent values. */
+static bool
+can_sample(qdot_scene *s, const problem *p)
+{
+    if (s->derived->relations.n)
+        return false;
+    for (size_t k = 0; k < p->c; k++) {
+        qdot_expr atoms;
+
+        if (!(qdot_mech_holds(s, p->e[k]) & QDOT_HAS_UFUN))
+            continue;
+        atoms = qdot_expr_atoms(s->pool, p->e[k], true);
+        if (atoms == QDOT_NIL)
+            return false;
+        for (uint32_t i = 0; i < qdot_expr_count(s->pool, atoms); i++) {
+            qdot_expr f = qdot_expr_arg(s->pool, atoms, i);
+
+            if (qdot_expr_kind(s->pool, f) == QDOT_UFUN &&
+                qdot_mech_holds(s, f) &
+                    (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
+                return false;
+        }
+    }
+    return true;
+}
+
+static qdot_status
+by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
+{
+    bool *seen = qdot_calloc(p->c, sizeof *seen), found;
+    size_t most = 0, hits = 0;
+    qdot_status status = seen ? QDOT_OK : QDOT_ENOMEM;
+
+    for (uint64_t seed = 1; status == QDOT_OK && seed <= TRIALS && hits < WANTED;
+         seed++) {
+        size_t r;
+
+        status = assemble(s, p, seed, &found);
+        if (status != QDOT_OK || !found)
+            continue;
+        r = rank(s, p, seen);
+        if (hits++ == 0 || r > most) {
+            most = r;
+            memcpy(independent, seen, p->c * sizeof *seen);
+        }
+    }
+    *known = hits > 0;
+    qdot_free(seen);
+    return status;
+}
+
+static qdot_status
+by_elimination(qdot_scene *s, bool *independent)
+{
+    qdot_pool *pool = s->pool;
+    size_t n = s->coordinates.n, c = s->constraints.n, found = 0;
+    qdot_expr *rows = qdot_calloc(c * n + 1, sizeof *rows), *relations = NULL;
+    size_t *pivot = qdot_calloc(c + 1, sizeof *pivot);
+    qdot_facts facts;
+    qdot_status status = rows && pivot ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_constraint_facts(s, &relations, &facts);
+    for (size_t k = 0; k < c && status == QDOT_OK; k++) {
+        qdot_expr *row = rows + found * n;
+
+        for (size_t i = 0; i < n; i++)
+            row[i] = qdot_constraint_slope(s, k, i);
+        for (size_t j = 0; j < found; j++) {
+            const qdot_expr *above = rows + j * n;
+            qdot_expr head = row[pivot[j]];
+
+            if (head == QDOT_ZERO)
+                continue;
+            for (size_t i = 0; i < n; i++)
+                row[i] = i == pivot[j]
+                             ? QDOT_ZERO
+                             : qdot_sub(pool, qdot_mul(pool, above[pivot[j]], row[i]),
+                                        qdot_mul(pool, head, above[i]));
+        }
+        independent[k] = false;
+        for (size_t i = 0; i < n && !independent[k]; i++) {
+            if (row[i] == QDOT_NIL || row[i] == QDOT_ZERO)
+                continue;
+            if (qdot_is_zero(pool, row[i], &facts)) {
+                row[i] = QDOT_ZERO;
+                continue;
+            }
+            independent[k] = true;
+            pivot[found] = i;
+        }
+        found += independent[k];
+        status = qdot_pool_check(pool);
+    }
+    qdot_free(rows);
+    qdot_free(pivot);
+    qdot_free(relations);
+    return status;
+}
+
+bool
+qdot_freedom_independent(qdot_scene *s)
+{
+    qdot_derived *d = qdot_derived_get(s);
+    bool *independent, known = false;
+    problem p;
+    qdot_status status;
+
+    if (d->independent)
+        return true;
+    independent = qdot_calloc(s->constraints.n + 1, sizeof *independent);
+    status = independent ? QDOT_OK : QDOT_ENOMEM;
+    if (status == QDOT_OK && s->constraints.n && s->coordinates.n) {
+        status = problem_init(s, &p);
+        if (status == QDOT_OK) {
+            if (can_sample(s, &p))
+                status = by_sampling(s, &p, independent, &known);
+            problem_clear(&p);
+            if (status == QDOT_OK)
+                status = qdot_pool_check(s->pool);
+        }
+        if (status == QDOT_OK && !known)
+            status = by_elimination(s, independent);
+    }
+    if (status != QDOT_OK) {
+        qdot_free(independent);
+        qdot_pool_fail(s->pool);
+        return false;
+    }
+    d->independent = independent;
+    return true;
+}
+
+/* Every component of every particle a coordinate of its own: n = N D - C in so many
+ * words. */
+static bool
+is_cartesian(const qdot_scene *s)
+{
+    size_t seen = 0;
+
+    if (s->bodies.n || !s->particles.n)
+        return false;
+    for (size_t i = 0; i < s->particles.n; i++) {
+        qdot_expr r = s->particles.at[i].position;
+
+        for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, r); d++, seen++) {
+            qdot_expr x = qdot_mech_component(s->pool, r, d);
+
+            if (!qdot_expr_is_coordinate(s->pool, x))
+                return false;
+            for (size_t k = 0; k < i; k++)
+                if (qdot_expr_contains(s->pool, s->particles.at[k].position, x))
+                    return false;
+            for (uint32_t k = 0; k < d; k++)
+                if (qdot_mech_component(s->pool, r, k) == x)
+                    return false;
+        }
+    }
+    return seen == s->coordinates.n;
+}
+
+qdot_status
+qdot_mech_dof(qdot_scene *s, qdot_dof *dof)
+{
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (!qdot_freedom_independent(s)) {
+        qdot_status status = qdot_pool_check(s->pool);
+
+        return status == QDOT_OK ? QDOT_EFAILED : status;
+    }
+    *dof = (qdot_dof){.coordinates = s->coordinates.n,
+                      .constraints = s->constraints.n,
+                      .cartesian = is_cartesian(s),
+                      .particles = s->particles.n,
+                      .dimension = qdot_scene_dimension(s)};
+    for (size_t k = 0; k < s->constraints.n; k++)
+        dof->independent += s->derived->independent[k];
+    dof->freedom = dof->coordinates - dof->independent;
+    return QDOT_OK;
+}

@@ -1,0 +1,130 @@
+/* hamilton.c -- velocities for momenta, all of them or those of the cyclic coordinates. */
+#include "mech/hamilton.h"
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/derived.h"
+#include "mech/quantity.h"
+#include "normal/simplify.h"
+
+/* A Legendre transform over the velocities of n coordinates. */
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    qdot_facts facts;
+    uint32_t n;
+    qdot_expr L;
+    qdot_expr *q, *qdot, *p; /* [n] */
+    qdot_expr *rest;         /* [n]: p - dL/dq' at q' = 0 */
+    qdot_expr *A;            /* [n*n] d2L/dq'dq' */
+    qdot_expr *solved;       /* [n]: q' in terms of p */
+} legendre;
+
+/* p_i = sum A_ij q_j' + b_i. */
+static bool
+linear_form(legendre *l)
+{
+    qdot_pool *pool = l->pool;
+
+    for (uint32_t i = 0; i < l->n; i++) {
+        qdot_expr momentum = qdot_diff(pool, l->L, l->qdot[i]), at_rest = momentum;
+
+        for (uint32_t j = 0; j < l->n; j++) {
+            qdot_expr e = qdot_simplify(pool, qdot_diff(pool, momentum, l->qdot[j]), &l->facts);
+
+            for (uint32_t k = 0; k < l->n && e != QDOT_NIL; k++)
+                if (qdot_expr_contains(pool, e, l->qdot[k])) {
+                    qdot_mech_fail(l->s, QDOT_EDOMAIN,
+                                   "the momentum of %s is not linear in the velocities: they cannot "
+                                   "be solved for",
+                                   qdot_expr_symbol(pool, l->q[i])->name);
+                    return false;
+                }
+            l->A[i * l->n + j] = e;
+            at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[j], (qdot_expr[]){QDOT_ZERO});
+        }
+        l->rest[i] = qdot_sub(pool, l->p[i], at_rest);
+    }
+    return !qdot_pool_failed(pool);
+}
+
+static bool
+solve(legendre *l)
+{
+    uint32_t pivot = 0;
+    qdot_status status = qdot_solve_linear(l->pool, l->n, l->A, l->rest, l->solved, &pivot,
+                                           &l->facts);
+
+    if (status == QDOT_ESINGULAR)
+        qdot_mech_fail(l->s, QDOT_ESINGULAR,
+                       "the momenta do not determine the velocity of %s: the mass matrix is singular",
+                       qdot_expr_symbol(l->pool, l->q[pivot])->name);
+    else if (status != QDOT_OK)
+        qdot_pool_fail(l->pool);
+    return status == QDOT_OK;
+}
+
+/* sum p q' - L over the coordinates q [n], their velocities replaced. */
+static qdot_expr
+transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
+{
+    qdot_pool *pool = s->pool;
+    legendre l = {.s = s, .pool = pool, .facts = qdot_scene_facts(s), .n = n,
+                  .L = qdot_mech_lagrangian(s)};
+    qdot_expr result = QDOT_NIL;
+
+    l.q = qdot_calloc((size_t)n * n + 5 * n + 1, sizeof *l.q);
+    if (l.q == NULL)
+        return qdot_pool_fail(pool);
+    l.qdot = l.q + n;
+    l.p = l.qdot + n;
+    l.rest = l.p + n;
+    l.solved = l.rest + n;
+    l.A = l.solved + n;
+    for (uint32_t i = 0; i < n; i++) {
+        l.q[i] = q[i];
+        l.qdot[i] = qdot_symbol_jet(pool, q[i], 1);
+        l.p[i] = qdot_symbol_of(pool, QDOT_MOMENTUM, q[i]);
+    }
+    if (!qdot_pool_failed(pool) && linear_form(&l) && solve(&l)) {
+        result = qdot_neg(pool, qdot_subs(pool, l.L, n, l.qdot, l.solved));
+        for (uint32_t i = 0; i < n; i++)
+            result = qdot_add(pool, result, qdot_mul(pool, l.p[i], l.solved[i]));
+        result = qdot_simplify(pool, result, &l.facts);
+    }
+    qdot_free(l.q);
+    return result;
+}
+
+qdot_expr
+qdot_hamilton_hamiltonian(qdot_scene *s)
+{
+    return transform(s, (uint32_t)s->coordinates.n, s->coordinates.at);
+}
+
+qdot_expr
+qdot_hamilton_routhian(qdot_scene *s)
+{
+    qdot_cyclic *list;
+    size_t n;
+    qdot_expr *q, result = QDOT_NIL;
+
+    if (qdot_mech_cyclic(s, &list, &n) != QDOT_OK)
+        return qdot_pool_fail(s->pool);
+    q = qdot_calloc(n + 1, sizeof *q);
+    if (q == NULL) {
+        qdot_pool_fail(s->pool);
+    } else {
+        for (size_t i = 0; i < n; i++)
+            q[i] = list[i].coordinate;
+        result = n == 0 ? qdot_mech_lagrangian(s) : transform(s, (uint32_t)n, q);
+        if (n > 0 && result != QDOT_NIL) {
+            qdot_facts facts = qdot_scene_facts(s);
+
+            result = qdot_simplify(s->pool, qdot_neg(s->pool, result), &facts);
+        }
+    }
+    qdot_free(q);
+    qdot_free(list);
+    return result;
+}

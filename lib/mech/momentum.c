@@ -1,0 +1,102 @@
+/* momentum.c -- p_i = dL/dq_i' = sum_j M_ij q_j' + b_i - dV/dq_i'; cyclic coordinates.
+ *
+ * Where dL/dq_i = 0 Lagrange's equation reads p_i' = Q_i + R_i, with Q what is applied
+ * beside V and R the reactions: p_i is conserved when both vanish.
+ */
+#include "expr/calculus.h"
+#include "mech/derived.h"
+#include "normal/simplify.h"
+
+qdot_expr
+qdot_mech_momentum(qdot_scene *s, qdot_expr q)
+{
+    qdot_pool *pool = s->pool;
+    qdot_derived *d;
+    qdot_expr p, V;
+    size_t i;
+
+    if (!qdot_derived_index(s, q, &i))
+        return QDOT_NIL;
+    d = qdot_derived_get(s);
+    if (!qdot_derived_array(s, &d->momentum, d->n))
+        return QDOT_NIL;
+    if (d->momentum[i] != QDOT_NIL)
+        return d->momentum[i];
+    if (qdot_mech_stated(s)) {
+        p = qdot_diff(pool, s->lagrangian, qdot_mech_jet(s, i, 1));
+        return d->momentum[i] = qdot_mech_tidy(s, p);
+    }
+    if (!qdot_mass_get(s))
+        return QDOT_NIL;
+    V = qdot_potential_with_velocities(s);
+    p = qdot_sub(pool, d->b[i], qdot_diff(pool, V, qdot_mech_jet(s, i, 1)));
+    for (size_t j = 0; j < d->n; j++)
+        p = qdot_add(pool, p,
+                     qdot_mul(pool, qdot_mass_entry(s, i, j), qdot_mech_jet(s, j, 1)));
+    return d->momentum[i] = qdot_mech_tidy_whole(s, p);
+}
+
+qdot_expr
+qdot_mech_momenta(qdot_scene *s)
+{
+    size_t n = s->coordinates.n;
+    qdot_expr *members = qdot_calloc(n + 1, sizeof *members), list;
+
+    if (!members)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr q = s->coordinates.at[i];
+
+        members[i] = qdot_rel(s->pool, QDOT_EQ, qdot_symbol_of(s->pool, QDOT_MOMENTUM, q),
+                              qdot_mech_momentum(s, q));
+    }
+    list = qdot_list(s->pool, (uint32_t)n, members);
+    qdot_free(members);
+    return list;
+}
+
+/* Whether dL/dx is proved zero, without deriving it where x does not stand in L. */
+static bool
+slope_vanishes(qdot_scene *s, qdot_expr x)
+{
+    qdot_facts facts = qdot_scene_facts(s);
+    bool has;
+
+    if (!qdot_lagrangian_has(s, x, &has))
+        return false;
+    return !has || qdot_is_zero(s->pool, qdot_lagrangian_slope(s, x), &facts);
+}
+
+qdot_status
+qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n)
+{
+    qdot_pool *pool = s->pool;
+    qdot_facts facts = qdot_scene_facts(s);
+    qdot_vec(qdot_cyclic) found = {0};
+    qdot_status status = qdot_pool_check(pool);
+
+    for (size_t i = 0; i < s->coordinates.n && status == QDOT_OK; i++) {
+        qdot_cyclic c = {.coordinate = s->coordinates.at[i]};
+
+        if (slope_vanishes(s, c.coordinate)) {
+            c.momentum = qdot_mech_momentum(s, c.coordinate);
+            c.rate = qdot_add(pool, qdot_force_total(s, i, true, true),
+                              qdot_constraint_reaction(s, i));
+            if (c.momentum != QDOT_NIL && !qdot_is_zero(pool, c.momentum, &facts)) {
+                if (qdot_is_zero(pool, c.rate, &facts))
+                    c.rate = QDOT_NIL;
+                status = qdot_vec_push(&found, c);
+            }
+        }
+        if (status == QDOT_OK)
+            status = qdot_pool_check(pool);
+    }
+    if (status != QDOT_OK) {
+        qdot_free(found.at);
+        found.at = NULL;
+        found.n = 0;
+    }
+    *list = found.at;
+    *n = found.n;
+    return status;
+}

@@ -1,0 +1,141 @@
+/* scene.h -- what a person declared: coordinates, r(q, t), masses, forces, constraints.
+ *
+ * A scene owns its arrays and names and borrows the pool. Nothing is derived here; mech/quantity.h
+ * derives on demand and keeps what it derived until the scene changes (qdot_scene.version).
+ * Vectors are VECs of 2 or 3 components; in one dimension plain scalars.
+ */
+#ifndef QDOT_MECH_SCENE_H
+#define QDOT_MECH_SCENE_H
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/expr.h"
+#include "normal/decide.h"
+
+typedef struct {
+    char *name;
+    qdot_expr mass, position;
+} qdot_particle;
+
+typedef struct {
+    char *name;
+    qdot_expr mass, position; /* centre of mass, in 2 or 3 dimensions */
+    qdot_expr rotation;       /* a 2x2 or 3x3 MAT: its columns the body's axes in space */
+    qdot_expr inertia;        /* plane: a scalar; space: a symmetric 3x3 MAT, body axes, about the
+                                 centre of mass */
+    qdot_expr angle;          /* plane: the declared angle; nil in space */
+} qdot_body;
+
+typedef struct {
+    char *name; /* NULL: no label */
+    qdot_expr at[2]; /* the ends: positions */
+    char *end[2];    /* their labels, NULL for a point */
+    qdot_expr stiffness, rest; /* spring; of a damper: coefficient, nil */
+} qdot_link;
+
+typedef struct {
+    char *name;   /* NULL: no label */
+    qdot_expr force; /* vector (or scalar in 1-D) */
+    qdot_expr point; /* where it acts: a position */
+    char *on;     /* label of the particle or body, NULL for a point */
+} qdot_force;
+
+typedef struct {
+    char *name;       /* NULL */
+    qdot_expr torque; /* scalar; vector for a spatial body */
+    qdot_expr coordinate; /* a generalized force on this coordinate; nil: */
+    int body;             /* on this body, through its spin */
+} qdot_torque;
+
+typedef enum { QDOT_HOLONOMIC, QDOT_VELOCITY, QDOT_ACCELERATION } qdot_constraint_kind;
+
+typedef struct {
+    char *name;       /* "rod", "pin, 1" for a component; "1", "2" ... without label */
+    char *label;      /* "rod", "pin"; NULL without label */
+    qdot_expr f;      /* left - right = 0 */
+    qdot_expr left, right;
+    qdot_constraint_kind kind; /* the highest derivative f holds */
+    qdot_expr multiplier;      /* the symbol lambda[name] */
+} qdot_constraint;
+
+typedef struct qdot_derived qdot_derived; /* mech/quantity.c */
+
+typedef struct {
+    qdot_pool *pool;  /* borrowed */
+    uint64_t version; /* grows with every change */
+    qdot_vec(qdot_expr) coordinates;
+    qdot_vec(qdot_particle) particles;
+    qdot_vec(qdot_body) bodies;
+    qdot_vec(qdot_expr) gravities;    /* vectors: fields that add up */
+    qdot_vec(qdot_expr) potentials;   /* terms of V declared with `potential` */
+    qdot_vec(qdot_link) springs, dampers;
+    qdot_vec(qdot_expr) dissipations; /* terms of the Rayleigh function */
+    qdot_vec(qdot_force) forces;
+    qdot_vec(qdot_torque) torques;
+    qdot_vec(qdot_constraint) constraints;
+    qdot_vec(qdot_expr) relations;  /* `assume`: scalars that are 0 */
+    qdot_vec(qdot_expr) conditions; /* `assume c > a` */
+    qdot_expr lagrangian;           /* stated; nil: T - V */
+    qdot_vec(char *) dropped;       /* what the latest call left out, for a notice: components of
+                                       a constraint that hold identically ("pin, 2"); what acted
+                                       on a removed thing ("spring s1", "a force") */
+    qdot_derived *derived;          /* owned; what was derived for `version` */
+} qdot_scene;
+
+qdot_scene *qdot_scene_new(qdot_pool *pool); /* NULL: no memory */
+void qdot_scene_free(qdot_scene *scene);
+
+/* Adders: check kinds and dimensions (QDOT_ETYPE), name clashes among labels (QDOT_ENAME), and
+ * that L is not stated beside particles (QDOT_EINVAL). Names are copied; NULL where allowed. On
+ * error the scene is unchanged. */
+QDOT_MUST_CHECK qdot_status qdot_scene_coordinate(qdot_scene *s, qdot_expr q);
+QDOT_MUST_CHECK qdot_status qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass,
+                                                qdot_expr position);
+/* Plane: rotation nil and angle given; inertia a scalar. Space: rotation a 3x3 MAT; inertia a VEC of
+ * three moments or a symmetric MAT; about (nil: the centre of mass) body-fixed: the parallel axis
+ * theorem is taken off. */
+QDOT_MUST_CHECK qdot_status qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass,
+                                            qdot_expr inertia, qdot_expr about,
+                                            qdot_expr position, qdot_expr angle,
+                                            qdot_expr rotation);
+QDOT_MUST_CHECK qdot_status qdot_scene_gravity(qdot_scene *s, qdot_expr field);
+QDOT_MUST_CHECK qdot_status qdot_scene_potential(qdot_scene *s, qdot_expr V);
+QDOT_MUST_CHECK qdot_status qdot_scene_spring(qdot_scene *s, const qdot_link *spring);
+QDOT_MUST_CHECK qdot_status qdot_scene_damper(qdot_scene *s, const qdot_link *damper);
+QDOT_MUST_CHECK qdot_status qdot_scene_dissipation(qdot_scene *s, qdot_expr D);
+QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *force);
+QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
+QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
+/* f = left - right; scalars, or VECs of equal size (one constraint a component: "pin, 1").
+ * Components proved to hold identically are left out and named in s->dropped. Without label the
+ * constraint is called by its number. QDOT_EINVAL: no coordinate in it, or a third derivative. */
+QDOT_MUST_CHECK qdot_status qdot_scene_constraint(qdot_scene *s, const char *label,
+                                                  qdot_expr left, qdot_expr right);
+/* An equation or inequality the engine may use. */
+QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation);
+/* Take the labelled thing (particle, body, spring, damper, force, torque, constraint) out again.
+ * What was declared to act on a removed particle or body goes with it, named in s->dropped. */
+QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
+
+/* Rotation matrix Rz(phi) Rx(theta) Rz(psi). */
+qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi);
+
+/* By label; NULL if there is none. */
+const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);
+const qdot_body *qdot_scene_find_body(const qdot_scene *s, const char *label);
+bool qdot_scene_has_label(const qdot_scene *s, const char *label);
+/* Position of a particle or body; nil and QDOT_ENAME if there is none. */
+qdot_expr qdot_scene_position(const qdot_scene *s, const char *label);
+/* point(body, P): where the body-fixed P is; of a particle: P must be absent. spin(body): scalar
+ * in the plane, VEC in inertial axes in space. velocity(body, P): of its material at place P. */
+qdot_expr qdot_scene_point(qdot_scene *s, const char *body, qdot_expr P);
+qdot_expr qdot_scene_spin(qdot_scene *s, const char *body);
+qdot_expr qdot_scene_velocity(qdot_scene *s, const char *body, qdot_expr place);
+
+/* The scene's facts for the engine (borrowed, valid until the scene changes). */
+qdot_facts qdot_scene_facts(const qdot_scene *s);
+
+/* `scene` printed: every declaration as a statement that parses back, a line each (plain style). */
+QDOT_MUST_CHECK qdot_status qdot_scene_print(const qdot_scene *s, qdot_text *out);
+
+#endif

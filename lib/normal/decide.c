@@ -1,0 +1,224 @@
+/* decide.c -- equality: a quick look at points, a proof, a long look at points. */
+#include "normal/decide.h"
+
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "normal/ideal.h"
+#include "normal/prepare.h"
+#include "normal/sample.h"
+
+#define WORK 60000000
+
+/* --- proof ---------------------------------------------------------------------------------- */
+
+/* Whether left - right is proved to be zero. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+static qdot_status
+prove(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts, bool *zero)
+{
+    size_t nr = facts == NULL ? 0 : facts->n_relations;
+    qdot_expr *e = qdot_malloc((nr + 2) * sizeof *e);
+    qdot_status status = QDOT_OK;
+    qdot_field f;
+
+    *zero = false;
+    if (e == NULL)
+        return QDOT_ENOMEM;
+    e[0] = qdot_prepare(pool, left);
+    e[1] = qdot_prepare(pool, right);
+    for (size_t i = 0; i < nr; i++)
+        e[2 + i] = qdot_prepare(pool, facts->relations[i]);
+    if (qdot_pool_failed(pool)) {
+        qdot_free(e);
+        return qdot_pool_check(pool);
+    }
+    qdot_field_begin(&f, pool, nr + 2, e, WORK);
+    if (qdot_field_goes(&f)) {
+        qdot_ratio d;
+
+        qdot_ratio_init(&f, &d);
+        qdot_ratio_sub(&f, &d, qdot_field_value(&f, e[0]), qdot_field_value(&f, e[1]));
+        qdot_field_reduce(&f, d.n);
+        if (nr > 0 && !fmpz_mpoly_is_zero(d.n, f.ctx)) {
+            qdot_ideal ideal = {0};
+            fmpz_t scale;
+
+            fmpz_init(scale);
+            status = qdot_ideal_make(&ideal, &f, nr, e + 2);
+            if (status == QDOT_OK)
+                qdot_ideal_reduce(&ideal, &f, scale, d.n);
+            qdot_ideal_clear(&ideal, &f);
+            fmpz_clear(scale);
+        }
+        *zero = status == QDOT_OK && qdot_field_goes(&f) && fmpz_mpoly_is_zero(d.n, f.ctx);
+        qdot_ratio_clear(&f, &d);
+    }
+    if (f.state == QDOT_FIELD_FAILED && status == QDOT_OK)
+        status = f.status;
+    qdot_field_end(&f);
+    qdot_free(e);
+    if (qdot_pool_failed(pool) && status == QDOT_OK) /* a wrong turn is no failure */
+        status = qdot_pool_check(pool);
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* --- refutation --------------------------------------------------------------------------------- */
+
+struct look {
+    int points;     /* wanted */
+    int tries;      /* at most so many points are chosen */
+    slong prec[4];  /* ascending, 0 ends */
+};
+
+static const struct look quick = {2, 24, {96, 0}};
+static const struct look thorough = {16, 240, {128, 512, 2048, 0}};
+
+static double
+to_double(arb_srcptr x)
+{
+    return arf_get_d(arb_midref(x), ARF_RND_NEAR);
+}
+
+/* The digits to which the sides agree: the ball of the difference holds zero. */
+static int
+digits_of(const arb_t difference, arb_srcptr left)
+{
+    double radius = mag_get_d_log2_approx(arb_radref(difference));
+    double size = fabs(to_double(left));
+
+    if (mag_is_zero(arb_radref(difference)))
+        return 9999;
+    radius -= size > 1 ? log2(size) : 0;
+    return radius > 0 ? 0 : (int)(-radius * 0.30103);
+}
+
+/* Compare at one point. 1: the sides differ there; 0: they agree so far; -1: no point. */
+static int
+compare(qdot_sample *s, qdot_expr left, qdot_expr right, const struct look *look,
+        qdot_decision *d, int *digits)
+{
+    int result = -1;
+    arb_t difference;
+
+    arb_init(difference);
+    for (int i = 0; i < 4 && look->prec[i] > 0; i++) {
+        bool here = qdot_sample_eval(s, look->prec[i]);
+        arb_srcptr l = qdot_ball_get(&s->ball, left), r = qdot_ball_get(&s->ball, right);
+
+        if (!here || l == NULL || r == NULL) {
+            if (i > 0)
+                break;
+            continue;
+        }
+        arb_sub(difference, l, r, look->prec[i]);
+        result = 0;
+        if (!arb_contains_zero(difference)) {
+            result = 1;
+            d->left = to_double(l);
+            d->right = to_double(r);
+            break;
+        }
+        *digits = digits_of(difference, l);
+        if (arb_is_zero(difference))
+            break;
+    }
+    arb_clear(difference);
+    return result;
+}
+
+static qdot_status
+look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+               const struct look *look, qdot_decision *d)
+{
+    qdot_expr e[2] = {left, right};
+    qdot_sample s;
+
+    QDOT_TRY(qdot_sample_begin(&s, pool, 2, e, facts));
+    for (int k = 0; s.possible && k < look->tries && d->points < look->points; k++) {
+        int digits = 0, here;
+
+        if (qdot_interrupt_flag) {
+            qdot_sample_end(&s);
+            return qdot_interrupt_check();
+        }
+        if (k > 24 && d->points == 0 && s.ball.walk.n > 2000)
+            break;
+        qdot_sample_point(&s, k);
+        here = compare(&s, left, right, look, d, &digits);
+        if (here == 0) {
+            d->points++;
+            if (digits < d->digits || d->points == 1)
+                d->digits = digits;
+        } else if (here == 1) {
+            d->verdict = QDOT_REFUTED;
+            d->at = qdot_sample_list(&s);
+            break;
+        }
+    }
+    qdot_sample_end(&s);
+    return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
+}
+
+/* --- the decision --------------------------------------------------------------------------------- */
+
+static qdot_status
+need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    if (a == QDOT_NIL || b == QDOT_NIL)
+        return qdot_pool_failed(pool) ? qdot_pool_check(pool)
+                                      : qdot_fail(QDOT_EINVAL, "nothing to compare");
+    if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
+        return qdot_fail(QDOT_ETYPE, "numbers are compared here, not vectors or equations");
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+                  qdot_decision *d)
+{
+    bool zero;
+
+    *d = (qdot_decision){.verdict = QDOT_UNDECIDED};
+    QDOT_TRY(need_scalars(pool, left, right));
+    if (left == right) {
+        d->verdict = QDOT_PROVED;
+        return QDOT_OK;
+    }
+    QDOT_TRY(look_at_points(pool, left, right, facts, &quick, d));
+    if (d->verdict == QDOT_REFUTED)
+        return QDOT_OK;
+    QDOT_TRY(prove(pool, left, right, facts, &zero));
+    if (zero) {
+        d->verdict = QDOT_PROVED;
+        return QDOT_OK;
+    }
+    d->points = 0;
+    QDOT_TRY(look_at_points(pool, left, right, facts, &thorough, d));
+    if (d->verdict == QDOT_REFUTED)
+        d->points = d->digits = 0;
+    return QDOT_OK;
+}
+
+bool
+qdot_is_zero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    qdot_decision d = {.verdict = QDOT_UNDECIDED};
+    bool zero = false;
+    qdot_status status;
+
+    if (e == QDOT_ZERO)
+        return true;
+    if (e == QDOT_NIL || qdot_pool_failed(pool) || !qdot_expr_is_scalar(pool, e))
+        return false;
+    if (qdot_expr_kind(pool, e) == QDOT_NUM || qdot_expr_kind(pool, e) == QDOT_SYM)
+        if (facts == NULL || facts->n_relations == 0)
+            return false;
+    status = look_at_points(pool, e, QDOT_ZERO, facts, &quick, &d);
+    if (status == QDOT_OK && d.verdict != QDOT_REFUTED)
+        status = prove(pool, e, QDOT_ZERO, facts, &zero);
+    if (status != QDOT_OK)
+        qdot_pool_fail(pool);
+    return status == QDOT_OK && zero;
+}

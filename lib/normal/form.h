@@ -1,0 +1,42 @@
+/* form.h -- polynomials of a field said as a person would: the fewest operations.
+ *
+ * Every function gives an expression equal to the polynomial by construction.
+ */
+#ifndef QDOT_NORMAL_FORM_H
+#define QDOT_NORMAL_FORM_H
+
+#include "normal/field.h"
+
+/* Kinds of variables, and what was already said. */
+typedef struct {
+    qdot_field *f;
+    bool *fast, *trig; /* [gens] */
+    fmpz_mpoly_struct *known;
+    qdot_expr *said;
+    size_t n, known_capacity, said_capacity;
+    int depth;
+} qdot_form;
+
+QDOT_MUST_CHECK qdot_status qdot_form_begin(qdot_form *form, qdot_field *f);
+void qdot_form_end(qdot_form *form);
+
+/* c times a polynomial: collected in velocities and accelerations, or as a product. */
+qdot_expr qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
+
+/* The coefficient of a monomial in velocities: no fast variable in p. */
+qdot_expr qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p);
+
+/* A polynomial in trigonometric variables alone (trig-form.c). */
+qdot_expr qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p);
+
+/* What was said of p before; nil if nothing. Remember e for p; returns e. */
+qdot_expr qdot_form_recall(const qdot_form *form, const fmpz_mpoly_t p);
+qdot_expr qdot_form_remember(qdot_form *form, const fmpz_mpoly_t p, qdot_expr e);
+
+/* Keep the smaller of *best (nil: none yet) and e. */
+void qdot_form_keep(qdot_pool *pool, qdot_expr *best, qdot_expr e);
+
+/* c * monomial, or a product of factors with exponents. */
+qdot_expr qdot_form_monomial(qdot_field *f, const fmpq_t c, const ulong *exp);
+
+#endif

@@ -1,0 +1,460 @@
+/* prepare.c -- one pass, children first: normal arguments, inverse functions resolved. */
+#include "normal/prepare.h"
+
+#include "base/memory.h"
+#include "expr/walk.h"
+#include "normal/field.h"
+#include "normal/split.h"
+
+#define WORK 400000
+#define MOST_MULTIPLE 12
+
+/* --- flat normal form ------------------------------------------------------------------------ */
+
+static bool
+is_monomial(const qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    long k;
+
+    if (qdot_expr_kind(pool, e) == QDOT_SYM || qdot_expr_kind(pool, e) == QDOT_NUM)
+        return true;
+    if (qdot_expr_kind(pool, e) != QDOT_PROD)
+        return false;
+    for (uint32_t i = 1; i < n; i += 2)
+        if (qdot_expr_kind(pool, qdot_expr_arg(pool, e, i)) != QDOT_SYM ||
+            !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k))
+            return false;
+    return true;
+}
+
+/* A sum of monomials in symbols: normal as it stands, unless `whole` and a power is negative. */
+static bool
+is_flat(const qdot_pool *pool, qdot_expr e, bool polynomial)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+
+    if (qdot_expr_kind(pool, e) != QDOT_SUM)
+        return is_monomial(pool, e);
+    for (uint32_t i = 1; i < n; i += 2) {
+        qdot_expr term = qdot_expr_arg(pool, e, i);
+        long k;
+
+        if (!is_monomial(pool, term))
+            return false;
+        if (polynomial && qdot_expr_kind(pool, term) == QDOT_PROD)
+            for (uint32_t j = 2; j < qdot_expr_count(pool, term); j += 2)
+                if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, term, j), &k) || k < 0)
+                    return false;
+    }
+    return true;
+}
+
+qdot_expr
+qdot_prepare_flat(qdot_pool *pool, qdot_expr e, int64_t work)
+{
+    qdot_expr flat = e;
+    qdot_field f;
+
+    if (e == QDOT_NIL || !qdot_expr_is_scalar(pool, e) || is_flat(pool, e, true))
+        return e;
+    qdot_field_begin(&f, pool, 1, &e, work);
+    if (qdot_field_goes(&f)) {
+        qdot_ratio r;
+
+        qdot_ratio_init(&f, &r);
+        qdot_ratio_set(&f, &r, qdot_field_value(&f, e));
+        qdot_ratio_cancel(&f, &r);
+        if (qdot_field_goes(&f))
+            flat = qdot_field_ratio_expr(&f, &r);
+        qdot_ratio_clear(&f, &r);
+    }
+    qdot_field_end(&f);
+    return flat;
+}
+
+/* An angle as a sum of terms, each over the common denominator. */
+static qdot_expr
+flat_angle(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr sum = e;
+    qdot_field f;
+
+    if (is_flat(pool, e, false))
+        return e;
+    qdot_field_begin(&f, pool, 1, &e, WORK);
+    if (qdot_field_goes(&f)) {
+        qdot_ratio r;
+
+        qdot_ratio_init(&f, &r);
+        qdot_ratio_set(&f, &r, qdot_field_value(&f, e));
+        qdot_ratio_cancel(&f, &r);
+        if (qdot_field_goes(&f)) {
+            qdot_expr over = qdot_div(pool, QDOT_ONE, qdot_field_expr(&f, r.d));
+            fmpz_mpoly_t term;
+
+            sum = QDOT_ZERO;
+            fmpz_mpoly_init(term, f.ctx);
+            for (slong i = 0; i < fmpz_mpoly_length(r.n, f.ctx); i++) {
+                fmpz_mpoly_get_term(term, r.n, i, f.ctx);
+                sum = qdot_add(pool, sum, qdot_mul(pool, qdot_field_expr(&f, term), over));
+            }
+            fmpz_mpoly_clear(term, f.ctx);
+        }
+        qdot_ratio_clear(&f, &r);
+    }
+    qdot_field_end(&f);
+    return sum;
+}
+
+/* --- inverse functions under their functions ---------------------------------------------------- */
+
+static qdot_expr
+one_plus(qdot_pool *pool, qdot_expr u, long sign)
+{
+    return qdot_add(pool, QDOT_ONE,
+                    qdot_mul(pool, qdot_expr_int(pool, sign), qdot_pow_int(pool, u, 2)));
+}
+
+static qdot_expr
+root(qdot_pool *pool, qdot_expr e)
+{
+    return e == QDOT_NIL ? e : qdot_split_power(pool, e, QDOT_HALF);
+}
+
+/* s, c: sin and cos of an inverse circular function, sinh and cosh of an inverse hyperbolic. */
+static bool
+of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr *c)
+{
+    qdot_expr u, v, r;
+
+    if (qdot_expr_kind(pool, e) != QDOT_FUN)
+        return false;
+    u = qdot_expr_arg(pool, e, 0);
+    switch (qdot_expr_node(pool, e)->op) {
+    case QDOT_ASIN:
+        *s = u;
+        *c = root(pool, one_plus(pool, u, -1));
+        return circular;
+    case QDOT_ACOS:
+        *c = u;
+        *s = root(pool, one_plus(pool, u, -1));
+        return circular;
+    case QDOT_ATAN:
+        *c = qdot_div(pool, QDOT_ONE, root(pool, one_plus(pool, u, 1)));
+        *s = qdot_mul(pool, u, *c);
+        return circular;
+    case QDOT_ATAN2:
+        v = qdot_expr_arg(pool, e, 1);
+        r = root(pool, qdot_prepare_flat(pool, qdot_add(pool, qdot_pow_int(pool, u, 2),
+                                                        qdot_pow_int(pool, v, 2)), WORK));
+        *s = qdot_div(pool, u, r);
+        *c = qdot_div(pool, v, r);
+        return circular;
+    case QDOT_ASINH:
+        *s = u;
+        *c = root(pool, one_plus(pool, u, 1));
+        return !circular;
+    case QDOT_ACOSH:
+        *c = u;
+        *s = root(pool, qdot_sub(pool, qdot_pow_int(pool, u, 2), QDOT_ONE));
+        return !circular;
+    case QDOT_ATANH:
+        *c = qdot_div(pool, QDOT_ONE, root(pool, one_plus(pool, u, -1)));
+        *s = qdot_mul(pool, u, *c);
+        return !circular;
+    default:
+        return false;
+    }
+}
+
+/* The i-th term of an argument: coefficient and the rest. */
+static uint32_t
+terms(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_SUM ? (qdot_expr_count(pool, e) - 1) / 2 : 1;
+}
+
+static void
+term_at(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *c, qdot_expr *rest)
+{
+    if (qdot_expr_kind(pool, e) == QDOT_SUM) {
+        *rest = qdot_expr_arg(pool, e, 1 + 2 * i);
+        *c = qdot_expr_arg(pool, e, 2 + 2 * i);
+    } else if (qdot_expr_kind(pool, e) == QDOT_PROD) {
+        *c = qdot_expr_arg(pool, e, 0);
+        *rest = qdot_div(pool, e, *c);
+    } else {
+        *c = QDOT_ONE;
+        *rest = e;
+    }
+}
+
+/* A function of an argument that holds inverse functions, by the addition theorems; nil if it
+ * holds none. */
+static qdot_expr
+resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
+{
+    bool circular = op != QDOT_SINH && op != QDOT_COSH && op != QDOT_TANH, any = false;
+    qdot_expr left = arg, s = QDOT_ZERO, c = QDOT_ONE, s1, c1, s2, c2;
+    long n;
+
+    for (uint32_t i = 0; i < terms(pool, arg); i++) {
+        qdot_expr factor, rest;
+
+        term_at(pool, arg, i, &factor, &rest);
+        if (qdot_expr_kind(pool, rest) != QDOT_FUN || !qdot_expr_to_int(pool, factor, &n) ||
+            n > MOST_MULTIPLE || n < -MOST_MULTIPLE ||
+            !of_inverse(pool, rest, circular, &s1, &c1))
+            continue;
+        any = true;
+        left = qdot_sub(pool, left, qdot_mul(pool, factor, rest));
+        if (n < 0)
+            s1 = qdot_neg(pool, s1);
+        for (long k = 0; k < (n < 0 ? -n : n); k++) {
+            s2 = qdot_add(pool, qdot_mul(pool, s, c1), qdot_mul(pool, c, s1));
+            c2 = qdot_add(pool, qdot_mul(pool, c, c1),
+                          qdot_mul(pool, qdot_expr_int(pool, circular ? -1 : 1),
+                                   qdot_mul(pool, s, s1)));
+            s = s2;
+            c = c2;
+        }
+    }
+    if (!any)
+        return QDOT_NIL;
+    s1 = qdot_fun1(pool, circular ? QDOT_SIN : QDOT_SINH, left);
+    c1 = qdot_fun1(pool, circular ? QDOT_COS : QDOT_COSH, left);
+    s2 = qdot_add(pool, qdot_mul(pool, s, c1), qdot_mul(pool, c, s1));
+    c2 = qdot_add(pool, qdot_mul(pool, c, c1),
+                  qdot_mul(pool, qdot_expr_int(pool, circular ? -1 : 1), qdot_mul(pool, s, s1)));
+    switch (op) {
+    case QDOT_SIN:
+    case QDOT_SINH:
+        return s2;
+    case QDOT_COS:
+    case QDOT_COSH:
+        return c2;
+    case QDOT_SEC:
+        return qdot_div(pool, QDOT_ONE, c2);
+    case QDOT_CSC:
+        return qdot_div(pool, QDOT_ONE, s2);
+    case QDOT_COT:
+        return qdot_div(pool, c2, s2);
+    default:
+        return qdot_div(pool, s2, c2);
+    }
+}
+
+/* exp(c log(u) + ...) = u^c exp(...). */
+static qdot_expr
+exponential(qdot_pool *pool, qdot_expr arg)
+{
+    qdot_expr left = arg, product = QDOT_ONE;
+
+    for (uint32_t i = 0; i < terms(pool, arg); i++) {
+        qdot_expr factor, rest, u;
+
+        term_at(pool, arg, i, &factor, &rest);
+        if (qdot_expr_kind(pool, rest) != QDOT_FUN ||
+            qdot_expr_node(pool, rest)->op != QDOT_LOG)
+            continue;
+        u = qdot_expr_arg(pool, rest, 0);
+        left = qdot_sub(pool, left, qdot_mul(pool, factor, rest));
+        product = qdot_mul(pool, product,
+                           fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, factor)))
+                               ? qdot_pow(pool, u, factor)
+                               : qdot_split_power(pool, u, factor));
+    }
+    return qdot_mul(pool, product, qdot_fun1(pool, QDOT_EXP, left));
+}
+
+/* --- the pass -------------------------------------------------------------------------------------- */
+
+static qdot_expr
+function(qdot_pool *pool, qdot_expr e)
+{
+    uint32_t op = qdot_expr_node(pool, e)->op, n = qdot_expr_count(pool, e);
+    qdot_expr arg = qdot_expr_arg(pool, e, 0), args[4], resolved;
+
+    switch (op) {
+    case QDOT_SIN:
+    case QDOT_COS:
+    case QDOT_TAN:
+    case QDOT_SEC:
+    case QDOT_CSC:
+    case QDOT_COT:
+    case QDOT_SINH:
+    case QDOT_COSH:
+    case QDOT_TANH:
+        arg = flat_angle(pool, arg);
+        if (arg == QDOT_NIL)
+            return arg;
+        resolved = resolve(pool, op, arg);
+        return resolved != QDOT_NIL || qdot_pool_failed(pool) ? resolved
+                                                              : qdot_fun1(pool, op, arg);
+    case QDOT_EXP:
+        arg = flat_angle(pool, arg);
+        return arg == QDOT_NIL ? arg : exponential(pool, arg);
+    case QDOT_ABS:
+        return qdot_split_abs(pool, arg);
+    case QDOT_LOG:
+        return qdot_split_log(pool, arg);
+    default:
+        if (n > 4)
+            return e;
+        for (uint32_t i = 0; i < n; i++)
+            args[i] = qdot_prepare_flat(pool, qdot_expr_arg(pool, e, i), WORK);
+        return qdot_rebuild(pool, e, args);
+    }
+}
+
+/* Remember that `now` stands where `before` stood; what cannot be remembered is only longer. */
+static void
+remember(qdot_pool *pool, qdot_map *origins, qdot_expr now, qdot_expr before)
+{
+    if (origins != NULL && now != QDOT_NIL && now != before &&
+        !qdot_map_get(origins, now, NULL) && qdot_map_set(origins, now, before) != QDOT_OK)
+        qdot_pool_fail(pool);
+}
+
+/* The base of a power x made of b, if b is left as a whole under the root. */
+static void
+remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x, qdot_expr b)
+{
+    if (origins != NULL && power != QDOT_NIL && qdot_expr_kind(pool, power) == QDOT_PROD &&
+        qdot_expr_count(pool, power) == 3 && qdot_expr_arg(pool, power, 0) == QDOT_ONE &&
+        qdot_expr_arg(pool, power, 2) == x)
+        remember(pool, origins, qdot_expr_arg(pool, power, 1), b);
+}
+
+/* Powers with fractional exponents split, others with normal base and exponent. */
+static qdot_expr
+product(qdot_pool *pool, qdot_expr e, qdot_map *origins)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr result;
+    bool special = false;
+    long k;
+
+    for (uint32_t i = 2; i < n && !special; i += 2)
+        special = !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i), &k);
+    if (!special)
+        return e;
+    result = qdot_expr_arg(pool, e, 0);
+    for (uint32_t i = 1; i < n && !qdot_pool_failed(pool); i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i), x = qdot_expr_arg(pool, e, i + 1), power;
+
+        if (qdot_expr_to_int(pool, x, &k))
+            power = qdot_pow(pool, b, x);
+        else if (qdot_expr_kind(pool, x) == QDOT_NUM)
+            remember_base(pool, origins, power = qdot_split_power(pool, b, x), x, b);
+        else
+            power = qdot_pow(pool, qdot_prepare_flat(pool, b, WORK),
+                             qdot_prepare_flat(pool, x, WORK));
+        result = qdot_mul(pool, result, power);
+    }
+    return result;
+}
+
+static qdot_expr
+with_flat_args(qdot_pool *pool, qdot_expr e, uint32_t count)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr *args = qdot_malloc((n + 1) * sizeof *args), result;
+
+    if (args == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++) {
+        args[i] = qdot_expr_arg(pool, e, i);
+        if (i < count)
+            args[i] = qdot_prepare_flat(pool, args[i], WORK);
+    }
+    result = qdot_rebuild(pool, e, args);
+    qdot_free(args);
+    return result;
+}
+
+static qdot_expr
+node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few, before = e, now;
+    bool changed = false;
+
+    if (args == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr old = qdot_expr_arg(pool, e, i);
+
+        args[i] = (qdot_expr)qdot_walk_get(w, old);
+        changed |= args[i] != old;
+    }
+    if (changed)
+        e = qdot_rebuild(pool, e, args);
+    if (args != few)
+        qdot_free(args);
+    if (e == QDOT_NIL)
+        return e;
+    switch (qdot_expr_kind(pool, e)) {
+    case QDOT_FUN:
+        now = function(pool, e);
+        break;
+    case QDOT_PROD:
+        return product(pool, e, origins);
+    case QDOT_UFUN:
+        now = with_flat_args(pool, e, qdot_expr_count(pool, e) / 2);
+        break;
+    case QDOT_REL:
+        return with_flat_args(pool, e, 2);
+    default:
+        return e;
+    }
+    if (now != QDOT_NIL &&
+        (qdot_expr_kind(pool, now) == QDOT_FUN || qdot_expr_kind(pool, now) == QDOT_UFUN))
+        remember(pool, origins, now, before);
+    return now;
+}
+
+/* A failure that is only a wrong turn (a zero denominator found on the way) is forgotten. */
+static bool
+recover(qdot_pool *pool)
+{
+    qdot_status status = qdot_pool_check(pool);
+
+    if (status == QDOT_OK)
+        return false;
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        qdot_pool_fail(pool);
+    return true;
+}
+
+qdot_expr
+qdot_prepare(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_prepare_from(pool, e, NULL);
+}
+
+qdot_expr
+qdot_prepare_from(qdot_pool *pool, qdot_expr e, qdot_map *origins)
+{
+    qdot_expr result = e;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if (is_flat(pool, e, false))
+        return e;
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && !qdot_pool_failed(pool); i++) {
+        qdot_expr at = w.at[i];
+        qdot_kind kind = qdot_expr_kind(pool, at);
+
+        result = kind == QDOT_NUM || kind == QDOT_SYM ? at : node(pool, &w, at, origins);
+        qdot_walk_set(&w, at, result);
+    }
+    qdot_walk_end(&w);
+    if (recover(pool))
+        return qdot_pool_failed(pool) ? QDOT_NIL : e;
+    return result;
+}

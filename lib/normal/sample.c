@@ -1,0 +1,542 @@
+/* sample.c -- relations solved one after another; points; their checks. */
+#include "normal/sample.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "normal/factor.h"
+#include "normal/prepare.h"
+
+#define WORK 4000000
+
+/* --- solving a relation for one atom ---------------------------------------------------------- */
+
+/* How gladly a relation is solved for this atom; 0: never. */
+static int
+fitness(const qdot_pool *pool, const qdot_gen *gen)
+{
+    const qdot_symbol *symbol = qdot_expr_symbol(pool, gen->expr);
+    int plain;
+
+    if (gen->kind != QDOT_GEN_PLAIN)
+        return 0;
+    if (qdot_expr_kind(pool, gen->expr) == QDOT_UFUN)
+        return 5;
+    if (symbol == NULL)
+        return 0;
+    plain = symbol->lo == QDOT_NIL && symbol->hi == QDOT_NIL && symbol->sign == 0;
+    switch (symbol->class) {
+    case QDOT_MULTIPLIER:
+        return 9;
+    case QDOT_COORD:
+        return 3 + plain + (symbol->order < 2 ? 2 * (int)symbol->order : 4);
+    case QDOT_CONST:
+        return 0;
+    case QDOT_PARAM:
+        return 1 + plain;
+    default:
+        return 2 + plain;
+    }
+}
+
+/* Whether gen v stands inside another generator that p holds. */
+static bool
+inside_another(qdot_field *f, const fmpz_mpoly_t p, slong v)
+{
+    for (slong w = 0; w < f->n; w++)
+        if (w != v && fmpz_mpoly_degree_si(p, w, f->ctx) > 0 &&
+            qdot_expr_contains(f->pool, f->gen[w].expr, f->gen[v].expr))
+            return true;
+    return false;
+}
+
+static qdot_expr
+coefficient(qdot_field *f, const qdot_groups *g, slong v, ulong k)
+{
+    for (slong i = 0; i < g->n; i++)
+        if (g->key[i * f->n + v] == k)
+            return qdot_field_expr(f, g->poly + i);
+    return QDOT_ZERO;
+}
+
+static qdot_expr
+solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree)
+{
+    qdot_pool *pool = f->pool;
+    bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
+    qdot_groups groups;
+    qdot_expr a, b, c, x = QDOT_NIL;
+
+    if (by == NULL)
+        return qdot_pool_fail(pool);
+    by[v] = true;
+    if (qdot_factor_group(f, &groups, p, by) == QDOT_OK) {
+        c = coefficient(f, &groups, v, 0);
+        b = coefficient(f, &groups, v, 1);
+        a = coefficient(f, &groups, v, 2);
+        if (degree == 1) {
+            x = qdot_neg(pool, qdot_div(pool, c, b));
+        } else {
+            qdot_expr d = qdot_sub(pool, qdot_pow_int(pool, b, 2),
+                                   qdot_mul(pool, qdot_expr_int(pool, 4), qdot_mul(pool, a, c)));
+
+            x = qdot_div(pool, qdot_sub(pool, qdot_sqrt(pool, d), b),
+                         qdot_mul(pool, qdot_expr_int(pool, 2), a));
+        }
+    }
+    qdot_factor_ungroup(f, &groups);
+    qdot_free(by);
+    return x;
+}
+
+/* Solve relation = 0. *atom nil: it holds anyway. False: it cannot be solved. */
+static bool
+solve_relation(qdot_pool *pool, qdot_expr relation, qdot_expr *atom, qdot_expr *solution)
+{
+    qdot_expr e = qdot_prepare(pool, relation);
+    slong best = -1, best_degree = 0;
+    int fit = 0;
+    const qdot_ratio *r;
+    qdot_field f;
+
+    *atom = QDOT_NIL;
+    qdot_field_begin(&f, pool, 1, &e, WORK);
+    r = qdot_field_value(&f, e);
+    if (r == NULL || fmpz_mpoly_is_zero(r->n, f.ctx)) {
+        bool zero = r != NULL;
+
+        qdot_field_end(&f);
+        return zero;
+    }
+    for (slong v = 0; v < f.n; v++) {
+        slong degree = fmpz_mpoly_degree_si(r->n, v, f.ctx);
+        int here = degree == 0 || degree > 2 ? 0 : fitness(pool, &f.gen[v]) * (degree == 1 ? 2 : 1);
+
+        if (here > fit && !inside_another(&f, r->n, v)) {
+            fit = here;
+            best = v;
+            best_degree = degree;
+        }
+    }
+    if (best >= 0) {
+        *atom = f.gen[best].expr;
+        *solution = solve_for(&f, r->n, best, best_degree);
+    }
+    qdot_field_end(&f);
+    if (best >= 0 && *solution == QDOT_NIL && qdot_pool_check(pool) != QDOT_OK)
+        return false;
+    return best >= 0 && *solution != QDOT_NIL;
+}
+
+/* --- begin ------------------------------------------------------------------------------------- */
+
+static uint32_t
+order_of(const qdot_pool *pool, qdot_expr ufun)
+{
+    uint32_t n = qdot_expr_count(pool, ufun) / 2, all = 0;
+    long k;
+
+    for (uint32_t i = 0; i < n; i++)
+        if (qdot_expr_to_int(pool, qdot_expr_arg(pool, ufun, n + i), &k))
+            all += (uint32_t)k;
+    return all;
+}
+
+/* A relation between undefined functions has consequences for their higher derivatives, which
+ * are not at hand unless given: with such derivatives there are no sure points. */
+static bool
+higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations)
+{
+    uint32_t n = qdot_expr_count(pool, atoms), m = qdot_expr_count(pool, relations), most = 0;
+    bool any = false;
+
+    for (uint32_t i = 0; i < m; i++) {
+        qdot_expr a = qdot_expr_arg(pool, relations, i);
+
+        if (qdot_expr_kind(pool, a) == QDOT_UFUN) {
+            any = true;
+            if (order_of(pool, a) > most)
+                most = order_of(pool, a);
+        }
+    }
+    for (uint32_t i = 0; any && i < n; i++) {
+        qdot_expr a = qdot_expr_arg(pool, atoms, i);
+
+        if (qdot_expr_kind(pool, a) == QDOT_UFUN && order_of(pool, a) > most)
+            return true;
+    }
+    return false;
+}
+
+static qdot_status
+add_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution)
+{
+    qdot_sample_atom *a = &s->atom[s->n++];
+
+    *a = (qdot_sample_atom){.atom = atom, .solution = solution};
+    fmpq_init(&a->x);
+    arb_init(a->value);
+    return QDOT_OK;
+}
+
+static qdot_expr
+bounds_of(qdot_pool *pool, qdot_expr atoms)
+{
+    qdot_expr all = qdot_list(pool, 0, NULL), two[2];
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
+        const qdot_symbol *symbol = qdot_expr_symbol(pool, qdot_expr_arg(pool, atoms, i));
+        qdot_expr lo = symbol == NULL ? QDOT_NIL : symbol->lo;
+        qdot_expr hi = symbol == NULL ? QDOT_NIL : symbol->hi;
+
+        two[0] = all;
+        if (lo != QDOT_NIL) {
+            two[1] = lo;
+            two[0] = all = qdot_list(pool, 2, two);
+        }
+        if (hi != QDOT_NIL) {
+            two[1] = hi;
+            all = qdot_list(pool, 2, two);
+        }
+    }
+    return all;
+}
+
+/* Atoms whose bounds hold other atoms come after these. */
+static int
+bound_rank(const qdot_pool *pool, qdot_expr atom)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, atom);
+
+    if (s == NULL || (s->lo == QDOT_NIL && s->hi == QDOT_NIL))
+        return 0;
+    if ((s->lo == QDOT_NIL || qdot_expr_kind(pool, s->lo) == QDOT_NUM) &&
+        (s->hi == QDOT_NIL || qdot_expr_kind(pool, s->hi) == QDOT_NUM))
+        return 0;
+    return 1;
+}
+
+static qdot_status
+gather(qdot_sample *s, size_t n, const qdot_expr *e)
+{
+    static const qdot_facts nothing = {0};
+    const qdot_facts *facts = s->facts == NULL ? &nothing : s->facts;
+    size_t nr = facts->n_relations, solved = 0;
+    qdot_expr *r = qdot_malloc((3 * nr + 1) * sizeof *r), *atom = r + nr, *solution = atom + nr;
+    qdot_expr parts[6], atoms, of_relations;
+    qdot_pool *pool = s->pool;
+
+    if (r == NULL)
+        return QDOT_ENOMEM;
+    s->facts = facts;
+    for (size_t k = 0; k < nr; k++)
+        r[k] = facts->relations[k];
+    for (size_t k = 0; k < nr && s->possible; k++) {
+        s->possible = solve_relation(pool, r[k], &atom[solved], &solution[solved]);
+        if (!s->possible || atom[solved] == QDOT_NIL)
+            continue;
+        for (size_t j = k + 1; j < nr; j++)
+            r[j] = qdot_subs(pool, r[j], 1, &atom[solved], &solution[solved]);
+        solved++;
+    }
+    parts[0] = qdot_list(pool, (uint32_t)n, e);
+    parts[1] = qdot_list(pool, (uint32_t)nr, facts->relations);
+    parts[2] = qdot_list(pool, (uint32_t)facts->n_conditions, facts->conditions);
+    parts[3] = qdot_list(pool, (uint32_t)solved, solution);
+    of_relations = qdot_expr_atoms(pool, parts[1], true);
+    s->list = qdot_list(pool, 4, parts);
+    for (int round = 0; round < 3; round++) { /* bounds may hold symbols with bounds */
+        parts[4] = qdot_expr_atoms(pool, s->list, true);
+        if (parts[4] == QDOT_NIL)
+            break;
+        parts[5] = bounds_of(pool, parts[4]);
+        s->list = qdot_list(pool, 6, parts);
+    }
+    atoms = qdot_expr_atoms(pool, s->list, true);
+    if (atoms == QDOT_NIL) {
+        qdot_free(r);
+        return qdot_pool_check(pool);
+    }
+    if (higher_derivatives(pool, atoms, of_relations))
+        s->possible = false;
+    s->atom = qdot_malloc((qdot_expr_count(pool, atoms) + 1) * sizeof *s->atom);
+    if (s->atom == NULL) {
+        qdot_free(r);
+        return QDOT_ENOMEM;
+    }
+    for (int rank = 0; rank < 2; rank++)
+        for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
+            qdot_expr a = qdot_expr_arg(pool, atoms, i);
+            bool free_atom = true;
+
+            for (size_t k = 0; k < solved; k++)
+                free_atom &= atom[k] != a;
+            if (free_atom && bound_rank(pool, a) == rank)
+                (void)add_atom(s, a, QDOT_NIL);
+        }
+    for (size_t k = solved; k-- > 0;)
+        (void)add_atom(s, atom[k], solution[k]);
+    qdot_free(r);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_sample_begin(qdot_sample *s, qdot_pool *pool, size_t n, const qdot_expr *e,
+                  const qdot_facts *facts)
+{
+    qdot_status status;
+
+    *s = (qdot_sample){.pool = pool, .facts = facts, .possible = true};
+    status = gather(s, n, e);
+    if (status == QDOT_OK)
+        status = qdot_ball_begin(&s->ball, pool, 1, &s->list);
+    if (status != QDOT_OK) {
+        qdot_free(s->atom);
+        s->atom = NULL;
+    }
+    return status;
+}
+
+void
+qdot_sample_end(qdot_sample *s)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        fmpq_clear(&s->atom[i].x);
+        arb_clear(s->atom[i].value);
+    }
+    qdot_free(s->atom);
+    qdot_ball_end(&s->ball);
+}
+
+/* --- points ---------------------------------------------------------------------------------------- */
+
+static uint32_t
+draw(qdot_sample *s, uint32_t below)
+{
+    s->seed ^= s->seed << 13;
+    s->seed ^= s->seed >> 7;
+    s->seed ^= s->seed << 17;
+    return (uint32_t)((s->seed >> 33) % below);
+}
+
+static bool
+value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+{
+    qdot_sample *s = user;
+
+    (void)prec;
+    for (size_t i = 0; i < s->n; i++)
+        if (s->atom[i].atom == atom) {
+            if (s->atom[i].ready)
+                arb_set(value, s->atom[i].value);
+            return s->atom[i].ready;
+        }
+    return false;
+}
+
+/* A bound as a double, given the atoms chosen so far. */
+static bool
+bound(qdot_sample *s, qdot_expr e, double *x)
+{
+    qdot_ball ball;
+    arb_srcptr value;
+
+    if (e == QDOT_NIL)
+        return false;
+    if (qdot_ball_begin(&ball, s->pool, 1, &e) != QDOT_OK)
+        return false;
+    qdot_ball_eval(&ball, 64, value_of, s);
+    value = qdot_ball_get(&ball, e);
+    if (value != NULL)
+        *x = arf_get_d(arb_midref(value), ARF_RND_NEAR);
+    qdot_ball_end(&ball);
+    return value != NULL;
+}
+
+/* A rational with a small denominator strictly between lo and hi. */
+static void
+between(fmpq_t x, double lo, double hi, double where)
+{
+    double at = lo + (hi - lo) * where, margin = (hi - lo) * 1e-3;
+
+    for (long d = 1; d <= 4096; d = d < 16 ? d + 1 : d * 2) {
+        double n = nearbyint(at * (double)d);
+
+        if (n / (double)d > lo + margin && n / (double)d < hi - margin &&
+            fabs(n / (double)d - at) < (hi - lo) * 0.1 && fabs(n) < 1e15) {
+            fmpq_set_si(x, (long)n, (ulong)d);
+            return;
+        }
+    }
+    fmpq_set_si(x, (long)nearbyint(at * 1048576), 1048576);
+}
+
+/* Ranges tried in turn: functions with narrow domains need small arguments. */
+static const double reach[] = {3, 1, 7, 0.5, 20, 2, 0.9, 0.1};
+
+static void
+choose(qdot_sample *s, qdot_sample_atom *a, int k)
+{
+    const qdot_symbol *symbol = qdot_expr_symbol(s->pool, a->atom);
+    double size = reach[(size_t)k % (sizeof reach / sizeof *reach)], lo = -size, hi = size, x;
+    double where = (1 + draw(s, 61)) / 63.0;
+    uint8_t sign = qdot_expr_node(s->pool, a->atom)->sign;
+
+    if (symbol != NULL) {
+        qdot_expr elo = symbol->lo, ehi = symbol->hi;
+        bool has_lo = bound(s, elo, &x);
+
+        if (has_lo)
+            lo = x;
+        if (bound(s, ehi, &x)) {
+            hi = x;
+            if (!has_lo)
+                lo = hi - 2 * size;
+        } else if (has_lo) {
+            hi = lo + size;
+        }
+    }
+    if ((sign & QDOT_GE0) && lo < 0)
+        lo = 0;
+    if ((sign & QDOT_LE0) && hi > 0)
+        hi = 0;
+    between(&a->x, lo, hi, where);
+    if (fmpq_is_zero(&a->x))
+        between(&a->x, lo, hi, where * 0.9 + 0.01);
+    arb_set_fmpq(a->value, &a->x, 64);
+    a->ready = true;
+}
+
+void
+qdot_sample_point(qdot_sample *s, int k)
+{
+    s->seed = 0x9e3779b97f4a7c15u * (uint64_t)(k + 1);
+    for (int i = 0; i < 8; i++)
+        draw(s, 2);
+    for (size_t i = 0; i < s->n; i++)
+        s->atom[i].ready = false;
+    for (size_t i = 0; i < s->n; i++)
+        if (s->atom[i].solution == QDOT_NIL)
+            choose(s, &s->atom[i], k);
+}
+
+/* A solved value must surely lie in its domain. */
+static bool
+in_domain(qdot_sample *s, const qdot_sample_atom *a)
+{
+    const qdot_symbol *symbol = qdot_expr_symbol(s->pool, a->atom);
+    uint8_t sign = qdot_expr_node(s->pool, a->atom)->sign;
+
+    if (((sign & QDOT_GE0) && !arb_is_nonnegative(a->value)) ||
+        ((sign & QDOT_LE0) && !arb_is_nonpositive(a->value)) ||
+        ((sign & QDOT_NE0) && arb_contains_zero(a->value)))
+        return false;
+    if (symbol == NULL)
+        return true;
+    if (symbol->lo != QDOT_NIL) {
+        arb_srcptr lo = qdot_ball_get(&s->ball, symbol->lo);
+
+        if (lo == NULL || !arb_gt(a->value, lo))
+            return false;
+    }
+    if (symbol->hi != QDOT_NIL) {
+        arb_srcptr hi = qdot_ball_get(&s->ball, symbol->hi);
+
+        if (hi == NULL || !arb_lt(a->value, hi))
+            return false;
+    }
+    return true;
+}
+
+/* Whether two applications of one function might have the same arguments. */
+static bool
+arguments_meet(const qdot_sample *s)
+{
+    const qdot_pool *pool = s->pool;
+
+    for (size_t i = 0; i < s->n; i++) {
+        qdot_expr a = s->atom[i].atom;
+
+        if (qdot_expr_kind(pool, a) != QDOT_UFUN)
+            continue;
+        for (size_t j = 0; j < i; j++) {
+            qdot_expr b = s->atom[j].atom;
+            uint32_t n = qdot_expr_count(pool, a) / 2;
+            bool same = true, meet = true;
+
+            if (qdot_expr_kind(pool, b) != QDOT_UFUN ||
+                qdot_expr_node(pool, a)->op != qdot_expr_node(pool, b)->op)
+                continue;
+            for (uint32_t k = 0; k < n; k++) {
+                qdot_expr x = qdot_expr_arg(pool, a, k), y = qdot_expr_arg(pool, b, k);
+                arb_srcptr u = qdot_ball_get(&s->ball, x), v = qdot_ball_get(&s->ball, y);
+
+                same &= x == y;
+                meet &= x == y || u == NULL || v == NULL || arb_overlaps(u, v);
+            }
+            if (meet && !same)
+                return true;
+        }
+    }
+    return false;
+}
+
+bool
+qdot_sample_eval(qdot_sample *s, slong prec)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        qdot_sample_atom *a = &s->atom[i];
+        arb_srcptr value;
+
+        if (a->solution == QDOT_NIL) {
+            arb_set_fmpq(a->value, &a->x, prec);
+            continue;
+        }
+        a->ready = false;
+        qdot_ball_eval(&s->ball, prec, value_of, s);
+        value = qdot_ball_get(&s->ball, a->solution);
+        if (value == NULL)
+            return false;
+        arb_set(a->value, value);
+        a->ready = true;
+    }
+    qdot_ball_eval(&s->ball, prec, value_of, s);
+    for (size_t i = 0; i < s->n; i++)
+        if (!in_domain(s, &s->atom[i]))
+            return false;
+    for (size_t i = 0; i < s->facts->n_conditions; i++)
+        if (qdot_ball_truth(&s->ball, s->facts->conditions[i]) != 1)
+            return false;
+    return !arguments_meet(s);
+}
+
+qdot_expr
+qdot_sample_list(qdot_sample *s)
+{
+    qdot_expr *rows = qdot_malloc((s->n + 1) * sizeof *rows), list;
+
+    if (rows == NULL)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < s->n; i++) {
+        qdot_expr x;
+
+        if (s->atom[i].solution == QDOT_NIL) {
+            x = qdot_expr_fmpq(s->pool, &s->atom[i].x);
+        } else { /* its value, rounded for the eye */
+            fmpq_t rounded;
+
+            fmpq_init(rounded);
+            arf_get_fmpq(rounded, arb_midref(s->atom[i].value));
+            between(rounded, arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) - 1e-6,
+                    arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) + 1e-6, 0.5);
+            x = qdot_expr_fmpq(s->pool, rounded);
+            fmpq_clear(rounded);
+        }
+        rows[i] = qdot_rel(s->pool, QDOT_EQ, s->atom[i].atom, x);
+    }
+    list = qdot_list(s->pool, (uint32_t)s->n, rows);
+    qdot_free(rows);
+    return list;
+}

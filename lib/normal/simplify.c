@@ -1,0 +1,463 @@
+/* simplify.c -- candidates of equal value, the one with the fewest operations. */
+#include "normal/simplify.h"
+
+#include "base/memory.h"
+#include "expr/tensor.h"
+#include "expr/walk.h"
+#include "normal/factor.h"
+#include "normal/form.h"
+#include "normal/ideal.h"
+#include "normal/prepare.h"
+
+enum { WORK = 4000000, MOST_TERMS = 2000, MOST_SPREAD = 16, MOST_TURNS = 4 };
+
+/* --- tan and cot ---------------------------------------------------------------------------- */
+
+/* In a product sin(a)^m cos(a)^-n is tan(a)^min(m, n) ..., likewise cot and tanh. */
+static qdot_expr
+tangents(qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr result = e;
+
+    for (uint32_t i = 1; i < n; i += 2)
+        for (uint32_t j = 1; j < n; j += 2) {
+            qdot_expr s = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, j), t;
+            qdot_fun_id quotient = QDOT_TAN;
+            long m, k;
+
+            if (qdot_expr_kind(pool, s) != QDOT_FUN || qdot_expr_kind(pool, c) != QDOT_FUN ||
+                qdot_expr_arg(pool, s, 0) != qdot_expr_arg(pool, c, 0) ||
+                !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &m) ||
+                !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, j + 1), &k))
+                continue;
+            if (qdot_expr_node(pool, s)->op == QDOT_SINH &&
+                qdot_expr_node(pool, c)->op == QDOT_COSH)
+                quotient = QDOT_TANH;
+            else if (qdot_expr_node(pool, s)->op != QDOT_SIN ||
+                     qdot_expr_node(pool, c)->op != QDOT_COS)
+                continue;
+            if (quotient == QDOT_TAN && m < 0 && k > 0) { /* cot */
+                quotient = QDOT_COT;
+                m = -m;
+                k = -k;
+                t = s;
+                s = c;
+                c = t;
+            }
+            if (m <= 0 || k >= 0)
+                continue;
+            if (m > -k)
+                m = -k;
+            t = qdot_fun1(pool, quotient, qdot_expr_arg(pool, s, 0));
+            t = qdot_mul(pool, qdot_pow_int(pool, t, m), qdot_pow_int(pool, s, -m));
+            result = qdot_mul(pool, qdot_mul(pool, result, t), qdot_pow_int(pool, c, m));
+        }
+    return result;
+}
+
+static qdot_expr
+with_tangents(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr result = e;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return e;
+    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
+        uint32_t n = qdot_expr_count(pool, w.at[i]);
+        qdot_expr *args = qdot_malloc((n + 1) * sizeof *args);
+        bool changed = false;
+
+        if (args == NULL)
+            break;
+        result = w.at[i];
+        for (uint32_t k = 0; k < n; k++) {
+            qdot_expr old = qdot_expr_arg(pool, w.at[i], k);
+
+            args[k] = (qdot_expr)qdot_walk_get(&w, old);
+            changed |= args[k] != old;
+        }
+        if (changed)
+            result = qdot_rebuild(pool, result, args);
+        if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_PROD)
+            result = tangents(pool, result);
+        qdot_walk_set(&w, w.at[i], result);
+        qdot_free(args);
+    }
+    qdot_walk_end(&w);
+    return result;
+}
+
+/* --- candidates ------------------------------------------------------------------------------- */
+
+struct simplifier {
+    qdot_pool *pool;
+    qdot_field *f;
+    qdot_form form;
+    qdot_expr best;
+};
+
+static void
+keep(struct simplifier *s, qdot_expr e)
+{
+    qdot_form_keep(s->pool, &s->best, e);
+}
+
+/* n = c n', d = d', both primitive; c rational. */
+static void
+content(qdot_field *f, fmpq_t c, qdot_ratio *r)
+{
+    fmpz_t n, d;
+
+    fmpz_init(n);
+    fmpz_init(d);
+    _fmpz_vec_content(n, r->n->coeffs, fmpz_mpoly_length(r->n, f->ctx));
+    _fmpz_vec_content(d, r->d->coeffs, fmpz_mpoly_length(r->d, f->ctx));
+    if (fmpz_sgn(fmpz_mpoly_leadcoeff(r->d)) < 0)
+        fmpz_neg(d, d);
+    fmpz_mpoly_scalar_divexact_fmpz(r->n, r->n, n, f->ctx);
+    fmpz_mpoly_scalar_divexact_fmpz(r->d, r->d, d, f->ctx);
+    fmpq_set_fmpz_frac(c, n, d);
+    fmpz_clear(n);
+    fmpz_clear(d);
+}
+
+/* Each term over a monomial denominator by itself. */
+static qdot_expr
+spread(struct simplifier *s, const qdot_ratio *r, const fmpq_t c)
+{
+    qdot_expr over = qdot_div(s->pool, qdot_expr_fmpq(s->pool, c), qdot_field_expr(s->f, r->d));
+    qdot_expr sum = QDOT_ZERO;
+    fmpz_mpoly_t term;
+
+    fmpz_mpoly_init(term, s->f->ctx);
+    for (slong i = 0; i < fmpz_mpoly_length(r->n, s->f->ctx); i++) {
+        fmpz_mpoly_get_term(term, r->n, i, s->f->ctx);
+        sum = qdot_add(s->pool, sum, qdot_mul(s->pool, qdot_field_expr(s->f, term), over));
+    }
+    fmpz_mpoly_clear(term, s->f->ctx);
+    return sum;
+}
+
+/* Each coefficient of a monomial in velocities over the denominator by itself. */
+static qdot_expr
+spread_coefficients(struct simplifier *s, const qdot_ratio *r, const fmpq_t c)
+{
+    qdot_field *f = s->f;
+    qdot_expr sum = QDOT_ZERO;
+    qdot_groups groups;
+
+    if (qdot_factor_group(f, &groups, r->n, s->form.fast) == QDOT_OK && groups.n > 1)
+        for (slong i = 0; i < groups.n; i++) {
+            qdot_ratio part;
+            fmpq_t one, k;
+
+            fmpq_init(one);
+            fmpq_init(k);
+            fmpq_one(one);
+            qdot_ratio_init(f, &part);
+            fmpz_mpoly_set(part.n, groups.poly + i, f->ctx);
+            fmpz_mpoly_set(part.d, r->d, f->ctx);
+            qdot_ratio_cancel(f, &part);
+            content(f, k, &part);
+            fmpq_mul(k, k, c);
+            sum = qdot_add(s->pool, sum,
+                           qdot_mul(s->pool,
+                                    qdot_div(s->pool, qdot_form_say(&s->form, part.n, k),
+                                             qdot_form_coefficient(&s->form, part.d)),
+                                    qdot_form_monomial(f, one, groups.key + i * f->n)));
+            qdot_ratio_clear(f, &part);
+            fmpq_clear(one);
+            fmpq_clear(k);
+        }
+    else
+        sum = QDOT_NIL;
+    qdot_factor_ungroup(f, &groups);
+    return sum;
+}
+
+static bool
+has_trig(const struct simplifier *s, const fmpz_mpoly_t p)
+{
+    for (slong v = 0; v < s->f->n; v++)
+        if (s->form.trig[v] && fmpz_mpoly_degree_si(p, v, s->f->ctx) > 0)
+            return true;
+    return false;
+}
+
+/* All that can be said of one quotient. */
+static void
+say(struct simplifier *s, const qdot_ratio *from)
+{
+    qdot_field *f = s->f;
+    qdot_ratio r;
+    qdot_expr e;
+    fmpq_t c;
+
+    if (fmpz_mpoly_is_zero(from->n, f->ctx)) {
+        s->best = QDOT_ZERO;
+        return;
+    }
+    fmpq_init(c);
+    qdot_ratio_init(f, &r);
+    qdot_ratio_set(f, &r, from);
+    content(f, c, &r);
+    e = qdot_form_say(&s->form, r.n, c);
+    if (!fmpz_mpoly_is_one(r.d, f->ctx)) {
+        qdot_expr below = qdot_form_coefficient(&s->form, r.d);
+
+        if (below != QDOT_NIL && qdot_expr_is_negative(s->pool, below)) {
+            fmpz_mpoly_neg(r.d, r.d, f->ctx);
+            fmpq_neg(c, c);
+            below = qdot_form_coefficient(&s->form, r.d);
+            e = qdot_form_say(&s->form, r.n, c);
+        }
+        e = qdot_div(s->pool, e, below);
+        keep(s, e);
+        if (has_trig(s, r.d))
+            keep(s, with_tangents(s->pool, e));
+        if (fmpz_mpoly_length(r.d, f->ctx) == 1 && fmpz_mpoly_length(r.n, f->ctx) <= MOST_SPREAD)
+            keep(s, spread(s, &r, c));
+        keep(s, spread_coefficients(s, &r, c));
+    } else {
+        keep(s, e);
+    }
+    qdot_ratio_clear(f, &r);
+    fmpq_clear(c);
+}
+
+static bool
+is_cosine(const qdot_field *f, slong v)
+{
+    return f->gen[v].kind == QDOT_GEN_COS || f->gen[v].kind == QDOT_GEN_COSH;
+}
+
+/* The quotient with c^2 = 1 - s^2 in one angle, where that cancels. */
+static void
+say_turned(struct simplifier *s, const qdot_ratio *from)
+{
+    qdot_field *f = s->f;
+    int turns = 0;
+
+    for (slong v = 0; v < f->n && turns < MOST_TURNS && qdot_field_goes(f); v++) {
+        qdot_ratio r;
+
+        if (!is_cosine(f, v) || (fmpz_mpoly_degree_si(from->d, v, f->ctx) == 0 &&
+                                 fmpz_mpoly_degree_si(from->d, f->gen[v].pair, f->ctx) == 0))
+            continue;
+        turns++;
+        qdot_ratio_init(f, &r);
+        if (qdot_factor_flip(f, r.n, from->n, v) == QDOT_OK &&
+            qdot_factor_flip(f, r.d, from->d, v) == QDOT_OK && qdot_field_goes(f) &&
+            !fmpz_mpoly_is_zero(r.d, f->ctx)) {
+            qdot_ratio_cancel(f, &r);
+            say(s, &r);
+        }
+        qdot_ratio_clear(f, &r);
+    }
+}
+
+static void
+all_candidates(struct simplifier *s, const qdot_ratio *r)
+{
+    qdot_field *f = s->f;
+
+    if (fmpz_mpoly_length(r->n, f->ctx) + fmpz_mpoly_length(r->d, f->ctx) > MOST_TERMS)
+        return;
+    say(s, r);
+    if (has_trig(s, r->d)) {
+        say_turned(s, r);
+        keep(s, with_tangents(s->pool, s->best));
+    }
+}
+
+/* The quotient modulo the relations. */
+static qdot_status
+reduce_by_facts(struct simplifier *s, qdot_ratio *r, size_t n, const qdot_expr *relation)
+{
+    qdot_field *f = s->f;
+    qdot_ideal ideal = {0};
+    qdot_status status = qdot_ideal_make(&ideal, f, n, relation);
+    fmpz_t scale;
+
+    fmpz_init(scale);
+    if (status == QDOT_OK && ideal.n > 0) {
+        qdot_ratio x;
+
+        qdot_ratio_init(f, &x);
+        qdot_ratio_set(f, &x, r);
+        qdot_ideal_reduce(&ideal, f, scale, x.n);
+        fmpz_mpoly_scalar_mul_fmpz(x.d, x.d, scale, f->ctx);
+        qdot_ideal_reduce(&ideal, f, scale, x.d);
+        fmpz_mpoly_scalar_mul_fmpz(x.n, x.n, scale, f->ctx);
+        if (qdot_field_goes(f) && !fmpz_mpoly_is_zero(x.d, f->ctx)) {
+            qdot_ratio_cancel(f, &x);
+            qdot_ratio_set(f, r, &x);
+        }
+        qdot_ratio_clear(f, &x);
+    }
+    fmpz_clear(scale);
+    qdot_ideal_clear(&ideal, f);
+    return status;
+}
+
+/* --- functions and bases as they were before, where that is shorter -------------------------------- */
+
+struct origins {
+    qdot_map map;
+};
+
+static qdot_expr
+origin(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const struct origins *o = user;
+    uint32_t before;
+
+    if (!qdot_map_get(&o->map, node, &before))
+        return QDOT_NIL;
+    return qdot_expr_size(pool, before) < qdot_expr_size(pool, node) ? before : QDOT_NIL;
+}
+
+/* --- scalars ------------------------------------------------------------------------------------------ */
+
+/* Nothing to do: a number, a symbol, a product of powers of symbols, such a function. */
+static bool
+is_simple(const qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    long k;
+
+    switch (qdot_expr_kind(pool, e)) {
+    case QDOT_NUM:
+    case QDOT_SYM:
+        return true;
+    case QDOT_FUN:
+    case QDOT_UFUN:
+        return qdot_expr_kind(pool, qdot_expr_arg(pool, e, 0)) == QDOT_SYM && n <= 2;
+    case QDOT_PROD:
+        for (uint32_t i = 1; i < n; i += 2) {
+            qdot_expr b = qdot_expr_arg(pool, e, i);
+
+            if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) ||
+                qdot_expr_kind(pool, b) != QDOT_SYM)
+                return false;
+        }
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* A failure on the way to a candidate is forgotten; memory and Ctrl-C are not. */
+static void
+forgive(qdot_pool *pool)
+{
+    qdot_status status = qdot_pool_check(pool);
+
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        qdot_pool_fail(pool);
+}
+
+static qdot_expr
+simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
+{
+    const qdot_facts *facts = user;
+    size_t nr = facts == NULL ? 0 : facts->n_relations;
+    struct origins origins = {{0}};
+    struct simplifier s = {.pool = pool};
+    qdot_expr *all;
+    qdot_field f;
+
+    if (e == QDOT_NIL || qdot_pool_failed(pool) || !qdot_expr_is_scalar(pool, e) ||
+        (nr == 0 && is_simple(pool, e)))
+        return e;
+    all = qdot_malloc((nr + 1) * sizeof *all);
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    all[0] = qdot_prepare_from(pool, e, &origins.map);
+    for (size_t i = 0; i < nr; i++)
+        all[1 + i] = qdot_prepare(pool, facts->relations[i]);
+    qdot_field_begin(&f, pool, nr + 1, all, WORK);
+    s.f = &f;
+    if (qdot_field_goes(&f) && qdot_form_begin(&s.form, &f) == QDOT_OK) {
+        qdot_ratio r;
+
+        qdot_ratio_init(&f, &r);
+        qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
+        qdot_ratio_cancel(&f, &r);
+        if (qdot_field_goes(&f))
+            all_candidates(&s, &r);
+        if (nr > 0 && qdot_field_goes(&f) &&
+            reduce_by_facts(&s, &r, nr, all + 1) == QDOT_OK && qdot_field_goes(&f))
+            all_candidates(&s, &r);
+        qdot_ratio_clear(&f, &r);
+        qdot_form_end(&s.form);
+        if (s.best != QDOT_NIL && origins.map.n > 0)
+            keep(&s, qdot_walk_map(pool, s.best, origin, &origins));
+    }
+    if (f.state == QDOT_FIELD_FAILED && (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
+        qdot_pool_fail(pool);
+    qdot_field_end(&f);
+    qdot_map_clear(&origins.map);
+    qdot_free(all);
+    forgive(pool);
+    if (qdot_pool_failed(pool))
+        return QDOT_NIL;
+    keep(&s, e);
+    return s.best;
+}
+
+qdot_expr
+qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    return qdot_value_map(pool, e, simplify_scalar, (void *)(uintptr_t)facts);
+}
+
+/* --- the normal form itself ------------------------------------------------------------------------------ */
+
+static qdot_expr
+normal_scalar(qdot_pool *pool, qdot_expr e, void *user)
+{
+    const qdot_facts *facts = user;
+    size_t nr = facts == NULL ? 0 : facts->n_relations;
+    qdot_expr *all = qdot_malloc((nr + 1) * sizeof *all), result = e;
+    struct simplifier s = {.pool = pool};
+    qdot_field f;
+
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    all[0] = qdot_prepare(pool, e);
+    for (size_t i = 0; i < nr; i++)
+        all[1 + i] = qdot_prepare(pool, facts->relations[i]);
+    qdot_field_begin(&f, pool, nr + 1, all, WORK);
+    s.f = &f;
+    if (qdot_field_goes(&f)) {
+        qdot_ratio r;
+
+        qdot_ratio_init(&f, &r);
+        qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
+        qdot_ratio_cancel(&f, &r);
+        if (nr > 0)
+            (void)reduce_by_facts(&s, &r, nr, all + 1);
+        if (qdot_field_goes(&f))
+            result = qdot_field_ratio_expr(&f, &r);
+        qdot_ratio_clear(&f, &r);
+    }
+    if (f.state == QDOT_FIELD_FAILED && (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
+        qdot_pool_fail(pool);
+    qdot_field_end(&f);
+    qdot_free(all);
+    forgive(pool);
+    return qdot_pool_failed(pool) ? QDOT_NIL : result == QDOT_NIL ? e : result;
+}
+
+qdot_expr
+qdot_normal(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    return qdot_value_map(pool, e, normal_scalar, (void *)(uintptr_t)facts);
+}

@@ -1,0 +1,25 @@
+/* simplify.h -- the form a person would write.
+ *
+ * Among equal forms (normal form, factored, Pythagoras either way, sums of angles, common factors
+ * out, collected in velocities and accelerations) the one with the fewest operations.
+ * Deterministic. Works on any kind of value; never fails for size: when its work budget is
+ * spent it returns the best form so far (e itself if none).
+ */
+#ifndef QDOT_NORMAL_SIMPLIFY_H
+#define QDOT_NORMAL_SIMPLIFY_H
+
+#include "expr/expr.h"
+#include "normal/decide.h"
+
+qdot_expr qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
+
+/* The exact normal form as an expression: numerator over denominator, coprime, expanded. */
+qdot_expr qdot_normal(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
+
+/* Solve the n x n linear system A x = b symbolically, fraction-free, zero pivots recognised by
+ * the normal form. QDOT_ESINGULAR: *pivot is the column without one. QDOT_ELIMIT past the
+ * budget: the message says how large. A [n*n] row-major, b [n], x [n]. */
+QDOT_MUST_CHECK qdot_status qdot_solve_linear(qdot_pool *pool, uint32_t n, const qdot_expr *A,
+                                              const qdot_expr *b, qdot_expr *x,
+                                              uint32_t *pivot, const qdot_facts *facts);
+#endif

@@ -1,0 +1,13 @@
+/* split.h -- a product of factors with what is known of their signs, for roots and logarithms. */
+#ifndef QDOT_NORMAL_SPLIT_H
+#define QDOT_NORMAL_SPLIT_H
+
+#include "expr/expr.h"
+
+/* b^x for a prepared b and a rational x that is not an integer. */
+qdot_expr qdot_split_power(qdot_pool *pool, qdot_expr b, qdot_expr x);
+/* |b|, log b for a prepared b. */
+qdot_expr qdot_split_abs(qdot_pool *pool, qdot_expr b);
+qdot_expr qdot_split_log(qdot_pool *pool, qdot_expr b);
+
+#endif

@@ -1,0 +1,341 @@
+/* bind.c -- tape, then solve: the right-hand side and its Jacobian. */
+#include "sim/bind.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "num/cholesky.h"
+#include "num/ldlt.h"
+#include "tape/shake.h"
+
+typedef struct {
+    double *a;      /* [n x n] M, then its factors */
+    double *x;      /* [n] right-hand side, then solution */
+    qdot_ldlt ldlt; /* of a plan that is indefinite */
+} solver;
+
+struct qdot_bind {
+    const qdot_plan *plan;
+    qdot_tape *tape, *jacobian; /* shaken copies; else NULL */
+    solver *solvers;            /* [plan->structure.blocks] */
+    double *in;                 /* [3n + 1] q, q', t, q'' */
+    double *out, *work;         /* of either tape */
+    size_t factored;
+};
+
+static const qdot_tape *
+equations(const qdot_bind *b)
+{
+    return b->tape ? b->tape : b->plan->tape;
+}
+
+static const qdot_tape *
+slopes(const qdot_bind *b)
+{
+    return b->jacobian ? b->jacobian : b->plan->jacobian;
+}
+
+void
+qdot_bind_free(qdot_bind *b)
+{
+    if (!b)
+        return;
+    for (size_t k = 0; b->solvers && k < b->plan->structure.blocks; k++) {
+        qdot_free(b->solvers[k].a);
+        qdot_free(b->solvers[k].x);
+        qdot_ldlt_clear(&b->solvers[k].ldlt);
+    }
+    qdot_free(b->solvers);
+    qdot_tape_free(b->tape);
+    qdot_tape_free(b->jacobian);
+    qdot_free(b->in);
+    qdot_free(b->out);
+    qdot_free(b->work);
+    qdot_free(b);
+}
+
+/* --- blocks of M -------------------------------------------------------------------- */
+
+static qdot_status
+singular(const qdot_bind *b, const qdot_plan_block *block, size_t row)
+{
+    return qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular: no mass moves with %s",
+                     b->plan->names[block->index[row]]);
+}
+
+/* Factor block k, whose lower triangle stands in its solver. */
+static qdot_status
+factor(qdot_bind *b, size_t k)
+{
+    const qdot_plan_block *block = b->plan->blocks + k;
+    solver *s = b->solvers + k;
+    size_t failed = 0;
+    qdot_status status;
+
+    b->factored++;
+    status = b->plan->indefinite ? qdot_ldlt_factor(&s->ldlt, s->a, &failed)
+                                 : qdot_cholesky_factor(s->a, block->n, NULL, &failed);
+    return status == QDOT_OK ? QDOT_OK : singular(b, block, failed);
+}
+
+static void
+solve(const qdot_bind *b, size_t k)
+{
+    const solver *s = b->solvers + k;
+
+    if (b->plan->indefinite)
+        qdot_ldlt_solve(&s->ldlt, s->a, s->x);
+    else
+        qdot_cholesky_solve(s->a, b->plan->blocks[k].n, NULL, s->x);
+}
+
+/* A lower triangle by rows into the solver; returns what stands behind it. */
+static const double *
+unpack(const qdot_bind *b, size_t k, const double *from)
+{
+    size_t n = b->plan->blocks[k].n;
+
+    for (size_t i = 0; i < n; i++) {
+        memcpy(b->solvers[k].a + i * n, from, (i + 1) * sizeof *from);
+        from += i + 1;
+    }
+    return from;
+}
+
+static void
+shake_block(const qdot_plan_block *block, double *a)
+{
+    for (size_t i = 0; i < block->n * block->n; i++)
+        a[i] = qdot_shake_double(a[i], block->side[i]);
+}
+
+static qdot_status
+make_solver(qdot_bind *b, size_t k, bool shaken)
+{
+    const qdot_plan_block *block = b->plan->blocks + k;
+    solver *s = b->solvers + k;
+    size_t n = block->n;
+
+    s->a = qdot_calloc(n * n, sizeof *s->a);
+    s->x = qdot_calloc(n, sizeof *s->x);
+    if (!s->a || !s->x)
+        return QDOT_ENOMEM;
+    if (b->plan->indefinite)
+        QDOT_TRY(qdot_ldlt_init(&s->ldlt, n));
+    if (!block->constant)
+        return QDOT_OK;
+    memcpy(s->a, block->M, n * n * sizeof *s->a);
+    if (shaken)
+        shake_block(block, s->a);
+    return factor(b, k);
+}
+
+/* --- the system --------------------------------------------------------------------- */
+
+static void
+load(const qdot_bind *b, double t, const double *y)
+{
+    size_t n = b->plan->n;
+
+    memcpy(b->in, y, 2 * n * sizeof *y);
+    b->in[2 * n] = t;
+}
+
+/* q'' at what is loaded, into a [n]. */
+static qdot_status
+accelerations(qdot_bind *b, double *a)
+{
+    const qdot_plan *p = b->plan;
+    const double *out = b->out;
+
+    qdot_tape_eval(equations(b), b->in, b->out, b->work);
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+        const double *x = b->solvers[k].x;
+
+        if (block->n == 1) {
+            a[block->index[0]] = *out++;
+            continue;
+        }
+        memcpy(b->solvers[k].x, out, block->n * sizeof *out);
+        out += block->n;
+        if (!block->constant) {
+            out = unpack(b, k, out);
+            QDOT_TRY(factor(b, k));
+        }
+        solve(b, k);
+        for (size_t i = 0; i < block->n; i++)
+            a[block->index[i]] = x[i];
+    }
+    for (size_t i = 0; i < p->n; i++)
+        if (!isfinite(a[i]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             p->names[i]);
+    return QDOT_OK;
+}
+
+static qdot_status
+rhs(double t, const double *y, double *dydt, void *user)
+{
+    qdot_bind *b = user;
+    size_t n = b->plan->n;
+
+    load(b, t, y);
+    memcpy(dydt, y + n, n * sizeof *y);
+    return accelerations(b, dydt + n);
+}
+
+/* Column `column` of the right-hand sides in b->out, solved into a [n]. */
+static void
+slope_column(const qdot_bind *b, uint32_t column, double *a)
+{
+    const qdot_plan *p = b->plan;
+
+    memset(a, 0, p->n * sizeof *a);
+    for (size_t i = 0; i < p->n_slopes; i++)
+        if (p->slopes[i].column == column)
+            a[p->slopes[i].row] = b->out[i];
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+        double *x = b->solvers[k].x;
+
+        for (size_t i = 0; i < block->n; i++)
+            x[i] = a[block->index[i]];
+        if (block->n == 1)
+            x[0] /= b->solvers[k].a[0];
+        else
+            solve(b, k);
+        for (size_t i = 0; i < block->n; i++)
+            a[block->index[i]] = x[i];
+    }
+}
+
+static qdot_status
+jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
+{
+    qdot_bind *b = user;
+    const qdot_plan *p = b->plan;
+    size_t n = p->n;
+    double *column = b->in + 2 * n + 1; /* free again once the tape has run */
+    const double *out;
+
+    load(b, t, y);
+    QDOT_TRY(accelerations(b, b->in + 2 * n + 1));
+    qdot_tape_eval(slopes(b), b->in, b->out, b->work);
+    out = b->out + p->n_slopes;
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        if (p->blocks[k].constant)
+            continue;
+        out = unpack(b, k, out);
+        if (p->blocks[k].n > 1)
+            QDOT_TRY(factor(b, k));
+    }
+    memset(dfdy, 0, 4 * n * n * sizeof *dfdy);
+    memset(dfdt, 0, 2 * n * sizeof *dfdt);
+    for (size_t i = 0; i < n; i++)
+        dfdy[i * 2 * n + n + i] = 1;
+    for (uint32_t j = 0; j <= 2 * n; j++) {
+        slope_column(b, j, column);
+        for (size_t i = 0; i < n; i++)
+            *(j < 2 * n ? &dfdy[(n + i) * 2 * n + j] : &dfdt[n + i]) = column[i];
+    }
+    return QDOT_OK;
+}
+
+qdot_ode_system
+qdot_bind_system(qdot_bind *b)
+{
+    return (qdot_ode_system){
+        .n = 2 * b->plan->n,
+        .rhs = rhs,
+        .jacobian = b->plan->jacobian ? jacobian : NULL,
+        .user = b,
+    };
+}
+
+qdot_status
+qdot_bind_check(qdot_bind *b, double t, const double *y)
+{
+    const qdot_plan *p = b->plan;
+    qdot_tape *masses = NULL;
+    qdot_status status = QDOT_OK;
+    qdot_expr M = QDOT_NIL;
+    double *work = NULL, m;
+
+    load(b, t, y);
+    for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+
+        if (block->n > 1)
+            continue; /* the solvers look themselves */
+        M = p->M[block->index[0] * (p->n + 1)];
+        QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &M, &masses));
+        work = qdot_malloc((qdot_tape_work(masses) + 1) * sizeof *work);
+        if (work)
+            qdot_tape_eval(masses, b->in, &m, work);
+        status = work ? QDOT_OK : QDOT_ENOMEM;
+        qdot_free(work);
+        qdot_tape_free(masses);
+        if (status == QDOT_OK && (p->indefinite ? m == 0 : !(m > 0)))
+            status = singular(b, block, 0);
+    }
+    if (status == QDOT_OK) {
+        status = accelerations(b, b->in + 2 * p->n + 1);
+        if (status == QDOT_EDOMAIN) /* the run itself says so, with its time */
+            status = QDOT_OK;
+    }
+    return status;
+}
+
+size_t
+qdot_bind_factored(const qdot_bind *b)
+{
+    return b->factored;
+}
+
+static qdot_status
+make(qdot_bind *b, bool shaken)
+{
+    const qdot_plan *p = b->plan;
+    const qdot_tape *tapes[2] = {p->tape, p->jacobian};
+    size_t out = 0, work = 0;
+
+    for (int i = 0; i < 2; i++)
+        if (tapes[i]) {
+            out = qdot_tape_outputs(tapes[i]) > out ? qdot_tape_outputs(tapes[i]) : out;
+            work = qdot_tape_work(tapes[i]) > work ? qdot_tape_work(tapes[i]) : work;
+        }
+    b->solvers = qdot_calloc(p->structure.blocks, sizeof *b->solvers);
+    b->in = qdot_calloc(3 * p->n + 1, sizeof *b->in);
+    b->out = qdot_calloc(out + 1, sizeof *b->out);
+    b->work = qdot_calloc(work + 1, sizeof *b->work);
+    if (!b->solvers || !b->in || !b->out || !b->work)
+        return QDOT_ENOMEM;
+    if (shaken) {
+        QDOT_TRY(qdot_tape_shake(p->tape, &b->tape));
+        if (p->jacobian)
+            QDOT_TRY(qdot_tape_shake(p->jacobian, &b->jacobian));
+    }
+    for (size_t k = 0; k < p->structure.blocks; k++)
+        QDOT_TRY(make_solver(b, k, shaken));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_bind_new(const qdot_plan *plan, bool shaken, qdot_bind **bind)
+{
+    qdot_bind *b = qdot_calloc(1, sizeof *b);
+    qdot_status status;
+
+    *bind = NULL;
+    if (!b)
+        return QDOT_ENOMEM;
+    b->plan = plan;
+    status = make(b, shaken);
+    if (status != QDOT_OK) {
+        qdot_bind_free(b);
+        b = NULL;
+    }
+    *bind = b;
+    return status;
+}

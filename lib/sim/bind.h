@@ -1,0 +1,34 @@
+/* bind.h -- a plan as a system of ordinary differential equations.
+ *
+ *     y = (q, q'),   dy/dt = (q', M^-1 f)
+ *     df/dy:  M dq''/dx = d(f - M q'')/dx  at q'' held, for x in q, q', t
+ *
+ * A plan is const and may be bound several times, once a thread.
+ */
+#ifndef QDOT_SIM_BIND_H
+#define QDOT_SIM_BIND_H
+
+#include "ode/system.h"
+#include "sim/plan.h"
+
+typedef struct qdot_bind qdot_bind;
+
+/* The plan is borrowed. `shaken`: with every rounded constant on its other side
+ * (tape/shake.h), for a companion run. Errors: QDOT_ESINGULAR names the coordinate of
+ * a constant M; QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_bind_new(const qdot_plan *plan, bool shaken,
+                                          qdot_bind **bind);
+void qdot_bind_free(qdot_bind *bind);
+
+/* Its system; n = 2 plan->n. Valid while the bind lives. Both fail with QDOT_ESINGULAR or
+ * QDOT_EDOMAIN where M is singular or q'' undefined, naming the coordinate. */
+qdot_ode_system qdot_bind_system(qdot_bind *bind);
+
+/* Whether M is regular (and, unless a Lagrangian was stated, positive) at a state:
+ * QDOT_ESINGULAR names the coordinate. */
+QDOT_MUST_CHECK qdot_status qdot_bind_check(qdot_bind *bind, double t, const double *y);
+
+/* How often M was factored. */
+size_t qdot_bind_factored(const qdot_bind *bind);
+
+#endif

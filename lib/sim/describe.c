@@ -1,0 +1,102 @@
+/* describe.c -- the plan in words. */
+#include "sim/plan.h"
+
+static void
+say_mass(const qdot_plan *p, qdot_text *out)
+{
+    size_t single = 0, constant = 0, largest = 0;
+
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        single += p->blocks[k].n == 1;
+        constant += p->blocks[k].constant;
+        if (p->blocks[k].n > largest)
+            largest = p->blocks[k].n;
+    }
+    qdot_text_format(out, "mass matrix: %zu x %zu, ", p->n, p->n);
+    if (single == p->structure.blocks) {
+        qdot_text_add(out, "diagonal: the accelerations are divisions, nothing is "
+                           "factored\n");
+        return;
+    }
+    if (p->structure.blocks == 1)
+        qdot_text_add(out, "full");
+    else
+        qdot_text_format(out, "%zu blocks that do not couple, the largest %zu x %zu",
+                         p->structure.blocks, largest, largest);
+    qdot_text_format(out, "; %s",
+                     p->indefinite ? "LDL^T, it may be indefinite" : "Cholesky");
+    if (constant + single == p->structure.blocks)
+        qdot_text_add(out, "; constant: factored once\n");
+    else if (constant > 0)
+        qdot_text_format(out,
+                         "; %zu of the blocks constant and factored once, the others at "
+                         "every evaluation\n",
+                         constant);
+    else
+        qdot_text_add(out, "; factored at every evaluation\n");
+}
+
+static bool
+holds_time(const qdot_plan *p, qdot_expr e)
+{
+    return (qdot_expr_node(p->pool, e)->holds & QDOT_HAS_TIME) != 0;
+}
+
+static void
+say_time(const qdot_plan *p, qdot_text *out)
+{
+    bool time = false;
+
+    for (size_t i = 0; i < p->n; i++) {
+        time |= holds_time(p, p->f[i]);
+        for (size_t j = 0; j < p->n; j++)
+            time |= holds_time(p, p->M[i * p->n + j]);
+    }
+    qdot_text_format(out, "time: %s in the equations\n",
+                     time ? "stands" : "does not stand");
+}
+
+static void
+say_blocks(const qdot_plan *p, qdot_text *out)
+{
+    if (p->structure.blocks == 1 || p->structure.blocks == p->n)
+        return;
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        qdot_text_add(out, "  block:");
+        for (size_t i = 0; i < p->blocks[k].n; i++)
+            qdot_text_format(out, "%s %s", i ? "," : "", p->names[p->blocks[k].index[i]]);
+        qdot_text_char(out, '\n');
+    }
+}
+
+qdot_status
+qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
+{
+    qdot_plan *p;
+
+    QDOT_TRY(qdot_plan_new(scene, request, &p));
+    qdot_text_format(out, "coordinates: %zu:", p->n);
+    for (size_t i = 0; i < p->n; i++)
+        qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
+    qdot_text_add(out, "\nequations: M(q, t) q'' = f(q, q', t), as y = (q, q')\n");
+    say_mass(p, out);
+    say_blocks(p, out);
+    say_time(p, out);
+    qdot_text_format(out,
+                     "tape: %zu operations for M and f, of them %zu call%s of elementary "
+                     "functions\n",
+                     qdot_tape_operations(p->tape), qdot_tape_calls(p->tape),
+                     qdot_tape_calls(p->tape) == 1 ? "" : "s");
+    if (p->jacobian)
+        qdot_text_format(out,
+                         "jacobian: exact, from derivatives of M and f: %zu operations\n",
+                         qdot_tape_operations(p->jacobian));
+    qdot_text_format(out, "method: %s, %s: %s\n", p->method->name,
+                     p->chosen ? "chosen" : "asked for", p->method->fits);
+    qdot_text_format(out,
+                     "error: a companion run by %s, at a tighter tolerance, on a second "
+                     "thread\n",
+                     p->method->partner);
+    qdot_plan_free(p);
+    return qdot_text_status(out);
+}

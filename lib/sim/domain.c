@@ -1,0 +1,142 @@
+/* domain.c -- looking whether a run leaves the domain of a coordinate, and when. */
+#include "sim/domain.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/print.h"
+
+void
+qdot_domains_clear(qdot_domains *d)
+{
+    for (size_t i = 0; i < d->n; i++)
+        qdot_free(d->at[i].text);
+    qdot_free(d->at);
+    *d = (qdot_domains){0};
+}
+
+/* "0 < theta <= pi" */
+static qdot_status
+describe(const qdot_plan *p, const qdot_symbol *s, const char *name, char **text)
+{
+    qdot_text t = {0};
+    qdot_status status = QDOT_OK;
+
+    if (s->lo != QDOT_NIL) {
+        status = qdot_print(p->pool, s->lo, QDOT_PLAIN, &t);
+        qdot_text_add(&t, s->lo_open ? " < " : " <= ");
+    }
+    qdot_text_add(&t, name);
+    if (s->hi != QDOT_NIL && status == QDOT_OK) {
+        qdot_text_add(&t, s->hi_open ? " < " : " <= ");
+        status = qdot_print(p->pool, s->hi, QDOT_PLAIN, &t);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&t);
+    if (status == QDOT_OK) {
+        *text = qdot_strdup(qdot_text_str(&t));
+        status = *text ? QDOT_OK : QDOT_ENOMEM;
+    }
+    qdot_text_clear(&t);
+    return status;
+}
+
+static qdot_status
+bound(const qdot_plan *p, qdot_expr e, double none, double *value)
+{
+    *value = none;
+    if (e == QDOT_NIL)
+        return QDOT_OK;
+    return qdot_tape_constant(p->pool, qdot_plan_substitute(p, e), value);
+}
+
+qdot_status
+qdot_domains_find(const qdot_plan *p, qdot_domains *d)
+{
+    d->at = qdot_calloc(p->n, sizeof *d->at);
+    if (!d->at)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < p->n; i++) {
+        const qdot_symbol s = *qdot_expr_symbol(p->pool, p->inputs[i]);
+        qdot_domain *x = d->at + d->n;
+
+        if (s.lo == QDOT_NIL && s.hi == QDOT_NIL)
+            continue;
+        *x = (qdot_domain){.coordinate = i, .lo_open = s.lo_open, .hi_open = s.hi_open};
+        QDOT_TRY(bound(p, s.lo, -INFINITY, &x->lo));
+        QDOT_TRY(bound(p, s.hi, INFINITY, &x->hi));
+        QDOT_TRY(describe(p, &s, p->names[i], &x->text));
+        d->n++;
+    }
+    return QDOT_OK;
+}
+
+static bool
+is_inside(const qdot_domain *d, double x)
+{
+    return (d->lo_open ? x > d->lo : x >= d->lo) && (d->hi_open ? x < d->hi : x <= d->hi);
+}
+
+const qdot_domain *
+qdot_domains_outside(const qdot_domains *d, const double *y)
+{
+    for (size_t i = 0; i < d->n; i++)
+        if (!is_inside(d->at + i, y[d->at[i].coordinate]))
+            return d->at + i;
+    return NULL;
+}
+
+qdot_status
+qdot_domains_watch(double t, const double *y, bool *stop, void *user)
+{
+    qdot_domains *d = user;
+
+    (void)t;
+    d->left = qdot_domains_outside(d, y);
+    *stop = d->left != NULL;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_domains_locate(const qdot_domains *d, const qdot_ode_system *system,
+                    qdot_trajectory *tr)
+{
+    size_t n = tr->n, last = tr->count - 1;
+    double inside = tr->t[last - 1], outside = tr->t[last];
+    qdot_trajectory_cursor *cursor;
+    double *y = qdot_malloc(2 * n * sizeof *y), *good = y ? y + n : NULL;
+    qdot_status status = y ? qdot_trajectory_open(tr, system, &cursor) : QDOT_ENOMEM;
+
+    if (status != QDOT_OK) {
+        qdot_free(y);
+        return status;
+    }
+    memcpy(good, tr->y + (last - 1) * n, n * sizeof *good);
+    for (;;) {
+        double middle = inside + 0.5 * (outside - inside);
+
+        if (middle == inside || middle == outside)
+            break;
+        status = qdot_trajectory_read(cursor, middle, y);
+        if (status != QDOT_OK)
+            break;
+        if (qdot_domains_outside(d, y))
+            outside = middle;
+        else {
+            inside = middle;
+            memcpy(good, y, n * sizeof *good);
+        }
+    }
+    qdot_trajectory_close(cursor);
+    if (status == QDOT_OK) {
+        if (inside == tr->t[last - 1])
+            tr->count--;
+        else {
+            tr->t[last] = inside;
+            memcpy(tr->y + last * n, good, n * sizeof *good);
+        }
+        tr->result.t = inside;
+    }
+    qdot_free(y);
+    return status;
+}

@@ -1,0 +1,125 @@
+/* drift.c -- max |c - c0| / max(1, |c0|) along a trajectory, by a tape a quantity. */
+#include "sim/drift.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+
+void
+qdot_drifts_clear(qdot_drifts *d)
+{
+    for (size_t i = 0; i < d->n; i++)
+        qdot_free((char *)d->at[i].name);
+    qdot_free(d->at);
+    *d = (qdot_drifts){0};
+}
+
+/* Failures that end the whole; any other leaves a quantity out. */
+static qdot_status
+fatal(qdot_status status)
+{
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+static qdot_status
+follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
+{
+    size_t n = tr->n;
+    double *in = qdot_malloc((n + 1) * sizeof *in);
+    double *work = qdot_malloc((qdot_tape_work(tape) + 1) * sizeof *work), c;
+    qdot_status status = in && work ? QDOT_OK : QDOT_ENOMEM;
+
+    drift->drift = 0;
+    for (size_t k = 0; k < tr->count && status == QDOT_OK; k++) {
+        double change;
+
+        if (k % 1024 == 0)
+            status = qdot_interrupt_check();
+        memcpy(in, tr->y + k * n, n * sizeof *in);
+        in[n] = tr->t[k];
+        qdot_tape_eval(tape, in, &c, work);
+        if (k == 0)
+            drift->start = c;
+        change = fabs(c - drift->start) / fmax(1, fabs(drift->start));
+        if (!(change <= drift->drift)) /* a NaN stays */
+            drift->drift = change;
+    }
+    qdot_free(in);
+    qdot_free(work);
+    return status;
+}
+
+static qdot_status
+measure(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
+        const char *name, qdot_drifts *d)
+{
+    qdot_drift x = {.quantity = quantity};
+    qdot_expr e = qdot_plan_substitute(p, quantity);
+    qdot_status status = qdot_pool_check(p->pool);
+    qdot_tape *tape = NULL;
+
+    if (status == QDOT_OK)
+        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &e, &tape);
+    if (status != QDOT_OK)
+        return fatal(status);
+    status = follow(tape, tr, &x);
+    qdot_tape_free(tape);
+    QDOT_TRY(status);
+    if (isnan(x.start) || !(x.name = qdot_strdup(name)))
+        return isnan(x.start) ? QDOT_OK : QDOT_ENOMEM;
+    d->at[d->n++] = x;
+    return QDOT_OK;
+}
+
+static qdot_status
+measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
+               qdot_drifts *d)
+{
+    bool conserved = false;
+    qdot_expr h;
+    qdot_status status = qdot_mech_energy_conserved(scene, &conserved);
+
+    if (status != QDOT_OK || !conserved)
+        return fatal(status);
+    h = qdot_mech_energy(scene);
+    status = qdot_pool_check(p->pool);
+    if (status != QDOT_OK || h == QDOT_NIL)
+        return fatal(status);
+    QDOT_TRY(measure(p, tr, h, "energy", d));
+    d->energy = d->n == 1;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
+                    qdot_drifts *d)
+{
+    qdot_cyclic *cyclic = NULL;
+    size_t n = 0;
+    qdot_status status;
+
+    d->at = qdot_calloc(p->n + 1, sizeof *d->at);
+    if (!d->at)
+        return QDOT_ENOMEM;
+    QDOT_TRY(measure_energy(scene, p, tr, d));
+    status = qdot_mech_cyclic(scene, &cyclic, &n);
+    if (status != QDOT_OK)
+        return fatal(status);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_expr symbol;
+
+        if (cyclic[i].rate != QDOT_NIL)
+            continue;
+        symbol = qdot_symbol_of(p->pool, QDOT_MOMENTUM, cyclic[i].coordinate);
+        status = qdot_pool_check(p->pool);
+        if (status == QDOT_OK) {
+            char *name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
+
+            status = name ? measure(p, tr, cyclic[i].momentum, name, d) : QDOT_ENOMEM;
+            qdot_free(name);
+        }
+    }
+    qdot_free(cyclic);
+    return status;
+}

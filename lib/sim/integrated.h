@@ -1,0 +1,28 @@
+/* integrated.h -- a qdot_run from inside. */
+#ifndef QDOT_SIM_INTEGRATED_H
+#define QDOT_SIM_INTEGRATED_H
+
+#include "ode/trajectory.h"
+#include "sim/bind.h"
+#include "sim/drift.h"
+#include "sim/plan.h"
+
+struct qdot_run {
+    qdot_plan *plan;
+    qdot_bind *bind;      /* for the run, then for states between its points */
+    qdot_trajectory tr;
+    qdot_drifts drifts;
+    double *start;        /* [2n] y at t0 */
+    double t0, t1;        /* as asked for */
+    int t0_side, t1_side; /* where the exact limits lie beside them */
+    char *reason;
+    qdot_run_report report;
+
+    /* The run whose distance from this one is the error between points: made when
+     * errors are first asked for. */
+    bool has_companion;
+    qdot_bind *shaken;
+    qdot_trajectory companion;
+};
+
+#endif

@@ -1,0 +1,358 @@
+/* plan.c -- M and f with numbers in place, their structure, their tapes. */
+#include "sim/plan.h"
+
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "sim/substitute.h"
+#include "tape/constant.h"
+
+/* The method that `auto` is: see ode/method.h for when each fits. */
+static const char default_method[] = "rk8pd";
+
+/* Words of the language for methods that come later. */
+static const char *const later_methods[] = {"taylor", "dop853", "radau", "gauss"};
+
+void
+qdot_plan_free(qdot_plan *p)
+{
+    if (!p)
+        return;
+    for (size_t b = 0; p->blocks && b < p->structure.blocks; b++) {
+        qdot_free(p->blocks[b].M);
+        qdot_free(p->blocks[b].side);
+    }
+    for (size_t i = 0; p->names && i < p->n; i++)
+        qdot_free(p->names[i]);
+    qdot_free(p->blocks);
+    qdot_structure_clear(&p->structure);
+    qdot_free(p->names);
+    qdot_free(p->inputs);
+    qdot_free(p->M);
+    qdot_free(p->f);
+    qdot_free(p->symbols);
+    qdot_free(p->values);
+    qdot_tape_free(p->tape);
+    qdot_tape_free(p->jacobian);
+    qdot_free(p->slopes);
+    qdot_free(p);
+}
+
+qdot_expr
+qdot_plan_substitute(const qdot_plan *p, qdot_expr e)
+{
+    return qdot_substitute(p->pool, e, p->n_values, p->symbols, p->values);
+}
+
+/* --- the scene ---------------------------------------------------------------------- */
+
+static qdot_status
+check_scene(const qdot_scene *scene)
+{
+    if (scene->coordinates.n == 0) {
+        qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
+        return qdot_hint("coord theta");
+    }
+    if (scene->lagrangian == QDOT_NIL && scene->particles.n == 0
+        && scene->bodies.n == 0) {
+        qdot_fail(QDOT_EINVAL, "the scene has no masses");
+        return qdot_hint("particle bob mass m at (x, y)");
+    }
+    if (scene->constraints.n > 0)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: integration with constraints");
+    return QDOT_OK;
+}
+
+static qdot_status
+find_method(qdot_plan *p, const char *name)
+{
+    qdot_text names = {0};
+
+    p->chosen = !name || strcmp(name, "auto") == 0;
+    p->method = qdot_ode_method_find(p->chosen ? default_method : name);
+    if (p->method)
+        return QDOT_OK;
+    for (size_t i = 0; i < sizeof later_methods / sizeof *later_methods; i++)
+        if (strcmp(name, later_methods[i]) == 0)
+            return qdot_fail(QDOT_ENOTBUILT, "not built yet: method %s", name);
+    for (size_t i = 0; i < qdot_ode_method_count(); i++)
+        qdot_text_format(&names, ", %s", qdot_ode_method_at(i)->name);
+    qdot_fail(QDOT_ENAME, "there is no method %.100s", name);
+    qdot_hint("auto%s", qdot_text_str(&names));
+    qdot_text_clear(&names);
+    return QDOT_ENAME;
+}
+
+static qdot_status
+copy_values(qdot_plan *p, const qdot_run_request *request)
+{
+    size_t n = request->n_values;
+
+    p->symbols = qdot_calloc(n + 1, sizeof *p->symbols);
+    p->values = qdot_calloc(n + 1, sizeof *p->values);
+    if (!p->symbols || !p->values)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        p->symbols[i] = request->symbols[i];
+        p->values[i] = request->values[i];
+    }
+    p->n_values = n;
+    return QDOT_OK;
+}
+
+static qdot_status
+name_coordinates(qdot_plan *p, const qdot_scene *scene)
+{
+    size_t n = p->n;
+
+    p->inputs = qdot_calloc(3 * n + 1, sizeof *p->inputs);
+    p->names = qdot_calloc(n, sizeof *p->names);
+    if (!p->inputs || !p->names)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr q = scene->coordinates.at[i];
+
+        p->inputs[i] = q;
+        p->inputs[n + i] = qdot_symbol_jet(p->pool, q, 1);
+        p->inputs[2 * n + 1 + i] = qdot_symbol_jet(p->pool, q, 2);
+        p->names[i] = qdot_strdup(qdot_expr_symbol(p->pool, q)->name);
+        if (!p->names[i])
+            return QDOT_ENOMEM;
+    }
+    p->inputs[2 * n] = QDOT_T;
+    return qdot_pool_check(p->pool);
+}
+
+/* M and f of the scene with the values in place. */
+static qdot_status
+derive(qdot_plan *p, qdot_scene *scene)
+{
+    size_t n = p->n;
+    qdot_expr M = qdot_mech_numeric_mass(scene), f = qdot_mech_numeric_forcing(scene);
+
+    p->M = qdot_calloc(n * n, sizeof *p->M);
+    p->f = qdot_calloc(n, sizeof *p->f);
+    if (!p->M || !p->f)
+        return QDOT_ENOMEM;
+    if (M != QDOT_NIL && f != QDOT_NIL) {
+        M = qdot_plan_substitute(p, M);
+        f = qdot_plan_substitute(p, f);
+    }
+    QDOT_TRY(qdot_pool_check(p->pool));
+    for (size_t i = 0; i < n; i++) {
+        p->f[i] = qdot_expr_arg(p->pool, f, (uint32_t)i);
+        for (size_t j = 0; j < n; j++)
+            p->M[i * n + j] = qdot_expr_arg(p->pool, M, (uint32_t)(i * n + j));
+    }
+    p->indefinite = scene->lagrangian != QDOT_NIL;
+    for (size_t i = 0; i < scene->potentials.n; i++)
+        if (qdot_expr_node(p->pool, scene->potentials.at[i])->holds & QDOT_HAS_VELOCITY)
+            p->indefinite = true;
+    return QDOT_OK;
+}
+
+/* --- structure ---------------------------------------------------------------------- */
+
+static qdot_status
+find_blocks(qdot_plan *p)
+{
+    size_t n = p->n;
+    bool *pattern = qdot_calloc(n * n, sizeof *pattern);
+    qdot_status status;
+
+    if (!pattern)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n * n; i++)
+        pattern[i] = p->M[i] != QDOT_ZERO;
+    status = qdot_structure_find(pattern, n, &p->structure);
+    for (size_t i = 0; status == QDOT_OK && i < n; i++) {
+        bool some = false;
+
+        for (size_t j = 0; j < n; j++)
+            some |= pattern[i * n + j];
+        if (!some)
+            status = qdot_fail(QDOT_ESINGULAR,
+                               "the mass matrix is singular: no mass moves with %s",
+                               p->names[i]);
+    }
+    qdot_free(pattern);
+    if (status != QDOT_OK)
+        return status;
+    p->blocks = qdot_calloc(p->structure.blocks, sizeof *p->blocks);
+    return p->blocks ? QDOT_OK : QDOT_ENOMEM;
+}
+
+static qdot_expr
+entry(const qdot_plan *p, const qdot_plan_block *b, size_t i, size_t j)
+{
+    return p->M[b->index[i] * p->n + b->index[j]];
+}
+
+static qdot_status
+fill_block(qdot_plan *p, qdot_plan_block *b)
+{
+    size_t n = b->n;
+
+    b->constant = n > 1;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++)
+            b->constant = b->constant && qdot_constant_is(p->pool, entry(p, b, i, j));
+    if (!b->constant)
+        return QDOT_OK;
+    b->M = qdot_calloc(n * n, sizeof *b->M);
+    b->side = qdot_calloc(n * n, sizeof *b->side);
+    if (!b->M || !b->side)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            int side;
+
+            QDOT_TRY(qdot_constant_round(p->pool, entry(p, b, i, j), &b->M[i * n + j],
+                                         &side));
+            b->side[i * n + j] = (signed char)side;
+        }
+    return QDOT_OK;
+}
+
+/* --- tapes -------------------------------------------------------------------------- */
+
+typedef qdot_vec(qdot_expr) expressions;
+
+static qdot_status
+push_mass(const qdot_plan *p, const qdot_plan_block *b, expressions *out)
+{
+    for (size_t i = 0; i < b->n; i++)
+        for (size_t j = 0; j <= i; j++)
+            QDOT_TRY(qdot_vec_push(out, entry(p, b, i, j)));
+    return QDOT_OK;
+}
+
+static qdot_status
+lower_equations(qdot_plan *p)
+{
+    expressions out = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
+        const qdot_plan_block *b = p->blocks + k;
+
+        if (b->n == 1) {
+            status = qdot_vec_push(
+                &out, qdot_div(p->pool, p->f[b->index[0]], entry(p, b, 0, 0)));
+            continue;
+        }
+        for (size_t i = 0; i < b->n && status == QDOT_OK; i++)
+            status = qdot_vec_push(&out, p->f[b->index[i]]);
+        if (!b->constant && status == QDOT_OK)
+            status = push_mass(p, b, &out);
+    }
+    if (status == QDOT_OK)
+        status = qdot_pool_check(p->pool);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, out.n, out.at, &p->tape);
+    qdot_free(out.at);
+    return status;
+}
+
+/* Row i of f - M q''. */
+static qdot_expr
+residual(const qdot_plan *p, size_t i)
+{
+    qdot_expr r = p->f[i];
+
+    for (size_t j = 0; j < p->n; j++)
+        r = qdot_sub(p->pool, r, qdot_mul(p->pool, p->M[i * p->n + j],
+                                          p->inputs[2 * p->n + 1 + j]));
+    return r;
+}
+
+static qdot_status
+push_slopes(qdot_plan *p, expressions *out)
+{
+    size_t capacity = 0;
+
+    for (size_t i = 0; i < p->n; i++) {
+        qdot_expr r = residual(p, i), atoms = qdot_expr_atoms(p->pool, r, false);
+
+        QDOT_TRY(qdot_pool_check(p->pool));
+        for (size_t j = 0; j < 2 * p->n + 1; j++) {
+            qdot_expr slope;
+            bool there = false;
+
+            for (uint32_t k = 0; k < qdot_expr_count(p->pool, atoms) && !there; k++)
+                there = qdot_expr_arg(p->pool, atoms, k) == p->inputs[j];
+            if (!there)
+                continue;
+            slope = qdot_diff(p->pool, r, p->inputs[j]);
+            QDOT_TRY(qdot_pool_check(p->pool));
+            if (slope == QDOT_ZERO)
+                continue;
+            QDOT_TRY(
+                qdot_grow(&p->slopes, &capacity, p->n_slopes + 1, sizeof *p->slopes));
+            p->slopes[p->n_slopes++] = (qdot_plan_slope){(uint32_t)i, (uint32_t)j};
+            QDOT_TRY(qdot_vec_push(out, slope));
+        }
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+lower_jacobian(qdot_plan *p)
+{
+    expressions out = {0};
+    qdot_status status = push_slopes(p, &out);
+
+    for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++)
+        if (!p->blocks[k].constant)
+            status = push_mass(p, p->blocks + k, &out);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(p->pool, 3 * p->n + 1, p->inputs, out.n, out.at,
+                               &p->jacobian);
+    qdot_free(out.at);
+    return status;
+}
+
+static qdot_status
+make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+{
+    QDOT_TRY(find_method(p, request->method));
+    QDOT_TRY(copy_values(p, request));
+    QDOT_TRY(name_coordinates(p, scene));
+    QDOT_TRY(derive(p, scene));
+    QDOT_TRY(find_blocks(p));
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        qdot_plan_block *b = p->blocks + k;
+
+        b->index = p->structure.index + p->structure.start[k];
+        b->n = p->structure.start[k + 1] - p->structure.start[k];
+        QDOT_TRY(fill_block(p, b));
+    }
+    QDOT_TRY(lower_equations(p));
+    if (p->method->needs_jacobian
+        || qdot_ode_method_find(p->method->partner)->needs_jacobian)
+        QDOT_TRY(lower_jacobian(p));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_plan_new(qdot_scene *scene, const qdot_run_request *request, qdot_plan **plan)
+{
+    qdot_plan *p;
+    qdot_status status;
+
+    *plan = NULL;
+    QDOT_TRY(check_scene(scene));
+    p = qdot_calloc(1, sizeof *p);
+    if (!p)
+        return QDOT_ENOMEM;
+    p->pool = scene->pool;
+    p->n = scene->coordinates.n;
+    status = make(p, scene, request);
+    if (status != QDOT_OK) {
+        qdot_plan_free(p);
+        p = NULL;
+    }
+    *plan = p;
+    return status;
+}

@@ -1,0 +1,75 @@
+/* plan.h -- what a scene needs to become numbers, and no more.
+ *
+ *     M(q, t) q'' = f(q, q', t)
+ *
+ * with the values of parameters in place. The coordinates fall into blocks that M
+ * couples:
+ *
+ *     a block of one     q'' = f/M, divided symbolically: nothing to solve
+ *     a constant block   M factored once
+ *     any other          M evaluated and factored at every state
+ *
+ * Everything the tapes read is laid out as q [n], q' [n], t, q'' [n].
+ *
+ * Tests  tests/sim/test_run.c
+ */
+#ifndef QDOT_SIM_PLAN_H
+#define QDOT_SIM_PLAN_H
+
+#include "mech/quantity.h"
+#include "num/structure.h"
+#include "ode/method.h"
+#include "sim/run.h"
+#include "tape/tape.h"
+
+typedef struct {
+    size_t n;            /* coordinates of it */
+    const size_t *index; /* [n] which; borrowed from plan->structure */
+    bool constant;       /* more than one, and M has only numbers there */
+    double *M;           /* [n x n] constant: these numbers, lower triangle; else NULL */
+    signed char *side;   /* [n x n] where the exact ones lie beside them (tape/shake.h) */
+} qdot_plan_block;
+
+/* An entry of d(f - M q'')/d(q, q', t) that is not zero. */
+typedef struct {
+    uint32_t row, column; /* column: 0 ... 2n */
+} qdot_plan_slope;
+
+typedef struct {
+    qdot_pool *pool; /* borrowed */
+    size_t n;        /* coordinates */
+    qdot_expr *inputs; /* [3n + 1] q, q', t, q'' */
+    char **names;      /* [n] of the coordinates; owned */
+    qdot_expr *M;      /* [n x n] */
+    qdot_expr *f;      /* [n] */
+    bool indefinite;   /* a stated Lagrangian, a potential with velocities: LDL^T */
+    qdot_structure structure;
+    qdot_plan_block *blocks; /* [structure.blocks] */
+    const qdot_ode_method *method;
+    bool chosen; /* the method was left to the plan */
+
+    /* Values of the request, for expressions asked for later; owned copies. */
+    size_t n_values;
+    qdot_expr *symbols, *values;
+
+    /* From q, q', t. Block by block: one coordinate, q''; a constant block, f; else f
+     * and the lower triangle of M by rows. */
+    qdot_tape *tape;
+
+    /* From q, q', t, q'': the slopes in their order, then M as above but of every
+     * block that is not constant. NULL unless the method or its companion asks for it. */
+    qdot_tape *jacobian;
+    qdot_plan_slope *slopes; /* [n_slopes] */
+    size_t n_slopes;
+} qdot_plan;
+
+/* Errors: as qdot_run_new has before anything is integrated, but for the start's. */
+QDOT_MUST_CHECK qdot_status qdot_plan_new(qdot_scene *scene,
+                                          const qdot_run_request *request,
+                                          qdot_plan **plan);
+void qdot_plan_free(qdot_plan *plan);
+
+/* e with the values in place. Nil: the pool keeps the failure. */
+qdot_expr qdot_plan_substitute(const qdot_plan *plan, qdot_expr e);
+
+#endif

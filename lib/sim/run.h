@@ -1,0 +1,81 @@
+/* run.h -- a scene integrated: plan, tape and ode bound together, with the error stated.
+ *
+ * The one floor where mechanics, tape and ode meet. Parameters are substituted exactly before
+ * anything is lowered, so terms that vanish are not computed.
+ *
+ *   M(q, t) q'' = f(q, q', t)      y = (q_1 ... q_n, q_1' ... q_n')
+ *
+ * M is solved with numbers and its structure (Cholesky; LDL^T for a stated Lagrangian); a singular M is
+ * an error that names the coordinate. A scene with constraints: QDOT_ENOTBUILT, said clearly.
+ *
+ * Tests  tests/sim/
+ */
+#ifndef QDOT_SIM_RUN_H
+#define QDOT_SIM_RUN_H
+
+#include "mech/quantity.h"
+
+typedef struct {
+    size_t n_values;              /* values of parameters: symbol -> exact constant */
+    const qdot_expr *symbols, *values;
+    const qdot_expr *q0, *v0;     /* [n] start: exact constants, in order of the coordinates */
+    qdot_expr t0, t1;             /* limits: exact constants; t1 < t0 runs back */
+    double tol;                   /* local error of each component in each step, relative to
+                                     max(1, |value|) */
+    const char *method;           /* "auto" or a name of ode/method.h */
+} qdot_run_request;
+
+typedef enum { QDOT_RUN_DONE, QDOT_RUN_STOPPED, QDOT_RUN_FAILED } qdot_run_status;
+
+typedef struct {
+    qdot_expr quantity;  /* what should stay (energy, a cyclic momentum) */
+    const char *name;    /* "energy", "p[phi]" */
+    double start, drift; /* drift = max |c - c0| / max(1, |c0|) over the run */
+} qdot_drift;
+
+typedef struct qdot_run qdot_run;
+
+typedef struct {
+    const char *method;
+    double tol, t0, t1;            /* t1 where it ended */
+    size_t steps, rejected, evals, jacobians, factorizations;
+    double cpu;                    /* s, the integration itself */
+    double cpu_total;              /* s, with derivation, lowering, error estimate */
+    double error;                  /* estimate of the end state's error, max over components relative
+                                      to max(1, |value|); NaN: unknown */
+    double energy_drift;           /* NaN unless h is proved conserved */
+    size_t n_drifts;
+    const qdot_drift *drifts;      /* every conserved quantity known, energy first */
+    qdot_run_status status;
+    const char *reason;            /* NULL when done */
+    size_t n;                      /* coordinates */
+    const qdot_expr *coordinates;  /* [n] symbols */
+    const double *q, *v;           /* [n] state at t1 */
+    size_t operations;             /* of the tape, one evaluation of M and f */
+} qdot_run_report;
+
+/* Integrate. On QDOT_OK *run is owned by the caller; report->status may still be FAILED (a
+ * singularity, a domain left: reason says where and when), the run so far is kept. QDOT_EINTR:
+ * *run is the run so far when it is not NULL. Errors before anything was integrated: QDOT_EUNSET
+ * names the parameter, QDOT_ESINGULAR the coordinate, QDOT_EINVAL, QDOT_ENOTBUILT. */
+QDOT_MUST_CHECK qdot_status qdot_run_new(qdot_scene *scene, const qdot_run_request *request,
+                                         qdot_run **run);
+void qdot_run_free(qdot_run *run);
+const qdot_run_report *qdot_run_get_report(const qdot_run *run);
+
+/* Any expressions [m] of the scene (coordinates, velocities, accelerations, t, parameters)
+ * along the run at times [k], ascending or not: values [k*m] row by row, as accurate as the run;
+ * errors [k*m] (NULL: not wanted) from the companion run, NaN unknown. Constants of the run are
+ * the request's. QDOT_EDOMAIN: outside the run, with its range. */
+QDOT_MUST_CHECK qdot_status qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs,
+                                            size_t k, const double *times, double *values,
+                                            double *errors);
+
+/* The times of the accepted steps [*n], borrowed. */
+const double *qdot_run_times(const qdot_run *run, size_t *n);
+
+/* `plan`: what would be done and why, in words: coordinates, structure of M, operations of the tape,
+ * method chosen. Parameters need values as for a run. */
+QDOT_MUST_CHECK qdot_status qdot_run_plan(qdot_scene *scene, const qdot_run_request *request,
+                                          qdot_text *out);
+#endif

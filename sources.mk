@@ -1,0 +1,439 @@
+# sources.mk -- which files make qdot. Written by ./bootstrap sources; do not edit.
+
+base_sources = \
+	lib/base/interrupt.c \
+	lib/base/memory.c \
+	lib/base/status.c \
+	lib/base/text.c \
+	lib/base/utf8.c
+
+base_headers = \
+	lib/base/interrupt.h \
+	lib/base/memory.h \
+	lib/base/status.h \
+	lib/base/text.h \
+	lib/base/utf8.h
+
+num_sources = \
+	lib/num/cholesky.c \
+	lib/num/ldlt.c \
+	lib/num/structure.c \
+	lib/num/sum.c
+
+num_headers = \
+	lib/num/cholesky.h \
+	lib/num/ldlt.h \
+	lib/num/structure.h \
+	lib/num/sum.h
+
+expr_sources = \
+	lib/expr/calculus.c \
+	lib/expr/construct.c \
+	lib/expr/expand.c \
+	lib/expr/function.c \
+	lib/expr/order.c \
+	lib/expr/pool.c \
+	lib/expr/print-name.c \
+	lib/expr/print.c \
+	lib/expr/product.c \
+	lib/expr/sum.c \
+	lib/expr/tensor.c \
+	lib/expr/walk.c
+
+expr_headers = \
+	lib/expr/calculus.h \
+	lib/expr/expr.h \
+	lib/expr/function.def \
+	lib/expr/pool.h \
+	lib/expr/print-name.h \
+	lib/expr/print.h \
+	lib/expr/tensor.h \
+	lib/expr/walk.h
+
+ode_sources = \
+	lib/ode/companion.c \
+	lib/ode/integrate.c \
+	lib/ode/method.c \
+	lib/ode/stepper.c \
+	lib/ode/trajectory.c
+
+ode_headers = \
+	lib/ode/companion.h \
+	lib/ode/integrate.h \
+	lib/ode/method.h \
+	lib/ode/stepper.h \
+	lib/ode/system.h \
+	lib/ode/trajectory.h
+
+normal_sources = \
+	lib/normal/ball.c \
+	lib/normal/decide.c \
+	lib/normal/factor.c \
+	lib/normal/field.c \
+	lib/normal/form.c \
+	lib/normal/ideal.c \
+	lib/normal/lattice.c \
+	lib/normal/less.c \
+	lib/normal/map.c \
+	lib/normal/null-space.c \
+	lib/normal/prepare.c \
+	lib/normal/proportion.c \
+	lib/normal/ratio.c \
+	lib/normal/sample.c \
+	lib/normal/simplify.c \
+	lib/normal/solve.c \
+	lib/normal/split.c \
+	lib/normal/trig-form.c \
+	lib/normal/value.c
+
+normal_headers = \
+	lib/normal/ball.h \
+	lib/normal/decide.h \
+	lib/normal/factor.h \
+	lib/normal/field.h \
+	lib/normal/form.h \
+	lib/normal/ideal.h \
+	lib/normal/lattice.h \
+	lib/normal/map.h \
+	lib/normal/null-space.h \
+	lib/normal/prepare.h \
+	lib/normal/sample.h \
+	lib/normal/simplify.h \
+	lib/normal/split.h \
+	lib/normal/value.h
+
+tape_sources = \
+	lib/tape/angle.c \
+	lib/tape/code.c \
+	lib/tape/constant.c \
+	lib/tape/finish.c \
+	lib/tape/keymap.c \
+	lib/tape/lower.c \
+	lib/tape/tape.c
+
+tape_headers = \
+	lib/tape/angle.h \
+	lib/tape/code.h \
+	lib/tape/constant.h \
+	lib/tape/keymap.h \
+	lib/tape/operation.def \
+	lib/tape/shake.h \
+	lib/tape/tape.h
+
+mech_sources = \
+	lib/mech/accel.c \
+	lib/mech/body.c \
+	lib/mech/constraint.c \
+	lib/mech/derived.c \
+	lib/mech/energy.c \
+	lib/mech/freedom.c \
+	lib/mech/generic.c \
+	lib/mech/geometry.c \
+	lib/mech/hamilton.c \
+	lib/mech/kinematics.c \
+	lib/mech/label.c \
+	lib/mech/lagrange.c \
+	lib/mech/mass-matrix.c \
+	lib/mech/metric.c \
+	lib/mech/momentum.c \
+	lib/mech/noether.c \
+	lib/mech/numeric.c \
+	lib/mech/scene-print.c \
+	lib/mech/scene.c \
+	lib/mech/virtual-work.c
+
+mech_headers = \
+	lib/mech/derived.h \
+	lib/mech/geometry.h \
+	lib/mech/hamilton.h \
+	lib/mech/noether.h \
+	lib/mech/quantity.h \
+	lib/mech/scene.h
+
+sim_sources = \
+	lib/sim/bind.c \
+	lib/sim/describe.c \
+	lib/sim/domain.c \
+	lib/sim/drift.c \
+	lib/sim/plan.c \
+	lib/sim/run.c \
+	lib/sim/substitute.c \
+	lib/sim/value.c
+
+sim_headers = \
+	lib/sim/bind.h \
+	lib/sim/domain.h \
+	lib/sim/drift.h \
+	lib/sim/integrated.h \
+	lib/sim/plan.h \
+	lib/sim/run.h \
+	lib/sim/substitute.h
+
+show_sources = \
+	lib/show/csv.c \
+	lib/show/figure.c \
+	lib/show/gnuplot.c \
+	lib/show/sink.c \
+	lib/show/table.c
+
+show_headers = \
+	lib/show/gnuplot.h \
+	lib/show/show.h \
+	lib/show/sink.h
+
+lang_sources = \
+	lib/lang/answer.c \
+	lib/lang/ask.c \
+	lib/lang/bind.c \
+	lib/lang/builtin.c \
+	lib/lang/carry.c \
+	lib/lang/check.c \
+	lib/lang/cursor.c \
+	lib/lang/declare.c \
+	lib/lang/derive.c \
+	lib/lang/draw.c \
+	lib/lang/evaluate.c \
+	lib/lang/furnish.c \
+	lib/lang/help.c \
+	lib/lang/hints.c \
+	lib/lang/letters.c \
+	lib/lang/lex.c \
+	lib/lang/loop.c \
+	lib/lang/names.c \
+	lib/lang/number.c \
+	lib/lang/parse.c \
+	lib/lang/plot.c \
+	lib/lang/quantities.c \
+	lib/lang/read.c \
+	lib/lang/report.c \
+	lib/lang/resolve.c \
+	lib/lang/session.c \
+	lib/lang/source.c \
+	lib/lang/start.c \
+	lib/lang/statement.c \
+	lib/lang/words.c \
+	lib/lang/workbench.c
+
+lang_headers = \
+	lib/lang/answer.h \
+	lib/lang/ask.h \
+	lib/lang/carry.h \
+	lib/lang/code.h \
+	lib/lang/declare.h \
+	lib/lang/draw.h \
+	lib/lang/names.h \
+	lib/lang/number.h \
+	lib/lang/read.h \
+	lib/lang/session.h \
+	lib/lang/statement.h
+
+program_sources = \
+	src/main.c \
+	src/prompt.c \
+	src/prompt.h \
+	src/signals.c \
+	src/signals.h
+
+unit_tests = \
+	tests/base/test_memory \
+	tests/base/test_text \
+	tests/base/test_utf8 \
+	tests/lang/test_evaluate \
+	tests/lang/test_lex \
+	tests/lang/test_names \
+	tests/lang/test_read \
+	tests/lang/test_session \
+	tests/mech/test_numeric \
+	tests/mech/test_scene \
+	tests/mech/test_scenes \
+	tests/normal/test_decide \
+	tests/normal/test_simplify \
+	tests/num/test_cholesky \
+	tests/num/test_ldlt \
+	tests/num/test_structure \
+	tests/num/test_sum \
+	tests/ode/test_companion \
+	tests/ode/test_integrate \
+	tests/ode/test_method \
+	tests/ode/test_trajectory \
+	tests/show/test_csv \
+	tests/show/test_figure \
+	tests/show/test_table \
+	tests/sim/test_equations \
+	tests/sim/test_run \
+	tests/src/test_options \
+	tests/src/test_prompt \
+	tests/tape/test_constant \
+	tests/tape/test_tape
+
+script_tests = \
+	tests/script/check.lag \
+	tests/script/declarations.lag \
+	tests/script/definitions.lag \
+	tests/script/derive.lag \
+	tests/script/fall.sh \
+	tests/script/flexing.lag \
+	tests/script/help.lag \
+	tests/script/include.lag \
+	tests/script/json.lag \
+	tests/script/loops.lag \
+	tests/script/names.lag \
+	tests/script/pendulum.lag \
+	tests/script/refuted.lag \
+	tests/script/reset.lag \
+	tests/script/run.sh \
+	tests/script/styles.lag \
+	tests/script/text.lag \
+	tests/bad/acceleration-position.lag \
+	tests/bad/bad-method.lag \
+	tests/bad/bad-tolerance.lag \
+	tests/bad/bare-power.lag \
+	tests/bad/big-d.lag \
+	tests/bad/binary.lag \
+	tests/bad/block-without-for.lag \
+	tests/bad/compare-run.lag \
+	tests/bad/constrained-run.lag \
+	tests/bad/define-coordinate.lag \
+	tests/bad/defined-by-itself.lag \
+	tests/bad/dimensions.lag \
+	tests/bad/division-symbolic.lag \
+	tests/bad/division.lag \
+	tests/bad/double-operator.lag \
+	tests/bad/empty-brackets.lag \
+	tests/bad/entry-range.lag \
+	tests/bad/family-and-vector.lag \
+	tests/bad/function-by-itself.lag \
+	tests/bad/generated.sh \
+	tests/bad/gravity-dimension.lag \
+	tests/bad/help-unknown.lag \
+	tests/bad/history.lag \
+	tests/bad/huge-decimal.lag \
+	tests/bad/huge-power.lag \
+	tests/bad/include-error.lag \
+	tests/bad/include-itself.lag \
+	tests/bad/include-missing.lag \
+	tests/bad/lagrangian-beside.lag \
+	tests/bad/log-zero.lag \
+	tests/bad/lone-point.lag \
+	tests/bad/loop-half.lag \
+	tests/bad/loop-limit.lag \
+	tests/bad/mathematica.lag \
+	tests/bad/mismatched.lag \
+	tests/bad/missing-option.lag \
+	tests/bad/missing-times.lag \
+	tests/bad/misspelled-option.lag \
+	tests/bad/misspelled-word.lag \
+	tests/bad/newton-dot.lag \
+	tests/bad/no-coordinate.lag \
+	tests/bad/no-run.lag \
+	tests/bad/not-built-option.lag \
+	tests/bad/not-built.lag \
+	tests/bad/not-utf8.lag \
+	tests/bad/number-times.lag \
+	tests/bad/operator-end.lag \
+	tests/bad/outside-run.lag \
+	tests/bad/pi-redefined.lag \
+	tests/bad/picture-kind.lag \
+	tests/bad/prime-of-product.lag \
+	tests/bad/redeclared-coordinate.lag \
+	tests/bad/redeclared-parameter.lag \
+	tests/bad/reserved.lag \
+	tests/bad/reset-in-loop.lag \
+	tests/bad/same-label.lag \
+	tests/bad/second-decimal.lag \
+	tests/bad/semicolon-list.lag \
+	tests/bad/set-circle.lag \
+	tests/bad/set-coordinate.lag \
+	tests/bad/set-domain.lag \
+	tests/bad/show-unknown.lag \
+	tests/bad/singular-mass.lag \
+	tests/bad/start-domain.lag \
+	tests/bad/start-parameter.lag \
+	tests/bad/string-number.lag \
+	tests/bad/trailing.lag \
+	tests/bad/unclosed.lag \
+	tests/bad/unfinished-string.lag \
+	tests/bad/unknown-function.lag \
+	tests/bad/unknown-label.lag \
+	tests/bad/unknown-name.lag \
+	tests/bad/unset.lag \
+	tests/bad/vector-mass.lag \
+	tests/bad/vector-vs-scalar-check.lag \
+	tests/bad/write-nowhere.lag \
+	tests/bad/wrong-arguments.lag \
+	examples/acceleration-constraint.lag \
+	examples/bead-on-wire.lag \
+	examples/chain.lag \
+	examples/cylindrical.lag \
+	examples/damped-oscillator.lag \
+	examples/degrees-of-freedom.lag \
+	examples/double-pendulum-cartesian.lag \
+	examples/double-pendulum.lag \
+	examples/elastic-pendulum.lag \
+	examples/flexing-wire.lag \
+	examples/foucault.lag \
+	examples/generalized-momenta.lag \
+	examples/heavy-top.lag \
+	examples/kepler.lag \
+	examples/kinetic-energy.lag \
+	examples/knife-edge.lag \
+	examples/line-element.lag \
+	examples/magnetic-field.lag \
+	examples/metrics.lag \
+	examples/moving-constraint.lag \
+	examples/pendulum-cartesian.lag \
+	examples/pendulum.lag \
+	examples/polar.lag \
+	examples/rolling-wheel.lag \
+	examples/rotating-hoop.lag \
+	examples/spherical-pendulum.lag \
+	examples/spherical.lag \
+	examples/stated-lagrangian.lag \
+	examples/static-equilibrium.lag \
+	examples/swinging-atwood.lag \
+	examples/velocity.lag \
+	examples/virtual-work.lag
+
+meta_tests = \
+	tests/meta/floors.test \
+	tests/meta/manual.test \
+	tests/meta/paths.test \
+	tests/meta/sources.test \
+	tests/meta/symbols.test
+
+test_files = \
+	tests/lang/reading.h \
+	tests/mech/kit.h \
+	tests/normal/text.h \
+	tests/ode/problems.h \
+	tests/script/included.inc \
+	tests/script/normalise.sed \
+	tests/sim/scenes.h \
+	tests/tape/reference.h \
+	tests/mech/zz_time.c
+
+other_files = \
+	bench/chain-equations.lag \
+	bench/chain-run.lag \
+	bench/chain-step.lag \
+	bench/chain_sympy.py \
+	bench/double-pendulum.lag \
+	bench/double-run.lag \
+	bench/packages \
+	bench/pendulum-run.lag \
+	bench/run \
+	bench/symbolic/ginac-peer.cc \
+	bench/symbolic/identities \
+	bench/symbolic/maxima-peer.mac \
+	bench/symbolic/run \
+	bench/symbolic/scene \
+	bench/symbolic/sympy-peer.py \
+	doc/design.md \
+	doc/double-pendulum.png \
+	doc/methods.md \
+	README.md
+
+info_TEXINFOS = \
+	doc/qdot.texi
+
+doc_qdot_TEXINFOS =

@@ -1,0 +1,181 @@
+/* main.c -- the program: options, scripts in their order, the prompt, the exit status. */
+#include <errno.h>
+#include <getopt.h>
+#include <langinfo.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "lang/session.h"
+#include "prompt.h"
+#include "signals.h"
+
+enum { DONE = 0, FAILED = 1, MISUSED = 2 }; /* exit statuses */
+
+static const char usage[] =
+    "Usage: qdot [OPTION]... [FILE]...\n"
+    "Write positions r(q), get the mechanics: equations of motion derived exactly,\n"
+    "integrated fast, with the error stated.\n"
+    "\n"
+    "Each FILE is a script; they and the texts of -e are carried out in the order\n"
+    "given, in one session. Without any, or with -i after them, statements are read\n"
+    "from the terminal with a prompt, or else from standard input.\n"
+    "\n"
+    "  -e, --execute=STATEMENTS  carry out STATEMENTS\n"
+    "  -i, --interactive         go on at the prompt afterwards\n"
+    "      --json                print one JSON object a result, nothing else\n"
+    "  -q, --quiet               print no banner\n"
+    "      --help                print this help and exit\n"
+    "      --version             print the version and exit\n"
+    "  -                         standard input as a script\n"
+    "\n"
+    "Exit status: 0 if all went well; 1 if a statement failed or a check was\n"
+    "refuted; 2 for bad usage or a syntax error.\n"
+    "\n"
+    "At the prompt `help` lists the language; `info qdot` is the whole manual.\n";
+
+static const char version[] =
+    "qdot " PACKAGE_VERSION "\n"
+    "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>.\n"
+    "This is free software: you are free to change and redistribute it.\n"
+    "There is NO WARRANTY, to the extent permitted by law.\n";
+
+/* --- the command line ------------------------------------------------------------------- */
+
+/* A script or the text of -e, in the order given. */
+typedef struct {
+    const char *text; /* a file name, or statements */
+    bool statements;
+} task;
+
+typedef struct {
+    qdot_vec(task) tasks;
+    bool interactive, json, quiet;
+    const char *print; /* --help, --version: what to print instead of anything else */
+} options;
+
+static const struct option names[] = {
+    {"execute", required_argument, NULL, 'e'},
+    {"interactive", no_argument, NULL, 'i'},
+    {"json", no_argument, NULL, 'j'},
+    {"quiet", no_argument, NULL, 'q'},
+    {"help", no_argument, NULL, 'h'},
+    {"version", no_argument, NULL, 'v'},
+    {NULL, 0, NULL, 0},
+};
+
+static qdot_status
+read_options(int argc, char **argv, options *o)
+{
+    int c;
+
+    /* the leading `-`: what is no option comes as option 1, in its place */
+    while ((c = getopt_long(argc, argv, "-e:iq", names, NULL)) != -1) {
+        switch (c) {
+        case 1: QDOT_TRY(qdot_vec_push(&o->tasks, ((task){optarg, false}))); break;
+        case 'e': QDOT_TRY(qdot_vec_push(&o->tasks, ((task){optarg, true}))); break;
+        case 'i': o->interactive = true; break;
+        case 'j': o->json = true; break;
+        case 'q': o->quiet = true; break;
+        case 'h': o->print = o->print != NULL ? o->print : usage; break;
+        case 'v': o->print = o->print != NULL ? o->print : version; break;
+        default:
+            fputs("Try 'qdot --help'.\n", stderr);
+            return qdot_fail(QDOT_EINVAL, "bad usage");
+        }
+    }
+    for (; optind < argc; optind++) /* after `--` */
+        QDOT_TRY(qdot_vec_push(&o->tasks, ((task){argv[optind], false})));
+    return QDOT_OK;
+}
+
+/* --- carrying out ----------------------------------------------------------------------- */
+
+/* Greek and superscripts for a terminal that shows them, ASCII that parses back
+ * elsewhere. */
+static qdot_style
+style_here(void)
+{
+    return isatty(STDOUT_FILENO) && strcmp(nl_langinfo(CODESET), "UTF-8") == 0
+               ? QDOT_UNICODE
+               : QDOT_PLAIN;
+}
+
+static int
+carry_out(qdot_session *session, const options *o)
+{
+    int status = DONE;
+
+    for (size_t i = 0; i < o->tasks.n && status == DONE && !session->quit; i++) {
+        const task *t = &o->tasks.at[i];
+
+        qdot_signals_computing();
+        status = t->statements
+                     ? qdot_session_run_text(session, "-e", t->text, strlen(t->text))
+                     : qdot_session_run_file(session, t->text);
+    }
+    if ((o->tasks.n > 0 && !o->interactive) || session->quit)
+        return status;
+    if (isatty(STDIN_FILENO)) {
+        qdot_prompt_run(session, !o->quiet);
+    } else {
+        int last;
+
+        qdot_signals_computing();
+        last = qdot_session_run_file(session, "-");
+        status = last > status ? last : status;
+    }
+    return status;
+}
+
+/* `status`, or FAILED if not all of standard output could be written. */
+static int
+finish(int status)
+{
+    int reason = 0;
+
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout))
+        reason = errno != 0 ? errno : EIO;
+    if (close(STDOUT_FILENO) != 0 && errno != EBADF && reason == 0)
+        reason = errno;
+    if (reason == 0)
+        return status;
+    fprintf(stderr, "qdot: cannot write standard output: %s\n", strerror(reason));
+    return status != DONE ? status : FAILED;
+}
+
+int
+main(int argc, char **argv)
+{
+    options o = {0};
+    qdot_session *session;
+    int status;
+
+    setlocale(LC_CTYPE, ""); /* and no other: numbers stay as in C */
+    if (read_options(argc, argv, &o) != QDOT_OK) {
+        qdot_free(o.tasks.at);
+        return MISUSED;
+    }
+    if (o.print != NULL) {
+        qdot_free(o.tasks.at);
+        fputs(o.print, stdout);
+        return finish(DONE);
+    }
+    session = qdot_session_new(stdout, stderr);
+    if (session == NULL) {
+        fputs("qdot: out of memory\n", stderr);
+        qdot_free(o.tasks.at);
+        return FAILED;
+    }
+    session->json = o.json;
+    session->style = o.json ? QDOT_PLAIN : style_here();
+    qdot_signals_install();
+    status = carry_out(session, &o);
+    qdot_session_free(session);
+    qdot_free(o.tasks.at);
+    return finish(status);
+}

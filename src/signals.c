@@ -1,0 +1,54 @@
+/* signals.c -- Ctrl-C: stops a computation, clears a line, ends the program at the
+ * second try. */
+#include "signals.h"
+
+#include <signal.h>
+#include <stddef.h>
+
+#include "base/interrupt.h"
+
+static volatile sig_atomic_t computing = 1;
+
+static void
+on_interrupt(int signal_number)
+{
+    if (computing && qdot_interrupt_flag) {
+        /* nobody listened to the first one */
+        signal(signal_number, SIG_DFL);
+        raise(signal_number);
+        return;
+    }
+    qdot_interrupt_set();
+}
+
+void
+qdot_signals_install(void)
+{
+    struct sigaction action = {.sa_handler = on_interrupt};
+
+    /* No SA_RESTART: what waits for input or for gnuplot is to look up. */
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+}
+
+void
+qdot_signals_computing(void)
+{
+    qdot_interrupt_clear();
+    computing = 1;
+}
+
+void
+qdot_signals_waiting(void)
+{
+    computing = 0;
+}
+
+bool
+qdot_signals_take(void)
+{
+    bool came = qdot_interrupt_flag != 0;
+
+    qdot_interrupt_clear();
+    return came;
+}

@@ -1,0 +1,547 @@
+/* test_decide.c -- verdicts of qdot_decide_equal and its kin on identities true and false. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "expr/calculus.h"
+#include "normal/decide.h"
+
+#include "text.h"
+
+struct pair {
+    const char *left, *right;
+};
+
+static const struct pair identities[] = {
+    {"(x + y)^2", "x^2 + 2*x*y + y^2"},
+    {"(x^2 - y^2)/(x - y)", "x + y"},
+    {"1/(x - 1) - 1/(x + 1)", "2/(x^2 - 1)"},
+    {"sin(x)^2 + cos(x)^2", "1"},
+    {"sin(2*x)", "2*sin(x)*cos(x)"},
+    {"cos(2*x)", "cos(x)^2 - sin(x)^2"},
+    {"sin(x + y)", "sin(x)*cos(y) + cos(x)*sin(y)"},
+    {"cos(x - y)", "cos(x)*cos(y) + sin(x)*sin(y)"},
+    {"sin(3*x)", "3*sin(x) - 4*sin(x)^3"},
+    {"cos(5*x)", "16*cos(x)^5 - 20*cos(x)^3 + 5*cos(x)"},
+    {"tan(x)", "sin(x)/cos(x)"},
+    {"1 + tan(x)^2", "sec(x)^2"},
+    {"1 + cot(x)^2", "csc(x)^2"},
+    {"tan(x/2)", "sin(x)/(1 + cos(x))"},
+    {"tan(x/2)", "(1 - cos(x))/sin(x)"},
+    {"sin(x/2)^2", "(1 - cos(x))/2"},
+    {"cos(x/2)^2", "(1 + cos(x))/2"},
+    {"tan(x + y)", "(tan(x) + tan(y))/(1 - tan(x)*tan(y))"},
+    {"sin(x)/(1 - cos(x))", "(1 + cos(x))/sin(x)"},
+    {"sin(x + pi/6)", "sqrt(3)/2*sin(x) + cos(x)/2"},
+    {"cos(x + pi/4)", "(cos(x) - sin(x))/sqrt(2)"},
+    {"sin(x + pi/12)", "(sqrt(6) + sqrt(2))/4*sin(x) + (sqrt(6) - sqrt(2))/4*cos(x)"},
+    {"cos(x + 2*pi/3) + cos(x - 2*pi/3) + cos(x)", "0"},
+    {"sin(x - pi)", "-sin(x)"},
+    {"cos(3*pi/2 + x)", "sin(x)"},
+    {"sin(x)*sin(y)", "(cos(x - y) - cos(x + y))/2"},
+    {"cos(x + y)*cos(x) + sin(x + y)*sin(x)", "cos(y)"},
+    {"sin(p*t + phi)", "sin(p*t)*cos(phi) + cos(p*t)*sin(phi)"},
+    {"sin(x*(y + z))", "sin(x*y)*cos(x*z) + cos(x*y)*sin(x*z)"},
+    {"sin(theta1 - theta2)^2", "1 - cos(theta1 - theta2)^2"},
+    {"cosh(x)^2 - sinh(x)^2", "1"},
+    {"sinh(2*x)", "2*sinh(x)*cosh(x)"},
+    {"cosh(x + y)", "cosh(x)*cosh(y) + sinh(x)*sinh(y)"},
+    {"cosh(2*u) - cos(2*v)", "2*(sinh(u)^2 + sin(v)^2)"},
+    {"tanh(x)", "sinh(x)/cosh(x)"},
+    {"1 - tanh(x)^2", "1/cosh(x)^2"},
+    {"cosh(x)", "(exp(x) + exp(-x))/2"},
+    {"sinh(x/2)^2", "(exp(x) + exp(-x) - 2)/4"},
+    {"exp(x + y)", "exp(x)*exp(y)"},
+    {"exp(2*x) - 1", "(exp(x) - 1)*(exp(x) + 1)"},
+    {"exp(2*log(x))", "x^2"},
+    {"log(x*y - y*x + z)", "log(z)"},
+    {"log(a^2*b)", "2*log(a) + log(b)"},
+    {"sqrt(r^2)", "r"},
+    {"sqrt(x^2)", "abs(x)"},
+    {"abs(x)^2", "x^2"},
+    {"abs(x*y)", "abs(x)*abs(y)"},
+    {"sqrt(a*b)", "sqrt(a)*sqrt(b)"},
+    {"sqrt(2)*sqrt(3)", "sqrt(6)"},
+    {"1/(sqrt(2) - 1)", "sqrt(2) + 1"},
+    {"sqrt(x^2 + 2*x*y + y^2)", "abs(x + y)"},
+    {"sqrt(4*x^2 + 4*y^2)", "2*sqrt(x^2 + y^2)"},
+    {"(x^2 + y^2)^(3/2)/(x^2 + y^2)", "sqrt(x^2 + y^2)"},
+    {"x/sqrt(x)", "sqrt(x)"},
+    {"sqrt(x)^3", "x*sqrt(x)"},
+    {"x^(1/2)*x^(1/3)", "x^(5/6)"},
+    {"sqrt(1 - cos(theta)^2)", "sin(theta)"},
+    {"sqrt(1 - cos(x)^2)", "abs(sin(x))"},
+    {"sqrt(x + 1)*sqrt(x + 1)", "x + 1"},
+    {"1/(sqrt(x) + sqrt(y))", "(sqrt(x) - sqrt(y))/(x - y)"},
+    {"sqrt(cosh(x)^2 - 1)^2", "sinh(x)^2"},
+    {"cos(asin(x))", "sqrt(1 - x^2)"},
+    {"sin(2*asin(x))", "2*x*sqrt(1 - x^2)"},
+    {"sin(atan(x))", "x/sqrt(1 + x^2)"},
+    {"cos(2*atan(x))", "(1 - x^2)/(1 + x^2)"},
+    {"cosh(asinh(x))", "sqrt(1 + x^2)"},
+    {"cos(atan2(y, x))", "x/sqrt(x^2 + y^2)"},
+    {"f(x*y - y*x + s)", "f(s)"},
+    {"(f(s) + h(s))^2", "f(s)^2 + 2*f(s)*h(s) + h(s)^2"},
+    {"sin(f(s))^2", "1 - cos(f(s))^2"},
+    {"1/2*m*(L*cos(phi)*phi')^2 + 1/2*m*(L*sin(phi)*phi')^2", "1/2*m*L^2*phi'^2"},
+    {"a^2*(sinh(u)^2 + sin(v)^2)*(du^2 + dv^2)",
+     "a^2/2*(cosh(2*u) - cos(2*v))*(du^2 + dv^2)"},
+    {"(L1*cos(theta1)*theta1' + L2*cos(theta2)*theta2')^2 + "
+     "(L1*sin(theta1)*theta1' + L2*sin(theta2)*theta2')^2",
+     "L1^2*theta1'^2 + L2^2*theta2'^2 + 2*L1*L2*cos(theta2 - theta1)*theta1'*theta2'"},
+    {"x^a*x^(2 - a)", "x^2"},
+};
+
+static const struct pair falsehoods[] = {
+    {"x", "x + 1e-30"},
+    {"sin(x)^2 + cos(x)^2", "1 + 1e-40"},
+    {"sin(x)^2 - cos(x)^2", "1"},
+    {"sin(2*x)", "2*sin(x)"},
+    {"cos(x + y)", "cos(x)*cos(y) + sin(x)*sin(y)"},
+    {"sqrt(x^2)", "x"},
+    {"sqrt(x^2)", "-x"},
+    {"abs(x + y)", "abs(x) + abs(y)"},
+    {"sqrt(x^2 + y^2)", "x + y"},
+    {"sin(3*x)", "3*sin(x) + 4*sin(x)^3"},
+    {"cosh(x)^2 + sinh(x)^2", "1"},
+    {"tan(x + y)", "tan(x) + tan(y)"},
+    {"log(x + y)", "log(x) + log(y)"},
+    {"exp(x*y)", "exp(x)*exp(y)"},
+    {"f(s)", "h(s)"},
+    {"f'(s)", "f(s)"},
+    {"f(x)", "f(y)"},
+    {"pi", "355/113"},
+    {"sqrt(2)", "1.41421356237309504880168872420969807856967"},
+    {"exp(pi*sqrt(163))", "262537412640768744"},
+    {"cos(x/2)", "sqrt((1 + cos(x))/2)"},
+    {"asin(sin(x))", "x"},
+    {"x^(1/3)*y^(1/3)", "(x*y)^(1/2)"},
+    {"m*L^2*phi'' + m*g*L*sin(phi)", "m*L^2*phi'' - m*g*L*sin(phi)"},
+    {"r*(1 + 1e-25*sin(theta))", "r"},
+    {"1/(sqrt(2) + sqrt(3))", "sqrt(3) - sqrt(2) + 1e-50"},
+    {"max(x, y)", "x"},
+    {"floor(x)", "x"},
+    {"sin(x + pi/5)", "sin(x)*cos(pi/5) - cos(x)*sin(pi/5)"},
+    {"lam*x", "lam*y"},
+};
+
+static qdot_verdict
+verdict(const char *left, const char *right, const qdot_facts *facts)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_decision d;
+    qdot_status status;
+
+    status = qdot_decide_equal(pool, text_read(pool, left), text_read(pool, right), facts, &d);
+    if (status != QDOT_OK)
+        fail_msg("%s == %s: %s", left, right, qdot_last_error()->message);
+    qdot_pool_free(pool);
+    return d.verdict;
+}
+
+static void
+identities_are_proved(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof identities / sizeof *identities; i++) {
+        if (verdict(identities[i].left, identities[i].right, NULL) != QDOT_PROVED)
+            fail_msg("%s == %s is not proved", identities[i].left, identities[i].right);
+    }
+}
+
+static void
+falsehoods_are_refuted(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof falsehoods / sizeof *falsehoods; i++)
+        if (verdict(falsehoods[i].left, falsehoods[i].right, NULL) != QDOT_REFUTED)
+            fail_msg("%s == %s is not refuted", falsehoods[i].left, falsehoods[i].right);
+}
+
+/* --- relations ----------------------------------------------------------------------------- */
+
+struct conditional {
+    const char *left, *right, *relation[4];
+    qdot_verdict expected;
+};
+
+static const struct conditional conditionals[] = {
+    {"m*(f'(s)*s')^2 + m*(h'(s)*s')^2", "m*s'^2", {"f'(s)^2 + h'(s)^2 - 1"}, QDOT_PROVED},
+    {"m*s'' + m*s'^2*(f'(s)*f''(s) + h'(s)*h''(s))", "m*s''",
+     {"f'(s)^2 + h'(s)^2 - 1", "f'(s)*f''(s) + h'(s)*h''(s)"}, QDOT_PROVED},
+    /* true by a derivative that is not given: neither proved nor refuted */
+    {"f'(s)*f''(s) + h'(s)*h''(s)", "0", {"f'(s)^2 + h'(s)^2 - 1"}, QDOT_UNDECIDED},
+    {"f'(s)^2 + 2*h'(s)^2", "1", {"f'(s)^2 + h'(s)^2 - 1"}, QDOT_REFUTED},
+    {"L^2*(x'^2 + y'^2)", "(x*y' - y*x')^2", {"x^2 + y^2 - L^2", "x*x' + y*y'"}, QDOT_PROVED},
+    {"x'^2 + y'^2", "0", {"x^2 + y^2 - L^2", "x*x' + y*y'"}, QDOT_REFUTED},
+    {"x*p", "x*k", {"p - k"}, QDOT_PROVED},
+    {"x", "0", {"x*y"}, QDOT_REFUTED},
+    {"x^2*y^2 + x*y*z", "0", {"x*y"}, QDOT_PROVED},
+    {"x", "y", {"(x - y)^2"}, QDOT_PROVED},
+    {"x", "0", {"p - k", "(p - k)*x"}, QDOT_REFUTED},
+    {"x", "1", {"m*x - m"}, QDOT_PROVED},
+    {"sin(x)^2*y + cos(x)^2*y", "L", {"y - L"}, QDOT_PROVED},
+    {"x^3", "1", {"x - 1"}, QDOT_PROVED},
+};
+
+static void
+relations_are_used(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof conditionals / sizeof *conditionals; i++) {
+        const struct conditional *c = &conditionals[i];
+        qdot_pool *pool = qdot_pool_new();
+        qdot_expr relation[4];
+        qdot_facts facts = {.relations = relation};
+        qdot_decision d;
+
+        while (facts.n_relations < 4 && c->relation[facts.n_relations] != NULL) {
+            relation[facts.n_relations] = text_read(pool, c->relation[facts.n_relations]);
+            facts.n_relations++;
+        }
+        assert_int_equal(qdot_decide_equal(pool, text_read(pool, c->left),
+                                           text_read(pool, c->right), &facts, &d),
+                         QDOT_OK);
+        if (d.verdict != c->expected)
+            fail_msg("%s == %s: verdict %d", c->left, c->right, d.verdict);
+        qdot_pool_free(pool);
+    }
+}
+
+/* --- inequalities ------------------------------------------------------------------------------ */
+
+static const struct {
+    const char *left, *right;
+    bool strict;
+    qdot_verdict expected;
+} inequalities[] = {
+    {"cos(x)", "1", false, QDOT_PROVED},
+    {"cos(x)", "0.999", true, QDOT_REFUTED},
+    {"0", "m*r^2", true, QDOT_PROVED},
+    {"2*x*y", "x^2 + y^2", false, QDOT_PROVED},
+    {"x", "y", true, QDOT_REFUTED},
+    {"0", "3 + cos(x)*cos(y)", true, QDOT_PROVED},
+    {"0", "m1 + m2*sin(theta1 - theta2)^2", true, QDOT_PROVED},
+    {"m2*cos(x)", "m1 + m2", true, QDOT_PROVED},
+    {"0", "(m1 + m2)*m2 - m2^2*cos(x)^2", true, QDOT_PROVED},
+    {"theta", "4", true, QDOT_PROVED},
+    {"theta", "3", true, QDOT_REFUTED},
+    {"0", "sin(theta)", true, QDOT_PROVED},
+    {"m1 + m2*cos(x)^2", "0", true, QDOT_REFUTED},
+    {"1", "cosh(x)", false, QDOT_PROVED},
+    {"x^2", "0", true, QDOT_REFUTED},
+    {"pi", "22/7", true, QDOT_PROVED},
+};
+
+static void
+inequalities_are_decided(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof inequalities / sizeof *inequalities; i++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_decision d;
+
+        assert_int_equal(qdot_decide_less(pool, text_read(pool, inequalities[i].left),
+                                          text_read(pool, inequalities[i].right),
+                                          inequalities[i].strict, NULL, &d),
+                         QDOT_OK);
+        if (d.verdict != inequalities[i].expected)
+            fail_msg("%s < %s: verdict %d", inequalities[i].left, inequalities[i].right,
+                     d.verdict);
+        qdot_pool_free(pool);
+    }
+}
+
+static void
+conditions_bound_a_difference(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr c = text_read(pool, "c"), a = text_read(pool, "a"), zero = QDOT_ZERO;
+    qdot_expr condition = qdot_rel(pool, QDOT_LT, a, c);
+    qdot_facts facts = {.n_conditions = 1, .conditions = &condition};
+    qdot_decision d;
+
+    (void)state;
+    assert_int_equal(qdot_decide_less(pool, zero, text_read(pool, "m*(c - a)"), true, &facts, &d),
+                     QDOT_OK);
+    assert_int_equal(d.verdict, QDOT_PROVED);
+    assert_int_equal(qdot_decide_less(pool, c, a, true, &facts, &d), QDOT_OK);
+    assert_int_equal(d.verdict, QDOT_REFUTED);
+    qdot_pool_free(pool);
+}
+
+/* --- proportional equations ---------------------------------------------------------------------- */
+
+static const struct {
+    const char *a, *b, *factor;
+    qdot_verdict expected;
+    bool may_vanish;
+} proportions[] = {
+    {"m*L^2*theta'' + m*g*L*sin(theta)", "theta'' + g/L*sin(theta)", "m*L^2", QDOT_PROVED, false},
+    {"m*r*phi'' + 2*m*r'*phi'", "r^2*phi'' + 2*r*r'*phi'", "m/r", QDOT_PROVED, false},
+    {"k*phi'' + k*g*sin(phi)", "phi'' + g*sin(phi)", "k", QDOT_PROVED, true},
+    {"x*phi''", "y*phi''", "x/y", QDOT_PROVED, true},
+    {"phi'' + sin(phi)", "phi'' - sin(phi)", NULL, QDOT_REFUTED, false},
+    {"phi''*x'", "phi''", NULL, QDOT_REFUTED, false},
+    {"x", "y", NULL, QDOT_REFUTED, false},
+    {"x*y", "x", NULL, QDOT_REFUTED, false},
+    {"0", "x", NULL, QDOT_REFUTED, false},
+    {"x^2 + y^2 - L^2", "1 - (x^2 + y^2)/L^2", "-L^2", QDOT_PROVED, false},
+    {"sin(x)*phi''", "2*sin(x/2)*cos(x/2)*phi''", "1", QDOT_PROVED, false},
+};
+
+static void
+proportional_equations_are_found(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof proportions / sizeof *proportions; i++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_decision d;
+        qdot_expr factor;
+        bool may_vanish;
+
+        assert_int_equal(qdot_decide_proportional(pool, text_read(pool, proportions[i].a),
+                                                  text_read(pool, proportions[i].b), NULL, &d,
+                                                  &factor, &may_vanish),
+                         QDOT_OK);
+        if (d.verdict != proportions[i].expected || may_vanish != proportions[i].may_vanish)
+            fail_msg("%s ~ %s: verdict %d", proportions[i].a, proportions[i].b, d.verdict);
+        if (proportions[i].factor != NULL)
+            assert_int_equal(factor, text_read(pool, proportions[i].factor));
+        qdot_pool_free(pool);
+    }
+}
+
+/* --- refutations say where -------------------------------------------------------------------------- */
+
+static void
+a_refutation_names_its_point(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr x = text_read(pool, "x"), equation;
+    qdot_decision d;
+    double at;
+
+    (void)state;
+    assert_int_equal(qdot_decide_equal(pool, text_read(pool, "x^2"), text_read(pool, "2*x + 1"),
+                                       NULL, &d),
+                     QDOT_OK);
+    assert_int_equal(d.verdict, QDOT_REFUTED);
+    assert_int_equal(qdot_expr_count(pool, d.at), 1);
+    equation = qdot_expr_arg(pool, d.at, 0);
+    assert_int_equal(qdot_expr_arg(pool, equation, 0), x);
+    at = fmpq_get_d(qdot_expr_rational(pool, qdot_expr_arg(pool, equation, 1)));
+    assert_true(at * at - d.left < 1e-12 && d.left - at * at < 1e-12);
+    assert_true(2 * at + 1 - d.right < 1e-12 && d.right - 2 * at - 1 < 1e-12);
+    qdot_pool_free(pool);
+}
+
+static void
+what_is_undefined_everywhere_is_undecided(void **state)
+{
+    (void)state;
+    assert_int_equal(verdict("sqrt(-1 - x^2)", "log(-1 - y^2)", NULL), QDOT_UNDECIDED);
+}
+
+static void
+zero_to_many_digits_without_a_proof_is_undecided(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_decision d;
+
+    (void)state;
+    /* Machin's formula: constants of inverse functions are outside the normal form */
+    assert_int_equal(qdot_decide_equal(pool, text_read(pool, "4*atan(1/5) - atan(1/239)"),
+                                       text_read(pool, "pi/4"), NULL, &d),
+                     QDOT_OK);
+    assert_int_equal(d.verdict, QDOT_UNDECIDED);
+    assert_true(d.digits > 600);
+    assert_true(d.points >= 1);
+    qdot_pool_free(pool);
+}
+
+static void
+vectors_are_refused(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr two[2] = {QDOT_ONE, QDOT_T};
+    qdot_decision d;
+
+    (void)state;
+    assert_int_equal(qdot_decide_equal(pool, qdot_vector(pool, 2, two), QDOT_ONE, NULL, &d),
+                     QDOT_ETYPE);
+    qdot_pool_free(pool);
+}
+
+/* --- random identities -------------------------------------------------------------------------------- */
+
+static uint64_t seed = 88172645463325252u;
+
+static unsigned
+draw(unsigned below)
+{
+    seed ^= seed << 13;
+    seed ^= seed >> 7;
+    seed ^= seed << 17;
+    return (unsigned)((seed >> 33) % below);
+}
+
+struct two {
+    qdot_expr l, r;
+};
+
+static qdot_expr
+angle(qdot_pool *pool)
+{
+    static const char *const names[] = {"x", "y", "phi", "x/2", "2*y", "p*t", "x - y", "theta"};
+
+    return text_read(pool, names[draw(sizeof names / sizeof *names)]);
+}
+
+/* Two forms of one value. */
+static struct two
+leaf(qdot_pool *pool)
+{
+    static const char *const names[] = {"x", "y", "m", "L", "r", "phi'", "x''", "f(s)", "2", "1/3"};
+    qdot_expr a, b, s, c;
+
+    switch (draw(9)) {
+    case 0:
+        a = angle(pool);
+        s = qdot_fun1(pool, QDOT_SIN, a);
+        c = qdot_fun1(pool, QDOT_COS, a);
+        return (struct two){qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, qdot_expr_int(pool, 2), a)),
+                            qdot_mul(pool, qdot_expr_int(pool, 2), qdot_mul(pool, s, c))};
+    case 1:
+        a = angle(pool);
+        s = qdot_fun1(pool, QDOT_SIN, a);
+        c = qdot_fun1(pool, QDOT_COS, a);
+        return (struct two){qdot_pow_int(pool, s, 2),
+                            qdot_sub(pool, QDOT_ONE, qdot_pow_int(pool, c, 2))};
+    case 2:
+        a = angle(pool);
+        b = angle(pool);
+        return (struct two){
+            qdot_fun1(pool, QDOT_COS, qdot_add(pool, a, b)),
+            qdot_sub(pool,
+                     qdot_mul(pool, qdot_fun1(pool, QDOT_COS, a), qdot_fun1(pool, QDOT_COS, b)),
+                     qdot_mul(pool, qdot_fun1(pool, QDOT_SIN, a), qdot_fun1(pool, QDOT_SIN, b)))};
+    case 3:
+        a = angle(pool);
+        return (struct two){qdot_fun1(pool, QDOT_COSH, qdot_mul(pool, qdot_expr_int(pool, 2), a)),
+                            qdot_add(pool, QDOT_ONE,
+                                     qdot_mul(pool, qdot_expr_int(pool, 2),
+                                              qdot_pow_int(pool, qdot_fun1(pool, QDOT_SINH, a),
+                                                           2)))};
+    case 4:
+        a = angle(pool);
+        return (struct two){qdot_fun1(pool, QDOT_TAN, a),
+                            qdot_div(pool, qdot_fun1(pool, QDOT_SIN, a),
+                                     qdot_fun1(pool, QDOT_COS, a))};
+    case 5:
+        a = text_read(pool, "x^2 + y^2");
+        return (struct two){qdot_sqrt(pool, qdot_mul(pool, a, text_read(pool, "r^2"))),
+                            qdot_mul(pool, qdot_sqrt(pool, a), text_read(pool, "r"))};
+    default:
+        a = text_read(pool, names[draw(sizeof names / sizeof *names)]);
+        return (struct two){a, a};
+    }
+}
+
+static struct two
+tree(qdot_pool *pool, int depth)
+{
+    struct two a, b, c;
+
+    if (depth == 0)
+        return leaf(pool);
+    a = tree(pool, depth - 1);
+    b = tree(pool, depth - 1);
+    switch (draw(5)) {
+    case 0:
+        return (struct two){qdot_add(pool, a.l, b.l), qdot_add(pool, b.r, a.r)};
+    case 1:
+        c = leaf(pool);
+        return (struct two){qdot_mul(pool, a.l, qdot_add(pool, b.l, c.l)),
+                            qdot_add(pool, qdot_mul(pool, a.r, b.r), qdot_mul(pool, a.r, c.r))};
+    case 2:
+        return (struct two){qdot_mul(pool, a.l, b.l), qdot_mul(pool, a.r, b.r)};
+    case 3:
+        return (struct two){qdot_pow_int(pool, qdot_sub(pool, a.l, b.l), 2),
+                            qdot_expand(pool, qdot_pow_int(pool, qdot_sub(pool, a.r, b.r), 2))};
+    default: /* the denominator 1 + x^2 */
+        c.l = text_read(pool, "1 + x^2");
+        return (struct two){
+            qdot_div(pool, qdot_add(pool, a.l, b.l), c.l),
+            qdot_add(pool, qdot_div(pool, a.r, c.l), qdot_div(pool, b.r, c.l))};
+    }
+}
+
+/* A small change of e. */
+static qdot_expr
+spoiled(qdot_pool *pool, qdot_expr e)
+{
+    static const char *const changes[] = {"1e-30", "x*1e-12", "sin(y)*1e-20", "r'*1e-9", "m"};
+    qdot_expr change = text_read(pool, changes[draw(sizeof changes / sizeof *changes)]);
+
+    return draw(2) == 0 ? qdot_add(pool, e, change)
+                        : qdot_mul(pool, qdot_add(pool, e, QDOT_T),
+                                   qdot_add(pool, QDOT_ONE, change));
+}
+
+static void
+random_verdicts_are_never_wrong(void **state)
+{
+    int proved = 0, refuted = 0, n = 1500;
+
+    (void)state;
+    for (int i = 0; i < n; i++) {
+        qdot_pool *pool = qdot_pool_new();
+        struct two e = tree(pool, 1 + (int)draw(3));
+        qdot_decision d;
+        char *left, *right;
+
+        if (e.l == QDOT_NIL || e.r == QDOT_NIL) { /* 0/0 by chance */
+            qdot_pool_free(pool);
+            continue;
+        }
+        left = text_write(pool, e.l);
+        right = text_write(pool, e.r);
+        assert_int_equal(qdot_decide_equal(pool, e.l, e.r, NULL, &d), QDOT_OK);
+        if (d.verdict == QDOT_REFUTED)
+            fail_msg("true, but refuted: %s == %s", left, right);
+        proved += d.verdict == QDOT_PROVED;
+        assert_int_equal(qdot_decide_equal(pool, e.l, spoiled(pool, e.r), NULL, &d), QDOT_OK);
+        if (d.verdict == QDOT_PROVED)
+            fail_msg("false, but proved: %s == (changed) %s", left, right);
+        refuted += d.verdict == QDOT_REFUTED;
+        free(left);
+        free(right);
+        qdot_pool_free(pool);
+    }
+    assert_true(proved > n * 97 / 100);
+    assert_true(refuted > n * 97 / 100);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(identities_are_proved),
+        cmocka_unit_test(falsehoods_are_refuted),
+        cmocka_unit_test(relations_are_used),
+        cmocka_unit_test(inequalities_are_decided),
+        cmocka_unit_test(conditions_bound_a_difference),
+        cmocka_unit_test(proportional_equations_are_found),
+        cmocka_unit_test(a_refutation_names_its_point),
+        cmocka_unit_test(what_is_undefined_everywhere_is_undecided),
+        cmocka_unit_test(zero_to_many_digits_without_a_proof_is_undecided),
+        cmocka_unit_test(vectors_are_refused),
+        cmocka_unit_test(random_verdicts_are_never_wrong),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
