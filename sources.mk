@@ -36,6 +36,8 @@ expr_sources = \
 	lib/expr/print-name.c \
 	lib/expr/print.c \
 	lib/expr/product.c \
+	lib/expr/root.c \
+	lib/expr/scale.c \
 	lib/expr/sum.c \
 	lib/expr/tensor.c \
 	lib/expr/walk.c
@@ -67,20 +69,25 @@ ode_headers = \
 
 normal_sources = \
 	lib/normal/ball.c \
+	lib/normal/collect.c \
 	lib/normal/decide.c \
 	lib/normal/factor.c \
 	lib/normal/field.c \
 	lib/normal/form.c \
 	lib/normal/ideal.c \
+	lib/normal/items.c \
 	lib/normal/lattice.c \
 	lib/normal/less.c \
+	lib/normal/linear.c \
 	lib/normal/map.c \
 	lib/normal/null-space.c \
+	lib/normal/positive.c \
 	lib/normal/prepare.c \
 	lib/normal/proportion.c \
 	lib/normal/ratio.c \
 	lib/normal/sample.c \
 	lib/normal/simplify.c \
+	lib/normal/solve-factors.c \
 	lib/normal/solve.c \
 	lib/normal/split.c \
 	lib/normal/trig-form.c \
@@ -93,12 +100,15 @@ normal_headers = \
 	lib/normal/field.h \
 	lib/normal/form.h \
 	lib/normal/ideal.h \
+	lib/normal/items.h \
 	lib/normal/lattice.h \
 	lib/normal/map.h \
 	lib/normal/null-space.h \
+	lib/normal/positive.h \
 	lib/normal/prepare.h \
 	lib/normal/sample.h \
 	lib/normal/simplify.h \
+	lib/normal/solve.h \
 	lib/normal/split.h \
 	lib/normal/value.h
 
@@ -126,6 +136,8 @@ mech_sources = \
 	lib/mech/constraint.c \
 	lib/mech/derived.c \
 	lib/mech/energy.c \
+	lib/mech/equilibrium-numeric.c \
+	lib/mech/equilibrium.c \
 	lib/mech/freedom.c \
 	lib/mech/generic.c \
 	lib/mech/geometry.c \
@@ -140,10 +152,12 @@ mech_sources = \
 	lib/mech/numeric.c \
 	lib/mech/scene-print.c \
 	lib/mech/scene.c \
+	lib/mech/stability.c \
 	lib/mech/virtual-work.c
 
 mech_headers = \
 	lib/mech/derived.h \
+	lib/mech/equilibrium.h \
 	lib/mech/geometry.h \
 	lib/mech/hamilton.h \
 	lib/mech/noether.h \
@@ -373,6 +387,8 @@ script_tests = \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
 	examples/generalized-momenta.lag \
+	examples/geometry.lag \
+	examples/hamiltonian.lag \
 	examples/heavy-top.lag \
 	examples/kepler.lag \
 	examples/kinetic-energy.lag \
@@ -402,15 +418,114 @@ meta_tests = \
 	tests/meta/symbols.test
 
 test_files = \
+	tests/bad/acceleration-position.out \
+	tests/bad/bad-method.out \
+	tests/bad/bad-tolerance.out \
+	tests/bad/bare-power.out \
+	tests/bad/big-d.out \
+	tests/bad/binary.out \
+	tests/bad/block-without-for.out \
+	tests/bad/compare-run.out \
+	tests/bad/constrained-run.out \
+	tests/bad/define-coordinate.out \
+	tests/bad/defined-by-itself.out \
+	tests/bad/dimensions.out \
+	tests/bad/division-symbolic.out \
+	tests/bad/division.out \
+	tests/bad/double-operator.out \
+	tests/bad/empty-brackets.out \
+	tests/bad/entry-range.out \
+	tests/bad/family-and-vector.out \
+	tests/bad/function-by-itself.out \
+	tests/bad/generated.out \
+	tests/bad/gravity-dimension.out \
+	tests/bad/help-unknown.out \
+	tests/bad/history.out \
+	tests/bad/huge-decimal.out \
+	tests/bad/huge-power.out \
+	tests/bad/include-error.out \
+	tests/bad/include-itself.out \
+	tests/bad/include-missing.out \
+	tests/bad/lagrangian-beside.out \
+	tests/bad/log-zero.out \
+	tests/bad/lone-point.out \
+	tests/bad/loop-half.out \
+	tests/bad/loop-limit.out \
+	tests/bad/mathematica.out \
+	tests/bad/mismatched.out \
+	tests/bad/missing-option.out \
+	tests/bad/missing-times.out \
+	tests/bad/misspelled-option.out \
+	tests/bad/misspelled-word.out \
+	tests/bad/newton-dot.out \
+	tests/bad/no-coordinate.out \
+	tests/bad/no-run.out \
+	tests/bad/not-built-option.out \
+	tests/bad/not-built.out \
+	tests/bad/not-utf8.out \
+	tests/bad/number-times.out \
+	tests/bad/operator-end.out \
+	tests/bad/outside-run.out \
+	tests/bad/pi-redefined.out \
+	tests/bad/picture-kind.out \
+	tests/bad/prime-of-product.out \
+	tests/bad/redeclared-coordinate.out \
+	tests/bad/redeclared-parameter.out \
+	tests/bad/reserved.out \
+	tests/bad/reset-in-loop.out \
+	tests/bad/same-label.out \
+	tests/bad/second-decimal.out \
+	tests/bad/semicolon-list.out \
+	tests/bad/set-circle.out \
+	tests/bad/set-coordinate.out \
+	tests/bad/set-domain.out \
+	tests/bad/show-unknown.out \
+	tests/bad/singular-mass.out \
+	tests/bad/start-domain.out \
+	tests/bad/start-parameter.out \
+	tests/bad/string-number.out \
+	tests/bad/trailing.out \
+	tests/bad/unclosed.out \
+	tests/bad/unfinished-string.out \
+	tests/bad/unknown-function.out \
+	tests/bad/unknown-label.out \
+	tests/bad/unknown-name.out \
+	tests/bad/unset.out \
+	tests/bad/vector-mass.out \
+	tests/bad/vector-vs-scalar-check.out \
+	tests/bad/write-nowhere.out \
+	tests/bad/wrong-arguments.out \
 	tests/lang/reading.h \
 	tests/mech/kit.h \
 	tests/normal/text.h \
 	tests/ode/problems.h \
+	tests/script/check.out \
+	tests/script/declarations.out \
+	tests/script/definitions.out \
+	tests/script/derive.out \
+	tests/script/fall.out \
+	tests/script/flexing.out \
+	tests/script/help.out \
+	tests/script/identities-angles.inc \
+	tests/script/identities-exp.inc \
+	tests/script/identities-facts.inc \
+	tests/script/identities-mechanics.inc \
+	tests/script/identities-near.inc \
+	tests/script/identities-roots.inc \
+	tests/script/include.out \
 	tests/script/included.inc \
+	tests/script/json.out \
+	tests/script/loops.out \
+	tests/script/names.out \
 	tests/script/normalise.sed \
+	tests/script/pendulum.out \
+	tests/script/refuted.out \
+	tests/script/reset.out \
+	tests/script/run.out \
+	tests/script/styles.out \
+	tests/script/text.out \
 	tests/sim/scenes.h \
-	tests/tape/reference.h \
-	tests/mech/zz_time.c
+	tests/tape/reference.h
 
 other_files = \
 	bench/chain-equations.lag \

@@ -43,7 +43,7 @@ static const char version[] =
     "This is free software: you are free to change and redistribute it.\n"
     "There is NO WARRANTY, to the extent permitted by law.\n";
 
-/* --- the command line ------------------------------------------------------------------- */
+/* --- the command line --------------------------------------------------------------- */
 
 /* A script or the text of -e, in the order given. */
 typedef struct {
@@ -92,7 +92,7 @@ read_options(int argc, char **argv, options *o)
     return QDOT_OK;
 }
 
-/* --- carrying out ----------------------------------------------------------------------- */
+/* --- carrying out ------------------------------------------------------------------- */
 
 /* Greek and superscripts for a terminal that shows them, ASCII that parses back
  * elsewhere. */

@@ -28,7 +28,7 @@ static const char first_prompt[] = "qdot> ", next_prompt[] = " ...> ";
 
 static qdot_session *completing; /* readline's callbacks have no argument of ours */
 
-/* --- history ---------------------------------------------------------------------------- */
+/* --- history ------------------------------------------------------------------------ */
 
 /* Create the folders above `path` that are missing, as `mkdir -p` does. */
 static bool
@@ -96,7 +96,7 @@ history_note(const char *line, const qdot_text *path)
         append_history(1, path->at);
 }
 
-/* --- completion ------------------------------------------------------------------------- */
+/* --- completion --------------------------------------------------------------------- */
 
 /* Readline takes and frees what is returned, so it comes from malloc. */
 static char *
@@ -144,7 +144,7 @@ complete(const char *prefix, int start, int end)
     return rl_completion_matches(prefix, next_word);
 }
 
-/* --- a line ----------------------------------------------------------------------------- */
+/* --- a line ------------------------------------------------------------------------- */
 
 static struct {
     char *line; /* from readline, to be freed; NULL: the end of input */
@@ -207,7 +207,7 @@ read_line(const char *prompt, char **line)
     return answer.line != NULL ? LINE : ENDED;
 }
 
-/* --- the conversation ------------------------------------------------------------------- */
+/* --- the conversation --------------------------------------------------------------- */
 
 static void
 prepare(qdot_session *session)

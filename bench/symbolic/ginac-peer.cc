@@ -83,7 +83,7 @@ struct scene {
             l.push_back(named("l", k));
             q.push_back(named("theta", k));
             numbers[m] = numeric(10 + k + 1, 10);
-            numbers[l[k]] = numeric(40 - k - 1, 20);
+            numbers[l[k]] = numeric(400 - k - 1, 200);
         }
         for (int k = 0; name == "spatial" && k < n; k++)
             q.push_back(named("phi", k));

@@ -60,7 +60,7 @@ class Scene:
         count = range(1, n + 1)
         self.numbers = {self.g: 9.81}
         self.numbers.update({m[k - 1]: 1 + k / 10 for k in count})
-        self.numbers.update({l[k - 1]: 2 - k / 20 for k in count})
+        self.numbers.update({l[k - 1]: 2 - k / 200 for k in count})
         self.numbers.update(zip(sp.symbols("m k a", positive=True), (1.1, 3.0, 0.7)))
         if self.parents:
             self.steps = steps

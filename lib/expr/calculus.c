@@ -9,9 +9,11 @@
 
 /* --- derivations --------------------------------------------------------------------------- */
 
+/* `of` is 0 on symbols that neither are among `holds` nor touch `touches`. */
 typedef struct {
     qdot_pool *pool;
     const qdot_walk *w;
+    uint32_t holds, touches;
     qdot_vec(qdot_expr) terms;
     qdot_vec(qdot_expr) factors;
 } derivation;
@@ -19,6 +21,8 @@ typedef struct {
 static qdot_expr
 derived(const derivation *d, qdot_expr e)
 {
+    if (!WHERE(d->pool, e, d->holds, d->touches))
+        return QDOT_ZERO;
     return (qdot_expr)qdot_walk_get(d->w, e);
 }
 
@@ -29,25 +33,24 @@ add_term(derivation *d, qdot_expr term)
         qdot_pool_fail(d->pool);
 }
 
-/* d(b^e) for one factor of a product, the other factors left out. */
-static qdot_expr
-derive_power(derivation *d, qdot_expr b, qdot_expr e)
+static void
+derive_sum(derivation *d, qdot_expr e)
 {
     qdot_pool *pool = d->pool;
-    qdot_expr db = derived(d, b), de = derived(d, e);
-    qdot_expr term = QDOT_ZERO;
 
-    if (db != QDOT_ZERO)
-        term = qdot_product(pool, 3,
-                            (qdot_expr[]){e, qdot_pow(pool, b, qdot_sub(pool, e, QDOT_ONE)), db});
-    if (de != QDOT_ZERO)
-        term = qdot_add(pool, term,
-                        qdot_product(pool, 3,
-                                     (qdot_expr[]){qdot_pow(pool, b, e),
-                                                   qdot_fun1(pool, QDOT_LOG, b), de}));
-    return term;
+    d->factors.n = 0;
+    for (uint32_t k = 1; k < NODE(pool, e)->n; k += 2) {
+        qdot_expr inner = derived(d, ARGS(pool, e)[k]);
+
+        if (inner == QDOT_ZERO)
+            continue;
+        add_term(d, inner);
+        if (qdot_vec_push(&d->factors, ARGS(pool, e)[k + 1]) != QDOT_OK)
+            qdot_pool_fail(pool);
+    }
 }
 
+/* Leibniz: d(b^x) = x b^(x-1) db + b^x log(b) dx, the other factors beside it. */
 static void
 derive_product(derivation *d, qdot_expr e)
 {
@@ -55,20 +58,13 @@ derive_product(derivation *d, qdot_expr e)
     uint32_t n = NODE(pool, e)->n;
 
     for (uint32_t i = 1; i < n && !qdot_pool_failed(pool); i += 2) {
-        qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
+        qdot_expr b = ARGS(pool, e)[i];
+        qdot_expr db = derived(d, b), dx = derived(d, ARGS(pool, e)[i + 1]);
 
-        if (derived(d, b) == QDOT_ZERO && derived(d, x) == QDOT_ZERO)
-            continue;
-        d->factors.n = 0;
-        for (uint32_t k = 1; k < n; k += 2)
-            if (k != i &&
-                qdot_vec_push(&d->factors,
-                              qdot_pow(pool, ARGS(pool, e)[k], ARGS(pool, e)[k + 1])) != QDOT_OK)
-                qdot_pool_fail(pool);
-        if (qdot_vec_push(&d->factors, ARGS(pool, e)[0]) != QDOT_OK ||
-            qdot_vec_push(&d->factors, derive_power(d, b, x)) != QDOT_OK)
-            qdot_pool_fail(pool);
-        add_term(d, qdot_product(pool, d->factors.n, d->factors.at));
+        if (db != QDOT_ZERO)
+            add_term(d, qdot_product_derived(pool, e, i, db));
+        if (dx != QDOT_ZERO)
+            add_term(d, qdot_product(pool, 3, (qdot_expr[]){e, qdot_fun1(pool, QDOT_LOG, b), dx}));
     }
 }
 
@@ -149,17 +145,17 @@ derive_entries(derivation *d, qdot_expr e, bool root)
     return qdot_rebuild(pool, e, d->factors.at);
 }
 
-qdot_expr
-qdot_derive(qdot_pool *pool, qdot_expr e,
-            qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
+static qdot_expr
+derive(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
+       qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
 {
     qdot_walk w;
-    derivation d = {.pool = pool, .w = &w};
+    derivation d = {.pool = pool, .w = &w, .holds = holds, .touches = touches};
     qdot_expr result = QDOT_NIL;
 
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+    if (qdot_walk_begin_where(pool, e, holds, touches, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
     for (size_t i = 0; i < w.n && !qdot_pool_failed(pool); i++) {
         qdot_expr node = w.at[i];
@@ -175,11 +171,8 @@ qdot_derive(qdot_pool *pool, qdot_expr e,
                          : of(pool, node, user);
             break;
         case QDOT_SUM:
-            for (uint32_t k = 1; k < NODE(pool, node)->n; k += 2)
-                if (derived(&d, ARGS(pool, node)[k]) != QDOT_ZERO)
-                    add_term(&d, qdot_mul(pool, ARGS(pool, node)[k + 1],
-                                          derived(&d, ARGS(pool, node)[k])));
-            result = qdot_sum(pool, d.terms.n, d.terms.at);
+            derive_sum(&d, node);
+            result = qdot_sum_scaled(pool, d.terms.n, d.factors.at, d.terms.at);
             break;
         case QDOT_PROD:
             derive_product(&d, node);
@@ -204,6 +197,14 @@ qdot_derive(qdot_pool *pool, qdot_expr e,
     return qdot_pool_failed(pool) ? QDOT_NIL : result;
 }
 
+qdot_expr
+qdot_derive(qdot_pool *pool, qdot_expr e,
+            qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
+{
+    /* a symbol that is no constant holds its class */
+    return derive(pool, e, ~(uint32_t)QDOT_HAS_FUN, 0, of, user);
+}
+
 static qdot_expr
 with_respect_to(qdot_pool *pool, qdot_expr symbol, void *user)
 {
@@ -220,8 +221,13 @@ qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x)
         return qdot_pool_refuse(pool, QDOT_ETYPE,
                                 "a derivative is taken with respect to a name: a coordinate, a "
                                 "velocity, a parameter or t");
-    return qdot_derive(pool, e, with_respect_to, &x);
+    return derive(pool, e, 0, NODE(pool, x)->touches, with_respect_to, &x);
 }
+
+/* All but parameters, formal arguments and constants. */
+static const uint32_t in_time_holds = QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
+                                      QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |
+                                      QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
 
 static qdot_expr
 in_time(qdot_pool *pool, qdot_expr symbol, void *user)
@@ -246,7 +252,7 @@ in_time(qdot_pool *pool, qdot_expr symbol, void *user)
 qdot_expr
 qdot_ddt(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_derive(pool, e, in_time, NULL);
+    return derive(pool, e, in_time_holds, 0, in_time, NULL);
 }
 
 static qdot_expr
@@ -266,7 +272,7 @@ in_differentials(qdot_pool *pool, qdot_expr symbol, void *user)
 qdot_expr
 qdot_differential(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_derive(pool, e, in_differentials, NULL);
+    return derive(pool, e, in_time_holds, 0, in_differentials, NULL);
 }
 
 /* --- substitution --------------------------------------------------------------------------- */
@@ -322,12 +328,17 @@ qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const q
 {
     struct replacements r = {n, from, to};
     qdot_expr *pairs, *split, result;
+    uint32_t holds = 0, touches = 0;
 
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
         if (from[i] == QDOT_NIL || to[i] == QDOT_NIL)
             return QDOT_NIL;
+        touches |= NODE(pool, from[i])->touches;
+        if (NODE(pool, from[i])->touches == 0) /* a number, or of numbers only */
+            holds = UINT32_MAX;
+    }
     if (n < 8)
-        return qdot_walk_map(pool, e, replacement, &r);
+        return qdot_walk_map_where(pool, e, holds, touches, replacement, &r);
     pairs = qdot_malloc(4 * n * sizeof *pairs);
     if (pairs == NULL)
         return qdot_pool_fail(pool);
@@ -342,7 +353,7 @@ qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const q
         split[n + i] = pairs[2 * i + 1];
     }
     r = (struct replacements){n, split, split + n};
-    result = qdot_walk_map(pool, e, replacement_sorted, &r);
+    result = qdot_walk_map_where(pool, e, holds, touches, replacement_sorted, &r);
     qdot_free(pairs);
     return result;
 }

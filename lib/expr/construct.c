@@ -129,8 +129,9 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
     qdot_node node = *NODE(pool, e);
     qdot_expr few[64], *own = few, result;
     bool same = true;
+    uint32_t n = node.kind == QDOT_UFUN ? node.n / 2 : node.n; /* orders are no arguments */
 
-    for (uint32_t i = 0; i < node.n; i++) {
+    for (uint32_t i = 0; i < n; i++) {
         if (args[i] == QDOT_NIL)
             return QDOT_NIL;
         same &= args[i] == ARGS(pool, e)[i];
@@ -139,7 +140,8 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
         return e;
     if (node.n > 64 && (own = qdot_malloc(node.n * sizeof *own)) == NULL)
         return qdot_pool_fail(pool);
-    memcpy(own, args, node.n * sizeof *own);
+    memcpy(own, ARGS(pool, e), node.n * sizeof *own);
+    memcpy(own, args, n * sizeof *own);
     switch (node.kind) {
     case QDOT_SUM:
     case QDOT_PROD:

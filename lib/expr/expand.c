@@ -73,7 +73,18 @@ power(qdot_pool *pool, qdot_expr s, unsigned long n)
     return result;
 }
 
-/* Whether multiplying out may still be needed in a product of already canonical parts. */
+/* c times a bare sum as a sum. */
+static qdot_expr
+distribute(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr rest = qdot_expr_strip(pool, e);
+
+    return rest == QDOT_NIL || NODE(pool, rest)->kind != QDOT_SUM
+               ? e
+               : multiply(pool, ARGS(pool, e)[0], rest);
+}
+
+/* A product of parts that are expanded already. */
 static qdot_expr
 expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w)
 {
@@ -92,7 +103,7 @@ expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w)
         else if (k > 0)
             result = multiply(pool, result, power(pool, base, (unsigned long)k));
         else
-            below = multiply(pool, below, power(pool, base, (unsigned long)-k));
+            below = multiply(pool, below, power(pool, base, 0ul - (unsigned long)k));
     }
     if (below == QDOT_ONE || below == QDOT_NIL)
         return below == QDOT_NIL ? QDOT_NIL : result;
@@ -124,6 +135,9 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
             for (uint32_t k = 0; k < n; k++)
                 args.at[k] = (qdot_expr)qdot_walk_get(&w, ARGS(pool, node)[k]);
             result = qdot_rebuild(pool, node, args.at);
+            if (NODE(pool, node)->kind == QDOT_SUM && result != QDOT_NIL &&
+                NODE(pool, result)->kind == QDOT_PROD)
+                result = distribute(pool, result); /* one term is left: 2 times a sum */
         } else {
             result = node;
         }
@@ -222,18 +236,33 @@ qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x)
     return qdot_value_map(pool, e, collect_scalar, &x);
 }
 
+/* Whether power is x^n, n = 0, 1, 2 ... (ONE: n = 0). */
+static bool
+is_whole_power(const qdot_pool *pool, qdot_expr power, qdot_expr x)
+{
+    long n;
+
+    return power == QDOT_ONE || power == x ||
+           (NODE(pool, power)->kind == QDOT_PROD && ARGS(pool, power)[1] == x &&
+            qdot_expr_to_int(pool, ARGS(pool, power)[2], &n) && n > 0);
+}
+
 qdot_expr
 qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n)
 {
     groups all = {0};
     qdot_expr wanted = qdot_pow_int(pool, x, n), result = QDOT_ZERO;
 
+    if (e == QDOT_NIL || wanted == QDOT_NIL)
+        return QDOT_NIL;
     gather_all(pool, qdot_expand(pool, e), x, &all);
     for (size_t i = 0; i < all.n; i++) {
         qdot_expr c = qdot_sum(pool, all.at[i].coefficients.n, all.at[i].coefficients.at);
 
-        if (c != QDOT_NIL && qdot_expr_contains(pool, c, x))
-            result = qdot_pool_refuse(pool, QDOT_EDOMAIN, "not a polynomial in this name");
+        if (c == QDOT_NIL)
+            break;
+        if (qdot_expr_contains(pool, c, x) || !is_whole_power(pool, all.at[i].power, x))
+            qdot_pool_refuse(pool, QDOT_EDOMAIN, "not a polynomial in this name");
         else if (all.at[i].power == wanted)
             result = c;
     }

@@ -97,6 +97,7 @@ typedef struct {
     uint32_t at;  /* where they begin; for NUM and SYM the index in its table */
     uint32_t holds;
     uint32_t hash;
+    uint32_t touches; /* a signature of its symbols: a bit that is not set rules some out */
 } qdot_node;
 
 /* --- the pool ------------------------------------------------------------------------- */

@@ -1,4 +1,5 @@
 /* function.c -- elementary functions: special values, parity, inverse pairs, derivatives. */
+#include "expr/calculus.h"
 #include "expr/pool.h"
 
 #include <string.h>
@@ -111,22 +112,42 @@ sine_at(qdot_pool *pool, long k)
     return sine_of_twelfths(pool, k <= 6 ? k : 12 - k);
 }
 
+/* a/b, b one of the values above; their sums are never divided by. */
 static qdot_expr
-quotient(qdot_pool *pool, qdot_fun_id id, qdot_expr s, qdot_expr c)
+over(qdot_pool *pool, qdot_fun_id id, qdot_expr a, qdot_expr b)
 {
+    if (b == QDOT_ZERO)
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "%s is undefined here: division by zero",
+                                qdot_fun_name(id));
+    return qdot_div(pool, a, b);
+}
+
+/* The circular functions at k pi/12, by those of the double angle, which hold one root only:
+ * tan x = (1 - cos 2x)/sin 2x, cot x = (1 + cos 2x)/sin 2x, 1/cos x = 2 sin x/sin 2x. */
+static qdot_expr
+circular_at(qdot_pool *pool, qdot_fun_id id, long k)
+{
+    qdot_expr s = sine_at(pool, k), c = sine_at(pool, k + 6);
+    qdot_expr s2 = sine_at(pool, 2 * k), c2 = sine_at(pool, 2 * k + 6);
+    bool halves = k % 2 != 0;
+
     switch (id) {
     case QDOT_SIN:
         return s;
     case QDOT_COS:
         return c;
     case QDOT_TAN:
-        return qdot_div(pool, s, c);
-    case QDOT_SEC:
-        return qdot_div(pool, QDOT_ONE, c);
-    case QDOT_CSC:
-        return qdot_div(pool, QDOT_ONE, s);
+    case QDOT_COT:
+        if (!halves)
+            return id == QDOT_TAN ? over(pool, id, s, c) : over(pool, id, c, s);
+        c2 = over(pool, id, c2, s2);
+        s2 = over(pool, id, QDOT_ONE, s2);
+        return id == QDOT_TAN ? qdot_sub(pool, s2, c2) : qdot_add(pool, s2, c2);
     default:
-        return qdot_div(pool, c, s);
+        if (!halves)
+            return over(pool, id, QDOT_ONE, id == QDOT_SEC ? c : s);
+        s2 = over(pool, id, qdot_expr_int(pool, 2), s2);
+        return qdot_expand(pool, qdot_mul(pool, s2, id == QDOT_SEC ? s : c));
     }
 }
 
@@ -168,7 +189,7 @@ circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     if (rest == QDOT_ZERO && fmpz_is_one(fmpq_denref(twelve))) {
         long k = (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24);
 
-        e = quotient(pool, id, sine_at(pool, k), sine_at(pool, k + 6));
+        e = circular_at(pool, id, k);
     } else if (rest != QDOT_ZERO && rest != QDOT_NIL && !fmpq_is_zero(c) &&
                fmpz_divisible_si(fmpq_numref(twelve), 6) && fmpz_is_one(fmpq_denref(twelve))) {
         e = shifted(pool, id, rest, (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
@@ -194,7 +215,7 @@ inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     if (id == QDOT_ACOS) {
         if (out)
             return qdot_pool_refuse(pool, QDOT_EDOMAIN, "acos is defined from -1 to 1");
-        if (NODE(pool, x)->n == 0 || NODE(pool, x)->kind != QDOT_SUM) {
+        if (!NODE(pool, x)->holds) {
             qdot_expr s = inverse_circular(pool, QDOT_ASIN, x);
 
             if (s != QDOT_NIL && !(NODE(pool, s)->holds & QDOT_HAS_FUN))
@@ -204,18 +225,20 @@ inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     }
     if (id == QDOT_ASIN && out)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "asin is defined from -1 to 1");
-    if (qdot_expr_is_negative(pool, x))
-        return qdot_neg(pool, inverse_circular(pool, id, qdot_neg(pool, x)));
     if (!(NODE(pool, x)->holds)) {
-        for (long k = 0; k <= 6; k++) {
-            qdot_expr value = id == QDOT_ASIN ? sine_at(pool, k)
-                              : k == 6 ? QDOT_NIL
-                                       : qdot_div(pool, sine_at(pool, k), sine_at(pool, k + 6));
+        for (long k = -6; k <= 6; k++) {
+            qdot_expr value = QDOT_NIL;
 
+            if (id == QDOT_ASIN)
+                value = sine_at(pool, k);
+            else if (k > -6 && k < 6)
+                value = circular_at(pool, QDOT_TAN, k);
             if (value == x && value != QDOT_NIL)
                 return qdot_mul(pool, qdot_expr_ratio(pool, k, 12), QDOT_PI);
         }
     }
+    if (qdot_expr_is_negative(pool, x))
+        return qdot_neg(pool, inverse_circular(pool, id, qdot_neg(pool, x)));
     return plain(pool, id, 1, &x);
 }
 
@@ -230,6 +253,8 @@ hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 
     if (is_fun(pool, x, partner[id - QDOT_SINH]) && id != QDOT_ACOSH)
         return arg0(pool, x);
+    if (id == QDOT_ACOSH && is_fun(pool, x, QDOT_COSH))
+        return qdot_fun1(pool, QDOT_ABS, arg0(pool, x));
     if (x == QDOT_ZERO && id != QDOT_ACOSH)
         return even ? QDOT_ONE : QDOT_ZERO;
     if (id == QDOT_ACOSH && x == QDOT_ONE)
@@ -296,8 +321,6 @@ absolute(qdot_pool *pool, qdot_expr x)
         e = qdot_mul(pool, qdot_expr_fmpq(pool, c), qdot_fun1(pool, QDOT_ABS, rest));
     } else if (NODE(pool, x)->kind == QDOT_SUM && qdot_expr_is_negative(pool, x)) {
         e = qdot_fun1(pool, QDOT_ABS, qdot_neg(pool, x));
-        if (NODE(pool, qdot_neg(pool, x))->kind != QDOT_SUM)
-            e = plain(pool, QDOT_ABS, 1, &x);
     } else {
         e = plain(pool, QDOT_ABS, 1, &x);
     }
@@ -316,7 +339,10 @@ signum(qdot_pool *pool, qdot_expr x)
         return QDOT_MINUS_ONE;
     if (x == QDOT_ZERO)
         return QDOT_ZERO;
-    return plain(pool, QDOT_SIGN, 1, &x);
+    if (qdot_expr_is_negative(pool, x))
+        return qdot_neg(pool, signum(pool, qdot_neg(pool, x)));
+    x = qdot_expr_strip(pool, x);
+    return x == QDOT_NIL ? x : plain(pool, QDOT_SIGN, 1, &x);
 }
 
 static qdot_expr

@@ -18,8 +18,12 @@ level(uint32_t holds)
         {QDOT_HAS_COORD, 3},        {QDOT_HAS_UFUN, 3},         {QDOT_HAS_TIME, 2},
         {QDOT_HAS_FORMAL, 1},       {QDOT_HAS_PARAM, 1},
     };
+    const uint32_t above_coordinates = QDOT_HAS_DELTA | QDOT_HAS_DIFFERENTIAL |
+                                       QDOT_HAS_MULTIPLIER | QDOT_HAS_ACCELERATION |
+                                       QDOT_HAS_VELOCITY | QDOT_HAS_MOMENTUM;
 
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+    /* coordinates and parameters are the most: the rows above them first, as one */
+    for (size_t i = holds & above_coordinates ? 0 : 6; i < sizeof rows / sizeof *rows; i++)
         if (holds & rows[i].mask)
             return rows[i].level;
     return 0;
@@ -57,11 +61,12 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     for (;;) {
         const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
-        int d = level(x->holds) - level(y->holds);
+        int d;
         uint32_t i = 0;
 
         if (a == b)
             return 0;
+        d = x->holds == y->holds ? 0 : level(x->holds) - level(y->holds);
         if (d == 0)
             d = kind_rank(x) - kind_rank(y);
         if (d != 0)
@@ -106,8 +111,8 @@ factors(const qdot_pool *pool, qdot_expr e)
 int
 qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    int d = level(NODE(pool, b)->holds) - level(NODE(pool, a)->holds);
-    uint32_t na = factors(pool, a), nb = factors(pool, b);
+    uint32_t na = factors(pool, a), nb = factors(pool, b), ha = NODE(pool, a)->holds;
+    int d = NODE(pool, b)->holds == ha ? 0 : level(NODE(pool, b)->holds) - level(ha);
 
     if (d != 0 || a == b)
         return d;

@@ -80,7 +80,7 @@ same(const qdot_pool *pool, qdot_expr e, qdot_kind kind, uint16_t op, uint32_t n
     const qdot_node *node = NODE(pool, e);
 
     return node->hash == hash && node->kind == kind && node->op == op && node->n == n &&
-           memcmp(ARGS(pool, e), args, n * sizeof *args) == 0;
+           (n == 0 || memcmp(ARGS(pool, e), args, n * sizeof *args) == 0);
 }
 
 static qdot_status
@@ -148,7 +148,7 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
                  const qdot_expr *args, uint8_t sign)
 {
     uint32_t hash = mix(mix(kind, op), n), i;
-    qdot_node node = {(uint8_t)kind, sign, op, n, 0, 0, 0};
+    qdot_node node = {.kind = (uint8_t)kind, .sign = sign, .op = op, .n = n};
     bool inside = args >= pool->args.at && args < pool->args.at + pool->args.n;
     size_t offset = inside ? (size_t)(args - pool->args.at) : 0;
 
@@ -159,6 +159,7 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
             return qdot_pool_refuse(pool, QDOT_EINVAL, "an expression without a value");
         hash = mix(hash, args[k]);
         node.holds |= NODE(pool, args[k])->holds;
+        node.touches |= NODE(pool, args[k])->touches;
     }
     for (i = hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask)
         if (same(pool, pool->table[i], kind, op, n, args, hash))
@@ -194,13 +195,23 @@ sign_of_number(const fmpq_t x)
 static uint32_t
 hash_fmpz(uint32_t h, const fmpz_t x)
 {
+    if (!COEFF_IS_MPZ(*x))
+        return mix(mix(h, (uint32_t)*x), (uint32_t)((uint64_t)*x >> 32));
     h = mix(h, (uint32_t)fmpz_fdiv_ui(x, 4294967291u));
     return mix(h, (uint32_t)fmpz_bits(x) * 2 + (fmpz_sgn(x) < 0));
+}
+
+static bool
+is_small(const fmpq_t x)
+{
+    return !COEFF_IS_MPZ(*fmpq_numref(x)) && !COEFF_IS_MPZ(*fmpq_denref(x));
 }
 
 bool
 qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
 {
+    if (is_small(x))
+        return false;
     if (fmpz_bits(fmpq_numref(x)) <= QDOT_MAX_BITS && fmpz_bits(fmpq_denref(x)) <= QDOT_MAX_BITS)
         return false;
     qdot_pool_refuse(pool, QDOT_ELIMIT, "an exact number of more than 10^6 digits");
@@ -211,6 +222,7 @@ qdot_expr
 qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
 {
     qdot_node node = {.kind = QDOT_NUM, .sign = sign_of_number(x)};
+    bool small = is_small(x);
     fmpq copy;
 
     if (!may_work(pool) || qdot_number_too_large(pool, x))
@@ -220,7 +232,9 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
         qdot_expr e = pool->table[i];
 
         if (NODE(pool, e)->hash == node.hash && NODE(pool, e)->kind == QDOT_NUM &&
-            fmpq_equal(RATIONAL(pool, e), x))
+            (small ? *fmpq_numref(RATIONAL(pool, e)) == *fmpq_numref(x) &&
+                         *fmpq_denref(RATIONAL(pool, e)) == *fmpq_denref(x)
+                   : fmpq_equal(RATIONAL(pool, e), x)))
             return e;
     }
     node.at = (uint32_t)pool->numbers.n;
@@ -342,6 +356,7 @@ symbol(qdot_pool *pool, const qdot_symbol *wanted)
     if (wanted->base == QDOT_NIL)
         copy.rank = (uint32_t)pool->symbols.n;
     node.at = (uint32_t)pool->symbols.n;
+    node.touches = 1u << node.at % 32;
     node.holds = wanted->class == QDOT_CONST   ? 0
                  : wanted->class != QDOT_COORD ? 1u << wanted->class
                  : wanted->order == 0          ? QDOT_HAS_COORD
@@ -372,6 +387,10 @@ symbol_about(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t o
     qdot_text_add(&name, after);
     for (uint32_t i = 0; class == QDOT_COORD && i < order; i++)
         qdot_text_char(&name, '\'');
+    if (qdot_text_status(&name) != QDOT_OK) {
+        qdot_text_clear(&name);
+        return qdot_pool_fail(pool);
+    }
     e = symbol(pool, &(qdot_symbol){.class = class,
                                     .name = qdot_text_str(&name),
                                     .base = coordinate,

@@ -28,9 +28,27 @@ qdot_expr qdot_pool_refuse(qdot_pool *pool, qdot_status status, const char *form
 /* Order of terms in a sum: accelerations, velocities ... first, then as a book sorts. */
 int qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b);
 
-/* c * term as one node, c a rational; and the other way: *c and the rest, of any scalar. */
-qdot_expr qdot_expr_scale(qdot_pool *pool, const fmpq_t c, qdot_expr term);
+/* e without its coefficient, and *c that coefficient, of any scalar. */
+qdot_expr qdot_expr_strip(qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_expr_unscale(qdot_pool *pool, qdot_expr e, fmpq_t c);
+
+/* -1 times a SUM: every coefficient turned, so that -(a - b) is b - a. */
+qdot_expr qdot_sum_turned(qdot_pool *pool, qdot_expr sum);
+/* Whether e is a factor that no other can change but its like. */
+bool qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e);
+
+/* c1 t1 + c2 t2 + ..., every c a NUM. */
+qdot_expr qdot_sum_scaled(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms);
+/* The PROD e with the factor b^x at args[i] replaced by x b^(x - 1) inner. */
+qdot_expr qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr inner);
+
+/* y = x^n within the limit on digits; x not zero if n < 0. False: refused. */
+bool qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n);
+/* b^e = c base^exponent, e not an integer: all that is exact goes to c, the exponent left is in
+ * (0, 1), as a rule 1/q of an integer free of q-th powers; base 1: nothing is left. False:
+ * refused. */
+bool qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
+                      qdot_expr *base, qdot_expr *exponent);
 
 /* Sign of a product or sum from its canonical args. */
 uint8_t qdot_sign_of_product(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
@@ -41,12 +59,25 @@ uint8_t qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_
 qdot_expr qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n,
                               const qdot_expr *args, uint32_t i);
 
+struct qdot_walk;
+/* As qdot_walk_begin, but only into nodes that hold one of `holds` or touch one of `touches`; the
+ * root is always there. */
+QDOT_MUST_CHECK qdot_status qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e,
+                                                  uint32_t holds, uint32_t touches,
+                                                  struct qdot_walk *w);
+
+/* As qdot_walk_map, into those nodes only: the others stay as they are. */
+qdot_expr qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
+                              qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
+                              void *user);
+
 /* Numbers of more digits than the language allows: refuses and returns true. */
 bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 
 #define QDOT_MAX_BITS 3321929 /* 10^6 decimal digits */
 #define NODE(pool, e) (&(pool)->nodes.at[e])
 #define ARGS(pool, e) ((pool)->args.at + (pool)->nodes.at[e].at)
+#define WHERE(pool, e, h, t) ((NODE(pool, e)->holds & (h)) | (NODE(pool, e)->touches & (t)))
 #define RATIONAL(pool, e) (&(pool)->numbers.at[(pool)->nodes.at[e].at])
 
 #endif

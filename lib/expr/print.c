@@ -517,6 +517,8 @@ qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
 
         while (p.next.n > 0 && p.status == QDOT_OK)
             p.status = qdot_vec_push(&p.todo, p.next.at[--p.next.n]);
+        if (p.status != QDOT_OK)
+            break;
         x = p.todo.at[--p.todo.n];
         if (x.text != NULL)
             qdot_text_add(out, x.text);

@@ -2,12 +2,14 @@
 #include "expr/pool.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include <flint/fmpz.h>
-#include <flint/fmpz_factor.h>
 
+/* settled: canonical as it stands (its base alone; another pair may have the same). */
 struct pair {
     qdot_expr base, exponent;
+    bool settled;
 };
 
 struct product {
@@ -60,7 +62,7 @@ push(struct product *p, qdot_expr base, qdot_expr exponent)
         p->at = bigger;
         p->capacity = capacity;
     }
-    p->at[p->n++] = (struct pair){base, exponent};
+    p->at[p->n++] = (struct pair){base, exponent, false};
 }
 
 static void
@@ -71,133 +73,6 @@ scale(struct product *p, const fmpq *c)
         p->failed = true;
 }
 
-/* --- numbers with exponents ------------------------------------------------------------- */
-
-/* x^n by the limit on digits; x not zero if n < 0. */
-static bool
-power_of_number(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n)
-{
-    ulong bits = (ulong)fmpz_bits(fmpq_numref(x)), den = (ulong)fmpz_bits(fmpq_denref(x));
-
-    if (bits < den)
-        bits = den;
-    if (fmpq_is_zero(x) || fmpq_is_one(x)) {
-        fmpq_set(y, x);
-        return true;
-    }
-    if (fmpz_is_pm1(fmpq_numref(x)) && fmpz_is_one(fmpq_denref(x))) {
-        fmpq_set_si(y, fmpz_is_even(n) ? 1 : -1, 1);
-        return true;
-    }
-    if (!fmpz_fits_si(n) || (ulong)labs(fmpz_get_si(n)) > QDOT_MAX_BITS / (bits > 1 ? bits - 1 : 1)) {
-        qdot_pool_refuse(pool, QDOT_ELIMIT, "an exact number of more than 10^6 digits");
-        return false;
-    }
-    fmpq_pow_si(y, x, fmpz_get_si(n));
-    return true;
-}
-
-/* |n| = outside^q * inside, inside free of q-th powers of primes found by trial division. */
-static void
-extract_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
-{
-    fmpz_factor_t f;
-    fmpz_t power;
-
-    fmpz_one(outside);
-    fmpz_one(inside);
-    fmpz_init(power);
-    if (fmpz_root(power, n, (slong)q)) { /* exact */
-        fmpz_set(outside, power);
-        fmpz_clear(power);
-        return;
-    }
-    fmpz_factor_init(f);
-    /* past 64 bits only small primes are taken out: the form stays correct */
-    if (fmpz_bits(n) <= 64)
-        fmpz_factor(f, n);
-    else
-        fmpz_factor_trial_range(f, n, 0, 3000);
-    for (slong i = 0; i < f->num; i++) {
-        fmpz_pow_ui(power, f->p + i, f->exp[i] / q);
-        fmpz_mul(outside, outside, power);
-        fmpz_pow_ui(power, f->p + i, f->exp[i] % q);
-        fmpz_mul(inside, inside, power);
-    }
-    fmpz_factor_clear(f);
-    fmpz_clear(power);
-}
-
-/* Take b^e, b a rational and e = n/q not an integer, into p: b^floor(e) and the q-th powers inside
- * go to the coefficient, the rest stays as integer^(fraction in (0, 1)). */
-static void
-push_root(struct product *p, const fmpq *b, const fmpq *e)
-{
-    qdot_pool *pool = p->pool;
-    fmpz_t whole, part, outside, inside, all;
-    fmpq_t x, rest;
-    ulong q;
-
-    if (fmpq_sgn(b) < 0) {
-        qdot_pool_refuse(pool, QDOT_EDOMAIN, "a root of a negative number is not real");
-        p->failed = true;
-        return;
-    }
-    if (!fmpz_abs_fits_ui(fmpq_denref(e)) || (q = fmpz_get_ui(fmpq_denref(e))) > 10000) {
-        push(p, qdot_expr_fmpq(pool, b), qdot_expr_fmpq(pool, e));
-        return;
-    }
-    fmpz_init(whole);
-    fmpz_init(part);
-    fmpz_init(outside);
-    fmpz_init(inside);
-    fmpz_init(all);
-    fmpq_init(x);
-    fmpq_init(rest);
-    fmpz_fdiv_qr(whole, part, fmpq_numref(e), fmpq_denref(e));
-    if (power_of_number(pool, x, b, whole)) {
-        /* (n/d)^(part/q) = (n^part d^(q - part))^(1/q) / d */
-        ulong k = fmpz_get_ui(part);
-
-        if ((ulong)(fmpz_bits(fmpq_numref(b)) + fmpz_bits(fmpq_denref(b))) * q > QDOT_MAX_BITS) {
-            scale(p, x);
-            fmpq_set_fmpz_frac(rest, part, fmpq_denref(e));
-            push(p, qdot_expr_fmpq(pool, b), qdot_expr_fmpq(pool, rest));
-        } else {
-            fmpz_pow_ui(all, fmpq_numref(b), k);
-            fmpz_pow_ui(inside, fmpq_denref(b), q - k);
-            fmpz_mul(all, all, inside);
-            fmpq_div_fmpz(x, x, fmpq_denref(b));
-            extract_root(outside, inside, all, q);
-            fmpq_mul_fmpz(x, x, outside);
-            scale(p, x);
-            if (!fmpz_is_one(inside)) {
-                /* a perfect power inside: 4^(1/4) is 2^(1/2) */
-                ulong g = q;
-
-                for (ulong d = q; d > 1; d--)
-                    if (q % d == 0 && fmpz_root(all, inside, (slong)d)) {
-                        fmpz_set(inside, all);
-                        g = q / d;
-                        break;
-                    }
-                fmpz_one(all);
-                fmpq_set_fmpz_frac(rest, inside, all);
-                push(p, qdot_expr_fmpq(pool, rest), qdot_expr_ratio(pool, 1, (long)g));
-            }
-        }
-    } else {
-        p->failed = true;
-    }
-    fmpq_clear(x);
-    fmpq_clear(rest);
-    fmpz_clear(whole);
-    fmpz_clear(part);
-    fmpz_clear(outside);
-    fmpz_clear(inside);
-    fmpz_clear(all);
-}
-
 /* Take a number b^e into p. */
 static void
 push_number(struct product *p, qdot_expr base, qdot_expr exponent)
@@ -205,10 +80,20 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
     qdot_pool *pool = p->pool;
     const fmpq *e = qdot_expr_rational(pool, exponent);
     fmpq_t b, k, y;
+    bool good = true;
 
     if (e == NULL) {
         if (base != QDOT_ONE)
             push(p, base, exponent);
+        return;
+    }
+    if (base == QDOT_ZERO && fmpq_sgn(e) < 0) {
+        qdot_pool_refuse(pool, QDOT_EDOMAIN, "division by zero");
+        p->failed = true;
+        return;
+    }
+    if (base == QDOT_ZERO || base == QDOT_ONE || exponent == QDOT_ONE) {
+        scale(p, RATIONAL(pool, base));
         return;
     }
     fmpq_init(b);
@@ -216,19 +101,20 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
     fmpq_init(y);
     fmpq_set(b, RATIONAL(pool, base));
     fmpq_set(k, e);
-    if (fmpq_is_zero(b) && fmpq_sgn(k) < 0) {
-        qdot_pool_refuse(pool, QDOT_EDOMAIN, "division by zero");
-        p->failed = true;
-    } else if (fmpq_is_zero(b) || fmpq_is_one(b)) {
-        scale(p, b);
-    } else if (fmpz_is_one(fmpq_denref(k))) {
-        if (power_of_number(pool, y, b, fmpq_numref(k)))
-            scale(p, y);
-        else
-            p->failed = true;
+    if (fmpz_is_one(fmpq_denref(k))) {
+        good = qdot_number_power(pool, y, b, fmpq_numref(k));
     } else {
-        push_root(p, b, k);
+        good = qdot_number_root(pool, b, k, y, &base, &exponent);
+        if (good && base != QDOT_ONE) {
+            push(p, base, exponent);
+            if (!p->failed)
+                p->at[p->n - 1].settled = true;
+        }
     }
+    if (good)
+        scale(p, y);
+    else
+        p->failed = true;
     fmpq_clear(b);
     fmpq_clear(k);
     fmpq_clear(y);
@@ -248,6 +134,14 @@ static bool
 is_even(const qdot_pool *pool, qdot_expr e)
 {
     return is_integer(pool, e) && fmpz_is_even(fmpq_numref(RATIONAL(pool, e)));
+}
+
+static bool
+is_root(const qdot_pool *pool, qdot_expr e)
+{
+    const fmpq *x = qdot_expr_rational(pool, e);
+
+    return x != NULL && !fmpz_is_one(fmpq_denref(x));
 }
 
 /* (c b1^e1 ...)^k, k not an integer: what is known to be positive comes out, even powers as
@@ -272,7 +166,8 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
     for (uint32_t i = 1; i < n && !p->failed; i += 2) {
         qdot_expr b = ARGS(pool, base)[i], e = ARGS(pool, base)[i + 1];
 
-        if (NODE(pool, b)->sign & QDOT_GE0)
+        /* x^(1/2) is real only where x >= 0 */
+        if ((NODE(pool, b)->sign & QDOT_GE0) || is_root(pool, e))
             push(p, b, qdot_mul(pool, e, k));
         else if (is_even(pool, e))
             push(p, qdot_fun1(pool, QDOT_ABS, b), qdot_mul(pool, e, k));
@@ -299,6 +194,20 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
 
 /* --- the canonical form ------------------------------------------------------------------ */
 
+/* The pairs of a PROD but the one whose base is at `without` (0: all). */
+static void
+take_pairs(struct product *p, qdot_expr e, uint32_t without)
+{
+    qdot_pool *pool = p->pool;
+
+    for (uint32_t i = 1; i < NODE(pool, e)->n && !p->failed; i += 2)
+        if (i != without) {
+            push(p, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
+            if (!p->failed)
+                p->at[p->n - 1].settled = true;
+        }
+}
+
 static void
 take(struct product *p, qdot_expr e)
 {
@@ -309,9 +218,9 @@ take(struct product *p, qdot_expr e)
         scale(p, RATIONAL(pool, e));
         return;
     case QDOT_PROD:
-        scale(p, RATIONAL(pool, ARGS(pool, e)[0]));
-        for (uint32_t i = 1; i < NODE(pool, e)->n && !p->failed; i += 2)
-            push(p, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
+        if (ARGS(pool, e)[0] != QDOT_ONE)
+            scale(p, RATIONAL(pool, ARGS(pool, e)[0]));
+        take_pairs(p, e, 0);
         return;
     default:
         push(p, e, QDOT_ONE);
@@ -333,6 +242,29 @@ by_order(const void *a, const void *b, void *pool)
     int d = qdot_expr_compare(pool, x->base, y->base);
 
     return d != 0 ? d : qdot_expr_compare(pool, x->exponent, y->exponent);
+}
+
+/* Factors are few as a rule. */
+static void
+sort(struct product *p, bool ids)
+{
+    if (p->n > 16) {
+        if (ids)
+            qsort(p->at, p->n, sizeof *p->at, by_id);
+        else
+            qsort_r(p->at, p->n, sizeof *p->at, by_order, p->pool);
+        return;
+    }
+    for (size_t i = 1; i < p->n; i++) {
+        struct pair x = p->at[i];
+        size_t k = i;
+
+        for (; k > 0 && (ids ? p->at[k - 1].base > x.base
+                             : by_order(&p->at[k - 1], &x, p->pool) > 0);
+             k--)
+            p->at[k] = p->at[k - 1];
+        p->at[k] = x;
+    }
 }
 
 /* exp(a)^i exp(b)^j ... is one exp. Returns whether there was something to do. */
@@ -403,7 +335,7 @@ round_of_merging(struct product *p)
     size_t kept = 0, n;
     bool again = false;
 
-    qsort(p->at, p->n, sizeof *p->at, by_id);
+    sort(p, true);
     for (size_t i = 0; i < p->n; i++) {
         if (kept > 0 && p->at[kept - 1].base == p->at[i].base) {
             qdot_expr e = qdot_add(pool, p->at[kept - 1].exponent, p->at[i].exponent);
@@ -413,6 +345,7 @@ round_of_merging(struct product *p)
                 return false;
             }
             p->at[kept - 1].exponent = e;
+            p->at[kept - 1].settled = false;
         } else {
             p->at[kept++] = p->at[i];
         }
@@ -431,7 +364,7 @@ round_of_merging(struct product *p)
             fmpq_t y;
 
             fmpq_init(y);
-            if (power_of_number(pool, y, RATIONAL(pool, ARGS(pool, e)[0]),
+            if (qdot_number_power(pool, y, RATIONAL(pool, ARGS(pool, e)[0]),
                                 fmpq_numref(RATIONAL(pool, x.exponent))))
                 scale(p, y);
             else
@@ -453,13 +386,7 @@ round_of_merging(struct product *p)
             n = p->n;
             again = true;
         } else if (base->kind == QDOT_NUM && qdot_expr_rational(pool, x.exponent) != NULL) {
-            const fmpq *e = RATIONAL(pool, x.exponent);
-            bool done = !fmpz_is_one(fmpq_denref(e)) && fmpq_sgn(e) > 0 &&
-                        fmpz_cmp(fmpq_numref(e), fmpq_denref(e)) < 0 &&
-                        fmpz_is_one(fmpq_denref(RATIONAL(pool, x.base))) &&
-                        fmpz_is_one(fmpq_numref(e));
-
-            if (done) {
+            if (x.settled) {
                 p->at[kept++] = x;
             } else {
                 p->n = n;
@@ -473,32 +400,6 @@ round_of_merging(struct product *p)
     }
     p->n = kept;
     return again;
-}
-
-/* -1 times a sum: every coefficient turned, so that -(a - b) is b - a. */
-static qdot_expr
-turn(qdot_pool *pool, qdot_expr sum)
-{
-    uint32_t n = NODE(pool, sum)->n;
-    qdot_expr few[33], *args = n > 33 ? qdot_malloc(n * sizeof *args) : few, e = QDOT_NIL;
-    fmpq_t c;
-
-    if (args == NULL)
-        return qdot_pool_fail(pool);
-    fmpq_init(c);
-    for (uint32_t i = 0; i < n; i++) {
-        args[i] = ARGS(pool, sum)[i];
-        if (i % 2 == 0) {
-            fmpq_neg(c, RATIONAL(pool, args[i]));
-            args[i] = qdot_expr_fmpq(pool, c);
-        }
-    }
-    fmpq_clear(c);
-    if (!qdot_pool_failed(pool))
-        e = qdot_pool_intern(pool, QDOT_SUM, 0, n, args, qdot_sign_of_sum(pool, n, args));
-    if (args != few)
-        qdot_free(args);
-    return e;
 }
 
 /* Whether the list may hold something that is not canonical yet. */
@@ -533,9 +434,8 @@ finish(struct product *p)
         return p->at[0].base;
     if (p->n == 1 && p->at[0].exponent == QDOT_ONE && fmpz_equal_si(fmpq_numref(&p->c), -1) &&
         fmpz_is_one(fmpq_denref(&p->c)) && NODE(pool, p->at[0].base)->kind == QDOT_SUM)
-        return turn(pool, p->at[0].base);
-    if (p->n > 1)
-        qsort_r(p->at, p->n, sizeof *p->at, by_order, pool);
+        return qdot_sum_turned(pool, p->at[0].base);
+    sort(p, false);
     if (p->n > 16 && (args = qdot_malloc((2 * p->n + 1) * sizeof *args)) == NULL)
         return qdot_pool_fail(pool);
     args[0] = qdot_expr_fmpq(pool, &p->c);
@@ -554,50 +454,6 @@ finish(struct product *p)
 }
 
 /* --- the constructors -------------------------------------------------------------------- */
-
-qdot_expr
-qdot_expr_scale(qdot_pool *pool, const fmpq_t c, qdot_expr term)
-{
-    struct product p;
-    qdot_expr e;
-
-    if (term == QDOT_NIL)
-        return QDOT_NIL;
-    begin(&p, pool);
-    fmpq_set(&p.c, c);
-    take(&p, term);
-    e = finish(&p);
-    end(&p);
-    return e;
-}
-
-qdot_expr
-qdot_expr_unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
-{
-    const qdot_node *node = NODE(pool, e);
-    qdot_expr args[64], *all = args, stripped;
-
-    if (node->kind == QDOT_NUM) {
-        fmpq_set(c, RATIONAL(pool, e));
-        return QDOT_ONE;
-    }
-    fmpq_one(c);
-    if (node->kind != QDOT_PROD || ARGS(pool, e)[0] == QDOT_ONE)
-        return e;
-    fmpq_set(c, RATIONAL(pool, ARGS(pool, e)[0]));
-    if (node->n == 3 && ARGS(pool, e)[2] == QDOT_ONE)
-        return ARGS(pool, e)[1];
-    if (node->n > 64 && (all = qdot_malloc(node->n * sizeof *all)) == NULL)
-        return qdot_pool_fail(pool);
-    for (uint32_t i = 0; i < node->n; i++)
-        all[i] = ARGS(pool, e)[i];
-    all[0] = QDOT_ONE;
-    stripped = qdot_pool_intern(pool, QDOT_PROD, 0, node->n, all,
-                                qdot_sign_of_product(pool, node->n, all));
-    if (all != args)
-        qdot_free(all);
-    return stripped;
-}
 
 qdot_expr
 qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors)
@@ -622,13 +478,31 @@ qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors)
 }
 
 qdot_expr
-qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
+qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr inner)
 {
-    if (a == QDOT_ONE && b != QDOT_NIL && qdot_expr_is_scalar(pool, b))
-        return b;
-    if (b == QDOT_ONE && a != QDOT_NIL && qdot_expr_is_scalar(pool, a))
-        return a;
-    return qdot_product(pool, 2, (qdot_expr[]){a, b});
+    struct product p;
+    qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1], result;
+
+    if (inner == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    begin(&p, pool);
+    fmpq_set(&p.c, RATIONAL(pool, ARGS(pool, e)[0]));
+    take_pairs(&p, e, i);
+    if (x != QDOT_ONE) {
+        qdot_expr less = qdot_sub(pool, x, QDOT_ONE);
+
+        if (NODE(pool, b)->kind == QDOT_NUM && less != QDOT_NIL)
+            push_number(&p, b, less);
+        else
+            push(&p, b, less);
+        if (!p.failed)
+            take(&p, x);
+    }
+    if (!p.failed)
+        take(&p, inner);
+    result = finish(&p);
+    end(&p);
+    return result;
 }
 
 qdot_expr
@@ -646,6 +520,11 @@ qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return a;
     if (b == QDOT_ZERO)
         return QDOT_ONE;
+    if (qdot_expr_is_atom(pool, a)) {
+        qdot_expr args[] = {QDOT_ONE, a, b};
+
+        return qdot_pool_intern(pool, QDOT_PROD, 0, 3, args, qdot_sign_of_product(pool, 3, args));
+    }
     begin(&p, pool);
     kind = NODE(pool, a)->kind;
     if (kind == QDOT_NUM)
@@ -657,22 +536,4 @@ qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
     e = finish(&p);
     end(&p);
     return e;
-}
-
-qdot_expr
-qdot_pow_int(qdot_pool *pool, qdot_expr a, long n)
-{
-    return qdot_pow(pool, a, qdot_expr_int(pool, n));
-}
-
-qdot_expr
-qdot_sqrt(qdot_pool *pool, qdot_expr a)
-{
-    return qdot_pow(pool, a, QDOT_HALF);
-}
-
-qdot_expr
-qdot_div(qdot_pool *pool, qdot_expr a, qdot_expr b)
-{
-    return qdot_mul(pool, a, qdot_pow(pool, b, QDOT_MINUS_ONE));
 }

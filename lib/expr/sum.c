@@ -2,9 +2,11 @@
 #include "expr/pool.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+/* A coefficient is a NUM of the pool where it is one already, else the rational c. */
 struct term {
-    qdot_expr term;
+    qdot_expr term, id;
     fmpq c;
 };
 
@@ -28,80 +30,112 @@ begin(struct sum *s, qdot_pool *pool)
 }
 
 static void
+drop(struct term *t)
+{
+    if (t->id == QDOT_NIL)
+        fmpq_clear(&t->c);
+}
+
+static void
 end(struct sum *s)
 {
     for (size_t i = 0; i < s->n; i++)
-        fmpq_clear(&s->at[i].c);
+        drop(&s->at[i]);
     fmpq_clear(&s->constant);
     if (s->at != s->few)
         qdot_free(s->at);
 }
 
-/* Append c1 * c2 * term, term without a coefficient of its own. */
 static void
-push(struct sum *s, qdot_expr term, const fmpq *c1, const fmpq *c2)
+fail(struct sum *s)
 {
+    qdot_pool_fail(s->pool);
+    s->failed = true;
+}
+
+static const fmpq *
+coefficient(const struct sum *s, const struct term *t)
+{
+    return t->id != QDOT_NIL ? RATIONAL(s->pool, t->id) : &t->c;
+}
+
+/* Append a * b * term, a and b NUMs, term without a coefficient of its own. */
+static void
+push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
+{
+    struct term *t;
+
     if (s->n == s->capacity) {
-        struct term *old = s->at, *bigger = NULL;
+        struct term *bigger = s->at == s->few ? NULL : s->at;
         size_t capacity = s->at == s->few ? 0 : s->capacity;
 
-        if (s->at != s->few)
-            bigger = s->at;
         if (qdot_grow(&bigger, &capacity, s->n * 2, sizeof *bigger) != QDOT_OK) {
-            qdot_pool_fail(s->pool);
-            s->failed = true;
+            fail(s);
             return;
         }
-        if (old == s->few)
-            for (size_t i = 0; i < s->n; i++)
-                bigger[i] = old[i];
+        if (s->at == s->few)
+            memcpy(bigger, s->few, sizeof s->few);
         s->at = bigger;
         s->capacity = capacity;
     }
-    s->at[s->n].term = term;
-    fmpq_init(&s->at[s->n].c);
-    if (c2 == NULL)
-        fmpq_set(&s->at[s->n].c, c1);
-    else
-        fmpq_mul(&s->at[s->n].c, c1, c2);
-    s->n++;
+    t = &s->at[s->n++];
+    t->term = term;
+    if (a == QDOT_ONE || b == QDOT_ONE) {
+        t->id = a == QDOT_ONE ? b : a;
+    } else if (a == QDOT_MINUS_ONE && b == QDOT_MINUS_ONE) {
+        t->id = QDOT_ONE;
+    } else {
+        t->id = QDOT_NIL;
+        fmpq_init(&t->c);
+        fmpq_mul(&t->c, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
+    }
 }
 
 static void
-add(struct sum *s, qdot_expr e, const fmpq *c)
+add_number(struct sum *s, qdot_expr a, qdot_expr b)
+{
+    if (a != QDOT_ZERO && b != QDOT_ZERO)
+        fmpq_addmul(&s->constant, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
+}
+
+/* Add c times e, c a NUM. */
+static void
+add(struct sum *s, qdot_expr e, qdot_expr c)
 {
     qdot_pool *pool = s->pool;
-    fmpq_t own, product;
+    qdot_expr own, rest;
 
     switch (NODE(pool, e)->kind) {
     case QDOT_NUM:
-        fmpq_init(product);
-        fmpq_mul(product, RATIONAL(pool, e), c);
-        fmpq_add(&s->constant, &s->constant, product);
-        fmpq_clear(product);
-        return;
-    case QDOT_SUM:
-        fmpq_init(product);
-        fmpq_mul(product, RATIONAL(pool, ARGS(pool, e)[0]), c);
-        fmpq_add(&s->constant, &s->constant, product);
-        fmpq_clear(product);
-        for (uint32_t i = 1; i < NODE(pool, e)->n && !s->failed; i += 2)
-            push(s, ARGS(pool, e)[i], RATIONAL(pool, ARGS(pool, e)[i + 1]), c);
+        add_number(s, e, c);
         return;
     case QDOT_PROD:
-        fmpq_init(own);
-        e = qdot_expr_unscale(pool, e, own);
-        fmpq_mul(own, own, c);
-        if (e != QDOT_NIL && NODE(pool, e)->kind == QDOT_SUM)
-            add(s, e, own); /* one level: a coefficient times a bare sum */
-        else if (e != QDOT_NIL)
-            push(s, e, own, NULL);
-        fmpq_clear(own);
+        own = ARGS(pool, e)[0];
+        if (own == QDOT_ONE) {
+            push(s, e, c, QDOT_ONE);
+            return;
+        }
+        rest = qdot_expr_strip(pool, e);
+        if (rest == QDOT_NIL)
+            fail(s);
+        else if (NODE(pool, rest)->kind != QDOT_SUM)
+            push(s, rest, own, c);
+        else if ((c = qdot_mul(pool, own, c)) == QDOT_NIL)
+            fail(s);
+        else
+            add(s, rest, c); /* one level: a coefficient times a bare sum */
+        return;
+    case QDOT_SUM:
+        add_number(s, ARGS(pool, e)[0], c);
+        for (uint32_t i = 1; i < NODE(pool, e)->n && !s->failed; i += 2)
+            push(s, ARGS(pool, e)[i], ARGS(pool, e)[i + 1], c);
         return;
     default:
-        push(s, e, c, NULL);
+        push(s, e, c, QDOT_ONE);
     }
 }
+
+/* --- order -------------------------------------------------------------------------------- */
 
 static int
 by_id(const void *a, const void *b)
@@ -111,32 +145,126 @@ by_id(const void *a, const void *b)
     return x->term < y->term ? -1 : x->term > y->term;
 }
 
-static int
-by_order(const void *a, const void *b, void *pool)
+static bool
+ordered(const struct sum *s, const struct term *a, const struct term *b)
 {
-    const struct term *x = a, *y = b;
-
-    return qdot_expr_compare_terms(pool, x->term, y->term);
+    return a->term == b->term || qdot_expr_compare_terms(s->pool, a->term, b->term) < 0;
 }
 
-/* Like terms together, zeros out. */
+/* Like neighbours together, zeros out. */
 static void
 merge(struct sum *s)
 {
     size_t kept = 0;
 
-    qsort(s->at, s->n, sizeof *s->at, by_id);
     for (size_t i = 0; i < s->n; i++) {
-        if (kept > 0 && s->at[kept - 1].term == s->at[i].term) {
-            fmpq_add(&s->at[kept - 1].c, &s->at[kept - 1].c, &s->at[i].c);
-            fmpq_clear(&s->at[i].c);
-            if (fmpq_is_zero(&s->at[kept - 1].c))
-                fmpq_clear(&s->at[--kept].c);
-        } else {
-            s->at[kept++] = s->at[i];
+        struct term *last, *t = &s->at[i];
+        fmpq_t c;
+
+        if (kept == 0 || s->at[kept - 1].term != t->term) {
+            s->at[kept++] = *t;
+            continue;
+        }
+        last = &s->at[kept - 1];
+        fmpq_init(c);
+        fmpq_add(c, coefficient(s, last), coefficient(s, t));
+        drop(last);
+        drop(t);
+        last->id = QDOT_NIL;
+        last->c = *c;
+        if (fmpq_is_zero(c)) {
+            fmpq_clear(c);
+            kept--;
         }
     }
     s->n = kept;
+}
+
+/* The sorted runs a ... b and b ... c of `from` as one in `to`. */
+static void
+merge_runs(const struct sum *s, const struct term *from, size_t a, size_t b, size_t c,
+           struct term *to)
+{
+    size_t i = a, k = b;
+
+    for (size_t n = a; n < c; n++)
+        to[n] = k == c || (i < b && ordered(s, &from[i], &from[k])) ? from[i++] : from[k++];
+}
+
+/* The canonical order, by merging the runs that are there: sums come sorted. */
+static void
+sort_runs(struct sum *s, uint32_t *start, size_t runs)
+{
+    struct term *other = qdot_malloc(s->n * sizeof *other), *from = s->at, *to = other;
+
+    if (other == NULL) {
+        fail(s);
+        return;
+    }
+    while (runs > 1) {
+        size_t kept = 0;
+        struct term *swap;
+
+        for (size_t r = 0; r < runs; r += 2) {
+            size_t b = r + 1 < runs ? start[r + 1] : s->n, c = r + 2 < runs ? start[r + 2] : s->n;
+
+            merge_runs(s, from, start[r], b, c, to);
+            start[kept++] = start[r];
+        }
+        runs = kept;
+        swap = from;
+        from = to;
+        to = swap;
+    }
+    if (from != s->at)
+        memcpy(s->at, from, s->n * sizeof *from);
+    qdot_free(other);
+}
+
+static void
+sort_few(struct sum *s)
+{
+    for (size_t i = 1; i < s->n; i++) {
+        struct term t = s->at[i];
+        size_t k = i;
+
+        for (; k > 0 && !ordered(s, &s->at[k - 1], &t); k--)
+            s->at[k] = s->at[k - 1];
+        s->at[k] = t;
+    }
+}
+
+static void
+sort(struct sum *s)
+{
+    uint32_t *start;
+    size_t runs;
+
+    if (s->n <= 8) {
+        sort_few(s);
+        merge(s);
+        return;
+    }
+    start = qdot_malloc(s->n * sizeof *start);
+    if (start == NULL) {
+        fail(s);
+        return;
+    }
+    for (int pass = 0; pass < 2; pass++) {
+        runs = 0;
+        for (size_t i = 0; i < s->n; i++)
+            if (i == 0 || !ordered(s, &s->at[i - 1], &s->at[i]))
+                start[runs++] = (uint32_t)i;
+        if (pass == 1 || runs < s->n / 4 || s->n < 64)
+            break;
+        /* no order at all, as after multiplying out: like terms first, by their ids */
+        qsort(s->at, s->n, sizeof *s->at, by_id);
+        merge(s);
+    }
+    if (runs > 1)
+        sort_runs(s, start, runs);
+    qdot_free(start);
+    merge(s);
 }
 
 static qdot_expr
@@ -147,18 +275,24 @@ finish(struct sum *s)
 
     if (s->failed || qdot_pool_failed(pool))
         return QDOT_NIL;
-    merge(s);
+    sort(s);
+    if (s->failed)
+        return QDOT_NIL;
     if (s->n == 0)
         return qdot_expr_fmpq(pool, &s->constant);
-    if (s->n == 1 && fmpq_is_zero(&s->constant))
-        return qdot_expr_scale(pool, &s->at[0].c, s->at[0].term);
-    qsort_r(s->at, s->n, sizeof *s->at, by_order, pool);
+    if (s->n == 1 && fmpq_is_zero(&s->constant)) {
+        qdot_expr c = s->at[0].id;
+
+        if (c == QDOT_NIL)
+            c = qdot_expr_fmpq(pool, &s->at[0].c);
+        return qdot_mul(pool, c, s->at[0].term);
+    }
     if (s->n > 16 && (args = qdot_malloc((2 * s->n + 1) * sizeof *args)) == NULL)
         return qdot_pool_fail(pool);
-    args[0] = qdot_expr_fmpq(pool, &s->constant);
+    args[0] = fmpq_is_zero(&s->constant) ? QDOT_ZERO : qdot_expr_fmpq(pool, &s->constant);
     for (size_t i = 0; i < s->n; i++) {
         args[1 + 2 * i] = s->at[i].term;
-        args[2 + 2 * i] = qdot_expr_fmpq(pool, &s->at[i].c);
+        args[2 + 2 * i] = s->at[i].id != QDOT_NIL ? s->at[i].id : qdot_expr_fmpq(pool, &s->at[i].c);
     }
     if (!qdot_pool_failed(pool)) {
         uint32_t n = (uint32_t)(2 * s->n + 1);
@@ -169,6 +303,8 @@ finish(struct sum *s)
         qdot_free(args);
     return e;
 }
+
+/* --- the constructors ----------------------------------------------------------------------- */
 
 /* Whether every e is a number; else the pool keeps why not. */
 static bool
@@ -185,42 +321,55 @@ scalars(qdot_pool *pool, size_t n, const qdot_expr *e)
     return !qdot_pool_failed(pool);
 }
 
-qdot_expr
-qdot_sum(qdot_pool *pool, size_t n, const qdot_expr *terms)
+/* The sum of c[i] terms[i]; c NULL: all 1. */
+static qdot_expr
+combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
 {
     struct sum s;
-    qdot_expr e = QDOT_NIL;
-    fmpq one;
+    qdot_expr e;
+    size_t only = 0, count = 0;
 
     if (!scalars(pool, n, terms))
         return QDOT_NIL;
-    if (n == 1)
-        return terms[0];
+    for (size_t i = 0; i < n && count < 2; i++)
+        if (terms[i] != QDOT_ZERO) {
+            only = i;
+            count++;
+        }
+    if (count < 2)
+        return count == 0 ? QDOT_ZERO : c == NULL ? terms[only] : qdot_mul(pool, c[only], terms[only]);
     begin(&s, pool);
-    fmpq_init(&one);
-    fmpq_one(&one);
     for (size_t i = 0; i < n && !s.failed; i++)
-        add(&s, terms[i], &one);
+        add(&s, terms[i], c == NULL ? QDOT_ONE : c[i]);
     e = finish(&s);
-    fmpq_clear(&one);
     end(&s);
     return e;
 }
 
 qdot_expr
+qdot_sum(qdot_pool *pool, size_t n, const qdot_expr *terms)
+{
+    return combine(pool, n, NULL, terms);
+}
+
+qdot_expr
+qdot_sum_scaled(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
+{
+    if (!scalars(pool, n, c))
+        return QDOT_NIL;
+    return combine(pool, n, c, terms);
+}
+
+qdot_expr
 qdot_add(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    if (a == QDOT_ZERO && b != QDOT_NIL && qdot_expr_is_scalar(pool, b))
-        return b;
-    if (b == QDOT_ZERO && a != QDOT_NIL && qdot_expr_is_scalar(pool, a))
-        return a;
-    return qdot_sum(pool, 2, (qdot_expr[]){a, b});
+    return combine(pool, 2, NULL, (qdot_expr[]){a, b});
 }
 
 qdot_expr
 qdot_sub(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    return qdot_add(pool, a, qdot_neg(pool, b));
+    return combine(pool, 2, (qdot_expr[]){QDOT_ONE, QDOT_MINUS_ONE}, (qdot_expr[]){a, b});
 }
 
 qdot_expr

@@ -219,6 +219,8 @@ qdot_value_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (NODE(pool, a)->kind != QDOT_MAT || !qdot_expr_to_int(pool, b, &n))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot raise %s to the power of %s",
                                 name_of_kind(pool, a), name_of_kind(pool, b));
+    if (n < -1000000 || n > 1000000)
+        return qdot_pool_refuse(pool, QDOT_ELIMIT, "the power %ld of a matrix", n);
     if (n < 0) {
         a = qdot_inverse(pool, a);
         n = -n;
@@ -490,7 +492,7 @@ qdot_entry(qdot_pool *pool, qdot_expr a, long i)
     if (node->kind == QDOT_MAT) {
         uint32_t columns = node->op;
 
-        if (i < 1 || (uint32_t)i > node->n / columns)
+        if (i < 1 || (unsigned long)i > node->n / columns)
             return qdot_pool_refuse(pool, QDOT_EDOMAIN, "row %ld of a matrix of %u rows", i,
                                     node->n / columns);
         return columns > 1 ? qdot_vector(pool, columns, ARGS(pool, a) + (i - 1) * columns)

@@ -39,16 +39,54 @@ enlarge(qdot_walk *w)
     return QDOT_OK;
 }
 
-static int
-by_id(const void *a, const void *b)
+/* Ascending, by merging runs; scratch [n]. Ids come in runs: nodes are made in order. */
+static void
+sort_ids(qdot_expr *at, size_t n, qdot_expr *scratch)
 {
-    const qdot_expr *x = a, *y = b;
+    qdot_expr *from = at, *to = scratch;
 
-    return *x < *y ? -1 : *x > *y;
+    for (size_t i = 0; i < n; i += 8)
+        for (size_t k = i + 1; k < n && k < i + 8; k++) {
+            qdot_expr e = at[k];
+            size_t j = k;
+
+            for (; j > i && at[j - 1] > e; j--)
+                at[j] = at[j - 1];
+            at[j] = e;
+        }
+    for (size_t width = 8; width < n; width *= 2) {
+        qdot_expr *swap = from;
+
+        for (size_t a = 0; a < n; a += 2 * width) {
+            size_t b = a + width < n ? a + width : n, c = a + 2 * width < n ? a + 2 * width : n;
+            size_t i = a, k = b;
+
+            for (size_t m = a; m < c; m++)
+                to[m] = k == c || (i < b && from[i] < from[k]) ? from[i++] : from[k++];
+        }
+        from = to;
+        to = swap;
+    }
+    if (from != at)
+        memcpy(at, from, n * sizeof *at);
 }
 
-qdot_status
-qdot_walk_begin_n(const qdot_pool *pool, size_t n, const qdot_expr *roots, qdot_walk *w)
+static qdot_status
+add_node(qdot_walk *w, size_t *capacity, qdot_expr e)
+{
+    size_t place = find(w, e);
+
+    if (w->slot[place] != 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_grow(&w->at, capacity, w->n + 1, sizeof *w->at));
+    w->at[w->n++] = e;
+    w->slot[place] = (uint32_t)w->n;
+    return w->n * 2 > w->mask ? enlarge(w) : QDOT_OK;
+}
+
+static qdot_status
+begin(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
+      uint32_t touches, qdot_walk *w)
 {
     size_t capacity = 0;
     qdot_status status = QDOT_OK;
@@ -57,32 +95,18 @@ qdot_walk_begin_n(const qdot_pool *pool, size_t n, const qdot_expr *roots, qdot_
     w->slot = qdot_calloc(w->mask + 1, sizeof *w->slot);
     if (w->slot == NULL)
         return QDOT_ENOMEM;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        if (roots[i] != QDOT_NIL)
+            status = add_node(w, &capacity, roots[i]);
     /* w->at is both the queue and the result: nodes behind `next` are not opened yet */
-    for (size_t next = 0, root = 0; status == QDOT_OK && (root < n || next < w->n);) {
-        const qdot_expr *children = root < n ? &roots[root] : ARGS(pool, w->at[next]);
-        uint32_t count = root < n ? 1 : NODE(pool, w->at[next])->n;
+    for (size_t next = 0; status == QDOT_OK && next < w->n; next++) {
+        const qdot_expr *children = ARGS(pool, w->at[next]);
+        uint32_t count = NODE(pool, w->at[next])->n;
 
-        if (root < n)
-            root++;
-        else
-            next++;
-        for (uint32_t i = 0; i < count && status == QDOT_OK; i++) {
-            size_t place;
-
-            if (children[i] == QDOT_NIL)
-                continue;
-            place = find(w, children[i]);
-            if (w->slot[place] != 0)
-                continue;
-            status = qdot_grow(&w->at, &capacity, w->n + 1, sizeof *w->at);
-            if (status != QDOT_OK)
-                break;
-            w->at[w->n++] = children[i];
-            w->slot[place] = (uint32_t)w->n;
-            if (w->n * 2 > w->mask)
-                status = enlarge(w);
-        }
-        if (status == QDOT_OK)
+        for (uint32_t i = 0; i < count && status == QDOT_OK; i++)
+            if (holds == UINT32_MAX || WHERE(pool, children[i], holds, touches))
+                status = add_node(w, &capacity, children[i]);
+        if (status == QDOT_OK && qdot_interrupt_flag)
             status = qdot_interrupt_check();
     }
     if (status == QDOT_OK && (w->value = qdot_calloc(w->n, sizeof *w->value)) == NULL)
@@ -91,17 +115,33 @@ qdot_walk_begin_n(const qdot_pool *pool, size_t n, const qdot_expr *roots, qdot_
         qdot_walk_end(w);
         return status;
     }
-    qsort(w->at, w->n, sizeof *w->at, by_id);
-    memset(w->slot, 0, (w->mask + 1) * sizeof *w->slot);
-    for (size_t k = 0; k < w->n; k++)
-        w->slot[find(w, w->at[k])] = (uint32_t)k + 1;
+    if (w->n > 1) {
+        sort_ids(w->at, w->n, (qdot_expr *)w->value);
+        memset(w->value, 0, w->n * sizeof *w->value);
+        memset(w->slot, 0, (w->mask + 1) * sizeof *w->slot);
+        for (size_t k = 0; k < w->n; k++)
+            w->slot[find(w, w->at[k])] = (uint32_t)k + 1;
+    }
     return QDOT_OK;
+}
+
+qdot_status
+qdot_walk_begin_n(const qdot_pool *pool, size_t n, const qdot_expr *roots, qdot_walk *w)
+{
+    return begin(pool, n, roots, UINT32_MAX, 0, w);
 }
 
 qdot_status
 qdot_walk_begin(const qdot_pool *pool, qdot_expr e, qdot_walk *w)
 {
-    return qdot_walk_begin_n(pool, 1, &e, w);
+    return begin(pool, 1, &e, UINT32_MAX, 0, w);
+}
+
+qdot_status
+qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
+                      qdot_walk *w)
+{
+    return begin(pool, 1, &e, holds, touches, w);
 }
 
 void
@@ -134,8 +174,8 @@ qdot_walk_set(qdot_walk *w, qdot_expr e, uint64_t value)
 }
 
 qdot_expr
-qdot_walk_map(qdot_pool *pool, qdot_expr e,
-              qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user), void *user)
+qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
+                    qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user), void *user)
 {
     qdot_walk w;
     qdot_vec(qdot_expr) args = {0};
@@ -143,7 +183,7 @@ qdot_walk_map(qdot_pool *pool, qdot_expr e,
 
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+    if (qdot_walk_begin_where(pool, e, holds, touches, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
     for (size_t i = 0; i < w.n; i++) {
         qdot_expr node = w.at[i], to = leaf(pool, node, user);
@@ -155,8 +195,11 @@ qdot_walk_map(qdot_pool *pool, qdot_expr e,
                 qdot_pool_fail(pool);
                 break;
             }
-            for (uint32_t k = 0; k < n; k++)
-                args.at[k] = (qdot_expr)qdot_walk_get(&w, ARGS(pool, node)[k]);
+            for (uint32_t k = 0; k < n; k++) {
+                args.at[k] = ARGS(pool, node)[k];
+                if (holds == UINT32_MAX || WHERE(pool, args.at[k], holds, touches))
+                    args.at[k] = (qdot_expr)qdot_walk_get(&w, args.at[k]);
+            }
             if (n > 0)
                 to = qdot_rebuild(pool, node, args.at);
         }
@@ -172,13 +215,24 @@ qdot_walk_map(qdot_pool *pool, qdot_expr e,
     return result;
 }
 
+qdot_expr
+qdot_walk_map(qdot_pool *pool, qdot_expr e,
+              qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user), void *user)
+{
+    return qdot_walk_map_where(pool, e, UINT32_MAX, 0, leaf, user);
+}
+
 bool
 qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x)
 {
     qdot_walk w;
     bool found;
 
-    if (e == QDOT_NIL || x > e || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+    if (e == QDOT_NIL || x == QDOT_NIL || x > e ||
+        (NODE(pool, e)->touches & NODE(pool, x)->touches) != NODE(pool, x)->touches)
+        return false;
+    if (qdot_walk_begin_where(pool, e, NODE(pool, x)->touches == 0 ? UINT32_MAX : 0,
+                              NODE(pool, x)->touches, &w) != QDOT_OK)
         return false;
     found = qdot_walk_index(&w, x) != SIZE_MAX;
     qdot_walk_end(&w);
@@ -233,6 +287,17 @@ size_of_number(const fmpq *x)
     return !fmpz_is_one(fmpq_denref(x)) + (uint64_t)(fmpq_sgn(x) < 0);
 }
 
+static bool
+leading_minus(const qdot_pool *pool, qdot_expr sum)
+{
+    const qdot_expr *args = ARGS(pool, sum);
+
+    for (uint32_t i = 0; i < NODE(pool, sum)->n; i += 2)
+        if (fmpq_sgn(RATIONAL(pool, args[i])) > 0)
+            return false;
+    return true;
+}
+
 static uint64_t
 size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
 {
@@ -246,7 +311,8 @@ size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     case QDOT_SYM:
         return 0;
     case QDOT_SUM:
-        /* a term's minus is the operator that joins it */
+        /* a term's minus is the operator that joins it, if one without it can stand first */
+        size = leading_minus(pool, e);
         for (uint32_t i = 1; i < node->n; i += 2) {
             const fmpq *c = RATIONAL(pool, args[i + 1]);
 

@@ -14,7 +14,7 @@
 
 #include "expr/expr.h"
 
-typedef struct {
+typedef struct qdot_walk {
     const qdot_pool *pool;
     qdot_expr *at;   /* [n] ascending ids, children before parents; owned */
     size_t n;

@@ -95,18 +95,32 @@ qdot_answer_json_double(qdot_text *text, double value)
 
 /* --- expressions -------------------------------------------------------------------- */
 
-/* A name in the style of the session, where it is one: theta[1] but not diff(T,
+/* A name in the style of the session, where it is one: eom[theta] but not diff(T,
  * theta'). */
 static void
 styled_name(qdot_session *session, const char *name, qdot_text *out)
 {
-    size_t letters = strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                  "0123456789_[],");
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                  "0123456789_[],";
+    const char *bracket = strchr(name, '[');
+    size_t n = strlen(name);
+    char *inner;
 
-    if (session->style != QDOT_PLAIN && name[letters] == '\0')
-        qdot_print_name(name, session->style, out);
-    else
+    if (session->style == QDOT_PLAIN || strspn(name, letters) != n) {
         qdot_text_add(out, name);
+    } else if (bracket == NULL || name[n - 1] != ']' ||
+               (bracket[1] >= '0' && bracket[1] <= '9')) {
+        qdot_print_name(name, session->style, out);
+    } else { /* a value of the language by the name of a coordinate */
+        inner = qdot_strndup(bracket + 1, n - (size_t)(bracket - name) - 2);
+        qdot_text_add_n(out, name, (size_t)(bracket + 1 - name));
+        if (inner != NULL)
+            qdot_print_name(inner, session->style, out);
+        else
+            out->failed = true;
+        qdot_text_char(out, ']');
+        qdot_free(inner);
+    }
 }
 
 static bool

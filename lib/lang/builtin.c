@@ -9,6 +9,7 @@
 #include "lang/code.h"
 #include "mech/geometry.h"
 #include "normal/simplify.h"
+#include "normal/solve.h"
 
 static qdot_status
 give(qdot_session *s, qdot_expr result, qdot_expr *value)
@@ -256,6 +257,48 @@ call_simplify(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 
     (void)n;
     return give(s, qdot_simplify(s->pool, args[0], &facts), value);
+}
+
+static qdot_status
+call_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return give(s, qdot_solve_product(s->pool, args[0]), value);
+}
+
+/* solve(a = b, x), solve(e, x) of e = 0: the values of x, a list. */
+static qdot_status
+call_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_facts facts = qdot_scene_facts(s->scene);
+    qdot_expr f = is_equation(s->pool, args[0]) ? side_of(s->pool, args[0], DIFFERENCE)
+                                                : args[0];
+    qdot_root *roots = NULL;
+    qdot_expr *values;
+    size_t count = 0;
+    bool complete;
+
+    (void)n;
+    if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] <= QDOT_FALSE)
+        return qdot_fail(QDOT_ETYPE, "solve(a = b, x) asks a symbol for x");
+    if (!qdot_expr_is_scalar(s->pool, f))
+        return qdot_fail(QDOT_ETYPE, "solve asks an equation between numbers, not %s",
+                         qdot_resolve_kind(s->pool, args[0]));
+    QDOT_TRY(qdot_solve(s->pool, f, args[1], &facts, &roots, &count, &complete));
+    if (!complete) {
+        qdot_free(roots);
+        qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
+                  count > 0 ? " for every x" : "");
+        return qdot_hint("linear, quadratic, factorable and trigonometric equations can");
+    }
+    values = qdot_malloc((count + 1) * sizeof *values);
+    for (size_t i = 0; values != NULL && i < count; i++)
+        values[i] = roots[i].value;
+    *value = values == NULL ? qdot_pool_fail(s->pool)
+                            : qdot_list(s->pool, (uint32_t)count, values);
+    qdot_free(values);
+    qdot_free(roots);
+    return qdot_resolve_check(s->pool, *value);
 }
 
 static qdot_status
@@ -523,6 +566,11 @@ static const qdot_builtin rows[] = {
         "collect(t*2 + t*pi, t)"),
     ROW(1, 1, simplify, "simplify(e)", "the shortest form found",
         "simplify(sin(t)^2 + cos(t)^2)"),
+    ROW(1, 1, factor, "factor(e)", "e as a product of irreducible factors",
+        "factor(t^2 - 1)"),
+    ROW(2, 2, solve, "solve(a = b, x)",
+        "every real x, a list; angles between -pi and pi; parameters are generic",
+        "solve(t^2 = 4, t)"),
     ROW(1, 1, size, "size(e)", "number of operations in e", "size(t^2 + 1)"),
     ROW(1, 1, latex, "latex(e)", "e as LaTeX text, a statement of its own", "latex(t^2)"),
 
@@ -572,9 +620,7 @@ static const qdot_builtin rows[] = {
      "e along the latest run at time t; value(a.e, t) along the run a", "",
      QDOT_BUILTIN_RUN, NULL},
 
-    UNBUILT(factor, "factor(e)", "e as a product"),
     UNBUILT(series, "series(e, x = a, n)", "terms up to total degree n"),
-    UNBUILT(solve, "solve(a = b, x)", "the solutions, a list"),
     UNBUILT(eigenvalues, "eigenvalues(M)", "the eigenvalues of a matrix"),
     UNBUILT(mean, "mean(e, a..b)", "mean over a range of a run"),
     UNBUILT(drift, "drift(e)", "how far e drifted in a run"),

@@ -225,10 +225,11 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
         return QDOT_OK;
     status = qdot_print(pool, factor, session->style, &text);
     if (status == QDOT_OK)
-        status = qdot_answer_notice(
-            session,
-            "the equations differ by the factor %s: where it is 0 they do not agree",
-            qdot_text_str(&text));
+        status = qdot_answer_notice(session,
+                                    "the equations differ by the factor %s: where it is "
+                                    "0 or undefined they need not "
+                                    "agree",
+                                    qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
 }

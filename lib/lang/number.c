@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "lang/answer.h"
 #include "lang/declare.h"
 #include "lang/statement.h"
@@ -187,6 +188,8 @@ carry_out(qdot_cursor *c, const options *o, qdot_number_order *request)
         QDOT_TRY(qdot_pool_check(session->pool));
     if (run == NULL)
         return status;
+    if (status == QDOT_EINTR)
+        qdot_interrupt_clear(); /* heard: the run so far is kept and told */
     if (o->name == NULL)
         next_name(session, name, sizeof name);
     QDOT_TRY(keep_run(session, o->name != NULL ? o->name : name, run));

@@ -325,7 +325,10 @@ quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
     change = qdot_simplify(pool, change, &f->facts);
     if (change == QDOT_NIL || !gauge(f, change, &K))
         return QDOT_NIL;
-    sum = qdot_simplify(pool, qdot_sub(pool, sum, K), &f->facts);
+    sum = qdot_sub(pool, sum, K);
+    if (tau != QDOT_ZERO) /* the energy with its own sign */
+        sum = qdot_expand(pool, qdot_neg(pool, sum));
+    sum = qdot_simplify(pool, sum, &f->facts);
     return qdot_mech_holds(f->s, sum) & motion ? sum : QDOT_NIL;
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 
-/* --- functions ------------------------------------------------------------------------------ */
+/* --- functions --------------------------------------------------------------------- */
 
 /* Every domain error becomes an infinite or indeterminate ball, which is "not known". */
 
@@ -101,14 +101,15 @@ function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
     } else if (op == QDOT_MIN || op == QDOT_MAX) {
         arb_set(y, b->value + index_of(b, e, 0));
         for (uint32_t i = 1; i < n; i++)
-            (op == QDOT_MIN ? arb_min : arb_max)(y, y, b->value + index_of(b, e, i), prec);
+            (op == QDOT_MIN ? arb_min : arb_max)(y, y, b->value + index_of(b, e, i),
+                                                 prec);
     } else {
         return false;
     }
     return true;
 }
 
-/* --- sums, products, relations ------------------------------------------------------------------ */
+/* --- sums, products, relations ----------------------------------------------------- */
 
 static bool
 sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
@@ -119,7 +120,8 @@ sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
         return false;
     arb_set_fmpq(y, qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, 0)), prec);
     for (uint32_t i = 1; i < n; i += 2)
-        arb_addmul(y, b->value + index_of(b, e, i), b->value + index_of(b, e, i + 1), prec);
+        arb_addmul(y, b->value + index_of(b, e, i), b->value + index_of(b, e, i + 1),
+                   prec);
     return true;
 }
 
@@ -171,12 +173,9 @@ relation(const qdot_ball *b, qdot_expr e)
     if (!finite_args(b, e, 0))
         return 0;
     switch (qdot_expr_node(b->pool, e)->op) {
-    case QDOT_EQ:
-        return arb_eq(l, r) ? 1 : arb_ne(l, r) ? 2 : 0;
-    case QDOT_LT:
-        return arb_lt(l, r) ? 1 : arb_ge(l, r) ? 2 : 0;
-    default:
-        return arb_le(l, r) ? 1 : arb_gt(l, r) ? 2 : 0;
+    case QDOT_EQ: return arb_eq(l, r) ? 1 : arb_ne(l, r) ? 2 : 0;
+    case QDOT_LT: return arb_lt(l, r) ? 1 : arb_ge(l, r) ? 2 : 0;
+    default: return arb_le(l, r) ? 1 : arb_gt(l, r) ? 2 : 0;
     }
 }
 
@@ -202,7 +201,7 @@ logic(const qdot_ball *b, qdot_expr e)
     return all;
 }
 
-/* --- the pass ------------------------------------------------------------------------------------- */
+/* --- the pass ---------------------------------------------------------------------- */
 
 qdot_status
 qdot_ball_begin(qdot_ball *b, qdot_pool *pool, size_t n, const qdot_expr *e)
@@ -234,7 +233,8 @@ qdot_ball_end(qdot_ball *b)
 
 void
 qdot_ball_eval(qdot_ball *b, slong prec,
-               bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec), void *user)
+               bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
+               void *user)
 {
     for (size_t i = 0; i < b->walk.n; i++) {
         qdot_expr e = b->walk.at[i];
@@ -255,26 +255,13 @@ qdot_ball_eval(qdot_ball *b, slong prec,
             if (e == QDOT_PI)
                 arb_const_pi(y, prec);
             break;
-        case QDOT_UFUN:
-            known = of(user, e, y, prec);
-            break;
-        case QDOT_SUM:
-            known = sum(b, y, e, prec);
-            break;
-        case QDOT_PROD:
-            known = product(b, y, e, prec);
-            break;
-        case QDOT_FUN:
-            known = function(b, y, e, prec);
-            break;
-        case QDOT_REL:
-            b->known[i] = relation(b, e);
-            continue;
-        case QDOT_LOGIC:
-            b->known[i] = logic(b, e);
-            continue;
-        default:
-            break;
+        case QDOT_UFUN: known = of(user, e, y, prec); break;
+        case QDOT_SUM: known = sum(b, y, e, prec); break;
+        case QDOT_PROD: known = product(b, y, e, prec); break;
+        case QDOT_FUN: known = function(b, y, e, prec); break;
+        case QDOT_REL: b->known[i] = relation(b, e); continue;
+        case QDOT_LOGIC: b->known[i] = logic(b, e); continue;
+        default: break;
         }
         b->known[i] = known && arb_is_finite(y);
     }

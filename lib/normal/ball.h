@@ -12,8 +12,9 @@
 typedef struct {
     qdot_pool *pool;
     qdot_walk walk;
-    arb_ptr value;  /* [walk.n] */
-    uint8_t *known; /* [walk.n] scalars: 1 finite; relations: 1 true, 2 false; 0 not known */
+    arb_ptr value; /* [walk.n] */
+    uint8_t
+        *known; /* [walk.n] scalars: 1 finite; relations: 1 true, 2 false; 0 not known */
 } qdot_ball;
 
 /* Errors: QDOT_ENOMEM, QDOT_EINTR; then there is nothing to end. */
@@ -21,13 +22,13 @@ QDOT_MUST_CHECK qdot_status qdot_ball_begin(qdot_ball *b, qdot_pool *pool, size_
                                             const qdot_expr *e);
 void qdot_ball_end(qdot_ball *b);
 
-/* Evaluate all with prec bits. `of` gives the value of a symbol or of an application of an
- * undefined function; false: it has none. */
+/* Evaluate all with prec bits. `of` gives the value of a symbol or of an application of
+ * an undefined function; false: it has none. */
 void qdot_ball_eval(qdot_ball *b, slong prec,
                     bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
                     void *user);
 
-/* The value of one of the e, NULL where it is undefined or not known at this precision. */
+/* The value of one of the e, NULL where it is undefined or not known so far. */
 arb_srcptr qdot_ball_get(const qdot_ball *b, qdot_expr e);
 /* Of a relation or a logical expression: 1 true, 2 false, 0 not known. */
 int qdot_ball_truth(const qdot_ball *b, qdot_expr e);

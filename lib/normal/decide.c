@@ -11,12 +11,14 @@
 #include "normal/sample.h"
 
 #define WORK 60000000
+#define LARGE 2000 /* nodes: fewer points are looked at */
 
-/* --- proof ---------------------------------------------------------------------------------- */
+/* --- proof ------------------------------------------------------------------------- */
 
 /* Whether left - right is proved to be zero. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 static qdot_status
-prove(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts, bool *zero)
+prove(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+      bool *zero)
 {
     size_t nr = facts == NULL ? 0 : facts->n_relations;
     qdot_expr *e = qdot_malloc((nr + 2) * sizeof *e);
@@ -52,7 +54,8 @@ prove(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
             qdot_ideal_clear(&ideal, &f);
             fmpz_clear(scale);
         }
-        *zero = status == QDOT_OK && qdot_field_goes(&f) && fmpz_mpoly_is_zero(d.n, f.ctx);
+        *zero =
+            status == QDOT_OK && qdot_field_goes(&f) && fmpz_mpoly_is_zero(d.n, f.ctx);
         qdot_ratio_clear(&f, &d);
     }
     if (f.state == QDOT_FIELD_FAILED && status == QDOT_OK)
@@ -64,12 +67,12 @@ prove(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
-/* --- refutation --------------------------------------------------------------------------------- */
+/* --- refutation -------------------------------------------------------------------- */
 
 struct look {
-    int points;     /* wanted */
-    int tries;      /* at most so many points are chosen */
-    slong prec[4];  /* ascending, 0 ends */
+    int points;    /* wanted */
+    int tries;     /* at most so many points are chosen */
+    slong prec[4]; /* ascending, 0 ends */
 };
 
 static const struct look quick = {2, 24, {96, 0}};
@@ -133,17 +136,20 @@ look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fact
                const struct look *look, qdot_decision *d)
 {
     qdot_expr e[2] = {left, right};
+    int wanted = look->points;
     qdot_sample s;
 
     QDOT_TRY(qdot_sample_begin(&s, pool, 2, e, facts));
-    for (int k = 0; s.possible && k < look->tries && d->points < look->points; k++) {
+    if (s.ball.walk.n > LARGE && wanted > 3)
+        wanted = 3;
+    for (int k = 0; s.possible && k < look->tries && d->points < wanted; k++) {
         int digits = 0, here;
 
         if (qdot_interrupt_flag) {
             qdot_sample_end(&s);
             return qdot_interrupt_check();
         }
-        if (k > 24 && d->points == 0 && s.ball.walk.n > 2000)
+        if (k > 24 && d->points == 0 && s.ball.walk.n > LARGE)
             break;
         qdot_sample_point(&s, k);
         here = compare(&s, left, right, look, d, &digits);
@@ -161,7 +167,7 @@ look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fact
     return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
 }
 
-/* --- the decision --------------------------------------------------------------------------------- */
+/* --- the decision ------------------------------------------------------------------ */
 
 static qdot_status
 need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
@@ -170,13 +176,14 @@ need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return qdot_pool_failed(pool) ? qdot_pool_check(pool)
                                       : qdot_fail(QDOT_EINVAL, "nothing to compare");
     if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
-        return qdot_fail(QDOT_ETYPE, "numbers are compared here, not vectors or equations");
+        return qdot_fail(QDOT_ETYPE,
+                         "numbers are compared here, not vectors or equations");
     return QDOT_OK;
 }
 
 qdot_status
-qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
-                  qdot_decision *d)
+qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
+                  const qdot_facts *facts, qdot_decision *d)
 {
     bool zero;
 

@@ -87,10 +87,10 @@ by_monomials(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
     return status;
 }
 
-/* --- what is seen at once ------------------------------------------------------------------ */
+/* --- what is seen at once ---------------------------------------------------------- */
 
-/* Whether p, not divisible by a generator, is irreducible because some generator stands in one
- * term only, with degree 1: c M v + R with no common factor of M and R. */
+/* Whether p, not divisible by a generator, is irreducible because some generator stands
+ * in one term only, with degree 1: c M v + R with no common factor of M and R. */
 static bool
 has_lone_generator(qdot_field *f, const fmpz_mpoly_t p)
 {
@@ -137,7 +137,7 @@ common_power(qdot_field *f, const fmpz_mpoly_t p)
     return g;
 }
 
-/* The square root of a monomial with even exponents; false if its coefficient has none. */
+/* The square root of a term with even exponents; false if its coefficient has none. */
 static bool
 root_of_term(qdot_field *f, fmpz_mpoly_t root, const fmpz_mpoly_t p, slong i)
 {
@@ -161,10 +161,11 @@ root_of_term(qdot_field *f, fmpz_mpoly_t root, const fmpz_mpoly_t p, slong i)
     return square;
 }
 
-/* Binomials a M + b N, coprime: irreducible if the exponents have no common divisor; if that is
- * 2, only a difference of squares comes apart. *split: it did, into u and v. */
+/* Binomials a M + b N, coprime: irreducible if the exponents have no common divisor; if
+ * that is 2, only a difference of squares comes apart. *split: it did, into u and v. */
 static bool
-is_plain_binomial(qdot_field *f, const fmpz_mpoly_t p, fmpz_mpoly_t u, fmpz_mpoly_t v, bool *split)
+is_plain_binomial(qdot_field *f, const fmpz_mpoly_t p, fmpz_mpoly_t u, fmpz_mpoly_t v,
+                  bool *split)
 {
     ulong power = common_power(f, p);
     fmpz_mpoly_t a, b;
@@ -187,7 +188,8 @@ is_plain_binomial(qdot_field *f, const fmpz_mpoly_t p, fmpz_mpoly_t u, fmpz_mpol
     return true;
 }
 
-/* Finish `out` (its monomials and the rest) without FLINT's factorisation, where that shows. */
+/* Finish `out` (its monomials and the rest) without FLINT's factorisation, where that
+ * shows. */
 static qdot_status
 at_a_glance(qdot_field *f, qdot_factors *out, bool *done)
 {
@@ -200,7 +202,8 @@ at_a_glance(qdot_field *f, qdot_factors *out, bool *done)
         return QDOT_OK;
     fmpz_mpoly_init(u, f->ctx);
     fmpz_mpoly_init(v, f->ctx);
-    *done = fmpz_mpoly_length(rest, f->ctx) == 2 && is_plain_binomial(f, rest, u, v, &split);
+    *done =
+        fmpz_mpoly_length(rest, f->ctx) == 2 && is_plain_binomial(f, rest, u, v, &split);
     if (*done && split) {
         fmpz_mpoly_swap(rest, u, f->ctx);
         fmpz_mpoly_init(out->poly + out->n, f->ctx);
@@ -274,7 +277,7 @@ qdot_factor_clear(qdot_field *f, qdot_factors *out)
     qdot_free(out->exp);
 }
 
-/* --- groups ------------------------------------------------------------------------------- */
+/* --- groups ------------------------------------------------------------------------ */
 
 static slong
 find_key(const qdot_groups *out, slong gens, const ulong *key)
@@ -308,9 +311,11 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
         }
         at = find_key(out, gens, key);
         if (at < 0) {
-            status = qdot_grow(&out->key, &keys, (size_t)((out->n + 1) * gens), sizeof *key);
+            status =
+                qdot_grow(&out->key, &keys, (size_t)((out->n + 1) * gens), sizeof *key);
             if (status == QDOT_OK)
-                status = qdot_grow(&out->poly, &polys, (size_t)out->n + 1, sizeof *out->poly);
+                status =
+                    qdot_grow(&out->poly, &polys, (size_t)out->n + 1, sizeof *out->poly);
             if (status != QDOT_OK)
                 break;
             at = out->n++;
@@ -360,7 +365,8 @@ qdot_factor_flip(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong c)
     for (slong i = 0; i < groups.n && status == QDOT_OK; i++) {
         ulong k = groups.key[i * f->n + c];
 
-        if (!qdot_field_charge(f, fmpz_mpoly_length(groups.poly + i, f->ctx), (slong)k + 1))
+        if (!qdot_field_charge(f, fmpz_mpoly_length(groups.poly + i, f->ctx),
+                               (slong)k + 1))
             break;
         if (k / 2 > 0) {
             fmpz_mpoly_pow_ui(power, square, k / 2, f->ctx);

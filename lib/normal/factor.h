@@ -1,10 +1,12 @@
-/* factor.h -- factors of polynomials in a field, grouping of terms, the other trigonometric form. */
+/* factor.h -- factors of polynomials in a field, grouping of terms, the other
+ * trigonometric form. */
 #ifndef QDOT_NORMAL_FACTOR_H
 #define QDOT_NORMAL_FACTOR_H
 
 #include "normal/field.h"
 
-/* content * prod poly[i]^exp[i]; every poly primitive, its leading coefficient positive. */
+/* content * prod poly[i]^exp[i]; every poly primitive, its leading coefficient
+ * positive. */
 typedef struct {
     fmpz_t content;
     fmpz_mpoly_struct *poly;
@@ -14,7 +16,8 @@ typedef struct {
 } qdot_factors;
 
 /* Factor p, not zero; past the bounds only monomials and integers come out. */
-QDOT_MUST_CHECK qdot_status qdot_factor(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p);
+QDOT_MUST_CHECK qdot_status qdot_factor(qdot_field *f, qdot_factors *out,
+                                        const fmpz_mpoly_t p);
 void qdot_factor_clear(qdot_field *f, qdot_factors *out);
 
 /* Terms of a polynomial grouped by their exponents in some variables. */

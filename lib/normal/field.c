@@ -17,7 +17,7 @@ stop(qdot_field *f, qdot_status status)
     f->status = status;
 }
 
-/* --- which generators occur --------------------------------------------------------------- */
+/* --- which generators occur -------------------------------------------------------- */
 
 struct found {
     qdot_gen *at;
@@ -48,7 +48,8 @@ push(struct found *g, qdot_expr e)
     return QDOT_OK;
 }
 
-/* b^(1/q) occurs. Roots of one base share the least common order; the expression comes later. */
+/* b^(1/q) occurs. Roots of one base share the least common order; the expression comes
+ * later. */
 static qdot_status
 add_root(struct found *g, qdot_expr base, ulong q)
 {
@@ -146,25 +147,21 @@ look_at_function(qdot_field *f, struct found *g, qdot_expr e)
     case QDOT_TAN:
     case QDOT_SEC:
     case QDOT_CSC:
-    case QDOT_COT:
-        return qdot_lattice_add(&f->circular, f->pool, arg, true, &row);
+    case QDOT_COT: return qdot_lattice_add(&f->circular, f->pool, arg, true, &row);
     case QDOT_SINH:
     case QDOT_COSH:
-    case QDOT_TANH:
-        return qdot_lattice_add(&f->hyperbolic, f->pool, arg, false, &row);
-    case QDOT_EXP:
-        return qdot_lattice_add(&f->exponential, f->pool, arg, false, &row);
+    case QDOT_TANH: return qdot_lattice_add(&f->hyperbolic, f->pool, arg, false, &row);
+    case QDOT_EXP: return qdot_lattice_add(&f->exponential, f->pool, arg, false, &row);
     case QDOT_ABS:
         QDOT_TRY(push(g, arg));
         return add_gen(g, (qdot_gen){.kind = QDOT_GEN_ABS, .expr = e, .of = arg});
-    default:
-        return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
+    default: return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
     }
 }
 
 #define FAST                                                                             \
-    (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER | QDOT_HAS_MOMENTUM | \
-     QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA)
+    (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |                   \
+     QDOT_HAS_MOMENTUM | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA)
 
 static qdot_status
 look_at_node(qdot_field *f, struct found *g, qdot_expr e)
@@ -173,10 +170,10 @@ look_at_node(qdot_field *f, struct found *g, qdot_expr e)
     uint32_t n = qdot_expr_count(pool, e);
 
     switch (qdot_expr_kind(pool, e)) {
-    case QDOT_NUM:
-        return QDOT_OK;
+    case QDOT_NUM: return QDOT_OK;
     case QDOT_SYM:
-        return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e,
+        return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN,
+                                     .expr = e,
                                      .fast = qdot_expr_node(pool, e)->holds & FAST});
     case QDOT_SUM:
         for (uint32_t i = 1; i < n; i += 2)
@@ -184,14 +181,12 @@ look_at_node(qdot_field *f, struct found *g, qdot_expr e)
         return QDOT_OK;
     case QDOT_PROD:
         for (uint32_t i = 1; i < n; i += 2)
-            QDOT_TRY(add_power(f, g, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1)));
+            QDOT_TRY(add_power(f, g, qdot_expr_arg(pool, e, i),
+                               qdot_expr_arg(pool, e, i + 1)));
         return QDOT_OK;
-    case QDOT_FUN:
-        return look_at_function(f, g, e);
-    case QDOT_UFUN:
-        return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
-    default:
-        return qdot_fail(QDOT_ETYPE, "a number is needed here");
+    case QDOT_FUN: return look_at_function(f, g, e);
+    case QDOT_UFUN: return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
+    default: return qdot_fail(QDOT_ETYPE, "a number is needed here");
     }
 }
 
@@ -233,7 +228,7 @@ look_at_all(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
     return QDOT_OK;
 }
 
-/* --- their order, the rules of the trigonometric ones --------------------------------------- */
+/* --- their order, the rules of the trigonometric ones ------------------------------ */
 
 /* Hyperbolic functions beside exponentials are written by these. */
 static qdot_status
@@ -244,15 +239,15 @@ merge_hyperbolic(qdot_field *f)
     if (f->exponential.n_rows == 0)
         return QDOT_OK;
     for (size_t i = 0; i < f->hyperbolic.n_rows; i++)
-        QDOT_TRY(qdot_lattice_add(&f->exponential, f->pool, f->hyperbolic.row[i].arg, false,
-                                  &row));
+        QDOT_TRY(qdot_lattice_add(&f->exponential, f->pool, f->hyperbolic.row[i].arg,
+                                  false, &row));
     qdot_lattice_clear(&f->hyperbolic);
     return QDOT_OK;
 }
 
 static qdot_status
-add_pairs(qdot_field *f, struct found *g, const qdot_lattice *l, qdot_fun_id s, qdot_fun_id c,
-          qdot_gen_kind ks, qdot_gen_kind kc)
+add_pairs(qdot_field *f, struct found *g, const qdot_lattice *l, qdot_fun_id s,
+          qdot_fun_id c, qdot_gen_kind ks, qdot_gen_kind kc)
 {
     for (size_t j = 0; j < l->n_bases; j++) {
         qdot_expr b = l->base[j];
@@ -273,7 +268,8 @@ add_exponentials(qdot_field *f, struct found *g)
 {
     for (size_t j = 0; j < f->exponential.n_bases; j++) {
         qdot_expr b = f->exponential.base[j];
-        qdot_gen e = {.kind = QDOT_GEN_EXP, .expr = qdot_fun1(f->pool, QDOT_EXP, b), .of = b};
+        qdot_gen e = {
+            .kind = QDOT_GEN_EXP, .expr = qdot_fun1(f->pool, QDOT_EXP, b), .of = b};
 
         if (e.expr == QDOT_NIL)
             return qdot_pool_check(f->pool);
@@ -287,9 +283,10 @@ add_exponentials(qdot_field *f, struct found *g)
 static int
 place_of(qdot_gen_kind kind)
 {
-    static const int place[] = {[QDOT_GEN_ROOT] = 0, [QDOT_GEN_ABS] = 0,  [QDOT_GEN_SIN] = 1,
-                                [QDOT_GEN_SINH] = 2, [QDOT_GEN_COS] = 3,  [QDOT_GEN_COSH] = 4,
-                                [QDOT_GEN_EXP] = 5,  [QDOT_GEN_PLAIN] = 6};
+    static const int place[] = {
+        [QDOT_GEN_ROOT] = 0, [QDOT_GEN_ABS] = 0,  [QDOT_GEN_SIN] = 1,
+        [QDOT_GEN_SINH] = 2, [QDOT_GEN_COS] = 3,  [QDOT_GEN_COSH] = 4,
+        [QDOT_GEN_EXP] = 5,  [QDOT_GEN_PLAIN] = 6};
 
     return place[kind];
 }
@@ -306,7 +303,8 @@ by_place(const void *a, const void *b, void *pool)
         return x->of > y->of ? -1 : 1;
     if (x->of != QDOT_NIL && x->of != y->of)
         return qdot_expr_compare(pool, x->of, y->of);
-    return qdot_expr_compare(pool, y->expr, x->expr); /* accelerations before parameters */
+    return qdot_expr_compare(pool, y->expr,
+                             x->expr); /* accelerations before parameters */
 }
 
 static void
@@ -323,8 +321,8 @@ pair_up(qdot_field *f)
             }
 }
 
-/* Rules in the order of their variables; those of roots are filled in when the value of the
- * base is known (value.c). */
+/* Rules in the order of their variables; those of roots are filled in when the value of
+ * the base is known (value.c). */
 static qdot_status
 make_rules(qdot_field *f)
 {
@@ -347,11 +345,11 @@ make_rules(qdot_field *f)
         fmpz_mpoly_push_term_si_ui(rule->poly, 1, exp, f->ctx);
         exp[v] = 0;
         exp[f->gen[v].pair] = 2;
-        fmpz_mpoly_push_term_si_ui(rule->poly, f->gen[v].kind == QDOT_GEN_SIN ? 1 : -1, exp,
-                                   f->ctx);
+        fmpz_mpoly_push_term_si_ui(rule->poly, f->gen[v].kind == QDOT_GEN_SIN ? 1 : -1,
+                                   exp, f->ctx);
         exp[f->gen[v].pair] = 0;
-        fmpz_mpoly_push_term_si_ui(rule->poly, f->gen[v].kind == QDOT_GEN_SIN ? -1 : 1, exp,
-                                   f->ctx);
+        fmpz_mpoly_push_term_si_ui(rule->poly, f->gen[v].kind == QDOT_GEN_SIN ? -1 : 1,
+                                   exp, f->ctx);
     }
     qdot_free(exp);
     return QDOT_OK;
@@ -370,7 +368,8 @@ settle(qdot_field *f, struct found *g)
     QDOT_TRY(merge_hyperbolic(f));
     if (f->circular.n_rows > 0) {
         QDOT_TRY(qdot_lattice_solve(&f->circular, f->pool));
-        QDOT_TRY(add_pairs(f, g, &f->circular, QDOT_SIN, QDOT_COS, QDOT_GEN_SIN, QDOT_GEN_COS));
+        QDOT_TRY(add_pairs(f, g, &f->circular, QDOT_SIN, QDOT_COS, QDOT_GEN_SIN,
+                           QDOT_GEN_COS));
     }
     if (f->hyperbolic.n_rows > 0) {
         QDOT_TRY(qdot_lattice_solve(&f->hyperbolic, f->pool));
@@ -381,7 +380,8 @@ settle(qdot_field *f, struct found *g)
         QDOT_TRY(qdot_lattice_solve(&f->exponential, f->pool));
         QDOT_TRY(add_exponentials(f, g));
     }
-    qsort_r(g->at, g->n, sizeof *g->at, by_place, f->pool);
+    if (g->n > 1)
+        qsort_r(g->at, g->n, sizeof *g->at, by_place, f->pool);
     f->gen = g->at;
     g->at = NULL;
     f->n = (slong)g->n;
@@ -394,7 +394,8 @@ settle(qdot_field *f, struct found *g)
 }
 
 void
-qdot_field_begin(qdot_field *f, qdot_pool *pool, size_t n, const qdot_expr *e, int64_t work)
+qdot_field_begin(qdot_field *f, qdot_pool *pool, size_t n, const qdot_expr *e,
+                 int64_t work)
 {
     struct found g = {0};
     qdot_status status;

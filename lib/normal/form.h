@@ -26,6 +26,11 @@ qdot_expr qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
 /* The coefficient of a monomial in velocities: no fast variable in p. */
 qdot_expr qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p);
 
+/* The same without trigonometric variables. */
+qdot_expr qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p);
+
+qdot_expr qdot_form_integer(qdot_pool *pool, const fmpz_t n);
+
 /* A polynomial in trigonometric variables alone (trig-form.c). */
 qdot_expr qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p);
 

@@ -46,8 +46,8 @@ add(qdot_ideal *ideal, qdot_field *f, const fmpz_mpoly_t p)
 {
     fmpz_mpoly_struct *copy = qdot_malloc(sizeof *copy);
 
-    if (copy == NULL ||
-        qdot_grow(&ideal->poly, &ideal->capacity, ideal->n + 1, sizeof *ideal->poly) != QDOT_OK) {
+    if (copy == NULL || qdot_grow(&ideal->poly, &ideal->capacity, ideal->n + 1,
+                                  sizeof *ideal->poly) != QDOT_OK) {
         qdot_free(copy);
         return QDOT_ENOMEM;
     }
@@ -166,7 +166,8 @@ complete(qdot_ideal *ideal, qdot_field *f)
                 continue;
             pairs++;
             qdot_ideal_reduce(ideal, f, scale, s);
-            if (fmpz_mpoly_is_zero(s, f->ctx) || fmpz_mpoly_length(s, f->ctx) > MOST_TERMS)
+            if (fmpz_mpoly_is_zero(s, f->ctx) ||
+                fmpz_mpoly_length(s, f->ctx) > MOST_TERMS)
                 continue;
             status = strip(f, s, ideal->generic);
             if (status == QDOT_OK && fmpz_mpoly_is_fmpz(s, f->ctx))

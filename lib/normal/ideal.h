@@ -1,7 +1,7 @@
 /* ideal.h -- relations between generators: a small Groebner basis within a budget.
  *
- * Membership is a proof whatever the order: p = sum q_i b_i, every b_i zero where the relations
- * hold. Factors known not to vanish are taken out of relations (saturation).
+ * Membership is a proof whatever the order: p = sum q_i b_i, every b_i zero where the
+ * relations hold. Factors known not to vanish are taken out of relations (saturation).
  */
 #ifndef QDOT_NORMAL_IDEAL_H
 #define QDOT_NORMAL_IDEAL_H
@@ -20,7 +20,8 @@ QDOT_MUST_CHECK qdot_status qdot_ideal_make(qdot_ideal *ideal, qdot_field *f, si
                                             const qdot_expr *relation);
 void qdot_ideal_clear(qdot_ideal *ideal, qdot_field *f);
 
-/* s p = remainder + element of the ideal, s a positive integer; nothing if there are no relations. */
+/* s p = remainder + element of the ideal, s a positive integer; nothing if there are no
+ * relations. */
 void qdot_ideal_reduce(const qdot_ideal *ideal, qdot_field *f, fmpz_t s, fmpz_mpoly_t p);
 
 #endif

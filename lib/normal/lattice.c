@@ -23,7 +23,8 @@ monomial(qdot_lattice *l, qdot_expr mono, uint32_t *index)
 }
 
 static qdot_status
-add_term(qdot_lattice *l, qdot_lattice_row *row, qdot_expr mono, const fmpq_t c, bool offsets)
+add_term(qdot_lattice *l, qdot_lattice_row *row, qdot_expr mono, const fmpq_t c,
+         bool offsets)
 {
     uint32_t index;
 
@@ -65,7 +66,8 @@ unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
 }
 
 static qdot_status
-parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg, bool offsets)
+parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg,
+      bool offsets)
 {
     qdot_status status = QDOT_OK;
     fmpq_t c;
@@ -83,15 +85,16 @@ parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg, bo
     } else {
         qdot_expr mono = unscale(pool, arg, c);
 
-        status = mono == QDOT_NIL ? qdot_pool_check(pool)
-                                  : add_term(l, row, mono, c, offsets);
+        status =
+            mono == QDOT_NIL ? qdot_pool_check(pool) : add_term(l, row, mono, c, offsets);
     }
     fmpq_clear(c);
     return status;
 }
 
 qdot_status
-qdot_lattice_add(qdot_lattice *l, qdot_pool *pool, qdot_expr arg, bool offsets, uint32_t *index)
+qdot_lattice_add(qdot_lattice *l, qdot_pool *pool, qdot_expr arg, bool offsets,
+                 uint32_t *index)
 {
     qdot_lattice_row *row;
 
@@ -131,7 +134,8 @@ coordinate(qdot_lattice_row *row, size_t j, const fmpq_t c, const fmpq_t unit)
     if (fits)
         row->at[j] = fmpz_get_si(fmpq_numref(x));
     fmpq_clear(x);
-    return fits ? QDOT_OK : qdot_fail(QDOT_ELIMIT, "an angle is a multiple beyond %d", FARTHEST);
+    return fits ? QDOT_OK
+                : qdot_fail(QDOT_ELIMIT, "an angle is a multiple beyond %d", FARTHEST);
 }
 
 static qdot_expr
@@ -153,11 +157,12 @@ combination(qdot_lattice *l, qdot_pool *pool, size_t n, const qdot_lattice_term 
 }
 
 struct direction {
-    size_t row;  /* the row that shows it; its scalar is 1 */
-    fmpq unit;   /* gcd of the scalars */
+    size_t row; /* the row that shows it; its scalar is 1 */
+    fmpq unit;  /* gcd of the scalars */
 };
 
-/* Whether row b is a rational multiple of row a; *q is b/a. Terms are sorted by monomial. */
+/* Whether row b is a rational multiple of row a; *q is b/a. Terms are sorted by
+ * monomial. */
 static bool
 parallel(const qdot_lattice_row *a, const qdot_lattice_row *b, fmpq_t q)
 {

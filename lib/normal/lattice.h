@@ -1,9 +1,11 @@
-/* lattice.h -- base angles: arguments as integer combinations of as few angles as can be.
+/* lattice.h -- base angles: arguments as integer combinations of as few angles as can
+ * be.
  *
- * An argument is a linear combination over Q of angle monomials (theta, omega*t, 1 ...) plus a
- * rational multiple of pi. When the directions of the arguments are independent each is a base
- * of its own, divided by the common denominator of its multiples (theta1 - theta2 alone is one
- * base; theta and theta/2 have the base theta/2); else each monomial is a base.
+ * An argument is a linear combination over Q of angle monomials (theta, omega*t, 1 ...)
+ * plus a rational multiple of pi. When the directions of the arguments are independent
+ * each is a base of its own, divided by the common denominator of its multiples (theta1
+ * - theta2 alone is one base; theta and theta/2 have the base theta/2); else each
+ * monomial is a base.
  */
 #ifndef QDOT_NORMAL_LATTICE_H
 #define QDOT_NORMAL_LATTICE_H
@@ -23,7 +25,7 @@ typedef struct {
     fmpq pi;                 /* the multiple of pi, if its denominator divides 12 */
     qdot_lattice_term *term; /* [n] */
     size_t n, capacity;
-    slong *at;               /* [n_bases] its coordinates */
+    slong *at; /* [n_bases] its coordinates */
 } qdot_lattice_row;
 
 /* Start with `qdot_lattice l = {0};`. */
@@ -38,8 +40,8 @@ typedef struct {
 
 /* Add an argument (a sum of terms; twice is once). `offsets`: split multiples of pi off.
  * *row: its number. Errors: QDOT_ENOMEM, the pool's. */
-QDOT_MUST_CHECK qdot_status qdot_lattice_add(qdot_lattice *l, qdot_pool *pool, qdot_expr arg,
-                                             bool offsets, uint32_t *row);
+QDOT_MUST_CHECK qdot_status qdot_lattice_add(qdot_lattice *l, qdot_pool *pool,
+                                             qdot_expr arg, bool offsets, uint32_t *row);
 /* Find the bases and all coordinates. QDOT_ELIMIT: a coordinate beyond +-200. */
 QDOT_MUST_CHECK qdot_status qdot_lattice_solve(qdot_lattice *l, qdot_pool *pool);
 void qdot_lattice_clear(qdot_lattice *l);

@@ -1,4 +1,5 @@
-/* less.c -- inequalities: signs of factors, ends of the ranges of cosines, boxes; else a point. */
+/* less.c -- inequalities: signs of factors, ends of the ranges of cosines, boxes; else
+ * a point. */
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -32,7 +33,7 @@ node_sign(const qdot_pool *pool, qdot_expr e)
     return e == QDOT_NIL ? 0 : qdot_expr_node(pool, e)->sign;
 }
 
-/* --- ends of ranges ---------------------------------------------------------------------------- */
+/* --- ends of ranges ---------------------------------------------------------------- */
 
 /* The sign that holds at both ends, so between them, for what is linear there. */
 static uint8_t
@@ -56,8 +57,10 @@ by_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
     fmpz_mpoly_init(at_other, f->ctx);
     fmpz_mpoly_evaluate_one_fmpz(at_one, p, v, end, f->ctx);
     if (f->gen[v].kind == QDOT_GEN_COSH) {
-        fmpz_mpoly_derivative(at_other, p, v, f->ctx); /* A itself: its sign, at least as >= */
-        sign = both(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth) | QDOT_NE0);
+        fmpz_mpoly_derivative(at_other, p, v,
+                              f->ctx); /* A itself: its sign, at least as >= */
+        sign =
+            both(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth) | QDOT_NE0);
     } else {
         fmpz_set_si(end, -1);
         fmpz_mpoly_evaluate_one_fmpz(at_other, p, v, end, f->ctx);
@@ -140,7 +143,8 @@ sign_by_factors(qdot_pool *pool, qdot_expr e)
         if (qdot_field_goes(&f))
             sign = times(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
         for (slong v = 0; v < f.n && sign == 0 && qdot_field_goes(&f); v++)
-            if (f.gen[v].kind == QDOT_GEN_COS && qdot_factor_flip(&f, x.n, x.n, v) == QDOT_OK)
+            if (f.gen[v].kind == QDOT_GEN_COS &&
+                qdot_factor_flip(&f, x.n, x.n, v) == QDOT_OK)
                 sign = times(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
         qdot_ratio_clear(&f, &x);
     }
@@ -148,9 +152,10 @@ sign_by_factors(qdot_pool *pool, qdot_expr e)
     return sign;
 }
 
-/* --- domains moved to zero, boxes --------------------------------------------------------------- */
+/* --- domains moved to zero, boxes -------------------------------------------------- */
 
-/* x = lo + y or hi - y, y >= 0, for every bound that is a number but not zero; expanded. */
+/* x = lo + y or hi - y, y >= 0, for every bound that is a number but not zero;
+ * expanded. */
 static qdot_expr
 moved(qdot_pool *pool, qdot_expr e)
 {
@@ -241,8 +246,8 @@ number(qdot_pool *pool, qdot_expr e, bool up, double *x)
     return value != NULL;
 }
 
-/* Whether e > 0 on the whole (closed) box of its symbols' domains: halved until every part says
- * so. */
+/* Whether e > 0 on the whole (closed) box of its symbols' domains: halved until every
+ * part says so. */
 static bool
 positive_on_box(qdot_pool *pool, qdot_expr e)
 {
@@ -301,7 +306,7 @@ positive_on_box(qdot_pool *pool, qdot_expr e)
     return positive;
 }
 
-/* --- the decision ----------------------------------------------------------------------------------- */
+/* --- the decision ------------------------------------------------------------------ */
 
 static bool
 enough(uint8_t sign, bool strict)
@@ -322,7 +327,8 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
     if (enough(node_sign(pool, s), strict) || enough(sign_by_factors(pool, s), strict))
         return true;
     d = moved(pool, s);
-    if (d != s && (enough(node_sign(pool, d), strict) || enough(sign_by_factors(pool, d), strict)))
+    if (d != s &&
+        (enough(node_sign(pool, d), strict) || enough(sign_by_factors(pool, d), strict)))
         return true;
     return positive_on_box(pool, s);
 }
@@ -352,8 +358,8 @@ proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts 
 
 /* A point where left - right is surely not negative (strict), or surely positive. */
 static qdot_status
-refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict, const qdot_facts *facts,
-       qdot_decision *d)
+refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+       const qdot_facts *facts, qdot_decision *d)
 {
     qdot_expr e[2] = {left, right};
     qdot_sample s;
@@ -367,7 +373,8 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict, const qdot
         qdot_sample_point(&s, k);
         for (slong prec = 64; prec <= 1024; prec *= 4) {
             bool here = qdot_sample_eval(&s, prec);
-            arb_srcptr l = qdot_ball_get(&s.ball, left), r = qdot_ball_get(&s.ball, right);
+            arb_srcptr l = qdot_ball_get(&s.ball, left),
+                       r = qdot_ball_get(&s.ball, right);
 
             if (!here || l == NULL || r == NULL)
                 continue;
@@ -403,10 +410,11 @@ qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         return qdot_pool_failed(pool) ? qdot_pool_check(pool)
                                       : qdot_fail(QDOT_EINVAL, "nothing to compare");
     if (!qdot_expr_is_scalar(pool, left) || !qdot_expr_is_scalar(pool, right))
-        return qdot_fail(QDOT_ETYPE, "numbers are compared here, not vectors or equations");
+        return qdot_fail(QDOT_ETYPE,
+                         "numbers are compared here, not vectors or equations");
     gap = qdot_sub(pool, right, left);
-    if (gap != QDOT_NIL &&
-        (proved(pool, gap, strict, facts) || proved_by_condition(pool, gap, strict, facts))) {
+    if (gap != QDOT_NIL && (proved(pool, gap, strict, facts) ||
+                            proved_by_condition(pool, gap, strict, facts))) {
         d->verdict = QDOT_PROVED;
         return QDOT_OK;
     }

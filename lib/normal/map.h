@@ -10,7 +10,7 @@ typedef struct {
     struct {
         qdot_expr key; /* nil: free */
         uint32_t value;
-    } *at;
+    } * at;
     uint32_t n, mask;
 } qdot_map;
 

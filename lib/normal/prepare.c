@@ -9,7 +9,7 @@
 #define WORK 400000
 #define MOST_MULTIPLE 12
 
-/* --- flat normal form ------------------------------------------------------------------------ */
+/* --- flat normal form -------------------------------------------------------------- */
 
 static bool
 is_monomial(const qdot_pool *pool, qdot_expr e)
@@ -28,7 +28,8 @@ is_monomial(const qdot_pool *pool, qdot_expr e)
     return true;
 }
 
-/* A sum of monomials in symbols: normal as it stands, unless `whole` and a power is negative. */
+/* A sum of monomials in symbols: normal as it stands, unless `whole` and a power is
+ * negative. */
 static bool
 is_flat(const qdot_pool *pool, qdot_expr e, bool polynomial)
 {
@@ -97,7 +98,8 @@ flat_angle(qdot_pool *pool, qdot_expr e)
             fmpz_mpoly_init(term, f.ctx);
             for (slong i = 0; i < fmpz_mpoly_length(r.n, f.ctx); i++) {
                 fmpz_mpoly_get_term(term, r.n, i, f.ctx);
-                sum = qdot_add(pool, sum, qdot_mul(pool, qdot_field_expr(&f, term), over));
+                sum =
+                    qdot_add(pool, sum, qdot_mul(pool, qdot_field_expr(&f, term), over));
             }
             fmpz_mpoly_clear(term, f.ctx);
         }
@@ -107,7 +109,7 @@ flat_angle(qdot_pool *pool, qdot_expr e)
     return sum;
 }
 
-/* --- inverse functions under their functions ---------------------------------------------------- */
+/* --- inverse functions under their functions --------------------------------------- */
 
 static qdot_expr
 one_plus(qdot_pool *pool, qdot_expr u, long sign)
@@ -122,7 +124,8 @@ root(qdot_pool *pool, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_split_power(pool, e, QDOT_HALF);
 }
 
-/* s, c: sin and cos of an inverse circular function, sinh and cosh of an inverse hyperbolic. */
+/* s, c: sin and cos of an inverse circular function, sinh and cosh of an inverse
+ * hyperbolic. */
 static bool
 of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr *c)
 {
@@ -146,8 +149,10 @@ of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr 
         return circular;
     case QDOT_ATAN2:
         v = qdot_expr_arg(pool, e, 1);
-        r = root(pool, qdot_prepare_flat(pool, qdot_add(pool, qdot_pow_int(pool, u, 2),
-                                                        qdot_pow_int(pool, v, 2)), WORK));
+        r = root(pool, qdot_prepare_flat(pool,
+                                         qdot_add(pool, qdot_pow_int(pool, u, 2),
+                                                  qdot_pow_int(pool, v, 2)),
+                                         WORK));
         *s = qdot_div(pool, u, r);
         *c = qdot_div(pool, v, r);
         return circular;
@@ -163,8 +168,7 @@ of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr 
         *c = qdot_div(pool, QDOT_ONE, root(pool, one_plus(pool, u, -1)));
         *s = qdot_mul(pool, u, *c);
         return !circular;
-    default:
-        return false;
+    default: return false;
     }
 }
 
@@ -190,8 +194,8 @@ term_at(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *c, qdot_expr *rest)
     }
 }
 
-/* A function of an argument that holds inverse functions, by the addition theorems; nil if it
- * holds none. */
+/* A function of an argument that holds inverse functions, by the addition theorems; nil
+ * if it holds none. */
 static qdot_expr
 resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
 {
@@ -203,9 +207,9 @@ resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
         qdot_expr factor, rest;
 
         term_at(pool, arg, i, &factor, &rest);
-        if (qdot_expr_kind(pool, rest) != QDOT_FUN || !qdot_expr_to_int(pool, factor, &n) ||
-            n > MOST_MULTIPLE || n < -MOST_MULTIPLE ||
-            !of_inverse(pool, rest, circular, &s1, &c1))
+        if (qdot_expr_kind(pool, rest) != QDOT_FUN ||
+            !qdot_expr_to_int(pool, factor, &n) || n > MOST_MULTIPLE ||
+            n < -MOST_MULTIPLE || !of_inverse(pool, rest, circular, &s1, &c1))
             continue;
         any = true;
         left = qdot_sub(pool, left, qdot_mul(pool, factor, rest));
@@ -225,23 +229,18 @@ resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
     s1 = qdot_fun1(pool, circular ? QDOT_SIN : QDOT_SINH, left);
     c1 = qdot_fun1(pool, circular ? QDOT_COS : QDOT_COSH, left);
     s2 = qdot_add(pool, qdot_mul(pool, s, c1), qdot_mul(pool, c, s1));
-    c2 = qdot_add(pool, qdot_mul(pool, c, c1),
-                  qdot_mul(pool, qdot_expr_int(pool, circular ? -1 : 1), qdot_mul(pool, s, s1)));
+    c2 = qdot_add(
+        pool, qdot_mul(pool, c, c1),
+        qdot_mul(pool, qdot_expr_int(pool, circular ? -1 : 1), qdot_mul(pool, s, s1)));
     switch (op) {
     case QDOT_SIN:
-    case QDOT_SINH:
-        return s2;
+    case QDOT_SINH: return s2;
     case QDOT_COS:
-    case QDOT_COSH:
-        return c2;
-    case QDOT_SEC:
-        return qdot_div(pool, QDOT_ONE, c2);
-    case QDOT_CSC:
-        return qdot_div(pool, QDOT_ONE, s2);
-    case QDOT_COT:
-        return qdot_div(pool, c2, s2);
-    default:
-        return qdot_div(pool, s2, c2);
+    case QDOT_COSH: return c2;
+    case QDOT_SEC: return qdot_div(pool, QDOT_ONE, c2);
+    case QDOT_CSC: return qdot_div(pool, QDOT_ONE, s2);
+    case QDOT_COT: return qdot_div(pool, c2, s2);
+    default: return qdot_div(pool, s2, c2);
     }
 }
 
@@ -268,7 +267,7 @@ exponential(qdot_pool *pool, qdot_expr arg)
     return qdot_mul(pool, product, qdot_fun1(pool, QDOT_EXP, left));
 }
 
-/* --- the pass -------------------------------------------------------------------------------------- */
+/* --- the pass ---------------------------------------------------------------------- */
 
 static qdot_expr
 function(qdot_pool *pool, qdot_expr e)
@@ -295,10 +294,8 @@ function(qdot_pool *pool, qdot_expr e)
     case QDOT_EXP:
         arg = flat_angle(pool, arg);
         return arg == QDOT_NIL ? arg : exponential(pool, arg);
-    case QDOT_ABS:
-        return qdot_split_abs(pool, arg);
-    case QDOT_LOG:
-        return qdot_split_log(pool, arg);
+    case QDOT_ABS: return qdot_split_abs(pool, arg);
+    case QDOT_LOG: return qdot_split_log(pool, arg);
     default:
         if (n > 4)
             return e;
@@ -308,22 +305,25 @@ function(qdot_pool *pool, qdot_expr e)
     }
 }
 
-/* Remember that `now` stands where `before` stood; what cannot be remembered is only longer. */
+/* Remember that `now` stands where `before` stood; what cannot be remembered is only
+ * longer. */
 static void
 remember(qdot_pool *pool, qdot_map *origins, qdot_expr now, qdot_expr before)
 {
     if (origins != NULL && now != QDOT_NIL && now != before &&
-        !qdot_map_get(origins, now, NULL) && qdot_map_set(origins, now, before) != QDOT_OK)
+        !qdot_map_get(origins, now, NULL) &&
+        qdot_map_set(origins, now, before) != QDOT_OK)
         qdot_pool_fail(pool);
 }
 
 /* The base of a power x made of b, if b is left as a whole under the root. */
 static void
-remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x, qdot_expr b)
+remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x,
+              qdot_expr b)
 {
-    if (origins != NULL && power != QDOT_NIL && qdot_expr_kind(pool, power) == QDOT_PROD &&
-        qdot_expr_count(pool, power) == 3 && qdot_expr_arg(pool, power, 0) == QDOT_ONE &&
-        qdot_expr_arg(pool, power, 2) == x)
+    if (origins != NULL && power != QDOT_NIL &&
+        qdot_expr_kind(pool, power) == QDOT_PROD && qdot_expr_count(pool, power) == 3 &&
+        qdot_expr_arg(pool, power, 0) == QDOT_ONE && qdot_expr_arg(pool, power, 2) == x)
         remember(pool, origins, qdot_expr_arg(pool, power, 1), b);
 }
 
@@ -378,7 +378,8 @@ static qdot_expr
 node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins)
 {
     uint32_t n = qdot_expr_count(pool, e);
-    qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few, before = e, now;
+    qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few, before = e,
+                       now;
     bool changed = false;
 
     if (args == NULL)
@@ -396,18 +397,11 @@ node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins)
     if (e == QDOT_NIL)
         return e;
     switch (qdot_expr_kind(pool, e)) {
-    case QDOT_FUN:
-        now = function(pool, e);
-        break;
-    case QDOT_PROD:
-        return product(pool, e, origins);
-    case QDOT_UFUN:
-        now = with_flat_args(pool, e, qdot_expr_count(pool, e) / 2);
-        break;
-    case QDOT_REL:
-        return with_flat_args(pool, e, 2);
-    default:
-        return e;
+    case QDOT_FUN: now = function(pool, e); break;
+    case QDOT_PROD: return product(pool, e, origins);
+    case QDOT_UFUN: now = with_flat_args(pool, e, qdot_expr_count(pool, e) / 2); break;
+    case QDOT_REL: return with_flat_args(pool, e, 2);
+    default: return e;
     }
     if (now != QDOT_NIL &&
         (qdot_expr_kind(pool, now) == QDOT_FUN || qdot_expr_kind(pool, now) == QDOT_UFUN))
@@ -415,7 +409,8 @@ node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins)
     return now;
 }
 
-/* A failure that is only a wrong turn (a zero denominator found on the way) is forgotten. */
+/* A failure that is only a wrong turn (a zero denominator found on the way) is
+ * forgotten. */
 static bool
 recover(qdot_pool *pool)
 {

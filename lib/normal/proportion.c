@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "normal/ball.h"
 #include "normal/decide.h"
 #include "normal/factor.h"
 #include "normal/prepare.h"
@@ -46,10 +47,11 @@ same_key(const qdot_field *f, const qdot_groups *groups, const ulong *key)
     return NULL;
 }
 
-/* a = factor * b with numerators and denominators free of velocities; *moving: there are any. */
+/* a = factor * b with numerators and denominators free of velocities; *moving: there
+ * are any. */
 static qdot_status
-divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *factor, bool *proved,
-       bool *moving)
+divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *factor,
+       bool *proved, bool *moving)
 {
     bool *by = moving_variables(f);
     qdot_groups ga = {0}, gb = {0};
@@ -63,7 +65,8 @@ divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *fact
         qdot_free(by);
         return QDOT_OK;
     }
-    /* a numerator over another's, times the denominators: both free of velocities or not */
+    /* a numerator over another's, times the denominators: both free of velocities or
+     * not */
     status = qdot_factor_group(f, &ga, a->n, by);
     if (status == QDOT_OK)
         status = qdot_factor_group(f, &gb, b->n, by);
@@ -82,7 +85,8 @@ divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *fact
             *moving |= gb.n > 1;
             for (slong v = 0; v < f->n; v++)
                 *moving |= gb.key[i * f->n + v] > 0;
-            if (fmpz_mpoly_length(gb.poly + i, f->ctx) < fmpz_mpoly_length(gb.poly + at, f->ctx))
+            if (fmpz_mpoly_length(gb.poly + i, f->ctx) <
+                fmpz_mpoly_length(gb.poly + at, f->ctx))
                 at = i;
         }
         match = same_key(f, &ga, gb.key + at * f->n);
@@ -121,10 +125,62 @@ nonzero_factors(qdot_field *f, const fmpz_mpoly_t p)
     return nonzero;
 }
 
-/* a(q, v) b(q, w) - a(q, w) b(q, v) is zero for all v, w if a is a multiple of b; the point at
- * which it is not refutes. */
+/* The value of an atom in a LIST of equations atom = number. */
+static bool
+value_at(void *user, qdot_expr atom, arb_t value, slong prec)
+{
+    const qdot_ball *b = ((void **)user)[0];
+    qdot_expr at = *(qdot_expr *)((void **)user)[1];
+
+    for (uint32_t i = 0; i < qdot_expr_count(b->pool, at); i++) {
+        qdot_expr row = qdot_expr_arg(b->pool, at, i);
+
+        if (qdot_expr_arg(b->pool, row, 0) == atom) {
+            arb_set_fmpq(
+                value, qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, row, 1)), prec);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The point without the second motion, and a and b there. */
 static qdot_status
-refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts, qdot_decision *d)
+tell(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot_decision *d)
+{
+    uint32_t n = qdot_expr_count(pool, d->at), kept = 0;
+    qdot_expr *rows = qdot_malloc((n + 1) * sizeof *rows), both[2] = {a, b};
+    qdot_ball ball;
+    void *user[2] = {&ball, &d->at};
+    arb_srcptr x;
+
+    if (rows == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr row = qdot_expr_arg(pool, d->at, i);
+
+        if (qdot_expr_contains(pool, atoms, qdot_expr_arg(pool, row, 0)))
+            rows[kept++] = row;
+    }
+    d->at = qdot_list(pool, kept, rows);
+    qdot_free(rows);
+    if (d->at == QDOT_NIL)
+        return qdot_pool_check(pool);
+    QDOT_TRY(qdot_ball_begin(&ball, pool, 2, both));
+    qdot_ball_eval(&ball, 64, value_at, user);
+    x = qdot_ball_get(&ball, a);
+    d->left = x == NULL ? 0 : arf_get_d(arb_midref(x), ARF_RND_NEAR);
+    x = qdot_ball_get(&ball, b);
+    d->right = x == NULL ? 0 : arf_get_d(arb_midref(x), ARF_RND_NEAR);
+    qdot_ball_end(&ball);
+    return QDOT_OK;
+}
+
+/* a(q, v) b(q, w) - a(q, w) b(q, v) is zero for all v, w if a is a multiple of b; the
+ * point at which it is not refutes. */
+static qdot_status
+refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
+       qdot_decision *d)
 {
     qdot_expr both[2] = {a, b}, atoms, left, right;
     qdot_expr *from, *to;
@@ -132,7 +188,7 @@ refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts, qdot_
     qdot_status status = QDOT_OK;
     uint32_t n, moving = 0;
 
-    atoms = qdot_expr_atoms(pool, qdot_list(pool, 2, both), false);
+    atoms = qdot_expr_atoms(pool, qdot_list(pool, 2, both), true);
     if (atoms == QDOT_NIL)
         return qdot_pool_check(pool);
     n = qdot_expr_count(pool, atoms);
@@ -144,7 +200,8 @@ refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts, qdot_
         qdot_expr x = qdot_expr_arg(pool, atoms, i);
         char name[32];
 
-        if (!(qdot_expr_node(pool, x)->holds & MOVING))
+        if (qdot_expr_kind(pool, x) != QDOT_SYM ||
+            !(qdot_expr_node(pool, x)->holds & MOVING))
             continue;
         snprintf(name, sizeof name, "(other %u)", moving);
         from[moving] = x;
@@ -160,8 +217,10 @@ refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts, qdot_
         status = qdot_decide_equal(pool, left, right, facts, &inner);
     else
         inner.verdict = QDOT_UNDECIDED;
-    if (status == QDOT_OK && inner.verdict == QDOT_REFUTED)
+    if (status == QDOT_OK && inner.verdict == QDOT_REFUTED) {
         *d = inner;
+        status = tell(pool, a, b, atoms, d);
+    }
     return status;
 }
 
@@ -187,8 +246,9 @@ refute_by_zeros(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_decision *d)
 }
 
 qdot_status
-qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
-                         qdot_decision *d, qdot_expr *factor, bool *may_vanish)
+qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b,
+                         const qdot_facts *facts, qdot_decision *d, qdot_expr *factor,
+                         bool *may_vanish)
 {
     bool zero_a, zero_b, proved = false, moving = false;
     qdot_status status = QDOT_OK;
@@ -245,8 +305,8 @@ qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_f
 
             *may_vanish = !(sign & QDOT_NE0);
         }
-        /* between equations without velocities any quotient is "a factor": it must not vanish
-         * with a coordinate, else zeros would be lost */
+        /* between equations without velocities any quotient is "a factor": it must not
+         * vanish with a coordinate, else zeros would be lost */
         if (moving || !*may_vanish ||
             !(qdot_expr_node(pool, *factor)->holds & ~(uint32_t)QDOT_HAS_PARAM)) {
             d->verdict = QDOT_PROVED;

@@ -73,7 +73,7 @@ qdot_field_gcd(qdot_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a, const fmpz_m
         fmpz_mpoly_one(g, f->ctx);
 }
 
-/* --- quotients -------------------------------------------------------------------------- */
+/* --- quotients --------------------------------------------------------------------- */
 
 void
 qdot_ratio_init(qdot_field *f, qdot_ratio *r)
@@ -163,7 +163,8 @@ qdot_ratio_mul(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, const qdot_rat
     qdot_field_mul(f, r->d, a->d, b->d);
     look_at_denominator(f, r);
     several = fmpz_mpoly_length(r->n, f->ctx) > 1 && fmpz_mpoly_length(r->d, f->ctx) > 1;
-    if (several && fmpz_mpoly_length(r->n, f->ctx) * fmpz_mpoly_length(r->d, f->ctx) < 2500)
+    if (several &&
+        fmpz_mpoly_length(r->n, f->ctx) * fmpz_mpoly_length(r->d, f->ctx) < 2500)
         qdot_ratio_cancel(f, r);
 }
 
@@ -207,7 +208,7 @@ poly_pow(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, slong n)
         fmpz_mpoly_set(r, a, f->ctx);
         return;
     }
-    /* `a` has no denominator: 2^n has n bits, which the engine bounds for numbers alone */
+    /* 2^n has n bits, which the engine bounds for numbers alone */
     if (n > 100000) {
         if (f->state == QDOT_FIELD_GOES && !fmpz_mpoly_is_one(a, f->ctx))
             f->state = QDOT_FIELD_OVER;
@@ -270,7 +271,7 @@ qdot_ratio_cancel(qdot_field *f, qdot_ratio *r)
     fmpz_mpoly_clear(g, f->ctx);
 }
 
-/* --- back to expressions ------------------------------------------------------------------ */
+/* --- back to expressions ----------------------------------------------------------- */
 
 qdot_expr
 qdot_field_expr(qdot_field *f, const fmpz_mpoly_t p)

@@ -11,7 +11,7 @@
 
 #define WORK 4000000
 
-/* --- solving a relation for one atom ---------------------------------------------------------- */
+/* --- solving a relation for one atom ----------------------------------------------- */
 
 /* How gladly a relation is solved for this atom; 0: never. */
 static int
@@ -28,16 +28,11 @@ fitness(const qdot_pool *pool, const qdot_gen *gen)
         return 0;
     plain = symbol->lo == QDOT_NIL && symbol->hi == QDOT_NIL && symbol->sign == 0;
     switch (symbol->class) {
-    case QDOT_MULTIPLIER:
-        return 9;
-    case QDOT_COORD:
-        return 3 + plain + (symbol->order < 2 ? 2 * (int)symbol->order : 4);
-    case QDOT_CONST:
-        return 0;
-    case QDOT_PARAM:
-        return 1 + plain;
-    default:
-        return 2 + plain;
+    case QDOT_MULTIPLIER: return 9;
+    case QDOT_COORD: return 3 + plain + (symbol->order < 2 ? 2 * (int)symbol->order : 4);
+    case QDOT_CONST: return 0;
+    case QDOT_PARAM: return 1 + plain;
+    default: return 2 + plain;
     }
 }
 
@@ -79,8 +74,9 @@ solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree)
         if (degree == 1) {
             x = qdot_neg(pool, qdot_div(pool, c, b));
         } else {
-            qdot_expr d = qdot_sub(pool, qdot_pow_int(pool, b, 2),
-                                   qdot_mul(pool, qdot_expr_int(pool, 4), qdot_mul(pool, a, c)));
+            qdot_expr d =
+                qdot_sub(pool, qdot_pow_int(pool, b, 2),
+                         qdot_mul(pool, qdot_expr_int(pool, 4), qdot_mul(pool, a, c)));
 
             x = qdot_div(pool, qdot_sub(pool, qdot_sqrt(pool, d), b),
                          qdot_mul(pool, qdot_expr_int(pool, 2), a));
@@ -112,7 +108,9 @@ solve_relation(qdot_pool *pool, qdot_expr relation, qdot_expr *atom, qdot_expr *
     }
     for (slong v = 0; v < f.n; v++) {
         slong degree = fmpz_mpoly_degree_si(r->n, v, f.ctx);
-        int here = degree == 0 || degree > 2 ? 0 : fitness(pool, &f.gen[v]) * (degree == 1 ? 2 : 1);
+        int here = degree == 0 || degree > 2
+                       ? 0
+                       : fitness(pool, &f.gen[v]) * (degree == 1 ? 2 : 1);
 
         if (here > fit && !inside_another(&f, r->n, v)) {
             fit = here;
@@ -130,7 +128,7 @@ solve_relation(qdot_pool *pool, qdot_expr relation, qdot_expr *atom, qdot_expr *
     return best >= 0 && *solution != QDOT_NIL;
 }
 
-/* --- begin ------------------------------------------------------------------------------------- */
+/* --- begin ------------------------------------------------------------------------- */
 
 static uint32_t
 order_of(const qdot_pool *pool, qdot_expr ufun)
@@ -144,12 +142,13 @@ order_of(const qdot_pool *pool, qdot_expr ufun)
     return all;
 }
 
-/* A relation between undefined functions has consequences for their higher derivatives, which
- * are not at hand unless given: with such derivatives there are no sure points. */
+/* A relation between undefined functions has consequences for their higher derivatives,
+ * which are not at hand unless given: with such derivatives there are no sure points. */
 static bool
 higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations)
 {
-    uint32_t n = qdot_expr_count(pool, atoms), m = qdot_expr_count(pool, relations), most = 0;
+    uint32_t n = qdot_expr_count(pool, atoms), m = qdot_expr_count(pool, relations),
+             most = 0;
     bool any = false;
 
     for (uint32_t i = 0; i < m; i++) {
@@ -224,7 +223,8 @@ gather(qdot_sample *s, size_t n, const qdot_expr *e)
     static const qdot_facts nothing = {0};
     const qdot_facts *facts = s->facts == NULL ? &nothing : s->facts;
     size_t nr = facts->n_relations, solved = 0;
-    qdot_expr *r = qdot_malloc((3 * nr + 1) * sizeof *r), *atom = r + nr, *solution = atom + nr;
+    qdot_expr *r = qdot_malloc((3 * nr + 1) * sizeof *r), *atom = r + nr,
+              *solution = atom + nr;
     qdot_expr parts[6], atoms, of_relations;
     qdot_pool *pool = s->pool;
 
@@ -310,7 +310,7 @@ qdot_sample_end(qdot_sample *s)
     qdot_ball_end(&s->ball);
 }
 
-/* --- points ---------------------------------------------------------------------------------------- */
+/* --- points ------------------------------------------------------------------------ */
 
 static uint32_t
 draw(qdot_sample *s, uint32_t below)
@@ -380,7 +380,8 @@ static void
 choose(qdot_sample *s, qdot_sample_atom *a, int k)
 {
     const qdot_symbol *symbol = qdot_expr_symbol(s->pool, a->atom);
-    double size = reach[(size_t)k % (sizeof reach / sizeof *reach)], lo = -size, hi = size, x;
+    double size = reach[(size_t)k % (sizeof reach / sizeof *reach)], lo = -size,
+           hi = size, x;
     double where = (1 + draw(s, 61)) / 63.0;
     uint8_t sign = qdot_expr_node(s->pool, a->atom)->sign;
 

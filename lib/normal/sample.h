@@ -1,9 +1,10 @@
-/* sample.h -- points inside the declared domains, at which expressions are evaluated in balls.
+/* sample.h -- points inside the declared domains, at which expressions are evaluated in
+ * balls.
  *
- * Symbols get small rationals. Applications of undefined functions are independent values (jets),
- * except where two of one function would have equal arguments: such a point is left out. With
- * relations, each is solved for one symbol or application in which it is linear or quadratic; where
- * that cannot be done there are no points.
+ * Symbols get small rationals. Applications of undefined functions are independent
+ * values (jets), except where two of one function would have equal arguments: such a
+ * point is left out. With relations, each is solved for one symbol or application in
+ * which it is linear or quadratic; where that cannot be done there are no points.
  */
 #ifndef QDOT_NORMAL_SAMPLE_H
 #define QDOT_NORMAL_SAMPLE_H
@@ -20,24 +21,26 @@ typedef struct {
 
 typedef struct {
     qdot_pool *pool;
-    qdot_sample_atom *atom; /* free ones by dependence of bounds, then the solved, last first */
+    qdot_sample_atom
+        *atom; /* free ones by dependence of bounds, then the solved, last first */
     size_t n;
-    qdot_ball ball;         /* the expressions, bounds, conditions, solutions */
-    qdot_expr list;         /* all of them */
+    qdot_ball ball; /* the expressions, bounds, conditions, solutions */
+    qdot_expr list; /* all of them */
     const qdot_facts *facts;
     uint64_t seed;
-    bool possible;          /* there can be points */
+    bool possible; /* there can be points */
 } qdot_sample;
 
 /* For e[n] under facts (may be NULL). Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_sample_begin(qdot_sample *s, qdot_pool *pool, size_t n,
-                                              const qdot_expr *e, const qdot_facts *facts);
+                                              const qdot_expr *e,
+                                              const qdot_facts *facts);
 void qdot_sample_end(qdot_sample *s);
 
 /* Choose the k-th point. */
 void qdot_sample_point(qdot_sample *s, int k);
-/* Evaluate there; whether it is a point: conditions surely hold, solved values inside their
- * domains. The values: qdot_ball_get(&s->ball, e). */
+/* Evaluate there; whether it is a point: conditions surely hold, solved values inside
+ * their domains. The values: qdot_ball_get(&s->ball, e). */
 bool qdot_sample_eval(qdot_sample *s, slong prec);
 
 /* The point as a LIST of equations atom = number. */

@@ -11,7 +11,7 @@
 
 enum { WORK = 4000000, MOST_TERMS = 2000, MOST_SPREAD = 16, MOST_TURNS = 4 };
 
-/* --- tan and cot ---------------------------------------------------------------------------- */
+/* --- tan and cot ------------------------------------------------------------------- */
 
 /* In a product sin(a)^m cos(a)^-n is tan(a)^min(m, n) ..., likewise cot and tanh. */
 static qdot_expr
@@ -26,7 +26,8 @@ tangents(qdot_pool *pool, qdot_expr e)
             qdot_fun_id quotient = QDOT_TAN;
             long m, k;
 
-            if (qdot_expr_kind(pool, s) != QDOT_FUN || qdot_expr_kind(pool, c) != QDOT_FUN ||
+            if (qdot_expr_kind(pool, s) != QDOT_FUN ||
+                qdot_expr_kind(pool, c) != QDOT_FUN ||
                 qdot_expr_arg(pool, s, 0) != qdot_expr_arg(pool, c, 0) ||
                 !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &m) ||
                 !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, j + 1), &k))
@@ -56,8 +57,10 @@ tangents(qdot_pool *pool, qdot_expr e)
     return result;
 }
 
+/* Rebuild e from its leaves, `f` applied to every product. */
 static qdot_expr
-with_tangents(qdot_pool *pool, qdot_expr e)
+on_products(qdot_pool *pool, qdot_expr e,
+            qdot_expr (*f)(qdot_pool *pool, qdot_expr product))
 {
     qdot_expr result = e;
     qdot_walk w;
@@ -66,7 +69,7 @@ with_tangents(qdot_pool *pool, qdot_expr e)
         return e;
     for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
         uint32_t n = qdot_expr_count(pool, w.at[i]);
-        qdot_expr *args = qdot_malloc((n + 1) * sizeof *args);
+        qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few;
         bool changed = false;
 
         if (args == NULL)
@@ -81,15 +84,57 @@ with_tangents(qdot_pool *pool, qdot_expr e)
         if (changed)
             result = qdot_rebuild(pool, result, args);
         if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_PROD)
-            result = tangents(pool, result);
+            result = f(pool, result);
         qdot_walk_set(&w, w.at[i], result);
-        qdot_free(args);
+        if (args != few)
+            qdot_free(args);
     }
     qdot_walk_end(&w);
     return result;
 }
 
-/* --- candidates ------------------------------------------------------------------------------- */
+static bool
+all_negative(const qdot_pool *pool, qdot_expr sum)
+{
+    uint32_t n = qdot_expr_count(pool, sum);
+    bool all = fmpq_sgn(qdot_expr_rational(pool, qdot_expr_arg(pool, sum, 0))) <= 0;
+
+    for (uint32_t i = 2; i < n && all; i += 2)
+        all = fmpq_sgn(qdot_expr_rational(pool, qdot_expr_arg(pool, sum, i))) < 0;
+    return all;
+}
+
+/* (-a - b)*c is -(a + b)*c. */
+static qdot_expr
+signs_in_front(qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr few[24], *factor = few, result;
+    bool any = false;
+    long k;
+
+    if (n > 24 || n < 5)
+        return e;
+    factor[0] = qdot_expr_arg(pool, e, 0);
+    for (uint32_t i = 1; i < n; i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i), x = qdot_expr_arg(pool, e, i + 1);
+
+        if (qdot_expr_kind(pool, b) == QDOT_SUM && qdot_expr_to_int(pool, x, &k) &&
+            all_negative(pool, b)) {
+            any = true;
+            b = qdot_neg(pool, b);
+            if (k % 2 != 0)
+                factor[0] = qdot_neg(pool, factor[0]);
+        }
+        factor[(i + 1) / 2] = qdot_pow(pool, b, x);
+    }
+    if (!any)
+        return e;
+    result = qdot_product(pool, (n + 1) / 2, factor);
+    return result;
+}
+
+/* --- candidates -------------------------------------------------------------------- */
 
 struct simplifier {
     qdot_pool *pool;
@@ -127,14 +172,16 @@ content(qdot_field *f, fmpq_t c, qdot_ratio *r)
 static qdot_expr
 spread(struct simplifier *s, const qdot_ratio *r, const fmpq_t c)
 {
-    qdot_expr over = qdot_div(s->pool, qdot_expr_fmpq(s->pool, c), qdot_field_expr(s->f, r->d));
+    qdot_expr over =
+        qdot_div(s->pool, qdot_expr_fmpq(s->pool, c), qdot_field_expr(s->f, r->d));
     qdot_expr sum = QDOT_ZERO;
     fmpz_mpoly_t term;
 
     fmpz_mpoly_init(term, s->f->ctx);
     for (slong i = 0; i < fmpz_mpoly_length(r->n, s->f->ctx); i++) {
         fmpz_mpoly_get_term(term, r->n, i, s->f->ctx);
-        sum = qdot_add(s->pool, sum, qdot_mul(s->pool, qdot_field_expr(s->f, term), over));
+        sum =
+            qdot_add(s->pool, sum, qdot_mul(s->pool, qdot_field_expr(s->f, term), over));
     }
     fmpz_mpoly_clear(term, s->f->ctx);
     return sum;
@@ -216,8 +263,9 @@ say(struct simplifier *s, const qdot_ratio *from)
         e = qdot_div(s->pool, e, below);
         keep(s, e);
         if (has_trig(s, r.d))
-            keep(s, with_tangents(s->pool, e));
-        if (fmpz_mpoly_length(r.d, f->ctx) == 1 && fmpz_mpoly_length(r.n, f->ctx) <= MOST_SPREAD)
+            keep(s, on_products(s->pool, e, tangents));
+        if (fmpz_mpoly_length(r.d, f->ctx) == 1 &&
+            fmpz_mpoly_length(r.n, f->ctx) <= MOST_SPREAD)
             keep(s, spread(s, &r, c));
         keep(s, spread_coefficients(s, &r, c));
     } else {
@@ -243,8 +291,9 @@ say_turned(struct simplifier *s, const qdot_ratio *from)
     for (slong v = 0; v < f->n && turns < MOST_TURNS && qdot_field_goes(f); v++) {
         qdot_ratio r;
 
-        if (!is_cosine(f, v) || (fmpz_mpoly_degree_si(from->d, v, f->ctx) == 0 &&
-                                 fmpz_mpoly_degree_si(from->d, f->gen[v].pair, f->ctx) == 0))
+        if (!is_cosine(f, v) ||
+            (fmpz_mpoly_degree_si(from->d, v, f->ctx) == 0 &&
+             fmpz_mpoly_degree_si(from->d, f->gen[v].pair, f->ctx) == 0))
             continue;
         turns++;
         qdot_ratio_init(f, &r);
@@ -268,7 +317,7 @@ all_candidates(struct simplifier *s, const qdot_ratio *r)
     say(s, r);
     if (has_trig(s, r->d)) {
         say_turned(s, r);
-        keep(s, with_tangents(s->pool, s->best));
+        keep(s, on_products(s->pool, s->best, tangents));
     }
 }
 
@@ -302,7 +351,7 @@ reduce_by_facts(struct simplifier *s, qdot_ratio *r, size_t n, const qdot_expr *
     return status;
 }
 
-/* --- functions and bases as they were before, where that is shorter -------------------------------- */
+/* --- functions and bases as they were before, where that is shorter ---------------- */
 
 struct origins {
     qdot_map map;
@@ -319,7 +368,7 @@ origin(qdot_pool *pool, qdot_expr node, void *user)
     return qdot_expr_size(pool, before) < qdot_expr_size(pool, node) ? before : QDOT_NIL;
 }
 
-/* --- scalars ------------------------------------------------------------------------------------------ */
+/* --- scalars ----------------------------------------------------------------------- */
 
 /* Nothing to do: a number, a symbol, a product of powers of symbols, such a function. */
 static bool
@@ -330,8 +379,7 @@ is_simple(const qdot_pool *pool, qdot_expr e)
 
     switch (qdot_expr_kind(pool, e)) {
     case QDOT_NUM:
-    case QDOT_SYM:
-        return true;
+    case QDOT_SYM: return true;
     case QDOT_FUN:
     case QDOT_UFUN:
         return qdot_expr_kind(pool, qdot_expr_arg(pool, e, 0)) == QDOT_SYM && n <= 2;
@@ -344,8 +392,7 @@ is_simple(const qdot_pool *pool, qdot_expr e)
                 return false;
         }
         return true;
-    default:
-        return false;
+    default: return false;
     }
 }
 
@@ -393,10 +440,12 @@ simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
             all_candidates(&s, &r);
         qdot_ratio_clear(&f, &r);
         qdot_form_end(&s.form);
+        s.best = on_products(pool, s.best, signs_in_front);
         if (s.best != QDOT_NIL && origins.map.n > 0)
             keep(&s, qdot_walk_map(pool, s.best, origin, &origins));
     }
-    if (f.state == QDOT_FIELD_FAILED && (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
+    if (f.state == QDOT_FIELD_FAILED &&
+        (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
         qdot_pool_fail(pool);
     qdot_field_end(&f);
     qdot_map_clear(&origins.map);
@@ -416,7 +465,7 @@ qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     return qdot_value_map(pool, e, simplify_scalar, (void *)(uintptr_t)facts);
 }
 
-/* --- the normal form itself ------------------------------------------------------------------------------ */
+/* --- the normal form itself -------------------------------------------------------- */
 
 static qdot_expr
 normal_scalar(qdot_pool *pool, qdot_expr e, void *user)
@@ -446,7 +495,8 @@ normal_scalar(qdot_pool *pool, qdot_expr e, void *user)
             result = qdot_field_ratio_expr(&f, &r);
         qdot_ratio_clear(&f, &r);
     }
-    if (f.state == QDOT_FIELD_FAILED && (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
+    if (f.state == QDOT_FIELD_FAILED &&
+        (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
         qdot_pool_fail(pool);
     qdot_field_end(&f);
     qdot_free(all);

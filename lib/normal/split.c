@@ -14,7 +14,7 @@ struct parts {
     struct {
         qdot_expr base;
         long m;
-    } *at;
+    } * at;
     size_t n, capacity;
     qdot_expr rest; /* factors of unknown sign that cannot be told apart; 1: none */
     bool negative;  /* of parts of any sign: -1 times all this */
@@ -71,7 +71,8 @@ struct unknown {
 };
 
 static qdot_status
-take_factors(qdot_field *f, struct parts *p, struct unknown *u, fmpz_mpoly_t poly, int side)
+take_factors(qdot_field *f, struct parts *p, struct unknown *u, fmpz_mpoly_t poly,
+             int side)
 {
     qdot_pool *pool = f->pool;
     qdot_factors factors;
@@ -117,8 +118,8 @@ take_factors(qdot_field *f, struct parts *p, struct unknown *u, fmpz_mpoly_t pol
     return status;
 }
 
-/* Split b. `whole`: b is known not to be negative (it stands under a root or in a logarithm).
- * QDOT_EFAILED where it cannot be split. */
+/* Split b. `whole`: b is known not to be negative (it stands under a root or in a
+ * logarithm). QDOT_EFAILED where it cannot be split. */
 static qdot_status
 split(qdot_pool *pool, qdot_expr b, bool whole, struct parts *p)
 {

@@ -1,4 +1,5 @@
-/* split.h -- a product of factors with what is known of their signs, for roots and logarithms. */
+/* split.h -- a product of factors with what is known of their signs, for roots and
+ * logarithms. */
 #ifndef QDOT_NORMAL_SPLIT_H
 #define QDOT_NORMAL_SPLIT_H
 

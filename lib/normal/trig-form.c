@@ -1,5 +1,5 @@
-/* trig-form.c -- the shortest way to say a polynomial in sines and cosines: Pythagoras either way,
- * as a product, or by multiple angles and sums of angles.
+/* trig-form.c -- the shortest way to say a polynomial in sines and cosines: Pythagoras
+ * either way, as a product, or by multiple angles and sums of angles.
  */
 #include "normal/form.h"
 
@@ -23,7 +23,8 @@ minuses(const qdot_pool *pool, qdot_expr e)
         for (uint32_t i = 1; i < n; i += 2) {
             qdot_expr b = qdot_expr_arg(pool, e, i);
 
-            count += qdot_expr_kind(pool, b) == QDOT_SUM && qdot_expr_is_negative(pool, b);
+            count +=
+                qdot_expr_kind(pool, b) == QDOT_SUM && qdot_expr_is_negative(pool, b);
         }
     } else if (qdot_expr_kind(pool, e) == QDOT_SUM) {
         for (uint32_t i = 1; i < n; i += 2)
@@ -50,7 +51,8 @@ qdot_form_keep(qdot_pool *pool, qdot_expr *best, qdot_expr e)
 qdot_expr
 qdot_form_monomial(qdot_field *f, const fmpq_t c, const ulong *exp)
 {
-    qdot_expr few[24], *factor = f->n > 20 ? qdot_malloc(((size_t)f->n + 1) * sizeof *factor) : few;
+    qdot_expr few[24],
+        *factor = f->n > 20 ? qdot_malloc(((size_t)f->n + 1) * sizeof *factor) : few;
     qdot_expr e;
     size_t n = 0;
 
@@ -66,7 +68,7 @@ qdot_form_monomial(qdot_field *f, const fmpq_t c, const ulong *exp)
     return e;
 }
 
-/* --- Fourier: sums of sin and cos of combinations of the angles ------------------------------- */
+/* --- Fourier: sums of sin and cos of combinations of the angles -------------------- */
 
 struct harmonic {
     int k[MOST_ANGLES];
@@ -196,14 +198,16 @@ angle_of(qdot_field *f, const struct harmonic *h, int n, const slong *sine, int 
     qdot_expr angle = QDOT_ZERO;
 
     for (int j = 0; j < n; j++)
-        angle = qdot_add(pool, angle,
-                         qdot_expand(pool, qdot_mul(pool, qdot_expr_int(pool, h->k[j] / parts),
-                                                    f->gen[sine[j]].of)));
+        angle = qdot_add(
+            pool, angle,
+            qdot_expand(pool, qdot_mul(pool, qdot_expr_int(pool, h->k[j] / parts),
+                                       f->gen[sine[j]].of)));
     return angle;
 }
 
-/* Where the constant is -+ the coefficient b of a cos(2 k), both together are -+2 b sin(k)^2 or
- * 2 b cos(k)^2 (hyperbolic: 2 b sinh(k)^2, 2 b cosh(k)^2). Taken out of x; what they are. */
+/* Where the constant is -+ the coefficient b of a cos(2 k), both together are -+2 b
+ * sin(k)^2 or 2 b cos(k)^2 (hyperbolic: 2 b sinh(k)^2, 2 b cosh(k)^2). Taken out of x;
+ * what they are. */
 static qdot_expr
 take_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool circular)
 {
@@ -245,7 +249,8 @@ take_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool cir
 }
 
 static qdot_expr
-say_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine, bool circular)
+say_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine,
+              bool circular)
 {
     qdot_pool *pool = f->pool;
     qdot_expr sum = QDOT_ZERO;
@@ -271,7 +276,8 @@ static qdot_expr
 by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
 {
     static const int origin[MOST_ANGLES];
-    slong sine[MOST_ANGLES], *degree = qdot_malloc(((size_t)f->n + 1) * 2 * sizeof *degree);
+    slong sine[MOST_ANGLES],
+        *degree = qdot_malloc(((size_t)f->n + 1) * 2 * sizeof *degree);
     ulong *exp = (ulong *)(degree + f->n);
     struct fourier *x, *y, *sum;
     qdot_expr e = QDOT_NIL, last;
@@ -318,8 +324,9 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
         e = say_harmonics(f, sum, n, sine, circular);
         last = take_square(f, sum, n, sine, circular);
         if (last != QDOT_ZERO)
-            qdot_form_keep(f->pool, &e,
-                           qdot_add(f->pool, last, say_harmonics(f, sum, n, sine, circular)));
+            qdot_form_keep(
+                f->pool, &e,
+                qdot_add(f->pool, last, say_harmonics(f, sum, n, sine, circular)));
     }
     clear(sum);
     fmpq_clear(c);
@@ -329,7 +336,7 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
     return e;
 }
 
-/* --- Pythagoras either way, as a sum and as a product ------------------------------------------- */
+/* --- Pythagoras either way, as a sum and as a product ------------------------------ */
 
 static qdot_expr
 by_factors(qdot_field *f, const fmpz_mpoly_t p)

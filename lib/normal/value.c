@@ -20,7 +20,7 @@ generator(qdot_field *f, qdot_ratio *r, qdot_expr e)
     fmpz_mpoly_gen(r->n, v, f->ctx);
 }
 
-/* --- sums --------------------------------------------------------------------------------- */
+/* --- sums -------------------------------------------------------------------------- */
 
 /* Add up p[n] pairwise, so that the work is n log n; the sum is p[0]. */
 static void
@@ -28,8 +28,10 @@ add_up(qdot_field *f, slong n, fmpz_mpoly_struct *p)
 {
     for (slong step = 1; step < n; step *= 2)
         for (slong i = 0; i + step < n; i += 2 * step)
-            if (qdot_field_charge(f, fmpz_mpoly_length(p + i, f->ctx) +
-                                         fmpz_mpoly_length(p + i + step, f->ctx), 1))
+            if (qdot_field_charge(f,
+                                  fmpz_mpoly_length(p + i, f->ctx) +
+                                      fmpz_mpoly_length(p + i + step, f->ctx),
+                                  1))
                 fmpz_mpoly_add(p + i, p + i, p + i + step, f->ctx);
 }
 
@@ -122,7 +124,7 @@ sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
     return QDOT_OK;
 }
 
-/* --- products ------------------------------------------------------------------------------- */
+/* --- products ---------------------------------------------------------------------- */
 
 static qdot_rule *
 rule_of(qdot_field *f, slong v)
@@ -133,7 +135,8 @@ rule_of(qdot_field *f, slong v)
     return NULL;
 }
 
-/* r = g^k, g the root at v; a negative power is made free of roots below the line by the rule. */
+/* r = g^k, g the root at v; a negative power is made free of roots below the line by
+ * the rule. */
 static void
 power_of_root(qdot_field *f, qdot_ratio *r, slong v, slong k)
 {
@@ -198,7 +201,8 @@ fractional_power(qdot_field *f, qdot_ratio *r, qdot_expr base, const fmpq *x)
     for (slong i = 0; i < factors->num; i++) {
         qdot_ratio_init(f, &one);
         v = find_root(f, qdot_expr_int(f->pool, fmpz_get_si(factors->p + i)));
-        power_of_root(f, &one, v, p * (slong)factors->exp[i] * (slong)f->gen[v].order / q);
+        power_of_root(f, &one, v,
+                      p * (slong)factors->exp[i] * (slong)f->gen[v].order / q);
         qdot_ratio_mul(f, r, r, &one);
         qdot_ratio_clear(f, &one);
     }
@@ -237,9 +241,9 @@ product(qdot_field *f, qdot_ratio *r, qdot_expr e)
     }
 }
 
-/* --- functions of angles ---------------------------------------------------------------------- */
+/* --- functions of angles ----------------------------------------------------------- */
 
-/* c = T_n(x), s = y U_{n-1}(x) for n >= 0: cos n b and sin n b, or the hyperbolic ones. */
+/* c = T_n(x), s = y U_{n-1}(x), n >= 0: cos n b and sin n b, or the hyperbolic ones. */
 static void
 multiple(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong vc, slong n)
 {
@@ -274,7 +278,8 @@ multiple(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong vc, slon
     fmpz_mpoly_clear(next, f->ctx);
 }
 
-/* (s, c) of an angle <- those of the angle + n base; `sign` is -1 for circular, 1 for hyperbolic. */
+/* (s, c) of an angle <- those of the angle + n base; `sign` is -1 for circular, 1 for
+ * hyperbolic. */
 static void
 turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int sign)
 {
@@ -304,8 +309,9 @@ turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int sign)
 }
 
 /* 4 cos(k pi/12) = a + b sqrt 2 + c sqrt 3 + d sqrt 6, k = 0 .. 6. */
-static const signed char twelfth[7][4] = {{4, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 2, 0}, {0, 2, 0, 0},
-                                          {2, 0, 0, 0}, {0, -1, 0, 1}, {0, 0, 0, 0}};
+static const signed char twelfth[7][4] = {{4, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 2, 0},
+                                          {0, 2, 0, 0}, {2, 0, 0, 0}, {0, -1, 0, 1},
+                                          {0, 0, 0, 0}};
 
 /* p = 4 cos(k pi/12). */
 static void
@@ -405,8 +411,8 @@ sine_cosine(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg, bool cir
     for (size_t j = 0; j < l->n_bases; j++)
         if (row->at[j] != 0)
             turn(f, s->n, c->n,
-                 sine_of(f, l->base[j], circular ? QDOT_GEN_SIN : QDOT_GEN_SINH), row->at[j],
-                 circular ? -1 : 1);
+                 sine_of(f, l->base[j], circular ? QDOT_GEN_SIN : QDOT_GEN_SINH),
+                 row->at[j], circular ? -1 : 1);
     if (circular && !fmpq_is_zero(&row->pi)) {
         offset(f, s->n, c->n, &row->pi);
         fmpz_mpoly_set_si(s->d, 4, f->ctx);
@@ -427,7 +433,8 @@ exponential(qdot_field *f, qdot_ratio *r, qdot_expr arg)
         if (row->at[j] == 0)
             continue;
         qdot_ratio_init(f, &factor);
-        fmpz_mpoly_gen(factor.n, sine_of(f, f->exponential.base[j], QDOT_GEN_EXP), f->ctx);
+        fmpz_mpoly_gen(factor.n, sine_of(f, f->exponential.base[j], QDOT_GEN_EXP),
+                       f->ctx);
         qdot_ratio_pow(f, &factor, &factor, row->at[j]);
         qdot_ratio_mul(f, r, r, &factor);
         qdot_ratio_clear(f, &factor);
@@ -468,8 +475,8 @@ function(qdot_field *f, qdot_ratio *r, qdot_expr e)
         exponential(f, r, arg);
         return;
     }
-    if (!hyperbolic && op != QDOT_SIN && op != QDOT_COS && op != QDOT_TAN && op != QDOT_SEC &&
-        op != QDOT_CSC && op != QDOT_COT) {
+    if (!hyperbolic && op != QDOT_SIN && op != QDOT_COS && op != QDOT_TAN &&
+        op != QDOT_SEC && op != QDOT_CSC && op != QDOT_COT) {
         generator(f, r, e);
         return;
     }
@@ -494,7 +501,7 @@ function(qdot_field *f, qdot_ratio *r, qdot_expr e)
     qdot_ratio_clear(f, &one);
 }
 
-/* --- all -------------------------------------------------------------------------------------- */
+/* --- all --------------------------------------------------------------------------- */
 
 /* The rule of every root and absolute value of which e is the base; 1/e in it: none. */
 static void
@@ -523,7 +530,8 @@ complete_rules(qdot_field *f, qdot_expr e, const qdot_ratio *value)
 static bool
 has_open_rules(const qdot_field *f)
 {
-    return f->n_rules > 0 && (f->gen[0].kind == QDOT_GEN_ROOT || f->gen[0].kind == QDOT_GEN_ABS);
+    return f->n_rules > 0 &&
+           (f->gen[0].kind == QDOT_GEN_ROOT || f->gen[0].kind == QDOT_GEN_ABS);
 }
 
 qdot_status
@@ -540,20 +548,15 @@ qdot_value_all(qdot_field *f)
 
         switch (qdot_expr_kind(f->pool, e)) {
         case QDOT_NUM:
-            fmpz_mpoly_set_fmpz(r->n, fmpq_numref(qdot_expr_rational(f->pool, e)), f->ctx);
-            fmpz_mpoly_set_fmpz(r->d, fmpq_denref(qdot_expr_rational(f->pool, e)), f->ctx);
+            fmpz_mpoly_set_fmpz(r->n, fmpq_numref(qdot_expr_rational(f->pool, e)),
+                                f->ctx);
+            fmpz_mpoly_set_fmpz(r->d, fmpq_denref(qdot_expr_rational(f->pool, e)),
+                                f->ctx);
             break;
-        case QDOT_SUM:
-            QDOT_TRY(sum(f, r, e));
-            break;
-        case QDOT_PROD:
-            product(f, r, e);
-            break;
-        case QDOT_FUN:
-            function(f, r, e);
-            break;
-        default:
-            generator(f, r, e);
+        case QDOT_SUM: QDOT_TRY(sum(f, r, e)); break;
+        case QDOT_PROD: product(f, r, e); break;
+        case QDOT_FUN: function(f, r, e); break;
+        default: generator(f, r, e);
         }
         if (has_open_rules(f))
             complete_rules(f, e, r);

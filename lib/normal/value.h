@@ -4,8 +4,8 @@
 
 #include "normal/field.h"
 
-/* Fill f->value and the rules of roots. Errors: QDOT_ENOMEM, the pool's; a stop of the field is
- * not an error. */
+/* Fill f->value and the rules of roots. Errors: QDOT_ENOMEM, the pool's; a stop of the
+ * field is not an error. */
 QDOT_MUST_CHECK qdot_status qdot_value_all(qdot_field *f);
 
 #endif

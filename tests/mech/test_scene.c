@@ -279,7 +279,7 @@ running_out_of_memory_anywhere_is_an_error(void **state)
     bool passed = false;
 
     (void)state;
-    for (long n = 0; !passed; n += 1 + n / 16) {
+    for (long n = 0; !passed; n += 1 + n / 8) {
         kit k_, *k = &k_;
         qdot_expr e[6];
         qdot_status status;

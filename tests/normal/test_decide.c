@@ -1,4 +1,5 @@
-/* test_decide.c -- verdicts of qdot_decide_equal and its kin on identities true and false. */
+/* test_decide.c -- verdicts of qdot_decide_equal and its kin on identities true and
+ * false. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -135,7 +136,8 @@ verdict(const char *left, const char *right, const qdot_facts *facts)
     qdot_decision d;
     qdot_status status;
 
-    status = qdot_decide_equal(pool, text_read(pool, left), text_read(pool, right), facts, &d);
+    status =
+        qdot_decide_equal(pool, text_read(pool, left), text_read(pool, right), facts, &d);
     if (status != QDOT_OK)
         fail_msg("%s == %s: %s", left, right, qdot_last_error()->message);
     qdot_pool_free(pool);
@@ -161,7 +163,7 @@ falsehoods_are_refuted(void **state)
             fail_msg("%s == %s is not refuted", falsehoods[i].left, falsehoods[i].right);
 }
 
-/* --- relations ----------------------------------------------------------------------------- */
+/* --- relations --------------------------------------------------------------------- */
 
 struct conditional {
     const char *left, *right, *relation[4];
@@ -170,12 +172,17 @@ struct conditional {
 
 static const struct conditional conditionals[] = {
     {"m*(f'(s)*s')^2 + m*(h'(s)*s')^2", "m*s'^2", {"f'(s)^2 + h'(s)^2 - 1"}, QDOT_PROVED},
-    {"m*s'' + m*s'^2*(f'(s)*f''(s) + h'(s)*h''(s))", "m*s''",
-     {"f'(s)^2 + h'(s)^2 - 1", "f'(s)*f''(s) + h'(s)*h''(s)"}, QDOT_PROVED},
+    {"m*s'' + m*s'^2*(f'(s)*f''(s) + h'(s)*h''(s))",
+     "m*s''",
+     {"f'(s)^2 + h'(s)^2 - 1", "f'(s)*f''(s) + h'(s)*h''(s)"},
+     QDOT_PROVED},
     /* true by a derivative that is not given: neither proved nor refuted */
     {"f'(s)*f''(s) + h'(s)*h''(s)", "0", {"f'(s)^2 + h'(s)^2 - 1"}, QDOT_UNDECIDED},
     {"f'(s)^2 + 2*h'(s)^2", "1", {"f'(s)^2 + h'(s)^2 - 1"}, QDOT_REFUTED},
-    {"L^2*(x'^2 + y'^2)", "(x*y' - y*x')^2", {"x^2 + y^2 - L^2", "x*x' + y*y'"}, QDOT_PROVED},
+    {"L^2*(x'^2 + y'^2)",
+     "(x*y' - y*x')^2",
+     {"x^2 + y^2 - L^2", "x*x' + y*y'"},
+     QDOT_PROVED},
     {"x'^2 + y'^2", "0", {"x^2 + y^2 - L^2", "x*x' + y*y'"}, QDOT_REFUTED},
     {"x*p", "x*k", {"p - k"}, QDOT_PROVED},
     {"x", "0", {"x*y"}, QDOT_REFUTED},
@@ -211,7 +218,7 @@ relations_are_used(void **state)
     }
 }
 
-/* --- inequalities ------------------------------------------------------------------------------ */
+/* --- inequalities ------------------------------------------------------------------ */
 
 static const struct {
     const char *left, *right;
@@ -265,22 +272,24 @@ conditions_bound_a_difference(void **state)
     qdot_decision d;
 
     (void)state;
-    assert_int_equal(qdot_decide_less(pool, zero, text_read(pool, "m*(c - a)"), true, &facts, &d),
-                     QDOT_OK);
+    assert_int_equal(
+        qdot_decide_less(pool, zero, text_read(pool, "m*(c - a)"), true, &facts, &d),
+        QDOT_OK);
     assert_int_equal(d.verdict, QDOT_PROVED);
     assert_int_equal(qdot_decide_less(pool, c, a, true, &facts, &d), QDOT_OK);
     assert_int_equal(d.verdict, QDOT_REFUTED);
     qdot_pool_free(pool);
 }
 
-/* --- proportional equations ---------------------------------------------------------------------- */
+/* --- proportional equations -------------------------------------------------------- */
 
 static const struct {
     const char *a, *b, *factor;
     qdot_verdict expected;
     bool may_vanish;
 } proportions[] = {
-    {"m*L^2*theta'' + m*g*L*sin(theta)", "theta'' + g/L*sin(theta)", "m*L^2", QDOT_PROVED, false},
+    {"m*L^2*theta'' + m*g*L*sin(theta)", "theta'' + g/L*sin(theta)", "m*L^2", QDOT_PROVED,
+     false},
     {"m*r*phi'' + 2*m*r'*phi'", "r^2*phi'' + 2*r*r'*phi'", "m/r", QDOT_PROVED, false},
     {"k*phi'' + k*g*sin(phi)", "phi'' + g*sin(phi)", "k", QDOT_PROVED, true},
     {"x*phi''", "y*phi''", "x/y", QDOT_PROVED, true},
@@ -304,18 +313,20 @@ proportional_equations_are_found(void **state)
         bool may_vanish;
 
         assert_int_equal(qdot_decide_proportional(pool, text_read(pool, proportions[i].a),
-                                                  text_read(pool, proportions[i].b), NULL, &d,
-                                                  &factor, &may_vanish),
+                                                  text_read(pool, proportions[i].b), NULL,
+                                                  &d, &factor, &may_vanish),
                          QDOT_OK);
-        if (d.verdict != proportions[i].expected || may_vanish != proportions[i].may_vanish)
-            fail_msg("%s ~ %s: verdict %d", proportions[i].a, proportions[i].b, d.verdict);
+        if (d.verdict != proportions[i].expected ||
+            may_vanish != proportions[i].may_vanish)
+            fail_msg("%s ~ %s: verdict %d", proportions[i].a, proportions[i].b,
+                     d.verdict);
         if (proportions[i].factor != NULL)
             assert_int_equal(factor, text_read(pool, proportions[i].factor));
         qdot_pool_free(pool);
     }
 }
 
-/* --- refutations say where -------------------------------------------------------------------------- */
+/* --- refutations say where --------------------------------------------------------- */
 
 static void
 a_refutation_names_its_point(void **state)
@@ -326,8 +337,8 @@ a_refutation_names_its_point(void **state)
     double at;
 
     (void)state;
-    assert_int_equal(qdot_decide_equal(pool, text_read(pool, "x^2"), text_read(pool, "2*x + 1"),
-                                       NULL, &d),
+    assert_int_equal(qdot_decide_equal(pool, text_read(pool, "x^2"),
+                                       text_read(pool, "2*x + 1"), NULL, &d),
                      QDOT_OK);
     assert_int_equal(d.verdict, QDOT_REFUTED);
     assert_int_equal(qdot_expr_count(pool, d.at), 1);
@@ -336,6 +347,34 @@ a_refutation_names_its_point(void **state)
     at = fmpq_get_d(qdot_expr_rational(pool, qdot_expr_arg(pool, equation, 1)));
     assert_true(at * at - d.left < 1e-12 && d.left - at * at < 1e-12);
     assert_true(2 * at + 1 - d.right < 1e-12 && d.right - 2 * at - 1 < 1e-12);
+    qdot_pool_free(pool);
+}
+
+static void
+unequal_equations_are_shown_at_one_point(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_decision d;
+    qdot_expr factor;
+    bool may_vanish;
+
+    (void)state;
+    assert_int_equal(qdot_decide_proportional(pool, text_read(pool, "phi'' + 2*x"),
+                                              text_read(pool, "phi'' - 2*x"), NULL, &d,
+                                              &factor, &may_vanish),
+                     QDOT_OK);
+    assert_int_equal(d.verdict, QDOT_REFUTED);
+    assert_int_equal(qdot_expr_count(pool, d.at), 2); /* x and phi'' */
+    for (uint32_t i = 0; i < 2; i++) {
+        qdot_expr row = qdot_expr_arg(pool, d.at, i);
+
+        if (qdot_expr_arg(pool, row, 0) == text_read(pool, "x")) {
+            double x = fmpq_get_d(qdot_expr_rational(pool, qdot_expr_arg(pool, row, 1)));
+
+            assert_true(d.left - d.right - 4 * x < 1e-9 &&
+                        d.right - d.left + 4 * x < 1e-9);
+        }
+    }
     qdot_pool_free(pool);
 }
 
@@ -371,12 +410,13 @@ vectors_are_refused(void **state)
     qdot_decision d;
 
     (void)state;
-    assert_int_equal(qdot_decide_equal(pool, qdot_vector(pool, 2, two), QDOT_ONE, NULL, &d),
-                     QDOT_ETYPE);
+    assert_int_equal(
+        qdot_decide_equal(pool, qdot_vector(pool, 2, two), QDOT_ONE, NULL, &d),
+        QDOT_ETYPE);
     qdot_pool_free(pool);
 }
 
-/* --- random identities -------------------------------------------------------------------------------- */
+/* --- random identities ------------------------------------------------------------- */
 
 static uint64_t seed = 88172645463325252u;
 
@@ -396,7 +436,8 @@ struct two {
 static qdot_expr
 angle(qdot_pool *pool)
 {
-    static const char *const names[] = {"x", "y", "phi", "x/2", "2*y", "p*t", "x - y", "theta"};
+    static const char *const names[] = {"x",   "y",   "phi",   "x/2",
+                                        "2*y", "p*t", "x - y", "theta"};
 
     return text_read(pool, names[draw(sizeof names / sizeof *names)]);
 }
@@ -405,7 +446,8 @@ angle(qdot_pool *pool)
 static struct two
 leaf(qdot_pool *pool)
 {
-    static const char *const names[] = {"x", "y", "m", "L", "r", "phi'", "x''", "f(s)", "2", "1/3"};
+    static const char *const names[] = {"x",    "y",   "m",    "L", "r",
+                                        "phi'", "x''", "f(s)", "2", "1/3"};
     qdot_expr a, b, s, c;
 
     switch (draw(9)) {
@@ -413,8 +455,9 @@ leaf(qdot_pool *pool)
         a = angle(pool);
         s = qdot_fun1(pool, QDOT_SIN, a);
         c = qdot_fun1(pool, QDOT_COS, a);
-        return (struct two){qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, qdot_expr_int(pool, 2), a)),
-                            qdot_mul(pool, qdot_expr_int(pool, 2), qdot_mul(pool, s, c))};
+        return (struct two){
+            qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, qdot_expr_int(pool, 2), a)),
+            qdot_mul(pool, qdot_expr_int(pool, 2), qdot_mul(pool, s, c))};
     case 1:
         a = angle(pool);
         s = qdot_fun1(pool, QDOT_SIN, a);
@@ -424,23 +467,24 @@ leaf(qdot_pool *pool)
     case 2:
         a = angle(pool);
         b = angle(pool);
-        return (struct two){
-            qdot_fun1(pool, QDOT_COS, qdot_add(pool, a, b)),
-            qdot_sub(pool,
-                     qdot_mul(pool, qdot_fun1(pool, QDOT_COS, a), qdot_fun1(pool, QDOT_COS, b)),
-                     qdot_mul(pool, qdot_fun1(pool, QDOT_SIN, a), qdot_fun1(pool, QDOT_SIN, b)))};
+        return (struct two){qdot_fun1(pool, QDOT_COS, qdot_add(pool, a, b)),
+                            qdot_sub(pool,
+                                     qdot_mul(pool, qdot_fun1(pool, QDOT_COS, a),
+                                              qdot_fun1(pool, QDOT_COS, b)),
+                                     qdot_mul(pool, qdot_fun1(pool, QDOT_SIN, a),
+                                              qdot_fun1(pool, QDOT_SIN, b)))};
     case 3:
         a = angle(pool);
-        return (struct two){qdot_fun1(pool, QDOT_COSH, qdot_mul(pool, qdot_expr_int(pool, 2), a)),
-                            qdot_add(pool, QDOT_ONE,
-                                     qdot_mul(pool, qdot_expr_int(pool, 2),
-                                              qdot_pow_int(pool, qdot_fun1(pool, QDOT_SINH, a),
-                                                           2)))};
+        return (struct two){
+            qdot_fun1(pool, QDOT_COSH, qdot_mul(pool, qdot_expr_int(pool, 2), a)),
+            qdot_add(pool, QDOT_ONE,
+                     qdot_mul(pool, qdot_expr_int(pool, 2),
+                              qdot_pow_int(pool, qdot_fun1(pool, QDOT_SINH, a), 2)))};
     case 4:
         a = angle(pool);
-        return (struct two){qdot_fun1(pool, QDOT_TAN, a),
-                            qdot_div(pool, qdot_fun1(pool, QDOT_SIN, a),
-                                     qdot_fun1(pool, QDOT_COS, a))};
+        return (struct two){
+            qdot_fun1(pool, QDOT_TAN, a),
+            qdot_div(pool, qdot_fun1(pool, QDOT_SIN, a), qdot_fun1(pool, QDOT_COS, a))};
     case 5:
         a = text_read(pool, "x^2 + y^2");
         return (struct two){qdot_sqrt(pool, qdot_mul(pool, a, text_read(pool, "r^2"))),
@@ -461,17 +505,17 @@ tree(qdot_pool *pool, int depth)
     a = tree(pool, depth - 1);
     b = tree(pool, depth - 1);
     switch (draw(5)) {
-    case 0:
-        return (struct two){qdot_add(pool, a.l, b.l), qdot_add(pool, b.r, a.r)};
+    case 0: return (struct two){qdot_add(pool, a.l, b.l), qdot_add(pool, b.r, a.r)};
     case 1:
         c = leaf(pool);
-        return (struct two){qdot_mul(pool, a.l, qdot_add(pool, b.l, c.l)),
-                            qdot_add(pool, qdot_mul(pool, a.r, b.r), qdot_mul(pool, a.r, c.r))};
-    case 2:
-        return (struct two){qdot_mul(pool, a.l, b.l), qdot_mul(pool, a.r, b.r)};
+        return (struct two){
+            qdot_mul(pool, a.l, qdot_add(pool, b.l, c.l)),
+            qdot_add(pool, qdot_mul(pool, a.r, b.r), qdot_mul(pool, a.r, c.r))};
+    case 2: return (struct two){qdot_mul(pool, a.l, b.l), qdot_mul(pool, a.r, b.r)};
     case 3:
-        return (struct two){qdot_pow_int(pool, qdot_sub(pool, a.l, b.l), 2),
-                            qdot_expand(pool, qdot_pow_int(pool, qdot_sub(pool, a.r, b.r), 2))};
+        return (struct two){
+            qdot_pow_int(pool, qdot_sub(pool, a.l, b.l), 2),
+            qdot_expand(pool, qdot_pow_int(pool, qdot_sub(pool, a.r, b.r), 2))};
     default: /* the denominator 1 + x^2 */
         c.l = text_read(pool, "1 + x^2");
         return (struct two){
@@ -484,7 +528,8 @@ tree(qdot_pool *pool, int depth)
 static qdot_expr
 spoiled(qdot_pool *pool, qdot_expr e)
 {
-    static const char *const changes[] = {"1e-30", "x*1e-12", "sin(y)*1e-20", "r'*1e-9", "m"};
+    static const char *const changes[] = {"1e-30", "x*1e-12", "sin(y)*1e-20", "r'*1e-9",
+                                          "m"};
     qdot_expr change = text_read(pool, changes[draw(sizeof changes / sizeof *changes)]);
 
     return draw(2) == 0 ? qdot_add(pool, e, change)
@@ -514,7 +559,8 @@ random_verdicts_are_never_wrong(void **state)
         if (d.verdict == QDOT_REFUTED)
             fail_msg("true, but refuted: %s == %s", left, right);
         proved += d.verdict == QDOT_PROVED;
-        assert_int_equal(qdot_decide_equal(pool, e.l, spoiled(pool, e.r), NULL, &d), QDOT_OK);
+        assert_int_equal(qdot_decide_equal(pool, e.l, spoiled(pool, e.r), NULL, &d),
+                         QDOT_OK);
         if (d.verdict == QDOT_PROVED)
             fail_msg("false, but proved: %s == (changed) %s", left, right);
         refuted += d.verdict == QDOT_REFUTED;
@@ -537,6 +583,7 @@ main(void)
         cmocka_unit_test(conditions_bound_a_difference),
         cmocka_unit_test(proportional_equations_are_found),
         cmocka_unit_test(a_refutation_names_its_point),
+        cmocka_unit_test(unequal_equations_are_shown_at_one_point),
         cmocka_unit_test(what_is_undefined_everywhere_is_undecided),
         cmocka_unit_test(zero_to_many_digits_without_a_proof_is_undecided),
         cmocka_unit_test(vectors_are_refused),

@@ -25,8 +25,10 @@ static const struct {
      " + (L1*sin(theta1)*theta1' + L2*sin(theta2)*theta2')^2)",
      "1/2*(m1 + m2)*L1^2*theta1'^2 + 1/2*m2*L2^2*theta2'^2"
      " + m2*L1*L2*cos(theta1 - theta2)*theta1'*theta2'"},
-    {"(r'*sin(theta)*cos(phi) + r*cos(theta)*cos(phi)*theta' - r*sin(theta)*sin(phi)*phi')^2"
-     " + (r'*sin(theta)*sin(phi) + r*cos(theta)*sin(phi)*theta' + r*sin(theta)*cos(phi)*phi')^2"
+    {"(r'*sin(theta)*cos(phi) + r*cos(theta)*cos(phi)*theta' - "
+     "r*sin(theta)*sin(phi)*phi')^2"
+     " + (r'*sin(theta)*sin(phi) + r*cos(theta)*sin(phi)*theta' + "
+     "r*sin(theta)*cos(phi)*phi')^2"
      " + (r'*cos(theta) - r*sin(theta)*theta')^2",
      "r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2"},
     /* entries of mass matrices */
@@ -34,11 +36,12 @@ static const struct {
     {"m2*(L1*cos(theta1)*L2*cos(theta2) + L1*sin(theta1)*L2*sin(theta2))",
      "m2*L1*L2*cos(theta1 - theta2)"},
     {"m*L^2*(1 - cos(theta)^2)", "m*L^2*sin(theta)^2"},
-    {"m*L^2*sin(theta)^2*cos(phi)^2 + m*L^2*sin(theta)^2*sin(phi)^2", "m*L^2*sin(theta)^2"},
+    {"m*L^2*sin(theta)^2*cos(phi)^2 + m*L^2*sin(theta)^2*sin(phi)^2",
+     "m*L^2*sin(theta)^2"},
     /* forces and equations */
     {"-m1*g*L1*sin(theta1) - m2*g*L1*sin(theta1)", "-(m1 + m2)*g*L1*sin(theta1)"},
     {"-(m1 + m2)*g*L1*cos(theta1) - m2*g*L2*cos(theta2)",
-     "-(m1 + m2)*g*L1*cos(theta1) - m2*g*L2*cos(theta2)"},
+     "-g*((m1 + m2)*L1*cos(theta1) + m2*L2*cos(theta2))"},
     {"m*L^2*theta'' + m*g*L*sin(theta)", "m*L^2*theta'' + m*g*L*sin(theta)"},
     {"m*L^2*theta'' - m*L^2*sin(theta)*cos(theta)*phi'^2",
      "m*L^2*(theta'' - sin(theta)*cos(theta)*phi'^2)"},
@@ -108,13 +111,16 @@ elliptic_and_toroidal_metrics_come_out(void **state)
 
     (void)state;
     assert_true(qdot_expr_size(pool, qdot_simplify(pool, e, NULL)) <=
-                qdot_expr_size(pool, text_read(pool, "a^2*(sinh(u)^2 + sin(v)^2)*(du^2 + dv^2)")));
-    e = text_read(pool, "((a*cosh(v)*dv*(cosh(v) - cos(u)) - a*sinh(v)*(sinh(v)*dv + sin(u)*du))"
-                        "/(cosh(v) - cos(u))^2)^2"
-                        " + ((a*cos(u)*du*(cosh(v) - cos(u)) - a*sin(u)*(sinh(v)*dv + sin(u)*du))"
-                        "/(cosh(v) - cos(u))^2)^2");
-    assert_true(qdot_expr_size(pool, qdot_simplify(pool, e, NULL)) <=
-                qdot_expr_size(pool, text_read(pool, "a^2*(du^2 + dv^2)/(cosh(v) - cos(u))^2")));
+                qdot_expr_size(
+                    pool, text_read(pool, "a^2*(sinh(u)^2 + sin(v)^2)*(du^2 + dv^2)")));
+    e = text_read(
+        pool, "((a*cosh(v)*dv*(cosh(v) - cos(u)) - a*sinh(v)*(sinh(v)*dv + sin(u)*du))"
+              "/(cosh(v) - cos(u))^2)^2"
+              " + ((a*cos(u)*du*(cosh(v) - cos(u)) - a*sin(u)*(sinh(v)*dv + sin(u)*du))"
+              "/(cosh(v) - cos(u))^2)^2");
+    assert_true(
+        qdot_expr_size(pool, qdot_simplify(pool, e, NULL)) <=
+        qdot_expr_size(pool, text_read(pool, "a^2*(du^2 + dv^2)/(cosh(v) - cos(u))^2")));
     qdot_pool_free(pool);
 }
 
@@ -165,19 +171,21 @@ normal_forms_are_equal_nodes(void **state)
     qdot_pool *pool = qdot_pool_new();
 
     (void)state;
-    assert_int_equal(qdot_normal(pool, text_read(pool, "(x + y)*(x - y) + sin(x)^2"), NULL),
-                     qdot_normal(pool, text_read(pool, "x^2 - y^2 + 1 - cos(x)^2"), NULL));
+    assert_int_equal(
+        qdot_normal(pool, text_read(pool, "(x + y)*(x - y) + sin(x)^2"), NULL),
+        qdot_normal(pool, text_read(pool, "x^2 - y^2 + 1 - cos(x)^2"), NULL));
     assert_int_equal(qdot_normal(pool, text_read(pool, "(x^2 - y^2)/(x - y)"), NULL),
                      text_read(pool, "x + y"));
     qdot_pool_free(pool);
 }
 
-/* --- linear systems ------------------------------------------------------------------------ */
+/* --- linear systems ---------------------------------------------------------------- */
 
 static void
 the_double_pendulum_is_solved(void **state)
 {
-    static const char *const entries[] = {"(m1 + m2)*L1^2", "m2*L1*L2*cos(theta1 - theta2)",
+    static const char *const entries[] = {"(m1 + m2)*L1^2",
+                                          "m2*L1*L2*cos(theta1 - theta2)",
                                           "m2*L1*L2*cos(theta1 - theta2)", "m2*L2^2"};
     static const char *const rights[] = {
         "-m2*L1*L2*sin(theta1 - theta2)*theta2'^2 - (m1 + m2)*g*L1*sin(theta1)",
@@ -204,7 +212,8 @@ the_double_pendulum_is_solved(void **state)
 static void
 a_hidden_zero_pivot_is_singular(void **state)
 {
-    static const char *const entries[] = {"cos(x)^2", "sin(x)*cos(x)", "sin(2*x)/2", "sin(x)^2"};
+    static const char *const entries[] = {"cos(x)^2", "sin(x)*cos(x)", "sin(2*x)/2",
+                                          "sin(x)^2"};
     qdot_pool *pool = qdot_pool_new();
     qdot_expr a[4], b[2] = {QDOT_ONE, QDOT_ONE}, x[2];
     uint32_t pivot;
@@ -221,9 +230,13 @@ static void
 a_zero_on_the_diagonal_is_passed(void **state)
 {
     qdot_pool *pool = qdot_pool_new();
-    qdot_expr a[9] = {QDOT_ZERO, text_read(pool, "m"), QDOT_ZERO, text_read(pool, "L"), QDOT_ZERO,
-                      QDOT_ONE, QDOT_ZERO, QDOT_ONE, text_read(pool, "x")};
-    qdot_expr b[3] = {text_read(pool, "m*y"), text_read(pool, "z"), text_read(pool, "y")}, x[3];
+    qdot_expr a[9] = {QDOT_ZERO,           text_read(pool, "m"),
+                      QDOT_ZERO,           text_read(pool, "L"),
+                      QDOT_ZERO,           QDOT_ONE,
+                      QDOT_ZERO,           QDOT_ONE,
+                      text_read(pool, "x")};
+    qdot_expr b[3] = {text_read(pool, "m*y"), text_read(pool, "z"), text_read(pool, "y")},
+              x[3];
     uint32_t pivot;
 
     (void)state;
@@ -234,7 +247,7 @@ a_zero_on_the_diagonal_is_passed(void **state)
     qdot_pool_free(pool);
 }
 
-/* --- values are kept: an evaluation of its own ------------------------------------------------ */
+/* --- values are kept: an evaluation of its own ------------------------------------- */
 
 /* The value of e in doubles, symbols by their hash; for the functions of these tests. */
 static double
@@ -245,16 +258,14 @@ value(const qdot_pool *pool, qdot_expr e, unsigned salt)
     unsigned h = salt * 2654435761u;
 
     switch (qdot_expr_kind(pool, e)) {
-    case QDOT_NUM:
-        return fmpq_get_d(qdot_expr_rational(pool, e));
+    case QDOT_NUM: return fmpq_get_d(qdot_expr_rational(pool, e));
     case QDOT_SYM:
         if (e == QDOT_PI)
             return 3.14159265358979323846;
         for (const char *c = qdot_expr_symbol(pool, e)->name; *c != '\0'; c++)
             h = (h ^ (unsigned char)*c) * 16777619u;
         return 0.2 + (h >> 8) % 1000 / 700.0;
-    case QDOT_UFUN:
-        return 0.7 + 0.1 * (double)qdot_expr_node(pool, e)->op;
+    case QDOT_UFUN: return 0.7 + 0.1 * (double)qdot_expr_node(pool, e)->op;
     case QDOT_SUM:
         x = value(pool, qdot_expr_arg(pool, e, 0), salt);
         for (uint32_t i = 1; i < n; i += 2)
@@ -267,34 +278,21 @@ value(const qdot_pool *pool, qdot_expr e, unsigned salt)
             x *= pow(value(pool, qdot_expr_arg(pool, e, i), salt),
                      value(pool, qdot_expr_arg(pool, e, i + 1), salt));
         return x;
-    default:
-        y = value(pool, qdot_expr_arg(pool, e, 0), salt);
+    default: y = value(pool, qdot_expr_arg(pool, e, 0), salt);
     }
     switch (qdot_expr_node(pool, e)->op) {
-    case QDOT_SIN:
-        return sin(y);
-    case QDOT_COS:
-        return cos(y);
-    case QDOT_TAN:
-        return tan(y);
-    case QDOT_COT:
-        return 1 / tan(y);
-    case QDOT_SEC:
-        return 1 / cos(y);
-    case QDOT_SINH:
-        return sinh(y);
-    case QDOT_COSH:
-        return cosh(y);
-    case QDOT_TANH:
-        return tanh(y);
-    case QDOT_EXP:
-        return exp(y);
-    case QDOT_LOG:
-        return log(y);
-    case QDOT_ABS:
-        return fabs(y);
-    default:
-        return NAN;
+    case QDOT_SIN: return sin(y);
+    case QDOT_COS: return cos(y);
+    case QDOT_TAN: return tan(y);
+    case QDOT_COT: return 1 / tan(y);
+    case QDOT_SEC: return 1 / cos(y);
+    case QDOT_SINH: return sinh(y);
+    case QDOT_COSH: return cosh(y);
+    case QDOT_TANH: return tanh(y);
+    case QDOT_EXP: return exp(y);
+    case QDOT_LOG: return log(y);
+    case QDOT_ABS: return fabs(y);
+    default: return NAN;
     }
 }
 
@@ -312,11 +310,17 @@ draw(unsigned below)
 static qdot_expr
 random_tree(qdot_pool *pool, int depth)
 {
-    static const char *const leaves[] = {
-        "x",          "y",      "m",      "L",     "r",      "r'",      "phi'",   "x''",
-        "sin(x)",     "cos(x)", "sin(y)", "cos(y)", "cos(x - y)", "sin(2*x)", "2",      "-1/3",
-        "sinh(u)",    "cosh(u)", "tan(x)", "exp(u)", "sqrt(x^2 + y^2)", "sqrt(r)", "m1",  "m2",
-        "log(x + y)", "dx",     "lam",    "f(s)",   "sin(x)^2", "cos(x)^2", "cosh(u)^2", "abs(x*y)"};
+    static const char *const leaves[] = {"x",          "y",        "m",
+                                         "L",          "r",        "r'",
+                                         "phi'",       "x''",      "sin(x)",
+                                         "cos(x)",     "sin(y)",   "cos(y)",
+                                         "cos(x - y)", "sin(2*x)", "2",
+                                         "-1/3",       "sinh(u)",  "cosh(u)",
+                                         "tan(x)",     "exp(u)",   "sqrt(x^2 + y^2)",
+                                         "sqrt(r)",    "m1",       "m2",
+                                         "log(x + y)", "dx",       "lam",
+                                         "f(s)",       "sin(x)^2", "cos(x)^2",
+                                         "cosh(u)^2",  "abs(x*y)"};
     qdot_expr a, b;
 
     if (depth == 0)
@@ -325,15 +329,11 @@ random_tree(qdot_pool *pool, int depth)
     b = random_tree(pool, depth - 1 - (int)draw((unsigned)depth));
     switch (draw(6)) {
     case 0:
-    case 1:
-        return qdot_add(pool, a, b);
+    case 1: return qdot_add(pool, a, b);
     case 2:
-    case 3:
-        return qdot_mul(pool, a, b);
-    case 4:
-        return qdot_sub(pool, a, b);
-    default:
-        return b == QDOT_ZERO ? a : qdot_div(pool, a, b);
+    case 3: return qdot_mul(pool, a, b);
+    case 4: return qdot_sub(pool, a, b);
+    default: return b == QDOT_ZERO ? a : qdot_div(pool, a, b);
     }
 }
 
@@ -362,7 +362,8 @@ random_values_are_kept(void **state)
                     continue;
                 compared++;
                 if (fabs(was - is) > 1e-5 * (1 + fabs(was))) {
-                    char *left = text_write(pool, e), *right = text_write(pool, forms_of[k]);
+                    char *left = text_write(pool, e),
+                         *right = text_write(pool, forms_of[k]);
 
                     fail_msg("%s became %s: %.15g, %.15g", left, right, was, is);
                 }
@@ -384,8 +385,10 @@ long_sums_come_back_in_time(void **state)
     for (int i = 0; i < 300; i++) {
         char text[96];
 
-        snprintf(text, sizeof text, "q%d*sin(w%d - w%d)*w%d'^2", i % 7, i % 11, i % 13, i % 17);
-        sum = qdot_add(pool, sum, qdot_mul(pool, qdot_expr_int(pool, i + 1), text_read(pool, text)));
+        snprintf(text, sizeof text, "q%d*sin(w%d - w%d)*w%d'^2", i % 7, i % 11, i % 13,
+                 i % 17);
+        sum = qdot_add(pool, sum,
+                       qdot_mul(pool, qdot_expr_int(pool, i + 1), text_read(pool, text)));
     }
     assert_int_not_equal(qdot_simplify(pool, sum, NULL), QDOT_NIL);
     sum = qdot_pow_int(pool, qdot_add(pool, sum, QDOT_ONE), 50); /* far past the budget */

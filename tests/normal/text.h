@@ -1,9 +1,9 @@
-/* text.h -- expressions for the tests of this floor, from text: the arithmetic of the language
- * with a fixed set of names.
+/* text.h -- expressions for the tests of this floor, from text: the arithmetic of the
+ * language with a fixed set of names.
  *
- *   params   m m1 m2 L L1 L2 g a b > 0; p k c e without a sign
- *   coords   r rho > 0, 0 < theta < pi, phi theta1 theta2 psi x y z u v w without bounds, s
- *   t; dNAME; lam (a multiplier); f(s), h(s), f'(s), f''(s): undefined functions
+ * params   m m1 m2 L L1 L2 g a b > 0; p k c e without a sign coords   r rho > 0, 0 <
+ * theta < pi, phi theta1 theta2 psi x y z u v w without bounds, s t; dNAME; lam (a
+ * multiplier); f(s), h(s), f'(s), f''(s): undefined functions
  */
 #ifndef QDOT_TESTS_NORMAL_TEXT_H
 #define QDOT_TESTS_NORMAL_TEXT_H
@@ -31,7 +31,8 @@ static qdot_expr text_sum(text *s);
 static qdot_expr
 text_symbol(qdot_pool *pool, const char *name)
 {
-    static const char *const positive[] = {"m", "m1", "m2", "L", "L1", "L2", "g", "a", "b"};
+    static const char *const positive[] = {"m",  "m1", "m2", "L", "L1",
+                                           "L2", "g",  "a",  "b"};
     static const char *const params[] = {"p", "k", "c", "e"};
     qdot_expr x;
 

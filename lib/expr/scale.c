@@ -1,0 +1,157 @@
+/* scale.c -- numbers times expressions, and the products and powers that need no merging. */
+#include "expr/pool.h"
+
+#include <string.h>
+
+static qdot_expr
+number_times(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    fmpq_t c;
+    qdot_expr e;
+
+    if (a == QDOT_ONE || b == QDOT_ONE)
+        return a == QDOT_ONE ? b : a;
+    fmpq_init(c);
+    fmpq_mul(c, RATIONAL(pool, a), RATIONAL(pool, b));
+    e = qdot_expr_fmpq(pool, c);
+    fmpq_clear(c);
+    return e;
+}
+
+qdot_expr
+qdot_sum_turned(qdot_pool *pool, qdot_expr sum)
+{
+    uint32_t n = NODE(pool, sum)->n;
+    qdot_expr few[33], *args = n > 33 ? qdot_malloc(n * sizeof *args) : few, e = QDOT_NIL;
+
+    if (args == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++) {
+        args[i] = ARGS(pool, sum)[i];
+        if (i % 2 == 0)
+            args[i] = number_times(pool, QDOT_MINUS_ONE, args[i]);
+    }
+    if (!qdot_pool_failed(pool))
+        e = qdot_pool_intern(pool, QDOT_SUM, 0, n, args, qdot_sign_of_sum(pool, n, args));
+    if (args != few)
+        qdot_free(args);
+    return e;
+}
+
+/* c times e, c a NUM: the same pairs. */
+static qdot_expr
+multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
+{
+    uint32_t n = NODE(pool, e)->kind == QDOT_PROD ? NODE(pool, e)->n : 3;
+    qdot_expr few[33], *args = few, result = QDOT_NIL;
+
+    if (c == QDOT_ONE || c == QDOT_ZERO)
+        return c == QDOT_ONE ? e : c;
+    if (NODE(pool, e)->kind == QDOT_NUM)
+        return number_times(pool, c, e);
+    if (n > 33 && (args = qdot_malloc(n * sizeof *args)) == NULL)
+        return qdot_pool_fail(pool);
+    if (NODE(pool, e)->kind == QDOT_PROD) {
+        memcpy(args, ARGS(pool, e), n * sizeof *args);
+        args[0] = number_times(pool, c, args[0]);
+    } else {
+        args[0] = c;
+        args[1] = e;
+        args[2] = QDOT_ONE;
+    }
+    if (args[0] == QDOT_NIL)
+        result = QDOT_NIL;
+    else if (n == 3 && args[2] == QDOT_ONE && args[0] == QDOT_ONE)
+        result = args[1];
+    else if (n == 3 && args[2] == QDOT_ONE && args[0] == QDOT_MINUS_ONE &&
+             NODE(pool, args[1])->kind == QDOT_SUM)
+        result = qdot_sum_turned(pool, args[1]);
+    else
+        result = qdot_pool_intern(pool, QDOT_PROD, 0, n, args, qdot_sign_of_product(pool, n, args));
+    if (args != few)
+        qdot_free(args);
+    return result;
+}
+
+qdot_expr
+qdot_expr_strip(qdot_pool *pool, qdot_expr e)
+{
+    const qdot_node *node = NODE(pool, e);
+    qdot_expr few[33], *args = few, stripped;
+    uint32_t n = node->n;
+
+    if (node->kind != QDOT_PROD || ARGS(pool, e)[0] == QDOT_ONE)
+        return e;
+    if (n == 3 && ARGS(pool, e)[2] == QDOT_ONE)
+        return ARGS(pool, e)[1];
+    if (n > 33 && (args = qdot_malloc(n * sizeof *args)) == NULL)
+        return qdot_pool_fail(pool);
+    memcpy(args, ARGS(pool, e), n * sizeof *args);
+    args[0] = QDOT_ONE;
+    stripped = qdot_pool_intern(pool, QDOT_PROD, 0, n, args, qdot_sign_of_product(pool, n, args));
+    if (args != few)
+        qdot_free(args);
+    return stripped;
+}
+
+qdot_expr
+qdot_expr_unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
+{
+    if (NODE(pool, e)->kind == QDOT_NUM) {
+        fmpq_set(c, RATIONAL(pool, e));
+        return QDOT_ONE;
+    }
+    if (NODE(pool, e)->kind != QDOT_PROD) {
+        fmpq_one(c);
+        return e;
+    }
+    fmpq_set(c, RATIONAL(pool, ARGS(pool, e)[0]));
+    return qdot_expr_strip(pool, e);
+}
+
+bool
+qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e)
+{
+    const qdot_node *node = NODE(pool, e);
+
+    return node->kind == QDOT_SYM || node->kind == QDOT_SUM || node->kind == QDOT_UFUN ||
+           (node->kind == QDOT_FUN && node->op != QDOT_EXP && node->op != QDOT_ABS);
+}
+
+qdot_expr
+qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    if (a == QDOT_NIL || b == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "a number is needed here");
+    if (NODE(pool, a)->kind == QDOT_NUM)
+        return multiple(pool, a, b);
+    if (NODE(pool, b)->kind == QDOT_NUM)
+        return multiple(pool, b, a);
+    if (a != b && qdot_expr_is_atom(pool, a) && qdot_expr_is_atom(pool, b)) {
+        bool turned = qdot_expr_compare(pool, a, b) > 0;
+        qdot_expr args[] = {QDOT_ONE, turned ? b : a, QDOT_ONE, turned ? a : b, QDOT_ONE};
+
+        return qdot_pool_intern(pool, QDOT_PROD, 0, 5, args, qdot_sign_of_product(pool, 5, args));
+    }
+    return qdot_product(pool, 2, (qdot_expr[]){a, b});
+}
+
+qdot_expr
+qdot_pow_int(qdot_pool *pool, qdot_expr a, long n)
+{
+    return qdot_pow(pool, a, qdot_expr_int(pool, n));
+}
+
+qdot_expr
+qdot_sqrt(qdot_pool *pool, qdot_expr a)
+{
+    return qdot_pow(pool, a, QDOT_HALF);
+}
+
+qdot_expr
+qdot_div(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    return qdot_mul(pool, a, qdot_pow(pool, b, QDOT_MINUS_ONE));
+}

@@ -1,0 +1,544 @@
+/* equilibrium.c -- the equations at rest, solved one unknown at a time. */
+#include "mech/equilibrium.h"
+
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/derived.h"
+#include "mech/quantity.h"
+#include "normal/positive.h"
+#include "normal/simplify.h"
+#include "normal/solve.h"
+
+enum { MOST_BRANCHES = 400, MOST_SOLUTIONS = 200 };
+
+/* What is left to solve, and what is known: LISTs. */
+typedef struct {
+    qdot_expr equations, known, conditions;
+} branch;
+
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    qdot_facts facts;
+    qdot_vec(qdot_expr) unknowns; /* coordinates, then multipliers */
+    size_t coordinates;           /* of them */
+    qdot_vec(branch) todo;
+    qdot_vec(qdot_equilibrium) found;
+    bool complete;
+} rest;
+
+/* --- lists ----------------------------------------------------------------------- */
+
+static qdot_expr
+appended(qdot_pool *pool, qdot_expr list, size_t n, const qdot_expr *more)
+{
+    uint32_t old = list == QDOT_NIL ? 0 : qdot_expr_count(pool, list);
+    qdot_expr *all = qdot_malloc((old + n + 1) * sizeof *all);
+
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < old; i++)
+        all[i] = qdot_expr_arg(pool, list, i);
+    for (size_t i = 0; i < n; i++)
+        all[old + i] = more[i];
+    list = qdot_list(pool, (uint32_t)(old + n), all);
+    qdot_free(all);
+    return list;
+}
+
+static size_t
+holds_unknowns(const rest *r, qdot_expr e)
+{
+    size_t n = 0;
+
+    for (size_t i = 0; i < r->unknowns.n; i++)
+        n += qdot_expr_contains(r->pool, e, r->unknowns.at[i]);
+    return n;
+}
+
+/* --- the equations at rest ----------------------------------------------------------- */
+
+static qdot_expr
+at_rest(qdot_scene *s, qdot_expr e)
+{
+    size_t n = s->coordinates.n;
+    qdot_expr *from = qdot_calloc(4 * n + 1, sizeof *from);
+
+    if (from == NULL)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < n; i++) {
+        from[i] = qdot_mech_jet(s, i, 1);
+        from[n + i] = qdot_mech_jet(s, i, 2);
+        from[2 * n + i] = from[3 * n + i] = QDOT_ZERO;
+    }
+    e = qdot_subs(s->pool, e, 2 * n, from, from + 2 * n);
+    qdot_free(from);
+    return e;
+}
+
+static qdot_expr
+residual(qdot_pool *pool, qdot_expr equation)
+{
+    if (equation == QDOT_NIL)
+        return QDOT_NIL;
+    return qdot_sub(pool, qdot_expr_arg(pool, equation, 1),
+                    qdot_expr_arg(pool, equation, 0));
+}
+
+/* Every equation, simplified, those that hold identically left out. */
+static qdot_status
+equations_at_rest(rest *r, qdot_expr *list)
+{
+    qdot_scene *s = r->s;
+    size_t n = s->coordinates.n, m = n + s->constraints.n, count = 0;
+    qdot_expr *e = qdot_calloc(m + 1, sizeof *e);
+    qdot_status status = QDOT_OK;
+
+    if (e == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < m && status == QDOT_OK; i++) {
+        qdot_expr one = i < n ? residual(r->pool, qdot_mech_equation(
+                                                       s, s->coordinates.at[i]))
+                              : s->constraints.at[i - n].f;
+
+        one = qdot_simplify(r->pool, at_rest(s, one), &r->facts);
+        status = qdot_pool_check(r->pool);
+        if (status != QDOT_OK || one == QDOT_ZERO ||
+            qdot_is_zero(r->pool, one, &r->facts))
+            continue;
+        if (qdot_mech_holds(s, one) & QDOT_HAS_TIME)
+            status = qdot_fail(QDOT_EDOMAIN, "the equations at rest hold the time t: "
+                                             "there is no lasting equilibrium");
+        e[count++] = one;
+    }
+    *list = qdot_list(r->pool, (uint32_t)count, e);
+    qdot_free(e);
+    return status == QDOT_OK ? qdot_pool_check(r->pool) : status;
+}
+
+static qdot_status
+begin(rest *r, branch *first)
+{
+    qdot_scene *s = r->s;
+    qdot_expr none = qdot_list(r->pool, 0, NULL);
+
+    first->known = first->conditions = none;
+    QDOT_TRY(equations_at_rest(r, &first->equations));
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        if (qdot_expr_contains(r->pool, first->equations, s->coordinates.at[i]))
+            QDOT_TRY(qdot_vec_push(&r->unknowns, s->coordinates.at[i]));
+    r->coordinates = r->unknowns.n;
+    for (size_t k = 0; k < s->constraints.n; k++)
+        if (qdot_expr_contains(r->pool, first->equations, s->constraints.at[k].multiplier))
+            QDOT_TRY(qdot_vec_push(&r->unknowns, s->constraints.at[k].multiplier));
+    return QDOT_OK;
+}
+
+/* --- one step of a branch ------------------------------------------------------------ */
+
+/* How hard it is to solve a factor for an unknown: 0 the only one in it; 1 linear, never
+ * divided by anything unknown; 2 linear; 3 else; 9 not there. */
+static int
+effort(const rest *r, qdot_expr factor, qdot_expr u)
+{
+    qdot_expr slope;
+
+    if (!qdot_expr_contains(r->pool, factor, u))
+        return 9;
+    if (holds_unknowns(r, factor) == 1)
+        return 0;
+    slope = qdot_diff(r->pool, factor, u);
+    if (slope == QDOT_NIL || qdot_expr_contains(r->pool, slope, u))
+        return 3;
+    return holds_unknowns(r, slope) == 0 ? 1 : 2;
+}
+
+/* The easiest unknown of a factor, multipliers before coordinates. */
+static int
+easiest(const rest *r, qdot_expr factor, size_t *which)
+{
+    int least = 9;
+
+    for (size_t i = r->unknowns.n; i-- > 0;) {
+        int one = effort(r, factor, r->unknowns.at[i]);
+
+        if (one < least) {
+            least = one;
+            *which = i;
+        }
+    }
+    return least;
+}
+
+/* The branch with u = value put in everywhere. */
+static qdot_status
+with_value(rest *r, const branch *b, qdot_expr equations, qdot_expr u,
+           const qdot_root *root)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr equation = qdot_rel(pool, QDOT_EQ, u, root->value);
+    branch next = {qdot_subs(pool, equations, 1, &u, &root->value),
+                   qdot_subs(pool, b->known, 1, &u, &root->value),
+                   qdot_subs(pool, b->conditions, 1, &u, &root->value)};
+    uint32_t n = qdot_expr_count(pool, b->known);
+    qdot_expr *known;
+
+    if (qdot_pool_failed(pool)) { /* a denominator is 0 there: no solution */
+        qdot_status status = qdot_pool_check(pool);
+
+        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+    }
+    /* unknowns stand on the left of `known`, so they stay */
+    known = qdot_malloc((n + 1) * sizeof *known);
+    if (known == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++)
+        known[i] = qdot_expr_arg(pool, next.known, i);
+    known[n] = equation;
+    next.known = qdot_list(pool, n + 1, known);
+    qdot_free(known);
+    for (uint32_t i = 0;
+         root->condition != QDOT_NIL && i < qdot_expr_count(pool, root->condition); i++) {
+        qdot_expr one = qdot_expr_arg(pool, root->condition, i);
+
+        next.conditions = appended(pool, next.conditions, 1, &one);
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    if (r->todo.n >= MOST_BRANCHES) {
+        r->complete = false;
+        return QDOT_OK;
+    }
+    return qdot_vec_push(&r->todo, next);
+}
+
+/* factor = 0 for its easiest unknown; where it is a u + b with unknowns in a, also a = b = 0. */
+static qdot_status
+split(rest *r, const branch *b, qdot_expr others, qdot_expr factor)
+{
+    qdot_pool *pool = r->pool;
+    qdot_root *roots = NULL;
+    size_t n = 0, which = 0;
+    bool complete = true;
+    int how = easiest(r, factor, &which);
+    qdot_expr u = r->unknowns.at[which], zero = QDOT_ZERO;
+    qdot_status status;
+
+    if (how == 9) /* a factor without unknowns: generic parameters, not 0 */
+        return QDOT_OK;
+    status = qdot_solve(pool, factor, u, &r->facts, &roots, &n, &complete);
+    r->complete = r->complete && complete;
+    for (size_t i = n; i-- > 0 && status == QDOT_OK;)
+        status = with_value(r, b, others, u, &roots[i]);
+    qdot_free(roots);
+    if (status == QDOT_OK && how == 2) {
+        qdot_expr both[2] = {qdot_diff(pool, factor, u),
+                             qdot_subs(pool, factor, 1, &u, &zero)};
+        branch next = *b;
+
+        next.equations = appended(pool, others, 2, both);
+        status = qdot_pool_check(pool);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&r->todo, next);
+    }
+    return status;
+}
+
+/* Conditions at what is known: QDOT_FALSE if one fails; else those that say something. */
+static qdot_expr
+conditions_left(const rest *r, qdot_expr conditions)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr left = QDOT_NIL;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, conditions); i++) {
+        qdot_expr one = qdot_expr_arg(pool, conditions, i);
+        bool there = false;
+
+        if (one == QDOT_TRUE)
+            continue;
+        if (one == QDOT_FALSE)
+            return QDOT_FALSE;
+        one = qdot_positive(pool, qdot_positive_of(pool, one), &r->facts, 0, NULL);
+        if (one == QDOT_FALSE || one == QDOT_NIL)
+            return one;
+        for (uint32_t k = 0; left != QDOT_NIL && k < qdot_expr_count(pool, left); k++)
+            there |= qdot_expr_arg(pool, left, k) == one;
+        if (one != QDOT_TRUE && !there)
+            left = appended(pool, left, 1, &one);
+    }
+    return left;
+}
+
+/* An angle beyond -pi < q <= pi that came of others: turned back where the equations allow it. */
+static qdot_expr
+turned(const rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
+{
+    qdot_pool *pool = r->pool;
+    const qdot_symbol *x = qdot_expr_symbol(pool, u);
+    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), shifted;
+    double v;
+
+    if (x->class != QDOT_COORD || x->lo != QDOT_NIL || x->hi != QDOT_NIL ||
+        qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_FUN ||
+        !qdot_expr_contains(pool, value, QDOT_PI) ||
+        qdot_generic_evaluate(pool, 1, &value, 0, NULL, NULL, 1, &v) != QDOT_OK ||
+        !isfinite(v))
+        return value;
+    shifted = qdot_add(pool, u, turn);
+    shifted = qdot_subs(pool, equations, 1, &u, &shifted);
+    for (uint32_t i = 0; i < qdot_expr_count(pool, equations); i++)
+        if (!qdot_is_zero(pool,
+                          qdot_sub(pool, qdot_expr_arg(pool, shifted, i),
+                                   qdot_expr_arg(pool, equations, i)),
+                          &r->facts))
+            return value;
+    for (; v > M_PI + 1e-9; v -= 2 * M_PI)
+        value = qdot_sub(pool, value, turn);
+    for (; v <= -M_PI + 1e-9; v += 2 * M_PI)
+        value = qdot_add(pool, value, turn);
+    return value;
+}
+
+/* The known values in the order of the unknowns. */
+static qdot_status
+emit(rest *r, const branch *b, qdot_expr equations)
+{
+    qdot_pool *pool = r->pool;
+    qdot_equilibrium e = {.exists = conditions_left(r, b->conditions)};
+    qdot_expr *list;
+    size_t n = 0;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    if (e.exists == QDOT_FALSE)
+        return QDOT_OK;
+    list = qdot_malloc((r->unknowns.n + 1) * sizeof *list);
+    if (list == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < r->unknowns.n; i++)
+        for (uint32_t k = 0; k < qdot_expr_count(pool, b->known); k++) {
+            qdot_expr one = qdot_expr_arg(pool, b->known, k), u = qdot_expr_arg(pool, one, 0);
+
+            if (u != r->unknowns.at[i])
+                continue;
+            list[n++] = qdot_rel(pool, QDOT_EQ, u,
+                                 turned(r, u,
+                                        qdot_simplify(pool, qdot_expr_arg(pool, one, 1),
+                                                      &r->facts),
+                                        equations));
+        }
+    e.equations = qdot_list(pool, (uint32_t)n, list);
+    qdot_free(list);
+    QDOT_TRY(qdot_pool_check(pool));
+    for (size_t i = 0; i < r->found.n; i++)
+        if (r->found.at[i].equations == e.equations)
+            return QDOT_OK;
+    if (r->found.n >= MOST_SOLUTIONS) {
+        r->complete = false;
+        return QDOT_OK;
+    }
+    return qdot_vec_push(&r->found, e);
+}
+
+/* The factors of every equation; the one whose hardest factor is easiest. *dead: one of them is
+ * never 0. */
+static qdot_status
+choose(rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others, bool *dead)
+{
+    qdot_pool *pool = r->pool;
+    uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
+    qdot_expr *left = qdot_calloc(n + 1, sizeof *left), chosen = QDOT_NIL;
+    int least = 10;
+    size_t which;
+
+    *dead = false;
+    if (left == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n && !*dead; i++) {
+        qdot_expr e = qdot_simplify(pool, qdot_expr_arg(pool, equations, i), &r->facts), list;
+        int hardest = 0;
+
+        if (e == QDOT_ZERO || e == QDOT_NIL || qdot_is_zero(pool, e, &r->facts))
+            continue;
+        list = qdot_solve_factors(pool, e);
+        if (list == QDOT_NIL)
+            break;
+        *dead = holds_unknowns(r, e) == 0;
+        for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
+            int one = easiest(r, qdot_expr_arg(pool, list, k), &which);
+
+            if (one < 9 && one > hardest)
+                hardest = one;
+        }
+        left[count++] = e;
+        if (hardest < least) {
+            least = hardest;
+            best = count - 1;
+            chosen = list;
+        }
+    }
+    *factors = count == 0 ? QDOT_NIL : chosen;
+    if (count > 0)
+        left[best] = left[count - 1];
+    *others = qdot_list(pool, count == 0 ? 0 : count - 1, left);
+    qdot_free(left);
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+step(rest *r, const branch *b, qdot_expr all)
+{
+    qdot_expr factors, others;
+    bool dead;
+
+    QDOT_TRY(qdot_interrupt_check());
+    QDOT_TRY(choose(r, b->equations, &factors, &others, &dead));
+    if (dead)
+        return QDOT_OK;
+    if (factors == QDOT_NIL)
+        return emit(r, b, all);
+    for (uint32_t k = qdot_expr_count(r->pool, factors); k-- > 0;)
+        QDOT_TRY(split(r, b, others, qdot_expr_arg(r->pool, factors, k)));
+    return QDOT_OK;
+}
+
+/* --- where that cannot do: numbers ------------------------------------------------------ */
+
+static qdot_expr
+decimal(qdot_pool *pool, double x)
+{
+    qdot_text text = {0};
+    qdot_expr e;
+
+    qdot_text_double(&text, x, 15);
+    e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
+        : text.at[0] == '-' ? qdot_neg(pool, qdot_expr_decimal(pool, text.at + 1, text.n - 1))
+                            : qdot_expr_decimal(pool, text.at, text.n);
+    qdot_text_clear(&text);
+    return e;
+}
+
+/* The name of a symbol in e that is no unknown. */
+static const char *
+unset(const rest *r, qdot_expr e)
+{
+    qdot_expr atoms = qdot_expr_atoms(r->pool, e, true);
+
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(r->pool, atoms); i++) {
+        qdot_expr x = qdot_expr_arg(r->pool, atoms, i);
+        bool is_unknown = qdot_expr_is_class(r->pool, x, QDOT_CONST);
+
+        for (size_t k = 0; k < r->unknowns.n; k++)
+            is_unknown |= r->unknowns.at[k] == x;
+        if (is_unknown)
+            continue;
+        return qdot_expr_kind(r->pool, x) == QDOT_SYM
+                   ? qdot_expr_symbol(r->pool, x)->name
+                   : qdot_ufun_get(r->pool, qdot_expr_node(r->pool, x)->op)->name;
+    }
+    return NULL;
+}
+
+static qdot_status
+search(rest *r, qdot_expr equations, qdot_binder bind, void *user)
+{
+    qdot_pool *pool = r->pool;
+    size_t n = r->unknowns.n, count = 0;
+    qdot_expr bound = bind == NULL ? equations : bind(user, equations), *e, *list;
+    double *found = NULL;
+    const char *name;
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    name = unset(r, bound);
+    if (name != NULL) {
+        qdot_fail(QDOT_EUNSET, "the equilibria cannot be solved for exactly; numbers need a "
+                               "value of `%.100s`",
+                  name);
+        return qdot_hint("set %.100s = ...", name);
+    }
+    if (qdot_expr_count(pool, bound) != n)
+        return qdot_fail(QDOT_EFAILED,
+                         "the equilibria cannot be found: %u equations for %zu unknowns",
+                         qdot_expr_count(pool, bound), n);
+    e = qdot_calloc(2 * n + 1, sizeof *e);
+    if (e == NULL)
+        return QDOT_ENOMEM;
+    list = e + n;
+    for (size_t i = 0; i < n; i++)
+        e[i] = qdot_expr_arg(pool, bound, (uint32_t)i);
+    status = qdot_equilibrium_search(r->s, n, r->unknowns.at, e, &found, &count);
+    if (status == QDOT_OK)
+        r->found.n = 0; /* the exact ones are among them */
+    for (size_t k = 0; k < count && status == QDOT_OK; k++) {
+        qdot_equilibrium one = {.numeric = true};
+
+        for (size_t i = 0; i < n; i++)
+            list[i] = qdot_rel(pool, QDOT_EQ, r->unknowns.at[i],
+                               decimal(pool, found[k * n + i]));
+        one.equations = qdot_list(pool, (uint32_t)n, list);
+        status = qdot_pool_check(pool);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&r->found, one);
+    }
+    qdot_free(found);
+    qdot_free(e);
+    return status;
+}
+
+/* --- all of them ------------------------------------------------------------------------- */
+
+/* Stability, in numbers where the place is. */
+static qdot_status
+judge(rest *r, qdot_binder bind, void *user)
+{
+    for (size_t i = 0; i < r->found.n; i++) {
+        QDOT_TRY(qdot_equilibrium_judge(r->s, &r->found.at[i]));
+        if (r->found.at[i].numeric && r->found.at[i].stable_when != QDOT_NIL && bind != NULL) {
+            qdot_expr when = bind(user, r->found.at[i].stable_when);
+
+            QDOT_TRY(qdot_pool_check(r->pool));
+            when = conditions_left(r, when);
+            QDOT_TRY(qdot_pool_check(r->pool));
+            r->found.at[i].stable_when = when == QDOT_FALSE ? QDOT_NIL : when;
+            if (when == QDOT_FALSE)
+                r->found.at[i].stability = QDOT_UNSTABLE;
+        }
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibrium **list,
+                      size_t *n)
+{
+    rest r = {.s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .complete = true};
+    branch first, b;
+    qdot_status status = qdot_pool_check(s->pool);
+
+    *list = NULL;
+    *n = 0;
+    if (status == QDOT_OK)
+        status = begin(&r, &first);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&r.todo, first);
+    while (status == QDOT_OK && r.todo.n > 0) {
+        b = r.todo.at[--r.todo.n];
+        status = step(&r, &b, first.equations);
+    }
+    if (status == QDOT_OK && !r.complete)
+        status = search(&r, first.equations, bind, user);
+    if (status == QDOT_OK)
+        status = judge(&r, bind, user);
+    qdot_free(r.todo.at);
+    qdot_free(r.unknowns.at);
+    if (status != QDOT_OK) {
+        qdot_free(r.found.at);
+        return status;
+    }
+    *list = r.found.at;
+    *n = r.found.n;
+    return QDOT_OK;
+}

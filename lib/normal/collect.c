@@ -1,0 +1,240 @@
+/* collect.c -- polynomials collected in velocities and accelerations, common factors
+ * out. */
+#include "base/memory.h"
+#include "normal/factor.h"
+#include "normal/form.h"
+#include "normal/items.h"
+
+static qdot_expr
+scaled(qdot_pool *pool, const fmpq_t c, qdot_expr e)
+{
+    return qdot_mul(pool, qdot_expr_fmpq(pool, c), e);
+}
+
+/* The greatest common divisor of the coefficients. */
+static void
+common(qdot_field *f, fmpz_mpoly_t g, const qdot_groups *groups)
+{
+    fmpz_mpoly_set(g, groups->poly, f->ctx);
+    for (slong i = 1; i < groups->n && !fmpz_mpoly_is_fmpz(g, f->ctx); i++)
+        qdot_field_gcd(f, g, g, groups->poly + i);
+    if (fmpz_mpoly_is_fmpz(g, f->ctx))
+        fmpz_mpoly_one(g, f->ctx);
+}
+
+/* c p: the integers of both together go into the coefficient, where they may shorten it
+ * (2 sin a cos a), denominators stand in front. */
+static qdot_expr
+say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
+{
+    qdot_field *f = form->f;
+    fmpz_mpoly_t whole;
+    qdot_expr e;
+    fmpz_t content;
+    fmpq_t k;
+
+    fmpz_init(content);
+    fmpq_init(k);
+    fmpz_mpoly_init(whole, f->ctx);
+    _fmpz_vec_content(content, p->coeffs, fmpz_mpoly_length(p, f->ctx));
+    fmpz_mpoly_scalar_divexact_fmpz(whole, p, content, f->ctx);
+    fmpq_mul_fmpz(k, c, content);
+    fmpz_mpoly_scalar_mul_fmpz(whole, whole, fmpq_numref(k), f->ctx);
+    fmpz_one(fmpq_numref(k));
+    e = scaled(f->pool, k, qdot_form_coefficient(form, whole));
+    fmpz_clear(content);
+    fmpq_clear(k);
+    fmpz_mpoly_clear(whole, f->ctx);
+    return e;
+}
+
+/* c * coefficient * (sum of monomials in velocities), the sum primitive and not
+ * negative. */
+static qdot_expr
+say_merged(qdot_form *form, const qdot_item *item, const fmpq_t c)
+{
+    qdot_field *f = form->f;
+    fmpz_mpoly_t primitive;
+    qdot_expr e;
+    fmpz_t content;
+    fmpq_t k;
+
+    fmpz_init(content);
+    fmpq_init(k);
+    fmpz_mpoly_init(primitive, f->ctx);
+    _fmpz_vec_content(content, item->sum->coeffs, fmpz_mpoly_length(item->sum, f->ctx));
+    if (fmpz_sgn(fmpz_mpoly_leadcoeff(item->sum)) < 0)
+        fmpz_neg(content, content);
+    fmpz_mpoly_scalar_divexact_fmpz(primitive, item->sum, content, f->ctx);
+    fmpq_mul_fmpz(k, c, content);
+    e = qdot_mul(f->pool, say_scaled(form, k, item->key),
+                 fmpz_mpoly_length(primitive, f->ctx) == 1
+                     ? qdot_field_expr(f, primitive)
+                     : qdot_form_plain(form, primitive));
+    fmpz_clear(content);
+    fmpq_clear(k);
+    fmpz_mpoly_clear(primitive, f->ctx);
+    return e;
+}
+
+/* c times the sum of coefficient * monomial, coefficients divided by g; like coefficients
+ * together: (u^2 + v^2)*(du^2 + dv^2). */
+static qdot_expr
+say_collected(qdot_form *form, const qdot_groups *groups, const fmpz_mpoly_t g,
+              const fmpq_t c, bool merged)
+{
+    qdot_field *f = form->f;
+    qdot_items items = {0};
+    qdot_status status = QDOT_OK;
+    qdot_expr sum = QDOT_ZERO;
+    fmpz_mpoly_t key, value;
+    fmpq_t one;
+
+    fmpq_init(one);
+    fmpq_one(one);
+    fmpz_mpoly_init(key, f->ctx);
+    fmpz_mpoly_init(value, f->ctx);
+    for (slong i = 0; i < groups->n && status == QDOT_OK; i++) {
+        fmpz_mpoly_divides(value, groups->poly + i, g, f->ctx);
+        if (merged) {
+            fmpz_mpoly_zero(key, f->ctx);
+            fmpz_mpoly_push_term_si_ui(key, 1, groups->key + i * f->n, f->ctx);
+            status = qdot_items_add(f, &items, value, key);
+        } else {
+            sum = qdot_add(f->pool, sum,
+                           qdot_mul(f->pool, say_scaled(form, c, value),
+                                    qdot_form_monomial(f, one, groups->key + i * f->n)));
+        }
+    }
+    for (size_t i = 0; i < items.n && status == QDOT_OK; i++)
+        sum = qdot_add(f->pool, sum, say_merged(form, &items.at[i], c));
+    qdot_items_clear(f, &items);
+    fmpz_mpoly_clear(key, f->ctx);
+    fmpz_mpoly_clear(value, f->ctx);
+    fmpq_clear(one);
+    return status == QDOT_OK ? sum : qdot_pool_fail(f->pool);
+}
+
+/* Whether every monomial holds a velocity, acceleration ... */
+static bool
+all_moving(qdot_field *f, const qdot_groups *groups)
+{
+    for (slong i = 0; i < groups->n; i++) {
+        bool moving = false;
+
+        for (slong v = 0; v < f->n; v++)
+            moving |= groups->key[i * f->n + v] > 0;
+        if (!moving)
+            return false;
+    }
+    return true;
+}
+
+/* Whether g comes out as in a book: nothing of it is left in the quotients (m*L^2 comes
+ * out of m*L^2*q'' + m*L^2*..., but L1 stays in (m1 + m2)*L1^2*q1'' + m2*L1*L2*...),
+ * and it is not taken out of a sum of a kinetic and a potential part. */
+static bool
+goes_out_whole(qdot_field *f, const fmpz_mpoly_t g, const qdot_groups *groups)
+{
+    for (slong v = 0; v < f->n; v++) {
+        slong degree = fmpz_mpoly_degree_si(g, v, f->ctx);
+
+        for (slong i = 0; i < groups->n && degree > 0; i++)
+            if (fmpz_mpoly_degree_si(groups->poly + i, v, f->ctx) > degree)
+                return false;
+    }
+    return !fmpz_mpoly_is_fmpz(g, f->ctx) && all_moving(f, groups);
+}
+
+/* The same of factors: a bare generator that stands in another factor as well. */
+static bool
+comes_apart(qdot_field *f, const qdot_factors *factors)
+{
+    for (slong i = 0; i < factors->n; i++) {
+        slong v = 0;
+
+        if (fmpz_mpoly_length(factors->poly + i, f->ctx) > 1)
+            continue;
+        while (v < f->n && fmpz_mpoly_degree_si(factors->poly + i, v, f->ctx) == 0)
+            v++;
+        for (slong k = 0; k < factors->n; k++)
+            if (k != i && v < f->n &&
+                fmpz_mpoly_degree_si(factors->poly + k, v, f->ctx) > 0)
+                return false;
+    }
+    return true;
+}
+
+static qdot_expr
+say_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
+{
+    qdot_field *f = form->f;
+    qdot_expr e = QDOT_NIL;
+    qdot_factors factors;
+    fmpq_t one;
+
+    if (form->depth > 0)
+        return QDOT_NIL;
+    if (qdot_factor(f, &factors, p) != QDOT_OK) {
+        qdot_factor_clear(f, &factors);
+        return QDOT_NIL;
+    }
+    fmpq_init(one);
+    fmpq_one(one);
+    form->depth++;
+    if ((factors.n > 1 || (factors.n == 1 && factors.exp[0] > 1)) &&
+        comes_apart(f, &factors)) {
+        e = scaled(f->pool, c, qdot_form_integer(f->pool, factors.content));
+        for (slong i = 0; i < factors.n; i++)
+            e = qdot_mul(f->pool, e,
+                         qdot_pow_int(f->pool, qdot_form_say(form, factors.poly + i, one),
+                                      factors.exp[i]));
+    }
+    form->depth--;
+    fmpq_clear(one);
+    qdot_factor_clear(f, &factors);
+    return e;
+}
+
+qdot_expr
+qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
+{
+    qdot_field *f = form->f;
+    qdot_pool *pool = f->pool;
+    qdot_expr best = QDOT_NIL;
+    qdot_groups groups;
+    fmpz_mpoly_t g, unit;
+    fmpq_t one;
+
+    if (fmpz_mpoly_is_zero(p, f->ctx))
+        return QDOT_ZERO;
+    if (qdot_factor_group(f, &groups, p, form->fast) != QDOT_OK) {
+        qdot_factor_ungroup(f, &groups);
+        return qdot_pool_fail(pool);
+    }
+    fmpq_init(one);
+    fmpq_one(one);
+    fmpz_mpoly_init(g, f->ctx);
+    fmpz_mpoly_init(unit, f->ctx);
+    fmpz_mpoly_one(unit, f->ctx);
+    qdot_form_keep(pool, &best, say_collected(form, &groups, unit, c, false));
+    if (groups.n > 1) {
+        qdot_expr out;
+
+        qdot_form_keep(pool, &best, say_collected(form, &groups, unit, c, true));
+        common(f, g, &groups);
+        out = qdot_form_coefficient(form, g);
+        for (int merged = 0; merged < 2 && goes_out_whole(f, g, &groups); merged++) {
+            qdot_expr inner = say_collected(form, &groups, g, one, merged);
+
+            qdot_form_keep(pool, &best, qdot_mul(pool, scaled(pool, c, out), inner));
+        }
+        if (all_moving(f, &groups))
+            qdot_form_keep(pool, &best, say_product(form, p, c));
+    }
+    fmpz_mpoly_clear(g, f->ctx);
+    fmpz_mpoly_clear(unit, f->ctx);
+    fmpq_clear(one);
+    qdot_factor_ungroup(f, &groups);
+    return best;
+}

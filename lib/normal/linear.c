@@ -1,0 +1,241 @@
+/* linear.c -- linear systems: Bareiss' fraction-free elimination over polynomials. */
+#include "base/memory.h"
+#include "normal/field.h"
+#include "normal/prepare.h"
+#include "normal/simplify.h"
+
+#define WORK 30000000
+
+/* The rows of [A b] as polynomials, times the common multiples of their denominators. */
+static void
+fill(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
+{
+    fmpz_mpoly_t all, g, k;
+
+    fmpz_mpoly_init(all, f->ctx);
+    fmpz_mpoly_init(g, f->ctx);
+    fmpz_mpoly_init(k, f->ctx);
+    for (uint32_t i = 0; i < n && qdot_field_goes(f); i++) {
+        fmpz_mpoly_one(all, f->ctx);
+        for (uint32_t j = 0; j <= n && qdot_field_goes(f); j++) {
+            const qdot_ratio *r = qdot_field_value(f, e[i * (n + 1) + j]);
+
+            qdot_field_gcd(f, g, all, r->d);
+            fmpz_mpoly_divides(k, r->d, g, f->ctx);
+            if (qdot_field_charge(f, fmpz_mpoly_length(all, f->ctx),
+                                  fmpz_mpoly_length(k, f->ctx)))
+                fmpz_mpoly_mul(all, all, k, f->ctx);
+        }
+        for (uint32_t j = 0; j <= n && qdot_field_goes(f); j++) {
+            const qdot_ratio *r = qdot_field_value(f, e[i * (n + 1) + j]);
+
+            fmpz_mpoly_divides(k, all, r->d, f->ctx);
+            if (qdot_field_charge(f, fmpz_mpoly_length(r->n, f->ctx),
+                                  fmpz_mpoly_length(k, f->ctx)))
+                fmpz_mpoly_mul(m + i * (n + 1) + j, r->n, k, f->ctx);
+        }
+    }
+    fmpz_mpoly_clear(all, f->ctx);
+    fmpz_mpoly_clear(g, f->ctx);
+    fmpz_mpoly_clear(k, f->ctx);
+}
+
+/* Whether p is zero modulo the rules. */
+static bool
+vanishes(qdot_field *f, const fmpz_mpoly_t p)
+{
+    fmpz_mpoly_t x;
+    bool zero;
+
+    fmpz_mpoly_init(x, f->ctx);
+    fmpz_mpoly_set(x, p, f->ctx);
+    qdot_field_reduce(f, x);
+    zero = fmpz_mpoly_is_zero(x, f->ctx);
+    fmpz_mpoly_clear(x, f->ctx);
+    return zero;
+}
+
+/* x = (p a - b c)/d, exact over the polynomials (the rules are not used: they would
+ * spoil it). */
+static void
+step(qdot_field *f, fmpz_mpoly_t x, const fmpz_mpoly_t p, const fmpz_mpoly_t a,
+     const fmpz_mpoly_t b, const fmpz_mpoly_t c, const fmpz_mpoly_t d)
+{
+    fmpz_mpoly_t u, v;
+
+    fmpz_mpoly_init(u, f->ctx);
+    fmpz_mpoly_init(v, f->ctx);
+    if (qdot_field_charge(f, fmpz_mpoly_length(p, f->ctx),
+                          fmpz_mpoly_length(a, f->ctx)) &&
+        qdot_field_charge(f, fmpz_mpoly_length(b, f->ctx),
+                          fmpz_mpoly_length(c, f->ctx))) {
+        fmpz_mpoly_mul(u, p, a, f->ctx);
+        fmpz_mpoly_mul(v, b, c, f->ctx);
+        fmpz_mpoly_sub(u, u, v, f->ctx);
+        if (qdot_field_charge(f, fmpz_mpoly_length(u, f->ctx),
+                              fmpz_mpoly_length(d, f->ctx)))
+            fmpz_mpoly_divides(x, u, d, f->ctx);
+    }
+    fmpz_mpoly_clear(u, f->ctx);
+    fmpz_mpoly_clear(v, f->ctx);
+}
+
+static void
+swap_rows(qdot_field *f, fmpz_mpoly_struct *m, uint32_t n, uint32_t i, uint32_t k)
+{
+    for (uint32_t j = 0; j <= n && i != k; j++)
+        fmpz_mpoly_swap(m + i * (n + 1) + j, m + k * (n + 1) + j, f->ctx);
+}
+
+/* The shortest entry of column k at or below row k that is not zero; n: none. */
+static uint32_t
+find_pivot(qdot_field *f, const fmpz_mpoly_struct *m, uint32_t n, uint32_t k)
+{
+    uint32_t best = n;
+
+    for (uint32_t i = k; i < n; i++) {
+        const fmpz_mpoly_struct *p = m + i * (n + 1) + k;
+
+        if (!vanishes(f, p) &&
+            (best == n || fmpz_mpoly_length(p, f->ctx) <
+                              fmpz_mpoly_length(m + best * (n + 1) + k, f->ctx)))
+            best = i;
+    }
+    return best;
+}
+
+/* Gauss-Jordan form of Bareiss: after step k every column up to k is diagonal with the
+ * same entry, the leading minor; at the end x_i = m[i][n] / m[i][i]. */
+static bool
+eliminate(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, uint32_t *pivot)
+{
+    fmpz_mpoly_t before, x;
+    bool regular = true;
+
+    fmpz_mpoly_init(before, f->ctx);
+    fmpz_mpoly_init(x, f->ctx);
+    fmpz_mpoly_one(before, f->ctx);
+    for (uint32_t k = 0; k < n && regular && qdot_field_goes(f); k++) {
+        uint32_t row = find_pivot(f, m, n, k);
+        const fmpz_mpoly_struct *p = m + k * (n + 1) + k;
+
+        regular = row < n;
+        *pivot = k;
+        if (!regular)
+            break;
+        swap_rows(f, m, n, k, row);
+        for (uint32_t i = 0; i < n; i++) {
+            if (i == k)
+                continue;
+            for (uint32_t j = 0; j <= n; j++) {
+                if (j == k || (j < k && j != i))
+                    continue;
+                step(f, x, p, m + i * (n + 1) + j, m + i * (n + 1) + k,
+                     m + k * (n + 1) + j, before);
+                fmpz_mpoly_swap(m + i * (n + 1) + j, x, f->ctx);
+            }
+            fmpz_mpoly_zero(m + i * (n + 1) + k, f->ctx);
+        }
+        fmpz_mpoly_set(before, p, f->ctx);
+    }
+    fmpz_mpoly_clear(before, f->ctx);
+    fmpz_mpoly_clear(x, f->ctx);
+    return regular;
+}
+
+static slong
+terms_of(qdot_field *f, uint32_t n, const fmpz_mpoly_struct *m)
+{
+    slong terms = 0;
+
+    for (uint32_t i = 0; i < n * (n + 1); i++)
+        terms += fmpz_mpoly_length(m + i, f->ctx);
+    return terms;
+}
+
+static qdot_status
+solve_in_field(qdot_field *f, uint32_t n, const qdot_expr *e, qdot_expr *x,
+               uint32_t *pivot)
+{
+    fmpz_mpoly_struct *m = qdot_malloc((size_t)n * (n + 1) * sizeof *m);
+    qdot_status status = QDOT_OK;
+    bool regular;
+
+    if (m == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n * (n + 1); i++)
+        fmpz_mpoly_init(m + i, f->ctx);
+    fill(f, n, m, e);
+    regular = eliminate(f, n, m, pivot);
+    if (f->state == QDOT_FIELD_OVER)
+        status = qdot_fail(QDOT_ELIMIT,
+                           "past the work budget: more than %ld terms in a system of "
+                           "%u equations",
+                           (long)terms_of(f, n, m), n);
+    else if (qdot_field_goes(f) && !regular)
+        status = qdot_fail(QDOT_ESINGULAR,
+                           "the system has no unique solution (column %u)", *pivot + 1);
+    for (uint32_t i = 0; i < n && status == QDOT_OK && qdot_field_goes(f); i++) {
+        qdot_ratio r;
+
+        qdot_ratio_init(f, &r);
+        fmpz_mpoly_set(r.n, m + i * (n + 1) + n, f->ctx);
+        fmpz_mpoly_set(r.d, m + i * (n + 1) + i, f->ctx);
+        qdot_field_reduce(f, r.n);
+        qdot_field_reduce(f, r.d);
+        qdot_ratio_cancel(f, &r);
+        x[i] = qdot_field_ratio_expr(f, &r);
+        qdot_ratio_clear(f, &r);
+    }
+    for (uint32_t i = 0; i < n * (n + 1); i++)
+        fmpz_mpoly_clear(m + i, f->ctx);
+    qdot_free(m);
+    if (status == QDOT_OK && f->state == QDOT_FIELD_OVER)
+        status =
+            qdot_fail(QDOT_ELIMIT, "past the work budget: a system of %u equations", n);
+    return status;
+}
+
+qdot_status
+qdot_solve_linear(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
+                  qdot_expr *x, uint32_t *pivot, const qdot_facts *facts)
+{
+    qdot_expr *e = qdot_malloc(((size_t)n * (n + 1) + 1) * sizeof *e);
+    qdot_status status;
+    qdot_field f;
+
+    *pivot = 0;
+    if (e == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j <= n; j++) {
+            qdot_expr entry = j < n ? A[i * n + j] : b[i];
+
+            if (facts != NULL && facts->n_relations > 0)
+                entry = qdot_normal(pool, entry, facts);
+            e[i * (n + 1) + j] = qdot_prepare(pool, entry);
+        }
+    if (qdot_pool_failed(pool)) {
+        qdot_free(e);
+        return qdot_pool_check(pool);
+    }
+    qdot_field_begin(&f, pool, (size_t)n * (n + 1), e, WORK);
+    if (qdot_field_goes(&f))
+        status = solve_in_field(&f, n, e, x, pivot);
+    else if (f.state == QDOT_FIELD_OVER)
+        status =
+            qdot_fail(QDOT_ELIMIT, "past the work budget: a system of %u equations", n);
+    else if (f.state == QDOT_FIELD_UNDEFINED)
+        status = qdot_fail(QDOT_EDOMAIN, "division by zero");
+    else
+        status = QDOT_OK;
+    if (f.state == QDOT_FIELD_FAILED)
+        status = f.status;
+    qdot_field_end(&f);
+    qdot_free(e);
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        x[i] = qdot_simplify(pool, x[i], facts);
+    if (status == QDOT_OK && qdot_pool_failed(pool))
+        return qdot_pool_check(pool);
+    return status;
+}

@@ -1,0 +1,60 @@
+/* series.h -- kernels of truncated power series: what the Taylor integrator spends its
+ * time in.
+ *
+ * A series is an array of coefficients by order. The Cauchy product's coefficient
+ *
+ *     (a b)_k = sum_{j=0..k} a_j b_{k-j}
+ *
+ * is a sum of n = k + 1 terms in which one factor is read forwards and the other
+ * backwards. For each n there is a function of its own, unrolled by the compiler over
+ * four accumulators. The two outermost terms hold the newest coefficients and are added
+ * last, so that a processor runs the others ahead of them.
+ *
+ * Everything exists three times: portable C, and for x86 with fused multiplications (AVX2,
+ * AVX-512); which is taken is decided once, by what the processor has. The last bits of
+ * a result may differ between the three.
+ *
+ * Tests  tests/num/test_series.c
+ */
+#ifndef QDOT_NUM_SERIES_H
+#define QDOT_NUM_SERIES_H
+
+#include <stddef.h>
+
+/* The highest order there are functions for. */
+#define QDOT_SERIES_MOST 48
+
+/* sum_{j=0..n-1} a[j] b[-j] for the n it was made for. */
+typedef double qdot_series_dot(const double *a, const double *b);
+
+typedef struct {
+    const char *name; /* "portable", "avx2", "avx512" */
+
+    /* [n] for n = 0 ... QDOT_SERIES_MOST + 1 */
+    qdot_series_dot *dot[QDOT_SERIES_MOST + 2];
+
+    /* The same for m series at once, m a multiple of 8, coefficients by order, then
+     * member: out[i] = sum_{j=0..n-1} a[j m + i] b[-j m + i]. */
+    void (*dots)(size_t m, size_t n, const double *a, const double *b, double *out);
+
+    /* Of each of n series x [i stride + k]: what is left of it from order 2 on,
+     *
+     *     value[i] = sum_{k=2..p} x_k s^(k-1),
+     *
+     * and slope[i] = sum_{k=1..p} k x_k s^(k-1). slope may be NULL. */
+    void (*tails)(size_t n, const double *x, size_t stride, int p, double s,
+                  double *value, double *slope);
+
+    /* sum_{j=0..n-1} a[j] b[j] */
+    double (*product)(size_t n, const double *a, const double *b);
+    /* y[j] += c a[j], j = 0 ... n-1 */
+    void (*add)(size_t n, double c, const double *a, double *y);
+} qdot_series_kernels;
+
+/* Those that fit this processor. */
+const qdot_series_kernels *qdot_series_kernels_get(void);
+
+/* Kind i, portable first, of those this processor can run; NULL beyond the last. */
+const qdot_series_kernels *qdot_series_kernels_at(size_t i);
+
+#endif

@@ -1,0 +1,196 @@
+/* test_sum.c -- sums: like terms, order, and random formulas against their values. */
+#include "spec.h"
+
+static void
+every_constructor_keeps_the_value(void **state)
+{
+    place p;
+    int compared = 0, refused = 0;
+
+    (void)state;
+    place_open(&p);
+    for (int trial = 0; trial < 30000; trial++) {
+        formula f = formula_random(4 + (int)random_below(STEPS - 4), 0);
+        qdot_expr e = formula_build(&f, &p);
+        qdot_status status = qdot_pool_check(p.pool);
+
+        for (int where = 0; where < 3; where++) {
+            long double v[STEPS], wanted, seen;
+            bool claims = true, steps = true;
+
+            place_move(&p);
+            wanted = formula_value(&f, &p, v);
+            for (int i = 0; i < f.n; i++)
+                steps &= isfinite(v[i]);
+            if (status != QDOT_OK) {
+                /* refused as a whole: some step has no value anywhere */
+                assert_true(status == QDOT_EDOMAIN || status == QDOT_ELIMIT);
+                if (steps) {
+                    formula_show(&f, v);
+                    fail_msg("refused: %s", qdot_last_error()->message);
+                }
+                refused++;
+                continue;
+            }
+            if (!steps)
+                continue;
+            seen = node_value(&p, e, &claims);
+            if (!near(seen, wanted, 1e-9L))
+                fail_msg("%s is %.18Lg, not %.18Lg", text_of(p.pool, e, QDOT_PLAIN), seen, wanted);
+            if (!claims)
+                fail_msg("%s: a sign is claimed that it has not", text_of(p.pool, e, QDOT_PLAIN));
+            compared++;
+        }
+    }
+    assert_true(compared > 5000 && refused > 100);
+    place_close(&p);
+}
+
+/* A sum of products of the symbols, terms and factors in a shuffled order and grouping. */
+static qdot_expr
+shuffled(const place *p, int n, const int *factors, bool shuffle)
+{
+    qdot_expr terms[16];
+
+    for (int i = 0; i < n; i++) {
+        qdot_expr e[4];
+
+        for (int k = 0; k < 4; k++)
+            e[k] = factors[4 * i + k] < SYMBOLS
+                       ? p->symbol[factors[4 * i + k]]
+                       : qdot_expr_ratio(p->pool, factors[4 * i + k] - SYMBOLS - 2, 3);
+        for (int k = 3; shuffle && k > 0; k--) {
+            int j = (int)random_below((uint32_t)k + 1);
+            qdot_expr swap = e[k];
+
+            e[k] = e[j];
+            e[j] = swap;
+        }
+        terms[i] = shuffle && random_below(2)
+                       ? qdot_mul(p->pool, qdot_mul(p->pool, e[0], e[1]),
+                                  qdot_mul(p->pool, e[2], e[3]))
+                       : qdot_product(p->pool, 4, e);
+    }
+    for (int i = n - 1; shuffle && i > 0; i--) {
+        int j = (int)random_below((uint32_t)i + 1);
+        qdot_expr swap = terms[i];
+
+        terms[i] = terms[j];
+        terms[j] = swap;
+    }
+    if (shuffle && random_below(2)) {
+        qdot_expr sum = QDOT_ZERO;
+
+        for (int i = 0; i < n; i++)
+            sum = random_below(2) ? qdot_add(p->pool, sum, terms[i])
+                                  : qdot_add(p->pool, terms[i], sum);
+        return sum;
+    }
+    return qdot_sum(p->pool, (size_t)n, terms);
+}
+
+static void
+order_of_building_does_not_matter(void **state)
+{
+    place p;
+
+    (void)state;
+    place_open(&p);
+    for (int trial = 0; trial < 2000; trial++) {
+        int factors[64], n = 1 + (int)random_below(16);
+        qdot_expr e;
+
+        for (int i = 0; i < 4 * n; i++)
+            factors[i] = (int)random_below(SYMBOLS + 5);
+        e = shuffled(&p, n, factors, false);
+        for (int again = 0; again < 4; again++)
+            assert_int_equal(shuffled(&p, n, factors, true), e);
+    }
+    assert_int_equal(qdot_pool_check(p.pool), QDOT_OK);
+    place_close(&p);
+}
+
+/* 300 terms in any order, many of them alike: the long way of sorting. */
+static void
+long_sums_are_canonical_too(void **state)
+{
+    place p;
+    qdot_expr term[300], first = QDOT_NIL, chain = QDOT_ZERO;
+
+    (void)state;
+    place_open(&p);
+    for (int i = 0; i < 300; i++)
+        term[i] = qdot_mul(p.pool, qdot_expr_int(p.pool, i % 7 - 3),
+                           qdot_mul(p.pool, qdot_pow_int(p.pool, p.symbol[0], 1 + i % 97),
+                                    p.symbol[i % 3]));
+    for (int trial = 0; trial < 20; trial++) {
+        qdot_expr e;
+
+        for (int i = 299; i > 0; i--) {
+            int j = (int)random_below((uint32_t)i + 1);
+            qdot_expr swap = term[i];
+
+            term[i] = term[j];
+            term[j] = swap;
+        }
+        e = qdot_sum(p.pool, 300, term);
+        assert_true(trial == 0 || e == first);
+        first = e;
+    }
+    for (int i = 0; i < 300; i++)
+        chain = qdot_add(p.pool, chain, term[i]);
+    assert_int_equal(chain, first);
+    place_close(&p);
+}
+
+static void
+like_terms_meet(void **state)
+{
+    place p;
+    qdot_expr x, y, two, e;
+
+    (void)state;
+    place_open(&p);
+    x = p.symbol[5];
+    y = p.symbol[7];
+    two = qdot_expr_int(p.pool, 2);
+    assert_int_equal(qdot_add(p.pool, x, x), qdot_mul(p.pool, two, x));
+    assert_int_equal(qdot_sub(p.pool, x, x), QDOT_ZERO);
+    e = qdot_mul(p.pool, two, qdot_add(p.pool, x, y));
+    assert_prints(p.pool, e, "2*(x + theta)");
+    assert_prints(p.pool, qdot_sub(p.pool, e, x), "x + 2*theta");
+    assert_int_equal(qdot_add(p.pool, e, QDOT_ZERO), e);
+    assert_int_equal(qdot_sum(p.pool, 3, (qdot_expr[]){QDOT_ZERO, e, QDOT_ZERO}), e);
+    assert_int_equal(qdot_sum(p.pool, 0, NULL), QDOT_ZERO);
+    place_close(&p);
+}
+
+static void
+the_negative_of_a_sum_is_a_sum(void **state)
+{
+    place p;
+    qdot_expr d, e;
+
+    (void)state;
+    place_open(&p);
+    d = qdot_sub(p.pool, p.symbol[5], p.symbol[7]);
+    e = qdot_sub(p.pool, p.symbol[7], p.symbol[5]);
+    assert_int_equal(qdot_neg(p.pool, d), e);
+    assert_int_equal(qdot_neg(p.pool, e), d);
+    assert_int_equal(qdot_mul(p.pool, qdot_expr_int(p.pool, -2), qdot_mul(p.pool, QDOT_HALF, d)), e);
+    place_close(&p);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_constructor_keeps_the_value),
+        cmocka_unit_test(order_of_building_does_not_matter),
+        cmocka_unit_test(long_sums_are_canonical_too),
+        cmocka_unit_test(like_terms_meet),
+        cmocka_unit_test(the_negative_of_a_sum_is_a_sum),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
