@@ -127,7 +127,7 @@ double
 qdot_generic_value(const qdot_pool *pool, qdot_expr e, uint64_t seed)
 {
     const qdot_symbol *x = qdot_expr_symbol(pool, e);
-    double u = scatter(x->name, seed), lo, hi;
+    double u = scatter(x->name, seed), lo = 0, hi = 0;
     bool above = bound(pool, x->lo, &lo), below = bound(pool, x->hi, &hi);
 
     if (e == QDOT_PI)
