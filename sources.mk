@@ -17,12 +17,15 @@ base_headers = \
 num_sources = \
 	lib/num/cholesky.c \
 	lib/num/ldlt.c \
+	lib/num/series.c \
 	lib/num/structure.c \
 	lib/num/sum.c
 
 num_headers = \
 	lib/num/cholesky.h \
 	lib/num/ldlt.h \
+	lib/num/series.def \
+	lib/num/series.h \
 	lib/num/structure.h \
 	lib/num/sum.h
 
@@ -54,23 +57,30 @@ expr_headers = \
 
 ode_sources = \
 	lib/ode/companion.c \
+	lib/ode/dop853.c \
 	lib/ode/integrate.c \
 	lib/ode/method.c \
 	lib/ode/stepper.c \
+	lib/ode/taylor.c \
 	lib/ode/trajectory.c
 
 ode_headers = \
 	lib/ode/companion.h \
+	lib/ode/dop853.def \
+	lib/ode/dop853.h \
 	lib/ode/integrate.h \
 	lib/ode/method.h \
 	lib/ode/stepper.h \
 	lib/ode/system.h \
+	lib/ode/taylor.h \
 	lib/ode/trajectory.h
 
 normal_sources = \
 	lib/normal/ball.c \
 	lib/normal/collect.c \
+	lib/normal/constant.c \
 	lib/normal/decide.c \
+	lib/normal/domain.c \
 	lib/normal/factor.c \
 	lib/normal/field.c \
 	lib/normal/form.c \
@@ -84,18 +94,24 @@ normal_sources = \
 	lib/normal/positive.c \
 	lib/normal/prepare.c \
 	lib/normal/proportion.c \
+	lib/normal/range.c \
 	lib/normal/ratio.c \
+	lib/normal/rationalize.c \
+	lib/normal/rewrite.c \
 	lib/normal/sample.c \
 	lib/normal/simplify.c \
 	lib/normal/solve-factors.c \
 	lib/normal/solve.c \
 	lib/normal/split.c \
 	lib/normal/trig-form.c \
-	lib/normal/value.c
+	lib/normal/value.c \
+	lib/normal/zero.c
 
 normal_headers = \
 	lib/normal/ball.h \
+	lib/normal/constant.h \
 	lib/normal/decide.h \
+	lib/normal/domain.h \
 	lib/normal/factor.h \
 	lib/normal/field.h \
 	lib/normal/form.h \
@@ -106,11 +122,14 @@ normal_headers = \
 	lib/normal/null-space.h \
 	lib/normal/positive.h \
 	lib/normal/prepare.h \
+	lib/normal/rationalize.h \
+	lib/normal/rewrite.h \
 	lib/normal/sample.h \
 	lib/normal/simplify.h \
 	lib/normal/solve.h \
 	lib/normal/split.h \
-	lib/normal/value.h
+	lib/normal/value.h \
+	lib/normal/zero.h
 
 tape_sources = \
 	lib/tape/angle.c \
@@ -119,7 +138,8 @@ tape_sources = \
 	lib/tape/finish.c \
 	lib/tape/keymap.c \
 	lib/tape/lower.c \
-	lib/tape/tape.c
+	lib/tape/tape.c \
+	lib/tape/taylor.c
 
 tape_headers = \
 	lib/tape/angle.h \
@@ -128,7 +148,8 @@ tape_headers = \
 	lib/tape/keymap.h \
 	lib/tape/operation.def \
 	lib/tape/shake.h \
-	lib/tape/tape.h
+	lib/tape/tape.h \
+	lib/tape/taylor.h
 
 mech_sources = \
 	lib/mech/accel.c \
@@ -147,6 +168,7 @@ mech_sources = \
 	lib/mech/lagrange.c \
 	lib/mech/mass-matrix.c \
 	lib/mech/metric.c \
+	lib/mech/modes.c \
 	lib/mech/momentum.c \
 	lib/mech/noether.c \
 	lib/mech/numeric.c \
@@ -166,9 +188,11 @@ mech_headers = \
 
 sim_sources = \
 	lib/sim/bind.c \
+	lib/sim/blocks.c \
 	lib/sim/describe.c \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
+	lib/sim/expand.c \
 	lib/sim/plan.c \
 	lib/sim/run.c \
 	lib/sim/substitute.c \
@@ -176,8 +200,10 @@ sim_sources = \
 
 sim_headers = \
 	lib/sim/bind.h \
+	lib/sim/blocks.h \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
+	lib/sim/expand.h \
 	lib/sim/integrated.h \
 	lib/sim/plan.h \
 	lib/sim/run.h \
@@ -196,6 +222,7 @@ show_headers = \
 	lib/show/sink.h
 
 lang_sources = \
+	lib/lang/algebra.c \
 	lib/lang/answer.c \
 	lib/lang/ask.c \
 	lib/lang/bind.c \
@@ -203,9 +230,11 @@ lang_sources = \
 	lib/lang/carry.c \
 	lib/lang/check.c \
 	lib/lang/cursor.c \
+	lib/lang/declare-function.c \
 	lib/lang/declare.c \
 	lib/lang/derive.c \
 	lib/lang/draw.c \
+	lib/lang/equilibria.c \
 	lib/lang/evaluate.c \
 	lib/lang/furnish.c \
 	lib/lang/help.c \
@@ -219,6 +248,7 @@ lang_sources = \
 	lib/lang/plot.c \
 	lib/lang/quantities.c \
 	lib/lang/read.c \
+	lib/lang/redirect.c \
 	lib/lang/report.c \
 	lib/lang/resolve.c \
 	lib/lang/session.c \
@@ -229,15 +259,18 @@ lang_sources = \
 	lib/lang/workbench.c
 
 lang_headers = \
+	lib/lang/algebra.h \
 	lib/lang/answer.h \
 	lib/lang/ask.h \
 	lib/lang/carry.h \
 	lib/lang/code.h \
 	lib/lang/declare.h \
 	lib/lang/draw.h \
+	lib/lang/equilibria.h \
 	lib/lang/names.h \
 	lib/lang/number.h \
 	lib/lang/read.h \
+	lib/lang/redirect.h \
 	lib/lang/session.h \
 	lib/lang/statement.h
 
@@ -252,21 +285,38 @@ unit_tests = \
 	tests/base/test_memory \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/expr/test_calculus \
+	tests/expr/test_expand \
+	tests/expr/test_function \
+	tests/expr/test_order \
+	tests/expr/test_pool \
+	tests/expr/test_print \
+	tests/expr/test_product \
+	tests/expr/test_sum \
+	tests/expr/test_tensor \
+	tests/expr/test_walk \
 	tests/lang/test_evaluate \
 	tests/lang/test_lex \
 	tests/lang/test_names \
 	tests/lang/test_read \
 	tests/lang/test_session \
+	tests/mech/test_equilibrium \
+	tests/mech/test_geometry \
+	tests/mech/test_hamilton \
+	tests/mech/test_noether \
 	tests/mech/test_numeric \
 	tests/mech/test_scene \
 	tests/mech/test_scenes \
 	tests/normal/test_decide \
 	tests/normal/test_simplify \
+	tests/normal/test_solve \
+	tests/normal/test_verdicts \
 	tests/num/test_cholesky \
 	tests/num/test_ldlt \
 	tests/num/test_structure \
 	tests/num/test_sum \
 	tests/ode/test_companion \
+	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
 	tests/ode/test_method \
 	tests/ode/test_trajectory \
@@ -282,11 +332,15 @@ unit_tests = \
 
 script_tests = \
 	tests/script/check.lag \
+	tests/script/conserved.lag \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
 	tests/script/derive.lag \
+	tests/script/equilibria.lag \
 	tests/script/fall.sh \
 	tests/script/flexing.lag \
+	tests/script/geometry.lag \
+	tests/script/hamilton.lag \
 	tests/script/help.lag \
 	tests/script/include.lag \
 	tests/script/json.lag \
@@ -296,6 +350,7 @@ script_tests = \
 	tests/script/refuted.lag \
 	tests/script/reset.lag \
 	tests/script/run.sh \
+	tests/script/solve.lag \
 	tests/script/styles.lag \
 	tests/script/text.lag \
 	tests/bad/acceleration-position.lag \
@@ -305,20 +360,26 @@ script_tests = \
 	tests/bad/big-d.lag \
 	tests/bad/binary.lag \
 	tests/bad/block-without-for.lag \
+	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
 	tests/bad/constrained-run.lag \
+	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
 	tests/bad/dimensions.lag \
 	tests/bad/division-symbolic.lag \
 	tests/bad/division.lag \
 	tests/bad/double-operator.lag \
+	tests/bad/eigenvalues-complex.lag \
 	tests/bad/empty-brackets.lag \
 	tests/bad/entry-range.lag \
+	tests/bad/equilibria-time.lag \
+	tests/bad/equilibria-unset.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/function-by-itself.lag \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
+	tests/bad/hamiltonian-singular.lag \
 	tests/bad/help-unknown.lag \
 	tests/bad/history.lag \
 	tests/bad/huge-decimal.lag \
@@ -327,6 +388,7 @@ script_tests = \
 	tests/bad/include-itself.lag \
 	tests/bad/include-missing.lag \
 	tests/bad/lagrangian-beside.lag \
+	tests/bad/laplacian-oblique.lag \
 	tests/bad/log-zero.lag \
 	tests/bad/lone-point.lag \
 	tests/bad/loop-half.lag \
@@ -337,6 +399,10 @@ script_tests = \
 	tests/bad/missing-times.lag \
 	tests/bad/misspelled-option.lag \
 	tests/bad/misspelled-word.lag \
+	tests/bad/modes-at.lag \
+	tests/bad/modes-damped.lag \
+	tests/bad/modes-unstable.lag \
+	tests/bad/momentum-index.lag \
 	tests/bad/newton-dot.lag \
 	tests/bad/no-coordinate.lag \
 	tests/bad/no-run.lag \
@@ -361,6 +427,8 @@ script_tests = \
 	tests/bad/set-domain.lag \
 	tests/bad/show-unknown.lag \
 	tests/bad/singular-mass.lag \
+	tests/bad/solve-beyond.lag \
+	tests/bad/solve-for-sum.lag \
 	tests/bad/start-domain.lag \
 	tests/bad/start-parameter.lag \
 	tests/bad/string-number.lag \
@@ -378,12 +446,15 @@ script_tests = \
 	examples/acceleration-constraint.lag \
 	examples/bead-on-wire.lag \
 	examples/chain.lag \
+	examples/conserved.lag \
+	examples/curvature.lag \
 	examples/cylindrical.lag \
 	examples/damped-oscillator.lag \
 	examples/degrees-of-freedom.lag \
 	examples/double-pendulum-cartesian.lag \
 	examples/double-pendulum.lag \
 	examples/elastic-pendulum.lag \
+	examples/equilibria.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
 	examples/generalized-momenta.lag \
@@ -396,17 +467,20 @@ script_tests = \
 	examples/line-element.lag \
 	examples/magnetic-field.lag \
 	examples/metrics.lag \
+	examples/modes.lag \
 	examples/moving-constraint.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum.lag \
 	examples/polar.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-hoop.lag \
+	examples/routh.lag \
 	examples/spherical-pendulum.lag \
 	examples/spherical.lag \
 	examples/stated-lagrangian.lag \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
+	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag
 
@@ -425,20 +499,26 @@ test_files = \
 	tests/bad/big-d.out \
 	tests/bad/binary.out \
 	tests/bad/block-without-for.out \
+	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
 	tests/bad/constrained-run.out \
+	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \
 	tests/bad/dimensions.out \
 	tests/bad/division-symbolic.out \
 	tests/bad/division.out \
 	tests/bad/double-operator.out \
+	tests/bad/eigenvalues-complex.out \
 	tests/bad/empty-brackets.out \
 	tests/bad/entry-range.out \
+	tests/bad/equilibria-time.out \
+	tests/bad/equilibria-unset.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/function-by-itself.out \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
+	tests/bad/hamiltonian-singular.out \
 	tests/bad/help-unknown.out \
 	tests/bad/history.out \
 	tests/bad/huge-decimal.out \
@@ -447,6 +527,7 @@ test_files = \
 	tests/bad/include-itself.out \
 	tests/bad/include-missing.out \
 	tests/bad/lagrangian-beside.out \
+	tests/bad/laplacian-oblique.out \
 	tests/bad/log-zero.out \
 	tests/bad/lone-point.out \
 	tests/bad/loop-half.out \
@@ -457,6 +538,10 @@ test_files = \
 	tests/bad/missing-times.out \
 	tests/bad/misspelled-option.out \
 	tests/bad/misspelled-word.out \
+	tests/bad/modes-at.out \
+	tests/bad/modes-damped.out \
+	tests/bad/modes-unstable.out \
+	tests/bad/momentum-index.out \
 	tests/bad/newton-dot.out \
 	tests/bad/no-coordinate.out \
 	tests/bad/no-run.out \
@@ -481,6 +566,8 @@ test_files = \
 	tests/bad/set-domain.out \
 	tests/bad/show-unknown.out \
 	tests/bad/singular-mass.out \
+	tests/bad/solve-beyond.out \
+	tests/bad/solve-for-sum.out \
 	tests/bad/start-domain.out \
 	tests/bad/start-parameter.out \
 	tests/bad/string-number.out \
@@ -495,16 +582,60 @@ test_files = \
 	tests/bad/vector-vs-scalar-check.out \
 	tests/bad/write-nowhere.out \
 	tests/bad/wrong-arguments.out \
+	tests/expr/reader.h \
+	tests/expr/spec.h \
+	tests/fuzz/corpus/parse/algebra.txt \
+	tests/fuzz/corpus/parse/double-pendulum.txt \
+	tests/fuzz/corpus/parse/flexing-wire.txt \
+	tests/fuzz/corpus/parse/heavy-top.txt \
+	tests/fuzz/corpus/parse/knife-edge.txt \
+	tests/fuzz/corpus/parse/line-element.txt \
+	tests/fuzz/corpus/parse/magnetic-field.txt \
+	tests/fuzz/corpus/parse/mixed.txt \
+	tests/fuzz/corpus/parse/pendulum.txt \
+	tests/fuzz/corpus/parse/rotating-hoop.txt \
+	tests/fuzz/corpus/parse/run.txt \
+	tests/fuzz/corpus/parse/spherical.txt \
+	tests/fuzz/corpus/parse/stated-lagrangian.txt \
+	tests/fuzz/corpus/parse/swinging-atwood.txt \
+	tests/fuzz/corpus/parse/virtual-work.txt \
+	tests/fuzz/corpus/roundtrip/e01.txt \
+	tests/fuzz/corpus/roundtrip/e02.txt \
+	tests/fuzz/corpus/roundtrip/e03.txt \
+	tests/fuzz/corpus/roundtrip/e04.txt \
+	tests/fuzz/corpus/roundtrip/e05.txt \
+	tests/fuzz/corpus/roundtrip/e06.txt \
+	tests/fuzz/corpus/roundtrip/e07.txt \
+	tests/fuzz/corpus/roundtrip/e08.txt \
+	tests/fuzz/corpus/roundtrip/e09.txt \
+	tests/fuzz/corpus/roundtrip/e10.txt \
+	tests/fuzz/corpus/roundtrip/e11.txt \
+	tests/fuzz/corpus/roundtrip/e12.txt \
+	tests/fuzz/corpus/roundtrip/e13.txt \
+	tests/fuzz/corpus/roundtrip/e14.txt \
+	tests/fuzz/corpus/roundtrip/e15.txt \
+	tests/fuzz/corpus/roundtrip/e16.txt \
+	tests/fuzz/corpus/roundtrip/e17.txt \
+	tests/fuzz/corpus/roundtrip/e18.txt \
+	tests/fuzz/corpus/roundtrip/e19.txt \
+	tests/fuzz/corpus/roundtrip/e20.txt \
+	tests/fuzz/fuzz.h \
 	tests/lang/reading.h \
 	tests/mech/kit.h \
+	tests/normal/number.h \
+	tests/normal/pairs.h \
 	tests/normal/text.h \
 	tests/ode/problems.h \
 	tests/script/check.out \
+	tests/script/conserved.out \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
 	tests/script/derive.out \
+	tests/script/equilibria.out \
 	tests/script/fall.out \
 	tests/script/flexing.out \
+	tests/script/geometry.out \
+	tests/script/hamilton.out \
 	tests/script/help.out \
 	tests/script/identities-angles.inc \
 	tests/script/identities-exp.inc \
@@ -522,10 +653,13 @@ test_files = \
 	tests/script/refuted.out \
 	tests/script/reset.out \
 	tests/script/run.out \
+	tests/script/solve.out \
 	tests/script/styles.out \
 	tests/script/text.out \
 	tests/sim/scenes.h \
-	tests/tape/reference.h
+	tests/tape/reference.h \
+	tests/fuzz/fuzz-parse.c \
+	tests/fuzz/fuzz-roundtrip.c
 
 other_files = \
 	bench/chain-equations.lag \

@@ -109,7 +109,7 @@ carry_out(qdot_session *session, const options *o)
 {
     int status = DONE;
 
-    for (size_t i = 0; i < o->tasks.n && status == DONE && !session->quit; i++) {
+    for (size_t i = 0; i < o->tasks.n && !session->failed && !session->quit; i++) {
         const task *t = &o->tasks.at[i];
 
         qdot_signals_computing();

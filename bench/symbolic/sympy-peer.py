@@ -122,7 +122,8 @@ def by_kane(name, n):
     particles, loads, points = [], [], []
     for k, (mass, step) in enumerate(zip(s.masses, s.steps)):
         base = points[s.parents[k]] if s.parents and s.parents[k] >= 0 else origin
-        point = base.locatenew(f"P{k}", sum((c * e for c, e in zip(step, axes)), 0 * frame.x))
+        place = sum((c * e for c, e in zip(step, axes)), 0 * frame.x)
+        point = base.locatenew(f"P{k}", place)
         speed = sum(
             (c.diff(t).subs(rates) * e for c, e in zip(step, axes)), 0 * frame.x
         )
@@ -244,8 +245,8 @@ def simplified(name):
 
 
 def decide(left, right):
-    positive = "m m1 m2 m3 M a b c g k L L1 L2 r rho n"
-    real = "x y z u v theta phi psi alpha beta theta1 theta2 w w1 w2 omega"
+    positive = "m m1 m2 M a b c g k L L1 L2 r"
+    real = "x y z u v theta phi psi theta1 theta2 w w1 w2 omega"
     names = {s: sp.Symbol(s, positive=True) for s in positive.split()}
     names.update({s: sp.Symbol(s, real=True) for s in real.split()})
     difference = sp.sympify(f"({left}) - ({right})".replace("^", "**"), locals=names)

@@ -150,9 +150,11 @@ derive(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
        qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
 {
     qdot_walk w;
-    derivation d = {.pool = pool, .w = &w, .holds = holds, .touches = touches};
+    derivation d = {.pool = pool, .w = &w, .holds = holds};
     qdot_expr result = QDOT_NIL;
 
+    touches |= QDOT_TOUCHES_VALUE; /* a vector of constants has a vector of zeros */
+    d.touches = touches;
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
     if (qdot_walk_begin_where(pool, e, holds, touches, &w) != QDOT_OK)

@@ -98,6 +98,7 @@ typedef struct {
     uint32_t holds;
     uint32_t hash;
     uint32_t touches; /* a signature of its symbols: a bit that is not set rules some out */
+    uint32_t height;  /* of the tree: 0 for a NUM or SYM */
 } qdot_node;
 
 /* --- the pool ------------------------------------------------------------------------- */
@@ -116,8 +117,8 @@ qdot_expr qdot_pool_fail(qdot_pool *pool);
 /* Whether a failure is pending: for loops that want to stop early. */
 bool qdot_pool_failed(const qdot_pool *pool);
 
-/* From now on at most `work` constructor calls, then QDOT_ELIMIT; UINT64_MAX: no bound. Returns
- * what was left of the bound before, to be put back. */
+/* From now on at most `work` constructor calls (a node of n args counts 1 + n/16), then
+ * QDOT_ELIMIT; UINT64_MAX: no bound. Returns what was left of the bound before, to be put back. */
 uint64_t qdot_pool_budget(qdot_pool *pool, uint64_t work);
 
 /* --- reading -------------------------------------------------------------------------- */

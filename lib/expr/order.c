@@ -56,6 +56,13 @@ compare_symbols(const qdot_symbol *a, const qdot_symbol *b)
     return three(a->order, b->order);
 }
 
+/* What is deeper than anyone writes stands last, the deepest at the end. */
+static uint32_t
+deep(const qdot_node *node)
+{
+    return node->height > 64 ? node->height : 64;
+}
+
 int
 qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -66,6 +73,8 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 
         if (a == b)
             return 0;
+        if (deep(x) != deep(y)) /* or a comparison would go down all the way */
+            return three(deep(x), deep(y));
         d = x->holds == y->holds ? 0 : level(x->holds) - level(y->holds);
         if (d == 0)
             d = kind_rank(x) - kind_rank(y);

@@ -123,10 +123,12 @@ append(qdot_pool *pool, const qdot_node *node)
     return pool->table[i];
 }
 
-/* Whether work may go on: counts the budget, looks for Ctrl-C. */
+/* Whether work may go on: counts the budget (a node of many args as several), looks for Ctrl-C. */
 static bool
-may_work(qdot_pool *pool)
+may_work(qdot_pool *pool, uint32_t args)
 {
+    uint64_t cost = 1 + args / 16;
+
     if (pool->error.status != QDOT_OK)
         return false;
     if (qdot_interrupt_flag) {
@@ -134,12 +136,14 @@ may_work(qdot_pool *pool)
         qdot_pool_fail(pool);
         return false;
     }
-    if (pool->budget == 0) {
+    if (pool->budget == UINT64_MAX)
+        return true;
+    if (pool->budget < cost) {
+        pool->budget = 0;
         qdot_pool_refuse(pool, QDOT_ELIMIT, "the work budget is spent");
         return false;
     }
-    if (pool->budget != UINT64_MAX)
-        pool->budget--;
+    pool->budget -= cost;
     return true;
 }
 
@@ -152,7 +156,7 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
     bool inside = args >= pool->args.at && args < pool->args.at + pool->args.n;
     size_t offset = inside ? (size_t)(args - pool->args.at) : 0;
 
-    if (!may_work(pool))
+    if (!may_work(pool, n))
         return QDOT_NIL;
     for (uint32_t k = 0; k < n; k++) {
         if (args[k] == QDOT_NIL)
@@ -160,6 +164,8 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
         hash = mix(hash, args[k]);
         node.holds |= NODE(pool, args[k])->holds;
         node.touches |= NODE(pool, args[k])->touches;
+        if (node.height <= NODE(pool, args[k])->height)
+            node.height = NODE(pool, args[k])->height + 1;
     }
     for (i = hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask)
         if (same(pool, pool->table[i], kind, op, n, args, hash))
@@ -168,6 +174,8 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
         node.holds |= QDOT_HAS_FUN;
     if (kind == QDOT_UFUN)
         node.holds |= QDOT_HAS_UFUN;
+    if (kind > QDOT_UFUN)
+        node.touches |= QDOT_TOUCHES_VALUE;
     node.hash = hash;
     node.at = (uint32_t)pool->args.n;
     if (pool->args.n + n > UINT32_MAX / 2)
@@ -225,7 +233,7 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
     bool small = is_small(x);
     fmpq copy;
 
-    if (!may_work(pool) || qdot_number_too_large(pool, x))
+    if (!may_work(pool, 0) || qdot_number_too_large(pool, x))
         return QDOT_NIL;
     node.hash = hash_fmpz(hash_fmpz(QDOT_NUM, fmpq_numref(x)), fmpq_denref(x));
     for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask) {
@@ -307,7 +315,9 @@ qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length)
     fmpz_init(n);
     fmpz_init_set_ui(ten, 10);
     fmpq_init(x);
-    if (digits.failed || fmpz_set_str(n, qdot_text_str(&digits), 10) != 0) {
+    if (qdot_text_status(&digits) != QDOT_OK) {
+        qdot_pool_fail(pool);
+    } else if (fmpz_set_str(n, qdot_text_str(&digits), 10) != 0) {
         qdot_pool_refuse(pool, QDOT_ESYNTAX, "not a number");
     } else {
         fmpz_pow_ui(ten, ten, (ulong)labs(exponent));
@@ -335,7 +345,7 @@ symbol(qdot_pool *pool, const qdot_symbol *wanted)
     qdot_node node = {.kind = QDOT_SYM, .sign = wanted->sign};
     qdot_symbol copy = *wanted;
 
-    if (!may_work(pool))
+    if (!may_work(pool, 0))
         return QDOT_NIL;
     node.hash = mix(mix(mix(QDOT_SYM, wanted->class), wanted->base), wanted->order);
     if (wanted->base == QDOT_NIL)
@@ -356,7 +366,7 @@ symbol(qdot_pool *pool, const qdot_symbol *wanted)
     if (wanted->base == QDOT_NIL)
         copy.rank = (uint32_t)pool->symbols.n;
     node.at = (uint32_t)pool->symbols.n;
-    node.touches = 1u << node.at % 32;
+    node.touches = 1u << node.at % 31;
     node.holds = wanted->class == QDOT_CONST   ? 0
                  : wanted->class != QDOT_COORD ? 1u << wanted->class
                  : wanted->order == 0          ? QDOT_HAS_COORD

@@ -37,6 +37,10 @@ qdot_expr qdot_sum_turned(qdot_pool *pool, qdot_expr sum);
 /* Whether e is a factor that no other can change but its like. */
 bool qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e);
 
+/* A difference among the factors of e that can take a minus sign before them: -m*(a - b) is
+ * written m*(b - a). Nil if there is none. */
+qdot_expr qdot_expr_turnable(const qdot_pool *pool, qdot_expr e);
+
 /* c1 t1 + c2 t2 + ..., every c a NUM. */
 qdot_expr qdot_sum_scaled(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms);
 /* The PROD e with the factor b^x at args[i] replaced by x b^(x - 1) inner. */
@@ -75,6 +79,7 @@ qdot_expr qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint
 bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 
 #define QDOT_MAX_BITS 3321929 /* 10^6 decimal digits */
+#define QDOT_TOUCHES_VALUE (1u << 31) /* in touches: a vector, an equation ... is inside */
 #define NODE(pool, e) (&(pool)->nodes.at[e])
 #define ARGS(pool, e) ((pool)->args.at + (pool)->nodes.at[e].at)
 #define WHERE(pool, e, h, t) ((NODE(pool, e)->holds & (h)) | (NODE(pool, e)->touches & (t)))

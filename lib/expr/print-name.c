@@ -1,7 +1,7 @@
 /* print-name.c -- symbols and numbers as text. */
 #include "expr/print-name.h"
 
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <flint/flint.h>
@@ -185,6 +185,38 @@ static const struct {
     {7, 8, "⅞"},
 };
 
+/* The sign for |x|, NULL if there is none. */
+static const char *
+glyph(const fmpq_t x)
+{
+    for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++)
+        if (fmpz_equal_si(fmpq_denref(x), fractions[i].q) &&
+            (fmpz_equal_si(fmpq_numref(x), fractions[i].p) ||
+             fmpz_equal_si(fmpq_numref(x), -fractions[i].p)))
+            return fractions[i].glyph;
+    return NULL;
+}
+
+bool
+qdot_print_is_compact(const fmpq_t x)
+{
+    return fmpz_is_one(fmpq_denref(x)) || glyph(x) != NULL;
+}
+
+void
+qdot_print_order(uint32_t order, qdot_style style, bool bare, qdot_text *out)
+{
+    char digits[16];
+
+    if (order == 1 && !bare)
+        return;
+    snprintf(digits, sizeof digits, "%u", order);
+    if (style == QDOT_UNICODE)
+        small(superscript, digits, strlen(digits), out);
+    else
+        qdot_text_format(out, bare ? "%s" : "^{%s}", digits);
+}
+
 static void
 integer(const fmpz_t n, qdot_text *out)
 {
@@ -208,6 +240,7 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket, qd
 {
     bool whole = fmpz_is_one(fmpq_denref(x));
     bool wrap = (bracket > 0 && fmpq_sgn(x) < 0) || (bracket == 2 && !whole);
+    fmpz_t top;
 
     if (raised) { /* an integer */
         qdot_text digits = {0};
@@ -220,21 +253,25 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket, qd
     if (wrap)
         qdot_text_char(out, '(');
     if (style == QDOT_UNICODE && !whole) {
-        bool minus = fmpq_sgn(x) < 0;
+        const char *sign = glyph(x);
 
-        for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++)
-            if (fmpz_equal_si(fmpq_denref(x), fractions[i].q) &&
-                fmpz_equal_si(fmpq_numref(x), minus ? -fractions[i].p : fractions[i].p)) {
-                qdot_text_add(out, minus ? "−" : "");
-                qdot_text_add(out, fractions[i].glyph);
-                if (wrap)
-                    qdot_text_char(out, ')');
-                return;
-            }
+        if (sign != NULL) {
+            qdot_text_add(out, fmpq_sgn(x) < 0 ? "−" : "");
+            qdot_text_add(out, sign);
+            if (wrap)
+                qdot_text_char(out, ')');
+            return;
+        }
     }
-    if (style == QDOT_LATEX && !whole)
-        qdot_text_add(out, "\\frac{");
-    integer(fmpq_numref(x), out);
+    if (style == QDOT_LATEX && !whole) {
+        qdot_text_add(out, fmpq_sgn(x) < 0 ? "-\\frac{" : "\\frac{");
+        fmpz_init(top);
+        fmpz_abs(top, fmpq_numref(x));
+        integer(top, out);
+        fmpz_clear(top);
+    } else {
+        integer(fmpq_numref(x), out);
+    }
     if (!whole) {
         qdot_text_add(out, style == QDOT_LATEX ? "}{" : "/");
         integer(fmpq_denref(x), out);

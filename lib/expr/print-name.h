@@ -12,4 +12,10 @@ void qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdo
 void qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
                        qdot_text *out);
 
+/* Whether x is a whole number or has a sign of its own, as ½: a root may stand next to it. */
+bool qdot_print_is_compact(const fmpq_t x);
+
+/* The order of a derivative: nothing for 1, else ², ^{2}; bare 1: the number alone, ⁴, 4. */
+void qdot_print_order(uint32_t order, qdot_style style, bool bare, qdot_text *out);
+
 #endif

@@ -14,12 +14,16 @@
 /* How tightly the context binds: what a piece must not look like without brackets. */
 enum { TOP, TERM, FACTOR, BASE, MAGNITUDE = -1, DENOMINATOR = -2, NUMERATOR = -3 };
 
-/* A piece: a text, or an expression in its context; `coefficient` not nil: times it (a NUM). */
+/* A piece: a text (or a name), or an order of derivative, or an expression in its context;
+ * `coefficient` not nil: times it (a NUM). */
 struct piece {
     const char *text;
     qdot_expr e, coefficient;
     int context;
+    uint32_t order;
     bool raised; /* a unicode superscript */
+    bool turned; /* -1 times the sum e */
+    bool name;   /* in its style: theta as θ */
 };
 
 typedef qdot_vec(struct piece) pieces;
@@ -91,39 +95,38 @@ is_minus(const qdot_pool *pool, qdot_expr number)
 
 /* The first term that needs no minus stands first; then the others; the number last. */
 static void
-open_sum(printer *p, qdot_expr e, int context)
+open_sum(printer *p, qdot_expr e, int context, bool turned)
 {
     const qdot_pool *pool = p->pool;
     uint32_t n = NODE(pool, e)->n, lead = 1;
     qdot_expr constant = ARGS(pool, e)[0];
-    bool number_first = false;
+    bool number_first = false, minus = false;
 
-    while (lead < n && is_minus(pool, ARGS(pool, e)[lead + 1]))
+    while (lead < n && is_minus(pool, ARGS(pool, e)[lead + 1]) != turned)
         lead += 2;
     if (lead >= n) {
-        number_first = constant != QDOT_ZERO && !is_minus(pool, constant);
+        number_first = constant != QDOT_ZERO && is_minus(pool, constant) == turned;
+        minus = !number_first;
         lead = number_first ? n : 1;
     }
     if (context >= FACTOR)
         open_bracket(p);
-    if (number_first)
-        child(p, constant, TERM);
-    else
-        piece(p, (struct piece){.e = ARGS(pool, e)[lead],
-                                .coefficient = ARGS(pool, e)[lead + 1],
-                                .context = TERM});
+    if (minus)
+        say(p, styled(p, "-", "−", "-"));
+    /* from here on every sign is written: magnitudes */
+    piece(p, (struct piece){.e = number_first ? QDOT_ONE : ARGS(pool, e)[lead],
+                            .coefficient = number_first ? constant : ARGS(pool, e)[lead + 1],
+                            .context = MAGNITUDE});
     for (uint32_t i = 1; i < n; i += 2) {
         qdot_expr c = ARGS(pool, e)[i + 1];
 
         if (i == lead)
             continue;
-        say(p, is_minus(pool, c) ? styled(p, " - ", " − ", " - ") : " + ");
-        piece(p, (struct piece){.e = ARGS(pool, e)[i],
-                                .coefficient = c,
-                                .context = MAGNITUDE}); /* the sign is written */
+        say(p, is_minus(pool, c) != turned ? styled(p, " - ", " − ", " - ") : " + ");
+        piece(p, (struct piece){.e = ARGS(pool, e)[i], .coefficient = c, .context = MAGNITUDE});
     }
     if (constant != QDOT_ZERO && !number_first) {
-        say(p, is_minus(pool, constant) ? styled(p, " - ", " − ", " - ") : " + ");
+        say(p, is_minus(pool, constant) != turned ? styled(p, " - ", " − ", " - ") : " + ");
         piece(p, (struct piece){.e = QDOT_ONE, .coefficient = constant, .context = MAGNITUDE});
     }
     if (context >= FACTOR)
@@ -197,16 +200,36 @@ power_of_function(printer *p, qdot_expr b, qdot_expr e, bool turned)
     close_bracket(p);
 }
 
+/* Whether e is 1/2 or -1/2. */
+static bool
+is_sqrt(const qdot_pool *pool, qdot_expr e)
+{
+    const fmpq *x = qdot_expr_rational(pool, e);
+
+    return x != NULL && fmpz_equal_si(fmpq_denref(x), 2) && fmpz_is_pm1(fmpq_numref(x));
+}
+
+/* What √ may stand before without brackets. */
+static bool
+is_bare(const qdot_pool *pool, qdot_expr e)
+{
+    return NODE(pool, e)->kind == QDOT_SYM ||
+           (NODE(pool, e)->kind == QDOT_NUM && fmpz_is_one(fmpq_denref(RATIONAL(pool, e))) &&
+            fmpq_sgn(RATIONAL(pool, e)) > 0);
+}
+
 /* b^e, or b^-e below the bar. */
 static void
 factor(printer *p, qdot_expr b, qdot_expr e, bool turned, int context)
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
-    bool half = x != NULL && fmpz_equal_si(fmpq_denref(x), 2) && fmpz_is_pm1(fmpq_numref(x)) &&
-                (turned || fmpq_sgn(x) > 0);
+    bool half = is_sqrt(pool, e) && (turned || fmpq_sgn(x) > 0);
 
-    if (half) {
+    if (half && p->style == QDOT_UNICODE && is_bare(pool, b)) {
+        say(p, "√");
+        child(p, b, TOP);
+    } else if (half) {
         say(p, styled(p, "sqrt(", "√(", "\\sqrt{"));
         child(p, b, TOP);
         say(p, styled(p, ")", ")", "}"));
@@ -234,15 +257,28 @@ count_factors(const qdot_pool *pool, qdot_expr e, bool down)
     return count;
 }
 
+/* What joins a number to the factor b^e after it. */
+static const char *
+joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
+{
+    if (NODE(p->pool, b)->kind != QDOT_NUM)
+        return styled(p, "*", " ", " ");
+    if (is_sqrt(p->pool, e) && qdot_print_is_compact(number)) /* 2√3 */
+        return styled(p, "*", "", " ");
+    return styled(p, "*", "·", " \\cdot ");
+}
+
+/* The factors of e above (below) the bar; number: what stands before them already, or NULL;
+ * turned: the base that is written as its negative. */
 static void
-factors(printer *p, qdot_expr e, bool down, bool first, int context)
+factors(printer *p, qdot_expr e, bool down, const fmpq *number, int context, qdot_expr turned)
 {
     const qdot_pool *pool = p->pool;
-    const char *times = styled(p, "*", " ", " ");
+    bool first = true;
 
     if (NODE(pool, e)->kind != QDOT_PROD) {
-        if (!first)
-            say(p, times);
+        if (number != NULL)
+            say(p, joint(p, number, e, QDOT_ONE));
         child(p, e, context);
         return;
     }
@@ -251,9 +287,15 @@ factors(printer *p, qdot_expr e, bool down, bool first, int context)
 
         if (below(pool, x) != down)
             continue;
-        if (!first)
-            say(p, NODE(pool, b)->kind == QDOT_NUM ? styled(p, "*", "·", " \\cdot ") : times);
-        factor(p, b, x, down, context);
+        if (first && number != NULL)
+            say(p, joint(p, number, b, x));
+        else if (!first)
+            say(p, NODE(pool, b)->kind == QDOT_NUM ? styled(p, "*", "·", " \\cdot ")
+                                                   : styled(p, "*", " ", " "));
+        if (b == turned)
+            piece(p, (struct piece){.e = b, .context = context, .turned = true});
+        else
+            factor(p, b, x, down, context);
         first = false;
     }
 }
@@ -266,7 +308,8 @@ open_scaled(printer *p, qdot_expr c, qdot_expr e, int context)
     const qdot_pool *pool = p->pool;
     const fmpq *x = RATIONAL(pool, c);
     bool latex = p->style == QDOT_LATEX;
-    bool minus = fmpq_sgn(x) < 0 && context >= 0, fraction = !fmpz_is_one(fmpq_denref(x));
+    qdot_expr turned = fmpq_sgn(x) < 0 && context >= 0 ? qdot_expr_turnable(pool, e) : QDOT_NIL;
+    bool minus = fmpq_sgn(x) < 0 && context >= 0 && turned == QDOT_NIL, fraction = !fmpz_is_one(fmpq_denref(x));
     uint32_t up = count_factors(pool, e, false), down = count_factors(pool, e, true);
     /* the number's denominator: 1/2*m/r, but 1/(2*r) where nothing else stands above */
     bool inside = fraction && down > 0 && (up == 0 || latex);
@@ -285,15 +328,16 @@ open_scaled(printer *p, qdot_expr c, qdot_expr e, int context)
     if (number)
         piece(p, (struct piece){.e = c, .context = inside ? NUMERATOR : MAGNITUDE});
     if (up > 0)
-        factors(p, e, false, !number, frac && number + up == 1 ? TOP
+        factors(p, e, false, number ? x : NULL, frac && number + up == 1 ? TOP
                                       : written > 1 || minus   ? FACTOR
                                       : context < 0            ? TERM
-                                                               : context);
+                                                               : context, turned);
     if (down > 0) {
         say(p, frac ? "}{" : several ? "/(" : "/");
         if (inside)
             piece(p, (struct piece){.e = c, .context = DENOMINATOR});
-        factors(p, e, true, !inside, frac && down == 1 && !inside ? TOP : several || frac ? FACTOR : BASE);
+        factors(p, e, true, inside ? x : NULL, frac && down == 1 && !inside ? TOP : several || frac ? FACTOR : BASE,
+                QDOT_NIL);
         if (frac || several)
             say(p, frac ? "}" : ")");
     }
@@ -303,68 +347,95 @@ open_scaled(printer *p, qdot_expr c, qdot_expr e, int context)
 
 /* --- functions --------------------------------------------------------------------------------- */
 
+/* The functions that LaTeX has a word for, where it is not the name itself. */
+static const char *
+latex_name(qdot_fun_id id)
+{
+    static const char *const words[QDOT_FUNCTION_COUNT] = {
+        [QDOT_SIN] = "\\sin",     [QDOT_COS] = "\\cos",     [QDOT_TAN] = "\\tan",
+        [QDOT_SEC] = "\\sec",     [QDOT_CSC] = "\\csc",     [QDOT_COT] = "\\cot",
+        [QDOT_ASIN] = "\\arcsin", [QDOT_ACOS] = "\\arccos", [QDOT_ATAN] = "\\arctan",
+        [QDOT_SINH] = "\\sinh",   [QDOT_COSH] = "\\cosh",   [QDOT_TANH] = "\\tanh",
+        [QDOT_EXP] = "\\exp",     [QDOT_LOG] = "\\log",     [QDOT_MIN] = "\\min",
+        [QDOT_MAX] = "\\max",
+    };
+
+    return words[id];
+}
+
 static void
 open_function(printer *p, qdot_expr e)
 {
     qdot_fun_id id = NODE(p->pool, e)->op;
+    bool latex = p->style == QDOT_LATEX;
 
-    if (p->style == QDOT_LATEX) {
-        if (id == QDOT_ABS) {
-            say(p, "\\left|");
-            child(p, ARGS(p->pool, e)[0], TOP);
-            say(p, "\\right|");
-            return;
-        }
-        say(p, "\\operatorname{");
-        say(p, qdot_fun_name(id));
-        say(p, "}");
+    if (latex && (id == QDOT_ABS || id == QDOT_FLOOR)) {
+        say(p, id == QDOT_ABS ? "\\left|" : "\\left\\lfloor ");
+        child(p, ARGS(p->pool, e)[0], TOP);
+        say(p, id == QDOT_ABS ? "\\right|" : "\\right\\rfloor ");
+        return;
+    }
+    if (latex && latex_name(id) != NULL) {
+        say(p, latex_name(id));
     } else {
+        say(p, latex ? "\\operatorname{" : "");
         say(p, qdot_fun_name(id));
+        say(p, latex ? "}" : "");
     }
     open_bracket(p);
     children(p, e, 0, NODE(p->pool, e)->n, ", ");
     close_bracket(p);
 }
 
-/* x(s, t) at the arguments, or at the declared ones. */
+/* --- undefined functions ------------------------------------------------------------------------ */
+
 static void
-application(printer *p, qdot_expr e, bool declared)
+name(printer *p, const char *text)
+{
+    piece(p, (struct piece){.text = text, .name = true});
+}
+
+/* (s, t): the arguments, or the declared ones. */
+static void
+arguments(printer *p, qdot_expr e, bool declared)
 {
     const qdot_ufun *f = &p->pool->ufuns.at[NODE(p->pool, e)->op];
 
-    say(p, f->name);
     say(p, "(");
     children(p, declared ? f->formals : e, 0, f->arity, ", ");
     say(p, ")");
 }
 
+static uint32_t
+order_of(const qdot_pool *pool, qdot_expr e, uint32_t i)
+{
+    long order = 0;
+
+    qdot_expr_to_int(pool, ARGS(pool, e)[NODE(pool, e)->n / 2 + i], &order);
+    return (uint32_t)order;
+}
+
+/* subs(diff(x(s, t), s, 2), s = a), the shortest text that parses back. */
 static void
-open_ufun(printer *p, qdot_expr e)
+derivative_plain(printer *p, qdot_expr e, bool moved)
 {
     const qdot_pool *pool = p->pool;
     const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
-    uint32_t n = f->arity, derivatives = 0;
-    bool moved = false;
+    uint32_t n = f->arity;
 
-    for (uint32_t i = 0; i < n; i++) {
-        derivatives += ARGS(pool, e)[n + i] != QDOT_ZERO;
-        moved |= ARGS(pool, e)[i] != ARGS(pool, f->formals)[i];
-    }
-    if (derivatives == 0) {
-        application(p, e, false);
-        return;
-    }
     if (moved)
         say(p, "subs(");
-    for (uint32_t i = 0; i < derivatives; i++)
-        say(p, "diff(");
-    application(p, e, true);
+    for (uint32_t i = 0; i < n; i++)
+        if (order_of(pool, e, i) > 0)
+            say(p, "diff(");
+    name(p, f->name);
+    arguments(p, e, true);
     for (uint32_t i = 0; i < n; i++) {
-        if (ARGS(pool, e)[n + i] == QDOT_ZERO)
+        if (order_of(pool, e, i) == 0)
             continue;
         say(p, ", ");
         child(p, ARGS(pool, f->formals)[i], TOP);
-        if (ARGS(pool, e)[n + i] != QDOT_ONE) {
+        if (order_of(pool, e, i) > 1) {
             say(p, ", ");
             child(p, ARGS(pool, e)[n + i], TOP);
         }
@@ -381,6 +452,67 @@ open_ufun(printer *p, qdot_expr e)
         child(p, ARGS(pool, e)[i], TOP);
     }
     say(p, ")");
+}
+
+/* ∂²x/∂s∂t, at other arguments (∂x/∂s)(a, b). */
+static void
+derivative_partial(printer *p, qdot_expr e, uint32_t total, bool moved, int context)
+{
+    const qdot_pool *pool = p->pool;
+    const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
+    bool bracket = (moved && p->style != QDOT_LATEX) || (!moved && context >= BASE), first = true;
+
+    if (bracket)
+        open_bracket(p);
+    say(p, styled(p, "", "∂", "\\frac{\\partial"));
+    piece(p, (struct piece){.order = total});
+    say(p, styled(p, "", "", " "));
+    name(p, f->name);
+    say(p, styled(p, "", "/", "}{"));
+    for (uint32_t i = 0; i < f->arity; i++) {
+        if (order_of(pool, e, i) == 0)
+            continue;
+        say(p, styled(p, "", "∂", first ? "\\partial " : " \\partial "));
+        child(p, ARGS(pool, f->formals)[i], TOP);
+        piece(p, (struct piece){.order = order_of(pool, e, i)});
+        first = false;
+    }
+    say(p, styled(p, "", "", "}"));
+    if (bracket)
+        close_bracket(p);
+    if (moved)
+        arguments(p, e, false);
+}
+
+static void
+open_ufun(printer *p, qdot_expr e, int context)
+{
+    const qdot_pool *pool = p->pool;
+    const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
+    uint32_t total = 0;
+    bool moved = false;
+
+    for (uint32_t i = 0; i < f->arity; i++) {
+        total += order_of(pool, e, i);
+        moved |= ARGS(pool, e)[i] != ARGS(pool, f->formals)[i];
+    }
+    if (total > 0 && f->arity > 1 && p->style != QDOT_PLAIN) {
+        derivative_partial(p, e, total, moved, context);
+        return;
+    }
+    if (total > 0 && p->style == QDOT_PLAIN && (!moved || f->arity > 1 || total > 3)) {
+        derivative_plain(p, e, moved);
+        return;
+    }
+    name(p, f->name);
+    for (uint32_t i = 0; i < total && total <= 3; i++)
+        say(p, styled(p, "'", "′", "'"));
+    if (total > 3) {
+        say(p, styled(p, "", "⁽", "^{("));
+        piece(p, (struct piece){.order = total, .context = TERM});
+        say(p, styled(p, "", "⁾", ")}"));
+    }
+    arguments(p, e, false);
 }
 
 /* --- conditions, vectors, matrices, lists --------------------------------------------------------- */
@@ -472,7 +604,7 @@ open_node(printer *p, const struct piece *x)
         qdot_print_symbol(pool, x->e, p->style, p->out);
         break;
     case QDOT_SUM:
-        open_sum(p, x->e, x->context);
+        open_sum(p, x->e, x->context, x->turned);
         break;
     case QDOT_PROD:
         open_scaled(p, ARGS(pool, x->e)[0], x->e, x->context);
@@ -481,7 +613,7 @@ open_node(printer *p, const struct piece *x)
         open_function(p, x->e);
         break;
     case QDOT_UFUN:
-        open_ufun(p, x->e);
+        open_ufun(p, x->e, x->context);
         break;
     case QDOT_REL:
         open_relation(p, x->e, x->context);
@@ -520,8 +652,12 @@ qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
         if (p.status != QDOT_OK)
             break;
         x = p.todo.at[--p.todo.n];
-        if (x.text != NULL)
+        if (x.name)
+            qdot_print_name(x.text, style, out);
+        else if (x.text != NULL)
             qdot_text_add(out, x.text);
+        else if (x.order > 0)
+            qdot_print_order(x.order, style, x.context, out);
         else
             open_node(&p, &x);
         if (p.status == QDOT_OK)

@@ -177,6 +177,10 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
     if (rest.n > 0 || !fmpq_is_one(&rest.c)) {
         if (rest.n == (n - 1) / 2 && fmpq_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
             push(p, base, k); /* nothing came out */
+        } else if (rest.n == 0 && !(NODE(pool, base)->sign & QDOT_NE0)) {
+            p->n = 0; /* sqrt(-x^2), real where it is 0: nothing comes out */
+            fmpq_one(&p->c);
+            push(p, base, k);
         } else {
             qdot_expr f = qdot_expr_fmpq(pool, &rest.c);
 
@@ -300,6 +304,12 @@ merge_exponentials(struct product *p)
     return true;
 }
 
+static bool
+is_number_root(const qdot_pool *pool, const struct pair *x)
+{
+    return NODE(pool, x->base)->kind == QDOT_NUM && NODE(pool, x->exponent)->kind == QDOT_NUM;
+}
+
 /* Roots of numbers under one exponent are one root: sqrt(2)*sqrt(6) is 2*sqrt(3). */
 static bool
 merge_roots(struct product *p)
@@ -307,11 +317,8 @@ merge_roots(struct product *p)
     qdot_pool *pool = p->pool;
 
     for (size_t i = 0; i < p->n; i++)
-        for (size_t j = i + 1; j < p->n; j++)
-            if (p->at[i].exponent == p->at[j].exponent &&
-                qdot_expr_rational(pool, p->at[i].exponent) != NULL &&
-                NODE(pool, p->at[i].base)->kind == QDOT_NUM &&
-                NODE(pool, p->at[j].base)->kind == QDOT_NUM) {
+        for (size_t j = i + 1; j < p->n && is_number_root(pool, &p->at[i]); j++)
+            if (p->at[i].exponent == p->at[j].exponent && is_number_root(pool, &p->at[j])) {
                 qdot_expr e = p->at[i].exponent;
                 qdot_expr b = qdot_mul(pool, p->at[i].base, p->at[j].base);
 
@@ -323,6 +330,33 @@ merge_roots(struct product *p)
                     push_number(p, b, e);
                 return true;
             }
+    return false;
+}
+
+/* sqrt(b - a) (a - b)^n is (-1)^n (b - a)^(n + 1/2). */
+static bool
+merge_turned(struct product *p)
+{
+    qdot_pool *pool = p->pool;
+
+    for (size_t i = 0; i < p->n; i++) {
+        struct pair *x = &p->at[i];
+        qdot_expr other;
+
+        if (NODE(pool, x->base)->kind != QDOT_SUM || is_integer(pool, x->exponent) ||
+            !qdot_expr_is_negative(pool, x->base))
+            continue;
+        other = qdot_sum_turned(pool, x->base);
+        for (size_t j = 0; j < p->n; j++)
+            if (p->at[j].base == other && is_integer(pool, p->at[j].exponent)) {
+                if (!is_even(pool, p->at[j].exponent))
+                    fmpq_neg(&p->c, &p->c);
+                x->exponent = qdot_add(pool, x->exponent, p->at[j].exponent);
+                p->failed = x->exponent == QDOT_NIL;
+                p->at[j] = p->at[--p->n];
+                return true;
+            }
+    }
     return false;
 }
 
@@ -385,6 +419,15 @@ round_of_merging(struct product *p)
             push(p, arg, x.exponent);
             n = p->n;
             again = true;
+        } else if (base->kind == QDOT_SUM && is_integer(pool, x.exponent) &&
+                   qdot_expr_is_negative(pool, x.base)) {
+            /* (b - a)^n by (a - b)^n, so that the two meet */
+            p->n = n;
+            push(p, qdot_sum_turned(pool, x.base), x.exponent);
+            n = p->n;
+            if (!is_even(pool, x.exponent))
+                fmpq_neg(&p->c, &p->c);
+            again = true;
         } else if (base->kind == QDOT_NUM && qdot_expr_rational(pool, x.exponent) != NULL) {
             if (x.settled) {
                 p->at[kept++] = x;
@@ -409,7 +452,7 @@ unsettled(const struct product *p)
     qdot_kind kind = p->n == 0 ? QDOT_SYM : NODE(p->pool, p->at[0].base)->kind;
 
     return p->n > 1 || (p->n == 1 && (p->at[0].exponent != QDOT_ONE || kind == QDOT_NUM ||
-                                      kind == QDOT_PROD));
+                                      kind == QDOT_PROD || kind == QDOT_SUM));
 }
 
 static qdot_expr
@@ -423,6 +466,7 @@ finish(struct product *p)
         again = round_of_merging(p);
         again |= !p->failed && merge_exponentials(p);
         again |= !p->failed && merge_roots(p);
+        again |= !p->failed && merge_turned(p);
     }
     if (p->failed || qdot_pool_failed(pool))
         return QDOT_NIL;

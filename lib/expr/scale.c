@@ -49,6 +49,12 @@ multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
         return c == QDOT_ONE ? e : c;
     if (NODE(pool, e)->kind == QDOT_NUM)
         return number_times(pool, c, e);
+    if (NODE(pool, e)->kind == QDOT_SUM && (c == QDOT_MINUS_ONE || qdot_expr_is_negative(pool, e))) {
+        e = qdot_sum_turned(pool, e);
+        c = number_times(pool, QDOT_MINUS_ONE, c);
+        if (c == QDOT_ONE || c == QDOT_NIL || e == QDOT_NIL)
+            return c == QDOT_NIL ? c : e;
+    }
     if (n > 33 && (args = qdot_malloc(n * sizeof *args)) == NULL)
         return qdot_pool_fail(pool);
     if (NODE(pool, e)->kind == QDOT_PROD) {
@@ -114,8 +120,25 @@ qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_node *node = NODE(pool, e);
 
-    return node->kind == QDOT_SYM || node->kind == QDOT_SUM || node->kind == QDOT_UFUN ||
+    return node->kind == QDOT_SYM || node->kind == QDOT_UFUN ||
+           (node->kind == QDOT_SUM && !qdot_expr_is_negative(pool, e)) ||
            (node->kind == QDOT_FUN && node->op != QDOT_EXP && node->op != QDOT_ABS);
+}
+
+qdot_expr
+qdot_expr_turnable(const qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = NODE(pool, e)->n;
+
+    for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < n; i += 2) {
+        qdot_expr b = ARGS(pool, e)[i];
+
+        if (ARGS(pool, e)[i + 1] == QDOT_ONE && NODE(pool, b)->kind == QDOT_SUM)
+            for (uint32_t k = 0; k < NODE(pool, b)->n; k += 2)
+                if (fmpq_sgn(RATIONAL(pool, ARGS(pool, b)[k])) < 0)
+                    return b;
+    }
+    return QDOT_NIL;
 }
 
 qdot_expr

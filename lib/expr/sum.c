@@ -310,6 +310,8 @@ finish(struct sum *s)
 static bool
 scalars(qdot_pool *pool, size_t n, const qdot_expr *e)
 {
+    if (qdot_pool_failed(pool))
+        return false;
     for (size_t i = 0; i < n; i++) {
         if (e[i] == QDOT_NIL)
             return false;
@@ -318,7 +320,7 @@ scalars(qdot_pool *pool, size_t n, const qdot_expr *e)
             return false;
         }
     }
-    return !qdot_pool_failed(pool);
+    return true;
 }
 
 /* The sum of c[i] terms[i]; c NULL: all 1. */

@@ -298,63 +298,79 @@ leading_minus(const qdot_pool *pool, qdot_expr sum)
     return true;
 }
 
+static bool
+is_whole(const fmpq *x)
+{
+    return fmpz_is_one(fmpq_denref(x));
+}
+
+static bool
+is_unit(const fmpq *x) /* its numerator is not written beside a factor */
+{
+    return fmpz_is_pm1(fmpq_numref(x));
+}
+
+static uint64_t
+size_of_sum(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
+{
+    const qdot_expr *args = ARGS(pool, e);
+    /* a term's minus is the operator that joins it, if one without it can stand first */
+    uint64_t size = leading_minus(pool, e);
+
+    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
+        const fmpq *c = RATIONAL(pool, args[i + 1]);
+
+        size = plus(size, qdot_walk_get(w, args[i]));
+        size = plus(size, (uint64_t)!is_whole(c) + !is_unit(c) + (i > 1));
+    }
+    if (args[0] != QDOT_ZERO)
+        size = plus(size, 1 + (uint64_t)!is_whole(RATIONAL(pool, args[0])));
+    return size;
+}
+
+static uint64_t
+size_of_product(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
+{
+    const qdot_expr *args = ARGS(pool, e);
+    const fmpq *c = RATIONAL(pool, args[0]);
+    uint64_t size = fmpq_sgn(c) < 0 && qdot_expr_turnable(pool, e) == QDOT_NIL;
+    uint64_t operands = (uint64_t)!is_unit(c) + !is_whole(c);
+    bool above = !is_unit(c);
+
+    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
+        const fmpq *x = qdot_expr_rational(pool, args[i + 1]);
+
+        above |= x == NULL || fmpq_sgn(x) > 0;
+        operands++;
+        size = plus(size, qdot_walk_get(w, args[i]));
+        if (x == NULL)
+            size = plus(plus(size, 1), qdot_walk_get(w, args[i + 1]));
+        else if (!is_unit(x) || !is_whole(x)) /* a power or a root */
+            size = plus(size, 1);
+    }
+    return plus(size, operands - above); /* 1/x divides too */
+}
+
 static uint64_t
 size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
 {
     const qdot_node *node = NODE(pool, e);
     const qdot_expr *args = ARGS(pool, e);
-    uint64_t size = 0, operands = 0;
+    uint32_t n = node->kind == QDOT_UFUN ? node->n / 2 : node->n;
+    uint64_t size = 0;
 
     switch (node->kind) {
     case QDOT_NUM:
         return size_of_number(RATIONAL(pool, e));
-    case QDOT_SYM:
-        return 0;
     case QDOT_SUM:
-        /* a term's minus is the operator that joins it, if one without it can stand first */
-        size = leading_minus(pool, e);
-        for (uint32_t i = 1; i < node->n; i += 2) {
-            const fmpq *c = RATIONAL(pool, args[i + 1]);
-
-            size = plus(size, qdot_walk_get(w, args[i]));
-            size += !fmpz_is_one(fmpq_denref(c)) + (uint64_t)!fmpz_is_pm1(fmpq_numref(c)) + (i > 1);
-        }
-        return plus(size, args[0] == QDOT_ZERO ? 0 : 1 + !fmpz_is_one(fmpq_denref(RATIONAL(pool, args[0]))));
-    case QDOT_PROD: {
-        const fmpq *c = RATIONAL(pool, args[0]);
-
-        size = fmpq_sgn(c) < 0;
-        operands = !fmpz_is_pm1(fmpq_numref(c)) + (uint64_t)!fmpz_is_one(fmpq_denref(c));
-        for (uint32_t i = 1; i < node->n; i += 2) {
-            const fmpq *x = qdot_expr_rational(pool, args[i + 1]);
-
-            size = plus(size, qdot_walk_get(w, args[i]));
-            operands++;
-            if (x == NULL)
-                size = plus(size, 1 + qdot_walk_get(w, args[i + 1]));
-            else if (!fmpz_is_pm1(fmpq_numref(x)) || !fmpz_is_one(fmpq_denref(x)))
-                size += 1 + (!fmpz_is_one(fmpq_denref(x)) && !fmpz_equal_si(fmpq_denref(x), 2));
-        }
-        /* 1/x: the quotient of a bare denominator */
-        if (fmpz_is_pm1(fmpq_numref(c))) {
-            bool above = false;
-
-            for (uint32_t i = 1; i < node->n; i += 2) {
-                const fmpq *x = qdot_expr_rational(pool, args[i + 1]);
-
-                above |= x == NULL || fmpq_sgn(x) > 0;
-            }
-            operands += !above;
-        }
-        return plus(size, operands - 1);
-    }
-    case QDOT_UFUN:
-        for (uint32_t i = 0; i < node->n / 2; i++)
-            size = plus(size, plus(qdot_walk_get(w, args[i]), args[node->n / 2 + i] != QDOT_ZERO));
-        return size;
+        return size_of_sum(pool, e, w);
+    case QDOT_PROD:
+        return size_of_product(pool, e, w);
     default:
-        for (uint32_t i = 0; i < node->n; i++)
+        for (uint32_t i = 0; i < n; i++)
             size = plus(size, qdot_walk_get(w, args[i]));
+        for (uint32_t i = n; i < node->n; i++) /* orders of derivatives */
+            size = plus(size, args[i] != QDOT_ZERO);
         return plus(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC);
     }
 }

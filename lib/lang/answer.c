@@ -95,6 +95,19 @@ qdot_answer_json_double(qdot_text *text, double value)
 
 /* --- expressions -------------------------------------------------------------------- */
 
+qdot_status
+qdot_answer_print(qdot_session *session, qdot_expr e, qdot_style style, qdot_text *out)
+{
+    uint64_t size = qdot_expr_size(session->pool, e);
+
+    if (size <= QDOT_ANSWER_OPERATIONS)
+        return qdot_print(session->pool, e, style, out);
+    (void)qdot_fail(QDOT_ELIMIT,
+                    "%s%" PRIu64 " operations are too many to print: more than %u",
+                    size == UINT64_MAX ? "more than " : "", size, QDOT_ANSWER_OPERATIONS);
+    return qdot_hint("size(...) tells it; what it is used in goes on");
+}
+
 /* A name in the style of the session, where it is one: eom[theta] but not diff(T,
  * theta'). */
 static void
@@ -139,25 +152,31 @@ holds_relations(const qdot_pool *pool, qdot_expr e)
            (kind == QDOT_VEC && is_equation(pool, qdot_expr_arg(pool, e, 0)));
 }
 
-/* Whether the name of an equation says nothing that its left side does not: `p[theta]
- * = ...`. */
+/* Whether the name of an equation says nothing that its left side does not: a value of
+ * the language, each solved for what it is about (`p[theta] = ...`, `theta'' = ...`).
+ * An equation of motion keeps its name, however simple its left side. */
 static bool
-names_itself(const qdot_pool *pool, qdot_expr e)
+names_itself(const qdot_pool *pool, const char *name, qdot_expr e)
 {
-    return qdot_expr_kind(pool, qdot_expr_arg(pool, e, 0)) == QDOT_SYM;
+    static const char *const solved[] = {"momenta[", "forces[", "accel[", "cyclic["};
+
+    for (size_t i = 0; i < sizeof solved / sizeof *solved; i++)
+        if (strncmp(name, solved[i], strlen(solved[i])) == 0)
+            return qdot_expr_kind(pool, qdot_expr_arg(pool, e, 0)) == QDOT_SYM;
+    return false;
 }
 
 static qdot_status
 expr_text(qdot_session *session, const char *name, qdot_expr value)
 {
     qdot_text line = {0}, plain = {0}, shown = {0};
-    qdot_status status = qdot_print(session->pool, value, session->style, &shown);
+    qdot_status status = qdot_answer_print(session, value, session->style, &shown);
     bool bare = name == NULL || strlen(name) > 200;
 
     if (status == QDOT_OK && !bare)
-        status = qdot_print(session->pool, value, QDOT_PLAIN, &plain);
+        status = qdot_answer_print(session, value, QDOT_PLAIN, &plain);
     if (!bare && is_equation(session->pool, value))
-        bare = strpbrk(name, "=<>") != NULL || names_itself(session->pool, value);
+        bare = strpbrk(name, "=<>") != NULL || names_itself(session->pool, name, value);
     if (!bare && holds_relations(session->pool, value))
         bare = strpbrk(name, "=<>") != NULL;
     if (!bare && strcmp(name, qdot_text_str(&plain)) != 0) {
@@ -188,12 +207,12 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
 
     qdot_text_add(&line, "{\"kind\":\"expr\",\"name\":");
     qdot_text_json(&line, name == NULL ? "" : name);
-    status = qdot_print(session->pool, value, QDOT_PLAIN, &part);
+    status = qdot_answer_print(session, value, QDOT_PLAIN, &part);
     qdot_text_add(&line, ",\"plain\":");
     qdot_text_json(&line, qdot_text_str(&part));
     qdot_text_truncate(&part, 0);
     if (status == QDOT_OK)
-        status = qdot_print(session->pool, value, QDOT_LATEX, &part);
+        status = qdot_answer_print(session, value, QDOT_LATEX, &part);
     qdot_text_add(&line, ",\"latex\":");
     qdot_text_json(&line, qdot_text_str(&part));
     qdot_text_format(&line, ",\"ops\":%" PRIu64 "}\n",
@@ -353,6 +372,18 @@ point_json(qdot_session *session, qdot_expr at, qdot_text *line)
     return QDOT_OK;
 }
 
+/* A side of a check; how large it is where it is too large. */
+static qdot_status
+print_side(qdot_session *session, qdot_expr side, qdot_text *out)
+{
+    uint64_t size = qdot_expr_size(session->pool, side);
+
+    if (size <= QDOT_ANSWER_OPERATIONS)
+        return qdot_print(session->pool, side, QDOT_PLAIN, out);
+    qdot_text_format(out, "(%" PRIu64 " operations)", size);
+    return QDOT_OK;
+}
+
 static qdot_status
 check_json(qdot_session *session, qdot_expr left, qdot_expr right,
            const qdot_decision *decision)
@@ -362,11 +393,11 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
 
     qdot_text_format(&line, "{\"kind\":\"check\",\"verdict\":\"%s\",\"left\":",
                      verdicts[decision->verdict]);
-    status = qdot_print(session->pool, left, QDOT_PLAIN, &part);
+    status = print_side(session, left, &part);
     qdot_text_json(&line, qdot_text_str(&part));
     qdot_text_truncate(&part, 0);
     if (status == QDOT_OK)
-        status = qdot_print(session->pool, right, QDOT_PLAIN, &part);
+        status = print_side(session, right, &part);
     qdot_text_add(&line, ",\"right\":");
     qdot_text_json(&line, qdot_text_str(&part));
     if (decision->verdict == QDOT_REFUTED) {
@@ -462,14 +493,14 @@ qdot_answer_notice(qdot_session *session, const char *format, ...)
     va_start(ap, format);
     vsnprintf(message, sizeof message, format, ap);
     va_end(ap);
-    if (session->json) {
+    if (session->console != NULL ? session->console_json : session->json) {
         qdot_text_add(&line, "{\"kind\":\"notice\",\"message\":");
         qdot_text_json(&line, message);
         qdot_text_add(&line, "}\n");
     } else {
         qdot_text_format(&line, "notice: %s\n", message);
     }
-    return put(session->out, &line);
+    return put(session->console != NULL ? session->console : session->out, &line);
 }
 
 static void

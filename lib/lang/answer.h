@@ -14,6 +14,12 @@
 #include "lang/read.h"
 #include "normal/decide.h"
 
+#define QDOT_ANSWER_OPERATIONS 10000000u /* what is printed of one expression */
+
+/* Append e. QDOT_ELIMIT, before any work: more than QDOT_ANSWER_OPERATIONS. */
+QDOT_MUST_CHECK qdot_status qdot_answer_print(qdot_session *session, qdot_expr e,
+                                              qdot_style style, qdot_text *out);
+
 /* {"kind":"expr"}: `name = value`, `name: left = right` for an equation; just the
  * value where the name says the same or is NULL. */
 QDOT_MUST_CHECK qdot_status qdot_answer_expr(qdot_session *session, const char *name,

@@ -87,15 +87,89 @@ answer_list(qdot_session *session, const char *name, qdot_expr list)
     return QDOT_OK;
 }
 
+/* --- latex(e) ----------------------------------------------------------------------- */
+
+/* Whether `latex(` is at the cursor, no name of the user's; *behind: what follows it. */
+static bool
+is_latex(const qdot_cursor *c, const qdot_token **behind)
+{
+    long depth = 0;
+
+    if (!qdot_cursor_is_word(c, "latex") || c->at[1].kind != QDOT_TOKEN_OPERATOR ||
+        strcmp(c->at[1].text, "(") != 0 ||
+        qdot_names_find(c->session->names, "latex") != NULL)
+        return false;
+    for (const qdot_token *k = c->at + 1; k->kind != QDOT_TOKEN_END; k++) {
+        if (k->kind != QDOT_TOKEN_OPERATOR || k->text[1] != '\0')
+            continue;
+        depth += strchr("([{", k->text[0]) != NULL;
+        depth -= strchr(")]}", k->text[0]) != NULL;
+        if (depth == 0) {
+            *behind = k + 1;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The LaTeX of an expression; of a list each member in a line of its own. */
+static qdot_status
+read_latex(qdot_cursor *c, qdot_text *out)
+{
+    qdot_pool *pool = c->session->pool;
+    qdot_expr value;
+    uint32_t n;
+
+    c->at++;
+    QDOT_TRY(qdot_cursor_expect_op(c, "("));
+    QDOT_TRY(qdot_read_value(c, &value));
+    QDOT_TRY(qdot_cursor_expect_op(c, ")"));
+    if (qdot_expr_kind(pool, value) != QDOT_LIST)
+        return qdot_answer_print(c->session, value, QDOT_LATEX, out);
+    n = qdot_expr_count(pool, value);
+    for (uint32_t i = 0; i < n; i++) {
+        QDOT_TRY(qdot_answer_print(c->session, qdot_expr_arg(pool, value, i), QDOT_LATEX,
+                                   out));
+        qdot_text_add(out, i + 1 < n ? "\n" : "");
+    }
+    return QDOT_OK;
+}
+
+/* latex(e) as a whole statement: a text. */
+static qdot_status
+answer_latex(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_text name = {0}, text = {0};
+    qdot_status status = read_latex(c, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_cursor_expect_end(c);
+    if (status == QDOT_OK) {
+        qdot_statement_text(start, c->at, &name);
+        status = qdot_text_status(&name);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(c->session, qdot_text_str(&name), qdot_text_str(&text));
+    qdot_text_clear(&name);
+    qdot_text_clear(&text);
+    return status;
+}
+
 qdot_status
 qdot_ask_expression(qdot_cursor *c)
 {
     qdot_session *session = c->session;
+    const qdot_token *behind;
     const qdot_token *start = c->at;
     qdot_expr value;
     qdot_text name = {0};
     qdot_status status;
 
+    if (is_latex(c, &behind) && behind->kind == QDOT_TOKEN_END)
+        return answer_latex(c);
     QDOT_TRY(qdot_read_value(c, &value));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
@@ -124,6 +198,7 @@ static qdot_status
 print_one(qdot_cursor *c, qdot_text *line)
 {
     qdot_session *session = c->session;
+    const qdot_token *behind;
     const char *text;
     qdot_expr value;
     double x, error;
@@ -133,9 +208,12 @@ print_one(qdot_cursor *c, qdot_text *line)
         qdot_text_add(line, text);
         return QDOT_OK;
     }
+    if (is_latex(c, &behind) &&
+        (behind->kind == QDOT_TOKEN_END || strcmp(behind->text, ",") == 0))
+        return read_latex(c, line);
     QDOT_TRY(qdot_read_value(c, &value));
     if (!qdot_ask_is_measured(session, value))
-        return qdot_print(session->pool, value, session->style, line);
+        return qdot_answer_print(session, value, session->style, line);
     for (uint32_t i = 0;; i++) {
         bool scalar = qdot_expr_is_scalar(session->pool, value);
 
@@ -222,7 +300,7 @@ print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
         if (value == QDOT_NIL)
             return QDOT_OK;
         qdot_text_add(out, " = ");
-        return qdot_print(pool, value, QDOT_PLAIN, out);
+        return qdot_answer_print(session, value, QDOT_PLAIN, out);
     case QDOT_NAME_UFUN:
         qdot_text_add(out, "function ");
         return qdot_print(pool, name->value, QDOT_PLAIN, out);
@@ -233,10 +311,10 @@ print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
                 out, "%s%s", i > 0 ? ", " : "",
                 qdot_expr_symbol(pool, qdot_expr_arg(pool, name->formals, i))->name);
         qdot_text_add(out, ") = ");
-        return qdot_print(pool, name->value, QDOT_PLAIN, out);
+        return qdot_answer_print(session, name->value, QDOT_PLAIN, out);
     default:
         qdot_text_format(out, "%s = ", name->name);
-        return qdot_print(pool, name->value, QDOT_PLAIN, out);
+        return qdot_answer_print(session, name->value, QDOT_PLAIN, out);
     }
 }
 

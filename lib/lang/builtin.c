@@ -6,10 +6,10 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
+#include "lang/algebra.h"
 #include "lang/code.h"
 #include "mech/geometry.h"
 #include "normal/simplify.h"
-#include "normal/solve.h"
 
 static qdot_status
 give(qdot_session *s, qdot_expr result, qdot_expr *value)
@@ -121,51 +121,6 @@ call_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     return give(s, qdot_ddt(s->pool, args[0]), value);
 }
 
-typedef struct {
-    qdot_vec(qdot_expr) from, to;
-} replacements;
-
-/* Take the equation, or those in a list or vector, as replacements. */
-static qdot_status
-gather(qdot_session *s, qdot_expr e, replacements *r)
-{
-    qdot_kind kind = qdot_expr_kind(s->pool, e);
-    bool many = kind == QDOT_LIST || kind == QDOT_VEC;
-    uint32_t n = many ? qdot_expr_count(s->pool, e) : 1;
-
-    for (uint32_t i = 0; i < n; i++) {
-        qdot_expr one = many ? qdot_expr_arg(s->pool, e, i) : e, left;
-
-        if (!is_equation(s->pool, one)) {
-            qdot_fail(QDOT_ETYPE, "subs asks equations, not %s",
-                      qdot_resolve_kind(s->pool, one));
-            return qdot_hint("as in subs(e, x = a, y = b)");
-        }
-        left = qdot_expr_arg(s->pool, one, 0);
-        if (qdot_expr_kind(s->pool, left) == QDOT_NUM)
-            return qdot_fail(QDOT_ETYPE, "subs cannot replace a number");
-        QDOT_TRY(qdot_vec_push(&r->from, left));
-        QDOT_TRY(qdot_vec_push(&r->to, qdot_expr_arg(s->pool, one, 1)));
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-call_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    replacements r = {0};
-    qdot_status status = QDOT_OK;
-
-    for (uint32_t i = 1; i < n && status == QDOT_OK; i++)
-        status = gather(s, args[i], &r);
-    if (status == QDOT_OK)
-        status =
-            give(s, qdot_subs(s->pool, args[0], r.from.n, r.from.at, r.to.at), value);
-    qdot_free(r.from.at);
-    qdot_free(r.to.at);
-    return status;
-}
-
 /* --- equations ---------------------------------------------------------------------- */
 
 typedef enum { LEFT, RIGHT, DIFFERENCE } side;
@@ -257,48 +212,6 @@ call_simplify(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 
     (void)n;
     return give(s, qdot_simplify(s->pool, args[0], &facts), value);
-}
-
-static qdot_status
-call_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return give(s, qdot_solve_product(s->pool, args[0]), value);
-}
-
-/* solve(a = b, x), solve(e, x) of e = 0: the values of x, a list. */
-static qdot_status
-call_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    qdot_facts facts = qdot_scene_facts(s->scene);
-    qdot_expr f = is_equation(s->pool, args[0]) ? side_of(s->pool, args[0], DIFFERENCE)
-                                                : args[0];
-    qdot_root *roots = NULL;
-    qdot_expr *values;
-    size_t count = 0;
-    bool complete;
-
-    (void)n;
-    if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] <= QDOT_FALSE)
-        return qdot_fail(QDOT_ETYPE, "solve(a = b, x) asks a symbol for x");
-    if (!qdot_expr_is_scalar(s->pool, f))
-        return qdot_fail(QDOT_ETYPE, "solve asks an equation between numbers, not %s",
-                         qdot_resolve_kind(s->pool, args[0]));
-    QDOT_TRY(qdot_solve(s->pool, f, args[1], &facts, &roots, &count, &complete));
-    if (!complete) {
-        qdot_free(roots);
-        qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
-                  count > 0 ? " for every x" : "");
-        return qdot_hint("linear, quadratic, factorable and trigonometric equations can");
-    }
-    values = qdot_malloc((count + 1) * sizeof *values);
-    for (size_t i = 0; values != NULL && i < count; i++)
-        values[i] = roots[i].value;
-    *value = values == NULL ? qdot_pool_fail(s->pool)
-                            : qdot_list(s->pool, (uint32_t)count, values);
-    qdot_free(values);
-    qdot_free(roots);
-    return qdot_resolve_check(s->pool, *value);
 }
 
 static qdot_status
@@ -498,6 +411,10 @@ call_unbuilt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *valu
     {                                                                                    \
 #word, least, most, call_##word, usage, summary, example, 0, NULL                \
     }
+#define ALGEBRA(least, most, word, usage, summary, example)                              \
+    {                                                                                    \
+#word, least, most, qdot_algebra_##word, usage, summary, example, 0, NULL        \
+    }
 #define ELEMENTARY(word, ID, usage, summary, example)                                    \
     {                                                                                    \
 #word, ID##_LEAST, ID##_MOST, call_##ID, usage, summary, example, 0, NULL        \
@@ -554,7 +471,8 @@ static const qdot_builtin rows[] = {
     ROW(2, 3, diff, "diff(e, x) or diff(e, x, n)",
         "partial derivative, n times; all other symbols held", "diff(sin(t)^2, t)"),
     ROW(1, 1, ddt, "ddt(e)", "total time derivative", "ddt(t^2)"),
-    ROW(2, -1, subs, "subs(e, x = a, y = b)",
+    ALGEBRA(
+        2, -1, subs, "subs(e, x = a, y = b)",
         "e with the replacements made, all at once; a list of equations may stand there",
         "subs(t^2, t = 3)"),
     ROW(1, 1, lhs, "lhs(a = b)", "left side of an equation", "lhs(t = 2)"),
@@ -566,11 +484,14 @@ static const qdot_builtin rows[] = {
         "collect(t*2 + t*pi, t)"),
     ROW(1, 1, simplify, "simplify(e)", "the shortest form found",
         "simplify(sin(t)^2 + cos(t)^2)"),
-    ROW(1, 1, factor, "factor(e)", "e as a product of irreducible factors",
-        "factor(t^2 - 1)"),
-    ROW(2, 2, solve, "solve(a = b, x)",
-        "every real x, a list; angles between -pi and pi; parameters are generic",
-        "solve(t^2 = 4, t)"),
+    ALGEBRA(1, 1, factor, "factor(e)", "e as a product of irreducible factors",
+            "factor(t^2 - 1)"),
+    ALGEBRA(2, 2, solve, "solve(a = b, x)",
+            "every real x, a list; angles between -pi and pi; parameters are generic",
+            "solve(t^2 = 4, t)"),
+    ALGEBRA(3, -1, series, "series(e, x = a, y = b, n)",
+            "Taylor series about x = a, y = b: terms up to total degree n",
+            "series(cos(t), t = 0, 4)"),
     ROW(1, 1, size, "size(e)", "number of operations in e", "size(t^2 + 1)"),
     ROW(1, 1, latex, "latex(e)", "e as LaTeX text, a statement of its own", "latex(t^2)"),
 
@@ -582,6 +503,9 @@ static const qdot_builtin rows[] = {
         "transpose([1, 2; 3, 4])"),
     ROW(1, 1, det, "det(M)", "determinant", "det([1, 2; 3, 4])"),
     ROW(1, 1, inverse, "inverse(M)", "inverse matrix", "inverse([1, 2; 3, 4])"),
+    ALGEBRA(1, 1, eigenvalues, "eigenvalues(M)",
+            "the eigenvalues of a matrix that are real, each as often as it is one",
+            "eigenvalues([2, 1; 1, 2])"),
     ROW(1, 1, trace, "trace(M)", "sum of the diagonal", "trace([1, 2; 3, 4])"),
 
     ROW(1, 1, ds2, "ds2(R) or ds2(bob)", "line element of r(q), in differentials", ""),
@@ -589,8 +513,7 @@ static const qdot_builtin rows[] = {
     {"metric", 1, 1, call_metric, "metric(R)", "metric of r(q) or of a line element", "",
      0, over_place},
     PLACE(1, christoffel, "christoffel(R) or christoffel(R)[r, theta, theta]",
-          "Christoffel symbols of r(q) or of ds^2; the first index is the upper one",
-          ""),
+          "Christoffel symbols of r(q) or of ds^2; the first index is the upper one", ""),
     PLACE(1, riemann, "riemann(R) or riemann(R)[a, b, c, d]",
           "Riemann's tensor R^a_bcd, the first index the upper one", ""),
     PLACE(1, ricci, "ricci(R) or ricci(R)[a, b]", "Ricci's tensor R_ab", ""),
@@ -600,15 +523,15 @@ static const qdot_builtin rows[] = {
           ""),
     ROW(1, 1, scalar_curvature, "scalar_curvature(R)",
         "scalar curvature; 2/a^2 on a sphere", ""),
-    ROW(1, 1, volume_element, "volume_element(R)", "volume element, sqrt(det g)",
-        ""),
+    ROW(1, 1, volume_element, "volume_element(R)", "volume element, sqrt(det g)", ""),
     PLACE(2, gradient, "gradient(f, R)", "gradient in the orthonormal frame of r(q)", ""),
     ROW(2, 2, divergence, "divergence(F, R)",
         "divergence of a field given in the orthonormal frame of r(q)", ""),
     PLACE(2, curl, "curl(F, R)",
           "curl of a field given in the orthonormal frame of r(q); in the plane a number",
           ""),
-    ROW(2, 2, laplacian, "laplacian(f, R)", "Laplacian of a scalar in coordinates r(q)", ""),
+    ROW(2, 2, laplacian, "laplacian(f, R)", "Laplacian of a scalar in coordinates r(q)",
+        ""),
     {"point", 1, 2, call_point, "point(body, P)", "where the body-fixed point P is", "",
      QDOT_BUILTIN_LABEL, NULL},
     {"spin", 1, 1, call_spin, "spin(body)", "angular velocity; a number in the plane", "",
@@ -620,8 +543,6 @@ static const qdot_builtin rows[] = {
      "e along the latest run at time t; value(a.e, t) along the run a", "",
      QDOT_BUILTIN_RUN, NULL},
 
-    UNBUILT(series, "series(e, x = a, n)", "terms up to total degree n"),
-    UNBUILT(eigenvalues, "eigenvalues(M)", "the eigenvalues of a matrix"),
     UNBUILT(mean, "mean(e, a..b)", "mean over a range of a run"),
     UNBUILT(drift, "drift(e)", "how far e drifted in a run"),
 };

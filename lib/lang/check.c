@@ -444,6 +444,19 @@ read_question(qdot_cursor *c, question *q, facts *f)
     return QDOT_OK;
 }
 
+/* `check eom == (x'' = -x)`: the only member of a list, beside what is no list. */
+static void
+unwrap(const qdot_pool *pool, qdot_expr *left, qdot_expr *right)
+{
+    qdot_expr *sides[] = {left, right};
+
+    for (int i = 0; i < 2; i++)
+        if (qdot_expr_kind(pool, *sides[i]) == QDOT_LIST &&
+            qdot_expr_count(pool, *sides[i]) == 1 &&
+            qdot_expr_kind(pool, *sides[1 - i]) != QDOT_LIST)
+            *sides[i] = qdot_expr_arg(pool, *sides[i], 0);
+}
+
 /* The values of the sides, the other way round. */
 static void
 turn(qdot_decision *decision)
@@ -470,6 +483,7 @@ answer(qdot_cursor *c, question *q, facts *f)
         QDOT_TRY(qdot_pool_check(pool));
         QDOT_TRY(add_motion(session, f));
     }
+    unwrap(session->pool, &q->left, &q->right);
     measured =
         qdot_ask_is_measured(session, q->left) || qdot_ask_is_measured(session, q->right);
     if (measured && q->how == EQUAL && !q->within) {

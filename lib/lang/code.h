@@ -113,6 +113,8 @@ QDOT_MUST_CHECK qdot_status qdot_resolve_check(qdot_pool *pool, qdot_expr value)
 
 /* --- hints -------------------------------------------------------------------------- */
 
+/* Whether a name without a meaning is another system's for one of our functions: `Sin`. */
+bool qdot_hints_is_foreign(const qdot_session *session, const char *name);
 /* "unknown name `thta`", with the hint that fits: the nearest name, our form of another
  * system's. member: the whole, "thta[2]", or NULL. QDOT_ENAME. */
 qdot_status qdot_hints_unknown(qdot_cursor *c, const qdot_token *token,

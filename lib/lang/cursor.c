@@ -203,6 +203,8 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         found(what, t);
         return hint_foreign(t);
     }
+    if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0)
+        return found(what, t); /* behind an option word, not an operand */
     if (t->glued || before->kind == QDOT_TOKEN_NUMBER ||
         (!word && (t->kind != QDOT_TOKEN_NAME || is_known(c->session, t->text))))
         return missing_times(c, before);

@@ -25,6 +25,11 @@ typedef struct {
 
 typedef qdot_vec(item) items;
 
+/* What no bound may hold. */
+#define MOVING                                                                           \
+    (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |    \
+     QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA | QDOT_HAS_TIME)
+
 static bool
 is_relation(const qdot_cursor *c, bool *less, bool *strict)
 {
@@ -48,7 +53,8 @@ static qdot_status
 set_bound(qdot_cursor *c, const qdot_token *at, item *x, qdot_expr bound, bool upper,
           bool strict)
 {
-    if (!qdot_expr_is_scalar(c->session->pool, bound)) {
+    if (!qdot_expr_is_scalar(c->session->pool, bound) ||
+        (qdot_expr_node(c->session->pool, bound)->holds & MOVING)) {
         c->error_at = at->start;
         return qdot_fail(QDOT_ETYPE,
                          "a bound is a number or an expression of parameters");
@@ -156,18 +162,41 @@ spread(items *list)
     }
 }
 
+/* What comes behind a parameter in its list may use it: `param a = 2, b = a^2`. */
+static qdot_status
+show_item(qdot_session *session, const item *x, size_t *shown)
+{
+    qdot_expr symbol;
+
+    if (qdot_names_find(session->names, x->name) != NULL)
+        return QDOT_OK;
+    symbol = qdot_symbol_get(session->pool, QDOT_PARAM, x->name);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_names_push(session->names, x->name, symbol));
+    ++*shown;
+    return QDOT_OK;
+}
+
 static qdot_status
 read_items(qdot_cursor *c, bool params, items *list)
 {
+    qdot_status status;
+    size_t shown = 0;
+
     do {
         item x = {0};
 
-        QDOT_TRY(read_item(c, params, &x));
-        QDOT_TRY(qdot_vec_push(list, x));
-        if (params)
+        status = read_item(c, params, &x);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(list, x);
+        if (status == QDOT_OK && params)
             spread(list);
-    } while (qdot_cursor_accept_op(c, ","));
-    return qdot_cursor_expect_end(c);
+        if (status == QDOT_OK && params)
+            status = show_item(c->session, &x, &shown);
+    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+    while (shown-- > 0)
+        qdot_names_pop(c->session->names);
+    return status == QDOT_OK ? qdot_cursor_expect_end(c) : status;
 }
 
 /* --- declaring ---------------------------------------------------------------------- */
@@ -178,7 +207,7 @@ tell_hidden(qdot_session *session, const char *name)
 {
     const qdot_quantity *row = qdot_quantity_find(name), *other;
 
-    if (row == NULL || strcmp(name, "p") == 0)
+    if (row == NULL || row->least > 0) /* only name[...] is the language's */
         return QDOT_OK;
     for (size_t i = 0; (other = qdot_quantity_at(i)) != NULL; i++)
         if (other != row && other->get == row->get &&
@@ -258,6 +287,7 @@ declare_item(qdot_cursor *c, qdot_name_kind kind, const item *x, bool *fresh)
         else
             qdot_symbol_domain(session->pool, entry.value, QDOT_NIL, false, QDOT_NIL,
                                false);
+        QDOT_TRY(qdot_declare_meet_functions(session, x->name, entry.value));
     }
     if (kind == QDOT_NAME_COORD)
         return qdot_scene_coordinate(session->scene, entry.value);
@@ -386,165 +416,6 @@ qdot_declare_coord(qdot_cursor *c)
     if (status == QDOT_OK)
         status = declare_items(c, QDOT_NAME_COORD, &list);
     qdot_free(list.at);
-    return status;
-}
-
-/* --- functions ---------------------------------------------------------------------- */
-
-/* (a, b, c): the names, each a token. */
-static qdot_status
-read_arguments(qdot_cursor *c, const qdot_token ***names, size_t *n)
-{
-    qdot_vec(const qdot_token *) list = {0};
-    qdot_status status = qdot_cursor_expect_op(c, "(");
-
-    while (status == QDOT_OK) {
-        if (c->at->kind != QDOT_TOKEN_NAME) {
-            status = qdot_cursor_expected(c, "the name of an argument");
-            break;
-        }
-        for (size_t i = 0; i < list.n && status == QDOT_OK; i++)
-            if (strcmp(list.at[i]->text, c->at->text) == 0) {
-                c->error_at = c->at->start;
-                status = qdot_fail(QDOT_ENAME, "the argument `%s` stands here twice",
-                                   c->at->text);
-            }
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&list, c->at);
-        if (status != QDOT_OK)
-            break;
-        c->at++;
-        if (!qdot_cursor_accept_op(c, ",")) {
-            status = qdot_cursor_expect_op(c, ")");
-            break;
-        }
-    }
-    if (status != QDOT_OK) {
-        qdot_free(list.at);
-        list.at = NULL;
-        list.n = 0;
-    }
-    *names = list.at;
-    *n = list.n;
-    return status;
-}
-
-/* An argument t is the time itself: that name is reserved. */
-static qdot_expr
-formal_symbol(qdot_pool *pool, const qdot_token *name)
-{
-    return strcmp(name->text, "t") == 0 ? QDOT_T
-                                        : qdot_symbol_get(pool, QDOT_FORMAL, name->text);
-}
-
-qdot_status
-qdot_declare_read_formals(qdot_cursor *c, qdot_expr *formals, const qdot_token ***names,
-                          size_t *n)
-{
-    qdot_vec(qdot_expr) symbols = {0};
-    qdot_status status = read_arguments(c, names, n);
-
-    for (size_t i = 0; i < *n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&symbols, formal_symbol(c->session->pool, (*names)[i]));
-    if (status == QDOT_OK) {
-        *formals = qdot_list(c->session->pool, (uint32_t)symbols.n, symbols.at);
-        status = qdot_pool_check(c->session->pool);
-    }
-    qdot_free(symbols.at);
-    return status;
-}
-
-qdot_status
-qdot_declare_read_body(qdot_cursor *c, qdot_expr formals, size_t n,
-                       const qdot_token *const *names, qdot_expr *body)
-{
-    qdot_status status = QDOT_OK;
-    size_t pushed = 0;
-
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_expr formal = qdot_expr_arg(c->session->pool, formals, (uint32_t)i);
-
-        if (formal == QDOT_T)
-            continue;
-        status = qdot_names_push(c->session->names, names[i]->text, formal);
-        pushed += status == QDOT_OK;
-    }
-    if (status == QDOT_OK)
-        status = qdot_read_value(c, body);
-    while (pushed-- > 0)
-        qdot_names_pop(c->session->names);
-    return status;
-}
-
-/* The symbol that an argument in `function x(s, t)` means: a declared one, the time,
- * else a symbol of its own. */
-static qdot_expr
-argument_symbol(qdot_session *session, const char *name)
-{
-    const qdot_name *known = qdot_names_find(session->names, name);
-
-    if (strcmp(name, "t") == 0)
-        return QDOT_T;
-    if (known != NULL && qdot_expr_kind(session->pool, known->value) == QDOT_SYM)
-        return known->value;
-    return qdot_symbol_get(session->pool, QDOT_FORMAL, name);
-}
-
-static qdot_status
-declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n,
-             const qdot_token *const *names)
-{
-    qdot_pool *pool = c->session->pool;
-    qdot_name entry = {.name = (char *)name, .kind = QDOT_NAME_UFUN};
-    qdot_vec(qdot_expr) formals = {0};
-    qdot_status status = QDOT_OK;
-
-    for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&formals, argument_symbol(c->session, names[i]->text));
-    if (status == QDOT_OK)
-        status = qdot_pool_check(pool);
-    if (status == QDOT_OK)
-        status = qdot_ufun_declare(pool, name, (uint32_t)n, formals.at, &entry.ufun);
-    if (status == QDOT_OK) {
-        entry.value = qdot_ufun_apply(pool, entry.ufun, formals.at, NULL);
-        entry.formals = qdot_list(pool, (uint32_t)n, formals.at);
-        status = qdot_pool_check(pool);
-    }
-    if (status == QDOT_OK)
-        status = qdot_declare_name(c, start, &entry);
-    qdot_free(formals.at);
-    return status;
-}
-
-qdot_status
-qdot_declare_function(qdot_cursor *c)
-{
-    qdot_vec(const char *) done = {0};
-    qdot_status status = QDOT_OK;
-
-    do {
-        const qdot_token *start = c->at, **names = NULL;
-        const char *name;
-        size_t n = 0;
-
-        status = qdot_read_name(c, &name);
-        if (status == QDOT_OK)
-            status = read_arguments(c, &names, &n);
-        if (status == QDOT_OK && !qdot_cursor_is_op(c, ",")) {
-            status = qdot_cursor_expect_end(c);
-            if (status == QDOT_OK)
-                status = declare_ufun(c, start, name, n, names);
-        } else if (status == QDOT_OK) {
-            status = declare_ufun(c, start, name, n, names);
-        }
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&done, name);
-        qdot_free(names);
-    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
-    if (status != QDOT_OK)
-        while (done.n > 0)
-            qdot_names_remove(c->session->names, done.at[--done.n]);
-    qdot_free(done.at);
     return status;
 }
 

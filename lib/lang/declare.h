@@ -20,6 +20,12 @@ void qdot_declare_value(qdot_session *session, qdot_expr symbol, qdot_expr value
 QDOT_MUST_CHECK qdot_status qdot_declare_in_domain(qdot_session *session,
                                                    qdot_expr symbol, qdot_expr value);
 
+/* A name is declared that stands as an argument in `function x(NAME)` before: that function is
+ * from now on one of the symbol. */
+QDOT_MUST_CHECK qdot_status qdot_declare_meet_functions(qdot_session *session,
+                                                        const char *name,
+                                                        qdot_expr symbol);
+
 /* `(u, v)`: a LIST of FORMAL symbols, and the tokens [*n] of their names, owned by the
  * caller. */
 QDOT_MUST_CHECK qdot_status qdot_declare_read_formals(qdot_cursor *c, qdot_expr *formals,

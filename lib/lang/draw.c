@@ -260,15 +260,36 @@ qdot_draw_read_file(qdot_cursor *c, const char **path)
 
 /* --- table -------------------------------------------------------------------------- */
 
-/* t0, t0 + step, ... up to t1, whichever way the run went. */
+/* What all the runs cover, in the direction of the first. */
 static qdot_status
-ladder(const qdot_run *run, double step, double **times, size_t *n)
+common_span(const qdot_draw_operands *list, double *from, double *to)
 {
-    const qdot_run_report *report = qdot_run_get_report(run);
-    double span = report->t1 - report->t0, count;
+    const qdot_run_report *first = qdot_run_get_report(list->at[0].run);
+    double low = -INFINITY, high = INFINITY;
+
+    for (size_t i = 0; i < list->n; i++) {
+        const qdot_run_report *one = qdot_run_get_report(list->at[i].run);
+
+        low = fmax(low, fmin(one->t0, one->t1));
+        high = fmin(high, fmax(one->t0, one->t1));
+    }
+    if (low > high)
+        return qdot_fail(QDOT_EINVAL, "the runs have no time in common");
+    *from = first->t1 >= first->t0 ? low : high;
+    *to = first->t1 >= first->t0 ? high : low;
+    return QDOT_OK;
+}
+
+/* t0, t0 + step, ... up to t1, whichever way the runs went. */
+static qdot_status
+ladder(const qdot_draw_operands *list, double step, double **times, size_t *n)
+{
+    double from = 0, to = 0, span, count;
 
     if (!(step > 0))
         return qdot_fail(QDOT_EINVAL, "a table needs a step above 0");
+    QDOT_TRY(common_span(list, &from, &to));
+    span = to - from;
     count = floor(fabs(span) / step * (1 + 1e-12)) + 1;
     if (count > 1e7)
         return qdot_fail(QDOT_ELIMIT, "a table of %.3g rows is too long", count);
@@ -277,9 +298,9 @@ ladder(const qdot_run *run, double step, double **times, size_t *n)
     if (*times == NULL)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < *n; k++) {
-        double t = report->t0 + copysign((double)k * step, span);
+        double t = from + copysign((double)k * step, span);
 
-        (*times)[k] = span >= 0 ? fmin(t, report->t1) : fmax(t, report->t1);
+        (*times)[k] = span >= 0 ? fmin(t, to) : fmax(t, to);
     }
     return QDOT_OK;
 }
@@ -320,7 +341,7 @@ qdot_draw_table(qdot_cursor *c)
         status = qdot_draw_runs(c->session, &list);
     }
     if (status == QDOT_OK)
-        status = ladder(list.at[0].run, step, &times, &rows);
+        status = ladder(&list, step, &times, &rows);
     if (status == QDOT_OK)
         status = fill_grid(&g, &list, rows, times);
     if (status == QDOT_OK)

@@ -445,6 +445,26 @@ qdot_furnish_constraint(qdot_cursor *c)
                         c->session->scene->constraints.n - before);
 }
 
+/* What acted on a removed thing went with it: say so. */
+static qdot_status
+tell_removed(qdot_session *session, const char *label)
+{
+    const qdot_scene *scene = session->scene;
+    qdot_text list = {0};
+    qdot_status status;
+
+    if (scene->dropped.n == 0)
+        return QDOT_OK;
+    for (size_t i = 0; i < scene->dropped.n; i++)
+        qdot_text_format(&list, "%s%s", i > 0 ? ", " : "", scene->dropped.at[i]);
+    status = qdot_text_status(&list);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "with %s went what acted on it: %s", label,
+                                    qdot_text_str(&list));
+    qdot_text_clear(&list);
+    return status;
+}
+
 qdot_status
 qdot_furnish_remove(qdot_cursor *c)
 {
@@ -454,5 +474,6 @@ qdot_furnish_remove(qdot_cursor *c)
     QDOT_TRY(qdot_read_name(c, &label));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    return qdot_scene_remove(c->session->scene, label);
+    QDOT_TRY(qdot_scene_remove(c->session->scene, label));
+    return tell_removed(c->session, label);
 }

@@ -102,6 +102,15 @@ our_function(const char *name)
     return row != NULL ? row->name : NULL;
 }
 
+bool
+qdot_hints_is_foreign(const qdot_session *session, const char *name)
+{
+    return qdot_builtin_find(name) == NULL && qdot_quantity_find(name) == NULL &&
+           our_function(name) != NULL && qdot_names_find(session->names, name) == NULL &&
+           !qdot_names_is_family(session->names, name) &&
+           !qdot_scene_has_label(session->scene, name);
+}
+
 /* The text inside the bracket that `open` opens, "..." where it is long. */
 static void
 bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t size)

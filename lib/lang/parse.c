@@ -228,6 +228,10 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
         qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name->text);
         return fail_at(p, name, QDOT_ENOTBUILT);
     }
+    if (indices == 0 && qdot_hints_is_foreign(s, name->text)) {
+        (void)qdot_hints_unknown_function(p->c, name);
+        return fail_at(p, name, QDOT_ENAME);
+    }
     p->c->at++;
     if (flags & QDOT_BUILTIN_FORM) {
         bool sum = strcmp(name->text, "sum") == 0;
@@ -274,6 +278,10 @@ name(parser *p)
     if (is_op(next, "[") && next->glued && n == 0) {
         bool multiplier = strcmp(t->text, "lambda") == 0;
 
+        if (qdot_hints_is_foreign(p->c->session, t->text)) {
+            (void)qdot_hints_unknown(p->c, t, NULL);
+            return fail_at(p, t, QDOT_ENAME);
+        }
         p->c->at++;
         QDOT_TRY(push(p, IN_INDEX_NAME, t));
         return multiplier && p->c->at->kind == QDOT_TOKEN_NAME

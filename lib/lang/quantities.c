@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "lang/code.h"
+#include "lang/equilibria.h"
 #include "mech/hamilton.h"
 #include "mech/noether.h"
 #include "mech/quantity.h"
@@ -295,6 +296,51 @@ get_conserved(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *va
     return give(s, qdot_noether_conserved(s->scene), value);
 }
 
+/* --- rest and what is near it ------------------------------------------------------- */
+
+static qdot_status
+get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    qdot_equilibrium *list;
+    qdot_status status;
+    size_t count;
+
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(qdot_equilibria_find(s, &list, &count));
+    status = qdot_equilibria_list(s, list, count, value);
+    qdot_free(list);
+    return status;
+}
+
+/* The frequencies; modes[k, x]: an amplitude. */
+static qdot_status
+get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    const qdot_scene *scene = s->scene;
+    qdot_modes modes;
+    qdot_status status = QDOT_OK;
+    long k = 1;
+
+    QDOT_TRY(need_coordinates(s));
+    if (n > 0)
+        QDOT_TRY(qdot_session_integer(s, index[0], &k));
+    if (n == 2)
+        QDOT_TRY(coordinate(s, "modes[k, q]: q", index[1]));
+    QDOT_TRY(qdot_equilibria_modes_at(s, QDOT_NIL, &modes));
+    if (n > 0 && (k < 1 || (size_t)k > modes.n))
+        status = qdot_fail(QDOT_EDOMAIN, "there are %zu modes, counted from 1", modes.n);
+    else if (n == 0)
+        *value = qdot_list(s->pool, (uint32_t)modes.n, modes.frequency);
+    else if (n == 1)
+        *value = modes.frequency[k - 1];
+    for (size_t i = 0; i < scene->coordinates.n && n == 2 && status == QDOT_OK; i++)
+        if (scene->coordinates.at[i] == index[1])
+            *value = modes.amplitude[(size_t)(k - 1) * scene->coordinates.n + i];
+    qdot_modes_clear(&modes);
+    return status == QDOT_OK ? qdot_resolve_check(s->pool, *value) : status;
+}
+
 /* --- words of later versions -------------------------------------------------------- */
 
 #define UNBUILT(word)                                                                    \
@@ -305,8 +351,6 @@ get_conserved(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *va
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: " #word);                       \
     }
 UNBUILT(reactions)
-UNBUILT(equilibria)
-UNBUILT(modes)
 #undef UNBUILT
 
 /* --- the table ---------------------------------------------------------------------- */
@@ -356,9 +400,13 @@ static const qdot_quantity rows[] = {
      "every conserved quantity found: cyclic momenta, the energy, those of translations, "
      "rotations and boosts; each is proved",
      "conserved"},
-    {"equilibria", 0, 0, get_equilibria, "equilibria", "equilibria with their stability",
-     ""},
-    {"modes", 0, 2, get_modes, "modes", "normal modes", ""},
+    {"equilibria", 0, 0, get_equilibria, "equilibria or equilibria[2]",
+     "where the scene can rest, a list of equations each; alone, with their stability",
+     "equilibria"},
+    {"modes", 0, 2, get_modes, "modes, modes[k] or modes[k, theta]",
+     "angular frequencies of the normal modes about the first equilibrium that is not "
+     "unstable, ascending; modes[k, theta] is an amplitude, the first of a mode being 1",
+     "modes"},
 };
 
 const qdot_quantity *

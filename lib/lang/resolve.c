@@ -332,7 +332,8 @@ is_canonical(const qdot_session *s, const qdot_token *t)
     if (t->kind == QDOT_TOKEN_NAME) {
         entry = qdot_names_find(s->names, t->text);
         if (entry == NULL)
-            return strcmp(t->text, "hamiltonian") == 0 || strcmp(t->text, "routhian") == 0;
+            return strcmp(t->text, "hamiltonian") == 0 ||
+                   strcmp(t->text, "routhian") == 0;
         e = entry->value;
     } else if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "%") == 0) {
         e = s->history.n > 0 ? s->history.at[s->history.n - 1] : QDOT_NIL;

@@ -161,8 +161,9 @@ qdot_session_reset(qdot_session *session, bool everything)
 /* --- texts and files ---------------------------------------------------------------- */
 
 static int
-exit_status(const qdot_session *session, qdot_status status)
+exit_status(qdot_session *session, qdot_status status)
 {
+    session->failed = status != QDOT_OK;
     if (status != QDOT_OK)
         return status == QDOT_ESYNTAX ? 2 : 1;
     return session->refuted ? 1 : 0;

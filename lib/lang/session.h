@@ -35,6 +35,9 @@ typedef struct qdot_session {
     FILE *out, *err;
     qdot_style style;
     bool json, timing, interactive;
+    FILE *console; /* while answers go to a file: where notices go; else NULL */
+    bool console_json;
+    bool failed;  /* the latest text or file stopped at an error */
     bool refuted; /* a check was refuted: exit 1 at the end */
     qdot_vec(qdot_expr) history;                     /* %1 is history.at[0] */
     qdot_vec(qdot_measured) measured;

@@ -11,6 +11,7 @@
 
 #include "base/interrupt.h"
 #include "lang/answer.h"
+#include "lang/redirect.h"
 
 typedef struct {
     size_t body, close; /* tokens: the first inside, the `}` */
@@ -93,7 +94,7 @@ is_used_as_name(const qdot_session *session, const qdot_token *name,
                     qdot_names_is_family(session->names, name->text);
 
     if (row->alone)
-        return next->kind != QDOT_TOKEN_END || declared;
+        return (next->kind != QDOT_TOKEN_END && !is_word(next, "at")) || declared;
     for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
         if (is_op(next, binary[i]))
             return true;
@@ -157,6 +158,37 @@ dispatch(qdot_cursor *c)
     return qdot_cursor_expect_end(c);
 }
 
+/* The `to FILE` that ends the statement, where its own handler does not read it. */
+static const qdot_token *
+find_to(const qdot_session *session, const qdot_token *first)
+{
+    const qdot_statement *row =
+        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+
+    if (first->kind == QDOT_TOKEN_NAME && is_definition(first, row != NULL))
+        return NULL;
+    if (row != NULL && is_used_as_name(session, first, row) && !is_word(first + 1, "to"))
+        row = NULL;
+    return qdot_redirect_find(row, first);
+}
+
+/* The statement with its answers in a file; `to` is an end to it for the while. */
+static qdot_status
+dispatch_to(engine *x, qdot_cursor *c, size_t to)
+{
+    qdot_redirect redirect;
+    qdot_status status;
+
+    c->error_at = x->tokens[to + 1].start;
+    QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
+    x->tokens[to].kind = QDOT_TOKEN_END;
+    status = dispatch(c);
+    x->tokens[to].kind = QDOT_TOKEN_NAME;
+    if (status == QDOT_OK)
+        c->error_at = x->tokens[to + 1].start;
+    return qdot_redirect_end(&redirect, status);
+}
+
 static qdot_status
 statement(engine *x, size_t i)
 {
@@ -165,9 +197,10 @@ statement(engine *x, size_t i)
                      .at = &x->tokens[i],
                      .error_at = x->tokens[i].start};
     qdot_status status = qdot_interrupt_check();
+    const qdot_token *to = status == QDOT_OK ? find_to(x->session, &x->tokens[i]) : NULL;
 
     if (status == QDOT_OK)
-        status = dispatch(&c);
+        status = to == NULL ? dispatch(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
     if (status == QDOT_OK)
         return QDOT_OK;
     x->error_at = c.error_at;

@@ -111,6 +111,9 @@ qdot_status qdot_ask_dof(qdot_cursor *c);
 qdot_status qdot_ask_cyclic(qdot_cursor *c);
 qdot_status qdot_check(qdot_cursor *c);
 qdot_status qdot_derive_all(qdot_cursor *c);
+/* equilibria.c */
+qdot_status qdot_equilibria_all(qdot_cursor *c);
+qdot_status qdot_equilibria_modes(qdot_cursor *c);
 /* number.c, draw.c */
 qdot_status qdot_number_set(qdot_cursor *c);
 qdot_status qdot_number_start(qdot_cursor *c);

@@ -75,6 +75,11 @@ static const qdot_statement table[] = {
      qdot_ask_forces, true},
     {"cyclic", ASK, "cyclic", "the coordinates absent from L, each with its momentum",
      "cyclic", qdot_ask_cyclic, true},
+    {"equilibria", ASK, "equilibria", "where the scene can rest, with stability",
+     "equilibria", qdot_equilibria_all, true},
+    {"modes", ASK, "modes [at EQUILIBRIUM]",
+     "normal modes about an equilibrium: frequencies and amplitudes",
+     "modes at equilibria[2]", qdot_equilibria_modes, true},
     {"derive", ASK, "derive", "the derivation from r(q) to the equations, step by step",
      "derive", qdot_derive_all, true},
 

@@ -21,7 +21,8 @@ evaluate(const gsl_vector *x, void *user, gsl_vector *f)
 {
     problem *p = user;
 
-    p->status = qdot_generic_evaluate(p->pool, p->n, p->r, p->n, p->u, x->data, 1, f->data);
+    p->status =
+        qdot_generic_evaluate(p->pool, p->n, p->r, p->n, p->u, x->data, 1, f->data);
     if (p->status != QDOT_OK)
         return GSL_EFAILED;
     for (size_t i = 0; i < p->n; i++)
@@ -46,7 +47,8 @@ bound(const qdot_pool *pool, qdot_expr e, double otherwise)
 {
     double v;
 
-    if (e == QDOT_NIL || qdot_generic_evaluate(pool, 1, &e, 0, NULL, NULL, 1, &v) != QDOT_OK ||
+    if (e == QDOT_NIL ||
+        qdot_generic_evaluate(pool, 1, &e, 0, NULL, NULL, 1, &v) != QDOT_OK ||
         qdot_expr_node(pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN)
         return otherwise;
     return v;
@@ -58,8 +60,10 @@ settle(problem *p, double *x, double *f)
 {
     for (size_t i = 0; i < p->n; i++) {
         const qdot_symbol *q = qdot_expr_symbol(p->pool, p->u[i]);
-        double lo = bound(p->pool, q->lo, -INFINITY), hi = bound(p->pool, q->hi, INFINITY);
-        double was = x[i], turned = was - 2 * M_PI * ceil((was - M_PI) / (2 * M_PI) - 1e-9);
+        double lo = bound(p->pool, q->lo, -INFINITY),
+               hi = bound(p->pool, q->hi, INFINITY);
+        double was = x[i],
+               turned = was - 2 * M_PI * ceil((was - M_PI) / (2 * M_PI) - 1e-9);
 
         if (was <= lo || was >= hi)
             return false;
@@ -146,15 +150,15 @@ qdot_equilibrium_search(qdot_scene *s, size_t n, const qdot_expr *u, const qdot_
             const qdot_symbol *q = qdot_expr_symbol(s->pool, u[i]);
             bool bounded = q->lo != QDOT_NIL || q->hi != QDOT_NIL;
 
-            gsl_vector_set(x, i, (bounded ? 1 : 2.2) * qdot_generic_value(s->pool, u[i], k + 1));
+            gsl_vector_set(
+                x, i, (bounded ? 1 : 2.2) * qdot_generic_value(s->pool, u[i], k + 1));
         }
         if (status == QDOT_OK && refine(&p, solver, x) &&
             settle(&p, solver->x->data, f) &&
             is_new(*found, *count, n, solver->x->data)) {
             for (size_t i = 0; i < n; i++)
-                (*found)[*count * n + i] = fabs(solver->x->data[i]) < 1e-14
-                                               ? 0
-                                               : solver->x->data[i];
+                (*found)[*count * n + i] =
+                    fabs(solver->x->data[i]) < 1e-14 ? 0 : solver->x->data[i];
             ++*count;
         }
         if (status == QDOT_OK && p.status != QDOT_OK)

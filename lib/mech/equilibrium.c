@@ -12,7 +12,7 @@
 #include "normal/simplify.h"
 #include "normal/solve.h"
 
-enum { MOST_BRANCHES = 400, MOST_SOLUTIONS = 200 };
+enum { MOST_BRANCHES = 10000, MOST_SOLUTIONS = 1024 };
 
 /* What is left to solve, and what is known: LISTs. */
 typedef struct {
@@ -59,6 +59,13 @@ holds_unknowns(const rest *r, qdot_expr e)
     return n;
 }
 
+static qdot_status
+too_many(void)
+{
+    return qdot_fail(QDOT_ELIMIT, "the scene has more than %d equilibria",
+                     MOST_SOLUTIONS);
+}
+
 /* --- the equations at rest ----------------------------------------------------------- */
 
 static qdot_expr
@@ -100,9 +107,9 @@ equations_at_rest(rest *r, qdot_expr *list)
     if (e == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
-        qdot_expr one = i < n ? residual(r->pool, qdot_mech_equation(
-                                                       s, s->coordinates.at[i]))
-                              : s->constraints.at[i - n].f;
+        qdot_expr one =
+            i < n ? residual(r->pool, qdot_mech_equation(s, s->coordinates.at[i]))
+                  : s->constraints.at[i - n].f;
 
         one = qdot_simplify(r->pool, at_rest(s, one), &r->facts);
         status = qdot_pool_check(r->pool);
@@ -132,7 +139,8 @@ begin(rest *r, branch *first)
             QDOT_TRY(qdot_vec_push(&r->unknowns, s->coordinates.at[i]));
     r->coordinates = r->unknowns.n;
     for (size_t k = 0; k < s->constraints.n; k++)
-        if (qdot_expr_contains(r->pool, first->equations, s->constraints.at[k].multiplier))
+        if (qdot_expr_contains(r->pool, first->equations,
+                               s->constraints.at[k].multiplier))
             QDOT_TRY(qdot_vec_push(&r->unknowns, s->constraints.at[k].multiplier));
     return QDOT_OK;
 }
@@ -207,10 +215,8 @@ with_value(rest *r, const branch *b, qdot_expr equations, qdot_expr u,
         next.conditions = appended(pool, next.conditions, 1, &one);
     }
     QDOT_TRY(qdot_pool_check(pool));
-    if (r->todo.n >= MOST_BRANCHES) {
-        r->complete = false;
-        return QDOT_OK;
-    }
+    if (r->todo.n >= MOST_BRANCHES)
+        return too_many();
     return qdot_vec_push(&r->todo, next);
 }
 
@@ -319,15 +325,15 @@ emit(rest *r, const branch *b, qdot_expr equations)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < r->unknowns.n; i++)
         for (uint32_t k = 0; k < qdot_expr_count(pool, b->known); k++) {
-            qdot_expr one = qdot_expr_arg(pool, b->known, k), u = qdot_expr_arg(pool, one, 0);
+            qdot_expr one = qdot_expr_arg(pool, b->known, k),
+                      u = qdot_expr_arg(pool, one, 0);
 
             if (u != r->unknowns.at[i])
                 continue;
-            list[n++] = qdot_rel(pool, QDOT_EQ, u,
-                                 turned(r, u,
-                                        qdot_simplify(pool, qdot_expr_arg(pool, one, 1),
-                                                      &r->facts),
-                                        equations));
+            list[n++] = qdot_rel(
+                pool, QDOT_EQ, u,
+                turned(r, u, qdot_simplify(pool, qdot_expr_arg(pool, one, 1), &r->facts),
+                       equations));
         }
     e.equations = qdot_list(pool, (uint32_t)n, list);
     qdot_free(list);
@@ -335,10 +341,8 @@ emit(rest *r, const branch *b, qdot_expr equations)
     for (size_t i = 0; i < r->found.n; i++)
         if (r->found.at[i].equations == e.equations)
             return QDOT_OK;
-    if (r->found.n >= MOST_SOLUTIONS) {
-        r->complete = false;
-        return QDOT_OK;
-    }
+    if (r->found.n >= MOST_SOLUTIONS)
+        return too_many();
     return qdot_vec_push(&r->found, e);
 }
 
@@ -357,7 +361,8 @@ choose(rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others, bool
     if (left == NULL)
         return QDOT_ENOMEM;
     for (uint32_t i = 0; i < n && !*dead; i++) {
-        qdot_expr e = qdot_simplify(pool, qdot_expr_arg(pool, equations, i), &r->facts), list;
+        qdot_expr e = qdot_simplify(pool, qdot_expr_arg(pool, equations, i), &r->facts),
+                  list;
         int hardest = 0;
 
         if (e == QDOT_ZERO || e == QDOT_NIL || qdot_is_zero(pool, e, &r->facts))
@@ -414,8 +419,9 @@ decimal(qdot_pool *pool, double x)
 
     qdot_text_double(&text, x, 15);
     e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
-        : text.at[0] == '-' ? qdot_neg(pool, qdot_expr_decimal(pool, text.at + 1, text.n - 1))
-                            : qdot_expr_decimal(pool, text.at, text.n);
+        : text.at[0] == '-'
+            ? qdot_neg(pool, qdot_expr_decimal(pool, text.at + 1, text.n - 1))
+            : qdot_expr_decimal(pool, text.at, text.n);
     qdot_text_clear(&text);
     return e;
 }
@@ -454,8 +460,9 @@ search(rest *r, qdot_expr equations, qdot_binder bind, void *user)
     QDOT_TRY(qdot_pool_check(pool));
     name = unset(r, bound);
     if (name != NULL) {
-        qdot_fail(QDOT_EUNSET, "the equilibria cannot be solved for exactly; numbers need a "
-                               "value of `%.100s`",
+        qdot_fail(QDOT_EUNSET,
+                  "the equilibria cannot be solved for exactly; numbers need a "
+                  "value of `%.100s`",
                   name);
         return qdot_hint("set %.100s = ...", name);
     }
@@ -496,7 +503,8 @@ judge(rest *r, qdot_binder bind, void *user)
 {
     for (size_t i = 0; i < r->found.n; i++) {
         QDOT_TRY(qdot_equilibrium_judge(r->s, &r->found.at[i]));
-        if (r->found.at[i].numeric && r->found.at[i].stable_when != QDOT_NIL && bind != NULL) {
+        if (r->found.at[i].numeric && r->found.at[i].stable_when != QDOT_NIL &&
+            bind != NULL) {
             qdot_expr when = bind(user, r->found.at[i].stable_when);
 
             QDOT_TRY(qdot_pool_check(r->pool));
@@ -511,8 +519,8 @@ judge(rest *r, qdot_binder bind, void *user)
 }
 
 qdot_status
-qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibrium **list,
-                      size_t *n)
+qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user,
+                      qdot_equilibrium **list, size_t *n)
 {
     rest r = {.s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .complete = true};
     branch first, b;

@@ -31,8 +31,9 @@
 typedef enum { QDOT_STABLE, QDOT_UNSTABLE, QDOT_STABILITY_UNDECIDED } qdot_stability;
 
 typedef struct {
-    qdot_expr equations; /* a LIST: coordinate = value ..., then lambda[...] = value ... */
-    qdot_expr exists;    /* a LIST of RELs under which it is real; nil: always */
+    qdot_expr
+        equations;    /* a LIST: coordinate = value ..., then lambda[...] = value ... */
+    qdot_expr exists; /* a LIST of RELs under which it is real; nil: always */
     qdot_stability stability;
     qdot_expr stable_when; /* STABLE: a LIST of RELs; nil: always */
     bool numeric;
@@ -43,8 +44,9 @@ typedef qdot_expr (*qdot_binder)(void *user, qdot_expr e);
 
 /* *list [*n], owned by the caller. QDOT_EDOMAIN if the equations at rest hold the time, QDOT_EUNSET
  * names a parameter if numbers are needed, QDOT_EFAILED if nothing can be said. */
-QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user,
-                                                  qdot_equilibrium **list, size_t *n);
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bind,
+                                                  void *user, qdot_equilibrium **list,
+                                                  size_t *n);
 
 /* The equations of motion about `equations`: M, Gamma, H [*n * *n] over the coordinates of the
  * tangent space; N [coordinates * *n], x = N y. Each owned by the caller. keep_free: with the
@@ -54,7 +56,8 @@ typedef struct {
     qdot_expr *M, *Gamma, *H, *N;
 } qdot_linear_motion;
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_linear(qdot_scene *s, qdot_expr equations,
-                                                    bool keep_free, qdot_linear_motion *out);
+                                                    bool keep_free,
+                                                    qdot_linear_motion *out);
 void qdot_linear_motion_clear(qdot_linear_motion *m);
 
 /* Set stability and stable_when; e->equations and e->exists are there. (stability.c) */
@@ -63,14 +66,15 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_judge(qdot_scene *s, qdot_equilibri
 /* --- numbers (equilibrium-numeric.c) ----
  * Unknowns u [n] with r [n] = 0, every other symbol bound: found [*count * n] doubles, owned. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_search(qdot_scene *s, size_t n,
-                                                    const qdot_expr *u, const qdot_expr *r,
-                                                    double **found, size_t *count);
+                                                    const qdot_expr *u,
+                                                    const qdot_expr *r, double **found,
+                                                    size_t *count);
 
 /* --- normal modes (modes.c) ----
  * (H - w^2 M) a = 0 about `equations`: frequencies w [n] ascending, amplitudes a
  * [n * coordinates], a row each, the first component that is not 0 is 1. Exact where the
- * characteristic polynomial factors into linear and quadratic ones in w^2, else numbers, which
- * need every parameter's value. QDOT_ETYPE with damping or gyroscopic terms, QDOT_EDOMAIN
+ * characteristic polynomial factors into linear and quadratic ones in w^2, else (or at once, if
+ * `numbers`) numbers, which need every parameter's value. QDOT_ETYPE with damping or gyroscopic terms, QDOT_EDOMAIN
  * where H is not positive semidefinite. */
 typedef struct {
     size_t n;
@@ -78,7 +82,8 @@ typedef struct {
     bool numeric;
 } qdot_modes;
 QDOT_MUST_CHECK qdot_status qdot_modes_about(qdot_scene *s, qdot_expr equations,
-                                             qdot_binder bind, void *user, qdot_modes *out);
+                                             bool numbers, qdot_binder bind, void *user,
+                                             qdot_modes *out);
 void qdot_modes_clear(qdot_modes *m);
 
 #endif

@@ -394,6 +394,16 @@ weighted_slope(const geometry *m, qdot_expr e, uint32_t i)
     return qdot_add(pool, qdot_diff(pool, e, m->q[i]), qdot_mul(pool, growth, e));
 }
 
+/* d_i h_j / h_j = d_i g_jj / (2 g_jj), without the root (its sign need not be known). */
+static qdot_expr
+stretch(const geometry *m, uint32_t i, uint32_t j)
+{
+    qdot_expr g = m->g[j * m->n + j];
+
+    return qdot_div(m->pool, qdot_diff(m->pool, g, m->q[i]),
+                    qdot_mul(m->pool, qdot_expr_int(m->pool, 2), g));
+}
+
 qdot_expr
 qdot_geometry_gradient(qdot_scene *s, qdot_expr f, qdot_expr R)
 {
@@ -426,9 +436,11 @@ qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R)
     if (!fits(&m, F))
         sum = QDOT_NIL;
     for (uint32_t i = 0; i < m.n && sum != QDOT_NIL; i++) {
-        qdot_expr e = qdot_div(m.pool, qdot_mech_component(m.pool, F, i), scale_factor(&m, i));
+        qdot_expr e = weighted_slope(&m, qdot_mech_component(m.pool, F, i), i);
 
-        sum = qdot_add(m.pool, sum, weighted_slope(&m, e, i));
+        e = qdot_sub(m.pool, e,
+                     qdot_mul(m.pool, qdot_mech_component(m.pool, F, i), stretch(&m, i, i)));
+        sum = qdot_add(m.pool, sum, qdot_div(m.pool, e, scale_factor(&m, i)));
     }
     sum = sum == QDOT_NIL ? sum : tidy(&m, sum);
     end(&m);
@@ -474,17 +486,23 @@ handedness(const geometry *m)
     return tidy(m, qdot_div(pool, qdot_det(pool, qdot_matrix(pool, n, n, entries)), sign));
 }
 
+/* (1/h_i) (d_i F_j + F_j d_i h_j / h_j): d_i (h_j F_j) / (h_i h_j). */
+static qdot_expr
+half_circulation(const geometry *m, qdot_expr F, uint32_t i, uint32_t j)
+{
+    qdot_pool *pool = m->pool;
+    qdot_expr Fj = qdot_mech_component(pool, F, j);
+    qdot_expr e = qdot_add(pool, qdot_diff(pool, Fj, m->q[i]),
+                           qdot_mul(pool, Fj, stretch(m, i, j)));
+
+    return qdot_div(pool, e, scale_factor(m, i));
+}
+
 /* (d_i (h_j F_j) - d_j (h_i F_i)) / (h_i h_j). */
 static qdot_expr
 circulation(const geometry *m, qdot_expr F, uint32_t i, uint32_t j)
 {
-    qdot_pool *pool = m->pool;
-    qdot_expr hi = scale_factor(m, i), hj = scale_factor(m, j);
-    qdot_expr e = qdot_sub(
-        pool, qdot_diff(pool, qdot_mul(pool, hj, qdot_mech_component(pool, F, j)), m->q[i]),
-        qdot_diff(pool, qdot_mul(pool, hi, qdot_mech_component(pool, F, i)), m->q[j]));
-
-    return qdot_div(pool, e, qdot_mul(pool, hi, hj));
+    return qdot_sub(m->pool, half_circulation(m, F, i, j), half_circulation(m, F, j, i));
 }
 
 qdot_expr

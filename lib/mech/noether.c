@@ -14,7 +14,7 @@
 #include "normal/null-space.h"
 #include "normal/simplify.h"
 
-enum { MOST_COORDINATES = 16, MOST_DEGREE = 8 };
+enum { MOST_COORDINATES = 16 };
 
 /* An unknown of the ansatz. */
 typedef struct {
@@ -63,8 +63,8 @@ variation(const search *f, const unknown *u, size_t i)
                         slope(f, 1, i, u->i));
     case ROTATION:
         for (uint32_t order = 0; order < 3; order++)
-            sum = qdot_add(
-                pool, sum, qdot_mul(pool, jet(f, u->j, order), slope(f, order, i, u->i)));
+            sum = qdot_add(pool, sum,
+                           qdot_mul(pool, jet(f, u->j, order), slope(f, order, i, u->i)));
         return i == u->j ? qdot_add(pool, sum, f->E[u->i]) : sum;
     }
     return sum;
@@ -230,51 +230,99 @@ combine(const search *f, const unknown *u, size_t m, const qdot_expr *v, size_t 
 
     for (size_t k = 0; k < m; k++)
         if (v[k] != QDOT_ZERO)
-            sum = qdot_add(f->pool, sum,
-                           qdot_mul(f->pool, v[k], generator(f, &u[k], j)));
+            sum = qdot_add(f->pool, sum, qdot_mul(f->pool, v[k], generator(f, &u[k], j)));
     return sum;
 }
 
-/* K with dK/dt = F, F linear in q' with coefficients polynomial in q, t: along the ray from the
- * origin, each part of degree d in (q, t) of sum q_i dF/dq_i' + t F(q' = 0) over d. False:
- * there is none of that kind. */
+/* The antiderivative by x of one term: c x^n, c sin u, c cos u, c exp u, u linear in x. Nil (no
+ * failure): it is none of these. */
+static qdot_expr
+integrate_term(qdot_pool *pool, qdot_expr term, qdot_expr x)
+{
+    qdot_expr rest = term, base = QDOT_NIL, exponent = QDOT_ONE, slope;
+    uint32_t n = qdot_expr_count(pool, term);
+    qdot_fun_id id;
+
+    if (!qdot_expr_contains(pool, term, x))
+        return qdot_mul(pool, term, x);
+    if (qdot_expr_kind(pool, term) != QDOT_PROD)
+        base = term;
+    for (uint32_t i = 1; base != term && i < n; i += 2) {
+        if (!qdot_expr_contains(pool, qdot_expr_arg(pool, term, i), x))
+            continue;
+        if (base != QDOT_NIL)
+            return QDOT_NIL;
+        base = qdot_expr_arg(pool, term, i);
+        exponent = qdot_expr_arg(pool, term, i + 1);
+    }
+    if (base == QDOT_NIL || qdot_expr_kind(pool, exponent) != QDOT_NUM)
+        return QDOT_NIL;
+    rest = qdot_div(pool, term, qdot_pow(pool, base, exponent));
+    if (base == x && exponent != QDOT_MINUS_ONE) {
+        exponent = qdot_add(pool, exponent, QDOT_ONE);
+        return qdot_mul(pool, rest,
+                        qdot_div(pool, qdot_pow(pool, x, exponent), exponent));
+    }
+    if (qdot_expr_kind(pool, base) != QDOT_FUN || exponent != QDOT_ONE)
+        return QDOT_NIL;
+    id = qdot_expr_node(pool, base)->op;
+    slope = qdot_diff(pool, qdot_expr_arg(pool, base, 0), x);
+    if (qdot_expr_contains(pool, slope, x))
+        return QDOT_NIL;
+    if (id == QDOT_SIN)
+        base = qdot_neg(pool, qdot_fun1(pool, QDOT_COS, qdot_expr_arg(pool, base, 0)));
+    else if (id == QDOT_COS)
+        base = qdot_fun1(pool, QDOT_SIN, qdot_expr_arg(pool, base, 0));
+    else if (id != QDOT_EXP)
+        return QDOT_NIL;
+    return qdot_mul(pool, rest, qdot_div(pool, base, slope));
+}
+
+static qdot_expr
+integrate(qdot_pool *pool, qdot_expr e, qdot_expr x)
+{
+    qdot_expr sum = QDOT_ZERO;
+    uint32_t n;
+
+    e = qdot_expand(pool, e);
+    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_SUM)
+        return e == QDOT_NIL ? e : integrate_term(pool, e, x);
+    n = qdot_expr_count(pool, e);
+    for (uint32_t i = 0; i < n && sum != QDOT_NIL;
+         i += i == 0 ? 1 : 2) { /* c0, c1, t1 ... */
+        qdot_expr term = qdot_expr_arg(pool, e, i), part;
+
+        if (i > 0)
+            term = qdot_mul(pool, term, qdot_expr_arg(pool, e, i + 1));
+        part = integrate_term(pool, term, x);
+        sum = part == QDOT_NIL ? QDOT_NIL : qdot_add(pool, sum, part);
+    }
+    return sum;
+}
+
+/* K with dK/dt = F, F linear in q': dK/dq_i = dF/dq_i', one coordinate after another, then t. False:
+ * none was found. */
 static bool
 gauge(const search *f, qdot_expr F, qdot_expr *K)
 {
     qdot_pool *pool = f->pool;
-    qdot_expr ray = qdot_symbol_get(pool, QDOT_FORMAL, "ray"), rest = F, sum = QDOT_ZERO,
-              *from = qdot_calloc(2 * f->n + 2, sizeof *from), *to;
-    bool known = false;
+    qdot_expr rest = F;
 
     *K = QDOT_ZERO;
-    if (F == QDOT_ZERO || from == NULL) {
-        qdot_free(from);
-        return F == QDOT_ZERO;
-    }
-    to = from + f->n + 1;
-    for (size_t i = 0; i < f->n; i++) {
-        qdot_expr v = jet(f, i, 1), zero = QDOT_ZERO;
+    for (size_t i = 0; i <= f->n && rest != QDOT_ZERO; i++) {
+        qdot_expr x = i < f->n ? jet(f, i, 0) : QDOT_T, part;
 
-        sum = qdot_add(pool, sum, qdot_mul(pool, jet(f, i, 0), qdot_diff(pool, F, v)));
-        rest = qdot_subs(pool, rest, 1, &v, &zero);
-        from[i] = jet(f, i, 0);
-        to[i] = qdot_mul(pool, ray, from[i]);
+        part = integrate(pool, i < f->n ? qdot_diff(pool, rest, jet(f, i, 1)) : rest, x);
+        if (part == QDOT_NIL)
+            break;
+        *K = qdot_add(pool, *K, part);
+        rest = qdot_expand(pool, qdot_sub(pool, rest, qdot_ddt(pool, part)));
     }
-    sum = qdot_add(pool, sum, qdot_mul(pool, QDOT_T, rest));
-    from[f->n] = QDOT_T;
-    to[f->n] = qdot_mul(pool, ray, QDOT_T);
-    sum = qdot_expand(pool, qdot_subs(pool, sum, f->n + 1, from, to));
-    for (long d = 1; d <= MOST_DEGREE; d++)
-        *K = qdot_add(pool, *K,
-                      qdot_div(pool, qdot_coefficient(pool, sum, ray, d),
-                               qdot_expr_int(pool, d)));
-    if (qdot_pool_check(pool) == QDOT_OK) {
-        *K = qdot_simplify(pool, *K, &f->facts);
-        known = *K != QDOT_NIL &&
-                qdot_is_zero(pool, qdot_sub(pool, qdot_ddt(pool, *K), F), &f->facts);
-    }
-    qdot_free(from);
-    return known;
+    if (qdot_pool_failed(pool))
+        return false;
+    *K = qdot_simplify(pool, *K, &f->facts);
+    return *K != QDOT_NIL &&
+           qdot_is_zero(pool, qdot_sub(pool, qdot_ddt(pool, *K), F), &f->facts);
 }
 
 /* Whether nothing applied and no reaction works along (xi, tau): every such row of e. */
@@ -311,15 +359,15 @@ quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
         qdot_expr xi = combine(f, u, m, v, j), q = jet(f, j, 0), qdot = jet(f, j, 1);
 
         change = qdot_add(pool, change, qdot_mul(pool, xi, qdot_diff(pool, f->L, q)));
-        change = qdot_add(
-            pool, change,
-            qdot_mul(pool, qdot_ddt(pool, xi), qdot_diff(pool, f->L, qdot)));
+        change =
+            qdot_add(pool, change,
+                     qdot_mul(pool, qdot_ddt(pool, xi), qdot_diff(pool, f->L, qdot)));
         if (xi != QDOT_ZERO)
             sum = qdot_add(pool, sum, qdot_mul(pool, xi, qdot_mech_momentum(f->s, q)));
     }
     if (tau != QDOT_ZERO) {
-        change = qdot_add(pool, change,
-                          qdot_mul(pool, tau, qdot_diff(pool, f->L, QDOT_T)));
+        change =
+            qdot_add(pool, change, qdot_mul(pool, tau, qdot_diff(pool, f->L, QDOT_T)));
         sum = qdot_sub(pool, sum, qdot_mul(pool, tau, qdot_mech_energy(f->s)));
     }
     change = qdot_simplify(pool, change, &f->facts);
@@ -431,7 +479,8 @@ conserved(search *f)
     qdot_cyclic *list = NULL;
     size_t count = 0;
     bool *cyclic = qdot_calloc(f->n + 1, sizeof *cyclic), energy = false;
-    qdot_status status = cyclic == NULL ? QDOT_ENOMEM : qdot_mech_cyclic(f->s, &list, &count);
+    qdot_status status =
+        cyclic == NULL ? QDOT_ENOMEM : qdot_mech_cyclic(f->s, &list, &count);
 
     for (size_t k = 0; k < count && status == QDOT_OK; k++)
         for (size_t i = 0; i < f->n; i++)
@@ -466,10 +515,8 @@ conserved(search *f)
 qdot_expr
 qdot_noether_conserved(qdot_scene *s)
 {
-    search f = {.s = s,
-                .pool = s->pool,
-                .facts = qdot_scene_facts(s),
-                .n = s->coordinates.n};
+    search f = {
+        .s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .n = s->coordinates.n};
     qdot_status status = conserved(&f);
     qdot_expr result = QDOT_NIL;
 

@@ -80,7 +80,8 @@ tangents(const place *p, const bool *out, qdot_expr *N, size_t *m)
 
             for (size_t i = 0; i < n && by != QDOT_ZERO; i++)
                 row[i] = qdot_simplify(
-                    pool, qdot_sub(pool, row[i], qdot_mul(pool, by, A[r * n + i])), &p->facts);
+                    pool, qdot_sub(pool, row[i], qdot_mul(pool, by, A[r * n + i])),
+                    &p->facts);
             status = qdot_pool_check(pool);
         }
         while (status == QDOT_OK && j < n && qdot_is_zero(pool, row[j], &p->facts))
@@ -96,7 +97,8 @@ tangents(const place *p, const bool *out, qdot_expr *N, size_t *m)
 
             for (size_t i = 0; i < n && by != QDOT_ZERO; i++)
                 A[r * n + i] = qdot_simplify(
-                    pool, qdot_sub(pool, A[r * n + i], qdot_mul(pool, by, row[i])), &p->facts);
+                    pool, qdot_sub(pool, A[r * n + i], qdot_mul(pool, by, row[i])),
+                    &p->facts);
         }
         pivot[rank++] = j;
         status = qdot_pool_check(pool);
@@ -108,7 +110,8 @@ tangents(const place *p, const bool *out, qdot_expr *N, size_t *m)
             dependent |= pivot[r] == j;
         if (dependent)
             continue;
-        for (size_t i = 0; i < n; i++) /* columns at stride n until their number is known */
+        for (size_t i = 0; i < n;
+             i++) /* columns at stride n until their number is known */
             N[i * n + columns] = i == j ? QDOT_ONE : QDOT_ZERO;
         for (size_t r = 0; r < rank; r++)
             N[pivot[r] * n + columns] = qdot_neg(pool, A[r * n + j]);
@@ -135,10 +138,11 @@ reduce(const place *p, const qdot_expr *X, const qdot_expr *N, size_t m, qdot_ex
                 for (size_t j = 0; j < n; j++)
                     if (N[i * m + a] != QDOT_ZERO && N[j * m + b] != QDOT_ZERO &&
                         X[i * n + j] != QDOT_ZERO)
-                        sum = qdot_add(pool, sum,
-                                       qdot_product(pool, 3,
-                                                    (qdot_expr[]){N[i * m + a], X[i * n + j],
-                                                                  N[j * m + b]}));
+                        sum = qdot_add(
+                            pool, sum,
+                            qdot_product(
+                                pool, 3,
+                                (qdot_expr[]){N[i * m + a], X[i * n + j], N[j * m + b]}));
             out[a * m + b] = qdot_simplify(pool, sum, &p->facts);
         }
     return qdot_pool_check(pool);
@@ -270,9 +274,8 @@ definiteness(judgement *j, size_t n, const qdot_expr *A, definite *how)
 
     *how = UNKNOWN;
     for (size_t i = 0; i < n; i++) {
-        qdot_expr sign =
-            qdot_positive(pool, qdot_neg(pool, A[i * n + i]), &j->facts, j->known.n,
-                          j->known.at);
+        qdot_expr sign = qdot_positive(pool, qdot_neg(pool, A[i * n + i]), &j->facts,
+                                       j->known.n, j->known.at);
 
         QDOT_TRY(qdot_pool_check(pool));
         if (sign == QDOT_TRUE) {
@@ -385,20 +388,22 @@ gyroscopic(judgement *j, const qdot_linear_motion *m, bool *possible)
     qdot_expr g = m->Gamma[1], a, b, c, answer;
 
     a = qdot_sub(pool, qdot_mul(pool, M[0], M[3]), qdot_mul(pool, M[1], M[1]));
-    b = qdot_sum(pool, 4,
-                 (qdot_expr[]){qdot_mul(pool, M[0], H[3]), qdot_mul(pool, M[3], H[0]),
-                               qdot_product(pool, 3,
-                                            (qdot_expr[]){qdot_expr_int(pool, -2), M[1], H[1]}),
-                               qdot_mul(pool, g, g)});
+    b = qdot_sum(
+        pool, 4,
+        (qdot_expr[]){
+            qdot_mul(pool, M[0], H[3]), qdot_mul(pool, M[3], H[0]),
+            qdot_product(pool, 3, (qdot_expr[]){qdot_expr_int(pool, -2), M[1], H[1]}),
+            qdot_mul(pool, g, g)});
     c = qdot_sub(pool, qdot_mul(pool, H[0], H[3]), qdot_mul(pool, H[1], H[1]));
     *possible = true;
     for (int k = 0; k < 3 && *possible; k++) {
-        qdot_expr e = k == 0   ? c
-                      : k == 1 ? b
-                               : qdot_sub(pool, qdot_mul(pool, b, b),
-                                          qdot_product(pool, 3,
-                                                       (qdot_expr[]){qdot_expr_int(pool, 4),
-                                                                     a, c}));
+        qdot_expr e =
+            k == 0 ? c
+            : k == 1
+                ? b
+                : qdot_sub(
+                      pool, qdot_mul(pool, b, b),
+                      qdot_product(pool, 3, (qdot_expr[]){qdot_expr_int(pool, 4), a, c}));
 
         e = qdot_simplify(pool, e, &j->facts);
         QDOT_TRY(qdot_pool_check(pool));
@@ -450,11 +455,11 @@ qdot_equilibrium_judge(qdot_scene *s, qdot_equilibrium *e)
         if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
             return QDOT_OK;
     QDOT_TRY(qdot_equilibrium_linear(s, e->equations, false, &m));
-    for (uint32_t i = 0;
-         e->exists != QDOT_NIL && i < qdot_expr_count(s->pool, e->exists) && status == QDOT_OK;
+    for (uint32_t i = 0; e->exists != QDOT_NIL &&
+                         i < qdot_expr_count(s->pool, e->exists) && status == QDOT_OK;
          i++)
-        status = qdot_vec_push(&j.known, qdot_positive_of(s->pool,
-                                                          qdot_expr_arg(s->pool, e->exists, i)));
+        status = qdot_vec_push(
+            &j.known, qdot_positive_of(s->pool, qdot_expr_arg(s->pool, e->exists, i)));
     if (status == QDOT_OK && m.n > 0)
         status = judge(&j, &m, e);
     if (status == QDOT_OK && e->stability == QDOT_STABLE && j.when.n > 0)

@@ -1,71 +1,16 @@
-/* decide.c -- equality: a quick look at points, a proof, a long look at points. */
+/* decide.c -- equality: a quick look at points, a proof, a long look at points, a harder
+ * proof. */
 #include "normal/decide.h"
 
 #include <math.h>
 
 #include "base/interrupt.h"
-#include "base/memory.h"
 #include "expr/calculus.h"
-#include "normal/ideal.h"
-#include "normal/prepare.h"
+#include "normal/prove.h"
 #include "normal/sample.h"
+#include "normal/unify.h"
 
-#define WORK 60000000
 #define LARGE 2000 /* nodes: fewer points are looked at */
-
-/* --- proof ------------------------------------------------------------------------- */
-
-/* Whether left - right is proved to be zero. Errors: QDOT_ENOMEM, QDOT_EINTR. */
-static qdot_status
-prove(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
-      bool *zero)
-{
-    size_t nr = facts == NULL ? 0 : facts->n_relations;
-    qdot_expr *e = qdot_malloc((nr + 2) * sizeof *e);
-    qdot_status status = QDOT_OK;
-    qdot_field f;
-
-    *zero = false;
-    if (e == NULL)
-        return QDOT_ENOMEM;
-    e[0] = qdot_prepare(pool, left);
-    e[1] = qdot_prepare(pool, right);
-    for (size_t i = 0; i < nr; i++)
-        e[2 + i] = qdot_prepare(pool, facts->relations[i]);
-    if (qdot_pool_failed(pool)) {
-        qdot_free(e);
-        return qdot_pool_check(pool);
-    }
-    qdot_field_begin(&f, pool, nr + 2, e, WORK);
-    if (qdot_field_goes(&f)) {
-        qdot_ratio d;
-
-        qdot_ratio_init(&f, &d);
-        qdot_ratio_sub(&f, &d, qdot_field_value(&f, e[0]), qdot_field_value(&f, e[1]));
-        qdot_field_reduce(&f, d.n);
-        if (nr > 0 && !fmpz_mpoly_is_zero(d.n, f.ctx)) {
-            qdot_ideal ideal = {0};
-            fmpz_t scale;
-
-            fmpz_init(scale);
-            status = qdot_ideal_make(&ideal, &f, nr, e + 2);
-            if (status == QDOT_OK)
-                qdot_ideal_reduce(&ideal, &f, scale, d.n);
-            qdot_ideal_clear(&ideal, &f);
-            fmpz_clear(scale);
-        }
-        *zero =
-            status == QDOT_OK && qdot_field_goes(&f) && fmpz_mpoly_is_zero(d.n, f.ctx);
-        qdot_ratio_clear(&f, &d);
-    }
-    if (f.state == QDOT_FIELD_FAILED && status == QDOT_OK)
-        status = f.status;
-    qdot_field_end(&f);
-    qdot_free(e);
-    if (qdot_pool_failed(pool) && status == QDOT_OK) /* a wrong turn is no failure */
-        status = qdot_pool_check(pool);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
-}
 
 /* --- refutation -------------------------------------------------------------------- */
 
@@ -76,6 +21,7 @@ struct look {
 };
 
 static const struct look quick = {2, 24, {96, 0}};
+static const struct look closer = {2, 24, {512, 0}};
 static const struct look thorough = {16, 240, {128, 512, 2048, 0}};
 
 static double
@@ -181,11 +127,26 @@ need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return QDOT_OK;
 }
 
+/* Once more, with undefined functions of equal arguments made one: at a point where two
+ * of them have arguments that cannot be told apart nothing is known. */
+static qdot_status
+look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+                qdot_decision *d)
+{
+    qdot_expr e[2] = {left, right};
+    bool changed;
+
+    QDOT_TRY(qdot_unify(pool, 2, e, facts, true, &changed));
+    if (!changed)
+        return QDOT_OK;
+    return look_at_points(pool, e[0], e[1], facts, &thorough, d);
+}
+
 qdot_status
 qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
                   const qdot_facts *facts, qdot_decision *d)
 {
-    bool zero;
+    bool equal;
 
     *d = (qdot_decision){.verdict = QDOT_UNDECIDED};
     QDOT_TRY(need_scalars(pool, left, right));
@@ -196,13 +157,16 @@ qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
     QDOT_TRY(look_at_points(pool, left, right, facts, &quick, d));
     if (d->verdict == QDOT_REFUTED)
         return QDOT_OK;
-    QDOT_TRY(prove(pool, left, right, facts, &zero));
-    if (zero) {
-        d->verdict = QDOT_PROVED;
-        return QDOT_OK;
-    }
+    QDOT_TRY(qdot_prove_equal(pool, left, right, facts, &equal));
     d->points = 0;
-    QDOT_TRY(look_at_points(pool, left, right, facts, &thorough, d));
+    if (!equal)
+        QDOT_TRY(look_at_points(pool, left, right, facts, &thorough, d));
+    if (!equal && d->verdict == QDOT_UNDECIDED)
+        QDOT_TRY(qdot_prove_harder(pool, left, right, facts, &equal));
+    if (equal)
+        *d = (qdot_decision){.verdict = QDOT_PROVED};
+    else if (d->points == 0 && d->verdict == QDOT_UNDECIDED)
+        QDOT_TRY(look_at_unified(pool, left, right, facts, d));
     if (d->verdict == QDOT_REFUTED)
         d->points = d->digits = 0;
     return QDOT_OK;
@@ -224,7 +188,13 @@ qdot_is_zero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
             return false;
     status = look_at_points(pool, e, QDOT_ZERO, facts, &quick, &d);
     if (status == QDOT_OK && d.verdict != QDOT_REFUTED)
-        status = prove(pool, e, QDOT_ZERO, facts, &zero);
+        status = qdot_prove_equal(pool, e, QDOT_ZERO, facts, &zero);
+    if (status == QDOT_OK && d.verdict != QDOT_REFUTED && !zero && d.points > 0) {
+        d.points = 0;
+        status = look_at_points(pool, e, QDOT_ZERO, facts, &closer, &d);
+        if (status == QDOT_OK && d.verdict != QDOT_REFUTED)
+            status = qdot_prove_harder(pool, e, QDOT_ZERO, facts, &zero);
+    }
     if (status != QDOT_OK)
         qdot_pool_fail(pool);
     return status == QDOT_OK && zero;

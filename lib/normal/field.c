@@ -202,12 +202,18 @@ ascending(const void *a, const void *b)
 static qdot_status
 look_at_all(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
 {
-    size_t capacity = 0;
+    size_t capacity = 0, rows = 0;
+    qdot_expr at;
 
     for (size_t i = 0; i < n; i++)
         QDOT_TRY(push(g, e[i]));
-    while (g->depth > 0) {
-        qdot_expr at = g->stack[--g->depth];
+    while (g->depth > 0 || rows < f->circular.n_rows) {
+        if (g->depth == 0) { /* new angles may bring new roots */
+            rows = f->circular.n_rows;
+            QDOT_TRY(add_offset_roots(f, g));
+            continue;
+        }
+        at = g->stack[--g->depth];
 
         if (at == QDOT_NIL)
             return qdot_pool_failed(f->pool) ? qdot_pool_check(f->pool) : QDOT_EINVAL;
@@ -219,8 +225,6 @@ look_at_all(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
         if (!qdot_field_charge(f, 8, 8))
             return f->state == QDOT_FIELD_FAILED ? f->status : QDOT_ELIMIT;
         QDOT_TRY(look_at_node(f, g, at));
-        if (g->depth == 0 && f->circular.n_rows > 0)
-            QDOT_TRY(add_offset_roots(f, g));
     }
     qsort(f->node, f->n_nodes, sizeof *f->node, ascending);
     for (size_t i = 0; i < f->n_nodes; i++)

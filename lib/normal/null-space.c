@@ -158,7 +158,8 @@ take_row(elimination *e, const qdot_expr *row)
 
         if (fmpz_mpoly_is_zero(r->n, f->ctx))
             continue;
-        if (!fmpz_mpoly_divides(p, lcm, r->d, f->ctx)) { /* reduced by the rules: exactly */
+        if (!fmpz_mpoly_divides(p, lcm, r->d,
+                                f->ctx)) { /* reduced by the rules: exactly */
             qdot_ratio x, y;
 
             qdot_ratio_init(f, &x);
@@ -213,8 +214,8 @@ vectors(elimination *e, qdot_expr **basis, size_t *m)
         for (size_t i = 0; i < e->n; i++)
             at[i] = i == j ? QDOT_ONE : QDOT_ZERO;
         for (size_t k = 0; k < e->rank; k++)
-            at[e->column[k]] = qdot_neg(
-                e->pool, qdot_field_ratio_expr(e->f, &e->pivots[k * e->n + j]));
+            at[e->column[k]] =
+                qdot_neg(e->pool, qdot_field_ratio_expr(e->f, &e->pivots[k * e->n + j]));
         count++;
     }
     *basis = v;
@@ -237,8 +238,7 @@ begin(elimination *e)
     for (size_t i = 0; i < e->n * (e->n + 1); i++)
         qdot_ratio_init(f, &e->row[i]);
     for (slong v = 0; v < f->n; v++)
-        e->moving[v] =
-            (qdot_expr_node(e->pool, f->gen[v].expr)->holds & ~constant) != 0;
+        e->moving[v] = (qdot_expr_node(e->pool, f->gen[v].expr)->holds & ~constant) != 0;
     return QDOT_OK;
 }
 

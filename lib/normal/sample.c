@@ -370,7 +370,12 @@ between(fmpq_t x, double lo, double hi, double where)
             return;
         }
     }
-    fmpq_set_si(x, (long)nearbyint(at * 1048576), 1048576);
+    if (fabs(at) < 1e12) {
+        fmpq_set_si(x, (long)nearbyint(at * 1048576), 1048576);
+    } else if (isfinite(at)) { /* an integer of any size */
+        fmpz_set_d(fmpq_numref(x), at);
+        fmpz_one(fmpq_denref(x));
+    }
 }
 
 /* Ranges tried in turn: functions with narrow domains need small arguments. */
@@ -485,7 +490,7 @@ arguments_meet(const qdot_sample *s)
 }
 
 bool
-qdot_sample_eval(qdot_sample *s, slong prec)
+qdot_sample_values(qdot_sample *s, slong prec)
 {
     for (size_t i = 0; i < s->n; i++) {
         qdot_sample_atom *a = &s->atom[i];
@@ -510,7 +515,13 @@ qdot_sample_eval(qdot_sample *s, slong prec)
     for (size_t i = 0; i < s->facts->n_conditions; i++)
         if (qdot_ball_truth(&s->ball, s->facts->conditions[i]) != 1)
             return false;
-    return !arguments_meet(s);
+    return true;
+}
+
+bool
+qdot_sample_eval(qdot_sample *s, slong prec)
+{
+    return qdot_sample_values(s, prec) && !arguments_meet(s);
 }
 
 qdot_expr

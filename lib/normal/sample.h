@@ -42,6 +42,9 @@ void qdot_sample_point(qdot_sample *s, int k);
 /* Evaluate there; whether it is a point: conditions surely hold, solved values inside
  * their domains. The values: qdot_ball_get(&s->ball, e). */
 bool qdot_sample_eval(qdot_sample *s, slong prec);
+/* The same, though applications of one undefined function might have equal arguments:
+ * their values are then not those of a function, but all others are right. */
+bool qdot_sample_values(qdot_sample *s, slong prec);
 
 /* The point as a LIST of equations atom = number. */
 qdot_expr qdot_sample_list(qdot_sample *s);

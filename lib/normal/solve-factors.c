@@ -21,9 +21,8 @@ collect(qdot_field *f, const fmpz_mpoly_t p, long turn, qdot_expr *product,
     fmpq_init(content);
     if (status == QDOT_OK) {
         fmpz_set(fmpq_numref(content), factors.content);
-        *product =
-            qdot_mul(pool, *product,
-                     qdot_pow_int(pool, qdot_expr_fmpq(pool, content), turn));
+        *product = qdot_mul(pool, *product,
+                            qdot_pow_int(pool, qdot_expr_fmpq(pool, content), turn));
     }
     for (slong i = 0; i < factors.n && status == QDOT_OK; i++) {
         qdot_expr e = qdot_field_expr(f, factors.poly + i);

@@ -24,7 +24,7 @@ typedef struct {
     qdot_expr condition; /* a LIST of RELs under which it is real; nil: always */
 } qdot_root;
 
-/* *roots [*n], owned by the caller; *complete: these are all there are. f = 0
+/* *roots [*n], owned by the caller, ascending where all are constants; *complete: these are all there are. f = 0
  * identically: QDOT_EDOMAIN. facts may be NULL. */
 QDOT_MUST_CHECK qdot_status qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                        const qdot_facts *facts, qdot_root **roots,

@@ -27,11 +27,19 @@
 /* sum_{j=0..n-1} a[j] b[-j] for the n it was made for. */
 typedef double qdot_series_dot(const double *a, const double *b);
 
+/* Both sum_{j=0..n-1} a[j] b[-j] and sum a[j] c[-j]. */
+typedef struct {
+    double b, c;
+} qdot_series_two;
+typedef qdot_series_two qdot_series_pair(const double *a, const double *b,
+                                         const double *c);
+
 typedef struct {
     const char *name; /* "portable", "avx2", "avx512" */
 
     /* [n] for n = 0 ... QDOT_SERIES_MOST + 1 */
     qdot_series_dot *dot[QDOT_SERIES_MOST + 2];
+    qdot_series_pair *pair[QDOT_SERIES_MOST + 2];
 
     /* The same for m series at once, m a multiple of 8, coefficients by order, then
      * member: out[i] = sum_{j=0..n-1} a[j m + i] b[-j m + i]. */

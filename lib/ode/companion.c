@@ -29,7 +29,7 @@ qdot_companion_tolerance(const qdot_ode_method *method, double tol)
 {
     bool same = strcmp(method->partner, method->name) == 0;
 
-    if (same && method->companion_tol > tol / 4)
+    if (same && !method->series && method->companion_tol > tol / 4)
         return 10 * fmax(tol, method->companion_tol);
     return fmax(method->companion_ratio * tol, method->companion_tol);
 }
@@ -59,7 +59,10 @@ look(double t, const double *y, bool *stop, void *user)
 static void
 run_to(qdot_companion *c, double t1)
 {
-    qdot_ode_options options = {.tol = c->tol, .accepted = look, .user = c};
+    qdot_ode_options options = {.tol = c->tol,
+                                .accepted = look,
+                                .user = c,
+                                .order_more = QDOT_COMPANION_ORDERS};
 
     memcpy(c->y, c->start, c->system.n * sizeof *c->y);
     if (qdot_ode_integrate(&c->system, c->method, &options, c->t0, t1, c->y,

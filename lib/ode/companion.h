@@ -7,7 +7,9 @@
  *       not below the method's companion_tol. A method that is its own partner and would
  *       not get 4 times tighter takes tol* = 10 max(tol, companion_tol): then the
  *       companion errs more, on the safe side (a tighter one would share the rounding of
- *       the coefficients, which is a drift and no noise),
+ *       the coefficients, which is a drift and no noise). taylor, whose coefficients
+       are computed and not rounded once for all, takes tol/100 down to 1e-16, and three
+       orders more than that asks for,
  *     from y0_i +- 2^-53 max(1, |y0_i|), signs mixed, and always another double
  *
  * to y*. The tighter tolerance shows the error of the method, the moved start the
@@ -65,6 +67,9 @@ QDOT_MUST_CHECK qdot_status qdot_companion_start(const qdot_ode_system *system,
  * Never fails: what goes wrong makes the error unknown, result.reason says why. */
 void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                            double *difference, qdot_companion_estimate *out);
+
+/* Orders more that a companion by Taylor series takes (qdot_ode_options.order_more). */
+#define QDOT_COMPANION_ORDERS 3
 
 /* The tolerance tol* of a companion. */
 double qdot_companion_tolerance(const qdot_ode_method *method, double tol);

@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "num/sum.h"
 #include "ode/stepper.h"
+#include "ode/taylor.h"
 
 /* The error a step aims at, as a part of what it is allowed: few are then rejected, and
  * for an order of 8 the whole run costs a quarter more and errs eight times less. */
@@ -316,8 +317,11 @@ qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
              .t1 = t1,
              .undefined_at = NAN};
     double tol = r.options->tol != 0 ? r.options->tol : tol_default;
-    qdot_status status = check_arguments(system, t0, t1, y);
+    qdot_status status;
 
+    if (method->series)
+        return qdot_ode_taylor_integrate(system, options, t0, t1, y, result);
+    status = check_arguments(system, t0, t1, y);
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
     r.direction = t1 < t0 ? -1 : 1;
     r.max_steps = r.options->max_steps ? r.options->max_steps : max_steps_default;

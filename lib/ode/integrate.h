@@ -49,6 +49,10 @@ typedef struct {
      * undefined; any other failure takes the step back and ends the run with it. */
     qdot_status (*accepted)(double t, const double *y, bool *stop, void *user);
     void *user; /* borrowed, for `accepted` */
+    /* Of taylor.h only: what the initial state is beyond y [n], borrowed; orders more than
+     * the tolerance asks for. */
+    const double *carry;
+    int order_more;
 } qdot_ode_options;
 
 typedef enum {

@@ -5,22 +5,30 @@
 
 #include <gsl/gsl_odeiv2.h>
 
+#include "ode/dop853.h"
+
 static const qdot_ode_method methods[] = {
+    {"taylor", 40, false, false, false, 0, "taylor", 1e-2, 1e-16,
+     "Taylor series, order by tolerance: smooth scenes, the fastest where it fits", NULL,
+     true, NULL},
     {"rk8pd", 8, false, false, false, 8, "rk8pd", 1e-2, 5e-15,
      "Runge-Kutta of order 8: smooth scenes at any tolerance; the one to try first",
-     &gsl_odeiv2_step_rk8pd},
+     &gsl_odeiv2_step_rk8pd, false, NULL},
     {"rkf45", 5, false, false, false, 5, "rk8pd", 1e-2, 5e-16,
      "Runge-Kutta-Fehlberg of order 5: coarse tolerances, cheap or rough scenes",
-     &gsl_odeiv2_step_rkf45},
+     &gsl_odeiv2_step_rkf45, false, NULL},
     {"msadams", 12, false, true, false, 0, "rk8pd", 1e-2, 5e-16,
      "Adams, orders 1 to 12: smooth scenes whose evaluation is expensive",
-     &gsl_odeiv2_step_msadams},
+     &gsl_odeiv2_step_msadams, false, NULL},
     {"msbdf", 5, true, true, true, 0, "bsimp", 1e-4, 3e-16,
      "backward differences, orders 1 to 5: stiff scenes, moderate tolerances",
-     &gsl_odeiv2_step_msbdf},
+     &gsl_odeiv2_step_msbdf, false, NULL},
     {"bsimp", 12, true, false, true, 0, "bsimp", 1e-4, 3e-16,
      "implicit Bulirsch-Stoer: stiff scenes that are smooth, tight tolerances",
-     &gsl_odeiv2_step_bsimp},
+     &gsl_odeiv2_step_bsimp, false, NULL},
+    {"dop853", 8, false, false, false, 8, "rk8pd", 1e-2, 5e-16,
+     "Runge-Kutta of order 8 with a polynomial of its own: as rk8pd, much output", NULL,
+     false, &qdot_dop853},
 };
 
 size_t

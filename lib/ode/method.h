@@ -1,7 +1,8 @@
 /* method.h -- the table of methods of integration.
  *
- * The steppers are GSL's (gsl_odeiv2); step control, landing, rounding and failure are
- * ours (integrate.h). A method that comes later is a row.
+ * Taylor series are ours (taylor.h), and DOP853 (dop853.h). The other steppers are GSL's
+ * (gsl_odeiv2); step control, landing, rounding and failure are ours (integrate.h). A
+ * method that comes later is a row.
  *
  * Tests  tests/ode/test_method.c: names, and the order of the one-step rows measured.
  */
@@ -18,12 +19,15 @@ typedef struct qdot_ode_method {
     bool multistep;      /* keeps a history: cannot start at full order */
     bool stiff;          /* its step is not bound by stability */
     int error_power;     /* its error estimate goes as h to this; 0: order now + 1 */
-    const char *partner; /* the one-step method of its companion run (companion.h) and of
-                            its output between steps (trajectory.h) */
+    const char *partner; /* the one-step method of its companion run (companion.h) and,
+                            unless it has a kernel, of its output between steps
+                            (trajectory.h) */
     double companion_ratio; /* how much tighter the companion's tolerance is */
     double companion_tol;   /* the smallest one at which it still gains by it */
     const char *fits;       /* one line: when to take it */
-    const void *stepper;    /* const gsl_odeiv2_step_type *const * */
+    const void *stepper;    /* const gsl_odeiv2_step_type *const *; else NULL */
+    bool series;            /* the system must have Taylor series */
+    const struct qdot_ode_kernel *kernel; /* of our own Runge-Kutta methods (stepper.h) */
 } qdot_ode_method;
 
 size_t qdot_ode_method_count(void);

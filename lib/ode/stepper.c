@@ -1,4 +1,4 @@
-/* stepper.c -- GSL's step objects behind a state kept as a sum. */
+/* stepper.c -- GSL's step objects, or a kernel, behind a state kept as a sum. */
 #include "ode/stepper.h"
 
 #include <math.h>
@@ -159,6 +159,10 @@ allocate(qdot_ode_stepper *s, size_t n)
         if (!*arrays[i])
             return false;
     }
+    if (s->method->kernel) {
+        s->stages = qdot_calloc(s->method->kernel->stages * n, sizeof(double));
+        return s->stages != NULL;
+    }
     s->step = gsl_odeiv2_step_alloc(*type, n);
     s->control = gsl_odeiv2_control_alloc(&control_type);
     if (!s->step || !s->control)
@@ -179,6 +183,8 @@ qdot_ode_stepper_new(const qdot_ode_system *system, const qdot_ode_method *metho
         qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", tol);
         return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
     }
+    if (!method->stepper && !method->kernel)
+        return qdot_fail(QDOT_EINVAL, "%s is no stepper", method->name);
     if (method->needs_jacobian && !system->jacobian)
         return qdot_fail(QDOT_EINVAL, "%s needs the Jacobian of the equations",
                          method->name);
@@ -193,11 +199,13 @@ qdot_ode_stepper_new(const qdot_ode_system *system, const qdot_ode_method *metho
         qdot_ode_stepper_free(s);
         return QDOT_ENOMEM;
     }
+    *out = s;
+    if (!s->step)
+        return QDOT_OK;
     s->inner = (gsl_odeiv2_system){inner_rhs, inner_jacobian, system->n, s};
     s->driver = (gsl_odeiv2_driver){.sys = &s->inner, .s = s->step, .c = s->control};
     gsl_odeiv2_control_init(s->control, tol, 0, 0, 0);
     gsl_odeiv2_step_set_driver(s->step, &s->driver);
-    *out = s;
     return QDOT_OK;
 }
 
@@ -219,6 +227,7 @@ qdot_ode_stepper_free(qdot_ode_stepper *s)
     qdot_free(s->scale);
     qdot_free(s->trial);
     qdot_free(s->trial_dydt);
+    qdot_free(s->stages);
     qdot_free(s);
 }
 
@@ -238,7 +247,8 @@ qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y)
     memset(s->carry, 0, s->system->n * sizeof *y);
     s->dydt_known = false;
     choose_scale(s);
-    gsl_odeiv2_step_reset(s->step);
+    if (s->step)
+        gsl_odeiv2_step_reset(s->step);
 }
 
 /* Ratio of the step tried; INFINITY where anything in it is not finite. */
@@ -289,22 +299,32 @@ apply_onestep(qdot_ode_stepper *s, double t, double h)
     return gsl;
 }
 
+/* Try a step by GSL's method. */
+static qdot_status
+apply_gsl(qdot_ode_stepper *s, double t, double h, double *ratio)
+{
+    int gsl = s->method->multistep ? apply_multistep(s, t, h) : apply_onestep(s, t, h);
+
+    if (s->broken != QDOT_OK)
+        return s->broken;
+    if (gsl == GSL_SUCCESS)
+        *ratio = judge(s);
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_ode_stepper_try(qdot_ode_stepper *s, double t, double h, double *ratio)
 {
-    int gsl;
-
     s->broken = QDOT_OK;
     *ratio = INFINITY;
     if (!s->method->multistep && !s->dydt_known) {
         QDOT_TRY(qdot_ode_stepper_rhs(s, t, s->y, s->dydt));
         s->dydt_known = true;
     }
-    gsl = s->method->multistep ? apply_multistep(s, t, h) : apply_onestep(s, t, h);
-    if (s->broken != QDOT_OK)
-        return s->broken;
-    if (gsl == GSL_SUCCESS)
-        *ratio = judge(s);
+    if (s->method->kernel)
+        QDOT_TRY(s->method->kernel->step(s, t, h, ratio));
+    else
+        QDOT_TRY(apply_gsl(s, t, h, ratio));
     if (*ratio <= 1 && !s->method->multistep)
         return qdot_ode_stepper_rhs(s, t + h, s->trial, s->trial_dydt);
     return QDOT_OK;

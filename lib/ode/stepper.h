@@ -36,7 +36,24 @@
 #include "ode/method.h"
 #include "ode/system.h"
 
-typedef struct {
+typedef struct qdot_ode_stepper qdot_ode_stepper;
+typedef struct qdot_ode_kernel qdot_ode_kernel;
+
+/* A one-step method of our own, where GSL has none: dop853.h. */
+struct qdot_ode_kernel {
+    size_t stages; /* rows of s->stages */
+    size_t powers; /* rows of a polynomial */
+    /* Try a step as qdot_ode_stepper_try does, from s->y + s->carry and s->dydt: the
+     * increment into s->z, the state into s->trial, *ratio finite or INFINITY. */
+    qdot_status (*step)(qdot_ode_stepper *s, double t, double h, double *ratio);
+    /* The polynomial F [powers x n] through the step just tried, s->trial_dydt known;
+     * s->trial is lost. */
+    qdot_status (*dense)(qdot_ode_stepper *s, double t, double h, double *F);
+    /* y [n] at the part x of the step, 0 to 1, that began at y0 [n]. */
+    void (*at)(size_t n, const double *F, const double *y0, double x, double *y);
+};
+
+struct qdot_ode_stepper {
     const qdot_ode_method *method;
     const qdot_ode_system *system; /* borrowed */
     double tol;
@@ -53,11 +70,13 @@ typedef struct {
     uint64_t evaluations, jacobians, factorisations;
     qdot_status broken; /* what a callback returned during the step tried */
 
-    gsl_odeiv2_step *step;
+    double *stages; /* [stages x n] of a kernel */
+
+    gsl_odeiv2_step *step;       /* NULL beside a kernel */
     gsl_odeiv2_control *control; /* tells multistep methods the tolerance */
     gsl_odeiv2_driver driver;    /* where they look for it */
     gsl_odeiv2_system inner;
-} qdot_ode_stepper;
+};
 
 /* Errors: QDOT_EINVAL (n = 0, a tolerance outside 1e-16 .. 1, no Jacobian); QDOT_ENOMEM.
  * */

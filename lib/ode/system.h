@@ -9,6 +9,29 @@
 
 #include "base/status.h"
 
+/* A system that gives the Taylor coefficients of its solutions. With s = (t' - t)/unit,
+ *
+ *     y_i(t') = sum_k x_ik s^k
+ *
+ * Failures are those of qdot_ode_system. */
+typedef struct {
+    int most;        /* the highest order it can */
+    const double *x; /* x_ik = x[i stride + k], written by the callbacks */
+    size_t stride;
+    size_t checked; /* dy_i/dt for i below it is another component: it needs no check */
+    /* What an expansion to order p costs, about cost[0] + cost[1] p + cost[2] p^2
+     * nanoseconds. */
+    double cost[3];
+    /* Orders 0 and 1 of the solution through y [n] at t. */
+    qdot_status (*begin)(double t, const double *y, double unit, void *user);
+    /* Then orders 2 ... p. */
+    qdot_status (*extend)(int p, void *user);
+    /* low [n]: what the coefficients of order 1 would gain from y + carry [n], as far as
+     * that is a matter of adding; NULL if there is none. */
+    void (*low)(const double *carry, double *low, void *user);
+    void *user; /* borrowed */
+} qdot_ode_series;
+
 /* The callbacks may write nothing but their outputs and what `user` owns. A system that
  * is used by two threads at once must be two, each with its own `user`.
  *
@@ -24,6 +47,8 @@ typedef struct {
     qdot_status (*jacobian)(double t, const double *y, double *dfdy, double *dfdt,
                             void *user);
     void *user; /* borrowed */
+    /* Taylor coefficients; NULL if there are none; borrowed */
+    const qdot_ode_series *series;
 } qdot_ode_system;
 
 #endif

@@ -7,15 +7,21 @@
 
 #include "base/memory.h"
 #include "ode/stepper.h"
+#include "ode/taylor.h"
 
 static const size_t most_bytes = (size_t)2 << 30;
 
 struct qdot_trajectory_cursor {
     const qdot_trajectory *tr;
     const qdot_ode_system *system;
-    qdot_ode_stepper *s;
-    size_t at;  /* the stored point looked from last */
-    bool fresh; /* the stepper stands at that point */
+    qdot_ode_stepper *s; /* NULL: by Taylor series */
+    int order;           /* of those */
+    size_t at;           /* the stored point looked from last */
+    bool fresh;          /* the stepper stands, the series is expanded, at that point */
+    double *F;           /* of a kernel: the polynomial of half the step */
+    bool known;          /* F was looked for, */
+    bool second;         /* in that half, */
+    bool good;           /* and found */
 };
 
 /* What `accepted` needs while a run is recorded. */
@@ -76,6 +82,7 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     tr->n = system->n;
     tr->method = method;
     tr->tol = own.tol != 0 ? own.tol : 1e-12;
+    tr->order_more = own.order_more;
     tr->result = (qdot_ode_result){.outcome = QDOT_ODE_FAILED, .t = t0};
     own.accepted = record;
     own.user = &r;
@@ -122,6 +129,18 @@ qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
     return low;
 }
 
+static qdot_status
+open_stepper(qdot_trajectory_cursor *c)
+{
+    const qdot_ode_method *method = c->tr->method;
+
+    if (!method->kernel)
+        method = qdot_ode_method_find(method->partner);
+    else if (!(c->F = qdot_calloc(method->kernel->powers * c->tr->n, sizeof *c->F)))
+        return QDOT_ENOMEM;
+    return qdot_ode_stepper_new(c->system, method, c->tr->tol, &c->s);
+}
+
 qdot_status
 qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
                      qdot_trajectory_cursor **out)
@@ -137,10 +156,14 @@ qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
         return QDOT_ENOMEM;
     c->tr = tr;
     c->system = system;
-    status = qdot_ode_stepper_new(system, qdot_ode_method_find(tr->method->partner),
-                                  tr->tol, &c->s);
+    if (tr->method->series) {
+        status = QDOT_OK;
+        c->order = qdot_ode_taylor_order(system->series, tr->tol, tr->order_more);
+    } else {
+        status = open_stepper(c);
+    }
     if (status != QDOT_OK) {
-        qdot_free(c);
+        qdot_trajectory_close(c);
         return status;
     }
     *out = c;
@@ -153,6 +176,7 @@ qdot_trajectory_close(qdot_trajectory_cursor *c)
     if (!c)
         return;
     qdot_ode_stepper_free(c->s);
+    qdot_free(c->F);
     qdot_free(c);
 }
 
@@ -192,6 +216,58 @@ walk(qdot_trajectory_cursor *c, double t)
     }
 }
 
+/* From the series about the stored point. */
+static qdot_status
+read_series(qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    const double *y0 = tr->y + c->at * tr->n;
+    double t0 = tr->t[c->at], h = tr->t[c->at + 1] - t0;
+
+    if (!c->fresh)
+        QDOT_TRY(qdot_ode_taylor_expand(c->system, c->order, t0, h, y0));
+    c->fresh = true;
+    qdot_ode_taylor_evaluate(c->system, c->order, t0, h, t, y0, y);
+    return QDOT_OK;
+}
+
+/* The polynomial of half the step: from its beginning, or back from its end. */
+static qdot_status
+find_polynomial(qdot_trajectory_cursor *c, bool second)
+{
+    const qdot_trajectory *tr = c->tr;
+    const size_t from = c->at + second;
+    const double h = 0.5 * (tr->t[c->at + 1 - second] - tr->t[from]);
+    double ratio;
+    qdot_status status;
+
+    qdot_ode_stepper_start(c->s, tr->y + from * tr->n);
+    status = qdot_ode_stepper_try(c->s, tr->t[from], h, &ratio);
+    if (status == QDOT_OK && ratio <= 1)
+        status = c->s->method->kernel->dense(c->s, tr->t[from], h, c->F);
+    c->fresh = false;
+    c->known = true;
+    c->second = second;
+    c->good = status == QDOT_OK && ratio <= 1;
+    return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR ? QDOT_OK : status;
+}
+
+/* By the polynomial; c->good is false afterwards if there is none. */
+static qdot_status
+read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    const double start = tr->t[c->at], end = tr->t[c->at + 1];
+    const bool second = fabs(t - start) > fabs(end - t);
+    const double x = second ? (t - end) / (start - end) : (t - start) / (end - start);
+
+    if (!c->known || c->second != second)
+        QDOT_TRY(find_polynomial(c, second));
+    if (c->good)
+        c->s->method->kernel->at(tr->n, c->F, tr->y + (c->at + second) * tr->n, 2 * x, y);
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
 {
@@ -205,11 +281,18 @@ qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
                          first, last);
     k = qdot_trajectory_locate(tr, t, c->at);
     if (k != c->at)
-        c->fresh = false;
+        c->fresh = c->known = false;
     c->at = k;
     if (tr->t[k] == t) {
         memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
         return QDOT_OK;
+    }
+    if (!c->s)
+        return read_series(c, t, y);
+    if (c->F) {
+        QDOT_TRY(read_polynomial(c, t, y));
+        if (c->good)
+            return QDOT_OK;
     }
     if (!c->fresh)
         qdot_ode_stepper_start(c->s, tr->y + k * tr->n);

@@ -6,7 +6,11 @@
  * method (method.h: rk8pd, or bsimp for stiff methods), under the tolerance of the run.
  * A step shorter than one that was good enough is good enough: the state at t is as
  * accurate as the run, and does not depend on what was asked before. It costs 13
- * evaluations (rk8pd), and one more for the first query within a step.
+ * evaluations (rk8pd), and one more for the first query within a step. DOP853 has a
+ * polynomial: half the step is gone again, from t_k or back from t_k+1, which costs 16
+ * evaluations for all queries in that half. Of a run by Taylor
+ * series (taylor.h) it is the series of the step itself, expanded again from t_k for the
+ * first query within it.
  *
  * Tests  tests/ode/test_trajectory.c
  */
@@ -25,6 +29,7 @@ typedef struct {
     double *y;    /* [count x n] row-major */
     const qdot_ode_method *method;
     double tol;
+    int order_more;         /* of the run's options */
     qdot_ode_result result; /* of the run */
     size_t t_capacity, y_capacity;
 } qdot_trajectory;

@@ -4,23 +4,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "num/cholesky.h"
-#include "num/ldlt.h"
+#include "sim/blocks.h"
+#include "sim/expand.h"
 #include "tape/shake.h"
-
-typedef struct {
-    double *a;      /* [n x n] M, then its factors */
-    double *x;      /* [n] right-hand side, then solution */
-    qdot_ldlt ldlt; /* of a plan that is indefinite */
-} solver;
 
 struct qdot_bind {
     const qdot_plan *plan;
     qdot_tape *tape, *jacobian; /* shaken copies; else NULL */
-    solver *solvers;            /* [plan->structure.blocks] */
+    qdot_blocks blocks;
+    qdot_expand *expand;        /* of a method by Taylor series; else NULL */
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of either tape */
-    size_t factored;
 };
 
 static const qdot_tape *
@@ -40,94 +34,14 @@ qdot_bind_free(qdot_bind *b)
 {
     if (!b)
         return;
-    for (size_t k = 0; b->solvers && k < b->plan->structure.blocks; k++) {
-        qdot_free(b->solvers[k].a);
-        qdot_free(b->solvers[k].x);
-        qdot_ldlt_clear(&b->solvers[k].ldlt);
-    }
-    qdot_free(b->solvers);
+    qdot_blocks_clear(&b->blocks);
+    qdot_expand_free(b->expand);
     qdot_tape_free(b->tape);
     qdot_tape_free(b->jacobian);
     qdot_free(b->in);
     qdot_free(b->out);
     qdot_free(b->work);
     qdot_free(b);
-}
-
-/* --- blocks of M -------------------------------------------------------------------- */
-
-static qdot_status
-singular(const qdot_bind *b, const qdot_plan_block *block, size_t row)
-{
-    return qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular: no mass moves with %s",
-                     b->plan->names[block->index[row]]);
-}
-
-/* Factor block k, whose lower triangle stands in its solver. */
-static qdot_status
-factor(qdot_bind *b, size_t k)
-{
-    const qdot_plan_block *block = b->plan->blocks + k;
-    solver *s = b->solvers + k;
-    size_t failed = 0;
-    qdot_status status;
-
-    b->factored++;
-    status = b->plan->indefinite ? qdot_ldlt_factor(&s->ldlt, s->a, &failed)
-                                 : qdot_cholesky_factor(s->a, block->n, NULL, &failed);
-    return status == QDOT_OK ? QDOT_OK : singular(b, block, failed);
-}
-
-static void
-solve(const qdot_bind *b, size_t k)
-{
-    const solver *s = b->solvers + k;
-
-    if (b->plan->indefinite)
-        qdot_ldlt_solve(&s->ldlt, s->a, s->x);
-    else
-        qdot_cholesky_solve(s->a, b->plan->blocks[k].n, NULL, s->x);
-}
-
-/* A lower triangle by rows into the solver; returns what stands behind it. */
-static const double *
-unpack(const qdot_bind *b, size_t k, const double *from)
-{
-    size_t n = b->plan->blocks[k].n;
-
-    for (size_t i = 0; i < n; i++) {
-        memcpy(b->solvers[k].a + i * n, from, (i + 1) * sizeof *from);
-        from += i + 1;
-    }
-    return from;
-}
-
-static void
-shake_block(const qdot_plan_block *block, double *a)
-{
-    for (size_t i = 0; i < block->n * block->n; i++)
-        a[i] = qdot_shake_double(a[i], block->side[i]);
-}
-
-static qdot_status
-make_solver(qdot_bind *b, size_t k, bool shaken)
-{
-    const qdot_plan_block *block = b->plan->blocks + k;
-    solver *s = b->solvers + k;
-    size_t n = block->n;
-
-    s->a = qdot_calloc(n * n, sizeof *s->a);
-    s->x = qdot_calloc(n, sizeof *s->x);
-    if (!s->a || !s->x)
-        return QDOT_ENOMEM;
-    if (b->plan->indefinite)
-        QDOT_TRY(qdot_ldlt_init(&s->ldlt, n));
-    if (!block->constant)
-        return QDOT_OK;
-    memcpy(s->a, block->M, n * n * sizeof *s->a);
-    if (shaken)
-        shake_block(block, s->a);
-    return factor(b, k);
 }
 
 /* --- the system --------------------------------------------------------------------- */
@@ -151,19 +65,19 @@ accelerations(qdot_bind *b, double *a)
     qdot_tape_eval(equations(b), b->in, b->out, b->work);
     for (size_t k = 0; k < p->structure.blocks; k++) {
         const qdot_plan_block *block = p->blocks + k;
-        const double *x = b->solvers[k].x;
+        const double *x = b->blocks.at[k].x;
 
         if (block->n == 1) {
             a[block->index[0]] = *out++;
             continue;
         }
-        memcpy(b->solvers[k].x, out, block->n * sizeof *out);
+        memcpy(b->blocks.at[k].x, out, block->n * sizeof *out);
         out += block->n;
         if (!block->constant) {
-            out = unpack(b, k, out);
-            QDOT_TRY(factor(b, k));
+            out = qdot_blocks_unpack(&b->blocks, k, out);
+            QDOT_TRY(qdot_blocks_factor(&b->blocks, k));
         }
-        solve(b, k);
+        qdot_blocks_solve(&b->blocks, k);
         for (size_t i = 0; i < block->n; i++)
             a[block->index[i]] = x[i];
     }
@@ -197,14 +111,14 @@ slope_column(const qdot_bind *b, uint32_t column, double *a)
             a[p->slopes[i].row] = b->out[i];
     for (size_t k = 0; k < p->structure.blocks; k++) {
         const qdot_plan_block *block = p->blocks + k;
-        double *x = b->solvers[k].x;
+        double *x = b->blocks.at[k].x;
 
         for (size_t i = 0; i < block->n; i++)
             x[i] = a[block->index[i]];
         if (block->n == 1)
-            x[0] /= b->solvers[k].a[0];
+            x[0] /= b->blocks.at[k].a[0];
         else
-            solve(b, k);
+            qdot_blocks_solve(&b->blocks, k);
         for (size_t i = 0; i < block->n; i++)
             a[block->index[i]] = x[i];
     }
@@ -226,9 +140,9 @@ jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
     for (size_t k = 0; k < p->structure.blocks; k++) {
         if (p->blocks[k].constant)
             continue;
-        out = unpack(b, k, out);
+        out = qdot_blocks_unpack(&b->blocks, k, out);
         if (p->blocks[k].n > 1)
-            QDOT_TRY(factor(b, k));
+            QDOT_TRY(qdot_blocks_factor(&b->blocks, k));
     }
     memset(dfdy, 0, 4 * n * n * sizeof *dfdy);
     memset(dfdt, 0, 2 * n * sizeof *dfdt);
@@ -250,6 +164,7 @@ qdot_bind_system(qdot_bind *b)
         .rhs = rhs,
         .jacobian = b->plan->jacobian ? jacobian : NULL,
         .user = b,
+        .series = b->expand ? qdot_expand_series(b->expand) : NULL,
     };
 }
 
@@ -277,7 +192,7 @@ qdot_bind_check(qdot_bind *b, double t, const double *y)
         qdot_free(work);
         qdot_tape_free(masses);
         if (status == QDOT_OK && (p->indefinite ? m == 0 : !(m > 0)))
-            status = singular(b, block, 0);
+            status = qdot_blocks_singular(p, block, 0);
     }
     if (status == QDOT_OK) {
         status = accelerations(b, b->in + 2 * p->n + 1);
@@ -290,7 +205,7 @@ qdot_bind_check(qdot_bind *b, double t, const double *y)
 size_t
 qdot_bind_factored(const qdot_bind *b)
 {
-    return b->factored;
+    return b->blocks.factored + (b->expand ? qdot_expand_factored(b->expand) : 0);
 }
 
 static qdot_status
@@ -305,20 +220,18 @@ make(qdot_bind *b, bool shaken)
             out = qdot_tape_outputs(tapes[i]) > out ? qdot_tape_outputs(tapes[i]) : out;
             work = qdot_tape_work(tapes[i]) > work ? qdot_tape_work(tapes[i]) : work;
         }
-    b->solvers = qdot_calloc(p->structure.blocks, sizeof *b->solvers);
     b->in = qdot_calloc(3 * p->n + 1, sizeof *b->in);
     b->out = qdot_calloc(out + 1, sizeof *b->out);
     b->work = qdot_calloc(work + 1, sizeof *b->work);
-    if (!b->solvers || !b->in || !b->out || !b->work)
+    if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
     if (shaken) {
         QDOT_TRY(qdot_tape_shake(p->tape, &b->tape));
         if (p->jacobian)
             QDOT_TRY(qdot_tape_shake(p->jacobian, &b->jacobian));
     }
-    for (size_t k = 0; k < p->structure.blocks; k++)
-        QDOT_TRY(make_solver(b, k, shaken));
-    return QDOT_OK;
+    QDOT_TRY(qdot_blocks_init(&b->blocks, p, shaken));
+    return p->method->series ? qdot_expand_new(p, shaken, &b->expand) : QDOT_OK;
 }
 
 qdot_status

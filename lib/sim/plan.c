@@ -7,12 +7,13 @@
 #include "expr/walk.h"
 #include "sim/substitute.h"
 #include "tape/constant.h"
+#include "tape/taylor.h"
 
 /* The method that `auto` is: see ode/method.h for when each fits. */
 static const char default_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
-static const char *const later_methods[] = {"taylor", "dop853", "radau", "gauss"};
+static const char *const later_methods[] = {"dop853", "radau", "gauss"};
 
 void
 qdot_plan_free(qdot_plan *p)
@@ -329,6 +330,12 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         QDOT_TRY(fill_block(p, b));
     }
     QDOT_TRY(lower_equations(p));
+    if (p->method->series && qdot_taylor_hindrance(p->tape)) {
+        qdot_fail(QDOT_ENOTBUILT,
+                  "not built yet: method %s where the equations switch (%s)",
+                  p->method->name, qdot_taylor_hindrance(p->tape));
+        return qdot_hint("method rk8pd");
+    }
     if (p->method->needs_jacobian
         || qdot_ode_method_find(p->method->partner)->needs_jacobian)
         QDOT_TRY(lower_jacobian(p));

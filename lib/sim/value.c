@@ -77,7 +77,8 @@ static qdot_status
 make_companion(qdot_run *run)
 {
     const qdot_ode_method *method = run->plan->method;
-    qdot_ode_options options = {.tol = qdot_companion_tolerance(method, run->report.tol)};
+    qdot_ode_options options = {.tol = qdot_companion_tolerance(method, run->report.tol),
+                                .order_more = QDOT_COMPANION_ORDERS};
     double t0 = qdot_shake_double(run->t0, run->t0_side);
     double t1 = run->tr.t[run->tr.count - 1];
     qdot_ode_system system;

@@ -109,7 +109,7 @@ function_value(qdot_fun_id id, const long double *x)
     case QDOT_ASIN: return asinl(*x);
     case QDOT_ACOS: return acosl(*x);
     case QDOT_ATAN: return atanl(*x);
-    case QDOT_ATAN2: return atan2l(x[0], x[1]);
+    case QDOT_ATAN2: return x[0] == 0 && x[1] == 0 ? NAN : atan2l(x[0], x[1]);
     case QDOT_SINH: return sinhl(*x);
     case QDOT_COSH: return coshl(*x);
     case QDOT_TANH: return tanhl(*x);

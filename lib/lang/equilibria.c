@@ -1,0 +1,283 @@
+/* equilibria.c -- `equilibria` and `modes` as statements: with stability, with amplitudes. */
+#include "lang/equilibria.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "lang/answer.h"
+#include "lang/statement.h"
+#include "mech/quantity.h"
+
+static qdot_expr
+bind(void *session, qdot_expr e)
+{
+    return qdot_session_bind(session, e);
+}
+
+qdot_status
+qdot_equilibria_find(qdot_session *session, qdot_equilibrium **list, size_t *n)
+{
+    *list = NULL;
+    *n = 0;
+    if (session->scene->coordinates.n == 0) {
+        (void)qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
+        return qdot_hint("declare them: coord theta");
+    }
+    return qdot_equilibrium_find(session->scene, bind, session, list, n);
+}
+
+qdot_status
+qdot_equilibria_list(qdot_session *session, const qdot_equilibrium *list, size_t n,
+                     qdot_expr *value)
+{
+    qdot_expr *members = qdot_malloc((n + 1) * sizeof *members);
+
+    if (members == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        members[i] = list[i].equations;
+    *value = qdot_list(session->pool, (uint32_t)n, members);
+    qdot_free(members);
+    return qdot_pool_check(session->pool);
+}
+
+/* Whether a value is one that was found in numbers: 15 decimal digits. */
+static bool
+is_numeric(qdot_session *session, qdot_expr equations)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, equations); i++) {
+        qdot_expr one = qdot_expr_arg(session->pool, equations, i);
+        const fmpq *value =
+            qdot_expr_rational(session->pool, qdot_expr_arg(session->pool, one, 1));
+
+        if (value != NULL && fmpz_bits(fmpq_denref(value)) > 32)
+            return true;
+    }
+    return false;
+}
+
+qdot_status
+qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
+{
+    qdot_equilibrium *list = NULL;
+    size_t n = 0, at = 0;
+
+    if (equations == QDOT_NIL) { /* the first that is not unstable */
+        QDOT_TRY(qdot_equilibria_find(session, &list, &n));
+        while (at < n && list[at].stability == QDOT_UNSTABLE)
+            at++;
+        if (at < n)
+            equations = list[at].equations;
+        qdot_free(list);
+        if (at == n) {
+            (void)qdot_fail(QDOT_EINVAL, n == 0 ? "the scene has no equilibrium"
+                                                : "every equilibrium is unstable");
+            return n == 0 ? QDOT_EINVAL : qdot_hint("modes at equilibria[1]");
+        }
+    }
+    return qdot_modes_about(session->scene, equations, is_numeric(session, equations),
+                            bind, session, modes);
+}
+
+/* --- equilibria ------------------------------------------------------------------------- */
+
+/* `a > b and c > d`; a relation reads with > as people say it. */
+static qdot_status
+print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
+{
+    qdot_pool *pool = session->pool;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++) {
+        qdot_expr one = qdot_expr_arg(pool, list, i);
+
+        qdot_text_add(out, i > 0 ? " and " : "");
+        if (qdot_expr_kind(pool, one) != QDOT_REL ||
+            qdot_expr_node(pool, one)->op != QDOT_LT) {
+            QDOT_TRY(qdot_print(pool, one, session->style, out));
+            continue;
+        }
+        QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 1), session->style, out));
+        qdot_text_add(out, " > ");
+        QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 0), session->style, out));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+print_stability(qdot_session *session, const qdot_equilibrium *e, qdot_text *out)
+{
+    static const char *const words[] = {[QDOT_STABLE] = "stable",
+                                        [QDOT_UNSTABLE] = "unstable",
+                                        [QDOT_STABILITY_UNDECIDED] =
+                                            "stability undecided"};
+
+    if (e->numeric)
+        qdot_text_add(out, "numeric, ");
+    if (e->exists != QDOT_NIL) {
+        qdot_text_add(out, "exists when ");
+        QDOT_TRY(print_conditions(session, e->exists, out));
+        qdot_text_add(out, ", ");
+    }
+    qdot_text_add(out, words[e->stability]);
+    if (e->stability == QDOT_STABLE && e->stable_when != QDOT_NIL) {
+        qdot_text_add(out, " when ");
+        QDOT_TRY(print_conditions(session, e->stable_when, out));
+    }
+    return qdot_text_status(out);
+}
+
+/* `theta = 0`; a number that was found as a decimal one. */
+static qdot_status
+print_equation(qdot_session *session, const qdot_equilibrium *e, uint32_t k,
+               qdot_text *out)
+{
+    qdot_expr one = qdot_expr_arg(session->pool, e->equations, k);
+    double value;
+
+    if (!e->numeric)
+        return qdot_print(session->pool, one, session->style, out);
+    QDOT_TRY(
+        qdot_session_number(session, qdot_expr_arg(session->pool, one, 1), &value, NULL));
+    QDOT_TRY(qdot_print(session->pool, qdot_expr_arg(session->pool, one, 0),
+                        session->style, out));
+    qdot_text_add(out, " = ");
+    qdot_answer_digits(out, value, 0);
+    return qdot_text_status(out);
+}
+
+/* `equilibria[1]: theta = 0, stable when ...`; as JSON the equations, then a text. */
+static qdot_status
+answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
+{
+    char name[40];
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+    uint32_t n = qdot_expr_count(session->pool, e->equations);
+
+    snprintf(name, sizeof name, "equilibria[%zu]", i + 1);
+    if (session->json)
+        QDOT_TRY(qdot_answer_expr(session, name, e->equations));
+    else
+        qdot_text_format(&text, "%s: ", name);
+    for (uint32_t k = 0; k < n && !session->json && status == QDOT_OK; k++) {
+        status = print_equation(session, e, k, &text);
+        qdot_text_add(&text, ", ");
+    }
+    if (n == 0 && !session->json)
+        qdot_text_add(&text, "everywhere, ");
+    if (status == QDOT_OK)
+        status = print_stability(session, e, &text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
+qdot_equilibria_all(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at - 1; /* the word */
+    qdot_equilibrium *list;
+    qdot_expr value;
+    qdot_status status;
+    size_t n;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_equilibria_find(session, &list, &n));
+    status = qdot_equilibria_list(session, list, n, &value);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&session->history, value);
+    if (status == QDOT_OK && n == 0)
+        status = qdot_answer_text(session, "equilibria", "there is no equilibrium");
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        status = answer_one(session, i, &list[i]);
+    qdot_free(list);
+    return status;
+}
+
+/* --- modes ----------------------------------------------------------------------------- */
+
+/* Exact, or a number: as JSON without a statement of its error. */
+static qdot_status
+answer_part(qdot_session *session, bool numeric, const char *name, qdot_expr value)
+{
+    qdot_text line = {0};
+    qdot_status status;
+    double x;
+
+    if (!numeric)
+        return qdot_answer_expr(session, name, value);
+    QDOT_TRY(qdot_session_number(session, value, &x, NULL));
+    if (session->json)
+        return qdot_answer_number(session, name, x, NAN);
+    qdot_text_format(&line, "%s = ", name);
+    qdot_answer_digits(&line, x, 1e-13 * fabs(x));
+    status = qdot_text_status(&line);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(&line));
+    qdot_text_clear(&line);
+    return status;
+}
+
+static qdot_status
+answer_modes(qdot_session *session, const qdot_modes *modes)
+{
+    size_t n = session->scene->coordinates.n;
+
+    for (size_t k = 0; k < modes->n; k++) {
+        char name[400];
+
+        snprintf(name, sizeof name, "modes[%zu]", k + 1);
+        QDOT_TRY(answer_part(session, modes->numeric, name, modes->frequency[k]));
+        for (size_t i = 0; i < n; i++) {
+            snprintf(
+                name, sizeof name, "modes[%zu, %.300s]", k + 1,
+                qdot_expr_symbol(session->pool, session->scene->coordinates.at[i])->name);
+            QDOT_TRY(
+                answer_part(session, modes->numeric, name, modes->amplitude[k * n + i]));
+        }
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_equilibria_modes(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at - 1; /* the word */
+    qdot_expr at = QDOT_NIL, value;
+    qdot_modes modes;
+    qdot_status status;
+
+    if (qdot_cursor_accept_word(c, "at")) {
+        const qdot_token *place = c->at;
+
+        QDOT_TRY(qdot_read_value(c, &at));
+        if (qdot_expr_kind(session->pool, at) == QDOT_REL)
+            at = qdot_list(session->pool, 1, &at);
+        QDOT_TRY(qdot_pool_check(session->pool));
+        for (uint32_t i = 0; i < qdot_expr_count(session->pool, at) ||
+                             qdot_expr_kind(session->pool, at) != QDOT_LIST;
+             i++)
+            if (qdot_expr_kind(session->pool, at) != QDOT_LIST ||
+                qdot_expr_kind(session->pool, qdot_expr_arg(session->pool, at, i)) !=
+                    QDOT_REL) {
+                c->error_at = place->start;
+                (void)qdot_fail(QDOT_ETYPE, "modes are asked at a list of equations");
+                return qdot_hint("modes at equilibria[1]");
+            }
+    }
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_equilibria_modes_at(session, at, &modes));
+    value = qdot_list(session->pool, (uint32_t)modes.n, modes.frequency);
+    status = qdot_pool_check(session->pool);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&session->history, value);
+    if (status == QDOT_OK)
+        status = answer_modes(session, &modes);
+    qdot_modes_clear(&modes);
+    return status;
+}

@@ -1,0 +1,82 @@
+/* rationalize.c -- numerator and denominator times the conjugate, root by root. */
+#include "normal/rationalize.h"
+
+#include "base/memory.h"
+#include "expr/walk.h"
+#include "normal/factor.h"
+#include "normal/prepare.h"
+#include "normal/simplify.h"
+
+enum { WORK = 500000 };
+
+/* conjugate = A - B r of p = A + B r, r the variable v. */
+static void
+conjugate(qdot_field *f, fmpz_mpoly_t out, const fmpz_mpoly_t p, slong v)
+{
+    fmpz_mpoly_t term;
+    ulong power;
+
+    fmpz_mpoly_init(term, f->ctx);
+    fmpz_mpoly_zero(out, f->ctx);
+    for (slong i = 0; i < fmpz_mpoly_length(p, f->ctx); i++) {
+        fmpz_mpoly_get_term(term, p, i, f->ctx);
+        power = (ulong)fmpz_mpoly_degree_si(term, v, f->ctx);
+        if (power % 2 != 0)
+            fmpz_mpoly_sub(out, out, term, f->ctx);
+        else
+            fmpz_mpoly_add(out, out, term, f->ctx);
+    }
+    fmpz_mpoly_clear(term, f->ctx);
+}
+
+static void
+clear_roots(qdot_field *f, qdot_ratio *r)
+{
+    qdot_ratio by;
+
+    qdot_ratio_init(f, &by);
+    for (slong v = 0; v < f->n && qdot_field_goes(f); v++) {
+        if (f->gen[v].kind != QDOT_GEN_ROOT || f->gen[v].order != 2 ||
+            fmpz_mpoly_degree_si(r->d, v, f->ctx) == 0)
+            continue;
+        conjugate(f, by.n, r->d, v);
+        qdot_field_mul(f, r->n, r->n, by.n);
+        qdot_field_mul(f, r->d, r->d, by.n);
+        qdot_ratio_cancel(f, r);
+    }
+    qdot_ratio_clear(f, &by);
+}
+
+qdot_expr
+qdot_rationalize(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    qdot_expr best = qdot_simplify(pool, e, facts), prepared = qdot_prepare(pool, best),
+              other = QDOT_NIL;
+    qdot_field f;
+
+    if (prepared == QDOT_NIL)
+        return best;
+    qdot_field_begin(&f, pool, 1, &prepared, WORK);
+    if (qdot_field_goes(&f)) {
+        qdot_ratio r;
+
+        qdot_ratio_init(&f, &r);
+        qdot_ratio_set(&f, &r, qdot_field_value(&f, prepared));
+        qdot_ratio_cancel(&f, &r);
+        clear_roots(&f, &r);
+        if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.d, f.ctx))
+            other = qdot_field_ratio_expr(&f, &r);
+        qdot_ratio_clear(&f, &r);
+    }
+    if (f.state == QDOT_FIELD_FAILED &&
+        (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
+        other = qdot_pool_fail(pool);
+    qdot_field_end(&f);
+    if (other != QDOT_NIL)
+        other = qdot_simplify(pool, other, facts);
+    if (qdot_pool_failed(pool))
+        return QDOT_NIL;
+    return other != QDOT_NIL && qdot_expr_size(pool, other) <= qdot_expr_size(pool, best)
+               ? other
+               : best;
+}

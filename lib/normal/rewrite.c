@@ -1,0 +1,151 @@
+/* rewrite.c -- one pass, children first. */
+#include "normal/rewrite.h"
+
+#include "base/memory.h"
+#include "expr/walk.h"
+
+static qdot_expr
+half(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_mul(pool, QDOT_HALF, e);
+}
+
+/* log(v + sqrt(v^2 + c)) */
+static qdot_expr
+area(qdot_pool *pool, qdot_expr v, qdot_expr c)
+{
+    qdot_expr root = qdot_sqrt(pool, qdot_add(pool, qdot_pow_int(pool, v, 2), c));
+
+    return qdot_fun1(pool, QDOT_LOG, qdot_add(pool, v, root));
+}
+
+static qdot_expr
+log_ratio(qdot_pool *pool, qdot_expr v)
+{
+    qdot_expr up = qdot_fun1(pool, QDOT_LOG, qdot_add(pool, QDOT_ONE, v));
+    qdot_expr down = qdot_fun1(pool, QDOT_LOG, qdot_sub(pool, QDOT_ONE, v));
+
+    return half(pool, qdot_sub(pool, up, down));
+}
+
+static qdot_expr
+extreme(qdot_pool *pool, qdot_expr e, bool most)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr best = qdot_expr_arg(pool, e, 0);
+
+    for (uint32_t i = 1; i < n; i++) {
+        qdot_expr y = qdot_expr_arg(pool, e, i);
+        qdot_expr gap = qdot_fun1(pool, QDOT_ABS, qdot_sub(pool, best, y));
+
+        best = half(pool, qdot_add(pool, qdot_add(pool, best, y),
+                                   most ? gap : qdot_neg(pool, gap)));
+    }
+    return best;
+}
+
+/* A hyperbolic function of log w. */
+static qdot_expr
+of_logarithm(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr arg = qdot_expr_arg(pool, e, 0), w, over, s, c;
+
+    if (qdot_expr_kind(pool, arg) != QDOT_FUN ||
+        qdot_expr_node(pool, arg)->op != QDOT_LOG)
+        return e;
+    w = qdot_expr_arg(pool, arg, 0);
+    over = qdot_div(pool, QDOT_ONE, w);
+    s = qdot_sub(pool, w, over);
+    c = qdot_add(pool, w, over);
+    switch (qdot_expr_node(pool, e)->op) {
+    case QDOT_SINH: return half(pool, s);
+    case QDOT_COSH: return half(pool, c);
+    default: return qdot_div(pool, s, c);
+    }
+}
+
+static qdot_expr
+function(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr v = qdot_expr_arg(pool, e, 0);
+
+    switch (qdot_expr_node(pool, e)->op) {
+    case QDOT_ACOS:
+        return qdot_sub(pool, half(pool, QDOT_PI), qdot_fun1(pool, QDOT_ASIN, v));
+    case QDOT_ASINH: return area(pool, v, QDOT_ONE);
+    case QDOT_ACOSH: return area(pool, v, QDOT_MINUS_ONE);
+    case QDOT_ATANH: return log_ratio(pool, v);
+    case QDOT_MAX: return extreme(pool, e, true);
+    case QDOT_MIN: return extreme(pool, e, false);
+    case QDOT_SINH:
+    case QDOT_COSH:
+    case QDOT_TANH: return of_logarithm(pool, e);
+    default: return e;
+    }
+}
+
+static qdot_expr
+product(qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr result = qdot_expr_arg(pool, e, 0);
+    bool any = false;
+
+    for (uint32_t i = 2; i < n && !any; i += 2)
+        any = qdot_expr_kind(pool, qdot_expr_arg(pool, e, i)) != QDOT_NUM;
+    if (!any)
+        return e;
+    for (uint32_t i = 1; i < n; i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i), x = qdot_expr_arg(pool, e, i + 1), power;
+
+        if (qdot_expr_kind(pool, x) != QDOT_NUM &&
+            (qdot_expr_node(pool, b)->sign & QDOT_POS) == QDOT_POS)
+            power = qdot_fun1(pool, QDOT_EXP,
+                              qdot_mul(pool, x, qdot_fun1(pool, QDOT_LOG, b)));
+        else
+            power = qdot_pow(pool, b, x);
+        result = qdot_mul(pool, result, power);
+    }
+    return result;
+}
+
+static qdot_expr
+rebuilt(qdot_pool *pool, const qdot_walk *w, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr *args = qdot_malloc((n + 1) * sizeof *args), result = e;
+    bool changed = false;
+
+    if (args == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr old = qdot_expr_arg(pool, e, i);
+
+        args[i] = (qdot_expr)qdot_walk_get(w, old);
+        changed |= args[i] != old;
+    }
+    if (changed)
+        result = qdot_rebuild(pool, e, args);
+    qdot_free(args);
+    return result;
+}
+
+qdot_expr
+qdot_rewrite(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr result = e;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
+        result = rebuilt(pool, &w, w.at[i]);
+        if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_FUN)
+            result = function(pool, result);
+        else if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_PROD)
+            result = product(pool, result);
+        qdot_walk_set(&w, w.at[i], result);
+    }
+    qdot_walk_end(&w);
+    return result;
+}

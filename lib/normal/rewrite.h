@@ -1,0 +1,19 @@
+/* rewrite.h -- functions by other functions, for proofs only: the result is longer.
+ *
+ *     acos v = pi/2 - asin v,   asinh v = log(v + sqrt(v^2 + 1)),
+ *     acosh v = log(v + sqrt(v^2 - 1)),   atanh v = (log(1 + v) - log(1 - v))/2,
+ *     max(x, y) = (x + y + |x - y|)/2,   min(x, y) = (x + y - |x - y|)/2,
+ *     b^x = exp(x log b) for b > 0 and x not a number,
+ *     sinh(log w) = (w - 1/w)/2,   cosh(log w) = (w + 1/w)/2,   tanh likewise.
+ *
+ * Each an equality wherever its left side is defined.
+ */
+#ifndef QDOT_NORMAL_REWRITE_H
+#define QDOT_NORMAL_REWRITE_H
+
+#include "expr/expr.h"
+
+/* e rewritten, children first; nil where that fails. */
+qdot_expr qdot_rewrite(qdot_pool *pool, qdot_expr e);
+
+#endif

@@ -1,0 +1,509 @@
+/* taylor.c -- steps by Taylor series: order, length, confirmation, compensated sums. */
+#include "ode/taylor.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "num/series.h"
+#include "num/sum.h"
+
+static const double tol_default = 1e-12;
+static const uint64_t max_steps_default = 50000000;
+
+enum { least_order = 6 };
+
+/* Tries at one place where f is undefined: a quarter each. */
+static const int max_undefined = 60;
+
+typedef struct {
+    const qdot_ode_system *system;
+    const qdot_ode_series *series;
+    const qdot_series_kernels *kernels;
+    const qdot_ode_options *options;
+    qdot_ode_result *result;
+    size_t n;
+    double tol, t, t1, direction;
+    uint64_t max_steps;
+    int p;
+    double unit;  /* of the series: t' = t + unit s; a power of two, signed */
+    bool extended; /* the series is there to order p */
+
+    double *y, *carry;         /* [n] the state now */
+    double *next, *next_carry; /* [n] at the end of the step tried */
+    double *low;               /* [n] */
+    double *value, *slope;     /* [n] of the polynomial */
+    double *first;             /* [n] x_i1 */
+    qdot_error undefined;      /* what f said last */
+    double undefined_at;       /* the end of the step that met it; NaN before any */
+} run;
+
+static double
+cpu_now(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double
+floor_of_step(double t)
+{
+    t = fabs(t);
+    return fmax(16 * (nextafter(t, INFINITY) - t), 16 * DBL_MIN);
+}
+
+/* The power of two at or below |h|, with the sign of h. */
+static double
+unit_for(double h)
+{
+    return h != 0 ? copysign(ldexp(1, ilogb(h)), h) : 1;
+}
+
+int
+qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
+{
+    const double *c = series->cost;
+    double L = -log(tol), least = INFINITY;
+    int best = least_order;
+
+    for (int p = least_order; p <= series->most; p++) {
+        double cost = (c[0] + c[1] * p + c[2] * p * p) * exp(L / p);
+
+        if (cost < least) {
+            least = cost;
+            best = p;
+        }
+    }
+    best += more;
+    return best < series->most ? best : series->most;
+}
+
+/* --- the state from the series ------------------------------------------------------ */
+
+/* next = y + carry + sum_{k>=1} x_k s^k; tails in value. */
+static void
+add_series(const run *r, double s)
+{
+    const double *x = r->series->x;
+
+    for (size_t i = 0; i < r->n; i++) {
+        double rest, small, first = x[i * r->series->stride + 1];
+        double sum = qdot_two_sum(first, r->value[i], &rest);
+        double step = s * sum;
+
+        small = fma(s, sum, -step) + s * (rest + r->low[i]);
+        r->next[i] = qdot_two_sum(r->y[i], step, &rest);
+        qdot_sum_advance(&r->next[i], &rest, r->carry[i] + small);
+        r->next_carry[i] = rest;
+    }
+}
+
+void
+qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double h,
+                         double t, const double *y0, double *y)
+{
+    const qdot_ode_series *series = system->series;
+    double s = (t - t0) / unit_for(h);
+
+    qdot_series_kernels_get()->tails(system->n, series->x, series->stride, p, s, y, NULL);
+    for (size_t i = 0; i < system->n; i++)
+        y[i] = y0[i] + s * (series->x[i * series->stride + 1] + y[i]);
+}
+
+qdot_status
+qdot_ode_taylor_expand(const qdot_ode_system *system, int p, double t0, double h,
+                       const double *y0)
+{
+    const qdot_ode_series *series = system->series;
+
+    QDOT_TRY(series->begin(t0, y0, unit_for(h), series->user));
+    return series->extend(p, series->user);
+}
+
+/* --- the length of a step ----------------------------------------------------------- */
+
+/* log2 of a positive number to 0.09; larger than any for what is not finite. */
+static double
+rough_log2(double x)
+{
+    int64_t bits;
+
+    memcpy(&bits, &x, sizeof bits);
+    return (double)bits * 0x1p-52 - 1023;
+}
+
+/* log2 of the step in units; INFINITY where orders from ... p hold nothing; NaN where
+ * they are not finite. */
+static double
+log_step(const run *r, int from)
+{
+    const qdot_ode_series *series = r->series;
+    double least = INFINITY, log_tol = log2(r->tol), m[QDOT_SERIES_MOST + 1];
+
+    for (int k = from; k <= r->p; k++)
+        m[k] = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        const double *x = series->x + i * series->stride;
+        double size = fabs(r->y[i]);
+
+        size = size > 1 ? 1 / size : 1;
+        for (int k = from; k <= r->p; k++) {
+            double c = fabs(x[k]) * size;
+
+            if (!(c <= m[k]))
+                m[k] = c;
+        }
+    }
+    for (int k = from; k <= r->p; k++) {
+        if (!(m[k] < INFINITY))
+            return NAN;
+        if (m[k] > 0) {
+            double l = (log_tol - rough_log2(m[k])) / k;
+
+            least = l < least ? l : least;
+        }
+    }
+    return least;
+}
+
+static qdot_status
+expand(run *r)
+{
+    if (!r->extended) {
+        r->result->stats.evaluations++;
+        QDOT_TRY(r->series->extend(r->p, r->series->user));
+        r->extended = true;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+begin(run *r, double t, const double *y)
+{
+    r->extended = false;
+    QDOT_TRY(r->series->begin(t, y, r->unit, r->series->user));
+    return QDOT_OK;
+}
+
+/* *h positive; INFINITY where the series ends. The unit of the series is brought near the
+ * step where it is far from it. */
+static qdot_status
+length_of_step(run *r, double *h)
+{
+    for (int tries = 0;; tries++) {
+        double l, far;
+
+        QDOT_TRY(expand(r));
+        l = log_step(r, r->p / 2 + 1);
+        if (isnan(l)) { /* overflow, if the first orders exist */
+            far = -10 - 40 * tries;
+        } else {
+            *h = fabs(r->unit) * exp2(l);
+            /* nothing there, or too small for a double: judge by what is */
+            far = l < INFINITY ? l : log_step(r, 1);
+            if (!(fabs(far) > 8) || isinf(far))
+                return QDOT_OK;
+        }
+        if (tries == 8) {
+            if (isnan(l))
+                return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
+            return QDOT_OK;
+        }
+        r->unit = ldexp(r->unit, (int)fmax(-300, fmin(300, floor(far))));
+        if (fabs(r->unit) < DBL_MIN || !isfinite(r->unit))
+            return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
+        QDOT_TRY(begin(r, r->t, r->y));
+    }
+}
+
+/* --- confirmation ------------------------------------------------------------------- */
+
+/* Whether the slope of the polynomial, in r->slope per old unit, is that of the equations
+ * begun anew at its end. */
+static bool
+confirms(const run *r, double h, double old_unit)
+{
+    const qdot_ode_series *series = r->series;
+    double steps = h / old_unit, now = h / r->unit;
+    double rounding = 64 * DBL_EPSILON, share = 10 * (r->p + 1) * r->tol;
+
+    for (size_t i = series->checked; i < r->n; i++) {
+        double f = series->x[i * series->stride + 1] * now, P = r->slope[i] * steps;
+        double size = fmax(1, fabs(r->next[i]));
+
+        if (!(fabs(P - f) <= share * size + rounding * (fabs(P) + fabs(r->first[i] * steps)
+                                                        + size)))
+            return false;
+    }
+    return true;
+}
+
+/* Whether it also is inside the step, at places without a pattern. The series is
+ * begun anew at y afterwards. */
+static qdot_status
+confirms_inside(run *r, double h, bool *good)
+{
+    static const double places[] = {0.31830988618379067, 0.70710678118654752};
+    const double old_unit = r->unit;
+    qdot_status status = QDOT_OK;
+
+    for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
+        double s = places[k] * h / r->unit;
+
+        r->kernels->tails(r->n, r->series->x, r->series->stride, r->p, s, r->value,
+                          r->slope);
+        add_series(r, s);
+        for (size_t i = 0; i < r->n; i++)
+            r->first[i] = r->series->x[i * r->series->stride + 1];
+        status = begin(r, r->t + places[k] * h, r->next);
+        if (status == QDOT_OK) {
+            *good = confirms(r, h, old_unit);
+            status = begin(r, r->t, r->y);
+        }
+        if (status == QDOT_OK)
+            status = expand(r);
+    }
+    return status;
+}
+
+static bool
+may_be_undefined(qdot_status status)
+{
+    return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EFAILED;
+}
+
+static void
+swap(double **a, double **b)
+{
+    double *c = *a;
+
+    *a = *b;
+    *b = c;
+}
+
+/* Try a step of h from t to t_end. On QDOT_OK and *good it has been taken, and the series is
+ * begun at its end. Otherwise nothing has changed but the series. */
+static qdot_status
+try_step(run *r, double h, double t_end, bool unsure, bool *good)
+{
+    const double old_unit = r->unit, s = h / r->unit;
+    const bool fixed = r->options->h_fixed > 0;
+    qdot_status status;
+
+    *good = true;
+    if (unsure && !fixed)
+        QDOT_TRY(confirms_inside(r, h, good));
+    if (!*good)
+        return QDOT_OK;
+    r->kernels->tails(r->n, r->series->x, r->series->stride, r->p, s, r->value, r->slope);
+    if (r->series->low)
+        r->series->low(r->carry, r->low, r->series->user);
+    add_series(r, s);
+    if (r->series->low)
+        memset(r->low, 0, r->n * sizeof *r->low);
+    for (size_t i = r->series->checked; i < r->n; i++)
+        r->first[i] = r->series->x[i * r->series->stride + 1];
+    r->unit = unit_for(h);
+    status = begin(r, t_end, r->next);
+    if (status == QDOT_OK)
+        *good = fixed || confirms(r, h, old_unit);
+    if (status == QDOT_OK && *good && r->options->accepted) {
+        bool stop = false;
+
+        status = r->options->accepted(t_end, r->next, &stop, r->options->user);
+        if (stop)
+            r->result->outcome = QDOT_ODE_STOPPED;
+    }
+    if (status != QDOT_OK || !*good)
+        return status;
+    r->t = t_end;
+    swap(&r->y, &r->next);
+    swap(&r->carry, &r->next_carry);
+    r->result->stats.steps++;
+    return QDOT_OK;
+}
+
+/* --- the loop ----------------------------------------------------------------------- */
+
+static qdot_status
+too_small(const run *r)
+{
+    if (r->direction * (r->undefined_at - r->t) >= 0)
+        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
+                         r->undefined.message);
+    qdot_fail(QDOT_EFAILED,
+              "stopped at t = %.17g: no step down to %.2g keeps the error below %.2g",
+              r->t, floor_of_step(r->t), r->tol);
+    return qdot_hint("the solution has a singularity there, or the tolerance is below "
+                     "what double precision can hold");
+}
+
+/* The step wanted, cut to end on a double, on t1 where that is near. */
+static double
+end_of_step(const run *r, double h)
+{
+    double rest = r->direction * (r->t1 - r->t), end;
+
+    if (h >= rest * (1 - 1e-12))
+        return r->t1;
+    end = r->t + r->direction * (h > 0.5 * rest && !(r->options->h_fixed > 0) ? 0.5 * rest
+                                                                             : h);
+    return r->direction * (r->t1 - end) > 0 ? end : r->t1;
+}
+
+/* One step from where the run is. */
+static qdot_status
+advance(run *r)
+{
+    double h = 0, most = INFINITY;
+
+    for (int tries = 0;; tries++) {
+        double end;
+        bool good = false, unsure;
+        qdot_status status = QDOT_OK;
+
+        QDOT_TRY(qdot_interrupt_check());
+        if (r->result->stats.steps + r->result->stats.rejected >= r->max_steps)
+            return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
+                             (unsigned long long)r->max_steps);
+        if (tries > 0) { /* the series is another one's by now */
+            r->unit = r->direction * unit_for(most);
+            status = begin(r, r->t, r->y);
+        }
+        if (status == QDOT_OK)
+            status = r->options->h_fixed > 0 ? expand(r) : length_of_step(r, &h);
+        if (status == QDOT_OK) {
+            if (r->options->h_fixed > 0)
+                h = r->options->h_fixed;
+            unsure = isinf(h);
+            h = fmin(h, most);
+            end = end_of_step(r, h);
+            h = r->direction * (end - r->t);
+            if (end != r->t1 && h < floor_of_step(r->t))
+                return too_small(r);
+            status = try_step(r, end - r->t, end, unsure, &good);
+            if (status == QDOT_OK && good)
+                return QDOT_OK;
+        } else if (tries == 0 && may_be_undefined(status)) {
+            /* the point itself was good: only what is beyond it is not */
+            h = fabs(r->unit);
+            end = r->t;
+        }
+        if (status != QDOT_OK && !may_be_undefined(status))
+            return status;
+        r->result->stats.rejected++;
+        if (status != QDOT_OK) {
+            r->undefined = *qdot_last_error();
+            r->undefined_at = r->t + r->direction * h;
+        }
+        most = 0.25 * h;
+        if (tries == max_undefined || most < floor_of_step(r->t)
+            || r->options->h_fixed > 0)
+            return too_small(r);
+    }
+}
+
+static qdot_status
+loop(run *r)
+{
+    qdot_status status;
+
+    if (r->t == r->t1)
+        return QDOT_OK;
+    if (r->options->h_first > 0)
+        r->unit = unit_for(r->options->h_first);
+    r->unit = r->direction * fabs(r->unit);
+    status = begin(r, r->t, r->y);
+    if (may_be_undefined(status)) {
+        r->undefined = *qdot_last_error();
+        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
+                         r->undefined.message);
+    }
+    QDOT_TRY(status);
+    while (r->t != r->t1 && r->result->outcome != QDOT_ODE_STOPPED)
+        QDOT_TRY(advance(r));
+    return QDOT_OK;
+}
+
+static qdot_status
+prepare(run *r, double t0, double t1, const double *y)
+{
+    double **arrays[] = {&r->y,   &r->carry, &r->next,  &r->next_carry,
+                         &r->low, &r->value, &r->slope, &r->first};
+
+    if (!isfinite(t0) || !isfinite(t1) || !isfinite(t1 - t0))
+        return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
+    if (r->n == 0)
+        return qdot_fail(QDOT_EINVAL, "there is nothing to integrate");
+    if (!r->series)
+        return qdot_fail(QDOT_EINVAL, "taylor needs the Taylor series of the equations");
+    if (!(r->tol >= 1e-16 && r->tol <= 1)) {
+        qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", r->tol);
+        return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
+    }
+    for (size_t i = 0; i < r->n; i++)
+        if (!isfinite(y[i]))
+            return qdot_fail(QDOT_EINVAL, "initial value %zu is not finite", i + 1);
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
+        *arrays[i] = qdot_calloc(r->n, sizeof(double));
+        if (!*arrays[i])
+            return QDOT_ENOMEM;
+    }
+    memcpy(r->y, y, r->n * sizeof *y);
+    if (r->options->carry)
+        memcpy(r->carry, r->options->carry, r->n * sizeof *y);
+    r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->order_more);
+    return QDOT_OK;
+}
+
+static void
+release(run *r)
+{
+    double *arrays[] = {r->y,   r->carry, r->next,  r->next_carry,
+                        r->low, r->value, r->slope, r->first};
+
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        qdot_free(arrays[i]);
+}
+
+qdot_status
+qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options *options,
+                          double t0, double t1, double *y, qdot_ode_result *result)
+{
+    static const qdot_ode_options defaults = {0};
+    double cpu_start = cpu_now();
+    run r = {.system = system,
+             .series = system->series,
+             .kernels = qdot_series_kernels_get(),
+             .options = options ? options : &defaults,
+             .result = result,
+             .n = system->n,
+             .t = t0,
+             .t1 = t1,
+             .direction = t1 < t0 ? -1 : 1,
+             .unit = 1,
+             .undefined_at = NAN};
+    qdot_status status;
+
+    *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
+    r.tol = r.options->tol != 0 ? r.options->tol : tol_default;
+    r.max_steps = r.options->max_steps ? r.options->max_steps : max_steps_default;
+    status = prepare(&r, t0, t1, y);
+    if (status == QDOT_OK) {
+        status = loop(&r);
+        memcpy(y, r.y, r.n * sizeof *y);
+    }
+    release(&r);
+    result->stats.cpu = cpu_now() - cpu_start;
+    result->t = r.t;
+    if (status != QDOT_OK) {
+        result->outcome = QDOT_ODE_FAILED;
+        memcpy(result->reason, qdot_last_error()->message, sizeof result->reason);
+    }
+    return status;
+}

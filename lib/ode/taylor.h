@@ -1,0 +1,59 @@
+/* taylor.h -- integration by Taylor series of high order.
+ *
+ * A step expands the solution to order p and evaluates the polynomial. The order is chosen
+ * once, from the tolerance and from what an expansion costs (series.cost): a step of
+ * order p is about rho e^(-L/p) long, L = -ln tol, rho the radius of convergence, so p
+ * makes
+ *
+ *     (cost_0 + cost_1 p + cost_2 p^2) e^(L/p)
+ *
+ * least. Where cost_2 dominates that is L/2 (Jorba & Zou); short tapes take more.
+ *
+ * The length of a step is
+ *
+ *     h = min over k = p/2 ... p, i of (tol max(1, |y_i|) / |x_ik|)^(1/k):
+ *
+ * from the whole upper half of the series, since a symmetric start makes most of the
+ * coefficients vanish. A step is confirmed by the defect at its end: the slope of the
+ * polynomial there against y' as the equations have it (the next step's first coefficient),
+ *
+ *     |P_i'(h) - f_i| h <= 10 (p + 1) tol max(1, |y_i|) + rounding,
+ *
+ * else it is taken back and a quarter of it tried. Where the upper half holds nothing at all
+ * (free fall, an equilibrium, few terms of a high power) the polynomial may be the
+ * solution: then h is what is left, and the defect is looked at inside the step too.
+ *
+ * Times are doubles exactly: h is the difference of two. The state is a sum of two
+ * doubles, advanced by the series evaluated by Horner's rule, whose first product and sum
+ * are exact.
+ *
+ * Between steps the state is the series again, expanded from the stored point: as
+ * accurate as the run.
+ *
+ * Source  Jorba & Zou, Experimental Math. 14 (2005) 99; Nedialkov & Pryce, BIT 45 (2005)
+ *         561.
+ * Tests   tests/ode/test_taylor.c
+ */
+#ifndef QDOT_ODE_TAYLOR_H
+#define QDOT_ODE_TAYLOR_H
+
+#include "ode/integrate.h"
+
+/* As qdot_ode_integrate, which calls it: system->series is there. */
+QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *system,
+                                                      const qdot_ode_options *options,
+                                                      double t0, double t1, double *y,
+                                                      qdot_ode_result *result);
+
+/* The order of a run under tol; `more` orders on top. */
+int qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more);
+
+/* Expand about (t0, y0 [n]) for a step of about h to order p; then the state at t, from
+ * that expansion. */
+QDOT_MUST_CHECK qdot_status qdot_ode_taylor_expand(const qdot_ode_system *system, int p,
+                                                   double t0, double h,
+                                                   const double *y0);
+void qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double h,
+                              double t, const double *y0, double *y);
+
+#endif

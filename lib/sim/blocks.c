@@ -1,0 +1,97 @@
+/* blocks.c -- one solver a block of M. */
+#include "sim/blocks.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "num/cholesky.h"
+#include "tape/shake.h"
+
+qdot_status
+qdot_blocks_singular(const qdot_plan *plan, const qdot_plan_block *block, size_t row)
+{
+    return qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular: no mass moves with %s",
+                     plan->names[block->index[row]]);
+}
+
+qdot_status
+qdot_blocks_factor(qdot_blocks *b, size_t k)
+{
+    const qdot_plan_block *block = b->plan->blocks + k;
+    qdot_solver *s = b->at + k;
+    size_t failed = 0;
+    qdot_status status;
+
+    b->factored++;
+    status = b->plan->indefinite ? qdot_ldlt_factor(&s->ldlt, s->a, &failed)
+                                 : qdot_cholesky_factor(s->a, block->n, NULL, &failed);
+    return status == QDOT_OK ? QDOT_OK : qdot_blocks_singular(b->plan, block, failed);
+}
+
+void
+qdot_blocks_solve(const qdot_blocks *b, size_t k)
+{
+    const qdot_solver *s = b->at + k;
+
+    if (b->plan->indefinite)
+        qdot_ldlt_solve(&s->ldlt, s->a, s->x);
+    else
+        qdot_cholesky_solve(s->a, b->plan->blocks[k].n, NULL, s->x);
+}
+
+const double *
+qdot_blocks_unpack(const qdot_blocks *b, size_t k, const double *from)
+{
+    size_t n = b->plan->blocks[k].n;
+
+    for (size_t i = 0; i < n; i++) {
+        memcpy(b->at[k].a + i * n, from, (i + 1) * sizeof *from);
+        from += i + 1;
+    }
+    return from;
+}
+
+static qdot_status
+make_solver(qdot_blocks *b, size_t k, bool shaken)
+{
+    const qdot_plan_block *block = b->plan->blocks + k;
+    qdot_solver *s = b->at + k;
+    size_t n = block->n;
+
+    s->a = qdot_calloc(n * n, sizeof *s->a);
+    s->x = qdot_calloc(n, sizeof *s->x);
+    if (!s->a || !s->x)
+        return QDOT_ENOMEM;
+    if (b->plan->indefinite)
+        QDOT_TRY(qdot_ldlt_init(&s->ldlt, n));
+    if (!block->constant)
+        return QDOT_OK;
+    memcpy(s->a, block->M, n * n * sizeof *s->a);
+    for (size_t i = 0; shaken && i < n * n; i++)
+        s->a[i] = qdot_shake_double(s->a[i], block->side[i]);
+    return qdot_blocks_factor(b, k);
+}
+
+qdot_status
+qdot_blocks_init(qdot_blocks *b, const qdot_plan *plan, bool shaken)
+{
+    *b = (qdot_blocks){.plan = plan};
+    b->at = qdot_calloc(plan->structure.blocks, sizeof *b->at);
+    if (!b->at)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < plan->structure.blocks; k++)
+        QDOT_TRY(make_solver(b, k, shaken));
+    return QDOT_OK;
+}
+
+void
+qdot_blocks_clear(qdot_blocks *b)
+{
+    for (size_t k = 0; b->at && k < b->plan->structure.blocks; k++) {
+        qdot_free(b->at[k].a);
+        qdot_free(b->at[k].x);
+        qdot_ldlt_clear(&b->at[k].ldlt);
+    }
+    qdot_free(b->at);
+    *b = (qdot_blocks){0};
+}

@@ -1,0 +1,40 @@
+/* blocks.h -- the blocks of M, factored and solved with numbers. */
+#ifndef QDOT_SIM_BLOCKS_H
+#define QDOT_SIM_BLOCKS_H
+
+#include "num/ldlt.h"
+#include "sim/plan.h"
+
+typedef struct {
+    double *a;      /* [n x n] M, then its factors */
+    double *x;      /* [n] right-hand side, then solution */
+    qdot_ldlt ldlt; /* of a plan that is indefinite */
+} qdot_solver;
+
+typedef struct {
+    const qdot_plan *plan;
+    qdot_solver *at; /* [plan->structure.blocks] */
+    size_t factored; /* how often */
+} qdot_blocks;
+
+/* For this plan, borrowed; constant blocks factored. `shaken` as for qdot_bind_new. Errors:
+ * QDOT_ESINGULAR, QDOT_ENOMEM; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_blocks_init(qdot_blocks *b, const qdot_plan *plan,
+                                             bool shaken);
+void qdot_blocks_clear(qdot_blocks *b);
+
+/* Factor block k, whose lower triangle stands in its `a`. Errors: QDOT_ESINGULAR names
+ * the coordinate. */
+QDOT_MUST_CHECK qdot_status qdot_blocks_factor(qdot_blocks *b, size_t k);
+
+/* Solve with block k, factored, for its `x`. */
+void qdot_blocks_solve(const qdot_blocks *b, size_t k);
+
+/* A lower triangle by rows into block k; returns what stands behind it. */
+const double *qdot_blocks_unpack(const qdot_blocks *b, size_t k, const double *from);
+
+/* The failure of a block whose row has no mass. */
+qdot_status qdot_blocks_singular(const qdot_plan *plan, const qdot_plan_block *block,
+                                 size_t row);
+
+#endif

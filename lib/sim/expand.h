@@ -1,0 +1,35 @@
+/* expand.h -- Taylor coefficients of the motion, from those of the equations.
+ *
+ * With s = (t' - t)/unit, q = sum q_k s^k and q'' = sum a_k s^k:
+ *
+ *     v_k+1 = unit a_k / (k + 1),   q_k+1 = unit v_k / (k + 1)
+ *
+ *     a block of one     a_k is an output of the tape
+ *     a constant block   M a_k = f_k
+ *     any other          M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}: one factorisation an
+ *                        expansion, one back-substitution an order
+ *
+ * Tests  tests/sim/test_taylor.c
+ */
+#ifndef QDOT_SIM_EXPAND_H
+#define QDOT_SIM_EXPAND_H
+
+#include "ode/system.h"
+#include "sim/plan.h"
+
+typedef struct qdot_expand qdot_expand;
+
+/* Of the plan, borrowed. `shaken` as for qdot_bind_new. Errors: QDOT_ENOTBUILT for
+ * equations that switch; QDOT_ESINGULAR; QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_expand_new(const qdot_plan *plan, bool shaken,
+                                            qdot_expand **expand);
+void qdot_expand_free(qdot_expand *expand);
+
+/* Its callbacks; borrowed. */
+const qdot_ode_series *qdot_expand_series(const qdot_expand *expand);
+
+/* Convolutions and instructions an order; how often M was factored. */
+double qdot_expand_convolutions(const qdot_expand *expand);
+size_t qdot_expand_factored(const qdot_expand *expand);
+
+#endif

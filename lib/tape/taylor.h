@@ -1,0 +1,68 @@
+/* taylor.h -- a tape over truncated power series: Taylor coefficients of its outputs from
+ * those of its inputs.
+ *
+ * Every value v of the tape is a series v(s) = sum_k v_k s^k. One order is evaluated at
+ * a time, so that coefficient k + 1 of an input may be made from coefficient k of an
+ * output, as a differential equation asks. The recurrences, u' being du/ds:
+ *
+ *     c = a b            c_k = sum_{j=0..k} a_j b_{k-j}; half of it for a square
+ *     c = a / b          c_k = (a_k - sum_{j=1..k} b_j c_{k-j}) / b_0
+ *     c = sqrt a         c_k = (a_k - sum_{j=1..k-1} c_j c_{k-j}) / (2 c_0)
+ *     s, c of a          k s_k = sum_{j=1..k} j a_j c_{k-j},   k c_k = -sum j a_j s_{k-j}
+ *     e = exp a          k e_k = sum_{j=1..k} j a_j e_{k-j}; sinh and cosh likewise
+ *     p = a^r            k a_0 p_k = sum_{j=1..k} (j (r + 1) - k) a_j p_{k-j}, r constant;
+ *                        exp(r log a) where it is not
+ *     l' = a'/u          k u_0 l_k = k a_k - sum_{j=1..k-1} j l_j u_{k-j}: log (u = a), atan
+ *                        (1 + a^2), asin and acos (sqrt(1 - a^2)), asinh, acosh, atanh
+ *     tanh               k c_k = sum_{j=1..k} j a_j u_{k-j}, u = 1 - c^2
+ *     l = atan2(y, x)    l' = (x y' - y x') / (x^2 + y^2)
+ *
+ * A factor that is a constant costs one multiplication and no convolution.
+ *
+ * Operations that switch (abs, sign, min, max, mod, floor, relations, if) have no series
+ * at the point where they switch: QDOT_ENOTBUILT names the operation.
+ *
+ * Source  Jorba & Zou, Experimental Math. 14 (2005) 99, prop. 2.1; Knuth, TAOCP 2, 4.7.
+ * Tests   tests/tape/test_taylor.c
+ */
+#ifndef QDOT_TAPE_TAYLOR_H
+#define QDOT_TAPE_TAYLOR_H
+
+#include "tape/tape.h"
+
+/* The program with its coefficients: one a thread. */
+typedef struct qdot_taylor qdot_taylor;
+
+/* For orders 0 ... most (at most QDOT_SERIES_MOST). The tape is read, not kept. Errors:
+ * QDOT_ENOTBUILT, QDOT_EINVAL (most), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_new(const qdot_tape *tape, int most,
+                                            qdot_taylor **taylor);
+void qdot_taylor_free(qdot_taylor *taylor);
+
+/* Whether the tape has a series: the operation that has none, or NULL. */
+const char *qdot_taylor_hindrance(const qdot_tape *tape);
+
+/* Coefficients by order of input i, to be written by the caller before each order. The rows
+ * of the inputs follow each other at a distance of qdot_taylor_stride doubles. */
+double *qdot_taylor_input(qdot_taylor *taylor, size_t i);
+size_t qdot_taylor_stride(const qdot_taylor *taylor);
+
+/* Coefficients by order of output i. */
+const double *qdot_taylor_output(const qdot_taylor *taylor, size_t i);
+/* Whether output i is the same number whatever the inputs are. */
+bool qdot_taylor_is_constant(const qdot_taylor *taylor, size_t i);
+
+/* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
+ * and inf as IEEE 754 has them. */
+void qdot_taylor_order(qdot_taylor *taylor, int k);
+
+/* Order k was evaluated with coefficient k of the first n inputs at 0 and is affine in it:
+ * now it becomes newest [n]. Everything is brought up to date, by derivatives at order 0
+ * alone. k > 0. */
+void qdot_taylor_correct(qdot_taylor *taylor, int k, size_t n, const double *newest);
+
+/* Convolutions an order (a square counts half), and instructions. */
+double qdot_taylor_convolutions(const qdot_taylor *taylor);
+size_t qdot_taylor_length(const qdot_taylor *taylor);
+
+#endif

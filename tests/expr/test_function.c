@@ -1,0 +1,233 @@
+/* test_function.c -- elementary functions: special values, parity, inverse pairs, domains. */
+#include "spec.h"
+
+static place p;
+
+static int
+open_place(void **state)
+{
+    (void)state;
+    place_open(&p);
+    place_move(&p);
+    return 0;
+}
+
+static int
+close_place(void **state)
+{
+    (void)state;
+    place_close(&p);
+    return 0;
+}
+
+static qdot_expr
+call(qdot_fun_id id, qdot_expr x)
+{
+    return qdot_fun1(p.pool, id, x);
+}
+
+static qdot_expr
+of_pi(long n, long d)
+{
+    return qdot_mul(p.pool, qdot_expr_ratio(p.pool, n, d), QDOT_PI);
+}
+
+static void
+refuses(qdot_expr e, qdot_status status)
+{
+    assert_int_equal(e, QDOT_NIL);
+    assert_int_equal(qdot_pool_check(p.pool), status);
+}
+
+static bool
+holds_function(qdot_expr e)
+{
+    return (qdot_expr_node(p.pool, e)->holds & QDOT_HAS_FUN) != 0;
+}
+
+static void
+twelfths_of_pi_have_exact_values(void **state)
+{
+    (void)state;
+    for (int id = QDOT_SIN; id <= QDOT_COT; id++)
+        for (long k = -30; k <= 30; k++) {
+            bool pole = ((id == QDOT_TAN || id == QDOT_SEC) && (k - 6) % 12 == 0) ||
+                        ((id == QDOT_CSC || id == QDOT_COT) && k % 12 == 0);
+            long double x = k * acosl(-1) / 12;
+            qdot_expr e = call((qdot_fun_id)id, of_pi(k, 12));
+
+            if (pole) {
+                refuses(e, QDOT_EDOMAIN);
+                continue;
+            }
+            assert_false(holds_function(e));
+            assert_true(near(node_value(&p, e, NULL), function_value((qdot_fun_id)id, &x), 1e-12L));
+        }
+    assert_prints(p.pool, call(QDOT_TAN, of_pi(1, 12)), "2 - sqrt(3)");
+}
+
+static void
+inverse_functions_know_the_twelfths(void **state)
+{
+    (void)state;
+    for (long k = -6; k <= 6; k++) {
+        qdot_expr angle = of_pi(k, 12);
+
+        assert_int_equal(call(QDOT_ASIN, call(QDOT_SIN, angle)), angle);
+        assert_int_equal(call(QDOT_ACOS, call(QDOT_SIN, angle)),
+                         qdot_sub(p.pool, of_pi(1, 2), angle));
+        if (labs(k) < 6)
+            assert_int_equal(call(QDOT_ATAN, call(QDOT_TAN, angle)), angle);
+    }
+}
+
+static void
+a_quarter_turn_changes_the_function(void **state)
+{
+    qdot_expr x = p.symbol[5];
+
+    (void)state;
+    for (int id = QDOT_SIN; id <= QDOT_COT; id++)
+        for (long k = -9; k <= 9; k++) {
+            qdot_expr e = call((qdot_fun_id)id, qdot_add(p.pool, x, of_pi(k, 2)));
+            long double at = p.value[5] + k * acosl(-1) / 2;
+
+            assert_false(qdot_expr_contains(p.pool, e, QDOT_PI));
+            assert_true(near(node_value(&p, e, NULL), function_value((qdot_fun_id)id, &at), 1e-10L));
+        }
+}
+
+static void
+parity_is_applied(void **state)
+{
+    static const qdot_fun_id odd[] = {QDOT_SIN, QDOT_TAN, QDOT_CSC, QDOT_COT, QDOT_ASIN, QDOT_ATAN,
+                                      QDOT_SINH, QDOT_TANH, QDOT_ASINH, QDOT_ATANH, QDOT_SIGN};
+    static const qdot_fun_id even[] = {QDOT_COS, QDOT_SEC, QDOT_COSH, QDOT_ABS};
+    qdot_expr d = qdot_sub(p.pool, p.symbol[7], p.symbol[5]), minus = qdot_neg(p.pool, d);
+
+    (void)state;
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++)
+        assert_int_equal(call(odd[i], minus), qdot_neg(p.pool, call(odd[i], d)));
+    for (size_t i = 0; i < sizeof even / sizeof *even; i++)
+        assert_int_equal(call(even[i], minus), call(even[i], d));
+}
+
+static void
+inverse_pairs_cancel(void **state)
+{
+    static const qdot_fun_id pair[][2] = {
+        {QDOT_SIN, QDOT_ASIN},   {QDOT_COS, QDOT_ACOS},   {QDOT_TAN, QDOT_ATAN},
+        {QDOT_SINH, QDOT_ASINH}, {QDOT_COSH, QDOT_ACOSH}, {QDOT_TANH, QDOT_ATANH},
+        {QDOT_EXP, QDOT_LOG},    {QDOT_ASINH, QDOT_SINH}, {QDOT_ATANH, QDOT_TANH},
+        {QDOT_LOG, QDOT_EXP},
+    };
+    qdot_expr x = p.symbol[5];
+
+    (void)state;
+    for (size_t i = 0; i < sizeof pair / sizeof *pair; i++)
+        assert_int_equal(call(pair[i][0], call(pair[i][1], x)), x);
+    assert_int_equal(call(QDOT_ACOSH, call(QDOT_COSH, x)), call(QDOT_ABS, x));
+    /* asin(sin x) is x only near 0 */
+    assert_true(holds_function(call(QDOT_ASIN, call(QDOT_SIN, x))));
+    assert_int_equal(call(QDOT_EXP, qdot_mul(p.pool, qdot_expr_int(p.pool, 3), call(QDOT_LOG, x))),
+                     qdot_pow_int(p.pool, x, 3));
+}
+
+static void
+domains_are_kept(void **state)
+{
+    qdot_expr two = qdot_expr_int(p.pool, 2);
+
+    (void)state;
+    refuses(call(QDOT_LOG, QDOT_ZERO), QDOT_EDOMAIN);
+    refuses(call(QDOT_LOG, QDOT_MINUS_ONE), QDOT_EDOMAIN);
+    refuses(call(QDOT_TAN, of_pi(1, 2)), QDOT_EDOMAIN);
+    refuses(call(QDOT_SEC, of_pi(-3, 2)), QDOT_EDOMAIN);
+    refuses(call(QDOT_COT, QDOT_ZERO), QDOT_EDOMAIN);
+    refuses(call(QDOT_ASIN, two), QDOT_EDOMAIN);
+    refuses(call(QDOT_ACOS, qdot_expr_int(p.pool, -2)), QDOT_EDOMAIN);
+    refuses(call(QDOT_ACOSH, QDOT_HALF), QDOT_EDOMAIN);
+    refuses(call(QDOT_ATANH, QDOT_ONE), QDOT_EDOMAIN);
+    refuses(qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ZERO, QDOT_ZERO}), QDOT_EDOMAIN);
+    refuses(qdot_fun(p.pool, QDOT_MOD, 2, (qdot_expr[]){two, QDOT_ZERO}), QDOT_EDOMAIN);
+}
+
+static void
+arguments_are_counted(void **state)
+{
+    qdot_expr x[] = {p.symbol[5], p.symbol[0]};
+
+    (void)state;
+    refuses(qdot_fun(p.pool, QDOT_SIN, 2, x), QDOT_ETYPE);
+    refuses(qdot_fun(p.pool, QDOT_ATAN2, 1, x), QDOT_ETYPE);
+    refuses(qdot_fun(p.pool, QDOT_MIN, 0, x), QDOT_ETYPE);
+    refuses(call(QDOT_SIN, qdot_vector(p.pool, 2, x)), QDOT_ETYPE);
+    refuses(qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){x[0], x[0], x[1]}), QDOT_ETYPE);
+}
+
+static void
+numbers_are_computed(void **state)
+{
+    qdot_expr seven = qdot_expr_int(p.pool, 7), three = qdot_expr_int(p.pool, -3);
+    qdot_expr two[] = {seven, three};
+
+    (void)state;
+    assert_int_equal(qdot_fun(p.pool, QDOT_MIN, 2, two), three);
+    assert_int_equal(qdot_fun(p.pool, QDOT_MAX, 2, two), seven);
+    assert_int_equal(qdot_fun(p.pool, QDOT_MOD, 2, two), qdot_expr_int(p.pool, -2));
+    assert_int_equal(call(QDOT_FLOOR, qdot_expr_ratio(p.pool, -7, 2)), qdot_expr_int(p.pool, -4));
+    assert_int_equal(call(QDOT_ABS, three), qdot_expr_int(p.pool, 3));
+    assert_int_equal(call(QDOT_SIGN, three), QDOT_MINUS_ONE);
+    assert_int_equal(qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ONE, QDOT_MINUS_ONE}),
+                     of_pi(3, 4));
+    assert_int_equal(qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ZERO, QDOT_MINUS_ONE}),
+                     QDOT_PI);
+}
+
+static void
+a_decided_condition_chooses(void **state)
+{
+    qdot_expr x = p.symbol[5], y = p.symbol[0];
+    qdot_expr less = qdot_rel(p.pool, QDOT_LT, QDOT_ZERO, QDOT_ONE);
+    qdot_expr open = qdot_rel(p.pool, QDOT_LT, x, y);
+
+    (void)state;
+    assert_int_equal(less, QDOT_TRUE);
+    assert_int_equal(qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){less, x, y}), x);
+    assert_int_equal(qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){open, x, x}), x);
+    assert_prints(p.pool, qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){open, x, y}), "if(x < a, x, a)");
+}
+
+static void
+names_are_found(void **state)
+{
+    qdot_fun_id id;
+
+    (void)state;
+    for (int i = 0; i < QDOT_FUNCTION_COUNT; i++) {
+        assert_true(qdot_fun_find(qdot_fun_name((qdot_fun_id)i), &id));
+        assert_int_equal(id, i);
+    }
+    assert_false(qdot_fun_find("sine", &id));
+}
+
+#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(twelfths_of_pi_have_exact_values),
+        TEST(inverse_functions_know_the_twelfths),
+        TEST(a_quarter_turn_changes_the_function),
+        TEST(parity_is_applied),
+        TEST(inverse_pairs_cancel),
+        TEST(domains_are_kept),
+        TEST(arguments_are_counted),
+        TEST(numbers_are_computed),
+        TEST(a_decided_condition_chooses),
+        TEST(names_are_found),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,298 @@
+/* test_print.c -- plain text reads back to the same expression; unicode and LaTeX as books. */
+#include "reader.h"
+
+static place p;
+
+static int
+open_place(void **state)
+{
+    (void)state;
+    place_open(&p);
+    return 0;
+}
+
+static int
+close_place(void **state)
+{
+    (void)state;
+    place_close(&p);
+    return 0;
+}
+
+static qdot_expr
+number(long n, long d)
+{
+    return qdot_expr_ratio(p.pool, n, d);
+}
+
+static qdot_expr
+times(qdot_expr a, qdot_expr b)
+{
+    return qdot_mul(p.pool, a, b);
+}
+
+static void
+says(qdot_expr e, const char *plain, const char *unicode, const char *latex)
+{
+    assert_int_equal(qdot_pool_check(p.pool), QDOT_OK);
+    assert_string_equal(text_of(p.pool, e, QDOT_PLAIN), plain);
+    assert_string_equal(text_of(p.pool, e, QDOT_UNICODE), unicode);
+    assert_string_equal(text_of(p.pool, e, QDOT_LATEX), latex);
+}
+
+/* Whether every bracket is closed. */
+static bool
+balanced(const char *text)
+{
+    int round = 0, curly = 0, square = 0;
+
+    for (; *text != '\0'; text++) {
+        round += (*text == '(') - (*text == ')');
+        curly += (*text == '{') - (*text == '}');
+        square += (*text == '[') - (*text == ']');
+        if (round < 0 || curly < 0 || square < 0)
+            return false;
+    }
+    return round == 0 && curly == 0 && square == 0;
+}
+
+static void
+plain_text_reads_back(void **state)
+{
+    reader r = {.pool = p.pool, .names = p.symbol, .n_names = SYMBOLS};
+    int read = 0;
+
+    (void)state;
+    for (int trial = 0; trial < 30000; trial++) {
+        formula f = formula_random(4 + (int)random_below(STEPS - 4), 0);
+        qdot_expr e = formula_build(&f, &p), back;
+        const char *text;
+
+        if (qdot_pool_check(p.pool) != QDOT_OK || qdot_expr_size(p.pool, e) > 500)
+            continue;
+        text = text_of(p.pool, e, QDOT_PLAIN);
+        assert_true(balanced(text));
+        back = read_text(&r, text);
+        assert_int_equal(qdot_pool_check(p.pool), QDOT_OK);
+        if (back != e)
+            fail_msg("%s is read as %s", text, text_of(p.pool, back, QDOT_PLAIN));
+        assert_true(balanced(text_of(p.pool, e, QDOT_UNICODE)));
+        assert_true(balanced(text_of(p.pool, e, QDOT_LATEX)));
+        read++;
+    }
+    assert_true(read > 10000);
+}
+
+/* The same steps in another pool, where every id is another one. */
+static void
+text_does_not_depend_on_ids(void **state)
+{
+    (void)state;
+    for (int trial = 0; trial < 3000; trial++) {
+        formula f = formula_random(STEPS, 0), other = formula_random(STEPS, 0);
+        qdot_expr e = formula_build(&f, &p), again;
+        qdot_status status = qdot_pool_check(p.pool);
+        place q;
+
+        if (status != QDOT_OK || qdot_expr_size(p.pool, e) > 500)
+            continue;
+        place_open(&q);
+        (void)formula_build(&other, &q);
+        (void)!qdot_pool_check(q.pool);
+        again = formula_build(&f, &q);
+        assert_int_equal(qdot_pool_check(q.pool), QDOT_OK);
+        assert_string_equal(text_of(p.pool, e, QDOT_PLAIN), text_of(q.pool, again, QDOT_PLAIN));
+        place_close(&q);
+    }
+}
+
+static void
+kinetic_energy_is_written_as_in_a_book(void **state)
+{
+    qdot_expr e = times(QDOT_HALF, times(p.symbol[2], qdot_pow_int(p.pool, p.symbol[6], 2)));
+
+    (void)state;
+    says(e, "1/2*m*x'^2", "½ m x\u0307²", "\\frac{1}{2} m \\dot{x}^{2}");
+    e = qdot_symbol_jet(p.pool, p.symbol[7], 1);
+    says(times(e, qdot_symbol_jet(p.pool, p.symbol[7], 2)), "theta'*theta''", "θ\u0307 θ\u0308",
+         "\\dot{\\theta} \\ddot{\\theta}");
+}
+
+static void
+exact_decimals_stay_exact(void **state)
+{
+    (void)state;
+    says(times(qdot_expr_decimal(p.pool, "9.81", 4), p.symbol[2]), "981/100*m", "981/100 m",
+         "\\frac{981}{100} m");
+    says(number(-3, 4), "-3/4", "−¾", "-\\frac{3}{4}");
+}
+
+static void
+roots_have_their_sign(void **state)
+{
+    qdot_expr x = p.symbol[5], sum = qdot_add(p.pool, x, p.symbol[7]);
+
+    (void)state;
+    says(qdot_sqrt(p.pool, number(2, 1)), "sqrt(2)", "√2", "\\sqrt{2}");
+    says(qdot_sqrt(p.pool, number(8, 1)), "2*sqrt(2)", "2√2", "2 \\sqrt{2}");
+    says(qdot_sqrt(p.pool, number(1, 2)), "1/2*sqrt(2)", "½√2", "\\frac{1}{2} \\sqrt{2}");
+    says(times(number(3, 7), qdot_sqrt(p.pool, number(2, 1))), "3/7*sqrt(2)", "3/7·√2",
+         "\\frac{3}{7} \\cdot \\sqrt{2}");
+    says(qdot_sqrt(p.pool, sum), "sqrt(x + theta)", "√(x + θ)", "\\sqrt{x + \\theta}");
+    says(qdot_pow(p.pool, x, number(-1, 2)), "1/sqrt(x)", "1/√x", "\\frac{1}{\\sqrt{x}}");
+    says(qdot_pow(p.pool, x, number(3, 2)), "x^(3/2)", "x^(3/2)", "x^{\\frac{3}{2}}");
+}
+
+static void
+quotients_are_bracketed_where_they_must(void **state)
+{
+    qdot_expr a = p.symbol[0], b = p.symbol[1], x = p.symbol[5];
+    qdot_expr sum = qdot_add(p.pool, a, b), quotient = qdot_div(p.pool, a, b);
+
+    (void)state;
+    says(qdot_div(p.pool, a, times(number(2, 1), x)), "1/2*a/x", "½ a/x", "\\frac{a}{2 x}");
+    says(qdot_div(p.pool, QDOT_ONE, times(number(2, 1), x)), "1/(2*x)", "1/(2 x)", "\\frac{1}{2 x}");
+    says(qdot_div(p.pool, x, times(a, b)), "x/(a*b)", "x/(a b)", "\\frac{x}{a b}");
+    says(qdot_div(p.pool, x, sum), "x/(a + b)", "x/(a + b)", "\\frac{x}{a + b}");
+    says(qdot_pow(p.pool, quotient, x), "(a/b)^x", "(a/b)^x", "\\left(\\frac{a}{b}\\right)^{x}");
+    says(qdot_neg(p.pool, quotient), "-a/b", "−a/b", "-\\frac{a}{b}");
+    says(qdot_pow_int(p.pool, sum, -2), "1/(a + b)^2", "1/(a + b)²",
+         "\\frac{1}{\\left(a + b\\right)^{2}}");
+}
+
+static void
+functions_are_named_as_in_a_book(void **state)
+{
+    qdot_expr theta = p.symbol[7], e = qdot_fun1(p.pool, QDOT_SIN, theta);
+
+    (void)state;
+    says(e, "sin(theta)", "sin(θ)", "\\sin\\left(\\theta\\right)");
+    says(qdot_pow_int(p.pool, e, 2), "sin(theta)^2", "sin²(θ)", "\\sin^{2}\\left(\\theta\\right)");
+    says(qdot_pow_int(p.pool, e, -1), "1/sin(theta)", "1/sin(θ)",
+         "\\frac{1}{\\sin\\left(\\theta\\right)}");
+    says(qdot_fun1(p.pool, QDOT_ATAN, theta), "atan(theta)", "atan(θ)",
+         "\\arctan\\left(\\theta\\right)");
+    says(qdot_fun1(p.pool, QDOT_ASINH, theta), "asinh(theta)", "asinh(θ)",
+         "\\operatorname{asinh}\\left(\\theta\\right)");
+    says(qdot_fun1(p.pool, QDOT_ABS, p.symbol[5]), "abs(x)", "abs(x)", "\\left|x\\right|");
+}
+
+static void
+families_are_subscripts(void **state)
+{
+    qdot_expr theta1 = qdot_symbol_get(p.pool, QDOT_COORD, "theta1");
+    qdot_expr theta2 = qdot_symbol_get(p.pool, QDOT_COORD, "theta[2]");
+    qdot_expr mass = qdot_symbol_get(p.pool, QDOT_PARAM, "mass[1]");
+
+    (void)state;
+    says(theta1, "theta1", "θ₁", "\\theta_{1}");
+    says(qdot_symbol_jet(p.pool, theta2, 1), "theta[2]'", "θ\u0307₂", "\\dot{\\theta}_{2}");
+    says(mass, "mass[1]", "mass₁", "\\mathrm{mass}_{1}");
+    says(qdot_symbol_of(p.pool, QDOT_DELTA, theta1), "delta[theta1]", "δθ₁", "\\delta \\theta_{1}");
+    says(qdot_symbol_of(p.pool, QDOT_DIFFERENTIAL, theta1), "dtheta1", "dθ₁", "d\\theta_{1}");
+}
+
+static void
+derivatives_of_functions_are_written_in_each_style(void **state)
+{
+    qdot_expr s = qdot_symbol_get(p.pool, QDOT_COORD, "s"), st[] = {s, QDOT_T}, a = p.symbol[0];
+    qdot_expr at[] = {a, QDOT_T}, e;
+    uint32_t f, g;
+
+    (void)state;
+    assert_int_equal(qdot_ufun_declare(p.pool, "f", 1, &s, &f), QDOT_OK);
+    assert_int_equal(qdot_ufun_declare(p.pool, "phi", 2, st, &g), QDOT_OK);
+    says(qdot_ufun_apply(p.pool, f, &s, NULL), "f(s)", "f(s)", "f(s)");
+    says(qdot_ufun_apply(p.pool, f, &s, (uint32_t[]){2}), "diff(f(s), s, 2)", "f′′(s)", "f''(s)");
+    says(qdot_ufun_apply(p.pool, f, &a, (uint32_t[]){1}), "f'(a)", "f′(a)", "f'(a)");
+    says(qdot_ufun_apply(p.pool, f, &a, (uint32_t[]){4}), "subs(diff(f(s), s, 4), s = a)",
+         "f⁽⁴⁾(a)", "f^{(4)}(a)");
+    e = qdot_ufun_apply(p.pool, g, st, (uint32_t[]){1, 0});
+    says(e, "diff(phi(s, t), s)", "∂φ/∂s", "\\frac{\\partial \\phi}{\\partial s}");
+    says(qdot_pow_int(p.pool, e, 2), "diff(phi(s, t), s)^2", "(∂φ/∂s)²",
+         "\\left(\\frac{\\partial \\phi}{\\partial s}\\right)^{2}");
+    says(qdot_ufun_apply(p.pool, g, st, (uint32_t[]){2, 1}), "diff(diff(phi(s, t), s, 2), t)",
+         "∂³φ/∂s²∂t", "\\frac{\\partial^{3} \\phi}{\\partial s^{2} \\partial t}");
+    says(qdot_ufun_apply(p.pool, g, at, (uint32_t[]){1, 0}), "subs(diff(phi(s, t), s), s = a)",
+         "(∂φ/∂s)(a, t)", "\\frac{\\partial \\phi}{\\partial s}(a, t)");
+}
+
+static void
+undefined_functions_read_back(void **state)
+{
+    qdot_expr s = qdot_symbol_get(p.pool, QDOT_COORD, "s"), st[] = {s, QDOT_T}, names[SYMBOLS + 1];
+    uint32_t u[2];
+    reader r = {.pool = p.pool, .names = names, .n_names = SYMBOLS + 1, .functions = u, .n_functions = 2};
+
+    (void)state;
+    memcpy(names, p.symbol, sizeof p.symbol);
+    names[SYMBOLS] = s;
+    assert_int_equal(qdot_ufun_declare(p.pool, "f", 1, &s, &u[0]), QDOT_OK);
+    assert_int_equal(qdot_ufun_declare(p.pool, "g", 2, st, &u[1]), QDOT_OK);
+    for (int trial = 0; trial < 3000; trial++) {
+        formula x = formula_random(5, SMOOTH), y = formula_random(4, SMOOTH);
+        qdot_expr args[] = {formula_build(&x, &p), formula_build(&y, &p)}, e;
+        uint32_t orders[] = {random_below(5), random_below(3)}, which = random_below(2);
+
+        if (qdot_pool_check(p.pool) != QDOT_OK)
+            continue;
+        if (random_below(2))
+            args[0] = s;
+        if (random_below(2))
+            args[1] = QDOT_T;
+        e = qdot_ufun_apply(p.pool, u[which], args, orders);
+        e = qdot_add(p.pool, qdot_pow_int(p.pool, e, (long)random_below(5) - 2), p.symbol[5]);
+        assert_int_equal(read_text(&r, text_of(p.pool, e, QDOT_PLAIN)), e);
+    }
+}
+
+static void
+values_of_every_kind_are_written(void **state)
+{
+    qdot_expr x = p.symbol[5], a = p.symbol[0], u[] = {x, a, QDOT_ZERO, QDOT_ONE}, e, less;
+
+    (void)state;
+    less = qdot_rel(p.pool, QDOT_LE, x, a);
+    says(less, "x <= a", "x ≤ a", "x \\le a");
+    e = qdot_logic(p.pool, QDOT_OR, 2, (qdot_expr[]){less, qdot_rel(p.pool, QDOT_LT, a, QDOT_ZERO)});
+    says(qdot_logic(p.pool, QDOT_NOT, 1, &e), "not (x <= a or a < 0)", "not (x ≤ a or a < 0)",
+         "\\neg \\left(x \\le a \\vee a < 0\\right)");
+    says(qdot_vector(p.pool, 4, u), "(x, a, 0, 1)", "(x, a, 0, 1)",
+         "\\left(x, a, 0, 1\\right)");
+    says(qdot_matrix(p.pool, 2, 2, u), "[x, a; 0, 1]", "[x, a; 0, 1]",
+         "\\begin{pmatrix}x & a \\\\ 0 & 1\\end{pmatrix}");
+    assert_prints(p.pool, qdot_list(p.pool, 0, NULL), "[]");
+}
+
+static void
+nothing_cannot_be_printed(void **state)
+{
+    qdot_text out = {0};
+
+    (void)state;
+    assert_int_equal(qdot_print(p.pool, QDOT_NIL, QDOT_PLAIN, &out), QDOT_EINVAL);
+    qdot_text_clear(&out);
+}
+
+#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(plain_text_reads_back),
+        TEST(text_does_not_depend_on_ids),
+        TEST(kinetic_energy_is_written_as_in_a_book),
+        TEST(exact_decimals_stay_exact),
+        TEST(roots_have_their_sign),
+        TEST(quotients_are_bracketed_where_they_must),
+        TEST(functions_are_named_as_in_a_book),
+        TEST(families_are_subscripts),
+        TEST(derivatives_of_functions_are_written_in_each_style),
+        TEST(undefined_functions_read_back),
+        TEST(values_of_every_kind_are_written),
+        TEST(nothing_cannot_be_printed),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,97 @@
+/* fuzz.h -- what both targets need: an answer that goes nowhere, no harm, a limit of time.
+ *
+ * A script can open no file and start no program: in the library fopen and posix_spawnp are what
+ * stands here (tests/fuzz/run renames them).
+ *
+ * After LIMIT seconds of processor time Ctrl-C is pressed, so that a long computation is no
+ * finding, but one that does not listen is: libFuzzer's -timeout sees it.
+ */
+#ifndef QDOT_TESTS_FUZZ_FUZZ_H
+#define QDOT_TESTS_FUZZ_FUZZ_H
+
+#include <errno.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/interrupt.h"
+#include "lang/session.h"
+
+enum { LIMIT = 2 };
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+FILE *fuzz_fopen(const char *path, const char *mode);
+int fuzz_posix_spawnp(pid_t *pid, const char *file,
+                      const posix_spawn_file_actions_t *actions,
+                      const posix_spawnattr_t *attributes, char *const argv[],
+                      char *const envp[]);
+
+static FILE *fuzz_nowhere;
+static timer_t fuzz_timer;
+
+FILE *
+fuzz_fopen(const char *path, const char *mode)
+{
+    (void)path;
+    (void)mode;
+    errno = EACCES;
+    return NULL;
+}
+
+int
+fuzz_posix_spawnp(pid_t *pid, const char *file, const posix_spawn_file_actions_t *actions,
+                  const posix_spawnattr_t *attributes, char *const argv[],
+                  char *const envp[])
+{
+    (void)pid;
+    (void)file;
+    (void)actions;
+    (void)attributes;
+    (void)argv;
+    (void)envp;
+    return EACCES;
+}
+
+static void
+fuzz_press(int signal)
+{
+    (void)signal;
+    qdot_interrupt_set();
+}
+
+static void
+fuzz_limit(int seconds)
+{
+    struct itimerspec when = {.it_value.tv_sec = seconds};
+
+    timer_settime(fuzz_timer, 0, &when, NULL);
+    qdot_interrupt_clear();
+}
+
+static void
+fuzz_begin(void)
+{
+    if (fuzz_nowhere == NULL) {
+        struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGUSR2};
+        struct sigaction action = {.sa_handler = fuzz_press, .sa_flags = SA_RESTART};
+
+        fuzz_nowhere = fopen("/dev/null", "w");
+        if (fuzz_nowhere == NULL || sigaction(SIGUSR2, &action, NULL) != 0 ||
+            timer_create(CLOCK_PROCESS_CPUTIME_ID, &event, &fuzz_timer) != 0)
+            abort();
+    }
+    fuzz_limit(LIMIT);
+}
+
+static void
+fuzz_end(void)
+{
+    fuzz_limit(0);
+}
+
+#endif

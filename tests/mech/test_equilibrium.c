@@ -1,0 +1,310 @@
+/* Equilibria, their stability and the modes about them. */
+#include "kit.h"
+
+#include "mech/equilibrium.h"
+
+#define TEST(name)                                                                       \
+    static void name(void **state_)                                                      \
+    {                                                                                    \
+        kit k_, *k = &k_;                                                                \
+        (void)state_;                                                                    \
+        kit_open(k);                                                                     \
+        name##_body(k);                                                                  \
+        must(qdot_pool_check(k->pool));                                                  \
+        kit_close(k);                                                                    \
+    }
+
+typedef struct {
+    qdot_equilibrium *list;
+    size_t n;
+} rest;
+
+static void
+find(kit *k, rest *r, size_t n)
+{
+    must(qdot_equilibrium_find(k->scene, NULL, NULL, &r->list, &r->n));
+    if (r->n != n)
+        fail_msg("%zu equilibria, not %zu, the first %s", r->n, n,
+                 r->n > 0 ? show(k, r->list[0].equations) : "none");
+    /* the other way round: the equations of motion hold there */
+    for (size_t i = 0; i < r->n; i++)
+        for (size_t j = 0; j < k->scene->coordinates.n; j++) {
+            qdot_expr e = qdot_mech_equation(k->scene, k->scene->coordinates.at[j]);
+
+            e = qdot_sub(k->pool, lhs(k, e), rhs(k, e));
+            for (size_t q = 0; q < k->scene->coordinates.n; q++)
+                for (uint32_t order = 1; order < 3; order++) {
+                    qdot_expr jet =
+                        qdot_symbol_jet(k->pool, k->scene->coordinates.at[q], order);
+
+                    e = qdot_subs(k->pool, e, 1, &jet, (qdot_expr[]){QDOT_ZERO});
+                }
+            for (uint32_t u = 0; u < qdot_expr_count(k->pool, r->list[i].equations);
+                 u++) {
+                qdot_expr one = qdot_expr_arg(k->pool, r->list[i].equations, u);
+                qdot_expr from = lhs(k, one), to = rhs(k, one);
+
+                e = qdot_subs(k->pool, e, 1, &from, &to);
+            }
+            if (!r->list[i].numeric)
+                same_at(k, e, QDOT_ZERO, (int)i);
+        }
+}
+
+static void
+is(kit *k, const qdot_equilibrium *e, const char *equations, qdot_stability stability,
+   const char *when, const char *exists)
+{
+    assert_string_equal(show(k, e->equations), equations);
+    assert_int_equal(e->stability, stability);
+    assert_string_equal(show(k, e->stable_when), when);
+    assert_string_equal(show(k, e->exists), exists);
+}
+
+/* Seed row 17: a bead on a hoop that turns. */
+static void
+rotating_hoop_body(kit *k)
+{
+    rest r;
+
+    coords(k, "theta");
+    particle(k, "bead", "m",
+             "(R*sin(theta)*cos(W*t), R*sin(theta)*sin(W*t), -R*cos(theta))");
+    gravity(k, "(0, 0, -g)");
+    find(k, &r, 4);
+    is(k, &r.list[0], "[theta = 0]", QDOT_STABLE, "[R*W^2 < g]", "nil");
+    is(k, &r.list[1], "[theta = pi]", QDOT_UNSTABLE, "nil", "nil");
+    is(k, &r.list[2], "[theta = acos(g/(R*W^2))]", QDOT_STABLE, "nil", "[g < R*W^2]");
+    is(k, &r.list[3], "[theta = -acos(g/(R*W^2))]", QDOT_STABLE, "nil", "[g < R*W^2]");
+    qdot_free(r.list);
+}
+TEST(rotating_hoop)
+
+static void
+multipliers_are_included_body(kit *k)
+{
+    rest r;
+
+    coords(k, "x y");
+    particle(k, "bob", "m", "(x, y)");
+    gravity(k, "(0, -g)");
+    constraint(k, "rod", "x^2 + y^2", "L^2");
+    find(k, &r, 2);
+    is(k, &r.list[0], "[x = 0, y = -L, lambda[rod] = -1/2*m*g/L]", QDOT_STABLE, "nil",
+       "nil");
+    is(k, &r.list[1], "[x = 0, y = L, lambda[rod] = 1/2*m*g/L]", QDOT_UNSTABLE, "nil",
+       "nil");
+    qdot_free(r.list);
+}
+TEST(multipliers_are_included)
+
+static void
+double_pendulum(kit *k)
+{
+    coords(k, "u v");
+    particle(k, "a", "m", "(l*sin(u), -l*cos(u))");
+    particle(k, "b", "m", "(l*sin(u) + l*sin(v), -l*cos(u) - l*cos(v))");
+    gravity(k, "(0, -g)");
+}
+
+static void
+every_combination_body(kit *k)
+{
+    rest r;
+
+    double_pendulum(k);
+    find(k, &r, 4);
+    is(k, &r.list[0], "[u = 0, v = 0]", QDOT_STABLE, "nil", "nil");
+    for (int i = 1; i < 4; i++)
+        assert_int_equal(r.list[i].stability, QDOT_UNSTABLE);
+    qdot_free(r.list);
+}
+TEST(every_combination)
+
+/* Kelvin: two saddles made a stable one by a strong enough gyroscopic term. */
+static void
+gyroscopic_stabilisation_body(kit *k)
+{
+    rest r;
+
+    coords(k, "x y");
+    must(qdot_scene_lagrangian(
+        k->scene, E(k, "m*(x'^2 + y'^2)/2 + c*(x*y' - y*x')/2 + a*(x^2 + y^2)/2")));
+    find(k, &r, 1);
+    assert_int_equal(r.list[0].stability, QDOT_STABLE);
+    assert_non_null(strstr(show(k, r.list[0].stable_when), "4*m*a < c^2"));
+    qdot_free(r.list);
+    torque(k, "-d*x'", "x"); /* dissipation undoes that: not decided here */
+    find(k, &r, 1);
+    assert_int_equal(r.list[0].stability, QDOT_STABILITY_UNDECIDED);
+    qdot_free(r.list);
+}
+TEST(gyroscopic_stabilisation)
+
+/* Higher terms decide where the second derivative is 0. */
+static void
+flat_bottoms_body(kit *k)
+{
+    static const struct {
+        const char *V;
+        qdot_stability stability;
+    } rows[] = {{"x^4", QDOT_STABLE}, {"-x^4", QDOT_UNSTABLE}, {"x^3", QDOT_UNSTABLE}};
+    rest r;
+
+    coords(k, "x");
+    for (int i = 0; i < 3; i++) {
+        must(qdot_scene_lagrangian(k->scene, E(k, "m*x'^2/2 - c*(%s)", rows[i].V)));
+        find(k, &r, 1);
+        assert_int_equal(r.list[0].stability, rows[i].stability);
+        qdot_free(r.list);
+    }
+}
+TEST(flat_bottoms)
+
+/* A spring of rest length L from (0, a): bent to one side when L > a. */
+static void
+roots_of_radicals_body(kit *k)
+{
+    rest r;
+
+    coords(k, "x");
+    particle(k, "b", "m", "(x, 0)");
+    must(qdot_scene_potential(k->scene, E(k, "c*(sqrt(x^2 + a^2) - L)^2/2")));
+    find(k, &r, 3);
+    is(k, &r.list[0], "[x = 0]", QDOT_STABLE, "[L < a]", "nil");
+    assert_int_equal(r.list[1].stability, QDOT_STABLE);
+    assert_string_equal(show(k, r.list[1].exists), "[a < L]");
+    qdot_free(r.list);
+}
+TEST(roots_of_radicals)
+
+static void
+what_no_formula_gives_is_found_in_numbers_body(kit *k)
+{
+    rest r;
+    double x;
+
+    coords(k, "x");
+    must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - x^2/4 - sin(x)")));
+    find(k, &r, 1);
+    assert_true(r.list[0].numeric);
+    must(qdot_generic_evaluate(
+        k->pool, 1, (qdot_expr[]){rhs(k, qdot_expr_arg(k->pool, r.list[0].equations, 0))},
+        0, NULL, NULL, 1, &x));
+    assert_true(fabs(x / 2 + cos(x)) < 1e-13);
+    assert_int_equal(r.list[0].stability, QDOT_STABLE);
+    qdot_free(r.list);
+    must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - c*x^2/4 - sin(x)")));
+    assert_int_equal(qdot_equilibrium_find(k->scene, NULL, NULL, &r.list, &r.n),
+                     QDOT_EUNSET);
+}
+TEST(what_no_formula_gives_is_found_in_numbers)
+
+static void
+time_has_no_rest_body(kit *k)
+{
+    rest r;
+
+    coords(k, "x");
+    must(qdot_scene_lagrangian(k->scene, E(k, "m*x'^2/2 - c*x^2/2 + x*cos(t)")));
+    assert_int_equal(qdot_equilibrium_find(k->scene, NULL, NULL, &r.list, &r.n),
+                     QDOT_EDOMAIN);
+}
+TEST(time_has_no_rest)
+
+/* w^2 = (2 -+ sqrt 2) g/l, amplitudes 1 : +-sqrt 2. */
+static void
+modes_of_the_double_pendulum_body(kit *k)
+{
+    qdot_modes m;
+    rest r;
+
+    double_pendulum(k);
+    find(k, &r, 4);
+    must(qdot_modes_about(k->scene, r.list[0].equations, false, NULL, NULL, &m));
+    assert_int_equal(m.n, 2);
+    SAME(k, qdot_pow_int(k->pool, m.frequency[0], 2), "(2 - sqrt(2))*g/l");
+    SAME(k, m.amplitude[0], "1");
+    SAME(k, m.amplitude[1], "sqrt(2)");
+    SAME(k, m.amplitude[3], "-sqrt(2)");
+    qdot_modes_clear(&m);
+    assert_int_equal(
+        qdot_modes_about(k->scene, r.list[3].equations, false, NULL, NULL, &m),
+        QDOT_EDOMAIN);
+    qdot_free(r.list);
+}
+TEST(modes_of_the_double_pendulum)
+
+/* Numbers and the exact formula agree: five equal masses between springs,
+ * w_k = 2 sin(k pi/12). */
+static void
+modes_in_numbers_body(kit *k)
+{
+    double w, a[5], want;
+    qdot_modes m;
+    rest r;
+
+    coords(k, "x1 x2 x3 x4 x5");
+    must(qdot_scene_lagrangian(
+        k->scene,
+        E(k, "(x1'^2 + x2'^2 + x3'^2 + x4'^2 + x5'^2)/2 - (x1^2 + (x2 - x1)^2 + "
+             "(x3 - x2)^2 + (x4 - x3)^2 + (x5 - x4)^2 + x5^2)/2")));
+    find(k, &r, 1);
+    must(qdot_modes_about(k->scene, r.list[0].equations, true, NULL, NULL, &m));
+    assert_true(m.numeric);
+    for (size_t i = 0; i < 5; i++) {
+        must(qdot_generic_evaluate(k->pool, 1, &m.frequency[i], 0, NULL, NULL, 1, &w));
+        assert_true(fabs(w - 2 * sin((double)(i + 1) * M_PI / 12)) < 1e-13);
+        must(qdot_generic_evaluate(k->pool, 5, m.amplitude + 5 * i, 0, NULL, NULL, 1, a));
+        for (size_t j = 0; j < 5; j++) {
+            want = sin((double)(i + 1) * (double)(j + 1) * M_PI / 6) /
+                   sin((double)(i + 1) * M_PI / 6);
+            assert_true(fabs(a[j] - want) < 1e-12);
+        }
+    }
+    qdot_modes_clear(&m);
+    qdot_free(r.list);
+}
+TEST(modes_in_numbers)
+
+/* A free pair: one mode of no frequency, both together. */
+static void
+free_motion_is_a_mode_body(kit *k)
+{
+    qdot_modes m;
+    rest r;
+
+    coords(k, "x y");
+    must(qdot_scene_lagrangian(k->scene, E(k, "a*x'^2/2 + b*y'^2/2 - c*(x - y)^2/2")));
+    find(k, &r, 1);
+    assert_int_equal(r.list[0].stability, QDOT_STABILITY_UNDECIDED);
+    must(qdot_modes_about(k->scene, r.list[0].equations, false, NULL, NULL, &m));
+    assert_int_equal(m.n, 2);
+    SAME(k, m.frequency[0], "0");
+    SAME(k, m.amplitude[1], "1");
+    SAME(k, qdot_pow_int(k->pool, m.frequency[1], 2), "c/a + c/b");
+    SAME(k, m.amplitude[3], "-a/b");
+    qdot_modes_clear(&m);
+    qdot_free(r.list);
+}
+TEST(free_motion_is_a_mode)
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rotating_hoop),
+        cmocka_unit_test(multipliers_are_included),
+        cmocka_unit_test(every_combination),
+        cmocka_unit_test(gyroscopic_stabilisation),
+        cmocka_unit_test(flat_bottoms),
+        cmocka_unit_test(roots_of_radicals),
+        cmocka_unit_test(what_no_formula_gives_is_found_in_numbers),
+        cmocka_unit_test(time_has_no_rest),
+        cmocka_unit_test(modes_of_the_double_pendulum),
+        cmocka_unit_test(modes_in_numbers),
+        cmocka_unit_test(free_motion_is_a_mode),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,428 @@
+/* pairs.h -- random pairs of expressions: equal by construction, or changed a little.
+ *
+ * Both sides of a pair grow together: what is put above a pair (u, u') is a theorem, its left
+ * side over u, its right side over u'. `pairs_near` changes one node of one side.
+ *
+ * Names: x, y, z, u coordinates; r > 0, 0 < theta < pi; x' a velocity; a, b > 0 and c, k
+ * parameters; t; f(s) an undefined function.
+ */
+#ifndef QDOT_TESTS_NORMAL_PAIRS_H
+#define QDOT_TESTS_NORMAL_PAIRS_H
+
+#include <stdint.h>
+
+#include "expr/calculus.h"
+#include "expr/expr.h"
+#include "expr/walk.h"
+
+typedef struct {
+    qdot_pool *pool;
+    uint64_t seed;
+    uint32_t f;
+    qdot_expr positive[4], any[8];
+    bool inside; /* nothing outside the class that is decided has been used */
+} pairs;
+
+typedef struct {
+    qdot_expr l, r;
+} pair;
+
+static unsigned
+pairs_random(pairs *g, unsigned n)
+{
+    g->seed ^= g->seed << 13;
+    g->seed ^= g->seed >> 7;
+    g->seed ^= g->seed << 17;
+    return (unsigned)((g->seed >> 33) % n);
+}
+
+static bool
+pairs_begin(pairs *g, uint64_t seed)
+{
+    static const char *const positive[] = {"a", "b"}, *const any[] = {"x", "y", "z", "u"};
+    qdot_expr s;
+
+    *g = (pairs){.pool = qdot_pool_new(), .seed = seed * 0x9E3779B97F4A7C15u + 1};
+    if (g->pool == NULL)
+        return false;
+    for (int i = 0; i < 8; i++)
+        pairs_random(g, 2);
+    s = qdot_symbol_get(g->pool, QDOT_FORMAL, "s");
+    if (qdot_ufun_declare(g->pool, "f", 1, &s, &g->f) != QDOT_OK)
+        return false;
+    for (int i = 0; i < 2; i++)
+        g->positive[i] = qdot_symbol_get(g->pool, QDOT_PARAM, positive[i]);
+    g->positive[2] = qdot_symbol_get(g->pool, QDOT_COORD, "r");
+    for (int i = 0; i < 3; i++)
+        qdot_symbol_domain(g->pool, g->positive[i], QDOT_ZERO, true, QDOT_NIL, false);
+    g->positive[3] = qdot_symbol_get(g->pool, QDOT_COORD, "theta");
+    qdot_symbol_domain(g->pool, g->positive[3], QDOT_ZERO, true, QDOT_PI, true);
+    for (int i = 0; i < 4; i++)
+        g->any[i] = qdot_symbol_get(g->pool, QDOT_COORD, any[i]);
+    g->any[4] = qdot_symbol_get(g->pool, QDOT_PARAM, "c");
+    g->any[5] = qdot_symbol_get(g->pool, QDOT_PARAM, "k");
+    g->any[6] = qdot_symbol_jet(g->pool, g->any[0], 1);
+    g->any[7] = QDOT_T;
+    return true;
+}
+
+/* --- short names for what is built ------------------------------------------------------ */
+
+static qdot_expr
+num(pairs *g, long n, long d)
+{
+    return qdot_expr_ratio(g->pool, n, d);
+}
+
+static qdot_expr
+add(pairs *g, qdot_expr a, qdot_expr b)
+{
+    return qdot_add(g->pool, a, b);
+}
+
+static qdot_expr
+sub(pairs *g, qdot_expr a, qdot_expr b)
+{
+    return qdot_sub(g->pool, a, b);
+}
+
+static qdot_expr
+mul(pairs *g, qdot_expr a, qdot_expr b)
+{
+    return qdot_mul(g->pool, a, b);
+}
+
+static qdot_expr
+quo(pairs *g, qdot_expr a, qdot_expr b)
+{
+    return qdot_div(g->pool, a, b);
+}
+
+static qdot_expr
+power(pairs *g, qdot_expr a, long n)
+{
+    return qdot_pow_int(g->pool, a, n);
+}
+
+static qdot_expr
+fun(pairs *g, qdot_fun_id id, qdot_expr a)
+{
+    return qdot_fun1(g->pool, id, a);
+}
+
+static qdot_expr
+half(pairs *g, qdot_expr a)
+{
+    return quo(g, a, num(g, 2, 1));
+}
+
+/* --- theorems ------------------------------------------------------------------------- */
+
+static pair pairs_make(pairs *g, int depth);
+
+/* Positive wherever it is defined. */
+static pair
+pairs_positive(pairs *g, int depth)
+{
+    pair u, v;
+    qdot_expr e;
+
+    if (depth <= 0) {
+        e = g->positive[pairs_random(g, 4)];
+        return (pair){e, e};
+    }
+    switch (pairs_random(g, 6)) {
+    case 0:
+        u = pairs_make(g, depth - 1);
+        return (pair){add(g, power(g, u.l, 2), QDOT_ONE), add(g, QDOT_ONE, power(g, u.r, 2))};
+    case 1:
+        u = pairs_positive(g, depth - 1), v = pairs_positive(g, depth - 1);
+        return (pair){add(g, u.l, v.l), add(g, v.r, u.r)};
+    case 2:
+        u = pairs_positive(g, depth - 1), v = pairs_positive(g, depth - 1);
+        return (pair){mul(g, u.l, v.l), mul(g, v.r, u.r)};
+    case 3:
+        u = pairs_make(g, 0);
+        return (pair){fun(g, QDOT_COSH, u.l),
+                      half(g, add(g, fun(g, QDOT_EXP, u.r),
+                                  fun(g, QDOT_EXP, qdot_neg(g->pool, u.r))))};
+    case 4:
+        u = pairs_make(g, 0);
+        return (pair){fun(g, QDOT_EXP, u.l), power(g, fun(g, QDOT_EXP, half(g, u.r)), 2)};
+    default: e = g->positive[pairs_random(g, 4)]; return (pair){e, e};
+    }
+}
+
+/* An argument of a transcendental function: small. */
+static pair
+pairs_angle(pairs *g)
+{
+    qdot_expr a = g->any[pairs_random(g, 8)], b = g->any[pairs_random(g, 8)];
+    qdot_expr e;
+
+    switch (pairs_random(g, 6)) {
+    case 0: e = add(g, a, b); break;
+    case 1: e = sub(g, a, g->positive[3]); break;
+    case 2: e = mul(g, num(g, 1 + pairs_random(g, 5), 1 + pairs_random(g, 3)), a); break;
+    case 3: e = mul(g, a, b); return (pair){e, e};
+    case 4: e = g->positive[3]; break;
+    default: e = a;
+    }
+    return (pair){e, e};
+}
+
+/* sin, cos, tan and their relatives. */
+static pair
+pairs_circular(pairs *g)
+{
+    qdot_pool *p = g->pool;
+    pair u = pairs_angle(g), v = pairs_angle(g);
+    qdot_expr su = fun(g, QDOT_SIN, u.r), cu = fun(g, QDOT_COS, u.r);
+    qdot_expr sv = fun(g, QDOT_SIN, v.r), cv = fun(g, QDOT_COS, v.r);
+    qdot_expr two = num(g, 2, 1), q;
+
+    switch (pairs_random(g, 16)) {
+    case 0:
+        return (pair){fun(g, QDOT_SIN, add(g, u.l, v.l)),
+                      add(g, mul(g, su, cv), mul(g, cu, sv))};
+    case 1:
+        return (pair){fun(g, QDOT_COS, sub(g, u.l, v.l)),
+                      add(g, mul(g, cu, cv), mul(g, su, sv))};
+    case 2:
+        return (pair){fun(g, QDOT_SIN, mul(g, two, u.l)), mul(g, two, mul(g, su, cu))};
+    case 3:
+        return (pair){fun(g, QDOT_COS, mul(g, two, u.l)),
+                      sub(g, QDOT_ONE, mul(g, two, power(g, su, 2)))};
+    case 4:
+        return (pair){power(g, fun(g, QDOT_SIN, half(g, u.l)), 2),
+                      half(g, sub(g, QDOT_ONE, cu))};
+    case 5:
+        return (pair){fun(g, QDOT_TAN, half(g, u.l)), quo(g, su, add(g, QDOT_ONE, cu))};
+    case 6: return (pair){fun(g, QDOT_TAN, u.l), quo(g, su, cu)};
+    case 7:
+        return (pair){power(g, fun(g, QDOT_SEC, u.l), 2),
+                      add(g, QDOT_ONE, power(g, fun(g, QDOT_TAN, u.r), 2))};
+    case 8:
+        return (pair){mul(g, fun(g, QDOT_CSC, u.l), fun(g, QDOT_COT, u.l)),
+                      quo(g, cu, power(g, su, 2))};
+    case 9: return (pair){add(g, power(g, su, 2), mul(g, cu, cu)), QDOT_ONE};
+    case 10:
+        return (pair){power(g, fun(g, QDOT_COS, u.l), 3),
+                      quo(g,
+                          add(g, mul(g, num(g, 3, 1), cu),
+                              fun(g, QDOT_COS, mul(g, num(g, 3, 1), u.r))),
+                          num(g, 4, 1))};
+    case 11:
+        q = mul(g, num(g, 1 + pairs_random(g, 11), 6), QDOT_PI);
+        return (pair){fun(g, QDOT_COS, add(g, u.l, q)),
+                      sub(g, mul(g, cu, fun(g, QDOT_COS, q)),
+                          mul(g, su, fun(g, QDOT_SIN, q)))};
+    case 12:
+        return (pair){add(g, fun(g, QDOT_SIN, u.l), fun(g, QDOT_SIN, v.l)),
+                      mul(g, two,
+                          mul(g, fun(g, QDOT_SIN, half(g, add(g, u.r, v.r))),
+                              fun(g, QDOT_COS, half(g, sub(g, u.r, v.r)))))};
+    case 13:
+        q = fun(g, QDOT_ATAN, u.l);
+        return (pair){fun(g, QDOT_COS, mul(g, two, q)),
+                      quo(g, sub(g, QDOT_ONE, power(g, u.r, 2)),
+                          add(g, QDOT_ONE, power(g, u.r, 2)))};
+    case 14:
+        q = fun(g, QDOT_ASIN, u.l);
+        return (pair){fun(g, QDOT_SIN, mul(g, two, q)),
+                      mul(g, two,
+                          mul(g, u.r,
+                              qdot_sqrt(p, sub(g, QDOT_ONE, power(g, u.r, 2)))))};
+    default: return (pair){su, qdot_neg(p, fun(g, QDOT_SIN, qdot_neg(p, u.r)))};
+    }
+}
+
+/* sinh, cosh, exp, log. */
+static pair
+pairs_growing(pairs *g)
+{
+    qdot_pool *p = g->pool;
+    pair u = pairs_angle(g), v = pairs_angle(g), s = pairs_positive(g, 1);
+    qdot_expr eu = fun(g, QDOT_EXP, u.r), ev = fun(g, QDOT_EXP, v.r);
+    qdot_expr back = fun(g, QDOT_EXP, qdot_neg(p, u.r));
+    qdot_expr su = fun(g, QDOT_SINH, u.r), cu = fun(g, QDOT_COSH, u.r), two = num(g, 2, 1);
+
+    switch (pairs_random(g, 10)) {
+    case 0: return (pair){fun(g, QDOT_SINH, u.l), half(g, sub(g, eu, back))};
+    case 1: return (pair){fun(g, QDOT_COSH, u.l), half(g, add(g, eu, back))};
+    case 2: return (pair){fun(g, QDOT_EXP, add(g, u.l, v.l)), mul(g, eu, ev)};
+    case 3:
+        return (pair){fun(g, QDOT_COSH, add(g, u.l, v.l)),
+                      add(g, mul(g, cu, fun(g, QDOT_COSH, v.r)),
+                          mul(g, su, fun(g, QDOT_SINH, v.r)))};
+    case 4:
+        return (pair){fun(g, QDOT_SINH, mul(g, two, u.l)), mul(g, two, mul(g, su, cu))};
+    case 5: return (pair){QDOT_ONE, sub(g, power(g, cu, 2), power(g, su, 2))};
+    case 6:
+        return (pair){fun(g, QDOT_TANH, half(g, u.l)), quo(g, su, add(g, QDOT_ONE, cu))};
+    case 7: return (pair){fun(g, QDOT_EXP, fun(g, QDOT_LOG, s.l)), s.r};
+    case 8:
+        g->inside = false;
+        return (pair){fun(g, QDOT_LOG, mul(g, s.l, eu)),
+                      add(g, fun(g, QDOT_LOG, s.r), u.r)};
+    default:
+        return (pair){fun(g, QDOT_TANH, u.l),
+                      quo(g, sub(g, power(g, eu, 2), QDOT_ONE),
+                          add(g, power(g, eu, 2), QDOT_ONE))};
+    }
+}
+
+/* Roots and absolute values. */
+static pair
+pairs_root(pairs *g, int depth)
+{
+    qdot_pool *p = g->pool;
+    pair u = pairs_make(g, depth), v = pairs_make(g, 0);
+    pair s = pairs_positive(g, depth), q = pairs_positive(g, 0);
+    qdot_expr two = num(g, 2, 1);
+
+    switch (pairs_random(g, 8)) {
+    case 0: return (pair){qdot_sqrt(p, power(g, u.l, 2)), fun(g, QDOT_ABS, u.r)};
+    case 1: return (pair){power(g, qdot_sqrt(p, s.l), 2), s.r};
+    case 2: return (pair){qdot_sqrt(p, power(g, s.l, 2)), s.r};
+    case 3:
+        return (pair){qdot_sqrt(p, mul(g, s.l, q.l)),
+                      mul(g, qdot_sqrt(p, s.r), qdot_sqrt(p, q.r))};
+    case 4:
+        return (pair){fun(g, QDOT_ABS, mul(g, u.l, v.l)),
+                      mul(g, fun(g, QDOT_ABS, u.r), fun(g, QDOT_ABS, v.r))};
+    case 5:
+        return (pair){quo(g, sub(g, s.l, q.l),
+                          sub(g, qdot_sqrt(p, s.l), qdot_sqrt(p, q.l))),
+                      add(g, qdot_sqrt(p, s.r), qdot_sqrt(p, q.r))};
+    case 6:
+        g->inside = false;
+        return (pair){qdot_sqrt(p, add(g, add(g, s.l, q.l),
+                                       mul(g, two, qdot_sqrt(p, mul(g, s.l, q.l))))),
+                      add(g, qdot_sqrt(p, q.r), qdot_sqrt(p, s.r))};
+    default: return (pair){power(g, fun(g, QDOT_ABS, u.l), 2), power(g, u.r, 2)};
+    }
+}
+
+/* Arithmetic. */
+static pair
+pairs_rational(pairs *g, int depth)
+{
+    pair u = pairs_make(g, depth - 1), v = pairs_make(g, depth - 1);
+    pair w = pairs_make(g, depth - 2), s = pairs_positive(g, depth - 2);
+    qdot_expr two = num(g, 2, 1), n = num(g, 1 + pairs_random(g, 9), 1 + pairs_random(g, 7));
+
+    switch (pairs_random(g, 9)) {
+    case 0: return (pair){add(g, u.l, v.l), add(g, v.r, u.r)};
+    case 1: return (pair){mul(g, u.l, v.l), mul(g, v.r, u.r)};
+    case 2:
+        return (pair){mul(g, add(g, u.l, v.l), w.l),
+                      add(g, mul(g, u.r, w.r), mul(g, v.r, w.r))};
+    case 3:
+        return (pair){power(g, sub(g, u.l, v.l), 2),
+                      add(g, power(g, u.r, 2),
+                          sub(g, power(g, v.r, 2), mul(g, two, mul(g, u.r, v.r))))};
+    case 4:
+        return (pair){mul(g, add(g, u.l, v.l), sub(g, u.l, v.l)),
+                      sub(g, power(g, u.r, 2), power(g, v.r, 2))};
+    case 5:
+        return (pair){add(g, quo(g, u.l, s.l), mul(g, v.l, n)),
+                      quo(g, add(g, u.r, mul(g, n, mul(g, v.r, s.r))), s.r)};
+    case 6: return (pair){sub(g, u.l, mul(g, n, v.l)), sub(g, u.r, mul(g, v.r, n))};
+    case 7: return (pair){sub(g, add(g, u.l, w.l), v.l), sub(g, sub(g, u.r, v.r),
+                                                             sub(g, QDOT_ZERO, w.r))};
+    default: return (pair){quo(g, mul(g, u.l, s.l), s.r), quo(g, u.r, n) == QDOT_NIL ?
+                           QDOT_NIL : mul(g, quo(g, u.r, n), n)};
+    }
+}
+
+/* What is done to both sides alike, or to one of them without a change of its value. */
+static pair
+pairs_transform(pairs *g, int depth)
+{
+    pair u = pairs_make(g, depth - 1), v = pairs_make(g, depth - 2);
+    qdot_expr x = g->any[pairs_random(g, 6)];
+
+    switch (pairs_random(g, 5)) {
+    case 0: return (pair){qdot_diff(g->pool, u.l, x), qdot_diff(g->pool, u.r, x)};
+    case 1:
+        return (pair){qdot_subs(g->pool, u.l, 1, &x, &v.l),
+                      qdot_subs(g->pool, u.r, 1, &x, &v.r)};
+    case 2: return (pair){qdot_expand(g->pool, u.l), u.r};
+    case 3:
+        return (pair){qdot_ufun_apply(g->pool, g->f, &u.l, NULL),
+                      qdot_ufun_apply(g->pool, g->f, &u.r, NULL)};
+    default: return (pair){u.r, u.l};
+    }
+}
+
+static pair
+pairs_make(pairs *g, int depth)
+{
+    qdot_expr e;
+
+    if (depth <= 0) {
+        e = pairs_random(g, 5) == 0 ? g->positive[pairs_random(g, 4)]
+                                    : g->any[pairs_random(g, 8)];
+        return (pair){e, e};
+    }
+    switch (pairs_random(g, 10)) {
+    case 0:
+    case 1:
+    case 2: return pairs_circular(g);
+    case 3: return pairs_growing(g);
+    case 4: return pairs_root(g, depth - 1);
+    case 5:
+    case 6: return pairs_transform(g, depth);
+    default: return pairs_rational(g, depth);
+    }
+}
+
+/* --- a small change --------------------------------------------------------------------- */
+
+static qdot_expr
+pairs_other_function(pairs *g, qdot_expr e)
+{
+    static const qdot_fun_id swap[][2] = {
+        {QDOT_SIN, QDOT_COS},   {QDOT_COS, QDOT_SIN},  {QDOT_SINH, QDOT_COSH},
+        {QDOT_COSH, QDOT_SINH}, {QDOT_TAN, QDOT_COT},  {QDOT_SEC, QDOT_CSC},
+        {QDOT_ASIN, QDOT_ATAN}, {QDOT_EXP, QDOT_COSH}, {QDOT_ATAN, QDOT_ASIN}};
+    unsigned op = qdot_expr_node(g->pool, e)->op;
+
+    for (size_t i = 0; i < sizeof swap / sizeof *swap; i++)
+        if (op == swap[i][0])
+            return fun(g, swap[i][1], qdot_expr_arg(g->pool, e, 0));
+    return qdot_neg(g->pool, e);
+}
+
+/* e with one node changed, everywhere it stands. */
+static qdot_expr
+pairs_near(pairs *g, qdot_expr e)
+{
+    qdot_walk w;
+    qdot_expr node, other, small;
+    long k = 1 + (long)pairs_random(g, 40);
+
+    if (qdot_walk_begin(g->pool, e, &w) != QDOT_OK)
+        return QDOT_NIL;
+    node = w.at[pairs_random(g, (unsigned)w.n)];
+    if (pairs_random(g, 4) == 0)
+        node = e;
+    qdot_walk_end(&w);
+    small = power(g, num(g, 10, 1), -k);
+    switch (pairs_random(g, 4)) {
+    case 0: other = mul(g, node, add(g, QDOT_ONE, small)); break;
+    case 1: other = add(g, node, small); break;
+    case 2: other = qdot_neg(g->pool, node); break;
+    default:
+        if (qdot_expr_kind(g->pool, node) == QDOT_FUN)
+            other = pairs_other_function(g, node);
+        else if (qdot_expr_kind(g->pool, node) == QDOT_SYM)
+            other = g->any[pairs_random(g, 8)];
+        else
+            other = mul(g, node, g->positive[pairs_random(g, 4)]);
+    }
+    return qdot_subs(g->pool, e, 1, &node, &other);
+}
+
+#endif

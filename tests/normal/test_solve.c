@@ -1,0 +1,281 @@
+/* Solving: against roots known beforehand, by putting them back, and in numbers. */
+#include <setjmp.h>
+#include <math.h>
+
+#include "text.h"
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "normal/null-space.h"
+#include "expr/walk.h"
+#include "normal/positive.h"
+#include "normal/rationalize.h"
+#include "normal/solve.h"
+
+static qdot_pool *pool;
+
+static int
+open_pool(void **state)
+{
+    (void)state;
+    pool = qdot_pool_new();
+    return pool == NULL;
+}
+
+static int
+close_pool(void **state)
+{
+    (void)state;
+    qdot_pool_free(pool);
+    return 0;
+}
+
+static const char *
+shown(qdot_expr e)
+{
+    static qdot_text out;
+
+    qdot_text_clear(&out);
+    if (e == QDOT_NIL)
+        return "nil";
+    assert_int_equal(qdot_print(pool, e, QDOT_PLAIN, &out), QDOT_OK);
+    return qdot_text_str(&out);
+}
+
+/* Equation, unknown, roots in order with their conditions behind "|". */
+static const struct {
+    const char *f, *x, *roots;
+} rows[] = {
+    {"3*x + 7", "x", "-7/3"},
+    {"m*x - g", "x", "g/m"},
+    {"x^2 - 2", "x", "-sqrt(2); sqrt(2)"},
+    {"x^2 + 2", "x", ""},
+    {"r^2 - 2", "r", "sqrt(2)"},
+    {"x^3 - 8", "x", "2"},
+    {"x^3 + 8", "x", "-2"},
+    {"(x - 1)^2*(x + 3)", "x", "-3; 1"},
+    {"x^2 - k", "x", "-sqrt(k) |[0 < k]; sqrt(k) |[0 < k]"},
+    {"sin(phi)", "phi", "0; pi"},
+    {"sin(theta)*cos(theta)", "theta", "1/2*pi"},
+    {"2*cos(phi) - 1", "phi", "-1/3*pi; 1/3*pi"},
+    {"cos(phi) - 2", "phi", ""},
+    {"sin(2*phi) - 1", "phi", "-3/4*pi; 1/4*pi"},
+    {"m*g*sin(phi) + a*cos(phi)", "phi", NULL},
+    {"sin(phi) + cos(phi) - 1", "phi", NULL},
+    {"cos(2*phi) + sin(phi)", "phi", NULL},
+    {"a*cos(phi) + b*sin(phi) - g", "phi", NULL},
+    {"x*(1 - L/sqrt(x^2 + a^2))", "x", NULL},
+    {"sqrt(x + 2) - x", "x", "2"},
+    {"sqrt(x) + x", "x", "0"},
+    {"exp(2*x) - 3*exp(x) + 2", "x", "0; log(2)"},
+    {"cosh(x) - 2", "x", "-acosh(2); acosh(2)"},
+    {"abs(x) - 3", "x", "-3; 3"},
+    {"log(x) - 1", "x", "exp(1)"},
+    {"(x^2 - 1)/(x - 1)", "x", "-1"},
+    {"x^4 - 5*x^2 + 6", "x", NULL},
+};
+
+/* Every root put back gives zero, and as many come out as are written. */
+static void
+roots_satisfy_their_equation(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        qdot_expr f = text_read(pool, rows[i].f), x = text_read(pool, rows[i].x);
+        qdot_text all = {0};
+        qdot_root *roots;
+        bool complete;
+        size_t n;
+
+        assert_int_equal(qdot_solve(pool, f, x, NULL, &roots, &n, &complete), QDOT_OK);
+        if (!complete)
+            fail_msg("%s: not complete", rows[i].f);
+        for (size_t k = 0; k < n; k++) {
+            qdot_expr at = qdot_subs(pool, f, 1, &x, &roots[k].value);
+            qdot_decision d;
+
+            assert_int_equal(qdot_pool_check(pool), QDOT_OK);
+            assert_int_equal(qdot_decide_equal(pool, at, QDOT_ZERO, NULL, &d), QDOT_OK);
+            if (d.verdict == QDOT_REFUTED)
+                fail_msg("%s: %s", rows[i].f, shown(roots[k].value));
+            qdot_text_format(&all, "%s%s", k > 0 ? "; " : "", shown(roots[k].value));
+            if (roots[k].condition != QDOT_NIL)
+                qdot_text_format(&all, " |%s", shown(roots[k].condition));
+        }
+        if (rows[i].roots != NULL && strcmp(rows[i].roots, qdot_text_str(&all)) != 0)
+            fail_msg("%s: %s, not %s", rows[i].f, qdot_text_str(&all), rows[i].roots);
+        if (rows[i].roots == NULL && n < 2)
+            fail_msg("%s: only %s", rows[i].f, qdot_text_str(&all));
+        qdot_text_clear(&all);
+        qdot_free(roots);
+    }
+}
+
+static void
+what_is_beyond_it_is_said(void **state)
+{
+    static const char *const beyond[] = {"x^5 - x + 1", "x - cos(x)", "x^3 + x + k"};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
+        qdot_root *roots;
+        bool complete;
+        size_t n;
+
+        assert_int_equal(qdot_solve(pool, text_read(pool, beyond[i]),
+                                    text_read(pool, "x"), NULL, &roots, &n, &complete),
+                         QDOT_OK);
+        assert_false(complete);
+        qdot_free(roots);
+    }
+}
+
+static void
+an_identity_is_no_equation(void **state)
+{
+    qdot_root *roots;
+    bool complete;
+    size_t n;
+
+    (void)state;
+    assert_int_equal(qdot_solve(pool, text_read(pool, "(x + 1)^2 - x^2 - 2*x - 1"),
+                                text_read(pool, "x"), NULL, &roots, &n, &complete),
+                     QDOT_EDOMAIN);
+}
+
+static void
+products_are_irreducible(void **state)
+{
+    (void)state;
+    assert_string_equal(shown(qdot_solve_product(pool, text_read(pool, "x^4 - 16"))),
+                        "(x - 2)*(x + 2)*(x^2 + 4)");
+    assert_string_equal(
+        shown(qdot_solve_product(pool, text_read(pool, "(6*x^2 - 6)/(x^2 + 3*x + 2)"))),
+        "6*(x - 1)/(x + 2)");
+}
+
+static void
+conditions_are_short(void **state)
+{
+    static const struct {
+        const char *e, *says;
+    } row[] = {
+        {"m*L*(g - L*k^2)", "L*k^2 < g"},
+        {"(g - a)*(g + a)/b", "a < g"},
+        {"(k - 1)^2*(a - b)", "b < a"},
+        {"m + a", "true"},
+        {"-m*a", "false"},
+        {"2 - sqrt(2)", "true"},
+        {"0", "false"},
+        {"-k", "k < 0"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        assert_string_equal(
+            shown(qdot_positive(pool, text_read(pool, row[i].e), NULL, 0, NULL)),
+            row[i].says);
+}
+
+static void
+what_is_known_is_left_out(void **state)
+{
+    qdot_expr known = text_read(pool, "a - b");
+
+    (void)state;
+    assert_int_equal(
+        qdot_positive(pool, text_read(pool, "m*(a^2 - b^2)"), NULL, 1, &known),
+        QDOT_TRUE);
+    assert_int_equal(qdot_positive(pool, text_read(pool, "m*(b - a)"), NULL, 1, &known),
+                     QDOT_FALSE);
+}
+
+static void
+denominators_are_rational(void **state)
+{
+    static const char *const row[][2] = {
+        {"2*(sqrt(2) - 1)/(2 - sqrt(2))", "sqrt(2)"},
+        {"1/(sqrt(3) - sqrt(2))", "sqrt(2) + sqrt(3)"},
+        {"1/(1 + x)", "1/(x + 1)"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        qdot_expr e = text_read(pool, row[i][0]), got = qdot_rationalize(pool, e, NULL);
+
+        assert_true(qdot_is_zero(pool, qdot_sub(pool, e, got), NULL));
+        assert_true(
+            qdot_is_zero(pool, qdot_sub(pool, text_read(pool, row[i][1]), got), NULL));
+        assert_true(qdot_expr_size(pool, got) <=
+                    qdot_expr_size(pool, text_read(pool, row[i][1])));
+    }
+}
+
+/* c1 sin^2 + c2 cos^2 + c3 + c4 x a + c5 x b = 0: (1, 1, -1, 0, 0) and b against a. */
+static void
+relations_have_parameters_in_them(void **state)
+{
+    static const char *const columns[] = {"x*a", "x*b", "sin(phi)^2", "cos(phi)^2", "1"};
+    qdot_expr E[5], *basis;
+    size_t m;
+
+    (void)state;
+    for (size_t j = 0; j < 5; j++)
+        E[j] = text_read(pool, columns[j]);
+    assert_int_equal(qdot_null_space(pool, 1, 5, E, &basis, &m), QDOT_OK);
+    assert_int_equal(m, 2);
+    assert_string_equal(shown(basis[0]), "-b/a");
+    assert_string_equal(shown(basis[1]), "1");
+    assert_string_equal(shown(basis[5 + 2]), "-1");
+    assert_string_equal(shown(basis[5 + 3]), "-1");
+    assert_string_equal(shown(basis[5 + 4]), "1");
+    for (size_t k = 0; k < m; k++) { /* and the other way round */
+        qdot_expr sum = QDOT_ZERO;
+
+        for (size_t j = 0; j < 5; j++)
+            sum = qdot_add(pool, sum, qdot_mul(pool, basis[5 * k + j], E[j]));
+        assert_true(qdot_is_zero(pool, sum, NULL));
+    }
+    qdot_free(basis);
+}
+
+static void
+denominators_do_not_matter(void **state)
+{
+    static const char *const columns[] = {"1/(x + a)", "1/(x - a)", "x/(x^2 - a^2)"};
+    qdot_expr E[3], *basis;
+    size_t m;
+
+    (void)state;
+    for (size_t j = 0; j < 3; j++)
+        E[j] = text_read(pool, columns[j]);
+    assert_int_equal(qdot_null_space(pool, 1, 3, E, &basis, &m), QDOT_OK);
+    assert_int_equal(m, 1);
+    assert_string_equal(shown(basis[0]), "-1/2");
+    assert_string_equal(shown(basis[1]), "-1/2");
+    qdot_free(basis);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(roots_satisfy_their_equation, open_pool,
+                                        close_pool),
+        cmocka_unit_test_setup_teardown(what_is_beyond_it_is_said, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(an_identity_is_no_equation, open_pool,
+                                        close_pool),
+        cmocka_unit_test_setup_teardown(products_are_irreducible, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(conditions_are_short, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(what_is_known_is_left_out, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(denominators_are_rational, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(relations_have_parameters_in_them, open_pool,
+                                        close_pool),
+        cmocka_unit_test_setup_teardown(denominators_do_not_matter, open_pool,
+                                        close_pool),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
