@@ -198,7 +198,8 @@ qdot_mech_alike(qdot_scene *s, qdot_expr e)
     qdot_expr atoms = QDOT_NIL, pattern;
     qdot_pattern new;
 
-    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_SUM)
+    if (e == QDOT_NIL || qdot_expr_kind(pool, e) < QDOT_SUM ||
+        qdot_expr_kind(pool, e) > QDOT_PROD)
         return qdot_mech_tidy(s, e);
     pattern = pattern_of(s, e, &atoms);
     if (pattern == QDOT_NIL)
@@ -218,7 +219,7 @@ qdot_mech_alike(qdot_scene *s, qdot_expr e)
     }
     new = (qdot_pattern){pattern, atoms, qdot_mech_tidy(s, e)};
     if (new.simple != QDOT_NIL &&
-        d->patterns.n < PATTERNS &&qdot_vec_push(&d->patterns, new) != QDOT_OK)
+        d->patterns.n < PATTERNS && qdot_vec_push(&d->patterns, new) != QDOT_OK)
         return qdot_pool_fail(pool);
     return new.simple;
 }

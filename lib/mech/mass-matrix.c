@@ -87,14 +87,15 @@ qdot_mass_slopes(qdot_scene *s)
             if (atoms == QDOT_NIL)
                 return false;
             count = qdot_expr_count(pool, atoms);
-            for (size_t i = 0; i <= n; i++) {
-                qdot_mass_slope x = {(uint32_t)j, (uint32_t)k, (uint32_t)i, QDOT_ZERO};
-                qdot_expr q = i < n ? s->coordinates.at[i] : QDOT_T;
-                bool there = false;
+            for (uint32_t a = 0; a < count; a++) {
+                qdot_expr q = qdot_expr_arg(pool, atoms, a);
+                qdot_mass_slope x = {(uint32_t)j, (uint32_t)k, 0, QDOT_ZERO};
 
-                for (uint32_t a = 0; a < count && !there; a++)
-                    there = qdot_expr_arg(pool, atoms, a) == q;
-                if (!there)
+                if (q != QDOT_T && !qdot_expr_is_coordinate(pool, q))
+                    continue;
+                while (x.i < n && s->coordinates.at[x.i] != q)
+                    x.i++;
+                if (x.i == n && q != QDOT_T)
                     continue;
                 x.value = qdot_diff(pool, e, q);
                 if (x.value == QDOT_ZERO)

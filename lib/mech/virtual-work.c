@@ -259,7 +259,7 @@ total(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
 
             if (part == QDOT_ZERO)
                 continue;
-            Q = qdot_add(pool, Q, people ? qdot_mech_tidy(s, part) : part);
+            Q = qdot_add(pool, Q, people ? qdot_mech_alike(s, part) : part);
             parts++;
         }
     }
