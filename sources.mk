@@ -89,11 +89,13 @@ normal_sources = \
 	lib/normal/lattice.c \
 	lib/normal/less.c \
 	lib/normal/linear.c \
+	lib/normal/logarithm.c \
 	lib/normal/map.c \
 	lib/normal/null-space.c \
 	lib/normal/positive.c \
 	lib/normal/prepare.c \
 	lib/normal/proportion.c \
+	lib/normal/prove.c \
 	lib/normal/range.c \
 	lib/normal/ratio.c \
 	lib/normal/rationalize.c \
@@ -104,6 +106,7 @@ normal_sources = \
 	lib/normal/solve.c \
 	lib/normal/split.c \
 	lib/normal/trig-form.c \
+	lib/normal/unify.c \
 	lib/normal/value.c \
 	lib/normal/zero.c
 
@@ -122,12 +125,14 @@ normal_headers = \
 	lib/normal/null-space.h \
 	lib/normal/positive.h \
 	lib/normal/prepare.h \
+	lib/normal/prove.h \
 	lib/normal/rationalize.h \
 	lib/normal/rewrite.h \
 	lib/normal/sample.h \
 	lib/normal/simplify.h \
 	lib/normal/solve.h \
 	lib/normal/split.h \
+	lib/normal/unify.h \
 	lib/normal/value.h \
 	lib/normal/zero.h
 
@@ -155,6 +160,7 @@ mech_sources = \
 	lib/mech/accel.c \
 	lib/mech/body.c \
 	lib/mech/constraint.c \
+	lib/mech/dalembert.c \
 	lib/mech/derived.c \
 	lib/mech/energy.c \
 	lib/mech/equilibrium-numeric.c \
@@ -178,6 +184,7 @@ mech_sources = \
 	lib/mech/virtual-work.c
 
 mech_headers = \
+	lib/mech/dalembert.h \
 	lib/mech/derived.h \
 	lib/mech/equilibrium.h \
 	lib/mech/geometry.h \
@@ -190,23 +197,27 @@ sim_sources = \
 	lib/sim/bind.c \
 	lib/sim/blocks.c \
 	lib/sim/describe.c \
+	lib/sim/direct.c \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
-	lib/sim/expand.c \
 	lib/sim/plan.c \
+	lib/sim/residual.c \
 	lib/sim/run.c \
+	lib/sim/shifted.c \
 	lib/sim/substitute.c \
 	lib/sim/value.c
 
 sim_headers = \
 	lib/sim/bind.h \
 	lib/sim/blocks.h \
+	lib/sim/direct.h \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
-	lib/sim/expand.h \
 	lib/sim/integrated.h \
 	lib/sim/plan.h \
+	lib/sim/residual.h \
 	lib/sim/run.h \
+	lib/sim/shifted.h \
 	lib/sim/substitute.h
 
 show_sources = \
@@ -313,22 +324,26 @@ unit_tests = \
 	tests/normal/test_verdicts \
 	tests/num/test_cholesky \
 	tests/num/test_ldlt \
+	tests/num/test_series \
 	tests/num/test_structure \
 	tests/num/test_sum \
 	tests/ode/test_companion \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
 	tests/ode/test_method \
+	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_table \
 	tests/sim/test_equations \
 	tests/sim/test_run \
+	tests/sim/test_taylor \
 	tests/src/test_options \
 	tests/src/test_prompt \
 	tests/tape/test_constant \
-	tests/tape/test_tape
+	tests/tape/test_tape \
+	tests/tape/test_taylor
 
 script_tests = \
 	tests/script/check.lag \
@@ -342,24 +357,30 @@ script_tests = \
 	tests/script/geometry.lag \
 	tests/script/hamilton.lag \
 	tests/script/help.lag \
+	tests/script/identities.sh \
 	tests/script/include.lag \
 	tests/script/json.lag \
 	tests/script/loops.lag \
 	tests/script/names.lag \
+	tests/script/order.lag \
 	tests/script/pendulum.lag \
 	tests/script/refuted.lag \
 	tests/script/reset.lag \
 	tests/script/run.sh \
+	tests/script/several.sh \
 	tests/script/solve.lag \
 	tests/script/styles.lag \
 	tests/script/text.lag \
+	tests/script/to-file.sh \
 	tests/bad/acceleration-position.lag \
+	tests/bad/as-number.lag \
 	tests/bad/bad-method.lag \
 	tests/bad/bad-tolerance.lag \
 	tests/bad/bare-power.lag \
 	tests/bad/big-d.lag \
 	tests/bad/binary.lag \
 	tests/bad/block-without-for.lag \
+	tests/bad/bound-coordinate.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
 	tests/bad/constrained-run.lag \
@@ -376,6 +397,8 @@ script_tests = \
 	tests/bad/equilibria-time.lag \
 	tests/bad/equilibria-unset.lag \
 	tests/bad/family-and-vector.lag \
+	tests/bad/foreign-function.lag \
+	tests/bad/foreign-index.lag \
 	tests/bad/function-by-itself.lag \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
@@ -387,6 +410,7 @@ script_tests = \
 	tests/bad/include-error.lag \
 	tests/bad/include-itself.lag \
 	tests/bad/include-missing.lag \
+	tests/bad/interrupt.sh \
 	tests/bad/lagrangian-beside.lag \
 	tests/bad/laplacian-oblique.lag \
 	tests/bad/log-zero.lag \
@@ -432,6 +456,8 @@ script_tests = \
 	tests/bad/start-domain.lag \
 	tests/bad/start-parameter.lag \
 	tests/bad/string-number.lag \
+	tests/bad/to-ending.lag \
+	tests/bad/too-long.lag \
 	tests/bad/trailing.lag \
 	tests/bad/unclosed.lag \
 	tests/bad/unfinished-string.lag \
@@ -493,12 +519,14 @@ meta_tests = \
 
 test_files = \
 	tests/bad/acceleration-position.out \
+	tests/bad/as-number.out \
 	tests/bad/bad-method.out \
 	tests/bad/bad-tolerance.out \
 	tests/bad/bare-power.out \
 	tests/bad/big-d.out \
 	tests/bad/binary.out \
 	tests/bad/block-without-for.out \
+	tests/bad/bound-coordinate.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
 	tests/bad/constrained-run.out \
@@ -515,6 +543,8 @@ test_files = \
 	tests/bad/equilibria-time.out \
 	tests/bad/equilibria-unset.out \
 	tests/bad/family-and-vector.out \
+	tests/bad/foreign-function.out \
+	tests/bad/foreign-index.out \
 	tests/bad/function-by-itself.out \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
@@ -526,6 +556,7 @@ test_files = \
 	tests/bad/include-error.out \
 	tests/bad/include-itself.out \
 	tests/bad/include-missing.out \
+	tests/bad/interrupt.out \
 	tests/bad/lagrangian-beside.out \
 	tests/bad/laplacian-oblique.out \
 	tests/bad/log-zero.out \
@@ -571,6 +602,8 @@ test_files = \
 	tests/bad/start-domain.out \
 	tests/bad/start-parameter.out \
 	tests/bad/string-number.out \
+	tests/bad/to-ending.out \
+	tests/bad/too-long.out \
 	tests/bad/trailing.out \
 	tests/bad/unclosed.out \
 	tests/bad/unfinished-string.out \
@@ -582,6 +615,46 @@ test_files = \
 	tests/bad/vector-vs-scalar-check.out \
 	tests/bad/write-nowhere.out \
 	tests/bad/wrong-arguments.out \
+	tests/examples/acceleration-constraint.out \
+	tests/examples/bead-on-wire.out \
+	tests/examples/chain.out \
+	tests/examples/conserved.out \
+	tests/examples/curvature.out \
+	tests/examples/cylindrical.out \
+	tests/examples/damped-oscillator.out \
+	tests/examples/degrees-of-freedom.out \
+	tests/examples/double-pendulum-cartesian.out \
+	tests/examples/double-pendulum.out \
+	tests/examples/elastic-pendulum.out \
+	tests/examples/equilibria.out \
+	tests/examples/flexing-wire.out \
+	tests/examples/foucault.out \
+	tests/examples/generalized-momenta.out \
+	tests/examples/geometry.out \
+	tests/examples/hamiltonian.out \
+	tests/examples/heavy-top.out \
+	tests/examples/kepler.out \
+	tests/examples/kinetic-energy.out \
+	tests/examples/knife-edge.out \
+	tests/examples/line-element.out \
+	tests/examples/magnetic-field.out \
+	tests/examples/metrics.out \
+	tests/examples/modes.out \
+	tests/examples/moving-constraint.out \
+	tests/examples/pendulum-cartesian.out \
+	tests/examples/pendulum.out \
+	tests/examples/polar.out \
+	tests/examples/rolling-wheel.out \
+	tests/examples/rotating-hoop.out \
+	tests/examples/routh.out \
+	tests/examples/spherical-pendulum.out \
+	tests/examples/spherical.out \
+	tests/examples/stated-lagrangian.out \
+	tests/examples/static-equilibrium.out \
+	tests/examples/swinging-atwood.out \
+	tests/examples/vector-operators.out \
+	tests/examples/velocity.out \
+	tests/examples/virtual-work.out \
 	tests/expr/reader.h \
 	tests/expr/spec.h \
 	tests/fuzz/corpus/parse/algebra.txt \
@@ -619,6 +692,8 @@ test_files = \
 	tests/fuzz/corpus/roundtrip/e18.txt \
 	tests/fuzz/corpus/roundtrip/e19.txt \
 	tests/fuzz/corpus/roundtrip/e20.txt \
+	tests/fuzz/corpus/roundtrip/huge-number.txt \
+	tests/fuzz/corpus/roundtrip/offset-roots.txt \
 	tests/fuzz/fuzz.h \
 	tests/lang/reading.h \
 	tests/mech/kit.h \
@@ -642,24 +717,33 @@ test_files = \
 	tests/script/identities-facts.inc \
 	tests/script/identities-mechanics.inc \
 	tests/script/identities-near.inc \
+	tests/script/identities-open.inc \
 	tests/script/identities-roots.inc \
+	tests/script/identities-traps.inc \
+	tests/script/identities.out \
 	tests/script/include.out \
 	tests/script/included.inc \
 	tests/script/json.out \
 	tests/script/loops.out \
 	tests/script/names.out \
 	tests/script/normalise.sed \
+	tests/script/order.out \
 	tests/script/pendulum.out \
 	tests/script/refuted.out \
 	tests/script/reset.out \
 	tests/script/run.out \
+	tests/script/several.out \
 	tests/script/solve.out \
 	tests/script/styles.out \
 	tests/script/text.out \
+	tests/script/to-file.out \
 	tests/sim/scenes.h \
 	tests/tape/reference.h \
 	tests/fuzz/fuzz-parse.c \
-	tests/fuzz/fuzz-roundtrip.c
+	tests/fuzz/fuzz-roundtrip.c \
+	tests/fuzz/packages \
+	tests/fuzz/run \
+	tests/fuzz/words.dict
 
 other_files = \
 	bench/chain-equations.lag \
@@ -668,7 +752,22 @@ other_files = \
 	bench/chain_sympy.py \
 	bench/double-pendulum.lag \
 	bench/double-run.lag \
+	bench/numeric \
 	bench/packages \
+	bench/peers/dop853.hh \
+	bench/peers/names.hh \
+	bench/peers/peers.cc \
+	bench/peers/reference \
+	bench/peers/reference.cc \
+	bench/peers/scene/chain.lag \
+	bench/peers/scene/double.lag \
+	bench/peers/scene/kepler_polar.lag \
+	bench/peers/scene/pendulum.lag \
+	bench/peers/scene/spherical_pole.lag \
+	bench/peers/scene/stiff_spring.lag \
+	bench/peers/scenes.hh \
+	bench/peers/scipy_dop853.py \
+	bench/peers/table.awk \
 	bench/pendulum-run.lag \
 	bench/run \
 	bench/symbolic/ginac-peer.cc \

@@ -64,7 +64,8 @@ derive_product(derivation *d, qdot_expr e)
         if (db != QDOT_ZERO)
             add_term(d, qdot_product_derived(pool, e, i, db));
         if (dx != QDOT_ZERO)
-            add_term(d, qdot_product(pool, 3, (qdot_expr[]){e, qdot_fun1(pool, QDOT_LOG, b), dx}));
+            add_term(d, qdot_product(pool, 3,
+                                     (qdot_expr[]){e, qdot_fun1(pool, QDOT_LOG, b), dx}));
     }
 }
 
@@ -77,7 +78,8 @@ derive_ufun(derivation *d, qdot_expr e)
     qdot_expr args[64];
 
     if (n > 64) {
-        qdot_pool_refuse(pool, QDOT_ELIMIT, "an undefined function of more than 64 arguments");
+        qdot_pool_refuse(pool, QDOT_ELIMIT,
+                         "an undefined function of more than 64 arguments");
         return;
     }
     for (uint32_t i = 0; i < n; i++) {
@@ -92,7 +94,8 @@ derive_ufun(derivation *d, qdot_expr e)
             qdot_expr_to_int(pool, ARGS(pool, e)[n + k], &order);
             orders[k] = (uint32_t)order + (k == i);
         }
-        add_term(d, qdot_mul(pool, qdot_ufun_apply(pool, NODE(pool, e)->op, args, orders), inner));
+        add_term(d, qdot_mul(pool, qdot_ufun_apply(pool, NODE(pool, e)->op, args, orders),
+                             inner));
     }
 }
 
@@ -119,7 +122,9 @@ derive_function(derivation *d, qdot_expr e)
             qdot_expr inner = derived(d, args[i]);
 
             if (inner != QDOT_ZERO)
-                add_term(d, qdot_mul(pool, qdot_fun_derivative(pool, node.op, node.n, args, i), inner));
+                add_term(d, qdot_mul(pool,
+                                     qdot_fun_derivative(pool, node.op, node.n, args, i),
+                                     inner));
         }
     }
     qdot_free(args);
@@ -164,9 +169,7 @@ derive(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
 
         d.terms.n = 0;
         switch (NODE(pool, node)->kind) {
-        case QDOT_NUM:
-            result = QDOT_ZERO;
-            break;
+        case QDOT_NUM: result = QDOT_ZERO; break;
         case QDOT_SYM:
             result = pool->symbols.at[NODE(pool, node)->at].class == QDOT_CONST
                          ? QDOT_ZERO
@@ -188,8 +191,7 @@ derive(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
             derive_function(&d, node);
             result = qdot_sum(pool, d.terms.n, d.terms.at);
             break;
-        default:
-            result = derive_entries(&d, node, i + 1 == w.n);
+        default: result = derive_entries(&d, node, i + 1 == w.n);
         }
         w.value[i] = result;
     }
@@ -220,34 +222,32 @@ qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x)
     if (x == QDOT_NIL || e == QDOT_NIL)
         return QDOT_NIL;
     if (NODE(pool, x)->kind != QDOT_SYM)
-        return qdot_pool_refuse(pool, QDOT_ETYPE,
-                                "a derivative is taken with respect to a name: a coordinate, a "
-                                "velocity, a parameter or t");
+        return qdot_pool_refuse(
+            pool, QDOT_ETYPE,
+            "a derivative is taken with respect to a name: a coordinate, a "
+            "velocity, a parameter or t");
     return derive(pool, e, 0, NODE(pool, x)->touches, with_respect_to, &x);
 }
 
 /* All but parameters, formal arguments and constants. */
-static const uint32_t in_time_holds = QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
-                                      QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |
-                                      QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
+static const uint32_t in_time_holds =
+    QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
+    QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
 
 static qdot_expr
 in_time(qdot_pool *pool, qdot_expr symbol, void *user)
 {
     (void)user;
     switch (pool->symbols.at[NODE(pool, symbol)->at].class) {
-    case QDOT_TIME:
-        return QDOT_ONE;
-    case QDOT_COORD:
-        return qdot_symbol_jet(pool, symbol, 1);
+    case QDOT_TIME: return QDOT_ONE;
+    case QDOT_COORD: return qdot_symbol_jet(pool, symbol, 1);
     case QDOT_MOMENTUM:
     case QDOT_MULTIPLIER:
     case QDOT_DIFFERENTIAL:
     case QDOT_DELTA:
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "%s has no time derivative here",
                                 pool->symbols.at[NODE(pool, symbol)->at].name);
-    default:
-        return QDOT_ZERO;
+    default: return QDOT_ZERO;
     }
 }
 
@@ -266,7 +266,8 @@ in_differentials(qdot_pool *pool, qdot_expr symbol, void *user)
     if (s->class == QDOT_TIME || (s->class == QDOT_COORD && s->order == 0))
         return qdot_symbol_of(pool, QDOT_DIFFERENTIAL, symbol);
     if (s->class == QDOT_COORD)
-        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "a line element is of positions; %s is a velocity",
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN,
+                                "a line element is of positions; %s is a velocity",
                                 s->name);
     return QDOT_ZERO;
 }
@@ -326,7 +327,8 @@ by_from(const void *a, const void *b)
 }
 
 qdot_expr
-qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const qdot_expr *to)
+qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
+          const qdot_expr *to)
 {
     struct replacements r = {n, from, to};
     qdot_expr *pairs, *split, result;

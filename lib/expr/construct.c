@@ -42,7 +42,8 @@ qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
         if (args[i] == QDOT_NIL)
             return QDOT_NIL;
         if (!is_truth(pool, args[i]))
-            return qdot_pool_refuse(pool, QDOT_ETYPE, "and, or, not join comparisons such as x > 0");
+            return qdot_pool_refuse(pool, QDOT_ETYPE,
+                                    "and, or, not join comparisons such as x > 0");
     }
     if (op == QDOT_NOT) {
         if (args[0] == QDOT_TRUE || args[0] == QDOT_FALSE)
@@ -93,7 +94,8 @@ qdot_expr
 qdot_matrix(qdot_pool *pool, uint32_t rows, uint32_t columns, const qdot_expr *e)
 {
     if (rows == 0 || columns == 0 || columns > UINT16_MAX)
-        return qdot_pool_refuse(pool, QDOT_ETYPE, "a matrix of %u rows and %u columns", rows, columns);
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "a matrix of %u rows and %u columns",
+                                rows, columns);
     if (!entries(pool, rows * columns, e))
         return QDOT_NIL;
     return qdot_pool_intern(pool, QDOT_MAT, (uint16_t)columns, rows * columns, e, 0);
@@ -129,7 +131,8 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
     qdot_node node = *NODE(pool, e);
     qdot_expr few[64], *own = few, result;
     bool same = true;
-    uint32_t n = node.kind == QDOT_UFUN ? node.n / 2 : node.n; /* orders are no arguments */
+    uint32_t n =
+        node.kind == QDOT_UFUN ? node.n / 2 : node.n; /* orders are no arguments */
 
     for (uint32_t i = 0; i < n; i++) {
         if (args[i] == QDOT_NIL)
@@ -144,24 +147,12 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
     memcpy(own, args, n * sizeof *own);
     switch (node.kind) {
     case QDOT_SUM:
-    case QDOT_PROD:
-        result = rebuild_pairs(pool, node.kind, node.n, own);
-        break;
-    case QDOT_FUN:
-        result = qdot_fun(pool, node.op, node.n, own);
-        break;
-    case QDOT_REL:
-        result = qdot_rel(pool, node.op, own[0], own[1]);
-        break;
-    case QDOT_LOGIC:
-        result = qdot_logic(pool, node.op, node.n, own);
-        break;
-    case QDOT_VEC:
-        result = qdot_vector(pool, node.n, own);
-        break;
-    case QDOT_MAT:
-        result = qdot_matrix(pool, node.n / node.op, node.op, own);
-        break;
+    case QDOT_PROD: result = rebuild_pairs(pool, node.kind, node.n, own); break;
+    case QDOT_FUN: result = qdot_fun(pool, node.op, node.n, own); break;
+    case QDOT_REL: result = qdot_rel(pool, node.op, own[0], own[1]); break;
+    case QDOT_LOGIC: result = qdot_logic(pool, node.op, node.n, own); break;
+    case QDOT_VEC: result = qdot_vector(pool, node.n, own); break;
+    case QDOT_MAT: result = qdot_matrix(pool, node.n / node.op, node.op, own); break;
     case QDOT_UFUN:
         for (uint32_t i = 0; i < node.n / 2; i++)
             if (!qdot_expr_is_scalar(pool, own[i]))
@@ -169,8 +160,7 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
                                  pool->ufuns.at[node.op].name);
         result = qdot_pool_intern(pool, node.kind, node.op, node.n, own, 0);
         break;
-    default:
-        result = qdot_pool_intern(pool, node.kind, node.op, node.n, own, node.sign);
+    default: result = qdot_pool_intern(pool, node.kind, node.op, node.n, own, node.sign);
     }
     if (own != few)
         qdot_free(own);

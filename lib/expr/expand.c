@@ -13,7 +13,8 @@ term_count(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_node *node = NODE(pool, e);
 
-    return node->kind == QDOT_SUM ? (node->n - 1) / 2 + (ARGS(pool, e)[0] != QDOT_ZERO) : 1;
+    return node->kind == QDOT_SUM ? (node->n - 1) / 2 + (ARGS(pool, e)[0] != QDOT_ZERO)
+                                  : 1;
 }
 
 static qdot_expr

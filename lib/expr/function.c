@@ -64,8 +64,7 @@ split_pi(qdot_pool *pool, qdot_expr x, fmpq_t c)
         for (uint32_t i = 1; i < node->n; i += 2)
             if (ARGS(pool, x)[i] == QDOT_PI) {
                 fmpq_set(c, RATIONAL(pool, ARGS(pool, x)[i + 1]));
-                return qdot_sub(pool, x,
-                                qdot_mul(pool, ARGS(pool, x)[i + 1], QDOT_PI));
+                return qdot_sub(pool, x, qdot_mul(pool, ARGS(pool, x)[i + 1], QDOT_PI));
             }
     } else if (qdot_expr_unscale(pool, x, c) == QDOT_PI) {
         return QDOT_ZERO;
@@ -84,21 +83,17 @@ sine_of_twelfths(qdot_pool *pool, long k)
     qdot_expr quarter = qdot_expr_ratio(pool, 1, 4);
 
     switch (k) {
-    case 0:
-        return QDOT_ZERO;
+    case 0: return QDOT_ZERO;
     case 1:
         return qdot_add(pool, qdot_mul(pool, quarter, root6),
                         qdot_neg(pool, qdot_mul(pool, quarter, root2)));
-    case 2:
-        return QDOT_HALF;
-    case 3:
-        return qdot_mul(pool, QDOT_HALF, root2);
-    case 4:
-        return qdot_mul(pool, QDOT_HALF, root3);
+    case 2: return QDOT_HALF;
+    case 3: return qdot_mul(pool, QDOT_HALF, root2);
+    case 4: return qdot_mul(pool, QDOT_HALF, root3);
     case 5:
-        return qdot_add(pool, qdot_mul(pool, quarter, root6), qdot_mul(pool, quarter, root2));
-    default:
-        return QDOT_ONE;
+        return qdot_add(pool, qdot_mul(pool, quarter, root6),
+                        qdot_mul(pool, quarter, root2));
+    default: return QDOT_ONE;
     }
 }
 
@@ -117,7 +112,8 @@ static qdot_expr
 over(qdot_pool *pool, qdot_fun_id id, qdot_expr a, qdot_expr b)
 {
     if (b == QDOT_ZERO)
-        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "%s is undefined here: division by zero",
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN,
+                                "%s is undefined here: division by zero",
                                 qdot_fun_name(id));
     return qdot_div(pool, a, b);
 }
@@ -132,10 +128,8 @@ circular_at(qdot_pool *pool, qdot_fun_id id, long k)
     bool halves = k % 2 != 0;
 
     switch (id) {
-    case QDOT_SIN:
-        return s;
-    case QDOT_COS:
-        return c;
+    case QDOT_SIN: return s;
+    case QDOT_COS: return c;
     case QDOT_TAN:
     case QDOT_COT:
         if (!halves)
@@ -191,7 +185,8 @@ circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 
         e = circular_at(pool, id, k);
     } else if (rest != QDOT_ZERO && rest != QDOT_NIL && !fmpq_is_zero(c) &&
-               fmpz_divisible_si(fmpq_numref(twelve), 6) && fmpz_is_one(fmpq_denref(twelve))) {
+               fmpz_divisible_si(fmpq_numref(twelve), 6) &&
+               fmpz_is_one(fmpq_denref(twelve))) {
         e = shifted(pool, id, rest, (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
     } else if (qdot_expr_is_negative(pool, x)) {
         e = qdot_fun1(pool, id, qdot_neg(pool, x));
@@ -265,7 +260,8 @@ hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
         if (id == QDOT_ACOSH && fmpq_cmp_si(v, 1) < 0)
             return qdot_pool_refuse(pool, QDOT_EDOMAIN, "acosh is defined from 1 up");
         if (id == QDOT_ATANH && (fmpq_cmp_si(v, 1) >= 0 || fmpq_cmp_si(v, -1) <= 0))
-            return qdot_pool_refuse(pool, QDOT_EDOMAIN, "atanh is defined between -1 and 1");
+            return qdot_pool_refuse(pool, QDOT_EDOMAIN,
+                                    "atanh is defined between -1 and 1");
     }
     if (id != QDOT_ACOSH && qdot_expr_is_negative(pool, x)) {
         qdot_expr e = qdot_fun1(pool, id, qdot_neg(pool, x));
@@ -282,7 +278,8 @@ exponential(qdot_pool *pool, qdot_expr x)
         return QDOT_ONE;
     if (is_fun(pool, x, QDOT_LOG))
         return arg0(pool, x);
-    if (NODE(pool, x)->kind == QDOT_PROD && NODE(pool, x)->n == 3 && /* exp(k log a) = a^k */
+    if (NODE(pool, x)->kind == QDOT_PROD &&
+        NODE(pool, x)->n == 3 && /* exp(k log a) = a^k */
         ARGS(pool, x)[2] == QDOT_ONE && is_fun(pool, ARGS(pool, x)[1], QDOT_LOG))
         return qdot_pow(pool, arg0(pool, ARGS(pool, x)[1]), ARGS(pool, x)[0]);
     return plain(pool, QDOT_EXP, 1, &x);
@@ -296,7 +293,8 @@ logarithm(qdot_pool *pool, qdot_expr x)
     if (x == QDOT_ONE)
         return QDOT_ZERO;
     if (v != NULL && fmpq_sgn(v) <= 0)
-        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "log is defined for positive numbers only");
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN,
+                                "log is defined for positive numbers only");
     if (is_fun(pool, x, QDOT_EXP))
         return arg0(pool, x);
     return plain(pool, QDOT_LOG, 1, &x);
@@ -351,7 +349,8 @@ extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     qdot_expr best = args[0];
 
     for (uint32_t i = 0; i < n; i++) {
-        const fmpq *v = qdot_expr_rational(pool, args[i]), *b = qdot_expr_rational(pool, best);
+        const fmpq *v = qdot_expr_rational(pool, args[i]),
+                   *b = qdot_expr_rational(pool, best);
 
         if (v == NULL || b == NULL)
             return n == 1 ? best : plain(pool, id, n, args);
@@ -386,11 +385,12 @@ modulo(qdot_pool *pool, const qdot_expr *args)
 {
     if (args[1] == QDOT_ZERO)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "mod by zero");
-    if (qdot_expr_rational(pool, args[0]) == NULL || qdot_expr_rational(pool, args[1]) == NULL)
+    if (qdot_expr_rational(pool, args[0]) == NULL ||
+        qdot_expr_rational(pool, args[1]) == NULL)
         return plain(pool, QDOT_MOD, 2, args);
-    return qdot_sub(pool, args[0],
-                    qdot_mul(pool, args[1],
-                             floor_of(pool, qdot_div(pool, args[0], args[1]))));
+    return qdot_sub(
+        pool, args[0],
+        qdot_mul(pool, args[1], floor_of(pool, qdot_div(pool, args[0], args[1]))));
 }
 
 static qdot_expr
@@ -444,8 +444,9 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     if (qdot_pool_failed(pool))
         return QDOT_NIL;
     if ((int)n < table[id].least || (table[id].most >= 0 && (int)n > table[id].most))
-        return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes %d argument%s, not %u", table[id].name,
-                                table[id].least, table[id].least == 1 ? "" : "s", n);
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes %d argument%s, not %u",
+                                table[id].name, table[id].least,
+                                table[id].least == 1 ? "" : "s", n);
     for (uint32_t i = 0; i < n; i++) {
         if (args[i] == QDOT_NIL)
             return QDOT_NIL;
@@ -458,40 +459,27 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_TAN:
     case QDOT_SEC:
     case QDOT_CSC:
-    case QDOT_COT:
-        return circular(pool, id, args[0]);
+    case QDOT_COT: return circular(pool, id, args[0]);
     case QDOT_ASIN:
     case QDOT_ACOS:
-    case QDOT_ATAN:
-        return inverse_circular(pool, id, args[0]);
-    case QDOT_ATAN2:
-        return arctangent2(pool, args);
+    case QDOT_ATAN: return inverse_circular(pool, id, args[0]);
+    case QDOT_ATAN2: return arctangent2(pool, args);
     case QDOT_SINH:
     case QDOT_COSH:
     case QDOT_TANH:
     case QDOT_ASINH:
     case QDOT_ACOSH:
-    case QDOT_ATANH:
-        return hyperbolic(pool, id, args[0]);
-    case QDOT_EXP:
-        return exponential(pool, args[0]);
-    case QDOT_LOG:
-        return logarithm(pool, args[0]);
-    case QDOT_ABS:
-        return absolute(pool, args[0]);
-    case QDOT_SIGN:
-        return signum(pool, args[0]);
+    case QDOT_ATANH: return hyperbolic(pool, id, args[0]);
+    case QDOT_EXP: return exponential(pool, args[0]);
+    case QDOT_LOG: return logarithm(pool, args[0]);
+    case QDOT_ABS: return absolute(pool, args[0]);
+    case QDOT_SIGN: return signum(pool, args[0]);
     case QDOT_MIN:
-    case QDOT_MAX:
-        return extreme(pool, id, n, args);
-    case QDOT_MOD:
-        return modulo(pool, args);
-    case QDOT_FLOOR:
-        return floor_of(pool, args[0]);
-    case QDOT_IF:
-        return choose(pool, args);
-    default:
-        return qdot_pool_refuse(pool, QDOT_EINVAL, "no such function");
+    case QDOT_MAX: return extreme(pool, id, n, args);
+    case QDOT_MOD: return modulo(pool, args);
+    case QDOT_FLOOR: return floor_of(pool, args[0]);
+    case QDOT_IF: return choose(pool, args);
+    default: return qdot_pool_refuse(pool, QDOT_EINVAL, "no such function");
     }
 }
 
@@ -525,7 +513,9 @@ derivative_of_extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_ex
     uint32_t k = 0;
 
     if (n > 64)
-        return qdot_pool_refuse(pool, QDOT_ELIMIT, "min and max of more than 64 arguments have no derivative here");
+        return qdot_pool_refuse(
+            pool, QDOT_ELIMIT,
+            "min and max of more than 64 arguments have no derivative here");
     for (uint32_t j = 0; j < n; j++)
         if (j != i)
             others[k++] = args[j];
@@ -537,68 +527,52 @@ derivative_of_extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_ex
 }
 
 qdot_expr
-qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args, uint32_t i)
+qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args,
+                    uint32_t i)
 {
     qdot_expr a[3] = {args[0], n > 1 ? args[1] : QDOT_NIL, n > 2 ? args[2] : QDOT_NIL};
     qdot_expr x = a[0], r;
 
     switch (id) {
-    case QDOT_SIN:
-        return qdot_fun1(pool, QDOT_COS, x);
-    case QDOT_COS:
-        return qdot_neg(pool, qdot_fun1(pool, QDOT_SIN, x));
-    case QDOT_TAN:
-        return one_plus(pool, 1, qdot_fun1(pool, QDOT_TAN, x));
+    case QDOT_SIN: return qdot_fun1(pool, QDOT_COS, x);
+    case QDOT_COS: return qdot_neg(pool, qdot_fun1(pool, QDOT_SIN, x));
+    case QDOT_TAN: return one_plus(pool, 1, qdot_fun1(pool, QDOT_TAN, x));
     case QDOT_SEC:
         return qdot_mul(pool, qdot_fun1(pool, QDOT_SEC, x), qdot_fun1(pool, QDOT_TAN, x));
     case QDOT_CSC:
         return qdot_neg(pool, qdot_mul(pool, qdot_fun1(pool, QDOT_CSC, x),
                                        qdot_fun1(pool, QDOT_COT, x)));
-    case QDOT_COT:
-        return qdot_neg(pool, one_plus(pool, 1, qdot_fun1(pool, QDOT_COT, x)));
-    case QDOT_ASIN:
-        return inverse_root(pool, one_plus(pool, -1, x));
-    case QDOT_ACOS:
-        return qdot_neg(pool, inverse_root(pool, one_plus(pool, -1, x)));
-    case QDOT_ATAN:
-        return qdot_div(pool, QDOT_ONE, one_plus(pool, 1, x));
+    case QDOT_COT: return qdot_neg(pool, one_plus(pool, 1, qdot_fun1(pool, QDOT_COT, x)));
+    case QDOT_ASIN: return inverse_root(pool, one_plus(pool, -1, x));
+    case QDOT_ACOS: return qdot_neg(pool, inverse_root(pool, one_plus(pool, -1, x)));
+    case QDOT_ATAN: return qdot_div(pool, QDOT_ONE, one_plus(pool, 1, x));
     case QDOT_ATAN2:
         r = qdot_add(pool, qdot_pow_int(pool, a[0], 2), qdot_pow_int(pool, a[1], 2));
         return i == 0 ? qdot_div(pool, a[1], r) : qdot_neg(pool, qdot_div(pool, a[0], r));
-    case QDOT_SINH:
-        return qdot_fun1(pool, QDOT_COSH, x);
-    case QDOT_COSH:
-        return qdot_fun1(pool, QDOT_SINH, x);
-    case QDOT_TANH:
-        return one_plus(pool, -1, qdot_fun1(pool, QDOT_TANH, x));
-    case QDOT_ASINH:
-        return inverse_root(pool, one_plus(pool, 1, x));
+    case QDOT_SINH: return qdot_fun1(pool, QDOT_COSH, x);
+    case QDOT_COSH: return qdot_fun1(pool, QDOT_SINH, x);
+    case QDOT_TANH: return one_plus(pool, -1, qdot_fun1(pool, QDOT_TANH, x));
+    case QDOT_ASINH: return inverse_root(pool, one_plus(pool, 1, x));
     case QDOT_ACOSH:
         return inverse_root(pool, qdot_sub(pool, qdot_pow_int(pool, x, 2), QDOT_ONE));
-    case QDOT_ATANH:
-        return qdot_div(pool, QDOT_ONE, one_plus(pool, -1, x));
-    case QDOT_EXP:
-        return qdot_fun1(pool, QDOT_EXP, x);
-    case QDOT_LOG:
-        return qdot_div(pool, QDOT_ONE, x);
-    case QDOT_ABS:
-        return qdot_fun1(pool, QDOT_SIGN, x);
+    case QDOT_ATANH: return qdot_div(pool, QDOT_ONE, one_plus(pool, -1, x));
+    case QDOT_EXP: return qdot_fun1(pool, QDOT_EXP, x);
+    case QDOT_LOG: return qdot_div(pool, QDOT_ONE, x);
+    case QDOT_ABS: return qdot_fun1(pool, QDOT_SIGN, x);
     case QDOT_SIGN:
-    case QDOT_FLOOR:
-        return QDOT_ZERO;
+    case QDOT_FLOOR: return QDOT_ZERO;
     case QDOT_MOD:
         return i == 0 ? QDOT_ONE
-                      : qdot_neg(pool, qdot_fun1(pool, QDOT_FLOOR, qdot_div(pool, a[0], a[1])));
+                      : qdot_neg(pool,
+                                 qdot_fun1(pool, QDOT_FLOOR, qdot_div(pool, a[0], a[1])));
     case QDOT_MIN:
-    case QDOT_MAX:
-        return derivative_of_extreme(pool, id, n, args, i);
+    case QDOT_MAX: return derivative_of_extreme(pool, id, n, args, i);
     case QDOT_IF:
         if (i == 0)
             return QDOT_ZERO;
         a[1] = i == 1 ? QDOT_ONE : QDOT_ZERO;
         a[2] = i == 2 ? QDOT_ONE : QDOT_ZERO;
         return qdot_fun(pool, id, 3, a);
-    default:
-        return qdot_pool_refuse(pool, QDOT_EINVAL, "no derivative of this function");
+    default: return qdot_pool_refuse(pool, QDOT_EINVAL, "no derivative of this function");
     }
 }

@@ -23,7 +23,8 @@ level(uint32_t holds)
                                        QDOT_HAS_VELOCITY | QDOT_HAS_MOMENTUM;
 
     /* coordinates and parameters are the most: the rows above them first, as one */
-    for (size_t i = holds & above_coordinates ? 0 : 6; i < sizeof rows / sizeof *rows; i++)
+    for (size_t i = holds & above_coordinates ? 0 : 6; i < sizeof rows / sizeof *rows;
+         i++)
         if (holds & rows[i].mask)
             return rows[i].level;
     return 0;
@@ -100,7 +101,8 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 
 /* The i-th (base, exponent) of a term seen as a product. */
 static void
-factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base, qdot_expr *exponent)
+factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base,
+          qdot_expr *exponent)
 {
     if (NODE(pool, e)->kind != QDOT_PROD) {
         *base = e;
@@ -143,14 +145,10 @@ bool
 qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
 {
     switch (NODE(pool, e)->kind) {
-    case QDOT_NUM:
-        return fmpq_sgn(RATIONAL(pool, e)) < 0;
-    case QDOT_PROD:
-        return fmpq_sgn(RATIONAL(pool, ARGS(pool, e)[0])) < 0;
-    case QDOT_SUM:
-        return fmpq_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;
-    default:
-        return false;
+    case QDOT_NUM: return fmpq_sgn(RATIONAL(pool, e)) < 0;
+    case QDOT_PROD: return fmpq_sgn(RATIONAL(pool, ARGS(pool, e)[0])) < 0;
+    case QDOT_SUM: return fmpq_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;
+    default: return false;
     }
 }
 
@@ -159,7 +157,8 @@ qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
 static uint8_t
 flip(uint8_t s)
 {
-    return (uint8_t)((s & QDOT_NE0) | (s & QDOT_GE0 ? QDOT_LE0 : 0) | (s & QDOT_LE0 ? QDOT_GE0 : 0));
+    return (uint8_t)((s & QDOT_NE0) | (s & QDOT_GE0 ? QDOT_LE0 : 0) |
+                     (s & QDOT_LE0 ? QDOT_GE0 : 0));
 }
 
 static uint8_t
@@ -259,27 +258,22 @@ qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *ar
 
     switch (id) {
     case QDOT_EXP:
-    case QDOT_COSH:
-        return QDOT_POS;
-    case QDOT_ABS:
-        return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0));
-    case QDOT_ACOS:
-        return QDOT_GE0;
+    case QDOT_COSH: return QDOT_POS;
+    case QDOT_ABS: return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0));
+    case QDOT_ACOS: return QDOT_GE0;
     case QDOT_SINH:
     case QDOT_TANH:
     case QDOT_ASINH:
     case QDOT_ATANH:
     case QDOT_ASIN:
     case QDOT_ATAN:
-    case QDOT_SIGN:
-        return s;
+    case QDOT_SIGN: return s;
     case QDOT_SIN:
     case QDOT_CSC:
         return within(pool, args[0], 0, 2, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
     case QDOT_COS:
     case QDOT_SEC:
         return within(pool, args[0], -1, 1, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
-    default:
-        return 0;
+    default: return 0;
     }
 }

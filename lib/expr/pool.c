@@ -220,7 +220,8 @@ qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
 {
     if (is_small(x))
         return false;
-    if (fmpz_bits(fmpq_numref(x)) <= QDOT_MAX_BITS && fmpz_bits(fmpq_denref(x)) <= QDOT_MAX_BITS)
+    if (fmpz_bits(fmpq_numref(x)) <= QDOT_MAX_BITS &&
+        fmpz_bits(fmpq_denref(x)) <= QDOT_MAX_BITS)
         return false;
     qdot_pool_refuse(pool, QDOT_ELIMIT, "an exact number of more than 10^6 digits");
     return true;
@@ -236,7 +237,8 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
     if (!may_work(pool, 0) || qdot_number_too_large(pool, x))
         return QDOT_NIL;
     node.hash = hash_fmpz(hash_fmpz(QDOT_NUM, fmpq_numref(x)), fmpq_denref(x));
-    for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask) {
+    for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0;
+         i = (i + 1) & pool->mask) {
         qdot_expr e = pool->table[i];
 
         if (NODE(pool, e)->hash == node.hash && NODE(pool, e)->kind == QDOT_NUM &&
@@ -278,7 +280,10 @@ qdot_expr_ratio(qdot_pool *pool, long n, long d)
 qdot_expr
 qdot_expr_int(qdot_pool *pool, long n)
 {
-    return n == 0 ? QDOT_ZERO : n == 1 ? QDOT_ONE : n == -1 ? QDOT_MINUS_ONE : qdot_expr_ratio(pool, n, 1);
+    return n == 0    ? QDOT_ZERO
+           : n == 1  ? QDOT_ONE
+           : n == -1 ? QDOT_MINUS_ONE
+                     : qdot_expr_ratio(pool, n, 1);
 }
 
 qdot_expr
@@ -310,7 +315,8 @@ qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length)
     exponent = (negative ? -exponent : exponent) - point;
     if (digits.n > 1000000 || labs(exponent) > 1000000) {
         qdot_text_clear(&digits);
-        return qdot_pool_refuse(pool, QDOT_ELIMIT, "an exact number of more than 10^6 digits");
+        return qdot_pool_refuse(pool, QDOT_ELIMIT,
+                                "an exact number of more than 10^6 digits");
     }
     fmpz_init(n);
     fmpz_init_set_ui(ten, 10);
@@ -351,7 +357,8 @@ symbol(qdot_pool *pool, const qdot_symbol *wanted)
     if (wanted->base == QDOT_NIL)
         for (const char *c = wanted->name; *c != '\0'; c++)
             node.hash = mix(node.hash, (unsigned char)*c);
-    for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask) {
+    for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0;
+         i = (i + 1) & pool->mask) {
         qdot_expr e = pool->table[i];
         const qdot_symbol *s = qdot_expr_symbol(pool, e);
 
@@ -422,7 +429,8 @@ qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order)
     order += s->order;
     if (s->order > 0)
         coordinate = s->base;
-    return order == 0 ? coordinate : symbol_about(pool, QDOT_COORD, coordinate, order, "", "");
+    return order == 0 ? coordinate
+                      : symbol_about(pool, QDOT_COORD, coordinate, order, "", "");
 }
 
 qdot_expr
@@ -437,7 +445,8 @@ qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate)
         return qdot_pool_refuse(pool, QDOT_ETYPE, "a coordinate is needed here");
     if (class == QDOT_DIFFERENTIAL)
         return symbol_about(pool, class, coordinate, 0, "d", "");
-    return symbol_about(pool, class, coordinate, 0, class == QDOT_MOMENTUM ? "p[" : "delta[", "]");
+    return symbol_about(pool, class, coordinate, 0,
+                        class == QDOT_MOMENTUM ? "p[" : "delta[", "]");
 }
 
 void
@@ -465,8 +474,8 @@ qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdo
 /* --- undefined functions -------------------------------------------------------------- */
 
 qdot_status
-qdot_ufun_declare(qdot_pool *pool, const char *name, uint32_t arity, const qdot_expr *formals,
-                  uint32_t *id)
+qdot_ufun_declare(qdot_pool *pool, const char *name, uint32_t arity,
+                  const qdot_expr *formals, uint32_t *id)
 {
     qdot_ufun f = {.arity = arity, .formals = qdot_list(pool, arity, formals)};
 
@@ -488,7 +497,8 @@ qdot_ufun_get(const qdot_pool *pool, uint32_t id)
 }
 
 qdot_expr
-qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args, const uint32_t *orders)
+qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args,
+                const uint32_t *orders)
 {
     uint32_t n = pool->ufuns.at[id].arity;
     qdot_expr few[16] = {0}, *all = n > 8 ? qdot_malloc(2 * n * sizeof *all) : few, e;
@@ -499,7 +509,8 @@ qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args, const uint3
         all[i] = args[i];
         all[n + i] = orders == NULL ? QDOT_ZERO : qdot_expr_int(pool, orders[i]);
         if (all[i] != QDOT_NIL && !qdot_expr_is_scalar(pool, all[i]))
-            qdot_pool_refuse(pool, QDOT_ETYPE, "an argument of %s must be a number, not a vector",
+            qdot_pool_refuse(pool, QDOT_ETYPE,
+                             "an argument of %s must be a number, not a vector",
                              pool->ufuns.at[id].name);
     }
     e = qdot_pool_intern(pool, QDOT_UFUN, (uint16_t)id, 2 * n, all, 0);
@@ -527,10 +538,12 @@ qdot_pool_new(void)
         qdot_pool_free(pool);
         return NULL;
     }
-    good = qdot_expr_ratio(pool, 0, 1) == QDOT_ZERO && qdot_expr_ratio(pool, 1, 1) == QDOT_ONE &&
+    good = qdot_expr_ratio(pool, 0, 1) == QDOT_ZERO &&
+           qdot_expr_ratio(pool, 1, 1) == QDOT_ONE &&
            qdot_expr_ratio(pool, -1, 1) == QDOT_MINUS_ONE &&
            qdot_expr_ratio(pool, 1, 2) == QDOT_HALF &&
-           symbol(pool, &(qdot_symbol){.class = QDOT_CONST, .name = "pi", .sign = QDOT_POS}) ==
+           symbol(pool,
+                  &(qdot_symbol){.class = QDOT_CONST, .name = "pi", .sign = QDOT_POS}) ==
                QDOT_PI &&
            qdot_symbol_get(pool, QDOT_CONST, "true") == QDOT_TRUE &&
            qdot_symbol_get(pool, QDOT_CONST, "false") == QDOT_FALSE &&
@@ -636,8 +649,9 @@ qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value)
 const qdot_symbol *
 qdot_expr_symbol(const qdot_pool *pool, qdot_expr e)
 {
-    return e != QDOT_NIL && NODE(pool, e)->kind == QDOT_SYM ? &pool->symbols.at[NODE(pool, e)->at]
-                                                            : NULL;
+    return e != QDOT_NIL && NODE(pool, e)->kind == QDOT_SYM
+               ? &pool->symbols.at[NODE(pool, e)->at]
+               : NULL;
 }
 
 bool

@@ -12,17 +12,18 @@
 static const struct {
     const char *spelled, *letter;
 } greek[] = {
-    {"alpha", "α"},   {"beta", "β"},   {"gamma", "γ"},   {"delta", "δ"},   {"epsilon", "ε"},
-    {"zeta", "ζ"},    {"eta", "η"},    {"theta", "θ"},   {"iota", "ι"},    {"kappa", "κ"},
-    {"lambda", "λ"},  {"mu", "μ"},     {"nu", "ν"},      {"xi", "ξ"},      {"pi", "π"},
-    {"rho", "ρ"},     {"sigma", "σ"},  {"tau", "τ"},     {"upsilon", "υ"}, {"phi", "φ"},
-    {"chi", "χ"},     {"psi", "ψ"},    {"omega", "ω"},   {"Gamma", "Γ"},   {"Delta", "Δ"},
-    {"Theta", "Θ"},   {"Lambda", "Λ"}, {"Xi", "Ξ"},      {"Pi", "Π"},      {"Sigma", "Σ"},
-    {"Phi", "Φ"},     {"Psi", "Ψ"},    {"Omega", "Ω"},
+    {"alpha", "α"},  {"beta", "β"},   {"gamma", "γ"}, {"delta", "δ"},   {"epsilon", "ε"},
+    {"zeta", "ζ"},   {"eta", "η"},    {"theta", "θ"}, {"iota", "ι"},    {"kappa", "κ"},
+    {"lambda", "λ"}, {"mu", "μ"},     {"nu", "ν"},    {"xi", "ξ"},      {"pi", "π"},
+    {"rho", "ρ"},    {"sigma", "σ"},  {"tau", "τ"},   {"upsilon", "υ"}, {"phi", "φ"},
+    {"chi", "χ"},    {"psi", "ψ"},    {"omega", "ω"}, {"Gamma", "Γ"},   {"Delta", "Δ"},
+    {"Theta", "Θ"},  {"Lambda", "Λ"}, {"Xi", "Ξ"},    {"Pi", "Π"},      {"Sigma", "Σ"},
+    {"Phi", "Φ"},    {"Psi", "Ψ"},    {"Omega", "Ω"},
 };
 
 static const char *const subscript[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
-static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴",
+                                          "⁵", "⁶", "⁷", "⁸", "⁹"};
 
 static bool
 is_digit(char c)
@@ -52,7 +53,8 @@ split(const char *name)
         p.index = strlen(name) - n - 2;
     }
     for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
-        if (strlen(greek[i].spelled) == p.letters && strncmp(greek[i].spelled, name, p.letters) == 0)
+        if (strlen(greek[i].spelled) == p.letters &&
+            strncmp(greek[i].spelled, name, p.letters) == 0)
             p.letter = greek[i].letter;
     return p;
 }
@@ -147,24 +149,18 @@ void
 qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
-    const char *name = s->base != QDOT_NIL ? qdot_expr_symbol(pool, s->base)->name : s->name;
+    const char *name =
+        s->base != QDOT_NIL ? qdot_expr_symbol(pool, s->base)->name : s->name;
 
     if (style == QDOT_PLAIN) {
         qdot_text_add(out, s->name);
         return;
     }
     switch (s->class) {
-    case QDOT_MOMENTUM:
-        qdot_text_add(out, style == QDOT_LATEX ? "p_{" : "p_");
-        break;
-    case QDOT_DIFFERENTIAL:
-        qdot_text_add(out, style == QDOT_LATEX ? "d" : "d");
-        break;
-    case QDOT_DELTA:
-        qdot_text_add(out, style == QDOT_LATEX ? "\\delta " : "δ");
-        break;
-    default:
-        break;
+    case QDOT_MOMENTUM: qdot_text_add(out, style == QDOT_LATEX ? "p_{" : "p_"); break;
+    case QDOT_DIFFERENTIAL: qdot_text_add(out, style == QDOT_LATEX ? "d" : "d"); break;
+    case QDOT_DELTA: qdot_text_add(out, style == QDOT_LATEX ? "\\delta " : "δ"); break;
+    default: break;
     }
     if (style == QDOT_UNICODE)
         name_unicode(name, s->order, out);
@@ -180,9 +176,9 @@ static const struct {
     int p, q;
     const char *glyph;
 } fractions[] = {
-    {1, 2, "½"}, {1, 3, "⅓"}, {2, 3, "⅔"}, {1, 4, "¼"}, {3, 4, "¾"}, {1, 5, "⅕"}, {2, 5, "⅖"},
-    {3, 5, "⅗"}, {4, 5, "⅘"}, {1, 6, "⅙"}, {5, 6, "⅚"}, {1, 8, "⅛"}, {3, 8, "⅜"}, {5, 8, "⅝"},
-    {7, 8, "⅞"},
+    {1, 2, "½"}, {1, 3, "⅓"}, {2, 3, "⅔"}, {1, 4, "¼"}, {3, 4, "¾"},
+    {1, 5, "⅕"}, {2, 5, "⅖"}, {3, 5, "⅗"}, {4, 5, "⅘"}, {1, 6, "⅙"},
+    {5, 6, "⅚"}, {1, 8, "⅛"}, {3, 8, "⅜"}, {5, 8, "⅝"}, {7, 8, "⅞"},
 };
 
 /* The sign for |x|, NULL if there is none. */
@@ -236,7 +232,8 @@ integer(const fmpz_t n, qdot_text *out)
 }
 
 void
-qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket, qdot_text *out)
+qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
+                  qdot_text *out)
 {
     bool whole = fmpz_is_one(fmpq_denref(x));
     bool wrap = (bracket > 0 && fmpq_sgn(x) < 0) || (bracket == 2 && !whole);

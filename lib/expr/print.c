@@ -22,7 +22,7 @@ struct piece {
     int context;
     uint32_t order;
     bool raised; /* a unicode superscript */
-    bool turned; /* -1 times the sum e */
+    bool turned; /* -1 times the sum e; of a product, its difference turned */
     bool name;   /* in its style: theta as θ */
 };
 
@@ -93,42 +93,49 @@ is_minus(const qdot_pool *pool, qdot_expr number)
     return fmpq_sgn(RATIONAL(pool, number)) < 0;
 }
 
+/* One c t of a sum (t a PROD, a symbol ... or 1), its sign written before it: a plus where it
+ * leads (nothing) or where a difference in t takes the minus. */
+static void
+term(printer *p, qdot_expr c, qdot_expr t, bool turned, bool leads)
+{
+    bool minus = is_minus(p->pool, c) != turned;
+    bool flip = minus && qdot_expr_turnable(p->pool, t) != QDOT_NIL;
+
+    if (minus && !flip)
+        say(p, leads ? styled(p, "-", "−", "-") : styled(p, " - ", " − ", " - "));
+    else if (!leads)
+        say(p, " + ");
+    piece(p,
+          (struct piece){.e = t, .coefficient = c, .context = MAGNITUDE, .turned = flip});
+}
+
 /* The first term that needs no minus stands first; then the others; the number last. */
 static void
 open_sum(printer *p, qdot_expr e, int context, bool turned)
 {
     const qdot_pool *pool = p->pool;
+    const qdot_expr *args = ARGS(pool, e);
     uint32_t n = NODE(pool, e)->n, lead = 1;
-    qdot_expr constant = ARGS(pool, e)[0];
-    bool number_first = false, minus = false;
+    bool number_first = false;
 
-    while (lead < n && is_minus(pool, ARGS(pool, e)[lead + 1]) != turned)
+    while (lead < n && is_minus(pool, args[lead + 1]) != turned &&
+           qdot_expr_turnable(pool, args[lead]) == QDOT_NIL)
         lead += 2;
     if (lead >= n) {
-        number_first = constant != QDOT_ZERO && is_minus(pool, constant) == turned;
-        minus = !number_first;
+        number_first = args[0] != QDOT_ZERO && is_minus(pool, args[0]) == turned;
         lead = number_first ? n : 1;
     }
     if (context >= FACTOR)
         open_bracket(p);
-    if (minus)
-        say(p, styled(p, "-", "−", "-"));
-    /* from here on every sign is written: magnitudes */
-    piece(p, (struct piece){.e = number_first ? QDOT_ONE : ARGS(pool, e)[lead],
-                            .coefficient = number_first ? constant : ARGS(pool, e)[lead + 1],
-                            .context = MAGNITUDE});
-    for (uint32_t i = 1; i < n; i += 2) {
-        qdot_expr c = ARGS(pool, e)[i + 1];
-
-        if (i == lead)
-            continue;
-        say(p, is_minus(pool, c) != turned ? styled(p, " - ", " − ", " - ") : " + ");
-        piece(p, (struct piece){.e = ARGS(pool, e)[i], .coefficient = c, .context = MAGNITUDE});
-    }
-    if (constant != QDOT_ZERO && !number_first) {
-        say(p, is_minus(pool, constant) != turned ? styled(p, " - ", " − ", " - ") : " + ");
-        piece(p, (struct piece){.e = QDOT_ONE, .coefficient = constant, .context = MAGNITUDE});
-    }
+    if (number_first)
+        term(p, args[0], QDOT_ONE, turned, true);
+    else
+        term(p, args[lead + 1], args[lead], turned, true);
+    for (uint32_t i = 1; i < n; i += 2)
+        if (i != lead)
+            term(p, args[i + 1], args[i], turned, false);
+    if (args[0] != QDOT_ZERO && !number_first)
+        term(p, args[0], QDOT_ONE, turned, false);
     if (context >= FACTOR)
         close_bracket(p);
 }
@@ -151,14 +158,16 @@ exponent(printer *p, qdot_expr e, bool turned)
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
-    bool integer = x != NULL && fmpz_is_one(fmpq_denref(x)) && (fmpq_sgn(x) > 0 || turned);
+    bool integer =
+        x != NULL && fmpz_is_one(fmpq_denref(x)) && (fmpq_sgn(x) > 0 || turned);
     struct piece number = {.e = e, .context = turned ? MAGNITUDE : TOP};
 
     if (turned && x == NULL) {
         /* -n as n: the coefficient's sign is left out */
         number.context = MAGNITUDE;
         integer = NODE(pool, e)->n == 3 && ARGS(pool, e)[0] == QDOT_MINUS_ONE &&
-                  ARGS(pool, e)[2] == QDOT_ONE && NODE(pool, ARGS(pool, e)[1])->kind == QDOT_SYM;
+                  ARGS(pool, e)[2] == QDOT_ONE &&
+                  NODE(pool, ARGS(pool, e)[1])->kind == QDOT_SYM;
     } else if (x == NULL) {
         integer = NODE(pool, e)->kind == QDOT_SYM;
     }
@@ -214,7 +223,8 @@ static bool
 is_bare(const qdot_pool *pool, qdot_expr e)
 {
     return NODE(pool, e)->kind == QDOT_SYM ||
-           (NODE(pool, e)->kind == QDOT_NUM && fmpz_is_one(fmpq_denref(RATIONAL(pool, e))) &&
+           (NODE(pool, e)->kind == QDOT_NUM &&
+            fmpz_is_one(fmpq_denref(RATIONAL(pool, e))) &&
             fmpq_sgn(RATIONAL(pool, e)) > 0);
 }
 
@@ -271,7 +281,8 @@ joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
 /* The factors of e above (below) the bar; number: what stands before them already, or NULL;
  * turned: the base that is written as its negative. */
 static void
-factors(printer *p, qdot_expr e, bool down, const fmpq *number, int context, qdot_expr turned)
+factors(printer *p, qdot_expr e, bool down, const fmpq *number, int context,
+        qdot_expr turned)
 {
     const qdot_pool *pool = p->pool;
     bool first = true;
@@ -301,23 +312,28 @@ factors(printer *p, qdot_expr e, bool down, const fmpq *number, int context, qdo
 }
 
 /* c * e, e without a coefficient of its own (or the number 1); a context below 0: the sign is
- * written already. */
+ * written already; flip: a
+ * difference takes the minus. */
 static void
-open_scaled(printer *p, qdot_expr c, qdot_expr e, int context)
+open_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = RATIONAL(pool, c);
     bool latex = p->style == QDOT_LATEX;
-    qdot_expr turned = fmpq_sgn(x) < 0 && context >= 0 ? qdot_expr_turnable(pool, e) : QDOT_NIL;
-    bool minus = fmpq_sgn(x) < 0 && context >= 0 && turned == QDOT_NIL, fraction = !fmpz_is_one(fmpq_denref(x));
+    qdot_expr turned = flip || (fmpq_sgn(x) < 0 && context >= 0)
+                           ? qdot_expr_turnable(pool, e)
+                           : QDOT_NIL;
+    bool minus = fmpq_sgn(x) < 0 && context >= 0 && turned == QDOT_NIL,
+         fraction = !fmpz_is_one(fmpq_denref(x));
     uint32_t up = count_factors(pool, e, false), down = count_factors(pool, e, true);
     /* the number's denominator: 1/2*m/r, but 1/(2*r) where nothing else stands above */
     bool inside = fraction && down > 0 && (up == 0 || latex);
     bool number = up == 0 || !fmpz_is_pm1(fmpq_numref(x)) || (fraction && !inside);
     bool several = !latex && (down > 1 || inside), frac = latex && down > 0;
     uint32_t written = number + up + down;
-    bool bracket = context == BASE ? written > 1 || minus || e == QDOT_ONE || up + down > 0
-                                   : context == FACTOR && (minus || down > 0 || fraction);
+    bool bracket = context == BASE
+                       ? written > 1 || minus || e == QDOT_ONE || up + down > 0
+                       : context == FACTOR && (minus || down > 0 || fraction);
 
     if (bracket)
         open_bracket(p);
@@ -328,15 +344,20 @@ open_scaled(printer *p, qdot_expr c, qdot_expr e, int context)
     if (number)
         piece(p, (struct piece){.e = c, .context = inside ? NUMERATOR : MAGNITUDE});
     if (up > 0)
-        factors(p, e, false, number ? x : NULL, frac && number + up == 1 ? TOP
-                                      : written > 1 || minus   ? FACTOR
-                                      : context < 0            ? TERM
-                                                               : context, turned);
+        factors(p, e, false, number ? x : NULL,
+                frac && number + up == 1 ? TOP
+                : written > 1 || minus   ? FACTOR
+                : context < 0            ? TERM
+                                         : context,
+                turned);
     if (down > 0) {
         say(p, frac ? "}{" : several ? "/(" : "/");
         if (inside)
             piece(p, (struct piece){.e = c, .context = DENOMINATOR});
-        factors(p, e, true, inside ? x : NULL, frac && down == 1 && !inside ? TOP : several || frac ? FACTOR : BASE,
+        factors(p, e, true, inside ? x : NULL,
+                frac && down == 1 && !inside ? TOP
+                : several || frac            ? FACTOR
+                                             : BASE,
                 QDOT_NIL);
         if (frac || several)
             say(p, frac ? "}" : ")");
@@ -460,7 +481,8 @@ derivative_partial(printer *p, qdot_expr e, uint32_t total, bool moved, int cont
 {
     const qdot_pool *pool = p->pool;
     const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
-    bool bracket = (moved && p->style != QDOT_LATEX) || (!moved && context >= BASE), first = true;
+    bool bracket = (moved && p->style != QDOT_LATEX) || (!moved && context >= BASE),
+         first = true;
 
     if (bracket)
         open_bracket(p);
@@ -550,7 +572,9 @@ open_logic(printer *p, qdot_expr e, int context)
 
         if (i > 0)
             say(p, word);
-        child(p, part, NODE(p->pool, part)->kind == QDOT_LOGIC || node->op == QDOT_NOT ? TERM : TOP);
+        child(p, part,
+              NODE(p->pool, part)->kind == QDOT_LOGIC || node->op == QDOT_NOT ? TERM
+                                                                              : TOP);
     }
     if (context > TOP)
         close_bracket(p);
@@ -564,7 +588,8 @@ open_matrix(printer *p, qdot_expr e)
     say(p, styled(p, "[", "[", "\\begin{pmatrix}"));
     for (uint32_t i = 0; i < node->n; i++) {
         if (i > 0)
-            say(p, i % node->op ? styled(p, ", ", ", ", " & ") : styled(p, "; ", "; ", " \\\\ "));
+            say(p, i % node->op ? styled(p, ", ", ", ", " & ")
+                                : styled(p, "; ", "; ", " \\\\ "));
         child(p, ARGS(p->pool, e)[i], TOP);
     }
     /* one row must not look like a list */
@@ -579,7 +604,7 @@ open_node(printer *p, const struct piece *x)
     fmpq_t c;
 
     if (x->coefficient != QDOT_NIL) {
-        open_scaled(p, x->coefficient, x->e, x->context);
+        open_scaled(p, x->coefficient, x->e, x->context, x->turned);
         return;
     }
     switch (node->kind) {
@@ -597,30 +622,17 @@ open_node(printer *p, const struct piece *x)
             fmpz_one(fmpq_denref(c));
         }
         qdot_print_number(c, p->style, x->raised,
-                          x->context >= FACTOR ? (x->context == BASE ? 2 : 1) : 0, p->out);
+                          x->context >= FACTOR ? (x->context == BASE ? 2 : 1) : 0,
+                          p->out);
         fmpq_clear(c);
         break;
-    case QDOT_SYM:
-        qdot_print_symbol(pool, x->e, p->style, p->out);
-        break;
-    case QDOT_SUM:
-        open_sum(p, x->e, x->context, x->turned);
-        break;
-    case QDOT_PROD:
-        open_scaled(p, ARGS(pool, x->e)[0], x->e, x->context);
-        break;
-    case QDOT_FUN:
-        open_function(p, x->e);
-        break;
-    case QDOT_UFUN:
-        open_ufun(p, x->e, x->context);
-        break;
-    case QDOT_REL:
-        open_relation(p, x->e, x->context);
-        break;
-    case QDOT_LOGIC:
-        open_logic(p, x->e, x->context);
-        break;
+    case QDOT_SYM: qdot_print_symbol(pool, x->e, p->style, p->out); break;
+    case QDOT_SUM: open_sum(p, x->e, x->context, x->turned); break;
+    case QDOT_PROD: open_scaled(p, ARGS(pool, x->e)[0], x->e, x->context, false); break;
+    case QDOT_FUN: open_function(p, x->e); break;
+    case QDOT_UFUN: open_ufun(p, x->e, x->context); break;
+    case QDOT_REL: open_relation(p, x->e, x->context); break;
+    case QDOT_LOGIC: open_logic(p, x->e, x->context); break;
     case QDOT_VEC:
         open_bracket(p);
         children(p, x->e, 0, node->n, ", ");
@@ -631,8 +643,7 @@ open_node(printer *p, const struct piece *x)
         children(p, x->e, 0, node->n, ", ");
         say(p, styled(p, "]", "]", "\\right]"));
         break;
-    default:
-        open_matrix(p, x->e);
+    default: open_matrix(p, x->e);
     }
 }
 

@@ -175,7 +175,8 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
             push(&rest, b, e);
     }
     if (rest.n > 0 || !fmpq_is_one(&rest.c)) {
-        if (rest.n == (n - 1) / 2 && fmpq_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
+        if (rest.n == (n - 1) / 2 &&
+            fmpq_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
             push(p, base, k); /* nothing came out */
         } else if (rest.n == 0 && !(NODE(pool, base)->sign & QDOT_NE0)) {
             p->n = 0; /* sqrt(-x^2), real where it is 0: nothing comes out */
@@ -185,7 +186,8 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
             qdot_expr f = qdot_expr_fmpq(pool, &rest.c);
 
             for (size_t i = 0; i < rest.n; i++)
-                f = qdot_mul(pool, f, qdot_pow(pool, rest.at[i].base, rest.at[i].exponent));
+                f = qdot_mul(pool, f,
+                             qdot_pow(pool, rest.at[i].base, rest.at[i].exponent));
             if (f != QDOT_NIL && NODE(pool, f)->kind == QDOT_NUM)
                 push_number(p, f, k);
             else
@@ -218,16 +220,13 @@ take(struct product *p, qdot_expr e)
     qdot_pool *pool = p->pool;
 
     switch (NODE(pool, e)->kind) {
-    case QDOT_NUM:
-        scale(p, RATIONAL(pool, e));
-        return;
+    case QDOT_NUM: scale(p, RATIONAL(pool, e)); return;
     case QDOT_PROD:
         if (ARGS(pool, e)[0] != QDOT_ONE)
             scale(p, RATIONAL(pool, ARGS(pool, e)[0]));
         take_pairs(p, e, 0);
         return;
-    default:
-        push(p, e, QDOT_ONE);
+    default: push(p, e, QDOT_ONE);
     }
 }
 
@@ -281,7 +280,8 @@ merge_exponentials(struct product *p)
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t i = 0; i < p->n; i++)
-        if (NODE(pool, p->at[i].base)->kind == QDOT_FUN && NODE(pool, p->at[i].base)->op == QDOT_EXP) {
+        if (NODE(pool, p->at[i].base)->kind == QDOT_FUN &&
+            NODE(pool, p->at[i].base)->op == QDOT_EXP) {
             count++;
             plain &= p->at[i].exponent == QDOT_ONE;
         }
@@ -291,8 +291,9 @@ merge_exponentials(struct product *p)
         const qdot_node *node = NODE(pool, p->at[i].base);
 
         if (node->kind == QDOT_FUN && node->op == QDOT_EXP)
-            sum = qdot_add(pool, sum,
-                           qdot_mul(pool, ARGS(pool, p->at[i].base)[0], p->at[i].exponent));
+            sum =
+                qdot_add(pool, sum,
+                         qdot_mul(pool, ARGS(pool, p->at[i].base)[0], p->at[i].exponent));
         else
             p->at[kept++] = p->at[i];
     }
@@ -307,7 +308,8 @@ merge_exponentials(struct product *p)
 static bool
 is_number_root(const qdot_pool *pool, const struct pair *x)
 {
-    return NODE(pool, x->base)->kind == QDOT_NUM && NODE(pool, x->exponent)->kind == QDOT_NUM;
+    return NODE(pool, x->base)->kind == QDOT_NUM &&
+           NODE(pool, x->exponent)->kind == QDOT_NUM;
 }
 
 /* Roots of numbers under one exponent are one root: sqrt(2)*sqrt(6) is 2*sqrt(3). */
@@ -318,7 +320,8 @@ merge_roots(struct product *p)
 
     for (size_t i = 0; i < p->n; i++)
         for (size_t j = i + 1; j < p->n && is_number_root(pool, &p->at[i]); j++)
-            if (p->at[i].exponent == p->at[j].exponent && is_number_root(pool, &p->at[j])) {
+            if (p->at[i].exponent == p->at[j].exponent &&
+                is_number_root(pool, &p->at[j])) {
                 qdot_expr e = p->at[i].exponent;
                 qdot_expr b = qdot_mul(pool, p->at[i].base, p->at[j].base);
 
@@ -399,7 +402,7 @@ round_of_merging(struct product *p)
 
             fmpq_init(y);
             if (qdot_number_power(pool, y, RATIONAL(pool, ARGS(pool, e)[0]),
-                                fmpq_numref(RATIONAL(pool, x.exponent))))
+                                  fmpq_numref(RATIONAL(pool, x.exponent))))
                 scale(p, y);
             else
                 p->failed = true;
@@ -412,7 +415,8 @@ round_of_merging(struct product *p)
             }
             n = p->n;
             again = true;
-        } else if (base->kind == QDOT_FUN && base->op == QDOT_ABS && is_even(pool, x.exponent)) {
+        } else if (base->kind == QDOT_FUN && base->op == QDOT_ABS &&
+                   is_even(pool, x.exponent)) {
             qdot_expr arg = ARGS(pool, x.base)[0];
 
             p->n = n;
@@ -428,7 +432,8 @@ round_of_merging(struct product *p)
             if (!is_even(pool, x.exponent))
                 fmpq_neg(&p->c, &p->c);
             again = true;
-        } else if (base->kind == QDOT_NUM && qdot_expr_rational(pool, x.exponent) != NULL) {
+        } else if (base->kind == QDOT_NUM &&
+                   qdot_expr_rational(pool, x.exponent) != NULL) {
             if (x.settled) {
                 p->at[kept++] = x;
             } else {
@@ -476,8 +481,9 @@ finish(struct product *p)
         return qdot_expr_fmpq(pool, &p->c);
     if (p->n == 1 && p->at[0].exponent == QDOT_ONE && fmpq_is_one(&p->c))
         return p->at[0].base;
-    if (p->n == 1 && p->at[0].exponent == QDOT_ONE && fmpz_equal_si(fmpq_numref(&p->c), -1) &&
-        fmpz_is_one(fmpq_denref(&p->c)) && NODE(pool, p->at[0].base)->kind == QDOT_SUM)
+    if (p->n == 1 && p->at[0].exponent == QDOT_ONE &&
+        fmpz_equal_si(fmpq_numref(&p->c), -1) && fmpz_is_one(fmpq_denref(&p->c)) &&
+        NODE(pool, p->at[0].base)->kind == QDOT_SUM)
         return qdot_sum_turned(pool, p->at[0].base);
     sort(p, false);
     if (p->n > 16 && (args = qdot_malloc((2 * p->n + 1) * sizeof *args)) == NULL)
@@ -490,7 +496,8 @@ finish(struct product *p)
     if (!qdot_pool_failed(pool)) {
         uint32_t n = (uint32_t)(2 * p->n + 1);
 
-        e = qdot_pool_intern(pool, QDOT_PROD, 0, n, args, qdot_sign_of_product(pool, n, args));
+        e = qdot_pool_intern(pool, QDOT_PROD, 0, n, args,
+                             qdot_sign_of_product(pool, n, args));
     }
     if (args != few)
         qdot_free(args);
@@ -567,7 +574,8 @@ qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (qdot_expr_is_atom(pool, a)) {
         qdot_expr args[] = {QDOT_ONE, a, b};
 
-        return qdot_pool_intern(pool, QDOT_PROD, 0, 3, args, qdot_sign_of_product(pool, 3, args));
+        return qdot_pool_intern(pool, QDOT_PROD, 0, 3, args,
+                                qdot_sign_of_product(pool, 3, args));
     }
     begin(&p, pool);
     kind = NODE(pool, a)->kind;

@@ -83,8 +83,8 @@ reduce_root(fmpz_t inside, ulong q)
 }
 
 bool
-qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c, qdot_expr *base,
-                 qdot_expr *exponent)
+qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
+                 qdot_expr *base, qdot_expr *exponent)
 {
     fmpz_t whole, part, outside, inside, all;
     fmpq_t rest;

@@ -49,7 +49,8 @@ multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
         return c == QDOT_ONE ? e : c;
     if (NODE(pool, e)->kind == QDOT_NUM)
         return number_times(pool, c, e);
-    if (NODE(pool, e)->kind == QDOT_SUM && (c == QDOT_MINUS_ONE || qdot_expr_is_negative(pool, e))) {
+    if (NODE(pool, e)->kind == QDOT_SUM &&
+        (c == QDOT_MINUS_ONE || qdot_expr_is_negative(pool, e))) {
         e = qdot_sum_turned(pool, e);
         c = number_times(pool, QDOT_MINUS_ONE, c);
         if (c == QDOT_ONE || c == QDOT_NIL || e == QDOT_NIL)
@@ -73,7 +74,8 @@ multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
              NODE(pool, args[1])->kind == QDOT_SUM)
         result = qdot_sum_turned(pool, args[1]);
     else
-        result = qdot_pool_intern(pool, QDOT_PROD, 0, n, args, qdot_sign_of_product(pool, n, args));
+        result = qdot_pool_intern(pool, QDOT_PROD, 0, n, args,
+                                  qdot_sign_of_product(pool, n, args));
     if (args != few)
         qdot_free(args);
     return result;
@@ -94,7 +96,8 @@ qdot_expr_strip(qdot_pool *pool, qdot_expr e)
         return qdot_pool_fail(pool);
     memcpy(args, ARGS(pool, e), n * sizeof *args);
     args[0] = QDOT_ONE;
-    stripped = qdot_pool_intern(pool, QDOT_PROD, 0, n, args, qdot_sign_of_product(pool, n, args));
+    stripped = qdot_pool_intern(pool, QDOT_PROD, 0, n, args,
+                                qdot_sign_of_product(pool, n, args));
     if (args != few)
         qdot_free(args);
     return stripped;
@@ -156,7 +159,8 @@ qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
         bool turned = qdot_expr_compare(pool, a, b) > 0;
         qdot_expr args[] = {QDOT_ONE, turned ? b : a, QDOT_ONE, turned ? a : b, QDOT_ONE};
 
-        return qdot_pool_intern(pool, QDOT_PROD, 0, 5, args, qdot_sign_of_product(pool, 5, args));
+        return qdot_pool_intern(pool, QDOT_PROD, 0, 5, args,
+                                qdot_sign_of_product(pool, 5, args));
     }
     return qdot_product(pool, 2, (qdot_expr[]){a, b});
 }

@@ -106,9 +106,7 @@ add(struct sum *s, qdot_expr e, qdot_expr c)
     qdot_expr own, rest;
 
     switch (NODE(pool, e)->kind) {
-    case QDOT_NUM:
-        add_number(s, e, c);
-        return;
+    case QDOT_NUM: add_number(s, e, c); return;
     case QDOT_PROD:
         own = ARGS(pool, e)[0];
         if (own == QDOT_ONE) {
@@ -130,8 +128,7 @@ add(struct sum *s, qdot_expr e, qdot_expr c)
         for (uint32_t i = 1; i < NODE(pool, e)->n && !s->failed; i += 2)
             push(s, ARGS(pool, e)[i], ARGS(pool, e)[i + 1], c);
         return;
-    default:
-        push(s, e, c, QDOT_ONE);
+    default: push(s, e, c, QDOT_ONE);
     }
 }
 
@@ -188,7 +185,8 @@ merge_runs(const struct sum *s, const struct term *from, size_t a, size_t b, siz
     size_t i = a, k = b;
 
     for (size_t n = a; n < c; n++)
-        to[n] = k == c || (i < b && ordered(s, &from[i], &from[k])) ? from[i++] : from[k++];
+        to[n] =
+            k == c || (i < b && ordered(s, &from[i], &from[k])) ? from[i++] : from[k++];
 }
 
 /* The canonical order, by merging the runs that are there: sums come sorted. */
@@ -206,7 +204,8 @@ sort_runs(struct sum *s, uint32_t *start, size_t runs)
         struct term *swap;
 
         for (size_t r = 0; r < runs; r += 2) {
-            size_t b = r + 1 < runs ? start[r + 1] : s->n, c = r + 2 < runs ? start[r + 2] : s->n;
+            size_t b = r + 1 < runs ? start[r + 1] : s->n,
+                   c = r + 2 < runs ? start[r + 2] : s->n;
 
             merge_runs(s, from, start[r], b, c, to);
             start[kept++] = start[r];
@@ -292,7 +291,8 @@ finish(struct sum *s)
     args[0] = fmpq_is_zero(&s->constant) ? QDOT_ZERO : qdot_expr_fmpq(pool, &s->constant);
     for (size_t i = 0; i < s->n; i++) {
         args[1 + 2 * i] = s->at[i].term;
-        args[2 + 2 * i] = s->at[i].id != QDOT_NIL ? s->at[i].id : qdot_expr_fmpq(pool, &s->at[i].c);
+        args[2 + 2 * i] =
+            s->at[i].id != QDOT_NIL ? s->at[i].id : qdot_expr_fmpq(pool, &s->at[i].c);
     }
     if (!qdot_pool_failed(pool)) {
         uint32_t n = (uint32_t)(2 * s->n + 1);
@@ -339,7 +339,9 @@ combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
             count++;
         }
     if (count < 2)
-        return count == 0 ? QDOT_ZERO : c == NULL ? terms[only] : qdot_mul(pool, c[only], terms[only]);
+        return count == 0  ? QDOT_ZERO
+               : c == NULL ? terms[only]
+                           : qdot_mul(pool, c[only], terms[only]);
     begin(&s, pool);
     for (size_t i = 0; i < n && !s.failed; i++)
         add(&s, terms[i], c == NULL ? QDOT_ONE : c[i]);

@@ -9,18 +9,12 @@ static const char *
 name_of_kind(const qdot_pool *pool, qdot_expr e)
 {
     switch (NODE(pool, e)->kind) {
-    case QDOT_REL:
-        return NODE(pool, e)->op == QDOT_EQ ? "an equation" : "a comparison";
-    case QDOT_LOGIC:
-        return "a condition";
-    case QDOT_VEC:
-        return "a vector";
-    case QDOT_MAT:
-        return "a matrix";
-    case QDOT_LIST:
-        return "a list";
-    default:
-        return e == QDOT_TRUE || e == QDOT_FALSE ? "a condition" : "a number";
+    case QDOT_REL: return NODE(pool, e)->op == QDOT_EQ ? "an equation" : "a comparison";
+    case QDOT_LOGIC: return "a condition";
+    case QDOT_VEC: return "a vector";
+    case QDOT_MAT: return "a matrix";
+    case QDOT_LIST: return "a list";
+    default: return e == QDOT_TRUE || e == QDOT_FALSE ? "a condition" : "a number";
     }
 }
 
@@ -83,13 +77,14 @@ shapes_differ(qdot_pool *pool, const char *verb, qdot_expr a, qdot_expr b)
     const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
 
     if (x->kind == QDOT_VEC && y->kind == QDOT_VEC)
-        return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot %s vectors of %u and %u components", verb,
-                                x->n, y->n);
+        return qdot_pool_refuse(pool, QDOT_ETYPE,
+                                "cannot %s vectors of %u and %u components", verb, x->n,
+                                y->n);
     if (x->kind == QDOT_MAT && y->kind == QDOT_MAT)
-        return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot %s a %ux%u and a %ux%u matrix", verb,
-                                x->n / x->op, x->op, y->n / y->op, y->op);
-    return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot %s %s and %s", verb, name_of_kind(pool, a),
-                            name_of_kind(pool, b));
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot %s a %ux%u and a %ux%u matrix",
+                                verb, x->n / x->op, x->op, y->n / y->op, y->op);
+    return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot %s %s and %s", verb,
+                            name_of_kind(pool, a), name_of_kind(pool, b));
 }
 
 static bool
@@ -132,7 +127,8 @@ qdot_value_sub(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     if (!ready(pool, a, b))
         return QDOT_NIL;
-    if (!qdot_expr_is_scalar(pool, a) && !qdot_expr_is_scalar(pool, b) && !same_shape(pool, a, b))
+    if (!qdot_expr_is_scalar(pool, a) && !qdot_expr_is_scalar(pool, b) &&
+        !same_shape(pool, a, b))
         return shapes_differ(pool, "subtract", a, b);
     return qdot_value_add(pool, a, qdot_value_neg(pool, b));
 }
@@ -148,10 +144,12 @@ matrix_product(qdot_pool *pool, qdot_expr a, qdot_expr b)
     qdot_expr result = QDOT_NIL;
 
     if (inner != deep)
-        return vector ? qdot_pool_refuse(pool, QDOT_ETYPE,
-                                         "cannot multiply a %ux%u matrix and a vector of %u components",
-                                         rows, inner, deep)
-                      : shapes_differ(pool, "multiply", a, b);
+        return vector
+                   ? qdot_pool_refuse(
+                         pool, QDOT_ETYPE,
+                         "cannot multiply a %ux%u matrix and a vector of %u components",
+                         rows, inner, deep)
+                   : shapes_differ(pool, "multiply", a, b);
     if (!parts_begin(pool, &p, (size_t)rows * columns))
         return QDOT_NIL;
     if (parts_begin(pool, &terms, inner)) {
@@ -162,7 +160,7 @@ matrix_product(qdot_pool *pool, qdot_expr a, qdot_expr b)
                                            ARGS(pool, b)[k * columns + j]);
                 p.at[i * columns + j] = qdot_sum(pool, inner, terms.at);
             }
-        result = !vector   ? qdot_matrix(pool, rows, columns, p.at)
+        result = !vector    ? qdot_matrix(pool, rows, columns, p.at)
                  : rows > 1 ? qdot_vector(pool, rows, p.at)
                             : p.at[0];
         parts_end(&terms);
@@ -202,7 +200,8 @@ qdot_value_div(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (!ready(pool, a, b))
         return QDOT_NIL;
     if (!qdot_expr_is_scalar(pool, b))
-        return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot divide by %s", name_of_kind(pool, b));
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot divide by %s",
+                                name_of_kind(pool, b));
     return qdot_value_mul(pool, a, qdot_pow(pool, b, QDOT_MINUS_ONE));
 }
 
@@ -230,7 +229,8 @@ qdot_value_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
         parts p;
 
         if (NODE(pool, a)->n != size * size)
-            return qdot_pool_refuse(pool, QDOT_ETYPE, "a power of a matrix that is not square");
+            return qdot_pool_refuse(pool, QDOT_ETYPE,
+                                    "a power of a matrix that is not square");
         if (!parts_begin(pool, &p, (size_t)size * size))
             return QDOT_NIL;
         for (uint32_t i = 0; i < size * size; i++)
@@ -260,8 +260,11 @@ qdot_value_equation(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return equate(pool, a, b);
-    if ((is_tensor(pool, a) || NODE(pool, a)->kind == QDOT_LIST) && same_shape(pool, a, b))
-        return each(pool, a, b, NODE(pool, a)->kind == QDOT_LIST ? qdot_value_equation : equate, true);
+    if ((is_tensor(pool, a) || NODE(pool, a)->kind == QDOT_LIST) &&
+        same_shape(pool, a, b))
+        return each(pool, a, b,
+                    NODE(pool, a)->kind == QDOT_LIST ? qdot_value_equation : equate,
+                    true);
     return shapes_differ(pool, "equate", a, b);
 }
 
@@ -342,7 +345,8 @@ matrix(qdot_pool *pool, const char *what, qdot_expr a, bool square)
     if (a == QDOT_NIL || qdot_pool_failed(pool))
         return false;
     if (NODE(pool, a)->kind != QDOT_MAT) {
-        qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes a matrix, not %s", what, name_of_kind(pool, a));
+        qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes a matrix, not %s", what,
+                         name_of_kind(pool, a));
         return false;
     }
     if (square && NODE(pool, a)->n != (uint32_t)NODE(pool, a)->op * NODE(pool, a)->op) {
@@ -425,8 +429,8 @@ not_too_large(qdot_pool *pool, const char *what, uint32_t n)
 {
     if (n <= LARGEST)
         return true;
-    qdot_pool_refuse(pool, QDOT_ELIMIT, "%s of a symbolic matrix larger than %dx%d", what, LARGEST,
-                     LARGEST);
+    qdot_pool_refuse(pool, QDOT_ELIMIT, "%s of a symbolic matrix larger than %dx%d", what,
+                     LARGEST, LARGEST);
     return false;
 }
 
@@ -448,7 +452,8 @@ qdot_det(qdot_pool *pool, qdot_expr a)
 qdot_expr
 qdot_inverse(qdot_pool *pool, qdot_expr a)
 {
-    qdot_expr entry[LARGEST * LARGEST], minor[LARGEST * LARGEST], inverse[LARGEST * LARGEST], det;
+    qdot_expr entry[LARGEST * LARGEST], minor[LARGEST * LARGEST],
+        inverse[LARGEST * LARGEST], det;
     uint32_t n;
 
     if (!matrix(pool, "inverse", a, true))
@@ -459,7 +464,8 @@ qdot_inverse(qdot_pool *pool, qdot_expr a)
     memcpy(entry, ARGS(pool, a), (size_t)n * n * sizeof *entry);
     det = determinant(pool, n, entry);
     if (det == QDOT_ZERO)
-        return qdot_pool_refuse(pool, QDOT_ESINGULAR, "the matrix has no inverse: its determinant is 0");
+        return qdot_pool_refuse(pool, QDOT_ESINGULAR,
+                                "the matrix has no inverse: its determinant is 0");
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < n; j++) {
             qdot_expr cofactor;
@@ -493,15 +499,17 @@ qdot_entry(qdot_pool *pool, qdot_expr a, long i)
         uint32_t columns = node->op;
 
         if (i < 1 || (unsigned long)i > node->n / columns)
-            return qdot_pool_refuse(pool, QDOT_EDOMAIN, "row %ld of a matrix of %u rows", i,
-                                    node->n / columns);
+            return qdot_pool_refuse(pool, QDOT_EDOMAIN, "row %ld of a matrix of %u rows",
+                                    i, node->n / columns);
         return columns > 1 ? qdot_vector(pool, columns, ARGS(pool, a) + (i - 1) * columns)
                            : ARGS(pool, a)[i - 1];
     }
     if (node->kind != QDOT_VEC && node->kind != QDOT_LIST)
-        return qdot_pool_refuse(pool, QDOT_ETYPE, "%s has no entries", name_of_kind(pool, a));
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "%s has no entries",
+                                name_of_kind(pool, a));
     if (i < 1 || (unsigned long)i > node->n)
-        return qdot_pool_refuse(pool, QDOT_EDOMAIN, "entry %ld of %s of %u: they are counted from 1", i,
+        return qdot_pool_refuse(pool, QDOT_EDOMAIN,
+                                "entry %ld of %s of %u: they are counted from 1", i,
                                 name_of_kind(pool, a), node->n);
     return ARGS(pool, a)[i - 1];
 }
@@ -520,9 +528,10 @@ qdot_entry2(qdot_pool *pool, qdot_expr a, long i, long j)
     columns = NODE(pool, a)->op;
     rows = NODE(pool, a)->n / columns;
     if (i < 1 || j < 1 || (unsigned long)i > rows || (unsigned long)j > columns)
-        return qdot_pool_refuse(pool, QDOT_EDOMAIN,
-                                "entry [%ld, %ld] of a %ux%u matrix: they are counted from 1", i, j, rows,
-                                columns);
+        return qdot_pool_refuse(
+            pool, QDOT_EDOMAIN,
+            "entry [%ld, %ld] of a %ux%u matrix: they are counted from 1", i, j, rows,
+            columns);
     return ARGS(pool, a)[(i - 1) * columns + j - 1];
 }
 

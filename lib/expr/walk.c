@@ -58,7 +58,8 @@ sort_ids(qdot_expr *at, size_t n, qdot_expr *scratch)
         qdot_expr *swap = from;
 
         for (size_t a = 0; a < n; a += 2 * width) {
-            size_t b = a + width < n ? a + width : n, c = a + 2 * width < n ? a + 2 * width : n;
+            size_t b = a + width < n ? a + width : n,
+                   c = a + 2 * width < n ? a + 2 * width : n;
             size_t i = a, k = b;
 
             for (size_t m = a; m < c; m++)
@@ -138,8 +139,8 @@ qdot_walk_begin(const qdot_pool *pool, qdot_expr e, qdot_walk *w)
 }
 
 qdot_status
-qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
-                      qdot_walk *w)
+qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e, uint32_t holds,
+                      uint32_t touches, qdot_walk *w)
 {
     return begin(pool, 1, &e, holds, touches, w);
 }
@@ -175,7 +176,8 @@ qdot_walk_set(qdot_walk *w, qdot_expr e, uint64_t value)
 
 qdot_expr
 qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
-                    qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user), void *user)
+                    qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
+                    void *user)
 {
     qdot_walk w;
     qdot_vec(qdot_expr) args = {0};
@@ -191,7 +193,8 @@ qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touch
 
         if (to == QDOT_NIL && !qdot_pool_failed(pool)) {
             to = node;
-            if (n > 0 && qdot_grow(&args.at, &args.capacity, n, sizeof *args.at) != QDOT_OK) {
+            if (n > 0 &&
+                qdot_grow(&args.at, &args.capacity, n, sizeof *args.at) != QDOT_OK) {
                 qdot_pool_fail(pool);
                 break;
             }
@@ -360,12 +363,9 @@ size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     uint64_t size = 0;
 
     switch (node->kind) {
-    case QDOT_NUM:
-        return size_of_number(RATIONAL(pool, e));
-    case QDOT_SUM:
-        return size_of_sum(pool, e, w);
-    case QDOT_PROD:
-        return size_of_product(pool, e, w);
+    case QDOT_NUM: return size_of_number(RATIONAL(pool, e));
+    case QDOT_SUM: return size_of_sum(pool, e, w);
+    case QDOT_PROD: return size_of_product(pool, e, w);
     default:
         for (uint32_t i = 0; i < n; i++)
             size = plus(size, qdot_walk_get(w, args[i]));

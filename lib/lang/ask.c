@@ -1,6 +1,7 @@
 /* ask.c -- values asked for: expressions, print, show, vars, and the parts of a scene. */
 #include "lang/statement.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "expr/walk.h"
@@ -284,6 +285,18 @@ set_value(const qdot_session *session, qdot_expr symbol)
     return QDOT_NIL;
 }
 
+/* A value; how large it is where it is too large to print. */
+static qdot_status
+print_value(qdot_session *session, qdot_expr value, qdot_text *out)
+{
+    uint64_t size = qdot_expr_size(session->pool, value);
+
+    if (size <= QDOT_ANSWER_OPERATIONS)
+        return qdot_print(session->pool, value, QDOT_PLAIN, out);
+    qdot_text_format(out, "... # %" PRIu64 " operations", size);
+    return QDOT_OK;
+}
+
 /* A declared name as a statement that declares it. */
 static qdot_status
 print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
@@ -300,7 +313,7 @@ print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
         if (value == QDOT_NIL)
             return QDOT_OK;
         qdot_text_add(out, " = ");
-        return qdot_answer_print(session, value, QDOT_PLAIN, out);
+        return print_value(session, value, out);
     case QDOT_NAME_UFUN:
         qdot_text_add(out, "function ");
         return qdot_print(pool, name->value, QDOT_PLAIN, out);
@@ -311,10 +324,10 @@ print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
                 out, "%s%s", i > 0 ? ", " : "",
                 qdot_expr_symbol(pool, qdot_expr_arg(pool, name->formals, i))->name);
         qdot_text_add(out, ") = ");
-        return qdot_answer_print(session, name->value, QDOT_PLAIN, out);
+        return print_value(session, name->value, out);
     default:
         qdot_text_format(out, "%s = ", name->name);
-        return qdot_answer_print(session, name->value, QDOT_PLAIN, out);
+        return print_value(session, name->value, out);
     }
 }
 

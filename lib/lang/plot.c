@@ -107,7 +107,11 @@ finish(qdot_session *session, figure *f)
         columns[n + i] = (qdot_column){f->curves.at[i].label, f->curves.at[i].y};
         rows[i] = f->curves.at[i].rows;
     }
-    if (status == QDOT_OK && n == 1)
+    if (f->equal_axes) /* a path: x and y of space, its name above */
+        out.y_label = "y";
+    if (status == QDOT_OK && n == 1 && f->equal_axes)
+        out.title = f->curves.at[0].label;
+    else if (status == QDOT_OK && n == 1)
         out.y_label = f->curves.at[0].label;
     if (status == QDOT_OK && f->path != NULL)
         qdot_text_add(&path, f->path);

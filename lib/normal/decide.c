@@ -5,7 +5,9 @@
 #include <math.h>
 
 #include "base/interrupt.h"
+#include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "normal/prove.h"
 #include "normal/sample.h"
 #include "normal/unify.h"
@@ -23,6 +25,8 @@ struct look {
 static const struct look quick = {2, 24, {96, 0}};
 static const struct look closer = {2, 24, {512, 0}};
 static const struct look thorough = {16, 240, {128, 512, 2048, 0}};
+/* under conditions, which may leave little room */
+static const struct look patient = {60, 720, {128, 0}};
 
 static double
 to_double(arb_srcptr x)
@@ -35,17 +39,31 @@ static int
 digits_of(const arb_t difference, arb_srcptr left)
 {
     double radius = mag_get_d_log2_approx(arb_radref(difference));
-    double size = fabs(to_double(left));
+    slong size = arf_abs_bound_lt_2exp_si(arb_midref(left)); /* left < 2^size */
 
     if (mag_is_zero(arb_radref(difference)))
         return 9999;
-    radius -= size > 1 ? log2(size) : 0;
-    return radius > 0 ? 0 : (int)(-radius * 0.30103);
+    radius -= size > 0 ? (double)size : 0;
+    return radius > 0 ? 0 : (int)fmin(-radius * 0.30103, 9999);
+}
+
+/* What is compared: where all of `defined` (a LIST) have values. */
+struct sides {
+    qdot_expr left, right, defined;
+};
+
+static bool
+all_defined(const qdot_sample *s, qdot_expr list)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(s->pool, list); i++)
+        if (qdot_ball_get(&s->ball, qdot_expr_arg(s->pool, list, i)) == NULL)
+            return false;
+    return true;
 }
 
 /* Compare at one point. 1: the sides differ there; 0: they agree so far; -1: no point. */
 static int
-compare(qdot_sample *s, qdot_expr left, qdot_expr right, const struct look *look,
+compare(qdot_sample *s, const struct sides *sides, const struct look *look,
         qdot_decision *d, int *digits)
 {
     int result = -1;
@@ -54,9 +72,10 @@ compare(qdot_sample *s, qdot_expr left, qdot_expr right, const struct look *look
     arb_init(difference);
     for (int i = 0; i < 4 && look->prec[i] > 0; i++) {
         bool here = qdot_sample_eval(s, look->prec[i]);
-        arb_srcptr l = qdot_ball_get(&s->ball, left), r = qdot_ball_get(&s->ball, right);
+        arb_srcptr l = qdot_ball_get(&s->ball, sides->left);
+        arb_srcptr r = qdot_ball_get(&s->ball, sides->right);
 
-        if (!here || l == NULL || r == NULL) {
+        if (!here || l == NULL || r == NULL || !all_defined(s, sides->defined)) {
             if (i > 0)
                 break;
             continue;
@@ -78,14 +97,14 @@ compare(qdot_sample *s, qdot_expr left, qdot_expr right, const struct look *look
 }
 
 static qdot_status
-look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
-               const struct look *look, qdot_decision *d)
+look_at_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *facts,
+              const struct look *look, qdot_decision *d)
 {
-    qdot_expr e[2] = {left, right};
+    qdot_expr e[3] = {sides->left, sides->right, sides->defined};
     int wanted = look->points;
     qdot_sample s;
 
-    QDOT_TRY(qdot_sample_begin(&s, pool, 2, e, facts));
+    QDOT_TRY(qdot_sample_begin(&s, pool, 3, e, facts));
     if (s.ball.walk.n > LARGE && wanted > 3)
         wanted = 3;
     for (int k = 0; s.possible && k < look->tries && d->points < wanted; k++) {
@@ -98,7 +117,7 @@ look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fact
         if (k > 24 && d->points == 0 && s.ball.walk.n > LARGE)
             break;
         qdot_sample_point(&s, k);
-        here = compare(&s, left, right, look, d, &digits);
+        here = compare(&s, sides, look, d, &digits);
         if (here == 0) {
             d->points++;
             if (digits < d->digits || d->points == 1)
@@ -111,6 +130,37 @@ look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fact
     }
     qdot_sample_end(&s);
     return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
+}
+
+static qdot_status
+look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+               const struct look *look, qdot_decision *d)
+{
+    struct sides sides = {left, right, qdot_list(pool, 0, NULL)};
+
+    return look_at_sides(pool, &sides, facts, look, d);
+}
+
+/* The arguments of undefined functions in e, a LIST; nil on failure. */
+static qdot_expr
+arguments(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr atoms = qdot_expr_atoms(pool, e, true), list = QDOT_NIL;
+    qdot_status status = QDOT_OK;
+    qdot_vec(qdot_expr) all = {0};
+
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms); i++) {
+        qdot_expr f = qdot_expr_arg(pool, atoms, i);
+
+        if (qdot_expr_kind(pool, f) != QDOT_UFUN)
+            continue;
+        for (uint32_t k = 0; 2 * k < qdot_expr_count(pool, f) && status == QDOT_OK; k++)
+            status = qdot_vec_push(&all, qdot_expr_arg(pool, f, k));
+    }
+    if (atoms != QDOT_NIL && status == QDOT_OK)
+        list = qdot_list(pool, (uint32_t)all.n, all.at);
+    qdot_free(all.at);
+    return status == QDOT_OK ? list : qdot_pool_fail(pool);
 }
 
 /* --- the decision ------------------------------------------------------------------ */
@@ -133,13 +183,22 @@ static qdot_status
 look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
                 qdot_decision *d)
 {
-    qdot_expr e[2] = {left, right};
-    bool changed;
+    /* the arguments themselves stay as they are, except for what is inside them */
+    qdot_expr e[3] = {left, right, QDOT_NIL};
+    bool any = false, changed = true;
+    struct sides sides;
 
-    QDOT_TRY(qdot_unify(pool, 2, e, facts, true, &changed));
-    if (!changed)
+    e[2] = arguments(pool, qdot_list(pool, 2, e));
+    if (e[2] == QDOT_NIL)
+        return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
+    for (int round = 0; round < 3 && changed; round++) { /* functions within functions */
+        QDOT_TRY(qdot_unify(pool, 3, e, facts, true, &changed));
+        any |= changed;
+    }
+    if (!any)
         return QDOT_OK;
-    return look_at_points(pool, e[0], e[1], facts, &thorough, d);
+    sides = (struct sides){e[0], e[1], e[2]};
+    return look_at_sides(pool, &sides, facts, &thorough, d);
 }
 
 qdot_status
@@ -163,6 +222,14 @@ qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
         QDOT_TRY(look_at_points(pool, left, right, facts, &thorough, d));
     if (!equal && d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(qdot_prove_harder(pool, left, right, facts, &equal));
+    if (!equal && d->verdict == QDOT_UNDECIDED && d->points > 0 && facts != NULL &&
+        facts->n_conditions > 0) {
+        qdot_decision more = {.verdict = QDOT_UNDECIDED};
+
+        QDOT_TRY(look_at_points(pool, left, right, facts, &patient, &more));
+        if (more.verdict == QDOT_REFUTED)
+            *d = more;
+    }
     if (equal)
         *d = (qdot_decision){.verdict = QDOT_PROVED};
     else if (d->points == 0 && d->verdict == QDOT_UNDECIDED)

@@ -32,6 +32,13 @@ fresh(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi, bo
     return y;
 }
 
+/* A division by zero on the way is no failure. */
+static qdot_status
+only_grave(qdot_status status)
+{
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
 /* x -> to, everywhere. */
 static void
 replace(job *j, qdot_expr x, qdot_expr to)
@@ -209,6 +216,61 @@ solve_gap(job *j, qdot_expr gap, bool weak)
     return false;
 }
 
+/* --- relations ------------------------------------------------------------------------ */
+
+/* r = a x + b with a never zero and neither holding x: *to is -b/a. */
+static bool
+solvable(qdot_pool *pool, qdot_expr r, qdot_expr x, qdot_expr *to)
+{
+    qdot_expr zero = QDOT_ZERO, a = qdot_diff(pool, r, x), b;
+
+    if (a == QDOT_NIL || !(qdot_expr_node(pool, a)->sign & QDOT_NE0) ||
+        qdot_expr_contains(pool, a, x))
+        return false;
+    b = qdot_subs(pool, r, 1, &x, &zero);
+    *to = qdot_neg(pool, qdot_div(pool, b, a));
+    return *to != QDOT_NIL && !qdot_expr_contains(pool, *to, x);
+}
+
+/* What was declared of x holds of what stands for it. */
+static qdot_status
+keep_bounds(job *j, qdot_expr x)
+{
+    qdot_symbol s = *qdot_expr_symbol(j->pool, x);
+
+    if (s.lo != QDOT_NIL)
+        QDOT_TRY(add_gap(j, qdot_sub(j->pool, x, s.lo), !s.lo_open));
+    if (s.hi != QDOT_NIL)
+        QDOT_TRY(add_gap(j, qdot_sub(j->pool, s.hi, x), !s.hi_open));
+    return QDOT_OK;
+}
+
+static qdot_status
+solve_relations(job *j, size_t nr)
+{
+    qdot_pool *pool = j->pool;
+
+    for (size_t i = j->n - nr; i < j->n; i++) {
+        qdot_expr atoms = qdot_expr_atoms(pool, j->e[i], false), to;
+
+        for (uint32_t k = 0; atoms != QDOT_NIL && k < qdot_expr_count(pool, atoms); k++) {
+            qdot_expr x = qdot_expr_arg(pool, atoms, k);
+
+            if (qdot_expr_is_class(pool, x, QDOT_CONST))
+                continue;
+            if (solvable(pool, j->e[i], x, &to)) {
+                QDOT_TRY(keep_bounds(j, x));
+                replace(j, x, to);
+                j->e[i] = QDOT_ZERO;
+                break;
+            }
+            if (qdot_pool_failed(pool))
+                QDOT_TRY(only_grave(qdot_pool_check(pool)));
+        }
+    }
+    return QDOT_OK;
+}
+
 /* --- all ------------------------------------------------------------------------------ */
 
 /* The gaps of the conditions, and of declared bounds that hold symbols. */
@@ -255,7 +317,7 @@ move_declared(job *j, qdot_expr atoms)
 
 qdot_status
 qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr *e,
-                   qdot_exprs *positive, bool *changed)
+                   size_t nr, qdot_exprs *positive, bool *changed)
 {
     job j = {.pool = pool, .n = n, .e = e};
     qdot_expr list = qdot_list(pool, (uint32_t)n, e);
@@ -264,6 +326,8 @@ qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr
 
     if (status == QDOT_OK && atoms != QDOT_NIL)
         status = gather(&j, facts, atoms);
+    if (status == QDOT_OK)
+        status = solve_relations(&j, nr);
     for (size_t i = 0; i < j.gap.n && status == QDOT_OK; i++) {
         qdot_expr gap = j.gap.at[i];
 

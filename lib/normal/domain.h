@@ -2,7 +2,8 @@
  *
  * A condition g > 0 with g = c x + rest is solved for x: x = (y - rest)/c with a new
  * symbol y > 0 in its place; a declared bound u > 3 likewise, u = 3 + y. What follows
- * from signs alone then shows by itself: abs(u - 3) is abs(y), so y.
+ * from signs alone then shows by itself: abs(u - 3) is abs(y), so y. A relation that is
+ * linear in a symbol, a x + b = 0 with a never zero, is solved and x put in everywhere.
  *
  * The new problem holds on a domain that is not smaller, so what is proved there is
  * proved.
@@ -15,9 +16,9 @@
 
 typedef qdot_vec(qdot_expr) qdot_exprs;
 
-/* Rewrite e[n] in place; *positive gets what conditions say to be > 0 and was not
+/* Rewrite e[n] in place; the last nr of them are relations, 0 once solved. *positive gets what conditions say to be > 0 and was not
  * solved; *changed: whether anything was rewritten or is in *positive. */
 QDOT_MUST_CHECK qdot_status qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts,
-                                               size_t n, qdot_expr *e,
+                                               size_t n, qdot_expr *e, size_t nr,
                                                qdot_exprs *positive, bool *changed);
 #endif

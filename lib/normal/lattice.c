@@ -193,9 +193,11 @@ sort_terms(qdot_lattice_row *row)
         }
 }
 
+/* Multiples of pi do not count beside symbols: x and x + pi/5 belong together. */
 static bool
 independent(const qdot_lattice *l, size_t n, const struct direction *d)
 {
+    size_t alone = 0;
     fmpq_mat_t m;
     bool full;
 
@@ -207,10 +209,12 @@ independent(const qdot_lattice *l, size_t n, const struct direction *d)
     for (size_t i = 0; i < n; i++) {
         const qdot_lattice_row *row = &l->row[d[i].row];
 
+        alone += row->n == 1 && l->mono[row->term[0].mono] == QDOT_PI;
         for (size_t k = 0; k < row->n; k++)
-            fmpq_set(fmpq_mat_entry(m, i, row->term[k].mono), &row->term[k].c);
+            if (l->mono[row->term[k].mono] != QDOT_PI)
+                fmpq_set(fmpq_mat_entry(m, i, row->term[k].mono), &row->term[k].c);
     }
-    full = (size_t)fmpq_mat_rref(m, m) == n;
+    full = (size_t)fmpq_mat_rref(m, m) + alone == n;
     fmpq_mat_clear(m);
     return full;
 }

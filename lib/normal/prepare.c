@@ -74,7 +74,55 @@ qdot_prepare_flat(qdot_pool *pool, qdot_expr e, int64_t work)
     return flat;
 }
 
-/* An angle as a sum of terms, each over the common denominator. */
+/* The terms of p times c, each by itself. */
+static qdot_expr
+term_by_term(qdot_field *f, const fmpz_mpoly_t p, qdot_expr c)
+{
+    qdot_expr sum = QDOT_ZERO;
+    fmpz_mpoly_t term;
+
+    fmpz_mpoly_init(term, f->ctx);
+    for (slong i = 0; i < fmpz_mpoly_length(p, f->ctx); i++) {
+        fmpz_mpoly_get_term(term, p, i, f->ctx);
+        sum = qdot_add(f->pool, sum, qdot_mul(f->pool, qdot_field_expr(f, term), c));
+    }
+    fmpz_mpoly_clear(term, f->ctx);
+    return sum;
+}
+
+/* n/d as q + r/d, no term of r divided by the leading one of d; d without a factor. */
+static qdot_expr
+whole_and_rest(qdot_field *f, const qdot_ratio *x)
+{
+    qdot_expr over, sum = QDOT_NIL;
+    fmpz_mpoly_t q, r, d;
+    fmpq_t c;
+
+    fmpq_init(c);
+    fmpz_mpoly_init(q, f->ctx);
+    fmpz_mpoly_init(r, f->ctx);
+    fmpz_mpoly_init(d, f->ctx);
+    _fmpz_vec_content(fmpq_denref(c), x->d->coeffs, fmpz_mpoly_length(x->d, f->ctx));
+    fmpz_mpoly_scalar_divexact_fmpz(d, x->d, fmpq_denref(c), f->ctx);
+    if (qdot_field_charge(f, 4 * fmpz_mpoly_length(x->n, f->ctx),
+                          fmpz_mpoly_length(d, f->ctx))) {
+        fmpz_mpoly_quasidivrem(fmpq_numref(c), q, r, x->n, d, f->ctx);
+        fmpz_mul(fmpq_denref(c), fmpq_denref(c), fmpq_numref(c)); /* s n = q d + r */
+        fmpz_one(fmpq_numref(c));
+        fmpq_canonicalise(c);
+        over = qdot_expr_fmpq(f->pool, c);
+        sum = term_by_term(f, q, over);
+        over = qdot_div(f->pool, over, qdot_field_expr(f, d));
+        sum = qdot_add(f->pool, sum, term_by_term(f, r, over));
+    }
+    fmpz_mpoly_clear(q, f->ctx);
+    fmpz_mpoly_clear(r, f->ctx);
+    fmpz_mpoly_clear(d, f->ctx);
+    fmpq_clear(c);
+    return sum;
+}
+
+/* An angle as a sum of terms: a polynomial and what is left over the denominator. */
 static qdot_expr
 flat_angle(qdot_pool *pool, qdot_expr e)
 {
@@ -90,19 +138,10 @@ flat_angle(qdot_pool *pool, qdot_expr e)
         qdot_ratio_init(&f, &r);
         qdot_ratio_set(&f, &r, qdot_field_value(&f, e));
         qdot_ratio_cancel(&f, &r);
-        if (qdot_field_goes(&f)) {
-            qdot_expr over = qdot_div(pool, QDOT_ONE, qdot_field_expr(&f, r.d));
-            fmpz_mpoly_t term;
-
-            sum = QDOT_ZERO;
-            fmpz_mpoly_init(term, f.ctx);
-            for (slong i = 0; i < fmpz_mpoly_length(r.n, f.ctx); i++) {
-                fmpz_mpoly_get_term(term, r.n, i, f.ctx);
-                sum =
-                    qdot_add(pool, sum, qdot_mul(pool, qdot_field_expr(&f, term), over));
-            }
-            fmpz_mpoly_clear(term, f.ctx);
-        }
+        if (qdot_field_goes(&f))
+            sum = whole_and_rest(&f, &r);
+        if (!qdot_field_goes(&f))
+            sum = e;
         qdot_ratio_clear(&f, &r);
     }
     qdot_field_end(&f);

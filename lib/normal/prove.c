@@ -137,7 +137,7 @@ unfold(struct problem *p, const qdot_facts *facts, bool *changed)
 {
     qdot_exprs positive = {0};
     qdot_status status =
-        qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, &positive, changed);
+        qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, p->nr, &positive, changed);
     qdot_expr *all =
         status == QDOT_OK
             ? qdot_realloc(p->e, (2 + p->nr + positive.n + 1) * sizeof *all)
@@ -157,7 +157,7 @@ qdot_status
 qdot_prove_harder(qdot_pool *pool, qdot_expr left, qdot_expr right,
                   const qdot_facts *facts, bool *equal)
 {
-    bool changed = false;
+    bool changed = false, exponentials = false;
     struct problem p;
     qdot_status status;
     qdot_facts own;
@@ -166,7 +166,9 @@ qdot_prove_harder(qdot_pool *pool, qdot_expr left, qdot_expr right,
     QDOT_TRY(begin(&p, pool, left, right, facts));
     status = unfold(&p, facts, &changed);
     for (size_t i = 0; i < count(&p) && status == QDOT_OK; i++)
-        p.e[i] = qdot_rewrite(pool, p.e[i]);
+        exponentials |= qdot_rewrite_has_exp(pool, p.e[i]);
+    for (size_t i = 0; i < count(&p) && status == QDOT_OK; i++)
+        p.e[i] = qdot_rewrite(pool, p.e[i], exponentials);
     if (status == QDOT_OK)
         status = prepare(&p);
     if (status == QDOT_OK)

@@ -233,6 +233,49 @@ by_facts(const qdot_zero *z, const fmpz_mpoly_t p)
     return sign & EITHER ? sign : 0;
 }
 
+/* p is c times the value of a node whose sign is known: of cosh(x + y), say. */
+static uint8_t
+by_nodes(const qdot_zero *z, const fmpz_mpoly_t p)
+{
+    qdot_field *f = z->f;
+    slong length = fmpz_mpoly_length(p, f->ctx);
+    uint8_t sign = 0;
+    fmpz_mpoly_t q;
+
+    fmpz_mpoly_init(q, f->ctx);
+    for (size_t i = 0; i < f->n_nodes && sign == 0; i++) {
+        uint8_t here = qdot_expr_node(f->pool, f->node[i])->sign;
+        const qdot_ratio *r = &f->value[i];
+
+        if (!(here & EITHER) || !fmpz_mpoly_is_fmpz(r->d, f->ctx) ||
+            fmpz_mpoly_length(r->n, f->ctx) != length ||
+            !fmpz_mpoly_divides(q, r->n, p, f->ctx) || !fmpz_mpoly_is_fmpz(q, f->ctx) ||
+            fmpz_mpoly_is_zero(q, f->ctx))
+            continue;
+        sign = times(here, times(by_terms(z, q), by_terms(z, r->d)));
+    }
+    fmpz_mpoly_clear(q, f->ctx);
+    return sign;
+}
+
+/* With c^2 = 1 - s^2 in one angle the terms may have one sign. */
+static uint8_t
+by_turning(const qdot_zero *z, const fmpz_mpoly_t p)
+{
+    qdot_field *f = z->f;
+    uint8_t sign = 0;
+    fmpz_mpoly_t q;
+
+    fmpz_mpoly_init(q, f->ctx);
+    for (slong v = 0; v < f->n && sign == 0; v++)
+        if ((f->gen[v].kind == QDOT_GEN_COS || f->gen[v].kind == QDOT_GEN_COSH) &&
+            fmpz_mpoly_degree_si(p, v, f->ctx) >= 2 &&
+            qdot_factor_flip(f, q, p, v) == QDOT_OK && qdot_field_goes(f))
+            sign = by_terms(z, q);
+    fmpz_mpoly_clear(q, f->ctx);
+    return sign & EITHER ? sign : 0;
+}
+
 static bool
 has_roots(const qdot_field *f, const fmpz_mpoly_t p)
 {
@@ -290,6 +333,10 @@ of_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth)
     if (sign & EITHER)
         return sign;
     sign = by_facts(z, p);
+    if (sign == 0)
+        sign = by_nodes(z, p);
+    if (sign == 0)
+        sign = by_turning(z, p);
     if (sign == 0 && depth > 0 && fmpz_mpoly_length(p, z->f->ctx) <= LONGEST &&
         has_roots(z->f, p))
         sign = by_squares(z, p, depth);

@@ -22,10 +22,9 @@ area(qdot_pool *pool, qdot_expr v, qdot_expr c)
 static qdot_expr
 log_ratio(qdot_pool *pool, qdot_expr v)
 {
-    qdot_expr up = qdot_fun1(pool, QDOT_LOG, qdot_add(pool, QDOT_ONE, v));
-    qdot_expr down = qdot_fun1(pool, QDOT_LOG, qdot_sub(pool, QDOT_ONE, v));
+    qdot_expr up = qdot_add(pool, QDOT_ONE, v), down = qdot_sub(pool, QDOT_ONE, v);
 
-    return half(pool, qdot_sub(pool, up, down));
+    return half(pool, qdot_fun1(pool, QDOT_LOG, qdot_div(pool, up, down)));
 }
 
 static qdot_expr
@@ -44,16 +43,19 @@ extreme(qdot_pool *pool, qdot_expr e, bool most)
     return best;
 }
 
-/* A hyperbolic function of log w. */
+/* sinh, cosh, tanh of log w, or of any argument by exp: (w - 1/w)/2 ... */
 static qdot_expr
-of_logarithm(qdot_pool *pool, qdot_expr e)
+hyperbolic(qdot_pool *pool, qdot_expr e, bool exponentials)
 {
     qdot_expr arg = qdot_expr_arg(pool, e, 0), w, over, s, c;
 
-    if (qdot_expr_kind(pool, arg) != QDOT_FUN ||
-        qdot_expr_node(pool, arg)->op != QDOT_LOG)
+    if (qdot_expr_kind(pool, arg) == QDOT_FUN &&
+        qdot_expr_node(pool, arg)->op == QDOT_LOG)
+        w = qdot_expr_arg(pool, arg, 0);
+    else if (exponentials)
+        w = qdot_fun1(pool, QDOT_EXP, arg);
+    else
         return e;
-    w = qdot_expr_arg(pool, arg, 0);
     over = qdot_div(pool, QDOT_ONE, w);
     s = qdot_sub(pool, w, over);
     c = qdot_add(pool, w, over);
@@ -65,7 +67,7 @@ of_logarithm(qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_expr
-function(qdot_pool *pool, qdot_expr e)
+function(qdot_pool *pool, qdot_expr e, bool exponentials)
 {
     qdot_expr v = qdot_expr_arg(pool, e, 0);
 
@@ -79,7 +81,7 @@ function(qdot_pool *pool, qdot_expr e)
     case QDOT_MIN: return extreme(pool, e, false);
     case QDOT_SINH:
     case QDOT_COSH:
-    case QDOT_TANH: return of_logarithm(pool, e);
+    case QDOT_TANH: return hyperbolic(pool, e, exponentials);
     default: return e;
     }
 }
@@ -131,7 +133,7 @@ rebuilt(qdot_pool *pool, const qdot_walk *w, qdot_expr e)
 }
 
 qdot_expr
-qdot_rewrite(qdot_pool *pool, qdot_expr e)
+qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials)
 {
     qdot_expr result = e;
     qdot_walk w;
@@ -141,11 +143,31 @@ qdot_rewrite(qdot_pool *pool, qdot_expr e)
     for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
         result = rebuilt(pool, &w, w.at[i]);
         if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_FUN)
-            result = function(pool, result);
+            result = function(pool, result, exponentials);
         else if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_PROD)
             result = product(pool, result);
         qdot_walk_set(&w, w.at[i], result);
     }
     qdot_walk_end(&w);
     return result;
+}
+
+bool
+qdot_rewrite_has_exp(const qdot_pool *pool, qdot_expr e)
+{
+    bool found = false;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && !found; i++) {
+        qdot_kind kind = qdot_expr_kind(pool, w.at[i]);
+
+        found = kind == QDOT_FUN && qdot_expr_node(pool, w.at[i])->op == QDOT_EXP;
+        for (uint32_t k = 2;
+             kind == QDOT_PROD && !found && k < qdot_expr_count(pool, w.at[i]); k += 2)
+            found = qdot_expr_kind(pool, qdot_expr_arg(pool, w.at[i], k)) != QDOT_NUM;
+    }
+    qdot_walk_end(&w);
+    return found;
 }

@@ -1,10 +1,11 @@
 /* rewrite.h -- functions by other functions, for proofs only: the result is longer.
  *
  *     acos v = pi/2 - asin v,   asinh v = log(v + sqrt(v^2 + 1)),
- *     acosh v = log(v + sqrt(v^2 - 1)),   atanh v = (log(1 + v) - log(1 - v))/2,
+ *     acosh v = log(v + sqrt(v^2 - 1)),   atanh v = log((1 + v)/(1 - v))/2,
  *     max(x, y) = (x + y + |x - y|)/2,   min(x, y) = (x + y - |x - y|)/2,
  *     b^x = exp(x log b) for b > 0 and x not a number,
- *     sinh(log w) = (w - 1/w)/2,   cosh(log w) = (w + 1/w)/2,   tanh likewise.
+ *     sinh(log w) = (w - 1/w)/2,   cosh(log w) = (w + 1/w)/2,   tanh likewise,
+ *     and if exp is asked for, sinh, cosh, tanh by exp.
  *
  * Each an equality wherever its left side is defined.
  */
@@ -14,6 +15,9 @@
 #include "expr/expr.h"
 
 /* e rewritten, children first; nil where that fails. */
-qdot_expr qdot_rewrite(qdot_pool *pool, qdot_expr e);
+qdot_expr qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials);
+
+/* Whether an exponential occurs in e (or would, rewritten). */
+bool qdot_rewrite_has_exp(const qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -2,6 +2,7 @@
 #include "normal/sample.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -10,8 +11,27 @@
 #include "normal/prepare.h"
 
 #define WORK 4000000
+#define SIMPLE 24 /* points with small numbers */
 
 /* --- solving a relation for one atom ----------------------------------------------- */
+
+/* The sign in front of a square root: 1 or -1, chosen at each point. */
+static qdot_expr
+either_sign(qdot_pool *pool, size_t i)
+{
+    char name[32];
+
+    snprintf(name, sizeof name, "(sign %zu)", i);
+    return qdot_symbol_get(pool, QDOT_FORMAL, name);
+}
+
+static bool
+is_either_sign(const qdot_pool *pool, qdot_expr e)
+{
+    const qdot_symbol *s = qdot_expr_symbol(pool, e);
+
+    return s != NULL && strncmp(s->name, "(sign ", 6) == 0;
+}
 
 /* How gladly a relation is solved for this atom; 0: never. */
 static int
@@ -20,7 +40,7 @@ fitness(const qdot_pool *pool, const qdot_gen *gen)
     const qdot_symbol *symbol = qdot_expr_symbol(pool, gen->expr);
     int plain;
 
-    if (gen->kind != QDOT_GEN_PLAIN)
+    if (gen->kind != QDOT_GEN_PLAIN || is_either_sign(pool, gen->expr))
         return 0;
     if (qdot_expr_kind(pool, gen->expr) == QDOT_UFUN)
         return 5;
@@ -57,7 +77,7 @@ coefficient(qdot_field *f, const qdot_groups *g, slong v, ulong k)
 }
 
 static qdot_expr
-solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree)
+solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree, qdot_expr either)
 {
     qdot_pool *pool = f->pool;
     bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
@@ -78,7 +98,8 @@ solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree)
                 qdot_sub(pool, qdot_pow_int(pool, b, 2),
                          qdot_mul(pool, qdot_expr_int(pool, 4), qdot_mul(pool, a, c)));
 
-            x = qdot_div(pool, qdot_sub(pool, qdot_sqrt(pool, d), b),
+            x = qdot_mul(pool, either, qdot_sqrt(pool, d));
+            x = qdot_div(pool, qdot_sub(pool, x, b),
                          qdot_mul(pool, qdot_expr_int(pool, 2), a));
         }
     }
@@ -89,7 +110,8 @@ solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree)
 
 /* Solve relation = 0. *atom nil: it holds anyway. False: it cannot be solved. */
 static bool
-solve_relation(qdot_pool *pool, qdot_expr relation, qdot_expr *atom, qdot_expr *solution)
+solve_relation(qdot_pool *pool, qdot_expr relation, size_t number, qdot_expr *atom,
+               qdot_expr *solution)
 {
     qdot_expr e = qdot_prepare(pool, relation);
     slong best = -1, best_degree = 0;
@@ -120,7 +142,7 @@ solve_relation(qdot_pool *pool, qdot_expr relation, qdot_expr *atom, qdot_expr *
     }
     if (best >= 0) {
         *atom = f.gen[best].expr;
-        *solution = solve_for(&f, r->n, best, best_degree);
+        *solution = solve_for(&f, r->n, best, best_degree, either_sign(pool, number));
     }
     qdot_field_end(&f);
     if (best >= 0 && *solution == QDOT_NIL && qdot_pool_check(pool) != QDOT_OK)
@@ -217,6 +239,36 @@ bound_rank(const qdot_pool *pool, qdot_expr atom)
     return 1;
 }
 
+/* 0 < c x + rest, c a number: x is above (below, if c < 0) -rest/c. */
+static qdot_status
+bounds_by_condition(qdot_sample *s, qdot_expr condition)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr gap, atoms;
+
+    if (qdot_expr_kind(pool, condition) != QDOT_REL ||
+        qdot_expr_node(pool, condition)->op == QDOT_EQ)
+        return QDOT_OK;
+    gap = qdot_sub(pool, qdot_expr_arg(pool, condition, 1),
+                   qdot_expr_arg(pool, condition, 0));
+    atoms = qdot_expr_atoms(pool, gap, false);
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms); i++) {
+        qdot_expr x = qdot_expr_arg(pool, atoms, i), c = qdot_diff(pool, gap, x), rest;
+
+        if (c == QDOT_NIL || qdot_expr_kind(pool, c) != QDOT_NUM || c == QDOT_ZERO)
+            continue;
+        rest = qdot_sub(pool, gap, qdot_mul(pool, c, x));
+        rest = qdot_neg(pool, qdot_div(pool, rest, c));
+        if (rest == QDOT_NIL || qdot_expr_contains(pool, rest, x))
+            continue;
+        QDOT_TRY(
+            qdot_grow(&s->bound, &s->bounds_capacity, s->n_bounds + 1, sizeof *s->bound));
+        s->bound[s->n_bounds++] = (qdot_sample_bound){
+            .atom = x, .bound = rest, .below = fmpq_sgn(qdot_expr_rational(pool, c)) < 0};
+    }
+    return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
+}
+
 static qdot_status
 gather(qdot_sample *s, size_t n, const qdot_expr *e)
 {
@@ -234,7 +286,7 @@ gather(qdot_sample *s, size_t n, const qdot_expr *e)
     for (size_t k = 0; k < nr; k++)
         r[k] = facts->relations[k];
     for (size_t k = 0; k < nr && s->possible; k++) {
-        s->possible = solve_relation(pool, r[k], &atom[solved], &solution[solved]);
+        s->possible = solve_relation(pool, r[k], k, &atom[solved], &solution[solved]);
         if (!s->possible || atom[solved] == QDOT_NIL)
             continue;
         for (size_t j = k + 1; j < nr; j++)
@@ -290,11 +342,15 @@ qdot_sample_begin(qdot_sample *s, qdot_pool *pool, size_t n, const qdot_expr *e,
 
     *s = (qdot_sample){.pool = pool, .facts = facts, .possible = true};
     status = gather(s, n, e);
+    for (size_t i = 0; status == QDOT_OK && i < s->facts->n_conditions; i++)
+        status = bounds_by_condition(s, s->facts->conditions[i]);
     if (status == QDOT_OK)
         status = qdot_ball_begin(&s->ball, pool, 1, &s->list);
     if (status != QDOT_OK) {
         qdot_free(s->atom);
+        qdot_free(s->bound);
         s->atom = NULL;
+        s->bound = NULL;
     }
     return status;
 }
@@ -307,6 +363,7 @@ qdot_sample_end(qdot_sample *s)
         arb_clear(s->atom[i].value);
     }
     qdot_free(s->atom);
+    qdot_free(s->bound);
     qdot_ball_end(&s->ball);
 }
 
@@ -355,9 +412,10 @@ bound(qdot_sample *s, qdot_expr e, double *x)
     return value != NULL;
 }
 
-/* A rational with a small denominator strictly between lo and hi. */
+/* A rational with a small denominator strictly between lo and hi, about so far from the
+ * one to the other. */
 static void
-between(fmpq_t x, double lo, double hi, double where)
+between(fmpq_t x, double lo, double hi, double where, double about)
 {
     double at = lo + (hi - lo) * where, margin = (hi - lo) * 1e-3;
 
@@ -365,7 +423,7 @@ between(fmpq_t x, double lo, double hi, double where)
         double n = nearbyint(at * (double)d);
 
         if (n / (double)d > lo + margin && n / (double)d < hi - margin &&
-            fabs(n / (double)d - at) < (hi - lo) * 0.1 && fabs(n) < 1e15) {
+            fabs(n / (double)d - at) < (hi - lo) * about && fabs(n) < 1e15) {
             fmpq_set_si(x, (long)n, (ulong)d);
             return;
         }
@@ -381,6 +439,33 @@ between(fmpq_t x, double lo, double hi, double where)
 /* Ranges tried in turn: functions with narrow domains need small arguments. */
 static const double reach[] = {3, 1, 7, 0.5, 20, 2, 0.9, 0.1};
 
+/* The range narrowed by conditions, as far as the other atoms in them are chosen. */
+static void
+narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
+{
+    double above = -HUGE_VAL, below = HUGE_VAL, x;
+
+    for (size_t i = 0; i < s->n_bounds; i++) {
+        if (s->bound[i].atom != atom || !bound(s, s->bound[i].bound, &x))
+            continue;
+        if (s->bound[i].below)
+            below = fmin(below, x);
+        else
+            above = fmax(above, x);
+    }
+    if (above > -HUGE_VAL && (above > *lo || below < HUGE_VAL)) {
+        *lo = above;
+        if (below < HUGE_VAL)
+            *hi = below;
+        else if (*hi <= above)
+            *hi = above + size;
+    } else if (below < *hi) {
+        *hi = below;
+        if (*lo >= below)
+            *lo = below - 2 * size;
+    }
+}
+
 static void
 choose(qdot_sample *s, qdot_sample_atom *a, int k)
 {
@@ -388,8 +473,15 @@ choose(qdot_sample *s, qdot_sample_atom *a, int k)
     double size = reach[(size_t)k % (sizeof reach / sizeof *reach)], lo = -size,
            hi = size, x;
     double where = (1 + draw(s, 61)) / 63.0;
+    double about = k < SIMPLE ? 0.1 : 0.01; /* integers first */
     uint8_t sign = qdot_expr_node(s->pool, a->atom)->sign;
 
+    if (is_either_sign(s->pool, a->atom)) {
+        fmpq_set_si(&a->x, draw(s, 2) == 0 ? 1 : -1, 1);
+        arb_set_fmpq(a->value, &a->x, 64);
+        a->ready = true;
+        return;
+    }
     if (symbol != NULL) {
         qdot_expr elo = symbol->lo, ehi = symbol->hi;
         bool has_lo = bound(s, elo, &x);
@@ -403,14 +495,15 @@ choose(qdot_sample *s, qdot_sample_atom *a, int k)
         } else if (has_lo) {
             hi = lo + size;
         }
+        narrow(s, a->atom, size, &lo, &hi);
     }
     if ((sign & QDOT_GE0) && lo < 0)
         lo = 0;
     if ((sign & QDOT_LE0) && hi > 0)
         hi = 0;
-    between(&a->x, lo, hi, where);
+    between(&a->x, lo, hi, where, about);
     if (fmpq_is_zero(&a->x))
-        between(&a->x, lo, hi, where * 0.9 + 0.01);
+        between(&a->x, lo, hi, where * 0.9 + 0.01, about);
     arb_set_fmpq(a->value, &a->x, 64);
     a->ready = true;
 }
@@ -528,12 +621,15 @@ qdot_expr
 qdot_sample_list(qdot_sample *s)
 {
     qdot_expr *rows = qdot_malloc((s->n + 1) * sizeof *rows), list;
+    uint32_t n = 0;
 
     if (rows == NULL)
         return qdot_pool_fail(s->pool);
     for (size_t i = 0; i < s->n; i++) {
         qdot_expr x;
 
+        if (is_either_sign(s->pool, s->atom[i].atom))
+            continue;
         if (s->atom[i].solution == QDOT_NIL) {
             x = qdot_expr_fmpq(s->pool, &s->atom[i].x);
         } else { /* its value, rounded for the eye */
@@ -542,13 +638,14 @@ qdot_sample_list(qdot_sample *s)
             fmpq_init(rounded);
             arf_get_fmpq(rounded, arb_midref(s->atom[i].value));
             between(rounded, arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) - 1e-6,
-                    arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) + 1e-6, 0.5);
+                    arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) + 1e-6, 0.5,
+                    0.1);
             x = qdot_expr_fmpq(s->pool, rounded);
             fmpq_clear(rounded);
         }
-        rows[i] = qdot_rel(s->pool, QDOT_EQ, s->atom[i].atom, x);
+        rows[n++] = qdot_rel(s->pool, QDOT_EQ, s->atom[i].atom, x);
     }
-    list = qdot_list(s->pool, (uint32_t)s->n, rows);
+    list = qdot_list(s->pool, n, rows);
     qdot_free(rows);
     return list;
 }

@@ -4,7 +4,8 @@
  * Symbols get small rationals. Applications of undefined functions are independent
  * values (jets), except where two of one function would have equal arguments: such a
  * point is left out. With relations, each is solved for one symbol or application in
- * which it is linear or quadratic; where that cannot be done there are no points.
+ * which it is linear or quadratic (either root, chosen at each point); where that cannot
+ * be done there are no points.
  */
 #ifndef QDOT_NORMAL_SAMPLE_H
 #define QDOT_NORMAL_SAMPLE_H
@@ -19,11 +20,19 @@ typedef struct {
     arb_t value;
 } qdot_sample_atom;
 
+/* What a condition that is linear in an atom says of it: below (or above) `bound`. */
+typedef struct {
+    qdot_expr atom, bound;
+    bool below;
+} qdot_sample_bound;
+
 typedef struct {
     qdot_pool *pool;
     qdot_sample_atom
         *atom; /* free ones by dependence of bounds, then the solved, last first */
     size_t n;
+    qdot_sample_bound *bound;
+    size_t n_bounds, bounds_capacity;
     qdot_ball ball; /* the expressions, bounds, conditions, solutions */
     qdot_expr list; /* all of them */
     const qdot_facts *facts;

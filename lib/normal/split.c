@@ -237,6 +237,27 @@ log_of_integer(qdot_pool *pool, const fmpz_t n)
     return e;
 }
 
+/* log b^x = x log b for a root or a base that is not negative: b > 0 where it is
+ * defined. */
+static qdot_expr
+log_of_factor(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr b, x;
+
+    if (qdot_expr_kind(pool, e) == QDOT_PROD && qdot_expr_count(pool, e) == 3 &&
+        qdot_expr_arg(pool, e, 0) == QDOT_ONE) {
+        long k;
+
+        b = qdot_expr_arg(pool, e, 1);
+        x = qdot_expr_arg(pool, e, 2);
+        if (qdot_expr_kind(pool, x) == QDOT_NUM &&
+            (!qdot_expr_to_int(pool, x, &k) ||
+             (qdot_expr_node(pool, b)->sign & QDOT_GE0)))
+            return qdot_mul(pool, x, qdot_fun1(pool, QDOT_LOG, b));
+    }
+    return qdot_fun1(pool, QDOT_LOG, e);
+}
+
 qdot_expr
 qdot_split_log(qdot_pool *pool, qdot_expr b)
 {
@@ -252,11 +273,11 @@ qdot_split_log(qdot_pool *pool, qdot_expr b)
         e = qdot_sub(pool, log_of_integer(pool, fmpq_numref(p.c)),
                      log_of_integer(pool, fmpq_denref(p.c)));
         if (p.rest != QDOT_ONE)
-            e = qdot_add(pool, e, qdot_fun1(pool, QDOT_LOG, p.rest));
+            e = qdot_add(pool, e, log_of_factor(pool, p.rest));
         for (size_t i = 0; i < p.n; i++)
             e = qdot_add(pool, e,
                          qdot_mul(pool, qdot_expr_int(pool, p.at[i].m),
-                                  qdot_fun1(pool, QDOT_LOG, p.at[i].base)));
+                                  log_of_factor(pool, p.at[i].base)));
     }
     clear(&p);
     return e;

@@ -1,4 +1,4 @@
-/* unify.c -- one pass, children first; candidates by their values at two points. */
+/* unify.c -- one pass, children first; candidates by their values at a few points. */
 #include "normal/unify.h"
 
 #include <math.h>
@@ -9,7 +9,14 @@
 #include "normal/prove.h"
 #include "normal/sample.h"
 
-enum { MOST_SEEN = 150, MOST_PROOFS = 80, TRIES = 40, LARGEST_RATIO = 1000, POINTS = 2 };
+enum {
+    MOST_SEEN = 150,
+    MOST_PROOFS = 80,
+    TRIES = 100,
+    PATIENCE = 80, /* tries for points where all is defined */
+    LARGEST_RATIO = 1000,
+    POINTS = 3
+};
 
 /* Arguments of one class are compared with one another. */
 typedef enum { NONE, ANGLE, ABSOLUTE, BASE, LOGARITHM, OTHER } class;
@@ -38,6 +45,16 @@ typedef struct {
 
 /* --- values ------------------------------------------------------------------------ */
 
+static bool
+some_undefined(const job *j)
+{
+    for (size_t i = 0; i < j->walk.n; i++)
+        if (qdot_expr_is_scalar(j->pool, j->walk.at[i]) &&
+            qdot_ball_get(&j->sample.ball, j->walk.at[i]) == NULL)
+            return true;
+    return false;
+}
+
 static qdot_status
 evaluate(job *j, size_t n, const qdot_expr *e)
 {
@@ -46,7 +63,7 @@ evaluate(job *j, size_t n, const qdot_expr *e)
     QDOT_TRY(qdot_sample_begin(&j->sample, j->pool, n, e, j->facts));
     for (int k = 0; k < TRIES && j->sample.possible && found < POINTS; k++) {
         qdot_sample_point(&j->sample, k);
-        if (!qdot_sample_values(&j->sample, 192))
+        if (!qdot_sample_values(&j->sample, 192) || (k < PATIENCE && some_undefined(j)))
             continue;
         for (size_t i = 0; i < j->walk.n; i++) {
             arb_srcptr v = qdot_expr_is_scalar(j->pool, j->walk.at[i])
@@ -85,14 +102,17 @@ small_fraction(fmpq_t c, double x)
 static bool
 proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
 {
+    int k = 0;
     arb_t x;
     bool fits;
 
+    while (k + 1 < POINTS && arb_contains_zero(b->at + k))
+        k++;
     arb_init(x);
-    arb_div(x, j->value[0] + a, b->at, 128);
+    arb_div(x, j->value[k] + a, b->at + k, 128);
     fits = arb_is_finite(x) &&
            small_fraction(c, arf_get_d(arb_midref(x), ARF_RND_NEAR));
-    for (int k = 0; k < POINTS && fits; k++) {
+    for (k = 0; k < POINTS && fits; k++) {
         arb_set_fmpq(x, c, 192);
         arb_mul(x, x, b->at + k, 192);
         fits = arb_overlaps(x, j->value[k] + a);
@@ -134,7 +154,8 @@ find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
             continue;
         other = qdot_mul(j->pool, qdot_expr_fmpq(j->pool, c), s->arg);
         if (other != arg && j->proofs++ < MOST_PROOFS)
-            status = qdot_prove_equal(j->pool, arg, other, j->facts, &equal);
+            status = (j->only_undefined ? qdot_prove_harder : qdot_prove_equal)(
+                j->pool, arg, other, j->facts, &equal);
         if (other == arg || equal) {
             *with = s->arg;
             return status;

@@ -13,7 +13,8 @@
 #include "normal/decide.h"
 
 /* Rewrite e[n] in place; relations (nr of them) may be used, and are among the e if they
- * are to be rewritten. `only_undefined`: undefined functions only. *changed. Errors:
+ * are to be rewritten. `only_undefined`: undefined functions only, but their arguments with
+ * all that qdot_prove_harder knows (else: qdot_prove_equal). *changed. Errors:
  * QDOT_ENOMEM, QDOT_EINTR; the pool may keep a failure. */
 QDOT_MUST_CHECK qdot_status qdot_unify(qdot_pool *pool, size_t n, qdot_expr *e,
                                        const qdot_facts *facts, bool only_undefined,

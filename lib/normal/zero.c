@@ -126,16 +126,24 @@ common(slong a, slong b)
     return a;
 }
 
-/* The outermost root or absolute value of a function in p; -1: none. */
+/* The outermost root or absolute value in p, of a function if there is one; -1: none.
+ * Roots of numbers count beside relations. */
 static slong
-outermost(const qdot_field *f, const fmpz_mpoly_t p)
+outermost(const qdot_zero *z, const fmpz_mpoly_t p)
 {
-    for (slong v = 0; v < f->n; v++)
-        if ((f->gen[v].kind == QDOT_GEN_ROOT || f->gen[v].kind == QDOT_GEN_ABS) &&
-            fmpz_mpoly_degree_si(p, v, f->ctx) > 0 &&
-            !qdot_is_constant(f->pool, f->gen[v].expr))
+    const qdot_field *f = z->f;
+    slong constant = -1;
+
+    for (slong v = 0; v < f->n; v++) {
+        if ((f->gen[v].kind != QDOT_GEN_ROOT && f->gen[v].kind != QDOT_GEN_ABS) ||
+            fmpz_mpoly_degree_si(p, v, f->ctx) == 0)
+            continue;
+        if (!qdot_is_constant(f->pool, f->gen[v].expr))
             return v;
-    return -1;
+        if (constant < 0)
+            constant = v;
+    }
+    return z->ideal == NULL ? -1 : constant;
 }
 
 static qdot_rule *
@@ -357,7 +365,7 @@ static qdot_status
 prove_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
 {
     qdot_field *f = z->f;
-    slong v = outermost(f, p);
+    slong v = outermost(z, p);
     qdot_status status = QDOT_OK;
     struct split s;
     fmpz_mpoly_t n;
@@ -394,7 +402,10 @@ prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
         status = drop_constants(f, q);
     if (status == QDOT_OK && qdot_field_goes(f)) {
         *zero = fmpz_mpoly_is_zero(q, f->ctx);
-        if (!*zero && outermost(f, q) >= 0 && fmpz_mpoly_length(q, f->ctx) < MOST_TERMS) {
+        if (!*zero)
+            status = qdot_zero_logarithms(z, q, zero);
+        if (status == QDOT_OK && !*zero && outermost(z, q) >= 0 &&
+            fmpz_mpoly_length(q, f->ctx) < MOST_TERMS) {
             status = qdot_factor(f, &factors, q);
             for (slong i = 0; i < factors.n && status == QDOT_OK && !*zero; i++)
                 if (qdot_field_goes(f))

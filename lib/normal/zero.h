@@ -1,7 +1,7 @@
 /* zero.h -- is a polynomial of a field zero, as a function of what its generators say?
  *
  * The normal form of field.h knows r^k = b for a root, not which of the roots r is, nor
- * relations between the roots. So p can be zero and its normal form not. Two steps:
+ * relations between the roots. So p can be zero and its normal form not. Three steps:
  *
  *   constants  the coefficients over the generators that are not constant are algebraic
  *              numbers; each is decided by its bound (constant.h).
@@ -13,6 +13,9 @@
  *                - for even k where all is analytic on a connected domain and
  *                  P - Q R is not 0 at one point: a product of analytic functions is 0
  *                  only if one of them is.
+ *
+ *   logarithms the coefficients are sums of k log A with integers k: 0 if the product of
+ *              all A^k is 1.
  *
  * Tests   tests/normal/test_decide.c
  */
@@ -39,6 +42,10 @@ void qdot_zero_end(qdot_zero *z);
 /* Whether p is proved to be zero. Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_zero_prove(qdot_zero *z, const fmpz_mpoly_t p,
                                             bool *zero);
+
+/* The step of logarithms (logarithm.c). */
+QDOT_MUST_CHECK qdot_status qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_t p,
+                                                 bool *zero);
 
 /* What is known of the sign of p (range.c): a set of QDOT_GE0 ... */
 uint8_t qdot_zero_sign(qdot_zero *z, const fmpz_mpoly_t p);

@@ -53,8 +53,9 @@ typedef struct {
     void (*tails)(size_t n, const double *x, size_t stride, int p, double s,
                   double *value, double *slope);
 
-    /* sum_{j=0..n-1} a[j] b[j] */
-    double (*product)(size_t n, const double *a, const double *b);
+    /* y [m] = sum_{j=0..n-1} A[j m + ...] x[j], m a multiple of 8: a matrix by its
+     * columns, filled up to m rows. y may not be x. */
+    void (*multiply)(size_t m, size_t n, const double *A, const double *x, double *y);
     /* y[j] += c a[j], j = 0 ... n-1 */
     void (*add)(size_t n, double c, const double *a, double *y);
 } qdot_series_kernels;

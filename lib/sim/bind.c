@@ -5,14 +5,17 @@
 #include <string.h>
 
 #include "sim/blocks.h"
-#include "sim/expand.h"
+#include "sim/direct.h"
+#include "sim/shifted.h"
 #include "tape/shake.h"
 
 struct qdot_bind {
     const qdot_plan *plan;
     qdot_tape *tape, *jacobian; /* shaken copies; else NULL */
     qdot_blocks blocks;
-    qdot_expand *expand;        /* of a method by Taylor series; else NULL */
+    qdot_direct *direct;        /* of a method by Taylor series, one of the two: */
+    qdot_shifted *shifted;
+    const qdot_ode_series *series; /* its callbacks; else NULL */
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of either tape */
 };
@@ -35,7 +38,8 @@ qdot_bind_free(qdot_bind *b)
     if (!b)
         return;
     qdot_blocks_clear(&b->blocks);
-    qdot_expand_free(b->expand);
+    qdot_direct_free(b->direct);
+    qdot_shifted_free(b->shifted);
     qdot_tape_free(b->tape);
     qdot_tape_free(b->jacobian);
     qdot_free(b->in);
@@ -164,7 +168,7 @@ qdot_bind_system(qdot_bind *b)
         .rhs = rhs,
         .jacobian = b->plan->jacobian ? jacobian : NULL,
         .user = b,
-        .series = b->expand ? qdot_expand_series(b->expand) : NULL,
+        .series = b->series,
     };
 }
 
@@ -205,7 +209,8 @@ qdot_bind_check(qdot_bind *b, double t, const double *y)
 size_t
 qdot_bind_factored(const qdot_bind *b)
 {
-    return b->blocks.factored + (b->expand ? qdot_expand_factored(b->expand) : 0);
+    return b->blocks.factored + (b->direct ? qdot_direct_factored(b->direct) : 0)
+           + (b->shifted ? qdot_shifted_factored(b->shifted) : 0);
 }
 
 static qdot_status
@@ -231,7 +236,16 @@ make(qdot_bind *b, bool shaken)
             QDOT_TRY(qdot_tape_shake(p->jacobian, &b->jacobian));
     }
     QDOT_TRY(qdot_blocks_init(&b->blocks, p, shaken));
-    return p->method->series ? qdot_expand_new(p, shaken, &b->expand) : QDOT_OK;
+    if (!p->method->series)
+        return QDOT_OK;
+    if (p->residual) {
+        QDOT_TRY(qdot_shifted_new(p, p->residual, shaken, &b->shifted));
+        b->series = qdot_shifted_series(b->shifted);
+    } else {
+        QDOT_TRY(qdot_direct_new(p, shaken, &b->direct));
+        b->series = qdot_direct_series(b->direct);
+    }
+    return QDOT_OK;
 }
 
 qdot_status

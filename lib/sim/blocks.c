@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "num/cholesky.h"
+#include "num/series.h"
 #include "tape/shake.h"
 
 qdot_status
@@ -37,6 +38,60 @@ qdot_blocks_solve(const qdot_blocks *b, size_t k)
         qdot_ldlt_solve(&s->ldlt, s->a, s->x);
     else
         qdot_cholesky_solve(s->a, b->plan->blocks[k].n, NULL, s->x);
+}
+
+qdot_status
+qdot_blocks_prepare(qdot_blocks *b, size_t k)
+{
+    qdot_solver *s = b->at + k;
+    size_t n = b->plan->blocks[k].n;
+
+    if (b->plan->indefinite)
+        return QDOT_OK;
+    s->m = (n + 7) / 8 * 8;
+    s->inverse = qdot_calloc(s->m * n, sizeof *s->inverse);
+    s->lower = qdot_calloc(s->m * n, sizeof *s->lower);
+    return s->inverse && s->lower ? QDOT_OK : QDOT_ENOMEM;
+}
+
+void
+qdot_blocks_invert(qdot_blocks *b, size_t k)
+{
+    const qdot_series_kernels *kernels = qdot_series_kernels_get();
+    const qdot_solver *s = b->at + k;
+    size_t n = b->plan->blocks[k].n, m = s->m;
+
+    if (!s->inverse)
+        return;
+    /* rows of L^-1, each as far as its diagonal */
+    for (size_t i = 0; i < n; i++) {
+        const double *L = s->a + i * n;
+        double *row = s->lower + i * m, scale = 1 / L[i];
+
+        memset(row, 0, i * sizeof *row);
+        for (size_t j = 0; j < i; j++)
+            kernels->add(j + 1, -L[j] * scale, s->lower + j * m, row);
+        row[i] = scale;
+    }
+    memset(s->inverse, 0, n * m * sizeof *s->inverse);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++)
+            kernels->add(i + 1, s->lower[i * m + j], s->lower + i * m,
+                         s->inverse + j * m);
+}
+
+void
+qdot_blocks_apply(const qdot_blocks *b, size_t k)
+{
+    const qdot_solver *s = b->at + k;
+    size_t n = b->plan->blocks[k].n;
+
+    if (!s->inverse) {
+        qdot_blocks_solve(b, k);
+        return;
+    }
+    qdot_series_kernels_get()->multiply(s->m, n, s->inverse, s->x, s->lower);
+    memcpy(s->x, s->lower, n * sizeof *s->x);
 }
 
 const double *
@@ -90,6 +145,8 @@ qdot_blocks_clear(qdot_blocks *b)
     for (size_t k = 0; b->at && k < b->plan->structure.blocks; k++) {
         qdot_free(b->at[k].a);
         qdot_free(b->at[k].x);
+        qdot_free(b->at[k].inverse);
+        qdot_free(b->at[k].lower);
         qdot_ldlt_clear(&b->at[k].ldlt);
     }
     qdot_free(b->at);

@@ -9,6 +9,9 @@ typedef struct {
     double *a;      /* [n x n] M, then its factors */
     double *x;      /* [n] right-hand side, then solution */
     qdot_ldlt ldlt; /* of a plan that is indefinite */
+    size_t m;        /* n, filled up to full vectors */
+    double *inverse; /* [m x n], once asked for; else NULL */
+    double *lower;   /* [m x n] its scratch; then the product of [m] */
 } qdot_solver;
 
 typedef struct {
@@ -29,6 +32,13 @@ QDOT_MUST_CHECK qdot_status qdot_blocks_factor(qdot_blocks *b, size_t k);
 
 /* Solve with block k, factored, for its `x`. */
 void qdot_blocks_solve(const qdot_blocks *b, size_t k);
+
+/* For many right-hand sides: the inverse of block k, factored, as L^-T L^-1, and its product
+ * with `x`. Its error is of the size of _solve's, not as reliably: for the orders of a
+ * series beyond the first. An indefinite block is solved. */
+QDOT_MUST_CHECK qdot_status qdot_blocks_prepare(qdot_blocks *b, size_t k);
+void qdot_blocks_invert(qdot_blocks *b, size_t k);
+void qdot_blocks_apply(const qdot_blocks *b, size_t k);
 
 /* A lower triangle by rows into block k; returns what stands behind it. */
 const double *qdot_blocks_unpack(const qdot_blocks *b, size_t k, const double *from);

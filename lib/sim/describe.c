@@ -1,4 +1,6 @@
 /* describe.c -- the plan in words. */
+#include "ode/taylor.h"
+#include "sim/bind.h"
 #include "sim/plan.h"
 
 static void
@@ -69,9 +71,38 @@ say_blocks(const qdot_plan *p, qdot_text *out)
     }
 }
 
+/* Of Taylor series: the order, the form of the equations, what an order costs. */
+static qdot_status
+say_series(const qdot_plan *p, double tol, qdot_text *out)
+{
+    qdot_bind *bind;
+    qdot_ode_system system;
+
+    QDOT_TRY(qdot_bind_new(p, false, &bind));
+    system = qdot_bind_system(bind);
+    qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n",
+                     qdot_ode_taylor_order(system.series, tol, 0), tol);
+    qdot_bind_free(bind);
+    if (p->residual)
+        qdot_text_format(out,
+                         "form: d'Alembert's residual, %g convolutions an order; M q'' = f "
+                         "would take %g. M is factored once a step\n",
+                         p->convolutions_residual, p->convolutions_derived);
+    else if (p->convolutions_residual > 0)
+        qdot_text_format(out,
+                         "form: M q'' = f, %g convolutions an order; d'Alembert's residual "
+                         "would take %g and more beside them. M is factored once a step\n",
+                         p->convolutions_derived, p->convolutions_residual);
+    else
+        qdot_text_format(out, "form: M q'' = f, %g convolutions an order\n",
+                         p->convolutions_derived);
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
 {
+    qdot_status status = QDOT_OK;
     qdot_plan *p;
 
     QDOT_TRY(qdot_plan_new(scene, request, &p));
@@ -93,10 +124,12 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
                          qdot_tape_operations(p->jacobian));
     qdot_text_format(out, "method: %s, %s: %s\n", p->method->name,
                      p->chosen ? "chosen" : "asked for", p->method->fits);
+    if (p->method->series)
+        status = say_series(p, request->tol, out);
     qdot_text_format(out,
                      "error: a companion run by %s, at a tighter tolerance, on a second "
                      "thread\n",
                      p->method->partner);
     qdot_plan_free(p);
-    return qdot_text_status(out);
+    return status == QDOT_OK ? qdot_text_status(out) : status;
 }

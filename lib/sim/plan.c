@@ -5,6 +5,9 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "sim/direct.h"
+#include "sim/residual.h"
+#include "sim/shifted.h"
 #include "sim/substitute.h"
 #include "tape/constant.h"
 #include "tape/taylor.h"
@@ -13,7 +16,7 @@
 static const char default_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
-static const char *const later_methods[] = {"dop853", "radau", "gauss"};
+static const char *const later_methods[] = {"radau", "gauss"};
 
 void
 qdot_plan_free(qdot_plan *p)
@@ -37,6 +40,7 @@ qdot_plan_free(qdot_plan *p)
     qdot_tape_free(p->tape);
     qdot_tape_free(p->jacobian);
     qdot_free(p->slopes);
+    qdot_residual_free(p->residual);
     qdot_free(p);
 }
 
@@ -314,6 +318,49 @@ lower_jacobian(qdot_plan *p)
     return status;
 }
 
+/* --- Taylor series ------------------------------------------------------------------ */
+
+/* What a step costs, about, at an order of middling tolerances. */
+static double
+cost_of_step(const qdot_ode_series *series)
+{
+    const double p = 20, *c = series->cost;
+
+    return c[0] + c[1] * p + c[2] * p * p;
+}
+
+/* The shorter of the two forms of the equations. Where M is diagonal or constant nothing
+ * is shorter than the derived one. */
+static qdot_status
+choose_form(qdot_plan *p, qdot_scene *scene)
+{
+    qdot_residual *residual = NULL;
+    qdot_direct *direct = NULL;
+    qdot_shifted *shifted = NULL;
+    bool coupled = false;
+    qdot_status status;
+
+    QDOT_TRY(qdot_direct_new(p, false, &direct));
+    p->convolutions_derived = qdot_direct_convolutions(direct);
+    for (size_t k = 0; k < p->structure.blocks; k++)
+        coupled |= p->blocks[k].n > 1 && !p->blocks[k].constant;
+    status = coupled ? qdot_residual_new(scene, p, &residual) : QDOT_OK;
+    if (status == QDOT_OK && residual)
+        status = qdot_shifted_new(p, residual, false, &shifted);
+    if (shifted) {
+        p->convolutions_residual = qdot_shifted_convolutions(shifted);
+        if (cost_of_step(qdot_shifted_series(shifted))
+            < cost_of_step(qdot_direct_series(direct))) {
+            p->residual = residual;
+            residual = NULL;
+        }
+    }
+    qdot_shifted_free(shifted);
+    qdot_residual_free(residual);
+    qdot_direct_free(direct);
+    return status;
+}
+
 static qdot_status
 make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
@@ -336,6 +383,8 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
                   p->method->name, qdot_taylor_hindrance(p->tape));
         return qdot_hint("method rk8pd");
     }
+    if (p->method->series)
+        QDOT_TRY(choose_form(p, scene));
     if (p->method->needs_jacobian
         || qdot_ode_method_find(p->method->partner)->needs_jacobian)
         QDOT_TRY(lower_jacobian(p));

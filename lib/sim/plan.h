@@ -35,6 +35,8 @@ typedef struct {
     uint32_t row, column; /* column: 0 ... 2n */
 } qdot_plan_slope;
 
+typedef struct qdot_residual qdot_residual; /* sim/residual.h */
+
 typedef struct {
     qdot_pool *pool; /* borrowed */
     size_t n;        /* coordinates */
@@ -61,6 +63,12 @@ typedef struct {
     qdot_tape *jacobian;
     qdot_plan_slope *slopes; /* [n_slopes] */
     size_t n_slopes;
+
+    /* Of a method by Taylor series: the equations as d'Alembert's residual where that is
+     * cheaper, else NULL; convolutions an order of either form, 0 where it was not
+     * looked at. */
+    qdot_residual *residual;
+    double convolutions_derived, convolutions_residual;
 } qdot_plan;
 
 /* Errors: as qdot_run_new has before anything is integrated, but for the start's. */

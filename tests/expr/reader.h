@@ -85,7 +85,8 @@ read_call(reader *r, const char *name, uint32_t primes)
         return qdot_fun(r->pool, id, n, args);
     for (size_t i = 0; i < r->n_functions; i++)
         if (strcmp(qdot_ufun_get(r->pool, r->functions[i])->name, name) == 0)
-            return qdot_ufun_apply(r->pool, r->functions[i], args, primes > 0 ? &primes : NULL);
+            return qdot_ufun_apply(r->pool, r->functions[i], args,
+                                   primes > 0 ? &primes : NULL);
     fail_msg("no function %s", name);
     return QDOT_NIL;
 }
@@ -117,7 +118,8 @@ read_name(reader *r)
         return QDOT_T;
     for (size_t i = 0; i < r->n_names; i++)
         if (strcmp(qdot_expr_symbol(r->pool, r->names[i])->name, name) == 0)
-            return primes > 0 ? qdot_symbol_jet(r->pool, r->names[i], primes) : r->names[i];
+            return primes > 0 ? qdot_symbol_jet(r->pool, r->names[i], primes)
+                              : r->names[i];
     fail_msg("no name %s", name);
     return QDOT_NIL;
 }

@@ -72,7 +72,8 @@ place_open(place *p)
     qdot_symbol_domain(p->pool, p->symbol[3], QDOT_NIL, false, QDOT_ZERO, true);
     qdot_symbol_domain(p->pool, p->symbol[4], QDOT_ZERO, false, QDOT_NIL, false);
     qdot_symbol_domain(p->pool, p->symbol[7], QDOT_ZERO, true, QDOT_PI, true);
-    qdot_symbol_domain(p->pool, p->symbol[8], qdot_neg(p->pool, half_pi), false, half_pi, false);
+    qdot_symbol_domain(p->pool, p->symbol[8], qdot_neg(p->pool, half_pi), false, half_pi,
+                       false);
     assert_int_equal(qdot_pool_check(p->pool), QDOT_OK);
 }
 
@@ -130,12 +131,23 @@ function_value(qdot_fun_id id, const long double *x)
 
 /* --- formulas --------------------------------------------------------------------------------- */
 
-typedef enum { NUMBER, SYMBOL, PLUS, MINUS, TIMES, OVER, POWER, ROOT, CALL, OPERATIONS } operation;
+typedef enum {
+    NUMBER,
+    SYMBOL,
+    PLUS,
+    MINUS,
+    TIMES,
+    OVER,
+    POWER,
+    ROOT,
+    CALL,
+    OPERATIONS
+} operation;
 
 typedef struct {
     operation op;
-    long p, q;   /* NUMBER p/q; SYMBOL p; POWER ^p; ROOT ^(p/q); CALL function p */
-    int a, b;    /* operands: earlier steps */
+    long p, q; /* NUMBER p/q; SYMBOL p; POWER ^p; ROOT ^(p/q); CALL function p */
+    int a, b;  /* operands: earlier steps */
 } step;
 
 typedef struct {
@@ -149,10 +161,10 @@ enum { SMOOTH = 1, RATIONAL = 2 };
 static inline formula
 formula_random(int n, int mode)
 {
-    static const qdot_fun_id smooth[] = {QDOT_SIN, QDOT_COS, QDOT_TAN, QDOT_ATAN, QDOT_SINH,
-                                         QDOT_COSH, QDOT_TANH, QDOT_ASINH, QDOT_EXP, QDOT_LOG,
-                                         QDOT_ASIN, QDOT_ACOS, QDOT_SEC, QDOT_CSC, QDOT_COT,
-                                         QDOT_ACOSH, QDOT_ATANH};
+    static const qdot_fun_id smooth[] = {
+        QDOT_SIN,  QDOT_COS,   QDOT_TAN, QDOT_ATAN,  QDOT_SINH, QDOT_COSH,
+        QDOT_TANH, QDOT_ASINH, QDOT_EXP, QDOT_LOG,   QDOT_ASIN, QDOT_ACOS,
+        QDOT_SEC,  QDOT_CSC,   QDOT_COT, QDOT_ACOSH, QDOT_ATANH};
     formula f = {.n = n};
 
     for (int i = 0; i < n; i++) {
@@ -170,8 +182,9 @@ formula_random(int n, int mode)
         if (s->op == ROOT)
             s->q = 2 + (long)random_below(3);
         if (s->op == CALL)
-            s->p = mode == SMOOTH ? (long)smooth[random_below(sizeof smooth / sizeof *smooth)]
-                                  : (long)random_below(QDOT_FUNCTION_COUNT - 1);
+            s->p = mode == SMOOTH
+                       ? (long)smooth[random_below(sizeof smooth / sizeof *smooth)]
+                       : (long)random_below(QDOT_FUNCTION_COUNT - 1);
     }
     return f;
 }
@@ -196,7 +209,8 @@ formula_value(const formula *f, const place *p, long double *v)
         case ROOT: v[i] = powl(a, (long double)s->p / s->q); break;
         default: v[i] = function_value((qdot_fun_id)s->p, two);
         }
-        if (!(fabsl(v[i]) < 1e5L) || (s->op != NUMBER && v[i] != 0 && fabsl(v[i]) < 1e-5L))
+        if (!(fabsl(v[i]) < 1e5L) ||
+            (s->op != NUMBER && v[i] != 0 && fabsl(v[i]) < 1e-5L))
             v[i] = NAN;
     }
     return v[f->n - 1];
@@ -210,7 +224,8 @@ formula_build(const formula *f, const place *p)
 
     for (int i = 0; i < f->n; i++) {
         const step *s = &f->at[i];
-        qdot_expr a = i > 0 ? e[s->a] : QDOT_NIL, b = i > 0 ? e[s->b] : QDOT_NIL, two[] = {a, b};
+        qdot_expr a = i > 0 ? e[s->a] : QDOT_NIL, b = i > 0 ? e[s->b] : QDOT_NIL,
+                  two[] = {a, b};
         qdot_fun_id id = (qdot_fun_id)s->p;
 
         switch (s->op) {
@@ -227,7 +242,8 @@ formula_build(const formula *f, const place *p)
             break;
         default:
             e[i] = qdot_fun(pool, id,
-                            id == QDOT_ATAN2 || id == QDOT_MOD || id == QDOT_MIN || id == QDOT_MAX
+                            id == QDOT_ATAN2 || id == QDOT_MOD || id == QDOT_MIN ||
+                                    id == QDOT_MAX
                                 ? 2
                                 : 1,
                             two);
@@ -240,8 +256,8 @@ formula_build(const formula *f, const place *p)
 static inline void
 formula_show(const formula *f, const long double *v)
 {
-    static const char *const names[] = {"number", "symbol", "+", "-", "*", "/", "power", "root",
-                                        "call"};
+    static const char *const names[] = {"number", "symbol", "+",    "-",   "*",
+                                        "/",      "power",  "root", "call"};
 
     for (int i = 0; i < f->n; i++)
         print_error("%2d: %s p=%ld q=%ld of %d, %d -> %.12Lg\n", i, names[f->at[i].op],
@@ -339,6 +355,7 @@ text_of(const qdot_pool *pool, qdot_expr e, qdot_style style)
     return buffer;
 }
 
-#define assert_prints(pool, e, text) assert_string_equal(text_of(pool, e, QDOT_PLAIN), text)
+#define assert_prints(pool, e, text)                                                     \
+    assert_string_equal(text_of(pool, e, QDOT_PLAIN), text)
 
 #endif

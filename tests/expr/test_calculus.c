@@ -68,7 +68,8 @@ derivatives_are_limits_of_differences(void **state)
         if (isnan(seen))
             continue;
         if (!near(seen, wanted, 1e-7L))
-            fail_msg("d/d%s %s is %.12Lg, not %.12Lg", text_of(p.pool, symbol(k), QDOT_PLAIN),
+            fail_msg("d/d%s %s is %.12Lg, not %.12Lg",
+                     text_of(p.pool, symbol(k), QDOT_PLAIN),
                      text_of(p.pool, e, QDOT_PLAIN), seen, wanted);
         compared++;
     }
@@ -83,7 +84,8 @@ substitution_is_evaluation_elsewhere(void **state)
     (void)state;
     for (int trial = 0; trial < 5000; trial++) {
         static const int free_symbols[] = {0, 1, 5, 6};
-        formula f = formula_random(4 + (int)random_below(12), 0), g = formula_random(5, SMOOTH);
+        formula f = formula_random(4 + (int)random_below(12), 0),
+                g = formula_random(5, SMOOTH);
         qdot_expr e = formula_build(&f, &p), to[2], from[2];
         long double v[STEPS], at, wanted, seen, kept;
         int k = free_symbols[random_below(4)], other = free_symbols[random_below(4)];
@@ -113,7 +115,8 @@ substitution_is_evaluation_elsewhere(void **state)
         if (!fine)
             continue;
         if (!near(seen, wanted, 1e-9L))
-            fail_msg("%s is %.18Lg, not %.18Lg", text_of(p.pool, e, QDOT_PLAIN), seen, wanted);
+            fail_msg("%s is %.18Lg, not %.18Lg", text_of(p.pool, e, QDOT_PLAIN), seen,
+                     wanted);
         compared++;
     }
     assert_true(compared > 500);
@@ -159,7 +162,8 @@ time_derivatives_count_the_jets_on(void **state)
     assert_int_equal(qdot_ddt(p.pool, v), a);
     assert_int_equal(qdot_ddt(p.pool, QDOT_T), QDOT_ONE);
     assert_int_equal(qdot_ddt(p.pool, symbol(0)), QDOT_ZERO);
-    assert_int_equal(e, qdot_add(p.pool, qdot_mul(p.pool, x, a), qdot_pow_int(p.pool, v, 2)));
+    assert_int_equal(
+        e, qdot_add(p.pool, qdot_mul(p.pool, x, a), qdot_pow_int(p.pool, v, 2)));
     e = qdot_ddt(p.pool, qdot_symbol_of(p.pool, QDOT_MOMENTUM, x));
     assert_int_equal(e, QDOT_NIL);
     assert_int_equal(qdot_pool_check(p.pool), QDOT_EDOMAIN);
@@ -172,11 +176,14 @@ time_derivatives_count_the_jets_on(void **state)
 static void
 differentials_are_linear(void **state)
 {
-    qdot_expr r = symbol(5), theta = symbol(7), e = qdot_mul(p.pool, r, qdot_fun1(p.pool, QDOT_COS, theta));
+    qdot_expr r = symbol(5), theta = symbol(7),
+              e = qdot_mul(p.pool, r, qdot_fun1(p.pool, QDOT_COS, theta));
 
     (void)state;
-    assert_prints(p.pool, qdot_differential(p.pool, e), "cos(theta)*dx - x*sin(theta)*dtheta");
-    assert_prints(p.pool, qdot_differential(p.pool, qdot_mul(p.pool, r, QDOT_T)), "x*dt + t*dx");
+    assert_prints(p.pool, qdot_differential(p.pool, e),
+                  "cos(theta)*dx - x*sin(theta)*dtheta");
+    assert_prints(p.pool, qdot_differential(p.pool, qdot_mul(p.pool, r, QDOT_T)),
+                  "x*dt + t*dx");
     assert_int_equal(qdot_differential(p.pool, symbol(6)), QDOT_NIL);
     assert_int_equal(qdot_pool_check(p.pool), QDOT_EDOMAIN);
 }
@@ -201,7 +208,8 @@ partial_derivatives_commute(void **state)
         (void)formula_value(&f, &p, v);
         for (int i = 0; i < f.n; i++)
             fine &= isfinite(v[i]);
-        if (!fine || !isfinite(node_value(&p, xy, NULL)) || !isfinite(node_value(&p, yx, NULL)))
+        if (!fine || !isfinite(node_value(&p, xy, NULL)) ||
+            !isfinite(node_value(&p, yx, NULL)))
             continue;
         assert_true(near(node_value(&p, xy, NULL), node_value(&p, yx, NULL), 1e-7L));
         compared++;
@@ -223,7 +231,8 @@ declare(void)
 
     u.s = qdot_symbol_get(p.pool, QDOT_COORD, "s");
     assert_int_equal(qdot_ufun_declare(p.pool, "f", 1, &u.s, &u.f), QDOT_OK);
-    assert_int_equal(qdot_ufun_declare(p.pool, "g", 2, (qdot_expr[]){u.s, QDOT_T}, &u.g), QDOT_OK);
+    assert_int_equal(qdot_ufun_declare(p.pool, "g", 2, (qdot_expr[]){u.s, QDOT_T}, &u.g),
+                     QDOT_OK);
     return u;
 }
 
@@ -238,7 +247,8 @@ undefined_functions_obey_the_chain_rule(void **state)
     assert_int_equal(qdot_diff(p.pool, e, x),
                      qdot_product(p.pool, 3,
                                   (qdot_expr[]){qdot_expr_int(p.pool, 2), x,
-                                                qdot_ufun_apply(p.pool, u.f, &square, (uint32_t[]){1})}));
+                                                qdot_ufun_apply(p.pool, u.f, &square,
+                                                                (uint32_t[]){1})}));
     e = qdot_ufun_apply(p.pool, u.g, (qdot_expr[]){u.s, QDOT_T}, NULL);
     assert_prints(p.pool, qdot_ddt(p.pool, e), "diff(g(s, t), s)*s' + diff(g(s, t), t)");
 }
@@ -259,14 +269,16 @@ static void
 arguments_of_derivatives_are_replaced_not_orders(void **state)
 {
     functions u = declare();
-    qdot_expr e = qdot_ufun_apply(p.pool, u.f, &u.s, (uint32_t[]){2}), two = qdot_expr_int(p.pool, 2);
+    qdot_expr e = qdot_ufun_apply(p.pool, u.f, &u.s, (uint32_t[]){2}),
+              two = qdot_expr_int(p.pool, 2);
     qdot_expr a = symbol(0), three = qdot_expr_int(p.pool, 3), g;
 
     (void)state;
     assert_prints(p.pool, qdot_subs(p.pool, e, 1, &u.s, &a), "f''(a)");
     assert_int_equal(qdot_subs(p.pool, e, 1, &two, &three), e);
     g = qdot_ufun_apply(p.pool, u.g, (qdot_expr[]){u.s, QDOT_T}, (uint32_t[]){1, 0});
-    assert_prints(p.pool, qdot_subs(p.pool, g, 1, &u.s, &a), "subs(diff(g(s, t), s), s = a)");
+    assert_prints(p.pool, qdot_subs(p.pool, g, 1, &u.s, &a),
+                  "subs(diff(g(s, t), s), s = a)");
     a = qdot_vector(p.pool, 2, (qdot_expr[]){a, a});
     assert_int_equal(qdot_subs(p.pool, e, 1, &u.s, &a), QDOT_NIL);
     assert_int_equal(qdot_pool_check(p.pool), QDOT_ETYPE);
@@ -278,11 +290,13 @@ derivatives_map_over_values(void **state)
     qdot_expr x = symbol(5), a = symbol(0), one = qdot_pow_int(p.pool, x, 2), e, d;
 
     (void)state;
-    e = qdot_list(p.pool, 2, (qdot_expr[]){qdot_vector(p.pool, 2, (qdot_expr[]){one, a}),
-                                           qdot_rel(p.pool, QDOT_EQ, one, x)});
+    e = qdot_list(p.pool, 2,
+                  (qdot_expr[]){qdot_vector(p.pool, 2, (qdot_expr[]){one, a}),
+                                qdot_rel(p.pool, QDOT_EQ, one, x)});
     assert_prints(p.pool, qdot_diff(p.pool, e, x), "[(2*x, 0), 2*x = 1]");
     assert_prints(p.pool, qdot_diff(p.pool, e, symbol(1)), "[(0, 0), 0 = 0]");
-    d = qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){qdot_rel(p.pool, QDOT_LT, x, a), one, a});
+    d = qdot_fun(p.pool, QDOT_IF, 3,
+                 (qdot_expr[]){qdot_rel(p.pool, QDOT_LT, x, a), one, a});
     assert_prints(p.pool, qdot_diff(p.pool, d, x), "if(x < a, 2*x, 0)");
     assert_int_equal(qdot_diff(p.pool, qdot_rel(p.pool, QDOT_LT, x, a), x), QDOT_NIL);
     assert_int_equal(qdot_pool_check(p.pool), QDOT_ETYPE);

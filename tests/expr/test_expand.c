@@ -30,9 +30,11 @@ holds_brackets(qdot_expr e)
     assert_int_equal(qdot_walk_begin(p.pool, e, &w), QDOT_OK);
     for (size_t i = 0; i < w.n; i++)
         for (uint32_t n = 1; n < qdot_expr_count(p.pool, w.at[i]); n += 2)
-            found |= qdot_expr_kind(p.pool, w.at[i]) == QDOT_PROD &&
-                     qdot_expr_kind(p.pool, qdot_expr_arg(p.pool, w.at[i], n)) == QDOT_SUM &&
-                     qdot_expr_to_int(p.pool, qdot_expr_arg(p.pool, w.at[i], n + 1), &k) && k > 0;
+            found |=
+                qdot_expr_kind(p.pool, w.at[i]) == QDOT_PROD &&
+                qdot_expr_kind(p.pool, qdot_expr_arg(p.pool, w.at[i], n)) == QDOT_SUM &&
+                qdot_expr_to_int(p.pool, qdot_expr_arg(p.pool, w.at[i], n + 1), &k) &&
+                k > 0;
     qdot_walk_end(&w);
     return found;
 }
@@ -60,7 +62,8 @@ expanding_keeps_the_value_and_leaves_no_brackets(void **state)
         if (!fine)
             continue;
         if (!near(node_value(&p, flat, NULL), wanted, 1e-6L))
-            fail_msg("%s from %s", text_of(p.pool, flat, QDOT_PLAIN), text_of(p.pool, e, QDOT_PLAIN));
+            fail_msg("%s from %s", text_of(p.pool, flat, QDOT_PLAIN),
+                     text_of(p.pool, e, QDOT_PLAIN));
         compared++;
     }
     assert_true(compared > 500);
@@ -98,7 +101,8 @@ collecting_sorts_by_powers(void **state)
     qdot_expr x = p.symbol[5], a = p.symbol[0], b = p.symbol[1], e;
 
     (void)state;
-    e = qdot_mul(p.pool, qdot_add(p.pool, x, a), qdot_add(p.pool, qdot_mul(p.pool, x, b), QDOT_ONE));
+    e = qdot_mul(p.pool, qdot_add(p.pool, x, a),
+                 qdot_add(p.pool, qdot_mul(p.pool, x, b), QDOT_ONE));
     e = qdot_collect(p.pool, e, x);
     assert_prints(p.pool, e, "b*x^2 + (a*b + 1)*x + a");
     e = qdot_collect(p.pool, qdot_rel(p.pool, QDOT_EQ, e, qdot_mul(p.pool, a, x)), x);

@@ -61,7 +61,8 @@ twelfths_of_pi_have_exact_values(void **state)
                 continue;
             }
             assert_false(holds_function(e));
-            assert_true(near(node_value(&p, e, NULL), function_value((qdot_fun_id)id, &x), 1e-12L));
+            assert_true(near(node_value(&p, e, NULL), function_value((qdot_fun_id)id, &x),
+                             1e-12L));
         }
     assert_prints(p.pool, call(QDOT_TAN, of_pi(1, 12)), "2 - sqrt(3)");
 }
@@ -93,15 +94,17 @@ a_quarter_turn_changes_the_function(void **state)
             long double at = p.value[5] + k * acosl(-1) / 2;
 
             assert_false(qdot_expr_contains(p.pool, e, QDOT_PI));
-            assert_true(near(node_value(&p, e, NULL), function_value((qdot_fun_id)id, &at), 1e-10L));
+            assert_true(near(node_value(&p, e, NULL),
+                             function_value((qdot_fun_id)id, &at), 1e-10L));
         }
 }
 
 static void
 parity_is_applied(void **state)
 {
-    static const qdot_fun_id odd[] = {QDOT_SIN, QDOT_TAN, QDOT_CSC, QDOT_COT, QDOT_ASIN, QDOT_ATAN,
-                                      QDOT_SINH, QDOT_TANH, QDOT_ASINH, QDOT_ATANH, QDOT_SIGN};
+    static const qdot_fun_id odd[] = {QDOT_SIN,   QDOT_TAN,   QDOT_CSC,  QDOT_COT,
+                                      QDOT_ASIN,  QDOT_ATAN,  QDOT_SINH, QDOT_TANH,
+                                      QDOT_ASINH, QDOT_ATANH, QDOT_SIGN};
     static const qdot_fun_id even[] = {QDOT_COS, QDOT_SEC, QDOT_COSH, QDOT_ABS};
     qdot_expr d = qdot_sub(p.pool, p.symbol[7], p.symbol[5]), minus = qdot_neg(p.pool, d);
 
@@ -129,8 +132,9 @@ inverse_pairs_cancel(void **state)
     assert_int_equal(call(QDOT_ACOSH, call(QDOT_COSH, x)), call(QDOT_ABS, x));
     /* asin(sin x) is x only near 0 */
     assert_true(holds_function(call(QDOT_ASIN, call(QDOT_SIN, x))));
-    assert_int_equal(call(QDOT_EXP, qdot_mul(p.pool, qdot_expr_int(p.pool, 3), call(QDOT_LOG, x))),
-                     qdot_pow_int(p.pool, x, 3));
+    assert_int_equal(
+        call(QDOT_EXP, qdot_mul(p.pool, qdot_expr_int(p.pool, 3), call(QDOT_LOG, x))),
+        qdot_pow_int(p.pool, x, 3));
 }
 
 static void
@@ -148,7 +152,8 @@ domains_are_kept(void **state)
     refuses(call(QDOT_ACOS, qdot_expr_int(p.pool, -2)), QDOT_EDOMAIN);
     refuses(call(QDOT_ACOSH, QDOT_HALF), QDOT_EDOMAIN);
     refuses(call(QDOT_ATANH, QDOT_ONE), QDOT_EDOMAIN);
-    refuses(qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ZERO, QDOT_ZERO}), QDOT_EDOMAIN);
+    refuses(qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ZERO, QDOT_ZERO}),
+            QDOT_EDOMAIN);
     refuses(qdot_fun(p.pool, QDOT_MOD, 2, (qdot_expr[]){two, QDOT_ZERO}), QDOT_EDOMAIN);
 }
 
@@ -175,13 +180,16 @@ numbers_are_computed(void **state)
     assert_int_equal(qdot_fun(p.pool, QDOT_MIN, 2, two), three);
     assert_int_equal(qdot_fun(p.pool, QDOT_MAX, 2, two), seven);
     assert_int_equal(qdot_fun(p.pool, QDOT_MOD, 2, two), qdot_expr_int(p.pool, -2));
-    assert_int_equal(call(QDOT_FLOOR, qdot_expr_ratio(p.pool, -7, 2)), qdot_expr_int(p.pool, -4));
+    assert_int_equal(call(QDOT_FLOOR, qdot_expr_ratio(p.pool, -7, 2)),
+                     qdot_expr_int(p.pool, -4));
     assert_int_equal(call(QDOT_ABS, three), qdot_expr_int(p.pool, 3));
     assert_int_equal(call(QDOT_SIGN, three), QDOT_MINUS_ONE);
-    assert_int_equal(qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ONE, QDOT_MINUS_ONE}),
-                     of_pi(3, 4));
-    assert_int_equal(qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ZERO, QDOT_MINUS_ONE}),
-                     QDOT_PI);
+    assert_int_equal(
+        qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ONE, QDOT_MINUS_ONE}),
+        of_pi(3, 4));
+    assert_int_equal(
+        qdot_fun(p.pool, QDOT_ATAN2, 2, (qdot_expr[]){QDOT_ZERO, QDOT_MINUS_ONE}),
+        QDOT_PI);
 }
 
 static void
@@ -195,7 +203,8 @@ a_decided_condition_chooses(void **state)
     assert_int_equal(less, QDOT_TRUE);
     assert_int_equal(qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){less, x, y}), x);
     assert_int_equal(qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){open, x, x}), x);
-    assert_prints(p.pool, qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){open, x, y}), "if(x < a, x, a)");
+    assert_prints(p.pool, qdot_fun(p.pool, QDOT_IF, 3, (qdot_expr[]){open, x, y}),
+                  "if(x < a, x, a)");
 }
 
 static void

@@ -41,7 +41,8 @@ built_alike_is_the_same_id(void **state)
 
     (void)state;
     for (int i = 0; i < 2; i++)
-        e[i] = qdot_fun1(p.pool, QDOT_SIN, qdot_add(p.pool, qdot_mul(p.pool, a, x), QDOT_HALF));
+        e[i] = qdot_fun1(p.pool, QDOT_SIN,
+                         qdot_add(p.pool, qdot_mul(p.pool, a, x), QDOT_HALF));
     assert_int_equal(e[0], e[1]);
     list = qdot_list(p.pool, 0, NULL);
     assert_int_equal(qdot_list(p.pool, 0, NULL), list);
@@ -82,7 +83,8 @@ children_have_smaller_ids(void **state)
     }
     for (qdot_expr e = 1; e < qdot_pool_count(p.pool); e++)
         for (uint32_t i = 0; i < qdot_expr_count(p.pool, e); i++)
-            assert_true(qdot_expr_arg(p.pool, e, i) < e && qdot_expr_arg(p.pool, e, i) != QDOT_NIL);
+            assert_true(qdot_expr_arg(p.pool, e, i) < e &&
+                        qdot_expr_arg(p.pool, e, i) != QDOT_NIL);
 }
 
 static void
@@ -104,6 +106,7 @@ nil_absorbs_and_the_first_cause_is_kept(void **state)
     /* a second cause does not hide the first */
     assert_int_equal(qdot_fun1(p.pool, QDOT_LOG, QDOT_ZERO), QDOT_NIL);
     (void)qdot_fail(QDOT_EIO, "something else");
+    assert_int_equal(qdot_pool_fail(p.pool), QDOT_NIL);
     assert_int_equal(qdot_pool_check(p.pool), QDOT_EDOMAIN);
     assert_string_equal(qdot_last_error()->message, "division by zero");
     /* and is forgotten: the pool works again */
@@ -156,7 +159,8 @@ jets_count_on(void **state)
     assert_int_equal(qdot_expr_symbol(p.pool, a)->base, x);
     assert_int_equal(qdot_expr_node(p.pool, a)->holds, QDOT_HAS_ACCELERATION);
     assert_int_equal(qdot_expr_node(p.pool, v)->holds, QDOT_HAS_VELOCITY);
-    assert_true(qdot_expr_is_coordinate(p.pool, x) && !qdot_expr_is_coordinate(p.pool, v));
+    assert_true(qdot_expr_is_coordinate(p.pool, x) &&
+                !qdot_expr_is_coordinate(p.pool, v));
     assert_int_equal(qdot_symbol_jet(p.pool, p.symbol[0], 1), QDOT_NIL);
     assert_int_equal(qdot_pool_check(p.pool), QDOT_ETYPE);
 }
@@ -201,7 +205,8 @@ functions_are_declared_once(void **state)
     assert_int_equal(f, g);
     assert_int_not_equal(f, h);
     assert_int_equal(qdot_ufun_get(p.pool, h)->arity, 2);
-    assert_int_equal(qdot_ufun_apply(p.pool, h, (qdot_expr[]){s, QDOT_TRUE}, NULL), QDOT_NIL);
+    assert_int_equal(qdot_ufun_apply(p.pool, h, (qdot_expr[]){s, QDOT_TRUE}, NULL),
+                     QDOT_NIL);
     assert_int_equal(qdot_pool_check(p.pool), QDOT_ETYPE);
 }
 
@@ -213,7 +218,8 @@ relations_of_numbers_are_decided(void **state)
     (void)state;
     assert_int_equal(qdot_rel(p.pool, QDOT_LE, QDOT_ONE, QDOT_ONE), QDOT_TRUE);
     assert_int_equal(qdot_rel(p.pool, QDOT_LT, QDOT_ONE, QDOT_ONE), QDOT_FALSE);
-    assert_int_equal(qdot_expr_kind(p.pool, qdot_rel(p.pool, QDOT_EQ, QDOT_ONE, QDOT_ONE)), QDOT_REL);
+    assert_int_equal(
+        qdot_expr_kind(p.pool, qdot_rel(p.pool, QDOT_EQ, QDOT_ONE, QDOT_ONE)), QDOT_REL);
     both = qdot_logic(p.pool, QDOT_AND, 2, (qdot_expr[]){open, QDOT_TRUE});
     assert_int_equal(both, open);
     both = qdot_logic(p.pool, QDOT_OR, 2, (qdot_expr[]){open, QDOT_TRUE});
@@ -227,7 +233,8 @@ relations_of_numbers_are_decided(void **state)
 static qdot_status
 workload(qdot_pool *pool)
 {
-    qdot_expr m = qdot_symbol_get(pool, QDOT_PARAM, "mass"), x, theta, s, e, many[6], from[6], to[6];
+    qdot_expr m = qdot_symbol_get(pool, QDOT_PARAM, "mass"), x, theta, s, e, many[6],
+              from[6], to[6];
     qdot_text out = {0};
     uint32_t f;
     qdot_status status;
@@ -239,8 +246,9 @@ workload(qdot_pool *pool)
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(qdot_ufun_declare(pool, "f", 1, &s, &f));
     for (int i = 0; i < 6; i++) {
-        many[i] = qdot_mul(pool, qdot_expr_ratio(pool, i + 1, 7),
-                           qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, qdot_expr_int(pool, i + 1), theta)));
+        many[i] = qdot_mul(
+            pool, qdot_expr_ratio(pool, i + 1, 7),
+            qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, qdot_expr_int(pool, i + 1), theta)));
         from[i] = many[i];
         to[i] = qdot_pow_int(pool, x, i);
     }

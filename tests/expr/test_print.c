@@ -101,7 +101,8 @@ text_does_not_depend_on_ids(void **state)
         (void)!qdot_pool_check(q.pool);
         again = formula_build(&f, &q);
         assert_int_equal(qdot_pool_check(q.pool), QDOT_OK);
-        assert_string_equal(text_of(p.pool, e, QDOT_PLAIN), text_of(q.pool, again, QDOT_PLAIN));
+        assert_string_equal(text_of(p.pool, e, QDOT_PLAIN),
+                            text_of(q.pool, again, QDOT_PLAIN));
         place_close(&q);
     }
 }
@@ -109,21 +110,22 @@ text_does_not_depend_on_ids(void **state)
 static void
 kinetic_energy_is_written_as_in_a_book(void **state)
 {
-    qdot_expr e = times(QDOT_HALF, times(p.symbol[2], qdot_pow_int(p.pool, p.symbol[6], 2)));
+    qdot_expr e =
+        times(QDOT_HALF, times(p.symbol[2], qdot_pow_int(p.pool, p.symbol[6], 2)));
 
     (void)state;
     says(e, "1/2*m*x'^2", "½ m x\u0307²", "\\frac{1}{2} m \\dot{x}^{2}");
     e = qdot_symbol_jet(p.pool, p.symbol[7], 1);
-    says(times(e, qdot_symbol_jet(p.pool, p.symbol[7], 2)), "theta'*theta''", "θ\u0307 θ\u0308",
-         "\\dot{\\theta} \\ddot{\\theta}");
+    says(times(e, qdot_symbol_jet(p.pool, p.symbol[7], 2)), "theta'*theta''",
+         "θ\u0307 θ\u0308", "\\dot{\\theta} \\ddot{\\theta}");
 }
 
 static void
 exact_decimals_stay_exact(void **state)
 {
     (void)state;
-    says(times(qdot_expr_decimal(p.pool, "9.81", 4), p.symbol[2]), "981/100*m", "981/100 m",
-         "\\frac{981}{100} m");
+    says(times(qdot_expr_decimal(p.pool, "9.81", 4), p.symbol[2]), "981/100*m",
+         "981/100 m", "\\frac{981}{100} m");
     says(number(-3, 4), "-3/4", "−¾", "-\\frac{3}{4}");
 }
 
@@ -150,11 +152,14 @@ quotients_are_bracketed_where_they_must(void **state)
     qdot_expr sum = qdot_add(p.pool, a, b), quotient = qdot_div(p.pool, a, b);
 
     (void)state;
-    says(qdot_div(p.pool, a, times(number(2, 1), x)), "1/2*a/x", "½ a/x", "\\frac{a}{2 x}");
-    says(qdot_div(p.pool, QDOT_ONE, times(number(2, 1), x)), "1/(2*x)", "1/(2 x)", "\\frac{1}{2 x}");
+    says(qdot_div(p.pool, a, times(number(2, 1), x)), "1/2*a/x", "½ a/x",
+         "\\frac{a}{2 x}");
+    says(qdot_div(p.pool, QDOT_ONE, times(number(2, 1), x)), "1/(2*x)", "1/(2 x)",
+         "\\frac{1}{2 x}");
     says(qdot_div(p.pool, x, times(a, b)), "x/(a*b)", "x/(a b)", "\\frac{x}{a b}");
     says(qdot_div(p.pool, x, sum), "x/(a + b)", "x/(a + b)", "\\frac{x}{a + b}");
-    says(qdot_pow(p.pool, quotient, x), "(a/b)^x", "(a/b)^x", "\\left(\\frac{a}{b}\\right)^{x}");
+    says(qdot_pow(p.pool, quotient, x), "(a/b)^x", "(a/b)^x",
+         "\\left(\\frac{a}{b}\\right)^{x}");
     says(qdot_neg(p.pool, quotient), "-a/b", "−a/b", "-\\frac{a}{b}");
     says(qdot_pow_int(p.pool, sum, -2), "1/(a + b)^2", "1/(a + b)²",
          "\\frac{1}{\\left(a + b\\right)^{2}}");
@@ -167,14 +172,16 @@ functions_are_named_as_in_a_book(void **state)
 
     (void)state;
     says(e, "sin(theta)", "sin(θ)", "\\sin\\left(\\theta\\right)");
-    says(qdot_pow_int(p.pool, e, 2), "sin(theta)^2", "sin²(θ)", "\\sin^{2}\\left(\\theta\\right)");
+    says(qdot_pow_int(p.pool, e, 2), "sin(theta)^2", "sin²(θ)",
+         "\\sin^{2}\\left(\\theta\\right)");
     says(qdot_pow_int(p.pool, e, -1), "1/sin(theta)", "1/sin(θ)",
          "\\frac{1}{\\sin\\left(\\theta\\right)}");
     says(qdot_fun1(p.pool, QDOT_ATAN, theta), "atan(theta)", "atan(θ)",
          "\\arctan\\left(\\theta\\right)");
     says(qdot_fun1(p.pool, QDOT_ASINH, theta), "asinh(theta)", "asinh(θ)",
          "\\operatorname{asinh}\\left(\\theta\\right)");
-    says(qdot_fun1(p.pool, QDOT_ABS, p.symbol[5]), "abs(x)", "abs(x)", "\\left|x\\right|");
+    says(qdot_fun1(p.pool, QDOT_ABS, p.symbol[5]), "abs(x)", "abs(x)",
+         "\\left|x\\right|");
 }
 
 static void
@@ -186,16 +193,20 @@ families_are_subscripts(void **state)
 
     (void)state;
     says(theta1, "theta1", "θ₁", "\\theta_{1}");
-    says(qdot_symbol_jet(p.pool, theta2, 1), "theta[2]'", "θ\u0307₂", "\\dot{\\theta}_{2}");
+    says(qdot_symbol_jet(p.pool, theta2, 1), "theta[2]'", "θ\u0307₂",
+         "\\dot{\\theta}_{2}");
     says(mass, "mass[1]", "mass₁", "\\mathrm{mass}_{1}");
-    says(qdot_symbol_of(p.pool, QDOT_DELTA, theta1), "delta[theta1]", "δθ₁", "\\delta \\theta_{1}");
-    says(qdot_symbol_of(p.pool, QDOT_DIFFERENTIAL, theta1), "dtheta1", "dθ₁", "d\\theta_{1}");
+    says(qdot_symbol_of(p.pool, QDOT_DELTA, theta1), "delta[theta1]", "δθ₁",
+         "\\delta \\theta_{1}");
+    says(qdot_symbol_of(p.pool, QDOT_DIFFERENTIAL, theta1), "dtheta1", "dθ₁",
+         "d\\theta_{1}");
 }
 
 static void
 derivatives_of_functions_are_written_in_each_style(void **state)
 {
-    qdot_expr s = qdot_symbol_get(p.pool, QDOT_COORD, "s"), st[] = {s, QDOT_T}, a = p.symbol[0];
+    qdot_expr s = qdot_symbol_get(p.pool, QDOT_COORD, "s"), st[] = {s, QDOT_T},
+              a = p.symbol[0];
     qdot_expr at[] = {a, QDOT_T}, e;
     uint32_t f, g;
 
@@ -203,7 +214,8 @@ derivatives_of_functions_are_written_in_each_style(void **state)
     assert_int_equal(qdot_ufun_declare(p.pool, "f", 1, &s, &f), QDOT_OK);
     assert_int_equal(qdot_ufun_declare(p.pool, "phi", 2, st, &g), QDOT_OK);
     says(qdot_ufun_apply(p.pool, f, &s, NULL), "f(s)", "f(s)", "f(s)");
-    says(qdot_ufun_apply(p.pool, f, &s, (uint32_t[]){2}), "diff(f(s), s, 2)", "f′′(s)", "f''(s)");
+    says(qdot_ufun_apply(p.pool, f, &s, (uint32_t[]){2}), "diff(f(s), s, 2)", "f′′(s)",
+         "f''(s)");
     says(qdot_ufun_apply(p.pool, f, &a, (uint32_t[]){1}), "f'(a)", "f′(a)", "f'(a)");
     says(qdot_ufun_apply(p.pool, f, &a, (uint32_t[]){4}), "subs(diff(f(s), s, 4), s = a)",
          "f⁽⁴⁾(a)", "f^{(4)}(a)");
@@ -211,18 +223,25 @@ derivatives_of_functions_are_written_in_each_style(void **state)
     says(e, "diff(phi(s, t), s)", "∂φ/∂s", "\\frac{\\partial \\phi}{\\partial s}");
     says(qdot_pow_int(p.pool, e, 2), "diff(phi(s, t), s)^2", "(∂φ/∂s)²",
          "\\left(\\frac{\\partial \\phi}{\\partial s}\\right)^{2}");
-    says(qdot_ufun_apply(p.pool, g, st, (uint32_t[]){2, 1}), "diff(diff(phi(s, t), s, 2), t)",
-         "∂³φ/∂s²∂t", "\\frac{\\partial^{3} \\phi}{\\partial s^{2} \\partial t}");
-    says(qdot_ufun_apply(p.pool, g, at, (uint32_t[]){1, 0}), "subs(diff(phi(s, t), s), s = a)",
-         "(∂φ/∂s)(a, t)", "\\frac{\\partial \\phi}{\\partial s}(a, t)");
+    says(qdot_ufun_apply(p.pool, g, st, (uint32_t[]){2, 1}),
+         "diff(diff(phi(s, t), s, 2), t)", "∂³φ/∂s²∂t",
+         "\\frac{\\partial^{3} \\phi}{\\partial s^{2} \\partial t}");
+    says(qdot_ufun_apply(p.pool, g, at, (uint32_t[]){1, 0}),
+         "subs(diff(phi(s, t), s), s = a)", "(∂φ/∂s)(a, t)",
+         "\\frac{\\partial \\phi}{\\partial s}(a, t)");
 }
 
 static void
 undefined_functions_read_back(void **state)
 {
-    qdot_expr s = qdot_symbol_get(p.pool, QDOT_COORD, "s"), st[] = {s, QDOT_T}, names[SYMBOLS + 1];
+    qdot_expr s = qdot_symbol_get(p.pool, QDOT_COORD, "s"), st[] = {s, QDOT_T},
+              names[SYMBOLS + 1];
     uint32_t u[2];
-    reader r = {.pool = p.pool, .names = names, .n_names = SYMBOLS + 1, .functions = u, .n_functions = 2};
+    reader r = {.pool = p.pool,
+                .names = names,
+                .n_names = SYMBOLS + 1,
+                .functions = u,
+                .n_functions = 2};
 
     (void)state;
     memcpy(names, p.symbol, sizeof p.symbol);
@@ -241,7 +260,8 @@ undefined_functions_read_back(void **state)
         if (random_below(2))
             args[1] = QDOT_T;
         e = qdot_ufun_apply(p.pool, u[which], args, orders);
-        e = qdot_add(p.pool, qdot_pow_int(p.pool, e, (long)random_below(5) - 2), p.symbol[5]);
+        e = qdot_add(p.pool, qdot_pow_int(p.pool, e, (long)random_below(5) - 2),
+                     p.symbol[5]);
         assert_int_equal(read_text(&r, text_of(p.pool, e, QDOT_PLAIN)), e);
     }
 }
@@ -249,14 +269,16 @@ undefined_functions_read_back(void **state)
 static void
 values_of_every_kind_are_written(void **state)
 {
-    qdot_expr x = p.symbol[5], a = p.symbol[0], u[] = {x, a, QDOT_ZERO, QDOT_ONE}, e, less;
+    qdot_expr x = p.symbol[5], a = p.symbol[0], u[] = {x, a, QDOT_ZERO, QDOT_ONE}, e,
+              less;
 
     (void)state;
     less = qdot_rel(p.pool, QDOT_LE, x, a);
     says(less, "x <= a", "x ≤ a", "x \\le a");
-    e = qdot_logic(p.pool, QDOT_OR, 2, (qdot_expr[]){less, qdot_rel(p.pool, QDOT_LT, a, QDOT_ZERO)});
-    says(qdot_logic(p.pool, QDOT_NOT, 1, &e), "not (x <= a or a < 0)", "not (x ≤ a or a < 0)",
-         "\\neg \\left(x \\le a \\vee a < 0\\right)");
+    e = qdot_logic(p.pool, QDOT_OR, 2,
+                   (qdot_expr[]){less, qdot_rel(p.pool, QDOT_LT, a, QDOT_ZERO)});
+    says(qdot_logic(p.pool, QDOT_NOT, 1, &e), "not (x <= a or a < 0)",
+         "not (x ≤ a or a < 0)", "\\neg \\left(x \\le a \\vee a < 0\\right)");
     says(qdot_vector(p.pool, 4, u), "(x, a, 0, 1)", "(x, a, 0, 1)",
          "\\left(x, a, 0, 1\\right)");
     says(qdot_matrix(p.pool, 2, 2, u), "[x, a; 0, 1]", "[x, a; 0, 1]",

@@ -54,12 +54,14 @@ a_root_of_a_square_is_an_absolute_value(void **state)
     assert_int_equal(qdot_sqrt(p.pool, power(m, 2, 1)), m);
     assert_int_equal(qdot_sqrt(p.pool, power(k, 2, 1)), k);
     assert_int_equal(qdot_sqrt(p.pool, power(n, 2, 1)), qdot_neg(p.pool, n));
-    assert_int_equal(qdot_sqrt(p.pool, times(number(4, 1), power(n, 2, 1))), times(number(-2, 1), n));
+    assert_int_equal(qdot_sqrt(p.pool, times(number(4, 1), power(n, 2, 1))),
+                     times(number(-2, 1), n));
     assert_int_equal(qdot_sqrt(p.pool, power(x, 4, 1)), power(x, 2, 1));
     assert_int_equal(power(qdot_sqrt(p.pool, x), 2, 1), x);
     assert_int_equal(qdot_sqrt(p.pool, qdot_sqrt(p.pool, x)), power(x, 1, 4));
     assert_prints(p.pool, qdot_sqrt(p.pool, times(m, x)), "sqrt(m)*sqrt(x)");
-    assert_prints(p.pool, qdot_sqrt(p.pool, times(p.symbol[0], p.symbol[1])), "sqrt(a*b)");
+    assert_prints(p.pool, qdot_sqrt(p.pool, times(p.symbol[0], p.symbol[1])),
+                  "sqrt(a*b)");
 }
 
 static void
@@ -68,8 +70,10 @@ powers_of_products_settle(void **state)
     qdot_expr ab = times(p.symbol[0], p.symbol[1]);
 
     (void)state;
-    assert_int_equal(power(times(number(3, 1), qdot_sqrt(p.pool, number(2, 1))), 2, 1), number(18, 1));
-    assert_int_equal(power(times(number(2, 1), qdot_sqrt(p.pool, ab)), 2, 1), times(number(4, 1), ab));
+    assert_int_equal(power(times(number(3, 1), qdot_sqrt(p.pool, number(2, 1))), 2, 1),
+                     number(18, 1));
+    assert_int_equal(power(times(number(2, 1), qdot_sqrt(p.pool, ab)), 2, 1),
+                     times(number(4, 1), ab));
     assert_int_equal(power(power(ab, 3, 1), 2, 1), power(ab, 6, 1));
     assert_int_equal(times(power(ab, 3, 1), power(ab, -3, 1)), QDOT_ONE);
 }
@@ -87,27 +91,32 @@ roots_of_numbers_have_one_form(void **state)
     assert_int_equal(power(number(8, 27), -2, 3), number(9, 4));
     assert_int_equal(times(root2, qdot_sqrt(p.pool, number(6, 1))),
                      times(two, qdot_sqrt(p.pool, number(3, 1))));
-    assert_int_equal(qdot_product(p.pool, 4, (qdot_expr[]){root2, root2, root2, root2}), number(4, 1));
-    assert_int_equal(power(power(number(12, 1), 1, 4), 2, 1), qdot_sqrt(p.pool, number(12, 1)));
+    assert_int_equal(qdot_product(p.pool, 4, (qdot_expr[]){root2, root2, root2, root2}),
+                     number(4, 1));
+    assert_int_equal(power(power(number(12, 1), 1, 4), 2, 1),
+                     qdot_sqrt(p.pool, number(12, 1)));
     /* a product of two primes past 64 bits, times 4: only the 4 is seen */
-    assert_prints(p.pool,
-                  qdot_sqrt(p.pool, times(number(4, 1), times(number(4611686018427387847, 1),
-                                                              number(4611686018427387817, 1)))),
-                  "2*sqrt(21267647932558653302378126310941659999)");
+    assert_prints(
+        p.pool,
+        qdot_sqrt(p.pool, times(number(4, 1), times(number(4611686018427387847, 1),
+                                                    number(4611686018427387817, 1)))),
+        "2*sqrt(21267647932558653302378126310941659999)");
 }
 
 static void
 odd_roots_end(void **state)
 {
-    qdot_expr big = qdot_pow_int(p.pool, number(3, 1), 3000), e = power(number(2, 1), 3, 10007);
+    qdot_expr big = qdot_pow_int(p.pool, number(3, 1), 3000),
+              e = power(number(2, 1), 3, 10007);
 
     (void)state;
     assert_prints(p.pool, e, "2^(3/10007)");
     assert_int_equal(qdot_pow_int(p.pool, e, 10007), number(8, 1));
     e = power(big, 7, 9973);
     assert_int_equal(qdot_pow_int(p.pool, e, 9973), qdot_pow_int(p.pool, big, 7));
-    assert_int_equal(times(power(number(2, 1), 10006, 10007), power(number(2, 1), 1, 10007)),
-                     number(2, 1));
+    assert_int_equal(
+        times(power(number(2, 1), 10006, 10007), power(number(2, 1), 1, 10007)),
+        number(2, 1));
 }
 
 static void
@@ -116,7 +125,8 @@ exponentials_are_one(void **state)
     qdot_expr x = p.symbol[5], a = p.symbol[0], ex = qdot_fun1(p.pool, QDOT_EXP, x);
 
     (void)state;
-    assert_int_equal(times(ex, qdot_fun1(p.pool, QDOT_EXP, qdot_neg(p.pool, x))), QDOT_ONE);
+    assert_int_equal(times(ex, qdot_fun1(p.pool, QDOT_EXP, qdot_neg(p.pool, x))),
+                     QDOT_ONE);
     assert_prints(p.pool, times(ex, qdot_fun1(p.pool, QDOT_EXP, a)), "exp(x + a)");
     assert_prints(p.pool, qdot_div(p.pool, a, ex), "a*exp(-x)");
     assert_int_equal(times(power(a, 2, 1), qdot_pow(p.pool, a, x)),
@@ -140,7 +150,8 @@ numbers_have_a_limit(void **state)
     e = times(big, qdot_pow_int(p.pool, ten, -600000));
     assert_int_equal(e, QDOT_ONE);
     /* unity has powers of any height */
-    assert_int_equal(qdot_pow(p.pool, QDOT_MINUS_ONE, qdot_pow_int(p.pool, ten, 30)), QDOT_ONE);
+    assert_int_equal(qdot_pow(p.pool, QDOT_MINUS_ONE, qdot_pow_int(p.pool, ten, 30)),
+                     QDOT_ONE);
     memset(digits, '7', 1000001);
     assert_int_not_equal(qdot_expr_decimal(p.pool, digits, 1000000), QDOT_NIL);
     refuses(qdot_expr_decimal(p.pool, digits, 1000001), QDOT_ELIMIT);
@@ -156,7 +167,8 @@ decimals_are_exact(void **state)
     assert_int_equal(qdot_expr_decimal(p.pool, "1e-3", 4), number(1, 1000));
     assert_int_equal(qdot_expr_decimal(p.pool, "2.50E+2", 7), number(250, 1));
     assert_int_equal(qdot_expr_decimal(p.pool, "007", 3), number(7, 1));
-    assert_prints(p.pool, times(qdot_expr_decimal(p.pool, "9.81", 4), p.symbol[2]), "981/100*m");
+    assert_prints(p.pool, times(qdot_expr_decimal(p.pool, "9.81", 4), p.symbol[2]),
+                  "981/100*m");
 }
 
 static void
@@ -181,7 +193,8 @@ what_is_undefined_is_refused(void **state)
 static void
 only_numbers_multiply(void **state)
 {
-    qdot_expr v = qdot_vector(p.pool, 2, (qdot_expr[]){QDOT_ONE, QDOT_ONE}), x = p.symbol[5];
+    qdot_expr v = qdot_vector(p.pool, 2, (qdot_expr[]){QDOT_ONE, QDOT_ONE}),
+              x = p.symbol[5];
 
     (void)state;
     refuses(times(v, x), QDOT_ETYPE);
@@ -208,9 +221,11 @@ differences_meet_whichever_way_they_stand(void **state)
     assert_int_equal(times(ab, ba), qdot_neg(p.pool, power(ab, 2, 1)));
     assert_int_equal(power(ab, 2, 1), power(ba, 2, 1));
     assert_int_equal(qdot_div(p.pool, ab, ba), QDOT_MINUS_ONE);
-    assert_int_equal(times(times(x, ba), ab), qdot_neg(p.pool, times(x, power(ab, 2, 1))));
+    assert_int_equal(times(times(x, ba), ab),
+                     qdot_neg(p.pool, times(x, power(ab, 2, 1))));
     assert_prints(p.pool, times(x, ba), "(b - a)*x");
-    assert_int_equal(times(times(x, ba), qdot_sqrt(p.pool, ba)), times(x, power(ba, 3, 2)));
+    assert_int_equal(times(times(x, ba), qdot_sqrt(p.pool, ba)),
+                     times(x, power(ba, 3, 2)));
 }
 
 /* Products of powers of numbers and symbols, in any order and grouping. */
@@ -225,11 +240,13 @@ products_are_canonical(void **state)
         for (int i = 0; i < n; i++) {
             uint32_t what = random_below(4);
             uint32_t first_symbol = random_below(3), second_symbol = random_below(3);
-            qdot_expr base = what == 0   ? number(1 + (long)random_below(9), 1 + (long)random_below(4))
-                             : what == 1 ? difference(first_symbol, second_symbol)
-                                         : p.symbol[random_below(SYMBOLS)];
+            qdot_expr base =
+                what == 0   ? number(1 + (long)random_below(9), 1 + (long)random_below(4))
+                : what == 1 ? difference(first_symbol, second_symbol)
+                            : p.symbol[random_below(SYMBOLS)];
 
-            e[i] = power(base, (long)random_below(9) - 4, what == 3 && base == p.symbol[2] ? 2 : 1);
+            e[i] = power(base, (long)random_below(9) - 4,
+                         what == 3 && base == p.symbol[2] ? 2 : 1);
             if (what == 0 && random_below(2))
                 e[i] = qdot_sqrt(p.pool, e[i]);
             /* a - b and b - a cannot both have a root */

@@ -36,9 +36,11 @@ every_constructor_keeps_the_value(void **state)
                 continue;
             seen = node_value(&p, e, &claims);
             if (!near(seen, wanted, 1e-9L))
-                fail_msg("%s is %.18Lg, not %.18Lg", text_of(p.pool, e, QDOT_PLAIN), seen, wanted);
+                fail_msg("%s is %.18Lg, not %.18Lg", text_of(p.pool, e, QDOT_PLAIN), seen,
+                         wanted);
             if (!claims)
-                fail_msg("%s: a sign is claimed that it has not", text_of(p.pool, e, QDOT_PLAIN));
+                fail_msg("%s: a sign is claimed that it has not",
+                         text_of(p.pool, e, QDOT_PLAIN));
             compared++;
         }
     }
@@ -177,7 +179,8 @@ the_negative_of_a_sum_is_a_sum(void **state)
     e = qdot_sub(p.pool, p.symbol[7], p.symbol[5]);
     assert_int_equal(qdot_neg(p.pool, d), e);
     assert_int_equal(qdot_neg(p.pool, e), d);
-    assert_int_equal(qdot_mul(p.pool, qdot_expr_int(p.pool, -2), qdot_mul(p.pool, QDOT_HALF, d)), e);
+    assert_int_equal(
+        qdot_mul(p.pool, qdot_expr_int(p.pool, -2), qdot_mul(p.pool, QDOT_HALF, d)), e);
     place_close(&p);
 }
 

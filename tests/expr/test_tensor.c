@@ -85,7 +85,8 @@ determinants_agree_with_elimination(void **state)
         int n = 1 + (int)random_below(5);
         qdot_expr m = matrix((uint32_t)n, (uint32_t)n);
 
-        assert_true(near(node_value(&p, qdot_det(p.pool, m), NULL), determinant(m, n), 1e-11L));
+        assert_true(
+            near(node_value(&p, qdot_det(p.pool, m), NULL), determinant(m, n), 1e-11L));
         assert_int_equal(qdot_det(p.pool, qdot_transpose(p.pool, m)) != QDOT_NIL, 1);
     }
 }
@@ -129,7 +130,8 @@ products_agree_with_their_sums(void **state)
 static void
 cross_products_are_perpendicular(void **state)
 {
-    qdot_expr u = qdot_vector(p.pool, 3, p.symbol), v = qdot_vector(p.pool, 3, p.symbol + 3), c;
+    qdot_expr u = qdot_vector(p.pool, 3, p.symbol),
+              v = qdot_vector(p.pool, 3, p.symbol + 3), c;
 
     (void)state;
     c = qdot_cross(p.pool, u, v);
@@ -138,15 +140,18 @@ cross_products_are_perpendicular(void **state)
     u = qdot_vector(p.pool, 2, p.symbol);
     v = qdot_vector(p.pool, 2, p.symbol + 2);
     assert_prints(p.pool, qdot_cross(p.pool, u, v), "a*n - b*m");
-    assert_int_equal(qdot_value_sub(p.pool, u, u), qdot_vector(p.pool, 2, (qdot_expr[]){1, 1}));
+    assert_int_equal(qdot_value_sub(p.pool, u, u),
+                     qdot_vector(p.pool, 2, (qdot_expr[]){1, 1}));
 }
 
 static void
 norms_are_lengths(void **state)
 {
     qdot_expr m = p.symbol[2], x = p.symbol[5];
-    qdot_expr v = qdot_vector(p.pool, 2, (qdot_expr[]){qdot_mul(p.pool, qdot_expr_int(p.pool, 3), m),
-                                                       qdot_mul(p.pool, qdot_expr_int(p.pool, 4), m)});
+    qdot_expr v =
+        qdot_vector(p.pool, 2,
+                    (qdot_expr[]){qdot_mul(p.pool, qdot_expr_int(p.pool, 3), m),
+                                  qdot_mul(p.pool, qdot_expr_int(p.pool, 4), m)});
 
     (void)state;
     assert_int_equal(qdot_norm(p.pool, v), qdot_mul(p.pool, qdot_expr_int(p.pool, 5), m));
@@ -156,7 +161,8 @@ norms_are_lengths(void **state)
 static void
 equations_are_worked_on_side_by_side(void **state)
 {
-    qdot_expr x = p.symbol[5], a = p.symbol[0], e = qdot_value_equation(p.pool, x, a), u, v;
+    qdot_expr x = p.symbol[5], a = p.symbol[0], e = qdot_value_equation(p.pool, x, a), u,
+              v;
 
     (void)state;
     assert_prints(p.pool, qdot_value_add(p.pool, e, e), "2*x = 2*a");
@@ -170,12 +176,14 @@ equations_are_worked_on_side_by_side(void **state)
 static void
 shapes_that_differ_are_refused(void **state)
 {
-    qdot_expr two = qdot_vector(p.pool, 2, p.symbol), three = qdot_vector(p.pool, 3, p.symbol);
+    qdot_expr two = qdot_vector(p.pool, 2, p.symbol),
+              three = qdot_vector(p.pool, 3, p.symbol);
     qdot_expr m = matrix(2, 3), x = p.symbol[5];
 
     (void)state;
     refuses(qdot_value_add(p.pool, two, three), QDOT_ETYPE);
-    assert_string_equal(qdot_last_error()->message, "cannot add vectors of 2 and 3 components");
+    assert_string_equal(qdot_last_error()->message,
+                        "cannot add vectors of 2 and 3 components");
     refuses(qdot_value_add(p.pool, two, x), QDOT_ETYPE);
     refuses(qdot_value_mul(p.pool, two, two), QDOT_ETYPE);
     assert_string_equal(qdot_last_error()->hint, "dot(u, v) or cross(u, v)");
@@ -202,7 +210,8 @@ entries_are_counted_from_one(void **state)
     (void)state;
     assert_int_equal(qdot_entry(p.pool, v, 3), p.symbol[2]);
     assert_int_equal(qdot_entry(p.pool, row, 2), p.symbol[1]);
-    assert_int_equal(qdot_entry(p.pool, qdot_entry(p.pool, m, 2), 3), qdot_entry2(p.pool, m, 2, 3));
+    assert_int_equal(qdot_entry(p.pool, qdot_entry(p.pool, m, 2), 3),
+                     qdot_entry2(p.pool, m, 2, 3));
     refuses(qdot_entry(p.pool, v, 0), QDOT_EDOMAIN);
     refuses(qdot_entry(p.pool, v, 4), QDOT_EDOMAIN);
     refuses(qdot_entry(p.pool, m, 4294967297), QDOT_EDOMAIN);
@@ -225,9 +234,11 @@ maps_reach_every_scalar(void **state)
     int calls = 0;
 
     (void)state;
-    e = qdot_list(p.pool, 2, (qdot_expr[]){qdot_rel(p.pool, QDOT_EQ, x, a),
-                                           qdot_vector(p.pool, 2, (qdot_expr[]){a, QDOT_ONE})});
-    assert_prints(p.pool, qdot_value_map(p.pool, e, squared, &calls), "[x^2 = a^2, (a^2, 1)]");
+    e = qdot_list(p.pool, 2,
+                  (qdot_expr[]){qdot_rel(p.pool, QDOT_EQ, x, a),
+                                qdot_vector(p.pool, 2, (qdot_expr[]){a, QDOT_ONE})});
+    assert_prints(p.pool, qdot_value_map(p.pool, e, squared, &calls),
+                  "[x^2 = a^2, (a^2, 1)]");
     assert_int_equal(calls, 4);
     e = qdot_list(p.pool, 0, NULL);
     assert_int_equal(qdot_value_map(p.pool, e, squared, &calls), e);

@@ -67,7 +67,8 @@ contains_agrees_with_the_walk(void **state)
     (void)state;
     for (int trial = 0; trial < 500; trial++) {
         formula f = formula_random(STEPS, 0);
-        qdot_expr e = formula_build(&f, &p), x = 1 + random_below((uint32_t)qdot_pool_count(p.pool) - 1);
+        qdot_expr e = formula_build(&f, &p),
+                  x = 1 + random_below((uint32_t)qdot_pool_count(p.pool) - 1);
         qdot_walk w;
 
         if (qdot_pool_check(p.pool) != QDOT_OK)
@@ -75,7 +76,8 @@ contains_agrees_with_the_walk(void **state)
         if (trial % 2)
             x = p.symbol[random_below(SYMBOLS)];
         assert_int_equal(qdot_walk_begin(p.pool, e, &w), QDOT_OK);
-        assert_int_equal(qdot_expr_contains(p.pool, e, x), qdot_walk_index(&w, x) != SIZE_MAX);
+        assert_int_equal(qdot_expr_contains(p.pool, e, x),
+                         qdot_walk_index(&w, x) != SIZE_MAX);
         qdot_walk_end(&w);
     }
 }
@@ -87,7 +89,8 @@ atoms_stand_in_canonical_order(void **state)
     uint32_t f;
 
     (void)state;
-    e = qdot_add(p.pool, e, qdot_mul(p.pool, qdot_mul(p.pool, QDOT_PI, p.symbol[1]), p.symbol[0]));
+    e = qdot_add(p.pool, e,
+                 qdot_mul(p.pool, qdot_mul(p.pool, QDOT_PI, p.symbol[1]), p.symbol[0]));
     assert_prints(p.pool, qdot_expr_atoms(p.pool, e, true), "[a, b, x, x']");
     assert_int_equal(qdot_ufun_declare(p.pool, "f", 1, &s, &f), QDOT_OK);
     e = qdot_ufun_apply(p.pool, f, &s, NULL);
@@ -131,7 +134,9 @@ operations_are_counted(void **state)
         {qdot_div(pool, QDOT_MINUS_ONE, a), 2},
         {qdot_mul(pool, QDOT_HALF, qdot_mul(pool, m, qdot_pow_int(pool, v, 2))), 3},
         {qdot_fun1(pool, QDOT_SIN, qdot_add(pool, a, x)), 2},
-        {qdot_vector(pool, 2, (qdot_expr[]){qdot_add(pool, a, x), qdot_mul(pool, two, x)}), 2},
+        {qdot_vector(pool, 2,
+                     (qdot_expr[]){qdot_add(pool, a, x), qdot_mul(pool, two, x)}),
+         2},
         {qdot_rel(pool, QDOT_EQ, qdot_add(pool, a, x), QDOT_ZERO), 1},
         {QDOT_NIL, 0},
     };

@@ -65,12 +65,13 @@ number_of_function(unsigned op, const mpfr_t u, const mpfr_t v, mpfr_t x)
     static const struct {
         unsigned op;
         int (*f)(mpfr_t, const mpfr_t, mpfr_rnd_t);
-    } table[] = {{QDOT_SIN, mpfr_sin},     {QDOT_COS, mpfr_cos},     {QDOT_TAN, mpfr_tan},
-                 {QDOT_SEC, mpfr_sec},     {QDOT_CSC, mpfr_csc},     {QDOT_COT, mpfr_cot},
-                 {QDOT_ASIN, mpfr_asin},   {QDOT_ACOS, mpfr_acos},   {QDOT_ATAN, mpfr_atan},
-                 {QDOT_SINH, mpfr_sinh},   {QDOT_COSH, mpfr_cosh},   {QDOT_TANH, mpfr_tanh},
-                 {QDOT_ASINH, mpfr_asinh}, {QDOT_ACOSH, mpfr_acosh}, {QDOT_ATANH, mpfr_atanh},
-                 {QDOT_EXP, mpfr_exp},     {QDOT_LOG, mpfr_log}};
+    } table[] = {
+        {QDOT_SIN, mpfr_sin},     {QDOT_COS, mpfr_cos},     {QDOT_TAN, mpfr_tan},
+        {QDOT_SEC, mpfr_sec},     {QDOT_CSC, mpfr_csc},     {QDOT_COT, mpfr_cot},
+        {QDOT_ASIN, mpfr_asin},   {QDOT_ACOS, mpfr_acos},   {QDOT_ATAN, mpfr_atan},
+        {QDOT_SINH, mpfr_sinh},   {QDOT_COSH, mpfr_cosh},   {QDOT_TANH, mpfr_tanh},
+        {QDOT_ASINH, mpfr_asinh}, {QDOT_ACOSH, mpfr_acosh}, {QDOT_ATANH, mpfr_atanh},
+        {QDOT_EXP, mpfr_exp},     {QDOT_LOG, mpfr_log}};
 
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         if (table[i].op == op) {

@@ -134,7 +134,8 @@ pairs_positive(pairs *g, int depth)
     switch (pairs_random(g, 6)) {
     case 0:
         u = pairs_make(g, depth - 1);
-        return (pair){add(g, power(g, u.l, 2), QDOT_ONE), add(g, QDOT_ONE, power(g, u.r, 2))};
+        return (pair){add(g, power(g, u.l, 2), QDOT_ONE),
+                      add(g, QDOT_ONE, power(g, u.r, 2))};
     case 1:
         u = pairs_positive(g, depth - 1), v = pairs_positive(g, depth - 1);
         return (pair){add(g, u.l, v.l), add(g, v.r, u.r)};
@@ -214,9 +215,9 @@ pairs_circular(pairs *g)
                           num(g, 4, 1))};
     case 11:
         q = mul(g, num(g, 1 + pairs_random(g, 11), 6), QDOT_PI);
-        return (pair){fun(g, QDOT_COS, add(g, u.l, q)),
-                      sub(g, mul(g, cu, fun(g, QDOT_COS, q)),
-                          mul(g, su, fun(g, QDOT_SIN, q)))};
+        return (pair){
+            fun(g, QDOT_COS, add(g, u.l, q)),
+            sub(g, mul(g, cu, fun(g, QDOT_COS, q)), mul(g, su, fun(g, QDOT_SIN, q)))};
     case 12:
         return (pair){add(g, fun(g, QDOT_SIN, u.l), fun(g, QDOT_SIN, v.l)),
                       mul(g, two,
@@ -229,10 +230,9 @@ pairs_circular(pairs *g)
                           add(g, QDOT_ONE, power(g, u.r, 2)))};
     case 14:
         q = fun(g, QDOT_ASIN, u.l);
-        return (pair){fun(g, QDOT_SIN, mul(g, two, q)),
-                      mul(g, two,
-                          mul(g, u.r,
-                              qdot_sqrt(p, sub(g, QDOT_ONE, power(g, u.r, 2)))))};
+        return (pair){
+            fun(g, QDOT_SIN, mul(g, two, q)),
+            mul(g, two, mul(g, u.r, qdot_sqrt(p, sub(g, QDOT_ONE, power(g, u.r, 2)))))};
     default: return (pair){su, qdot_neg(p, fun(g, QDOT_SIN, qdot_neg(p, u.r)))};
     }
 }
@@ -245,7 +245,8 @@ pairs_growing(pairs *g)
     pair u = pairs_angle(g), v = pairs_angle(g), s = pairs_positive(g, 1);
     qdot_expr eu = fun(g, QDOT_EXP, u.r), ev = fun(g, QDOT_EXP, v.r);
     qdot_expr back = fun(g, QDOT_EXP, qdot_neg(p, u.r));
-    qdot_expr su = fun(g, QDOT_SINH, u.r), cu = fun(g, QDOT_COSH, u.r), two = num(g, 2, 1);
+    qdot_expr su = fun(g, QDOT_SINH, u.r), cu = fun(g, QDOT_COSH, u.r),
+              two = num(g, 2, 1);
 
     switch (pairs_random(g, 10)) {
     case 0: return (pair){fun(g, QDOT_SINH, u.l), half(g, sub(g, eu, back))};
@@ -266,9 +267,8 @@ pairs_growing(pairs *g)
         return (pair){fun(g, QDOT_LOG, mul(g, s.l, eu)),
                       add(g, fun(g, QDOT_LOG, s.r), u.r)};
     default:
-        return (pair){fun(g, QDOT_TANH, u.l),
-                      quo(g, sub(g, power(g, eu, 2), QDOT_ONE),
-                          add(g, power(g, eu, 2), QDOT_ONE))};
+        return (pair){fun(g, QDOT_TANH, u.l), quo(g, sub(g, power(g, eu, 2), QDOT_ONE),
+                                                  add(g, power(g, eu, 2), QDOT_ONE))};
     }
 }
 
@@ -281,7 +281,20 @@ pairs_root(pairs *g, int depth)
     pair s = pairs_positive(g, depth), q = pairs_positive(g, 0);
     qdot_expr two = num(g, 2, 1);
 
-    switch (pairs_random(g, 8)) {
+    switch (pairs_random(g, 11)) {
+    case 8: /* the sign of a difference is not known */
+        g->inside = false;
+        return (pair){qdot_sqrt(p, sub(g, add(g, s.l, q.l),
+                                       mul(g, two, qdot_sqrt(p, mul(g, s.l, q.l))))),
+                      fun(g, QDOT_ABS, sub(g, qdot_sqrt(p, q.r), qdot_sqrt(p, s.r)))};
+    case 9:
+        u = pairs_angle(g);
+        return (pair){qdot_sqrt(p, half(g, sub(g, QDOT_ONE, fun(g, QDOT_COS, u.l)))),
+                      fun(g, QDOT_ABS, fun(g, QDOT_SIN, half(g, u.r)))};
+    case 10:
+        return (pair){
+            qdot_sqrt(p, sub(g, QDOT_ONE, power(g, fun(g, QDOT_COS, g->positive[3]), 2))),
+            fun(g, QDOT_SIN, g->positive[3])};
     case 0: return (pair){qdot_sqrt(p, power(g, u.l, 2)), fun(g, QDOT_ABS, u.r)};
     case 1: return (pair){power(g, qdot_sqrt(p, s.l), 2), s.r};
     case 2: return (pair){qdot_sqrt(p, power(g, s.l, 2)), s.r};
@@ -292,9 +305,9 @@ pairs_root(pairs *g, int depth)
         return (pair){fun(g, QDOT_ABS, mul(g, u.l, v.l)),
                       mul(g, fun(g, QDOT_ABS, u.r), fun(g, QDOT_ABS, v.r))};
     case 5:
-        return (pair){quo(g, sub(g, s.l, q.l),
-                          sub(g, qdot_sqrt(p, s.l), qdot_sqrt(p, q.l))),
-                      add(g, qdot_sqrt(p, s.r), qdot_sqrt(p, q.r))};
+        return (pair){
+            quo(g, sub(g, s.l, q.l), sub(g, qdot_sqrt(p, s.l), qdot_sqrt(p, q.l))),
+            add(g, qdot_sqrt(p, s.r), qdot_sqrt(p, q.r))};
     case 6:
         g->inside = false;
         return (pair){qdot_sqrt(p, add(g, add(g, s.l, q.l),
@@ -304,13 +317,52 @@ pairs_root(pairs *g, int depth)
     }
 }
 
+/* Algebraic numbers. */
+static pair
+pairs_number(pairs *g)
+{
+    qdot_pool *p = g->pool;
+    long m = 2 + pairs_random(g, 20), n = 1 + pairs_random(g, 12),
+         k = pairs_random(g, 30);
+    qdot_expr rm = qdot_sqrt(p, num(g, m, 1)), rn = qdot_sqrt(p, num(g, n, 3));
+    qdot_expr two = num(g, 2, 1), angle = mul(g, num(g, k, n), QDOT_PI);
+    qdot_expr cube = add(g, rm, num(g, n, 2));
+
+    g->inside = false;
+    switch (pairs_random(g, 6)) {
+    case 0:
+        return (pair){qdot_sqrt(p, add(g, num(g, 3 * m + n, 3),
+                                       mul(g, two, qdot_sqrt(p, num(g, m * n, 3))))),
+                      add(g, rm, rn)};
+    case 1:
+        return (pair){qdot_sqrt(p, sub(g, num(g, 3 * m + n, 3),
+                                       mul(g, two, qdot_sqrt(p, num(g, m * n, 3))))),
+                      3 * m >= n ? sub(g, rm, rn) : sub(g, rn, rm)};
+    case 2:
+        return (pair){
+            fun(g, QDOT_COS, mul(g, two, angle)),
+            sub(g, mul(g, two, power(g, fun(g, QDOT_COS, angle), 2)), QDOT_ONE)};
+    case 3:
+        return (pair){qdot_pow(p, qdot_expand(p, power(g, cube, 3)), num(g, 1, 3)), cube};
+    case 4:
+        return (pair){quo(g, QDOT_ONE, add(g, rm, rn)),
+                      quo(g, sub(g, rm, rn), num(g, 3 * m - n, 3))};
+    default:
+        return (pair){fun(g, QDOT_SIN, angle),
+                      mul(g, two,
+                          mul(g, fun(g, QDOT_SIN, half(g, angle)),
+                              fun(g, QDOT_COS, half(g, angle))))};
+    }
+}
+
 /* Arithmetic. */
 static pair
 pairs_rational(pairs *g, int depth)
 {
     pair u = pairs_make(g, depth - 1), v = pairs_make(g, depth - 1);
     pair w = pairs_make(g, depth - 2), s = pairs_positive(g, depth - 2);
-    qdot_expr two = num(g, 2, 1), n = num(g, 1 + pairs_random(g, 9), 1 + pairs_random(g, 7));
+    qdot_expr two = num(g, 2, 1),
+              n = num(g, 1 + pairs_random(g, 9), 1 + pairs_random(g, 7));
 
     switch (pairs_random(g, 9)) {
     case 0: return (pair){add(g, u.l, v.l), add(g, v.r, u.r)};
@@ -329,10 +381,12 @@ pairs_rational(pairs *g, int depth)
         return (pair){add(g, quo(g, u.l, s.l), mul(g, v.l, n)),
                       quo(g, add(g, u.r, mul(g, n, mul(g, v.r, s.r))), s.r)};
     case 6: return (pair){sub(g, u.l, mul(g, n, v.l)), sub(g, u.r, mul(g, v.r, n))};
-    case 7: return (pair){sub(g, add(g, u.l, w.l), v.l), sub(g, sub(g, u.r, v.r),
-                                                             sub(g, QDOT_ZERO, w.r))};
-    default: return (pair){quo(g, mul(g, u.l, s.l), s.r), quo(g, u.r, n) == QDOT_NIL ?
-                           QDOT_NIL : mul(g, quo(g, u.r, n), n)};
+    case 7:
+        return (pair){sub(g, add(g, u.l, w.l), v.l),
+                      sub(g, sub(g, u.r, v.r), sub(g, QDOT_ZERO, w.r))};
+    default:
+        return (pair){quo(g, mul(g, u.l, s.l), s.r),
+                      quo(g, u.r, n) == QDOT_NIL ? QDOT_NIL : mul(g, quo(g, u.r, n), n)};
     }
 }
 
@@ -366,7 +420,8 @@ pairs_make(pairs *g, int depth)
                                     : g->any[pairs_random(g, 8)];
         return (pair){e, e};
     }
-    switch (pairs_random(g, 10)) {
+    switch (pairs_random(g, 11)) {
+    case 10: return pairs_number(g);
     case 0:
     case 1:
     case 2: return pairs_circular(g);
@@ -392,6 +447,8 @@ pairs_other_function(pairs *g, qdot_expr e)
     for (size_t i = 0; i < sizeof swap / sizeof *swap; i++)
         if (op == swap[i][0])
             return fun(g, swap[i][1], qdot_expr_arg(g->pool, e, 0));
+    if (op == QDOT_ABS)
+        return qdot_expr_arg(g->pool, e, 0);
     return qdot_neg(g->pool, e);
 }
 

@@ -218,6 +218,166 @@ relations_are_used(void **state)
     }
 }
 
+/* --- constants, roots, signs ------------------------------------------------------- */
+
+/* True beside a false neighbour. */
+static const struct {
+    const char *left, *right, *wrong;
+} twins[] = {
+    /* algebraic numbers, by their bound */
+    {"sqrt(5 + 2*sqrt(6))", "sqrt(2) + sqrt(3)", "sqrt(2) + sqrt(3) + 1e-45"},
+    {"sqrt(3 - 2*sqrt(2))", "sqrt(2) - 1", "1 - sqrt(2)"},
+    {"(7 + 5*sqrt(2))^(1/3)", "1 + sqrt(2)", "1 + sqrt(2) - 1e-30"},
+    {"cos(pi/5)", "(1 + sqrt(5))/4", "(sqrt(5) - 1)/4"},
+    {"sqrt(2 + sqrt(2 + sqrt(2)))", "2*cos(pi/16)", "2*cos(pi/16) + 1e-60"},
+    {"cos(2*pi/7) + cos(4*pi/7) + cos(6*pi/7)", "-1/2", "1/2"},
+    {"tan(pi/8)", "sqrt(2) - 1", "sqrt(2) - 1 + 1e-25"},
+    {"x*sqrt(5 + 2*sqrt(6)) + y*sqrt(3 - 2*sqrt(2))",
+     "x*sqrt(2) + x*sqrt(3) + y*(sqrt(2) - 1)", "x*sqrt(2) + y*sqrt(3) + y*(sqrt(2) - 1)"},
+    {"pi*sqrt(5 + 2*sqrt(6))", "pi*(sqrt(2) + sqrt(3))", "pi*(sqrt(2) + sqrt(3)) + 1e-33"},
+    {"sin(x + pi/5)", "sin(x)*(1 + sqrt(5))/4 + cos(x)*sqrt(10 - 2*sqrt(5))/4",
+     "sin(x)*(1 + sqrt(5))/4 - cos(x)*sqrt(10 - 2*sqrt(5))/4"},
+    {"cos(x + pi/7)", "cos(x)*cos(pi/7) - sin(x)*sin(pi/7)",
+     "cos(x)*cos(pi/7) + sin(x)*sin(pi/7)"},
+    /* nested roots, by norms and signs */
+    {"sqrt(a + b + 2*sqrt(a*b))", "sqrt(a) + sqrt(b)", "sqrt(a) - sqrt(b)"},
+    {"sqrt(a + b - 2*sqrt(a*b))", "abs(sqrt(a) - sqrt(b))", "sqrt(a) - sqrt(b)"},
+    {"sqrt(1 - sin(2*x))", "abs(sin(x) - cos(x))", "abs(sin(x) + cos(x))"},
+    {"sqrt((1 - cos(theta))/2)", "sin(theta/2)", "-sin(theta/2)"},
+    {"sqrt((1 + cos(theta))/2)", "cos(theta/2)", "sin(theta/2)"},
+    {"sqrt(x*y)", "sqrt(x)*sqrt(y)", "sqrt(x) + sqrt(y)"},
+    {"sqrt(2 + 2*cosh(x))", "2*cosh(x/2)", "2*sinh(x/2)"},
+    {"sqrt(2*cosh(x) - 2)", "2*abs(sinh(x/2))", "2*sinh(x/2)"},
+    {"sqrt(x + 2*sqrt(x - 1))", "1 + sqrt(x - 1)", "1 - sqrt(x - 1)"},
+    {"sqrt(r + sqrt(r^2 - a^2))*sqrt(2)", "sqrt(r + a) + sqrt(r - a)",
+     "sqrt(r + a) - sqrt(r - a)"},
+    {"sqrt(r + sqrt(r^2 + 1)) - sqrt(sqrt(r^2 + 1) - r)", "sqrt(2*sqrt(r^2 + 1) - 2)",
+     "sqrt(2*sqrt(r^2 + 1) + 2)"},
+    {"sqrt(a + b + 2*sqrt(a*b)) + sqrt(r + m + 2*sqrt(r*m))",
+     "sqrt(a) + sqrt(b) + sqrt(r) + sqrt(m)", "sqrt(a) + sqrt(b) + sqrt(r) - sqrt(m)"},
+    /* functions by others */
+    {"asin(v) + acos(v)", "pi/2", "pi/3"},
+    {"asinh(x)", "log(x + sqrt(x^2 + 1))", "log(x + sqrt(x^2 + 2))"},
+    {"exp(asinh(x))", "x + sqrt(x^2 + 1)", "x - sqrt(x^2 + 1)"},
+    {"acosh(x)", "log(x + sqrt(x^2 - 1))", "log(x - sqrt(x^2 - 1))"},
+    {"atanh(x)", "log(1 + x)/2 - log(1 - x)/2", "log(1 + x)/2 + log(1 - x)/2"},
+    {"log(x + sqrt(x^2 + 1))", "-log(sqrt(x^2 + 1) - x)", "log(sqrt(x^2 + 1) - x)"},
+    {"max(x, y)", "(x + y + abs(x - y))/2", "(x + y - abs(x - y))/2"},
+    {"max(x, y) + min(x, y)", "x + y", "x - y"},
+    {"a^x", "exp(x*log(a))", "exp(x + log(a))"},
+    {"log(r^3/sqrt(a))", "3*log(r) - log(a)/2", "3*log(r) + log(a)/2"},
+    /* equal arguments */
+    {"f(cos(2*z))", "f(1 - 2*sin(z)^2)", "f(1 - 2*cos(z)^2)"},
+    {"f(sin(z)^2 + cos(z)^2)", "f(1)", "-f(1)"},
+    {"f(h(cos(2*z)))", "f(h(1 - 2*sin(z)^2))", "f(h(1 - 2*sin(z)^2)) + 1e-30"},
+    {"abs(cos(2*z))", "abs(2*sin(z)^2 - 1)", "2*sin(z)^2 - 1"},
+    {"sin(t*cos(2*x))", "sin(t*(1 - 2*sin(x)^2))", "sin(t*(1 + 2*sin(x)^2))"},
+    {"sin(2*t*cos(2*x))", "2*sin(t*(1 - 2*sin(x)^2))*cos(t*cos(2*x))",
+     "2*sin(t*(1 - 2*sin(x)^2))*sin(t*cos(2*x))"},
+    {"cos(x - y/(k^2 + 1))", "cos((k^2*x + x - y)/(k^2 + 1))",
+     "cos((k^2*x + x + y)/(k^2 + 1))"},
+    {"sqrt(cosh(c))", "sqrt(exp(c) + exp(-c))/sqrt(2)", "sqrt(exp(c) + exp(-c))/2"},
+};
+
+static void
+twins_are_told_apart(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof twins / sizeof *twins; i++) {
+        if (verdict(twins[i].left, twins[i].right, NULL) != QDOT_PROVED)
+            fail_msg("%s == %s is not proved", twins[i].left, twins[i].right);
+        if (verdict(twins[i].left, twins[i].wrong, NULL) != QDOT_REFUTED)
+            fail_msg("%s == %s is not refuted", twins[i].left, twins[i].wrong);
+    }
+}
+
+/* Under 0 < gap and relation = 0. */
+static const struct {
+    const char *left, *right, *gap[2], *relation;
+    qdot_verdict expected;
+} conditions[] = {
+    {"abs(x)", "x", {"x"}, NULL, QDOT_PROVED},
+    {"abs(x)", "-x", {"-x"}, NULL, QDOT_PROVED},
+    {"abs(x)", "-x", {"x"}, NULL, QDOT_REFUTED},
+    {"sqrt(x^2)", "x", {"x - 2"}, NULL, QDOT_PROVED},
+    {"sqrt(x^2)", "x", {"x + 2"}, NULL, QDOT_REFUTED},
+    {"sqrt(x^2 - 2*x + 1)", "x - 1", {"x - 1"}, NULL, QDOT_PROVED},
+    {"sqrt(x^2 - 2*x + 1)", "x - 1", {"x"}, NULL, QDOT_REFUTED},
+    {"sqrt((u - 3)^2)", "u - 3", {"u - 3"}, NULL, QDOT_PROVED},
+    {"abs(3 - u)", "u - 3", {"u - 3"}, NULL, QDOT_PROVED},
+    {"abs(3 - u)", "u - 3", {"u - 2"}, NULL, QDOT_REFUTED},
+    {"sqrt((x - y)^2)", "x - y", {"x - y"}, NULL, QDOT_PROVED},
+    {"sqrt((x - y)^2)", "y - x", {"x - y"}, NULL, QDOT_REFUTED},
+    {"sqrt((1 - e^2)^2)", "1 - e^2", {"1 - e^2"}, NULL, QDOT_PROVED},
+    {"sqrt((1 - e^2)^2)", "1 - e^2", {"2 - e^2"}, NULL, QDOT_REFUTED},
+    {"abs(x*y)", "x*y", {"x*y"}, NULL, QDOT_PROVED},
+    {"abs(x*y*z)", "x*y*z", {"x*y"}, NULL, QDOT_REFUTED},
+    {"sqrt(a + b - 2*sqrt(a*b))", "sqrt(a) - sqrt(b)", {"a - b"}, NULL, QDOT_PROVED},
+    {"sqrt(a + b - 2*sqrt(a*b))", "sqrt(a) - sqrt(b)", {"b - a"}, NULL, QDOT_REFUTED},
+    {"abs(sin(x))", "sin(x)", {"x", "pi - x"}, NULL, QDOT_PROVED},
+    {"abs(sin(x))", "sin(x)", {"x", "4 - x"}, NULL, QDOT_REFUTED},
+    {"sqrt(1 - sin(x)^2)", "-cos(x)", {"x - pi/2", "3*pi/2 - x"}, NULL, QDOT_PROVED},
+    {"x", "1", {"x"}, "x^2 - 1", QDOT_PROVED},
+    {"x", "1", {NULL}, "x^2 - 1", QDOT_REFUTED},
+    {"x", "-1", {"x"}, "x^2 - 1", QDOT_REFUTED},
+    {"x", "y", {"x", "y"}, "x^2 - y^2", QDOT_PROVED},
+    {"x", "y", {"x"}, "x^2 - y^2", QDOT_REFUTED},
+    {"x", "sqrt(2)", {"x"}, "x^2 - 2", QDOT_PROVED},
+    {"x", "sqrt(2)", {"-x"}, "x^2 - 2", QDOT_REFUTED},
+    {"sin(x + z)", "sin(x)*cos(y/(k^2 + 1)) + cos(x)*sin(y/(k^2 + 1))", {NULL},
+     "z*(k^2 + 1) - y", QDOT_PROVED},
+    {"f(abs(x))", "f(x)", {"x"}, NULL, QDOT_PROVED},
+    {"f(abs(x))", "f(x) + 1e-20", {"x"}, NULL, QDOT_REFUTED},
+};
+
+static void
+conditions_are_used_in_proofs(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof conditions / sizeof *conditions; i++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_expr condition[2], relation;
+        qdot_facts facts = {.conditions = condition, .relations = &relation};
+        qdot_decision d;
+
+        for (int k = 0; k < 2 && conditions[i].gap[k] != NULL; k++)
+            condition[facts.n_conditions++] = qdot_rel(
+                pool, QDOT_LT, QDOT_ZERO, text_read(pool, conditions[i].gap[k]));
+        if (conditions[i].relation != NULL) {
+            relation = text_read(pool, conditions[i].relation);
+            facts.n_relations = 1;
+        }
+        assert_int_equal(qdot_decide_equal(pool, text_read(pool, conditions[i].left),
+                                           text_read(pool, conditions[i].right), &facts,
+                                           &d),
+                         QDOT_OK);
+        if (d.verdict != conditions[i].expected)
+            fail_msg("%s == %s (row %zu): verdict %d", conditions[i].left,
+                     conditions[i].right, i, d.verdict);
+        qdot_pool_free(pool);
+    }
+}
+
+/* Where a wrong proof would be near at hand. */
+static void
+what_is_not_known_is_not_proved(void **state)
+{
+    static const struct pair open[] = {
+        {"sqrt((1 + cos(x))/2)", "cos(x/2)"},
+        {"sqrt(x^2*y)", "x*sqrt(y)"},
+        {"abs(x)*x", "x^2"},
+        {"sqrt(sin(x)^2)", "sin(x)"},
+        {"sqrt((x^2 - 1)^2)", "x^2 - 1"},
+        {"sqrt((a - b)^2)", "a - b"},
+        {"(x^2)^(1/4)", "sqrt(x)*sign(x)"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof open / sizeof *open; i++)
+        if (verdict(open[i].left, open[i].right, NULL) == QDOT_PROVED)
+            fail_msg("%s == %s is proved", open[i].left, open[i].right);
+}
+
 /* --- inequalities ------------------------------------------------------------------ */
 
 static const struct {
@@ -579,6 +739,9 @@ main(void)
         cmocka_unit_test(identities_are_proved),
         cmocka_unit_test(falsehoods_are_refuted),
         cmocka_unit_test(relations_are_used),
+        cmocka_unit_test(twins_are_told_apart),
+        cmocka_unit_test(conditions_are_used_in_proofs),
+        cmocka_unit_test(what_is_not_known_is_not_proved),
         cmocka_unit_test(inequalities_are_decided),
         cmocka_unit_test(conditions_bound_a_difference),
         cmocka_unit_test(proportional_equations_are_found),

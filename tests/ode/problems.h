@@ -11,6 +11,11 @@
 
 #include "ode/integrate.h"
 
+/* The methods that a right-hand side is enough for. */
+#define for_each_method(m)                                                               \
+    for (size_t m = 0; m < qdot_ode_method_count(); m++)                                 \
+        if (!qdot_ode_method_at(m)->series)
+
 enum { series = 30 };
 
 static qdot_status
@@ -186,13 +191,13 @@ typedef struct {
 } problem;
 
 static const problem pendulum = {
-    "pendulum", {2, pendulum_rhs, pendulum_jacobian, NULL}, {2, 0}, pendulum_at};
+    "pendulum", {2, pendulum_rhs, pendulum_jacobian, NULL, NULL}, {2, 0}, pendulum_at};
 static const problem henon = {"Henon-Heiles",
-                              {4, henon_rhs, henon_jacobian, NULL},
+                              {4, henon_rhs, henon_jacobian, NULL, NULL},
                               {0, 0, 1.0 / 3, 0.23570226039551584},
                               henon_at};
 static const problem kepler = {"Kepler e = 0.5",
-                               {4, kepler_rhs, kepler_jacobian, NULL},
+                               {4, kepler_rhs, kepler_jacobian, NULL, NULL},
                                {0.5, 0, 0, 1.7320508075688772},
                                kepler_at};
 

@@ -37,7 +37,7 @@ the_stated_error_is_honest(void **state)
     const problem *const all[] = {&pendulum, &henon, &kepler};
 
     (void)state;
-    for (size_t m = 0; m < qdot_ode_method_count(); m++)
+    for_each_method(m)
         for (int p = 0; p < 3; p++)
             for (double tol = 1e-6; tol > 5e-16; tol /= 10)
                 for (double t = 9; t < 110; t *= 3.3) {
@@ -59,7 +59,7 @@ a_thread_changes_nothing(void **state)
     double ignored;
 
     (void)state;
-    for (size_t m = 0; m < qdot_ode_method_count(); m++) {
+    for_each_method(m) {
         const qdot_ode_method *method = qdot_ode_method_at(m);
         double with = estimate(&henon, method, 1e-9, 10, true, &ignored).error;
 
@@ -94,7 +94,7 @@ growth(double t, const double *y, double *dydt, void *user)
 static void
 zeros_of_the_start_are_moved_too(void **state)
 {
-    qdot_ode_system s = {2, growth, NULL, NULL};
+    qdot_ode_system s = {2, growth, NULL, NULL, NULL};
     const qdot_ode_method *m = qdot_ode_method_find("rk8pd");
     double y0[2] = {0, 1}, y[2] = {0, 1};
     qdot_ode_result r;
@@ -154,7 +154,7 @@ a_companion_that_fails_leaves_the_error_unknown(void **state)
     const qdot_ode_method *m = qdot_ode_method_find("rk8pd");
     double y[2] = {2, 0}, difference[2];
     int allowed = 200;
-    qdot_ode_system s = {2, fails_later, NULL, &allowed};
+    qdot_ode_system s = {2, fails_later, NULL, &allowed, NULL};
     qdot_companion *c;
     qdot_companion_estimate e;
 

@@ -49,7 +49,7 @@ any_time_is_as_accurate_as_the_run(void **state)
 {
     (void)state;
     srand(11);
-    for (size_t m = 0; m < qdot_ode_method_count(); m++)
+    for_each_method(m)
         for (int back = 0; back < 2; back++) {
             double t1 = back ? -12 : 12, y[4], at_points = 0, between = 0;
             qdot_trajectory tr = {0};
@@ -229,7 +229,7 @@ stiff_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user
 static void
 a_stiff_run_is_read_cheaply(void **state)
 {
-    qdot_ode_system s = {1, stiff, stiff_jacobian, NULL};
+    qdot_ode_system s = {1, stiff, stiff_jacobian, NULL, NULL};
     qdot_ode_options o = {.tol = 1e-9};
     double y0 = 1, y;
 

@@ -6,7 +6,7 @@ particle p mass m at y
 gravity -g
 set m = 1, g = 2
 start y = 10, y' = 1
-run 0..2 tol 1e-12 as a
+run 0..2 tol 1e-12 method rk8pd as a
 check value(y, 2) == 8 within 1e-12
 check value(a.(y + y'), 1) == 9 within 1e-12
 table y, a.y' every 1 to "fall.csv"

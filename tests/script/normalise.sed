@@ -4,6 +4,17 @@
 s/\([Cc][Pp][Uu][_a-z]*[": =a-z]*\)[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}\( *\(us\|µs\|ms\|s\|min\)\)\{0,1\}\>/\1TIME/g
 s/[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} *\(us\|µs\|ms\|s\|min\) \([Cc][Pp][Uu]\)/TIME \3/g
 
+# What a run costs, and its last digits, are a matter of the method; that its numbers are
+# right is what `check ... within` says. `auto` may choose any of these.
+s/method \(rk8pd\|dop853\|taylor\), tol/method AUTO, tol/
+s/^  [0-9][0-9]* steps\{0,1\}, [0-9].*$/  STEPS/
+/^  drift: /s/ [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}\(,\|$\)/ N\2/g
+s/^\(  error of the end state: about \).*/\1N/
+/^  end state:/,/^[^ ]/{
+/^    /s/ = -\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/ = N/g
+}
+s/-\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} ± [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/N ± ERROR/g
+
 # Rounding: what is left of an exact zero depends on the machine's sin and cos. A tolerance
 # is what was asked for and stays.
 s/\(tol[a-z]*["]*[ :=]*[0-9.]*\)e-/\1E-/g

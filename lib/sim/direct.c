@@ -1,5 +1,5 @@
-/* expand.c -- order by order: tape, solve, integrate twice. */
-#include "sim/expand.h"
+/* direct.c -- order by order: tape, solve, integrate twice. */
+#include "sim/direct.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,7 +25,7 @@ typedef struct {
     size_t n_couplings;
 } block_series;
 
-struct qdot_expand {
+struct qdot_direct {
     const qdot_plan *plan;
     const qdot_series_kernels *kernels;
     qdot_taylor *taylor;
@@ -44,7 +44,7 @@ struct qdot_expand {
 
 /* a_k of every coordinate, orders below k being there. */
 static qdot_status
-accelerations(qdot_expand *e, int k)
+accelerations(qdot_direct *e, int k)
 {
     const qdot_plan *p = e->plan;
 
@@ -73,7 +73,10 @@ accelerations(qdot_expand *e, int k)
             const coupling *m = s->couplings + c;
             x[m->i] -= e->kernels->dot[k](m->M + 1, e->a[block->index[m->j]] + k - 1);
         }
-        qdot_blocks_solve(&e->solvers, b);
+        if (k == 0)
+            qdot_blocks_solve(&e->solvers, b);
+        else
+            qdot_blocks_apply(&e->solvers, b);
         for (size_t i = 0; i < block->n; i++)
             e->solved[block->index[i] * e->stride + (size_t)k] = x[i];
     }
@@ -82,7 +85,7 @@ accelerations(qdot_expand *e, int k)
 
 /* Orders k + 1 of velocities and coordinates. */
 static void
-integrate(qdot_expand *e, int k)
+integrate(qdot_direct *e, int k)
 {
     double factor = e->unit * e->inverse[k + 1];
 
@@ -97,7 +100,7 @@ integrate(qdot_expand *e, int k)
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
-    qdot_expand *e = user;
+    qdot_direct *e = user;
     size_t n = e->plan->n;
 
     e->unit = unit;
@@ -119,8 +122,11 @@ begin(double t, const double *y, double unit, void *user)
 static qdot_status
 extend(int p, void *user)
 {
-    qdot_expand *e = user;
+    qdot_direct *e = user;
 
+    for (size_t b = 0; b < e->plan->structure.blocks; b++)
+        if (e->plan->blocks[b].n > 1 && !e->plan->blocks[b].constant)
+            qdot_blocks_invert(&e->solvers, b);
     for (int k = 1; k < p; k++) {
         QDOT_TRY(accelerations(e, k));
         integrate(e, k);
@@ -131,7 +137,7 @@ extend(int p, void *user)
 static void
 low(const double *carry, double *low, void *user)
 {
-    const qdot_expand *e = user;
+    const qdot_direct *e = user;
 
     for (size_t i = 0; i < e->plan->n; i++)
         low[i] = e->unit * carry[e->plan->n + i];
@@ -141,7 +147,7 @@ low(const double *carry, double *low, void *user)
 
 /* Where the tape's outputs are found, and which entries of M move. */
 static qdot_status
-find_outputs(qdot_expand *e, size_t count)
+find_outputs(qdot_direct *e, size_t count)
 {
     const qdot_plan *p = e->plan;
     size_t at = 0;
@@ -179,10 +185,10 @@ find_outputs(qdot_expand *e, size_t count)
 
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
 static void
-estimate_cost(qdot_expand *e)
+estimate_cost(qdot_direct *e)
 {
     const qdot_plan *p = e->plan;
-    double *c = e->series.cost, convolutions = qdot_expand_convolutions(e);
+    double *c = e->series.cost, convolutions = qdot_direct_convolutions(e);
 
     c[0] = 60 + 15.0 * (double)qdot_tape_calls(p->tape)
            + 2.0 * (double)qdot_taylor_length(e->taylor) + 10.0 * (double)p->n;
@@ -201,7 +207,7 @@ estimate_cost(qdot_expand *e)
 }
 
 static qdot_status
-make(qdot_expand *e, const qdot_plan *p, bool shaken)
+make(qdot_direct *e, const qdot_plan *p, bool shaken)
 {
     qdot_tape *tape = NULL;
     size_t outputs = qdot_tape_outputs(p->tape);
@@ -223,6 +229,12 @@ make(qdot_expand *e, const qdot_plan *p, bool shaken)
     if (!e->a || !e->solved || !e->outputs || !e->blocks)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_blocks_init(&e->solvers, p, shaken));
+    for (size_t b = 0; b < p->structure.blocks; b++)
+        if (p->blocks[b].n > 1) {
+            QDOT_TRY(qdot_blocks_prepare(&e->solvers, b));
+            if (p->blocks[b].constant)
+                qdot_blocks_invert(&e->solvers, b);
+        }
     QDOT_TRY(find_outputs(e, outputs));
     for (int k = 1; k < most_order + 2; k++)
         e->inverse[k] = 1.0 / k;
@@ -234,27 +246,27 @@ make(qdot_expand *e, const qdot_plan *p, bool shaken)
 }
 
 qdot_status
-qdot_expand_new(const qdot_plan *plan, bool shaken, qdot_expand **expand)
+qdot_direct_new(const qdot_plan *plan, bool shaken, qdot_direct **direct)
 {
-    qdot_expand *e = qdot_calloc(1, sizeof *e);
+    qdot_direct *e = qdot_calloc(1, sizeof *e);
     qdot_status status;
 
-    *expand = NULL;
+    *direct = NULL;
     if (!e)
         return QDOT_ENOMEM;
     e->plan = plan;
     e->kernels = qdot_series_kernels_get();
     status = make(e, plan, shaken);
     if (status != QDOT_OK) {
-        qdot_expand_free(e);
+        qdot_direct_free(e);
         return status;
     }
-    *expand = e;
+    *direct = e;
     return QDOT_OK;
 }
 
 void
-qdot_expand_free(qdot_expand *e)
+qdot_direct_free(qdot_direct *e)
 {
     if (!e)
         return;
@@ -270,13 +282,13 @@ qdot_expand_free(qdot_expand *e)
 }
 
 const qdot_ode_series *
-qdot_expand_series(const qdot_expand *e)
+qdot_direct_series(const qdot_direct *e)
 {
     return &e->series;
 }
 
 double
-qdot_expand_convolutions(const qdot_expand *e)
+qdot_direct_convolutions(const qdot_direct *e)
 {
     double sum = qdot_taylor_convolutions(e->taylor);
 
@@ -286,7 +298,7 @@ qdot_expand_convolutions(const qdot_expand *e)
 }
 
 size_t
-qdot_expand_factored(const qdot_expand *e)
+qdot_direct_factored(const qdot_direct *e)
 {
     return e->solvers.factored;
 }

@@ -1,4 +1,4 @@
-/* expand.h -- Taylor coefficients of the motion, from those of the equations.
+/* direct.h -- Taylor coefficients of the motion, from those of the equations.
  *
  * With s = (t' - t)/unit, q = sum q_k s^k and q'' = sum a_k s^k:
  *
@@ -11,25 +11,25 @@
  *
  * Tests  tests/sim/test_taylor.c
  */
-#ifndef QDOT_SIM_EXPAND_H
-#define QDOT_SIM_EXPAND_H
+#ifndef QDOT_SIM_DIRECT_H
+#define QDOT_SIM_DIRECT_H
 
 #include "ode/system.h"
 #include "sim/plan.h"
 
-typedef struct qdot_expand qdot_expand;
+typedef struct qdot_direct qdot_direct;
 
 /* Of the plan, borrowed. `shaken` as for qdot_bind_new. Errors: QDOT_ENOTBUILT for
  * equations that switch; QDOT_ESINGULAR; QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_expand_new(const qdot_plan *plan, bool shaken,
-                                            qdot_expand **expand);
-void qdot_expand_free(qdot_expand *expand);
+QDOT_MUST_CHECK qdot_status qdot_direct_new(const qdot_plan *plan, bool shaken,
+                                            qdot_direct **direct);
+void qdot_direct_free(qdot_direct *direct);
 
 /* Its callbacks; borrowed. */
-const qdot_ode_series *qdot_expand_series(const qdot_expand *expand);
+const qdot_ode_series *qdot_direct_series(const qdot_direct *direct);
 
 /* Convolutions and instructions an order; how often M was factored. */
-double qdot_expand_convolutions(const qdot_expand *expand);
-size_t qdot_expand_factored(const qdot_expand *expand);
+double qdot_direct_convolutions(const qdot_direct *direct);
+size_t qdot_direct_factored(const qdot_direct *direct);
 
 #endif

@@ -1,0 +1,442 @@
+/* shifted.c -- order by order: places with the newest coefficient 0, accelerations by
+ * shifting, forces from the leaves to the roots, solve, correct. */
+#include "sim/shifted.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "num/series.h"
+#include "sim/blocks.h"
+#include "tape/shake.h"
+#include "tape/taylor.h"
+
+enum { most_order = 44, lanes = 8 };
+
+/* Up to so many functions the tree is kept multiplied out: a matrix is work of another order,
+ * but vectors take it, where a tree is one long chain of sums. */
+enum { most_dense = 48 };
+
+struct qdot_shifted {
+    const qdot_plan *plan;
+    const qdot_residual *residual;
+    const qdot_series_kernels *kernels;
+    qdot_taylor *places, *forces;
+    qdot_tape *masses;
+    double *weight;        /* [n_weights] */
+    qdot_blocks solvers;
+    qdot_ode_series series;
+    double unit, force_scale; /* unit^2 */
+    double *q, *v, *t;     /* rows of the inputs of `places` */
+    double *fq, *fv, *ft;  /* of `forces` */
+    size_t stride, forces_stride;
+
+    const double **d;      /* [functions] series of the differences */
+    double *x, *F;         /* [functions] unit^2 x'', unit^2 F of the order at hand */
+    size_t rows;           /* functions, filled up to full vectors */
+    double *W;             /* [rows x functions] F = W d''; NULL: by the tree */
+    size_t members;        /* slopes, filled up to full vectors */
+    const double **slope;  /* [n_slopes] series */
+    double *J;             /* [orders x members] their coefficients, by order */
+    double *Fs;            /* [orders x members] F of each slope's function */
+    double *products;      /* [members] */
+    double *R;             /* [n] */
+    double *in, *out, *work; /* of `masses` */
+};
+
+/* --- one order ---------------------------------------------------------------------- */
+
+/* F from the second derivatives of the differences, in x: down the tree and up again. */
+static void
+gather_forces(const qdot_shifted *s)
+{
+    const qdot_residual *r = s->residual;
+
+    for (size_t f = 0; f < r->functions; f++) {
+        if (r->parent[f] != UINT32_MAX)
+            s->x[f] += s->x[r->parent[f]];
+        s->F[f] = 0;
+    }
+    for (size_t w = 0; w < r->n_weights; w++)
+        s->F[r->weights[w].to] += s->weight[w] * s->x[r->weights[w].from];
+    for (size_t f = r->functions; f-- > 0;)
+        if (r->parent[f] != UINT32_MAX)
+            s->F[r->parent[f]] += s->F[f];
+}
+
+/* F of order k from coefficients k + 2 of the differences. */
+static void
+accelerate(qdot_shifted *s, int k)
+{
+    const qdot_residual *r = s->residual;
+    const double factor = (k + 1) * (k + 2);
+    double *Fs = s->Fs + (size_t)k * s->members;
+
+    for (size_t f = 0; f < r->functions; f++)
+        s->x[f] = factor * s->d[f][k + 2];
+    if (s->W)
+        s->kernels->multiply(s->rows, r->functions, s->W, s->x, s->F);
+    else
+        gather_forces(s);
+    for (size_t j = 0; j < r->n_slopes; j++)
+        Fs[j] = s->F[r->slopes[j].function];
+}
+
+/* Coefficient k of the slopes, by member. */
+static void
+take_slopes(qdot_shifted *s, int k)
+{
+    double *J = s->J + (size_t)k * s->members;
+
+    for (size_t j = 0; j < s->residual->n_slopes; j++)
+        J[j] = s->slope[j][k];
+}
+
+static double
+applied(const qdot_shifted *s, size_t i, int k)
+{
+    uint32_t at = s->residual->force[i];
+
+    if (at == UINT32_MAX)
+        return 0;
+    if (at & QDOT_RESIDUAL_FORCES)
+        return qdot_taylor_output(s->forces, at ^ QDOT_RESIDUAL_FORCES)[k];
+    return qdot_taylor_output(s->places, at)[k];
+}
+
+/* Order k of the forces that hold velocities. */
+static void
+evaluate_forces(qdot_shifted *s, int k)
+{
+    if (!s->forces)
+        return;
+    for (size_t i = 0; i < s->plan->n; i++) {
+        s->fq[i * s->forces_stride + (size_t)k] = s->q[i * s->stride + (size_t)k];
+        s->fv[i * s->forces_stride + (size_t)k] = s->v[i * s->stride + (size_t)k];
+    }
+    qdot_taylor_order(s->forces, k);
+}
+
+/* -R, order k, then unit^2 q'' in its place. */
+static void
+solve(qdot_shifted *s, int k)
+{
+    const qdot_plan *p = s->plan;
+    const qdot_residual *r = s->residual;
+
+    s->kernels->dots(s->members, (size_t)k + 1, s->J, s->Fs + (size_t)k * s->members,
+                     s->products);
+    for (size_t i = 0; i < p->n; i++)
+        s->R[i] = s->force_scale * applied(s, i, k);
+    for (size_t j = 0; j < r->n_slopes; j++)
+        s->R[r->slopes[j].coordinate] -= s->products[j];
+    for (size_t b = 0; b < p->structure.blocks; b++) {
+        const qdot_plan_block *block = p->blocks + b;
+        double *x = s->solvers.at[b].x;
+
+        if (block->n == 1) {
+            s->R[block->index[0]] /= s->solvers.at[b].a[0];
+            continue;
+        }
+        for (size_t i = 0; i < block->n; i++)
+            x[i] = s->R[block->index[i]];
+        if (k == 0)
+            qdot_blocks_solve(&s->solvers, b);
+        else
+            qdot_blocks_apply(&s->solvers, b);
+        for (size_t i = 0; i < block->n; i++)
+            s->R[block->index[i]] = x[i];
+    }
+}
+
+/* Coefficients m >= 2 of q and m - 1 of v. */
+static void
+order(qdot_shifted *s, int m)
+{
+    const size_t n = s->plan->n;
+    const int k = m - 2;
+    const double inverse = 1.0 / (m * (m - 1)), per_unit = m / s->unit;
+
+    for (size_t i = 0; i < n; i++)
+        s->q[i * s->stride + (size_t)m] = 0;
+    qdot_taylor_order(s->places, m);
+    evaluate_forces(s, k);
+    accelerate(s, k);
+    solve(s, k);
+    for (size_t i = 0; i < n; i++)
+        s->R[i] *= inverse;
+    qdot_taylor_correct(s->places, m, n, s->R);
+    accelerate(s, k);
+    take_slopes(s, m);
+    for (size_t i = 0; i < n; i++)
+        s->v[i * s->stride + (size_t)m - 1] = per_unit * s->R[i];
+}
+
+static qdot_status
+factor(qdot_shifted *s, double t, const double *y)
+{
+    const qdot_plan *p = s->plan;
+    const double *out = s->out;
+
+    memcpy(s->in, y, 2 * p->n * sizeof *y);
+    s->in[2 * p->n] = t;
+    qdot_tape_eval(s->masses ? s->masses : s->residual->masses, s->in, s->out, s->work);
+    for (size_t b = 0; b < p->structure.blocks; b++) {
+        if (p->blocks[b].constant)
+            continue;
+        out = qdot_blocks_unpack(&s->solvers, b, out);
+        if (p->blocks[b].n > 1)
+            QDOT_TRY(qdot_blocks_factor(&s->solvers, b));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+begin(double t, const double *y, double unit, void *user)
+{
+    qdot_shifted *s = user;
+    size_t n = s->plan->n;
+
+    s->unit = unit;
+    s->force_scale = unit * unit;
+    for (size_t i = 0; i < n; i++) {
+        s->q[i * s->stride] = y[i];
+        s->v[i * s->stride] = y[n + i];
+        s->q[i * s->stride + 1] = unit * y[n + i];
+    }
+    s->t[0] = t;
+    s->t[1] = unit;
+    if (s->forces) {
+        s->ft[0] = t;
+        s->ft[1] = unit;
+    }
+    QDOT_TRY(factor(s, t, y));
+    for (int k = 0; k < 2; k++) {
+        qdot_taylor_order(s->places, k);
+        take_slopes(s, k);
+    }
+    order(s, 2);
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(s->v[i * s->stride + 1]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             s->plan->names[i]);
+    return QDOT_OK;
+}
+
+static qdot_status
+extend(int p, void *user)
+{
+    qdot_shifted *s = user;
+
+    for (size_t b = 0; b < s->plan->structure.blocks; b++)
+        if (s->plan->blocks[b].n > 1 && !s->plan->blocks[b].constant)
+            qdot_blocks_invert(&s->solvers, b);
+    for (int m = 3; m <= p + 1; m++)
+        order(s, m);
+    return QDOT_OK;
+}
+
+static void
+low(const double *carry, double *low, void *user)
+{
+    const qdot_shifted *s = user;
+
+    for (size_t i = 0; i < s->plan->n; i++)
+        low[i] = s->unit * carry[s->plan->n + i];
+}
+
+/* --- building ----------------------------------------------------------------------- */
+
+static qdot_status
+make_tape(const qdot_tape *tape, bool shaken, qdot_taylor **taylor)
+{
+    qdot_tape *copy = NULL;
+    qdot_status status;
+
+    if (shaken)
+        QDOT_TRY(qdot_tape_shake(tape, &copy));
+    status = qdot_taylor_new(copy ? copy : tape, most_order, taylor);
+    qdot_tape_free(copy);
+    return status;
+}
+
+static qdot_status
+make_tapes(qdot_shifted *s, bool shaken)
+{
+    const qdot_residual *r = s->residual;
+    size_t n = s->plan->n;
+
+    QDOT_TRY(make_tape(r->places, shaken, &s->places));
+    s->stride = qdot_taylor_stride(s->places);
+    s->q = qdot_taylor_input(s->places, 0);
+    s->v = qdot_taylor_input(s->places, n);
+    s->t = qdot_taylor_input(s->places, 2 * n);
+    if (r->forces) {
+        QDOT_TRY(make_tape(r->forces, shaken, &s->forces));
+        s->forces_stride = qdot_taylor_stride(s->forces);
+        s->fq = qdot_taylor_input(s->forces, 0);
+        s->fv = qdot_taylor_input(s->forces, n);
+        s->ft = qdot_taylor_input(s->forces, 2 * n);
+    }
+    return shaken ? qdot_tape_shake(r->masses, &s->masses) : QDOT_OK;
+}
+
+static void
+estimate_cost(qdot_shifted *s)
+{
+    const qdot_plan *p = s->plan;
+    const qdot_residual *r = s->residual;
+    double *c = s->series.cost, n = (double)p->n;
+    double length = (double)qdot_taylor_length(s->places)
+                    + (s->forces ? (double)qdot_taylor_length(s->forces) : 0);
+    double scalar = qdot_taylor_convolutions(s->places)
+                    + (s->forces ? qdot_taylor_convolutions(s->forces) : 0);
+
+    c[0] = 100 + 15.0 * (double)qdot_tape_calls(r->places)
+           + 1.0 * (double)qdot_tape_operations(r->masses) + 2 * length + 10 * n;
+    c[1] = 10 + 3 * length + 3.5 * scalar + 6 * n + 6.0 * (double)r->functions
+           + 3.0 * (double)r->n_slopes + 2.0 * (double)r->n_weights;
+    c[2] = 0.12 * scalar + 0.04 * (double)s->members;
+    for (size_t b = 0; b < p->structure.blocks; b++) {
+        n = (double)p->blocks[b].n;
+        if (n == 1)
+            continue;
+        c[1] += 5 * n + 0.5 * n * n;
+        c[0] += 5 * n + 0.2 * n * n * n;
+    }
+}
+
+/* W by its columns: what the tree makes of unit vectors. */
+static qdot_status
+multiply_out(qdot_shifted *s)
+{
+    size_t n = s->residual->functions;
+
+    if (n > most_dense)
+        return QDOT_OK;
+    s->W = qdot_calloc(s->rows * n + 1, sizeof *s->W);
+    if (!s->W)
+        return QDOT_ENOMEM;
+    for (size_t f = 0; f < n; f++) {
+        memset(s->x, 0, n * sizeof *s->x);
+        s->x[f] = 1;
+        gather_forces(s);
+        memcpy(s->W + f * s->rows, s->F, n * sizeof *s->F);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+make(qdot_shifted *s, bool shaken)
+{
+    const qdot_plan *p = s->plan;
+    const qdot_residual *r = s->residual;
+    size_t orders = most_order + 1;
+
+    QDOT_TRY(make_tapes(s, shaken));
+    QDOT_TRY(qdot_blocks_init(&s->solvers, p, shaken));
+    for (size_t b = 0; b < p->structure.blocks; b++)
+        if (p->blocks[b].n > 1) {
+            QDOT_TRY(qdot_blocks_prepare(&s->solvers, b));
+            if (p->blocks[b].constant)
+                qdot_blocks_invert(&s->solvers, b);
+        }
+    s->members = (r->n_slopes + lanes - 1) / lanes * lanes;
+    s->weight = qdot_calloc(r->n_weights, sizeof *s->weight);
+    s->d = qdot_calloc(r->functions, sizeof *s->d);
+    s->rows = (r->functions + lanes - 1) / lanes * lanes;
+    s->x = qdot_calloc(s->rows, sizeof *s->x);
+    s->F = qdot_calloc(s->rows, sizeof *s->F);
+    s->slope = qdot_calloc(r->n_slopes + 1, sizeof *s->slope);
+    s->J = qdot_calloc(orders * s->members + 1, sizeof *s->J);
+    s->Fs = qdot_calloc(orders * s->members + 1, sizeof *s->Fs);
+    s->products = qdot_calloc(s->members + 1, sizeof *s->products);
+    s->R = qdot_calloc(p->n, sizeof *s->R);
+    s->in = qdot_calloc(2 * p->n + 1, sizeof *s->in);
+    s->out = qdot_calloc(qdot_tape_outputs(r->masses) + 1, sizeof *s->out);
+    s->work = qdot_calloc(qdot_tape_work(r->masses) + 1, sizeof *s->work);
+    if (!s->weight || !s->d || !s->x || !s->F || !s->slope || !s->J || !s->Fs
+        || !s->products || !s->R || !s->in || !s->out || !s->work)
+        return QDOT_ENOMEM;
+    for (size_t w = 0; w < r->n_weights; w++)
+        s->weight[w] = shaken ? qdot_shake_double(r->weights[w].w, r->weights[w].side)
+                              : r->weights[w].w;
+    for (size_t f = 0; f < r->functions; f++)
+        s->d[f] = qdot_taylor_output(s->places, f);
+    for (size_t j = 0; j < r->n_slopes; j++)
+        s->slope[j] = qdot_taylor_output(s->places, r->slopes[j].output);
+    QDOT_TRY(multiply_out(s));
+    s->series = (qdot_ode_series){.most = most_order - 4, .x = s->q, .stride = s->stride,
+                                  .checked = p->n, .begin = begin, .extend = extend,
+                                  .low = low, .user = s};
+    estimate_cost(s);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_shifted_new(const qdot_plan *plan, const qdot_residual *residual, bool shaken,
+                 qdot_shifted **shifted)
+{
+    qdot_shifted *s = qdot_calloc(1, sizeof *s);
+    qdot_status status;
+
+    *shifted = NULL;
+    if (!s)
+        return QDOT_ENOMEM;
+    s->plan = plan;
+    s->residual = residual;
+    s->kernels = qdot_series_kernels_get();
+    status = make(s, shaken);
+    if (status != QDOT_OK) {
+        qdot_shifted_free(s);
+        return status;
+    }
+    *shifted = s;
+    return QDOT_OK;
+}
+
+void
+qdot_shifted_free(qdot_shifted *s)
+{
+    if (!s)
+        return;
+    qdot_taylor_free(s->places);
+    qdot_taylor_free(s->forces);
+    qdot_tape_free(s->masses);
+    if (s->solvers.plan)
+        qdot_blocks_clear(&s->solvers);
+    qdot_free(s->weight);
+    qdot_free(s->d);
+    qdot_free(s->x);
+    qdot_free(s->F);
+    qdot_free(s->W);
+    qdot_free(s->slope);
+    qdot_free(s->J);
+    qdot_free(s->Fs);
+    qdot_free(s->products);
+    qdot_free(s->R);
+    qdot_free(s->in);
+    qdot_free(s->out);
+    qdot_free(s->work);
+    qdot_free(s);
+}
+
+const qdot_ode_series *
+qdot_shifted_series(const qdot_shifted *s)
+{
+    return &s->series;
+}
+
+double
+qdot_shifted_convolutions(const qdot_shifted *s)
+{
+    return qdot_taylor_convolutions(s->places)
+           + (s->forces ? qdot_taylor_convolutions(s->forces) : 0)
+           + (double)s->residual->n_slopes;
+}
+
+size_t
+qdot_shifted_factored(const qdot_shifted *s)
+{
+    return s->solvers.factored;
+}

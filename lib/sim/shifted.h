@@ -1,0 +1,28 @@
+/* shifted.h -- Taylor coefficients of the motion from d'Alembert's residual
+ * (residual.h).
+ *
+ * Tests  tests/sim/test_taylor.c
+ */
+#ifndef QDOT_SIM_SHIFTED_H
+#define QDOT_SIM_SHIFTED_H
+
+#include "ode/system.h"
+#include "sim/residual.h"
+
+typedef struct qdot_shifted qdot_shifted;
+
+/* Of plan and residual, both borrowed (plan->residual need not be it). `shaken` as for
+ * qdot_bind_new. Errors: QDOT_ESINGULAR, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_shifted_new(const qdot_plan *plan,
+                                             const qdot_residual *residual, bool shaken,
+                                             qdot_shifted **shifted);
+void qdot_shifted_free(qdot_shifted *shifted);
+
+/* Its callbacks; borrowed. */
+const qdot_ode_series *qdot_shifted_series(const qdot_shifted *shifted);
+
+/* Convolutions an order; how often M was factored. */
+double qdot_shifted_convolutions(const qdot_shifted *shifted);
+size_t qdot_shifted_factored(const qdot_shifted *shifted);
+
+#endif

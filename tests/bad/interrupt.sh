@@ -1,0 +1,18 @@
+# Ctrl-C during long computations: each says so and ends with status 1, what was kept is kept.
+cd "$(mktemp -d)" || exit 1
+while IFS='|' read -r name text; do
+    printf '%b\n' "$text" >long.lag
+    timeout --foreground --preserve-status -k 20 -s INT 1 qdot -q long.lag >out 2>&1 </dev/null
+    echo "$name: exit $?, $(grep -c ': error: interrupted$' out)"
+done <<'END'
+a loop|x = k for k = 1..10^9
+a block|{ x = k; y = x } for k = 1..10^9
+a sum|sum(k, k, 1, 10^9)
+derivatives|param x\ndiff(sin(x)*exp(x)*log(x)*tan(x), x, 100000)
+powers|param x\ndiff(x^x, x, 300)
+functions|f(u) = u + u^2\n{ f(u) = f(f(u)) } for k = 1..60
+a run|coord x\nparticle p mass 1 at x\npotential x^2/2 + x^4\nstart x = 1\nrun 0..10^8 method rk8pd
+a plot|param y\nplot c*y vs y = 0..3 for c = 1..10^8 to "x.svg"
+a table|coord x\nparticle p mass 1 at x\npotential x^2/2\nstart x = 1\nrun 0..10 method rk8pd\n{ table x every 0.001 to "x.csv" } for k = 1..10^6
+END
+rm -rf "$PWD"

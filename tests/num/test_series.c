@@ -1,0 +1,133 @@
+/* test_series.c -- the kernels of every kind of processor against plain sums. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "num/series.h"
+
+enum { MOST = QDOT_SERIES_MOST + 1, MEMBERS = 40 };
+
+/* A number between -1 and 1 without a pattern. */
+static double
+some(size_t i)
+{
+    return sin(12.9898 * (double)(i + 1)) * 0.937;
+}
+
+static void
+close_to(double x, long double expected, long double size, const char *what, size_t n)
+{
+    if (!(fabsl(x - expected) <= 8 * 0x1p-53L * (size + fabsl(expected)) + 1e-300L))
+        fail_msg("%s, n = %zu: %.17g, not %.17Lg", what, n, x, expected);
+}
+
+static void
+products_of_series_are_sums_of_products(void **state)
+{
+    const qdot_series_kernels *k;
+    double a[MOST], b[MOST], c[MOST];
+    size_t kinds = 0;
+
+    (void)state;
+    for (size_t i = 0; i < MOST; i++) {
+        a[i] = some(i);
+        b[i] = some(100 + i);
+        c[i] = some(200 + i);
+    }
+    for (; (k = qdot_series_kernels_at(kinds)); kinds++)
+        for (size_t n = 0; n <= MOST; n++) {
+            long double x = 0, y = 0, size = 0;
+            const double *last = b + (n ? n - 1 : 0), *end = c + (n ? n - 1 : 0);
+            qdot_series_two two = k->pair[n](a, last, end);
+
+            for (size_t j = 0; j < n; j++) {
+                x += (long double)a[j] * b[n - 1 - j];
+                y += (long double)a[j] * c[n - 1 - j];
+                size += 1;
+            }
+            close_to(k->dot[n](a, last), x, size, k->name, n);
+            close_to(two.b, x, size, k->name, n);
+            close_to(two.c, y, size, k->name, n);
+        }
+    assert_in_range(kinds, 1, 3);
+    assert_non_null(qdot_series_kernels_get());
+}
+
+static void
+members_are_taken_one_by_one(void **state)
+{
+    static double a[MOST * MEMBERS], b[MOST * MEMBERS], out[MEMBERS], y[MEMBERS];
+    const qdot_series_kernels *k;
+
+    (void)state;
+    for (size_t i = 0; i < MOST * MEMBERS; i++) {
+        a[i] = some(i);
+        b[i] = some(7 * i + 3);
+    }
+    for (size_t kind = 0; (k = qdot_series_kernels_at(kind)); kind++)
+        for (size_t m = 8; m <= MEMBERS; m += 8)
+            for (size_t n = 1; n <= 30; n += 3) {
+                k->dots(m, n, a, b + (n - 1) * m, out);
+                k->multiply(m, n, a, b, y);
+                for (size_t i = 0; i < m; i++) {
+                    long double s = 0, t = 0;
+
+                    for (size_t j = 0; j < n; j++) {
+                        s += (long double)a[j * m + i] * b[(n - 1 - j) * m + i];
+                        t += (long double)a[j * m + i] * b[j];
+                    }
+                    close_to(out[i], s, n, "dots", m);
+                    close_to(y[i], t, n, "multiply", m);
+                }
+                for (size_t i = 0; i < m; i++)
+                    y[i] = b[i];
+                k->add(m, 0.3, a, y);
+                for (size_t i = 0; i < m; i++)
+                    close_to(y[i], b[i] + 0.3L * a[i], 2, "add", m);
+            }
+}
+
+static void
+tails_are_values_and_slopes(void **state)
+{
+    enum { STRIDE = 40, SERIES = 7 };
+    static double x[SERIES * STRIDE];
+    double value[SERIES], slope[SERIES];
+    const qdot_series_kernels *k;
+
+    (void)state;
+    for (size_t i = 0; i < SERIES * STRIDE; i++)
+        x[i] = some(i);
+    for (size_t kind = 0; (k = qdot_series_kernels_at(kind)); kind++)
+        for (int p = 2; p < STRIDE; p += 5) {
+            k->tails(SERIES, x, STRIDE, p, 0.7, value, slope);
+            for (size_t i = 0; i < SERIES; i++) {
+                long double v = 0, d = 0;
+
+                for (int j = 1; j <= p; j++) {
+                    long double term = x[i * STRIDE + (size_t)j] * powl(0.7, j - 1);
+
+                    v += j > 1 ? term : 0;
+                    d += j * term;
+                }
+                close_to(value[i], v, 3, "value", (size_t)p);
+                close_to(slope[i], d, 10, "slope", (size_t)p);
+            }
+        }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(products_of_series_are_sums_of_products),
+        cmocka_unit_test(members_are_taken_one_by_one),
+        cmocka_unit_test(tails_are_values_and_slopes),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
