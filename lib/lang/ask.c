@@ -147,7 +147,7 @@ answer_latex(qdot_cursor *c)
     if (status == QDOT_OK)
         status = qdot_cursor_expect_end(c);
     if (status == QDOT_OK) {
-        qdot_statement_text(start, c->at, &name);
+        qdot_statement_text(c->session, start, c->at, &name);
         status = qdot_text_status(&name);
     }
     if (status == QDOT_OK)
@@ -174,7 +174,7 @@ qdot_ask_expression(qdot_cursor *c)
     QDOT_TRY(qdot_read_value(c, &value));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    qdot_statement_text(start, c->at, &name);
+    qdot_statement_text(c->session, start, c->at, &name);
     if (name.n > 200) { /* longer than it helps: by its number in the history */
         qdot_text_truncate(&name, 0);
         qdot_text_format(&name, "%%%zu", session->history.n + 1);

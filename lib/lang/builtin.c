@@ -356,7 +356,7 @@ label_of(qdot_session *s, qdot_expr carrier, bool particles, const char **label)
 static qdot_status
 call_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
-    const char *label;
+    const char *label = NULL;
 
     QDOT_TRY(label_of(s, args[0], n == 1, &label));
     return give(s, qdot_scene_point(s->scene, label, n == 2 ? args[1] : QDOT_NIL), value);
@@ -365,7 +365,7 @@ call_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 static qdot_status
 call_spin(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
-    const char *label;
+    const char *label = NULL;
 
     (void)n;
     QDOT_TRY(label_of(s, args[0], false, &label));
@@ -375,7 +375,7 @@ call_spin(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 static qdot_status
 call_velocity(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
-    const char *label;
+    const char *label = NULL;
 
     (void)n;
     QDOT_TRY(label_of(s, args[0], false, &label));

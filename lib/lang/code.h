@@ -49,10 +49,10 @@ typedef enum {
     QDOT_CODE_MEMBER,    /* the top is meant along the run `token` */
     QDOT_CODE_JUMP,      /* to `to` */
     QDOT_CODE_SUM_BEGIN, /* a b popped; the loop over source token n, body at `to` */
-    QDOT_CODE_SUM_NEXT, /* the body's value popped; round again or go on */
-    QDOT_CODE_IF_TEST,  /* the condition stays; false: nil pushed, go to `to` */
-    QDOT_CODE_IF_ELSE,  /* condition true: both popped, value pushed, go to `to` */
-    QDOT_CODE_IF_END    /* condition, a, b popped; push if(...) */
+    QDOT_CODE_SUM_NEXT,  /* the body's value popped; round again or go on */
+    QDOT_CODE_IF_TEST,   /* the condition stays; false: nil pushed, go to `to` */
+    QDOT_CODE_IF_ELSE,   /* condition true: both popped, value pushed, go to `to` */
+    QDOT_CODE_IF_END     /* condition, a, b popped; push if(...) */
 } qdot_code_op;
 
 typedef struct {
@@ -80,6 +80,13 @@ QDOT_MUST_CHECK qdot_status qdot_parse(qdot_cursor *c, qdot_parse_extent extent,
  * or NULL. */
 QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_program *program,
                                           qdot_expr *value, const char **run);
+
+/* Whether a run NAME[...] is kept. */
+bool qdot_cursor_has_runs(const qdot_cursor *c, const char *name);
+/* Step over `NAME[k].`, a run of a family before an operand; *run: a token that spells the
+ * run, "NAME[2]"; NULL: it is none, the cursor stays. */
+QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
+                                                   const qdot_token **run);
 
 /* --- meaning ------------------------------------------------------------------------ */
 

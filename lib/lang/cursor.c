@@ -2,7 +2,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "lang/code.h"
+
+static bool
+is_sign(const qdot_token *t, const char *op)
+{
+    return t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, op) == 0;
+}
 
 bool
 qdot_cursor_is_op(const qdot_cursor *c, const char *op)
@@ -62,6 +69,54 @@ qdot_cursor_find_word(const qdot_cursor *c, const char *word)
             return t;
         }
     }
+}
+
+/* --- runs of a family ---------------------------------------------------------------- */
+
+bool
+qdot_cursor_has_runs(const qdot_cursor *c, const char *name)
+{
+    size_t n = strlen(name);
+
+    for (size_t i = 0; i < c->session->runs.n; i++) {
+        const char *run = c->session->runs.at[i].name;
+
+        if (strncmp(run, name, n) == 0 && run[n] == '[')
+            return true;
+    }
+    return false;
+}
+
+qdot_status
+qdot_cursor_accept_run(qdot_cursor *c, const qdot_token **run)
+{
+    qdot_cursor look = *c;
+    const qdot_token *behind = c->at + 1;
+    qdot_token *spelled;
+    const char *name;
+    long depth = 0;
+
+    *run = NULL;
+    for (;; behind++) {
+        if (behind->kind == QDOT_TOKEN_END)
+            return QDOT_OK;
+        depth += is_sign(behind, "[");
+        depth -= is_sign(behind, "]");
+        if (depth == 0)
+            break;
+    }
+    if (!is_sign(behind + 1, ".") || !behind[1].glued || !behind[2].glued ||
+        (behind[2].kind != QDOT_TOKEN_NAME && !is_sign(behind + 2, "(")))
+        return QDOT_OK;
+    QDOT_TRY(qdot_read_name(&look, &name));
+    spelled = qdot_arena_take(c->source->arena, sizeof *spelled);
+    if (spelled == NULL)
+        return QDOT_ENOMEM;
+    *spelled = *c->at;
+    spelled->text = name;
+    *run = spelled;
+    c->at = behind + 2;
+    return QDOT_OK;
 }
 
 /* --- errors ------------------------------------------------------------------------- */

@@ -215,8 +215,7 @@ redeclare(qdot_session *session, const char *name, qdot_expr formals)
     for (uint32_t i = 0; i < qdot_expr_count(pool, formals) && status == QDOT_OK; i++)
         status = qdot_vec_push(&args, qdot_expr_arg(pool, formals, i));
     if (status == QDOT_OK)
-        status =
-            qdot_ufun_declare(pool, name, (uint32_t)args.n, args.at, &entry.ufun);
+        status = qdot_ufun_declare(pool, name, (uint32_t)args.n, args.at, &entry.ufun);
     if (status == QDOT_OK) {
         uint32_t before = old->ufun;
 
@@ -243,19 +242,17 @@ qdot_declare_meet_functions(qdot_session *session, const char *name, qdot_expr s
     qdot_status status = QDOT_OK;
     const qdot_name *one;
 
-    for (size_t i = 0; status == QDOT_OK &&
-                       (one = qdot_names_at(session->names, i)) != NULL;
-         i++)
+    for (size_t i = 0;
+         status == QDOT_OK && (one = qdot_names_at(session->names, i)) != NULL; i++)
         if (one->kind == QDOT_NAME_UFUN &&
             rename_formal(session->pool, one->formals, name, symbol) != one->formals)
             status = qdot_vec_push(&met, one->name);
     if (status == QDOT_OK)
         status = qdot_pool_check(session->pool);
     for (size_t i = 0; i < met.n && status == QDOT_OK; i++) {
-        qdot_expr formals =
-            rename_formal(session->pool,
-                          qdot_names_find(session->names, met.at[i])->formals, name,
-                          symbol);
+        qdot_expr formals = rename_formal(
+            session->pool, qdot_names_find(session->names, met.at[i])->formals, name,
+            symbol);
 
         status = qdot_pool_check(session->pool);
         if (status == QDOT_OK)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lang/answer.h"
+#include "lang/code.h"
 #include "lang/draw.h"
 #include "show/show.h"
 
@@ -35,8 +36,17 @@ read_operand(qdot_cursor *c, qdot_draw_operand *o)
     qdot_status status;
     qdot_expr e;
 
-    if (c->at->kind == QDOT_TOKEN_NAME && c->at[1].kind == QDOT_TOKEN_OPERATOR &&
-        strcmp(c->at[1].text, ".") == 0) {
+    if (c->at->kind == QDOT_TOKEN_NAME && qdot_cursor_has_runs(c, c->at->text)) {
+        const qdot_token *run;
+
+        QDOT_TRY(qdot_cursor_accept_run(c, &run));
+        if (run != NULL) {
+            c->error_at = start->start;
+            QDOT_TRY(qdot_number_find_run(c->session, run->text, &named));
+        }
+    }
+    if (named == NULL && c->at->kind == QDOT_TOKEN_NAME &&
+        c->at[1].kind == QDOT_TOKEN_OPERATOR && strcmp(c->at[1].text, ".") == 0) {
         c->error_at = start->start;
         QDOT_TRY(qdot_number_find_run(c->session, c->at->text, &named));
         c->at += 2;
@@ -46,7 +56,7 @@ read_operand(qdot_cursor *c, qdot_draw_operand *o)
     o->run = named != NULL ? named->run : NULL;
     o->vector = qdot_expr_kind(c->session->pool, e) == QDOT_VEC;
     QDOT_TRY(qdot_number_flatten(c->session, e, &o->columns));
-    qdot_statement_text(start, c->at, &label);
+    qdot_statement_text(c->session, start, c->at, &label);
     status = qdot_text_status(&label);
     if (status == QDOT_OK)
         o->label = label.at;

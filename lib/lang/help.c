@@ -73,10 +73,13 @@ explain(qdot_text *text, const char *usage, const char *summary, const char *exa
 static const struct {
     const char *word, *usage, *summary, *example;
 } topics[] = {
-    {"for", "STATEMENT for K = A..B [, J = C..D] | STATEMENT for K = [LIST] | { ... } for ...",
-     "the statement or the block once for each value, in order", "print k^2 for k = 1..3"},
+    {"for",
+     "STATEMENT for K = A..B [, J = C..D] | STATEMENT for K = [LIST] | { ... } for ...",
+     "the statement or the block once for each value, in order",
+     "print k^2 for k = 1..3"},
     {"to", "STATEMENT to \"FILE\"",
-     "its answer goes to a file; type by ending: .txt .tex .json, figures .svg .png .pdf, "
+     "its answer goes to a file; type by ending: .txt .tex .json, figures .svg .png "
+     ".pdf, "
      "tables .csv .txt",
      "eom to \"eom.tex\""},
     {"pi", "pi", "the number 3.14159...; it stays exact", "cos(pi)"},

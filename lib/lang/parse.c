@@ -32,10 +32,9 @@ typedef enum {
 typedef struct {
     uint8_t kind; /* waiting_kind */
     uint8_t primes;
-    const qdot_token
-        *token; /* the operator's last sign; what opened the bracket */
-    const qdot_token *name; /* of IN_SUM: its index */
-    uint32_t count;         /* operands or arguments complete so far */
+    const qdot_token *token; /* the operator's last sign; what opened the bracket */
+    const qdot_token *name;  /* of IN_SUM: its index */
+    uint32_t count;          /* operands or arguments complete so far */
     uint32_t columns, indices, at;
 } waiting;
 
@@ -269,6 +268,15 @@ name(parser *p)
         p->c->at++;
         return push(p, OP_MEMBER, t);
     }
+    if (is_op(next, "[") && next->glued && qdot_cursor_has_runs(p->c, t->text)) {
+        const qdot_token *run;
+
+        p->c->at = t;
+        QDOT_TRY(qdot_cursor_accept_run(p->c, &run));
+        if (run != NULL)
+            return push(p, OP_MEMBER, run);
+        p->c->at = t + 1;
+    }
     n = primes(p);
     next = p->c->at;
     if (is_op(next, "(") && (n == 0 || next->glued) &&
@@ -428,6 +436,14 @@ row(parser *p)
         return fail_at(p, p->c->at, QDOT_ETYPE);
     }
     p->c->at++;
+    if (is_op(p->c->at, "]")) { /* [a, b;], a matrix of one row */
+        waiting whole = *w;
+
+        p->c->at++;
+        p->stack.n--;
+        p->depth--;
+        return emit(p, QDOT_CODE_MATRIX, whole.token, whole.count, whole.columns, 0);
+    }
     p->operand = true;
     return QDOT_OK;
 }

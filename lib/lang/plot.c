@@ -321,7 +321,7 @@ curves_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, figure *f)
 
         QDOT_TRY(qdot_read_scalar(c, &e));
         c->error_at = start->start;
-        qdot_statement_text(start, c->at, &label);
+        qdot_statement_text(c->session, start, c->at, &label);
         e = replace_indices(session, loop, e, &label);
         status = qdot_pool_check(session->pool);
         if (status == QDOT_OK)

@@ -13,17 +13,17 @@
 /* --- sources and tokens --------------------------------------------------------------- */
 
 typedef enum {
-    QDOT_TOKEN_END,      /* end of the statement: newline, `;`, end of the source */
-    QDOT_TOKEN_NUMBER,   /* "9.81" */
-    QDOT_TOKEN_NAME,     /* Greek letters spelled: "theta1" */
-    QDOT_TOKEN_STRING,   /* text without its quotes */
-    QDOT_TOKEN_OPERATOR  /* ( ) [ ] { } , ; : . .. ' + - * / ^ = == < <= > >= % ... */
+    QDOT_TOKEN_END,     /* end of the statement: newline, `;`, end of the source */
+    QDOT_TOKEN_NUMBER,  /* "9.81" */
+    QDOT_TOKEN_NAME,    /* Greek letters spelled: "theta1" */
+    QDOT_TOKEN_STRING,  /* text without its quotes */
+    QDOT_TOKEN_OPERATOR /* ( ) [ ] { } , ; : . .. ' + - * / ^ = == < <= > >= % ... */
 } qdot_token_kind;
 
 typedef struct {
     uint8_t kind;
-    bool glued;       /* no blank before it */
-    const char *text; /* NUL-terminated, in the source's arena */
+    bool glued;             /* no blank before it */
+    const char *text;       /* NUL-terminated, in the source's arena */
     uint32_t start, length; /* bytes in the source */
 } qdot_token;
 
@@ -41,8 +41,9 @@ typedef struct qdot_source {
  *
  * Blank statements leave no token: an END follows each statement, one also stands before `}`, none
  * directly after `{`. A source of nothing is one END. */
-QDOT_MUST_CHECK qdot_status qdot_source_new(const char *name, const char *text, size_t length,
-                                            qdot_source **source, size_t *at);
+QDOT_MUST_CHECK qdot_status qdot_source_new(const char *name, const char *text,
+                                            size_t length, qdot_source **source,
+                                            size_t *at);
 void qdot_source_free(qdot_source *source);
 
 /* Where a byte is: line and column from 1 (columns count characters). */
@@ -58,13 +59,14 @@ void qdot_source_report(const qdot_source *source, size_t at, const qdot_error *
 typedef struct {
     qdot_session *session;
     const qdot_source *source;
-    const qdot_token *at; /* the next token; tokens[i] with kind END ends every statement */
-    size_t error_at;      /* byte where the last error is; set by every reader that fails */
+    const qdot_token
+        *at;         /* the next token; tokens[i] with kind END ends every statement */
+    size_t error_at; /* byte where the last error is; set by every reader that fails */
 } qdot_cursor;
 
 bool qdot_cursor_is_op(const qdot_cursor *c, const char *op);
 bool qdot_cursor_is_word(const qdot_cursor *c, const char *word);
-bool qdot_cursor_accept_op(qdot_cursor *c, const char *op);     /* and step over it */
+bool qdot_cursor_accept_op(qdot_cursor *c, const char *op); /* and step over it */
 bool qdot_cursor_accept_word(qdot_cursor *c, const char *word);
 bool qdot_cursor_is_end(const qdot_cursor *c);
 /* Fail at the next token: "expected WHAT, found `...`". With hint for a missing `*`, other systems'
@@ -88,7 +90,8 @@ QDOT_MUST_CHECK qdot_status qdot_read_point(qdot_cursor *c, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_read_number(qdot_cursor *c, double *value);
 QDOT_MUST_CHECK qdot_status qdot_read_integer(qdot_cursor *c, long *value);
 /* a..b, exact. */
-QDOT_MUST_CHECK qdot_status qdot_read_range(qdot_cursor *c, qdot_expr *from, qdot_expr *to);
+QDOT_MUST_CHECK qdot_status qdot_read_range(qdot_cursor *c, qdot_expr *from,
+                                            qdot_expr *to);
 /* A name to be declared or a label, with its indices evaluated: "theta[1]", "A[1,2]". The string is in
  * the source's arena. */
 QDOT_MUST_CHECK qdot_status qdot_read_name(qdot_cursor *c, const char **name);
@@ -112,7 +115,7 @@ typedef struct {
     qdot_status (*call)(qdot_session *session, uint32_t n, const qdot_expr *args,
                         qdot_expr *value);
     const char *usage, *summary, *example; /* for help */
-    unsigned flags; /* QDOT_BUILTIN_... */
+    unsigned flags;                        /* QDOT_BUILTIN_... */
     /* the coordinates (a LIST) that the entries of its value go by, `metric(R)[r, phi]`; NULL */
     qdot_expr (*over)(qdot_session *session, uint32_t n, const qdot_expr *args);
 } qdot_builtin;

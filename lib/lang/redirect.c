@@ -69,8 +69,9 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
         return QDOT_OK;
     }
     (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: this answer in a file `%s`", ending);
-    return qdot_hint("`.txt`, `.tex` and `.json` are built; figures and tables: `help plot`, "
-                     "`help table`");
+    return qdot_hint(
+        "`.txt`, `.tex` and `.json` are built; figures and tables: `help plot`, "
+        "`help table`");
 }
 
 static qdot_status

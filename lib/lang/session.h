@@ -24,7 +24,7 @@ typedef struct {
 } qdot_measured;
 
 typedef struct {
-    char *name;     /* "a", "run1" */
+    char *name; /* "a", "run1" */
     qdot_run *run;
 } qdot_named_run;
 
@@ -37,17 +37,18 @@ typedef struct qdot_session {
     bool json, timing, interactive;
     FILE *console; /* while answers go to a file: where notices go; else NULL */
     bool console_json;
-    bool failed;  /* the latest text or file stopped at an error */
-    bool refuted; /* a check was refuted: exit 1 at the end */
-    qdot_vec(qdot_expr) history;                     /* %1 is history.at[0] */
+    bool failed;                 /* the latest text or file stopped at an error */
+    bool refuted;                /* a check was refuted: exit 1 at the end */
+    qdot_vec(qdot_expr) history; /* %1 is history.at[0] */
     qdot_vec(qdot_measured) measured;
-    qdot_vec(qdot_expr) set_symbols, set_values;     /* values of parameters, the latest */
+    qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
     qdot_vec(qdot_named_run) runs;
-    qdot_vec(char *) including; /* files being read, for include cycles and relative paths */
-    size_t figures; /* NAME-1.svg ... */
-    bool quit;      /* `quit` was said */
-    size_t loops;   /* loops under way: what they hold must outlive them */
+    qdot_vec(
+        char *) including; /* files being read, for include cycles and relative paths */
+    size_t figures;        /* NAME-1.svg ... */
+    bool quit;             /* `quit` was said */
+    size_t loops;          /* loops under way: what they hold must outlive them */
 } qdot_session;
 
 qdot_session *qdot_session_new(FILE *out, FILE *err); /* NULL: no memory */
@@ -66,8 +67,9 @@ bool qdot_session_incomplete(const char *text, size_t length);
 
 /* Completions of a word prefix: statement words, functions, values, declared names; sorted, unique.
  * *words [*n] and each owned by the caller (qdot_free). */
-QDOT_MUST_CHECK qdot_status qdot_session_complete(qdot_session *session, const char *prefix,
-                                                  char ***words, size_t *n);
+QDOT_MUST_CHECK qdot_status qdot_session_complete(qdot_session *session,
+                                                  const char *prefix, char ***words,
+                                                  size_t *n);
 
 /* e with the values of parameters (`set`, `param x = v`) put in; exact. Repeated, as values may
  * hold other parameters; a cycle is QDOT_EINVAL. */

@@ -486,8 +486,29 @@ is_spaced(const qdot_token *token)
     return false;
 }
 
+/* The value of a loop's index in place of its name; false: the name is none. */
+static bool
+add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
+{
+    const qdot_name *name = token->kind == QDOT_TOKEN_NAME
+                                ? qdot_names_find(session->names, token->text)
+                                : NULL;
+    qdot_text value = {0};
+    bool printed, whole;
+
+    if (name == NULL || name->kind != QDOT_NAME_INDEX)
+        return false;
+    printed = qdot_print(session->pool, name->value, QDOT_PLAIN, &value) == QDOT_OK;
+    whole = strspn(qdot_text_str(&value), "0123456789") == value.n;
+    if (printed)
+        qdot_text_format(out, whole ? "%s" : "(%s)", qdot_text_str(&value));
+    qdot_text_clear(&value);
+    return printed;
+}
+
 void
-qdot_statement_text(const qdot_token *from, const qdot_token *to, qdot_text *out)
+qdot_statement_text(qdot_session *session, const qdot_token *from, const qdot_token *to,
+                    qdot_text *out)
 {
     for (const qdot_token *k = from; k < to; k++) {
         bool binary = k > from && ends_operand(k - 1) && is_spaced(k);
@@ -499,7 +520,7 @@ qdot_statement_text(const qdot_token *from, const qdot_token *to, qdot_text *out
         qdot_text_add(out, binary || words ? " " : "");
         if (k->kind == QDOT_TOKEN_STRING)
             qdot_text_format(out, "\"%s\"", k->text);
-        else
+        else if (!add_index(session, k, out))
             qdot_text_add(out, k->text);
         if (binary || ((is_op(k, ",") || is_op(k, ";")) && k + 1 < to))
             qdot_text_char(out, ' ');

@@ -73,8 +73,10 @@ void qdot_loop_end(qdot_loop *loop);
 /* Take a declared name's file and line from the token at `start`. */
 void qdot_statement_place(const qdot_cursor *c, const qdot_token *start,
                           qdot_name *entry);
-/* The source text of the tokens [from, to), spaces as a person would set them. */
-void qdot_statement_text(const qdot_token *from, const qdot_token *to, qdot_text *out);
+/* The source text of the tokens [from, to), spaces as a person would set them; an index
+ * of a loop under way is replaced by its value. */
+void qdot_statement_text(qdot_session *session, const qdot_token *from,
+                         const qdot_token *to, qdot_text *out);
 /* An option that may be given once: QDOT_EINVAL if `given`, at the option's word. */
 QDOT_MUST_CHECK qdot_status qdot_statement_once(qdot_cursor *c, const char *word,
                                                 bool given);
