@@ -341,7 +341,7 @@ qdot_number_value(qdot_session *session, const char *run, uint32_t n,
     qdot_number_columns columns = {0};
     qdot_vec(qdot_expr) symbols = {0};
     double *values = NULL, time;
-    qdot_named_run *named;
+    qdot_named_run *named = NULL;
     qdot_status status;
 
     if (n < 2) {
