@@ -105,6 +105,7 @@ normal_sources = \
 	lib/normal/solve-factors.c \
 	lib/normal/solve.c \
 	lib/normal/split.c \
+	lib/normal/squares.c \
 	lib/normal/trig-form.c \
 	lib/normal/unify.c \
 	lib/normal/value.c \
@@ -144,6 +145,7 @@ tape_sources = \
 	lib/tape/keymap.c \
 	lib/tape/lower.c \
 	lib/tape/tape.c \
+	lib/tape/taylor-order.c \
 	lib/tape/taylor.c
 
 tape_headers = \
@@ -154,6 +156,7 @@ tape_headers = \
 	lib/tape/operation.def \
 	lib/tape/shake.h \
 	lib/tape/tape.h \
+	lib/tape/taylor-steps.h \
 	lib/tape/taylor.h
 
 mech_sources = \

@@ -7,8 +7,8 @@
  *   FROM TO   exponents of the first and last tolerance, STEPS a decade
  *   MOST      seconds: no tighter tolerance after a run that takes longer
  *
- * A line a tolerance: `tol seconds evaluations y...`, or `tol failed`. Tolerances are both
- * absolute and relative. A run of less than 2 ms is repeated, and the mean taken.
+ * A line a tolerance: `tol seconds evaluations y...`, or `tol failed`. Tolerances are
+ * both absolute and relative. A run of less than 2 ms is repeated, and the mean taken.
  */
 #include <chrono>
 #include <cstdio>
@@ -41,7 +41,7 @@ seconds()
     return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-/* --- GSL ---------------------------------------------------------------------------------- */
+/* --- GSL ---------------------------------------------------------------------------- */
 
 template <class S> static int
 gsl_f(double, const double *y, double *d, void *)
@@ -64,7 +64,7 @@ rk8pd(double *y, double tol)
     return status == GSL_SUCCESS;
 }
 
-/* --- Boost.odeint ------------------------------------------------------------------------- */
+/* --- Boost.odeint ------------------------------------------------------------------- */
 
 template <class S> static bool
 rkf78(double *y, double tol)
@@ -85,7 +85,7 @@ rkf78(double *y, double tol)
     return true;
 }
 
-/* --- SUNDIALS ----------------------------------------------------------------------------- */
+/* --- SUNDIALS ----------------------------------------------------------------------- */
 
 template <class S> static int
 sundials_f(realtype, N_Vector y, N_Vector d, void *)
@@ -147,7 +147,7 @@ fehlberg(double *y, double tol)
     return good;
 }
 
-/* --- the ladder --------------------------------------------------------------------------- */
+/* --- the ladder --------------------------------------------------------------------- */
 
 template <class S> static bool
 hairer(double *y, double tol)

@@ -1,9 +1,10 @@
 /* reference -- end states of the scenes, in 113 bits, for bench/peers/reference.
  *
- *   reference SCENE
+ *   reference SCENE [TOLERANCE]
  *
- * DOP853 in __float128 at two tolerances, chains by their tensions, and what the two differ
- * by, relative to max(1, |y|). The coefficients have 30 digits: nothing below 1e-28 counts.
+ * DOP853 in __float128 at two tolerances, chains by their tensions, and what the two
+ * differ by, relative to max(1, |y|). The coefficients have 30 digits: nothing below
+ * 1e-28 counts. Build: g++ -std=gnu++17 -O2 -I../../lib reference.cc -lquadmath
  */
 #include <cstdio>
 

@@ -1,7 +1,7 @@
 /* scenes.hh -- the scenes of bench/numeric as their users write them: y' = f(y) by hand.
  *
  * y holds the coordinates, then the velocities. T is double, or __float128 for the
- * references. Masses and lengths are 1, g = 9.81; bench/peers/scene has the same for qdot.
+ * references. Masses and lengths are 1, g = 9.81; peers/scene has the same for qdot.
  */
 #ifndef BENCH_PEERS_SCENES_HH
 #define BENCH_PEERS_SCENES_HH
@@ -18,7 +18,7 @@ inline __float128 root(__float128 x) { return sqrtq(x); }
 template <class T> const T gravity = T(981) / 100;
 template <class T> const T pi = T(M_PIq);
 
-/* --- one and two bodies ------------------------------------------------------------------ */
+/* --- one and two bodies ------------------------------------------------------------- */
 
 struct pendulum {
     static constexpr int size = 2;
@@ -111,7 +111,7 @@ struct stiff_spring {
     }
 };
 
-/* --- chains of N links, from horizontal rest ---------------------------------------------- */
+/* --- chains of N links, from horizontal rest ---------------------------------------- */
 
 template <int N> struct chain_start {
     static constexpr int size = 2 * N;
@@ -169,8 +169,8 @@ template <int N> struct chain : chain_start<N> {
     }
 };
 
-/* With u_k along link k and a_k the acceleration of bob k: a_k = -T_k u_k + T_(k+1) u_(k+1)
- * + g, and (a_k - a_(k-1)).u_k = -w_k^2 is a tridiagonal system for the tensions. */
+/* With u_k along link k and a_k the acceleration of bob k, a_k = -T_k u_k + T_k+1 u_k+1
+ * + g, and (a_k - a_k-1).u_k = -w_k^2 is a tridiagonal system for the tensions. */
 template <int N> struct chain_linear : chain_start<N> {
     template <class T> static void f(const T *y, T *d)
     {

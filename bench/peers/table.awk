@@ -1,5 +1,5 @@
-# table.awk -- from points `who scene tol seconds whole error` (several rounds) to two tables:
-# the time to an end error, and the smallest error anyone reached.
+# table.awk -- from points `who scene tol seconds whole error` of several rounds to two
+# tables: the time to an end error, and the smallest error anyone reached.
 
 function median(list,    part, n, i, j, x) {
     n = split(list, part, " ")
@@ -86,8 +86,8 @@ END {
     linear = "rk8pd_linear dop853_linear rkf78_linear adams_linear fehlberg_linear"
     columns = split("rk8pd dop853 rkf78 adams fehlberg scipy", column, " ")
 
-    print "# milliseconds to an end error; ratios of qdot's integration to the fastest by hand,"
-    print "# to rk8pd, and (chains) to the fastest by hand of the O(N) form"
+    print "# milliseconds to an end error; qdot's integration over that of the fastest by"
+    print "# hand, of rk8pd, and (chains) of the fastest by hand in the O(N) form"
     printf "%-15s %-6s %8s %8s", "# scene", "error", "qdot", "whole"
     for (c = 1; c <= columns; c++)
         printf " %8s", column[c]

@@ -53,7 +53,7 @@ qdot_mech_dalembert(qdot_scene *s, qdot_dalembert_term **terms, size_t *n, qdot_
     if (!*terms)
         return QDOT_ENOMEM;
     for (size_t p = 0; p < k->terms.n; p++)
-        (*terms)[(*n)++] = (qdot_dalembert_term){k->terms.at[p].w, k->terms.at[p].x,
-                                                 k->terms.at[p].y};
+        (*terms)[(*n)++] =
+            (qdot_dalembert_term){k->terms.at[p].w, k->terms.at[p].x, k->terms.at[p].y};
     return QDOT_OK;
 }

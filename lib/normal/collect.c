@@ -231,6 +231,8 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
         }
         if (all_moving(f, &groups))
             qdot_form_keep(pool, &best, say_product(form, p, c));
+        if (!qdot_form_has_trig(form, p))
+            qdot_form_keep(pool, &best, qdot_form_squares(form, p, c));
     }
     fmpz_mpoly_clear(g, f->ctx);
     fmpz_mpoly_clear(unit, f->ctx);

@@ -18,8 +18,8 @@
 bool
 qdot_is_constant(const qdot_pool *pool, qdot_expr e)
 {
-    return (qdot_expr_node(pool, e)->holds & ~(uint32_t)(QDOT_HAS_FUN | 1 << QDOT_CONST)) ==
-           0;
+    return (qdot_expr_node(pool, e)->holds &
+            ~(uint32_t)(QDOT_HAS_FUN | 1 << QDOT_CONST)) == 0;
 }
 
 /* log2 of the bounds of conjugates, rounded up. */

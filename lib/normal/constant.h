@@ -32,7 +32,8 @@ typedef enum {
 } qdot_constant_sign;
 
 /* Of e, a scalar without symbols (pi may occur). A sign is found by enclosures whatever
- * the functions in e; zero only for algebraic numbers. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+ * the functions in e; zero only for algebraic numbers. Errors: QDOT_ENOMEM,
+ * QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_constant_decide(qdot_pool *pool, qdot_expr e,
                                                  qdot_constant_sign *sign);
 

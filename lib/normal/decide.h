@@ -1,11 +1,15 @@
 /* decide.h -- is it zero? An exact normal form, else refutation in balls, else undecided.
  *
- * Class with a proof: rational functions over Q of symbols of every class, undefined functions and their
- * derivatives (modulo relations polynomial in these), sin, cos, sinh, cosh (tan, sec, csc, cot, tanh
- * rewritten by them) of rational combinations of symbols and products of symbols (omega*t), square roots as
- * algebraic generators; a multivariate polynomial normal form (FLINT) modulo s^2 + c^2 = 1 and C^2 - S^2 = 1.
- * Anything else (abs(...), log(...), exp(...), x^a) counts as an independent generator: a zero found is
- * still a proof; a nonzero is then only decided by refutation.
+ * Class with a proof: rational functions over Q of symbols of every class, undefined
+ * functions and their derivatives (modulo relations polynomial in these); sin, cos, sinh,
+ * cosh (tan, sec, csc, cot, tanh by them) and exp of rational combinations of symbols and
+ * products of symbols (omega*t) with rational multiples of pi; roots and absolute values,
+ * nested ones too, with declared signs and conditions (zero.h, domain.h); algebraic
+ * constants (constant.h); inverse functions, log, max, min and powers by rules
+ * (rewrite.h); undefined functions of equal arguments (unify.h). A multivariate
+ * polynomial normal form (FLINT) modulo s^2 + c^2 = 1, C^2 - S^2 = 1, r^k = b. What is
+ * outside counts as an independent generator: a zero found is still a proof; a nonzero is
+ * then only decided by refutation.
  *
  * A refutation is a point inside the declared domains at which the ball of left - right (Arb) does not
  * contain 0: never rounding.
@@ -28,9 +32,9 @@ typedef struct {
 
 typedef struct {
     qdot_verdict verdict;
-    qdot_expr at;            /* refuted: a LIST of equations symbol = number, the point */
-    double left, right;      /* refuted: the values there */
-    int digits;              /* undecided: agreed to so many digits at `points` points */
+    qdot_expr at;       /* refuted: a LIST of equations symbol = number, the point */
+    double left, right; /* refuted: the values there */
+    int digits;         /* undecided: agreed to so many digits at `points` points */
     int points;
 } qdot_decision;
 
@@ -44,15 +48,16 @@ QDOT_MUST_CHECK qdot_status qdot_decide_equal(qdot_pool *pool, qdot_expr left,
 bool qdot_is_zero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
 /* Decide left < right (or <=) from signs and declared domains; else refute by a point. */
-QDOT_MUST_CHECK qdot_status qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right,
-                                             bool strict, const qdot_facts *facts,
+QDOT_MUST_CHECK qdot_status qdot_decide_less(qdot_pool *pool, qdot_expr left,
+                                             qdot_expr right, bool strict,
+                                             const qdot_facts *facts,
                                              qdot_decision *decision);
 
 /* Two equations are equal when one residual is the other times a factor free of velocities and
  * accelerations that is nonzero inside the declared domains. a, b: residuals. *factor: the
  * factor if proved; *may_vanish: it could be zero somewhere in the domains (a notice is due). */
-QDOT_MUST_CHECK qdot_status qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b,
-                                                     const qdot_facts *facts,
+QDOT_MUST_CHECK qdot_status qdot_decide_proportional(qdot_pool *pool, qdot_expr a,
+                                                     qdot_expr b, const qdot_facts *facts,
                                                      qdot_decision *decision,
                                                      qdot_expr *factor, bool *may_vanish);
 #endif

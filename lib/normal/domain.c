@@ -13,14 +13,15 @@ typedef struct {
     qdot_pool *pool;
     size_t n;
     qdot_expr *e;
-    qdot_exprs gap;     /* > 0, or >= 0 where weak */
+    qdot_exprs gap; /* > 0, or >= 0 where weak */
     qdot_vec(bool) weak;
     bool changed;
 } job;
 
 /* A symbol y with lo < y (or <=), y < hi, the only one of these bounds in place of x. */
 static qdot_expr
-fresh(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi, bool hi_open)
+fresh(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi,
+      bool hi_open)
 {
     char name[80];
     qdot_expr y;
@@ -60,7 +61,7 @@ add_gap(job *j, qdot_expr gap, bool weak)
     return qdot_vec_push(&j->weak, weak);
 }
 
-/* --- bounds of a symbol -------------------------------------------------------------- */
+/* --- bounds of a symbol -------------------------------------------------------- */
 
 /* Whether a < b for constants, surely. */
 static bool
@@ -125,7 +126,7 @@ move(job *j, qdot_expr x, qdot_symbol s)
     }
 }
 
-/* --- conditions ----------------------------------------------------------------------- */
+/* --- conditions ----------------------------------------------------------------- */
 
 static uint32_t
 count_terms(const qdot_pool *pool, qdot_expr e)
@@ -216,7 +217,7 @@ solve_gap(job *j, qdot_expr gap, bool weak)
     return false;
 }
 
-/* --- relations ------------------------------------------------------------------------ */
+/* --- relations ------------------------------------------------------------------ */
 
 /* r = a x + b with a never zero and neither holding x: *to is -b/a. */
 static bool
@@ -271,7 +272,7 @@ solve_relations(job *j, size_t nr)
     return QDOT_OK;
 }
 
-/* --- all ------------------------------------------------------------------------------ */
+/* --- all ------------------------------------------------------------------------ */
 
 /* The gaps of the conditions, and of declared bounds that hold symbols. */
 static qdot_status

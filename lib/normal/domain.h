@@ -16,8 +16,9 @@
 
 typedef qdot_vec(qdot_expr) qdot_exprs;
 
-/* Rewrite e[n] in place; the last nr of them are relations, 0 once solved. *positive gets what conditions say to be > 0 and was not
- * solved; *changed: whether anything was rewritten or is in *positive. */
+/* Rewrite e[n] in place; the last nr of them are relations, 0 once solved. *positive gets
+ * what conditions say to be > 0 and was not solved; *changed: whether anything was
+ * rewritten or is in *positive. */
 QDOT_MUST_CHECK qdot_status qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts,
                                                size_t n, qdot_expr *e, size_t nr,
                                                qdot_exprs *positive, bool *changed);

@@ -164,8 +164,8 @@ part(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong 
 }
 
 /* Bounded by MOST_DEPTH levels and MOST_HORNER terms, whatever the input. */
-static qdot_expr
-horner(qdot_form *form, const fmpz_mpoly_t p)
+qdot_expr
+qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     qdot_pool *pool = f->pool;
@@ -193,7 +193,8 @@ horner(qdot_form *form, const fmpz_mpoly_t p)
         qdot_expr x = qdot_pow_int(pool, f->gen[v].expr, (long)power);
 
         part(f, q, r, rest, v, power);
-        x = qdot_add(pool, qdot_mul(pool, x, horner(form, q)), horner(form, r));
+        x = qdot_add(pool, qdot_mul(pool, x, qdot_form_horner(form, q)),
+                     qdot_form_horner(form, r));
         qdot_form_keep(pool, &best, qdot_mul(pool, factor, x));
     }
     form->depth--;
@@ -201,6 +202,42 @@ horner(qdot_form *form, const fmpz_mpoly_t p)
     fmpz_mpoly_clear(q, f->ctx);
     fmpz_mpoly_clear(r, f->ctx);
     fmpz_clear(c);
+    return best;
+}
+
+/* Content out, then squares. */
+static qdot_expr
+squares(qdot_form *form, const fmpz_mpoly_t p)
+{
+    qdot_field *f = form->f;
+    fmpz_mpoly_t rest;
+    qdot_expr factor, e;
+    fmpq_t one;
+    fmpz_t c;
+
+    if (fmpz_mpoly_length(p, f->ctx) < 4)
+        return QDOT_NIL;
+    fmpq_init(one);
+    fmpq_one(one);
+    fmpz_init(c);
+    fmpz_mpoly_init(rest, f->ctx);
+    factor = take_content(f, rest, c, p);
+    e = qdot_form_squares(form, rest, one);
+    if (e != QDOT_NIL)
+        e = qdot_mul(f->pool, qdot_mul(f->pool, qdot_form_integer(f->pool, c), factor),
+                     e);
+    fmpz_mpoly_clear(rest, f->ctx);
+    fmpz_clear(c);
+    fmpq_clear(one);
+    return e;
+}
+
+static qdot_expr
+sum_or_squares(qdot_form *form, const fmpz_mpoly_t p)
+{
+    qdot_expr best = qdot_form_horner(form, p);
+
+    qdot_form_keep(form->f->pool, &best, squares(form, p));
     return best;
 }
 
@@ -216,14 +253,15 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
         return best;
     if (fmpz_mpoly_length(p, f->ctx) <= 1)
         return qdot_field_expr(f, p);
-    best = horner(form, p);
+    best = sum_or_squares(form, p);
     if (fmpz_mpoly_length(p, f->ctx) > 2 || fmpz_mpoly_total_degree_si(p, f->ctx) > 1) {
         if (qdot_factor(f, &factors, p) == QDOT_OK) {
             product = qdot_form_integer(f->pool, factors.content);
             for (slong i = 0; i < factors.n; i++)
-                product = qdot_mul(f->pool, product,
-                                   qdot_pow_int(f->pool, horner(form, factors.poly + i),
-                                                factors.exp[i]));
+                product =
+                    qdot_mul(f->pool, product,
+                             qdot_pow_int(f->pool, sum_or_squares(form, factors.poly + i),
+                                          factors.exp[i]));
             qdot_form_keep(f->pool, &best, product);
         }
         qdot_factor_clear(f, &factors);
@@ -319,8 +357,8 @@ say_groups(qdot_form *form, const fmpz_mpoly_t p, bool by_trig)
     return status == QDOT_OK ? sum : qdot_pool_fail(f->pool);
 }
 
-static bool
-has_trig(const qdot_form *form, const fmpz_mpoly_t p)
+bool
+qdot_form_has_trig(const qdot_form *form, const fmpz_mpoly_t p)
 {
     for (slong v = 0; v < form->f->n; v++)
         if (form->trig[v] && fmpz_mpoly_degree_si(p, v, form->f->ctx) > 0)
@@ -335,8 +373,8 @@ say_sum(qdot_form *form, const fmpz_mpoly_t p)
     qdot_field *f = form->f;
     qdot_expr best = QDOT_NIL;
 
-    if (!has_trig(form, p))
-        return horner(form, p);
+    if (!qdot_form_has_trig(form, p))
+        return qdot_form_horner(form, p);
     if (fmpz_mpoly_length(p, f->ctx) > MOST_GROUPS)
         return qdot_field_expr(f, p);
     qdot_form_keep(f->pool, &best, say_groups(form, p, false));
@@ -372,7 +410,7 @@ qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p)
     fmpz_mpoly_t rest, flipped;
     fmpz_t c;
 
-    if (!has_trig(form, p))
+    if (!qdot_form_has_trig(form, p))
         return qdot_form_plain(form, p);
     best = qdot_form_recall(form, p);
     if (best != QDOT_NIL)

@@ -29,6 +29,15 @@ qdot_expr qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p);
 /* The same without trigonometric variables. */
 qdot_expr qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p);
 
+bool qdot_form_has_trig(const qdot_form *form, const fmpz_mpoly_t p);
+
+/* Without trigonometric variables: as a sum, common powers out. */
+qdot_expr qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p);
+
+/* c p as a sum of squares of two terms and what is left, each times c (squares.c); nil if
+ * there are none. */
+qdot_expr qdot_form_squares(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
+
 qdot_expr qdot_form_integer(qdot_pool *pool, const fmpz_t n);
 
 /* A polynomial in trigonometric variables alone (trig-form.c). */

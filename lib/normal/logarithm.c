@@ -36,8 +36,8 @@ as_product(qdot_field *f, const fmpz_mpoly_t p)
                 at = at < 0 && exp[v] == 1 && is_logarithm(f, v) ? v : f->n;
         fmpz_mpoly_get_term_coeff_fmpz(k, p, i, f->ctx);
         fmpz_divexact(k, k, content);
-        if (at < 0 || at == f->n ||
-            fmpz_cmp_si(k, MOST_POWER) > 0 || fmpz_cmp_si(k, -MOST_POWER) < 0)
+        if (at < 0 || at == f->n || fmpz_cmp_si(k, MOST_POWER) > 0 ||
+            fmpz_cmp_si(k, -MOST_POWER) < 0)
             e = QDOT_NIL;
         else
             e = qdot_mul(f->pool, e,

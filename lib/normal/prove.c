@@ -138,10 +138,9 @@ unfold(struct problem *p, const qdot_facts *facts, bool *changed)
     qdot_exprs positive = {0};
     qdot_status status =
         qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, p->nr, &positive, changed);
-    qdot_expr *all =
-        status == QDOT_OK
-            ? qdot_realloc(p->e, (2 + p->nr + positive.n + 1) * sizeof *all)
-            : NULL;
+    qdot_expr *all = status == QDOT_OK
+                         ? qdot_realloc(p->e, (2 + p->nr + positive.n + 1) * sizeof *all)
+                         : NULL;
 
     if (all != NULL) {
         p->e = all;
@@ -174,7 +173,8 @@ qdot_prove_harder(qdot_pool *pool, qdot_expr left, qdot_expr right,
     if (status == QDOT_OK)
         status = in_field(&p, true, equal);
     changed = true;
-    for (int round = 0; round < ROUNDS && status == QDOT_OK && changed && !*equal; round++) {
+    for (int round = 0; round < ROUNDS && status == QDOT_OK && changed && !*equal;
+         round++) {
         own = (qdot_facts){.n_relations = p.nr, .relations = p.e + 2};
         status = qdot_unify(pool, count(&p), p.e, &own, false, &changed);
         if (status == QDOT_OK && changed)

@@ -9,7 +9,7 @@
 #include "normal/ideal.h"
 #include "normal/prepare.h"
 
-enum { WORK = 4000000, MOST_TERMS = 2000, MOST_SPREAD = 16, MOST_TURNS = 4 };
+enum { WORK = QDOT_SIMPLIFY_WORK, MOST_TERMS = 2000, MOST_SPREAD = 16, MOST_TURNS = 4 };
 
 /* --- tan and cot ------------------------------------------------------------------- */
 
@@ -141,6 +141,7 @@ struct simplifier {
     qdot_field *f;
     qdot_form form;
     qdot_expr best;
+    bool too_long; /* the quotient was: no form was tried */
 };
 
 static void
@@ -312,8 +313,10 @@ all_candidates(struct simplifier *s, const qdot_ratio *r)
 {
     qdot_field *f = s->f;
 
-    if (fmpz_mpoly_length(r->n, f->ctx) + fmpz_mpoly_length(r->d, f->ctx) > MOST_TERMS)
+    if (fmpz_mpoly_length(r->n, f->ctx) + fmpz_mpoly_length(r->d, f->ctx) > MOST_TERMS) {
+        s->too_long = true;
         return;
+    }
     say(s, r);
     if (has_trig(s, r->d)) {
         say_turned(s, r);
@@ -406,10 +409,17 @@ forgive(qdot_pool *pool)
         qdot_pool_fail(pool);
 }
 
+struct request {
+    const qdot_facts *facts;
+    int64_t work; /* the budget of one scalar */
+    bool spent;   /* some budget was */
+};
+
+/* What stands inside functions and under roots is left as it is. */
 static qdot_expr
-simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
+outer(qdot_pool *pool, qdot_expr e, struct request *request)
 {
-    const qdot_facts *facts = user;
+    const qdot_facts *facts = request->facts;
     size_t nr = facts == NULL ? 0 : facts->n_relations;
     struct origins origins = {{0}};
     struct simplifier s = {.pool = pool};
@@ -425,7 +435,7 @@ simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
     all[0] = qdot_prepare_from(pool, e, &origins.map);
     for (size_t i = 0; i < nr; i++)
         all[1 + i] = qdot_prepare(pool, facts->relations[i]);
-    qdot_field_begin(&f, pool, nr + 1, all, WORK);
+    qdot_field_begin(&f, pool, nr + 1, all, request->work);
     s.f = &f;
     if (qdot_field_goes(&f) && qdot_form_begin(&s.form, &f) == QDOT_OK) {
         qdot_ratio r;
@@ -447,6 +457,7 @@ simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
     if (f.state == QDOT_FIELD_FAILED &&
         (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
         qdot_pool_fail(pool);
+    request->spent |= f.state == QDOT_FIELD_OVER || s.too_long;
     qdot_field_end(&f);
     qdot_map_clear(&origins.map);
     qdot_free(all);
@@ -457,12 +468,89 @@ simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
     return s.best;
 }
 
+/* A sum of four terms and more, of symbols and their products: a square may be in it. */
+static bool
+is_long(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_SUM && qdot_expr_count(pool, e) >= 7;
+}
+
+static bool
+is_root(const qdot_pool *pool, qdot_expr exponent)
+{
+    const fmpq *x = qdot_expr_rational(pool, exponent);
+
+    return x != NULL && !fmpz_is_one(fmpq_denref(x));
+}
+
+/* Long arguments of functions and long bases of roots, inner ones first. */
+static qdot_expr
+inner(qdot_pool *pool, qdot_expr e, struct request *request)
+{
+    qdot_expr result = e;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return e;
+    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
+        qdot_kind kind = qdot_expr_kind(pool, w.at[i]);
+        uint32_t n = qdot_expr_count(pool, w.at[i]);
+        qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few;
+        bool changed = false;
+
+        if (args == NULL)
+            break;
+        for (uint32_t k = 0; k < n; k++) {
+            qdot_expr old = qdot_expr_arg(pool, w.at[i], k);
+            bool inside = kind == QDOT_FUN || (kind == QDOT_UFUN && 2 * k < n) ||
+                          (kind == QDOT_PROD && k % 2 == 1 &&
+                           is_root(pool, qdot_expr_arg(pool, w.at[i], k + 1)));
+
+            args[k] = (qdot_expr)qdot_walk_get(&w, old);
+            if (inside && is_long(pool, args[k]))
+                args[k] = outer(pool, args[k], request);
+            changed |= args[k] != old;
+        }
+        result = changed ? qdot_rebuild(pool, w.at[i], args) : w.at[i];
+        qdot_walk_set(&w, w.at[i], result);
+        if (args != few)
+            qdot_free(args);
+    }
+    qdot_walk_end(&w);
+    return result;
+}
+
+static qdot_expr
+simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
+{
+    qdot_expr best = outer(pool, e, user);
+
+    if (best != QDOT_NIL && qdot_expr_is_scalar(pool, best))
+        qdot_form_keep(pool, &best, inner(pool, best, user));
+    return best;
+}
+
+qdot_expr
+qdot_simplify_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int64_t work,
+                     bool *spent)
+{
+    struct request request = {.facts = facts, .work = work};
+    qdot_expr result;
+
+    *spent = false;
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    result = qdot_value_map(pool, e, simplify_scalar, &request);
+    *spent = request.spent;
+    return result;
+}
+
 qdot_expr
 qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
-    if (e == QDOT_NIL || qdot_pool_failed(pool))
-        return QDOT_NIL;
-    return qdot_value_map(pool, e, simplify_scalar, (void *)(uintptr_t)facts);
+    bool spent;
+
+    return qdot_simplify_within(pool, e, facts, QDOT_SIMPLIFY_WORK, &spent);
 }
 
 /* --- the normal form itself -------------------------------------------------------- */

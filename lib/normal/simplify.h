@@ -13,13 +13,20 @@
 
 qdot_expr qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
+/* The same with a budget for each scalar, in operations on terms of polynomials;
+ * *spent: whether one was spent, so that there may be a shorter form. */
+enum { QDOT_SIMPLIFY_WORK = 4000000 };
+qdot_expr qdot_simplify_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts,
+                               int64_t work, bool *spent);
+
 /* The exact normal form as an expression: numerator over denominator, coprime, expanded. */
 qdot_expr qdot_normal(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
 /* Solve the n x n linear system A x = b symbolically, fraction-free, zero pivots recognised by
  * the normal form. QDOT_ESINGULAR: *pivot is the column without one. QDOT_ELIMIT past the
  * budget: the message says how large. A [n*n] row-major, b [n], x [n]. */
-QDOT_MUST_CHECK qdot_status qdot_solve_linear(qdot_pool *pool, uint32_t n, const qdot_expr *A,
-                                              const qdot_expr *b, qdot_expr *x,
-                                              uint32_t *pivot, const qdot_facts *facts);
+QDOT_MUST_CHECK qdot_status qdot_solve_linear(qdot_pool *pool, uint32_t n,
+                                              const qdot_expr *A, const qdot_expr *b,
+                                              qdot_expr *x, uint32_t *pivot,
+                                              const qdot_facts *facts);
 #endif

@@ -110,8 +110,7 @@ proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
         k++;
     arb_init(x);
     arb_div(x, j->value[k] + a, b->at + k, 128);
-    fits = arb_is_finite(x) &&
-           small_fraction(c, arf_get_d(arb_midref(x), ARF_RND_NEAR));
+    fits = arb_is_finite(x) && small_fraction(c, arf_get_d(arb_midref(x), ARF_RND_NEAR));
     for (k = 0; k < POINTS && fits; k++) {
         arb_set_fmpq(x, c, 192);
         arb_mul(x, x, b->at + k, 192);
@@ -172,8 +171,7 @@ find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
     return QDOT_OK;
 }
 
-static class
-class_of(const job *j, uint32_t op)
+static class class_of(const job *j, uint32_t op)
 {
     if (j->only_undefined)
         return NONE;
@@ -217,8 +215,8 @@ function(job *j, qdot_expr old, qdot_expr *now)
         args[i] = scaled;
         if (class == ABSOLUTE && any) { /* |c B| = |c| |B| */
             fmpq_abs(c, c);
-            *now = qdot_mul(pool, qdot_expr_fmpq(pool, c),
-                            qdot_fun1(pool, QDOT_ABS, with));
+            *now =
+                qdot_mul(pool, qdot_expr_fmpq(pool, c), qdot_fun1(pool, QDOT_ABS, with));
             any = false;
         } else if (class == LOGARITHM && any) {
             *now = qdot_add(pool, qdot_fun1(pool, QDOT_LOG, qdot_expr_fmpq(pool, c)),
@@ -390,8 +388,8 @@ has_several(const job *j)
              k += 2) {
             long whole;
 
-            count += !qdot_expr_to_int(j->pool,
-                                       qdot_expr_arg(j->pool, j->walk.at[i], k), &whole);
+            count += !qdot_expr_to_int(j->pool, qdot_expr_arg(j->pool, j->walk.at[i], k),
+                                       &whole);
         }
     }
     return count > 1;

@@ -7,7 +7,13 @@
 #include "normal/factor.h"
 #include "normal/sample.h"
 
-enum { MOST_DEPTH = 10, MOST_ORDER = 12, MOST_GROUPS = 200, POINTS = 24, MOST_TERMS = 4000 };
+enum {
+    MOST_DEPTH = 10,
+    MOST_ORDER = 12,
+    MOST_GROUPS = 200,
+    POINTS = 24,
+    MOST_TERMS = 4000
+};
 
 qdot_status
 qdot_zero_begin(qdot_zero *z, qdot_field *f, const qdot_ideal *ideal, size_t n_positive,
@@ -48,8 +54,8 @@ static bool
 has_constants(const qdot_field *f, const fmpz_mpoly_t p)
 {
     for (slong v = 0; v < f->n; v++)
-        if (fmpz_mpoly_degree_si(p, v, f->ctx) > 0 &&
-            f->gen[v].kind != QDOT_GEN_PLAIN && qdot_is_constant(f->pool, f->gen[v].expr))
+        if (fmpz_mpoly_degree_si(p, v, f->ctx) > 0 && f->gen[v].kind != QDOT_GEN_PLAIN &&
+            qdot_is_constant(f->pool, f->gen[v].expr))
             return true;
     return false;
 }
@@ -374,8 +380,8 @@ prove_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
         return QDOT_OK;
     init(f, &s);
     fmpz_mpoly_init(n, f->ctx);
-    if (split_at(f, &s, p, v) && (s.order % 2 != 0 || opposite_signs(z, &s) ||
-                                  only_this_branch(z, p, &s))) {
+    if (split_at(f, &s, p, v) &&
+        (s.order % 2 != 0 || opposite_signs(z, &s) || only_this_branch(z, p, &s))) {
         norm(f, n, &s);
         if (qdot_field_goes(f))
             status = prove(z, n, depth - 1, zero);

@@ -10,9 +10,9 @@
  * four accumulators. The two outermost terms hold the newest coefficients and are added
  * last, so that a processor runs the others ahead of them.
  *
- * Everything exists three times: portable C, and for x86 with fused multiplications (AVX2,
- * AVX-512); which is taken is decided once, by what the processor has. The last bits of
- * a result may differ between the three.
+ * Everything exists three times: portable C, and for x86 with fused multiplications
+ * (AVX2, AVX-512); which is taken is decided once, by what the processor has. The last
+ * bits of a result may differ between the three.
  *
  * Tests  tests/num/test_series.c
  */

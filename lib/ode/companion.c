@@ -11,12 +11,21 @@
 
 static const double unit = 0x1p-53;
 
+/* Where in a run the times between lie; without a pattern that a period could share. */
+static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
+                                0.7853, 0.8311, 0.8929, 0.9467};
+enum { PLACES = sizeof places / sizeof places[0] };
+
 struct qdot_companion {
     qdot_ode_system system;
     const qdot_ode_method *method; /* the partner */
     double tol, t0, t1;
     double *start; /* [n] the moved y0 */
     double *y;     /* [n] where it is */
+    size_t samples;          /* 0 or PLACES */
+    double times[PLACES];
+    double *own, *shown;     /* [PLACES x n] the states of both runs there */
+    size_t reached, n_shown; /* how many of each there are, from the first */
     qdot_ode_result result;
     bool running;      /* on `thread` */
     bool finished;     /* result is valid */
@@ -63,11 +72,29 @@ run_to(qdot_companion *c, double t1)
                                 .accepted = look,
                                 .user = c,
                                 .order_more = QDOT_COMPANION_ORDERS};
+    double t = c->t0;
+    qdot_ode_stats spent = {0};
 
     memcpy(c->y, c->start, c->system.n * sizeof *c->y);
-    if (qdot_ode_integrate(&c->system, c->method, &options, c->t0, t1, c->y,
-                           &c->result) != QDOT_OK)
-        c->result.outcome = QDOT_ODE_FAILED;
+    for (c->reached = 0;;) {
+        bool last = t1 != c->t1 || c->reached == c->samples;
+        double to = last ? t1 : c->times[c->reached];
+
+        if (qdot_ode_integrate(&c->system, c->method, &options, t, to, c->y, &c->result)
+            != QDOT_OK)
+            c->result.outcome = QDOT_ODE_FAILED;
+        spent.steps += c->result.stats.steps;
+        spent.rejected += c->result.stats.rejected;
+        spent.evaluations += c->result.stats.evaluations;
+        spent.jacobians += c->result.stats.jacobians;
+        spent.factorisations += c->result.stats.factorisations;
+        spent.cpu += c->result.stats.cpu;
+        if (last || c->result.outcome != QDOT_ODE_DONE)
+            break;
+        memcpy(c->own + c->reached++ * c->system.n, c->y, c->system.n * sizeof *c->y);
+        t = to;
+    }
+    c->result.stats = spent;
     c->finished = true;
 }
 
@@ -85,7 +112,63 @@ release(qdot_companion *c)
 {
     qdot_free(c->start);
     qdot_free(c->y);
+    qdot_free(c->own);
+    qdot_free(c->shown);
     qdot_free(c);
+}
+
+/* None where the run is too short for them to differ. */
+static bool
+choose_times(qdot_companion *c)
+{
+    size_t n = c->system.n;
+
+    c->own = qdot_calloc(PLACES * n, sizeof *c->own);
+    c->shown = qdot_calloc(PLACES * n, sizeof *c->shown);
+    c->samples = PLACES;
+    for (size_t k = 0; k < PLACES; k++) {
+        c->times[k] = c->t0 + places[k] * (c->t1 - c->t0);
+        if (c->times[k] == (k ? c->times[k - 1] : c->t0) || c->times[k] == c->t1)
+            c->samples = 0;
+    }
+    return c->own && c->shown;
+}
+
+const double *
+qdot_companion_times(const qdot_companion *c, size_t *count)
+{
+    *count = c->samples;
+    return c->times;
+}
+
+void
+qdot_companion_show(qdot_companion *c, size_t k, const double *y)
+{
+    memcpy(c->shown + k * c->system.n, y, c->system.n * sizeof *y);
+    c->n_shown = k + 1;
+}
+
+/* The median over the times between of the largest error at each. */
+static double
+median_between(const qdot_companion *c)
+{
+    double errors[PLACES];
+    size_t n = c->system.n;
+
+    for (size_t k = 0; k < PLACES; k++) {
+        double worst = 0;
+        size_t at = k;
+
+        for (size_t i = 0; i < n; i++) {
+            double y = c->shown[k * n + i];
+
+            worst = fmax(worst, fabs(y - c->own[k * n + i]) / fmax(1, fabs(y)));
+        }
+        for (; at > 0 && errors[at - 1] > worst; at--)
+            errors[at] = errors[at - 1];
+        errors[at] = worst;
+    }
+    return errors[PLACES / 2];
 }
 
 qdot_status
@@ -106,6 +189,10 @@ qdot_companion_start(const qdot_ode_system *system, const qdot_ode_method *metho
     c->start = qdot_malloc(system->n * sizeof *c->start);
     c->y = qdot_malloc(system->n * sizeof *c->y);
     if (!c->start || !c->y) {
+        release(c);
+        return QDOT_ENOMEM;
+    }
+    if (c->method->series && !choose_times(c)) {
         release(c);
         return QDOT_ENOMEM;
     }
@@ -146,5 +233,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         if (out->known)
             out->error = fmax(out->error, d / fmax(1, fabs(y[i])));
     }
+    if (out->known && whole && c->n_shown == PLACES && c->reached == PLACES)
+        out->error = fmax(out->error, median_between(c));
     release(c);
 }

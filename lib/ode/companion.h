@@ -61,6 +61,18 @@ QDOT_MUST_CHECK qdot_status qdot_companion_start(const qdot_ode_system *system,
                                                  const double *y0, bool threaded,
                                                  qdot_companion **out);
 
+/* Where rounding is all there is, the difference at one time may be small by chance: in
+ * one dimension two random walks meet. So the companion of a run by Taylor series looks
+ * at some times of its latter half too, in the order of the run, and the error becomes
+ *
+ *     max(error at the end, median of the errors at those times)
+ *
+ * once the run has shown its states there; *count is 0 for other methods. */
+const double *qdot_companion_times(const qdot_companion *c, size_t *count);
+
+/* The state y [n] of the run at time k of those; copied. */
+void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
+
 /* The run itself has ended at t_end with y [n]: wait for the companion (that of a run
  * which ended before t1 starts again, to t_end), compare, and free it.
  *   difference  [n] out, may be NULL; NaN where unknown

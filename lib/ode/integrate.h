@@ -49,9 +49,11 @@ typedef struct {
      * undefined; any other failure takes the step back and ends the run with it. */
     qdot_status (*accepted)(double t, const double *y, bool *stop, void *user);
     void *user; /* borrowed, for `accepted` */
-    /* Of taylor.h only: what the initial state is beyond y [n], borrowed; orders more than
-     * the tolerance asks for. */
+    /* Of taylor.h only: what the initial state is beyond y [n], borrowed, and t1 beyond
+     * itself (the end state is that of the sum); orders more than the tolerance asks
+     * for. */
     const double *carry;
+    double t1_low;
     int order_more;
 } qdot_ode_options;
 

@@ -23,7 +23,7 @@ static const qdot_ode_method methods[] = {
     {"bsimp", 12, true, false, true, 0, "bsimp", 1e-4, 3e-16,
      "implicit Bulirsch-Stoer: stiff scenes that are smooth, tight tolerances",
      &gsl_odeiv2_step_bsimp, false, NULL},
-    {"dop853", 8, false, false, false, 8, "rk8pd", 1e-2, 1e-16,
+    {"dop853", 8, false, false, false, 8, "dop853", 1e-2, 1e-15,
      "Runge-Kutta of order 8 with a polynomial of its own: as rk8pd, much output", NULL,
      false, &qdot_dop853},
     {"taylor", 40, false, false, false, 0, "taylor", 1e-2, 1e-16,

@@ -29,7 +29,7 @@ typedef struct {
     double tol, t, t1, direction;
     uint64_t max_steps;
     int p;
-    double unit;  /* of the series: t' = t + unit s; a power of two, signed */
+    double unit;   /* of the series: t' = t + unit s; a power of two, signed */
     bool extended; /* the series is there to order p */
 
     double *y, *carry;         /* [n] the state now */
@@ -236,8 +236,8 @@ confirms(const run *r, double h, double old_unit)
         double f = series->x[i * series->stride + 1] * now, P = r->slope[i] * steps;
         double size = fmax(1, fabs(r->next[i]));
 
-        if (!(fabs(P - f) <= share * size + rounding * (fabs(P) + fabs(r->first[i] * steps)
-                                                        + size)))
+        if (!(fabs(P - f) <=
+              share * size + rounding * (fabs(P) + fabs(r->first[i] * steps) + size)))
             return false;
     }
     return true;
@@ -286,12 +286,13 @@ swap(double **a, double **b)
     *b = c;
 }
 
-/* Try a step of h from t to t_end. On QDOT_OK and *good it has been taken, and the series is
- * begun at its end. Otherwise nothing has changed but the series. */
+/* Try a step of h from t to t_end. On QDOT_OK and *good it has been taken, and the
+ * series is begun at its end. Otherwise nothing has changed but the series. */
 static qdot_status
 try_step(run *r, double h, double t_end, bool unsure, bool *good)
 {
-    const double old_unit = r->unit, s = h / r->unit;
+    const double old_unit = r->unit;
+    const double s = (t_end == r->t1 ? h + r->options->t1_low : h) / r->unit;
     const bool fixed = r->options->h_fixed > 0;
     qdot_status status;
 
@@ -351,8 +352,8 @@ end_of_step(const run *r, double h)
 
     if (h >= rest * (1 - 1e-12))
         return r->t1;
-    end = r->t + r->direction * (h > 0.5 * rest && !(r->options->h_fixed > 0) ? 0.5 * rest
-                                                                             : h);
+    end = r->t +
+          r->direction * (h > 0.5 * rest && !(r->options->h_fixed > 0) ? 0.5 * rest : h);
     return r->direction * (r->t1 - end) > 0 ? end : r->t1;
 }
 
@@ -402,8 +403,8 @@ advance(run *r)
             r->undefined_at = r->t + r->direction * h;
         }
         most = 0.25 * h;
-        if (tries == max_undefined || most < floor_of_step(r->t)
-            || r->options->h_fixed > 0)
+        if (tries == max_undefined || most < floor_of_step(r->t) ||
+            r->options->h_fixed > 0)
             return too_small(r);
     }
 }

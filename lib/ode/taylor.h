@@ -1,8 +1,8 @@
 /* taylor.h -- integration by Taylor series of high order.
  *
- * A step expands the solution to order p and evaluates the polynomial. The order is chosen
- * once, from the tolerance and from what an expansion costs (series.cost): a step of
- * order p is about rho e^(-L/p) long, L = -ln tol, rho the radius of convergence, so p
+ * A step expands the solution to order p and evaluates the polynomial. The order is
+ * chosen once, from the tolerance and from what an expansion costs (series.cost): a step
+ * of order p is about rho e^(-L/p) long, L = -ln tol, rho the radius of convergence, so p
  * makes
  *
  *     (cost_0 + cost_1 p + cost_2 p^2) e^(L/p)
@@ -15,12 +15,13 @@
  *
  * from the whole upper half of the series, since a symmetric start makes most of the
  * coefficients vanish. A step is confirmed by the defect at its end: the slope of the
- * polynomial there against y' as the equations have it (the next step's first coefficient),
+ * polynomial there against y' as the equations have it (the next step's first
+ * coefficient),
  *
  *     |P_i'(h) - f_i| h <= 10 (p + 1) tol max(1, |y_i|) + rounding,
  *
- * else it is taken back and a quarter of it tried. Where the upper half holds nothing at all
- * (free fall, an equilibrium, few terms of a high power) the polynomial may be the
+ * else it is taken back and a quarter of it tried. Where the upper half holds nothing at
+ * all (free fall, an equilibrium, few terms of a high power) the polynomial may be the
  * solution: then h is what is left, and the defect is looked at inside the step too.
  *
  * Times are doubles exactly: h is the difference of two. The state is a sum of two

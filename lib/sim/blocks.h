@@ -20,8 +20,8 @@ typedef struct {
     size_t factored; /* how often */
 } qdot_blocks;
 
-/* For this plan, borrowed; constant blocks factored. `shaken` as for qdot_bind_new. Errors:
- * QDOT_ESINGULAR, QDOT_ENOMEM; clear it in any case. */
+/* For this plan, borrowed; constant blocks factored. `shaken` as for qdot_bind_new.
+ * Errors: QDOT_ESINGULAR, QDOT_ENOMEM; clear it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_blocks_init(qdot_blocks *b, const qdot_plan *plan,
                                              bool shaken);
 void qdot_blocks_clear(qdot_blocks *b);
@@ -33,9 +33,9 @@ QDOT_MUST_CHECK qdot_status qdot_blocks_factor(qdot_blocks *b, size_t k);
 /* Solve with block k, factored, for its `x`. */
 void qdot_blocks_solve(const qdot_blocks *b, size_t k);
 
-/* For many right-hand sides: the inverse of block k, factored, as L^-T L^-1, and its product
- * with `x`. Its error is of the size of _solve's, not as reliably: for the orders of a
- * series beyond the first. An indefinite block is solved. */
+/* For many right-hand sides: the inverse of block k, factored, as L^-T L^-1, and its
+ * product with `x`. Its error is of the size of _solve's, not as reliably: for the
+ * orders of a series beyond the first. An indefinite block is solved. */
 QDOT_MUST_CHECK qdot_status qdot_blocks_prepare(qdot_blocks *b, size_t k);
 void qdot_blocks_invert(qdot_blocks *b, size_t k);
 void qdot_blocks_apply(const qdot_blocks *b, size_t k);

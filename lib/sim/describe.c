@@ -84,15 +84,17 @@ say_series(const qdot_plan *p, double tol, qdot_text *out)
                      qdot_ode_taylor_order(system.series, tol, 0), tol);
     qdot_bind_free(bind);
     if (p->residual)
-        qdot_text_format(out,
-                         "form: d'Alembert's residual, %g convolutions an order; M q'' = f "
-                         "would take %g. M is factored once a step\n",
-                         p->convolutions_residual, p->convolutions_derived);
+        qdot_text_format(
+            out,
+            "form: d'Alembert's residual, %g convolutions an order; M q'' = f "
+            "would take %g. M is factored once a step\n",
+            p->convolutions_residual, p->convolutions_derived);
     else if (p->convolutions_residual > 0)
-        qdot_text_format(out,
-                         "form: M q'' = f, %g convolutions an order; d'Alembert's residual "
-                         "would take %g and more beside them. M is factored once a step\n",
-                         p->convolutions_derived, p->convolutions_residual);
+        qdot_text_format(
+            out,
+            "form: M q'' = f, %g convolutions an order; d'Alembert's residual "
+            "would take %g and more beside them. M is factored once a step\n",
+            p->convolutions_derived, p->convolutions_residual);
     else
         qdot_text_format(out, "form: M q'' = f, %g convolutions an order\n",
                          p->convolutions_derived);

@@ -32,7 +32,7 @@ struct qdot_direct {
     qdot_blocks solvers;
     qdot_ode_series series;
     double unit;
-    double *q, *v, *t;     /* the inputs' rows, `stride` apart */
+    double *q, *v, *t; /* the inputs' rows, `stride` apart */
     size_t stride;
     const double **outputs; /* [outputs of the tape] */
     block_series *blocks;   /* [blocks] */
@@ -110,6 +110,7 @@ begin(double t, const double *y, double unit, void *user)
     }
     e->t[0] = t;
     e->t[1] = unit;
+    qdot_taylor_draw(e->taylor, t);
     QDOT_TRY(accelerations(e, 0));
     for (size_t i = 0; i < n; i++)
         if (!isfinite(e->a[i][0]))
@@ -190,10 +191,10 @@ estimate_cost(qdot_direct *e)
     const qdot_plan *p = e->plan;
     double *c = e->series.cost, convolutions = qdot_direct_convolutions(e);
 
-    c[0] = 60 + 15.0 * (double)qdot_tape_calls(p->tape)
-           + 2.0 * (double)qdot_taylor_length(e->taylor) + 10.0 * (double)p->n;
-    c[1] = 1.5 + 1.2 * (double)qdot_taylor_length(e->taylor) + 3.5 * convolutions
-           + 2.0 * (double)p->n;
+    c[0] = 60 + 15.0 * (double)qdot_tape_calls(p->tape) +
+           2.0 * (double)qdot_taylor_length(e->taylor) + 10.0 * (double)p->n;
+    c[1] = 1.5 + 1.2 * (double)qdot_taylor_length(e->taylor) + 3.5 * convolutions +
+           2.0 * (double)p->n;
     c[2] = 0.12 * convolutions;
     for (size_t b = 0; b < p->structure.blocks; b++) {
         double n = (double)p->blocks[b].n;
@@ -238,9 +239,14 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
     QDOT_TRY(find_outputs(e, outputs));
     for (int k = 1; k < most_order + 2; k++)
         e->inverse[k] = 1.0 / k;
-    e->series = (qdot_ode_series){.most = most_order - 4, .x = e->q, .stride = e->stride,
-                                  .checked = p->n, .begin = begin, .extend = extend,
-                                  .low = low, .user = e};
+    e->series = (qdot_ode_series){.most = most_order - 4,
+                                  .x = e->q,
+                                  .stride = e->stride,
+                                  .checked = p->n,
+                                  .begin = begin,
+                                  .extend = extend,
+                                  .low = low,
+                                  .user = e};
     estimate_cost(e);
     return QDOT_OK;
 }

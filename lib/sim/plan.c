@@ -12,8 +12,9 @@
 #include "tape/constant.h"
 #include "tape/taylor.h"
 
-/* The method that `auto` is: see ode/method.h for when each fits. */
-static const char default_method[] = "rk8pd";
+/* The method that `auto` is, and where the equations switch and so have no series: see
+ * ode/method.h for when each fits. */
+static const char default_method[] = "rk8pd", switching_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
 static const char *const later_methods[] = {"radau", "gauss"};
@@ -377,6 +378,8 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         QDOT_TRY(fill_block(p, b));
     }
     QDOT_TRY(lower_equations(p));
+    if (p->chosen && p->method->series && qdot_taylor_hindrance(p->tape))
+        p->method = qdot_ode_method_find(switching_method);
     if (p->method->series && qdot_taylor_hindrance(p->tape)) {
         qdot_fail(QDOT_ENOTBUILT,
                   "not built yet: method %s where the equations switch (%s)",

@@ -108,8 +108,8 @@ add_slopes(builder *b, size_t f)
             continue;
         QDOT_TRY(qdot_grow(&b->r->slopes, &capacity, b->r->n_slopes + 1,
                            sizeof *b->r->slopes));
-        b->r->slopes[b->r->n_slopes++] = (qdot_residual_slope){
-            (uint32_t)f, (uint32_t)i, (uint32_t)b->outputs.n};
+        b->r->slopes[b->r->n_slopes++] =
+            (qdot_residual_slope){(uint32_t)f, (uint32_t)i, (uint32_t)b->outputs.n};
         QDOT_TRY(qdot_vec_push(&b->outputs, slope));
     }
     return QDOT_OK;
@@ -151,12 +151,12 @@ lower_masses(builder *b)
             continue;
         for (size_t i = 0; i < block->n; i++)
             for (size_t j = 0; j <= i && status == QDOT_OK; j++)
-                status = qdot_vec_push(&out,
-                                       p->M[block->index[i] * p->n + block->index[j]]);
+                status =
+                    qdot_vec_push(&out, p->M[block->index[i] * p->n + block->index[j]]);
     }
     if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, out.n, out.at,
-                               &b->r->masses);
+        status =
+            qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, out.n, out.at, &b->r->masses);
     qdot_free(out.at);
     return status;
 }
@@ -214,9 +214,8 @@ qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **resi
     qdot_free(b.differences.at);
     qdot_free(b.outputs.at);
     qdot_free(b.forces.at);
-    if (status == QDOT_OK
-        && (qdot_taylor_hindrance(b.r->places)
-            || (b.r->forces && qdot_taylor_hindrance(b.r->forces)))) {
+    if (status == QDOT_OK && (qdot_taylor_hindrance(b.r->places) ||
+                              (b.r->forces && qdot_taylor_hindrance(b.r->forces)))) {
         qdot_residual_free(b.r);
         return QDOT_OK;
     }

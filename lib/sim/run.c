@@ -35,6 +35,7 @@ qdot_run_free(qdot_run *run)
     qdot_bind_free(run->shaken);
     qdot_plan_free(run->plan);
     qdot_free(run->start);
+    qdot_free(run->start_low);
     qdot_free(run->reason);
     qdot_free(run);
 }
@@ -69,27 +70,31 @@ check_tolerance(double tol)
 /* --- the start ---------------------------------------------------------------------- */
 
 static qdot_status
-constant(const qdot_run *run, qdot_expr e, double *value, int *side)
+constant(const qdot_run *run, qdot_expr e, double *value, int *side, double *low)
 {
     e = qdot_plan_substitute(run->plan, e);
     QDOT_TRY(qdot_pool_check(run->plan->pool));
-    return qdot_constant_round(run->plan->pool, e, value, side);
+    return qdot_constant_split(run->plan->pool, e, value, side, low);
 }
 
 static qdot_status
 read_start(qdot_run *run, const qdot_run_request *request)
 {
     size_t n = run->plan->n;
+    double low;
     int side;
 
+    run->start_low = qdot_calloc(2 * n, sizeof *run->start_low);
     run->start = qdot_calloc(2 * n, sizeof *run->start);
-    if (!run->start)
+    if (!run->start || !run->start_low)
         return QDOT_ENOMEM;
-    QDOT_TRY(constant(run, request->t0, &run->t0, &run->t0_side));
-    QDOT_TRY(constant(run, request->t1, &run->t1, &run->t1_side));
+    QDOT_TRY(constant(run, request->t0, &run->t0, &run->t0_side, &low));
+    QDOT_TRY(constant(run, request->t1, &run->t1, &run->t1_side, &run->t1_low));
     for (size_t i = 0; i < n; i++) {
-        QDOT_TRY(constant(run, request->q0[i], &run->start[i], &side));
-        QDOT_TRY(constant(run, request->v0[i], &run->start[n + i], &side));
+        QDOT_TRY(constant(run, request->q0[i], &run->start[i], &side,
+                          &run->start_low[i]));
+        QDOT_TRY(constant(run, request->v0[i], &run->start[n + i], &side,
+                          &run->start_low[n + i]));
     }
     return QDOT_OK;
 }
@@ -146,7 +151,8 @@ static qdot_status
 integrate(qdot_run *run, qdot_domains *domains, double tol, bool *interrupted)
 {
     qdot_ode_system system = qdot_bind_system(run->bind);
-    qdot_ode_options options = {.tol = tol};
+    qdot_ode_options options = {
+        .tol = tol, .carry = run->start_low, .t1_low = run->t1_low};
     qdot_status status;
 
     if (domains->n > 0) {
@@ -200,6 +206,33 @@ fill_report(qdot_run *run, double tol)
     r->drifts = run->drifts.at;
 }
 
+/* The states of the run at the times that the companion wants them. */
+static qdot_status
+show_states(qdot_run *run, qdot_companion *companion)
+{
+    qdot_ode_system system = qdot_bind_system(run->bind);
+    qdot_trajectory_cursor *cursor;
+    size_t count;
+    const double *times = qdot_companion_times(companion, &count);
+    double *y;
+    qdot_status status;
+
+    if (count == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_trajectory_open(&run->tr, &system, &cursor));
+    y = qdot_malloc(system.n * sizeof *y);
+    status = y ? QDOT_OK : QDOT_ENOMEM;
+    for (size_t k = 0; k < count && status == QDOT_OK; k++) {
+        status = qdot_trajectory_read(cursor, times[k], y);
+        if (status == QDOT_OK)
+            qdot_companion_show(companion, k, y);
+    }
+    qdot_free(y);
+    qdot_trajectory_close(cursor);
+    /* without them the error is that of the end alone */
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
 /* The run, its companion beside it, and what should have been kept. */
 static qdot_status
 carry_out(qdot_run *run, qdot_scene *scene, qdot_domains *domains, double tol,
@@ -233,6 +266,9 @@ carry_out(qdot_run *run, qdot_scene *scene, qdot_domains *domains, double tol,
         *interrupted = true;
         status = QDOT_OK;
     }
+    if (companion && status == QDOT_OK && !*interrupted
+        && run->tr.result.outcome == QDOT_ODE_DONE)
+        status = show_states(run, companion);
     if (companion) {
         bool there = run->tr.count > 0;
         qdot_error failure = *qdot_last_error();

@@ -13,8 +13,8 @@
 
 enum { most_order = 44, lanes = 8 };
 
-/* Up to so many functions the tree is kept multiplied out: a matrix is work of another order,
- * but vectors take it, where a tree is one long chain of sums. */
+/* Up to so many functions the tree is kept multiplied out: a matrix is work of another
+ * order, but vectors take it, where a tree is one long chain of sums. */
 enum { most_dense = 48 };
 
 struct qdot_shifted {
@@ -23,24 +23,24 @@ struct qdot_shifted {
     const qdot_series_kernels *kernels;
     qdot_taylor *places, *forces;
     qdot_tape *masses;
-    double *weight;        /* [n_weights] */
+    double *weight; /* [n_weights] */
     qdot_blocks solvers;
     qdot_ode_series series;
     double unit, force_scale; /* unit^2 */
-    double *q, *v, *t;     /* rows of the inputs of `places` */
-    double *fq, *fv, *ft;  /* of `forces` */
+    double *q, *v, *t;        /* rows of the inputs of `places` */
+    double *fq, *fv, *ft;     /* of `forces` */
     size_t stride, forces_stride;
 
-    const double **d;      /* [functions] series of the differences */
-    double *x, *F;         /* [functions] unit^2 x'', unit^2 F of the order at hand */
-    size_t rows;           /* functions, filled up to full vectors */
-    double *W;             /* [rows x functions] F = W d''; NULL: by the tree */
-    size_t members;        /* slopes, filled up to full vectors */
-    const double **slope;  /* [n_slopes] series */
-    double *J;             /* [orders x members] their coefficients, by order */
-    double *Fs;            /* [orders x members] F of each slope's function */
-    double *products;      /* [members] */
-    double *R;             /* [n] */
+    const double **d;        /* [functions] series of the differences */
+    double *x, *F;           /* [functions] unit^2 x'', unit^2 F of the order at hand */
+    size_t rows;             /* functions, filled up to full vectors */
+    double *W;               /* [rows x functions] F = W d''; NULL: by the tree */
+    size_t members;          /* slopes, filled up to full vectors */
+    const double **slope;    /* [n_slopes] series */
+    double *J;               /* [orders x members] their coefficients, by order */
+    double *Fs;              /* [orders x members] F of each slope's function */
+    double *products;        /* [members] */
+    double *R;               /* [n] */
     double *in, *out, *work; /* of `masses` */
 };
 
@@ -206,9 +206,11 @@ begin(double t, const double *y, double unit, void *user)
     }
     s->t[0] = t;
     s->t[1] = unit;
+    qdot_taylor_draw(s->places, t);
     if (s->forces) {
         s->ft[0] = t;
         s->ft[1] = unit;
+        qdot_taylor_draw(s->forces, t);
     }
     QDOT_TRY(factor(s, t, y));
     for (int k = 0; k < 2; k++) {
@@ -287,15 +289,15 @@ estimate_cost(qdot_shifted *s)
     const qdot_plan *p = s->plan;
     const qdot_residual *r = s->residual;
     double *c = s->series.cost, n = (double)p->n;
-    double length = (double)qdot_taylor_length(s->places)
-                    + (s->forces ? (double)qdot_taylor_length(s->forces) : 0);
-    double scalar = qdot_taylor_convolutions(s->places)
-                    + (s->forces ? qdot_taylor_convolutions(s->forces) : 0);
+    double length = (double)qdot_taylor_length(s->places) +
+                    (s->forces ? (double)qdot_taylor_length(s->forces) : 0);
+    double scalar = qdot_taylor_convolutions(s->places) +
+                    (s->forces ? qdot_taylor_convolutions(s->forces) : 0);
 
-    c[0] = 100 + 15.0 * (double)qdot_tape_calls(r->places)
-           + 1.0 * (double)qdot_tape_operations(r->masses) + 2 * length + 10 * n;
-    c[1] = 10 + 3 * length + 3.5 * scalar + 6 * n + 6.0 * (double)r->functions
-           + 3.0 * (double)r->n_slopes + 2.0 * (double)r->n_weights;
+    c[0] = 100 + 15.0 * (double)qdot_tape_calls(r->places) +
+           1.0 * (double)qdot_tape_operations(r->masses) + 2 * length + 10 * n;
+    c[1] = 10 + 3 * length + 3.5 * scalar + 6 * n + 6.0 * (double)r->functions +
+           3.0 * (double)r->n_slopes + 2.0 * (double)r->n_weights;
     c[2] = 0.12 * scalar + 0.04 * (double)s->members;
     for (size_t b = 0; b < p->structure.blocks; b++) {
         n = (double)p->blocks[b].n;
@@ -355,8 +357,8 @@ make(qdot_shifted *s, bool shaken)
     s->in = qdot_calloc(2 * p->n + 1, sizeof *s->in);
     s->out = qdot_calloc(qdot_tape_outputs(r->masses) + 1, sizeof *s->out);
     s->work = qdot_calloc(qdot_tape_work(r->masses) + 1, sizeof *s->work);
-    if (!s->weight || !s->d || !s->x || !s->F || !s->slope || !s->J || !s->Fs
-        || !s->products || !s->R || !s->in || !s->out || !s->work)
+    if (!s->weight || !s->d || !s->x || !s->F || !s->slope || !s->J || !s->Fs ||
+        !s->products || !s->R || !s->in || !s->out || !s->work)
         return QDOT_ENOMEM;
     for (size_t w = 0; w < r->n_weights; w++)
         s->weight[w] = shaken ? qdot_shake_double(r->weights[w].w, r->weights[w].side)
@@ -366,9 +368,14 @@ make(qdot_shifted *s, bool shaken)
     for (size_t j = 0; j < r->n_slopes; j++)
         s->slope[j] = qdot_taylor_output(s->places, r->slopes[j].output);
     QDOT_TRY(multiply_out(s));
-    s->series = (qdot_ode_series){.most = most_order - 4, .x = s->q, .stride = s->stride,
-                                  .checked = p->n, .begin = begin, .extend = extend,
-                                  .low = low, .user = s};
+    s->series = (qdot_ode_series){.most = most_order - 4,
+                                  .x = s->q,
+                                  .stride = s->stride,
+                                  .checked = p->n,
+                                  .begin = begin,
+                                  .extend = extend,
+                                  .low = low,
+                                  .user = s};
     estimate_cost(s);
     return QDOT_OK;
 }
@@ -430,9 +437,9 @@ qdot_shifted_series(const qdot_shifted *s)
 double
 qdot_shifted_convolutions(const qdot_shifted *s)
 {
-    return qdot_taylor_convolutions(s->places)
-           + (s->forces ? qdot_taylor_convolutions(s->forces) : 0)
-           + (double)s->residual->n_slopes;
+    return qdot_taylor_convolutions(s->places) +
+           (s->forces ? qdot_taylor_convolutions(s->forces) : 0) +
+           (double)s->residual->n_slopes;
 }
 
 size_t

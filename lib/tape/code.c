@@ -62,6 +62,7 @@ qdot_code_clear(qdot_code *code)
     qdot_free(code->values.at);
     qdot_free(code->constants.at);
     qdot_free(code->sides.at);
+    qdot_free(code->lows.at);
     qdot_keymap_clear(&code->seen);
     qdot_keymap_clear(&code->by_expr);
 }
@@ -94,7 +95,7 @@ qdot_value
 qdot_code_constant(qdot_code *code, qdot_expr e)
 {
     uint32_t value;
-    double x;
+    double x, low;
     int side;
 
     if (code->status != QDOT_OK)
@@ -102,11 +103,13 @@ qdot_code_constant(qdot_code *code, qdot_expr e)
     value = qdot_keymap_get(&code->by_expr, e, 0, 0, 0);
     if (value != QDOT_KEYMAP_NONE)
         return value;
-    code->status = qdot_constant_round(code->pool, e, &x, &side);
+    code->status = qdot_constant_split(code->pool, e, &x, &side, &low);
     if (code->status == QDOT_OK)
         code->status = qdot_vec_push(&code->constants, x);
     if (code->status == QDOT_OK)
         code->status = qdot_vec_push(&code->sides, (signed char)side);
+    if (code->status == QDOT_OK)
+        code->status = qdot_vec_push(&code->lows, low);
     if (code->status != QDOT_OK)
         return 0;
     value = append(code, QDOT_OP_CONSTANT, (qdot_value)(code->constants.n - 1), 0, 0);

@@ -329,8 +329,23 @@ no_value(const qdot_pool *pool, qdot_expr e, const char *why)
     return status;
 }
 
+/* What the ball's middle has beyond `value`. */
+static double
+rest_of(const arb_t ball, double value)
+{
+    arf_t x;
+    double rest;
+
+    arf_init(x);
+    arf_set_d(x, value);
+    arf_sub(x, arb_midref(ball), x, 64, ARF_RND_NEAR);
+    rest = arf_get_d(x, ARF_RND_NEAR) + 0.0;
+    arf_clear(x);
+    return rest;
+}
+
 static qdot_status
-evaluate(evaluation *v, qdot_expr e, double *value, int *side)
+evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *low)
 {
     const arb_struct *y;
 
@@ -343,6 +358,7 @@ evaluate(evaluation *v, qdot_expr e, double *value, int *side)
             if (!isfinite(*value))
                 return no_value(v->pool, e, "is beyond what a double holds");
             *side = side_of(ball_of(v, e), *value);
+            *low = *side ? rest_of(ball_of(v, e), *value) : 0;
             return QDOT_OK;
         }
     }
@@ -357,7 +373,7 @@ evaluate(evaluation *v, qdot_expr e, double *value, int *side)
 }
 
 qdot_status
-qdot_constant_round(qdot_pool *pool, qdot_expr e, double *value, int *side)
+qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, double *low)
 {
     evaluation v = {.pool = pool};
     qdot_status status;
@@ -365,6 +381,7 @@ qdot_constant_round(qdot_pool *pool, qdot_expr e, double *value, int *side)
 
     *value = NAN;
     *side = 0;
+    *low = 0;
     if (e == QDOT_NIL) {
         QDOT_TRY(qdot_pool_check(pool));
         return qdot_fail(QDOT_EINVAL, "no expression to evaluate");
@@ -382,13 +399,21 @@ qdot_constant_round(qdot_pool *pool, qdot_expr e, double *value, int *side)
     }
     for (size_t i = 0; i < v.walk.n; i++)
         arb_init(v.ball + i);
-    status = evaluate(&v, e, value, side);
+    status = evaluate(&v, e, value, side, low);
     for (size_t i = 0; i < v.walk.n; i++)
         arb_clear(v.ball + i);
     qdot_free(v.ball);
     qdot_free(v.args);
     qdot_walk_end(&v.walk);
     return status;
+}
+
+qdot_status
+qdot_constant_round(qdot_pool *pool, qdot_expr e, double *value, int *side)
+{
+    double low;
+
+    return qdot_constant_split(pool, e, value, side, &low);
 }
 
 qdot_status

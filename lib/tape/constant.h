@@ -15,6 +15,11 @@ bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_constant_round(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side);
 
+/* The same, and what is left beyond *value: e = *value + *low to about twice the
+ * precision. */
+QDOT_MUST_CHECK qdot_status qdot_constant_split(qdot_pool *pool, qdot_expr e,
+                                                double *value, int *side, double *low);
+
 /* Fail with QDOT_EUNSET for the symbol or application `e` that has no value. */
 qdot_status qdot_constant_unset(const qdot_pool *pool, qdot_expr e);
 

@@ -10,9 +10,11 @@
  *     c = sqrt a         c_k = (a_k - sum_{j=1..k-1} c_j c_{k-j}) / (2 c_0)
  *     s, c of a          k s_k = sum_{j=1..k} j a_j c_{k-j},   k c_k = -sum j a_j s_{k-j}
  *     e = exp a          k e_k = sum_{j=1..k} j a_j e_{k-j}; sinh and cosh likewise
- *     p = a^r            k a_0 p_k = sum_{j=1..k} (j (r + 1) - k) a_j p_{k-j}, r constant;
+ *     p = a^r            k a_0 p_k = sum_{j=1..k} (j (r + 1) - k) a_j p_{k-j}, r
+ * constant;
  *                        exp(r log a) where it is not
- *     l' = a'/u          k u_0 l_k = k a_k - sum_{j=1..k-1} j l_j u_{k-j}: log (u = a), atan
+ *     l' = a'/u          k u_0 l_k = k a_k - sum_{j=1..k-1} j l_j u_{k-j}: log (u = a),
+ * atan
  *                        (1 + a^2), asin and acos (sqrt(1 - a^2)), asinh, acosh, atanh
  *     tanh               k c_k = sum_{j=1..k} j a_j u_{k-j}, u = 1 - c^2
  *     l = atan2(y, x)    l' = (x y' - y x') / (x^2 + y^2)
@@ -42,8 +44,8 @@ void qdot_taylor_free(qdot_taylor *taylor);
 /* Whether the tape has a series: the operation that has none, or NULL. */
 const char *qdot_taylor_hindrance(const qdot_tape *tape);
 
-/* Coefficients by order of input i, to be written by the caller before each order. The rows
- * of the inputs follow each other at a distance of qdot_taylor_stride doubles. */
+/* Coefficients by order of input i, to be written by the caller before each order. The
+ * rows of the inputs follow each other at a distance of qdot_taylor_stride doubles. */
 double *qdot_taylor_input(qdot_taylor *taylor, size_t i);
 size_t qdot_taylor_stride(const qdot_taylor *taylor);
 
@@ -52,13 +54,20 @@ const double *qdot_taylor_output(const qdot_taylor *taylor, size_t i);
 /* Whether output i is the same number whatever the inputs are. */
 bool qdot_taylor_is_constant(const qdot_taylor *taylor, size_t i);
 
+/* Constants that are no doubles, for a stretch of time that begins at t: each becomes
+ * one of its two neighbours, drawn with the chances that make the exact value their
+ * mean. Over many steps what rounding such a constant does averages out, where always
+ * the same side would be a drift. The draw is a function of t alone. Of a shaken tape
+ * nothing is drawn. */
+void qdot_taylor_draw(qdot_taylor *taylor, double t);
+
 /* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
  * and inf as IEEE 754 has them. */
 void qdot_taylor_order(qdot_taylor *taylor, int k);
 
-/* Order k was evaluated with coefficient k of the first n inputs at 0 and is affine in it:
- * now it becomes newest [n]. Everything is brought up to date, by derivatives at order 0
- * alone. k > 0. */
+/* Order k was evaluated with coefficient k of the first n inputs at 0 and is affine in
+ * it: now it becomes newest [n]. Everything is brought up to date, by derivatives at
+ * order 0 alone. k > 0. */
 void qdot_taylor_correct(qdot_taylor *taylor, int k, size_t n, const double *newest);
 
 /* Convolutions an order (a square counts half), and instructions. */

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "expr/calculus.h"
+#include "normal/constant.h"
 #include "normal/decide.h"
 
 #include "text.h"
@@ -226,6 +227,7 @@ static const struct {
 } twins[] = {
     /* algebraic numbers, by their bound */
     {"sqrt(5 + 2*sqrt(6))", "sqrt(2) + sqrt(3)", "sqrt(2) + sqrt(3) + 1e-45"},
+    {"sqrt(5 + 2*sqrt(6))", "sqrt(3) + sqrt(2)", "sqrt(2) + sqrt(3) + (sqrt(2) - 1)^100"},
     {"sqrt(3 - 2*sqrt(2))", "sqrt(2) - 1", "1 - sqrt(2)"},
     {"(7 + 5*sqrt(2))^(1/3)", "1 + sqrt(2)", "1 + sqrt(2) - 1e-30"},
     {"cos(pi/5)", "(1 + sqrt(5))/4", "(sqrt(5) - 1)/4"},
@@ -233,8 +235,10 @@ static const struct {
     {"cos(2*pi/7) + cos(4*pi/7) + cos(6*pi/7)", "-1/2", "1/2"},
     {"tan(pi/8)", "sqrt(2) - 1", "sqrt(2) - 1 + 1e-25"},
     {"x*sqrt(5 + 2*sqrt(6)) + y*sqrt(3 - 2*sqrt(2))",
-     "x*sqrt(2) + x*sqrt(3) + y*(sqrt(2) - 1)", "x*sqrt(2) + y*sqrt(3) + y*(sqrt(2) - 1)"},
-    {"pi*sqrt(5 + 2*sqrt(6))", "pi*(sqrt(2) + sqrt(3))", "pi*(sqrt(2) + sqrt(3)) + 1e-33"},
+     "x*sqrt(2) + x*sqrt(3) + y*(sqrt(2) - 1)",
+     "x*sqrt(2) + y*sqrt(3) + y*(sqrt(2) - 1)"},
+    {"pi*sqrt(5 + 2*sqrt(6))", "pi*(sqrt(2) + sqrt(3))",
+     "pi*(sqrt(2) + sqrt(3)) + 1e-33"},
     {"sin(x + pi/5)", "sin(x)*(1 + sqrt(5))/4 + cos(x)*sqrt(10 - 2*sqrt(5))/4",
      "sin(x)*(1 + sqrt(5))/4 - cos(x)*sqrt(10 - 2*sqrt(5))/4"},
     {"cos(x + pi/7)", "cos(x)*cos(pi/7) - sin(x)*sin(pi/7)",
@@ -291,6 +295,37 @@ twins_are_told_apart(void **state)
     }
 }
 
+/* The bound, not the size of an enclosure, says what is zero. */
+static void
+constants_are_not_zero_for_being_small(void **state)
+{
+    static const struct {
+        const char *e;
+        qdot_constant_sign sign;
+    } constants[] = {
+        {"sqrt(5 + 2*sqrt(6)) - sqrt(2) - sqrt(3)", QDOT_CONSTANT_ZERO},
+        {"sqrt(5 + 2*sqrt(6)) - sqrt(2) - sqrt(3) + (sqrt(2) - 1)^100",
+         QDOT_CONSTANT_POSITIVE},
+        {"cos(pi/5) - (1 + sqrt(5))/4 - (sqrt(3) - sqrt(2))^90", QDOT_CONSTANT_NEGATIVE},
+        {"cos(2*pi/17) - cos(32*pi/17)", QDOT_CONSTANT_ZERO},
+        {"(1 + sqrt(2))^(1/3) - (7 + 5*sqrt(2))^(1/9)", QDOT_CONSTANT_ZERO},
+        {"4*atan(1/5) - atan(1/239) - pi/4", QDOT_CONSTANT_UNKNOWN}, /* not algebraic */
+        {"exp(pi*sqrt(163)) - 262537412640768744", QDOT_CONSTANT_NEGATIVE},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof constants / sizeof *constants; i++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_constant_sign sign;
+
+        assert_int_equal(
+            qdot_constant_decide(pool, text_read(pool, constants[i].e), &sign), QDOT_OK);
+        if (sign != constants[i].sign)
+            fail_msg("%s: sign %d", constants[i].e, sign);
+        qdot_pool_free(pool);
+    }
+}
+
 /* Under 0 < gap and relation = 0. */
 static const struct {
     const char *left, *right, *gap[2], *relation;
@@ -324,8 +359,11 @@ static const struct {
     {"x", "y", {"x"}, "x^2 - y^2", QDOT_REFUTED},
     {"x", "sqrt(2)", {"x"}, "x^2 - 2", QDOT_PROVED},
     {"x", "sqrt(2)", {"-x"}, "x^2 - 2", QDOT_REFUTED},
-    {"sin(x + z)", "sin(x)*cos(y/(k^2 + 1)) + cos(x)*sin(y/(k^2 + 1))", {NULL},
-     "z*(k^2 + 1) - y", QDOT_PROVED},
+    {"sin(x + z)",
+     "sin(x)*cos(y/(k^2 + 1)) + cos(x)*sin(y/(k^2 + 1))",
+     {NULL},
+     "z*(k^2 + 1) - y",
+     QDOT_PROVED},
     {"f(abs(x))", "f(x)", {"x"}, NULL, QDOT_PROVED},
     {"f(abs(x))", "f(x) + 1e-20", {"x"}, NULL, QDOT_REFUTED},
 };
@@ -341,8 +379,8 @@ conditions_are_used_in_proofs(void **state)
         qdot_decision d;
 
         for (int k = 0; k < 2 && conditions[i].gap[k] != NULL; k++)
-            condition[facts.n_conditions++] = qdot_rel(
-                pool, QDOT_LT, QDOT_ZERO, text_read(pool, conditions[i].gap[k]));
+            condition[facts.n_conditions++] =
+                qdot_rel(pool, QDOT_LT, QDOT_ZERO, text_read(pool, conditions[i].gap[k]));
         if (conditions[i].relation != NULL) {
             relation = text_read(pool, conditions[i].relation);
             facts.n_relations = 1;
@@ -740,6 +778,7 @@ main(void)
         cmocka_unit_test(falsehoods_are_refuted),
         cmocka_unit_test(relations_are_used),
         cmocka_unit_test(twins_are_told_apart),
+        cmocka_unit_test(constants_are_not_zero_for_being_small),
         cmocka_unit_test(conditions_are_used_in_proofs),
         cmocka_unit_test(what_is_not_known_is_not_proved),
         cmocka_unit_test(inequalities_are_decided),

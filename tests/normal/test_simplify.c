@@ -57,6 +57,16 @@ static const struct {
     {"(u*dv + v*du)^2 + (u*du - v*dv)^2", "(u^2 + v^2)*(du^2 + dv^2)"},
     {"(cos(phi)*dr - r*sin(phi)*dphi)^2 + (sin(phi)*dr + r*cos(phi)*dphi)^2 + dz^2",
      "dr^2 + r^2*dphi^2 + dz^2"},
+    /* squares put together again */
+    {"x^2 - 2*x*y + y^2 + z^2", "(x - y)^2 + z^2"},
+    {"k/2*(x^2 - 2*x*y + y^2 + z^2 - 2*z*w + w^2)", "k/2*((x - y)^2 + (z - w)^2)"},
+    {"a*x^2 - 2*a*x*y + a*y^2 + b*z^2 - 2*b*z*w + b*w^2", "a*(x - y)^2 + b*(z - w)^2"},
+    {"x'^2 - 2*x'*y' + y'^2 + z'^2", "(x' - y')^2 + z'^2"},
+    {"1/2*m*(x'^2 - 2*x'*y' + y'^2) + 1/2*k*(x^2 + 2*x*y + y^2)",
+     "1/2*m*(x' - y')^2 + 1/2*k*(x + y)^2"},
+    {"4*x^2 + 12*x*y + 9*y^2 + 1", "(2*x + 3*y)^2 + 1"},
+    {"4*x^2 + 6*x*y + 9*y^2 + 1", "4*x^2 + 9*y^2 + 6*x*y + 1"},
+    {"1/sqrt(x^2 - 2*x*y + y^2 + z^2 - 2*z*w + w^2)", "1/sqrt((x - y)^2 + (z - w)^2)"},
     /* trigonometry */
     {"1 - cos(x)^2", "sin(x)^2"},
     {"2*sin(x)*cos(x)", "sin(2*x)"},
@@ -135,6 +145,28 @@ relations_shorten(void **state)
     (void)state;
     assert_int_equal(qdot_simplify(pool, e, &facts), text_read(pool, "1/2*m*s'^2"));
     assert_int_equal(qdot_normal(pool, e, &facts), text_read(pool, "1/2*m*s'^2"));
+    qdot_pool_free(pool);
+}
+
+/* A small budget: a form that is no longer than before, and it is said. */
+static void
+a_spent_budget_is_said(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr e = text_read(
+        pool, "(sin(x + y)*z + cos(x - y)*w)^6 - (sin(x + y)*z - cos(x - y)*w)^6");
+    qdot_expr best;
+    bool spent;
+
+    (void)state;
+    best = qdot_simplify_within(pool, e, NULL, 200, &spent);
+    assert_true(spent);
+    assert_true(best != QDOT_NIL);
+    assert_true(qdot_expr_size(pool, best) <= qdot_expr_size(pool, e));
+    best = qdot_simplify_within(pool, text_read(pool, "1 - cos(x)^2"), NULL,
+                                QDOT_SIMPLIFY_WORK, &spent);
+    assert_false(spent);
+    assert_int_equal(best, text_read(pool, "sin(x)^2"));
     qdot_pool_free(pool);
 }
 
@@ -403,6 +435,7 @@ main(void)
         cmocka_unit_test(textbook_forms_come_out),
         cmocka_unit_test(elliptic_and_toroidal_metrics_come_out),
         cmocka_unit_test(relations_shorten),
+        cmocka_unit_test(a_spent_budget_is_said),
         cmocka_unit_test(sides_of_equations_stay_apart),
         cmocka_unit_test(simplifying_again_changes_nothing_much),
         cmocka_unit_test(normal_forms_are_equal_nodes),

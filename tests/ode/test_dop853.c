@@ -18,7 +18,7 @@ dop853(void)
 
 static const problem *const problems[] = {&pendulum, &henon, &kepler};
 
-/* --- the table ------------------------------------------------------------------------ */
+/* --- the table --------------------------------------------------------------------- */
 
 static double c[16], row[16][16], weight[16], fifth[16], third[16];
 
@@ -88,7 +88,7 @@ the_table_satisfies_its_conditions(void **state)
     assert_true(fabs(moment(third, 3) - 0.25) > 1e-5);
 }
 
-/* --- orders --------------------------------------------------------------------------- */
+/* --- orders ------------------------------------------------------------------------ */
 
 /* End error of n equal steps. */
 static double
@@ -161,7 +161,7 @@ polynomial_and_ratio_go_as_the_eighth_power(void **state)
     }
 }
 
-/* --- runs ----------------------------------------------------------------------------- */
+/* --- runs -------------------------------------------------------------------------- */
 
 /* Twelve evaluations a step, eleven one refused; two to begin. */
 static void
@@ -211,8 +211,8 @@ it_costs_about_what_rk8pd_costs(void **state)
 {
     (void)state;
     for (int p = 0; p < 3; p++) {
-        double ratio =
-            evaluations_for(problems[p], "dop853") / evaluations_for(problems[p], "rk8pd");
+        double ratio = evaluations_for(problems[p], "dop853")
+                       / evaluations_for(problems[p], "rk8pd");
 
         if (!(ratio > 0.6 && ratio < 1.5))
             fail_msg("%s: %g times the evaluations", problems[p]->name, ratio);
@@ -283,7 +283,7 @@ a_failure_says_where_and_keeps_the_run(void **state)
     qdot_trajectory_clear(&tr);
 }
 
-/* --- between the points --------------------------------------------------------------- */
+/* --- between the points ------------------------------------------------------------ */
 
 /* No time in a step errs more than its ends do, by a fifth of the tolerance (and the
  * rounding of the state). */

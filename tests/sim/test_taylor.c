@@ -71,7 +71,8 @@ forms_agree(fixture *f, const double *y, double t)
         double size = 0;
 
         for (int k = 0; k <= P; k++) {
-            double x = a->x[i * a->stride + (size_t)k], z = b->x[i * b->stride + (size_t)k];
+            double x = a->x[i * a->stride + (size_t)k],
+                   z = b->x[i * b->stride + (size_t)k];
 
             size = fmax(size, fabs(x));
             if (!(fabs(x - z) <= 1e-12 * (1e-3 + size)))
@@ -137,7 +138,8 @@ a_chain_takes_the_residual_and_a_pendulum_does_not(void **state)
     chain(&f, 6);
     f.request.method = "taylor";
     must(qdot_run_plan(f.scene, &f.request, &text));
-    assert_non_null(strstr(qdot_text_str(&text), "d'Alembert's residual, 24 convolutions"));
+    assert_non_null(
+        strstr(qdot_text_str(&text), "d'Alembert's residual, 24 convolutions"));
     assert_non_null(strstr(qdot_text_str(&text), "order: "));
     qdot_text_clear(&text);
     end(&f);
@@ -185,9 +187,8 @@ a_constant_matrix_is_factored_once(void **state)
     m = parameter(&f, "m");
     must(qdot_scene_particle(f.scene, "a", m, x));
     must(qdot_scene_particle(f.scene, "b", m, qdot_add(f.pool, x, y)));
-    must(qdot_scene_potential(f.scene,
-                              qdot_add(f.pool, qdot_pow_int(f.pool, x, 4),
-                                       qdot_fun1(f.pool, QDOT_COSH, y))));
+    must(qdot_scene_potential(f.scene, qdot_add(f.pool, qdot_pow_int(f.pool, x, 4),
+                                                qdot_fun1(f.pool, QDOT_COSH, y))));
     set(&f, "m", "1");
     f.q0[0] = QDOT_ONE;
     f.request.t1 = qdot_expr_int(f.pool, 10);

@@ -82,12 +82,15 @@ every_function_has_its_series(void **state)
         bool above; /* of u > 1, else of 0 < x < 1 */
         const char *name;
     } rows[] = {
-        {QDOT_SIN, false, "sin"},   {QDOT_COS, false, "cos"},     {QDOT_TAN, false, "tan"},
-        {QDOT_SEC, false, "sec"},   {QDOT_CSC, false, "csc"},     {QDOT_COT, false, "cot"},
-        {QDOT_ASIN, false, "asin"}, {QDOT_ACOS, false, "acos"},   {QDOT_ATAN, false, "atan"},
-        {QDOT_SINH, false, "sinh"}, {QDOT_COSH, false, "cosh"},   {QDOT_TANH, false, "tanh"},
+        {QDOT_SIN, false, "sin"},     {QDOT_COS, false, "cos"},
+        {QDOT_TAN, false, "tan"},     {QDOT_SEC, false, "sec"},
+        {QDOT_CSC, false, "csc"},     {QDOT_COT, false, "cot"},
+        {QDOT_ASIN, false, "asin"},   {QDOT_ACOS, false, "acos"},
+        {QDOT_ATAN, false, "atan"},   {QDOT_SINH, false, "sinh"},
+        {QDOT_COSH, false, "cosh"},   {QDOT_TANH, false, "tanh"},
         {QDOT_ASINH, false, "asinh"}, {QDOT_ACOSH, true, "acosh"},
-        {QDOT_ATANH, false, "atanh"}, {QDOT_EXP, false, "exp"},   {QDOT_LOG, true, "log"},
+        {QDOT_ATANH, false, "atanh"}, {QDOT_EXP, false, "exp"},
+        {QDOT_LOG, true, "log"},
     };
     fixture f;
 
@@ -121,12 +124,12 @@ arithmetic_has_its_series(void **state)
     series_is_right(&f, qdot_sub(f.pool, e, qdot_mul(f.pool, c, c)), "sums");
     e = qdot_sub(f.pool, f.x, qdot_mul(f.pool, s, c));
     series_is_right(&f, qdot_mul(f.pool, decimal(&f, "-0.7"), e), "difference");
-    series_is_right(&f,
-                    qdot_sub(f.pool, qdot_mul(f.pool, s, c), qdot_mul(f.pool, c, c)),
+    series_is_right(&f, qdot_sub(f.pool, qdot_mul(f.pool, s, c), qdot_mul(f.pool, c, c)),
                     "difference of products");
     e = qdot_fun(f.pool, QDOT_ATAN2, 2, (qdot_expr[]){s, c});
     series_is_right(&f, e, "atan2");
-    e = qdot_add(f.pool, qdot_fun1(f.pool, QDOT_SINH, s), qdot_fun1(f.pool, QDOT_COSH, s));
+    e = qdot_add(f.pool, qdot_fun1(f.pool, QDOT_SINH, s),
+                 qdot_fun1(f.pool, QDOT_COSH, s));
     series_is_right(&f, e, "a pair from one argument");
     qdot_pool_free(f.pool);
 }
@@ -173,6 +176,44 @@ constants_cost_no_convolution(void **state)
     qdot_pool_free(f.pool);
 }
 
+/* 9.81 and pi are no doubles: drawn over many times, their mean is far closer than
+ * either neighbour. */
+static void
+constants_between_doubles_average_out(void **state)
+{
+    static const long double exact[] = {9.81L, M_PIl, -0.1L};
+    enum { TIMES = 20000 };
+    fixture f;
+    qdot_expr input = QDOT_T, e[3];
+    long double sum[3] = {0};
+    qdot_tape *tape;
+    qdot_taylor *series;
+
+    (void)state;
+    begin(&f);
+    e[0] = decimal(&f, "9.81");
+    e[1] = QDOT_PI;
+    e[2] = qdot_neg(f.pool, decimal(&f, "0.1"));
+    assert_int_equal(qdot_tape_new(f.pool, 1, &input, 3, e, &tape), QDOT_OK);
+    assert_int_equal(qdot_taylor_new(tape, 1, &series), QDOT_OK);
+    for (int i = 0; i < TIMES; i++) {
+        qdot_taylor_draw(series, 0.01 * i);
+        for (size_t k = 0; k < 3; k++)
+            sum[k] += qdot_taylor_output(series, k)[0] - exact[k];
+    }
+    for (size_t k = 0; k < 3; k++) {
+        double nearest = (double)exact[k],
+               spacing = nextafter(fabs(nearest), 99) - fabs(nearest);
+
+        if (!(fabsl(sum[k] / TIMES) < 0.02L * spacing))
+            fail_msg("constant %zu: off by %Lg of a spacing in the mean", k,
+                     sum[k] / TIMES / spacing);
+    }
+    qdot_taylor_free(series);
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
 int
 main(void)
 {
@@ -181,6 +222,7 @@ main(void)
         cmocka_unit_test(arithmetic_has_its_series),
         cmocka_unit_test(what_switches_is_refused_by_name),
         cmocka_unit_test(constants_cost_no_convolution),
+        cmocka_unit_test(constants_between_doubles_average_out),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

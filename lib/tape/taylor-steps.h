@@ -1,0 +1,71 @@
+/* taylor-steps.h -- a Taylor program from inside: its steps and rows. Internal to tape/.
+ * */
+#ifndef QDOT_TAPE_TAYLOR_STEPS_H
+#define QDOT_TAPE_TAYLOR_STEPS_H
+
+#include "num/series.h"
+#include "tape/code.h"
+#include "tape/taylor.h"
+
+/* Recurrences: by order k > 0. */
+typedef enum {
+    QDOT_T_END,
+    QDOT_T_NEG,
+    QDOT_T_ADD,
+    QDOT_T_SUB,
+    QDOT_T_SCALE,    /* x y, x a constant */
+    QDOT_T_SCALEADD, /* x y + z */
+    QDOT_T_SCALESUB, /* x y - z */
+    QDOT_T_SCALEOFF, /* z - x y */
+    QDOT_T_MUL,
+    QDOT_T_SQUARE,
+    QDOT_T_MADD,
+    QDOT_T_MSUB,
+    QDOT_T_NMADD,
+    QDOT_T_DIV,
+    QDOT_T_SQRT,
+    QDOT_T_SINCOS, /* to, second; d: j x_j */
+    QDOT_T_SINHCOSH,
+    QDOT_T_EXP,
+    QDOT_T_POW,   /* d: j x_j; z: the exponent, a constant */
+    QDOT_T_RATIO, /* l' = +-x'/y; d: j l_j; sign in `sign` */
+    QDOT_T_TANH,  /* second: 1 - to^2; d: j x_j */
+    QDOT_T_ATAN2, /* y: its second argument, z: x^2 + y^2; d, second, third: j l_j,
+                j x_j, j y_j */
+    QDOT_T_COUNT
+} qdot_taylor_op;
+
+/* Values of order 0 that operation.def does not have. */
+enum { QDOT_ZERO_SINHCOSH = QDOT_OP_COUNT, QDOT_ZERO_POWER };
+
+/* Rows of coefficients, by order; the last place of a row is what qdot_taylor_correct
+ * adds to the newest coefficient. */
+typedef struct {
+    uint16_t op, zero; /* recurrence; how order 0 is computed */
+    int sign;
+    double *to, *second, *third, *d;
+    const double *x, *y, *z;
+    double c; /* the inverse of what every order divides by */
+} qdot_taylor_step;
+
+/* A constant between two doubles. */
+struct qdot_taylor_drawn {
+    double *row;
+    double near, far, chance; /* of the far one */
+};
+
+struct qdot_taylor {
+    const qdot_series_kernels *kernels;
+    size_t stride, inputs, outputs, rows;
+    double convolutions;
+    double *coefficients;     /* [rows x stride], the inputs first */
+    const double **output;    /* [outputs] rows */
+    bool *constant;           /* [outputs] */
+    qdot_taylor_step *steps;              /* [length], QDOT_T_END behind them */
+    size_t length;
+    struct qdot_taylor_drawn *drawn; /* [n_drawn] */
+    size_t n_drawn;
+    double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
+};
+
+#endif
