@@ -191,10 +191,9 @@ read_line(const char *prompt, char **line)
     (void)qdot_signals_take();
     rl_callback_handler_install(prompt, take_line);
     while (!answer.ready) {
-        if (wait_for_input())
-            rl_callback_read_char();
+        /* before it sleeps: readline may have taken a signal while it showed the prompt */
         rl_check_signals();
-        if (qdot_signals_take() && !answer.ready) {
+        if (qdot_signals_take()) {
             rl_callback_sigcleanup();
             rl_free_line_state();
             rl_callback_handler_remove();
@@ -202,6 +201,8 @@ read_line(const char *prompt, char **line)
             fflush(rl_outstream);
             return CLEARED;
         }
+        if (wait_for_input())
+            rl_callback_read_char();
     }
     *line = answer.line;
     return answer.line != NULL ? LINE : ENDED;
