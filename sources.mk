@@ -17,6 +17,7 @@ base_headers = \
 num_sources = \
 	lib/num/cholesky.c \
 	lib/num/ldlt.c \
+	lib/num/row-space.c \
 	lib/num/series.c \
 	lib/num/structure.c \
 	lib/num/sum.c
@@ -24,6 +25,7 @@ num_sources = \
 num_headers = \
 	lib/num/cholesky.h \
 	lib/num/ldlt.h \
+	lib/num/row-space.h \
 	lib/num/series.def \
 	lib/num/series.h \
 	lib/num/structure.h \
@@ -203,10 +205,13 @@ sim_sources = \
 	lib/sim/direct.c \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
+	lib/sim/nearest-search.c \
+	lib/sim/nearest.c \
 	lib/sim/plan.c \
 	lib/sim/residual.c \
 	lib/sim/run.c \
 	lib/sim/shifted.c \
+	lib/sim/start.c \
 	lib/sim/substitute.c \
 	lib/sim/value.c
 
@@ -217,10 +222,12 @@ sim_headers = \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
 	lib/sim/integrated.h \
+	lib/sim/nearest.h \
 	lib/sim/plan.h \
 	lib/sim/residual.h \
 	lib/sim/run.h \
 	lib/sim/shifted.h \
+	lib/sim/start.h \
 	lib/sim/substitute.h
 
 show_sources = \
@@ -327,6 +334,7 @@ unit_tests = \
 	tests/normal/test_verdicts \
 	tests/num/test_cholesky \
 	tests/num/test_ldlt \
+	tests/num/test_row-space \
 	tests/num/test_series \
 	tests/num/test_structure \
 	tests/num/test_sum \
@@ -341,6 +349,7 @@ unit_tests = \
 	tests/show/test_table \
 	tests/sim/test_equations \
 	tests/sim/test_run \
+	tests/sim/test_start \
 	tests/sim/test_taylor \
 	tests/src/test_options \
 	tests/src/test_prompt \

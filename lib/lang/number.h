@@ -33,6 +33,7 @@ qdot_expr qdot_number_without_measured(qdot_session *session, qdot_expr e);
 typedef struct {
     qdot_number_pairs values;
     qdot_vec(qdot_expr) q0, v0;
+    qdot_vec(bool) q_named, v_named;
     qdot_run_request request;
 } qdot_number_order;
 

@@ -43,6 +43,7 @@ typedef struct qdot_session {
     qdot_vec(qdot_measured) measured;
     qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
+    bool start_exactly; /* the latest `start` said so */
     qdot_vec(qdot_named_run) runs;
     qdot_vec(
         char *) including; /* files being read, for include cycles and relative paths */

@@ -278,6 +278,7 @@ qdot_number_start(qdot_cursor *c)
     qdot_session *session = c->session;
     qdot_status status = QDOT_OK;
     qdot_number_pairs list = {0};
+    bool exactly = false;
 
     if (is_run_name(c))
         return start_from_run(c);
@@ -291,10 +292,8 @@ qdot_number_start(qdot_cursor *c)
         if (status == QDOT_OK)
             status = qdot_number_push_pair(&list, start, jet, value);
     } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
-    if (status == QDOT_OK && qdot_cursor_is_word(c, "exactly")) {
-        c->error_at = c->at->start;
-        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: exactly");
-    }
+    if (status == QDOT_OK)
+        exactly = qdot_cursor_accept_word(c, "exactly");
     if (status == QDOT_OK)
         status = qdot_cursor_expect_end(c);
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++) {
@@ -305,6 +304,8 @@ qdot_number_start(qdot_cursor *c)
     }
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
         status = qdot_number_set_start(session, list.symbols.at[i], list.values.at[i]);
+    if (status == QDOT_OK)
+        session->start_exactly = exactly;
     qdot_number_free_pairs(&list);
     return status;
 }
@@ -317,6 +318,8 @@ qdot_number_free_order(qdot_number_order *o)
     qdot_number_free_pairs(&o->values);
     qdot_free(o->q0.at);
     qdot_free(o->v0.at);
+    qdot_free(o->q_named.at);
+    qdot_free(o->v_named.at);
 }
 
 static qdot_expr
@@ -344,11 +347,16 @@ order_start(qdot_session *session, qdot_number_order *o)
         qdot_status status;
 
         QDOT_TRY(qdot_pool_check(session->pool));
-        status = qdot_declare_in_domain(session, q, q0);
+        /* what constraints may solve for is looked at when they have */
+        status = named || scene->constraints.n == 0
+                     ? qdot_declare_in_domain(session, q, q0)
+                     : QDOT_OK;
         if (status != QDOT_OK)
             return named ? status
                          : qdot_hint("start %s = ...: what was never named starts at 0",
                                      qdot_expr_symbol(session->pool, q)->name);
+        QDOT_TRY(qdot_vec_push(&o->q_named, named));
+        QDOT_TRY(qdot_vec_push(&o->v_named, v_named));
         QDOT_TRY(qdot_vec_push(&o->q0, q0));
         QDOT_TRY(qdot_vec_push(&o->v0, v0));
     }
@@ -379,5 +387,8 @@ qdot_number_fill_order(qdot_session *session, qdot_number_order *o)
     o->request.values = o->values.values.at;
     o->request.q0 = o->q0.at;
     o->request.v0 = o->v0.at;
+    o->request.q_named = o->q_named.at;
+    o->request.v_named = o->v_named.at;
+    o->request.exactly = session->start_exactly;
     return QDOT_OK;
 }

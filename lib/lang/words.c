@@ -87,8 +87,10 @@ static const qdot_statement table[] = {
     {"set", NUMBERS, "set NAME = VALUE, ... | set F(ARGUMENTS) = EXPR",
      "values of parameters and of declared functions, for numbers", "set m = 1, L = 1",
      qdot_number_set, false},
-    {"start", NUMBERS, "start Q = VALUE, Q' = VALUE, ... | start RUN",
-     "the initial state; changes only what it names", "start theta = 2, theta' = 0",
+    {"start", NUMBERS, "start Q = VALUE, Q' = VALUE, ... [exactly] | start RUN",
+     "the initial state; changes only what it names; what constraints determine of the rest "
+     "is solved for, unless `exactly`",
+     "start theta = 2, theta' = 0",
      qdot_number_start, false},
     {"run", NUMBERS,
      "run T0..T1 [tol E] [method NAME] [with NAME = VALUE, ...] [as NAME]",

@@ -18,6 +18,7 @@ qdot_workbench_reset(qdot_cursor *c)
     c->error_at = start->start;
     if (initial) {
         c->session->start_symbols.n = 0;
+        c->session->start_exactly = false;
         c->session->start_values.n = 0;
         return QDOT_OK;
     }

@@ -18,6 +18,7 @@ struct qdot_run {
     double t1_low;        /* what the exact limit is beyond it */
     int t0_side, t1_side; /* where the exact limits lie beside them */
     char *reason;
+    qdot_text notice;     /* of the start */
     qdot_run_report report;
 
     /* The run whose distance from this one is the error between points: made when

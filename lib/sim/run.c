@@ -8,6 +8,7 @@
 #include "ode/companion.h"
 #include "sim/domain.h"
 #include "sim/integrated.h"
+#include "sim/start.h"
 #include "tape/constant.h"
 #include "tape/shake.h"
 
@@ -37,6 +38,7 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->start);
     qdot_free(run->start_low);
     qdot_free(run->reason);
+    qdot_text_clear(&run->notice);
     qdot_free(run);
 }
 
@@ -112,6 +114,20 @@ check_start(qdot_run *run, const qdot_domains *domains)
         return qdot_hint("start %s = ...", name);
     }
     return qdot_bind_check(run->bind, run->t0, run->start);
+}
+
+/* Onto the constraints. */
+static qdot_status
+settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
+             const qdot_domains *domains)
+{
+    if (scene->constraints.n == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
+                               run->start_low, &run->notice));
+    if (run->notice.n > 0)
+        run->report.notice = qdot_text_str(&run->notice);
+    return QDOT_OK;
 }
 
 /* --- the run ------------------------------------------------------------------------ */
@@ -301,6 +317,8 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
         status = read_start(run, request);
     if (status == QDOT_OK)
         status = qdot_domains_find(run->plan, &domains);
+    if (status == QDOT_OK)
+        status = settle_start(run, scene, request, &domains);
     if (status == QDOT_OK)
         status = qdot_bind_new(run->plan, false, &run->bind);
     if (status == QDOT_OK)

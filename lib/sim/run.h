@@ -19,6 +19,9 @@ typedef struct {
     size_t n_values;              /* values of parameters: symbol -> exact constant */
     const qdot_expr *symbols, *values;
     const qdot_expr *q0, *v0;     /* [n] start: exact constants, in order of the coordinates */
+    const bool *q_named, *v_named; /* [n] which of them were named: the others may be solved for
+                                     where constraints ask it; NULL: all */
+    bool exactly;                 /* a start that breaks a constraint is refused */
     qdot_expr t0, t1;             /* limits: exact constants; t1 < t0 runs back */
     double tol;                   /* local error of each component in each step, relative to
                                      max(1, |value|) */
@@ -52,6 +55,7 @@ typedef struct {
     const qdot_expr *coordinates;  /* [n] symbols */
     const double *q, *v;           /* [n] state at t1 */
     size_t operations;             /* of the tape, one evaluation of M and f */
+    const char *notice;            /* what a person must know of the start, a line each; NULL: nothing */
 } qdot_run_report;
 
 /* Integrate. On QDOT_OK *run is owned by the caller; report->status may still be FAILED (a

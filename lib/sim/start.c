@@ -1,0 +1,449 @@
+/* start.c -- which values a start keeps, which are solved for, and what is said of it. */
+#include "sim/start.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "sim/nearest.h"
+
+static const double breaks = 1e-14; /* relative to max(1, |x|) */
+
+enum { MOST_LISTED = 24 };
+
+/* Positions or velocities: what must hold of them. */
+typedef struct {
+    qdot_scene *scene;
+    const qdot_plan *plan;
+    const qdot_run_request *request;
+    bool velocities;
+    size_t n;
+    size_t m;
+    qdot_expr *F;        /* [m] */
+    size_t *constraint;  /* [m] whose F it is */
+    double *distance;    /* [m] as the start was */
+    bool *free;          /* [n] */
+    qdot_nearest near;
+    const double *before; /* [2n] */
+} level;
+
+/* --- the equations ------------------------------------------------------------------ */
+
+static qdot_status
+push(level *l, size_t k, qdot_expr F)
+{
+    qdot_expr t = QDOT_T;
+
+    F = qdot_plan_substitute(l->plan, F);
+    QDOT_TRY(qdot_pool_check(l->plan->pool));
+    F = qdot_subs(l->plan->pool, F, 1, &t, &l->request->t0);
+    QDOT_TRY(qdot_pool_check(l->plan->pool));
+    l->F[l->m] = F;
+    l->constraint[l->m++] = k;
+    return QDOT_OK;
+}
+
+static qdot_status
+level_init(level *l)
+{
+    const qdot_scene *scene = l->scene;
+    size_t c = scene->constraints.n;
+
+    l->F = qdot_calloc(c + 1, sizeof *l->F);
+    l->constraint = qdot_calloc(c + 1, sizeof *l->constraint);
+    l->distance = qdot_calloc(c + 1, sizeof *l->distance);
+    l->free = qdot_calloc(l->n + 1, sizeof *l->free);
+    if (!l->F || !l->constraint || !l->distance || !l->free)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < c; k++) {
+        const qdot_constraint *one = &scene->constraints.at[k];
+
+        if (one->kind == QDOT_HOLONOMIC)
+            QDOT_TRY(push(l, k, l->velocities ? qdot_ddt(scene->pool, one->f) : one->f));
+        else if (one->kind == QDOT_VELOCITY && l->velocities)
+            QDOT_TRY(push(l, k, one->f));
+    }
+    return QDOT_OK;
+}
+
+static void
+level_clear(level *l)
+{
+    qdot_free(l->F);
+    qdot_free(l->constraint);
+    qdot_free(l->distance);
+    qdot_free(l->free);
+}
+
+/* The search over the equations F [m]. */
+static qdot_nearest
+equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains *domains)
+{
+    return (qdot_nearest){.pool = l->plan->pool,
+                          .inputs = 2 * l->n,
+                          .symbol = l->plan->inputs,
+                          .first = l->velocities ? l->n : 0,
+                          .n = l->n,
+                          .m = m,
+                          .F = F,
+                          .domains = l->velocities ? NULL : domains};
+}
+
+/* --- words -------------------------------------------------------------------------- */
+
+static void
+print_unknown(const level *l, size_t i, qdot_text *out)
+{
+    qdot_text_format(out, "%s%s", l->plan->names[i], l->velocities ? "'" : "");
+}
+
+/* "constraint rod", "constraints a, pin[2] and b" */
+static void
+print_constraints(const level *l, const bool *which, qdot_text *out)
+{
+    size_t count = 0, done = 0;
+
+    for (size_t k = 0; k < l->m; k++)
+        count += which[k];
+    qdot_text_add(out, count == 1 ? "constraint " : "constraints ");
+    for (size_t k = 0; k < l->m; k++) {
+        const char *name = l->scene->constraints.at[l->constraint[k]].name;
+        const char *comma = strchr(name, ',');
+
+        if (!which[k])
+            continue;
+        if (done > 0)
+            qdot_text_add(out, done + 1 == count ? " and " : ", ");
+        done++;
+        if (comma)
+            qdot_text_format(out, "%.*s[%s]", (int)(comma - name), name,
+                             comma + 1 + strspn(comma + 1, " "));
+        else
+            qdot_text_add(out, name);
+    }
+}
+
+static qdot_status
+print_broken(const level *l, qdot_text *out)
+{
+    bool *which = qdot_calloc(l->m + 1, sizeof *which);
+
+    if (!which)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < l->m; k++)
+        which[k] = !(l->distance[k] <= breaks);
+    print_constraints(l, which, out);
+    qdot_free(which);
+    return QDOT_OK;
+}
+
+/* Fail with `text`, which is let go of. */
+static qdot_status
+fail(qdot_text *text, qdot_status built)
+{
+    if (built == QDOT_OK)
+        built = qdot_text_status(text);
+    if (built == QDOT_OK)
+        built = qdot_fail(QDOT_EINVAL, "%s", qdot_text_str(text));
+    qdot_text_clear(text);
+    return built;
+}
+
+static qdot_status
+refuse(const level *l, const double *residual)
+{
+    qdot_text text = {0};
+    qdot_status status;
+    size_t worst = 0;
+
+    for (size_t k = 1; k < l->m; k++)
+        if (!(l->distance[k] <= l->distance[worst]))
+            worst = k;
+    qdot_text_add(&text, "the start breaks ");
+    status = print_broken(l, &text);
+    qdot_text_format(&text, ": %s is %.6g, not 0",
+                     l->velocities ? "its rate" : "left - right", residual[worst]);
+    status = fail(&text, status);
+    return status == QDOT_EINVAL
+               ? qdot_hint("without `exactly` the start is moved onto the constraints")
+               : status;
+}
+
+static qdot_status
+say_several(const level *l, const double *at, const double *other, bool all)
+{
+    const double *x = at + (l->velocities ? l->n : 0);
+    qdot_text text = {0}, name = {0};
+    qdot_status status = QDOT_OK;
+    size_t i = 0;
+
+    for (size_t j = 1; j < l->n; j++)
+        if (fabs(x[j] - other[j]) > fabs(x[i] - other[i]))
+            i = j;
+    print_unknown(l, i, &name);
+    status = qdot_text_status(&name);
+    qdot_text_add(&text, "the start breaks ");
+    if (status == QDOT_OK)
+        status = print_broken(l, &text);
+    qdot_text_format(&text, ", and two answers are equally near: %s = %.6g and %s = %.6g",
+                     qdot_text_str(&name), x[i], qdot_text_str(&name), other[i]);
+    status = fail(&text, status);
+    if (status == QDOT_EINVAL)
+        status = all ? qdot_hint("start %s = ...: a value nearer to one of them",
+                                 qdot_text_str(&name))
+                     : qdot_hint("name one more value: start %s = %.6g",
+                                 qdot_text_str(&name), x[i]);
+    qdot_text_clear(&name);
+    return status;
+}
+
+static qdot_status
+say_moved(const level *l, const double *at, qdot_text *notice)
+{
+    size_t first = l->velocities ? l->n : 0, listed = 0, left = 0;
+    double most = 0;
+
+    if (notice->n > 0)
+        qdot_text_add(notice, "\n");
+    qdot_text_add(notice, "the start breaks ");
+    QDOT_TRY(print_broken(l, notice));
+    qdot_text_add(notice, "; moved least, in the metric of M:");
+    for (size_t i = 0; i < l->n; i++) {
+        double from = l->before[first + i], by = at[first + i] - from;
+
+        if (!(fabs(by) > breaks * fmax(1, fabs(from))))
+            continue;
+        if (listed == MOST_LISTED) {
+            left++;
+            most = fmax(most, fabs(by));
+            continue;
+        }
+        qdot_text_add(notice, listed++ > 0 ? ", " : " ");
+        print_unknown(l, i, notice);
+        qdot_text_format(notice, " from %.12g to %.12g (by %.3g)", from, at[first + i],
+                         by);
+    }
+    if (left > 0)
+        qdot_text_format(notice, ", and %zu more, at most by %.3g", left, most);
+    return qdot_text_status(notice);
+}
+
+/* --- contradictions ----------------------------------------------------------------- */
+
+/* Whether the equations `kept` can hold together. */
+static qdot_status
+can_hold(const level *l, const bool *kept, const qdot_domains *domains,
+         const double *start, bool *can)
+{
+    size_t m = 0;
+    qdot_expr *F = qdot_calloc(l->m + 1, sizeof *F);
+    double *at = qdot_calloc(3 * l->n + 1, sizeof *at);
+    qdot_nearest_outcome outcome = QDOT_NEAREST_FOUND;
+    qdot_nearest near;
+    qdot_status status = F && at ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < l->m && status == QDOT_OK; k++)
+        if (kept[k])
+            F[m++] = l->F[k];
+    near = equations(l, m, F, domains);
+    if (status == QDOT_OK && m > 0) {
+        status = qdot_nearest_begin(&near);
+        if (status == QDOT_OK) {
+            memcpy(at, start, 2 * l->n * sizeof *at);
+            status = qdot_nearest_find(&near, l->free, NULL, at, at + 2 * l->n, &outcome);
+            qdot_nearest_end(&near);
+        }
+    }
+    *can = outcome != QDOT_NEAREST_NONE;
+    qdot_free(F);
+    qdot_free(at);
+    return status;
+}
+
+/* No state keeps all of them: leave out one after another what is not to blame. */
+static qdot_status
+blame(const level *l, const qdot_domains *domains, const double *start)
+{
+    bool *kept = qdot_calloc(l->m + 1, sizeof *kept), can;
+    qdot_status status = kept ? QDOT_OK : QDOT_ENOMEM;
+    qdot_text text = {0};
+    size_t count = l->m;
+
+    for (size_t k = 0; k < l->m && status == QDOT_OK; k++)
+        kept[k] = true;
+    for (size_t k = l->m; k-- > 0 && status == QDOT_OK;) {
+        kept[k] = false;
+        status = can_hold(l, kept, domains, start, &can);
+        if (status == QDOT_OK && can)
+            kept[k] = true;
+        else
+            count--;
+    }
+    if (status == QDOT_OK) {
+        qdot_text_format(&text, "no %s found that keep%s ",
+                         l->velocities ? "velocities were" : "position was",
+                         l->velocities ? "" : "s");
+        print_constraints(l, kept, &text);
+        if (count > 1)
+            qdot_text_add(&text, ": they contradict each other");
+        status = fail(&text, status);
+    }
+    if (status == QDOT_EINVAL)
+        status = qdot_hint("check their parameters%s",
+                           count > 1 ? ", or remove one of them" : "");
+    qdot_free(kept);
+    return status;
+}
+
+/* --- a level ------------------------------------------------------------------------ */
+
+/* M at the start. */
+static qdot_status
+metric(const level *l, const double *y, double *W)
+{
+    qdot_pool *pool = l->plan->pool;
+    size_t n = l->n;
+    qdot_expr M = qdot_mech_numeric_mass(l->scene), t = QDOT_T;
+    qdot_expr *entries = qdot_calloc(n * n + 1, sizeof *entries);
+    qdot_tape *tape = NULL;
+    double *work = NULL;
+    qdot_status status = entries ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK && M != QDOT_NIL)
+        M = qdot_plan_substitute(l->plan, M);
+    if (status == QDOT_OK && M != QDOT_NIL)
+        M = qdot_subs(pool, M, 1, &t, &l->request->t0);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
+        entries[i] = qdot_expr_arg(pool, M, (uint32_t)i);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(pool, 2 * n, l->plan->inputs, n * n, entries, &tape);
+    if (status == QDOT_OK) {
+        work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *work);
+        status = work ? QDOT_OK : QDOT_ENOMEM;
+    }
+    if (status == QDOT_OK)
+        qdot_tape_eval(tape, y, W, work);
+    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
+        if (!isfinite(W[i]))
+            W[i] = i % (n + 1) == 0;
+    qdot_free(work);
+    qdot_tape_free(tape);
+    qdot_free(entries);
+    return status;
+}
+
+/* All moves least. */
+static qdot_status
+move_all(level *l, const qdot_domains *domains, double *y, double *other,
+         qdot_text *notice)
+{
+    double *W = qdot_calloc(l->n * l->n + 1, sizeof *W);
+    qdot_nearest_outcome outcome = QDOT_NEAREST_NONE;
+    qdot_status status = W ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < l->n; i++)
+        l->free[i] = true;
+    if (status == QDOT_OK)
+        status = metric(l, y, W);
+    if (status == QDOT_OK)
+        status = qdot_nearest_find(&l->near, l->free, W, y, other, &outcome);
+    qdot_free(W);
+    QDOT_TRY(status);
+    if (outcome == QDOT_NEAREST_NONE)
+        return blame(l, domains, y);
+    if (outcome == QDOT_NEAREST_SEVERAL)
+        return say_several(l, y, other, true);
+    return say_moved(l, y, notice);
+}
+
+/* The start breaks the equations. */
+static qdot_status
+solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
+{
+    const bool *named = l->velocities ? l->request->v_named : l->request->q_named;
+    qdot_nearest_outcome outcome = QDOT_NEAREST_NONE;
+    double *other = qdot_calloc(l->n + 1, sizeof *other);
+    qdot_status status = other ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < l->n; i++)
+        l->free[i] = named && !named[i];
+    if (status == QDOT_OK)
+        status = qdot_nearest_find(&l->near, l->free, NULL, y, other, &outcome);
+    if (status == QDOT_OK && outcome == QDOT_NEAREST_SEVERAL)
+        status = say_several(l, y, other, false);
+    else if (status == QDOT_OK && outcome == QDOT_NEAREST_NONE)
+        status = move_all(l, domains, y, other, notice);
+    qdot_free(other);
+    return status;
+}
+
+static double
+worst(const level *l, const double *y)
+{
+    double most = 0, size = 1;
+
+    for (size_t i = 0; i < l->n; i++)
+        size = fmax(size, fabs(y[l->near.first + i]));
+    for (size_t k = 0; k < l->m; k++)
+        most = !(l->distance[k] / size <= most) ? l->distance[k] / size : most;
+    return most;
+}
+
+static qdot_status
+settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text *notice)
+{
+    double *residual = qdot_calloc(l->m + 1, sizeof *residual), broken;
+    qdot_status status = residual ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_nearest_distance(&l->near, y, low, l->distance, residual);
+    broken = status == QDOT_OK ? worst(l, y) : 0;
+    for (size_t i = 0; i < l->n; i++)
+        l->free[i] = true;
+    if (status == QDOT_OK && !(broken <= breaks)) {
+        status = l->request->exactly ? refuse(l, residual) : solve(l, domains, y, notice);
+        for (size_t i = 0; i < l->n; i++)
+            if (l->free[i])
+                low[l->near.first + i] = 0;
+    }
+    if (status == QDOT_OK && broken != 0)
+        status = qdot_nearest_refine(&l->near, l->free, y, low);
+    qdot_free(residual);
+    return status;
+}
+
+qdot_status
+qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
+                  const qdot_run_request *request, const qdot_domains *domains, double *y,
+                  double *low, qdot_text *notice)
+{
+    size_t n = plan->n;
+    double *before = qdot_calloc(2 * n + 1, sizeof *before);
+    qdot_status status = before ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        memcpy(before, y, 2 * n * sizeof *before);
+    for (int velocities = 0; velocities < 2 && status == QDOT_OK; velocities++) {
+        level l = {.scene = scene,
+                   .plan = plan,
+                   .request = request,
+                   .velocities = velocities,
+                   .n = n,
+                   .before = before};
+
+        status = level_init(&l);
+        if (status == QDOT_OK && l.m > 0) {
+            l.near = equations(&l, l.m, l.F, domains);
+            status = qdot_nearest_begin(&l.near);
+            if (status == QDOT_OK) {
+                status = settle(&l, domains, y, low, notice);
+                qdot_nearest_end(&l.near);
+            }
+        }
+        level_clear(&l);
+    }
+    qdot_free(before);
+    return status;
+}
