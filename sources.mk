@@ -184,6 +184,7 @@ mech_sources = \
 	lib/mech/noether.c \
 	lib/mech/numeric.c \
 	lib/mech/scene-print.c \
+	lib/mech/scene-replace.c \
 	lib/mech/scene.c \
 	lib/mech/stability.c \
 	lib/mech/virtual-work.c
@@ -384,6 +385,7 @@ script_tests = \
 	tests/script/styles.lag \
 	tests/script/text.lag \
 	tests/script/to-file.sh \
+	tests/script/values.lag \
 	tests/bad/acceleration-position.lag \
 	tests/bad/as-number.lag \
 	tests/bad/bad-method.lag \
@@ -749,6 +751,7 @@ test_files = \
 	tests/script/styles.out \
 	tests/script/text.out \
 	tests/script/to-file.out \
+	tests/script/values.out \
 	tests/sim/scenes.h \
 	tests/tape/reference.h \
 	tests/fuzz/fuzz-parse.c \

@@ -65,7 +65,8 @@ typedef enum {
     QDOT_MOMENTUM,     /* p[q], the independent variable of a Hamiltonian or Routhian */
     QDOT_MULTIPLIER,   /* lambda[rod], lambda[pin, 1] */
     QDOT_DIFFERENTIAL, /* dq, dt */
-    QDOT_DELTA         /* delta[q], a virtual displacement */
+    QDOT_DELTA,        /* delta[q], a virtual displacement */
+    QDOT_WORDS         /* a text, what latex(e) gives: its name as it stands; no number */
 } qdot_class;
 
 /* What is known of a sign; a set. Zero is QDOT_GE0 | QDOT_LE0. */
@@ -83,6 +84,7 @@ enum {
     QDOT_HAS_MULTIPLIER = 1 << QDOT_MULTIPLIER,
     QDOT_HAS_DIFFERENTIAL = 1 << QDOT_DIFFERENTIAL,
     QDOT_HAS_DELTA = 1 << QDOT_DELTA,
+    QDOT_HAS_WORDS = 1 << QDOT_WORDS,
     QDOT_HAS_VELOCITY = 1 << 10,     /* order 1 */
     QDOT_HAS_ACCELERATION = 1 << 11, /* order 2 or more */
     QDOT_HAS_UFUN = 1 << 12,
@@ -121,6 +123,11 @@ bool qdot_pool_failed(const qdot_pool *pool);
  * QDOT_ELIMIT; UINT64_MAX: no bound. Returns what was left of the bound before, to be put back. */
 uint64_t qdot_pool_budget(qdot_pool *pool, uint64_t work);
 
+/* That a simplification stopped at its work budget: the form is right, there may be a shorter one.
+ * _taken: whether one did since the last call. */
+void qdot_pool_unfinished(qdot_pool *pool);
+bool qdot_pool_unfinished_taken(qdot_pool *pool);
+
 /* --- reading -------------------------------------------------------------------------- */
 
 const qdot_node *qdot_expr_node(const qdot_pool *pool, qdot_expr e);
@@ -130,7 +137,7 @@ qdot_kind qdot_expr_kind(const qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_expr_arg(const qdot_pool *pool, qdot_expr e, uint32_t i);
 uint32_t qdot_expr_count(const qdot_pool *pool, qdot_expr e);
 
-bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* NUM ... UFUN */
+bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* NUM ... UFUN, no words */
 bool qdot_expr_is_zero(qdot_expr e);
 bool qdot_expr_is_one(qdot_expr e);
 /* The rational of a NUM; NULL for any other kind. Valid until the next constructor call. */
@@ -176,7 +183,7 @@ typedef struct {
 } qdot_symbol;
 
 /* The symbol of a class by its name, made if new. class: CONST, PARAM, FORMAL, COORD,
- * MULTIPLIER. */
+ * MULTIPLIER, WORDS. */
 qdot_expr qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name);
 /* The order-th time derivative of a coordinate (order 0: itself; of a jet: counted on). */
 qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);
@@ -203,6 +210,10 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_ufun_declare(qdot_pool *pool, const char *name,
                                               uint32_t arity, const qdot_expr *formals,
                                               uint32_t *id);
+/* The function `id` with other declared arguments, as many: an argument that meant a symbol of
+ * its own means a coordinate from now on. What was built keeps the arguments it was given. */
+QDOT_MUST_CHECK qdot_status qdot_ufun_redeclare(qdot_pool *pool, uint32_t id,
+                                                qdot_expr formals);
 const qdot_ufun *qdot_ufun_get(const qdot_pool *pool, uint32_t id);
 /* x(args), derivatives of the given orders (NULL: none). */
 qdot_expr qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args,

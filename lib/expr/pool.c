@@ -71,6 +71,21 @@ qdot_pool_budget(qdot_pool *pool, uint64_t work)
     return left;
 }
 
+void
+qdot_pool_unfinished(qdot_pool *pool)
+{
+    pool->unfinished = true;
+}
+
+bool
+qdot_pool_unfinished_taken(qdot_pool *pool)
+{
+    bool was = pool->unfinished;
+
+    pool->unfinished = false;
+    return was;
+}
+
 /* --- interning ------------------------------------------------------------------------ */
 
 static bool
@@ -490,6 +505,18 @@ qdot_ufun_declare(qdot_pool *pool, const char *name, uint32_t arity,
     return f.name == NULL ? QDOT_ENOMEM : qdot_vec_push(&pool->ufuns, f);
 }
 
+qdot_status
+qdot_ufun_redeclare(qdot_pool *pool, uint32_t id, qdot_expr formals)
+{
+    qdot_ufun *f = &pool->ufuns.at[id];
+
+    if (formals == QDOT_NIL || NODE(pool, formals)->kind != QDOT_LIST ||
+        NODE(pool, formals)->n != f->arity)
+        return qdot_fail(QDOT_EINVAL, "%s has %u arguments", f->name, f->arity);
+    f->formals = formals;
+    return QDOT_OK;
+}
+
 const qdot_ufun *
 qdot_ufun_get(const qdot_pool *pool, uint32_t id)
 {
@@ -614,7 +641,7 @@ bool
 qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e)
 {
     return e != QDOT_NIL && NODE(pool, e)->kind <= QDOT_UFUN && e != QDOT_TRUE &&
-           e != QDOT_FALSE;
+           e != QDOT_FALSE && !(NODE(pool, e)->holds & QDOT_HAS_WORDS);
 }
 
 bool

@@ -16,6 +16,7 @@ struct qdot_pool {
     qdot_arena *arena; /* names */
     qdot_error error;  /* status QDOT_OK: none */
     uint64_t budget;
+    bool unfinished;
 };
 
 /* The node with these args, made if new; args may lie in the pool. Nil on failure. */

@@ -152,7 +152,7 @@ qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_tex
     const char *name =
         s->base != QDOT_NIL ? qdot_expr_symbol(pool, s->base)->name : s->name;
 
-    if (style == QDOT_PLAIN) {
+    if (style == QDOT_PLAIN || s->class == QDOT_WORDS) {
         qdot_text_add(out, s->name);
         return;
     }

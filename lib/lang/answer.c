@@ -152,20 +152,6 @@ holds_relations(const qdot_pool *pool, qdot_expr e)
            (kind == QDOT_VEC && is_equation(pool, qdot_expr_arg(pool, e, 0)));
 }
 
-/* Whether the name of an equation says nothing that its left side does not: a value of
- * the language, each solved for what it is about (`p[theta] = ...`, `theta'' = ...`).
- * An equation of motion keeps its name, however simple its left side. */
-static bool
-names_itself(const qdot_pool *pool, const char *name, qdot_expr e)
-{
-    static const char *const solved[] = {"momenta[", "forces[", "accel[", "cyclic["};
-
-    for (size_t i = 0; i < sizeof solved / sizeof *solved; i++)
-        if (strncmp(name, solved[i], strlen(solved[i])) == 0)
-            return qdot_expr_kind(pool, qdot_expr_arg(pool, e, 0)) == QDOT_SYM;
-    return false;
-}
-
 static qdot_status
 expr_text(qdot_session *session, const char *name, qdot_expr value)
 {
@@ -176,7 +162,7 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
     if (status == QDOT_OK && !bare)
         status = qdot_answer_print(session, value, QDOT_PLAIN, &plain);
     if (!bare && is_equation(session->pool, value))
-        bare = strpbrk(name, "=<>") != NULL || names_itself(session->pool, name, value);
+        bare = strpbrk(name, "=<>") != NULL;
     if (!bare && holds_relations(session->pool, value))
         bare = strpbrk(name, "=<>") != NULL;
     if (!bare && strcmp(name, qdot_text_str(&plain)) != 0) {
@@ -228,8 +214,31 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
 qdot_status
 qdot_answer_expr(qdot_session *session, const char *name, qdot_expr value)
 {
+    if (qdot_expr_is_class(session->pool, value, QDOT_WORDS))
+        return qdot_answer_text(session, name,
+                                qdot_expr_symbol(session->pool, value)->name);
     return session->json ? expr_json(session, name, value)
                          : expr_text(session, name, value);
+}
+
+qdot_status
+qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
+                   qdot_expr value)
+{
+    qdot_text line = {0};
+    qdot_status status;
+
+    if (session->json)
+        return expr_json(session, name, value);
+    status = qdot_print(session->pool, symbol, session->style, &line);
+    qdot_text_add(&line, " = ");
+    if (status == QDOT_OK)
+        status = qdot_answer_print(session, value, session->style, &line);
+    qdot_text_char(&line, '\n');
+    if (status == QDOT_OK)
+        status = put(session->out, &line);
+    qdot_text_clear(&line);
+    return status;
 }
 
 qdot_status

@@ -25,6 +25,11 @@ QDOT_MUST_CHECK qdot_status qdot_answer_print(qdot_session *session, qdot_expr e
 QDOT_MUST_CHECK qdot_status qdot_answer_expr(qdot_session *session, const char *name,
                                              qdot_expr value);
 
+/* {"kind":"expr"} of `name`; as text `symbol = value`, what a member of momenta, accel,
+ * forces is called. */
+QDOT_MUST_CHECK qdot_status qdot_answer_solved(qdot_session *session, const char *name,
+                                               qdot_expr symbol, qdot_expr value);
+
 /* {"kind":"number"}: error 0: exact to the last digit; NaN: unknown. */
 QDOT_MUST_CHECK qdot_status qdot_answer_number(qdot_session *session, const char *name,
                                                double value, double error);

@@ -67,110 +67,41 @@ answer_list(qdot_session *session, const char *name, qdot_expr list)
 {
     uint32_t n = qdot_expr_count(session->pool, list);
     const qdot_quantity *row = qdot_quantity_find(name);
-    bool by_coordinate = row != NULL && row->most > 0 &&
-                         n == session->scene->coordinates.n &&
+    bool by_coordinate = row != NULL && row->over_coordinates &&
                          qdot_names_find(session->names, name) == NULL;
 
     if (n == 0)
         return qdot_answer_expr(session, name, list);
     for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = qdot_expr_arg(session->pool, list, i);
         qdot_text member = {0};
         qdot_status status;
 
         member_name(session, name, by_coordinate, i, &member);
         status = qdot_text_status(&member);
-        if (status == QDOT_OK)
-            status = qdot_answer_expr(session, qdot_text_str(&member),
-                                      qdot_expr_arg(session->pool, list, i));
+        if (status == QDOT_OK && by_coordinate && row->symbol != NULL) {
+            qdot_expr q = session->scene->coordinates.at[i];
+
+            status = qdot_answer_solved(session, qdot_text_str(&member),
+                                        row->symbol(session->pool, q), one);
+        } else if (status == QDOT_OK) {
+            status = qdot_answer_expr(session, qdot_text_str(&member), one);
+        }
         qdot_text_clear(&member);
         QDOT_TRY(status);
     }
     return QDOT_OK;
 }
 
-/* --- latex(e) ----------------------------------------------------------------------- */
-
-/* Whether `latex(` is at the cursor, no name of the user's; *behind: what follows it. */
-static bool
-is_latex(const qdot_cursor *c, const qdot_token **behind)
-{
-    long depth = 0;
-
-    if (!qdot_cursor_is_word(c, "latex") || c->at[1].kind != QDOT_TOKEN_OPERATOR ||
-        strcmp(c->at[1].text, "(") != 0 ||
-        qdot_names_find(c->session->names, "latex") != NULL)
-        return false;
-    for (const qdot_token *k = c->at + 1; k->kind != QDOT_TOKEN_END; k++) {
-        if (k->kind != QDOT_TOKEN_OPERATOR || k->text[1] != '\0')
-            continue;
-        depth += strchr("([{", k->text[0]) != NULL;
-        depth -= strchr(")]}", k->text[0]) != NULL;
-        if (depth == 0) {
-            *behind = k + 1;
-            return true;
-        }
-    }
-    return false;
-}
-
-/* The LaTeX of an expression; of a list each member in a line of its own. */
-static qdot_status
-read_latex(qdot_cursor *c, qdot_text *out)
-{
-    qdot_pool *pool = c->session->pool;
-    qdot_expr value;
-    uint32_t n;
-
-    c->at++;
-    QDOT_TRY(qdot_cursor_expect_op(c, "("));
-    QDOT_TRY(qdot_read_value(c, &value));
-    QDOT_TRY(qdot_cursor_expect_op(c, ")"));
-    if (qdot_expr_kind(pool, value) != QDOT_LIST)
-        return qdot_answer_print(c->session, value, QDOT_LATEX, out);
-    n = qdot_expr_count(pool, value);
-    for (uint32_t i = 0; i < n; i++) {
-        QDOT_TRY(qdot_answer_print(c->session, qdot_expr_arg(pool, value, i), QDOT_LATEX,
-                                   out));
-        qdot_text_add(out, i + 1 < n ? "\n" : "");
-    }
-    return QDOT_OK;
-}
-
-/* latex(e) as a whole statement: a text. */
-static qdot_status
-answer_latex(qdot_cursor *c)
-{
-    const qdot_token *start = c->at;
-    qdot_text name = {0}, text = {0};
-    qdot_status status = read_latex(c, &text);
-
-    if (status == QDOT_OK)
-        status = qdot_cursor_expect_end(c);
-    if (status == QDOT_OK) {
-        qdot_statement_text(c->session, start, c->at, &name);
-        status = qdot_text_status(&name);
-    }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(c->session, qdot_text_str(&name), qdot_text_str(&text));
-    qdot_text_clear(&name);
-    qdot_text_clear(&text);
-    return status;
-}
-
 qdot_status
 qdot_ask_expression(qdot_cursor *c)
 {
     qdot_session *session = c->session;
-    const qdot_token *behind;
     const qdot_token *start = c->at;
     qdot_expr value;
     qdot_text name = {0};
     qdot_status status;
 
-    if (is_latex(c, &behind) && behind->kind == QDOT_TOKEN_END)
-        return answer_latex(c);
     QDOT_TRY(qdot_read_value(c, &value));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
@@ -194,12 +125,34 @@ qdot_ask_expression(qdot_cursor *c)
 
 /* --- print -------------------------------------------------------------------------- */
 
+/* A list of texts, each in a line of its own. */
+static bool
+is_texts(const qdot_pool *pool, qdot_expr e)
+{
+    bool list = qdot_expr_kind(pool, e) == QDOT_LIST;
+    uint32_t n = list ? qdot_expr_count(pool, e) : 0;
+
+    for (uint32_t i = 0; i < n && list; i++)
+        list = qdot_expr_is_class(pool, qdot_expr_arg(pool, e, i), QDOT_WORDS);
+    return list && n > 0;
+}
+
+static qdot_status
+add_texts(qdot_session *session, qdot_expr list, qdot_text *line)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list); i++) {
+        qdot_text_add(line, i > 0 ? "\n" : "");
+        QDOT_TRY(qdot_print(session->pool, qdot_expr_arg(session->pool, list, i),
+                            session->style, line));
+    }
+    return QDOT_OK;
+}
+
 /* One argument as text: a quoted one as it is, numbers of runs as numbers. */
 static qdot_status
 print_one(qdot_cursor *c, qdot_text *line)
 {
     qdot_session *session = c->session;
-    const qdot_token *behind;
     const char *text;
     qdot_expr value;
     double x, error;
@@ -209,10 +162,9 @@ print_one(qdot_cursor *c, qdot_text *line)
         qdot_text_add(line, text);
         return QDOT_OK;
     }
-    if (is_latex(c, &behind) &&
-        (behind->kind == QDOT_TOKEN_END || strcmp(behind->text, ",") == 0))
-        return read_latex(c, line);
     QDOT_TRY(qdot_read_value(c, &value));
+    if (is_texts(session->pool, value))
+        return add_texts(session, value, line);
     if (!qdot_ask_is_measured(session, value))
         return qdot_answer_print(session, value, session->style, line);
     for (uint32_t i = 0;; i++) {

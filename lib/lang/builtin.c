@@ -7,6 +7,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/algebra.h"
+#include "lang/answer.h"
 #include "lang/code.h"
 #include "mech/geometry.h"
 #include "normal/simplify.h"
@@ -224,12 +225,29 @@ call_size(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
                 value);
 }
 
+/* The text of an expression; of a list a list of them. */
 static qdot_status
 call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
-    (void)s, (void)n, (void)args, (void)value;
-    qdot_fail(QDOT_ENOTBUILT, "not built yet: latex inside an expression");
-    return qdot_hint("latex(...) stands alone, as a statement");
+    bool list = qdot_expr_kind(s->pool, args[0]) == QDOT_LIST;
+    uint32_t count = list ? qdot_expr_count(s->pool, args[0]) : 1;
+    qdot_expr *members = qdot_calloc(count + 1, sizeof *members);
+    qdot_status status = members == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    (void)n;
+    for (uint32_t i = 0; i < count && status == QDOT_OK; i++) {
+        qdot_text text = {0};
+
+        status = qdot_answer_print(
+            s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0], QDOT_LATEX, &text);
+        if (status == QDOT_OK)
+            members[i] = qdot_symbol_get(s->pool, QDOT_WORDS, qdot_text_str(&text));
+        qdot_text_clear(&text);
+    }
+    if (status == QDOT_OK)
+        status = give(s, list ? qdot_list(s->pool, count, members) : members[0], value);
+    qdot_free(members);
+    return status;
 }
 
 /* --- vectors and matrices ----------------------------------------------------------- */
@@ -493,7 +511,7 @@ static const qdot_builtin rows[] = {
             "Taylor series about x = a, y = b: terms up to total degree n",
             "series(cos(t), t = 0, 4)"),
     ROW(1, 1, size, "size(e)", "number of operations in e", "size(t^2 + 1)"),
-    ROW(1, 1, latex, "latex(e)", "e as LaTeX text, a statement of its own", "latex(t^2)"),
+    ROW(1, 1, latex, "latex(e)", "e as a text in LaTeX; of a list one each", "latex(t^2)"),
 
     ROW(2, 2, dot, "dot(u, v)", "scalar product", "dot((1, 2), (3, 4))"),
     ROW(2, 2, cross, "cross(u, v)", "vector product; in the plane a1*b2 - a2*b1",

@@ -142,10 +142,10 @@ add_motion(qdot_session *session, facts *f)
 
     QDOT_TRY(qdot_pool_check(pool));
     for (uint32_t i = 0; i < qdot_expr_count(pool, accels); i++) {
-        qdot_expr equation = qdot_expr_arg(pool, accels, i);
+        qdot_expr q = session->scene->coordinates.at[i];
 
-        QDOT_TRY(add_replacement(session, f, qdot_expr_arg(pool, equation, 0),
-                                 qdot_expr_arg(pool, equation, 1)));
+        QDOT_TRY(add_replacement(session, f, qdot_symbol_jet(pool, q, 2),
+                                 qdot_expr_arg(pool, accels, i)));
     }
     for (size_t i = 0; i < session->scene->constraints.n; i++)
         QDOT_TRY(add_constraint(session, f, i, false));

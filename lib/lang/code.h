@@ -77,9 +77,10 @@ QDOT_MUST_CHECK qdot_status qdot_parse(qdot_cursor *c, qdot_parse_extent extent,
                                        qdot_program *program);
 
 /* Run the program; *run (may be NULL: not allowed) the run that the whole is meant along,
- * or NULL. */
+ * or NULL. *over (may be NULL): the coordinates its entries go by, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_program *program,
-                                          qdot_expr *value, const char **run);
+                                          qdot_expr *value, qdot_expr *over,
+                                          const char **run);
 
 /* Whether a run NAME[...] is kept. */
 bool qdot_cursor_has_runs(const qdot_cursor *c, const char *name);
@@ -90,9 +91,10 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
 
 /* --- meaning ------------------------------------------------------------------------ */
 
-/* A bare name with `primes`. */
+/* A bare name with `primes`. *over: the coordinates its entries go by, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_name(qdot_cursor *c, const qdot_token *token,
-                                              unsigned primes, qdot_expr *value);
+                                              unsigned primes, qdot_expr *value,
+                                              qdot_expr *over);
 /* name[index ...] with `primes`. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_index(qdot_cursor *c, const qdot_token *token,
                                                unsigned primes, uint32_t n,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "lang/declare.h"
 
 /* --- formal arguments --------------------------------------------------------------- */
@@ -179,60 +180,35 @@ rename_formal(qdot_pool *pool, qdot_expr formals, const char *name, qdot_expr sy
     return qdot_subs(pool, formals, 1, &own, &symbol);
 }
 
-/* The values that `set` gave the function go over to its new form. */
+/* `own`, the symbol that stood for the argument, by the declared one, in every value named, asked
+ * or set and in the scene. A function of the user's that has an argument of that name keeps it. */
 static qdot_status
-move_value(qdot_session *session, uint32_t from, uint32_t to)
+replace_argument(qdot_session *session, qdot_expr own, qdot_expr symbol)
 {
     qdot_pool *pool = session->pool;
+    const qdot_name *one;
 
-    for (size_t i = 0; i < session->set_symbols.n; i++) {
-        qdot_expr set = session->set_symbols.at[i], args[16];
-        uint32_t arity = qdot_ufun_get(pool, to)->arity;
+    for (size_t i = 0; (one = qdot_names_at(session->names, i)) != NULL; i++) {
+        qdot_expr value = one->value;
 
-        if (qdot_expr_kind(pool, set) != QDOT_UFUN ||
-            qdot_expr_node(pool, set)->op != from || arity > 16)
+        if (value == QDOT_NIL || (one->kind == QDOT_NAME_FUNCTION &&
+                                  qdot_expr_contains(pool, one->formals, own)))
             continue;
-        for (uint32_t k = 0; k < arity; k++)
-            args[k] = qdot_expr_arg(pool, set, k);
-        session->set_symbols.at[i] = qdot_ufun_apply(pool, to, args, NULL);
+        value = qdot_subs(pool, value, 1, &own, &symbol);
+        QDOT_TRY(qdot_pool_check(pool));
+        qdot_names_update(session->names, one->name, value, one->formals);
     }
-    return qdot_pool_check(pool);
-}
-
-static qdot_status
-redeclare(qdot_session *session, const char *name, qdot_expr formals)
-{
-    qdot_pool *pool = session->pool;
-    const qdot_name *old = qdot_names_find(session->names, name);
-    qdot_name entry = *old;
-    qdot_vec(qdot_expr) args = {0};
-    qdot_status status = QDOT_OK;
-
-    entry.name = qdot_strdup(old->name);
-    entry.file = old->file == NULL ? NULL : qdot_strdup(old->file);
-    if (entry.name == NULL || (old->file != NULL && entry.file == NULL))
-        status = QDOT_ENOMEM;
-    for (uint32_t i = 0; i < qdot_expr_count(pool, formals) && status == QDOT_OK; i++)
-        status = qdot_vec_push(&args, qdot_expr_arg(pool, formals, i));
-    if (status == QDOT_OK)
-        status = qdot_ufun_declare(pool, name, (uint32_t)args.n, args.at, &entry.ufun);
-    if (status == QDOT_OK) {
-        uint32_t before = old->ufun;
-
-        entry.formals = formals;
-        entry.value = qdot_ufun_apply(pool, entry.ufun, args.at, NULL);
-        status = qdot_pool_check(pool);
-        if (status == QDOT_OK)
-            status = move_value(session, before, entry.ufun);
+    for (size_t i = 0; i < session->history.n; i++)
+        session->history.at[i] =
+            qdot_subs(pool, session->history.at[i], 1, &own, &symbol);
+    for (size_t i = 0; i < session->set_symbols.n; i++) {
+        session->set_symbols.at[i] =
+            qdot_subs(pool, session->set_symbols.at[i], 1, &own, &symbol);
+        session->set_values.at[i] =
+            qdot_subs(pool, session->set_values.at[i], 1, &own, &symbol);
     }
-    if (status == QDOT_OK) {
-        qdot_names_remove(session->names, entry.name);
-        status = qdot_names_declare(session->names, &entry);
-    }
-    qdot_free(entry.name);
-    qdot_free(entry.file);
-    qdot_free(args.at);
-    return status;
+    QDOT_TRY(qdot_pool_check(pool));
+    return qdot_scene_replace(session->scene, own, symbol);
 }
 
 qdot_status
@@ -250,14 +226,18 @@ qdot_declare_meet_functions(qdot_session *session, const char *name, qdot_expr s
     if (status == QDOT_OK)
         status = qdot_pool_check(session->pool);
     for (size_t i = 0; i < met.n && status == QDOT_OK; i++) {
-        qdot_expr formals = rename_formal(
-            session->pool, qdot_names_find(session->names, met.at[i])->formals, name,
-            symbol);
+        const qdot_name *entry = qdot_names_find(session->names, met.at[i]);
+        qdot_expr formals = rename_formal(session->pool, entry->formals, name, symbol);
 
         status = qdot_pool_check(session->pool);
         if (status == QDOT_OK)
-            status = redeclare(session, met.at[i], formals);
+            status = qdot_ufun_redeclare(session->pool, entry->ufun, formals);
+        if (status == QDOT_OK)
+            qdot_names_update(session->names, met.at[i], entry->value, formals);
     }
+    if (status == QDOT_OK && met.n > 0)
+        status = replace_argument(
+            session, qdot_symbol_get(session->pool, QDOT_FORMAL, name), symbol);
     qdot_free(met.at);
     return status;
 }

@@ -498,7 +498,7 @@ qdot_declare_definition(qdot_cursor *c)
     QDOT_TRY(qdot_read_name(c, &name));
     entry.name = (char *)name;
     QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    QDOT_TRY(tell_circle(c, start, qdot_read_value(c, &entry.value)));
+    QDOT_TRY(tell_circle(c, start, qdot_read_named(c, &entry.value, &entry.over)));
     QDOT_TRY(qdot_cursor_expect_end(c));
     old = qdot_names_find(c->session->names, name);
     c->error_at = start->start;

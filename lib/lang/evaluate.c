@@ -61,7 +61,7 @@ along_runs(void)
 
 /* The top n values, popped into m->args. None may be meant along a run. */
 static qdot_status
-take(machine *m, size_t n)
+take_any(machine *m, size_t n)
 {
     QDOT_TRY(qdot_grow(&m->args.at, &m->args.capacity, n, sizeof *m->args.at));
     for (size_t i = 0; i < n; i++) {
@@ -71,6 +71,21 @@ take(machine *m, size_t n)
     }
     m->args.n = n;
     m->stack.n -= n;
+    return QDOT_OK;
+}
+
+/* The same where a text, latex(e), has no place. */
+static qdot_status
+take(machine *m, size_t n)
+{
+    QDOT_TRY(take_any(m, n));
+    for (size_t i = 0; i < n; i++) {
+        if (m->args.at[i] == QDOT_NIL ||
+            !(qdot_expr_node(m->pool, m->args.at[i])->holds & QDOT_HAS_WORDS))
+            continue;
+        (void)qdot_fail(QDOT_ETYPE, "a text is no number");
+        return qdot_hint("latex(...) stands alone, behind `print`, in a list, by a name");
+    }
     return QDOT_OK;
 }
 
@@ -359,7 +374,7 @@ entry(machine *m, const qdot_code *code)
 {
     qdot_expr over = from_top(m, code->n + 1)->over, value;
 
-    QDOT_TRY(take(m, code->n + 1));
+    QDOT_TRY(take_any(m, code->n + 1));
     QDOT_TRY(qdot_resolve_entry(m->session, m->args.at[0], over, code->n, m->args.at + 1,
                                 &value));
     return push(m, value);
@@ -368,11 +383,13 @@ entry(machine *m, const qdot_code *code)
 static qdot_status
 name(machine *m, const qdot_code *code)
 {
-    qdot_expr value;
+    qdot_expr value, over;
 
     if (code->op == QDOT_CODE_NAME) {
-        QDOT_TRY(qdot_resolve_name(m->c, code->token, code->primes, &value));
-        return push(m, value);
+        QDOT_TRY(qdot_resolve_name(m->c, code->token, code->primes, &value, &over));
+        QDOT_TRY(push(m, value));
+        from_top(m, 1)->over = over;
+        return QDOT_OK;
     }
     QDOT_TRY(take(m, code->n));
     QDOT_TRY(
@@ -468,7 +485,7 @@ step(machine *m, const qdot_code *code, uint32_t *pc)
         QDOT_TRY(take(m, code->n));
         return push(m, qdot_vector(m->pool, code->n, m->args.at));
     case QDOT_CODE_LIST:
-        QDOT_TRY(take(m, code->n));
+        QDOT_TRY(take_any(m, code->n));
         return push(m, qdot_list(m->pool, code->n, m->args.at));
     case QDOT_CODE_MATRIX:
         QDOT_TRY(take(m, code->n));
@@ -500,7 +517,7 @@ run_program(machine *m)
 
 qdot_status
 qdot_evaluate(qdot_cursor *c, const qdot_program *program, qdot_expr *value,
-              const char **run)
+              qdot_expr *over, const char **run)
 {
     machine m = {
         .c = c, .session = c->session, .pool = c->session->pool, .program = program};
@@ -508,6 +525,8 @@ qdot_evaluate(qdot_cursor *c, const qdot_program *program, qdot_expr *value,
 
     if (status == QDOT_OK) {
         *value = m.stack.at[0].value;
+        if (over != NULL)
+            *over = m.stack.at[0].over;
         if (run != NULL)
             *run = m.stack.at[0].run;
         else if (m.stack.at[0].run != NULL)

@@ -349,7 +349,7 @@ qdot_furnish_force(qdot_cursor *c)
     c->error_at = start->start;
     if (coordinate != QDOT_NIL) {
         qdot_torque torque = {
-            .name = (char *)label, .torque = force, .coordinate = coordinate, .body = -1};
+            .name = (char *)label, .torque = force, .coordinate = coordinate, .force = true, .body = -1};
 
         if (vector)
             return qdot_fail(QDOT_ETYPE, "a generalized force is a number, not a vector");

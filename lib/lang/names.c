@@ -408,6 +408,17 @@ qdot_names_declare(qdot_names *names, const qdot_name *entry)
 }
 
 void
+qdot_names_update(qdot_names *names, const char *name, qdot_expr value, qdot_expr formals)
+{
+    entry *e = find_declared(names, name);
+
+    if (e == NULL)
+        return;
+    e->name.value = value;
+    e->name.formals = formals;
+}
+
+void
 qdot_names_remove(qdot_names *names, const char *name)
 {
     entry *e = find_declared(names, name), **link;

@@ -20,6 +20,7 @@ typedef struct {
     char *name;
     qdot_name_kind kind;
     qdot_expr value, formals;
+    qdot_expr over; /* of a VALUE: the coordinates (a LIST) its entries go by, or nil */
     uint32_t ufun;
     char *file; /* where it was declared */
     uint32_t line;
@@ -39,6 +40,9 @@ bool qdot_names_is_family(const qdot_names *names, const char *name);
  * never both" vector and family), reserved names (pi, t, p[..] Q[..] lambda[..] delta[..], dNAME of a coordinate):
  * QDOT_ENAME with where it was declared. `entry` is copied. */
 QDOT_MUST_CHECK qdot_status qdot_names_declare(qdot_names *names, const qdot_name *entry);
+/* Other expressions for a declared name of the same meaning. */
+void qdot_names_update(qdot_names *names, const char *name, qdot_expr value,
+                       qdot_expr formals);
 void qdot_names_remove(qdot_names *names, const char *name);
 /* Bind and unbind an index or formal, innermost first. */
 QDOT_MUST_CHECK qdot_status qdot_names_push(qdot_names *names, const char *name,

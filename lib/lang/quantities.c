@@ -353,60 +353,95 @@ get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 UNBUILT(reactions)
 #undef UNBUILT
 
+/* --- what members of a list are called ---------------------------------------------- */
+
+static qdot_expr
+momentum_symbol(qdot_pool *pool, qdot_expr q)
+{
+    return qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+}
+
+static qdot_expr
+accel_symbol(qdot_pool *pool, qdot_expr q)
+{
+    return qdot_symbol_jet(pool, q, 2);
+}
+
+static qdot_expr
+force_symbol(qdot_pool *pool, qdot_expr q)
+{
+    qdot_text name = {0};
+    qdot_expr symbol;
+
+    qdot_text_format(&name, "Q[%s]", qdot_expr_symbol(pool, q)->name);
+    symbol = qdot_text_status(&name) == QDOT_OK
+                 ? qdot_symbol_get(pool, QDOT_FORMAL, qdot_text_str(&name))
+                 : qdot_pool_fail(pool);
+    qdot_text_clear(&name);
+    return symbol;
+}
+
 /* --- the table ---------------------------------------------------------------------- */
 
 static const qdot_quantity rows[] = {
-    {"T", 0, 0, get_T, "T", "kinetic energy (also `kinetic`)", "T"},
-    {"kinetic", 0, 0, get_T, "kinetic", "kinetic energy T", "kinetic"},
-    {"V", 0, 0, get_V, "V", "potential energy (also `potential_energy`)", "V"},
+    {"T", 0, 0, get_T, "T", "kinetic energy (also `kinetic`)", "T", false, NULL},
+    {"kinetic", 0, 0, get_T, "kinetic", "kinetic energy T", "kinetic", false, NULL},
+    {"V", 0, 0, get_V, "V", "potential energy (also `potential_energy`)", "V", false,
+     NULL},
     {"potential_energy", 0, 0, get_V, "potential_energy", "potential energy V",
-     "potential_energy"},
-    {"L", 0, 0, get_L, "L", "Lagrange function T - V (also `lagrange_function`)", "L"},
+     "potential_energy", false, NULL},
+    {"L", 0, 0, get_L, "L", "Lagrange function T - V (also `lagrange_function`)", "L",
+     false, NULL},
     {"lagrange_function", 0, 0, get_L, "lagrange_function", "Lagrange function T - V",
-     "lagrange_function"},
+     "lagrange_function", false, NULL},
     {"energy", 0, 0, get_energy, "energy", "Jacobi energy function h = sum p q' - L",
-     "energy"},
+     "energy", false, NULL},
     {"ds2", 0, 0, get_ds2, "ds2",
-     "line element, one for each particle; ds2(R) of a vector", "ds2"},
-    {"speed2", 0, 0, get_speed2, "speed2", "(ds/dt)^2, one for each particle", "speed2"},
+     "line element, one for each particle; ds2(R) of a vector", "ds2", false, NULL},
+    {"speed2", 0, 0, get_speed2, "speed2", "(ds/dt)^2, one for each particle", "speed2",
+     false, NULL},
     {"mass_matrix", 0, 2, get_mass_matrix, "mass_matrix or mass_matrix[q1, q2]",
-     "mass matrix M(q, t)", "mass_matrix"},
+     "mass matrix M(q, t)", "mass_matrix", true, NULL},
     {"momenta", 0, 1, get_momenta, "momenta or momenta[theta]",
-     "generalized momenta dL/dq'", "momenta"},
-    {"p", 1, 1, get_p, "p[theta]", "generalized momentum dL/dtheta'", "p[theta]"},
+     "generalized momenta dL/dq'", "momenta", true, momentum_symbol},
+    {"p", 1, 1, get_p, "p[theta]", "generalized momentum dL/dtheta'", "p[theta]", false,
+     NULL},
     {"forces", 0, 1, get_forces, "forces", "generalized forces, with their parts",
-     "forces"},
-    {"Q", 1, 1, get_Q, "Q[theta]", "generalized force: all that is applied", "Q[theta]"},
+     "forces", true, force_symbol},
+    {"Q", 1, 1, get_Q, "Q[theta]", "generalized force: all that is applied", "Q[theta]",
+     false, NULL},
     {"virtual_work", 0, 0, get_virtual_work, "virtual_work",
-     "virtual work, the sum of Q[q]*delta[q]", "virtual_work"},
+     "virtual work, the sum of Q[q]*delta[q]", "virtual_work", false, NULL},
     {"delta", 1, 1, get_delta, "delta[theta]", "virtual displacement of a coordinate",
-     "delta[theta]"},
-    {"eom", 0, 1, get_eom, "eom or eom[theta]", "Lagrange's equations", "eom"},
+     "delta[theta]", false, NULL},
+    {"eom", 0, 1, get_eom, "eom or eom[theta]", "Lagrange's equations", "eom", true,
+     NULL},
     {"accel", 0, 1, get_accel, "accel or accel[theta]", "accelerations, solved for",
-     "accel[theta]"},
+     "accel[theta]", true, accel_symbol},
     {"lambda", 1, 2, get_lambda, "lambda[rod] or lambda[pin, 1]",
-     "multiplier of a constraint", "lambda[rod]"},
+     "multiplier of a constraint", "lambda[rod]", false, NULL},
     {"cyclic", 0, 0, get_cyclic, "cyclic",
-     "coordinates absent from L, with their momenta", "cyclic"},
-    {"dof", 0, 0, get_dof, "dof", "degrees of freedom", "dof"},
+     "coordinates absent from L, with their momenta", "cyclic", false, NULL},
+    {"dof", 0, 0, get_dof, "dof", "degrees of freedom", "dof", false, NULL},
     {"hamiltonian", 0, 0, get_hamiltonian, "hamiltonian",
      "Hamilton's function H(q, p, t); beside it p[theta] is the independent momentum",
-     "diff(hamiltonian, p[theta])"},
+     "diff(hamiltonian, p[theta])", false, NULL},
     {"routhian", 0, 0, get_routhian, "routhian",
      "Routh's function L - sum p q', the cyclic velocities replaced by their momenta",
-     "routhian"},
-    {"reactions", 0, 0, get_reactions, "reactions", "forces of the constraints", ""},
+     "routhian", false, NULL},
+    {"reactions", 0, 0, get_reactions, "reactions", "forces of the constraints", "",
+     false, NULL},
     {"conserved", 0, 0, get_conserved, "conserved or conserved[2]",
      "every conserved quantity found: cyclic momenta, the energy, those of translations, "
      "rotations and boosts; each is proved",
-     "conserved"},
+     "conserved", false, NULL},
     {"equilibria", 0, 0, get_equilibria, "equilibria or equilibria[2]",
      "where the scene can rest, a list of equations each; alone, with their stability",
-     "equilibria"},
+     "equilibria", false, NULL},
     {"modes", 0, 2, get_modes, "modes, modes[k] or modes[k, theta]",
      "angular frequencies of the normal modes about the first equilibrium that is not "
      "unstable, ascending; modes[k, theta] is an amplitude, the first of a mode being 1",
-     "modes"},
+     "modes", false, NULL},
 };
 
 const qdot_quantity *

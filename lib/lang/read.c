@@ -8,13 +8,13 @@
 
 static qdot_status
 read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
-                const char **run)
+                qdot_expr *over, const char **run)
 {
     qdot_program program = {0};
     qdot_status status = qdot_parse(c, extent, &program);
 
     if (status == QDOT_OK)
-        status = qdot_evaluate(c, &program, value, run);
+        status = qdot_evaluate(c, &program, value, over, run);
     qdot_free(program.list.at);
     return status;
 }
@@ -22,20 +22,26 @@ read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
 qdot_status
 qdot_read_value(qdot_cursor *c, qdot_expr *value)
 {
-    return read_expression(c, QDOT_PARSE_VALUE, value, NULL);
+    return read_expression(c, QDOT_PARSE_VALUE, value, NULL, NULL);
+}
+
+qdot_status
+qdot_read_named(qdot_cursor *c, qdot_expr *value, qdot_expr *over)
+{
+    return read_expression(c, QDOT_PARSE_VALUE, value, over, NULL);
 }
 
 qdot_status
 qdot_read_side(qdot_cursor *c, qdot_expr *value)
 {
-    return read_expression(c, QDOT_PARSE_SIDE, value, NULL);
+    return read_expression(c, QDOT_PARSE_SIDE, value, NULL, NULL);
 }
 
 qdot_status
 qdot_read_member(qdot_cursor *c, qdot_expr *value, const char **run)
 {
     *run = NULL;
-    return read_expression(c, QDOT_PARSE_SIDE, value, run);
+    return read_expression(c, QDOT_PARSE_SIDE, value, NULL, run);
 }
 
 /* Fail at `at`: a value of the wrong kind. */

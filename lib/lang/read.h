@@ -80,6 +80,10 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_expect_end(qdot_cursor *c);
 /* A whole expression, equations and logic included; stops before the first token that cannot go on (an
  * option word, `,`, `:`, `..`, a closing bracket, the end). */
 QDOT_MUST_CHECK qdot_status qdot_read_value(qdot_cursor *c, qdot_expr *value);
+/* The same, to be named: *over: the coordinates its entries go by, `G = metric(R)` and
+ * G[r, phi]; nil: by numbers only. */
+QDOT_MUST_CHECK qdot_status qdot_read_named(qdot_cursor *c, qdot_expr *value,
+                                            qdot_expr *over);
 /* As a side of `==`, a relation, a bound: stops before = == < <= > >= and or. */
 QDOT_MUST_CHECK qdot_status qdot_read_side(qdot_cursor *c, qdot_expr *value);
 /* A sum without relations that must be a scalar: QDOT_ETYPE otherwise. */
@@ -136,6 +140,10 @@ typedef struct {
     qdot_status (*get)(qdot_session *session, uint32_t n, const qdot_expr *index,
                        qdot_expr *value);
     const char *usage, *summary, *example;
+    bool over_coordinates; /* a list or matrix whose entries go by the coordinates too */
+    /* what a member of the list is called where the whole is asked, `p[theta] = ...`: a
+     * symbol by its coordinate; NULL: `eom[theta]` */
+    qdot_expr (*symbol)(qdot_pool *pool, qdot_expr coordinate);
 } qdot_quantity;
 const qdot_quantity *qdot_quantity_find(const char *name);
 const qdot_quantity *qdot_quantity_at(size_t i);

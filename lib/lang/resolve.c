@@ -37,6 +37,10 @@ qdot_resolve_kind(const qdot_pool *pool, qdot_expr e)
     case QDOT_REL:
         return qdot_expr_node(pool, e)->op == QDOT_EQ ? "an equation" : "an inequality";
     case QDOT_LOGIC: return "a condition";
+    case QDOT_SYM:
+        if (qdot_expr_is_class(pool, e, QDOT_WORDS))
+            return "a text";
+        /* fall through */
     default: return e == QDOT_TRUE || e == QDOT_FALSE ? "a condition" : "a number";
     }
 }
@@ -214,9 +218,21 @@ quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
     return primes > 0 ? no_prime(row->name, "is no coordinate") : QDOT_OK;
 }
 
+/* The coordinates that the entries of a value of the scene go by; nil: numbers alone. */
+static qdot_status
+coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
+{
+    *over = QDOT_NIL;
+    if (!row->over_coordinates)
+        return QDOT_OK;
+    *over =
+        qdot_list(s->pool, (uint32_t)s->scene->coordinates.n, s->scene->coordinates.at);
+    return qdot_resolve_check(s->pool, *over);
+}
+
 qdot_status
 qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
-                  qdot_expr *value)
+                  qdot_expr *value, qdot_expr *over)
 {
     qdot_session *s = c->session;
     const char *name = token->text;
@@ -224,8 +240,11 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     const qdot_quantity *row;
     bool found;
 
-    if (entry != NULL)
+    *over = QDOT_NIL;
+    if (entry != NULL) {
+        *over = entry->over;
         return named(s, entry, primes, value);
+    }
     QDOT_TRY(reserved(name, primes, &found, value));
     if (found)
         return QDOT_OK;
@@ -233,8 +252,10 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     if (found)
         return primes > 0 ? no_prime(name, "is no coordinate") : QDOT_OK;
     row = qdot_quantity_find(name);
-    if (row != NULL && row->least == 0)
-        return quantity(s, row, primes, 0, NULL, value);
+    if (row != NULL && row->least == 0) {
+        QDOT_TRY(quantity(s, row, primes, 0, NULL, value));
+        return coordinates_of(s, row, over);
+    }
     QDOT_TRY(labelled(s, name, primes, &found, value));
     if (found)
         return QDOT_OK;
@@ -485,7 +506,7 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
     const char *name = token->text;
     const qdot_quantity *row = qdot_quantity_find(name);
     const qdot_name *entry = qdot_names_find(s->names, name);
-    qdot_expr whole;
+    qdot_expr whole, over;
     bool found;
 
     /* p[theta] is the momentum even beside a plain p */
@@ -505,10 +526,10 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
                            : qdot_hints_bare_function(c, token);
             return unknown_index(c, token, n, index);
         }
-        QDOT_TRY(qdot_resolve_name(c, token, 0, &whole));
+        QDOT_TRY(qdot_resolve_name(c, token, 0, &whole, &over));
         if (qdot_expr_is_scalar(s->pool, whole))
             return qdot_fail(QDOT_ETYPE, "`%.200s` is a number: it has no entries", name);
-        QDOT_TRY(qdot_resolve_entry(s, whole, QDOT_NIL, n, index, value));
+        QDOT_TRY(qdot_resolve_entry(s, whole, over, n, index, value));
         return ddt_times(s, primes, value);
     }
     return quantity_index(s, row, primes, n, index, value);

@@ -189,6 +189,21 @@ dispatch_to(engine *x, qdot_cursor *c, size_t to)
     return qdot_redirect_end(&redirect, status);
 }
 
+/* One notice for all forms of the answer that the work budget left unfinished. Where none is
+ * shown, as by `check` or `run`, it does not matter. */
+static qdot_status
+tell_unfinished(qdot_session *session, const qdot_token *first)
+{
+    const qdot_statement *row =
+        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+
+    if (!qdot_pool_unfinished_taken(session->pool) ||
+        (row != NULL && !row->alone && strcmp(row->word, "print") != 0))
+        return QDOT_OK;
+    return qdot_answer_notice(session, "simplification stopped at its budget of work: there "
+                                       "may be a shorter form");
+}
+
 static qdot_status
 statement(engine *x, size_t i)
 {
@@ -199,10 +214,11 @@ statement(engine *x, size_t i)
     qdot_status status = qdot_interrupt_check();
     const qdot_token *to = status == QDOT_OK ? find_to(x->session, &x->tokens[i]) : NULL;
 
+    (void)qdot_pool_unfinished_taken(x->session->pool); /* of a statement that failed */
     if (status == QDOT_OK)
         status = to == NULL ? dispatch(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
     if (status == QDOT_OK)
-        return QDOT_OK;
+        return tell_unfinished(x->session, &x->tokens[i]);
     x->error_at = c.error_at;
     if (qdot_pool_failed(
             x->session->pool)) { /* the statement's failure is the one to tell */

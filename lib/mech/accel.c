@@ -120,17 +120,8 @@ qdot_expr
 qdot_mech_accels(qdot_scene *s)
 {
     size_t n = s->coordinates.n;
-    qdot_expr *members, list;
 
     if (!accels_get(s))
         return QDOT_NIL;
-    members = qdot_calloc(n + 1, sizeof *members);
-    if (!members)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++)
-        members[i] =
-            qdot_rel(s->pool, QDOT_EQ, qdot_mech_jet(s, i, 2), s->derived->accel[i]);
-    list = qdot_list(s->pool, (uint32_t)n, members);
-    qdot_free(members);
-    return list;
+    return qdot_list(s->pool, (uint32_t)n, s->derived->accel);
 }

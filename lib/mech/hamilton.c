@@ -30,14 +30,16 @@ linear_form(legendre *l)
         qdot_expr momentum = qdot_diff(pool, l->L, l->qdot[i]), at_rest = momentum;
 
         for (uint32_t j = 0; j < l->n; j++) {
-            qdot_expr e = qdot_simplify(pool, qdot_diff(pool, momentum, l->qdot[j]), &l->facts);
+            qdot_expr e =
+                qdot_simplify(pool, qdot_diff(pool, momentum, l->qdot[j]), &l->facts);
 
             for (uint32_t k = 0; k < l->n && e != QDOT_NIL; k++)
                 if (qdot_expr_contains(pool, e, l->qdot[k])) {
-                    qdot_mech_fail(l->s, QDOT_EDOMAIN,
-                                   "the momentum of %s is not linear in the velocities: they cannot "
-                                   "be solved for",
-                                   qdot_expr_symbol(pool, l->q[i])->name);
+                    qdot_mech_fail(
+                        l->s, QDOT_EDOMAIN,
+                        "the momentum of %s is not linear in the velocities: they cannot "
+                        "be solved for",
+                        qdot_expr_symbol(pool, l->q[i])->name);
                     return false;
                 }
             l->A[i * l->n + j] = e;
@@ -52,16 +54,37 @@ static bool
 solve(legendre *l)
 {
     uint32_t pivot = 0;
-    qdot_status status = qdot_solve_linear(l->pool, l->n, l->A, l->rest, l->solved, &pivot,
-                                           &l->facts);
+    qdot_status status =
+        qdot_solve_linear(l->pool, l->n, l->A, l->rest, l->solved, &pivot, &l->facts);
 
     if (status == QDOT_ESINGULAR)
         qdot_mech_fail(l->s, QDOT_ESINGULAR,
-                       "the momenta do not determine the velocity of %s: the mass matrix is singular",
+                       "the momenta do not determine the velocity of %s: the mass matrix "
+                       "is singular",
                        qdot_expr_symbol(l->pool, l->q[pivot])->name);
     else if (status != QDOT_OK)
         qdot_pool_fail(l->pool);
     return status == QDOT_OK;
+}
+
+/* L is of second degree in q', its slopes being linear: with b the momenta at q' = 0
+ *
+ *     sum p q' - L = 1/2 (p - b).A^-1 (p - b) - L at q' = 0
+ *
+ * without terms that cancel. */
+static qdot_expr
+quadratic(legendre *l)
+{
+    qdot_pool *pool = l->pool;
+    qdot_expr sum = QDOT_ZERO, at_rest = l->L;
+
+    for (uint32_t i = 0; i < l->n; i++) {
+        sum = qdot_add(pool, sum, qdot_mul(pool, l->rest[i], l->solved[i]));
+        at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[i], (qdot_expr[]){QDOT_ZERO});
+    }
+    sum = qdot_simplify(pool, qdot_mul(pool, QDOT_HALF, sum), &l->facts);
+    at_rest = qdot_simplify(pool, at_rest, &l->facts);
+    return qdot_sub(pool, sum, at_rest);
 }
 
 /* sum p q' - L over the coordinates q [n], their velocities replaced. */
@@ -69,7 +92,10 @@ static qdot_expr
 transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
     qdot_pool *pool = s->pool;
-    legendre l = {.s = s, .pool = pool, .facts = qdot_scene_facts(s), .n = n,
+    legendre l = {.s = s,
+                  .pool = pool,
+                  .facts = qdot_scene_facts(s),
+                  .n = n,
                   .L = qdot_mech_lagrangian(s)};
     qdot_expr result = QDOT_NIL;
 
@@ -87,10 +113,7 @@ transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
         l.p[i] = qdot_symbol_of(pool, QDOT_MOMENTUM, q[i]);
     }
     if (!qdot_pool_failed(pool) && linear_form(&l) && solve(&l)) {
-        result = qdot_neg(pool, qdot_subs(pool, l.L, n, l.qdot, l.solved));
-        for (uint32_t i = 0; i < n; i++)
-            result = qdot_add(pool, result, qdot_mul(pool, l.p[i], l.solved[i]));
-        result = qdot_simplify(pool, result, &l.facts);
+        result = quadratic(&l);
     }
     qdot_free(l.q);
     return result;

@@ -44,12 +44,8 @@ qdot_mech_momenta(qdot_scene *s)
 
     if (!members)
         return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++) {
-        qdot_expr q = s->coordinates.at[i];
-
-        members[i] = qdot_rel(s->pool, QDOT_EQ, qdot_symbol_of(s->pool, QDOT_MOMENTUM, q),
-                              qdot_mech_momentum(s, q));
-    }
+    for (size_t i = 0; i < n; i++)
+        members[i] = qdot_mech_momentum(s, s->coordinates.at[i]);
     list = qdot_list(s->pool, (uint32_t)n, members);
     qdot_free(members);
     return list;

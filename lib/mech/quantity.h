@@ -30,11 +30,11 @@ qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* a LIST */
 
 /* --- momenta, forces --- */
 qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* dL/dq' */
-qdot_expr qdot_mech_momenta(qdot_scene *s);                /* LIST of p[q] = ... */
+qdot_expr qdot_mech_momenta(qdot_scene *s);                /* LIST, in order of q */
 qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q], all that is applied */
 /* The same by Kane's form, sum F . dv/dq'. */
 qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
-qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST of Q[q] = ... */
+qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST, in order of q */
 /* `forces` with its parts in words: one line a coordinate and source. */
 QDOT_MUST_CHECK qdot_status qdot_mech_forces_parts(qdot_scene *s, qdot_text *out);
 qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum Q delta[q] */
@@ -44,7 +44,7 @@ qdot_expr qdot_mech_equation(qdot_scene *s, qdot_expr q); /* an EQ, with multipl
 qdot_expr qdot_mech_equations(qdot_scene *s);             /* LIST */
 /* q'' solved for, multipliers eliminated; QDOT_ELIMIT past the budget, QDOT_ESINGULAR names q. */
 qdot_expr qdot_mech_accel(qdot_scene *s, qdot_expr q);
-qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST of q'' = ... */
+qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST, in order of q */
 
 /* --- conservation, counting --- */
 typedef struct {

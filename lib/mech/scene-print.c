@@ -113,7 +113,7 @@ put_force(const qdot_scene *s, const qdot_force *f, qdot_text *out)
 static qdot_status
 put_torque(const qdot_scene *s, const qdot_torque *t, qdot_text *out)
 {
-    qdot_text_add(out, "torque ");
+    qdot_text_add(out, t->force ? "force " : "torque ");
     if (t->name)
         qdot_text_format(out, "%s: ", t->name);
     QDOT_TRY(put(s, t->torque, out));

@@ -44,6 +44,7 @@ typedef struct {
     char *name;       /* NULL */
     qdot_expr torque; /* scalar; vector for a spatial body */
     qdot_expr coordinate; /* a generalized force on this coordinate; nil: */
+    bool force;           /* it was declared with `force` */
     int body;             /* on this body, through its spin */
 } qdot_torque;
 
@@ -119,6 +120,9 @@ QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
 
 /* Rotation matrix Rz(phi) Rx(theta) Rz(psi). */
 qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi);
+
+/* A symbol by another expression, in everything declared. */
+QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
 
 /* By label; NULL if there is none. */
 const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);

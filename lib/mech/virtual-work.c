@@ -227,20 +227,41 @@ torque_name(const qdot_scene *s, size_t k)
                                        : s->bodies.at[t->body].name;
 }
 
+/* What the k-th of a kind is called in an answer. */
+#define CALLED(list, word)                                                               \
+    static const char *list##_words(const qdot_scene *s, size_t k)                       \
+    {                                                                                    \
+        (void)s, (void)k;                                                                \
+        return word;                                                                     \
+    }
+CALLED(gravity, "gravity")
+CALLED(potential, "potential")
+CALLED(spring, "spring")
+CALLED(damper, "damper")
+CALLED(dissipation, "dissipation")
+CALLED(force, "force")
+#undef CALLED
+
+static const char *
+torque_words(const qdot_scene *s, size_t k)
+{
+    return s->torques.at[k].force ? "force" : "torque";
+}
+
 static const struct {
-    const char *words;
+    const char *(*words)(const qdot_scene *s, size_t k);
     bool conservative; /* part of L where that is T - V */
     size_t (*count)(const qdot_scene *s);
     qdot_expr (*force)(qdot_scene *s, size_t k, size_t i, bool kane);
     const char *(*name)(const qdot_scene *s, size_t k);
 } sources[] = {
-    {"gravity", true, count_gravity, gravity_force, no_name},
-    {"potential", true, count_potentials, potential_force, no_name},
-    {"spring", true, count_springs, spring_force, spring_name},
-    {"damper", false, count_dampers, damper_force, damper_name},
-    {"dissipation", false, count_dissipations, dissipation_force, no_name},
-    {"force", false, count_forces, applied_force, force_name},
-    {"torque", false, count_torques, torque_force, torque_name},
+    {gravity_words, true, count_gravity, gravity_force, no_name},
+    {potential_words, true, count_potentials, potential_force, no_name},
+    {spring_words, true, count_springs, spring_force, spring_name},
+    {damper_words, false, count_dampers, damper_force, damper_name},
+    {dissipation_words, false, count_dissipations, dissipation_force, no_name},
+    {force_words, false, count_forces, applied_force, force_name},
+    {torque_words, false, count_torques, torque_force, torque_name},
 };
 enum { SOURCES = sizeof sources / sizeof *sources };
 
@@ -301,21 +322,6 @@ qdot_mech_force_kane(qdot_scene *s, qdot_expr q)
     return total(s, i, true, false, true);
 }
 
-/* "Q[theta]", as a symbol to stand on the left of an equation. */
-static qdot_expr
-force_symbol(qdot_scene *s, qdot_expr q)
-{
-    qdot_text name = {0};
-    qdot_expr symbol;
-
-    qdot_text_format(&name, "Q[%s]", qdot_expr_symbol(s->pool, q)->name);
-    if (qdot_text_status(&name) != QDOT_OK)
-        return qdot_pool_fail(s->pool);
-    symbol = qdot_symbol_get(s->pool, QDOT_FORMAL, qdot_text_str(&name));
-    qdot_text_clear(&name);
-    return symbol;
-}
-
 qdot_expr
 qdot_mech_forces(qdot_scene *s)
 {
@@ -324,11 +330,8 @@ qdot_mech_forces(qdot_scene *s)
 
     if (!members)
         return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++) {
-        qdot_expr q = s->coordinates.at[i], Q = qdot_mech_force(s, q);
-
-        members[i] = qdot_rel(s->pool, QDOT_EQ, force_symbol(s, q), Q);
-    }
+    for (size_t i = 0; i < n; i++)
+        members[i] = qdot_mech_force(s, s->coordinates.at[i]);
     list = qdot_list(s->pool, (uint32_t)n, members);
     qdot_free(members);
     return list;
@@ -349,7 +352,7 @@ qdot_mech_forces_parts(qdot_scene *s, qdot_text *out)
                 QDOT_TRY(qdot_pool_check(s->pool));
                 if (part == QDOT_ZERO)
                     continue;
-                qdot_text_format(out, "%s, %s%s%s: ", q, sources[a].words,
+                qdot_text_format(out, "%s, %s%s%s: ", q, sources[a].words(s, k),
                                  name ? " " : "", name ? name : "");
                 QDOT_TRY(qdot_print(s->pool, part, QDOT_PLAIN, out));
                 qdot_text_char(out, '\n');

@@ -550,7 +550,10 @@ qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
     bool spent;
 
-    return qdot_simplify_within(pool, e, facts, QDOT_SIMPLIFY_WORK, &spent);
+    e = qdot_simplify_within(pool, e, facts, QDOT_SIMPLIFY_WORK, &spent);
+    if (spent)
+        qdot_pool_unfinished(pool);
+    return e;
 }
 
 /* --- the normal form itself -------------------------------------------------------- */

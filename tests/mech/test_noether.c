@@ -25,8 +25,8 @@ verify(kit *k, qdot_expr list)
         qdot_expr rate = qdot_ddt(k->pool, qdot_expr_arg(k->pool, list, i));
 
         for (uint32_t j = 0; j < qdot_expr_count(k->pool, accels); j++) {
-            qdot_expr one = qdot_expr_arg(k->pool, accels, j);
-            qdot_expr from = lhs(k, one), to = rhs(k, one);
+            qdot_expr from = qdot_symbol_jet(k->pool, k->scene->coordinates.at[j], 2);
+            qdot_expr to = qdot_expr_arg(k->pool, accels, j);
 
             rate = qdot_subs(k->pool, rate, 1, &from, &to);
         }
