@@ -18,6 +18,7 @@ num_sources = \
 	lib/num/cholesky.c \
 	lib/num/ldlt.c \
 	lib/num/row-space.c \
+	lib/num/saddle.c \
 	lib/num/series.c \
 	lib/num/structure.c \
 	lib/num/sum.c
@@ -26,6 +27,7 @@ num_headers = \
 	lib/num/cholesky.h \
 	lib/num/ldlt.h \
 	lib/num/row-space.h \
+	lib/num/saddle.h \
 	lib/num/series.def \
 	lib/num/series.h \
 	lib/num/structure.h \
@@ -202,10 +204,13 @@ mech_headers = \
 sim_sources = \
 	lib/sim/bind.c \
 	lib/sim/blocks.c \
+	lib/sim/bonds.c \
+	lib/sim/constraints.c \
 	lib/sim/describe.c \
 	lib/sim/direct.c \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
+	lib/sim/held.c \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
 	lib/sim/plan.c \
@@ -219,9 +224,12 @@ sim_sources = \
 sim_headers = \
 	lib/sim/bind.h \
 	lib/sim/blocks.h \
+	lib/sim/bonds.h \
+	lib/sim/constraints.h \
 	lib/sim/direct.h \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
+	lib/sim/held.h \
 	lib/sim/integrated.h \
 	lib/sim/nearest.h \
 	lib/sim/plan.h \
@@ -336,6 +344,7 @@ unit_tests = \
 	tests/num/test_cholesky \
 	tests/num/test_ldlt \
 	tests/num/test_row-space \
+	tests/num/test_saddle \
 	tests/num/test_series \
 	tests/num/test_structure \
 	tests/num/test_sum \
@@ -348,6 +357,7 @@ unit_tests = \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_table \
+	tests/sim/test_constraints \
 	tests/sim/test_equations \
 	tests/sim/test_run \
 	tests/sim/test_start \
@@ -397,7 +407,6 @@ script_tests = \
 	tests/bad/bound-coordinate.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
-	tests/bad/constrained-run.lag \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
@@ -543,7 +552,6 @@ test_files = \
 	tests/bad/bound-coordinate.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
-	tests/bad/constrained-run.out \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \

@@ -15,7 +15,8 @@ typedef struct {
     qdot_expr from, to;
     double tol;
     const char *method, *name;
-    bool tol_given;
+    bool tol_given, treatment_given;
+    qdot_run_treatment treatment;
     qdot_number_pairs with;
 } options;
 
@@ -65,10 +66,36 @@ read_tolerance(qdot_cursor *c, options *o)
     return qdot_fail(QDOT_EINVAL, "a tolerance lies between 0 and 1");
 }
 
+/* project, baumgarte or none: how drift off the constraints is treated. */
+static qdot_status
+read_treatment(qdot_cursor *c, options *o)
+{
+    static const struct {
+        const char *word;
+        qdot_run_treatment treatment;
+    } words[] = {{"project", QDOT_RUN_PROJECT},
+                 {"baumgarte", QDOT_RUN_BAUMGARTE},
+                 {"none", QDOT_RUN_NONE}};
+
+    if (c->session->scene->constraints.n == 0) {
+        c->error_at = c->at[-1].start;
+        (void)qdot_fail(QDOT_EINVAL, "the scene has no constraints");
+        return qdot_hint("constraint NAME: A = B");
+    }
+    QDOT_TRY(qdot_statement_once(c, "constraints", o->treatment_given));
+    o->treatment_given = true;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (qdot_cursor_accept_word(c, words[i].word)) {
+            o->treatment = words[i].treatment;
+            return QDOT_OK;
+        }
+    return qdot_cursor_expected(c, "`project`, `baumgarte` or `none`");
+}
+
 static qdot_status
 read_options(qdot_cursor *c, options *o)
 {
-    static const char *const later[] = {"digits", "constraints"};
+    static const char *const later[] = {"digits"};
 
     while (!qdot_cursor_is_end(c)) {
         for (size_t i = 0; i < sizeof later / sizeof *later; i++)
@@ -81,13 +108,15 @@ read_options(qdot_cursor *c, options *o)
             if (c->at->kind != QDOT_TOKEN_NAME)
                 return qdot_cursor_expected(c, "the name of a method");
             o->method = c->at++->text;
+        } else if (qdot_cursor_accept_word(c, "constraints")) {
+            QDOT_TRY(read_treatment(c, o));
         } else if (qdot_cursor_accept_word(c, "as")) {
             QDOT_TRY(qdot_statement_once(c, "as", o->name != NULL));
             QDOT_TRY(qdot_read_name(c, &o->name));
         } else if (qdot_cursor_accept_word(c, "with")) {
             QDOT_TRY(read_with(c, &o->with));
         } else {
-            return qdot_cursor_expected(c, "`tol`, `method`, `with` or `as`");
+            return qdot_cursor_expected(c, "`tol`, `method`, `with`, `constraints` or `as`");
         }
     }
     return QDOT_OK;
@@ -227,6 +256,7 @@ qdot_number_run(qdot_cursor *c)
             qdot_session_bind(c->session, qdot_number_without_measured(c->session, o.to));
         request.request.tol = o.tol;
         request.request.method = o.method != NULL ? o.method : "auto";
+        request.request.treatment = o.treatment;
         status = qdot_pool_check(c->session->pool);
     }
     if (status == QDOT_OK)

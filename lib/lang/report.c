@@ -14,19 +14,24 @@ status_word(qdot_run_status status)
     return words[status];
 }
 
-/* The jets q_i and q_i' of coordinate i with their values at the end, to `each`. */
+/* The jets q_i and q_i' of coordinate i with their values at the end, then the
+ * multipliers, to `each`. */
 static qdot_status
 each_state(qdot_session *session, const qdot_run_report *report, qdot_style style,
            void (*each)(qdot_text *line, size_t k, const char *name, double value,
                         double error),
            qdot_text *line)
 {
-    for (size_t k = 0; k < 2 * report->n; k++) {
+    for (size_t k = 0; k < 2 * report->n + report->m; k++) {
         size_t i = k / 2;
-        qdot_expr jet = k % 2 == 0
-                            ? report->coordinates[i]
-                            : qdot_symbol_jet(session->pool, report->coordinates[i], 1);
-        double value = k % 2 == 0 ? report->q[i] : report->v[i];
+        bool multiplier = i >= report->n;
+        qdot_expr jet =
+            multiplier   ? report->multipliers[k - 2 * report->n]
+            : k % 2 == 0 ? report->coordinates[i]
+                         : qdot_symbol_jet(session->pool, report->coordinates[i], 1);
+        double value = multiplier   ? report->lambda[k - 2 * report->n]
+                       : k % 2 == 0 ? report->q[i]
+                                    : report->v[i];
         qdot_text name = {0};
 
         QDOT_TRY(qdot_pool_check(session->pool));
@@ -87,7 +92,7 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
     field(line, "cpu_total", r->cpu_total);
     field(line, "error", r->error);
     field(line, "energy_drift", r->energy_drift);
-    field(line, "constraint_drift", NAN);
+    field(line, "constraint_drift", r->m > 0 ? r->constraint_drift : NAN);
     qdot_text_add(line, ",\"state\":{");
     QDOT_TRY(each_state(session, r, QDOT_PLAIN, state_json, line));
     qdot_text_format(line, "},\"status\":\"%s\",\"reason\":", status_word(r->status));
@@ -111,6 +116,40 @@ seconds(qdot_text *line, double s)
 {
     qdot_text_double(line, s < 1 ? s * 1e3 : s, 3);
     qdot_text_add(line, s < 1 ? " ms" : " s");
+}
+
+/* How far the constraints were left, and what was done about it. */
+static void
+constraints_text(qdot_text *line, const qdot_run_report *r)
+{
+    static const char *const done[] = {
+        [QDOT_RUN_PROJECT] = "projected after",
+        [QDOT_RUN_BAUMGARTE] = "damped (Baumgarte)",
+        [QDOT_RUN_NONE] = "drift left alone",
+    };
+
+    if (r->m == 0)
+        return;
+    qdot_text_add(line, "\n  constraints: ");
+    if (isfinite(r->constraint_drift)) {
+        qdot_text_add(line, "error ");
+        qdot_answer_bound(line, r->constraint_drift);
+        if (r->velocity_drift != r->constraint_drift) {
+            qdot_text_add(line, ", of velocities ");
+            qdot_answer_bound(line, r->velocity_drift);
+        }
+        qdot_text_add(line, "; ");
+    }
+    qdot_text_add(line, done[r->treatment]);
+    if (r->treatment == QDOT_RUN_PROJECT) {
+        qdot_text_char(line, ' ');
+        counted(line, r->projections, "step");
+    }
+    if (r->independent < r->m)
+        qdot_text_format(line,
+                         "\n  %zu of the %zu constraints are independent: the motion is "
+                         "unique, the multipliers are those of least norm",
+                         r->independent, r->m);
 }
 
 static qdot_status
@@ -153,6 +192,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     }
     if (r->n_drifts == 0)
         qdot_text_add(line, "\n  drift: no conserved quantity is known");
+    constraints_text(line, r);
     qdot_text_add(line, "\n  error of the end state: ");
     if (isfinite(r->error)) {
         qdot_text_add(line, "about ");

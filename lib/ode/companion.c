@@ -198,6 +198,15 @@ qdot_companion_start(const qdot_ode_system *system, const qdot_ode_method *metho
     }
     for (size_t i = 0; i < system->n; i++)
         c->start[i] = moved(y0[i], i);
+    if (system->project) { /* only along what solutions may do */
+        double by;
+        qdot_status status = system->project(t0, c->start, NULL, &by, system->user);
+
+        if (status != QDOT_OK) {
+            release(c);
+            return status;
+        }
+    }
     atomic_init(&c->leave, false);
     c->running = threaded && pthread_create(&c->thread, NULL, thread_main, c) == 0;
     *out = c;

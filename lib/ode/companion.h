@@ -50,7 +50,9 @@ typedef struct {
 
 typedef struct qdot_companion qdot_companion;
 
-/* Begin the companion of a run of `method` under `tol` from y0 [n] at t0 to t1.
+/* The moved start of a system that projects is projected.
+ *
+ * Begin the companion of a run of `method` under `tol` from y0 [n] at t0 to t1.
  *   system    for the companion alone if `threaded`; borrowed until _finish
  *   threaded  run it on a second thread beside the caller; if none can be had, or false,
  *             it runs within _finish

@@ -215,6 +215,7 @@ take(run *r, double h, double ratio, bool last, bool *stop)
         QDOT_TRY(status);
     }
     control(r, h, ratio, true);
+    result->stats.projections += r->s->projected;
     qdot_ode_stepper_accept(r->s);
     r->t = t;
     r->t_carry = t_carry;
@@ -238,6 +239,11 @@ advance(run *r, bool *stop)
     if (!last && h < floor_of_step(r))
         return too_small(r);
     status = qdot_ode_stepper_try(r->s, r->t, r->direction * h, &ratio);
+    if (status != QDOT_OK)
+        return undefined(r, h, status);
+    if (ratio <= 1)
+        status = qdot_ode_stepper_project(
+            r->s, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &ratio);
     if (status != QDOT_OK)
         return undefined(r, h, status);
     if (r->options->h_fixed > 0 && ratio < INFINITY)

@@ -35,6 +35,7 @@ typedef struct {
     uint64_t jacobians;      /* of df/dy */
     uint64_t factorisations; /* LU, inside the method; for msbdf a lower bound (GSL does
                                 not tell); a step of bsimp broken off counts in full */
+    uint64_t projections;    /* steps whose end system->project moved */
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 

@@ -152,7 +152,8 @@ allocate(qdot_ode_stepper *s, size_t n)
 {
     const gsl_odeiv2_step_type *const *type = s->method->stepper;
     double **arrays[] = {&s->y,    &s->carry, &s->dydt,  &s->z,         &s->error,
-                         &s->zdot, &s->scale, &s->trial, &s->trial_dydt};
+                         &s->zdot, &s->scale, &s->trial, &s->trial_dydt,
+                         &s->moved, &s->moved_carry};
 
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
         *arrays[i] = qdot_calloc(n, sizeof(double));
@@ -228,6 +229,8 @@ qdot_ode_stepper_free(qdot_ode_stepper *s)
     qdot_free(s->trial);
     qdot_free(s->trial_dydt);
     qdot_free(s->stages);
+    qdot_free(s->moved);
+    qdot_free(s->moved_carry);
     qdot_free(s);
 }
 
@@ -330,10 +333,42 @@ qdot_ode_stepper_try(qdot_ode_stepper *s, double t, double h, double *ratio)
     return QDOT_OK;
 }
 
+qdot_status
+qdot_ode_stepper_project(qdot_ode_stepper *s, double t, double *ratio)
+{
+    const size_t n = s->system->n;
+    double by;
+
+    s->projected = false;
+    if (!s->system->project || s->method->multistep)
+        return QDOT_OK;
+    for (size_t i = 0; i < n; i++) {
+        s->moved[i] = s->y[i];
+        s->moved_carry[i] = s->carry[i];
+        qdot_sum_advance(&s->moved[i], &s->moved_carry[i], s->scale[i] * s->z[i]);
+    }
+    QDOT_TRY(s->system->project(t, s->moved, s->moved_carry, &by, s->system->user));
+    if (by == 0)
+        return QDOT_OK;
+    *ratio = fmax(*ratio, by / fmax(100 * s->tol, 1e-13));
+    memcpy(s->trial, s->moved, n * sizeof *s->trial);
+    s->projected = true;
+    return QDOT_OK;
+}
+
 void
 qdot_ode_stepper_accept(qdot_ode_stepper *s)
 {
     const size_t n = s->system->n;
+
+    if (s->projected) {
+        memcpy(s->y, s->moved, n * sizeof *s->y);
+        memcpy(s->carry, s->moved_carry, n * sizeof *s->carry);
+        s->projected = false;
+        s->dydt_known = false;
+        choose_scale(s);
+        return;
+    }
 
     if (s->method->multistep) {
         memcpy(s->y, s->z, n * sizeof *s->y);

@@ -72,6 +72,10 @@ struct qdot_ode_stepper {
 
     double *stages; /* [stages x n] of a kernel */
 
+    /* Where the system projects: the step tried, as a sum, and whether it was moved. */
+    double *moved, *moved_carry; /* [n] */
+    bool projected;
+
     gsl_odeiv2_step *step;       /* NULL beside a kernel */
     gsl_odeiv2_control *control; /* tells multistep methods the tolerance */
     gsl_odeiv2_driver driver;    /* where they look for it */
@@ -98,6 +102,13 @@ QDOT_MUST_CHECK qdot_status qdot_ode_stepper_rhs(qdot_ode_stepper *s, double t,
  *   check  evaluate f at the end too, so that an accepted state is one where f exists */
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_try(qdot_ode_stepper *s, double t, double h,
                                                  double *ratio);
+
+/* Bring the step just tried, which ends at t, back to where solutions are, as the system
+ * says: s->trial is then the moved state. *ratio becomes the part of 100 tolerances that
+ * it was moved by, where that is more. Nothing without system->project, or of multistep
+ * methods. */
+QDOT_MUST_CHECK qdot_status qdot_ode_stepper_project(qdot_ode_stepper *s, double t,
+                                                     double *ratio);
 
 /* Take the step just tried. */
 void qdot_ode_stepper_accept(qdot_ode_stepper *s);

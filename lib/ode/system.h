@@ -49,6 +49,11 @@ typedef struct {
     void *user; /* borrowed */
     /* Taylor coefficients; NULL if there are none; borrowed */
     const qdot_ode_series *series;
+    /* Bring y [n] + carry [n] (NULL: none) back to where solutions are: called before a
+     * step is taken, not by multistep methods. *moved: the largest change of a component
+     * relative to max(1, |y_i|), 0 where nothing was done; a step that had to be moved by
+     * far more than its error may be is taken back. NULL if there is nothing to do. */
+    qdot_status (*project)(double t, double *y, double *carry, double *moved, void *user);
 } qdot_ode_system;
 
 #endif

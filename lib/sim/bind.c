@@ -6,6 +6,7 @@
 
 #include "sim/blocks.h"
 #include "sim/direct.h"
+#include "sim/held.h"
 #include "sim/shifted.h"
 #include "tape/shake.h"
 
@@ -13,6 +14,7 @@ struct qdot_bind {
     const qdot_plan *plan;
     qdot_tape *tape, *jacobian; /* shaken copies; else NULL */
     qdot_blocks blocks;
+    qdot_held *held;            /* of a plan with constraints: in place of the blocks */
     qdot_direct *direct;        /* of a method by Taylor series, one of the two: */
     qdot_shifted *shifted;
     const qdot_ode_series *series; /* its callbacks; else NULL */
@@ -38,6 +40,7 @@ qdot_bind_free(qdot_bind *b)
     if (!b)
         return;
     qdot_blocks_clear(&b->blocks);
+    qdot_held_free(b->held);
     qdot_direct_free(b->direct);
     qdot_shifted_free(b->shifted);
     qdot_tape_free(b->tape);
@@ -66,6 +69,8 @@ accelerations(qdot_bind *b, double *a)
     const qdot_plan *p = b->plan;
     const double *out = b->out;
 
+    if (b->held)
+        return qdot_held_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
     qdot_tape_eval(equations(b), b->in, b->out, b->work);
     for (size_t k = 0; k < p->structure.blocks; k++) {
         const qdot_plan_block *block = p->blocks + k;
@@ -160,6 +165,18 @@ jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
     return QDOT_OK;
 }
 
+static qdot_status
+project(double t, double *y, double *carry, double *moved, void *user)
+{
+    return qdot_held_project(t, y, carry, moved, ((qdot_bind *)user)->held);
+}
+
+qdot_held *
+qdot_bind_held(qdot_bind *b)
+{
+    return b->held;
+}
+
 qdot_ode_system
 qdot_bind_system(qdot_bind *b)
 {
@@ -169,11 +186,12 @@ qdot_bind_system(qdot_bind *b)
         .jacobian = b->plan->jacobian ? jacobian : NULL,
         .user = b,
         .series = b->series,
+        .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
     };
 }
 
 qdot_status
-qdot_bind_check(qdot_bind *b, double t, const double *y)
+qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
 {
     const qdot_plan *p = b->plan;
     qdot_tape *masses = NULL;
@@ -181,6 +199,10 @@ qdot_bind_check(qdot_bind *b, double t, const double *y)
     qdot_expr M = QDOT_NIL;
     double *work = NULL, m;
 
+    if (b->held) {
+        status = qdot_held_start(b->held, t, y, low);
+        return status == QDOT_EDOMAIN ? QDOT_OK : status; /* as below */
+    }
     load(b, t, y);
     for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
         const qdot_plan_block *block = p->blocks + k;
@@ -209,7 +231,7 @@ qdot_bind_check(qdot_bind *b, double t, const double *y)
 size_t
 qdot_bind_factored(const qdot_bind *b)
 {
-    return b->blocks.factored + (b->direct ? qdot_direct_factored(b->direct) : 0)
+    return b->blocks.factored + (b->held ? qdot_held_factored(b->held) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
            + (b->shifted ? qdot_shifted_factored(b->shifted) : 0);
 }
 
@@ -230,6 +252,8 @@ make(qdot_bind *b, bool shaken)
     b->work = qdot_calloc(work + 1, sizeof *b->work);
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
+    if (p->constraints)
+        return qdot_held_new(p, shaken, &b->held);
     if (shaken) {
         QDOT_TRY(qdot_tape_shake(p->tape, &b->tape));
         if (p->jacobian)

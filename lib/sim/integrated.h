@@ -4,6 +4,7 @@
 
 #include "ode/trajectory.h"
 #include "sim/bind.h"
+#include "sim/bonds.h"
 #include "sim/drift.h"
 #include "sim/plan.h"
 
@@ -12,6 +13,7 @@ struct qdot_run {
     qdot_bind *bind;      /* for the run, then for states between its points */
     qdot_trajectory tr;
     qdot_drifts drifts;
+    qdot_bonds bonds;
     double *start;        /* [2n] y at t0 */
     double *start_low;    /* [2n] what the exact start is beyond it */
     double t0, t1;        /* as asked for */

@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "sim/constraints.h"
 #include "sim/direct.h"
 #include "sim/residual.h"
 #include "sim/shifted.h"
@@ -42,6 +43,7 @@ qdot_plan_free(qdot_plan *p)
     qdot_tape_free(p->jacobian);
     qdot_free(p->slopes);
     qdot_residual_free(p->residual);
+    qdot_constraints_free(p->constraints);
     qdot_free(p);
 }
 
@@ -65,8 +67,6 @@ check_scene(const qdot_scene *scene)
         qdot_fail(QDOT_EINVAL, "the scene has no masses");
         return qdot_hint("particle bob mass m at (x, y)");
     }
-    if (scene->constraints.n > 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: integration with constraints");
     return QDOT_OK;
 }
 
@@ -110,9 +110,9 @@ copy_values(qdot_plan *p, const qdot_run_request *request)
 static qdot_status
 name_coordinates(qdot_plan *p, const qdot_scene *scene)
 {
-    size_t n = p->n;
+    size_t n = p->n, m = scene->constraints.n;
 
-    p->inputs = qdot_calloc(3 * n + 1, sizeof *p->inputs);
+    p->inputs = qdot_calloc(3 * n + 1 + m, sizeof *p->inputs);
     p->names = qdot_calloc(n, sizeof *p->names);
     if (!p->inputs || !p->names)
         return QDOT_ENOMEM;
@@ -127,6 +127,8 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene)
             return QDOT_ENOMEM;
     }
     p->inputs[2 * n] = QDOT_T;
+    for (size_t k = 0; k < m; k++)
+        p->inputs[3 * n + 1 + k] = scene->constraints.at[k].multiplier;
     return qdot_pool_check(p->pool);
 }
 
@@ -362,6 +364,26 @@ choose_form(qdot_plan *p, qdot_scene *scene)
     return status;
 }
 
+/* With constraints: sim/constraints.h has all there is. */
+static qdot_status
+constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+{
+    QDOT_TRY(qdot_constraints_new(scene, p, &p->constraints));
+    p->tape = p->constraints->equations;
+    p->constraints->equations = NULL;
+    p->treatment = request->treatment;
+    if (p->chosen && p->method->series)
+        p->method = qdot_ode_method_find(switching_method);
+    /* methods that keep the past have no use for a state moved off it */
+    if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
+        p->treatment = QDOT_RUN_BAUMGARTE;
+    if (p->method->series || p->method->needs_jacobian
+        || qdot_ode_method_find(p->method->partner)->needs_jacobian)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: method %s with constraints",
+                         p->method->name);
+    return QDOT_OK;
+}
+
 static qdot_status
 make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
@@ -369,6 +391,8 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(copy_values(p, request));
     QDOT_TRY(name_coordinates(p, scene));
     QDOT_TRY(derive(p, scene));
+    if (scene->constraints.n > 0)
+        return constrain(p, scene, request);
     QDOT_TRY(find_blocks(p));
     for (size_t k = 0; k < p->structure.blocks; k++) {
         qdot_plan_block *b = p->blocks + k;

@@ -36,11 +36,12 @@ typedef struct {
 } qdot_plan_slope;
 
 typedef struct qdot_residual qdot_residual; /* sim/residual.h */
+typedef struct qdot_constraints qdot_constraints; /* sim/constraints.h */
 
 typedef struct {
     qdot_pool *pool; /* borrowed */
     size_t n;        /* coordinates */
-    qdot_expr *inputs; /* [3n + 1] q, q', t, q'' */
+    qdot_expr *inputs; /* [3n + 1 + m] q, q', t, q'', lambda of m constraints */
     char **names;      /* [n] of the coordinates; owned */
     qdot_expr *M;      /* [n x n] */
     qdot_expr *f;      /* [n] */
@@ -49,6 +50,11 @@ typedef struct {
     qdot_plan_block *blocks; /* [structure.blocks] */
     const qdot_ode_method *method;
     bool chosen; /* the method was left to the plan */
+
+    /* NULL without constraints. With them there are no blocks, and `tape` is that of the
+     * index-1 equations. */
+    qdot_constraints *constraints;
+    qdot_run_treatment treatment;
 
     /* Values of the request, for expressions asked for later; owned copies. */
     size_t n_values;

@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "ode/companion.h"
+#include "sim/bonds.h"
 #include "sim/domain.h"
 #include "sim/integrated.h"
 #include "sim/start.h"
@@ -39,6 +40,7 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->start_low);
     qdot_free(run->reason);
     qdot_text_clear(&run->notice);
+    qdot_bonds_clear(&run->bonds);
     qdot_free(run);
 }
 
@@ -113,7 +115,7 @@ check_start(qdot_run *run, const qdot_domains *domains)
                   run->start[d->coordinate], d->text);
         return qdot_hint("start %s = ...", name);
     }
-    return qdot_bind_check(run->bind, run->t0, run->start);
+    return qdot_bind_check(run->bind, run->t0, run->start, run->start_low);
 }
 
 /* Onto the constraints. */
@@ -220,6 +222,8 @@ fill_report(qdot_run *run, double tol)
     r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
     r->n_drifts = run->drifts.n;
     r->drifts = run->drifts.at;
+    r->projections = stats->projections;
+    qdot_bonds_report(&run->bonds, p, r);
 }
 
 /* The states of the run at the times that the companion wants them. */
@@ -271,13 +275,15 @@ carry_out(qdot_run *run, qdot_scene *scene, qdot_domains *domains, double tol,
             status = qdot_companion_start(&system, run->plan->method, tol, t0, t1,
                                           run->start, true, &companion);
         }
-        if (status == QDOT_ESINGULAR)
+        if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN)
             status = QDOT_OK;
     }
     if (status == QDOT_OK)
         status = integrate(run, domains, tol, interrupted);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->tr, &run->drifts);
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_bonds_measure(run->bind, &run->tr, &run->bonds);
     if (status == QDOT_EINTR) {
         *interrupted = true;
         status = QDOT_OK;

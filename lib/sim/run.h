@@ -6,7 +6,8 @@
  *   M(q, t) q'' = f(q, q', t)      y = (q_1 ... q_n, q_1' ... q_n')
  *
  * M is solved with numbers and its structure (Cholesky; LDL^T for a stated Lagrangian); a singular M is
- * an error that names the coordinate. A scene with constraints: QDOT_ENOTBUILT, said clearly.
+ * an error that names the coordinate. With constraints q'' and the multipliers are found together and
+ * states are kept on the constraints: sim/held.h.
  *
  * Tests  tests/sim/
  */
@@ -14,6 +15,9 @@
 #define QDOT_SIM_RUN_H
 
 #include "mech/quantity.h"
+
+/* What is done about drift off the constraints (sim/held.h). */
+typedef enum { QDOT_RUN_PROJECT, QDOT_RUN_BAUMGARTE, QDOT_RUN_NONE } qdot_run_treatment;
 
 typedef struct {
     size_t n_values;              /* values of parameters: symbol -> exact constant */
@@ -26,6 +30,7 @@ typedef struct {
     double tol;                   /* local error of each component in each step, relative to
                                      max(1, |value|) */
     const char *method;           /* "auto" or a name of ode/method.h */
+    qdot_run_treatment treatment; /* of a scene with constraints */
 } qdot_run_request;
 
 typedef enum { QDOT_RUN_DONE, QDOT_RUN_STOPPED, QDOT_RUN_FAILED } qdot_run_status;
@@ -56,6 +61,16 @@ typedef struct {
     const double *q, *v;           /* [n] state at t1 */
     size_t operations;             /* of the tape, one evaluation of M and f */
     const char *notice;            /* what a person must know of the start, a line each; NULL: nothing */
+    /* Of a scene with constraints: */
+    size_t m;                      /* multipliers; 0: no constraints */
+    const qdot_expr *multipliers;  /* [m] symbols */
+    const double *lambda;          /* [m] at t1; NaN where there are none */
+    double constraint_drift;       /* the largest |f| of holonomic constraints met, of velocity
+                                      constraints where there are no others; NaN: neither */
+    double velocity_drift;         /* the largest |df/dt|, |f| of velocity constraints; NaN */
+    size_t independent;            /* of the constraints */
+    size_t projections;            /* steps after which the state was moved */
+    qdot_run_treatment treatment;
 } qdot_run_report;
 
 /* Integrate. On QDOT_OK *run is owned by the caller; report->status may still be FAILED (a

@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "expr/print.h"
 #include "ode/companion.h"
+#include "sim/constraints.h"
 #include "sim/integrated.h"
 #include "tape/shake.h"
 
@@ -15,8 +16,9 @@ typedef struct {
     const qdot_tape *tape;
     qdot_trajectory_cursor *cursor;
     qdot_ode_system system;
-    bool accelerations; /* the tape reads q'' */
-    double *in;         /* [3n + 1] */
+    bool accelerations; /* the tape reads q'' or lambda */
+    qdot_held *held;    /* of a scene with constraints */
+    double *in;         /* [3n + 1 + m] */
     double *dydt;       /* [2n] */
     double *work;
 } reader;
@@ -36,7 +38,8 @@ reader_init(reader *r, const qdot_plan *plan, const qdot_tape *tape, qdot_bind *
 {
     *r = (reader){.plan = plan, .tape = tape, .accelerations = accelerations};
     r->system = qdot_bind_system(bind);
-    r->in = qdot_calloc(3 * plan->n + 1, sizeof *r->in);
+    r->held = qdot_bind_held(bind);
+    r->in = qdot_calloc(qdot_tape_inputs(tape), sizeof *r->in);
     r->dydt = qdot_calloc(2 * plan->n, sizeof *r->dydt);
     r->work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *r->work);
     if (!r->in || !r->dydt || !r->work)
@@ -52,7 +55,10 @@ read_at(reader *r, double t, double *out)
 
     QDOT_TRY(qdot_trajectory_read(r->cursor, t, r->in));
     r->in[2 * n] = t;
-    if (r->accelerations) {
+    if (r->accelerations && r->held) {
+        QDOT_TRY(qdot_held_solve(r->held, t, r->in, r->in + 2 * n + 1,
+                                 r->in + 3 * n + 1));
+    } else if (r->accelerations) {
         QDOT_TRY(r->system.rhs(t, r->in, r->dydt, r->system.user));
         memcpy(r->in + 2 * n + 1, r->dydt + n, n * sizeof *r->in);
     }
@@ -98,6 +104,15 @@ make_companion(qdot_run *run)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < system.n; i++)
         y[i] = moved(run->start[i], i);
+    if (system.project) {
+        double by;
+
+        status = system.project(t0, y, NULL, &by, system.user);
+        if (status != QDOT_OK) {
+            qdot_free(y);
+            return status == QDOT_ENOMEM ? status : QDOT_OK;
+        }
+    }
     status =
         qdot_trajectory_run(&run->companion, &system,
                             qdot_ode_method_find(method->partner), &options, t0, t1, y);
@@ -188,6 +203,7 @@ lower(const qdot_run *run, size_t m, const qdot_expr *exprs, qdot_tape **tape,
       bool *accelerations)
 {
     const qdot_plan *p = run->plan;
+    const size_t rows = p->constraints ? p->constraints->m : 0;
     qdot_expr *e = qdot_malloc((m + 1) * sizeof *e);
     qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
 
@@ -196,11 +212,12 @@ lower(const qdot_run *run, size_t m, const qdot_expr *exprs, qdot_tape **tape,
         e[j] = qdot_plan_substitute(p, exprs[j]);
         status = qdot_pool_check(p->pool);
         if (status == QDOT_OK
-            && qdot_expr_node(p->pool, e[j])->holds & QDOT_HAS_ACCELERATION)
+            && qdot_expr_node(p->pool, e[j])->holds
+                   & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
             *accelerations = true;
     }
     if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, 3 * p->n + 1, p->inputs, m, e, tape);
+        status = qdot_tape_new(p->pool, 3 * p->n + 1 + rows, p->inputs, m, e, tape);
     qdot_free(e);
     return status;
 }

@@ -1,0 +1,468 @@
+/* saddle.c -- pivoted QR of A^T, the projected M, complete orthogonal decomposition. */
+#include "num/saddle.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "num/cholesky.h"
+#include "num/series.h"
+#include "num/sum.h"
+
+/* Rows are dependent where less than this is left of them when the rank is found; a rank
+ * once found is lost where less than the other is left. */
+static const double dependent = 1e-9, lost = 1e-13;
+
+/* Up to so many unknowns an inverse is made for many right-hand sides. */
+enum { most_inverted = 24, lanes = 8 };
+
+static size_t
+width(const qdot_saddle *s)
+{
+    return (s->n + s->m + lanes - 1) / lanes * lanes;
+}
+
+qdot_status
+qdot_saddle_init(qdot_saddle *s, size_t n, size_t m, bool indefinite)
+{
+    const size_t all = n + m + lanes;
+    bool inverted = n + m <= most_inverted;
+
+    *s = (qdot_saddle){.n = n, .m = m, .rank = QDOT_SADDLE_UNKNOWN, .quality = 1};
+    s->indefinite = indefinite;
+    s->M = qdot_calloc(n * n, sizeof *s->M);
+    s->A = qdot_calloc(m * n + 1, sizeof *s->A);
+    s->x = qdot_calloc(all, sizeof *s->x);
+    s->pivot = qdot_calloc(m + 1, sizeof *s->pivot);
+    s->d = qdot_calloc(n, sizeof *s->d);
+    s->e = qdot_calloc(m + 1, sizeof *s->e);
+    s->S = qdot_calloc(n * n, sizeof *s->S);
+    s->Q = qdot_calloc(n * n, sizeof *s->Q);
+    s->R = qdot_calloc(m * n + 1, sizeof *s->R);
+    s->beta = qdot_calloc(m + 1, sizeof *s->beta);
+    s->N = qdot_calloc(n * n, sizeof *s->N);
+    s->V = qdot_calloc(m * m + 1, sizeof *s->V);
+    s->T = qdot_calloc(m * m + 1, sizeof *s->T);
+    s->u = qdot_calloc(all, sizeof *s->u);
+    s->w = qdot_calloc(all, sizeof *s->w);
+    s->y = qdot_calloc(all, sizeof *s->y);
+    s->keep = qdot_calloc(all, sizeof *s->keep);
+    if (inverted)
+        s->inverse = qdot_calloc(width(s) * (n + m), sizeof *s->inverse);
+    if (!s->M || !s->A || !s->x || !s->pivot || !s->d || !s->e || !s->S || !s->Q ||
+        !s->R || !s->beta || !s->N || !s->V || !s->T || !s->u || !s->w || !s->y ||
+        !s->keep || (inverted && !s->inverse))
+        return QDOT_ENOMEM;
+    return qdot_ldlt_init(&s->ldlt, n);
+}
+
+void
+qdot_saddle_clear(qdot_saddle *s)
+{
+    double *arrays[] = {s->M, s->A, s->x, s->d, s->e, s->S, s->Q,       s->R,
+                        s->beta, s->N, s->V, s->T, s->u, s->w, s->y, s->keep,
+                        s->inverse};
+
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        qdot_free(arrays[i]);
+    qdot_free(s->pivot);
+    qdot_ldlt_clear(&s->ldlt);
+    *s = (qdot_saddle){0};
+}
+
+static double
+dot(size_t n, const double *a, const double *b)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+static void
+add(size_t n, double c, const double *a, double *y)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] += c * a[i];
+}
+
+/* --- factorisation ------------------------------------------------------------------ */
+
+/* 2^-k with x 4^-k (twice) or x 2^-k about 1; 1 for what has no size. */
+static double
+scale_of(double x, bool root)
+{
+    int k = x > 0 && isfinite(x) ? ilogb(x) : 0;
+
+    return ldexp(1, -(root ? k / 2 : k));
+}
+
+/* S = D M D, and the rows of R = E A D. */
+static void
+scale(qdot_saddle *s)
+{
+    const size_t n = s->n;
+
+    for (size_t i = 0; i < n; i++)
+        s->d[i] = scale_of(fabs(s->M[i * n + i]), true);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            s->S[i * n + j] = s->d[i] * s->M[i * n + j] * s->d[j];
+    for (size_t k = 0; k < s->m; k++) {
+        double *row = s->R + k * n;
+
+        for (size_t i = 0; i < n; i++)
+            row[i] = s->A[k * n + i] * s->d[i];
+        s->e[k] = scale_of(sqrt(dot(n, row, row)), false);
+        for (size_t i = 0; i < n; i++)
+            row[i] *= s->e[k];
+        s->pivot[k] = k;
+    }
+}
+
+/* The column of most norm below row k, brought to place k. */
+static double
+bring_forward(qdot_saddle *s, size_t k)
+{
+    const size_t n = s->n;
+    double most = -1;
+    size_t best = k;
+
+    for (size_t j = k; j < s->m; j++) {
+        double norm = dot(n - k, s->R + j * n + k, s->R + j * n + k);
+
+        if (norm > most) {
+            most = norm;
+            best = j;
+        }
+    }
+    if (best != k) {
+        size_t row = s->pivot[k];
+
+        s->pivot[k] = s->pivot[best];
+        s->pivot[best] = row;
+        for (size_t i = 0; i < n; i++) {
+            double x = s->R[k * n + i];
+
+            s->R[k * n + i] = s->R[best * n + i];
+            s->R[best * n + i] = x;
+        }
+    }
+    return sqrt(most);
+}
+
+/* x -= beta v (v . x) with v = (1, column k below its diagonal). */
+static void
+reflect(const qdot_saddle *s, size_t k, double *x)
+{
+    const double *v = s->R + k * s->n;
+    double sum = x[k] + dot(s->n - k - 1, v + k + 1, x + k + 1);
+
+    sum *= s->beta[k];
+    x[k] -= sum;
+    add(s->n - k - 1, -sum, v + k + 1, x + k + 1);
+}
+
+/* Householder's step on column k, whose norm below is there. */
+static void
+eliminate(qdot_saddle *s, size_t k, double norm)
+{
+    const size_t n = s->n;
+    double *column = s->R + k * n, head = column[k];
+    double diagonal = head > 0 ? -norm : norm;
+
+    if (norm == 0) {
+        s->beta[k] = 0;
+        return;
+    }
+    s->beta[k] = (diagonal - head) / diagonal;
+    for (size_t i = k + 1; i < n; i++)
+        column[i] /= head - diagonal;
+    column[k] = diagonal;
+    for (size_t j = k + 1; j < s->m; j++)
+        reflect(s, k, s->R + j * n);
+}
+
+/* R, the reflections and the rank. */
+static qdot_status
+triangulate(qdot_saddle *s, size_t *failed)
+{
+    const size_t n = s->n, most = s->m < n ? s->m : n;
+    const bool known = s->rank != QDOT_SADDLE_UNKNOWN;
+    double first = 0, norm = 0;
+    size_t k;
+
+    s->quality = 1;
+    s->surplus = 0;
+    for (k = 0; k < most; k++) {
+        norm = bring_forward(s, k);
+        if (!isfinite(norm))
+            break;
+        if (k == 0)
+            first = norm;
+        if (known ? k == s->rank : !(norm > dependent * first)) {
+            s->surplus = first > 0 ? norm / first : 0;
+            break;
+        }
+        s->quality = first > 0 ? norm / first : 0;
+        if (known && !(norm > lost * first))
+            break;
+        eliminate(s, k, norm);
+    }
+    s->last = k;
+    if (!isfinite(norm) || (known && k < s->rank)) {
+        *failed = n + (k < s->m ? s->pivot[k] : 0);
+        return qdot_fail(QDOT_ESINGULAR, "the rows of the constraints are dependent");
+    }
+    s->rank = k;
+    s->last = k > 0 ? k - 1 : 0;
+    return QDOT_OK;
+}
+
+static void
+form_Q(qdot_saddle *s)
+{
+    const size_t n = s->n;
+
+    memset(s->Q, 0, n * n * sizeof *s->Q);
+    for (size_t j = 0; j < n; j++) {
+        double *column = s->Q + j * n;
+
+        column[j] = 1;
+        for (size_t k = s->rank; k-- > 0;) /* Q e_j = H_1 ... H_r e_j */
+            reflect(s, k, column);
+    }
+}
+
+/* y = S x */
+static void
+times_mass(const qdot_saddle *s, const double *x, double *y)
+{
+    for (size_t i = 0; i < s->n; i++)
+        y[i] = dot(s->n, s->S + i * s->n, x);
+}
+
+static qdot_status
+factor_free(qdot_saddle *s, size_t *failed)
+{
+    const size_t n = s->n, r = s->rank, f = n - r;
+    size_t where = 0;
+    qdot_status status;
+
+    for (size_t j = 0; j < f; j++) {
+        times_mass(s, s->Q + (r + j) * n, s->w);
+        for (size_t i = j; i < f; i++)
+            s->N[i * f + j] = dot(n, s->Q + (r + i) * n, s->w);
+    }
+    if (f == 0)
+        return QDOT_OK;
+    s->ldlt.n = f;
+    status = s->indefinite ? qdot_ldlt_factor(&s->ldlt, s->N, &where)
+                           : qdot_cholesky_factor(s->N, f, NULL, &where);
+    if (status == QDOT_OK)
+        return QDOT_OK;
+    /* the unknown that this direction moves most */
+    *failed = 0;
+    for (size_t i = 1; i < n; i++)
+        if (fabs(s->Q[(r + where) * n + i]) > fabs(s->Q[(r + where) * n + *failed]))
+            *failed = i;
+    return status;
+}
+
+/* R E^-1 (unscaled multipliers) = T^T V^T, V's columns orthonormal, by Gram-Schmidt
+ * twice. V by columns, T by rows. */
+static void
+orthogonalise(qdot_saddle *s)
+{
+    const size_t m = s->m, r = s->rank;
+
+    for (size_t j = 0; j < r; j++) {
+        double *v = s->V + j * m, norm;
+
+        for (size_t k = 0; k < m; k++)
+            v[k] = k < j ? 0 : s->R[k * s->n + j] / s->e[s->pivot[k]];
+        for (size_t i = 0; i < j; i++)
+            s->T[i * m + j] = 0;
+        for (int twice = 0; twice < 2; twice++)
+            for (size_t i = 0; i < j; i++) {
+                double c = dot(m, s->V + i * m, v);
+
+                s->T[i * m + j] += c;
+                add(m, -c, s->V + i * m, v);
+            }
+        norm = sqrt(dot(m, v, v));
+        s->T[j * m + j] = norm;
+        for (size_t k = 0; k < m; k++)
+            v[k] /= norm;
+    }
+}
+
+qdot_status
+qdot_saddle_factor(qdot_saddle *s, size_t *failed)
+{
+    s->factored++;
+    scale(s);
+    QDOT_TRY(triangulate(s, failed));
+    form_Q(s);
+    QDOT_TRY(factor_free(s, failed));
+    if (s->rank < s->m)
+        orthogonalise(s);
+    return QDOT_OK;
+}
+
+/* --- solution ----------------------------------------------------------------------- */
+
+/* mu, scaled back, from u = Y^T (b - M x). */
+static void
+multipliers(qdot_saddle *s, double *u, double *mu)
+{
+    const size_t n = s->n, m = s->m, r = s->rank;
+
+    if (r == m) {
+        for (size_t j = r; j-- > 0;) {
+            for (size_t k = j + 1; k < r; k++)
+                u[j] -= s->R[k * n + j] * u[k];
+            u[j] /= s->R[j * n + j];
+            mu[s->pivot[j]] = u[j] * s->e[s->pivot[j]];
+        }
+        return;
+    }
+    for (size_t j = 0; j < r; j++) {
+        for (size_t i = 0; i < j; i++)
+            u[j] -= s->T[i * m + j] * u[i];
+        u[j] /= s->T[j * m + j];
+    }
+    for (size_t k = 0; k < m; k++) {
+        double sum = 0;
+
+        for (size_t j = 0; j < r; j++)
+            sum += s->V[j * m + k] * u[j];
+        mu[s->pivot[k]] = sum;
+    }
+}
+
+void
+qdot_saddle_solve(qdot_saddle *s)
+{
+    const size_t n = s->n, r = s->rank, f = n - r;
+    double *x = s->x, *c = s->x + n, *u = s->u, *w = s->w, *y = s->y;
+
+    for (size_t j = 0; j < r; j++) {
+        double sum = c[s->pivot[j]] * s->e[s->pivot[j]];
+
+        for (size_t i = 0; i < j; i++)
+            sum -= s->R[j * n + i] * u[i];
+        u[j] = sum / s->R[j * n + j];
+    }
+    memset(y, 0, n * sizeof *y);
+    for (size_t j = 0; j < r; j++)
+        add(n, u[j], s->Q + j * n, y);
+    for (size_t i = 0; i < n; i++)
+        x[i] *= s->d[i];
+    if (f > 0) {
+        times_mass(s, y, w);
+        for (size_t i = 0; i < n; i++)
+            w[i] = x[i] - w[i];
+        for (size_t j = 0; j < f; j++)
+            u[j] = dot(n, s->Q + (r + j) * n, w);
+        if (s->indefinite)
+            qdot_ldlt_solve(&s->ldlt, s->N, u);
+        else
+            qdot_cholesky_solve(s->N, f, NULL, u);
+        for (size_t j = 0; j < f; j++)
+            add(n, u[j], s->Q + (r + j) * n, y);
+    }
+    times_mass(s, y, w);
+    for (size_t i = 0; i < n; i++)
+        w[i] = x[i] - w[i];
+    for (size_t j = 0; j < r; j++)
+        u[j] = dot(n, s->Q + j * n, w);
+    for (size_t i = 0; i < n; i++)
+        x[i] = y[i] * s->d[i];
+    multipliers(s, u, c);
+}
+
+/* sum += a b, in twice the precision */
+static void
+add_product(qdot_sum *sum, double a, double b)
+{
+    double p = a * b;
+
+    qdot_sum_add(sum, p);
+    sum->carry += fma(a, b, -p);
+}
+
+void
+qdot_saddle_solve_refined(qdot_saddle *s)
+{
+    const size_t n = s->n, m = s->m;
+    double *x = s->x, *b = s->keep;
+
+    memcpy(b, x, (n + m) * sizeof *b);
+    qdot_saddle_solve(s);
+    for (size_t i = 0; i < n + m; i++) {
+        qdot_sum left = {.sum = b[i]};
+
+        for (size_t j = 0; j < n; j++)
+            add_product(&left, i < n ? -s->M[i * n + j] : -s->A[(i - n) * n + j], x[j]);
+        for (size_t k = 0; i < n && k < m; k++)
+            add_product(&left, -s->A[k * n + i], x[n + k]);
+        b[i] = qdot_sum_value(&left);
+    }
+    for (size_t i = 0; i < n + m; i++) {
+        double first = x[i];
+
+        x[i] = b[i];
+        b[i] = first;
+    }
+    qdot_saddle_solve(s);
+    add(n + m, 1, b, x);
+}
+
+void
+qdot_saddle_prepare(qdot_saddle *s)
+{
+    const size_t all = s->n + s->m, w = width(s);
+
+    for (size_t j = 0; s->inverse && j < all; j++) {
+        memset(s->x, 0, all * sizeof *s->x);
+        s->x[j] = 1;
+        qdot_saddle_solve(s);
+        memcpy(s->inverse + j * w, s->x, all * sizeof *s->x);
+    }
+}
+
+void
+qdot_saddle_apply(qdot_saddle *s)
+{
+    const size_t all = s->n + s->m;
+
+    if (!s->inverse) {
+        qdot_saddle_solve(s);
+        return;
+    }
+    qdot_series_kernels_get()->multiply(width(s), all, s->inverse, s->x, s->keep);
+    memcpy(s->x, s->keep, all * sizeof *s->x);
+}
+
+void
+qdot_saddle_parts(qdot_saddle *s, double *part)
+{
+    const size_t n = s->n, last = s->last;
+
+    for (size_t k = 0; k < s->m; k++)
+        part[k] = 0;
+    if (last >= s->m)
+        return;
+    part[s->pivot[last]] = 1;
+    for (size_t j = last < n ? last : n; j-- > 0;) {
+        double sum = s->R[last * n + j];
+
+        for (size_t k = j + 1; k < last && k < n; k++)
+            sum -= s->R[k * n + j] * s->u[k];
+        s->u[j] = sum / s->R[j * n + j];
+        part[s->pivot[j]] = fmin(1, fabs(s->u[j]));
+    }
+}

@@ -1,0 +1,88 @@
+/* saddle.h -- what moves under constraints: saddle-point systems of any rank.
+ *
+ *     [ M  A^T ] [ x  ]   [ b ]      M n x n symmetric, A m x n,
+ *     [ A   0  ] [ mu ] = [ c ]      M regular on the null space of A (maybe only there)
+ *
+ * By the null space: with Q R = A^T P, columns pivoted, Y the first r columns of Q, Z the
+ * others,
+ *
+ *     R_r^T y = (P^T c)_r,   (Z^T M Z) z = Z^T (b - M Y y),   x = Y y + Z z,
+ *     R P^T mu = Y^T (b - M x).
+ *
+ * r is the rank of A. Where r < m some rows repeat others: x is the same whichever r of
+ * them are held, mu is the one of least norm. The rank is found once, by the first
+ * factorisation, and kept: rows that are dependent do not become independent by the
+ * rounding of a later place, nor rows that nearly are.
+ *
+ * Unknowns and rows are scaled by powers of two, which make the diagonal of M and the
+ * rows of A about 1: neither rank nor rounding depends on units.
+ *
+ * Source  Golub & Van Loan, Matrix Computations, 4th ed., 5.4 (pivoted QR, complete
+ *         orthogonal decomposition), 6.2 (the null-space method); Benzi, Golub & Liesen,
+ *         Acta Numerica 14 (2005) 1, sec. 6.
+ * Tests   tests/num/test_saddle.c
+ */
+#ifndef QDOT_NUM_SADDLE_H
+#define QDOT_NUM_SADDLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/status.h"
+#include "num/ldlt.h"
+
+/* Work space for systems of one size; nothing is allocated after _init. */
+typedef struct {
+    size_t n, m;
+    double *M; /* [n x n] written by the caller, both triangles */
+    double *A; /* [m x n] written by the caller */
+    double *x; /* [n + m] right-hand side (b, c), then solution (x, mu) */
+
+    size_t rank;     /* r; QDOT_SADDLE_UNKNOWN before the first factorisation */
+    double quality;  /* |R_rr / R_11| of the last one; 1 where r is 0 */
+    double surplus;  /* the same of the largest column left out; 0 if there is none */
+    size_t factored; /* how often */
+    size_t last;     /* the last pivot, by its place; of a failure the one that failed */
+    size_t *pivot;   /* [m] the rows of A in the order of the pivoting */
+
+    bool indefinite; /* Z^T M Z by LDL^T, else by Cholesky */
+    double *d, *e;   /* [n], [m] scales of unknowns and rows */
+    double *S;       /* [n x n] M scaled */
+    double *Q;       /* [n x n] row j is column j of Q */
+    double *R;       /* [m x n] row j is column j of what A^T P became; R above */
+    double *beta;    /* [m] of the reflections */
+    double *N;       /* [n x n] Z^T M Z, then its factors */
+    double *V, *T;   /* [m x m] of R^T = V T where r < m */
+    double *inverse; /* [w x (n + m)] columns, w = n + m filled up to full vectors */
+    double *u, *w, *y, *keep; /* [n + m + 8] each */
+    qdot_ldlt ldlt;
+} qdot_saddle;
+
+#define QDOT_SADDLE_UNKNOWN ((size_t)-1)
+
+/* n > 0; m may be 0 and may exceed n. Errors: QDOT_ENOMEM; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_saddle_init(qdot_saddle *s, size_t n, size_t m,
+                                             bool indefinite);
+void qdot_saddle_clear(qdot_saddle *s);
+
+/* Factor what stands in M and A, which are kept. QDOT_ESINGULAR: A has lost rank
+ * (*failed is a row of it, n + k), or M is singular on its null space (*failed is an
+ * unknown), or something is not finite. */
+QDOT_MUST_CHECK qdot_status qdot_saddle_factor(qdot_saddle *s, size_t *failed);
+
+/* Solve for s->x. */
+void qdot_saddle_solve(qdot_saddle *s);
+
+/* Solve for s->x, and once more for what is left over, found in twice the precision. */
+void qdot_saddle_solve_refined(qdot_saddle *s);
+
+/* For many right-hand sides: _prepare, then for s->x as often as wanted _apply, whose
+ * error is of the size of _solve's, not as reliably. */
+void qdot_saddle_prepare(qdot_saddle *s);
+void qdot_saddle_apply(qdot_saddle *s);
+
+/* The size of row i's part in the dependency nearest to happening (of the last pivot on
+ * those before it), 0 ... 1, into part [m]. */
+void qdot_saddle_parts(qdot_saddle *s, double *part);
+
+#endif

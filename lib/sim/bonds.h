@@ -1,0 +1,27 @@
+/* bonds.h -- what a run of a scene with constraints has to say of them: drift along it,
+ * multipliers at its end.
+ *
+ * Tests  tests/sim/test_constraints.c
+ */
+#ifndef QDOT_SIM_BONDS_H
+#define QDOT_SIM_BONDS_H
+
+#include "ode/trajectory.h"
+#include "sim/bind.h"
+
+typedef struct {
+    double position, velocity; /* the largest residuals at stored points; NaN: none */
+    double *lambda;            /* [m] at the end */
+    size_t independent;
+} qdot_bonds;
+
+/* Of a run that is there; nothing for a plan without constraints. Errors: QDOT_ENOMEM,
+ * QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_bonds_measure(qdot_bind *bind, const qdot_trajectory *tr,
+                                               qdot_bonds *b);
+void qdot_bonds_clear(qdot_bonds *b);
+
+/* Into a report. */
+void qdot_bonds_report(const qdot_bonds *b, const qdot_plan *plan, qdot_run_report *r);
+
+#endif

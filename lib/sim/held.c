@@ -1,0 +1,508 @@
+/* held.c -- tapes into saddle-point systems, one for each level of differentiation. */
+#include "sim/held.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "tape/shake.h"
+
+/* A start may break a constraint by the rounding of decimals as people type them. */
+static const double start_tolerance = 1e-9;
+
+enum { most_iterations = 6 };
+
+/* The rows that restrict positions, velocities, accelerations: kinds up to it. */
+typedef struct {
+    qdot_saddle saddle;
+    size_t m;
+    size_t *row; /* [m] of the constraints */
+} level;
+
+struct qdot_held {
+    const qdot_plan *plan;
+    const qdot_constraints *c;
+    qdot_tape *positions, *velocities, *metric, *equations; /* shaken copies or NULL */
+    level levels[3];
+    level *at[3]; /* those that have the same rows are one */
+    double *in;   /* [2n + 1] q, q', t */
+    double *out, *work;
+    double *f, *w; /* [m] residuals of positions and velocities, by row */
+    double *f_bound, *w_bound; /* [m] what rounding makes of them; they grow along a run */
+    double *a;     /* [n] */
+};
+
+static const qdot_tape *
+tape_of(const qdot_tape *own, const qdot_tape *plans)
+{
+    return own ? own : plans;
+}
+
+void
+qdot_held_free(qdot_held *h)
+{
+    if (!h)
+        return;
+    for (int l = 0; l < 3; l++) {
+        qdot_saddle_clear(&h->levels[l].saddle);
+        qdot_free(h->levels[l].row);
+    }
+    qdot_tape_free(h->positions);
+    qdot_tape_free(h->velocities);
+    qdot_tape_free(h->metric);
+    qdot_tape_free(h->equations);
+    qdot_free(h->in);
+    qdot_free(h->out);
+    qdot_free(h->work);
+    qdot_free(h->f);
+    qdot_free(h->w);
+    qdot_free(h->f_bound);
+    qdot_free(h->w_bound);
+    qdot_free(h->a);
+    qdot_free(h);
+}
+
+/* --- evaluation --------------------------------------------------------------------- */
+
+static void
+load(qdot_held *h, double t, const double *y)
+{
+    memcpy(h->in, y, 2 * h->plan->n * sizeof *y);
+    h->in[2 * h->plan->n] = t;
+}
+
+/* Residuals at what is loaded, by row; 0 where a row has none. */
+static void
+residuals(qdot_held *h)
+{
+    const qdot_constraints *c = h->c;
+    const double *out = h->out;
+
+    qdot_tape_eval(tape_of(h->positions, c->positions), h->in, h->out, h->work);
+    for (size_t k = 0; k < c->m; k++)
+        h->f[k] = c->rows[k].kind == QDOT_HOLONOMIC ? *out++ : 0;
+    out = h->out;
+    qdot_tape_eval(tape_of(h->velocities, c->velocities), h->in, h->out, h->work);
+    for (size_t k = 0; k < c->m; k++)
+        h->w[k] = c->rows[k].kind != QDOT_ACCELERATION ? *out++ : 0;
+}
+
+/* M and A from outputs into a level. Returns what stands behind them. */
+static const double *
+unpack(qdot_held *h, level *l, const double *from)
+{
+    const qdot_constraints *c = h->c;
+    const size_t n = h->plan->n;
+    size_t at = 0;
+
+    for (size_t k = 0; k < c->n_masses; k++) {
+        size_t i = c->masses[k].row, j = c->masses[k].column;
+
+        l->saddle.M[i * n + j] = l->saddle.M[j * n + i] = *from++;
+    }
+    for (size_t s = 0; s < c->n_slopes; s++, from++) {
+        while (at < l->m && l->row[at] < c->slopes[s].row)
+            at++;
+        if (at < l->m && l->row[at] == c->slopes[s].row)
+            l->saddle.A[at * n + c->slopes[s].column] = *from;
+    }
+    return from;
+}
+
+/* "rod1", "rod1 and rod2", "a, b and c": the rows of a dependency. */
+static qdot_status
+dependent(qdot_held *h, level *l)
+{
+    double *part = l->saddle.w; /* scratch of n + m */
+    qdot_text names = {0};
+    size_t count = 0, said = 0;
+
+    qdot_saddle_parts(&l->saddle, part);
+    for (size_t k = 0; k < l->m; k++)
+        count += part[k] > 1e-6;
+    for (size_t k = 0; k < l->m; k++) {
+        if (!(part[k] > 1e-6))
+            continue;
+        if (said > 0)
+            qdot_text_add(&names, said + 1 == count ? " and " : ", ");
+        qdot_text_add(&names, h->c->rows[l->row[k]].name);
+        said++;
+    }
+    if (qdot_text_status(&names) == QDOT_OK)
+        qdot_fail(QDOT_ESINGULAR, "constraint%s %.300s %s here", count == 1 ? "" : "s",
+                  qdot_text_str(&names),
+                  count == 1 ? "has no direction" : "stop being independent");
+    qdot_text_clear(&names);
+    return QDOT_ESINGULAR;
+}
+
+static qdot_status
+factor(qdot_held *h, level *l)
+{
+    size_t failed = 0;
+    qdot_status status = qdot_saddle_factor(&l->saddle, &failed);
+
+    if (status != QDOT_ESINGULAR)
+        return status;
+    if (failed >= h->plan->n)
+        return dependent(h, l);
+    return qdot_fail(status, "the mass matrix is singular: no mass moves with %s",
+                     h->plan->names[failed]);
+}
+
+static void
+damp(const qdot_held *h, double *gamma)
+{
+    const double a = QDOT_HELD_RATE;
+
+    for (size_t k = 0; k < h->c->m; k++)
+        gamma[k] -= h->c->rows[k].kind == QDOT_HOLONOMIC ? 2 * a * h->w[k] + a * a * h->f[k]
+                                                         : a * h->w[k];
+}
+
+qdot_status
+qdot_held_solve(qdot_held *h, double t, const double *y, double *a, double *lambda)
+{
+    const qdot_plan *p = h->plan;
+    const size_t n = p->n, m = h->c->m;
+    level *all = h->at[QDOT_ACCELERATION];
+    double *x = all->saddle.x;
+    const double *gamma;
+
+    load(h, t, y);
+    if (p->treatment == QDOT_RUN_BAUMGARTE)
+        residuals(h);
+    qdot_tape_eval(tape_of(h->equations, p->tape), h->in, h->out, h->work);
+    gamma = unpack(h, all, h->out + n);
+    memcpy(x, h->out, n * sizeof *x);
+    memcpy(x + n, gamma, m * sizeof *x);
+    if (p->treatment == QDOT_RUN_BAUMGARTE)
+        damp(h, x + n);
+    QDOT_TRY(factor(h, all));
+    qdot_saddle_solve_refined(&all->saddle);
+    for (size_t i = 0; i < n; i++) {
+        a[i] = x[i];
+        if (!isfinite(a[i]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             p->names[i]);
+    }
+    for (size_t k = 0; lambda && k < m; k++)
+        lambda[k] = -x[n + k];
+    return QDOT_OK;
+}
+
+qdot_held_residual
+qdot_held_measure(qdot_held *h, double t, const double *y)
+{
+    qdot_held_residual r = {.worst_position = SIZE_MAX, .worst_velocity = SIZE_MAX};
+
+    load(h, t, y);
+    residuals(h);
+    for (size_t k = 0; k < h->c->m; k++) {
+        if (h->c->rows[k].kind == QDOT_HOLONOMIC && !(fabs(h->f[k]) < r.position)) {
+            r.position = fabs(h->f[k]);
+            r.worst_position = k;
+        }
+        if (h->c->rows[k].kind != QDOT_ACCELERATION && !(fabs(h->w[k]) < r.velocity)) {
+            r.velocity = fabs(h->w[k]);
+            r.worst_velocity = k;
+        }
+    }
+    return r;
+}
+
+/* --- projection --------------------------------------------------------------------- */
+
+/* M and A at what is loaded, factored, and with them the bounds: x is q or q'. */
+static qdot_status
+factor_metric(qdot_held *h, level *l, const double *x, double *bound)
+{
+    const size_t n = h->plan->n;
+
+    qdot_tape_eval(tape_of(h->metric, h->c->metric), h->in, h->out, h->work);
+    unpack(h, l, h->out);
+    QDOT_TRY(factor(h, l));
+    for (size_t k = 0; k < l->m; k++) {
+        double sum = 0;
+
+        for (size_t i = 0; i < n; i++)
+            sum += fabs(l->saddle.A[k * n + i] * x[i]);
+        bound[l->row[k]] = fmax(bound[l->row[k]], DBL_EPSILON * sum);
+    }
+    return QDOT_OK;
+}
+
+/* The largest residual over its bound; INFINITY before there are bounds. What the carry
+ * adds is a matter of A, once that is there. */
+static double
+excess(const level *l, const double *residual, const double *bound, const double *carry,
+       size_t n)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < l->m; k++) {
+        double f = residual[l->row[k]], b = bound[l->row[k]];
+
+        if (carry && l->saddle.factored > 0)
+            for (size_t i = 0; i < n; i++)
+                f += l->saddle.A[k * n + i] * carry[i];
+        if (!(fabs(f) <= b))
+            most = fmax(most, b > 0 && isfinite(f) ? fabs(f) / b : INFINITY);
+    }
+    return most;
+}
+
+/* hi + lo += x; qdot_sum_advance, whose header and that of expr/ share a name. */
+static void
+advance(double *hi, double *lo, double x)
+{
+    double a = *hi, b = *lo + x, s = a + b, bb = s - a;
+
+    *lo = (a - (s - bb)) + (b - bb);
+    *hi = s;
+}
+
+/* One step of Newton's method on x, q or q'. */
+static void
+step(const qdot_held *h, level *l, const double *residual, double *x, double *carry,
+     double *moved)
+{
+    const size_t n = h->plan->n;
+    double *change = l->saddle.x;
+
+    memset(change, 0, n * sizeof *change);
+    for (size_t k = 0; k < l->m; k++) {
+        double f = residual[l->row[k]];
+
+        for (size_t i = 0; carry && i < n; i++)
+            f += l->saddle.A[k * n + i] * carry[i];
+        change[n + k] = -f;
+    }
+    qdot_saddle_solve(&l->saddle);
+    for (size_t i = 0; i < n; i++) {
+        *moved = fmax(*moved, fabs(change[i]) / fmax(1, fabs(x[i])));
+        if (carry)
+            advance(&x[i], &carry[i], change[i]);
+        else
+            x[i] += change[i];
+    }
+}
+
+/* Positions or velocities of y; `residual` points at what `residuals` fills for them. */
+static qdot_status
+project(qdot_held *h, level *l, double t, double *y, double *x, double *carry,
+        const double *residual, double *bound, double *moved)
+{
+    const size_t n = h->plan->n;
+    double before = INFINITY;
+    bool factored = false;
+
+    if (l->m == 0)
+        return QDOT_OK;
+    for (int k = 0; k <= most_iterations; k++) {
+        double now;
+
+        load(h, t, y);
+        residuals(h);
+        now = excess(l, residual, bound, carry, n);
+        if (now <= 1)
+            return QDOT_OK;
+        /* what is left is rounding when it shrinks no more */
+        if (factored && !(now < 0.5 * before) && now < 1e4)
+            return QDOT_OK;
+        if (k == most_iterations || isnan(now) || (k > 2 && !(now < before)))
+            break;
+        if (!factored) {
+            QDOT_TRY(factor_metric(h, l, x, bound));
+            factored = true;
+            now = excess(l, residual, bound, carry, n);
+            if (now <= 1)
+                return QDOT_OK;
+        }
+        before = now;
+        step(h, l, residual, x, carry, moved);
+    }
+    return qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
+}
+
+qdot_status
+qdot_held_project(double t, double *y, double *carry, double *moved, void *user)
+{
+    qdot_held *h = user;
+    const size_t n = h->plan->n;
+
+    *moved = 0;
+    if (h->plan->treatment != QDOT_RUN_PROJECT)
+        return QDOT_OK;
+    QDOT_TRY(project(h, h->at[QDOT_HOLONOMIC], t, y, y, carry, h->f, h->f_bound,
+                     moved));
+    return project(h, h->at[QDOT_VELOCITY], t, y, y + n, carry ? carry + n : NULL, h->w,
+                   h->w_bound, moved);
+}
+
+/* --- the start ---------------------------------------------------------------------- */
+
+static qdot_status
+broken(const qdot_held *h, size_t row, double residual, const char *what)
+{
+    qdot_fail(QDOT_EINVAL, "the start breaks the constraint %s: %s is %.3g, not 0",
+              h->c->rows[row].name, what, residual);
+    return qdot_hint("start values that fulfil it");
+}
+
+/* Rows that were left out as repetitions must agree with those that were not. */
+static qdot_status
+check_repeated(qdot_held *h)
+{
+    const level *all = h->at[QDOT_ACCELERATION];
+    const qdot_saddle *s = &all->saddle;
+    const size_t n = h->plan->n;
+    const double *gamma = h->out + n + h->c->n_masses + h->c->n_slopes;
+
+    for (size_t j = s->rank; j < s->m; j++) {
+        size_t k = s->pivot[j];
+        double sum = -gamma[k], size = fabs(gamma[k]);
+
+        for (size_t i = 0; i < n; i++) {
+            sum += s->A[k * n + i] * h->a[i];
+            size = fmax(size, fabs(s->A[k * n + i] * h->a[i]));
+        }
+        if (fabs(sum) > 1e-6 * fmax(1, size))
+            return qdot_fail(QDOT_EINVAL,
+                             "constraint %s contradicts the others: they leave it a "
+                             "second derivative of %.3g",
+                             h->c->rows[k].name, sum);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_held_start(qdot_held *h, double t, double *y, double *low)
+{
+    const size_t n = h->plan->n;
+    level *l = h->at[QDOT_HOLONOMIC];
+    double moved;
+
+    load(h, t, y);
+    residuals(h);
+    for (size_t k = 0; k < h->c->m; k++)
+        if (!(fabs(h->f[k]) <= start_tolerance))
+            return broken(h, k, h->f[k], "left - right");
+    for (size_t k = 0; k < h->c->m; k++)
+        if (!(fabs(h->w[k]) <= start_tolerance))
+            return broken(h, k, h->w[k],
+                          h->c->rows[k].kind == QDOT_HOLONOMIC
+                              ? "the time derivative of left - right"
+                              : "left - right");
+    /* the bounds, before anything is judged by them */
+    if (l->m > 0)
+        QDOT_TRY(factor_metric(h, l, y, h->f_bound));
+    l = h->at[QDOT_VELOCITY];
+    if (l->m > 0)
+        QDOT_TRY(factor_metric(h, l, y + n, h->w_bound));
+    QDOT_TRY(qdot_held_project(t, y, low, &moved, h));
+    QDOT_TRY(qdot_held_solve(h, t, y, h->a, NULL));
+    return check_repeated(h);
+}
+
+size_t
+qdot_held_rows(const qdot_held *h)
+{
+    return h->c->m;
+}
+
+size_t
+qdot_held_rank(const qdot_held *h)
+{
+    return h->at[QDOT_ACCELERATION]->saddle.rank;
+}
+
+size_t
+qdot_held_factored(const qdot_held *h)
+{
+    return h->levels[0].saddle.factored + h->levels[1].saddle.factored
+           + h->levels[2].saddle.factored;
+}
+
+/* --- building ----------------------------------------------------------------------- */
+
+static qdot_status
+make_level(qdot_held *h, qdot_constraint_kind kind)
+{
+    const qdot_constraints *c = h->c;
+    level *l = h->levels + kind;
+
+    for (size_t k = 0; k < c->m; k++)
+        l->m += c->rows[k].kind <= kind;
+    h->at[kind] = l;
+    if (kind > 0 && h->at[kind - 1]->m == l->m) {
+        h->at[kind] = h->at[kind - 1];
+        l->m = 0;
+        return QDOT_OK;
+    }
+    l->row = qdot_calloc(l->m + 1, sizeof *l->row);
+    if (!l->row)
+        return QDOT_ENOMEM;
+    for (size_t k = 0, at = 0; k < c->m; k++)
+        if (c->rows[k].kind <= kind)
+            l->row[at++] = k;
+    return qdot_saddle_init(&l->saddle, h->plan->n, l->m, h->plan->indefinite);
+}
+
+static qdot_status
+shake(qdot_held *h)
+{
+    QDOT_TRY(qdot_tape_shake(h->c->positions, &h->positions));
+    QDOT_TRY(qdot_tape_shake(h->c->velocities, &h->velocities));
+    QDOT_TRY(qdot_tape_shake(h->c->metric, &h->metric));
+    return qdot_tape_shake(h->plan->tape, &h->equations);
+}
+
+static qdot_status
+make(qdot_held *h, bool shaken)
+{
+    const qdot_tape *tapes[] = {h->c->positions, h->c->velocities, h->c->metric,
+                                h->plan->tape};
+    size_t out = 0, work = 0, m = h->c->m;
+
+    for (size_t i = 0; i < sizeof tapes / sizeof *tapes; i++) {
+        size_t o = qdot_tape_outputs(tapes[i]), w = qdot_tape_work(tapes[i]);
+
+        out = o > out ? o : out;
+        work = w > work ? w : work;
+    }
+    h->in = qdot_calloc(2 * h->plan->n + 1, sizeof *h->in);
+    h->out = qdot_calloc(out + 1, sizeof *h->out);
+    h->work = qdot_calloc(work + 1, sizeof *h->work);
+    h->f = qdot_calloc(m + 1, sizeof *h->f);
+    h->w = qdot_calloc(m + 1, sizeof *h->w);
+    h->f_bound = qdot_calloc(m + 1, sizeof *h->f_bound);
+    h->w_bound = qdot_calloc(m + 1, sizeof *h->w_bound);
+    h->a = qdot_calloc(h->plan->n, sizeof *h->a);
+    if (!h->in || !h->out || !h->work || !h->f || !h->w || !h->a || !h->f_bound
+        || !h->w_bound)
+        return QDOT_ENOMEM;
+    for (int kind = 0; kind < 3; kind++)
+        QDOT_TRY(make_level(h, (qdot_constraint_kind)kind));
+    return shaken ? shake(h) : QDOT_OK;
+}
+
+qdot_status
+qdot_held_new(const qdot_plan *plan, bool shaken, qdot_held **held)
+{
+    qdot_held *h = qdot_calloc(1, sizeof *h);
+    qdot_status status;
+
+    *held = NULL;
+    if (!h)
+        return QDOT_ENOMEM;
+    h->plan = plan;
+    h->c = plan->constraints;
+    status = make(h, shaken);
+    if (status != QDOT_OK) {
+        qdot_held_free(h);
+        return status;
+    }
+    *held = h;
+    return QDOT_OK;
+}

@@ -1,0 +1,72 @@
+/* held.h -- a plan with constraints, evaluated: accelerations and multipliers, and states
+ * brought back onto the constraints.
+ *
+ *     [ M  A^T ] [ q''     ]   [ f     ]
+ *     [ A   0  ] [ -lambda ] = [ gamma ]     (num/saddle.h, residual-corrected)
+ *
+ * Drift. Integration leaves the constraints by its error of a step and by rounding. Under
+ * `project` a state is moved back by the shortest way in the metric of M,
+ *
+ *     q += M^-1 A^T nu until f(q, t) = 0,   then q' likewise until df/dt = 0,
+ *
+ * when a residual is above what rounding alone makes of it, 2^-52 sum |A_ki q_i| (q' at
+ * the level of velocities), and only then. Under `baumgarte` gamma is
+ *
+ *     gamma - 2 a df/dt - a^2 f,   velocity constraints: gamma - a f,
+ *
+ * critical damping with the rate a = QDOT_HELD_RATE per unit of t: drift dies out as
+ * e^(-a t). Under `none` nothing is done.
+ *
+ * Source  Hairer & Wanner II, VII.1 (index reduction) and VII.2 (projection); Baumgarte,
+ *         Comput. Meth. Appl. Mech. Eng. 1 (1972) 1.
+ * Tests   tests/sim/test_constraints.c
+ */
+#ifndef QDOT_SIM_HELD_H
+#define QDOT_SIM_HELD_H
+
+#include "num/saddle.h"
+#include "sim/constraints.h"
+
+#define QDOT_HELD_RATE 5.0
+
+typedef struct qdot_held qdot_held;
+
+/* Of a plan with constraints, borrowed. `shaken` as for qdot_bind_new. Errors:
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_held_new(const qdot_plan *plan, bool shaken,
+                                          qdot_held **held);
+void qdot_held_free(qdot_held *held);
+
+/* q'' [n] and lambda [m] (may be NULL) at t, y = (q, q') [2n]. Errors: QDOT_ESINGULAR
+ * names constraints that stop being independent, or the coordinate without mass;
+ * QDOT_EDOMAIN the coordinate whose acceleration is undefined. */
+QDOT_MUST_CHECK qdot_status qdot_held_solve(qdot_held *held, double t, const double *y,
+                                            double *a, double *lambda);
+
+/* Move y [2n] (+ carry [2n], may be NULL) onto the constraints, as qdot_ode_system.project
+ * is to: *moved is the largest change of a component relative to max(1, |y_i|), 0 where
+ * nothing was done. QDOT_EDOMAIN where it does not converge. */
+QDOT_MUST_CHECK qdot_status qdot_held_project(double t, double *y, double *carry,
+                                              double *moved, void *held);
+
+/* What y breaks: the largest |f| of the holonomic rows; the largest |df/dt| or |f| of the
+ * velocity rows; which rows these are (SIZE_MAX: none). */
+typedef struct {
+    double position, velocity;
+    size_t worst_position, worst_velocity;
+} qdot_held_residual;
+qdot_held_residual qdot_held_measure(qdot_held *held, double t, const double *y);
+
+/* Whether a run may start at y: QDOT_EINVAL names a constraint that y breaks, with its
+ * residual, or constraints that contradict each other; QDOT_ESINGULAR as _solve. What is
+ * left (rounding of the values typed) is then projected away. */
+QDOT_MUST_CHECK qdot_status qdot_held_start(qdot_held *held, double t, double *y,
+                                            double *low);
+
+size_t qdot_held_rows(const qdot_held *held); /* m */
+/* Independent rows; QDOT_SADDLE_UNKNOWN before anything was solved. */
+size_t qdot_held_rank(const qdot_held *held);
+/* How often a matrix was factored. */
+size_t qdot_held_factored(const qdot_held *held);
+
+#endif

@@ -1,0 +1,194 @@
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "num/saddle.h"
+
+enum { most = 40 };
+
+static double
+uniform(void)
+{
+    return 2.0 * rand() / RAND_MAX - 1;
+}
+
+/* A positive matrix of rank `rank`, in units that differ by 2^20. */
+static void
+fill_mass(qdot_saddle *s, size_t rank, bool indefinite)
+{
+    double G[most * most];
+
+    memset(s->M, 0, s->n * s->n * sizeof *s->M);
+    for (size_t k = 0; k < rank; k++) {
+        for (size_t i = 0; i < s->n; i++)
+            G[i] = uniform() * ldexp(1, (int)(i % 3) * 10);
+        for (size_t i = 0; i < s->n; i++)
+            for (size_t j = 0; j < s->n; j++)
+                s->M[i * s->n + j] += (indefinite && k % 2 ? -1 : 1) * G[i] * G[j];
+    }
+}
+
+static void
+fill_rows(qdot_saddle *s)
+{
+    for (size_t k = 0; k < s->m * s->n; k++)
+        s->A[k] = uniform();
+}
+
+/* The largest residual of the solution in s->x, relative to the sizes in its row. */
+static double
+residual(const qdot_saddle *s, const double *b)
+{
+    double worst = 0;
+
+    for (size_t i = 0; i < s->n + s->m; i++) {
+        long double r = -(long double)b[i];
+        double size = fabs(b[i]);
+
+        for (size_t j = 0; j < s->n; j++) {
+            double a = i < s->n ? s->M[i * s->n + j] : s->A[(i - s->n) * s->n + j];
+
+            r += (long double)a * s->x[j];
+            size += fabs(a * s->x[j]);
+        }
+        for (size_t k = 0; i < s->n && k < s->m; k++) {
+            r += (long double)s->A[k * s->n + i] * s->x[s->n + k];
+            size += fabs(s->A[k * s->n + i] * s->x[s->n + k]);
+        }
+        worst = fmax(worst, (double)fabsl(r) / fmax(size, 1e-300));
+    }
+    return worst;
+}
+
+static void
+fill_right(qdot_saddle *s, double *b)
+{
+    for (size_t i = 0; i < s->n + s->m; i++)
+        b[i] = s->x[i] = uniform();
+}
+
+static void
+random_systems_are_solved(void **state)
+{
+    (void)state;
+    srand(1);
+    for (size_t n = 1; n <= 24; n++)
+        for (size_t m = 0; m <= n; m += 1 + n / 5)
+            for (int indefinite = 0; indefinite < 2; indefinite++) {
+                double b[2 * most], applied[2 * most];
+                size_t failed;
+                qdot_saddle s;
+
+                assert_int_equal(qdot_saddle_init(&s, n, m, indefinite), QDOT_OK);
+                fill_mass(&s, n + 1, indefinite);
+                fill_rows(&s);
+                assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+                assert_int_equal(s.rank, m);
+                qdot_saddle_prepare(&s);
+                fill_right(&s, b);
+                qdot_saddle_apply(&s);
+                memcpy(applied, s.x, sizeof(double) * (n + m));
+                memcpy(s.x, b, sizeof(double) * (n + m));
+                qdot_saddle_solve_refined(&s);
+                if (!(residual(&s, b) < 1e-13))
+                    fail_msg("n = %zu, m = %zu: %g", n, m, residual(&s, b));
+                for (size_t i = 0; i < n + m; i++)
+                    assert_true(fabs(applied[i] - s.x[i])
+                                < 1e-6 * (fabs(s.x[i]) + 1e-3));
+                qdot_saddle_clear(&s);
+            }
+}
+
+/* M alone has rank n - m: with m rows that is enough. */
+static void
+a_mass_that_is_singular_alone_is_enough(void **state)
+{
+    double b[2 * most];
+    size_t failed;
+    qdot_saddle s;
+
+    (void)state;
+    srand(2);
+    assert_int_equal(qdot_saddle_init(&s, 7, 3, false), QDOT_OK);
+    fill_mass(&s, 4, false);
+    fill_rows(&s);
+    assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+    fill_right(&s, b);
+    qdot_saddle_solve_refined(&s);
+    assert_true(residual(&s, b) < 1e-13);
+    fill_mass(&s, 3, false); /* and this is not */
+    assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_ESINGULAR);
+    assert_true(failed < 7);
+    qdot_saddle_clear(&s);
+}
+
+/* Row 2 twice row 0 less row 1: rank 2, the multipliers of least norm. */
+static void
+repeated_rows_give_the_least_multipliers(void **state)
+{
+    double b[8], norm = 0, along = 0;
+    const double null[3] = {2, -1, -1};
+    size_t failed;
+    qdot_saddle s;
+
+    (void)state;
+    srand(3);
+    assert_int_equal(qdot_saddle_init(&s, 5, 3, false), QDOT_OK);
+    fill_mass(&s, 6, false);
+    fill_rows(&s);
+    for (size_t i = 0; i < 5; i++)
+        s.A[10 + i] = 2 * s.A[i] - s.A[5 + i];
+    assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+    assert_int_equal(s.rank, 2);
+    fill_right(&s, b);
+    s.x[7] = b[7] = 2 * b[5] - b[6];
+    qdot_saddle_solve(&s);
+    assert_true(residual(&s, b) < 1e-12);
+    for (size_t k = 0; k < 3; k++) {
+        along += null[k] * s.x[5 + k];
+        norm = fmax(norm, fabs(s.x[5 + k]));
+    }
+    assert_true(fabs(along) < 1e-12 * norm);
+    qdot_saddle_clear(&s);
+}
+
+/* A rank that was found is kept, and its loss told with the rows that are dependent. */
+static void
+a_lost_rank_is_told(void **state)
+{
+    double part[3];
+    size_t failed;
+    qdot_saddle s;
+
+    (void)state;
+    srand(4);
+    assert_int_equal(qdot_saddle_init(&s, 4, 3, false), QDOT_OK);
+    fill_mass(&s, 5, false);
+    fill_rows(&s);
+    assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+    for (size_t i = 0; i < 4; i++)
+        s.A[8 + i] = -3 * s.A[i];
+    assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_ESINGULAR);
+    assert_true(failed == 4 || failed == 6);
+    qdot_saddle_parts(&s, part);
+    assert_true(part[0] > 0.1 && part[1] < 1e-9 && part[2] > 0.1);
+    qdot_saddle_clear(&s);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_systems_are_solved),
+        cmocka_unit_test(a_mass_that_is_singular_alone_is_enough),
+        cmocka_unit_test(repeated_rows_give_the_least_multipliers),
+        cmocka_unit_test(a_lost_rank_is_told),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,178 @@
+/* test_constraints.c -- runs of scenes with constraints against minimal coordinates and
+ * closed forms; drift, redundancy, what is refused. */
+#include "scenes.h"
+
+#include <math.h>
+
+static qdot_expr
+square(fixture *f, qdot_expr x)
+{
+    return times(f, x, x);
+}
+
+/* x, y of one bob on a rod of length 1; let go at the angle 2. */
+static void
+cartesian_pendulum(fixture *f)
+{
+    qdot_expr x, y, two;
+
+    begin(f);
+    two = qdot_expr_int(f->pool, 2);
+    x = coordinate(f, "x");
+    y = coordinate(f, "y");
+    must(qdot_scene_particle(f->scene, "bob", parameter(f, "m"), pair(f, x, y)));
+    must(qdot_scene_gravity(
+        f->scene, pair(f, QDOT_ZERO, qdot_neg(f->pool, parameter(f, "g")))));
+    must(qdot_scene_constraint(f->scene, "rod",
+                               qdot_add(f->pool, square(f, x), square(f, y)), QDOT_ONE));
+    set(f, "m", "2");
+    set(f, "g", "9.81");
+    f->q0[0] = qdot_fun1(f->pool, QDOT_SIN, two);
+    f->q0[1] = qdot_neg(f->pool, qdot_fun1(f->pool, QDOT_COS, two));
+    f->request.t1 = qdot_expr_int(f->pool, 10);
+}
+
+static void
+cartesian_and_minimal_pendulum_agree(void **state)
+{
+    static const char *const methods[] = {"rk8pd", "dop853", "rkf45"};
+    fixture c, m;
+    qdot_run *minimal;
+
+    (void)state;
+    pendulum(&m);
+    m.request.t1 = qdot_expr_int(m.pool, 10);
+    m.request.tol = 1e-14;
+    m.request.method = "rk8pd";
+    minimal = run(&m);
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+        const qdot_run_report *a = qdot_run_get_report(minimal), *b;
+        double theta = a->q[0], omega = a->v[0], lambda, tolerance;
+        qdot_run *cartesian;
+
+        cartesian_pendulum(&c);
+        c.request.method = methods[k];
+        c.request.tol = 1e-13;
+        cartesian = run(&c);
+        b = qdot_run_get_report(cartesian);
+        tolerance = 2 * (a->error + b->error) + 1e-14;
+        assert_true(tolerance < 2e-10);
+        assert_true(fabs(b->q[0] - sin(theta)) < tolerance);
+        assert_true(fabs(b->q[1] + cos(theta)) < tolerance);
+        assert_true(fabs(b->v[0] - omega * cos(theta)) < 4 * tolerance);
+        /* m (-omega^2 - g cos theta) = 2 lambda, r = 1 */
+        lambda = -(omega * omega + 9.81 * cos(theta));
+        assert_int_equal(b->m, 1);
+        assert_true(fabs(b->lambda[0] - lambda) < 100 * tolerance);
+        assert_true(b->constraint_drift < 1e-15);
+        assert_true(b->velocity_drift < 1e-14);
+        assert_true(b->projections > 0);
+        assert_true(b->energy_drift < 1e-11);
+        qdot_run_free(cartesian);
+        end(&c);
+    }
+    qdot_run_free(minimal);
+    end(&m);
+}
+
+/* Left alone it drifts; damped it drifts less; projected it does not. */
+static void
+treatments_differ(void **state)
+{
+    double drift[3];
+
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        fixture f;
+        qdot_run *r;
+
+        cartesian_pendulum(&f);
+        f.request.method = "rk8pd";
+        f.request.tol = 1e-9;
+        f.request.t1 = qdot_expr_int(f.pool, 50);
+        f.request.treatment = (qdot_run_treatment)k;
+        r = run(&f);
+        assert_int_equal(qdot_run_get_report(r)->treatment, k);
+        drift[k] = qdot_run_get_report(r)->constraint_drift;
+        qdot_run_free(r);
+        end(&f);
+    }
+    assert_true(drift[QDOT_RUN_PROJECT] < 1e-15);
+    assert_true(drift[QDOT_RUN_PROJECT] < 1e-3 * drift[QDOT_RUN_BAUMGARTE]);
+    assert_true(drift[QDOT_RUN_BAUMGARTE] < 0.1 * drift[QDOT_RUN_NONE]);
+}
+
+/* The rod said twice: the same motion, each half of the multiplier. */
+static void
+redundant_constraints_change_nothing(void **state)
+{
+    fixture f;
+    qdot_run *once, *twice;
+    const qdot_run_report *a, *b;
+    qdot_expr x, y, r2;
+
+    (void)state;
+    cartesian_pendulum(&f);
+    f.request.method = "rk8pd";
+    once = run(&f);
+    x = f.scene->coordinates.at[0];
+    y = f.scene->coordinates.at[1];
+    r2 = qdot_add(f.pool, square(&f, x), square(&f, y));
+    must(qdot_scene_constraint(f.scene, "again", r2, QDOT_ONE));
+    twice = run(&f);
+    a = qdot_run_get_report(once);
+    b = qdot_run_get_report(twice);
+    assert_int_equal(b->m, 2);
+    assert_int_equal(b->independent, 1);
+    assert_true(fabs(a->q[0] - b->q[0]) < 2 * (a->error + b->error));
+    assert_true(fabs(b->lambda[0] - b->lambda[1]) < 1e-13);
+    assert_true(fabs(a->lambda[0] - 2 * b->lambda[0]) < 100 * (a->error + b->error));
+    qdot_run_free(once);
+    qdot_run_free(twice);
+    end(&f);
+}
+
+static void
+refuses(fixture *f, qdot_status status, const char *message)
+{
+    qdot_run *r = NULL;
+
+    assert_int_equal(qdot_run_new(f->scene, &f->request, &r), status);
+    assert_null(r);
+    if (!strstr(qdot_last_error()->message, message))
+        fail_msg("%s", qdot_last_error()->message);
+    end(f);
+}
+
+static void
+what_cannot_be_held_is_refused(void **state)
+{
+    fixture f;
+    qdot_expr x;
+
+    (void)state;
+    cartesian_pendulum(&f);
+    x = qdot_symbol_jet(f.pool, f.scene->coordinates.at[0], 2);
+    must(qdot_scene_constraint(f.scene, "bad", square(&f, x), QDOT_ONE));
+    refuses(&f, QDOT_EINVAL, "constraint bad is not linear in the accelerations");
+
+    /* x'' = 0 and x'' = 1: no start breaks them, no motion can do both */
+    cartesian_pendulum(&f);
+    x = qdot_symbol_jet(f.pool, f.scene->coordinates.at[0], 2);
+    must(qdot_scene_constraint(f.scene, "a", x, QDOT_ZERO));
+    must(qdot_scene_constraint(f.scene, "b", x, QDOT_ONE));
+    refuses(&f, QDOT_EINVAL, "contradicts the others");
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cartesian_and_minimal_pendulum_agree),
+        cmocka_unit_test(treatments_differ),
+        cmocka_unit_test(redundant_constraints_change_nothing),
+        cmocka_unit_test(what_cannot_be_held_is_refused),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
