@@ -183,8 +183,10 @@ mech_sources = \
 	lib/mech/metric.c \
 	lib/mech/modes.c \
 	lib/mech/momentum.c \
+	lib/mech/nested.c \
 	lib/mech/noether.c \
 	lib/mech/numeric.c \
+	lib/mech/recursive.c \
 	lib/mech/scene-print.c \
 	lib/mech/scene-replace.c \
 	lib/mech/scene.c \
@@ -359,6 +361,7 @@ unit_tests = \
 	tests/show/test_table \
 	tests/sim/test_constraints \
 	tests/sim/test_equations \
+	tests/sim/test_operations \
 	tests/sim/test_run \
 	tests/sim/test_start \
 	tests/sim/test_taylor \

@@ -49,7 +49,9 @@ typedef enum {
 #define X(ID, name, least, most) QDOT_##ID,
 #include "expr/function.def"
 #undef X
-    QDOT_FUNCTION_COUNT
+    QDOT_FUNCTION_COUNT,
+    QDOT_HOLD = QDOT_FUNCTION_COUNT, /* qdot_hold; no row and no name in the language */
+    QDOT_FUNCTION_KINDS
 } qdot_fun_id;
 
 typedef enum { QDOT_EQ, QDOT_LT, QDOT_LE } qdot_rel_op; /* a > b is kept as b < a */
@@ -236,6 +238,10 @@ qdot_expr qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors); /* 
  * arguments as in the table, else QDOT_ETYPE; outside the domain (log 0): QDOT_EDOMAIN. */
 qdot_expr qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args);
 qdot_expr qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x);
+/* e, as one value that sums and products around it do not take apart: hold(a + b) + c stays
+ * a sum of two terms, so that what is meant to be computed once is. Nothing to hold in a number,
+ * a symbol or a function: e itself. Of equations for numbers only; no other form has it. */
+qdot_expr qdot_hold(qdot_pool *pool, qdot_expr e);
 /* By name: false if there is none. */
 bool qdot_fun_find(const char *name, qdot_fun_id *id);
 const char *qdot_fun_name(qdot_fun_id id);

@@ -29,7 +29,7 @@ qdot_fun_find(const char *name, qdot_fun_id *id)
 const char *
 qdot_fun_name(qdot_fun_id id)
 {
-    return table[id].name;
+    return id == QDOT_HOLD ? "hold" : table[id].name;
 }
 
 static qdot_expr
@@ -439,10 +439,27 @@ choose(qdot_pool *pool, const qdot_expr *args)
 }
 
 qdot_expr
+qdot_hold(qdot_pool *pool, qdot_expr e)
+{
+    if (qdot_pool_failed(pool) || e == QDOT_NIL)
+        return QDOT_NIL;
+    if (!qdot_expr_is_scalar(pool, e))
+        return qdot_pool_refuse(pool, QDOT_ETYPE, "hold takes numbers");
+    if (NODE(pool, e)->kind != QDOT_SUM && NODE(pool, e)->kind != QDOT_PROD)
+        return e;
+    if (NODE(pool, e)->kind == QDOT_PROD &&
+        fmpq_sgn(qdot_expr_rational(pool, arg0(pool, e))) < 0)
+        return qdot_neg(pool, qdot_hold(pool, qdot_neg(pool, e)));
+    return plain(pool, QDOT_HOLD, 1, &e);
+}
+
+qdot_expr
 qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 {
     if (qdot_pool_failed(pool))
         return QDOT_NIL;
+    if (id == QDOT_HOLD)
+        return qdot_hold(pool, args[0]);
     if ((int)n < table[id].least || (table[id].most >= 0 && (int)n > table[id].most))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes %d argument%s, not %u",
                                 table[id].name, table[id].least,
@@ -561,6 +578,7 @@ qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr
     case QDOT_ABS: return qdot_fun1(pool, QDOT_SIGN, x);
     case QDOT_SIGN:
     case QDOT_FLOOR: return QDOT_ZERO;
+    case QDOT_HOLD: return QDOT_ONE;
     case QDOT_MOD:
         return i == 0 ? QDOT_ONE
                       : qdot_neg(pool,

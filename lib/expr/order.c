@@ -267,7 +267,8 @@ qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *ar
     case QDOT_ATANH:
     case QDOT_ASIN:
     case QDOT_ATAN:
-    case QDOT_SIGN: return s;
+    case QDOT_SIGN:
+    case QDOT_HOLD: return s;
     case QDOT_SIN:
     case QDOT_CSC:
         return within(pool, args[0], 0, 2, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;

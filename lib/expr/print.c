@@ -372,7 +372,7 @@ open_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
 static const char *
 latex_name(qdot_fun_id id)
 {
-    static const char *const words[QDOT_FUNCTION_COUNT] = {
+    static const char *const words[QDOT_FUNCTION_KINDS] = {
         [QDOT_SIN] = "\\sin",     [QDOT_COS] = "\\cos",     [QDOT_TAN] = "\\tan",
         [QDOT_SEC] = "\\sec",     [QDOT_CSC] = "\\csc",     [QDOT_COT] = "\\cot",
         [QDOT_ASIN] = "\\arcsin", [QDOT_ACOS] = "\\arccos", [QDOT_ATAN] = "\\arctan",

@@ -3,18 +3,6 @@
 
 #include "mech/derived.h"
 
-/* Every mass a number once parameters are. */
-static bool
-applies(qdot_scene *s, const qdot_kinematics *k)
-{
-    const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_TIME | QDOT_HAS_VELOCITY;
-
-    for (size_t p = 0; p < k->terms.n; p++)
-        if (qdot_mech_holds(s, k->terms.at[p].w) & moving)
-            return false;
-    return true;
-}
-
 static qdot_expr
 forces(qdot_scene *s)
 {
@@ -44,7 +32,7 @@ qdot_mech_dalembert(qdot_scene *s, qdot_dalembert_term **terms, size_t *n, qdot_
     k = qdot_kinematics_get(s);
     if (!k)
         return qdot_pool_check(s->pool);
-    if (!applies(s, k))
+    if (!qdot_recursive_applies(s, k))
         return QDOT_OK;
     *Q = forces(s);
     QDOT_TRY(qdot_pool_check(s->pool));

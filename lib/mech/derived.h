@@ -130,6 +130,26 @@ qdot_expr qdot_kinematics_pair(qdot_scene *s, qdot_kinematics *k, const qdot_gro
 qdot_expr qdot_kinematics_gravity(qdot_scene *s, qdot_kinematics *k,
                                   const qdot_groups *a);
 
+/* --- nested.c --- */
+/* Sets of items that have values; bits of items >= `items` are 0. */
+typedef struct {
+    size_t items, sets, words; /* words of 64 bits a set */
+    const qdot_expr *value;    /* [items] */
+    const uint64_t *bits;      /* [sets * words] */
+} qdot_family;
+
+/* sum [sets]: of the values of each set, held (qdot_hold), made of the sums of sets within
+ * it. Work sets^2 words. False on failure. */
+bool qdot_nested_sums(qdot_scene *s, const qdot_family *family, qdot_expr *sum);
+
+/* --- recursive.c --- */
+/* Whether no mass varies with place, time or velocity, so that the next has an answer. */
+bool qdot_recursive_applies(const qdot_scene *s, const qdot_kinematics *k);
+/* f [n] of M q'' = f by nested sums; false on failure. */
+bool qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f);
+/* M_ij of T in products that a row and a column share. Nil on failure. */
+qdot_expr qdot_recursive_mass(qdot_scene *s, qdot_kinematics *k, size_t i, size_t j);
+
 /* --- mass-matrix.c --- */
 /* M, b, c of T = 1/2 M q'q' + b q' + c in the cache; false on failure. */
 bool qdot_mass_get(qdot_scene *s);
@@ -151,6 +171,8 @@ bool qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has);
 /* --- virtual-work.c --- */
 /* Generalized force on coordinate i. people: simplified. applied: without -dV/dq. */
 qdot_expr qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied);
+/* The same without gravity, not simplified. */
+qdot_expr qdot_force_but_gravity(qdot_scene *s, size_t i);
 
 /* --- lagrange.c --- */
 /* -(d/dt dF/dq' - dF/dq) at q'' = 0 for any F(q, q', t). */

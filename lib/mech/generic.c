@@ -32,6 +32,7 @@ ONE(exp, exp(x[0]))
 ONE(log, log(x[0]))
 ONE(abs, fabs(x[0]))
 ONE(floor, floor(x[0]))
+ONE(hold, x[0])
 
 static double
 f_sign(const double *x, uint32_t n)
@@ -74,7 +75,7 @@ f_if(const double *x, uint32_t n)
     return x[0] != 0 ? x[1] : x[2];
 }
 
-static double (*const functions[QDOT_FUNCTION_COUNT])(const double *x, uint32_t n) = {
+static double (*const functions[QDOT_FUNCTION_KINDS])(const double *x, uint32_t n) = {
     [QDOT_SIN] = f_sin,     [QDOT_COS] = f_cos,     [QDOT_TAN] = f_tan,
     [QDOT_SEC] = f_sec,     [QDOT_CSC] = f_csc,     [QDOT_COT] = f_cot,
     [QDOT_ASIN] = f_asin,   [QDOT_ACOS] = f_acos,   [QDOT_ATAN] = f_atan,
@@ -83,7 +84,7 @@ static double (*const functions[QDOT_FUNCTION_COUNT])(const double *x, uint32_t 
     [QDOT_ATANH] = f_atanh, [QDOT_EXP] = f_exp,     [QDOT_LOG] = f_log,
     [QDOT_ABS] = f_abs,     [QDOT_SIGN] = f_sign,   [QDOT_MIN] = f_min,
     [QDOT_MAX] = f_max,     [QDOT_MOD] = f_mod,     [QDOT_FLOOR] = f_floor,
-    [QDOT_IF] = f_if,
+    [QDOT_IF] = f_if,       [QDOT_HOLD] = f_hold,
 };
 
 static double

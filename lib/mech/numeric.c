@@ -3,10 +3,12 @@
  *     f_i = Q_i - sum w dy/dq_i x'' at q'' = 0
  *         - sum (w' dy/dq_i x' - 1/2 dw/dq_i x' y')     where a mass varies
  *
- * from the same groups as M, so a chain of N links takes work N^2 and holds N sines and
- * cosines. A small scene may be shorter in its simplified form: both are made and the
- * cheaper is taken.
+ * in the nested sums of recursive.c where no mass varies, else pair by pair. A small scene
+ * may be shorter in its simplified form: both are made, for M and for f, and the cheapest
+ * of the four together is taken.
  */
+#include <string.h>
+
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
@@ -17,8 +19,30 @@
  * takes milliseconds; a rotation in space is long but simplifies well. */
 static const struct {
     size_t coordinates;
-    uint64_t operations;
-} both_forms = {4, 300}, both_forms_in_space = {12, 4000};
+    uint64_t units; /* of cost() */
+} both_forms = {4, 150}, both_forms_in_space = {12, 600};
+
+/* Entries so short that simplifying each costs nothing to speak of: Pythagoras. */
+enum { SHORT_ENTRY = 60 };
+
+/* M_ij of T: simplified where that leaves fewer operations, as along the diagonal of a
+ * chain, where it leaves a number; else in shared products. */
+static qdot_expr
+kinetic_mass(qdot_scene *s, qdot_kinematics *k, size_t i, size_t j)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr plain = qdot_kinematics_pair(s, k, &k->dx[i], &k->dy[j], false), short_form;
+
+    if (!(qdot_mech_holds(s, plain) & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
+        return plain;
+    if (i == j && qdot_expr_size(pool, plain) <= SHORT_ENTRY) {
+        short_form = qdot_kinematics_pair(s, k, &k->dx[i], &k->dy[j], true);
+        if (short_form == QDOT_NIL ||
+            qdot_expr_size(pool, short_form) < qdot_expr_size(pool, plain))
+            return short_form;
+    }
+    return qdot_recursive_mass(s, k, i, j);
+}
 
 static qdot_expr
 raw_mass(qdot_scene *s, size_t i, size_t j, qdot_expr V)
@@ -33,10 +57,7 @@ raw_mass(qdot_scene *s, size_t i, size_t j, qdot_expr V)
     if (qdot_mech_stated(s))
         return second;
     k = qdot_kinematics_get(s);
-    if (!k)
-        return QDOT_NIL;
-    return qdot_sub(pool, qdot_kinematics_pair(s, k, &k->dx[i], &k->dy[j], false),
-                    second);
+    return k ? qdot_sub(pool, kinetic_mass(s, k, i, j), second) : QDOT_NIL;
 }
 
 /* sum (w' dy/dq_i x' - 1/2 dw/dq_i x' y') over the terms whose weight moves. */
@@ -78,54 +99,225 @@ raw_forcing(qdot_scene *s, size_t i)
     return qdot_sub(pool, Q, inertia);
 }
 
-/* What an evaluation costs, common parts once: about a nanosecond a unit. */
+/* --- the cheaper form ------------------------------------------------------------------ */
+
+/* What a tape of the expressions would cost, about; a call of an elementary function counts
+ * for 15 operations. Parameters will be numbers: what holds nothing else costs nothing. */
+typedef struct {
+    qdot_scene *s;
+    uint64_t units;
+    qdot_vec(qdot_expr) angles; /* base angles met; a pair of sine and cosine each */
+} bill;
+
 static bool
-cost(const qdot_scene *s, size_t n, const qdot_expr *e, uint64_t *units)
+moves(const bill *b, qdot_expr e)
 {
-    qdot_walk w;
+    return qdot_mech_holds(b->s, e) & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_TIME |
+                                       QDOT_HAS_UFUN);
+}
 
-    *units = 0;
-    if (qdot_walk_begin_n(s->pool, n, e, &w) != QDOT_OK) {
-        qdot_pool_fail(s->pool);
+/* The rational and parameters before e; whether there are any but a sign. */
+static bool
+has_factor(const bill *b, qdot_expr e)
+{
+    const qdot_pool *pool = b->s->pool;
+    qdot_expr own;
+
+    if (qdot_expr_kind(pool, e) != QDOT_PROD)
         return false;
-    }
-    for (size_t i = 0; i < w.n; i++) {
-        const qdot_node *node = qdot_expr_node(s->pool, w.at[i]);
+    own = qdot_expr_arg(pool, e, 0);
+    if (own != QDOT_ONE && own != QDOT_MINUS_ONE)
+        return true;
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2)
+        if (!moves(b, qdot_expr_arg(pool, e, i)) &&
+            !moves(b, qdot_expr_arg(pool, e, i + 1)))
+            return true;
+    return false;
+}
 
-        if (node->kind == QDOT_SUM) {
-            *units += node->n / 2;
-        } else if (node->kind == QDOT_PROD) {
-            *units += node->n / 2;
-            for (uint32_t k = 2; k < node->n; k += 2) {
-                long power;
-                qdot_expr x = qdot_expr_args(s->pool, w.at[i])[k];
+static void
+bill_sum(bill *b, qdot_expr e)
+{
+    const qdot_pool *pool = b->s->pool;
+    uint64_t terms = 0, others = qdot_expr_arg(pool, e, 0) != QDOT_ZERO;
 
-                *units += !qdot_expr_to_int(s->pool, x, &power) ? 15 : power < 0 ? 4 : 0;
-            }
-        } else if (node->kind == QDOT_FUN) {
-            *units += 15;
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr x = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
+
+        if (!moves(b, x)) {
+            others = 1;
+            continue;
         }
+        terms++;
+        b->units += c != QDOT_ONE && c != QDOT_MINUS_ONE && !has_factor(b, x);
     }
-    qdot_walk_end(&w);
+    b->units += terms + others - (terms > 0);
+}
+
+static void
+bill_product(bill *b, qdot_expr e)
+{
+    const qdot_pool *pool = b->s->pool;
+    uint64_t factors = has_factor(b, e);
+
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr x = qdot_expr_arg(pool, e, i), power = qdot_expr_arg(pool, e, i + 1);
+        long n;
+
+        if (!moves(b, x) && !moves(b, power))
+            continue;
+        factors++;
+        if (!qdot_expr_to_int(pool, power, &n))
+            b->units += qdot_expr_rational(pool, power) ? 2 : 15;
+        else
+            for (long k = n < 0 ? -n : n; k > 1; k /= 2)
+                b->units++;
+    }
+    b->units += factors - (factors > 0);
+}
+
+/* A base angle not met before: a call of sine and cosine. */
+static bool
+bill_angle(bill *b, qdot_expr term)
+{
+    qdot_pool *pool = b->s->pool;
+
+    if (qdot_expr_kind(pool, term) == QDOT_PROD)
+        term = qdot_div(pool, term, qdot_expr_arg(pool, term, 0));
+    for (size_t i = 0; i < b->angles.n; i++)
+        if (b->angles.at[i] == term)
+            return true;
+    b->units += 15;
+    return qdot_vec_push(&b->angles, term) == QDOT_OK;
+}
+
+static bool
+bill_function(bill *b, qdot_expr e)
+{
+    const qdot_pool *pool = b->s->pool;
+    qdot_expr x = qdot_expr_arg(pool, e, 0);
+    uint32_t f = qdot_expr_node(pool, e)->op;
+
+    if (f == QDOT_HOLD)
+        return true;
+    if (f > QDOT_COT) {
+        b->units += 15;
+        return true;
+    }
+    b->units += f > QDOT_COS; /* a division */
+    if (qdot_expr_kind(pool, x) != QDOT_SUM)
+        return bill_angle(b, x);
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, x); i += 2)
+        if (moves(b, qdot_expr_arg(pool, x, i))) {
+            b->units += i > 1 ? 3 : 0;
+            if (!bill_angle(b, qdot_expr_arg(pool, x, i)))
+                return false;
+        }
     return true;
 }
 
 static bool
-wants_both(const qdot_scene *s, const qdot_expr *raw, size_t size)
+cost(qdot_scene *s, size_t n, const qdot_expr *e, uint64_t *units)
 {
-    uint64_t operations = 0, most = both_forms.operations;
+    bill b = {.s = s};
+    bool done = true;
+    qdot_walk w;
+
+    if (qdot_walk_begin_n(s->pool, n, e, &w) != QDOT_OK) {
+        qdot_pool_fail(s->pool);
+        return false;
+    }
+    for (size_t i = 0; i < w.n && done; i++) {
+        qdot_kind kind = qdot_expr_kind(s->pool, w.at[i]);
+
+        if (!moves(&b, w.at[i]))
+            continue;
+        if (kind == QDOT_SUM)
+            bill_sum(&b, w.at[i]);
+        else if (kind == QDOT_PROD)
+            bill_product(&b, w.at[i]);
+        else if (kind == QDOT_FUN)
+            done = bill_function(&b, w.at[i]);
+    }
+    qdot_walk_end(&w);
+    qdot_free(b.angles.at);
+    if (!done)
+        qdot_pool_fail(s->pool);
+    *units = b.units;
+    return done;
+}
+
+static bool
+wants_both(qdot_scene *s, const qdot_expr *raw, size_t size)
+{
+    uint64_t units = 0, most = both_forms.units;
     size_t n = both_forms.coordinates;
 
     for (size_t i = 0; i < s->bodies.n; i++)
         if (s->bodies.at[i].angle == QDOT_NIL) {
             n = both_forms_in_space.coordinates;
-            most = both_forms_in_space.operations;
+            most = both_forms_in_space.units;
         }
-    if (s->coordinates.n > n)
+    return s->coordinates.n <= n && cost(s, size, raw, &units) && units <= most;
+}
+
+/* The cheapest of M for people or not with f for people or not, into e [n n + n]. */
+static bool
+choose(qdot_scene *s, size_t n, qdot_expr *e)
+{
+    size_t masses = n * n, size = masses + n;
+    qdot_expr *short_form = qdot_calloc(2 * size, sizeof *short_form);
+    qdot_expr *mixed = short_form + size;
+    uint64_t least = UINT64_MAX, units;
+    int best = 0;
+
+    if (!short_form) {
+        qdot_pool_fail(s->pool);
         return false;
-    for (size_t i = 0; i < size && operations <= most; i++)
-        operations += qdot_expr_size(s->pool, raw[i]);
-    return operations <= most;
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = i; j < n; j++)
+            short_form[i * n + j] = short_form[j * n + i] =
+                qdot_mass_of_lagrangian(s, i, j);
+        short_form[masses + i] = qdot_lagrange_people_forcing(s, i);
+    }
+    for (int form = 0; form < 4 && !qdot_pool_failed(s->pool); form++) {
+        memcpy(mixed, form & 1 ? short_form : e, masses * sizeof *mixed);
+        memcpy(mixed + masses, (form & 2 ? short_form : e) + masses, n * sizeof *mixed);
+        if (cost(s, size, mixed, &units) && units < least) {
+            least = units;
+            best = form;
+        }
+    }
+    if (best & 1)
+        memcpy(e, short_form, masses * sizeof *e);
+    if (best & 2)
+        memcpy(e + masses, short_form + masses, n * sizeof *e);
+    qdot_free(short_form);
+    return !qdot_pool_failed(s->pool);
+}
+
+/* --- both ------------------------------------------------------------------------------ */
+
+/* f_i, all at once where masses are constant. */
+static bool
+raw_forcings(qdot_scene *s, qdot_expr *f)
+{
+    qdot_kinematics *k = NULL;
+
+    if (!qdot_mech_stated(s)) {
+        k = qdot_kinematics_get(s);
+        if (!k)
+            return false;
+        if (qdot_recursive_applies(s, k))
+            return qdot_recursive_forcing(s, k, f);
+    }
+    for (size_t i = 0; i < s->coordinates.n && !qdot_pool_failed(s->pool); i++) {
+        if (qdot_interrupt_check() != QDOT_OK)
+            qdot_pool_fail(s->pool);
+        f[i] = raw_forcing(s, i);
+    }
+    return !qdot_pool_failed(s->pool);
 }
 
 static bool
@@ -134,7 +326,7 @@ numeric_get(qdot_scene *s)
     qdot_pool *pool = s->pool;
     qdot_derived *d = qdot_derived_get(s);
     size_t n = d->n, size = n * n + n;
-    qdot_expr *e, *people, V;
+    qdot_expr *e, V;
 
     if (d->numeric_mass != QDOT_NIL)
         return true;
@@ -142,12 +334,11 @@ numeric_get(qdot_scene *s)
         qdot_mech_fail(s, QDOT_EINVAL, "the scene has no coordinates");
         return false;
     }
-    e = qdot_calloc(2 * size, sizeof *e);
+    e = qdot_calloc(size, sizeof *e);
     if (!e) {
         qdot_pool_fail(pool);
         return false;
     }
-    people = e + size;
     V = qdot_potential_with_velocities(s);
     for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
         if (qdot_interrupt_check() != QDOT_OK) {
@@ -156,21 +347,9 @@ numeric_get(qdot_scene *s)
         }
         for (size_t j = i; j < n; j++)
             e[i * n + j] = e[j * n + i] = raw_mass(s, i, j, V);
-        e[n * n + i] = raw_forcing(s, i);
     }
-    if (!qdot_pool_failed(pool) && wants_both(s, e, size)) {
-        uint64_t raw = 0, short_form = 0;
-
-        for (size_t i = 0; i < n; i++) {
-            for (size_t j = i; j < n; j++)
-                people[i * n + j] = people[j * n + i] = qdot_mass_of_lagrangian(s, i, j);
-            people[n * n + i] = qdot_lagrange_people_forcing(s, i);
-        }
-        if (!qdot_pool_failed(pool) && cost(s, size, e, &raw) &&
-            cost(s, size, people, &short_form) && short_form < raw)
-            for (size_t i = 0; i < size; i++)
-                e[i] = people[i];
-    }
+    if (!qdot_pool_failed(pool) && raw_forcings(s, e + n * n) && wants_both(s, e, size))
+        choose(s, n, e);
     if (!qdot_pool_failed(pool)) {
         d->numeric_mass = qdot_matrix(pool, (uint32_t)n, (uint32_t)n, e);
         d->numeric_forcing = n > 1 ? qdot_vector(pool, (uint32_t)n, e + n * n)

@@ -293,6 +293,18 @@ qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied)
     return total(s, i, people, applied, false);
 }
 
+qdot_expr
+qdot_force_but_gravity(qdot_scene *s, size_t i)
+{
+    qdot_expr Q = QDOT_ZERO;
+
+    for (size_t a = 0; a < SOURCES; a++)
+        for (size_t k = 0; sources[a].force != gravity_force && k < sources[a].count(s);
+             k++)
+            Q = qdot_add(s->pool, Q, sources[a].force(s, k, i, false));
+    return Q;
+}
+
 /* --- asked ----------------------------------------------------------------------------
  * */
 

@@ -35,14 +35,14 @@ ball_abs(arb_t y, const arb_t x, slong bits)
 
 /* The functions of one argument. A function of function.def that stands neither here
  * nor in apply() is refused when it is met. */
-static void (*const unary[QDOT_FUNCTION_COUNT])(arb_t, const arb_t, slong) = {
+static void (*const unary[QDOT_FUNCTION_KINDS])(arb_t, const arb_t, slong) = {
     [QDOT_SIN] = arb_sin,     [QDOT_COS] = arb_cos,     [QDOT_TAN] = arb_tan,
     [QDOT_SEC] = arb_sec,     [QDOT_CSC] = arb_csc,     [QDOT_COT] = arb_cot,
     [QDOT_ASIN] = arb_asin,   [QDOT_ACOS] = arb_acos,   [QDOT_ATAN] = arb_atan,
     [QDOT_SINH] = arb_sinh,   [QDOT_COSH] = arb_cosh,   [QDOT_TANH] = arb_tanh,
     [QDOT_ASINH] = arb_asinh, [QDOT_ACOSH] = arb_acosh, [QDOT_ATANH] = arb_atanh,
     [QDOT_EXP] = arb_exp,     [QDOT_LOG] = arb_log,     [QDOT_ABS] = ball_abs,
-    [QDOT_SIGN] = ball_sign,  [QDOT_FLOOR] = arb_floor,
+    [QDOT_SIGN] = ball_sign,  [QDOT_FLOOR] = arb_floor,  [QDOT_HOLD] = arb_set_round,
 };
 
 bool

@@ -298,7 +298,7 @@ count_negatives(lowering *l)
 /* --- functions, relations ----------------------------------------------------------- */
 
 /* Functions that are one operation on their arguments. 0 (NEG) stands for none. */
-static const qdot_op direct[QDOT_FUNCTION_COUNT] = {
+static const qdot_op direct[QDOT_FUNCTION_KINDS] = {
     [QDOT_ASIN] = QDOT_OP_ASIN,   [QDOT_ACOS] = QDOT_OP_ACOS,
     [QDOT_ATAN] = QDOT_OP_ATAN,   [QDOT_ATAN2] = QDOT_OP_ATAN2,
     [QDOT_SINH] = QDOT_OP_SINH,   [QDOT_COSH] = QDOT_OP_COSH,
@@ -322,6 +322,20 @@ fold(lowering *l, qdot_op id, qdot_expr e)
     return v;
 }
 
+/* A value that was held is there with its factor; its sign alone is left to who reads it. */
+static void
+hold(lowering *l, qdot_expr x, known *k)
+{
+    const known *inner = l->known + qdot_walk_index(&l->walk, x);
+    bool minus = qdot_expr_is_negative(l->pool, inner->factor);
+    qdot_expr magnitude = minus ? qdot_neg(l->pool, inner->factor) : inner->factor;
+
+    k->bare = inner->bare;
+    if (magnitude != QDOT_ONE)
+        k->bare = op(l, QDOT_OP_MUL, k->bare, qdot_code_constant(&l->code, magnitude));
+    k->factor = minus ? QDOT_MINUS_ONE : QDOT_ONE;
+}
+
 static qdot_status
 lower_function(lowering *l, qdot_expr e, known *k)
 {
@@ -329,6 +343,10 @@ lower_function(lowering *l, qdot_expr e, known *k)
     qdot_expr x = qdot_expr_arg(l->pool, e, 0);
     qdot_value s, c;
 
+    if (f == QDOT_HOLD) {
+        hold(l, x, k);
+        return QDOT_OK;
+    }
     if (direct[f] == QDOT_OP_SELECT) {
         k->bare = qdot_code_op(&l->code, QDOT_OP_SELECT, value_of(l, x),
                                value_of(l, qdot_expr_arg(l->pool, e, 1)),

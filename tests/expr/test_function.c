@@ -208,6 +208,28 @@ a_decided_condition_chooses(void **state)
 }
 
 static void
+what_is_held_stays_whole(void **state)
+{
+    qdot_expr x, y, sum, held;
+
+    (void)state;
+    x = qdot_symbol_get(p.pool, QDOT_PARAM, "x");
+    y = qdot_symbol_get(p.pool, QDOT_PARAM, "y");
+    sum = qdot_add(p.pool, x, y);
+    held = qdot_hold(p.pool, sum);
+    assert_int_equal(qdot_hold(p.pool, x), x);
+    assert_int_equal(qdot_hold(p.pool, held), held);
+    assert_int_equal(qdot_sub(p.pool, held, held), QDOT_ZERO);
+    assert_prints(p.pool, qdot_add(p.pool, held, x), "x + hold(x + y)");
+    assert_int_equal(qdot_hold(p.pool, qdot_neg(p.pool, qdot_mul(p.pool, x, y))),
+                     qdot_neg(p.pool, qdot_hold(p.pool, qdot_mul(p.pool, x, y))));
+    assert_int_equal(qdot_diff(p.pool, held, x), QDOT_ONE);
+    /* a value in place of y: nothing is left to hold */
+    assert_int_equal(qdot_subs(p.pool, held, 1, &y, (qdot_expr[]){QDOT_ZERO}), x);
+    assert_int_equal(qdot_subs(p.pool, held, 1, &y, &x), qdot_hold(p.pool, qdot_add(p.pool, x, x)));
+}
+
+static void
 names_are_found(void **state)
 {
     qdot_fun_id id;
@@ -235,6 +257,7 @@ main(void)
         TEST(arguments_are_counted),
         TEST(numbers_are_computed),
         TEST(a_decided_condition_chooses),
+        TEST(what_is_held_stays_whole),
         TEST(names_are_found),
     };
 

@@ -101,6 +101,7 @@ value(world *w, qdot_expr e, const long double *q, const long double *v, long do
             case QDOT_SIN: x[i] = sinl(ARG(0)); break;
             case QDOT_COS: x[i] = cosl(ARG(0)); break;
             case QDOT_EXP: x[i] = expl(ARG(0)); break;
+            case QDOT_HOLD: x[i] = ARG(0); break;
             case QDOT_ABS: x[i] = fabsl(ARG(0)); break;
             case QDOT_SIGN: x[i] = ARG(0) > 0 ? 1 : -1; break;
             default: fail_msg("function %s", qdot_fun_name(node->op));
