@@ -1,4 +1,4 @@
-/* companion.c -- the second run, beside the first. */
+/* companion.c -- the second run, or the second and third, beside the first. */
 #include "ode/companion.h"
 
 #include <math.h>
@@ -11,47 +11,75 @@
 
 static const double unit = 0x1p-53;
 
+/* Of a companion by Taylor series beside a stiff method, which steps over what is fast:
+ * where it gets stuck there the method's partner takes over. */
+static const uint64_t most_explicit_steps = 100000;
+
 /* Where in a run the times between lie; without a pattern that a period could share. */
 static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
                                 0.7853, 0.8311, 0.8929, 0.9467};
 enum { PLACES = sizeof places / sizeof places[0] };
 
-struct qdot_companion {
+/* One companion. */
+typedef struct {
+    const qdot_companion *of;
     qdot_ode_system system;
-    const qdot_ode_method *method; /* the partner */
-    double tol, t0, t1;
+    size_t number; /* 0, 1 */
+    double t0;
     double *start; /* [n] the moved y0 */
+    double *low;   /* [n] what it is beyond that */
     double *y;     /* [n] where it is */
-    size_t samples;          /* 0 or PLACES */
-    double times[PLACES];
-    double *own, *shown;     /* [PLACES x n] the states of both runs there */
-    size_t reached, n_shown; /* how many of each there are, from the first */
+    double *own;   /* [PLACES x n] its states there */
+    size_t reached; /* how many of them, from the first */
     qdot_ode_result result;
-    bool running;      /* on `thread` */
-    bool finished;     /* result is valid */
-    atomic_bool leave; /* the run ended elsewhere */
+    bool running;  /* on `thread` */
+    bool finished; /* result is valid */
     pthread_t thread;
+} follower;
+
+struct qdot_companion {
+    size_t n;
+    const qdot_ode_method *run, *method; /* of the run, of the companions */
+    double tol, t1, t1_low;
+    size_t samples; /* 0 or PLACES */
+    double times[PLACES];
+    double *shown; /* [PLACES x n] the states of the run there */
+    size_t n_shown;
+    atomic_bool leave; /* the run ended elsewhere */
+    follower at[2];
+    size_t count;
 };
 
-double
-qdot_companion_tolerance(const qdot_ode_method *method, double tol)
+const qdot_ode_method *
+qdot_companion_method(const qdot_ode_system *system, const qdot_ode_method *method)
 {
-    bool same = strcmp(method->partner, method->name) == 0;
+    return qdot_ode_method_find(system->series ? "taylor" : method->partner);
+}
 
-    if (same && !method->series && method->companion_tol > tol / 4)
+double
+qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *method,
+                         double tol)
+{
+    const qdot_ode_method *partner = qdot_companion_method(system, method);
+    bool same = partner == method;
+
+    if (partner->series)
+        return fmax(partner->companion_ratio * tol, partner->companion_tol);
+    if (same && method->companion_tol > tol / 4)
         return 10 * fmax(tol, method->companion_tol);
     return fmax(method->companion_ratio * tol, method->companion_tol);
 }
 
 /* Signs without a pattern that a symmetric system could share (Knuth's multiplicative
  * hash of the index, bit 31). */
-static double
-moved(double y, size_t i)
+double
+qdot_companion_moved(double y, size_t i, size_t number)
 {
-    double sign = (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 ? -1 : 1;
-    double x = y + sign * unit * fmax(1, fabs(y));
+    bool up = (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 == number % 2;
 
-    return x != y ? x : nextafter(y, sign * INFINITY);
+    if (y == 0)
+        return up ? unit : -unit;
+    return nextafter(y, up ? INFINITY : -INFINITY);
 }
 
 static qdot_status
@@ -66,72 +94,92 @@ look(double t, const double *y, bool *stop, void *user)
 }
 
 static void
-run_to(qdot_companion *c, double t1)
+add_stats(qdot_ode_stats *sum, const qdot_ode_stats *stats)
 {
+    sum->steps += stats->steps;
+    sum->rejected += stats->rejected;
+    sum->evaluations += stats->evaluations;
+    sum->jacobians += stats->jacobians;
+    sum->factorisations += stats->factorisations;
+    sum->cpu += stats->cpu;
+}
+
+static void
+run_by(follower *f, const qdot_ode_method *method, double t1)
+{
+    const qdot_companion *c = f->of;
     qdot_ode_options options = {.tol = c->tol,
                                 .accepted = look,
-                                .user = c,
-                                .order_more = QDOT_COMPANION_ORDERS};
-    double t = c->t0;
-    qdot_ode_stats spent = {0};
+                                .user = (void *)c,
+                                .order_more = QDOT_COMPANION_ORDERS - 2 * (int)f->number};
+    double t = f->t0;
+    qdot_ode_stats spent = f->result.stats;
 
-    memcpy(c->y, c->start, c->system.n * sizeof *c->y);
-    for (c->reached = 0;;) {
-        bool last = t1 != c->t1 || c->reached == c->samples;
-        double to = last ? t1 : c->times[c->reached];
+    if (method->series && c->run->stiff)
+        options.max_steps = most_explicit_steps;
+    memcpy(f->y, f->start, c->n * sizeof *f->y);
+    for (f->reached = 0;;) {
+        bool last = t1 != c->t1 || f->reached == c->samples;
+        double to = last ? t1 : c->times[f->reached];
 
-        if (qdot_ode_integrate(&c->system, c->method, &options, t, to, c->y, &c->result)
+        options.t1_low = to == c->t1 ? c->t1_low : 0;
+        options.carry = t == f->t0 ? f->low : NULL;
+        if (qdot_ode_integrate(&f->system, method, &options, t, to, f->y, &f->result)
             != QDOT_OK)
-            c->result.outcome = QDOT_ODE_FAILED;
-        spent.steps += c->result.stats.steps;
-        spent.rejected += c->result.stats.rejected;
-        spent.evaluations += c->result.stats.evaluations;
-        spent.jacobians += c->result.stats.jacobians;
-        spent.factorisations += c->result.stats.factorisations;
-        spent.cpu += c->result.stats.cpu;
-        if (last || c->result.outcome != QDOT_ODE_DONE)
+            f->result.outcome = QDOT_ODE_FAILED;
+        add_stats(&spent, &f->result.stats);
+        if (last || f->result.outcome != QDOT_ODE_DONE)
             break;
-        memcpy(c->own + c->reached++ * c->system.n, c->y, c->system.n * sizeof *c->y);
+        memcpy(f->own + f->reached++ * c->n, f->y, c->n * sizeof *f->y);
         t = to;
     }
-    c->result.stats = spent;
-    c->finished = true;
+    f->result.stats = spent;
+}
+
+static void
+run_to(follower *f, double t1)
+{
+    const qdot_companion *c = f->of;
+
+    f->result = (qdot_ode_result){0};
+    run_by(f, c->method, t1);
+    if (f->result.outcome == QDOT_ODE_FAILED && c->method->series && c->run->stiff)
+        run_by(f, qdot_ode_method_find(c->run->partner), t1);
+    f->finished = true;
 }
 
 static void *
 thread_main(void *user)
 {
-    qdot_companion *c = user;
+    follower *f = user;
 
-    run_to(c, c->t1);
+    run_to(f, f->of->t1);
     return NULL;
 }
 
 static void
 release(qdot_companion *c)
 {
-    qdot_free(c->start);
-    qdot_free(c->y);
-    qdot_free(c->own);
+    for (size_t k = 0; k < c->count; k++) {
+        qdot_free(c->at[k].start);
+        qdot_free(c->at[k].low);
+        qdot_free(c->at[k].y);
+        qdot_free(c->at[k].own);
+    }
     qdot_free(c->shown);
     qdot_free(c);
 }
 
 /* None where the run is too short for them to differ. */
-static bool
-choose_times(qdot_companion *c)
+static void
+choose_times(qdot_companion *c, double t0)
 {
-    size_t n = c->system.n;
-
-    c->own = qdot_calloc(PLACES * n, sizeof *c->own);
-    c->shown = qdot_calloc(PLACES * n, sizeof *c->shown);
     c->samples = PLACES;
     for (size_t k = 0; k < PLACES; k++) {
-        c->times[k] = c->t0 + places[k] * (c->t1 - c->t0);
-        if (c->times[k] == (k ? c->times[k - 1] : c->t0) || c->times[k] == c->t1)
+        c->times[k] = t0 + places[k] * (c->t1 - t0);
+        if (c->times[k] == (k ? c->times[k - 1] : t0) || c->times[k] == c->t1)
             c->samples = 0;
     }
-    return c->own && c->shown;
 }
 
 const double *
@@ -144,25 +192,25 @@ qdot_companion_times(const qdot_companion *c, size_t *count)
 void
 qdot_companion_show(qdot_companion *c, size_t k, const double *y)
 {
-    memcpy(c->shown + k * c->system.n, y, c->system.n * sizeof *y);
+    memcpy(c->shown + k * c->n, y, c->n * sizeof *y);
     c->n_shown = k + 1;
 }
 
 /* The median over the times between of the largest error at each. */
 static double
-median_between(const qdot_companion *c)
+median_between(const follower *f)
 {
+    const qdot_companion *c = f->of;
     double errors[PLACES];
-    size_t n = c->system.n;
 
     for (size_t k = 0; k < PLACES; k++) {
         double worst = 0;
         size_t at = k;
 
-        for (size_t i = 0; i < n; i++) {
-            double y = c->shown[k * n + i];
+        for (size_t i = 0; i < c->n; i++) {
+            double y = c->shown[k * c->n + i];
 
-            worst = fmax(worst, fabs(y - c->own[k * n + i]) / fmax(1, fabs(y)));
+            worst = fmax(worst, fabs(y - f->own[k * c->n + i]) / fmax(1, fabs(y)));
         }
         for (; at > 0 && errors[at - 1] > worst; at--)
             errors[at] = errors[at - 1];
@@ -171,46 +219,88 @@ median_between(const qdot_companion *c)
     return errors[PLACES / 2];
 }
 
+static qdot_status
+prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
+{
+    follower *f = c->at + number;
+
+    c->count = number + 1;
+    *f = (follower){.of = c,
+                    .system = number ? *request->twin : *request->system,
+                    .number = number,
+                    .t0 = request->t0};
+    f->start = qdot_malloc(c->n * sizeof *f->start);
+    f->low = qdot_calloc(c->n, sizeof *f->low);
+    f->y = qdot_malloc(c->n * sizeof *f->y);
+    f->own = qdot_malloc(PLACES * c->n * sizeof *f->own);
+    if (!f->start || !f->low || !f->y || !f->own)
+        return QDOT_ENOMEM;
+    if (request->carry)
+        memcpy(f->low, request->carry, c->n * sizeof *f->low);
+    for (size_t i = 0; i < c->n; i++)
+        f->start[i] = qdot_companion_moved(request->y0[i], i, number);
+    if (f->system.project) { /* only along what solutions may do */
+        double by;
+
+        QDOT_TRY(f->system.project(f->t0, f->start, NULL, &by, f->system.user));
+    }
+    return QDOT_OK;
+}
+
 qdot_status
-qdot_companion_start(const qdot_ode_system *system, const qdot_ode_method *method,
-                     double tol, double t0, double t1, const double *y0, bool threaded,
-                     qdot_companion **out)
+qdot_companion_start(const qdot_companion_request *request, qdot_companion **out)
 {
     qdot_companion *c = qdot_calloc(1, sizeof *c);
+    qdot_status status;
 
     *out = NULL;
     if (!c)
         return QDOT_ENOMEM;
-    c->system = *system;
-    c->method = qdot_ode_method_find(method->partner);
-    c->tol = qdot_companion_tolerance(method, tol);
-    c->t0 = t0;
-    c->t1 = t1;
-    c->start = qdot_malloc(system->n * sizeof *c->start);
-    c->y = qdot_malloc(system->n * sizeof *c->y);
-    if (!c->start || !c->y) {
-        release(c);
-        return QDOT_ENOMEM;
-    }
-    if (c->method->series && !choose_times(c)) {
-        release(c);
-        return QDOT_ENOMEM;
-    }
-    for (size_t i = 0; i < system->n; i++)
-        c->start[i] = moved(y0[i], i);
-    if (system->project) { /* only along what solutions may do */
-        double by;
-        qdot_status status = system->project(t0, c->start, NULL, &by, system->user);
-
-        if (status != QDOT_OK) {
-            release(c);
-            return status;
-        }
-    }
+    c->n = request->system->n;
+    c->run = request->method;
+    c->method = qdot_companion_method(request->system, request->method);
+    c->tol = qdot_companion_tolerance(request->system, request->method, request->tol);
+    c->t1 = request->t1;
+    c->t1_low = request->t1_low;
+    c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);
+    if (c->method->series)
+        choose_times(c, request->t0);
     atomic_init(&c->leave, false);
-    c->running = threaded && pthread_create(&c->thread, NULL, thread_main, c) == 0;
+    status = c->shown ? prepare(c, request, 0) : QDOT_ENOMEM;
+    if (status == QDOT_OK && request->twin)
+        status = prepare(c, request, 1);
+    if (status != QDOT_OK) {
+        release(c);
+        return status;
+    }
+    for (size_t k = 0; k < c->count && request->threaded; k++)
+        c->at[k].running =
+            pthread_create(&c->at[k].thread, NULL, thread_main, c->at + k) == 0;
     *out = c;
     return QDOT_OK;
+}
+
+/* What one of them says. */
+static void
+compare(follower *f, bool whole, double t_end, const double *y, double *difference,
+        qdot_companion_estimate *out)
+{
+    const qdot_companion *c = f->of;
+
+    if (!whole || !f->finished)
+        run_to(f, whole ? c->t1 : t_end);
+    if (f->number == 0)
+        out->result = f->result;
+    out->known = out->known && f->result.outcome == QDOT_ODE_DONE;
+    for (size_t i = 0; i < c->n && out->known; i++) {
+        double d = fabs(y[i] - f->y[i]);
+
+        if (difference)
+            difference[i] = fmax(d, f->number ? difference[i] : 0);
+        out->error = fmax(out->error, d / fmax(1, fmin(fabs(y[i]), fabs(f->y[i]))));
+    }
+    if (out->known && whole && c->n_shown == PLACES && f->reached == PLACES)
+        out->error = fmax(out->error, median_between(f));
 }
 
 void
@@ -220,29 +310,19 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
     /* the neighbour of t1 stands for t1 */
     bool whole = fabs(t_end - c->t1) <= 4 * unit * fabs(c->t1);
 
-    if (c->running) {
-        if (!whole)
-            atomic_store(&c->leave, true);
-        pthread_join(c->thread, NULL);
-        atomic_store(&c->leave, false);
+    if (!whole)
+        atomic_store(&c->leave, true);
+    for (size_t k = 0; k < c->count; k++)
+        if (c->at[k].running)
+            pthread_join(c->at[k].thread, NULL);
+    atomic_store(&c->leave, false);
+    *out = (qdot_companion_estimate){.known = true, .error = unit, .tol = c->tol};
+    for (size_t k = 0; k < c->count; k++)
+        compare(c->at + k, whole, t_end, y, difference, out);
+    if (!out->known) {
+        out->error = NAN;
+        for (size_t i = 0; i < c->n && difference; i++)
+            difference[i] = NAN;
     }
-    if (!whole || !c->finished)
-        run_to(c, whole ? c->t1 : t_end);
-    *out = (qdot_companion_estimate){
-        .known = c->result.outcome == QDOT_ODE_DONE,
-        .error = c->result.outcome == QDOT_ODE_DONE ? unit : NAN,
-        .tol = c->tol,
-        .result = c->result,
-    };
-    for (size_t i = 0; i < c->system.n; i++) {
-        double d = out->known ? fabs(y[i] - c->y[i]) : NAN;
-
-        if (difference)
-            difference[i] = d;
-        if (out->known)
-            out->error = fmax(out->error, d / fmax(1, fabs(y[i])));
-    }
-    if (out->known && whole && c->n_shown == PLACES && c->reached == PLACES)
-        out->error = fmax(out->error, median_between(c));
     release(c);
 }

@@ -15,7 +15,7 @@ struct qdot_bind {
     qdot_tape *tape, *jacobian; /* shaken copies; else NULL */
     qdot_blocks blocks;
     qdot_held *held;            /* of a plan with constraints: in place of the blocks */
-    qdot_direct *direct;        /* of a method by Taylor series, one of the two: */
+    qdot_direct *direct;        /* where the equations are smooth, one of the two: */
     qdot_shifted *shifted;
     const qdot_ode_series *series; /* its callbacks; else NULL */
     double *in;                 /* [3n + 1] q, q', t, q'' */
@@ -260,7 +260,7 @@ make(qdot_bind *b, bool shaken)
             QDOT_TRY(qdot_tape_shake(p->jacobian, &b->jacobian));
     }
     QDOT_TRY(qdot_blocks_init(&b->blocks, p, shaken));
-    if (!p->method->series)
+    if (!p->smooth)
         return QDOT_OK;
     if (p->residual) {
         QDOT_TRY(qdot_shifted_new(p, p->residual, shaken, &b->shifted));

@@ -1,4 +1,5 @@
 /* describe.c -- the plan in words. */
+#include "ode/companion.h"
 #include "ode/taylor.h"
 #include "sim/bind.h"
 #include "sim/plan.h"
@@ -6,6 +7,7 @@
 static void
 say_mass(const qdot_plan *p, qdot_text *out)
 {
+    const char *when = p->method->series ? "once a step" : "at every evaluation";
     size_t single = 0, constant = 0, largest = 0;
 
     for (size_t k = 0; k < p->structure.blocks; k++) {
@@ -31,11 +33,10 @@ say_mass(const qdot_plan *p, qdot_text *out)
         qdot_text_add(out, "; constant: factored once\n");
     else if (constant > 0)
         qdot_text_format(out,
-                         "; %zu of the blocks constant and factored once, the others at "
-                         "every evaluation\n",
-                         constant);
+                         "; %zu of the blocks constant and factored once, the others %s\n",
+                         constant, when);
     else
-        qdot_text_add(out, "; factored at every evaluation\n");
+        qdot_text_format(out, "; factored %s\n", when);
 }
 
 static bool
@@ -87,13 +88,13 @@ say_series(const qdot_plan *p, double tol, qdot_text *out)
         qdot_text_format(
             out,
             "form: d'Alembert's residual, %g convolutions an order; M q'' = f "
-            "would take %g. M is factored once a step\n",
+            "would take %g\n",
             p->convolutions_residual, p->convolutions_derived);
     else if (p->convolutions_residual > 0)
         qdot_text_format(
             out,
             "form: M q'' = f, %g convolutions an order; d'Alembert's residual "
-            "would take %g and more beside them. M is factored once a step\n",
+            "would take %g and more beside them\n",
             p->convolutions_derived, p->convolutions_residual);
     else
         qdot_text_format(out, "form: M q'' = f, %g convolutions an order\n",
@@ -128,10 +129,12 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
                      p->chosen ? "chosen" : "asked for", p->method->fits);
     if (p->method->series)
         status = say_series(p, request->tol, out);
-    qdot_text_format(out,
-                     "error: a companion run by %s, at a tighter tolerance, on a second "
-                     "thread\n",
-                     p->method->partner);
+    qdot_text_format(out, "error: %s by %s, at a tighter tolerance, on %s\n",
+                     request->tol <= QDOT_COMPANION_TWIN_TOL ? "two companion runs"
+                                                             : "a companion run",
+                     p->smooth ? "taylor" : p->method->partner,
+                     request->tol <= QDOT_COMPANION_TWIN_TOL ? "threads of their own"
+                                                             : "a second thread");
     qdot_plan_free(p);
     return status == QDOT_OK ? qdot_text_status(out) : status;
 }

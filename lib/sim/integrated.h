@@ -26,7 +26,7 @@ struct qdot_run {
     /* The run whose distance from this one is the error between points: made when
      * errors are first asked for. */
     bool has_companion;
-    qdot_bind *shaken;
+    qdot_bind *shaken, *twin; /* systems of the companions; twin NULL: only one */
     qdot_trajectory companion;
 };
 

@@ -15,7 +15,7 @@
 
 /* The method that `auto` is, and where the equations switch and so have no series: see
  * ode/method.h for when each fits. */
-static const char default_method[] = "rk8pd", switching_method[] = "rk8pd";
+static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
 static const char *const later_methods[] = {"radau", "gauss"};
@@ -402,15 +402,16 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         QDOT_TRY(fill_block(p, b));
     }
     QDOT_TRY(lower_equations(p));
-    if (p->chosen && p->method->series && qdot_taylor_hindrance(p->tape))
+    p->smooth = !qdot_taylor_hindrance(p->tape);
+    if (p->chosen && !p->smooth)
         p->method = qdot_ode_method_find(switching_method);
-    if (p->method->series && qdot_taylor_hindrance(p->tape)) {
+    if (p->method->series && !p->smooth) {
         qdot_fail(QDOT_ENOTBUILT,
                   "not built yet: method %s where the equations switch (%s)",
                   p->method->name, qdot_taylor_hindrance(p->tape));
         return qdot_hint("method rk8pd");
     }
-    if (p->method->series)
+    if (p->smooth)
         QDOT_TRY(choose_form(p, scene));
     if (p->method->needs_jacobian
         || qdot_ode_method_find(p->method->partner)->needs_jacobian)

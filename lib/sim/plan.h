@@ -70,7 +70,8 @@ typedef struct {
     qdot_plan_slope *slopes; /* [n_slopes] */
     size_t n_slopes;
 
-    /* Of a method by Taylor series: the equations as d'Alembert's residual where that is
+    bool smooth; /* the equations have Taylor series: for the method or its companion */
+    /* Of those: the equations as d'Alembert's residual where that is
      * cheaper, else NULL; convolutions an order of either form, 0 where it was not
      * looked at. */
     qdot_residual *residual;

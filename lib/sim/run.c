@@ -35,6 +35,7 @@ qdot_run_free(qdot_run *run)
     qdot_drifts_clear(&run->drifts);
     qdot_bind_free(run->bind);
     qdot_bind_free(run->shaken);
+    qdot_bind_free(run->twin);
     qdot_plan_free(run->plan);
     qdot_free(run->start);
     qdot_free(run->start_low);
@@ -253,28 +254,46 @@ show_states(qdot_run *run, qdot_companion *companion)
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
+static qdot_status
+start_companion(qdot_run *run, double tol, qdot_companion **companion)
+{
+    qdot_ode_system system, twin;
+    qdot_companion_request request = {.system = &system,
+                                      .method = run->plan->method,
+                                      .tol = tol,
+                                      .t0 = qdot_shake_double(run->t0, run->t0_side),
+                                      .t1 = run->t1,
+                                      .t1_low = run->t1_low,
+                                      .y0 = run->start,
+                                      .carry = run->start_low,
+                                      .threaded = true};
+
+    QDOT_TRY(qdot_bind_new(run->plan, true, &run->shaken));
+    system = qdot_bind_system(run->shaken);
+    if (!system.series)
+        request.t1 = qdot_shake_double(run->t1, run->t1_side);
+    if (tol <= QDOT_COMPANION_TWIN_TOL) {
+        QDOT_TRY(qdot_bind_new(run->plan, false, &run->twin));
+        twin = qdot_bind_system(run->twin);
+        request.twin = &twin;
+    }
+    return qdot_companion_start(&request, companion);
+}
+
 /* The run, its companion beside it, and what should have been kept. */
 static qdot_status
 carry_out(qdot_run *run, qdot_scene *scene, qdot_domains *domains, double tol,
           bool *interrupted)
 {
-    const double t0 = qdot_shake_double(run->t0, run->t0_side);
-    const double t1 = qdot_shake_double(run->t1, run->t1_side);
     qdot_companion_estimate estimate = {.error = 0};
     qdot_companion *companion = NULL;
-    qdot_ode_system system;
     qdot_status status = QDOT_OK;
 
     *interrupted = false;
     if (run->t0 != run->t1) {
         /* Where the shaken constants have no inverse the error stays unknown. */
         estimate.error = NAN;
-        status = qdot_bind_new(run->plan, true, &run->shaken);
-        if (status == QDOT_OK) {
-            system = qdot_bind_system(run->shaken);
-            status = qdot_companion_start(&system, run->plan->method, tol, t0, t1,
-                                          run->start, true, &companion);
-        }
+        status = start_companion(run, tol, &companion);
         if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN)
             status = QDOT_OK;
     }

@@ -68,23 +68,13 @@ read_at(reader *r, double t, double *out)
 
 /* --- the second run ----------------------------------------------------------------- */
 
-/* The start as the companion has it (ode/companion.h): every component another double. */
-static double
-moved(double y, size_t i)
-{
-    double by = 0x1p-53 * fmax(1, fabs(y)) * (i % 3 == 1 ? -1 : 1);
-
-    return y + by != y ? y + by : nextafter(y, by * INFINITY);
-}
-
 /* Its trajectory, over all that the run covers; where it ends early errors are
  * unknown. */
 static qdot_status
 make_companion(qdot_run *run)
 {
     const qdot_ode_method *method = run->plan->method;
-    qdot_ode_options options = {.tol = qdot_companion_tolerance(method, run->report.tol),
-                                .order_more = QDOT_COMPANION_ORDERS};
+    qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS};
     double t0 = qdot_shake_double(run->t0, run->t0_side);
     double t1 = run->tr.t[run->tr.count - 1];
     qdot_ode_system system;
@@ -99,11 +89,14 @@ make_companion(qdot_run *run)
             return status == QDOT_ESINGULAR ? QDOT_OK : status;
     }
     system = qdot_bind_system(run->shaken);
+    if (method->stiff) /* series may get stuck */
+        system.series = NULL;
+    options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
     y = qdot_malloc(system.n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < system.n; i++)
-        y[i] = moved(run->start[i], i);
+        y[i] = qdot_companion_moved(run->start[i], i, 0);
     if (system.project) {
         double by;
 
@@ -115,7 +108,7 @@ make_companion(qdot_run *run)
     }
     status =
         qdot_trajectory_run(&run->companion, &system,
-                            qdot_ode_method_find(method->partner), &options, t0, t1, y);
+                            qdot_companion_method(&system, method), &options, t0, t1, y);
     qdot_free(y);
     if (status == QDOT_EINTR || status == QDOT_ENOMEM)
         return status;

@@ -8,6 +8,22 @@
 #include "ode/companion.h"
 #include "problems.h"
 
+static void
+start(const qdot_ode_system *system, const qdot_ode_method *m, double tol, double t1,
+      const double *y0, bool threaded, qdot_companion **c)
+{
+    qdot_companion_request request = {.system = system,
+                                      .twin = tol <= QDOT_COMPANION_TWIN_TOL ? system
+                                                                             : NULL,
+                                      .method = m,
+                                      .tol = tol,
+                                      .t1 = t1,
+                                      .y0 = y0,
+                                      .threaded = threaded};
+
+    assert_int_equal(qdot_companion_start(&request, c), QDOT_OK);
+}
+
 /* The error stated for a run of p to t, and the true one. */
 static qdot_companion_estimate
 estimate(const problem *p, const qdot_ode_method *m, double tol, double t, bool threaded,
@@ -20,14 +36,13 @@ estimate(const problem *p, const qdot_ode_method *m, double tol, double t, bool 
     qdot_companion_estimate e;
 
     memcpy(y, p->y0, sizeof y);
-    assert_int_equal(
-        qdot_companion_start(&p->system, m, tol, 0, t, p->y0, threaded, &c), QDOT_OK);
+    start(&p->system, m, tol, t, p->y0, threaded, &c);
     assert_int_equal(qdot_ode_integrate(&p->system, m, &o, 0, t, y, &r), QDOT_OK);
     qdot_companion_finish(c, r.t, y, difference, &e);
     *error = true_error(p, t, y);
     for (size_t i = 0; i < p->system.n; i++)
         largest = fmax(largest, difference[i] / fmax(1, fabs(y[i])));
-    assert_true(!e.known || e.error == fmax(0x1p-53, largest));
+    assert_true(!e.known || fabs(e.error / fmax(0x1p-53, largest) - 1) < 1e-2);
     return e;
 }
 
@@ -74,10 +89,10 @@ tolerances_follow_the_table(void **state)
     const qdot_ode_method *rkf45 = qdot_ode_method_find("rkf45");
 
     (void)state;
-    assert_true(fabs(qdot_companion_tolerance(rk8pd, 1e-9) / 1e-11 - 1) < 1e-12);
-    assert_true(qdot_companion_tolerance(rk8pd, 1e-13) == rk8pd->companion_tol);
-    assert_true(fabs(qdot_companion_tolerance(rk8pd, 1e-15) / 5e-14 - 1) < 1e-12);
-    assert_true(qdot_companion_tolerance(rkf45, 1e-15) == rkf45->companion_tol);
+    assert_true(fabs(qdot_companion_tolerance(&pendulum.system, rk8pd, 1e-9) / 1e-11 - 1) < 1e-12);
+    assert_true(qdot_companion_tolerance(&pendulum.system, rk8pd, 1e-13) == rk8pd->companion_tol);
+    assert_true(fabs(qdot_companion_tolerance(&pendulum.system, rk8pd, 1e-15) / 5e-14 - 1) < 1e-12);
+    assert_true(qdot_companion_tolerance(&pendulum.system, rkf45, 1e-15) == rkf45->companion_tol);
 }
 
 /* A linear flow whose run is exact in doubles: only the moved start can tell. */
@@ -102,7 +117,7 @@ zeros_of_the_start_are_moved_too(void **state)
     qdot_companion_estimate e;
 
     (void)state;
-    assert_int_equal(qdot_companion_start(&s, m, 1e-12, 0, 5, y0, true, &c), QDOT_OK);
+    start(&s, m, 1e-12, 5, y0, true, &c);
     assert_int_equal(qdot_ode_integrate(&s, m, NULL, 0, 5, y, &r), QDOT_OK);
     qdot_companion_finish(c, 5, y, NULL, &e);
     assert_true(y[0] == 0);
@@ -130,8 +145,7 @@ a_run_that_stops_early_is_compared_where_it_stopped(void **state)
     qdot_companion_estimate e;
 
     (void)state;
-    assert_int_equal(
-        qdot_companion_start(&pendulum.system, m, 1e-9, 0, 1e5, y, true, &c), QDOT_OK);
+    start(&pendulum.system, m, 1e-9, 1e5, y, true, &c);
     assert_int_equal(qdot_ode_integrate(&pendulum.system, m, &o, 0, 1e5, y, &r), QDOT_OK);
     qdot_companion_finish(c, r.t, y, NULL, &e);
     error = true_error(&pendulum, r.t, y);
@@ -159,7 +173,7 @@ a_companion_that_fails_leaves_the_error_unknown(void **state)
     qdot_companion_estimate e;
 
     (void)state;
-    assert_int_equal(qdot_companion_start(&s, m, 1e-9, 0, 10, y, true, &c), QDOT_OK);
+    start(&s, m, 1e-9, 10, y, true, &c);
     qdot_companion_finish(c, 10, y, difference, &e);
     assert_false(e.known);
     assert_true(isnan(e.error) && isnan(difference[0]) && isnan(difference[1]));
@@ -171,14 +185,18 @@ failed_allocations_are_told(void **state)
 {
     const qdot_ode_method *m = qdot_ode_method_find("rk8pd");
     double y[2] = {2, 0};
+    qdot_companion_request request = {.system = &pendulum.system,
+                                      .twin = &pendulum.system,
+                                      .method = m,
+                                      .tol = 1e-9,
+                                      .t1 = 1,
+                                      .y0 = y};
     qdot_companion *c;
 
     (void)state;
-    for (long k = 0; k < 3; k++) {
+    for (long k = 0; k < 10; k++) {
         qdot_memory_fail_at(k);
-        assert_int_equal(
-            qdot_companion_start(&pendulum.system, m, 1e-9, 0, 1, y, false, &c),
-            QDOT_ENOMEM);
+        assert_int_equal(qdot_companion_start(&request, &c), QDOT_ENOMEM);
         assert_null(c);
     }
     qdot_memory_fail_at(-1);

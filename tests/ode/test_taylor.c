@@ -320,12 +320,23 @@ the_stated_error_is_honest(void **state)
         double y[2] = {2, 0}, true_value;
         qdot_companion_estimate e;
         qdot_companion *c;
-        fixture f, g;
+        fixture f, g, h;
 
         start(&f, 0);
         start(&g, 0);
+        start(&h, 0);
         assert_int_equal(
-            qdot_companion_start(&g.system, f.taylor, tols[i], 0, 30, y, true, &c),
+            qdot_companion_start(
+                &(qdot_companion_request){.system = &g.system,
+                                          .twin = tols[i] <= QDOT_COMPANION_TWIN_TOL
+                                                      ? &h.system
+                                                      : NULL,
+                                          .method = f.taylor,
+                                          .tol = tols[i],
+                                          .t1 = 30,
+                                          .y0 = y,
+                                          .threaded = true},
+                &c),
             QDOT_OK);
         integrate(&f, tols[i], 30, y);
         qdot_companion_finish(c, 30, y, NULL, &e);
