@@ -42,9 +42,11 @@ expr_sources = \
 	lib/expr/pool.c \
 	lib/expr/print-name.c \
 	lib/expr/print.c \
+	lib/expr/printed.c \
 	lib/expr/product.c \
 	lib/expr/root.c \
 	lib/expr/scale.c \
+	lib/expr/size.c \
 	lib/expr/sum.c \
 	lib/expr/tensor.c \
 	lib/expr/walk.c
@@ -56,6 +58,7 @@ expr_headers = \
 	lib/expr/pool.h \
 	lib/expr/print-name.h \
 	lib/expr/print.h \
+	lib/expr/printed.h \
 	lib/expr/tensor.h \
 	lib/expr/walk.h
 

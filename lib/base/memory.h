@@ -34,7 +34,8 @@ QDOT_MUST_CHECK qdot_status qdot_grow(void *block, size_t *capacity, size_t want
 
 /* Append `value`; a qdot_status. */
 #define qdot_vec_push(v, value)                                                          \
-    (qdot_grow(&(v)->at, &(v)->capacity, (v)->n + 1, sizeof *(v)->at) == QDOT_OK         \
+    ((v)->n < (v)->capacity ||                                                           \
+             qdot_grow(&(v)->at, &(v)->capacity, (v)->n + 1, sizeof *(v)->at) == QDOT_OK \
          ? ((v)->at[(v)->n] = (value), (v)->n++, QDOT_OK)                                \
          : QDOT_ENOMEM)
 

@@ -14,7 +14,8 @@ qdot_text_add_n(qdot_text *s, const char *text, size_t length)
 {
     if (s->failed)
         return;
-    if (qdot_grow(&s->at, &s->capacity, s->n + length + 1, 1) != QDOT_OK) {
+    if (s->n + length >= s->capacity &&
+        qdot_grow(&s->at, &s->capacity, s->n + length + 1, 1) != QDOT_OK) {
         s->failed = true;
         return;
     }

@@ -103,6 +103,7 @@ typedef struct {
     uint32_t hash;
     uint32_t touches; /* a signature of its symbols: a bit that is not set rules some out */
     uint32_t height;  /* of the tree: 0 for a NUM or SYM */
+    uint32_t size;    /* operations as a tree, at most 2^32 - 1: ask qdot_expr_size() */
 } qdot_node;
 
 /* --- the pool ------------------------------------------------------------------------- */

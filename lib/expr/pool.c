@@ -11,6 +11,7 @@
 
 #include "base/interrupt.h"
 #include "base/text.h"
+#include "expr/printed.h"
 
 static uint32_t
 mix(uint32_t h, uint32_t x)
@@ -135,6 +136,7 @@ append(qdot_pool *pool, const qdot_node *node)
     while (pool->table[i] != 0)
         i = (i + 1) & pool->mask;
     pool->table[i] = (uint32_t)pool->nodes.n - 1;
+    NODE(pool, pool->table[i])->size = qdot_size_kept(pool, pool->table[i]);
     return pool->table[i];
 }
 
@@ -514,6 +516,7 @@ qdot_ufun_redeclare(qdot_pool *pool, uint32_t id, qdot_expr formals)
         NODE(pool, formals)->n != f->arity)
         return qdot_fail(QDOT_EINVAL, "%s has %u arguments", f->name, f->arity);
     f->formals = formals;
+    qdot_printed_forget(pool->printed);
     return QDOT_OK;
 }
 
@@ -560,7 +563,8 @@ qdot_pool_new(void)
     pool->mask = 1023;
     pool->table = qdot_calloc(pool->mask + 1, sizeof *pool->table);
     pool->arena = qdot_arena_new();
-    if (pool->table == NULL || pool->arena == NULL ||
+    pool->printed = qdot_printed_new();
+    if (pool->table == NULL || pool->arena == NULL || pool->printed == NULL ||
         qdot_vec_push(&pool->nodes, ((qdot_node){0})) != QDOT_OK) {
         qdot_pool_free(pool);
         return NULL;
@@ -596,6 +600,7 @@ qdot_pool_free(qdot_pool *pool)
     qdot_free(pool->ufuns.at);
     qdot_free(pool->table);
     qdot_arena_free(pool->arena);
+    qdot_printed_free(pool->printed);
     qdot_free(pool);
 }
 

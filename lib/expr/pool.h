@@ -17,6 +17,7 @@ struct qdot_pool {
     qdot_error error;  /* status QDOT_OK: none */
     uint64_t budget;
     bool unfinished;
+    struct qdot_printed *printed; /* texts, a cache: printing leaves the pool as it is */
 };
 
 /* The node with these args, made if new; args may lie in the pool. Nil on failure. */
@@ -64,6 +65,9 @@ uint8_t qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_
 qdot_expr qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n,
                               const qdot_expr *args, uint32_t i);
 
+/* Operations in the node e from those of its children, QDOT_SIZE_LARGE where they are as many. */
+uint32_t qdot_size_kept(const qdot_pool *pool, qdot_expr e);
+
 struct qdot_walk;
 /* As qdot_walk_begin, but only into nodes that hold one of `holds` or touch one of `touches`; the
  * root is always there. */
@@ -80,6 +84,7 @@ qdot_expr qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint
 bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 
 #define QDOT_MAX_BITS 3321929 /* 10^6 decimal digits */
+#define QDOT_SIZE_LARGE UINT32_MAX
 #define QDOT_TOUCHES_VALUE (1u << 31) /* in touches: a vector, an equation ... is inside */
 #define NODE(pool, e) (&(pool)->nodes.at[e])
 #define ARGS(pool, e) ((pool)->args.at + (pool)->nodes.at[e].at)

@@ -170,6 +170,21 @@ qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_tex
         qdot_text_char(out, '}');
 }
 
+const char *
+qdot_print_latex_word(qdot_fun_id id)
+{
+    static const char *const words[QDOT_FUNCTION_KINDS] = {
+        [QDOT_SIN] = "\\sin",     [QDOT_COS] = "\\cos",     [QDOT_TAN] = "\\tan",
+        [QDOT_SEC] = "\\sec",     [QDOT_CSC] = "\\csc",     [QDOT_COT] = "\\cot",
+        [QDOT_ASIN] = "\\arcsin", [QDOT_ACOS] = "\\arccos", [QDOT_ATAN] = "\\arctan",
+        [QDOT_SINH] = "\\sinh",   [QDOT_COSH] = "\\cosh",   [QDOT_TANH] = "\\tanh",
+        [QDOT_EXP] = "\\exp",     [QDOT_LOG] = "\\log",     [QDOT_MIN] = "\\min",
+        [QDOT_MAX] = "\\max",
+    };
+
+    return words[id];
+}
+
 /* --- numbers ------------------------------------------------------------------------------------ */
 
 static const struct {

@@ -7,6 +7,9 @@
 /* theta1' as theta1', θ̇₁, \dot{\theta}_{1}. */
 void qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out);
 
+/* The word that LaTeX has for a function, \\arcsin; NULL where it has none. */
+const char *qdot_print_latex_word(qdot_fun_id id);
+
 /* p/q; raised: as unicode superscripts; bracket 1: a negative number in brackets, 2: a fraction
  * too. */
 void qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,

@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "expr/pool.h"
 #include "expr/print-name.h"
+#include "expr/printed.h"
 
 /* How tightly the context binds: what a piece must not look like without brackets. */
 enum { TOP, TERM, FACTOR, BASE, MAGNITUDE = -1, DENOMINATOR = -2, NUMERATOR = -3 };
@@ -24,6 +25,8 @@ struct piece {
     bool raised; /* a unicode superscript */
     bool turned; /* -1 times the sum e; of a product, its difference turned */
     bool name;   /* in its style: theta as θ */
+    bool ends;   /* no text of its own: what began at `from` of the output is the text of e */
+    size_t from;
 };
 
 typedef qdot_vec(struct piece) pieces;
@@ -368,22 +371,6 @@ open_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
 
 /* --- functions --------------------------------------------------------------------------------- */
 
-/* The functions that LaTeX has a word for, where it is not the name itself. */
-static const char *
-latex_name(qdot_fun_id id)
-{
-    static const char *const words[QDOT_FUNCTION_KINDS] = {
-        [QDOT_SIN] = "\\sin",     [QDOT_COS] = "\\cos",     [QDOT_TAN] = "\\tan",
-        [QDOT_SEC] = "\\sec",     [QDOT_CSC] = "\\csc",     [QDOT_COT] = "\\cot",
-        [QDOT_ASIN] = "\\arcsin", [QDOT_ACOS] = "\\arccos", [QDOT_ATAN] = "\\arctan",
-        [QDOT_SINH] = "\\sinh",   [QDOT_COSH] = "\\cosh",   [QDOT_TANH] = "\\tanh",
-        [QDOT_EXP] = "\\exp",     [QDOT_LOG] = "\\log",     [QDOT_MIN] = "\\min",
-        [QDOT_MAX] = "\\max",
-    };
-
-    return words[id];
-}
-
 static void
 open_function(printer *p, qdot_expr e)
 {
@@ -396,8 +383,8 @@ open_function(printer *p, qdot_expr e)
         say(p, id == QDOT_ABS ? "\\right|" : "\\right\\rfloor ");
         return;
     }
-    if (latex && latex_name(id) != NULL) {
-        say(p, latex_name(id));
+    if (latex && qdot_print_latex_word(id) != NULL) {
+        say(p, qdot_print_latex_word(id));
     } else {
         say(p, latex ? "\\operatorname{" : "");
         say(p, qdot_fun_name(id));
@@ -647,6 +634,35 @@ open_node(printer *p, const struct piece *x)
     }
 }
 
+/* What the text of x depends on beside its node. */
+static uint32_t
+how(const printer *p, const struct piece *x)
+{
+    return (uint32_t)(x->context - NUMERATOR) << 4 | (uint32_t)p->style << 2 |
+           (uint32_t)x->raised << 1 | x->turned;
+}
+
+/* Sums, functions, spelled names are copied if they stand again, else kept when they end. */
+static void
+write_node(printer *p, struct piece x)
+{
+    uint8_t kind = NODE(p->pool, x.e)->kind;
+    bool again = x.coefficient == QDOT_NIL &&
+                 (kind == QDOT_SUM || kind == QDOT_FUN || kind == QDOT_UFUN ||
+                  (kind == QDOT_SYM && p->style != QDOT_PLAIN));
+
+    if (x.ends) {
+        p->status = qdot_printed_keep(p->pool, x.e, how(p, &x), p->out, x.from);
+    } else if (!again) {
+        open_node(p, &x);
+    } else if (!qdot_printed_copy(p->pool, x.e, how(p, &x), p->out)) {
+        x.from = p->out->n;
+        open_node(p, &x);
+        x.ends = true;
+        piece(p, x);
+    }
+}
+
 qdot_status
 qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
 {
@@ -670,7 +686,7 @@ qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
         else if (x.order > 0)
             qdot_print_order(x.order, style, x.context, out);
         else
-            open_node(&p, &x);
+            write_node(&p, x);
         if (p.status == QDOT_OK)
             p.status = qdot_interrupt_check();
     }

@@ -199,7 +199,7 @@ qdot_mech_alike(qdot_scene *s, qdot_expr e)
     qdot_pattern new;
 
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) < QDOT_SUM ||
-        qdot_expr_kind(pool, e) > QDOT_PROD)
+        qdot_expr_kind(pool, e) > QDOT_PROD || qdot_simplify_is_done(pool, e))
         return qdot_mech_tidy(s, e);
     pattern = pattern_of(s, e, &atoms);
     if (pattern == QDOT_NIL)

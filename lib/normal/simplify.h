@@ -19,6 +19,10 @@ enum { QDOT_SIMPLIFY_WORK = 4000000 };
 qdot_expr qdot_simplify_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts,
                                int64_t work, bool *spent);
 
+/* Whether e is seen at a glance to be as simple as it can be without relations: powers of symbols
+ * times one function and one sum of parameters at most. e a scalar. */
+bool qdot_simplify_is_done(const qdot_pool *pool, qdot_expr e);
+
 /* The exact normal form as an expression: numerator over denominator, coprime, expanded. */
 qdot_expr qdot_normal(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 

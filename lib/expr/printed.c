@@ -1,0 +1,77 @@
+/* printed.c -- texts of subexpressions that were printed. */
+#include "expr/printed.h"
+
+#include "expr/pool.h"
+
+enum { SLOTS = 4096, SHORTEST = 4, LONGEST = 4096, MOST = 1 << 20 };
+
+struct slot {
+    qdot_expr e; /* nil: free */
+    uint32_t how, at, n;
+};
+
+struct qdot_printed {
+    struct slot slot[SLOTS];
+    qdot_text text;
+};
+
+qdot_printed *
+qdot_printed_new(void)
+{
+    return qdot_calloc(1, sizeof(qdot_printed));
+}
+
+void
+qdot_printed_free(qdot_printed *printed)
+{
+    if (printed == NULL)
+        return;
+    qdot_text_clear(&printed->text);
+    qdot_free(printed);
+}
+
+void
+qdot_printed_forget(qdot_printed *printed)
+{
+    qdot_text_truncate(&printed->text, 0);
+    for (size_t i = 0; i < SLOTS; i++)
+        printed->slot[i].e = QDOT_NIL;
+}
+
+static struct slot *
+place(const qdot_pool *pool, qdot_expr e, uint32_t how)
+{
+    return &pool->printed->slot[(e * 2654435761u ^ how * 40503u) >> 7 & (SLOTS - 1)];
+}
+
+bool
+qdot_printed_copy(const qdot_pool *pool, qdot_expr e, uint32_t how, qdot_text *out)
+{
+    const struct slot *s = place(pool, e, how);
+
+    if (s->e != e || s->how != how)
+        return false;
+    qdot_text_add_n(out, pool->printed->text.at + s->at, s->n);
+    return true;
+}
+
+qdot_status
+qdot_printed_keep(const qdot_pool *pool, qdot_expr e, uint32_t how, const qdot_text *out,
+                  size_t from)
+{
+    qdot_printed *p = pool->printed;
+    size_t n = out->n - from;
+
+    QDOT_TRY(qdot_text_status(out));
+    if (n < SHORTEST || n > LONGEST)
+        return QDOT_OK;
+    if (p->text.n + n > MOST)
+        qdot_printed_forget(p);
+    qdot_text_add_n(&p->text, out->at + from, n);
+    if (qdot_text_status(&p->text) != QDOT_OK) {
+        p->text.failed = false; /* what it holds is as it was */
+        return QDOT_ENOMEM;
+    }
+    *place(pool, e, how) = (struct slot){e, how, (uint32_t)(p->text.n - n), (uint32_t)n};
+    return QDOT_OK;
+}

@@ -1,0 +1,135 @@
+/* size.c -- operations in an expression: kept with each node as far as 32 bits tell it. */
+#include "base/memory.h"
+#include "expr/pool.h"
+#include "expr/walk.h"
+
+static uint64_t
+plus(uint64_t a, uint64_t b)
+{
+    return a > UINT64_MAX - b ? UINT64_MAX : a + b;
+}
+
+/* That of a child: as the walk found it, or without a walk as its node keeps it. */
+static uint64_t
+size_of(const qdot_pool *pool, const qdot_walk *w, qdot_expr e)
+{
+    return w == NULL ? NODE(pool, e)->size : qdot_walk_get(w, e);
+}
+
+/* The price of writing a rational: a division, a sign. */
+static uint64_t
+size_of_number(const fmpq *x)
+{
+    return !fmpz_is_one(fmpq_denref(x)) + (uint64_t)(fmpq_sgn(x) < 0);
+}
+
+static bool
+leading_minus(const qdot_pool *pool, qdot_expr sum)
+{
+    const qdot_expr *args = ARGS(pool, sum);
+
+    for (uint32_t i = 0; i < NODE(pool, sum)->n; i += 2)
+        if (fmpq_sgn(RATIONAL(pool, args[i])) > 0)
+            return false;
+    return true;
+}
+
+static bool
+is_whole(const fmpq *x)
+{
+    return fmpz_is_one(fmpq_denref(x));
+}
+
+static bool
+is_unit(const fmpq *x) /* its numerator is not written beside a factor */
+{
+    return fmpz_is_pm1(fmpq_numref(x));
+}
+
+static uint64_t
+size_of_sum(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
+{
+    const qdot_expr *args = ARGS(pool, e);
+    /* a term's minus is the operator that joins it, if one without it can stand first */
+    uint64_t size = leading_minus(pool, e);
+
+    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
+        const fmpq *c = RATIONAL(pool, args[i + 1]);
+
+        size = plus(size, size_of(pool, w, args[i]));
+        size = plus(size, (uint64_t)!is_whole(c) + !is_unit(c) + (i > 1));
+    }
+    if (args[0] != QDOT_ZERO)
+        size = plus(size, 1 + (uint64_t)!is_whole(RATIONAL(pool, args[0])));
+    return size;
+}
+
+static uint64_t
+size_of_product(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
+{
+    const qdot_expr *args = ARGS(pool, e);
+    const fmpq *c = RATIONAL(pool, args[0]);
+    uint64_t size = fmpq_sgn(c) < 0 && qdot_expr_turnable(pool, e) == QDOT_NIL;
+    uint64_t operands = (uint64_t)!is_unit(c) + !is_whole(c);
+    bool above = !is_unit(c);
+
+    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
+        const fmpq *x = qdot_expr_rational(pool, args[i + 1]);
+
+        above |= x == NULL || fmpq_sgn(x) > 0;
+        operands++;
+        size = plus(size, size_of(pool, w, args[i]));
+        if (x == NULL)
+            size = plus(plus(size, 1), size_of(pool, w, args[i + 1]));
+        else if (!is_unit(x) || !is_whole(x)) /* a power or a root */
+            size = plus(size, 1);
+    }
+    return plus(size, operands - above); /* 1/x divides too */
+}
+
+static uint64_t
+size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
+{
+    const qdot_node *node = NODE(pool, e);
+    const qdot_expr *args = ARGS(pool, e);
+    uint32_t n = node->kind == QDOT_UFUN ? node->n / 2 : node->n;
+    uint64_t size = 0;
+
+    switch (node->kind) {
+    case QDOT_NUM: return size_of_number(RATIONAL(pool, e));
+    case QDOT_SUM: return size_of_sum(pool, e, w);
+    case QDOT_PROD: return size_of_product(pool, e, w);
+    default:
+        for (uint32_t i = 0; i < n; i++)
+            size = plus(size, size_of(pool, w, args[i]));
+        for (uint32_t i = n; i < node->n; i++) /* orders of derivatives */
+            size = plus(size, args[i] != QDOT_ZERO);
+        return plus(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC);
+    }
+}
+
+uint32_t
+qdot_size_kept(const qdot_pool *pool, qdot_expr e)
+{
+    uint64_t size = size_of_node(pool, e, NULL);
+
+    return size > QDOT_SIZE_LARGE ? QDOT_SIZE_LARGE : (uint32_t)size;
+}
+
+uint64_t
+qdot_expr_size(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_walk w;
+    uint64_t size = 0;
+
+    if (e == QDOT_NIL)
+        return 0;
+    if (NODE(pool, e)->size < QDOT_SIZE_LARGE)
+        return NODE(pool, e)->size;
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return 0;
+    for (size_t i = 0; i < w.n; i++)
+        w.value[i] = size = size_of_node(pool, w.at[i], &w);
+    qdot_walk_end(&w);
+    return size;
+}
