@@ -168,6 +168,7 @@ tape_headers = \
 
 mech_sources = \
 	lib/mech/accel.c \
+	lib/mech/alike.c \
 	lib/mech/body.c \
 	lib/mech/constraint.c \
 	lib/mech/dalembert.c \

@@ -1,8 +1,6 @@
 /* derived.c -- the cache of a scene and what every chapter uses. */
 #include "mech/derived.h"
 
-#include <stdio.h>
-
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
@@ -10,9 +8,7 @@
 
 enum {
     TIDY_LIMIT = 400,  /* operations of a part; beyond, it is left as it is */
-    WHOLE_LIMIT = 100, /* of a sum of simplified parts */
-    PATTERNS = 64,
-    PATTERN_ATOMS = 16
+    WHOLE_LIMIT = 100  /* of a sum of simplified parts */
 };
 
 static void
@@ -139,89 +135,6 @@ qdot_mech_tidy_whole(qdot_scene *s, qdot_expr e)
     if (e == QDOT_NIL || qdot_expr_size(s->pool, e) > WHOLE_LIMIT)
         return e;
     return qdot_mech_tidy(s, e);
-}
-
-/* A stand-in that tells of its symbol what simplification may ask: class and sign. Nil where
- * there is more to know (a domain). */
-static qdot_expr
-stand_in(qdot_scene *s, qdot_expr atom, uint32_t k)
-{
-    const qdot_symbol *x = qdot_expr_symbol(s->pool, atom);
-    bool positive, bounded;
-    qdot_expr e;
-    char name[48];
-
-    if (!x || x->class == QDOT_CONST)
-        return x ? atom : QDOT_NIL;
-    positive = x->sign == QDOT_POS;
-    bounded = x->lo != QDOT_NIL || x->hi != QDOT_NIL;
-    if (bounded && !(positive && x->lo == QDOT_ZERO && x->hi == QDOT_NIL))
-        return QDOT_NIL;
-    if (x->sign && !positive)
-        return QDOT_NIL;
-    snprintf(name, sizeof name, "alike[%d,%d,%u]", (int)x->class, positive, k);
-    e = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
-    if (e != QDOT_NIL && positive && qdot_expr_symbol(s->pool, e)->lo == QDOT_NIL)
-        qdot_symbol_domain(s->pool, e, QDOT_ZERO, true, QDOT_NIL, false);
-    return e;
-}
-
-/* e with stand-ins for its atoms; nil where it has none. */
-static qdot_expr
-pattern_of(qdot_scene *s, qdot_expr e, qdot_expr *atoms)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr from[PATTERN_ATOMS], to[PATTERN_ATOMS];
-    uint32_t n;
-
-    if (s->derived->relations.n || s->conditions.n ||
-        qdot_mech_holds(s, e) & QDOT_HAS_UFUN)
-        return QDOT_NIL;
-    *atoms = qdot_expr_atoms(pool, e, false);
-    n = *atoms == QDOT_NIL ? 0 : qdot_expr_count(pool, *atoms);
-    if (n == 0 || n > PATTERN_ATOMS)
-        return QDOT_NIL;
-    for (uint32_t k = 0; k < n; k++) {
-        from[k] = qdot_expr_arg(pool, *atoms, k);
-        to[k] = stand_in(s, from[k], k);
-        if (to[k] == QDOT_NIL)
-            return QDOT_NIL;
-    }
-    return qdot_subs(pool, e, n, from, to);
-}
-
-qdot_expr
-qdot_mech_alike(qdot_scene *s, qdot_expr e)
-{
-    qdot_pool *pool = s->pool;
-    qdot_derived *d = s->derived;
-    qdot_expr atoms = QDOT_NIL, pattern;
-    qdot_pattern new;
-
-    if (e == QDOT_NIL || qdot_expr_kind(pool, e) < QDOT_SUM ||
-        qdot_expr_kind(pool, e) > QDOT_PROD || qdot_simplify_is_done(pool, e))
-        return qdot_mech_tidy(s, e);
-    pattern = pattern_of(s, e, &atoms);
-    if (pattern == QDOT_NIL)
-        return qdot_mech_tidy(s, e);
-    for (size_t i = 0; i < d->patterns.n; i++) {
-        qdot_expr from[PATTERN_ATOMS], to[PATTERN_ATOMS];
-        uint32_t n = qdot_expr_count(pool, atoms);
-
-        if (d->patterns.at[i].pattern != pattern ||
-            qdot_expr_count(pool, d->patterns.at[i].atoms) != n)
-            continue;
-        for (uint32_t k = 0; k < n; k++) {
-            from[k] = qdot_expr_arg(pool, d->patterns.at[i].atoms, k);
-            to[k] = qdot_expr_arg(pool, atoms, k);
-        }
-        return qdot_subs(pool, d->patterns.at[i].simple, n, from, to);
-    }
-    new = (qdot_pattern){pattern, atoms, qdot_mech_tidy(s, e)};
-    if (new.simple != QDOT_NIL &&
-        d->patterns.n < PATTERNS && qdot_vec_push(&d->patterns, new) != QDOT_OK)
-        return qdot_pool_fail(pool);
-    return new.simple;
 }
 
 qdot_expr

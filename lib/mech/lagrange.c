@@ -125,7 +125,7 @@ qdot_lagrange_rest(qdot_scene *s, size_t i)
         if (c == QDOT_ZERO)
             continue;
         if (b - a > 1)
-            c = qdot_mech_tidy(s, c);
+            c = qdot_mech_alike(s, c);
         sum[terms++] = qdot_mul(
             pool, c,
             qdot_mul(pool, qdot_mech_jet(s, all[a].j, 1), qdot_mech_jet(s, all[a].k, 1)));

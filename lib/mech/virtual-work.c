@@ -284,7 +284,7 @@ total(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
             parts++;
         }
     }
-    return people && parts > 1 ? qdot_mech_tidy(s, Q) : Q;
+    return people && parts > 1 ? qdot_mech_alike(s, Q) : Q;
 }
 
 qdot_expr
