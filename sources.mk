@@ -49,6 +49,7 @@ expr_sources = \
 	lib/expr/size.c \
 	lib/expr/sum.c \
 	lib/expr/tensor.c \
+	lib/expr/ufun.c \
 	lib/expr/walk.c
 
 expr_headers = \
