@@ -226,6 +226,7 @@ sim_sources = \
 	lib/sim/shifted.c \
 	lib/sim/start.c \
 	lib/sim/substitute.c \
+	lib/sim/tied.c \
 	lib/sim/value.c
 
 sim_headers = \
@@ -244,7 +245,8 @@ sim_headers = \
 	lib/sim/run.h \
 	lib/sim/shifted.h \
 	lib/sim/start.h \
-	lib/sim/substitute.h
+	lib/sim/substitute.h \
+	lib/sim/tied.h
 
 show_sources = \
 	lib/show/csv.c \

@@ -242,7 +242,7 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
     if (f->system.project) { /* only along what solutions may do */
         double by;
 
-        QDOT_TRY(f->system.project(f->t0, f->start, NULL, &by, f->system.user));
+        QDOT_TRY(f->system.project(f->t0, f->start, f->low, &by, f->system.user));
     }
     return QDOT_OK;
 }

@@ -29,6 +29,10 @@ typedef struct {
     /* low [n]: what the coefficients of order 1 would gain from y + carry [n], as far as
      * that is a matter of adding; NULL if there is none. */
     void (*low)(const double *carry, double *low, void *user);
+    /* What the coefficients at the point begun last are worth, relative to the state, where
+     * that may be less than a double: near a singularity that the solution passes
+     * smoothly. No step is held to a tighter tolerance. NULL: all they can. */
+    double (*noise)(void *user);
     void *user; /* borrowed */
 } qdot_ode_series;
 

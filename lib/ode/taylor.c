@@ -16,6 +16,9 @@ static const uint64_t max_steps_default = 50000000;
 
 enum { least_order = 6 };
 
+/* A projection moves by its own rounding, whatever the tolerance. */
+static const double rounding_of_projection = 1e-13;
+
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
 
@@ -27,6 +30,7 @@ typedef struct {
     qdot_ode_result *result;
     size_t n;
     double tol, t, t1, direction;
+    double held; /* tol, or what the coefficients are worth if that is more */
     uint64_t max_steps;
     int p;
     double unit;   /* of the series: t' = t + unit s; a power of two, signed */
@@ -143,7 +147,7 @@ static double
 log_step(const run *r, int from)
 {
     const qdot_ode_series *series = r->series;
-    double least = INFINITY, log_tol = log2(r->tol), m[QDOT_SERIES_MOST + 1];
+    double least = INFINITY, log_tol = log2(r->held), m[QDOT_SERIES_MOST + 1];
 
     for (int k = from; k <= r->p; k++)
         m[k] = 0;
@@ -187,6 +191,9 @@ begin(run *r, double t, const double *y)
 {
     r->extended = false;
     QDOT_TRY(r->series->begin(t, y, r->unit, r->series->user));
+    r->held = r->tol;
+    if (r->series->noise)
+        r->held = fmin(1, fmax(r->tol, r->series->noise(r->series->user)));
     return QDOT_OK;
 }
 
@@ -226,11 +233,11 @@ length_of_step(run *r, double *h)
 /* Whether the slope of the polynomial, in r->slope per old unit, is that of the equations
  * begun anew at its end. */
 static bool
-confirms(const run *r, double h, double old_unit)
+confirms(const run *r, double h, double old_unit, double old_held)
 {
     const qdot_ode_series *series = r->series;
     double steps = h / old_unit, now = h / r->unit;
-    double rounding = 64 * DBL_EPSILON, share = 10 * (r->p + 1) * r->tol;
+    double rounding = 64 * DBL_EPSILON, share = 10 * (r->p + 1) * fmax(r->held, old_held);
 
     for (size_t i = series->checked; i < r->n; i++) {
         double f = series->x[i * series->stride + 1] * now, P = r->slope[i] * steps;
@@ -249,7 +256,7 @@ static qdot_status
 confirms_inside(run *r, double h, bool *good)
 {
     static const double places[] = {0.31830988618379067, 0.70710678118654752};
-    const double old_unit = r->unit;
+    const double old_unit = r->unit, old_held = r->held;
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
@@ -262,7 +269,7 @@ confirms_inside(run *r, double h, bool *good)
             r->first[i] = r->series->x[i * r->series->stride + 1];
         status = begin(r, r->t + places[k] * h, r->next);
         if (status == QDOT_OK) {
-            *good = confirms(r, h, old_unit);
+            *good = confirms(r, h, old_unit, old_held);
             status = begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
@@ -286,14 +293,25 @@ swap(double **a, double **b)
     *b = c;
 }
 
+/* The state at the end of the step tried, brought back to where solutions are. */
+static qdot_status
+project(run *r, double t_end, double *moved)
+{
+    *moved = 0;
+    if (!r->system->project)
+        return QDOT_OK;
+    return r->system->project(t_end, r->next, r->next_carry, moved, r->system->user);
+}
+
 /* Try a step of h from t to t_end. On QDOT_OK and *good it has been taken, and the
  * series is begun at its end. Otherwise nothing has changed but the series. */
 static qdot_status
 try_step(run *r, double h, double t_end, bool unsure, bool *good)
 {
-    const double old_unit = r->unit;
+    const double old_unit = r->unit, old_held = r->held;
     const double s = (t_end == r->t1 ? h + r->options->t1_low : h) / r->unit;
     const bool fixed = r->options->h_fixed > 0;
+    double moved;
     qdot_status status;
 
     *good = true;
@@ -309,10 +327,14 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
         memset(r->low, 0, r->n * sizeof *r->low);
     for (size_t i = r->series->checked; i < r->n; i++)
         r->first[i] = r->series->x[i * r->series->stride + 1];
+    QDOT_TRY(project(r, t_end, &moved));
+    *good = fixed || moved <= 100 * r->held + rounding_of_projection;
+    if (!*good)
+        return QDOT_OK;
     r->unit = unit_for(h);
     status = begin(r, t_end, r->next);
     if (status == QDOT_OK)
-        *good = fixed || confirms(r, h, old_unit);
+        *good = fixed || confirms(r, h, old_unit, old_held);
     if (status == QDOT_OK && *good && r->options->accepted) {
         bool stop = false;
 
@@ -326,6 +348,7 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     swap(&r->y, &r->next);
     swap(&r->carry, &r->next_carry);
     r->result->stats.steps++;
+    r->result->stats.projections += moved > 0;
     return QDOT_OK;
 }
 

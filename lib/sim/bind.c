@@ -8,6 +8,7 @@
 #include "sim/direct.h"
 #include "sim/held.h"
 #include "sim/shifted.h"
+#include "sim/tied.h"
 #include "tape/shake.h"
 
 struct qdot_bind {
@@ -17,6 +18,7 @@ struct qdot_bind {
     qdot_held *held;            /* of a plan with constraints: in place of the blocks */
     qdot_direct *direct;        /* where the equations are smooth, one of the two: */
     qdot_shifted *shifted;
+    qdot_tied *tied;            /* or, of a plan with constraints: */
     const qdot_ode_series *series; /* its callbacks; else NULL */
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of either tape */
@@ -43,6 +45,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_held_free(b->held);
     qdot_direct_free(b->direct);
     qdot_shifted_free(b->shifted);
+    qdot_tied_free(b->tied);
     qdot_tape_free(b->tape);
     qdot_tape_free(b->jacobian);
     qdot_free(b->in);
@@ -231,8 +234,21 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
 size_t
 qdot_bind_factored(const qdot_bind *b)
 {
-    return b->blocks.factored + (b->held ? qdot_held_factored(b->held) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
+    return b->blocks.factored + (b->held ? qdot_held_factored(b->held) : 0)
+           + (b->tied ? qdot_tied_factored(b->tied) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
            + (b->shifted ? qdot_shifted_factored(b->shifted) : 0);
+}
+
+/* With constraints. */
+static qdot_status
+make_held(qdot_bind *b, bool shaken)
+{
+    QDOT_TRY(qdot_held_new(b->plan, shaken, &b->held));
+    if (!b->plan->smooth)
+        return QDOT_OK;
+    QDOT_TRY(qdot_tied_new(b->plan, shaken, &b->tied));
+    b->series = qdot_tied_series(b->tied);
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -253,7 +269,7 @@ make(qdot_bind *b, bool shaken)
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
     if (p->constraints)
-        return qdot_held_new(p, shaken, &b->held);
+        return make_held(b, shaken);
     if (shaken) {
         QDOT_TRY(qdot_tape_shake(p->tape, &b->tape));
         if (p->jacobian)

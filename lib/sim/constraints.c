@@ -28,6 +28,7 @@ qdot_constraints_free(qdot_constraints *c)
     qdot_tape_free(c->velocities);
     qdot_tape_free(c->metric);
     qdot_tape_free(c->equations);
+    qdot_tape_free(c->motion);
     for (int kind = 0; kind < 3; kind++)
         qdot_tape_free(c->series[kind]);
     qdot_free(c);
@@ -240,6 +241,20 @@ lower_series(builder *b, qdot_constraint_kind kind)
 }
 
 static qdot_status
+lower_motion(builder *b)
+{
+    expressions out = {0};
+    qdot_status status = push_all(&out, b->plan->n, b->plan->f);
+
+    if (status == QDOT_OK)
+        status = push_all(&out, b->masses.n, b->masses.at);
+    if (status == QDOT_OK)
+        status = lower(b->plan, &out, &b->c->motion);
+    qdot_free(out.at);
+    return status;
+}
+
+static qdot_status
 build(builder *b, const qdot_scene *scene)
 {
     QDOT_TRY(read_rows(b, scene));
@@ -247,6 +262,7 @@ build(builder *b, const qdot_scene *scene)
     QDOT_TRY(lower(b->plan, &b->positions, &b->c->positions));
     QDOT_TRY(lower(b->plan, &b->velocities, &b->c->velocities));
     QDOT_TRY(lower_index_1(b));
+    QDOT_TRY(lower_motion(b));
     for (int kind = 0; kind < 3; kind++)
         if (b->c->count[kind] > 0)
             QDOT_TRY(lower_series(b, (qdot_constraint_kind)kind));

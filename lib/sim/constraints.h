@@ -51,7 +51,9 @@ struct qdot_constraints {
     qdot_tape *equations;  /* f [n], M [n_masses], A [n_slopes], gamma [m]; given over to
                               plan->tape, NULL after that */
 
-    /* For Taylor series, by kind, NULL without such rows: f of its rows, then their
+    /* For Taylor series: f [n], M [n_masses] from q, q', t; */
+    qdot_tape *motion;
+    /* and by kind, NULL without such rows: f of its rows, then their
      * slopes, from first what is newest:
      *     holonomic q, q', t   velocity q', q, t   acceleration q'', q, q', t */
     qdot_tape *series[3];

@@ -2,6 +2,7 @@
 #include "ode/companion.h"
 #include "ode/taylor.h"
 #include "sim/bind.h"
+#include "sim/constraints.h"
 #include "sim/plan.h"
 
 static void
@@ -59,6 +60,35 @@ say_time(const qdot_plan *p, qdot_text *out)
                      time ? "stands" : "does not stand");
 }
 
+/* With constraints: what there is, how it is solved, what keeps the state on them. */
+static void
+say_constraints(const qdot_plan *p, qdot_text *out)
+{
+    static const char *const kinds[] = {"holonomic", "of velocities", "of accelerations"};
+    static const char *const treatments[] = {
+        [QDOT_RUN_PROJECT] = "projection of positions and velocities in the metric of M, "
+                             "after steps that end further off than rounding",
+        [QDOT_RUN_BAUMGARTE] = "Baumgarte's damping, 5 per unit of time",
+        [QDOT_RUN_NONE] = "none",
+    };
+    const qdot_constraints *c = p->constraints;
+    const char *before = "";
+
+    qdot_text_format(out, "mass matrix: %zu x %zu, %zu entries in its lower triangle\n",
+                     p->n, p->n, c->n_masses);
+    qdot_text_format(out, "constraints: %zu:", c->m);
+    for (int kind = 0; kind < 3; kind++)
+        if (c->count[kind] > 0) {
+            qdot_text_format(out, "%s %zu %s", before, c->count[kind], kinds[kind]);
+            before = ",";
+        }
+    qdot_text_format(out,
+                     "; [M A^T; A 0] (q'', -lambda) = (f, gamma), %zu entries in A; by the "
+                     "null space of A, pivoted QR, residual-corrected\n",
+                     c->n_slopes);
+    qdot_text_format(out, "drift: %s\n", treatments[p->treatment]);
+}
+
 static void
 say_blocks(const qdot_plan *p, qdot_text *out)
 {
@@ -84,7 +114,13 @@ say_series(const qdot_plan *p, double tol, qdot_text *out)
     qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n",
                      qdot_ode_taylor_order(system.series, tol, 0), tol);
     qdot_bind_free(bind);
-    if (p->residual)
+    if (p->constraints)
+        qdot_text_format(out,
+                         "form: the same matrix at every order, %g convolutions an order; "
+                         "constraints by their own coefficients, nothing differentiated; "
+                         "factored once a step\n",
+                         p->convolutions_derived);
+    else if (p->residual)
         qdot_text_format(
             out,
             "form: d'Alembert's residual, %g convolutions an order; M q'' = f "
@@ -112,9 +148,16 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
     qdot_text_format(out, "coordinates: %zu:", p->n);
     for (size_t i = 0; i < p->n; i++)
         qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
-    qdot_text_add(out, "\nequations: M(q, t) q'' = f(q, q', t), as y = (q, q')\n");
-    say_mass(p, out);
-    say_blocks(p, out);
+    qdot_text_add(out, p->constraints
+                           ? "\nequations: M q'' = f + A^T lambda with the constraints, as "
+                             "y = (q, q')\n"
+                           : "\nequations: M(q, t) q'' = f(q, q', t), as y = (q, q')\n");
+    if (p->constraints) {
+        say_constraints(p, out);
+    } else {
+        say_mass(p, out);
+        say_blocks(p, out);
+    }
     say_time(p, out);
     qdot_text_format(out,
                      "tape: %zu operations for M and f, of them %zu call%s of elementary "

@@ -109,23 +109,24 @@ unpack(qdot_held *h, level *l, const double *from)
     return from;
 }
 
-/* "rod1", "rod1 and rod2", "a, b and c": the rows of a dependency. */
+/* "rod1", "rod1 and rod2", "a, b and c": the rows of a dependency. row [s->m], NULL: all.
+ */
 static qdot_status
-dependent(qdot_held *h, level *l)
+dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
 {
-    double *part = l->saddle.w; /* scratch of n + m */
+    double *part = s->w; /* scratch of n + m */
     qdot_text names = {0};
     size_t count = 0, said = 0;
 
-    qdot_saddle_parts(&l->saddle, part);
-    for (size_t k = 0; k < l->m; k++)
+    qdot_saddle_parts(s, part);
+    for (size_t k = 0; k < s->m; k++)
         count += part[k] > 1e-6;
-    for (size_t k = 0; k < l->m; k++) {
+    for (size_t k = 0; k < s->m; k++) {
         if (!(part[k] > 1e-6))
             continue;
         if (said > 0)
             qdot_text_add(&names, said + 1 == count ? " and " : ", ");
-        qdot_text_add(&names, h->c->rows[l->row[k]].name);
+        qdot_text_add(&names, c->rows[row ? row[k] : k].name);
         said++;
     }
     if (qdot_text_status(&names) == QDOT_OK)
@@ -137,17 +138,23 @@ dependent(qdot_held *h, level *l)
 }
 
 static qdot_status
-factor(qdot_held *h, level *l)
+factor(const qdot_plan *p, qdot_saddle *s, const size_t *row)
 {
     size_t failed = 0;
-    qdot_status status = qdot_saddle_factor(&l->saddle, &failed);
+    qdot_status status = qdot_saddle_factor(s, &failed);
 
     if (status != QDOT_ESINGULAR)
         return status;
-    if (failed >= h->plan->n)
-        return dependent(h, l);
+    if (failed >= p->n)
+        return dependent(p->constraints, s, row);
     return qdot_fail(status, "the mass matrix is singular: no mass moves with %s",
-                     h->plan->names[failed]);
+                     p->names[failed]);
+}
+
+qdot_status
+qdot_held_factor(const qdot_plan *plan, qdot_saddle *s)
+{
+    return factor(plan, s, NULL);
 }
 
 static void
@@ -178,7 +185,7 @@ qdot_held_solve(qdot_held *h, double t, const double *y, double *a, double *lamb
     memcpy(x + n, gamma, m * sizeof *x);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         damp(h, x + n);
-    QDOT_TRY(factor(h, all));
+    QDOT_TRY(factor(p, &all->saddle, all->row));
     qdot_saddle_solve_refined(&all->saddle);
     for (size_t i = 0; i < n; i++) {
         a[i] = x[i];
@@ -221,7 +228,7 @@ factor_metric(qdot_held *h, level *l, const double *x, double *bound)
 
     qdot_tape_eval(tape_of(h->metric, h->c->metric), h->in, h->out, h->work);
     unpack(h, l, h->out);
-    QDOT_TRY(factor(h, l));
+    QDOT_TRY(factor(h->plan, &l->saddle, l->row));
     for (size_t k = 0; k < l->m; k++) {
         double sum = 0;
 

@@ -63,6 +63,9 @@ qdot_held_residual qdot_held_measure(qdot_held *held, double t, const double *y)
 QDOT_MUST_CHECK qdot_status qdot_held_start(qdot_held *held, double t, double *y,
                                             double *low);
 
+/* Factor M and A of a system that holds all rows; its failures named as _solve's. */
+QDOT_MUST_CHECK qdot_status qdot_held_factor(const qdot_plan *plan, qdot_saddle *s);
+
 size_t qdot_held_rows(const qdot_held *held); /* m */
 /* Independent rows; QDOT_SADDLE_UNKNOWN before anything was solved. */
 size_t qdot_held_rank(const qdot_held *held);

@@ -10,6 +10,7 @@
 #include "sim/residual.h"
 #include "sim/shifted.h"
 #include "sim/substitute.h"
+#include "sim/tied.h"
 #include "tape/constant.h"
 #include "tape/taylor.h"
 
@@ -364,20 +365,54 @@ choose_form(qdot_plan *p, qdot_scene *scene)
     return status;
 }
 
+/* Convolutions an order, with constraints. */
+static qdot_status
+find_cost(qdot_plan *p)
+{
+    qdot_tied *tied;
+
+    QDOT_TRY(qdot_tied_new(p, false, &tied));
+    p->convolutions_derived = qdot_tied_convolutions(tied);
+    qdot_tied_free(tied);
+    return QDOT_OK;
+}
+
+/* Taylor series are for equations that do not switch. */
+static qdot_status
+check_series(qdot_plan *p, const char *hindrance)
+{
+    p->smooth = !hindrance;
+    if (!p->method->series || p->smooth)
+        return QDOT_OK;
+    if (p->chosen) {
+        p->method = qdot_ode_method_find(switching_method);
+        return QDOT_OK;
+    }
+    qdot_fail(QDOT_ENOTBUILT, "not built yet: method %s where the equations switch (%s)",
+              p->method->name, hindrance);
+    return qdot_hint("method rk8pd");
+}
+
 /* With constraints: sim/constraints.h has all there is. */
 static qdot_status
 constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
+    const char *hindrance;
+
     QDOT_TRY(qdot_constraints_new(scene, p, &p->constraints));
     p->tape = p->constraints->equations;
     p->constraints->equations = NULL;
     p->treatment = request->treatment;
-    if (p->chosen && p->method->series)
-        p->method = qdot_ode_method_find(switching_method);
+    hindrance = qdot_taylor_hindrance(p->tape);
+    if (!hindrance)
+        hindrance = qdot_taylor_hindrance(p->constraints->positions);
+    QDOT_TRY(check_series(p, hindrance));
+    if (p->smooth)
+        QDOT_TRY(find_cost(p));
     /* methods that keep the past have no use for a state moved off it */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
-    if (p->method->series || p->method->needs_jacobian
+    if (p->method->needs_jacobian
         || qdot_ode_method_find(p->method->partner)->needs_jacobian)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: method %s with constraints",
                          p->method->name);
@@ -402,15 +437,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         QDOT_TRY(fill_block(p, b));
     }
     QDOT_TRY(lower_equations(p));
-    p->smooth = !qdot_taylor_hindrance(p->tape);
-    if (p->chosen && !p->smooth)
-        p->method = qdot_ode_method_find(switching_method);
-    if (p->method->series && !p->smooth) {
-        qdot_fail(QDOT_ENOTBUILT,
-                  "not built yet: method %s where the equations switch (%s)",
-                  p->method->name, qdot_taylor_hindrance(p->tape));
-        return qdot_hint("method rk8pd");
-    }
+    QDOT_TRY(check_series(p, qdot_taylor_hindrance(p->tape)));
     if (p->smooth)
         QDOT_TRY(choose_form(p, scene));
     if (p->method->needs_jacobian

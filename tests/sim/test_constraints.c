@@ -35,7 +35,7 @@ cartesian_pendulum(fixture *f)
 static void
 cartesian_and_minimal_pendulum_agree(void **state)
 {
-    static const char *const methods[] = {"rk8pd", "dop853", "rkf45"};
+    static const char *const methods[] = {"rk8pd", "dop853", "rkf45", "taylor"};
     fixture c, m;
     qdot_run *minimal;
 
@@ -132,6 +132,86 @@ redundant_constraints_change_nothing(void **state)
     end(&f);
 }
 
+/* Every kind at once, on masses that couple and vary: a bead moved along its rod by
+ * x = t^2/10, a velocity constraint that is not linear, an acceleration that is told. */
+static void
+all_kinds(fixture *f)
+{
+    qdot_expr q[5], v[5], M, drive;
+
+    begin(f);
+    for (int i = 0; i < 5; i++) {
+        static const char *const names[] = {"a", "b", "c", "d", "e"};
+
+        q[i] = coordinate(f, names[i]);
+        v[i] = velocity(f, q[i]);
+    }
+    /* particles at (a + b^2/2, sin b) and (c, d + a c/3), (e, a): M holds q */
+    M = times(f, QDOT_HALF, square(f, q[1]));
+    must(qdot_scene_particle(f->scene, "p", QDOT_ONE,
+                             pair(f, qdot_add(f->pool, q[0], M),
+                                  qdot_fun1(f->pool, QDOT_SIN, q[1]))));
+    M = qdot_add(f->pool, q[3], times(f, number(f, "0.3"), times(f, q[0], q[2])));
+    must(qdot_scene_particle(f->scene, "r", number(f, "0.7"), pair(f, q[2], M)));
+    must(qdot_scene_particle(f->scene, "s", number(f, "1.3"), pair(f, q[4], q[0])));
+    must(qdot_scene_gravity(f->scene, pair(f, number(f, "0.2"), number(f, "-1"))));
+    drive = times(f, number(f, "0.1"), square(f, QDOT_T));
+    must(qdot_scene_constraint(
+        f->scene, "moving", qdot_add(f->pool, q[0], times(f, q[1], q[4])), drive));
+    must(qdot_scene_constraint(f->scene, "bent",
+                               qdot_add(f->pool, square(f, v[2]), square(f, v[3])),
+                               qdot_add(f->pool, QDOT_ONE, times(f, q[1], v[3]))));
+    must(qdot_scene_constraint(
+        f->scene, "told", qdot_symbol_jet(f->pool, q[1], 2),
+        qdot_sub(f->pool, qdot_fun1(f->pool, QDOT_COS, QDOT_T),
+                 times(f, q[2], qdot_symbol_jet(f->pool, q[3], 2)))));
+    f->v0[2] = QDOT_ONE;
+    f->v0[4] = number(f, "0.4");
+    f->q0[4] = number(f, "0.5");
+    f->request.t1 = number(f, "1.5");
+}
+
+static void
+agree(fixture *f, double bound)
+{
+    qdot_run *taylor, *rk8pd;
+    const qdot_run_report *a, *b;
+
+    f->request.tol = 1e-13;
+    f->request.method = "taylor";
+    taylor = run(f);
+    f->request.method = "rk8pd";
+    rk8pd = run(f);
+    a = qdot_run_get_report(taylor);
+    b = qdot_run_get_report(rk8pd);
+    assert_int_equal(a->status, QDOT_RUN_DONE);
+    assert_true(a->steps < b->steps);
+    for (size_t i = 0; i < a->n; i++)
+        if (!(fmax(fabs(a->q[i] - b->q[i]), fabs(a->v[i] - b->v[i])) < bound))
+            fail_msg("coordinate %zu: %.17g %.17g, %.17g %.17g", i, a->q[i], b->q[i],
+                     a->v[i], b->v[i]);
+    for (size_t k = 0; k < a->m; k++)
+        assert_true(fabs(a->lambda[k] - b->lambda[k])
+                    < 30 * bound * fmax(1, fabs(a->lambda[k])));
+    qdot_run_free(taylor);
+    qdot_run_free(rk8pd);
+}
+
+/* By series nothing is differentiated, by rk8pd all is, symbolically. */
+static void
+series_and_differentiated_constraints_agree(void **state)
+{
+    fixture f;
+
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        all_kinds(&f);
+        f.request.treatment = (qdot_run_treatment)k;
+        agree(&f, 1e-11);
+        end(&f);
+    }
+}
+
 static void
 refuses(fixture *f, qdot_status status, const char *message)
 {
@@ -170,6 +250,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cartesian_and_minimal_pendulum_agree),
         cmocka_unit_test(treatments_differ),
+        cmocka_unit_test(series_and_differentiated_constraints_agree),
         cmocka_unit_test(redundant_constraints_change_nothing),
         cmocka_unit_test(what_cannot_be_held_is_refused),
     };
