@@ -84,6 +84,7 @@ ode_headers = \
 	lib/ode/trajectory.h
 
 normal_sources = \
+	lib/normal/antiderivative.c \
 	lib/normal/ball.c \
 	lib/normal/collect.c \
 	lib/normal/constant.c \
@@ -120,6 +121,7 @@ normal_sources = \
 	lib/normal/zero.c
 
 normal_headers = \
+	lib/normal/antiderivative.h \
 	lib/normal/ball.h \
 	lib/normal/constant.h \
 	lib/normal/decide.h \
@@ -181,6 +183,7 @@ mech_sources = \
 	lib/mech/generic.c \
 	lib/mech/geometry.c \
 	lib/mech/hamilton.c \
+	lib/mech/integrable.c \
 	lib/mech/kinematics.c \
 	lib/mech/label.c \
 	lib/mech/lagrange.c \
@@ -191,6 +194,7 @@ mech_sources = \
 	lib/mech/nested.c \
 	lib/mech/noether.c \
 	lib/mech/numeric.c \
+	lib/mech/reactions.c \
 	lib/mech/recursive.c \
 	lib/mech/scene-print.c \
 	lib/mech/scene-replace.c \
@@ -204,8 +208,10 @@ mech_headers = \
 	lib/mech/equilibrium.h \
 	lib/mech/geometry.h \
 	lib/mech/hamilton.h \
+	lib/mech/integrable.h \
 	lib/mech/noether.h \
 	lib/mech/quantity.h \
+	lib/mech/reactions.h \
 	lib/mech/scene.h
 
 sim_sources = \
@@ -268,6 +274,7 @@ lang_sources = \
 	lib/lang/builtin.c \
 	lib/lang/carry.c \
 	lib/lang/check.c \
+	lib/lang/constraints.c \
 	lib/lang/cursor.c \
 	lib/lang/declare-function.c \
 	lib/lang/declare.c \
@@ -303,6 +310,7 @@ lang_headers = \
 	lib/lang/ask.h \
 	lib/lang/carry.h \
 	lib/lang/code.h \
+	lib/lang/constraints.h \
 	lib/lang/declare.h \
 	lib/lang/draw.h \
 	lib/lang/equilibria.h \
@@ -346,6 +354,7 @@ unit_tests = \
 	tests/mech/test_numeric \
 	tests/mech/test_scene \
 	tests/mech/test_scenes \
+	tests/normal/test_antiderivative \
 	tests/normal/test_decide \
 	tests/normal/test_simplify \
 	tests/normal/test_solve \
@@ -384,6 +393,7 @@ script_tests = \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
 	tests/script/derive.lag \
+	tests/script/dof-redundant.lag \
 	tests/script/equilibria.lag \
 	tests/script/fall.sh \
 	tests/script/flexing.lag \
@@ -392,16 +402,33 @@ script_tests = \
 	tests/script/help.lag \
 	tests/script/identities.sh \
 	tests/script/include.lag \
+	tests/script/integrable.lag \
 	tests/script/json.lag \
 	tests/script/loops.lag \
+	tests/script/mechanism-bead.lag \
+	tests/script/mechanism-four-bar.lag \
+	tests/script/mechanism-gears.lag \
+	tests/script/mechanism-ladder.lag \
+	tests/script/mechanism-moving-support.lag \
+	tests/script/mechanism-peaucellier.lag \
+	tests/script/mechanism-program.lag \
+	tests/script/mechanism-pulley.lag \
+	tests/script/mechanism-quick-return.lag \
+	tests/script/mechanism-rolling-disc.lag \
+	tests/script/mechanism-rolling-sphere.lag \
+	tests/script/mechanism-slider-crank.lag \
+	tests/script/mechanism-top.lag \
 	tests/script/names.lag \
 	tests/script/order.lag \
 	tests/script/pendulum.lag \
+	tests/script/reactions.lag \
 	tests/script/refuted.lag \
 	tests/script/reset.lag \
 	tests/script/run.sh \
 	tests/script/several.sh \
 	tests/script/solve.lag \
+	tests/script/start-consistent.lag \
+	tests/script/start-mass.lag \
 	tests/script/styles.lag \
 	tests/script/text.lag \
 	tests/script/to-file.sh \
@@ -417,6 +444,8 @@ script_tests = \
 	tests/bad/bound-coordinate.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
+	tests/bad/constraint-contradicts.lag \
+	tests/bad/constraint-no-coordinate.lag \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
@@ -443,8 +472,12 @@ script_tests = \
 	tests/bad/include-error.lag \
 	tests/bad/include-itself.lag \
 	tests/bad/include-missing.lag \
+	tests/bad/integrable-holonomic.lag \
+	tests/bad/integrable-nonlinear.lag \
+	tests/bad/integrable-unknown.lag \
 	tests/bad/interrupt.sh \
 	tests/bad/lagrangian-beside.lag \
+	tests/bad/lambda-unknown.lag \
 	tests/bad/laplacian-oblique.lag \
 	tests/bad/log-zero.lag \
 	tests/bad/lone-point.lag \
@@ -472,10 +505,12 @@ script_tests = \
 	tests/bad/pi-redefined.lag \
 	tests/bad/picture-kind.lag \
 	tests/bad/prime-of-product.lag \
+	tests/bad/reactions-none.lag \
 	tests/bad/redeclared-coordinate.lag \
 	tests/bad/redeclared-parameter.lag \
 	tests/bad/reserved.lag \
 	tests/bad/reset-in-loop.lag \
+	tests/bad/rest-negative.lag \
 	tests/bad/same-label.lag \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
@@ -486,8 +521,15 @@ script_tests = \
 	tests/bad/singular-mass.lag \
 	tests/bad/solve-beyond.lag \
 	tests/bad/solve-for-sum.lag \
+	tests/bad/start-anywhere.lag \
+	tests/bad/start-contradictory.lag \
 	tests/bad/start-domain.lag \
+	tests/bad/start-exactly-velocity.lag \
+	tests/bad/start-exactly.lag \
+	tests/bad/start-no-position.lag \
 	tests/bad/start-parameter.lag \
+	tests/bad/start-two-answers.lag \
+	tests/bad/start-velocities.lag \
 	tests/bad/string-number.lag \
 	tests/bad/to-ending.lag \
 	tests/bad/too-long.lag \
@@ -528,12 +570,14 @@ script_tests = \
 	examples/metrics.lag \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
+	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum.lag \
 	examples/polar.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
+	examples/slider-crank.lag \
 	examples/spherical-pendulum.lag \
 	examples/spherical.lag \
 	examples/stated-lagrangian.lag \
@@ -562,6 +606,8 @@ test_files = \
 	tests/bad/bound-coordinate.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
+	tests/bad/constraint-contradicts.out \
+	tests/bad/constraint-no-coordinate.out \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \
@@ -588,8 +634,12 @@ test_files = \
 	tests/bad/include-error.out \
 	tests/bad/include-itself.out \
 	tests/bad/include-missing.out \
+	tests/bad/integrable-holonomic.out \
+	tests/bad/integrable-nonlinear.out \
+	tests/bad/integrable-unknown.out \
 	tests/bad/interrupt.out \
 	tests/bad/lagrangian-beside.out \
+	tests/bad/lambda-unknown.out \
 	tests/bad/laplacian-oblique.out \
 	tests/bad/log-zero.out \
 	tests/bad/lone-point.out \
@@ -617,10 +667,12 @@ test_files = \
 	tests/bad/pi-redefined.out \
 	tests/bad/picture-kind.out \
 	tests/bad/prime-of-product.out \
+	tests/bad/reactions-none.out \
 	tests/bad/redeclared-coordinate.out \
 	tests/bad/redeclared-parameter.out \
 	tests/bad/reserved.out \
 	tests/bad/reset-in-loop.out \
+	tests/bad/rest-negative.out \
 	tests/bad/same-label.out \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
@@ -631,8 +683,15 @@ test_files = \
 	tests/bad/singular-mass.out \
 	tests/bad/solve-beyond.out \
 	tests/bad/solve-for-sum.out \
+	tests/bad/start-anywhere.out \
+	tests/bad/start-contradictory.out \
 	tests/bad/start-domain.out \
+	tests/bad/start-exactly-velocity.out \
+	tests/bad/start-exactly.out \
+	tests/bad/start-no-position.out \
 	tests/bad/start-parameter.out \
+	tests/bad/start-two-answers.out \
+	tests/bad/start-velocities.out \
 	tests/bad/string-number.out \
 	tests/bad/to-ending.out \
 	tests/bad/too-long.out \
@@ -673,12 +732,14 @@ test_files = \
 	tests/examples/metrics.out \
 	tests/examples/modes.out \
 	tests/examples/moving-constraint.out \
+	tests/examples/peaucellier.out \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \
 	tests/examples/polar.out \
 	tests/examples/rolling-wheel.out \
 	tests/examples/rotating-hoop.out \
 	tests/examples/routh.out \
+	tests/examples/slider-crank.out \
 	tests/examples/spherical-pendulum.out \
 	tests/examples/spherical.out \
 	tests/examples/stated-lagrangian.out \
@@ -738,6 +799,7 @@ test_files = \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
 	tests/script/derive.out \
+	tests/script/dof-redundant.out \
 	tests/script/equilibria.out \
 	tests/script/fall.out \
 	tests/script/flexing.out \
@@ -755,17 +817,34 @@ test_files = \
 	tests/script/identities.out \
 	tests/script/include.out \
 	tests/script/included.inc \
+	tests/script/integrable.out \
 	tests/script/json.out \
 	tests/script/loops.out \
+	tests/script/mechanism-bead.out \
+	tests/script/mechanism-four-bar.out \
+	tests/script/mechanism-gears.out \
+	tests/script/mechanism-ladder.out \
+	tests/script/mechanism-moving-support.out \
+	tests/script/mechanism-peaucellier.out \
+	tests/script/mechanism-program.out \
+	tests/script/mechanism-pulley.out \
+	tests/script/mechanism-quick-return.out \
+	tests/script/mechanism-rolling-disc.out \
+	tests/script/mechanism-rolling-sphere.out \
+	tests/script/mechanism-slider-crank.out \
+	tests/script/mechanism-top.out \
 	tests/script/names.out \
 	tests/script/normalise.sed \
 	tests/script/order.out \
 	tests/script/pendulum.out \
+	tests/script/reactions.out \
 	tests/script/refuted.out \
 	tests/script/reset.out \
 	tests/script/run.out \
 	tests/script/several.out \
 	tests/script/solve.out \
+	tests/script/start-consistent.out \
+	tests/script/start-mass.out \
 	tests/script/styles.out \
 	tests/script/text.out \
 	tests/script/to-file.out \

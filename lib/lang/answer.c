@@ -496,7 +496,7 @@ qdot_status
 qdot_answer_notice(qdot_session *session, const char *format, ...)
 {
     qdot_text line = {0};
-    char message[1024];
+    char message[4096];
     va_list ap;
 
     va_start(ap, format);

@@ -6,6 +6,7 @@
 
 #include "expr/walk.h"
 #include "lang/answer.h"
+#include "lang/constraints.h"
 #include "lang/ask.h"
 
 /* --- expressions -------------------------------------------------------------------- */
@@ -437,6 +438,7 @@ qdot_ask_dof(qdot_cursor *c)
     if (dof.cartesian)
         qdot_text_format(&text, "\nn = N*D - C = %zu*%zu - %zu = %zu", dof.particles,
                          dof.dimension, dof.independent, dof.freedom);
+    qdot_constraints_print_redundant(session->scene, &dof, &text);
     return answer_text(session, "dof", QDOT_OK, &text);
 }
 

@@ -8,6 +8,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer.h"
+#include "lang/constraints.h"
 #include "lang/ask.h"
 #include "mech/quantity.h"
 
@@ -347,7 +348,7 @@ decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison
 /* --- the statement ------------------------------------------------------------------ */
 
 typedef struct {
-    bool not, conserved, within;
+    bool not, conserved, within, integrable;
     bool turned; /* a > b is decided as b < a */
     qdot_expr left, right;
     comparison how;
@@ -417,8 +418,9 @@ read_question(qdot_cursor *c, question *q, facts *f)
     if (qdot_cursor_accept_word(c, "not"))
         q->not = true;
     if (qdot_cursor_is_word(c, "integrable") && c->at[1].kind == QDOT_TOKEN_NAME) {
-        c->error_at = c->at->start;
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: check integrable");
+        c->at++;
+        q->integrable = true;
+        return QDOT_OK;
     }
     if (is_conserved(c)) {
         c->at++;
@@ -524,7 +526,9 @@ qdot_check(qdot_cursor *c)
 
     if (status == QDOT_OK)
         status = read_question(c, &q, &f);
-    if (status == QDOT_OK) {
+    if (status == QDOT_OK && q.integrable) {
+        status = qdot_constraints_check_integrable(c, q.not);
+    } else if (status == QDOT_OK) {
         c->error_at = start->start;
         status = answer(c, &q, &f);
     }

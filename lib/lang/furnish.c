@@ -9,6 +9,7 @@
 
 #include "expr/tensor.h"
 #include "lang/answer.h"
+#include "lang/constraints.h"
 
 /* --- operands ----------------------------------------------------------------------- */
 
@@ -441,8 +442,9 @@ qdot_furnish_constraint(qdot_cursor *c)
     c->error_at = start->start;
     before = c->session->scene->constraints.n;
     QDOT_TRY(qdot_scene_constraint(c->session->scene, label, left, right));
-    return tell_dropped(c->session, label, left,
-                        c->session->scene->constraints.n - before);
+    QDOT_TRY(tell_dropped(c->session, label, left,
+                          c->session->scene->constraints.n - before));
+    return qdot_constraints_tell_disguise(c->session, before);
 }
 
 /* What acted on a removed thing went with it: say so. */

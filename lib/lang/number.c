@@ -223,8 +223,12 @@ carry_out(qdot_cursor *c, const options *o, qdot_number_order *request)
         next_name(session, name, sizeof name);
     QDOT_TRY(keep_run(session, o->name != NULL ? o->name : name, run));
     report = qdot_run_get_report(run);
-    if (report->notice != NULL)
-        QDOT_TRY(qdot_answer_notice(session, "%s", report->notice));
+    for (const char *line = report->notice; line != NULL && *line != '\0';) {
+        const char *behind = strchrnul(line, '\n');
+
+        QDOT_TRY(qdot_answer_notice(session, "%.*s", (int)(behind - line), line));
+        line = *behind == '\0' ? behind : behind + 1;
+    }
     QDOT_TRY(qdot_answer_run(session, o->name != NULL ? o->name : name, report));
     if (status != QDOT_OK)
         return qdot_fail_again(&error);

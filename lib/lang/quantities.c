@@ -7,6 +7,7 @@
 #include "mech/hamilton.h"
 #include "mech/noether.h"
 #include "mech/quantity.h"
+#include "mech/reactions.h"
 
 static qdot_status
 give(qdot_session *s, qdot_expr result, qdot_expr *value)
@@ -341,17 +342,18 @@ get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
     return status == QDOT_OK ? qdot_resolve_check(s->pool, *value) : status;
 }
 
-/* --- words of later versions -------------------------------------------------------- */
+/* --- constraints -------------------------------------------------------------------- */
 
-#define UNBUILT(word)                                                                    \
-    static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
-                                  qdot_expr *value)                                      \
-    {                                                                                    \
-        (void)s, (void)n, (void)index, (void)value;                                      \
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: " #word);                       \
-    }
-UNBUILT(reactions)
-#undef UNBUILT
+static qdot_status
+get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    if (s->scene->constraints.n > 0)
+        return give(s, qdot_mech_reaction_list(s->scene), value);
+    qdot_fail(QDOT_EINVAL, "the scene has no constraints");
+    return qdot_hint("constraint rod: x^2 + y^2 = L^2");
+}
 
 /* --- what members of a list are called ---------------------------------------------- */
 
@@ -429,7 +431,9 @@ static const qdot_quantity rows[] = {
     {"routhian", 0, 0, get_routhian, "routhian",
      "Routh's function L - sum p q', the cyclic velocities replaced by their momenta",
      "routhian", false, NULL},
-    {"reactions", 0, 0, get_reactions, "reactions", "forces of the constraints", "",
+    {"reactions", 0, 0, get_reactions, "reactions",
+     "forces of the constraints on each particle and body, by their multipliers",
+     "reactions",
      false, NULL},
     {"conserved", 0, 0, get_conserved, "conserved or conserved[2]",
      "every conserved quantity found: cyclic momenta, the energy, those of translations, "

@@ -113,6 +113,8 @@ qdot_status qdot_ask_dof(qdot_cursor *c);
 qdot_status qdot_ask_cyclic(qdot_cursor *c);
 qdot_status qdot_check(qdot_cursor *c);
 qdot_status qdot_derive_all(qdot_cursor *c);
+/* constraints.c */
+qdot_status qdot_ask_reactions(qdot_cursor *c);
 /* equilibria.c */
 qdot_status qdot_equilibria_all(qdot_cursor *c);
 qdot_status qdot_equilibria_modes(qdot_cursor *c);

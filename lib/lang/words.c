@@ -65,8 +65,11 @@ static const qdot_statement table[] = {
      qdot_workbench_reset, false},
 
     /* --- section 3 ------------------------------------------------------------------ */
-    {"check", ASK, "check [not] A == B [when C, D] [within E]",
-     "decide an identity, an inequality, or a conservation: proved, refuted or undecided",
+    {"check", ASK,
+     "check [not] A == B [when C, D] [within E] | check [not] conserved E | "
+     "check [not] integrable LABEL",
+     "decide an identity, an inequality, a conservation, or whether a velocity constraint "
+     "is holonomic in disguise: proved, refuted or undecided",
      "check sin(x)^2 + cos(x)^2 == 1", qdot_check, false},
     {"scene", ASK, "scene", "print what is declared", "scene", qdot_ask_scene, true},
     {"dof", ASK, "dof", "coordinates, independent constraints, degrees of freedom", "dof",
@@ -80,6 +83,9 @@ static const qdot_statement table[] = {
     {"modes", ASK, "modes [at EQUILIBRIUM]",
      "normal modes about an equilibrium: frequencies and amplitudes",
      "modes at equilibria[2]", qdot_equilibria_modes, true},
+    {"reactions", ASK, "reactions",
+     "the constraints' forces on each particle and body, by their multipliers",
+     "reactions", qdot_ask_reactions, true},
     {"derive", ASK, "derive", "the derivation from r(q) to the equations, step by step",
      "derive", qdot_derive_all, true},
 

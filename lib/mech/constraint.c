@@ -53,6 +53,23 @@ next_number(const qdot_scene *s)
     return (statements > highest_number ? statements : highest_number) + 1;
 }
 
+/* f and an earlier g = +-f + a number other than 0: no state keeps both. */
+static qdot_status
+refuse_contradiction(const qdot_scene *s, const char *name, qdot_expr f)
+{
+    for (size_t i = 0; i < s->constraints.n; i++) {
+        qdot_expr g = s->constraints.at[i].f, d = qdot_sub(s->pool, f, g);
+
+        if (d != QDOT_NIL && qdot_expr_kind(s->pool, d) == QDOT_SUM)
+            d = qdot_add(s->pool, f, g);
+        if (d == QDOT_NIL || d == QDOT_ZERO || qdot_expr_kind(s->pool, d) != QDOT_NUM)
+            continue;
+        return qdot_fail(QDOT_EINVAL, "constraint %s contradicts constraint %s", name,
+                         s->constraints.at[i].name);
+    }
+    return qdot_pool_check(s->pool);
+}
+
 static qdot_status
 add_component(qdot_scene *s, const char *label, const char *stem, uint32_t component,
               qdot_expr left, qdot_expr right)
@@ -83,6 +100,8 @@ add_component(qdot_scene *s, const char *label, const char *stem, uint32_t compo
             status = qdot_fail(QDOT_EINVAL, "a constraint without coordinates");
         else if (status == QDOT_OK && order > 2)
             status = qdot_fail(QDOT_EINVAL, "a constraint on a third derivative");
+        else if (status == QDOT_OK)
+            status = refuse_contradiction(s, qdot_text_str(&name), c.f);
         if (status == QDOT_OK) {
             c.kind = order == 0   ? QDOT_HOLONOMIC
                      : order == 1 ? QDOT_VELOCITY

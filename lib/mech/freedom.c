@@ -16,7 +16,9 @@
 #include "expr/walk.h"
 #include "mech/derived.h"
 
-enum { TRIALS = 12, WANTED = 3, STEPS = 200 };
+/* Constraints that seem redundant may only be so on one branch of their configurations: more
+ * points are looked at then. */
+enum { TRIALS = 12, MORE_TRIALS = 60, STEPS = 200 };
 
 /* Constraints f [c] and their slopes by z = (q, q', q''), [c * 3n], as expressions and
  * numbers. */
@@ -243,16 +245,16 @@ static qdot_status
 by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
 {
     bool *seen = qdot_calloc(p->c, sizeof *seen), found;
-    size_t most = 0, hits = 0;
+    size_t most = 0, hits = 0, full = p->c < p->n ? p->c : p->n, trials = TRIALS;
     qdot_status status = seen ? QDOT_OK : QDOT_ENOMEM;
 
-    for (uint64_t seed = 1; status == QDOT_OK && seed <= TRIALS && hits < WANTED;
-         seed++) {
+    for (uint64_t seed = 1; status == QDOT_OK && seed <= trials && most < full; seed++) {
         size_t r;
 
         status = assemble(s, p, seed, &found);
         if (status != QDOT_OK || !found)
             continue;
+        trials = MORE_TRIALS;
         r = rank(s, p, seen);
         if (hits++ == 0 || r > most) {
             most = r;
@@ -385,6 +387,7 @@ qdot_mech_dof(qdot_scene *s, qdot_dof *dof)
     }
     *dof = (qdot_dof){.coordinates = s->coordinates.n,
                       .constraints = s->constraints.n,
+                      .is_independent = s->derived->independent,
                       .cartesian = is_cartesian(s),
                       .particles = s->particles.n,
                       .dimension = qdot_scene_dimension(s)};

@@ -12,6 +12,7 @@
 #include "mech/derived.h"
 #include "mech/quantity.h"
 #include "normal/null-space.h"
+#include "normal/antiderivative.h"
 #include "normal/simplify.h"
 
 enum { MOST_COORDINATES = 16 };
@@ -234,72 +235,6 @@ combine(const search *f, const unknown *u, size_t m, const qdot_expr *v, size_t 
     return sum;
 }
 
-/* The antiderivative by x of one term: c x^n, c sin u, c cos u, c exp u, u linear in x. Nil (no
- * failure): it is none of these. */
-static qdot_expr
-integrate_term(qdot_pool *pool, qdot_expr term, qdot_expr x)
-{
-    qdot_expr rest = term, base = QDOT_NIL, exponent = QDOT_ONE, slope;
-    uint32_t n = qdot_expr_count(pool, term);
-    qdot_fun_id id;
-
-    if (!qdot_expr_contains(pool, term, x))
-        return qdot_mul(pool, term, x);
-    if (qdot_expr_kind(pool, term) != QDOT_PROD)
-        base = term;
-    for (uint32_t i = 1; base != term && i < n; i += 2) {
-        if (!qdot_expr_contains(pool, qdot_expr_arg(pool, term, i), x))
-            continue;
-        if (base != QDOT_NIL)
-            return QDOT_NIL;
-        base = qdot_expr_arg(pool, term, i);
-        exponent = qdot_expr_arg(pool, term, i + 1);
-    }
-    if (base == QDOT_NIL || qdot_expr_kind(pool, exponent) != QDOT_NUM)
-        return QDOT_NIL;
-    rest = qdot_div(pool, term, qdot_pow(pool, base, exponent));
-    if (base == x && exponent != QDOT_MINUS_ONE) {
-        exponent = qdot_add(pool, exponent, QDOT_ONE);
-        return qdot_mul(pool, rest,
-                        qdot_div(pool, qdot_pow(pool, x, exponent), exponent));
-    }
-    if (qdot_expr_kind(pool, base) != QDOT_FUN || exponent != QDOT_ONE)
-        return QDOT_NIL;
-    id = qdot_expr_node(pool, base)->op;
-    slope = qdot_diff(pool, qdot_expr_arg(pool, base, 0), x);
-    if (qdot_expr_contains(pool, slope, x))
-        return QDOT_NIL;
-    if (id == QDOT_SIN)
-        base = qdot_neg(pool, qdot_fun1(pool, QDOT_COS, qdot_expr_arg(pool, base, 0)));
-    else if (id == QDOT_COS)
-        base = qdot_fun1(pool, QDOT_SIN, qdot_expr_arg(pool, base, 0));
-    else if (id != QDOT_EXP)
-        return QDOT_NIL;
-    return qdot_mul(pool, rest, qdot_div(pool, base, slope));
-}
-
-static qdot_expr
-integrate(qdot_pool *pool, qdot_expr e, qdot_expr x)
-{
-    qdot_expr sum = QDOT_ZERO;
-    uint32_t n;
-
-    e = qdot_expand(pool, e);
-    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_SUM)
-        return e == QDOT_NIL ? e : integrate_term(pool, e, x);
-    n = qdot_expr_count(pool, e);
-    for (uint32_t i = 0; i < n && sum != QDOT_NIL;
-         i += i == 0 ? 1 : 2) { /* c0, c1, t1 ... */
-        qdot_expr term = qdot_expr_arg(pool, e, i), part;
-
-        if (i > 0)
-            term = qdot_mul(pool, term, qdot_expr_arg(pool, e, i + 1));
-        part = integrate_term(pool, term, x);
-        sum = part == QDOT_NIL ? QDOT_NIL : qdot_add(pool, sum, part);
-    }
-    return sum;
-}
-
 /* K with dK/dt = F, F linear in q': dK/dq_i = dF/dq_i', one coordinate after another, then t. False:
  * none was found. */
 static bool
@@ -312,7 +247,8 @@ gauge(const search *f, qdot_expr F, qdot_expr *K)
     for (size_t i = 0; i <= f->n && rest != QDOT_ZERO; i++) {
         qdot_expr x = i < f->n ? jet(f, i, 0) : QDOT_T, part;
 
-        part = integrate(pool, i < f->n ? qdot_diff(pool, rest, jet(f, i, 1)) : rest, x);
+        part = qdot_antiderivative(
+            pool, i < f->n ? qdot_diff(pool, rest, jet(f, i, 1)) : rest, x, &f->facts);
         if (part == QDOT_NIL)
             break;
         *K = qdot_add(pool, *K, part);

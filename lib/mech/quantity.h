@@ -58,6 +58,8 @@ QDOT_MUST_CHECK qdot_status qdot_mech_energy_conserved(qdot_scene *s, bool *cons
 typedef struct {
     size_t coordinates, constraints, independent; /* independent by symbolic rank */
     size_t freedom;                               /* coordinates - independent */
+    const bool *is_independent; /* [constraints] of those declared before; borrowed until the
+                                   scene changes */
     bool cartesian;       /* n = N D - C applies: every particle at plain coordinates */
     size_t particles, dimension;
 } qdot_dof;

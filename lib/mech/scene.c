@@ -300,6 +300,10 @@ qdot_scene_spring(qdot_scene *s, const qdot_link *spring)
 {
     qdot_scene_forget_dropped(s);
     QDOT_TRY(need_no_lagrangian(s, "a spring"));
+    if ((qdot_expr_node(s->pool, spring->rest)->sign & QDOT_NEG) == QDOT_NEG) {
+        qdot_fail(QDOT_EINVAL, "the rest length of a spring cannot be negative");
+        return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");
+    }
     return add_link(s, spring, false);
 }
 
