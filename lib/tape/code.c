@@ -63,6 +63,7 @@ qdot_code_clear(qdot_code *code)
     qdot_free(code->constants.at);
     qdot_free(code->sides.at);
     qdot_free(code->lows.at);
+    qdot_free(code->exact.at);
     qdot_keymap_clear(&code->seen);
     qdot_keymap_clear(&code->by_expr);
 }
@@ -110,6 +111,8 @@ qdot_code_constant(qdot_code *code, qdot_expr e)
         code->status = qdot_vec_push(&code->sides, (signed char)side);
     if (code->status == QDOT_OK)
         code->status = qdot_vec_push(&code->lows, low);
+    if (code->status == QDOT_OK)
+        code->status = qdot_vec_push(&code->exact, e);
     if (code->status != QDOT_OK)
         return 0;
     value = append(code, QDOT_OP_CONSTANT, (qdot_value)(code->constants.n - 1), 0, 0);

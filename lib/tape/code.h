@@ -50,6 +50,7 @@ typedef struct {
     qdot_vec(double) constants;
     qdot_vec(signed char) sides; /* where the exact constants lie, see constant.h */
     qdot_vec(double) lows;       /* what they are beyond the rounded ones */
+    qdot_vec(qdot_expr) exact;   /* the expressions that they are */
     qdot_keymap seen;          /* operation -> value */
     qdot_keymap by_expr;       /* constant expression -> value */
     unsigned char chain[QDOT_CODE_MOST_POWER + 1]; /* see power_chain() */
@@ -83,6 +84,7 @@ struct qdot_tape {
     double *constant;       /* [constants] */
     signed char *side;      /* [constants] where the exact value lies beside it */
     double *low;            /* [constants] how far; 0 once shaken */
+    qdot_expr *exact;       /* [constants] what is evaluated to any precision */
     uint32_t *output;       /* [outputs] places */
     qdot_instruction *code; /* [length] */
 };

@@ -2,6 +2,7 @@
  * left. */
 #include "tape/constant.h"
 
+#include <mpfr.h>
 #if __has_include(<arb.h>)
 #include <arb.h>
 #else
@@ -372,40 +373,121 @@ evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *low)
     return QDOT_OK;
 }
 
+/* The walk of e with a ball for each node; qdot_free and walk_end by release(). */
+static qdot_status
+prepare(evaluation *v, qdot_pool *pool, qdot_expr e)
+{
+    *v = (evaluation){.pool = pool};
+    if (e == QDOT_NIL) {
+        QDOT_TRY(qdot_pool_check(pool));
+        return qdot_fail(QDOT_EINVAL, "no expression to evaluate");
+    }
+    QDOT_TRY(qdot_walk_begin(pool, e, &v->walk));
+    v->ball = qdot_malloc(v->walk.n * sizeof *v->ball);
+    if (!v->ball) {
+        qdot_walk_end(&v->walk);
+        return QDOT_ENOMEM;
+    }
+    for (size_t i = 0; i < v->walk.n; i++)
+        arb_init(v->ball + i);
+    return QDOT_OK;
+}
+
+static void
+release(evaluation *v)
+{
+    for (size_t i = 0; i < v->walk.n; i++)
+        arb_clear(v->ball + i);
+    qdot_free(v->ball);
+    qdot_free(v->args);
+    qdot_walk_end(&v->walk);
+}
+
 qdot_status
 qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, double *low)
 {
-    evaluation v = {.pool = pool};
+    evaluation v;
     qdot_status status;
     const fmpq *rational = e == QDOT_NIL ? NULL : qdot_expr_rational(pool, e);
 
     *value = NAN;
     *side = 0;
     *low = 0;
-    if (e == QDOT_NIL) {
-        QDOT_TRY(qdot_pool_check(pool));
-        return qdot_fail(QDOT_EINVAL, "no expression to evaluate");
-    }
     if (rational && fmpz_is_one(fmpq_denref(rational))
         && fmpz_bits(fmpq_numref(rational)) <= 53) {
         *value = fmpz_get_d(fmpq_numref(rational));
         return QDOT_OK;
     }
-    QDOT_TRY(qdot_walk_begin(pool, e, &v.walk));
-    v.ball = qdot_malloc(v.walk.n * sizeof *v.ball);
-    if (!v.ball) {
-        qdot_walk_end(&v.walk);
-        return QDOT_ENOMEM;
-    }
-    for (size_t i = 0; i < v.walk.n; i++)
-        arb_init(v.ball + i);
+    QDOT_TRY(prepare(&v, pool, e));
     status = evaluate(&v, e, value, side, low);
-    for (size_t i = 0; i < v.walk.n; i++)
-        arb_clear(v.ball + i);
-    qdot_free(v.ball);
-    qdot_free(v.args);
-    qdot_walk_end(&v.walk);
+    release(&v);
     return status;
+}
+
+/* Whether the ball is known to `bits`, or is 0 to many more. */
+static bool
+is_known(const arb_t ball, slong bits)
+{
+    return arb_is_exact(ball) || arb_rel_accuracy_bits(ball) >= bits + 2
+           || (arb_contains_zero(ball) && mag_cmp_2exp_si(arb_radref(ball), -8 * bits) < 0);
+}
+
+static qdot_status
+evaluate_real(evaluation *v, qdot_expr e, mpfr_ptr x)
+{
+    const slong bits = (slong)mpfr_get_prec(x);
+    const arb_struct *y = ball_of(v, e);
+
+    for (slong b = bits + 64; b <= 64 * bits + FIRST_BITS; b *= 2) {
+        for (size_t i = 0; i < v->walk.n; i++) {
+            QDOT_TRY(qdot_interrupt_check());
+            QDOT_TRY(evaluate_node(v, i, b));
+        }
+        if (!arb_is_finite(y) || !is_known(y, bits))
+            continue;
+        if (arb_contains_zero(y))
+            mpfr_set_zero(x, 1);
+        else
+            arf_get_mpfr(x, arb_midref(y), MPFR_RNDN);
+        return mpfr_number_p(x) ? QDOT_OK
+                                : no_value(v->pool, e, "is beyond what can be held");
+    }
+    if (!arb_is_finite(y))
+        return no_value(v->pool, e, "is undefined or not real");
+    return no_value(v->pool, e, "could not be decided");
+}
+
+qdot_status
+qdot_constant_real(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
+{
+    evaluation v;
+    qdot_status status;
+
+    QDOT_TRY(prepare(&v, pool, e));
+    status = evaluate_real(&v, e, x);
+    release(&v);
+    return status;
+}
+
+qdot_expr
+qdot_constant_of_real(qdot_pool *pool, mpfr_srcptr x)
+{
+    qdot_expr e;
+    mpq_t m;
+    fmpq_t q;
+
+    if (!mpfr_number_p(x)) {
+        (void)qdot_fail(QDOT_EDOMAIN, "a number of the run is not finite");
+        return qdot_pool_fail(pool);
+    }
+    mpq_init(m);
+    fmpq_init(q);
+    mpfr_get_q(m, x);
+    fmpq_set_mpq(q, m);
+    e = qdot_expr_fmpq(pool, q);
+    mpq_clear(m);
+    fmpq_clear(q);
+    return e;
 }
 
 qdot_status

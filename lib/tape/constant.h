@@ -5,6 +5,8 @@
 #ifndef QDOT_TAPE_CONSTANT_H
 #define QDOT_TAPE_CONSTANT_H
 
+#include <mpfr.h>
+
 #include "expr/expr.h"
 
 /* Whether e holds no symbol but pi, true and false, and no undefined function. */
@@ -19,6 +21,14 @@ QDOT_MUST_CHECK qdot_status qdot_constant_round(qdot_pool *pool, qdot_expr e,
  * precision. */
 QDOT_MUST_CHECK qdot_status qdot_constant_split(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side, double *low);
+
+/* e rounded to the precision of x: right to its last bit but for a unit, found in balls of
+ * growing precision. What is 0 to eight times that precision is 0. Errors: as
+ * qdot_tape_constant. */
+QDOT_MUST_CHECK qdot_status qdot_constant_real(qdot_pool *pool, qdot_expr e, mpfr_ptr x);
+
+/* The rational number that x is, exactly; nil: not finite, or a failure of the pool. */
+qdot_expr qdot_constant_of_real(qdot_pool *pool, mpfr_srcptr x);
 
 /* Fail with QDOT_EUNSET for the symbol or application `e` that has no value. */
 qdot_status qdot_constant_unset(const qdot_pool *pool, qdot_expr e);

@@ -198,11 +198,12 @@ build(finish *f, qdot_tape *tape)
     tape->constant = qdot_malloc(tape->constants * sizeof *tape->constant);
     tape->side = qdot_malloc(tape->constants * sizeof *tape->side);
     tape->low = qdot_malloc(tape->constants * sizeof *tape->low);
+    tape->exact = qdot_malloc(tape->constants * sizeof *tape->exact);
     tape->code = qdot_malloc(computed * sizeof *tape->code);
     tape->output = qdot_malloc(f->m * sizeof *tape->output);
     p.free = qdot_malloc((computed + 1) * 4 * sizeof *p.free);
-    if (!tape->constant || !tape->side || !tape->low || !tape->code || !tape->output
-        || !p.free) {
+    if (!tape->constant || !tape->side || !tape->low || !tape->exact || !tape->code
+        || !tape->output || !p.free) {
         qdot_free(p.free);
         return QDOT_ENOMEM;
     }
@@ -216,6 +217,7 @@ build(finish *f, qdot_tape *tape)
             tape->constant[f->constant[v]] = f->code->constants.at[x->a];
             tape->side[f->constant[v]] = f->code->sides.at[x->a];
             tape->low[f->constant[v]] = f->code->lows.at[x->a];
+            tape->exact[f->constant[v]] = f->code->exact.at[x->a];
         }
     }
     p.next = (uint32_t)(tape->inputs + tape->constants);

@@ -15,6 +15,7 @@ qdot_tape_free(qdot_tape *tape)
     qdot_free(tape->constant);
     qdot_free(tape->side);
     qdot_free(tape->low);
+    qdot_free(tape->exact);
     qdot_free(tape->output);
     qdot_free(tape->code);
     qdot_free(tape);
@@ -111,9 +112,10 @@ qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken)
     t->constant = copy(tape->constant, t->constants * sizeof *t->constant);
     t->side = copy(tape->side, t->constants * sizeof *t->side);
     t->low = qdot_calloc(t->constants, sizeof *t->low);
+    t->exact = copy(tape->exact, t->constants * sizeof *t->exact);
     t->output = copy(tape->output, t->outputs * sizeof *t->output);
     t->code = copy(tape->code, t->length * sizeof *t->code);
-    if (!t->constant || !t->side || !t->low || !t->output || !t->code) {
+    if (!t->constant || !t->side || !t->low || !t->exact || !t->output || !t->code) {
         qdot_tape_free(t);
         return QDOT_ENOMEM;
     }
