@@ -17,6 +17,7 @@ base_headers = \
 num_sources = \
 	lib/num/cholesky.c \
 	lib/num/ldlt.c \
+	lib/num/real.c \
 	lib/num/row-space.c \
 	lib/num/saddle.c \
 	lib/num/series.c \
@@ -26,6 +27,7 @@ num_sources = \
 num_headers = \
 	lib/num/cholesky.h \
 	lib/num/ldlt.h \
+	lib/num/real.h \
 	lib/num/row-space.h \
 	lib/num/saddle.h \
 	lib/num/series.def \
@@ -68,6 +70,7 @@ ode_sources = \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
 	lib/ode/method.c \
+	lib/ode/precise.c \
 	lib/ode/stepper.c \
 	lib/ode/taylor.c \
 	lib/ode/trajectory.c
@@ -78,6 +81,7 @@ ode_headers = \
 	lib/ode/dop853.h \
 	lib/ode/integrate.h \
 	lib/ode/method.h \
+	lib/ode/precise.h \
 	lib/ode/stepper.h \
 	lib/ode/system.h \
 	lib/ode/taylor.h \
@@ -154,6 +158,7 @@ tape_sources = \
 	lib/tape/finish.c \
 	lib/tape/keymap.c \
 	lib/tape/lower.c \
+	lib/tape/precise.c \
 	lib/tape/tape.c \
 	lib/tape/taylor-order.c \
 	lib/tape/taylor.c
@@ -164,6 +169,7 @@ tape_headers = \
 	lib/tape/constant.h \
 	lib/tape/keymap.h \
 	lib/tape/operation.def \
+	lib/tape/precise.h \
 	lib/tape/shake.h \
 	lib/tape/tape.h \
 	lib/tape/taylor-steps.h \
@@ -220,6 +226,7 @@ sim_sources = \
 	lib/sim/bonds.c \
 	lib/sim/constraints.c \
 	lib/sim/describe.c \
+	lib/sim/digits.c \
 	lib/sim/direct.c \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
@@ -227,6 +234,9 @@ sim_sources = \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
 	lib/sim/plan.c \
+	lib/sim/precise-bind.c \
+	lib/sim/precise-value.c \
+	lib/sim/precise.c \
 	lib/sim/residual.c \
 	lib/sim/run.c \
 	lib/sim/shifted.c \
@@ -240,6 +250,7 @@ sim_headers = \
 	lib/sim/blocks.h \
 	lib/sim/bonds.h \
 	lib/sim/constraints.h \
+	lib/sim/digits.h \
 	lib/sim/direct.h \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
@@ -247,6 +258,9 @@ sim_headers = \
 	lib/sim/integrated.h \
 	lib/sim/nearest.h \
 	lib/sim/plan.h \
+	lib/sim/precise-bind.h \
+	lib/sim/precise-pair.h \
+	lib/sim/precise.h \
 	lib/sim/residual.h \
 	lib/sim/run.h \
 	lib/sim/shifted.h \
@@ -279,6 +293,7 @@ lang_sources = \
 	lib/lang/declare-function.c \
 	lib/lang/declare.c \
 	lib/lang/derive.c \
+	lib/lang/digits.c \
 	lib/lang/draw.c \
 	lib/lang/equilibria.c \
 	lib/lang/evaluate.c \
@@ -312,6 +327,7 @@ lang_headers = \
 	lib/lang/code.h \
 	lib/lang/constraints.h \
 	lib/lang/declare.h \
+	lib/lang/digits.h \
 	lib/lang/draw.h \
 	lib/lang/equilibria.h \
 	lib/lang/names.h \
@@ -361,6 +377,7 @@ unit_tests = \
 	tests/normal/test_verdicts \
 	tests/num/test_cholesky \
 	tests/num/test_ldlt \
+	tests/num/test_real \
 	tests/num/test_row-space \
 	tests/num/test_saddle \
 	tests/num/test_series \
@@ -370,6 +387,7 @@ unit_tests = \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
 	tests/ode/test_method \
+	tests/ode/test_precise \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
 	tests/show/test_csv \
@@ -378,12 +396,14 @@ unit_tests = \
 	tests/sim/test_constraints \
 	tests/sim/test_equations \
 	tests/sim/test_operations \
+	tests/sim/test_precise \
 	tests/sim/test_run \
 	tests/sim/test_start \
 	tests/sim/test_taylor \
 	tests/src/test_options \
 	tests/src/test_prompt \
 	tests/tape/test_constant \
+	tests/tape/test_precise \
 	tests/tape/test_tape \
 	tests/tape/test_taylor
 
@@ -393,6 +413,7 @@ script_tests = \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
 	tests/script/derive.lag \
+	tests/script/digits.lag \
 	tests/script/dof-redundant.lag \
 	tests/script/equilibria.lag \
 	tests/script/fall.sh \
@@ -449,6 +470,16 @@ script_tests = \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
+	tests/bad/digits-constraint.lag \
+	tests/bad/digits-domain.lag \
+	tests/bad/digits-half.lag \
+	tests/bad/digits-many.lag \
+	tests/bad/digits-method.lag \
+	tests/bad/digits-none.lag \
+	tests/bad/digits-outside.lag \
+	tests/bad/digits-switch.lag \
+	tests/bad/digits-tol.lag \
+	tests/bad/digits-unset.lag \
 	tests/bad/dimensions.lag \
 	tests/bad/division-symbolic.lag \
 	tests/bad/division.lag \
@@ -496,7 +527,6 @@ script_tests = \
 	tests/bad/newton-dot.lag \
 	tests/bad/no-coordinate.lag \
 	tests/bad/no-run.lag \
-	tests/bad/not-built-option.lag \
 	tests/bad/not-built.lag \
 	tests/bad/not-utf8.lag \
 	tests/bad/number-times.lag \
@@ -552,6 +582,7 @@ script_tests = \
 	examples/cylindrical.lag \
 	examples/damped-oscillator.lag \
 	examples/degrees-of-freedom.lag \
+	examples/digits.lag \
 	examples/double-pendulum-cartesian.lag \
 	examples/double-pendulum.lag \
 	examples/elastic-pendulum.lag \
@@ -611,6 +642,16 @@ test_files = \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \
+	tests/bad/digits-constraint.out \
+	tests/bad/digits-domain.out \
+	tests/bad/digits-half.out \
+	tests/bad/digits-many.out \
+	tests/bad/digits-method.out \
+	tests/bad/digits-none.out \
+	tests/bad/digits-outside.out \
+	tests/bad/digits-switch.out \
+	tests/bad/digits-tol.out \
+	tests/bad/digits-unset.out \
 	tests/bad/dimensions.out \
 	tests/bad/division-symbolic.out \
 	tests/bad/division.out \
@@ -658,7 +699,6 @@ test_files = \
 	tests/bad/newton-dot.out \
 	tests/bad/no-coordinate.out \
 	tests/bad/no-run.out \
-	tests/bad/not-built-option.out \
 	tests/bad/not-built.out \
 	tests/bad/not-utf8.out \
 	tests/bad/number-times.out \
@@ -799,6 +839,7 @@ test_files = \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
 	tests/script/derive.out \
+	tests/script/digits.out \
 	tests/script/dof-redundant.out \
 	tests/script/equilibria.out \
 	tests/script/fall.out \

@@ -306,6 +306,29 @@ qdot_answer_numbers(qdot_session *session, const char *name, size_t n,
     return put(session->out, &line);
 }
 
+qdot_status
+qdot_answer_numerals(qdot_session *session, const char *name, bool several,
+                     const qdot_text *values, const qdot_text *errors)
+{
+    qdot_text line = {0};
+
+    if (session->json) {
+        qdot_text_format(&line, "{\"kind\":\"number%s\",\"name\":", several ? "s" : "");
+        qdot_text_json(&line, name);
+        qdot_text_add(&line, several ? ",\"values\":[" : ",\"value\":");
+        qdot_text_add(&line, qdot_text_str(values));
+        qdot_text_add(&line, several ? "],\"errors\":[" : ",\"error\":");
+        qdot_text_add(&line, qdot_text_str(errors));
+        qdot_text_add(&line, several ? "]}\n" : "}\n");
+        return put(session->out, &line);
+    }
+    styled_name(session, name, &line);
+    qdot_text_add(&line, " = ");
+    qdot_text_add(&line, qdot_text_str(values));
+    qdot_text_char(&line, '\n');
+    return put(session->out, &line);
+}
+
 /* --- checks ------------------------------------------------------------------------- */
 
 static const char *const verdicts[] = {

@@ -38,6 +38,12 @@ QDOT_MUST_CHECK qdot_status qdot_answer_numbers(qdot_session *session, const cha
                                                 size_t n, const double *values,
                                                 const double *errors);
 
+/* {"kind":"number"}, {"kind":"numbers"} of numbers in digits: JSON values and errors with
+ * their commas; as text the values with their errors. */
+QDOT_MUST_CHECK qdot_status qdot_answer_numerals(qdot_session *session, const char *name,
+                                                 bool several, const qdot_text *values,
+                                                 const qdot_text *errors);
+
 /* {"kind":"check"}: left, right as they were compared. */
 QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr left,
                                               qdot_expr right,

@@ -8,6 +8,7 @@
 #include "lang/answer.h"
 #include "lang/constraints.h"
 #include "lang/ask.h"
+#include "lang/digits.h"
 
 /* --- expressions -------------------------------------------------------------------- */
 
@@ -30,7 +31,10 @@ answer_measured(qdot_session *session, const char *name, qdot_expr value)
     bool several = !qdot_expr_is_scalar(session->pool, value);
     uint32_t n = several ? qdot_expr_count(session->pool, value) : 1;
     qdot_status status = QDOT_OK;
+    int digits = qdot_digits_of(session, value);
 
+    if (digits > 0)
+        return qdot_digits_answer(session, name, value, digits);
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_expr member = several ? qdot_expr_arg(session->pool, value, i) : value;
         double x, error;
@@ -157,6 +161,7 @@ print_one(qdot_cursor *c, qdot_text *line)
     const char *text;
     qdot_expr value;
     double x, error;
+    int digits;
 
     if (c->at->kind == QDOT_TOKEN_STRING) {
         QDOT_TRY(qdot_read_string(c, &text));
@@ -168,16 +173,20 @@ print_one(qdot_cursor *c, qdot_text *line)
         return add_texts(session, value, line);
     if (!qdot_ask_is_measured(session, value))
         return qdot_answer_print(session, value, session->style, line);
+    digits = qdot_digits_of(session, value);
     for (uint32_t i = 0;; i++) {
         bool scalar = qdot_expr_is_scalar(session->pool, value);
+        qdot_expr member;
 
         if (!scalar && i >= qdot_expr_count(session->pool, value))
             return QDOT_OK;
-        QDOT_TRY(qdot_session_number(
-            session, scalar ? value : qdot_expr_arg(session->pool, value, i), &x,
-            &error));
+        member = scalar ? value : qdot_expr_arg(session->pool, value, i);
+        QDOT_TRY(qdot_session_number(session, member, &x, &error));
         qdot_text_add(line, i > 0 ? ", " : "");
-        qdot_answer_digits(line, x, error);
+        if (digits > 0)
+            QDOT_TRY(qdot_digits_text(session, member, digits, error, line));
+        else
+            qdot_answer_digits(line, x, error);
         if (scalar)
             return QDOT_OK;
     }

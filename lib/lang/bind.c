@@ -143,6 +143,7 @@ evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *cons
     qdot_vec(double) in = {0};
     qdot_tape *tape = NULL;
     double *out = NULL;
+    bool rounded = false; /* a number among them is a double */
     qdot_status status = qdot_vec_push(&outputs, e);
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
@@ -164,9 +165,13 @@ evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *cons
     if (status == QDOT_OK) {
         qdot_tape_eval(tape, in.at, out, out + outputs.n);
         *value = out[0];
-        *error = 2.3e-16 * fabs(out[0]);
-        for (size_t i = 0; i < n; i++)
+        *error = 0;
+        for (size_t i = 0; i < n; i++) {
             *error += fabs(out[i + 1]) * list[i]->error;
+            rounded = rounded || list[i]->digits == 0;
+        }
+        if (rounded)
+            *error += 2.3e-16 * fabs(out[0]);
     }
     qdot_tape_free(tape);
     qdot_free(out);

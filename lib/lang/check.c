@@ -10,6 +10,7 @@
 #include "lang/answer.h"
 #include "lang/constraints.h"
 #include "lang/ask.h"
+#include "lang/digits.h"
 #include "mech/quantity.h"
 
 /* Everything that may be used: the scene's facts and what stands behind `when`. */
@@ -312,16 +313,18 @@ static qdot_status
 compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
                 double tol, qdot_decision *decision)
 {
+    double difference;
     bool holds;
 
     QDOT_TRY(qdot_session_number(session, left, &decision->left, NULL));
     QDOT_TRY(qdot_session_number(session, right, &decision->right, NULL));
+    difference = decision->left - decision->right;
+    if (qdot_digits_of(session, left) > 0 || qdot_digits_of(session, right) > 0)
+        QDOT_TRY(qdot_digits_difference(session, left, right, &difference));
     if (how == EQUAL)
-        holds = fabs(decision->left - decision->right) <=
-                tol * fmax(1, fabs(decision->right));
+        holds = fabs(difference) <= tol * fmax(1, fabs(decision->right));
     else
-        holds = how == LESS ? decision->left < decision->right
-                            : decision->left <= decision->right;
+        holds = how == LESS ? difference < 0 : difference <= 0;
     decision->verdict = holds ? QDOT_PROVED : QDOT_REFUTED;
     return QDOT_OK;
 }

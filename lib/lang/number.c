@@ -1,6 +1,7 @@
 /* number.c -- run, plan, value: where floating point begins. */
 #include "lang/number.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -8,24 +9,19 @@
 #include "lang/answer.h"
 #include "lang/declare.h"
 #include "lang/statement.h"
+#include "tape/tape.h"
 
 /* --- run ---------------------------------------------------------------------------- */
 
 typedef struct {
     qdot_expr from, to;
     double tol;
+    long digits; /* 0: doubles */
     const char *method, *name;
     bool tol_given, treatment_given;
     qdot_run_treatment treatment;
     qdot_number_pairs with;
 } options;
-
-static qdot_status
-not_built(qdot_cursor *c)
-{
-    c->error_at = c->at->start;
-    return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", c->at->text);
-}
 
 /* NAME = VALUE of a parameter or of a coordinate or velocity. */
 static qdot_status
@@ -93,16 +89,27 @@ read_treatment(qdot_cursor *c, options *o)
 }
 
 static qdot_status
+read_digits(qdot_cursor *c, options *o)
+{
+    const qdot_token *start = c->at++;
+
+    QDOT_TRY(qdot_statement_once(c, "digits", o->digits != 0));
+    QDOT_TRY(qdot_read_integer(c, &o->digits));
+    c->error_at = start->start;
+    if (o->digits >= 1 && o->digits <= INT_MAX)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "%ld digits cannot be asked for", o->digits);
+    return qdot_hint("digits 30");
+}
+
+static qdot_status
 read_options(qdot_cursor *c, options *o)
 {
-    static const char *const later[] = {"digits"};
-
     while (!qdot_cursor_is_end(c)) {
-        for (size_t i = 0; i < sizeof later / sizeof *later; i++)
-            if (qdot_cursor_is_word(c, later[i]))
-                return not_built(c);
         if (qdot_cursor_accept_word(c, "tol")) {
             QDOT_TRY(read_tolerance(c, o));
+        } else if (qdot_cursor_is_word(c, "digits")) {
+            QDOT_TRY(read_digits(c, o));
         } else if (qdot_cursor_accept_word(c, "method")) {
             QDOT_TRY(qdot_statement_once(c, "method", o->method != NULL));
             if (c->at->kind != QDOT_TOKEN_NAME)
@@ -116,8 +123,14 @@ read_options(qdot_cursor *c, options *o)
         } else if (qdot_cursor_accept_word(c, "with")) {
             QDOT_TRY(read_with(c, &o->with));
         } else {
-            return qdot_cursor_expected(c, "`tol`, `method`, `with`, `constraints` or `as`");
+            return qdot_cursor_expected(
+                c, "`tol`, `digits`, `method`, `with`, `constraints` or `as`");
         }
+    }
+    if (o->tol_given && o->digits > 0) {
+        c->error_at = c->at->start;
+        qdot_fail(QDOT_EINVAL, "`digits` sets the tolerance itself: no `tol` beside it");
+        return qdot_hint("digits %ld", o->digits);
     }
     return QDOT_OK;
 }
@@ -259,6 +272,7 @@ qdot_number_run(qdot_cursor *c)
         request.request.t1 =
             qdot_session_bind(c->session, qdot_number_without_measured(c->session, o.to));
         request.request.tol = o.tol;
+        request.request.digits = (int)o.digits;
         request.request.method = o.method != NULL ? o.method : "auto";
         request.request.treatment = o.treatment;
         status = qdot_pool_check(c->session->pool);
@@ -356,10 +370,9 @@ qdot_number_flatten(qdot_session *session, qdot_expr e, qdot_number_columns *col
 
 /* A number of a run, from now on a symbol. */
 static qdot_expr
-measured_symbol(qdot_session *session, double value, double error)
+measured_symbol(qdot_session *session, qdot_measured m)
 {
     char name[40];
-    qdot_measured m = {.value = value, .error = error};
 
     snprintf(name, sizeof name, "value#%zu", session->measured.n + 1);
     m.symbol = qdot_symbol_get(session->pool, QDOT_FORMAL, name);
@@ -370,13 +383,57 @@ measured_symbol(qdot_session *session, double value, double error)
                : qdot_pool_fail(session->pool);
 }
 
+/* The columns at a time as numbers m [columns]. */
+static qdot_status
+measure(qdot_session *session, qdot_run *run, const qdot_number_columns *columns,
+        qdot_expr time, qdot_measured *m)
+{
+    const size_t n = columns->n;
+    double t, *values = qdot_calloc(2 * n, sizeof *values);
+    qdot_status status = values == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    if (status == QDOT_OK)
+        status = qdot_session_number(session, time, &t, NULL);
+    if (status == QDOT_OK)
+        status = qdot_run_values(run, n, columns->at, 1, &t, values, values + n);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        m[i] = (qdot_measured){.value = values[i], .error = values[n + i]};
+    qdot_free(values);
+    return status;
+}
+
+/* The same of a run with `digits`, whose time is exact too. */
+static qdot_status
+measure_exactly(qdot_session *session, qdot_run *run, const qdot_number_columns *columns,
+                qdot_expr time, qdot_measured *m)
+{
+    const size_t n = columns->n;
+    const int digits = qdot_run_get_report(run)->digits;
+    double *errors = qdot_calloc(n, sizeof *errors);
+    qdot_expr *exact = qdot_calloc(n, sizeof *exact);
+    qdot_status status = errors == NULL || exact == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    time = qdot_number_without_measured(session, qdot_session_bind(session, time));
+    if (status == QDOT_OK)
+        status = qdot_pool_check(session->pool);
+    if (status == QDOT_OK)
+        status = qdot_run_exact_values(run, n, columns->at, time, exact, errors);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        m[i] = (qdot_measured){.error = errors[i], .digits = digits, .exact = exact[i]};
+        status = qdot_tape_constant(session->pool, exact[i], &m[i].value);
+    }
+    qdot_free(errors);
+    qdot_free(exact);
+    return status;
+}
+
 qdot_status
 qdot_number_value(qdot_session *session, const char *run, uint32_t n,
                   const qdot_expr *args, qdot_expr *value)
 {
     qdot_number_columns columns = {0};
     qdot_vec(qdot_expr) symbols = {0};
-    double *values = NULL, time;
+    qdot_measured *measured = NULL;
     qdot_named_run *named = NULL;
     qdot_status status;
 
@@ -385,27 +442,25 @@ qdot_number_value(qdot_session *session, const char *run, uint32_t n,
         return qdot_hint("value(theta, 20)");
     }
     QDOT_TRY(qdot_number_find_run(session, run, &named));
-    QDOT_TRY(qdot_session_number(session, args[n - 1], &time, NULL));
     status = QDOT_OK;
     for (uint32_t i = 0; i + 1 < n && status == QDOT_OK; i++)
         status = qdot_number_flatten(session, args[i], &columns);
     if (status == QDOT_OK) {
-        values = qdot_calloc(2 * columns.n, sizeof *values);
-        status = values == NULL ? QDOT_ENOMEM : QDOT_OK;
+        measured = qdot_calloc(columns.n, sizeof *measured);
+        status = measured == NULL ? QDOT_ENOMEM : QDOT_OK;
     }
     if (status == QDOT_OK)
-        status = qdot_run_values(named->run, columns.n, columns.at, 1, &time, values,
-                                 values + columns.n);
+        status = (qdot_run_get_report(named->run)->digits > 0 ? measure_exactly : measure)(
+            session, named->run, &columns, args[n - 1], measured);
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++)
-        status = qdot_vec_push(
-            &symbols, measured_symbol(session, values[i], values[columns.n + i]));
+        status = qdot_vec_push(&symbols, measured_symbol(session, measured[i]));
     if (status == QDOT_OK) {
         *value = columns.n == 1
                      ? symbols.at[0]
                      : qdot_list(session->pool, (uint32_t)symbols.n, symbols.at);
         status = qdot_pool_check(session->pool);
     }
-    qdot_free(values);
+    qdot_free(measured);
     qdot_free(columns.at);
     qdot_free(symbols.at);
     return status;

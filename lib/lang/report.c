@@ -1,5 +1,6 @@
 /* report.c -- a run told: what a person needs to know, and the same as JSON. */
 #include "lang/answer.h"
+#include "lang/digits.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,12 +15,36 @@ status_word(qdot_run_status status)
     return words[status];
 }
 
+/* Component i of the state in digits, for JSON in quotes. */
+static qdot_status
+exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double value,
+             qdot_text *number)
+{
+    qdot_status status;
+
+    qdot_text_add(number, session->json ? "\"" : "");
+    status = qdot_digits_text(session, r->exact[i], r->digits,
+                              r->error * fmax(1, fabs(value)), number);
+    qdot_text_add(number, session->json ? "\"" : "");
+    return status;
+}
+
+static void
+double_number(qdot_session *session, double value, double error, qdot_text *number)
+{
+    if (session->json)
+        qdot_answer_json_double(number, value);
+    else
+        qdot_answer_digits(number, value,
+                           isfinite(error) ? fmax(error, 2e-16) * fmax(1, fabs(value))
+                                           : NAN);
+}
+
 /* The jets q_i and q_i' of coordinate i with their values at the end, then the
  * multipliers, to `each`. */
 static qdot_status
 each_state(qdot_session *session, const qdot_run_report *report, qdot_style style,
-           void (*each)(qdot_text *line, size_t k, const char *name, double value,
-                        double error),
+           void (*each)(qdot_text *line, size_t k, const char *name, const char *number),
            qdot_text *line)
 {
     for (size_t k = 0; k < 2 * report->n + report->m; k++) {
@@ -32,35 +57,41 @@ each_state(qdot_session *session, const qdot_run_report *report, qdot_style styl
         double value = multiplier   ? report->lambda[k - 2 * report->n]
                        : k % 2 == 0 ? report->q[i]
                                     : report->v[i];
-        qdot_text name = {0};
+        qdot_text name = {0}, number = {0};
+        qdot_status status = qdot_pool_check(session->pool);
 
-        QDOT_TRY(qdot_pool_check(session->pool));
-        QDOT_TRY(qdot_print(session->pool, jet, style, &name));
-        each(line, k, qdot_text_str(&name), value, report->error);
+        if (status == QDOT_OK)
+            status = qdot_print(session->pool, jet, style, &name);
+        if (status == QDOT_OK && report->exact != NULL)
+            status = exact_number(session, report, k % 2 * report->n + i, value, &number);
+        else if (status == QDOT_OK)
+            double_number(session, value, report->error, &number);
+        if (status == QDOT_OK)
+            each(line, k, qdot_text_str(&name), qdot_text_str(&number));
         qdot_text_clear(&name);
+        qdot_text_clear(&number);
+        QDOT_TRY(status);
     }
     return QDOT_OK;
 }
 
 static void
-state_json(qdot_text *line, size_t k, const char *name, double value, double error)
+state_json(qdot_text *line, size_t k, const char *name, const char *number)
 {
-    (void)error;
     if (k > 0)
         qdot_text_char(line, ',');
     qdot_text_json(line, name);
     qdot_text_char(line, ':');
-    qdot_answer_json_double(line, value);
+    qdot_text_add(line, number);
 }
 
 static void
-state_text(qdot_text *line, size_t k, const char *name, double value, double error)
+state_text(qdot_text *line, size_t k, const char *name, const char *number)
 {
     qdot_text_add(line, k % 2 == 0 ? "\n    " : ", ");
     qdot_text_add(line, name);
     qdot_text_add(line, " = ");
-    qdot_answer_digits(line, value,
-                       isfinite(error) ? fmax(error, 2e-16) * fmax(1, fabs(value)) : NAN);
+    qdot_text_add(line, number);
 }
 
 static void
@@ -160,8 +191,14 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     qdot_answer_digits(line, r->t0, 0);
     qdot_text_add(line, "..");
     qdot_answer_digits(line, r->t1, 0);
-    qdot_text_format(line, ", method %s, tol ", r->method);
-    qdot_answer_digits(line, r->tol, 0);
+    qdot_text_format(line, ", method %s, ", r->method);
+    if (r->digits > 0) {
+        qdot_text_format(line, "digits %d, tol ", r->digits);
+        qdot_answer_bound(line, r->tol);
+    } else {
+        qdot_text_add(line, "tol ");
+        qdot_answer_digits(line, r->tol, 0);
+    }
     qdot_text_format(line, ", %s", status_word(r->status));
     if (r->reason != NULL)
         qdot_text_format(line, ": %s", r->reason);

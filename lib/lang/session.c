@@ -123,6 +123,8 @@ keep(const qdot_session *old, qdot_session *fresh)
         qdot_measured m = old->measured.at[i];
 
         m.symbol = qdot_carry(old->pool, fresh->pool, m.symbol);
+        if (m.digits > 0)
+            m.exact = qdot_carry(old->pool, fresh->pool, m.exact);
         QDOT_TRY(qdot_vec_push(&fresh->measured, m));
     }
     return qdot_pool_check(fresh->pool);

@@ -21,6 +21,8 @@ typedef struct {
 typedef struct {
     qdot_expr symbol;
     double value, error; /* error NaN: unknown */
+    int digits;          /* > 0: of a run with `digits`, whose number is */
+    qdot_expr exact;     /* ... this rational */
 } qdot_measured;
 
 typedef struct {

@@ -144,7 +144,9 @@ qdot_number_without_measured(qdot_session *session, qdot_expr e)
             return e;
         if (!qdot_expr_contains(session->pool, e, from))
             continue;
-        to = qdot_number_exact(session->pool, session->measured.at[i].value);
+        to = session->measured.at[i].digits > 0
+                 ? session->measured.at[i].exact
+                 : qdot_number_exact(session->pool, session->measured.at[i].value);
         e = qdot_subs(session->pool, e, 1, &from, &to);
     }
     return e;
@@ -242,9 +244,15 @@ start_from_run(qdot_cursor *c)
     report = qdot_run_get_report(run->run);
     for (size_t i = 0; i < report->n; i++) {
         qdot_expr q = report->coordinates[i], v = qdot_symbol_jet(session->pool, q, 1);
-        qdot_expr q0 = qdot_number_exact(session->pool, report->q[i]);
-        qdot_expr v0 = qdot_number_exact(session->pool, report->v[i]);
+        qdot_expr q0, v0;
 
+        if (report->exact != NULL) {
+            q0 = report->exact[i];
+            v0 = report->exact[report->n + i];
+        } else {
+            q0 = qdot_number_exact(session->pool, report->q[i]);
+            v0 = qdot_number_exact(session->pool, report->v[i]);
+        }
         QDOT_TRY(qdot_pool_check(session->pool));
         QDOT_TRY(qdot_number_set_start(session, q, q0));
         QDOT_TRY(qdot_number_set_start(session, v, v0));

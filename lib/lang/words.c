@@ -99,7 +99,7 @@ static const qdot_statement table[] = {
      "start theta = 2, theta' = 0",
      qdot_number_start, false},
     {"run", NUMBERS,
-     "run T0..T1 [tol E] [method NAME] [with NAME = VALUE, ...] [as NAME]",
+     "run T0..T1 [tol E | digits N] [method NAME] [with NAME = VALUE, ...] [as NAME]",
      "integrate, and say how well it went", "run 0..20 tol 1e-12", qdot_number_run,
      false},
     {"plan", NUMBERS, "plan", "what the numerical side would do with this scene and why",

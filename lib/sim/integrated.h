@@ -28,6 +28,10 @@ struct qdot_run {
     bool has_companion;
     qdot_bind *shaken, *twin; /* systems of the companions; twin NULL: only one */
     qdot_trajectory companion;
+
+    struct qdot_precise_pair *precise; /* of `digits`: the run is this; tr holds its
+                                          points as doubles */
+    qdot_expr *exact;                  /* [2n] its end state */
 };
 
 #endif

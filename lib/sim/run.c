@@ -7,8 +7,10 @@
 
 #include "ode/companion.h"
 #include "sim/bonds.h"
+#include "sim/digits.h"
 #include "sim/domain.h"
 #include "sim/integrated.h"
+#include "sim/precise.h"
 #include "sim/start.h"
 #include "tape/constant.h"
 #include "tape/shake.h"
@@ -36,6 +38,8 @@ qdot_run_free(qdot_run *run)
     qdot_bind_free(run->bind);
     qdot_bind_free(run->shaken);
     qdot_bind_free(run->twin);
+    qdot_precise_pair_free(run->precise);
+    qdot_free(run->exact);
     qdot_plan_free(run->plan);
     qdot_free(run->start);
     qdot_free(run->start_low);
@@ -324,8 +328,10 @@ carry_out(qdot_run *run, qdot_scene *scene, qdot_domains *domains, double tol,
 }
 
 qdot_status
-qdot_run_new(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
+qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
+    const qdot_run_request precise = qdot_precise_request(asked);
+    const qdot_run_request *request = asked->digits ? &precise : asked;
     double clock = process_clock();
     qdot_domains domains = {0};
     bool interrupted = false;
@@ -333,7 +339,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
     qdot_status status;
 
     *out = NULL;
-    QDOT_TRY(check_tolerance(request->tol));
+    QDOT_TRY(asked->digits ? qdot_precise_check(scene, asked) : check_tolerance(asked->tol));
     run = qdot_calloc(1, sizeof *run);
     if (!run)
         return QDOT_ENOMEM;
@@ -349,13 +355,17 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
     if (status == QDOT_OK)
         status = check_start(run, &domains);
     if (status == QDOT_OK)
-        status = carry_out(run, scene, &domains, request->tol, &interrupted);
+        status = request->digits
+                     ? qdot_digits_carry_out(run, scene, request, &domains, &interrupted)
+                     : carry_out(run, scene, &domains, request->tol, &interrupted);
     qdot_domains_clear(&domains);
     if (status != QDOT_OK) {
         qdot_run_free(run);
         return status;
     }
     fill_report(run, request->tol);
+    if (request->digits)
+        qdot_digits_fill_report(run);
     run->report.cpu_total = process_clock() - clock;
     *out = run;
     return interrupted ? QDOT_EINTR : QDOT_OK;

@@ -31,6 +31,8 @@ typedef struct {
                                      max(1, |value|) */
     const char *method;           /* "auto" or a name of ode/method.h */
     qdot_run_treatment treatment; /* of a scene with constraints */
+    int digits;                   /* > 0: so many correct digits at the end (sim/precise.h);
+                                     tol is not looked at */
 } qdot_run_request;
 
 typedef enum { QDOT_RUN_DONE, QDOT_RUN_STOPPED, QDOT_RUN_FAILED } qdot_run_status;
@@ -60,6 +62,9 @@ typedef struct {
     const qdot_expr *coordinates;  /* [n] symbols */
     const double *q, *v;           /* [n] state at t1 */
     size_t operations;             /* of the tape, one evaluation of M and f */
+    int digits;                    /* as asked for; 0: a run in doubles */
+    const qdot_expr *exact;        /* [2n] q, v at t1 as the rational numbers they are, of a run
+                                      with `digits`; else NULL */
     const char *notice;            /* what a person must know of the start, a line each; NULL: nothing */
     /* Of a scene with constraints: */
     size_t m;                      /* multipliers; 0: no constraints */
@@ -89,6 +94,12 @@ const qdot_run_report *qdot_run_get_report(const qdot_run *run);
 QDOT_MUST_CHECK qdot_status qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs,
                                             size_t k, const double *times, double *values,
                                             double *errors);
+
+/* The same at one time, an exact constant, of a run with `digits`: values [m] rationals, errors [m]
+ * (may be NULL) absolute, NaN unknown. */
+QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs,
+                                                  qdot_expr time, qdot_expr *values,
+                                                  double *errors);
 
 /* The times of the accepted steps [*n], borrowed. */
 const double *qdot_run_times(const qdot_run *run, size_t *n);

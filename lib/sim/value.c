@@ -8,6 +8,7 @@
 #include "ode/companion.h"
 #include "sim/constraints.h"
 #include "sim/integrated.h"
+#include "sim/precise.h"
 #include "tape/shake.h"
 
 /* A tape of the expressions and the states they are read at. */
@@ -223,6 +224,9 @@ qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
     qdot_tape *tape;
     qdot_status status;
 
+    if (run->precise)
+        return qdot_precise_pair_sample_values(run->precise, m, exprs, k, times, values,
+                                               errors);
     QDOT_TRY(lower(run, m, exprs, &tape, &accelerations));
     status = read_values(run, tape, accelerations, exprs, k, times, values);
     if (status == QDOT_OK && errors)

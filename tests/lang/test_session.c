@@ -228,8 +228,12 @@ errors_of_measured_numbers_add_up(void **state)
 {
     talk *k = *state;
     qdot_pool *pool = k->session->pool;
-    qdot_measured a = {qdot_symbol_get(pool, QDOT_FORMAL, "#a"), 3, 1e-6};
-    qdot_measured b = {qdot_symbol_get(pool, QDOT_FORMAL, "#b"), 4, 1e-7};
+    qdot_measured a = {.symbol = qdot_symbol_get(pool, QDOT_FORMAL, "#a"),
+                       .value = 3,
+                       .error = 1e-6};
+    qdot_measured b = {.symbol = qdot_symbol_get(pool, QDOT_FORMAL, "#b"),
+                       .value = 4,
+                       .error = 1e-7};
     double x, error;
 
     assert_int_equal(qdot_vec_push(&k->session->measured, a), QDOT_OK);

@@ -1,0 +1,92 @@
+/* digits.c -- a pair of precise runs as a run. */
+#include "sim/digits.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "sim/precise.h"
+
+static qdot_status
+say_why(qdot_run *run, const char *reason)
+{
+    run->report.status = QDOT_RUN_FAILED;
+    run->reason = qdot_strdup(reason);
+    run->report.reason = run->reason;
+    return run->reason ? QDOT_OK : QDOT_ENOMEM;
+}
+
+static qdot_status
+how_it_ended(qdot_run *run, const qdot_domains *domains)
+{
+    const qdot_ode_result *result = qdot_precise_pair_result(run->precise);
+    char reason[400];
+
+    if (result->outcome == QDOT_ODE_FAILED)
+        return say_why(run, result->reason);
+    if (!domains->left)
+        return QDOT_OK;
+    snprintf(reason, sizeof reason, "%.100s left its domain %.200s at t = %.15g",
+             run->plan->names[domains->left->coordinate], domains->left->text, result->t);
+    return say_why(run, reason);
+}
+
+static qdot_status
+keep_end(qdot_run *run)
+{
+    const size_t n = 2 * run->plan->n;
+
+    run->exact = qdot_calloc(n, sizeof *run->exact);
+    if (!run->exact)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        run->exact[i] = qdot_precise_pair_end(run->precise, i);
+    return qdot_pool_check(run->plan->pool);
+}
+
+qdot_status
+qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
+                      qdot_domains *domains, bool *interrupted)
+{
+    qdot_error failure;
+    qdot_status status;
+
+    status = qdot_precise_pair_new(run->plan, request, domains, &run->precise);
+    failure = *qdot_last_error();
+    *interrupted = status == QDOT_EINTR && run->precise;
+    if (*interrupted)
+        status = QDOT_OK;
+    if (status == QDOT_OK)
+        status = how_it_ended(run, domains);
+    if (status == QDOT_OK)
+        status = qdot_precise_pair_sample(run->precise, &run->tr);
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_drifts_measure(scene, run->plan, &run->tr, &run->drifts);
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_precise_pair_drifts(run->precise, &run->drifts);
+    if (status == QDOT_OK)
+        status = keep_end(run);
+    if (status == QDOT_OK && *interrupted)
+        qdot_fail_again(&failure);
+    run->report.digits = request->digits;
+    return status;
+}
+
+void
+qdot_digits_fill_report(qdot_run *run)
+{
+    qdot_run_report *r = &run->report;
+
+    r->tol = qdot_precise_pair_tol(run->precise);
+    r->error = qdot_precise_pair_error(run->precise);
+    r->factorizations = qdot_precise_pair_factored(run->precise);
+    r->exact = run->exact;
+}
+
+qdot_status
+qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs, qdot_expr time,
+                      qdot_expr *values, double *errors)
+{
+    if (!run->precise)
+        return qdot_fail(QDOT_EINVAL, "the run was made in doubles");
+    return qdot_precise_pair_values(run->precise, m, exprs, time, values, errors);
+}

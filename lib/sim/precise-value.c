@@ -1,0 +1,285 @@
+/* precise-value.c -- any expression along a pair of precise runs, and its error. */
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "expr/print.h"
+#include "sim/precise-pair.h"
+#include "tape/constant.h"
+#include "tape/precise.h"
+
+#define RN MPFR_RNDN
+
+/* Expressions, read at the states of one of the two runs. */
+typedef struct {
+    const qdot_plan *plan;
+    qdot_precise_side *side;
+    qdot_precise *program;
+    size_t m;
+    bool accelerations; /* the program reads q'' */
+    qdot_reals numbers; /* t, y [2n] */
+} reader;
+
+static void
+reader_clear(reader *r)
+{
+    qdot_precise_free(r->program);
+    qdot_reals_clear(&r->numbers);
+}
+
+static qdot_status
+reader_init(reader *r, const qdot_plan *plan, qdot_precise_side *side,
+            const qdot_tape *tape, bool accelerations)
+{
+    *r = (reader){.plan = plan,
+                  .side = side,
+                  .m = qdot_tape_outputs(tape),
+                  .accelerations = accelerations};
+    QDOT_TRY(qdot_reals_init(&r->numbers, 1 + 2 * plan->n, side->start.bits));
+    return qdot_precise_new(plan->pool, tape, 0, side->start.bits, &r->program);
+}
+
+/* The program at the state y of t. */
+static qdot_status
+evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
+{
+    const qdot_precise_system *system = qdot_precise_bind_system(r->side->bind);
+    const size_t n = r->plan->n;
+
+    for (size_t i = 0; i < 2 * n; i++)
+        mpfr_set(qdot_precise_input(r->program, i)[0], y[i], RN);
+    mpfr_set(qdot_precise_input(r->program, 2 * n)[0], t, RN);
+    if (r->accelerations) {
+        r->side->near = SIZE_MAX;
+        QDOT_TRY(system->begin(t, y, system->user));
+    }
+    for (size_t i = 0; r->accelerations && i < n; i++)
+        mpfr_set(qdot_precise_input(r->program, 2 * n + 1 + i)[0],
+                 qdot_precise_bind_acceleration(r->side->bind, i), RN);
+    qdot_precise_order(r->program, 0);
+    return QDOT_OK;
+}
+
+/* At the time in numbers.at[0], which may be an end of the run but for its last bits. */
+static qdot_status
+read_at(reader *r)
+{
+    const qdot_precise_run *run = &r->side->run;
+    mpfr_ptr t = r->numbers.at[0];
+    mpfr_srcptr ends[2];
+    int way;
+
+    if (run->count == 0)
+        return qdot_fail(QDOT_EDOMAIN, "there is no run");
+    ends[0] = qdot_precise_point(run, 0)[0];
+    ends[1] = qdot_precise_point(run, run->count - 1)[0];
+    way = mpfr_less_p(ends[1], ends[0]) ? -1 : 1;
+    for (int i = 0; i < 2; i++) {
+        bool beyond = (i == 1 ? way : -way) * mpfr_cmp(t, ends[i]) > 0;
+
+        if (beyond && mpfr_get_d(t, RN) == mpfr_get_d(ends[i], RN))
+            mpfr_set(t, ends[i], RN);
+    }
+    QDOT_TRY(qdot_precise_state(r->side, t, r->numbers.at + 1));
+    return evaluate(r, t, (const mpfr_t *)r->numbers.at + 1);
+}
+
+/* --- both ---------------------------------------------------------------------------- */
+
+/* The same expressions along both runs. */
+typedef struct {
+    qdot_precise_pair *pair;
+    qdot_tape *tape;
+    reader run, companion;
+    const qdot_expr *exprs;
+} readers;
+
+static void
+readers_clear(readers *r)
+{
+    reader_clear(&r->run);
+    reader_clear(&r->companion);
+    qdot_tape_free(r->tape);
+}
+
+static qdot_status
+lower(const qdot_plan *p, size_t m, const qdot_expr *exprs, qdot_tape **tape,
+      bool *accelerations)
+{
+    qdot_expr *e = qdot_malloc((m + 1) * sizeof *e);
+    qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
+
+    *accelerations = false;
+    for (size_t j = 0; j < m && status == QDOT_OK; j++) {
+        e[j] = qdot_plan_substitute(p, exprs[j]);
+        status = qdot_pool_check(p->pool);
+        if (status == QDOT_OK
+            && qdot_expr_node(p->pool, e[j])->holds & QDOT_HAS_ACCELERATION)
+            *accelerations = true;
+    }
+    if (status == QDOT_OK)
+        status = qdot_tape_new(p->pool, 3 * p->n + 1, p->inputs, m, e, tape);
+    qdot_free(e);
+    return status;
+}
+
+static qdot_status
+readers_init(readers *r, qdot_precise_pair *pair, size_t m, const qdot_expr *exprs)
+{
+    bool accelerations;
+
+    *r = (readers){.pair = pair, .exprs = exprs};
+    QDOT_TRY(lower(pair->plan, m, exprs, &r->tape, &accelerations));
+    QDOT_TRY(reader_init(&r->run, pair->plan, &pair->run, r->tape, accelerations));
+    return reader_init(&r->companion, pair->plan, &pair->companion, r->tape,
+                       accelerations);
+}
+
+static qdot_status
+undefined(const readers *r, size_t j)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(r->pair->plan->pool, r->exprs[j], QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EDOMAIN, "%.200s is undefined at t = %.15g",
+                           qdot_text_str(&text),
+                           mpfr_get_d(r->run.numbers.at[0], MPFR_RNDN));
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* Values of the run, and their distances from the companion's into errors [m] (may be
+ * NULL), at the times that stand in both. */
+static qdot_status
+read_both(readers *r, double *errors)
+{
+    const qdot_precise_pair *pair = r->pair;
+    qdot_status status;
+
+    QDOT_TRY(read_at(&r->run));
+    for (size_t j = 0; j < r->run.m; j++)
+        if (!mpfr_number_p(qdot_precise_output(r->run.program, j)[0]))
+            return undefined(r, j);
+    if (!errors)
+        return QDOT_OK;
+    status = isnan(pair->log10_error) ? QDOT_EDOMAIN : read_at(&r->companion);
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return status;
+    for (size_t j = 0; j < r->run.m; j++) {
+        mpfr_srcptr x = qdot_precise_output(r->run.program, j)[0];
+        mpfr_ptr w = r->companion.numbers.at[0]; /* read already */
+        double size = fmax(0, qdot_real_log2(x));
+
+        errors[j] = NAN;
+        if (status != QDOT_OK)
+            continue;
+        mpfr_sub(w, qdot_precise_output(r->companion.program, j)[0], x, RN);
+        errors[j] = qdot_precise_power(fmax(qdot_real_log2(w) / QDOT_LOG2_10,
+                                            size / QDOT_LOG2_10 - pair->run.digits));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_precise_pair_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exprs,
+                         qdot_expr time, qdot_expr *values, double *errors)
+{
+    readers r;
+    qdot_status status = readers_init(&r, pair, m, exprs);
+
+    if (status == QDOT_OK)
+        status = qdot_precise_constant(pair->plan, time, r.run.numbers.at[0]);
+    if (status == QDOT_OK)
+        status = qdot_precise_constant(pair->plan, time, r.companion.numbers.at[0]);
+    if (status == QDOT_OK)
+        status = read_both(&r, errors);
+    for (size_t j = 0; j < m && status == QDOT_OK; j++) {
+        values[j] = qdot_constant_of_real(pair->plan->pool,
+                                          qdot_precise_output(r.run.program, j)[0]);
+        status = qdot_pool_check(pair->plan->pool);
+    }
+    readers_clear(&r);
+    return status;
+}
+
+qdot_status
+qdot_precise_pair_sample_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exprs,
+                                size_t k, const double *times, double *values,
+                                double *errors)
+{
+    readers r;
+    qdot_status status = readers_init(&r, pair, m, exprs);
+
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        status = qdot_interrupt_check();
+        mpfr_set_d(r.run.numbers.at[0], times[i], RN);
+        mpfr_set_d(r.companion.numbers.at[0], times[i], RN);
+        if (status == QDOT_OK)
+            status = read_both(&r, errors ? errors + i * m : NULL);
+        for (size_t j = 0; j < m && status == QDOT_OK; j++) {
+            double x = mpfr_get_d(qdot_precise_output(r.run.program, j)[0], RN);
+
+            values[i * m + j] = x;
+            if (errors)
+                errors[i * m + j] += 0x1p-53 * fabs(x);
+        }
+    }
+    readers_clear(&r);
+    return status;
+}
+
+/* --- drifts -------------------------------------------------------------------------- */
+
+static qdot_status
+follow(reader *r, qdot_drift *drift)
+{
+    const qdot_precise_run *run = &r->side->run;
+    qdot_reals w;
+
+    QDOT_TRY(qdot_reals_init(&w, 2, r->side->start.bits));
+    drift->drift = 0;
+    for (size_t k = 0; k < run->count; k++) {
+        const mpfr_t *point = (const mpfr_t *)qdot_precise_point(run, k);
+        qdot_status status = evaluate(r, point[0], point + 1);
+        mpfr_srcptr c = qdot_precise_output(r->program, 0)[0];
+        double change;
+
+        if (status == QDOT_OK)
+            status = qdot_interrupt_check();
+        if (status != QDOT_OK) {
+            qdot_reals_clear(&w);
+            return status;
+        }
+        if (k == 0)
+            mpfr_set(w.at[0], c, RN);
+        mpfr_sub(w.at[1], c, w.at[0], RN);
+        change =
+            exp2(qdot_real_log2(w.at[1]) - fmax(0, qdot_real_log2(w.at[0])));
+        if (!(change <= drift->drift)) /* a NaN stays */
+            drift->drift = change;
+    }
+    qdot_reals_clear(&w);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_precise_pair_drifts(qdot_precise_pair *pair, qdot_drifts *drifts)
+{
+    for (size_t i = 0; i < drifts->n; i++) {
+        reader r = {0};
+        qdot_tape *tape = NULL;
+        bool accelerations;
+        qdot_status status =
+            lower(pair->plan, 1, &drifts->at[i].quantity, &tape, &accelerations);
+
+        if (status == QDOT_OK)
+            status = reader_init(&r, pair->plan, &pair->run, tape, accelerations);
+        if (status == QDOT_OK)
+            status = follow(&r, drifts->at + i);
+        reader_clear(&r);
+        qdot_tape_free(tape);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}

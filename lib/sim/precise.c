@@ -1,0 +1,458 @@
+/* precise.c -- two runs in MPFR, and how many digits they need. */
+#include "sim/precise.h"
+
+#include <float.h>
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "sim/precise-pair.h"
+#include "tape/constant.h"
+
+#define RN MPFR_RNDN
+
+/* log10 of a distance at which two runs have nothing to do with each other. */
+static const double parted = -4;
+
+enum {
+    first_digits = 19,    /* of the pair that measures the amplification */
+    guard_digits = 3,
+    companion_digits = 3, /* that it has more */
+    companion_orders = 5,
+    guard_bits = 32,
+    most_passes = 8
+};
+
+/* Where in a run the distance is looked at too; without a pattern that a period could
+ * share. */
+static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
+                                0.7853, 0.8311, 0.8929, 0.9467};
+enum { PLACES = sizeof places / sizeof places[0] };
+
+qdot_status
+qdot_precise_check(const qdot_scene *scene, const qdot_run_request *request)
+{
+    const char *method = request->method;
+
+    if (scene->constraints.n > 0)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: `digits` with constraints");
+
+    if (request->digits < 1 || request->digits > QDOT_PRECISE_MOST_DIGITS) {
+        qdot_fail(QDOT_EINVAL, "%d digits cannot be asked for: 1 to %d can",
+                  request->digits, QDOT_PRECISE_MOST_DIGITS);
+        return qdot_hint("digits 30");
+    }
+    if (method && strcmp(method, "auto") != 0 && strcmp(method, "taylor") != 0) {
+        qdot_fail(QDOT_EINVAL,
+                  "method %.100s has no arbitrary precision: `digits` is by Taylor series",
+                  method);
+        return qdot_hint("method taylor");
+    }
+    return QDOT_OK;
+}
+
+qdot_run_request
+qdot_precise_request(const qdot_run_request *request)
+{
+    qdot_run_request r = *request;
+
+    r.method = "taylor";
+    r.tol = 1e-15; /* of the trajectory in doubles beside it */
+    return r;
+}
+
+/* --- one of the two ------------------------------------------------------------------ */
+
+static void
+side_clear(qdot_precise_side *s)
+{
+    qdot_precise_bind_free(s->bind);
+    qdot_precise_run_clear(&s->run);
+    qdot_reals_clear(&s->start);
+    qdot_free(s->y);
+    *s = (qdot_precise_side){.near = SIZE_MAX};
+}
+
+qdot_status
+qdot_precise_constant(const qdot_plan *plan, qdot_expr e, mpfr_ptr x)
+{
+    e = qdot_plan_substitute(plan, e);
+    QDOT_TRY(qdot_pool_check(plan->pool));
+    return qdot_constant_real(plan->pool, e, x);
+}
+
+/* Prepared for `digits`: all that needs the pool. */
+static qdot_status
+side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, int orders_more)
+{
+    const qdot_run_request *request = pair->request;
+    const size_t n = pair->plan->n;
+    mpfr_prec_t bits = (mpfr_prec_t)ceil(digits * QDOT_LOG2_10) + guard_bits;
+    double cost[3];
+
+    side_clear(s);
+    s->digits = digits;
+    qdot_precise_bind_cost(pair->plan, bits, cost);
+    s->order = qdot_precise_order_for(-digits * QDOT_LOG2_10, cost) + orders_more;
+    QDOT_TRY(qdot_precise_bind_new(pair->plan, s->order, bits, &s->bind));
+    QDOT_TRY(qdot_reals_init(&s->start, 2 + 2 * n, bits));
+    s->y = qdot_calloc(2 * n, sizeof *s->y);
+    if (!s->y)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_precise_constant(pair->plan, request->t0, s->start.at[0]));
+    QDOT_TRY(qdot_precise_constant(pair->plan, request->t1, s->start.at[1]));
+    for (size_t i = 0; i < n; i++) {
+        QDOT_TRY(qdot_precise_constant(pair->plan, request->q0[i], s->start.at[2 + i]));
+        QDOT_TRY(qdot_precise_constant(pair->plan, request->v0[i], s->start.at[2 + n + i]));
+    }
+    return QDOT_OK;
+}
+
+/* After a step: whether it left a domain. */
+static qdot_status
+watch(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user)
+{
+    qdot_precise_side *s = user;
+
+    (void)t;
+    for (size_t i = 0; i < s->run.n; i++)
+        s->y[i] = mpfr_get_d(y[i], RN);
+    return qdot_domains_watch(0, s->y, stop, s->domains);
+}
+
+static void
+side_run(qdot_precise_side *s)
+{
+    qdot_precise_options options = {.log2_tol = -s->digits * QDOT_LOG2_10, .order = s->order};
+
+    if (s->domains && s->domains->n > 0) {
+        s->domains->left = NULL;
+        options.accepted = watch;
+        options.user = s;
+    }
+    s->near = SIZE_MAX;
+    s->status = qdot_precise_integrate(qdot_precise_bind_system(s->bind), &options,
+                                       s->start.at[0], s->start.at[1],
+                                       (const mpfr_t *)s->start.at + 2, &s->run);
+}
+
+static void *
+side_thread(void *user)
+{
+    side_run(user);
+    mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);
+    return NULL;
+}
+
+/* What ends a run without taking back what was integrated. */
+static bool
+is_kept(qdot_status status)
+{
+    return status == QDOT_OK || status == QDOT_EFAILED || status == QDOT_EDOMAIN
+           || status == QDOT_ESINGULAR;
+}
+
+qdot_status
+qdot_precise_state(qdot_precise_side *s, mpfr_srcptr t, mpfr_t *y)
+{
+    return qdot_precise_at(&s->run, qdot_precise_bind_system(s->bind), t, &s->near, y);
+}
+
+/* The last step ended outside a domain: back to the last time inside it, to the bits that
+ * a double of t has. */
+static qdot_status
+cut_at_domain(qdot_precise_side *s)
+{
+    const size_t last = s->run.count - 1, n = s->run.n;
+    qdot_reals w;
+    mpfr_t *inside, *outside, *middle, *y;
+    qdot_status status = qdot_reals_init(&w, 3 + 2 * n, s->start.bits);
+
+    QDOT_TRY(status);
+    inside = w.at, outside = w.at + 1, middle = w.at + 2, y = w.at + 3;
+    mpfr_set(*inside, qdot_precise_point(&s->run, last - 1)[0], RN);
+    mpfr_set(*outside, qdot_precise_point(&s->run, last)[0], RN);
+    for (int k = 0; k < 64 && status == QDOT_OK; k++) {
+        mpfr_add(*middle, *inside, *outside, RN);
+        mpfr_div_2ui(*middle, *middle, 1, RN);
+        status = qdot_precise_state(s, *middle, y);
+        for (size_t i = 0; i < n; i++)
+            s->y[i] = mpfr_get_d(y[i], RN);
+        mpfr_set(qdot_domains_outside(s->domains, s->y) ? *outside : *inside, *middle, RN);
+    }
+    if (status == QDOT_OK)
+        status = qdot_precise_state(s, *inside, y);
+    if (status == QDOT_OK)
+        qdot_precise_cut(&s->run, *inside, (const mpfr_t *)y);
+    qdot_reals_clear(&w);
+    return status;
+}
+
+/* --- the distance -------------------------------------------------------------------- */
+
+/* log10 max_i |a_i - b_i| / max(1, |b_i|) */
+static double
+distance(size_t n, const mpfr_t *a, const mpfr_t *b, mpfr_ptr w)
+{
+    double most = -INFINITY;
+
+    for (size_t i = 0; i < n; i++) {
+        mpfr_sub(w, a[i], b[i], RN);
+        most = fmax(most, qdot_real_log2(w) - fmax(0, qdot_real_log2(b[i])));
+    }
+    return most / QDOT_LOG2_10;
+}
+
+static int
+ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* The companion's state at the end t of the run. Both may have ended on t1, which is not
+ * the same number in both to the last bit. */
+static qdot_status
+end_of_companion(const qdot_precise_side *a, qdot_precise_side *b, mpfr_srcptr t, mpfr_t *y)
+{
+    const mpfr_t *end = (const mpfr_t *)qdot_precise_point(&b->run, b->run.count - 1);
+
+    if (!mpfr_equal_p(t, a->start.at[1]) || !mpfr_equal_p(end[0], b->start.at[1]))
+        return qdot_precise_state(b, t, y);
+    for (size_t i = 0; i < b->run.n; i++)
+        mpfr_set(y[i], end[1 + i], RN);
+    return QDOT_OK;
+}
+
+/* log10 of the error at the end; NaN where the companion does not reach it. */
+static qdot_status
+compare(qdot_precise_pair *pair)
+{
+    qdot_precise_side *a = &pair->run, *b = &pair->companion;
+    const size_t n = pair->n;
+    mpfr_srcptr t0 = qdot_precise_point(&a->run, 0)[0];
+    const mpfr_t *end = (const mpfr_t *)qdot_precise_point(&a->run, a->run.count - 1);
+    double between[PLACES];
+    size_t known = 0;
+    qdot_reals w;
+    mpfr_t *ya, *yb;
+    qdot_status status;
+
+    pair->log10_error = NAN;
+    QDOT_TRY(qdot_reals_init(&w, 2 * n + 2, b->start.bits));
+    ya = w.at + 2, yb = ya + n;
+    status = end_of_companion(a, b, end[0], yb);
+    if (status == QDOT_OK) {
+        pair->log10_error = distance(n, end + 1, (const mpfr_t *)yb, w.at[0]);
+        for (size_t k = 0; k < PLACES && status == QDOT_OK; k++) {
+            mpfr_sub(w.at[1], end[0], t0, RN);
+            mpfr_mul_d(w.at[1], w.at[1], places[k], RN);
+            mpfr_add(w.at[1], w.at[1], t0, RN);
+            status = qdot_precise_state(a, w.at[1], ya);
+            if (status == QDOT_OK)
+                status = qdot_precise_state(b, w.at[1], yb);
+            if (status == QDOT_OK)
+                between[known++] =
+                    distance(n, (const mpfr_t *)ya, (const mpfr_t *)yb, w.at[0]);
+        }
+        qsort(between, known, sizeof *between, ascending);
+        if (known > 0)
+            pair->log10_error = fmax(pair->log10_error, between[known / 2]);
+        pair->log10_error = fmax(pair->log10_error, -a->digits);
+    }
+    qdot_reals_clear(&w);
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* --- both ---------------------------------------------------------------------------- */
+
+/* The pair with `digits`: run, and compared. QDOT_OK whenever there is a run. */
+static qdot_status
+carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
+{
+    qdot_precise_side *a = &pair->run, *b = &pair->companion;
+    pthread_t thread;
+    bool running;
+
+    pair->log10_error = NAN;
+    QDOT_TRY(side_init(a, pair, digits, 0));
+    QDOT_TRY(side_init(b, pair, digits + companion_digits, companion_orders));
+    a->domains = domains;
+    running = pthread_create(&thread, NULL, side_thread, b) == 0;
+    side_run(a);
+    if (running)
+        pthread_join(thread, NULL);
+    else
+        side_run(b);
+    if (!is_kept(a->status))
+        return a->status;
+    if (domains->left)
+        QDOT_TRY(cut_at_domain(a));
+    if (b->run.count > 0)
+        QDOT_TRY(compare(pair));
+    return b->status == QDOT_EINTR || b->status == QDOT_ENOMEM ? b->status : QDOT_OK;
+}
+
+/* How many digits the pair has to carry next; 0: it is good. */
+static double
+digits_wanted(const qdot_precise_pair *pair)
+{
+    const double wanted = -pair->digits - log10(2);
+    double digits = pair->run.digits, more;
+
+    if (isnan(pair->log10_error)) /* it failed before its end: nothing to go by */
+        return digits >= pair->digits + 2 * guard_digits
+                   ? 0
+                   : pair->digits + 2 * guard_digits;
+    if (pair->log10_error <= wanted)
+        return 0;
+    if (pair->log10_error > parted) /* not even the amplification is known */
+        return fmax(2 * digits, pair->digits + guard_digits);
+    more = pair->digits + guard_digits + (pair->log10_error + digits);
+    return fmax(more, digits + guard_digits);
+}
+
+static qdot_status
+settle(qdot_precise_pair *pair, qdot_domains *domains)
+{
+    double digits = first_digits;
+
+    for (int passes = 0; digits > 0;) {
+        if (passes == most_passes)
+            return qdot_fail(QDOT_EFAILED,
+                             "%d digits were not reached: carrying %.0f left an error of "
+                             "10^%.1f",
+                             pair->digits, pair->run.digits, pair->log10_error);
+        QDOT_TRY(carry_out(pair, digits, domains));
+        if (!(pair->log10_error > parted)) /* while they part, digits double: no pass */
+            passes++;
+        digits = digits_wanted(pair);
+        if (digits > 4 * QDOT_PRECISE_MOST_DIGITS)
+            return qdot_fail(QDOT_ELIMIT,
+                             "the scene amplifies errors beyond what %d digits hold",
+                             4 * QDOT_PRECISE_MOST_DIGITS);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_precise_pair_new(const qdot_plan *plan, const qdot_run_request *request,
+                      qdot_domains *domains, qdot_precise_pair **out)
+{
+    qdot_precise_pair *pair = qdot_calloc(1, sizeof *pair);
+    qdot_status status;
+
+    *out = NULL;
+    if (!pair)
+        return QDOT_ENOMEM;
+    pair->plan = plan;
+    pair->n = 2 * plan->n;
+    pair->digits = request->digits;
+    pair->request = request;
+    status = settle(pair, domains);
+    pair->request = NULL;
+    if (status == QDOT_EINTR && pair->run.run.count > 0)
+        pair->log10_error = NAN; /* it may not have had its digits yet */
+    else if (status != QDOT_OK) {
+        qdot_precise_pair_free(pair);
+        return status;
+    }
+    *out = pair;
+    return status;
+}
+
+void
+qdot_precise_pair_free(qdot_precise_pair *pair)
+{
+    if (!pair)
+        return;
+    side_clear(&pair->run);
+    side_clear(&pair->companion);
+    qdot_free(pair);
+}
+
+/* --- what was done ------------------------------------------------------------------- */
+
+const qdot_ode_result *
+qdot_precise_pair_result(const qdot_precise_pair *pair)
+{
+    return &pair->run.run.result;
+}
+
+double
+qdot_precise_power(double x)
+{
+    return isnan(x) ? NAN : fmax(exp10(x), DBL_MIN);
+}
+
+double
+qdot_precise_pair_error(const qdot_precise_pair *pair)
+{
+    return qdot_precise_power(pair->log10_error);
+}
+
+double
+qdot_precise_pair_tol(const qdot_precise_pair *pair)
+{
+    return qdot_precise_power(-pair->run.digits);
+}
+
+size_t
+qdot_precise_pair_factored(const qdot_precise_pair *pair)
+{
+    return qdot_precise_bind_factored(pair->run.bind);
+}
+
+qdot_expr
+qdot_precise_pair_end(const qdot_precise_pair *pair, size_t i)
+{
+    const qdot_precise_run *run = &pair->run.run;
+
+    return qdot_constant_of_real(pair->plan->pool,
+                                 qdot_precise_point(run, run->count - 1)[1 + i]);
+}
+
+/* A point of the trajectory in doubles, unless it is not beyond the last one. */
+static qdot_status
+push(qdot_trajectory *tr, double t, double t_end, const double *y)
+{
+    if (tr->count > 0 && !((t_end - t) * (t - tr->t[tr->count - 1]) >= 0
+                           && t != tr->t[tr->count - 1]))
+        return QDOT_OK;
+    QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, tr->count + 1, sizeof *tr->t));
+    QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, (tr->count + 1) * tr->n, sizeof *tr->y));
+    tr->t[tr->count] = t;
+    memcpy(tr->y + tr->count * tr->n, y, tr->n * sizeof *y);
+    tr->count++;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_precise_pair_sample(const qdot_precise_pair *pair, qdot_trajectory *tr)
+{
+    const qdot_precise_side *s = &pair->run;
+    const qdot_precise_run *run = &s->run;
+    const double t_end = mpfr_get_d(qdot_precise_point(run, run->count - 1)[0], RN);
+
+    qdot_trajectory_clear(tr);
+    tr->n = pair->n;
+    tr->method = pair->plan->method;
+    tr->tol = 1e-15;
+    tr->result = run->result;
+    for (size_t k = 0; k < run->count; k++) {
+        const mpfr_t *point = (const mpfr_t *)qdot_precise_point(run, k);
+
+        for (size_t i = 0; k > 0 && i < QDOT_PRECISE_INSIDE; i++) {
+            const double *row = qdot_precise_inside(run, k - 1) + i * (pair->n + 1);
+
+            QDOT_TRY(push(tr, row[0], t_end, row + 1));
+        }
+        for (size_t i = 0; i < pair->n; i++)
+            s->y[i] = mpfr_get_d(point[1 + i], RN);
+        QDOT_TRY(push(tr, mpfr_get_d(point[0], RN), t_end, s->y));
+    }
+    return QDOT_OK;
+}
