@@ -42,7 +42,9 @@ expr_sources = \
 	lib/expr/function.c \
 	lib/expr/order.c \
 	lib/expr/pool.c \
+	lib/expr/print-function.c \
 	lib/expr/print-name.c \
+	lib/expr/print-product.c \
 	lib/expr/print.c \
 	lib/expr/printed.c \
 	lib/expr/product.c \
@@ -60,6 +62,7 @@ expr_headers = \
 	lib/expr/function.def \
 	lib/expr/pool.h \
 	lib/expr/print-name.h \
+	lib/expr/print-parts.h \
 	lib/expr/print.h \
 	lib/expr/printed.h \
 	lib/expr/tensor.h \
@@ -316,6 +319,7 @@ lang_sources = \
 	lib/lang/source.c \
 	lib/lang/start.c \
 	lib/lang/statement.c \
+	lib/lang/styled.c \
 	lib/lang/words.c \
 	lib/lang/workbench.c
 

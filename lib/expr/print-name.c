@@ -75,6 +75,8 @@ small(const char *const *glyphs, const char *digits, size_t n, qdot_text *out)
         qdot_text_add(out, glyphs[digits[i] - '0']);
 }
 
+static void index_of(const char *name, qdot_style style, qdot_text *out);
+
 static void
 name_unicode(const char *name, uint32_t order, qdot_text *out)
 {
@@ -90,9 +92,13 @@ name_unicode(const char *name, uint32_t order, qdot_text *out)
     small(subscript, name + p.digits_at, p.digits, out);
     if (p.index > 0 && p.digits == 0 && all_digits(name + p.index_at, p.index)) {
         small(subscript, name + p.index_at, p.index, out);
+    } else if (p.index > 0 && strcspn(name + p.index_at, "],") == p.index &&
+               !is_digit(name[p.index_at])) { /* of a coordinate or a label: Q_θ */
+        qdot_text_char(out, '_');
+        index_of(name, QDOT_UNICODE, out);
     } else if (p.index > 0) {
         qdot_text_char(out, '[');
-        qdot_text_add_n(out, name + p.index_at, p.index);
+        index_of(name, QDOT_UNICODE, out);
         qdot_text_char(out, ']');
     }
     if (!one || order > 2)
@@ -127,23 +133,113 @@ name_latex(const char *name, uint32_t order, qdot_text *out)
         qdot_text_add_n(out, name + p.digits_at, p.digits);
         if (p.digits > 0 && p.index > 0)
             qdot_text_char(out, ',');
-        qdot_text_add_n(out, name + p.index_at, p.index);
+        if (p.index > 0)
+            index_of(name, QDOT_LATEX, out);
         qdot_text_char(out, '}');
     }
     if (order > 4)
         qdot_text_format(out, "^{(%u)}", order);
 }
 
+/* θ̈₁ as <msub><mover><mi>θ</mi><mo>¨</mo></mover><mn>1</mn></msub>. */
+static void
+name_mathml(const char *name, uint32_t order, qdot_text *out)
+{
+    struct parts p = split(name);
+    bool below = p.digits + p.index > 0;
+
+    if (below)
+        qdot_text_add(out, "<msub>");
+    if (order > 0)
+        qdot_text_add(out, order < 4 ? "<mover>" : "<msup>");
+    qdot_text_add(out, "<mi>");
+    if (p.letter != NULL)
+        qdot_text_add(out, p.letter);
+    else
+        qdot_text_add_n(out, name, p.letters);
+    qdot_text_add(out, "</mi>");
+    if (order > 0 && order < 4)
+        qdot_text_format(out, "<mo>%s</mo></mover>",
+                         order == 1   ? "˙"
+                         : order == 2 ? "¨"
+                                      : "⃛");
+    else if (order > 0)
+        qdot_text_format(out, "<mrow><mo>(</mo><mn>%u</mn><mo>)</mo></mrow></msup>",
+                         order);
+    if (!below)
+        return;
+    qdot_text_add(out, "<mrow>");
+    if (p.digits > 0) {
+        qdot_text_add(out, "<mn>");
+        qdot_text_add_n(out, name + p.digits_at, p.digits);
+        qdot_text_add(out, p.index > 0 ? "</mn><mo>,</mo>" : "</mn>");
+    }
+    if (p.index > 0)
+        index_of(name, QDOT_MATHML, out);
+    qdot_text_add(out, "</mrow></msub>");
+}
+
 void
 qdot_print_name(const char *name, qdot_style style, qdot_text *out)
 {
-    if (style == QDOT_PLAIN)
-        qdot_text_add(out, name);
-    else if (style == QDOT_UNICODE)
-        name_unicode(name, 0, out);
-    else
-        name_latex(name, 0, out);
+    switch (style) {
+    case QDOT_PLAIN: qdot_text_add(out, name); break;
+    case QDOT_UNICODE: name_unicode(name, 0, out); break;
+    case QDOT_LATEX: name_latex(name, 0, out); break;
+    case QDOT_MATHML: name_mathml(name, 0, out); break;
+    }
 }
+
+/* What stands in the brackets of a name, part by part. */
+static void
+index_of(const char *name, qdot_style style, qdot_text *out)
+{
+    struct parts p = split(name);
+
+    for (size_t i = p.index_at, end = p.index_at + p.index; i < end;) {
+        size_t n = strcspn(name + i, ",");
+        char *part;
+
+        if (i + n > end)
+            n = end - i;
+        part = qdot_strndup(name + i + (name[i] == ' '), n - (name[i] == ' '));
+        if (part == NULL) {
+            out->failed = true;
+            return;
+        }
+        if (i > p.index_at)
+            qdot_text_add(out, style == QDOT_MATHML ? "<mo>,</mo>" : ",");
+        if (all_digits(part, strlen(part)))
+            qdot_text_format(out, style == QDOT_MATHML ? "<mn>%s</mn>" : "%s", part);
+        else
+            qdot_print_name(part, style, out);
+        qdot_free(part);
+        i += n + 1;
+    }
+}
+
+static void
+escape(const char *text, qdot_text *out)
+{
+    qdot_text_add(out, "<mtext>");
+    for (; *text != '\0'; text++)
+        if (*text == '&' || *text == '<')
+            qdot_text_add(out, *text == '&' ? "&amp;" : "&lt;");
+        else
+            qdot_text_char(out, *text);
+    qdot_text_add(out, "</mtext>");
+}
+
+/* What stands before and behind the name of the coordinate in a symbol about it. */
+static const struct {
+    const char *before[4], *behind[4]; /* by style */
+} about[] = {
+    [QDOT_MOMENTUM] = {{"p[", "p_", "p_{", "<msub><mi>p</mi>"},
+                       {"]", "", "}", "</msub>"}},
+    [QDOT_DIFFERENTIAL] = {{"d", "d", "d", "<mrow><mi>d</mi>"}, {"", "", "", "</mrow>"}},
+    [QDOT_DELTA] = {{"delta[", "δ", "\\delta ", "<mrow><mi>δ</mi>"},
+                    {"]", "", "", "</mrow>"}},
+};
 
 void
 qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
@@ -151,23 +247,26 @@ qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_tex
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
     const char *name =
         s->base != QDOT_NIL ? qdot_expr_symbol(pool, s->base)->name : s->name;
+    bool of_coordinate = s->class == QDOT_MOMENTUM || s->class == QDOT_DIFFERENTIAL ||
+                         s->class == QDOT_DELTA;
 
+    if (s->class == QDOT_WORDS && style == QDOT_MATHML) {
+        escape(s->name, out);
+        return;
+    }
     if (style == QDOT_PLAIN || s->class == QDOT_WORDS) {
         qdot_text_add(out, s->name);
         return;
     }
-    switch (s->class) {
-    case QDOT_MOMENTUM: qdot_text_add(out, style == QDOT_LATEX ? "p_{" : "p_"); break;
-    case QDOT_DIFFERENTIAL: qdot_text_add(out, style == QDOT_LATEX ? "d" : "d"); break;
-    case QDOT_DELTA: qdot_text_add(out, style == QDOT_LATEX ? "\\delta " : "δ"); break;
-    default: break;
+    if (of_coordinate)
+        qdot_text_add(out, about[s->class].before[style]);
+    switch (style) {
+    case QDOT_UNICODE: name_unicode(name, s->order, out); break;
+    case QDOT_LATEX: name_latex(name, s->order, out); break;
+    default: name_mathml(name, s->order, out); break;
     }
-    if (style == QDOT_UNICODE)
-        name_unicode(name, s->order, out);
-    else
-        name_latex(name, s->order, out);
-    if (s->class == QDOT_MOMENTUM && style == QDOT_LATEX)
-        qdot_text_char(out, '}');
+    if (of_coordinate)
+        qdot_text_add(out, about[s->class].behind[style]);
 }
 
 const char *
@@ -246,6 +345,29 @@ integer(const fmpz_t n, qdot_text *out)
         qdot_free(digits);
 }
 
+/* <mn>3</mn>, <mfrac>...</mfrac>, its sign before it. */
+static void
+number_mathml(const fmpq_t x, int bracket, qdot_text *out)
+{
+    bool whole = fmpz_is_one(fmpq_denref(x)), minus = fmpq_sgn(x) < 0;
+    bool wrap = (bracket > 0 && minus) || (bracket == 2 && !whole);
+    fmpz_t top;
+
+    qdot_text_add(out, wrap ? "<mrow><mo>(</mo>" : minus ? "<mrow>" : "");
+    qdot_text_add(out, minus ? "<mo>−</mo>" : "");
+    qdot_text_add(out, whole ? "<mn>" : "<mfrac><mn>");
+    fmpz_init(top);
+    fmpz_abs(top, fmpq_numref(x));
+    integer(top, out);
+    fmpz_clear(top);
+    if (!whole) {
+        qdot_text_add(out, "</mn><mn>");
+        integer(fmpq_denref(x), out);
+    }
+    qdot_text_add(out, whole ? "</mn>" : "</mn></mfrac>");
+    qdot_text_add(out, wrap ? "<mo>)</mo></mrow>" : minus ? "</mrow>" : "");
+}
+
 void
 qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
                   qdot_text *out)
@@ -260,6 +382,10 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
         integer(fmpq_numref(x), &digits);
         small(superscript, qdot_text_str(&digits), digits.n, out);
         qdot_text_clear(&digits);
+        return;
+    }
+    if (style == QDOT_MATHML) {
+        number_mathml(x, bracket, out);
         return;
     }
     if (wrap)

@@ -3,6 +3,7 @@
  *   plain    parses back to the same expression: 1/2*m*r'^2, diff(x(s, t), s), delta[theta]
  *   unicode  for a terminal: ½ m ṙ², ∂x/∂s, δθ
  *   latex    \frac{1}{2} m \dot{r}^{2}
+ *   mathml   presentation MathML, what stands inside <math>: <msup><mi>r</mi><mn>2</mn></msup>
  */
 #ifndef QDOT_EXPR_PRINT_H
 #define QDOT_EXPR_PRINT_H
@@ -10,11 +11,16 @@
 #include "base/text.h"
 #include "expr/expr.h"
 
-typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX } qdot_style;
+typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX, QDOT_MATHML } qdot_style;
 
 /* Append e. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style,
                                        qdot_text *out);
+
+/* The same as a formula within a text: MathML with its <math> round it. */
+QDOT_MUST_CHECK qdot_status qdot_print_formula(const qdot_pool *pool, qdot_expr e,
+                                               qdot_style style, qdot_text *out);
+#define QDOT_PRINT_MATH "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
 
 /* A name alone (a label, a family member) in that style: theta1 is θ₁. */
 void qdot_print_name(const char *name, qdot_style style, qdot_text *out);

@@ -132,16 +132,25 @@ qdot_expr
 qdot_expr_turnable(const qdot_pool *pool, qdot_expr e)
 {
     uint32_t n = NODE(pool, e)->n;
+    qdot_expr power = QDOT_NIL; /* one to an odd power, where there is no other */
 
     for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i];
+        const fmpq *x = qdot_expr_rational(pool, ARGS(pool, e)[i + 1]);
 
-        if (ARGS(pool, e)[i + 1] == QDOT_ONE && NODE(pool, b)->kind == QDOT_SUM)
-            for (uint32_t k = 0; k < NODE(pool, b)->n; k += 2)
-                if (fmpq_sgn(RATIONAL(pool, ARGS(pool, b)[k])) < 0)
-                    return b;
+        if (NODE(pool, b)->kind != QDOT_SUM || x == NULL || !fmpz_is_one(fmpq_denref(x)) ||
+            fmpz_is_even(fmpq_numref(x)))
+            continue;
+        for (uint32_t k = 0; k < NODE(pool, b)->n; k += 2) {
+            if (fmpq_sgn(RATIONAL(pool, ARGS(pool, b)[k])) >= 0)
+                continue;
+            if (fmpq_is_one(x))
+                return b;
+            if (power == QDOT_NIL)
+                power = b;
+        }
     }
-    return QDOT_NIL;
+    return power;
 }
 
 qdot_expr

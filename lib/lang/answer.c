@@ -108,34 +108,6 @@ qdot_answer_print(qdot_session *session, qdot_expr e, qdot_style style, qdot_tex
     return qdot_hint("size(...) tells it; what it is used in goes on");
 }
 
-/* A name in the style of the session, where it is one: eom[theta] but not diff(T,
- * theta'). */
-static void
-styled_name(qdot_session *session, const char *name, qdot_text *out)
-{
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                  "0123456789_[],";
-    const char *bracket = strchr(name, '[');
-    size_t n = strlen(name);
-    char *inner;
-
-    if (session->style == QDOT_PLAIN || strspn(name, letters) != n) {
-        qdot_text_add(out, name);
-    } else if (bracket == NULL || name[n - 1] != ']' ||
-               (bracket[1] >= '0' && bracket[1] <= '9')) {
-        qdot_print_name(name, session->style, out);
-    } else { /* a value of the language by the name of a coordinate */
-        inner = qdot_strndup(bracket + 1, n - (size_t)(bracket - name) - 2);
-        qdot_text_add_n(out, name, (size_t)(bracket + 1 - name));
-        if (inner != NULL)
-            qdot_print_name(inner, session->style, out);
-        else
-            out->failed = true;
-        qdot_text_char(out, ']');
-        qdot_free(inner);
-    }
-}
-
 static bool
 is_equation(const qdot_pool *pool, qdot_expr e)
 {
@@ -158,22 +130,23 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
     qdot_text line = {0}, plain = {0}, shown = {0};
     qdot_status status = qdot_answer_print(session, value, session->style, &shown);
     bool bare = name == NULL || strlen(name) > 200;
+    bool relation =
+        is_equation(session->pool, value) || holds_relations(session->pool, value);
 
     if (status == QDOT_OK && !bare)
         status = qdot_answer_print(session, value, QDOT_PLAIN, &plain);
-    if (!bare && is_equation(session->pool, value))
+    if (!bare && relation)
         bare = strpbrk(name, "=<>") != NULL;
-    if (!bare && holds_relations(session->pool, value))
-        bare = strpbrk(name, "=<>") != NULL;
-    if (!bare && strcmp(name, qdot_text_str(&plain)) != 0) {
-        styled_name(session, name, &line);
-        qdot_text_add(&line, is_equation(session->pool, value) ||
-                                     holds_relations(session->pool, value) ||
-                                     value == QDOT_TRUE || value == QDOT_FALSE
-                                 ? ": "
-                                 : " = ");
+    qdot_answer_math(session, true, &line);
+    if (status == QDOT_OK && !bare && strcmp(name, qdot_text_str(&plain)) != 0) {
+        status = qdot_answer_name(session, name, &line);
+        if (!relation && value != QDOT_TRUE && value != QDOT_FALSE)
+            qdot_text_add(&line, qdot_answer_equals(session));
+        else
+            qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>:</mo>" : ": ");
     }
     qdot_text_add(&line, qdot_text_str(&shown));
+    qdot_answer_math(session, false, &line);
     qdot_text_char(&line, '\n');
     if (shown.failed || plain.failed)
         line.failed = true;
@@ -230,10 +203,54 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
 
     if (session->json)
         return expr_json(session, name, value);
+    qdot_answer_math(session, true, &line);
     status = qdot_print(session->pool, symbol, session->style, &line);
-    qdot_text_add(&line, " = ");
+    qdot_text_add(&line, qdot_answer_equals(session));
     if (status == QDOT_OK)
         status = qdot_answer_print(session, value, session->style, &line);
+    qdot_answer_math(session, false, &line);
+    qdot_text_char(&line, '\n');
+    if (status == QDOT_OK)
+        status = put(session->out, &line);
+    qdot_text_clear(&line);
+    return status;
+}
+
+/* 1.25 ± 3e-13, marked up where the style is. */
+static void
+measured(const qdot_session *session, double value, double error, qdot_text *line)
+{
+    bool tags = session->style == QDOT_MATHML;
+
+    qdot_text_add(line, tags ? "<mn>" : "");
+    qdot_answer_digits(line, value, error);
+    qdot_text_add(line, tags ? "</mn>" : "");
+    if (isnan(error)) {
+        qdot_text_add(line,
+                      tags ? "<mtext> (error unknown)</mtext>" : " (error unknown)");
+    } else if (error > 0) {
+        qdot_text_add(line, tags ? "<mo>±</mo><mn>" : " ± ");
+        qdot_answer_bound(line, error);
+        qdot_text_add(line, tags ? "</mn>" : "");
+    }
+}
+
+static qdot_status
+numbers_text(qdot_session *session, const char *name, size_t n, const double *values,
+             const double *errors)
+{
+    qdot_text line = {0};
+    qdot_status status;
+
+    qdot_answer_math(session, true, &line);
+    status = qdot_answer_name(session, name, &line);
+    qdot_text_add(&line, qdot_answer_equals(session));
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0)
+            qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>,</mo>" : ", ");
+        measured(session, values[i], errors[i], &line);
+    }
+    qdot_answer_math(session, false, &line);
     qdot_text_char(&line, '\n');
     if (status == QDOT_OK)
         status = put(session->out, &line);
@@ -256,17 +273,7 @@ qdot_answer_number(qdot_session *session, const char *name, double value, double
         qdot_text_add(&line, "}\n");
         return put(session->out, &line);
     }
-    styled_name(session, name, &line);
-    qdot_text_add(&line, " = ");
-    qdot_answer_digits(&line, value, error);
-    if (isnan(error)) {
-        qdot_text_add(&line, " (error unknown)");
-    } else if (error > 0) {
-        qdot_text_add(&line, " ± ");
-        qdot_answer_bound(&line, error);
-    }
-    qdot_text_char(&line, '\n');
-    return put(session->out, &line);
+    return numbers_text(session, name, 1, &value, &error);
 }
 
 qdot_status
@@ -289,21 +296,7 @@ qdot_answer_numbers(qdot_session *session, const char *name, size_t n,
         qdot_text_add(&line, "]}\n");
         return put(session->out, &line);
     }
-    styled_name(session, name, &line);
-    qdot_text_add(&line, " = ");
-    for (size_t i = 0; i < n; i++) {
-        if (i > 0)
-            qdot_text_add(&line, ", ");
-        qdot_answer_digits(&line, values[i], errors[i]);
-        if (isnan(errors[i])) {
-            qdot_text_add(&line, " (error unknown)");
-        } else if (errors[i] > 0) {
-            qdot_text_add(&line, " ± ");
-            qdot_answer_bound(&line, errors[i]);
-        }
-    }
-    qdot_text_char(&line, '\n');
-    return put(session->out, &line);
+    return numbers_text(session, name, n, values, errors);
 }
 
 qdot_status
@@ -347,8 +340,8 @@ check_text(qdot_session *session, const qdot_decision *decision)
 
         for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
             qdot_text_add(&line, i == 0 ? " at " : ", ");
-            status = qdot_print(pool, qdot_expr_arg(pool, decision->at, i),
-                                session->style, &line);
+            status =
+                qdot_answer_formula(session, qdot_expr_arg(pool, decision->at, i), &line);
         }
         if (isfinite(decision->left) && isfinite(decision->right)) {
             qdot_text_add(&line, ": left = ");

@@ -20,6 +20,17 @@
 QDOT_MUST_CHECK qdot_status qdot_answer_print(qdot_session *session, qdot_expr e,
                                               qdot_style style, qdot_text *out);
 
+/* Append what an answer is called, in the style of the session: eom[θ₁], \mathrm{eom}_{\theta}. */
+QDOT_MUST_CHECK qdot_status qdot_answer_name(qdot_session *session, const char *name,
+                                             qdot_text *out);
+/* Append e in the style of the session, as a formula that stands in a text: MathML within its
+ * <math>. */
+QDOT_MUST_CHECK qdot_status qdot_answer_formula(qdot_session *session, qdot_expr e,
+                                                qdot_text *out);
+/* The same by parts: what begins and ends a formula, and the sign = between two. */
+void qdot_answer_math(const qdot_session *session, bool open, qdot_text *out);
+const char *qdot_answer_equals(const qdot_session *session);
+
 /* {"kind":"expr"}: `name = value`, `name: left = right` for an equation; just the
  * value where the name says the same or is NULL. */
 QDOT_MUST_CHECK qdot_status qdot_answer_expr(qdot_session *session, const char *name,

@@ -172,7 +172,7 @@ print_one(qdot_cursor *c, qdot_text *line)
     if (is_texts(session->pool, value))
         return add_texts(session, value, line);
     if (!qdot_ask_is_measured(session, value))
-        return qdot_answer_print(session, value, session->style, line);
+        return qdot_answer_formula(session, value, line);
     digits = qdot_digits_of(session, value);
     for (uint32_t i = 0;; i++) {
         bool scalar = qdot_expr_is_scalar(session->pool, value);
@@ -421,7 +421,7 @@ qdot_ask_forces(qdot_cursor *c)
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_vec_push(&session->history, forces));
     QDOT_TRY(answer_list(session, "forces", forces));
-    return answer_text(session, "forces", qdot_mech_forces_parts(session->scene, &text),
+    return answer_text(session, "forces", qdot_mech_forces_parts(session->scene, session->style, &text),
                        &text);
 }
 
@@ -455,19 +455,23 @@ qdot_ask_dof(qdot_cursor *c)
 static qdot_status
 print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
 {
-    const char *name = qdot_expr_symbol(session->pool, one->coordinate)->name;
+    qdot_pool *pool = session->pool;
+    qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
 
-    qdot_print_name(name, session->style, text);
-    qdot_text_add(text, session->style == QDOT_PLAIN ? ": p[" : ": p(");
-    qdot_print_name(name, session->style, text);
-    qdot_text_add(text, session->style == QDOT_PLAIN ? "] = " : ") = ");
-    QDOT_TRY(qdot_print(session->pool, one->momentum, session->style, text));
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_answer_formula(session, one->coordinate, text));
+    qdot_text_add(text, ": ");
+    qdot_answer_math(session, true, text);
+    QDOT_TRY(qdot_print(pool, p, session->style, text));
+    qdot_text_add(text, qdot_answer_equals(session));
+    QDOT_TRY(qdot_answer_print(session, one->momentum, session->style, text));
+    qdot_answer_math(session, false, text);
     if (one->rate == QDOT_NIL) {
         qdot_text_add(text, " is conserved");
         return QDOT_OK;
     }
     qdot_text_add(text, " changes at the rate ");
-    return qdot_print(session->pool, one->rate, session->style, text);
+    return qdot_answer_formula(session, one->rate, text);
 }
 
 /* With --json the momenta are values too: `p[theta] = ...` by the name of

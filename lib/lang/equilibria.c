@@ -93,12 +93,14 @@ print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
         qdot_text_add(out, i > 0 ? " and " : "");
         if (qdot_expr_kind(pool, one) != QDOT_REL ||
             qdot_expr_node(pool, one)->op != QDOT_LT) {
-            QDOT_TRY(qdot_print(pool, one, session->style, out));
+            QDOT_TRY(qdot_answer_formula(session, one, out));
             continue;
         }
+        qdot_answer_math(session, true, out);
         QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 1), session->style, out));
-        qdot_text_add(out, " > ");
+        qdot_text_add(out, session->style == QDOT_MATHML ? "<mo>&gt;</mo>" : " > ");
         QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 0), session->style, out));
+        qdot_answer_math(session, false, out);
     }
     return QDOT_OK;
 }
@@ -135,11 +137,10 @@ print_equation(qdot_session *session, const qdot_equilibrium *e, uint32_t k,
     double value;
 
     if (!e->numeric)
-        return qdot_print(session->pool, one, session->style, out);
+        return qdot_answer_formula(session, one, out);
     QDOT_TRY(
         qdot_session_number(session, qdot_expr_arg(session->pool, one, 1), &value, NULL));
-    QDOT_TRY(qdot_print(session->pool, qdot_expr_arg(session->pool, one, 0),
-                        session->style, out));
+    QDOT_TRY(qdot_answer_formula(session, qdot_expr_arg(session->pool, one, 0), out));
     qdot_text_add(out, " = ");
     qdot_answer_digits(out, value, 0);
     return qdot_text_status(out);

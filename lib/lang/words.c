@@ -139,7 +139,7 @@ static const qdot_statement table[] = {
     {"include", WORKBENCH, "include \"FILE.lag\"",
      "carry out another script, found beside this one", "include \"other.lag\"",
      qdot_workbench_include, false},
-    {"style", WORKBENCH, "style plain | unicode | latex", "how expressions are written",
+    {"style", WORKBENCH, "style plain | unicode | latex | mathml", "how expressions are written",
      "style latex", qdot_workbench_style, false},
     {"timing", WORKBENCH, "timing on | off", "tell the CPU time of every statement",
      "timing on", qdot_workbench_timing, false},

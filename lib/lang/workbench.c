@@ -70,7 +70,8 @@ qdot_workbench_style(qdot_cursor *c)
         const char *word;
         qdot_style style;
     } styles[] = {
-        {"plain", QDOT_PLAIN}, {"unicode", QDOT_UNICODE}, {"latex", QDOT_LATEX}};
+        {"plain", QDOT_PLAIN}, {"unicode", QDOT_UNICODE}, {"latex", QDOT_LATEX},
+               {"mathml", QDOT_MATHML}};
 
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
         if (!qdot_cursor_accept_word(c, styles[i].word))

@@ -11,6 +11,7 @@
 #ifndef QDOT_MECH_QUANTITY_H
 #define QDOT_MECH_QUANTITY_H
 
+#include "expr/print.h"
 #include "mech/scene.h"
 
 /* --- kinematics and energy --- */
@@ -36,7 +37,8 @@ qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q], all that is 
 qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST, in order of q */
 /* `forces` with its parts in words: one line a coordinate and source. */
-QDOT_MUST_CHECK qdot_status qdot_mech_forces_parts(qdot_scene *s, qdot_text *out);
+QDOT_MUST_CHECK qdot_status qdot_mech_forces_parts(qdot_scene *s, qdot_style style,
+                                                   qdot_text *out);
 qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum Q delta[q] */
 
 /* --- equations --- */

@@ -350,10 +350,10 @@ qdot_mech_forces(qdot_scene *s)
 }
 
 qdot_status
-qdot_mech_forces_parts(qdot_scene *s, qdot_text *out)
+qdot_mech_forces_parts(qdot_scene *s, qdot_style style, qdot_text *out)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
-        const char *q = qdot_expr_symbol(s->pool, s->coordinates.at[i])->name;
+        qdot_expr q = s->coordinates.at[i];
         size_t lines = 0;
 
         for (size_t a = 0; a < SOURCES; a++)
@@ -364,14 +364,17 @@ qdot_mech_forces_parts(qdot_scene *s, qdot_text *out)
                 QDOT_TRY(qdot_pool_check(s->pool));
                 if (part == QDOT_ZERO)
                     continue;
-                qdot_text_format(out, "%s, %s%s%s: ", q, sources[a].words(s, k),
+                QDOT_TRY(qdot_print_formula(s->pool, q, style, out));
+                qdot_text_format(out, ", %s%s%s: ", sources[a].words(s, k),
                                  name ? " " : "", name ? name : "");
-                QDOT_TRY(qdot_print(s->pool, part, QDOT_PLAIN, out));
+                QDOT_TRY(qdot_print_formula(s->pool, part, style, out));
                 qdot_text_char(out, '\n');
                 lines++;
             }
-        if (!lines)
-            qdot_text_format(out, "%s: 0\n", q);
+        if (lines > 0)
+            continue;
+        QDOT_TRY(qdot_print_formula(s->pool, q, style, out));
+        qdot_text_add(out, ": 0\n");
     }
     return qdot_text_status(out);
 }

@@ -56,6 +56,36 @@ balanced(const char *text)
     return round == 0 && curly == 0 && square == 0;
 }
 
+/* Whether every element is closed by its own name, no text being bare. */
+static bool
+is_mathml(const char *text)
+{
+    char open[64][16];
+    int depth = 0;
+
+    while (*text != '\0') {
+        size_t n = strcspn(text, ">");
+
+        if (*text != '<' && depth == 0)
+            return false;
+        if (*text != '<') {
+            text += strcspn(text, "<");
+            continue;
+        }
+        if (text[1] == '/') {
+            if (depth == 0 || strlen(open[--depth]) != n - 2 ||
+                strncmp(open[depth], text + 2, n - 2) != 0)
+                return false;
+        } else {
+            if (depth == 64 || n > 15)
+                return false;
+            snprintf(open[depth++], 16, "%.*s", (int)(n - 1), text + 1);
+        }
+        text += n + 1;
+    }
+    return depth == 0;
+}
+
 static void
 plain_text_reads_back(void **state)
 {
@@ -78,6 +108,8 @@ plain_text_reads_back(void **state)
             fail_msg("%s is read as %s", text, text_of(p.pool, back, QDOT_PLAIN));
         assert_true(balanced(text_of(p.pool, e, QDOT_UNICODE)));
         assert_true(balanced(text_of(p.pool, e, QDOT_LATEX)));
+        if (qdot_expr_size(p.pool, e) < 50)
+            assert_true(is_mathml(text_of(p.pool, e, QDOT_MATHML)));
         read++;
     }
     assert_true(read > 10000);
@@ -143,6 +175,98 @@ roots_have_their_sign(void **state)
     says(qdot_sqrt(p.pool, sum), "sqrt(x + theta)", "√(x + θ)", "\\sqrt{x + \\theta}");
     says(qdot_pow(p.pool, x, number(-1, 2)), "1/sqrt(x)", "1/√x", "\\frac{1}{\\sqrt{x}}");
     says(qdot_pow(p.pool, x, number(3, 2)), "x^(3/2)", "x^(3/2)", "x^{\\frac{3}{2}}");
+}
+
+static qdot_expr
+root(qdot_expr e)
+{
+    return qdot_sqrt(p.pool, e);
+}
+
+/* What is positive comes apart under a root, and is written as one. */
+static void
+one_root_is_written(void **state)
+{
+    qdot_expr m = p.symbol[2], k = qdot_symbol_get(p.pool, QDOT_PARAM, "K"),
+              x = p.symbol[5];
+    qdot_expr all[3], e;
+    reader r = {.pool = p.pool, .names = all, .n_names = 3};
+
+    (void)state;
+    qdot_symbol_domain(p.pool, k, QDOT_ZERO, true, QDOT_NIL, false);
+    all[0] = m, all[1] = k, all[2] = x;
+    says(root(qdot_div(p.pool, k, m)), "sqrt(K/m)", "√(K/m)", "\\sqrt{\\frac{K}{m}}");
+    says(root(qdot_div(p.pool, times(number(2, 1), k), times(number(3, 1), m))),
+         "sqrt(2*K/(3*m))", "√(2 K/(3 m))", "\\sqrt{\\frac{2 K}{3 m}}");
+    says(root(qdot_div(p.pool, k, qdot_pow_int(p.pool, m, 3))), "sqrt(K/m^3)", "√(K/m³)",
+         "\\sqrt{\\frac{K}{m^{3}}}");
+    says(qdot_pow(p.pool, times(k, m), number(-1, 2)), "1/sqrt(m*K)", "1/√(m K)",
+         "\\frac{1}{\\sqrt{m K}}");
+    says(times(number(1, 2), root(times(k, x))), "1/2*sqrt(K*x)", "½ √(K x)",
+         "\\frac{1}{2} \\sqrt{K x}");
+    for (int trial = 0; trial < 20000; trial++) {
+        e = number((long)random_below(9) - 4, 1 + (long)random_below(12));
+        for (int i = 0; i < 4; i++) {
+            qdot_expr b = all[random_below(3)];
+
+            if (random_below(3) == 0)
+                b = qdot_add(p.pool, all[random_below(3)],
+                             times(number(2, 3), all[random_below(3)]));
+            if (random_below(5) == 0)
+                b = number(1 + (long)random_below(30), 1 + (long)random_below(9));
+            e = times(e, qdot_pow(p.pool, b, number((long)random_below(9) - 4, 2)));
+        }
+        if (random_below(2))
+            e = qdot_add(p.pool, e, x);
+        if (qdot_pool_check(p.pool) != QDOT_OK)
+            continue;
+        if (read_text(&r, text_of(p.pool, e, QDOT_PLAIN)) != e)
+            fail_msg("%s is read as another", text_of(p.pool, e, QDOT_PLAIN));
+        assert_true(is_mathml(text_of(p.pool, e, QDOT_MATHML)));
+    }
+}
+
+static void
+signs_are_those_of_a_book(void **state)
+{
+    qdot_expr a = p.symbol[0], b = p.symbol[1], x = p.symbol[5], theta = p.symbol[7];
+    qdot_expr d = qdot_sub(p.pool, qdot_fun1(p.pool, QDOT_COSH, x),
+                           qdot_fun1(p.pool, QDOT_COS, theta));
+    qdot_expr c = qdot_sub(p.pool, QDOT_ONE, times(a, qdot_fun1(p.pool, QDOT_COS, x)));
+
+    (void)state;
+    assert_prints(p.pool, qdot_pow_int(p.pool, d, 2), "(cosh(x) - cos(theta))^2");
+    assert_prints(p.pool, qdot_pow_int(p.pool, d, -1), "1/(cosh(x) - cos(theta))");
+    assert_prints(p.pool, qdot_pow_int(p.pool, qdot_sub(p.pool, b, a), 3), "(b - a)^3");
+    assert_prints(p.pool, qdot_pow_int(p.pool, qdot_sub(p.pool, b, a), 2), "(a - b)^2");
+    assert_prints(p.pool, c, "1 - a*cos(x)");
+    assert_prints(p.pool, qdot_neg(p.pool, c), "a*cos(x) - 1");
+    assert_prints(p.pool, qdot_add(p.pool, b, times(a, qdot_fun1(p.pool, QDOT_COS, x))),
+                  "b + a*cos(x)");
+    assert_prints(p.pool, qdot_add(p.pool, b, times(a, x)), "a*x + b");
+}
+
+static void
+mathml_is_presentation(void **state)
+{
+    qdot_expr x = p.symbol[5], theta = p.symbol[7], e;
+
+    (void)state;
+    e = times(QDOT_HALF, qdot_pow_int(p.pool, qdot_symbol_jet(p.pool, theta, 1), 2));
+    assert_string_equal(
+        text_of(p.pool, e, QDOT_MATHML),
+        "<mfrac><mn>1</mn><mn>2</mn></mfrac><mo>&#x2062;</mo><msup><mrow>"
+        "<mover><mi>θ</mi><mo>˙</mo></mover></mrow><mrow><mn>2</mn></mrow>"
+        "</msup>");
+    e = qdot_rel(p.pool, QDOT_LT, qdot_sqrt(p.pool, x),
+                 qdot_fun1(p.pool, QDOT_SIN, theta));
+    assert_string_equal(
+        text_of(p.pool, e, QDOT_MATHML),
+        "<msqrt><mi>x</mi></msqrt><mo>&lt;</mo><mi>sin</mi><mo>&#x2061;</mo>"
+        "<mrow><mo>(</mo><mi>θ</mi><mo>)</mo></mrow>");
+    assert_string_equal(
+        text_of(p.pool, qdot_symbol_of(p.pool, QDOT_MOMENTUM, theta), QDOT_MATHML),
+        "<msub><mi>p</mi><mi>θ</mi></msub>");
 }
 
 static void
@@ -307,6 +431,9 @@ main(void)
         TEST(kinetic_energy_is_written_as_in_a_book),
         TEST(exact_decimals_stay_exact),
         TEST(roots_have_their_sign),
+        TEST(one_root_is_written),
+        TEST(signs_are_those_of_a_book),
+        TEST(mathml_is_presentation),
         TEST(quotients_are_bracketed_where_they_must),
         TEST(functions_are_named_as_in_a_book),
         TEST(families_are_subscripts),

@@ -1,0 +1,121 @@
+/* print-parts.h -- inside the printers: pieces still to be written, and words by style. */
+#ifndef QDOT_EXPR_PRINT_PARTS_H
+#define QDOT_EXPR_PRINT_PARTS_H
+
+#include "expr/pool.h"
+#include "expr/print-name.h"
+
+/* How tightly the context binds: what a piece must not look like without brackets. */
+enum { TOP, TERM, FACTOR, BASE, MAGNITUDE = -1, DENOMINATOR = -2, NUMERATOR = -3 };
+
+/* A piece: a text (or a name), or an order of derivative, or an expression in its context;
+ * `coefficient` not nil: times it (a NUM). */
+struct piece {
+    const char *text;
+    qdot_expr e, coefficient;
+    int context;
+    uint32_t order;
+    bool raised; /* a unicode superscript */
+    bool turned; /* -1 times the sum e; of a product, its difference turned */
+    bool name;   /* in its style: theta as θ */
+    bool own;    /* the text is the piece's */
+    bool ends;   /* no text of its own: what began at `from` of the output is the text of e */
+    size_t from;
+};
+
+typedef qdot_vec(struct piece) pieces;
+
+typedef struct {
+    const qdot_pool *pool;
+    qdot_style style;
+    qdot_text *out;
+    pieces todo; /* a stack */
+    pieces next; /* of the node being opened, in reading order */
+    qdot_status status;
+} printer;
+
+static inline void
+piece(printer *p, struct piece x)
+{
+    if (qdot_vec_push(&p->next, x) != QDOT_OK)
+        p->status = QDOT_ENOMEM;
+}
+
+static inline void
+say(printer *p, const char *text)
+{
+    piece(p, (struct piece){.text = text});
+}
+
+static inline void
+child(printer *p, qdot_expr e, int context)
+{
+    piece(p, (struct piece){.e = e, .context = context});
+}
+
+static inline void
+name(printer *p, const char *text)
+{
+    piece(p, (struct piece){.text = text, .name = true});
+}
+
+/* The text of this style. */
+static inline const char *
+styled(const printer *p, const char *plain, const char *unicode, const char *latex,
+       const char *mathml)
+{
+    switch (p->style) {
+    case QDOT_PLAIN: return plain;
+    case QDOT_UNICODE: return unicode;
+    case QDOT_LATEX: return latex;
+    default: return mathml;
+    }
+}
+
+/* Whether fractions, roots and powers are drawn, not written in a line. */
+static inline bool
+is_drawn(const printer *p)
+{
+    return p->style == QDOT_LATEX || p->style == QDOT_MATHML;
+}
+
+static inline void
+open_bracket(printer *p)
+{
+    say(p, styled(p, "(", "(", "\\left(", "<mrow><mo>(</mo>"));
+}
+
+static inline void
+close_bracket(printer *p)
+{
+    say(p, styled(p, ")", ")", "\\right)", "<mo>)</mo></mrow>"));
+}
+
+static inline const char *
+comma(const printer *p)
+{
+    return styled(p, ", ", ", ", ", ", "<mo>,</mo>");
+}
+
+static inline void
+children(printer *p, qdot_expr e, uint32_t from, uint32_t to, const char *between)
+{
+    for (uint32_t i = from; i < to; i++) {
+        if (i > from)
+            say(p, between);
+        child(p, ARGS(p->pool, e)[i], TOP);
+    }
+}
+
+/* c * e, e without a coefficient of its own (or the number 1); a context below 0: the sign is
+ * written already; flip: a difference takes the minus. (print-product.c) */
+void qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip);
+/* (print-function.c) */
+void qdot_print_function(printer *p, qdot_expr e);
+void qdot_print_ufun(printer *p, qdot_expr e, int context);
+/* What stands before a base with a superscript; the exponent, its sign turned where it stands
+ * below a bar, and what ends it. (print-product.c) */
+void qdot_print_raise(printer *p);
+void qdot_print_exponent(printer *p, qdot_expr e, bool turned);
+
+#endif

@@ -1,0 +1,480 @@
+/* print-product.c -- products, powers and roots as text.
+ *
+ * The root of what is positive comes apart when it is built: sqrt(k/m) is k^(1/2) m^(-1/2). It is
+ * written as one root again, which reads back as the same product.
+ */
+#include <string.h>
+
+#include <flint/fmpz.h>
+
+#include "expr/print-parts.h"
+
+/* The factors of a product that are written under one root. */
+struct root {
+    bool any, above;  /* it stands above the bar */
+    uint32_t last;    /* the last of them on its side: where it is written */
+    fmpq_t c, number; /* what stands before the whole, and under the root */
+};
+
+/* Whether b^e stands below the fraction bar. */
+static bool
+below(const qdot_pool *pool, qdot_expr e)
+{
+    const fmpq *x = qdot_expr_rational(pool, e);
+
+    return x != NULL ? fmpq_sgn(x) < 0
+                     : NODE(pool, e)->kind == QDOT_PROD && qdot_expr_is_negative(pool, e);
+}
+
+/* --- powers ----------------------------------------------------------------------------------- */
+
+void
+qdot_print_raise(printer *p)
+{
+    if (p->style == QDOT_MATHML)
+        say(p, "<msup><mrow>");
+}
+
+/* An exponent, its sign turned where it stands below. */
+void
+qdot_print_exponent(printer *p, qdot_expr e, bool turned)
+{
+    const qdot_pool *pool = p->pool;
+    const fmpq *x = qdot_expr_rational(pool, e);
+    bool integer =
+        x != NULL && fmpz_is_one(fmpq_denref(x)) && (fmpq_sgn(x) > 0 || turned);
+    struct piece number = {.e = e, .context = turned ? MAGNITUDE : TOP};
+
+    if (turned && x == NULL) {
+        /* -n as n: the coefficient's sign is left out */
+        number.context = MAGNITUDE;
+        integer = NODE(pool, e)->n == 3 && ARGS(pool, e)[0] == QDOT_MINUS_ONE &&
+                  ARGS(pool, e)[2] == QDOT_ONE &&
+                  NODE(pool, ARGS(pool, e)[1])->kind == QDOT_SYM;
+    } else if (x == NULL) {
+        integer = NODE(pool, e)->kind == QDOT_SYM;
+    }
+    if (is_drawn(p)) {
+        say(p, styled(p, "", "", "^{", "</mrow><mrow>"));
+        piece(p, number);
+        say(p, styled(p, "", "", "}", "</mrow></msup>"));
+        return;
+    }
+    if (p->style == QDOT_UNICODE && x != NULL && integer) {
+        number.raised = true;
+        piece(p, number);
+        return;
+    }
+    say(p, integer ? "^" : "^(");
+    piece(p, number);
+    if (!integer)
+        say(p, ")");
+}
+
+static bool
+is_circular(const qdot_pool *pool, qdot_expr e)
+{
+    return NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op <= QDOT_COT;
+}
+
+/* sin(x)^2 as sin²(x). */
+static void
+power_of_function(printer *p, qdot_expr b, qdot_expr e, bool turned)
+{
+    qdot_print_raise(p);
+    say(p, styled(p, "", "", "\\", "<mi>"));
+    say(p, qdot_fun_name(NODE(p->pool, b)->op));
+    say(p, styled(p, "", "", "", "</mi>"));
+    qdot_print_exponent(p, e, turned);
+    say(p, styled(p, "", "", "", "<mo>&#x2061;</mo>"));
+    open_bracket(p);
+    children(p, b, 0, NODE(p->pool, b)->n, comma(p));
+    close_bracket(p);
+}
+
+/* Whether e is 1/2 or -1/2. */
+static bool
+is_sqrt(const qdot_pool *pool, qdot_expr e)
+{
+    const fmpq *x = qdot_expr_rational(pool, e);
+
+    return x != NULL && fmpz_equal_si(fmpq_denref(x), 2) && fmpz_is_pm1(fmpq_numref(x));
+}
+
+static bool
+is_even(const fmpq *x)
+{
+    return x != NULL && fmpz_is_one(fmpq_denref(x)) && fmpz_is_even(fmpq_numref(x));
+}
+
+/* What √ may stand before without brackets. */
+static bool
+is_bare(const qdot_pool *pool, qdot_expr e)
+{
+    return NODE(pool, e)->kind == QDOT_SYM ||
+           (NODE(pool, e)->kind == QDOT_NUM &&
+            fmpz_is_one(fmpq_denref(RATIONAL(pool, e))) &&
+            fmpq_sgn(RATIONAL(pool, e)) > 0);
+}
+
+/* b as a base or a factor; an even power is written of the side that is not negative:
+ * (cosh(v) - cos(u))^2. */
+static void
+base(printer *p, qdot_expr b, const fmpq *x, bool turned, int context)
+{
+    turned |= is_even(x) && NODE(p->pool, b)->kind == QDOT_SUM &&
+              qdot_expr_never_positive(p->pool, b);
+    piece(p, (struct piece){.e = b, .context = context, .turned = turned});
+}
+
+/* b^e, or b^-e below the bar; flip: of -b, e odd. */
+static void
+factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool flip)
+{
+    const qdot_pool *pool = p->pool;
+    const fmpq *x = qdot_expr_rational(pool, e);
+    bool half = is_sqrt(pool, e) && (down || fmpq_sgn(x) > 0);
+
+    if (half && p->style == QDOT_UNICODE && is_bare(pool, b)) {
+        say(p, "√");
+        child(p, b, TOP);
+    } else if (half) {
+        say(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
+        child(p, b, TOP);
+        say(p, styled(p, ")", ")", "}", "</msqrt>"));
+    } else if (down ? e == QDOT_MINUS_ONE : e == QDOT_ONE) {
+        base(p, b, x, flip, context);
+    } else if (p->style != QDOT_PLAIN && is_circular(pool, b) && x != NULL &&
+               fmpz_is_one(fmpq_denref(x)) && (down || fmpq_sgn(x) > 0)) {
+        power_of_function(p, b, e, down);
+    } else {
+        qdot_print_raise(p);
+        base(p, b, x, flip, BASE);
+        qdot_print_exponent(p, e, down);
+    }
+}
+
+/* --- one root ----------------------------------------------------------------------------------- */
+
+/* Whether b^x, x half an odd number, comes out of a root of a product by itself. */
+static bool
+comes_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+{
+    const fmpq *e = qdot_expr_rational(pool, x);
+
+    return e != NULL && fmpz_equal_si(fmpq_denref(e), 2) &&
+           NODE(pool, b)->kind != QDOT_NUM && NODE(pool, b)->kind != QDOT_PROD &&
+           (NODE(pool, b)->sign & QDOT_GE0);
+}
+
+/* What may stay under it: one such factor, as it is. */
+static bool
+stays(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+{
+    return x == QDOT_HALF && !(NODE(pool, b)->sign & QDOT_GE0) &&
+           (NODE(pool, b)->kind == QDOT_SUM || qdot_expr_is_atom(pool, b));
+}
+
+static bool
+is_number_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+{
+    return NODE(pool, b)->kind == QDOT_NUM && x == QDOT_HALF;
+}
+
+static bool
+is_under(const qdot_pool *pool, const struct root *r, qdot_expr b, qdot_expr x)
+{
+    return r->any &&
+           (comes_out(pool, b, x) || stays(pool, b, x) || is_number_root(pool, b, x));
+}
+
+/* The factors of c e that go under one root, at least two of them. c sqrt(n), c = a/b, is
+ * a/(b/g) sqrt((n/g)/g) with g = gcd(n, b): 1/3 sqrt(6) is sqrt(2/3). */
+static void
+find_root(const qdot_pool *pool, const fmpq *c, qdot_expr e, struct root *r)
+{
+    uint32_t n = NODE(pool, e)->kind == QDOT_PROD ? NODE(pool, e)->n : 0, out = 0, in = 0;
+    const fmpq *number = NULL;
+
+    r->any = r->above = false;
+    for (uint32_t i = 1; i < n; i += 2) {
+        qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
+
+        out += comes_out(pool, b, x);
+        in += stays(pool, b, x);
+        if (is_number_root(pool, b, x))
+            number = RATIONAL(pool, b);
+    }
+    r->any = in <= 1 && out + in > 0 && out + in + (number != NULL) > 1;
+    if (!r->any)
+        return;
+    for (uint32_t i = 1; i < n; i += 2) { /* the last above; if there is none, below */
+        qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
+        bool up = !below(pool, x);
+
+        if (is_under(pool, r, b, x) && up >= r->above) {
+            r->last = i;
+            r->above = up;
+        }
+    }
+    fmpq_init(r->c);
+    fmpq_init(r->number);
+    fmpq_set(r->c, c);
+    fmpq_one(r->number);
+    if (number != NULL) {
+        fmpz_t g;
+
+        fmpz_init(g);
+        fmpz_gcd(g, fmpq_numref(number), fmpq_denref(c));
+        fmpz_divexact(fmpq_denref(r->c), fmpq_denref(c), g);
+        fmpz_divexact(fmpq_numref(r->number), fmpq_numref(number), g);
+        fmpz_set(fmpq_denref(r->number), g);
+        fmpz_clear(g);
+    }
+}
+
+static void
+forget_root(struct root *r)
+{
+    if (!r->any)
+        return;
+    fmpq_clear(r->c);
+    fmpq_clear(r->number);
+}
+
+/* The size of a number that is no node. */
+static void
+say_number(printer *p, const fmpz_t n, const fmpz_t d)
+{
+    qdot_text text = {0};
+    fmpq_t x;
+
+    fmpq_init(x);
+    fmpz_abs(fmpq_numref(x), n);
+    if (d != NULL)
+        fmpz_set(fmpq_denref(x), d);
+    qdot_print_number(x, p->style, false, 0, &text);
+    fmpq_clear(x);
+    if (qdot_text_status(&text) != QDOT_OK) {
+        p->status = QDOT_ENOMEM;
+        qdot_text_clear(&text);
+        return;
+    }
+    piece(p, (struct piece){.text = text.at, .own = true});
+}
+
+/* What joins two factors. */
+static const char *
+times(const printer *p)
+{
+    return styled(p, "*", " ", " ", "<mo>&#x2062;</mo>");
+}
+
+static const char *
+dot(const printer *p)
+{
+    return styled(p, "*", "·", " \\cdot ", "<mo>⋅</mo>");
+}
+
+/* b^k, k the numerator of twice x. */
+static void
+under_root(printer *p, qdot_expr b, qdot_expr x, int context)
+{
+    ulong k = fmpz_get_ui(fmpq_numref(RATIONAL(p->pool, x)));
+    uint32_t power = (uint32_t)((slong)k < 0 ? -k : k);
+
+    if (power == 1) {
+        child(p, b, context);
+        return;
+    }
+    qdot_print_raise(p);
+    child(p, b, BASE);
+    say(p, styled(p, "^", "", "", "</mrow><mn>"));
+    piece(p, (struct piece){.order = power,
+                            .context = p->style == QDOT_PLAIN || p->style == QDOT_MATHML
+                                           ? TERM
+                                           : TOP});
+    say(p, styled(p, "", "", "", "</mn></msup>"));
+}
+
+/* One side of the fraction under the root. */
+static void
+root_side(printer *p, qdot_expr e, const struct root *r, bool down, uint32_t count,
+          bool fraction)
+{
+    const qdot_pool *pool = p->pool;
+    const fmpz *number = down ? fmpq_denref(r->number) : fmpq_numref(r->number);
+    bool first = true, shown = !fmpz_is_one(number) || count == 0;
+
+    if (shown)
+        say_number(p, number, NULL);
+    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
+        qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
+
+        if (!is_under(pool, r, b, x) || NODE(pool, b)->kind == QDOT_NUM ||
+            (below(pool, x) == r->above) != down)
+            continue;
+        if (!first || shown)
+            say(p, times(p));
+        under_root(p, b, x,
+                   is_drawn(p) && count + shown == 1 ? TOP
+                   : down && count + shown == 1      ? BASE
+                   : fraction || count + shown > 1   ? FACTOR
+                                                     : TOP);
+        first = false;
+    }
+}
+
+static void
+open_root(printer *p, qdot_expr e, const struct root *r)
+{
+    const qdot_pool *pool = p->pool;
+    uint32_t count[2] = {0, 0};
+    bool fraction, several;
+
+    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
+        qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
+
+        if (is_under(pool, r, b, x) && NODE(pool, b)->kind != QDOT_NUM)
+            count[below(pool, x) == r->above]++;
+    }
+    fraction = count[1] > 0 || !fmpz_is_one(fmpq_denref(r->number));
+    several = count[1] + !fmpz_is_one(fmpq_denref(r->number)) > 1 && !is_drawn(p);
+    say(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
+    if (fraction)
+        say(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
+    root_side(p, e, r, false, count[0], fraction);
+    if (fraction) {
+        say(p, styled(p, "/", "/", "}{", "</mrow><mrow>"));
+        say(p, several ? "(" : "");
+        root_side(p, e, r, true, count[1], fraction);
+        say(p, several ? ")" : "");
+        say(p, styled(p, "", "", "}", "</mrow></mfrac>"));
+    }
+    say(p, styled(p, ")", ")", "}", "</msqrt>"));
+}
+
+/* --- products --------------------------------------------------------------------------------- */
+
+/* How many of the factors stand below (or above) the bar, the root as one. */
+static uint32_t
+count_factors(const qdot_pool *pool, qdot_expr e, const struct root *r, bool down)
+{
+    uint32_t count = r->any && r->above != down;
+
+    if (NODE(pool, e)->kind != QDOT_PROD)
+        return e != QDOT_ONE && !down;
+    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2)
+        count += below(pool, ARGS(pool, e)[i + 1]) == down &&
+                 !is_under(pool, r, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
+    return count;
+}
+
+/* What joins a number to the factor b^e after it. */
+static const char *
+joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
+{
+    if (NODE(p->pool, b)->kind != QDOT_NUM)
+        return times(p);
+    if (is_sqrt(p->pool, e) && qdot_print_is_compact(number)) /* 2√3 */
+        return styled(p, "*", "", " ", "<mo>&#x2062;</mo>");
+    return dot(p);
+}
+
+/* The factors of e above (below) the bar; number: what stands before them already, or NULL;
+ * turned: the base that is written as its negative. */
+static void
+factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *number,
+        int context, qdot_expr turned)
+{
+    const qdot_pool *pool = p->pool;
+    bool first = true;
+
+    if (NODE(pool, e)->kind != QDOT_PROD) {
+        if (number != NULL)
+            say(p, joint(p, number, e, QDOT_ONE));
+        child(p, e, context);
+        return;
+    }
+    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
+        qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
+        bool under = is_under(pool, r, b, x);
+
+        if (under ? i != r->last || r->above == down : below(pool, x) != down)
+            continue;
+        if (first && number != NULL)
+            say(p, under ? times(p) : joint(p, number, b, x));
+        else if (!first)
+            say(p, NODE(pool, b)->kind == QDOT_NUM && !under ? dot(p) : times(p));
+        if (under)
+            open_root(p, e, r);
+        else
+            factor(p, b, x, down, context, b == turned);
+        first = false;
+    }
+}
+
+void
+qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
+{
+    const qdot_pool *pool = p->pool;
+    const fmpq *x = RATIONAL(pool, c);
+    bool drawn = is_drawn(p);
+    struct root r;
+    qdot_expr turned = flip || (fmpq_sgn(x) < 0 && context >= 0)
+                           ? qdot_expr_turnable(pool, e)
+                           : QDOT_NIL;
+    bool minus = fmpq_sgn(x) < 0 && context >= 0 && turned == QDOT_NIL;
+
+    find_root(pool, x, e, &r);
+    if (r.any)
+        x = r.c;
+
+    bool fraction = !fmpz_is_one(fmpq_denref(x));
+    uint32_t up = count_factors(pool, e, &r, false),
+             down = count_factors(pool, e, &r, true);
+    /* the number's denominator: 1/2*m/r, but 1/(2*r) where nothing else stands above */
+    bool inside = fraction && down > 0 && (up == 0 || drawn);
+    bool number = up == 0 || !fmpz_is_pm1(fmpq_numref(x)) || (fraction && !inside);
+    bool several = !drawn && (down > 1 || inside), frac = drawn && down > 0;
+    uint32_t written = number + up + down;
+    bool bracket = context == BASE
+                       ? written > 1 || minus || e == QDOT_ONE || up + down > 0
+                       : context == FACTOR && (minus || down > 0 || fraction);
+
+    if (bracket)
+        open_bracket(p);
+    if (minus)
+        say(p, styled(p, "-", "−", "-", "<mo>−</mo>"));
+    if (frac)
+        say(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
+    if (number && r.any) {
+        say_number(p, fmpq_numref(x), inside ? NULL : fmpq_denref(x));
+    } else if (number) {
+        piece(p, (struct piece){.e = c, .context = inside ? NUMERATOR : MAGNITUDE});
+    }
+    if (up > 0)
+        factors(p, e, &r, false, number ? x : NULL,
+                frac && number + up == 1 ? TOP
+                : written > 1 || minus   ? FACTOR
+                : context < 0            ? TERM
+                                         : context,
+                turned);
+    if (down > 0) {
+        say(p, frac ? styled(p, "", "", "}{", "</mrow><mrow>") : several ? "/(" : "/");
+        if (inside && r.any)
+            say_number(p, fmpq_denref(x), NULL);
+        else if (inside)
+            piece(p, (struct piece){.e = c, .context = DENOMINATOR});
+        factors(p, e, &r, true, inside ? x : NULL,
+                frac && down == 1 && !inside ? TOP
+                : several || frac            ? FACTOR
+                                             : BASE,
+                turned);
+        if (frac || several)
+            say(p, frac ? styled(p, "", "", "}", "</mrow></mfrac>") : ")");
+    }
+    if (bracket)
+        close_bracket(p);
+    forget_root(&r);
+}
