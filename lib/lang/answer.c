@@ -304,6 +304,7 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
                      const qdot_text *values, const qdot_text *errors)
 {
     qdot_text line = {0};
+    qdot_status status;
 
     if (session->json) {
         qdot_text_format(&line, "{\"kind\":\"number%s\",\"name\":", several ? "s" : "");
@@ -315,11 +316,18 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
         qdot_text_add(&line, several ? "]}\n" : "}\n");
         return put(session->out, &line);
     }
-    styled_name(session, name, &line);
-    qdot_text_add(&line, " = ");
+    qdot_answer_math(session, true, &line);
+    status = qdot_answer_name(session, name, &line);
+    qdot_text_add(&line, qdot_answer_equals(session));
+    qdot_text_add(&line, session->style == QDOT_MATHML ? "<mtext>" : "");
     qdot_text_add(&line, qdot_text_str(values));
+    qdot_text_add(&line, session->style == QDOT_MATHML ? "</mtext>" : "");
+    qdot_answer_math(session, false, &line);
     qdot_text_char(&line, '\n');
-    return put(session->out, &line);
+    if (status == QDOT_OK)
+        status = put(session->out, &line);
+    qdot_text_clear(&line);
+    return status;
 }
 
 /* --- checks ------------------------------------------------------------------------- */
