@@ -246,7 +246,8 @@ sim_sources = \
 	lib/sim/start.c \
 	lib/sim/substitute.c \
 	lib/sim/tied.c \
-	lib/sim/value.c
+	lib/sim/value.c \
+	lib/sim/workprecision.c
 
 sim_headers = \
 	lib/sim/bind.h \
@@ -269,7 +270,8 @@ sim_headers = \
 	lib/sim/shifted.h \
 	lib/sim/start.h \
 	lib/sim/substitute.h \
-	lib/sim/tied.h
+	lib/sim/tied.h \
+	lib/sim/workprecision.h
 
 show_sources = \
 	lib/show/csv.c \
@@ -321,7 +323,8 @@ lang_sources = \
 	lib/lang/statement.c \
 	lib/lang/styled.c \
 	lib/lang/words.c \
-	lib/lang/workbench.c
+	lib/lang/workbench.c \
+	lib/lang/workprecision.c
 
 lang_headers = \
 	lib/lang/algebra.h \
@@ -404,6 +407,7 @@ unit_tests = \
 	tests/sim/test_run \
 	tests/sim/test_start \
 	tests/sim/test_taylor \
+	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
 	tests/tape/test_constant \
@@ -458,6 +462,7 @@ script_tests = \
 	tests/script/text.lag \
 	tests/script/to-file.sh \
 	tests/script/values.lag \
+	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
 	tests/bad/as-number.lag \
 	tests/bad/bad-method.lag \
@@ -894,6 +899,7 @@ test_files = \
 	tests/script/text.out \
 	tests/script/to-file.out \
 	tests/script/values.out \
+	tests/script/workprecision.out \
 	tests/sim/scenes.h \
 	tests/tape/reference.h \
 	tests/fuzz/fuzz-parse.c \

@@ -500,6 +500,17 @@ qdot_answer_row(qdot_session *session, size_t n, const double *values)
 }
 
 qdot_status
+qdot_answer_cells(qdot_session *session, const qdot_text *values)
+{
+    qdot_text line = {0};
+
+    qdot_text_add(&line, "{\"kind\":\"row\",\"values\":[");
+    qdot_text_add(&line, qdot_text_str(values));
+    qdot_text_add(&line, "]}\n");
+    return put(session->out, &line);
+}
+
+qdot_status
 qdot_answer_file(qdot_session *session, const char *path)
 {
     qdot_text line = {0};

@@ -72,6 +72,10 @@ QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *
 QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, size_t n,
                                             const double *values);
 
+/* {"kind":"row"} of JSON values with their commas; JSON only. */
+QDOT_MUST_CHECK qdot_status qdot_answer_cells(qdot_session *session,
+                                              const qdot_text *values);
+
 /* {"kind":"file"}: `wrote PATH`. */
 QDOT_MUST_CHECK qdot_status qdot_answer_file(qdot_session *session, const char *path);
 

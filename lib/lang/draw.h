@@ -3,6 +3,7 @@
 #define QDOT_LANG_DRAW_H
 
 #include "lang/number.h"
+#include "show/show.h"
 
 typedef struct {
     char *label;                 /* the source text; owned */
@@ -22,6 +23,10 @@ QDOT_MUST_CHECK qdot_status qdot_draw_runs(qdot_session *session,
 /* Along its run at times [rows]: values [components * rows], component by component. */
 QDOT_MUST_CHECK qdot_status qdot_draw_values(const qdot_draw_operand *o, size_t rows,
                                              const double *times, double *values);
+/* A figure to a file; path NULL: into a window where there is one, else NAME-1.svg beside
+ * the script. */
+QDOT_MUST_CHECK qdot_status qdot_draw_show(qdot_session *session,
+                                           const qdot_figure *figure, const char *path);
 /* The quoted name behind `to`. */
 QDOT_MUST_CHECK qdot_status qdot_draw_read_file(qdot_cursor *c, const char **path);
 

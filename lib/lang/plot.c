@@ -87,6 +87,26 @@ has_window(const qdot_session *session)
            (getenv("DISPLAY") != NULL || getenv("WAYLAND_DISPLAY") != NULL);
 }
 
+qdot_status
+qdot_draw_show(qdot_session *session, const qdot_figure *figure, const char *path)
+{
+    qdot_text own = {0};
+    qdot_status status = QDOT_OK;
+
+    if (path != NULL)
+        qdot_text_add(&own, path);
+    else if (!has_window(session))
+        status = default_path(session, &own);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&own);
+    if (status == QDOT_OK)
+        status = qdot_figure_write(figure, own.n > 0 ? qdot_text_str(&own) : NULL);
+    if (status == QDOT_OK && own.n > 0)
+        status = qdot_answer_file(session, qdot_text_str(&own));
+    qdot_text_clear(&own);
+    return status;
+}
+
 static qdot_status
 finish(qdot_session *session, figure *f)
 {
@@ -99,7 +119,6 @@ finish(qdot_session *session, figure *f)
                        .y = columns + n,
                        .rows = rows,
                        .equal_axes = f->equal_axes};
-    qdot_text path = {0};
     qdot_status status = columns == NULL || rows == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
@@ -113,17 +132,8 @@ finish(qdot_session *session, figure *f)
         out.title = f->curves.at[0].label;
     else if (status == QDOT_OK && n == 1)
         out.y_label = f->curves.at[0].label;
-    if (status == QDOT_OK && f->path != NULL)
-        qdot_text_add(&path, f->path);
-    else if (status == QDOT_OK && !has_window(session))
-        status = default_path(session, &path);
     if (status == QDOT_OK)
-        status = qdot_text_status(&path);
-    if (status == QDOT_OK)
-        status = qdot_figure_write(&out, path.n > 0 ? qdot_text_str(&path) : NULL);
-    if (status == QDOT_OK && path.n > 0)
-        status = qdot_answer_file(session, qdot_text_str(&path));
-    qdot_text_clear(&path);
+        status = qdot_draw_show(session, &out, f->path);
     qdot_free(columns);
     qdot_free(rows);
     return status;

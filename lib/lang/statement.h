@@ -125,6 +125,7 @@ qdot_status qdot_number_run(qdot_cursor *c);
 qdot_status qdot_number_plan(qdot_cursor *c);
 qdot_status qdot_draw_table(qdot_cursor *c);
 qdot_status qdot_draw_plot(qdot_cursor *c);
+qdot_status qdot_workprecision_statement(qdot_cursor *c);
 qdot_status qdot_draw_save(qdot_cursor *c);
 /* workbench.c */
 qdot_status qdot_workbench_reset(qdot_cursor *c);

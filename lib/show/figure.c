@@ -194,7 +194,11 @@ add_curves(qdot_text *script, const qdot_figure *figure)
 
         qdot_text_format(
             script, "%s$c%zu using 1:2 with %s linecolor rgb '%s'%s", i == 0 ? "" : ", ",
-            i, point ? "points pointtype 7" : "lines linewidth 1.4", colours[i % COLOURS],
+            i,
+            point           ? "points pointtype 7"
+            : figure->marks ? "linespoints pointtype 7 pointsize 0.6 linewidth 1.4"
+                            : "lines linewidth 1.4",
+            colours[i % COLOURS],
             !point && i / COLOURS % 2 == 1 ? " dashtype 2" : "");
         qdot_text_add(script, " title ");
         add_quoted(script, figure->y[i].label);

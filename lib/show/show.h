@@ -23,6 +23,7 @@ typedef struct {
     const size_t *rows;        /* [curves] */
     bool equal_axes;           /* paths */
     bool log_x, log_y;
+    bool marks;                /* a mark at every point, joined by lines */
 } qdot_figure;
 
 /* Type by ending: .svg .png .pdf through gnuplot; QDOT_EINVAL for another; QDOT_EIO where gnuplot is missing or

@@ -1,0 +1,380 @@
+/* workprecision.c -- the ladder climbed, method by method. */
+#include "sim/workprecision.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ode/integrate.h"
+#include "sim/bind.h"
+#include "sim/plan.h"
+#include "tape/constant.h"
+
+enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
+
+static const double budget_default = 3e8;
+
+/* A method at work. */
+typedef struct {
+    qdot_plan *plan;
+    qdot_bind *bind;
+    qdot_ode_system inner, system; /* the system counts evaluations of the inner one */
+    qdot_ode_series series;
+    uint64_t evaluations, most_evaluations;
+    double t0, t1, t1_low;
+    double *start, *low, *y; /* [2n] */
+    /* the energy along a run */
+    qdot_tape *energy; /* NULL: not conserved */
+    double *in, *work, energy0, drift;
+} worker;
+
+/* What the reference ended in, to twice the precision of a double. */
+typedef struct {
+    size_t n;
+    double *high, *low;
+} reference;
+
+/* --- the reference ------------------------------------------------------------------- */
+
+static qdot_status
+make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
+               double *error)
+{
+    qdot_run_request precise = *request;
+    const qdot_run_report *report;
+    qdot_run *run = NULL;
+    qdot_status status;
+    int side;
+
+    precise.method = "auto";
+    precise.digits = REFERENCE_DIGITS;
+    status = qdot_run_new(scene, &precise, &run);
+    if (status == QDOT_ENOTBUILT) {
+        qdot_error why = *qdot_last_error();
+
+        return qdot_fail(QDOT_ENOTBUILT, "no reference can be made: %.400s", why.message);
+    }
+    if (status != QDOT_OK) {
+        qdot_run_free(run);
+        return status;
+    }
+    report = qdot_run_get_report(run);
+    if (report->t0 == report->t1) {
+        qdot_run_free(run);
+        return qdot_fail(QDOT_EINVAL, "the run has no length: nothing can be compared");
+    }
+    *error = report->error;
+    r->n = 2 * report->n;
+    r->high = qdot_calloc(2 * r->n, sizeof *r->high);
+    if (!r->high)
+        status = QDOT_ENOMEM;
+    else
+        r->low = r->high + r->n;
+    if (status == QDOT_OK && report->status != QDOT_RUN_DONE)
+        status = qdot_fail(QDOT_EFAILED, "the reference did not reach the end: %.300s",
+                           report->reason);
+    for (size_t i = 0; i < r->n && status == QDOT_OK; i++)
+        status = qdot_constant_split(scene->pool, report->exact[i], &r->high[i], &side,
+                                     &r->low[i]);
+    qdot_run_free(run);
+    return status;
+}
+
+static double
+error_against(const reference *r, const double *y)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < r->n; i++) {
+        double e = fabs((y[i] - r->high[i]) - r->low[i]) / fmax(1, fabs(r->high[i]));
+
+        if (!(e <= most)) /* a NaN stays */
+            most = e;
+    }
+    return most;
+}
+
+/* --- a method ------------------------------------------------------------------------ */
+
+static qdot_status
+too_many(const worker *w, double t)
+{
+    return qdot_fail(QDOT_ELIMIT, "stopped at t = %.6g after %llu evaluations", t,
+                     (unsigned long long)w->most_evaluations);
+}
+
+static qdot_status
+counted_rhs(double t, const double *y, double *dydt, void *user)
+{
+    worker *w = user;
+
+    if (++w->evaluations > w->most_evaluations)
+        return too_many(w, t);
+    return w->inner.rhs(t, y, dydt, w->inner.user);
+}
+
+static qdot_status
+counted_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
+{
+    worker *w = user;
+
+    return w->inner.jacobian(t, y, dfdy, dfdt, w->inner.user);
+}
+
+static qdot_status
+follow_energy(double t, const double *y, bool *stop, void *user)
+{
+    worker *w = user;
+    const size_t n = w->inner.n;
+    double h, change;
+
+    (void)stop;
+    memcpy(w->in, y, n * sizeof *y);
+    w->in[n] = t;
+    qdot_tape_eval(w->energy, w->in, &h, w->work);
+    change = fabs(h - w->energy0) / fmax(1, fabs(w->energy0));
+    if (!(change <= w->drift))
+        w->drift = change;
+    return QDOT_OK;
+}
+
+static void
+worker_clear(worker *w)
+{
+    qdot_bind_free(w->bind);
+    qdot_plan_free(w->plan);
+    qdot_tape_free(w->energy);
+    qdot_free(w->start);
+    qdot_free(w->in);
+}
+
+static qdot_status
+constant(const worker *w, qdot_expr e, double *value, double *low)
+{
+    int side;
+
+    e = qdot_plan_substitute(w->plan, e);
+    QDOT_TRY(qdot_pool_check(w->plan->pool));
+    return qdot_constant_split(w->plan->pool, e, value, &side, low);
+}
+
+static qdot_status
+read_start(worker *w, const qdot_run_request *request)
+{
+    const size_t n = w->plan->n;
+    double low;
+
+    w->start = qdot_calloc(6 * n, sizeof *w->start);
+    if (!w->start)
+        return QDOT_ENOMEM;
+    w->low = w->start + 2 * n;
+    w->y = w->low + 2 * n;
+    QDOT_TRY(constant(w, request->t0, &w->t0, &low));
+    QDOT_TRY(constant(w, request->t1, &w->t1, &w->t1_low));
+    for (size_t i = 0; i < n; i++) {
+        QDOT_TRY(constant(w, request->q0[i], &w->start[i], &w->low[i]));
+        QDOT_TRY(constant(w, request->v0[i], &w->start[n + i], &w->low[n + i]));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+prepare_energy(worker *w, qdot_scene *scene)
+{
+    const qdot_plan *p = w->plan;
+    const size_t n = 2 * p->n;
+    bool conserved = false;
+    qdot_expr h;
+
+    QDOT_TRY(qdot_mech_energy_conserved(scene, &conserved));
+    if (!conserved)
+        return QDOT_OK;
+    h = qdot_plan_substitute(p, qdot_mech_energy(scene));
+    QDOT_TRY(qdot_pool_check(p->pool));
+    QDOT_TRY(qdot_tape_new(p->pool, n + 1, p->inputs, 1, &h, &w->energy));
+    w->in = qdot_calloc(n + 1 + qdot_tape_work(w->energy) + 1, sizeof *w->in);
+    if (!w->in)
+        return QDOT_ENOMEM;
+    w->work = w->in + n + 1;
+    memcpy(w->in, w->start, n * sizeof *w->in);
+    w->in[n] = w->t0;
+    qdot_tape_eval(w->energy, w->in, &w->energy0, w->work);
+    return QDOT_OK;
+}
+
+static qdot_status
+worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
+            const char *method, double budget)
+{
+    qdot_run_request own = *request;
+    double n, operations;
+
+    own.method = method;
+    own.digits = 0;
+    own.tol = 1e-12;
+    QDOT_TRY(qdot_plan_new(scene, &own, &w->plan));
+    QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
+    QDOT_TRY(read_start(w, request));
+    QDOT_TRY(prepare_energy(w, scene));
+    w->inner = w->system = qdot_bind_system(w->bind);
+    w->system.rhs = counted_rhs;
+    w->system.jacobian = w->inner.jacobian ? counted_jacobian : NULL;
+    w->system.user = w;
+    n = (double)w->plan->n;
+    operations = (double)qdot_tape_operations(w->plan->tape) + n * n * n / 3 + 100;
+    if (w->plan->method->series) /* an expansion is worth a few hundred evaluations */
+        operations *= 200;
+    w->most_evaluations = (uint64_t)fmax(100, budget / operations);
+    return QDOT_OK;
+}
+
+/* From the start to the end, `watched` or timed. */
+static qdot_status
+go(worker *w, double tol, bool watched, qdot_ode_result *result)
+{
+    qdot_ode_options options = {
+        .tol = tol, .carry = w->low, .t1_low = w->t1_low};
+
+    memcpy(w->y, w->start, w->inner.n * sizeof *w->y);
+    w->evaluations = 0;
+    if (watched && w->energy) {
+        w->drift = 0;
+        options.accepted = follow_energy;
+        options.user = w;
+    }
+    if (w->plan->method->series)
+        options.max_steps = w->most_evaluations;
+    return qdot_ode_integrate(watched ? &w->system : &w->inner, w->plan->method, &options,
+                              w->t0, w->t1, w->y, result);
+}
+
+static int
+ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* Three runs at least, more of short ones. */
+static qdot_status
+take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
+{
+    double times[MOST_TIMES];
+    int n = first < 0.02 ? MOST_TIMES : first < 0.1 ? 5 : 3;
+
+    for (int i = 0; i < n; i++) {
+        qdot_ode_result result;
+
+        QDOT_TRY(go(w, tol, false, &result));
+        times[i] = result.stats.cpu;
+    }
+    qsort(times, (size_t)n, sizeof *times, ascending);
+    row->time_min = times[0];
+    row->time_median = times[n / 2];
+    return QDOT_OK;
+}
+
+static bool
+is_kept(qdot_status status)
+{
+    return status == QDOT_EFAILED || status == QDOT_ELIMIT || status == QDOT_EDOMAIN
+           || status == QDOT_ESINGULAR || status == QDOT_EINVAL;
+}
+
+static qdot_status
+one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
+{
+    qdot_ode_result result;
+    qdot_status status = go(w, tol, true, &result);
+
+    *row = (qdot_workprecision_row){.method = w->plan->method->name,
+                                    .tol = tol,
+                                    .err = NAN,
+                                    .scd = NAN,
+                                    .time_min = NAN,
+                                    .time_median = NAN,
+                                    .evals = result.stats.evaluations,
+                                    .steps = result.stats.steps,
+                                    .rejected = result.stats.rejected,
+                                    .energy_err = NAN};
+    if (is_kept(status)) {
+        snprintf(row->status, sizeof row->status, "failed: %.290s",
+                 qdot_last_error()->message);
+        return QDOT_OK;
+    }
+    QDOT_TRY(status);
+    strcpy(row->status, "done");
+    row->err = error_against(r, w->y);
+    row->scd = -log10(fmax(row->err, 0x1p-60));
+    if (w->energy)
+        row->energy_err = w->drift;
+    return take_times(w, tol, result.stats.cpu, row);
+}
+
+static qdot_status
+push_row(qdot_workprecision *out, const qdot_workprecision_row *row)
+{
+    QDOT_TRY(qdot_grow(&out->rows, &out->capacity, out->n + 1, sizeof *out->rows));
+    out->rows[out->n++] = *row;
+    return QDOT_OK;
+}
+
+static qdot_status
+push_unfit(qdot_workprecision *out, const char *method)
+{
+    qdot_workprecision_unfit *u;
+
+    QDOT_TRY(qdot_grow(&out->unfit, &out->unfit_capacity, out->n_unfit + 1,
+                       sizeof *out->unfit));
+    u = &out->unfit[out->n_unfit++];
+    u->method = method;
+    snprintf(u->reason, sizeof u->reason, "%.299s", qdot_last_error()->message);
+    return QDOT_OK;
+}
+
+static qdot_status
+climb(worker *w, const reference *r, qdot_workprecision *out)
+{
+    for (int k = FIRST; k <= LAST; k++) {
+        qdot_workprecision_row row;
+
+        QDOT_TRY(one_row(w, strtod((char[]){'1', 'e', '-', (char)('0' + k / 10),
+                                            (char)('0' + k % 10), 0},
+                                   NULL),
+                         r, &row));
+        QDOT_TRY(push_row(out, &row));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
+                           qdot_workprecision *out)
+{
+    reference r = {0};
+    qdot_status status = make_reference(scene, request, &r, &out->ref_err);
+
+    for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++) {
+        const char *method = qdot_ode_method_at(i)->name;
+        worker w = {0};
+
+        status = worker_init(
+            &w, scene, request, method, out->budget > 0 ? out->budget : budget_default);
+        if (status == QDOT_ENOTBUILT)
+            status = push_unfit(out, method);
+        else if (status == QDOT_OK)
+            status = climb(&w, &r, out);
+        worker_clear(&w);
+    }
+    qdot_free(r.high);
+    return status;
+}
+
+void
+qdot_workprecision_clear(qdot_workprecision *w)
+{
+    qdot_free(w->rows);
+    qdot_free(w->unfit);
+    *w = (qdot_workprecision){0};
+}

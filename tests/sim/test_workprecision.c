@@ -1,0 +1,166 @@
+/* test_workprecision.c -- the ladder of an oscillator, whose end is known. */
+#include "scenes.h"
+
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "ode/method.h"
+#include "sim/workprecision.h"
+
+/* x'' = -x, or with a force that shakes it, from x = 1 to t = 5. */
+static void
+oscillator(fixture *f, bool shaken)
+{
+    qdot_expr x;
+
+    begin(f);
+    x = coordinate(f, "x");
+    must(qdot_scene_particle(f->scene, "a", QDOT_ONE, x));
+    must(qdot_scene_potential(f->scene, times(f, number(f, "0.5"), times(f, x, x))));
+    if (shaken)
+        must(qdot_scene_potential(
+            f->scene, times(f, x, qdot_fun1(f->pool, QDOT_COS, QDOT_T))));
+    f->q0[0] = QDOT_ONE;
+    f->request.t1 = qdot_expr_int(f->pool, 5);
+}
+
+static void
+every_method_climbs_the_ladder(void **state)
+{
+    fixture f;
+    qdot_workprecision w = {0};
+
+    (void)state;
+    oscillator(&f, false);
+    must(qdot_workprecision_measure(f.scene, &f.request, &w));
+    assert_int_equal(w.n_unfit, 0);
+    assert_int_equal(w.n, 13 * qdot_ode_method_count());
+    assert_true(w.ref_err > 0 && w.ref_err <= 0.5e-20);
+    for (size_t k = 0; k < w.n; k++) {
+        const qdot_workprecision_row *r = &w.rows[k];
+        const qdot_ode_method *method = qdot_ode_method_at(k / 13);
+
+        assert_string_equal(r->method, method->name);
+        assert_true(r->tol == pow(10, -3 - (double)(k % 13))
+                    || fabs(r->tol / pow(10, -3 - (double)(k % 13)) - 1) < 1e-12);
+        assert_string_equal(r->status, "done");
+        if (!(r->err <= 3000 * r->tol + 1e-14))
+            fail_msg("%s at tol %g: err %g", r->method, r->tol, r->err);
+        assert_true(r->energy_err >= 0 && r->energy_err <= 3000 * r->tol + 1e-14);
+        assert_true(fabs(r->scd + log10(fmax(r->err, 0x1p-60))) < 1e-12);
+        assert_true(r->time_min > 0 && r->time_median >= r->time_min);
+        assert_true(r->evals > 0 && r->steps > 0);
+    }
+    qdot_workprecision_clear(&w);
+    end(&f);
+}
+
+/* The error is that of a run from the same start, against the closed form. */
+static void
+errors_are_those_of_runs(void **state)
+{
+    fixture f;
+    qdot_workprecision w = {0};
+
+    (void)state;
+    oscillator(&f, false);
+    must(qdot_workprecision_measure(f.scene, &f.request, &w));
+    for (size_t k = 0; k < w.n; k++) {
+        const qdot_run_report *report;
+        qdot_run *r;
+        double err;
+
+        if (k % 13 != 2) /* tol 1e-5 */
+            continue;
+        f.request.method = w.rows[k].method;
+        f.request.tol = w.rows[k].tol;
+        r = run(&f);
+        report = qdot_run_get_report(r);
+        err = fmax(fabs(report->q[0] - cos(5)), fabs(report->v[0] + sin(5)));
+        if (fabs(err - w.rows[k].err) > 1e-14)
+            fail_msg("%s: err %g, that of the run %g", w.rows[k].method, w.rows[k].err,
+                     err);
+        assert_int_equal(report->steps, w.rows[k].steps);
+        assert_int_equal(report->rejected, w.rows[k].rejected);
+        qdot_run_free(r);
+    }
+    qdot_workprecision_clear(&w);
+    end(&f);
+}
+
+static void
+without_conservation_there_is_no_energy_error(void **state)
+{
+    fixture f;
+    qdot_workprecision w = {0};
+
+    (void)state;
+    oscillator(&f, true);
+    must(qdot_workprecision_measure(f.scene, &f.request, &w));
+    for (size_t k = 0; k < w.n; k++)
+        assert_true(isnan(w.rows[k].energy_err));
+    qdot_workprecision_clear(&w);
+    end(&f);
+}
+
+/* A budget that tight tolerances are beyond of: rows that say what they did not reach. */
+static void
+hopeless_runs_are_rows_that_say_so(void **state)
+{
+    fixture f;
+    qdot_workprecision w = {.budget = 5e4};
+    size_t failed = 0;
+
+    (void)state;
+    oscillator(&f, false);
+    must(qdot_workprecision_measure(f.scene, &f.request, &w));
+    assert_int_equal(w.n, 13 * qdot_ode_method_count());
+    for (size_t k = 0; k < w.n; k++) {
+        const qdot_workprecision_row *r = &w.rows[k];
+
+        if (strcmp(r->status, "done") == 0) {
+            assert_true(r->err < 1);
+            continue;
+        }
+        failed++;
+        assert_int_equal(strncmp(r->status, "failed: stopped at t = ", 23), 0);
+        assert_true(isnan(r->err) && isnan(r->scd) && isnan(r->time_median));
+    }
+    assert_true(failed > 10 && failed < w.n);
+    qdot_workprecision_clear(&w);
+    end(&f);
+}
+
+static void
+what_cannot_be_compared_is_refused(void **state)
+{
+    fixture f;
+    qdot_workprecision w = {0};
+
+    (void)state;
+    oscillator(&f, false);
+    f.request.t1 = QDOT_ZERO;
+    assert_int_equal(qdot_workprecision_measure(f.scene, &f.request, &w), QDOT_EINVAL);
+    qdot_workprecision_clear(&w);
+    f.request.t1 = QDOT_ONE;
+    qdot_interrupt_set();
+    assert_int_equal(qdot_workprecision_measure(f.scene, &f.request, &w), QDOT_EINTR);
+    qdot_interrupt_clear();
+    qdot_workprecision_clear(&w);
+    end(&f);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_method_climbs_the_ladder),
+        cmocka_unit_test(errors_are_those_of_runs),
+        cmocka_unit_test(without_conservation_there_is_no_energy_error),
+        cmocka_unit_test(hopeless_runs_are_rows_that_say_so),
+        cmocka_unit_test(what_cannot_be_compared_is_refused),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
