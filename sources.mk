@@ -198,6 +198,7 @@ mech_sources = \
 	lib/mech/lagrange.c \
 	lib/mech/mass-matrix.c \
 	lib/mech/metric.c \
+	lib/mech/minimal.c \
 	lib/mech/modes.c \
 	lib/mech/momentum.c \
 	lib/mech/nested.c \
@@ -218,6 +219,7 @@ mech_headers = \
 	lib/mech/geometry.h \
 	lib/mech/hamilton.h \
 	lib/mech/integrable.h \
+	lib/mech/minimal.h \
 	lib/mech/noether.h \
 	lib/mech/quantity.h \
 	lib/mech/reactions.h \
@@ -240,6 +242,7 @@ sim_sources = \
 	lib/sim/precise-bind.c \
 	lib/sim/precise-value.c \
 	lib/sim/precise.c \
+	lib/sim/race.c \
 	lib/sim/residual.c \
 	lib/sim/run.c \
 	lib/sim/shifted.c \
@@ -265,6 +268,7 @@ sim_headers = \
 	lib/sim/precise-bind.h \
 	lib/sim/precise-pair.h \
 	lib/sim/precise.h \
+	lib/sim/race.h \
 	lib/sim/residual.h \
 	lib/sim/run.h \
 	lib/sim/shifted.h \
@@ -313,6 +317,7 @@ lang_sources = \
 	lib/lang/parse.c \
 	lib/lang/plot.c \
 	lib/lang/quantities.c \
+	lib/lang/race.c \
 	lib/lang/read.c \
 	lib/lang/redirect.c \
 	lib/lang/report.c \
@@ -450,6 +455,7 @@ script_tests = \
 	tests/script/names.lag \
 	tests/script/order.lag \
 	tests/script/pendulum.lag \
+	tests/script/race.sh \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
 	tests/script/reset.lag \
@@ -549,6 +555,7 @@ script_tests = \
 	tests/bad/redeclared-parameter.lag \
 	tests/bad/reserved.lag \
 	tests/bad/reset-in-loop.lag \
+	tests/bad/rest-negative-value.lag \
 	tests/bad/rest-negative.lag \
 	tests/bad/same-label.lag \
 	tests/bad/second-decimal.lag \
@@ -614,6 +621,7 @@ script_tests = \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum.lag \
 	examples/polar.lag \
+	examples/race.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
@@ -721,6 +729,7 @@ test_files = \
 	tests/bad/redeclared-parameter.out \
 	tests/bad/reserved.out \
 	tests/bad/reset-in-loop.out \
+	tests/bad/rest-negative-value.out \
 	tests/bad/rest-negative.out \
 	tests/bad/same-label.out \
 	tests/bad/second-decimal.out \
@@ -887,6 +896,7 @@ test_files = \
 	tests/script/normalise.sed \
 	tests/script/order.out \
 	tests/script/pendulum.out \
+	tests/script/race.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
 	tests/script/reset.out \
@@ -913,10 +923,16 @@ other_files = \
 	bench/chain-run.lag \
 	bench/chain-step.lag \
 	bench/chain_sympy.py \
+	bench/constraints \
 	bench/double-pendulum.lag \
 	bench/double-run.lag \
 	bench/numeric \
 	bench/packages \
+	bench/peers/constrained.cc \
+	bench/peers/constrained/car_axis.lag \
+	bench/peers/constrained/double.lag \
+	bench/peers/constrained/pendulum.lag \
+	bench/peers/constrained/reference \
 	bench/peers/dop853.hh \
 	bench/peers/names.hh \
 	bench/peers/peers.cc \

@@ -123,6 +123,7 @@ qdot_status qdot_number_set(qdot_cursor *c);
 qdot_status qdot_number_start(qdot_cursor *c);
 qdot_status qdot_number_run(qdot_cursor *c);
 qdot_status qdot_number_plan(qdot_cursor *c);
+qdot_status qdot_number_race(qdot_cursor *c);
 qdot_status qdot_draw_table(qdot_cursor *c);
 qdot_status qdot_draw_plot(qdot_cursor *c);
 qdot_status qdot_workprecision_statement(qdot_cursor *c);

@@ -113,8 +113,10 @@ static const qdot_statement table[] = {
      "plot theta, theta' to \"fig.svg\"", qdot_draw_plot, false},
     {"save", NUMBERS, "save RUN to \"FILE.csv\"", "a run whole: t, q, q'",
      "save a to \"run.csv\"", qdot_draw_save, false},
-    {"race", NUMBERS, "race T0..T1", "every formulation of one scene, compared",
-     "race 0..20", NULL, false},
+    {"race", NUMBERS, "race T0..T1 [to \"FILE.svg\"]",
+     "one scene as given (projected, Baumgarte, none) and in minimal coordinates: errors, "
+     "drifts and times at a ladder of tolerances, and their figure",
+     "race 0..20", qdot_number_race, false},
     {"events", NUMBERS, "events", "the events of the latest run", "events", NULL, true},
     {"workprecision", NUMBERS, "workprecision T0..T1 [to \"FILE\"]",
      "error against time: every method over a ladder of tolerances",

@@ -295,6 +295,22 @@ step(const qdot_held *h, level *l, const double *residual, double *x, double *ca
     }
 }
 
+/* Whether what is left is what moving x by rounding of max(1, |x|) makes: where x is 0 the
+ * bounds are too, and cannot be met. */
+static bool
+is_rounding(const level *l, const double *residual, const double *x, size_t n)
+{
+    for (size_t k = 0; k < l->m; k++) {
+        double sum = 0;
+
+        for (size_t i = 0; i < n; i++)
+            sum += fabs(l->saddle.A[k * n + i]) * fmax(1, fabs(x[i]));
+        if (!(fabs(residual[l->row[k]]) <= DBL_EPSILON * sum))
+            return false;
+    }
+    return true;
+}
+
 /* Positions or velocities of y; `residual` points at what `residuals` fills for them. */
 static qdot_status
 project(qdot_held *h, level *l, double t, double *y, double *x, double *carry,
@@ -329,7 +345,9 @@ project(qdot_held *h, level *l, double t, double *y, double *x, double *carry,
         before = now;
         step(h, l, residual, x, carry, moved);
     }
-    return qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
+    return factored && is_rounding(l, residual, x, n)
+               ? QDOT_OK
+               : qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
 }
 
 qdot_status

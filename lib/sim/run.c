@@ -123,6 +123,34 @@ check_start(qdot_run *run, const qdot_domains *domains)
     return qdot_bind_check(run->bind, run->t0, run->start, run->start_low);
 }
 
+static qdot_status
+check_springs(const qdot_run *run, const qdot_scene *scene)
+{
+    for (size_t i = 0; i < scene->springs.n; i++) {
+        const qdot_link *spring = &scene->springs.at[i];
+        qdot_expr rest = qdot_plan_substitute(run->plan, spring->rest);
+
+        QDOT_TRY(qdot_pool_check(run->plan->pool));
+        if ((qdot_expr_node(run->plan->pool, rest)->sign & QDOT_NEG) == QDOT_NEG)
+            return qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative",
+                             spring->name ? "spring " : "a spring",
+                             spring->name ? spring->name : "");
+    }
+    return QDOT_OK;
+}
+
+/* The constraints that the run found redundant, by name. */
+static qdot_status
+name_redundant(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
+{
+    if (run->report.independent >= run->report.m)
+        return QDOT_OK;
+    QDOT_TRY(qdot_start_redundant(scene, run->plan, request, run->start, &run->notice));
+    if (run->notice.n > 0)
+        run->report.notice = qdot_text_str(&run->notice);
+    return QDOT_OK;
+}
+
 /* Onto the constraints. */
 static qdot_status
 settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
@@ -349,6 +377,8 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     if (status == QDOT_OK)
         status = qdot_domains_find(run->plan, &domains);
     if (status == QDOT_OK)
+        status = check_springs(run, scene);
+    if (status == QDOT_OK)
         status = settle_start(run, scene, request, &domains);
     if (status == QDOT_OK)
         status = qdot_bind_new(run->plan, false, &run->bind);
@@ -364,6 +394,11 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
         return status;
     }
     fill_report(run, request->tol);
+    status = name_redundant(run, scene, request);
+    if (status != QDOT_OK) {
+        qdot_run_free(run);
+        return status;
+    }
     if (request->digits)
         qdot_digits_fill_report(run);
     run->report.cpu_total = process_clock() - clock;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "num/row-space.h"
 #include "sim/nearest.h"
 
 static const double breaks = 1e-14; /* relative to max(1, |x|) */
@@ -411,6 +412,83 @@ settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text 
     if (status == QDOT_OK && broken != 0)
         status = qdot_nearest_refine(&l->near, l->free, y, low);
     qdot_free(residual);
+    return status;
+}
+
+/* --- constraints that say nothing new ----------------------------------------------- */
+
+/* Rows of A by each constraint's kind, at y. */
+static qdot_status
+slopes(const level *l, const double *y, double *A)
+{
+    const qdot_scene *scene = l->scene;
+    qdot_pool *pool = l->plan->pool;
+    size_t n = l->n, c = scene->constraints.n;
+    qdot_expr *entries = qdot_calloc(c * n + 1, sizeof *entries), t = QDOT_T;
+    qdot_tape *tape = NULL;
+    double *work = NULL;
+    qdot_status status = entries ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < c * n && status == QDOT_OK; k++) {
+        const qdot_constraint *one = &scene->constraints.at[k / n];
+        qdot_expr e = qdot_diff(pool, one->f,
+                                qdot_symbol_jet(pool, scene->coordinates.at[k % n],
+                                                (uint32_t)one->kind));
+
+        e = e == QDOT_NIL ? e : qdot_plan_substitute(l->plan, e);
+        entries[k] = e == QDOT_NIL ? e : qdot_subs(pool, e, 1, &t, &l->request->t0);
+    }
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(pool, 2 * n, l->plan->inputs, c * n, entries, &tape);
+    if (status == QDOT_OK) {
+        work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *work);
+        status = work ? QDOT_OK : QDOT_ENOMEM;
+    }
+    if (status == QDOT_OK)
+        qdot_tape_eval(tape, y, A, work);
+    qdot_free(work);
+    qdot_tape_free(tape);
+    qdot_free(entries);
+    return status;
+}
+
+qdot_status
+qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
+                     const qdot_run_request *request, const double *y, qdot_text *notice)
+{
+    size_t n = plan->n, c = scene->constraints.n;
+    level l = {.scene = scene, .plan = plan, .request = request, .n = n};
+    double *A = qdot_calloc(c * n + 1, sizeof *A);
+    bool *which = qdot_calloc(c + 1, sizeof *which);
+    qdot_row_space rows = {0};
+    qdot_status status = A && which ? qdot_row_space_init(&rows, c, n) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = level_init(&l);
+    for (size_t k = 0; k < c && status == QDOT_OK; k++)
+        l.constraint[k] = k;
+    l.m = c;
+    if (status == QDOT_OK)
+        status = slopes(&l, y, A);
+    if (status == QDOT_OK) {
+        qdot_row_space_factor(&rows, A, 1e-9, true);
+        for (size_t k = rows.rank; k < c; k++)
+            which[rows.order[k]] = true;
+        if (rows.rank < c) {
+            if (notice->n > 0)
+                qdot_text_add(notice, "\n");
+            print_constraints(&l, which, notice);
+            qdot_text_add(notice, c - rows.rank == 1 ? " says" : " say");
+            qdot_text_add(notice, " nothing new at the start, beside those before");
+            status = qdot_text_status(notice);
+        }
+    }
+    level_clear(&l);
+    qdot_row_space_clear(&rows);
+    qdot_free(A);
+    qdot_free(which);
     return status;
 }
 

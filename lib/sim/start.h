@@ -33,4 +33,10 @@ QDOT_MUST_CHECK qdot_status qdot_start_settle(qdot_scene *scene, const qdot_plan
                                               const qdot_domains *domains, double *y,
                                               double *low, qdot_text *notice);
 
+/* Name in `notice` the constraints whose slopes, at the settled y [2n], depend on those of
+ * the constraints before them; nothing is added where all are independent. */
+QDOT_MUST_CHECK qdot_status qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
+                                                 const qdot_run_request *request,
+                                                 const double *y, qdot_text *notice);
+
 #endif

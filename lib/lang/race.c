@@ -1,0 +1,179 @@
+/* race.c -- the statement `race`: a table, and a figure of error against time. */
+#include "sim/race.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lang/answer.h"
+#include "lang/draw.h"
+#include "lang/number.h"
+#include "lang/statement.h"
+#include "show/show.h"
+
+/* "1e-12", "-" where there is none */
+static void
+print_bound(double value, int width, qdot_text *out)
+{
+    qdot_text one = {0};
+
+    if (isnan(value))
+        qdot_text_add(&one, "-");
+    else
+        qdot_text_format(&one, "%.1e", value);
+    qdot_text_format(out, "%*s", width, qdot_text_str(&one));
+    qdot_text_clear(&one);
+}
+
+static void
+print_lane(const qdot_race_lane *lane, qdot_text *out)
+{
+    for (int k = 0; k < QDOT_RACE_TOLERANCES; k++) {
+        const qdot_race_entry *e = &lane->entry[k];
+
+        qdot_text_format(out, "\n%-20s  %-7s  %5.0e", lane->name, e->method, e->tol);
+        print_bound(e->error, 9, out);
+        print_bound(e->energy, 9, out);
+        print_bound(e->constraint, 12, out);
+        qdot_text_format(out, "  %10.3g", 1e3 * e->cpu);
+    }
+}
+
+static qdot_status
+print_race(const qdot_race *race, qdot_text *out)
+{
+    qdot_text_format(out,
+                     "race: end errors against the scene as given, projected, at tol %.0e, "
+                     "its own error about ",
+                     race->reference_tol);
+    qdot_answer_bound(out, race->reference_error);
+    if (race->minimal > 0)
+        qdot_text_format(out, "\n%zu coordinates as given, %zu in minimal coordinates",
+                         race->coordinates, race->minimal);
+    qdot_text_format(out, "\n%-20s  %-7s  %5s%9s%9s%12s  %10s", "formulation", "method",
+                     "tol", "error", "energy", "constraints", "cpu ms");
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        if (race->lane[i].name != NULL)
+            print_lane(&race->lane[i], out);
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        if (race->lane[i].reason != NULL)
+            qdot_text_format(out, "\nnot in %s: %s",
+                             i + 1 < QDOT_RACE_FORMULATIONS ? "this treatment"
+                                                            : "minimal coordinates",
+                             race->lane[i].reason);
+    return qdot_text_status(out);
+}
+
+/* Lane, tolerance, error, energy drift, constraint drift, CPU seconds. */
+static qdot_status
+answer_rows(qdot_session *session, const qdot_race *race)
+{
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        for (int k = 0; race->lane[i].name != NULL && k < QDOT_RACE_TOLERANCES; k++) {
+            const qdot_race_entry *e = &race->lane[i].entry[k];
+            double row[] = {i + 1, e->tol, e->error, e->energy, e->constraint, e->cpu};
+
+            QDOT_TRY(qdot_answer_row(session, sizeof row / sizeof *row, row));
+        }
+    return QDOT_OK;
+}
+
+/* Error to the right, CPU time up, both in powers of ten. */
+static qdot_status
+draw(qdot_session *session, const qdot_race *race, const char *path)
+{
+    enum { N = QDOT_RACE_FORMULATIONS, K = QDOT_RACE_TOLERANCES };
+    double x[N][K], y[N][K];
+    qdot_column columns_x[N], columns_y[N];
+    size_t rows[N], n = 0;
+    qdot_figure figure = {.title = "work and precision",
+                          .x_label = "error at the end",
+                          .y_label = "CPU time / s",
+                          .x = columns_x,
+                          .y = columns_y,
+                          .rows = rows,
+                          .log_x = true,
+                          .log_y = true};
+
+    for (int i = 0; i < N; i++) {
+        size_t points = 0;
+
+        for (int k = 0; race->lane[i].name != NULL && k < K; k++) {
+            const qdot_race_entry *e = &race->lane[i].entry[k];
+
+            if (!isfinite(e->error) || !(e->cpu > 0))
+                continue;
+            x[n][points] = fmax(e->error, 1e-17); /* 0 has no logarithm */
+            y[n][points++] = e->cpu;
+        }
+        if (points == 0)
+            continue;
+        columns_x[n] = (qdot_column){figure.x_label, x[n]};
+        columns_y[n] = (qdot_column){race->lane[i].name, y[n]};
+        rows[n++] = points;
+    }
+    figure.curves = n;
+    if (n == 0)
+        return qdot_fail(QDOT_EFAILED, "no lane of the race got to the end");
+    QDOT_TRY(qdot_figure_write(&figure, path));
+    return qdot_answer_file(session, path);
+}
+
+static qdot_status
+answer(qdot_session *session, const qdot_race *race, const char *path)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    if (race->notice != NULL)
+        status = qdot_answer_notice(session, "%s", race->notice);
+    if (status == QDOT_OK)
+        status = print_race(race, &text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, "race", qdot_text_str(&text));
+    if (status == QDOT_OK && session->json)
+        status = answer_rows(session, race);
+    qdot_text_clear(&text);
+    if (status == QDOT_OK && path != NULL)
+        status = draw(session, race, path);
+    return status;
+}
+
+qdot_status
+qdot_number_race(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_number_order order = {0};
+    qdot_expr from, to;
+    const char *path = NULL;
+    qdot_race race;
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_range(c, &from, &to));
+    while (!qdot_cursor_is_end(c)) {
+        if (!qdot_cursor_accept_word(c, "to"))
+            return qdot_cursor_expected(c, "`to` or the end of the statement");
+        QDOT_TRY(qdot_draw_read_file(c, &path));
+    }
+    c->error_at = start->start;
+    status = qdot_number_fill_order(c->session, &order);
+    if (status == QDOT_OK) {
+        qdot_session *session = c->session;
+
+        order.request.t0 =
+            qdot_session_bind(session, qdot_number_without_measured(session, from));
+        order.request.t1 =
+            qdot_session_bind(session, qdot_number_without_measured(session, to));
+        order.request.method = "auto";
+        order.request.tol = 1e-12;
+        status = qdot_pool_check(session->pool);
+    }
+    if (status == QDOT_OK) {
+        status = qdot_race_hold(c->session->scene, &order.request, &race);
+        if (status == QDOT_OK) {
+            status = answer(c->session, &race, path);
+            qdot_race_clear(&race);
+        }
+    }
+    qdot_number_free_order(&order);
+    return status;
+}

@@ -1,0 +1,284 @@
+/* minimal.c -- constraints solved one after another, and the scene written anew. */
+#include "mech/minimal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/derived.h"
+
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    qdot_minimal *out;
+    bool *solved;    /* [constraints] */
+    bool *gone;      /* [n] coordinates that were solved for */
+    qdot_expr *angle; /* [n] new coordinates, as many as out->fresh */
+} work;
+
+void
+qdot_minimal_clear(qdot_minimal *m)
+{
+    qdot_scene_free(m->scene);
+    qdot_free(m->given);
+    qdot_free(m->angle);
+    *m = (qdot_minimal){0};
+}
+
+static bool
+moves(const work *w, qdot_expr e)
+{
+    return qdot_mech_holds(w->s, e) &
+           (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_UFUN);
+}
+
+/* Coordinate i is `value` from now on, in those solved before too. */
+static void
+put(work *w, size_t i, qdot_expr value)
+{
+    qdot_expr q = w->s->coordinates.at[i];
+
+    w->gone[i] = true;
+    w->out->given[i] = value;
+    for (size_t k = 0; k < w->out->n; k++)
+        if (k != i)
+            w->out->given[k] = qdot_subs(w->pool, w->out->given[k], 1, &q, &value);
+}
+
+/* f as the solved coordinates leave it. */
+static qdot_expr
+put_in(const work *w, qdot_expr f)
+{
+    return qdot_mech_tidy(w->s, qdot_subs(w->pool, f, w->out->n, w->s->coordinates.at,
+                                          w->out->given));
+}
+
+/* c x + g = 0 for the first x of which c does not move. */
+static bool
+solve_linear(work *w, qdot_expr f)
+{
+    for (size_t i = 0; i < w->out->n; i++) {
+        qdot_expr x = w->s->coordinates.at[i], c = qdot_diff(w->pool, f, x), g;
+
+        if (w->gone[i] || c == QDOT_NIL || c == QDOT_ZERO || moves(w, c) ||
+            qdot_mech_holds(w->s, c) & QDOT_HAS_TIME)
+            continue;
+        g = qdot_mech_tidy(w->s, qdot_sub(w->pool, f, qdot_mul(w->pool, c, x)));
+        if (g == QDOT_NIL || qdot_expr_contains(w->pool, g, x))
+            continue;
+        put(w, i, qdot_mech_tidy(w->s, qdot_neg(w->pool, qdot_div(w->pool, g, c))));
+        return true;
+    }
+    return false;
+}
+
+/* The centre (a, b), the square of the radius and 2 s of f as a circle of x and y. */
+static bool
+is_circle(const work *w, qdot_expr f, qdot_expr x, qdot_expr y, qdot_expr *a,
+          qdot_expr *b, qdot_expr *square)
+{
+    qdot_pool *pool = w->pool;
+    qdot_expr fx = qdot_diff(pool, f, x), fy = qdot_diff(pool, f, y);
+    qdot_expr s = qdot_diff(pool, fx, x), at[] = {x, y}, zero[] = {QDOT_ZERO, QDOT_ZERO};
+
+    if (s == QDOT_NIL || s == QDOT_ZERO || moves(w, s) ||
+        qdot_mech_tidy(w->s, qdot_diff(pool, fx, y)) != QDOT_ZERO ||
+        qdot_mech_tidy(w->s, qdot_sub(pool, s, qdot_diff(pool, fy, y))) != QDOT_ZERO)
+        return false;
+    *a = qdot_neg(pool, qdot_div(pool, qdot_subs(pool, fx, 2, at, zero), s));
+    *b = qdot_neg(pool, qdot_div(pool, qdot_subs(pool, fy, 2, at, zero), s));
+    *square = qdot_add(pool, qdot_mul(pool, *a, *a), qdot_mul(pool, *b, *b));
+    *square = qdot_sub(pool, *square,
+                       qdot_div(pool,
+                                qdot_mul(pool, qdot_expr_int(pool, 2),
+                                         qdot_subs(pool, f, 2, at, zero)),
+                                s));
+    *square = qdot_mech_tidy(w->s, *square);
+    return *square != QDOT_NIL && *square != QDOT_ZERO && !moves(w, *square);
+}
+
+/* x = a + l sin u, y = b - l cos u; whole: f as it was declared, for u by x and y. */
+static bool
+solve_circle(work *w, qdot_expr f, qdot_expr whole)
+{
+    qdot_pool *pool = w->pool;
+
+    for (size_t i = 0; i < w->out->n; i++)
+        for (size_t j = i + 1; j < w->out->n; j++) {
+            qdot_expr x = w->s->coordinates.at[i], y = w->s->coordinates.at[j];
+            qdot_expr a, b, square, l, u, a0, b0, square0, sides[2];
+            char name[32];
+
+            if (w->gone[i] || w->gone[j] || !is_circle(w, f, x, y, &a, &b, &square) ||
+                !is_circle(w, whole, x, y, &a0, &b0, &square0))
+                continue;
+            l = qdot_mech_tidy(w->s, qdot_sqrt(pool, square));
+            snprintf(name, sizeof name, "angle#%zu", w->out->fresh + 1);
+            u = qdot_symbol_get(pool, QDOT_COORD, name);
+            sides[0] = qdot_sub(pool, x, a0);
+            sides[1] = qdot_sub(pool, b0, y);
+            w->out->angle[w->out->fresh] = qdot_fun(pool, QDOT_ATAN2, 2, sides);
+            w->angle[w->out->fresh++] = u;
+            put(w, i, qdot_add(pool, a, qdot_mul(pool, l,
+                                                 qdot_fun1(pool, QDOT_SIN, u))));
+            put(w, j, qdot_sub(pool, b, qdot_mul(pool, l,
+                                                 qdot_fun1(pool, QDOT_COS, u))));
+            return true;
+        }
+    return false;
+}
+
+/* Solve what can be solved until nothing more can; QDOT_OK with a reason if something is
+ * left. */
+static qdot_status
+solve_all(work *w)
+{
+    size_t c = w->s->constraints.n, left = c;
+    bool progress = true;
+
+    for (size_t k = 0; k < c; k++)
+        if (w->s->constraints.at[k].kind != QDOT_HOLONOMIC) {
+            snprintf(w->out->reason, sizeof w->out->reason,
+                     "constraint %.60s is not holonomic", w->s->constraints.at[k].name);
+            return QDOT_OK;
+        }
+    while (left > 0 && progress) {
+        progress = false;
+        for (int circles = 0; circles < 2 && !progress; circles++)
+            for (size_t k = 0; k < c && !progress; k++) {
+                qdot_expr whole = w->s->constraints.at[k].f, f;
+
+                if (w->solved[k])
+                    continue;
+                f = put_in(w, whole);
+                w->solved[k] = f == QDOT_ZERO ||
+                               (circles ? solve_circle(w, f, whole) : solve_linear(w, f));
+                progress = w->solved[k];
+                left -= w->solved[k];
+                QDOT_TRY(qdot_pool_check(w->pool));
+            }
+    }
+    for (size_t k = 0; k < c && left > 0; k++)
+        if (!w->solved[k]) {
+            snprintf(w->out->reason, sizeof w->out->reason,
+                     "constraint %.60s is not linear in a coordinate and no circle",
+                     w->s->constraints.at[k].name);
+            break;
+        }
+    return QDOT_OK;
+}
+
+/* --- the scene anew ----------------------------------------------------------------- */
+
+static qdot_status
+copy_link(qdot_scene *to, const qdot_link *link, bool damper)
+{
+    qdot_link copy = *link;
+
+    return damper ? qdot_scene_damper(to, &copy) : qdot_scene_spring(to, &copy);
+}
+
+/* Everything but coordinates and constraints. */
+static qdot_status
+copy_scene(const qdot_scene *s, qdot_scene *to)
+{
+    for (size_t i = 0; i < s->particles.n; i++)
+        QDOT_TRY(qdot_scene_particle(to, s->particles.at[i].name, s->particles.at[i].mass,
+                                     s->particles.at[i].position));
+    for (size_t i = 0; i < s->bodies.n; i++) {
+        const qdot_body *b = &s->bodies.at[i];
+
+        QDOT_TRY(qdot_scene_body(to, b->name, b->mass, b->inertia, QDOT_NIL, b->position,
+                                 b->angle, b->angle == QDOT_NIL ? b->rotation : QDOT_NIL));
+    }
+    for (size_t i = 0; i < s->gravities.n; i++)
+        QDOT_TRY(qdot_scene_gravity(to, s->gravities.at[i]));
+    for (size_t i = 0; i < s->potentials.n; i++)
+        QDOT_TRY(qdot_scene_potential(to, s->potentials.at[i]));
+    for (size_t i = 0; i < s->springs.n; i++)
+        QDOT_TRY(copy_link(to, &s->springs.at[i], false));
+    for (size_t i = 0; i < s->dampers.n; i++)
+        QDOT_TRY(copy_link(to, &s->dampers.at[i], true));
+    for (size_t i = 0; i < s->dissipations.n; i++)
+        QDOT_TRY(qdot_scene_dissipation(to, s->dissipations.at[i]));
+    for (size_t i = 0; i < s->forces.n; i++)
+        QDOT_TRY(qdot_scene_force(to, &s->forces.at[i]));
+    for (size_t i = 0; i < s->torques.n; i++)
+        QDOT_TRY(qdot_scene_torque(to, &s->torques.at[i]));
+    if (s->lagrangian != QDOT_NIL)
+        QDOT_TRY(qdot_scene_lagrangian(to, s->lagrangian));
+    return QDOT_OK;
+}
+
+static qdot_status
+write_anew(work *w)
+{
+    qdot_scene *to = qdot_scene_new(w->pool);
+    qdot_minimal *m = w->out;
+
+    m->scene = to;
+    if (!to)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < m->n; i++)
+        if (!w->gone[i])
+            QDOT_TRY(qdot_scene_coordinate(to, w->s->coordinates.at[i]));
+    for (size_t k = 0; k < m->fresh; k++)
+        QDOT_TRY(qdot_scene_coordinate(to, w->angle[k]));
+    QDOT_TRY(copy_scene(w->s, to));
+    for (size_t i = 0; i < m->n; i++) {
+        qdot_expr rate;
+
+        if (!w->gone[i])
+            continue;
+        rate = qdot_ddt(w->pool, m->given[i]);
+        QDOT_TRY(qdot_pool_check(w->pool));
+        QDOT_TRY(qdot_scene_replace(to, qdot_mech_jet(w->s, i, 1), rate));
+        QDOT_TRY(qdot_scene_replace(to, w->s->coordinates.at[i], m->given[i]));
+    }
+    return QDOT_OK;
+}
+
+/* A generalized force on a coordinate that goes has no place in the new scene. */
+static bool
+is_acted_on(work *w)
+{
+    for (size_t k = 0; k < w->s->torques.n; k++)
+        for (size_t i = 0; i < w->out->n; i++)
+            if (w->gone[i] && w->s->torques.at[k].coordinate == w->s->coordinates.at[i]) {
+                snprintf(w->out->reason, sizeof w->out->reason,
+                         "a generalized force acts on %.60s, which would go",
+                         qdot_expr_symbol(w->pool, w->s->coordinates.at[i])->name);
+                return true;
+            }
+    return false;
+}
+
+qdot_status
+qdot_minimal_make(qdot_scene *s, qdot_minimal *m)
+{
+    size_t n = s->coordinates.n;
+    work w = {.s = s, .pool = s->pool, .out = m};
+    qdot_status status;
+
+    *m = (qdot_minimal){.n = n};
+    m->given = qdot_calloc(n + 1, sizeof *m->given);
+    m->angle = qdot_calloc(n + 1, sizeof *m->angle);
+    w.angle = qdot_calloc(n + 1, sizeof *w.angle);
+    w.gone = qdot_calloc(n + 1, sizeof *w.gone);
+    w.solved = qdot_calloc(s->constraints.n + 1, sizeof *w.solved);
+    status = m->given && m->angle && w.angle && w.gone && w.solved ? QDOT_OK
+                                                                   : QDOT_ENOMEM;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        m->given[i] = s->coordinates.at[i];
+    if (status == QDOT_OK)
+        status = solve_all(&w);
+    if (status == QDOT_OK && m->reason[0] == '\0' && !is_acted_on(&w))
+        status = write_anew(&w);
+    qdot_free(w.angle);
+    qdot_free(w.gone);
+    qdot_free(w.solved);
+    if (status != QDOT_OK)
+        qdot_minimal_clear(m);
+    return status;
+}

@@ -1,0 +1,32 @@
+/* minimal.h -- a scene with holonomic constraints in coordinates that need none.
+ *
+ * Constraint after constraint is solved, those before put in:
+ *
+ *     c x + g = 0, c free of motion       x = -g/c
+ *     s ((x - a)^2 + (y - b)^2 - l^2) = 0  x = a + l sin u, y = b - l cos u, u a new angle
+ *
+ * where c, s, l hold no coordinates and a, b, g neither x nor y. What cannot be solved so,
+ * velocity and acceleration constraints, and generalized forces on a coordinate that would
+ * go, leave the scene without such a form.
+ *
+ * Tests  tests/script/race.lag
+ */
+#ifndef QDOT_MECH_MINIMAL_H
+#define QDOT_MECH_MINIMAL_H
+
+#include "mech/quantity.h"
+
+typedef struct {
+    qdot_scene *scene; /* owned; NULL: there is no such form, `reason` says why */
+    char reason[160];
+    size_t n;          /* coordinates of the scene as given */
+    qdot_expr *given;  /* [n] these, by coordinates of `scene` */
+    size_t fresh;      /* new angles: the last coordinates of `scene` */
+    qdot_expr *angle;  /* [fresh] by the coordinates given */
+} qdot_minimal;
+
+/* Errors: the pool's; a scene without that form is none. */
+QDOT_MUST_CHECK qdot_status qdot_minimal_make(qdot_scene *s, qdot_minimal *minimal);
+void qdot_minimal_clear(qdot_minimal *minimal);
+
+#endif

@@ -1,0 +1,44 @@
+# One scene in every formulation: who runs, that all end at the same state, that drift goes
+# where nothing is done against it.
+qdot -q --json - <<'END' >race.json
+param m1 = 1, m2 = 1, L1 = 1, L2 = 1, g = 9.81
+coord x1, y1, x2, y2
+particle a mass m1 at (x1, y1)
+particle b mass m2 at (x2, y2)
+constraint rod1: x1^2 + y1^2 = L1^2
+constraint rod2: (x2 - x1)^2 + (y2 - y1)^2 = L2^2
+gravity (0, -g)
+start x1 = sin(2), y1 = -cos(2), x2 = 2*sin(2), y2 = -2*cos(2)
+race 0..2 to "race.svg"
+END
+sed -n 's/^{"kind":"row","values":\[\(.*\)\]}/\1/p' race.json | awk -F, '
+    { rows[$1]++; if ($2 < 2e-12 && $3 < 1e-11) good[$1]++ }
+    $1 == 1 && $5 > 1e-14 { print "projected, yet adrift: " $0 }
+    $1 == 3 && $2 > 1e-5 && $5 > 1e-9 { adrift = 1 }
+    END { for (i = 1; i <= 4; i++) print i, rows[i], good[i]; print "adrift", adrift }'
+grep -c '<path' race.svg | sed 's/^0$/empty/; s/^[1-9].*/curves/'
+# a spring, a damper and a drive move to the new coordinates; a knife edge has none
+qdot -q - <<'END' | sed -n 's/^\([0-9]* coordinates\)/\1/p; s/^not in/not in/p'
+param w = 2
+coord x, y, X, th
+particle bob mass 1 at (x, y)
+body wheel mass 1 inertia 1/2 at (X, 1) angle th
+constraint rod: (x - X)^2 + y^2 = 1
+constraint drive: X = sin(w*t)
+constraint roll: th = X
+spring s between bob, (0, 0) stiffness 5 rest 1
+damper d between bob, (0, 3) coefficient 1
+force (1, 0) on bob
+start x = 1, y = 0, X = 0
+race 0..1
+reset
+coord x, y, phi
+body s mass 1 inertia 1 at (x, y) angle phi
+constraint blade: x'*sin(phi) = y'*cos(phi)
+start x' = 1, phi' = 1
+race 0..1
+remove blade
+torque 1 on x
+constraint wall: x = 1
+race 0..1
+END
