@@ -15,6 +15,7 @@ base_headers = \
 	lib/base/utf8.h
 
 num_sources = \
+	lib/num/batch.c \
 	lib/num/cholesky.c \
 	lib/num/ldlt.c \
 	lib/num/real.c \
@@ -25,6 +26,10 @@ num_sources = \
 	lib/num/sum.c
 
 num_headers = \
+	lib/num/batch-kinds.def \
+	lib/num/batch-vector.def \
+	lib/num/batch.def \
+	lib/num/batch.h \
 	lib/num/cholesky.h \
 	lib/num/ldlt.h \
 	lib/num/real.h \
@@ -69,6 +74,7 @@ expr_headers = \
 	lib/expr/walk.h
 
 ode_sources = \
+	lib/ode/batch.c \
 	lib/ode/companion.c \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
@@ -79,6 +85,7 @@ ode_sources = \
 	lib/ode/trajectory.c
 
 ode_headers = \
+	lib/ode/batch.h \
 	lib/ode/companion.h \
 	lib/ode/dop853.def \
 	lib/ode/dop853.h \
@@ -160,6 +167,7 @@ tape_sources = \
 	lib/tape/constant.c \
 	lib/tape/finish.c \
 	lib/tape/keymap.c \
+	lib/tape/lanes.c \
 	lib/tape/lower.c \
 	lib/tape/precise.c \
 	lib/tape/tape.c \
@@ -171,6 +179,8 @@ tape_headers = \
 	lib/tape/code.h \
 	lib/tape/constant.h \
 	lib/tape/keymap.h \
+	lib/tape/lanes.def \
+	lib/tape/lanes.h \
 	lib/tape/operation.def \
 	lib/tape/precise.h \
 	lib/tape/shake.h \
@@ -235,7 +245,9 @@ sim_sources = \
 	lib/sim/direct.c \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
+	lib/sim/ensemble.c \
 	lib/sim/held.c \
+	lib/sim/members.c \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
 	lib/sim/plan.c \
@@ -261,8 +273,11 @@ sim_headers = \
 	lib/sim/direct.h \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
+	lib/sim/ensemble.h \
 	lib/sim/held.h \
 	lib/sim/integrated.h \
+	lib/sim/members.def \
+	lib/sim/members.h \
 	lib/sim/nearest.h \
 	lib/sim/plan.h \
 	lib/sim/precise-bind.h \
@@ -387,6 +402,7 @@ unit_tests = \
 	tests/normal/test_simplify \
 	tests/normal/test_solve \
 	tests/normal/test_verdicts \
+	tests/num/test_batch \
 	tests/num/test_cholesky \
 	tests/num/test_ldlt \
 	tests/num/test_real \
@@ -406,6 +422,7 @@ unit_tests = \
 	tests/show/test_figure \
 	tests/show/test_table \
 	tests/sim/test_constraints \
+	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_operations \
 	tests/sim/test_precise \
@@ -416,6 +433,7 @@ unit_tests = \
 	tests/src/test_options \
 	tests/src/test_prompt \
 	tests/tape/test_constant \
+	tests/tape/test_lanes \
 	tests/tape/test_precise \
 	tests/tape/test_tape \
 	tests/tape/test_taylor
@@ -926,6 +944,8 @@ other_files = \
 	bench/constraints \
 	bench/double-pendulum.lag \
 	bench/double-run.lag \
+	bench/ensemble/lanes.c \
+	bench/ensemble/run \
 	bench/numeric \
 	bench/packages \
 	bench/peers/constrained.cc \

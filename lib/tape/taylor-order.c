@@ -13,17 +13,22 @@ mix(uint64_t x)
     return x ^ x >> 33;
 }
 
-void
-qdot_taylor_draw(qdot_taylor *t, double time)
+double
+qdot_taylor_chance(double time, size_t i)
 {
     uint64_t bits;
 
     memcpy(&bits, &time, sizeof bits);
+    return (double)(mix(bits + (i + 1) * UINT64_C(0x9e3779b97f4a7c15)) >> 11) * 0x1p-53;
+}
+
+void
+qdot_taylor_draw(qdot_taylor *t, double time)
+{
     for (size_t i = 0; i < t->n_drawn; i++) {
         struct qdot_taylor_drawn *d = t->drawn + i;
-        double u = (double)(mix(bits + (i + 1) * UINT64_C(0x9e3779b97f4a7c15)) >> 11);
 
-        d->row[0] = u * 0x1p-53 < d->chance ? d->far : d->near;
+        d->row[0] = qdot_taylor_chance(time, i) < d->chance ? d->far : d->near;
     }
 }
 

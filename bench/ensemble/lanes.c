@@ -1,0 +1,189 @@
+/* lanes.c -- an ensemble in lanes against its members one after another, in one process:
+ * see `run`.
+ *
+ *     lanes SCENE LINKS MEMBERS TOL ROUNDS KIND
+ *
+ * KIND: of the vectors of the lanes, 0 portable, 1 AVX2, 2 AVX-512, where the processor
+ * has them.
+ *
+ * Prints: scene, members, tol, seconds one after another and in lanes (medians of the
+ * rounds, interleaved), their ratio (median of the ratios), steps of both, the largest
+ * difference of the end states over max(1, |y|).
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "num/batch.h"
+#include "ode/integrate.h"
+#include "sim/bind.h"
+#include "sim/ensemble.h"
+
+enum { MOST = 16, MOST_ROUNDS = 99 };
+
+static void
+must(qdot_status status)
+{
+    if (status == QDOT_OK)
+        return;
+    fprintf(stderr, "lanes: %s\n", qdot_last_error()->message);
+    exit(1);
+}
+
+static double
+now(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* A chain of bobs, m = l = 1, g = 9.81. */
+static qdot_scene *
+chain(qdot_pool *pool, int links)
+{
+    qdot_scene *scene = qdot_scene_new(pool);
+    qdot_expr r[2] = {QDOT_ZERO, QDOT_ZERO}, g;
+
+    for (int k = 1; k <= links; k++) {
+        char name[32];
+        qdot_expr q;
+
+        snprintf(name, sizeof name, "theta[%d]", k);
+        q = qdot_symbol_get(pool, QDOT_COORD, name);
+        must(qdot_scene_coordinate(scene, q));
+        r[0] = qdot_add(pool, r[0], qdot_fun1(pool, QDOT_SIN, q));
+        r[1] = qdot_sub(pool, r[1], qdot_fun1(pool, QDOT_COS, q));
+        snprintf(name, sizeof name, "bob[%d]", k);
+        must(qdot_scene_particle(scene, name, QDOT_ONE, qdot_vector(pool, 2, r)));
+    }
+    g = qdot_expr_ratio(pool, -981, 100);
+    must(qdot_scene_gravity(scene, qdot_vector(pool, 2, (qdot_expr[]){QDOT_ZERO, g})));
+    return scene;
+}
+
+/* Henon and Heiles' potential. */
+static qdot_scene *
+henon_heiles(qdot_pool *pool)
+{
+    qdot_scene *scene = qdot_scene_new(pool);
+    qdot_expr x = qdot_symbol_get(pool, QDOT_COORD, "x");
+    qdot_expr y = qdot_symbol_get(pool, QDOT_COORD, "y"), V;
+
+    must(qdot_scene_coordinate(scene, x));
+    must(qdot_scene_coordinate(scene, y));
+    must(qdot_scene_particle(scene, "p", QDOT_ONE,
+                             qdot_vector(pool, 2, (qdot_expr[]){x, y})));
+    V = qdot_add(pool, qdot_pow_int(pool, x, 2), qdot_pow_int(pool, y, 2));
+    V = qdot_mul(pool, QDOT_HALF, V);
+    V = qdot_add(pool, V, qdot_mul(pool, qdot_pow_int(pool, x, 2), y));
+    V = qdot_sub(pool, V, qdot_mul(pool, qdot_expr_ratio(pool, 1, 3),
+                                   qdot_pow_int(pool, y, 3)));
+    must(qdot_scene_potential(scene, V));
+    return scene;
+}
+
+/* Starts near each other: angles 1 ... 1.5, or energies below escape. */
+static void
+starts(const char *name, size_t n, size_t members, double *y)
+{
+    for (size_t m = 0; m < members; m++)
+        for (size_t i = 0; i < 2 * n; i++) {
+            double u = (double)((m * 7919 + i * 104729) % 1000) / 1000;
+
+            if (strcmp(name, "chain") == 0)
+                y[m * 2 * n + i] = i < n ? 1 + 0.5 * u : 0;
+            else
+                y[m * 2 * n + i] = 0.1 + 0.15 * u;
+        }
+}
+
+static int
+by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return x < y ? -1 : x > y;
+}
+
+static double
+median(double *x, int n)
+{
+    qsort(x, (size_t)n, sizeof *x, by_size);
+    return n % 2 ? x[n / 2] : 0.5 * (x[n / 2 - 1] + x[n / 2]);
+}
+
+int
+main(int argc, char **argv)
+{
+    double single[MOST_ROUNDS], lanes[MOST_ROUNDS], ratio[MOST_ROUNDS], difference = 0;
+    double *y0, *y1, *y2;
+    int links, rounds;
+    size_t members, n, steps = 0, lane_steps = 0;
+    qdot_pool *pool = qdot_pool_new();
+    qdot_run_request request = {.method = "taylor"};
+    qdot_ensemble_result *results;
+    qdot_ensemble *ensemble;
+    qdot_ode_system system;
+    qdot_scene *scene;
+    qdot_bind *bind;
+    qdot_plan *plan;
+
+    if (argc != 7 || !pool) {
+        fprintf(stderr, "usage: lanes chain|henon LINKS MEMBERS TOL ROUNDS KIND\n");
+        return 2;
+    }
+    qdot_batch_limit((size_t)atoi(argv[6]));
+    links = atoi(argv[2]);
+    members = (size_t)atol(argv[3]);
+    request.tol = atof(argv[4]);
+    rounds = atoi(argv[5]) < MOST_ROUNDS ? atoi(argv[5]) : MOST_ROUNDS;
+    scene = strcmp(argv[1], "chain") == 0 ? chain(pool, links) : henon_heiles(pool);
+    n = scene->coordinates.n;
+    request.t0 = QDOT_ZERO;
+    request.t1 = qdot_expr_int(pool, 10);
+    must(qdot_plan_new(scene, &request, &plan));
+    must(qdot_bind_new(plan, false, &bind));
+    system = qdot_bind_system(bind);
+    must(qdot_ensemble_new(scene, &request, 0, NULL, &ensemble));
+    y0 = calloc(3 * members * 2 * n, sizeof *y0);
+    results = calloc(members, sizeof *results);
+    y1 = y0 + members * 2 * n;
+    y2 = y1 + members * 2 * n;
+    starts(argv[1], n, members, y0);
+    for (int round = -1; round < rounds; round++) { /* the first warms up */
+        double start = now(), middle, end;
+
+        memcpy(y1, y0, members * 2 * n * sizeof *y0);
+        memcpy(y2, y0, members * 2 * n * sizeof *y0);
+        steps = 0;
+        for (size_t m = 0; m < members; m++) {
+            qdot_ode_options options = {.tol = request.tol};
+            qdot_ode_result result;
+
+            must(qdot_ode_integrate(&system, qdot_ode_method_find("taylor"), &options, 0,
+                                    10, y1 + m * 2 * n, &result));
+            steps += result.stats.steps;
+        }
+        middle = now();
+        must(qdot_ensemble_run(ensemble, members, y2, NULL, false, results));
+        end = now();
+        if (round < 0)
+            continue;
+        single[round] = middle - start;
+        lanes[round] = end - middle;
+        ratio[round] = single[round] / lanes[round];
+    }
+    for (size_t m = 0; m < members; m++)
+        lane_steps += results[m].steps;
+    for (size_t i = 0; i < members * 2 * n; i++)
+        difference = fmax(difference, fabs(y1[i] - y2[i]) / fmax(1, fabs(y1[i])));
+    printf("%-6s %2d %4zu %8.0e %10.3e %10.3e %6.2f %7zu %7zu %9.1e  %s\n", argv[1], links,
+           members, request.tol, median(single, rounds), median(lanes, rounds),
+           median(ratio, rounds), steps, lane_steps, difference,
+           qdot_batch_kernels_get()->name);
+    return 0;
+}

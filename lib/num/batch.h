@@ -1,0 +1,81 @@
+/* batch.h -- eight systems at once, one a lane of a vector.
+ *
+ * Every number of a system is a group of QDOT_LANES doubles, lane l at [l]; a series is
+ * such groups by order, coefficient k of lane l at [k QDOT_LANES + l]. All lanes do the
+ * same operations, so what one processor instruction does it does for all of them.
+ *
+ * Everything exists three times, as in series.h: portable vectors of GCC, AVX2 and
+ * AVX-512 with fused multiplications; code of another floor is made for all three in the
+ * same way (batch-kinds.def).
+ *
+ * Tests  tests/num/test_batch.c
+ */
+#ifndef QDOT_NUM_BATCH_H
+#define QDOT_NUM_BATCH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "num/series.h"
+
+#define QDOT_LANES 8
+
+typedef void qdot_batch_dot(const double *a, const double *b, double *out);
+typedef void qdot_batch_pair(const double *a, const double *b, const double *c,
+                             double *out_b, double *out_c);
+
+typedef struct {
+    const char *name; /* "portable", "avx2", "avx512" */
+
+    /* [n] for n = 0 ... QDOT_SERIES_MOST + 1: out = sum_{j=0..n-1} a[j] b[-j], groups; and
+     * both sum a[j] b[-j] and sum a[j] c[-j]. An output may be an operand's newest. */
+    qdot_batch_dot *dot[QDOT_SERIES_MOST + 2];
+    qdot_batch_pair *pair[QDOT_SERIES_MOST + 2];
+
+    /* The length of a step by orders from ... p of n series, log2 in units of s:
+     *
+     *     out = min_k (log_tol - log2 max_i |x_ik| weight_i) / k
+     *
+     * to 0.1; INFINITY where they hold nothing, NaN where they are not finite. weight [n],
+     * out one group. */
+    void (*log_steps)(size_t n, const double *x, size_t stride, int from, int p,
+                      const double *weight, double log_tol, double *out);
+
+    /* Of each of n series x [i stride + k], in groups: what is left of it from order 2 on,
+     *
+     *     value[i] = sum_{k=2..p} x_k s^(k-1),   slope[i] = sum_{k=1..p} k x_k s^(k-1).
+     *
+     * s is one group. */
+    void (*tails)(size_t n, const double *x, size_t stride, int p, const double *s,
+                  double *value, double *slope);
+
+    /* The sum of such a series by twice the precision: next + next_carry =
+     * y + carry + s (x_1 + value) + s low, all [n]; low_i = unit carry_{i + checked} for
+     * i < checked, else 0; unit is one group. */
+    void (*advance)(size_t n, size_t checked, const double *x, size_t stride,
+                    const double *s, const double *unit, const double *value,
+                    const double *y, const double *carry, double *next,
+                    double *next_carry);
+
+    /* A [n x n] -> its Cholesky factor L below and on the diagonal, where 1/L_ii stands
+     * for L_ii. A lane that is not positive definite gets NaN or infinities. */
+    void (*factor)(size_t n, double *A);
+    /* x [n] <- (L L^T)^-1 x */
+    void (*solve)(size_t n, const double *L, double *x);
+    /* inverse [n x n] of L L^T; y [n] = A x. */
+    void (*invert)(size_t n, const double *L, double *inverse);
+    void (*multiply)(size_t n, const double *A, const double *x, double *y);
+} qdot_batch_kernels;
+
+/* Those that fit this processor. */
+const qdot_batch_kernels *qdot_batch_kernels_get(void);
+
+/* Kind i, portable first, of those this processor can run; NULL beyond the last. */
+const qdot_batch_kernels *qdot_batch_kernels_at(size_t i);
+
+/* The kind that _get takes: the last there is, but none above the one limited to. The
+ * limit is for tests and measurements, before anything else of a batch is made. */
+size_t qdot_batch_kind(void);
+void qdot_batch_limit(size_t kind);
+
+#endif

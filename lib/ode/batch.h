@@ -1,0 +1,66 @@
+/* batch.h -- many runs of one system by Taylor series, eight at a time.
+ *
+ * Each lane (num/batch.h) carries a member of the ensemble: its own time, step, unit and
+ * end. All lanes are expanded together to one order; each then goes as far as its own
+ * series allows, by the rules of ode/taylor.h, and a lane that has arrived, or cannot go
+ * on, takes the next member. So a member's run is the one it would make alone, to
+ * rounding, whatever its companions do.
+ *
+ * Where the upper half of a series holds nothing the polynomial may be the solution: the
+ * first such step goes a part of the way that no period shares, and only the next one all
+ * of it.
+ *
+ * Tests  tests/ode/test_batch.c, tests/sim/test_ensemble.c
+ */
+#ifndef QDOT_ODE_BATCH_H
+#define QDOT_ODE_BATCH_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "num/batch.h"
+
+/* As qdot_ode_series, every number a group of lanes. A lane where f is undefined gets
+ * coefficients of order 1 that are not finite. */
+typedef struct {
+    size_t n;        /* components */
+    size_t checked;  /* dy_i/dt = y_{checked + i} for i below it: no check, and what the
+                        sums carry enters order 1 */
+    const double *x; /* x_ik of lane l = x[(i stride + k) QDOT_LANES + l] */
+    size_t stride;
+    /* Lane `lane` is to be member `member` from now on: its parameters. NULL: nothing. */
+    void (*take)(size_t lane, size_t member, void *user);
+    /* Orders 0 and 1 through y [n groups] at t [a group], by units of time [a group]. */
+    void (*begin)(const double *t, const double *y, const double *unit, void *user);
+    /* Then orders 2 ... p. */
+    void (*extend)(int p, void *user);
+    void *user; /* borrowed */
+} qdot_ode_batch;
+
+typedef enum { QDOT_BATCH_DONE, QDOT_BATCH_UNDEFINED, QDOT_BATCH_STUCK, QDOT_BATCH_LIMIT } qdot_batch_outcome;
+
+typedef struct {
+    qdot_batch_outcome outcome; /* arrived; f undefined at the start; no step small enough;
+                                   too many steps */
+    double t;                   /* where it ended */
+    size_t steps, rejected;
+} qdot_batch_result;
+
+typedef struct {
+    size_t members;
+    int order;
+    double tol; /* as qdot_ode_options.tol: 1e-16 to 1 */
+    const double *t0, *t1; /* [members] t1 < t0 runs back */
+    double t1_low;         /* what every t1 is beyond its double */
+    double *y;             /* [members x n] starts; then ends */
+    qdot_batch_result *results; /* [members] */
+    size_t expansions;          /* out: of all lanes together */
+} qdot_batch_run;
+
+/* Errors: QDOT_EINVAL (order, tol, times or starts not finite), QDOT_ENOMEM, QDOT_EINTR
+ * (members that did not arrive are as they were). A member that fails is no error of the
+ * batch: its result says so. */
+QDOT_MUST_CHECK qdot_status qdot_ode_batch_run(const qdot_ode_batch *system,
+                                               qdot_batch_run *run);
+
+#endif

@@ -1,0 +1,222 @@
+/* lanes.c -- the series program of taylor.c with groups for numbers. */
+#include "tape/lanes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "tape/taylor-steps.h"
+
+/* As qdot_taylor_step. */
+typedef struct {
+    uint16_t op, zero;
+    int sign;
+    double *to, *second, *third, *d, *c;
+    const double *x, *y, *z;
+} lanes_step;
+
+typedef struct {
+    void (*eval)(const qdot_tape *tape, double *work);
+    void (*value_of_zero)(const lanes_step *step);
+    void (*order)(const qdot_batch_kernels *kernels, const lanes_step *steps, int k,
+                  double inverse);
+} lanes_kernels;
+
+#define BATCH_BODY "tape/lanes.def"
+#include "num/batch-kinds.def"
+
+static const lanes_kernels *const kinds[] = {
+    &portable_lanes,
+#ifdef BATCH_X86
+    &avx2_lanes,
+    &avx512_lanes,
+#endif
+};
+
+typedef struct {
+    double *row;
+    double near, far, chance;
+} drawn;
+
+struct qdot_lanes {
+    const qdot_batch_kernels *kernels;
+    const lanes_kernels *kind;
+    size_t stride, inputs, outputs, length;
+    void *memory;          /* what the coefficients stand in */
+    double *coefficients;  /* [rows x stride groups], from a cache line on */
+    double *inverses;      /* [length groups] */
+    lanes_step *steps;     /* [length], QDOT_T_END behind them */
+    const double **output; /* [outputs] */
+    bool *constant;        /* [outputs] */
+    drawn *drawn;          /* [n_drawn] */
+    size_t n_drawn;
+    double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
+};
+
+void
+qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work)
+{
+    size_t n = tape->inputs * QDOT_LANES;
+
+    if (n)
+        memcpy(work, in, n * sizeof *work);
+    for (size_t i = 0; i < tape->constants; i++)
+        for (size_t l = 0; l < QDOT_LANES; l++)
+            work[n + i * QDOT_LANES + l] = tape->constant[i];
+    kinds[qdot_batch_kind()]->eval(tape, work);
+    for (size_t k = 0; k < tape->outputs; k++)
+        memcpy(out + k * QDOT_LANES, work + tape->output[k] * QDOT_LANES,
+               QDOT_LANES * sizeof *out);
+}
+
+void
+qdot_lanes_free(qdot_lanes *t)
+{
+    if (!t)
+        return;
+    qdot_free(t->memory);
+    qdot_free(t->inverses);
+    qdot_free(t->steps);
+    qdot_free(t->output);
+    qdot_free(t->constant);
+    qdot_free(t->drawn);
+    qdot_free(t);
+}
+
+/* The place of a row of the single program. */
+static double *
+place(const qdot_lanes *t, const qdot_taylor *from, const double *row)
+{
+    return row ? t->coefficients +
+                     (size_t)(row - from->coefficients) / from->stride * t->stride * QDOT_LANES
+               : NULL;
+}
+
+static qdot_status
+allocate(qdot_lanes *t, const qdot_taylor *from, int most)
+{
+    const size_t line = 64;
+
+    t->stride = (size_t)most + 2;
+    t->inputs = from->inputs;
+    t->outputs = from->outputs;
+    t->length = from->length;
+    t->n_drawn = from->n_drawn;
+    t->memory = qdot_calloc(from->rows * t->stride * QDOT_LANES + line / sizeof(double),
+                            sizeof(double));
+    t->inverses = qdot_calloc(t->length * QDOT_LANES + 1, sizeof *t->inverses);
+    t->steps = qdot_calloc(t->length + 1, sizeof *t->steps);
+    t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
+    t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
+    t->drawn = qdot_calloc(t->n_drawn + 1, sizeof *t->drawn);
+    if (!t->memory || !t->inverses || !t->steps || !t->output || !t->constant || !t->drawn)
+        return QDOT_ENOMEM;
+    t->coefficients =
+        (double *)(((uintptr_t)t->memory + line - 1) / line * line);
+    return QDOT_OK;
+}
+
+static qdot_status
+fill(qdot_lanes *t, const qdot_taylor *from, int most)
+{
+    QDOT_TRY(allocate(t, from, most));
+    for (size_t r = from->inputs; r < from->rows; r++)
+        for (size_t l = 0; l < QDOT_LANES; l++)
+            t->coefficients[r * t->stride * QDOT_LANES + l] =
+                from->coefficients[r * from->stride];
+    for (size_t i = 0; i < t->length; i++) {
+        const qdot_taylor_step *s = from->steps + i;
+
+        t->steps[i] = (lanes_step){.op = s->op,
+                                   .zero = s->zero,
+                                   .sign = s->sign,
+                                   .to = place(t, from, s->to),
+                                   .second = place(t, from, s->second),
+                                   .third = place(t, from, s->third),
+                                   .d = place(t, from, s->d),
+                                   .c = t->inverses + i * QDOT_LANES,
+                                   .x = place(t, from, s->x),
+                                   .y = place(t, from, s->y),
+                                   .z = place(t, from, s->z)};
+    }
+    t->steps[t->length].op = QDOT_T_END;
+    for (size_t i = 0; i < t->outputs; i++) {
+        t->output[i] = place(t, from, from->output[i]);
+        t->constant[i] = from->constant[i];
+    }
+    for (size_t i = 0; i < t->n_drawn; i++) {
+        const struct qdot_taylor_drawn *d = from->drawn + i;
+
+        t->drawn[i] = (drawn){place(t, from, d->row), d->near, d->far, d->chance};
+    }
+    for (int k = 1; k <= QDOT_SERIES_MOST; k++)
+        t->inverse[k] = 1.0 / k;
+    t->kernels = qdot_batch_kernels_get();
+    t->kind = kinds[qdot_batch_kind()];
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_lanes_new(const qdot_tape *tape, int most, qdot_lanes **lanes)
+{
+    qdot_taylor *single;
+    qdot_lanes *t;
+    qdot_status status;
+
+    *lanes = NULL;
+    if (most < 0 || most > QDOT_SERIES_MOST)
+        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
+    QDOT_TRY(qdot_taylor_new(tape, 0, &single));
+    t = qdot_calloc(1, sizeof *t);
+    status = t ? fill(t, single, most) : QDOT_ENOMEM;
+    qdot_taylor_free(single);
+    if (status != QDOT_OK) {
+        qdot_lanes_free(t);
+        return status;
+    }
+    *lanes = t;
+    return QDOT_OK;
+}
+
+double *
+qdot_lanes_input(qdot_lanes *t, size_t i)
+{
+    return t->coefficients + i * t->stride * QDOT_LANES;
+}
+
+size_t
+qdot_lanes_stride(const qdot_lanes *t)
+{
+    return t->stride;
+}
+
+const double *
+qdot_lanes_output(const qdot_lanes *t, size_t i)
+{
+    return t->output[i];
+}
+
+bool
+qdot_lanes_is_constant(const qdot_lanes *t, size_t i)
+{
+    return t->constant[i];
+}
+
+void
+qdot_lanes_draw(qdot_lanes *t, const double *time)
+{
+    for (size_t i = 0; i < t->n_drawn; i++)
+        for (size_t l = 0; l < QDOT_LANES; l++)
+            t->drawn[i].row[l] =
+                qdot_taylor_chance(time[l], i) < t->drawn[i].chance ? t->drawn[i].far
+                                                                    : t->drawn[i].near;
+}
+
+void
+qdot_lanes_order(qdot_lanes *t, int k)
+{
+    if (k == 0)
+        for (const lanes_step *s = t->steps; s->op != QDOT_T_END; s++)
+            t->kind->value_of_zero(s);
+    else
+        t->kind->order(t->kernels, t->steps, k, t->inverse[k]);
+}

@@ -1,0 +1,215 @@
+/* test_batch.c -- the kernels over lanes against sums in long double, every kind. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "num/batch.h"
+
+enum { L = QDOT_LANES, ORDERS = 24, N = 5 };
+
+static uint64_t seed = 3;
+
+static double
+uniform(void)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(seed >> 11) * 0x1p-53 * 2 - 1;
+}
+
+static void
+fill(double *x, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        x[i] = uniform();
+}
+
+static void
+near(double seen, long double want, const char *what)
+{
+    if (!(fabsl(seen - want) <= 1e-13L * (1 + fabsl(want))))
+        fail_msg("%s: %.17g, not %.17Lg", what, seen, want);
+}
+
+static void
+sums_of_products(void **state)
+{
+    const qdot_batch_kernels *kernels;
+    double a[50 * L], b[50 * L], c[50 * L], seen[L], other[L];
+
+    (void)state;
+    fill(a, 50 * L);
+    fill(b, 50 * L);
+    fill(c, 50 * L);
+    for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++)
+        for (size_t n = 0; n <= QDOT_SERIES_MOST + 1; n++) {
+            const size_t end = n ? (n - 1) * L : 0;
+
+            for (int turn = 0; turn < 2; turn++) {
+                if (turn == 0)
+                    kernels->dot[n](a, b + end, seen);
+                else
+                    kernels->pair[n](a, c + end, b + end, other, seen);
+                for (size_t l = 0; l < L; l++) {
+                    long double want = 0, too = 0;
+
+                    for (size_t j = 0; j < n; j++) {
+                        want += (long double)a[j * L + l] * b[end + l - j * L];
+                        too += (long double)a[j * L + l] * c[end + l - j * L];
+                    }
+                    near(seen[l], want, kernels->name);
+                    if (turn == 1)
+                        near(other[l], too, kernels->name);
+                }
+            }
+        }
+}
+
+static void
+series_are_summed_and_advanced(void **state)
+{
+    const size_t stride = ORDERS + 3;
+    const qdot_batch_kernels *kernels;
+    double x[N * (ORDERS + 3) * L], s[L], unit[L], y[N * L], carry[N * L];
+    double value[N * L], slope[N * L], next[N * L], next_carry[N * L];
+
+    (void)state;
+    fill(x, sizeof x / sizeof *x);
+    fill(s, L);
+    fill(unit, L);
+    fill(y, N * L);
+    for (size_t i = 0; i < N * L; i++)
+        carry[i] = uniform() * 0x1p-54;
+    for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
+        kernels->tails(N, x, stride, ORDERS, s, value, slope);
+        kernels->advance(N, 2, x, stride, s, unit, value, y, carry, next, next_carry);
+        for (size_t i = 0; i < N; i++)
+            for (size_t l = 0; l < L; l++) {
+                long double v = 0, d = 0, total, low;
+
+                for (size_t k = ORDERS; k > 0; k--) {
+                    v = v * s[l] + (k > 1 ? x[(i * stride + k) * L + l] : 0);
+                    d = d * s[l] + k * (long double)x[(i * stride + k) * L + l];
+                }
+                near(value[i * L + l], v, "tail");
+                near(slope[i * L + l], d, "slope");
+                low = i < 2 ? (long double)unit[l] * carry[(i + 2) * L + l] : 0;
+                total = y[i * L + l] + (long double)carry[i * L + l] +
+                        s[l] * ((long double)x[(i * stride + 1) * L + l] +
+                                value[i * L + l] + low);
+                low = (long double)next[i * L + l] + next_carry[i * L + l];
+                if (!(fabsl(low - total) < 0x1p-62L))
+                    fail_msg("%s: %.20Lg, not %.20Lg", kernels->name, low, total);
+                assert_true(fabs(next_carry[i * L + l]) <= 0x1p-53 * 4);
+            }
+    }
+}
+
+static void
+length_of_a_step_is_the_least(void **state)
+{
+    const size_t stride = ORDERS + 1;
+    const qdot_batch_kernels *kernels;
+    double x[N * (ORDERS + 1) * L], weight[N * L], seen[L];
+
+    (void)state;
+    for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
+        fill(x, sizeof x / sizeof *x);
+        for (size_t i = 0; i < N * L; i++)
+            weight[i] = 0.5 + 0.4 * uniform();
+        for (size_t i = 0; i < N; i++)
+            for (size_t k = 0; k <= ORDERS; k++) {
+                x[(i * stride + k) * L + 1] = 0;
+                if (k > 14)
+                    x[(i * stride + k) * L + 4] = 0;
+            }
+        x[(2 * stride + 15) * L + 2] = NAN;
+        x[(3 * stride + 20) * L + 3] = -INFINITY;
+        kernels->log_steps(N, x, stride, 13, ORDERS, weight, -40, seen);
+        assert_true(isinf(seen[1]) && seen[1] > 0);
+        assert_true(isnan(seen[2]) && isnan(seen[3]));
+        for (size_t l = 0; l < L; l++) {
+            double want = INFINITY;
+
+            for (size_t k = 13; k <= ORDERS; k++) {
+                double most = 0;
+
+                for (size_t i = 0; i < N; i++)
+                    most = fmax(most,
+                                fabs(x[(i * stride + k) * L + l]) * weight[i * L + l]);
+                if (most > 0)
+                    want = fmin(want, (-40 - log2(most)) / (double)k);
+            }
+            if (l != 1 && l != 2 && l != 3)
+                assert_true(fabs(seen[l] - want) < 0.1);
+        }
+    }
+}
+
+static void
+systems_are_solved(void **state)
+{
+    const qdot_batch_kernels *kernels;
+    double A[N * N * L], F[N * N * L], inverse[N * N * L], b[N * L], x[N * L], y[N * L];
+
+    (void)state;
+    for (size_t i = 0; i < N; i++)
+        for (size_t j = 0; j <= i; j++)
+            for (size_t l = 0; l < L; l++)
+                A[(i * N + j) * L + l] = A[(j * N + i) * L + l] =
+                    i == j ? 3 + uniform() : 0.6 * uniform();
+    for (size_t j = 0; j < N; j++) /* lane 5 has no mass there */
+        A[(2 * N + j) * L + 5] = A[(j * N + 2) * L + 5] = 0;
+    fill(b, N * L);
+    for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
+        for (size_t i = 0; i < N * N * L; i++)
+            F[i] = A[i];
+        for (size_t i = 0; i < N * L; i++)
+            x[i] = b[i];
+        kernels->factor(N, F);
+        kernels->solve(N, F, x);
+        kernels->invert(N, F, inverse);
+        kernels->multiply(N, inverse, b, y);
+        for (size_t l = 0; l < L; l++)
+            for (size_t i = 0; i < N; i++) {
+                long double sum = 0;
+
+                if (l == 5) {
+                    assert_false(isfinite(x[2 * L + l]));
+                    continue;
+                }
+                for (size_t j = 0; j < N; j++)
+                    sum += (long double)A[(i * N + j) * L + l] * x[j * L + l];
+                near(b[i * L + l], sum, "solve");
+                near(y[i * L + l], x[i * L + l], "inverse");
+            }
+    }
+}
+
+static void
+a_limit_is_kept(void **state)
+{
+    (void)state;
+    qdot_batch_limit(0);
+    assert_string_equal(qdot_batch_kernels_get()->name, "portable");
+    qdot_batch_limit(9);
+    assert_non_null(qdot_batch_kernels_get());
+    assert_null(qdot_batch_kernels_at(3));
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sums_of_products),
+        cmocka_unit_test(series_are_summed_and_advanced),
+        cmocka_unit_test(length_of_a_step_is_the_least),
+        cmocka_unit_test(systems_are_solved),
+        cmocka_unit_test(a_limit_is_kept),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
