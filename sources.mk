@@ -500,6 +500,10 @@ script_tests = \
 	tests/bad/compare-run.lag \
 	tests/bad/constraint-contradicts.lag \
 	tests/bad/constraint-no-coordinate.lag \
+	tests/bad/constraint-nonlinear-acceleration.lag \
+	tests/bad/constraints-method.lag \
+	tests/bad/constraints-option.lag \
+	tests/bad/constraints-word.lag \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
@@ -557,6 +561,7 @@ script_tests = \
 	tests/bad/modes-damped.lag \
 	tests/bad/modes-unstable.lag \
 	tests/bad/momentum-index.lag \
+	tests/bad/multiplier-unknown.lag \
 	tests/bad/newton-dot.lag \
 	tests/bad/no-coordinate.lag \
 	tests/bad/no-run.lag \
@@ -610,7 +615,9 @@ script_tests = \
 	tests/bad/wrong-arguments.lag \
 	examples/acceleration-constraint.lag \
 	examples/bead-on-wire.lag \
+	examples/car-axis.lag \
 	examples/chain.lag \
+	examples/chaplygin-sleigh.lag \
 	examples/conserved.lag \
 	examples/curvature.lag \
 	examples/cylindrical.lag \
@@ -623,6 +630,7 @@ script_tests = \
 	examples/equilibria.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
+	examples/four-bar.lag \
 	examples/generalized-momenta.lag \
 	examples/geometry.lag \
 	examples/hamiltonian.lag \
@@ -640,12 +648,14 @@ script_tests = \
 	examples/pendulum.lag \
 	examples/polar.lag \
 	examples/race.lag \
+	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
 	examples/slider-crank.lag \
 	examples/spherical-pendulum.lag \
 	examples/spherical.lag \
+	examples/squeezer.lag \
 	examples/stated-lagrangian.lag \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
@@ -674,6 +684,10 @@ test_files = \
 	tests/bad/compare-run.out \
 	tests/bad/constraint-contradicts.out \
 	tests/bad/constraint-no-coordinate.out \
+	tests/bad/constraint-nonlinear-acceleration.out \
+	tests/bad/constraints-method.out \
+	tests/bad/constraints-option.out \
+	tests/bad/constraints-word.out \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \
@@ -731,6 +745,7 @@ test_files = \
 	tests/bad/modes-damped.out \
 	tests/bad/modes-unstable.out \
 	tests/bad/momentum-index.out \
+	tests/bad/multiplier-unknown.out \
 	tests/bad/newton-dot.out \
 	tests/bad/no-coordinate.out \
 	tests/bad/no-run.out \
@@ -784,7 +799,9 @@ test_files = \
 	tests/bad/wrong-arguments.out \
 	tests/examples/acceleration-constraint.out \
 	tests/examples/bead-on-wire.out \
+	tests/examples/car-axis.out \
 	tests/examples/chain.out \
+	tests/examples/chaplygin-sleigh.out \
 	tests/examples/conserved.out \
 	tests/examples/curvature.out \
 	tests/examples/cylindrical.out \
@@ -796,6 +813,7 @@ test_files = \
 	tests/examples/equilibria.out \
 	tests/examples/flexing-wire.out \
 	tests/examples/foucault.out \
+	tests/examples/four-bar.out \
 	tests/examples/generalized-momenta.out \
 	tests/examples/geometry.out \
 	tests/examples/hamiltonian.out \
@@ -812,12 +830,14 @@ test_files = \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \
 	tests/examples/polar.out \
+	tests/examples/rolling-disk.out \
 	tests/examples/rolling-wheel.out \
 	tests/examples/rotating-hoop.out \
 	tests/examples/routh.out \
 	tests/examples/slider-crank.out \
 	tests/examples/spherical-pendulum.out \
 	tests/examples/spherical.out \
+	tests/examples/squeezer.out \
 	tests/examples/stated-lagrangian.out \
 	tests/examples/static-equilibrium.out \
 	tests/examples/swinging-atwood.out \

@@ -65,7 +65,11 @@ each_state(qdot_session *session, const qdot_run_report *report, qdot_style styl
         if (status == QDOT_OK && report->exact != NULL)
             status = exact_number(session, report, k % 2 * report->n + i, value, &number);
         else if (status == QDOT_OK)
-            double_number(session, value, report->error, &number);
+            double_number(session, value,
+                          multiplier ? report->lambda_error[k - 2 * report->n]
+                                           / fmax(1, fabs(value))
+                                     : report->error,
+                          &number);
         if (status == QDOT_OK)
             each(line, k, qdot_text_str(&name), qdot_text_str(&number));
         qdot_text_clear(&name);

@@ -1,6 +1,7 @@
 /* bonds.c -- residuals at every stored point, multipliers at the last. */
 #include "sim/bonds.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -10,6 +11,7 @@ void
 qdot_bonds_clear(qdot_bonds *b)
 {
     qdot_free(b->lambda);
+    qdot_free(b->error);
     *b = (qdot_bonds){0};
 }
 
@@ -30,7 +32,10 @@ find_multipliers(qdot_held *held, const qdot_trajectory *tr, size_t m, qdot_bond
     qdot_status status;
 
     b->lambda = qdot_calloc(m, sizeof *b->lambda);
-    if (!a || !b->lambda) {
+    b->error = qdot_calloc(m, sizeof *b->error);
+    for (size_t k = 0; k < m && b->error; k++)
+        b->error[k] = NAN;
+    if (!a || !b->lambda || !b->error) {
         qdot_free(a);
         return QDOT_ENOMEM;
     }
@@ -67,6 +72,54 @@ qdot_bonds_measure(qdot_bind *bind, const qdot_trajectory *tr, qdot_bonds *b)
     return find_multipliers(held, tr, qdot_held_rows(held), b);
 }
 
+/* lambda at y with component i moved by h, into `out`; NaN where it does not exist. */
+static void
+look(qdot_held *held, double t, double *y, size_t i, double h, double *a, double *out)
+{
+    qdot_error before = *qdot_last_error();
+    double kept = y[i];
+
+    y[i] += h;
+    if (qdot_held_solve(held, t, y, a, out) != QDOT_OK) {
+        out[0] = NAN;
+        qdot_fail_again(&before);
+    }
+    y[i] = kept;
+}
+
+qdot_status
+qdot_bonds_errors(qdot_bind *bind, const qdot_trajectory *tr, const double *difference,
+                  qdot_bonds *b)
+{
+    qdot_held *held = qdot_bind_held(bind);
+    const size_t n = tr->n, m = held ? qdot_held_rows(held) : 0;
+    double t, *y, *a, *up, *down;
+
+    if (m == 0 || tr->count == 0 || !b->error || isnan(difference[0]))
+        return QDOT_OK;
+    y = qdot_calloc(2 * n + 2 * m, sizeof *y);
+    if (!y)
+        return QDOT_ENOMEM;
+    a = y + n;
+    up = a + n;
+    down = up + m;
+    t = tr->t[tr->count - 1];
+    for (size_t i = 0; i < n; i++)
+        y[i] = tr->y[(tr->count - 1) * n + i];
+    for (size_t k = 0; k < m; k++)
+        b->error[k] = 4 * DBL_EPSILON * fabs(b->lambda[k]);
+    for (size_t i = 0; i < n; i++) {
+        double h = 0x1p-20 * fmax(1, fabs(y[i]));
+
+        look(held, t, y, i, h, a, up);
+        look(held, t, y, i, -h, a, down);
+        for (size_t k = 0; k < m; k++)
+            b->error[k] += fabs(up[k] - down[k]) / (2 * h) * difference[i];
+    }
+    qdot_free(y);
+    return QDOT_OK;
+}
+
 void
 qdot_bonds_report(const qdot_bonds *b, const qdot_plan *p, qdot_run_report *r)
 {
@@ -76,6 +129,7 @@ qdot_bonds_report(const qdot_bonds *b, const qdot_plan *p, qdot_run_report *r)
     r->m = p->constraints->m;
     r->multipliers = p->inputs + 3 * p->n + 1;
     r->lambda = b->lambda;
+    r->lambda_error = b->error;
     r->constraint_drift = isnan(b->position) ? b->velocity : b->position;
     r->velocity_drift = b->velocity;
     r->independent = b->independent;

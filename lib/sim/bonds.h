@@ -12,6 +12,7 @@
 typedef struct {
     double position, velocity; /* the largest residuals at stored points; NaN: none */
     double *lambda;            /* [m] at the end */
+    double *error;             /* [m] of these, absolute; NaN: unknown */
     size_t independent;
 } qdot_bonds;
 
@@ -19,6 +20,11 @@ typedef struct {
  * QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_bonds_measure(qdot_bind *bind, const qdot_trajectory *tr,
                                                qdot_bonds *b);
+/* The errors of the multipliers at the end, from those of the state there:
+ *     error_k = sum_i |dlambda_k/dy_i| difference_i,   difference [2n]
+ * by central differences. Nothing for a plan without constraints. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_bonds_errors(qdot_bind *bind, const qdot_trajectory *tr,
+                                              const double *difference, qdot_bonds *b);
 void qdot_bonds_clear(qdot_bonds *b);
 
 /* Into a report. */

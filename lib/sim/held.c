@@ -10,6 +10,9 @@
 /* A start may break a constraint by the rounding of decimals as people type them. */
 static const double start_tolerance = 1e-9;
 
+/* Values below it count as so large where rounding is judged: at rest all are 0. */
+static const double least_size = 0x1p-10;
+
 enum { most_iterations = 6 };
 
 /* The rows that restrict positions, velocities, accelerations: kinds up to it. */
@@ -233,7 +236,7 @@ factor_metric(qdot_held *h, level *l, const double *x, double *bound)
         double sum = 0;
 
         for (size_t i = 0; i < n; i++)
-            sum += fabs(l->saddle.A[k * n + i] * x[i]);
+            sum += fabs(l->saddle.A[k * n + i]) * fmax(fabs(x[i]), least_size);
         bound[l->row[k]] = fmax(bound[l->row[k]], DBL_EPSILON * sum);
     }
     return QDOT_OK;

@@ -10,7 +10,7 @@
  *     q += M^-1 A^T nu until f(q, t) = 0,   then q' likewise until df/dt = 0,
  *
  * when a residual is above what rounding alone makes of it, 2^-52 sum |A_ki q_i| (q' at
- * the level of velocities), and only then. Under `baumgarte` gamma is
+ * the level of velocities; values below 2^-10 count as that), and only then. Under `baumgarte` gamma is
  *
  *     gamma - 2 a df/dt - a^2 f,   velocity constraints: gamma - a f,
  *

@@ -346,8 +346,16 @@ carry_out(qdot_run *run, qdot_scene *scene, qdot_domains *domains, double tol,
         bool there = run->tr.count > 0;
         qdot_error failure = *qdot_last_error();
 
+        double *difference = qdot_calloc(2 * run->plan->n, sizeof *difference);
+
         qdot_companion_finish(companion, there ? run->tr.result.t : run->t1,
-                              there ? last_state(run) : run->start, NULL, &estimate);
+                              there ? last_state(run) : run->start, difference,
+                              &estimate);
+        if (!difference)
+            status = QDOT_ENOMEM;
+        else if (status == QDOT_OK && !*interrupted)
+            status = qdot_bonds_errors(run->bind, &run->tr, difference, &run->bonds);
+        qdot_free(difference);
         if (status != QDOT_OK || *interrupted)
             qdot_fail_again(&failure);
     }

@@ -70,6 +70,7 @@ typedef struct {
     size_t m;                      /* multipliers; 0: no constraints */
     const qdot_expr *multipliers;  /* [m] symbols */
     const double *lambda;          /* [m] at t1; NaN where there are none */
+    const double *lambda_error;    /* [m] estimates of their errors, absolute; NaN: unknown */
     double constraint_drift;       /* the largest |f| of holonomic constraints met, of velocity
                                       constraints where there are no others; NaN: neither */
     double velocity_drift;         /* the largest |df/dt|, |f| of velocity constraints; NaN */

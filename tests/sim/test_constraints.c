@@ -212,6 +212,82 @@ series_and_differentiated_constraints_agree(void **state)
     }
 }
 
+/* 440 periods: rounding is noise, and what it does to the energy grows as the square root
+ * of the time (a drift of one last bit an order of a step would be 7e-14). */
+static void
+long_runs_do_not_drift(void **state)
+{
+    const qdot_run_report *report;
+    fixture f;
+    qdot_run *r;
+
+    (void)state;
+    cartesian_pendulum(&f);
+    f.q0[0] = qdot_fun1(f.pool, QDOT_SIN, QDOT_ONE);
+    f.q0[1] = qdot_neg(f.pool, qdot_fun1(f.pool, QDOT_COS, QDOT_ONE));
+    f.request.t1 = qdot_expr_int(f.pool, 1000);
+    f.request.tol = 1e-15;
+    r = run(&f);
+    report = qdot_run_get_report(r);
+    assert_string_equal(report->method, "taylor");
+    assert_true(report->constraint_drift < 1e-15);
+    assert_true(report->energy_drift < 4e-14);
+    assert_true(report->projections < report->steps / 3);
+    qdot_run_free(r);
+    end(&f);
+}
+
+/* Multipliers at the end: what is said of their errors holds, and is not much. */
+static void
+multipliers_state_their_errors(void **state)
+{
+    fixture f;
+    qdot_run *coarse, *fine;
+    const qdot_run_report *a, *b;
+    double error;
+
+    (void)state;
+    cartesian_pendulum(&f);
+    f.request.method = "rk8pd";
+    f.request.tol = 1e-8;
+    coarse = run(&f);
+    f.request.tol = 1e-14;
+    fine = run(&f);
+    a = qdot_run_get_report(coarse);
+    b = qdot_run_get_report(fine);
+    error = fabs(a->lambda[0] - b->lambda[0]);
+    assert_true(error > 10 * b->lambda_error[0]);
+    assert_true(error < 3 * a->lambda_error[0] && a->lambda_error[0] < 100 * error);
+    qdot_run_free(coarse);
+    qdot_run_free(fine);
+    end(&f);
+}
+
+static void
+every_failed_allocation_is_survived(void **state)
+{
+    qdot_status status = QDOT_ENOMEM;
+    fixture f;
+    long n = 0;
+
+    (void)state;
+    cartesian_pendulum(&f);
+    f.request.t1 = QDOT_ZERO; /* no second thread, whose allocations would count */
+    for (; status != QDOT_OK && n < 100000; n += 1 + n / 40) {
+        qdot_run *r = NULL;
+
+        f.scene->version++; /* derive again */
+        qdot_memory_fail_at(n);
+        status = qdot_run_new(f.scene, &f.request, &r);
+        qdot_memory_fail_at(-1);
+        assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
+        assert_true((status == QDOT_OK) == (r != NULL));
+        qdot_run_free(r);
+    }
+    assert_true(status == QDOT_OK && n > 20);
+    end(&f);
+}
+
 static void
 refuses(fixture *f, qdot_status status, const char *message)
 {
@@ -252,6 +328,9 @@ main(void)
         cmocka_unit_test(treatments_differ),
         cmocka_unit_test(series_and_differentiated_constraints_agree),
         cmocka_unit_test(redundant_constraints_change_nothing),
+        cmocka_unit_test(long_runs_do_not_drift),
+        cmocka_unit_test(multipliers_state_their_errors),
+        cmocka_unit_test(every_failed_allocation_is_survived),
         cmocka_unit_test(what_cannot_be_held_is_refused),
     };
 
