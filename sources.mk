@@ -466,6 +466,7 @@ script_tests = \
 	tests/script/mechanism-program.lag \
 	tests/script/mechanism-pulley.lag \
 	tests/script/mechanism-quick-return.lag \
+	tests/script/mechanism-rolling-cone.lag \
 	tests/script/mechanism-rolling-disc.lag \
 	tests/script/mechanism-rolling-sphere.lag \
 	tests/script/mechanism-slider-crank.lag \
@@ -619,6 +620,7 @@ script_tests = \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
 	examples/conserved.lag \
+	examples/consistent-start.lag \
 	examples/curvature.lag \
 	examples/cylindrical.lag \
 	examples/damped-oscillator.lag \
@@ -635,6 +637,7 @@ script_tests = \
 	examples/geometry.lag \
 	examples/hamiltonian.lag \
 	examples/heavy-top.lag \
+	examples/holonomic-in-disguise.lag \
 	examples/kepler.lag \
 	examples/kinetic-energy.lag \
 	examples/knife-edge.lag \
@@ -803,6 +806,7 @@ test_files = \
 	tests/examples/chain.out \
 	tests/examples/chaplygin-sleigh.out \
 	tests/examples/conserved.out \
+	tests/examples/consistent-start.out \
 	tests/examples/curvature.out \
 	tests/examples/cylindrical.out \
 	tests/examples/damped-oscillator.out \
@@ -818,6 +822,7 @@ test_files = \
 	tests/examples/geometry.out \
 	tests/examples/hamiltonian.out \
 	tests/examples/heavy-top.out \
+	tests/examples/holonomic-in-disguise.out \
 	tests/examples/kepler.out \
 	tests/examples/kinetic-energy.out \
 	tests/examples/knife-edge.out \
@@ -926,6 +931,7 @@ test_files = \
 	tests/script/mechanism-program.out \
 	tests/script/mechanism-pulley.out \
 	tests/script/mechanism-quick-return.out \
+	tests/script/mechanism-rolling-cone.out \
 	tests/script/mechanism-rolling-disc.out \
 	tests/script/mechanism-rolling-sphere.out \
 	tests/script/mechanism-slider-crank.out \

@@ -2,7 +2,9 @@
 #include "scenes.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/memory.h"
 #include "sim/start.h"
 
 typedef struct {
@@ -61,12 +63,15 @@ settle(start *s)
         names[i] = (char *)qdot_expr_symbol(f->pool, inputs[i])->name;
     }
     inputs[2 * n] = QDOT_T;
-    must(qdot_domains_find(&plan, &domains));
-    status = qdot_start_settle(f->scene, &plan, &f->request, &domains, s->y0, s->low,
-                               &s->notice);
+    status = qdot_domains_find(&plan, &domains);
+    if (status == QDOT_OK)
+        status = qdot_start_settle(f->scene, &plan, &f->request, &domains, s->y0, s->low,
+                                   &s->notice);
     qdot_domains_clear(&domains);
     return status;
 }
+
+
 
 static void
 finish(start *s)
@@ -275,6 +280,60 @@ moving_constraint_gives_the_velocity(void **state)
     finish(&s);
 }
 
+/* --- whatever happens ---------------------------------------------------------------- */
+
+/* Two bobs on rods, named values at random and far off: what comes out keeps the rods, and
+ * the way there is along M^-1 A^T lambda, so that no nearer point is beside it. */
+static void
+least_changes_are_perpendicular(void **state)
+{
+    (void)state;
+    srand(7);
+    for (int trial = 0; trial < 40; trial++) {
+        static bool all[] = {true, true, true, true};
+        double far = 0, across = 0, x, y, from[2];
+        start s;
+
+        cartesian(&s);
+        s.f.request.q_named = s.f.request.v_named = all;
+        for (int i = 0; i < 2; i++)
+            s.y0[i] = from[i] = 4.0 * rand() / RAND_MAX - 2;
+        must(settle(&s));
+        x = s.y0[0];
+        y = s.y0[1];
+        assert_true(fabs((x - 1) * (x + 1) + y * y) < 4e-16);
+        for (int i = 0; i < 2; i++)
+            far += (s.y0[i] - from[i]) * (s.y0[i] - from[i]);
+        across = (x - from[0]) * -y + (y - from[1]) * x;
+        assert_true(fabs(across) < 1e-14 * (1 + far));
+        assert_true(x * from[0] + y * from[1] > 0);
+        finish(&s);
+    }
+}
+
+/* An allocation that fails, each in turn: an error, nothing lost, and at last the answer. */
+static void
+no_memory_is_an_error(void **state)
+{
+    qdot_status status = QDOT_ENOMEM;
+
+    (void)state;
+    for (long n = 0; status != QDOT_OK; n++) {
+        start s;
+
+        cartesian(&s);
+        s.q_named[0] = s.q_named[1] = true;
+        s.y0[0] = 3;
+        s.y0[1] = -4;
+        qdot_memory_fail_at(n);
+        status = settle(&s);
+        qdot_memory_fail_at(-1);
+        assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
+        finish(&s);
+        assert_true(n < 100000);
+    }
+}
+
 int
 main(void)
 {
@@ -289,6 +348,8 @@ main(void)
         cmocka_unit_test(redundant_constraints_are_no_hindrance),
         cmocka_unit_test(dead_point_is_found),
         cmocka_unit_test(moving_constraint_gives_the_velocity),
+        cmocka_unit_test(least_changes_are_perpendicular),
+        cmocka_unit_test(no_memory_is_an_error),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
