@@ -101,6 +101,7 @@ normal_sources = \
 	lib/normal/antiderivative.c \
 	lib/normal/ball.c \
 	lib/normal/collect.c \
+	lib/normal/common.c \
 	lib/normal/constant.c \
 	lib/normal/decide.c \
 	lib/normal/domain.c \

@@ -90,28 +90,36 @@ static uint32_t
 arrange(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order)
 {
     const qdot_expr *args = ARGS(pool, e);
-    uint32_t n = NODE(pool, e)->n, count = 0, lead = 0;
+    uint32_t n = NODE(pool, e)->n, count = 0, lead = 0, others;
+    uint32_t late = NODE(pool, e)->holds & QDOT_HAS_MULTIPLIER;
     bool first = constants_first(pool, e);
 
     if (NODE(pool, e)->holds == 0 && args[0] != QDOT_ZERO) /* 2 + sqrt(2) */
         order[count++] = 0;
 
     for (uint32_t i = 1; i < n; i += 2)
-        if (!first || is_constant(pool, args[i]))
+        if (!(NODE(pool, args[i])->holds & late) &&
+            (!first || is_constant(pool, args[i])))
             order[count++] = i;
     if (args[0] != QDOT_ZERO && NODE(pool, e)->holds != 0)
         order[count++] = 0;
     for (uint32_t i = 1; i < n && first; i += 2)
         if (!is_constant(pool, args[i]))
             order[count++] = i;
-    for (; lead < count; lead++) {
+    others = count;
+    for (uint32_t i = 1; i < n; i += 2) /* m g + lambda x */
+        if (NODE(pool, args[i])->holds & late)
+            order[count++] = i;
+    if (others == 0)
+        others = count;
+    for (; lead < others; lead++) {
         uint32_t i = order[lead];
 
         if (is_minus(pool, i == 0 ? args[0] : args[i + 1]) == turned ||
             (i > 0 && qdot_expr_turnable(pool, args[i]) != QDOT_NIL))
             break;
     }
-    if (lead < count) {
+    if (lead < others) {
         uint32_t i = order[lead];
 
         memmove(order + 1, order, lead * sizeof *order);

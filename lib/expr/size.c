@@ -29,7 +29,9 @@ leading_minus(const qdot_pool *pool, qdot_expr sum)
     const qdot_expr *args = ARGS(pool, sum);
 
     for (uint32_t i = 0; i < NODE(pool, sum)->n; i += 2)
-        if (fmpq_sgn(RATIONAL(pool, args[i])) > 0)
+        if (fmpq_sgn(RATIONAL(pool, args[i])) > 0 ||
+            (i > 0 && fmpq_sgn(RATIONAL(pool, args[i])) < 0 &&
+             qdot_expr_turnable(pool, args[i - 1]) != QDOT_NIL))
             return false;
     return true;
 }

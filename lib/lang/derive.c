@@ -2,6 +2,7 @@
 #include "lang/statement.h"
 
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "lang/answer.h"
 #include "mech/quantity.h"
 #include "normal/simplify.h"
@@ -19,19 +20,41 @@ heading(derivation *d, const char *title)
     d->step++;
 }
 
-/* `    name = value`, name being printed as it stands. */
+/* `    name = value`, the name `before[of]behind` in the style of the session. */
 static qdot_status
-line(derivation *d, const char *name, const char *of, qdot_expr value)
+named(derivation *d, const char *before, const char *of, const char *behind,
+      qdot_expr value)
+{
+    qdot_session *s = d->session;
+    qdot_text name = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    qdot_text_add(&name, before);
+    qdot_text_add(&name, of);
+    qdot_text_add(&name, behind);
+    qdot_text_add(&d->text, "    ");
+    qdot_answer_math(s, true, &d->text);
+    status = qdot_text_status(&name);
+    if (status == QDOT_OK)
+        status = qdot_answer_name(s, qdot_text_str(&name), &d->text);
+    qdot_text_clear(&name);
+    QDOT_TRY(status);
+    qdot_text_add(&d->text, qdot_answer_equals(s));
+    QDOT_TRY(qdot_answer_print(s, value, s->style, &d->text));
+    qdot_answer_math(s, false, &d->text);
+    qdot_text_char(&d->text, '\n');
+    return QDOT_OK;
+}
+
+/* The relation as it stands, behind its label. */
+static qdot_status
+relation(derivation *d, const char *label, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
-    qdot_text_format(&d->text, "    %s", name);
-    if (of != NULL) {
-        qdot_text_char(&d->text, '[');
-        qdot_print_name(of, d->session->style, &d->text);
-        qdot_text_char(&d->text, ']');
-    }
-    qdot_text_add(&d->text, " = ");
-    QDOT_TRY(qdot_print(d->session->pool, value, d->session->style, &d->text));
+    qdot_text_format(&d->text, "    %s%s", label == NULL ? "" : label,
+                     label == NULL ? "" : ": ");
+    QDOT_TRY(qdot_answer_formula(d->session, e, &d->text));
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
 }
@@ -42,30 +65,44 @@ name_of(const derivation *d, size_t i)
     return qdot_expr_symbol(d->session->pool, d->session->scene->coordinates.at[i])->name;
 }
 
-/* r and v = sum dr/dq q' + dr/dt of everything that has a mass. */
+/* In the form for people, unless it is larger than a page. */
+static qdot_expr
+tidy(derivation *d, qdot_expr e)
+{
+    enum { PAGE = 4000 };
+    qdot_facts facts = qdot_scene_facts(d->session->scene);
+
+    if (e == QDOT_NIL || qdot_expr_size(d->session->pool, e) > PAGE)
+        return e;
+    return qdot_common_out(d->session->pool, qdot_simplify(d->session->pool, e, &facts));
+}
+
+/* r, v = sum dr/dq q' + dr/dt and v^2 of everything that has a mass. */
 static qdot_status
 kinematics(derivation *d)
 {
     qdot_scene *s = d->session->scene;
-    qdot_facts facts = qdot_scene_facts(s);
+    size_t n = s->particles.n + s->bodies.n;
 
-    heading(d, "Positions: r(q, t)");
-    for (size_t i = 0; i < s->particles.n; i++)
-        QDOT_TRY(line(d, "r", s->particles.at[i].name, s->particles.at[i].position));
-    for (size_t i = 0; i < s->bodies.n; i++)
-        QDOT_TRY(line(d, "r", s->bodies.at[i].name, s->bodies.at[i].position));
-    heading(d, "Velocities: v = sum dr/dq q' + dr/dt");
-    for (size_t i = 0; i < s->particles.n + s->bodies.n; i++) {
-        bool particle = i < s->particles.n;
-        const char *name =
-            particle ? s->particles.at[i].name : s->bodies.at[i - s->particles.n].name;
-        qdot_expr r = particle ? s->particles.at[i].position
-                               : s->bodies.at[i - s->particles.n].position;
-        qdot_expr v = qdot_simplify(s->pool, qdot_ddt(s->pool, r), &facts);
+    for (int step = 0; step < 3; step++) {
+        heading(d, step == 0   ? "Positions: r(q, t)"
+                   : step == 1 ? "Velocities: v = sum dr/dq q' + dr/dt"
+                               : "Speeds: v^2 = v.v");
+        for (size_t i = 0; i < n; i++) {
+            bool particle = i < s->particles.n;
+            const qdot_body *b = particle ? NULL : &s->bodies.at[i - s->particles.n];
+            const char *name = particle ? s->particles.at[i].name : b->name;
+            qdot_expr r = particle ? s->particles.at[i].position : b->position;
 
-        QDOT_TRY(line(d, "v", name, v));
-        if (!particle)
-            QDOT_TRY(line(d, "spin", name, qdot_scene_spin(s, name)));
+            if (step == 0)
+                QDOT_TRY(named(d, "r[", name, "]", r));
+            else if (step == 1)
+                QDOT_TRY(named(d, "v[", name, "]", tidy(d, qdot_ddt(s->pool, r))));
+            else
+                QDOT_TRY(named(d, "v[", name, "]^2", qdot_mech_speed2(s, r)));
+            if (step == 1 && !particle)
+                QDOT_TRY(named(d, "spin[", name, "]", qdot_scene_spin(s, name)));
+        }
     }
     return QDOT_OK;
 }
@@ -75,51 +112,137 @@ energies(derivation *d)
 {
     qdot_scene *s = d->session->scene;
 
-    if (s->lagrangian == QDOT_NIL) {
-        heading(d, "Kinetic energy: T = 1/2 sum m v.v = 1/2 q'.M q'");
-        QDOT_TRY(line(d, "M", NULL, qdot_mech_mass_matrix(s)));
-        QDOT_TRY(line(d, "T", NULL, qdot_mech_kinetic(s)));
-        heading(d, "Potential energy");
-        QDOT_TRY(line(d, "V", NULL, qdot_mech_potential(s)));
+    if (s->lagrangian != QDOT_NIL) {
+        heading(d, "Lagrangian, as stated");
+        return named(d, "L", "", "", qdot_mech_lagrangian(s));
     }
-    heading(d, s->lagrangian == QDOT_NIL ? "Lagrangian: L = T - V"
-                                         : "Lagrangian, as stated");
-    return line(d, "L", NULL, qdot_mech_lagrangian(s));
+    heading(d, s->bodies.n > 0 ? "Kinetic energy: T = 1/2 sum m v^2 + 1/2 sum w.I w"
+                               : "Kinetic energy: T = 1/2 sum m v^2");
+    QDOT_TRY(named(d, "T", "", "", qdot_mech_kinetic(s)));
+    if (s->coordinates.n > 1)
+        QDOT_TRY(named(d, "M", "", "", qdot_mech_mass_matrix(s)));
+    heading(d, "Potential energy");
+    QDOT_TRY(named(d, "V", "", "", qdot_mech_potential(s)));
+    heading(d, "Lagrangian: L = T - V");
+    return named(d, "L", "", "", qdot_mech_lagrangian(s));
+}
+
+/* p = dL/dq', then what stands on the left: F = T, or L where it is stated. */
+static qdot_status
+left_sides(derivation *d)
+{
+    qdot_scene *s = d->session->scene;
+    qdot_pool *pool = s->pool;
+    bool stated = s->lagrangian != QDOT_NIL;
+    qdot_expr F = stated ? qdot_mech_lagrangian(s) : qdot_mech_kinetic(s);
+
+    heading(d, "Momenta: p = dL/dq'");
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        QDOT_TRY(named(d, "p[", name_of(d, i), "]",
+                       qdot_mech_momentum(s, s->coordinates.at[i])));
+    heading(d, stated ? "Slopes of L" : "Slopes of T");
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr q = s->coordinates.at[i];
+        qdot_expr slope = qdot_diff(pool, F, qdot_symbol_jet(pool, q, 1));
+
+        slope = tidy(d, slope);
+        if (slope != QDOT_NIL && slope != qdot_mech_momentum(s, q))
+            QDOT_TRY(named(d, stated ? "dL/d" : "dT/d", name_of(d, i), "'", slope));
+        QDOT_TRY(named(d, stated ? "d/dt dL/d" : "d/dt dT/d", name_of(d, i), "'",
+                       tidy(d, qdot_ddt(pool, slope))));
+        QDOT_TRY(named(d, stated ? "dL/d" : "dT/d", name_of(d, i), "",
+                       tidy(d, qdot_diff(pool, F, q))));
+    }
+    return QDOT_OK;
+}
+
+/* "sum lambda df/dq" by the kinds of constraints there are. */
+static const char *
+reaction(const qdot_scene *s)
+{
+    static const char *const words[] = {[QDOT_HOLONOMIC] = " + sum lambda df/dq",
+                                        [QDOT_VELOCITY] = " + sum lambda df/dq'",
+                                        [QDOT_ACCELERATION] = " + sum lambda df/dq''"};
+    int kind = s->constraints.at[0].kind;
+
+    for (size_t i = 1; i < s->constraints.n; i++)
+        if ((int)s->constraints.at[i].kind != kind)
+            return " + sum lambda df/dq (df/dq', df/dq'')";
+    return words[kind];
+}
+
+static qdot_status
+right_sides(derivation *d)
+{
+    qdot_scene *s = d->session->scene;
+    bool stated = s->lagrangian != QDOT_NIL;
+    bool applied = s->forces.n + s->torques.n + s->dampers.n + s->dissipations.n > 0;
+
+    if (!stated || applied) {
+        heading(d, stated     ? "Generalized forces beside L: Q = sum F.dr/dq"
+                   : !applied ? "Generalized forces: Q = -dV/dq"
+                              : "Generalized forces: Q = sum F.dr/dq - dV/dq");
+        for (size_t i = 0; i < s->coordinates.n; i++)
+            QDOT_TRY(named(d, "Q[", name_of(d, i), "]",
+                           qdot_mech_force(s, s->coordinates.at[i])));
+    }
+    if (s->constraints.n == 0)
+        return QDOT_OK;
+    heading(d, "Constraints: f = left - right = 0");
+    for (size_t i = 0; i < s->constraints.n; i++) {
+        const qdot_constraint *c = &s->constraints.at[i];
+
+        QDOT_TRY(relation(d, c->label == NULL ? NULL : c->name,
+                          qdot_rel(s->pool, QDOT_EQ, c->left, c->right)));
+    }
+    return QDOT_OK;
 }
 
 static qdot_status
 equations(derivation *d)
 {
     qdot_scene *s = d->session->scene;
+    bool stated = s->lagrangian != QDOT_NIL;
+    bool right =
+        !stated || s->forces.n + s->torques.n + s->dampers.n + s->dissipations.n > 0;
+    qdot_text title = {0};
 
-    heading(d, "Momenta: p = dL/dq'");
+    qdot_text_format(&title, "Lagrange's equations: d/dt d%c/dq' - d%c/dq = %s%s",
+                     stated ? 'L' : 'T', stated ? 'L' : 'T', right ? "Q" : "",
+                     s->constraints.n == 0 ? right ? "" : "0"
+                     : right               ? reaction(s)
+                                           : reaction(s) + 3);
+    QDOT_TRY(qdot_text_status(&title));
+    heading(d, qdot_text_str(&title));
+    qdot_text_clear(&title);
     for (size_t i = 0; i < s->coordinates.n; i++)
-        QDOT_TRY(
-            line(d, "p", name_of(d, i), qdot_mech_momentum(s, s->coordinates.at[i])));
-    heading(d, "Generalized forces: Q = sum F.dr/dq, with -dV/dq");
-    for (size_t i = 0; i < s->coordinates.n; i++)
-        QDOT_TRY(line(d, "Q", name_of(d, i), qdot_mech_force(s, s->coordinates.at[i])));
-    if (s->constraints.n > 0) {
-        heading(d, "Constraints");
-        for (size_t i = 0; i < s->constraints.n; i++) {
-            qdot_text_add(&d->text, "    ");
-            QDOT_TRY(
-                qdot_print(s->pool, s->constraints.at[i].f, d->session->style, &d->text));
-            qdot_text_add(&d->text, " = 0\n");
-        }
-    }
-    heading(d, s->constraints.n > 0
-                   ? "Lagrange's equations: d/dt dT/dq' - dT/dq = Q + sum lambda df/dq"
-                   : "Lagrange's equations: d/dt dT/dq' - dT/dq = Q");
-    for (size_t i = 0; i < s->coordinates.n; i++) {
-        qdot_expr equation = qdot_mech_equation(s, s->coordinates.at[i]);
-
-        QDOT_TRY(qdot_pool_check(s->pool));
-        qdot_text_add(&d->text, "    ");
-        QDOT_TRY(qdot_print(s->pool, equation, d->session->style, &d->text));
-        qdot_text_char(&d->text, '\n');
-    }
+        QDOT_TRY(relation(d, NULL, qdot_mech_equation(s, s->coordinates.at[i])));
     return QDOT_OK;
+}
+
+/* What is constant along the motion because L does not hold the coordinate. */
+static qdot_status
+conserved_momenta(derivation *d)
+{
+    qdot_pool *pool = d->session->pool;
+    qdot_cyclic *list;
+    size_t n, kept = 0;
+    qdot_status status;
+
+    QDOT_TRY(qdot_mech_cyclic(d->session->scene, &list, &n));
+    for (size_t i = 0; i < n; i++)
+        if (list[i].rate == QDOT_NIL)
+            list[kept++] = list[i];
+    if (kept > 0)
+        heading(d, "Cyclic coordinates: dL/dq = 0, p is conserved");
+    status = QDOT_OK;
+    for (size_t i = 0; i < kept && status == QDOT_OK; i++) {
+        const char *name = qdot_expr_symbol(pool, list[i].coordinate)->name;
+
+        status = named(d, "p[", name, "]", list[i].momentum);
+    }
+    qdot_free(list);
+    return status;
 }
 
 qdot_status
@@ -138,7 +261,13 @@ qdot_derive_all(qdot_cursor *c)
     if (status == QDOT_OK)
         status = energies(&d);
     if (status == QDOT_OK)
+        status = left_sides(&d);
+    if (status == QDOT_OK)
+        status = right_sides(&d);
+    if (status == QDOT_OK)
         status = equations(&d);
+    if (status == QDOT_OK)
+        status = conserved_momenta(&d);
     if (status == QDOT_OK)
         status = qdot_text_status(&d.text);
     if (status == QDOT_OK)

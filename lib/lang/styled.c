@@ -105,6 +105,15 @@ word(writer *w)
     w->at += n;
     name = declared(w, text, &index);
     primes = strspn(w->at + index, "'");
+    if (name == NULL && text[0] == 'd') { /* dT/dtheta' */
+        const qdot_name *q = declared(w, text + 1, &index);
+
+        if (q != NULL && q->kind == QDOT_NAME_COORD) {
+            qdot_text_char(w->out, 'd');
+            name = q;
+            primes = strspn(w->at + index, "'");
+        }
+    }
     if (name == NULL) {
         plain_word(w, text, *w->at == '(');
     } else if (name->kind == QDOT_NAME_COORD) {

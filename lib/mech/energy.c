@@ -125,7 +125,7 @@ qdot_mech_kinetic(qdot_scene *s)
     if (!qdot_mech_needs_particles(s, "T") || !qdot_mass_get(s))
         return QDOT_NIL;
     T = qdot_add(s->pool, quadratic_part(s), qdot_add(s->pool, linear_part(s), d->c));
-    return d->kinetic = qdot_mech_tidy_whole(s, T);
+    return d->kinetic = qdot_common_out(s->pool, qdot_mech_tidy_whole(s, T));
 }
 
 qdot_expr
@@ -154,6 +154,39 @@ qdot_mech_lagrangian(qdot_scene *s)
     return qdot_sub(s->pool, T, V);
 }
 
+enum { MOST_ADDED = 2000 };
+
+/* Terms of e, multiplied out. */
+static uint32_t
+terms(qdot_pool *pool, qdot_expr e)
+{
+    e = e == QDOT_NIL ? e : qdot_expand(pool, e);
+    if (e == QDOT_NIL || e == QDOT_ZERO)
+        return 0;
+    if (qdot_expr_kind(pool, e) != QDOT_SUM)
+        return 1;
+    return (qdot_expr_count(pool, e) - 1) / 2 + (qdot_expr_arg(pool, e, 0) != QDOT_ZERO);
+}
+
+/* h as a person adds it up: the part of T of second degree, less that of none, and V; nil where
+ * some of it cancels. */
+static qdot_expr
+energy_by_parts(qdot_scene *s)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr T = qdot_common_out(pool, qdot_mech_tidy_whole(s, quadratic_part(s)));
+    qdot_expr V = raw_potential(s), c = qdot_derived_get(s)->c;
+
+    if (V == QDOT_NIL || (qdot_mech_holds(s, V) & QDOT_HAS_VELOCITY))
+        return QDOT_NIL;
+    c = qdot_neg(pool, qdot_mech_tidy(s, c));
+    V = qdot_mech_tidy(s, V);
+    if (c != QDOT_ZERO && qdot_expr_size(pool, V) < MOST_ADDED &&
+        terms(pool, qdot_add(pool, c, V)) < terms(pool, c) + terms(pool, V))
+        return QDOT_NIL;
+    return qdot_add(pool, T, qdot_add(pool, c, V));
+}
+
 qdot_expr
 qdot_mech_energy(qdot_scene *s)
 {
@@ -178,6 +211,9 @@ qdot_mech_energy(qdot_scene *s)
         h = qdot_add(pool, h, qdot_sub(pool, quadratic_part(s), qdot_derived_get(s)->c));
     }
     h = qdot_mech_tidy_whole(s, h);
+    F = qdot_mech_stated(s) ? QDOT_NIL : energy_by_parts(s);
+    if (F != QDOT_NIL)
+        h = F;
     return d->energy = h;
 }
 

@@ -83,7 +83,10 @@ quadratic(legendre *l)
         at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[i], (qdot_expr[]){QDOT_ZERO});
     }
     sum = qdot_simplify(pool, qdot_mul(pool, QDOT_HALF, sum), &l->facts);
-    at_rest = qdot_simplify(pool, at_rest, &l->facts);
+    if (sum != QDOT_NIL && qdot_expr_kind(pool, sum) == QDOT_PROD)
+        sum = qdot_common_out(pool, sum);
+    if (l->s->lagrangian != QDOT_NIL) /* T - V is in its form */
+        at_rest = qdot_simplify(pool, at_rest, &l->facts);
     return qdot_sub(pool, sum, at_rest);
 }
 

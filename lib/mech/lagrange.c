@@ -176,7 +176,7 @@ left_side(qdot_scene *s, size_t i)
     if (qdot_mech_stated(s)) {
         left = qdot_ddt(pool, qdot_diff(pool, s->lagrangian, qdot_mech_jet(s, i, 1)));
         left = qdot_sub(pool, left, qdot_diff(pool, s->lagrangian, s->coordinates.at[i]));
-        return d->left[i] = qdot_mech_tidy(s, left);
+        return d->left[i] = qdot_common_out(pool, qdot_mech_tidy(s, left));
     }
     if (!qdot_mass_get(s))
         return QDOT_NIL;
@@ -190,7 +190,7 @@ left_side(qdot_scene *s, size_t i)
     sum[terms++] = qdot_lagrange_rest(s, i);
     left = qdot_sum(pool, terms, sum);
     qdot_free(sum);
-    return d->left[i] = qdot_mech_tidy_whole(s, left);
+    return d->left[i] = qdot_common_out(pool, qdot_mech_tidy_whole(s, left));
 }
 
 qdot_expr

@@ -74,7 +74,7 @@ element(qdot_scene *s, qdot_expr R, bool velocities)
                            i == j ? g : qdot_mul(pool, qdot_expr_int(pool, 2), g));
         }
     qdot_free(slope);
-    return qdot_mech_tidy(s, sum);
+    return qdot_common_out(pool, qdot_mech_tidy(s, sum));
 }
 
 qdot_expr

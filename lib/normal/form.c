@@ -169,7 +169,7 @@ qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     qdot_pool *pool = f->pool;
-    qdot_expr best = QDOT_NIL, factor;
+    qdot_expr best = QDOT_NIL, factor, plain, collected;
     fmpz_mpoly_t rest, q, r;
     ulong power = 1;
     slong v;
@@ -187,16 +187,21 @@ qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
     form->depth++;
     factor = take_content(f, rest, c, p);
     factor = qdot_mul(pool, qdot_form_integer(pool, c), factor);
-    qdot_form_keep(pool, &best, qdot_mul(pool, factor, qdot_field_expr(f, rest)));
+    plain = qdot_mul(pool, factor, qdot_field_expr(f, rest));
     v = fmpz_mpoly_length(rest, f->ctx) > 2 ? best_power(f, rest, &power) : -1;
     if (v >= 0) {
         qdot_expr x = qdot_pow_int(pool, f->gen[v].expr, (long)power);
 
         part(f, q, r, rest, v, power);
-        x = qdot_add(pool, qdot_mul(pool, x, qdot_form_horner(form, q)),
-                     qdot_form_horner(form, r));
+        collected = qdot_form_horner(form, q);
+        /* of two as long the one collected where parameters are: (m1 - m2)*x */
+        if (collected == QDOT_NIL ||
+            (qdot_expr_node(pool, collected)->holds & ~(uint32_t)QDOT_HAS_PARAM) != 0)
+            qdot_form_keep(pool, &best, plain);
+        x = qdot_add(pool, qdot_mul(pool, x, collected), qdot_form_horner(form, r));
         qdot_form_keep(pool, &best, qdot_mul(pool, factor, x));
     }
+    qdot_form_keep(pool, &best, plain);
     form->depth--;
     fmpz_mpoly_clear(rest, f->ctx);
     fmpz_mpoly_clear(q, f->ctx);
