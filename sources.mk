@@ -318,6 +318,7 @@ lang_sources = \
 	lib/lang/declare-function.c \
 	lib/lang/declare.c \
 	lib/lang/derive.c \
+	lib/lang/digits-table.c \
 	lib/lang/digits.c \
 	lib/lang/draw.c \
 	lib/lang/equilibria.c \
@@ -355,6 +356,7 @@ lang_headers = \
 	lib/lang/code.h \
 	lib/lang/constraints.h \
 	lib/lang/declare.h \
+	lib/lang/digits-table.h \
 	lib/lang/digits.h \
 	lib/lang/draw.h \
 	lib/lang/equilibria.h \
@@ -445,6 +447,7 @@ script_tests = \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
 	tests/script/derive.lag \
+	tests/script/digits-table.lag \
 	tests/script/digits.lag \
 	tests/script/dof-redundant.lag \
 	tests/script/equilibria.lag \
@@ -901,6 +904,7 @@ test_files = \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
 	tests/script/derive.out \
+	tests/script/digits-table.out \
 	tests/script/digits.out \
 	tests/script/dof-redundant.out \
 	tests/script/equilibria.out \

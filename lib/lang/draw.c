@@ -6,6 +6,7 @@
 
 #include "lang/answer.h"
 #include "lang/code.h"
+#include "lang/digits-table.h"
 #include "lang/draw.h"
 #include "show/show.h"
 
@@ -316,7 +317,7 @@ ladder(const qdot_draw_operands *list, double step, double **times, size_t *n)
 }
 
 static qdot_status
-read_table(qdot_cursor *c, qdot_draw_operands *list, double *step, const char **path)
+read_table(qdot_cursor *c, qdot_draw_operands *list, qdot_expr *step, const char **path)
 {
     bool every = false;
 
@@ -325,7 +326,7 @@ read_table(qdot_cursor *c, qdot_draw_operands *list, double *step, const char **
         if (qdot_cursor_accept_word(c, "every")) {
             QDOT_TRY(qdot_statement_once(c, "every", every));
             every = true;
-            QDOT_TRY(qdot_read_number(c, step));
+            QDOT_TRY(qdot_read_scalar(c, step));
         } else if (qdot_cursor_accept_word(c, "to")) {
             QDOT_TRY(qdot_draw_read_file(c, path));
         } else {
@@ -335,6 +336,20 @@ read_table(qdot_cursor *c, qdot_draw_operands *list, double *step, const char **
     return every ? QDOT_OK : qdot_cursor_expected(c, "`every` and a step");
 }
 
+/* Of runs with `digits`: times that are exact, from the first of the ladder. */
+static qdot_status
+exact_table(qdot_session *session, const qdot_draw_operands *list, const double *times,
+            qdot_expr step, size_t rows, const char *path)
+{
+    qdot_expr from = qdot_number_exact(session->pool, times[0]);
+
+    step = qdot_session_bind(session, qdot_number_without_measured(session, step));
+    if (rows > 1 && times[1] < times[0])
+        step = qdot_neg(session->pool, step);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    return qdot_digits_table(session, list, from, step, rows, path);
+}
+
 qdot_status
 qdot_draw_table(qdot_cursor *c)
 {
@@ -342,16 +357,25 @@ qdot_draw_table(qdot_cursor *c)
     qdot_draw_operands list = {0};
     const char *path = NULL;
     double step = 0, *times = NULL;
+    qdot_expr exact_step = QDOT_NIL;
     size_t rows = 0;
     grid g = {0};
-    qdot_status status = read_table(c, &list, &step, &path);
+    qdot_status status = read_table(c, &list, &exact_step, &path);
 
+    if (status == QDOT_OK)
+        status = qdot_session_number(c->session, exact_step, &step, NULL);
     if (status == QDOT_OK) {
         c->error_at = start->start;
         status = qdot_draw_runs(c->session, &list);
     }
     if (status == QDOT_OK)
         status = ladder(&list, step, &times, &rows);
+    if (status == QDOT_OK && qdot_digits_table_of(&list) > 0) {
+        status = exact_table(c->session, &list, times, exact_step, rows, path);
+        qdot_free(times);
+        qdot_draw_free(&list);
+        return status;
+    }
     if (status == QDOT_OK)
         status = fill_grid(&g, &list, rows, times);
     if (status == QDOT_OK)

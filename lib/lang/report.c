@@ -62,7 +62,7 @@ each_state(qdot_session *session, const qdot_run_report *report, qdot_style styl
 
         if (status == QDOT_OK)
             status = qdot_print(session->pool, jet, style, &name);
-        if (status == QDOT_OK && report->exact != NULL)
+        if (status == QDOT_OK && report->exact != NULL && !multiplier)
             status = exact_number(session, report, k % 2 * report->n + i, value, &number);
         else if (status == QDOT_OK)
             double_number(session, value,
