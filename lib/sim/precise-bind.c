@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 #include "sim/blocks.h"
 #include "tape/constant.h"
@@ -158,6 +159,7 @@ extend(int p, void *user)
     qdot_precise_bind *e = user;
 
     for (int k = 1; k < p; k++) {
+        QDOT_TRY(qdot_interrupt_check()); /* an order may take long */
         QDOT_TRY(accelerations(e, k));
         integrate(e, k);
     }
