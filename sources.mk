@@ -258,6 +258,7 @@ sim_sources = \
 	lib/sim/race.c \
 	lib/sim/residual.c \
 	lib/sim/run.c \
+	lib/sim/shifted-lanes.c \
 	lib/sim/shifted.c \
 	lib/sim/start.c \
 	lib/sim/substitute.c \
@@ -287,6 +288,8 @@ sim_headers = \
 	lib/sim/race.h \
 	lib/sim/residual.h \
 	lib/sim/run.h \
+	lib/sim/shifted-lanes.def \
+	lib/sim/shifted-lanes.h \
 	lib/sim/shifted.h \
 	lib/sim/start.h \
 	lib/sim/substitute.h \

@@ -8,26 +8,51 @@
 #include "base/memory.h"
 #include "ode/companion.h"
 #include "sim/members.h"
+#include "sim/shifted-lanes.h"
 #include "sim/substitute.h"
 #include "tape/constant.h"
 #include "tape/shake.h"
 
+/* A system in lanes: one of the two. */
+typedef struct {
+    qdot_members *direct;
+    qdot_shifted_lanes *shifted;
+} form;
+
 struct qdot_ensemble {
     qdot_members_model model;
     qdot_tape *shaken;
-    qdot_members *members, *companions; /* companions: made when first asked for */
+    qdot_plan *plan;          /* of d'Alembert's residual where that is shorter, else NULL */
+    form members, companions; /* companions: made when first asked for */
     double t0, t1, t1_low, tol;
     int t1_side;
     int order;
 };
+
+static void
+form_free(form *f)
+{
+    qdot_members_free(f->direct);
+    qdot_shifted_lanes_free(f->shifted);
+}
+
+static qdot_status
+form_new(form *f, const qdot_ensemble *e, bool shaken, int order)
+{
+    if (e->plan)
+        return qdot_shifted_lanes_new(e->plan, shaken, order, &f->shifted);
+    return qdot_members_new(&e->model, shaken ? e->shaken : e->model.tape, order,
+                            &f->direct);
+}
 
 void
 qdot_ensemble_free(qdot_ensemble *e)
 {
     if (!e)
         return;
-    qdot_members_free(e->members);
-    qdot_members_free(e->companions);
+    form_free(&e->members);
+    form_free(&e->companions);
+    qdot_plan_free(e->plan);
     qdot_tape_free(e->model.tape);
     qdot_tape_free(e->shaken);
     qdot_structure_clear(&e->model.structure);
@@ -160,6 +185,23 @@ lower(const builder *b, qdot_members_model *model)
     return status;
 }
 
+/* The residual form, where a single run takes it too. */
+static qdot_status
+plan_residual(qdot_ensemble *e, const builder *b)
+{
+    qdot_run_request request = *b->request;
+
+    if (e->model.varied > 0 || e->model.structure.blocks == b->n)
+        return QDOT_OK;
+    request.method = "taylor";
+    QDOT_TRY(qdot_plan_new(b->scene, &request, &e->plan));
+    if (!qdot_shifted_lanes_applies(e->plan)) {
+        qdot_plan_free(e->plan);
+        e->plan = NULL;
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 make(qdot_ensemble *e, builder *b, size_t n_varied, const qdot_expr *varied)
 {
@@ -183,8 +225,12 @@ make(qdot_ensemble *e, builder *b, size_t n_varied, const qdot_expr *varied)
     QDOT_TRY(derive(b));
     QDOT_TRY(find_structure(b, &e->model.structure));
     QDOT_TRY(lower(b, &e->model));
-    QDOT_TRY(qdot_members_order(&e->model, e->tol, &e->order));
-    return qdot_members_new(&e->model, e->model.tape, e->order, &e->members);
+    QDOT_TRY(plan_residual(e, b));
+    if (e->plan)
+        QDOT_TRY(qdot_shifted_lanes_order(e->plan, e->tol, &e->order));
+    else
+        QDOT_TRY(qdot_members_order(&e->model, e->tol, &e->order));
+    return form_new(&e->members, e, false, e->order);
 }
 
 qdot_status
@@ -216,7 +262,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* One pass over all members, the runs themselves or their companions. */
 typedef struct {
-    qdot_members *system;
+    form system;
     qdot_batch_run run;
     double *memory, *parameters;
     qdot_status status;
@@ -265,9 +311,12 @@ static void *
 pass_run(void *user)
 {
     pass *p = user;
-    qdot_ode_batch system = qdot_members_system(p->system);
+    qdot_ode_batch system = p->system.direct
+                                ? qdot_members_system(p->system.direct)
+                                : qdot_shifted_lanes_system(p->system.shifted);
 
-    qdot_members_set(p->system, p->parameters);
+    if (p->system.direct)
+        qdot_members_set(p->system.direct, p->parameters);
     p->status = qdot_ode_batch_run(&system, &p->run);
     if (p->status != QDOT_OK)
         p->error = *qdot_last_error();
@@ -284,10 +333,11 @@ move(double *x, size_t n)
 static qdot_status
 make_companions(qdot_ensemble *e, int order)
 {
-    if (e->companions)
+    if (e->companions.direct || e->companions.shifted)
         return QDOT_OK;
-    QDOT_TRY(qdot_tape_shake(e->model.tape, &e->shaken));
-    return qdot_members_new(&e->model, e->shaken, order, &e->companions);
+    if (!e->plan && !e->shaken)
+        QDOT_TRY(qdot_tape_shake(e->model.tape, &e->shaken));
+    return form_new(&e->companions, e, true, order);
 }
 
 static qdot_status

@@ -290,7 +290,7 @@ qdot_members_order(const qdot_members_model *model, double tol, int *order)
     qdot_taylor_free(taylor);
     c[0] = 300 + 100 * calls + 5 * length + 20 * (double)model->n;
     c[1] = 2 * length + 3 * convolutions + 10 * (double)model->n;
-    c[2] = 0.2 * convolutions;
+    c[2] = 0.1 * convolutions;
     for (size_t b = 0; b < model->structure.blocks; b++) {
         double n = (double)(model->structure.start[b + 1] - model->structure.start[b]);
 
@@ -298,7 +298,7 @@ qdot_members_order(const qdot_members_model *model, double tol, int *order)
             continue;
         c[0] += n * n * n / 6;
         c[1] += 5 * n + n * n;
-        c[2] += 0.2 * n * n;
+        c[2] += 0.1 * n * n;
     }
     *order = qdot_ode_taylor_order(&series, tol, 0);
     return QDOT_OK;

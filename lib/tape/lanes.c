@@ -19,6 +19,8 @@ typedef struct {
     void (*value_of_zero)(const lanes_step *step);
     void (*order)(const qdot_batch_kernels *kernels, const lanes_step *steps, int k,
                   double inverse);
+    void (*correct)(const lanes_step *steps, int k, size_t note);
+    void (*renew)(double *row, int k, size_t note, const double *newest);
 } lanes_kernels;
 
 #define BATCH_BODY "tape/lanes.def"
@@ -219,4 +221,12 @@ qdot_lanes_order(qdot_lanes *t, int k)
             t->kind->value_of_zero(s);
     else
         t->kind->order(t->kernels, t->steps, k, t->inverse[k]);
+}
+
+void
+qdot_lanes_correct(qdot_lanes *t, int k, size_t n, const double *newest)
+{
+    for (size_t i = 0; i < n; i++)
+        t->kind->renew(qdot_lanes_input(t, i), k, t->stride - 1, newest + i * QDOT_LANES);
+    t->kind->correct(t->steps, k, t->stride - 1);
 }
