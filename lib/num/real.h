@@ -2,8 +2,9 @@
  * equations.
  *
  * MPFR rounds each operation; where many are summed its own functions spend most of the
- * time on that. qdot_real_dot adds whole products in fixed point and rounds once: at 192
- * to 512 bits it takes a third of the time of mpfr_mul and mpfr_add (bench/numeric).
+ * time on that. qdot_real_dot adds whole products in fixed point and rounds once. A term
+ * took, beside mpfr_mul and mpfr_add (beside arb_approx_dot of Arb 2.23), 16 : 37 (8) ns
+ * at 128 bits, 19 : 48 (26) at 192, 24 : 50 (29) at 256, 60 : 89 (62) at 512.
  *
  * Tests  tests/num/test_real.c
  */
