@@ -458,6 +458,7 @@ script_tests = \
 	tests/script/flexing.lag \
 	tests/script/geometry.lag \
 	tests/script/hamilton.lag \
+	tests/script/help-examples.lag \
 	tests/script/help.lag \
 	tests/script/identities.sh \
 	tests/script/include.lag \
@@ -492,6 +493,7 @@ script_tests = \
 	tests/script/start-mass.lag \
 	tests/script/styles.lag \
 	tests/script/text.lag \
+	tests/script/textbook.lag \
 	tests/script/to-file.sh \
 	tests/script/values.lag \
 	tests/script/workprecision.sh \
@@ -568,6 +570,7 @@ script_tests = \
 	tests/bad/modes-at.lag \
 	tests/bad/modes-damped.lag \
 	tests/bad/modes-unstable.lag \
+	tests/bad/modes-without-mass.lag \
 	tests/bad/momentum-index.lag \
 	tests/bad/multiplier-unknown.lag \
 	tests/bad/newton-dot.lag \
@@ -754,6 +757,7 @@ test_files = \
 	tests/bad/modes-at.out \
 	tests/bad/modes-damped.out \
 	tests/bad/modes-unstable.out \
+	tests/bad/modes-without-mass.out \
 	tests/bad/momentum-index.out \
 	tests/bad/multiplier-unknown.out \
 	tests/bad/newton-dot.out \
@@ -915,6 +919,7 @@ test_files = \
 	tests/script/flexing.out \
 	tests/script/geometry.out \
 	tests/script/hamilton.out \
+	tests/script/help-examples.out \
 	tests/script/help.out \
 	tests/script/identities-angles.inc \
 	tests/script/identities-exp.inc \
@@ -959,6 +964,7 @@ test_files = \
 	tests/script/start-mass.out \
 	tests/script/styles.out \
 	tests/script/text.out \
+	tests/script/textbook.out \
 	tests/script/to-file.out \
 	tests/script/values.out \
 	tests/script/workprecision.out \

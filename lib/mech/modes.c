@@ -32,6 +32,28 @@ is_zero(const job *j, qdot_expr e)
     return e == QDOT_ZERO || qdot_is_zero(j->pool, e, &j->facts);
 }
 
+/* A coordinate without mass has no oscillation: its row of M is 0. */
+static qdot_status
+check_masses(const job *j)
+{
+    qdot_scene *s = j->s;
+
+    for (size_t i = 0; i < s->coordinates.n && s->constraints.n == 0; i++) {
+        const char *q = qdot_expr_symbol(j->pool, s->coordinates.at[i])->name;
+        bool moves = false;
+
+        for (size_t k = 0; k < s->coordinates.n && !moves; k++)
+            moves = !is_zero(j, qdot_mass_of_lagrangian(s, i, k));
+        QDOT_TRY(qdot_pool_check(j->pool));
+        if (moves)
+            continue;
+        (void)qdot_fail(QDOT_ESINGULAR, "nothing with mass moves with %.200s: it has no modes",
+                        q);
+        return qdot_hint("declare only the coordinates that the scene uses");
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 check_motion(const job *j)
 {
@@ -39,6 +61,7 @@ check_motion(const job *j)
 
     if (n == 0)
         return qdot_fail(QDOT_EINVAL, "nothing can move there: there are no modes");
+    QDOT_TRY(check_masses(j));
     for (size_t i = 0; i < n * n; i++)
         if (!is_zero(j, j->m.Gamma[i]))
             return qdot_fail(QDOT_ETYPE,
