@@ -609,6 +609,7 @@ script_tests = \
 	tests/bad/start-no-position.lag \
 	tests/bad/start-parameter.lag \
 	tests/bad/start-two-answers.lag \
+	tests/bad/start-unnamed-domain.lag \
 	tests/bad/start-velocities.lag \
 	tests/bad/string-number.lag \
 	tests/bad/to-ending.lag \
@@ -796,6 +797,7 @@ test_files = \
 	tests/bad/start-no-position.out \
 	tests/bad/start-parameter.out \
 	tests/bad/start-two-answers.out \
+	tests/bad/start-unnamed-domain.out \
 	tests/bad/start-velocities.out \
 	tests/bad/string-number.out \
 	tests/bad/to-ending.out \

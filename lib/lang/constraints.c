@@ -112,7 +112,9 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
     }
     if (found > 0)
         qdot_text_add(out, "; the motion is unique, the multipliers are not");
-    if (dof->freedom == 0 && dof->coordinates > 0)
+    if (dof->unmet)
+        qdot_text_add(out, "\nno configuration was found at which all constraints hold");
+    else if (dof->freedom == 0 && dof->coordinates > 0)
         qdot_text_add(out, "\nthe constraints leave no freedom: they alone set the motion");
 }
 

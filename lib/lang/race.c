@@ -19,7 +19,7 @@ print_bound(double value, int width, qdot_text *out)
     if (isnan(value))
         qdot_text_add(&one, "-");
     else
-        qdot_text_format(&one, "%.1e", value);
+        qdot_text_format(&one, value == 0 ? "0" : "%.1e", value);
     qdot_text_format(out, "%*s", width, qdot_text_str(&one));
     qdot_text_clear(&one);
 }

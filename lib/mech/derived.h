@@ -71,6 +71,7 @@ struct qdot_derived {
     qdot_expr *accel;                                     /* [n], all at once */
     qdot_expr numeric_mass, numeric_forcing;
     bool *independent; /* [constraints] */
+    bool unmet;        /* no point was found where they all hold */
     bool conserved_known, conserved;
     /* Survives changes: the relations and their derivatives. */
     qdot_vec(qdot_expr) relations;

@@ -332,6 +332,7 @@ qdot_freedom_independent(qdot_scene *s)
         if (status == QDOT_OK) {
             if (can_sample(s, &p))
                 status = by_sampling(s, &p, independent, &known);
+            d->unmet = can_sample(s, &p) && !known;
             problem_clear(&p);
             if (status == QDOT_OK)
                 status = qdot_pool_check(s->pool);
@@ -388,6 +389,7 @@ qdot_mech_dof(qdot_scene *s, qdot_dof *dof)
     *dof = (qdot_dof){.coordinates = s->coordinates.n,
                       .constraints = s->constraints.n,
                       .is_independent = s->derived->independent,
+                      .unmet = s->derived->unmet,
                       .cartesian = is_cartesian(s),
                       .particles = s->particles.n,
                       .dimension = qdot_scene_dimension(s)};

@@ -62,6 +62,8 @@ typedef struct {
     size_t freedom;                               /* coordinates - independent */
     const bool *is_independent; /* [constraints] of those declared before; borrowed until the
                                    scene changes */
+    bool unmet;           /* no point was found where all constraints hold, whatever the
+                             parameters: no proof that there is none */
     bool cartesian;       /* n = N D - C applies: every particle at plain coordinates */
     size_t particles, dimension;
 } qdot_dof;

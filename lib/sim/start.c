@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "num/row-space.h"
 #include "sim/nearest.h"
 
@@ -392,6 +393,32 @@ worst(const level *l, const double *y)
     return most;
 }
 
+/* What was not named, is in no constraint and may not be 0 has no value. */
+static qdot_status
+check_left_alone(const level *l, const qdot_domains *domains, const double *y)
+{
+    const bool *named = l->request->q_named;
+
+    for (size_t i = 0; named && !l->velocities && i < domains->n; i++) {
+        const qdot_domain *d = &domains->at[i];
+        double x = y[d->coordinate];
+        bool held = named[d->coordinate];
+
+        if ((d->lo_open ? x > d->lo : x >= d->lo) && (d->hi_open ? x < d->hi : x <= d->hi))
+            continue;
+        for (size_t k = 0; k < l->m && !held; k++)
+            held = qdot_expr_contains(l->plan->pool, l->F[k],
+                                      l->plan->inputs[d->coordinate]);
+        if (held)
+            continue;
+        qdot_fail(QDOT_EDOMAIN, "the start %s = 0 is outside its domain %.200s",
+                  l->plan->names[d->coordinate], d->text);
+        return qdot_hint("start %s = ...: what was never named starts at 0",
+                         l->plan->names[d->coordinate]);
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text *notice)
 {
@@ -514,7 +541,9 @@ qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
         status = level_init(&l);
         if (status == QDOT_OK && l.m > 0) {
             l.near = equations(&l, l.m, l.F, domains);
-            status = qdot_nearest_begin(&l.near);
+            status = check_left_alone(&l, domains, y);
+            if (status == QDOT_OK)
+                status = qdot_nearest_begin(&l.near);
             if (status == QDOT_OK) {
                 status = settle(&l, domains, y, low, notice);
                 qdot_nearest_end(&l.near);
