@@ -16,6 +16,7 @@ base_headers = \
 
 num_sources = \
 	lib/num/batch.c \
+	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
 	lib/num/ldlt.c \
 	lib/num/real.c \
@@ -30,6 +31,7 @@ num_headers = \
 	lib/num/batch-vector.def \
 	lib/num/batch.def \
 	lib/num/batch.h \
+	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
 	lib/num/ldlt.h \
 	lib/num/real.h \
@@ -199,6 +201,7 @@ mech_sources = \
 	lib/mech/energy.c \
 	lib/mech/equilibrium-numeric.c \
 	lib/mech/equilibrium.c \
+	lib/mech/event.c \
 	lib/mech/freedom.c \
 	lib/mech/generic.c \
 	lib/mech/geometry.c \
@@ -241,6 +244,7 @@ sim_sources = \
 	lib/sim/blocks.c \
 	lib/sim/bonds.c \
 	lib/sim/constraints.c \
+	lib/sim/course.c \
 	lib/sim/describe.c \
 	lib/sim/digits.c \
 	lib/sim/direct.c \
@@ -258,12 +262,16 @@ sim_sources = \
 	lib/sim/race.c \
 	lib/sim/residual.c \
 	lib/sim/run.c \
+	lib/sim/second.c \
 	lib/sim/shifted-lanes.c \
 	lib/sim/shifted.c \
+	lib/sim/stage.c \
 	lib/sim/start.c \
 	lib/sim/substitute.c \
+	lib/sim/switch.c \
 	lib/sim/tied.c \
 	lib/sim/value.c \
+	lib/sim/watch.c \
 	lib/sim/workprecision.c
 
 sim_headers = \
@@ -271,6 +279,7 @@ sim_headers = \
 	lib/sim/blocks.h \
 	lib/sim/bonds.h \
 	lib/sim/constraints.h \
+	lib/sim/course.h \
 	lib/sim/digits.h \
 	lib/sim/direct.h \
 	lib/sim/domain.h \
@@ -291,9 +300,12 @@ sim_headers = \
 	lib/sim/shifted-lanes.def \
 	lib/sim/shifted-lanes.h \
 	lib/sim/shifted.h \
+	lib/sim/stage.h \
 	lib/sim/start.h \
 	lib/sim/substitute.h \
+	lib/sim/switch.h \
 	lib/sim/tied.h \
+	lib/sim/watch.h \
 	lib/sim/workprecision.h
 
 show_sources = \
@@ -326,6 +338,7 @@ lang_sources = \
 	lib/lang/draw.c \
 	lib/lang/equilibria.c \
 	lib/lang/evaluate.c \
+	lib/lang/event.c \
 	lib/lang/furnish.c \
 	lib/lang/help.c \
 	lib/lang/hints.c \
@@ -409,6 +422,7 @@ unit_tests = \
 	tests/normal/test_solve \
 	tests/normal/test_verdicts \
 	tests/num/test_batch \
+	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
 	tests/num/test_ldlt \
 	tests/num/test_real \
@@ -454,6 +468,9 @@ script_tests = \
 	tests/script/digits.lag \
 	tests/script/dof-redundant.lag \
 	tests/script/equilibria.lag \
+	tests/script/event-ends.sh \
+	tests/script/event-roots.lag \
+	tests/script/events.lag \
 	tests/script/fall.sh \
 	tests/script/flexing.lag \
 	tests/script/geometry.lag \
@@ -492,6 +509,7 @@ script_tests = \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
 	tests/script/styles.lag \
+	tests/script/switching.lag \
 	tests/script/text.lag \
 	tests/script/textbook.lag \
 	tests/script/to-file.sh \
@@ -627,6 +645,7 @@ script_tests = \
 	tests/bad/wrong-arguments.lag \
 	examples/acceleration-constraint.lag \
 	examples/bead-on-wire.lag \
+	examples/bouncing-ball.lag \
 	examples/car-axis.lag \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
@@ -639,6 +658,7 @@ script_tests = \
 	examples/digits.lag \
 	examples/double-pendulum-cartesian.lag \
 	examples/double-pendulum.lag \
+	examples/dry-friction.lag \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
 	examples/flexing-wire.lag \
@@ -659,6 +679,7 @@ script_tests = \
 	examples/moving-constraint.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
+	examples/pendulum-period.lag \
 	examples/pendulum.lag \
 	examples/polar.lag \
 	examples/race.lag \
@@ -917,6 +938,9 @@ test_files = \
 	tests/script/digits.out \
 	tests/script/dof-redundant.out \
 	tests/script/equilibria.out \
+	tests/script/event-ends.out \
+	tests/script/event-roots.out \
+	tests/script/events.out \
 	tests/script/fall.out \
 	tests/script/flexing.out \
 	tests/script/geometry.out \
@@ -965,6 +989,7 @@ test_files = \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
 	tests/script/styles.out \
+	tests/script/switching.out \
 	tests/script/text.out \
 	tests/script/textbook.out \
 	tests/script/to-file.out \

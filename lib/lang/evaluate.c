@@ -5,6 +5,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/code.h"
+#include "lang/number.h"
 
 /* A value on the stack. */
 typedef struct {
@@ -33,6 +34,7 @@ typedef struct {
     qdot_vec(qdot_expr) terms; /* of all sums under way */
     qdot_vec(qdot_expr) args;  /* scratch */
     const qdot_token *blame;   /* where the caret goes if this fails */
+    bool belongs;              /* the run that follows as MEMBER has been taken */
 } machine;
 
 /* --- the stack ---------------------------------------------------------------------- */
@@ -380,11 +382,54 @@ entry(machine *m, const qdot_code *code)
     return push(m, value);
 }
 
+/* `cross[2]`, `cross`, a.cross[2]: times of an event, where no other name is. */
+static qdot_status
+event(machine *m, const qdot_code *code, bool *found)
+{
+    const qdot_code *next = code + 1;
+    bool member = next < m->program->list.at + m->program->list.n &&
+                  next->op == QDOT_CODE_MEMBER;
+    const char *run = member ? next->token->text : NULL, *text = code->token->text;
+    bool indexed = code->op == QDOT_CODE_INDEX_NAME;
+    qdot_text spelled = {0};
+    qdot_status status = QDOT_OK;
+    qdot_expr value;
+    long k = 0;
+
+    *found = false;
+    if (code->primes > 0 || code->n > 1 || qdot_names_find(m->session->names, text) ||
+        (!indexed && qdot_quantity_find(text)))
+        return QDOT_OK;
+    if (indexed && qdot_expr_kind(m->pool, from_top(m, 1)->value) == QDOT_NUM) {
+        QDOT_TRY(qdot_session_integer(m->session, from_top(m, 1)->value, &k));
+        qdot_text_format(&spelled, "%s[%ld]", text, k);
+        if (qdot_event_is(m->session, run, qdot_text_str(&spelled))) {
+            text = qdot_text_str(&spelled);
+            k = 0;
+        }
+    }
+    *found = qdot_event_is(m->session, run, text) && (!indexed || k != 0 || spelled.n > 0);
+    if (*found) {
+        status = qdot_event_time(m->session, run, text, k, &value);
+        m->stack.n -= status == QDOT_OK ? code->n : 0;
+        m->belongs = member;
+        if (status == QDOT_OK)
+            status = push(m, value);
+    }
+    qdot_text_clear(&spelled);
+    return status;
+}
+
 static qdot_status
 name(machine *m, const qdot_code *code)
 {
     qdot_expr value, over;
+    bool found;
 
+
+    QDOT_TRY(event(m, code, &found));
+    if (found)
+        return QDOT_OK;
     if (code->op == QDOT_CODE_NAME) {
         QDOT_TRY(qdot_resolve_name(m->c, code->token, code->primes, &value, &over));
         QDOT_TRY(push(m, value));
@@ -432,6 +477,10 @@ history(machine *m, uint32_t n)
 static qdot_status
 member(machine *m, const char *run)
 {
+    if (m->belongs) {
+        m->belongs = false;
+        return QDOT_OK;
+    }
     for (size_t i = 0; i < m->session->runs.n; i++)
         if (strcmp(m->session->runs.at[i].name, run) == 0) {
             if (from_top(m, 1)->run != NULL)

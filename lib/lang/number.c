@@ -368,7 +368,6 @@ qdot_number_flatten(qdot_session *session, qdot_expr e, qdot_number_columns *col
     return QDOT_OK;
 }
 
-/* A number of a run, from now on a symbol. */
 static qdot_expr
 measured_symbol(qdot_session *session, qdot_measured m)
 {
@@ -381,6 +380,12 @@ measured_symbol(qdot_session *session, qdot_measured m)
     return qdot_vec_push(&session->measured, m) == QDOT_OK
                ? m.symbol
                : qdot_pool_fail(session->pool);
+}
+
+qdot_expr
+qdot_number_measured(qdot_session *session, double value, double error)
+{
+    return measured_symbol(session, (qdot_measured){.value = value, .error = error});
 }
 
 /* The columns at a time as numbers m [columns]. */

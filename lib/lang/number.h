@@ -42,11 +42,23 @@ QDOT_MUST_CHECK qdot_status qdot_number_fill_order(qdot_session *session,
                                                    qdot_number_order *o);
 void qdot_number_free_order(qdot_number_order *o);
 
+/* --- event.c ------------------------------------------------------------------------- */
+
+/* Whether the scene, or the run (NULL: the latest), has an event of that name. */
+bool qdot_event_is(const qdot_session *session, const char *run, const char *name);
+
+/* The time of its k-th occurrence, from 1; k = 0: a list of all. */
+QDOT_MUST_CHECK qdot_status qdot_event_time(qdot_session *session, const char *run,
+                                            const char *name, long k, qdot_expr *value);
+
 /* --- number.c: runs ----------------------------------------------------------------- */
 
 /* The run of that name, the latest for NULL. QDOT_ENAME where there is none. */
 QDOT_MUST_CHECK qdot_status qdot_number_find_run(qdot_session *session, const char *name,
                                                  qdot_named_run **run);
+/* A number of a run, from now on a symbol. */
+qdot_expr qdot_number_measured(qdot_session *session, double value, double error);
+
 /* A double as the exact rational it is. */
 qdot_expr qdot_number_exact(qdot_pool *pool, double x);
 

@@ -118,6 +118,9 @@ qdot_status qdot_ask_reactions(qdot_cursor *c);
 /* equilibria.c */
 qdot_status qdot_equilibria_all(qdot_cursor *c);
 qdot_status qdot_equilibria_modes(qdot_cursor *c);
+/* event.c */
+qdot_status qdot_event_declare(qdot_cursor *c);
+qdot_status qdot_event_list(qdot_cursor *c);
 /* number.c, draw.c */
 qdot_status qdot_number_set(qdot_cursor *c);
 qdot_status qdot_number_start(qdot_cursor *c);

@@ -59,7 +59,7 @@ static const qdot_statement table[] = {
     {"remove", DECLARE, "remove NAME", "take a labelled thing out of the scene again",
      "remove d1", qdot_furnish_remove, false},
     {"event", DECLARE, "event NAME: A = B [rising|falling] [stop] [then ...]",
-     "a moment of a run", "event cross: theta = 0 rising stop", NULL, false},
+     "a moment of a run: noted, its end, or a change of the state there", "event cross: theta = 0 rising stop", qdot_event_declare, false},
     {"reset", DECLARE, "reset | reset scene | reset start",
      "forget everything, or the scene, or the initial state", "reset scene",
      qdot_workbench_reset, false},
@@ -117,7 +117,8 @@ static const qdot_statement table[] = {
      "one scene as given (projected, Baumgarte, none) and in minimal coordinates: errors, "
      "drifts and times at a ladder of tolerances, and their figure",
      "race 0..20", qdot_number_race, false},
-    {"events", NUMBERS, "events", "the events of the latest run", "events", NULL, true},
+    {"events", NUMBERS, "events", "what occurred in the latest run, and when", "events",
+     qdot_event_list, true},
     {"workprecision", NUMBERS, "workprecision T0..T1 [to \"FILE\"]",
      "error against time: every method over a ladder of tolerances",
      "workprecision 0..20", qdot_workprecision_statement, false},

@@ -117,6 +117,9 @@ void qdot_scene_forget_dropped(qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_scene_drop(qdot_scene *s, const char *kind,
                                             const char *name);
 void qdot_constraint_clear(qdot_constraint *c);
+void qdot_event_clear(qdot_event *e);
+QDOT_MUST_CHECK qdot_status qdot_event_print(const qdot_scene *s, const qdot_event *e,
+                                             qdot_text *out);
 
 /* --- kinematics.c --- */
 void qdot_kinematics_clear(qdot_kinematics *k);

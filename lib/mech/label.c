@@ -48,6 +48,9 @@ qdot_scene_has_label(const qdot_scene *s, const char *label)
     for (size_t i = 0; i < s->constraints.n; i++)
         if (same(s->constraints.at[i].label, label))
             return true;
+    for (size_t i = 0; i < s->events.n; i++)
+        if (same(s->events.at[i].name, label))
+            return true;
     return false;
 }
 
@@ -171,6 +174,10 @@ qdot_scene_remove(qdot_scene *s, const char *label)
     bool found = false, on_thing = b || qdot_scene_find_particle(s, label);
 
     qdot_scene_forget_dropped(s);
+    if (qdot_scene_find_event(s, label)) { /* what was derived still holds */
+        FILTER(s->events, p, same(p->name, label), qdot_event_clear(p));
+        return found ? QDOT_OK : QDOT_EFAILED;
+    }
     if (!qdot_scene_has_label(s, label))
         return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
     if (on_thing)

@@ -231,5 +231,7 @@ qdot_scene_print(const qdot_scene *s, qdot_text *out)
     for (size_t i = 0; i < s->torques.n; i++)
         QDOT_TRY(put_torque(s, &s->torques.at[i], out));
     QDOT_TRY(put_constraints(s, out));
+    for (size_t i = 0; i < s->events.n; i++)
+        QDOT_TRY(qdot_event_print(s, &s->events.at[i], out));
     return qdot_text_status(out);
 }

@@ -88,6 +88,9 @@ qdot_scene_free(qdot_scene *s)
         qdot_free(s->torques.at[i].name);
     for (size_t i = 0; i < s->constraints.n; i++)
         qdot_constraint_clear(&s->constraints.at[i]);
+    for (size_t i = 0; i < s->events.n; i++)
+        qdot_event_clear(&s->events.at[i]);
+    qdot_free(s->events.at);
     qdot_scene_forget_dropped(s);
     qdot_free(s->dropped.at);
     qdot_free(s->coordinates.at);

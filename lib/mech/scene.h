@@ -59,6 +59,15 @@ typedef struct {
     qdot_expr multiplier;      /* the symbol lambda[name] */
 } qdot_constraint;
 
+/* A moment of a run: left = right. It is no part of the mechanics. */
+typedef struct {
+    char *name;
+    qdot_expr left, right;
+    int way;   /* left - right goes 1 up, -1 down as t grows, 0 either way */
+    bool stop; /* the run ends there */
+    qdot_vec(qdot_expr) targets, values; /* q or q' becomes the value, all at once */
+} qdot_event;
+
 typedef struct qdot_derived qdot_derived; /* mech/quantity.c */
 
 typedef struct {
@@ -74,6 +83,7 @@ typedef struct {
     qdot_vec(qdot_force) forces;
     qdot_vec(qdot_torque) torques;
     qdot_vec(qdot_constraint) constraints;
+    qdot_vec(qdot_event) events;
     qdot_vec(qdot_expr) relations;  /* `assume`: scalars that are 0 */
     qdot_vec(qdot_expr) conditions; /* `assume c > a` */
     qdot_expr lagrangian;           /* stated; nil: T - V */
@@ -112,9 +122,13 @@ QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
  * constraint is called by its number. QDOT_EINVAL: no coordinate in it, or a third derivative. */
 QDOT_MUST_CHECK qdot_status qdot_scene_constraint(qdot_scene *s, const char *label,
                                                   qdot_expr left, qdot_expr right);
+/* An event; everything is copied. QDOT_EINVAL: it holds neither coordinate nor time, or what a run
+ * does not know; a target twice. */
+QDOT_MUST_CHECK qdot_status qdot_scene_event(qdot_scene *s, const qdot_event *event);
+const qdot_event *qdot_scene_find_event(const qdot_scene *s, const char *label);
 /* An equation or inequality the engine may use. */
 QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation);
-/* Take the labelled thing (particle, body, spring, damper, force, torque, constraint) out again.
+/* Take the labelled thing (particle, body, spring, damper, force, torque, constraint, event) out again.
  * What was declared to act on a removed particle or body goes with it, named in s->dropped. */
 QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
 

@@ -39,6 +39,14 @@ typedef struct {
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 
+/* A step about to be tried by Taylor series: from (t, y [n]) to t_end; the solution at
+ * t + unit s is sum_k x_ik s^k, k <= order, of system->series. */
+typedef struct {
+    double t, t_end, unit;
+    int order;
+    const double *y;
+} qdot_ode_expanded;
+
 /* All fields may be 0 / NULL for their defaults. */
 typedef struct {
     double tol;         /* 1e-16 .. 1; default 1e-12 */
@@ -49,7 +57,11 @@ typedef struct {
      * here. QDOT_EDOMAIN: the step is taken back and smaller ones are tried, as when f is
      * undefined; any other failure takes the step back and ends the run with it. */
     qdot_status (*accepted)(double t, const double *y, bool *stop, void *user);
-    void *user; /* borrowed, for `accepted` */
+    void *user; /* borrowed, for `accepted` and `expanded` */
+    /* Of taylor.h only: before a step is tried, its series being there. t_end may be
+     * brought nearer. It counts once `accepted` is called for that end. Failures as those
+     * of `accepted`. */
+    qdot_status (*expanded)(qdot_ode_expanded *step, void *user);
     /* Of taylor.h only: what the initial state is beyond y [n], borrowed, and t1 beyond
      * itself (the end state is that of the sum); orders more than the tolerance asks
      * for. */

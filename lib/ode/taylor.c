@@ -309,16 +309,24 @@ static qdot_status
 try_step(run *r, double h, double t_end, bool unsure, bool *good)
 {
     const double old_unit = r->unit, old_held = r->held;
-    const double s = (t_end == r->t1 ? h + r->options->t1_low : h) / r->unit;
     const bool fixed = r->options->h_fixed > 0;
     double moved;
     qdot_status status;
+    double s;
 
     *good = true;
     if (unsure && !fixed)
         QDOT_TRY(confirms_inside(r, h, good));
     if (!*good)
         return QDOT_OK;
+    if (r->options->expanded) {
+        qdot_ode_expanded step = {r->t, t_end, r->unit, r->p, r->y};
+
+        QDOT_TRY(r->options->expanded(&step, r->options->user));
+        t_end = step.t_end;
+        h = t_end - r->t;
+    }
+    s = (t_end == r->t1 ? h + r->options->t1_low : h) / r->unit;
     r->kernels->tails(r->n, r->series->x, r->series->stride, r->p, s, r->value, r->slope);
     if (r->series->low)
         r->series->low(r->carry, r->low, r->series->user);

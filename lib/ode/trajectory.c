@@ -13,7 +13,9 @@ static const size_t most_bytes = (size_t)2 << 30;
 
 struct qdot_trajectory_cursor {
     const qdot_trajectory *tr;
-    const qdot_ode_system *system;
+    const qdot_ode_system *systems; /* [modes] */
+    const qdot_ode_system *system;  /* of the piece */
+    size_t piece;
     qdot_ode_stepper *s; /* NULL: by Taylor series */
     int order;           /* of those */
     size_t at;           /* the stored point looked from last */
@@ -30,11 +32,20 @@ typedef struct {
     const qdot_ode_options *options;
 } recorder;
 
+static qdot_status
+pass_expanded(qdot_ode_expanded *step, void *user)
+{
+    recorder *r = user;
+
+    return r->options->expanded(step, r->options->user);
+}
+
 void
 qdot_trajectory_clear(qdot_trajectory *tr)
 {
     qdot_free(tr->t);
     qdot_free(tr->y);
+    qdot_free(tr->pieces.at);
     *tr = (qdot_trajectory){0};
 }
 
@@ -72,6 +83,7 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
 {
     qdot_ode_options own = options ? *options : (qdot_ode_options){0};
     const qdot_ode_options theirs = own;
+    const qdot_trajectory_piece whole = {0};
     recorder r = {.tr = tr, .options = &theirs};
     double *y = qdot_malloc(system->n * sizeof *y);
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
@@ -85,7 +97,10 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     tr->order_more = own.order_more;
     tr->result = (qdot_ode_result){.outcome = QDOT_ODE_FAILED, .t = t0};
     own.accepted = record;
+    own.expanded = own.expanded ? pass_expanded : NULL;
     own.user = &r;
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&tr->pieces, whole);
     if (status == QDOT_OK)
         status = store(tr, t0, y);
     if (status == QDOT_OK)
@@ -94,6 +109,66 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
         memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
     qdot_free(y);
     return status;
+}
+
+static void
+add_stats(qdot_ode_stats *sum, const qdot_ode_stats *more)
+{
+    sum->steps += more->steps;
+    sum->rejected += more->rejected;
+    sum->evaluations += more->evaluations;
+    sum->jacobians += more->jacobians;
+    sum->factorisations += more->factorisations;
+    sum->cpu += more->cpu;
+}
+
+qdot_status
+qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_t mode,
+                       bool jumped, const qdot_ode_options *options, double t1,
+                       const double *y0)
+{
+    qdot_ode_options own = *options;
+    qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
+    recorder r = {.tr = tr, .options = options};
+    qdot_ode_stats before = tr->result.stats;
+    double t0 = tr->t[tr->count - 1];
+    double *y = qdot_malloc(system->n * sizeof *y);
+    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
+
+    own.accepted = record;
+    own.expanded = own.expanded ? pass_expanded : NULL;
+    own.user = &r;
+    if (y)
+        memcpy(y, y0, system->n * sizeof *y);
+    if (tr->pieces.at[tr->pieces.n - 1].first == tr->count - 1) {
+        piece.first = --tr->count;
+        piece.jumped |= tr->pieces.at[--tr->pieces.n].jumped;
+    }
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&tr->pieces, piece);
+    if (status == QDOT_OK)
+        status = store(tr, t0, y);
+    if (status == QDOT_OK)
+        status = qdot_ode_integrate(system, tr->method, &own, t0, t1, y, &tr->result);
+    else
+        memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
+    add_stats(&tr->result.stats, &before);
+    qdot_free(y);
+    return status;
+}
+
+void
+qdot_trajectory_shorten(qdot_trajectory *tr, double t, const double *y)
+{
+    size_t last = tr->count - 1;
+
+    if (last > tr->pieces.at[tr->pieces.n - 1].first && t == tr->t[last - 1]) {
+        tr->count = last;
+    } else {
+        tr->t[last] = t;
+        memcpy(tr->y + last * tr->n, y, tr->n * sizeof *y);
+    }
+    tr->result.t = t;
 }
 
 /* Is a at or before b, in the direction of the run? */
@@ -141,6 +216,29 @@ open_stepper(qdot_trajectory_cursor *c)
     return qdot_ode_stepper_new(c->system, method, c->tr->tol, &c->s);
 }
 
+/* From now on by the system of that piece. */
+static qdot_status
+enter(qdot_trajectory_cursor *c, size_t piece)
+{
+    const qdot_ode_system *system = c->systems + c->tr->pieces.at[piece].mode;
+
+    c->piece = piece;
+    if (system == c->system)
+        return QDOT_OK;
+    c->system = system;
+    c->fresh = c->known = false;
+    if (c->tr->method->series) {
+        c->order =
+            qdot_ode_taylor_order(system->series, c->tr->tol, c->tr->order_more);
+        return QDOT_OK;
+    }
+    qdot_ode_stepper_free(c->s);
+    qdot_free(c->F);
+    c->s = NULL;
+    c->F = NULL;
+    return open_stepper(c);
+}
+
 qdot_status
 qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
                      qdot_trajectory_cursor **out)
@@ -155,13 +253,8 @@ qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
     if (!c)
         return QDOT_ENOMEM;
     c->tr = tr;
-    c->system = system;
-    if (tr->method->series) {
-        status = QDOT_OK;
-        c->order = qdot_ode_taylor_order(system->series, tr->tol, tr->order_more);
-    } else {
-        status = open_stepper(c);
-    }
+    c->systems = system;
+    status = enter(c, 0);
     if (status != QDOT_OK) {
         qdot_trajectory_close(c);
         return status;
@@ -268,18 +361,12 @@ read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
+/* The state at t, which lies in the step from point k on or is that point. */
+static qdot_status
+read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
 {
     const qdot_trajectory *tr = c->tr;
-    double first = tr->t[0], last = tr->t[tr->count - 1];
-    size_t k;
 
-    if (!(fmin(first, last) <= t && t <= fmax(first, last)))
-        return qdot_fail(QDOT_EDOMAIN,
-                         "t = %.15g is outside the run, which covers %.15g to %.15g", t,
-                         first, last);
-    k = qdot_trajectory_locate(tr, t, c->at);
     if (k != c->at)
         c->fresh = c->known = false;
     c->at = k;
@@ -300,6 +387,68 @@ qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
     QDOT_TRY(walk(c, t));
     memcpy(y, c->s->trial, tr->n * sizeof *y);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    double first = tr->t[0], last = tr->t[tr->count - 1];
+    size_t k, piece;
+
+    if (!(fmin(first, last) <= t && t <= fmax(first, last)))
+        return qdot_fail(QDOT_EDOMAIN,
+                         "t = %.15g is outside the run, which covers %.15g to %.15g", t,
+                         first, last);
+    k = qdot_trajectory_locate(tr, t, c->at);
+    for (piece = c->piece; tr->pieces.at[piece].first > k; piece--)
+        ;
+    while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
+        piece++;
+    QDOT_TRY(enter(c, piece));
+    return read_from(c, k, t, y);
+}
+
+qdot_status
+qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    size_t low = tr->pieces.at[piece].first;
+    size_t last = (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count)
+                  - 1;
+
+    QDOT_TRY(enter(c, piece));
+    if (not_beyond(tr, t, tr->t[low]))
+        return read_from(c, low, tr->t[low], y);
+    if (not_beyond(tr, tr->t[last], t))
+        return read_from(c, last, tr->t[last], y);
+    for (size_t high = last; high - low > 1;) {
+        size_t middle = low + (high - low) / 2;
+
+        if (not_beyond(tr, tr->t[middle], t))
+            low = middle;
+        else
+            high = middle;
+    }
+    return read_from(c, low, t, y);
+}
+
+size_t
+qdot_trajectory_piece_read(const qdot_trajectory_cursor *c)
+{
+    return c->piece;
+}
+
+size_t
+qdot_trajectory_mode_read(const qdot_trajectory_cursor *c)
+{
+    return c->tr->pieces.at[c->piece].mode;
+}
+
+void
+qdot_trajectory_renew(qdot_trajectory_cursor *c)
+{
+    c->fresh = c->known = false;
 }
 
 qdot_status

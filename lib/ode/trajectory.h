@@ -12,6 +12,10 @@
  * series (taylor.h) it is the series of the step itself, expanded again from t_k for the
  * first query within it.
  *
+ * A run may be of several pieces: each begins where the one before ended, from another
+ * state or by another system (its mode). Then two points stand at one time, and a query
+ * at that time gives the later one.
+ *
  * Tests  tests/ode/test_trajectory.c
  */
 #ifndef QDOT_ODE_TRAJECTORY_H
@@ -19,19 +23,27 @@
 
 #include <stddef.h>
 
+#include "base/memory.h"
 #include "base/status.h"
 #include "ode/integrate.h"
 
 typedef struct {
+    size_t first; /* its first point */
+    size_t mode;  /* which of the systems it goes by */
+    bool jumped;  /* its start is another state than the end before */
+} qdot_trajectory_piece;
+
+typedef struct {
     size_t n;     /* components of the state */
     size_t count; /* stored points, the initial state included */
-    double *t;    /* [count] strictly monotone in the direction of the run */
+    double *t;    /* [count] monotone in the direction of the run, strictly in a piece */
     double *y;    /* [count x n] row-major */
     const qdot_ode_method *method;
     double tol;
     int order_more;         /* of the run's options */
     qdot_ode_result result; /* of the run */
     size_t t_capacity, y_capacity;
+    qdot_vec(qdot_trajectory_piece) pieces;
 } qdot_trajectory;
 
 /* Start from {0}; release with qdot_trajectory_clear. */
@@ -48,8 +60,21 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_run(qdot_trajectory *tr,
                                                 const qdot_ode_options *options,
                                                 double t0, double t1, const double *y0);
 
+/* Go on as a further piece: from y0 [n] at the time of the last point to t1, by `system`,
+ * which is the mode-th of those that the run will be read with. The counts of tr->result
+ * go on. A last piece of one point is begun anew. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_resume(qdot_trajectory *tr,
+                                                   const qdot_ode_system *system,
+                                                   size_t mode, bool jumped,
+                                                   const qdot_ode_options *options,
+                                                   double t1, const double *y0);
+
+/* The last point becomes (t, y [n]), which lies within the step that ended there. Where
+ * that is the start of the step the point goes. */
+void qdot_trajectory_shorten(qdot_trajectory *tr, double t, const double *y);
+
 /* The state at t into y [n]; a stored point is given back bit by bit.
- *   system  the one of the run
+ *   system  the one of the run, or [modes] of its pieces
  * Errors: QDOT_EDOMAIN if t is outside the run (the message says what it covers),
  * QDOT_EFAILED if no step from the stored point works, QDOT_ENOMEM, or what a callback
  * returned. */
@@ -71,6 +96,18 @@ void qdot_trajectory_close(qdot_trajectory_cursor *c);
 /* As qdot_trajectory_at. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read(qdot_trajectory_cursor *c, double t,
                                                  double *y);
+
+/* Where the state just read stands: its piece, and the mode of that. */
+size_t qdot_trajectory_piece_read(const qdot_trajectory_cursor *c);
+size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
+
+/* The state within the piece at t, or at its nearest end; of two at one time the one of
+ * this piece. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c,
+                                                       size_t piece, double t, double *y);
+
+/* The points were changed behind the cursor's back. */
+void qdot_trajectory_renew(qdot_trajectory_cursor *c);
 
 /* Index k of the last stored point that is not beyond t, in the direction of the run;
  * t must lie within it. `near`: where to look first. */

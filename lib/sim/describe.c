@@ -1,9 +1,10 @@
 /* describe.c -- the plan in words. */
+#include "expr/print.h"
 #include "ode/companion.h"
 #include "ode/taylor.h"
 #include "sim/bind.h"
 #include "sim/constraints.h"
-#include "sim/plan.h"
+#include "sim/stage.h"
 
 static void
 say_mass(const qdot_plan *p, qdot_text *out)
@@ -138,13 +139,36 @@ say_series(const qdot_plan *p, double tol, qdot_text *out)
     return QDOT_OK;
 }
 
+/* Where the equations switch, and what else ends a piece of the run. */
+static qdot_status
+say_switches(const qdot_stage *s, qdot_text *out)
+{
+    for (size_t i = 0; i < s->switches.surfaces.n; i++) {
+        qdot_text_add(out, i ? ", " : "switches: located, a plan for each side; at ");
+        if (s->switches.surfaces.at[i].steps)
+            qdot_text_add(out, "whole ");
+        QDOT_TRY(qdot_print(s->switches.pool, s->switches.surfaces.at[i].u, QDOT_PLAIN,
+                            out));
+        qdot_text_add(out, s->switches.surfaces.at[i].steps ? "" : " = 0");
+    }
+    qdot_text_add(out, s->switches.surfaces.n ? "\n" : "");
+    for (size_t i = 0; i < s->events.n; i++)
+        qdot_text_format(out, "%s%s", i ? ", " : "events: ", s->events.at[i].name);
+    qdot_text_add(out, s->events.n ? "\n" : "");
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
 {
-    qdot_status status = QDOT_OK;
-    qdot_plan *p;
+    qdot_stage stage = {0};
+    qdot_status status = qdot_stage_begin(&stage, scene, request);
+    const qdot_plan *p = status == QDOT_OK ? stage.modes.at[0]->plan : NULL;
 
-    QDOT_TRY(qdot_plan_new(scene, request, &p));
+    if (!p) {
+        qdot_stage_clear(&stage);
+        return status;
+    }
     qdot_text_format(out, "coordinates: %zu:", p->n);
     for (size_t i = 0; i < p->n; i++)
         qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
@@ -178,6 +202,8 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
                      p->smooth ? "taylor" : p->method->partner,
                      request->tol <= QDOT_COMPANION_TWIN_TOL ? "threads of their own"
                                                              : "a second thread");
-    qdot_plan_free(p);
+    if (status == QDOT_OK)
+        status = say_switches(&stage, out);
+    qdot_stage_clear(&stage);
     return status == QDOT_OK ? qdot_text_status(out) : status;
 }

@@ -50,6 +50,10 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     qdot_error failure;
     qdot_status status;
 
+    if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: digits with %s",
+                         run->stage.events.n > 0 ? "events"
+                                                 : "equations that switch");
     status = qdot_precise_pair_new(run->plan, request, domains, &run->precise);
     failure = *qdot_last_error();
     *interrupted = status == QDOT_EINTR && run->precise;
@@ -58,9 +62,12 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     if (status == QDOT_OK)
         status = how_it_ended(run, domains);
     if (status == QDOT_OK)
-        status = qdot_precise_pair_sample(run->precise, &run->tr);
+        status = qdot_precise_pair_sample(run->precise, &run->course.tr);
+    if (status == QDOT_OK)
+        status = qdot_course_adopt(&run->course);
     if (status == QDOT_OK && !*interrupted)
-        status = qdot_drifts_measure(scene, run->plan, &run->tr, &run->drifts);
+        status =
+            qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_precise_pair_drifts(run->precise, &run->drifts);
     if (status == QDOT_OK)

@@ -1,4 +1,4 @@
-/* domain.c -- looking whether a run leaves the domain of a coordinate, and when. */
+/* domain.c -- the domains of the coordinates, and whether a state is inside. */
 #include "sim/domain.h"
 
 #include <math.h>
@@ -95,48 +95,4 @@ qdot_domains_watch(double t, const double *y, bool *stop, void *user)
     d->left = qdot_domains_outside(d, y);
     *stop = d->left != NULL;
     return QDOT_OK;
-}
-
-qdot_status
-qdot_domains_locate(const qdot_domains *d, const qdot_ode_system *system,
-                    qdot_trajectory *tr)
-{
-    size_t n = tr->n, last = tr->count - 1;
-    double inside = tr->t[last - 1], outside = tr->t[last];
-    qdot_trajectory_cursor *cursor;
-    double *y = qdot_malloc(2 * n * sizeof *y), *good = y ? y + n : NULL;
-    qdot_status status = y ? qdot_trajectory_open(tr, system, &cursor) : QDOT_ENOMEM;
-
-    if (status != QDOT_OK) {
-        qdot_free(y);
-        return status;
-    }
-    memcpy(good, tr->y + (last - 1) * n, n * sizeof *good);
-    for (;;) {
-        double middle = inside + 0.5 * (outside - inside);
-
-        if (middle == inside || middle == outside)
-            break;
-        status = qdot_trajectory_read(cursor, middle, y);
-        if (status != QDOT_OK)
-            break;
-        if (qdot_domains_outside(d, y))
-            outside = middle;
-        else {
-            inside = middle;
-            memcpy(good, y, n * sizeof *good);
-        }
-    }
-    qdot_trajectory_close(cursor);
-    if (status == QDOT_OK) {
-        if (inside == tr->t[last - 1])
-            tr->count--;
-        else {
-            tr->t[last] = inside;
-            memcpy(tr->y + last * n, good, n * sizeof *good);
-        }
-        tr->result.t = inside;
-    }
-    qdot_free(y);
-    return status;
 }

@@ -16,7 +16,7 @@ typedef struct {
 typedef struct {
     size_t n;
     qdot_domain *at;
-    const qdot_domain *left; /* of qdot_domains_watch: the one that was left; else NULL */
+    const qdot_domain *left; /* of sim/precise.h: the one that was left; else NULL */
 } qdot_domains;
 
 /* Those of the plan's coordinates; bounds may hold parameters. Errors: QDOT_EUNSET ... */
@@ -27,14 +27,8 @@ void qdot_domains_clear(qdot_domains *domains);
 /* The first domain that y [n ...] is outside of; NULL if there is none. */
 const qdot_domain *qdot_domains_outside(const qdot_domains *domains, const double *y);
 
-/* qdot_ode_options.accepted: stops at the first accepted step that ends outside. user: a
- * qdot_domains. */
+/* qdot_ode_options.accepted: stops at the first accepted step that ends outside, as a run
+ * with `digits` does. user: a qdot_domains. */
 qdot_status qdot_domains_watch(double t, const double *y, bool *stop, void *user);
-
-/* After a run that `watch` stopped: the last point of the trajectory is moved back to the
- * last double of t at which the state is inside. */
-QDOT_MUST_CHECK qdot_status qdot_domains_locate(const qdot_domains *domains,
-                                                const qdot_ode_system *system,
-                                                qdot_trajectory *tr);
 
 #endif

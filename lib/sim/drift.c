@@ -29,6 +29,8 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
     double *in = qdot_malloc((n + 1) * sizeof *in);
     double *work = qdot_malloc((qdot_tape_work(tape) + 1) * sizeof *work), c;
     qdot_status status = in && work ? QDOT_OK : QDOT_ENOMEM;
+    double start = 0;
+    size_t piece = 0;
 
     drift->drift = 0;
     for (size_t k = 0; k < tr->count && status == QDOT_OK; k++) {
@@ -40,8 +42,12 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
         in[n] = tr->t[k];
         qdot_tape_eval(tape, in, &c, work);
         if (k == 0)
-            drift->start = c;
-        change = fabs(c - drift->start) / fmax(1, fabs(drift->start));
+            drift->start = start = c;
+        /* what an event changes is no drift */
+        for (; piece < tr->pieces.n && tr->pieces.at[piece].first <= k; piece++)
+            if (tr->pieces.at[piece].jumped)
+                start = c;
+        change = fabs(c - start) / fmax(1, fabs(start));
         if (!(change <= drift->drift)) /* a NaN stays */
             drift->drift = change;
     }

@@ -2,16 +2,14 @@
 #ifndef QDOT_SIM_INTEGRATED_H
 #define QDOT_SIM_INTEGRATED_H
 
-#include "ode/trajectory.h"
-#include "sim/bind.h"
 #include "sim/bonds.h"
+#include "sim/course.h"
 #include "sim/drift.h"
-#include "sim/plan.h"
 
 struct qdot_run {
-    qdot_plan *plan;
-    qdot_bind *bind;      /* for the run, then for states between its points */
-    qdot_trajectory tr;
+    qdot_stage stage;
+    qdot_plan *plan;      /* of the mode of the start; the stage's */
+    qdot_course course;   /* the run, and what its states are read with */
     qdot_drifts drifts;
     qdot_bonds bonds;
     double *start;        /* [2n] y at t0 */
@@ -22,16 +20,29 @@ struct qdot_run {
     char *reason;
     qdot_text notice;     /* of the start */
     qdot_run_report report;
+    qdot_vec(qdot_run_occurrence) occurrences;
+    bool occurrence_errors; /* they have been found */
+    char *doubt;            /* why the error is unknown; NULL */
 
-    /* The run whose distance from this one is the error between points: made when
-     * errors are first asked for. */
+    /* The run whose distance from this one is the error between points: made with it
+     * where the run has pieces, else when errors are first asked for. */
     bool has_companion;
-    qdot_bind *shaken, *twin; /* systems of the companions; twin NULL: only one */
-    qdot_trajectory companion;
+    qdot_course companion;
 
-    struct qdot_precise_pair *precise; /* of `digits`: the run is this; tr holds its
-                                          points as doubles */
+    struct qdot_precise_pair *precise; /* of `digits`: the run is this; course.tr holds
+                                          its points as doubles */
     qdot_expr *exact;                  /* [2n] its end state */
 };
+
+/* The companion's trajectory over all that the run covers; where it ends early errors
+ * are unknown. QDOT_OK without one, too: has_companion tells. */
+QDOT_MUST_CHECK qdot_status qdot_run_companion(struct qdot_run *run);
+
+/* The error of the end state of a run that has pieces; NaN with run->doubt where the two
+ * runs met different events. */
+QDOT_MUST_CHECK qdot_status qdot_run_end_error(struct qdot_run *run, double *error);
+
+/* Whether both runs went through the same pieces, so that states compare. */
+bool qdot_run_comparable(const struct qdot_run *run);
 
 #endif

@@ -10,6 +10,7 @@
 #include "sim/residual.h"
 #include "sim/shifted.h"
 #include "sim/substitute.h"
+#include "sim/switch.h"
 #include "sim/tied.h"
 #include "tape/constant.h"
 #include "tape/taylor.h"
@@ -48,6 +49,12 @@ qdot_plan_free(qdot_plan *p)
     qdot_free(p);
 }
 
+size_t
+qdot_plan_inputs(const qdot_plan *p)
+{
+    return 3 * p->n + 1 + (p->constraints ? p->constraints->m : 0);
+}
+
 qdot_expr
 qdot_plan_substitute(const qdot_plan *p, qdot_expr e)
 {
@@ -56,8 +63,8 @@ qdot_plan_substitute(const qdot_plan *p, qdot_expr e)
 
 /* --- the scene ---------------------------------------------------------------------- */
 
-static qdot_status
-check_scene(const qdot_scene *scene)
+qdot_status
+qdot_plan_check(const qdot_scene *scene)
 {
     if (scene->coordinates.n == 0) {
         qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
@@ -153,6 +160,10 @@ derive(qdot_plan *p, qdot_scene *scene)
         p->f[i] = qdot_expr_arg(p->pool, f, (uint32_t)i);
         for (size_t j = 0; j < n; j++)
             p->M[i * n + j] = qdot_expr_arg(p->pool, M, (uint32_t)(i * n + j));
+    }
+    if (p->mode) {
+        QDOT_TRY(qdot_switches_freeze(p->mode, p->side, n * n, p->M, p->M));
+        QDOT_TRY(qdot_switches_freeze(p->mode, p->side, n, p->f, p->f));
     }
     p->indefinite = scene->lagrangian != QDOT_NIL;
     for (size_t i = 0; i < scene->potentials.n; i++)
@@ -348,6 +359,9 @@ choose_form(qdot_plan *p, qdot_scene *scene)
     p->convolutions_derived = qdot_direct_convolutions(direct);
     for (size_t k = 0; k < p->structure.blocks; k++)
         coupled |= p->blocks[k].n > 1 && !p->blocks[k].constant;
+    /* d'Alembert's form is made of the scene, which switches */
+    if (p->mode && p->mode->atoms.n > 0)
+        coupled = false;
     status = coupled ? qdot_residual_new(scene, p, &residual) : QDOT_OK;
     if (status == QDOT_OK && residual)
         status = qdot_shifted_new(p, residual, false, &shifted);
@@ -449,17 +463,28 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 qdot_status
 qdot_plan_new(qdot_scene *scene, const qdot_run_request *request, qdot_plan **plan)
 {
+    return qdot_plan_in_mode(scene, request, NULL, NULL, plan);
+}
+
+qdot_status
+qdot_plan_in_mode(qdot_scene *scene, const qdot_run_request *request,
+                  const qdot_switches *switches, const long *side, qdot_plan **plan)
+{
     qdot_plan *p;
     qdot_status status;
 
     *plan = NULL;
-    QDOT_TRY(check_scene(scene));
+    QDOT_TRY(qdot_plan_check(scene));
     p = qdot_calloc(1, sizeof *p);
     if (!p)
         return QDOT_ENOMEM;
     p->pool = scene->pool;
     p->n = scene->coordinates.n;
+    p->mode = switches;
+    p->side = side;
     status = make(p, scene, request);
+    p->mode = NULL;
+    p->side = NULL;
     if (status != QDOT_OK) {
         qdot_plan_free(p);
         p = NULL;

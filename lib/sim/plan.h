@@ -37,6 +37,7 @@ typedef struct {
 
 typedef struct qdot_residual qdot_residual; /* sim/residual.h */
 typedef struct qdot_constraints qdot_constraints; /* sim/constraints.h */
+struct qdot_switches;                       /* sim/switch.h */
 
 typedef struct {
     qdot_pool *pool; /* borrowed */
@@ -76,13 +77,29 @@ typedef struct {
      * looked at. */
     qdot_residual *residual;
     double convolutions_derived, convolutions_residual;
+
+    /* While it is made: the mode that its equations are frozen to; else NULL. */
+    const struct qdot_switches *mode;
+    const long *side;
 } qdot_plan;
+
+/* Whether a scene can be integrated at all: QDOT_EINVAL, QDOT_ENOTBUILT. */
+QDOT_MUST_CHECK qdot_status qdot_plan_check(const qdot_scene *scene);
 
 /* Errors: as qdot_run_new has before anything is integrated, but for the start's. */
 QDOT_MUST_CHECK qdot_status qdot_plan_new(qdot_scene *scene,
                                           const qdot_run_request *request,
                                           qdot_plan **plan);
+/* The same with the equations frozen to one side of every surface (sim/switch.h). Of
+ * equations that switch _new takes M and f as they stand: no method by Taylor series. */
+QDOT_MUST_CHECK qdot_status qdot_plan_in_mode(qdot_scene *scene,
+                                              const qdot_run_request *request,
+                                              const struct qdot_switches *switches,
+                                              const long *side, qdot_plan **plan);
 void qdot_plan_free(qdot_plan *plan);
+
+/* How many inputs there are: 3n + 1 + m. */
+size_t qdot_plan_inputs(const qdot_plan *plan);
 
 /* e with the values in place. Nil: the pool keeps the failure. */
 qdot_expr qdot_plan_substitute(const qdot_plan *plan, qdot_expr e);

@@ -8,7 +8,6 @@
 #include "ode/companion.h"
 #include "sim/bonds.h"
 #include "sim/digits.h"
-#include "sim/domain.h"
 #include "sim/integrated.h"
 #include "sim/precise.h"
 #include "sim/start.h"
@@ -32,15 +31,14 @@ qdot_run_free(qdot_run *run)
 {
     if (!run)
         return;
-    qdot_trajectory_clear(&run->tr);
-    qdot_trajectory_clear(&run->companion);
+    qdot_course_clear(&run->course);
+    qdot_course_clear(&run->companion);
     qdot_drifts_clear(&run->drifts);
-    qdot_bind_free(run->bind);
-    qdot_bind_free(run->shaken);
-    qdot_bind_free(run->twin);
     qdot_precise_pair_free(run->precise);
     qdot_free(run->exact);
-    qdot_plan_free(run->plan);
+    qdot_stage_clear(&run->stage);
+    qdot_free(run->occurrences.at);
+    qdot_free(run->doubt);
     qdot_free(run->start);
     qdot_free(run->start_low);
     qdot_free(run->reason);
@@ -58,8 +56,8 @@ qdot_run_get_report(const qdot_run *run)
 const double *
 qdot_run_times(const qdot_run *run, size_t *n)
 {
-    *n = run->tr.count;
-    return run->tr.t;
+    *n = run->course.tr.count;
+    return run->course.tr.t;
 }
 
 static qdot_status
@@ -109,9 +107,11 @@ read_start(qdot_run *run, const qdot_run_request *request)
 }
 
 static qdot_status
-check_start(qdot_run *run, const qdot_domains *domains)
+check_start(qdot_run *run)
 {
-    const qdot_domain *d = qdot_domains_outside(domains, run->start);
+    const qdot_domain *d = qdot_domains_outside(&run->stage.domains, run->start);
+    qdot_bind *bind = NULL;
+    qdot_status status;
 
     if (d) {
         const char *name = run->plan->names[d->coordinate];
@@ -120,7 +120,11 @@ check_start(qdot_run *run, const qdot_domains *domains)
                   run->start[d->coordinate], d->text);
         return qdot_hint("start %s = ...", name);
     }
-    return qdot_bind_check(run->bind, run->t0, run->start, run->start_low);
+    status = qdot_bind_new(run->plan, false, &bind);
+    if (status == QDOT_OK)
+        status = qdot_bind_check(bind, run->t0, run->start, run->start_low);
+    qdot_bind_free(bind);
+    return status;
 }
 
 static qdot_status
@@ -184,42 +188,41 @@ say_why(qdot_run *run, const char *reason)
     return run->reason ? QDOT_OK : QDOT_ENOMEM;
 }
 
+/* The reason of a run that ended early by what happened in it. */
 static qdot_status
-left_domain(qdot_run *run, const qdot_domains *domains)
+say_course(qdot_run *run)
 {
-    qdot_ode_system system = qdot_bind_system(run->bind);
-    char reason[400];
+    const qdot_course *c = &run->course;
 
-    QDOT_TRY(qdot_domains_locate(domains, &system, &run->tr));
-    snprintf(reason, sizeof reason, "%.100s left its domain %.200s at t = %.15g",
-             run->plan->names[domains->left->coordinate], domains->left->text,
-             run->tr.result.t);
-    return say_why(run, reason);
+    if (c->stopped_by != SIZE_MAX) {
+        char reason[200];
+
+        snprintf(reason, sizeof reason, "the event %.150s",
+                 run->stage.events.at[c->stopped_by].name);
+        QDOT_TRY(say_why(run, reason));
+        run->report.status = QDOT_RUN_STOPPED;
+        return QDOT_OK;
+    }
+    return c->reason[0] != '\0' ? say_why(run, c->reason) : QDOT_OK;
 }
 
 /* Integrate; QDOT_OK whenever there is a run to keep, *interrupted by Ctrl-C. */
 static qdot_status
-integrate(qdot_run *run, qdot_domains *domains, double tol, bool *interrupted)
+integrate(qdot_run *run, double tol, bool *interrupted)
 {
-    qdot_ode_system system = qdot_bind_system(run->bind);
     qdot_ode_options options = {
         .tol = tol, .carry = run->start_low, .t1_low = run->t1_low};
-    qdot_status status;
+    qdot_status status = qdot_course_run(&run->course, run->plan->method, &options,
+                                         run->t0, run->t1, run->start);
 
-    if (domains->n > 0) {
-        options.accepted = qdot_domains_watch;
-        options.user = domains;
-    }
-    status = qdot_trajectory_run(&run->tr, &system, run->plan->method, &options, run->t0,
-                                 run->t1, run->start);
     *interrupted = status == QDOT_EINTR;
-    if (!is_kept(status))
+    if (!is_kept(status) || run->course.tr.count == 0)
         return status;
     if (status != QDOT_OK)
-        return say_why(run, run->tr.result.reason);
-    if (domains->left)
-        return left_domain(run, domains);
-    return QDOT_OK;
+        return say_why(run, run->course.tr.result.reason[0]
+                                ? run->course.tr.result.reason
+                                : qdot_last_error()->message);
+    return say_course(run);
 }
 
 /* --- the report --------------------------------------------------------------------- */
@@ -227,25 +230,31 @@ integrate(qdot_run *run, qdot_domains *domains, double tol, bool *interrupted)
 static const double *
 last_state(const qdot_run *run)
 {
-    return run->tr.y + (run->tr.count - 1) * run->tr.n;
+    return run->course.tr.y + (run->course.tr.count - 1) * run->course.tr.n;
 }
 
 static void
 fill_report(qdot_run *run, double tol)
 {
     qdot_run_report *r = &run->report;
-    const qdot_ode_stats *stats = &run->tr.result.stats;
+    const qdot_ode_stats *stats = &run->course.tr.result.stats;
     const qdot_plan *p = run->plan;
 
     r->method = p->method->name;
     r->tol = tol;
     r->t0 = run->t0;
-    r->t1 = run->tr.t[run->tr.count - 1];
+    r->t1 = run->course.tr.t[run->course.tr.count - 1];
     r->steps = stats->steps;
     r->rejected = stats->rejected;
     r->evals = stats->evaluations;
     r->jacobians = stats->jacobians;
-    r->factorizations = stats->factorisations + qdot_bind_factored(run->bind);
+    r->factorizations = stats->factorisations;
+    for (size_t i = 0; i < run->course.binds.n; i++)
+        if (run->course.binds.at[i])
+            r->factorizations += qdot_bind_factored(run->course.binds.at[i]);
+    r->pieces = run->course.tr.pieces.n;
+    r->modes = run->stage.modes.n;
+    r->doubt = run->doubt;
     r->cpu = stats->cpu;
     r->n = p->n;
     r->coordinates = p->inputs;
@@ -263,17 +272,17 @@ fill_report(qdot_run *run, double tol)
 static qdot_status
 show_states(qdot_run *run, qdot_companion *companion)
 {
-    qdot_ode_system system = qdot_bind_system(run->bind);
     qdot_trajectory_cursor *cursor;
-    size_t count;
+    size_t count, n = run->course.tr.n;
     const double *times = qdot_companion_times(companion, &count);
     double *y;
     qdot_status status;
 
     if (count == 0)
         return QDOT_OK;
-    QDOT_TRY(qdot_trajectory_open(&run->tr, &system, &cursor));
-    y = qdot_malloc(system.n * sizeof *y);
+    QDOT_TRY(qdot_trajectory_open(&run->course.tr, qdot_course_systems(&run->course),
+                                  &cursor));
+    y = qdot_malloc(n * sizeof *y);
     status = y ? QDOT_OK : QDOT_ENOMEM;
     for (size_t k = 0; k < count && status == QDOT_OK; k++) {
         status = qdot_trajectory_read(cursor, times[k], y);
@@ -286,8 +295,24 @@ show_states(qdot_run *run, qdot_companion *companion)
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
+/* Whether nothing can divide the run into pieces. */
+static bool
+is_whole(const qdot_run *run)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++)
+        if (run->stage.events.at[i].stop || run->stage.events.at[i].then)
+            return false;
+    return run->stage.switches.surfaces.n == 0;
+}
+
+/* What a companion needs beside the run. */
+typedef struct {
+    qdot_bind *shaken, *twin; /* twin NULL: only one */
+    qdot_companion *companion;
+} beside;
+
 static qdot_status
-start_companion(qdot_run *run, double tol, qdot_companion **companion)
+start_companion(qdot_run *run, double tol, beside *b)
 {
     qdot_ode_system system, twin;
     qdot_companion_request request = {.system = &system,
@@ -300,66 +325,93 @@ start_companion(qdot_run *run, double tol, qdot_companion **companion)
                                       .carry = run->start_low,
                                       .threaded = true};
 
-    QDOT_TRY(qdot_bind_new(run->plan, true, &run->shaken));
-    system = qdot_bind_system(run->shaken);
+    QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
+    system = qdot_bind_system(b->shaken);
     if (!system.series)
         request.t1 = qdot_shake_double(run->t1, run->t1_side);
     if (tol <= QDOT_COMPANION_TWIN_TOL) {
-        QDOT_TRY(qdot_bind_new(run->plan, false, &run->twin));
-        twin = qdot_bind_system(run->twin);
+        QDOT_TRY(qdot_bind_new(run->plan, false, &b->twin));
+        twin = qdot_bind_system(b->twin);
         request.twin = &twin;
     }
-    return qdot_companion_start(&request, companion);
+    return qdot_companion_start(&request, &b->companion);
 }
 
-/* The run, its companion beside it, and what should have been kept. */
+/* The error by a companion beside the run, on a second thread. */
 static qdot_status
-carry_out(qdot_run *run, qdot_scene *scene, qdot_domains *domains, double tol,
-          bool *interrupted)
+run_beside(qdot_run *run, double tol, bool *interrupted)
 {
     qdot_companion_estimate estimate = {.error = 0};
-    qdot_companion *companion = NULL;
+    beside b = {0};
     qdot_status status = QDOT_OK;
 
-    *interrupted = false;
     if (run->t0 != run->t1) {
         /* Where the shaken constants have no inverse the error stays unknown. */
         estimate.error = NAN;
-        status = start_companion(run, tol, &companion);
+        status = start_companion(run, tol, &b);
         if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN)
             status = QDOT_OK;
     }
     if (status == QDOT_OK)
-        status = integrate(run, domains, tol, interrupted);
-    if (status == QDOT_OK && !*interrupted)
-        status = qdot_drifts_measure(scene, run->plan, &run->tr, &run->drifts);
-    if (status == QDOT_OK && !*interrupted)
-        status = qdot_bonds_measure(run->bind, &run->tr, &run->bonds);
-    if (status == QDOT_EINTR) {
-        *interrupted = true;
-        status = QDOT_OK;
-    }
-    if (companion && status == QDOT_OK && !*interrupted
-        && run->tr.result.outcome == QDOT_ODE_DONE)
-        status = show_states(run, companion);
-    if (companion) {
-        bool there = run->tr.count > 0;
+        status = integrate(run, tol, interrupted);
+    if (b.companion && status == QDOT_OK && !*interrupted
+        && run->course.tr.result.outcome == QDOT_ODE_DONE)
+        status = show_states(run, b.companion);
+    if (b.companion) {
+        bool there = run->course.tr.count > 0;
         qdot_error failure = *qdot_last_error();
 
         double *difference = qdot_calloc(2 * run->plan->n, sizeof *difference);
 
-        qdot_companion_finish(companion, there ? run->tr.result.t : run->t1,
+        qdot_companion_finish(b.companion, there ? run->course.tr.result.t : run->t1,
                               there ? last_state(run) : run->start, difference,
                               &estimate);
         if (!difference)
             status = QDOT_ENOMEM;
-        else if (status == QDOT_OK && !*interrupted)
-            status = qdot_bonds_errors(run->bind, &run->tr, difference, &run->bonds);
+        else if (status == QDOT_OK && !*interrupted && there)
+            status = qdot_bonds_errors(run->course.binds.at[0], &run->course.tr,
+                                       difference, &run->bonds);
         qdot_free(difference);
         if (status != QDOT_OK || *interrupted)
             qdot_fail_again(&failure);
     }
+    qdot_bind_free(b.shaken);
+    qdot_bind_free(b.twin);
     run->report.error = estimate.error;
+    return status;
+}
+
+/* The error by a companion that meets its own events, after the run. */
+static qdot_status
+run_after(qdot_run *run, double tol, bool *interrupted)
+{
+    QDOT_TRY(integrate(run, tol, interrupted));
+    run->report.error = NAN;
+    run->report.tol = tol;
+    if (*interrupted)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_companion(run));
+    return qdot_run_end_error(run, &run->report.error);
+}
+
+/* The run, its error, and what should have been kept. */
+static qdot_status
+carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
+{
+    qdot_status status;
+
+    *interrupted = false;
+    status = is_whole(run) ? run_beside(run, tol, interrupted)
+                           : run_after(run, tol, interrupted);
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_bonds_measure(run->course.binds.at[0], &run->course.tr,
+                                    &run->bonds);
+    if (status == QDOT_EINTR) {
+        *interrupted = true;
+        status = QDOT_OK;
+    }
     return status;
 }
 
@@ -369,7 +421,6 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     const qdot_run_request precise = qdot_precise_request(asked);
     const qdot_run_request *request = asked->digits ? &precise : asked;
     double clock = process_clock();
-    qdot_domains domains = {0};
     bool interrupted = false;
     qdot_run *run;
     qdot_status status;
@@ -379,28 +430,31 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     run = qdot_calloc(1, sizeof *run);
     if (!run)
         return QDOT_ENOMEM;
-    status = qdot_plan_new(scene, request, &run->plan);
-    if (status == QDOT_OK)
+    status = qdot_stage_begin(&run->stage, scene, request);
+    run->course.stage = run->companion.stage = &run->stage;
+    run->companion.shaken = true;
+    run->course.touch_tol = request->tol;
+    if (status == QDOT_OK) {
+        run->plan = run->stage.modes.at[0]->plan;
         status = read_start(run, request);
-    if (status == QDOT_OK)
-        status = qdot_domains_find(run->plan, &domains);
+    }
     if (status == QDOT_OK)
         status = check_springs(run, scene);
     if (status == QDOT_OK)
-        status = settle_start(run, scene, request, &domains);
+        status = settle_start(run, scene, request, &run->stage.domains);
     if (status == QDOT_OK)
-        status = qdot_bind_new(run->plan, false, &run->bind);
-    if (status == QDOT_OK)
-        status = check_start(run, &domains);
+        status = check_start(run);
     if (status == QDOT_OK)
         status = request->digits
-                     ? qdot_digits_carry_out(run, scene, request, &domains, &interrupted)
-                     : carry_out(run, scene, &domains, request->tol, &interrupted);
-    qdot_domains_clear(&domains);
+                     ? qdot_digits_carry_out(run, scene, request, &run->stage.domains,
+                                             &interrupted)
+                     : carry_out(run, scene, request->tol, &interrupted);
     if (status != QDOT_OK) {
         qdot_run_free(run);
         return status;
     }
+    run->stage.scene = NULL;
+    run->stage.request = NULL;
     fill_report(run, request->tol);
     status = name_redundant(run, scene, request);
     if (status != QDOT_OK) {

@@ -5,6 +5,9 @@
  *
  *   M(q, t) q'' = f(q, q', t)      y = (q_1 ... q_n, q_1' ... q_n')
  *
+ * The scene's events, the domains of its coordinates and where its equations switch are located and
+ * divide it into pieces (sim/course.h).
+ *
  * M is solved with numbers and its structure (Cholesky; LDL^T for a stated Lagrangian); a singular M is
  * an error that names the coordinate. With constraints q'' and the multipliers are found together and
  * states are kept on the constraints: sim/held.h.
@@ -77,7 +80,16 @@ typedef struct {
     size_t independent;            /* of the constraints */
     size_t projections;            /* steps after which the state was moved */
     qdot_run_treatment treatment;
+    size_t pieces, modes;          /* of a run that events or switches divide; else 1 */
+    const char *doubt;             /* why the error is unknown, where that is known; NULL */
 } qdot_run_report;
+
+/* An event that occurred. */
+typedef struct {
+    const char *event;
+    double t, error; /* NaN: unknown */
+    int way;         /* 1: rising, -1: falling, 0: it touched */
+} qdot_run_occurrence;
 
 /* Integrate. On QDOT_OK *run is owned by the caller; report->status may still be FAILED (a
  * singularity, a domain left: reason says where and when), the run so far is kept. QDOT_EINTR:
@@ -101,6 +113,13 @@ QDOT_MUST_CHECK qdot_status qdot_run_values(qdot_run *run, size_t m, const qdot_
 QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs,
                                                   qdot_expr time, qdot_expr *values,
                                                   double *errors);
+
+/* What occurred [*n], in the order of the run, with the errors of the times from the companion;
+ * borrowed. */
+QDOT_MUST_CHECK qdot_status qdot_run_occurrences(qdot_run *run,
+                                                 const qdot_run_occurrence **list, size_t *n);
+/* Whether the scene of the run had an event of that name. */
+bool qdot_run_has_event(const qdot_run *run, const char *name);
 
 /* The times of the accepted steps [*n], borrowed. */
 const double *qdot_run_times(const qdot_run *run, size_t *n);

@@ -5,20 +5,17 @@
 
 #include "base/interrupt.h"
 #include "expr/print.h"
-#include "ode/companion.h"
 #include "sim/constraints.h"
 #include "sim/integrated.h"
 #include "sim/precise.h"
-#include "tape/shake.h"
 
 /* A tape of the expressions and the states they are read at. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_tape *tape;
     qdot_trajectory_cursor *cursor;
-    qdot_ode_system system;
+    const qdot_course *course;
     bool accelerations; /* the tape reads q'' or lambda */
-    qdot_held *held;    /* of a scene with constraints */
     double *in;         /* [3n + 1 + m] */
     double *dydt;       /* [2n] */
     double *work;
@@ -34,86 +31,44 @@ reader_clear(reader *r)
 }
 
 static qdot_status
-reader_init(reader *r, const qdot_plan *plan, const qdot_tape *tape, qdot_bind *bind,
-            const qdot_trajectory *tr, bool accelerations)
+reader_init(reader *r, const qdot_plan *plan, const qdot_tape *tape,
+            const qdot_course *course, bool accelerations)
 {
-    *r = (reader){.plan = plan, .tape = tape, .accelerations = accelerations};
-    r->system = qdot_bind_system(bind);
-    r->held = qdot_bind_held(bind);
+    *r = (reader){
+        .plan = plan, .tape = tape, .course = course, .accelerations = accelerations};
     r->in = qdot_calloc(qdot_tape_inputs(tape), sizeof *r->in);
     r->dydt = qdot_calloc(2 * plan->n, sizeof *r->dydt);
     r->work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *r->work);
     if (!r->in || !r->dydt || !r->work)
         return QDOT_ENOMEM;
-    return qdot_trajectory_open(tr, &r->system, &r->cursor);
+    return qdot_trajectory_open(&course->tr, qdot_course_systems(course), &r->cursor);
 }
 
-/* out [outputs of the tape] at t. */
+/* out [outputs of the tape] at t; within that piece of the run, unless it is SIZE_MAX. */
 static qdot_status
-read_at(reader *r, double t, double *out)
+read_at(reader *r, size_t piece, double t, double *out)
 {
     size_t n = r->plan->n;
 
-    QDOT_TRY(qdot_trajectory_read(r->cursor, t, r->in));
+    QDOT_TRY(piece == SIZE_MAX
+                 ? qdot_trajectory_read(r->cursor, t, r->in)
+                 : qdot_trajectory_read_piece(r->cursor, piece, t, r->in));
     r->in[2 * n] = t;
-    if (r->accelerations && r->held) {
-        QDOT_TRY(qdot_held_solve(r->held, t, r->in, r->in + 2 * n + 1,
-                                 r->in + 3 * n + 1));
-    } else if (r->accelerations) {
-        QDOT_TRY(r->system.rhs(t, r->in, r->dydt, r->system.user));
+    if (r->accelerations) {
+        size_t mode = qdot_trajectory_mode_read(r->cursor);
+        const qdot_ode_system *system = qdot_course_systems(r->course) + mode;
+        qdot_held *held = qdot_bind_held(r->course->binds.at[mode]);
+
+        if (held) {
+            QDOT_TRY(qdot_held_solve(held, t, r->in, r->in + 2 * n + 1,
+                                     r->in + 3 * n + 1));
+            qdot_tape_eval(r->tape, r->in, out, r->work);
+            return QDOT_OK;
+        }
+        QDOT_TRY(system->rhs(t, r->in, r->dydt, system->user));
         memcpy(r->in + 2 * n + 1, r->dydt + n, n * sizeof *r->in);
     }
     qdot_tape_eval(r->tape, r->in, out, r->work);
-    return QDOT_OK;
-}
-
-/* --- the second run ----------------------------------------------------------------- */
-
-/* Its trajectory, over all that the run covers; where it ends early errors are
- * unknown. */
-static qdot_status
-make_companion(qdot_run *run)
-{
-    const qdot_ode_method *method = run->plan->method;
-    qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS};
-    double t0 = qdot_shake_double(run->t0, run->t0_side);
-    double t1 = run->tr.t[run->tr.count - 1];
-    qdot_ode_system system;
-    double *y;
-    qdot_status status;
-
-    if (run->has_companion)
-        return QDOT_OK;
-    if (!run->shaken) {
-        status = qdot_bind_new(run->plan, true, &run->shaken);
-        if (status != QDOT_OK)
-            return status == QDOT_ESINGULAR ? QDOT_OK : status;
-    }
-    system = qdot_bind_system(run->shaken);
-    if (method->stiff) /* series may get stuck */
-        system.series = NULL;
-    options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
-    y = qdot_malloc(system.n * sizeof *y);
-    if (!y)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < system.n; i++)
-        y[i] = qdot_companion_moved(run->start[i], i, 0);
-    if (system.project) {
-        double by;
-
-        status = system.project(t0, y, NULL, &by, system.user);
-        if (status != QDOT_OK) {
-            qdot_free(y);
-            return status == QDOT_ENOMEM ? status : QDOT_OK;
-        }
-    }
-    status =
-        qdot_trajectory_run(&run->companion, &system,
-                            qdot_companion_method(&system, method), &options, t0, t1, y);
-    qdot_free(y);
-    if (status == QDOT_EINTR || status == QDOT_ENOMEM)
-        return status;
-    run->has_companion = true;
     return QDOT_OK;
 }
 
@@ -132,6 +87,23 @@ undefined(const qdot_run *run, qdot_expr e, double t)
     return status;
 }
 
+/* The piece of a run that a time falls in: the later of two. */
+static size_t
+piece_at(const qdot_trajectory *tr, double t)
+{
+    size_t k = qdot_trajectory_locate(tr, t, 0), low = 0, high = tr->pieces.n;
+
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (tr->pieces.at[middle].first <= k)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 static qdot_status
 read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
             const double *times, const double *values, double *errors)
@@ -142,18 +114,16 @@ read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
 
     for (size_t i = 0; i < k * m; i++)
         errors[i] = NAN;
-    QDOT_TRY(make_companion(run));
-    if (!run->has_companion || run->companion.count == 0)
+    QDOT_TRY(qdot_run_companion(run));
+    if (!qdot_run_comparable(run))
         return QDOT_OK;
-    status =
-        reader_init(&r, run->plan, tape, run->shaken, &run->companion, accelerations);
+    status = reader_init(&r, run->plan, tape, &run->companion, accelerations);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         double *e = errors + i * m;
 
         status = qdot_interrupt_check();
-        /* The companion's first point may lie one double beside t0. */
         if (status == QDOT_OK)
-            status = read_at(&r, times[i] == run->t0 ? run->companion.t[0] : times[i], e);
+            status = read_at(&r, piece_at(&run->course.tr, times[i]), times[i], e);
         if (status == QDOT_EDOMAIN || status == QDOT_EFAILED
             || status == QDOT_ESINGULAR) {
             for (size_t j = 0; j < m; j++)
@@ -178,12 +148,12 @@ read_values(qdot_run *run, const qdot_tape *tape, bool accelerations,
     size_t m = qdot_tape_outputs(tape);
     reader r = {0};
     qdot_status status =
-        reader_init(&r, run->plan, tape, run->bind, &run->tr, accelerations);
+        reader_init(&r, run->plan, tape, &run->course, accelerations);
 
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = read_at(&r, times[i], values + i * m);
+            status = read_at(&r, SIZE_MAX, times[i], values + i * m);
         for (size_t j = 0; j < m && status == QDOT_OK; j++)
             if (!isfinite(values[i * m + j]))
                 status = undefined(run, exprs[j], times[i]);

@@ -212,6 +212,8 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     own.method = method;
     own.digits = 0;
     own.tol = 1e-12;
+    if (scene->events.n > 0)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: workprecision with events");
     QDOT_TRY(qdot_plan_new(scene, &own, &w->plan));
     QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
     QDOT_TRY(read_start(w, request));

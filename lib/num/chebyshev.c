@@ -1,0 +1,249 @@
+/* chebyshev.c -- fits, Clenshaw's sums, and roots by halving. */
+#include "num/chebyshev.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+enum { most = QDOT_CHEBYSHEV_MOST, quarters = 4 * most };
+
+/* Halvings: an interval of this depth is 2^-44 of the whole. */
+enum { deepest = 45 };
+
+/* cos(m pi / (2 most)) */
+static double cosine[quarters];
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+static void
+fill_cosines(void)
+{
+    for (int m = 0; m < quarters; m++)
+        cosine[m] = cos(m * M_PI / (2 * most));
+    cosine[most] = cosine[3 * most] = 0;
+}
+
+double
+qdot_chebyshev_node(int n, int j)
+{
+    pthread_once(&once, fill_cosines);
+    return cosine[(2 * j + 1) * (most / n)];
+}
+
+void
+qdot_chebyshev_fit(int n, const double *values, double *c)
+{
+    int stride = most / n;
+
+    pthread_once(&once, fill_cosines);
+    for (int k = 0; k < n; k++) {
+        double sum = 0;
+
+        for (int j = 0; j < n; j++)
+            sum += values[j] * cosine[(2 * j + 1) * k * stride % quarters];
+        c[k] = (k == 0 ? 1.0 : 2.0) / n * sum;
+    }
+}
+
+double
+qdot_chebyshev_at(int n, const double *c, double x)
+{
+    double b = 0, b1 = 0;
+
+    for (int k = n; k-- > 1;) {
+        double next = c[k] + 2 * x * b - b1;
+
+        b1 = b;
+        b = next;
+    }
+    return c[0] + x * b - b1;
+}
+
+void
+qdot_chebyshev_derivative(int n, const double *c, double *d)
+{
+    double above = 0, at = 0; /* d_k+2, d_k+1 */
+
+    for (int k = n - 2; k >= 0; k--) {
+        double now = above + 2 * (k + 1) * c[k + 1];
+
+        above = at;
+        at = now;
+        d[k] = now;
+    }
+    d[0] *= 0.5;
+}
+
+double
+qdot_chebyshev_integral(int n, const double *c)
+{
+    double sum = 0;
+
+    for (int k = 0; k < n; k += 2)
+        sum += 2 * c[k] / (1 - (double)k * k);
+    return sum;
+}
+
+void
+qdot_chebyshev_part(int n, const double *c, double lo, double hi, double *part)
+{
+    double values[most];
+    int fit = 8;
+
+    while (fit < n)
+        fit *= 2;
+    for (int j = 0; j < fit; j++) {
+        double x = qdot_chebyshev_node(fit, j);
+
+        values[j] = qdot_chebyshev_at(n, c, 0.5 * (lo + hi) + 0.5 * (hi - lo) * x);
+    }
+    {
+        double all[most];
+
+        qdot_chebyshev_fit(fit, values, all);
+        memcpy(part, all, (size_t)n * sizeof *part);
+    }
+}
+
+double
+qdot_chebyshev_tail(int n, const double *c)
+{
+    double largest = 0;
+
+    for (int k = n - n / 8 - 1; k < n; k++)
+        largest = fmax(largest, fabs(c[k]));
+    return largest;
+}
+
+double
+qdot_chebyshev_size(int n, const double *c)
+{
+    double largest = 0;
+
+    for (int k = 0; k < n; k++)
+        largest = fmax(largest, fabs(c[k]));
+    return largest;
+}
+
+int
+qdot_chebyshev_sign(int n, const double *c)
+{
+    double others = 0;
+
+    for (int k = 1; k < n; k++)
+        others += fabs(c[k]);
+    return fabs(c[0]) > others ? (c[0] > 0) - (c[0] < 0) : 0;
+}
+
+/* --- roots -------------------------------------------------------------------------- */
+
+typedef struct {
+    double lo, hi; /* of the whole */
+    double at_lo, at_hi;
+    int n;
+    double c[most];
+} piece;
+
+static bool
+changes(double a, double b)
+{
+    return (a < 0) != (b < 0);
+}
+
+/* The only root of p on a piece whose ends differ in sign. */
+static double
+refine(const piece *p)
+{
+    double lo = -1, hi = 1, at_lo = p->at_lo, at_hi = p->at_hi, x = 0;
+
+    for (int k = 0; k < 100; k++) {
+        double now;
+
+        /* Illinois */
+        x = at_hi != at_lo ? hi - at_hi * (hi - lo) / (at_hi - at_lo) : 0.5 * (lo + hi);
+        if (!(x > lo && x < hi) || k % 8 == 7)
+            x = 0.5 * (lo + hi);
+        if (x == lo || x == hi)
+            break;
+        now = qdot_chebyshev_at(p->n, p->c, x);
+        if (now == 0)
+            break;
+        if (changes(at_lo, now)) {
+            hi = x;
+            at_hi = now;
+            at_lo *= 0.5;
+        } else {
+            lo = x;
+            at_lo = now;
+            at_hi *= 0.5;
+        }
+        if (hi - lo < 1e-16)
+            break;
+    }
+    return 0.5 * (p->lo + p->hi) + 0.5 * (p->hi - p->lo) * x;
+}
+
+/* What is below rounding of the rest is dropped. */
+static int
+shorten(int n, const double *c)
+{
+    double least = 0x1p-56 * qdot_chebyshev_size(n, c);
+
+    while (n > 2 && fabs(c[n - 1]) <= least)
+        n--;
+    return n;
+}
+
+static bool
+is_monotone(const piece *p)
+{
+    double d[most];
+
+    if (p->n < 3)
+        return true;
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    return qdot_chebyshev_sign(p->n - 1, d) != 0;
+}
+
+static void
+halve(const piece *p, piece *left, piece *right)
+{
+    double middle = qdot_chebyshev_at(p->n, p->c, 0);
+
+    left->lo = p->lo;
+    left->at_lo = p->at_lo;
+    left->hi = right->lo = 0.5 * (p->lo + p->hi);
+    left->at_hi = right->at_lo = middle;
+    right->hi = p->hi;
+    right->at_hi = p->at_hi;
+    qdot_chebyshev_part(p->n, p->c, -1, 0, left->c);
+    qdot_chebyshev_part(p->n, p->c, 0, 1, right->c);
+    left->n = shorten(p->n, left->c);
+    right->n = shorten(p->n, right->c);
+}
+
+int
+qdot_chebyshev_crossings(int n, const double *c, double *roots)
+{
+    piece stack[deepest + 2], left, right;
+    int depth = 0, found = 0;
+
+    stack[0] = (piece){.lo = -1, .hi = 1, .n = shorten(n, c)};
+    memcpy(stack[0].c, c, (size_t)n * sizeof *c);
+    stack[0].at_lo = qdot_chebyshev_at(stack[0].n, c, -1);
+    stack[0].at_hi = qdot_chebyshev_at(stack[0].n, c, 1);
+    for (depth = 1; depth > 0;) {
+        const piece *p = &stack[--depth];
+
+        if (qdot_chebyshev_sign(p->n, p->c) != 0)
+            continue;
+        if (is_monotone(p) || p->hi - p->lo < 0x1p-43) {
+            if (changes(p->at_lo, p->at_hi) && found < n)
+                roots[found++] = refine(p);
+            continue;
+        }
+        halve(p, &left, &right);
+        stack[depth++] = right;
+        stack[depth++] = left;
+    }
+    return found;
+}

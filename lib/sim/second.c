@@ -1,0 +1,213 @@
+/* second.c -- the companion of a run as a course of its own, and how the two compare. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "ode/companion.h"
+#include "sim/integrated.h"
+#include "tape/shake.h"
+
+/* Where it goes to: as far as the run did, or wanted to where events end it. */
+static double
+goal(const qdot_run *run)
+{
+    return run->course.stopped_by != SIZE_MAX
+               ? qdot_shake_double(run->t1, run->t1_side)
+               : run->course.tr.t[run->course.tr.count - 1];
+}
+
+qdot_status
+qdot_run_companion(qdot_run *run)
+{
+    const qdot_ode_method *method = run->plan->method;
+    qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS};
+    double t0 = qdot_shake_double(run->t0, run->t0_side);
+    size_t n = 2 * run->plan->n;
+    qdot_ode_system system;
+    double *y;
+    qdot_status status;
+
+    if (run->has_companion || run->course.tr.count == 0)
+        return QDOT_OK;
+    run->companion.touch_tol = run->report.tol;
+    run->companion.no_series = method->stiff; /* series may get stuck */
+    system = qdot_bind_system(run->course.binds.at[0]);
+    if (method->stiff)
+        system.series = NULL;
+    options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
+    y = qdot_malloc(n * sizeof *y);
+    if (!y)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        y[i] = qdot_companion_moved(run->start[i], i, 0);
+    if (system.project) { /* along what solutions may do */
+        double by;
+
+        status = system.project(t0, y, NULL, &by, system.user);
+        if (status != QDOT_OK) {
+            qdot_free(y);
+            return status == QDOT_ENOMEM ? status : QDOT_OK;
+        }
+    }
+    /* a bound that the start is on stays where it is */
+    if (qdot_domains_outside(&run->stage.domains, y))
+        memcpy(y, run->start, n * sizeof *y);
+    status = qdot_course_run(&run->companion, qdot_companion_method(&system, method),
+                             &options, t0, goal(run), y);
+    qdot_free(y);
+    if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+        return status;
+    run->has_companion = run->companion.tr.count > 0;
+    return QDOT_OK;
+}
+
+/* --- comparing ----------------------------------------------------------------------- */
+
+bool
+qdot_run_comparable(const qdot_run *run)
+{
+    const qdot_course *a = &run->course, *b = &run->companion;
+
+    if (!run->has_companion || a->tr.pieces.n != b->tr.pieces.n)
+        return false;
+    for (size_t i = 0; i < a->tr.pieces.n; i++)
+        if (a->tr.pieces.at[i].mode != b->tr.pieces.at[i].mode)
+            return false;
+    return true;
+}
+
+/* How often event i occurred, of those at or before t. */
+static size_t
+count(const qdot_course *c, size_t event)
+{
+    size_t n = 0;
+
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        n += c->occurrences.at[i].event == event;
+    return n;
+}
+
+static qdot_status
+say_doubt(qdot_run *run, const char *text)
+{
+    qdot_free(run->doubt);
+    run->doubt = qdot_strdup(text);
+    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* What the two differ in. */
+static qdot_status
+find_doubt(qdot_run *run)
+{
+    char text[300];
+
+    for (size_t i = 0; i < run->stage.events.n; i++) {
+        size_t a = count(&run->course, i), b = count(&run->companion, i);
+
+        if (a == b)
+            continue;
+        snprintf(text, sizeof text,
+                 "the second run met the event %.100s %zu times, this one %zu times",
+                 run->stage.events.at[i].name, b, a);
+        return say_doubt(run, text);
+    }
+    return say_doubt(run, "the second run went through other events or switches");
+}
+
+qdot_status
+qdot_run_end_error(qdot_run *run, double *error)
+{
+    const qdot_trajectory *a = &run->course.tr, *b = &run->companion.tr;
+    const double *y = a->y + (a->count - 1) * a->n;
+    double t = a->t[a->count - 1], worst = 0x1p-53, *z;
+    qdot_trajectory_cursor *cursor = NULL;
+    bool same = run->course.stopped_by == run->companion.stopped_by;
+    qdot_status status;
+
+    *error = NAN;
+    if (!qdot_run_comparable(run) || !same)
+        return find_doubt(run);
+    z = qdot_malloc(a->n * sizeof *z);
+    status = z ? qdot_trajectory_open(b, qdot_course_systems(&run->companion), &cursor)
+               : QDOT_ENOMEM;
+    if (status == QDOT_OK && run->course.stopped_by != SIZE_MAX) {
+        double end = b->t[b->count - 1];
+
+        memcpy(z, b->y + (b->count - 1) * b->n, b->n * sizeof *z);
+        worst = fmax(worst, fabs(end - t) / fmax(1, fabs(t)));
+    } else if (status == QDOT_OK) {
+        status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, t, z);
+    }
+    for (size_t i = 0; i < a->n && status == QDOT_OK; i++)
+        worst = fmax(worst, fabs(z[i] - y[i]) / fmax(1, fabs(y[i])));
+    if (status == QDOT_OK)
+        *error = worst;
+    qdot_trajectory_close(cursor);
+    qdot_free(z);
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* --- occurrences --------------------------------------------------------------------- */
+
+bool
+qdot_run_has_event(const qdot_run *run, const char *name)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++)
+        if (strcmp(run->stage.events.at[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* The k-th occurrence of an event, k from 0; NULL: there is none. */
+static const qdot_occurrence *
+find(const qdot_course *c, size_t event, size_t k)
+{
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        if (c->occurrences.at[i].event == event && k-- == 0)
+            return &c->occurrences.at[i];
+    return NULL;
+}
+
+static double
+error_of(const qdot_run *run, size_t event, size_t k, double t)
+{
+    const qdot_occurrence *other = find(&run->companion, event, k);
+
+    if (!run->has_companion || !other
+        || count(&run->course, event) != count(&run->companion, event))
+        return NAN;
+    return fabs(other->t - t) + DBL_EPSILON * fabs(t);
+}
+
+qdot_status
+qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
+{
+    const qdot_course *c = &run->course;
+    size_t *seen;
+
+    if (!run->occurrence_errors) {
+        if (c->occurrences.n > 0)
+            QDOT_TRY(qdot_run_companion(run));
+        seen = qdot_calloc(run->stage.events.n + 1, sizeof *seen);
+        if (!seen)
+            return QDOT_ENOMEM;
+        run->occurrences.n = 0;
+        for (size_t i = 0; i < c->occurrences.n; i++) {
+            const qdot_occurrence *o = &c->occurrences.at[i];
+            qdot_run_occurrence out = {
+                run->stage.events.at[o->event].name, o->t,
+                error_of(run, o->event, seen[o->event]++, o->t), o->way};
+            qdot_status status = qdot_vec_push(&run->occurrences, out);
+
+            if (status != QDOT_OK) {
+                qdot_free(seen);
+                return status;
+            }
+        }
+        qdot_free(seen);
+        run->occurrence_errors = true;
+    }
+    *list = run->occurrences.at;
+    *n = run->occurrences.n;
+    return QDOT_OK;
+}

@@ -1,0 +1,254 @@
+/* switch.c -- what switches in the equations, found and frozen. */
+#include "sim/switch.h"
+
+#include <string.h>
+
+#include "expr/walk.h"
+#include "sim/substitute.h"
+
+void
+qdot_switches_clear(qdot_switches *s)
+{
+    qdot_free(s->surfaces.at);
+    qdot_free(s->atoms.at);
+    *s = (qdot_switches){0};
+}
+
+static bool
+moves(const qdot_pool *pool, qdot_expr e)
+{
+    return (qdot_expr_node(pool, e)->holds
+            & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME
+               | QDOT_HAS_MULTIPLIER))
+           != 0;
+}
+
+static bool
+is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
+{
+    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == id;
+}
+
+static bool
+is_relation(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_REL;
+}
+
+/* Whether the node itself switches; `if` does by the relations in it. */
+static bool
+is_atom(const qdot_pool *pool, qdot_expr e)
+{
+    static const qdot_fun_id ids[] = {QDOT_ABS, QDOT_SIGN,  QDOT_MIN,
+                                      QDOT_MAX, QDOT_FLOOR, QDOT_MOD};
+
+    if (!moves(pool, e))
+        return false;
+    if (is_relation(pool, e))
+        return true;
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (is_function(pool, e, ids[i]))
+            return true;
+    return false;
+}
+
+/* u or -u, whichever prints without a sign in front; *turned: it is -u. */
+static qdot_expr
+upright(qdot_pool *pool, qdot_expr u, bool *turned)
+{
+    *turned = qdot_expr_is_negative(pool, u);
+    return *turned ? qdot_neg(pool, u) : u;
+}
+
+static qdot_status
+add_surface(qdot_switches *s, qdot_expr u, bool steps)
+{
+    bool turned;
+
+    if (!steps)
+        u = upright(s->pool, u, &turned);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    for (size_t i = 0; i < s->surfaces.n; i++)
+        if (s->surfaces.at[i].u == u && s->surfaces.at[i].steps == steps)
+            return QDOT_OK;
+    return qdot_vec_push(&s->surfaces, ((qdot_surface){u, steps}));
+}
+
+static qdot_status
+add_atom(qdot_switches *s, qdot_expr e)
+{
+    qdot_pool *pool = s->pool;
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr a = qdot_expr_arg(pool, e, 0), b = n > 1 ? qdot_expr_arg(pool, e, 1) : a;
+
+    for (size_t i = 0; i < s->atoms.n; i++)
+        if (s->atoms.at[i] == e)
+            return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&s->atoms, e));
+    if (is_relation(pool, e))
+        return qdot_expr_node(pool, e)->op == QDOT_EQ
+                   ? QDOT_OK /* true at moments only */
+                   : add_surface(s, qdot_sub(pool, a, b), false);
+    if (is_function(pool, e, QDOT_ABS) || is_function(pool, e, QDOT_SIGN))
+        return add_surface(s, a, false);
+    if (is_function(pool, e, QDOT_FLOOR))
+        return add_surface(s, a, true);
+    if (is_function(pool, e, QDOT_MOD))
+        return add_surface(s, qdot_div(pool, a, b), true);
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = i + 1; j < n; j++)
+            QDOT_TRY(add_surface(s,
+                                 qdot_sub(pool, qdot_expr_arg(pool, e, i),
+                                          qdot_expr_arg(pool, e, j)),
+                                 false));
+    return QDOT_OK;
+}
+
+/* Everything in e that switches. */
+static qdot_status
+collect(qdot_switches *s, qdot_expr e)
+{
+    qdot_walk walk;
+    qdot_status status = qdot_walk_begin(s->pool, e, &walk);
+
+    for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
+        if (is_atom(s->pool, walk.at[i]))
+            status = add_atom(s, walk.at[i]);
+    qdot_walk_end(&walk);
+    return status;
+}
+
+qdot_status
+qdot_switches_any(qdot_pool *pool, qdot_expr e, bool *any)
+{
+    qdot_walk walk;
+    qdot_status status = qdot_walk_begin(pool, e, &walk);
+
+    *any = false;
+    for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
+        *any = *any || is_atom(pool, walk.at[i]);
+    qdot_walk_end(&walk);
+    return status;
+}
+
+qdot_status
+qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_switches *s)
+{
+    qdot_pool *pool = scene->pool;
+    qdot_expr e[] = {qdot_mech_numeric_mass(scene), qdot_mech_numeric_forcing(scene)};
+
+    s->pool = pool;
+    for (size_t i = 0; i < 2; i++) {
+        if (e[i] != QDOT_NIL)
+            e[i] = qdot_substitute(pool, e[i], request->n_values, request->symbols,
+                                   request->values);
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(collect(s, e[i]));
+    }
+    return QDOT_OK;
+}
+
+/* --- freezing ------------------------------------------------------------------------ */
+
+typedef struct {
+    const qdot_switches *s;
+    const long *side;
+    size_t done;       /* atoms frozen so far */
+    qdot_expr *frozen; /* [atoms] */
+} freezer;
+
+static qdot_expr
+look_up(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const freezer *f = user;
+
+    (void)pool;
+    for (size_t i = 0; i < f->done; i++)
+        if (f->s->atoms.at[i] == node)
+            return f->frozen[i];
+    return QDOT_NIL;
+}
+
+static qdot_expr
+inner(const freezer *f, qdot_expr e)
+{
+    return qdot_walk_map(f->s->pool, e, look_up, (void *)f);
+}
+
+/* The side of u. */
+static long
+side_of(const freezer *f, qdot_expr u, bool steps)
+{
+    bool turned = false;
+
+    if (!steps)
+        u = upright(f->s->pool, u, &turned);
+    for (size_t i = 0; i < f->s->surfaces.n; i++)
+        if (f->s->surfaces.at[i].u == u && f->s->surfaces.at[i].steps == steps)
+            return turned ? -f->side[i] : f->side[i];
+    return 0;
+}
+
+/* Of min or max the argument that it is. */
+static qdot_expr
+chosen(const freezer *f, qdot_expr e, int way)
+{
+    qdot_pool *pool = f->s->pool;
+    uint32_t n = qdot_expr_count(pool, e), best = 0;
+
+    for (uint32_t i = 1; i < n; i++) {
+        qdot_expr difference =
+            qdot_sub(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, best));
+
+        if (side_of(f, difference, false) * way > 0)
+            best = i;
+    }
+    return inner(f, qdot_expr_arg(pool, e, best));
+}
+
+static qdot_expr
+freeze_atom(const freezer *f, qdot_expr e)
+{
+    qdot_pool *pool = f->s->pool;
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr a = qdot_expr_arg(pool, e, 0), b = n > 1 ? qdot_expr_arg(pool, e, 1) : a;
+
+    if (is_relation(pool, e)) {
+        if (qdot_expr_node(pool, e)->op == QDOT_EQ)
+            return QDOT_FALSE;
+        return side_of(f, qdot_sub(pool, a, b), false) < 0 ? QDOT_TRUE : QDOT_FALSE;
+    }
+    if (is_function(pool, e, QDOT_ABS))
+        return side_of(f, a, false) < 0 ? qdot_neg(pool, inner(f, a)) : inner(f, a);
+    if (is_function(pool, e, QDOT_SIGN))
+        return qdot_expr_int(pool, side_of(f, a, false));
+    if (is_function(pool, e, QDOT_FLOOR))
+        return qdot_expr_int(pool, side_of(f, a, true));
+    if (is_function(pool, e, QDOT_MOD))
+        return qdot_sub(pool, inner(f, a),
+                        qdot_mul(pool, inner(f, b),
+                                 qdot_expr_int(pool, side_of(f, qdot_div(pool, a, b),
+                                                             true))));
+    return chosen(f, e, is_function(pool, e, QDOT_MAX) ? 1 : -1);
+}
+
+qdot_status
+qdot_switches_freeze(const qdot_switches *s, const long *side, size_t n,
+                     const qdot_expr *e, qdot_expr *frozen)
+{
+    freezer f = {.s = s, .side = side};
+
+    if (s->atoms.n == 0) {
+        memcpy(frozen, e, n * sizeof *e);
+        return QDOT_OK;
+    }
+    f.frozen = qdot_calloc(s->atoms.n, sizeof *f.frozen);
+    if (!f.frozen)
+        return QDOT_ENOMEM;
+    for (; f.done < s->atoms.n; f.done++)
+        f.frozen[f.done] = freeze_atom(&f, s->atoms.at[f.done]);
+    for (size_t i = 0; i < n; i++)
+        frozen[i] = inner(&f, e[i]);
+    qdot_free(f.frozen);
+    return qdot_pool_check(s->pool);
+}

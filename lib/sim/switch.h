@@ -1,0 +1,47 @@
+/* switch.h -- where equations switch: abs, sign, min, max, mod, floor, if.
+ *
+ * Each of them is smooth but for surfaces in the space of (q, q', t):
+ *
+ *     abs(u), sign(u)     u = 0           +-u, +-1
+ *     min(a, b, ...)      a - b = 0 ...   the least of them
+ *     if(a < b, A, B)     a - b = 0       A or B
+ *     floor(u)            u = k, k + 1    k
+ *     mod(a, b)           of floor(a/b)   a - k b
+ *
+ * A mode is one side of every surface: signs, and an integer where it is a floor. Frozen
+ * to a mode an expression switches no more. Surfaces may stand inside one another; the
+ * inner ones are frozen first.
+ *
+ * Tests  tests/sim/test_switch.c
+ */
+#ifndef QDOT_SIM_SWITCH_H
+#define QDOT_SIM_SWITCH_H
+
+#include "sim/run.h"
+
+typedef struct {
+    qdot_expr u;  /* as it stands in the equations, the values put in */
+    bool steps;   /* the mode is floor(u); else the sign of u */
+} qdot_surface;
+
+typedef struct qdot_switches {
+    qdot_pool *pool; /* borrowed */
+    qdot_vec(qdot_surface) surfaces;
+    qdot_vec(qdot_expr) atoms; /* what switches, inner ones first */
+} qdot_switches;
+
+/* Those of the equations of motion; start from {0}. Errors: as qdot_plan_new has them. */
+QDOT_MUST_CHECK qdot_status qdot_switches_find(qdot_scene *scene,
+                                               const qdot_run_request *request,
+                                               qdot_switches *switches);
+void qdot_switches_clear(qdot_switches *switches);
+
+/* e [n] in a mode: side [surfaces]. Nil: the pool keeps the failure. */
+QDOT_MUST_CHECK qdot_status qdot_switches_freeze(const qdot_switches *switches,
+                                                 const long *side, size_t n,
+                                                 const qdot_expr *e, qdot_expr *frozen);
+
+/* Whether e holds anything that switches with the motion. */
+QDOT_MUST_CHECK qdot_status qdot_switches_any(qdot_pool *pool, qdot_expr e, bool *any);
+
+#endif

@@ -1,0 +1,18 @@
+# How events end a run: stopped, ever faster, a contact that lasts, a domain left, sliding.
+scene='param m = 1, g = 9.81
+coord y
+particle ball mass m at (0, y)
+gravity (0, -g)
+start y = 1
+'
+printf '%sevent land: y = 0 stop\nrun 0..3 as a\nland\nstart a\nstate = value(y, 0.1)' "$scene" |
+    qdot -q --json - | grep -o '"kind":"run".*"tol"\|"status".*\|"kind":"numbers".*'
+printf '%sparam e = 0.5\nevent bounce: y = 0 falling then y'"' = -e*y'"'\nrun 0..10\n' "$scene" |
+    qdot -q - 2>&1 | grep failed
+printf '%sevent bounce: y = 0 falling then y'"' = 0"'\nrun 0..10\n' "$scene" | qdot -q - 2>&1 | grep failed
+printf 'param m = 1\ncoord -1 < x <= 1\nparticle p mass m at (x, 0)\nstart x'"' = 1"'\nrun 0..3\n' |
+    qdot -q - 2>&1 | grep failed
+printf 'param m = 1\ncoord x <= 1\nparticle p mass m at (x, 0)\npotential x\nstart x'"' = 1.41422"'\nrun 0..3\n' |
+    qdot -q - 2>&1 | grep failed
+printf 'param m = 1\ncoord x\nparticle p mass m at (x, 0)\nforce -sign(x) - 2*sign(x'"')"' on x\nstart x'"' = 1"'\nrun 0..30\n' |
+    qdot -q - 2>&1 | grep failed
