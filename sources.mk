@@ -260,6 +260,8 @@ sim_sources = \
 	lib/sim/precise-value.c \
 	lib/sim/precise.c \
 	lib/sim/race.c \
+	lib/sim/range.c \
+	lib/sim/reader.c \
 	lib/sim/residual.c \
 	lib/sim/run.c \
 	lib/sim/second.c \
@@ -295,6 +297,7 @@ sim_headers = \
 	lib/sim/precise-pair.h \
 	lib/sim/precise.h \
 	lib/sim/race.h \
+	lib/sim/reader.h \
 	lib/sim/residual.h \
 	lib/sim/run.h \
 	lib/sim/shifted-lanes.def \
@@ -345,12 +348,14 @@ lang_sources = \
 	lib/lang/letters.c \
 	lib/lang/lex.c \
 	lib/lang/loop.c \
+	lib/lang/member.c \
 	lib/lang/names.c \
 	lib/lang/number.c \
 	lib/lang/parse.c \
 	lib/lang/plot.c \
 	lib/lang/quantities.c \
 	lib/lang/race.c \
+	lib/lang/range.c \
 	lib/lang/read.c \
 	lib/lang/redirect.c \
 	lib/lang/report.c \
@@ -500,6 +505,7 @@ script_tests = \
 	tests/script/order.lag \
 	tests/script/pendulum.lag \
 	tests/script/race.sh \
+	tests/script/ranges.lag \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
 	tests/script/reset.lag \
@@ -980,6 +986,7 @@ test_files = \
 	tests/script/order.out \
 	tests/script/pendulum.out \
 	tests/script/race.out \
+	tests/script/ranges.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
 	tests/script/reset.out \

@@ -6,6 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
+#include "lang/number.h"
 #include "lang/algebra.h"
 #include "lang/answer.h"
 #include "lang/code.h"
@@ -403,6 +404,18 @@ call_velocity(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 /* --- numbers of a run --------------------------------------------------------------- */
 
 static qdot_status
+call_mean(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    return qdot_number_range(s, NULL, "mean", n, args, NULL, value);
+}
+
+static qdot_status
+call_drift(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    return qdot_number_range(s, NULL, "drift", n, args, NULL, value);
+}
+
+static qdot_status
 call_value(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     return qdot_number_value(s, NULL, n, args, value);
@@ -416,13 +429,6 @@ call_form(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)s, (void)n, (void)args, (void)value;
     return qdot_fail(QDOT_EINVAL, "a form of the language is not a function");
-}
-
-static qdot_status
-call_unbuilt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)s, (void)n, (void)args, (void)value;
-    return qdot_fail(QDOT_ENOTBUILT, "not built yet");
 }
 
 #define ROW(least, most, word, usage, summary, example)                                  \
@@ -441,10 +447,6 @@ call_unbuilt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *valu
 #define PLACE(n, word, usage, summary, example)                                          \
     {                                                                                    \
 #word, n, n, call_##word, usage, summary, example, 0, over_place                 \
-    }
-#define UNBUILT(word, usage, summary)                                                    \
-    {                                                                                    \
-#word, 0, -1, call_unbuilt, usage, summary, "", QDOT_BUILTIN_UNBUILT, NULL       \
     }
 
 /* Numbers of arguments, from the function table itself. */
@@ -573,8 +575,12 @@ static const qdot_builtin rows[] = {
      "e along the latest run at time t; value(a.e, t) along the run a",
      "value(theta, 20)", QDOT_BUILTIN_RUN, NULL},
 
-    UNBUILT(mean, "mean(e, a..b)", "mean over a range of a run"),
-    UNBUILT(drift, "drift(e)", "how far e drifted in a run"),
+    {"mean", 1, -1, call_mean, "mean(e, a..b)",
+     "the mean over a range of a run; max and min likewise", "mean(theta^2, 10..20)",
+     QDOT_BUILTIN_RUN, NULL},
+    {"drift", 1, -1, call_drift, "drift(e), drift(e, a..b)",
+     "how far e moved from where the run, or the range, begins", "drift(energy)",
+     QDOT_BUILTIN_RUN, NULL},
 };
 
 const qdot_builtin *

@@ -33,6 +33,7 @@ typedef enum {
     QDOT_CODE_INDEX_NAME, /* n indices popped; push token[...] with `primes` */
     QDOT_CODE_INDEX,      /* n indices and a value popped; push its entry */
     QDOT_CODE_CALL,       /* `to` indices and n arguments popped; push token(...) */
+    QDOT_CODE_RANGE,      /* n popped, the last two the ends of a range of token(...) */
     QDOT_CODE_TERM,    /* the top is the right operand of `token` in a sum or product */
     QDOT_CODE_SUM,     /* n terms popped */
     QDOT_CODE_PRODUCT, /* n factors popped */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lang/answer.h"
+#include "expr/walk.h"
 #include "lang/code.h"
 #include "lang/digits-table.h"
 #include "lang/draw.h"
@@ -27,6 +28,19 @@ qdot_draw_free(qdot_draw_operands *list)
     qdot_free(list->at);
 }
 
+/* Of runs named inside: the one, or the first of several. */
+static qdot_status
+resolve_members(qdot_draw_operand *o, const char **run, qdot_expr *e)
+{
+    if (!qdot_expr_is_scalar(o->session->pool, *e))
+        return QDOT_OK;
+    QDOT_TRY(qdot_member_resolve(o->session, run, e, &o->mixed));
+    for (size_t i = 0; o->mixed && *run == NULL && i < o->session->members.n; i++)
+        if (qdot_expr_contains(o->session->pool, *e, o->session->members.at[i].symbol))
+            *run = o->session->members.at[i].run;
+    return QDOT_OK;
+}
+
 /* [RUN .] EXPR */
 static qdot_status
 read_operand(qdot_cursor *c, qdot_draw_operand *o)
@@ -35,25 +49,15 @@ read_operand(qdot_cursor *c, qdot_draw_operand *o)
     qdot_named_run *named = NULL;
     qdot_text label = {0};
     qdot_status status;
+    const char *run;
     qdot_expr e;
 
-    if (c->at->kind == QDOT_TOKEN_NAME && qdot_cursor_has_runs(c, c->at->text)) {
-        const qdot_token *run;
-
-        QDOT_TRY(qdot_cursor_accept_run(c, &run));
-        if (run != NULL) {
-            c->error_at = start->start;
-            QDOT_TRY(qdot_number_find_run(c->session, run->text, &named));
-        }
-    }
-    if (named == NULL && c->at->kind == QDOT_TOKEN_NAME &&
-        c->at[1].kind == QDOT_TOKEN_OPERATOR && strcmp(c->at[1].text, ".") == 0) {
-        c->error_at = start->start;
-        QDOT_TRY(qdot_number_find_run(c->session, c->at->text, &named));
-        c->at += 2;
-    }
-    QDOT_TRY(qdot_read_side(c, &e));
+    QDOT_TRY(qdot_read_member(c, &e, &run));
     c->error_at = start->start;
+    o->session = c->session;
+    QDOT_TRY(resolve_members(o, &run, &e));
+    if (run != NULL)
+        QDOT_TRY(qdot_number_find_run(c->session, run, &named));
     o->run = named != NULL ? named->run : NULL;
     o->vector = qdot_expr_kind(c->session->pool, e) == QDOT_VEC;
     QDOT_TRY(qdot_number_flatten(c->session, e, &o->columns));
@@ -154,6 +158,11 @@ qdot_draw_values(const qdot_draw_operand *o, size_t rows, const double *times,
                  double *values)
 {
     size_t m = o->columns.n;
+
+    if (o->mixed)
+        return qdot_member_values(o->session, NULL, o->columns.at[0], rows, times, values,
+                                  NULL);
+
     double *by_row = qdot_calloc(rows * m, sizeof *by_row);
     qdot_status status;
 
@@ -283,6 +292,9 @@ common_span(const qdot_draw_operands *list, double *from, double *to)
 
         low = fmax(low, fmin(one->t0, one->t1));
         high = fmin(high, fmax(one->t0, one->t1));
+        if (list->at[i].mixed)
+            QDOT_TRY(qdot_member_span(list->at[i].session, list->at[i].columns.at[0],
+                                      &low, &high));
     }
     if (low > high)
         return qdot_fail(QDOT_EINVAL, "the runs have no time in common");

@@ -7,7 +7,9 @@
 
 typedef struct {
     char *label;                 /* the source text; owned */
+    qdot_session *session;
     qdot_run *run;               /* NULL: the latest */
+    bool mixed;                  /* of several runs: `run` is the first of them */
     bool vector;                 /* a path */
     qdot_number_columns columns; /* its components */
 } qdot_draw_operand;

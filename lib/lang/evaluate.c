@@ -61,14 +61,24 @@ along_runs(void)
     return qdot_hint("the value along a run is value(a.theta, 20)");
 }
 
-/* The top n values, popped into m->args. None may be meant along a run. */
+/* What is meant along a run and enters an expression: a symbol from now on. */
+static qdot_status
+enter(machine *m, slot *s)
+{
+    if (s->run == NULL)
+        return QDOT_OK;
+    s->value = qdot_member_of(m->session, s->run, s->value);
+    s->run = NULL;
+    return qdot_resolve_check(m->pool, s->value);
+}
+
+/* The top n values, popped into m->args. */
 static qdot_status
 take_any(machine *m, size_t n)
 {
     QDOT_TRY(qdot_grow(&m->args.at, &m->args.capacity, n, sizeof *m->args.at));
     for (size_t i = 0; i < n; i++) {
-        if (from_top(m, n - i)->run != NULL)
-            return along_runs();
+        QDOT_TRY(enter(m, from_top(m, n - i)));
         m->args.at[i] = from_top(m, n - i)->value;
     }
     m->args.n = n;
@@ -108,6 +118,7 @@ term(machine *m, const qdot_token *sign)
 {
     slot *s = from_top(m, 1);
 
+    QDOT_TRY(enter(m, s));
     s->sign = sign;
     if (sign->text[0] == '-') {
         s->value = qdot_value_neg(m->pool, s->value);
@@ -347,6 +358,48 @@ if_end(machine *m)
 
 /* --- names, calls, entries ---------------------------------------------------------- */
 
+/* The run that the top n values are meant along, no longer theirs; NULL where there are
+ * several. */
+static const char *
+common_run(machine *m, size_t n)
+{
+    const char *run = NULL;
+
+    for (size_t i = 1; i <= n; i++) {
+        const char *one = from_top(m, i)->run;
+
+        if (one != NULL && run != NULL && strcmp(one, run) != 0)
+            return NULL;
+        run = one != NULL ? one : run;
+    }
+    for (size_t i = 1; i <= n; i++)
+        from_top(m, i)->run = NULL;
+    return run;
+}
+
+/* value(...) and its kin look at the run of their arguments. */
+static bool
+takes_run(const machine *m, const qdot_code *code)
+{
+    const qdot_builtin *row = qdot_builtin_find(code->token->text);
+
+    return code->to == 0 && row != NULL && (row->flags & QDOT_BUILTIN_RUN) &&
+           !qdot_resolve_is_function(m->session, code->token->text);
+}
+
+/* max(e, a..b): the ends of the range stand last. */
+static qdot_status
+range(machine *m, const qdot_code *code)
+{
+    const char *run = common_run(m, code->n);
+    qdot_expr value;
+
+    QDOT_TRY(take(m, code->n));
+    QDOT_TRY(qdot_number_range(m->session, run, code->token->text, code->n - 2,
+                               m->args.at, m->args.at + code->n - 2, &value));
+    return push(m, value);
+}
+
 static qdot_status
 call(machine *m, const qdot_code *code)
 {
@@ -354,15 +407,8 @@ call(machine *m, const qdot_code *code)
     const char *run = NULL;
     qdot_expr value, over = QDOT_NIL;
 
-    for (size_t i = 1; i <= n; i++) { /* one run for all columns of value(...) */
-        const char *one = from_top(m, i)->run;
-
-        if (one != NULL && run != NULL && strcmp(one, run) != 0)
-            return along_runs();
-        if (one != NULL)
-            run = one;
-        from_top(m, i)->run = NULL;
-    }
+    if (takes_run(m, code))
+        run = common_run(m, n);
     QDOT_TRY(take(m, n));
     QDOT_TRY(qdot_resolve_call(m->c, code->token, code->primes, code->to, code->n,
                                m->args.at, run, &value, &over));
@@ -509,6 +555,7 @@ step(machine *m, const qdot_code *code, uint32_t *pc)
     case QDOT_CODE_HISTORY: return history(m, code->n);
     case QDOT_CODE_INDEX: return entry(m, code);
     case QDOT_CODE_CALL: return call(m, code);
+    case QDOT_CODE_RANGE: return range(m, code);
     case QDOT_CODE_TERM: return term(m, code->token);
     case QDOT_CODE_SUM: return sum(m, code->n);
     case QDOT_CODE_PRODUCT: return product(m, code->n);

@@ -243,6 +243,8 @@ carry_out(qdot_cursor *c, const options *o, qdot_number_order *request)
         line = *behind == '\0' ? behind : behind + 1;
     }
     QDOT_TRY(qdot_answer_run(session, o->name != NULL ? o->name : name, report));
+    if (report->doubt != NULL && report->status != QDOT_RUN_FAILED)
+        QDOT_TRY(qdot_answer_notice(session, "the error is unknown: %s", report->doubt));
     if (status != QDOT_OK)
         return qdot_fail_again(&error);
     if (report->status == QDOT_RUN_FAILED)
@@ -432,6 +434,43 @@ measure_exactly(qdot_session *session, qdot_run *run, const qdot_number_columns 
     return status;
 }
 
+/* Where runs are named inside: one by one. */
+static qdot_status
+measure_members(qdot_session *session, const char *run, const qdot_number_columns *columns,
+                qdot_expr time, qdot_measured *m)
+{
+    double t;
+
+    QDOT_TRY(qdot_session_number(session, time, &t, NULL));
+    for (size_t i = 0; i < columns->n; i++)
+        QDOT_TRY(qdot_number_along(session, run, columns->at[i], 1, &t, &m[i].value,
+                                   &m[i].error));
+    return QDOT_OK;
+}
+
+static bool
+any_member(const qdot_session *session, const qdot_number_columns *columns)
+{
+    for (size_t i = 0; i < columns->n; i++)
+        if (qdot_member_any(session, columns->at[i]))
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_number_along(qdot_session *session, const char *run, qdot_expr e, size_t k,
+                  const double *times, double *values, double *errors)
+{
+    qdot_named_run *named = NULL;
+    bool mixed;
+
+    QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
+    if (mixed)
+        return qdot_member_values(session, run, e, k, times, values, errors);
+    QDOT_TRY(qdot_number_find_run(session, run, &named));
+    return qdot_run_values(named->run, 1, &e, k, times, values, errors);
+}
+
 qdot_status
 qdot_number_value(qdot_session *session, const char *run, uint32_t n,
                   const qdot_expr *args, qdot_expr *value)
@@ -455,8 +494,11 @@ qdot_number_value(qdot_session *session, const char *run, uint32_t n,
         status = measured == NULL ? QDOT_ENOMEM : QDOT_OK;
     }
     if (status == QDOT_OK)
-        status = (qdot_run_get_report(named->run)->digits > 0 ? measure_exactly : measure)(
-            session, named->run, &columns, args[n - 1], measured);
+        status = any_member(session, &columns)
+                     ? measure_members(session, run, &columns, args[n - 1], measured)
+                 : qdot_run_get_report(named->run)->digits > 0
+                     ? measure_exactly(session, named->run, &columns, args[n - 1], measured)
+                     : measure(session, named->run, &columns, args[n - 1], measured);
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&symbols, measured_symbol(session, measured[i]));
     if (status == QDOT_OK) {

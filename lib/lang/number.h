@@ -56,8 +56,43 @@ QDOT_MUST_CHECK qdot_status qdot_event_time(qdot_session *session, const char *r
 /* The run of that name, the latest for NULL. QDOT_ENAME where there is none. */
 QDOT_MUST_CHECK qdot_status qdot_number_find_run(qdot_session *session, const char *name,
                                                  qdot_named_run **run);
+/* One expression at times [k], along whatever runs it names, else along `run` (NULL: the
+ * latest). */
+QDOT_MUST_CHECK qdot_status qdot_number_along(qdot_session *session, const char *run,
+                                              qdot_expr e, size_t k, const double *times,
+                                              double *values, double *errors);
+
 /* A number of a run, from now on a symbol. */
 qdot_expr qdot_number_measured(qdot_session *session, double value, double error);
+
+/* --- range.c: max, min, mean, drift over a range ------------------------------------- */
+
+bool qdot_number_is_range(const char *word);
+/* Of each expression [n] along the run (NULL: the latest) between range [2], NULL: all of
+ * it. A list where there are several. */
+QDOT_MUST_CHECK qdot_status qdot_number_range(qdot_session *session, const char *run,
+                                              const char *word, uint32_t n,
+                                              const qdot_expr *args,
+                                              const qdot_expr *range, qdot_expr *value);
+
+/* --- member.c: several runs in one expression ---------------------------------------- */
+
+/* e along the run, as a symbol (of a vector or list: of its members) "a.x". */
+qdot_expr qdot_member_of(qdot_session *session, const char *run, qdot_expr e);
+/* Whether such symbols occur. */
+bool qdot_member_any(const qdot_session *session, qdot_expr e);
+/* Of an expression along one run only: the symbols replaced again and *run that run;
+ * else *mixed. */
+QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const char **run,
+                                                qdot_expr *e, bool *mixed);
+/* A mixed one at times [k]: values [k], errors [k] (NULL: not wanted). What is along no
+ * run named is along `run` (NULL: the latest). */
+QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,
+                                               qdot_expr e, size_t k, const double *times,
+                                               double *values, double *errors);
+/* from and to narrowed to what all its runs cover. */
+QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
+                                             double *from, double *to);
 
 /* A double as the exact rational it is. */
 qdot_expr qdot_number_exact(qdot_pool *pool, double x);

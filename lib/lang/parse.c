@@ -7,6 +7,7 @@
 
 #include "base/interrupt.h"
 #include "lang/code.h"
+#include "lang/number.h"
 
 /* What waits on the stack: operators by how they are read, and open brackets. */
 typedef enum {
@@ -32,6 +33,7 @@ typedef enum {
 typedef struct {
     uint8_t kind; /* waiting_kind */
     uint8_t primes;
+    bool ranged; /* of IN_CALL: its last argument is a range */
     const qdot_token *token; /* the operator's last sign; what opened the bracket */
     const qdot_token *name;  /* of IN_SUM: its index */
     uint32_t count;          /* operands or arguments complete so far */
@@ -393,6 +395,8 @@ comma(parser *p)
 
     QDOT_TRY(reduce_all(p));
     w = top(p);
+    if (w->kind == IN_CALL && w->ranged)
+        return qdot_cursor_expected(p->c, "`)`: a range stands last");
     p->c->at++;
     p->operand = true;
     w->count++;
@@ -494,7 +498,10 @@ close_bracket(parser *p)
         QDOT_TRY(emit(p, QDOT_CODE_IF_END, w.token, 0, 0, 0));
         p->program->list.at[w.at].to = (uint32_t)p->program->list.n;
         return QDOT_OK;
-    default: return emit(p, QDOT_CODE_CALL, w.token, w.count + 1, w.indices, w.primes);
+    default:
+        if (w.ranged)
+            return emit(p, QDOT_CODE_RANGE, w.token, w.count + 1, 0, 0);
+        return emit(p, QDOT_CODE_CALL, w.token, w.count + 1, w.indices, w.primes);
     }
 }
 
@@ -502,17 +509,19 @@ close_bracket(parser *p)
 static qdot_status
 argument_range(parser *p)
 {
-    static const char *const over[] = {"max", "min", "mean", "drift"};
-    const waiting *w;
+    waiting *w;
 
     QDOT_TRY(reduce_all(p));
     w = top(p);
-    for (size_t i = 0; w->kind == IN_CALL && i < sizeof over / sizeof *over; i++)
-        if (strcmp(w->token->text, over[i]) == 0) {
-            qdot_fail(QDOT_ENOTBUILT, "not built yet: %s over a range", over[i]);
-            return fail_at(p, w->token, QDOT_ENOTBUILT);
-        }
-    return qdot_cursor_expected(p->c, "`,` or `)`");
+    if (w->kind != IN_CALL || w->ranged || w->count == 0 || w->indices > 0 ||
+        w->primes > 0 || !qdot_number_is_range(w->token->text) ||
+        qdot_resolve_is_function(p->c->session, w->token->text))
+        return qdot_cursor_expected(p->c, w->kind == IN_CALL ? "`,` or `)`" : "`)`");
+    w->ranged = true;
+    w->count++;
+    p->c->at++;
+    p->operand = true;
+    return QDOT_OK;
 }
 
 /* --- after an operand --------------------------------------------------------------- */

@@ -143,19 +143,27 @@ finish(qdot_session *session, figure *f)
 
 /* Evenly spaced times, more of them where the run took many steps. */
 static qdot_status
-sample(const qdot_run *run, double **times, size_t *n)
+sample(const qdot_draw_operand *o, double **times, size_t *n)
 {
-    const qdot_run_report *report = qdot_run_get_report(run);
+    const qdot_run_report *report = qdot_run_get_report(o->run);
     size_t steps = 4 * report->steps + 1;
+    bool back = report->t1 < report->t0;
+    double low = fmin(report->t0, report->t1), high = fmax(report->t0, report->t1), t0, t1;
+
+    if (o->mixed)
+        QDOT_TRY(qdot_member_span(o->session, o->columns.at[0], &low, &high));
+    if (low > high)
+        return qdot_fail(QDOT_EINVAL, "the runs have no time in common");
+    t0 = back ? high : low;
+    t1 = back ? low : high;
 
     *n = steps < POINTS ? POINTS : steps > MOST_POINTS ? MOST_POINTS : steps;
     *times = qdot_calloc(*n, sizeof **times);
     if (*times == NULL)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < *n; k++)
-        (*times)[k] = k + 1 == *n ? report->t1
-                                  : report->t0 + (report->t1 - report->t0) * (double)k /
-                                                     (double)(*n - 1);
+        (*times)[k] =
+            k + 1 == *n ? t1 : t0 + (t1 - t0) * (double)k / (double)(*n - 1);
     return QDOT_OK;
 }
 
@@ -164,8 +172,8 @@ static qdot_status
 curve_along(figure *f, const qdot_draw_operand *y, const qdot_draw_operand *versus)
 {
     double *times = NULL, *values = NULL;
-    size_t rows, m = y->columns.n;
-    qdot_status status = sample(y->run, &times, &rows);
+    size_t rows = 0, m = y->columns.n;
+    qdot_status status = sample(y, &times, &rows);
     curve *one;
 
     if (status == QDOT_OK) {

@@ -9,6 +9,7 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "lang/code.h"
+#include "lang/number.h"
 
 qdot_status
 qdot_resolve_check(qdot_pool *pool, qdot_expr value)
@@ -602,11 +603,9 @@ call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_ex
                       row->least, row->most, n);
         return qdot_hint("as in %s", row->usage);
     }
-    if (run != NULL && !(row->flags & QDOT_BUILTIN_RUN)) {
-        qdot_fail(QDOT_ENOTBUILT, "not built yet: comparing runs");
-        return qdot_hint("the value along a run is value(%s.theta, 20)", run);
-    }
-    if (run != NULL)
+    if (run != NULL && qdot_number_is_range(row->name))
+        QDOT_TRY(qdot_number_range(s, run, row->name, n, args, NULL, value));
+    else if (run != NULL)
         QDOT_TRY(qdot_number_value(s, run, n, args, value));
     else
         QDOT_TRY(row->call(s, n, args, value));

@@ -54,6 +54,9 @@ qdot_session_free(qdot_session *session)
     qdot_free(session->runs.at);
     qdot_free(session->history.at);
     qdot_free(session->measured.at);
+    for (size_t i = 0; i < session->members.n; i++)
+        qdot_free(session->members.at[i].run);
+    qdot_free(session->members.at);
     qdot_free(session->set_symbols.at);
     qdot_free(session->set_values.at);
     qdot_free(session->start_symbols.at);

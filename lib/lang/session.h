@@ -25,6 +25,12 @@ typedef struct {
     qdot_expr exact;     /* ... this rational */
 } qdot_measured;
 
+/* a.EXPR within an expression: stands there as a FORMAL symbol. */
+typedef struct {
+    qdot_expr symbol, value;
+    char *run;
+} qdot_member;
+
 typedef struct {
     char *name; /* "a", "run1" */
     qdot_run *run;
@@ -43,6 +49,7 @@ typedef struct qdot_session {
     bool refuted;                /* a check was refuted: exit 1 at the end */
     qdot_vec(qdot_expr) history; /* %1 is history.at[0] */
     qdot_vec(qdot_measured) measured;
+    qdot_vec(qdot_member) members;
     qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
     bool start_exactly; /* the latest `start` said so */

@@ -651,6 +651,21 @@ try_sides(course *x, bool *again)
     return QDOT_OK;
 }
 
+/* Whether an event has been counted a double or so before the piece ended. */
+static bool
+just_noted(const course *x, size_t event)
+{
+    for (size_t i = x->c->occurrences.n; i-- > 0;) {
+        const qdot_occurrence *o = &x->c->occurrences.at[i];
+
+        if (fabs(o->t - x->t_act) > 16 * DBL_EPSILON * fabs(x->t_act))
+            return false;
+        if (o->event == event)
+            return true;
+    }
+    return false;
+}
+
 /* What is known of the functions where the last piece ended, by those of the next: events
  * and domains keep their places; a surface's are of the one that is on the same place. */
 static void
@@ -660,7 +675,7 @@ carry(course *x, size_t from, bool jumped)
     size_t events = x->c->stage->events.n;
 
     for (size_t i = 0; i < new->m; i++) {
-        x->before[i] = jumped || i >= events ? 0 : x->signs[i];
+        x->before[i] = jumped || i >= events || just_noted(x, i) ? 0 : x->signs[i];
         x->residual[i] = -1;
     }
     for (size_t k = 0; k < x->fired.n; k++) {

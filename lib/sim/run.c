@@ -305,6 +305,12 @@ is_whole(const qdot_run *run)
     return run->stage.switches.surfaces.n == 0;
 }
 
+static qdot_status
+measure_bonds(qdot_run *run)
+{
+    return qdot_bonds_measure(run->course.binds.at[0], &run->course.tr, &run->bonds);
+}
+
 /* What a companion needs beside the run. */
 typedef struct {
     qdot_bind *shaken, *twin; /* twin NULL: only one */
@@ -357,6 +363,8 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
     if (b.companion && status == QDOT_OK && !*interrupted
         && run->course.tr.result.outcome == QDOT_ODE_DONE)
         status = show_states(run, b.companion);
+    if (status == QDOT_OK && !*interrupted)
+        status = measure_bonds(run);
     if (b.companion) {
         bool there = run->course.tr.count > 0;
         qdot_error failure = *qdot_last_error();
@@ -390,6 +398,7 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     run->report.tol = tol;
     if (*interrupted)
         return QDOT_OK;
+    QDOT_TRY(measure_bonds(run));
     QDOT_TRY(qdot_run_companion(run));
     return qdot_run_end_error(run, &run->report.error);
 }
@@ -405,9 +414,6 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
                            : run_after(run, tol, interrupted);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
-    if (status == QDOT_OK && !*interrupted)
-        status = qdot_bonds_measure(run->course.binds.at[0], &run->course.tr,
-                                    &run->bonds);
     if (status == QDOT_EINTR) {
         *interrupted = true;
         status = QDOT_OK;

@@ -114,6 +114,14 @@ QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const
                                                   qdot_expr time, qdot_expr *values,
                                                   double *errors);
 
+/* Over a range of a run: the largest or least value of e between its ends, extrema inside steps
+ * included; its mean over time; its drift, max |e - e0| / max(1, |e0|) with e0 where the range
+ * begins. The error, from the companion: NaN where unknown. QDOT_EDOMAIN: outside the run, or e is
+ * undefined in it. */
+typedef enum { QDOT_RANGE_MAX, QDOT_RANGE_MIN, QDOT_RANGE_MEAN, QDOT_RANGE_DRIFT } qdot_range_kind;
+QDOT_MUST_CHECK qdot_status qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e,
+                                           double from, double to, double *value, double *error);
+
 /* What occurred [*n], in the order of the run, with the errors of the times from the companion;
  * borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_run_occurrences(qdot_run *run,

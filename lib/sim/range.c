@@ -1,0 +1,258 @@
+/* range.c -- the extrema, the mean and the drift of an expression over a range of a run.
+ *
+ * Step by step the expression becomes Chebyshev polynomials (num/chebyshev.h), on parts
+ * small enough for their last coefficients to vanish: extrema are where the derivative
+ * changes its sign, the mean is the sum of their integrals.
+ */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "expr/print.h"
+#include "num/chebyshev.h"
+#include "sim/integrated.h"
+#include "sim/reader.h"
+
+enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60 };
+
+typedef struct {
+    qdot_reader reader;
+    size_t piece;
+    int nodes;
+    double first;             /* the value where the range begins */
+    double largest, smallest; /* so far */
+    long double integral;
+    double rough;             /* what parts that stay rough leave open of the extrema */
+    bool begun;
+} scan;
+
+typedef struct {
+    double a, b;
+    int n;
+    double values[MOST_NODES], c[MOST_NODES];
+} part;
+
+static double
+time_at(const part *p, double x)
+{
+    return 0.5 * (p->a + p->b) + 0.5 * (p->b - p->a) * x;
+}
+
+static qdot_status
+value_at(scan *s, double t, double *x)
+{
+    QDOT_TRY(qdot_reader_at(&s->reader, s->piece, t, x));
+    return isfinite(*x) ? QDOT_OK
+                        : qdot_fail(QDOT_EDOMAIN, "it is undefined at t = %.15g", t);
+}
+
+static void
+meet(scan *s, double x)
+{
+    s->largest = fmax(s->largest, x);
+    s->smallest = fmin(s->smallest, x);
+}
+
+static qdot_status
+fit(scan *s, part *p, int nodes, bool *good)
+{
+    double blur =
+        DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
+
+    p->n = nodes;
+    for (int j = 0; j < nodes; j++)
+        QDOT_TRY(value_at(s, time_at(p, qdot_chebyshev_node(nodes, j)), &p->values[j]));
+    qdot_chebyshev_fit(nodes, p->values, p->c);
+    *good = qdot_chebyshev_tail(nodes, p->c)
+            <= (0x1p-44 + 8 * blur) * qdot_chebyshev_size(nodes, p->c);
+    return QDOT_OK;
+}
+
+/* Ends, extrema, integral of a part. */
+static qdot_status
+take_part(scan *s, const part *p, bool good)
+{
+    double x, d[MOST_NODES], at[MOST_NODES];
+    int n = 0;
+
+    QDOT_TRY(value_at(s, p->a, &x));
+    meet(s, x);
+    QDOT_TRY(value_at(s, p->b, &x));
+    meet(s, x);
+    if (good) {
+        qdot_chebyshev_derivative(p->n, p->c, d);
+        if (qdot_chebyshev_size(p->n - 1, d) > 0)
+            n = qdot_chebyshev_crossings(p->n - 1, d, at);
+        for (int k = 0; k < n; k++) {
+            QDOT_TRY(value_at(s, time_at(p, at[k]), &x));
+            meet(s, x);
+        }
+    } else {
+        double low = INFINITY, high = -INFINITY;
+
+        for (int j = 0; j < p->n; j++) {
+            low = fmin(low, p->values[j]);
+            high = fmax(high, p->values[j]);
+        }
+        meet(s, low);
+        meet(s, high);
+        s->rough = fmax(s->rough, high - low);
+    }
+    s->integral += 0.5L * (p->b - p->a) * qdot_chebyshev_integral(p->n, p->c);
+    return QDOT_OK;
+}
+
+static qdot_status
+scan_step(scan *s, double a, double b)
+{
+    double ends[DEEPEST + 2], from = a;
+    int depth = 1;
+
+    ends[0] = b;
+    while (depth > 0) {
+        part p = {.a = from, .b = ends[depth - 1]};
+        double t = fmax(fabs(p.a), fabs(p.b));
+        bool good = false, short_one = fabs(p.b - p.a)
+                                       <= fmax(64 * DBL_EPSILON * t, 0x1p-50 * fabs(b - a));
+        int nodes = s->nodes;
+
+        QDOT_TRY(qdot_interrupt_check());
+        for (;; nodes *= 2) {
+            QDOT_TRY(fit(s, &p, nodes, &good));
+            if (good || nodes == MOST_NODES || short_one)
+                break;
+        }
+        if (good)
+            s->nodes = nodes;
+        if (good || short_one || depth == DEEPEST) {
+            QDOT_TRY(take_part(s, &p, good));
+            from = p.b;
+            depth--;
+            continue;
+        }
+        s->nodes = 16;
+        ends[depth++] = 0.5 * (p.a + p.b);
+    }
+    return QDOT_OK;
+}
+
+/* All of the course that lies between from and to, in its direction. */
+static qdot_status
+scan_course(scan *s, double from, double to)
+{
+    const qdot_trajectory *tr = &s->reader.course->tr;
+    double direction = tr->t[tr->count - 1] < tr->t[0] ? -1 : 1;
+
+    s->nodes = 16;
+    s->largest = -INFINITY;
+    s->smallest = INFINITY;
+    for (s->piece = 0; s->piece < tr->pieces.n; s->piece++) {
+        size_t k = tr->pieces.at[s->piece].first;
+        size_t end = s->piece + 1 < tr->pieces.n ? tr->pieces.at[s->piece + 1].first
+                                                 : tr->count;
+
+        for (; k < end; k++) {
+            double a = tr->t[k], b = k + 1 < end ? tr->t[k + 1] : a, x;
+
+            a = direction > 0 ? fmax(a, from) : fmin(a, from);
+            b = direction > 0 ? fmin(b, to) : fmax(b, to);
+            if (direction * (b - a) < 0)
+                continue;
+            QDOT_TRY(value_at(s, a, &x));
+            meet(s, x);
+            if (!s->begun)
+                s->first = x;
+            s->begun = true;
+            if (a != b)
+                QDOT_TRY(scan_step(s, a, b));
+        }
+    }
+    return QDOT_OK;
+}
+
+static double
+result(const scan *s, qdot_range_kind kind, double from, double to)
+{
+    switch (kind) {
+    case QDOT_RANGE_MAX: return s->largest;
+    case QDOT_RANGE_MIN: return s->smallest;
+    case QDOT_RANGE_MEAN:
+        return from == to ? s->first : (double)(s->integral / (to - from));
+    default:
+        return fmax(s->largest - s->first, s->first - s->smallest)
+               / fmax(1, fabs(s->first));
+    }
+}
+
+static qdot_status
+over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tape,
+            bool accelerations, qdot_range_kind kind, double from, double to,
+            double *value, double *rough)
+{
+    scan s = {.begun = false};
+    qdot_status status =
+        qdot_reader_init(&s.reader, run->plan, tape, course, accelerations);
+
+    if (status == QDOT_OK)
+        status = scan_course(&s, from, to);
+    if (status == QDOT_OK && !s.begun)
+        status = qdot_fail(QDOT_EDOMAIN, "the range holds nothing of the run");
+    if (status == QDOT_OK) {
+        *value = result(&s, kind, from, to);
+        *rough = s.rough;
+    }
+    qdot_reader_clear(&s.reader);
+    return status;
+}
+
+static qdot_status
+check_range(const qdot_run *run, double from, double to)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    double a = fmin(tr->t[0], tr->t[tr->count - 1]);
+    double b = fmax(tr->t[0], tr->t[tr->count - 1]);
+
+    if (a <= fmin(from, to) && fmax(from, to) <= b)
+        return QDOT_OK;
+    return qdot_fail(QDOT_EDOMAIN,
+                     "the range %.15g..%.15g is outside the run, which covers %.15g to "
+                     "%.15g",
+                     from, to, tr->t[0], tr->t[tr->count - 1]);
+}
+
+qdot_status
+qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, double to,
+               double *value, double *error)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    bool accelerations, back = tr->t[tr->count - 1] < tr->t[0];
+    double rough, other, other_rough;
+    qdot_tape *tape;
+    qdot_status status;
+
+    *error = NAN;
+    QDOT_TRY(check_range(run, from, to));
+    if (back ? from < to : from > to) { /* in the direction of the run */
+        double swap = from;
+
+        from = to;
+        to = swap;
+    }
+    QDOT_TRY(qdot_reader_lower(run->plan, 1, &e, &tape, &accelerations));
+    status = over_course(run, &run->course, tape, accelerations, kind, from, to, value,
+                         &rough);
+    if (status == QDOT_OK)
+        status = qdot_run_companion(run);
+    if (status == QDOT_OK && qdot_run_comparable(run)) {
+        status = over_course(run, &run->companion, tape, accelerations, kind, from, to,
+                             &other, &other_rough);
+        if (status == QDOT_OK)
+            *error = fabs(other - *value) + rough + DBL_EPSILON * fabs(*value);
+        if (status == QDOT_EDOMAIN || status == QDOT_EFAILED
+            || status == QDOT_ESINGULAR)
+            status = QDOT_OK;
+    }
+    qdot_tape_free(tape);
+    return status;
+}
