@@ -3,6 +3,7 @@
 base_sources = \
 	lib/base/interrupt.c \
 	lib/base/memory.c \
+	lib/base/scope.c \
 	lib/base/status.c \
 	lib/base/text.c \
 	lib/base/utf8.c
@@ -10,6 +11,7 @@ base_sources = \
 base_headers = \
 	lib/base/interrupt.h \
 	lib/base/memory.h \
+	lib/base/scope.h \
 	lib/base/status.h \
 	lib/base/text.h \
 	lib/base/utf8.h
@@ -109,6 +111,7 @@ normal_sources = \
 	lib/normal/domain.c \
 	lib/normal/factor.c \
 	lib/normal/field.c \
+	lib/normal/flint.c \
 	lib/normal/form.c \
 	lib/normal/ideal.c \
 	lib/normal/items.c \
@@ -127,6 +130,7 @@ normal_sources = \
 	lib/normal/rationalize.c \
 	lib/normal/rewrite.c \
 	lib/normal/sample.c \
+	lib/normal/simple.c \
 	lib/normal/simplify.c \
 	lib/normal/solve-factors.c \
 	lib/normal/solve.c \
@@ -145,6 +149,7 @@ normal_headers = \
 	lib/normal/domain.h \
 	lib/normal/factor.h \
 	lib/normal/field.h \
+	lib/normal/flint.h \
 	lib/normal/form.h \
 	lib/normal/ideal.h \
 	lib/normal/items.h \
@@ -423,6 +428,7 @@ unit_tests = \
 	tests/mech/test_scenes \
 	tests/normal/test_antiderivative \
 	tests/normal/test_decide \
+	tests/normal/test_flint \
 	tests/normal/test_simplify \
 	tests/normal/test_solve \
 	tests/normal/test_verdicts \

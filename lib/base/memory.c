@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/scope.h"
+
 static long fail_after = -1;
 
 static void *
@@ -33,23 +35,44 @@ qdot_memory_fail_at(long n)
     fail_after = n;
 }
 
+/* What was allocated, noted in the scope; NULL: not even that. */
+static void *
+noted(void *block, size_t size)
+{
+    if (qdot_scope_now != NULL && block != NULL && !qdot_scope_note(block, size)) {
+        free(block);
+        block = NULL;
+    }
+    return checked(block, size);
+}
+
 void *
 qdot_malloc(size_t size)
 {
-    return checked(must_fail() ? NULL : malloc(size ? size : 1), size);
+    return noted(must_fail() ? NULL : malloc(size ? size : 1), size);
 }
 
 void *
 qdot_calloc(size_t count, size_t size)
 {
-    return checked(must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1),
-                   count * size);
+    return noted(must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1),
+                 count * size);
 }
 
 void *
 qdot_realloc(void *block, size_t size)
 {
-    return checked(must_fail() ? NULL : realloc(block, size ? size : 1), size);
+    bool inside = block == NULL || qdot_scope_has(block);
+    void *bigger;
+
+    if (must_fail())
+        return checked(NULL, size);
+    if (inside && block != NULL)
+        qdot_scope_release(block);
+    bigger = realloc(block, size ? size : 1);
+    if (bigger == NULL && inside && block != NULL)
+        (void)qdot_scope_note(block, 0); /* there was room for it */
+    return inside ? noted(bigger, size) : checked(bigger, size);
 }
 
 char *
@@ -73,6 +96,8 @@ qdot_strdup(const char *text)
 void
 qdot_free(void *block)
 {
+    if (qdot_scope_now != NULL)
+        qdot_scope_release(block);
     free(block);
 }
 

@@ -10,6 +10,7 @@
 #include <flint/fmpz.h>
 
 #include "base/interrupt.h"
+#include "base/scope.h"
 #include "base/text.h"
 #include "expr/printed.h"
 
@@ -128,8 +129,14 @@ append(qdot_pool *pool, const qdot_node *node)
 
     if (pool->nodes.n >= 0x40000000u)
         return qdot_pool_refuse(pool, QDOT_ELIMIT, "too large: more than 10^9 nodes");
-    if (pool->nodes.n * 2 > pool->mask && rehash(pool) != QDOT_OK)
-        return qdot_pool_fail(pool);
+    if (pool->nodes.n * 2 > pool->mask) {
+        qdot_scope *scope = qdot_scope_pause(); /* the pool outlives it */
+        qdot_status status = rehash(pool);
+
+        qdot_scope_resume(scope);
+        if (status != QDOT_OK)
+            return qdot_pool_fail(pool);
+    }
     if (qdot_vec_push(&pool->nodes, *node) != QDOT_OK)
         return qdot_pool_fail(pool);
     i = node->hash & pool->mask;
@@ -244,6 +251,14 @@ qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
     return true;
 }
 
+/* The digits of a number of the pool are not given back with what a computation leaves. */
+static void
+outlive(const fmpz_t x)
+{
+    if (COEFF_IS_MPZ(*x))
+        (void)qdot_scope_release(COEFF_TO_PTR(*x)->_mp_d);
+}
+
 qdot_expr
 qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
 {
@@ -267,6 +282,8 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
     node.at = (uint32_t)pool->numbers.n;
     fmpq_init(&copy);
     fmpq_set(&copy, x);
+    outlive(fmpq_numref(&copy));
+    outlive(fmpq_denref(&copy));
     if (qdot_vec_push(&pool->numbers, copy) != QDOT_OK) {
         fmpq_clear(&copy);
         return qdot_pool_fail(pool);
@@ -367,6 +384,7 @@ symbol(qdot_pool *pool, const qdot_symbol *wanted)
 {
     qdot_node node = {.kind = QDOT_SYM, .sign = wanted->sign};
     qdot_symbol copy = *wanted;
+    qdot_scope *scope;
 
     if (!may_work(pool, 0))
         return QDOT_NIL;
@@ -384,7 +402,9 @@ symbol(qdot_pool *pool, const qdot_symbol *wanted)
             (wanted->base != QDOT_NIL || strcmp(s->name, wanted->name) == 0))
             return e;
     }
+    scope = qdot_scope_pause();
     copy.name = qdot_arena_strndup(pool->arena, wanted->name, strlen(wanted->name));
+    qdot_scope_resume(scope);
     if (copy.name == NULL)
         return qdot_pool_fail(pool);
     if (wanted->base == QDOT_NIL)
@@ -504,7 +524,8 @@ qdot_pool_new(void)
     pool->arena = qdot_arena_new();
     pool->printed = qdot_printed_new();
     if (pool->table == NULL || pool->arena == NULL || pool->printed == NULL ||
-        qdot_vec_push(&pool->nodes, ((qdot_node){0})) != QDOT_OK) {
+        qdot_vec_push(&pool->nodes, ((qdot_node){0})) != QDOT_OK ||
+        qdot_grow(&pool->args.at, &pool->args.capacity, 64, sizeof *pool->args.at)) {
         qdot_pool_free(pool);
         return NULL;
     }

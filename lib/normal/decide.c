@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "normal/flint.h"
 #include "normal/prove.h"
 #include "normal/sample.h"
 #include "normal/unify.h"
@@ -201,9 +202,9 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
     return look_at_sides(pool, &sides, facts, &thorough, d);
 }
 
-qdot_status
-qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
-                  const qdot_facts *facts, qdot_decision *d)
+static qdot_status
+decide(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+       qdot_decision *d)
 {
     bool equal;
 
@@ -239,20 +240,46 @@ qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
     return QDOT_OK;
 }
 
-bool
-qdot_is_zero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+struct equality {
+    qdot_pool *pool;
+    qdot_expr left, right;
+    const qdot_facts *facts;
+    qdot_decision d;
+    bool zero;
+    qdot_status status;
+};
+
+static void
+decide_equality(void *user)
 {
+    struct equality *x = user;
+
+    x->status = decide(x->pool, x->left, x->right, x->facts, &x->d);
+}
+
+qdot_status
+qdot_decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
+                  const qdot_facts *facts, qdot_decision *d)
+{
+    struct equality x = {pool, left, right, facts, {.verdict = QDOT_UNDECIDED}, 0, 0};
+    qdot_status status = qdot_flint_run(pool, decide_equality, &x);
+
+    *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};
+    return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
+}
+
+/* Whether x->left is proved to be zero. */
+static void
+decide_zero(void *user)
+{
+    struct equality *x = user;
+    qdot_pool *pool = x->pool;
+    qdot_expr e = x->left;
+    const qdot_facts *facts = x->facts;
     qdot_decision d = {.verdict = QDOT_UNDECIDED};
     bool zero = false;
     qdot_status status;
 
-    if (e == QDOT_ZERO)
-        return true;
-    if (e == QDOT_NIL || qdot_pool_failed(pool) || !qdot_expr_is_scalar(pool, e))
-        return false;
-    if (qdot_expr_kind(pool, e) == QDOT_NUM || qdot_expr_kind(pool, e) == QDOT_SYM)
-        if (facts == NULL || facts->n_relations == 0)
-            return false;
     status = look_at_points(pool, e, QDOT_ZERO, facts, &quick, &d);
     if (status == QDOT_OK && d.verdict != QDOT_REFUTED)
         status = qdot_prove_equal(pool, e, QDOT_ZERO, facts, &zero);
@@ -262,7 +289,27 @@ qdot_is_zero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
         if (status == QDOT_OK && d.verdict != QDOT_REFUTED)
             status = qdot_prove_harder(pool, e, QDOT_ZERO, facts, &zero);
     }
-    if (status != QDOT_OK)
+    x->zero = zero;
+    x->status = status;
+}
+
+bool
+qdot_is_zero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    struct equality x = {pool, e, QDOT_ZERO, facts, {.verdict = QDOT_UNDECIDED}, 0, 0};
+    qdot_status status;
+
+    if (e == QDOT_ZERO)
+        return true;
+    if (e == QDOT_NIL || qdot_pool_failed(pool) || !qdot_expr_is_scalar(pool, e))
+        return false;
+    if (qdot_expr_kind(pool, e) == QDOT_NUM || qdot_expr_kind(pool, e) == QDOT_SYM)
+        if (facts == NULL || facts->n_relations == 0)
+            return false;
+    status = qdot_flint_run(pool, decide_zero, &x);
+    if (status == QDOT_ELIMIT)
+        return false;
+    if (status != QDOT_OK || x.status != QDOT_OK)
         qdot_pool_fail(pool);
-    return status == QDOT_OK && zero;
+    return status == QDOT_OK && x.status == QDOT_OK && x.zero;
 }

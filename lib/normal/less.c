@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "normal/decide.h"
 #include "normal/factor.h"
+#include "normal/flint.h"
 #include "normal/prepare.h"
 #include "normal/sample.h"
 #include "normal/simplify.h"
@@ -398,9 +399,9 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
 }
 
-qdot_status
-qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
-                 const qdot_facts *facts, qdot_decision *d)
+static qdot_status
+decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+       const qdot_facts *facts, qdot_decision *d)
 {
     qdot_expr gap;
     qdot_status status;
@@ -422,4 +423,32 @@ qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     if (status == QDOT_ENOMEM || status == QDOT_EINTR)
         return status;
     return refute(pool, left, right, strict, facts, d);
+}
+
+struct order {
+    qdot_pool *pool;
+    qdot_expr left, right;
+    bool strict;
+    const qdot_facts *facts;
+    qdot_decision d;
+    qdot_status status;
+};
+
+static void
+decide_order(void *user)
+{
+    struct order *x = user;
+
+    x->status = decide(x->pool, x->left, x->right, x->strict, x->facts, &x->d);
+}
+
+qdot_status
+qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+                 const qdot_facts *facts, qdot_decision *d)
+{
+    struct order x = {pool, left, right, strict, facts, {.verdict = QDOT_UNDECIDED}, 0};
+    qdot_status status = qdot_flint_run(pool, decide_order, &x);
+
+    *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};
+    return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
 }

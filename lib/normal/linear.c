@@ -1,6 +1,7 @@
 /* linear.c -- linear systems: Bareiss' fraction-free elimination over polynomials. */
 #include "base/memory.h"
 #include "normal/field.h"
+#include "normal/flint.h"
 #include "normal/prepare.h"
 #include "normal/simplify.h"
 
@@ -196,9 +197,9 @@ solve_in_field(qdot_field *f, uint32_t n, const qdot_expr *e, qdot_expr *x,
     return status;
 }
 
-qdot_status
-qdot_solve_linear(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
-                  qdot_expr *x, uint32_t *pivot, const qdot_facts *facts)
+static qdot_status
+solve(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b, qdot_expr *x,
+      uint32_t *pivot, const qdot_facts *facts)
 {
     qdot_expr *e = qdot_malloc(((size_t)n * (n + 1) + 1) * sizeof *e);
     qdot_status status;
@@ -238,4 +239,32 @@ qdot_solve_linear(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_ex
     if (status == QDOT_OK && qdot_pool_failed(pool))
         return qdot_pool_check(pool);
     return status;
+}
+
+struct system {
+    qdot_pool *pool;
+    uint32_t n;
+    const qdot_expr *A, *b;
+    qdot_expr *x;
+    uint32_t *pivot;
+    const qdot_facts *facts;
+    qdot_status status;
+};
+
+static void
+solve_system(void *user)
+{
+    struct system *s = user;
+
+    s->status = solve(s->pool, s->n, s->A, s->b, s->x, s->pivot, s->facts);
+}
+
+qdot_status
+qdot_solve_linear(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
+                  qdot_expr *x, uint32_t *pivot, const qdot_facts *facts)
+{
+    struct system s = {pool, n, A, b, x, pivot, facts, QDOT_OK};
+
+    QDOT_TRY(qdot_flint_run(pool, solve_system, &s));
+    return s.status;
 }

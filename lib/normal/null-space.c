@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "normal/factor.h"
+#include "normal/flint.h"
 #include "normal/prepare.h"
 
 enum { WORK = 40000000 };
@@ -253,9 +254,9 @@ end(elimination *e)
     qdot_free(e->moving);
 }
 
-qdot_status
-qdot_null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
-                qdot_expr **basis, size_t *m)
+static qdot_status
+null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E, qdot_expr **basis,
+           size_t *m)
 {
     qdot_expr *all = qdot_malloc(rows * n * sizeof *all);
     elimination e = {.pool = pool, .n = n};
@@ -289,4 +290,35 @@ qdot_null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
     qdot_field_end(&f);
     qdot_free(all);
     return status;
+}
+
+struct relations {
+    qdot_pool *pool;
+    size_t rows, n;
+    const qdot_expr *E;
+    qdot_expr *basis;
+    size_t m;
+    qdot_status status;
+};
+
+static void
+find_relations(void *user)
+{
+    struct relations *x = user;
+
+    x->status = null_space(x->pool, x->rows, x->n, x->E, &x->basis, &x->m);
+}
+
+qdot_status
+qdot_null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
+                qdot_expr **basis, size_t *m)
+{
+    struct relations x = {.pool = pool, .rows = rows, .n = n, .E = E};
+
+    *basis = NULL;
+    *m = 0;
+    QDOT_TRY(qdot_flint_run(pool, find_relations, &x));
+    *basis = x.basis;
+    *m = x.m;
+    return x.status;
 }

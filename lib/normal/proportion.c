@@ -5,6 +5,7 @@
 #include "normal/ball.h"
 #include "normal/decide.h"
 #include "normal/factor.h"
+#include "normal/flint.h"
 #include "normal/prepare.h"
 #include "normal/simplify.h"
 
@@ -245,10 +246,9 @@ refute_by_zeros(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_decision *d)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b,
-                         const qdot_facts *facts, qdot_decision *d, qdot_expr *factor,
-                         bool *may_vanish)
+static qdot_status
+decide(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
+       qdot_decision *d, qdot_expr *factor, bool *may_vanish)
 {
     bool zero_a, zero_b, proved = false, moving = false;
     qdot_status status = QDOT_OK;
@@ -317,4 +317,36 @@ qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b,
         return refute_by_zeros(pool, a, b, d);
     }
     return refute(pool, a, b, facts, d);
+}
+
+struct proportion {
+    qdot_pool *pool;
+    qdot_expr a, b;
+    const qdot_facts *facts;
+    qdot_decision d;
+    qdot_expr factor;
+    bool may_vanish;
+    qdot_status status;
+};
+
+static void
+decide_proportion(void *user)
+{
+    struct proportion *x = user;
+
+    x->status = decide(x->pool, x->a, x->b, x->facts, &x->d, &x->factor, &x->may_vanish);
+}
+
+qdot_status
+qdot_decide_proportional(qdot_pool *pool, qdot_expr a, qdot_expr b,
+                         const qdot_facts *facts, qdot_decision *d, qdot_expr *factor,
+                         bool *may_vanish)
+{
+    struct proportion x = {.pool = pool, .a = a, .b = b, .facts = facts};
+    qdot_status status = qdot_flint_run(pool, decide_proportion, &x);
+
+    *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};
+    *factor = status == QDOT_OK ? x.factor : QDOT_NIL;
+    *may_vanish = status == QDOT_OK && x.may_vanish;
+    return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
 }

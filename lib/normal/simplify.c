@@ -5,6 +5,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "normal/factor.h"
+#include "normal/flint.h"
 #include "normal/form.h"
 #include "normal/ideal.h"
 #include "normal/prepare.h"
@@ -373,68 +374,6 @@ origin(qdot_pool *pool, qdot_expr node, void *user)
 
 /* --- scalars ----------------------------------------------------------------------- */
 
-/* a + b + c, parameters. */
-static bool
-is_plain_sum(const qdot_pool *pool, qdot_expr e)
-{
-    uint32_t n = qdot_expr_count(pool, e);
-
-    if (qdot_expr_kind(pool, e) != QDOT_SUM || qdot_expr_arg(pool, e, 0) != QDOT_ZERO)
-        return false;
-    for (uint32_t i = 1; i < n; i += 2)
-        if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, e, i), QDOT_PARAM) ||
-            qdot_expr_arg(pool, e, i + 1) != QDOT_ONE)
-            return false;
-    return true;
-}
-
-/* f(x), x a symbol. */
-static bool
-is_plain_function(const qdot_pool *pool, qdot_expr e)
-{
-    qdot_kind kind = qdot_expr_kind(pool, e);
-
-    return (kind == QDOT_FUN || kind == QDOT_UFUN) && qdot_expr_count(pool, e) <= 2 &&
-           qdot_expr_kind(pool, qdot_expr_arg(pool, e, 0)) == QDOT_SYM;
-}
-
-/* Powers of symbols; with positive ones also one function and one sum: nothing cancels. */
-static bool
-is_simple_product(const qdot_pool *pool, qdot_expr e)
-{
-    int functions = 0, sums = 0;
-    bool below = false;
-    long k;
-
-    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
-        qdot_expr b = qdot_expr_arg(pool, e, i);
-
-        if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k))
-            return false;
-        below |= k < 0;
-        if (qdot_expr_kind(pool, b) == QDOT_SYM)
-            continue;
-        functions += is_plain_function(pool, b);
-        sums += is_plain_sum(pool, b);
-        if (k != 1 || (!is_plain_function(pool, b) && !is_plain_sum(pool, b)))
-            return false;
-    }
-    return functions <= 1 && sums <= 1 && (functions + sums == 0 || !below);
-}
-
-bool
-qdot_simplify_is_done(const qdot_pool *pool, qdot_expr e)
-{
-    switch (qdot_expr_kind(pool, e)) {
-    case QDOT_NUM:
-    case QDOT_SYM: return true;
-    case QDOT_FUN:
-    case QDOT_UFUN: return is_plain_function(pool, e);
-    case QDOT_PROD: return is_simple_product(pool, e);
-    default: return is_plain_sum(pool, e);
-    }
-}
-
 /* A failure on the way to a candidate is forgotten; memory and Ctrl-C are not. */
 static void
 forgive(qdot_pool *pool)
@@ -570,19 +509,38 @@ simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
     return best;
 }
 
+struct simplifying {
+    qdot_pool *pool;
+    qdot_expr e, result;
+    struct request request;
+};
+
+static void
+simplify_value(void *user)
+{
+    struct simplifying *x = user;
+
+    x->result = qdot_value_map(x->pool, x->e, simplify_scalar, &x->request);
+}
+
 qdot_expr
 qdot_simplify_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int64_t work,
                      bool *spent)
 {
-    struct request request = {.facts = facts, .work = work};
-    qdot_expr result;
+    struct simplifying x = {pool, e, e, {.facts = facts, .work = work}};
+    qdot_status status;
 
     *spent = false;
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    result = qdot_value_map(pool, e, simplify_scalar, &request);
-    *spent = request.spent;
-    return result;
+    if (qdot_expr_is_scalar(pool, e) && (facts == NULL || facts->n_relations == 0) &&
+        qdot_simplify_is_done(pool, e))
+        return e;
+    status = qdot_flint_run(pool, simplify_value, &x);
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return qdot_pool_fail(pool);
+    *spent = x.request.spent || status != QDOT_OK;
+    return status == QDOT_OK ? x.result : e;
 }
 
 qdot_expr
@@ -635,10 +593,30 @@ normal_scalar(qdot_pool *pool, qdot_expr e, void *user)
     return qdot_pool_failed(pool) ? QDOT_NIL : result == QDOT_NIL ? e : result;
 }
 
+struct normalizing {
+    qdot_pool *pool;
+    qdot_expr e, result;
+    const qdot_facts *facts;
+};
+
+static void
+normal_value(void *user)
+{
+    struct normalizing *x = user;
+
+    x->result = qdot_value_map(x->pool, x->e, normal_scalar, (void *)(uintptr_t)x->facts);
+}
+
 qdot_expr
 qdot_normal(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
+    struct normalizing x = {pool, e, e, facts};
+    qdot_status status;
+
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    return qdot_value_map(pool, e, normal_scalar, (void *)(uintptr_t)facts);
+    status = qdot_flint_run(pool, normal_value, &x);
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return qdot_pool_fail(pool);
+    return status == QDOT_OK ? x.result : e;
 }

@@ -1,0 +1,42 @@
+/* scope.h -- the blocks that a computation has allocated, to be given back at once when it is left
+ * in the middle.
+ *
+ * While a scope is a thread's current one, what memory.h allocates is noted in it, what it frees is
+ * taken out. A block from before stays outside, however it grows. Used by normal/flint.c only.
+ */
+#ifndef QDOT_BASE_SCOPE_H
+#define QDOT_BASE_SCOPE_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+typedef struct {
+    struct qdot_noted {
+        void *block; /* NULL: free */
+        size_t size;
+    } * slot;
+    size_t mask, n;
+    size_t bytes; /* of all blocks noted */
+} qdot_scope;
+
+/* The thread's scope, NULL outside. */
+extern _Thread_local qdot_scope *qdot_scope_now;
+
+/* Make *s the current scope, empty. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_scope_begin(qdot_scope *s);
+/* No longer current; its blocks stay, or all are freed. */
+void qdot_scope_end(qdot_scope *s);
+void qdot_scope_discard(qdot_scope *s);
+
+/* Between the two nothing is noted: what is allocated outlives the scope. */
+qdot_scope *qdot_scope_pause(void);
+void qdot_scope_resume(qdot_scope *s);
+
+/* Of the current scope, no effect outside: note a block (false: no memory), take one out
+ * (whether it was in). */
+bool qdot_scope_note(void *block, size_t size);
+bool qdot_scope_release(void *block);
+bool qdot_scope_has(const void *block);
+
+#endif

@@ -1,0 +1,262 @@
+/* test_flint.c -- memory that ends and Ctrl-C inside FLINT: a status, no abort, nothing lost. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include <flint/fmpz_mpoly.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "base/scope.h"
+#include "normal/decide.h"
+#include "normal/flint.h"
+#include "normal/simplify.h"
+
+#include "text.h"
+
+/* --- the scope -------------------------------------------------------------------------- */
+
+static void
+a_scope_gives_back_what_was_allocated(void **state)
+{
+    qdot_scope s;
+    char *before = qdot_malloc(10), *after;
+    void *blocks[5000];
+
+    (void)state;
+    assert_int_equal(qdot_scope_begin(&s), QDOT_OK);
+    for (int i = 0; i < 5000; i++)
+        blocks[i] = qdot_malloc(16 + i % 7);
+    for (int i = 0; i < 5000; i += 3)
+        qdot_free(blocks[i]);
+    for (int i = 1; i < 5000; i += 3)
+        blocks[i] = qdot_realloc(blocks[i], 100);
+    for (int i = 1; i < 5000; i++)
+        assert_int_equal(qdot_scope_has(blocks[i]), i % 3 != 0);
+    before = qdot_realloc(before, 100000); /* from before: it stays outside */
+    assert_false(qdot_scope_has(before));
+    assert_int_equal(s.n, 5000 - 1667);
+    qdot_scope_discard(&s);
+    before[99999] = 1;
+    qdot_free(before);
+
+    assert_int_equal(qdot_scope_begin(&s), QDOT_OK);
+    after = qdot_malloc(10);
+    qdot_scope_end(&s);
+    after[9] = 1; /* it stays */
+    qdot_free(after);
+}
+
+/* --- guarded ---------------------------------------------------------------------------- */
+
+static const char *const values[] = {
+    "(x + y)^7*(x - y)^3 - x*(x + y)^9",
+    "sin(x)^4*cos(y)^2 + sin(x)^4*sin(y)^2 + 2*sin(x)^2*cos(x)^2 + cos(x)^4",
+    "(12345678901234567890*x + 98765432109876543210)^5/(x + 8)",
+    "sqrt(x^2 + 2*x*y + y^2 + 1)*(a + b)/(a^2 - b^2)",
+    "1/(x^3 - y^3) + 1/(x^3 + y^3)",
+    "m*L^2*(cos(x)*cos(y) + sin(x)*sin(y))*x'*y' + exp(x + log(a))",
+};
+
+static const struct {
+    const char *left, *right;
+} sides[] = {
+    {"sqrt(5 + 2*sqrt(6))", "sqrt(2) + sqrt(3)"},
+    {"sin(x + y)*sin(x - y)", "sin(x)^2 - sin(y)^2"},
+    {"atanh(x)", "1/2*log((1 + x)/(1 - x))"},
+    {"exp(x)*exp(-y)", "exp(x - y) + 10^(-40)"},
+    {"acos(x)", "pi/2 - asin(x)"},
+};
+
+/* Run `work` on one after another, the n-th allocation failing, until it passes; between failures
+ * the same pool. The pool is usable afterwards. */
+static void
+every_allocation_may_fail(qdot_status (*work)(qdot_pool *pool, size_t i), size_t i,
+                          qdot_pool *pool)
+{
+    qdot_status status;
+    long n = 0, failures = 0;
+
+    for (;; n += 1 + n / 40) {
+        qdot_memory_fail_at(n);
+        status = work(pool, i);
+        qdot_memory_fail_at(-1);
+        if (status == QDOT_OK)
+            break;
+        failures++;
+        assert_int_equal(status, QDOT_ENOMEM);
+    }
+    assert_true(failures > 10);
+    assert_null(qdot_scope_now);
+}
+
+static qdot_status
+simplify_one(qdot_pool *pool, size_t i)
+{
+    static qdot_expr of[sizeof values / sizeof *values];
+
+    if (pool == NULL) /* begin anew */
+        return memset(of, 0, sizeof of) == NULL;
+    if (of[i] == QDOT_NIL) {
+        qdot_memory_fail_at(-1);
+        of[i] = text_read(pool, values[i]);
+        return qdot_fail(QDOT_ENOMEM, "not yet");
+    }
+    (void)qdot_simplify(pool, of[i], NULL);
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+decide_one(qdot_pool *pool, size_t i)
+{
+    static qdot_expr of[sizeof sides / sizeof *sides][2];
+    qdot_decision d;
+
+    if (pool == NULL)
+        return memset(of, 0, sizeof of) == NULL;
+    if (of[i][0] == QDOT_NIL) {
+        qdot_memory_fail_at(-1);
+        of[i][0] = text_read(pool, sides[i].left);
+        of[i][1] = text_read(pool, sides[i].right);
+        return qdot_fail(QDOT_ENOMEM, "not yet");
+    }
+    return qdot_decide_equal(pool, of[i][0], of[i][1], NULL, &d);
+}
+
+static void
+memory_that_ends_is_a_status(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+
+    (void)state;
+    (void)simplify_one(NULL, 0);
+    (void)decide_one(NULL, 0);
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        every_allocation_may_fail(simplify_one, i, pool);
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++)
+        every_allocation_may_fail(decide_one, i, pool);
+    qdot_pool_free(pool);
+}
+
+/* What is simplified after failures is what is simplified without. */
+static void
+a_pool_is_usable_after_failures(void **state)
+{
+    qdot_pool *pool = qdot_pool_new(), *fresh = qdot_pool_new();
+
+    (void)state;
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        qdot_expr e = text_read(pool, values[i]);
+        char *failed, *clean;
+
+        for (long n = 1; n < 3000; n = 2 * n + 1) {
+            qdot_memory_fail_at(n);
+            (void)qdot_simplify(pool, e, NULL);
+            qdot_memory_fail_at(-1);
+            (void)!qdot_pool_check(pool);
+        }
+        failed = text_write(pool, qdot_simplify(pool, e, NULL));
+        clean = text_write(fresh, qdot_simplify(fresh, text_read(fresh, values[i]), NULL));
+        assert_string_equal(failed, clean);
+        free(failed);
+        free(clean);
+    }
+    qdot_pool_free(pool);
+    qdot_pool_free(fresh);
+}
+
+/* --- Ctrl-C within one call of FLINT ----------------------------------------------------- */
+
+struct product {
+    bool interrupted, ended;
+    slong n;
+};
+
+/* (1 + x + y + z + w)^n (1 + x + 2 y + 3 z + 4 w)^n: many seconds in one call. */
+static void
+multiply(void *user)
+{
+    static const char *variables[] = {"x", "y", "z", "w"};
+    struct product *p = user;
+    fmpz_mpoly_ctx_t ctx;
+    fmpz_mpoly_t a, b;
+
+    fmpz_mpoly_ctx_init(ctx, 4, ORD_LEX);
+    fmpz_mpoly_init(a, ctx);
+    fmpz_mpoly_init(b, ctx);
+    (void)!fmpz_mpoly_set_str_pretty(a, "1+x+y+z+w", variables, ctx);
+    (void)!fmpz_mpoly_set_str_pretty(b, "1+x+2*y+3*z+4*w", variables, ctx);
+    (void)!fmpz_mpoly_pow_ui(a, a, (ulong)p->n, ctx);
+    (void)!fmpz_mpoly_pow_ui(b, b, (ulong)p->n, ctx);
+    if (p->interrupted)
+        qdot_interrupt_set(); /* as a signal would, any time from now on */
+    fmpz_mpoly_mul(a, a, b, ctx);
+    p->ended = true;
+    fmpz_mpoly_clear(a, ctx);
+    fmpz_mpoly_clear(b, ctx);
+    fmpz_mpoly_ctx_clear(ctx);
+}
+
+static void
+ctrl_c_leaves_flint(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    struct product p = {true, false, 24};
+
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(qdot_flint_run(pool, multiply, &p), QDOT_EINTR);
+        qdot_interrupt_clear();
+        assert_false(p.ended);
+        assert_int_equal(qdot_last_error()->status, QDOT_EINTR);
+    }
+    p = (struct product){false, false, 3};
+    assert_int_equal(qdot_flint_run(pool, multiply, &p), QDOT_OK);
+    assert_true(p.ended);
+    qdot_pool_free(pool);
+}
+
+/* --- the bound ---------------------------------------------------------------------------- */
+
+static void
+take_much(void *user)
+{
+    fmpz_t x;
+
+    fmpz_init(x);
+    fmpz_one(x);
+    fmpz_mul_2exp(x, x, ((ulong)QDOT_FLINT_MEMORY + 64) * 8);
+    *(bool *)user = true;
+    fmpz_clear(x);
+}
+
+static void
+the_bound_of_memory_is_a_limit(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    bool taken = false;
+
+    (void)state;
+    assert_int_equal(qdot_flint_run(pool, take_much, &taken), QDOT_ELIMIT);
+    assert_false(taken);
+    qdot_pool_free(pool);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_scope_gives_back_what_was_allocated),
+        cmocka_unit_test(memory_that_ends_is_a_status),
+        cmocka_unit_test(a_pool_is_usable_after_failures),
+        cmocka_unit_test(ctrl_c_leaves_flint),
+        cmocka_unit_test(the_bound_of_memory_is_a_limit),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
