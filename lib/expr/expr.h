@@ -111,6 +111,7 @@ typedef struct {
 qdot_pool *qdot_pool_new(void); /* NULL: no memory */
 void qdot_pool_free(qdot_pool *pool);
 size_t qdot_pool_count(const qdot_pool *pool); /* nodes so far */
+size_t qdot_pool_bytes(const qdot_pool *pool); /* what they take, long numbers aside */
 
 /* The first failure since the last check, QDOT_OK if none. It is made the thread's last error
  * again and forgotten by the pool, which is then usable as before. */

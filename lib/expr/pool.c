@@ -570,6 +570,16 @@ qdot_pool_count(const qdot_pool *pool)
     return pool->nodes.n;
 }
 
+size_t
+qdot_pool_bytes(const qdot_pool *pool)
+{
+    return pool->nodes.capacity * sizeof *pool->nodes.at +
+           pool->args.capacity * sizeof *pool->args.at +
+           pool->numbers.capacity * sizeof *pool->numbers.at +
+           pool->symbols.capacity * sizeof *pool->symbols.at +
+           (pool->mask + 1) * sizeof *pool->table;
+}
+
 /* --- reading --------------------------------------------------------------------------- */
 
 const qdot_node *

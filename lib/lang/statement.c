@@ -327,7 +327,9 @@ tell_time(const engine *x, clock_t since)
 
     qdot_text_add(&text, "cpu ");
     qdot_text_double(&text, s * 1e3, 3);
-    qdot_text_add(&text, " ms");
+    qdot_text_format(&text, " ms; %zu nodes in ", qdot_pool_count(x->session->pool));
+    qdot_text_double(&text, (double)qdot_pool_bytes(x->session->pool) / 1e6, 3);
+    qdot_text_add(&text, " MB");
     (void)!qdot_answer_text(x->session, "timing", qdot_text_str(&text));
     qdot_text_clear(&text);
 }

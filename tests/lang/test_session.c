@@ -374,6 +374,29 @@ no_memory_is_an_error_everywhere(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
 
+/* `reset` gives back what was derived: the nodes are a new pool's. */
+static void
+reset_gives_memory_back(void **state)
+{
+    static const char chain[] =
+        "N = 30\n"
+        "param m[k], l[k] > 0 for k = 1..N\n"
+        "coord theta[k] for k = 1..N\n"
+        "r[1] = l[1]*(sin(theta[1]), -cos(theta[1]))\n"
+        "r[k] = r[k-1] + l[k]*(sin(theta[k]), -cos(theta[k])) for k = 2..N\n"
+        "particle bob[k] mass m[k] at r[k] for k = 1..N\n"
+        "mass_matrix; eom\n";
+    talk *k = *state;
+    size_t empty = qdot_pool_bytes(k->session->pool), nodes = qdot_pool_count(k->session->pool);
+
+    assert_int_equal(say(k, chain), 0);
+    assert_true(qdot_pool_bytes(k->session->pool) > 10 * empty);
+    assert_true(qdot_pool_bytes(k->session->pool) < 5000000);
+    assert_int_equal(say(k, "reset"), 0);
+    assert_int_equal(qdot_pool_bytes(k->session->pool), empty);
+    assert_int_equal(qdot_pool_count(k->session->pool), nodes);
+}
+
 int
 main(void)
 {
@@ -393,6 +416,7 @@ main(void)
         TEST(an_interrupt_ends_a_statement_and_no_more),
         TEST(a_directory_or_nothing_is_no_script),
         cmocka_unit_test(no_memory_is_an_error_everywhere),
+        TEST(reset_gives_memory_back),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
