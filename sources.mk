@@ -104,6 +104,7 @@ ode_headers = \
 normal_sources = \
 	lib/normal/antiderivative.c \
 	lib/normal/ball.c \
+	lib/normal/cases.c \
 	lib/normal/collect.c \
 	lib/normal/common.c \
 	lib/normal/constant.c \
@@ -144,6 +145,7 @@ normal_sources = \
 normal_headers = \
 	lib/normal/antiderivative.h \
 	lib/normal/ball.h \
+	lib/normal/cases.h \
 	lib/normal/constant.h \
 	lib/normal/decide.h \
 	lib/normal/domain.h \
@@ -507,6 +509,7 @@ script_tests = \
 	tests/script/mechanism-rolling-sphere.lag \
 	tests/script/mechanism-slider-crank.lag \
 	tests/script/mechanism-top.lag \
+	tests/script/moving.lag \
 	tests/script/names.lag \
 	tests/script/order.lag \
 	tests/script/pendulum.lag \
@@ -960,6 +963,7 @@ test_files = \
 	tests/script/help-examples.out \
 	tests/script/help.out \
 	tests/script/identities-angles.inc \
+	tests/script/identities-cases.inc \
 	tests/script/identities-exp.inc \
 	tests/script/identities-facts.inc \
 	tests/script/identities-mechanics.inc \

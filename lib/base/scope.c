@@ -130,3 +130,12 @@ qdot_scope_release(void *block)
     s->slot[gap].block = NULL;
     return true;
 }
+
+void
+qdot_scope_outlive(void *block)
+{
+    if (qdot_scope_now == NULL)
+        return;
+    qdot_scope_now->outlived = true;
+    (void)qdot_scope_release(block);
+}

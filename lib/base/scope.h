@@ -17,7 +17,8 @@ typedef struct {
         size_t size;
     } * slot;
     size_t mask, n;
-    size_t bytes; /* of all blocks noted */
+    size_t bytes;  /* of all blocks noted */
+    bool outlived; /* something in them was declared to outlive it */
 } qdot_scope;
 
 /* The thread's scope, NULL outside. */
@@ -37,6 +38,8 @@ void qdot_scope_resume(qdot_scope *s);
  * (whether it was in). */
 bool qdot_scope_note(void *block, size_t size);
 bool qdot_scope_release(void *block);
+/* The same for a block that outlives the scope. */
+void qdot_scope_outlive(void *block);
 bool qdot_scope_has(const void *block);
 
 #endif

@@ -256,7 +256,7 @@ static void
 outlive(const fmpz_t x)
 {
     if (COEFF_IS_MPZ(*x))
-        (void)qdot_scope_release(COEFF_TO_PTR(*x)->_mp_d);
+        qdot_scope_outlive(COEFF_TO_PTR(*x)->_mp_d);
 }
 
 qdot_expr

@@ -17,6 +17,7 @@
 typedef struct {
     qdot_vec(qdot_expr) relations, conditions; /* scalars that are 0; inequalities */
     qdot_vec(qdot_expr) from, to; /* replacements, made before anything else */
+    bool motion, stated; /* `eom` was said; an equation was that is no constraint */
 } facts;
 
 static void
@@ -33,6 +34,7 @@ begin_facts(qdot_session *session, facts *f)
 {
     qdot_facts own = qdot_scene_facts(session->scene);
 
+    f->stated = own.n_relations > 0;
     for (size_t i = 0; i < own.n_relations; i++)
         QDOT_TRY(qdot_vec_push(&f->relations, own.relations[i]));
     for (size_t i = 0; i < own.n_conditions; i++)
@@ -70,6 +72,7 @@ is_replaceable(const qdot_pool *pool, qdot_expr symbol, qdot_expr value)
 static qdot_status
 add_equation(qdot_session *session, facts *f, qdot_expr left, qdot_expr right)
 {
+    f->stated = true;
     left = replace(session, f, left);
     right = replace(session, f, right);
     QDOT_TRY(qdot_pool_check(session->pool));
@@ -142,6 +145,7 @@ add_motion(qdot_session *session, facts *f)
     qdot_pool *pool = session->pool;
     qdot_expr accels = qdot_mech_accels(session->scene);
 
+    f->motion = true;
     QDOT_TRY(qdot_pool_check(pool));
     for (uint32_t i = 0; i < qdot_expr_count(pool, accels); i++) {
         qdot_expr q = session->scene->coordinates.at[i];
@@ -505,8 +509,9 @@ answer(qdot_cursor *c, question *q, facts *f)
         left = replace(session, f, q->left);
         right = replace(session, f, q->right);
         QDOT_TRY(qdot_pool_check(pool));
+        /* accelerations follow a function of time whatever its second derivative is */
         known = (qdot_facts){f->relations.n, f->relations.at, f->conditions.n,
-                             f->conditions.at};
+                             f->conditions.at, f->motion && !f->stated ? 2 : 0};
         if (q->turned) {
             QDOT_TRY(decide(session, right, left, q->how, &known, &decision));
             turn(&decision);

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "normal/cases.h"
 #include "normal/flint.h"
 #include "normal/prove.h"
 #include "normal/sample.h"
@@ -223,6 +224,8 @@ decide(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts
         QDOT_TRY(look_at_points(pool, left, right, facts, &thorough, d));
     if (!equal && d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(qdot_prove_harder(pool, left, right, facts, &equal));
+    if (!equal && d->verdict == QDOT_UNDECIDED)
+        QDOT_TRY(qdot_prove_cases(pool, left, right, facts, &equal));
     if (!equal && d->verdict == QDOT_UNDECIDED && d->points > 0 && facts != NULL &&
         facts->n_conditions > 0) {
         qdot_decision more = {.verdict = QDOT_UNDECIDED};

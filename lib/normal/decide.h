@@ -28,6 +28,10 @@ typedef struct {
     const qdot_expr *relations;
     size_t n_conditions;
     const qdot_expr *conditions;
+    /* Undefined functions in the relations: derivatives up to this order are bound by nothing but
+     * the relations themselves. 0: their consequences may bind any that is higher than theirs. 2:
+     * the relations are constraints of a motion whose accelerations are put in. */
+    uint32_t free_derivatives;
 } qdot_facts;
 
 typedef struct {

@@ -26,6 +26,8 @@ static _Thread_local struct {
     qdot_status why;
     jmp_buf out, drained;
     qdot_scope scope;
+    void **made; /* the blocks made in it */
+    size_t n_made;
 } guard;
 
 static _Noreturn void
@@ -92,9 +94,14 @@ take(size_t size)
     guard.block = 0;
     if (guard.on && size == (BLOCK_PAGES + 1) * page()) {
         void *block = malloc(size);
+        void **made = realloc(guard.made, (guard.n_made + 1) * sizeof *made);
 
-        if (block == NULL)
+        guard.made = made != NULL ? made : guard.made;
+        if (block == NULL || made == NULL) {
+            free(block);
             leave(qdot_fail(QDOT_ENOMEM, "out of memory (%zu bytes wanted)", size));
+        }
+        guard.made[guard.n_made++] = block;
         guard.block = integers_in_block();
         guard.list = true;
         return block;
@@ -138,8 +145,11 @@ static void *
 limbs(size_t size)
 {
     if (guard.on && guard.block > 0 && size == LIMBS) {
+        void *block = for_good(malloc(size));
+
         guard.block--;
-        return for_good(malloc(size));
+        (void)qdot_scope_note(block, size);
+        return block;
     }
     look(size);
     guard.block = 0;
@@ -207,6 +217,14 @@ uninstall(void)
     flint_set_abort(abort);
 }
 
+static void
+forget_blocks(void)
+{
+    free(guard.made);
+    guard.made = NULL;
+    guard.n_made = 0;
+}
+
 /* The spare integers, taken from FLINT's list until it asks for memory to make more; their limbs
  * are theirs. NULL: no memory. */
 static __mpz_struct **
@@ -240,6 +258,42 @@ spare(size_t *n)
     return list;
 }
 
+/* Blocks of integers made since it began are given back, if no number of the pool is in them: the
+ * spare ones without those in such a block. */
+static size_t
+without_new_blocks(__mpz_struct **list, size_t n)
+{
+    size_t size = (BLOCK_PAGES + 1) * page(), left = 0;
+
+    if (guard.scope.outlived)
+        return n;
+    for (size_t i = 0; i < n; i++) {
+        size_t b = 0;
+
+        while (b < guard.n_made && ((char *)list[i] < (char *)guard.made[b] ||
+                                    (char *)list[i] >= (char *)guard.made[b] + size))
+            b++;
+        if (b < guard.n_made)
+            mpz_clear(list[i]);
+        else
+            list[left++] = list[i];
+    }
+    for (size_t b = 0; b < guard.n_made; b++)
+        free(guard.made[b]);
+    return left;
+}
+
+/* Back into FLINT's list. That flint_cleanup has cleared integers of its block does not retire it:
+ * others of it are in use, and would keep it for ever. */
+static void
+make_spare(__mpz_struct *x)
+{
+    fmpz_block_header_s *header = (void *)((uintptr_t)x & ~(uintptr_t)(page() - 1));
+
+    ((fmpz_block_header_s *)header->address)->count = 0;
+    _fmpz_clear_mpz(PTR_TO_COEFF(x));
+}
+
 /* All that the computation left: FLINT's caches first, then the blocks. */
 static void
 clean_up(void)
@@ -248,8 +302,10 @@ clean_up(void)
     size_t n;
     __mpz_struct **list = spare(&n);
 
-    if (list != NULL)
+    if (list != NULL) {
         flint_cleanup();
+        n = without_new_blocks(list, n);
+    }
     guard.on = false;
     uninstall();
     if (list == NULL) { /* not even that: what is lost is lost */
@@ -257,9 +313,10 @@ clean_up(void)
     } else {
         qdot_scope_discard(&guard.scope);
         for (size_t i = 0; i < n; i++)
-            _fmpz_clear_mpz(PTR_TO_COEFF(list[i]));
+            make_spare(list[i]);
         free(list);
     }
+    forget_blocks();
     guard.why = why;
 }
 
@@ -283,6 +340,7 @@ qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
         guard.on = false;
         uninstall();
         qdot_scope_end(&guard.scope);
+        forget_blocks();
         return QDOT_OK;
     }
     clean_up();

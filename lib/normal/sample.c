@@ -165,12 +165,13 @@ order_of(const qdot_pool *pool, qdot_expr ufun)
 }
 
 /* A relation between undefined functions has consequences for their higher derivatives,
- * which are not at hand unless given: with such derivatives there are no sure points. */
+ * which are not at hand unless given: with derivatives above `most` there are no sure
+ * points. */
 static bool
-higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations)
+higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations,
+                   uint32_t most)
 {
-    uint32_t n = qdot_expr_count(pool, atoms), m = qdot_expr_count(pool, relations),
-             most = 0;
+    uint32_t n = qdot_expr_count(pool, atoms), m = qdot_expr_count(pool, relations);
     bool any = false;
 
     for (uint32_t i = 0; i < m; i++) {
@@ -311,7 +312,7 @@ gather(qdot_sample *s, size_t n, const qdot_expr *e)
         qdot_free(r);
         return qdot_pool_check(pool);
     }
-    if (higher_derivatives(pool, atoms, of_relations))
+    if (higher_derivatives(pool, atoms, of_relations, facts->free_derivatives))
         s->possible = false;
     s->atom = qdot_malloc((qdot_expr_count(pool, atoms) + 1) * sizeof *s->atom);
     if (s->atom == NULL) {
