@@ -963,6 +963,7 @@ test_files = \
 	tests/script/help-examples.out \
 	tests/script/help.out \
 	tests/script/identities-angles.inc \
+	tests/script/identities-books.inc \
 	tests/script/identities-cases.inc \
 	tests/script/identities-exp.inc \
 	tests/script/identities-facts.inc \
