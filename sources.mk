@@ -992,6 +992,7 @@ test_files = \
 	tests/script/mechanism-rolling-sphere.out \
 	tests/script/mechanism-slider-crank.out \
 	tests/script/mechanism-top.out \
+	tests/script/moving.out \
 	tests/script/names.out \
 	tests/script/normalise.sed \
 	tests/script/order.out \

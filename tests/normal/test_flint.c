@@ -261,12 +261,11 @@ main(void)
         cmocka_unit_test(ctrl_c_leaves_flint),
         cmocka_unit_test(the_bound_of_memory_is_a_limit),
     };
-
-    int failed;
     fmpz_t large;
+    int failed;
 
-    fmpz_init(large);
-    fmpz_ui_pow_ui(large, 10, 30);
+    fmpz_init_set_ui(large, 10);
+    fmpz_pow_ui(large, large, 30);
     first = COEFF_TO_PTR(*large);
     failed = cmocka_run_group_tests(tests, NULL, NULL);
     return first != NULL ? failed : 1;
