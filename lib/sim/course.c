@@ -400,7 +400,8 @@ begin_watch(course *x, double t, const double *y)
         memcpy(x->step.y, y, x->n * sizeof *y);
         QDOT_TRY(qdot_trajectory_open(&x->step, x->reader.system, &x->cursor));
     }
-    return qdot_watch_begin(watch_of(x), &x->reader, t, y, x->before, x->residual,
+    return qdot_watch_begin(watch_of(x), &x->reader, t, y,
+                            x->c->shaken && x->c->tr.count == 1, x->before, x->residual,
                             x->functions_on);
 }
 

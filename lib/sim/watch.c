@@ -91,7 +91,7 @@ evaluate_at(qdot_watch *w, const qdot_watch_reader *reader, double t, double *g)
 /* How far g_i moves where every number of the state does by the part `by` of itself. */
 static qdot_status
 noise_at(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
-         double by, size_t i, double *noise)
+         double by, double least, size_t i, double *noise)
 {
     double g;
 
@@ -100,7 +100,7 @@ noise_at(qdot_watch *w, const qdot_watch_reader *reader, double t, const double 
     QDOT_TRY(evaluate(w, reader, t, w->moved));
     g = w->moved[i];
     for (size_t k = 0; k <= 2 * w->n; k++) {
-        double at = k < 2 * w->n ? y[k] : t, to = at * (1 + by);
+        double at = k < 2 * w->n ? y[k] : t, to = at + by * copysign(fmax(least, fabs(at)), at);
         qdot_status status;
 
         if (to == at)
@@ -232,7 +232,7 @@ is_touch(qdot_watch *w, const walk *k, const part *p, size_t i, double x, double
     if (*touch || p->from_zero || fabs(v) > 1e-3 * size)
         return QDOT_OK;
     QDOT_TRY(k->reader->read(t, w->z, k->reader->user));
-    QDOT_TRY(noise_at(w, k->reader, t, w->z, fmax(w->tol, 0x1p-50), i, &noise));
+    QDOT_TRY(noise_at(w, k->reader, t, w->z, fmax(w->tol, 0x1p-50), 0, i, &noise));
     *touch = fabs(v) <= noise;
     return QDOT_OK;
 }
@@ -419,7 +419,7 @@ find_noise(qdot_watch *w, const walk *k)
     memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
     for (size_t i = 0; i < w->m; i++)
         if (w->live[i] && isnan(w->noise[i])) {
-            QDOT_TRY(noise_at(w, k->reader, w->t, w->z, 4 * DBL_EPSILON, i,
+            QDOT_TRY(noise_at(w, k->reader, w->t, w->z, 4 * DBL_EPSILON, 0, i,
                               &w->noise[i]));
             memcpy(w->in, w->z, 2 * w->n * sizeof *w->in);
             QDOT_TRY(evaluate(w, k->reader, w->t, w->g)); /* q'' too */
@@ -599,7 +599,8 @@ qdot_watch_take(qdot_watch *w)
 
 qdot_status
 qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t,
-                 const double *y, const int *before, const double *residual, bool *on)
+                 const double *y, double least, const int *before,
+                 const double *residual, bool *on)
 {
     memcpy(w->y, y, 2 * w->n * sizeof *y);
     w->t = t;
@@ -608,7 +609,7 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t,
     for (size_t i = 0; i < w->m; i++) {
         double g = w->start.g0[i], noise;
 
-        QDOT_TRY(noise_at(w, reader, t, y, DBL_EPSILON, i, &noise));
+        QDOT_TRY(noise_at(w, reader, t, y, DBL_EPSILON, least, i, &noise));
         w->start.on[i] = fabs(g) <= 2 * noise;
         if (residual && residual[i] >= 0)
             w->start.on[i] = w->start.on[i] || fabs(g) <= 4 * residual[i];

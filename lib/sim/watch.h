@@ -55,12 +55,15 @@ void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double boun
 
 /* A piece of the run begins at (t, y).
  *   before    [m] the signs just before, 0: none, as at the start of a run
+ *   least     what |numbers| count as at least where rounding is judged: 0, or 1 for a
+ *             start that has been moved by a rounding of 1
  *   residual  [m] NULL, or |g| up to which it is 0: where it has been located there
  * on [m] out: whether g is 0 here. */
 QDOT_MUST_CHECK qdot_status qdot_watch_begin(qdot_watch *w,
                                              const qdot_watch_reader *reader, double t,
-                                             const double *y, const int *before,
-                                             const double *residual, bool *on);
+                                             const double *y, double least,
+                                             const int *before, const double *residual,
+                                             bool *on);
 
 /* All roots of the step to (t, y), ascending in the direction of the run; borrowed until
  * the next call. `last`: the step ends the run, whose end counts. Repeating it tries
