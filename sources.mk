@@ -692,6 +692,7 @@ script_tests = \
 	examples/metrics.lag \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
+	examples/n-four-bar.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -880,6 +881,7 @@ test_files = \
 	tests/examples/metrics.out \
 	tests/examples/modes.out \
 	tests/examples/moving-constraint.out \
+	tests/examples/n-four-bar.out \
 	tests/examples/peaucellier.out \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \

@@ -448,6 +448,26 @@ qdot_saddle_apply(qdot_saddle *s)
 }
 
 void
+qdot_saddle_weakest(qdot_saddle *s, double *row, double *column)
+{
+    const size_t n = s->n, last = s->rank - 1;
+
+    for (size_t k = 0; k < s->m; k++)
+        row[k] = 0;
+    row[s->pivot[last]] = s->e[s->pivot[last]];
+    for (size_t j = last; j-- > 0;) {
+        double sum = s->R[last * n + j];
+
+        for (size_t k = j + 1; k < last; k++)
+            sum -= s->R[k * n + j] * s->u[k];
+        s->u[j] = sum / s->R[j * n + j];
+        row[s->pivot[j]] = -s->u[j] * s->e[s->pivot[j]];
+    }
+    for (size_t i = 0; i < n; i++)
+        column[i] = s->Q[last * n + i] * s->d[i];
+}
+
+void
 qdot_saddle_parts(qdot_saddle *s, double *part)
 {
     const size_t n = s->n, last = s->last;

@@ -81,6 +81,10 @@ void qdot_saddle_solve_refined(qdot_saddle *s);
 void qdot_saddle_prepare(qdot_saddle *s);
 void qdot_saddle_apply(qdot_saddle *s);
 
+/* The combination of rows that is nearest to nothing, and what is left of it: row [m] and
+ * column [n] with row^T A about R_rr column^T, of the last factorisation. r > 0. */
+void qdot_saddle_weakest(qdot_saddle *s, double *row, double *column);
+
 /* The size of row i's part in the dependency nearest to happening (of the last pivot on
  * those before it), 0 ... 1, into part [m]. */
 void qdot_saddle_parts(qdot_saddle *s, double *part);

@@ -33,6 +33,10 @@ typedef struct {
      * that may be less than a double: near a singularity that the solution passes
      * smoothly. No step is held to a tighter tolerance. NULL: all they can. */
     double (*noise)(void *user);
+    /* Where there is noise: the time from that point, in the direction of the unit, to the
+     * place that causes it, from the series; 0 where it lies behind or is not known. Steps
+     * go over it, or stay well before. */
+    double (*ahead)(void *user);
     void *user; /* borrowed */
 } qdot_ode_series;
 

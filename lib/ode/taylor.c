@@ -16,6 +16,10 @@ static const uint64_t max_steps_default = 50000000;
 
 enum { least_order = 6 };
 
+/* A step over a place that it should not end upon: how far beyond, and the noise from which
+ * on it is taken in any case. */
+static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
+
 /* A projection moves by its own rounding, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
@@ -33,6 +37,7 @@ typedef struct {
     double held; /* tol, or what the coefficients are worth if that is more */
     uint64_t max_steps;
     int p;
+    int cut;       /* the order that the step at hand is summed to: p, or less */
     double unit;   /* of the series: t' = t + unit s; a power of two, signed */
     bool extended; /* the series is there to order p */
 
@@ -191,10 +196,57 @@ begin(run *r, double t, const double *y)
 {
     r->extended = false;
     QDOT_TRY(r->series->begin(t, y, r->unit, r->series->user));
+    r->cut = r->p;
     r->held = r->tol;
     if (r->series->noise)
         r->held = fmin(1, fmax(r->tol, r->series->noise(r->series->user)));
     return QDOT_OK;
+}
+
+/* Over such a place the terms of a series fall and then grow, for the rounding in them does:
+ * it is summed up to the least, as an asymptotic one, and worth about that. */
+static void
+cut_series(run *r, double h)
+{
+    const qdot_ode_series *series = r->series;
+    double s = h / fabs(r->unit), power = 1, before = INFINITY, least = INFINITY;
+
+    for (int k = 1; k <= r->p; k++) {
+        double now = 0;
+
+        power *= s;
+        for (size_t i = 0; i < r->n; i++)
+            now = fmax(now, fabs(series->x[i * series->stride + (size_t)k]) * power
+                                / fmax(1, fabs(r->y[i])));
+        if (k > 4 && fmax(before, now) < least) {
+            least = fmax(before, now);
+            r->cut = k;
+        }
+        before = now;
+    }
+    r->held = fmax(r->held, fmin(least_worth, 100 * least));
+}
+
+/* A step that would end just before or upon a place near which the coefficients are worth
+ * little goes over it, if that is not far, or stays well before. */
+static void
+keep_off(run *r, double *h)
+{
+    const qdot_ode_series *series = r->series;
+    const double noise = series->noise ? series->noise(series->user) : 0;
+    double ahead;
+
+    if (!(noise > 0) || !series->ahead)
+        return;
+    ahead = series->ahead(series->user);
+    if (!(ahead > 0 && ahead < 4 * *h))
+        return;
+    if (*h >= 0.8 * ahead || noise > near_noise) {
+        *h = fmax(*h, over * ahead);
+        cut_series(r, *h);
+    } else if (*h > 0.5 * ahead) {
+        *h = 0.5 * ahead;
+    }
 }
 
 /* *h positive; INFINITY where the series ends. The unit of the series is brought near the
@@ -211,6 +263,7 @@ length_of_step(run *r, double *h)
             far = -10 - 40 * tries;
         } else {
             *h = fabs(r->unit) * exp2(l);
+            keep_off(r, h);
             /* nothing there, or too small for a double: judge by what is */
             far = l < INFINITY ? l : log_step(r, 1);
             if (!(fabs(far) > 8) || isinf(far))
@@ -320,14 +373,15 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     if (!*good)
         return QDOT_OK;
     if (r->options->expanded) {
-        qdot_ode_expanded step = {r->t, t_end, r->unit, r->p, r->y};
+        qdot_ode_expanded step = {r->t, t_end, r->unit, r->cut, r->y};
 
         QDOT_TRY(r->options->expanded(&step, r->options->user));
         t_end = step.t_end;
         h = t_end - r->t;
     }
     s = (t_end == r->t1 ? h + r->options->t1_low : h) / r->unit;
-    r->kernels->tails(r->n, r->series->x, r->series->stride, r->p, s, r->value, r->slope);
+    r->kernels->tails(r->n, r->series->x, r->series->stride, r->cut, s, r->value,
+                      r->slope);
     if (r->series->low)
         r->series->low(r->carry, r->low, r->series->user);
     add_series(r, s);

@@ -24,6 +24,10 @@
  * all (free fall, an equilibrium, few terms of a high power) the polynomial may be the
  * solution: then h is what is left, and the defect is looked at inside the step too.
  *
+ * Where the coefficients are worth less than a double (series.noise) no step is held to a
+ * tighter tolerance; one that would end just before the place that causes it goes over it,
+ * summed up to its least term, or stays well before (series.ahead).
+ *
  * Times are doubles exactly: h is the difference of two. The state is a sum of two
  * doubles, advanced by the series evaluated by Horner's rule, whose first product and sum
  * are exact.

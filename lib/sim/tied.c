@@ -43,7 +43,8 @@ struct qdot_tied {
     qdot_taylor *motion; /* f, M */
     kind_series kinds[3];
     qdot_saddle saddle;
-    double best; /* its best quality so far */
+    double best;  /* its best quality so far */
+    double *weak; /* [m + n] scratch */
     qdot_ode_series series;
     double unit;
     double *q, *v, *t; /* inputs' rows of `motion`, `stride` apart */
@@ -284,6 +285,30 @@ noise(void *user)
     return left < nearly ? fmin(1e-9, 100 * DBL_EPSILON / (left * left)) : 0;
 }
 
+/* The weakest combination of rows, along its own direction, is a scalar series that passes
+ * 0 where they are dependent; its first root, from the lowest orders. */
+static double
+ahead(void *user)
+{
+    qdot_tied *e = user;
+    const qdot_constraints *c = e->c;
+    double sigma[4] = {0}, s, *row = e->weak, *column = e->weak + c->m;
+
+    if (e->saddle.rank == 0)
+        return 0;
+    qdot_saddle_weakest(&e->saddle, row, column);
+    for (size_t k = 0; k < c->n_slopes; k++)
+        for (int j = 0; j < 4; j++)
+            sigma[j] += row[c->slopes[k].row] * column[c->slopes[k].column] * e->A[k][j];
+    s = -sigma[0] / sigma[1];
+    for (int k = 0; k < 20; k++) {
+        double f = sigma[0] + s * (sigma[1] + s * (sigma[2] + s * sigma[3]));
+
+        s -= f / (sigma[1] + s * (2 * sigma[2] + s * 3 * sigma[3]));
+    }
+    return s > 0 && isfinite(s) ? s * fabs(e->unit) : 0;
+}
+
 /* --- building ----------------------------------------------------------------------- */
 
 static qdot_status
@@ -397,11 +422,12 @@ make(qdot_tied *e, bool shaken)
     e->a = qdot_calloc(p->n * e->stride, sizeof *e->a);
     e->lambda = qdot_calloc(c->m * e->stride, sizeof *e->lambda);
     e->newest = qdot_calloc(p->n, sizeof *e->newest);
+    e->weak = qdot_calloc(c->m + p->n, sizeof *e->weak);
     e->f = qdot_calloc(p->n, sizeof *e->f);
     e->M = qdot_calloc(c->n_masses + 1, sizeof *e->M);
     e->A = qdot_calloc(c->n_slopes + 1, sizeof *e->A);
     e->rows = qdot_calloc(c->m, sizeof *e->rows);
-    if (!e->a || !e->lambda || !e->newest || !e->f || !e->M || !e->A || !e->rows)
+    if (!e->a || !e->lambda || !e->newest || !e->weak || !e->f || !e->M || !e->A || !e->rows)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_saddle_init(&e->saddle, p->n, c->m, p->indefinite));
     QDOT_TRY(find_outputs(e));
@@ -413,6 +439,7 @@ make(qdot_tied *e, bool shaken)
                                   .extend = extend,
                                   .low = low,
                                   .noise = noise,
+                                  .ahead = ahead,
                                   .user = e};
     estimate_cost(e);
     return QDOT_OK;
@@ -451,6 +478,7 @@ qdot_tied_free(qdot_tied *e)
     qdot_free(e->a);
     qdot_free(e->lambda);
     qdot_free(e->newest);
+    qdot_free(e->weak);
     qdot_free(e->f);
     qdot_free(e->M);
     qdot_free(e->A);

@@ -180,6 +180,38 @@ a_lost_rank_is_told(void **state)
     qdot_saddle_clear(&s);
 }
 
+/* The weakest combination: w^T A = R_rr u^T in scaled form, small where rows nearly are
+ * dependent, and linear in what parts them. */
+static void
+the_weakest_combination_is_found(void **state)
+{
+    double row[3], column[4], left[2];
+    size_t failed;
+    qdot_saddle s;
+
+    (void)state;
+    srand(5);
+    assert_int_equal(qdot_saddle_init(&s, 4, 3, false), QDOT_OK);
+    for (size_t i = 0; i < 4; i++)
+        s.M[i * 5] = 1;
+    fill_rows(&s);
+    for (size_t i = 0; i < 4; i++)
+        s.A[8 + i] = s.A[i] - 2 * s.A[4 + i];
+    for (int k = 0; k < 2; k++) {
+        s.A[8] += 0x1p-20;
+        assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+        qdot_saddle_weakest(&s, row, column);
+        left[k] = 0;
+        for (size_t r = 0; r < 3; r++)
+            for (size_t i = 0; i < 4; i++)
+                left[k] += row[r] * s.A[r * 4 + i] * column[i];
+        assert_true(fabs(row[0] + row[2]) < 1e-4 * fabs(row[2]));
+        assert_true(fabs(row[1] - 2 * row[2]) < 1e-4 * fabs(row[2]));
+    }
+    assert_true(fabs(fabs(left[1] / left[0]) - 2) < 1e-4);
+    qdot_saddle_clear(&s);
+}
+
 int
 main(void)
 {
@@ -188,6 +220,7 @@ main(void)
         cmocka_unit_test(a_mass_that_is_singular_alone_is_enough),
         cmocka_unit_test(repeated_rows_give_the_least_multipliers),
         cmocka_unit_test(a_lost_rank_is_told),
+        cmocka_unit_test(the_weakest_combination_is_found),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
