@@ -231,6 +231,25 @@ coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
     return qdot_resolve_check(s->pool, *over);
 }
 
+/* The argument that an undefined function was declared with, where nothing else is called so:
+ * function x(s), then diff(x(s), s). Nil if there is none. */
+static qdot_expr
+argument_of(const qdot_session *s, const char *name)
+{
+    const qdot_name *one;
+
+    for (size_t i = 0; (one = qdot_names_at(s->names, i)) != NULL; i++)
+        for (uint32_t k = 0;
+             one->kind == QDOT_NAME_UFUN && k < qdot_expr_count(s->pool, one->formals); k++) {
+            qdot_expr formal = qdot_expr_arg(s->pool, one->formals, k);
+
+            if (qdot_expr_is_class(s->pool, formal, QDOT_FORMAL) &&
+                strcmp(qdot_expr_symbol(s->pool, formal)->name, name) == 0)
+                return formal;
+        }
+    return QDOT_NIL;
+}
+
 qdot_status
 qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
                   qdot_expr *value, qdot_expr *over)
@@ -260,6 +279,9 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     QDOT_TRY(labelled(s, name, primes, &found, value));
     if (found)
         return QDOT_OK;
+    *value = argument_of(s, name);
+    if (*value != QDOT_NIL)
+        return primes > 0 ? no_prime(name, "is no coordinate") : QDOT_OK;
     if (qdot_names_is_family(s->names, name)) {
         qdot_fail(QDOT_ENAME, "`%.200s` is a family", name);
         return qdot_hint("write a member, %.80s[1]", name);
