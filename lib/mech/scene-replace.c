@@ -3,7 +3,7 @@
  * A function may be declared, and used, before the coordinate that is its argument.
  */
 #include "expr/calculus.h"
-#include "mech/scene.h"
+#include "mech/derived.h"
 
 typedef struct {
     qdot_pool *pool;
@@ -82,6 +82,7 @@ qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to)
     replace_all(&r, s->dissipations.n, s->dissipations.at);
     replace_all(&r, s->relations.n, s->relations.at);
     replace_all(&r, s->conditions.n, s->conditions.at);
+    replace_all(&r, s->derived->relations.n, s->derived->relations.at);
     replace(&r, &s->lagrangian);
     s->version++;
     return qdot_pool_check(s->pool);
