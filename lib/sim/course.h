@@ -13,7 +13,7 @@
  * Events without `then` or `stop` are only noted. More than MOST_REPEATS occurrences of
  * one thing within 1e-9 of the run's time end it too: a ball that comes to rest.
  *
- * Tests  tests/sim/test_events.c, tests/sim/test_switch.c
+ * Tests  tests/script/events.lag, switching.lag, event-ends.sh
  */
 #ifndef QDOT_SIM_COURSE_H
 #define QDOT_SIM_COURSE_H

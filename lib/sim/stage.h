@@ -1,7 +1,7 @@
 /* stage.h -- what may happen in a run: events, coordinates that leave their domains,
  * equations that switch; and a plan for every mode of these that was met.
  *
- * Tests  tests/sim/test_events.c, tests/sim/test_switch.c
+ * Tests  tests/script/events.lag, switching.lag, event-ends.sh
  */
 #ifndef QDOT_SIM_STAGE_H
 #define QDOT_SIM_STAGE_H

@@ -12,7 +12,7 @@
  * to a mode an expression switches no more. Surfaces may stand inside one another; the
  * inner ones are frozen first.
  *
- * Tests  tests/sim/test_switch.c
+ * Tests  tests/script/switching.lag, tests/sim/test_taylor.c
  */
 #ifndef QDOT_SIM_SWITCH_H
 #define QDOT_SIM_SWITCH_H

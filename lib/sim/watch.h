@@ -17,7 +17,7 @@
  * An extremum within rounding of 0, or within the tolerance of the run, is a root without
  * change of sign.
  *
- * Tests  tests/sim/test_watch.c, tests/sim/test_events.c
+ * Tests  tests/script/events.lag, event-roots.lag
  */
 #ifndef QDOT_SIM_WATCH_H
 #define QDOT_SIM_WATCH_H
