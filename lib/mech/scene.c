@@ -507,6 +507,8 @@ qdot_scene_facts(const qdot_scene *s)
 {
     const qdot_derived *d = s->derived;
 
-    return (qdot_facts){d->relations.n, d->relations.at, s->conditions.n,
-                        s->conditions.at};
+    return (qdot_facts){.n_relations = d->relations.n,
+                        .relations = d->relations.at,
+                        .n_conditions = s->conditions.n,
+                        .conditions = s->conditions.at};
 }

@@ -442,12 +442,38 @@ judge(judgement *j, const qdot_linear_motion *m, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
+/* Leave out what another condition says already: a > 0 follows from b > 0 where a - b is
+ * positive. known [n]: scalars that are positive without any of them. */
+static qdot_status
+drop_implied(judgement *j, size_t n)
+{
+    qdot_pool *pool = j->s->pool;
+
+    for (size_t i = j->when.n; i-- > 0;)
+        for (size_t k = 0; k < j->when.n; k++) {
+            qdot_expr more = qdot_sub(pool, qdot_positive_of(pool, j->when.at[i]),
+                                      qdot_positive_of(pool, j->when.at[k]));
+            bool follows = k != i && qdot_positive(pool, more, &j->facts, n, j->known.at)
+                                         == QDOT_TRUE;
+
+            QDOT_TRY(qdot_pool_check(pool));
+            if (!follows)
+                continue;
+            for (size_t m = i + 1; m < j->when.n; m++)
+                j->when.at[m - 1] = j->when.at[m];
+            j->when.n--;
+            break;
+        }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_equilibrium_judge(qdot_scene *s, qdot_equilibrium *e)
 {
     judgement j = {.s = s, .facts = qdot_scene_facts(s)};
     qdot_linear_motion m;
     qdot_status status = QDOT_OK;
+    size_t known;
 
     e->stability = QDOT_STABILITY_UNDECIDED;
     e->stable_when = QDOT_NIL;
@@ -460,8 +486,11 @@ qdot_equilibrium_judge(qdot_scene *s, qdot_equilibrium *e)
          i++)
         status = qdot_vec_push(
             &j.known, qdot_positive_of(s->pool, qdot_expr_arg(s->pool, e->exists, i)));
+    known = j.known.n;
     if (status == QDOT_OK && m.n > 0)
         status = judge(&j, &m, e);
+    if (status == QDOT_OK)
+        status = drop_implied(&j, known);
     if (status == QDOT_OK && e->stability == QDOT_STABLE && j.when.n > 0)
         e->stable_when = qdot_list(s->pool, (uint32_t)j.when.n, j.when.at);
     if (status == QDOT_OK)

@@ -229,7 +229,7 @@ stiff_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user
 static void
 a_stiff_run_is_read_cheaply(void **state)
 {
-    qdot_ode_system s = {1, stiff, stiff_jacobian, NULL, NULL};
+    qdot_ode_system s = {1, stiff, stiff_jacobian, NULL, NULL, NULL};
     qdot_ode_options o = {.tol = 1e-9};
     double y0 = 1, y;
 
