@@ -801,13 +801,15 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
 }
 
 qdot_status
-qdot_course_adopt(qdot_course *c)
+qdot_course_prepare(qdot_course *c)
 {
     qdot_bind *bind = NULL;
 
     c->stopped_by = SIZE_MAX;
-    if (c->tr.pieces.n == 0)
+    if (c->tr.count > 0 && c->tr.pieces.n == 0)
         QDOT_TRY(qdot_vec_push(&c->tr.pieces, (qdot_trajectory_piece){0}));
+    if (c->binds.n > 0)
+        return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&c->systems, (qdot_ode_system){0}));
     QDOT_TRY(qdot_vec_push(&c->watches, NULL));
     QDOT_TRY(qdot_bind_new(c->stage->modes.at[0]->plan, c->shaken, &bind));

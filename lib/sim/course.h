@@ -54,8 +54,9 @@ QDOT_MUST_CHECK qdot_status qdot_course_run(qdot_course *c, const qdot_ode_metho
                                             const qdot_ode_options *options, double t0,
                                             double t1, const double *y);
 
-/* c->tr has been filled otherwise, by the mode of the start: what it is read with. */
-QDOT_MUST_CHECK qdot_status qdot_course_adopt(qdot_course *c);
+/* The bind of the mode of the start, before or without a run: a start is checked with it,
+ * and a c->tr that has been filled otherwise is read with it. */
+QDOT_MUST_CHECK qdot_status qdot_course_prepare(qdot_course *c);
 
 /* The systems of all modes that it went by, for cursors along c->tr. */
 const qdot_ode_system *qdot_course_systems(const qdot_course *c);

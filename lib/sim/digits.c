@@ -64,7 +64,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     if (status == QDOT_OK)
         status = qdot_precise_pair_sample(run->precise, &run->course.tr);
     if (status == QDOT_OK)
-        status = qdot_course_adopt(&run->course);
+        status = qdot_course_prepare(&run->course);
     if (status == QDOT_OK && !*interrupted)
         status =
             qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);

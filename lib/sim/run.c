@@ -110,8 +110,6 @@ static qdot_status
 check_start(qdot_run *run)
 {
     const qdot_domain *d = qdot_domains_outside(&run->stage.domains, run->start);
-    qdot_bind *bind = NULL;
-    qdot_status status;
 
     if (d) {
         const char *name = run->plan->names[d->coordinate];
@@ -120,11 +118,9 @@ check_start(qdot_run *run)
                   run->start[d->coordinate], d->text);
         return qdot_hint("start %s = ...", name);
     }
-    status = qdot_bind_new(run->plan, false, &bind);
-    if (status == QDOT_OK)
-        status = qdot_bind_check(bind, run->t0, run->start, run->start_low);
-    qdot_bind_free(bind);
-    return status;
+    /* the bind of the run itself: it keeps what it finds of the constraints */
+    QDOT_TRY(qdot_course_prepare(&run->course));
+    return qdot_bind_check(run->course.binds.at[0], run->t0, run->start, run->start_low);
 }
 
 static qdot_status
