@@ -36,6 +36,7 @@ typedef struct {
     int *signs;     /* [functions] of the mode before, where its piece ended */
     double *residual; /* [functions] */
     bool first_step;
+    bool far;       /* the step needed no look */
 
     /* What the step at hand showed. */
     intent intent;
@@ -265,6 +266,14 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
     const qdot_root *roots;
     size_t n;
 
+    x->far = !x->first_step
+             && qdot_watch_is_far(watch_of(x), step->t_end, x->reader.system->series,
+                                  step->order, step->unit);
+    if (x->far) {
+        x->intent = GO_ON; /* of a longer step that was not taken */
+        x->c->occurrences.n = x->noted;
+        return QDOT_OK;
+    }
     x->expanded = step;
     QDOT_TRY(read_series(step->t_end, x->y, x));
     QDOT_TRY(qdot_watch_step(watch_of(x), &x->reader, step->t_end, x->y,
@@ -316,6 +325,10 @@ accepted(double t, const double *y, bool *stop, void *user)
     if (!x->method->series)
         QDOT_TRY(look_at_step(x, t, y));
     x->first_step = false;
+    if (x->far) {
+        qdot_watch_pass(watch_of(x), t, y);
+        return QDOT_OK;
+    }
     if (x->intent == ACT) {
         *stop = true;
         return QDOT_OK;
@@ -423,6 +436,7 @@ integrate(course *x, double t, const double *y, bool jumped)
     x->intent = GO_ON;
     x->broken_off = false;
     x->first_step = true;
+    x->far = false;
     x->noted = c->occurrences.n;
     status = qdot_trajectory_resume(&c->tr, system, x->mode, jumped, &options, x->t1, y);
     if (x->broken_off) {

@@ -589,6 +589,26 @@ qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t,
     return QDOT_OK;
 }
 
+bool
+qdot_watch_is_far(const qdot_watch *w, double t, const qdot_ode_series *series, int order,
+                  double unit)
+{
+    for (size_t i = 0; i < w->m; i++)
+        if (w->coordinate[i] == SIZE_MAX || w->start.on[i]
+            || !is_far(w, i, t, NULL, series, order, unit))
+            return false;
+    return true;
+}
+
+void
+qdot_watch_pass(qdot_watch *w, double t, const double *y)
+{
+    memcpy(w->y, y, 2 * w->n * sizeof *y);
+    w->t = t;
+    for (size_t i = 0; i < w->m; i++)
+        w->start.g0[i] = y[w->coordinate[i]] - w->bound[i];
+}
+
 void
 qdot_watch_take(qdot_watch *w)
 {

@@ -77,6 +77,12 @@ QDOT_MUST_CHECK qdot_status qdot_watch_step(qdot_watch *w,
                                             size_t *n);
 void qdot_watch_take(qdot_watch *w);
 
+/* Whether the step to t, by its series, stays far from everything that is watched, which
+ * are bounds: then no look is needed, and it is taken by _pass. */
+bool qdot_watch_is_far(const qdot_watch *w, double t, const qdot_ode_series *series,
+                       int order, double unit);
+void qdot_watch_pass(qdot_watch *w, double t, const double *y);
+
 /* Of the step last looked at: [m] the sign right behind its start, 0 where g vanishes
  * throughout; whether it leaves a zero there so slowly that its slope cannot be told from
  * 0; and the signs at its end. */
