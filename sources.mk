@@ -39,6 +39,7 @@ num_headers = \
 	lib/num/real.h \
 	lib/num/row-space.h \
 	lib/num/saddle.h \
+	lib/num/series-dot.def \
 	lib/num/series.def \
 	lib/num/series.h \
 	lib/num/structure.h \
@@ -195,6 +196,7 @@ tape_headers = \
 	lib/tape/precise.h \
 	lib/tape/shake.h \
 	lib/tape/tape.h \
+	lib/tape/taylor-order.def \
 	lib/tape/taylor-steps.h \
 	lib/tape/taylor.h
 

@@ -2,6 +2,7 @@
 #include "num/series.h"
 
 #include <math.h>
+#include <stdint.h>
 
 #define ROWS(X)                                                                          \
     X(0)                                                                                 \

@@ -53,6 +53,11 @@ typedef struct {
     void (*tails)(size_t n, const double *x, size_t stride, int p, double s,
                   double *value, double *slope);
 
+    /* peaks[k] = max_i scale[i] |x[i stride + k]|, k = 0 ... p, infinite or NaN where a
+     * coefficient is; both filled up to 8: stride is a multiple of it, peaks has room. */
+    void (*peaks)(size_t n, const double *x, size_t stride, int p, const double *scale,
+                  double *peaks);
+
     /* y [m] = sum_{j=0..n-1} A[j m + ...] x[j], m a multiple of 8: a matrix by its
      * columns, filled up to m rows. y may not be x. */
     void (*multiply)(size_t m, size_t n, const double *A, const double *x, double *y);

@@ -23,6 +23,17 @@ static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
 /* A projection moves by its own rounding, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
+/* Steps aim at less than the tolerance, which the errors of thousands of them may share:
+ * at tol^(5/4), down to a tenth of what the first of two doubles can hold. */
+static double
+aim(double tol)
+{
+    return fmax(tol * sqrt(sqrt(tol)), 1e-17);
+}
+
+/* log2 of the largest term, over the size of the state, whose rounding may count. */
+static const double term_least = -1;
+
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
 
@@ -38,6 +49,8 @@ typedef struct {
     uint64_t max_steps;
     int p;
     int cut;       /* the order that the step at hand is summed to: p, or less */
+    double log_wanted, log_aim, log_term; /* log2 of what a step should err, of what it
+                                             may at the point at hand, of a term */
     double unit;   /* of the series: t' = t + unit s; a power of two, signed */
     bool extended; /* the series is there to order p */
 
@@ -46,6 +59,8 @@ typedef struct {
     double *low;               /* [n] */
     double *value, *slope;     /* [n] of the polynomial */
     double *first;             /* [n] x_i1 */
+    double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] and what fills a vector */
+    double inverse[QDOT_SERIES_MOST + 1];  /* 1/k */
     qdot_error undefined;      /* what f said last */
     double undefined_at;       /* the end of the step that met it; NaN before any */
 } run;
@@ -77,7 +92,7 @@ int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
 {
     const double *c = series->cost;
-    double L = -log(tol), least = INFINITY;
+    double L = -log(aim(tol)), least = INFINITY;
     int best = least_order;
 
     for (int p = least_order; p <= series->most; p++) {
@@ -146,38 +161,46 @@ rough_log2(double x)
     return (double)bits * 0x1p-52 - 1023;
 }
 
-/* log2 of the step in units; INFINITY where orders from ... p hold nothing; NaN where
- * they are not finite. */
+/* m[k] = max_i |x_ik| / max(1, |y_i|), k = 0 ... p. */
+static void
+find_peaks(run *r)
+{
+    for (size_t i = 0; i < r->n; i++)
+        r->value[i] = 1 / fmax(1, fabs(r->y[i]));
+    r->kernels->peaks(r->n, r->series->x, r->series->stride, r->p, r->value, r->peaks);
+}
+
+/* log2 of the step in units: that of the radius which the coefficients from ... p show, and
+ * what order p leaves of it under tol. INFINITY where they hold nothing; NaN where they are
+ * not finite. */
 static double
 log_step(const run *r, int from)
 {
-    const qdot_ode_series *series = r->series;
-    double least = INFINITY, log_tol = log2(r->held), m[QDOT_SERIES_MOST + 1];
+    double least = INFINITY;
 
-    for (int k = from; k <= r->p; k++)
-        m[k] = 0;
-    for (size_t i = 0; i < r->n; i++) {
-        const double *x = series->x + i * series->stride;
-        double size = fabs(r->y[i]);
-
-        size = size > 1 ? 1 / size : 1;
-        for (int k = from; k <= r->p; k++) {
-            double c = fabs(x[k]) * size;
-
-            if (!(c <= m[k]))
-                m[k] = c;
-        }
-    }
     for (int k = from; k <= r->p; k++) {
-        if (!(m[k] < INFINITY))
+        if (!(r->peaks[k] < INFINITY))
             return NAN;
-        if (m[k] > 0) {
-            double l = (log_tol - rough_log2(m[k])) / k;
+        if (r->peaks[k] > 0) {
+            double l = -rough_log2(r->peaks[k]) * r->inverse[k];
 
             least = l < least ? l : least;
         }
     }
-    return least;
+    return least + r->log_aim * r->inverse[r->p];
+}
+
+/* The same for what keeps every term so small that its rounding does not count. */
+static double
+log_step_of_rounding(const run *r, double l)
+{
+    for (int k = 2; k <= r->p / 2; k++)
+        if (r->peaks[k] > 0) {
+            double most = (r->log_term - rough_log2(r->peaks[k])) * r->inverse[k];
+
+            l = most < l ? most : l;
+        }
+    return l;
 }
 
 static qdot_status
@@ -198,8 +221,12 @@ begin(run *r, double t, const double *y)
     QDOT_TRY(r->series->begin(t, y, r->unit, r->series->user));
     r->cut = r->p;
     r->held = r->tol;
-    if (r->series->noise)
+    r->log_aim = r->log_wanted;
+    if (r->series->noise) {
         r->held = fmin(1, fmax(r->tol, r->series->noise(r->series->user)));
+        if (r->held > r->tol)
+            r->log_aim = fmax(r->log_aim, log2(r->held));
+    }
     return QDOT_OK;
 }
 
@@ -258,7 +285,10 @@ length_of_step(run *r, double *h)
         double l, far;
 
         QDOT_TRY(expand(r));
+        find_peaks(r);
         l = log_step(r, r->p / 2 + 1);
+        if (l < INFINITY)
+            l = log_step_of_rounding(r, l);
         if (isnan(l)) { /* overflow, if the first orders exist */
             far = -10 - 40 * tries;
         } else {
@@ -475,10 +505,9 @@ advance(run *r)
             status = try_step(r, end - r->t, end, unsure, &good);
             if (status == QDOT_OK && good)
                 return QDOT_OK;
-        } else if (tries == 0 && may_be_undefined(status)) {
+        } else if (may_be_undefined(status)) {
             /* the point itself was good: only what is beyond it is not */
             h = fabs(r->unit);
-            end = r->t;
         }
         if (status != QDOT_OK && !may_be_undefined(status))
             return status;
@@ -543,6 +572,10 @@ prepare(run *r, double t0, double t1, const double *y)
     memcpy(r->y, y, r->n * sizeof *y);
     if (r->options->carry)
         memcpy(r->carry, r->options->carry, r->n * sizeof *y);
+    for (int k = 1; k <= QDOT_SERIES_MOST; k++)
+        r->inverse[k] = 1.0 / k;
+    r->log_wanted = log2(aim(r->tol));
+    r->log_term = fmax(term_least, r->log_wanted + 53);
     r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->order_more);
     return QDOT_OK;
 }

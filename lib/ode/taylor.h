@@ -1,9 +1,10 @@
 /* taylor.h -- integration by Taylor series of high order.
  *
- * A step expands the solution to order p and evaluates the polynomial. The order is
- * chosen once, from the tolerance and from what an expansion costs (series.cost): a step
- * of order p is about rho e^(-L/p) long, L = -ln tol, rho the radius of convergence, so p
- * makes
+ * A step expands the solution to order p and evaluates the polynomial. It aims at an
+ * error of eps = tol^(5/4), not below 1e-17: thousands of steps may share the tolerance.
+ * The order is chosen once, from eps and from what an expansion costs (series.cost): a
+ * step of order p is about rho e^(-L/p) long, L = -ln eps, rho the radius of convergence,
+ * so p makes
  *
  *     (cost_0 + cost_1 p + cost_2 p^2) e^(L/p)
  *
@@ -11,12 +12,14 @@
  *
  * The length of a step is
  *
- *     h = min over k = p/2 ... p, i of (tol max(1, |y_i|) / |x_ik|)^(1/k):
+ *     h = rho eps^(1/p),   rho = min over k = p/2 ... p, i of (max(1, |y_i|)/|x_ik|)^(1/k):
  *
  * from the whole upper half of the series, since a symmetric start makes most of the
- * coefficients vanish. A step is confirmed by the defect at its end: the slope of the
- * polynomial there against y' as the equations have it (the next step's first
- * coefficient),
+ * coefficients vanish. And no term of orders 2 ... p/2 may be so large that its rounding
+ * counts beside eps (where it does anyway, above half the size of the state): solutions
+ * without singularities would take steps whose terms cancel. A step is confirmed by the
+ * defect at its end: the slope of the polynomial there against y' as the equations have it
+ * (the next step's first coefficient),
  *
  *     |P_i'(h) - f_i| h <= 10 (p + 1) tol max(1, |y_i|) + rounding,
  *

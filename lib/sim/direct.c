@@ -49,8 +49,6 @@ accelerations(qdot_direct *e, int k)
     const qdot_plan *p = e->plan;
 
     qdot_taylor_order(e->taylor, k);
-    if (e->diagonal)
-        return QDOT_OK;
     for (size_t b = 0; b < p->structure.blocks; b++) {
         const qdot_plan_block *block = p->blocks + b;
         const block_series *s = e->blocks + b;
@@ -111,12 +109,16 @@ begin(double t, const double *y, double unit, void *user)
     e->t[0] = t;
     e->t[1] = unit;
     qdot_taylor_draw(e->taylor, t);
-    QDOT_TRY(accelerations(e, 0));
+    if (e->diagonal) {
+        qdot_taylor_integrate(e->taylor, unit, 0, 0);
+    } else {
+        QDOT_TRY(accelerations(e, 0));
+        integrate(e, 0);
+    }
     for (size_t i = 0; i < n; i++)
         if (!isfinite(e->a[i][0]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
                              e->plan->names[i]);
-    integrate(e, 0);
     return QDOT_OK;
 }
 
@@ -125,6 +127,10 @@ extend(int p, void *user)
 {
     qdot_direct *e = user;
 
+    if (e->diagonal) {
+        qdot_taylor_integrate(e->taylor, e->unit, 1, p - 1);
+        return QDOT_OK;
+    }
     for (size_t b = 0; b < e->plan->structure.blocks; b++)
         if (e->plan->blocks[b].n > 1 && !e->plan->blocks[b].constant)
             qdot_blocks_invert(&e->solvers, b);
@@ -237,6 +243,10 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
                 qdot_blocks_invert(&e->solvers, b);
         }
     QDOT_TRY(find_outputs(e, outputs));
+    for (size_t i = 0; i < p->n && e->diagonal; i++) {
+        QDOT_TRY(qdot_taylor_link(e->taylor, i, e->v + i * e->stride));
+        QDOT_TRY(qdot_taylor_link(e->taylor, p->n + i, e->a[i]));
+    }
     for (int k = 1; k < most_order + 2; k++)
         e->inverse[k] = 1.0 / k;
     e->series = (qdot_ode_series){.most = most_order - 4,

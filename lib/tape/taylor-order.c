@@ -65,141 +65,79 @@ value_of_zero(qdot_taylor_step *i)
     }
 }
 
-/* sum_{j=from..k-from} x_j x_{k-j} */
-static inline double
-square(const qdot_series_kernels *kernels, const double *x, int k, int from)
-{
-    int n = (k + 1) / 2 - from;
-    double sum = 2 * kernels->dot[n](x + from, x + k - from);
+#define ORDERS(X)                                                                        \
+    X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)     \
+        X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28)    \
+            X(29) X(30) X(31) X(32) X(33) X(34) X(35) X(36) X(37) X(38) X(39) X(40)      \
+                X(41) X(42) X(43) X(44) X(45) X(46) X(47) X(48)
 
-    return k % 2 ? sum : sum + x[k / 2] * x[k / 2];
+/* Order k of a program, k known to the compiler. */
+typedef void order_function(const qdot_taylor *t);
+
+#define NAME(x) portable_##x
+#define MA(a, b, c) ((a) * (b) + (c))
+#include "tape/taylor-order.def"
+#undef NAME
+#undef MA
+
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
+#define X86_KINDS
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#define NAME(x) fma_##x
+#define MA(a, b, c) __builtin_fma(a, b, c)
+#include "tape/taylor-order.def"
+#undef NAME
+#undef MA
+#pragma GCC pop_options
+#endif
+
+static order_function *const *
+orders(void)
+{
+#ifdef X86_KINDS
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        return fma_orders;
+#endif
+    return portable_orders;
 }
 
 static void
-arctangent_order(const qdot_series_kernels *kernels, const qdot_taylor_step *i, int k)
+order_zero(const qdot_taylor *t)
 {
-    qdot_series_dot *dot = kernels->dot[k];
-    double numerator;
-
-    i->second[k] = k * i->x[k];
-    i->third[k] = k * i->y[k];
-    numerator = dot(i->second + 1, i->y + k - 1) - dot(i->third + 1, i->x + k - 1);
-    i->d[k] = (numerator - kernels->dot[k - 1](i->d + 1, i->z + k - 1)) * i->c;
+    for (qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++)
+        value_of_zero(s);
 }
 
 void
 qdot_taylor_order(qdot_taylor *t, int k)
 {
-    static const void *const row_of[QDOT_T_COUNT] = {
-        [QDOT_T_END] = &&do_end,           [QDOT_T_NEG] = &&do_neg,
-        [QDOT_T_ADD] = &&do_add,           [QDOT_T_SUB] = &&do_sub,
-        [QDOT_T_SCALE] = &&do_scale,       [QDOT_T_SCALEADD] = &&do_scaleadd,
-        [QDOT_T_SCALESUB] = &&do_scalesub, [QDOT_T_SCALEOFF] = &&do_scaleoff,
-        [QDOT_T_MUL] = &&do_mul,           [QDOT_T_SQUARE] = &&do_square,
-        [QDOT_T_MADD] = &&do_madd,         [QDOT_T_MSUB] = &&do_msub,
-        [QDOT_T_NMADD] = &&do_nmadd,       [QDOT_T_DIV] = &&do_div,
-        [QDOT_T_SQRT] = &&do_sqrt,         [QDOT_T_SINCOS] = &&do_sincos,
-        [QDOT_T_SINHCOSH] = &&do_sinhcosh, [QDOT_T_EXP] = &&do_exp,
-        [QDOT_T_POW] = &&do_pow,           [QDOT_T_RATIO] = &&do_ratio,
-        [QDOT_T_TANH] = &&do_tanh,         [QDOT_T_ATAN2] = &&do_atan2,
-    };
-    const qdot_series_kernels *const kernels = t->kernels;
-    const qdot_taylor_step *i = t->steps;
-    const double inverse = t->inverse[k];
-    qdot_series_dot *below, *upto; /* k terms, k + 1 terms */
-    qdot_series_two both;
-    double u, v;
+    if (k == 0)
+        order_zero(t);
+    else
+        orders()[k](t);
+}
 
-    if (k == 0) {
-        for (qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++)
-            value_of_zero(s);
-        return;
+void
+qdot_taylor_integrate(qdot_taylor *t, double unit, int from, int to)
+{
+    order_function *const *order = orders();
+
+    if (unit != t->unit) {
+        t->unit = unit;
+        for (int k = 1; k <= QDOT_SERIES_MOST; k++)
+            t->factor[k] = unit * t->inverse[k];
     }
-    below = kernels->dot[k];
-    upto = kernels->dot[k + 1];
-#define NEXT goto *row_of[(++i)->op]
-    goto *row_of[i->op];
-do_neg:
-    i->to[k] = -i->x[k];
-    NEXT;
-do_add:
-    i->to[k] = i->x[k] + i->y[k];
-    NEXT;
-do_sub:
-    i->to[k] = i->x[k] - i->y[k];
-    NEXT;
-do_scale:
-    i->to[k] = i->x[0] * i->y[k];
-    NEXT;
-do_scaleadd:
-    i->to[k] = i->x[0] * i->y[k] + i->z[k];
-    NEXT;
-do_scalesub:
-    i->to[k] = i->x[0] * i->y[k] - i->z[k];
-    NEXT;
-do_scaleoff:
-    i->to[k] = i->z[k] - i->x[0] * i->y[k];
-    NEXT;
-do_mul:
-    i->to[k] = upto(i->x, i->y + k);
-    NEXT;
-do_square:
-    i->to[k] = square(kernels, i->x, k, 0);
-    NEXT;
-do_madd:
-    i->to[k] = upto(i->x, i->y + k) + i->z[k];
-    NEXT;
-do_msub:
-    i->to[k] = upto(i->x, i->y + k) - i->z[k];
-    NEXT;
-do_nmadd:
-    i->to[k] = i->z[k] - upto(i->x, i->y + k);
-    NEXT;
-do_div:
-    i->to[k] = (i->x[k] - below(i->y + 1, i->to + k - 1)) * i->c;
-    NEXT;
-do_sqrt:
-    i->to[k] = (i->x[k] - square(kernels, i->to, k, 1)) * i->c;
-    NEXT;
-do_sincos:
-    i->d[k] = k * i->x[k];
-    both = kernels->pair[k](i->d + 1, i->second + k - 1, i->to + k - 1);
-    i->to[k] = inverse * both.b;
-    i->second[k] = -inverse * both.c;
-    NEXT;
-do_sinhcosh:
-    i->d[k] = k * i->x[k];
-    both = kernels->pair[k](i->d + 1, i->second + k - 1, i->to + k - 1);
-    i->to[k] = inverse * both.b;
-    i->second[k] = inverse * both.c;
-    NEXT;
-do_exp:
-    i->d[k] = k * i->x[k];
-    i->to[k] = inverse * below(i->d + 1, i->to + k - 1);
-    NEXT;
-do_pow:
-    i->d[k] = k * i->x[k];
-    u = below(i->d + 1, i->to + k - 1);
-    v = below(i->x + 1, i->to + k - 1);
-    i->to[k] = ((i->z[0] + 1) * inverse * u - v) * i->c;
-    NEXT;
-do_ratio:
-    u = i->sign * k * i->x[k];
-    i->d[k] = (u - kernels->dot[k - 1](i->d + 1, i->y + k - 1)) * i->c;
-    i->to[k] = i->d[k] * inverse;
-    NEXT;
-do_tanh:
-    i->d[k] = k * i->x[k];
-    i->to[k] = inverse * below(i->d + 1, i->second + k - 1);
-    i->second[k] = -square(kernels, i->to, k, 0);
-    NEXT;
-do_atan2:
-    arctangent_order(kernels, i, k);
-    i->to[k] = i->d[k] * inverse;
-    NEXT;
-do_end:
-    return;
-#undef NEXT
+    for (int k = from; k <= to; k++) {
+        const double factor = t->factor[k + 1];
+
+        if (k == 0)
+            order_zero(t);
+        else
+            order[k](t);
+        for (size_t l = 0; l < t->n_links; l++)
+            t->links[l].to[k + 1] = factor * t->links[l].from[k];
+    }
 }
 
 /* --- correction --------------------------------------------------------------------- */

@@ -57,6 +57,12 @@ struct qdot_taylor_drawn {
 /* A number in [0, 1) for draw i of the stretch that begins at t, always the same one. */
 double qdot_taylor_chance(double t, size_t i);
 
+/* to' = unit from */
+struct qdot_taylor_link {
+    double *to;
+    const double *from;
+};
+
 struct qdot_taylor {
     const qdot_series_kernels *kernels;
     size_t stride, inputs, outputs, rows;
@@ -69,6 +75,9 @@ struct qdot_taylor {
     struct qdot_taylor_drawn *drawn; /* [n_drawn] */
     size_t n_drawn;
     double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
+    struct qdot_taylor_link *links; /* [n_links] */
+    size_t n_links;
+    double unit, factor[QDOT_SERIES_MOST + 1]; /* unit/k */
 };
 
 #endif

@@ -139,8 +139,8 @@ product(builder *b, qdot_op op, row x, row y, row z)
         return scaled(b, op, x, y, z);
     if (is_constant(b, y))
         return scaled(b, op, y, x, z);
-    if (x != y)
-        return emit(b, plain[op], op, x, y, z);
+    if (x != y) /* the newer factor first: rows follow each other as they are computed */
+        return x > y ? emit(b, plain[op], op, x, y, z) : emit(b, plain[op], op, y, x, z);
     square = emit(b, QDOT_T_SQUARE, QDOT_OP_MUL, x, x, x);
     if (op == QDOT_OP_MADD)
         return emit(b, QDOT_T_ADD, QDOT_OP_ADD, square, z, z);
@@ -427,7 +427,19 @@ qdot_taylor_free(qdot_taylor *t)
     qdot_free(t->constant);
     qdot_free(t->steps);
     qdot_free(t->drawn);
+    qdot_free(t->links);
     qdot_free(t);
+}
+
+qdot_status
+qdot_taylor_link(qdot_taylor *t, size_t i, const double *from)
+{
+    size_t capacity = t->n_links;
+
+    QDOT_TRY(qdot_grow(&t->links, &capacity, t->n_links + 1, sizeof *t->links));
+    t->links[t->n_links++] =
+        (struct qdot_taylor_link){t->coefficients + i * t->stride, from};
+    return QDOT_OK;
 }
 
 double *

@@ -65,6 +65,16 @@ void qdot_taylor_draw(qdot_taylor *taylor, double t);
  * and inf as IEEE 754 has them. */
 void qdot_taylor_order(qdot_taylor *taylor, int k);
 
+/* Input i is the integral of `from`, a row of coefficients, over time: its order k + 1 is
+ * unit/(k + 1) times order k of that. A row may be another input's. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i,
+                                             const double *from);
+
+/* Orders `from` to `to` of all that is computed, each followed by the next one of the
+ * inputs that are linked, in the order in which they were; `to` below the program's
+ * highest. */
+void qdot_taylor_integrate(qdot_taylor *taylor, double unit, int from, int to);
+
 /* Order k was evaluated with coefficient k of the first n inputs at 0 and is affine in
  * it: now it becomes newest [n]. Everything is brought up to date, by derivatives at
  * order 0 alone. k > 0. */

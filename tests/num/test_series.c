@@ -120,10 +120,38 @@ tails_are_values_and_slopes(void **state)
         }
 }
 
+/* A NaN and an infinity are peaks, wherever they stand. */
+static void
+peaks_are_the_largest_and_lose_nothing(void **state)
+{
+    enum { n = 3, stride = 24, p = 17 };
+    double x[n * stride], scale[n] = {1, 0.25, 2}, peaks[stride];
+
+    (void)state;
+    for (size_t i = 0; i < n * stride; i++)
+        x[i] = sin(7.0 * (double)i);
+    x[1 * stride + 9] = INFINITY;
+    x[0 * stride + 13] = NAN;
+    for (size_t kind = 0; qdot_series_kernels_at(kind); kind++) {
+        qdot_series_kernels_at(kind)->peaks(n, x, stride, p, scale, peaks);
+        for (int k = 0; k <= p; k++) {
+            double most = 0;
+
+            for (int i = 0; i < n; i++)
+                most = fmax(most, scale[i] * fabs(x[i * stride + k]));
+            if (k == 13)
+                assert_true(isnan(peaks[k]));
+            else
+                assert_true(peaks[k] == most);
+        }
+    }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(peaks_are_the_largest_and_lose_nothing),
         cmocka_unit_test(products_of_series_are_sums_of_products),
         cmocka_unit_test(members_are_taken_one_by_one),
         cmocka_unit_test(tails_are_values_and_slopes),
