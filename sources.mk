@@ -483,6 +483,7 @@ script_tests = \
 	tests/script/digits.lag \
 	tests/script/dof-redundant.lag \
 	tests/script/equilibria.lag \
+	tests/script/event-at-rest.lag \
 	tests/script/event-ends.sh \
 	tests/script/event-roots.lag \
 	tests/script/events.lag \
@@ -957,6 +958,7 @@ test_files = \
 	tests/script/digits.out \
 	tests/script/dof-redundant.out \
 	tests/script/equilibria.out \
+	tests/script/event-at-rest.out \
 	tests/script/event-ends.out \
 	tests/script/event-roots.out \
 	tests/script/events.out \

@@ -43,6 +43,7 @@ qdot_answer_digits(qdot_text *text, double value, double error)
     int digits = 10;
     size_t before;
 
+    value += 0.0; /* -0 is 0 */
     if (error == 0) { /* the shortest that reads back as the same double */
         for (digits = 1; digits < 17; digits++) {
             char buffer[40];

@@ -16,6 +16,74 @@ goal(const qdot_run *run)
                : run->course.tr.t[run->course.tr.count - 1];
 }
 
+/* --- comparing ----------------------------------------------------------------------- */
+
+bool
+qdot_run_comparable(const qdot_run *run)
+{
+    const qdot_course *a = &run->course, *b = &run->companion;
+
+    if (!run->has_companion || a->tr.pieces.n != b->tr.pieces.n)
+        return false;
+    for (size_t i = 0; i < a->tr.pieces.n; i++)
+        if (a->tr.pieces.at[i].mode != b->tr.pieces.at[i].mode)
+            return false;
+    return true;
+}
+
+/* How often an event occurred. */
+static size_t
+count(const qdot_course *c, size_t event)
+{
+    size_t n = 0;
+
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        n += c->occurrences.at[i].event == event;
+    return n;
+}
+
+/* --- the companion ------------------------------------------------------------------- */
+
+/* The start of the companion into y [2n]: moved, but for what has to stay where it is. */
+static qdot_status
+begin_beside(const qdot_run *run, const qdot_ode_system *system, double t0, double *y)
+{
+    const size_t n = 2 * run->plan->n;
+
+    for (size_t i = 0; i < n; i++)
+        y[i] = qdot_companion_moved(run->start[i], i, 0);
+    if (system->project) { /* along what solutions may do */
+        double by;
+
+        QDOT_TRY(system->project(t0, y, NULL, &by, system->user));
+    }
+    /* a bound that the start is on stays where it is */
+    if (qdot_domains_outside(&run->stage.domains, y))
+        memcpy(y, run->start, n * sizeof *y);
+    return QDOT_OK;
+}
+
+static bool
+met_the_same(const qdot_run *run)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++)
+        if (count(&run->course, i) != count(&run->companion, i))
+            return false;
+    return qdot_run_comparable(run);
+}
+
+static void
+begin_anew(qdot_course *c)
+{
+    const qdot_course empty = {.stage = c->stage,
+                               .shaken = c->shaken,
+                               .no_series = c->no_series,
+                               .touch_tol = c->touch_tol};
+
+    qdot_course_clear(c);
+    *c = empty;
+}
+
 qdot_status
 qdot_run_companion(qdot_run *run)
 {
@@ -38,54 +106,30 @@ qdot_run_companion(qdot_run *run)
     y = qdot_malloc(n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        y[i] = qdot_companion_moved(run->start[i], i, 0);
-    if (system.project) { /* along what solutions may do */
-        double by;
-
-        status = system.project(t0, y, NULL, &by, system.user);
-        if (status != QDOT_OK) {
-            qdot_free(y);
-            return status == QDOT_ENOMEM ? status : QDOT_OK;
-        }
+    status = begin_beside(run, &system, t0, y);
+    if (status != QDOT_OK) {
+        qdot_free(y);
+        return status == QDOT_ENOMEM ? status : QDOT_OK;
     }
-    /* a bound that the start is on stays where it is */
-    if (qdot_domains_outside(&run->stage.domains, y))
+    /* a start on a surface, moved to its other side, meets it once more: the second time
+     * it stays on it */
+    for (int tries = 0; tries < 2; tries++) {
+        status = qdot_course_run(&run->companion, qdot_companion_method(&system, method),
+                                 &options, t0, goal(run), y);
+        if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+            break;
+        run->has_companion = run->companion.tr.count > 0;
+        if (!run->has_companion || met_the_same(run))
+            break;
+        if (tries == 0)
+            begin_anew(&run->companion);
         memcpy(y, run->start, n * sizeof *y);
-    status = qdot_course_run(&run->companion, qdot_companion_method(&system, method),
-                             &options, t0, goal(run), y);
+    }
     qdot_free(y);
-    if (status == QDOT_EINTR || status == QDOT_ENOMEM)
-        return status;
-    run->has_companion = run->companion.tr.count > 0;
-    return QDOT_OK;
+    return status == QDOT_EINTR || status == QDOT_ENOMEM ? status : QDOT_OK;
 }
 
-/* --- comparing ----------------------------------------------------------------------- */
-
-bool
-qdot_run_comparable(const qdot_run *run)
-{
-    const qdot_course *a = &run->course, *b = &run->companion;
-
-    if (!run->has_companion || a->tr.pieces.n != b->tr.pieces.n)
-        return false;
-    for (size_t i = 0; i < a->tr.pieces.n; i++)
-        if (a->tr.pieces.at[i].mode != b->tr.pieces.at[i].mode)
-            return false;
-    return true;
-}
-
-/* How often event i occurred, of those at or before t. */
-static size_t
-count(const qdot_course *c, size_t event)
-{
-    size_t n = 0;
-
-    for (size_t i = 0; i < c->occurrences.n; i++)
-        n += c->occurrences.at[i].event == event;
-    return n;
-}
+/* --- the error ----------------------------------------------------------------------- */
 
 static qdot_status
 say_doubt(qdot_run *run, const char *text)
@@ -168,15 +212,38 @@ find(const qdot_course *c, size_t event, size_t k)
     return NULL;
 }
 
+/* The occurrence of the companion that is the k-th one of the run, at t: the k-th too, or,
+ * where one of them has more (at the very end of the run), the nearest, if it is much
+ * nearer than the next one of the run. */
+static const qdot_occurrence *
+partner(const qdot_run *run, size_t event, size_t k, double t)
+{
+    const qdot_course *own = &run->course, *c = &run->companion;
+    const qdot_occurrence *best = NULL, *next;
+
+    if (count(own, event) == count(c, event))
+        return find(c, event, k);
+    for (size_t i = 0; i < c->occurrences.n; i++) {
+        const qdot_occurrence *o = &c->occurrences.at[i];
+
+        if (o->event == event && (!best || fabs(o->t - t) < fabs(best->t - t)))
+            best = o;
+    }
+    for (size_t other = k > 0 ? k - 1 : k + 1; best && other <= k + 1; other += 2) {
+        next = find(own, event, other);
+        if (next && fabs(best->t - t) > 0.1 * fabs(next->t - t))
+            best = NULL;
+    }
+    return best;
+}
+
 static double
 error_of(const qdot_run *run, size_t event, size_t k, double t)
 {
-    const qdot_occurrence *other = find(&run->companion, event, k);
+    const qdot_occurrence *other =
+        run->has_companion ? partner(run, event, k, t) : NULL;
 
-    if (!run->has_companion || !other
-        || count(&run->course, event) != count(&run->companion, event))
-        return NAN;
-    return fabs(other->t - t) + DBL_EPSILON * fabs(t);
+    return other ? fabs(other->t - t) + DBL_EPSILON * fabs(t) : NAN;
 }
 
 qdot_status
