@@ -251,7 +251,8 @@ mech_headers = \
 sim_sources = \
 	lib/sim/bind.c \
 	lib/sim/blocks.c \
-	lib/sim/bonds.c \
+	lib/sim/constrained-series.c \
+	lib/sim/constrained.c \
 	lib/sim/constraints.c \
 	lib/sim/course.c \
 	lib/sim/describe.c \
@@ -260,8 +261,8 @@ sim_sources = \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
 	lib/sim/ensemble.c \
-	lib/sim/held.c \
 	lib/sim/members.c \
+	lib/sim/multipliers.c \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
 	lib/sim/plan.c \
@@ -280,7 +281,6 @@ sim_sources = \
 	lib/sim/start.c \
 	lib/sim/substitute.c \
 	lib/sim/switch.c \
-	lib/sim/tied.c \
 	lib/sim/value.c \
 	lib/sim/watch.c \
 	lib/sim/workprecision.c
@@ -288,7 +288,8 @@ sim_sources = \
 sim_headers = \
 	lib/sim/bind.h \
 	lib/sim/blocks.h \
-	lib/sim/bonds.h \
+	lib/sim/constrained-series.h \
+	lib/sim/constrained.h \
 	lib/sim/constraints.h \
 	lib/sim/course.h \
 	lib/sim/digits.h \
@@ -296,10 +297,10 @@ sim_headers = \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
 	lib/sim/ensemble.h \
-	lib/sim/held.h \
 	lib/sim/integrated.h \
 	lib/sim/members.def \
 	lib/sim/members.h \
+	lib/sim/multipliers.h \
 	lib/sim/nearest.h \
 	lib/sim/plan.h \
 	lib/sim/precise-bind.h \
@@ -316,7 +317,6 @@ sim_headers = \
 	lib/sim/start.h \
 	lib/sim/substitute.h \
 	lib/sim/switch.h \
-	lib/sim/tied.h \
 	lib/sim/watch.h \
 	lib/sim/workprecision.h
 

@@ -6,19 +6,19 @@
 
 #include "sim/blocks.h"
 #include "sim/direct.h"
-#include "sim/held.h"
+#include "sim/constrained.h"
 #include "sim/shifted.h"
-#include "sim/tied.h"
+#include "sim/constrained-series.h"
 #include "tape/shake.h"
 
 struct qdot_bind {
     const qdot_plan *plan;
     qdot_tape *tape, *jacobian; /* shaken copies; else NULL */
     qdot_blocks blocks;
-    qdot_held *held;            /* of a plan with constraints: in place of the blocks */
+    qdot_constrained *held;            /* of a plan with constraints: in place of the blocks */
     qdot_direct *direct;        /* where the equations are smooth, one of the two: */
     qdot_shifted *shifted;
-    qdot_tied *tied;            /* or, of a plan with constraints: */
+    qdot_constrained_series *tied;            /* or, of a plan with constraints: */
     const qdot_ode_series *series; /* its callbacks; else NULL */
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of either tape */
@@ -42,10 +42,10 @@ qdot_bind_free(qdot_bind *b)
     if (!b)
         return;
     qdot_blocks_clear(&b->blocks);
-    qdot_held_free(b->held);
+    qdot_constrained_free(b->held);
     qdot_direct_free(b->direct);
     qdot_shifted_free(b->shifted);
-    qdot_tied_free(b->tied);
+    qdot_constrained_series_free(b->tied);
     qdot_tape_free(b->tape);
     qdot_tape_free(b->jacobian);
     qdot_free(b->in);
@@ -73,7 +73,7 @@ accelerations(qdot_bind *b, double *a)
     const double *out = b->out;
 
     if (b->held)
-        return qdot_held_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
+        return qdot_constrained_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
     qdot_tape_eval(equations(b), b->in, b->out, b->work);
     for (size_t k = 0; k < p->structure.blocks; k++) {
         const qdot_plan_block *block = p->blocks + k;
@@ -171,10 +171,10 @@ jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
 static qdot_status
 project(double t, double *y, double *carry, double *moved, void *user)
 {
-    return qdot_held_project(t, y, carry, moved, ((qdot_bind *)user)->held);
+    return qdot_constrained_project(t, y, carry, moved, ((qdot_bind *)user)->held);
 }
 
-qdot_held *
+qdot_constrained *
 qdot_bind_held(qdot_bind *b)
 {
     return b->held;
@@ -203,7 +203,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
     double *work = NULL, m;
 
     if (b->held) {
-        status = qdot_held_start(b->held, t, y, low);
+        status = qdot_constrained_start(b->held, t, y, low);
         return status == QDOT_EDOMAIN ? QDOT_OK : status; /* as below */
     }
     load(b, t, y);
@@ -234,8 +234,8 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
 size_t
 qdot_bind_factored(const qdot_bind *b)
 {
-    return b->blocks.factored + (b->held ? qdot_held_factored(b->held) : 0)
-           + (b->tied ? qdot_tied_factored(b->tied) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
+    return b->blocks.factored + (b->held ? qdot_constrained_factored(b->held) : 0)
+           + (b->tied ? qdot_constrained_series_factored(b->tied) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
            + (b->shifted ? qdot_shifted_factored(b->shifted) : 0);
 }
 
@@ -243,11 +243,11 @@ qdot_bind_factored(const qdot_bind *b)
 static qdot_status
 make_held(qdot_bind *b, bool shaken)
 {
-    QDOT_TRY(qdot_held_new(b->plan, shaken, &b->held));
+    QDOT_TRY(qdot_constrained_new(b->plan, shaken, &b->held));
     if (!b->plan->smooth)
         return QDOT_OK;
-    QDOT_TRY(qdot_tied_new(b->plan, shaken, &b->tied));
-    b->series = qdot_tied_series(b->tied);
+    QDOT_TRY(qdot_constrained_series_new(b->plan, shaken, &b->tied));
+    b->series = qdot_constrained_series_get(b->tied);
     return QDOT_OK;
 }
 

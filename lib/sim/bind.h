@@ -9,7 +9,7 @@
 #define QDOT_SIM_BIND_H
 
 #include "ode/system.h"
-#include "sim/held.h"
+#include "sim/constrained.h"
 #include "sim/plan.h"
 
 typedef struct qdot_bind qdot_bind;
@@ -27,12 +27,12 @@ qdot_ode_system qdot_bind_system(qdot_bind *bind);
 
 /* Whether M is regular (and, unless a Lagrangian was stated, positive) at a state:
  * QDOT_ESINGULAR names the coordinate. With constraints y + low must also fulfil them, and
- * is brought the last bits nearer: qdot_held_start. */
+ * is brought the last bits nearer: qdot_constrained_start. */
 QDOT_MUST_CHECK qdot_status qdot_bind_check(qdot_bind *bind, double t, double *y,
                                             double *low);
 
-/* Of a plan with constraints, else NULL: sim/held.h. Borrowed. */
-qdot_held *qdot_bind_held(qdot_bind *bind);
+/* Of a plan with constraints, else NULL: sim/constrained.h. Borrowed. */
+qdot_constrained *qdot_bind_held(qdot_bind *bind);
 
 /* How often M was factored. */
 size_t qdot_bind_factored(const qdot_bind *bind);

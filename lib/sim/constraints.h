@@ -9,7 +9,7 @@
  *
  *     M q'' = f + A^T lambda,   A q'' = gamma
  *
- * (sim/held.h solves it). Rows stand in the order of the scene's constraints, a vector
+ * (sim/constrained.h solves it). Rows stand in the order of the scene's constraints, a vector
  * constraint one row a component.
  *
  * Tests  tests/sim/test_constraints.c

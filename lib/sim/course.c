@@ -485,7 +485,7 @@ change(course *x, const qdot_staged_event *e, double t, const double *old, doubl
         memcpy(in, old, x->n * sizeof *in);
         in[x->n] = t;
         if (e->accelerations && x->reader.held)
-            status = qdot_held_solve(x->reader.held, t, old, in + x->n + 1,
+            status = qdot_constrained_solve(x->reader.held, t, old, in + x->n + 1,
                                      in + x->n + 1 + p->n);
         else if (e->accelerations)
             status = system->rhs(t, old, dydt, system->user);

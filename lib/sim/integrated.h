@@ -2,7 +2,7 @@
 #ifndef QDOT_SIM_INTEGRATED_H
 #define QDOT_SIM_INTEGRATED_H
 
-#include "sim/bonds.h"
+#include "sim/multipliers.h"
 #include "sim/course.h"
 #include "sim/drift.h"
 
@@ -11,7 +11,7 @@ struct qdot_run {
     qdot_plan *plan;      /* of the mode of the start; the stage's */
     qdot_course course;   /* the run, and what its states are read with */
     qdot_drifts drifts;
-    qdot_bonds bonds;
+    qdot_multipliers multipliers;
     double *start;        /* [2n] y at t0 */
     double *start_low;    /* [2n] what the exact start is beyond it */
     double t0, t1;        /* as asked for */

@@ -11,7 +11,7 @@
 #include "sim/shifted.h"
 #include "sim/substitute.h"
 #include "sim/switch.h"
-#include "sim/tied.h"
+#include "sim/constrained-series.h"
 #include "tape/constant.h"
 #include "tape/taylor.h"
 
@@ -383,11 +383,11 @@ choose_form(qdot_plan *p, qdot_scene *scene)
 static qdot_status
 find_cost(qdot_plan *p)
 {
-    qdot_tied *tied;
+    qdot_constrained_series *tied;
 
-    QDOT_TRY(qdot_tied_new(p, false, &tied));
-    p->convolutions_derived = qdot_tied_convolutions(tied);
-    qdot_tied_free(tied);
+    QDOT_TRY(qdot_constrained_series_new(p, false, &tied));
+    p->convolutions_derived = qdot_constrained_series_convolutions(tied);
+    qdot_constrained_series_free(tied);
     return QDOT_OK;
 }
 

@@ -31,10 +31,10 @@ read_accelerations(qdot_reader *r, double t)
 {
     size_t n = r->plan->n, mode = qdot_trajectory_mode_read(r->cursor);
     const qdot_ode_system *system = qdot_course_systems(r->course) + mode;
-    qdot_held *held = qdot_bind_held(r->course->binds.at[mode]);
+    qdot_constrained *held = qdot_bind_held(r->course->binds.at[mode]);
 
     if (held)
-        return qdot_held_solve(held, t, r->in, r->in + 2 * n + 1, r->in + 3 * n + 1);
+        return qdot_constrained_solve(held, t, r->in, r->in + 2 * n + 1, r->in + 3 * n + 1);
     QDOT_TRY(system->rhs(t, r->in, r->dydt, system->user));
     memcpy(r->in + 2 * n + 1, r->dydt + n, n * sizeof *r->in);
     return QDOT_OK;

@@ -6,7 +6,7 @@
 #include <time.h>
 
 #include "ode/companion.h"
-#include "sim/bonds.h"
+#include "sim/multipliers.h"
 #include "sim/digits.h"
 #include "sim/integrated.h"
 #include "sim/precise.h"
@@ -43,7 +43,7 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->start_low);
     qdot_free(run->reason);
     qdot_text_clear(&run->notice);
-    qdot_bonds_clear(&run->bonds);
+    qdot_multipliers_clear(&run->multipliers);
     qdot_free(run);
 }
 
@@ -261,7 +261,7 @@ fill_report(qdot_run *run, double tol)
     r->n_drifts = run->drifts.n;
     r->drifts = run->drifts.at;
     r->projections = stats->projections;
-    qdot_bonds_report(&run->bonds, p, r);
+    qdot_multipliers_report(&run->multipliers, p, r);
 }
 
 /* The states of the run at the times that the companion wants them. */
@@ -302,9 +302,9 @@ is_whole(const qdot_run *run)
 }
 
 static qdot_status
-measure_bonds(qdot_run *run)
+measure_multipliers(qdot_run *run)
 {
-    return qdot_bonds_measure(run->course.binds.at[0], &run->course.tr, &run->bonds);
+    return qdot_multipliers_measure(run->course.binds.at[0], &run->course.tr, &run->multipliers);
 }
 
 /* What a companion needs beside the run. */
@@ -360,7 +360,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
         && run->course.tr.result.outcome == QDOT_ODE_DONE)
         status = show_states(run, b.companion);
     if (status == QDOT_OK && !*interrupted)
-        status = measure_bonds(run);
+        status = measure_multipliers(run);
     if (b.companion) {
         bool there = run->course.tr.count > 0;
         qdot_error failure = *qdot_last_error();
@@ -373,8 +373,8 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
         if (!difference)
             status = QDOT_ENOMEM;
         else if (status == QDOT_OK && !*interrupted && there)
-            status = qdot_bonds_errors(run->course.binds.at[0], &run->course.tr,
-                                       difference, &run->bonds);
+            status = qdot_multipliers_errors(run->course.binds.at[0], &run->course.tr,
+                                       difference, &run->multipliers);
         qdot_free(difference);
         if (status != QDOT_OK || *interrupted)
             qdot_fail_again(&failure);
@@ -394,7 +394,7 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     run->report.tol = tol;
     if (*interrupted)
         return QDOT_OK;
-    QDOT_TRY(measure_bonds(run));
+    QDOT_TRY(measure_multipliers(run));
     QDOT_TRY(qdot_run_companion(run));
     return qdot_run_end_error(run, &run->report.error);
 }

@@ -10,7 +10,7 @@
  *
  * M is solved with numbers and its structure (Cholesky; LDL^T for a stated Lagrangian); a singular M is
  * an error that names the coordinate. With constraints q'' and the multipliers are found together and
- * states are kept on the constraints: sim/held.h.
+ * states are kept on the constraints: sim/constrained.h.
  *
  * Tests  tests/sim/
  */
@@ -19,7 +19,7 @@
 
 #include "mech/quantity.h"
 
-/* What is done about drift off the constraints (sim/held.h). */
+/* What is done about drift off the constraints (sim/constrained.h). */
 typedef enum { QDOT_RUN_PROJECT, QDOT_RUN_BAUMGARTE, QDOT_RUN_NONE } qdot_run_treatment;
 
 typedef struct {

@@ -240,8 +240,7 @@ partner(const qdot_run *run, size_t event, size_t k, double t)
 static double
 error_of(const qdot_run *run, size_t event, size_t k, double t)
 {
-    const qdot_occurrence *other =
-        run->has_companion ? partner(run, event, k, t) : NULL;
+    const qdot_occurrence *other = run->has_companion ? partner(run, event, k, t) : NULL;
 
     return other ? fabs(other->t - t) + DBL_EPSILON * fabs(t) : NAN;
 }
@@ -261,9 +260,9 @@ qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
         run->occurrences.n = 0;
         for (size_t i = 0; i < c->occurrences.n; i++) {
             const qdot_occurrence *o = &c->occurrences.at[i];
-            qdot_run_occurrence out = {
-                run->stage.events.at[o->event].name, o->t,
-                error_of(run, o->event, seen[o->event]++, o->t), o->way};
+            qdot_run_occurrence out = {run->stage.events.at[o->event].name, o->t,
+                                       error_of(run, o->event, seen[o->event]++, o->t),
+                                       o->way};
             qdot_status status = qdot_vec_push(&run->occurrences, out);
 
             if (status != QDOT_OK) {

@@ -68,7 +68,7 @@ evaluate(qdot_watch *w, const qdot_watch_reader *reader, double t, double *g)
 {
     w->in[2 * w->n] = t;
     if (w->accelerations && reader->held) {
-        QDOT_TRY(qdot_held_solve(reader->held, t, w->in, w->in + 2 * w->n + 1,
+        QDOT_TRY(qdot_constrained_solve(reader->held, t, w->in, w->in + 2 * w->n + 1,
                                  w->in + 3 * w->n + 1));
     } else if (w->accelerations) {
         QDOT_TRY(reader->system->rhs(t, w->in, w->dydt, reader->system->user));

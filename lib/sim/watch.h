@@ -23,7 +23,7 @@
 #define QDOT_SIM_WATCH_H
 
 #include "ode/system.h"
-#include "sim/held.h"
+#include "sim/constrained.h"
 #include "sim/plan.h"
 
 typedef struct {
@@ -38,7 +38,7 @@ typedef struct {
     qdot_status (*read)(double t, double *y, void *user);
     void *user;
     const qdot_ode_system *system; /* for accelerations */
-    qdot_held *held;               /* for those with multipliers; NULL without */
+    qdot_constrained *held;               /* for those with multipliers; NULL without */
 } qdot_watch_reader;
 
 typedef struct qdot_watch qdot_watch;

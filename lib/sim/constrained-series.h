@@ -1,4 +1,4 @@
-/* tied.h -- Taylor coefficients of a motion under constraints, multipliers with them.
+/* constrained-series.h -- Taylor coefficients of a motion under constraints, multipliers with them.
  *
  * With s = (t' - t)/unit, q = sum q_k s^k, q'' = sum a_k s^k, lambda = sum lambda_k s^k:
  *
@@ -13,31 +13,32 @@
  * These are affine in the newest coefficient, with slope A_0 times a_k: f is evaluated
  * with that coefficient taken as 0, and corrected when a_k is known. So the matrix
  * [M_0 A_0^T; A_0 0] is that of the index-1 equations, the same at every order: one
- * factorisation an expansion. Under Baumgarte's damping (sim/held.h) the rows gain lower
+ * factorisation an expansion. Under Baumgarte's damping (sim/constrained.h) the rows gain lower
  * coefficients of f.
  *
  * Source  Nedialkov & Pryce, BIT 45 (2005) 561; 47 (2007) 121.
  * Tests   tests/sim/test_constraints.c
  */
-#ifndef QDOT_SIM_TIED_H
-#define QDOT_SIM_TIED_H
+#ifndef QDOT_SIM_CONSTRAINED_SERIES_H
+#define QDOT_SIM_CONSTRAINED_SERIES_H
 
 #include "ode/system.h"
 #include "sim/plan.h"
 
-typedef struct qdot_tied qdot_tied;
+typedef struct qdot_constrained_series qdot_constrained_series;
 
 /* Of a plan with constraints, borrowed. `shaken` as for qdot_bind_new. Errors:
  * QDOT_ENOTBUILT for equations that switch; QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_tied_new(const qdot_plan *plan, bool shaken,
-                                          qdot_tied **tied);
-void qdot_tied_free(qdot_tied *tied);
+QDOT_MUST_CHECK qdot_status qdot_constrained_series_new(const qdot_plan *plan,
+                                                        bool shaken,
+                                                        qdot_constrained_series **series);
+void qdot_constrained_series_free(qdot_constrained_series *series);
 
 /* Its callbacks; borrowed. */
-const qdot_ode_series *qdot_tied_series(const qdot_tied *tied);
+const qdot_ode_series *qdot_constrained_series_get(const qdot_constrained_series *series);
 
 /* Convolutions an order; how often a matrix was factored. */
-double qdot_tied_convolutions(const qdot_tied *tied);
-size_t qdot_tied_factored(const qdot_tied *tied);
+double qdot_constrained_series_convolutions(const qdot_constrained_series *series);
+size_t qdot_constrained_series_factored(const qdot_constrained_series *series);
 
 #endif

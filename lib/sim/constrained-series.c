@@ -1,5 +1,5 @@
-/* tied.c -- order by order: residuals of the constraints ahead, tape, solve, correct. */
-#include "sim/tied.h"
+/* constrained-series.c -- order by order: residuals of the constraints ahead, tape, solve, correct. */
+#include "sim/constrained-series.h"
 
 #include <float.h>
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "num/series.h"
 #include "sim/constraints.h"
-#include "sim/held.h"
+#include "sim/constrained.h"
 #include "tape/shake.h"
 #include "tape/taylor.h"
 
@@ -36,7 +36,7 @@ typedef struct {
     size_t stride;
 } kind_series;
 
-struct qdot_tied {
+struct qdot_constrained_series {
     const qdot_plan *plan;
     const qdot_constraints *c;
     const qdot_series_kernels *kernels;
@@ -79,7 +79,7 @@ clear_order(double *to, size_t stride, size_t n, int order)
 
 /* The constraints with their newest coefficient 0, as far ahead as their kind is. */
 static void
-look_ahead(qdot_tied *e, int k)
+look_ahead(qdot_constrained_series *e, int k)
 {
     const size_t n = e->plan->n;
     kind_series *h = e->kinds + QDOT_HOLONOMIC, *v = e->kinds + QDOT_VELOCITY;
@@ -104,10 +104,11 @@ look_ahead(qdot_tied *e, int k)
 
 /* What row r of the constraints asks of A_0 a_k. */
 static double
-wanted(const qdot_tied *e, size_t r, int k)
+wanted(const qdot_constrained_series *e, size_t r, int k)
 {
     const double *f = e->rows[r], one = (k + 1) / e->unit, two = one * (k + 2) / e->unit;
-    const double damping = e->plan->treatment == QDOT_RUN_BAUMGARTE ? QDOT_HELD_RATE : 0;
+    const double damping =
+        e->plan->treatment == QDOT_RUN_BAUMGARTE ? QDOT_CONSTRAINED_RATE : 0;
 
     switch (e->c->rows[r].kind) {
     case QDOT_HOLONOMIC:
@@ -120,7 +121,7 @@ wanted(const qdot_tied *e, size_t r, int k)
 
 /* Coefficient k of accelerations and multipliers is known: what follows from it. */
 static void
-bring_up_to_date(qdot_tied *e, int k)
+bring_up_to_date(qdot_constrained_series *e, int k)
 {
     const size_t n = e->plan->n;
     kind_series *h = e->kinds + QDOT_HOLONOMIC, *v = e->kinds + QDOT_VELOCITY;
@@ -151,7 +152,7 @@ bring_up_to_date(qdot_tied *e, int k)
 }
 
 static qdot_status
-factor(qdot_tied *e)
+factor(qdot_constrained_series *e)
 {
     const qdot_constraints *c = e->c;
     const size_t n = e->plan->n;
@@ -164,12 +165,12 @@ factor(qdot_tied *e)
     }
     for (size_t k = 0; k < c->n_slopes; k++)
         s->A[c->slopes[k].row * n + c->slopes[k].column] = e->A[k][0];
-    return qdot_held_factor(e->plan, s);
+    return qdot_constrained_factor(e->plan, s);
 }
 
 /* Order k, orders below being there. */
 static qdot_status
-order(qdot_tied *e, int k)
+order(qdot_constrained_series *e, int k)
 {
     const size_t n = e->plan->n, m = e->c->m;
     double *x = e->saddle.x;
@@ -201,7 +202,7 @@ order(qdot_tied *e, int k)
 
 /* Order 0 of all inputs, and 1 of the coordinates, at (t, y). */
 static void
-load(qdot_tied *e, double t, const double *y)
+load(qdot_constrained_series *e, double t, const double *y)
 {
     const size_t n = e->plan->n;
 
@@ -227,7 +228,7 @@ load(qdot_tied *e, double t, const double *y)
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
-    qdot_tied *e = user;
+    qdot_constrained_series *e = user;
     const size_t n = e->plan->n;
     kind_series *h = e->kinds + QDOT_HOLONOMIC, *v = e->kinds + QDOT_VELOCITY;
 
@@ -253,7 +254,7 @@ begin(double t, const double *y, double unit, void *user)
 static qdot_status
 extend(int p, void *user)
 {
-    qdot_tied *e = user;
+    qdot_constrained_series *e = user;
 
     qdot_saddle_prepare(&e->saddle);
     for (int k = 1; k < p; k++)
@@ -264,7 +265,7 @@ extend(int p, void *user)
 static void
 low(const double *carry, double *low, void *user)
 {
-    const qdot_tied *e = user;
+    const qdot_constrained_series *e = user;
 
     for (size_t i = 0; i < e->plan->n; i++)
         low[i] = e->unit * carry[e->plan->n + i];
@@ -277,7 +278,7 @@ low(const double *carry, double *low, void *user)
 static double
 noise(void *user)
 {
-    qdot_tied *e = user;
+    qdot_constrained_series *e = user;
     double left;
 
     e->best = fmax(e->best, e->saddle.quality);
@@ -290,7 +291,7 @@ noise(void *user)
 static double
 ahead(void *user)
 {
-    qdot_tied *e = user;
+    qdot_constrained_series *e = user;
     const qdot_constraints *c = e->c;
     double sigma[4] = {0}, s, *row = e->weak, *column = e->weak + c->m;
 
@@ -325,7 +326,7 @@ make_taylor(const qdot_tape *tape, bool shaken, qdot_taylor **taylor)
 }
 
 static qdot_status
-make_kind(qdot_tied *e, qdot_constraint_kind kind, bool shaken)
+make_kind(qdot_constrained_series *e, qdot_constraint_kind kind, bool shaken)
 {
     kind_series *s = e->kinds + kind;
     const size_t n = e->plan->n, first = kind == QDOT_ACCELERATION ? n : 0;
@@ -342,21 +343,20 @@ make_kind(qdot_tied *e, qdot_constraint_kind kind, bool shaken)
 }
 
 static void
-couple(qdot_tied *e, size_t to, const double *series, const double *of)
+couple(qdot_constrained_series *e, size_t to, const double *series, const double *of)
 {
     e->couplings[e->n_couplings++] = (coupling){to, series, of};
 }
 
 /* Where outputs are found, and which entries move. */
 static qdot_status
-find_outputs(qdot_tied *e)
+find_outputs(qdot_constrained_series *e)
 {
     const qdot_constraints *c = e->c;
     const size_t n = e->plan->n;
     size_t at[3];
 
-    e->couplings =
-        qdot_calloc(2 * c->n_masses + c->n_slopes + 1, sizeof *e->couplings);
+    e->couplings = qdot_calloc(2 * c->n_masses + c->n_slopes + 1, sizeof *e->couplings);
     if (!e->couplings)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
@@ -391,7 +391,7 @@ find_outputs(qdot_tied *e)
 
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
 static void
-estimate_cost(qdot_tied *e)
+estimate_cost(qdot_constrained_series *e)
 {
     double *cost = e->series.cost, n = (double)e->plan->n, all = n + (double)e->c->m;
     double length = (double)qdot_taylor_length(e->motion);
@@ -401,13 +401,13 @@ estimate_cost(qdot_tied *e)
             length += 2 * (double)qdot_taylor_length(e->kinds[kind].taylor);
     cost[0] = 500 + 15.0 * (double)qdot_tape_calls(e->plan->tape) + 4 * length +
               (e->saddle.inverse ? 4 * all * all * all : 2 * n * n * all);
-    cost[1] = 20 + 1.2 * length + 3.5 * qdot_tied_convolutions(e) + 10 * n +
+    cost[1] = 20 + 1.2 * length + 3.5 * qdot_constrained_series_convolutions(e) + 10 * n +
               (e->saddle.inverse ? 0.5 : 3) * all * all;
-    cost[2] = 0.12 * qdot_tied_convolutions(e);
+    cost[2] = 0.12 * qdot_constrained_series_convolutions(e);
 }
 
 static qdot_status
-make(qdot_tied *e, bool shaken)
+make(qdot_constrained_series *e, bool shaken)
 {
     const qdot_plan *p = e->plan;
     const qdot_constraints *c = e->c;
@@ -427,7 +427,8 @@ make(qdot_tied *e, bool shaken)
     e->M = qdot_calloc(c->n_masses + 1, sizeof *e->M);
     e->A = qdot_calloc(c->n_slopes + 1, sizeof *e->A);
     e->rows = qdot_calloc(c->m, sizeof *e->rows);
-    if (!e->a || !e->lambda || !e->newest || !e->weak || !e->f || !e->M || !e->A || !e->rows)
+    if (!e->a || !e->lambda || !e->newest || !e->weak || !e->f || !e->M || !e->A ||
+        !e->rows)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_saddle_init(&e->saddle, p->n, c->m, p->indefinite));
     QDOT_TRY(find_outputs(e));
@@ -446,9 +447,10 @@ make(qdot_tied *e, bool shaken)
 }
 
 qdot_status
-qdot_tied_new(const qdot_plan *plan, bool shaken, qdot_tied **tied)
+qdot_constrained_series_new(const qdot_plan *plan, bool shaken,
+                            qdot_constrained_series **tied)
 {
-    qdot_tied *e = qdot_calloc(1, sizeof *e);
+    qdot_constrained_series *e = qdot_calloc(1, sizeof *e);
     qdot_status status;
 
     *tied = NULL;
@@ -459,7 +461,7 @@ qdot_tied_new(const qdot_plan *plan, bool shaken, qdot_tied **tied)
     e->kernels = qdot_series_kernels_get();
     status = make(e, shaken);
     if (status != QDOT_OK) {
-        qdot_tied_free(e);
+        qdot_constrained_series_free(e);
         return status;
     }
     *tied = e;
@@ -467,7 +469,7 @@ qdot_tied_new(const qdot_plan *plan, bool shaken, qdot_tied **tied)
 }
 
 void
-qdot_tied_free(qdot_tied *e)
+qdot_constrained_series_free(qdot_constrained_series *e)
 {
     if (!e)
         return;
@@ -488,13 +490,13 @@ qdot_tied_free(qdot_tied *e)
 }
 
 const qdot_ode_series *
-qdot_tied_series(const qdot_tied *e)
+qdot_constrained_series_get(const qdot_constrained_series *e)
 {
     return &e->series;
 }
 
 double
-qdot_tied_convolutions(const qdot_tied *e)
+qdot_constrained_series_convolutions(const qdot_constrained_series *e)
 {
     double sum = qdot_taylor_convolutions(e->motion) + (double)e->n_couplings;
 
@@ -505,7 +507,7 @@ qdot_tied_convolutions(const qdot_tied *e)
 }
 
 size_t
-qdot_tied_factored(const qdot_tied *e)
+qdot_constrained_series_factored(const qdot_constrained_series *e)
 {
     return e->saddle.factored;
 }

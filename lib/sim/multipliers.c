@@ -1,5 +1,5 @@
-/* bonds.c -- residuals at every stored point, multipliers at the last. */
-#include "sim/bonds.h"
+/* multipliers.c -- residuals at every stored point, multipliers at the last. */
+#include "sim/multipliers.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,11 +8,11 @@
 #include "sim/constraints.h"
 
 void
-qdot_bonds_clear(qdot_bonds *b)
+qdot_multipliers_clear(qdot_multipliers *b)
 {
     qdot_free(b->lambda);
     qdot_free(b->error);
-    *b = (qdot_bonds){0};
+    *b = (qdot_multipliers){0};
 }
 
 static void
@@ -24,7 +24,8 @@ widen(double *most, size_t row, double x)
 
 /* At the last point; NaN where the equations do not exist there. */
 static qdot_status
-find_multipliers(qdot_held *held, const qdot_trajectory *tr, size_t m, qdot_bonds *b)
+find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
+                 qdot_multipliers *b)
 {
     const double *y = tr->y + (tr->count - 1) * tr->n;
     double *a = qdot_calloc(tr->n, sizeof *a);
@@ -39,7 +40,7 @@ find_multipliers(qdot_held *held, const qdot_trajectory *tr, size_t m, qdot_bond
         qdot_free(a);
         return QDOT_ENOMEM;
     }
-    status = qdot_held_solve(held, tr->t[tr->count - 1], y, a, b->lambda);
+    status = qdot_constrained_solve(held, tr->t[tr->count - 1], y, a, b->lambda);
     qdot_free(a);
     for (size_t k = 0; k < m && status != QDOT_OK; k++)
         b->lambda[k] = NAN;
@@ -51,36 +52,37 @@ find_multipliers(qdot_held *held, const qdot_trajectory *tr, size_t m, qdot_bond
 }
 
 qdot_status
-qdot_bonds_measure(qdot_bind *bind, const qdot_trajectory *tr, qdot_bonds *b)
+qdot_multipliers_measure(qdot_bind *bind, const qdot_trajectory *tr, qdot_multipliers *b)
 {
-    qdot_held *held = qdot_bind_held(bind);
+    qdot_constrained *held = qdot_bind_held(bind);
 
-    qdot_bonds_clear(b);
+    qdot_multipliers_clear(b);
     b->position = b->velocity = NAN;
     if (!held || tr->count == 0)
         return QDOT_OK;
     for (size_t k = 0; k < tr->count; k++) {
-        qdot_held_residual r;
+        qdot_constrained_residual r;
 
         if (k % 1024 == 0)
             QDOT_TRY(qdot_interrupt_check());
-        r = qdot_held_measure(held, tr->t[k], tr->y + k * tr->n);
+        r = qdot_constrained_measure(held, tr->t[k], tr->y + k * tr->n);
         widen(&b->position, r.worst_position, r.position);
         widen(&b->velocity, r.worst_velocity, r.velocity);
     }
-    b->independent = qdot_held_rank(held);
-    return find_multipliers(held, tr, qdot_held_rows(held), b);
+    b->independent = qdot_constrained_rank(held);
+    return find_multipliers(held, tr, qdot_constrained_rows(held), b);
 }
 
 /* lambda at y with component i moved by h, into `out`; NaN where it does not exist. */
 static void
-look(qdot_held *held, double t, double *y, size_t i, double h, double *a, double *out)
+look(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
+     double *out)
 {
     qdot_error before = *qdot_last_error();
     double kept = y[i];
 
     y[i] += h;
-    if (qdot_held_solve(held, t, y, a, out) != QDOT_OK) {
+    if (qdot_constrained_solve(held, t, y, a, out) != QDOT_OK) {
         out[0] = NAN;
         qdot_fail_again(&before);
     }
@@ -88,11 +90,11 @@ look(qdot_held *held, double t, double *y, size_t i, double h, double *a, double
 }
 
 qdot_status
-qdot_bonds_errors(qdot_bind *bind, const qdot_trajectory *tr, const double *difference,
-                  qdot_bonds *b)
+qdot_multipliers_errors(qdot_bind *bind, const qdot_trajectory *tr,
+                        const double *difference, qdot_multipliers *b)
 {
-    qdot_held *held = qdot_bind_held(bind);
-    const size_t n = tr->n, m = held ? qdot_held_rows(held) : 0;
+    qdot_constrained *held = qdot_bind_held(bind);
+    const size_t n = tr->n, m = held ? qdot_constrained_rows(held) : 0;
     double t, *y, *a, *up, *down;
 
     if (m == 0 || tr->count == 0 || !b->error || isnan(difference[0]))
@@ -121,7 +123,7 @@ qdot_bonds_errors(qdot_bind *bind, const qdot_trajectory *tr, const double *diff
 }
 
 void
-qdot_bonds_report(const qdot_bonds *b, const qdot_plan *p, qdot_run_report *r)
+qdot_multipliers_report(const qdot_multipliers *b, const qdot_plan *p, qdot_run_report *r)
 {
     r->constraint_drift = r->velocity_drift = NAN;
     if (!p->constraints)

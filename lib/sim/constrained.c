@@ -1,5 +1,5 @@
-/* held.c -- tapes into saddle-point systems, one for each level of differentiation. */
-#include "sim/held.h"
+/* constrained.c -- tapes into saddle-point systems, one for each level of differentiation. */
+#include "sim/constrained.h"
 
 #include <float.h>
 #include <math.h>
@@ -22,7 +22,7 @@ typedef struct {
     size_t *row; /* [m] of the constraints */
 } level;
 
-struct qdot_held {
+struct qdot_constrained {
     const qdot_plan *plan;
     const qdot_constraints *c;
     qdot_tape *positions, *velocities, *metric, *equations; /* shaken copies or NULL */
@@ -31,8 +31,9 @@ struct qdot_held {
     double *in;   /* [2n + 1] q, q', t */
     double *out, *work;
     double *f, *w; /* [m] residuals of positions and velocities, by row */
-    double *f_bound, *w_bound; /* [m] what rounding makes of them; they grow along a run */
-    double *a;     /* [n] */
+    double *f_bound,
+        *w_bound; /* [m] what rounding makes of them; they grow along a run */
+    double *a;    /* [n] */
 };
 
 static const qdot_tape *
@@ -42,7 +43,7 @@ tape_of(const qdot_tape *own, const qdot_tape *plans)
 }
 
 void
-qdot_held_free(qdot_held *h)
+qdot_constrained_free(qdot_constrained *h)
 {
     if (!h)
         return;
@@ -68,7 +69,7 @@ qdot_held_free(qdot_held *h)
 /* --- evaluation --------------------------------------------------------------------- */
 
 static void
-load(qdot_held *h, double t, const double *y)
+load(qdot_constrained *h, double t, const double *y)
 {
     memcpy(h->in, y, 2 * h->plan->n * sizeof *y);
     h->in[2 * h->plan->n] = t;
@@ -76,7 +77,7 @@ load(qdot_held *h, double t, const double *y)
 
 /* Residuals at what is loaded, by row; 0 where a row has none. */
 static void
-residuals(qdot_held *h)
+residuals(qdot_constrained *h)
 {
     const qdot_constraints *c = h->c;
     const double *out = h->out;
@@ -92,7 +93,7 @@ residuals(qdot_held *h)
 
 /* M and A from outputs into a level. Returns what stands behind them. */
 static const double *
-unpack(qdot_held *h, level *l, const double *from)
+unpack(qdot_constrained *h, level *l, const double *from)
 {
     const qdot_constraints *c = h->c;
     const size_t n = h->plan->n;
@@ -155,23 +156,25 @@ factor(const qdot_plan *p, qdot_saddle *s, const size_t *row)
 }
 
 qdot_status
-qdot_held_factor(const qdot_plan *plan, qdot_saddle *s)
+qdot_constrained_factor(const qdot_plan *plan, qdot_saddle *s)
 {
     return factor(plan, s, NULL);
 }
 
 static void
-damp(const qdot_held *h, double *gamma)
+damp(const qdot_constrained *h, double *gamma)
 {
-    const double a = QDOT_HELD_RATE;
+    const double a = QDOT_CONSTRAINED_RATE;
 
     for (size_t k = 0; k < h->c->m; k++)
-        gamma[k] -= h->c->rows[k].kind == QDOT_HOLONOMIC ? 2 * a * h->w[k] + a * a * h->f[k]
-                                                         : a * h->w[k];
+        gamma[k] -= h->c->rows[k].kind == QDOT_HOLONOMIC
+                        ? 2 * a * h->w[k] + a * a * h->f[k]
+                        : a * h->w[k];
 }
 
 qdot_status
-qdot_held_solve(qdot_held *h, double t, const double *y, double *a, double *lambda)
+qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a,
+                       double *lambda)
 {
     const qdot_plan *p = h->plan;
     const size_t n = p->n, m = h->c->m;
@@ -201,10 +204,11 @@ qdot_held_solve(qdot_held *h, double t, const double *y, double *a, double *lamb
     return QDOT_OK;
 }
 
-qdot_held_residual
-qdot_held_measure(qdot_held *h, double t, const double *y)
+qdot_constrained_residual
+qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
 {
-    qdot_held_residual r = {.worst_position = SIZE_MAX, .worst_velocity = SIZE_MAX};
+    qdot_constrained_residual r = {.worst_position = SIZE_MAX,
+                                   .worst_velocity = SIZE_MAX};
 
     load(h, t, y);
     residuals(h);
@@ -225,7 +229,7 @@ qdot_held_measure(qdot_held *h, double t, const double *y)
 
 /* M and A at what is loaded, factored, and with them the bounds: x is q or q'. */
 static qdot_status
-factor_metric(qdot_held *h, level *l, const double *x, double *bound)
+factor_metric(qdot_constrained *h, level *l, const double *x, double *bound)
 {
     const size_t n = h->plan->n;
 
@@ -274,8 +278,8 @@ advance(double *hi, double *lo, double x)
 
 /* One step of Newton's method on x, q or q'. */
 static void
-step(const qdot_held *h, level *l, const double *residual, double *x, double *carry,
-     double *moved)
+step(const qdot_constrained *h, level *l, const double *residual, double *x,
+     double *carry, double *moved)
 {
     const size_t n = h->plan->n;
     double *change = l->saddle.x;
@@ -316,7 +320,7 @@ is_rounding(const level *l, const double *residual, const double *x, size_t n)
 
 /* Positions or velocities of y; `residual` points at what `residuals` fills for them. */
 static qdot_status
-project(qdot_held *h, level *l, double t, double *y, double *x, double *carry,
+project(qdot_constrained *h, level *l, double t, double *y, double *x, double *carry,
         const double *residual, double *bound, double *moved)
 {
     const size_t n = h->plan->n;
@@ -354,16 +358,15 @@ project(qdot_held *h, level *l, double t, double *y, double *x, double *carry,
 }
 
 qdot_status
-qdot_held_project(double t, double *y, double *carry, double *moved, void *user)
+qdot_constrained_project(double t, double *y, double *carry, double *moved, void *user)
 {
-    qdot_held *h = user;
+    qdot_constrained *h = user;
     const size_t n = h->plan->n;
 
     *moved = 0;
     if (h->plan->treatment != QDOT_RUN_PROJECT)
         return QDOT_OK;
-    QDOT_TRY(project(h, h->at[QDOT_HOLONOMIC], t, y, y, carry, h->f, h->f_bound,
-                     moved));
+    QDOT_TRY(project(h, h->at[QDOT_HOLONOMIC], t, y, y, carry, h->f, h->f_bound, moved));
     return project(h, h->at[QDOT_VELOCITY], t, y, y + n, carry ? carry + n : NULL, h->w,
                    h->w_bound, moved);
 }
@@ -371,7 +374,7 @@ qdot_held_project(double t, double *y, double *carry, double *moved, void *user)
 /* --- the start ---------------------------------------------------------------------- */
 
 static qdot_status
-broken(const qdot_held *h, size_t row, double residual, const char *what)
+broken(const qdot_constrained *h, size_t row, double residual, const char *what)
 {
     qdot_fail(QDOT_EINVAL, "the start breaks the constraint %s: %s is %.3g, not 0",
               h->c->rows[row].name, what, residual);
@@ -380,7 +383,7 @@ broken(const qdot_held *h, size_t row, double residual, const char *what)
 
 /* Rows that were left out as repetitions must agree with those that were not. */
 static qdot_status
-check_repeated(qdot_held *h)
+check_repeated(qdot_constrained *h)
 {
     const level *all = h->at[QDOT_ACCELERATION];
     const qdot_saddle *s = &all->saddle;
@@ -405,7 +408,7 @@ check_repeated(qdot_held *h)
 }
 
 qdot_status
-qdot_held_start(qdot_held *h, double t, double *y, double *low)
+qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
 {
     const size_t n = h->plan->n;
     level *l = h->at[QDOT_HOLONOMIC];
@@ -428,34 +431,34 @@ qdot_held_start(qdot_held *h, double t, double *y, double *low)
     l = h->at[QDOT_VELOCITY];
     if (l->m > 0)
         QDOT_TRY(factor_metric(h, l, y + n, h->w_bound));
-    QDOT_TRY(qdot_held_project(t, y, low, &moved, h));
-    QDOT_TRY(qdot_held_solve(h, t, y, h->a, NULL));
+    QDOT_TRY(qdot_constrained_project(t, y, low, &moved, h));
+    QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
     return check_repeated(h);
 }
 
 size_t
-qdot_held_rows(const qdot_held *h)
+qdot_constrained_rows(const qdot_constrained *h)
 {
     return h->c->m;
 }
 
 size_t
-qdot_held_rank(const qdot_held *h)
+qdot_constrained_rank(const qdot_constrained *h)
 {
     return h->at[QDOT_ACCELERATION]->saddle.rank;
 }
 
 size_t
-qdot_held_factored(const qdot_held *h)
+qdot_constrained_factored(const qdot_constrained *h)
 {
-    return h->levels[0].saddle.factored + h->levels[1].saddle.factored
-           + h->levels[2].saddle.factored;
+    return h->levels[0].saddle.factored + h->levels[1].saddle.factored +
+           h->levels[2].saddle.factored;
 }
 
 /* --- building ----------------------------------------------------------------------- */
 
 static qdot_status
-make_level(qdot_held *h, qdot_constraint_kind kind)
+make_level(qdot_constrained *h, qdot_constraint_kind kind)
 {
     const qdot_constraints *c = h->c;
     level *l = h->levels + kind;
@@ -478,7 +481,7 @@ make_level(qdot_held *h, qdot_constraint_kind kind)
 }
 
 static qdot_status
-shake(qdot_held *h)
+shake(qdot_constrained *h)
 {
     QDOT_TRY(qdot_tape_shake(h->c->positions, &h->positions));
     QDOT_TRY(qdot_tape_shake(h->c->velocities, &h->velocities));
@@ -487,7 +490,7 @@ shake(qdot_held *h)
 }
 
 static qdot_status
-make(qdot_held *h, bool shaken)
+make(qdot_constrained *h, bool shaken)
 {
     const qdot_tape *tapes[] = {h->c->positions, h->c->velocities, h->c->metric,
                                 h->plan->tape};
@@ -507,8 +510,8 @@ make(qdot_held *h, bool shaken)
     h->f_bound = qdot_calloc(m + 1, sizeof *h->f_bound);
     h->w_bound = qdot_calloc(m + 1, sizeof *h->w_bound);
     h->a = qdot_calloc(h->plan->n, sizeof *h->a);
-    if (!h->in || !h->out || !h->work || !h->f || !h->w || !h->a || !h->f_bound
-        || !h->w_bound)
+    if (!h->in || !h->out || !h->work || !h->f || !h->w || !h->a || !h->f_bound ||
+        !h->w_bound)
         return QDOT_ENOMEM;
     for (int kind = 0; kind < 3; kind++)
         QDOT_TRY(make_level(h, (qdot_constraint_kind)kind));
@@ -516,9 +519,9 @@ make(qdot_held *h, bool shaken)
 }
 
 qdot_status
-qdot_held_new(const qdot_plan *plan, bool shaken, qdot_held **held)
+qdot_constrained_new(const qdot_plan *plan, bool shaken, qdot_constrained **held)
 {
-    qdot_held *h = qdot_calloc(1, sizeof *h);
+    qdot_constrained *h = qdot_calloc(1, sizeof *h);
     qdot_status status;
 
     *held = NULL;
@@ -528,7 +531,7 @@ qdot_held_new(const qdot_plan *plan, bool shaken, qdot_held **held)
     h->c = plan->constraints;
     status = make(h, shaken);
     if (status != QDOT_OK) {
-        qdot_held_free(h);
+        qdot_constrained_free(h);
         return status;
     }
     *held = h;

@@ -1,4 +1,4 @@
-/* held.h -- a plan with constraints, evaluated: accelerations and multipliers, and states
+/* constrained.h -- a plan with constraints, evaluated: accelerations and multipliers, and states
  * brought back onto the constraints.
  *
  *     [ M  A^T ] [ q''     ]   [ f     ]
@@ -14,62 +14,65 @@
  *
  *     gamma - 2 a df/dt - a^2 f,   velocity constraints: gamma - a f,
  *
- * critical damping with the rate a = QDOT_HELD_RATE per unit of t: drift dies out as
+ * critical damping with the rate a = QDOT_CONSTRAINED_RATE per unit of t: drift dies out as
  * e^(-a t). Under `none` nothing is done.
  *
  * Source  Hairer & Wanner II, VII.1 (index reduction) and VII.2 (projection); Baumgarte,
  *         Comput. Meth. Appl. Mech. Eng. 1 (1972) 1.
  * Tests   tests/sim/test_constraints.c
  */
-#ifndef QDOT_SIM_HELD_H
-#define QDOT_SIM_HELD_H
+#ifndef QDOT_SIM_CONSTRAINED_H
+#define QDOT_SIM_CONSTRAINED_H
 
 #include "num/saddle.h"
 #include "sim/constraints.h"
 
-#define QDOT_HELD_RATE 5.0
+#define QDOT_CONSTRAINED_RATE 5.0
 
-typedef struct qdot_held qdot_held;
+typedef struct qdot_constrained qdot_constrained;
 
 /* Of a plan with constraints, borrowed. `shaken` as for qdot_bind_new. Errors:
  * QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_held_new(const qdot_plan *plan, bool shaken,
-                                          qdot_held **held);
-void qdot_held_free(qdot_held *held);
+QDOT_MUST_CHECK qdot_status qdot_constrained_new(const qdot_plan *plan, bool shaken,
+                                                 qdot_constrained **constrained);
+void qdot_constrained_free(qdot_constrained *constrained);
 
 /* q'' [n] and lambda [m] (may be NULL) at t, y = (q, q') [2n]. Errors: QDOT_ESINGULAR
  * names constraints that stop being independent, or the coordinate without mass;
  * QDOT_EDOMAIN the coordinate whose acceleration is undefined. */
-QDOT_MUST_CHECK qdot_status qdot_held_solve(qdot_held *held, double t, const double *y,
-                                            double *a, double *lambda);
+QDOT_MUST_CHECK qdot_status qdot_constrained_solve(qdot_constrained *constrained,
+                                                   double t, const double *y, double *a,
+                                                   double *lambda);
 
 /* Move y [2n] (+ carry [2n], may be NULL) onto the constraints, as qdot_ode_system.project
  * is to: *moved is the largest change of a component relative to max(1, |y_i|), 0 where
  * nothing was done. QDOT_EDOMAIN where it does not converge. */
-QDOT_MUST_CHECK qdot_status qdot_held_project(double t, double *y, double *carry,
-                                              double *moved, void *held);
+QDOT_MUST_CHECK qdot_status qdot_constrained_project(double t, double *y, double *carry,
+                                                     double *moved, void *constrained);
 
 /* What y breaks: the largest |f| of the holonomic rows; the largest |df/dt| or |f| of the
  * velocity rows; which rows these are (SIZE_MAX: none). */
 typedef struct {
     double position, velocity;
     size_t worst_position, worst_velocity;
-} qdot_held_residual;
-qdot_held_residual qdot_held_measure(qdot_held *held, double t, const double *y);
+} qdot_constrained_residual;
+qdot_constrained_residual qdot_constrained_measure(qdot_constrained *constrained,
+                                                   double t, const double *y);
 
 /* Whether a run may start at y: QDOT_EINVAL names a constraint that y breaks, with its
  * residual, or constraints that contradict each other; QDOT_ESINGULAR as _solve. What is
  * left (rounding of the values typed) is then projected away. */
-QDOT_MUST_CHECK qdot_status qdot_held_start(qdot_held *held, double t, double *y,
-                                            double *low);
+QDOT_MUST_CHECK qdot_status qdot_constrained_start(qdot_constrained *constrained,
+                                                   double t, double *y, double *low);
 
 /* Factor M and A of a system that holds all rows; its failures named as _solve's. */
-QDOT_MUST_CHECK qdot_status qdot_held_factor(const qdot_plan *plan, qdot_saddle *s);
+QDOT_MUST_CHECK qdot_status qdot_constrained_factor(const qdot_plan *plan,
+                                                    qdot_saddle *s);
 
-size_t qdot_held_rows(const qdot_held *held); /* m */
+size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
 /* Independent rows; QDOT_SADDLE_UNKNOWN before anything was solved. */
-size_t qdot_held_rank(const qdot_held *held);
+size_t qdot_constrained_rank(const qdot_constrained *constrained);
 /* How often a matrix was factored. */
-size_t qdot_held_factored(const qdot_held *held);
+size_t qdot_constrained_factored(const qdot_constrained *constrained);
 
 #endif
