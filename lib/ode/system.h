@@ -18,7 +18,8 @@ typedef struct {
     int most;        /* the highest order it can */
     const double *x; /* x_ik = x[i stride + k], written by the callbacks */
     size_t stride;
-    size_t checked; /* dy_i/dt for i below it is another component: it needs no check */
+    size_t checked; /* dy_i/dt = y_{checked + i} for i below it: no check, and what the
+                       state holds beyond y enters order 1 */
     /* What an expansion to order p costs, about cost[0] + cost[1] p + cost[2] p^2
      * nanoseconds. */
     double cost[3];
@@ -26,9 +27,6 @@ typedef struct {
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Then orders 2 ... p. */
     qdot_status (*extend)(int p, void *user);
-    /* low [n]: what the coefficients of order 1 would gain from y + carry [n], as far as
-     * that is a matter of adding; NULL if there is none. */
-    void (*low)(const double *carry, double *low, void *user);
     /* What the coefficients at the point begun last are worth, relative to the state, where
      * that may be less than a double: near a singularity that the solution passes
      * smoothly. No step is held to a tighter tolerance. NULL: all they can. */

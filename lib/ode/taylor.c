@@ -56,7 +56,6 @@ typedef struct {
 
     double *y, *carry;         /* [n] the state now */
     double *next, *next_carry; /* [n] at the end of the step tried */
-    double *low;               /* [n] */
     double *value, *slope;     /* [n] of the polynomial */
     double *first;             /* [n] x_i1 */
     double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] and what fills a vector */
@@ -114,13 +113,15 @@ static void
 add_series(const run *r, double s)
 {
     const double *x = r->series->x;
+    const size_t linked = r->series->checked;
 
     for (size_t i = 0; i < r->n; i++) {
+        double low = i < linked ? r->unit * r->carry[linked + i] : 0;
         double rest, small, first = x[i * r->series->stride + 1];
         double sum = qdot_two_sum(first, r->value[i], &rest);
         double step = s * sum;
 
-        small = fma(s, sum, -step) + s * (rest + r->low[i]);
+        small = fma(s, sum, -step) + s * (rest + low);
         r->next[i] = qdot_two_sum(r->y[i], step, &rest);
         qdot_sum_advance(&r->next[i], &rest, r->carry[i] + small);
         r->next_carry[i] = rest;
@@ -412,11 +413,7 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     s = (t_end == r->t1 ? h + r->options->t1_low : h) / r->unit;
     r->kernels->tails(r->n, r->series->x, r->series->stride, r->cut, s, r->value,
                       r->slope);
-    if (r->series->low)
-        r->series->low(r->carry, r->low, r->series->user);
     add_series(r, s);
-    if (r->series->low)
-        memset(r->low, 0, r->n * sizeof *r->low);
     for (size_t i = r->series->checked; i < r->n; i++)
         r->first[i] = r->series->x[i * r->series->stride + 1];
     QDOT_TRY(project(r, t_end, &moved));
@@ -549,7 +546,7 @@ static qdot_status
 prepare(run *r, double t0, double t1, const double *y)
 {
     double **arrays[] = {&r->y,   &r->carry, &r->next,  &r->next_carry,
-                         &r->low, &r->value, &r->slope, &r->first};
+                         &r->value, &r->slope, &r->first};
 
     if (!isfinite(t0) || !isfinite(t1) || !isfinite(t1 - t0))
         return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
@@ -584,7 +581,7 @@ static void
 release(run *r)
 {
     double *arrays[] = {r->y,   r->carry, r->next,  r->next_carry,
-                        r->low, r->value, r->slope, r->first};
+                        r->value, r->slope, r->first};
 
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         qdot_free(arrays[i]);

@@ -8,7 +8,6 @@
 #include "num/series.h"
 #include "sim/constraints.h"
 #include "sim/constrained.h"
-#include "tape/shake.h"
 #include "tape/taylor.h"
 
 enum { most_order = 44 };
@@ -262,15 +261,6 @@ extend(int p, void *user)
     return QDOT_OK;
 }
 
-static void
-low(const double *carry, double *low, void *user)
-{
-    const qdot_constrained_series *e = user;
-
-    for (size_t i = 0; i < e->plan->n; i++)
-        low[i] = e->unit * carry[e->plan->n + i];
-}
-
 /* Near a place where the constraints are dependent a direction of the accelerations is
  * found by dividing rounding by what is left of their independence, twice over: the slope
  * of the constraints is as uncertain. Each order adds one more such division, which the
@@ -313,19 +303,6 @@ ahead(void *user)
 /* --- building ----------------------------------------------------------------------- */
 
 static qdot_status
-make_taylor(const qdot_tape *tape, bool shaken, qdot_taylor **taylor)
-{
-    qdot_tape *copy = NULL;
-    qdot_status status;
-
-    if (shaken)
-        QDOT_TRY(qdot_tape_shake(tape, &copy));
-    status = qdot_taylor_new(copy ? copy : tape, most_order, taylor);
-    qdot_tape_free(copy);
-    return status;
-}
-
-static qdot_status
 make_kind(qdot_constrained_series *e, qdot_constraint_kind kind, bool shaken)
 {
     kind_series *s = e->kinds + kind;
@@ -333,7 +310,7 @@ make_kind(qdot_constrained_series *e, qdot_constraint_kind kind, bool shaken)
 
     if (!e->c->series[kind])
         return QDOT_OK;
-    QDOT_TRY(make_taylor(e->c->series[kind], shaken, &s->taylor));
+    QDOT_TRY(qdot_taylor_new_shaken(e->c->series[kind], shaken, most_order, &s->taylor));
     s->stride = qdot_taylor_stride(s->taylor);
     s->newest = qdot_taylor_input(s->taylor, 0);
     s->other = qdot_taylor_input(s->taylor, n);
@@ -412,7 +389,7 @@ make(qdot_constrained_series *e, bool shaken)
     const qdot_plan *p = e->plan;
     const qdot_constraints *c = e->c;
 
-    QDOT_TRY(make_taylor(c->motion, shaken, &e->motion));
+    QDOT_TRY(qdot_taylor_new_shaken(c->motion, shaken, most_order, &e->motion));
     for (int kind = 0; kind < 3; kind++)
         QDOT_TRY(make_kind(e, (qdot_constraint_kind)kind, shaken));
     e->stride = qdot_taylor_stride(e->motion);
@@ -438,7 +415,6 @@ make(qdot_constrained_series *e, bool shaken)
                                   .checked = p->n,
                                   .begin = begin,
                                   .extend = extend,
-                                  .low = low,
                                   .noise = noise,
                                   .ahead = ahead,
                                   .user = e};

@@ -7,27 +7,18 @@
 #include "sim/precise.h"
 
 static qdot_status
-say_why(qdot_run *run, const char *reason)
-{
-    run->report.status = QDOT_RUN_FAILED;
-    run->reason = qdot_strdup(reason);
-    run->report.reason = run->reason;
-    return run->reason ? QDOT_OK : QDOT_ENOMEM;
-}
-
-static qdot_status
 how_it_ended(qdot_run *run, const qdot_domains *domains)
 {
     const qdot_ode_result *result = qdot_precise_pair_result(run->precise);
     char reason[400];
 
     if (result->outcome == QDOT_ODE_FAILED)
-        return say_why(run, result->reason);
+        return qdot_run_say_why(run, result->reason);
     if (!domains->left)
         return QDOT_OK;
     snprintf(reason, sizeof reason, "%.100s left its domain %.200s at t = %.15g",
              run->plan->names[domains->left->coordinate], domains->left->text, result->t);
-    return say_why(run, reason);
+    return qdot_run_say_why(run, reason);
 }
 
 static qdot_status

@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "num/series.h"
 #include "sim/blocks.h"
-#include "tape/shake.h"
 #include "tape/taylor.h"
 
 enum { most_order = 44 };
@@ -141,15 +140,6 @@ extend(int p, void *user)
     return QDOT_OK;
 }
 
-static void
-low(const double *carry, double *low, void *user)
-{
-    const qdot_direct *e = user;
-
-    for (size_t i = 0; i < e->plan->n; i++)
-        low[i] = e->unit * carry[e->plan->n + i];
-}
-
 /* --- building ----------------------------------------------------------------------- */
 
 /* Where the tape's outputs are found, and which entries of M move. */
@@ -216,15 +206,9 @@ estimate_cost(qdot_direct *e)
 static qdot_status
 make(qdot_direct *e, const qdot_plan *p, bool shaken)
 {
-    qdot_tape *tape = NULL;
     size_t outputs = qdot_tape_outputs(p->tape);
-    qdot_status status;
 
-    if (shaken)
-        QDOT_TRY(qdot_tape_shake(p->tape, &tape));
-    status = qdot_taylor_new(tape ? tape : p->tape, most_order, &e->taylor);
-    qdot_tape_free(tape);
-    QDOT_TRY(status);
+    QDOT_TRY(qdot_taylor_new_shaken(p->tape, shaken, most_order, &e->taylor));
     e->stride = qdot_taylor_stride(e->taylor);
     e->q = qdot_taylor_input(e->taylor, 0);
     e->v = qdot_taylor_input(e->taylor, p->n);
@@ -255,7 +239,6 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
                                   .checked = p->n,
                                   .begin = begin,
                                   .extend = extend,
-                                  .low = low,
                                   .user = e};
     estimate_cost(e);
     return QDOT_OK;

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "expr/print.h"
 #include "sim/precise-pair.h"
+#include "sim/reader.h"
 #include "tape/constant.h"
 #include "tape/precise.h"
 
@@ -103,33 +104,12 @@ readers_clear(readers *r)
 }
 
 static qdot_status
-lower(const qdot_plan *p, size_t m, const qdot_expr *exprs, qdot_tape **tape,
-      bool *accelerations)
-{
-    qdot_expr *e = qdot_malloc((m + 1) * sizeof *e);
-    qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
-
-    *accelerations = false;
-    for (size_t j = 0; j < m && status == QDOT_OK; j++) {
-        e[j] = qdot_plan_substitute(p, exprs[j]);
-        status = qdot_pool_check(p->pool);
-        if (status == QDOT_OK
-            && qdot_expr_node(p->pool, e[j])->holds & QDOT_HAS_ACCELERATION)
-            *accelerations = true;
-    }
-    if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, 3 * p->n + 1, p->inputs, m, e, tape);
-    qdot_free(e);
-    return status;
-}
-
-static qdot_status
 readers_init(readers *r, qdot_precise_pair *pair, size_t m, const qdot_expr *exprs)
 {
     bool accelerations;
 
     *r = (readers){.pair = pair, .exprs = exprs};
-    QDOT_TRY(lower(pair->plan, m, exprs, &r->tape, &accelerations));
+    QDOT_TRY(qdot_reader_lower(pair->plan, m, exprs, &r->tape, &accelerations));
     QDOT_TRY(reader_init(&r->run, pair->plan, &pair->run, r->tape, accelerations));
     return reader_init(&r->companion, pair->plan, &pair->companion, r->tape,
                        accelerations);
@@ -271,7 +251,7 @@ qdot_precise_pair_drifts(qdot_precise_pair *pair, qdot_drifts *drifts)
         qdot_tape *tape = NULL;
         bool accelerations;
         qdot_status status =
-            lower(pair->plan, 1, &drifts->at[i].quantity, &tape, &accelerations);
+            qdot_reader_lower(pair->plan, 1, &drifts->at[i].quantity, &tape, &accelerations);
 
         if (status == QDOT_OK)
             status = reader_init(&r, pair->plan, &pair->run, tape, accelerations);

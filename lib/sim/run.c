@@ -175,8 +175,8 @@ is_kept(qdot_status status)
            || status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EINTR;
 }
 
-static qdot_status
-say_why(qdot_run *run, const char *reason)
+qdot_status
+qdot_run_say_why(qdot_run *run, const char *reason)
 {
     run->report.status = QDOT_RUN_FAILED;
     run->reason = qdot_strdup(reason);
@@ -195,11 +195,11 @@ say_course(qdot_run *run)
 
         snprintf(reason, sizeof reason, "the event %.150s",
                  run->stage.events.at[c->stopped_by].name);
-        QDOT_TRY(say_why(run, reason));
+        QDOT_TRY(qdot_run_say_why(run, reason));
         run->report.status = QDOT_RUN_STOPPED;
         return QDOT_OK;
     }
-    return c->reason[0] != '\0' ? say_why(run, c->reason) : QDOT_OK;
+    return c->reason[0] != '\0' ? qdot_run_say_why(run, c->reason) : QDOT_OK;
 }
 
 /* Integrate; QDOT_OK whenever there is a run to keep, *interrupted by Ctrl-C. */
@@ -215,7 +215,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
     if (!is_kept(status) || run->course.tr.count == 0)
         return status;
     if (status != QDOT_OK)
-        return say_why(run, run->course.tr.result.reason[0]
+        return qdot_run_say_why(run, run->course.tr.result.reason[0]
                                 ? run->course.tr.result.reason
                                 : qdot_last_error()->message);
     return say_course(run);

@@ -238,29 +238,7 @@ extend(int p, void *user)
     return QDOT_OK;
 }
 
-static void
-low(const double *carry, double *low, void *user)
-{
-    const qdot_shifted *s = user;
-
-    for (size_t i = 0; i < s->plan->n; i++)
-        low[i] = s->unit * carry[s->plan->n + i];
-}
-
 /* --- building ----------------------------------------------------------------------- */
-
-static qdot_status
-make_tape(const qdot_tape *tape, bool shaken, qdot_taylor **taylor)
-{
-    qdot_tape *copy = NULL;
-    qdot_status status;
-
-    if (shaken)
-        QDOT_TRY(qdot_tape_shake(tape, &copy));
-    status = qdot_taylor_new(copy ? copy : tape, most_order, taylor);
-    qdot_tape_free(copy);
-    return status;
-}
 
 static qdot_status
 make_tapes(qdot_shifted *s, bool shaken)
@@ -268,13 +246,13 @@ make_tapes(qdot_shifted *s, bool shaken)
     const qdot_residual *r = s->residual;
     size_t n = s->plan->n;
 
-    QDOT_TRY(make_tape(r->places, shaken, &s->places));
+    QDOT_TRY(qdot_taylor_new_shaken(r->places, shaken, most_order, &s->places));
     s->stride = qdot_taylor_stride(s->places);
     s->q = qdot_taylor_input(s->places, 0);
     s->v = qdot_taylor_input(s->places, n);
     s->t = qdot_taylor_input(s->places, 2 * n);
     if (r->forces) {
-        QDOT_TRY(make_tape(r->forces, shaken, &s->forces));
+        QDOT_TRY(qdot_taylor_new_shaken(r->forces, shaken, most_order, &s->forces));
         s->forces_stride = qdot_taylor_stride(s->forces);
         s->fq = qdot_taylor_input(s->forces, 0);
         s->fv = qdot_taylor_input(s->forces, n);
@@ -374,7 +352,6 @@ make(qdot_shifted *s, bool shaken)
                                   .checked = p->n,
                                   .begin = begin,
                                   .extend = extend,
-                                  .low = low,
                                   .user = s};
     estimate_cost(s);
     return QDOT_OK;

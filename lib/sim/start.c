@@ -299,6 +299,24 @@ blame(const level *l, const qdot_domains *domains, const double *start)
 
 /* --- a level ------------------------------------------------------------------------ */
 
+/* Expressions [m] of q and q' at y. */
+static qdot_status
+evaluate(const level *l, size_t m, const qdot_expr *exprs, const double *y, double *out)
+{
+    qdot_tape *tape;
+    double *work;
+    qdot_status status;
+
+    QDOT_TRY(qdot_tape_new(l->plan->pool, 2 * l->n, l->plan->inputs, m, exprs, &tape));
+    work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *work);
+    status = work ? QDOT_OK : QDOT_ENOMEM;
+    if (work)
+        qdot_tape_eval(tape, y, out, work);
+    qdot_tape_free(tape);
+    qdot_free(work);
+    return status;
+}
+
 /* M at the start. */
 static qdot_status
 metric(const level *l, const double *y, double *W)
@@ -307,8 +325,6 @@ metric(const level *l, const double *y, double *W)
     size_t n = l->n;
     qdot_expr M = qdot_mech_numeric_mass(l->scene), t = QDOT_T;
     qdot_expr *entries = qdot_calloc(n * n + 1, sizeof *entries);
-    qdot_tape *tape = NULL;
-    double *work = NULL;
     qdot_status status = entries ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK && M != QDOT_NIL)
@@ -320,18 +336,10 @@ metric(const level *l, const double *y, double *W)
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
         entries[i] = qdot_expr_arg(pool, M, (uint32_t)i);
     if (status == QDOT_OK)
-        status = qdot_tape_new(pool, 2 * n, l->plan->inputs, n * n, entries, &tape);
-    if (status == QDOT_OK) {
-        work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *work);
-        status = work ? QDOT_OK : QDOT_ENOMEM;
-    }
-    if (status == QDOT_OK)
-        qdot_tape_eval(tape, y, W, work);
+        status = evaluate(l, n * n, entries, y, W);
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
         if (!isfinite(W[i]))
             W[i] = i % (n + 1) == 0;
-    qdot_free(work);
-    qdot_tape_free(tape);
     qdot_free(entries);
     return status;
 }
@@ -452,8 +460,6 @@ slopes(const level *l, const double *y, double *A)
     qdot_pool *pool = l->plan->pool;
     size_t n = l->n, c = scene->constraints.n;
     qdot_expr *entries = qdot_calloc(c * n + 1, sizeof *entries), t = QDOT_T;
-    qdot_tape *tape = NULL;
-    double *work = NULL;
     qdot_status status = entries ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k < c * n && status == QDOT_OK; k++) {
@@ -468,15 +474,7 @@ slopes(const level *l, const double *y, double *A)
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
-        status = qdot_tape_new(pool, 2 * n, l->plan->inputs, c * n, entries, &tape);
-    if (status == QDOT_OK) {
-        work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *work);
-        status = work ? QDOT_OK : QDOT_ENOMEM;
-    }
-    if (status == QDOT_OK)
-        qdot_tape_eval(tape, y, A, work);
-    qdot_free(work);
-    qdot_tape_free(tape);
+        status = evaluate(l, c * n, entries, y, A);
     qdot_free(entries);
     return status;
 }

@@ -417,6 +417,19 @@ qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
     return QDOT_OK;
 }
 
+qdot_status
+qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken, int most, qdot_taylor **taylor)
+{
+    qdot_tape *copy = NULL;
+    qdot_status status;
+
+    if (shaken)
+        QDOT_TRY(qdot_tape_shake(tape, &copy));
+    status = qdot_taylor_new(copy ? copy : tape, most, taylor);
+    qdot_tape_free(copy);
+    return status;
+}
+
 void
 qdot_taylor_free(qdot_taylor *t)
 {

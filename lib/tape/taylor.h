@@ -39,6 +39,9 @@ typedef struct qdot_taylor qdot_taylor;
  * QDOT_ENOTBUILT, QDOT_EINVAL (most), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_new(const qdot_tape *tape, int most,
                                             qdot_taylor **taylor);
+/* The same of its shaken copy (shake.h) if `shaken`. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken,
+                                                   int most, qdot_taylor **taylor);
 void qdot_taylor_free(qdot_taylor *taylor);
 
 /* Whether the tape has a series: the operation that has none, or NULL. */
