@@ -265,6 +265,8 @@ sim_sources = \
 	lib/sim/multipliers.c \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
+	lib/sim/piece-end.c \
+	lib/sim/piece.c \
 	lib/sim/plan.c \
 	lib/sim/precise-bind.c \
 	lib/sim/precise-value.c \
@@ -282,6 +284,8 @@ sim_sources = \
 	lib/sim/substitute.c \
 	lib/sim/switch.c \
 	lib/sim/value.c \
+	lib/sim/watch-roots.c \
+	lib/sim/watch-values.c \
 	lib/sim/watch.c \
 	lib/sim/workprecision.c
 
@@ -302,6 +306,7 @@ sim_headers = \
 	lib/sim/members.h \
 	lib/sim/multipliers.h \
 	lib/sim/nearest.h \
+	lib/sim/piece.h \
 	lib/sim/plan.h \
 	lib/sim/precise-bind.h \
 	lib/sim/precise-pair.h \
@@ -317,6 +322,7 @@ sim_headers = \
 	lib/sim/start.h \
 	lib/sim/substitute.h \
 	lib/sim/switch.h \
+	lib/sim/watch-parts.h \
 	lib/sim/watch.h \
 	lib/sim/workprecision.h
 

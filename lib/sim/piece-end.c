@@ -1,0 +1,188 @@
+/* piece-end.c -- what is done where a piece ends. */
+#include "sim/piece.h"
+
+#include <math.h>
+#include <string.h>
+
+/* One thing may happen so often within a 1e-9 of the time of the run. */
+enum { MOST_REPEATS = 4 };
+static const double accumulation = 1e-9;
+
+void
+qdot_piece_stop(qdot_piece *x, bool failed)
+{
+    x->c->failed = failed;
+    x->c->tr.result.outcome = failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
+}
+
+static void
+say_left(qdot_piece *x, const qdot_watched *w)
+{
+    const qdot_domain *d = &x->c->stage->domains.at[w->index];
+
+    snprintf(x->c->reason, sizeof x->c->reason,
+             "%.100s left its domain %.200s at t = "
+             "%.15g",
+             qdot_piece_mode(x)->plan->names[d->coordinate], d->text, x->t_act);
+}
+
+/* The new values of an event, all from the old ones. */
+static qdot_status
+change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, double *y)
+{
+    const qdot_plan *p = qdot_piece_mode(x)->plan;
+    const qdot_ode_system *system = x->reader.system;
+    size_t inputs = qdot_plan_inputs(p);
+    double *in = qdot_calloc(inputs + 2 * p->n + e->changes + 1 + qdot_tape_work(e->then),
+                             sizeof *in);
+    double *dydt = in ? in + inputs : NULL, *out = in ? dydt + 2 * p->n : NULL;
+    qdot_status status = in ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(in, old, x->n * sizeof *in);
+        in[x->n] = t;
+        if (e->accelerations && x->reader.held)
+            status = qdot_constrained_solve(x->reader.held, t, old, in + x->n + 1,
+                                            in + x->n + 1 + p->n);
+        else if (e->accelerations)
+            status = system->rhs(t, old, dydt, system->user);
+    }
+    if (status == QDOT_OK) {
+        if (e->accelerations && !x->reader.held)
+            memcpy(in + x->n + 1, dydt + p->n, p->n * sizeof *in);
+        qdot_tape_eval(e->then, in, out, out + e->changes + 1);
+        for (size_t i = 0; i < e->changes; i++) {
+            if (!isfinite(out[i]))
+                status = qdot_fail(
+                    QDOT_EDOMAIN, "the event %.100s gives %.100s no value at t = %.15g",
+                    e->name,
+                    e->targets[i] < p->n ? p->names[e->targets[i]] : "a velocity", t);
+            y[e->targets[i]] = out[i];
+        }
+    }
+    if (status == QDOT_OK && system->project) { /* what the constraints make of it */
+        double by;
+
+        status = system->project(t, y, NULL, &by, system->user);
+    }
+    qdot_free(in);
+    return status;
+}
+
+/* Whether a thing happens ever faster. */
+static qdot_status
+accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes)
+{
+    double span = accumulation * fmax(fabs(t), fabs(x->t1 - x->c->tr.t[0]));
+    qdot_piece_repeat *r = NULL;
+
+    *yes = false;
+    for (size_t i = 0; i < x->repeats.n; i++)
+        if (x->repeats.at[i].kind == w->kind && x->repeats.at[i].index == w->index)
+            r = &x->repeats.at[i];
+    if (!r) {
+        qdot_piece_repeat new = {w->kind, w->index, 1, t};
+
+        return qdot_vec_push(&x->repeats, new);
+    }
+    if (fabs(t - r->since) > span) {
+        r->since = t;
+        r->n = 0;
+    }
+    *yes = ++r->n > MOST_REPEATS;
+    return QDOT_OK;
+}
+
+static void
+say_accumulated(qdot_piece *x, const qdot_watched *w, double t)
+{
+    qdot_text text = {0};
+
+    if (w->kind == QDOT_WATCH_EVENT)
+        qdot_text_format(&text, "the event %.100s",
+                         x->c->stage->events.at[w->index].name);
+    else if (qdot_stage_describe(x->c->stage, w->index,
+                                 qdot_piece_mode(x)->side[w->index], &text) != QDOT_OK)
+        qdot_text_add(&text, "a switch of the equations");
+    snprintf(x->c->reason, sizeof x->c->reason,
+             "stopped at t = %.15g: %.200s comes ever faster there, without end", t,
+             qdot_text_str(&text));
+    qdot_text_clear(&text);
+}
+
+void
+qdot_piece_slides(qdot_piece *x, double t)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+    qdot_text text = {0};
+
+    for (size_t i = 0; i < m->m; i++)
+        if (m->watched[i].kind == QDOT_WATCH_SURFACE && x->functions_on[i] &&
+            text.n == 0 &&
+            qdot_stage_describe(x->c->stage, m->watched[i].index,
+                                m->side[m->watched[i].index] + (m->watched[i].inside < 0),
+                                &text) != QDOT_OK)
+            qdot_text_truncate(&text, 0);
+    snprintf(x->c->reason, sizeof x->c->reason,
+             "stopped at t = %.15g: the motion would slide along %.200s, where the "
+             "equations switch: both sides lead back to it",
+             t, text.n > 0 ? qdot_text_str(&text) : "a surface");
+    qdot_text_clear(&text);
+}
+
+/* All that occurs at t_act, in order; y is the state there, and then the one behind.
+ * *over: the run ends. */
+qdot_status
+qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
+{
+    double *old = qdot_malloc(x->n * sizeof *old);
+    qdot_status status = old ? QDOT_OK : QDOT_ENOMEM;
+    const qdot_mode *m = qdot_piece_mode(x);
+    double t = x->t_act;
+
+    if (old)
+        memcpy(old, y, x->n * sizeof *y);
+    x->fired.n = 0;
+    for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&x->fired, x->roots.at[i]);
+    if (status == QDOT_OK)
+        status = qdot_watch_look(qdot_piece_watch(x), &x->reader, t, y, x->signs);
+    for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++) {
+        const qdot_root *root = &x->roots.at[i];
+        const qdot_watched *w = &m->watched[root->function];
+        bool fast = false;
+
+        if (w->kind == QDOT_WATCH_DOMAIN) {
+            say_left(x, w);
+            *over = true;
+            qdot_piece_stop(x, true);
+            break;
+        }
+        if (w->kind == QDOT_WATCH_SURFACE) {
+            x->side[w->index] = w->beyond;
+        } else {
+            const qdot_staged_event *e = &x->c->stage->events.at[w->index];
+
+            if (e->then) {
+                status = change(x, e, t, old, y);
+                *jumped = true;
+            }
+            if (e->stop && status == QDOT_OK) {
+                x->c->stopped_by = w->index;
+                *over = true;
+                qdot_piece_stop(x, false);
+            }
+            if (!e->stop && !e->then)
+                continue;
+        }
+        if (status == QDOT_OK)
+            status = accumulates(x, w, t, &fast);
+        if (fast && !*over) {
+            say_accumulated(x, w, t);
+            *over = true;
+            qdot_piece_stop(x, true);
+        }
+    }
+    qdot_free(old);
+    return status;
+}
