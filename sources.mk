@@ -271,6 +271,7 @@ sim_sources = \
 	lib/sim/precise-bind.c \
 	lib/sim/precise-value.c \
 	lib/sim/precise.c \
+	lib/sim/quotient.c \
 	lib/sim/race.c \
 	lib/sim/range.c \
 	lib/sim/reader.c \
@@ -311,6 +312,7 @@ sim_headers = \
 	lib/sim/precise-bind.h \
 	lib/sim/precise-pair.h \
 	lib/sim/precise.h \
+	lib/sim/quotient.h \
 	lib/sim/race.h \
 	lib/sim/reader.h \
 	lib/sim/residual.h \

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "ode/companion.h"
 #include "sim/members.h"
+#include "sim/quotient.h"
 #include "sim/shifted-lanes.h"
 #include "sim/substitute.h"
 #include "tape/constant.h"
@@ -163,7 +164,7 @@ lower(const builder *b, qdot_members_model *model)
 
         if (n == 1) {
             status = qdot_vec_push(
-                &out, qdot_div(pool, b->f[*index], b->M[*index * (b->n + 1)]));
+                &out, qdot_quotient(pool, b->f[*index], b->M[*index * (b->n + 1)]));
             continue;
         }
         if (is_indefinite(b->scene))

@@ -7,6 +7,7 @@
 #include "expr/walk.h"
 #include "sim/constraints.h"
 #include "sim/direct.h"
+#include "sim/quotient.h"
 #include "sim/residual.h"
 #include "sim/shifted.h"
 #include "sim/substitute.h"
@@ -259,7 +260,7 @@ lower_equations(qdot_plan *p)
 
         if (b->n == 1) {
             status = qdot_vec_push(
-                &out, qdot_div(p->pool, p->f[b->index[0]], entry(p, b, 0, 0)));
+                &out, qdot_quotient(p->pool, p->f[b->index[0]], entry(p, b, 0, 0)));
             continue;
         }
         for (size_t i = 0; i < b->n && status == QDOT_OK; i++)

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "sim/plan.h"
+#include "sim/quotient.h"
 #include "tape/reference.h"
 
 enum { MOST = 64 };
@@ -233,10 +234,46 @@ tape_agrees_with_the_printed_equations(void **state)
     }
 }
 
+/* (a r^3 + b r^2 s)/(3 r^2 (1 + r)) keeps neither r above nor r^2 below; what f does not
+ * share with M stays, and no power of a sum is taken apart. */
+static void
+quotients_cancel(void **state)
+{
+    fixture f;
+    qdot_expr r, s, a, b, sum, M, over;
+    qdot_pool *pool;
+
+    (void)state;
+    begin(&f);
+    pool = f.pool;
+    r = coordinate(&f, "r");
+    s = coordinate(&f, "s");
+    a = parameter(&f, "a");
+    b = parameter(&f, "b");
+    sum = qdot_add(pool, times(&f, a, qdot_pow_int(pool, r, 3)),
+                   times(&f, times(&f, b, s), qdot_pow_int(pool, r, 2)));
+    over = qdot_add(pool, QDOT_ONE, r);
+    M = times(&f, times(&f, qdot_expr_int(pool, 3), over), qdot_pow_int(pool, r, 2));
+    assert_int_equal(qdot_quotient(pool, sum, M),
+                     qdot_div(pool, qdot_add(pool, times(&f, a, r), times(&f, b, s)),
+                              times(&f, qdot_expr_int(pool, 3), over)));
+    assert_int_equal(qdot_quotient(pool, sum, s), qdot_div(pool, sum, s));
+    /* a number beside them shares nothing */
+    sum = qdot_add(pool, sum, QDOT_ONE);
+    assert_int_equal(qdot_quotient(pool, sum, M), qdot_div(pool, sum, M));
+    /* M a sum itself */
+    sum = qdot_add(pool, times(&f, a, over), times(&f, s, qdot_pow_int(pool, over, 2)));
+    assert_int_equal(qdot_quotient(pool, sum, over),
+                     qdot_add(pool, a, times(&f, s, over)));
+    must(qdot_pool_check(pool));
+    end(&f);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quotients_cancel),
         cmocka_unit_test(tape_costs_less_than_cse),
         cmocka_unit_test(operations_grow_as_the_square),
         cmocka_unit_test(tape_agrees_with_the_printed_equations),
