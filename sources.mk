@@ -261,6 +261,7 @@ sim_sources = \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
 	lib/sim/ensemble.c \
+	lib/sim/horizon.c \
 	lib/sim/members.c \
 	lib/sim/multipliers.c \
 	lib/sim/nearest-search.c \
@@ -302,6 +303,7 @@ sim_headers = \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
 	lib/sim/ensemble.h \
+	lib/sim/horizon.h \
 	lib/sim/integrated.h \
 	lib/sim/members.def \
 	lib/sim/members.h \
@@ -467,6 +469,7 @@ unit_tests = \
 	tests/sim/test_constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
+	tests/sim/test_horizon \
 	tests/sim/test_operations \
 	tests/sim/test_precise \
 	tests/sim/test_run \
@@ -501,6 +504,7 @@ script_tests = \
 	tests/script/hamilton.lag \
 	tests/script/help-examples.lag \
 	tests/script/help.lag \
+	tests/script/horizon.sh \
 	tests/script/identities.sh \
 	tests/script/include.lag \
 	tests/script/integrable.lag \
@@ -695,6 +699,7 @@ script_tests = \
 	examples/hamiltonian.lag \
 	examples/heavy-top.lag \
 	examples/holonomic-in-disguise.lag \
+	examples/horizon.lag \
 	examples/kepler.lag \
 	examples/kinetic-energy.lag \
 	examples/knife-edge.lag \
@@ -976,6 +981,7 @@ test_files = \
 	tests/script/hamilton.out \
 	tests/script/help-examples.out \
 	tests/script/help.out \
+	tests/script/horizon.out \
 	tests/script/identities-angles.inc \
 	tests/script/identities-books.inc \
 	tests/script/identities-cases.inc \

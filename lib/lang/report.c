@@ -126,6 +126,7 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
     field(line, "cpu", r->cpu);
     field(line, "cpu_total", r->cpu_total);
     field(line, "error", r->error);
+    field(line, "horizon", r->horizon);
     field(line, "energy_drift", r->energy_drift);
     field(line, "constraint_drift", r->m > 0 ? r->constraint_drift : NAN);
     qdot_text_add(line, ",\"state\":{");
@@ -187,6 +188,28 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
                          r->independent, r->m);
 }
 
+/* Under larger tolerances a smaller one goes further. */
+static const double of_method = 1e-11;
+
+/* The end state, or from where on it is noise. */
+static qdot_status
+end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
+{
+    if (isnan(r->horizon)) {
+        qdot_text_add(line, "\n  end state:");
+        QDOT_TRY(each_state(session, r, session->style, state_text, line));
+    } else {
+        qdot_text_add(line, "\n  horizon: t = ");
+        qdot_answer_digits(line, r->horizon, 0.005 * fabs(r->horizon));
+        qdot_text_add(line, r->tol > of_method
+                                ? "; no digit of the state beyond it is right under this tol"
+                                : ", where doubles are exhausted: no digit of the state "
+                                  "beyond it is right; `digits 6` goes on");
+    }
+    qdot_text_char(line, '\n');
+    return QDOT_OK;
+}
+
 static qdot_status
 run_text(qdot_session *session, const char *name, const qdot_run_report *r,
          qdot_text *line)
@@ -241,10 +264,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     } else {
         qdot_text_add(line, "unknown");
     }
-    qdot_text_add(line, "\n  end state:");
-    QDOT_TRY(each_state(session, r, session->style, state_text, line));
-    qdot_text_char(line, '\n');
-    return QDOT_OK;
+    return end_text(session, r, line);
 }
 
 qdot_status

@@ -11,6 +11,7 @@
 #include "base/interrupt.h"
 #include "expr/print.h"
 #include "num/chebyshev.h"
+#include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/reader.h"
 
@@ -227,7 +228,7 @@ qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, do
 {
     const qdot_trajectory *tr = &run->course.tr;
     bool accelerations, back = tr->t[tr->count - 1] < tr->t[0];
-    double rough, other, other_rough;
+    double rough, other, other_rough, spread = 0;
     qdot_tape *tape;
     qdot_status status;
 
@@ -247,8 +248,11 @@ qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, do
     if (status == QDOT_OK && qdot_run_comparable(run)) {
         status = over_course(run, &run->companion, tape, accelerations, kind, from, to,
                              &other, &other_rough);
+        if (status == QDOT_OK && qdot_horizon_passed(run, to))
+            status = qdot_horizon_spread(run, tape, accelerations, &spread);
         if (status == QDOT_OK)
-            *error = fabs(other - *value) + rough + DBL_EPSILON * fabs(*value);
+            *error = fmax(fabs(other - *value), spread) + rough
+                     + DBL_EPSILON * fabs(*value);
         if (status == QDOT_EDOMAIN || status == QDOT_EFAILED
             || status == QDOT_ESINGULAR)
             status = QDOT_OK;

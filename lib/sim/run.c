@@ -8,6 +8,7 @@
 #include "ode/companion.h"
 #include "sim/multipliers.h"
 #include "sim/digits.h"
+#include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/precise.h"
 #include "sim/start.h"
@@ -408,6 +409,9 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     *interrupted = false;
     status = is_whole(run) ? run_beside(run, tol, interrupted)
                            : run_after(run, tol, interrupted);
+    run->report.tol = tol;
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_horizon_find(run);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
     if (status == QDOT_EINTR) {
@@ -432,6 +436,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     run = qdot_calloc(1, sizeof *run);
     if (!run)
         return QDOT_ENOMEM;
+    run->report.horizon = NAN;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = &run->stage;
     run->companion.shaken = true;

@@ -56,6 +56,7 @@ typedef struct {
     double cpu_total;              /* s, with derivation, lowering, error estimate */
     double error;                  /* estimate of the end state's error, max over components relative
                                       to max(1, |value|); NaN: unknown */
+    double horizon;                /* time beyond which no digit is left (sim/horizon.h); NaN: none */
     double energy_drift;           /* NaN unless h is proved conserved */
     size_t n_drifts;
     const qdot_drift *drifts;      /* every conserved quantity known, energy first */

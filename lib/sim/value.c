@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "expr/print.h"
+#include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/precise.h"
 #include "sim/reader.h"
@@ -46,18 +47,29 @@ read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
             const double *times, const double *values, double *errors)
 {
     size_t m = qdot_tape_outputs(tape);
+    bool whole;
     qdot_reader r = {0};
+    double *spread;
     qdot_status status;
 
     for (size_t i = 0; i < k * m; i++)
         errors[i] = NAN;
     QDOT_TRY(qdot_run_companion(run));
-    if (!qdot_run_comparable(run))
+    whole = qdot_run_comparable(run);
+    if (!whole && isnan(run->report.horizon))
         return QDOT_OK;
-    status = qdot_reader_init(&r, run->plan, tape, &run->companion, accelerations);
+    spread = qdot_calloc(m + 1, sizeof *spread);
+    if (!spread)
+        return QDOT_ENOMEM;
+    status = qdot_horizon_spread(run, tape, accelerations, spread);
+    if (status == QDOT_OK)
+        status = qdot_reader_init(&r, run->plan, tape, &run->companion, accelerations);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        bool beyond = qdot_horizon_passed(run, times[i]);
         double *e = errors + i * m;
 
+        if (beyond && !whole)
+            continue;
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
             status = qdot_reader_at(&r, piece_at(&run->course.tr, times[i]), times[i], e);
@@ -71,10 +83,11 @@ read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
         for (size_t j = 0; j < m && status == QDOT_OK; j++) {
             double x = values[i * m + j];
 
-            e[j] = fabs(e[j] - x) + DBL_EPSILON * fabs(x);
+            e[j] = fmax(fabs(e[j] - x), beyond ? spread[j] : 0) + DBL_EPSILON * fabs(x);
         }
     }
     qdot_reader_clear(&r);
+    qdot_free(spread);
     return status;
 }
 

@@ -7,6 +7,8 @@
 
 #include "ode/integrate.h"
 #include "sim/bind.h"
+#include "sim/horizon.h"
+#include "sim/integrated.h"
 #include "sim/plan.h"
 #include "tape/constant.h"
 
@@ -32,6 +34,7 @@ typedef struct {
 typedef struct {
     size_t n;
     double *high, *low;
+    double variation; /* of the motion (horizon.h) */
 } reference;
 
 /* --- the reference ------------------------------------------------------------------- */
@@ -65,6 +68,7 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     }
     *error = report->error;
     r->n = 2 * report->n;
+    r->variation = qdot_horizon_variation(&run->course.tr);
     r->high = qdot_calloc(2 * r->n, sizeof *r->high);
     if (!r->high)
         status = QDOT_ENOMEM;
@@ -306,8 +310,10 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
         return QDOT_OK;
     }
     QDOT_TRY(status);
-    strcpy(row->status, "done");
     row->err = error_against(r, w->y);
+    strcpy(row->status, row->err >= QDOT_HORIZON_NONE_LEFT * r->variation
+                            ? "done: no digit is right"
+                            : "done");
     row->scd = -log10(fmax(row->err, 0x1p-60));
     if (w->energy)
         row->energy_err = w->drift;

@@ -11,7 +11,8 @@
  *     time        CPU seconds of the integration alone, this thread, no companion: the
  *                 least and the median of three to nine runs
  *
- * A run that fails, or that takes more evaluations than are worth waiting for, is a row
+ * A run whose error is a tenth of the motion's variation (horizon.h) is a row that says
+ * that no digit is right; one that fails, or that takes more evaluations than are worth waiting for, is a row
  * that says so. The run whose energy is followed is not one of those timed.
  *
  * Source  Hairer, Norsett & Wanner I, II.10; SciMLBenchmarks (the diagrams).
@@ -29,7 +30,7 @@ typedef struct {
     double tol, err, scd, time_min, time_median; /* NaN where it failed */
     uint64_t evals, steps, rejected;
     double energy_err; /* NaN: not conserved, or failed */
-    char status[300];  /* "done", or "failed: " and why */
+    char status[300];  /* "done", "done: no digit is right", or "failed: " and why */
 } qdot_workprecision_row;
 
 /* Of a method that this scene has no use for, and why. */

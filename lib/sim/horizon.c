@@ -1,0 +1,257 @@
+/* horizon.c -- run and companion followed until they have nothing to do with each other. */
+#include "sim/horizon.h"
+
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "sim/integrated.h"
+
+/* Of the variation: what the end of a run shows where it is worth looking. */
+static const double worth_looking = 0.02;
+
+/* A motion smaller than so many tolerances is rounding. */
+static const double tolerances = 100;
+
+/* Of the run: what has to lie beyond the horizon. */
+static const double least_part = 0.01;
+
+/* Where beyond the horizon expressions are compared. */
+enum { LOOKS = 32 };
+
+typedef struct {
+    const qdot_run *run;
+    qdot_trajectory_cursor *companion;
+    double *y;      /* [n] the companion's */
+    double *d;      /* [points] distances */
+    size_t points;  /* of the run that can be compared */
+    double threshold;
+} search;
+
+/* --- variation ----------------------------------------------------------------------- */
+
+static double
+variation(const qdot_trajectory *a, const qdot_trajectory *b)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < a->n; i++) {
+        double low = INFINITY, high = -INFINITY;
+
+        for (size_t k = 0; k < a->count; k++) {
+            low = fmin(low, a->y[k * a->n + i]);
+            high = fmax(high, a->y[k * a->n + i]);
+        }
+        for (size_t k = 0; b && k < b->count; k++) {
+            low = fmin(low, b->y[k * a->n + i]);
+            high = fmax(high, b->y[k * a->n + i]);
+        }
+        most = fmax(most, 0.5 * (high - low) / fmax(1, fmax(fabs(low), fabs(high))));
+    }
+    return most;
+}
+
+double
+qdot_horizon_variation(const qdot_trajectory *tr)
+{
+    return variation(tr, NULL);
+}
+
+/* --- distances ----------------------------------------------------------------------- */
+
+/* The pieces that both went through alike. */
+static size_t
+common_pieces(const qdot_trajectory *a, const qdot_trajectory *b)
+{
+    size_t n = 0;
+
+    while (n < a->pieces.n && n < b->pieces.n
+           && a->pieces.at[n].mode == b->pieces.at[n].mode)
+        n++;
+    return n;
+}
+
+static double
+distance(const search *s, size_t k)
+{
+    const qdot_trajectory *tr = &s->run->course.tr;
+    double most = 0;
+
+    for (size_t i = 0; i < tr->n; i++) {
+        double y = tr->y[k * tr->n + i];
+
+        most = fmax(most, fabs(y - s->y[i]) / fmax(1, fabs(y)));
+    }
+    return most;
+}
+
+/* d at the points of the run, as far as the companion goes the same way. */
+static qdot_status
+measure(search *s)
+{
+    const qdot_trajectory *a = &s->run->course.tr, *b = &s->run->companion.tr;
+    const double way = a->t[a->count - 1] < a->t[0] ? -1 : 1;
+    const size_t pieces = common_pieces(a, b);
+    size_t piece = 0;
+
+    s->points = pieces < a->pieces.n ? a->pieces.at[pieces].first : a->count;
+    for (size_t k = 0; k < s->points; k++) {
+        qdot_status status;
+
+        while (piece + 1 < pieces && a->pieces.at[piece + 1].first <= k)
+            piece++;
+        QDOT_TRY(qdot_interrupt_check());
+        if (way * (a->t[k] - b->t[b->count - 1]) > 0 && piece + 1 == b->pieces.n) {
+            s->points = k; /* it did not come so far */
+            break;
+        }
+        status = qdot_trajectory_read_piece(s->companion, piece, a->t[k], s->y);
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            return status;
+        s->d[k] = status == QDOT_OK ? distance(s, k) : k > 0 ? s->d[k - 1] : 0;
+    }
+    return QDOT_OK;
+}
+
+/* --- the horizon --------------------------------------------------------------------- */
+
+/* The first point over the threshold from which on half of the time is; SIZE_MAX: none. */
+static size_t
+first_lost(const search *s)
+{
+    const double *t = s->run->course.tr.t;
+    double over = 0, all = 0;
+    size_t first = SIZE_MAX;
+
+    for (size_t k = s->points; k-- > 0;) {
+        double step = k + 1 < s->points ? fabs(t[k + 1] - t[k]) : 0;
+
+        all += step;
+        if (!(s->d[k] >= s->threshold))
+            continue;
+        over += step;
+        if (over >= 0.5 * all)
+            first = k;
+    }
+    return first;
+}
+
+static double
+crossing(const search *s, size_t k)
+{
+    const double *t = s->run->course.tr.t;
+    double low, high;
+
+    if (k == 0 || !(s->d[k - 1] > 0) || !(s->d[k - 1] < s->threshold))
+        return t[k];
+    low = log(s->threshold / s->d[k - 1]);
+    high = log(s->d[k] / s->d[k - 1]);
+    return t[k - 1] + fmin(1, low / high) * (t[k] - t[k - 1]);
+}
+
+static qdot_status
+find(qdot_run *run, search *s)
+{
+    const qdot_trajectory *a = &run->course.tr, *b = &run->companion.tr;
+    qdot_run_report *report = &run->report;
+    double size = variation(a, b);
+    const double length = fabs(a->t[a->count - 1] - a->t[0]);
+    size_t first;
+
+    s->run = run;
+    s->threshold = QDOT_HORIZON_NONE_LEFT * size;
+    s->y = qdot_malloc(a->n * sizeof *s->y);
+    s->d = qdot_malloc(a->count * sizeof *s->d);
+    if (!s->y || !s->d)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_trajectory_open(b, qdot_course_systems(&run->companion), &s->companion));
+    QDOT_TRY(measure(s));
+    first = first_lost(s);
+    if (first == SIZE_MAX || size < tolerances * fmax(report->tol, 0x1p-53)
+        || fabs(a->t[a->count - 1] - a->t[first]) < least_part * length)
+        return QDOT_OK;
+    report->horizon = crossing(s, first);
+    qdot_free(run->doubt); /* of the end: it needs none any more */
+    run->doubt = NULL;
+    for (size_t k = first; k < s->points; k++)
+        report->error = fmax(report->error, s->d[k]); /* of a NaN the distance */
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_horizon_find(qdot_run *run)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_run_report *report = &run->report;
+    search s = {0};
+    qdot_status status;
+    double least;
+
+    report->horizon = NAN;
+    if (tr->count < 2)
+        return QDOT_OK;
+    least = fmax(variation(tr, NULL), tolerances * fmax(report->tol, 0x1p-53));
+    if (report->error < worth_looking * least)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_companion(run));
+    if (!run->has_companion)
+        return QDOT_OK;
+    status = find(run, &s);
+    qdot_trajectory_close(s.companion);
+    qdot_free(s.y);
+    qdot_free(s.d);
+    return status == QDOT_EDOMAIN || status == QDOT_EFAILED ? QDOT_OK : status;
+}
+
+bool
+qdot_horizon_passed(const qdot_run *run, double t)
+{
+    const double way = run->t1 < run->t0 ? -1 : 1;
+
+    return way * (t - run->report.horizon) > 0; /* a NaN: none */
+}
+
+/* --- expressions beyond it ----------------------------------------------------------- */
+
+static qdot_status
+compare(qdot_reader *readers, double t, size_t m, double *values, double *spread)
+{
+    for (int which = 0; which < 2; which++)
+        QDOT_TRY(qdot_reader_at(readers + which, SIZE_MAX, t, values + (size_t)which * m));
+    for (size_t j = 0; j < m; j++)
+        spread[j] = fmax(spread[j], fabs(values[j] - values[m + j]));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_horizon_spread(const qdot_run *run, const qdot_tape *tape, bool accelerations,
+                    double *spread)
+{
+    const size_t m = qdot_tape_outputs(tape);
+    const qdot_course *courses[] = {&run->course, &run->companion};
+    const double from = run->report.horizon;
+    const double end = run->course.tr.t[run->course.tr.count - 1];
+    qdot_reader readers[2] = {0};
+    double *values;
+    qdot_status status = QDOT_OK;
+
+    for (size_t j = 0; j < m; j++)
+        spread[j] = 0;
+    if (isnan(from) || !run->has_companion)
+        return QDOT_OK;
+    values = qdot_calloc(2 * m, sizeof *values);
+    if (!values)
+        return QDOT_ENOMEM;
+    for (int which = 0; which < 2 && status == QDOT_OK; which++)
+        status = qdot_reader_init(readers + which, run->plan, tape, courses[which],
+                                  accelerations);
+    for (int k = 0; k <= LOOKS && status == QDOT_OK; k++) {
+        status = compare(readers, from + (end - from) * k / LOOKS, m, values, spread);
+        /* where one of them is undefined, or has ended, there is nothing to compare */
+        if (status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR)
+            status = QDOT_OK;
+    }
+    for (int which = 0; which < 2; which++)
+        qdot_reader_clear(readers + which);
+    qdot_free(values);
+    return status;
+}
