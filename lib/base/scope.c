@@ -58,6 +58,7 @@ qdot_scope_end(qdot_scope *s)
 {
     qdot_scope_now = NULL;
     free(s->slot);
+    free(s->outlived.at);
     *s = (qdot_scope){0};
 }
 
@@ -132,10 +133,23 @@ qdot_scope_release(void *block)
 }
 
 void
-qdot_scope_outlive(void *block)
+qdot_scope_outlive(void *owner, void *block)
 {
-    if (qdot_scope_now == NULL)
+    qdot_scope *s = qdot_scope_now;
+
+    if (s == NULL)
         return;
-    qdot_scope_now->outlived = true;
     (void)qdot_scope_release(block);
+    if (s->outlived.n == s->outlived.capacity) {
+        size_t room = 2 * s->outlived.capacity + 64;
+        void **more = realloc(s->outlived.at, room * sizeof *more);
+
+        if (more == NULL) {
+            s->outlived.missing = true;
+            return;
+        }
+        s->outlived.at = more;
+        s->outlived.capacity = room;
+    }
+    s->outlived.at[s->outlived.n++] = owner;
 }

@@ -17,8 +17,12 @@ typedef struct {
         size_t size;
     } * slot;
     size_t mask, n;
-    size_t bytes;  /* of all blocks noted */
-    bool outlived; /* something in them was declared to outlive it */
+    size_t bytes; /* of all blocks noted */
+    struct {
+        void **at;
+        size_t n, capacity;
+        bool missing; /* there was no memory for one */
+    } outlived;       /* what was declared to outlive it */
 } qdot_scope;
 
 /* The thread's scope, NULL outside. */
@@ -38,8 +42,8 @@ void qdot_scope_resume(qdot_scope *s);
  * (whether it was in). */
 bool qdot_scope_note(void *block, size_t size);
 bool qdot_scope_release(void *block);
-/* The same for a block that outlives the scope. */
-void qdot_scope_outlive(void *block);
+/* What `owner` is, and its block, outlives the scope: the block is taken out, the owner listed. */
+void qdot_scope_outlive(void *owner, void *block);
 bool qdot_scope_has(const void *block);
 
 #endif

@@ -251,12 +251,12 @@ qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
     return true;
 }
 
-/* The digits of a number of the pool are not given back with what a computation leaves. */
+/* A number of the pool is not given back with what a computation leaves. */
 static void
 outlive(const fmpz_t x)
 {
     if (COEFF_IS_MPZ(*x))
-        qdot_scope_outlive(COEFF_TO_PTR(*x)->_mp_d);
+        qdot_scope_outlive(COEFF_TO_PTR(*x), COEFF_TO_PTR(*x)->_mp_d);
 }
 
 qdot_expr
@@ -282,12 +282,12 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
     node.at = (uint32_t)pool->numbers.n;
     fmpq_init(&copy);
     fmpq_set(&copy, x);
-    outlive(fmpq_numref(&copy));
-    outlive(fmpq_denref(&copy));
     if (qdot_vec_push(&pool->numbers, copy) != QDOT_OK) {
         fmpq_clear(&copy);
         return qdot_pool_fail(pool);
     }
+    outlive(fmpq_numref(&copy));
+    outlive(fmpq_denref(&copy));
     return append(pool, &node);
 }
 

@@ -5,8 +5,8 @@
  * longjmp, from within the library that asked, and everything that it allocated, there and by
  * memory.h, is given back (base/scope.h). What outlives it: nodes of the pool.
  *
- * FLINT keeps spare integers in a list of its own; they and their limbs survive. An integer in use
- * when a computation is left is lost to that list: 16 bytes each.
+ * FLINT keeps spare integers in a list of its own. It is as it was before when a computation is
+ * left: an integer that was in use is spare again, but those that the pool has.
  *
  * The memory functions are the process's: not for a program whose other threads compute with
  * GMP under memory functions of their own.

@@ -9,7 +9,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     qdot_session *session;
     bool json = size > 0 && data[size - 1] % 2 != 0;
 
-    fuzz_begin();
+    fuzz_begin(data, size);
     session = qdot_session_new(fuzz_nowhere, fuzz_nowhere);
     if (session == NULL)
         abort();

@@ -98,7 +98,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (memchr(data, '\n', size) != NULL || memchr(data, ';', size) != NULL ||
         memchr(data, '=', size) != NULL || memchr(data, '%', size) != NULL)
         return -1;
-    fuzz_begin();
+    fuzz_begin(data, size);
     session = qdot_session_new(fuzz_nowhere, fuzz_nowhere);
     if (session == NULL ||
         qdot_session_run_text(session, "scene", scene, sizeof scene - 1) != 0)
