@@ -174,11 +174,15 @@ qdot_expr
 qdot_mech_alike(qdot_scene *s, qdot_expr e)
 {
     qdot_pool *pool = s->pool;
+    qdot_expr seen;
     units u;
 
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) < QDOT_SUM ||
         qdot_expr_kind(pool, e) > QDOT_PROD || qdot_simplify_is_done(pool, e))
         return qdot_mech_tidy(s, e);
+    if (s->derived->relations.n == 0 && s->conditions.n == 0 &&
+        (seen = qdot_simplify_seen(pool, e)) != QDOT_NIL)
+        return seen;
     e = by_pattern(s, with_units(s, e, &u));
     return u.n > 0 ? qdot_subs(pool, e, u.n, u.symbol, u.sum) : e;
 }

@@ -499,10 +499,12 @@ static qdot_expr
 simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
 {
     const qdot_facts *facts = ((const struct request *)user)->facts;
-    qdot_expr best;
+    qdot_expr best = QDOT_NIL;
 
-    if ((facts == NULL || facts->n_relations == 0) && qdot_simplify_is_done(pool, e))
-        return e;
+    if (facts == NULL || facts->n_relations == 0)
+        best = qdot_simplify_seen(pool, e);
+    if (best != QDOT_NIL)
+        return best;
     best = outer(pool, e, user);
     if (best != QDOT_NIL && qdot_expr_is_scalar(pool, best))
         qdot_form_keep(pool, &best, inner(pool, best, user));
@@ -533,9 +535,12 @@ qdot_simplify_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int6
     *spent = false;
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    if (qdot_expr_is_scalar(pool, e) && (facts == NULL || facts->n_relations == 0) &&
-        qdot_simplify_is_done(pool, e))
-        return e;
+    if (qdot_expr_is_scalar(pool, e) && (facts == NULL || facts->n_relations == 0)) {
+        qdot_expr seen = qdot_simplify_seen(pool, e);
+
+        if (seen != QDOT_NIL)
+            return seen;
+    }
     status = qdot_flint_run(pool, simplify_value, &x);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR)
         return qdot_pool_fail(pool);

@@ -23,6 +23,11 @@ qdot_expr qdot_simplify_within(qdot_pool *pool, qdot_expr e, const qdot_facts *f
  * times one function and one sum of parameters at most. e a scalar. */
 bool qdot_simplify_is_done(const qdot_pool *pool, qdot_expr e);
 
+/* The simplest form of e without relations where it is seen at a glance: e itself if it is done,
+ * P cos(a - b) for P cos(a) cos(b) + P sin(a) sin(b) and its like, P powers of symbols and a, b
+ * coordinates. Nil: it takes more than a glance. e a scalar. */
+qdot_expr qdot_simplify_seen(qdot_pool *pool, qdot_expr e);
+
 /* A sum with the factors that all its terms share in front, where that is shorter; a product of a
  * fraction and a sum with other numbers in it as that sum, each term with its own. The form of T,
  * of equations, of Hamilton's function. */

@@ -407,6 +407,46 @@ random_values_are_kept(void **state)
     assert_true(compared > 3 * n);
 }
 
+/* What is seen at a glance is what the field says: with a relation among other symbols there is
+ * no glance. */
+static void
+sums_of_angles_are_seen(void **state)
+{
+    static const char *const front[] = {"1", "L1*L2", "-3/2*m*r^2/L", "x*x'^2", "theta1*u'"};
+    static const char *const product[] = {
+        "cos(%s)*cos(%s)", "sin(%s)*sin(%s)", "sin(%s)*cos(%s)", "cos(%s)*sin(%s)"};
+    static const char *const angle[] = {"theta1", "theta2", "u"};
+    int seen = 0;
+
+    (void)state;
+    for (size_t k = 0; k < 5 * 4 * 4 * 2 * 9; k++) {
+        qdot_pool *pool = qdot_pool_new();
+        const char *a = angle[k % 3], *b = angle[k / 3 % 3], *f = front[k / 9 % 5];
+        const char *p = product[k / 45 % 4], *q = product[k / 180 % 4];
+        char one[64], two[64], text[256];
+        qdot_expr e, other, at_sight;
+        qdot_facts facts = {.n_relations = 1, .relations = &other};
+
+        (void)text_read(pool, "m + L + L1 + L2 + r + theta1 + theta2 + u + x + k");
+        snprintf(one, sizeof one, p, a, b);
+        snprintf(two, sizeof two, q, a, b);
+        snprintf(text, sizeof text, "%s*%s %c %s*%s", f, one, k / 720 ? '-' : '+', f, two);
+        e = text_read(pool, text);
+        other = text_read(pool, "k");
+        at_sight = qdot_simplify_seen(pool, e);
+        if (at_sight != QDOT_NIL) {
+            qdot_expr full = qdot_simplify(pool, e, &facts);
+
+            seen += at_sight != e;
+            if (at_sight != full)
+                fail_msg("%s: seen as %s, is %s", text, text_write(pool, at_sight),
+                         text_write(pool, full));
+        }
+        qdot_pool_free(pool);
+    }
+    assert_true(seen > 250);
+}
+
 static void
 long_sums_come_back_in_time(void **state)
 {
@@ -443,6 +483,7 @@ main(void)
         cmocka_unit_test(a_hidden_zero_pivot_is_singular),
         cmocka_unit_test(a_zero_on_the_diagonal_is_passed),
         cmocka_unit_test(random_values_are_kept),
+        cmocka_unit_test(sums_of_angles_are_seen),
         cmocka_unit_test(long_sums_come_back_in_time),
     };
 
