@@ -186,14 +186,18 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
         if (args[k] == QDOT_NIL)
             return qdot_pool_refuse(pool, QDOT_EINVAL, "an expression without a value");
         hash = mix(hash, args[k]);
-        node.holds |= NODE(pool, args[k])->holds;
-        node.touches |= NODE(pool, args[k])->touches;
-        if (node.height <= NODE(pool, args[k])->height)
-            node.height = NODE(pool, args[k])->height + 1;
     }
     for (i = hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask)
         if (same(pool, pool->table[i], kind, op, n, args, hash))
             return pool->table[i];
+    for (uint32_t k = 0; k < n; k++) {
+        const qdot_node *child = NODE(pool, args[k]);
+
+        node.holds |= child->holds;
+        node.touches |= child->touches;
+        if (node.height <= child->height)
+            node.height = child->height + 1;
+    }
     if (kind == QDOT_FUN)
         node.holds |= QDOT_HAS_FUN;
     if (kind == QDOT_UFUN)
@@ -379,29 +383,42 @@ qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length)
 
 /* --- symbols -------------------------------------------------------------------------- */
 
+/* The symbol if it is there, else nil; *hash that of its node. What has a base is known by it,
+ * whatever its name. */
 static qdot_expr
-symbol(qdot_pool *pool, const qdot_symbol *wanted)
+known_symbol(const qdot_pool *pool, const qdot_symbol *wanted, uint32_t *hash)
 {
-    qdot_node node = {.kind = QDOT_SYM, .sign = wanted->sign};
-    qdot_symbol copy = *wanted;
-    qdot_scope *scope;
+    uint32_t h = mix(mix(mix(QDOT_SYM, wanted->class), wanted->base), wanted->order);
 
-    if (!may_work(pool, 0))
-        return QDOT_NIL;
-    node.hash = mix(mix(mix(QDOT_SYM, wanted->class), wanted->base), wanted->order);
     if (wanted->base == QDOT_NIL)
         for (const char *c = wanted->name; *c != '\0'; c++)
-            node.hash = mix(node.hash, (unsigned char)*c);
-    for (uint32_t i = node.hash & pool->mask; pool->table[i] != 0;
-         i = (i + 1) & pool->mask) {
+            h = mix(h, (unsigned char)*c);
+    *hash = h;
+    for (uint32_t i = h & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask) {
         qdot_expr e = pool->table[i];
-        const qdot_symbol *s = qdot_expr_symbol(pool, e);
+        const qdot_symbol *s = NODE(pool, e)->hash == h ? qdot_expr_symbol(pool, e) : NULL;
 
         if (s != NULL && s->class == wanted->class && s->base == wanted->base &&
             s->order == wanted->order &&
             (wanted->base != QDOT_NIL || strcmp(s->name, wanted->name) == 0))
             return e;
     }
+    return QDOT_NIL;
+}
+
+static qdot_expr
+symbol(qdot_pool *pool, const qdot_symbol *wanted)
+{
+    qdot_node node = {.kind = QDOT_SYM, .sign = wanted->sign};
+    qdot_symbol copy = *wanted;
+    qdot_scope *scope;
+    qdot_expr e;
+
+    if (!may_work(pool, 0))
+        return QDOT_NIL;
+    e = known_symbol(pool, wanted, &node.hash);
+    if (e != QDOT_NIL)
+        return e;
     scope = qdot_scope_pause();
     copy.name = qdot_arena_strndup(pool->arena, wanted->name, strlen(wanted->name));
     qdot_scope_resume(scope);
@@ -433,9 +450,14 @@ symbol_about(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t o
              const char *before, const char *after)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, coordinate);
+    qdot_symbol wanted = {
+        .class = class, .base = coordinate, .order = order, .rank = s->rank};
     qdot_text name = {0};
-    qdot_expr e;
+    uint32_t hash;
+    qdot_expr e = known_symbol(pool, &wanted, &hash);
 
+    if (e != QDOT_NIL)
+        return may_work(pool, 0) ? e : QDOT_NIL;
     qdot_text_add(&name, before);
     qdot_text_add(&name, s->name);
     qdot_text_add(&name, after);
@@ -445,11 +467,8 @@ symbol_about(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t o
         qdot_text_clear(&name);
         return qdot_pool_fail(pool);
     }
-    e = symbol(pool, &(qdot_symbol){.class = class,
-                                    .name = qdot_text_str(&name),
-                                    .base = coordinate,
-                                    .order = order,
-                                    .rank = s->rank});
+    wanted.name = qdot_text_str(&name);
+    e = symbol(pool, &wanted);
     qdot_text_clear(&name);
     return e;
 }
