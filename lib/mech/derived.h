@@ -40,8 +40,9 @@ typedef struct {
     qdot_vec(uint32_t) slots;   /* open hash table of sets, + 1 */
     uint32_t axis_set[3];       /* terms of positions along an axis */
     qdot_groups *dx, *dy;       /* [n + 1]: dx/dq_i, dx/dt; dy == dx where all y = x */
-    qdot_groups rest;           /* x'' at q'' = 0 */
-    qdot_groups place;          /* x itself, by its terms */
+    bool rest_ready, place_ready;
+    qdot_groups rest;  /* x'' at q'' = 0; ask qdot_kinematics_rest */
+    qdot_groups place; /* x itself, by its terms; ask qdot_kinematics_place */
 } qdot_kinematics;
 
 typedef struct {
@@ -125,6 +126,9 @@ QDOT_MUST_CHECK qdot_status qdot_event_print(const qdot_scene *s, const qdot_eve
 void qdot_kinematics_clear(qdot_kinematics *k);
 /* Terms, sets and Jacobian groups; NULL on failure. */
 qdot_kinematics *qdot_kinematics_get(qdot_scene *s);
+/* k->rest, k->place, made when first asked for: sets are added to k. NULL on failure. */
+const qdot_groups *qdot_kinematics_rest(qdot_scene *s, qdot_kinematics *k);
+const qdot_groups *qdot_kinematics_place(qdot_scene *s, qdot_kinematics *k);
 uint32_t qdot_kinematics_and(qdot_scene *s, qdot_kinematics *k, uint32_t a, uint32_t b);
 qdot_expr qdot_kinematics_weight(qdot_scene *s, qdot_kinematics *k, uint32_t set);
 /* sum over p of w_p a_p b_p for two grouped functions; people: simplified. */

@@ -65,10 +65,11 @@ raw_potential(qdot_scene *s)
 
     if (s->gravities.n) {
         qdot_kinematics *k = qdot_kinematics_get(s);
+        const qdot_groups *place = k ? qdot_kinematics_place(s, k) : NULL;
 
-        if (!k)
+        if (!place)
             return QDOT_NIL;
-        V = qdot_neg(pool, qdot_kinematics_gravity(s, k, &k->place));
+        V = qdot_neg(pool, qdot_kinematics_gravity(s, k, place));
     }
     for (size_t i = 0; i < s->potentials.n; i++)
         V = qdot_add(pool, V, s->potentials.at[i]);

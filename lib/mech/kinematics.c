@@ -205,8 +205,12 @@ qdot_kinematics_weight(qdot_scene *s, qdot_kinematics *k, uint32_t set)
 /* --- the terms of x, each differentiated once ------------------------------------------
  * */
 
-/* Of the terms p: the expression e stands at p under `key` (a coordinate's index, n for
- * t, n + 1 for x'' at q'' = 0, n + 2 for x itself). */
+/* What is wanted of x: its slopes by q and t, x'' at q'' = 0, or x itself. Equations for people
+ * need the first alone. */
+typedef enum { SLOPES, REST, PLACE } want;
+
+/* Of the terms p: the expression e stands at p under `key` (of slopes a coordinate's index, n
+ * for t; else 0). */
 typedef struct {
     uint32_t key, p;
     qdot_expr e;
@@ -225,6 +229,7 @@ typedef struct {
 } summand;
 
 typedef struct {
+    want want;
     qdot_vec(summand) known;
     qdot_vec(uint32_t) slots;
     qdot_vec(slope) slopes;
@@ -254,11 +259,9 @@ differentiate(qdot_scene *s, summands *m, qdot_expr term)
 {
     qdot_pool *pool = s->pool;
     size_t n = s->coordinates.n;
-    summand x = {term, (uint32_t)m->slopes.n, 0};
     qdot_expr atoms = qdot_expr_atoms(pool, term, false);
     uint32_t count;
 
-    QDOT_TRY(qdot_interrupt_check());
     QDOT_TRY(qdot_pool_check(pool));
     count = qdot_expr_count(pool, atoms);
     for (uint32_t i = 0; i < count; i++) {
@@ -272,14 +275,25 @@ differentiate(qdot_scene *s, summands *m, qdot_expr term)
             return qdot_fail(QDOT_ENAME, "%s is not a coordinate of the scene",
                              qdot_expr_symbol(pool, q)->name);
     }
-    QDOT_TRY(push_slope(s, m, n + 1,
-                        qdot_mech_at_rest(s, qdot_ddt(pool, qdot_ddt(pool, term)))));
-    QDOT_TRY(push_slope(s, m, n + 2, term));
+    return QDOT_OK;
+}
+
+/* What is wanted of a summand that is new. */
+static qdot_status
+learn(qdot_scene *s, summands *m, qdot_expr term)
+{
+    summand x = {term, (uint32_t)m->slopes.n, 0};
+    qdot_expr e = term;
+
+    QDOT_TRY(qdot_interrupt_check());
+    if (m->want == REST)
+        e = qdot_mech_at_rest(s, qdot_ddt(s->pool, qdot_ddt(s->pool, term)));
+    QDOT_TRY(m->want == SLOPES ? differentiate(s, m, term) : push_slope(s, m, 0, e));
     x.to = (uint32_t)m->slopes.n;
     return qdot_vec_push(&m->known, x);
 }
 
-/* The index in m->known of a summand, differentiated if new. */
+/* The index in m->known of a summand, made if new. */
 static qdot_status
 summand_find(qdot_scene *s, summands *m, qdot_expr term, uint32_t *index)
 {
@@ -307,7 +321,7 @@ summand_find(qdot_scene *s, summands *m, qdot_expr term, uint32_t *index)
             *index = m->slots.at[at] - 1;
             return QDOT_OK;
         }
-    QDOT_TRY(differentiate(s, m, term));
+    QDOT_TRY(learn(s, m, term));
     *index = (uint32_t)m->known.n - 1;
     m->slots.at[at] = *index + 1;
     return QDOT_OK;
@@ -320,8 +334,8 @@ add_entries(qdot_scene *s, summands *m, qdot_expr x, uint32_t p, entries *out)
     bool sum = qdot_expr_kind(pool, x) == QDOT_SUM;
     uint32_t n = sum ? (qdot_expr_count(pool, x) - 1) / 2 : 1;
 
-    if (sum && qdot_expr_arg(pool, x, 0) != QDOT_ZERO) {
-        entry constant = {(uint32_t)s->coordinates.n + 2, p, qdot_expr_arg(pool, x, 0)};
+    if (m->want == PLACE && sum && qdot_expr_arg(pool, x, 0) != QDOT_ZERO) {
+        entry constant = {0, p, qdot_expr_arg(pool, x, 0)};
 
         QDOT_TRY(qdot_vec_push(out, constant));
     }
@@ -372,9 +386,9 @@ by_expression(const void *a, const void *b)
  * stay apart, so that a chain's links share them; only equal ones are counted together.
  * */
 static qdot_status
-combine(qdot_scene *s, entries *all)
+combine(qdot_scene *s, entries *all, bool slopes)
 {
-    size_t kept = 0, n = s->coordinates.n;
+    size_t kept = 0;
     qdot_expr first = QDOT_NIL; /* what the last entry kept began with */
 
     if (all->n > 1)
@@ -383,7 +397,7 @@ combine(qdot_scene *s, entries *all)
         entry *last = kept ? &all->at[kept - 1] : NULL;
 
         if (last && last->key == all->at[i].key && last->p == all->at[i].p &&
-            (last->key <= n || first == all->at[i].e)) {
+            (slopes || first == all->at[i].e)) {
             last->e = qdot_add(s->pool, last->e, all->at[i].e);
         } else {
             first = all->at[i].e;
@@ -394,12 +408,11 @@ combine(qdot_scene *s, entries *all)
     return qdot_pool_check(s->pool);
 }
 
+/* Entries of one key go to one of `out`. */
 static qdot_status
-group(qdot_scene *s, qdot_kinematics *k, entries *all, qdot_groups *slopes)
+group(qdot_scene *s, qdot_kinematics *k, entries *all, want want, qdot_groups *out)
 {
-    size_t n = s->coordinates.n;
-
-    QDOT_TRY(combine(s, all));
+    QDOT_TRY(combine(s, all, want == SLOPES));
     if (all->n > 1)
         qsort(all->at, all->n, sizeof *all->at, by_expression);
     for (size_t i = 0, j; i < all->n; i = j) {
@@ -416,22 +429,52 @@ group(qdot_scene *s, qdot_kinematics *k, entries *all, qdot_groups *slopes)
             continue;
         g.set = set_intern(s, k, bits);
         QDOT_TRY(qdot_pool_check(s->pool));
-        if (first->key <= n)
-            QDOT_TRY(qdot_vec_push(&slopes[first->key], g));
-        else if (first->key == n + 1)
-            QDOT_TRY(qdot_vec_push(&k->rest, g));
-        else
-            QDOT_TRY(qdot_vec_push(&k->place, g));
+        QDOT_TRY(qdot_vec_push(&out[first->key], g));
     }
     return QDOT_OK;
+}
+
+/* The coordinates of the scene by their ids. */
+static qdot_status
+number_coordinates(const qdot_scene *s, summands *m)
+{
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr q = s->coordinates.at[i];
+
+        if (m->of_symbol.n <= q) {
+            QDOT_TRY(qdot_grow(&m->of_symbol.at, &m->of_symbol.capacity, q + 1u,
+                               sizeof *m->of_symbol.at));
+            memset(m->of_symbol.at + m->of_symbol.n, 0,
+                   (q + 1u - m->of_symbol.n) * sizeof *m->of_symbol.at);
+            m->of_symbol.n = q + 1u;
+        }
+        m->of_symbol.at[q] = (uint32_t)i + 1;
+    }
+    return QDOT_OK;
+}
+
+/* What is wanted of all x, or of all y, grouped. */
+static qdot_status
+group_all(qdot_scene *s, qdot_kinematics *k, want want, bool of_y, qdot_groups *out)
+{
+    summands m = {.want = want};
+    entries all = {0};
+    qdot_status status = number_coordinates(s, &m);
+
+    for (size_t p = 0; p < k->terms.n && status == QDOT_OK; p++)
+        status = add_entries(s, &m, of_y ? k->terms.at[p].y : k->terms.at[p].x,
+                             (uint32_t)p, &all);
+    if (status == QDOT_OK)
+        status = group(s, k, &all, want, out);
+    qdot_free(all.at);
+    summands_clear(&m);
+    return status;
 }
 
 static qdot_status
 build(qdot_scene *s, qdot_kinematics *k)
 {
     size_t n = k->n = s->coordinates.n;
-    summands m = {0};
-    entries all = {0};
     qdot_status status = QDOT_OK;
     uint64_t *bits;
     bool crossed = false;
@@ -463,40 +506,8 @@ build(qdot_scene *s, qdot_kinematics *k)
         QDOT_TRY(qdot_pool_check(s->pool));
     }
 
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_expr q = s->coordinates.at[i];
-
-        if (m.of_symbol.n <= q) {
-            status = qdot_grow(&m.of_symbol.at, &m.of_symbol.capacity, q + 1u,
-                               sizeof *m.of_symbol.at);
-            if (status != QDOT_OK)
-                break;
-            memset(m.of_symbol.at + m.of_symbol.n, 0,
-                   (q + 1u - m.of_symbol.n) * sizeof *m.of_symbol.at);
-            m.of_symbol.n = q + 1u;
-        }
-        m.of_symbol.at[q] = (uint32_t)i + 1;
-    }
-    for (size_t p = 0; p < k->terms.n && status == QDOT_OK; p++)
-        status = add_entries(s, &m, k->terms.at[p].x, (uint32_t)p, &all);
-    if (status == QDOT_OK)
-        status = group(s, k, &all, k->dx);
-    if (crossed && status == QDOT_OK) {
-        entries only = {0};
-
-        all.n = 0;
-        for (size_t p = 0; p < k->terms.n && status == QDOT_OK; p++)
-            status = add_entries(s, &m, k->terms.at[p].y, (uint32_t)p, &all);
-        for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
-            if (all.at[i].key <= n)
-                status = qdot_vec_push(&only, all.at[i]);
-        if (status == QDOT_OK)
-            status = group(s, k, &only, k->dy);
-        qdot_free(only.at);
-    }
-    qdot_free(all.at);
-    summands_clear(&m);
-    return status;
+    QDOT_TRY(group_all(s, k, SLOPES, false, k->dx));
+    return crossed ? group_all(s, k, SLOPES, true, k->dy) : QDOT_OK;
 }
 
 qdot_kinematics *
@@ -513,6 +524,33 @@ qdot_kinematics_get(qdot_scene *s)
         d->kinematics_ready = true;
     }
     return &d->kinematics;
+}
+
+/* The groups of x'' or of x, made when first asked for. */
+static const qdot_groups *
+groups_of(qdot_scene *s, qdot_kinematics *k, want want, qdot_groups *out, bool *ready)
+{
+    if (*ready)
+        return out;
+    out->n = 0; /* of an attempt that failed */
+    if (group_all(s, k, want, false, out) != QDOT_OK) {
+        qdot_pool_fail(s->pool);
+        return NULL;
+    }
+    *ready = true;
+    return out;
+}
+
+const qdot_groups *
+qdot_kinematics_rest(qdot_scene *s, qdot_kinematics *k)
+{
+    return groups_of(s, k, REST, &k->rest, &k->rest_ready);
+}
+
+const qdot_groups *
+qdot_kinematics_place(qdot_scene *s, qdot_kinematics *k)
+{
+    return groups_of(s, k, PLACE, &k->place, &k->place_ready);
 }
 
 /* --- sums over terms ------------------------------------------------------------------
@@ -568,11 +606,12 @@ qdot_kinematics_pair(qdot_scene *s, qdot_kinematics *k, const qdot_groups *a,
     for (size_t i = 0; i < a->n; i++)
         for (size_t j = 0; j < b->n; j++) {
             uint32_t set = qdot_kinematics_and(s, k, a->at[i].set, b->at[j].set);
-            weighed w = {qdot_kinematics_weight(s, k, set),
-                         qdot_mul(s->pool, a->at[i].e, b->at[j].e)};
+            weighed w;
 
-            if (set == 0)
+            if (set == 0) /* as of two axes */
                 continue;
+            w.weight = qdot_kinematics_weight(s, k, set);
+            w.product = qdot_mul(s->pool, a->at[i].e, b->at[j].e);
             if (w.weight == QDOT_NIL || qdot_vec_push(&all, w) != QDOT_OK) {
                 total = qdot_pool_fail(s->pool);
                 goto done;

@@ -10,10 +10,11 @@
 #include "mech/derived.h"
 #include "normal/simplify.h"
 
-/* A contribution to the coefficient of q_j' q_k', j <= k. */
+/* A contribution to the coefficient of q_j' q_k', j <= k: halves/2 times e. */
 typedef struct {
     uint32_t j, k;
     qdot_expr e;
+    int halves;
 } coefficient;
 
 static int
@@ -34,7 +35,6 @@ collect(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, qdot_expr *l
 {
     qdot_pool *pool = s->pool;
     const qdot_derived *d = s->derived;
-    qdot_expr minus_half = qdot_expr_ratio(pool, -1, 2);
     size_t n = 0;
 
     for (size_t a = 0; a < d->slopes.n; a++) {
@@ -49,16 +49,35 @@ collect(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, qdot_expr *l
         }
         if (row)
             out[n++] = (coefficient){other < m.i ? other : m.i, other < m.i ? m.i : other,
-                                     m.value};
+                                     m.value, 2};
         if (m.i == i)
-            out[n++] = (coefficient){m.j, m.k,
-                                     m.j == m.k ? qdot_mul(pool, minus_half, m.value)
-                                                : qdot_neg(pool, m.value)};
+            out[n++] = (coefficient){m.j, m.k, m.value, m.j == m.k ? -1 : -2};
     }
     if (n > 1)
         qsort(out, n, sizeof *out, by_pair);
     *n_out = n;
     return qdot_pool_check(pool);
+}
+
+/* The sum of contributions [n] to one pair. Most cancel before anything is built: a link's angle
+ * stands in one row and one column. */
+static qdot_expr
+contributed(qdot_pool *pool, const coefficient *at, size_t n)
+{
+    qdot_expr c = QDOT_ZERO;
+
+    for (size_t a = 0, b; a < n; a = b) {
+        int halves = 0;
+
+        for (b = a; b < n && at[b].e == at[a].e; b++)
+            halves += at[b].halves;
+        if (halves == 2)
+            c = qdot_add(pool, c, at[a].e);
+        else if (halves != 0)
+            c = qdot_add(pool, c,
+                         qdot_mul(pool, qdot_expr_ratio(pool, halves, 2), at[a].e));
+    }
+    return c;
 }
 
 /* The linear and constant terms, from b, c and t. */
@@ -118,10 +137,11 @@ qdot_lagrange_rest(qdot_scene *s, size_t i)
         goto done;
     }
     for (size_t a = 0, b; a < m; a = b) {
-        qdot_expr c = QDOT_ZERO;
+        qdot_expr c;
 
         for (b = a; b < m && all[b].j == all[a].j && all[b].k == all[a].k; b++)
-            c = qdot_add(pool, c, all[b].e);
+            continue;
+        c = contributed(pool, &all[a], b - a);
         if (c == QDOT_ZERO)
             continue;
         if (b - a > 1)

@@ -87,14 +87,16 @@ raw_forcing(qdot_scene *s, size_t i)
 {
     qdot_pool *pool = s->pool;
     qdot_expr Q = qdot_mech_at_rest(s, qdot_force_total(s, i, false, false)), inertia;
+    const qdot_groups *rest;
     qdot_kinematics *k;
 
     if (qdot_mech_stated(s))
         return qdot_add(pool, Q, qdot_lagrange_forcing(s, s->lagrangian, i));
     k = qdot_kinematics_get(s);
-    if (!k)
+    rest = k ? qdot_kinematics_rest(s, k) : NULL;
+    if (!rest)
         return QDOT_NIL;
-    inertia = qdot_kinematics_pair(s, k, &k->dy[i], &k->rest, false);
+    inertia = qdot_kinematics_pair(s, k, &k->dy[i], rest, false);
     inertia = qdot_add(pool, inertia, varying_masses(s, k, i));
     return qdot_sub(pool, Q, inertia);
 }

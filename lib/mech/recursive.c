@@ -196,6 +196,7 @@ bool
 qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f)
 {
     qdot_pool *pool = s->pool;
+    bool ready = qdot_kinematics_rest(s, k) != NULL; /* with its sets */
     size_t sets = k->weight.n, n = s->coordinates.n;
     qdot_family family = {.items = k->terms.n, .words = k->words};
     qdot_expr *force = qdot_calloc(k->terms.n + 1, sizeof *force);
@@ -203,7 +204,7 @@ qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f)
     uint32_t *number = qdot_calloc(sets + 1, sizeof *number); /* of a set, + 1 */
     uint64_t *bits = qdot_calloc(sets * k->words + 1, sizeof *bits);
 
-    if (!force || !sum || !number || !bits) {
+    if (!ready || !force || !sum || !number || !bits) {
         qdot_pool_fail(pool);
         goto done;
     }
