@@ -35,6 +35,7 @@ num_headers = \
 	lib/num/batch.h \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
+	lib/num/kinds.h \
 	lib/num/ldlt.h \
 	lib/num/real.h \
 	lib/num/row-space.h \
@@ -916,6 +917,7 @@ test_files = \
 	tests/examples/vector-operators.out \
 	tests/examples/velocity.out \
 	tests/examples/virtual-work.out \
+	tests/expr/kit.h \
 	tests/expr/reader.h \
 	tests/expr/spec.h \
 	tests/fuzz/corpus/parse/algebra.txt \
@@ -958,9 +960,11 @@ test_files = \
 	tests/fuzz/fuzz.h \
 	tests/lang/reading.h \
 	tests/mech/kit.h \
+	tests/normal/kit.h \
 	tests/normal/number.h \
 	tests/normal/pairs.h \
 	tests/normal/text.h \
+	tests/num/kit.h \
 	tests/ode/problems.h \
 	tests/script/check.out \
 	tests/script/conserved.out \
@@ -1036,6 +1040,7 @@ test_files = \
 	tests/script/workprecision.out \
 	tests/sim/scenes.h \
 	tests/tape/reference.h \
+	tests/tape/smooth.h \
 	tests/fuzz/fuzz-parse.c \
 	tests/fuzz/fuzz-roundtrip.c \
 	tests/fuzz/packages \

@@ -23,6 +23,25 @@ put(FILE *file, qdot_text *text)
     return status;
 }
 
+/* The end of an answer that went well or not: a line written, its text let go of. */
+static qdot_status
+end_line(qdot_session *session, qdot_status status, qdot_text *line)
+{
+    if (status == QDOT_OK)
+        status = put(session->out, line);
+    qdot_text_clear(line);
+    return status;
+}
+
+/* Likewise of a formula, which qdot_answer_math began. */
+static qdot_status
+end_formula(qdot_session *session, qdot_status status, qdot_text *line)
+{
+    qdot_answer_math(session, false, line);
+    qdot_text_char(line, '\n');
+    return end_line(session, status, line);
+}
+
 /* --- numbers ------------------------------------------------------------------------ */
 
 /* 1e-9, not 1e-09. */
@@ -147,16 +166,11 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
             qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>:</mo>" : ": ");
     }
     qdot_text_add(&line, qdot_text_str(&shown));
-    qdot_answer_math(session, false, &line);
-    qdot_text_char(&line, '\n');
     if (shown.failed || plain.failed)
         line.failed = true;
     qdot_text_clear(&shown);
     qdot_text_clear(&plain);
-    if (status == QDOT_OK)
-        status = put(session->out, &line);
-    qdot_text_clear(&line);
-    return status;
+    return end_formula(session, status, &line);
 }
 
 static qdot_status
@@ -179,10 +193,7 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
                      qdot_expr_size(session->pool, value));
     line.failed = line.failed || part.failed;
     qdot_text_clear(&part);
-    if (status == QDOT_OK)
-        status = put(session->out, &line);
-    qdot_text_clear(&line);
-    return status;
+    return end_line(session, status, &line);
 }
 
 qdot_status
@@ -209,12 +220,7 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
     qdot_text_add(&line, qdot_answer_equals(session));
     if (status == QDOT_OK)
         status = qdot_answer_print(session, value, session->style, &line);
-    qdot_answer_math(session, false, &line);
-    qdot_text_char(&line, '\n');
-    if (status == QDOT_OK)
-        status = put(session->out, &line);
-    qdot_text_clear(&line);
-    return status;
+    return end_formula(session, status, &line);
 }
 
 /* 1.25 ± 3e-13, marked up where the style is. */
@@ -251,12 +257,7 @@ numbers_text(qdot_session *session, const char *name, size_t n, const double *va
             qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>,</mo>" : ", ");
         measured(session, values[i], errors[i], &line);
     }
-    qdot_answer_math(session, false, &line);
-    qdot_text_char(&line, '\n');
-    if (status == QDOT_OK)
-        status = put(session->out, &line);
-    qdot_text_clear(&line);
-    return status;
+    return end_formula(session, status, &line);
 }
 
 qdot_status
@@ -323,12 +324,7 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
     qdot_text_add(&line, session->style == QDOT_MATHML ? "<mtext>" : "");
     qdot_text_add(&line, qdot_text_str(values));
     qdot_text_add(&line, session->style == QDOT_MATHML ? "</mtext>" : "");
-    qdot_answer_math(session, false, &line);
-    qdot_text_char(&line, '\n');
-    if (status == QDOT_OK)
-        status = put(session->out, &line);
-    qdot_text_clear(&line);
-    return status;
+    return end_formula(session, status, &line);
 }
 
 /* --- checks ------------------------------------------------------------------------- */
@@ -370,10 +366,7 @@ check_text(qdot_session *session, const qdot_decision *decision)
             qdot_text_add(&line, ": neither proved nor refuted");
     }
     qdot_text_char(&line, '\n');
-    if (status == QDOT_OK)
-        status = put(session->out, &line);
-    qdot_text_clear(&line);
-    return status;
+    return end_line(session, status, &line);
 }
 
 /* {"x":1.5,...} from a LIST of equations symbol = number. */
@@ -449,10 +442,7 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_text_add(&line, "}\n");
     line.failed = line.failed || part.failed;
     qdot_text_clear(&part);
-    if (status == QDOT_OK)
-        status = put(session->out, &line);
-    qdot_text_clear(&line);
-    return status;
+    return end_line(session, status, &line);
 }
 
 qdot_status

@@ -64,7 +64,7 @@ block_size(const qdot_members *m, size_t b)
 
 static const members_kernels *const kinds[] = {
     &portable_members,
-#ifdef BATCH_X86
+#ifdef QDOT_X86_KINDS
     &avx2_members,
     &avx512_members,
 #endif

@@ -35,16 +35,6 @@ typedef struct {
     double *curved_work;
 } search;
 
-static double
-length(const double *x, size_t n)
-{
-    double sum = 0;
-
-    for (size_t i = 0; i < n; i++)
-        sum = hypot(sum, x[i]);
-    return sum;
-}
-
 static size_t
 place(const search *s, size_t i)
 {
@@ -65,7 +55,7 @@ evaluate(search *s, const double *at, bool measure)
         double F = p->value[k];
 
         if (measure)
-            s->size[k] = length(A + k * p->n, p->n);
+            s->size[k] = qdot_nearest_length(A + k * p->n, p->n);
         if (F != 0)
             sum += (F / s->size[k]) * (F / s->size[k]);
     }
@@ -115,7 +105,7 @@ distance(search *s, const double *at)
         if (!s->C)
             s->away[i] = at[place(s, i)] - s->centre[place(s, i)];
     }
-    return length(s->away, s->n);
+    return qdot_nearest_length(s->away, s->n);
 }
 
 static void
@@ -201,7 +191,7 @@ slide(search *s, double *at)
             return;
         near = distance(s, at);
         qdot_row_space_tangent(&s->rows, s->away);
-        slope = length(s->away, s->n);
+        slope = qdot_nearest_length(s->away, s->n);
         if (!(slope > 1e-9 * (1 + near)))
             return;
         from_metric(s, s->away);

@@ -100,8 +100,8 @@ residuals(qdot_nearest *p, const double *at, const double *low, double *F)
     return QDOT_OK;
 }
 
-static double
-length(const double *x, size_t n)
+double
+qdot_nearest_length(const double *x, size_t n)
 {
     double sum = 0;
 
@@ -123,7 +123,7 @@ qdot_nearest_distance(qdot_nearest *p, const double *at, const double *low,
 
         if (residual)
             residual[k] = F;
-        distance[k] = F == 0 ? 0 : fabs(F) / length(A + k * p->n, p->n);
+        distance[k] = F == 0 ? 0 : fabs(F) / qdot_nearest_length(A + k * p->n, p->n);
     }
     return QDOT_OK;
 }

@@ -63,4 +63,7 @@ QDOT_MUST_CHECK qdot_status qdot_nearest_find(qdot_nearest *p, const bool *free,
 QDOT_MUST_CHECK qdot_status qdot_nearest_refine(qdot_nearest *p, const bool *free,
                                                 double *at, double *low);
 
+/* sqrt(x . x) of x [n], without overflow: for nearest-search.c too. */
+double qdot_nearest_length(const double *x, size_t n);
+
 #endif

@@ -58,7 +58,7 @@ qdot_shifted_lanes_applies(const qdot_plan *plan)
 
 static const orders *const kinds[] = {
     &portable_orders,
-#ifdef BATCH_X86
+#ifdef QDOT_X86_KINDS
     &avx2_orders,
     &avx512_orders,
 #endif

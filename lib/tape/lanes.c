@@ -28,7 +28,7 @@ typedef struct {
 
 static const lanes_kernels *const kinds[] = {
     &portable_lanes,
-#ifdef BATCH_X86
+#ifdef QDOT_X86_KINDS
     &avx2_lanes,
     &avx512_lanes,
 #endif

@@ -1,23 +1,5 @@
 /* test_calculus.c -- derivatives against differences, substitution against evaluation. */
-#include "spec.h"
-
-static place p;
-
-static int
-open_place(void **state)
-{
-    (void)state;
-    place_open(&p);
-    return 0;
-}
-
-static int
-close_place(void **state)
-{
-    (void)state;
-    place_close(&p);
-    return 0;
-}
+#include "kit.h"
 
 static qdot_expr
 symbol(int i)
@@ -347,8 +329,6 @@ shared_parts_are_derived_once(void **state)
     assert_int_not_equal(d, QDOT_NIL);
     assert_int_equal(qdot_subs(p.pool, d, 1, &x, (qdot_expr[]){QDOT_ZERO}), QDOT_ONE);
 }
-
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
 
 int
 main(void)

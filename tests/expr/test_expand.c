@@ -1,23 +1,5 @@
 /* test_expand.c -- multiplying out, collecting, coefficients. */
-#include "spec.h"
-
-static place p;
-
-static int
-open_place(void **state)
-{
-    (void)state;
-    place_open(&p);
-    return 0;
-}
-
-static int
-close_place(void **state)
-{
-    (void)state;
-    place_close(&p);
-    return 0;
-}
+#include "kit.h"
 
 /* Whether a product in e holds a sum, or a whole power of one. */
 static bool
@@ -143,8 +125,6 @@ what_is_no_polynomial_has_no_coefficients(void **state)
         assert_int_equal(qdot_pool_check(p.pool), QDOT_EDOMAIN);
     }
 }
-
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
 
 int
 main(void)

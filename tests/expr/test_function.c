@@ -1,24 +1,5 @@
 /* test_function.c -- elementary functions: special values, parity, inverse pairs, domains. */
-#include "spec.h"
-
-static place p;
-
-static int
-open_place(void **state)
-{
-    (void)state;
-    place_open(&p);
-    place_move(&p);
-    return 0;
-}
-
-static int
-close_place(void **state)
-{
-    (void)state;
-    place_close(&p);
-    return 0;
-}
+#include "kit.h"
 
 static qdot_expr
 call(qdot_fun_id id, qdot_expr x)
@@ -30,13 +11,6 @@ static qdot_expr
 of_pi(long n, long d)
 {
     return qdot_mul(p.pool, qdot_expr_ratio(p.pool, n, d), QDOT_PI);
-}
-
-static void
-refuses(qdot_expr e, qdot_status status)
-{
-    assert_int_equal(e, QDOT_NIL);
-    assert_int_equal(qdot_pool_check(p.pool), status);
 }
 
 static bool
@@ -242,23 +216,21 @@ names_are_found(void **state)
     assert_false(qdot_fun_find("sine", &id));
 }
 
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
-
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(twelfths_of_pi_have_exact_values),
-        TEST(inverse_functions_know_the_twelfths),
-        TEST(a_quarter_turn_changes_the_function),
-        TEST(parity_is_applied),
-        TEST(inverse_pairs_cancel),
-        TEST(domains_are_kept),
-        TEST(arguments_are_counted),
-        TEST(numbers_are_computed),
-        TEST(a_decided_condition_chooses),
-        TEST(what_is_held_stays_whole),
-        TEST(names_are_found),
+        MOVED_TEST(twelfths_of_pi_have_exact_values),
+        MOVED_TEST(inverse_functions_know_the_twelfths),
+        MOVED_TEST(a_quarter_turn_changes_the_function),
+        MOVED_TEST(parity_is_applied),
+        MOVED_TEST(inverse_pairs_cancel),
+        MOVED_TEST(domains_are_kept),
+        MOVED_TEST(arguments_are_counted),
+        MOVED_TEST(numbers_are_computed),
+        MOVED_TEST(a_decided_condition_chooses),
+        MOVED_TEST(what_is_held_stays_whole),
+        MOVED_TEST(names_are_found),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

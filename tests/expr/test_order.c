@@ -1,23 +1,5 @@
 /* test_order.c -- the canonical order is a total order; signs are sound. */
-#include "spec.h"
-
-static place p;
-
-static int
-open_place(void **state)
-{
-    (void)state;
-    place_open(&p);
-    return 0;
-}
-
-static int
-close_place(void **state)
-{
-    (void)state;
-    place_close(&p);
-    return 0;
-}
+#include "kit.h"
 
 /* Random expressions, some that share a shape: undefined functions beside elementary ones. */
 static qdot_expr
@@ -166,8 +148,6 @@ no_sign_is_claimed_that_a_point_refutes(void **state)
     }
     assert_true(claimed > 2000);
 }
-
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
 
 int
 main(void)

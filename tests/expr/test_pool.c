@@ -1,23 +1,5 @@
 /* test_pool.c -- the pool: interning, the first cause, symbols, budget, Ctrl-C, no memory. */
-#include "spec.h"
-
-static place p;
-
-static int
-open_place(void **state)
-{
-    (void)state;
-    place_open(&p);
-    return 0;
-}
-
-static int
-close_place(void **state)
-{
-    (void)state;
-    place_close(&p);
-    return 0;
-}
+#include "kit.h"
 
 static void
 first_ids_are_the_constants(void **state)
@@ -302,8 +284,6 @@ no_memory_is_told_wherever_it_happens(void **state)
     }
     assert_true(passed && n > 100);
 }
-
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
 
 int
 main(void)

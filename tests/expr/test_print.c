@@ -1,35 +1,6 @@
 /* test_print.c -- plain text reads back to the same expression; unicode and LaTeX as books. */
+#include "kit.h"
 #include "reader.h"
-
-static place p;
-
-static int
-open_place(void **state)
-{
-    (void)state;
-    place_open(&p);
-    return 0;
-}
-
-static int
-close_place(void **state)
-{
-    (void)state;
-    place_close(&p);
-    return 0;
-}
-
-static qdot_expr
-number(long n, long d)
-{
-    return qdot_expr_ratio(p.pool, n, d);
-}
-
-static qdot_expr
-times(qdot_expr a, qdot_expr b)
-{
-    return qdot_mul(p.pool, a, b);
-}
 
 static void
 says(qdot_expr e, const char *plain, const char *unicode, const char *latex)
@@ -419,8 +390,6 @@ nothing_cannot_be_printed(void **state)
     assert_int_equal(qdot_print(p.pool, QDOT_NIL, QDOT_PLAIN, &out), QDOT_EINVAL);
     qdot_text_clear(&out);
 }
-
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
 
 int
 main(void)

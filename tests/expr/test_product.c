@@ -1,47 +1,10 @@
 /* test_product.c -- products, powers and roots: what is taken out, what is refused. */
-#include "spec.h"
-
-static place p;
-
-static int
-open_place(void **state)
-{
-    (void)state;
-    place_open(&p);
-    return 0;
-}
-
-static int
-close_place(void **state)
-{
-    (void)state;
-    place_close(&p);
-    return 0;
-}
-
-static qdot_expr
-number(long n, long d)
-{
-    return qdot_expr_ratio(p.pool, n, d);
-}
+#include "kit.h"
 
 static qdot_expr
 power(qdot_expr b, long n, long d)
 {
     return qdot_pow(p.pool, b, number(n, d));
-}
-
-static qdot_expr
-times(qdot_expr a, qdot_expr b)
-{
-    return qdot_mul(p.pool, a, b);
-}
-
-static void
-refuses(qdot_expr e, qdot_status status)
-{
-    assert_int_equal(e, QDOT_NIL);
-    assert_int_equal(qdot_pool_check(p.pool), status);
 }
 
 static void
@@ -273,8 +236,6 @@ products_are_canonical(void **state)
     }
     assert_int_equal(qdot_pool_check(p.pool), QDOT_OK);
 }
-
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
 
 int
 main(void)

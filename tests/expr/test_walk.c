@@ -1,23 +1,5 @@
 /* test_walk.c -- passes over expressions, and the count of operations. */
-#include "spec.h"
-
-static place p;
-
-static int
-open_place(void **state)
-{
-    (void)state;
-    place_open(&p);
-    return 0;
-}
-
-static int
-close_place(void **state)
-{
-    (void)state;
-    place_close(&p);
-    return 0;
-}
+#include "kit.h"
 
 static void
 every_reachable_node_stands_once_children_first(void **state)
@@ -146,8 +128,6 @@ operations_are_counted(void **state)
             fail_msg("%s has %d operations, not %d", text_of(pool, rows[i].e, QDOT_PLAIN),
                      (int)qdot_expr_size(pool, rows[i].e), (int)rows[i].size);
 }
-
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_place, close_place)
 
 int
 main(void)

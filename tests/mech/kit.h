@@ -361,4 +361,16 @@ rhs(kit *k, qdot_expr equation)
     return qdot_expr_arg(k->pool, equation, 1);
 }
 
+/* name_body(kit *) as a test with a kit of its own. */
+#define TEST(name)                                                                       \
+    static void name(void **state_)                                                      \
+    {                                                                                    \
+        kit k_, *k = &k_;                                                                \
+        (void)state_;                                                                    \
+        kit_open(k);                                                                     \
+        name##_body(k);                                                                  \
+        must(qdot_pool_check(k->pool));                                                  \
+        kit_close(k);                                                                    \
+    }
+
 #endif

@@ -3,17 +3,6 @@
 
 #include "mech/equilibrium.h"
 
-#define TEST(name)                                                                       \
-    static void name(void **state_)                                                      \
-    {                                                                                    \
-        kit k_, *k = &k_;                                                                \
-        (void)state_;                                                                    \
-        kit_open(k);                                                                     \
-        name##_body(k);                                                                  \
-        must(qdot_pool_check(k->pool));                                                  \
-        kit_close(k);                                                                    \
-    }
-
 typedef struct {
     qdot_equilibrium *list;
     size_t n;

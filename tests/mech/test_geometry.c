@@ -4,17 +4,6 @@
 
 #include "mech/geometry.h"
 
-#define TEST(name)                                                                       \
-    static void name(void **state_)                                                      \
-    {                                                                                    \
-        kit k_, *k = &k_;                                                                \
-        (void)state_;                                                                    \
-        kit_open(k);                                                                     \
-        name##_body(k);                                                                  \
-        must(qdot_pool_check(k->pool));                                                  \
-        kit_close(k);                                                                    \
-    }
-
 static qdot_expr
 curvature(kit *k, const char *R)
 {

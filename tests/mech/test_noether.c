@@ -3,17 +3,6 @@
 
 #include "mech/noether.h"
 
-#define TEST(name)                                                                       \
-    static void name(void **state_)                                                      \
-    {                                                                                    \
-        kit k_, *k = &k_;                                                                \
-        (void)state_;                                                                    \
-        kit_open(k);                                                                     \
-        name##_body(k);                                                                  \
-        must(qdot_pool_check(k->pool));                                                  \
-        kit_close(k);                                                                    \
-    }
-
 /* The other way round: dE/dt with the accelerations of the equations is 0. */
 static void
 verify(kit *k, qdot_expr list)

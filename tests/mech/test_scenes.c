@@ -1,17 +1,6 @@
 /* The rows of the scenes that define the mission, each a decision. */
 #include "kit.h"
 
-#define TEST(name)                                                                       \
-    static void name(void **state_)                                                      \
-    {                                                                                    \
-        kit k_, *k = &k_;                                                                \
-        (void)state_;                                                                    \
-        kit_open(k);                                                                     \
-        name##_body(k);                                                                  \
-        must(qdot_pool_check(k->pool));                                                  \
-        kit_close(k);                                                                    \
-    }
-
 static qdot_expr
 Q(kit *k, const char *q)
 {

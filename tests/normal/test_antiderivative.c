@@ -1,30 +1,12 @@
 /* test_antiderivative.c -- integrals are right when their derivatives are. */
 #include <setjmp.h>
 
-#include "text.h"
+#include "kit.h"
 
 #include <cmocka.h>
 
 #include "expr/calculus.h"
 #include "normal/antiderivative.h"
-
-static qdot_pool *pool;
-
-static int
-open_pool(void **state)
-{
-    (void)state;
-    pool = qdot_pool_new();
-    return pool == NULL;
-}
-
-static int
-close_pool(void **state)
-{
-    (void)state;
-    qdot_pool_free(pool);
-    return 0;
-}
 
 static void
 known_integrals_differentiate_back(void **state)

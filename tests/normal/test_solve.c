@@ -2,7 +2,7 @@
 #include <setjmp.h>
 #include <math.h>
 
-#include "text.h"
+#include "kit.h"
 
 #include <cmocka.h>
 
@@ -13,24 +13,6 @@
 #include "normal/positive.h"
 #include "normal/rationalize.h"
 #include "normal/solve.h"
-
-static qdot_pool *pool;
-
-static int
-open_pool(void **state)
-{
-    (void)state;
-    pool = qdot_pool_new();
-    return pool == NULL;
-}
-
-static int
-close_pool(void **state)
-{
-    (void)state;
-    qdot_pool_free(pool);
-    return 0;
-}
 
 static const char *
 shown(qdot_expr e)

@@ -7,15 +7,11 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "kit.h"
+
 #include "num/cholesky.h"
 
 enum { most = 24 };
-
-static double
-uniform(void)
-{
-    return 2.0 * rand() / RAND_MAX - 1;
-}
 
 /* B B^T of a random n x rank B; rank = n: positive definite, else singular. */
 static void
@@ -31,25 +27,6 @@ gram(double *a, size_t n, size_t rank)
             for (size_t k = 0; k < rank; k++)
                 a[i * n + j] += b[i * rank + k] * b[j * rank + k];
         }
-}
-
-/* max |A x - b| over max |A| max |x|: small for any backward stable solver. */
-static double
-residual(const double *a, size_t n, const double *x, const double *b)
-{
-    double worst = 0, size_a = 0, size_x = 0;
-
-    for (size_t i = 0; i < n; i++) {
-        long double r = -(long double)b[i];
-
-        for (size_t j = 0; j < n; j++) {
-            r += (long double)a[i * n + j] * x[j];
-            size_a = fmax(size_a, fabs(a[i * n + j]));
-        }
-        worst = fmax(worst, fabsl(r));
-        size_x = fmax(size_x, fabs(x[i]));
-    }
-    return worst / (size_a * size_x * n);
 }
 
 static void
@@ -78,7 +55,7 @@ random_matrices_are_solved_backward_stably(void **state)
                 assert_true(fabs(s - a[i * n + j]) < 1e-13 * n);
             }
         qdot_cholesky_solve(l, n, NULL, x);
-        assert_true(residual(a, n, x, b) < 1e-15);
+        assert_true(linear_residual(a, n, x, b) < 1e-15);
     }
 }
 

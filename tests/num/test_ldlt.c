@@ -7,34 +7,12 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "kit.h"
+
 #include "num/cholesky.h"
 #include "num/ldlt.h"
 
 enum { most = 24 };
-
-static double
-uniform(void)
-{
-    return 2.0 * rand() / RAND_MAX - 1;
-}
-
-static double
-residual(const double *a, size_t n, const double *x, const double *b)
-{
-    double worst = 0, size_a = 0, size_x = 0;
-
-    for (size_t i = 0; i < n; i++) {
-        long double r = -(long double)b[i];
-
-        for (size_t j = 0; j < n; j++) {
-            r += (long double)a[i * n + j] * x[j];
-            size_a = fmax(size_a, fabs(a[i * n + j]));
-        }
-        worst = fmax(worst, fabsl(r));
-        size_x = fmax(size_x, fabs(x[i]));
-    }
-    return worst / (size_a * size_x * n);
-}
 
 /* The upper triangle is never read: it holds NaN. */
 static double
@@ -52,7 +30,7 @@ solve_and_measure(const double *a, size_t n)
     assert_int_equal(qdot_ldlt_factor(&l, f, NULL), QDOT_OK);
     qdot_ldlt_solve(&l, f, x);
     qdot_ldlt_clear(&l);
-    return residual(a, n, x, b);
+    return linear_residual(a, n, x, b);
 }
 
 static void

@@ -6,15 +6,11 @@
 #include <stdlib.h>
 #include <cmocka.h>
 
+#include "kit.h"
+
 #include "num/row-space.h"
 
 enum { M = 6, N = 9 };
-
-static double
-uniform(void)
-{
-    return 2.0 * rand() / RAND_MAX - 1;
-}
 
 /* A of rank r: every row a mixture of r random ones, in units that differ widely. */
 static void

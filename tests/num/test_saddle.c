@@ -7,15 +7,11 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "kit.h"
+
 #include "num/saddle.h"
 
 enum { most = 40 };
-
-static double
-uniform(void)
-{
-    return 2.0 * rand() / RAND_MAX - 1;
-}
 
 /* A positive matrix of rank `rank`, in units that differ by 2^20. */
 static void

@@ -214,4 +214,52 @@ true_error(const problem *p, double t, const double *y)
     return worst;
 }
 
+/* y' = y^2 from 1: a pole at t = 1. */
+static inline qdot_status
+square(double t, const double *y, double *dydt, void *user)
+{
+    (void)t;
+    (void)user;
+    dydt[0] = y[0] * y[0];
+    return QDOT_OK;
+}
+
+/* y' = -1e6 (y - cos t) - sin t: y = cos t, reached from anywhere within microseconds. */
+static inline qdot_status
+stiff(double t, const double *y, double *dydt, void *user)
+{
+    (void)user;
+    dydt[0] = -1e6 * (y[0] - cos(t)) - sin(t);
+    return QDOT_OK;
+}
+
+static inline qdot_status
+stiff_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
+{
+    (void)y;
+    (void)user;
+    dfdy[0] = -1e6;
+    dfdt[0] = -1e6 * sin(t) - cos(t);
+    return QDOT_OK;
+}
+
+/* --- runs of them -------------------------------------------------------------------- */
+
+static inline const qdot_ode_method *
+method(const char *name)
+{
+    return qdot_ode_method_find(name);
+}
+
+static inline qdot_status
+interrupt_beyond_two(double t, const double *y, bool *stop, void *user)
+{
+    (void)y;
+    (void)stop;
+    (void)user;
+    if (t > 2)
+        qdot_interrupt_set();
+    return QDOT_OK;
+}
+
 #endif

@@ -241,16 +241,6 @@ there_and_back_again(void **state)
     }
 }
 
-/* y' = y^2 from 1: a pole at t = 1. */
-static qdot_status
-square(double t, const double *y, double *dydt, void *user)
-{
-    (void)t;
-    (void)user;
-    dydt[0] = y[0] * y[0];
-    return QDOT_OK;
-}
-
 static qdot_status
 until_two(double t, const double *y, double *dydt, void *user)
 {

@@ -11,12 +11,6 @@
 #include "base/memory.h"
 #include "problems.h"
 
-static const qdot_ode_method *
-method(const char *name)
-{
-    return qdot_ode_method_find(name);
-}
-
 /* One run of row m of the table. */
 static qdot_status
 go(const qdot_ode_system *s, size_t m, const qdot_ode_options *o, double t0, double t1,
@@ -197,15 +191,6 @@ short_and_empty_intervals_work(void **state)
 }
 
 static qdot_status
-square(double t, const double *y, double *dydt, void *user)
-{
-    (void)t;
-    (void)user;
-    dydt[0] = y[0] * y[0];
-    return QDOT_OK;
-}
-
-static qdot_status
 square_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
 {
     (void)t;
@@ -306,17 +291,6 @@ a_start_where_nothing_is_defined_fails_there(void **state)
     assert_int_equal(go(&s, 0, NULL, 2, 5, y, &r), QDOT_EFAILED);
     assert_true(r.t == 2 && y[0] == 0 && y[1] == 1);
     assert_int_equal(r.stats.steps, 0);
-}
-
-static qdot_status
-interrupt_beyond_two(double t, const double *y, bool *stop, void *user)
-{
-    (void)y;
-    (void)stop;
-    (void)user;
-    if (t > 2)
-        qdot_interrupt_set();
-    return QDOT_OK;
 }
 
 static void
@@ -435,25 +409,6 @@ statistics_count_what_was_called(void **state)
             assert_int_equal(calls,
                              12 * (r.stats.steps + r.stats.rejected) + r.stats.steps + 2);
     }
-}
-
-/* y' = -1e6 (y - cos t) - sin t: y = cos t, reached from anywhere within microseconds. */
-static qdot_status
-stiff(double t, const double *y, double *dydt, void *user)
-{
-    (void)user;
-    dydt[0] = -1e6 * (y[0] - cos(t)) - sin(t);
-    return QDOT_OK;
-}
-
-static qdot_status
-stiff_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
-{
-    (void)y;
-    (void)user;
-    dfdy[0] = -1e6;
-    dfdt[0] = -1e6 * sin(t) - cos(t);
-    return QDOT_OK;
 }
 
 static void

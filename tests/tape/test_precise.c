@@ -1,6 +1,7 @@
 /* test_precise.c -- series in MPFR against derivatives evaluated in balls: coefficient k
  * of e(t) is e^(k)(t)/k!. */
 #include "reference.h"
+#include "smooth.h"
 
 #include <string.h>
 
@@ -9,30 +10,6 @@
 #include "tape/precise.h"
 
 enum { ORDERS = 6, BITS = 320 };
-
-typedef struct {
-    qdot_pool *pool;
-    qdot_expr x, u; /* x = 0.4 + 0.3 t, u = 1.3 + 0.2 t + 0.1 t^2 */
-} fixture;
-
-static qdot_expr
-decimal(fixture *f, const char *text)
-{
-    return qdot_expr_decimal(f->pool, text, strlen(text));
-}
-
-static void
-begin(fixture *f)
-{
-    f->pool = qdot_pool_new();
-    f->x = qdot_add(f->pool, decimal(f, "0.4"),
-                    qdot_mul(f->pool, decimal(f, "0.3"), QDOT_T));
-    f->u = qdot_add(f->pool, decimal(f, "1.3"),
-                    qdot_mul(f->pool, decimal(f, "0.2"), QDOT_T));
-    f->u = qdot_add(
-        f->pool, f->u,
-        qdot_mul(f->pool, decimal(f, "0.1"), qdot_pow_int(f->pool, QDOT_T, 2)));
-}
 
 /* |a - b| <= 2^-280 max(1, |b|) */
 static bool

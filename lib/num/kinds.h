@@ -1,0 +1,36 @@
+/* kinds.h -- the kinds of processors that kernels are compiled for: 0 any, 1 with AVX2 and
+ * FMA, 2 with AVX-512 too. For files of num/ that are compiled for each.
+ */
+#ifndef QDOT_NUM_KINDS_H
+#define QDOT_NUM_KINDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
+#define QDOT_X86_KINDS
+#endif
+
+/* Whether the processor at hand is of a kind. */
+static inline bool
+qdot_kind_is_here(size_t kind)
+{
+    switch (kind) {
+    case 0: return true;
+#ifdef QDOT_X86_KINDS
+    case 1: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case 2: return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
+#endif
+    default: return false;
+    }
+}
+
+/* A kernel for each number of terms that is unrolled. */
+#define ROWS(X)                                                                          \
+    X(0)                                                                                 \
+    X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)     \
+        X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28)    \
+            X(29) X(30) X(31) X(32) X(33) X(34) X(35) X(36) X(37) X(38) X(39) X(40)      \
+                X(41) X(42) X(43) X(44) X(45) X(46) X(47) X(48) X(49)
+
+#endif
