@@ -177,6 +177,7 @@ tape_sources = \
 	lib/tape/angle.c \
 	lib/tape/code.c \
 	lib/tape/constant.c \
+	lib/tape/derivative.c \
 	lib/tape/finish.c \
 	lib/tape/keymap.c \
 	lib/tape/lanes.c \
@@ -190,6 +191,8 @@ tape_headers = \
 	lib/tape/angle.h \
 	lib/tape/code.h \
 	lib/tape/constant.h \
+	lib/tape/derivative.def \
+	lib/tape/derivative.h \
 	lib/tape/keymap.h \
 	lib/tape/lanes.def \
 	lib/tape/lanes.h \
@@ -480,6 +483,7 @@ unit_tests = \
 	tests/src/test_options \
 	tests/src/test_prompt \
 	tests/tape/test_constant \
+	tests/tape/test_derivative \
 	tests/tape/test_lanes \
 	tests/tape/test_precise \
 	tests/tape/test_tape \

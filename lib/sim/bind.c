@@ -9,11 +9,12 @@
 #include "sim/constrained.h"
 #include "sim/shifted.h"
 #include "sim/constrained-series.h"
+#include "tape/derivative.h"
 #include "tape/shake.h"
 
 struct qdot_bind {
     const qdot_plan *plan;
-    qdot_tape *tape, *jacobian; /* shaken copies; else NULL */
+    qdot_tape *tape; /* a shaken copy; else NULL */
     qdot_blocks blocks;
     qdot_constrained *held;            /* of a plan with constraints: in place of the blocks */
     qdot_direct *direct;        /* where the equations are smooth, one of the two: */
@@ -21,19 +22,15 @@ struct qdot_bind {
     qdot_constrained_series *tied;            /* or, of a plan with constraints: */
     const qdot_ode_series *series; /* its callbacks; else NULL */
     double *in;                 /* [3n + 1] q, q', t, q'' */
-    double *out, *work;         /* of either tape */
+    double *out, *work;         /* of the tape */
+    double *slopes;             /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
+    double *slopes_work;
 };
 
 static const qdot_tape *
 equations(const qdot_bind *b)
 {
     return b->tape ? b->tape : b->plan->tape;
-}
-
-static const qdot_tape *
-slopes(const qdot_bind *b)
-{
-    return b->jacobian ? b->jacobian : b->plan->jacobian;
 }
 
 void
@@ -47,10 +44,11 @@ qdot_bind_free(qdot_bind *b)
     qdot_shifted_free(b->shifted);
     qdot_constrained_series_free(b->tied);
     qdot_tape_free(b->tape);
-    qdot_tape_free(b->jacobian);
     qdot_free(b->in);
     qdot_free(b->out);
     qdot_free(b->work);
+    qdot_free(b->slopes);
+    qdot_free(b->slopes_work);
     qdot_free(b);
 }
 
@@ -111,29 +109,34 @@ rhs(double t, const double *y, double *dydt, void *user)
     return accelerations(b, dydt + n);
 }
 
-/* Column `column` of the right-hand sides in b->out, solved into a [n]. */
+/* --- its Jacobian --------------------------------------------------------------------- */
+
+/* Of block k, whose outputs begin with `row` and which is factored: dq''/dz of its
+ * coordinates for z the column of slopes,
+ *
+ *     M dq''/dz = df/dz - dM/dz q'',
+ *
+ * into its x. */
 static void
-slope_column(const qdot_bind *b, uint32_t column, double *a)
+block_column(const qdot_bind *b, size_t k, size_t row, size_t column)
 {
-    const qdot_plan *p = b->plan;
+    const qdot_plan_block *block = b->plan->blocks + k;
+    const size_t columns = 2 * b->plan->n + 1;
+    const double *slope = b->slopes + row * columns + column;
+    const double *a = b->in + columns; /* q'' */
+    double *x = b->blocks.at[k].x;
 
-    memset(a, 0, p->n * sizeof *a);
-    for (size_t i = 0; i < p->n_slopes; i++)
-        if (p->slopes[i].column == column)
-            a[p->slopes[i].row] = b->out[i];
-    for (size_t k = 0; k < p->structure.blocks; k++) {
-        const qdot_plan_block *block = p->blocks + k;
-        double *x = b->blocks.at[k].x;
-
-        for (size_t i = 0; i < block->n; i++)
-            x[i] = a[block->index[i]];
-        if (block->n == 1)
-            x[0] /= b->blocks.at[k].a[0];
-        else
-            qdot_blocks_solve(&b->blocks, k);
-        for (size_t i = 0; i < block->n; i++)
-            a[block->index[i]] = x[i];
-    }
+    for (size_t i = 0; i < block->n; i++, slope += columns)
+        x[i] = *slope;
+    if (block->n == 1)
+        return; /* the tape gives q'' itself */
+    for (size_t i = 0; i < block->n && !block->constant; i++)
+        for (size_t j = 0; j <= i; j++, slope += columns) {
+            x[i] -= *slope * a[block->index[j]];
+            if (j < i)
+                x[j] -= *slope * a[block->index[i]];
+        }
+    qdot_blocks_solve(&b->blocks, k);
 }
 
 static qdot_status
@@ -141,29 +144,32 @@ jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
 {
     qdot_bind *b = user;
     const qdot_plan *p = b->plan;
-    size_t n = p->n;
-    double *column = b->in + 2 * n + 1; /* free again once the tape has run */
-    const double *out;
+    const size_t n = p->n, columns = 2 * n + 1;
+    size_t row = 0;
 
     load(b, t, y);
-    QDOT_TRY(accelerations(b, b->in + 2 * n + 1));
-    qdot_tape_eval(slopes(b), b->in, b->out, b->work);
-    out = b->out + p->n_slopes;
-    for (size_t k = 0; k < p->structure.blocks; k++) {
-        if (p->blocks[k].constant)
-            continue;
-        out = qdot_blocks_unpack(&b->blocks, k, out);
-        if (p->blocks[k].n > 1)
-            QDOT_TRY(qdot_blocks_factor(&b->blocks, k));
-    }
+    QDOT_TRY(accelerations(b, b->in + columns));
+    qdot_derivative_eval(equations(b), b->in, 0, columns, b->out, b->slopes,
+                         b->slopes_work);
     memset(dfdy, 0, 4 * n * n * sizeof *dfdy);
-    memset(dfdt, 0, 2 * n * sizeof *dfdt);
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
         dfdy[i * 2 * n + n + i] = 1;
-    for (uint32_t j = 0; j <= 2 * n; j++) {
-        slope_column(b, j, column);
-        for (size_t i = 0; i < n; i++)
-            *(j < 2 * n ? &dfdy[(n + i) * 2 * n + j] : &dfdt[n + i]) = column[i];
+        dfdt[i] = 0;
+    }
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+
+        for (size_t j = 0; j < columns; j++) {
+            block_column(b, k, row, j);
+            for (size_t i = 0; i < block->n; i++) {
+                size_t at = n + block->index[i];
+
+                *(j < 2 * n ? &dfdy[at * 2 * n + j] : &dfdt[at]) = b->blocks.at[k].x[i];
+            }
+        }
+        row += block->n;
+        if (block->n > 1 && !block->constant)
+            row += block->n * (block->n + 1) / 2;
     }
     return QDOT_OK;
 }
@@ -186,7 +192,7 @@ qdot_bind_system(qdot_bind *b)
     return (qdot_ode_system){
         .n = 2 * b->plan->n,
         .rhs = rhs,
-        .jacobian = b->plan->jacobian ? jacobian : NULL,
+        .jacobian = b->slopes ? jacobian : NULL,
         .user = b,
         .series = b->series,
         .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
@@ -251,30 +257,36 @@ make_held(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
+/* What a method or its partner needs for the Jacobian. */
+static qdot_status
+make_slopes(qdot_bind *b)
+{
+    const qdot_plan *p = b->plan;
+
+    if (!p->method->needs_jacobian
+        && !qdot_ode_method_find(p->method->partner)->needs_jacobian)
+        return QDOT_OK;
+    b->slopes_work =
+        qdot_malloc((qdot_derivative_work(p->tape) + 1) * sizeof *b->slopes_work);
+    b->slopes = qdot_malloc((qdot_tape_outputs(p->tape) * (2 * p->n + 1) + 1)
+                            * sizeof *b->slopes);
+    return b->slopes && b->slopes_work ? QDOT_OK : QDOT_ENOMEM;
+}
+
 static qdot_status
 make(qdot_bind *b, bool shaken)
 {
     const qdot_plan *p = b->plan;
-    const qdot_tape *tapes[2] = {p->tape, p->jacobian};
-    size_t out = 0, work = 0;
-
-    for (int i = 0; i < 2; i++)
-        if (tapes[i]) {
-            out = qdot_tape_outputs(tapes[i]) > out ? qdot_tape_outputs(tapes[i]) : out;
-            work = qdot_tape_work(tapes[i]) > work ? qdot_tape_work(tapes[i]) : work;
-        }
     b->in = qdot_calloc(3 * p->n + 1, sizeof *b->in);
-    b->out = qdot_calloc(out + 1, sizeof *b->out);
-    b->work = qdot_calloc(work + 1, sizeof *b->work);
+    b->out = qdot_calloc(qdot_tape_outputs(p->tape) + 1, sizeof *b->out);
+    b->work = qdot_calloc(qdot_tape_work(p->tape) + 1, sizeof *b->work);
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
     if (p->constraints)
         return make_held(b, shaken);
-    if (shaken) {
+    if (shaken)
         QDOT_TRY(qdot_tape_shake(p->tape, &b->tape));
-        if (p->jacobian)
-            QDOT_TRY(qdot_tape_shake(p->jacobian, &b->jacobian));
-    }
+    QDOT_TRY(make_slopes(b));
     QDOT_TRY(qdot_blocks_init(&b->blocks, p, shaken));
     if (!p->smooth)
         return QDOT_OK;

@@ -188,10 +188,8 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
                      "functions\n",
                      qdot_tape_operations(p->tape), qdot_tape_calls(p->tape),
                      qdot_tape_calls(p->tape) == 1 ? "" : "s");
-    if (p->jacobian)
-        qdot_text_format(out,
-                         "jacobian: exact, from derivatives of M and f: %zu operations\n",
-                         qdot_tape_operations(p->jacobian));
+    if (p->method->needs_jacobian)
+        qdot_text_add(out, "jacobian: exact, by forward derivatives of the tape\n");
     qdot_text_format(out, "method: %s, %s: %s\n", p->method->name,
                      p->chosen ? "chosen" : "asked for", p->method->fits);
     if (p->method->series)

@@ -43,8 +43,6 @@ qdot_plan_free(qdot_plan *p)
     qdot_free(p->symbols);
     qdot_free(p->values);
     qdot_tape_free(p->tape);
-    qdot_tape_free(p->jacobian);
-    qdot_free(p->slopes);
     qdot_residual_free(p->residual);
     qdot_constraints_free(p->constraints);
     qdot_free(p);
@@ -276,64 +274,6 @@ lower_equations(qdot_plan *p)
     return status;
 }
 
-/* Row i of f - M q''. */
-static qdot_expr
-residual(const qdot_plan *p, size_t i)
-{
-    qdot_expr r = p->f[i];
-
-    for (size_t j = 0; j < p->n; j++)
-        r = qdot_sub(p->pool, r, qdot_mul(p->pool, p->M[i * p->n + j],
-                                          p->inputs[2 * p->n + 1 + j]));
-    return r;
-}
-
-static qdot_status
-push_slopes(qdot_plan *p, expressions *out)
-{
-    size_t capacity = 0;
-
-    for (size_t i = 0; i < p->n; i++) {
-        qdot_expr r = residual(p, i), atoms = qdot_expr_atoms(p->pool, r, false);
-
-        QDOT_TRY(qdot_pool_check(p->pool));
-        for (size_t j = 0; j < 2 * p->n + 1; j++) {
-            qdot_expr slope;
-            bool there = false;
-
-            for (uint32_t k = 0; k < qdot_expr_count(p->pool, atoms) && !there; k++)
-                there = qdot_expr_arg(p->pool, atoms, k) == p->inputs[j];
-            if (!there)
-                continue;
-            slope = qdot_diff(p->pool, r, p->inputs[j]);
-            QDOT_TRY(qdot_pool_check(p->pool));
-            if (slope == QDOT_ZERO)
-                continue;
-            QDOT_TRY(
-                qdot_grow(&p->slopes, &capacity, p->n_slopes + 1, sizeof *p->slopes));
-            p->slopes[p->n_slopes++] = (qdot_plan_slope){(uint32_t)i, (uint32_t)j};
-            QDOT_TRY(qdot_vec_push(out, slope));
-        }
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-lower_jacobian(qdot_plan *p)
-{
-    expressions out = {0};
-    qdot_status status = push_slopes(p, &out);
-
-    for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++)
-        if (!p->blocks[k].constant)
-            status = push_mass(p, p->blocks + k, &out);
-    if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, 3 * p->n + 1, p->inputs, out.n, out.at,
-                               &p->jacobian);
-    qdot_free(out.at);
-    return status;
-}
-
 /* --- Taylor series ------------------------------------------------------------------ */
 
 /* What a step costs, about, at an order of middling tolerances. */
@@ -455,9 +395,6 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(check_series(p, qdot_taylor_hindrance(p->tape)));
     if (p->smooth)
         QDOT_TRY(choose_form(p, scene));
-    if (p->method->needs_jacobian
-        || qdot_ode_method_find(p->method->partner)->needs_jacobian)
-        QDOT_TRY(lower_jacobian(p));
     return QDOT_OK;
 }
 

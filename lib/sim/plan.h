@@ -30,11 +30,6 @@ typedef struct {
     signed char *side;   /* [n x n] where the exact ones lie beside them (tape/shake.h) */
 } qdot_plan_block;
 
-/* An entry of d(f - M q'')/d(q, q', t) that is not zero. */
-typedef struct {
-    uint32_t row, column; /* column: 0 ... 2n */
-} qdot_plan_slope;
-
 typedef struct qdot_residual qdot_residual; /* sim/residual.h */
 typedef struct qdot_constraints qdot_constraints; /* sim/constraints.h */
 struct qdot_switches;                       /* sim/switch.h */
@@ -64,12 +59,6 @@ typedef struct {
     /* From q, q', t. Block by block: one coordinate, q''; a constant block, f; else f
      * and the lower triangle of M by rows. */
     qdot_tape *tape;
-
-    /* From q, q', t, q'': the slopes in their order, then M as above but of every
-     * block that is not constant. NULL unless the method or its companion asks for it. */
-    qdot_tape *jacobian;
-    qdot_plan_slope *slopes; /* [n_slopes] */
-    size_t n_slopes;
 
     bool smooth; /* the equations have Taylor series: for the method or its companion */
     /* Of those: the equations as d'Alembert's residual where that is

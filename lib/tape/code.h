@@ -15,7 +15,7 @@
 #include "tape/tape.h"
 
 typedef enum {
-#define X(ID, name, operands, operations, calls, statement) QDOT_OP_##ID,
+#define X(ID, name, operands, operations, calls, statement, slopes) QDOT_OP_##ID,
 #include "tape/operation.def"
 #undef X
     QDOT_OP_COUNT,

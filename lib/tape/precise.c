@@ -388,7 +388,8 @@ SWITCH(SELECT, mpfr_set(d, !mpfr_zero_p(a) ? b : c, RN))
 static const struct {
     void (*order)(qdot_precise *p, const step *i, int k);
 } table[QDOT_OP_COUNT] = {
-#define X(ID, name, operands, operations, calls, statement) [QDOT_OP_##ID] = {order_##ID},
+#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+    [QDOT_OP_##ID] = {order_##ID},
 #include "tape/operation.def"
 #undef X
 };
