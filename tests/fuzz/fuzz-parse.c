@@ -9,10 +9,11 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     qdot_session *session;
     bool json = size > 0 && data[size - 1] % 2 != 0;
 
-    fuzz_begin(data, size);
+    fuzz_ready();
     session = qdot_session_new(fuzz_nowhere, fuzz_nowhere);
     if (session == NULL)
         abort();
+    fuzz_begin(data, size);
     session->json = json;
     session->style = size > 1 ? (qdot_style)(data[size - 2] % 3) : QDOT_PLAIN;
     (void)qdot_session_incomplete((const char *)data, size);

@@ -98,11 +98,12 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (memchr(data, '\n', size) != NULL || memchr(data, ';', size) != NULL ||
         memchr(data, '=', size) != NULL || memchr(data, '%', size) != NULL)
         return -1;
-    fuzz_begin(data, size);
+    fuzz_ready();
     session = qdot_session_new(fuzz_nowhere, fuzz_nowhere);
     if (session == NULL ||
         qdot_session_run_text(session, "scene", scene, sizeof scene - 1) != 0)
         abort();
+    fuzz_begin(data, size);
     e = value_of(session, (const char *)data, size);
     if (e != QDOT_NIL && is_plain_value(session->pool, e)) {
         read_again(session, "not read back", e);
