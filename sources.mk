@@ -76,6 +76,7 @@ expr_headers = \
 	lib/expr/print-parts.h \
 	lib/expr/print.h \
 	lib/expr/printed.h \
+	lib/expr/rational.h \
 	lib/expr/tensor.h \
 	lib/expr/walk.h
 
@@ -429,6 +430,7 @@ unit_tests = \
 	tests/expr/test_pool \
 	tests/expr/test_print \
 	tests/expr/test_product \
+	tests/expr/test_rational \
 	tests/expr/test_sum \
 	tests/expr/test_tensor \
 	tests/expr/test_walk \

@@ -57,7 +57,7 @@ derive_product(derivation *d, qdot_expr e)
     qdot_pool *pool = d->pool;
     uint32_t n = NODE(pool, e)->n;
 
-    for (uint32_t i = 1; i < n && !qdot_pool_failed(pool); i += 2) {
+    for (uint32_t i = 1; i < n && !FAILED(pool); i += 2) {
         qdot_expr b = ARGS(pool, e)[i];
         qdot_expr db = derived(d, b), dx = derived(d, ARGS(pool, e)[i + 1]);
 
@@ -160,11 +160,11 @@ derive(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
 
     touches |= QDOT_TOUCHES_VALUE; /* a vector of constants has a vector of zeros */
     d.touches = touches;
-    if (e == QDOT_NIL || qdot_pool_failed(pool))
+    if (e == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
     if (qdot_walk_begin_where(pool, e, holds, touches, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n && !qdot_pool_failed(pool); i++) {
+    for (size_t i = 0; i < w.n && !FAILED(pool); i++) {
         qdot_expr node = w.at[i];
 
         d.terms.n = 0;
@@ -198,7 +198,7 @@ derive(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
     qdot_free(d.terms.at);
     qdot_free(d.factors.at);
     qdot_walk_end(&w);
-    return qdot_pool_failed(pool) ? QDOT_NIL : result;
+    return FAILED(pool) ? QDOT_NIL : result;
 }
 
 qdot_expr

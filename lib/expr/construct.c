@@ -9,14 +9,14 @@ qdot_rel(qdot_pool *pool, qdot_rel_op op, qdot_expr a, qdot_expr b)
     const fmpq *x, *y;
     qdot_expr args[] = {a, b};
 
-    if (a == QDOT_NIL || b == QDOT_NIL || qdot_pool_failed(pool))
+    if (a == QDOT_NIL || b == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
-    if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
+    if (!qdot_pool_is_scalar(pool, a) || !qdot_pool_is_scalar(pool, b))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "only numbers can be compared");
-    x = qdot_expr_rational(pool, a);
-    y = qdot_expr_rational(pool, b);
+    x = NUMBER(pool, a);
+    y = NUMBER(pool, b);
     if (op != QDOT_EQ && x != NULL && y != NULL) {
-        int d = fmpq_cmp(x, y);
+        int d = qdot_rational_cmp(x, y);
 
         return d < 0 || (d == 0 && op == QDOT_LE) ? QDOT_TRUE : QDOT_FALSE;
     }
@@ -36,7 +36,7 @@ qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
     qdot_expr kept[16];
     uint32_t k = 0;
 
-    if (qdot_pool_failed(pool))
+    if (FAILED(pool))
         return QDOT_NIL;
     for (uint32_t i = 0; i < n; i++) {
         if (args[i] == QDOT_NIL)
@@ -67,12 +67,12 @@ qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
 static bool
 entries(qdot_pool *pool, uint32_t n, const qdot_expr *e)
 {
-    if (qdot_pool_failed(pool))
+    if (FAILED(pool))
         return false;
     for (uint32_t i = 0; i < n; i++) {
         if (e[i] == QDOT_NIL)
             return false;
-        if (!qdot_expr_is_scalar(pool, e[i]) && !is_truth(pool, e[i])) {
+        if (!qdot_pool_is_scalar(pool, e[i]) && !is_truth(pool, e[i])) {
             qdot_pool_refuse(pool, QDOT_ETYPE, "a component must be a number");
             return false;
         }
@@ -155,7 +155,7 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
     case QDOT_MAT: result = qdot_matrix(pool, node.n / node.op, node.op, own); break;
     case QDOT_UFUN:
         for (uint32_t i = 0; i < node.n / 2; i++)
-            if (!qdot_expr_is_scalar(pool, own[i]))
+            if (!qdot_pool_is_scalar(pool, own[i]))
                 qdot_pool_refuse(pool, QDOT_ETYPE, "an argument of %s must be a number",
                                  pool->ufuns.at[node.op].name);
         result = qdot_pool_intern(pool, node.kind, node.op, node.n, own, 0);

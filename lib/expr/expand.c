@@ -47,10 +47,10 @@ multiply(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if ((uint64_t)na * nb > MOST_TERMS)
         return qdot_pool_refuse(pool, QDOT_ELIMIT, "expanded, this has about %llu terms",
                                 (unsigned long long)na * nb);
-    for (uint32_t i = 0; i < na && !qdot_pool_failed(pool); i++) {
+    for (uint32_t i = 0; i < na && !FAILED(pool); i++) {
         qdot_expr x = term_at(pool, a, i);
 
-        for (uint32_t k = 0; k < nb && !qdot_pool_failed(pool); k++)
+        for (uint32_t k = 0; k < nb && !FAILED(pool); k++)
             if (qdot_vec_push(&terms, qdot_mul(pool, x, term_at(pool, b, k))) != QDOT_OK)
                 qdot_pool_fail(pool);
     }
@@ -65,7 +65,7 @@ power(qdot_pool *pool, qdot_expr s, unsigned long n)
 {
     qdot_expr result = QDOT_ONE;
 
-    for (; n > 0 && !qdot_pool_failed(pool); n >>= 1) {
+    for (; n > 0 && !FAILED(pool); n >>= 1) {
         if (n & 1)
             result = multiply(pool, result, s);
         if (n > 1)
@@ -92,7 +92,7 @@ expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     qdot_expr result = ARGS(pool, e)[0], below = QDOT_ONE;
     uint32_t n = NODE(pool, e)->n;
 
-    for (uint32_t i = 1; i < n && !qdot_pool_failed(pool); i += 2) {
+    for (uint32_t i = 1; i < n && !FAILED(pool); i += 2) {
         qdot_expr base = (qdot_expr)qdot_walk_get(w, ARGS(pool, e)[i]);
         qdot_expr exponent = (qdot_expr)qdot_walk_get(w, ARGS(pool, e)[i + 1]);
         long k;
@@ -118,11 +118,11 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
     qdot_vec(qdot_expr) args = {0};
     qdot_expr result = QDOT_NIL;
 
-    if (e == QDOT_NIL || qdot_pool_failed(pool))
+    if (e == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
     if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n && !qdot_pool_failed(pool); i++) {
+    for (size_t i = 0; i < w.n && !FAILED(pool); i++) {
         qdot_expr node = w.at[i];
         uint32_t n = NODE(pool, node)->n;
 
@@ -146,7 +146,7 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
     }
     qdot_free(args.at);
     qdot_walk_end(&w);
-    return qdot_pool_failed(pool) ? QDOT_NIL : result;
+    return FAILED(pool) ? QDOT_NIL : result;
 }
 
 /* --- collecting ----------------------------------------------------------------------------- */
@@ -200,7 +200,7 @@ gather_all(qdot_pool *pool, qdot_expr e, qdot_expr x, groups *all)
     if (e == QDOT_NIL)
         return;
     n = term_count(pool, e);
-    for (uint32_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
+    for (uint32_t i = 0; i < n && !FAILED(pool); i++) {
         qdot_expr power, rest = split_power(pool, term_at(pool, e, i), x, &power);
 
         gather(pool, all, power, rest);
@@ -228,7 +228,7 @@ collect_scalar(qdot_pool *pool, qdot_expr e, void *user)
                                    qdot_sum(pool, all.at[i].coefficients.n,
                                             all.at[i].coefficients.at)));
     clear(&all);
-    return qdot_pool_failed(pool) ? QDOT_NIL : result;
+    return FAILED(pool) ? QDOT_NIL : result;
 }
 
 qdot_expr
@@ -268,5 +268,5 @@ qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n)
             result = c;
     }
     clear(&all);
-    return qdot_pool_failed(pool) ? QDOT_NIL : result;
+    return FAILED(pool) ? QDOT_NIL : result;
 }

@@ -63,7 +63,7 @@ split_pi(qdot_pool *pool, qdot_expr x, fmpq_t c)
     if (node->kind == QDOT_SUM) {
         for (uint32_t i = 1; i < node->n; i += 2)
             if (ARGS(pool, x)[i] == QDOT_PI) {
-                fmpq_set(c, RATIONAL(pool, ARGS(pool, x)[i + 1]));
+                qdot_rational_set(c, RATIONAL(pool, ARGS(pool, x)[i + 1]));
                 return qdot_sub(pool, x, qdot_mul(pool, ARGS(pool, x)[i + 1], QDOT_PI));
             }
     } else if (qdot_expr_unscale(pool, x, c) == QDOT_PI) {
@@ -176,6 +176,9 @@ circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 
     if (id <= QDOT_TAN && is_fun(pool, x, inverse_of[id - QDOT_SIN]))
         return arg0(pool, x);
+    if (x != QDOT_ZERO && !(NODE(pool, x)->touches & NODE(pool, QDOT_PI)->touches) &&
+        !qdot_expr_is_negative(pool, x)) /* no pi is in it */
+        return plain(pool, id, 1, &x);
     fmpq_init(c);
     fmpq_init(twelve);
     rest = split_pi(pool, x, c);
@@ -204,7 +207,7 @@ circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 static qdot_expr
 inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
-    const fmpq *v = qdot_expr_rational(pool, x);
+    const fmpq *v = NUMBER(pool, x);
     bool out = v != NULL && (fmpq_cmp_si(v, 1) > 0 || fmpq_cmp_si(v, -1) < 0);
 
     if (id == QDOT_ACOS) {
@@ -254,8 +257,8 @@ hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
         return even ? QDOT_ONE : QDOT_ZERO;
     if (id == QDOT_ACOSH && x == QDOT_ONE)
         return QDOT_ZERO;
-    if (inverse && qdot_expr_rational(pool, x) != NULL) {
-        const fmpq *v = qdot_expr_rational(pool, x);
+    if (inverse && NUMBER(pool, x) != NULL) {
+        const fmpq *v = NUMBER(pool, x);
 
         if (id == QDOT_ACOSH && fmpq_cmp_si(v, 1) < 0)
             return qdot_pool_refuse(pool, QDOT_EDOMAIN, "acosh is defined from 1 up");
@@ -288,11 +291,11 @@ exponential(qdot_pool *pool, qdot_expr x)
 static qdot_expr
 logarithm(qdot_pool *pool, qdot_expr x)
 {
-    const fmpq *v = qdot_expr_rational(pool, x);
+    const fmpq *v = NUMBER(pool, x);
 
     if (x == QDOT_ONE)
         return QDOT_ZERO;
-    if (v != NULL && fmpq_sgn(v) <= 0)
+    if (v != NULL && qdot_rational_sgn(v) <= 0)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN,
                                 "log is defined for positive numbers only");
     if (is_fun(pool, x, QDOT_EXP))
@@ -349,12 +352,12 @@ extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     qdot_expr best = args[0];
 
     for (uint32_t i = 0; i < n; i++) {
-        const fmpq *v = qdot_expr_rational(pool, args[i]),
-                   *b = qdot_expr_rational(pool, best);
+        const fmpq *v = NUMBER(pool, args[i]),
+                   *b = NUMBER(pool, best);
 
         if (v == NULL || b == NULL)
             return n == 1 ? best : plain(pool, id, n, args);
-        if ((id == QDOT_MIN) == (fmpq_cmp(v, b) < 0) && !fmpq_equal(v, b))
+        if ((id == QDOT_MIN) == (qdot_rational_cmp(v, b) < 0) && !qdot_rational_equal(v, b))
             best = args[i];
     }
     return best;
@@ -363,7 +366,7 @@ extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 static qdot_expr
 floor_of(qdot_pool *pool, qdot_expr x)
 {
-    const fmpq *v = qdot_expr_rational(pool, x);
+    const fmpq *v = NUMBER(pool, x);
     fmpz_t whole;
     fmpq_t q;
     qdot_expr e;
@@ -385,8 +388,8 @@ modulo(qdot_pool *pool, const qdot_expr *args)
 {
     if (args[1] == QDOT_ZERO)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "mod by zero");
-    if (qdot_expr_rational(pool, args[0]) == NULL ||
-        qdot_expr_rational(pool, args[1]) == NULL)
+    if (NUMBER(pool, args[0]) == NULL ||
+        NUMBER(pool, args[1]) == NULL)
         return plain(pool, QDOT_MOD, 2, args);
     return qdot_sub(
         pool, args[0],
@@ -402,9 +405,9 @@ arctangent2(qdot_pool *pool, const qdot_expr *args)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "atan2(0, 0) is undefined");
     if ((NODE(pool, x)->sign & QDOT_POS) == QDOT_POS)
         return qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, y, x));
-    if (qdot_expr_rational(pool, x) != NULL && qdot_expr_rational(pool, y) != NULL) {
+    if (NUMBER(pool, x) != NULL && NUMBER(pool, y) != NULL) {
         qdot_expr half = qdot_mul(pool, QDOT_HALF, QDOT_PI);
-        bool up = fmpq_sgn(qdot_expr_rational(pool, y)) >= 0;
+        bool up = qdot_rational_sgn(NUMBER(pool, y)) >= 0;
 
         if (x == QDOT_ZERO)
             return up ? half : qdot_neg(pool, half);
@@ -422,8 +425,8 @@ choose(qdot_pool *pool, const qdot_expr *args)
     if (args[0] == QDOT_TRUE || args[0] == QDOT_FALSE)
         return args[args[0] == QDOT_TRUE ? 1 : 2];
     if (kind == QDOT_REL && NODE(pool, args[0])->op == QDOT_EQ) {
-        const fmpq *l = qdot_expr_rational(pool, arg0(pool, args[0]));
-        const fmpq *r = qdot_expr_rational(pool, ARGS(pool, args[0])[1]);
+        const fmpq *l = NUMBER(pool, arg0(pool, args[0]));
+        const fmpq *r = NUMBER(pool, ARGS(pool, args[0])[1]);
 
         if (arg0(pool, args[0]) == ARGS(pool, args[0])[1])
             return args[1];
@@ -433,7 +436,7 @@ choose(qdot_pool *pool, const qdot_expr *args)
     if (kind != QDOT_REL && kind != QDOT_LOGIC)
         return qdot_pool_refuse(pool, QDOT_ETYPE,
                                 "the condition of if must be a comparison such as x > 0");
-    if (!qdot_expr_is_scalar(pool, args[1]) || !qdot_expr_is_scalar(pool, args[2]))
+    if (!qdot_pool_is_scalar(pool, args[1]) || !qdot_pool_is_scalar(pool, args[2]))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "if chooses between numbers");
     return args[1] == args[2] ? args[1] : plain(pool, QDOT_IF, 3, args);
 }
@@ -441,14 +444,14 @@ choose(qdot_pool *pool, const qdot_expr *args)
 qdot_expr
 qdot_hold(qdot_pool *pool, qdot_expr e)
 {
-    if (qdot_pool_failed(pool) || e == QDOT_NIL)
+    if (FAILED(pool) || e == QDOT_NIL)
         return QDOT_NIL;
-    if (!qdot_expr_is_scalar(pool, e))
+    if (!qdot_pool_is_scalar(pool, e))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "hold takes numbers");
     if (NODE(pool, e)->kind != QDOT_SUM && NODE(pool, e)->kind != QDOT_PROD)
         return e;
     if (NODE(pool, e)->kind == QDOT_PROD &&
-        fmpq_sgn(qdot_expr_rational(pool, arg0(pool, e))) < 0)
+        qdot_rational_sgn(NUMBER(pool, arg0(pool, e))) < 0)
         return qdot_neg(pool, qdot_hold(pool, qdot_neg(pool, e)));
     return plain(pool, QDOT_HOLD, 1, &e);
 }
@@ -456,7 +459,7 @@ qdot_hold(qdot_pool *pool, qdot_expr e)
 qdot_expr
 qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 {
-    if (qdot_pool_failed(pool))
+    if (FAILED(pool))
         return QDOT_NIL;
     if (id == QDOT_HOLD)
         return qdot_hold(pool, args[0]);
@@ -467,7 +470,7 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     for (uint32_t i = 0; i < n; i++) {
         if (args[i] == QDOT_NIL)
             return QDOT_NIL;
-        if (id != QDOT_IF && !qdot_expr_is_scalar(pool, args[i]))
+        if (id != QDOT_IF && !qdot_pool_is_scalar(pool, args[i]))
             return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes numbers", table[id].name);
     }
     switch (id) {

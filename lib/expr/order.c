@@ -84,7 +84,7 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
         if (d != 0)
             return d;
         if (x->kind == QDOT_NUM)
-            return fmpq_cmp(RATIONAL(pool, a), RATIONAL(pool, b));
+            return qdot_rational_cmp(RATIONAL(pool, a), RATIONAL(pool, b));
         if (x->kind == QDOT_SYM)
             return compare_symbols(&pool->symbols.at[x->at], &pool->symbols.at[y->at]);
         if (x->kind != y->kind) /* an elementary and an undefined function */
@@ -147,9 +147,9 @@ bool
 qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
 {
     switch (NODE(pool, e)->kind) {
-    case QDOT_NUM: return fmpq_sgn(RATIONAL(pool, e)) < 0;
-    case QDOT_PROD: return fmpq_sgn(RATIONAL(pool, ARGS(pool, e)[0])) < 0;
-    case QDOT_SUM: return fmpq_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;
+    case QDOT_NUM: return qdot_rational_sgn(RATIONAL(pool, e)) < 0;
+    case QDOT_PROD: return qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[0])) < 0;
+    case QDOT_SUM: return qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;
     default: return false;
     }
 }
@@ -181,15 +181,15 @@ static uint8_t
 sign_of_power(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
 {
     uint8_t s = NODE(pool, base)->sign;
-    const fmpq *x = qdot_expr_rational(pool, exponent);
+    const fmpq *x = NUMBER(pool, exponent);
 
     if (x == NULL)
         return (s & QDOT_POS) == QDOT_POS ? QDOT_POS : 0;
     if (!fmpz_is_one(fmpq_denref(x))) /* a real root: its base is not negative */
-        return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0) | (fmpq_sgn(x) < 0 ? QDOT_NE0 : 0));
+        return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0) | (qdot_rational_sgn(x) < 0 ? QDOT_NE0 : 0));
     if (fmpz_is_even(fmpq_numref(x)))
         s = (uint8_t)(QDOT_GE0 | (s & QDOT_NE0));
-    if (fmpq_sgn(x) < 0 && (s & (QDOT_GE0 | QDOT_LE0)))
+    if (qdot_rational_sgn(x) < 0 && (s & (QDOT_GE0 | QDOT_LE0)))
         s |= QDOT_NE0;
     return s;
 }
@@ -213,7 +213,7 @@ qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
     for (uint32_t i = 1; i < n && all != 0; i += 2) {
         uint8_t s = NODE(pool, args[i])->sign;
 
-        if (fmpq_sgn(RATIONAL(pool, args[i + 1])) < 0)
+        if (qdot_rational_sgn(RATIONAL(pool, args[i + 1])) < 0)
             s = flip(s);
         all &= s;
         any |= s & QDOT_NE0;
@@ -242,8 +242,8 @@ within(const qdot_pool *pool, qdot_expr x, int lo, int hi, bool *open)
             if (NODE(pool, e)->kind == QDOT_PROD && NODE(pool, e)->n == 3 &&
                 ARGS(pool, e)[1] == QDOT_PI && ARGS(pool, e)[2] == QDOT_ONE)
                 c = RATIONAL(pool, ARGS(pool, e)[0]);
-            if (c == NULL || !fmpz_equal_si(fmpq_denref(c), 2) ||
-                (!fmpz_is_one(fmpq_numref(c)) && !fmpz_equal_si(fmpq_numref(c), -1)))
+            if (c == NULL || !qdot_integer_is(fmpq_denref(c), 2) ||
+                (!fmpz_is_one(fmpq_numref(c)) && !qdot_integer_is(fmpq_numref(c), -1)))
                 return false;
             bound[i] = (int)fmpz_get_si(fmpq_numref(c));
         }
@@ -291,9 +291,9 @@ bounds(const qdot_pool *pool, qdot_expr e, double *lo, double *hi)
     *hi = node->sign & QDOT_LE0 ? 0 : INFINITY;
     if (node->kind == QDOT_PROD && node->n == 3 && ARGS(pool, e)[0] == QDOT_ONE) {
         qdot_expr b = ARGS(pool, e)[1];
-        const fmpq *k = qdot_expr_rational(pool, ARGS(pool, e)[2]);
+        const fmpq *k = NUMBER(pool, ARGS(pool, e)[2]);
 
-        if (k == NULL || fmpq_sgn(k) < 0 || NODE(pool, b)->kind != QDOT_FUN)
+        if (k == NULL || qdot_rational_sgn(k) < 0 || NODE(pool, b)->kind != QDOT_FUN)
             return;
         if (NODE(pool, b)->op == QDOT_SIN || NODE(pool, b)->op == QDOT_COS ||
             NODE(pool, b)->op == QDOT_TANH)

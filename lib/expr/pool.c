@@ -61,7 +61,7 @@ qdot_pool_check(qdot_pool *pool)
 bool
 qdot_pool_failed(const qdot_pool *pool)
 {
-    return pool->error.status != QDOT_OK;
+    return FAILED(pool);
 }
 
 uint64_t
@@ -221,9 +221,9 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
 /* --- numbers -------------------------------------------------------------------------- */
 
 static uint8_t
-sign_of_number(const fmpq_t x)
+sign_of_number(const fmpq *x)
 {
-    int s = fmpq_sgn(x);
+    int s = qdot_rational_sgn(x);
 
     return s > 0 ? QDOT_POS : s < 0 ? QDOT_NEG : QDOT_GE0 | QDOT_LE0;
 }
@@ -280,12 +280,12 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
         if (NODE(pool, e)->hash == node.hash && NODE(pool, e)->kind == QDOT_NUM &&
             (small ? *fmpq_numref(RATIONAL(pool, e)) == *fmpq_numref(x) &&
                          *fmpq_denref(RATIONAL(pool, e)) == *fmpq_denref(x)
-                   : fmpq_equal(RATIONAL(pool, e), x)))
+                   : qdot_rational_equal(RATIONAL(pool, e), x)))
             return e;
     }
     node.at = (uint32_t)pool->numbers.n;
     fmpq_init(&copy);
-    fmpq_set(&copy, x);
+    qdot_rational_set(&copy, x);
     if (qdot_vec_push(&pool->numbers, copy) != QDOT_OK) {
         fmpq_clear(&copy);
         return qdot_pool_fail(pool);
@@ -305,6 +305,10 @@ qdot_expr_ratio(qdot_pool *pool, long n, long d)
     if (d == 0)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "division by zero");
     fmpq_init(x);
+    if (d > 0 && d < QDOT_SMALL && labs(n) < QDOT_SMALL) {
+        qdot_rational_make(x, n, d);
+        return qdot_expr_fmpq(pool, x);
+    }
     fmpz_init_set_si(num, n);
     fmpz_init_set_si(den, d);
     fmpq_set_fmpz_frac(x, num, den);
@@ -634,8 +638,7 @@ qdot_expr_count(const qdot_pool *pool, qdot_expr e)
 bool
 qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e)
 {
-    return e != QDOT_NIL && NODE(pool, e)->kind <= QDOT_UFUN && e != QDOT_TRUE &&
-           e != QDOT_FALSE && !(NODE(pool, e)->holds & QDOT_HAS_WORDS);
+    return qdot_pool_is_scalar(pool, e);
 }
 
 bool
@@ -653,17 +656,19 @@ qdot_expr_is_one(qdot_expr e)
 const fmpq *
 qdot_expr_rational(const qdot_pool *pool, qdot_expr e)
 {
-    return e != QDOT_NIL && NODE(pool, e)->kind == QDOT_NUM ? RATIONAL(pool, e) : NULL;
+    return NUMBER(pool, e);
 }
 
 bool
 qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value)
 {
-    const fmpq *x = qdot_expr_rational(pool, e);
+    const fmpq *x = NUMBER(pool, e);
 
-    if (x == NULL || !fmpz_is_one(fmpq_denref(x)) || !fmpz_fits_si(fmpq_numref(x)))
+    if (x == NULL || !fmpz_is_one(fmpq_denref(x)))
         return false;
-    *value = fmpz_get_si(fmpq_numref(x));
+    if (COEFF_IS_MPZ(x->num) && !fmpz_fits_si(fmpq_numref(x)))
+        return false;
+    *value = COEFF_IS_MPZ(x->num) ? fmpz_get_si(fmpq_numref(x)) : x->num;
     return true;
 }
 

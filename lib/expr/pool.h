@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "expr/expr.h"
+#include "expr/rational.h"
 
 struct qdot_pool {
     qdot_vec(qdot_node) nodes;     /* [0] is nil */
@@ -93,5 +94,17 @@ bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 #define ARGS(pool, e) ((pool)->args.at + (pool)->nodes.at[e].at)
 #define WHERE(pool, e, h, t) ((NODE(pool, e)->holds & (h)) | (NODE(pool, e)->touches & (t)))
 #define RATIONAL(pool, e) (&(pool)->numbers.at[(pool)->nodes.at[e].at])
+/* qdot_expr_rational, qdot_pool_failed without a call */
+#define NUMBER(pool, e)                                                                  \
+    ((e) != QDOT_NIL && NODE(pool, e)->kind == QDOT_NUM ? RATIONAL(pool, e) : NULL)
+#define FAILED(pool) ((pool)->error.status != QDOT_OK)
+
+/* qdot_expr_is_scalar. */
+static inline bool
+qdot_pool_is_scalar(const qdot_pool *pool, qdot_expr e)
+{
+    return e != QDOT_NIL && NODE(pool, e)->kind <= QDOT_UFUN && e != QDOT_TRUE &&
+           e != QDOT_FALSE && !(NODE(pool, e)->holds & QDOT_HAS_WORDS);
+}
 
 #endif

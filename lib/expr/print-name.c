@@ -8,6 +8,7 @@
 #include <flint/fmpz.h>
 
 #include "base/memory.h"
+#include "expr/rational.h"
 
 static const struct {
     const char *spelled, *letter;
@@ -300,9 +301,9 @@ static const char *
 glyph(const fmpq_t x)
 {
     for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++)
-        if (fmpz_equal_si(fmpq_denref(x), fractions[i].q) &&
-            (fmpz_equal_si(fmpq_numref(x), fractions[i].p) ||
-             fmpz_equal_si(fmpq_numref(x), -fractions[i].p)))
+        if (qdot_integer_is(fmpq_denref(x), fractions[i].q) &&
+            (qdot_integer_is(fmpq_numref(x), fractions[i].p) ||
+             qdot_integer_is(fmpq_numref(x), -fractions[i].p)))
             return fractions[i].glyph;
     return NULL;
 }
@@ -349,7 +350,7 @@ integer(const fmpz_t n, qdot_text *out)
 static void
 number_mathml(const fmpq_t x, int bracket, qdot_text *out)
 {
-    bool whole = fmpz_is_one(fmpq_denref(x)), minus = fmpq_sgn(x) < 0;
+    bool whole = fmpz_is_one(fmpq_denref(x)), minus = qdot_rational_sgn(x) < 0;
     bool wrap = (bracket > 0 && minus) || (bracket == 2 && !whole);
     fmpz_t top;
 
@@ -373,7 +374,7 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
                   qdot_text *out)
 {
     bool whole = fmpz_is_one(fmpq_denref(x));
-    bool wrap = (bracket > 0 && fmpq_sgn(x) < 0) || (bracket == 2 && !whole);
+    bool wrap = (bracket > 0 && qdot_rational_sgn(x) < 0) || (bracket == 2 && !whole);
     fmpz_t top;
 
     if (raised) { /* an integer */
@@ -394,7 +395,7 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
         const char *sign = glyph(x);
 
         if (sign != NULL) {
-            qdot_text_add(out, fmpq_sgn(x) < 0 ? "−" : "");
+            qdot_text_add(out, qdot_rational_sgn(x) < 0 ? "−" : "");
             qdot_text_add(out, sign);
             if (wrap)
                 qdot_text_char(out, ')');
@@ -402,7 +403,7 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
         }
     }
     if (style == QDOT_LATEX && !whole) {
-        qdot_text_add(out, fmpq_sgn(x) < 0 ? "-\\frac{" : "\\frac{");
+        qdot_text_add(out, qdot_rational_sgn(x) < 0 ? "-\\frac{" : "\\frac{");
         fmpz_init(top);
         fmpz_abs(top, fmpq_numref(x));
         integer(top, out);

@@ -22,7 +22,7 @@ below(const qdot_pool *pool, qdot_expr e)
 {
     const fmpq *x = qdot_expr_rational(pool, e);
 
-    return x != NULL ? fmpq_sgn(x) < 0
+    return x != NULL ? qdot_rational_sgn(x) < 0
                      : NODE(pool, e)->kind == QDOT_PROD && qdot_expr_is_negative(pool, e);
 }
 
@@ -42,7 +42,7 @@ qdot_print_exponent(printer *p, qdot_expr e, bool turned)
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
     bool integer =
-        x != NULL && fmpz_is_one(fmpq_denref(x)) && (fmpq_sgn(x) > 0 || turned);
+        x != NULL && fmpz_is_one(fmpq_denref(x)) && (qdot_rational_sgn(x) > 0 || turned);
     struct piece number = {.e = e, .context = turned ? MAGNITUDE : TOP};
 
     if (turned && x == NULL) {
@@ -98,7 +98,7 @@ is_sqrt(const qdot_pool *pool, qdot_expr e)
 {
     const fmpq *x = qdot_expr_rational(pool, e);
 
-    return x != NULL && fmpz_equal_si(fmpq_denref(x), 2) && fmpz_is_pm1(fmpq_numref(x));
+    return x != NULL && qdot_integer_is(fmpq_denref(x), 2) && fmpz_is_pm1(fmpq_numref(x));
 }
 
 static bool
@@ -114,7 +114,7 @@ is_bare(const qdot_pool *pool, qdot_expr e)
     return NODE(pool, e)->kind == QDOT_SYM ||
            (NODE(pool, e)->kind == QDOT_NUM &&
             fmpz_is_one(fmpq_denref(RATIONAL(pool, e))) &&
-            fmpq_sgn(RATIONAL(pool, e)) > 0);
+            qdot_rational_sgn(RATIONAL(pool, e)) > 0);
 }
 
 /* b as a base or a factor; an even power is written of the side that is not negative:
@@ -133,7 +133,7 @@ factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool flip)
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
-    bool half = is_sqrt(pool, e) && (down || fmpq_sgn(x) > 0);
+    bool half = is_sqrt(pool, e) && (down || qdot_rational_sgn(x) > 0);
 
     if (half && p->style == QDOT_UNICODE && is_bare(pool, b)) {
         say(p, "√");
@@ -145,7 +145,7 @@ factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool flip)
     } else if (down ? e == QDOT_MINUS_ONE : e == QDOT_ONE) {
         base(p, b, x, flip, context);
     } else if (p->style != QDOT_PLAIN && is_circular(pool, b) && x != NULL &&
-               fmpz_is_one(fmpq_denref(x)) && (down || fmpq_sgn(x) > 0)) {
+               fmpz_is_one(fmpq_denref(x)) && (down || qdot_rational_sgn(x) > 0)) {
         power_of_function(p, b, e, down);
     } else {
         qdot_print_raise(p);
@@ -162,7 +162,7 @@ comes_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *e = qdot_expr_rational(pool, x);
 
-    return e != NULL && fmpz_equal_si(fmpq_denref(e), 2) &&
+    return e != NULL && qdot_integer_is(fmpq_denref(e), 2) &&
            NODE(pool, b)->kind != QDOT_NUM && NODE(pool, b)->kind != QDOT_PROD &&
            (NODE(pool, b)->sign & QDOT_GE0);
 }
@@ -219,7 +219,7 @@ find_root(const qdot_pool *pool, const fmpq *c, qdot_expr e, struct root *r)
     }
     fmpq_init(r->c);
     fmpq_init(r->number);
-    fmpq_set(r->c, c);
+    qdot_rational_set(r->c, c);
     fmpq_one(r->number);
     if (number != NULL) {
         fmpz_t g;
@@ -421,10 +421,10 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     const fmpq *x = RATIONAL(pool, c);
     bool drawn = is_drawn(p);
     struct root r;
-    qdot_expr turned = flip || (fmpq_sgn(x) < 0 && context >= 0)
+    qdot_expr turned = flip || (qdot_rational_sgn(x) < 0 && context >= 0)
                            ? qdot_expr_turnable(pool, e)
                            : QDOT_NIL;
-    bool minus = fmpq_sgn(x) < 0 && context >= 0 && turned == QDOT_NIL;
+    bool minus = qdot_rational_sgn(x) < 0 && context >= 0 && turned == QDOT_NIL;
 
     find_root(pool, x, e, &r);
     if (r.any)

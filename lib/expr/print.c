@@ -16,7 +16,7 @@
 static bool
 is_minus(const qdot_pool *pool, qdot_expr number)
 {
-    return fmpq_sgn(RATIONAL(pool, number)) < 0;
+    return qdot_rational_sgn(RATIONAL(pool, number)) < 0;
 }
 
 /* One c t of a sum (t a PROD, a symbol ... or 1), its sign written before it: a plus where it
@@ -233,7 +233,7 @@ open_node(printer *p, const struct piece *x)
     switch (node->kind) {
     case QDOT_NUM:
         fmpq_init(c);
-        fmpq_set(c, RATIONAL(pool, x->e));
+        qdot_rational_set(c, RATIONAL(pool, x->e));
         if (x->context == MAGNITUDE)
             fmpq_abs(c, c);
         if (x->context == NUMERATOR) { /* the numerator alone */

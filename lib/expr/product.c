@@ -68,7 +68,9 @@ push(struct product *p, qdot_expr base, qdot_expr exponent)
 static void
 scale(struct product *p, const fmpq *c)
 {
-    fmpq_mul(&p->c, &p->c, c);
+    if (fmpq_is_one(c))
+        return;
+    qdot_rational_mul(&p->c, &p->c, c);
     if (qdot_number_too_large(p->pool, &p->c))
         p->failed = true;
 }
@@ -78,7 +80,7 @@ static void
 push_number(struct product *p, qdot_expr base, qdot_expr exponent)
 {
     qdot_pool *pool = p->pool;
-    const fmpq *e = qdot_expr_rational(pool, exponent);
+    const fmpq *e = NUMBER(pool, exponent);
     fmpq_t b, k, y;
     bool good = true;
 
@@ -87,7 +89,7 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
             push(p, base, exponent);
         return;
     }
-    if (base == QDOT_ZERO && fmpq_sgn(e) < 0) {
+    if (base == QDOT_ZERO && qdot_rational_sgn(e) < 0) {
         qdot_pool_refuse(pool, QDOT_EDOMAIN, "division by zero");
         p->failed = true;
         return;
@@ -99,8 +101,8 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
     fmpq_init(b);
     fmpq_init(k);
     fmpq_init(y);
-    fmpq_set(b, RATIONAL(pool, base));
-    fmpq_set(k, e);
+    qdot_rational_set(b, RATIONAL(pool, base));
+    qdot_rational_set(k, e);
     if (fmpz_is_one(fmpq_denref(k))) {
         good = qdot_number_power(pool, y, b, fmpq_numref(k));
     } else {
@@ -125,9 +127,9 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
 static bool
 is_integer(const qdot_pool *pool, qdot_expr e)
 {
-    const fmpq *x = qdot_expr_rational(pool, e);
+    const fmpq *x = NUMBER(pool, e);
 
-    return x != NULL && fmpz_is_one(fmpq_denref(x));
+    return e == QDOT_ONE || (x != NULL && fmpz_is_one(fmpq_denref(x)));
 }
 
 static bool
@@ -139,7 +141,7 @@ is_even(const qdot_pool *pool, qdot_expr e)
 static bool
 is_root(const qdot_pool *pool, qdot_expr e)
 {
-    const fmpq *x = qdot_expr_rational(pool, e);
+    const fmpq *x = NUMBER(pool, e);
 
     return x != NULL && !fmpz_is_one(fmpq_denref(x));
 }
@@ -156,8 +158,8 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
 
     fmpq_init(c);
     begin(&rest, pool);
-    fmpq_set(c, RATIONAL(pool, ARGS(pool, base)[0]));
-    if (fmpq_sgn(c) < 0) {
+    qdot_rational_set(c, RATIONAL(pool, ARGS(pool, base)[0]));
+    if (qdot_rational_sgn(c) < 0) {
         fmpq_neg(c, c);
         fmpq_neg(&rest.c, &rest.c);
     }
@@ -176,7 +178,7 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
     }
     if (rest.n > 0 || !fmpq_is_one(&rest.c)) {
         if (rest.n == (n - 1) / 2 &&
-            fmpq_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
+            qdot_rational_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
             push(p, base, k); /* nothing came out */
         } else if (rest.n == 0 && !(NODE(pool, base)->sign & QDOT_NE0)) {
             p->n = 0; /* sqrt(-x^2), real where it is 0: nothing comes out */
@@ -433,7 +435,7 @@ round_of_merging(struct product *p)
                 fmpq_neg(&p->c, &p->c);
             again = true;
         } else if (base->kind == QDOT_NUM &&
-                   qdot_expr_rational(pool, x.exponent) != NULL) {
+                   NUMBER(pool, x.exponent) != NULL) {
             if (x.settled) {
                 p->at[kept++] = x;
             } else {
@@ -448,6 +450,60 @@ round_of_merging(struct product *p)
     }
     p->n = kept;
     return again;
+}
+
+/* Whether nothing but merging and sorting is to be done to a pair: an integer power of what no
+ * other factor can change but its like. */
+static bool
+is_plain(const qdot_pool *pool, const struct pair *x)
+{
+    const qdot_node *base = NODE(pool, x->base);
+
+    if (!is_integer(pool, x->exponent))
+        return false;
+    switch (base->kind) {
+    case QDOT_SYM:
+    case QDOT_UFUN: return true;
+    case QDOT_FUN: return base->op != QDOT_EXP && base->op != QDOT_ABS;
+    case QDOT_SUM: return !qdot_expr_is_negative(pool, x->base);
+    default: return false;
+    }
+}
+
+static bool
+all_plain(const struct product *p)
+{
+    for (size_t i = 0; i < p->n; i++)
+        if (!is_plain(p->pool, &p->at[i]))
+            return false;
+    return p->n <= 16;
+}
+
+/* Plain pairs into their order, equal bases together. The factors of each product come sorted. */
+static void
+gather(struct product *p)
+{
+    qdot_pool *pool = p->pool;
+    size_t kept = 0;
+
+    for (size_t i = 0; i < p->n && !p->failed; i++) {
+        struct pair x = p->at[i], *at = p->at;
+        size_t k = kept;
+
+        while (k > 0 && at[k - 1].base != x.base &&
+               qdot_expr_compare(pool, at[k - 1].base, x.base) > 0)
+            k--;
+        if (k > 0 && at[k - 1].base == x.base) {
+            at[k - 1].exponent = qdot_add(pool, at[k - 1].exponent, x.exponent);
+            p->failed = at[k - 1].exponent == QDOT_NIL;
+            if (at[k - 1].exponent == QDOT_ZERO)
+                memmove(&at[k - 1], &at[k], (kept-- - k) * sizeof *at);
+            continue;
+        }
+        memmove(&at[k + 1], &at[k], (kept++ - k) * sizeof *at);
+        at[k] = x;
+    }
+    p->n = kept;
 }
 
 /* Whether the list may hold something that is not canonical yet. */
@@ -465,15 +521,17 @@ finish(struct product *p)
 {
     qdot_pool *pool = p->pool;
     qdot_expr few[33], *args = few, e = QDOT_NIL;
-    bool again = true;
+    bool again = true, plain = all_plain(p);
 
-    for (int round = 0; again && !p->failed && round < 64 && unsettled(p); round++) {
+    if (plain)
+        gather(p);
+    for (int round = 0; !plain && again && !p->failed && round < 64 && unsettled(p); round++) {
         again = round_of_merging(p);
         again |= !p->failed && merge_exponentials(p);
         again |= !p->failed && merge_roots(p);
         again |= !p->failed && merge_turned(p);
     }
-    if (p->failed || qdot_pool_failed(pool))
+    if (p->failed || FAILED(pool))
         return QDOT_NIL;
     if (fmpq_is_zero(&p->c))
         return QDOT_ZERO;
@@ -482,18 +540,19 @@ finish(struct product *p)
     if (p->n == 1 && p->at[0].exponent == QDOT_ONE && fmpq_is_one(&p->c))
         return p->at[0].base;
     if (p->n == 1 && p->at[0].exponent == QDOT_ONE &&
-        fmpz_equal_si(fmpq_numref(&p->c), -1) && fmpz_is_one(fmpq_denref(&p->c)) &&
+        qdot_integer_is(fmpq_numref(&p->c), -1) && fmpz_is_one(fmpq_denref(&p->c)) &&
         NODE(pool, p->at[0].base)->kind == QDOT_SUM)
         return qdot_sum_turned(pool, p->at[0].base);
-    sort(p, false);
+    if (!plain)
+        sort(p, false);
     if (p->n > 16 && (args = qdot_malloc((2 * p->n + 1) * sizeof *args)) == NULL)
         return qdot_pool_fail(pool);
-    args[0] = qdot_expr_fmpq(pool, &p->c);
+    args[0] = fmpq_is_one(&p->c) ? QDOT_ONE : qdot_expr_fmpq(pool, &p->c);
     for (size_t i = 0; i < p->n; i++) {
         args[1 + 2 * i] = p->at[i].base;
         args[2 + 2 * i] = p->at[i].exponent;
     }
-    if (!qdot_pool_failed(pool)) {
+    if (!FAILED(pool)) {
         uint32_t n = (uint32_t)(2 * p->n + 1);
 
         e = qdot_pool_intern(pool, QDOT_PROD, 0, n, args,
@@ -515,10 +574,10 @@ qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors)
     for (size_t i = 0; i < n; i++) {
         if (factors[i] == QDOT_NIL)
             return QDOT_NIL;
-        if (!qdot_expr_is_scalar(pool, factors[i]))
+        if (!qdot_pool_is_scalar(pool, factors[i]))
             return qdot_pool_refuse(pool, QDOT_ETYPE, "a number is needed here");
     }
-    if (qdot_pool_failed(pool))
+    if (FAILED(pool))
         return QDOT_NIL;
     begin(&p, pool);
     for (size_t i = 0; i < n && !p.failed; i++)
@@ -534,10 +593,10 @@ qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr inner)
     struct product p;
     qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1], result;
 
-    if (inner == QDOT_NIL || qdot_pool_failed(pool))
+    if (inner == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
     begin(&p, pool);
-    fmpq_set(&p.c, RATIONAL(pool, ARGS(pool, e)[0]));
+    qdot_rational_set(&p.c, RATIONAL(pool, ARGS(pool, e)[0]));
     take_pairs(&p, e, i);
     if (x != QDOT_ONE) {
         qdot_expr less = qdot_sub(pool, x, QDOT_ONE);
@@ -563,9 +622,9 @@ qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
     qdot_expr e;
     uint32_t kind;
 
-    if (a == QDOT_NIL || b == QDOT_NIL || qdot_pool_failed(pool))
+    if (a == QDOT_NIL || b == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
-    if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
+    if (!qdot_pool_is_scalar(pool, a) || !qdot_pool_is_scalar(pool, b))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "a number is needed in a power");
     if (b == QDOT_ONE)
         return a;

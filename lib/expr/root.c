@@ -16,7 +16,7 @@ qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n)
     if (bits < den)
         bits = den;
     if (fmpq_is_zero(x) || fmpq_is_one(x)) {
-        fmpq_set(y, x);
+        qdot_rational_set(y, x);
         return true;
     }
     if (fmpz_is_pm1(fmpq_numref(x)) && fmpz_is_one(fmpq_denref(x))) {
@@ -92,7 +92,7 @@ qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
     bool small, good;
 
     *base = *exponent = QDOT_ONE;
-    if (fmpq_sgn(b) < 0) {
+    if (qdot_rational_sgn(b) < 0) {
         qdot_pool_refuse(pool, QDOT_EDOMAIN, "a root of a negative number is not real");
         return false;
     }

@@ -12,7 +12,7 @@ number_times(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (a == QDOT_ONE || b == QDOT_ONE)
         return a == QDOT_ONE ? b : a;
     fmpq_init(c);
-    fmpq_mul(c, RATIONAL(pool, a), RATIONAL(pool, b));
+    qdot_rational_mul(c, RATIONAL(pool, a), RATIONAL(pool, b));
     e = qdot_expr_fmpq(pool, c);
     fmpq_clear(c);
     return e;
@@ -31,7 +31,7 @@ qdot_sum_turned(qdot_pool *pool, qdot_expr sum)
         if (i % 2 == 0)
             args[i] = number_times(pool, QDOT_MINUS_ONE, args[i]);
     }
-    if (!qdot_pool_failed(pool))
+    if (!FAILED(pool))
         e = qdot_pool_intern(pool, QDOT_SUM, 0, n, args, qdot_sign_of_sum(pool, n, args));
     if (args != few)
         qdot_free(args);
@@ -107,14 +107,14 @@ qdot_expr
 qdot_expr_unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
 {
     if (NODE(pool, e)->kind == QDOT_NUM) {
-        fmpq_set(c, RATIONAL(pool, e));
+        qdot_rational_set(c, RATIONAL(pool, e));
         return QDOT_ONE;
     }
     if (NODE(pool, e)->kind != QDOT_PROD) {
         fmpq_one(c);
         return e;
     }
-    fmpq_set(c, RATIONAL(pool, ARGS(pool, e)[0]));
+    qdot_rational_set(c, RATIONAL(pool, ARGS(pool, e)[0]));
     return qdot_expr_strip(pool, e);
 }
 
@@ -136,13 +136,13 @@ qdot_expr_turnable(const qdot_pool *pool, qdot_expr e)
 
     for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i];
-        const fmpq *x = qdot_expr_rational(pool, ARGS(pool, e)[i + 1]);
+        const fmpq *x = NUMBER(pool, ARGS(pool, e)[i + 1]);
 
         if (NODE(pool, b)->kind != QDOT_SUM || x == NULL || !fmpz_is_one(fmpq_denref(x)) ||
             fmpz_is_even(fmpq_numref(x)))
             continue;
         for (uint32_t k = 0; k < NODE(pool, b)->n; k += 2) {
-            if (fmpq_sgn(RATIONAL(pool, ARGS(pool, b)[k])) >= 0)
+            if (qdot_rational_sgn(RATIONAL(pool, ARGS(pool, b)[k])) >= 0)
                 continue;
             if (fmpq_is_one(x))
                 return b;
@@ -156,9 +156,9 @@ qdot_expr_turnable(const qdot_pool *pool, qdot_expr e)
 qdot_expr
 qdot_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    if (a == QDOT_NIL || b == QDOT_NIL || qdot_pool_failed(pool))
+    if (a == QDOT_NIL || b == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
-    if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
+    if (!qdot_pool_is_scalar(pool, a) || !qdot_pool_is_scalar(pool, b))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "a number is needed here");
     if (NODE(pool, a)->kind == QDOT_NUM)
         return multiple(pool, a, b);

@@ -20,7 +20,7 @@ size_of(const qdot_pool *pool, const qdot_walk *w, qdot_expr e)
 static uint64_t
 size_of_number(const fmpq *x)
 {
-    return !fmpz_is_one(fmpq_denref(x)) + (uint64_t)(fmpq_sgn(x) < 0);
+    return !fmpz_is_one(fmpq_denref(x)) + (uint64_t)(qdot_rational_sgn(x) < 0);
 }
 
 static bool
@@ -29,8 +29,8 @@ leading_minus(const qdot_pool *pool, qdot_expr sum)
     const qdot_expr *args = ARGS(pool, sum);
 
     for (uint32_t i = 0; i < NODE(pool, sum)->n; i += 2)
-        if (fmpq_sgn(RATIONAL(pool, args[i])) > 0 ||
-            (i > 0 && fmpq_sgn(RATIONAL(pool, args[i])) < 0 &&
+        if (qdot_rational_sgn(RATIONAL(pool, args[i])) > 0 ||
+            (i > 0 && qdot_rational_sgn(RATIONAL(pool, args[i])) < 0 &&
              qdot_expr_turnable(pool, args[i - 1]) != QDOT_NIL))
             return false;
     return true;
@@ -71,14 +71,14 @@ size_of_product(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
 {
     const qdot_expr *args = ARGS(pool, e);
     const fmpq *c = RATIONAL(pool, args[0]);
-    uint64_t size = fmpq_sgn(c) < 0 && qdot_expr_turnable(pool, e) == QDOT_NIL;
+    uint64_t size = qdot_rational_sgn(c) < 0 && qdot_expr_turnable(pool, e) == QDOT_NIL;
     uint64_t operands = (uint64_t)!is_unit(c) + !is_whole(c);
     bool above = !is_unit(c);
 
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
-        const fmpq *x = qdot_expr_rational(pool, args[i + 1]);
+        const fmpq *x = NUMBER(pool, args[i + 1]);
 
-        above |= x == NULL || fmpq_sgn(x) > 0;
+        above |= x == NULL || qdot_rational_sgn(x) > 0;
         operands++;
         size = plus(size, size_of(pool, w, args[i]));
         if (x == NULL)

@@ -87,7 +87,7 @@ push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
     } else {
         t->id = QDOT_NIL;
         fmpq_init(&t->c);
-        fmpq_mul(&t->c, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
+        qdot_rational_mul(&t->c, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
     }
 }
 
@@ -95,7 +95,7 @@ static void
 add_number(struct sum *s, qdot_expr a, qdot_expr b)
 {
     if (a != QDOT_ZERO && b != QDOT_ZERO)
-        fmpq_addmul(&s->constant, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
+        qdot_rational_addmul(&s->constant, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
 }
 
 /* Add c times e, c a NUM. */
@@ -164,7 +164,7 @@ merge(struct sum *s)
         }
         last = &s->at[kept - 1];
         fmpq_init(c);
-        fmpq_add(c, coefficient(s, last), coefficient(s, t));
+        qdot_rational_add(c, coefficient(s, last), coefficient(s, t));
         drop(last);
         drop(t);
         last->id = QDOT_NIL;
@@ -272,7 +272,7 @@ finish(struct sum *s)
     qdot_pool *pool = s->pool;
     qdot_expr few[33], *args = few, e = QDOT_NIL;
 
-    if (s->failed || qdot_pool_failed(pool))
+    if (s->failed || FAILED(pool))
         return QDOT_NIL;
     sort(s);
     if (s->failed)
@@ -294,7 +294,7 @@ finish(struct sum *s)
         args[2 + 2 * i] =
             s->at[i].id != QDOT_NIL ? s->at[i].id : qdot_expr_fmpq(pool, &s->at[i].c);
     }
-    if (!qdot_pool_failed(pool)) {
+    if (!FAILED(pool)) {
         uint32_t n = (uint32_t)(2 * s->n + 1);
 
         e = qdot_pool_intern(pool, QDOT_SUM, 0, n, args, qdot_sign_of_sum(pool, n, args));
@@ -310,12 +310,12 @@ finish(struct sum *s)
 static bool
 scalars(qdot_pool *pool, size_t n, const qdot_expr *e)
 {
-    if (qdot_pool_failed(pool))
+    if (FAILED(pool))
         return false;
     for (size_t i = 0; i < n; i++) {
         if (e[i] == QDOT_NIL)
             return false;
-        if (!qdot_expr_is_scalar(pool, e[i])) {
+        if (!qdot_pool_is_scalar(pool, e[i])) {
             qdot_pool_refuse(pool, QDOT_ETYPE, "a number is needed here");
             return false;
         }

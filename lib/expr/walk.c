@@ -31,7 +31,8 @@ enlarge(qdot_walk *w)
 
     if (slot == NULL)
         return QDOT_ENOMEM;
-    qdot_free(w->slot);
+    if (w->slot != w->few_slot)
+        qdot_free(w->slot);
     w->slot = slot;
     w->mask = size - 1;
     for (size_t k = 0; k < w->n; k++)
@@ -79,6 +80,12 @@ add_node(qdot_walk *w, size_t *capacity, qdot_expr e)
 
     if (w->slot[place] != 0)
         return QDOT_OK;
+    if (w->n == QDOT_WALK_FEW && w->at == w->few) {
+        w->at = NULL;
+        *capacity = 0;
+        QDOT_TRY(qdot_grow(&w->at, capacity, 4 * QDOT_WALK_FEW, sizeof *w->at));
+        memcpy(w->at, w->few, sizeof w->few);
+    }
     QDOT_TRY(qdot_grow(&w->at, capacity, w->n + 1, sizeof *w->at));
     w->at[w->n++] = e;
     w->slot[place] = (uint32_t)w->n;
@@ -89,13 +96,16 @@ static qdot_status
 begin(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
       uint32_t touches, qdot_walk *w)
 {
-    size_t capacity = 0;
+    size_t capacity = QDOT_WALK_FEW;
     qdot_status status = QDOT_OK;
 
-    *w = (qdot_walk){.pool = pool, .mask = 63};
-    w->slot = qdot_calloc(w->mask + 1, sizeof *w->slot);
-    if (w->slot == NULL)
-        return QDOT_ENOMEM;
+    w->pool = pool;
+    w->n = 0;
+    w->at = w->few;
+    w->slot = w->few_slot;
+    w->mask = 2 * QDOT_WALK_FEW - 1;
+    w->value = NULL;
+    memset(w->few_slot, 0, sizeof w->few_slot);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         if (roots[i] != QDOT_NIL)
             status = add_node(w, &capacity, roots[i]);
@@ -110,19 +120,34 @@ begin(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
         if (status == QDOT_OK && qdot_interrupt_flag)
             status = qdot_interrupt_check();
     }
-    if (status == QDOT_OK && (w->value = qdot_calloc(w->n, sizeof *w->value)) == NULL)
+    if (w->n <= QDOT_WALK_FEW)
+        w->value = w->few_value;
+    else if (status == QDOT_OK && (w->value = qdot_malloc(w->n * sizeof *w->value)) == NULL)
         status = QDOT_ENOMEM;
     if (status != QDOT_OK) {
         qdot_walk_end(w);
         return status;
     }
+    if (w->n == 0)
+        return QDOT_OK;
     if (w->n > 1) {
+        for (size_t i = 0, k = w->n - 1; i < k; i++, k--) { /* parents came first */
+            qdot_expr e = w->at[i];
+
+            w->at[i] = w->at[k];
+            w->at[k] = e;
+        }
         sort_ids(w->at, w->n, (qdot_expr *)w->value);
-        memset(w->value, 0, w->n * sizeof *w->value);
         memset(w->slot, 0, (w->mask + 1) * sizeof *w->slot);
-        for (size_t k = 0; k < w->n; k++)
-            w->slot[find(w, w->at[k])] = (uint32_t)k + 1;
+        for (size_t k = 0; k < w->n; k++) { /* each is new */
+            uint32_t i = hash_id(w->at[k]) & w->mask;
+
+            while (w->slot[i] != 0)
+                i = (i + 1) & w->mask;
+            w->slot[i] = (uint32_t)k + 1;
+        }
     }
+    memset(w->value, 0, w->n * sizeof *w->value);
     return QDOT_OK;
 }
 
@@ -148,10 +173,16 @@ qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e, uint32_t holds,
 void
 qdot_walk_end(qdot_walk *w)
 {
-    qdot_free(w->at);
-    qdot_free(w->slot);
-    qdot_free(w->value);
-    *w = (qdot_walk){0};
+    if (w->at != w->few)
+        qdot_free(w->at);
+    if (w->slot != w->few_slot)
+        qdot_free(w->slot);
+    if (w->value != w->few_value)
+        qdot_free(w->value);
+    w->at = NULL;
+    w->slot = NULL;
+    w->value = NULL;
+    w->n = 0;
 }
 
 size_t
@@ -181,9 +212,9 @@ qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touch
 {
     qdot_walk w;
     qdot_vec(qdot_expr) args = {0};
-    qdot_expr result = QDOT_NIL;
+    qdot_expr few[32], *own = few, result = QDOT_NIL;
 
-    if (e == QDOT_NIL || qdot_pool_failed(pool))
+    if (e == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
     if (qdot_walk_begin_where(pool, e, holds, touches, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
@@ -191,27 +222,29 @@ qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touch
         qdot_expr node = w.at[i], to = leaf(pool, node, user);
         uint32_t n = NODE(pool, node)->n;
 
-        if (to == QDOT_NIL && !qdot_pool_failed(pool)) {
+        if (to == QDOT_NIL && !FAILED(pool)) {
             to = node;
-            if (n > 0 &&
-                qdot_grow(&args.at, &args.capacity, n, sizeof *args.at) != QDOT_OK) {
-                qdot_pool_fail(pool);
-                break;
+            if (n > 32) {
+                if (qdot_grow(&args.at, &args.capacity, n, sizeof *args.at) != QDOT_OK) {
+                    qdot_pool_fail(pool);
+                    break;
+                }
+                own = args.at;
             }
             for (uint32_t k = 0; k < n; k++) {
-                args.at[k] = ARGS(pool, node)[k];
-                if (holds == UINT32_MAX || WHERE(pool, args.at[k], holds, touches))
-                    args.at[k] = (qdot_expr)qdot_walk_get(&w, args.at[k]);
+                own[k] = ARGS(pool, node)[k];
+                if (holds == UINT32_MAX || WHERE(pool, own[k], holds, touches))
+                    own[k] = (qdot_expr)qdot_walk_get(&w, own[k]);
             }
             if (n > 0)
-                to = qdot_rebuild(pool, node, args.at);
+                to = qdot_rebuild(pool, node, own);
         }
         if (to == QDOT_NIL)
             break;
         w.value[i] = to;
         result = to;
     }
-    if (qdot_pool_failed(pool))
+    if (FAILED(pool))
         result = QDOT_NIL;
     qdot_free(args.at);
     qdot_walk_end(&w);

@@ -14,6 +14,9 @@
 
 #include "expr/expr.h"
 
+enum { QDOT_WALK_FEW = 32 };
+
+/* Points into itself while there are few nodes: not to be copied. */
 typedef struct qdot_walk {
     const qdot_pool *pool;
     qdot_expr *at;   /* [n] ascending ids, children before parents; owned */
@@ -21,6 +24,9 @@ typedef struct qdot_walk {
     uint32_t *slot;  /* open hash table id -> index + 1; owned */
     uint32_t mask;
     uint64_t *value; /* [n] a word for each node, 0 at first; owned */
+    qdot_expr few[QDOT_WALK_FEW];
+    uint32_t few_slot[2 * QDOT_WALK_FEW];
+    uint64_t few_value[QDOT_WALK_FEW];
 } qdot_walk;
 
 /* All nodes reachable from e (nil: none). Errors: QDOT_ENOMEM, QDOT_EINTR. */

@@ -1,0 +1,124 @@
+/* rational.h -- rationals in place where they are small, as almost all are; FLINT elsewhere.
+ *
+ *     y = x,   y = a b,   y = a + b,   y = y + a b,   sign x,   a <=> b
+ *
+ * as fmpq_set, fmpq_mul, fmpq_add, fmpq_addmul, fmpq_sgn, fmpq_cmp, fmpq_equal: canonical in,
+ * canonical out; y may be a or b. Constructors ask for little else than products with 1 and
+ * signs, and a call into a library for each is most of their time.
+ *
+ * Tests  tests/expr/test_rational.c
+ */
+#ifndef QDOT_EXPR_RATIONAL_H
+#define QDOT_EXPR_RATIONAL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <flint/fmpq.h>
+
+/* Up to 2^30: products of two and their sums are words of FLINT's still. */
+#define QDOT_SMALL (INT64_C(1) << 30)
+
+static inline bool
+qdot_rational_is_small(const fmpq *x)
+{
+    return (uint64_t)(x->num + QDOT_SMALL) <= 2 * QDOT_SMALL &&
+           (uint64_t)x->den <= QDOT_SMALL;
+}
+
+/* y = n/d, d > 0, both less than 2^62. */
+static inline void
+qdot_rational_make(fmpq *y, int64_t n, int64_t d)
+{
+    uint64_t a = n < 0 ? -(uint64_t)n : (uint64_t)n, b = (uint64_t)d;
+
+    if (b != 1) {
+        while (a != 0) {
+            uint64_t c = b % a;
+
+            b = a;
+            a = c;
+        }
+        n /= (int64_t)b;
+        d /= (int64_t)b;
+    }
+    _fmpz_demote(&y->num);
+    _fmpz_demote(&y->den);
+    y->num = n;
+    y->den = d;
+}
+
+static inline void
+qdot_rational_set(fmpq *y, const fmpq *x)
+{
+    if (COEFF_IS_MPZ(x->num) || COEFF_IS_MPZ(x->den)) {
+        fmpq_set(y, x);
+        return;
+    }
+    _fmpz_demote(&y->num);
+    _fmpz_demote(&y->den);
+    *y = *x;
+}
+
+static inline void
+qdot_rational_mul(fmpq *y, const fmpq *a, const fmpq *b)
+{
+    if (qdot_rational_is_small(a) && qdot_rational_is_small(b))
+        qdot_rational_make(y, a->num * b->num, a->den * b->den);
+    else
+        fmpq_mul(y, a, b);
+}
+
+static inline void
+qdot_rational_add(fmpq *y, const fmpq *a, const fmpq *b)
+{
+    if (qdot_rational_is_small(a) && qdot_rational_is_small(b))
+        qdot_rational_make(y, a->num * b->den + b->num * a->den, a->den * b->den);
+    else
+        fmpq_add(y, a, b);
+}
+
+static inline void
+qdot_rational_addmul(fmpq *y, const fmpq *a, const fmpq *b)
+{
+    fmpq product = {0, 1};
+
+    qdot_rational_mul(&product, a, b);
+    qdot_rational_add(y, y, &product);
+    _fmpz_demote(&product.num);
+    _fmpz_demote(&product.den);
+}
+
+static inline int
+qdot_rational_sgn(const fmpq *x)
+{
+    return COEFF_IS_MPZ(x->num) ? fmpq_sgn(x) : (x->num > 0) - (x->num < 0);
+}
+
+static inline int
+qdot_rational_cmp(const fmpq *a, const fmpq *b)
+{
+    if (qdot_rational_is_small(a) && qdot_rational_is_small(b)) {
+        int64_t x = a->num * b->den, y = b->num * a->den;
+
+        return (x > y) - (x < y);
+    }
+    return fmpq_cmp(a, b);
+}
+
+static inline bool
+qdot_rational_equal(const fmpq *a, const fmpq *b)
+{
+    if (COEFF_IS_MPZ(a->num) || COEFF_IS_MPZ(a->den))
+        return fmpq_equal(a, b);
+    return a->num == b->num && a->den == b->den; /* a large one is written in one way only */
+}
+
+/* Whether an integer is k, |k| < 2^62. */
+static inline bool
+qdot_integer_is(const fmpz_t x, int64_t k)
+{
+    return *x == k;
+}
+
+#endif
