@@ -14,7 +14,7 @@ typedef void forward(const qdot_tape *tape, double *work, double *slopes);
 
 static forward *const kinds[] = {
     portable_forward,
-#ifdef BATCH_X86
+#ifdef QDOT_X86_KINDS
     avx2_forward,
     avx512_forward,
 #endif
