@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "ode/integrate.h"
 
 /* The methods that a right-hand side is enough for. */
