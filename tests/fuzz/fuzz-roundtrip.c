@@ -24,7 +24,7 @@ complain(const char *what, const char *first, const char *second)
 static bool
 interrupted(void)
 {
-    return qdot_interrupt_flag != 0;
+    return fuzz_pressed != 0;
 }
 
 /* The value of a text that is one expression; nil if it is something else. */

@@ -34,6 +34,7 @@ int fuzz_posix_spawnp(pid_t *pid, const char *file,
 
 static FILE *fuzz_nowhere;
 static timer_t fuzz_timer;
+static volatile sig_atomic_t fuzz_pressed; /* a session forgets it when it has said so */
 
 FILE *
 fuzz_fopen(const char *path, const char *mode)
@@ -62,18 +63,22 @@ static void
 fuzz_press(int signal)
 {
     (void)signal;
+    fuzz_pressed = 1;
     qdot_interrupt_set();
 }
 
+/* After so long, and every LIMIT from then on. */
 static void
 fuzz_limit(long milliseconds)
 {
     struct itimerspec when = {
         .it_value = {milliseconds / 1000, milliseconds % 1000 * 1000000},
+        .it_interval = {LIMIT / 1000, LIMIT % 1000 * 1000000},
     };
 
     timer_settime(fuzz_timer, 0, &when, NULL);
     qdot_interrupt_clear();
+    fuzz_pressed = 0;
 }
 
 /* A number from the bytes of an input. */
