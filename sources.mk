@@ -137,6 +137,7 @@ normal_sources = \
 	lib/normal/simple.c \
 	lib/normal/simplify.c \
 	lib/normal/solve-factors.c \
+	lib/normal/solve-sort.c \
 	lib/normal/solve.c \
 	lib/normal/split.c \
 	lib/normal/squares.c \
@@ -927,16 +928,23 @@ test_files = \
 	tests/expr/reader.h \
 	tests/expr/spec.h \
 	tests/fuzz/corpus/parse/algebra.txt \
+	tests/fuzz/corpus/parse/bounce.txt \
+	tests/fuzz/corpus/parse/digits.txt \
 	tests/fuzz/corpus/parse/double-pendulum.txt \
 	tests/fuzz/corpus/parse/flexing-wire.txt \
+	tests/fuzz/corpus/parse/friction.txt \
 	tests/fuzz/corpus/parse/heavy-top.txt \
 	tests/fuzz/corpus/parse/knife-edge.txt \
 	tests/fuzz/corpus/parse/line-element.txt \
+	tests/fuzz/corpus/parse/loop.txt \
 	tests/fuzz/corpus/parse/magnetic-field.txt \
 	tests/fuzz/corpus/parse/mixed.txt \
+	tests/fuzz/corpus/parse/numbers.txt \
 	tests/fuzz/corpus/parse/pendulum.txt \
+	tests/fuzz/corpus/parse/rod.txt \
 	tests/fuzz/corpus/parse/rotating-hoop.txt \
 	tests/fuzz/corpus/parse/run.txt \
+	tests/fuzz/corpus/parse/sleigh.txt \
 	tests/fuzz/corpus/parse/spherical.txt \
 	tests/fuzz/corpus/parse/stated-lagrangian.txt \
 	tests/fuzz/corpus/parse/swinging-atwood.txt \

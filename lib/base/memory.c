@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/scope.h"
 
-static long fail_after = -1;
+static long fail_after = -1, press_after = -1;
 
 static void *
 checked(void *block, size_t size)
@@ -20,6 +21,8 @@ checked(void *block, size_t size)
 static bool
 must_fail(void)
 {
+    if (press_after >= 0 && press_after-- == 0)
+        qdot_interrupt_set();
     if (fail_after < 0)
         return false;
     if (fail_after > 0) {
@@ -33,6 +36,12 @@ void
 qdot_memory_fail_at(long n)
 {
     fail_after = n;
+}
+
+void
+qdot_memory_press_at(long n)
+{
+    press_after = n;
 }
 
 /* What was allocated, noted in the scope; NULL: not even that. */

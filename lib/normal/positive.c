@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "normal/factor.h"
+#include "normal/flint.h"
 #include "normal/prepare.h"
 #include "normal/sample.h"
 #include "normal/simplify.h"
@@ -163,27 +164,35 @@ conclude(job *j)
     return without_minus(pool, j->sign > 0 ? rest : qdot_neg(pool, rest));
 }
 
-qdot_expr
-qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
-              const qdot_expr *known)
+struct asking {
+    job j;
+    qdot_expr e, result; /* nil: past the budget */
+    qdot_status status;
+};
+
+static void
+reduce_condition(void *user)
 {
-    job j = {.pool = pool, .facts = facts, .n_known = n, .sign = 1};
-    qdot_expr *all = qdot_malloc((n + 1) * sizeof *all), result = QDOT_NIL;
-    qdot_status status = QDOT_OK;
+    struct asking *x = user;
+    job *j = &x->j;
+    qdot_expr *all = qdot_malloc((j->n_known + 1) * sizeof *all);
     qdot_field f;
 
-    if (all == NULL)
-        return qdot_pool_fail(pool);
-    all[0] = qdot_prepare(pool, e);
-    for (size_t i = 0; i < n; i++)
-        all[1 + i] = qdot_prepare(pool, known[i]);
-    j.known = all + 1;
-    if (qdot_pool_failed(pool)) {
-        qdot_free(all);
-        return QDOT_NIL;
+    if (all == NULL) {
+        x->status = QDOT_ENOMEM;
+        return;
     }
-    qdot_field_begin(&f, pool, n + 1, all, WORK);
-    j.f = &f;
+    all[0] = qdot_prepare(j->pool, x->e);
+    for (size_t i = 0; i < j->n_known; i++)
+        all[1 + i] = qdot_prepare(j->pool, j->known[i]);
+    j->known = all + 1;
+    if (qdot_pool_failed(j->pool)) {
+        x->status = qdot_pool_check(j->pool);
+        qdot_free(all);
+        return;
+    }
+    qdot_field_begin(&f, j->pool, j->n_known + 1, all, WORK);
+    j->f = &f;
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
@@ -191,24 +200,41 @@ qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
         qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
         qdot_ratio_cancel(&f, &r);
         if (fmpz_mpoly_is_zero(r.n, f.ctx)) {
-            result = QDOT_FALSE;
+            x->result = QDOT_FALSE;
         } else {
-            status = take(&j, r.n);
-            if (status == QDOT_OK)
-                status = take(&j, r.d);
-            if (status == QDOT_OK && qdot_field_goes(&f))
-                result = conclude(&j);
+            x->status = take(j, r.n);
+            if (x->status == QDOT_OK)
+                x->status = take(j, r.d);
+            if (x->status == QDOT_OK && qdot_field_goes(&f))
+                x->result = conclude(j);
         }
         qdot_ratio_clear(&f, &r);
     }
-    if (status == QDOT_OK && f.state == QDOT_FIELD_FAILED)
-        status = f.status;
+    if (x->status == QDOT_OK && f.state == QDOT_FIELD_FAILED)
+        x->status = f.status;
     qdot_field_end(&f);
     qdot_free(all);
-    qdot_free(j.rest.at);
-    if (status != QDOT_OK)
+    qdot_free(j->rest.at);
+}
+
+qdot_expr
+qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
+              const qdot_expr *known)
+{
+    struct asking x = {
+        .j = {.pool = pool, .facts = facts, .n_known = n, .known = known, .sign = 1},
+        .e = e,
+    };
+    qdot_status status;
+
+    if (qdot_pool_failed(pool))
+        return QDOT_NIL;
+    status = qdot_flint_run(pool, reduce_condition, &x);
+    if (status == QDOT_ELIMIT)
+        return without_minus(pool, e);
+    if (status != QDOT_OK || x.status != QDOT_OK)
         return qdot_pool_fail(pool);
-    return result != QDOT_NIL ? result : without_minus(pool, e); /* past the budget */
+    return x.result != QDOT_NIL ? x.result : without_minus(pool, e);
 }
 
 qdot_expr

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "expr/walk.h"
 #include "normal/factor.h"
+#include "normal/flint.h"
 #include "normal/prepare.h"
 #include "normal/simplify.h"
 
@@ -47,16 +48,21 @@ clear_roots(qdot_field *f, qdot_ratio *r)
     qdot_ratio_clear(f, &by);
 }
 
-qdot_expr
-qdot_rationalize(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+struct rationalizing {
+    qdot_pool *pool;
+    qdot_expr e, result; /* nil: past the budget */
+};
+
+static void
+without_roots(void *user)
 {
-    qdot_expr best = qdot_simplify(pool, e, facts), prepared = qdot_prepare(pool, best),
-              other = QDOT_NIL;
+    struct rationalizing *x = user;
+    qdot_expr prepared = qdot_prepare(x->pool, x->e);
     qdot_field f;
 
     if (prepared == QDOT_NIL)
-        return best;
-    qdot_field_begin(&f, pool, 1, &prepared, WORK);
+        return;
+    qdot_field_begin(&f, x->pool, 1, &prepared, WORK);
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
@@ -65,15 +71,27 @@ qdot_rationalize(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
         qdot_ratio_cancel(&f, &r);
         clear_roots(&f, &r);
         if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.d, f.ctx))
-            other = qdot_field_ratio_expr(&f, &r);
+            x->result = qdot_field_ratio_expr(&f, &r);
         qdot_ratio_clear(&f, &r);
     }
     if (f.state == QDOT_FIELD_FAILED &&
         (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
-        other = qdot_pool_fail(pool);
+        x->result = qdot_pool_fail(x->pool);
     qdot_field_end(&f);
-    if (other != QDOT_NIL)
-        other = qdot_simplify(pool, other, facts);
+}
+
+qdot_expr
+qdot_rationalize(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    qdot_expr best = qdot_simplify(pool, e, facts), other = QDOT_NIL;
+    struct rationalizing x = {pool, best, QDOT_NIL};
+    qdot_status status =
+        best == QDOT_NIL ? QDOT_OK : qdot_flint_run(pool, without_roots, &x);
+
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return qdot_pool_fail(pool);
+    if (status == QDOT_OK && x.result != QDOT_NIL)
+        other = qdot_simplify(pool, x.result, facts);
     if (qdot_pool_failed(pool))
         return QDOT_NIL;
     return other != QDOT_NIL && qdot_expr_size(pool, other) <= qdot_expr_size(pool, best)

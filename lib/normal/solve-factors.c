@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "expr/tensor.h"
 #include "normal/factor.h"
+#include "normal/flint.h"
 #include "normal/prepare.h"
 #include "normal/simplify.h"
 #include "normal/solve.h"
@@ -77,21 +78,39 @@ factors_of(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, s
     return status;
 }
 
+/* --- guarded ----------------------------------------------------------------------------- */
+
+struct factoring {
+    qdot_pool *pool;
+    qdot_expr e, result;
+};
+
+static void
+list_factors(void *user)
+{
+    struct factoring *x = user;
+    qdot_expr product = QDOT_NIL, *list = NULL;
+    size_t n = 0;
+    qdot_status status = factors_of(x->pool, x->e, &product, &list, &n);
+
+    if (status != QDOT_OK)
+        x->result = qdot_pool_fail(x->pool);
+    else if (product == QDOT_NIL || product == QDOT_ZERO)
+        x->result = qdot_list(x->pool, 1, product == QDOT_NIL ? &x->e : &product);
+    else
+        x->result = qdot_list(x->pool, (uint32_t)n, list);
+    qdot_free(list);
+}
+
 qdot_expr
 qdot_solve_factors(qdot_pool *pool, qdot_expr e)
 {
-    qdot_expr product = QDOT_NIL, *list = NULL, result;
-    size_t n = 0;
-    qdot_status status = factors_of(pool, e, &product, &list, &n);
+    struct factoring x = {pool, e, QDOT_NIL};
+    qdot_status status = qdot_flint_run(pool, list_factors, &x);
 
-    if (status != QDOT_OK)
-        result = qdot_pool_fail(pool);
-    else if (product == QDOT_NIL || product == QDOT_ZERO)
-        result = qdot_list(pool, 1, product == QDOT_NIL ? &e : &product);
-    else
-        result = qdot_list(pool, (uint32_t)n, list);
-    qdot_free(list);
-    return result;
+    if (status == QDOT_ELIMIT)
+        return qdot_list(pool, 1, &e);
+    return status == QDOT_OK ? x.result : qdot_pool_fail(pool);
 }
 
 static qdot_expr
@@ -105,8 +124,21 @@ product_of(qdot_pool *pool, qdot_expr e, void *user)
     return product == QDOT_NIL ? e : product;
 }
 
+static void
+make_product(void *user)
+{
+    struct factoring *x = user;
+
+    x->result = qdot_value_map(x->pool, x->e, product_of, NULL);
+}
+
 qdot_expr
 qdot_solve_product(qdot_pool *pool, qdot_expr e)
 {
-    return e == QDOT_NIL ? e : qdot_value_map(pool, e, product_of, NULL);
+    struct factoring x = {pool, e, e};
+    qdot_status status = e == QDOT_NIL ? QDOT_OK : qdot_flint_run(pool, make_product, &x);
+
+    if (status == QDOT_ELIMIT)
+        return e;
+    return status == QDOT_OK ? x.result : qdot_pool_fail(pool);
 }

@@ -8,6 +8,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/factor.h"
+#include "normal/flint.h"
 #include "normal/positive.h"
 #include "normal/prepare.h"
 #include "normal/sample.h"
@@ -24,6 +25,7 @@ typedef struct {
     root_list roots;
     bool complete, angle;
     int depth;
+    qdot_status status;
 } solver;
 
 static qdot_status solve_all(solver *s, qdot_expr f, qdot_expr condition);
@@ -623,43 +625,14 @@ solve_all(solver *s, qdot_expr e, qdot_expr condition)
     return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
 }
 
-/* Ascending, where all are constants. */
-static qdot_status
-sort(solver *s)
+static void
+solve_guarded(void *user)
 {
-    size_t n = s->roots.n;
-    double *v = qdot_calloc(n + 1, sizeof *v);
-    qdot_status status = v == NULL ? QDOT_ENOMEM : QDOT_OK;
-    bool constant = true;
+    solver *s = user;
 
-    for (size_t i = 0; i < n && constant && status == QDOT_OK; i++) {
-        qdot_expr e = s->roots.at[i].value;
-        qdot_sample sample;
-        arb_srcptr ball;
-
-        constant = (qdot_expr_node(s->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0;
-        if (!constant ||
-            (status = qdot_sample_begin(&sample, s->pool, 1, &e, NULL)) != QDOT_OK)
-            break;
-        qdot_sample_point(&sample, 0);
-        constant = qdot_sample_eval(&sample, 96) &&
-                   (ball = qdot_ball_get(&sample.ball, e)) != NULL;
-        if (constant)
-            v[i] = arf_get_d(arb_midref(ball), ARF_RND_NEAR);
-        qdot_sample_end(&sample);
-    }
-    for (size_t a = 1; constant && status == QDOT_OK && a < n; a++)
-        for (size_t b = a; b > 0 && v[b - 1] > v[b]; b--) {
-            qdot_root keep = s->roots.at[b];
-            double w = v[b];
-
-            s->roots.at[b] = s->roots.at[b - 1];
-            s->roots.at[b - 1] = keep;
-            v[b] = v[b - 1];
-            v[b - 1] = w;
-        }
-    qdot_free(v);
-    return status;
+    s->status = solve_all(s, s->f, QDOT_NIL);
+    if (s->status == QDOT_OK)
+        s->status = qdot_solve_sort(s->pool, s->roots.n, s->roots.at);
 }
 
 qdot_status
@@ -674,12 +647,14 @@ qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
-    status = solve_all(&s, f, QDOT_NIL);
-    if (status == QDOT_OK)
-        status = sort(&s);
-    if (status != QDOT_OK) {
+    status = qdot_flint_run(pool, solve_guarded, &s);
+    if (status != QDOT_OK) { /* nothing is there any more */
+        *complete = false;
+        return status == QDOT_ELIMIT ? QDOT_OK : status;
+    }
+    if (s.status != QDOT_OK) {
         qdot_free(s.roots.at);
-        return status;
+        return s.status;
     }
     *roots = s.roots.at;
     *n = s.roots.n;

@@ -25,10 +25,13 @@ typedef struct {
 } qdot_root;
 
 /* *roots [*n], owned by the caller, ascending where all are constants; *complete: these are all there are. f = 0
- * identically: QDOT_EDOMAIN. facts may be NULL. */
+ * identically: QDOT_EDOMAIN. Past the bound of memory: none, not complete. facts may be NULL. */
 QDOT_MUST_CHECK qdot_status qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                        const qdot_facts *facts, qdot_root **roots,
                                        size_t *n, bool *complete);
+
+/* Sort them by their values, if all are constants; else they stay as they are. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_solve_sort(qdot_pool *pool, size_t n, qdot_root *roots);
 
 /* The factors of f's numerator, each once, numbers left out: f = 0 where one of them
  * is. A LIST; f itself alone where it cannot be factored. */

@@ -16,7 +16,10 @@
 #include "base/scope.h"
 #include "normal/decide.h"
 #include "normal/flint.h"
+#include "normal/positive.h"
+#include "normal/rationalize.h"
 #include "normal/simplify.h"
+#include "normal/solve.h"
 
 #include "text.h"
 
@@ -74,26 +77,44 @@ static const struct {
     {"acos(x)", "pi/2 - asin(x)"},
 };
 
-/* Run `work` on one after another, the n-th allocation failing, until it passes; between failures
- * the same pool. The pool is usable afterwards. */
+/* Of x: their zeros, factors, signs, denominators without roots. */
+static const char *const equations[] = {
+    "a*sin(x)*cos(x) - b*sin(x)",
+    "(x^2 - 3*x + 1)*(x^2 + 123456789012345678901*x - a^2)",
+    "1/(sqrt(a) + sqrt(b)) + x/(sqrt(2) - 12345678901234567890)",
+};
+
+/* Run `work` on one after another, the n-th allocation failing, or Ctrl-C pressed there, until it
+ * passes; between failures the same pool. The pool is usable afterwards. */
 static void
-every_allocation_may_fail(qdot_status (*work)(qdot_pool *pool, size_t i), size_t i,
-                          qdot_pool *pool)
+at_every_allocation(void (*harm)(long n), qdot_status wanted,
+                    qdot_status (*work)(qdot_pool *pool, size_t i), size_t i,
+                    qdot_pool *pool)
 {
     qdot_status status;
     long n = 0, failures = 0;
 
     for (;; n += 1 + n / 40) {
-        qdot_memory_fail_at(n);
+        harm(n);
         status = work(pool, i);
-        qdot_memory_fail_at(-1);
-        if (status == QDOT_OK)
+        harm(-1);
+        if (!qdot_interrupt_flag && status == QDOT_OK)
             break;
+        qdot_interrupt_clear();
+        if (status == QDOT_OK) /* heard no more */
+            continue;
         failures++;
-        assert_int_equal(status, QDOT_ENOMEM);
+        assert_int_equal(status, wanted);
     }
     assert_true(failures > 10);
     assert_null(qdot_scope_now);
+}
+
+static void
+every_allocation_may_fail(qdot_status (*work)(qdot_pool *pool, size_t i), size_t i,
+                          qdot_pool *pool)
+{
+    at_every_allocation(qdot_memory_fail_at, QDOT_ENOMEM, work, i, pool);
 }
 
 static qdot_status
@@ -129,6 +150,42 @@ decide_one(qdot_pool *pool, size_t i)
     return qdot_decide_equal(pool, of[i][0], of[i][1], NULL, &d);
 }
 
+enum { KINDS = 5 };
+
+static qdot_expr unknown, equation_of[sizeof equations / sizeof *equations];
+
+static void
+read_equations(qdot_pool *pool)
+{
+    unknown = text_read(pool, "x");
+    for (size_t i = 0; i < sizeof equations / sizeof *equations; i++)
+        equation_of[i] = text_read(pool, equations[i]);
+}
+
+/* Equation i / KINDS by one of the ways. */
+static qdot_status
+solve_one(qdot_pool *pool, size_t i)
+{
+    qdot_expr e = equation_of[i / KINDS];
+    qdot_root *roots;
+    size_t n;
+    bool complete;
+    qdot_status status;
+
+    switch (i % KINDS) {
+    case 0:
+        status = qdot_solve(pool, e, unknown, NULL, &roots, &n, &complete);
+        if (status == QDOT_OK)
+            qdot_free(roots);
+        return status;
+    case 1: (void)qdot_solve_factors(pool, e); break;
+    case 2: (void)qdot_solve_product(pool, e); break;
+    case 3: (void)qdot_positive(pool, e, NULL, 0, NULL); break;
+    default: (void)qdot_rationalize(pool, e, NULL);
+    }
+    return qdot_pool_check(pool);
+}
+
 static void
 memory_that_ends_is_a_status(void **state)
 {
@@ -137,10 +194,25 @@ memory_that_ends_is_a_status(void **state)
     (void)state;
     (void)simplify_one(NULL, 0);
     (void)decide_one(NULL, 0);
+    read_equations(pool);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         every_allocation_may_fail(simplify_one, i, pool);
     for (size_t i = 0; i < sizeof sides / sizeof *sides; i++)
         every_allocation_may_fail(decide_one, i, pool);
+    for (size_t i = 0; i < KINDS * sizeof equations / sizeof *equations; i++)
+        every_allocation_may_fail(solve_one, i, pool);
+    qdot_pool_free(pool);
+}
+
+static void
+ctrl_c_is_heard_at_every_allocation(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+
+    (void)state;
+    read_equations(pool);
+    for (size_t i = 0; i < KINDS * sizeof equations / sizeof *equations; i++)
+        at_every_allocation(qdot_memory_press_at, QDOT_EINTR, solve_one, i, pool);
     qdot_pool_free(pool);
 }
 
@@ -340,6 +412,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scope_gives_back_what_was_allocated),
         cmocka_unit_test(memory_that_ends_is_a_status),
+        cmocka_unit_test(ctrl_c_is_heard_at_every_allocation),
         cmocka_unit_test(a_pool_is_usable_after_failures),
         cmocka_unit_test(ctrl_c_leaves_flint),
         cmocka_unit_test(integers_in_use_are_not_lost),
