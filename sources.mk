@@ -25,6 +25,7 @@ num_sources = \
 	lib/num/row-space.c \
 	lib/num/saddle.c \
 	lib/num/series.c \
+	lib/num/sparse.c \
 	lib/num/structure.c \
 	lib/num/sum.c
 
@@ -43,6 +44,7 @@ num_headers = \
 	lib/num/series-dot.def \
 	lib/num/series.def \
 	lib/num/series.h \
+	lib/num/sparse.h \
 	lib/num/structure.h \
 	lib/num/sum.h
 
@@ -186,6 +188,7 @@ tape_sources = \
 	lib/tape/lower.c \
 	lib/tape/precise.c \
 	lib/tape/tape.c \
+	lib/tape/taylor-correct.c \
 	lib/tape/taylor-order.c \
 	lib/tape/taylor.c
 
@@ -461,6 +464,7 @@ unit_tests = \
 	tests/num/test_row-space \
 	tests/num/test_saddle \
 	tests/num/test_series \
+	tests/num/test_sparse \
 	tests/num/test_structure \
 	tests/num/test_sum \
 	tests/ode/test_companion \

@@ -14,6 +14,10 @@
  * once found is lost where less than the other is left. */
 static const double dependent = 1e-9, lost = 1e-13;
 
+/* A pattern is trusted where so much is left of the rows, and of the most that was; far
+ * beyond that the null space has a look. */
+static const double trusted = 1e-3, usual = 0.2, more = 1.25;
+
 /* Up to so many unknowns an inverse is made for many right-hand sides. */
 enum { most_inverted = 24, lanes = 8 };
 
@@ -50,10 +54,16 @@ qdot_saddle_init(qdot_saddle *s, size_t n, size_t m, bool indefinite)
     s->keep = qdot_calloc(all, sizeof *s->keep);
     if (inverted)
         s->inverse = qdot_calloc(width(s) * (n + m), sizeof *s->inverse);
-    if (!s->M || !s->A || !s->x || !s->pivot || !s->d || !s->e || !s->S || !s->Q ||
+    s->start = qdot_calloc(m + 1, sizeof *s->start);
+    s->column = qdot_calloc(m * n + 1, sizeof *s->column);
+    if (!s->start || !s->column || !s->M || !s->A || !s->x || !s->pivot || !s->d || !s->e || !s->S || !s->Q ||
         !s->R || !s->beta || !s->N || !s->V || !s->T || !s->u || !s->w || !s->y ||
         !s->keep || (inverted && !s->inverse))
         return QDOT_ENOMEM;
+    for (size_t e = 0; e < m * n; e++)
+        s->column[e] = (uint32_t)(e % n);
+    for (size_t k = 0; k <= m; k++)
+        s->start[k] = k * n;
     return qdot_ldlt_init(&s->ldlt, n);
 }
 
@@ -67,8 +77,64 @@ qdot_saddle_clear(qdot_saddle *s)
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         qdot_free(arrays[i]);
     qdot_free(s->pivot);
+    qdot_free(s->start);
+    qdot_free(s->column);
     qdot_ldlt_clear(&s->ldlt);
+    qdot_sparse_clear(&s->sparse);
     *s = (qdot_saddle){0};
+}
+
+/* --- the pattern -------------------------------------------------------------------- */
+
+qdot_status
+qdot_saddle_pattern(qdot_saddle *s, size_t masses, const qdot_saddle_entry *of_M,
+                    size_t slopes, const qdot_saddle_entry *of_A)
+{
+    const size_t n = s->n;
+    qdot_sparse_entry *all = qdot_calloc(masses + slopes + 1, sizeof *all);
+    qdot_status status;
+
+    if (!all)
+        return QDOT_ENOMEM;
+    for (size_t e = 0; e < masses; e++)
+        all[e] = (qdot_sparse_entry){of_M[e].row, of_M[e].column,
+                                     s->M + of_M[e].row * n + of_M[e].column};
+    memset(s->start, 0, (s->m + 1) * sizeof *s->start);
+    for (size_t e = 0; e < slopes; e++) {
+        all[masses + e] =
+            (qdot_sparse_entry){(uint32_t)(n + of_A[e].row), of_A[e].column,
+                                s->A + of_A[e].row * n + of_A[e].column};
+        s->column[e] = of_A[e].column;
+        s->start[of_A[e].row + 1]++;
+    }
+    for (size_t k = 0; k < s->m; k++)
+        s->start[k + 1] += s->start[k];
+    status = qdot_sparse_init(&s->sparse, n + s->m, n, masses + slopes, all);
+    s->patterned = status == QDOT_OK && !s->indefinite;
+    qdot_free(all);
+    return status;
+}
+
+double
+qdot_saddle_row(const qdot_saddle *s, size_t k, const double *x)
+{
+    const double *A = s->A + k * s->n;
+    double sum = 0;
+
+    for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
+        sum += A[s->column[e]] * x[s->column[e]];
+    return sum;
+}
+
+double
+qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x, double least)
+{
+    const double *A = s->A + k * s->n;
+    double sum = 0;
+
+    for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
+        sum += fabs(A[s->column[e]]) * fmax(fabs(x[s->column[e]]), least);
+    return sum;
 }
 
 static double
@@ -299,10 +365,30 @@ orthogonalise(qdot_saddle *s)
     }
 }
 
+/* Whether the pattern will do. */
+static bool
+factor_directly(qdot_saddle *s)
+{
+    const bool known = s->rank == s->m;
+    double left;
+
+    if (!s->patterned || (!known && s->rank != QDOT_SADDLE_UNKNOWN))
+        return false;
+    left = sqrt(qdot_sparse_factor(&s->sparse));
+    if (left > more * s->record) {
+        s->record = left;
+        return false;
+    }
+    return known && left > trusted && left > usual * s->record;
+}
+
 qdot_status
 qdot_saddle_factor(qdot_saddle *s, size_t *failed)
 {
     s->factored++;
+    s->direct = factor_directly(s);
+    if (s->direct)
+        return QDOT_OK;
     scale(s);
     QDOT_TRY(triangulate(s, failed));
     form_Q(s);
@@ -343,8 +429,9 @@ multipliers(qdot_saddle *s, double *u, double *mu)
     }
 }
 
-void
-qdot_saddle_solve(qdot_saddle *s)
+/* By the null space. */
+static void
+solve(qdot_saddle *s)
 {
     const size_t n = s->n, r = s->rank, f = n - r;
     double *x = s->x, *c = s->x + n, *u = s->u, *w = s->w, *y = s->y;
@@ -384,6 +471,15 @@ qdot_saddle_solve(qdot_saddle *s)
     multipliers(s, u, c);
 }
 
+void
+qdot_saddle_solve(qdot_saddle *s)
+{
+    if (s->direct)
+        qdot_sparse_solve(&s->sparse, s->x);
+    else
+        solve(s);
+}
+
 /* sum += a b, in twice the precision */
 static void
 add_product(qdot_sum *sum, double a, double b)
@@ -394,14 +490,12 @@ add_product(qdot_sum *sum, double a, double b)
     sum->carry += fma(a, b, -p);
 }
 
-void
-qdot_saddle_solve_refined(qdot_saddle *s)
+/* b -= K x, in twice the precision. */
+static void
+subtract_product(const qdot_saddle *s, const double *x, double *b)
 {
     const size_t n = s->n, m = s->m;
-    double *x = s->x, *b = s->keep;
 
-    memcpy(b, x, (n + m) * sizeof *b);
-    qdot_saddle_solve(s);
     for (size_t i = 0; i < n + m; i++) {
         qdot_sum left = {.sum = b[i]};
 
@@ -411,14 +505,28 @@ qdot_saddle_solve_refined(qdot_saddle *s)
             add_product(&left, -s->A[k * n + i], x[n + k]);
         b[i] = qdot_sum_value(&left);
     }
-    for (size_t i = 0; i < n + m; i++) {
+}
+
+void
+qdot_saddle_solve_refined(qdot_saddle *s)
+{
+    const size_t all = s->n + s->m;
+    double *x = s->x, *b = s->keep;
+
+    memcpy(b, x, all * sizeof *b);
+    qdot_saddle_solve(s);
+    if (s->direct)
+        qdot_sparse_subtract(&s->sparse, x, b);
+    else
+        subtract_product(s, x, b);
+    for (size_t i = 0; i < all; i++) {
         double first = x[i];
 
         x[i] = b[i];
         b[i] = first;
     }
     qdot_saddle_solve(s);
-    add(n + m, 1, b, x);
+    add(all, 1, b, x);
 }
 
 void

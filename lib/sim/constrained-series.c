@@ -10,21 +10,22 @@
 #include "sim/constrained.h"
 #include "tape/taylor.h"
 
-enum { most_order = 44 };
+enum { most_order = 44, lanes = 8 };
 
 /* Orders found by a residual-corrected solve: an error of the inverse is the same at every
  * order of a step, and so a drift of the energy instead of noise. With 0 that of the
- * Cartesian pendulum grows as t; from 3 on as the square root of t. */
-enum { refined = 3 };
+ * Cartesian pendulum grows as t; from 3 on as the square root of t. Series shorter than the
+ * other are for tolerances at which no rounding counts. */
+enum { refined = 3, least_refined = 18 };
 
 /* Constraints are nearly dependent where less than this is left of their best. */
 static const double nearly = 0.3;
 
-/* An entry of M or A that moves: `to`, a place in the equations, gains sum series_j of_{k
- * - j}. */
+/* A moving entry of M or A: of `to`, a place in the equations, +-sum_j entry_j of_{k - j}
+ * is taken off, number `product` of those sums. */
 typedef struct {
-    size_t to;
-    const double *series, *of;
+    size_t to, product;
+    double sign;
 } coupling;
 
 /* The constraints of a kind. */
@@ -54,8 +55,15 @@ struct qdot_constrained_series {
     const double **M;    /* [n_masses] */
     const double **A;    /* [n_slopes] */
     const double **rows; /* [m] series of the constraints */
+    bool moves;          /* an output of `motion` does */
+    bool damped;
     coupling *couplings;
     size_t n_couplings;
+    size_t products, members;  /* sums of products; filled up to full vectors */
+    const double **entry, **of; /* [products] series */
+    double *entries, *others;   /* [orders x members] their coefficients, by order */
+    double *sums;               /* [members] */
+    double up[most_order + 2];  /* k/unit */
 };
 
 /* --- one order ---------------------------------------------------------------------- */
@@ -105,39 +113,42 @@ look_ahead(qdot_constrained_series *e, int k)
 static double
 wanted(const qdot_constrained_series *e, size_t r, int k)
 {
-    const double *f = e->rows[r], one = (k + 1) / e->unit, two = one * (k + 2) / e->unit;
-    const double damping =
-        e->plan->treatment == QDOT_RUN_BAUMGARTE ? QDOT_CONSTRAINED_RATE : 0;
+    const double *f = e->rows[r], one = e->up[k + 1], two = one * e->up[k + 2];
+    const double a = e->damped ? QDOT_CONSTRAINED_RATE : 0;
 
     switch (e->c->rows[r].kind) {
     case QDOT_HOLONOMIC:
-        return -two * f[k + 2] - damping * (2 * one * f[k + 1] + damping * f[k]);
-    case QDOT_VELOCITY: return -one * f[k + 1] - damping * f[k];
+        return e->damped ? -two * f[k + 2] - a * (2 * one * f[k + 1] + a * f[k])
+                         : -two * f[k + 2];
+    case QDOT_VELOCITY:
+        return e->damped ? -one * f[k + 1] - a * f[k] : -one * f[k + 1];
     case QDOT_ACCELERATION: break;
     }
     return -f[k];
 }
 
-/* Coefficient k of accelerations and multipliers is known: what follows from it. */
+/* Coefficient k of accelerations and multipliers is known: what follows from it. Divided
+ * by k: the rounding of a factor 1/k would be the same at every step, and a drift. */
 static void
 bring_up_to_date(qdot_constrained_series *e, int k)
 {
     const size_t n = e->plan->n;
+    const double unit = e->unit, one = k + 1, two = k + 2;
     kind_series *h = e->kinds + QDOT_HOLONOMIC, *v = e->kinds + QDOT_VELOCITY;
     kind_series *a = e->kinds + QDOT_ACCELERATION;
 
     for (size_t i = 0; i < n; i++) {
-        e->newest[i] = e->unit * e->a[i * e->stride + (size_t)k] / (k + 1);
+        e->newest[i] = unit * e->a[i * e->stride + (size_t)k] / one;
         e->v[i * e->stride + (size_t)k + 1] = e->newest[i];
     }
     if (v->taylor)
-        qdot_taylor_correct(v->taylor, k + 1, n, e->newest);
+        qdot_taylor_correct(v->taylor, k + 1, e->newest);
     for (size_t i = 0; i < n; i++) {
-        e->newest[i] = e->unit * e->newest[i] / (k + 2);
+        e->newest[i] = unit * e->newest[i] / two;
         e->q[i * e->stride + (size_t)k + 2] = e->newest[i];
     }
     if (h->taylor)
-        qdot_taylor_correct(h->taylor, k + 2, n, e->newest);
+        qdot_taylor_correct(h->taylor, k + 2, e->newest);
     if (!a->taylor)
         return;
     if (k == 0) { /* order 0 is not affine */
@@ -147,7 +158,7 @@ bring_up_to_date(qdot_constrained_series *e, int k)
     }
     for (size_t i = 0; i < n; i++)
         e->newest[i] = e->a[i * e->stride + (size_t)k];
-    qdot_taylor_correct(a->taylor, k, n, e->newest);
+    qdot_taylor_correct(a->taylor, k, e->newest);
 }
 
 static qdot_status
@@ -163,31 +174,45 @@ factor(qdot_constrained_series *e)
         s->M[i * n + j] = s->M[j * n + i] = e->M[k][0];
     }
     for (size_t k = 0; k < c->n_slopes; k++)
-        s->A[c->slopes[k].row * n + c->slopes[k].column] = e->A[k][0];
+        s->A[c->slopes[k].row * n + c->slopes[k].column] = c->sign[k] * e->A[k][0];
     return qdot_constrained_factor(e->plan, s);
+}
+
+/* Off the right-hand side x what lower orders have given already. */
+static void
+take_off(qdot_constrained_series *e, int k, double *x)
+{
+    const size_t members = e->members;
+    double *entries = e->entries + (size_t)k * members;
+
+    for (size_t j = 0; j < e->products; j++)
+        entries[j] = e->entry[j][k];
+    if (k == 0)
+        return;
+    e->kernels->dots(members, (size_t)k, e->entries + members,
+                     e->others + (size_t)(k - 1) * members, e->sums);
+    for (size_t j = 0; j < e->n_couplings; j++)
+        x[e->couplings[j].to] -= e->couplings[j].sign * e->sums[e->couplings[j].product];
 }
 
 /* Order k, orders below being there. */
 static qdot_status
-order(qdot_constrained_series *e, int k)
+order(qdot_constrained_series *e, int k, int precise)
 {
     const size_t n = e->plan->n, m = e->c->m;
-    double *x = e->saddle.x;
+    double *x = e->saddle.x, *others = e->others + (size_t)k * e->members;
 
     look_ahead(e, k);
-    qdot_taylor_order(e->motion, k);
+    if (e->moves || k == 0)
+        qdot_taylor_order(e->motion, k);
     if (k == 0)
         QDOT_TRY(factor(e));
     for (size_t i = 0; i < n; i++)
         x[i] = e->f[i][k];
     for (size_t r = 0; r < m; r++)
         x[n + r] = wanted(e, r, k);
-    for (size_t j = 0; k > 0 && j < e->n_couplings; j++) {
-        const coupling *w = e->couplings + j;
-
-        x[w->to] -= e->kernels->dot[k](w->series + 1, w->of + k - 1);
-    }
-    if (k <= refined)
+    take_off(e, k, x);
+    if (k <= precise)
         qdot_saddle_solve_refined(&e->saddle);
     else
         qdot_saddle_apply(&e->saddle);
@@ -195,6 +220,8 @@ order(qdot_constrained_series *e, int k)
         e->a[i * e->stride + (size_t)k] = x[i];
     for (size_t r = 0; r < m; r++)
         e->lambda[r * e->stride + (size_t)k] = x[n + r];
+    for (size_t j = 0; j < e->products; j++)
+        others[j] = e->of[j][k];
     bring_up_to_date(e, k);
     return QDOT_OK;
 }
@@ -231,7 +258,11 @@ begin(double t, const double *y, double unit, void *user)
     const size_t n = e->plan->n;
     kind_series *h = e->kinds + QDOT_HOLONOMIC, *v = e->kinds + QDOT_VELOCITY;
 
-    e->unit = unit;
+    if (unit != e->unit) {
+        e->unit = unit;
+        for (int k = 1; k < most_order + 2; k++)
+            e->up[k] = k / unit;
+    }
     load(e, t, y);
     for (int k = 0; h->taylor && k < 2; k++) {
         copy_order(e->q, e->stride, h->newest, h->stride, n, k);
@@ -242,7 +273,7 @@ begin(double t, const double *y, double unit, void *user)
         copy_order(e->v, e->stride, v->newest, v->stride, n, 0);
         qdot_taylor_order(v->taylor, 0);
     }
-    QDOT_TRY(order(e, 0));
+    QDOT_TRY(order(e, 0, refined));
     for (size_t i = 0; i < n; i++)
         if (!isfinite(e->a[i * e->stride]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
@@ -257,7 +288,7 @@ extend(int p, void *user)
 
     qdot_saddle_prepare(&e->saddle);
     for (int k = 1; k < p; k++)
-        QDOT_TRY(order(e, k));
+        QDOT_TRY(order(e, k, p < least_refined ? 0 : refined));
     return QDOT_OK;
 }
 
@@ -271,6 +302,8 @@ noise(void *user)
     qdot_constrained_series *e = user;
     double left;
 
+    if (e->saddle.direct)
+        return 0;
     e->best = fmax(e->best, e->saddle.quality);
     left = e->saddle.quality / e->best;
     return left < nearly ? fmin(1e-9, 100 * DBL_EPSILON / (left * left)) : 0;
@@ -290,7 +323,8 @@ ahead(void *user)
     qdot_saddle_weakest(&e->saddle, row, column);
     for (size_t k = 0; k < c->n_slopes; k++)
         for (int j = 0; j < 4; j++)
-            sigma[j] += row[c->slopes[k].row] * column[c->slopes[k].column] * e->A[k][j];
+            sigma[j] += c->sign[k] * row[c->slopes[k].row]
+                        * column[c->slopes[k].column] * e->A[k][j];
     s = -sigma[0] / sigma[1];
     for (int k = 0; k < 20; k++) {
         double f = sigma[0] + s * (sigma[1] + s * (sigma[2] + s * sigma[3]));
@@ -302,6 +336,23 @@ ahead(void *user)
 
 /* --- building ----------------------------------------------------------------------- */
 
+/* f is 0 once it is corrected: only damping reads it again. */
+static qdot_status
+ask_for_corrections(qdot_constrained_series *e, qdot_constraint_kind kind)
+{
+    const size_t slopes = e->c->n_slopes, rows = e->c->count[kind];
+    bool *kept = qdot_calloc(rows + slopes + 1, sizeof *kept);
+    qdot_status status;
+
+    if (!kept)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < rows + slopes; i++)
+        kept[i] = e->damped || i >= rows;
+    status = qdot_taylor_affine(e->kinds[kind].taylor, e->plan->n, kept);
+    qdot_free(kept);
+    return status;
+}
+
 static qdot_status
 make_kind(qdot_constrained_series *e, qdot_constraint_kind kind, bool shaken)
 {
@@ -311,6 +362,7 @@ make_kind(qdot_constrained_series *e, qdot_constraint_kind kind, bool shaken)
     if (!e->c->series[kind])
         return QDOT_OK;
     QDOT_TRY(qdot_taylor_new_shaken(e->c->series[kind], shaken, most_order, &s->taylor));
+    QDOT_TRY(ask_for_corrections(e, kind));
     s->stride = qdot_taylor_stride(s->taylor);
     s->newest = qdot_taylor_input(s->taylor, 0);
     s->other = qdot_taylor_input(s->taylor, n);
@@ -320,9 +372,18 @@ make_kind(qdot_constrained_series *e, qdot_constraint_kind kind, bool shaken)
 }
 
 static void
-couple(qdot_constrained_series *e, size_t to, const double *series, const double *of)
+couple(qdot_constrained_series *e, size_t to, double sign, const double *entry,
+       const double *of)
 {
-    e->couplings[e->n_couplings++] = (coupling){to, series, of};
+    size_t j = 0;
+
+    while (j < e->products && (e->entry[j] != entry || e->of[j] != of))
+        j++;
+    e->entry[j] = entry;
+    e->of[j] = of;
+    if (j == e->products)
+        e->products++;
+    e->couplings[e->n_couplings++] = (coupling){to, j, sign};
 }
 
 /* Where outputs are found, and which entries move. */
@@ -330,23 +391,28 @@ static qdot_status
 find_outputs(qdot_constrained_series *e)
 {
     const qdot_constraints *c = e->c;
-    const size_t n = e->plan->n;
+    const size_t n = e->plan->n, most = 2 * c->n_masses + c->n_slopes + 1;
     size_t at[3];
 
-    e->couplings = qdot_calloc(2 * c->n_masses + c->n_slopes + 1, sizeof *e->couplings);
-    if (!e->couplings)
+    e->couplings = qdot_calloc(most, sizeof *e->couplings);
+    e->entry = qdot_calloc(most, sizeof *e->entry);
+    e->of = qdot_calloc(most, sizeof *e->of);
+    if (!e->couplings || !e->entry || !e->of)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
         e->f[i] = qdot_taylor_output(e->motion, i);
+        e->moves |= !qdot_taylor_is_constant(e->motion, i);
+    }
     for (size_t k = 0; k < c->n_masses; k++) {
         size_t i = c->masses[k].row, j = c->masses[k].column;
 
         e->M[k] = qdot_taylor_output(e->motion, n + k);
         if (qdot_taylor_is_constant(e->motion, n + k))
             continue;
-        couple(e, i, e->M[k], e->a + j * e->stride);
+        e->moves = true;
+        couple(e, i, 1, e->M[k], e->a + j * e->stride);
         if (i != j)
-            couple(e, j, e->M[k], e->a + i * e->stride);
+            couple(e, j, 1, e->M[k], e->a + i * e->stride);
     }
     for (int kind = 0; kind < 3; kind++)
         at[kind] = c->count[kind];
@@ -358,28 +424,36 @@ find_outputs(qdot_constrained_series *e)
 
         e->A[k] = qdot_taylor_output(taylor, output);
         if (!qdot_taylor_is_constant(taylor, output))
-            couple(e, c->slopes[k].column, e->A[k], e->lambda + row * e->stride);
+            couple(e, c->slopes[k].column, c->sign[k], e->A[k],
+                   e->lambda + row * e->stride);
     }
     for (size_t r = 0; r < c->m; r++)
         e->rows[r] =
             qdot_taylor_output(e->kinds[c->rows[r].kind].taylor, c->rows[r].of_kind);
-    return QDOT_OK;
+    e->members = (e->products + lanes - 1) / lanes * lanes;
+    e->entries = qdot_calloc((most_order + 1) * e->members + 1, sizeof *e->entries);
+    e->others = qdot_calloc((most_order + 1) * e->members + 1, sizeof *e->others);
+    e->sums = qdot_calloc(e->members + 1, sizeof *e->sums);
+    return e->entries && e->others && e->sums ? QDOT_OK : QDOT_ENOMEM;
 }
 
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
 static void
 estimate_cost(qdot_constrained_series *e)
 {
-    double *cost = e->series.cost, n = (double)e->plan->n, all = n + (double)e->c->m;
-    double length = (double)qdot_taylor_length(e->motion);
+    const qdot_saddle *s = &e->saddle;
+    const double n = (double)e->plan->n, all = n + (double)e->c->m;
+    const double filled = s->patterned ? (double)s->sparse.filled : all * all;
+    const double solve = 30 + 6 * all + 2.5 * filled;
+    double *cost = e->series.cost, length = (double)qdot_taylor_length(e->motion);
 
     for (int kind = 0; kind < 3; kind++)
         if (e->kinds[kind].taylor)
             length += 2 * (double)qdot_taylor_length(e->kinds[kind].taylor);
-    cost[0] = 500 + 15.0 * (double)qdot_tape_calls(e->plan->tape) + 4 * length +
-              (e->saddle.inverse ? 4 * all * all * all : 2 * n * n * all);
+    cost[0] = 500 + 15.0 * (double)qdot_tape_calls(e->plan->tape) + 4 * length + 5 * all +
+              3 * filled * filled / all + (s->inverse ? all * solve : 0);
     cost[1] = 20 + 1.2 * length + 3.5 * qdot_constrained_series_convolutions(e) + 10 * n +
-              (e->saddle.inverse ? 0.5 : 3) * all * all;
+              (s->inverse ? 0.5 * all * all : solve);
     cost[2] = 0.12 * qdot_constrained_series_convolutions(e);
 }
 
@@ -389,6 +463,7 @@ make(qdot_constrained_series *e, bool shaken)
     const qdot_plan *p = e->plan;
     const qdot_constraints *c = e->c;
 
+    e->damped = p->treatment == QDOT_RUN_BAUMGARTE;
     QDOT_TRY(qdot_taylor_new_shaken(c->motion, shaken, most_order, &e->motion));
     for (int kind = 0; kind < 3; kind++)
         QDOT_TRY(make_kind(e, (qdot_constraint_kind)kind, shaken));
@@ -408,6 +483,8 @@ make(qdot_constrained_series *e, bool shaken)
         !e->rows)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_saddle_init(&e->saddle, p->n, c->m, p->indefinite));
+    QDOT_TRY(qdot_saddle_pattern(&e->saddle, c->n_masses, c->masses, c->n_slopes,
+                                 c->slopes));
     QDOT_TRY(find_outputs(e));
     e->series = (qdot_ode_series){.most = most_order - 4,
                                   .x = e->q,
@@ -462,6 +539,11 @@ qdot_constrained_series_free(qdot_constrained_series *e)
     qdot_free(e->A);
     qdot_free(e->rows);
     qdot_free(e->couplings);
+    qdot_free(e->entry);
+    qdot_free(e->of);
+    qdot_free(e->entries);
+    qdot_free(e->others);
+    qdot_free(e->sums);
     qdot_free(e);
 }
 
@@ -474,7 +556,7 @@ qdot_constrained_series_get(const qdot_constrained_series *e)
 double
 qdot_constrained_series_convolutions(const qdot_constrained_series *e)
 {
-    double sum = qdot_taylor_convolutions(e->motion) + (double)e->n_couplings;
+    double sum = qdot_taylor_convolutions(e->motion) + (double)e->products;
 
     for (int kind = 0; kind < 3; kind++)
         if (e->kinds[kind].taylor)

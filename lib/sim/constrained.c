@@ -75,9 +75,10 @@ load(qdot_constrained *h, double t, const double *y)
     h->in[2 * h->plan->n] = t;
 }
 
-/* Residuals at what is loaded, by row; 0 where a row has none. */
+/* Residuals of positions, of velocities at what is loaded, by row; 0 where a row has none.
+ */
 static void
-residuals(qdot_constrained *h)
+position_residuals(qdot_constrained *h)
 {
     const qdot_constraints *c = h->c;
     const double *out = h->out;
@@ -85,10 +86,24 @@ residuals(qdot_constrained *h)
     qdot_tape_eval(tape_of(h->positions, c->positions), h->in, h->out, h->work);
     for (size_t k = 0; k < c->m; k++)
         h->f[k] = c->rows[k].kind == QDOT_HOLONOMIC ? *out++ : 0;
-    out = h->out;
+}
+
+static void
+velocity_residuals(qdot_constrained *h)
+{
+    const qdot_constraints *c = h->c;
+    const double *out = h->out;
+
     qdot_tape_eval(tape_of(h->velocities, c->velocities), h->in, h->out, h->work);
     for (size_t k = 0; k < c->m; k++)
         h->w[k] = c->rows[k].kind != QDOT_ACCELERATION ? *out++ : 0;
+}
+
+static void
+residuals(qdot_constrained *h)
+{
+    position_residuals(h);
+    velocity_residuals(h);
 }
 
 /* M and A from outputs into a level. Returns what stands behind them. */
@@ -227,30 +242,29 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
 
 /* --- projection --------------------------------------------------------------------- */
 
-/* M and A at what is loaded, factored, and with them the bounds: x is q or q'. */
-static qdot_status
-factor_metric(qdot_constrained *h, level *l, const double *x, double *bound)
+/* What rounding of x, q or q', makes of the rows, A being there. */
+static void
+raise_bounds(const level *l, const double *x, double *bound)
 {
-    const size_t n = h->plan->n;
+    for (size_t k = 0; k < l->m; k++)
+        bound[l->row[k]] =
+            fmax(bound[l->row[k]],
+                 DBL_EPSILON * qdot_saddle_row_size(&l->saddle, k, x, least_size));
+}
 
+/* M and A at what is loaded, factored. */
+static qdot_status
+factor_metric(qdot_constrained *h, level *l)
+{
     qdot_tape_eval(tape_of(h->metric, h->c->metric), h->in, h->out, h->work);
     unpack(h, l, h->out);
-    QDOT_TRY(factor(h->plan, &l->saddle, l->row));
-    for (size_t k = 0; k < l->m; k++) {
-        double sum = 0;
-
-        for (size_t i = 0; i < n; i++)
-            sum += fabs(l->saddle.A[k * n + i]) * fmax(fabs(x[i]), least_size);
-        bound[l->row[k]] = fmax(bound[l->row[k]], DBL_EPSILON * sum);
-    }
-    return QDOT_OK;
+    return factor(h->plan, &l->saddle, l->row);
 }
 
 /* The largest residual over its bound; INFINITY before there are bounds. What the carry
  * adds is a matter of A, once that is there. */
 static double
-excess(const level *l, const double *residual, const double *bound, const double *carry,
-       size_t n)
+excess(const level *l, const double *residual, const double *bound, const double *carry)
 {
     double most = 0;
 
@@ -258,8 +272,7 @@ excess(const level *l, const double *residual, const double *bound, const double
         double f = residual[l->row[k]], b = bound[l->row[k]];
 
         if (carry && l->saddle.factored > 0)
-            for (size_t i = 0; i < n; i++)
-                f += l->saddle.A[k * n + i] * carry[i];
+            f += qdot_saddle_row(&l->saddle, k, carry);
         if (!(fabs(f) <= b))
             most = fmax(most, b > 0 && isfinite(f) ? fabs(f) / b : INFINITY);
     }
@@ -288,8 +301,8 @@ step(const qdot_constrained *h, level *l, const double *residual, double *x,
     for (size_t k = 0; k < l->m; k++) {
         double f = residual[l->row[k]];
 
-        for (size_t i = 0; carry && i < n; i++)
-            f += l->saddle.A[k * n + i] * carry[i];
+        if (carry)
+            f += qdot_saddle_row(&l->saddle, k, carry);
         change[n + k] = -f;
     }
     qdot_saddle_solve(&l->saddle);
@@ -305,27 +318,34 @@ step(const qdot_constrained *h, level *l, const double *residual, double *x,
 /* Whether what is left is what moving x by rounding of max(1, |x|) makes: where x is 0 the
  * bounds are too, and cannot be met. */
 static bool
-is_rounding(const level *l, const double *residual, const double *x, size_t n)
+is_rounding(const level *l, const double *residual, const double *x)
 {
-    for (size_t k = 0; k < l->m; k++) {
-        double sum = 0;
-
-        for (size_t i = 0; i < n; i++)
-            sum += fabs(l->saddle.A[k * n + i]) * fmax(1, fabs(x[i]));
-        if (!(fabs(residual[l->row[k]]) <= DBL_EPSILON * sum))
+    for (size_t k = 0; k < l->m; k++)
+        if (!(fabs(residual[l->row[k]])
+              <= DBL_EPSILON * qdot_saddle_row_size(&l->saddle, k, x, 1)))
             return false;
-    }
     return true;
 }
 
-/* Positions or velocities of y; `residual` points at what `residuals` fills for them. */
+/* One of the two levels: what is moved, q or q', its carry or NULL, its residuals, how
+ * they are found, their bounds. */
+typedef struct {
+    level *l;
+    double *x, *carry;
+    const double *residual;
+    void (*find)(qdot_constrained *h);
+    double *bound;
+} part;
+
+/* M and A stay those of the place where they were factored, `factored` says whether they
+ * are: Newton's method converges with them as fast as the state was near. */
 static qdot_status
-project(qdot_constrained *h, level *l, double t, double *y, double *x, double *carry,
-        const double *residual, double *bound, double *moved)
+project(qdot_constrained *h, const part *p, double t, const double *y, bool *factored,
+        double *moved)
 {
-    const size_t n = h->plan->n;
+    level *l = p->l;
     double before = INFINITY;
-    bool factored = false;
+    bool bounded = false;
 
     if (l->m == 0)
         return QDOT_OK;
@@ -333,26 +353,29 @@ project(qdot_constrained *h, level *l, double t, double *y, double *x, double *c
         double now;
 
         load(h, t, y);
-        residuals(h);
-        now = excess(l, residual, bound, carry, n);
+        p->find(h);
+        now = excess(l, p->residual, p->bound, p->carry);
         if (now <= 1)
             return QDOT_OK;
         /* what is left is rounding when it shrinks no more */
-        if (factored && !(now < 0.5 * before) && now < 1e4)
+        if (bounded && !(now < 0.5 * before) && now < 1e4)
             return QDOT_OK;
         if (k == most_iterations || isnan(now) || (k > 2 && !(now < before)))
             break;
-        if (!factored) {
-            QDOT_TRY(factor_metric(h, l, x, bound));
-            factored = true;
-            now = excess(l, residual, bound, carry, n);
+        if (!*factored)
+            QDOT_TRY(factor_metric(h, l));
+        *factored = true;
+        if (!bounded) {
+            raise_bounds(l, p->x, p->bound);
+            bounded = true;
+            now = excess(l, p->residual, p->bound, p->carry);
             if (now <= 1)
                 return QDOT_OK;
         }
         before = now;
-        step(h, l, residual, x, carry, moved);
+        step(h, l, p->residual, p->x, p->carry, moved);
     }
-    return factored && is_rounding(l, residual, x, n)
+    return bounded && is_rounding(l, p->residual, p->x)
                ? QDOT_OK
                : qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
 }
@@ -362,13 +385,17 @@ qdot_constrained_project(double t, double *y, double *carry, double *moved, void
 {
     qdot_constrained *h = user;
     const size_t n = h->plan->n;
+    const part q = {h->at[QDOT_HOLONOMIC], y, carry, h->f, position_residuals, h->f_bound};
+    const part v = {h->at[QDOT_VELOCITY], y + n, carry ? carry + n : NULL, h->w,
+                    velocity_residuals, h->w_bound};
+    bool factored = false;
 
     *moved = 0;
     if (h->plan->treatment != QDOT_RUN_PROJECT)
         return QDOT_OK;
-    QDOT_TRY(project(h, h->at[QDOT_HOLONOMIC], t, y, y, carry, h->f, h->f_bound, moved));
-    return project(h, h->at[QDOT_VELOCITY], t, y, y + n, carry ? carry + n : NULL, h->w,
-                   h->w_bound, moved);
+    QDOT_TRY(project(h, &q, t, y, &factored, moved));
+    factored = factored && v.l == q.l;
+    return project(h, &v, t, y, &factored, moved);
 }
 
 /* --- the start ---------------------------------------------------------------------- */
@@ -426,11 +453,15 @@ qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
                               ? "the time derivative of left - right"
                               : "left - right");
     /* the bounds, before anything is judged by them */
-    if (l->m > 0)
-        QDOT_TRY(factor_metric(h, l, y, h->f_bound));
+    if (l->m > 0) {
+        QDOT_TRY(factor_metric(h, l));
+        raise_bounds(l, y, h->f_bound);
+    }
     l = h->at[QDOT_VELOCITY];
-    if (l->m > 0)
-        QDOT_TRY(factor_metric(h, l, y + n, h->w_bound));
+    if (l->m > 0) {
+        QDOT_TRY(factor_metric(h, l));
+        raise_bounds(l, y + n, h->w_bound);
+    }
     QDOT_TRY(qdot_constrained_project(t, y, low, &moved, h));
     QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
     return check_repeated(h);
@@ -458,6 +489,26 @@ qdot_constrained_factored(const qdot_constrained *h)
 /* --- building ----------------------------------------------------------------------- */
 
 static qdot_status
+find_pattern(const qdot_constraints *c, level *l)
+{
+    qdot_saddle_entry *slopes = qdot_calloc(c->n_slopes + 1, sizeof *slopes);
+    size_t count = 0, at = 0;
+    qdot_status status;
+
+    if (!slopes)
+        return QDOT_ENOMEM;
+    for (size_t s = 0; s < c->n_slopes; s++) {
+        while (at < l->m && l->row[at] < c->slopes[s].row)
+            at++;
+        if (at < l->m && l->row[at] == c->slopes[s].row)
+            slopes[count++] = (qdot_saddle_entry){(uint32_t)at, c->slopes[s].column};
+    }
+    status = qdot_saddle_pattern(&l->saddle, c->n_masses, c->masses, count, slopes);
+    qdot_free(slopes);
+    return status;
+}
+
+static qdot_status
 make_level(qdot_constrained *h, qdot_constraint_kind kind)
 {
     const qdot_constraints *c = h->c;
@@ -477,7 +528,8 @@ make_level(qdot_constrained *h, qdot_constraint_kind kind)
     for (size_t k = 0, at = 0; k < c->m; k++)
         if (c->rows[k].kind <= kind)
             l->row[at++] = k;
-    return qdot_saddle_init(&l->saddle, h->plan->n, l->m, h->plan->indefinite);
+    QDOT_TRY(qdot_saddle_init(&l->saddle, h->plan->n, l->m, h->plan->indefinite));
+    return find_pattern(c, l);
 }
 
 static qdot_status

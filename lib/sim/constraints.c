@@ -24,6 +24,7 @@ qdot_constraints_free(qdot_constraints *c)
     qdot_free(c->rows);
     qdot_free(c->masses);
     qdot_free(c->slopes);
+    qdot_free(c->sign);
     qdot_tape_free(c->positions);
     qdot_tape_free(c->velocities);
     qdot_tape_free(c->metric);
@@ -218,6 +219,29 @@ series_inputs(const qdot_plan *p, qdot_constraint_kind kind, qdot_expr *inputs)
     return at + 2 * n + 1;
 }
 
+/* A slope that is an earlier one of its row, negated, is that one: where both are
+ * multiplied by the row's multiplier it is done once. */
+static qdot_status
+find_signs(builder *b)
+{
+    qdot_constraints *c = b->c;
+
+    c->sign = qdot_calloc(c->n_slopes + 1, sizeof *c->sign);
+    if (!c->sign)
+        return QDOT_ENOMEM;
+    for (size_t s = 0; s < c->n_slopes; s++) {
+        const qdot_expr negated = qdot_neg(b->plan->pool, b->slopes.at[s]);
+
+        c->sign[s] = 1;
+        for (size_t i = s; i-- > 0 && c->slopes[i].row == c->slopes[s].row;)
+            if (b->slopes.at[i] == negated && c->sign[i] > 0)
+                c->sign[s] = -1;
+        if (c->sign[s] < 0)
+            b->slopes.at[s] = negated;
+    }
+    return qdot_pool_check(b->plan->pool);
+}
+
 static qdot_status
 lower_series(builder *b, qdot_constraint_kind kind)
 {
@@ -263,6 +287,7 @@ build(builder *b, const qdot_scene *scene)
     QDOT_TRY(lower(b->plan, &b->velocities, &b->c->velocities));
     QDOT_TRY(lower_index_1(b));
     QDOT_TRY(lower_motion(b));
+    QDOT_TRY(find_signs(b)); /* the other tapes have theirs by now */
     for (int kind = 0; kind < 3; kind++)
         if (b->c->count[kind] > 0)
             QDOT_TRY(lower_series(b, (qdot_constraint_kind)kind));

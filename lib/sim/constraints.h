@@ -18,6 +18,7 @@
 #define QDOT_SIM_CONSTRAINTS_H
 
 #include "mech/scene.h"
+#include "num/saddle.h"
 #include "sim/plan.h"
 
 typedef struct {
@@ -30,9 +31,7 @@ typedef struct {
 
 /* An entry that is not zero: of M (row >= column) or of A (a constraint, a coordinate).
  */
-typedef struct {
-    uint32_t row, column;
-} qdot_constraints_entry;
+typedef qdot_saddle_entry qdot_constraints_entry;
 
 struct qdot_constraints {
     size_t m; /* rows */
@@ -42,6 +41,7 @@ struct qdot_constraints {
     size_t n_masses;
     qdot_constraints_entry *slopes; /* [n_slopes] of A, row by row */
     size_t n_slopes;
+    signed char *sign; /* [n_slopes] slopes of `series` times it are those of A */
 
     /* From q [n], q' [n], t, n the plan's. Residuals: */
     qdot_tape *positions;  /* f of the holonomic rows, in their order */
@@ -53,8 +53,8 @@ struct qdot_constraints {
 
     /* For Taylor series: f [n], M [n_masses] from q, q', t; */
     qdot_tape *motion;
-    /* and by kind, NULL without such rows: f of its rows, then their
-     * slopes, from first what is newest:
+    /* and by kind, NULL without such rows: f of its rows, then their slopes but for
+     * `sign`, from first what is newest:
      *     holonomic q, q', t   velocity q', q, t   acceleration q'', q, q', t */
     qdot_tape *series[3];
 };

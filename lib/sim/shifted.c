@@ -165,7 +165,7 @@ order(qdot_shifted *s, int m)
     solve(s, k);
     for (size_t i = 0; i < n; i++)
         s->R[i] *= inverse;
-    qdot_taylor_correct(s->places, m, n, s->R);
+    qdot_taylor_correct(s->places, m, s->R);
     accelerate(s, k);
     take_slopes(s, m);
     for (size_t i = 0; i < n; i++)
@@ -247,6 +247,7 @@ make_tapes(qdot_shifted *s, bool shaken)
     size_t n = s->plan->n;
 
     QDOT_TRY(qdot_taylor_new_shaken(r->places, shaken, most_order, &s->places));
+    QDOT_TRY(qdot_taylor_affine(s->places, n, NULL));
     s->stride = qdot_taylor_stride(s->places);
     s->q = qdot_taylor_input(s->places, 0);
     s->v = qdot_taylor_input(s->places, n);

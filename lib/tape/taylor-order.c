@@ -112,10 +112,12 @@ order_zero(const qdot_taylor *t)
 void
 qdot_taylor_order(qdot_taylor *t, int k)
 {
-    if (k == 0)
-        order_zero(t);
-    else
+    if (k > 0) {
         orders()[k](t);
+        return;
+    }
+    order_zero(t);
+    qdot_taylor_changes_stale(t);
 }
 
 void
@@ -137,79 +139,5 @@ qdot_taylor_integrate(qdot_taylor *t, double unit, int from, int to)
             order[k](t);
         for (size_t l = 0; l < t->n_links; l++)
             t->links[l].to[k + 1] = factor * t->links[l].from[k];
-    }
-}
-
-/* --- correction --------------------------------------------------------------------- */
-
-/* What changes by d: coefficient k of a row, and its note of it. */
-static inline void
-change(const qdot_taylor *t, double *row, int k, double d)
-{
-    row[k] += d;
-    row[t->stride - 1] = d;
-}
-
-void
-qdot_taylor_correct(qdot_taylor *t, int k, size_t n, const double *newest)
-{
-    const size_t note = t->stride - 1;
-
-    for (size_t i = 0; i < n; i++)
-        change(t, t->coefficients + i * t->stride, k, newest[i]);
-    for (const qdot_taylor_step *i = t->steps; i->op != QDOT_T_END; i++) {
-        const double x = i->x[note], y = i->y[note], z = i->z[note];
-        double d = 0;
-
-        switch (i->op) {
-        case QDOT_T_NEG: d = -x; break;
-        case QDOT_T_ADD: d = x + y; break;
-        case QDOT_T_SUB: d = x - y; break;
-        case QDOT_T_SCALE: d = i->x[0] * y; break;
-        case QDOT_T_SCALEADD: d = i->x[0] * y + z; break;
-        case QDOT_T_SCALESUB: d = i->x[0] * y - z; break;
-        case QDOT_T_SCALEOFF: d = z - i->x[0] * y; break;
-        case QDOT_T_MUL: d = i->x[0] * y + i->y[0] * x; break;
-        case QDOT_T_SQUARE: d = 2 * i->x[0] * x; break;
-        case QDOT_T_MADD: d = i->x[0] * y + i->y[0] * x + z; break;
-        case QDOT_T_MSUB: d = i->x[0] * y + i->y[0] * x - z; break;
-        case QDOT_T_NMADD: d = z - i->x[0] * y - i->y[0] * x; break;
-        case QDOT_T_DIV: d = (x - i->to[0] * y) * i->c; break;
-        case QDOT_T_SQRT: d = x * i->c; break;
-        case QDOT_T_SINCOS:
-            d = i->second[0] * x;
-            change(t, i->second, k, -i->to[0] * x);
-            change(t, i->d, k, k * x);
-            break;
-        case QDOT_T_SINHCOSH:
-            d = i->second[0] * x;
-            change(t, i->second, k, i->to[0] * x);
-            change(t, i->d, k, k * x);
-            break;
-        case QDOT_T_EXP:
-            d = i->to[0] * x;
-            change(t, i->d, k, k * x);
-            break;
-        case QDOT_T_POW:
-            d = i->z[0] * i->to[0] * x * i->c;
-            change(t, i->d, k, k * x);
-            break;
-        case QDOT_T_RATIO:
-            d = i->sign * x * i->c;
-            change(t, i->d, k, k * d);
-            break;
-        case QDOT_T_TANH:
-            d = i->second[0] * x;
-            change(t, i->second, k, -2 * i->to[0] * d);
-            change(t, i->d, k, k * x);
-            break;
-        case QDOT_T_ATAN2:
-            d = (i->y[0] * x - i->x[0] * y) * i->c;
-            change(t, i->second, k, k * x);
-            change(t, i->third, k, k * y);
-            change(t, i->d, k, k * d);
-            break;
-        }
-        change(t, i->to, k, d);
     }
 }

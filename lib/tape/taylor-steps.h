@@ -38,8 +38,7 @@ typedef enum {
 /* Values of order 0 that operation.def does not have. */
 enum { QDOT_ZERO_SINHCOSH = QDOT_OP_COUNT, QDOT_ZERO_POWER };
 
-/* Rows of coefficients, by order; the last place of a row is what qdot_taylor_correct
- * adds to the newest coefficient. */
+/* Rows of coefficients, by order. */
 typedef struct {
     uint16_t op, zero; /* recurrence; how order 0 is computed */
     int sign;
@@ -78,6 +77,11 @@ struct qdot_taylor {
     struct qdot_taylor_link *links; /* [n_links] */
     size_t n_links;
     double unit, factor[QDOT_SERIES_MOST + 1]; /* unit/k */
+    struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */
 };
+
+void qdot_taylor_changes_free(qdot_taylor *t);
+/* Order 0 has been evaluated. */
+void qdot_taylor_changes_stale(qdot_taylor *t);
 
 #endif

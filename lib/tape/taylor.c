@@ -435,6 +435,7 @@ qdot_taylor_free(qdot_taylor *t)
 {
     if (!t)
         return;
+    qdot_taylor_changes_free(t);
     qdot_free(t->coefficients);
     qdot_free(t->output);
     qdot_free(t->constant);

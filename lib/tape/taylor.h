@@ -78,10 +78,16 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i,
  * highest. */
 void qdot_taylor_integrate(qdot_taylor *taylor, double unit, int from, int to);
 
-/* Order k was evaluated with coefficient k of the first n inputs at 0 and is affine in
- * it: now it becomes newest [n]. Everything is brought up to date, by derivatives at
- * order 0 alone. k > 0. */
-void qdot_taylor_correct(qdot_taylor *taylor, int k, size_t n, const double *newest);
+/* The first n inputs will have their newest coefficients corrected. kept [outputs]: whether
+ * an output is read after that, NULL: all are; of the others only what further orders
+ * need is brought up to date. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_affine(qdot_taylor *taylor, size_t n,
+                                               const bool *kept);
+
+/* Order k was evaluated with coefficient k of these inputs at 0 and is affine in it: now
+ * it becomes newest [n]. Everything is brought up to date, by derivatives at order 0
+ * alone. k > 0. */
+void qdot_taylor_correct(qdot_taylor *taylor, int k, const double *newest);
 
 /* Convolutions an order (a square counts half), and instructions. */
 double qdot_taylor_convolutions(const qdot_taylor *taylor);

@@ -208,6 +208,52 @@ the_weakest_combination_is_found(void **state)
     qdot_saddle_clear(&s);
 }
 
+/* By its pattern a system has the solution that the null space has; where the rows become
+ * dependent the null space takes over, and gives back. */
+static void
+a_pattern_is_no_other_solution(void **state)
+{
+    static const qdot_saddle_entry of_M[] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
+    static const qdot_saddle_entry of_A[] = {{0, 0}, {0, 1}, {1, 0}, {1, 1}, {1, 2}, {1, 3}};
+    qdot_saddle s, full;
+    size_t failed, direct = 0;
+
+    (void)state;
+    assert_int_equal(qdot_saddle_init(&s, 4, 2, false), QDOT_OK);
+    assert_int_equal(qdot_saddle_init(&full, 4, 2, false), QDOT_OK);
+    assert_int_equal(qdot_saddle_pattern(&s, 4, of_M, 6, of_A), QDOT_OK);
+    for (int k = 0; k <= 40; k++) {
+        double along = k < 20 ? 0.1 : pow(10, -(double)(k > 30 ? 40 - k : k - 20));
+
+        for (size_t i = 0; i < 4; i++)
+            s.M[5 * i] = full.M[5 * i] = 1 + (double)i;
+        s.A[0] = 1;
+        s.A[1] = 2;
+        s.A[4] = -1;
+        s.A[5] = -2;
+        s.A[6] = along;
+        s.A[7] = -along;
+        memcpy(full.A, s.A, 8 * sizeof *s.A);
+        assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+        assert_int_equal(qdot_saddle_factor(&full, &failed), QDOT_OK);
+        assert_false(full.direct);
+        direct += s.direct;
+        if (along < 1e-4)
+            assert_false(s.direct);
+        for (size_t i = 0; i < 6; i++)
+            s.x[i] = full.x[i] = uniform();
+        qdot_saddle_solve_refined(&s);
+        qdot_saddle_solve_refined(&full);
+        for (size_t i = 0; i < 4; i++)
+            assert_true(fabs(s.x[i] - full.x[i]) < 1e-13 / along);
+        assert_true(fabs(qdot_saddle_row(&s, 1, s.x) - qdot_saddle_row(&full, 1, s.x))
+                    < 1e-12 / along);
+    }
+    assert_in_range(direct, 15, 30);
+    qdot_saddle_clear(&s);
+    qdot_saddle_clear(&full);
+}
+
 int
 main(void)
 {
@@ -217,6 +263,7 @@ main(void)
         cmocka_unit_test(repeated_rows_give_the_least_multipliers),
         cmocka_unit_test(a_lost_rank_is_told),
         cmocka_unit_test(the_weakest_combination_is_found),
+        cmocka_unit_test(a_pattern_is_no_other_solution),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

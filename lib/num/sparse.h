@@ -1,0 +1,64 @@
+/* sparse.h -- a sparse symmetric system that is positive in some unknowns and, once those
+ * are eliminated, negative in the others.
+ *
+ *     K = L D L^T,   D > 0 for unknowns below `positive`, D < 0 beyond
+ *
+ * as [M A^T; A 0] is with M positive and the rows of A independent. The order of the
+ * elimination is found once, from the pattern: always the unknown with the fewest
+ * neighbours, one beyond `positive` only when no positive one is left beside it. There is no pivoting: what
+ * is left of an entry of D says how far to trust it, and a caller takes another way where
+ * that is little. A chain of N links takes work N.
+ *
+ * Source  Davis, Direct Methods for Sparse Linear Systems (2006), 4.8 (up-looking
+ *         factorisation), ch. 7 (least degree); Vanderbei, SIAM J. Optim. 5 (1995) 100.
+ * Tests   tests/num/test_sparse.c
+ */
+#ifndef QDOT_NUM_SPARSE_H
+#define QDOT_NUM_SPARSE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+/* An entry that may be nonzero; either triangle, each pair once. */
+typedef struct {
+    uint32_t row, column;
+    const double *value; /* read by every factorisation; borrowed */
+} qdot_sparse_entry;
+
+typedef struct {
+    size_t n, positive;
+    uint32_t *order; /* [n] the unknown at each place */
+    /* Places: entries by row, those of K, and rows of L with where they stand. */
+    size_t *given_start, *row_start, *column_start; /* [n + 1] */
+    qdot_sparse_entry *given;
+    uint32_t *row_column;
+    size_t *row_at;
+    uint32_t *column_row;
+    double *L;       /* by columns */
+    double *inverse; /* [n] 1/D */
+    double *y, *low; /* [n] scratch; y 0 between calls */
+    size_t filled;   /* entries of L */
+} qdot_sparse;
+
+/* `entries` [count], rows and columns below n. Errors: QDOT_ENOMEM; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive,
+                                             size_t count,
+                                             const qdot_sparse_entry *entries);
+void qdot_sparse_clear(qdot_sparse *s);
+
+/* Factor what stands in the entries. Returns the least of |D_k| over what it was made of,
+ * K_kk or what the positive unknowns gave: 0 ... 1, the square of the sine between a row
+ * and those before it. 0, with the factors undefined, where a sign is not as it should be
+ * or something is not finite. */
+double qdot_sparse_factor(qdot_sparse *s);
+
+/* Solve with a factored s; b [n] is overwritten. */
+void qdot_sparse_solve(const qdot_sparse *s, double *b);
+
+/* b -= K x, in twice the precision. */
+void qdot_sparse_subtract(const qdot_sparse *s, const double *x, double *b);
+
+#endif
