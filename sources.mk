@@ -260,6 +260,7 @@ mech_headers = \
 sim_sources = \
 	lib/sim/bind.c \
 	lib/sim/blocks.c \
+	lib/sim/constrained-jacobian.c \
 	lib/sim/constrained-series.c \
 	lib/sim/constrained.c \
 	lib/sim/constraints.c \
@@ -303,6 +304,7 @@ sim_sources = \
 sim_headers = \
 	lib/sim/bind.h \
 	lib/sim/blocks.h \
+	lib/sim/constrained-parts.h \
 	lib/sim/constrained-series.h \
 	lib/sim/constrained.h \
 	lib/sim/constraints.h \
@@ -571,7 +573,6 @@ script_tests = \
 	tests/bad/constraint-contradicts.lag \
 	tests/bad/constraint-no-coordinate.lag \
 	tests/bad/constraint-nonlinear-acceleration.lag \
-	tests/bad/constraints-method.lag \
 	tests/bad/constraints-option.lag \
 	tests/bad/constraints-word.lag \
 	tests/bad/curvature-none.lag \
@@ -764,7 +765,6 @@ test_files = \
 	tests/bad/constraint-contradicts.out \
 	tests/bad/constraint-no-coordinate.out \
 	tests/bad/constraint-nonlinear-acceleration.out \
-	tests/bad/constraints-method.out \
 	tests/bad/constraints-option.out \
 	tests/bad/constraints-word.out \
 	tests/bad/curvature-none.out \

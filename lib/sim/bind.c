@@ -147,6 +147,8 @@ jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
     const size_t n = p->n, columns = 2 * n + 1;
     size_t row = 0;
 
+    if (b->held)
+        return qdot_constrained_jacobian(b->held, t, y, dfdy, dfdt);
     load(b, t, y);
     QDOT_TRY(accelerations(b, b->in + columns));
     qdot_derivative_eval(equations(b), b->in, 0, columns, b->out, b->slopes,
@@ -192,7 +194,7 @@ qdot_bind_system(qdot_bind *b)
     return (qdot_ode_system){
         .n = 2 * b->plan->n,
         .rhs = rhs,
-        .jacobian = b->slopes ? jacobian : NULL,
+        .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
         .series = b->series,
         .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
@@ -263,8 +265,7 @@ make_slopes(qdot_bind *b)
 {
     const qdot_plan *p = b->plan;
 
-    if (!p->method->needs_jacobian
-        && !qdot_ode_method_find(p->method->partner)->needs_jacobian)
+    if (!qdot_plan_needs_jacobian(p))
         return QDOT_OK;
     b->slopes_work =
         qdot_malloc((qdot_derivative_work(p->tape) + 1) * sizeof *b->slopes_work);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "sim/constrained-parts.h"
 #include "tape/shake.h"
 
 /* A start may break a constraint by the rounding of decimals as people type them. */
@@ -15,32 +16,7 @@ static const double least_size = 0x1p-10;
 
 enum { most_iterations = 6 };
 
-/* The rows that restrict positions, velocities, accelerations: kinds up to it. */
-typedef struct {
-    qdot_saddle saddle;
-    size_t m;
-    size_t *row; /* [m] of the constraints */
-} level;
-
-struct qdot_constrained {
-    const qdot_plan *plan;
-    const qdot_constraints *c;
-    qdot_tape *positions, *velocities, *metric, *equations; /* shaken copies or NULL */
-    level levels[3];
-    level *at[3]; /* those that have the same rows are one */
-    double *in;   /* [2n + 1] q, q', t */
-    double *out, *work;
-    double *f, *w; /* [m] residuals of positions and velocities, by row */
-    double *f_bound,
-        *w_bound; /* [m] what rounding makes of them; they grow along a run */
-    double *a;    /* [n] */
-};
-
-static const qdot_tape *
-tape_of(const qdot_tape *own, const qdot_tape *plans)
-{
-    return own ? own : plans;
-}
+typedef qdot_constrained_level level;
 
 void
 qdot_constrained_free(qdot_constrained *h)
@@ -63,6 +39,9 @@ qdot_constrained_free(qdot_constrained *h)
     qdot_free(h->f_bound);
     qdot_free(h->w_bound);
     qdot_free(h->a);
+    qdot_free(h->slopes);
+    qdot_free(h->gains);
+    qdot_free(h->slopes_work);
     qdot_free(h);
 }
 
@@ -83,7 +62,7 @@ position_residuals(qdot_constrained *h)
     const qdot_constraints *c = h->c;
     const double *out = h->out;
 
-    qdot_tape_eval(tape_of(h->positions, c->positions), h->in, h->out, h->work);
+    qdot_tape_eval(qdot_constrained_tape(h->positions, c->positions), h->in, h->out, h->work);
     for (size_t k = 0; k < c->m; k++)
         h->f[k] = c->rows[k].kind == QDOT_HOLONOMIC ? *out++ : 0;
 }
@@ -94,7 +73,7 @@ velocity_residuals(qdot_constrained *h)
     const qdot_constraints *c = h->c;
     const double *out = h->out;
 
-    qdot_tape_eval(tape_of(h->velocities, c->velocities), h->in, h->out, h->work);
+    qdot_tape_eval(qdot_constrained_tape(h->velocities, c->velocities), h->in, h->out, h->work);
     for (size_t k = 0; k < c->m; k++)
         h->w[k] = c->rows[k].kind != QDOT_ACCELERATION ? *out++ : 0;
 }
@@ -200,7 +179,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     load(h, t, y);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         residuals(h);
-    qdot_tape_eval(tape_of(h->equations, p->tape), h->in, h->out, h->work);
+    qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
     gamma = unpack(h, all, h->out + n);
     memcpy(x, h->out, n * sizeof *x);
     memcpy(x + n, gamma, m * sizeof *x);
@@ -256,7 +235,7 @@ raise_bounds(const level *l, const double *x, double *bound)
 static qdot_status
 factor_metric(qdot_constrained *h, level *l)
 {
-    qdot_tape_eval(tape_of(h->metric, h->c->metric), h->in, h->out, h->work);
+    qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
     unpack(h, l, h->out);
     return factor(h->plan, &l->saddle, l->row);
 }
@@ -561,12 +540,14 @@ make(qdot_constrained *h, bool shaken)
     h->w = qdot_calloc(m + 1, sizeof *h->w);
     h->f_bound = qdot_calloc(m + 1, sizeof *h->f_bound);
     h->w_bound = qdot_calloc(m + 1, sizeof *h->w_bound);
-    h->a = qdot_calloc(h->plan->n, sizeof *h->a);
+    h->a = qdot_calloc(h->plan->n + m, sizeof *h->a);
     if (!h->in || !h->out || !h->work || !h->f || !h->w || !h->a || !h->f_bound ||
         !h->w_bound)
         return QDOT_ENOMEM;
     for (int kind = 0; kind < 3; kind++)
         QDOT_TRY(make_level(h, (qdot_constraint_kind)kind));
+    if (qdot_plan_needs_jacobian(h->plan))
+        QDOT_TRY(qdot_constrained_make_slopes(h, out));
     return shaken ? shake(h) : QDOT_OK;
 }
 

@@ -44,6 +44,17 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_solve(qdot_constrained *constrained
                                                    double t, const double *y, double *a,
                                                    double *lambda);
 
+/* dfdy [2n x 2n row-major] and dfdt [2n] of f = (q', q''), of a plan whose method needs them.
+ * q'' and lambda take up what the equations and, with its damping, gamma gain:
+ *
+ *     [ M  A^T ] [ dq''     ]   [ df - dM q'' + dA^T lambda ]
+ *     [ A   0  ] [ -dlambda ] = [ dgamma - dA q''           ]
+ *
+ * Errors: as _solve. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_jacobian(qdot_constrained *constrained,
+                                                      double t, const double *y,
+                                                      double *dfdy, double *dfdt);
+
 /* Move y [2n] (+ carry [2n], may be NULL) onto the constraints, as qdot_ode_system.project
  * is to: *moved is the largest change of a component relative to max(1, |y_i|), 0 where
  * nothing was done. QDOT_EDOMAIN where it does not converge. */

@@ -54,6 +54,13 @@ qdot_plan_inputs(const qdot_plan *p)
     return 3 * p->n + 1 + (p->constraints ? p->constraints->m : 0);
 }
 
+bool
+qdot_plan_needs_jacobian(const qdot_plan *p)
+{
+    return p->method->needs_jacobian
+           || qdot_ode_method_find(p->method->partner)->needs_jacobian;
+}
+
 qdot_expr
 qdot_plan_substitute(const qdot_plan *p, qdot_expr e)
 {
@@ -367,10 +374,6 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     /* methods that keep the past have no use for a state moved off it */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
-    if (p->method->needs_jacobian
-        || qdot_ode_method_find(p->method->partner)->needs_jacobian)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: method %s with constraints",
-                         p->method->name);
     return QDOT_OK;
 }
 

@@ -87,6 +87,9 @@ QDOT_MUST_CHECK qdot_status qdot_plan_in_mode(qdot_scene *scene,
                                               const long *side, qdot_plan **plan);
 void qdot_plan_free(qdot_plan *plan);
 
+/* Whether the method of the run, or that of its companion, asks for a Jacobian. */
+bool qdot_plan_needs_jacobian(const qdot_plan *plan);
+
 /* How many inputs there are: 3n + 1 + m. */
 size_t qdot_plan_inputs(const qdot_plan *plan);
 

@@ -2,6 +2,8 @@
  * closed forms; drift, redundancy, what is refused. */
 #include "scenes.h"
 
+#include "sim/bind.h"
+
 #include <math.h>
 
 static qdot_expr
@@ -320,6 +322,102 @@ what_cannot_be_held_is_refused(void **state)
     refuses(&f, QDOT_EINVAL, "contradicts the others");
 }
 
+/* A particle at (r cos phi, r sin phi, z) with r^2 + z^2 = 2 + t and z' = r phi' / 2. */
+static void
+winding(fixture *f)
+{
+    qdot_expr r, phi, z, at[3], two;
+
+    begin(f);
+    two = qdot_expr_int(f->pool, 2);
+    r = coordinate(f, "r");
+    phi = coordinate(f, "phi");
+    z = coordinate(f, "z");
+    at[0] = times(f, r, qdot_fun1(f->pool, QDOT_COS, phi));
+    at[1] = times(f, r, qdot_fun1(f->pool, QDOT_SIN, phi));
+    at[2] = z;
+    must(qdot_scene_particle(f->scene, "p", two, qdot_vector(f->pool, 3, at)));
+    must(qdot_scene_potential(f->scene, times(f, z, r)));
+    must(qdot_scene_constraint(f->scene, "ball",
+                               qdot_add(f->pool, square(f, r), square(f, z)),
+                               qdot_add(f->pool, two, QDOT_T)));
+    must(qdot_scene_constraint(
+        f->scene, "screw", times(f, two, qdot_symbol_jet(f->pool, z, 1)),
+        times(f, r, qdot_symbol_jet(f->pool, phi, 1))));
+}
+
+/* Off the constraints too, where damping counts. */
+static void
+slopes_are_those_of_the_right_hand_side(void **state)
+{
+    const double h = 1e-5;
+
+    (void)state;
+    for (int treatment = 0; treatment < 3; treatment++) {
+        double y[6] = {1.1, 0.3, 0.8, 0.4, -0.7, 0.2}, t = 0.1, J[36], Jt[6], up[6], down[6];
+        fixture f;
+        qdot_plan *plan;
+        qdot_bind *bind;
+        qdot_ode_system system;
+
+        winding(&f);
+        f.request.method = "bsimp";
+        f.request.treatment = (qdot_run_treatment)treatment;
+        must(qdot_plan_new(f.scene, &f.request, &plan));
+        must(qdot_bind_new(plan, false, &bind));
+        system = qdot_bind_system(bind);
+        must(system.jacobian(t, y, J, Jt, system.user));
+        for (size_t j = 0; j <= 6; j++) {
+            double *x = j < 6 ? &y[j] : &t, keep = *x;
+
+            *x = keep + h;
+            must(system.rhs(t, y, up, system.user));
+            *x = keep - h;
+            must(system.rhs(t, y, down, system.user));
+            *x = keep;
+            for (size_t i = 0; i < 6; i++) {
+                double slope = (up[i] - down[i]) / (2 * h);
+                double seen = j < 6 ? J[i * 6 + j] : Jt[i];
+
+                assert_true(fabs(seen - slope) < 1e-7 * (1 + fabs(slope)));
+            }
+        }
+        qdot_bind_free(bind);
+        qdot_plan_free(plan);
+        end(&f);
+    }
+}
+
+static void
+implicit_methods_agree(void **state)
+{
+    static const char *const methods[] = {"bsimp", "msbdf"};
+    fixture f;
+    qdot_run *r;
+    double x;
+
+    (void)state;
+    cartesian_pendulum(&f);
+    r = run(&f);
+    x = qdot_run_get_report(r)->q[0];
+    qdot_run_free(r);
+    for (int k = 0; k < 2; k++) {
+        const qdot_run_report *report;
+
+        f.request.method = methods[k];
+        f.request.tol = 1e-9;
+        r = run(&f);
+        report = qdot_run_get_report(r);
+        assert_true(report->error < 1e-4);
+        assert_true(fabs(report->q[0] - x) < 2 * report->error);
+        assert_true(report->constraint_drift < (k == 0 ? 1e-15 : 1e-5));
+        assert_int_equal(report->treatment,
+                         k == 0 ? QDOT_RUN_PROJECT : QDOT_RUN_BAUMGARTE);
+        qdot_run_free(r);
+    }
+    end(&f);
+}
+
 int
 main(void)
 {
@@ -332,6 +430,8 @@ main(void)
         cmocka_unit_test(multipliers_state_their_errors),
         cmocka_unit_test(every_failed_allocation_is_survived),
         cmocka_unit_test(what_cannot_be_held_is_refused),
+        cmocka_unit_test(slopes_are_those_of_the_right_hand_side),
+        cmocka_unit_test(implicit_methods_agree),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

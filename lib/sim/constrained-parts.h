@@ -1,0 +1,43 @@
+/* constrained-parts.h -- a plan with constraints from inside. Internal to sim/constrained*.c.
+ */
+#ifndef QDOT_SIM_CONSTRAINED_PARTS_H
+#define QDOT_SIM_CONSTRAINED_PARTS_H
+
+#include "sim/constrained.h"
+
+/* The rows that restrict positions, velocities, accelerations: kinds up to it. */
+typedef struct {
+    qdot_saddle saddle;
+    size_t m;
+    size_t *row; /* [m] of the constraints */
+} qdot_constrained_level;
+
+struct qdot_constrained {
+    const qdot_plan *plan;
+    const qdot_constraints *c;
+    qdot_tape *positions, *velocities, *metric, *equations; /* shaken copies or NULL */
+    qdot_constrained_level levels[3];
+    qdot_constrained_level *at[3]; /* those that have the same rows are one */
+    double *in;                    /* [2n + 1] q, q', t */
+    double *out, *work;
+    double *f, *w; /* [m] residuals of positions and velocities, by row */
+    double *f_bound,
+        *w_bound; /* [m] what rounding makes of them; they grow along a run */
+    double *a;    /* [n + m] */
+    /* Where a Jacobian is asked for, else NULL; by q, q', t: */
+    double *slopes;      /* [outputs x (2n + 1)] of a tape */
+    double *gains;       /* [(n + m) x (2n + 1)] of the equations */
+    double *slopes_work; /* of the derivatives */
+};
+
+/* Room for a Jacobian; outputs: the most of a tape. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_make_slopes(qdot_constrained *h,
+                                                         size_t outputs);
+
+static inline const qdot_tape *
+qdot_constrained_tape(const qdot_tape *own, const qdot_tape *plans)
+{
+    return own ? own : plans;
+}
+
+#endif
