@@ -166,23 +166,34 @@ shifted(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarters)
     return rows[row][quarters].sign < 0 ? qdot_neg(pool, e) : e;
 }
 
+/* f(-x) by f(x). */
+static qdot_expr
+without_pi(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+{
+    bool odd = id != QDOT_COS && id != QDOT_SEC;
+    qdot_expr e;
+
+    if (!qdot_expr_is_negative(pool, x))
+        return plain(pool, id, 1, &x);
+    e = qdot_fun1(pool, id, qdot_neg(pool, x));
+    return odd ? qdot_neg(pool, e) : e;
+}
+
 static qdot_expr
 circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
     static const qdot_fun_id inverse_of[] = {QDOT_ASIN, QDOT_ACOS, QDOT_ATAN};
-    bool odd = id != QDOT_COS && id != QDOT_SEC;
     fmpq_t c, twelve;
     qdot_expr rest, e = QDOT_NIL;
 
     if (id <= QDOT_TAN && is_fun(pool, x, inverse_of[id - QDOT_SIN]))
         return arg0(pool, x);
-    if (x != QDOT_ZERO && !(NODE(pool, x)->touches & NODE(pool, QDOT_PI)->touches) &&
-        !qdot_expr_is_negative(pool, x)) /* no pi is in it */
-        return plain(pool, id, 1, &x);
+    if (x != QDOT_ZERO && !(NODE(pool, x)->touches & NODE(pool, QDOT_PI)->touches))
+        return without_pi(pool, id, x);
     fmpq_init(c);
     fmpq_init(twelve);
     rest = split_pi(pool, x, c);
-    fmpq_mul_si(twelve, c, 12);
+    qdot_rational_mul(twelve, c, &(fmpq){12, 1});
     if (rest == QDOT_ZERO && fmpz_is_one(fmpq_denref(twelve))) {
         long k = (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24);
 
@@ -191,11 +202,8 @@ circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
                fmpz_divisible_si(fmpq_numref(twelve), 6) &&
                fmpz_is_one(fmpq_denref(twelve))) {
         e = shifted(pool, id, rest, (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
-    } else if (qdot_expr_is_negative(pool, x)) {
-        e = qdot_fun1(pool, id, qdot_neg(pool, x));
-        e = odd ? qdot_neg(pool, e) : e;
     } else {
-        e = plain(pool, id, 1, &x);
+        e = without_pi(pool, id, x);
     }
     fmpq_clear(c);
     fmpq_clear(twelve);

@@ -328,6 +328,30 @@ qdot_expr_int(qdot_pool *pool, long n)
                      : qdot_expr_ratio(pool, n, 1);
 }
 
+/* digits * 10^exponent where that is a quotient of words; false: it is not. */
+static bool
+small_decimal(qdot_pool *pool, const char *digits, size_t n, long exponent, qdot_expr *e)
+{
+    enum { MOST = 18 }; /* 10^18 < 2^62 */
+    int64_t top = 0, bottom = 1;
+    fmpq x = {0, 1};
+
+    if (n == 0 || n > MOST || exponent < -MOST || (exponent > 0 && (long)n + exponent > MOST))
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        if (digits[i] < '0' || digits[i] > '9')
+            return false;
+        top = 10 * top + (digits[i] - '0');
+    }
+    for (; exponent > 0; exponent--)
+        top *= 10;
+    for (; exponent < 0; exponent++)
+        bottom *= 10;
+    qdot_rational_make(&x, top, bottom);
+    *e = qdot_expr_fmpq(pool, &x);
+    return true;
+}
+
 qdot_expr
 qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length)
 {
@@ -359,6 +383,11 @@ qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length)
         qdot_text_clear(&digits);
         return qdot_pool_refuse(pool, QDOT_ELIMIT,
                                 "an exact number of more than 10^6 digits");
+    }
+    if (qdot_text_status(&digits) == QDOT_OK &&
+        small_decimal(pool, qdot_text_str(&digits), digits.n, exponent, &e)) {
+        qdot_text_clear(&digits);
+        return e;
     }
     fmpz_init(n);
     fmpz_init_set_ui(ten, 10);

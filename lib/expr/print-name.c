@@ -329,10 +329,29 @@ qdot_print_order(uint32_t order, qdot_style style, bool bare, qdot_text *out)
 }
 
 static void
+small_integer(int64_t n, qdot_text *out)
+{
+    char digits[24], *at = digits + sizeof digits;
+    uint64_t left = n < 0 ? -(uint64_t)n : (uint64_t)n;
+
+    *--at = '\0';
+    do
+        *--at = (char)('0' + left % 10);
+    while ((left /= 10) != 0);
+    if (n < 0)
+        *--at = '-';
+    qdot_text_add(out, at);
+}
+
+static void
 integer(const fmpz_t n, qdot_text *out)
 {
     char few[64], *digits = few;
 
+    if (!COEFF_IS_MPZ(*n)) {
+        small_integer(*n, out);
+        return;
+    }
     if (fmpz_sizeinbase(n, 10) + 2 > sizeof few) {
         digits = qdot_malloc(fmpz_sizeinbase(n, 10) + 2);
         if (digits == NULL) {

@@ -11,14 +11,26 @@ enum { LARGEST_ROOT = 10000 };
 bool
 qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n)
 {
-    ulong bits = (ulong)fmpz_bits(fmpq_numref(x)), den = (ulong)fmpz_bits(fmpq_denref(x));
+    ulong bits, den;
 
-    if (bits < den)
-        bits = den;
     if (fmpq_is_zero(x) || fmpq_is_one(x)) {
         qdot_rational_set(y, x);
         return true;
     }
+    if (qdot_rational_is_small(x) && *n >= -4 && *n <= 4) {
+        fmpq base = *x;
+
+        if (*n < 0)
+            base = x->num < 0 ? (fmpq){-x->den, -x->num} : (fmpq){x->den, x->num};
+        fmpq_one(y);
+        for (slong k = *n < 0 ? -*n : *n; k > 0; k--)
+            qdot_rational_mul(y, y, &base);
+        return true;
+    }
+    bits = (ulong)fmpz_bits(fmpq_numref(x));
+    den = (ulong)fmpz_bits(fmpq_denref(x));
+    if (bits < den)
+        bits = den;
     if (fmpz_is_pm1(fmpq_numref(x)) && fmpz_is_one(fmpq_denref(x))) {
         fmpq_set_si(y, fmpz_is_even(n) ? 1 : -1, 1);
         return true;
