@@ -117,6 +117,7 @@ normal_sources = \
 	lib/normal/domain.c \
 	lib/normal/factor.c \
 	lib/normal/field.c \
+	lib/normal/flint-list.c \
 	lib/normal/flint.c \
 	lib/normal/form.c \
 	lib/normal/ideal.c \
@@ -745,6 +746,7 @@ script_tests = \
 
 meta_tests = \
 	tests/meta/floors.test \
+	tests/meta/late.test \
 	tests/meta/manual.test \
 	tests/meta/paths.test \
 	tests/meta/sources.test \

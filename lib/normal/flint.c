@@ -20,8 +20,10 @@
 enum { BLOCK_PAGES = 16 };
 #define LIMBS (2 * sizeof(mp_limb_t))
 
-extern _Thread_local __mpz_struct **mpz_free_arr;
-extern _Thread_local ulong mpz_free_num, mpz_free_alloc;
+static _Thread_local qdot_flint_spare list; /* where that is, of this thread */
+#define mpz_free_arr (*list.at)
+#define mpz_free_num (*list.n)
+#define mpz_free_alloc (*list.room)
 
 static _Thread_local struct {
     bool on, leaving;
@@ -345,7 +347,7 @@ keep_spare(void)
 static void
 empty_caches(void)
 {
-    __mpz_struct **list = mpz_free_arr;
+    __mpz_struct **spare = mpz_free_arr;
     ulong n = mpz_free_num, alloc = mpz_free_alloc;
 
     mpz_free_arr = NULL;
@@ -353,7 +355,7 @@ empty_caches(void)
     guard.leaving = true;
     flint_cleanup();
     guard.leaving = false;
-    mpz_free_arr = list;
+    mpz_free_arr = spare;
     mpz_free_num = n;
     mpz_free_alloc = alloc;
 }
@@ -391,6 +393,8 @@ clean_up(void)
 static qdot_status
 note_spare(void)
 {
+    if (list.at == NULL)
+        qdot_flint_list(&list);
     if (mpz_free_arr == NULL) { /* our functions are to know it when they see it */
         mpz_free_arr = qdot_malloc(64 * sizeof *mpz_free_arr);
         mpz_free_alloc = mpz_free_arr != NULL ? 64 : 0;

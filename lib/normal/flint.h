@@ -16,6 +16,8 @@
 #ifndef QDOT_NORMAL_FLINT_H
 #define QDOT_NORMAL_FLINT_H
 
+#include <flint/fmpz.h>
+
 #include "expr/expr.h"
 
 /* Most that one computation may hold, in bytes. */
@@ -27,5 +29,14 @@
  * pool has its budget of before. The failure is recorded as the thread's, not the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_flint_run(qdot_pool *pool, void (*work)(void *user),
                                            void *user);
+
+/* FLINT's list of spare integers, of this thread: (*at)[0 .. *n), room for *room. FLINT's own;
+ * for flint.c alone. In a file of its own, so that a program which loads FLINT when it is first
+ * called (src/late.c) can tell in its place. */
+typedef struct {
+    __mpz_struct ***at;
+    ulong *n, *room;
+} qdot_flint_spare;
+void qdot_flint_list(qdot_flint_spare *list);
 
 #endif
