@@ -105,9 +105,9 @@ our_function(const char *name)
 bool
 qdot_hints_is_foreign(const qdot_session *session, const char *name)
 {
-    return qdot_builtin_find(name) == NULL && qdot_quantity_find(name) == NULL &&
-           our_function(name) != NULL && qdot_names_find(session->names, name) == NULL &&
-           !qdot_names_is_family(session->names, name) &&
+    return qdot_names_find(session->names, name) == NULL && /* as a rule it is ours: this first */
+           !qdot_names_is_family(session->names, name) && qdot_builtin_find(name) == NULL &&
+           qdot_quantity_find(name) == NULL && our_function(name) != NULL &&
            !qdot_scene_has_label(session->scene, name);
 }
 
