@@ -104,7 +104,7 @@ derive_function(derivation *d, qdot_expr e)
 {
     qdot_pool *pool = d->pool;
     qdot_node node = *NODE(pool, e);
-    qdot_expr *args = qdot_malloc(node.n * sizeof *args);
+    qdot_expr few[8], *args = node.n > 8 ? qdot_malloc(node.n * sizeof *args) : few;
 
     if (args == NULL) {
         qdot_pool_fail(pool);
@@ -127,7 +127,8 @@ derive_function(derivation *d, qdot_expr e)
                                      inner));
         }
     }
-    qdot_free(args);
+    if (args != few)
+        qdot_free(args);
 }
 
 /* Vectors, lists, equations: entry by entry. Inequalities and logic occur only inside

@@ -62,52 +62,56 @@ qdot_mass_entry(qdot_scene *s, size_t i, size_t j)
     return s->derived->M[i * s->derived->n + j];
 }
 
+/* dM_jk/dq for every coordinate and t in M_jk. */
+static qdot_status
+entry_slopes(qdot_scene *s, size_t j, size_t k)
+{
+    qdot_pool *pool = s->pool;
+    qdot_derived *d = s->derived;
+    qdot_expr e = d->M[j * d->n + k];
+    qdot_status status = QDOT_OK;
+    qdot_walk w;
+
+    if (!(qdot_mech_holds(s, e) & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
+        return QDOT_OK;
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t a = 0; a < w.n && status == QDOT_OK; a++) {
+        qdot_expr q = w.at[a];
+        qdot_mass_slope x = {(uint32_t)j, (uint32_t)k, 0, QDOT_ZERO};
+
+        if (q != QDOT_T && !qdot_expr_is_coordinate(pool, q))
+            continue;
+        while (x.i < d->n && s->coordinates.at[x.i] != q)
+            x.i++;
+        if (x.i == d->n && q != QDOT_T)
+            continue;
+        x.value = qdot_diff(pool, e, q);
+        if (x.value == QDOT_NIL)
+            status = qdot_pool_check(pool);
+        else if (x.value != QDOT_ZERO)
+            status = qdot_vec_push(&d->slopes, x);
+    }
+    qdot_walk_end(&w);
+    return status;
+}
+
 bool
 qdot_mass_slopes(qdot_scene *s)
 {
-    qdot_pool *pool = s->pool;
     qdot_derived *d;
-    size_t n;
 
     if (!qdot_mass_get(s))
         return false;
     d = qdot_derived_get(s);
-    n = d->n;
     if (d->slopes_ready)
         return true;
     d->slopes.n = 0;
-    for (size_t j = 0; j < n; j++)
-        for (size_t k = j; k < n; k++) {
-            qdot_expr e = d->M[j * n + k], atoms;
-            uint32_t count;
-
-            if (!(qdot_mech_holds(s, e) & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
-                continue;
-            atoms = qdot_expr_atoms(pool, e, false);
-            if (atoms == QDOT_NIL)
+    for (size_t j = 0; j < d->n; j++)
+        for (size_t k = j; k < d->n; k++)
+            if (entry_slopes(s, j, k) != QDOT_OK) {
+                qdot_pool_fail(s->pool);
                 return false;
-            count = qdot_expr_count(pool, atoms);
-            for (uint32_t a = 0; a < count; a++) {
-                qdot_expr q = qdot_expr_arg(pool, atoms, a);
-                qdot_mass_slope x = {(uint32_t)j, (uint32_t)k, 0, QDOT_ZERO};
-
-                if (q != QDOT_T && !qdot_expr_is_coordinate(pool, q))
-                    continue;
-                while (x.i < n && s->coordinates.at[x.i] != q)
-                    x.i++;
-                if (x.i == n && q != QDOT_T)
-                    continue;
-                x.value = qdot_diff(pool, e, q);
-                if (x.value == QDOT_ZERO)
-                    continue;
-                if (x.value == QDOT_NIL)
-                    return false;
-                if (qdot_vec_push(&d->slopes, x) != QDOT_OK) {
-                    qdot_pool_fail(pool);
-                    return false;
-                }
             }
-        }
     d->slopes_ready = true;
     return true;
 }
