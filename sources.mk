@@ -53,6 +53,7 @@ expr_sources = \
 	lib/expr/construct.c \
 	lib/expr/expand.c \
 	lib/expr/function.c \
+	lib/expr/number.c \
 	lib/expr/order.c \
 	lib/expr/pool.c \
 	lib/expr/print-function.c \
