@@ -501,6 +501,7 @@ unit_tests = \
 	tests/tape/test_taylor
 
 script_tests = \
+	tests/script/cases.sh \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
 	tests/script/declarations.lag \
@@ -987,6 +988,9 @@ test_files = \
 	tests/normal/text.h \
 	tests/num/kit.h \
 	tests/ode/problems.h \
+	tests/script/cases.inc \
+	tests/script/cases.json \
+	tests/script/cases.out \
 	tests/script/check.out \
 	tests/script/conserved.out \
 	tests/script/declarations.out \

@@ -135,6 +135,22 @@ first_lost(const search *s)
     return first;
 }
 
+/* The mean over time of d from point k on. */
+static double
+mean_from(const search *s, size_t k)
+{
+    const double *t = s->run->course.tr.t;
+    double sum = 0, all = 0;
+
+    for (; k + 1 < s->points; k++) {
+        double step = fabs(t[k + 1] - t[k]);
+
+        sum += 0.5 * step * (s->d[k] + s->d[k + 1]);
+        all += step;
+    }
+    return all > 0 ? sum / all : s->d[k];
+}
+
 static double
 crossing(const search *s, size_t k)
 {
@@ -172,8 +188,7 @@ find(qdot_run *run, search *s)
     report->horizon = crossing(s, first);
     qdot_free(run->doubt); /* of the end: it needs none any more */
     run->doubt = NULL;
-    for (size_t k = first; k < s->points; k++)
-        report->error = fmax(report->error, s->d[k]); /* of a NaN the distance */
+    report->error = fmax(report->error, mean_from(s, first)); /* of a NaN the mean */
     return QDOT_OK;
 }
 
@@ -218,7 +233,7 @@ compare(qdot_reader *readers, double t, size_t m, double *values, double *spread
     for (int which = 0; which < 2; which++)
         QDOT_TRY(qdot_reader_at(readers + which, SIZE_MAX, t, values + (size_t)which * m));
     for (size_t j = 0; j < m; j++)
-        spread[j] = fmax(spread[j], fabs(values[j] - values[m + j]));
+        spread[j] += fabs(values[j] - values[m + j]);
     return QDOT_OK;
 }
 
@@ -232,6 +247,7 @@ qdot_horizon_spread(const qdot_run *run, const qdot_tape *tape, bool acceleratio
     const double end = run->course.tr.t[run->course.tr.count - 1];
     qdot_reader readers[2] = {0};
     double *values;
+    int count = 0;
     qdot_status status = QDOT_OK;
 
     for (size_t j = 0; j < m; j++)
@@ -244,12 +260,17 @@ qdot_horizon_spread(const qdot_run *run, const qdot_tape *tape, bool acceleratio
     for (int which = 0; which < 2 && status == QDOT_OK; which++)
         status = qdot_reader_init(readers + which, run->plan, tape, courses[which],
                                   accelerations);
-    for (int k = 0; k <= LOOKS && status == QDOT_OK; k++) {
-        status = compare(readers, from + (end - from) * k / LOOKS, m, values, spread);
+    for (int k = 0; k < LOOKS && status == QDOT_OK; k++) {
+        status =
+            compare(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);
+        if (status == QDOT_OK)
+            count++;
         /* where one of them is undefined, or has ended, there is nothing to compare */
         if (status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR)
             status = QDOT_OK;
     }
+    for (size_t j = 0; j < m && count > 0; j++)
+        spread[j] /= count;
     for (int which = 0; which < 2; which++)
         qdot_reader_clear(readers + which);
     qdot_free(values);

@@ -13,8 +13,8 @@
  * back. Between the stored points log d is taken as linear. A run of which less than a
  * hundredth lies beyond has none, nor has a motion that moves by less than 100 tolerances.
  *
- * Beyond it the error stated, of the end or of an expression, is the largest distance of
- * the two runs anywhere beyond it: at one time they may be near each other by chance.
+ * Beyond it the error stated, of the end or of an expression, is at least the mean distance
+ * of the two runs beyond it: at one time they may be near each other by chance.
  * Energy and whatever else is not chaotic keeps a small one.
  *
  * Tests  tests/sim/test_horizon.c: against runs with `digits`
@@ -36,7 +36,7 @@ double qdot_horizon_variation(const qdot_trajectory *tr);
 /* Whether t lies beyond it. */
 bool qdot_horizon_passed(const qdot_run *run, double t);
 
-/* The outputs [m] of a tape: the largest distance of the two runs beyond the horizon into
+/* The outputs [m] of a tape: the mean distance of the two runs beyond the horizon into
  * spread [m]; 0 where there is no horizon. */
 QDOT_MUST_CHECK qdot_status qdot_horizon_spread(const qdot_run *run, const qdot_tape *tape,
                                                 bool accelerations, double *spread);
