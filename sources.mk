@@ -273,6 +273,7 @@ sim_sources = \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
 	lib/sim/ensemble.c \
+	lib/sim/failure.c \
 	lib/sim/horizon.c \
 	lib/sim/members.c \
 	lib/sim/multipliers.c \
@@ -316,6 +317,7 @@ sim_headers = \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
 	lib/sim/ensemble.h \
+	lib/sim/failure.h \
 	lib/sim/horizon.h \
 	lib/sim/integrated.h \
 	lib/sim/members.def \
@@ -501,6 +503,7 @@ unit_tests = \
 	tests/tape/test_taylor
 
 script_tests = \
+	tests/script/bad-runs.sh \
 	tests/script/cases.sh \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
@@ -988,6 +991,7 @@ test_files = \
 	tests/normal/text.h \
 	tests/num/kit.h \
 	tests/ode/problems.h \
+	tests/script/bad-runs.out \
 	tests/script/cases.inc \
 	tests/script/cases.json \
 	tests/script/cases.out \
@@ -1077,11 +1081,14 @@ other_files = \
 	bench/chain-run.lag \
 	bench/chain-step.lag \
 	bench/chain_sympy.py \
+	bench/condition \
 	bench/constraints \
+	bench/counted \
 	bench/double-pendulum.lag \
 	bench/double-run.lag \
 	bench/ensemble/lanes.c \
 	bench/ensemble/run \
+	bench/longtime \
 	bench/numeric \
 	bench/packages \
 	bench/peers/constrained.cc \

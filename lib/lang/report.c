@@ -252,7 +252,10 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
         else
             qdot_print_name(d->name, session->style, line);
         qdot_text_char(line, ' ');
-        qdot_answer_bound(line, d->drift);
+        if (isfinite(d->drift))
+            qdot_answer_bound(line, d->drift);
+        else
+            qdot_text_add(line, "unknown");
     }
     if (r->n_drifts == 0)
         qdot_text_add(line, "\n  drift: no conserved quantity is known");

@@ -4,7 +4,26 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "sim/failure.h"
 #include "sim/precise.h"
+
+/* As in doubles, with the end state rounded to them. */
+static qdot_status
+say_failure(qdot_run *run, const qdot_ode_result *result)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_text reason = {0};
+    qdot_status status;
+
+    qdot_text_add(&reason, result->reason);
+    status = qdot_failure_explain(run->plan, qdot_course_systems(&run->course), result->t,
+                                  tr->y + (tr->count - 1) * tr->n, run->t1 - run->t0,
+                                  &reason);
+    if (status == QDOT_OK)
+        status = qdot_run_say_why(run, qdot_text_str(&reason));
+    qdot_text_clear(&reason);
+    return status;
+}
 
 static qdot_status
 how_it_ended(qdot_run *run, const qdot_domains *domains)
@@ -13,7 +32,7 @@ how_it_ended(qdot_run *run, const qdot_domains *domains)
     char reason[400];
 
     if (result->outcome == QDOT_ODE_FAILED)
-        return qdot_run_say_why(run, result->reason);
+        return say_failure(run, result);
     if (!domains->left)
         return QDOT_OK;
     snprintf(reason, sizeof reason, "%.100s left its domain %.200s at t = %.15g",
@@ -51,11 +70,11 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     if (*interrupted)
         status = QDOT_OK;
     if (status == QDOT_OK)
-        status = how_it_ended(run, domains);
-    if (status == QDOT_OK)
         status = qdot_precise_pair_sample(run->precise, &run->course.tr);
     if (status == QDOT_OK)
         status = qdot_course_prepare(&run->course);
+    if (status == QDOT_OK)
+        status = how_it_ended(run, domains);
     if (status == QDOT_OK && !*interrupted)
         status =
             qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);

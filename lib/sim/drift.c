@@ -72,8 +72,10 @@ measure(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
     status = follow(tape, tr, &x);
     qdot_tape_free(tape);
     QDOT_TRY(status);
-    if (isnan(x.start) || !(x.name = qdot_strdup(name)))
-        return isnan(x.start) ? QDOT_OK : QDOT_ENOMEM;
+    if (!isfinite(x.start)) /* beyond a double, or undefined: there is nothing to follow */
+        return QDOT_OK;
+    if (!(x.name = qdot_strdup(name)))
+        return QDOT_ENOMEM;
     d->at[d->n++] = x;
     return QDOT_OK;
 }

@@ -8,6 +8,7 @@
 #include "ode/companion.h"
 #include "sim/multipliers.h"
 #include "sim/digits.h"
+#include "sim/failure.h"
 #include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/precise.h"
@@ -85,6 +86,22 @@ constant(const qdot_run *run, qdot_expr e, double *value, int *side, double *low
     return qdot_constant_split(run->plan->pool, e, value, side, low);
 }
 
+/* Limits that are one double but not one number: the run would end where it begins. */
+static qdot_status
+check_length(qdot_run *run, const qdot_run_request *request)
+{
+    qdot_pool *pool = run->plan->pool;
+    double length, low;
+    int side;
+
+    QDOT_TRY(constant(run, qdot_sub(pool, request->t1, request->t0), &length, &side, &low));
+    if (length == 0)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "the limits are %.3g apart, but one and the same double",
+              fabs(length));
+    return qdot_hint("run 0..%.15g, with times counted from there", length);
+}
+
 static qdot_status
 read_start(qdot_run *run, const qdot_run_request *request)
 {
@@ -98,6 +115,8 @@ read_start(qdot_run *run, const qdot_run_request *request)
         return QDOT_ENOMEM;
     QDOT_TRY(constant(run, request->t0, &run->t0, &run->t0_side, &low));
     QDOT_TRY(constant(run, request->t1, &run->t1, &run->t1_side, &run->t1_low));
+    if (run->t0 == run->t1 && request->t0 != request->t1)
+        QDOT_TRY(check_length(run, request));
     for (size_t i = 0; i < n; i++) {
         QDOT_TRY(constant(run, request->q0[i], &run->start[i], &side,
                           &run->start_low[i]));
@@ -203,6 +222,35 @@ say_course(qdot_run *run)
     return c->reason[0] != '\0' ? qdot_run_say_why(run, c->reason) : QDOT_OK;
 }
 
+static const double *
+last_state(const qdot_run *run)
+{
+    return run->course.tr.y + (run->course.tr.count - 1) * run->course.tr.n;
+}
+
+/* The reason of a run that the integration gave up. */
+static qdot_status
+say_failure(qdot_run *run, qdot_status status)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const qdot_trajectory_piece *piece = tr->pieces.at + tr->pieces.n - 1;
+    const char *why = tr->result.reason[0] ? tr->result.reason : qdot_last_error()->message;
+    qdot_text reason = {0};
+
+    qdot_text_add(&reason, why);
+    if (status == QDOT_EFAILED)
+        status = qdot_failure_explain(run->plan,
+                                      qdot_course_systems(&run->course) + piece->mode,
+                                      tr->t[tr->count - 1], last_state(run),
+                                      run->t1 - run->t0, &reason);
+    else
+        status = qdot_text_status(&reason);
+    if (status == QDOT_OK)
+        status = qdot_run_say_why(run, qdot_text_str(&reason));
+    qdot_text_clear(&reason);
+    return status;
+}
+
 /* Integrate; QDOT_OK whenever there is a run to keep, *interrupted by Ctrl-C. */
 static qdot_status
 integrate(qdot_run *run, double tol, bool *interrupted)
@@ -216,19 +264,11 @@ integrate(qdot_run *run, double tol, bool *interrupted)
     if (!is_kept(status) || run->course.tr.count == 0)
         return status;
     if (status != QDOT_OK)
-        return qdot_run_say_why(run, run->course.tr.result.reason[0]
-                                ? run->course.tr.result.reason
-                                : qdot_last_error()->message);
+        return say_failure(run, status);
     return say_course(run);
 }
 
 /* --- the report --------------------------------------------------------------------- */
-
-static const double *
-last_state(const qdot_run *run)
-{
-    return run->course.tr.y + (run->course.tr.count - 1) * run->course.tr.n;
-}
 
 static void
 fill_report(qdot_run *run, double tol)
