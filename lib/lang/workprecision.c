@@ -12,20 +12,27 @@
 #include "show/sink.h"
 
 /* The columns, in the order of every form. */
-enum { COLUMNS = 12 };
+enum { COLUMNS = 13, CONSTRAINT_ERR = 10 };
 
 static const char *const names[COLUMNS] = {
-    "method", "tol",      "err",        "scd",     "time_min", "time_median", "evals",
-    "steps",  "rejected", "energy_err", "ref_err", "status"};
+    "method", "tol",      "err",        "scd",            "time_min", "time_median", "evals",
+    "steps",  "rejected", "energy_err", "constraint_err", "ref_err",  "status"};
 
-/* The numbers of a row, columns 1 ... 10. */
+/* That of the constraints' error only where there are some. */
+static bool
+has_column(const qdot_workprecision *w, size_t i)
+{
+    return i != CONSTRAINT_ERR || w->constraints;
+}
+
+/* The numbers of a row, columns 1 ... 11. */
 static void
 numbers_of(const qdot_workprecision *w, const qdot_workprecision_row *r, double *x)
 {
     const double all[COLUMNS - 2] = {
         r->tol,          r->err,           r->scd,              r->time_min,
         r->time_median,  (double)r->evals, (double)r->steps,    (double)r->rejected,
-        r->energy_err,   w->ref_err};
+        r->energy_err,   r->constraint_err, w->ref_err};
 
     memcpy(x, all, sizeof all);
 }
@@ -52,13 +59,16 @@ static void
 csv(const qdot_workprecision *w, qdot_text *out)
 {
     for (size_t i = 0; i < COLUMNS; i++)
-        qdot_text_format(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n");
+        if (has_column(w, i))
+            qdot_text_format(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n");
     for (size_t k = 0; k < w->n; k++) {
         double x[COLUMNS - 2];
 
         numbers_of(w, &w->rows[k], x);
         qdot_text_add(out, w->rows[k].method);
         for (size_t i = 0; i < COLUMNS - 2; i++) {
+            if (!has_column(w, i + 1))
+                continue;
             qdot_text_char(out, ',');
             if (!isnan(x[i]))
                 qdot_text_double(out, x[i], i == 0 ? 1 : 17);
@@ -92,12 +102,13 @@ table(const qdot_workprecision *w, qdot_text *out)
                  {"scd", "%.1f", 6, 2},      {"time/s", "%.2e", 10, 3},
                  {"median", "%.2e", 10, 4},  {"evals", "%.0f", 9, 5},
                  {"steps", "%.0f", 8, 6},    {"rejected", "%.0f", 9, 7},
-                 {"energy err", "%.1e", 11, 8}};
+                 {"energy err", "%.1e", 11, 8}, {"constr. err", "%.1e", 12, 9}};
     const size_t n = sizeof shown / sizeof *shown;
 
     qdot_text_format(out, "%-8s", "method");
     for (size_t i = 0; i < n; i++)
-        qdot_text_format(out, "%*s", shown[i].width, shown[i].head);
+        if (has_column(w, (size_t)shown[i].column + 1))
+            qdot_text_format(out, "%*s", shown[i].width, shown[i].head);
     qdot_text_add(out, "  status\n");
     for (size_t k = 0; k < w->n; k++) {
         double x[COLUMNS - 2];
@@ -105,7 +116,8 @@ table(const qdot_workprecision *w, qdot_text *out)
         numbers_of(w, &w->rows[k], x);
         qdot_text_format(out, "%-8s", w->rows[k].method);
         for (size_t i = 0; i < n; i++)
-            cell(out, shown[i].width, shown[i].format, x[shown[i].column]);
+            if (has_column(w, (size_t)shown[i].column + 1))
+                cell(out, shown[i].width, shown[i].format, x[shown[i].column]);
         qdot_text_format(out, "  %s\n", w->rows[k].status);
     }
     qdot_text_add(out, "err: the largest error at the end, each relative to max(1, "
@@ -126,6 +138,8 @@ rows_json(qdot_session *session, const qdot_workprecision *w)
         numbers_of(w, &w->rows[k], x);
         qdot_text_json(&values, w->rows[k].method);
         for (size_t i = 0; i < COLUMNS - 2; i++) {
+            if (!has_column(w, i + 1))
+                continue;
             qdot_text_char(&values, ',');
             qdot_answer_json_double(&values, x[i]);
         }

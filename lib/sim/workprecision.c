@@ -7,14 +7,19 @@
 
 #include "ode/integrate.h"
 #include "sim/bind.h"
+#include "sim/constrained.h"
 #include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/plan.h"
+#include "sim/start.h"
 #include "tape/constant.h"
 
 enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
 
 static const double budget_default = 3e8;
+
+/* Of the reference of a scene with constraints, in doubles. */
+static const double reference_tol = 1e-15;
 
 /* A method at work. */
 typedef struct {
@@ -28,6 +33,8 @@ typedef struct {
     /* the energy along a run */
     qdot_tape *energy; /* NULL: not conserved */
     double *in, *work, energy0, drift;
+    qdot_constrained *held; /* NULL: no constraints */
+    double residual;        /* the largest met */
 } worker;
 
 /* What the reference ended in, to twice the precision of a double. */
@@ -50,7 +57,8 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     int side;
 
     precise.method = "auto";
-    precise.digits = REFERENCE_DIGITS;
+    precise.digits = scene->constraints.n > 0 ? 0 : REFERENCE_DIGITS;
+    precise.tol = reference_tol;
     status = qdot_run_new(scene, &precise, &run);
     if (status == QDOT_ENOTBUILT) {
         qdot_error why = *qdot_last_error();
@@ -77,9 +85,15 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     if (status == QDOT_OK && report->status != QDOT_RUN_DONE)
         status = qdot_fail(QDOT_EFAILED, "the reference did not reach the end: %.300s",
                            report->reason);
-    for (size_t i = 0; i < r->n && status == QDOT_OK; i++)
-        status = qdot_constant_split(scene->pool, report->exact[i], &r->high[i], &side,
-                                     &r->low[i]);
+    if (status == QDOT_OK && isnan(report->error))
+        status = qdot_fail(QDOT_EFAILED, "the error of the reference is unknown");
+    for (size_t i = 0; i < r->n && status == QDOT_OK; i++) {
+        if (report->exact)
+            status = qdot_constant_split(scene->pool, report->exact[i], &r->high[i],
+                                         &side, &r->low[i]);
+        else
+            r->high[i] = i < report->n ? report->q[i] : report->v[i - report->n];
+    }
     qdot_run_free(run);
     return status;
 }
@@ -126,19 +140,47 @@ counted_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *us
 }
 
 static qdot_status
-follow_energy(double t, const double *y, bool *stop, void *user)
+project(double t, double *y, double *carry, double *moved, void *user)
 {
     worker *w = user;
+
+    return w->inner.project(t, y, carry, moved, w->inner.user);
+}
+
+static void
+follow_energy(worker *w, double t, const double *y)
+{
     const size_t n = w->inner.n;
     double h, change;
 
-    (void)stop;
     memcpy(w->in, y, n * sizeof *y);
     w->in[n] = t;
     qdot_tape_eval(w->energy, w->in, &h, w->work);
     change = fabs(h - w->energy0) / fmax(1, fabs(w->energy0));
     if (!(change <= w->drift))
         w->drift = change;
+}
+
+static void
+follow_constraints(worker *w, double t, const double *y)
+{
+    qdot_constrained_residual r = qdot_constrained_measure(w->held, t, y);
+    double residual = r.worst_position == SIZE_MAX ? r.velocity : r.position;
+
+    if (!(residual <= w->residual))
+        w->residual = residual;
+}
+
+static qdot_status
+follow(double t, const double *y, bool *stop, void *user)
+{
+    worker *w = user;
+
+    (void)stop;
+    if (w->energy)
+        follow_energy(w, t, y);
+    if (w->held)
+        follow_constraints(w, t, y);
     return QDOT_OK;
 }
 
@@ -182,6 +224,28 @@ read_start(worker *w, const qdot_run_request *request)
     return QDOT_OK;
 }
 
+/* Onto the constraints. */
+static qdot_status
+settle_start(worker *w, qdot_scene *scene, const qdot_run_request *request)
+{
+    qdot_domains domains = {0};
+    qdot_text notice = {0};
+    qdot_status status;
+
+    w->held = qdot_bind_held(w->bind);
+    if (!w->held)
+        return QDOT_OK;
+    status = qdot_domains_find(w->plan, &domains);
+    if (status == QDOT_OK)
+        status =
+            qdot_start_settle(scene, w->plan, request, &domains, w->start, w->low, &notice);
+    if (status == QDOT_OK)
+        status = qdot_bind_check(w->bind, w->t0, w->start, w->low);
+    qdot_text_clear(&notice);
+    qdot_domains_clear(&domains);
+    return status;
+}
+
 static qdot_status
 prepare_energy(worker *w, qdot_scene *scene)
 {
@@ -221,10 +285,12 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     QDOT_TRY(qdot_plan_new(scene, &own, &w->plan));
     QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
     QDOT_TRY(read_start(w, request));
+    QDOT_TRY(settle_start(w, scene, request));
     QDOT_TRY(prepare_energy(w, scene));
     w->inner = w->system = qdot_bind_system(w->bind);
     w->system.rhs = counted_rhs;
     w->system.jacobian = w->inner.jacobian ? counted_jacobian : NULL;
+    w->system.project = w->inner.project ? project : NULL;
     w->system.user = w;
     n = (double)w->plan->n;
     operations = (double)qdot_tape_operations(w->plan->tape) + n * n * n / 3 + 100;
@@ -243,9 +309,9 @@ go(worker *w, double tol, bool watched, qdot_ode_result *result)
 
     memcpy(w->y, w->start, w->inner.n * sizeof *w->y);
     w->evaluations = 0;
-    if (watched && w->energy) {
-        w->drift = 0;
-        options.accepted = follow_energy;
+    if (watched && (w->energy || w->held)) {
+        w->drift = w->residual = 0;
+        options.accepted = follow;
         options.user = w;
     }
     if (w->plan->method->series)
@@ -303,7 +369,8 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
                                     .evals = result.stats.evaluations,
                                     .steps = result.stats.steps,
                                     .rejected = result.stats.rejected,
-                                    .energy_err = NAN};
+                                    .energy_err = NAN,
+                                    .constraint_err = NAN};
     if (is_kept(status)) {
         snprintf(row->status, sizeof row->status, "failed: %.290s",
                  qdot_last_error()->message);
@@ -317,6 +384,8 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
     row->scd = -log10(fmax(row->err, 0x1p-60));
     if (w->energy)
         row->energy_err = w->drift;
+    if (w->held)
+        row->constraint_err = w->residual;
     return take_times(w, tol, result.stats.cpu, row);
 }
 
@@ -363,6 +432,7 @@ qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
     reference r = {0};
     qdot_status status = make_reference(scene, request, &r, &out->ref_err);
 
+    out->constraints = scene->constraints.n > 0;
     for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++) {
         const char *method = qdot_ode_method_at(i)->name;
         worker w = {0};

@@ -2,12 +2,15 @@
  * against a reference that is made here.
  *
  * The reference is a run by Taylor series in MPFR to 20 digits with its own error
- * (precise.h). For each method and tol = 1e-3, 1e-4, ... 1e-15, of the end state y,
+ * (precise.h); of a scene with constraints, which that cannot do yet, a run in doubles at
+ * tol 1e-15 with the error it states. For each method and tol = 1e-3, 1e-4, ... 1e-15, of the end state y,
  *
  *     err         max_i |y_i - ref_i| / max(1, |ref_i|)    (relative error)
  *     scd         -log10 err, its significant correct digits
  *     energy_err  max |h(t) - h(t0)| / max(1, |h(t0)|) over the steps, where h is proved
  *                 conserved
+ *     constraint_err   the largest |f| of holonomic constraints over the steps, of velocity
+ *                 constraints where there are no others
  *     time        CPU seconds of the integration alone, this thread, no companion: the
  *                 least and the median of three to nine runs
  *
@@ -30,6 +33,7 @@ typedef struct {
     double tol, err, scd, time_min, time_median; /* NaN where it failed */
     uint64_t evals, steps, rejected;
     double energy_err; /* NaN: not conserved, or failed */
+    double constraint_err; /* NaN: no constraints, or failed */
     char status[300];  /* "done", "done: no digit is right", or "failed: " and why */
 } qdot_workprecision_row;
 
@@ -46,6 +50,7 @@ typedef struct {
     size_t n_unfit, unfit_capacity;
     qdot_workprecision_unfit *unfit;
     double ref_err; /* of the reference, as err */
+    bool constraints; /* the scene has some */
 } qdot_workprecision;
 
 /* request: values, start and limits; its method and tolerance are not looked at. Start
