@@ -294,6 +294,7 @@ sim_sources = \
 	lib/sim/second.c \
 	lib/sim/shifted-lanes.c \
 	lib/sim/shifted.c \
+	lib/sim/size.c \
 	lib/sim/stage.c \
 	lib/sim/start.c \
 	lib/sim/substitute.c \
@@ -337,6 +338,7 @@ sim_headers = \
 	lib/sim/shifted-lanes.def \
 	lib/sim/shifted-lanes.h \
 	lib/sim/shifted.h \
+	lib/sim/size.h \
 	lib/sim/stage.h \
 	lib/sim/start.h \
 	lib/sim/substitute.h \
@@ -546,6 +548,7 @@ script_tests = \
 	tests/script/mechanism-top.lag \
 	tests/script/moving.lag \
 	tests/script/names.lag \
+	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
 	tests/script/pendulum.lag \
 	tests/script/race.sh \
@@ -554,6 +557,7 @@ script_tests = \
 	tests/script/refuted.lag \
 	tests/script/reset.lag \
 	tests/script/run.sh \
+	tests/script/saved-run.sh \
 	tests/script/several.sh \
 	tests/script/solve.lag \
 	tests/script/start-consistent.lag \
@@ -648,9 +652,11 @@ script_tests = \
 	tests/bad/number-times.lag \
 	tests/bad/operator-end.lag \
 	tests/bad/outside-run.lag \
+	tests/bad/pi-parameter.lag \
 	tests/bad/pi-redefined.lag \
 	tests/bad/picture-kind.lag \
 	tests/bad/prime-of-product.lag \
+	tests/bad/race-stopped.lag \
 	tests/bad/reactions-none.lag \
 	tests/bad/redeclared-coordinate.lag \
 	tests/bad/redeclared-parameter.lag \
@@ -673,12 +679,14 @@ script_tests = \
 	tests/bad/start-domain.lag \
 	tests/bad/start-exactly-velocity.lag \
 	tests/bad/start-exactly.lag \
+	tests/bad/start-label.lag \
 	tests/bad/start-no-position.lag \
 	tests/bad/start-parameter.lag \
 	tests/bad/start-two-answers.lag \
 	tests/bad/start-unnamed-domain.lag \
 	tests/bad/start-velocities.lag \
 	tests/bad/string-number.lag \
+	tests/bad/style-unknown.lag \
 	tests/bad/to-ending.lag \
 	tests/bad/too-long.lag \
 	tests/bad/trailing.lag \
@@ -841,9 +849,11 @@ test_files = \
 	tests/bad/number-times.out \
 	tests/bad/operator-end.out \
 	tests/bad/outside-run.out \
+	tests/bad/pi-parameter.out \
 	tests/bad/pi-redefined.out \
 	tests/bad/picture-kind.out \
 	tests/bad/prime-of-product.out \
+	tests/bad/race-stopped.out \
 	tests/bad/reactions-none.out \
 	tests/bad/redeclared-coordinate.out \
 	tests/bad/redeclared-parameter.out \
@@ -866,12 +876,14 @@ test_files = \
 	tests/bad/start-domain.out \
 	tests/bad/start-exactly-velocity.out \
 	tests/bad/start-exactly.out \
+	tests/bad/start-label.out \
 	tests/bad/start-no-position.out \
 	tests/bad/start-parameter.out \
 	tests/bad/start-two-answers.out \
 	tests/bad/start-unnamed-domain.out \
 	tests/bad/start-velocities.out \
 	tests/bad/string-number.out \
+	tests/bad/style-unknown.out \
 	tests/bad/to-ending.out \
 	tests/bad/too-long.out \
 	tests/bad/trailing.out \
@@ -1048,6 +1060,7 @@ test_files = \
 	tests/script/moving.out \
 	tests/script/names.out \
 	tests/script/normalise.sed \
+	tests/script/on-surfaces.out \
 	tests/script/order.out \
 	tests/script/pendulum.out \
 	tests/script/race.out \
@@ -1056,6 +1069,7 @@ test_files = \
 	tests/script/refuted.out \
 	tests/script/reset.out \
 	tests/script/run.out \
+	tests/script/saved-run.out \
 	tests/script/several.out \
 	tests/script/solve.out \
 	tests/script/start-consistent.out \

@@ -45,7 +45,7 @@ multiply(qdot_pool *pool, qdot_expr a, qdot_expr b)
     if (na == 1 && nb == 1)
         return qdot_mul(pool, a, b);
     if ((uint64_t)na * nb > MOST_TERMS)
-        return qdot_pool_refuse(pool, QDOT_ELIMIT, "expanded, this has about %llu terms",
+        return qdot_pool_refuse(pool, QDOT_ELIMIT, "expanding it takes %llu products of terms",
                                 (unsigned long long)na * nb);
     for (uint32_t i = 0; i < na && !FAILED(pool); i++) {
         qdot_expr x = term_at(pool, a, i);

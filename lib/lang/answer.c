@@ -144,6 +144,18 @@ holds_relations(const qdot_pool *pool, qdot_expr e)
            (kind == QDOT_VEC && is_equation(pool, qdot_expr_arg(pool, e, 0)));
 }
 
+/* As typed it may stand with other spaces: A[1, 2] and A[1,2]. */
+static bool
+same_but_spaces(const char *a, const char *b)
+{
+    for (;; a++, b++) {
+        a += strspn(a, " ");
+        b += strspn(b, " ");
+        if (*a != *b || *a == '\0')
+            return *a == *b;
+    }
+}
+
 static qdot_status
 expr_text(qdot_session *session, const char *name, qdot_expr value)
 {
@@ -158,7 +170,7 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
     if (!bare && relation)
         bare = strpbrk(name, "=<>") != NULL;
     qdot_answer_math(session, true, &line);
-    if (status == QDOT_OK && !bare && strcmp(name, qdot_text_str(&plain)) != 0) {
+    if (status == QDOT_OK && !bare && !same_but_spaces(name, qdot_text_str(&plain))) {
         status = qdot_answer_name(session, name, &line);
         if (!relation && value != QDOT_TRUE && value != QDOT_FALSE)
             qdot_text_add(&line, qdot_answer_equals(session));

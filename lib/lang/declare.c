@@ -75,6 +75,14 @@ set_bound(qdot_cursor *c, const qdot_token *at, item *x, qdot_expr bound, bool u
     return QDOT_OK;
 }
 
+/* Whether the item goes on. */
+static bool
+is_more(const qdot_cursor *c)
+{
+    return !qdot_cursor_is_op(c, ",") && !qdot_cursor_is_op(c, "=") &&
+           !qdot_cursor_is_end(c);
+}
+
 /* Whether `LO <` stands before the name: a number, a sign, a bracket, or a name that
  * is declared followed by one that is not. */
 static bool
@@ -86,15 +94,16 @@ begins_with_bound(const qdot_cursor *c)
 
     if (c->at->kind != QDOT_TOKEN_NAME)
         return true;
-    if (strcmp(c->at->text, "pi") == 0)
-        return true;
+    if (strcmp(c->at->text, "pi") == 0) { /* a bare pi is a name, which is refused */
+        look.at++;
+        return is_more(&look);
+    }
     if (qdot_names_find(c->session->names, c->at->text) == NULL)
         return false;
     if (qdot_read_name(&look, &name) != QDOT_OK)
         return false;
     if (!is_relation(&look, &less, &strict))
-        return !qdot_cursor_is_op(&look, ",") && !qdot_cursor_is_op(&look, "=") &&
-               !qdot_cursor_is_end(&look);
+        return is_more(&look);
     look.at++;
     return look.at->kind == QDOT_TOKEN_NAME && strcmp(look.at->text, "pi") != 0 &&
            qdot_names_find(c->session->names, look.at->text) == NULL;

@@ -400,7 +400,24 @@ qdot_draw_table(qdot_cursor *c)
 
 /* --- save --------------------------------------------------------------------------- */
 
-/* Every coordinate and velocity of the run as operands. */
+static qdot_status
+push_symbol(qdot_session *session, qdot_run *run, qdot_expr symbol, qdot_draw_operands *list)
+{
+    qdot_draw_operand o = {.run = run};
+    qdot_status status = qdot_pool_check(session->pool);
+
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&o.columns, symbol);
+    if (status == QDOT_OK) {
+        o.label = qdot_strdup(qdot_expr_symbol(session->pool, symbol)->name);
+        status = o.label == NULL ? QDOT_ENOMEM : qdot_vec_push(list, o);
+    }
+    if (status != QDOT_OK)
+        free_operand(&o);
+    return status;
+}
+
+/* Every coordinate, velocity and multiplier of the run as operands. */
 static qdot_status
 whole_state(qdot_session *session, qdot_run *run, qdot_draw_operands *list)
 {
@@ -409,20 +426,11 @@ whole_state(qdot_session *session, qdot_run *run, qdot_draw_operands *list)
     for (unsigned order = 0; order < 2; order++)
         for (size_t i = 0; i < report->n; i++) {
             qdot_expr jet = qdot_symbol_jet(session->pool, report->coordinates[i], order);
-            qdot_draw_operand o = {.run = run};
-            qdot_status status = qdot_pool_check(session->pool);
 
-            if (status == QDOT_OK)
-                status = qdot_vec_push(&o.columns, jet);
-            if (status == QDOT_OK) {
-                o.label = qdot_strdup(qdot_expr_symbol(session->pool, jet)->name);
-                status = o.label == NULL ? QDOT_ENOMEM : qdot_vec_push(list, o);
-            }
-            if (status != QDOT_OK) {
-                free_operand(&o);
-                return status;
-            }
+            QDOT_TRY(push_symbol(session, run, jet, list));
         }
+    for (size_t k = 0; k < report->m; k++)
+        QDOT_TRY(push_symbol(session, run, report->multipliers[k], list));
     return QDOT_OK;
 }
 

@@ -81,7 +81,7 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
 
 /* --- equilibria ------------------------------------------------------------------------- */
 
-/* `a > b and c > d`; a relation reads with > as people say it. */
+/* `a > b and c > d`; a relation reads with > as people say it, and `g < 0`. */
 static qdot_status
 print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
 {
@@ -92,7 +92,8 @@ print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
 
         qdot_text_add(out, i > 0 ? " and " : "");
         if (qdot_expr_kind(pool, one) != QDOT_REL ||
-            qdot_expr_node(pool, one)->op != QDOT_LT) {
+            qdot_expr_node(pool, one)->op != QDOT_LT ||
+            qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {
             QDOT_TRY(qdot_answer_formula(session, one, out));
             continue;
         }

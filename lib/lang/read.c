@@ -176,13 +176,16 @@ qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet)
         return qdot_cursor_expected(c, "a coordinate");
     QDOT_TRY(qdot_read_name(c, &name));
     entry = qdot_names_find(c->session->names, name);
-    if (entry == NULL) {
+    if (entry == NULL || !qdot_expr_is_coordinate(pool, entry->value)) {
+        const char *near = entry == NULL ? qdot_hints_nearest(c->session, name) : name;
+
         c->error_at = start->start;
-        return qdot_hints_unknown(c, start, name);
-    }
-    if (!qdot_expr_is_coordinate(pool, entry->value)) {
-        c->error_at = start->start;
-        return qdot_fail(QDOT_ENAME, "`%.200s` is not a coordinate", name);
+        if (near == NULL || strcmp(near, name) != 0)
+            return qdot_hints_unknown(c, start, name);
+        (void)qdot_fail(QDOT_ENAME, "`%.200s` is not a coordinate", name);
+        return entry != NULL && entry->kind == QDOT_NAME_PARAM
+                   ? qdot_hint("set %.200s = ...", name)
+                   : QDOT_ENAME;
     }
     *jet = entry->value;
     while (c->at->glued && qdot_cursor_accept_op(c, "'"))

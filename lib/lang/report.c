@@ -258,7 +258,8 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
             qdot_text_add(line, "unknown");
     }
     if (r->n_drifts == 0)
-        qdot_text_add(line, "\n  drift: no conserved quantity is known");
+        qdot_text_add(line, r->interrupted ? "\n  drift: not measured"
+                                           : "\n  drift: no conserved quantity is known");
     constraints_text(line, r);
     qdot_text_add(line, "\n  error of the end state: ");
     if (isfinite(r->error)) {

@@ -99,7 +99,8 @@ static const qdot_statement table[] = {
      "start theta = 2, theta' = 0",
      qdot_number_start, false},
     {"run", NUMBERS,
-     "run T0..T1 [tol E | digits N] [method NAME] [with NAME = VALUE, ...] [as NAME]",
+     "run T0..T1 [tol E | digits N] [method NAME] [with NAME = VALUE, ...] "
+     "[constraints project|baumgarte|none] [as NAME]",
      "integrate, and say how well it went", "run 0..20 tol 1e-12", qdot_number_run,
      false},
     {"plan", NUMBERS, "plan", "what the numerical side would do with this scene and why",
@@ -111,7 +112,7 @@ static const qdot_statement table[] = {
      "plot EXPR, ... [vs EXPR | vs NAME = A..B [for ...]] [to \"FILE.svg\"]",
      "a figure along the latest run, or of an expression over a variable",
      "plot theta, theta' to \"fig.svg\"", qdot_draw_plot, false},
-    {"save", NUMBERS, "save RUN to \"FILE.csv\"", "a run whole: t, q, q'",
+    {"save", NUMBERS, "save RUN to \"FILE.csv\"", "a run whole: t, q, q', multipliers",
      "save a to \"run.csv\"", qdot_draw_save, false},
     {"race", NUMBERS, "race T0..T1 [to \"FILE.svg\"]",
      "one scene as given (projected, Baumgarte, none) and in minimal coordinates: errors, "

@@ -80,11 +80,7 @@ qdot_workbench_style(qdot_cursor *c)
         c->session->style = styles[i].style;
         return QDOT_OK;
     }
-    if (qdot_cursor_is_word(c, "mathml")) {
-        c->error_at = c->at->start;
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: mathml");
-    }
-    return qdot_cursor_expected(c, "`plain`, `unicode` or `latex`");
+    return qdot_cursor_expected(c, "`plain`, `unicode`, `latex` or `mathml`");
 }
 
 qdot_status

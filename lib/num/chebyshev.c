@@ -83,25 +83,46 @@ qdot_chebyshev_integral(int n, const double *c)
     return sum;
 }
 
-void
-qdot_chebyshev_part(int n, const double *c, double lo, double hi, double *part)
+/* T_k((x - 1)/2) = sum_j half[k][j] T_j(x), j = 0 ... k: by T_k+1(y) = 2 y T_k(y) - T_k-1(y). */
+static double half[most][most];
+static pthread_once_t once_half = PTHREAD_ONCE_INIT;
+
+static void
+fill_half(void)
 {
-    double values[most];
-    int fit = 8;
+    long double two[2][most + 1] = {{1}, {-0.5L, 0.5L}};
 
-    while (fit < n)
-        fit *= 2;
-    for (int j = 0; j < fit; j++) {
-        double x = qdot_chebyshev_node(fit, j);
+    half[0][0] = 1;
+    half[1][0] = -0.5;
+    half[1][1] = 0.5;
+    for (int k = 2; k < most; k++) {
+        long double *now = two[k % 2]; /* k - 2, to be k */
+        const long double *last = two[(k + 1) % 2];
 
-        values[j] = qdot_chebyshev_at(n, c, 0.5 * (lo + hi) + 0.5 * (hi - lo) * x);
+        for (int j = 0; j <= k; j++)
+            now[j] = -now[j] - last[j] + 0.5L * last[j + 1]
+                     + (j == 1 ? last[0] : j > 1 ? 0.5L * last[j - 1] : 0);
+        for (int j = 0; j <= k; j++)
+            half[k][j] = (double)now[j];
     }
-    {
-        double all[most];
+}
 
-        qdot_chebyshev_fit(fit, values, all);
-        memcpy(part, all, (size_t)n * sizeof *part);
+void
+qdot_chebyshev_halves(int n, const double *c, double *left, double *right)
+{
+    pthread_once(&once_half, fill_half);
+    memset(left, 0, (size_t)n * sizeof *left);
+    memset(right, 0, (size_t)n * sizeof *right);
+    for (int k = 0; k < n; k++) {
+        double mirrored = k % 2 ? -c[k] : c[k]; /* of c(-x) */
+
+        for (int j = 0; j <= k; j++) {
+            left[j] += half[k][j] * c[k];
+            right[j] += half[k][j] * mirrored;
+        }
     }
+    for (int j = 1; j < n; j += 2)
+        right[j] = -right[j];
 }
 
 double
@@ -215,8 +236,7 @@ halve(const piece *p, piece *left, piece *right)
     left->at_hi = right->at_lo = middle;
     right->hi = p->hi;
     right->at_hi = p->at_hi;
-    qdot_chebyshev_part(p->n, p->c, -1, 0, left->c);
-    qdot_chebyshev_part(p->n, p->c, 0, 1, right->c);
+    qdot_chebyshev_halves(p->n, p->c, left->c, right->c);
     left->n = shorten(p->n, left->c);
     right->n = shorten(p->n, right->c);
 }

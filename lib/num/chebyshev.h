@@ -31,8 +31,8 @@ void qdot_chebyshev_derivative(int n, const double *c, double *d);
 /* The integral over -1 ... 1. */
 double qdot_chebyshev_integral(int n, const double *c);
 
-/* c on the part lo ... hi of the interval, into part [n]; n at most QDOT_CHEBYSHEV_MOST. */
-void qdot_chebyshev_part(int n, const double *c, double lo, double hi, double *part);
+/* c on -1 ... 0 and on 0 ... 1, into left [n] and right [n]; n at most QDOT_CHEBYSHEV_MOST. */
+void qdot_chebyshev_halves(int n, const double *c, double *left, double *right);
 
 /* The largest of the last coefficients that would vanish of a polynomial of lower degree,
  * and the largest of all. */

@@ -22,6 +22,18 @@ fatal(qdot_status status)
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
+/* Whether the equations switch at a point, which is stored twice: there sign(0) is 0, on
+ * neither side. */
+static bool
+is_switch(const qdot_trajectory *tr, size_t piece, size_t k)
+{
+    const qdot_trajectory_piece *at = tr->pieces.at;
+
+    return (piece > 0 && at[piece].first == k && !at[piece].jumped)
+           || (piece + 1 < tr->pieces.n && at[piece + 1].first == k + 1
+               && !at[piece + 1].jumped);
+}
+
 static qdot_status
 follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
 {
@@ -47,6 +59,8 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
         for (; piece < tr->pieces.n && tr->pieces.at[piece].first <= k; piece++)
             if (tr->pieces.at[piece].jumped)
                 start = c;
+        if (piece > 0 && is_switch(tr, piece - 1, k))
+            continue;
         change = fabs(c - start) / fmax(1, fabs(start));
         if (!(change <= drift->drift)) /* a NaN stays */
             drift->drift = change;

@@ -239,6 +239,10 @@ run_reference(race *r)
     request.treatment = QDOT_RUN_PROJECT;
     QDOT_TRY(qdot_run_new(r->scene, &request, &r->reference));
     report = qdot_run_get_report(r->reference);
+    if (report->status == QDOT_RUN_STOPPED) {
+        (void)qdot_fail(QDOT_EINVAL, "the run ends early: %s", report->reason);
+        return qdot_hint("a race goes to the end: remove what stops it");
+    }
     if (report->status != QDOT_RUN_DONE)
         return qdot_fail(QDOT_EFAILED, "the reference of the race failed: %s",
                          report->reason ? report->reason : "no reason is known");

@@ -14,6 +14,7 @@
 #include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/reader.h"
+#include "sim/size.h"
 
 enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60 };
 
@@ -26,6 +27,8 @@ typedef struct {
     long double integral;
     double rough;             /* what parts that stay rough leave open of the extrema */
     bool begun;
+    bool odd[2]; /* the step begins, ends where equations switch: sign(0) is no limit */
+    double ends[2];
 } scan;
 
 typedef struct {
@@ -77,10 +80,20 @@ take_part(scan *s, const part *p, bool good)
     double x, d[MOST_NODES], at[MOST_NODES];
     int n = 0;
 
-    QDOT_TRY(value_at(s, p->a, &x));
-    meet(s, x);
-    QDOT_TRY(value_at(s, p->b, &x));
-    meet(s, x);
+    for (int end = 0; end < 2; end++) {
+        double t = end == 0 ? p->a : p->b;
+
+        if (s->odd[end] && t == s->ends[end]) {
+            x = qdot_chebyshev_at(p->n, p->c, end == 0 ? -1 : 1);
+            s->rough = fmax(s->rough, 16 * DBL_EPSILON * qdot_chebyshev_size(p->n, p->c));
+        } else {
+            QDOT_TRY(value_at(s, t, &x));
+        }
+        meet(s, x);
+        if (!s->begun)
+            s->first = x;
+        s->begun = true;
+    }
     if (good) {
         qdot_chebyshev_derivative(p->n, p->c, d);
         if (qdot_chebyshev_size(p->n - 1, d) > 0)
@@ -111,6 +124,8 @@ scan_step(scan *s, double a, double b)
     int depth = 1;
 
     ends[0] = b;
+    s->ends[0] = a;
+    s->ends[1] = b;
     while (depth > 0) {
         part p = {.a = from, .b = ends[depth - 1]};
         double t = fmax(fabs(p.a), fabs(p.b));
@@ -149,9 +164,11 @@ scan_course(scan *s, double from, double to)
     s->largest = -INFINITY;
     s->smallest = INFINITY;
     for (s->piece = 0; s->piece < tr->pieces.n; s->piece++) {
-        size_t k = tr->pieces.at[s->piece].first;
-        size_t end = s->piece + 1 < tr->pieces.n ? tr->pieces.at[s->piece + 1].first
-                                                 : tr->count;
+        size_t k = tr->pieces.at[s->piece].first, first = k;
+        bool more = s->piece + 1 < tr->pieces.n;
+        size_t end = more ? tr->pieces.at[s->piece + 1].first : tr->count;
+        bool enters = s->piece > 0 && !tr->pieces.at[s->piece].jumped;
+        bool leaves = more && !tr->pieces.at[s->piece + 1].jumped;
 
         for (; k < end; k++) {
             double a = tr->t[k], b = k + 1 < end ? tr->t[k + 1] : a, x;
@@ -160,13 +177,19 @@ scan_course(scan *s, double from, double to)
             b = direction > 0 ? fmin(b, to) : fmax(b, to);
             if (direction * (b - a) < 0)
                 continue;
+            s->odd[0] = enters && a == tr->t[first];
+            s->odd[1] = leaves && b == tr->t[end - 1];
+            if (a != b) {
+                QDOT_TRY(scan_step(s, a, b));
+                continue;
+            }
+            if (from != to && (s->odd[0] || s->odd[1]))
+                continue;
             QDOT_TRY(value_at(s, a, &x));
             meet(s, x);
             if (!s->begun)
                 s->first = x;
             s->begun = true;
-            if (a != b)
-                QDOT_TRY(scan_step(s, a, b));
         }
     }
     return QDOT_OK;
@@ -222,6 +245,21 @@ check_range(const qdot_run *run, double from, double to)
                      from, to, tr->t[0], tr->t[tr->count - 1]);
 }
 
+/* What evaluating e may be off by: as at the ends of the range. */
+static qdot_status
+rounding(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, double to,
+         double *error)
+{
+    double ends[] = {from, to}, sizes[2], first = 0;
+    bool drift = kind == QDOT_RANGE_DRIFT;
+
+    QDOT_TRY(qdot_size_along(run->plan, &run->course, 1, &e, 2, ends, sizes));
+    if (drift)
+        QDOT_TRY(qdot_run_values(run, 1, &e, 1, &from, &first, NULL));
+    *error = (drift ? 2 : 1) * DBL_EPSILON * fmax(sizes[0], sizes[1]) / fmax(1, fabs(first));
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, double to,
                double *value, double *error)
@@ -251,8 +289,10 @@ qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, do
         if (status == QDOT_OK && qdot_horizon_passed(run, to))
             status = qdot_horizon_spread(run, tape, accelerations, &spread);
         if (status == QDOT_OK)
-            *error = fmax(fabs(other - *value), spread) + rough
-                     + DBL_EPSILON * fabs(*value);
+            status = rounding(run, kind, e, from, to, error);
+        if (status == QDOT_OK)
+            *error += fmax(fabs(other - *value), spread) + rough
+                      + DBL_EPSILON * fabs(*value);
         if (status == QDOT_EDOMAIN || status == QDOT_EFAILED
             || status == QDOT_ESINGULAR)
             status = QDOT_OK;

@@ -510,6 +510,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     }
     if (request->digits)
         qdot_digits_fill_report(run);
+    run->report.interrupted = interrupted;
     run->report.cpu_total = process_clock() - clock;
     *out = run;
     return interrupted ? QDOT_EINTR : QDOT_OK;

@@ -62,6 +62,7 @@ typedef struct {
     const qdot_drift *drifts;      /* every conserved quantity known, energy first */
     qdot_run_status status;
     const char *reason;            /* NULL when done */
+    bool interrupted;              /* by Ctrl-C: only the states are known */
     size_t n;                      /* coordinates */
     const qdot_expr *coordinates;  /* [n] symbols */
     const double *q, *v;           /* [n] state at t1 */

@@ -202,75 +202,118 @@ qdot_run_has_event(const qdot_run *run, const char *name)
     return false;
 }
 
-/* The k-th occurrence of an event, k from 0; NULL: there is none. */
-static const qdot_occurrence *
-find(const qdot_course *c, size_t event, size_t k)
+/* The occurrences of a course event by event: those of event e are at[first[e]] to
+ * at[first[e + 1] - 1], in their order. */
+typedef struct {
+    size_t *first;             /* [events + 1] */
+    const qdot_occurrence **at;
+} by_event;
+
+static qdot_status
+sort_by_event(const qdot_course *c, size_t events, by_event *out)
 {
-    for (size_t i = 0; i < c->occurrences.n; i++)
-        if (c->occurrences.at[i].event == event && k-- == 0)
-            return &c->occurrences.at[i];
-    return NULL;
+    size_t n = c->occurrences.n, *next;
+
+    out->first = qdot_calloc(2 * events + 2, sizeof *out->first);
+    out->at = qdot_calloc(n + 1, sizeof *out->at);
+    if (!out->first || !out->at)
+        return QDOT_ENOMEM;
+    next = out->first + events + 1;
+    for (size_t i = 0; i < n; i++)
+        out->first[c->occurrences.at[i].event + 1]++;
+    for (size_t e = 0; e < events; e++) {
+        out->first[e + 1] += out->first[e];
+        next[e] = out->first[e];
+    }
+    for (size_t i = 0; i < n; i++)
+        out->at[next[c->occurrences.at[i].event]++] = &c->occurrences.at[i];
+    return QDOT_OK;
 }
 
-/* The occurrence of the companion that is the k-th one of the run, at t: the k-th too, or,
- * where one of them has more (at the very end of the run), the nearest, if it is much
+/* The nearest in time to t of at [n], which ascend or descend; NULL of none. */
+static const qdot_occurrence *
+nearest(const qdot_occurrence *const *at, size_t n, double t)
+{
+    size_t low = 0, high = n;
+    bool down = n > 1 && at[n - 1]->t < at[0]->t;
+
+    if (n == 0)
+        return NULL;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (down ? at[middle]->t >= t : at[middle]->t <= t)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high < n && fabs(at[high]->t - t) < fabs(at[low]->t - t) ? at[high] : at[low];
+}
+
+/* The occurrence of the companion that is the k-th one of the run's event: the k-th too,
+ * or, where one of them has more (at the very end of the run), the nearest, if it is much
  * nearer than the next one of the run. */
 static const qdot_occurrence *
-partner(const qdot_run *run, size_t event, size_t k, double t)
+partner(const by_event *own, const by_event *other, size_t event, size_t k)
 {
-    const qdot_course *own = &run->course, *c = &run->companion;
-    const qdot_occurrence *best = NULL, *next;
+    const qdot_occurrence *const *of = own->at + own->first[event];
+    size_t n = own->first[event + 1] - own->first[event];
+    size_t m = other->first[event + 1] - other->first[event];
+    const qdot_occurrence *best;
 
-    if (count(own, event) == count(c, event))
-        return find(c, event, k);
-    for (size_t i = 0; i < c->occurrences.n; i++) {
-        const qdot_occurrence *o = &c->occurrences.at[i];
-
-        if (o->event == event && (!best || fabs(o->t - t) < fabs(best->t - t)))
-            best = o;
-    }
-    for (size_t other = k > 0 ? k - 1 : k + 1; best && other <= k + 1; other += 2) {
-        next = find(own, event, other);
-        if (next && fabs(best->t - t) > 0.1 * fabs(next->t - t))
-            best = NULL;
-    }
+    if (n == m)
+        return other->at[other->first[event] + k];
+    best = nearest(other->at + other->first[event], m, of[k]->t);
+    if (!best || (k > 0 && fabs(best->t - of[k]->t) > 0.1 * fabs(of[k - 1]->t - of[k]->t))
+        || (k + 1 < n && fabs(best->t - of[k]->t) > 0.1 * fabs(of[k + 1]->t - of[k]->t)))
+        return NULL;
     return best;
 }
 
-static double
-error_of(const qdot_run *run, size_t event, size_t k, double t)
+static qdot_status
+compare_occurrences(qdot_run *run, const by_event *own, const by_event *other)
 {
-    const qdot_occurrence *other = run->has_companion ? partner(run, event, k, t) : NULL;
+    size_t events = run->stage.events.n, n = run->course.occurrences.n;
+    size_t *seen = qdot_calloc(events + 1, sizeof *seen);
+    qdot_status status = seen ? QDOT_OK : QDOT_ENOMEM;
 
-    return other ? fabs(other->t - t) + DBL_EPSILON * fabs(t) : NAN;
+    run->occurrences.n = 0;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        const qdot_occurrence *o = &run->course.occurrences.at[i], *p = NULL;
+        size_t k = seen[o->event]++;
+
+        if (run->has_companion)
+            p = partner(own, other, o->event, k);
+        status = qdot_vec_push(
+            &run->occurrences,
+            ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,
+                                   p ? fabs(p->t - o->t) + DBL_EPSILON * fabs(o->t) : NAN,
+                                   o->way}));
+    }
+    qdot_free(seen);
+    return status;
 }
 
 qdot_status
 qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
 {
-    const qdot_course *c = &run->course;
-    size_t *seen;
-
     if (!run->occurrence_errors) {
-        if (c->occurrences.n > 0)
-            QDOT_TRY(qdot_run_companion(run));
-        seen = qdot_calloc(run->stage.events.n + 1, sizeof *seen);
-        if (!seen)
-            return QDOT_ENOMEM;
-        run->occurrences.n = 0;
-        for (size_t i = 0; i < c->occurrences.n; i++) {
-            const qdot_occurrence *o = &c->occurrences.at[i];
-            qdot_run_occurrence out = {run->stage.events.at[o->event].name, o->t,
-                                       error_of(run, o->event, seen[o->event]++, o->t),
-                                       o->way};
-            qdot_status status = qdot_vec_push(&run->occurrences, out);
+        by_event own = {0}, other = {0};
+        size_t events = run->stage.events.n;
+        qdot_status status = QDOT_OK;
 
-            if (status != QDOT_OK) {
-                qdot_free(seen);
-                return status;
-            }
-        }
-        qdot_free(seen);
+        if (run->course.occurrences.n > 0)
+            QDOT_TRY(qdot_run_companion(run));
+        status = sort_by_event(&run->course, events, &own);
+        if (status == QDOT_OK)
+            status = sort_by_event(&run->companion, events, &other);
+        if (status == QDOT_OK)
+            status = compare_occurrences(run, &own, &other);
+        qdot_free(own.first);
+        qdot_free(own.at);
+        qdot_free(other.first);
+        qdot_free(other.at);
+        QDOT_TRY(status);
         run->occurrence_errors = true;
     }
     *list = run->occurrences.at;

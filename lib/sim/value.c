@@ -9,6 +9,7 @@
 #include "sim/integrated.h"
 #include "sim/precise.h"
 #include "sim/reader.h"
+#include "sim/size.h"
 
 /* --- asking ------------------------------------------------------------------------- */
 
@@ -43,13 +44,14 @@ piece_at(const qdot_trajectory *tr, double t)
 }
 
 static qdot_status
-read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
-            const double *times, const double *values, double *errors)
+read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations,
+            const qdot_expr *exprs, size_t k, const double *times, const double *values,
+            double *errors)
 {
     size_t m = qdot_tape_outputs(tape);
     bool whole;
     qdot_reader r = {0};
-    double *spread;
+    double *spread, *sizes;
     qdot_status status;
 
     for (size_t i = 0; i < k * m; i++)
@@ -58,10 +60,13 @@ read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
     whole = qdot_run_comparable(run);
     if (!whole && isnan(run->report.horizon))
         return QDOT_OK;
-    spread = qdot_calloc(m + 1, sizeof *spread);
+    spread = qdot_calloc(m + k * m + 1, sizeof *spread);
     if (!spread)
         return QDOT_ENOMEM;
+    sizes = spread + m;
     status = qdot_horizon_spread(run, tape, accelerations, spread);
+    if (status == QDOT_OK)
+        status = qdot_size_along(run->plan, &run->course, m, exprs, k, times, sizes);
     if (status == QDOT_OK)
         status = qdot_reader_init(&r, run->plan, tape, &run->companion, accelerations);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
@@ -83,7 +88,8 @@ read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
         for (size_t j = 0; j < m && status == QDOT_OK; j++) {
             double x = values[i * m + j];
 
-            e[j] = fmax(fabs(e[j] - x), beyond ? spread[j] : 0) + DBL_EPSILON * fabs(x);
+            e[j] = fmax(fabs(e[j] - x), beyond ? spread[j] : 0)
+                   + DBL_EPSILON * fmax(sizes[i * m + j], fabs(x));
         }
     }
     qdot_reader_clear(&r);
@@ -126,7 +132,7 @@ qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
     QDOT_TRY(qdot_reader_lower(run->plan, m, exprs, &tape, &accelerations));
     status = read_values(run, tape, accelerations, exprs, k, times, values);
     if (status == QDOT_OK && errors)
-        status = read_errors(run, tape, accelerations, k, times, values, errors);
+        status = read_errors(run, tape, accelerations, exprs, k, times, values, errors);
     qdot_tape_free(tape);
     return status;
 }

@@ -6,26 +6,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "sim/size.h"
 #include "tape/shake.h"
 
 /* --- their tapes --------------------------------------------------------------------- */
-
-/* sum |c_k t_k| of a sum, |g| of anything else. */
-static qdot_expr
-size_of(qdot_pool *pool, qdot_expr g)
-{
-    qdot_expr size;
-
-    if (qdot_expr_kind(pool, g) != QDOT_SUM)
-        return qdot_fun1(pool, QDOT_ABS, g);
-    size = qdot_fun1(pool, QDOT_ABS, qdot_expr_arg(pool, g, 0));
-    for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, g); k += 2)
-        size = qdot_add(pool, size,
-                        qdot_fun1(pool, QDOT_ABS,
-                                  qdot_mul(pool, qdot_expr_arg(pool, g, k),
-                                           qdot_expr_arg(pool, g, k + 1))));
-    return size;
-}
 
 qdot_status
 qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
@@ -45,7 +29,7 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     if (status == QDOT_OK)
         status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, w->m, e, &tape);
     for (size_t i = 0; i < w->m && status == QDOT_OK; i++)
-        e[i] = size_of(p->pool, e[i]);
+        e[i] = qdot_size_of(p->pool, e[i]);
     if (status == QDOT_OK)
         status = qdot_pool_check(p->pool);
     if (status == QDOT_OK)

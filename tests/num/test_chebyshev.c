@@ -33,17 +33,17 @@ wave_slope(double x)
 static void
 fits_a_function_its_slope_and_its_integral(void **state)
 {
-    double c[64], d[64], part[64], sum = 0;
+    double c[64], d[64], left[64], right[64], sum = 0;
 
     (void)state;
     fit(64, wave, c);
     qdot_chebyshev_derivative(64, c, d);
-    qdot_chebyshev_part(64, c, -0.25, 0.5, part);
+    qdot_chebyshev_halves(64, c, left, right);
     for (double x = -1; x <= 1; x += 0.0625) {
         assert_float_equal(qdot_chebyshev_at(64, c, x), wave(x), 1e-14);
         assert_float_equal(qdot_chebyshev_at(63, d, x), wave_slope(x), 1e-11);
-        assert_float_equal(qdot_chebyshev_at(64, part, x), wave(0.125 + 0.375 * x),
-                           1e-13);
+        assert_float_equal(qdot_chebyshev_at(64, left, x), wave(0.5 * (x - 1)), 1e-14);
+        assert_float_equal(qdot_chebyshev_at(64, right, x), wave(0.5 * (x + 1)), 1e-14);
     }
     for (int k = 0; k < 200000; k++) /* midpoints */
         sum += wave(-1 + (k + 0.5) * 1e-5) * 1e-5;

@@ -297,6 +297,13 @@ values_are_as_accurate_as_the_run(void **state)
             assert_true(miss <= 3 * error[4 * i + j] + 1e-15 * fmax(1, fabs(want[j])));
         }
     }
+    /* what cancels, x'^2 + 9 x^2 - 9 = 0, keeps the rounding of its terms */
+    e[0] = qdot_add(f.pool, qdot_pow_int(f.pool, velocity(&f, x), 2),
+                    times(&f, qdot_expr_int(f.pool, 9), qdot_pow_int(f.pool, x, 2)));
+    e[0] = qdot_sub(f.pool, e[0], qdot_expr_int(f.pool, 9));
+    must(qdot_run_values(r, 1, e, 5, times_, value, error));
+    for (int i = 0; i < 5; i++)
+        assert_true(fabs(value[i]) <= error[i] && error[i] >= 9 * 0x1p-52);
     times_[0] = 5.1;
     assert_int_equal(qdot_run_values(r, 1, e, 1, times_, value, NULL), QDOT_EDOMAIN);
     assert_non_null(strstr(qdot_last_error()->message, "outside the run"));
