@@ -108,6 +108,7 @@ ode_headers = \
 	lib/ode/trajectory.h
 
 normal_sources = \
+	lib/normal/angle-sum.c \
 	lib/normal/antiderivative.c \
 	lib/normal/ball.c \
 	lib/normal/cases.c \

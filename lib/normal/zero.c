@@ -410,6 +410,8 @@ prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
         *zero = fmpz_mpoly_is_zero(q, f->ctx);
         if (!*zero)
             status = qdot_zero_logarithms(z, q, zero);
+        if (status == QDOT_OK && !*zero)
+            status = qdot_zero_angles(z, q, zero);
         if (status == QDOT_OK && !*zero && outermost(z, q) >= 0 &&
             fmpz_mpoly_length(q, f->ctx) < MOST_TERMS) {
             status = qdot_factor(f, &factors, q);

@@ -1,7 +1,7 @@
 /* zero.h -- is a polynomial of a field zero, as a function of what its generators say?
  *
  * The normal form of field.h knows r^k = b for a root, not which of the roots r is, nor
- * relations between the roots. So p can be zero and its normal form not. Three steps:
+ * relations between the roots. So p can be zero and its normal form not. Four steps:
  *
  *   constants  the coefficients over the generators that are not constant are algebraic
  *              numbers; each is decided by its bound (constant.h).
@@ -16,6 +16,8 @@
  *
  *   logarithms the coefficients are sums of k log A with integers k: 0 if the product of
  *              all A^k is 1.
+ *   angles     the coefficients are sums of k atan u, k asin u, ... and q pi: 0 if the product
+ *              of complex numbers of these arguments is real, and the sum not beyond pi.
  *
  * Tests   tests/normal/test_decide.c
  */
@@ -46,6 +48,10 @@ QDOT_MUST_CHECK qdot_status qdot_zero_prove(qdot_zero *z, const fmpz_mpoly_t p,
 /* The step of logarithms (logarithm.c). */
 QDOT_MUST_CHECK qdot_status qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_t p,
                                                  bool *zero);
+
+/* The step of angles (angle-sum.c). */
+QDOT_MUST_CHECK qdot_status qdot_zero_angles(qdot_zero *z, const fmpz_mpoly_t p,
+                                             bool *zero);
 
 /* What is known of the sign of p (range.c): a set of QDOT_GE0 ... */
 uint8_t qdot_zero_sign(qdot_zero *z, const fmpz_mpoly_t p);

@@ -172,6 +172,42 @@ pairs_angle(pairs *g)
     return (pair){e, e};
 }
 
+/* Sums of angles that functions give. */
+static pair
+pairs_inverse(pairs *g)
+{
+    qdot_pool *p = g->pool;
+    pair u = pairs_angle(g), s = pairs_positive(g, 1), q = pairs_positive(g, 0);
+    qdot_expr two = num(g, 2, 1), quarter = half(g, QDOT_PI), w;
+
+    g->inside = false;
+    switch (pairs_random(g, 6)) {
+    case 0:
+        return (pair){fun(g, QDOT_ATAN, s.l),
+                      sub(g, quarter, fun(g, QDOT_ATAN, quo(g, QDOT_ONE, s.r)))};
+    case 1:
+        w = quo(g, sub(g, s.r, q.r), add(g, QDOT_ONE, mul(g, s.r, q.r)));
+        return (pair){sub(g, fun(g, QDOT_ATAN, s.l), fun(g, QDOT_ATAN, q.l)),
+                      fun(g, QDOT_ATAN, w)};
+    case 2:
+        w = qdot_sqrt(p, add(g, QDOT_ONE, power(g, u.r, 2)));
+        return (pair){fun(g, QDOT_ATAN, u.l), fun(g, QDOT_ASIN, quo(g, u.r, w))};
+    case 3:
+        w = qdot_sqrt(p, add(g, QDOT_ONE, power(g, u.r, 2)));
+        w = quo(g, u.r, add(g, QDOT_ONE, w));
+        return (pair){fun(g, QDOT_ATAN, u.l), mul(g, two, fun(g, QDOT_ATAN, w))};
+    case 4:
+        return (pair){
+            sub(g, mul(g, two, fun(g, QDOT_ATAN, fun(g, QDOT_EXP, u.l))), quarter),
+            fun(g, QDOT_ATAN, fun(g, QDOT_SINH, u.r))};
+    default:
+        w = num(g, 1 + pairs_random(g, 9), 10 + pairs_random(g, 9));
+        return (pair){
+            mul(g, two, fun(g, QDOT_ATAN, w)),
+            fun(g, QDOT_ATAN, quo(g, mul(g, two, w), sub(g, QDOT_ONE, mul(g, w, w))))};
+    }
+}
+
 /* sin, cos, tan and their relatives. */
 static pair
 pairs_circular(pairs *g)
@@ -420,7 +456,8 @@ pairs_make(pairs *g, int depth)
                                     : g->any[pairs_random(g, 8)];
         return (pair){e, e};
     }
-    switch (pairs_random(g, 11)) {
+    switch (pairs_random(g, 12)) {
+    case 11: return pairs_inverse(g);
     case 10: return pairs_number(g);
     case 0:
     case 1:
