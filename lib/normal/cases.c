@@ -70,7 +70,8 @@ lies_within(const qdot_pool *pool, qdot_expr x, long from, long to)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
 
-    return s != NULL && bounded(pool, s->lo, from, true) && bounded(pool, s->hi, to, false);
+    return s != NULL && bounded(pool, s->lo, from, true) &&
+           bounded(pool, s->hi, to, false);
 }
 
 /* The angle of which y = p sin(x), x = p cos(x), p > 0; nil: none. */
@@ -83,8 +84,8 @@ angle_of(qdot_pool *pool, qdot_expr y, qdot_expr x)
         qdot_expr u = qdot_expr_arg(pool, atoms, i), p;
         const qdot_symbol *s = qdot_expr_symbol(pool, u);
 
-        if (!lies_within(pool, u, -2, 2) || (s->lo != QDOT_NIL && !s->lo_open &&
-                                             !bounded(pool, s->lo, -1, true)))
+        if (!lies_within(pool, u, -2, 2) ||
+            (s->lo != QDOT_NIL && !s->lo_open && !bounded(pool, s->lo, -1, true)))
             continue;
         p = qdot_div(pool, y, qdot_fun1(pool, QDOT_SIN, u));
         if (p != QDOT_NIL && qdot_expr_node(pool, p)->sign == QDOT_POS &&
@@ -126,7 +127,8 @@ struct cases {
     qdot_expr leaf[LEAVES], sign[SIGNS]; /* arguments: of max and min, of abs and sign */
     size_t n_leaves, n_signs;
     bool zero[SIGNS]; /* there is a sign(...): its zero is a case */
-    qdot_expr node[NODES], to[NODES]; /* the functions, inner ones first, and their values */
+    qdot_expr node[NODES],
+        to[NODES]; /* the functions, inner ones first, and their values */
     size_t n;
     bool too_much;
 };
@@ -250,6 +252,32 @@ put_in(struct cases *c, const size_t *order, const int *sign)
     }
 }
 
+/* Whether all of e counts: a branch that is not taken may be undefined. */
+static bool
+has_no_branches(const struct cases *c)
+{
+    bool none = true;
+    qdot_walk w;
+
+    if (qdot_walk_begin_n(c->pool, 2, c->side, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n; i++)
+        none &= !is_function(c->pool, w.at[i], QDOT_IF);
+    qdot_walk_end(&w);
+    return none;
+}
+
+/* At the zero of a sign a side that divides by it has no value, and nothing is claimed there. */
+static bool
+nothing_is_claimed(const struct cases *c, qdot_status status, const int *sign)
+{
+    bool at_zero = false;
+
+    for (size_t i = 0; i < c->n_signs; i++)
+        at_zero |= sign[i] == 0;
+    return status == QDOT_EDOMAIN && at_zero && has_no_branches(c);
+}
+
 static qdot_status
 prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
       bool *equal)
@@ -266,9 +294,10 @@ prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *f
         if (sign[i] == 0)
             zero[known.n_relations++] = c->sign[i];
     *equal = false;
-    if (qdot_pool_failed(c->pool)) { /* a division by zero: nothing is proved */
+    if (qdot_pool_failed(c->pool)) { /* a division by zero */
         qdot_status status = qdot_pool_check(c->pool);
 
+        *equal = nothing_is_claimed(c, status, sign);
         return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
     }
     return qdot_prove_equal(c->pool, side[0], side[1], &known, equal);

@@ -109,6 +109,10 @@ static const struct pair identities[] = {
     {"2*atan(exp(x)) - pi/2", "atan(sinh(x))"},
     {"atan2(a, b) + atan2(b, a)", "pi/2"},
     {"asin(tanh(x))", "atan(sinh(x))"},
+    {"x/abs(x)", "sign(x)"},
+    {"1/sign(x)", "sign(x)"},
+    {"abs(x)/(x + y - y)", "sign(x)"},
+    {"y^2*sign(x - y)", "y^2*abs(x - y)/(x - y)"},
 };
 
 static const struct pair falsehoods[] = {
@@ -142,6 +146,8 @@ static const struct pair falsehoods[] = {
     {"floor(x)", "x"},
     {"sin(x + pi/5)", "sin(x)*cos(pi/5) - cos(x)*sin(pi/5)"},
     {"lam*x", "lam*y"},
+    {"x/abs(x)", "-sign(x)"},
+    {"1/sign(x)", "1"},
 };
 
 static qdot_verdict
