@@ -2,9 +2,22 @@
 #include "num/series.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "num/kinds.h"
+#include "num/sum.h"
+
+void
+qdot_series_weights_set(qdot_series_weights *w, int p, double term)
+{
+    w->p = p;
+    for (int k = 0; k < QDOT_SERIES_MOST + 8; k++) {
+        w->inverse[k] = k > 0 ? 1.0 / k : 1;
+        w->upper[k] = k > p / 2 && k <= p ? 0 : INFINITY;
+        w->lower[k] = k >= 2 && k <= p / 2 ? term : INFINITY;
+    }
+}
 
 #define NAME(x) portable_##x
 #define LABEL "portable"

@@ -35,6 +35,35 @@ typedef qdot_series_two qdot_series_pair(const double *a, const double *b,
                                          const double *c);
 
 typedef struct {
+    double upper, lower;
+} qdot_series_reach;
+
+/* Of `reach`, by order: 1/k; what is subtracted from, infinite at orders that do not
+ * count. */
+typedef struct {
+    int p;
+    double inverse[QDOT_SERIES_MOST + 8];
+    double upper[QDOT_SERIES_MOST + 8], lower[QDOT_SERIES_MOST + 8];
+} qdot_series_weights;
+
+void qdot_series_weights_set(qdot_series_weights *w, int p, double term);
+
+/* next + next_carry = y + carry + sum_{k=1..p} x_k s^k, sums of two doubles, to twice the
+ * precision but for the terms from order 2 on. The first `linked` have the others, in
+ * their order, as derivatives: what those hold beyond y enters order 1. */
+typedef struct {
+    size_t n, linked;
+    const double *x; /* [n x stride] */
+    size_t stride;
+    int p;
+    double s, unit;          /* t' = t + unit s */
+    const double *y, *carry; /* [n] */
+    double *next, *next_carry;
+    double *value; /* [n] scratch */
+    double *slope; /* [n] sum k x_k s^(k-1), of those behind `linked` only */
+} qdot_series_step;
+
+typedef struct {
     const char *name; /* "portable", "avx2", "avx512" */
 
     /* [n] for n = 0 ... QDOT_SERIES_MOST + 1 */
@@ -57,6 +86,19 @@ typedef struct {
      * coefficient is; both filled up to 8: stride is a multiple of it, peaks has room. */
     void (*peaks)(size_t n, const double *x, size_t stride, int p, const double *scale,
                   double *peaks);
+
+    /* How far a step may go: with m_k = max_i scale[i] |x[i stride + k]|, k = 0 ... p,
+     *
+     *     upper = min over p/2 < k <= p      of  -log2(m_k)/k
+     *     lower = min over 2 <= k <= p/2     of  (term - log2(m_k))/k
+     *
+     * to 0.09/k. Infinite where all these are zero; upper is -infinity where one of its
+     * m_k is infinite or NaN. stride is a multiple of 8. */
+    qdot_series_reach (*reach)(size_t n, const double *x, size_t stride,
+                               const qdot_series_weights *w, const double *scale);
+
+    /* A state is advanced by its series (below). */
+    void (*advance)(const qdot_series_step *step);
 
     /* y [m] = sum_{j=0..n-1} A[j m + ...] x[j], m a multiple of 8: a matrix by its
      * columns, filled up to m rows. y may not be x. */

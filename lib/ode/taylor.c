@@ -52,6 +52,7 @@ typedef struct {
     double log_wanted, log_aim, log_term; /* log2 of what a step should err, of what it
                                              may at the point at hand, of a term */
     double unit;   /* of the series: t' = t + unit s; a power of two, signed */
+    double per_unit; /* its inverse */
     bool extended; /* the series is there to order p */
 
     double *y, *carry;         /* [n] the state now */
@@ -59,7 +60,7 @@ typedef struct {
     double *value, *slope;     /* [n] of the polynomial */
     double *first;             /* [n] x_i1 */
     double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] and what fills a vector */
-    double inverse[QDOT_SERIES_MOST + 1];  /* 1/k */
+    qdot_series_weights weights;
     qdot_error undefined;      /* what f said last */
     double undefined_at;       /* the end of the step that met it; NaN before any */
 } run;
@@ -73,6 +74,7 @@ cpu_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* No step is shorter. */
 static double
 floor_of_step(double t)
 {
@@ -80,11 +82,62 @@ floor_of_step(double t)
     return fmax(16 * (nextafter(t, INFINITY) - t), 16 * DBL_MIN);
 }
 
+/* The spacing is the size over a number between 2^52 and 2^53: seldom worth the look. */
+static bool
+is_too_short(double t, double h)
+{
+    return !(h > 16 * DBL_EPSILON * fabs(t) && h > 16 * DBL_MIN) && h < floor_of_step(t);
+}
+
 /* The power of two at or below |h|, with the sign of h. */
 static double
 unit_for(double h)
 {
-    return h != 0 ? copysign(ldexp(1, ilogb(h)), h) : 1;
+    uint64_t bits;
+
+    memcpy(&bits, &h, sizeof bits);
+    bits &= (uint64_t)0xfff << 52;
+    if ((bits << 1) == 0) /* not a normal number */
+        return h != 0 ? copysign(ldexp(1, ilogb(h)), h) : 1;
+    memcpy(&h, &bits, sizeof h);
+    return h;
+}
+
+static void
+set_unit(run *r, double unit)
+{
+    r->unit = unit;
+    r->per_unit = 1 / unit;
+}
+
+static double
+larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static double
+smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+/* 2^x to 0.002: the step it is for is a guess, and the libraries' takes as long as three
+ * orders of a series. */
+static double
+rough_exp2(double x)
+{
+    double whole, part, power;
+    int64_t bits;
+
+    if (!(fabs(x) < 1000))
+        return exp2(x);
+    whole = (double)(int64_t)x;
+    whole -= whole > x;
+    part = x - whole;
+    bits = ((int64_t)whole + 1023) << 52;
+    memcpy(&power, &bits, sizeof power);
+    return power * (1 + part * (0.6565 + 0.3435 * part));
 }
 
 int
@@ -108,24 +161,27 @@ qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
 
 /* --- the state from the series ------------------------------------------------------ */
 
-/* next = y + carry + sum_{k>=1} x_k s^k; tails in value. */
+/* next = y + carry + sum_{k>=1} x_k s^k up to `order`, and the slope there. */
 static void
-add_series(const run *r, double s)
+advance_state(run *r, int order, double s)
 {
-    const double *x = r->series->x;
-    const size_t linked = r->series->checked;
+    const qdot_series_step step = {.n = r->n,
+                                   .linked = r->series->checked,
+                                   .x = r->series->x,
+                                   .stride = r->series->stride,
+                                   .p = order,
+                                   .s = s,
+                                   .unit = r->unit,
+                                   .y = r->y,
+                                   .carry = r->carry,
+                                   .next = r->next,
+                                   .next_carry = r->next_carry,
+                                   .value = r->value,
+                                   .slope = r->slope};
 
-    for (size_t i = 0; i < r->n; i++) {
-        double low = i < linked ? r->unit * r->carry[linked + i] : 0;
-        double rest, small, first = x[i * r->series->stride + 1];
-        double sum = qdot_two_sum(first, r->value[i], &rest);
-        double step = s * sum;
-
-        small = fma(s, sum, -step) + s * (rest + low);
-        r->next[i] = qdot_two_sum(r->y[i], step, &rest);
-        qdot_sum_advance(&r->next[i], &rest, r->carry[i] + small);
-        r->next_carry[i] = rest;
-    }
+    r->kernels->advance(&step);
+    for (size_t i = r->series->checked; i < r->n; i++)
+        r->first[i] = r->series->x[i * r->series->stride + 1];
 }
 
 void
@@ -152,56 +208,36 @@ qdot_ode_taylor_expand(const qdot_ode_system *system, int p, double t0, double h
 
 /* --- the length of a step ----------------------------------------------------------- */
 
-/* log2 of a positive number to 0.09; larger than any for what is not finite. */
+/* log2 of the step in units: that of the radius which the upper half of the coefficients
+ * shows, and what order p leaves of it under tol; kept so short that the rounding of no
+ * term counts. INFINITY where the upper half holds nothing; NaN where it is not finite. */
 static double
-rough_log2(double x)
+log_step(run *r)
 {
-    int64_t bits;
+    qdot_series_reach reach;
+    double l;
 
-    memcpy(&bits, &x, sizeof bits);
-    return (double)bits * 0x1p-52 - 1023;
-}
-
-/* m[k] = max_i |x_ik| / max(1, |y_i|), k = 0 ... p. */
-static void
-find_peaks(run *r)
-{
     for (size_t i = 0; i < r->n; i++)
-        r->value[i] = 1 / fmax(1, fabs(r->y[i]));
-    r->kernels->peaks(r->n, r->series->x, r->series->stride, r->p, r->value, r->peaks);
+        r->value[i] = 1 / larger(1, fabs(r->y[i]));
+    reach = r->kernels->reach(r->n, r->series->x, r->series->stride, &r->weights,
+                              r->value);
+    if (isinf(reach.upper))
+        return reach.upper > 0 ? INFINITY : NAN;
+    l = reach.upper + r->log_aim * r->weights.inverse[r->p];
+    return smaller(l, reach.lower);
 }
 
-/* log2 of the step in units: that of the radius which the coefficients from ... p show, and
- * what order p leaves of it under tol. INFINITY where they hold nothing; NaN where they are
- * not finite. */
+/* The same by whatever coefficients there are: INFINITY where there are none. */
 static double
-log_step(const run *r, int from)
+log_step_of_all(run *r)
 {
     double least = INFINITY;
 
-    for (int k = from; k <= r->p; k++) {
-        if (!(r->peaks[k] < INFINITY))
-            return NAN;
-        if (r->peaks[k] > 0) {
-            double l = -rough_log2(r->peaks[k]) * r->inverse[k];
-
-            least = l < least ? l : least;
-        }
-    }
-    return least + r->log_aim * r->inverse[r->p];
-}
-
-/* The same for what keeps every term so small that its rounding does not count. */
-static double
-log_step_of_rounding(const run *r, double l)
-{
-    for (int k = 2; k <= r->p / 2; k++)
-        if (r->peaks[k] > 0) {
-            double most = (r->log_term - rough_log2(r->peaks[k])) * r->inverse[k];
-
-            l = most < l ? most : l;
-        }
-    return l;
+    r->kernels->peaks(r->n, r->series->x, r->series->stride, r->p, r->value, r->peaks);
+    for (int k = 1; k <= r->p; k++)
+        if (r->peaks[k] > 0)
+            least = fmin(least, -log2(r->peaks[k]) / k);
+    return least + r->log_aim * r->weights.inverse[r->p];
 }
 
 static qdot_status
@@ -224,7 +260,7 @@ begin(run *r, double t, const double *y)
     r->held = r->tol;
     r->log_aim = r->log_wanted;
     if (r->series->noise) {
-        r->held = fmin(1, fmax(r->tol, r->series->noise(r->series->user)));
+        r->held = smaller(1, larger(r->tol, r->series->noise(r->series->user)));
         if (r->held > r->tol)
             r->log_aim = fmax(r->log_aim, log2(r->held));
     }
@@ -286,17 +322,14 @@ length_of_step(run *r, double *h)
         double l, far;
 
         QDOT_TRY(expand(r));
-        find_peaks(r);
-        l = log_step(r, r->p / 2 + 1);
-        if (l < INFINITY)
-            l = log_step_of_rounding(r, l);
+        l = log_step(r);
         if (isnan(l)) { /* overflow, if the first orders exist */
             far = -10 - 40 * tries;
         } else {
-            *h = fabs(r->unit) * exp2(l);
+            *h = fabs(r->unit) * rough_exp2(l);
             keep_off(r, h);
             /* nothing there, or too small for a double: judge by what is */
-            far = l < INFINITY ? l : log_step(r, 1);
+            far = l < INFINITY ? l : log_step_of_all(r);
             if (!(fabs(far) > 8) || isinf(far))
                 return QDOT_OK;
         }
@@ -305,7 +338,7 @@ length_of_step(run *r, double *h)
                 return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
             return QDOT_OK;
         }
-        r->unit = ldexp(r->unit, (int)fmax(-300, fmin(300, floor(far))));
+        set_unit(r, ldexp(r->unit, (int)fmax(-300, fmin(300, floor(far)))));
         if (fabs(r->unit) < DBL_MIN || !isfinite(r->unit))
             return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
         QDOT_TRY(begin(r, r->t, r->y));
@@ -320,12 +353,13 @@ static bool
 confirms(const run *r, double h, double old_unit, double old_held)
 {
     const qdot_ode_series *series = r->series;
-    double steps = h / old_unit, now = h / r->unit;
-    double rounding = 64 * DBL_EPSILON, share = 10 * (r->p + 1) * fmax(r->held, old_held);
+    double steps = h / old_unit, now = h * r->per_unit;
+    double rounding = 64 * DBL_EPSILON;
+    double share = 10 * (r->p + 1) * larger(r->held, old_held);
 
     for (size_t i = series->checked; i < r->n; i++) {
         double f = series->x[i * series->stride + 1] * now, P = r->slope[i] * steps;
-        double size = fmax(1, fabs(r->next[i]));
+        double size = larger(1, fabs(r->next[i]));
 
         if (!(fabs(P - f) <=
               share * size + rounding * (fabs(P) + fabs(r->first[i] * steps) + size)))
@@ -344,13 +378,7 @@ confirms_inside(run *r, double h, bool *good)
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
-        double s = places[k] * h / r->unit;
-
-        r->kernels->tails(r->n, r->series->x, r->series->stride, r->p, s, r->value,
-                          r->slope);
-        add_series(r, s);
-        for (size_t i = 0; i < r->n; i++)
-            r->first[i] = r->series->x[i * r->series->stride + 1];
+        advance_state(r, r->p, places[k] * h / r->unit);
         status = begin(r, r->t + places[k] * h, r->next);
         if (status == QDOT_OK) {
             *good = confirms(r, h, old_unit, old_held);
@@ -396,7 +424,6 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     const bool fixed = r->options->h_fixed > 0;
     double moved;
     qdot_status status;
-    double s;
 
     *good = true;
     if (unsure && !fixed)
@@ -410,17 +437,12 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
         t_end = step.t_end;
         h = t_end - r->t;
     }
-    s = (t_end == r->t1 ? h + r->options->t1_low : h) / r->unit;
-    r->kernels->tails(r->n, r->series->x, r->series->stride, r->cut, s, r->value,
-                      r->slope);
-    add_series(r, s);
-    for (size_t i = r->series->checked; i < r->n; i++)
-        r->first[i] = r->series->x[i * r->series->stride + 1];
+    advance_state(r, r->cut, (t_end == r->t1 ? h + r->options->t1_low : h) * r->per_unit);
     QDOT_TRY(project(r, t_end, &moved));
     *good = fixed || moved <= 100 * r->held + rounding_of_projection;
     if (!*good)
         return QDOT_OK;
-    r->unit = unit_for(h);
+    set_unit(r, unit_for(h));
     status = begin(r, t_end, r->next);
     if (status == QDOT_OK)
         *good = fixed || confirms(r, h, old_unit, old_held);
@@ -485,7 +507,7 @@ advance(run *r)
             return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                              (unsigned long long)r->max_steps);
         if (tries > 0) { /* the series is another one's by now */
-            r->unit = r->direction * unit_for(most);
+            set_unit(r, r->direction * unit_for(most));
             status = begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
@@ -494,10 +516,10 @@ advance(run *r)
             if (r->options->h_fixed > 0)
                 h = r->options->h_fixed;
             unsure = isinf(h);
-            h = fmin(h, most);
+            h = smaller(h, most);
             end = end_of_step(r, h);
             h = r->direction * (end - r->t);
-            if (end != r->t1 && h < floor_of_step(r->t))
+            if (end != r->t1 && is_too_short(r->t, h))
                 return too_small(r);
             status = try_step(r, end - r->t, end, unsure, &good);
             if (status == QDOT_OK && good)
@@ -529,7 +551,7 @@ loop(run *r)
         return QDOT_OK;
     if (r->options->h_first > 0)
         r->unit = unit_for(r->options->h_first);
-    r->unit = r->direction * fabs(r->unit);
+    set_unit(r, r->direction * fabs(r->unit));
     status = begin(r, r->t, r->y);
     if (may_be_undefined(status)) {
         r->undefined = *qdot_last_error();
@@ -569,11 +591,10 @@ prepare(run *r, double t0, double t1, const double *y)
     memcpy(r->y, y, r->n * sizeof *y);
     if (r->options->carry)
         memcpy(r->carry, r->options->carry, r->n * sizeof *y);
-    for (int k = 1; k <= QDOT_SERIES_MOST; k++)
-        r->inverse[k] = 1.0 / k;
     r->log_wanted = log2(aim(r->tol));
     r->log_term = fmax(term_least, r->log_wanted + 53);
     r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->order_more);
+    qdot_series_weights_set(&r->weights, r->p, r->log_term);
     return QDOT_OK;
 }
 

@@ -58,10 +58,13 @@ store(qdot_trajectory *tr, double t, const double *y)
         qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g: the run takes more than 2 GB", t);
         return qdot_hint("a coarser tolerance or a shorter run needs fewer points");
     }
-    QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, wanted, sizeof *tr->t));
-    QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, wanted * tr->n, sizeof *tr->y));
+    if (wanted > tr->t_capacity)
+        QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, wanted, sizeof *tr->t));
+    if (wanted * tr->n > tr->y_capacity)
+        QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, wanted * tr->n, sizeof *tr->y));
     tr->t[tr->count] = t;
-    memcpy(tr->y + tr->count * tr->n, y, tr->n * sizeof *y);
+    for (size_t i = 0; i < tr->n; i++)
+        tr->y[tr->count * tr->n + i] = y[i];
     tr->count = wanted;
     return QDOT_OK;
 }

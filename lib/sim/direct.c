@@ -13,8 +13,8 @@ enum { most_order = 44 };
 
 /* An entry of M that moves: of row i, times the acceleration j. */
 typedef struct {
-    size_t i, j; /* within the block */
-    const double *M;
+    size_t i; /* within the block */
+    const double *M, *a;
 } coupling;
 
 typedef struct {
@@ -41,6 +41,43 @@ struct qdot_direct {
     double inverse[most_order + 2];
 };
 
+/* f_k of a block less what M of orders above 0 takes of it. */
+static void
+right_hand_side(const qdot_direct *e, size_t b, int k)
+{
+    const qdot_plan_block *block = e->plan->blocks + b;
+    const block_series *s = e->blocks + b;
+    double *x = e->solvers.at[b].x;
+
+    for (size_t i = 0; i < block->n; i++)
+        x[i] = s->f[i][k];
+    if (k > 0 && s->n_couplings > 0) {
+        qdot_series_dot *dot = e->kernels->dot[k];
+
+        for (size_t c = 0; c < s->n_couplings; c++) {
+            const coupling *m = s->couplings + c;
+
+            x[m->i] -= dot(m->M + 1, m->a + k - 1);
+        }
+    }
+}
+
+static qdot_status
+factor(qdot_direct *e, size_t b)
+{
+    const block_series *s = e->blocks + b;
+    size_t n = e->plan->blocks[b].n;
+    double *to = e->solvers.at[b].a;
+    size_t at = 0;
+
+    if (!s->M)
+        return QDOT_OK;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++)
+            to[i * n + j] = s->M[at++][0];
+    return qdot_blocks_factor(&e->solvers, b);
+}
+
 /* a_k of every coordinate, orders below k being there. */
 static qdot_status
 accelerations(qdot_direct *e, int k)
@@ -50,47 +87,35 @@ accelerations(qdot_direct *e, int k)
     qdot_taylor_order(e->taylor, k);
     for (size_t b = 0; b < p->structure.blocks; b++) {
         const qdot_plan_block *block = p->blocks + b;
-        const block_series *s = e->blocks + b;
-        double *x = e->solvers.at[b].x;
+        const double *x = e->solvers.at[b].x;
 
         if (block->n == 1)
             continue;
-        for (size_t i = 0; i < block->n; i++)
-            x[i] = s->f[i][k];
-        if (k == 0 && s->M) {
-            double *to = e->solvers.at[b].a;
-            size_t at = 0;
-
-            for (size_t i = 0; i < block->n; i++)
-                for (size_t j = 0; j <= i; j++)
-                    to[i * block->n + j] = s->M[at++][0];
-            QDOT_TRY(qdot_blocks_factor(&e->solvers, b));
-        }
-        for (size_t c = 0; k > 0 && c < s->n_couplings; c++) {
-            const coupling *m = s->couplings + c;
-            x[m->i] -= e->kernels->dot[k](m->M + 1, e->a[block->index[m->j]] + k - 1);
-        }
-        if (k == 0)
+        right_hand_side(e, b, k);
+        if (k == 0) {
+            QDOT_TRY(factor(e, b));
             qdot_blocks_solve(&e->solvers, b);
-        else
+        } else {
             qdot_blocks_apply(&e->solvers, b);
+        }
         for (size_t i = 0; i < block->n; i++)
             e->solved[block->index[i] * e->stride + (size_t)k] = x[i];
     }
     return QDOT_OK;
 }
 
-/* Orders k + 1 of velocities and coordinates. */
+/* Order k + 1 of velocities and, an order before they are wanted, k + 2 of coordinates. */
 static void
 integrate(qdot_direct *e, int k)
 {
-    double factor = e->unit * e->inverse[k + 1];
+    const double once = e->unit * e->inverse[k + 1];
+    const double twice = once * (e->unit * e->inverse[k + 2]);
 
     for (size_t i = 0; i < e->plan->n; i++) {
-        size_t at = i * e->stride + (size_t)k;
+        const double a = e->a[i][k];
 
-        e->q[at + 1] = factor * e->v[at];
-        e->v[at + 1] = factor * e->a[i][k];
+        e->v[i * e->stride + (size_t)k + 1] = once * a;
+        e->q[i * e->stride + (size_t)k + 2] = twice * a;
     }
 }
 
@@ -103,13 +128,14 @@ begin(double t, const double *y, double unit, void *user)
     e->unit = unit;
     for (size_t i = 0; i < n; i++) {
         e->q[i * e->stride] = y[i];
+        e->q[i * e->stride + 1] = unit * y[n + i];
         e->v[i * e->stride] = y[n + i];
     }
     e->t[0] = t;
     e->t[1] = unit;
     qdot_taylor_draw(e->taylor, t);
     if (e->diagonal) {
-        qdot_taylor_integrate(e->taylor, unit, 0, 0);
+        qdot_taylor_begin(e->taylor, unit);
     } else {
         QDOT_TRY(accelerations(e, 0));
         integrate(e, 0);
@@ -127,7 +153,7 @@ extend(int p, void *user)
     qdot_direct *e = user;
 
     if (e->diagonal) {
-        qdot_taylor_integrate(e->taylor, e->unit, 1, p - 1);
+        qdot_taylor_extend(e->taylor, 1, p - 1);
         return QDOT_OK;
     }
     for (size_t b = 0; b < e->plan->structure.blocks; b++)
@@ -172,9 +198,11 @@ find_outputs(qdot_direct *e, size_t count)
             for (size_t j = 0; j <= i; j++, at++) {
                 if (qdot_taylor_is_constant(e->taylor, at))
                     continue;
-                s->couplings[s->n_couplings++] = (coupling){i, j, e->outputs[at]};
+                s->couplings[s->n_couplings++] =
+                    (coupling){i, e->outputs[at], e->a[block->index[j]]};
                 if (i != j)
-                    s->couplings[s->n_couplings++] = (coupling){j, i, e->outputs[at]};
+                    s->couplings[s->n_couplings++] =
+                        (coupling){j, e->outputs[at], e->a[block->index[i]]};
             }
     }
     return QDOT_OK;
@@ -227,10 +255,8 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
                 qdot_blocks_invert(&e->solvers, b);
         }
     QDOT_TRY(find_outputs(e, outputs));
-    for (size_t i = 0; i < p->n && e->diagonal; i++) {
-        QDOT_TRY(qdot_taylor_link(e->taylor, i, e->v + i * e->stride));
-        QDOT_TRY(qdot_taylor_link(e->taylor, p->n + i, e->a[i]));
-    }
+    for (size_t i = 0; i < p->n && e->diagonal; i++)
+        QDOT_TRY(qdot_taylor_link(e->taylor, p->n + i, i, e->a[i]));
     for (int k = 1; k < most_order + 2; k++)
         e->inverse[k] = 1.0 / k;
     e->series = (qdot_ode_series){.most = most_order - 4,

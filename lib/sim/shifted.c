@@ -32,6 +32,7 @@ struct qdot_shifted {
     size_t stride, forces_stride;
 
     const double **d;        /* [functions] series of the differences */
+    const double **applied;  /* [n] series of Q; NULL: zero */
     double *x, *F;           /* [functions] unit^2 x'', unit^2 F of the order at hand */
     size_t rows;             /* functions, filled up to full vectors */
     double *W;               /* [rows x functions] F = W d''; NULL: by the tree */
@@ -39,8 +40,10 @@ struct qdot_shifted {
     const double **slope;    /* [n_slopes] series */
     double *J;               /* [orders x members] their coefficients, by order */
     double *Fs;              /* [orders x members] F of each slope's function */
+    bool one_each;           /* a slope a function, in their order: Fs is F */
     double *products;        /* [members] */
-    double *R;               /* [n] */
+    double *R;               /* [n], filled up to full vectors */
+    bool whole;              /* one block holds all coordinates, in their order */
     double *in, *out, *work; /* of `masses` */
 };
 
@@ -48,60 +51,49 @@ struct qdot_shifted {
 
 /* F from the second derivatives of the differences, in x: down the tree and up again. */
 static void
-gather_forces(const qdot_shifted *s)
+gather_forces(const qdot_shifted *s, double *F)
 {
     const qdot_residual *r = s->residual;
 
     for (size_t f = 0; f < r->functions; f++) {
         if (r->parent[f] != UINT32_MAX)
             s->x[f] += s->x[r->parent[f]];
-        s->F[f] = 0;
+        F[f] = 0;
     }
     for (size_t w = 0; w < r->n_weights; w++)
-        s->F[r->weights[w].to] += s->weight[w] * s->x[r->weights[w].from];
+        F[r->weights[w].to] += s->weight[w] * s->x[r->weights[w].from];
     for (size_t f = r->functions; f-- > 0;)
         if (r->parent[f] != UINT32_MAX)
-            s->F[r->parent[f]] += s->F[f];
+            F[r->parent[f]] += F[f];
 }
 
 /* F of order k from coefficients k + 2 of the differences. */
 static void
-accelerate(qdot_shifted *s, int k)
+accelerate(const qdot_shifted *s, int k)
 {
     const qdot_residual *r = s->residual;
     const double factor = (k + 1) * (k + 2);
-    double *Fs = s->Fs + (size_t)k * s->members;
+    double *Fs = s->Fs + (size_t)k * s->members, *F = s->one_each ? Fs : s->F;
 
     for (size_t f = 0; f < r->functions; f++)
         s->x[f] = factor * s->d[f][k + 2];
     if (s->W)
-        s->kernels->multiply(s->rows, r->functions, s->W, s->x, s->F);
+        s->kernels->multiply(s->rows, r->functions, s->W, s->x, F);
     else
-        gather_forces(s);
-    for (size_t j = 0; j < r->n_slopes; j++)
-        Fs[j] = s->F[r->slopes[j].function];
+        gather_forces(s, F);
+    for (size_t j = 0; j < r->n_slopes && !s->one_each; j++)
+        Fs[j] = F[r->slopes[j].function];
 }
 
 /* Coefficient k of the slopes, by member. */
 static void
-take_slopes(qdot_shifted *s, int k)
+take_slopes(const qdot_shifted *s, int k)
 {
+    const double *const *slope = s->slope;
     double *J = s->J + (size_t)k * s->members;
 
     for (size_t j = 0; j < s->residual->n_slopes; j++)
-        J[j] = s->slope[j][k];
-}
-
-static double
-applied(const qdot_shifted *s, size_t i, int k)
-{
-    uint32_t at = s->residual->force[i];
-
-    if (at == UINT32_MAX)
-        return 0;
-    if (at & QDOT_RESIDUAL_FORCES)
-        return qdot_taylor_output(s->forces, at ^ QDOT_RESIDUAL_FORCES)[k];
-    return qdot_taylor_output(s->places, at)[k];
+        J[j] = slope[j][k];
 }
 
 /* Order k of the forces that hold velocities. */
@@ -117,19 +109,12 @@ evaluate_forces(qdot_shifted *s, int k)
     qdot_taylor_order(s->forces, k);
 }
 
-/* -R, order k, then unit^2 q'' in its place. */
+/* unit^2 q'' of the blocks from -R, in its place. */
 static void
-solve(qdot_shifted *s, int k)
+solve_blocks(const qdot_shifted *s, int k)
 {
     const qdot_plan *p = s->plan;
-    const qdot_residual *r = s->residual;
 
-    s->kernels->dots(s->members, (size_t)k + 1, s->J, s->Fs + (size_t)k * s->members,
-                     s->products);
-    for (size_t i = 0; i < p->n; i++)
-        s->R[i] = s->force_scale * applied(s, i, k);
-    for (size_t j = 0; j < r->n_slopes; j++)
-        s->R[r->slopes[j].coordinate] -= s->products[j];
     for (size_t b = 0; b < p->structure.blocks; b++) {
         const qdot_plan_block *block = p->blocks + b;
         double *x = s->solvers.at[b].x;
@@ -149,6 +134,29 @@ solve(qdot_shifted *s, int k)
     }
 }
 
+/* unit^2 q'' of order k; where it is left. */
+static const double *
+solve(const qdot_shifted *s, int k)
+{
+    const qdot_solver *all = s->solvers.at;
+    const qdot_residual *r = s->residual;
+    const size_t n = s->plan->n;
+    double *R = s->R;
+
+    s->kernels->dots(s->members, (size_t)k + 1, s->J, s->Fs + (size_t)k * s->members,
+                     s->products);
+    for (size_t i = 0; i < n; i++)
+        R[i] = s->applied[i] ? s->force_scale * s->applied[i][k] : 0;
+    for (size_t j = 0; j < r->n_slopes; j++)
+        R[r->slopes[j].coordinate] -= s->products[j];
+    if (s->whole && k > 0) {
+        s->kernels->multiply(all->m, n, all->inverse, R, all->lower);
+        return all->lower;
+    }
+    solve_blocks(s, k);
+    return R;
+}
+
 /* Coefficients m >= 2 of q and m - 1 of v. */
 static void
 order(qdot_shifted *s, int m)
@@ -156,15 +164,16 @@ order(qdot_shifted *s, int m)
     const size_t n = s->plan->n;
     const int k = m - 2;
     const double inverse = 1.0 / (m * (m - 1)), per_unit = m / s->unit;
+    const double *a;
 
     for (size_t i = 0; i < n; i++)
         s->q[i * s->stride + (size_t)m] = 0;
     qdot_taylor_order(s->places, m);
     evaluate_forces(s, k);
     accelerate(s, k);
-    solve(s, k);
+    a = solve(s, k);
     for (size_t i = 0; i < n; i++)
-        s->R[i] *= inverse;
+        s->R[i] = inverse * a[i];
     qdot_taylor_correct(s->places, m, s->R);
     accelerate(s, k);
     take_slopes(s, m);
@@ -287,6 +296,16 @@ estimate_cost(qdot_shifted *s)
     }
 }
 
+static const double *
+applied(const qdot_shifted *s, uint32_t at)
+{
+    if (at == UINT32_MAX)
+        return NULL;
+    if (at & QDOT_RESIDUAL_FORCES)
+        return qdot_taylor_output(s->forces, at ^ QDOT_RESIDUAL_FORCES);
+    return qdot_taylor_output(s->places, at);
+}
+
 /* W by its columns: what the tree makes of unit vectors. */
 static qdot_status
 multiply_out(qdot_shifted *s)
@@ -301,7 +320,7 @@ multiply_out(qdot_shifted *s)
     for (size_t f = 0; f < n; f++) {
         memset(s->x, 0, n * sizeof *s->x);
         s->x[f] = 1;
-        gather_forces(s);
+        gather_forces(s, s->F);
         memcpy(s->W + f * s->rows, s->F, n * sizeof *s->F);
     }
     return QDOT_OK;
@@ -333,11 +352,12 @@ make(qdot_shifted *s, bool shaken)
     s->Fs = qdot_calloc(orders * s->members + 1, sizeof *s->Fs);
     s->products = qdot_calloc(s->members + 1, sizeof *s->products);
     s->R = qdot_calloc(p->n, sizeof *s->R);
+    s->applied = qdot_calloc(p->n, sizeof *s->applied);
     s->in = qdot_calloc(2 * p->n + 1, sizeof *s->in);
     s->out = qdot_calloc(qdot_tape_outputs(r->masses) + 1, sizeof *s->out);
     s->work = qdot_calloc(qdot_tape_work(r->masses) + 1, sizeof *s->work);
     if (!s->weight || !s->d || !s->x || !s->F || !s->slope || !s->J || !s->Fs ||
-        !s->products || !s->R || !s->in || !s->out || !s->work)
+        !s->products || !s->R || !s->applied || !s->in || !s->out || !s->work)
         return QDOT_ENOMEM;
     for (size_t w = 0; w < r->n_weights; w++)
         s->weight[w] = shaken ? qdot_shake_double(r->weights[w].w, r->weights[w].side)
@@ -346,6 +366,14 @@ make(qdot_shifted *s, bool shaken)
         s->d[f] = qdot_taylor_output(s->places, f);
     for (size_t j = 0; j < r->n_slopes; j++)
         s->slope[j] = qdot_taylor_output(s->places, r->slopes[j].output);
+    for (size_t i = 0; i < p->n; i++)
+        s->applied[i] = applied(s, r->force[i]);
+    s->one_each = r->n_slopes == r->functions;
+    for (size_t j = 0; j < r->n_slopes; j++)
+        s->one_each = s->one_each && r->slopes[j].function == j;
+    s->whole = p->structure.blocks == 1 && s->solvers.at->inverse;
+    for (size_t i = 0; i < p->n; i++)
+        s->whole = s->whole && p->blocks->index[i] == i;
     QDOT_TRY(multiply_out(s));
     s->series = (qdot_ode_series){.most = most_order - 4,
                                   .x = s->q,
@@ -400,6 +428,7 @@ qdot_shifted_free(qdot_shifted *s)
     qdot_free(s->Fs);
     qdot_free(s->products);
     qdot_free(s->R);
+    qdot_free(s->applied);
     qdot_free(s->in);
     qdot_free(s->out);
     qdot_free(s->work);

@@ -71,8 +71,14 @@ value_of_zero(qdot_taylor_step *i)
             X(29) X(30) X(31) X(32) X(33) X(34) X(35) X(36) X(37) X(38) X(39) X(40)      \
                 X(41) X(42) X(43) X(44) X(45) X(46) X(47) X(48)
 
-/* Order k of a program, k known to the compiler. */
-typedef void order_function(const qdot_taylor *t);
+#define STEPS(X, k)                                                                      \
+    X(NEG, k) X(ADD, k) X(SUB, k) X(SCALE, k) X(SCALEADD, k) X(SCALESUB, k)              \
+        X(SCALEOFF, k) X(MUL, k) X(SQUARE, k) X(MADD, k) X(MSUB, k) X(NMADD, k)          \
+            X(DIV, k) X(SQRT, k) X(SINCOS, k) X(SINHCOSH, k) X(EXP, k) X(POW, k)         \
+                X(RATIO, k) X(TANH, k) X(ATAN2, k) X(LINK, k)
+
+/* A step of a program, its order known to the compiler. */
+typedef void step_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
 
 #define NAME(x) portable_##x
 #define MA(a, b, c) ((a) * (b) + (c))
@@ -92,52 +98,76 @@ typedef void order_function(const qdot_taylor *t);
 #pragma GCC pop_options
 #endif
 
-static order_function *const *
-orders(void)
+static step_function *const (*functions(void))[QDOT_T_COUNT]
 {
 #ifdef X86_KINDS
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return fma_orders;
+        return fma_steps;
 #endif
-    return portable_orders;
+    return portable_steps;
 }
 
 static void
 order_zero(const qdot_taylor *t)
 {
-    for (qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++)
-        value_of_zero(s);
+    for (size_t i = 0; i < t->length; i++)
+        value_of_zero(t->steps + i);
+}
+
+/* Order k of the first n steps, of an order's functions. */
+static inline void
+order(const qdot_taylor *t, size_t n, step_function *const *function)
+{
+    const qdot_series_kernels *kernels = t->kernels;
+    qdot_taylor_step *s = t->steps, *const end = s + n;
+
+    while (s < end) {
+        function[s->op](s, kernels);
+        s++;
+    }
 }
 
 void
 qdot_taylor_order(qdot_taylor *t, int k)
 {
     if (k > 0) {
-        orders()[k](t);
+        order(t, t->length, functions()[k]);
         return;
     }
     order_zero(t);
     qdot_taylor_changes_stale(t);
 }
 
-void
-qdot_taylor_integrate(qdot_taylor *t, double unit, int from, int to)
+/* Of inputs that are integrals, what order 0 gives; and the unit for the others. */
+static void
+link_zero(const qdot_taylor *t, double unit)
 {
-    order_function *const *order = orders();
+    for (size_t l = 0; l < t->n_links; l++) {
+        qdot_taylor_step *link = t->steps + t->length + l;
+        const double first = unit * link->x[0];
 
-    if (unit != t->unit) {
-        t->unit = unit;
-        for (int k = 1; k <= QDOT_SERIES_MOST; k++)
-            t->factor[k] = unit * t->inverse[k];
+        link->c = unit;
+        link->to[1] = first;
+        if (link->second) {
+            link->second[1] = unit * link->to[0];
+            link->second[2] = 0.5 * unit * first;
+        }
     }
-    for (int k = from; k <= to; k++) {
-        const double factor = t->factor[k + 1];
+}
 
-        if (k == 0)
-            order_zero(t);
-        else
-            order[k](t);
-        for (size_t l = 0; l < t->n_links; l++)
-            t->links[l].to[k + 1] = factor * t->links[l].from[k];
-    }
+void
+qdot_taylor_begin(qdot_taylor *t, double unit)
+{
+    order_zero(t);
+    link_zero(t, unit);
+}
+
+void
+qdot_taylor_extend(qdot_taylor *t, int from, int to)
+{
+    step_function *const (*const function)[QDOT_T_COUNT] = functions();
+    const size_t n = t->length + t->n_links;
+
+    for (int k = from; k <= to; k++)
+        order(t, n, function[k]);
 }

@@ -30,6 +30,7 @@ typedef enum {
     QDOT_T_POW,   /* d: j x_j; z: the exponent, a constant */
     QDOT_T_RATIO, /* l' = +-x'/y; d: j l_j; sign in `sign` */
     QDOT_T_TANH,  /* second: 1 - to^2; d: j x_j */
+    QDOT_T_LINK,  /* to' = unit x, second' = unit to (NULL: none); c: the unit */
     QDOT_T_ATAN2, /* y: its second argument, z: x^2 + y^2; d, second, third: j l_j,
                 j x_j, j y_j */
     QDOT_T_COUNT
@@ -56,12 +57,6 @@ struct qdot_taylor_drawn {
 /* A number in [0, 1) for draw i of the stretch that begins at t, always the same one. */
 double qdot_taylor_chance(double t, size_t i);
 
-/* to' = unit from */
-struct qdot_taylor_link {
-    double *to;
-    const double *from;
-};
-
 struct qdot_taylor {
     const qdot_series_kernels *kernels;
     size_t stride, inputs, outputs, rows;
@@ -69,14 +64,10 @@ struct qdot_taylor {
     double *coefficients;     /* [rows x stride], the inputs first */
     const double **output;    /* [outputs] rows */
     bool *constant;           /* [outputs] */
-    qdot_taylor_step *steps;              /* [length], QDOT_T_END behind them */
-    size_t length;
+    qdot_taylor_step *steps; /* [length + n_links], then QDOT_T_END */
+    size_t length, n_links;
     struct qdot_taylor_drawn *drawn; /* [n_drawn] */
     size_t n_drawn;
-    double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
-    struct qdot_taylor_link *links; /* [n_links] */
-    size_t n_links;
-    double unit, factor[QDOT_SERIES_MOST + 1]; /* unit/k */
     struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */
 };
 

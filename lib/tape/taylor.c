@@ -378,8 +378,6 @@ settle(qdot_taylor *t, const builder *b, int most)
                 (struct qdot_taylor_drawn){t->coefficients + (t->inputs + i) * t->stride,
                                            near, far, tape->low[i] / (far - near)};
         }
-    for (int k = 1; k <= QDOT_SERIES_MOST; k++)
-        t->inverse[k] = 1.0 / k;
     t->kernels = qdot_series_kernels_get();
     return QDOT_OK;
 }
@@ -441,18 +439,23 @@ qdot_taylor_free(qdot_taylor *t)
     qdot_free(t->constant);
     qdot_free(t->steps);
     qdot_free(t->drawn);
-    qdot_free(t->links);
     qdot_free(t);
 }
 
 qdot_status
-qdot_taylor_link(qdot_taylor *t, size_t i, const double *from)
+qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
 {
-    size_t capacity = t->n_links;
+    size_t capacity = t->length + t->n_links + 1;
+    qdot_taylor_step *link;
 
-    QDOT_TRY(qdot_grow(&t->links, &capacity, t->n_links + 1, sizeof *t->links));
-    t->links[t->n_links++] =
-        (struct qdot_taylor_link){t->coefficients + i * t->stride, from};
+    QDOT_TRY(qdot_grow(&t->steps, &capacity, capacity + 1, sizeof *t->steps));
+    link = t->steps + t->length + t->n_links++;
+    link[1] = link[0];
+    *link = (qdot_taylor_step){
+        .op = QDOT_T_LINK,
+        .to = t->coefficients + i * t->stride,
+        .second = twice != SIZE_MAX ? t->coefficients + twice * t->stride : NULL,
+        .x = from};
     return QDOT_OK;
 }
 

@@ -69,14 +69,16 @@ void qdot_taylor_draw(qdot_taylor *taylor, double t);
 void qdot_taylor_order(qdot_taylor *taylor, int k);
 
 /* Input i is the integral of `from`, a row of coefficients, over time: its order k + 1 is
- * unit/(k + 1) times order k of that. A row may be another input's. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i,
+ * unit/(k + 1) times order k of that. Input `twice` (SIZE_MAX: none) is the integral of
+ * input i; its order k + 2 is there with k + 1 of that, an order before it is wanted. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size_t twice,
                                              const double *from);
 
-/* Orders `from` to `to` of all that is computed, each followed by the next one of the
- * inputs that are linked, in the order in which they were; `to` below the program's
- * highest. */
-void qdot_taylor_integrate(qdot_taylor *taylor, double unit, int from, int to);
+/* Order 0 of all that is computed, and what is linked. Then orders `from` to `to`, each
+ * followed by what is linked to it in the order in which it was; `to` below the program's
+ * highest but one. */
+void qdot_taylor_begin(qdot_taylor *taylor, double unit);
+void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
 
 /* The first n inputs will have their newest coefficients corrected. kept [outputs]: whether
  * an output is read after that, NULL: all are; of the others only what further orders

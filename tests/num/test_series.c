@@ -147,11 +147,92 @@ peaks_are_the_largest_and_lose_nothing(void **state)
     }
 }
 
+/* What a step reads off a series, with zeros in a pattern, and what is not finite. */
+static void
+reach_is_the_least_of_its_half(void **state)
+{
+    enum { n = 3, stride = 24, p = 17 };
+    double x[n * stride], scale[n] = {1, 0.25, 2};
+    qdot_series_weights w;
+    qdot_series_reach got;
+
+    (void)state;
+    qdot_series_weights_set(&w, p, -1);
+    for (size_t kind = 0; qdot_series_kernels_at(kind); kind++) {
+        const qdot_series_kernels *kernels = qdot_series_kernels_at(kind);
+        double upper = INFINITY, lower = INFINITY;
+
+        for (size_t i = 0; i < n * stride; i++)
+            x[i] = i % stride % 4 == 1 ? exp(20 * sin(7.0 * (double)i)) : 0;
+        x[p + 1] = NAN; /* beyond what counts */
+        x[0] = x[1] = 1e300;
+        for (int k = 2; k <= p; k++) {
+            double most = 0;
+
+            for (int i = 0; i < n; i++)
+                most = fmax(most, scale[i] * fabs(x[i * stride + k]));
+            if (most > 0 && k > p / 2)
+                upper = fmin(upper, -log2(most) / k);
+            if (most > 0 && k <= p / 2)
+                lower = fmin(lower, (-1 - log2(most)) / k);
+        }
+        got = kernels->reach(n, x, stride, &w, scale);
+        assert_true(fabs(got.upper - upper) < 0.09 / (p / 2));
+        assert_true(fabs(got.lower - lower) < 0.09 / 2);
+        for (size_t i = 0; i < n; i++)
+            for (int k = p / 2 + 1; k <= p; k++)
+                x[i * stride + (size_t)k] = 0;
+        assert_true(kernels->reach(n, x, stride, &w, scale).upper == INFINITY);
+        x[stride + p] = NAN;
+        assert_true(kernels->reach(n, x, stride, &w, scale).upper == -INFINITY);
+        x[stride + p] = INFINITY;
+        assert_true(kernels->reach(n, x, stride, &w, scale).upper == -INFINITY);
+    }
+}
+
+/* A state in two doubles, advanced: to twice the precision in its first order. */
+static void
+states_are_advanced_in_two_doubles(void **state)
+{
+    enum { n = 6, stride = 24, p = 15 };
+    double x[n * stride], y[n], carry[n], next[n], low[n], value[n], slope[n];
+    qdot_series_step step = {n, 2, x, stride, p, 0.3, 4, y, carry, next, low, value, slope};
+
+    (void)state;
+    for (size_t i = 0; i < n * stride; i++)
+        x[i] = some(i) * pow(0.01, (double)(i % stride) - 1);
+    for (size_t i = 0; i < n; i++) {
+        y[i] = some(50 + i);
+        carry[i] = 0x1p-55 * some(60 + i);
+    }
+    for (size_t kind = 0; qdot_series_kernels_at(kind); kind++) {
+        qdot_series_kernels_at(kind)->advance(&step);
+        for (size_t i = 0; i < n; i++) {
+            long double sum = (long double)y[i] + carry[i], d = 0, power = 1;
+
+            if (i < 2)
+                sum += step.s * step.unit * (long double)carry[2 + i];
+            for (size_t k = 1; k <= p; k++) {
+                d += (long double)k * x[i * stride + k] * power;
+                power *= step.s;
+                sum += x[i * stride + k] * power;
+            }
+            if (!(fabsl(next[i] - sum + low[i]) < 0x1p-60L))
+                fail_msg("%zu: off by %.3Lg", i, next[i] - sum + low[i]);
+            assert_true(fabs(low[i]) <= 0x1p-53 * fabs(next[i]));
+            if (i >= 2)
+                close_to(slope[i], d, 2, "slope", i);
+        }
+    }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(peaks_are_the_largest_and_lose_nothing),
+        cmocka_unit_test(reach_is_the_least_of_its_half),
+        cmocka_unit_test(states_are_advanced_in_two_doubles),
         cmocka_unit_test(products_of_series_are_sums_of_products),
         cmocka_unit_test(members_are_taken_one_by_one),
         cmocka_unit_test(tails_are_values_and_slopes),
