@@ -193,6 +193,13 @@ pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
     return QDOT_OK;
 }
 
+/* A second root that rounding finds beside the zero at the start is that zero. */
+static bool
+is_start_again(const qdot_watch_part *p, double t)
+{
+    return p->from_zero && fabs(t - p->a) <= 0x1p-40 * fabs(p->b - p->a);
+}
+
 qdot_status
 qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p,
                  size_t i)
@@ -224,7 +231,7 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
         if (e + 1 < n && there != 0)
             QDOT_TRY(is_touch(w, k, p, i, x[e], v, &touch));
         if (touch || (e + 1 < n && there == 0)) {
-            if (sign != 0)
+            if (sign != 0 && !is_start_again(p, to))
                 QDOT_TRY(qdot_watch_push(w, (qdot_root){i, to, 0, fabs(v)}));
             continue;
         }
@@ -232,7 +239,8 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
             double guess = qdot_watch_time(p, between(p, x_from, x[e], there));
 
             QDOT_TRY(locate(w, k, i, there, from, to, guess, &root));
-            QDOT_TRY(qdot_watch_push(w, root));
+            if (!is_start_again(p, root.t))
+                QDOT_TRY(qdot_watch_push(w, root));
         }
         sign = there != 0 ? there : sign;
         from = to;
