@@ -8,9 +8,6 @@
 #include "num/series.h"
 #include "tape/shake.h"
 
-/* So few rows are done before vectors are loaded. */
-enum { most_by_hand = 3 };
-
 qdot_status
 qdot_blocks_singular(const qdot_plan *plan, const qdot_plan_block *block, size_t row)
 {
@@ -93,17 +90,11 @@ qdot_blocks_apply(const qdot_blocks *b, size_t k)
         qdot_blocks_solve(b, k);
         return;
     }
-    if (n <= most_by_hand) {
-        double x[most_by_hand];
+    if (n == 2) { /* done before vectors are loaded */
+        const double *w = s->inverse, u = s->x[0], v = s->x[1];
 
-        memcpy(x, s->x, n * sizeof *x);
-        for (size_t i = 0; i < n; i++) {
-            double sum = s->inverse[i] * x[0];
-
-            for (size_t j = 1; j < n; j++)
-                sum += s->inverse[j * s->m + i] * x[j];
-            s->x[i] = sum;
-        }
+        s->x[0] = w[0] * u + w[s->m] * v;
+        s->x[1] = w[1] * u + w[s->m + 1] * v;
         return;
     }
     qdot_series_kernels_get()->multiply(s->m, n, s->inverse, s->x, s->lower);

@@ -42,7 +42,7 @@ struct qdot_shifted {
     double *Fs;              /* [orders x members] F of each slope's function */
     bool one_each;           /* a slope a function, in their order: Fs is F */
     double *products;        /* [members] */
-    double *R;               /* [n], filled up to full vectors */
+    double *R;               /* [n] */
     bool whole;              /* one block holds all coordinates, in their order */
     double *in, *out, *work; /* of `masses` */
 };
