@@ -671,7 +671,9 @@ script_tests = \
 	tests/bad/set-circle.lag \
 	tests/bad/set-coordinate.lag \
 	tests/bad/set-domain.lag \
+	tests/bad/set-function-motion.lag \
 	tests/bad/show-unknown.lag \
+	tests/bad/singular-euler.lag \
 	tests/bad/singular-mass.lag \
 	tests/bad/solve-beyond.lag \
 	tests/bad/solve-for-sum.lag \
@@ -868,7 +870,9 @@ test_files = \
 	tests/bad/set-circle.out \
 	tests/bad/set-coordinate.out \
 	tests/bad/set-domain.out \
+	tests/bad/set-function-motion.out \
 	tests/bad/show-unknown.out \
+	tests/bad/singular-euler.out \
 	tests/bad/singular-mass.out \
 	tests/bad/solve-beyond.out \
 	tests/bad/solve-for-sum.out \

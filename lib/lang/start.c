@@ -58,6 +58,27 @@ qdot_number_read_parameter(qdot_cursor *c, qdot_expr *symbol)
                                            : qdot_hint("%s = ... names it anew", name);
 }
 
+static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
+                               QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |
+                               QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
+
+/* A value that depended on the motion behind the back of its arguments would be missing
+ * from every derivative. */
+static qdot_status
+check_body(qdot_pool *pool, qdot_expr formals, qdot_expr body)
+{
+    uint32_t own = 0;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, formals); i++)
+        own |= qdot_expr_node(pool, qdot_expr_arg(pool, formals, i))->holds;
+    if (!(qdot_expr_node(pool, body)->holds & (motion | QDOT_HAS_TIME) & ~own))
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ETYPE,
+                    "the value of a function holds its arguments and parameters only");
+    return qdot_hint("declare it with what it depends on, as in function f(x, t)");
+}
+
 /* x(s, t) as the symbol; the body with s, t in place of the names it was given with. */
 static qdot_status
 in_declared_arguments(qdot_pool *pool, uint32_t id, qdot_expr formals, qdot_expr *symbol,
@@ -110,6 +131,10 @@ read_function(qdot_cursor *c, qdot_expr *symbol, qdot_expr *body)
         status = qdot_cursor_expect_op(c, "=");
     if (status == QDOT_OK)
         status = qdot_declare_read_body(c, formals, n, names, body);
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = check_body(pool, formals, *body);
+    }
     if (status == QDOT_OK) /* said in the arguments of its declaration */
         status = in_declared_arguments(pool, id, formals, symbol, body);
     qdot_free(names);
@@ -151,10 +176,6 @@ qdot_number_without_measured(qdot_session *session, qdot_expr e)
     }
     return e;
 }
-
-static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
-                               QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |
-                               QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
 
 /* `= VALUE`, an expression of parameters. */
 qdot_status

@@ -11,8 +11,15 @@
 qdot_status
 qdot_blocks_singular(const qdot_plan *plan, const qdot_plan_block *block, size_t row)
 {
-    return qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular: no mass moves with %s",
-                     plan->names[block->index[row]]);
+    const char *name = plan->names[block->index[row]];
+
+    if (row == 0)
+        return qdot_fail(QDOT_ESINGULAR,
+                         "the mass matrix is singular: no mass moves with %s", name);
+    return qdot_fail(QDOT_ESINGULAR,
+                     "the mass matrix is singular: %s moves no mass that %s%s not move already",
+                     name, row == 1 ? plan->names[block->index[0]] : "the coordinates before it",
+                     row == 1 ? " does" : " do");
 }
 
 qdot_status
