@@ -598,6 +598,7 @@ script_tests = \
 	tests/bad/digits-outside.lag \
 	tests/bad/digits-switch.lag \
 	tests/bad/digits-tol.lag \
+	tests/bad/digits-treatment.lag \
 	tests/bad/digits-unset.lag \
 	tests/bad/dimensions.lag \
 	tests/bad/division-symbolic.lag \
@@ -797,6 +798,7 @@ test_files = \
 	tests/bad/digits-outside.out \
 	tests/bad/digits-switch.out \
 	tests/bad/digits-tol.out \
+	tests/bad/digits-treatment.out \
 	tests/bad/digits-unset.out \
 	tests/bad/dimensions.out \
 	tests/bad/division-symbolic.out \

@@ -170,14 +170,14 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
     if (isfinite(r->constraint_drift)) {
         qdot_text_add(line, "error ");
         qdot_answer_bound(line, r->constraint_drift);
-        if (r->velocity_drift != r->constraint_drift) {
+        if (isfinite(r->velocity_drift) && r->velocity_drift != r->constraint_drift) {
             qdot_text_add(line, ", of velocities ");
             qdot_answer_bound(line, r->velocity_drift);
         }
         qdot_text_add(line, "; ");
     }
-    qdot_text_add(line, done[r->treatment]);
-    if (r->treatment == QDOT_RUN_PROJECT) {
+    qdot_text_add(line, r->digits > 0 ? "covered by guard digits" : done[r->treatment]);
+    if (r->treatment == QDOT_RUN_PROJECT && r->digits == 0) {
         qdot_text_char(line, ' ');
         counted(line, r->projections, "step");
     }

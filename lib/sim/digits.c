@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "sim/constraints.h"
 #include "sim/failure.h"
 #include "sim/precise.h"
 
@@ -38,6 +39,51 @@ how_it_ended(qdot_run *run, const qdot_domains *domains)
     snprintf(reason, sizeof reason, "%.100s left its domain %.200s at t = %.15g",
              run->plan->names[domains->left->coordinate], domains->left->text, result->t);
     return qdot_run_say_why(run, reason);
+}
+
+/* The largest |f| over the points of the run, of the holonomic rows or of those of
+ * velocities. */
+static qdot_status
+follow_rows(qdot_run *run, qdot_constraint_kind kind, double *most)
+{
+    const qdot_constraints *c = run->plan->constraints;
+
+    for (size_t k = 0; k < c->m; k++) {
+        qdot_drift f = {.quantity = c->rows[k].f};
+        qdot_drifts one = {.n = 1, .at = &f};
+
+        if (c->rows[k].kind != kind)
+            continue;
+        QDOT_TRY(qdot_precise_pair_drifts(run->precise, &one));
+        *most = fmax(*most, f.drift); /* of a NaN the drift */
+    }
+    return QDOT_OK;
+}
+
+/* Multipliers of the end state as doubles have it; how far the constraints were left in
+ * all digits. */
+static qdot_status
+measure_constraints(qdot_run *run)
+{
+    const size_t n = 2 * run->plan->n;
+    const qdot_trajectory *tr = &run->course.tr;
+    const double *y = tr->y + (tr->count - 1) * tr->n;
+    double *difference = qdot_calloc(n, sizeof *difference);
+    qdot_status status;
+
+    if (!difference)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        difference[i] = 0x1p-53 * fmax(1, fabs(y[i]));
+    status = qdot_multipliers_measure(run->course.binds.at[0], tr, &run->multipliers);
+    if (status == QDOT_OK)
+        status = qdot_multipliers_errors(run->course.binds.at[0], tr, difference,
+                                         &run->multipliers);
+    qdot_free(difference);
+    QDOT_TRY(status);
+    run->multipliers.position = run->multipliers.velocity = NAN;
+    QDOT_TRY(follow_rows(run, QDOT_HOLONOMIC, &run->multipliers.position));
+    return follow_rows(run, QDOT_VELOCITY, &run->multipliers.velocity);
 }
 
 static qdot_status
@@ -80,6 +126,8 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
             qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_precise_pair_drifts(run->precise, &run->drifts);
+    if (status == QDOT_OK && run->plan->constraints && !*interrupted)
+        status = measure_constraints(run);
     if (status == QDOT_OK)
         status = keep_end(run);
     if (status == QDOT_OK && *interrupted)

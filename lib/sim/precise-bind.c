@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "sim/blocks.h"
+#include "sim/constraints.h"
 #include "tape/constant.h"
 #include "tape/precise.h"
 #include "tape/taylor.h"
@@ -38,8 +39,8 @@ struct qdot_precise_bind {
     size_t stride;
     const mpfr_t **outputs; /* [outputs of the tape] */
     const mpfr_t **a;       /* [n] series of q'': an output of the tape, or of solved */
-    solver *solvers;        /* [blocks] */
-    qdot_reals solved;      /* [n x stride] */
+    solver *solvers;        /* [blocks]; with constraints one, of n + m unknowns */
+    qdot_reals solved;      /* [n x stride]; with constraints [n + m] */
     qdot_reals numbers;     /* of the solvers; then 2 of scratch */
     mpfr_t *w;
     mp_limb_t *work;
@@ -52,7 +53,7 @@ qdot_precise_bind_cost(const qdot_plan *p, mpfr_prec_t bits, double cost[3])
     const double limbs = ceil((double)bits / 64), term = 9 + 1.3 * limbs * limbs;
     const double operation = 40 + 1.3 * limbs * limbs;
     double length = (double)qdot_tape_operations(p->tape);
-    double convolutions = p->convolutions_derived;
+    double convolutions = p->constraints ? length : p->convolutions_derived;
 
     cost[0] = 60 * operation * (double)qdot_tape_calls(p->tape) + operation * length;
     cost[1] = operation * (length + 4 * (double)p->n) + convolutions * 40;
@@ -65,6 +66,111 @@ qdot_precise_bind_cost(const qdot_plan *p, mpfr_prec_t bits, double cost[3])
             cost[0] += 2 * n * n * n / 3 * operation;
         }
     }
+}
+
+/* --- with constraints ---------------------------------------------------------------- */
+
+/* The unknowns are q'' and -lambda; output `at` stands in row i, column j of
+ *
+ *     [ M  A^T ]
+ *     [ A   0  ]
+ *
+ * and in row j, column i. The output of entry number k; false behind the last. */
+static bool
+entry(const qdot_precise_bind *e, size_t k, size_t *i, size_t *j, size_t *at)
+{
+    const size_t n = e->plan->n;
+    const qdot_constraints *c = e->plan->constraints;
+
+    *at = n + k;
+    if (k < c->n_masses) {
+        *i = c->masses[k].row;
+        *j = c->masses[k].column;
+        return true;
+    }
+    k -= c->n_masses;
+    if (k >= c->n_slopes)
+        return false;
+    *i = n + c->slopes[k].row;
+    *j = c->slopes[k].column;
+    return true;
+}
+
+static qdot_status
+factor_tied(qdot_precise_bind *e)
+{
+    const size_t size = e->plan->n + e->plan->constraints->m;
+    solver *s = e->solvers;
+    size_t failed, i, j, at;
+
+    for (i = 0; i < size * size; i++)
+        mpfr_set_zero(s->lu[i], 1);
+    for (size_t k = 0; entry(e, k, &i, &j, &at); k++) {
+        mpfr_set(s->lu[i * size + j], e->outputs[at][0], MPFR_RNDN);
+        mpfr_set(s->lu[j * size + i], e->outputs[at][0], MPFR_RNDN);
+    }
+    e->factored++;
+    if (qdot_real_lu(size, s->lu, s->order, s->scale, &failed, e->w) != QDOT_OK)
+        return qdot_fail(QDOT_ESINGULAR, "the constraints are not independent, or no mass "
+                                         "moves along them: `digits` wants that");
+    return QDOT_OK;
+}
+
+static qdot_status
+accelerations_tied(qdot_precise_bind *e, int k)
+{
+    const qdot_constraints *c = e->plan->constraints;
+    const size_t n = e->plan->n, size = n + c->m;
+    const size_t gamma = n + c->n_masses + c->n_slopes;
+    solver *s = e->solvers;
+
+    qdot_precise_order(e->tape, k);
+    if (k == 0)
+        QDOT_TRY(factor_tied(e));
+    for (size_t i = 0; i < size; i++)
+        mpfr_set(s->x[i], e->outputs[i < n ? i : gamma + i - n][k], MPFR_RNDN);
+    for (size_t at = 0; k > 0 && at < s->n_couplings; at++) {
+        const coupling *m = s->couplings + at;
+
+        qdot_real_dot(e->w[0], m->M + 1,
+                      (const mpfr_t *)e->solved.at + m->j * e->stride + k - 1, (size_t)k,
+                      e->work);
+        mpfr_sub(s->x[m->i], s->x[m->i], e->w[0], MPFR_RNDN);
+    }
+    qdot_real_solve(size, (const mpfr_t *)s->lu, s->order, s->x, s->y, e->w);
+    for (size_t i = 0; i < size; i++)
+        mpfr_set(e->solved.at[i * e->stride + (size_t)k], s->x[i], MPFR_RNDN);
+    return QDOT_OK;
+}
+
+static qdot_status
+make_tied(qdot_precise_bind *e)
+{
+    const qdot_constraints *c = e->plan->constraints;
+    const size_t size = e->plan->n + c->m;
+    solver *s = e->solvers;
+    size_t i, j, at;
+
+    QDOT_TRY(qdot_reals_init(&e->numbers, 2 + size * (size + 2), e->system.bits));
+    e->w = e->numbers.at;
+    s->lu = e->w + 2;
+    s->x = s->lu + size * size;
+    s->y = s->x + size;
+    s->order = qdot_calloc(size, sizeof *s->order);
+    s->scale = qdot_calloc(size, sizeof *s->scale);
+    s->couplings = qdot_calloc(2 * (c->n_masses + c->n_slopes) + 1, sizeof *s->couplings);
+    if (!s->order || !s->scale || !s->couplings)
+        return QDOT_ENOMEM;
+    for (i = 0; i < e->plan->n; i++)
+        e->a[i] = (const mpfr_t *)e->solved.at + i * e->stride;
+    for (size_t k = 0; entry(e, k, &i, &j, &at); k++) {
+        if (qdot_precise_is_constant(e->tape, at))
+            continue;
+        s->couplings[s->n_couplings++] = (coupling){i, j, e->outputs[at]};
+        if (i != j)
+            s->couplings[s->n_couplings++] = (coupling){j, i, e->outputs[at]};
+    }
+    return QDOT_OK;
 }
 
 /* --- the accelerations --------------------------------------------------------------- */
@@ -94,6 +200,8 @@ accelerations(qdot_precise_bind *e, int k)
 {
     const qdot_plan *p = e->plan;
 
+    if (p->constraints)
+        return accelerations_tied(e, k);
     qdot_precise_order(e->tape, k);
     for (size_t b = 0; b < p->structure.blocks; b++) {
         const qdot_plan_block *block = p->blocks + b;
@@ -249,6 +357,7 @@ make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
 {
     const qdot_plan *p = e->plan;
     const size_t outputs = qdot_tape_outputs(p->tape);
+    const size_t m = p->constraints ? p->constraints->m : 0;
     const double rows = 3 * (double)qdot_tape_operations(p->tape) + 4 * (double)p->n;
 
     if (rows * qdot_reals_size((size_t)most + 1, bits) > most_bytes)
@@ -262,11 +371,11 @@ make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
     e->t = qdot_precise_input(e->tape, 2 * p->n);
     e->outputs = qdot_calloc(outputs + 1, sizeof *e->outputs);
     e->a = qdot_calloc(p->n, sizeof *e->a);
-    e->solvers = qdot_calloc(p->structure.blocks, sizeof *e->solvers);
+    e->solvers = qdot_calloc(p->structure.blocks + 1, sizeof *e->solvers);
     e->work = qdot_calloc(qdot_real_dot_work(bits), sizeof *e->work);
     if (!e->outputs || !e->a || !e->solvers || !e->work)
         return QDOT_ENOMEM;
-    QDOT_TRY(qdot_reals_init(&e->solved, p->n * e->stride, bits));
+    QDOT_TRY(qdot_reals_init(&e->solved, (p->n + m) * e->stride, bits));
     for (size_t i = 0; i < outputs; i++)
         e->outputs[i] = qdot_precise_output(e->tape, i);
     e->system = (qdot_precise_system){.n = 2 * p->n,
@@ -278,7 +387,7 @@ make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
                                       .begin = begin,
                                       .extend = extend,
                                       .user = e};
-    return make_solvers(e);
+    return p->constraints ? make_tied(e) : make_solvers(e);
 }
 
 qdot_status
@@ -306,7 +415,7 @@ qdot_precise_bind_free(qdot_precise_bind *e)
 {
     if (!e)
         return;
-    for (size_t b = 0; e->solvers && b < e->plan->structure.blocks; b++) {
+    for (size_t b = 0; e->solvers && b <= e->plan->structure.blocks; b++) {
         qdot_free(e->solvers[b].order);
         qdot_free(e->solvers[b].scale);
         qdot_free(e->solvers[b].couplings);
@@ -331,6 +440,12 @@ mpfr_srcptr
 qdot_precise_bind_acceleration(const qdot_precise_bind *e, size_t i)
 {
     return e->a[i][0];
+}
+
+void
+qdot_precise_bind_multiplier(const qdot_precise_bind *e, size_t k, mpfr_ptr lambda)
+{
+    mpfr_neg(lambda, e->solved.at[(e->plan->n + k) * e->stride], MPFR_RNDN);
 }
 
 size_t

@@ -3,6 +3,8 @@
  *     M(q, t) q'' = f(q, q', t),   order k:  M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}
  *
  * block by block as direct.h has it, M_0 factored once a step by elimination with pivots.
+ * With constraints the same of [M A^T; A 0] (q'', -lambda) = (f, gamma): nothing is projected,
+ * since the guard digits that the drift eats are among those that are measured.
  *
  * Tests  tests/sim/test_precise.c
  */
@@ -27,6 +29,9 @@ const qdot_precise_system *qdot_precise_bind_system(const qdot_precise_bind *bin
 
 /* q'' [n] at what `begin` was given last. */
 mpfr_srcptr qdot_precise_bind_acceleration(const qdot_precise_bind *bind, size_t i);
+
+/* lambda of constraint k there. */
+void qdot_precise_bind_multiplier(const qdot_precise_bind *bind, size_t k, mpfr_ptr lambda);
 
 /* What an expansion costs in numbers of that precision, as qdot_precise_order_for wants
  * it. */

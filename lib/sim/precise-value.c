@@ -4,6 +4,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/print.h"
+#include "sim/constraints.h"
 #include "sim/precise-pair.h"
 #include "sim/reader.h"
 #include "tape/constant.h"
@@ -57,6 +58,10 @@ evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
     for (size_t i = 0; r->accelerations && i < n; i++)
         mpfr_set(qdot_precise_input(r->program, 2 * n + 1 + i)[0],
                  qdot_precise_bind_acceleration(r->side->bind, i), RN);
+    for (size_t k = 0; r->accelerations && r->plan->constraints
+                       && k < r->plan->constraints->m; k++)
+        qdot_precise_bind_multiplier(r->side->bind, k,
+                                     qdot_precise_input(r->program, 3 * n + 1 + k)[0]);
     qdot_precise_order(r->program, 0);
     return QDOT_OK;
 }

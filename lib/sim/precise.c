@@ -8,8 +8,10 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "sim/constraints.h"
 #include "sim/precise-pair.h"
 #include "tape/constant.h"
+#include "tape/precise.h"
 
 #define RN MPFR_RNDN
 
@@ -36,9 +38,10 @@ qdot_precise_check(const qdot_scene *scene, const qdot_run_request *request)
 {
     const char *method = request->method;
 
-    if (scene->constraints.n > 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: `digits` with constraints");
-
+    if (scene->constraints.n > 0 && request->treatment != QDOT_RUN_PROJECT) {
+        qdot_fail(QDOT_EINVAL, "`digits` carries enough of them to need no treatment of drift");
+        return qdot_hint("digits %d", request->digits);
+    }
     if (request->digits < 1 || request->digits > QDOT_PRECISE_MOST_DIGITS) {
         qdot_fail(QDOT_EINVAL, "%d digits cannot be asked for: 1 to %d can",
                   request->digits, QDOT_PRECISE_MOST_DIGITS);
@@ -83,6 +86,43 @@ qdot_precise_constant(const qdot_plan *plan, qdot_expr e, mpfr_ptr x)
     return qdot_constant_real(plan->pool, e, x);
 }
 
+/* What the start breaks in all of its digits: log2 of the largest residual of a tape. */
+static qdot_status
+residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tape, double *log2)
+{
+    const size_t n = 2 * plan->n;
+    qdot_precise *program;
+
+    if (!tape)
+        return QDOT_OK;
+    QDOT_TRY(qdot_precise_new(plan->pool, tape, 0, s->start.bits, &program));
+    for (size_t i = 0; i < n; i++)
+        mpfr_set(qdot_precise_input(program, i)[0], s->start.at[2 + i], RN);
+    mpfr_set(qdot_precise_input(program, n)[0], s->start.at[0], RN);
+    qdot_precise_order(program, 0);
+    for (size_t k = 0; k < qdot_tape_outputs(tape); k++)
+        *log2 = fmax(*log2, qdot_real_log2(qdot_precise_output(program, k)[0]));
+    qdot_precise_free(program);
+    return QDOT_OK;
+}
+
+/* A start that only doubles were moved onto the constraints. */
+static qdot_status
+check_start(const qdot_precise_side *s, const qdot_plan *plan, int digits)
+{
+    double log2 = -INFINITY;
+
+    if (!plan->constraints)
+        return QDOT_OK;
+    QDOT_TRY(residual(s, plan, plan->constraints->positions, &log2));
+    QDOT_TRY(residual(s, plan, plan->constraints->velocities, &log2));
+    if (log2 <= -(digits + guard_digits) * QDOT_LOG2_10)
+        return QDOT_OK;
+    qdot_fail(QDOT_ENOTBUILT, "not built yet: `digits` from a start that has to be solved "
+                              "for: it breaks the constraints as given");
+    return qdot_hint("start with every value exact, as x = sin(2), y = -cos(2)");
+}
+
 /* Prepared for `digits`: all that needs the pool. */
 static qdot_status
 side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, int orders_more)
@@ -107,7 +147,7 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
         QDOT_TRY(qdot_precise_constant(pair->plan, request->q0[i], s->start.at[2 + i]));
         QDOT_TRY(qdot_precise_constant(pair->plan, request->v0[i], s->start.at[2 + n + i]));
     }
-    return QDOT_OK;
+    return check_start(s, pair->plan, (int)fmin(digits - guard_digits, pair->digits));
 }
 
 /* After a step: whether it left a domain. */

@@ -14,6 +14,9 @@
  *     the pair still agrees at its end), then D = N + log10 A + 3, and again with more
  *     until error <= 10^-N / 2.
  *
+ * Constraints are not projected onto: what their drift grows to is measured with the rest. The
+ * start has to keep them exactly as given; one that has to be solved for is QDOT_ENOTBUILT.
+ *
  * Chaos costs digits and no more. What the double path refuses is refused in the same
  * words before. Along the run, values are those of the series of its steps, their error
  * the distance from the companion's.
@@ -33,8 +36,8 @@ enum { QDOT_PRECISE_MOST_DIGITS = 10000 };
 
 typedef struct qdot_precise_pair qdot_precise_pair;
 
-/* QDOT_EINVAL where request->digits or its method cannot be, QDOT_ENOTBUILT for a scene
- * with constraints. */
+/* QDOT_EINVAL where request->digits, its method or its treatment of constraints cannot
+ * be. */
 QDOT_MUST_CHECK qdot_status qdot_precise_check(const qdot_scene *scene,
                                                const qdot_run_request *request);
 

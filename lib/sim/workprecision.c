@@ -18,7 +18,7 @@ enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
 
 static const double budget_default = 3e8;
 
-/* Of the reference of a scene with constraints, in doubles. */
+/* Of a reference in doubles. */
 static const double reference_tol = 1e-15;
 
 /* A method at work. */
@@ -57,9 +57,13 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     int side;
 
     precise.method = "auto";
-    precise.digits = scene->constraints.n > 0 ? 0 : REFERENCE_DIGITS;
+    precise.digits = REFERENCE_DIGITS;
     precise.tol = reference_tol;
     status = qdot_run_new(scene, &precise, &run);
+    if (scene->constraints.n > 0 && (status == QDOT_ENOTBUILT || status == QDOT_ESINGULAR)) {
+        precise.digits = 0;
+        status = qdot_run_new(scene, &precise, &run);
+    }
     if (status == QDOT_ENOTBUILT) {
         qdot_error why = *qdot_last_error();
 

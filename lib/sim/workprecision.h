@@ -2,8 +2,8 @@
  * against a reference that is made here.
  *
  * The reference is a run by Taylor series in MPFR to 20 digits with its own error
- * (precise.h); of a scene with constraints, which that cannot do yet, a run in doubles at
- * tol 1e-15 with the error it states. For each method and tol = 1e-3, 1e-4, ... 1e-15, of the end state y,
+ * (precise.h); of a scene with constraints that this cannot do a run in doubles at tol 1e-15
+ * with the error it states. For each method and tol = 1e-3, 1e-4, ... 1e-15, of the end state y,
  *
  *     err         max_i |y_i - ref_i| / max(1, |ref_i|)    (relative error)
  *     scd         -log10 err, its significant correct digits

@@ -19,7 +19,8 @@ for name in $(sed -n 's/^### //p' cases.inc); do
         scene "$name"
         printf "run 0..$end tol %s\n" 1e-4 1e-8 1e-13 1e-15
         case $name in
-        double-pendulum-5 | duffing | foucault | henon-heiles | rotating-hoop | swinging-atwood)
+        double-pendulum-5 | duffing | foucault | henon-heiles | rotating-hoop | swinging-atwood | \
+            pendulum-cartesian | double-pendulum-cartesian-5 | knife-edge | car-axis)
             echo "run 0..$end digits 30"
             values "$name" "$end"
             ;;
