@@ -264,6 +264,7 @@ sim_sources = \
 	lib/sim/bind.c \
 	lib/sim/blocks.c \
 	lib/sim/constrained-jacobian.c \
+	lib/sim/constrained-put.c \
 	lib/sim/constrained-series.c \
 	lib/sim/constrained.c \
 	lib/sim/constraints.c \
@@ -518,6 +519,7 @@ script_tests = \
 	tests/script/dof-redundant.lag \
 	tests/script/equilibria.lag \
 	tests/script/event-at-rest.lag \
+	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
 	tests/script/event-roots.lag \
 	tests/script/events.lag \
@@ -585,6 +587,7 @@ script_tests = \
 	tests/bad/constraint-no-coordinate.lag \
 	tests/bad/constraint-nonlinear-acceleration.lag \
 	tests/bad/constraints-option.lag \
+	tests/bad/constraints-too-many.lag \
 	tests/bad/constraints-word.lag \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
@@ -645,6 +648,7 @@ script_tests = \
 	tests/bad/modes-unstable.lag \
 	tests/bad/modes-without-mass.lag \
 	tests/bad/momentum-index.lag \
+	tests/bad/multiplier-component.lag \
 	tests/bad/multiplier-unknown.lag \
 	tests/bad/newton-dot.lag \
 	tests/bad/no-coordinate.lag \
@@ -658,6 +662,7 @@ script_tests = \
 	tests/bad/pi-redefined.lag \
 	tests/bad/picture-kind.lag \
 	tests/bad/prime-of-product.lag \
+	tests/bad/race-option.lag \
 	tests/bad/race-stopped.lag \
 	tests/bad/reactions-none.lag \
 	tests/bad/redeclared-coordinate.lag \
@@ -691,6 +696,7 @@ script_tests = \
 	tests/bad/start-velocities.lag \
 	tests/bad/string-number.lag \
 	tests/bad/style-unknown.lag \
+	tests/bad/then-constraint.lag \
 	tests/bad/to-ending.lag \
 	tests/bad/too-long.lag \
 	tests/bad/trailing.lag \
@@ -785,6 +791,7 @@ test_files = \
 	tests/bad/constraint-no-coordinate.out \
 	tests/bad/constraint-nonlinear-acceleration.out \
 	tests/bad/constraints-option.out \
+	tests/bad/constraints-too-many.out \
 	tests/bad/constraints-word.out \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
@@ -845,6 +852,7 @@ test_files = \
 	tests/bad/modes-unstable.out \
 	tests/bad/modes-without-mass.out \
 	tests/bad/momentum-index.out \
+	tests/bad/multiplier-component.out \
 	tests/bad/multiplier-unknown.out \
 	tests/bad/newton-dot.out \
 	tests/bad/no-coordinate.out \
@@ -858,6 +866,7 @@ test_files = \
 	tests/bad/pi-redefined.out \
 	tests/bad/picture-kind.out \
 	tests/bad/prime-of-product.out \
+	tests/bad/race-option.out \
 	tests/bad/race-stopped.out \
 	tests/bad/reactions-none.out \
 	tests/bad/redeclared-coordinate.out \
@@ -891,6 +900,7 @@ test_files = \
 	tests/bad/start-velocities.out \
 	tests/bad/string-number.out \
 	tests/bad/style-unknown.out \
+	tests/bad/then-constraint.out \
 	tests/bad/to-ending.out \
 	tests/bad/too-long.out \
 	tests/bad/trailing.out \
@@ -1024,6 +1034,7 @@ test_files = \
 	tests/script/dof-redundant.out \
 	tests/script/equilibria.out \
 	tests/script/event-at-rest.out \
+	tests/script/event-constraints.out \
 	tests/script/event-ends.out \
 	tests/script/event-roots.out \
 	tests/script/events.out \

@@ -138,6 +138,24 @@ answer(qdot_session *session, const qdot_race *race, const char *path)
     return status;
 }
 
+/* What a run takes and a race has of its own. */
+static qdot_status
+refuse_option(qdot_cursor *c)
+{
+    static const char *const options[] = {"tol", "digits", "method", "constraints", "with",
+                                          "as"};
+
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (qdot_cursor_is_word(c, options[i])) {
+            c->error_at = c->at->start;
+            qdot_fail(QDOT_ESYNTAX, "a race takes no `%s`: it compares tolerances and "
+                                    "formulations by itself",
+                      options[i]);
+            return qdot_hint("race T0..T1 [to \"FILE\"]");
+        }
+    return qdot_cursor_expected(c, "`to` or the end of the statement");
+}
+
 qdot_status
 qdot_number_race(qdot_cursor *c)
 {
@@ -151,7 +169,7 @@ qdot_number_race(qdot_cursor *c)
     QDOT_TRY(qdot_read_range(c, &from, &to));
     while (!qdot_cursor_is_end(c)) {
         if (!qdot_cursor_accept_word(c, "to"))
-            return qdot_cursor_expected(c, "`to` or the end of the statement");
+            return refuse_option(c);
         QDOT_TRY(qdot_draw_read_file(c, &path));
     }
     c->error_at = start->start;

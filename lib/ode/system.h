@@ -35,6 +35,8 @@ typedef struct {
      * place that causes it, from the series; 0 where it lies behind or is not known. Steps
      * go over it, or stay well before. */
     double (*ahead)(void *user);
+    /* A step has gone over the place that `ahead` said last, at time t; may be NULL. */
+    void (*crossed)(double t, void *user);
     void *user; /* borrowed */
 } qdot_ode_series;
 

@@ -45,6 +45,7 @@ typedef struct {
     qdot_ode_result *result;
     size_t n;
     double tol, t, t1, direction;
+    double place; /* that the step at hand goes over; NaN: none */
     double held; /* tol, or what the coefficients are worth if that is more */
     uint64_t max_steps;
     int p;
@@ -300,6 +301,7 @@ keep_off(run *r, double *h)
     const double noise = series->noise ? series->noise(series->user) : 0;
     double ahead;
 
+    r->place = NAN;
     if (!(noise > 0) || !series->ahead)
         return;
     ahead = series->ahead(series->user);
@@ -307,6 +309,7 @@ keep_off(run *r, double *h)
         return;
     if (*h >= 0.8 * ahead || noise > near_noise) {
         *h = fmax(*h, over * ahead);
+        r->place = r->t + r->direction * ahead;
         cut_series(r, *h);
     } else if (*h > 0.5 * ahead) {
         *h = 0.5 * ahead;
@@ -455,6 +458,9 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     }
     if (status != QDOT_OK || !*good)
         return status;
+    if (r->direction * (t_end - r->place) > 0 && r->series->crossed)
+        r->series->crossed(r->place, r->series->user);
+    r->place = NAN;
     r->t = t_end;
     swap(&r->y, &r->next);
     swap(&r->carry, &r->next_carry);
@@ -624,6 +630,7 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
              .t1 = t1,
              .direction = t1 < t0 ? -1 : 1,
              .unit = 1,
+             .place = NAN,
              .undefined_at = NAN};
     qdot_status status;
 

@@ -30,6 +30,12 @@ struct qdot_constrained {
     double *slopes_work; /* of the derivatives */
 };
 
+/* What the tapes are evaluated at next. */
+void qdot_constrained_load(qdot_constrained *h, double t, const double *y);
+/* f and w at what is loaded, 0 where a row has none. */
+void qdot_constrained_positions(qdot_constrained *h);
+void qdot_constrained_velocities(qdot_constrained *h);
+
 /* Room for a Jacobian; outputs: the most of a tape. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_make_slopes(qdot_constrained *h,
                                                          size_t outputs);

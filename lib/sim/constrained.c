@@ -47,8 +47,8 @@ qdot_constrained_free(qdot_constrained *h)
 
 /* --- evaluation --------------------------------------------------------------------- */
 
-static void
-load(qdot_constrained *h, double t, const double *y)
+void
+qdot_constrained_load(qdot_constrained *h, double t, const double *y)
 {
     memcpy(h->in, y, 2 * h->plan->n * sizeof *y);
     h->in[2 * h->plan->n] = t;
@@ -56,8 +56,8 @@ load(qdot_constrained *h, double t, const double *y)
 
 /* Residuals of positions, of velocities at what is loaded, by row; 0 where a row has none.
  */
-static void
-position_residuals(qdot_constrained *h)
+void
+qdot_constrained_positions(qdot_constrained *h)
 {
     const qdot_constraints *c = h->c;
     const double *out = h->out;
@@ -67,8 +67,8 @@ position_residuals(qdot_constrained *h)
         h->f[k] = c->rows[k].kind == QDOT_HOLONOMIC ? *out++ : 0;
 }
 
-static void
-velocity_residuals(qdot_constrained *h)
+void
+qdot_constrained_velocities(qdot_constrained *h)
 {
     const qdot_constraints *c = h->c;
     const double *out = h->out;
@@ -81,8 +81,8 @@ velocity_residuals(qdot_constrained *h)
 static void
 residuals(qdot_constrained *h)
 {
-    position_residuals(h);
-    velocity_residuals(h);
+    qdot_constrained_positions(h);
+    qdot_constrained_velocities(h);
 }
 
 /* M and A from outputs into a level. Returns what stands behind them. */
@@ -107,29 +107,76 @@ unpack(qdot_constrained *h, level *l, const double *from)
     return from;
 }
 
-/* "rod1", "rod1 and rod2", "a, b and c": the rows of a dependency. row [s->m], NULL: all.
- */
+/* The length of a name, without its component if `label`. */
+static size_t
+length_of_name(const char *name, bool label)
+{
+    const char *comma = label ? strrchr(name, ',') : NULL;
+
+    return comma ? (size_t)(comma - name) : strlen(name);
+}
+
+void
+qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to)
+{
+    enum { many = 4 };
+    size_t count = 0, names = 0;
+
+    for (size_t k = 0; k < c->m; k++)
+        count += rows[k];
+    for (int pass = 0; pass < 2; pass++) {
+        const char *before = NULL;
+        size_t said = 0;
+
+        if (pass == 1)
+            qdot_text_add(to, names == 1 ? "constraint " : "constraints ");
+        for (size_t k = 0; k < c->m; k++) {
+            const char *name = c->rows[k].name;
+            const size_t n = length_of_name(name, count > many);
+
+            if (!rows[k] || (before && strncmp(before, name, n + 1) == 0 && count > many))
+                continue;
+            before = name;
+            names += pass == 0;
+            if (pass == 1)
+                qdot_text_format(to, "%s%.*s",
+                                 said == 0 ? "" : said + 1 == names ? " and " : ", ",
+                                 (int)n, name);
+            said++;
+        }
+    }
+}
+
+/* The rows of a dependency by name; their number. row [s->m], NULL: all. */
+static size_t
+name_dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row,
+               qdot_text *names)
+{
+    double *part = s->w; /* scratch of n + m */
+    bool *in = qdot_calloc(c->m + 1, sizeof *in);
+    size_t count = 0;
+
+    if (!in)
+        return 0;
+    qdot_saddle_parts(s, part);
+    for (size_t k = 0; k < s->m; k++)
+        if (part[k] > QDOT_CONSTRAINED_PART) {
+            in[row ? row[k] : k] = true;
+            count++;
+        }
+    qdot_constrained_name(c, in, names);
+    qdot_free(in);
+    return count;
+}
+
 static qdot_status
 dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
 {
-    double *part = s->w; /* scratch of n + m */
     qdot_text names = {0};
-    size_t count = 0, said = 0;
+    const size_t count = name_dependent(c, s, row, &names);
 
-    qdot_saddle_parts(s, part);
-    for (size_t k = 0; k < s->m; k++)
-        count += part[k] > 1e-6;
-    for (size_t k = 0; k < s->m; k++) {
-        if (!(part[k] > 1e-6))
-            continue;
-        if (said > 0)
-            qdot_text_add(&names, said + 1 == count ? " and " : ", ");
-        qdot_text_add(&names, c->rows[row ? row[k] : k].name);
-        said++;
-    }
-    if (qdot_text_status(&names) == QDOT_OK)
-        qdot_fail(QDOT_ESINGULAR, "constraint%s %.300s %s here", count == 1 ? "" : "s",
-                  qdot_text_str(&names),
+    if (qdot_text_status(&names) == QDOT_OK && count > 0)
+        qdot_fail(QDOT_ESINGULAR, "%.300s %s here", qdot_text_str(&names),
                   count == 1 ? "has no direction" : "stop being independent");
     qdot_text_clear(&names);
     return QDOT_ESINGULAR;
@@ -176,7 +223,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     double *x = all->saddle.x;
     const double *gamma;
 
-    load(h, t, y);
+    qdot_constrained_load(h, t, y);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         residuals(h);
     qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
@@ -204,7 +251,7 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
     qdot_constrained_residual r = {.worst_position = SIZE_MAX,
                                    .worst_velocity = SIZE_MAX};
 
-    load(h, t, y);
+    qdot_constrained_load(h, t, y);
     residuals(h);
     for (size_t k = 0; k < h->c->m; k++) {
         if (h->c->rows[k].kind == QDOT_HOLONOMIC && !(fabs(h->f[k]) < r.position)) {
@@ -217,6 +264,27 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
         }
     }
     return r;
+}
+
+bool
+qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text *names)
+{
+    static const double near = 1e-3;
+    qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
+    const bool patterned = all->saddle.patterned;
+    size_t failed;
+    qdot_status status;
+
+    qdot_constrained_load(h, t, y);
+    qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
+    unpack(h, all, h->out);
+    all->saddle.patterned = false; /* the null space knows what is near */
+    status = qdot_saddle_factor(&all->saddle, &failed);
+    all->saddle.patterned = patterned;
+    if (status == QDOT_OK ? all->saddle.rank == 0 || all->saddle.quality > near
+                          : failed < h->plan->n)
+        return false;
+    return name_dependent(h->c, &all->saddle, all->row, names) > 0;
 }
 
 /* --- projection --------------------------------------------------------------------- */
@@ -331,7 +399,7 @@ project(qdot_constrained *h, const part *p, double t, const double *y, bool *fac
     for (int k = 0; k <= most_iterations; k++) {
         double now;
 
-        load(h, t, y);
+        qdot_constrained_load(h, t, y);
         p->find(h);
         now = excess(l, p->residual, p->bound, p->carry);
         if (now <= 1)
@@ -364,9 +432,9 @@ qdot_constrained_project(double t, double *y, double *carry, double *moved, void
 {
     qdot_constrained *h = user;
     const size_t n = h->plan->n;
-    const part q = {h->at[QDOT_HOLONOMIC], y, carry, h->f, position_residuals, h->f_bound};
+    const part q = {h->at[QDOT_HOLONOMIC], y, carry, h->f, qdot_constrained_positions, h->f_bound};
     const part v = {h->at[QDOT_VELOCITY], y + n, carry ? carry + n : NULL, h->w,
-                    velocity_residuals, h->w_bound};
+                    qdot_constrained_velocities, h->w_bound};
     bool factored = false;
 
     *moved = 0;
@@ -420,7 +488,7 @@ qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
     level *l = h->at[QDOT_HOLONOMIC];
     double moved;
 
-    load(h, t, y);
+    qdot_constrained_load(h, t, y);
     residuals(h);
     for (size_t k = 0; k < h->c->m; k++)
         if (!(fabs(h->f[k]) <= start_tolerance))

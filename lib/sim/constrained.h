@@ -24,6 +24,7 @@
 #ifndef QDOT_SIM_CONSTRAINED_H
 #define QDOT_SIM_CONSTRAINED_H
 
+#include "base/text.h"
 #include "num/saddle.h"
 #include "sim/constraints.h"
 
@@ -61,6 +62,14 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_jacobian(qdot_constrained *constrai
 QDOT_MUST_CHECK qdot_status qdot_constrained_project(double t, double *y, double *carry,
                                                      double *moved, void *constrained);
 
+/* The event `who` has set the values of y [2n] that `set` [2n] says: they stay, the others
+ * move least in the metric of M until the constraints hold, first of positions, then of
+ * velocities, as under an impulse. QDOT_EDOMAIN names a constraint that they leave no
+ * way. Allocates. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_put(qdot_constrained *constrained, double t,
+                                                 double *y, const bool *set,
+                                                 const char *who);
+
 /* What y breaks: the largest |f| of the holonomic rows; the largest |df/dt| or |f| of the
  * velocity rows; which rows these are (SIZE_MAX: none). */
 typedef struct {
@@ -79,6 +88,17 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_start(qdot_constrained *constrained
 /* Factor M and A of a system that holds all rows; its failures named as _solve's. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor(const qdot_plan *plan,
                                                     qdot_saddle *s);
+
+/* Whether the constraints that hold accelerations are nearly dependent at y, and then which:
+ * "constraints a and b". false also where that cannot be told. */
+bool qdot_constrained_near(qdot_constrained *constrained, double t, const double *y,
+                           qdot_text *names);
+
+/* A row's part (qdot_saddle_parts) from which it is named. */
+#define QDOT_CONSTRAINED_PART 1e-6
+/* "constraint a", "constraints a, b and c": the rows [m] that are set; where these are many,
+ * vector constraints once for all their components. */
+void qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to);
 
 size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
 /* Independent rows; QDOT_SADDLE_UNKNOWN before anything was solved. */

@@ -35,8 +35,9 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
     size_t inputs = qdot_plan_inputs(p);
     double *in = qdot_calloc(inputs + 2 * p->n + e->changes + 1 + qdot_tape_work(e->then),
                              sizeof *in);
+    bool *set = qdot_calloc(2 * p->n, sizeof *set);
     double *dydt = in ? in + inputs : NULL, *out = in ? dydt + 2 * p->n : NULL;
-    qdot_status status = in ? QDOT_OK : QDOT_ENOMEM;
+    qdot_status status = in && set ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         memcpy(in, old, x->n * sizeof *in);
@@ -58,14 +59,13 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
                     e->name,
                     e->targets[i] < p->n ? p->names[e->targets[i]] : "a velocity", t);
             y[e->targets[i]] = out[i];
+            set[e->targets[i]] = true;
         }
     }
-    if (status == QDOT_OK && system->project) { /* what the constraints make of it */
-        double by;
-
-        status = system->project(t, y, NULL, &by, system->user);
-    }
+    if (status == QDOT_OK && x->reader.held)
+        status = qdot_constrained_put(x->reader.held, t, y, set, e->name);
     qdot_free(in);
+    qdot_free(set);
     return status;
 }
 

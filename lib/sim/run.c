@@ -222,10 +222,48 @@ say_course(qdot_run *run)
     return c->reason[0] != '\0' ? qdot_run_say_why(run, c->reason) : QDOT_OK;
 }
 
+/* Where constraints stop being independent: what steps went over, into the notice. */
+static qdot_status
+say_crossings(qdot_run *run)
+{
+    for (size_t i = 0; i < run->course.binds.n; i++) {
+        qdot_text line = {0};
+
+        if (run->course.binds.at[i])
+            qdot_bind_tell(run->course.binds.at[i], &line);
+        if (line.n > 0)
+            qdot_text_format(&run->notice, "%s%s", run->notice.n > 0 ? "\n" : "",
+                             qdot_text_str(&line));
+        qdot_text_clear(&line);
+    }
+    if (run->notice.n > 0)
+        run->report.notice = qdot_text_str(&run->notice);
+    return qdot_text_status(&run->notice);
+}
+
 static const double *
 last_state(const qdot_run *run)
 {
     return run->course.tr.y + (run->course.tr.count - 1) * run->course.tr.n;
+}
+
+/* The constraints that are nearly dependent where the run stopped; whether there are any. */
+static bool
+say_dependent(const qdot_run *run, qdot_text *reason)
+{
+    qdot_constrained *held =
+        run->course.binds.at[0] ? qdot_bind_held(run->course.binds.at[0]) : NULL;
+    qdot_text names = {0};
+    bool found = held && !strstr(qdot_text_str(reason), "independent")
+                 && qdot_constrained_near(held, run->course.tr.t[run->course.tr.count - 1],
+                                          last_state(run), &names);
+
+    if (found)
+        qdot_text_format(reason, "; %s stop being independent there, which method taylor can "
+                                 "go over",
+                         qdot_text_str(&names));
+    qdot_text_clear(&names);
+    return found;
 }
 
 /* The reason of a run that the integration gave up. */
@@ -238,7 +276,7 @@ say_failure(qdot_run *run, qdot_status status)
     qdot_text reason = {0};
 
     qdot_text_add(&reason, why);
-    if (status == QDOT_EFAILED)
+    if (!say_dependent(run, &reason) && status == QDOT_EFAILED)
         status = qdot_failure_explain(run->plan,
                                       qdot_course_systems(&run->course) + piece->mode,
                                       tr->t[tr->count - 1], last_state(run),
@@ -263,6 +301,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
     *interrupted = status == QDOT_EINTR;
     if (!is_kept(status) || run->course.tr.count == 0)
         return status;
+    QDOT_TRY(say_crossings(run));
     if (status != QDOT_OK)
         return say_failure(run, status);
     return say_course(run);
