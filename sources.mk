@@ -132,8 +132,10 @@ normal_sources = \
 	lib/normal/null-space.c \
 	lib/normal/positive.c \
 	lib/normal/prepare.c \
+	lib/normal/products.c \
 	lib/normal/proportion.c \
 	lib/normal/prove.c \
+	lib/normal/quotient.c \
 	lib/normal/range.c \
 	lib/normal/ratio.c \
 	lib/normal/rationalize.c \
@@ -169,6 +171,7 @@ normal_headers = \
 	lib/normal/null-space.h \
 	lib/normal/positive.h \
 	lib/normal/prepare.h \
+	lib/normal/products.h \
 	lib/normal/prove.h \
 	lib/normal/rationalize.h \
 	lib/normal/rewrite.h \
@@ -244,6 +247,7 @@ mech_sources = \
 	lib/mech/scene-print.c \
 	lib/mech/scene-replace.c \
 	lib/mech/scene.c \
+	lib/mech/squares.c \
 	lib/mech/stability.c \
 	lib/mech/virtual-work.c
 
@@ -258,7 +262,8 @@ mech_headers = \
 	lib/mech/noether.h \
 	lib/mech/quantity.h \
 	lib/mech/reactions.h \
-	lib/mech/scene.h
+	lib/mech/scene.h \
+	lib/mech/squares.h
 
 sim_sources = \
 	lib/sim/bind.c \
@@ -525,6 +530,7 @@ script_tests = \
 	tests/script/events.lag \
 	tests/script/fall.sh \
 	tests/script/flexing.lag \
+	tests/script/forms.lag \
 	tests/script/geometry.lag \
 	tests/script/hamilton.lag \
 	tests/script/help-examples.lag \
@@ -1040,6 +1046,7 @@ test_files = \
 	tests/script/events.out \
 	tests/script/fall.out \
 	tests/script/flexing.out \
+	tests/script/forms.out \
 	tests/script/geometry.out \
 	tests/script/hamilton.out \
 	tests/script/help-examples.out \

@@ -44,9 +44,6 @@ bool qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e);
  * written m*(b - a). Nil if there is none. */
 qdot_expr qdot_expr_turnable(const qdot_pool *pool, qdot_expr e);
 
-/* Whether a SUM is known never to be positive, by the bounds of its terms: cos(u) - cosh(v). */
-bool qdot_expr_never_positive(const qdot_pool *pool, qdot_expr sum);
-
 /* c1 t1 + c2 t2 + ..., every c a NUM. */
 qdot_expr qdot_sum_scaled(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms);
 /* The PROD e with the factor b^x at args[i] replaced by x b^(x - 1) inner. */

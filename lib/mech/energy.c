@@ -12,6 +12,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "mech/derived.h"
+#include "mech/squares.h"
 #include "normal/simplify.h"
 
 qdot_expr
@@ -115,18 +116,84 @@ linear_part(qdot_scene *s)
     return sum;
 }
 
+/* 1/2 q'.M q' with the coupled pairs and triples of velocities that make it worth while as squares;
+ * nil where there are none. */
+static qdot_expr
+quadratic_by_squares(qdot_scene *s)
+{
+    enum { MOST_COORDINATES = 24, MOST_OPERATIONS = 80 };
+    qdot_pool *pool = s->pool;
+    size_t n = s->coordinates.n, block[MOST_COORDINATES];
+    const qdot_expr *M = s->derived->M;
+    qdot_expr sum = QDOT_NIL;
+    bool any = false, done;
+    qdot_squares q;
+
+    if (n < 2 || n > MOST_COORDINATES)
+        return QDOT_NIL;
+    qdot_squares_blocks(n, M, block);
+    qdot_squares_begin(&q, s);
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr A[9], v[3];
+        size_t which[3], m = 0, size = 0;
+
+        for (size_t k = i; k < n && block[i] == i; k++)
+            if (block[k] == i) {
+                if (m < 3)
+                    which[m] = k;
+                m++;
+            }
+        for (size_t a = 0; a < m && m <= 3; a++) {
+            v[a] = qdot_mech_jet(s, which[a], 1);
+            for (size_t b = 0; b < m; b++) {
+                A[a * m + b] = M[which[a] * n + which[b]];
+                size += qdot_expr_size(pool, A[a * m + b]);
+            }
+        }
+        if (m > 3 || size > MOST_OPERATIONS)
+            goto out;
+        if (m == 1 && A[0] != QDOT_ZERO && qdot_squares_add(&q, A[0], v[0]) != QDOT_OK)
+            goto out;
+        if (m > 1) {
+            if (!qdot_squares_worth(s, m, A) ||
+                qdot_squares_complete(&q, m, A, v, &done) != QDOT_OK || !done)
+                goto out;
+            any = true;
+        }
+    }
+    if (any)
+        sum = qdot_squares_sum(&q);
+out:
+    qdot_squares_clear(&q);
+    return sum;
+}
+
+/* T with this sum of squares where that is shorter; others: the terms that are none. */
+static qdot_expr
+or_squares(qdot_scene *s, qdot_expr T, qdot_expr others)
+{
+    qdot_expr squares = quadratic_by_squares(s);
+
+    if (squares == QDOT_NIL || T == QDOT_NIL)
+        return T;
+    squares = qdot_add(s->pool, squares, qdot_mech_tidy(s, others));
+    return qdot_expr_size(s->pool, squares) < qdot_expr_size(s->pool, T) ? squares : T;
+}
+
 qdot_expr
 qdot_mech_kinetic(qdot_scene *s)
 {
     qdot_derived *d = qdot_derived_get(s);
-    qdot_expr T;
+    qdot_expr T, others;
 
     if (d->kinetic != QDOT_NIL)
         return d->kinetic;
     if (!qdot_mech_needs_particles(s, "T") || !qdot_mass_get(s))
         return QDOT_NIL;
-    T = qdot_add(s->pool, quadratic_part(s), qdot_add(s->pool, linear_part(s), d->c));
-    return d->kinetic = qdot_common_out(s->pool, qdot_mech_tidy_whole(s, T));
+    others = qdot_add(s->pool, linear_part(s), d->c);
+    T = qdot_add(s->pool, quadratic_part(s), others);
+    T = qdot_common_out(s->pool, qdot_mech_tidy_whole(s, T));
+    return d->kinetic = or_squares(s, T, others);
 }
 
 qdot_expr
@@ -180,6 +247,7 @@ energy_by_parts(qdot_scene *s)
 
     if (V == QDOT_NIL || (qdot_mech_holds(s, V) & QDOT_HAS_VELOCITY))
         return QDOT_NIL;
+    T = or_squares(s, T, QDOT_ZERO);
     c = qdot_neg(pool, qdot_mech_tidy(s, c));
     V = qdot_mech_tidy(s, V);
     if (c != QDOT_ZERO && qdot_expr_size(pool, V) < MOST_ADDED &&

@@ -5,6 +5,7 @@
 #include "expr/walk.h"
 #include "mech/derived.h"
 #include "mech/quantity.h"
+#include "mech/squares.h"
 #include "normal/simplify.h"
 
 /* A Legendre transform over the velocities of n coordinates. */
@@ -67,24 +68,73 @@ solve(legendre *l)
     return status == QDOT_OK;
 }
 
+/* 1/2 (p - b).A^-1 (p - b) over one block of A, as squares or solved for; which [m]. */
+static qdot_status
+add_block(legendre *l, qdot_squares *q, size_t m, const size_t *which)
+{
+    qdot_pool *pool = l->pool;
+    qdot_expr inverse[9], v[3], sum = QDOT_ZERO;
+    bool done = false;
+
+    if (m == 1)
+        return qdot_squares_add(
+            q, qdot_div(pool, QDOT_ONE, l->A[which[0] * l->n + which[0]]),
+            l->rest[which[0]]);
+    for (size_t i = 0; i < m && m <= 3; i++) {
+        v[i] = l->rest[which[i]];
+        for (size_t k = 0; k < m; k++)
+            inverse[i * m + k] = qdot_simplify(
+                pool, qdot_diff(pool, l->solved[which[i]], l->p[which[k]]), &l->facts);
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    if (m <= 3 && qdot_squares_worth(l->s, m, inverse))
+        QDOT_TRY(qdot_squares_complete(q, m, inverse, v, &done));
+    if (done)
+        return QDOT_OK;
+    for (size_t i = 0; i < m; i++)
+        sum = qdot_add(pool, sum, qdot_mul(pool, l->rest[which[i]], l->solved[which[i]]));
+    sum = qdot_simplify(pool, qdot_mul(pool, QDOT_HALF, sum), &l->facts);
+    if (sum != QDOT_NIL && qdot_expr_kind(pool, sum) == QDOT_PROD)
+        sum = qdot_common_out(pool, sum);
+    q->rest = qdot_add(pool, q->rest, sum);
+    return qdot_pool_check(pool);
+}
+
 /* L is of second degree in q', its slopes being linear: with b the momenta at q' = 0
  *
  *     sum p q' - L = 1/2 (p - b).A^-1 (p - b) - L at q' = 0
  *
- * without terms that cancel. */
+ * without terms that cancel, block by block of A. */
 static qdot_expr
 quadratic(legendre *l)
 {
     qdot_pool *pool = l->pool;
-    qdot_expr sum = QDOT_ZERO, at_rest = l->L;
+    qdot_expr sum = QDOT_NIL, at_rest = l->L;
+    size_t *block = qdot_calloc(2 * (size_t)l->n + 1, sizeof *block),
+           *which = block + l->n;
+    qdot_status status = block == NULL ? QDOT_ENOMEM : QDOT_OK;
+    qdot_squares q;
 
-    for (uint32_t i = 0; i < l->n; i++) {
-        sum = qdot_add(pool, sum, qdot_mul(pool, l->rest[i], l->solved[i]));
-        at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[i], (qdot_expr[]){QDOT_ZERO});
+    qdot_squares_begin(&q, l->s);
+    if (block != NULL)
+        qdot_squares_blocks(l->n, l->A, block);
+    for (size_t i = 0; i < l->n && status == QDOT_OK; i++) {
+        size_t m = 0;
+
+        for (size_t k = i; k < l->n && block[i] == i; k++)
+            if (block[k] == i)
+                which[m++] = k;
+        if (m > 0)
+            status = add_block(l, &q, m, which);
     }
-    sum = qdot_simplify(pool, qdot_mul(pool, QDOT_HALF, sum), &l->facts);
-    if (sum != QDOT_NIL && qdot_expr_kind(pool, sum) == QDOT_PROD)
-        sum = qdot_common_out(pool, sum);
+    if (status == QDOT_OK)
+        sum = qdot_common_out(pool, qdot_squares_sum(&q));
+    qdot_squares_clear(&q);
+    qdot_free(block);
+    if (status != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < l->n; i++)
+        at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[i], (qdot_expr[]){QDOT_ZERO});
     if (l->s->lagrangian != QDOT_NIL) /* T - V is in its form */
         at_rest = qdot_simplify(pool, at_rest, &l->facts);
     return qdot_sub(pool, sum, at_rest);
@@ -146,8 +196,12 @@ qdot_hamilton_routhian(qdot_scene *s)
         result = n == 0 ? qdot_mech_lagrangian(s) : transform(s, (uint32_t)n, q);
         if (n > 0 && result != QDOT_NIL) {
             qdot_facts facts = qdot_scene_facts(s);
+            qdot_expr shorter;
 
-            result = qdot_simplify(s->pool, qdot_neg(s->pool, result), &facts);
+            result = qdot_neg(s->pool, result);
+            shorter = qdot_simplify(s->pool, result, &facts);
+            if (qdot_expr_size(s->pool, shorter) < qdot_expr_size(s->pool, result))
+                result = shorter;
         }
     }
     qdot_free(q);

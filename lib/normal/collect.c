@@ -130,12 +130,60 @@ all_moving(qdot_field *f, const qdot_groups *groups)
     return true;
 }
 
+/* exp(c*t/m) stands before kinetic and potential part alike. */
+static bool
+holds_time(const qdot_form *form, const fmpz_mpoly_t g)
+{
+    qdot_field *f = form->f;
+
+    for (slong v = 0; v < f->n; v++)
+        if (fmpz_mpoly_degree_si(g, v, f->ctx) > 0 &&
+            (qdot_expr_node(f->pool, f->gen[v].expr)->holds & QDOT_HAS_TIME))
+            return true;
+    return false;
+}
+
+/* Of first degree in velocities: m*(x*y' - y*x' + w*x). */
+static bool
+is_linear(const qdot_form *form, const qdot_groups *groups)
+{
+    qdot_field *f = form->f;
+
+    for (slong i = 0; i < groups->n; i++) {
+        ulong degree = 0;
+
+        for (slong v = 0; v < f->n; v++) {
+            degree += groups->key[i * f->n + v];
+            if (groups->key[i * f->n + v] > 0 &&
+                !(qdot_expr_node(f->pool, f->gen[v].expr)->holds & QDOT_HAS_VELOCITY))
+                return false;
+        }
+        if (degree > 1)
+            return false;
+    }
+    return true;
+}
+
+/* Whether the sum is one thing, not a kinetic and a potential part: every term moves, or it stands
+ * over a denominator, or it is of first degree in velocities. */
+static bool
+is_one_thing(const qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
+{
+    qdot_field *f = form->f;
+
+    if (form->quotient || all_moving(f, groups))
+        return true;
+    return holds_time(form, g) || is_linear(form, groups);
+}
+
 /* Whether g comes out as in a book: nothing of it is left in the quotients (m*L^2 comes
  * out of m*L^2*q'' + m*L^2*..., but L1 stays in (m1 + m2)*L1^2*q1'' + m2*L1*L2*...),
  * and it is not taken out of a sum of a kinetic and a potential part. */
 static bool
-goes_out_whole(qdot_field *f, const fmpz_mpoly_t g, const qdot_groups *groups)
+goes_out_whole(qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
 {
+    qdot_field *f = form->f;
+
     for (slong v = 0; v < f->n; v++) {
         slong degree = fmpz_mpoly_degree_si(g, v, f->ctx);
 
@@ -143,7 +191,7 @@ goes_out_whole(qdot_field *f, const fmpz_mpoly_t g, const qdot_groups *groups)
             if (fmpz_mpoly_degree_si(groups->poly + i, v, f->ctx) > degree)
                 return false;
     }
-    return !fmpz_mpoly_is_fmpz(g, f->ctx) && all_moving(f, groups);
+    return !fmpz_mpoly_is_fmpz(g, f->ctx) && is_one_thing(form, g, groups);
 }
 
 /* The same of factors: a bare generator that stands in another factor as well. */
@@ -196,6 +244,67 @@ say_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     return e;
 }
 
+/* What moves and what does not, each by itself: m*(x*y' - y*x') + 1/2*q*B*(x^2 + y^2). */
+static qdot_expr
+say_apart(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
+{
+    qdot_field *f = form->f;
+    qdot_expr still = QDOT_ZERO, e = QDOT_NIL;
+    fmpz_mpoly_t moving, monomial;
+    slong count = 0;
+
+    fmpz_mpoly_init(moving, f->ctx);
+    fmpz_mpoly_init(monomial, f->ctx);
+    for (slong i = 0; i < groups->n; i++) {
+        fmpz_mpoly_zero(monomial, f->ctx);
+        fmpz_mpoly_push_term_si_ui(monomial, 1, groups->key + i * f->n, f->ctx);
+        if (fmpz_mpoly_is_one(monomial, f->ctx)) {
+            still = say_scaled(form, c, groups->poly + i);
+            continue;
+        }
+        fmpz_mpoly_mul(monomial, monomial, groups->poly + i, f->ctx);
+        fmpz_mpoly_add(moving, moving, monomial, f->ctx);
+        count++;
+    }
+    if (count > 1)
+        e = qdot_add(f->pool, qdot_form_say(form, moving, c), still);
+    fmpz_mpoly_clear(moving, f->ctx);
+    fmpz_mpoly_clear(monomial, f->ctx);
+    return e;
+}
+
+/* By what stands in front of coordinates and velocities: m1*(x1*y1' - y1*x1') + m2*(x2*y2' - y2*x2'). */
+static qdot_expr
+say_by_parameters(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
+{
+    qdot_field *f = form->f;
+    bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
+    qdot_expr sum = QDOT_ZERO;
+    qdot_groups groups;
+    fmpq_t one;
+
+    if (by == NULL)
+        return qdot_pool_fail(f->pool);
+    for (slong v = 0; v < f->n; v++)
+        by[v] = qdot_expr_node(f->pool, f->gen[v].expr)->holds == QDOT_HAS_PARAM;
+    fmpq_init(one);
+    fmpq_one(one);
+    if (qdot_factor_group(f, &groups, p, by) != QDOT_OK)
+        sum = qdot_pool_fail(f->pool);
+    for (slong i = 0; i < groups.n && sum != QDOT_NIL; i++) {
+        qdot_expr front = qdot_form_monomial(f, one, groups.key + i * f->n);
+
+        sum = qdot_add(
+            f->pool, sum,
+            qdot_mul(f->pool, front,
+                     scaled(f->pool, c, qdot_form_plain(form, groups.poly + i))));
+    }
+    qdot_factor_ungroup(f, &groups);
+    fmpq_clear(one);
+    qdot_free(by);
+    return sum;
+}
+
 qdot_expr
 qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
 {
@@ -224,15 +333,24 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
         qdot_form_keep(pool, &best, say_collected(form, &groups, unit, c, true));
         common(f, g, &groups);
         out = qdot_form_coefficient(form, g);
-        for (int merged = 0; merged < 2 && goes_out_whole(f, g, &groups); merged++) {
+        for (int merged = 0; merged < 2 && goes_out_whole(form, g, &groups); merged++) {
             qdot_expr inner = say_collected(form, &groups, g, one, merged);
 
             qdot_form_keep(pool, &best, qdot_mul(pool, scaled(pool, c, out), inner));
+            if (!all_moving(f, &groups)) /* r^2*(m*phi' + 1/2*q*B) */
+                qdot_form_keep(
+                    pool, &best,
+                    qdot_mul(pool, out, say_collected(form, &groups, g, c, merged)));
         }
-        if (all_moving(f, &groups))
+        if (is_one_thing(form, g, &groups))
             qdot_form_keep(pool, &best, say_product(form, p, c));
-        if (!qdot_form_has_trig(form, p))
+        if (!all_moving(f, &groups) && (form->quotient || is_linear(form, &groups)))
+            qdot_form_keep(pool, &best, say_apart(form, &groups, c));
+        if (!qdot_form_has_trig(form, p)) {
+            if (is_linear(form, &groups))
+                qdot_form_keep(pool, &best, say_by_parameters(form, p, c));
             qdot_form_keep(pool, &best, qdot_form_squares(form, p, c));
+        }
     }
     fmpz_mpoly_clear(g, f->ctx);
     fmpz_mpoly_clear(unit, f->ctx);

@@ -15,6 +15,7 @@ typedef struct {
     qdot_expr *said;
     size_t n, known_capacity, said_capacity;
     int depth;
+    bool quotient; /* what is said stands over a denominator */
 } qdot_form;
 
 QDOT_MUST_CHECK qdot_status qdot_form_begin(qdot_form *form, qdot_field *f);
@@ -22,6 +23,9 @@ void qdot_form_end(qdot_form *form);
 
 /* c times a polynomial: collected in velocities and accelerations, or as a product. */
 qdot_expr qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
+
+/* The forms of a quotient: the shortest of them and of *best (quotient.c). */
+void qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best);
 
 /* The coefficient of a monomial in velocities: no fast variable in p. */
 qdot_expr qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p);

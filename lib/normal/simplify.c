@@ -9,131 +9,9 @@
 #include "normal/form.h"
 #include "normal/ideal.h"
 #include "normal/prepare.h"
+#include "normal/products.h"
 
-enum { WORK = QDOT_SIMPLIFY_WORK, MOST_TERMS = 2000, MOST_SPREAD = 16, MOST_TURNS = 4 };
-
-/* --- tan and cot ------------------------------------------------------------------- */
-
-/* In a product sin(a)^m cos(a)^-n is tan(a)^min(m, n) ..., likewise cot and tanh. */
-static qdot_expr
-tangents(qdot_pool *pool, qdot_expr e)
-{
-    uint32_t n = qdot_expr_count(pool, e);
-    qdot_expr result = e;
-
-    for (uint32_t i = 1; i < n; i += 2)
-        for (uint32_t j = 1; j < n; j += 2) {
-            qdot_expr s = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, j), t;
-            qdot_fun_id quotient = QDOT_TAN;
-            long m, k;
-
-            if (qdot_expr_kind(pool, s) != QDOT_FUN ||
-                qdot_expr_kind(pool, c) != QDOT_FUN ||
-                qdot_expr_arg(pool, s, 0) != qdot_expr_arg(pool, c, 0) ||
-                !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &m) ||
-                !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, j + 1), &k))
-                continue;
-            if (qdot_expr_node(pool, s)->op == QDOT_SINH &&
-                qdot_expr_node(pool, c)->op == QDOT_COSH)
-                quotient = QDOT_TANH;
-            else if (qdot_expr_node(pool, s)->op != QDOT_SIN ||
-                     qdot_expr_node(pool, c)->op != QDOT_COS)
-                continue;
-            if (quotient == QDOT_TAN && m < 0 && k > 0) { /* cot */
-                quotient = QDOT_COT;
-                m = -m;
-                k = -k;
-                t = s;
-                s = c;
-                c = t;
-            }
-            if (m <= 0 || k >= 0)
-                continue;
-            if (m > -k)
-                m = -k;
-            t = qdot_fun1(pool, quotient, qdot_expr_arg(pool, s, 0));
-            t = qdot_mul(pool, qdot_pow_int(pool, t, m), qdot_pow_int(pool, s, -m));
-            result = qdot_mul(pool, qdot_mul(pool, result, t), qdot_pow_int(pool, c, m));
-        }
-    return result;
-}
-
-/* Rebuild e from its leaves, `f` applied to every product. */
-static qdot_expr
-on_products(qdot_pool *pool, qdot_expr e,
-            qdot_expr (*f)(qdot_pool *pool, qdot_expr product))
-{
-    qdot_expr result = e;
-    qdot_walk w;
-
-    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
-        return e;
-    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
-        uint32_t n = qdot_expr_count(pool, w.at[i]);
-        qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few;
-        bool changed = false;
-
-        if (args == NULL)
-            break;
-        result = w.at[i];
-        for (uint32_t k = 0; k < n; k++) {
-            qdot_expr old = qdot_expr_arg(pool, w.at[i], k);
-
-            args[k] = (qdot_expr)qdot_walk_get(&w, old);
-            changed |= args[k] != old;
-        }
-        if (changed)
-            result = qdot_rebuild(pool, result, args);
-        if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_PROD)
-            result = f(pool, result);
-        qdot_walk_set(&w, w.at[i], result);
-        if (args != few)
-            qdot_free(args);
-    }
-    qdot_walk_end(&w);
-    return result;
-}
-
-static bool
-all_negative(const qdot_pool *pool, qdot_expr sum)
-{
-    uint32_t n = qdot_expr_count(pool, sum);
-    bool all = fmpq_sgn(qdot_expr_rational(pool, qdot_expr_arg(pool, sum, 0))) <= 0;
-
-    for (uint32_t i = 2; i < n && all; i += 2)
-        all = fmpq_sgn(qdot_expr_rational(pool, qdot_expr_arg(pool, sum, i))) < 0;
-    return all;
-}
-
-/* (-a - b)*c is -(a + b)*c. */
-static qdot_expr
-signs_in_front(qdot_pool *pool, qdot_expr e)
-{
-    uint32_t n = qdot_expr_count(pool, e);
-    qdot_expr few[24], *factor = few, result;
-    bool any = false;
-    long k;
-
-    if (n > 24 || n < 5)
-        return e;
-    factor[0] = qdot_expr_arg(pool, e, 0);
-    for (uint32_t i = 1; i < n; i += 2) {
-        qdot_expr b = qdot_expr_arg(pool, e, i), x = qdot_expr_arg(pool, e, i + 1);
-
-        if (qdot_expr_kind(pool, b) == QDOT_SUM && qdot_expr_to_int(pool, x, &k) &&
-            all_negative(pool, b)) {
-            any = true;
-            b = qdot_neg(pool, b);
-            if (k % 2 != 0)
-                factor[0] = qdot_neg(pool, factor[0]);
-        }
-        factor[(i + 1) / 2] = qdot_pow(pool, b, x);
-    }
-    if (!any)
-        return e;
-    result = qdot_product(pool, (n + 1) / 2, factor);
-    return result;
-}
+enum { WORK = QDOT_SIMPLIFY_WORK, MOST_TERMS = 2000, MOST_TURNS = 4 };
 
 /* --- candidates -------------------------------------------------------------------- */
 
@@ -149,132 +27,6 @@ static void
 keep(struct simplifier *s, qdot_expr e)
 {
     qdot_form_keep(s->pool, &s->best, e);
-}
-
-/* n = c n', d = d', both primitive; c rational. */
-static void
-content(qdot_field *f, fmpq_t c, qdot_ratio *r)
-{
-    fmpz_t n, d;
-
-    fmpz_init(n);
-    fmpz_init(d);
-    _fmpz_vec_content(n, r->n->coeffs, fmpz_mpoly_length(r->n, f->ctx));
-    _fmpz_vec_content(d, r->d->coeffs, fmpz_mpoly_length(r->d, f->ctx));
-    if (fmpz_sgn(fmpz_mpoly_leadcoeff(r->d)) < 0)
-        fmpz_neg(d, d);
-    fmpz_mpoly_scalar_divexact_fmpz(r->n, r->n, n, f->ctx);
-    fmpz_mpoly_scalar_divexact_fmpz(r->d, r->d, d, f->ctx);
-    fmpq_set_fmpz_frac(c, n, d);
-    fmpz_clear(n);
-    fmpz_clear(d);
-}
-
-/* Each term over a monomial denominator by itself. */
-static qdot_expr
-spread(struct simplifier *s, const qdot_ratio *r, const fmpq_t c)
-{
-    qdot_expr over =
-        qdot_div(s->pool, qdot_expr_fmpq(s->pool, c), qdot_field_expr(s->f, r->d));
-    qdot_expr sum = QDOT_ZERO;
-    fmpz_mpoly_t term;
-
-    fmpz_mpoly_init(term, s->f->ctx);
-    for (slong i = 0; i < fmpz_mpoly_length(r->n, s->f->ctx); i++) {
-        fmpz_mpoly_get_term(term, r->n, i, s->f->ctx);
-        sum =
-            qdot_add(s->pool, sum, qdot_mul(s->pool, qdot_field_expr(s->f, term), over));
-    }
-    fmpz_mpoly_clear(term, s->f->ctx);
-    return sum;
-}
-
-/* Each coefficient of a monomial in velocities over the denominator by itself. */
-static qdot_expr
-spread_coefficients(struct simplifier *s, const qdot_ratio *r, const fmpq_t c)
-{
-    qdot_field *f = s->f;
-    qdot_expr sum = QDOT_ZERO;
-    qdot_groups groups;
-
-    if (qdot_factor_group(f, &groups, r->n, s->form.fast) == QDOT_OK && groups.n > 1)
-        for (slong i = 0; i < groups.n; i++) {
-            qdot_ratio part;
-            fmpq_t one, k;
-
-            fmpq_init(one);
-            fmpq_init(k);
-            fmpq_one(one);
-            qdot_ratio_init(f, &part);
-            fmpz_mpoly_set(part.n, groups.poly + i, f->ctx);
-            fmpz_mpoly_set(part.d, r->d, f->ctx);
-            qdot_ratio_cancel(f, &part);
-            content(f, k, &part);
-            fmpq_mul(k, k, c);
-            sum = qdot_add(s->pool, sum,
-                           qdot_mul(s->pool,
-                                    qdot_div(s->pool, qdot_form_say(&s->form, part.n, k),
-                                             qdot_form_coefficient(&s->form, part.d)),
-                                    qdot_form_monomial(f, one, groups.key + i * f->n)));
-            qdot_ratio_clear(f, &part);
-            fmpq_clear(one);
-            fmpq_clear(k);
-        }
-    else
-        sum = QDOT_NIL;
-    qdot_factor_ungroup(f, &groups);
-    return sum;
-}
-
-static bool
-has_trig(const struct simplifier *s, const fmpz_mpoly_t p)
-{
-    for (slong v = 0; v < s->f->n; v++)
-        if (s->form.trig[v] && fmpz_mpoly_degree_si(p, v, s->f->ctx) > 0)
-            return true;
-    return false;
-}
-
-/* All that can be said of one quotient. */
-static void
-say(struct simplifier *s, const qdot_ratio *from)
-{
-    qdot_field *f = s->f;
-    qdot_ratio r;
-    qdot_expr e;
-    fmpq_t c;
-
-    if (fmpz_mpoly_is_zero(from->n, f->ctx)) {
-        s->best = QDOT_ZERO;
-        return;
-    }
-    fmpq_init(c);
-    qdot_ratio_init(f, &r);
-    qdot_ratio_set(f, &r, from);
-    content(f, c, &r);
-    e = qdot_form_say(&s->form, r.n, c);
-    if (!fmpz_mpoly_is_one(r.d, f->ctx)) {
-        qdot_expr below = qdot_form_coefficient(&s->form, r.d);
-
-        if (below != QDOT_NIL && qdot_expr_is_negative(s->pool, below)) {
-            fmpz_mpoly_neg(r.d, r.d, f->ctx);
-            fmpq_neg(c, c);
-            below = qdot_form_coefficient(&s->form, r.d);
-            e = qdot_form_say(&s->form, r.n, c);
-        }
-        e = qdot_div(s->pool, e, below);
-        keep(s, e);
-        if (has_trig(s, r.d))
-            keep(s, on_products(s->pool, e, tangents));
-        if (fmpz_mpoly_length(r.d, f->ctx) == 1 &&
-            fmpz_mpoly_length(r.n, f->ctx) <= MOST_SPREAD)
-            keep(s, spread(s, &r, c));
-        keep(s, spread_coefficients(s, &r, c));
-    } else {
-        keep(s, e);
-    }
-    qdot_ratio_clear(f, &r);
-    fmpq_clear(c);
 }
 
 static bool
@@ -303,7 +55,7 @@ say_turned(struct simplifier *s, const qdot_ratio *from)
             qdot_factor_flip(f, r.d, from->d, v) == QDOT_OK && qdot_field_goes(f) &&
             !fmpz_mpoly_is_zero(r.d, f->ctx)) {
             qdot_ratio_cancel(f, &r);
-            say(s, &r);
+            qdot_form_say_quotient(&s->form, &r, &s->best);
         }
         qdot_ratio_clear(f, &r);
     }
@@ -318,10 +70,10 @@ all_candidates(struct simplifier *s, const qdot_ratio *r)
         s->too_long = true;
         return;
     }
-    say(s, r);
-    if (has_trig(s, r->d)) {
+    qdot_form_say_quotient(&s->form, r, &s->best);
+    if (qdot_form_has_trig(&s->form, r->d)) {
         say_turned(s, r);
-        keep(s, on_products(s->pool, s->best, tangents));
+        keep(s, qdot_products_tangents(s->pool, s->best));
     }
 }
 
@@ -425,7 +177,9 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
             all_candidates(&s, &r);
         qdot_ratio_clear(&f, &r);
         qdot_form_end(&s.form);
-        s.best = on_products(pool, s.best, signs_in_front);
+        s.best = qdot_products_signs(pool, s.best);
+        if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
+            keep(&s, qdot_products_halved(pool, s.best));
         if (s.best != QDOT_NIL && origins.map.n > 0)
             keep(&s, qdot_walk_map(pool, s.best, origin, &origins));
     }

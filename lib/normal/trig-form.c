@@ -12,9 +12,10 @@
 
 enum { MOST_ANGLES = 4, MOST_HARMONICS = 40, MOST_DEGREE = 8, MOST_FLIPS = 3 };
 
-/* Sums with a minus in front among the factors of e, or of its terms. */
+/* What a person would rather not read in e, its sum factors and those of its terms: a minus in
+ * front of a sum, a sum for a factor, a difference. */
 static int
-minuses(const qdot_pool *pool, qdot_expr e)
+awkward(const qdot_pool *pool, qdot_expr e, bool inner)
 {
     uint32_t n = qdot_expr_count(pool, e);
     int count = 0;
@@ -23,13 +24,21 @@ minuses(const qdot_pool *pool, qdot_expr e)
         for (uint32_t i = 1; i < n; i += 2) {
             qdot_expr b = qdot_expr_arg(pool, e, i);
 
-            count +=
-                qdot_expr_kind(pool, b) == QDOT_SUM && qdot_expr_is_negative(pool, b);
+            if (qdot_expr_kind(pool, b) == QDOT_SUM)
+                count += 2 +
+                         8 * (qdot_expr_is_negative(pool, b) ||
+                              qdot_expr_never_positive(pool, b)) +
+                         awkward(pool, b, true);
         }
     } else if (qdot_expr_kind(pool, e) == QDOT_SUM) {
-        for (uint32_t i = 1; i < n; i += 2)
-            if (qdot_expr_kind(pool, qdot_expr_arg(pool, e, i)) == QDOT_PROD)
-                count += minuses(pool, qdot_expr_arg(pool, e, i));
+        for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) {
+            qdot_expr x = qdot_expr_arg(pool, e, i),
+                      c = i == 0 ? x : qdot_expr_arg(pool, e, i + 1);
+
+            count += fmpq_sgn(qdot_expr_rational(pool, c)) < 0;
+            if (i > 0 && !inner && qdot_expr_kind(pool, x) == QDOT_PROD)
+                count += awkward(pool, x, true);
+        }
     }
     return count;
 }
@@ -44,7 +53,7 @@ qdot_form_keep(qdot_pool *pool, qdot_expr *best, qdot_expr e)
     now = qdot_expr_size(pool, e);
     before = *best == QDOT_NIL ? UINT64_MAX : qdot_expr_size(pool, *best);
     if (now < before || *best == QDOT_NIL ||
-        (now == before && minuses(pool, e) < minuses(pool, *best)))
+        (now == before && awkward(pool, e, false) < awkward(pool, *best, false)))
         *best = e;
 }
 
@@ -205,49 +214,6 @@ angle_of(qdot_field *f, const struct harmonic *h, int n, const slong *sine, int 
     return angle;
 }
 
-/* Where the constant is -+ the coefficient b of a cos(2 k), both together are -+2 b
- * sin(k)^2 or 2 b cos(k)^2 (hyperbolic: 2 b sinh(k)^2, 2 b cosh(k)^2). Taken out of x;
- * what they are. */
-static qdot_expr
-take_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool circular)
-{
-    static const int origin[MOST_ANGLES];
-    struct harmonic *zero = harmonic_at(x, origin);
-    qdot_pool *pool = f->pool;
-
-    if (zero == NULL || fmpq_is_zero(&zero->c))
-        return QDOT_ZERO;
-    for (size_t i = 0; i < x->n; i++) {
-        struct harmonic *h = &x->at[i];
-        bool even = h != zero, same = fmpq_equal(&h->c, &zero->c);
-        qdot_expr square;
-        fmpq_t c;
-
-        for (int j = 0; j < MOST_ANGLES; j++)
-            even &= h->k[j] % 2 == 0;
-        fmpq_init(c);
-        fmpq_neg(c, &h->c);
-        if (!even || (!same && !fmpq_equal(c, &zero->c))) {
-            fmpq_clear(c);
-            continue;
-        }
-        square = angle_of(f, h, n, sine, 2);
-        if (circular)
-            square = qdot_fun1(pool, same ? QDOT_COS : QDOT_SIN, square);
-        else
-            square = qdot_fun1(pool, same ? QDOT_COSH : QDOT_SINH, square);
-        if (same || !circular)
-            fmpq_set(c, &h->c);
-        fmpq_mul_2exp(c, c, 1);
-        square = qdot_mul(pool, qdot_expr_fmpq(pool, c), qdot_pow_int(pool, square, 2));
-        fmpq_zero(&h->c);
-        fmpq_zero(&zero->c);
-        fmpq_clear(c);
-        return square;
-    }
-    return QDOT_ZERO;
-}
-
 static qdot_expr
 say_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine,
               bool circular)
@@ -271,6 +237,64 @@ say_harmonics(qdot_field *f, const struct fourier *x, int n, const slong *sine,
     return sum;
 }
 
+/* With b cos(2 k) as b - 2 b sin(k)^2 or 2 b cos(k)^2 - b (hyperbolic: b + 2 b sinh(k)^2, 2 b
+ * cosh(k)^2 - b), of the harmonics the one that makes it shortest. */
+static qdot_expr
+with_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool circular)
+{
+    static const int origin[MOST_ANGLES];
+    struct harmonic *zero = harmonic_at(x, origin);
+    qdot_pool *pool = f->pool;
+    qdot_expr best = QDOT_NIL;
+    fmpq_t b, constant, rest;
+
+    if (zero == NULL || fmpq_is_zero(&zero->c))
+        return QDOT_NIL;
+    fmpq_init(b);
+    fmpq_init(constant);
+    fmpq_init(rest);
+    fmpq_set(constant, &zero->c);
+    for (size_t i = 0; i < x->n; i++) {
+        struct harmonic *h = &x->at[i];
+        bool even = h != zero && !fmpq_is_zero(&h->c);
+
+        for (int j = 0; j < MOST_ANGLES; j++)
+            even &= h->k[j] % 2 == 0;
+        for (int cosine = 0; cosine < 2 && even; cosine++) {
+            qdot_expr square = angle_of(f, h, n, sine, 2);
+
+            fmpq_set(b, &h->c);
+            if (cosine)
+                fmpq_sub(rest, constant, b);
+            else
+                fmpq_add(rest, constant, b);
+            fmpq_set(&zero->c, rest);
+            square = qdot_fun1(pool,
+                               circular ? cosine ? QDOT_COS : QDOT_SIN
+                               : cosine ? QDOT_COSH
+                                        : QDOT_SINH,
+                               square);
+            fmpq_zero(&h->c);
+            if (circular && !cosine)
+                fmpq_neg(b, b);
+            fmpq_mul_2exp(b, b, 1);
+            square =
+                qdot_mul(pool, qdot_expr_fmpq(pool, b), qdot_pow_int(pool, square, 2));
+            qdot_form_keep(
+                pool, &best,
+                qdot_add(pool, square, say_harmonics(f, x, n, sine, circular)));
+            fmpq_div_2exp(&h->c, b, 1);
+            if (circular && !cosine)
+                fmpq_neg(&h->c, &h->c);
+            fmpq_set(&zero->c, constant);
+        }
+    }
+    fmpq_clear(b);
+    fmpq_clear(constant);
+    fmpq_clear(rest);
+    return best;
+}
+
 /* p by multiple angles; nil if that is too long. */
 static qdot_expr
 by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
@@ -280,7 +304,7 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
         *degree = qdot_malloc(((size_t)f->n + 1) * 2 * sizeof *degree);
     ulong *exp = (ulong *)(degree + f->n);
     struct fourier *x, *y, *sum;
-    qdot_expr e = QDOT_NIL, last;
+    qdot_expr e = QDOT_NIL;
     bool circular;
     int n;
     fmpq_t c, zero;
@@ -322,11 +346,7 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
     }
     if (n > 0 && !sum->full) {
         e = say_harmonics(f, sum, n, sine, circular);
-        last = take_square(f, sum, n, sine, circular);
-        if (last != QDOT_ZERO)
-            qdot_form_keep(
-                f->pool, &e,
-                qdot_add(f->pool, last, say_harmonics(f, sum, n, sine, circular)));
+        qdot_form_keep(f->pool, &e, with_square(f, sum, n, sine, circular));
     }
     clear(sum);
     fmpq_clear(c);
@@ -339,8 +359,9 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
 /* --- Pythagoras either way, as a sum and as a product ------------------------------ */
 
 static qdot_expr
-by_factors(qdot_field *f, const fmpz_mpoly_t p)
+by_factors(qdot_form *form, const fmpz_mpoly_t p)
 {
+    qdot_field *f = form->f;
     qdot_factors factors;
     qdot_expr e = QDOT_NIL;
     fmpq_t c;
@@ -350,10 +371,14 @@ by_factors(qdot_field *f, const fmpz_mpoly_t p)
         fmpq_set_fmpz(c, factors.content);
         e = qdot_expr_fmpq(f->pool, c);
         fmpq_clear(c);
-        for (slong i = 0; i < factors.n; i++)
-            e = qdot_mul(f->pool, e,
-                         qdot_pow_int(f->pool, qdot_field_expr(f, factors.poly + i),
-                                      factors.exp[i]));
+        for (slong i = 0; i < factors.n; i++) {
+            /* of several, each is of smaller degree than p: sin(a - b)*cos(b) */
+            bool part = factors.n > 1 || factors.exp[i] > 1;
+            qdot_expr one = part ? qdot_form_trig(form, factors.poly + i)
+                                 : qdot_field_expr(f, factors.poly + i);
+
+            e = qdot_mul(f->pool, e, qdot_pow_int(f->pool, one, factors.exp[i]));
+        }
     }
     qdot_factor_clear(f, &factors);
     return e;
@@ -389,7 +414,7 @@ qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p)
             break;
         qdot_form_keep(f->pool, &best, qdot_field_expr(f, q));
         if (fmpz_mpoly_length(q, f->ctx) > 1)
-            qdot_form_keep(f->pool, &best, by_factors(f, q));
+            qdot_form_keep(f->pool, &best, by_factors(form, q));
     }
     fmpz_mpoly_clear(q, f->ctx);
     qdot_form_keep(f->pool, &best, by_harmonics(f, p));

@@ -1,0 +1,173 @@
+/* products.c -- every product of an expression rewritten: quotients as tan and cot, signs in front. */
+#include "normal/products.h"
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/simplify.h"
+
+/* In a product sin(a)^m cos(a)^-n is tan(a)^min(m, n) ..., likewise cot and tanh. */
+static qdot_expr
+tangents(qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr result = e;
+
+    for (uint32_t i = 1; i < n; i += 2)
+        for (uint32_t j = 1; j < n; j += 2) {
+            qdot_expr s = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, j), t;
+            qdot_fun_id quotient = QDOT_TAN;
+            long m, k;
+
+            if (qdot_expr_kind(pool, s) != QDOT_FUN ||
+                qdot_expr_kind(pool, c) != QDOT_FUN ||
+                qdot_expr_arg(pool, s, 0) != qdot_expr_arg(pool, c, 0) ||
+                !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &m) ||
+                !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, j + 1), &k))
+                continue;
+            if (qdot_expr_node(pool, s)->op == QDOT_SINH &&
+                qdot_expr_node(pool, c)->op == QDOT_COSH)
+                quotient = QDOT_TANH;
+            else if (qdot_expr_node(pool, s)->op != QDOT_SIN ||
+                     qdot_expr_node(pool, c)->op != QDOT_COS)
+                continue;
+            if (quotient == QDOT_TAN && m < 0 && k > 0) { /* cot */
+                quotient = QDOT_COT;
+                m = -m;
+                k = -k;
+                t = s;
+                s = c;
+                c = t;
+            }
+            if (m <= 0 || k >= 0)
+                continue;
+            if (m > -k)
+                m = -k;
+            t = qdot_fun1(pool, quotient, qdot_expr_arg(pool, s, 0));
+            t = qdot_mul(pool, qdot_pow_int(pool, t, m), qdot_pow_int(pool, s, -m));
+            result = qdot_mul(pool, qdot_mul(pool, result, t), qdot_pow_int(pool, c, m));
+        }
+    return result;
+}
+
+/* Rebuild e from its leaves, `f` applied to every node of a kind. */
+static qdot_expr
+on_nodes(qdot_pool *pool, qdot_expr e, qdot_kind kind,
+         qdot_expr (*f)(qdot_pool *pool, qdot_expr node))
+{
+    qdot_expr result = e;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return e;
+    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
+        uint32_t n = qdot_expr_count(pool, w.at[i]);
+        qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few;
+        bool changed = false;
+
+        if (args == NULL)
+            break;
+        result = w.at[i];
+        for (uint32_t k = 0; k < n; k++) {
+            qdot_expr old = qdot_expr_arg(pool, w.at[i], k);
+
+            args[k] = (qdot_expr)qdot_walk_get(&w, old);
+            changed |= args[k] != old;
+        }
+        if (changed)
+            result = qdot_rebuild(pool, result, args);
+        if (result != QDOT_NIL && qdot_expr_kind(pool, result) == kind)
+            result = f(pool, result);
+        qdot_walk_set(&w, w.at[i], result);
+        if (args != few)
+            qdot_free(args);
+    }
+    qdot_walk_end(&w);
+    return result;
+}
+
+static bool
+all_negative(const qdot_pool *pool, qdot_expr sum)
+{
+    uint32_t n = qdot_expr_count(pool, sum);
+    bool all = fmpq_sgn(qdot_expr_rational(pool, qdot_expr_arg(pool, sum, 0))) <= 0;
+
+    for (uint32_t i = 2; i < n && all; i += 2)
+        all = fmpq_sgn(qdot_expr_rational(pool, qdot_expr_arg(pool, sum, i))) < 0;
+    return all;
+}
+
+/* (-a - b)*c is -(a + b)*c. */
+static qdot_expr
+signs_in_front(qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr few[24], *factor = few, result;
+    bool any = false;
+    long k;
+
+    if (n > 24 || n < 5)
+        return e;
+    factor[0] = qdot_expr_arg(pool, e, 0);
+    for (uint32_t i = 1; i < n; i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i), x = qdot_expr_arg(pool, e, i + 1);
+
+        if (qdot_expr_kind(pool, b) == QDOT_SUM && qdot_expr_to_int(pool, x, &k) &&
+            all_negative(pool, b)) {
+            any = true;
+            b = qdot_neg(pool, b);
+            if (k % 2 != 0)
+                factor[0] = qdot_neg(pool, factor[0]);
+        }
+        factor[(i + 1) / 2] = qdot_pow(pool, b, x);
+    }
+    if (!any)
+        return e;
+    result = qdot_product(pool, (n + 1) / 2, factor);
+    return result;
+}
+
+qdot_expr
+qdot_products_tangents(qdot_pool *pool, qdot_expr e)
+{
+    return on_nodes(pool, e, QDOT_PROD, tangents);
+}
+
+qdot_expr
+qdot_products_signs(qdot_pool *pool, qdot_expr e)
+{
+    return on_nodes(pool, e, QDOT_PROD, signs_in_front);
+}
+
+/* sin(2 a) as 2 sin(a) cos(a). */
+static qdot_expr
+halved(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr a = qdot_expr_arg(pool, e, 0), half;
+    bool even =
+        qdot_expr_kind(pool, a) == QDOT_SUM || qdot_expr_kind(pool, a) == QDOT_PROD;
+
+    if (qdot_expr_node(pool, e)->op != QDOT_SIN)
+        return e;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, a) && even; i += 2) {
+        const fmpq *c = qdot_expr_rational(pool, qdot_expr_arg(pool, a, i));
+
+        even = fmpz_is_one(fmpq_denref(c)) && fmpz_is_even(fmpq_numref(c));
+        if (qdot_expr_kind(pool, a) == QDOT_PROD)
+            break;
+    }
+    if (!even)
+        return e;
+    half = qdot_expand(pool, qdot_mul(pool, QDOT_HALF, a));
+    return qdot_mul(
+        pool, qdot_expr_int(pool, 2),
+        qdot_mul(pool, qdot_fun1(pool, QDOT_SIN, half), qdot_fun1(pool, QDOT_COS, half)));
+}
+
+qdot_expr
+qdot_products_halved(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr other = on_nodes(pool, e, QDOT_FUN, halved);
+
+    return other == e ? e : on_nodes(pool, other, QDOT_SUM, qdot_common_out);
+}

@@ -1,0 +1,17 @@
+/* products.h -- products of an expression, rewritten wherever they stand in it. */
+#ifndef QDOT_NORMAL_PRODUCTS_H
+#define QDOT_NORMAL_PRODUCTS_H
+
+#include "expr/expr.h"
+
+/* sin(a)^m cos(a)^-n as tan(a)^k ..., likewise cot and tanh. Equal to e; nil as the pool failed. */
+qdot_expr qdot_products_tangents(qdot_pool *pool, qdot_expr e);
+
+/* (-a - b)*c as -(a + b)*c. */
+qdot_expr qdot_products_signs(qdot_pool *pool, qdot_expr e);
+
+/* sin(2 a) as 2 sin(a) cos(a), and then what terms share in front (common.c):
+ * 1/2*sin(2*a)*x + sin(a)*y = sin(a)*(cos(a)*x + y). e itself where there is no such sine. */
+qdot_expr qdot_products_halved(qdot_pool *pool, qdot_expr e);
+
+#endif
