@@ -535,6 +535,7 @@ script_tests = \
 	tests/script/hamilton.lag \
 	tests/script/help-examples.lag \
 	tests/script/help.lag \
+	tests/script/history.lag \
 	tests/script/horizon.sh \
 	tests/script/identities.sh \
 	tests/script/include.lag \
@@ -555,6 +556,7 @@ script_tests = \
 	tests/script/mechanism-rolling-sphere.lag \
 	tests/script/mechanism-slider-crank.lag \
 	tests/script/mechanism-top.lag \
+	tests/script/modes.lag \
 	tests/script/moving.lag \
 	tests/script/names.lag \
 	tests/script/on-surfaces.lag \
@@ -1051,6 +1053,7 @@ test_files = \
 	tests/script/hamilton.out \
 	tests/script/help-examples.out \
 	tests/script/help.out \
+	tests/script/history.out \
 	tests/script/horizon.out \
 	tests/script/identities-angles.inc \
 	tests/script/identities-books.inc \
@@ -1082,6 +1085,7 @@ test_files = \
 	tests/script/mechanism-rolling-sphere.out \
 	tests/script/mechanism-slider-crank.out \
 	tests/script/mechanism-top.out \
+	tests/script/modes.out \
 	tests/script/moving.out \
 	tests/script/names.out \
 	tests/script/normalise.sed \

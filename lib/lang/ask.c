@@ -103,11 +103,11 @@ qdot_ask_expression(qdot_cursor *c)
 {
     qdot_session *session = c->session;
     const qdot_token *start = c->at;
-    qdot_expr value;
+    qdot_expr value, over;
     qdot_text name = {0};
     qdot_status status;
 
-    QDOT_TRY(qdot_read_value(c, &value));
+    QDOT_TRY(qdot_read_named(c, &value, &over));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
     qdot_statement_text(c->session, start, c->at, &name);
@@ -117,7 +117,7 @@ qdot_ask_expression(qdot_cursor *c)
     }
     status = qdot_text_status(&name);
     if (status == QDOT_OK)
-        status = qdot_vec_push(&session->history, value);
+        status = qdot_session_remember(session, value, over);
     if (status == QDOT_OK && qdot_ask_is_measured(session, value))
         status = answer_measured(session, qdot_text_str(&name), value);
     else if (status == QDOT_OK && qdot_expr_kind(session->pool, value) == QDOT_LIST)
@@ -419,7 +419,10 @@ qdot_ask_forces(qdot_cursor *c)
     QDOT_TRY(qdot_cursor_expect_end(c));
     forces = qdot_mech_forces(session->scene);
     QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_vec_push(&session->history, forces));
+    QDOT_TRY(qdot_session_remember(session, forces,
+                                   qdot_list(session->pool,
+                                             (uint32_t)session->scene->coordinates.n,
+                                             session->scene->coordinates.at)));
     QDOT_TRY(answer_list(session, "forces", forces));
     return answer_text(session, "forces", qdot_mech_forces_parts(session->scene, session->style, &text),
                        &text);

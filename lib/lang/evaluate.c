@@ -517,7 +517,11 @@ history(machine *m, uint32_t n)
         return qdot_fail(QDOT_EINVAL, "there is no value yet for `%%`");
     if (n > count)
         return qdot_fail(QDOT_EINVAL, "there are only %zu values so far", count);
-    return push(m, m->session->history.at[n == 0 ? count - 1 : n - 1]);
+    count = n == 0 ? count : n;
+    QDOT_TRY(push(m, m->session->history.at[count - 1]));
+    if (count <= m->session->history_over.n)
+        from_top(m, 1)->over = m->session->history_over.at[count - 1];
+    return QDOT_OK;
 }
 
 static qdot_status

@@ -53,6 +53,7 @@ qdot_session_free(qdot_session *session)
     forget_runs(session);
     qdot_free(session->runs.at);
     qdot_free(session->history.at);
+    qdot_free(session->history_over.at);
     qdot_free(session->measured.at);
     for (size_t i = 0; i < session->members.n; i++)
         qdot_free(session->members.at[i].run);
@@ -387,4 +388,14 @@ qdot_session_complete(qdot_session *session, const char *prefix, char ***words, 
         *n = 0;
     }
     return c.status;
+}
+
+qdot_status
+qdot_session_remember(qdot_session *session, qdot_expr value, qdot_expr over)
+{
+    QDOT_TRY(qdot_vec_push(&session->history, value));
+    while (session->history_over.n < session->history.n)
+        QDOT_TRY(qdot_vec_push(&session->history_over, QDOT_NIL));
+    session->history_over.at[session->history.n - 1] = over;
+    return QDOT_OK;
 }

@@ -13,10 +13,6 @@
 #include "mech/quantity.h"
 #include "sim/run.h"
 
-typedef struct {
-    qdot_expr value;
-} qdot_history_entry;
-
 /* A number that a run gave: stands in expressions as a FORMAL symbol. */
 typedef struct {
     qdot_expr symbol;
@@ -48,6 +44,7 @@ typedef struct qdot_session {
     bool failed;                 /* the latest text or file stopped at an error */
     bool refuted;                /* a check was refuted: exit 1 at the end */
     qdot_vec(qdot_expr) history; /* %1 is history.at[0] */
+    qdot_vec(qdot_expr) history_over; /* coordinates its entries go by; nil, or shorter: none */
     qdot_vec(qdot_measured) measured;
     qdot_vec(qdot_member) members;
     qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
@@ -88,6 +85,10 @@ qdot_expr qdot_session_bind(qdot_session *session, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr e,
                                                 double *value, double *error);
 /* As an integer: QDOT_ETYPE with the value otherwise. */
+/* Add a value to the history: `%` from now on. over: the LIST of coordinates its entries go by, or
+ * nil. */
+QDOT_MUST_CHECK qdot_status qdot_session_remember(qdot_session *session, qdot_expr value,
+                                                  qdot_expr over);
 QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_expr e,
                                                  long *value);
 /* Forget the scene's coordinates, particles, ... (`reset scene`) or everything (`reset`). */

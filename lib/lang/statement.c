@@ -528,6 +528,8 @@ void
 qdot_statement_text(qdot_session *session, const qdot_token *from, const qdot_token *to,
                     qdot_text *out)
 {
+    int depth = 0, member = 0; /* brackets; those of x[1,2], or 0 */
+
     for (const qdot_token *k = from; k < to; k++) {
         bool binary = k > from && ends_operand(k - 1) && is_spaced(k);
         bool words = k > from && k->kind != QDOT_TOKEN_OPERATOR &&
@@ -540,7 +542,17 @@ qdot_statement_text(qdot_session *session, const qdot_token *from, const qdot_to
             qdot_text_format(out, "\"%s\"", k->text);
         else if (!add_index(session, k, out))
             qdot_text_add(out, k->text);
-        if (binary || ((is_op(k, ",") || is_op(k, ";")) && k + 1 < to))
+        if (is_op(k, "[") || is_op(k, "(")) {
+            depth++;
+            if (member == 0 && k > from && k[-1].kind == QDOT_TOKEN_NAME &&
+                qdot_names_is_family(session->names, k[-1].text))
+                member = depth;
+        } else if (is_op(k, "]") || is_op(k, ")")) {
+            if (member == depth--)
+                member = 0;
+        }
+        if (binary || (is_op(k, ",") && member == 0 && k + 1 < to) ||
+            (is_op(k, ";") && k + 1 < to))
             qdot_text_char(out, ' ');
     }
 }

@@ -308,15 +308,44 @@ turned(const rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
     return value;
 }
 
+/* The conditions of a branch, and that each value lies within the domain of its coordinate: a rational
+ * one of the parameters, an angle does. */
+static qdot_expr
+with_domains(const rest *r, const branch *b)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr all = b->conditions;
+
+    for (uint32_t k = 0; k < qdot_expr_count(pool, b->known); k++) {
+        qdot_expr u = qdot_expr_arg(pool, qdot_expr_arg(pool, b->known, k), 0),
+                  value = qdot_expr_arg(pool, qdot_expr_arg(pool, b->known, k), 1);
+        const qdot_symbol *x = qdot_expr_symbol(pool, u);
+        qdot_expr side[2] = {QDOT_NIL, QDOT_NIL};
+
+        if (x->class != QDOT_COORD ||
+            (qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_PARAM) != 0)
+            continue;
+        if (x->lo != QDOT_NIL)
+            side[0] = qdot_rel(pool, x->lo_open ? QDOT_LT : QDOT_LE, x->lo, value);
+        if (x->hi != QDOT_NIL)
+            side[1] = qdot_rel(pool, x->hi_open ? QDOT_LT : QDOT_LE, value, x->hi);
+        for (int i = 0; i < 2; i++)
+            if (side[i] != QDOT_NIL)
+                all = appended(pool, all, 1, &side[i]);
+    }
+    return all;
+}
+
 /* The known values in the order of the unknowns. */
 static qdot_status
 emit(rest *r, const branch *b, qdot_expr equations)
 {
     qdot_pool *pool = r->pool;
-    qdot_equilibrium e = {.exists = conditions_left(r, b->conditions)};
+    qdot_equilibrium e = {.exists = QDOT_NIL};
     qdot_expr *list;
     size_t n = 0;
 
+    e.exists = conditions_left(r, with_domains(r, b));
     QDOT_TRY(qdot_pool_check(pool));
     if (e.exists == QDOT_FALSE)
         return QDOT_OK;

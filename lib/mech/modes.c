@@ -9,6 +9,7 @@
 #include "expr/walk.h"
 #include "mech/derived.h"
 #include "mech/equilibrium.h"
+#include "normal/positive.h"
 #include "normal/rationalize.h"
 #include "normal/simplify.h"
 #include "normal/solve.h"
@@ -47,8 +48,8 @@ check_masses(const job *j)
         QDOT_TRY(qdot_pool_check(j->pool));
         if (moves)
             continue;
-        (void)qdot_fail(QDOT_ESINGULAR, "nothing with mass moves with %.200s: it has no modes",
-                        q);
+        (void)qdot_fail(QDOT_ESINGULAR,
+                        "nothing with mass moves with %.200s: it has no modes", q);
         return qdot_hint("declare only the coordinates that the scene uses");
     }
     return QDOT_OK;
@@ -143,6 +144,13 @@ to_echelon(const job *j, qdot_expr *A, size_t *pivot, size_t *rank)
     return QDOT_OK;
 }
 
+static qdot_status
+unstable(void)
+{
+    return qdot_fail(QDOT_EDOMAIN,
+                     "the equilibrium is not stable: there is no oscillation about it");
+}
+
 /* The modes of one root W = w^2: the null space of H - W M. */
 static qdot_status
 modes_of(job *j, qdot_expr W)
@@ -156,14 +164,17 @@ modes_of(job *j, qdot_expr W)
 
     if (A == NULL || pivot == NULL)
         status = QDOT_ENOMEM;
+    else if (qdot_positive(pool, W, &j->facts, 0, NULL) == QDOT_FALSE && !is_zero(j, W))
+        w = QDOT_NIL;
+    if (w == QDOT_NIL && status == QDOT_OK && !qdot_pool_failed(pool))
+        status = unstable();
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
         A[i] = qdot_simplify(
             pool, qdot_sub(pool, j->m.H[i], qdot_mul(pool, W, j->m.M[i])), &j->facts);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_EDOMAIN)
-        status = qdot_fail(QDOT_EDOMAIN, "the equilibrium is not stable: there is no "
-                                         "oscillation about it");
+        status = unstable();
     if (status == QDOT_OK)
         status = to_echelon(j, A, pivot, &rank);
     for (size_t c = 0; c < n && status == QDOT_OK; c++) {
@@ -213,6 +224,46 @@ sort(job *j)
         }
 }
 
+/* The two roots of det(H - W M) = 0 as
+ *
+ *     2 a W = b -+ sqrt((M11 H22 - M22 H11)^2 + 4 (M11 H12 - M12 H11)(M22 H12 - M12 H22)),
+ *     a = det M,   b = M11 H22 + M22 H11 - 2 M12 H12,
+ *
+ * whose root is mostly shorter than that of b^2 - 4 a det H; taken where W is. */
+static void
+of_two(job *j, qdot_root *roots)
+{
+    qdot_pool *pool = j->pool;
+    const qdot_expr *M = j->m.M, *H = j->m.H;
+    qdot_expr cross[4], b, root, W[2];
+    static const int pick[3][4] = {{0, 3, 3, 0}, {0, 1, 1, 0}, {3, 1, 1, 3}};
+
+    for (int i = 0; i < 3; i++) /* M_x H_y - M_z H_w */
+        cross[i] =
+            qdot_simplify(pool,
+                          qdot_sub(pool, qdot_mul(pool, M[pick[i][0]], H[pick[i][1]]),
+                                   qdot_mul(pool, M[pick[i][2]], H[pick[i][3]])),
+                          &j->facts);
+    cross[3] = qdot_sub(pool, qdot_mul(pool, M[0], M[3]), qdot_mul(pool, M[1], M[1]));
+    b = qdot_add(pool, qdot_mul(pool, M[0], H[3]), qdot_mul(pool, M[3], H[0]));
+    b = qdot_sub(pool, b,
+                 qdot_mul(pool, qdot_expr_int(pool, 2), qdot_mul(pool, M[1], H[1])));
+    root = qdot_mul(pool, qdot_expr_int(pool, 4), qdot_mul(pool, cross[1], cross[2]));
+    root = qdot_add(pool, qdot_pow_int(pool, cross[0], 2), root);
+    root = qdot_sqrt(pool, qdot_simplify(pool, root, &j->facts));
+    for (int i = 0; i < 2; i++) {
+        W[i] = i == 0 ? qdot_sub(pool, b, root) : qdot_add(pool, b, root);
+        W[i] = qdot_div(pool, W[i], qdot_mul(pool, qdot_expr_int(pool, 2), cross[3]));
+        W[i] = qdot_simplify(pool, W[i], &j->facts);
+    }
+    if (qdot_pool_failed(pool))
+        return;
+    if (qdot_expr_size(pool, W[0]) + qdot_expr_size(pool, W[1]) <
+        qdot_expr_size(pool, roots[0].value) + qdot_expr_size(pool, roots[1].value))
+        for (int i = 0; i < 2; i++)
+            roots[i].value = W[i];
+}
+
 /* *done: all n modes were found. */
 static qdot_status
 exact(job *j, bool *done)
@@ -236,7 +287,9 @@ exact(job *j, bool *done)
     qdot_free(A);
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(qdot_solve(pool, e, W, &j->facts, &roots, &count, &complete));
-    status = QDOT_OK;
+    if (n == 2 && count == 2 && complete)
+        of_two(j, roots);
+    status = qdot_pool_check(pool);
     for (size_t k = 0; k < count && complete && status == QDOT_OK; k++)
         status = modes_of(j, roots[k].value);
     qdot_free(roots);
@@ -357,8 +410,7 @@ in_numbers(job *j)
                scale = fmax(fabs(gsl_vector_get(W, 0)), fabs(gsl_vector_get(W, m - 1)));
 
         if (square < -1e-10 * scale)
-            status = qdot_fail(QDOT_EDOMAIN, "the equilibrium is not stable: there is no "
-                                             "oscillation about it");
+            status = unstable();
         else
             status = add_numeric(j, sqrt(square > 1e-13 * scale ? square : 0),
                                  v + 3 * m * m, Y, k);

@@ -117,6 +117,23 @@ spring_force(qdot_scene *s, size_t k, size_t i, bool kane)
     return qdot_neg(pool, qdot_mul(pool, pull, along(s, spring, i, true)));
 }
 
+/* e/2, a sum term by term: what is differentiated of a square has twos to lose. */
+static qdot_expr
+half(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr sum;
+
+    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_SUM)
+        return qdot_mul(pool, QDOT_HALF, e);
+    sum = qdot_mul(pool, QDOT_HALF, qdot_expr_arg(pool, e, 0));
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2)
+        sum = qdot_add(pool, sum,
+                       qdot_mul(pool,
+                                qdot_mul(pool, QDOT_HALF, qdot_expr_arg(pool, e, i + 1)),
+                                qdot_expr_arg(pool, e, i)));
+    return sum;
+}
+
 static qdot_expr
 damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
@@ -133,9 +150,9 @@ damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
     }
     /* By u.u simplified: u.u' and u.du/dq are half its derivatives. */
     square = qdot_link_square(s, true, k);
-    rate = qdot_mul(pool, QDOT_HALF, qdot_ddt(pool, square));
+    rate = half(pool, qdot_ddt(pool, square));
     if (!kane)
-        slope = qdot_mul(pool, QDOT_HALF, qdot_diff(pool, square, s->coordinates.at[i]));
+        slope = half(pool, qdot_diff(pool, square, s->coordinates.at[i]));
     return qdot_neg(pool, qdot_mul(pool, damper->stiffness,
                                    qdot_div(pool, qdot_mul(pool, rate, slope), square)));
 }

@@ -246,6 +246,51 @@ sum_or_squares(qdot_form *form, const fmpz_mpoly_t p)
     return best;
 }
 
+/* The coefficients of roots by themselves: (m1 + m2)*(L1 + L2) - sqrt(...). Nil: there is no root. */
+static qdot_expr
+by_roots(qdot_form *form, const fmpz_mpoly_t p)
+{
+    qdot_field *f = form->f;
+    bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by), any = false;
+    qdot_expr sum = QDOT_NIL, front;
+    fmpz_mpoly_t rest;
+    qdot_groups groups;
+    fmpq_t one;
+    fmpz_t k;
+
+    if (by == NULL)
+        return qdot_pool_fail(f->pool);
+    for (slong v = 0; v < f->n; v++) {
+        by[v] = f->gen[v].kind == QDOT_GEN_ROOT;
+        any |= by[v] && fmpz_mpoly_degree_si(p, v, f->ctx) > 0;
+    }
+    if (!any) {
+        qdot_free(by);
+        return QDOT_NIL;
+    }
+    fmpz_init(k);
+    fmpq_init(one);
+    fmpq_one(one);
+    fmpz_mpoly_init(rest, f->ctx);
+    front = take_content(f, rest, k, p);
+    front = qdot_mul(f->pool, qdot_form_integer(f->pool, k), front);
+    if (qdot_factor_group(f, &groups, rest, by) == QDOT_OK) {
+        for (slong i = 0; i < groups.n && groups.n > 1; i++) {
+            qdot_expr root = qdot_form_monomial(f, one, groups.key + i * f->n),
+                      c = qdot_form_plain(form, groups.poly + i);
+
+            sum = i == 0 ? qdot_mul(f->pool, c, root)
+                         : qdot_add(f->pool, sum, qdot_mul(f->pool, c, root));
+        }
+    }
+    qdot_factor_ungroup(f, &groups);
+    fmpz_mpoly_clear(rest, f->ctx);
+    fmpq_clear(one);
+    fmpz_clear(k);
+    qdot_free(by);
+    return sum == QDOT_NIL ? sum : qdot_mul(f->pool, front, sum);
+}
+
 /* A polynomial without fast and trigonometric variables. */
 qdot_expr
 qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
@@ -259,6 +304,8 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
     if (fmpz_mpoly_length(p, f->ctx) <= 1)
         return qdot_field_expr(f, p);
     best = sum_or_squares(form, p);
+    if (fmpz_mpoly_length(p, f->ctx) > 2)
+        qdot_form_keep(f->pool, &best, by_roots(form, p));
     if (fmpz_mpoly_length(p, f->ctx) > 2 || fmpz_mpoly_total_degree_si(p, f->ctx) > 1) {
         if (qdot_factor(f, &factors, p) == QDOT_OK) {
             product = qdot_form_integer(f->pool, factors.content);

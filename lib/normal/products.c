@@ -164,10 +164,50 @@ halved(qdot_pool *pool, qdot_expr e)
         qdot_mul(pool, qdot_fun1(pool, QDOT_SIN, half), qdot_fun1(pool, QDOT_COS, half)));
 }
 
-qdot_expr
-qdot_products_halved(qdot_pool *pool, qdot_expr e)
+/* The least power of a function in the terms of a sum, out: sin(a)*cos(a)*x + sin(a)^2*y =
+ * sin(a)*(cos(a)*x + sin(a)*y). */
+static qdot_expr
+function_out(qdot_pool *pool, qdot_expr sum)
 {
-    qdot_expr other = on_nodes(pool, e, QDOT_FUN, halved);
+    qdot_expr first, best = sum;
 
-    return other == e ? e : on_nodes(pool, other, QDOT_SUM, qdot_common_out);
+    sum = best = qdot_common_out(pool, sum);
+    if (sum == QDOT_NIL || qdot_expr_kind(pool, sum) != QDOT_SUM ||
+        qdot_expr_arg(pool, sum, 0) != QDOT_ZERO || qdot_expr_count(pool, sum) < 5)
+        return sum;
+    first = qdot_expr_arg(pool, sum, 1);
+    for (uint32_t i = 1;
+         qdot_expr_kind(pool, first) == QDOT_PROD && i < qdot_expr_count(pool, first);
+         i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, first, i), rest = QDOT_ZERO;
+        bool all = qdot_expr_kind(pool, b) == QDOT_FUN;
+
+        for (uint32_t k = 1; k < qdot_expr_count(pool, sum) && all; k += 2) {
+            qdot_expr term = qdot_expr_arg(pool, sum, k);
+            long power = 0;
+
+            for (uint32_t v = 1; qdot_expr_kind(pool, term) == QDOT_PROD &&
+                                 v < qdot_expr_count(pool, term);
+                 v += 2)
+                if (qdot_expr_arg(pool, term, v) == b &&
+                    !qdot_expr_to_int(pool, qdot_expr_arg(pool, term, v + 1), &power))
+                    power = 0;
+            all = power > 0 || term == b;
+            rest = qdot_add(
+                pool, rest,
+                qdot_mul(pool, qdot_expr_arg(pool, sum, k + 1), qdot_div(pool, term, b)));
+        }
+        if (!all)
+            continue;
+        rest = qdot_mul(pool, b, rest);
+        if (rest != QDOT_NIL && qdot_expr_size(pool, rest) < qdot_expr_size(pool, best))
+            best = rest;
+    }
+    return best;
+}
+
+qdot_expr
+qdot_products_out(qdot_pool *pool, qdot_expr e)
+{
+    return on_nodes(pool, on_nodes(pool, e, QDOT_FUN, halved), QDOT_SUM, function_out);
 }

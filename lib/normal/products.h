@@ -10,8 +10,8 @@ qdot_expr qdot_products_tangents(qdot_pool *pool, qdot_expr e);
 /* (-a - b)*c as -(a + b)*c. */
 qdot_expr qdot_products_signs(qdot_pool *pool, qdot_expr e);
 
-/* sin(2 a) as 2 sin(a) cos(a), and then what terms share in front (common.c):
- * 1/2*sin(2*a)*x + sin(a)*y = sin(a)*(cos(a)*x + y). e itself where there is no such sine. */
-qdot_expr qdot_products_halved(qdot_pool *pool, qdot_expr e);
+/* sin(2 a) as 2 sin(a) cos(a), and then what terms share in front (common.c), a function to its least
+ * power: 1/2*sin(2*a)*x + sin(a)*y = sin(a)*(cos(a)*x + y). Longer than e, it may be. */
+qdot_expr qdot_products_out(qdot_pool *pool, qdot_expr e);
 
 #endif

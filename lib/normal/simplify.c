@@ -179,7 +179,7 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
         qdot_form_end(&s.form);
         s.best = qdot_products_signs(pool, s.best);
         if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
-            keep(&s, qdot_products_halved(pool, s.best));
+            keep(&s, qdot_products_out(pool, s.best));
         if (s.best != QDOT_NIL && origins.map.n > 0)
             keep(&s, qdot_walk_map(pool, s.best, origin, &origins));
     }
