@@ -2,6 +2,7 @@
 #include "lang/statement.h"
 
 #include "expr/calculus.h"
+#include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer.h"
 #include "mech/quantity.h"
@@ -77,6 +78,21 @@ tidy(derivation *d, qdot_expr e)
     return qdot_common_out(d->session->pool, qdot_simplify(d->session->pool, e, &facts));
 }
 
+/* w, in space also along the body's own axes, in which its inertia is given. */
+static qdot_status
+spin(derivation *d, const qdot_body *b)
+{
+    qdot_scene *s = d->session->scene;
+    qdot_expr w = qdot_scene_spin(s, b->name);
+
+    if (b->angle != QDOT_NIL)
+        return named(d, "w[", b->name, "]", w);
+    QDOT_TRY(named(d, "w[", b->name, "]", w));
+    w = qdot_value_mul(s->pool, qdot_transpose(s->pool, b->rotation), w);
+    qdot_text_add(&d->text, "    along the axes of the body:\n");
+    return named(d, "w[", b->name, "]", tidy(d, w));
+}
+
 /* r, v = sum dr/dq q' + dr/dt and v^2 of everything that has a mass. */
 static qdot_status
 kinematics(derivation *d)
@@ -101,7 +117,7 @@ kinematics(derivation *d)
             else
                 QDOT_TRY(named(d, "v[", name, "]^2", qdot_mech_speed2(s, r)));
             if (step == 1 && !particle)
-                QDOT_TRY(named(d, "spin[", name, "]", qdot_scene_spin(s, name)));
+                QDOT_TRY(spin(d, b));
         }
     }
     return QDOT_OK;
@@ -111,13 +127,19 @@ static qdot_status
 energies(derivation *d)
 {
     qdot_scene *s = d->session->scene;
+    bool plane = false, space = false;
 
     if (s->lagrangian != QDOT_NIL) {
         heading(d, "Lagrangian, as stated");
         return named(d, "L", "", "", qdot_mech_lagrangian(s));
     }
-    heading(d, s->bodies.n > 0 ? "Kinetic energy: T = 1/2 sum m v^2 + 1/2 sum w.I w"
-                               : "Kinetic energy: T = 1/2 sum m v^2");
+    for (size_t i = 0; i < s->bodies.n; i++)
+        *(s->bodies.at[i].angle != QDOT_NIL ? &plane : &space) = true;
+    heading(d, plane && space
+                   ? "Kinetic energy: T = 1/2 sum m v^2 + 1/2 sum w.I w (I w^2)"
+               : space ? "Kinetic energy: T = 1/2 sum m v^2 + 1/2 sum w.I w"
+               : plane ? "Kinetic energy: T = 1/2 sum m v^2 + 1/2 sum I w^2"
+                       : "Kinetic energy: T = 1/2 sum m v^2");
     QDOT_TRY(named(d, "T", "", "", qdot_mech_kinetic(s)));
     if (s->coordinates.n > 1)
         QDOT_TRY(named(d, "M", "", "", qdot_mech_mass_matrix(s)));
@@ -171,6 +193,12 @@ reaction(const qdot_scene *s)
     return words[kind];
 }
 
+static bool
+holds_velocity(const qdot_scene *s, qdot_expr e)
+{
+    return (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY) != 0;
+}
+
 static qdot_status
 right_sides(derivation *d)
 {
@@ -179,9 +207,24 @@ right_sides(derivation *d)
     bool applied = s->forces.n + s->torques.n + s->dampers.n + s->dissipations.n > 0;
 
     if (!stated || applied) {
-        heading(d, stated     ? "Generalized forces beside L: Q = sum F.dr/dq"
-                   : !applied ? "Generalized forces: Q = -dV/dq"
-                              : "Generalized forces: Q = sum F.dr/dq - dV/dq");
+        qdot_text title = {0};
+        bool forces = s->forces.n + s->torques.n + s->dampers.n > 0;
+        qdot_expr V = stated ? QDOT_ZERO : qdot_mech_potential(s);
+
+        QDOT_TRY(qdot_pool_check(s->pool));
+        qdot_text_format(&title, "Generalized forces%s: Q =%s%s%s%s",
+                         stated ? " beside L" : "", forces ? " sum F.dr/dq" : "",
+                         forces && holds_velocity(s, V) ? " +" : "",
+                         holds_velocity(s, V) ? " d/dt dV/dq' - dV/dq"
+                         : stated             ? ""
+                         : forces             ? " - dV/dq"
+                                              : " -dV/dq",
+                         s->dissipations.n == 0 ? ""
+                         : forces || !stated    ? " - dD/dq'"
+                                                : " -dD/dq'");
+        QDOT_TRY(qdot_text_status(&title));
+        heading(d, qdot_text_str(&title));
+        qdot_text_clear(&title);
         for (size_t i = 0; i < s->coordinates.n; i++)
             QDOT_TRY(named(d, "Q[", name_of(d, i), "]",
                            qdot_mech_force(s, s->coordinates.at[i])));

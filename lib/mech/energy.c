@@ -168,6 +168,19 @@ out:
     return sum;
 }
 
+/* T by degrees in velocities where that is shorter: m*W*(x*y' - y*x') + 1/2*m*(x'^2 + y'^2). */
+static qdot_expr
+or_degrees(qdot_scene *s, qdot_expr T)
+{
+    qdot_expr b = qdot_mech_tidy_whole(s, linear_part(s)), sum;
+
+    if (b == QDOT_ZERO || b == QDOT_NIL || T == QDOT_NIL)
+        return T;
+    sum = qdot_common_out(s->pool, qdot_mech_tidy_whole(s, quadratic_part(s)));
+    sum = qdot_add(s->pool, sum, qdot_add(s->pool, b, qdot_mech_tidy(s, s->derived->c)));
+    return qdot_expr_size(s->pool, sum) < qdot_expr_size(s->pool, T) ? sum : T;
+}
+
 /* T with this sum of squares where that is shorter; others: the terms that are none. */
 static qdot_expr
 or_squares(qdot_scene *s, qdot_expr T, qdot_expr others)
@@ -193,7 +206,7 @@ qdot_mech_kinetic(qdot_scene *s)
     others = qdot_add(s->pool, linear_part(s), d->c);
     T = qdot_add(s->pool, quadratic_part(s), others);
     T = qdot_common_out(s->pool, qdot_mech_tidy_whole(s, T));
-    return d->kinetic = or_squares(s, T, others);
+    return d->kinetic = or_squares(s, or_degrees(s, T), others);
 }
 
 qdot_expr
