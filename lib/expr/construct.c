@@ -30,10 +30,25 @@ is_truth(const qdot_pool *pool, qdot_expr e)
            NODE(pool, e)->kind == QDOT_LOGIC;
 }
 
+/* An equation between numbers is an equation still, but among and, or, not it is true or false. */
+static qdot_expr
+decided(const qdot_pool *pool, qdot_expr e)
+{
+    const qdot_expr *side = ARGS(pool, e);
+
+    if (NODE(pool, e)->kind != QDOT_REL || NODE(pool, e)->op != QDOT_EQ)
+        return e;
+    if (side[0] == side[1])
+        return QDOT_TRUE;
+    return NODE(pool, side[0])->kind == QDOT_NUM && NODE(pool, side[1])->kind == QDOT_NUM
+               ? QDOT_FALSE
+               : e;
+}
+
 qdot_expr
 qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
 {
-    qdot_expr kept[16];
+    qdot_expr kept[16], first;
     uint32_t k = 0;
 
     if (FAILED(pool))
@@ -46,17 +61,19 @@ qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
                                     "and, or, not join comparisons such as x > 0");
     }
     if (op == QDOT_NOT) {
-        if (args[0] == QDOT_TRUE || args[0] == QDOT_FALSE)
-            return args[0] == QDOT_TRUE ? QDOT_FALSE : QDOT_TRUE;
+        first = decided(pool, args[0]);
+        if (first == QDOT_TRUE || first == QDOT_FALSE)
+            return first == QDOT_TRUE ? QDOT_FALSE : QDOT_TRUE;
         return qdot_pool_intern(pool, QDOT_LOGIC, op, 1, args, 0);
     }
     if (n > 16)
         return qdot_pool_intern(pool, QDOT_LOGIC, op, n, args, 0);
     for (uint32_t i = 0; i < n; i++) {
-        if (args[i] == (op == QDOT_AND ? QDOT_FALSE : QDOT_TRUE))
-            return args[i];
-        if (args[i] != (op == QDOT_AND ? QDOT_TRUE : QDOT_FALSE))
-            kept[k++] = args[i];
+        first = decided(pool, args[i]);
+        if (first == (op == QDOT_AND ? QDOT_FALSE : QDOT_TRUE))
+            return first;
+        if (first != (op == QDOT_AND ? QDOT_TRUE : QDOT_FALSE))
+            kept[k++] = first;
     }
     if (k == 0)
         return op == QDOT_AND ? QDOT_TRUE : QDOT_FALSE;

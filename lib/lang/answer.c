@@ -62,7 +62,7 @@ qdot_answer_digits(qdot_text *text, double value, double error)
     int digits = 10;
     size_t before;
 
-    value += 0.0; /* -0 is 0 */
+    value += 0.0;     /* -0 is 0 */
     if (error == 0) { /* the shortest that reads back as the same double */
         for (digits = 1; digits < 17; digits++) {
             char buffer[40];
@@ -361,10 +361,13 @@ check_text(qdot_session *session, const qdot_decision *decision)
                 qdot_answer_formula(session, qdot_expr_arg(pool, decision->at, i), &line);
         }
         if (isfinite(decision->left) && isfinite(decision->right)) {
+            double apart = fabs(decision->left - decision->right);
+            int digits = apart == 0 || apart > 1e-11 * fabs(decision->left) ? 12 : 17;
+
             qdot_text_add(&line, ": left = ");
-            qdot_text_double(&line, decision->left, 12);
+            qdot_text_double(&line, decision->left, digits);
             qdot_text_add(&line, ", right = ");
-            qdot_text_double(&line, decision->right, 12);
+            qdot_text_double(&line, decision->right, digits);
         }
     } else if (decision->verdict == QDOT_UNDECIDED) {
         if (decision->points > 0 && decision->digits > 0)

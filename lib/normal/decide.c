@@ -98,6 +98,52 @@ compare(qdot_sample *s, const struct sides *sides, const struct look *look,
     return result;
 }
 
+/* Of the values of a point those that the sides hold, and those that what is assumed ties to them. */
+static qdot_expr
+concerning(qdot_pool *pool, qdot_expr point, const qdot_expr *sides,
+           const qdot_facts *facts)
+{
+    uint32_t n = point == QDOT_NIL ? 0 : qdot_expr_count(pool, point), kept = 0;
+    size_t assumed = facts == NULL ? 0 : facts->n_relations + facts->n_conditions;
+    bool *in = qdot_calloc(n + 1, sizeof *in), more = true;
+    qdot_expr *rows = qdot_calloc(n + 1, sizeof *rows);
+
+    for (uint32_t i = 0; in != NULL && i < n; i++)
+        for (int k = 0; k < 3; k++)
+            in[i] |=
+                sides[k] != QDOT_NIL &&
+                qdot_expr_contains(pool, sides[k],
+                                   qdot_expr_arg(pool, qdot_expr_arg(pool, point, i), 0));
+    while (in != NULL && more) {
+        more = false;
+        for (size_t r = 0; r < assumed; r++) {
+            qdot_expr e = r < facts->n_relations
+                              ? facts->relations[r]
+                              : facts->conditions[r - facts->n_relations];
+            bool tied = false;
+
+            for (uint32_t i = 0; i < n; i++)
+                tied |=
+                    in[i] &&
+                    qdot_expr_contains(
+                        pool, e, qdot_expr_arg(pool, qdot_expr_arg(pool, point, i), 0));
+            for (uint32_t i = 0; i < n && tied; i++)
+                if (!in[i] &&
+                    qdot_expr_contains(
+                        pool, e, qdot_expr_arg(pool, qdot_expr_arg(pool, point, i), 0)))
+                    in[i] = more = true;
+        }
+    }
+    for (uint32_t i = 0; in != NULL && rows != NULL && i < n; i++)
+        if (in[i])
+            rows[kept++] = qdot_expr_arg(pool, point, i);
+    point =
+        in == NULL || rows == NULL ? qdot_pool_fail(pool) : qdot_list(pool, kept, rows);
+    qdot_free(in);
+    qdot_free(rows);
+    return point;
+}
+
 static qdot_status
 look_at_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *facts,
               const struct look *look, qdot_decision *d)
@@ -126,7 +172,7 @@ look_at_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *fact
                 d->digits = digits;
         } else if (here == 1) {
             d->verdict = QDOT_REFUTED;
-            d->at = qdot_sample_list(&s);
+            d->at = concerning(pool, qdot_sample_list(&s), e, facts);
             break;
         }
     }

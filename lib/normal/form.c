@@ -458,7 +458,7 @@ qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     qdot_pool *pool = f->pool;
-    qdot_expr best, factor;
+    qdot_expr best, factor, e;
     fmpz_mpoly_t rest, flipped;
     fmpz_t c;
 
@@ -475,6 +475,16 @@ qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p)
     factor = qdot_mul(pool, qdot_form_integer(pool, c), factor);
     if (factor != QDOT_ONE && fmpz_mpoly_length(rest, f->ctx) > 1)
         qdot_form_keep(pool, &best, qdot_mul(pool, factor, say_sum(form, rest)));
+    if (fmpz_mpoly_length(rest, f->ctx) >= 4 && fmpz_mpoly_length(rest, f->ctx) <= 8) {
+        fmpq_t one; /* (2 + v*cos(u/2))^2 + v^2/4 */
+
+        fmpq_init(one);
+        fmpq_one(one);
+        e = qdot_form_squares(form, rest, one);
+        if (e != QDOT_NIL)
+            qdot_form_keep(pool, &best, qdot_mul(pool, factor, e));
+        fmpq_clear(one);
+    }
     if (fmpz_mpoly_length(rest, f->ctx) > 1) {
         int flips = 0;
 

@@ -109,40 +109,57 @@ spread_alike(struct saying *s, const qdot_ratio *r, const fmpq_t c)
     return status == QDOT_OK ? sum : QDOT_NIL;
 }
 
-/* Each coefficient of a monomial in velocities over the denominator by itself. */
+/* What stands in velocities beside one coefficient. */
+struct share {
+    qdot_expr coefficient, sum;
+};
+
+/* Each coefficient of a monomial in velocities over what is left of the denominator by itself, equal
+ * ones together: dz^2 + a^2*(du^2 + dv^2)/(cosh(v) - cos(u))^2. */
 static qdot_expr
 spread_coefficients(struct saying *s, const qdot_ratio *r, const fmpq_t c)
 {
+    enum { MOST_SHARES = 40 };
     qdot_field *f = s->f;
+    struct share share[MOST_SHARES];
     qdot_expr sum = QDOT_ZERO;
     qdot_groups groups;
+    slong n = 0;
 
-    if (qdot_factor_group(f, &groups, r->n, s->form->fast) == QDOT_OK && groups.n > 1)
-        for (slong i = 0; i < groups.n; i++) {
-            qdot_ratio part;
-            fmpq_t one, k;
-
-            fmpq_init(one);
-            fmpq_init(k);
-            fmpq_one(one);
-            qdot_ratio_init(f, &part);
-            fmpz_mpoly_set(part.n, groups.poly + i, f->ctx);
-            fmpz_mpoly_set(part.d, r->d, f->ctx);
-            qdot_ratio_cancel(f, &part);
-            content(f, k, &part);
-            fmpq_mul(k, k, c);
-            sum = qdot_add(s->pool, sum,
-                           qdot_mul(s->pool,
-                                    qdot_div(s->pool, qdot_form_say(s->form, part.n, k),
-                                             qdot_form_coefficient(s->form, part.d)),
-                                    qdot_form_monomial(f, one, groups.key + i * f->n)));
-            qdot_ratio_clear(f, &part);
-            fmpq_clear(one);
-            fmpq_clear(k);
-        }
-    else
+    if (qdot_factor_group(f, &groups, r->n, s->form->fast) != QDOT_OK || groups.n < 2 ||
+        groups.n > MOST_SHARES)
         sum = QDOT_NIL;
+    for (slong i = 0; i < groups.n && sum != QDOT_NIL; i++) {
+        qdot_ratio part;
+        qdot_expr e, monomial;
+        slong at = 0;
+        fmpq_t one, k;
+
+        fmpq_init(one);
+        fmpq_init(k);
+        fmpq_one(one);
+        qdot_ratio_init(f, &part);
+        fmpz_mpoly_set(part.n, groups.poly + i, f->ctx);
+        fmpz_mpoly_set(part.d, r->d, f->ctx);
+        qdot_ratio_cancel(f, &part);
+        content(f, k, &part);
+        fmpq_mul(k, k, c);
+        e = qdot_div(s->pool, qdot_form_say(s->form, part.n, k),
+                     qdot_form_coefficient(s->form, part.d));
+        monomial = qdot_form_monomial(f, one, groups.key + i * f->n);
+        while (at < n && share[at].coefficient != e)
+            at++;
+        if (at == n)
+            share[n++] = (struct share){e, QDOT_ZERO};
+        share[at].sum = qdot_add(s->pool, share[at].sum, monomial);
+        qdot_ratio_clear(f, &part);
+        fmpq_clear(one);
+        fmpq_clear(k);
+    }
     qdot_factor_ungroup(f, &groups);
+    for (slong i = 0; i < n && sum != QDOT_NIL; i++)
+        sum =
+            qdot_add(s->pool, sum, qdot_mul(s->pool, share[i].coefficient, share[i].sum));
     return sum;
 }
 

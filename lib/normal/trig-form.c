@@ -13,7 +13,7 @@
 enum { MOST_ANGLES = 4, MOST_HARMONICS = 40, MOST_DEGREE = 8, MOST_FLIPS = 3 };
 
 /* What a person would rather not read in e, its sum factors and those of its terms: a minus in
- * front of a sum, a sum for a factor, a difference. */
+ * front of a sum, a difference. */
 static int
 awkward(const qdot_pool *pool, qdot_expr e, bool inner)
 {
@@ -384,6 +384,18 @@ by_factors(qdot_form *form, const fmpz_mpoly_t p)
     return e;
 }
 
+/* Of two as long a product of functions before a sum. */
+static void
+keep_product(qdot_pool *pool, qdot_expr *best, qdot_expr e)
+{
+    if (e != QDOT_NIL && *best != QDOT_NIL && qdot_expr_kind(pool, *best) == QDOT_SUM &&
+        qdot_expr_kind(pool, e) == QDOT_PROD &&
+        qdot_expr_size(pool, e) == qdot_expr_size(pool, *best) &&
+        awkward(pool, e, false) <= awkward(pool, *best, false))
+        *best = e;
+    qdot_form_keep(pool, best, e);
+}
+
 qdot_expr
 qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p)
 {
@@ -414,7 +426,7 @@ qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p)
             break;
         qdot_form_keep(f->pool, &best, qdot_field_expr(f, q));
         if (fmpz_mpoly_length(q, f->ctx) > 1)
-            qdot_form_keep(f->pool, &best, by_factors(form, q));
+            keep_product(f->pool, &best, by_factors(form, q));
     }
     fmpz_mpoly_clear(q, f->ctx);
     qdot_form_keep(f->pool, &best, by_harmonics(f, p));
