@@ -283,6 +283,7 @@ sim_sources = \
 	lib/sim/failure.c \
 	lib/sim/horizon.c \
 	lib/sim/members.c \
+	lib/sim/momenta.c \
 	lib/sim/multipliers.c \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
@@ -297,6 +298,7 @@ sim_sources = \
 	lib/sim/range.c \
 	lib/sim/reader.c \
 	lib/sim/residual.c \
+	lib/sim/routh.c \
 	lib/sim/run.c \
 	lib/sim/second.c \
 	lib/sim/shifted-lanes.c \
@@ -330,6 +332,7 @@ sim_headers = \
 	lib/sim/integrated.h \
 	lib/sim/members.def \
 	lib/sim/members.h \
+	lib/sim/momenta.h \
 	lib/sim/multipliers.h \
 	lib/sim/nearest.h \
 	lib/sim/piece.h \
@@ -341,6 +344,7 @@ sim_headers = \
 	lib/sim/race.h \
 	lib/sim/reader.h \
 	lib/sim/residual.h \
+	lib/sim/routh.h \
 	lib/sim/run.h \
 	lib/sim/shifted-lanes.def \
 	lib/sim/shifted-lanes.h \
@@ -498,6 +502,7 @@ unit_tests = \
 	tests/sim/test_horizon \
 	tests/sim/test_operations \
 	tests/sim/test_precise \
+	tests/sim/test_routh \
 	tests/sim/test_run \
 	tests/sim/test_start \
 	tests/sim/test_taylor \
@@ -567,6 +572,7 @@ script_tests = \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
 	tests/script/reset.lag \
+	tests/script/routh.lag \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
 	tests/script/several.sh \
@@ -1097,6 +1103,7 @@ test_files = \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
 	tests/script/reset.out \
+	tests/script/routh.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
 	tests/script/several.out \

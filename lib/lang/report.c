@@ -252,7 +252,9 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
         else
             qdot_print_name(d->name, session->style, line);
         qdot_text_char(line, ' ');
-        if (isfinite(d->drift))
+        if (d->kept)
+            qdot_text_add(line, "kept");
+        else if (isfinite(d->drift))
             qdot_answer_bound(line, d->drift);
         else
             qdot_text_add(line, "unknown");

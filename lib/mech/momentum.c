@@ -4,6 +4,7 @@
  * beside V and R the reactions: p_i is conserved when both vanish.
  */
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "mech/derived.h"
 #include "normal/simplify.h"
 
@@ -64,28 +65,38 @@ slope_vanishes(qdot_scene *s, qdot_expr x)
 }
 
 qdot_status
+qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *c, bool *is)
+{
+    qdot_facts facts = qdot_scene_facts(s);
+
+    *c = (qdot_cyclic){.coordinate = s->coordinates.at[i]};
+    *is = false;
+    if (slope_vanishes(s, c->coordinate)) {
+        c->momentum = qdot_mech_momentum(s, c->coordinate);
+        c->rate = qdot_add(s->pool, qdot_force_total(s, i, true, true),
+                           qdot_constraint_reaction(s, i));
+        if (c->momentum != QDOT_NIL && !qdot_is_zero(s->pool, c->momentum, &facts)) {
+            if (qdot_is_zero(s->pool, c->rate, &facts))
+                c->rate = QDOT_NIL;
+            *is = true;
+        }
+    }
+    return qdot_pool_check(s->pool);
+}
+
+qdot_status
 qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n)
 {
-    qdot_pool *pool = s->pool;
-    qdot_facts facts = qdot_scene_facts(s);
     qdot_vec(qdot_cyclic) found = {0};
-    qdot_status status = qdot_pool_check(pool);
+    qdot_status status = qdot_pool_check(s->pool);
 
     for (size_t i = 0; i < s->coordinates.n && status == QDOT_OK; i++) {
-        qdot_cyclic c = {.coordinate = s->coordinates.at[i]};
+        qdot_cyclic c;
+        bool is;
 
-        if (slope_vanishes(s, c.coordinate)) {
-            c.momentum = qdot_mech_momentum(s, c.coordinate);
-            c.rate = qdot_add(pool, qdot_force_total(s, i, true, true),
-                              qdot_constraint_reaction(s, i));
-            if (c.momentum != QDOT_NIL && !qdot_is_zero(pool, c.momentum, &facts)) {
-                if (qdot_is_zero(pool, c.rate, &facts))
-                    c.rate = QDOT_NIL;
-                status = qdot_vec_push(&found, c);
-            }
-        }
-        if (status == QDOT_OK)
-            status = qdot_pool_check(pool);
+        status = qdot_mech_cyclic_at(s, i, &c, &is);
+        if (status == QDOT_OK && is)
+            status = qdot_vec_push(&found, c);
     }
     if (status != QDOT_OK) {
         qdot_free(found.at);
@@ -95,4 +106,18 @@ qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n)
     *list = found.at;
     *n = found.n;
     return status;
+}
+
+qdot_status
+qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds)
+{
+    *holds = false;
+    for (size_t i = 0; i < s->coordinates.n && !*holds; i++) {
+        qdot_expr Q = qdot_add(s->pool, qdot_force_total(s, i, false, true),
+                               qdot_constraint_reaction(s, i));
+
+        QDOT_TRY(qdot_pool_check(s->pool));
+        *holds = qdot_expr_contains(s->pool, Q, x);
+    }
+    return QDOT_OK;
 }

@@ -55,6 +55,12 @@ typedef struct {
 } qdot_cyclic;
 /* Coordinates absent from L (their velocities may stand there). *list [*n], owned by caller. */
 QDOT_MUST_CHECK qdot_status qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n);
+/* The same of coordinate i alone; *is: whether it is one of them. */
+QDOT_MUST_CHECK qdot_status qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *cyclic,
+                                                bool *is);
+/* Whether x stands in what is applied along any coordinate beside V: forces, dampers,
+ * reactions. */
+QDOT_MUST_CHECK qdot_status qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds);
 /* Whether h is proved conserved: dh/dt = 0 by the equations. */
 QDOT_MUST_CHECK qdot_status qdot_mech_energy_conserved(qdot_scene *s, bool *conserved);
 typedef struct {

@@ -311,6 +311,24 @@ collect(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
 }
 
 qdot_status
+qdot_ode_enter(const qdot_ode_system *system, const qdot_ode_options *options, double t,
+               const double *y)
+{
+    const qdot_ode_following *f = system->following;
+    qdot_status status;
+
+    if (!f || options->goes_on)
+        return QDOT_OK;
+    status = f->enter(t, y, options->carry, f->user);
+    if (may_be_undefined(status)) {
+        const qdot_error why = *qdot_last_error();
+
+        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", t, why.message);
+    }
+    return status;
+}
+
+qdot_status
 qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
                    const qdot_ode_options *options, double t0, double t1, double *y,
                    qdot_ode_result *result)
@@ -328,6 +346,8 @@ qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
     if (method->series)
         return qdot_ode_taylor_integrate(system, options, t0, t1, y, result);
     status = check_arguments(system, t0, t1, y);
+    if (status == QDOT_OK)
+        status = qdot_ode_enter(system, r.options, t0, y);
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
     r.direction = t1 < t0 ? -1 : 1;
     r.max_steps = r.options->max_steps ? r.options->max_steps : max_steps_default;

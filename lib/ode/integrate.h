@@ -68,6 +68,8 @@ typedef struct {
     const double *carry;
     double t1_low;
     int order_more;
+    /* This goes on with the solution entered last (system->following). */
+    bool goes_on;
 } qdot_ode_options;
 
 typedef enum {
@@ -105,5 +107,11 @@ QDOT_MUST_CHECK qdot_status qdot_ode_integrate(const qdot_ode_system *system,
                                                const qdot_ode_options *options, double t0,
                                                double t1, double *y,
                                                qdot_ode_result *result);
+
+/* What every integration of system begins with: the solution through y [n] at t is entered,
+ * unless the options say that it goes on. Failures become QDOT_EFAILED, with the time. */
+QDOT_MUST_CHECK qdot_status qdot_ode_enter(const qdot_ode_system *system,
+                                           const qdot_ode_options *options, double t,
+                                           const double *y);
 
 #endif

@@ -328,6 +328,9 @@ qdot_ode_stepper_try(qdot_ode_stepper *s, double t, double h, double *ratio)
         QDOT_TRY(s->method->kernel->step(s, t, h, ratio));
     else
         QDOT_TRY(apply_gsl(s, t, h, ratio));
+    if (*ratio <= 1 && s->system->following)
+        QDOT_TRY(s->system->following->derive(t + h, s->trial,
+                                              s->system->following->user));
     if (*ratio <= 1 && !s->method->multistep)
         return qdot_ode_stepper_rhs(s, t + h, s->trial, s->trial_dydt);
     return QDOT_OK;
@@ -356,6 +359,18 @@ qdot_ode_stepper_project(qdot_ode_stepper *s, double t, double *ratio)
     return QDOT_OK;
 }
 
+/* What is not integrated, at the end of the step, where s->trial has it. */
+static void
+take_followers(qdot_ode_stepper *s)
+{
+    const qdot_ode_following *f = s->system->following;
+
+    for (size_t k = 0; f && k < f->n; k++) {
+        s->y[f->index[k]] = s->trial[f->index[k]];
+        s->carry[f->index[k]] = 0;
+    }
+}
+
 void
 qdot_ode_stepper_accept(qdot_ode_stepper *s)
 {
@@ -372,10 +387,12 @@ qdot_ode_stepper_accept(qdot_ode_stepper *s)
 
     if (s->method->multistep) {
         memcpy(s->y, s->z, n * sizeof *s->y);
+        take_followers(s);
         return;
     }
     for (size_t i = 0; i < n; i++)
         qdot_sum_advance(&s->y[i], &s->carry[i], s->scale[i] * s->z[i]);
+    take_followers(s);
     memcpy(s->dydt, s->trial_dydt, n * sizeof *s->dydt);
     choose_scale(s);
 }

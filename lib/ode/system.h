@@ -40,6 +40,20 @@ typedef struct {
     void *user; /* borrowed */
 } qdot_ode_series;
 
+/* Components that are not integrated but follow from the others at every moment, with what
+ * stays constant along a solution: velocities, where momenta are kept. */
+typedef struct {
+    size_t n;
+    const size_t *index; /* [n] which */
+    /* The solution to be followed begins at y + carry (carry NULL: 0): what is constant along
+     * it is found there, and kept until another one is entered. Entered twice in a row it is
+     * the same solution, by its y. Failures as those of f. */
+    qdot_status (*enter)(double t, const double *y, const double *carry, void *user);
+    /* Write them into y, from its others. QDOT_EDOMAIN where they are undefined. */
+    qdot_status (*derive)(double t, double *y, void *user);
+    void *user; /* borrowed */
+} qdot_ode_following;
+
 /* The callbacks may write nothing but their outputs and what `user` owns. A system that
  * is used by two threads at once must be two, each with its own `user`.
  *
@@ -57,6 +71,10 @@ typedef struct {
     void *user; /* borrowed */
     /* Taylor coefficients; NULL if there are none; borrowed */
     const qdot_ode_series *series;
+    /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing
+     * of it: dydt is 0 there, and rows of coefficients hold its series, to the order below
+     * the highest, order 0 in place of y. */
+    const qdot_ode_following *following;
     /* Bring y [n] + carry [n] (NULL: none) back to where solutions are: called before a
      * step is taken, not by multistep methods. *moved: the largest change of a component
      * relative to max(1, |y_i|), 0 where nothing was done; a step that had to be moved by

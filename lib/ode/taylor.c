@@ -60,6 +60,7 @@ typedef struct {
     double *next, *next_carry; /* [n] at the end of the step tried */
     double *value, *slope;     /* [n] of the polynomial */
     double *first;             /* [n] x_i1 */
+    bool *follows;             /* [n] it is not integrated */
     double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] and what fills a vector */
     qdot_series_weights weights;
     qdot_error undefined;      /* what f said last */
@@ -350,6 +351,25 @@ length_of_step(run *r, double *h)
 
 /* --- confirmation ------------------------------------------------------------------- */
 
+/* The same of what is not integrated: its polynomial at the end, in r->next, against what
+ * it is there, over the step. It is as sensitive to the rounding of the others as it likes:
+ * this is to see a series that misled. */
+static bool
+followers_agree(const run *r, double h, double share)
+{
+    const qdot_ode_following *f = r->system->following;
+
+    for (size_t k = 0; f && k < f->n; k++) {
+        const size_t i = f->index[k];
+        double P = r->next[i], now = r->series->x[i * r->series->stride];
+
+        if (!(fabs((P - now) * h) <=
+              share * fmax(1, fabs(P)) + 0x1p-26 * (fabs(P) + fabs(now)) * fabs(h)))
+            return false;
+    }
+    return true;
+}
+
 /* Whether the slope of the polynomial, in r->slope per old unit, is that of the equations
  * begun anew at its end. */
 static bool
@@ -364,11 +384,13 @@ confirms(const run *r, double h, double old_unit, double old_held)
         double f = series->x[i * series->stride + 1] * now, P = r->slope[i] * steps;
         double size = larger(1, fabs(r->next[i]));
 
+        if (r->follows[i])
+            continue;
         if (!(fabs(P - f) <=
               share * size + rounding * (fabs(P) + fabs(r->first[i] * steps) + size)))
             return false;
     }
-    return true;
+    return followers_agree(r, h, share);
 }
 
 /* Whether it also is inside the step, at places without a pattern. The series is
@@ -418,6 +440,18 @@ project(run *r, double t_end, double *moved)
     return r->system->project(t_end, r->next, r->next_carry, moved, r->system->user);
 }
 
+/* What is not integrated, at the end of the step. */
+static void
+take_followers(const run *r)
+{
+    const qdot_ode_following *f = r->system->following;
+
+    for (size_t k = 0; f && k < f->n; k++) {
+        r->next[f->index[k]] = r->series->x[f->index[k] * r->series->stride];
+        r->next_carry[f->index[k]] = 0;
+    }
+}
+
 /* Try a step of h from t to t_end. On QDOT_OK and *good it has been taken, and the
  * series is begun at its end. Otherwise nothing has changed but the series. */
 static qdot_status
@@ -449,6 +483,8 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     status = begin(r, t_end, r->next);
     if (status == QDOT_OK)
         *good = fixed || confirms(r, h, old_unit, old_held);
+    if (status == QDOT_OK && *good)
+        take_followers(r);
     if (status == QDOT_OK && *good && r->options->accepted) {
         bool stop = false;
 
@@ -594,6 +630,11 @@ prepare(run *r, double t0, double t1, const double *y)
         if (!*arrays[i])
             return QDOT_ENOMEM;
     }
+    r->follows = qdot_calloc(r->n, sizeof *r->follows);
+    if (!r->follows)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; r->system->following && k < r->system->following->n; k++)
+        r->follows[r->system->following->index[k]] = true;
     memcpy(r->y, y, r->n * sizeof *y);
     if (r->options->carry)
         memcpy(r->carry, r->options->carry, r->n * sizeof *y);
@@ -612,6 +653,7 @@ release(run *r)
 
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         qdot_free(arrays[i]);
+    qdot_free(r->follows);
 }
 
 qdot_status
@@ -638,6 +680,8 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
     r.tol = r.options->tol != 0 ? r.options->tol : tol_default;
     r.max_steps = r.options->max_steps ? r.options->max_steps : max_steps_default;
     status = prepare(&r, t0, t1, y);
+    if (status == QDOT_OK)
+        status = qdot_ode_enter(system, r.options, t0, y);
     if (status == QDOT_OK) {
         status = loop(&r);
         memcpy(y, r.y, r.n * sizeof *y);

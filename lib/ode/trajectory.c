@@ -223,9 +223,13 @@ open_stepper(qdot_trajectory_cursor *c)
 static qdot_status
 enter(qdot_trajectory_cursor *c, size_t piece)
 {
+    const size_t first = c->tr->pieces.at[piece].first;
     const qdot_ode_system *system = c->systems + c->tr->pieces.at[piece].mode;
 
     c->piece = piece;
+    if (system->following && !c->tr->entered) /* others may have followed it elsewhere */
+        QDOT_TRY(system->following->enter(c->tr->t[first], c->tr->y + first * c->tr->n,
+                                          NULL, system->following->user));
     if (system == c->system)
         return QDOT_OK;
     c->system = system;
@@ -364,6 +368,15 @@ read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
+/* What is not integrated, at the state read. */
+static qdot_status
+derive(const qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_ode_following *f = c->system->following;
+
+    return f ? f->derive(t, y, f->user) : QDOT_OK;
+}
+
 /* The state at t, which lies in the step from point k on or is that point. */
 static qdot_status
 read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
@@ -377,12 +390,14 @@ read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
         memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
         return QDOT_OK;
     }
-    if (!c->s)
-        return read_series(c, t, y);
+    if (!c->s) {
+        QDOT_TRY(read_series(c, t, y));
+        return derive(c, t, y);
+    }
     if (c->F) {
         QDOT_TRY(read_polynomial(c, t, y));
         if (c->good)
-            return QDOT_OK;
+            return derive(c, t, y);
     }
     if (!c->fresh)
         qdot_ode_stepper_start(c->s, tr->y + k * tr->n);

@@ -42,6 +42,8 @@ typedef struct {
     double tol;
     int order_more;         /* of the run's options */
     qdot_ode_result result; /* of the run */
+    bool entered;           /* its solution is entered already, elsewhere than at its first
+                               point: it is a part of a longer one (ode/system.h) */
     size_t t_capacity, y_capacity;
     qdot_vec(qdot_trajectory_piece) pieces;
 } qdot_trajectory;

@@ -7,6 +7,7 @@
 #include "sim/blocks.h"
 #include "sim/direct.h"
 #include "sim/constrained.h"
+#include "sim/momenta.h"
 #include "sim/shifted.h"
 #include "sim/constrained-series.h"
 #include "tape/derivative.h"
@@ -25,12 +26,23 @@ struct qdot_bind {
     double *out, *work;         /* of the tape */
     double *slopes;             /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
     double *slopes_work;
+
+    /* Of a plan with a reduced one, which is what is integrated: */
+    qdot_tape *reduced; /* a shaken copy; else NULL */
+    qdot_blocks reduced_blocks;
+    qdot_momenta *momenta;
 };
 
 static const qdot_tape *
 equations(const qdot_bind *b)
 {
     return b->tape ? b->tape : b->plan->tape;
+}
+
+static const qdot_tape *
+reduced_equations(const qdot_bind *b)
+{
+    return b->reduced ? b->reduced : b->plan->reduced->tape;
 }
 
 void
@@ -44,6 +56,10 @@ qdot_bind_free(qdot_bind *b)
     qdot_shifted_free(b->shifted);
     qdot_constrained_series_free(b->tied);
     qdot_tape_free(b->tape);
+    if (b->reduced_blocks.plan)
+        qdot_blocks_clear(&b->reduced_blocks);
+    qdot_momenta_free(b->momenta);
+    qdot_tape_free(b->reduced);
     qdot_free(b->in);
     qdot_free(b->out);
     qdot_free(b->work);
@@ -63,34 +79,44 @@ load(const qdot_bind *b, double t, const double *y)
     b->in[2 * n] = t;
 }
 
-/* q'' at what is loaded, into a [n]. */
+/* The accelerations of the blocks, from the outputs that begin at `out`; *end: what stands
+ * behind those. */
 static qdot_status
-accelerations(qdot_bind *b, double *a)
+solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
 {
-    const qdot_plan *p = b->plan;
-    const double *out = b->out;
-
-    if (b->held)
-        return qdot_constrained_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
-    qdot_tape_eval(equations(b), b->in, b->out, b->work);
-    for (size_t k = 0; k < p->structure.blocks; k++) {
-        const qdot_plan_block *block = p->blocks + k;
-        const double *x = b->blocks.at[k].x;
+    for (size_t k = 0; k < blocks->plan->structure.blocks; k++) {
+        const qdot_plan_block *block = blocks->plan->blocks + k;
+        const double *x = blocks->at[k].x;
 
         if (block->n == 1) {
             a[block->index[0]] = *out++;
             continue;
         }
-        memcpy(b->blocks.at[k].x, out, block->n * sizeof *out);
+        memcpy(blocks->at[k].x, out, block->n * sizeof *out);
         out += block->n;
         if (!block->constant) {
-            out = qdot_blocks_unpack(&b->blocks, k, out);
-            QDOT_TRY(qdot_blocks_factor(&b->blocks, k));
+            out = qdot_blocks_unpack(blocks, k, out);
+            QDOT_TRY(qdot_blocks_factor(blocks, k));
         }
-        qdot_blocks_solve(&b->blocks, k);
+        qdot_blocks_solve(blocks, k);
         for (size_t i = 0; i < block->n; i++)
             a[block->index[i]] = x[i];
     }
+    *end = out;
+    return QDOT_OK;
+}
+
+/* q'' at what is loaded, into a [n]. */
+static qdot_status
+accelerations(qdot_bind *b, double *a)
+{
+    const qdot_plan *p = b->plan;
+    const double *end;
+
+    if (b->held)
+        return qdot_constrained_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
+    qdot_tape_eval(equations(b), b->in, b->out, b->work);
+    QDOT_TRY(solve(&b->blocks, b->out, a, &end));
     for (size_t i = 0; i < p->n; i++)
         if (!isfinite(a[i]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
@@ -107,6 +133,42 @@ rhs(double t, const double *y, double *dydt, void *user)
     load(b, t, y);
     memcpy(dydt, y + n, n * sizeof *y);
     return accelerations(b, dydt + n);
+}
+
+/* The same by the reduced plan: rates of the coordinates whose momenta are kept. */
+static qdot_status
+reduced_rhs(double t, const double *y, double *dydt, void *user)
+{
+    qdot_bind *b = user;
+    const qdot_plan *r = b->plan->reduced;
+    const size_t n = r->n;
+    const double *rates;
+
+    load(b, t, y);
+    memcpy(b->in + 2 * n + 1, qdot_momenta_hi(b->momenta), r->n_kept * sizeof *y);
+    memcpy(dydt, y + n, n * sizeof *y);
+    memset(dydt + n, 0, n * sizeof *y);
+    qdot_tape_eval(reduced_equations(b), b->in, b->out, b->work);
+    QDOT_TRY(solve(&b->reduced_blocks, b->out, dydt + n, &rates));
+    for (size_t k = 0; k < r->n_kept; k++)
+        dydt[r->kept[k]] = rates[k];
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(dydt[i] + dydt[n + i]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             r->names[i]);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y,
+                        double *a)
+{
+    qdot_bind *b = system->user;
+
+    if (b->held)
+        return qdot_constrained_solve(b->held, t, y, a, a + b->plan->n);
+    load(b, t, y);
+    return accelerations(b, a);
 }
 
 /* --- its Jacobian --------------------------------------------------------------------- */
@@ -200,10 +262,11 @@ qdot_bind_system(qdot_bind *b)
 {
     return (qdot_ode_system){
         .n = 2 * b->plan->n,
-        .rhs = rhs,
+        .rhs = b->momenta ? reduced_rhs : rhs,
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
         .series = b->series,
+        .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
         .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
     };
 }
@@ -251,7 +314,8 @@ qdot_bind_factored(const qdot_bind *b)
 {
     return b->blocks.factored + (b->held ? qdot_constrained_factored(b->held) : 0)
            + (b->tied ? qdot_constrained_series_factored(b->tied) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
-           + (b->shifted ? qdot_shifted_factored(b->shifted) : 0);
+           + (b->shifted ? qdot_shifted_factored(b->shifted) : 0)
+           + b->reduced_blocks.factored;
 }
 
 /* With constraints. */
@@ -281,13 +345,39 @@ make_slopes(qdot_bind *b)
     return b->slopes && b->slopes_work ? QDOT_OK : QDOT_ENOMEM;
 }
 
+/* With momenta that are kept. */
+static qdot_status
+make_reduced(qdot_bind *b, bool shaken)
+{
+    const qdot_plan *r = b->plan->reduced;
+
+    if (shaken)
+        QDOT_TRY(qdot_tape_shake(r->tape, &b->reduced));
+    QDOT_TRY(qdot_blocks_init(&b->reduced_blocks, r, shaken));
+    QDOT_TRY(qdot_momenta_new(r, reduced_equations(b), &b->momenta));
+    if (!r->smooth)
+        return QDOT_OK;
+    QDOT_TRY(qdot_direct_new(r, shaken, &b->direct));
+    qdot_direct_keep(b->direct, qdot_momenta_hi(b->momenta), qdot_momenta_lo(b->momenta));
+    b->series = qdot_direct_series(b->direct);
+    return QDOT_OK;
+}
+
 static qdot_status
 make(qdot_bind *b, bool shaken)
 {
     const qdot_plan *p = b->plan;
+    const qdot_tape *tapes[2] = {p->tape, p->reduced ? p->reduced->tape : NULL};
+    size_t out = 0, work = 0;
+
+    for (int i = 0; i < 2; i++)
+        if (tapes[i]) {
+            out = qdot_tape_outputs(tapes[i]) > out ? qdot_tape_outputs(tapes[i]) : out;
+            work = qdot_tape_work(tapes[i]) > work ? qdot_tape_work(tapes[i]) : work;
+        }
     b->in = qdot_calloc(3 * p->n + 1, sizeof *b->in);
-    b->out = qdot_calloc(qdot_tape_outputs(p->tape) + 1, sizeof *b->out);
-    b->work = qdot_calloc(qdot_tape_work(p->tape) + 1, sizeof *b->work);
+    b->out = qdot_calloc(out + 1, sizeof *b->out);
+    b->work = qdot_calloc(work + 1, sizeof *b->work);
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
     if (p->constraints)
@@ -296,6 +386,8 @@ make(qdot_bind *b, bool shaken)
         QDOT_TRY(qdot_tape_shake(p->tape, &b->tape));
     QDOT_TRY(make_slopes(b));
     QDOT_TRY(qdot_blocks_init(&b->blocks, p, shaken));
+    if (p->reduced)
+        return make_reduced(b, shaken);
     if (!p->smooth)
         return QDOT_OK;
     if (p->residual) {

@@ -26,6 +26,12 @@ void qdot_bind_free(qdot_bind *bind);
  * QDOT_EDOMAIN where M is singular or q'' undefined, naming the coordinate. */
 qdot_ode_system qdot_bind_system(qdot_bind *bind);
 
+/* q'' [n], and the multipliers [m] of a plan with constraints behind it, at y [2n]: of a
+ * system that qdot_bind_system made, all of them from the equations as they are derived.
+ * Errors as those of its rhs. */
+QDOT_MUST_CHECK qdot_status qdot_bind_accelerations(const qdot_ode_system *system,
+                                                    double t, const double *y, double *a);
+
 /* Whether M is regular (and, unless a Lagrangian was stated, positive) at a state:
  * QDOT_ESINGULAR names the coordinate. With constraints y + low must also fulfil them, and
  * is brought the last bits nearer: qdot_constrained_start. */

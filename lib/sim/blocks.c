@@ -145,7 +145,7 @@ qdot_status
 qdot_blocks_init(qdot_blocks *b, const qdot_plan *plan, bool shaken)
 {
     *b = (qdot_blocks){.plan = plan};
-    b->at = qdot_calloc(plan->structure.blocks, sizeof *b->at);
+    b->at = qdot_calloc(plan->structure.blocks + 1, sizeof *b->at);
     if (!b->at)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < plan->structure.blocks; k++)

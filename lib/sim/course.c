@@ -58,7 +58,8 @@ make_room(qdot_piece *x)
                                 .count = 2,
                                 .method = x->method,
                                 .tol = x->options->tol,
-                                .order_more = x->options->order_more};
+                                .order_more = x->options->order_more,
+                                .entered = true};
     x->step.t = qdot_calloc(2, sizeof *x->step.t);
     x->step.y = qdot_calloc(2 * x->n, sizeof *x->step.y);
     if (!x->side || !x->on || !x->functions_on || !x->before || !x->residual ||

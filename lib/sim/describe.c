@@ -6,6 +6,29 @@
 #include "sim/constraints.h"
 #include "sim/stage.h"
 
+/* What is integrated. */
+static const qdot_plan *
+moving(const qdot_plan *p)
+{
+    return p->reduced ? p->reduced : p;
+}
+
+/* Coordinates whose momenta are kept. */
+static void
+say_kept(const qdot_plan *r, qdot_text *out)
+{
+    const bool one = r->n_kept == 1;
+
+    qdot_text_add(out, "cyclic:");
+    for (size_t k = 0; k < r->n_kept; k++)
+        qdot_text_format(out, "%s %s", k ? "," : "", r->names[r->kept[k]]);
+    qdot_text_format(out, ": %s and %s; %s\n",
+                     one ? "its momentum is kept" : "their momenta are kept",
+                     one ? "gives its velocity" : "give their velocities",
+                     one ? "a quadrature, without an equation of its own"
+                         : "quadratures, without equations of their own");
+}
+
 static void
 say_mass(const qdot_plan *p, qdot_text *out)
 {
@@ -18,7 +41,13 @@ say_mass(const qdot_plan *p, qdot_text *out)
         if (p->blocks[k].n > largest)
             largest = p->blocks[k].n;
     }
-    qdot_text_format(out, "mass matrix: %zu x %zu, ", p->n, p->n);
+    if (p->n_kept > 0)
+        say_kept(p, out);
+    if (p->structure.blocks == 0)
+        return;
+    qdot_text_format(out, "mass matrix%s: %zu x %zu, ",
+                     p->n_kept > 0 ? " of the others" : "", p->n - p->n_kept,
+                     p->n - p->n_kept);
     if (single == p->structure.blocks) {
         qdot_text_add(out, "diagonal: the accelerations are divisions, nothing is "
                            "factored\n");
@@ -93,7 +122,7 @@ say_constraints(const qdot_plan *p, qdot_text *out)
 static void
 say_blocks(const qdot_plan *p, qdot_text *out)
 {
-    if (p->structure.blocks == 1 || p->structure.blocks == p->n)
+    if (p->structure.blocks <= 1 || p->structure.blocks == p->n - p->n_kept)
         return;
     for (size_t k = 0; k < p->structure.blocks; k++) {
         qdot_text_add(out, "  block:");
@@ -121,6 +150,13 @@ say_series(const qdot_plan *p, double tol, qdot_text *out)
                          "constraints by their own coefficients, nothing differentiated; "
                          "factored once a step\n",
                          p->convolutions_derived);
+    else if (p->reduced)
+        qdot_text_format(
+            out,
+            "form: M q'' = f of what is not cyclic, %g convolutions an order; of all "
+            "coordinates it would take %g\n",
+            p->reduced->convolutions_derived,
+            p->residual ? p->convolutions_residual : p->convolutions_derived);
     else if (p->residual)
         qdot_text_format(
             out,
@@ -179,15 +215,16 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
     if (p->constraints) {
         say_constraints(p, out);
     } else {
-        say_mass(p, out);
-        say_blocks(p, out);
+        say_mass(moving(p), out);
+        say_blocks(moving(p), out);
     }
     say_time(p, out);
     qdot_text_format(out,
                      "tape: %zu operations for M and f, of them %zu call%s of elementary "
                      "functions\n",
-                     qdot_tape_operations(p->tape), qdot_tape_calls(p->tape),
-                     qdot_tape_calls(p->tape) == 1 ? "" : "s");
+                     qdot_tape_operations(moving(p)->tape),
+                     qdot_tape_calls(moving(p)->tape),
+                     qdot_tape_calls(moving(p)->tape) == 1 ? "" : "s");
     if (p->method->needs_jacobian)
         qdot_text_add(out, "jacobian: exact, by forward derivatives of the tape\n");
     qdot_text_format(out, "method: %s, %s: %s\n", p->method->name,

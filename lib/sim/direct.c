@@ -38,6 +38,9 @@ struct qdot_direct {
     const double **a;       /* [n] series of q'': an output of the tape, or */
     double *solved;         /* [n x stride] */
     bool diagonal;          /* all are outputs */
+    const double **rates;   /* [n_kept] series of velocities that are outputs */
+    const double *hi, *lo;  /* [n_kept] their momenta; borrowed */
+    bool plain;             /* of those, hi alone */
     double inverse[most_order + 2];
 };
 
@@ -112,10 +115,27 @@ integrate(qdot_direct *e, int k)
     const double twice = once * (e->unit * e->inverse[k + 2]);
 
     for (size_t i = 0; i < e->plan->n; i++) {
-        const double a = e->a[i][k];
+        double a;
 
+        if (!e->a[i])
+            continue;
+        a = e->a[i][k];
         e->v[i * e->stride + (size_t)k + 1] = once * a;
         e->q[i * e->stride + (size_t)k + 2] = twice * a;
+    }
+    for (size_t c = 0; c < e->plan->n_kept; c++)
+        e->q[e->plan->kept[c] * e->stride + (size_t)k + 1] = once * e->rates[c][k];
+}
+
+/* Coefficients below p of velocities that follow from momenta, where others read them. */
+static void
+show_rates(qdot_direct *e, int p)
+{
+    for (size_t c = 0; c < e->plan->n_kept; c++) {
+        double *v = e->v + e->plan->kept[c] * e->stride;
+
+        memcpy(v, e->rates[c], (size_t)p * sizeof *v);
+        v[p] = 0;
     }
 }
 
@@ -134,6 +154,10 @@ begin(double t, const double *y, double unit, void *user)
     e->t[0] = t;
     e->t[1] = unit;
     qdot_taylor_draw(e->taylor, t);
+    for (size_t c = 0; e->hi && c < e->plan->n_kept; c++)
+        e->t[(c + 1) * e->stride] = e->plain ? e->hi[c]
+                                             : qdot_taylor_drawn(t, n + c, e->hi[c],
+                                                                 e->lo[c]);
     if (e->diagonal) {
         qdot_taylor_begin(e->taylor, unit);
     } else {
@@ -141,9 +165,14 @@ begin(double t, const double *y, double unit, void *user)
         integrate(e, 0);
     }
     for (size_t i = 0; i < n; i++)
-        if (!isfinite(e->a[i][0]))
+        if (e->a[i] && !isfinite(e->a[i][0]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
                              e->plan->names[i]);
+    for (size_t c = 0; c < e->plan->n_kept; c++)
+        if (!isfinite(e->rates[c][0]))
+            return qdot_fail(QDOT_EDOMAIN, "the velocity of %s is undefined",
+                             e->plan->names[e->plan->kept[c]]);
+    show_rates(e, 1);
     return QDOT_OK;
 }
 
@@ -154,6 +183,7 @@ extend(int p, void *user)
 
     if (e->diagonal) {
         qdot_taylor_extend(e->taylor, 1, p - 1);
+        show_rates(e, p);
         return QDOT_OK;
     }
     for (size_t b = 0; b < e->plan->structure.blocks; b++)
@@ -163,6 +193,7 @@ extend(int p, void *user)
         QDOT_TRY(accelerations(e, k));
         integrate(e, k);
     }
+    show_rates(e, p);
     return QDOT_OK;
 }
 
@@ -175,7 +206,7 @@ find_outputs(qdot_direct *e, size_t count)
     const qdot_plan *p = e->plan;
     size_t at = 0;
 
-    e->diagonal = p->structure.blocks == p->n;
+    e->diagonal = p->structure.blocks == p->n - p->n_kept;
     for (size_t i = 0; i < count; i++)
         e->outputs[i] = qdot_taylor_output(e->taylor, i);
     for (size_t b = 0; b < p->structure.blocks; b++) {
@@ -205,6 +236,8 @@ find_outputs(qdot_direct *e, size_t count)
                         (coupling){j, e->outputs[at], e->a[block->index[i]]};
             }
     }
+    for (size_t c = 0; c < p->n_kept; c++)
+        e->rates[c] = e->outputs[at++];
     return QDOT_OK;
 }
 
@@ -236,7 +269,8 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
 {
     size_t outputs = qdot_tape_outputs(p->tape);
 
-    QDOT_TRY(qdot_taylor_new_shaken(p->tape, shaken, most_order, &e->taylor));
+    QDOT_TRY(qdot_taylor_new_moving(p->tape, shaken, most_order, 2 * p->n + 1,
+                                    &e->taylor));
     e->stride = qdot_taylor_stride(e->taylor);
     e->q = qdot_taylor_input(e->taylor, 0);
     e->v = qdot_taylor_input(e->taylor, p->n);
@@ -244,8 +278,9 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
     e->a = qdot_calloc(p->n, sizeof *e->a);
     e->solved = qdot_calloc(p->n * e->stride, sizeof *e->solved);
     e->outputs = qdot_calloc(outputs + 1, sizeof *e->outputs);
-    e->blocks = qdot_calloc(p->structure.blocks, sizeof *e->blocks);
-    if (!e->a || !e->solved || !e->outputs || !e->blocks)
+    e->blocks = qdot_calloc(p->structure.blocks + 1, sizeof *e->blocks);
+    e->rates = qdot_calloc(p->n_kept + 1, sizeof *e->rates);
+    if (!e->a || !e->solved || !e->outputs || !e->blocks || !e->rates)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_blocks_init(&e->solvers, p, shaken));
     for (size_t b = 0; b < p->structure.blocks; b++)
@@ -256,7 +291,11 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
         }
     QDOT_TRY(find_outputs(e, outputs));
     for (size_t i = 0; i < p->n && e->diagonal; i++)
-        QDOT_TRY(qdot_taylor_link(e->taylor, p->n + i, i, e->a[i]));
+        if (e->a[i])
+            QDOT_TRY(qdot_taylor_link(e->taylor, p->n + i, i, e->a[i]));
+    for (size_t c = 0; c < p->n_kept && e->diagonal; c++)
+        QDOT_TRY(qdot_taylor_link(e->taylor, p->kept[c], SIZE_MAX, e->rates[c]));
+    e->plain = shaken;
     for (int k = 1; k < most_order + 2; k++)
         e->inverse[k] = 1.0 / k;
     e->series = (qdot_ode_series){.most = most_order - 4,
@@ -300,10 +339,18 @@ qdot_direct_free(qdot_direct *e)
     qdot_taylor_free(e->taylor);
     qdot_blocks_clear(&e->solvers);
     qdot_free(e->outputs);
+    qdot_free(e->rates);
     qdot_free(e->blocks);
     qdot_free(e->a);
     qdot_free(e->solved);
     qdot_free(e);
+}
+
+void
+qdot_direct_keep(qdot_direct *e, const double *hi, const double *lo)
+{
+    e->hi = hi;
+    e->lo = lo;
 }
 
 const qdot_ode_series *

@@ -25,6 +25,10 @@ QDOT_MUST_CHECK qdot_status qdot_direct_new(const qdot_plan *plan, bool shaken,
                                             qdot_direct **direct);
 void qdot_direct_free(qdot_direct *direct);
 
+/* Of a reduced plan (sim/routh.h): the momenta hi + lo [n_kept], borrowed and read wherever
+ * an expansion begins. */
+void qdot_direct_keep(qdot_direct *direct, const double *hi, const double *lo);
+
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_direct_series(const qdot_direct *direct);
 

@@ -33,24 +33,19 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
     const qdot_plan *p = qdot_piece_mode(x)->plan;
     const qdot_ode_system *system = x->reader.system;
     size_t inputs = qdot_plan_inputs(p);
-    double *in = qdot_calloc(inputs + 2 * p->n + e->changes + 1 + qdot_tape_work(e->then),
-                             sizeof *in);
+    double *in =
+        qdot_calloc(inputs + e->changes + 1 + qdot_tape_work(e->then), sizeof *in);
     bool *set = qdot_calloc(2 * p->n, sizeof *set);
-    double *dydt = in ? in + inputs : NULL, *out = in ? dydt + 2 * p->n : NULL;
+    double *out = in ? in + inputs : NULL;
     qdot_status status = in && set ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         memcpy(in, old, x->n * sizeof *in);
         in[x->n] = t;
-        if (e->accelerations && x->reader.held)
-            status = qdot_constrained_solve(x->reader.held, t, old, in + x->n + 1,
-                                            in + x->n + 1 + p->n);
-        else if (e->accelerations)
-            status = system->rhs(t, old, dydt, system->user);
+        if (e->accelerations)
+            status = qdot_bind_accelerations(system, t, old, in + x->n + 1);
     }
     if (status == QDOT_OK) {
-        if (e->accelerations && !x->reader.held)
-            memcpy(in + x->n + 1, dydt + p->n, p->n * sizeof *in);
         qdot_tape_eval(e->then, in, out, out + e->changes + 1);
         for (size_t i = 0; i < e->changes; i++) {
             if (!isfinite(out[i]))

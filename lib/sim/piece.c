@@ -282,13 +282,16 @@ accepted(double t, const double *y, bool *stop, void *user)
 qdot_status
 qdot_piece_begin(qdot_piece *x, double t, const double *y)
 {
+    const qdot_ode_following *following = x->c->systems.at[x->mode].following;
+
     qdot_trajectory_close(x->cursor);
     x->cursor = NULL;
     x->reader = (qdot_watch_reader){x->method->series ? read_series : read_step, x,
-                                    &x->c->systems.at[x->mode],
-                                    qdot_bind_held(x->c->binds.at[x->mode])};
+                                    &x->c->systems.at[x->mode]};
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;
+    if (following)
+        QDOT_TRY(following->enter(t, y, NULL, following->user));
     if (!x->method->series) {
         x->step.t[0] = t;
         x->step.t[1] = t + x->direction;

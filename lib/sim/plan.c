@@ -9,6 +9,7 @@
 #include "sim/direct.h"
 #include "sim/quotient.h"
 #include "sim/residual.h"
+#include "sim/routh.h"
 #include "sim/shifted.h"
 #include "sim/substitute.h"
 #include "sim/switch.h"
@@ -45,6 +46,9 @@ qdot_plan_free(qdot_plan *p)
     qdot_tape_free(p->tape);
     qdot_residual_free(p->residual);
     qdot_constraints_free(p->constraints);
+    qdot_plan_free(p->reduced);
+    qdot_free(p->kept);
+    qdot_tape_free(p->momenta);
     qdot_free(p);
 }
 
@@ -180,17 +184,17 @@ derive(qdot_plan *p, qdot_scene *scene)
 
 /* --- structure ---------------------------------------------------------------------- */
 
+/* The blocks among the coordinates index [n]. */
 static qdot_status
-find_blocks(qdot_plan *p)
+find_blocks(qdot_plan *p, size_t n, const size_t *index)
 {
-    size_t n = p->n;
-    bool *pattern = qdot_calloc(n * n, sizeof *pattern);
+    bool *pattern = qdot_calloc(n * n + 1, sizeof *pattern);
     qdot_status status;
 
     if (!pattern)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n * n; i++)
-        pattern[i] = p->M[i] != QDOT_ZERO;
+        pattern[i] = p->M[index[i / n] * p->n + index[i % n]] != QDOT_ZERO;
     status = qdot_structure_find(pattern, n, &p->structure);
     for (size_t i = 0; status == QDOT_OK && i < n; i++) {
         bool some = false;
@@ -200,13 +204,12 @@ find_blocks(qdot_plan *p)
         if (!some)
             status = qdot_fail(QDOT_ESINGULAR,
                                "the mass matrix is singular: no mass moves with %s",
-                               p->names[i]);
+                               p->names[index[i]]);
     }
     qdot_free(pattern);
-    if (status != QDOT_OK)
-        return status;
-    p->blocks = qdot_calloc(p->structure.blocks, sizeof *p->blocks);
-    return p->blocks ? QDOT_OK : QDOT_ENOMEM;
+    for (size_t i = 0; status == QDOT_OK && i < n; i++)
+        p->structure.index[i] = index[p->structure.index[i]];
+    return status;
 }
 
 static qdot_expr
@@ -241,6 +244,32 @@ fill_block(qdot_plan *p, qdot_plan_block *b)
     return QDOT_OK;
 }
 
+qdot_status
+qdot_plan_structure(qdot_plan *p, const bool *in)
+{
+    size_t *index = qdot_calloc(p->n, sizeof *index), n = 0;
+    qdot_status status = index ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; index && i < p->n; i++)
+        if (!in || in[i])
+            index[n++] = i;
+    if (status == QDOT_OK)
+        status = find_blocks(p, n, index);
+    qdot_free(index);
+    QDOT_TRY(status);
+    p->blocks = qdot_calloc(p->structure.blocks + 1, sizeof *p->blocks);
+    if (!p->blocks)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        qdot_plan_block *b = p->blocks + k;
+
+        b->index = p->structure.index + p->structure.start[k];
+        b->n = p->structure.start[k + 1] - p->structure.start[k];
+        QDOT_TRY(fill_block(p, b));
+    }
+    return QDOT_OK;
+}
+
 /* --- tapes -------------------------------------------------------------------------- */
 
 typedef qdot_vec(qdot_expr) expressions;
@@ -254,8 +283,8 @@ push_mass(const qdot_plan *p, const qdot_plan_block *b, expressions *out)
     return QDOT_OK;
 }
 
-static qdot_status
-lower_equations(qdot_plan *p)
+qdot_status
+qdot_plan_lower(qdot_plan *p, size_t inputs, size_t more, const qdot_expr *others)
 {
     expressions out = {0};
     qdot_status status = QDOT_OK;
@@ -273,19 +302,20 @@ lower_equations(qdot_plan *p)
         if (!b->constant && status == QDOT_OK)
             status = push_mass(p, b, &out);
     }
+    for (size_t i = 0; i < more && status == QDOT_OK; i++)
+        status = qdot_vec_push(&out, others[i]);
     if (status == QDOT_OK)
         status = qdot_pool_check(p->pool);
     if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, out.n, out.at, &p->tape);
+        status = qdot_tape_new(p->pool, inputs, p->inputs, out.n, out.at, &p->tape);
     qdot_free(out.at);
     return status;
 }
 
 /* --- Taylor series ------------------------------------------------------------------ */
 
-/* What a step costs, about, at an order of middling tolerances. */
-static double
-cost_of_step(const qdot_ode_series *series)
+double
+qdot_plan_cost(const qdot_ode_series *series)
 {
     const double p = 20, *c = series->cost;
 
@@ -305,6 +335,7 @@ choose_form(qdot_plan *p, qdot_scene *scene)
 
     QDOT_TRY(qdot_direct_new(p, false, &direct));
     p->convolutions_derived = qdot_direct_convolutions(direct);
+    p->cost = qdot_plan_cost(qdot_direct_series(direct));
     for (size_t k = 0; k < p->structure.blocks; k++)
         coupled |= p->blocks[k].n > 1 && !p->blocks[k].constant;
     /* d'Alembert's form is made of the scene, which switches */
@@ -315,8 +346,8 @@ choose_form(qdot_plan *p, qdot_scene *scene)
         status = qdot_shifted_new(p, residual, false, &shifted);
     if (shifted) {
         p->convolutions_residual = qdot_shifted_convolutions(shifted);
-        if (cost_of_step(qdot_shifted_series(shifted))
-            < cost_of_step(qdot_direct_series(direct))) {
+        if (qdot_plan_cost(qdot_shifted_series(shifted)) < p->cost) {
+            p->cost = qdot_plan_cost(qdot_shifted_series(shifted));
             p->residual = residual;
             residual = NULL;
         }
@@ -386,19 +417,15 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(derive(p, scene));
     if (scene->constraints.n > 0)
         return constrain(p, scene, request);
-    QDOT_TRY(find_blocks(p));
-    for (size_t k = 0; k < p->structure.blocks; k++) {
-        qdot_plan_block *b = p->blocks + k;
-
-        b->index = p->structure.index + p->structure.start[k];
-        b->n = p->structure.start[k + 1] - p->structure.start[k];
-        QDOT_TRY(fill_block(p, b));
-    }
-    QDOT_TRY(lower_equations(p));
+    QDOT_TRY(qdot_plan_structure(p, NULL));
+    QDOT_TRY(qdot_plan_lower(p, 2 * p->n + 1, 0, NULL));
     QDOT_TRY(check_series(p, qdot_taylor_hindrance(p->tape)));
     if (p->smooth)
         QDOT_TRY(choose_form(p, scene));
-    return QDOT_OK;
+    if (request->digits > 0 || p->method->needs_jacobian
+        || qdot_ode_method_find(p->method->partner)->needs_jacobian)
+        return QDOT_OK;
+    return qdot_routh_reduce(p, scene, request);
 }
 
 qdot_status

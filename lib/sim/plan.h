@@ -19,6 +19,7 @@
 #include "mech/quantity.h"
 #include "num/structure.h"
 #include "ode/method.h"
+#include "ode/system.h"
 #include "sim/run.h"
 #include "tape/tape.h"
 
@@ -34,7 +35,8 @@ typedef struct qdot_residual qdot_residual; /* sim/residual.h */
 typedef struct qdot_constraints qdot_constraints; /* sim/constraints.h */
 struct qdot_switches;                       /* sim/switch.h */
 
-typedef struct {
+typedef struct qdot_plan qdot_plan;
+struct qdot_plan {
     qdot_pool *pool; /* borrowed */
     size_t n;        /* coordinates */
     qdot_expr *inputs; /* [3n + 1 + m] q, q', t, q'', lambda of m constraints */
@@ -66,11 +68,22 @@ typedef struct {
      * looked at. */
     qdot_residual *residual;
     double convolutions_derived, convolutions_residual;
+    double cost; /* of a step by the form taken: qdot_plan_cost */
+
+    /* The equations that are integrated in place of these, where cyclic coordinates leave
+     * shorter ones (sim/routh.h); else NULL. */
+    qdot_plan *reduced;
+    /* Of such equations alone: coordinates whose momenta are kept, the first to be solved
+     * for first; the inputs behind t are these. Their rates stand behind the tape's other
+     * outputs, blocks are those of the other coordinates. */
+    size_t n_kept;
+    size_t *kept;      /* [n_kept] */
+    qdot_tape *momenta; /* from q, q', t: [n_kept] */
 
     /* While it is made: the mode that its equations are frozen to; else NULL. */
     const struct qdot_switches *mode;
     const long *side;
-} qdot_plan;
+};
 
 /* Whether a scene can be integrated at all: QDOT_EINVAL, QDOT_ENOTBUILT. */
 QDOT_MUST_CHECK qdot_status qdot_plan_check(const qdot_scene *scene);
@@ -89,6 +102,16 @@ void qdot_plan_free(qdot_plan *plan);
 
 /* Whether the method of the run, or that of its companion, asks for a Jacobian. */
 bool qdot_plan_needs_jacobian(const qdot_plan *plan);
+
+/* For another part of sim that makes a plan of its own: the blocks of M [n x n] over the
+ * coordinates that `in` [n] has; then the tape of p->f and p->M by them, with `more` outputs
+ * behind, from p->inputs [inputs]. */
+QDOT_MUST_CHECK qdot_status qdot_plan_structure(qdot_plan *plan, const bool *in);
+QDOT_MUST_CHECK qdot_status qdot_plan_lower(qdot_plan *plan, size_t inputs, size_t more,
+                                            const qdot_expr *others);
+
+/* What a step costs, about, at an order of middling tolerances. */
+double qdot_plan_cost(const qdot_ode_series *series);
 
 /* How many inputs there are: 3n + 1 + m. */
 size_t qdot_plan_inputs(const qdot_plan *plan);

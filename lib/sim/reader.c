@@ -8,7 +8,6 @@ qdot_reader_clear(qdot_reader *r)
 {
     qdot_trajectory_close(r->cursor);
     qdot_free(r->in);
-    qdot_free(r->dydt);
     qdot_free(r->work);
 }
 
@@ -19,9 +18,8 @@ qdot_reader_init(qdot_reader *r, const qdot_plan *plan, const qdot_tape *tape,
     *r = (qdot_reader){
         .plan = plan, .tape = tape, .course = course, .accelerations = accelerations};
     r->in = qdot_calloc(qdot_tape_inputs(tape), sizeof *r->in);
-    r->dydt = qdot_calloc(2 * plan->n, sizeof *r->dydt);
     r->work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *r->work);
-    if (!r->in || !r->dydt || !r->work)
+    if (!r->in || !r->work)
         return QDOT_ENOMEM;
     return qdot_trajectory_open(&course->tr, qdot_course_systems(course), &r->cursor);
 }
@@ -29,15 +27,10 @@ qdot_reader_init(qdot_reader *r, const qdot_plan *plan, const qdot_tape *tape,
 static qdot_status
 read_accelerations(qdot_reader *r, double t)
 {
-    size_t n = r->plan->n, mode = qdot_trajectory_mode_read(r->cursor);
-    const qdot_ode_system *system = qdot_course_systems(r->course) + mode;
-    qdot_constrained *held = qdot_bind_held(r->course->binds.at[mode]);
+    size_t mode = qdot_trajectory_mode_read(r->cursor);
 
-    if (held)
-        return qdot_constrained_solve(held, t, r->in, r->in + 2 * n + 1, r->in + 3 * n + 1);
-    QDOT_TRY(system->rhs(t, r->in, r->dydt, system->user));
-    memcpy(r->in + 2 * n + 1, r->dydt + n, n * sizeof *r->in);
-    return QDOT_OK;
+    return qdot_bind_accelerations(qdot_course_systems(r->course) + mode, t, r->in,
+                                   r->in + 2 * r->plan->n + 1);
 }
 
 qdot_status

@@ -11,7 +11,6 @@ typedef struct {
     const qdot_course *course;
     bool accelerations; /* the tape reads q'' or lambda */
     double *in;         /* [3n + 1 + m] */
-    double *dydt;       /* [2n] */
     double *work;
 } qdot_reader;
 

@@ -44,6 +44,7 @@ typedef struct {
     qdot_expr quantity;  /* what should stay (energy, a cyclic momentum) */
     const char *name;    /* "energy", "p[phi]" */
     double start, drift; /* drift = max |c - c0| / max(1, |c0|) over the run */
+    bool kept;           /* it is a constant of the integration (sim/routh.h): drift is 0 */
 } qdot_drift;
 
 typedef struct qdot_run qdot_run;

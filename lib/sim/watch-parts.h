@@ -30,7 +30,6 @@ struct qdot_watch {
     size_t *coordinate; /* [m] SIZE_MAX: not a bound */
     double *bound;      /* [m] */
     double *in;         /* of the tape */
-    double *dydt;       /* [2n] */
     double *work, *g;   /* [m] g */
     double *moved;      /* [m] scratch of noise */
     double *z;          /* [2n] likewise */

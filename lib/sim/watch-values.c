@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "sim/bind.h"
 #include "sim/size.h"
 #include "tape/shake.h"
 
@@ -51,13 +52,9 @@ qdot_status
 qdot_watch_value(qdot_watch *w, const qdot_watch_reader *reader, double t, double *g)
 {
     w->in[2 * w->n] = t;
-    if (w->accelerations && reader->held) {
-        QDOT_TRY(qdot_constrained_solve(reader->held, t, w->in, w->in + 2 * w->n + 1,
-                                        w->in + 3 * w->n + 1));
-    } else if (w->accelerations) {
-        QDOT_TRY(reader->system->rhs(t, w->in, w->dydt, reader->system->user));
-        memcpy(w->in + 2 * w->n + 1, w->dydt + w->n, w->n * sizeof *w->in);
-    }
+    if (w->accelerations)
+        QDOT_TRY(
+            qdot_bind_accelerations(reader->system, t, w->in, w->in + 2 * w->n + 1));
     qdot_tape_eval(w->tape, w->in, g, w->work);
     for (size_t i = 0; i < w->m; i++)
         if (!isfinite(g[i]))

@@ -357,8 +357,7 @@ make_room(qdot_watch *w)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < m; i++)
         w->coordinate[i] = SIZE_MAX;
-    w->dydt = w->in + inputs;
-    w->y = w->dydt + 2 * n;
+    w->y = w->in + inputs;
     w->z = w->y + 2 * n;
     w->work = w->z + 2 * n;
     w->g = w->work + work;

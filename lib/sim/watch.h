@@ -37,8 +37,7 @@ typedef struct {
 typedef struct {
     qdot_status (*read)(double t, double *y, void *user);
     void *user;
-    const qdot_ode_system *system; /* for accelerations */
-    qdot_constrained *held;               /* for those with multipliers; NULL without */
+    const qdot_ode_system *system; /* for accelerations and multipliers */
 } qdot_watch_reader;
 
 typedef struct qdot_watch qdot_watch;

@@ -32,6 +32,16 @@ qdot_taylor_draw(qdot_taylor *t, double time)
     }
 }
 
+double
+qdot_taylor_drawn(double time, size_t i, double hi, double lo)
+{
+    double far = nextafter(hi, lo > 0 ? INFINITY : -INFINITY);
+
+    if (lo == 0 || !(qdot_taylor_chance(time, i) < lo / (far - hi)))
+        return hi;
+    return far;
+}
+
 /* --- evaluation --------------------------------------------------------------------- */
 
 static void
@@ -114,12 +124,12 @@ order_zero(const qdot_taylor *t)
         value_of_zero(t->steps + i);
 }
 
-/* Order k of the first n steps, of an order's functions. */
+/* Order k of the first n steps but those that have none, of an order's functions. */
 static inline void
 order(const qdot_taylor *t, size_t n, step_function *const *function)
 {
     const qdot_series_kernels *kernels = t->kernels;
-    qdot_taylor_step *s = t->steps, *const end = s + n;
+    qdot_taylor_step *s = t->steps + t->still, *const end = t->steps + n;
 
     while (s < end) {
         function[s->op](s, kernels);

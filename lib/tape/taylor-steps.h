@@ -66,6 +66,7 @@ struct qdot_taylor {
     bool *constant;           /* [outputs] */
     qdot_taylor_step *steps; /* [length + n_links], then QDOT_T_END */
     size_t length, n_links;
+    size_t still; /* of the steps the first, which have order 0 only */
     struct qdot_taylor_drawn *drawn; /* [n_drawn] */
     size_t n_drawn;
     struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */

@@ -17,6 +17,7 @@ typedef uint32_t row; /* of coefficients, by number while the rows are not yet t
 typedef struct {
     uint16_t op, zero;
     int sign;
+    bool still; /* it has order 0 only */
     row to, second, third, d, x, y, z;
 } draft;
 
@@ -24,7 +25,9 @@ typedef struct {
     const qdot_tape *tape;
     row *at; /* [tape->places] the row a place has now */
     qdot_vec(draft) drafts;
-    qdot_vec(double) constants;     /* [rows] the number, NaN: not constant */
+    size_t moving;                  /* inputs */
+    qdot_vec(double) constants;     /* [rows] the number, NaN: computed, or an input */
+    qdot_vec(bool) still;           /* [rows] it has order 0 only */
     qdot_vec(row) sincos, sinhcosh; /* [rows] sine of the pair made of a row; NO_ROW */
     double convolutions;
     draft nothing; /* written to after a failure */
@@ -32,10 +35,12 @@ typedef struct {
 } builder;
 
 static row
-new_row(builder *b, double constant)
+new_row(builder *b, double constant, bool still)
 {
     if (b->status == QDOT_OK)
         b->status = qdot_vec_push(&b->constants, constant);
+    if (b->status == QDOT_OK)
+        b->status = qdot_vec_push(&b->still, still);
     if (b->status == QDOT_OK)
         b->status = qdot_vec_push(&b->sincos, NO_ROW);
     if (b->status == QDOT_OK)
@@ -46,7 +51,7 @@ new_row(builder *b, double constant)
 static bool
 is_constant(const builder *b, row r)
 {
-    return b->status == QDOT_OK && !isnan(b->constants.at[r]);
+    return b->status == QDOT_OK && b->still.at[r];
 }
 
 static void
@@ -72,12 +77,14 @@ emit(builder *b, qdot_taylor_op op, int zero, row x, row y, row z)
         [QDOT_T_SQRT] = 0.5, [QDOT_T_EXP] = 1,      [QDOT_T_POW] = 2,
         [QDOT_T_RATIO] = 1,  [QDOT_T_SINCOS] = 2,   [QDOT_T_SINHCOSH] = 2,
         [QDOT_T_TANH] = 1.5, [QDOT_T_ATAN2] = 3};
-    row to = new_row(b, NAN);
+    const bool still = is_constant(b, x) && is_constant(b, y) && is_constant(b, z);
+    row to = new_row(b, NAN, still);
 
-    b->convolutions += cost[op];
+    b->convolutions += still ? 0 : cost[op];
     add(b, (draft){.op = (uint16_t)op,
                    .zero = (uint16_t)zero,
                    .sign = 1,
+                   .still = still,
                    .to = to,
                    .second = NO_ROW,
                    .third = NO_ROW,
@@ -92,7 +99,7 @@ emit(builder *b, qdot_taylor_op op, int zero, row x, row y, row z)
 static void
 with_d(builder *b)
 {
-    row d = new_row(b, NAN);
+    row d = new_row(b, NAN, last(b)->still);
 
     last(b)->d = d;
 }
@@ -100,7 +107,7 @@ with_d(builder *b)
 static void
 with_second(builder *b)
 {
-    row second = new_row(b, NAN);
+    row second = new_row(b, NAN, last(b)->still);
 
     last(b)->second = second;
 }
@@ -108,7 +115,7 @@ with_second(builder *b)
 static void
 with_third(builder *b)
 {
-    row third = new_row(b, NAN);
+    row third = new_row(b, NAN, last(b)->still);
 
     last(b)->third = third;
 }
@@ -177,7 +184,7 @@ pair(builder *b, qdot_taylor_op op, row x, row *cosine)
 static row
 number(builder *b, double c)
 {
-    return new_row(b, c);
+    return new_row(b, c, true);
 }
 
 static row
@@ -304,9 +311,9 @@ build(builder *b)
     const qdot_tape *tape = b->tape;
 
     for (size_t i = 0; i < tape->inputs; i++)
-        b->at[i] = new_row(b, NAN);
+        b->at[i] = new_row(b, NAN, i >= b->moving);
     for (size_t i = 0; i < tape->constants; i++)
-        b->at[tape->inputs + i] = new_row(b, tape->constant[i]);
+        b->at[tape->inputs + i] = new_row(b, tape->constant[i], true);
     for (size_t i = 0; i < tape->length && b->status == QDOT_OK; i++) {
         const qdot_instruction *in = tape->code + i;
         row second = NO_ROW, to = build_one(b, in, &second);
@@ -330,6 +337,7 @@ static qdot_status
 settle(qdot_taylor *t, const builder *b, int most)
 {
     const qdot_tape *tape = b->tape;
+    size_t still = 0;
 
     /* an odd number of cache lines apart, so that rows do not share a few sets */
     t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
@@ -347,10 +355,14 @@ settle(qdot_taylor *t, const builder *b, int most)
     for (size_t r = 0; r < t->rows; r++)
         if (!isnan(b->constants.at[r]))
             t->coefficients[r * t->stride] = b->constants.at[r];
-    for (size_t i = 0; i < b->drafts.n; i++) {
+    for (size_t i = 0; i < b->drafts.n; i++)
+        still += b->drafts.at[i].still;
+    t->still = still;
+    for (size_t i = 0, first = 0, then = still; i < b->drafts.n; i++) {
         const draft *d = b->drafts.at + i;
+        qdot_taylor_step *step = t->steps + (d->still ? first++ : then++);
 
-        t->steps[i] = (qdot_taylor_step){.op = d->op,
+        *step = (qdot_taylor_step){.op = d->op,
                                          .zero = d->zero,
                                          .sign = d->sign,
                                          .to = place(t, d->to),
@@ -382,11 +394,11 @@ settle(qdot_taylor *t, const builder *b, int most)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
+static qdot_status
+make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
 {
     const char *hindrance = qdot_taylor_hindrance(tape);
-    builder b = {.tape = tape};
+    builder b = {.tape = tape, .moving = moving};
     qdot_taylor *t;
     qdot_status status;
 
@@ -405,6 +417,7 @@ qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
     qdot_free(b.at);
     qdot_free(b.drafts.at);
     qdot_free(b.constants.at);
+    qdot_free(b.still.at);
     qdot_free(b.sincos.at);
     qdot_free(b.sinhcosh.at);
     if (status != QDOT_OK) {
@@ -416,16 +429,29 @@ qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
 }
 
 qdot_status
-qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken, int most, qdot_taylor **taylor)
+qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
+{
+    return make(tape, most, tape->inputs, taylor);
+}
+
+qdot_status
+qdot_taylor_new_moving(const qdot_tape *tape, bool shaken, int most, size_t moving,
+                       qdot_taylor **taylor)
 {
     qdot_tape *copy = NULL;
     qdot_status status;
 
     if (shaken)
         QDOT_TRY(qdot_tape_shake(tape, &copy));
-    status = qdot_taylor_new(copy ? copy : tape, most, taylor);
+    status = make(copy ? copy : tape, most, moving, taylor);
     qdot_tape_free(copy);
     return status;
+}
+
+qdot_status
+qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken, int most, qdot_taylor **taylor)
+{
+    return qdot_taylor_new_moving(tape, shaken, most, tape->inputs, taylor);
 }
 
 void
@@ -492,5 +518,5 @@ qdot_taylor_convolutions(const qdot_taylor *t)
 size_t
 qdot_taylor_length(const qdot_taylor *t)
 {
-    return t->length;
+    return t->length - t->still;
 }

@@ -42,6 +42,11 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_new(const qdot_tape *tape, int most,
 /* The same of its shaken copy (shake.h) if `shaken`. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken,
                                                    int most, qdot_taylor **taylor);
+/* The same where the inputs from `moving` on are numbers: they have no coefficients but of
+ * order 0, and what is made of them alone is computed there only. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_new_moving(const qdot_tape *tape, bool shaken,
+                                                   int most, size_t moving,
+                                                   qdot_taylor **taylor);
 void qdot_taylor_free(qdot_taylor *taylor);
 
 /* Whether the tape has a series: the operation that has none, or NULL. */
@@ -54,7 +59,7 @@ size_t qdot_taylor_stride(const qdot_taylor *taylor);
 
 /* Coefficients by order of output i. */
 const double *qdot_taylor_output(const qdot_taylor *taylor, size_t i);
-/* Whether output i is the same number whatever the inputs are. */
+/* Whether output i is the same number whatever the inputs that move are. */
 bool qdot_taylor_is_constant(const qdot_taylor *taylor, size_t i);
 
 /* Constants that are no doubles, for a stretch of time that begins at t: each becomes
@@ -63,6 +68,9 @@ bool qdot_taylor_is_constant(const qdot_taylor *taylor, size_t i);
  * the same side would be a drift. The draw is a function of t alone. Of a shaken tape
  * nothing is drawn. */
 void qdot_taylor_draw(qdot_taylor *taylor, double t);
+
+/* The same for a number hi + lo that an input has: what hi is there is for that stretch. */
+double qdot_taylor_drawn(double t, size_t i, double hi, double lo);
 
 /* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
  * and inf as IEEE 754 has them. */
