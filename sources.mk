@@ -84,6 +84,7 @@ expr_headers = \
 	lib/expr/walk.h
 
 ode_sources = \
+	lib/ode/apart.c \
 	lib/ode/batch.c \
 	lib/ode/companion.c \
 	lib/ode/dop853.c \
@@ -95,6 +96,7 @@ ode_sources = \
 	lib/ode/trajectory.c
 
 ode_headers = \
+	lib/ode/apart.h \
 	lib/ode/batch.h \
 	lib/ode/companion.h \
 	lib/ode/dop853.def \
@@ -287,6 +289,7 @@ sim_sources = \
 	lib/sim/multipliers.c \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
+	lib/sim/parts.c \
 	lib/sim/piece-end.c \
 	lib/sim/piece.c \
 	lib/sim/plan.c \
@@ -335,6 +338,7 @@ sim_headers = \
 	lib/sim/momenta.h \
 	lib/sim/multipliers.h \
 	lib/sim/nearest.h \
+	lib/sim/parts.h \
 	lib/sim/piece.h \
 	lib/sim/plan.h \
 	lib/sim/precise-bind.h \
@@ -501,6 +505,7 @@ unit_tests = \
 	tests/sim/test_equations \
 	tests/sim/test_horizon \
 	tests/sim/test_operations \
+	tests/sim/test_parts \
 	tests/sim/test_precise \
 	tests/sim/test_routh \
 	tests/sim/test_run \
@@ -566,6 +571,7 @@ script_tests = \
 	tests/script/names.lag \
 	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
+	tests/script/parts.lag \
 	tests/script/pendulum.lag \
 	tests/script/race.sh \
 	tests/script/ranges.lag \
@@ -1097,6 +1103,7 @@ test_files = \
 	tests/script/normalise.sed \
 	tests/script/on-surfaces.out \
 	tests/script/order.out \
+	tests/script/parts.out \
 	tests/script/pendulum.out \
 	tests/script/race.out \
 	tests/script/ranges.out \

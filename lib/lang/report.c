@@ -239,6 +239,10 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
         qdot_text_add(line, "; ");
         counted(line, r->jacobians, "Jacobian");
     }
+    if (r->apart) {
+        qdot_text_add(line, "\n  apart: ");
+        qdot_text_add(line, r->apart);
+    }
     qdot_text_add(line, "\n  cpu ");
     seconds(line, r->cpu);
     qdot_text_add(line, ", in all cpu ");

@@ -125,6 +125,7 @@ run_by(follower *f, const qdot_ode_method *method, double t1)
         options.t1_low = to == c->t1 ? c->t1_low : 0;
         options.carry = t == f->t0 ? f->low : NULL;
         options.goes_on = t != f->t0;
+        options.apart = true;
         if (qdot_ode_integrate(&f->system, method, &options, t, to, f->y, &f->result)
             != QDOT_OK)
             f->result.outcome = QDOT_ODE_FAILED;

@@ -8,6 +8,7 @@
 
 #include "base/interrupt.h"
 #include "num/sum.h"
+#include "ode/apart.h"
 #include "ode/stepper.h"
 #include "ode/taylor.h"
 
@@ -343,6 +344,8 @@ qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
     double tol = r.options->tol != 0 ? r.options->tol : tol_default;
     qdot_status status;
 
+    if (qdot_ode_is_apart(system, r.options))
+        return qdot_ode_apart_integrate(system, method, r.options, t0, t1, y, result);
     if (method->series)
         return qdot_ode_taylor_integrate(system, options, t0, t1, y, result);
     status = check_arguments(system, t0, t1, y);

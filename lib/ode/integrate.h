@@ -70,6 +70,9 @@ typedef struct {
     int order_more;
     /* This goes on with the solution entered last (system->following). */
     bool goes_on;
+    /* Of a system of parts: `accepted` is called for each, with what is its own. Else such a
+     * system whose steps are looked at is integrated as a whole. */
+    bool apart;
 } qdot_ode_options;
 
 typedef enum {

@@ -54,6 +54,12 @@ typedef struct {
     void *user; /* borrowed */
 } qdot_ode_following;
 
+/* A part of a system that knows nothing of its other parts. */
+typedef struct {
+    const struct qdot_ode_system *system; /* borrowed; without parts */
+    const size_t *index;                  /* [system->n] its components in the whole */
+} qdot_ode_part;
+
 /* The callbacks may write nothing but their outputs and what `user` owns. A system that
  * is used by two threads at once must be two, each with its own `user`.
  *
@@ -61,7 +67,7 @@ typedef struct {
  * integrator tries smaller steps, and if none works the run stops with that message. An
  * output that is not finite counts as QDOT_EDOMAIN. Any other status ends the run at
  * once. */
-typedef struct {
+typedef struct qdot_ode_system {
     size_t n; /* components, at least 1 */
     /* dydt [n] = f(t, y [n]) */
     qdot_status (*rhs)(double t, const double *y, double *dydt, void *user);
@@ -80,6 +86,11 @@ typedef struct {
      * relative to max(1, |y_i|), 0 where nothing was done; a step that had to be moved by
      * far more than its error may be is taken back. NULL if there is nothing to do. */
     qdot_status (*project)(double t, double *y, double *carry, double *moved, void *user);
+    /* The same system once more as parts, all of its components in one of them, if there are
+     * two or more; borrowed. Each then takes its own steps where nobody looks at those of
+     * the whole (ode/apart.h). */
+    const qdot_ode_part *parts;
+    size_t n_parts;
 } qdot_ode_system;
 
 #endif

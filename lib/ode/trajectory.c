@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "ode/apart.h"
 #include "ode/stepper.h"
 #include "ode/taylor.h"
 
@@ -24,6 +25,9 @@ struct qdot_trajectory_cursor {
     bool known;          /* F was looked for, */
     bool second;         /* in that half, */
     bool good;           /* and found */
+    /* Of a run in parts: */
+    qdot_trajectory_cursor **tracks; /* [tr->n_tracks] */
+    double *own;                     /* [n] a state of one */
 };
 
 /* What `accepted` needs while a run is recorded. */
@@ -40,17 +44,28 @@ pass_expanded(qdot_ode_expanded *step, void *user)
     return r->options->expanded(step, r->options->user);
 }
 
+static void
+clear_tracks(qdot_trajectory *tr)
+{
+    for (size_t k = 0; k < tr->n_tracks; k++)
+        qdot_trajectory_clear(tr->tracks + k);
+    qdot_free(tr->tracks);
+    tr->tracks = NULL;
+    tr->n_tracks = 0;
+}
+
 void
 qdot_trajectory_clear(qdot_trajectory *tr)
 {
+    clear_tracks(tr);
     qdot_free(tr->t);
     qdot_free(tr->y);
     qdot_free(tr->pieces.at);
     *tr = (qdot_trajectory){0};
 }
 
-static qdot_status
-store(qdot_trajectory *tr, double t, const double *y)
+qdot_status
+qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
 {
     size_t wanted = tr->count + 1;
 
@@ -76,7 +91,7 @@ record(double t, const double *y, bool *stop, void *user)
 
     if (r->options->accepted)
         QDOT_TRY(r->options->accepted(t, y, stop, r->options->user));
-    return store(r->tr, t, y);
+    return qdot_trajectory_store(r->tr, t, y);
 }
 
 qdot_status
@@ -100,13 +115,16 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     tr->order_more = own.order_more;
     tr->result = (qdot_ode_result){.outcome = QDOT_ODE_FAILED, .t = t0};
     own.accepted = record;
+    own.apart = false;
     own.expanded = own.expanded ? pass_expanded : NULL;
     own.user = &r;
     if (status == QDOT_OK)
         status = qdot_vec_push(&tr->pieces, whole);
     if (status == QDOT_OK)
-        status = store(tr, t0, y);
-    if (status == QDOT_OK)
+        status = qdot_trajectory_store(tr, t0, y);
+    if (status == QDOT_OK && qdot_ode_is_apart(system, &theirs))
+        status = qdot_ode_apart_record(tr, system, &theirs, t1, y);
+    else if (status == QDOT_OK)
         status = qdot_ode_integrate(system, method, &own, t0, t1, y, &tr->result);
     else
         memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
@@ -130,6 +148,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
                        bool jumped, const qdot_ode_options *options, double t1,
                        const double *y0)
 {
+    /* `accepted` is ours from here on: whether theirs goes by parts has been decided */
     qdot_ode_options own = *options;
     qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
     recorder r = {.tr = tr, .options = options};
@@ -139,6 +158,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
 
     own.accepted = record;
+    own.apart = false;
     own.expanded = own.expanded ? pass_expanded : NULL;
     own.user = &r;
     if (y)
@@ -150,8 +170,11 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     if (status == QDOT_OK)
         status = qdot_vec_push(&tr->pieces, piece);
     if (status == QDOT_OK)
-        status = store(tr, t0, y);
-    if (status == QDOT_OK)
+        status = qdot_trajectory_store(tr, t0, y);
+    clear_tracks(tr);
+    if (status == QDOT_OK && piece.first == 0 && qdot_ode_is_apart(system, options))
+        status = qdot_ode_apart_record(tr, system, options, t1, y);
+    else if (status == QDOT_OK)
         status = qdot_ode_integrate(system, tr->method, &own, t0, t1, y, &tr->result);
     else
         memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
@@ -246,6 +269,23 @@ enter(qdot_trajectory_cursor *c, size_t piece)
     return open_stepper(c);
 }
 
+/* One a part; read by those of the only piece. */
+static qdot_status
+open_tracks(qdot_trajectory_cursor *c)
+{
+    const qdot_trajectory *tr = c->tr;
+
+    c->system = c->systems + tr->pieces.at[0].mode;
+    c->own = qdot_calloc(tr->n, sizeof *c->own);
+    c->tracks = qdot_calloc(tr->n_tracks, sizeof *c->tracks);
+    if (!c->own || !c->tracks)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < tr->n_tracks; k++)
+        QDOT_TRY(qdot_trajectory_open(tr->tracks + k, c->system->parts[k].system,
+                                      &c->tracks[k]));
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
                      qdot_trajectory_cursor **out)
@@ -261,7 +301,7 @@ qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
         return QDOT_ENOMEM;
     c->tr = tr;
     c->systems = system;
-    status = enter(c, 0);
+    status = tr->n_tracks > 0 ? open_tracks(c) : enter(c, 0);
     if (status != QDOT_OK) {
         qdot_trajectory_close(c);
         return status;
@@ -275,6 +315,10 @@ qdot_trajectory_close(qdot_trajectory_cursor *c)
 {
     if (!c)
         return;
+    for (size_t k = 0; c->tracks && k < c->tr->n_tracks; k++)
+        qdot_trajectory_close(c->tracks[k]);
+    qdot_free(c->tracks);
+    qdot_free(c->own);
     qdot_ode_stepper_free(c->s);
     qdot_free(c->F);
     qdot_free(c);
@@ -377,6 +421,19 @@ derive(const qdot_trajectory_cursor *c, double t, double *y)
     return f ? f->derive(t, y, f->user) : QDOT_OK;
 }
 
+qdot_status
+qdot_trajectory_read_tracks(qdot_trajectory_cursor *c, double t, double *y)
+{
+    for (size_t k = 0; k < c->tr->n_tracks; k++) {
+        const qdot_ode_part *part = c->system->parts + k;
+
+        QDOT_TRY(qdot_trajectory_read(c->tracks[k], t, c->own));
+        for (size_t i = 0; i < part->system->n; i++)
+            y[part->index[i]] = c->own[i];
+    }
+    return QDOT_OK;
+}
+
 /* The state at t, which lies in the step from point k on or is that point. */
 static qdot_status
 read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
@@ -390,6 +447,8 @@ read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
         memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
         return QDOT_OK;
     }
+    if (c->tracks)
+        return qdot_trajectory_read_tracks(c, t, y);
     if (!c->s) {
         QDOT_TRY(read_series(c, t, y));
         return derive(c, t, y);
@@ -423,7 +482,8 @@ qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
         ;
     while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
         piece++;
-    QDOT_TRY(enter(c, piece));
+    if (!c->tracks)
+        QDOT_TRY(enter(c, piece));
     return read_from(c, k, t, y);
 }
 
@@ -435,7 +495,8 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
     size_t last = (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count)
                   - 1;
 
-    QDOT_TRY(enter(c, piece));
+    if (!c->tracks)
+        QDOT_TRY(enter(c, piece));
     if (not_beyond(tr, t, tr->t[low]))
         return read_from(c, low, tr->t[low], y);
     if (not_beyond(tr, tr->t[last], t))

@@ -33,7 +33,7 @@ typedef struct {
     bool jumped;  /* its start is another state than the end before */
 } qdot_trajectory_piece;
 
-typedef struct {
+typedef struct qdot_trajectory {
     size_t n;     /* components of the state */
     size_t count; /* stored points, the initial state included */
     double *t;    /* [count] monotone in the direction of the run, strictly in a piece */
@@ -46,6 +46,10 @@ typedef struct {
                                point: it is a part of a longer one (ode/system.h) */
     size_t t_capacity, y_capacity;
     qdot_vec(qdot_trajectory_piece) pieces;
+    /* Of a system that was integrated in parts (ode/apart.h): that of each, by its steps; the
+     * points above are those of the one with the most. Of one piece only. */
+    struct qdot_trajectory *tracks; /* [n_tracks] */
+    size_t n_tracks;
 } qdot_trajectory;
 
 /* Start from {0}; release with qdot_trajectory_clear. */
@@ -107,6 +111,12 @@ size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
  * this piece. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c,
                                                        size_t piece, double t, double *y);
+
+/* For ode/apart.c: a point more; the state from the tracks alone. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_store(qdot_trajectory *tr, double t,
+                                                  const double *y);
+QDOT_MUST_CHECK qdot_status qdot_trajectory_read_tracks(qdot_trajectory_cursor *c,
+                                                        double t, double *y);
 
 /* The points were changed behind the cursor's back. */
 void qdot_trajectory_renew(qdot_trajectory_cursor *c);

@@ -31,6 +31,12 @@ struct qdot_bind {
     qdot_tape *reduced; /* a shaken copy; else NULL */
     qdot_blocks reduced_blocks;
     qdot_momenta *momenta;
+
+    /* Of a plan with parts: theirs. */
+    qdot_bind **parts;         /* [plan->n_parts] */
+    qdot_ode_system *systems;  /* [n_parts] */
+    qdot_ode_part *listed;     /* [n_parts] */
+    size_t *index;             /* [2n] what `listed` has */
 };
 
 static const qdot_tape *
@@ -60,6 +66,12 @@ qdot_bind_free(qdot_bind *b)
         qdot_blocks_clear(&b->reduced_blocks);
     qdot_momenta_free(b->momenta);
     qdot_tape_free(b->reduced);
+    for (size_t k = 0; b->parts && k < b->plan->n_parts; k++)
+        qdot_bind_free(b->parts[k]);
+    qdot_free(b->parts);
+    qdot_free(b->systems);
+    qdot_free(b->listed);
+    qdot_free(b->index);
     qdot_free(b->in);
     qdot_free(b->out);
     qdot_free(b->work);
@@ -267,6 +279,8 @@ qdot_bind_system(qdot_bind *b)
         .user = b,
         .series = b->series,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
+        .parts = b->listed,
+        .n_parts = b->listed ? b->plan->n_parts : 0,
         .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
     };
 }
@@ -312,7 +326,11 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
 size_t
 qdot_bind_factored(const qdot_bind *b)
 {
-    return b->blocks.factored + (b->held ? qdot_constrained_factored(b->held) : 0)
+    size_t parts = 0;
+
+    for (size_t k = 0; b->parts && k < b->plan->n_parts; k++)
+        parts += qdot_bind_factored(b->parts[k]);
+    return parts + b->blocks.factored + (b->held ? qdot_constrained_factored(b->held) : 0)
            + (b->tied ? qdot_constrained_series_factored(b->tied) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
            + (b->shifted ? qdot_shifted_factored(b->shifted) : 0)
            + b->reduced_blocks.factored;
@@ -343,6 +361,34 @@ make_slopes(qdot_bind *b)
     b->slopes = qdot_malloc((qdot_tape_outputs(p->tape) * (2 * p->n + 1) + 1)
                             * sizeof *b->slopes);
     return b->slopes && b->slopes_work ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* By groups of coordinates. */
+static qdot_status
+make_parts(qdot_bind *b, bool shaken)
+{
+    const qdot_plan *p = b->plan;
+    qdot_ode_part *listed;
+    size_t *at;
+
+    if (p->n_parts == 0)
+        return QDOT_OK;
+    b->parts = qdot_calloc(p->n_parts, sizeof(qdot_bind *));
+    b->systems = qdot_calloc(p->n_parts, sizeof *b->systems);
+    b->listed = listed = qdot_calloc(p->n_parts, sizeof *listed);
+    b->index = at = qdot_calloc(2 * p->n, sizeof *b->index);
+    if (!b->parts || !b->systems || !listed || !at)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < p->n_parts; k++) {
+        const qdot_plan *r = p->parts[k];
+
+        QDOT_TRY(qdot_bind_new(r, shaken, &b->parts[k]));
+        b->systems[k] = qdot_bind_system(b->parts[k]);
+        listed[k] = (qdot_ode_part){b->systems + k, at};
+        for (size_t i = 0; i < 2 * r->n; i++)
+            *at++ = i < r->n ? r->place[i] : p->n + r->place[i - r->n];
+    }
+    return QDOT_OK;
 }
 
 /* With momenta that are kept. */
@@ -385,6 +431,7 @@ make(qdot_bind *b, bool shaken)
     if (shaken)
         QDOT_TRY(qdot_tape_shake(p->tape, &b->tape));
     QDOT_TRY(make_slopes(b));
+    QDOT_TRY(make_parts(b, shaken));
     QDOT_TRY(qdot_blocks_init(&b->blocks, p, shaken));
     if (p->reduced)
         return make_reduced(b, shaken);

@@ -134,11 +134,13 @@ say_blocks(const qdot_plan *p, qdot_text *out)
 
 /* Of Taylor series: the order, the form of the equations, what an order costs. */
 static qdot_status
-say_series(const qdot_plan *p, double tol, qdot_text *out)
+say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
 {
     qdot_bind *bind;
     qdot_ode_system system;
 
+    if (!p->method->series)
+        return QDOT_OK;
     QDOT_TRY(qdot_bind_new(p, false, &bind));
     system = qdot_bind_system(bind);
     qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n",
@@ -172,6 +174,54 @@ say_series(const qdot_plan *p, double tol, qdot_text *out)
     else
         qdot_text_format(out, "form: M q'' = f, %g convolutions an order\n",
                          p->convolutions_derived);
+    return QDOT_OK;
+}
+
+static void
+name_all(const qdot_plan *p, qdot_text *out)
+{
+    for (size_t i = 0; i < p->n; i++)
+        qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
+}
+
+/* Groups of coordinates that are integrated apart, or would be. */
+static qdot_status
+say_parts(const qdot_plan *p, bool watched, double tol, qdot_text *out)
+{
+    if (watched) {
+        qdot_text_add(out, "parts that know nothing of each other go together, for what is "
+                           "watched:");
+        for (size_t k = 0; k < p->n_parts; k++) {
+            qdot_text_add(out, k ? ";" : "");
+            name_all(p->parts[k], out);
+        }
+        qdot_text_char(out, '\n');
+        return say_series_of_all(p, tol, out);
+    }
+    qdot_text_add(out, "parts that know nothing of each other, each with its own steps:\n");
+    for (size_t k = 0; k < p->n_parts; k++) {
+        const qdot_plan *r = moving(p->parts[k]);
+
+        qdot_text_add(out, " ");
+        name_all(p->parts[k], out);
+        if (p->method->series) {
+            qdot_ode_system system;
+            qdot_bind *bind;
+
+            QDOT_TRY(qdot_bind_new(p->parts[k], false, &bind));
+            system = qdot_bind_system(bind);
+            qdot_text_format(out, ": order %d, %g convolutions an order",
+                             qdot_ode_taylor_order(system.series, tol, 0),
+                             r->convolutions_derived);
+            qdot_bind_free(bind);
+        }
+        if (r->n_kept > 0) {
+            qdot_text_add(out, "; ");
+            say_kept(r, out);
+        } else {
+            qdot_text_char(out, '\n');
+        }
+    }
     return QDOT_OK;
 }
 
@@ -229,8 +279,10 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
         qdot_text_add(out, "jacobian: exact, by forward derivatives of the tape\n");
     qdot_text_format(out, "method: %s, %s: %s\n", p->method->name,
                      p->chosen ? "chosen" : "asked for", p->method->fits);
-    if (p->method->series)
-        status = say_series(p, request->tol, out);
+    if (p->n_parts > 0)
+        status = say_parts(p, stage.modes.at[0]->m > 0, request->tol, out);
+    else
+        status = say_series_of_all(p, request->tol, out);
     qdot_text_format(out, "error: %s by %s, at a tighter tolerance, on %s\n",
                      request->tol <= QDOT_COMPANION_TWIN_TOL ? "two companion runs"
                                                              : "a companion run",

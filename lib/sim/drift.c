@@ -113,14 +113,17 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
     return QDOT_OK;
 }
 
+/* Whether the run, in parts or whole, kept its momentum. */
 static bool
-is_kept(const qdot_plan *p, qdot_expr coordinate)
+is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
 {
-    const qdot_plan *r = p->reduced;
+    for (size_t i = 0; i == 0 || i < tr->n_tracks; i++) {
+        const qdot_plan *r = tr->n_tracks > 0 ? p->parts[i]->reduced : p->reduced;
 
-    for (size_t k = 0; r && k < r->n_kept; k++)
-        if (r->inputs[r->kept[k]] == coordinate)
-            return true;
+        for (size_t k = 0; r && k < r->n_kept; k++)
+            if (r->inputs[r->kept[k]] == coordinate)
+                return true;
+    }
     return false;
 }
 
@@ -150,7 +153,7 @@ qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory
             char *name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
 
             status = name ? measure(p, tr, cyclic[i].momentum, name, d) : QDOT_ENOMEM;
-            if (status == QDOT_OK && d->n > 0 && is_kept(p, cyclic[i].coordinate)
+            if (status == QDOT_OK && d->n > 0 && is_kept(p, tr, cyclic[i].coordinate)
                 && d->at[d->n - 1].quantity == cyclic[i].momentum) {
                 d->at[d->n - 1].kept = true;
                 d->at[d->n - 1].drift = 0;

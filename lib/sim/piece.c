@@ -316,6 +316,7 @@ qdot_piece_integrate(qdot_piece *x, double t, const double *y, bool jumped)
     options.expanded =
         qdot_piece_mode(x)->m > 0 && x->method->series ? look_at_expanded : NULL;
     options.user = x;
+    options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted;
     if (c->tr.count > 1 || t != c->tr.t[0])
         options.carry = NULL;
     x->intent = QDOT_PIECE_GOES_ON;

@@ -7,6 +7,7 @@
 #include "expr/walk.h"
 #include "sim/constraints.h"
 #include "sim/direct.h"
+#include "sim/parts.h"
 #include "sim/quotient.h"
 #include "sim/residual.h"
 #include "sim/routh.h"
@@ -46,6 +47,10 @@ qdot_plan_free(qdot_plan *p)
     qdot_tape_free(p->tape);
     qdot_residual_free(p->residual);
     qdot_constraints_free(p->constraints);
+    for (size_t k = 0; k < p->n_parts; k++)
+        qdot_plan_free(p->parts[k]);
+    qdot_free(p->parts);
+    qdot_free(p->place);
     qdot_plan_free(p->reduced);
     qdot_free(p->kept);
     qdot_tape_free(p->momenta);
@@ -422,10 +427,10 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(check_series(p, qdot_taylor_hindrance(p->tape)));
     if (p->smooth)
         QDOT_TRY(choose_form(p, scene));
-    if (request->digits > 0 || p->method->needs_jacobian
-        || qdot_ode_method_find(p->method->partner)->needs_jacobian)
+    if (request->digits > 0 || qdot_plan_needs_jacobian(p))
         return QDOT_OK;
-    return qdot_routh_reduce(p, scene, request);
+    QDOT_TRY(qdot_routh_reduce(p, scene, request));
+    return qdot_parts_find(p, scene, request);
 }
 
 qdot_status

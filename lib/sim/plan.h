@@ -70,6 +70,12 @@ struct qdot_plan {
     double convolutions_derived, convolutions_residual;
     double cost; /* of a step by the form taken: qdot_plan_cost */
 
+    /* The same by groups of coordinates that know nothing of each other, two or more, for a
+     * run whose steps nobody looks at (sim/parts.h). */
+    qdot_plan **parts; /* [n_parts] */
+    size_t n_parts;
+    size_t *place; /* of a part alone: [n] where its coordinates are in the scene */
+
     /* The equations that are integrated in place of these, where cyclic coordinates leave
      * shorter ones (sim/routh.h); else NULL. */
     qdot_plan *reduced;

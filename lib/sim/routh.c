@@ -81,6 +81,13 @@ is_linear(const routh *e, size_t i)
     return true;
 }
 
+/* Which of the scene's coordinates it is. */
+static size_t
+in_scene(const routh *e, size_t i)
+{
+    return e->p->place ? e->p->place[i] : i;
+}
+
 /* How many coordinates one couples with in M. */
 static size_t
 coupled(const routh *e, size_t i)
@@ -103,7 +110,7 @@ find_cyclic(routh *e, bool *some)
         if (!may_be_absent(e, i) || !is_linear(e, i) || coupled(e, i) >= MOST_COUPLED)
             continue;
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(qdot_mech_cyclic_at(e->scene, i, &c, &is));
+        QDOT_TRY(qdot_mech_cyclic_at(e->scene, in_scene(e, i), &c, &is));
         if (!is || c.rate != QDOT_NIL)
             continue;
         QDOT_TRY(qdot_mech_applied_holds(e->scene, c.coordinate, &applied));
@@ -428,7 +435,9 @@ find_start(routh *e, const qdot_plan *r, double *in)
     double *work;
 
     for (size_t i = 0; i < 2 * n + 1; i++) {
-        qdot_expr x = i < n ? q->q0[i] : i < 2 * n ? q->v0[i - n] : q->t0;
+        qdot_expr x = i < n       ? q->q0[in_scene(e, i)]
+                      : i < 2 * n ? q->v0[in_scene(e, i - n)]
+                                  : q->t0;
 
         x = qdot_plan_substitute(e->p, x);
         QDOT_TRY(qdot_pool_check(e->pool));

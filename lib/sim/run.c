@@ -45,6 +45,7 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->start_low);
     qdot_free(run->reason);
     qdot_text_clear(&run->notice);
+    qdot_text_clear(&run->apart);
     qdot_multipliers_clear(&run->multipliers);
     qdot_free(run);
 }
@@ -309,6 +310,25 @@ integrate(qdot_run *run, double tol, bool *interrupted)
 
 /* --- the report --------------------------------------------------------------------- */
 
+/* How many steps each of the parts took that were integrated apart. */
+static qdot_status
+say_apart(qdot_run *run)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+
+    for (size_t k = 0; k < tr->n_tracks; k++) {
+        const qdot_plan *part = run->plan->parts[k];
+        unsigned long long steps = tr->tracks[k].result.stats.steps;
+
+        qdot_text_add(&run->apart, k ? "; " : "");
+        for (size_t i = 0; i < part->n; i++)
+            qdot_text_format(&run->apart, "%s%s", i ? ", " : "", part->names[i]);
+        qdot_text_format(&run->apart, " %llu step%s", steps, steps == 1 ? "" : "s");
+    }
+    run->report.apart = tr->n_tracks > 0 ? qdot_text_str(&run->apart) : NULL;
+    return qdot_text_status(&run->apart);
+}
+
 static void
 fill_report(qdot_run *run, double tol)
 {
@@ -542,7 +562,9 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     run->stage.scene = NULL;
     run->stage.request = NULL;
     fill_report(run, request->tol);
-    status = name_redundant(run, scene, request);
+    status = say_apart(run);
+    if (status == QDOT_OK)
+        status = name_redundant(run, scene, request);
     if (status != QDOT_OK) {
         qdot_run_free(run);
         return status;

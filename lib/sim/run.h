@@ -84,6 +84,8 @@ typedef struct {
     size_t projections;            /* steps after which the state was moved */
     qdot_run_treatment treatment;
     size_t pieces, modes;          /* of a run that events or switches divide; else 1 */
+    const char *apart;             /* steps of the parts that were integrated apart, a line;
+                                      NULL: there are none */
     const char *doubt;             /* why the error is unknown, where that is known; NULL */
 } qdot_run_report;
 
