@@ -32,6 +32,7 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
 {
     const qdot_plan *p = qdot_piece_mode(x)->plan;
     const qdot_ode_system *system = x->reader.system;
+    qdot_constrained *held = qdot_bind_held(system->user);
     size_t inputs = qdot_plan_inputs(p);
     double *in =
         qdot_calloc(inputs + e->changes + 1 + qdot_tape_work(e->then), sizeof *in);
@@ -57,8 +58,8 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
             set[e->targets[i]] = true;
         }
     }
-    if (status == QDOT_OK && x->reader.held)
-        status = qdot_constrained_put(x->reader.held, t, y, set, e->name);
+    if (status == QDOT_OK && held)
+        status = qdot_constrained_put(held, t, y, set, e->name);
     qdot_free(in);
     qdot_free(set);
     return status;
