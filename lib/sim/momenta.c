@@ -58,6 +58,7 @@ enter(double t, const double *y, const double *carry, void *user)
         m->lo[k] = mpfr_get_d(rest, MPFR_RNDN);
         mpfr_clear(rest);
     }
+    mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); /* of a thread that may end after the run */
     m->t = t;
     memcpy(m->y, y, n * sizeof *y);
     m->entered = true;
