@@ -716,6 +716,7 @@ script_tests = \
 	tests/bad/start-velocities.lag \
 	tests/bad/string-number.lag \
 	tests/bad/style-unknown.lag \
+	tests/bad/text-compared.lag \
 	tests/bad/then-constraint.lag \
 	tests/bad/to-ending.lag \
 	tests/bad/too-long.lag \
@@ -920,6 +921,7 @@ test_files = \
 	tests/bad/start-velocities.out \
 	tests/bad/string-number.out \
 	tests/bad/style-unknown.out \
+	tests/bad/text-compared.out \
 	tests/bad/then-constraint.out \
 	tests/bad/to-ending.out \
 	tests/bad/too-long.out \
@@ -1031,6 +1033,7 @@ test_files = \
 	tests/fuzz/corpus/roundtrip/e20.txt \
 	tests/fuzz/corpus/roundtrip/huge-number.txt \
 	tests/fuzz/corpus/roundtrip/offset-roots.txt \
+	tests/fuzz/corpus/roundtrip/text.txt \
 	tests/fuzz/fuzz.h \
 	tests/lang/reading.h \
 	tests/mech/kit.h \

@@ -243,11 +243,11 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
 static const char *
 kind_word(const qdot_pool *pool, qdot_expr e)
 {
-    static const char *const words[] = {[QDOT_REL] = "an equation",
-                                        [QDOT_LOGIC] = "a condition",
-                                        [QDOT_VEC] = "a vector",
-                                        [QDOT_MAT] = "a matrix",
-                                        [QDOT_LIST] = "a list"};
+    static const char *const words[] = {
+        [QDOT_SYM] = "a text", /* latex(...) */
+        [QDOT_REL] = "an equation", [QDOT_LOGIC] = "a condition", [QDOT_VEC] = "a vector",
+        [QDOT_MAT] = "a matrix",    [QDOT_LIST] = "a list",
+    };
 
     return qdot_expr_is_scalar(pool, e) ? "a scalar" : words[qdot_expr_kind(pool, e)];
 }

@@ -74,7 +74,8 @@ compare(qdot_session *session, qdot_expr e, qdot_expr simple)
     abort();
 }
 
-/* No relation is in it: one between numbers is decided when it is read. */
+/* No relation is in it: one between numbers is decided when it is read. And no text, which is not
+ * read back. */
 static bool
 is_plain_value(const qdot_pool *pool, qdot_expr e)
 {
@@ -83,6 +84,7 @@ is_plain_value(const qdot_pool *pool, qdot_expr e)
 
     for (size_t i = 0; plain && i < w.n; i++)
         plain = qdot_expr_kind(pool, w.at[i]) != QDOT_REL &&
+                !qdot_expr_is_class(pool, w.at[i], QDOT_WORDS) &&
                 qdot_expr_kind(pool, w.at[i]) != QDOT_LOGIC;
     qdot_walk_end(&w);
     return plain && qdot_expr_size(pool, e) < LARGEST;
