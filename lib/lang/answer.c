@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "expr/walk.h"
+#include "show/sink.h"
 
 /* Write a finished text and let go of it. */
 static qdot_status
@@ -531,6 +532,14 @@ qdot_answer_file(qdot_session *session, const char *path)
         qdot_text_char(&line, '\n');
     }
     return put(session->out, &line);
+}
+
+qdot_status
+qdot_answer_in_file(qdot_session *session, const char *path, const qdot_text *text)
+{
+    QDOT_TRY(qdot_text_status(text));
+    QDOT_TRY(qdot_sink_write(path, qdot_text_str(text), text->n));
+    return qdot_answer_file(session, path);
 }
 
 qdot_status

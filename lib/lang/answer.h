@@ -79,6 +79,11 @@ QDOT_MUST_CHECK qdot_status qdot_answer_cells(qdot_session *session,
 /* {"kind":"file"}: `wrote PATH`. */
 QDOT_MUST_CHECK qdot_status qdot_answer_file(qdot_session *session, const char *path);
 
+/* The text becomes that file, then as qdot_answer_file. Errors: those of the text and of
+ * qdot_sink_write. */
+QDOT_MUST_CHECK qdot_status qdot_answer_in_file(qdot_session *session, const char *path,
+                                                const qdot_text *text);
+
 /* {"kind":"notice"}: `notice: MESSAGE` (printf). */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char *format,
                                                ...) QDOT_PRINTF(2, 3);

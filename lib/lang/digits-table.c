@@ -6,7 +6,6 @@
 #include "base/interrupt.h"
 #include "lang/answer.h"
 #include "lang/digits.h"
-#include "show/sink.h"
 
 /* All cells, row by row, the labels first. */
 typedef struct {
@@ -149,22 +148,6 @@ write_csv(const cells *t, qdot_text *out)
 }
 
 static qdot_status
-write_file(qdot_session *session, const char *path, const qdot_text *text)
-{
-    qdot_sink sink;
-    qdot_status status;
-
-    QDOT_TRY(qdot_sink_open(&sink, path));
-    status = qdot_sink_put(&sink, qdot_text_str(text), text->n);
-    if (status != QDOT_OK) {
-        qdot_sink_abandon(&sink);
-        return status;
-    }
-    QDOT_TRY(qdot_sink_close(&sink));
-    return qdot_answer_file(session, path);
-}
-
-static qdot_status
 answer_json(qdot_session *session, const cells *t)
 {
     for (size_t i = t->columns; i < t->cells.n; i += t->columns) {
@@ -199,9 +182,8 @@ tell(qdot_session *session, const cells *t, const char *path)
     (csv ? write_csv : write_text)(t, &text);
     status = qdot_text_status(&text);
     if (status == QDOT_OK)
-        status = path != NULL
-                     ? write_file(session, path, &text)
-                     : qdot_answer_text(session, "table", qdot_text_str(&text));
+        status = path != NULL ? qdot_answer_in_file(session, path, &text)
+                              : qdot_answer_text(session, "table", qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
 }

@@ -74,20 +74,6 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
         "`help table`");
 }
 
-static qdot_status
-write_file(const qdot_redirect *r)
-{
-    qdot_sink sink;
-    qdot_status status;
-
-    QDOT_TRY(qdot_sink_open(&sink, r->path));
-    status = qdot_sink_put(&sink, r->text, r->length);
-    if (status == QDOT_OK)
-        return qdot_sink_close(&sink);
-    qdot_sink_abandon(&sink);
-    return status;
-}
-
 qdot_status
 qdot_redirect_end(qdot_redirect *r, qdot_status status)
 {
@@ -100,7 +86,7 @@ qdot_redirect_end(qdot_redirect *r, qdot_status status)
     if (status == QDOT_OK && !complete)
         status = qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", r->path);
     if (status == QDOT_OK)
-        status = write_file(r);
+        status = qdot_sink_write(r->path, r->text, r->length);
     if (status == QDOT_OK)
         status = qdot_answer_file(session, r->path);
     free(r->text); /* from open_memstream */

@@ -9,7 +9,6 @@
 #include "lang/draw.h"
 #include "lang/statement.h"
 #include "show/show.h"
-#include "show/sink.h"
 
 /* The columns, in the order of every form. */
 enum { COLUMNS = 13, CONSTRAINT_ERR = 10 };
@@ -214,23 +213,6 @@ figure(qdot_session *session, const qdot_workprecision *w, const char *path)
 
 /* --- the statement ------------------------------------------------------------------- */
 
-static qdot_status
-write_text(qdot_session *session, const char *path, qdot_text *text)
-{
-    qdot_sink sink;
-    qdot_status status;
-
-    QDOT_TRY(qdot_text_status(text));
-    QDOT_TRY(qdot_sink_open(&sink, path));
-    status = qdot_sink_put(&sink, qdot_text_str(text), text->n);
-    if (status != QDOT_OK) {
-        qdot_sink_abandon(&sink);
-        return status;
-    }
-    QDOT_TRY(qdot_sink_close(&sink));
-    return qdot_answer_file(session, path);
-}
-
 static bool
 ends_in(const char *path, const char *ending)
 {
@@ -255,7 +237,7 @@ tell(qdot_session *session, const qdot_workprecision *w, const char *path)
     if (!ends_in(path, ".csv") && !ends_in(path, ".txt"))
         return figure(session, w, path);
     (ends_in(path, ".csv") ? csv : table)(w, &text);
-    status = write_text(session, path, &text);
+    status = qdot_answer_in_file(session, path, &text);
     qdot_text_clear(&text);
     return status;
 }

@@ -225,21 +225,6 @@ write_script(qdot_text *script, const qdot_figure *figure, const char *terminal)
 
 /* --- the figure --------------------------------------------------------------------- */
 
-static qdot_status
-save(const qdot_text *image, const char *path)
-{
-    qdot_sink sink;
-    qdot_status status;
-
-    QDOT_TRY(qdot_sink_open(&sink, path));
-    status = qdot_sink_put(&sink, image->at, image->n);
-    if (status != QDOT_OK) {
-        qdot_sink_abandon(&sink);
-        return status;
-    }
-    return qdot_sink_close(&sink);
-}
-
 qdot_status
 qdot_figure_write(const qdot_figure *figure, const char *path)
 {
@@ -262,7 +247,7 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
     if (status == QDOT_OK)
         status = qdot_gnuplot_run(&script, path != NULL ? &image : NULL);
     if (status == QDOT_OK && path != NULL)
-        status = save(&image, path);
+        status = qdot_sink_write(path, image.at, image.n);
     qdot_text_clear(&script);
     qdot_text_clear(&image);
     return status;

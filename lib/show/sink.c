@@ -50,3 +50,17 @@ qdot_sink_abandon(qdot_sink *sink)
         fclose(sink->file);
     sink->file = NULL;
 }
+
+qdot_status
+qdot_sink_write(const char *path, const char *bytes, size_t length)
+{
+    qdot_sink sink;
+    qdot_status status;
+
+    QDOT_TRY(qdot_sink_open(&sink, path));
+    status = qdot_sink_put(&sink, bytes, length);
+    if (status == QDOT_OK)
+        return qdot_sink_close(&sink);
+    qdot_sink_abandon(&sink);
+    return status;
+}

@@ -25,4 +25,8 @@ QDOT_MUST_CHECK qdot_status qdot_sink_close(qdot_sink *sink);
 /* Close after another failure, which stays the last error. */
 void qdot_sink_abandon(qdot_sink *sink);
 
+/* A whole file of `length` bytes: opened, put, closed. Errors as theirs. */
+QDOT_MUST_CHECK qdot_status qdot_sink_write(const char *path, const char *bytes,
+                                            size_t length);
+
 #endif
