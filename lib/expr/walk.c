@@ -206,6 +206,28 @@ qdot_walk_set(qdot_walk *w, qdot_expr e, uint64_t value)
 }
 
 qdot_expr
+qdot_walk_rebuild(qdot_pool *pool, const qdot_walk *w, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few;
+    bool changed = false;
+
+    if (args == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr old = qdot_expr_arg(pool, e, i);
+
+        args[i] = (qdot_expr)qdot_walk_get(w, old);
+        changed |= args[i] != old;
+    }
+    if (changed)
+        e = qdot_rebuild(pool, e, args);
+    if (args != few)
+        qdot_free(args);
+    return e;
+}
+
+qdot_expr
 qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
                     qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
                     void *user)

@@ -47,6 +47,10 @@ qdot_expr qdot_walk_map(qdot_pool *pool, qdot_expr e,
                         qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
                         void *user);
 
+/* A node of the walk over the nodes that are its children's values: itself where they are the
+ * children. Nil: the pool keeps the failure. */
+qdot_expr qdot_walk_rebuild(qdot_pool *pool, const qdot_walk *w, qdot_expr e);
+
 /* Whether x (any node) occurs in e. */
 bool qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x);
 

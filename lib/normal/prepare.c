@@ -416,23 +416,9 @@ with_flat_args(qdot_pool *pool, qdot_expr e, uint32_t count)
 static qdot_expr
 node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins)
 {
-    uint32_t n = qdot_expr_count(pool, e);
-    qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few, before = e,
-                       now;
-    bool changed = false;
+    qdot_expr before = e, now;
 
-    if (args == NULL)
-        return qdot_pool_fail(pool);
-    for (uint32_t i = 0; i < n; i++) {
-        qdot_expr old = qdot_expr_arg(pool, e, i);
-
-        args[i] = (qdot_expr)qdot_walk_get(w, old);
-        changed |= args[i] != old;
-    }
-    if (changed)
-        e = qdot_rebuild(pool, e, args);
-    if (args != few)
-        qdot_free(args);
+    e = qdot_walk_rebuild(pool, w, e);
     if (e == QDOT_NIL)
         return e;
     switch (qdot_expr_kind(pool, e)) {

@@ -61,26 +61,10 @@ on_nodes(qdot_pool *pool, qdot_expr e, qdot_kind kind,
     if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return e;
     for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
-        uint32_t n = qdot_expr_count(pool, w.at[i]);
-        qdot_expr few[32], *args = n > 32 ? qdot_malloc(n * sizeof *args) : few;
-        bool changed = false;
-
-        if (args == NULL)
-            break;
-        result = w.at[i];
-        for (uint32_t k = 0; k < n; k++) {
-            qdot_expr old = qdot_expr_arg(pool, w.at[i], k);
-
-            args[k] = (qdot_expr)qdot_walk_get(&w, old);
-            changed |= args[k] != old;
-        }
-        if (changed)
-            result = qdot_rebuild(pool, result, args);
+        result = qdot_walk_rebuild(pool, &w, w.at[i]);
         if (result != QDOT_NIL && qdot_expr_kind(pool, result) == kind)
             result = f(pool, result);
         qdot_walk_set(&w, w.at[i], result);
-        if (args != few)
-            qdot_free(args);
     }
     qdot_walk_end(&w);
     return result;

@@ -111,27 +111,6 @@ product(qdot_pool *pool, qdot_expr e)
     return result;
 }
 
-static qdot_expr
-rebuilt(qdot_pool *pool, const qdot_walk *w, qdot_expr e)
-{
-    uint32_t n = qdot_expr_count(pool, e);
-    qdot_expr *args = qdot_malloc((n + 1) * sizeof *args), result = e;
-    bool changed = false;
-
-    if (args == NULL)
-        return qdot_pool_fail(pool);
-    for (uint32_t i = 0; i < n; i++) {
-        qdot_expr old = qdot_expr_arg(pool, e, i);
-
-        args[i] = (qdot_expr)qdot_walk_get(w, old);
-        changed |= args[i] != old;
-    }
-    if (changed)
-        result = qdot_rebuild(pool, e, args);
-    qdot_free(args);
-    return result;
-}
-
 qdot_expr
 qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials)
 {
@@ -141,7 +120,7 @@ qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials)
     if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
     for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
-        result = rebuilt(pool, &w, w.at[i]);
+        result = qdot_walk_rebuild(pool, &w, w.at[i]);
         if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_FUN)
             result = function(pool, result, exponentials);
         else if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_PROD)
