@@ -128,11 +128,9 @@ qdot_chebyshev_halves(int n, const double *c, double *left, double *right)
 double
 qdot_chebyshev_tail(int n, const double *c)
 {
-    double largest = 0;
+    const int tail = n / 8 + 1;
 
-    for (int k = n - n / 8 - 1; k < n; k++)
-        largest = fmax(largest, fabs(c[k]));
-    return largest;
+    return qdot_chebyshev_size(tail, c + n - tail);
 }
 
 double

@@ -513,12 +513,6 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
 }
 
 size_t
-qdot_trajectory_piece_read(const qdot_trajectory_cursor *c)
-{
-    return c->piece;
-}
-
-size_t
 qdot_trajectory_mode_read(const qdot_trajectory_cursor *c)
 {
     return c->tr->pieces.at[c->piece].mode;

@@ -103,8 +103,7 @@ void qdot_trajectory_close(qdot_trajectory_cursor *c);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read(qdot_trajectory_cursor *c, double t,
                                                  double *y);
 
-/* Where the state just read stands: its piece, and the mode of that. */
-size_t qdot_trajectory_piece_read(const qdot_trajectory_cursor *c);
+/* The mode of the piece in which the state just read stands. */
 size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 
 /* The state within the piece at t, or at its nearest end; of two at one time the one of

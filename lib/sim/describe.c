@@ -96,8 +96,9 @@ say_constraints(const qdot_plan *p, qdot_text *out)
 {
     static const char *const kinds[] = {"holonomic", "of velocities", "of accelerations"};
     static const char *const treatments[] = {
-        [QDOT_RUN_PROJECT] = "projection of positions and velocities in the metric of M, "
-                             "after steps that end further off than rounding",
+        [QDOT_RUN_PROJECT] =
+            ("projection of positions and velocities in the metric of M, "
+             "after steps that end further off than rounding"),
         [QDOT_RUN_BAUMGARTE] = "Baumgarte's damping, 5 per unit of time",
         [QDOT_RUN_NONE] = "none",
     };

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "expr/walk.h"
-#include "sim/direct.h"
 #include "sim/routh.h"
 #include "tape/taylor.h"
 
@@ -73,15 +72,10 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
 static qdot_status
 fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
 {
-    r->inputs = qdot_calloc(3 * n + 1, sizeof *r->inputs);
-    r->names = qdot_calloc(n, sizeof *r->names);
-    r->M = qdot_calloc(n * n, sizeof *r->M);
-    r->f = qdot_calloc(n, sizeof *r->f);
     r->place = qdot_calloc(n, sizeof *r->place);
     r->symbols = qdot_calloc(p->n_values + 1, sizeof *r->symbols);
     r->values = qdot_calloc(p->n_values + 1, sizeof *r->values);
-    if (!r->inputs || !r->names || !r->M || !r->f || !r->place || !r->symbols
-        || !r->values)
+    if (!r->place || !r->symbols || !r->values)
         return QDOT_ENOMEM;
     memcpy(r->symbols, p->symbols, p->n_values * sizeof *r->symbols);
     memcpy(r->values, p->values, p->n_values * sizeof *r->values);
@@ -105,16 +99,10 @@ fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
 static qdot_status
 finish(qdot_plan *r, qdot_scene *scene, const qdot_run_request *request)
 {
-    qdot_direct *direct;
-
     QDOT_TRY(qdot_plan_structure(r, NULL));
     QDOT_TRY(qdot_plan_lower(r, 2 * r->n + 1, 0, NULL));
-    if (r->smooth) {
-        QDOT_TRY(qdot_direct_new(r, false, &direct));
-        r->convolutions_derived = qdot_direct_convolutions(direct);
-        r->cost = qdot_plan_cost(qdot_direct_series(direct));
-        qdot_direct_free(direct);
-    }
+    if (r->smooth)
+        QDOT_TRY(qdot_plan_measure(r));
     return qdot_routh_reduce(r, scene, request);
 }
 
@@ -123,21 +111,16 @@ make_part(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request,
           const size_t *group, size_t first)
 {
     size_t *index = qdot_calloc(p->n, sizeof *index), n = 0;
-    qdot_plan *r = qdot_calloc(1, sizeof *r);
-    qdot_status status = index && r ? QDOT_OK : QDOT_ENOMEM;
+    qdot_plan *r = NULL;
+    qdot_status status = QDOT_ENOMEM;
 
     for (size_t i = first; index && i < p->n; i++)
         if (group[i] == first)
             index[n++] = i;
-    if (r) {
+    if (index)
+        status = qdot_plan_of_part(p, n, 0, &r);
+    if (r)
         p->parts[p->n_parts++] = r;
-        r->pool = p->pool;
-        r->n = n;
-        r->method = p->method;
-        r->chosen = p->chosen;
-        r->indefinite = p->indefinite;
-        r->smooth = p->smooth;
-    }
     if (status == QDOT_OK)
         status = fill(p, n, index, r);
     qdot_free(index);

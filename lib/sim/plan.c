@@ -327,20 +327,29 @@ qdot_plan_cost(const qdot_ode_series *series)
     return c[0] + c[1] * p + c[2] * p * p;
 }
 
+qdot_status
+qdot_plan_measure(qdot_plan *plan)
+{
+    qdot_direct *direct;
+
+    QDOT_TRY(qdot_direct_new(plan, false, &direct));
+    plan->convolutions_derived = qdot_direct_convolutions(direct);
+    plan->cost = qdot_plan_cost(qdot_direct_series(direct));
+    qdot_direct_free(direct);
+    return QDOT_OK;
+}
+
 /* The shorter of the two forms of the equations. Where M is diagonal or constant nothing
  * is shorter than the derived one. */
 static qdot_status
 choose_form(qdot_plan *p, qdot_scene *scene)
 {
     qdot_residual *residual = NULL;
-    qdot_direct *direct = NULL;
     qdot_shifted *shifted = NULL;
     bool coupled = false;
     qdot_status status;
 
-    QDOT_TRY(qdot_direct_new(p, false, &direct));
-    p->convolutions_derived = qdot_direct_convolutions(direct);
-    p->cost = qdot_plan_cost(qdot_direct_series(direct));
+    QDOT_TRY(qdot_plan_measure(p));
     for (size_t k = 0; k < p->structure.blocks; k++)
         coupled |= p->blocks[k].n > 1 && !p->blocks[k].constant;
     /* d'Alembert's form is made of the scene, which switches */
@@ -359,7 +368,6 @@ choose_form(qdot_plan *p, qdot_scene *scene)
     }
     qdot_shifted_free(shifted);
     qdot_residual_free(residual);
-    qdot_direct_free(direct);
     return status;
 }
 
@@ -437,6 +445,27 @@ qdot_status
 qdot_plan_new(qdot_scene *scene, const qdot_run_request *request, qdot_plan **plan)
 {
     return qdot_plan_in_mode(scene, request, NULL, NULL, plan);
+}
+
+qdot_status
+qdot_plan_of_part(const qdot_plan *of, size_t n, size_t more, qdot_plan **plan)
+{
+    qdot_plan *r = qdot_calloc(1, sizeof *r);
+
+    *plan = r;
+    if (!r)
+        return QDOT_ENOMEM;
+    r->pool = of->pool;
+    r->n = n;
+    r->method = of->method;
+    r->chosen = of->chosen;
+    r->indefinite = of->indefinite;
+    r->smooth = of->smooth;
+    r->inputs = qdot_calloc(3 * n + 1 + more, sizeof *r->inputs);
+    r->names = qdot_calloc(n, sizeof *r->names);
+    r->M = qdot_calloc(n * n, sizeof *r->M);
+    r->f = qdot_calloc(n, sizeof *r->f);
+    return r->inputs && r->names && r->M && r->f ? QDOT_OK : QDOT_ENOMEM;
 }
 
 qdot_status

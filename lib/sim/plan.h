@@ -106,6 +106,12 @@ QDOT_MUST_CHECK qdot_status qdot_plan_in_mode(qdot_scene *scene,
                                               const long *side, qdot_plan **plan);
 void qdot_plan_free(qdot_plan *plan);
 
+/* A plan for n coordinates of another's equations, to be filled: integrated as that is, with
+ * room for inputs [3n + 1 + more], names [n], M [n x n] and f [n]. QDOT_ENOMEM: what there is
+ * of it, or NULL, is *plan's. */
+QDOT_MUST_CHECK qdot_status qdot_plan_of_part(const qdot_plan *of, size_t n, size_t more,
+                                              qdot_plan **plan);
+
 /* Whether the method of the run, or that of its companion, asks for a Jacobian. */
 bool qdot_plan_needs_jacobian(const qdot_plan *plan);
 
@@ -118,6 +124,8 @@ QDOT_MUST_CHECK qdot_status qdot_plan_lower(qdot_plan *plan, size_t inputs, size
 
 /* What a step costs, about, at an order of middling tolerances. */
 double qdot_plan_cost(const qdot_ode_series *series);
+/* The convolutions and that cost of the derived form of a plan with a tape, put into it. */
+QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
 
 /* How many inputs there are: 3n + 1 + m. */
 size_t qdot_plan_inputs(const qdot_plan *plan);

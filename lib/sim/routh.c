@@ -8,7 +8,6 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/simplify.h"
-#include "sim/direct.h"
 #include "tape/taylor.h"
 
 /* Coordinates that couple with one that is eliminated fill M: beyond so many no more is
@@ -239,24 +238,13 @@ begin_plan(const routh *e, qdot_plan **out)
 {
     const qdot_plan *p = e->p;
     const size_t n = e->n;
-    qdot_plan *r = qdot_calloc(1, sizeof *r);
+    qdot_plan *r;
 
-    *out = r;
-    if (!r)
-        return QDOT_ENOMEM;
-    r->pool = e->pool;
-    r->n = n;
-    r->method = p->method;
-    r->chosen = p->chosen;
-    r->indefinite = p->indefinite;
-    r->smooth = p->smooth;
+    QDOT_TRY(qdot_plan_of_part(p, n, e->h, out));
+    r = *out;
     r->n_kept = e->h;
-    r->inputs = qdot_calloc(3 * n + 1 + e->h, sizeof *r->inputs);
-    r->names = qdot_calloc(n, sizeof *r->names);
-    r->M = qdot_calloc(n * n, sizeof *r->M);
-    r->f = qdot_calloc(n, sizeof *r->f);
     r->kept = qdot_calloc(e->h, sizeof *r->kept);
-    if (!r->inputs || !r->names || !r->M || !r->f || !r->kept)
+    if (!r->kept)
         return QDOT_ENOMEM;
     memcpy(r->inputs, p->inputs, (2 * n + 1) * sizeof *r->inputs);
     memcpy(r->M, e->M, n * n * sizeof *r->M);
@@ -302,22 +290,20 @@ put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
     }
 }
 
+static double
+cost_of_evaluation(const qdot_tape *tape)
+{
+    return (double)(qdot_tape_operations(tape) + 15 * qdot_tape_calls(tape));
+}
+
 /* What a step of it costs, or an evaluation where there are no series. */
 static qdot_status
 find_cost(qdot_plan *r)
 {
-    qdot_direct *direct;
-
-    if (!r->smooth || !r->method->series) {
-        r->cost = (double)(qdot_tape_operations(r->tape) + 15 * qdot_tape_calls(r->tape));
-        if (!r->smooth)
-            return QDOT_OK;
-    }
-    QDOT_TRY(qdot_direct_new(r, false, &direct));
-    r->convolutions_derived = qdot_direct_convolutions(direct);
-    if (r->method->series)
-        r->cost = qdot_plan_cost(qdot_direct_series(direct));
-    qdot_direct_free(direct);
+    if (r->smooth)
+        QDOT_TRY(qdot_plan_measure(r));
+    if (!r->smooth || !r->method->series)
+        r->cost = cost_of_evaluation(r->tape);
     return QDOT_OK;
 }
 
@@ -372,9 +358,7 @@ has_sum(const routh *e)
 static double
 cost_of_all(const qdot_plan *p)
 {
-    return p->method->series
-               ? p->cost
-               : (double)(qdot_tape_operations(p->tape) + 15 * qdot_tape_calls(p->tape));
+    return p->method->series ? p->cost : cost_of_evaluation(p->tape);
 }
 
 /* The cheapest way, into the plan where it is cheaper than what is there. */

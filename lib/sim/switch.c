@@ -119,19 +119,6 @@ collect(qdot_switches *s, qdot_expr e)
 }
 
 qdot_status
-qdot_switches_any(qdot_pool *pool, qdot_expr e, bool *any)
-{
-    qdot_walk walk;
-    qdot_status status = qdot_walk_begin(pool, e, &walk);
-
-    *any = false;
-    for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
-        *any = *any || is_atom(pool, walk.at[i]);
-    qdot_walk_end(&walk);
-    return status;
-}
-
-qdot_status
 qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_switches *s)
 {
     qdot_pool *pool = scene->pool;

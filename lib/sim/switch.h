@@ -41,7 +41,4 @@ QDOT_MUST_CHECK qdot_status qdot_switches_freeze(const qdot_switches *switches,
                                                  const long *side, size_t n,
                                                  const qdot_expr *e, qdot_expr *frozen);
 
-/* Whether e holds anything that switches with the motion. */
-QDOT_MUST_CHECK qdot_status qdot_switches_any(qdot_pool *pool, qdot_expr e, bool *any);
-
 #endif

@@ -291,12 +291,6 @@ qdot_watch_slow(const qdot_watch *w)
     return w->slow;
 }
 
-const int *
-qdot_watch_signs(const qdot_watch *w)
-{
-    return w->now.sign;
-}
-
 qdot_status
 qdot_watch_look(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
                 int *signs)

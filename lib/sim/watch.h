@@ -83,11 +83,10 @@ bool qdot_watch_is_far(const qdot_watch *w, double t, const qdot_ode_series *ser
 void qdot_watch_pass(qdot_watch *w, double t, const double *y);
 
 /* Of the step last looked at: [m] the sign right behind its start, 0 where g vanishes
- * throughout; whether it leaves a zero there so slowly that its slope cannot be told from
- * 0; and the signs at its end. */
+ * throughout; and whether it leaves a zero there so slowly that its slope cannot be told
+ * from 0. */
 const int *qdot_watch_first(const qdot_watch *w);
 const bool *qdot_watch_slow(const qdot_watch *w);
-const int *qdot_watch_signs(const qdot_watch *w);
 
 /* The signs of all g at a state. */
 QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w,
