@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "mech/quantity.h"
 #include "sim/run.h"
 
@@ -146,6 +147,28 @@ run(fixture *f)
 
     must(qdot_run_new(f->scene, &f->request, &r));
     return r;
+}
+
+/* Out of memory at the n-th allocation of a run, for n up to where it passes. */
+static inline void
+survives_failed_allocations(fixture *f)
+{
+    qdot_status status = QDOT_ENOMEM;
+    long n = 0;
+
+    f->request.t1 = QDOT_ZERO; /* no second thread, whose allocations would count */
+    for (; status != QDOT_OK && n < 100000; n += 1 + n / 40) {
+        qdot_run *r = NULL;
+
+        f->scene->version++; /* derive again */
+        qdot_memory_fail_at(n);
+        status = qdot_run_new(f->scene, &f->request, &r);
+        qdot_memory_fail_at(-1);
+        assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
+        assert_true((status == QDOT_OK) == (r != NULL));
+        qdot_run_free(r);
+    }
+    assert_true(status == QDOT_OK && n > 20);
 }
 
 #endif

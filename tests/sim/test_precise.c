@@ -303,16 +303,23 @@ what_cannot_be_is_refused(void **state)
 }
 
 static void
-every_failed_allocation_is_survived(void **state)
+a_spring(fixture *f)
 {
-    (void)state;
-    for (long n = 0;; n++) {
+    line(f, spring);
+}
+
+/* Out of memory at the n-th allocation of a run, for n up to where it passes, `most` at the
+ * highest; past every `thin` of them n goes on by one more. */
+static void
+survives(void (*scene)(fixture *), int digits, long thin, long most)
+{
+    for (long n = 0;; n += 1 + n / thin) {
         fixture f;
         qdot_run *r = NULL;
         qdot_status status;
 
-        line(&f, spring);
-        f.request.digits = 10;
+        scene(&f);
+        f.request.digits = digits;
         qdot_memory_fail_at(n);
         status = qdot_run_new(f.scene, &f.request, &r);
         qdot_memory_fail_at(-1);
@@ -322,9 +329,16 @@ every_failed_allocation_is_survived(void **state)
         end(&f);
         if (status == QDOT_OK)
             break;
-        if (n > 20000)
+        if (n > most)
             fail_msg("still failing");
     }
+}
+
+static void
+every_failed_allocation_is_survived(void **state)
+{
+    (void)state;
+    survives(a_spring, 10, 20000, 20000);
 }
 
 /* A bob on a rod from (3/5, -4/5) at rest. */
@@ -393,25 +407,7 @@ static void
 failed_allocations_with_constraints(void **state)
 {
     (void)state;
-    for (long n = 0;; n += 1 + n / 40) {
-        fixture f;
-        qdot_run *r = NULL;
-        qdot_status status;
-
-        on_a_rod(&f);
-        f.request.digits = 5;
-        qdot_memory_fail_at(n);
-        status = qdot_run_new(f.scene, &f.request, &r);
-        qdot_memory_fail_at(-1);
-        if (status != QDOT_OK)
-            assert_int_equal(status, QDOT_ENOMEM);
-        qdot_run_free(r);
-        end(&f);
-        if (status == QDOT_OK)
-            break;
-        if (n > 100000)
-            fail_msg("still failing");
-    }
+    survives(on_a_rod, 5, 40, 100000);
 }
 
 int

@@ -622,25 +622,11 @@ the_plan_is_told(void **state)
 static void
 every_failed_allocation_is_survived(void **state)
 {
-    qdot_status status = QDOT_ENOMEM;
     fixture f;
-    long n = 0;
 
     (void)state;
     chain(&f, 2);
-    f.request.t1 = QDOT_ZERO; /* no second thread, whose allocations would count */
-    for (; status != QDOT_OK && n < 100000; n += 1 + n / 40) {
-        qdot_run *r = NULL;
-
-        f.scene->version++; /* derive again */
-        qdot_memory_fail_at(n);
-        status = qdot_run_new(f.scene, &f.request, &r);
-        qdot_memory_fail_at(-1);
-        assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
-        assert_true((status == QDOT_OK) == (r != NULL));
-        qdot_run_free(r);
-    }
-    assert_true(status == QDOT_OK && n > 20);
+    survives_failed_allocations(&f);
     end(&f);
 }
 
