@@ -108,7 +108,7 @@ END {
             printf " %9s %8s %8s %8s\n", over(us, x),
                 over(us, reach("cpu", "rk8pd", s, error)),
                 over(us, least(linear, s, error)),
-                x + 0 > 0.05 ? over(reach("whole", "qdot", s, error), x) : "-"
+                (x + 0 > 0.05 ? over(reach("whole", "qdot", s, error), x) : "-")
         }
 
     print ""
