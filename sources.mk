@@ -49,6 +49,7 @@ num_headers = \
 	lib/num/sum.h
 
 expr_sources = \
+	lib/expr/bounds.c \
 	lib/expr/calculus.c \
 	lib/expr/construct.c \
 	lib/expr/expand.c \
@@ -142,6 +143,7 @@ normal_sources = \
 	lib/normal/ratio.c \
 	lib/normal/rationalize.c \
 	lib/normal/rewrite.c \
+	lib/normal/sample-edge.c \
 	lib/normal/sample.c \
 	lib/normal/simple.c \
 	lib/normal/simplify.c \

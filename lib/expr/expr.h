@@ -155,9 +155,6 @@ int qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b);
 /* Whether a minus sign would be printed in front. */
 bool qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e);
 
-/* Whether a SUM is known never to be positive, by the bounds of its terms: cos(u) - cosh(v). */
-bool qdot_expr_never_positive(const qdot_pool *pool, qdot_expr sum);
-
 /* --- numbers -------------------------------------------------------------------------- */
 
 /* Always the same ids. */

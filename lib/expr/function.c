@@ -323,14 +323,6 @@ absolute(qdot_pool *pool, qdot_expr x)
         return x;
     if (NODE(pool, x)->sign & QDOT_LE0)
         return qdot_neg(pool, x);
-    if (NODE(pool, x)->kind == QDOT_SUM) { /* cosh(v) - cos(u) */
-        rest = qdot_neg(pool, x);
-        if (qdot_expr_never_positive(pool, x))
-            return rest;
-        if (rest != QDOT_NIL && NODE(pool, rest)->kind == QDOT_SUM &&
-            qdot_expr_never_positive(pool, rest))
-            return x;
-    }
     fmpq_init(c);
     rest = qdot_expr_unscale(pool, x, c);
     if (NODE(pool, x)->kind == QDOT_PROD && !fmpq_is_one(c)) {

@@ -218,7 +218,7 @@ qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
         all &= s;
         any |= s & QDOT_NE0;
     }
-    return all == 0 ? 0 : (uint8_t)(all | any);
+    return all == 0 ? qdot_sign_by_bounds(pool, n, args) : (uint8_t)(all | any);
 }
 
 /* Whether x is a symbol declared within [lo, hi], in units of pi/2; *open: strictly. */
@@ -279,51 +279,4 @@ qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *ar
         return within(pool, args[0], -1, 1, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
     default: return 0;
     }
-}
-
-/* Bounds of f^k or of a symbol; infinite where nothing is known. */
-static void
-bounds(const qdot_pool *pool, qdot_expr e, double *lo, double *hi)
-{
-    const qdot_node *node = NODE(pool, e);
-
-    *lo = node->sign & QDOT_GE0 ? 0 : -INFINITY;
-    *hi = node->sign & QDOT_LE0 ? 0 : INFINITY;
-    if (node->kind == QDOT_PROD && node->n == 3 && ARGS(pool, e)[0] == QDOT_ONE) {
-        qdot_expr b = ARGS(pool, e)[1];
-        const fmpq *k = NUMBER(pool, ARGS(pool, e)[2]);
-
-        if (k == NULL || qdot_rational_sgn(k) < 0 || NODE(pool, b)->kind != QDOT_FUN)
-            return;
-        if (NODE(pool, b)->op == QDOT_SIN || NODE(pool, b)->op == QDOT_COS ||
-            NODE(pool, b)->op == QDOT_TANH)
-            *hi = fmin(*hi, 1);
-        if (NODE(pool, b)->op == QDOT_COSH)
-            *lo = 1;
-        return;
-    }
-    if (node->kind != QDOT_FUN)
-        return;
-    switch (node->op) {
-    case QDOT_SIN:
-    case QDOT_COS:
-    case QDOT_TANH: *lo = fmax(*lo, -1), *hi = fmin(*hi, 1); break;
-    case QDOT_COSH: *lo = 1; break;
-    default: break;
-    }
-}
-
-bool
-qdot_expr_never_positive(const qdot_pool *pool, qdot_expr sum)
-{
-    const qdot_expr *args = ARGS(pool, sum);
-    double most = fmpq_get_d(RATIONAL(pool, args[0]));
-
-    for (uint32_t i = 1; i < NODE(pool, sum)->n && most < INFINITY; i += 2) {
-        double c = fmpq_get_d(RATIONAL(pool, args[i + 1])), lo, hi;
-
-        bounds(pool, args[i], &lo, &hi);
-        most += c * (c > 0 ? hi : lo);
-    }
-    return most <= 0;
 }

@@ -60,6 +60,9 @@ bool qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
 /* Sign of a product or sum from its canonical args. */
 uint8_t qdot_sign_of_product(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
 uint8_t qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
+/* Of a sum by the bounds of its terms, in exact numbers (bounds.c): 2 - cos u > 0, cosh v - cos u
+ * >= 0, 1 - x > 0 for x declared below 1. 0: nothing is known. */
+uint8_t qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
 uint8_t qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *args);
 
 /* d f(args) / d args[i]. */

@@ -123,7 +123,7 @@ static void
 base(printer *p, qdot_expr b, const fmpq *x, bool turned, int context)
 {
     turned |= is_even(x) && NODE(p->pool, b)->kind == QDOT_SUM &&
-              qdot_expr_never_positive(p->pool, b);
+              (NODE(p->pool, b)->sign & QDOT_LE0);
     piece(p, (struct piece){.e = b, .context = context, .turned = turned});
 }
 

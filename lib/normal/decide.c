@@ -15,6 +15,8 @@
 #include "normal/unify.h"
 
 #define LARGE 2000 /* nodes: fewer points are looked at */
+#define SMALL 400  /* edges are looked at too */
+#define MOST_EDGES 160
 
 /* --- refutation -------------------------------------------------------------------- */
 
@@ -22,13 +24,16 @@ struct look {
     int points;    /* wanted */
     int tries;     /* at most so many points are chosen */
     slong prec[4]; /* ascending, 0 ends */
+    bool edges;    /* qdot_sample_edge instead of qdot_sample_point */
 };
 
-static const struct look quick = {2, 24, {96, 0}};
-static const struct look closer = {2, 24, {512, 0}};
-static const struct look thorough = {16, 240, {128, 512, 2048, 0}};
+static const struct look quick = {2, 24, {96, 0}, false};
+static const struct look closer = {2, 24, {512, 0}, false};
+static const struct look thorough = {16, 240, {128, 512, 2048, 0}, false};
 /* under conditions, which may leave little room */
-static const struct look patient = {60, 720, {128, 0}};
+static const struct look patient = {60, 720, {128, 0}, false};
+/* where a value of a symbol is a matter of its own */
+static const struct look edges = {MOST_EDGES, MOST_EDGES, {128, 512, 0}, true};
 
 static double
 to_double(arb_srcptr x)
@@ -162,9 +167,13 @@ look_at_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *fact
             qdot_sample_end(&s);
             return qdot_interrupt_check();
         }
-        if (k > 24 && d->points == 0 && s.ball.walk.n > LARGE)
+        if ((k > 24 && d->points == 0 && s.ball.walk.n > LARGE) ||
+            (look->edges && s.ball.walk.n > SMALL))
             break;
-        qdot_sample_point(&s, k);
+        if (!look->edges)
+            qdot_sample_point(&s, k);
+        else if (!qdot_sample_edge(&s, k))
+            break;
         here = compare(&s, sides, look, d, &digits);
         if (here == 0) {
             d->points++;
@@ -279,6 +288,15 @@ decide(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts
         QDOT_TRY(look_at_points(pool, left, right, facts, &patient, &more));
         if (more.verdict == QDOT_REFUTED)
             *d = more;
+    }
+    if (d->verdict == QDOT_UNDECIDED) {
+        qdot_decision more = {.verdict = QDOT_UNDECIDED};
+
+        QDOT_TRY(look_at_points(pool, left, right, facts, &edges, &more));
+        if (more.verdict == QDOT_REFUTED) { /* a proof says nothing of what it divided by */
+            *d = more;
+            equal = false;
+        }
     }
     if (equal)
         *d = (qdot_decision){.verdict = QDOT_PROVED};

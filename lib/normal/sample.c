@@ -25,8 +25,8 @@ either_sign(qdot_pool *pool, size_t i)
     return qdot_symbol_get(pool, QDOT_FORMAL, name);
 }
 
-static bool
-is_either_sign(const qdot_pool *pool, qdot_expr e)
+bool
+qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
 
@@ -40,7 +40,7 @@ fitness(const qdot_pool *pool, const qdot_gen *gen)
     const qdot_symbol *symbol = qdot_expr_symbol(pool, gen->expr);
     int plain;
 
-    if (gen->kind != QDOT_GEN_PLAIN || is_either_sign(pool, gen->expr))
+    if (gen->kind != QDOT_GEN_PLAIN || qdot_sample_is_sign(pool, gen->expr))
         return 0;
     if (qdot_expr_kind(pool, gen->expr) == QDOT_UFUN)
         return 5;
@@ -467,6 +467,19 @@ narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
     }
 }
 
+void
+qdot_sample_set(qdot_sample_atom *a, slong prec)
+{
+    if (a->turn) {
+        arb_const_pi(a->value, prec);
+        arb_mul_fmpz(a->value, a->value, fmpq_numref(&a->x), prec);
+        arb_div_fmpz(a->value, a->value, fmpq_denref(&a->x), prec);
+    } else {
+        arb_set_fmpq(a->value, &a->x, prec);
+    }
+    a->ready = true;
+}
+
 static void
 choose(qdot_sample *s, qdot_sample_atom *a, int k)
 {
@@ -477,10 +490,9 @@ choose(qdot_sample *s, qdot_sample_atom *a, int k)
     double about = k < SIMPLE ? 0.1 : 0.01; /* integers first */
     uint8_t sign = qdot_expr_node(s->pool, a->atom)->sign;
 
-    if (is_either_sign(s->pool, a->atom)) {
+    if (qdot_sample_is_sign(s->pool, a->atom)) {
         fmpq_set_si(&a->x, draw(s, 2) == 0 ? 1 : -1, 1);
-        arb_set_fmpq(a->value, &a->x, 64);
-        a->ready = true;
+        qdot_sample_set(a, 64);
         return;
     }
     if (symbol != NULL) {
@@ -505,8 +517,7 @@ choose(qdot_sample *s, qdot_sample_atom *a, int k)
     between(&a->x, lo, hi, where, about);
     if (fmpq_is_zero(&a->x))
         between(&a->x, lo, hi, where * 0.9 + 0.01, about);
-    arb_set_fmpq(a->value, &a->x, 64);
-    a->ready = true;
+    qdot_sample_set(a, 64);
 }
 
 void
@@ -516,7 +527,7 @@ qdot_sample_point(qdot_sample *s, int k)
     for (int i = 0; i < 8; i++)
         draw(s, 2);
     for (size_t i = 0; i < s->n; i++)
-        s->atom[i].ready = false;
+        s->atom[i].ready = s->atom[i].turn = s->atom[i].edge = false;
     for (size_t i = 0; i < s->n; i++)
         if (s->atom[i].solution == QDOT_NIL)
             choose(s, &s->atom[i], k);
@@ -533,7 +544,7 @@ in_domain(qdot_sample *s, const qdot_sample_atom *a)
         ((sign & QDOT_LE0) && !arb_is_nonpositive(a->value)) ||
         ((sign & QDOT_NE0) && arb_contains_zero(a->value)))
         return false;
-    if (symbol == NULL)
+    if (symbol == NULL || a->edge)
         return true;
     if (symbol->lo != QDOT_NIL) {
         arb_srcptr lo = qdot_ball_get(&s->ball, symbol->lo);
@@ -591,7 +602,7 @@ qdot_sample_values(qdot_sample *s, slong prec)
         arb_srcptr value;
 
         if (a->solution == QDOT_NIL) {
-            arb_set_fmpq(a->value, &a->x, prec);
+            qdot_sample_set(a, prec);
             continue;
         }
         a->ready = false;
@@ -629,10 +640,12 @@ qdot_sample_list(qdot_sample *s)
     for (size_t i = 0; i < s->n; i++) {
         qdot_expr x;
 
-        if (is_either_sign(s->pool, s->atom[i].atom))
+        if (qdot_sample_is_sign(s->pool, s->atom[i].atom))
             continue;
         if (s->atom[i].solution == QDOT_NIL) {
             x = qdot_expr_fmpq(s->pool, &s->atom[i].x);
+            if (s->atom[i].turn)
+                x = qdot_mul(s->pool, x, QDOT_PI);
         } else { /* its value, rounded for the eye */
             fmpq_t rounded;
 

@@ -16,6 +16,8 @@
 typedef struct {
     qdot_expr atom, solution; /* solution nil: free */
     fmpq x;                   /* free: its value */
+    bool turn;                /* times pi */
+    bool edge;                /* at a bound that belongs to it */
     bool ready;
     arb_t value;
 } qdot_sample_atom;
@@ -48,6 +50,10 @@ void qdot_sample_end(qdot_sample *s);
 
 /* Choose the k-th point. */
 void qdot_sample_point(qdot_sample *s, int k);
+/* The k-th point at which one atom is where sides may differ though they agree about it: 0, 1, -1, a
+ * quarter turn, a declared bound that belongs to it, another atom's value or its negative. False:
+ * there are no more. */
+bool qdot_sample_edge(qdot_sample *s, int k);
 /* Evaluate there; whether it is a point: conditions surely hold, solved values inside
  * their domains. The values: qdot_ball_get(&s->ball, e). */
 bool qdot_sample_eval(qdot_sample *s, slong prec);
@@ -57,5 +63,10 @@ bool qdot_sample_values(qdot_sample *s, slong prec);
 
 /* The point as a LIST of equations atom = number. */
 qdot_expr qdot_sample_list(qdot_sample *s);
+
+/* For the files of samples: the value of a free atom, put in; whether a symbol is the sign before a
+ * root that solves a relation. */
+void qdot_sample_set(qdot_sample_atom *a, slong prec);
+bool qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -27,7 +27,7 @@ awkward(const qdot_pool *pool, qdot_expr e, bool inner)
             if (qdot_expr_kind(pool, b) == QDOT_SUM)
                 count += 2 +
                          8 * (qdot_expr_is_negative(pool, b) ||
-                              qdot_expr_never_positive(pool, b)) +
+                              (qdot_expr_node(pool, b)->sign & QDOT_LE0)) +
                          awkward(pool, b, true);
         }
     } else if (qdot_expr_kind(pool, e) == QDOT_SUM) {

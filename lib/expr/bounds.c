@@ -1,0 +1,155 @@
+/* bounds.c -- the sign of a sum by the bounds of its terms, in exact numbers. */
+#include "expr/pool.h"
+
+/* One bound of a value: a rational, where there is one; `open`: not reached. */
+struct bound {
+    fmpq x;
+    bool known, open;
+};
+
+static void
+set(struct bound *b, int64_t n, int64_t d, bool open)
+{
+    b->x = (fmpq){n, d};
+    b->known = true;
+    b->open = open;
+}
+
+/* A declared bound: a rational, or a rational times pi by a fraction beyond it. `up`: an upper one. */
+static void
+declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bound *b)
+{
+    const fmpq *c = NUMBER(pool, e);
+    bool turn = e == QDOT_PI;
+
+    if (e == QDOT_NIL)
+        return;
+    if (NODE(pool, e)->kind == QDOT_PROD && NODE(pool, e)->n == 3 &&
+        ARGS(pool, e)[1] == QDOT_PI && ARGS(pool, e)[2] == QDOT_ONE) {
+        c = RATIONAL(pool, ARGS(pool, e)[0]);
+        turn = true;
+    }
+    if (c == NULL && !turn)
+        return;
+    b->known = true;
+    b->open = open || turn;
+    qdot_rational_set(&b->x, c == NULL ? &(fmpq){1, 1} : c);
+    if (turn) { /* 333/106 < pi < 355/113 */
+        bool more = (qdot_rational_sgn(&b->x) > 0) == up;
+
+        qdot_rational_mul(&b->x, &b->x, more ? &(fmpq){355, 113} : &(fmpq){333, 106});
+    }
+}
+
+/* Of a function of real arguments, whatever these are. */
+static void
+of_function(unsigned op, struct bound *lo, struct bound *hi)
+{
+    switch (op) {
+    case QDOT_SIN:
+    case QDOT_COS:
+    case QDOT_SIGN: set(lo, -1, 1, false), set(hi, 1, 1, false); break;
+    case QDOT_TANH: set(lo, -1, 1, true), set(hi, 1, 1, true); break;
+    case QDOT_COSH: set(lo, 1, 1, false); break;
+    case QDOT_EXP: set(lo, 0, 1, true); break;
+    case QDOT_ASIN:
+    case QDOT_ATAN: set(lo, -355, 226, true), set(hi, 355, 226, true); break;
+    case QDOT_ACOS: set(lo, 0, 1, false), set(hi, 355, 113, true); break;
+    case QDOT_ATAN2: set(lo, -355, 113, true), set(hi, 355, 113, true); break;
+    default: break;
+    }
+}
+
+/* Of f^k, k a positive integer, |f| <= 1 or f >= 1. */
+static void
+of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
+{
+    qdot_expr b = ARGS(pool, e)[1];
+    const fmpq *k = NUMBER(pool, ARGS(pool, e)[2]);
+
+    if (k == NULL || qdot_rational_sgn(k) < 0 || !fmpz_is_one(fmpq_denref(k)) ||
+        NODE(pool, b)->kind != QDOT_FUN)
+        return;
+    switch (NODE(pool, b)->op) {
+    case QDOT_SIN:
+    case QDOT_COS:
+    case QDOT_TANH:
+        set(lo, fmpz_is_even(fmpq_numref(k)) ? 0 : -1, 1, false);
+        set(hi, 1, 1, NODE(pool, b)->op == QDOT_TANH);
+        break;
+    case QDOT_COSH: set(lo, 1, 1, false); break;
+    default: break;
+    }
+}
+
+/* Of a term without its coefficient. */
+static void
+of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
+{
+    const qdot_node *node = NODE(pool, e);
+    const qdot_symbol *s;
+
+    switch (node->kind) {
+    case QDOT_SYM:
+        s = &pool->symbols.at[node->at];
+        declared(pool, s->lo, s->lo_open, false, lo);
+        declared(pool, s->hi, s->hi_open, true, hi);
+        if (e == QDOT_PI)
+            set(lo, 333, 106, true), set(hi, 355, 113, true);
+        break;
+    case QDOT_FUN: of_function(node->op, lo, hi); break;
+    case QDOT_PROD:
+        if (node->n == 3 && ARGS(pool, e)[0] == QDOT_ONE)
+            of_power(pool, e, lo, hi);
+        break;
+    default: break;
+    }
+    if ((node->sign & QDOT_GE0) && (!lo->known || qdot_rational_sgn(&lo->x) < 0)) {
+        qdot_rational_set(&lo->x, &(fmpq){0, 1});
+        lo->known = true;
+        lo->open = node->sign & QDOT_NE0;
+    }
+    if ((node->sign & QDOT_LE0) && (!hi->known || qdot_rational_sgn(&hi->x) > 0)) {
+        qdot_rational_set(&hi->x, &(fmpq){0, 1});
+        hi->known = true;
+        hi->open = node->sign & QDOT_NE0;
+    }
+}
+
+/* sum <- sum + c b, where both are known. */
+static void
+add(struct bound *sum, const fmpq *c, const struct bound *b)
+{
+    sum->known &= b->known;
+    sum->open |= b->open;
+    if (sum->known)
+        qdot_rational_addmul(&sum->x, c, &b->x);
+}
+
+uint8_t
+qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
+{
+    struct bound least = {{0, 1}, true, false}, most = {{0, 1}, true, false};
+    uint8_t sign = 0;
+
+    qdot_rational_set(&least.x, RATIONAL(pool, args[0]));
+    qdot_rational_set(&most.x, RATIONAL(pool, args[0]));
+    for (uint32_t i = 1; i < n && (least.known || most.known); i += 2) {
+        struct bound lo = {{0, 1}, false, false}, hi = {{0, 1}, false, false};
+        const fmpq *c = RATIONAL(pool, args[i + 1]);
+        bool up = qdot_rational_sgn(c) > 0;
+
+        of_term(pool, args[i], &lo, &hi);
+        add(&least, c, up ? &lo : &hi);
+        add(&most, c, up ? &hi : &lo);
+        fmpq_clear(&lo.x);
+        fmpq_clear(&hi.x);
+    }
+    if (least.known && qdot_rational_sgn(&least.x) >= 0)
+        sign = QDOT_GE0 | (least.open || qdot_rational_sgn(&least.x) > 0 ? QDOT_NE0 : 0);
+    else if (most.known && qdot_rational_sgn(&most.x) <= 0)
+        sign = QDOT_LE0 | (most.open || qdot_rational_sgn(&most.x) < 0 ? QDOT_NE0 : 0);
+    fmpq_clear(&least.x);
+    fmpq_clear(&most.x);
+    return sign;
+}
