@@ -281,6 +281,7 @@ sim_sources = \
 	lib/sim/describe.c \
 	lib/sim/digits.c \
 	lib/sim/direct.c \
+	lib/sim/distance.c \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
 	lib/sim/ensemble.c \
@@ -291,6 +292,7 @@ sim_sources = \
 	lib/sim/multipliers.c \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
+	lib/sim/noise.c \
 	lib/sim/parts.c \
 	lib/sim/piece-end.c \
 	lib/sim/piece.c \
@@ -329,6 +331,7 @@ sim_headers = \
 	lib/sim/course.h \
 	lib/sim/digits.h \
 	lib/sim/direct.h \
+	lib/sim/distance.h \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
 	lib/sim/ensemble.h \
@@ -340,6 +343,7 @@ sim_headers = \
 	lib/sim/momenta.h \
 	lib/sim/multipliers.h \
 	lib/sim/nearest.h \
+	lib/sim/noise.h \
 	lib/sim/parts.h \
 	lib/sim/piece.h \
 	lib/sim/plan.h \
@@ -551,6 +555,7 @@ script_tests = \
 	tests/script/horizon.sh \
 	tests/script/identities.sh \
 	tests/script/include.lag \
+	tests/script/inner-times.sh \
 	tests/script/integrable.lag \
 	tests/script/json.lag \
 	tests/script/loops.lag \
@@ -1085,6 +1090,7 @@ test_files = \
 	tests/script/identities.out \
 	tests/script/include.out \
 	tests/script/included.inc \
+	tests/script/inner-times.out \
 	tests/script/integrable.out \
 	tests/script/json.out \
 	tests/script/loops.out \

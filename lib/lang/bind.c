@@ -8,6 +8,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/session.h"
+#include "tape/constant.h"
 #include "tape/tape.h"
 
 /* --- values of parameters and functions --------------------------------------------- */
@@ -218,6 +219,22 @@ qdot_session_number(qdot_session *session, qdot_expr e, double *value, double *e
     if (error != NULL)
         *error = own_error;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_session_split(qdot_session *session, qdot_expr e, double *value, double *low)
+{
+    const qdot_measured **list = NULL;
+    int side;
+    size_t n;
+
+    *low = 0;
+    QDOT_TRY(qdot_session_number(session, e, value, NULL));
+    e = qdot_session_bind(session, e);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(find_measured(session, e, &n, &list));
+    qdot_free(list);
+    return n == 0 ? qdot_constant_split(session->pool, e, value, &side, low) : QDOT_OK;
 }
 
 qdot_status

@@ -160,7 +160,7 @@ qdot_draw_values(const qdot_draw_operand *o, size_t rows, const double *times,
     size_t m = o->columns.n;
 
     if (o->mixed)
-        return qdot_member_values(o->session, NULL, o->columns.at[0], rows, times, values,
+        return qdot_member_values(o->session, NULL, o->columns.at[0], rows, times, NULL, values,
                                   NULL);
 
     double *by_row = qdot_calloc(rows * m, sizeof *by_row);

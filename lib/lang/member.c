@@ -179,7 +179,7 @@ find_symbols(qdot_session *session, qdot_expr e, mixture *x)
 /* Every symbol along its run. */
 static qdot_status
 read_symbols(qdot_session *session, const char *run, size_t k, const double *times,
-             mixture *x)
+             const double *lows, mixture *x)
 {
     x->values = qdot_calloc(x->symbols.n * k + 1, sizeof *x->values);
     x->errors = qdot_calloc(x->symbols.n * k + 1, sizeof *x->errors);
@@ -191,8 +191,8 @@ read_symbols(qdot_session *session, const char *run, size_t k, const double *tim
         qdot_named_run *named;
 
         QDOT_TRY(qdot_number_find_run(session, m != NULL ? m->run : run, &named));
-        QDOT_TRY(qdot_run_values(named->run, 1, &e, k, times, x->values + i * k,
-                                 x->errors + i * k));
+        QDOT_TRY(qdot_run_values_beyond(named->run, 1, &e, k, times, lows,
+                                        x->values + i * k, x->errors + i * k));
     }
     return QDOT_OK;
 }
@@ -220,14 +220,15 @@ combine(const mixture *x, size_t k, size_t j, double *in, double *work, double *
 
 qdot_status
 qdot_member_values(qdot_session *session, const char *run, qdot_expr e, size_t k,
-                   const double *times, double *values, double *errors)
+                   const double *times, const double *lows, double *values,
+                   double *errors)
 {
     mixture x = {0};
     double *in = NULL;
     qdot_status status = find_symbols(session, e, &x);
 
     if (status == QDOT_OK)
-        status = read_symbols(session, run, k, times, &x);
+        status = read_symbols(session, run, k, times, lows, &x);
     if (status == QDOT_OK) {
         e = qdot_session_bind(session, e);
         status = qdot_pool_check(session->pool);

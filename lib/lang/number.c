@@ -396,13 +396,13 @@ measure(qdot_session *session, qdot_run *run, const qdot_number_columns *columns
         qdot_expr time, qdot_measured *m)
 {
     const size_t n = columns->n;
-    double t, *values = qdot_calloc(2 * n, sizeof *values);
+    double t, low, *values = qdot_calloc(2 * n, sizeof *values);
     qdot_status status = values == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     if (status == QDOT_OK)
-        status = qdot_session_number(session, time, &t, NULL);
+        status = qdot_session_split(session, time, &t, &low);
     if (status == QDOT_OK)
-        status = qdot_run_values(run, n, columns->at, 1, &t, values, values + n);
+        status = qdot_run_values_beyond(run, n, columns->at, 1, &t, &low, values, values + n);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         m[i] = (qdot_measured){.value = values[i], .error = values[n + i]};
     qdot_free(values);
@@ -439,11 +439,11 @@ static qdot_status
 measure_members(qdot_session *session, const char *run, const qdot_number_columns *columns,
                 qdot_expr time, qdot_measured *m)
 {
-    double t;
+    double t, low;
 
-    QDOT_TRY(qdot_session_number(session, time, &t, NULL));
+    QDOT_TRY(qdot_session_split(session, time, &t, &low));
     for (size_t i = 0; i < columns->n; i++)
-        QDOT_TRY(qdot_number_along(session, run, columns->at[i], 1, &t, &m[i].value,
+        QDOT_TRY(qdot_number_along(session, run, columns->at[i], 1, &t, &low, &m[i].value,
                                    &m[i].error));
     return QDOT_OK;
 }
@@ -459,16 +459,17 @@ any_member(const qdot_session *session, const qdot_number_columns *columns)
 
 qdot_status
 qdot_number_along(qdot_session *session, const char *run, qdot_expr e, size_t k,
-                  const double *times, double *values, double *errors)
+                  const double *times, const double *lows, double *values,
+                  double *errors)
 {
     qdot_named_run *named = NULL;
     bool mixed;
 
     QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
     if (mixed)
-        return qdot_member_values(session, run, e, k, times, values, errors);
+        return qdot_member_values(session, run, e, k, times, lows, values, errors);
     QDOT_TRY(qdot_number_find_run(session, run, &named));
-    return qdot_run_values(named->run, 1, &e, k, times, values, errors);
+    return qdot_run_values_beyond(named->run, 1, &e, k, times, lows, values, errors);
 }
 
 qdot_status

@@ -56,11 +56,12 @@ QDOT_MUST_CHECK qdot_status qdot_event_time(qdot_session *session, const char *r
 /* The run of that name, the latest for NULL. QDOT_ENAME where there is none. */
 QDOT_MUST_CHECK qdot_status qdot_number_find_run(qdot_session *session, const char *name,
                                                  qdot_named_run **run);
-/* One expression at times [k], along whatever runs it names, else along `run` (NULL: the
+/* One expression at times [k], each with what the exact one is beyond it (lows NULL: 0), along whatever runs it names, else along `run` (NULL: the
  * latest). */
 QDOT_MUST_CHECK qdot_status qdot_number_along(qdot_session *session, const char *run,
                                               qdot_expr e, size_t k, const double *times,
-                                              double *values, double *errors);
+                                              const double *lows, double *values,
+                                              double *errors);
 
 /* A number of a run, from now on a symbol. */
 qdot_expr qdot_number_measured(qdot_session *session, double value, double error);
@@ -85,11 +86,12 @@ bool qdot_member_any(const qdot_session *session, qdot_expr e);
  * else *mixed. */
 QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const char **run,
                                                 qdot_expr *e, bool *mixed);
-/* A mixed one at times [k]: values [k], errors [k] (NULL: not wanted). What is along no
+/* A mixed one at such times [k]: values [k], errors [k] (NULL: not wanted). What is along no
  * run named is along `run` (NULL: the latest). */
 QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,
                                                qdot_expr e, size_t k, const double *times,
-                                               double *values, double *errors);
+                                               const double *lows, double *values,
+                                               double *errors);
 /* from and to narrowed to what all its runs cover. */
 QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
                                              double *from, double *to);

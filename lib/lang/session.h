@@ -84,6 +84,9 @@ qdot_expr qdot_session_bind(qdot_session *session, qdot_expr e);
 /* As a double: bound, measured symbols put in; error (may be NULL) propagated from measured ones. */
 QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr e,
                                                 double *value, double *error);
+/* The same, and what an exact number is beyond the double; 0 of a measured one. */
+QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr e,
+                                               double *value, double *low);
 /* As an integer: QDOT_ETYPE with the value otherwise. */
 /* Add a value to the history: `%` from now on. over: the LIST of coordinates its entries go by, or
  * nil. */

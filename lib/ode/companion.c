@@ -198,22 +198,43 @@ qdot_companion_show(qdot_companion *c, size_t k, const double *y)
     c->n_shown = k + 1;
 }
 
-/* The median over the times between of the largest error at each. */
+/* max |a - b| / max(1, min(|a|, |b|)) over components. */
 static double
-median_between(const follower *f)
+apart(const qdot_companion *c, const double *a, const double *b)
 {
-    const qdot_companion *c = f->of;
+    double worst = 0;
+
+    for (size_t i = 0; i < c->n; i++)
+        worst = fmax(worst,
+                     fabs(a[i] - b[i]) / fmax(1, fmin(fabs(a[i]), fabs(b[i]))));
+    return worst;
+}
+
+/* The largest distance of any two of the runs, y being the one of the run itself and the
+ * companions' k-th states of n, SIZE_MAX: their ends. */
+static double
+largest_distance(const qdot_companion *c, const double *y, size_t k)
+{
+    const double *of[2];
+    double worst = 0;
+
+    for (size_t i = 0; i < c->count; i++) {
+        of[i] = k == SIZE_MAX ? c->at[i].y : c->at[i].own + k * c->n;
+        worst = fmax(worst, apart(c, y, of[i]));
+    }
+    return c->count == 2 ? fmax(worst, apart(c, of[0], of[1])) : worst;
+}
+
+/* The median over the times between. */
+static double
+median_between(const qdot_companion *c)
+{
     double errors[PLACES];
 
     for (size_t k = 0; k < PLACES; k++) {
-        double worst = 0;
+        double worst = largest_distance(c, c->shown + k * c->n, k);
         size_t at = k;
 
-        for (size_t i = 0; i < c->n; i++) {
-            double y = c->shown[k * c->n + i];
-
-            worst = fmax(worst, fabs(y - f->own[k * c->n + i]) / fmax(1, fabs(y)));
-        }
         for (; at > 0 && errors[at - 1] > worst; at--)
             errors[at] = errors[at - 1];
         errors[at] = worst;
@@ -282,10 +303,10 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     return QDOT_OK;
 }
 
-/* What one of them says. */
-static void
-compare(follower *f, bool whole, double t_end, const double *y, double *difference,
-        qdot_companion_estimate *out)
+/* Its end, and whether it shows the states between, too. */
+static bool
+arrive(follower *f, bool whole, double t_end, const double *y, double *difference,
+       qdot_companion_estimate *out)
 {
     const qdot_companion *c = f->of;
 
@@ -294,15 +315,9 @@ compare(follower *f, bool whole, double t_end, const double *y, double *differen
     if (f->number == 0)
         out->result = f->result;
     out->known = out->known && f->result.outcome == QDOT_ODE_DONE;
-    for (size_t i = 0; i < c->n && out->known; i++) {
-        double d = fabs(y[i] - f->y[i]);
-
-        if (difference)
-            difference[i] = fmax(d, f->number ? difference[i] : 0);
-        out->error = fmax(out->error, d / fmax(1, fmin(fabs(y[i]), fabs(f->y[i]))));
-    }
-    if (out->known && whole && c->n_shown == PLACES && f->reached == PLACES)
-        out->error = fmax(out->error, median_between(f));
+    for (size_t i = 0; i < c->n && out->known && difference; i++)
+        difference[i] = fmax(fabs(y[i] - f->y[i]), f->number ? difference[i] : 0);
+    return whole && c->n_shown == PLACES && f->reached == PLACES;
 }
 
 void
@@ -310,7 +325,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                       double *difference, qdot_companion_estimate *out)
 {
     /* the neighbour of t1 stands for t1 */
-    bool whole = fabs(t_end - c->t1) <= 4 * unit * fabs(c->t1);
+    bool whole = fabs(t_end - c->t1) <= 4 * unit * fabs(c->t1), between = true;
 
     if (!whole)
         atomic_store(&c->leave, true);
@@ -320,7 +335,11 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
     atomic_store(&c->leave, false);
     *out = (qdot_companion_estimate){.known = true, .error = unit, .tol = c->tol};
     for (size_t k = 0; k < c->count; k++)
-        compare(c->at + k, whole, t_end, y, difference, out);
+        between = arrive(c->at + k, whole, t_end, y, difference, out) && between;
+    if (out->known)
+        out->error = fmax(out->error, largest_distance(c, y, SIZE_MAX));
+    if (out->known && between)
+        out->error = fmax(out->error, median_between(c));
     if (!out->known) {
         out->error = NAN;
         for (size_t i = 0; i < c->n && difference; i++)

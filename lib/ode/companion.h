@@ -24,7 +24,8 @@
  * walks may be small by chance: near an instability everything is one number, and one
  * run in ten would be wrong by more than 3 times its statement. So such a run
  * (QDOT_COMPANION_TWIN_TOL) has two companions, moved to either side, by one order more
- * and by three; their larger difference counts, and it is at least the move itself.
+ * and by three; the largest distance of any two of the three runs counts, and it is at least
+ * the move itself.
  *
  * A companion that does not arrive gives no number: known is false, the error a NaN.
  *

@@ -536,3 +536,19 @@ qdot_trajectory_at(const qdot_trajectory *tr, const qdot_ode_system *system, dou
     qdot_trajectory_close(c);
     return status;
 }
+
+size_t
+qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k)
+{
+    size_t low = 0, high = tr->pieces.n;
+
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (tr->pieces.at[middle].first <= k)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}

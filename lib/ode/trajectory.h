@@ -120,6 +120,9 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_read_tracks(qdot_trajectory_cursor *
 /* The points were changed behind the cursor's back. */
 void qdot_trajectory_renew(qdot_trajectory_cursor *c);
 
+/* The piece that stored point k belongs to. */
+size_t qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k);
+
 /* Index k of the last stored point that is not beyond t, in the direction of the run;
  * t must lie within it. `near`: where to look first. */
 size_t qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near);

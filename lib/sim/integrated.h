@@ -29,6 +29,8 @@ struct qdot_run {
      * where the run has pieces, else when errors are first asked for. */
     bool has_companion;
     qdot_course companion;
+    bool has_twin; /* a second one: where one is near by chance */
+    qdot_course twin;
 
     struct qdot_precise_pair *precise; /* of `digits`: the run is this; course.tr holds
                                           its points as doubles */
@@ -41,6 +43,9 @@ QDOT_MUST_CHECK qdot_status qdot_run_say_why(struct qdot_run *run, const char *r
 /* The companion's trajectory over all that the run covers; where it ends early errors
  * are unknown. QDOT_OK without one, too: has_companion tells. */
 QDOT_MUST_CHECK qdot_status qdot_run_companion(struct qdot_run *run);
+
+/* The same, and a second one, moved to the other side. */
+QDOT_MUST_CHECK qdot_status qdot_run_twin(struct qdot_run *run);
 
 /* The error of the end state of a run that has pieces; NaN with run->doubt where the two
  * runs met different events. */

@@ -14,7 +14,7 @@
 #include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/reader.h"
-#include "sim/size.h"
+#include "sim/noise.h"
 
 enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60 };
 
@@ -247,16 +247,37 @@ check_range(const qdot_run *run, double from, double to)
 
 /* What evaluating e may be off by: as at the ends of the range. */
 static qdot_status
-rounding(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, double to,
-         double *error)
+rounding(qdot_run *run, qdot_range_kind kind, qdot_expr e, const qdot_tape *tape,
+         bool accelerations, double from, double to, double *error)
 {
-    double ends[] = {from, to}, sizes[2], first = 0;
+    double ends[] = {from, to}, values[2], errors[2];
     bool drift = kind == QDOT_RANGE_DRIFT;
 
-    QDOT_TRY(qdot_size_along(run->plan, &run->course, 1, &e, 2, ends, sizes));
-    if (drift)
-        QDOT_TRY(qdot_run_values(run, 1, &e, 1, &from, &first, NULL));
-    *error = (drift ? 2 : 1) * DBL_EPSILON * fmax(sizes[0], sizes[1]) / fmax(1, fabs(first));
+    QDOT_TRY(qdot_run_values(run, 1, &e, 2, ends, values, NULL));
+    QDOT_TRY(qdot_noise_roundings(run->plan, &run->course, tape, accelerations, &e, 2, ends,
+                                  values, errors));
+    *error = (drift ? 2 : 1) * fmax(errors[0], errors[1])
+             / (drift ? fmax(1, fabs(values[0])) : 1);
+    return QDOT_OK;
+}
+
+/* The largest distance of any two of the runs: x is the value of the run itself, NaN where
+ * a companion has none. */
+static qdot_status
+compare(const qdot_run *run, const qdot_tape *tape, bool accelerations,
+        qdot_range_kind kind, double from, double to, double x, double *distance)
+{
+    const qdot_course *courses[] = {&run->companion, &run->twin};
+    double theirs[2], rough;
+
+    *distance = 0;
+    for (int k = 0; k < 1 + run->has_twin; k++) {
+        QDOT_TRY(over_course(run, courses[k], tape, accelerations, kind, from, to,
+                             &theirs[k], &rough));
+        *distance = fmax(*distance, fabs(theirs[k] - x));
+    }
+    if (run->has_twin)
+        *distance = fmax(*distance, fabs(theirs[1] - theirs[0]));
     return QDOT_OK;
 }
 
@@ -266,7 +287,7 @@ qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, do
 {
     const qdot_trajectory *tr = &run->course.tr;
     bool accelerations, back = tr->t[tr->count - 1] < tr->t[0];
-    double rough, other, other_rough, spread = 0;
+    double rough, distance, spread = 0;
     qdot_tape *tape;
     qdot_status status;
 
@@ -282,17 +303,15 @@ qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, do
     status = over_course(run, &run->course, tape, accelerations, kind, from, to, value,
                          &rough);
     if (status == QDOT_OK)
-        status = qdot_run_companion(run);
+        status = qdot_run_twin(run);
     if (status == QDOT_OK && qdot_run_comparable(run)) {
-        status = over_course(run, &run->companion, tape, accelerations, kind, from, to,
-                             &other, &other_rough);
+        status = compare(run, tape, accelerations, kind, from, to, *value, &distance);
         if (status == QDOT_OK && qdot_horizon_passed(run, to))
             status = qdot_horizon_spread(run, tape, accelerations, &spread);
         if (status == QDOT_OK)
-            status = rounding(run, kind, e, from, to, error);
+            status = rounding(run, kind, e, tape, accelerations, from, to, error);
         if (status == QDOT_OK)
-            *error += fmax(fabs(other - *value), spread) + rough
-                      + DBL_EPSILON * fabs(*value);
+            *error += fmax(distance, spread) + rough + DBL_EPSILON * fabs(*value);
         if (status == QDOT_EDOMAIN || status == QDOT_EFAILED
             || status == QDOT_ESINGULAR)
             status = QDOT_OK;

@@ -34,16 +34,22 @@ read_accelerations(qdot_reader *r, double t)
 }
 
 qdot_status
-qdot_reader_at(qdot_reader *r, size_t piece, double t, double *out)
+qdot_reader_evaluate(qdot_reader *r, double t, double *out)
 {
-    QDOT_TRY(piece == SIZE_MAX
-                 ? qdot_trajectory_read(r->cursor, t, r->in)
-                 : qdot_trajectory_read_piece(r->cursor, piece, t, r->in));
     r->in[2 * r->plan->n] = t;
     if (r->accelerations)
         QDOT_TRY(read_accelerations(r, t));
     qdot_tape_eval(r->tape, r->in, out, r->work);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_reader_at(qdot_reader *r, size_t piece, double t, double *out)
+{
+    QDOT_TRY(piece == SIZE_MAX
+                 ? qdot_trajectory_read(r->cursor, t, r->in)
+                 : qdot_trajectory_read_piece(r->cursor, piece, t, r->in));
+    return qdot_reader_evaluate(r, t, out);
 }
 
 qdot_status

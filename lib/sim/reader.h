@@ -31,4 +31,7 @@ void qdot_reader_clear(qdot_reader *r);
 QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
                                            double *out);
 
+/* out for the state that stands in r->in [2n], by the piece that was read last. */
+QDOT_MUST_CHECK qdot_status qdot_reader_evaluate(qdot_reader *r, double t, double *out);
+
 #endif

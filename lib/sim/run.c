@@ -35,6 +35,7 @@ qdot_run_free(qdot_run *run)
         return;
     qdot_course_clear(&run->course);
     qdot_course_clear(&run->companion);
+    qdot_course_clear(&run->twin);
     qdot_drifts_clear(&run->drifts);
     qdot_precise_pair_free(run->precise);
     qdot_free(run->exact);
@@ -495,7 +496,7 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     if (*interrupted)
         return QDOT_OK;
     QDOT_TRY(measure_multipliers(run));
-    QDOT_TRY(qdot_run_companion(run));
+    QDOT_TRY(qdot_run_twin(run));
     return qdot_run_end_error(run, &run->report.error);
 }
 
@@ -537,8 +538,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
         return QDOT_ENOMEM;
     run->report.horizon = NAN;
     status = qdot_stage_begin(&run->stage, scene, request);
-    run->course.stage = run->companion.stage = &run->stage;
-    run->companion.shaken = true;
+    run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
     run->course.touch_tol = request->tol;
     if (status == QDOT_OK) {
         run->plan = run->stage.modes.at[0]->plan;

@@ -113,6 +113,13 @@ QDOT_MUST_CHECK qdot_status qdot_run_values(qdot_run *run, size_t m, const qdot_
                                             size_t k, const double *times, double *values,
                                             double *errors);
 
+/* The same at times[i] + lows[i] (lows NULL: 0), which is the exact time where times[i] is
+ * its double: by the slope of the expression there. */
+QDOT_MUST_CHECK qdot_status qdot_run_values_beyond(qdot_run *run, size_t m,
+                                                   const qdot_expr *exprs, size_t k,
+                                                   const double *times, const double *lows,
+                                                   double *values, double *errors);
+
 /* The same at one time, an exact constant, of a run with `digits`: values [m] rationals, errors [m]
  * (may be NULL) absolute, NaN unknown. */
 QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs,

@@ -18,17 +18,22 @@ goal(const qdot_run *run)
 
 /* --- comparing ----------------------------------------------------------------------- */
 
-bool
-qdot_run_comparable(const qdot_run *run)
+static bool
+went_alike(const qdot_course *a, const qdot_course *b)
 {
-    const qdot_course *a = &run->course, *b = &run->companion;
-
-    if (!run->has_companion || a->tr.pieces.n != b->tr.pieces.n)
+    if (a->tr.pieces.n != b->tr.pieces.n)
         return false;
     for (size_t i = 0; i < a->tr.pieces.n; i++)
         if (a->tr.pieces.at[i].mode != b->tr.pieces.at[i].mode)
             return false;
     return true;
+}
+
+bool
+qdot_run_comparable(const qdot_run *run)
+{
+    return run->has_companion && went_alike(&run->course, &run->companion)
+           && (!run->has_twin || went_alike(&run->course, &run->twin));
 }
 
 /* How often an event occurred. */
@@ -46,12 +51,13 @@ count(const qdot_course *c, size_t event)
 
 /* The start of the companion into y [2n]: moved, but for what has to stay where it is. */
 static qdot_status
-begin_beside(const qdot_run *run, const qdot_ode_system *system, double t0, double *y)
+begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, double t0,
+             double *y)
 {
     const size_t n = 2 * run->plan->n;
 
     for (size_t i = 0; i < n; i++)
-        y[i] = qdot_companion_moved(run->start[i], i, 0);
+        y[i] = qdot_companion_moved(run->start[i], i, number);
     if (system->project) { /* along what solutions may do */
         double by;
 
@@ -64,12 +70,12 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, double t0, doub
 }
 
 static bool
-met_the_same(const qdot_run *run)
+met_the_same(const qdot_run *run, const qdot_course *c)
 {
     for (size_t i = 0; i < run->stage.events.n; i++)
-        if (count(&run->course, i) != count(&run->companion, i))
+        if (count(&run->course, i) != count(c, i))
             return false;
-    return qdot_run_comparable(run);
+    return went_alike(&run->course, c);
 }
 
 static void
@@ -84,21 +90,21 @@ begin_anew(qdot_course *c)
     *c = empty;
 }
 
-qdot_status
-qdot_run_companion(qdot_run *run)
+/* Companion 0 or 1 into c; *has: there is one. */
+static qdot_status
+follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
 {
     const qdot_ode_method *method = run->plan->method;
-    qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS};
+    qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS - 2 * (int)number};
     double t0 = qdot_shake_double(run->t0, run->t0_side);
     size_t n = 2 * run->plan->n;
     qdot_ode_system system;
     double *y;
     qdot_status status;
 
-    if (run->has_companion || run->course.tr.count == 0)
-        return QDOT_OK;
-    run->companion.touch_tol = run->report.tol;
-    run->companion.no_series = method->stiff; /* series may get stuck */
+    c->shaken = number == 0;
+    c->touch_tol = run->report.tol;
+    c->no_series = method->stiff; /* series may get stuck */
     system = qdot_bind_system(run->course.binds.at[0]);
     if (method->stiff)
         system.series = NULL;
@@ -106,7 +112,7 @@ qdot_run_companion(qdot_run *run)
     y = qdot_malloc(n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;
-    status = begin_beside(run, &system, t0, y);
+    status = begin_beside(run, &system, number, t0, y);
     if (status != QDOT_OK) {
         qdot_free(y);
         return status == QDOT_ENOMEM ? status : QDOT_OK;
@@ -114,19 +120,36 @@ qdot_run_companion(qdot_run *run)
     /* a start on a surface, moved to its other side, meets it once more: the second time
      * it stays on it */
     for (int tries = 0; tries < 2; tries++) {
-        status = qdot_course_run(&run->companion, qdot_companion_method(&system, method),
-                                 &options, t0, goal(run), y);
+        status = qdot_course_run(c, qdot_companion_method(&system, method), &options, t0,
+                                 goal(run), y);
         if (status == QDOT_EINTR || status == QDOT_ENOMEM)
             break;
-        run->has_companion = run->companion.tr.count > 0;
-        if (!run->has_companion || met_the_same(run))
+        *has = c->tr.count > 0;
+        if (!*has || met_the_same(run, c))
             break;
         if (tries == 0)
-            begin_anew(&run->companion);
+            begin_anew(c);
         memcpy(y, run->start, n * sizeof *y);
     }
     qdot_free(y);
     return status == QDOT_EINTR || status == QDOT_ENOMEM ? status : QDOT_OK;
+}
+
+qdot_status
+qdot_run_companion(qdot_run *run)
+{
+    if (run->has_companion || run->course.tr.count == 0)
+        return QDOT_OK;
+    return follow(run, 0, &run->companion, &run->has_companion);
+}
+
+qdot_status
+qdot_run_twin(qdot_run *run)
+{
+    QDOT_TRY(qdot_run_companion(run));
+    if (!run->has_companion || run->has_twin)
+        return QDOT_OK;
+    return follow(run, 1, &run->twin, &run->has_twin);
 }
 
 /* --- the error ----------------------------------------------------------------------- */
@@ -139,14 +162,14 @@ say_doubt(qdot_run *run, const char *text)
     return run->doubt ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* What the two differ in. */
+/* What it differs in from the run. */
 static qdot_status
-find_doubt(qdot_run *run)
+find_doubt(qdot_run *run, const qdot_course *c)
 {
     char text[300];
 
     for (size_t i = 0; i < run->stage.events.n; i++) {
-        size_t a = count(&run->course, i), b = count(&run->companion, i);
+        size_t a = count(&run->course, i), b = count(c, i);
 
         if (a == b)
             continue;
@@ -158,22 +181,22 @@ find_doubt(qdot_run *run)
     return say_doubt(run, "the second run went through other events or switches");
 }
 
-qdot_status
-qdot_run_end_error(qdot_run *run, double *error)
+/* The distance of the ends, a time where an event stopped them; NaN where they do not
+ * compare. */
+static qdot_status
+end_distance(qdot_run *run, const qdot_course *other, double *error)
 {
-    const qdot_trajectory *a = &run->course.tr, *b = &run->companion.tr;
+    const qdot_trajectory *a = &run->course.tr, *b = &other->tr;
     const double *y = a->y + (a->count - 1) * a->n;
     double t = a->t[a->count - 1], worst = 0x1p-53, *z;
     qdot_trajectory_cursor *cursor = NULL;
-    bool same = run->course.stopped_by == run->companion.stopped_by;
     qdot_status status;
 
     *error = NAN;
-    if (!qdot_run_comparable(run) || !same)
-        return find_doubt(run);
+    if (!went_alike(&run->course, other) || run->course.stopped_by != other->stopped_by)
+        return find_doubt(run, other);
     z = qdot_malloc(a->n * sizeof *z);
-    status = z ? qdot_trajectory_open(b, qdot_course_systems(&run->companion), &cursor)
-               : QDOT_ENOMEM;
+    status = z ? qdot_trajectory_open(b, qdot_course_systems(other), &cursor) : QDOT_ENOMEM;
     if (status == QDOT_OK && run->course.stopped_by != SIZE_MAX) {
         double end = b->t[b->count - 1];
 
@@ -189,6 +212,22 @@ qdot_run_end_error(qdot_run *run, double *error)
     qdot_trajectory_close(cursor);
     qdot_free(z);
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+qdot_status
+qdot_run_end_error(qdot_run *run, double *error)
+{
+    double second;
+
+    *error = NAN;
+    if (!run->has_companion)
+        return find_doubt(run, &run->companion);
+    QDOT_TRY(end_distance(run, &run->companion, error));
+    if (!run->has_twin || isnan(*error))
+        return QDOT_OK;
+    QDOT_TRY(end_distance(run, &run->twin, &second));
+    *error = isnan(second) ? NAN : fmax(*error, second);
+    return QDOT_OK;
 }
 
 /* --- occurrences --------------------------------------------------------------------- */
@@ -270,8 +309,17 @@ partner(const by_event *own, const by_event *other, size_t event, size_t k)
     return best;
 }
 
+/* |t - t*|; NaN without a partner. */
+static double
+time_distance(const by_event *own, const by_event *other, size_t event, size_t k, double t)
+{
+    const qdot_occurrence *p = partner(own, other, event, k);
+
+    return p ? fabs(p->t - t) : NAN;
+}
+
 static qdot_status
-compare_occurrences(qdot_run *run, const by_event *own, const by_event *other)
+compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
 {
     size_t events = run->stage.events.n, n = run->course.occurrences.n;
     size_t *seen = qdot_calloc(events + 1, sizeof *seen);
@@ -279,16 +327,21 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *other)
 
     run->occurrences.n = 0;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        const qdot_occurrence *o = &run->course.occurrences.at[i], *p = NULL;
+        const qdot_occurrence *o = &run->course.occurrences.at[i];
         size_t k = seen[o->event]++;
+        double by = NAN;
 
         if (run->has_companion)
-            p = partner(own, other, o->event, k);
+            by = time_distance(own, others, o->event, k, o->t);
+        if (run->has_twin && !isnan(by)) {
+            double second = time_distance(own, others + 1, o->event, k, o->t);
+
+            by = isnan(second) ? NAN : fmax(by, second);
+        }
         status = qdot_vec_push(
             &run->occurrences,
             ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,
-                                   p ? fabs(p->t - o->t) + DBL_EPSILON * fabs(o->t) : NAN,
-                                   o->way}));
+                                   by + DBL_EPSILON * fabs(o->t), o->way}));
     }
     qdot_free(seen);
     return status;
@@ -298,21 +351,25 @@ qdot_status
 qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
 {
     if (!run->occurrence_errors) {
-        by_event own = {0}, other = {0};
+        by_event own = {0}, others[2] = {{0}};
         size_t events = run->stage.events.n;
         qdot_status status = QDOT_OK;
 
         if (run->course.occurrences.n > 0)
-            QDOT_TRY(qdot_run_companion(run));
+            QDOT_TRY(qdot_run_twin(run));
         status = sort_by_event(&run->course, events, &own);
         if (status == QDOT_OK)
-            status = sort_by_event(&run->companion, events, &other);
+            status = sort_by_event(&run->companion, events, others);
         if (status == QDOT_OK)
-            status = compare_occurrences(run, &own, &other);
+            status = sort_by_event(&run->twin, events, others + 1);
+        if (status == QDOT_OK)
+            status = compare_occurrences(run, &own, others);
         qdot_free(own.first);
         qdot_free(own.at);
-        qdot_free(other.first);
-        qdot_free(other.at);
+        for (size_t i = 0; i < 2; i++) {
+            qdot_free(others[i].first);
+            qdot_free(others[i].at);
+        }
         QDOT_TRY(status);
         run->occurrence_errors = true;
     }

@@ -5,11 +5,15 @@
 
 #include "base/interrupt.h"
 #include "expr/print.h"
+#include "sim/distance.h"
 #include "sim/horizon.h"
 #include "sim/integrated.h"
+#include "sim/noise.h"
 #include "sim/precise.h"
 #include "sim/reader.h"
-#include "sim/size.h"
+
+/* Of t, for slopes. */
+static const double slope_over = 0x1p-28;
 
 /* --- asking ------------------------------------------------------------------------- */
 
@@ -26,23 +30,6 @@ undefined(const qdot_run *run, qdot_expr e, double t)
     return status;
 }
 
-/* The piece of a run that a time falls in: the later of two. */
-static size_t
-piece_at(const qdot_trajectory *tr, double t)
-{
-    size_t k = qdot_trajectory_locate(tr, t, 0), low = 0, high = tr->pieces.n;
-
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-
-        if (tr->pieces.at[middle].first <= k)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 static qdot_status
 read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations,
             const qdot_expr *exprs, size_t k, const double *times, const double *values,
@@ -50,49 +37,38 @@ read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations,
 {
     size_t m = qdot_tape_outputs(tape);
     bool whole;
-    qdot_reader r = {0};
-    double *spread, *sizes;
+    qdot_distance *distance = NULL;
+    double *spread, *roundings;
     qdot_status status;
 
     for (size_t i = 0; i < k * m; i++)
         errors[i] = NAN;
-    QDOT_TRY(qdot_run_companion(run));
+    QDOT_TRY(qdot_run_twin(run));
     whole = qdot_run_comparable(run);
     if (!whole && isnan(run->report.horizon))
         return QDOT_OK;
     spread = qdot_calloc(m + k * m + 1, sizeof *spread);
     if (!spread)
         return QDOT_ENOMEM;
-    sizes = spread + m;
+    roundings = spread + m;
     status = qdot_horizon_spread(run, tape, accelerations, spread);
     if (status == QDOT_OK)
-        status = qdot_size_along(run->plan, &run->course, m, exprs, k, times, sizes);
+        status = qdot_noise_roundings(run->plan, &run->course, tape, accelerations, exprs, k,
+                                      times, values, roundings);
     if (status == QDOT_OK)
-        status = qdot_reader_init(&r, run->plan, tape, &run->companion, accelerations);
+        status = qdot_distance_new(run, tape, accelerations, &distance);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         bool beyond = qdot_horizon_passed(run, times[i]);
         double *e = errors + i * m;
 
         if (beyond && !whole)
             continue;
-        status = qdot_interrupt_check();
-        if (status == QDOT_OK)
-            status = qdot_reader_at(&r, piece_at(&run->course.tr, times[i]), times[i], e);
-        if (status == QDOT_EDOMAIN || status == QDOT_EFAILED
-            || status == QDOT_ESINGULAR) {
-            for (size_t j = 0; j < m; j++)
-                e[j] = NAN;
-            status = QDOT_OK;
-            continue;
-        }
-        for (size_t j = 0; j < m && status == QDOT_OK; j++) {
-            double x = values[i * m + j];
-
-            e[j] = fmax(fabs(e[j] - x), beyond ? spread[j] : 0)
-                   + DBL_EPSILON * fmax(sizes[i * m + j], fabs(x));
-        }
+        status = qdot_distance_at(distance, times[i], values + i * m, e);
+        for (size_t j = 0; j < m && status == QDOT_OK; j++)
+            if (!isnan(e[j]))
+                e[j] = fmax(e[j], beyond ? spread[j] : 0) + roundings[i * m + j];
     }
-    qdot_reader_clear(&r);
+    qdot_distance_free(distance);
     qdot_free(spread);
     return status;
 }
@@ -118,9 +94,65 @@ read_values(qdot_run *run, const qdot_tape *tape, bool accelerations,
     return status;
 }
 
+/* The piece that t lies in; of two the later. */
+static size_t
+piece_at(const qdot_trajectory *tr, double t)
+{
+    return qdot_trajectory_piece_of(tr, qdot_trajectory_locate(tr, t, 0));
+}
+
+/* What `low` beyond t adds to them: by slopes over h, within the piece. The ends of a run
+ * belong to its exact limits already. */
+static qdot_status
+go_beyond(const qdot_run *run, qdot_reader *r, double t, double low, size_t m,
+          double *moved, double *values)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const double end = tr->t[tr->count - 1], h = (end > t ? slope_over : -slope_over) * fabs(t);
+    qdot_status status;
+
+    if (low == 0 || t == tr->t[0] || (t == end && t == run->t1)
+        || !(fmin(tr->t[0], end) <= t + h && t + h <= fmax(tr->t[0], end))
+        || piece_at(tr, t) != piece_at(tr, t + h))
+        return QDOT_OK;
+    status = qdot_reader_at(r, SIZE_MAX, t + h, moved);
+    if (status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR)
+        return QDOT_OK;
+    for (size_t j = 0; j < m && status == QDOT_OK; j++)
+        if (isfinite(moved[j]))
+            values[j] += (moved[j] - values[j]) / h * low;
+    return status;
+}
+
+static qdot_status
+add_lows(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
+         const double *times, const double *lows, double *values)
+{
+    size_t m = qdot_tape_outputs(tape);
+    double *moved = qdot_malloc((m + 1) * sizeof *moved);
+    qdot_reader r = {0};
+    qdot_status status = moved ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_reader_init(&r, run->plan, tape, &run->course, accelerations);
+    for (size_t i = 0; i < k && status == QDOT_OK; i++)
+        status = go_beyond(run, &r, times[i], lows[i], m, moved, values + i * m);
+    qdot_reader_clear(&r);
+    qdot_free(moved);
+    return status;
+}
+
 qdot_status
 qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
                 const double *times, double *values, double *errors)
+{
+    return qdot_run_values_beyond(run, m, exprs, k, times, NULL, values, errors);
+}
+
+qdot_status
+qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
+                       const double *times, const double *lows, double *values,
+                       double *errors)
 {
     bool accelerations;
     qdot_tape *tape;
@@ -133,6 +165,8 @@ qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
     status = read_values(run, tape, accelerations, exprs, k, times, values);
     if (status == QDOT_OK && errors)
         status = read_errors(run, tape, accelerations, exprs, k, times, values, errors);
+    if (status == QDOT_OK && lows)
+        status = add_lows(run, tape, accelerations, k, times, lows, values);
     qdot_tape_free(tape);
     return status;
 }

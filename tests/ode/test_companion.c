@@ -42,7 +42,7 @@ estimate(const problem *p, const qdot_ode_method *m, double tol, double t, bool 
     *error = true_error(p, t, y);
     for (size_t i = 0; i < p->system.n; i++)
         largest = fmax(largest, difference[i] / fmax(1, fabs(y[i])));
-    assert_true(!e.known || fabs(e.error / fmax(0x1p-53, largest) - 1) < 1e-2);
+    assert_true(!e.known || e.error >= 0.99 * largest); /* the companions differ, too */
     return e;
 }
 
@@ -121,8 +121,9 @@ zeros_of_the_start_are_moved_too(void **state)
     assert_int_equal(qdot_ode_integrate(&s, m, NULL, 0, 5, y, &r), QDOT_OK);
     qdot_companion_finish(c, 5, y, NULL, &e);
     assert_true(y[0] == 0);
-    /* the companion resolves a value far below its tolerance only roughly */
-    assert_true(fabs(e.error / (0x1p-53 * exp(10)) - 1) < 0.05);
+    /* two companions, moved to either side, which resolve a value far below their tolerance
+     * only roughly */
+    assert_true(fabs(e.error / (0x1p-52 * exp(10)) - 1) < 0.05);
 }
 
 static qdot_status
