@@ -546,6 +546,7 @@ script_tests = \
 	tests/script/events.lag \
 	tests/script/fall.sh \
 	tests/script/flexing.lag \
+	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
 	tests/script/geometry.lag \
 	tests/script/hamilton.lag \
@@ -647,6 +648,7 @@ script_tests = \
 	tests/bad/gravity-dimension.lag \
 	tests/bad/hamiltonian-singular.lag \
 	tests/bad/help-unknown.lag \
+	tests/bad/hints.sh \
 	tests/bad/history.lag \
 	tests/bad/huge-decimal.lag \
 	tests/bad/huge-power.lag \
@@ -852,6 +854,7 @@ test_files = \
 	tests/bad/gravity-dimension.out \
 	tests/bad/hamiltonian-singular.out \
 	tests/bad/help-unknown.out \
+	tests/bad/hints.out \
 	tests/bad/history.out \
 	tests/bad/huge-decimal.out \
 	tests/bad/huge-power.out \
@@ -1070,6 +1073,7 @@ test_files = \
 	tests/script/events.out \
 	tests/script/fall.out \
 	tests/script/flexing.out \
+	tests/script/forms-shown.out \
 	tests/script/forms.out \
 	tests/script/geometry.out \
 	tests/script/hamilton.out \

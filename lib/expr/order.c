@@ -121,6 +121,16 @@ factors(const qdot_pool *pool, qdot_expr e)
     return NODE(pool, e)->kind == QDOT_PROD ? (NODE(pool, e)->n - 1) / 2 : 1;
 }
 
+/* A root of a sum: among terms it stands behind symbols, a + d - sqrt(...). */
+static bool
+is_root(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
+{
+    const fmpq *x = NUMBER(pool, exponent);
+
+    return NODE(pool, base)->kind == QDOT_SUM && x != NULL &&
+           !fmpz_is_one(fmpq_denref(x));
+}
+
 int
 qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -134,7 +144,11 @@ qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 
         factor_at(pool, a, --na, &base_a, &exp_a);
         factor_at(pool, b, --nb, &base_b, &exp_b);
-        d = qdot_expr_compare(pool, base_a, base_b);
+        d = level(NODE(pool, base_a)->holds) != level(NODE(pool, base_b)->holds)
+                ? 0
+                : is_root(pool, base_a, exp_a) - is_root(pool, base_b, exp_b);
+        if (d == 0)
+            d = qdot_expr_compare(pool, base_a, base_b);
         if (d == 0)
             d = qdot_expr_compare(pool, exp_b, exp_a);
         if (d != 0)

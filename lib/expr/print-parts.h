@@ -28,6 +28,7 @@ typedef qdot_vec(struct piece) pieces;
 typedef struct {
     const qdot_pool *pool;
     qdot_style style;
+    qdot_expr ascending; /* a LIST: terms by their degree in these; nil: as they stand */
     qdot_text *out;
     pieces todo; /* a stack */
     pieces next; /* of the node being opened, in reading order */

@@ -381,6 +381,18 @@ joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
     return dot(p);
 }
 
+/* Where a factor stands: of parameters, the roots of their sums behind them, the others:
+ * a sqrt(b + c) x. */
+static uint32_t
+place(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+{
+    const fmpq *k = qdot_expr_rational(pool, x);
+
+    if (NODE(pool, b)->holds & ~(uint32_t)(QDOT_HAS_PARAM | QDOT_HAS_FUN | QDOT_HAS_FORMAL))
+        return 2;
+    return NODE(pool, b)->kind == QDOT_SUM && k != NULL && !fmpz_is_one(fmpq_denref(k));
+}
+
 /* The factors of e above (below) the bar; number: what stands before them already, or NULL;
  * turned: the base that is written as its negative. */
 static void
@@ -396,11 +408,13 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
         child(p, e, context);
         return;
     }
-    for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
+    for (uint32_t k = 0; k < 3 * (NODE(pool, e)->n / 2); k++) {
+        uint32_t i = 1 + 2 * (k % (NODE(pool, e)->n / 2));
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
         bool under = is_under(pool, r, b, x);
 
-        if (under ? i != r->last || r->above == down : below(pool, x) != down)
+        if (place(pool, b, x) != k / (NODE(pool, e)->n / 2) ||
+            (under ? i != r->last || r->above == down : below(pool, x) != down))
             continue;
         if (first && number != NULL)
             say(p, under ? times(p) : joint(p, number, b, x));

@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "expr/print-parts.h"
 #include "expr/printed.h"
+#include "expr/walk.h"
 
 /* --- sums ------------------------------------------------------------------------------------- */
 
@@ -128,6 +129,54 @@ arrange(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order)
     return count;
 }
 
+/* The degree of b^x in the symbols: b one of them or a sum that holds one, x a whole number. */
+static long
+degree_of_power(const printer *p, qdot_expr b, qdot_expr x)
+{
+    const fmpq *k = qdot_expr_rational(p->pool, x);
+    uint8_t kind = NODE(p->pool, b)->kind;
+
+    if ((kind != QDOT_SYM && kind != QDOT_SUM) || k == NULL ||
+        !fmpz_is_one(fmpq_denref(k)) || !fmpz_fits_si(fmpq_numref(k)))
+        return 0;
+    for (uint32_t i = 0; i < NODE(p->pool, p->ascending)->n; i++)
+        if (qdot_expr_contains(p->pool, b, ARGS(p->pool, p->ascending)[i]))
+            return fmpz_get_si(fmpq_numref(k));
+    return 0;
+}
+
+static long
+degree(const printer *p, qdot_expr term)
+{
+    long sum = 0;
+
+    if (NODE(p->pool, term)->kind != QDOT_PROD)
+        return degree_of_power(p, term, QDOT_ONE);
+    for (uint32_t i = 1; i < NODE(p->pool, term)->n; i += 2)
+        sum += degree_of_power(p, ARGS(p->pool, term)[i], ARGS(p->pool, term)[i + 1]);
+    return sum;
+}
+
+/* The terms by their degree, in each degree as they stand. */
+static uint32_t
+arrange_by_degree(const printer *p, qdot_expr e, uint32_t *order)
+{
+    const qdot_expr *args = ARGS(p->pool, e);
+    uint32_t n = NODE(p->pool, e)->n, count = 0;
+
+    if (args[0] != QDOT_ZERO)
+        order[count++] = 0;
+    for (uint32_t i = 1; i < n; i += 2) {
+        long of = degree(p, args[i]);
+        uint32_t k = count++;
+
+        for (; k > 0 && (order[k - 1] == 0 ? 0 : degree(p, args[order[k - 1]])) > of; k--)
+            order[k] = order[k - 1];
+        order[k] = i;
+    }
+    return count;
+}
+
 static void
 open_sum(printer *p, qdot_expr e, int context, bool turned)
 {
@@ -139,7 +188,9 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
         p->status = QDOT_ENOMEM;
         return;
     }
-    count = arrange(p->pool, e, turned, order);
+    count = p->ascending != QDOT_NIL && context < FACTOR
+                ? arrange_by_degree(p, e, order)
+                                     : arrange(p->pool, e, turned, order);
     if (context >= FACTOR)
         open_bracket(p);
     for (uint32_t k = 0; k < count; k++) {
@@ -158,22 +209,40 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
 
 /* --- conditions, vectors, matrices, lists --------------------------------------------------------- */
 
+/* A number stands on the right: x > 0. */
 static void
 open_relation(printer *p, qdot_expr e, int context)
 {
-    static const char *const plain[] = {" = ", " < ", " <= "};
-    static const char *const unicode[] = {" = ", " < ", " ≤ "};
-    static const char *const latex[] = {" = ", " < ", " \\le "};
-    static const char *const mathml[] = {"<mo>=</mo>", "<mo>&lt;</mo>", "<mo>≤</mo>"};
+    static const char *const signs[][4] = {
+        {" = ", " = ", " = ", "<mo>=</mo>"},
+        {" < ", " < ", " < ", "<mo>&lt;</mo>"},
+        {" <= ", " ≤ ", " \\le ", "<mo>≤</mo>"},
+        {" > ", " > ", " > ", "<mo>&gt;</mo>"},
+        {" >= ", " ≥ ", " \\ge ", "<mo>≥</mo>"},
+    };
     uint16_t op = NODE(p->pool, e)->op;
+    const qdot_expr *side = ARGS(p->pool, e);
+    bool turned = op != QDOT_EQ && NODE(p->pool, side[0])->holds == 0 &&
+                  NODE(p->pool, side[1])->holds != 0;
+    const char *const *sign = signs[op + (turned ? 2 : 0)];
 
     if (context > TOP)
         open_bracket(p);
-    child(p, ARGS(p->pool, e)[0], TERM);
-    say(p, styled(p, plain[op], unicode[op], latex[op], mathml[op]));
-    child(p, ARGS(p->pool, e)[1], TERM);
+    child(p, side[turned], TERM);
+    say(p, styled(p, sign[0], sign[1], sign[2], sign[3]));
+    child(p, side[!turned], TERM);
     if (context > TOP)
         close_bracket(p);
+}
+
+/* Whether an operand of `and`, `or`, `not` needs its brackets: `not` binds tightest. */
+static bool
+is_bracketed(const qdot_pool *pool, uint16_t op, qdot_expr part)
+{
+    const qdot_node *node = NODE(pool, part);
+
+    return op == QDOT_NOT ||
+           (node->kind == QDOT_LOGIC && node->op == QDOT_OR && op == QDOT_AND);
 }
 
 static void
@@ -193,12 +262,35 @@ open_logic(printer *p, qdot_expr e, int context)
 
         if (i > 0)
             say(p, word);
-        child(p, part,
-              NODE(p->pool, part)->kind == QDOT_LOGIC || node->op == QDOT_NOT ? TERM
-                                                                              : TOP);
+        child(p, part, is_bracketed(p->pool, node->op, part) ? TERM : TOP);
     }
     if (context > TOP)
         close_bracket(p);
+}
+
+/* (a, b); of equations (a, b) = (c, d), where it stands alone. */
+static void
+open_vector(printer *p, qdot_expr e, int context)
+{
+    uint32_t n = NODE(p->pool, e)->n;
+    bool equations = context == TOP;
+
+    for (uint32_t i = 0; i < n && equations; i++) {
+        const qdot_node *node = NODE(p->pool, ARGS(p->pool, e)[i]);
+
+        equations = node->kind == QDOT_REL && node->op == QDOT_EQ;
+    }
+    for (uint32_t side = 0; side <= equations; side++) {
+        say(p, side ? styled(p, " = ", " = ", " = ", "<mo>=</mo>") : "");
+        open_bracket(p);
+        for (uint32_t i = 0; i < n; i++) {
+            qdot_expr one = ARGS(p->pool, e)[i];
+
+            say(p, i > 0 ? comma(p) : "");
+            child(p, equations ? ARGS(p->pool, one)[side] : one, TOP);
+        }
+        close_bracket(p);
+    }
 }
 
 static void
@@ -258,11 +350,7 @@ open_node(printer *p, const struct piece *x)
     case QDOT_UFUN: qdot_print_ufun(p, x->e, x->context); break;
     case QDOT_REL: open_relation(p, x->e, x->context); break;
     case QDOT_LOGIC: open_logic(p, x->e, x->context); break;
-    case QDOT_VEC:
-        open_bracket(p);
-        children(p, x->e, 0, node->n, comma(p));
-        close_bracket(p);
-        break;
+    case QDOT_VEC: open_vector(p, x->e, x->context); break;
     case QDOT_LIST:
         say(p, styled(p, "[", "[", "\\left[", "<mrow><mo>[</mo>"));
         children(p, x->e, 0, node->n, comma(p));
@@ -285,7 +373,7 @@ static void
 write_node(printer *p, struct piece x)
 {
     uint8_t kind = NODE(p->pool, x.e)->kind;
-    bool again = x.coefficient == QDOT_NIL &&
+    bool again = x.coefficient == QDOT_NIL && p->ascending == QDOT_NIL &&
                  (kind == QDOT_SUM || kind == QDOT_FUN || kind == QDOT_UFUN ||
                   (kind == QDOT_SYM && p->style != QDOT_PLAIN));
 
@@ -312,7 +400,14 @@ free_texts(const pieces *list)
 qdot_status
 qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
 {
-    printer p = {.pool = pool, .style = style, .out = out};
+    return qdot_print_series(pool, e, QDOT_NIL, style, out);
+}
+
+qdot_status
+qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_style style,
+                  qdot_text *out)
+{
+    printer p = {.pool = pool, .style = style, .ascending = in, .out = out};
 
     if (e == QDOT_NIL)
         return qdot_fail(QDOT_EINVAL, "nothing to print");

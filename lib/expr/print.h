@@ -17,6 +17,10 @@ typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX, QDOT_MATHML } qdot_style;
 QDOT_MUST_CHECK qdot_status qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style,
                                        qdot_text *out);
 
+/* The same of a series in the symbols of the LIST `in`: terms of lowest degree first. */
+QDOT_MUST_CHECK qdot_status qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in,
+                                              qdot_style style, qdot_text *out);
+
 /* The same as a formula within a text: MathML with its <math> round it. */
 QDOT_MUST_CHECK qdot_status qdot_print_formula(const qdot_pool *pool, qdot_expr e,
                                                qdot_style style, qdot_text *out);

@@ -116,13 +116,31 @@ qdot_answer_json_double(qdot_text *text, double value)
 
 /* --- expressions -------------------------------------------------------------------- */
 
+/* Whether e is the latest series, or one of a list of them. */
+static bool
+is_series(const qdot_session *session, qdot_expr e)
+{
+    qdot_expr all = session->series;
+
+    if (all == QDOT_NIL || e == all)
+        return e == all && all != QDOT_NIL;
+    for (uint32_t i = 0; qdot_expr_kind(session->pool, all) == QDOT_LIST &&
+                         i < qdot_expr_count(session->pool, all);
+         i++)
+        if (qdot_expr_arg(session->pool, all, i) == e)
+            return true;
+    return false;
+}
+
 qdot_status
 qdot_answer_print(qdot_session *session, qdot_expr e, qdot_style style, qdot_text *out)
 {
     uint64_t size = qdot_expr_size(session->pool, e);
 
     if (size <= QDOT_ANSWER_OPERATIONS)
-        return qdot_print(session->pool, e, style, out);
+        return is_series(session, e)
+                   ? qdot_print_series(session->pool, e, session->series_in, style, out)
+                   : qdot_print(session->pool, e, style, out);
     (void)qdot_fail(QDOT_ELIMIT,
                     "%s%" PRIu64 " operations are too many to print: more than %u",
                     size == UINT64_MAX ? "more than " : "", size, QDOT_ANSWER_OPERATIONS);

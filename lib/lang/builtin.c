@@ -13,11 +13,24 @@
 #include "mech/geometry.h"
 #include "normal/simplify.h"
 
+#define READ_SIZE 300 /* operations */
+
 static qdot_status
 give(qdot_session *s, qdot_expr result, qdot_expr *value)
 {
     *value = result;
     return qdot_resolve_check(s->pool, result);
+}
+
+/* In the shortest form found, where it is of a size that a person reads. */
+static qdot_status
+give_short(qdot_session *s, qdot_expr result, qdot_expr *value)
+{
+    qdot_facts facts = qdot_scene_facts(s->scene);
+
+    if (result != QDOT_NIL && qdot_expr_size(s->pool, result) <= READ_SIZE)
+        result = qdot_simplify(s->pool, result, &facts);
+    return give(s, result, value);
 }
 
 static bool
@@ -100,7 +113,7 @@ call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] == QDOT_PI ||
         args[1] == QDOT_TRUE || args[1] == QDOT_FALSE) {
         qdot_fail(QDOT_ETYPE,
-                  "diff(e, x) asks a symbol for x: a parameter, a coordinate, "
+                  "diff(e, x) takes a symbol for x: a parameter, a coordinate, "
                   "a velocity or t");
         if (qdot_expr_kind(s->pool, args[1]) == QDOT_UFUN)
             return qdot_hint("as in diff(x(s), s)");
@@ -113,14 +126,14 @@ call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
                          times);
     for (; times > 0 && e != QDOT_NIL && e != QDOT_ZERO; times--)
         e = qdot_diff(s->pool, e, args[1]);
-    return give(s, e, value);
+    return e == args[0] ? give(s, e, value) : give_short(s, e, value);
 }
 
 static qdot_status
 call_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
-    return give(s, qdot_ddt(s->pool, args[0]), value);
+    return give_short(s, qdot_ddt(s->pool, args[0]), value);
 }
 
 /* --- equations ---------------------------------------------------------------------- */
@@ -154,7 +167,7 @@ sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *val
             sound = false;
         }
     if (!sound)
-        return qdot_fail(QDOT_ETYPE, "%s asks an equation, not %s", name,
+        return qdot_fail(QDOT_ETYPE, "%s takes an equation, not %s", name,
                          qdot_resolve_kind(pool, odd));
     members = qdot_malloc(n * sizeof *members);
     if (members == NULL)
@@ -203,7 +216,7 @@ call_collect(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *valu
     if (!qdot_expr_is_scalar(s->pool, args[1]) ||
         qdot_expr_kind(s->pool, args[1]) == QDOT_NUM)
         return qdot_fail(QDOT_ETYPE,
-                         "collect(e, x) asks a symbol or an expression for x");
+                         "collect(e, x) takes a symbol or an expression for x");
     return give(s, qdot_collect(s->pool, args[0], args[1]), value);
 }
 
@@ -258,14 +271,14 @@ call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
-        return give(s, function(s->pool, args[0]), value);                               \
+        return give_short(s, function(s->pool, args[0]), value);                         \
     }
 #define TWO(word, function)                                                              \
     static qdot_status call_##word(qdot_session *s, uint32_t n, const qdot_expr *args,   \
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
-        return give(s, function(s->pool, args[0], args[1]), value);                      \
+        return give_short(s, function(s->pool, args[0], args[1]), value);                \
     }
 TWO(dot, qdot_dot)
 TWO(cross, qdot_cross)
@@ -284,7 +297,7 @@ check_place(qdot_session *s, const char *name, qdot_expr R)
 {
     if (qdot_expr_is_scalar(s->pool, R) || qdot_expr_kind(s->pool, R) == QDOT_VEC)
         return QDOT_OK;
-    return qdot_fail(QDOT_ETYPE, "%s(R) asks a vector r(q), not %s", name,
+    return qdot_fail(QDOT_ETYPE, "%s(R) takes a vector r(q), not %s", name,
                      qdot_resolve_kind(s->pool, R));
 }
 

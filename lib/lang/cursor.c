@@ -173,6 +173,8 @@ hint_foreign(const qdot_token *t)
         {"%", "the remainder is mod(a, b)"},
     };
 
+    if (is_sign(t, ":") && is_sign(t + 1, "=") && t[1].glued)
+        return qdot_hint("write =");
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
         if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, foreign[i].text) == 0)
             return qdot_hint("%s", foreign[i].hint);
@@ -244,6 +246,10 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
     bool word = what[0] == '`' && what[1] >= 'a' && what[1] <= 'z';
 
     c->error_at = t->start;
+    if (qdot_cursor_is_word(c, "for") && t[1].kind == QDOT_TOKEN_NAME) {
+        found(what, t);
+        return qdot_hint("one `for` ends a statement: for k = 1..3, j = 1..2");
+    }
     if (before == NULL || before->kind == QDOT_TOKEN_END) {
         found(what, t);
         return hint_foreign(t);
@@ -268,7 +274,9 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         (!word && (t->kind != QDOT_TOKEN_NAME || is_known(c->session, t->text))))
         return missing_times(c, before);
     found(what, t);
-    return word ? hint_word(what, t->text) : qdot_hint("a product is written with `*`");
+    if (word)
+        return hint_word(what, t->text);
+    return what[0] == '`' ? QDOT_ESYNTAX : qdot_hint("a product is written with `*`");
 }
 
 qdot_status

@@ -14,7 +14,11 @@ static qdot_status
 read_arguments(qdot_cursor *c, const qdot_token ***names, size_t *n)
 {
     qdot_vec(const qdot_token *) list = {0};
-    qdot_status status = qdot_cursor_expect_op(c, "(");
+    qdot_status status;
+
+    status = qdot_cursor_expect_op(c, "(");
+    if (status != QDOT_OK)
+        status = qdot_hint("its arguments stand in ( ): as in function x(s), y(s, t)");
 
     while (status == QDOT_OK) {
         if (c->at->kind != QDOT_TOKEN_NAME) {

@@ -96,7 +96,8 @@ begins_with_bound(const qdot_cursor *c)
         return true;
     if (strcmp(c->at->text, "pi") == 0) { /* a bare pi is a name, which is refused */
         look.at++;
-        return is_more(&look);
+        return is_more(&look) && (!is_relation(&look, &less, &strict) ||
+                                  look.at[1].kind == QDOT_TOKEN_NAME);
     }
     if (qdot_names_find(c->session->names, c->at->text) == NULL)
         return false;
@@ -123,8 +124,10 @@ read_item(qdot_cursor *c, bool valued, item *x)
         qdot_expr bound;
 
         QDOT_TRY(qdot_read_side(c, &bound));
-        if (!is_relation(c, &less, &strict))
-            return qdot_cursor_expected(c, "`<` and a name");
+        if (!is_relation(c, &less, &strict)) {
+            c->at = at;
+            return qdot_cursor_expected(c, "a name");
+        }
         c->at++;
         x->name = "";
         QDOT_TRY(set_bound(c, at, x, bound, !less, strict));
@@ -200,11 +203,18 @@ read_items(qdot_cursor *c, bool params, items *list)
             status = qdot_vec_push(list, x);
         if (status == QDOT_OK && params)
             spread(list);
+        c->error_at = status == QDOT_OK ? x.start->start : c->error_at;
         if (status == QDOT_OK && params)
             status = show_item(c->session, &x, &shown);
     } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
     while (shown-- > 0)
         qdot_names_pop(c->session->names);
+    if (status == QDOT_OK && c->at->kind == QDOT_TOKEN_NAME) { /* param a b */
+        c->error_at = c->at->start;
+        qdot_fail(QDOT_ESYNTAX, "expected `,` or the end of the statement, found `%.100s`",
+                  c->at->text);
+        return qdot_hint("a comma stands between names");
+    }
     return status == QDOT_OK ? qdot_cursor_expect_end(c) : status;
 }
 
@@ -212,10 +222,14 @@ read_items(qdot_cursor *c, bool params, items *list)
 
 /* A user's own name that a value of the language has too: say once how to reach that. */
 static qdot_status
-tell_hidden(qdot_session *session, const char *name)
+tell_hidden(qdot_session *session, const char *name, qdot_name_kind kind)
 {
     const qdot_quantity *row = qdot_quantity_find(name), *other;
 
+    if (row == NULL && qdot_builtin_find(name) != NULL &&
+        (kind == QDOT_NAME_FUNCTION || kind == QDOT_NAME_UFUN))
+        return qdot_answer_notice(session, "`%s` is now your own; it hides the language's",
+                                  name);
     if (row == NULL || row->least > 0) /* only name[...] is the language's */
         return QDOT_OK;
     for (size_t i = 0; (other = qdot_quantity_at(i)) != NULL; i++)
@@ -236,7 +250,7 @@ qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
     c->error_at = start->start;
     qdot_statement_place(c, start, entry);
     QDOT_TRY(qdot_names_declare(c->session->names, entry));
-    return again ? QDOT_OK : tell_hidden(c->session, entry->name);
+    return again ? QDOT_OK : tell_hidden(c->session, entry->name, entry->kind);
 }
 
 void
@@ -428,16 +442,42 @@ qdot_declare_coord(qdot_cursor *c)
     return status;
 }
 
+/* Whether the relation is said with > or >=. */
+static bool
+says_greater(const qdot_token *from, const qdot_token *to)
+{
+    for (long depth = 0; from < to; from++) {
+        if (from->kind != QDOT_TOKEN_OPERATOR)
+            continue;
+        depth += strchr("([", from->text[0]) != NULL;
+        depth -= strchr(")]", from->text[0]) != NULL;
+        if (depth == 0 && from->text[0] == '>')
+            return true;
+    }
+    return false;
+}
+
 qdot_status
 qdot_declare_assume(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
+    qdot_pool *pool = c->session->pool;
     qdot_expr relation;
+    bool several, greater;
+    uint32_t n;
 
     QDOT_TRY(qdot_read_value(c, &relation));
     QDOT_TRY(qdot_cursor_expect_end(c));
+    greater = says_greater(start, c->at);
     c->error_at = start->start;
-    return qdot_scene_assume(c->session->scene, relation);
+    several = qdot_expr_kind(pool, relation) == QDOT_LOGIC &&
+              qdot_expr_node(pool, relation)->op == QDOT_AND; /* 0 < a < c */
+    n = several ? qdot_expr_count(pool, relation) : 1;
+    for (uint32_t i = 0; i < n; i++)
+        QDOT_TRY(qdot_scene_assume(c->session->scene,
+                                   several ? qdot_expr_arg(pool, relation, i) : relation,
+                                   greater && !several));
+    return QDOT_OK;
 }
 
 /* --- NAME = EXPR -------------------------------------------------------------------- */
@@ -452,9 +492,13 @@ tell_circle(qdot_cursor *c, const qdot_token *start, qdot_status status)
         for (const qdot_token *k = start + 1; k->kind != QDOT_TOKEN_END; k++)
             if (k->start == c->error_at && k->kind == QDOT_TOKEN_NAME &&
                 strcmp(k->text, start->text) == 0)
-                return qdot_hint(
-                    "`%s` is just being defined: it has no meaning before that",
-                    start->text);
+                return k[1].kind == QDOT_TOKEN_OPERATOR && strcmp(k[1].text, "[") == 0
+                           ? qdot_hint("what a family begins with is defined first: "
+                                       "%s[0] = ...",
+                                       start->text)
+                           : qdot_hint("`%s` is just being defined: it has no meaning "
+                                       "before that",
+                                       start->text);
     }
     return status;
 }

@@ -306,7 +306,7 @@ if_test(machine *m, const qdot_code *code, uint32_t *pc)
     if (s->run != NULL)
         return along_runs();
     if (!is_condition(m, s->value))
-        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) asks a condition, not %s",
+        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) takes a condition, not %s",
                          qdot_resolve_kind(m->pool, s->value));
     s->value = qdot_walk_map(m->pool, s->value, decide, NULL);
     QDOT_TRY(qdot_resolve_check(m->pool, s->value));
@@ -345,7 +345,7 @@ if_end(machine *m)
     n = qdot_expr_count(m->pool, a);
     if (qdot_expr_kind(m->pool, a) != QDOT_VEC ||
         qdot_expr_kind(m->pool, b) != QDOT_VEC || qdot_expr_count(m->pool, b) != n)
-        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) asks A and B of one kind");
+        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) takes A and B of one kind");
     QDOT_TRY(qdot_grow(&m->args.at, &m->args.capacity, n, sizeof *m->args.at));
     for (uint32_t i = 0; i < n; i++) {
         qdot_expr parts[3] = {c, qdot_expr_arg(m->pool, a, i),

@@ -58,6 +58,18 @@ static const struct {
     {"\xE2\x80\x99", "'"},  /* apostrophe */
 };
 
+/* Signs of print, and what to write for them. */
+static const struct {
+    const char *text, *ours;
+} foreign[] = {
+    {"½", "1/2"}, {"⅓", "1/3"}, {"⅔", "2/3"}, {"¼", "1/4"}, {"¾", "3/4"},
+    {"⅕", "1/5"}, {"⅖", "2/5"}, {"⅗", "3/5"}, {"⅘", "4/5"}, {"⅙", "1/6"},
+    {"⅚", "5/6"}, {"⅛", "1/8"}, {"⅜", "3/8"}, {"⅝", "5/8"}, {"⅞", "7/8"},
+    {"√", "sqrt(x)"}, {"∂", "diff(e, x)"}, {"∑", "sum(e, k, a, b)"},
+    {"–", "-"}, {"—", "-"}, {"÷", "/"}, {"∧", "and"}, {"∨", "or"}, {"¬", "not"},
+    {"“", "\""}, {"”", "\""}, {"⟨", "("}, {"∇", "gradient(f, R)"},
+};
+
 static bool
 is_digit(char c)
 {
@@ -295,6 +307,9 @@ refuse(const lexer *x)
     if (c < 0x80)
         return qdot_fail(QDOT_ESYNTAX, "`%c` has no meaning here", (char)c);
     qdot_fail(QDOT_ESYNTAX, "`%.*s` has no meaning here", (int)length, text);
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
+        if (strncmp(text, foreign[i].text, length) == 0 && foreign[i].text[length] == '\0')
+            return qdot_hint("write %s", foreign[i].ours);
     return qdot_hint("letters of names are Latin or Greek");
 }
 
@@ -326,8 +341,10 @@ lex_blank(lexer *x, bool *found)
 
         while (text[i] == ' ' || text[i] == '\t' || text[i] == '\r')
             i++;
-        if (text[i] != '\n' && i < x->source->length)
-            return qdot_fail(QDOT_ESYNTAX, "`\\` goes at the end of a line");
+        if (text[i] != '\n' && i < x->source->length) {
+            qdot_fail(QDOT_ESYNTAX, "`\\` goes at the end of a line");
+            return qdot_hint("names are written without it: theta, or θ");
+        }
         x->i = i < x->source->length ? i + 1 : i;
     } else if (c == '\n') {
         if (!in_bracket(x))

@@ -51,7 +51,11 @@ read_index(qdot_loop *loop, qdot_cursor *c, qdot_loop_index *index, bool *empty)
         const qdot_token *start = c->at;
         qdot_expr from, to;
 
-        QDOT_TRY(qdot_read_range(c, &from, &to));
+        if (qdot_read_range(c, &from, &to) != QDOT_OK)
+            return qdot_last_error()->hint[0] == '\0' &&
+                           qdot_last_error()->status == QDOT_ESYNTAX
+                       ? qdot_hint("as in for k = 1..3, or for k = [1, 2, 5]")
+                       : qdot_last_error()->status;
         c->error_at = start->start;
         QDOT_TRY(qdot_session_integer(loop->session, from, &index->at));
         QDOT_TRY(qdot_session_integer(loop->session, to, &index->last));

@@ -46,7 +46,7 @@ coordinate(qdot_session *s, const char *name, qdot_expr index)
     QDOT_TRY(need_coordinates(s));
     if (qdot_expr_is_coordinate(s->pool, index))
         return QDOT_OK;
-    return qdot_fail(QDOT_ETYPE, "%s[ ] asks a coordinate", name);
+    return qdot_fail(QDOT_ETYPE, "%s[ ] takes a coordinate", name);
 }
 
 /* --- energies ----------------------------------------------------------------------- */
@@ -204,7 +204,7 @@ get_delta(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
     (void)n;
     if (!qdot_expr_is_coordinate(s->pool, index[0]))
-        return qdot_fail(QDOT_ETYPE, "delta[ ] asks a coordinate");
+        return qdot_fail(QDOT_ETYPE, "delta[ ] takes a coordinate");
     return give(s, qdot_symbol_of(s->pool, QDOT_DELTA, index[0]), value);
 }
 

@@ -406,7 +406,7 @@ static qdot_status
 independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
 {
     if (!qdot_expr_is_coordinate(s->pool, q))
-        return qdot_fail(QDOT_ETYPE, "p[ ] asks a coordinate");
+        return qdot_fail(QDOT_ETYPE, "p[ ] takes a coordinate");
     *value = qdot_symbol_of(s->pool, QDOT_MOMENTUM, q);
     return qdot_resolve_check(s->pool, *value);
 }
@@ -621,8 +621,9 @@ call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_ex
             qdot_fail(QDOT_ETYPE, "%s takes %d arguments or more, not %u", row->name,
                       row->least, n);
         else
-            qdot_fail(QDOT_ETYPE, "%s takes %d to %d arguments, not %u", row->name,
-                      row->least, row->most, n);
+            qdot_fail(QDOT_ETYPE, "%s takes %d %s %d arguments, not %u", row->name,
+                      row->least, row->most == row->least + 1 ? "or" : "to",
+                      row->most, n);
         return qdot_hint("as in %s", row->usage);
     }
     if (run != NULL && qdot_number_is_range(row->name))
@@ -640,9 +641,11 @@ call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_ex
 }
 
 static qdot_status
-not_a_function(const char *name)
+not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
 {
     qdot_fail(QDOT_ESYNTAX, "`%.200s` is not a function", name);
+    if (entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] == QDOT_T)
+        return qdot_hint("a coordinate depends on the time by itself: write %.80s", name);
     return qdot_hint("a product is written %.80s*(...)", name);
 }
 
@@ -675,7 +678,7 @@ qdot_resolve_call(qdot_cursor *c, const qdot_token *token, unsigned primes,
              qdot_scene_has_label(s->scene, spelled.at) ||
              strcmp(token->text, "pi") == 0 || strcmp(token->text, "t") == 0 ||
              qdot_names_is_family(s->names, token->text))
-        status = not_a_function(spelled.at);
+        status = not_a_function(entry, spelled.at, n, args);
     else
         status = qdot_hints_unknown_function(c, token);
     qdot_text_clear(&spelled);

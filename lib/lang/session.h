@@ -45,6 +45,7 @@ typedef struct qdot_session {
     bool refuted;                /* a check was refuted: exit 1 at the end */
     qdot_vec(qdot_expr) history; /* %1 is history.at[0] */
     qdot_vec(qdot_expr) history_over; /* coordinates its entries go by; nil, or shorter: none */
+    qdot_expr series, series_in; /* the latest series(...) and the LIST of what it is in, or nil */
     qdot_vec(qdot_measured) measured;
     qdot_vec(qdot_member) members;
     qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */

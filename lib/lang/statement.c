@@ -115,6 +115,8 @@ unknown_word(qdot_cursor *c)
     near = qdot_names_nearest(c->session->names, c->at->text, n, words);
     c->error_at = c->at->start;
     (void)qdot_fail(QDOT_ESYNTAX, "no statement begins with `%s`", c->at->text);
+    if (is_word(c->at, "for"))
+        return qdot_hint("it ends one: print k^2 for k = 1..3");
     return near != NULL && qdot_statement_find(near) != NULL
                ? qdot_hint("did you mean `%s`?", near)
                : qdot_hint("`help` lists the statements; a product is written with *");
@@ -240,7 +242,7 @@ statement_end(const engine *x, size_t i)
     bool own = false;
     long depth = 0;
 
-    for (size_t k = i + 1;; k++) {
+    for (size_t k = i;; k++) {
         const qdot_token *token = &x->tokens[k];
 
         if (token->kind == QDOT_TOKEN_END)
@@ -249,13 +251,14 @@ statement_end(const engine *x, size_t i)
             depth += strchr("([{", token->text[0]) != NULL;
             depth -= strchr(")]}", token->text[0]) != NULL;
         }
-        if (depth != 0)
+        if (depth != 0 || k == i)
             continue;
         if (is_word(token, "vs") && token[1].kind == QDOT_TOKEN_NAME &&
             is_op(token + 2, "=") && is_word(&x->tokens[i], "plot"))
             own = true;
         if (!own && is_word(token, "for") && token[1].kind == QDOT_TOKEN_NAME &&
-            (is_op(token + 2, "=") || token[2].kind == QDOT_TOKEN_NAME))
+            (is_op(token + 2, "=") || token[2].kind == QDOT_TOKEN_NAME ||
+             token[2].kind == QDOT_TOKEN_END))
             return k;
     }
 }

@@ -187,12 +187,26 @@ put_constraints(const qdot_scene *s, qdot_text *out)
 }
 
 static qdot_status
-put_statement(const qdot_scene *s, const char *word, qdot_expr e, const char *end,
-              qdot_text *out)
+put_statement(const qdot_scene *s, const char *word, qdot_expr e, qdot_text *out)
 {
     qdot_text_format(out, "%s ", word);
     QDOT_TRY(put(s, e, out));
-    qdot_text_format(out, "%s\n", end);
+    qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+static qdot_status
+put_assumption(const qdot_scene *s, const qdot_assumption *said, qdot_text *out)
+{
+    bool strict = qdot_expr_node(s->pool, said->relation)->op == QDOT_LT;
+
+    if (!said->turned)
+        return put_statement(s, "assume", said->relation, out);
+    qdot_text_add(out, "assume ");
+    QDOT_TRY(put(s, qdot_expr_arg(s->pool, said->relation, 1), out));
+    qdot_text_add(out, strict ? " > " : " >= ");
+    QDOT_TRY(put(s, qdot_expr_arg(s->pool, said->relation, 0), out));
+    qdot_text_char(out, '\n');
     return QDOT_OK;
 }
 
@@ -201,10 +215,8 @@ qdot_scene_print(const qdot_scene *s, qdot_text *out)
 {
     for (size_t i = 0; i < s->coordinates.n; i++)
         QDOT_TRY(put_coordinate(s, s->coordinates.at[i], out));
-    for (size_t i = 0; i < s->relations.n; i++)
-        QDOT_TRY(put_statement(s, "assume", s->relations.at[i], " = 0", out));
-    for (size_t i = 0; i < s->conditions.n; i++)
-        QDOT_TRY(put_statement(s, "assume", s->conditions.at[i], "", out));
+    for (size_t i = 0; i < s->assumed.n; i++)
+        QDOT_TRY(put_assumption(s, &s->assumed.at[i], out));
     for (size_t i = 0; i < s->particles.n; i++) {
         qdot_text_format(out, "particle %s",
                          s->particles.at[i].name ? s->particles.at[i].name : "");
@@ -215,17 +227,17 @@ qdot_scene_print(const qdot_scene *s, qdot_text *out)
     for (size_t i = 0; i < s->bodies.n; i++)
         QDOT_TRY(put_body(s, &s->bodies.at[i], out));
     for (size_t i = 0; i < s->gravities.n; i++)
-        QDOT_TRY(put_statement(s, "gravity", s->gravities.at[i], "", out));
+        QDOT_TRY(put_statement(s, "gravity", s->gravities.at[i], out));
     for (size_t i = 0; i < s->potentials.n; i++)
-        QDOT_TRY(put_statement(s, "potential", s->potentials.at[i], "", out));
+        QDOT_TRY(put_statement(s, "potential", s->potentials.at[i], out));
     for (size_t i = 0; i < s->springs.n; i++)
         QDOT_TRY(put_link(s, &s->springs.at[i], false, out));
     for (size_t i = 0; i < s->dampers.n; i++)
         QDOT_TRY(put_link(s, &s->dampers.at[i], true, out));
     for (size_t i = 0; i < s->dissipations.n; i++)
-        QDOT_TRY(put_statement(s, "dissipation", s->dissipations.at[i], "", out));
+        QDOT_TRY(put_statement(s, "dissipation", s->dissipations.at[i], out));
     if (s->lagrangian != QDOT_NIL)
-        QDOT_TRY(put_statement(s, "lagrangian", s->lagrangian, "", out));
+        QDOT_TRY(put_statement(s, "lagrangian", s->lagrangian, out));
     for (size_t i = 0; i < s->forces.n; i++)
         QDOT_TRY(put_force(s, &s->forces.at[i], out));
     for (size_t i = 0; i < s->torques.n; i++)

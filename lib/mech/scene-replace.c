@@ -80,7 +80,8 @@ qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to)
     replace_all(&r, s->gravities.n, s->gravities.at);
     replace_all(&r, s->potentials.n, s->potentials.at);
     replace_all(&r, s->dissipations.n, s->dissipations.at);
-    replace_all(&r, s->relations.n, s->relations.at);
+    for (size_t i = 0; i < s->assumed.n; i++)
+        replace(&r, &s->assumed.at[i].relation);
     replace_all(&r, s->conditions.n, s->conditions.at);
     replace_all(&r, s->derived->relations.n, s->derived->relations.at);
     replace(&r, &s->lagrangian);

@@ -104,7 +104,7 @@ qdot_scene_free(qdot_scene *s)
     qdot_free(s->forces.at);
     qdot_free(s->torques.at);
     qdot_free(s->constraints.at);
-    qdot_free(s->relations.at);
+    qdot_free(s->assumed.at);
     qdot_free(s->conditions.at);
     qdot_derived_free(s->derived);
     qdot_free(s);
@@ -465,8 +465,9 @@ add_slopes(qdot_scene *s, qdot_expr relation)
 }
 
 qdot_status
-qdot_scene_assume(qdot_scene *s, qdot_expr relation)
+qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned)
 {
+    const qdot_assumption said = {relation, turned};
     qdot_pool *pool = s->pool;
     size_t before = s->derived->relations.n;
     qdot_expr f;
@@ -477,7 +478,10 @@ qdot_scene_assume(qdot_scene *s, qdot_expr relation)
         return qdot_fail(QDOT_ETYPE, "an equation or an inequality belongs here");
     if (qdot_expr_node(pool, relation)->op != QDOT_EQ) {
         QDOT_TRY(qdot_vec_push(&s->conditions, relation));
-        return changed(s);
+        status = qdot_vec_push(&s->assumed, said);
+        if (status != QDOT_OK)
+            s->conditions.n--;
+        return status == QDOT_OK ? changed(s) : status;
     }
     f = qdot_sub(pool, qdot_expr_arg(pool, relation, 0),
                  qdot_expr_arg(pool, relation, 1));
@@ -488,13 +492,13 @@ qdot_scene_assume(qdot_scene *s, qdot_expr relation)
             return QDOT_OK;
         return qdot_fail(QDOT_EINVAL, "this can never hold");
     }
-    status = qdot_vec_push(&s->relations, f);
+    status = qdot_vec_push(&s->assumed, said);
     if (status == QDOT_OK) {
         status = add_relation(s, f);
         if (status == QDOT_OK)
             status = add_slopes(s, f);
         if (status != QDOT_OK) {
-            s->relations.n--;
+            s->assumed.n--;
             s->derived->relations.n = before;
             return status;
         }

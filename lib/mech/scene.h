@@ -68,6 +68,12 @@ typedef struct {
     qdot_vec(qdot_expr) targets, values; /* q or q' becomes the value, all at once */
 } qdot_event;
 
+/* What `assume` said, as it was said. */
+typedef struct {
+    qdot_expr relation;
+    bool turned; /* b > a, of the relation a < b */
+} qdot_assumption;
+
 typedef struct qdot_derived qdot_derived; /* mech/quantity.c */
 
 typedef struct {
@@ -84,8 +90,8 @@ typedef struct {
     qdot_vec(qdot_torque) torques;
     qdot_vec(qdot_constraint) constraints;
     qdot_vec(qdot_event) events;
-    qdot_vec(qdot_expr) relations;  /* `assume`: scalars that are 0 */
-    qdot_vec(qdot_expr) conditions; /* `assume c > a` */
+    qdot_vec(qdot_assumption) assumed;
+    qdot_vec(qdot_expr) conditions; /* its inequalities */
     qdot_expr lagrangian;           /* stated; nil: T - V */
     qdot_vec(char *) dropped;       /* what the latest call left out, for a notice: components of
                                        a constraint that hold identically ("pin, 2"); what acted
@@ -126,8 +132,9 @@ QDOT_MUST_CHECK qdot_status qdot_scene_constraint(qdot_scene *s, const char *lab
  * does not know; a target twice. */
 QDOT_MUST_CHECK qdot_status qdot_scene_event(qdot_scene *s, const qdot_event *event);
 const qdot_event *qdot_scene_find_event(const qdot_scene *s, const char *label);
-/* An equation or inequality the engine may use. */
-QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation);
+/* An equation or inequality the engine may use; turned: a < b was written b > a. QDOT_ETYPE: it is
+ * neither; QDOT_EINVAL: it can never hold. */
+QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned);
 /* Take the labelled thing (particle, body, spring, damper, force, torque, constraint, event) out again.
  * What was declared to act on a removed particle or body goes with it, named in s->dropped. */
 QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);

@@ -309,7 +309,7 @@ static inline void
 assume(kit *k, const char *left, const char *right)
 {
     must(qdot_scene_assume(
-        k->scene, qdot_rel(k->pool, QDOT_EQ, E(k, "%s", left), E(k, "%s", right))));
+        k->scene, qdot_rel(k->pool, QDOT_EQ, E(k, "%s", left), E(k, "%s", right)), false));
 }
 
 /* e, shown when a test fails. */

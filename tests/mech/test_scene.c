@@ -253,7 +253,7 @@ everything(qdot_pool *pool, qdot_scene *s, const qdot_expr *e)
     QDOT_TRY(qdot_scene_force(s, &force));
     QDOT_TRY(qdot_scene_torque(s, &torque));
     QDOT_TRY(qdot_scene_constraint(s, "pin", e[3], e[4]));
-    QDOT_TRY(qdot_scene_assume(s, qdot_rel(pool, QDOT_EQ, e[5], QDOT_ONE)));
+    QDOT_TRY(qdot_scene_assume(s, qdot_rel(pool, QDOT_EQ, e[5], QDOT_ONE), false));
     qdot_mech_numeric_forcing(s);
     qdot_mech_equations(s);
     qdot_mech_energy(s);
