@@ -134,8 +134,8 @@ functions_map_over_what_holds_numbers(void **state)
     assert_same(&r, "transpose([1, 2; 3, 4])[1, 2]", "3");
     assert_fails(&r, "subs(m, g)", QDOT_ETYPE, 0, "equations, not a number", "x = a");
     assert_fails(&r, "subs(m, 2 = g)", QDOT_ETYPE, 0, "replace a number", "");
-    assert_fails(&r, "lhs(m)", QDOT_ETYPE, 0, "asks an equation, not a number", "");
-    assert_fails(&r, "diff(m, 2)", QDOT_ETYPE, 0, "asks a symbol", "");
+    assert_fails(&r, "lhs(m)", QDOT_ETYPE, 0, "takes an equation, not a number", "");
+    assert_fails(&r, "diff(m, 2)", QDOT_ETYPE, 0, "takes a symbol", "");
     assert_fails(&r, "atan2((1, 2), 1)", QDOT_ETYPE, 0, "not a vector", "");
     assert_fails(&r, "m[1]", QDOT_ETYPE, 0, "no entries", "");
     assert_fails(&r, "(1, 2)[3]", QDOT_EDOMAIN, 6, "", "");
