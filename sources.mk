@@ -21,6 +21,7 @@ num_sources = \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
 	lib/num/ldlt.c \
+	lib/num/least-move.c \
 	lib/num/real.c \
 	lib/num/row-space.c \
 	lib/num/saddle.c \
@@ -38,6 +39,7 @@ num_headers = \
 	lib/num/cholesky.h \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
+	lib/num/least-move.h \
 	lib/num/real.h \
 	lib/num/row-space.h \
 	lib/num/saddle.h \
@@ -284,6 +286,7 @@ sim_sources = \
 	lib/sim/distance.c \
 	lib/sim/domain.c \
 	lib/sim/drift.c \
+	lib/sim/eliminated.c \
 	lib/sim/ensemble.c \
 	lib/sim/failure.c \
 	lib/sim/horizon.c \
@@ -334,6 +337,7 @@ sim_headers = \
 	lib/sim/distance.h \
 	lib/sim/domain.h \
 	lib/sim/drift.h \
+	lib/sim/eliminated.h \
 	lib/sim/ensemble.h \
 	lib/sim/failure.h \
 	lib/sim/horizon.h \

@@ -6,6 +6,7 @@
 
 #include "sim/blocks.h"
 #include "sim/direct.h"
+#include "sim/eliminated.h"
 #include "sim/constrained.h"
 #include "sim/momenta.h"
 #include "sim/shifted.h"
@@ -21,6 +22,7 @@ struct qdot_bind {
     qdot_direct *direct;        /* where the equations are smooth, one of the two: */
     qdot_shifted *shifted;
     qdot_constrained_series *tied;            /* or, of a plan with constraints: */
+    qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
     const qdot_ode_series *series; /* its callbacks; else NULL */
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of the tape */
@@ -60,6 +62,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_constrained_free(b->held);
     qdot_direct_free(b->direct);
     qdot_shifted_free(b->shifted);
+    qdot_eliminated_free(b->eliminated);
     qdot_constrained_series_free(b->tied);
     qdot_tape_free(b->tape);
     if (b->reduced_blocks.plan)
@@ -345,6 +348,10 @@ make_held(qdot_bind *b, bool shaken)
         return QDOT_OK;
     QDOT_TRY(qdot_constrained_series_new(b->plan, shaken, &b->tied));
     b->series = qdot_constrained_series_get(b->tied);
+    if (!b->plan->eliminated)
+        return QDOT_OK;
+    QDOT_TRY(qdot_eliminated_new(b->plan, shaken, b->series, &b->eliminated));
+    b->series = qdot_eliminated_series(b->eliminated);
     return QDOT_OK;
 }
 

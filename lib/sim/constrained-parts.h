@@ -3,6 +3,7 @@
 #ifndef QDOT_SIM_CONSTRAINED_PARTS_H
 #define QDOT_SIM_CONSTRAINED_PARTS_H
 
+#include "num/least-move.h"
 #include "sim/constrained.h"
 
 /* The rows that restrict positions, velocities, accelerations: kinds up to it. */
@@ -10,6 +11,11 @@ typedef struct {
     qdot_saddle saddle;
     size_t m;
     size_t *row; /* [m] of the constraints */
+    double *residual; /* [m] what is left of those rows, the carry counted in */
+    bool filled; /* M and A hold numbers */
+    bool few;    /* M is diagonal, and a projection goes by `move`, if that is */
+    bool moves;  /* factored */
+    qdot_least_move move;
 } qdot_constrained_level;
 
 struct qdot_constrained {

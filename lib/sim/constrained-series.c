@@ -487,7 +487,7 @@ estimate_cost(qdot_constrained_series *e)
     for (int kind = 0; kind < 3; kind++)
         if (e->kinds[kind].taylor)
             length += 2 * (double)qdot_taylor_length(e->kinds[kind].taylor);
-    cost[0] = 500 + 15.0 * (double)qdot_tape_calls(e->plan->tape) + 4 * length + 5 * all +
+    cost[0] = 500 + qdot_constrained_cost(e->plan) + 15.0 * (double)qdot_tape_calls(e->plan->tape) + 4 * length + 5 * all +
               3 * filled * filled / all + (s->inverse ? all * solve : 0);
     cost[1] = 20 + 1.2 * length + 3.5 * qdot_constrained_series_convolutions(e) + 10 * n +
               (s->inverse ? 0.5 * all * all : solve);

@@ -26,6 +26,8 @@ qdot_constrained_free(qdot_constrained *h)
     for (int l = 0; l < 3; l++) {
         qdot_saddle_clear(&h->levels[l].saddle);
         qdot_free(h->levels[l].row);
+        qdot_free(h->levels[l].residual);
+        qdot_free(h->levels[l].move.W);
     }
     qdot_tape_free(h->positions);
     qdot_tape_free(h->velocities);
@@ -305,23 +307,37 @@ factor_metric(qdot_constrained *h, level *l)
 {
     qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
     unpack(h, l, h->out);
-    return factor(h->plan, &l->saddle, l->row);
+    l->filled = true;
+    l->moves = l->few && qdot_least_move_factor(&l->move, l->saddle.A, l->saddle.M,
+                                                h->plan->n + 1);
+    return l->moves ? QDOT_OK : factor(h->plan, &l->saddle, l->row);
 }
 
-/* The largest residual over its bound; INFINITY before there are bounds. What the carry
- * adds is a matter of A, once that is there. */
+/* What is left of the rows. What the carry adds is a matter of A, once that is there. */
+static void
+take_residual(level *l, const double *residual, const double *carry)
+{
+    for (size_t k = 0; k < l->m; k++) {
+        l->residual[k] = residual[l->row[k]];
+        if (carry && l->filled)
+            l->residual[k] += qdot_saddle_row(&l->saddle, k, carry);
+    }
+}
+
+/* The largest of that over its bound; INFINITY before there are bounds. */
 static double
-excess(const level *l, const double *residual, const double *bound, const double *carry)
+excess(const level *l, const double *bound)
 {
     double most = 0;
 
     for (size_t k = 0; k < l->m; k++) {
-        double f = residual[l->row[k]], b = bound[l->row[k]];
+        const double f = fabs(l->residual[k]), b = bound[l->row[k]];
 
-        if (carry && l->saddle.factored > 0)
-            f += qdot_saddle_row(&l->saddle, k, carry);
-        if (!(fabs(f) <= b))
-            most = fmax(most, b > 0 && isfinite(f) ? fabs(f) / b : INFINITY);
+        if (f <= b)
+            continue;
+        if (!(b > 0 && f < INFINITY))
+            return INFINITY;
+        most = f > most * b ? f / b : most;
     }
     return most;
 }
@@ -338,23 +354,24 @@ advance(double *hi, double *lo, double x)
 
 /* One step of Newton's method on x, q or q'. */
 static void
-step(const qdot_constrained *h, level *l, const double *residual, double *x,
-     double *carry, double *moved)
+step(const qdot_constrained *h, level *l, double *x, double *carry, double *moved)
 {
     const size_t n = h->plan->n;
     double *change = l->saddle.x;
 
-    memset(change, 0, n * sizeof *change);
-    for (size_t k = 0; k < l->m; k++) {
-        double f = residual[l->row[k]];
-
-        if (carry)
-            f += qdot_saddle_row(&l->saddle, k, carry);
-        change[n + k] = -f;
+    for (size_t k = 0; k < l->m; k++)
+        change[n + k] = -l->residual[k];
+    if (l->moves) {
+        qdot_least_move_solve(&l->move, change + n, change);
+    } else {
+        memset(change, 0, n * sizeof *change);
+        qdot_saddle_solve(&l->saddle);
     }
-    qdot_saddle_solve(&l->saddle);
     for (size_t i = 0; i < n; i++) {
-        *moved = fmax(*moved, fabs(change[i]) / fmax(1, fabs(x[i])));
+        const double size = fabs(x[i]), by = fabs(change[i]);
+
+        if (!(by <= *moved * (size > 1 ? size : 1)))
+            *moved = by / (size > 1 ? size : 1);
         if (carry)
             advance(&x[i], &carry[i], change[i]);
         else
@@ -401,7 +418,8 @@ project(qdot_constrained *h, const part *p, double t, const double *y, bool *fac
 
         qdot_constrained_load(h, t, y);
         p->find(h);
-        now = excess(l, p->residual, p->bound, p->carry);
+        take_residual(l, p->residual, p->carry);
+        now = excess(l, p->bound);
         if (now <= 1)
             return QDOT_OK;
         /* what is left is rounding when it shrinks no more */
@@ -415,12 +433,13 @@ project(qdot_constrained *h, const part *p, double t, const double *y, bool *fac
         if (!bounded) {
             raise_bounds(l, p->x, p->bound);
             bounded = true;
-            now = excess(l, p->residual, p->bound, p->carry);
+            take_residual(l, p->residual, p->carry);
+            now = excess(l, p->bound);
             if (now <= 1)
                 return QDOT_OK;
         }
         before = now;
-        step(h, l, p->residual, p->x, p->carry, moved);
+        step(h, l, p->x, p->carry, moved);
     }
     return bounded && is_rounding(l, p->residual, p->x)
                ? QDOT_OK
@@ -443,6 +462,23 @@ qdot_constrained_project(double t, double *y, double *carry, double *moved, void
     QDOT_TRY(project(h, &q, t, y, &factored, moved));
     factored = factored && v.l == q.l;
     return project(h, &v, t, y, &factored, moved);
+}
+
+double
+qdot_constrained_cost(const qdot_plan *p)
+{
+    const qdot_constraints *c = p->constraints;
+    const double often = (double)(qdot_tape_operations(c->positions) +
+                                  qdot_tape_operations(c->velocities));
+    const double calls = (double)(qdot_tape_calls(c->positions) +
+                                  qdot_tape_calls(c->velocities));
+
+    if (p->treatment != QDOT_RUN_PROJECT)
+        return 0;
+    /* three evaluations of either level, one of the metric, the small steps between */
+    return 150 + 3 * (often + 10 * calls) + (double)qdot_tape_operations(c->metric) +
+           10 * (double)qdot_tape_calls(c->metric) + 60.0 * (double)c->m +
+           15.0 * (double)c->n_slopes + 10.0 * (double)p->n;
 }
 
 /* --- the start ---------------------------------------------------------------------- */
@@ -570,8 +606,14 @@ make_level(qdot_constrained *h, qdot_constraint_kind kind)
         return QDOT_OK;
     }
     l->row = qdot_calloc(l->m + 1, sizeof *l->row);
-    if (!l->row)
+    l->residual = qdot_calloc(l->m + 1, sizeof *l->residual);
+    l->move = (qdot_least_move){.n = h->plan->n, .m = l->m};
+    l->move.W = qdot_calloc(l->m * h->plan->n + 1, sizeof *l->move.W);
+    if (!l->row || !l->residual || !l->move.W)
         return QDOT_ENOMEM;
+    l->few = l->m <= QDOT_LEAST_MOVE_ROWS && c->n_masses == h->plan->n && !h->plan->indefinite;
+    for (size_t k = 0; k < c->n_masses; k++)
+        l->few = l->few && c->masses[k].row == c->masses[k].column;
     for (size_t k = 0, at = 0; k < c->m; k++)
         if (c->rows[k].kind <= kind)
             l->row[at++] = k;

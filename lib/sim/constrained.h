@@ -70,6 +70,9 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_put(qdot_constrained *constrained, 
                                                  double *y, const bool *set,
                                                  const char *who);
 
+/* Nanoseconds that bringing a step's end back takes, about: 0 where nothing is done. */
+double qdot_constrained_cost(const qdot_plan *plan);
+
 /* What y breaks: the largest |f| of the holonomic rows; the largest |df/dt| or |f| of the
  * velocity rows; which rows these are (SIZE_MAX: none). */
 typedef struct {

@@ -25,6 +25,8 @@ qdot_constraints_free(qdot_constraints *c)
     qdot_free(c->masses);
     qdot_free(c->slopes);
     qdot_free(c->sign);
+    qdot_free(c->A);
+    qdot_free(c->gamma);
     qdot_tape_free(c->positions);
     qdot_tape_free(c->velocities);
     qdot_tape_free(c->metric);
@@ -278,10 +280,27 @@ lower_motion(builder *b)
     return status;
 }
 
+/* A and gamma, for whoever makes further equations of them. */
+static qdot_status
+keep_expressions(builder *b)
+{
+    qdot_constraints *c = b->c;
+
+    c->A = qdot_calloc(c->n_slopes + 1, sizeof *c->A);
+    c->gamma = qdot_calloc(c->m, sizeof *c->gamma);
+    if (!c->A || !c->gamma)
+        return QDOT_ENOMEM;
+    if (c->n_slopes > 0)
+        memcpy(c->A, b->slopes.at, c->n_slopes * sizeof *c->A);
+    memcpy(c->gamma, b->gamma.at, c->m * sizeof *c->gamma);
+    return QDOT_OK;
+}
+
 static qdot_status
 build(builder *b, const qdot_scene *scene)
 {
     QDOT_TRY(read_rows(b, scene));
+    QDOT_TRY(keep_expressions(b));
     QDOT_TRY(read_masses(b));
     QDOT_TRY(lower(b->plan, &b->positions, &b->c->positions));
     QDOT_TRY(lower(b->plan, &b->velocities, &b->c->velocities));

@@ -42,6 +42,8 @@ struct qdot_constraints {
     qdot_constraints_entry *slopes; /* [n_slopes] of A, row by row */
     size_t n_slopes;
     signed char *sign; /* [n_slopes] slopes of `series` times it are those of A */
+    qdot_expr *A;      /* [n_slopes] those of A */
+    qdot_expr *gamma;  /* [m] */
 
     /* From q [n], q' [n], t, n the plan's. Residuals: */
     qdot_tape *positions;  /* f of the holonomic rows, in their order */

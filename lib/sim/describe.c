@@ -4,6 +4,7 @@
 #include "ode/taylor.h"
 #include "sim/bind.h"
 #include "sim/constraints.h"
+#include "sim/eliminated.h"
 #include "sim/stage.h"
 
 /* What is integrated. */
@@ -114,8 +115,9 @@ say_constraints(const qdot_plan *p, qdot_text *out)
             before = ",";
         }
     qdot_text_format(out,
-                     "; [M A^T; A 0] (q'', -lambda) = (f, gamma), %zu entries in A; by the "
-                     "null space of A, pivoted QR, residual-corrected\n",
+                     "; [M A^T; A 0] (q'', -lambda) = (f, gamma), %zu entries in A; by its "
+                     "pattern, or by the null space of A, pivoted QR; "
+                     "residual-corrected\n",
                      c->n_slopes);
     qdot_text_format(out, "drift: %s\n", treatments[p->treatment]);
 }
@@ -147,7 +149,13 @@ say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
     qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n",
                      qdot_ode_taylor_order(system.series, tol, 0), tol);
     qdot_bind_free(bind);
-    if (p->constraints)
+    if (p->eliminated)
+        qdot_text_format(out,
+                         "form: multipliers eliminated beforehand, %g convolutions an order; "
+                         "where constraints come near each other, and under tolerances below "
+                         "%g, the same matrix at every order\n",
+                         p->eliminated->convolutions_derived, QDOT_ELIMINATED_TOL);
+    else if (p->constraints)
         qdot_text_format(out,
                          "form: the same matrix at every order, %g convolutions an order; "
                          "constraints by their own coefficients, nothing differentiated; "

@@ -353,6 +353,12 @@ qdot_direct_keep(qdot_direct *e, const double *hi, const double *lo)
     e->lo = lo;
 }
 
+const double *
+qdot_direct_output(const qdot_direct *e, size_t i)
+{
+    return e->outputs[i];
+}
+
 const qdot_ode_series *
 qdot_direct_series(const qdot_direct *e)
 {

@@ -29,6 +29,9 @@ void qdot_direct_free(qdot_direct *direct);
  * an expansion begins. */
 void qdot_direct_keep(qdot_direct *direct, const double *hi, const double *lo);
 
+/* Coefficients of output i of the plan's tape. */
+const double *qdot_direct_output(const qdot_direct *direct, size_t i);
+
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_direct_series(const qdot_direct *direct);
 

@@ -7,6 +7,7 @@
 #include "expr/walk.h"
 #include "sim/constraints.h"
 #include "sim/direct.h"
+#include "sim/eliminated.h"
 #include "sim/parts.h"
 #include "sim/quotient.h"
 #include "sim/residual.h"
@@ -52,6 +53,7 @@ qdot_plan_free(qdot_plan *p)
     qdot_free(p->parts);
     qdot_free(p->place);
     qdot_plan_free(p->reduced);
+    qdot_plan_free(p->eliminated);
     qdot_free(p->kept);
     qdot_tape_free(p->momenta);
     qdot_free(p);
@@ -418,7 +420,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     /* methods that keep the past have no use for a state moved off it */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
-    return QDOT_OK;
+    return request->digits > 0 ? QDOT_OK : qdot_eliminated_find(p, request->tol);
 }
 
 static qdot_status

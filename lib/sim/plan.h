@@ -53,6 +53,7 @@ struct qdot_plan {
      * index-1 equations. */
     qdot_constraints *constraints;
     qdot_run_treatment treatment;
+    qdot_plan *eliminated; /* their q'' without multipliers (sim/eliminated.h); or NULL */
 
     /* Values of the request, for expressions asked for later; owned copies. */
     size_t n_values;

@@ -9,6 +9,7 @@
 
 #include "kit.h"
 
+#include "num/least-move.h"
 #include "num/saddle.h"
 
 enum { most = 40 };
@@ -254,6 +255,40 @@ a_pattern_is_no_other_solution(void **state)
     qdot_saddle_clear(&full);
 }
 
+/* The saddle point with a diagonal M and nothing but c on the right. */
+static void
+few_rows_move_least(void **state)
+{
+    (void)state;
+    for (size_t m = 1; m <= QDOT_LEAST_MOVE_ROWS; m++) {
+        const size_t n = m + 3;
+        double W[QDOT_LEAST_MOVE_ROWS * most], c[QDOT_LEAST_MOVE_ROWS], x[most];
+        qdot_least_move move = {.n = n, .m = m, .W = W};
+        qdot_saddle s;
+        size_t failed;
+
+        assert_int_equal(qdot_saddle_init(&s, n, m, false), QDOT_OK);
+        for (size_t i = 0; i < n; i++)
+            s.M[i * (n + 1)] = 0.3 + (double)i;
+        fill_rows(&s);
+        for (size_t k = 0; k < m; k++)
+            s.x[n + k] = c[k] = uniform();
+        assert_true(qdot_least_move_factor(&move, s.A, s.M, n + 1));
+        qdot_least_move_solve(&move, c, x);
+        assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+        qdot_saddle_solve(&s);
+        for (size_t i = 0; i < n; i++)
+            assert_true(fabs(x[i] - s.x[i]) < 1e-13);
+
+        /* a row that repeats another, a coordinate without mass */
+        memcpy(s.A + (m - 1) * n, s.A, n * sizeof *s.A);
+        assert_int_equal(qdot_least_move_factor(&move, s.A, s.M, n + 1), m == 1);
+        s.M[0] = 0;
+        assert_false(qdot_least_move_factor(&move, s.A, s.M, n + 1));
+        qdot_saddle_clear(&s);
+    }
+}
+
 int
 main(void)
 {
@@ -264,6 +299,7 @@ main(void)
         cmocka_unit_test(a_lost_rank_is_told),
         cmocka_unit_test(the_weakest_combination_is_found),
         cmocka_unit_test(a_pattern_is_no_other_solution),
+        cmocka_unit_test(few_rows_move_least),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,8 @@
 #include "scenes.h"
 
 #include "sim/bind.h"
+#include "sim/constrained-series.h"
+#include "sim/constraints.h"
 
 #include <math.h>
 
@@ -404,6 +406,112 @@ implicit_methods_agree(void **state)
     end(&f);
 }
 
+/* A bob on a sphere, its velocities tied too. */
+static void
+tied_bob(fixture *f)
+{
+    qdot_expr q[3], r2 = QDOT_ZERO;
+
+    begin(f);
+    q[0] = coordinate(f, "x");
+    q[1] = coordinate(f, "y");
+    q[2] = coordinate(f, "z");
+    must(qdot_scene_particle(f->scene, "bob", parameter(f, "m"),
+                             qdot_vector(f->pool, 3, q)));
+    must(qdot_scene_gravity(
+        f->scene, qdot_vector(f->pool, 3,
+                              (qdot_expr[]){QDOT_ZERO, QDOT_ZERO,
+                                            qdot_neg(f->pool, parameter(f, "g"))})));
+    for (int i = 0; i < 3; i++)
+        r2 = qdot_add(f->pool, r2, square(f, q[i]));
+    must(qdot_scene_constraint(f->scene, "sphere", r2, QDOT_ONE));
+    must(qdot_scene_constraint(f->scene, "blade", qdot_symbol_jet(f->pool, q[0], 1),
+                               times(f, q[2], qdot_symbol_jet(f->pool, q[1], 1))));
+    set(f, "m", "2");
+    set(f, "g", "9.81");
+}
+
+/* Multipliers eliminated beforehand or solved for at every order: one motion. */
+static void
+both_series_are_one(void **state)
+{
+    static const double y[] = {0.48, 0.6, 0.64, 0.32, 0.5, -0.70875};
+    const size_t n = 3;
+    qdot_constrained_series *whole;
+    const qdot_ode_series *series[2];
+    qdot_bind *bind;
+    qdot_plan *plan;
+    fixture f;
+
+    (void)state;
+    tied_bob(&f);
+    f.request.tol = 1e-5;
+    must(qdot_plan_new(f.scene, &f.request, &plan));
+    assert_non_null(plan->eliminated);
+    must(qdot_bind_new(plan, false, &bind));
+    must(qdot_constrained_series_new(plan, false, &whole));
+    series[0] = qdot_bind_system(bind).series;
+    series[1] = qdot_constrained_series_get(whole);
+    for (int k = 0; k < 2; k++) {
+        must(series[k]->begin(0.3, y, 0.5, series[k]->user));
+        must(series[k]->extend(20, series[k]->user));
+    }
+    assert_true(series[0]->x != series[1]->x);
+    for (size_t i = 0; i < 2 * n; i++)
+        for (size_t k = 0; k < 20; k++) {
+            double a = series[0]->x[i * series[0]->stride + k];
+            double b = series[1]->x[i * series[1]->stride + k];
+
+            assert_true(fabs(a - b) < 1e-13 * fmax(1, fabs(b)));
+        }
+    qdot_constrained_series_free(whole);
+    qdot_bind_free(bind);
+    qdot_plan_free(plan);
+    /* to the last digits no elimination without a correction */
+    f.request.tol = 1e-12;
+    must(qdot_plan_new(f.scene, &f.request, &plan));
+    assert_null(plan->eliminated);
+    qdot_plan_free(plan);
+    end(&f);
+}
+
+/* Where rows come near each other the form that knows of it takes over. */
+static void
+rows_nearly_dependent_are_not_eliminated(void **state)
+{
+    qdot_constrained_series *whole;
+    const qdot_ode_series *series[2];
+    double y[] = {0, 0, 0, 0, 0, 0};
+    qdot_bind *bind;
+    qdot_plan *plan;
+    fixture f;
+
+    (void)state;
+    tied_bob(&f);
+    f.request.tol = 1e-5;
+    must(qdot_plan_new(f.scene, &f.request, &plan));
+    must(qdot_bind_new(plan, false, &bind));
+    must(qdot_constrained_series_new(plan, false, &whole));
+    series[0] = qdot_bind_system(bind).series;
+    series[1] = qdot_constrained_series_get(whole);
+    /* the sphere's normal (x, y, z) beside the blade's (1, -z, 0) */
+    y[2] = 0.1;
+    y[0] = sqrt((1 - y[2] * y[2]) / (1 + y[2] * y[2]));
+    y[1] = -y[2] * y[0];
+    for (int k = 0; k < 2; k++) {
+        must(series[k]->begin(0, y, 1, series[k]->user));
+        must(series[k]->extend(12, series[k]->user));
+    }
+    for (size_t i = 0; i < 6; i++)
+        for (size_t k = 0; k < 12; k++)
+            assert_true(series[0]->x[i * series[0]->stride + k] ==
+                        series[1]->x[i * series[1]->stride + k]);
+    qdot_constrained_series_free(whole);
+    qdot_bind_free(bind);
+    qdot_plan_free(plan);
+    end(&f);
+}
+
 int
 main(void)
 {
@@ -418,6 +526,8 @@ main(void)
         cmocka_unit_test(what_cannot_be_held_is_refused),
         cmocka_unit_test(slopes_are_those_of_the_right_hand_side),
         cmocka_unit_test(implicit_methods_agree),
+        cmocka_unit_test(both_series_are_one),
+        cmocka_unit_test(rows_nearly_dependent_are_not_eliminated),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

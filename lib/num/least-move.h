@@ -1,0 +1,33 @@
+/* least-move.h -- the shortest way onto a few planes, in a diagonal metric.
+ *
+ *     min  x^T D x / 2   where A x = c:   x = D^-1 A^T (A D^-1 A^T)^-1 c,
+ *
+ * A m x n with m at most QDOT_LEAST_MOVE_ROWS, D positive. The same as the saddle point
+ * (num/saddle.h) with b = 0, by Cholesky's method on m x m.
+ *
+ * Source  Golub & Van Loan, Matrix Computations, 4th ed., 5.6 (least norm).
+ * Tests   tests/num/test_saddle.c
+ */
+#ifndef QDOT_NUM_LEAST_MOVE_H
+#define QDOT_NUM_LEAST_MOVE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#define QDOT_LEAST_MOVE_ROWS 4
+
+typedef struct {
+    size_t n, m;
+    double L[QDOT_LEAST_MOVE_ROWS][QDOT_LEAST_MOVE_ROWS]; /* its diagonal inverted */
+    double *W; /* [m x n] A D^-1; the caller's */
+} qdot_least_move;
+
+/* Factor A [m x n] and D, every `step`th of a row of doubles [n]. false where a row has
+ * less than 1e-3 left (as a sine) beyond those before it, or D is not positive. */
+bool qdot_least_move_factor(qdot_least_move *s, const double *A, const double *D,
+                            size_t step);
+
+/* x [n] from c [m], which is overwritten. */
+void qdot_least_move_solve(const qdot_least_move *s, double *c, double *x);
+
+#endif
