@@ -536,6 +536,7 @@ script_tests = \
 	tests/script/cases.sh \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
+	tests/script/constraint-switches.lag \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
 	tests/script/derive.lag \
@@ -616,6 +617,8 @@ script_tests = \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
 	tests/bad/constraint-contradicts.lag \
+	tests/bad/constraint-corner.lag \
+	tests/bad/constraint-jump.lag \
 	tests/bad/constraint-no-coordinate.lag \
 	tests/bad/constraint-nonlinear-acceleration.lag \
 	tests/bad/constraints-option.lag \
@@ -695,6 +698,7 @@ script_tests = \
 	tests/bad/pi-redefined.lag \
 	tests/bad/picture-kind.lag \
 	tests/bad/prime-of-product.lag \
+	tests/bad/race-methods.lag \
 	tests/bad/race-option.lag \
 	tests/bad/race-stopped.lag \
 	tests/bad/reactions-none.lag \
@@ -822,6 +826,8 @@ test_files = \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
 	tests/bad/constraint-contradicts.out \
+	tests/bad/constraint-corner.out \
+	tests/bad/constraint-jump.out \
 	tests/bad/constraint-no-coordinate.out \
 	tests/bad/constraint-nonlinear-acceleration.out \
 	tests/bad/constraints-option.out \
@@ -901,6 +907,7 @@ test_files = \
 	tests/bad/pi-redefined.out \
 	tests/bad/picture-kind.out \
 	tests/bad/prime-of-product.out \
+	tests/bad/race-methods.out \
 	tests/bad/race-option.out \
 	tests/bad/race-stopped.out \
 	tests/bad/reactions-none.out \
@@ -1063,6 +1070,7 @@ test_files = \
 	tests/script/cases.out \
 	tests/script/check.out \
 	tests/script/conserved.out \
+	tests/script/constraint-switches.out \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
 	tests/script/derive.out \

@@ -153,7 +153,9 @@ refuse_option(qdot_cursor *c)
                       options[i]);
             return qdot_hint("race T0..T1 [to \"FILE\"]");
         }
-    return qdot_cursor_expected(c, "`to` or the end of the statement");
+    (void)qdot_cursor_expected(c, "`to` or the end of the statement");
+    return qdot_hint("race T0..T1 [to \"FILE\"] compares formulations; `workprecision` "
+                     "compares methods");
 }
 
 qdot_status

@@ -1,6 +1,7 @@
 /* minimal.c -- constraints solved one after another, and the scene written anew. */
 #include "mech/minimal.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,6 +16,8 @@ typedef struct {
     bool *solved;    /* [constraints] */
     bool *gone;      /* [n] coordinates that were solved for */
     qdot_expr *angle; /* [n] new coordinates, as many as out->fresh */
+    double (*size)(qdot_expr e, void *user);
+    void *user;
 } work;
 
 void
@@ -56,8 +59,9 @@ put_in(const work *w, qdot_expr f)
 
 /* c x + g = 0 for the first x of which c does not move. */
 static bool
-solve_linear(work *w, qdot_expr f)
+solve_linear(work *w, qdot_expr f, qdot_expr whole)
 {
+    (void)whole;
     for (size_t i = 0; i < w->out->n; i++) {
         qdot_expr x = w->s->coordinates.at[i], c = qdot_diff(w->pool, f, x), g;
 
@@ -73,29 +77,67 @@ solve_linear(work *w, qdot_expr f)
     return false;
 }
 
-/* The centre (a, b), the square of the radius and 2 s of f as a circle of x and y. */
-static bool
-is_circle(const work *w, qdot_expr f, qdot_expr x, qdot_expr y, qdot_expr *a,
-          qdot_expr *b, qdot_expr *square)
-{
-    qdot_pool *pool = w->pool;
-    qdot_expr fx = qdot_diff(pool, f, x), fy = qdot_diff(pool, f, y);
-    qdot_expr s = qdot_diff(pool, fx, x), at[] = {x, y}, zero[] = {QDOT_ZERO, QDOT_ZERO};
+enum { most_axes = 3 };
 
-    if (s == QDOT_NIL || s == QDOT_ZERO || moves(w, s) ||
-        qdot_mech_tidy(w->s, qdot_diff(pool, fx, y)) != QDOT_ZERO ||
-        qdot_mech_tidy(w->s, qdot_sub(pool, s, qdot_diff(pool, fy, y))) != QDOT_ZERO)
+/* A circle or a sphere: its centre and the square of its radius. */
+typedef struct {
+    qdot_expr centre[most_axes], square;
+} ball;
+
+/* Of f as one of x [m], s ((x - a)^2 + ... - l^2) with 2 s its second derivatives. */
+static bool
+is_ball(const work *w, qdot_expr f, size_t m, const qdot_expr *x, ball *of)
+{
+    static const qdot_expr zero[most_axes] = {QDOT_ZERO, QDOT_ZERO, QDOT_ZERO};
+    qdot_pool *pool = w->pool;
+    qdot_expr s = qdot_diff(pool, qdot_diff(pool, f, x[0]), x[0]);
+
+    if (s == QDOT_NIL || s == QDOT_ZERO || moves(w, s))
         return false;
-    *a = qdot_neg(pool, qdot_div(pool, qdot_subs(pool, fx, 2, at, zero), s));
-    *b = qdot_neg(pool, qdot_div(pool, qdot_subs(pool, fy, 2, at, zero), s));
-    *square = qdot_add(pool, qdot_mul(pool, *a, *a), qdot_mul(pool, *b, *b));
-    *square = qdot_sub(pool, *square,
-                       qdot_div(pool,
-                                qdot_mul(pool, qdot_expr_int(pool, 2),
-                                         qdot_subs(pool, f, 2, at, zero)),
-                                s));
-    *square = qdot_mech_tidy(w->s, *square);
-    return *square != QDOT_NIL && *square != QDOT_ZERO && !moves(w, *square);
+    of->square = QDOT_ZERO;
+    for (size_t i = 0; i < m; i++) {
+        const qdot_expr slope = qdot_diff(pool, f, x[i]);
+
+        for (size_t j = 0; j <= i; j++) {
+            const qdot_expr second = qdot_diff(pool, slope, x[j]);
+
+            if (qdot_mech_tidy(w->s, j < i ? second : qdot_sub(pool, second, s)) !=
+                QDOT_ZERO)
+                return false;
+        }
+        of->centre[i] =
+            qdot_neg(pool, qdot_div(pool, qdot_subs(pool, slope, m, x, zero), s));
+        of->square = qdot_add(pool, of->square,
+                              qdot_mul(pool, of->centre[i], of->centre[i]));
+    }
+    of->square = qdot_sub(pool, of->square,
+                          qdot_div(pool,
+                                   qdot_mul(pool, qdot_expr_int(pool, 2),
+                                            qdot_subs(pool, f, m, x, zero)),
+                                   s));
+    of->square = qdot_mech_tidy(w->s, of->square);
+    return of->square != QDOT_NIL && of->square != QDOT_ZERO && !moves(w, of->square);
+}
+
+/* A new angle that is atan2(y, x) of the coordinates as given. */
+static qdot_expr
+new_angle(work *w, qdot_expr y, qdot_expr x)
+{
+    const qdot_expr sides[] = {y, x};
+    char name[32];
+    qdot_expr u;
+
+    snprintf(name, sizeof name, "angle#%zu", w->out->fresh + 1);
+    u = qdot_symbol_get(w->pool, QDOT_COORD, name);
+    w->out->angle[w->out->fresh] = qdot_fun(w->pool, QDOT_ATAN2, 2, sides);
+    w->angle[w->out->fresh++] = u;
+    return u;
+}
+
+static qdot_expr
+times(qdot_pool *pool, qdot_expr a, qdot_fun_id f, qdot_expr u)
+{
+    return qdot_mul(pool, a, qdot_fun1(pool, f, u));
 }
 
 /* x = a + l sin u, y = b - l cos u; whole: f as it was declared, for u by x and y. */
@@ -106,26 +148,84 @@ solve_circle(work *w, qdot_expr f, qdot_expr whole)
 
     for (size_t i = 0; i < w->out->n; i++)
         for (size_t j = i + 1; j < w->out->n; j++) {
-            qdot_expr x = w->s->coordinates.at[i], y = w->s->coordinates.at[j];
-            qdot_expr a, b, square, l, u, a0, b0, square0, sides[2];
-            char name[32];
+            const qdot_expr x[] = {w->s->coordinates.at[i], w->s->coordinates.at[j]};
+            qdot_expr l, u;
+            ball now, given;
 
-            if (w->gone[i] || w->gone[j] || !is_circle(w, f, x, y, &a, &b, &square) ||
-                !is_circle(w, whole, x, y, &a0, &b0, &square0))
+            if (w->gone[i] || w->gone[j] || !is_ball(w, f, 2, x, &now) ||
+                !is_ball(w, whole, 2, x, &given))
                 continue;
-            l = qdot_mech_tidy(w->s, qdot_sqrt(pool, square));
-            snprintf(name, sizeof name, "angle#%zu", w->out->fresh + 1);
-            u = qdot_symbol_get(pool, QDOT_COORD, name);
-            sides[0] = qdot_sub(pool, x, a0);
-            sides[1] = qdot_sub(pool, b0, y);
-            w->out->angle[w->out->fresh] = qdot_fun(pool, QDOT_ATAN2, 2, sides);
-            w->angle[w->out->fresh++] = u;
-            put(w, i, qdot_add(pool, a, qdot_mul(pool, l,
-                                                 qdot_fun1(pool, QDOT_SIN, u))));
-            put(w, j, qdot_sub(pool, b, qdot_mul(pool, l,
-                                                 qdot_fun1(pool, QDOT_COS, u))));
+            l = qdot_mech_tidy(w->s, qdot_sqrt(pool, now.square));
+            u = new_angle(w, qdot_sub(pool, x[0], given.centre[0]),
+                          qdot_sub(pool, given.centre[1], x[1]));
+            put(w, i, qdot_add(pool, now.centre[0], times(pool, l, QDOT_SIN, u)));
+            put(w, j, qdot_sub(pool, now.centre[1], times(pool, l, QDOT_COS, u)));
             return true;
         }
+    return false;
+}
+
+/* The axis of a sphere about which its angles are taken: the coordinate that is least from
+ * the centre at the start, so that the poles are far. */
+static size_t
+choose_axis(const work *w, const qdot_expr *x, const ball *given)
+{
+    size_t best = 2;
+    double least = INFINITY;
+
+    for (size_t k = most_axes; w->size && k-- > 0;) {
+        const double from = fabs(
+            w->size(qdot_sub(w->pool, x[k], given->centre[k]), w->user));
+
+        if (from < least) {
+            least = from;
+            best = k;
+        }
+    }
+    return best;
+}
+
+/* x = a + l sin u cos v, y = b + l sin u sin v, z = c - l cos u, z being the axis. */
+static bool
+put_sphere(work *w, const size_t *index, const qdot_expr *x, const ball *now,
+           const ball *given)
+{
+    qdot_pool *pool = w->pool;
+    const size_t axis = choose_axis(w, x, given);
+    const size_t i = (axis + 1) % most_axes, j = (axis + 2) % most_axes;
+    qdot_expr dx = qdot_sub(pool, x[i], given->centre[i]);
+    qdot_expr dy = qdot_sub(pool, x[j], given->centre[j]);
+    qdot_expr dz = qdot_sub(pool, given->centre[axis], x[axis]);
+    qdot_expr l = qdot_mech_tidy(w->s, qdot_sqrt(pool, now->square)), u, v, out;
+
+    u = new_angle(w, qdot_sqrt(pool, qdot_add(pool, qdot_mul(pool, dx, dx),
+                                              qdot_mul(pool, dy, dy))),
+                  dz);
+    v = new_angle(w, dy, dx);
+    out = times(pool, l, QDOT_SIN, u);
+    put(w, index[i], qdot_add(pool, now->centre[i], times(pool, out, QDOT_COS, v)));
+    put(w, index[j], qdot_add(pool, now->centre[j], times(pool, out, QDOT_SIN, v)));
+    put(w, index[axis], qdot_sub(pool, now->centre[axis], times(pool, l, QDOT_COS, u)));
+    return true;
+}
+
+static bool
+solve_sphere(work *w, qdot_expr f, qdot_expr whole)
+{
+    const size_t n = w->out->n;
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i + 1; j < n; j++)
+            for (size_t k = j + 1; k < n && !w->gone[i] && !w->gone[j]; k++) {
+                const qdot_expr *q = w->s->coordinates.at;
+                const qdot_expr x[] = {q[i], q[j], q[k]};
+                const size_t index[] = {i, j, k};
+                ball now, given;
+
+                if (!w->gone[k] && is_ball(w, f, 3, x, &now) &&
+                    is_ball(w, whole, 3, x, &given))
+                    return put_sphere(w, index, x, &now, &given);
+            }
     return false;
 }
 
@@ -134,6 +234,8 @@ solve_circle(work *w, qdot_expr f, qdot_expr whole)
 static qdot_status
 solve_all(work *w)
 {
+    static bool (*const ways[])(work *, qdot_expr, qdot_expr) = {solve_linear, solve_circle,
+                                                                 solve_sphere};
     size_t c = w->s->constraints.n, left = c;
     bool progress = true;
 
@@ -145,7 +247,7 @@ solve_all(work *w)
         }
     while (left > 0 && progress) {
         progress = false;
-        for (int circles = 0; circles < 2 && !progress; circles++)
+        for (size_t way = 0; way < sizeof ways / sizeof *ways && !progress; way++)
             for (size_t k = 0; k < c && !progress; k++) {
                 qdot_expr whole = w->s->constraints.at[k].f, f;
 
@@ -153,7 +255,7 @@ solve_all(work *w)
                     continue;
                 f = put_in(w, whole);
                 w->solved[k] = f == QDOT_ZERO ||
-                               (circles ? solve_circle(w, f, whole) : solve_linear(w, f));
+                               ways[way](w, f, whole);
                 progress = w->solved[k];
                 left -= w->solved[k];
                 QDOT_TRY(qdot_pool_check(w->pool));
@@ -162,7 +264,7 @@ solve_all(work *w)
     for (size_t k = 0; k < c && left > 0; k++)
         if (!w->solved[k]) {
             snprintf(w->out->reason, sizeof w->out->reason,
-                     "constraint %.60s is not linear in a coordinate and no circle",
+                     "constraint %.60s is linear in no coordinate, and no circle or sphere",
                      w->s->constraints.at[k].name);
             break;
         }
@@ -255,10 +357,11 @@ is_acted_on(work *w)
 }
 
 qdot_status
-qdot_minimal_make(qdot_scene *s, qdot_minimal *m)
+qdot_minimal_make(qdot_scene *s, double (*size)(qdot_expr e, void *user), void *user,
+                  qdot_minimal *m)
 {
     size_t n = s->coordinates.n;
-    work w = {.s = s, .pool = s->pool, .out = m};
+    work w = {.s = s, .pool = s->pool, .out = m, .size = size, .user = user};
     qdot_status status;
 
     *m = (qdot_minimal){.n = n};

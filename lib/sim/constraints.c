@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "sim/switch.h"
 
 typedef qdot_vec(qdot_expr) expressions;
 
@@ -136,6 +137,8 @@ read_rows(builder *b, const qdot_scene *scene)
         if (!row->name)
             return QDOT_ENOMEM;
         QDOT_TRY(qdot_pool_check(p->pool));
+        if (p->mode)
+            QDOT_TRY(qdot_switches_freeze(p->mode, p->side, 1, &row->f, &row->f));
         QDOT_TRY(add_slopes(b, k));
         QDOT_TRY(add_derivatives(b, k));
     }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "sim/constraints.h"
 #include "sim/piece.h"
 
 /* --- pieces -------------------------------------------------------------------------- */
@@ -147,6 +148,46 @@ carry(qdot_piece *x, size_t from, bool jumped)
     }
 }
 
+/* --- corners of constraints ---------------------------------------------------------- */
+
+/* Beyond it the constraints of two sides are not the same to a state. */
+static const double corner = 1e-6;
+
+/* Where constraints switch, the state that the last piece left must fulfil those of the new
+ * side: on a corner the velocity does not, and nothing says what becomes of it. */
+static qdot_status
+turns_a_corner(qdot_piece *x, size_t from, double t, const double *y, bool *corners)
+{
+    qdot_constrained *held = qdot_bind_held(x->c->binds.at[x->mode]);
+    const qdot_mode *old = x->c->stage->modes.at[from], *now = qdot_piece_mode(x);
+    const double enough = corner + 100 * x->options->tol;
+    const qdot_constraints_row *row;
+    qdot_constrained_residual r;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    *corners = false;
+    if (from == x->mode || !held)
+        return QDOT_OK;
+    r = qdot_constrained_measure(held, t, y);
+    *corners = r.position > enough || r.velocity > enough;
+    if (!*corners)
+        return QDOT_OK;
+    for (size_t i = 0; i < x->c->stage->switches.surfaces.n && text.n == 0; i++)
+        if (old->side[i] != now->side[i])
+            status = qdot_stage_describe(x->c->stage, i, now->side[i], &text);
+    row = now->plan->constraints->rows +
+          (r.position > enough ? r.worst_position : r.worst_velocity);
+    snprintf(x->c->reason, sizeof x->c->reason,
+             "stopped at t = %.15g: constraint %.60s %s where %.100s, and nothing says how the "
+             "motion goes on",
+             t, row->name,
+             r.position > enough || row->kind != QDOT_HOLONOMIC ? "jumps" : "has a corner",
+             qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
 /* --- the whole ----------------------------------------------------------------------- */
 
 /* From y at t, which is the last point, through one piece that leaves well. */
@@ -165,6 +206,11 @@ one_piece(qdot_piece *x, size_t from, double t, const double *y, bool jumped)
             return QDOT_OK;
         }
         QDOT_TRY(enter_mode(x));
+        QDOT_TRY(turns_a_corner(x, from, t, y, &again));
+        if (again) {
+            qdot_piece_stop(x, true);
+            return QDOT_OK;
+        }
         carry(x, from, jumped);
         QDOT_TRY(qdot_piece_begin(x, t, y));
         QDOT_TRY(qdot_piece_integrate(x, t, y, jumped));

@@ -75,9 +75,9 @@ measure_constraints(qdot_run *run)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
         difference[i] = 0x1p-53 * fmax(1, fabs(y[i]));
-    status = qdot_multipliers_measure(run->course.binds.at[0], tr, &run->multipliers);
+    status = qdot_multipliers_measure(run->course.binds.at, tr, &run->multipliers);
     if (status == QDOT_OK)
-        status = qdot_multipliers_errors(run->course.binds.at[0], tr, difference,
+        status = qdot_multipliers_errors(run->course.binds.at, tr, difference,
                                          &run->multipliers);
     qdot_free(difference);
     QDOT_TRY(status);

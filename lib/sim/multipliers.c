@@ -51,10 +51,25 @@ find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
     return status;
 }
 
-qdot_status
-qdot_multipliers_measure(qdot_bind *bind, const qdot_trajectory *tr, qdot_multipliers *b)
+/* The constraints of a piece; NULL without. */
+static qdot_constrained *
+of_piece(qdot_bind *const *binds, const qdot_trajectory *tr, size_t piece)
 {
-    qdot_constrained *held = qdot_bind_held(bind);
+    return qdot_bind_held(binds[piece < tr->pieces.n ? tr->pieces.at[piece].mode : 0]);
+}
+
+static qdot_constrained *
+of_end(qdot_bind *const *binds, const qdot_trajectory *tr)
+{
+    return of_piece(binds, tr, tr->pieces.n > 0 ? tr->pieces.n - 1 : 0);
+}
+
+qdot_status
+qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
+                         qdot_multipliers *b)
+{
+    qdot_constrained *held = of_piece(binds, tr, 0);
+    size_t piece = 0;
 
     qdot_multipliers_clear(b);
     b->position = b->velocity = NAN;
@@ -65,10 +80,13 @@ qdot_multipliers_measure(qdot_bind *bind, const qdot_trajectory *tr, qdot_multip
 
         if (k % 1024 == 0)
             QDOT_TRY(qdot_interrupt_check());
+        while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
+            held = of_piece(binds, tr, ++piece);
         r = qdot_constrained_measure(held, tr->t[k], tr->y + k * tr->n);
         widen(&b->position, r.worst_position, r.position);
         widen(&b->velocity, r.worst_velocity, r.velocity);
     }
+    held = of_end(binds, tr);
     b->independent = qdot_constrained_rank(held);
     return find_multipliers(held, tr, qdot_constrained_rows(held), b);
 }
@@ -90,10 +108,10 @@ look(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
 }
 
 qdot_status
-qdot_multipliers_errors(qdot_bind *bind, const qdot_trajectory *tr,
+qdot_multipliers_errors(qdot_bind *const *binds, const qdot_trajectory *tr,
                         const double *difference, qdot_multipliers *b)
 {
-    qdot_constrained *held = qdot_bind_held(bind);
+    qdot_constrained *held = of_end(binds, tr);
     const size_t n = tr->n, m = held ? qdot_constrained_rows(held) : 0;
     double t, *y, *a, *up, *down;
 

@@ -16,15 +16,15 @@ typedef struct {
     size_t independent;
 } qdot_multipliers;
 
-/* Of a run that is there; nothing for a plan without constraints. Errors: QDOT_ENOMEM,
- * QDOT_EINTR. */
-QDOT_MUST_CHECK qdot_status qdot_multipliers_measure(qdot_bind *bind,
+/* Of a run that is there, its binds by the modes of its pieces; nothing for plans without
+ * constraints. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_multipliers_measure(qdot_bind *const *binds,
                                                      const qdot_trajectory *tr,
                                                      qdot_multipliers *b);
 /* The errors of the multipliers at the end, from those of the state there:
  *     error_k = sum_i |dlambda_k/dy_i| difference_i,   difference [2n]
  * by central differences. Nothing for a plan without constraints. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_multipliers_errors(qdot_bind *bind,
+QDOT_MUST_CHECK qdot_status qdot_multipliers_errors(qdot_bind *const *binds,
                                                     const qdot_trajectory *tr,
                                                     const double *difference,
                                                     qdot_multipliers *b);

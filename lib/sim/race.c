@@ -8,6 +8,8 @@
 #include "expr/calculus.h"
 #include "mech/minimal.h"
 #include "sim/integrated.h"
+#include "sim/substitute.h"
+#include "tape/constant.h"
 
 static const double reference_tol = 1e-15;
 static const double ladder[QDOT_RACE_TOLERANCES] = {1e-4,  1e-6,  1e-8,
@@ -207,11 +209,27 @@ run_minimal(race *r, const qdot_minimal *m)
     return status;
 }
 
+/* For minimal.h: of what holds more than coordinates and numbers nothing is known. */
+static double
+size_at_start(qdot_expr e, void *user)
+{
+    const race *r = user;
+    double x = 0;
+    int side;
+
+    e = qdot_substitute(r->scene->pool, at_start(r, e), r->request->n_values,
+                        r->request->symbols, r->request->values);
+    return e != QDOT_NIL && qdot_constant_is(r->scene->pool, e) &&
+                   qdot_constant_round(r->scene->pool, e, &x, &side) == QDOT_OK
+               ? x
+               : 0;
+}
+
 static qdot_status
 try_minimal(race *r)
 {
     qdot_minimal m;
-    qdot_status status = qdot_minimal_make(r->scene, &m);
+    qdot_status status = qdot_minimal_make(r->scene, size_at_start, r, &m);
 
     if (is_its_own(status))
         return give_reason(&r->race->lane[MINIMAL], qdot_last_error()->message);

@@ -405,7 +405,7 @@ is_whole(const qdot_run *run)
 static qdot_status
 measure_multipliers(qdot_run *run)
 {
-    return qdot_multipliers_measure(run->course.binds.at[0], &run->course.tr, &run->multipliers);
+    return qdot_multipliers_measure(run->course.binds.at, &run->course.tr, &run->multipliers);
 }
 
 /* What a companion needs beside the run. */
@@ -474,7 +474,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
         if (!difference)
             status = QDOT_ENOMEM;
         else if (status == QDOT_OK && !*interrupted && there)
-            status = qdot_multipliers_errors(run->course.binds.at[0], &run->course.tr,
+            status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr,
                                        difference, &run->multipliers);
         qdot_free(difference);
         if (status != QDOT_OK || *interrupted)

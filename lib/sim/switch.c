@@ -132,6 +132,13 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
         QDOT_TRY(qdot_pool_check(pool));
         QDOT_TRY(collect(s, e[i]));
     }
+    for (size_t k = 0; k < scene->constraints.n; k++) {
+        qdot_expr f = qdot_substitute(pool, scene->constraints.at[k].f, request->n_values,
+                                      request->symbols, request->values);
+
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(collect(s, f));
+    }
     return QDOT_OK;
 }
 

@@ -30,7 +30,7 @@ typedef struct qdot_switches {
     qdot_vec(qdot_expr) atoms; /* what switches, inner ones first */
 } qdot_switches;
 
-/* Those of the equations of motion; start from {0}. Errors: as qdot_plan_new has them. */
+/* Those of the equations of motion and of the constraints; start from {0}. Errors: as qdot_plan_new has them. */
 QDOT_MUST_CHECK qdot_status qdot_switches_find(qdot_scene *scene,
                                                const qdot_run_request *request,
                                                qdot_switches *switches);

@@ -42,3 +42,27 @@ torque 1 on x
 constraint wall: x = 1
 race 0..1
 END
+# spheres: a spherical pendulum whose start is a pole of the usual angles, and two in a row
+for scene in one two; do
+    {
+        cat <<'END'
+param l = 1, g = 9.81
+coord x, y, z
+particle a mass 2 at (x, y, z)
+gravity (0, 0, -g)
+constraint rod: x^2 + y^2 + z^2 = l^2
+END
+        [ $scene = one ] || cat <<'END'
+coord X, Y, Z
+particle b mass 1 at (X, Y, Z)
+constraint next: (X - x)^2 + (Y - y)^2 + (Z - z)^2 = l^2
+start X = 0.6, Y = 0, Z = -1.8
+END
+        echo "start x = 0, y = 0, z = -1, x' = 1, y' = 2, z' = 0"
+        echo "race 0..2"
+    } >sphere.lag
+    qdot -q --json sphere.lag >sphere.json
+    grep -o '[0-9] coordinates as given, [0-9] in minimal' sphere.json
+    sed -n 's/^{"kind":"row","values":\[\(.*\)\]}/\1/p' sphere.json |
+        awk -F, '$1 == 4 && $2 < 2e-12 && $3 < 1e-11 { good++ } END { print "minimal", good }'
+done
