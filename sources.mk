@@ -113,6 +113,7 @@ ode_headers = \
 	lib/ode/trajectory.h
 
 normal_sources = \
+	lib/normal/angle-basis.c \
 	lib/normal/angle-sum.c \
 	lib/normal/antiderivative.c \
 	lib/normal/ball.c \
@@ -121,6 +122,7 @@ normal_sources = \
 	lib/normal/common.c \
 	lib/normal/constant.c \
 	lib/normal/decide.c \
+	lib/normal/defined.c \
 	lib/normal/domain.c \
 	lib/normal/factor.c \
 	lib/normal/field.c \
@@ -134,6 +136,7 @@ normal_sources = \
 	lib/normal/linear.c \
 	lib/normal/logarithm.c \
 	lib/normal/map.c \
+	lib/normal/nth-part.c \
 	lib/normal/null-space.c \
 	lib/normal/positive.c \
 	lib/normal/prepare.c \
@@ -154,17 +157,20 @@ normal_sources = \
 	lib/normal/solve.c \
 	lib/normal/split.c \
 	lib/normal/squares.c \
+	lib/normal/together.c \
 	lib/normal/trig-form.c \
 	lib/normal/unify.c \
 	lib/normal/value.c \
 	lib/normal/zero.c
 
 normal_headers = \
+	lib/normal/angle-basis.h \
 	lib/normal/antiderivative.h \
 	lib/normal/ball.h \
 	lib/normal/cases.h \
 	lib/normal/constant.h \
 	lib/normal/decide.h \
+	lib/normal/defined.h \
 	lib/normal/domain.h \
 	lib/normal/factor.h \
 	lib/normal/field.h \
@@ -174,6 +180,7 @@ normal_headers = \
 	lib/normal/items.h \
 	lib/normal/lattice.h \
 	lib/normal/map.h \
+	lib/normal/nth-part.h \
 	lib/normal/null-space.h \
 	lib/normal/positive.h \
 	lib/normal/prepare.h \
@@ -185,6 +192,7 @@ normal_headers = \
 	lib/normal/simplify.h \
 	lib/normal/solve.h \
 	lib/normal/split.h \
+	lib/normal/together.h \
 	lib/normal/unify.h \
 	lib/normal/value.h \
 	lib/normal/zero.h
@@ -1098,6 +1106,7 @@ test_files = \
 	tests/script/identities-cases.inc \
 	tests/script/identities-exp.inc \
 	tests/script/identities-facts.inc \
+	tests/script/identities-inverse.inc \
 	tests/script/identities-mechanics.inc \
 	tests/script/identities-near.inc \
 	tests/script/identities-open.inc \

@@ -249,8 +249,9 @@ put_together(qdot_field *f, struct sum *s, const fmpz_mpoly_t p, const fmpz_t g,
 }
 
 static qdot_status
-is_zero_sum(qdot_field *f, const fmpz_mpoly_t p, ulong *exp, bool *zero)
+is_zero_sum(const qdot_zero *z, const fmpz_mpoly_t p, ulong *exp, bool *zero)
 {
+    qdot_field *f = z->f;
     qdot_pool *pool = f->pool;
     struct sum s = {pool,  QDOT_ZERO, QDOT_ZERO, false,
                     false, QDOT_ONE,  QDOT_ZERO, QDOT_ONE};
@@ -266,9 +267,11 @@ is_zero_sum(qdot_field *f, const fmpz_mpoly_t p, ulong *exp, bool *zero)
             if (status != QDOT_ENOMEM && status != QDOT_EINTR)
                 status = QDOT_OK;
         } else if (stays_within(&s, 1))
-            status = qdot_prove_equal(pool, s.im, QDOT_ZERO, NULL, zero);
+            status = qdot_prove_given(pool, s.im, QDOT_ZERO, z->n_positive, z->positive,
+                                      z->sure, zero);
         else if (stays_within(&s, 2))
-            status = qdot_prove_equal(pool, s.re, s.modulus, NULL, zero);
+            status = qdot_prove_given(pool, s.re, s.modulus, z->n_positive, z->positive,
+                                      z->sure, zero);
     }
     fmpz_clear(g);
     return status;
@@ -295,7 +298,7 @@ qdot_zero_angles(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
         status = qdot_factor_group(f, &groups, p, by);
         *zero = status == QDOT_OK && groups.n <= MOST_GROUPS;
         for (slong i = 0; i < groups.n && status == QDOT_OK && *zero; i++)
-            status = is_zero_sum(f, groups.poly + i, exp, zero);
+            status = is_zero_sum(z, groups.poly + i, exp, zero);
         qdot_factor_ungroup(f, &groups);
     }
     qdot_free(by);

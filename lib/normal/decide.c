@@ -10,6 +10,7 @@
 #include "expr/walk.h"
 #include "normal/cases.h"
 #include "normal/flint.h"
+#include "normal/nth-part.h"
 #include "normal/prove.h"
 #include "normal/sample.h"
 #include "normal/unify.h"
@@ -258,6 +259,27 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
     return look_at_sides(pool, &sides, facts, &thorough, d);
 }
 
+/* With the relations of parts of inverse functions; not without such. */
+static qdot_status
+prove_parts(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+            bool *equal)
+{
+    qdot_facts more = facts == NULL ? (qdot_facts){0} : *facts;
+    qdot_expr e[2] = {left, right};
+    qdot_nth_parts all = {0};
+    qdot_status status = qdot_nth_part_relations(pool, 2, e, &all);
+    size_t found = all.n;
+
+    for (size_t i = 0; i < more.n_relations && status == QDOT_OK && found > 0; i++)
+        status = qdot_vec_push(&all, more.relations[i]);
+    more.n_relations = all.n;
+    more.relations = all.at;
+    if (status == QDOT_OK && found > 0)
+        status = qdot_prove_equal(pool, left, right, &more, equal);
+    qdot_free(all.at);
+    return status;
+}
+
 static qdot_status
 decide(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
        qdot_decision *d)
@@ -279,6 +301,10 @@ decide(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts
         QDOT_TRY(look_at_points(pool, left, right, facts, &thorough, d));
     if (!equal && d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(qdot_prove_harder(pool, left, right, facts, &equal));
+    if (!equal && d->verdict == QDOT_UNDECIDED)
+        QDOT_TRY(qdot_prove_defined(pool, left, right, facts, &equal, NULL));
+    if (!equal && d->verdict == QDOT_UNDECIDED)
+        QDOT_TRY(prove_parts(pool, left, right, facts, &equal));
     if (!equal && d->verdict == QDOT_UNDECIDED)
         QDOT_TRY(qdot_prove_cases(pool, left, right, facts, &equal));
     if (!equal && d->verdict == QDOT_UNDECIDED && d->points > 0 && facts != NULL &&

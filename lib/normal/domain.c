@@ -6,6 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/constant.h"
+#include "normal/defined.h"
 
 enum { MOST_GAPS = 40 };
 
@@ -15,7 +16,7 @@ typedef struct {
     qdot_expr *e;
     qdot_exprs gap; /* > 0, or >= 0 where weak */
     qdot_vec(bool) weak;
-    bool changed;
+    bool changed, empty;
 } job;
 
 /* A symbol y with lo < y (or <=), y < hi, the only one of these bounds in place of x. */
@@ -114,7 +115,8 @@ move(job *j, qdot_expr x, qdot_symbol s)
         qdot_expr to = two ? qdot_sub(pool, s.hi, s.lo) : QDOT_NIL;
         const qdot_symbol *now = qdot_expr_symbol(pool, x);
 
-        if (s.lo == QDOT_ZERO && now->lo == s.lo && (now->lo_open || !s.lo_open))
+        if (s.lo == QDOT_ZERO && now->lo == s.lo && (now->lo_open || !s.lo_open) &&
+            now->hi == s.hi && (now->hi_open || !s.hi_open))
             return;
         y = fresh(pool, x, QDOT_ZERO, s.lo_open, to, s.hi_open);
         replace(j, x, qdot_add(pool, s.lo, y));
@@ -274,6 +276,28 @@ solve_relations(job *j, size_t nr)
 
 /* --- all ------------------------------------------------------------------------ */
 
+static qdot_status
+tell(void *user, qdot_expr gap, bool weak)
+{
+    job *j = user;
+
+    for (size_t i = 0; i < j->gap.n; i++)
+        if (j->gap.at[i] == gap && j->weak.at[i] <= weak)
+            return QDOT_OK;
+    return add_gap(j, gap, weak);
+}
+
+/* What holds wherever the sides have values, and what conditions say once taken apart. */
+static qdot_status
+gather_implied(job *j)
+{
+    size_t given = j->gap.n;
+
+    for (size_t i = 0; i < given; i++)
+        QDOT_TRY(qdot_defined_apart(j->pool, j->gap.at[i], j->weak.at[i], tell, j));
+    return qdot_defined(j->pool, 2, j->e, tell, j);
+}
+
 /* The gaps of the conditions, and of declared bounds that hold symbols. */
 static qdot_status
 gather(job *j, const qdot_facts *facts, qdot_expr atoms)
@@ -318,7 +342,7 @@ move_declared(job *j, qdot_expr atoms)
 
 qdot_status
 qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr *e,
-                   size_t nr, qdot_exprs *positive, bool *changed)
+                   size_t nr, bool implied, qdot_exprs *positive, bool *changed, bool *empty)
 {
     job j = {.pool = pool, .n = n, .e = e};
     qdot_expr list = qdot_list(pool, (uint32_t)n, e);
@@ -327,12 +351,19 @@ qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr
 
     if (status == QDOT_OK && atoms != QDOT_NIL)
         status = gather(&j, facts, atoms);
+    if (status == QDOT_OK && implied)
+        status = gather_implied(&j);
     if (status == QDOT_OK)
         status = solve_relations(&j, nr);
     for (size_t i = 0; i < j.gap.n && status == QDOT_OK; i++) {
         qdot_expr gap = j.gap.at[i];
 
         j.gap.at[i] = QDOT_NIL; /* done with, unless it stays */
+        if (gap != QDOT_NIL && qdot_expr_is_scalar(pool, gap)) {
+            uint8_t sign = qdot_expr_node(pool, gap)->sign;
+
+            j.empty |= (sign & QDOT_LE0) && (!j.weak.at[i] || (sign & QDOT_NE0));
+        }
         if (gap != QDOT_NIL && !solve_gap(&j, gap, j.weak.at[i]) && !j.weak.at[i])
             j.gap.at[i] = gap;
     }
@@ -346,6 +377,7 @@ qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr
         if (j.gap.at[i] != QDOT_NIL)
             status = qdot_vec_push(positive, j.gap.at[i]);
     *changed = j.changed || positive->n > 0;
+    *empty = j.empty;
     qdot_free(j.gap.at);
     qdot_free(j.weak.at);
     return status;

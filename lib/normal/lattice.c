@@ -65,30 +65,34 @@ unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
     return qdot_mul(pool, inverse, e);
 }
 
+/* c times a sum, or times one term: 2*(x + y) is 2*x + 2*y. */
 static qdot_status
 parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg,
       bool offsets)
 {
     qdot_status status = QDOT_OK;
-    fmpq_t c;
+    qdot_expr rest;
+    fmpq_t c, x;
 
     fmpq_init(c);
-    if (qdot_expr_kind(pool, arg) == QDOT_SUM) {
-        uint32_t n = qdot_expr_count(pool, arg);
+    fmpq_init(x);
+    rest = unscale(pool, arg, c);
+    if (rest == QDOT_NIL) {
+        status = qdot_pool_check(pool);
+    } else if (qdot_expr_kind(pool, rest) == QDOT_SUM) {
+        uint32_t n = qdot_expr_count(pool, rest);
 
-        fmpq_set(c, qdot_expr_rational(pool, qdot_expr_arg(pool, arg, 0)));
-        status = add_term(l, row, QDOT_ONE, c, offsets);
+        fmpq_mul(x, c, qdot_expr_rational(pool, qdot_expr_arg(pool, rest, 0)));
+        status = add_term(l, row, QDOT_ONE, x, offsets);
         for (uint32_t i = 1; i + 1 < n && status == QDOT_OK; i += 2) {
-            fmpq_set(c, qdot_expr_rational(pool, qdot_expr_arg(pool, arg, i + 1)));
-            status = add_term(l, row, qdot_expr_arg(pool, arg, i), c, offsets);
+            fmpq_mul(x, c, qdot_expr_rational(pool, qdot_expr_arg(pool, rest, i + 1)));
+            status = add_term(l, row, qdot_expr_arg(pool, rest, i), x, offsets);
         }
     } else {
-        qdot_expr mono = unscale(pool, arg, c);
-
-        status =
-            mono == QDOT_NIL ? qdot_pool_check(pool) : add_term(l, row, mono, c, offsets);
+        status = add_term(l, row, rest, c, offsets);
     }
     fmpq_clear(c);
+    fmpq_clear(x);
     return status;
 }
 

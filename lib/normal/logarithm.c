@@ -15,9 +15,10 @@ is_logarithm(const qdot_field *f, slong v)
            qdot_expr_node(f->pool, e)->op == QDOT_LOG;
 }
 
-/* The product of A^k for a sum p of k log A; nil if p is anything else. */
+/* The product of A^k for a sum p/c of k log A, c the content of p, *divided; nil if p is anything
+ * else. */
 static qdot_expr
-as_product(qdot_field *f, const fmpz_mpoly_t p)
+as_product(qdot_field *f, const fmpz_mpoly_t p, qdot_expr *divided)
 {
     slong length = fmpz_mpoly_length(p, f->ctx);
     ulong *exp = qdot_malloc(((size_t)f->n + 1) * sizeof *exp);
@@ -44,10 +45,78 @@ as_product(qdot_field *f, const fmpz_mpoly_t p)
                          qdot_pow_int(f->pool, qdot_expr_arg(f->pool, f->gen[at].expr, 0),
                                       fmpz_get_si(k)));
     }
+    {
+        fmpq_t c;
+
+        fmpq_init(c);
+        fmpq_set_fmpz(c, content);
+        *divided = qdot_expr_fmpq(f->pool, c);
+        fmpq_clear(c);
+    }
     fmpz_clear(content);
     fmpz_clear(k);
     qdot_free(exp);
     return e;
+}
+
+/* m (k1 log A1 + ...) + rest, m the only monomial before logarithms: 0 if the product of all A^k is
+ * exp(-rest/m). */
+static qdot_status
+against_rest(const qdot_zero *z, const qdot_groups *groups, bool *zero)
+{
+    qdot_field *f = z->f;
+    qdot_pool *pool = f->pool;
+    qdot_expr product, content, rest;
+    qdot_status status = QDOT_OK;
+    slong with = -1;
+    ulong *none; /* the exponents of 1 */
+    fmpz_mpoly_t key, others, c, logs;
+
+    for (slong i = 0; i < groups->n; i++)
+        if (!fmpz_mpoly_is_fmpz(groups->poly + i, f->ctx)) {
+            if (with >= 0)
+                return QDOT_OK;
+            with = i;
+        }
+    if (with < 0)
+        return QDOT_OK;
+    none = qdot_calloc((size_t)f->n + 1, sizeof *none);
+    if (none == NULL)
+        return QDOT_ENOMEM;
+    fmpz_mpoly_init(key, f->ctx);
+    fmpz_mpoly_init(others, f->ctx);
+    fmpz_mpoly_init(c, f->ctx);
+    fmpz_mpoly_init(logs, f->ctx);
+    for (slong i = 0; i < groups->n; i++) {
+        fmpz_mpoly_zero(key, f->ctx);
+        fmpz_mpoly_push_term_si_ui(key, 1, groups->key + i * f->n, f->ctx);
+        if (i == with) { /* its term without a logarithm is of the rest */
+            fmpz_t number;
+
+            fmpz_init(number);
+            fmpz_mpoly_get_coeff_fmpz_ui(number, groups->poly + i, none, f->ctx);
+            fmpz_mpoly_scalar_mul_fmpz(c, key, number, f->ctx);
+            fmpz_mpoly_sub_fmpz(logs, groups->poly + i, number, f->ctx);
+            fmpz_clear(number);
+        } else {
+            fmpz_mpoly_mul(c, key, groups->poly + i, f->ctx);
+        }
+        fmpz_mpoly_add(others, others, c, f->ctx);
+    }
+    fmpz_mpoly_zero(key, f->ctx);
+    fmpz_mpoly_push_term_si_ui(key, 1, groups->key + with * f->n, f->ctx);
+    product = as_product(f, logs, &content);
+    rest = qdot_neg(pool, qdot_div(pool, qdot_field_expr(f, others),
+                                   qdot_mul(pool, content, qdot_field_expr(f, key))));
+    if (product != QDOT_NIL && rest != QDOT_NIL)
+        status = qdot_prove_given(pool, product, qdot_fun1(pool, QDOT_EXP, rest),
+                                  z->n_positive, z->positive, z->sure, zero);
+    fmpz_mpoly_clear(key, f->ctx);
+    fmpz_mpoly_clear(others, f->ctx);
+    fmpz_mpoly_clear(c, f->ctx);
+    fmpz_mpoly_clear(logs, f->ctx);
+    qdot_free(none);
+    return status;
 }
 
 qdot_status
@@ -69,12 +138,15 @@ qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
         status = qdot_factor_group(f, &groups, p, by);
         *zero = status == QDOT_OK && groups.n <= MOST_GROUPS;
         for (slong i = 0; i < groups.n && status == QDOT_OK && *zero; i++) {
-            qdot_expr product = as_product(f, groups.poly + i);
+            qdot_expr content, product = as_product(f, groups.poly + i, &content);
 
             *zero = product != QDOT_NIL;
             if (*zero)
-                status = qdot_prove_equal(f->pool, product, QDOT_ONE, NULL, zero);
+                status = qdot_prove_given(f->pool, product, QDOT_ONE, z->n_positive,
+                                          z->positive, z->sure, zero);
         }
+        if (status == QDOT_OK && !*zero && groups.n <= MOST_GROUPS && qdot_field_goes(f))
+            status = against_rest(z, &groups, zero);
         qdot_factor_ungroup(f, &groups);
     }
     qdot_free(by);

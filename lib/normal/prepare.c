@@ -8,6 +8,7 @@
 
 #define WORK 400000
 #define MOST_MULTIPLE 12
+#define MOST_PARTS 16
 
 /* --- flat normal form -------------------------------------------------------------- */
 
@@ -211,6 +212,64 @@ of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr 
     }
 }
 
+/* s, c of half the angle, where that is known to lie in [0, pi/2] (`first`) or between -pi/2 and pi/2:
+ * c = sqrt((1 + c)/2), s = sqrt((1 - c)/2) or s/(2 c); of areas alike. */
+static void
+halve(qdot_pool *pool, bool circular, bool first, qdot_expr *s, qdot_expr *c)
+{
+    qdot_expr half = qdot_prepare_flat(
+        pool, qdot_mul(pool, QDOT_HALF, qdot_add(pool, QDOT_ONE, *c)), WORK);
+    qdot_expr rest = qdot_prepare_flat(
+        pool,
+        qdot_mul(pool, QDOT_HALF,
+                 circular ? qdot_sub(pool, QDOT_ONE, *c) : qdot_sub(pool, *c, QDOT_ONE)),
+        WORK);
+
+    *c = root(pool, half);
+    *s = first ? root(pool, rest)
+               : qdot_div(pool, *s, qdot_mul(pool, qdot_expr_int(pool, 2), *c));
+}
+
+/* s, c of n/d times an inverse function, d a power of 2; false: it is none. */
+static bool
+part_of_inverse(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular, long *n,
+                qdot_expr *s, qdot_expr *c)
+{
+    unsigned op = qdot_expr_kind(pool, e) == QDOT_FUN ? qdot_expr_node(pool, e)->op : 0;
+    long d;
+    bool first;
+
+    if (fmpz_cmp_ui(fmpq_denref(factor), MOST_PARTS) > 0 ||
+        fmpz_cmpabs(fmpq_numref(factor), (fmpz[]){MOST_MULTIPLE}) > 0)
+        return false;
+    d = fmpz_get_si(fmpq_denref(factor));
+    *n = fmpz_get_si(fmpq_numref(factor));
+    if ((d & (d - 1)) != 0 || (d > 1 && op == QDOT_ATAN2) ||
+        !of_inverse(pool, e, circular, s, c))
+        return false;
+    first = op == QDOT_ACOS || op == QDOT_ACOSH;
+    for (; d > 1; d /= 2) {
+        halve(pool, circular, first, s, c);
+        first = false;
+    }
+    return true;
+}
+
+/* tan of half of atan2(y, x): y/(x + r), where the tangent is defined. Nil: it is not that. */
+static qdot_expr
+tangent_of_half(qdot_pool *pool, qdot_expr arg)
+{
+    qdot_expr s, c;
+
+    if (qdot_expr_kind(pool, arg) != QDOT_PROD || qdot_expr_count(pool, arg) != 3 ||
+        qdot_expr_arg(pool, arg, 0) != QDOT_HALF || qdot_expr_arg(pool, arg, 2) != QDOT_ONE ||
+        qdot_expr_kind(pool, qdot_expr_arg(pool, arg, 1)) != QDOT_FUN ||
+        qdot_expr_node(pool, qdot_expr_arg(pool, arg, 1))->op != QDOT_ATAN2 ||
+        !of_inverse(pool, qdot_expr_arg(pool, arg, 1), true, &s, &c))
+        return QDOT_NIL;
+    return qdot_div(pool, s, qdot_add(pool, QDOT_ONE, c));
+}
+
 /* The i-th term of an argument: coefficient and the rest. */
 static uint32_t
 terms(const qdot_pool *pool, qdot_expr e)
@@ -242,13 +301,15 @@ resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
     qdot_expr left = arg, s = QDOT_ZERO, c = QDOT_ONE, s1, c1, s2, c2;
     long n;
 
+    if (op == QDOT_TAN && (s1 = tangent_of_half(pool, arg)) != QDOT_NIL)
+        return s1;
+
     for (uint32_t i = 0; i < terms(pool, arg); i++) {
         qdot_expr factor, rest;
 
         term_at(pool, arg, i, &factor, &rest);
-        if (qdot_expr_kind(pool, rest) != QDOT_FUN ||
-            !qdot_expr_to_int(pool, factor, &n) || n > MOST_MULTIPLE ||
-            n < -MOST_MULTIPLE || !of_inverse(pool, rest, circular, &s1, &c1))
+        if (!part_of_inverse(pool, rest, qdot_expr_rational(pool, factor), circular, &n,
+                             &s1, &c1))
             continue;
         any = true;
         left = qdot_sub(pool, left, qdot_mul(pool, factor, rest));

@@ -2,19 +2,24 @@
 #include "normal/prove.h"
 
 #include "base/memory.h"
+#include "expr/walk.h"
+#include "normal/angle-basis.h"
 #include "normal/domain.h"
 #include "normal/prepare.h"
 #include "normal/rewrite.h"
+#include "normal/together.h"
 #include "normal/unify.h"
 #include "normal/zero.h"
 
 #define WORK 60000000
+#define MOST_POSITIVE 8
 #define ROUNDS 3 /* functions within functions, whose values are their own */
 
-/* e: left, right, nr relations, np that are positive. */
+/* e: left, right, nr relations, np that are positive; `conditional`: some of these by conditions. */
 struct problem {
     qdot_pool *pool;
     size_t nr, np;
+    bool conditional;
     qdot_expr *e;
 };
 
@@ -65,7 +70,7 @@ in_field(struct problem *p, bool signs, bool *zero)
             qdot_zero z;
 
             status = qdot_zero_begin(&z, &f, p->nr > 0 ? &ideal : NULL, p->np,
-                                     p->e + 2 + p->nr);
+                                     p->e + 2 + p->nr, !p->conditional);
             if (status == QDOT_OK) {
                 status = qdot_zero_prove(&z, d.n, zero);
                 qdot_zero_end(&z);
@@ -78,6 +83,43 @@ in_field(struct problem *p, bool signs, bool *zero)
         status = f.status;
     qdot_field_end(&f);
     return only_grave(status);
+}
+
+/* Bases of roots that are positive as they stand; once multiplied out that is hard to see. */
+static qdot_status
+note_positive(struct problem *p)
+{
+    qdot_pool *pool = p->pool;
+    qdot_expr found[MOST_POSITIVE], *all;
+    size_t n = 0;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin_n(pool, 2, p->e, &w));
+    for (size_t i = 0; i < w.n; i++) {
+        if (qdot_expr_kind(pool, w.at[i]) != QDOT_PROD)
+            continue;
+        for (uint32_t k = 1; k < qdot_expr_count(pool, w.at[i]) && n < MOST_POSITIVE;
+             k += 2) {
+            qdot_expr b = qdot_expr_arg(pool, w.at[i], k);
+            const fmpq *x =
+                qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
+
+            if (x != NULL && !fmpz_is_one(fmpq_denref(x)) &&
+                qdot_expr_kind(pool, b) == QDOT_SUM &&
+                qdot_expr_node(pool, b)->sign == QDOT_POS)
+                found[n++] = b;
+        }
+    }
+    qdot_walk_end(&w);
+    if (n == 0)
+        return QDOT_OK;
+    all = qdot_realloc(p->e, (count(p) + n) * sizeof *all);
+    if (all == NULL)
+        return QDOT_ENOMEM;
+    p->e = all;
+    for (size_t i = 0; i < n; i++)
+        p->e[2 + p->nr + p->np++] = found[i];
+    return QDOT_OK;
 }
 
 /* All of them prepared; QDOT_EFAILED after a wrong turn. */
@@ -125,6 +167,31 @@ qdot_prove_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
 
     *equal = false;
     QDOT_TRY(begin(&p, pool, left, right, facts));
+    status = note_positive(&p);
+    if (status == QDOT_OK)
+        status = prepare(&p);
+    if (status == QDOT_OK)
+        status = in_field(&p, true, equal);
+    return finish(&p, status);
+}
+
+qdot_status
+qdot_prove_given(qdot_pool *pool, qdot_expr left, qdot_expr right, size_t n_positive,
+                 const qdot_expr *positive, bool sure, bool *equal)
+{
+    struct problem p;
+    qdot_status status;
+    qdot_expr *all;
+
+    *equal = false;
+    QDOT_TRY(begin(&p, pool, left, right, NULL));
+    all = qdot_realloc(p.e, (2 + n_positive) * sizeof *all);
+    if (all == NULL)
+        return finish(&p, QDOT_ENOMEM);
+    p.e = all;
+    for (size_t i = 0; i < n_positive; i++)
+        p.e[2 + p.np++] = positive[i];
+    p.conditional = !sure;
     status = prepare(&p);
     if (status == QDOT_OK)
         status = in_field(&p, true, equal);
@@ -133,11 +200,12 @@ qdot_prove_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
 
 /* Conditions and bounds put into the symbols; what cannot be, after the relations. */
 static qdot_status
-unfold(struct problem *p, const qdot_facts *facts, bool *changed)
+unfold(struct problem *p, const qdot_facts *facts, bool implied, bool *empty)
 {
     qdot_exprs positive = {0};
-    qdot_status status =
-        qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, p->nr, &positive, changed);
+    bool changed;
+    qdot_status status = qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, p->nr,
+                                            implied, &positive, &changed, empty);
     qdot_expr *all = status == QDOT_OK
                          ? qdot_realloc(p->e, (2 + p->nr + positive.n + 1) * sizeof *all)
                          : NULL;
@@ -145,6 +213,7 @@ unfold(struct problem *p, const qdot_facts *facts, bool *changed)
     if (all != NULL) {
         p->e = all;
         p->np = positive.n;
+        p->conditional = positive.n > 0;
         for (size_t i = 0; i < positive.n; i++)
             p->e[2 + p->nr + i] = positive.at[i];
     }
@@ -152,27 +221,32 @@ unfold(struct problem *p, const qdot_facts *facts, bool *changed)
     return status != QDOT_OK ? status : all == NULL ? QDOT_ENOMEM : QDOT_OK;
 }
 
-qdot_status
-qdot_prove_harder(qdot_pool *pool, qdot_expr left, qdot_expr right,
-                  const qdot_facts *facts, bool *equal)
+static qdot_status
+harder(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+       bool implied, bool *equal, bool *empty)
 {
-    bool changed = false, exponentials = false;
+    bool changed = true, exponentials = false;
     struct problem p;
     qdot_status status;
     qdot_facts own;
 
     *equal = false;
     QDOT_TRY(begin(&p, pool, left, right, facts));
-    status = unfold(&p, facts, &changed);
+    status = unfold(&p, facts, implied, empty);
+    if (status == QDOT_OK && implied && *empty) {
+        *equal = true;
+        return finish(&p, status);
+    }
     for (size_t i = 0; i < count(&p) && status == QDOT_OK; i++)
         exponentials |= qdot_rewrite_has_exp(pool, p.e[i]);
     for (size_t i = 0; i < count(&p) && status == QDOT_OK; i++)
         p.e[i] = qdot_rewrite(pool, p.e[i], exponentials);
+    if (status == QDOT_OK && !qdot_pool_failed(pool))
+        status = note_positive(&p);
     if (status == QDOT_OK)
         status = prepare(&p);
     if (status == QDOT_OK)
         status = in_field(&p, true, equal);
-    changed = true;
     for (int round = 0; round < ROUNDS && status == QDOT_OK && changed && !*equal;
          round++) {
         own = (qdot_facts){.n_relations = p.nr, .relations = p.e + 2};
@@ -182,5 +256,43 @@ qdot_prove_harder(qdot_pool *pool, qdot_expr left, qdot_expr right,
         if (status == QDOT_OK && changed)
             status = in_field(&p, true, equal);
     }
+    if (status == QDOT_OK && !*equal && !qdot_pool_failed(pool))
+        status = qdot_together(pool, count(&p), p.e, &changed);
+    if (status == QDOT_OK && !*equal && changed && !qdot_pool_failed(pool)) {
+        status = prepare(&p);
+        if (status == QDOT_OK)
+            status = in_field(&p, true, equal);
+    }
+    if (status == QDOT_OK && !*equal && !qdot_pool_failed(pool)) {
+        own = (qdot_facts){.n_relations = p.nr, .relations = p.e + 2};
+        status = qdot_angle_basis(pool, count(&p), p.e, &own, &changed);
+        if (status == QDOT_OK && changed)
+            status = prepare(&p);
+        if (status == QDOT_OK && changed)
+            status = in_field(&p, true, equal);
+    }
     return finish(&p, status);
+}
+
+qdot_status
+qdot_prove_harder(qdot_pool *pool, qdot_expr left, qdot_expr right,
+                  const qdot_facts *facts, bool *equal)
+{
+    bool empty;
+
+    return harder(pool, left, right, facts, false, equal, &empty);
+}
+
+qdot_status
+qdot_prove_defined(qdot_pool *pool, qdot_expr left, qdot_expr right,
+                   const qdot_facts *facts, bool *equal, bool *empty)
+{
+    bool none = false;
+    qdot_status status = harder(pool, left, right, facts, true, equal, &none);
+
+    if (empty != NULL)
+        *empty = none;
+    else
+        *equal &= !none; /* nothing is claimed of no points */
+    return status;
 }

@@ -325,6 +325,47 @@ by_squares(qdot_zero *z, const fmpz_mpoly_t p, int depth)
     return sign;
 }
 
+/* p = P + Q r, r a square root of B: where Q^2 B >= P^2 the sign is that of Q, where P^2 >= Q^2 B that of
+ * P: y + sqrt(y^2 + 1) > 0. */
+static uint8_t
+by_larger(qdot_zero *z, const fmpz_mpoly_t p, int depth)
+{
+    qdot_field *f = z->f;
+    const qdot_rule *rule = NULL;
+    fmpz_mpoly_t P, Q, d, r;
+    uint8_t sign = 0, more;
+
+    for (size_t i = 0; i < f->n_rules && rule == NULL; i++)
+        if (f->rule[i].power == 2 && f->gen[f->rule[i].var].kind == QDOT_GEN_ROOT &&
+            fmpz_mpoly_degree_si(p, f->rule[i].var, f->ctx) == 1)
+            rule = &f->rule[i];
+    if (rule == NULL)
+        return 0;
+    fmpz_mpoly_init(P, f->ctx);
+    fmpz_mpoly_init(Q, f->ctx);
+    fmpz_mpoly_init(d, f->ctx);
+    fmpz_mpoly_init(r, f->ctx);
+    fmpz_mpoly_derivative(Q, p, rule->var, f->ctx);
+    fmpz_mpoly_gen(r, rule->var, f->ctx);
+    fmpz_mpoly_mul(d, Q, r, f->ctx);
+    fmpz_mpoly_sub(P, p, d, f->ctx);
+    qdot_field_mul(f, d, d, d); /* Q^2 B */
+    qdot_field_mul(f, r, P, P);
+    fmpz_mpoly_sub(d, d, r, f->ctx);
+    if (qdot_field_goes(f)) {
+        more = sign_of(z, d, depth - 1);
+        if (more & EITHER)
+            sign = sign_of(z, more & QDOT_GE0 ? Q : P, depth - 1);
+        if (!(more & QDOT_NE0))
+            sign &= EITHER;
+    }
+    fmpz_mpoly_clear(P, f->ctx);
+    fmpz_mpoly_clear(Q, f->ctx);
+    fmpz_mpoly_clear(d, f->ctx);
+    fmpz_mpoly_clear(r, f->ctx);
+    return sign & EITHER ? sign : 0;
+}
+
 static uint8_t
 of_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 {
@@ -340,6 +381,8 @@ of_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth)
     if (sign == 0 && depth > 0 && fmpz_mpoly_length(p, z->f->ctx) <= LONGEST &&
         has_roots(z->f, p))
         sign = by_squares(z, p, depth);
+    if (sign == 0 && depth > 0 && fmpz_mpoly_length(p, z->f->ctx) <= LONGEST)
+        sign = by_larger(z, p, depth);
     return sign;
 }
 

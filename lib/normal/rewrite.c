@@ -43,15 +43,51 @@ extreme(qdot_pool *pool, qdot_expr e, bool most)
     return best;
 }
 
-/* sinh, cosh, tanh of log w, or of any argument by exp: (w - 1/w)/2 ... */
+/* floor(x + k) = floor(x) + k for an integer k. */
+static qdot_expr
+whole_part(qdot_pool *pool, qdot_expr x)
+{
+    qdot_expr k;
+
+    if (x == QDOT_NIL || qdot_expr_kind(pool, x) != QDOT_SUM)
+        return qdot_fun1(pool, QDOT_FLOOR, x);
+    k = qdot_fun1(pool, QDOT_FLOOR, qdot_expr_arg(pool, x, 0));
+    return qdot_add(pool, k, qdot_fun1(pool, QDOT_FLOOR, qdot_sub(pool, x, k)));
+}
+
+/* mod(a, b) = a - b floor(a/b). */
+static qdot_expr
+modulo(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    qdot_expr whole = whole_part(pool, qdot_div(pool, a, b));
+
+    return qdot_sub(pool, a, qdot_mul(pool, b, whole));
+}
+
+/* u^c for c log u, c a number; nil if it is anything else. */
+static qdot_expr
+power_of_log(qdot_pool *pool, qdot_expr arg)
+{
+    qdot_expr c = QDOT_ONE;
+
+    if (qdot_expr_kind(pool, arg) == QDOT_PROD && qdot_expr_count(pool, arg) == 3 &&
+        qdot_expr_arg(pool, arg, 2) == QDOT_ONE) {
+        c = qdot_expr_arg(pool, arg, 0);
+        arg = qdot_expr_arg(pool, arg, 1);
+    }
+    if (qdot_expr_kind(pool, arg) != QDOT_FUN || qdot_expr_node(pool, arg)->op != QDOT_LOG)
+        return QDOT_NIL;
+    return qdot_pow(pool, qdot_expr_arg(pool, arg, 0), c);
+}
+
+/* sinh, cosh, tanh of c log u, w = u^c, or of any argument by exp: (w - 1/w)/2 ... */
 static qdot_expr
 hyperbolic(qdot_pool *pool, qdot_expr e, bool exponentials)
 {
-    qdot_expr arg = qdot_expr_arg(pool, e, 0), w, over, s, c;
+    qdot_expr arg = qdot_expr_arg(pool, e, 0), w = power_of_log(pool, arg), over, s, c;
 
-    if (qdot_expr_kind(pool, arg) == QDOT_FUN &&
-        qdot_expr_node(pool, arg)->op == QDOT_LOG)
-        w = qdot_expr_arg(pool, arg, 0);
+    if (w != QDOT_NIL)
+        ;
     else if (exponentials)
         w = qdot_fun1(pool, QDOT_EXP, arg);
     else
@@ -79,6 +115,8 @@ function(qdot_pool *pool, qdot_expr e, bool exponentials)
     case QDOT_ATANH: return log_ratio(pool, v);
     case QDOT_MAX: return extreme(pool, e, true);
     case QDOT_MIN: return extreme(pool, e, false);
+    case QDOT_MOD: return modulo(pool, v, qdot_expr_arg(pool, e, 1));
+    case QDOT_FLOOR: return whole_part(pool, v);
     case QDOT_SINH:
     case QDOT_COSH:
     case QDOT_TANH: return hyperbolic(pool, e, exponentials);

@@ -4,7 +4,8 @@
  *     acosh v = log(v + sqrt(v^2 - 1)),   atanh v = log((1 + v)/(1 - v))/2,
  *     max(x, y) = (x + y + |x - y|)/2,   min(x, y) = (x + y - |x - y|)/2,
  *     b^x = exp(x log b) for b > 0 and x not a number,
- *     sinh(log w) = (w - 1/w)/2,   cosh(log w) = (w + 1/w)/2,   tanh likewise,
+ *     sinh(c log u) = (w - 1/w)/2 with w = u^c,   cosh, tanh likewise,
+ *     mod(x, y) = x - y floor(x/y),   floor(x + k) = floor(x) + k for integers k,
  *     and if exp is asked for, sinh, cosh, tanh by exp.
  *
  * Each an equality wherever its left side is defined.

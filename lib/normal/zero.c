@@ -9,6 +9,7 @@
 
 enum {
     MOST_DEPTH = 10,
+    MOST_NESTED = 6,
     MOST_ORDER = 12,
     MOST_GROUPS = 200,
     POINTS = 24,
@@ -17,10 +18,13 @@ enum {
 
 qdot_status
 qdot_zero_begin(qdot_zero *z, qdot_field *f, const qdot_ideal *ideal, size_t n_positive,
-                const qdot_expr *positive)
+                const qdot_expr *positive, bool sure)
 {
-    *z = (qdot_zero){
-        .f = f, .ideal = ideal, .n_positive = n_positive, .positive = positive};
+    *z = (qdot_zero){.f = f,
+                     .ideal = ideal,
+                     .n_positive = n_positive,
+                     .positive = positive,
+                     .sure = sure};
     z->sign = qdot_calloc((size_t)f->n + 1, sizeof *z->sign);
     if (z->sign == NULL)
         return QDOT_ENOMEM;
@@ -341,6 +345,36 @@ differs_somewhere(qdot_pool *pool, qdot_expr e)
     return differs;
 }
 
+/* Of a generator: a root also where its base is positive by what is known of the field. depth bounds
+ * the recursion into the generators of the base. */
+static bool
+analytic_generator(qdot_zero *z, slong v, int depth)
+{
+    qdot_field *f = z->f;
+    const qdot_gen *gen = &f->gen[v];
+    const qdot_ratio *b;
+    bool positive = false;
+    fmpz_mpoly_t p;
+
+    if (is_analytic(f->pool, gen->expr))
+        return true;
+    if (gen->kind != QDOT_GEN_ROOT || !z->sure || depth <= 0)
+        return false;
+    b = qdot_field_value(f, gen->of);
+    if (b == NULL)
+        return false;
+    fmpz_mpoly_init(p, f->ctx); /* n/d > 0: n d > 0, so d is not 0 */
+    qdot_field_mul(f, p, b->n, b->d);
+    if (qdot_field_goes(f))
+        positive = (qdot_zero_sign(z, p) & QDOT_POS) == QDOT_POS;
+    fmpz_mpoly_clear(p, f->ctx);
+    for (slong w = 0; w < f->n && positive; w++)
+        if (fmpz_mpoly_degree_si(b->n, w, f->ctx) > 0 ||
+            fmpz_mpoly_degree_si(b->d, w, f->ctx) > 0)
+            positive = analytic_generator(z, w, depth - 1);
+    return positive;
+}
+
 /* Whether P - Q R is analytic, as p is, and not zero everywhere. */
 static bool
 only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
@@ -351,7 +385,7 @@ only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
 
     for (slong v = 0; v < f->n && all; v++)
         if (fmpz_mpoly_degree_si(p, v, f->ctx) > 0)
-            all = is_analytic(f->pool, f->gen[v].expr);
+            all = analytic_generator(z, v, MOST_NESTED);
     if (!all)
         return false;
     fmpz_mpoly_init(other, f->ctx);

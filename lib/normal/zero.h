@@ -15,7 +15,8 @@
  *                  only if one of them is.
  *
  *   logarithms the coefficients are sums of k log A with integers k: 0 if the product of
- *              all A^k is 1.
+ *              all A^k is 1; m times such a sum and a rest without logarithms: 0 if the
+ *              product is exp(-rest/m).
  *   angles     the coefficients are sums of k atan u, k asin u, ... and q pi: 0 if the product
  *              of complex numbers of these arguments is real, and the sum not beyond pi.
  *
@@ -32,13 +33,14 @@ typedef struct {
     const qdot_ideal *ideal; /* relations that hold; NULL: none */
     size_t n_positive;
     const qdot_expr *positive; /* expressions in the field that are > 0 */
+    bool sure;                 /* these are on the whole of the declared domain */
     uint8_t *sign;             /* [f->n] of generators */
 } qdot_zero;
 
 /* Look at the signs of the generators. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_zero_begin(qdot_zero *z, qdot_field *f,
                                             const qdot_ideal *ideal, size_t n_positive,
-                                            const qdot_expr *positive);
+                                            const qdot_expr *positive, bool sure);
 void qdot_zero_end(qdot_zero *z);
 
 /* Whether p is proved to be zero. Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */

@@ -647,9 +647,10 @@ zero_to_many_digits_without_a_proof_is_undecided(void **state)
     qdot_decision d;
 
     (void)state;
-    /* Machin's formula squared: products of inverse functions are outside what is proved */
+    /* Gauss' formula squared: a product of three constant angles is outside what is proved */
     assert_int_equal(qdot_decide_equal(pool,
-                                       text_read(pool, "(4*atan(1/5) - atan(1/239))^2"),
+                                       text_read(pool, "(12*atan(1/18) + 8*atan(1/57) - "
+                                                       "5*atan(1/239))^2"),
                                        text_read(pool, "pi^2/16"), NULL, &d),
                      QDOT_OK);
     assert_int_equal(d.verdict, QDOT_UNDECIDED);

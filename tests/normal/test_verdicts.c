@@ -1,7 +1,7 @@
 /* test_verdicts.c -- random identities, true and false: a verdict is never wrong.
  *
- * QDOT_TEST_PAIRS says how many pairs (2000), QDOT_TEST_SEED where they begin (1). What is false
- * is known from values in MPFR (number.h), what is true from how it was built (pairs.h).
+ * QDOT_TEST_PAIRS says how many pairs (2000), QDOT_TEST_SEED where they begin (1), QDOT_TEST_SHOW that
+ * what stays undecided be shown (1: of the class; 2: all). What is false is known from values in MPFR (number.h), what is true from how it was built (pairs.h).
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -87,8 +87,8 @@ count_truth(pairs *g, pair p, const knowledge *known, uint64_t seed, tally *n)
     } else {
         n->open++;
         n->open_inside += g->inside;
-        if (g->inside && setting("QDOT_TEST_SHOW", 0))
-            tell(g->pool, "undecided", seed, p);
+        if (setting("QDOT_TEST_SHOW", 0) > !g->inside)
+            tell(g->pool, g->inside ? "undecided" : "undecided, no wonder", seed, p);
     }
 }
 

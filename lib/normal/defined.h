@@ -1,0 +1,32 @@
+/* defined.h -- what holds wherever an expression has a value.
+ *
+ * Sides are compared where both are defined. There
+ *
+ *     b^(p/q): b >= 0 (b > 0 below a bar),   log u: u > 0,   asin u, acos u: -1 <= u <= 1,
+ *     acosh u: u >= 1,   atanh u: -1 < u < 1,
+ *
+ * for every such node that is evaluated whatever the values are: not what stands inside an if. A gap
+ * is taken apart: of n/d > 0 the factors of n d without those of known sign; of c (a^2 - x^2) >= 0
+ * with c > 0 two gaps, a - x and a + x. A root that stands beside what may be zero and could have been
+ * taken out of it says nothing: x^2 (y - 1) under a root is |x| times the root of y - 1.
+ *
+ * Tests  tests/normal/test_decide.c, tests/script/identities-inverse.inc
+ */
+#ifndef QDOT_NORMAL_DEFINED_H
+#define QDOT_NORMAL_DEFINED_H
+
+#include "expr/expr.h"
+
+/* gap >= 0, and > 0 unless weak. */
+typedef qdot_status (*qdot_defined_gap)(void *user, qdot_expr gap, bool weak);
+
+/* Tell of each gap of e[n] that the nodes' signs do not know. Errors: QDOT_ENOMEM, QDOT_EINTR, what
+ * `tell` returns; the pool may keep a failure. */
+QDOT_MUST_CHECK qdot_status qdot_defined(qdot_pool *pool, size_t n, const qdot_expr *e,
+                                         qdot_defined_gap tell, void *user);
+
+/* The gaps into which gap >= 0 (> 0) is taken apart. */
+QDOT_MUST_CHECK qdot_status qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak,
+                                               qdot_defined_gap tell, void *user);
+
+#endif
