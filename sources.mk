@@ -551,6 +551,7 @@ script_tests = \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
 	tests/script/dof-redundant.lag \
+	tests/script/doubts.sh \
 	tests/script/equilibria.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
@@ -572,6 +573,7 @@ script_tests = \
 	tests/script/inner-times.sh \
 	tests/script/integrable.lag \
 	tests/script/json.lag \
+	tests/script/jumps.sh \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-four-bar.lag \
@@ -1085,6 +1087,7 @@ test_files = \
 	tests/script/digits-table.out \
 	tests/script/digits.out \
 	tests/script/dof-redundant.out \
+	tests/script/doubts.out \
 	tests/script/equilibria.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
@@ -1118,6 +1121,7 @@ test_files = \
 	tests/script/inner-times.out \
 	tests/script/integrable.out \
 	tests/script/json.out \
+	tests/script/jumps.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-four-bar.out \

@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -32,6 +33,7 @@ typedef struct {
     double *own;   /* [PLACES x n] its states there */
     size_t reached; /* how many of them, from the first */
     qdot_ode_result result;
+    uint64_t steps; /* so far */
     bool running;  /* on `thread` */
     bool finished; /* result is valid */
     pthread_t thread;
@@ -46,6 +48,7 @@ struct qdot_companion {
     double *shown; /* [PLACES x n] the states of the run there */
     size_t n_shown;
     atomic_bool leave; /* the run ended elsewhere */
+    atomic_uint_fast64_t most_steps;
     follower at[2];
     size_t count;
 };
@@ -85,11 +88,12 @@ qdot_companion_moved(double y, size_t i, size_t number)
 static qdot_status
 look(double t, const double *y, bool *stop, void *user)
 {
-    qdot_companion *c = user;
+    follower *f = user;
 
     (void)t;
     (void)y;
-    *stop = atomic_load_explicit(&c->leave, memory_order_relaxed);
+    *stop = atomic_load_explicit(&f->of->leave, memory_order_relaxed)
+            || ++f->steps > atomic_load_explicit(&f->of->most_steps, memory_order_relaxed);
     return QDOT_OK;
 }
 
@@ -110,7 +114,7 @@ run_by(follower *f, const qdot_ode_method *method, double t1)
     const qdot_companion *c = f->of;
     qdot_ode_options options = {.tol = c->tol,
                                 .accepted = look,
-                                .user = (void *)c,
+                                .user = f,
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)f->number};
     double t = f->t0;
     qdot_ode_stats spent = f->result.stats;
@@ -144,9 +148,13 @@ run_to(follower *f, double t1)
     const qdot_companion *c = f->of;
 
     f->result = (qdot_ode_result){0};
+    f->steps = 0;
     run_by(f, c->method, t1);
     if (f->result.outcome == QDOT_ODE_FAILED && c->method->series && c->run->stiff)
         run_by(f, qdot_ode_method_find(c->run->partner), t1);
+    if (f->steps > atomic_load(&c->most_steps) && f->result.reason[0] == '\0')
+        snprintf(f->result.reason, sizeof f->result.reason,
+                 "it would take more than %llu steps", (unsigned long long)f->steps);
     f->finished = true;
 }
 
@@ -289,6 +297,7 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     if (c->method->series)
         choose_times(c, request->t0);
     atomic_init(&c->leave, false);
+    atomic_init(&c->most_steps, UINT64_MAX);
     status = c->shown ? prepare(c, request, 0) : QDOT_ENOMEM;
     if (status == QDOT_OK && request->twin)
         status = prepare(c, request, 1);
@@ -318,6 +327,12 @@ arrive(follower *f, bool whole, double t_end, const double *y, double *differenc
     for (size_t i = 0; i < c->n && out->known && difference; i++)
         difference[i] = fmax(fabs(y[i] - f->y[i]), f->number ? difference[i] : 0);
     return whole && c->n_shown == PLACES && f->reached == PLACES;
+}
+
+void
+qdot_companion_limit(qdot_companion *c, uint64_t steps)
+{
+    atomic_store(&c->most_steps, QDOT_COMPANION_PATIENCE * steps + QDOT_COMPANION_STEPS);
 }
 
 void

@@ -39,6 +39,7 @@
 #define QDOT_ODE_COMPANION_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "base/status.h"
 #include "ode/integrate.h"
@@ -83,6 +84,13 @@ const double *qdot_companion_times(const qdot_companion *c, size_t *count);
 
 /* The state y [n] of the run at time k of those; copied. */
 void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
+
+/* The run itself took so many steps. A companion that wants QDOT_COMPANION_PATIENCE times
+ * as many and QDOT_COMPANION_STEPS more does not arrive: beside a scene at rest, which one
+ * step may cross, one moved by a rounding swings for all of the time. */
+void qdot_companion_limit(qdot_companion *c, uint64_t steps);
+#define QDOT_COMPANION_PATIENCE 100
+#define QDOT_COMPANION_STEPS 200000
 
 /* The run itself has ended at t_end with y [n]: wait for the companion (that of a run
  * which ended before t1 starts again, to t_end), compare, and free it.

@@ -188,6 +188,72 @@ turns_a_corner(qdot_piece *x, size_t from, double t, const double *y, bool *corn
     return status;
 }
 
+/* --- jumps of T - V ------------------------------------------------------------------ */
+
+/* The level of a mode at a state moved by a part of component k. */
+static double
+level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, double *in,
+         double *work)
+{
+    double level;
+
+    memcpy(in, y, n * sizeof *in);
+    in[n] = t;
+    if (k <= n)
+        in[k] += 0x1p-26 * fmax(1, fabs(in[k]));
+    qdot_tape_eval(m->level, in, &level, work);
+    return level;
+}
+
+/* Whether a surface lies between two modes that moves with the state: across time alone
+ * T - V may jump. */
+static bool
+is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
+{
+    const qdot_switches *s = &x->c->stage->switches;
+
+    for (size_t i = 0; i < s->surfaces.n; i++)
+        if (a->side[i] != b->side[i]
+            && (qdot_expr_node(s->pool, s->surfaces.at[i].u)->holds
+                & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
+            return true;
+    return false;
+}
+
+/* c->reason, where T - V is not the same on both sides of a surface, at (t, y): more than
+ * moving the state a little makes of it. */
+static qdot_status
+check_level(qdot_piece *x, size_t from, double t, const double *y)
+{
+    const qdot_mode *a = x->c->stage->modes.at[from], *b = qdot_piece_mode(x);
+    const size_t n = x->n;
+    size_t work = 1;
+    double *in, jump, least = 0;
+
+    if (from == x->mode || !a->level || !b->level || !is_wall(x, a, b))
+        return QDOT_OK;
+    work += qdot_tape_work(a->level) + qdot_tape_work(b->level);
+    in = qdot_calloc(n + 1 + work, sizeof *in);
+    if (!in)
+        return QDOT_ENOMEM;
+    jump = level_at(b, t, y, n, SIZE_MAX, in, in + n + 1)
+           - level_at(a, t, y, n, SIZE_MAX, in, in + n + 1);
+    for (size_t k = 0; k <= n; k++)
+        for (int side = 0; side < 2; side++) {
+            const qdot_mode *m = side ? b : a;
+
+            least += fabs(level_at(m, t, y, n, k, in, in + n + 1)
+                          - level_at(m, t, y, n, SIZE_MAX, in, in + n + 1));
+        }
+    qdot_free(in);
+    if (fabs(jump) > least)
+        snprintf(x->c->reason, sizeof x->c->reason,
+                 "stopped at t = %.15g: T - V jumps there by %.6g, which is an infinite "
+                 "force: an event says what it does, as `event NAME: x = 0 then x' = ...`",
+                 t, jump);
+    return QDOT_OK;
+}
+
 /* --- the whole ----------------------------------------------------------------------- */
 
 /* From y at t, which is the last point, through one piece that leaves well. */
@@ -211,6 +277,10 @@ one_piece(qdot_piece *x, size_t from, double t, const double *y, bool jumped)
             qdot_piece_stop(x, true);
             return QDOT_OK;
         }
+        if (!jumped)
+            QDOT_TRY(check_level(x, from, t, y));
+        if (x->c->reason[0] != '\0')
+            return QDOT_OK;
         carry(x, from, jumped);
         QDOT_TRY(qdot_piece_begin(x, t, y));
         QDOT_TRY(qdot_piece_integrate(x, t, y, jumped));

@@ -116,7 +116,7 @@ compare(qdot_distance *d, size_t piece, double t, const double *values, double *
         double *own)
 {
     double *first = d->work, *theirs = first;
-    bool there = true;
+    bool there = qdot_run_covered(d->run, t);
 
     for (size_t j = 0; j < d->m; j++)
         out[j] = own[j] = 0;

@@ -54,4 +54,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_end_error(struct qdot_run *run, double *err
 /* Whether both runs went through the same pieces, so that states compare. */
 bool qdot_run_comparable(const struct qdot_run *run);
 
+/* Whether the companions come as far as t, or ended as the run did. */
+bool qdot_run_covered(const struct qdot_run *run, double t);
+
 #endif

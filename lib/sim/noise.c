@@ -39,12 +39,12 @@ level(const double *g, size_t m)
     return sqrt(factor * sum / (POINTS - ORDER));
 }
 
-static qdot_status
-noise_at(qdot_reader *r, double t, double *noise)
+qdot_status
+qdot_noise_at(qdot_reader *r, size_t piece, double t, double *noise)
 {
     const size_t n = 2 * r->plan->n, m = qdot_tape_outputs(r->tape);
     double *y = qdot_malloc((n + POINTS * m + 1) * sizeof *y), *g = y + n;
-    qdot_status status = y ? qdot_reader_at(r, SIZE_MAX, t, g) : QDOT_ENOMEM;
+    qdot_status status = y ? qdot_reader_at(r, piece, t, g) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         memcpy(y, r->in, n * sizeof *y);
@@ -63,7 +63,7 @@ noise_at(qdot_reader *r, double t, double *noise)
 static qdot_status
 add(qdot_reader *r, double t, const double *values, double *noise, double *roundings)
 {
-    qdot_status status = noise_at(r, t, noise);
+    qdot_status status = qdot_noise_at(r, SIZE_MAX, t, noise);
 
     for (size_t j = 0; j < qdot_tape_outputs(r->tape); j++) {
         roundings[j] = DBL_EPSILON * fmax(roundings[j], fabs(values[j]));

@@ -15,6 +15,11 @@
 
 #include "sim/reader.h"
 
+/* Of the outputs [m] of the reader's tape at t, in a piece (sim/reader.h), into noise [m].
+ * Errors: as qdot_reader_at. */
+QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, size_t piece, double t,
+                                          double *noise);
+
 /* What evaluating exprs [m] along a course at times [k] may be off by: roundings [k x m],
  *
  *     max(4 noise, DBL_EPSILON max(size, |g|))

@@ -16,7 +16,10 @@
 #include "sim/reader.h"
 #include "sim/noise.h"
 
-enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60 };
+enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, MOST_PARTS = 4096 };
+
+/* Of the noise of evaluating: coefficients below it are nothing else. */
+static const double noises = 8;
 
 typedef struct {
     qdot_reader reader;
@@ -26,6 +29,8 @@ typedef struct {
     double largest, smallest; /* so far */
     long double integral;
     double rough;             /* what parts that stay rough leave open of the extrema */
+    double noise;             /* of evaluating it in the step at hand */
+    size_t parts;             /* of that step so far */
     bool begun;
     bool odd[2]; /* the step begins, ends where equations switch: sign(0) is no limit */
     double ends[2];
@@ -62,14 +67,18 @@ static qdot_status
 fit(scan *s, part *p, int nodes, bool *good)
 {
     double blur =
-        DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
+        DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a), tail;
 
     p->n = nodes;
     for (int j = 0; j < nodes; j++)
         QDOT_TRY(value_at(s, time_at(p, qdot_chebyshev_node(nodes, j)), &p->values[j]));
     qdot_chebyshev_fit(nodes, p->values, p->c);
-    *good = qdot_chebyshev_tail(nodes, p->c)
-            <= (0x1p-44 + 8 * blur) * qdot_chebyshev_size(nodes, p->c);
+    tail = qdot_chebyshev_tail(nodes, p->c);
+    *good = tail <= (0x1p-44 + 8 * blur) * qdot_chebyshev_size(nodes, p->c);
+    if (!*good && tail <= noises * s->noise) {
+        *good = true;
+        s->rough = fmax(s->rough, noises * s->noise);
+    }
     return QDOT_OK;
 }
 
@@ -117,6 +126,19 @@ take_part(scan *s, const part *p, bool good)
     return QDOT_OK;
 }
 
+/* What evaluating it in the step is off by; 0 where that is not known. */
+static qdot_status
+find_noise(scan *s, double a, double b)
+{
+    qdot_status status =
+        qdot_noise_at(&s->reader, s->piece, 0.5 * (a + b), &s->noise);
+
+    s->parts = 0;
+    if (status != QDOT_OK || !isfinite(s->noise))
+        s->noise = 0;
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
 static qdot_status
 scan_step(scan *s, double a, double b)
 {
@@ -126,6 +148,7 @@ scan_step(scan *s, double a, double b)
     ends[0] = b;
     s->ends[0] = a;
     s->ends[1] = b;
+    QDOT_TRY(find_noise(s, a, b));
     while (depth > 0) {
         part p = {.a = from, .b = ends[depth - 1]};
         double t = fmax(fabs(p.a), fabs(p.b));
@@ -141,7 +164,7 @@ scan_step(scan *s, double a, double b)
         }
         if (good)
             s->nodes = nodes;
-        if (good || short_one || depth == DEEPEST) {
+        if (good || short_one || depth == DEEPEST || ++s->parts > MOST_PARTS) {
             QDOT_TRY(take_part(s, &p, good));
             from = p.b;
             depth--;
@@ -270,6 +293,8 @@ compare(const qdot_run *run, const qdot_tape *tape, bool accelerations,
     const qdot_course *courses[] = {&run->companion, &run->twin};
     double theirs[2], rough;
 
+    if (!qdot_run_covered(run, to))
+        return qdot_fail(QDOT_EDOMAIN, "a second run does not come so far");
     *distance = 0;
     for (int k = 0; k < 1 + run->has_twin; k++) {
         QDOT_TRY(over_course(run, courses[k], tape, accelerations, kind, from, to,
@@ -287,7 +312,7 @@ qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, do
 {
     const qdot_trajectory *tr = &run->course.tr;
     bool accelerations, back = tr->t[tr->count - 1] < tr->t[0];
-    double rough, distance, spread = 0;
+    double rough, distance = 0, spread = 0;
     qdot_tape *tape;
     qdot_status status;
 

@@ -440,6 +440,20 @@ start_companion(qdot_run *run, double tol, beside *b)
     return qdot_companion_start(&request, &b->companion);
 }
 
+/* Why there is no error. */
+static qdot_status
+say_lost(qdot_run *run, const char *reason)
+{
+    char text[400];
+
+    snprintf(text, sizeof text,
+             "a second run, from a start moved by a rounding, did not arrive%s%.300s",
+             reason[0] ? ": " : "", reason);
+    qdot_free(run->doubt);
+    run->doubt = qdot_strdup(text);
+    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+}
+
 /* The error by a companion beside the run, on a second thread. */
 static qdot_status
 run_beside(qdot_run *run, double tol, bool *interrupted)
@@ -468,6 +482,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
 
         double *difference = qdot_calloc(2 * run->plan->n, sizeof *difference);
 
+        qdot_companion_limit(b.companion, run->course.tr.result.stats.steps);
         qdot_companion_finish(b.companion, there ? run->course.tr.result.t : run->t1,
                               there ? last_state(run) : run->start, difference,
                               &estimate);
@@ -477,6 +492,8 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
             status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr,
                                        difference, &run->multipliers);
         qdot_free(difference);
+        if (status == QDOT_OK && !estimate.known)
+            status = say_lost(run, estimate.result.reason);
         if (status != QDOT_OK || *interrupted)
             qdot_fail_again(&failure);
     }

@@ -36,6 +36,23 @@ qdot_run_comparable(const qdot_run *run)
            && (!run->has_twin || went_alike(&run->course, &run->twin));
 }
 
+static bool
+covers(const qdot_course *c, double t)
+{
+    const qdot_trajectory *tr = &c->tr;
+    double start = tr->t[0], end = tr->t[tr->count - 1];
+
+    return tr->result.outcome != QDOT_ODE_FAILED
+           || (start < end ? t <= end : start > end ? t >= end : t == end);
+}
+
+bool
+qdot_run_covered(const qdot_run *run, double t)
+{
+    return run->has_companion && covers(&run->companion, t)
+           && (!run->has_twin || covers(&run->twin, t));
+}
+
 /* How often an event occurred. */
 static size_t
 count(const qdot_course *c, size_t event)
@@ -109,6 +126,8 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     if (method->stiff)
         system.series = NULL;
     options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
+    options.max_steps = QDOT_COMPANION_PATIENCE * run->course.tr.result.stats.steps
+                        + QDOT_COMPANION_STEPS;
     y = qdot_malloc(n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;

@@ -26,6 +26,7 @@ qdot_stage_clear(qdot_stage *s)
     for (size_t i = 0; i < s->modes.n; i++) {
         qdot_plan_free(s->modes.at[i]->plan);
         qdot_free(s->modes.at[i]->side);
+        qdot_tape_free(s->modes.at[i]->level);
         qdot_free(s->modes.at[i]->functions);
         qdot_free(s->modes.at[i]->watched);
         qdot_free(s->modes.at[i]);
@@ -251,6 +252,18 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
 }
 
 static qdot_status
+lower_level(const qdot_stage *s, qdot_mode *m)
+{
+    qdot_expr level;
+
+    if (s->switches.level == QDOT_NIL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, 1, &s->switches.level, &level));
+    return qdot_tape_new(m->plan->pool, 2 * m->plan->n + 1, m->plan->inputs, 1, &level,
+                         &m->level);
+}
+
+static qdot_status
 make_mode(qdot_stage *s, const long *side, qdot_mode *m)
 {
     size_t surfaces = s->switches.surfaces.n;
@@ -275,6 +288,7 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
         watch_function(m, s->events.at[i].function,
                        (qdot_watched){.kind = QDOT_WATCH_EVENT, .index = i});
     QDOT_TRY(watch_domains(s, m));
+    QDOT_TRY(lower_level(s, m));
     return watch_surfaces(s, m);
 }
 

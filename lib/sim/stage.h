@@ -37,6 +37,7 @@ typedef struct {
     qdot_plan *plan;
     long *side; /* [surfaces] */
     size_t m;
+    qdot_tape *level; /* from q, q', t: what may jump of T - V (sim/switch.h); NULL: nothing */
     qdot_expr *functions;  /* [m] events, then domains, then surfaces */
     qdot_watched *watched; /* [m] */
 } qdot_mode;

@@ -118,6 +118,64 @@ collect(qdot_switches *s, qdot_expr e)
     return status;
 }
 
+static bool
+switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
+{
+    bool found = false;
+    qdot_walk walk;
+
+    if (e == QDOT_NIL || *status != QDOT_OK)
+        return false;
+    *status = qdot_walk_begin(s->pool, e, &walk);
+    for (size_t i = 0; *status == QDOT_OK && i < walk.n; i++)
+        found = found || is_atom(s->pool, walk.at[i]);
+    qdot_walk_end(&walk);
+    return found;
+}
+
+/* q' M q' / 2 of a mass matrix with the values put in. */
+static qdot_expr
+kinetic(qdot_scene *scene, qdot_expr mass)
+{
+    qdot_pool *pool = scene->pool;
+    const size_t n = scene->coordinates.n;
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) {
+            qdot_expr v = qdot_symbol_jet(pool, scene->coordinates.at[i], 1);
+            qdot_expr w = qdot_symbol_jet(pool, scene->coordinates.at[j], 1);
+            qdot_expr entry = qdot_expr_arg(pool, mass, (uint32_t)(i * n + j));
+
+            sum = qdot_add(pool, sum, qdot_mul(pool, entry, qdot_mul(pool, v, w)));
+        }
+    return qdot_mul(pool, QDOT_HALF, sum);
+}
+
+/* s->level: of T, of each declared potential, of a stated Lagrangian, where they switch. */
+static qdot_status
+find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
+           qdot_expr mass)
+{
+    qdot_pool *pool = s->pool;
+    qdot_status status = QDOT_OK;
+    qdot_expr sum = QDOT_ZERO;
+
+    if (switches(s, mass, &status))
+        sum = kinetic(scene, mass);
+    if (switches(s, scene->lagrangian, &status))
+        sum = scene->lagrangian;
+    for (size_t i = 0; i < scene->potentials.n; i++)
+        if (switches(s, scene->potentials.at[i], &status))
+            sum = qdot_sub(pool, sum, scene->potentials.at[i]);
+    if (status == QDOT_OK && sum != QDOT_ZERO) {
+        sum = qdot_substitute(pool, sum, request->n_values, request->symbols,
+                              request->values);
+        s->level = switches(s, sum, &status) ? sum : QDOT_NIL;
+    }
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
 qdot_status
 qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_switches *s)
 {
@@ -139,7 +197,8 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
         QDOT_TRY(qdot_pool_check(pool));
         QDOT_TRY(collect(s, f));
     }
-    return QDOT_OK;
+    QDOT_TRY(find_level(s, scene, request, e[0]));
+    return s->level == QDOT_NIL ? QDOT_OK : collect(s, s->level);
 }
 
 /* --- freezing ------------------------------------------------------------------------ */

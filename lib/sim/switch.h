@@ -8,6 +8,9 @@
  *     floor(u)            u = k, k + 1    k
  *     mod(a, b)           of floor(a/b)   a - k b
  *
+ * Where T - V itself jumps there is a surface too, though the equations on its sides may be
+ * the same.
+ *
  * A mode is one side of every surface: signs, and an integer where it is a floor. Frozen
  * to a mode an expression switches no more. Surfaces may stand inside one another; the
  * inner ones are frozen first.
@@ -28,6 +31,8 @@ typedef struct qdot_switches {
     qdot_pool *pool; /* borrowed */
     qdot_vec(qdot_surface) surfaces;
     qdot_vec(qdot_expr) atoms; /* what switches, inner ones first */
+    qdot_expr level; /* the terms of T - V that switch: where they jump the force is infinite;
+                        NIL: none */
 } qdot_switches;
 
 /* Those of the equations of motion and of the constraints; start from {0}. Errors: as qdot_plan_new has them. */
