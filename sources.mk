@@ -283,6 +283,7 @@ sim_sources = \
 	lib/sim/bind.c \
 	lib/sim/blocks.c \
 	lib/sim/constrained-jacobian.c \
+	lib/sim/constrained-near.c \
 	lib/sim/constrained-put.c \
 	lib/sim/constrained-series.c \
 	lib/sim/constrained.c \
@@ -305,6 +306,7 @@ sim_sources = \
 	lib/sim/nearest.c \
 	lib/sim/noise.c \
 	lib/sim/parts.c \
+	lib/sim/passed.c \
 	lib/sim/piece-end.c \
 	lib/sim/piece.c \
 	lib/sim/plan.c \
@@ -357,6 +359,7 @@ sim_headers = \
 	lib/sim/nearest.h \
 	lib/sim/noise.h \
 	lib/sim/parts.h \
+	lib/sim/passed.h \
 	lib/sim/piece.h \
 	lib/sim/plan.h \
 	lib/sim/precise-bind.h \
@@ -559,6 +562,7 @@ script_tests = \
 	tests/script/event-roots.lag \
 	tests/script/events.lag \
 	tests/script/fall.sh \
+	tests/script/flat-places.lag \
 	tests/script/flexing.lag \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
@@ -1095,6 +1099,7 @@ test_files = \
 	tests/script/event-roots.out \
 	tests/script/events.out \
 	tests/script/fall.out \
+	tests/script/flat-places.out \
 	tests/script/flexing.out \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \

@@ -265,13 +265,6 @@ qdot_bind_held(qdot_bind *b)
     return b->held;
 }
 
-void
-qdot_bind_tell(const qdot_bind *b, qdot_text *to)
-{
-    if (b->tied)
-        qdot_constrained_series_tell(b->tied, to);
-}
-
 qdot_ode_system
 qdot_bind_system(qdot_bind *b)
 {

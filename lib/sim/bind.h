@@ -8,7 +8,6 @@
 #ifndef QDOT_SIM_BIND_H
 #define QDOT_SIM_BIND_H
 
-#include "base/text.h"
 #include "ode/system.h"
 #include "sim/constrained.h"
 #include "sim/plan.h"
@@ -40,9 +39,6 @@ QDOT_MUST_CHECK qdot_status qdot_bind_check(qdot_bind *bind, double t, double *y
 
 /* Of a plan with constraints, else NULL: sim/constrained.h. Borrowed. */
 qdot_constrained *qdot_bind_held(qdot_bind *bind);
-/* What its steps went over (sim/constrained-series.h), added to a text. */
-void qdot_bind_tell(const qdot_bind *bind, qdot_text *to);
-
 /* How often M was factored. */
 size_t qdot_bind_factored(const qdot_bind *bind);
 

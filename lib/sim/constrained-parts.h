@@ -42,6 +42,14 @@ void qdot_constrained_load(qdot_constrained *h, double t, const double *y);
 void qdot_constrained_positions(qdot_constrained *h);
 void qdot_constrained_velocities(qdot_constrained *h);
 
+/* M and A at what is loaded, into a level. */
+void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level);
+
+/* The rows of a dependency by name, added to a text; their number. row [s->m] of the
+ * constraints, NULL: all. */
+size_t qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s,
+                                  const size_t *row, qdot_text *names);
+
 /* Room for a Jacobian; outputs: the most of a tape. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_make_slopes(qdot_constrained *h,
                                                          size_t outputs);

@@ -10,7 +10,7 @@
 #include "sim/constrained.h"
 #include "tape/taylor.h"
 
-enum { most_order = 44, lanes = 8, most_told = 8 };
+enum { most_order = 44, lanes = 8 };
 
 /* Orders found by a residual-corrected solve: an error of the inverse is the same at every
  * order of a step, and so a drift of the energy instead of noise. With 0 that of the
@@ -64,10 +64,6 @@ struct qdot_constrained_series {
     double *entries, *others;   /* [orders x members] their coefficients, by order */
     double *sums;               /* [members] */
     double up[most_order + 2];  /* k/unit */
-    double *part;               /* [m] of the rows, in the dependency ahead */
-    bool *met;                  /* [m] rows of those that steps went over, */
-    double crossing[most_told]; /* their times */
-    size_t crossings;
 };
 
 /* --- one order ---------------------------------------------------------------------- */
@@ -324,7 +320,6 @@ ahead(void *user)
 
     if (e->saddle.rank == 0)
         return 0;
-    qdot_saddle_parts(&e->saddle, e->part);
     qdot_saddle_weakest(&e->saddle, row, column);
     for (size_t k = 0; k < c->n_slopes; k++)
         for (int j = 0; j < 4; j++)
@@ -337,38 +332,6 @@ ahead(void *user)
         s -= f / (sigma[1] + s * (2 * sigma[2] + s * 3 * sigma[3]));
     }
     return s > 0 && isfinite(s) ? s * fabs(e->unit) : 0;
-}
-
-static void
-crossed(double t, void *user)
-{
-    qdot_constrained_series *e = user;
-
-    if (e->crossings < most_told)
-        e->crossing[e->crossings] = t;
-    e->crossings++;
-    for (size_t r = 0; r < e->c->m; r++)
-        e->met[r] |= e->part[r] > QDOT_CONSTRAINED_PART;
-}
-
-void
-qdot_constrained_series_tell(const qdot_constrained_series *e, qdot_text *to)
-{
-    const size_t told = e->crossings < most_told ? e->crossings : most_told;
-
-    if (e->crossings == 0)
-        return;
-    qdot_constrained_name(e->c, e->met, to);
-    qdot_text_add(to, " stop being independent about t = ");
-    for (size_t i = 0; i < told; i++)
-        qdot_text_format(to, "%s%.4g",
-                         i == 0                                  ? ""
-                         : i + 1 == told && told == e->crossings ? " and "
-                                                                 : ", ",
-                         e->crossing[i]);
-    if (told < e->crossings)
-        qdot_text_format(to, " and %zu times more", e->crossings - told);
-    qdot_text_add(to, "; the run goes over it, at the accuracy left there");
 }
 
 /* --- building ----------------------------------------------------------------------- */
@@ -512,13 +475,11 @@ make(qdot_constrained_series *e, bool shaken)
     e->lambda = qdot_calloc(c->m * e->stride, sizeof *e->lambda);
     e->newest = qdot_calloc(p->n, sizeof *e->newest);
     e->weak = qdot_calloc(c->m + p->n, sizeof *e->weak);
-    e->part = qdot_calloc(c->m, sizeof *e->part);
-    e->met = qdot_calloc(c->m, sizeof *e->met);
     e->f = qdot_calloc(p->n, sizeof *e->f);
     e->M = qdot_calloc(c->n_masses + 1, sizeof *e->M);
     e->A = qdot_calloc(c->n_slopes + 1, sizeof *e->A);
     e->rows = qdot_calloc(c->m, sizeof *e->rows);
-    if (!e->part || !e->met || !e->a || !e->lambda || !e->newest || !e->weak || !e->f || !e->M || !e->A ||
+    if (!e->a || !e->lambda || !e->newest || !e->weak || !e->f || !e->M || !e->A ||
         !e->rows)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_saddle_init(&e->saddle, p->n, c->m, p->indefinite));
@@ -533,7 +494,6 @@ make(qdot_constrained_series *e, bool shaken)
                                   .extend = extend,
                                   .noise = noise,
                                   .ahead = ahead,
-                                  .crossed = crossed,
                                   .user = e};
     estimate_cost(e);
     return QDOT_OK;
@@ -574,8 +534,6 @@ qdot_constrained_series_free(qdot_constrained_series *e)
     qdot_free(e->lambda);
     qdot_free(e->newest);
     qdot_free(e->weak);
-    qdot_free(e->part);
-    qdot_free(e->met);
     qdot_free(e->f);
     qdot_free(e->M);
     qdot_free(e->A);

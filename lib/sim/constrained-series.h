@@ -22,7 +22,6 @@
 #ifndef QDOT_SIM_CONSTRAINED_SERIES_H
 #define QDOT_SIM_CONSTRAINED_SERIES_H
 
-#include "base/text.h"
 #include "ode/system.h"
 #include "sim/plan.h"
 
@@ -37,10 +36,6 @@ void qdot_constrained_series_free(qdot_constrained_series *series);
 
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_constrained_series_get(const qdot_constrained_series *series);
-
-/* What steps have gone over: "constraints a and b stop being independent about t = 1.5 and
- * 2.5; the run goes over it, at the accuracy left there", or nothing. */
-void qdot_constrained_series_tell(const qdot_constrained_series *series, qdot_text *to);
 
 /* Convolutions an order; how often a matrix was factored. */
 double qdot_constrained_series_convolutions(const qdot_constrained_series *series);

@@ -109,73 +109,18 @@ unpack(qdot_constrained *h, level *l, const double *from)
     return from;
 }
 
-/* The length of a name, without its component if `label`. */
-static size_t
-length_of_name(const char *name, bool label)
-{
-    const char *comma = label ? strrchr(name, ',') : NULL;
-
-    return comma ? (size_t)(comma - name) : strlen(name);
-}
-
 void
-qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to)
+qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *l)
 {
-    enum { many = 4 };
-    size_t count = 0, names = 0;
-
-    for (size_t k = 0; k < c->m; k++)
-        count += rows[k];
-    for (int pass = 0; pass < 2; pass++) {
-        const char *before = NULL;
-        size_t said = 0;
-
-        if (pass == 1)
-            qdot_text_add(to, names == 1 ? "constraint " : "constraints ");
-        for (size_t k = 0; k < c->m; k++) {
-            const char *name = c->rows[k].name;
-            const size_t n = length_of_name(name, count > many);
-
-            if (!rows[k] || (before && strncmp(before, name, n + 1) == 0 && count > many))
-                continue;
-            before = name;
-            names += pass == 0;
-            if (pass == 1)
-                qdot_text_format(to, "%s%.*s",
-                                 said == 0 ? "" : said + 1 == names ? " and " : ", ",
-                                 (int)n, name);
-            said++;
-        }
-    }
-}
-
-/* The rows of a dependency by name; their number. row [s->m], NULL: all. */
-static size_t
-name_dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row,
-               qdot_text *names)
-{
-    double *part = s->w; /* scratch of n + m */
-    bool *in = qdot_calloc(c->m + 1, sizeof *in);
-    size_t count = 0;
-
-    if (!in)
-        return 0;
-    qdot_saddle_parts(s, part);
-    for (size_t k = 0; k < s->m; k++)
-        if (part[k] > QDOT_CONSTRAINED_PART) {
-            in[row ? row[k] : k] = true;
-            count++;
-        }
-    qdot_constrained_name(c, in, names);
-    qdot_free(in);
-    return count;
+    qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
+    unpack(h, l, h->out);
 }
 
 static qdot_status
 dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
 {
     qdot_text names = {0};
-    const size_t count = name_dependent(c, s, row, &names);
+    const size_t count = qdot_constrained_dependent(c, s, row, &names);
 
     if (qdot_text_status(&names) == QDOT_OK && count > 0)
         qdot_fail(QDOT_ESINGULAR, "%.300s %s here", qdot_text_str(&names),
@@ -268,27 +213,6 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
     return r;
 }
 
-bool
-qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text *names)
-{
-    static const double near = 1e-3;
-    qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
-    const bool patterned = all->saddle.patterned;
-    size_t failed;
-    qdot_status status;
-
-    qdot_constrained_load(h, t, y);
-    qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
-    unpack(h, all, h->out);
-    all->saddle.patterned = false; /* the null space knows what is near */
-    status = qdot_saddle_factor(&all->saddle, &failed);
-    all->saddle.patterned = patterned;
-    if (status == QDOT_OK ? all->saddle.rank == 0 || all->saddle.quality > near
-                          : failed < h->plan->n)
-        return false;
-    return name_dependent(h->c, &all->saddle, all->row, names) > 0;
-}
-
 /* --- projection --------------------------------------------------------------------- */
 
 /* What rounding of x, q or q', makes of the rows, A being there. */
@@ -305,8 +229,7 @@ raise_bounds(const level *l, const double *x, double *bound)
 static qdot_status
 factor_metric(qdot_constrained *h, level *l)
 {
-    qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
-    unpack(h, l, h->out);
+    qdot_constrained_metric(h, l);
     l->filled = true;
     l->moves = l->few && qdot_least_move_factor(&l->move, l->saddle.A, l->saddle.M,
                                                 h->plan->n + 1);

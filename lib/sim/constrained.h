@@ -92,6 +92,11 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_start(qdot_constrained *constrained
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor(const qdot_plan *plan,
                                                     qdot_saddle *s);
 
+/* The least sine between a row of A and those before it, at y: 0 where rows that were
+ * independent are no more; without a direction to be measured in, 1. */
+double qdot_constrained_independence(qdot_constrained *constrained, double t,
+                                     const double *y);
+
 /* Whether the constraints that hold accelerations are nearly dependent at y, and then which:
  * "constraints a and b". false also where that cannot be told. */
 bool qdot_constrained_near(qdot_constrained *constrained, double t, const double *y,

@@ -232,14 +232,6 @@ ahead(void *user)
     return e->now == e->other ? e->other->ahead(e->other->user) : 0;
 }
 
-static void
-crossed(double t, void *user)
-{
-    const qdot_eliminated *e = user;
-
-    e->other->crossed(t, e->other->user);
-}
-
 qdot_status
 qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *other,
                     qdot_eliminated **eliminated)
@@ -266,7 +258,6 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
     e->series.extend = extend;
     e->series.noise = noise;
     e->series.ahead = ahead;
-    e->series.crossed = crossed;
     e->series.user = e;
     *eliminated = e;
     return QDOT_OK;

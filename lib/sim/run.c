@@ -7,6 +7,7 @@
 
 #include "ode/companion.h"
 #include "sim/multipliers.h"
+#include "sim/passed.h"
 #include "sim/digits.h"
 #include "sim/failure.h"
 #include "sim/horizon.h"
@@ -224,22 +225,25 @@ say_course(qdot_run *run)
     return c->reason[0] != '\0' ? qdot_run_say_why(run, c->reason) : QDOT_OK;
 }
 
-/* Where constraints stop being independent: what steps went over, into the notice. */
+/* Where constraints stop being independent: what the run went over, into the notice. That it
+ * cannot be found is no failure of the run. */
 static qdot_status
-say_crossings(qdot_run *run)
+say_crossings(qdot_run *run, bool *interrupted)
 {
-    for (size_t i = 0; i < run->course.binds.n; i++) {
-        qdot_text line = {0};
+    const qdot_error before = *qdot_last_error();
+    qdot_text lines = {0};
+    qdot_status status = qdot_passed_tell(&run->course, &lines);
 
-        if (run->course.binds.at[i])
-            qdot_bind_tell(run->course.binds.at[i], &line);
-        if (line.n > 0)
-            qdot_text_format(&run->notice, "%s%s", run->notice.n > 0 ? "\n" : "",
-                             qdot_text_str(&line));
-        qdot_text_clear(&line);
-    }
+    *interrupted = status == QDOT_EINTR;
+    if (status == QDOT_OK && lines.n > 0)
+        qdot_text_format(&run->notice, "%s%s", run->notice.n > 0 ? "\n" : "",
+                         qdot_text_str(&lines));
+    qdot_text_clear(&lines);
     if (run->notice.n > 0)
         run->report.notice = qdot_text_str(&run->notice);
+    if (status == QDOT_ENOMEM)
+        return status;
+    qdot_fail_again(&before);
     return qdot_text_status(&run->notice);
 }
 
@@ -303,7 +307,8 @@ integrate(qdot_run *run, double tol, bool *interrupted)
     *interrupted = status == QDOT_EINTR;
     if (!is_kept(status) || run->course.tr.count == 0)
         return status;
-    QDOT_TRY(say_crossings(run));
+    if (!*interrupted)
+        QDOT_TRY(say_crossings(run, interrupted));
     if (status != QDOT_OK)
         return say_failure(run, status);
     return say_course(run);

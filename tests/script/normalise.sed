@@ -25,9 +25,6 @@ s/-\{0,1\}[0-9][0-9.]*e-[2-9][0-9]/TINY/g
 s/-\{0,1\}[0-9][0-9.]*e-[1-3][0-9][0-9]/TINY/g
 s/\(tol[a-z]*["]*[ :=]*[0-9.]*\)E-/\1e-/g
 
-# Which steps go over a place is a matter of their lengths.
-s/\( stop being independent about t = \).*\(; the run goes over it\)/\1TIMES\2/
-
 # What was done about drift off the constraints, and how little is left of it.
 /^  constraints: /{
 s/error \(0\|TINY\)\(, of velocities \(0\|TINY\)\)\{0,1\}/error TINY/

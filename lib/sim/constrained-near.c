@@ -1,0 +1,112 @@
+/* constrained-near.c -- how independent constraints are at a place, and which are not. */
+#include <math.h>
+#include <string.h>
+
+#include "sim/constrained-parts.h"
+
+/* The length of a name, without its component if `label`. */
+static size_t
+length_of_name(const char *name, bool label)
+{
+    const char *comma = label ? strrchr(name, ',') : NULL;
+
+    return comma ? (size_t)(comma - name) : strlen(name);
+}
+
+void
+qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to)
+{
+    enum { many = 4 };
+    size_t count = 0, names = 0;
+
+    for (size_t k = 0; k < c->m; k++)
+        count += rows[k];
+    for (int pass = 0; pass < 2; pass++) {
+        const char *before = NULL;
+        size_t said = 0;
+
+        if (pass == 1)
+            qdot_text_add(to, names == 1 ? "constraint " : "constraints ");
+        for (size_t k = 0; k < c->m; k++) {
+            const char *name = c->rows[k].name;
+            const size_t n = length_of_name(name, count > many);
+
+            if (!rows[k] || (before && strncmp(before, name, n + 1) == 0 && count > many))
+                continue;
+            before = name;
+            names += pass == 0;
+            if (pass == 1)
+                qdot_text_format(to, "%s%.*s",
+                                 said == 0 ? "" : said + 1 == names ? " and " : ", ",
+                                 (int)n, name);
+            said++;
+        }
+    }
+}
+
+size_t
+qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row,
+                           qdot_text *names)
+{
+    double *part = s->w; /* scratch of n + m */
+    bool *in = qdot_calloc(c->m + 1, sizeof *in);
+    size_t count = 0;
+
+    if (!in)
+        return 0;
+    qdot_saddle_parts(s, part);
+    for (size_t k = 0; k < s->m; k++)
+        if (part[k] > QDOT_CONSTRAINED_PART) {
+            in[row ? row[k] : k] = true;
+            count++;
+        }
+    qdot_constrained_name(c, in, names);
+    qdot_free(in);
+    return count;
+}
+
+bool
+qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text *names)
+{
+    static const double near = 1e-3;
+    qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
+    const bool patterned = all->saddle.patterned;
+    size_t failed;
+    qdot_status status;
+
+    qdot_constrained_load(h, t, y);
+    qdot_constrained_metric(h, all);
+    all->saddle.patterned = false; /* the null space knows what is near */
+    status = qdot_saddle_factor(&all->saddle, &failed);
+    all->saddle.patterned = patterned;
+    if (status == QDOT_OK ? all->saddle.rank == 0 || all->saddle.quality > near
+                          : failed < h->plan->n)
+        return false;
+    return qdot_constrained_dependent(h->c, &all->saddle, all->row, names) > 0;
+}
+
+double
+qdot_constrained_independence(qdot_constrained *h, double t, const double *y)
+{
+    qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
+    qdot_saddle *s = &all->saddle;
+    const bool patterned = s->patterned;
+    const size_t factored = s->factored;
+    qdot_error before;
+    size_t failed;
+    double found = 0;
+
+    qdot_constrained_load(h, t, y);
+    qdot_constrained_metric(h, all);
+    if (patterned && s->rank == s->m)
+        return sqrt(qdot_sparse_factor(&s->sparse));
+    before = *qdot_last_error();
+    s->patterned = false;
+    if (qdot_saddle_factor(s, &failed) == QDOT_OK)
+        found = s->rank > 0 ? s->quality : 1;
+    else
+        qdot_fail_again(&before);
+    s->patterned = patterned;
+    s->factored = factored;
+    return found;
+}

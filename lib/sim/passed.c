@@ -1,0 +1,212 @@
+/* passed.c -- minima of independence along a run. */
+#include "sim/passed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "sim/constraints.h"
+
+/* Below it, or a hundred tolerances but no more than the second, q is 0. */
+static const double dependent = 1e-5, most_dependent = 1e-3;
+
+/* A minimum that is less of the points beside it is looked at; one of which so much is left
+ * when the sections have closed in on it is none that comes to 0. */
+static const double shallow = 0.75, floor_of_minimum = 0.2;
+
+enum { sections = 60, closed_in = 12, most_told = 60 };
+
+/* The steps of few may be long: they are looked at within, too. */
+enum { few_steps = 100, parts_of_a_step = 4 };
+
+/* Some constraints, and when they were passed. */
+typedef struct {
+    qdot_text names;
+    qdot_vec(double) times;
+} group;
+
+typedef struct {
+    const qdot_course *course;
+    qdot_trajectory_cursor *cursor;
+    qdot_constrained *held; /* of the piece at hand */
+    size_t piece;
+    double *y; /* [2n] */
+    double enough; /* of q, to be 0 */
+    double t[3], q[3]; /* at the last places of the piece, */
+    size_t taken;      /* as many */
+    qdot_vec(group) groups;
+} search;
+
+static qdot_status
+look(search *s, double t, double *q)
+{
+    QDOT_TRY(qdot_trajectory_read_piece(s->cursor, s->piece, t, s->y));
+    *q = qdot_constrained_independence(s->held, t, s->y);
+    return QDOT_OK;
+}
+
+/* The minimum between a and b, where q falls below `start`; s->y is a state within rounding
+ * of it. */
+static qdot_status
+descend(search *s, double a, double b, double start, double *at, double *least)
+{
+    static const double golden = 0.6180339887498949;
+    double c = b - golden * (b - a), d = a + golden * (b - a), qc, qd;
+
+    QDOT_TRY(look(s, c, &qc));
+    QDOT_TRY(look(s, d, &qd));
+    for (int k = 0; k < sections; k++) {
+        QDOT_TRY(qdot_interrupt_check());
+        if (k == closed_in && fmin(qc, qd) > floor_of_minimum * start)
+            break;
+        if (qc < qd) {
+            b = d;
+            d = c;
+            qd = qc;
+            c = b - golden * (b - a);
+            QDOT_TRY(look(s, c, &qc));
+        } else {
+            a = c;
+            c = d;
+            qc = qd;
+            d = a + golden * (b - a);
+            QDOT_TRY(look(s, d, &qd));
+        }
+    }
+    *at = qc < qd ? c : d;
+    return look(s, *at, least);
+}
+
+static qdot_status
+note(search *s, double t)
+{
+    qdot_text names = {0};
+    qdot_status status = QDOT_OK;
+    group *g = NULL;
+
+    if (!qdot_constrained_near(s->held, t, s->y, &names))
+        qdot_text_add(&names, "constraints");
+    for (size_t i = 0; i < s->groups.n && !g; i++)
+        if (strcmp(qdot_text_str(&s->groups.at[i].names), qdot_text_str(&names)) == 0)
+            g = s->groups.at + i;
+    if (!g) {
+        status = qdot_vec_push(&s->groups, ((group){.names = names}));
+        g = status == QDOT_OK ? s->groups.at + s->groups.n - 1 : NULL;
+    }
+    if (!g || g->names.at != names.at)
+        qdot_text_clear(&names);
+    return g ? qdot_vec_push(&g->times, t) : status;
+}
+
+/* Whether q [3], at three points in a row, may come down to 0 about the middle one: it is
+ * least there, and not by little. */
+static bool
+comes_down(const double *q)
+{
+    return q[1] <= q[0] && q[1] < q[2] && q[1] < shallow * fmax(q[0], q[2]);
+}
+
+/* One more place of a piece. */
+static qdot_status
+take(search *s, double t, double q)
+{
+    double at, least;
+
+    memmove(s->t, s->t + 1, 2 * sizeof *s->t);
+    memmove(s->q, s->q + 1, 2 * sizeof *s->q);
+    s->t[2] = t;
+    s->q[2] = q;
+    if (++s->taken < 3 || !comes_down(s->q))
+        return QDOT_OK;
+    QDOT_TRY(descend(s, s->t[0], s->t[2], s->q[1], &at, &least));
+    return least < s->enough ? note(s, at) : QDOT_OK;
+}
+
+/* The places within the step that ends at stored point k. */
+static qdot_status
+take_inner(search *s, size_t k)
+{
+    const double *t = s->course->tr.t + k - 1;
+
+    for (int j = 1; j < parts_of_a_step; j++) {
+        const double inner = t[0] + (t[1] - t[0]) * j / parts_of_a_step;
+        double q;
+
+        QDOT_TRY(look(s, inner, &q));
+        QDOT_TRY(take(s, inner, q));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+go_through(search *s)
+{
+    const qdot_trajectory *tr = &s->course->tr;
+
+    for (s->piece = 0; s->piece < tr->pieces.n; s->piece++) {
+        const qdot_trajectory_piece *p = tr->pieces.at + s->piece;
+        const size_t end = s->piece + 1 < tr->pieces.n ? p[1].first : tr->count;
+
+        s->taken = 0;
+        s->held = qdot_bind_held(s->course->binds.at[p->mode]);
+        for (size_t k = p->first; k < end; k++) {
+            if (k % 1024 == 0)
+                QDOT_TRY(qdot_interrupt_check());
+            if (k > p->first && tr->count < few_steps)
+                QDOT_TRY(take_inner(s, k));
+            QDOT_TRY(take(s, tr->t[k],
+                          qdot_constrained_independence(s->held, tr->t[k],
+                                                        tr->y + k * tr->n)));
+        }
+    }
+    return QDOT_OK;
+}
+
+static void
+tell(const group *g, qdot_text *to)
+{
+    const size_t told = g->times.n < most_told ? g->times.n : most_told;
+
+    qdot_text_format(to, "%s%s stop being independent about t = ", to->n > 0 ? "\n" : "",
+                     qdot_text_str(&g->names));
+    for (size_t i = 0; i < told; i++)
+        qdot_text_format(to, "%s%.4g",
+                         i == 0                                   ? ""
+                         : i + 1 == told && told == g->times.n ? " and "
+                                                                  : ", ",
+                         g->times.at[i]);
+    if (told < g->times.n)
+        qdot_text_format(to, " and %zu times more", g->times.n - told);
+    qdot_text_add(to, "; the run goes over it, at the accuracy left there");
+}
+
+qdot_status
+qdot_passed_tell(const qdot_course *course, qdot_text *to)
+{
+    search s = {.course = course,
+                .enough = fmin(most_dependent, fmax(dependent, 100 * course->touch_tol))};
+    const qdot_constrained *first =
+        course->binds.n > 0 && course->binds.at[0] ? qdot_bind_held(course->binds.at[0])
+                                                   : NULL;
+    qdot_status status;
+
+    /* one constraint has nothing to depend on */
+    if (!first || qdot_constrained_rows(first) < 2 || course->tr.count < 2)
+        return QDOT_OK;
+    s.y = qdot_calloc(course->tr.n, sizeof *s.y);
+    status = s.y ? qdot_trajectory_open(&course->tr, qdot_course_systems(course), &s.cursor)
+                 : QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = go_through(&s);
+    for (size_t i = 0; i < s.groups.n; i++) {
+        if (status == QDOT_OK)
+            tell(s.groups.at + i, to);
+        qdot_text_clear(&s.groups.at[i].names);
+        qdot_free(s.groups.at[i].times.at);
+    }
+    qdot_free(s.groups.at);
+    qdot_trajectory_close(s.cursor);
+    qdot_free(s.y);
+    return status == QDOT_OK ? qdot_text_status(to) : status;
+}
