@@ -612,6 +612,7 @@ script_tests = \
 	tests/script/solve.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
+	tests/script/styles-names.lag \
 	tests/script/styles.lag \
 	tests/script/switching.lag \
 	tests/script/text.lag \
@@ -1162,6 +1163,7 @@ test_files = \
 	tests/script/solve.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
+	tests/script/styles-names.out \
 	tests/script/styles.out \
 	tests/script/switching.out \
 	tests/script/text.out \

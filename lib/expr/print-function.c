@@ -1,10 +1,43 @@
 /* print-function.c -- elementary and undefined functions, and their derivatives, as text. */
 #include "expr/print-parts.h"
 
+/* if(C, A, if(D, B, E)) as A if C, B if D, E otherwise. */
+static void
+cases(printer *p, qdot_expr e, int context)
+{
+    const qdot_pool *pool = p->pool;
+
+    if (context >= BASE)
+        open_bracket(p);
+    say(p, styled(p, "", "", "\\begin{cases} ",
+                  "<mrow><mo>{</mo><mtable columnalign=\"left\"><mtr><mtd>"));
+    for (;; e = ARGS(pool, e)[2]) {
+        bool more = NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op == QDOT_IF;
+
+        child(p, more ? ARGS(pool, e)[1] : e, TOP);
+        say(p, more ? styled(p, "", "", " & \\text{if } ",
+                             "</mtd><mtd><mtext>if&#xA0;</mtext>")
+                    : styled(p, "", "", " & \\text{otherwise}",
+                             "</mtd><mtd><mtext>otherwise</mtext>"));
+        if (!more)
+            break;
+        child(p, ARGS(pool, e)[0], TOP);
+        say(p, styled(p, "", "", " \\\\ ", "</mtd></mtr><mtr><mtd>"));
+    }
+    say(p, styled(p, "", "", " \\end{cases}", "</mtd></mtr></mtable></mrow>"));
+    if (context >= BASE)
+        close_bracket(p);
+}
+
 void
-qdot_print_function(printer *p, qdot_expr e)
+qdot_print_function(printer *p, qdot_expr e, int context)
 {
     qdot_fun_id id = NODE(p->pool, e)->op;
+
+    if (is_drawn(p) && id == QDOT_IF) {
+        cases(p, e, context);
+        return;
+    }
 
     if (is_drawn(p) && (id == QDOT_ABS || id == QDOT_FLOOR)) {
         say(p, id == QDOT_ABS ? styled(p, "", "", "\\left|", "<mrow><mo>|</mo>")

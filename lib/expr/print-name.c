@@ -18,6 +18,7 @@ static const struct {
     {"lambda", "λ"}, {"mu", "μ"},     {"nu", "ν"},    {"xi", "ξ"},      {"pi", "π"},
     {"rho", "ρ"},    {"sigma", "σ"},  {"tau", "τ"},   {"upsilon", "υ"}, {"phi", "φ"},
     {"chi", "χ"},    {"psi", "ψ"},    {"omega", "ω"}, {"Gamma", "Γ"},   {"Delta", "Δ"},
+    {"Upsilon", "Υ"},
     {"Theta", "Θ"},  {"Lambda", "Λ"}, {"Xi", "Ξ"},    {"Pi", "Π"},      {"Sigma", "Σ"},
     {"Phi", "Φ"},    {"Psi", "Ψ"},    {"Omega", "Ω"},
 };
@@ -32,23 +33,78 @@ is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* A name in its parts: letters, trailing digits or an index in brackets, what is left. */
+/* A name in its parts: letters, the digits behind them, what stands behind `_`, an index in
+ * brackets: theta1, omega_0, V_eff, A[1,2]. */
 struct parts {
     const char *letter; /* a Greek one, or NULL */
-    size_t letters, digits_at, digits, index_at, index;
+    bool greek;         /* all of it Greek letters, one or more: theta, deltatheta */
+    size_t letters, digits_at, digits, below_at, below, index_at, index;
 };
+
+/* The row of the Greek letter that `at` begins with and behind which Greek letters, or nothing,
+ * stand; -1: there is none. Names are short. */
+static int
+next_greek(const char *at, size_t length)
+{
+    enum { LONGEST = 64 };
+    bool ends[LONGEST + 1] = {[0] = true}; /* of the last k letters: all Greek */
+
+    if (length == 0 || length > LONGEST)
+        return -1;
+    for (size_t k = 1; k <= length; k++)
+        for (size_t i = 0; i < sizeof greek / sizeof *greek; i++) {
+            size_t n = strlen(greek[i].spelled);
+
+            if (n > k || !ends[k - n] ||
+                strncmp(at + length - k, greek[i].spelled, n) != 0)
+                continue;
+            if (k == length)
+                return (int)i;
+            ends[k] = true;
+        }
+    return -1;
+}
+
+static bool
+is_greek(const char *at, size_t length)
+{
+    return next_greek(at, length) >= 0;
+}
+
+/* The letters of a name that is Greek throughout. */
+static void
+greek_letters(const char *at, size_t length, qdot_style style, qdot_text *out)
+{
+    for (bool first = true; length > 0; first = false) {
+        int i = next_greek(at, length);
+        size_t n = strlen(greek[i].spelled);
+
+        if (style == QDOT_LATEX)
+            qdot_text_format(out, "%s\\%s", first ? "" : " ", greek[i].spelled);
+        else
+            qdot_text_add(out, greek[i].letter);
+        at += n;
+        length -= n;
+    }
+}
 
 static struct parts
 split(const char *name)
 {
     struct parts p = {0};
-    size_t n = strcspn(name, "[");
+    size_t n = strcspn(name, "["), head = strcspn(name, "_");
 
-    p.letters = n;
+    if (head == 0 || head + 1 >= n)
+        head = n;
+    p.letters = head;
     while (p.letters > 1 && is_digit(name[p.letters - 1]))
         p.letters--;
     p.digits_at = p.letters;
-    p.digits = n - p.letters;
+    p.digits = head - p.letters;
+    if (head < n) {
+        p.below_at = head + 1;
+        p.below = n - head - 1;
+    }
     if (name[n] == '[') {
         p.index_at = n + 1;
         p.index = strlen(name) - n - 2;
@@ -57,6 +113,7 @@ split(const char *name)
         if (strlen(greek[i].spelled) == p.letters &&
             strncmp(greek[i].spelled, name, p.letters) == 0)
             p.letter = greek[i].letter;
+    p.greek = p.letter != NULL || is_greek(name, p.letters);
     return p;
 }
 
@@ -76,7 +133,17 @@ small(const char *const *glyphs, const char *digits, size_t n, qdot_text *out)
         qdot_text_add(out, glyphs[digits[i] - '0']);
 }
 
-static void index_of(const char *name, qdot_style style, qdot_text *out);
+static void parts_of(const char *at, size_t length, char between, qdot_style style,
+                     qdot_text *out);
+
+/* What stands in the brackets of a name, part by part. */
+static void
+index_of(const char *name, qdot_style style, qdot_text *out)
+{
+    struct parts p = split(name);
+
+    parts_of(name + p.index_at, p.index, ',', style, out);
+}
 
 static void
 name_unicode(const char *name, uint32_t order, qdot_text *out)
@@ -84,14 +151,20 @@ name_unicode(const char *name, uint32_t order, qdot_text *out)
     struct parts p = split(name);
     bool one = p.letter != NULL || p.letters == 1;
 
-    if (p.letter != NULL)
-        qdot_text_add(out, p.letter);
+    if (p.greek)
+        greek_letters(name, p.letters, QDOT_UNICODE, out);
     else
         qdot_text_add_n(out, name, p.letters);
     if (one && (order == 1 || order == 2))
         qdot_text_add(out, order == 1 ? "\u0307" : "\u0308");
     small(subscript, name + p.digits_at, p.digits, out);
-    if (p.index > 0 && p.digits == 0 && all_digits(name + p.index_at, p.index)) {
+    if (p.below > 0 && p.digits == 0 && all_digits(name + p.below_at, p.below)) {
+        small(subscript, name + p.below_at, p.below, out);
+    } else if (p.below > 0) {
+        qdot_text_char(out, '_');
+        parts_of(name + p.below_at, p.below, '_', QDOT_UNICODE, out);
+    }
+    if (p.index > 0 && p.digits + p.below == 0 && all_digits(name + p.index_at, p.index)) {
         small(subscript, name + p.index_at, p.index, out);
     } else if (p.index > 0 && strcspn(name + p.index_at, "],") == p.index &&
                !is_digit(name[p.index_at])) { /* of a coordinate or a label: Q_θ */
@@ -114,9 +187,9 @@ name_latex(const char *name, uint32_t order, qdot_text *out)
     struct parts p = split(name);
 
     qdot_text_add(out, dots[order > 4 ? 0 : order]);
-    if (p.letter != NULL || p.letters == 1) {
-        if (p.letter != NULL)
-            qdot_text_char(out, '\\');
+    if (p.greek) {
+        greek_letters(name, p.letters, QDOT_LATEX, out);
+    } else if (p.letters == 1) {
         qdot_text_add_n(out, name, p.letters);
     } else {
         qdot_text_add(out, "\\mathrm{");
@@ -129,10 +202,13 @@ name_latex(const char *name, uint32_t order, qdot_text *out)
     }
     if (order > 0 && order <= 4)
         qdot_text_char(out, '}');
-    if (p.digits + p.index > 0) {
+    if (p.digits + p.below + p.index > 0) {
         qdot_text_add(out, "_{");
         qdot_text_add_n(out, name + p.digits_at, p.digits);
-        if (p.digits > 0 && p.index > 0)
+        if (p.digits > 0 && p.below > 0)
+            qdot_text_char(out, ',');
+        parts_of(name + p.below_at, p.below, '_', QDOT_LATEX, out);
+        if (p.digits + p.below > 0 && p.index > 0)
             qdot_text_char(out, ',');
         if (p.index > 0)
             index_of(name, QDOT_LATEX, out);
@@ -147,15 +223,15 @@ static void
 name_mathml(const char *name, uint32_t order, qdot_text *out)
 {
     struct parts p = split(name);
-    bool below = p.digits + p.index > 0;
+    bool below = p.digits + p.below + p.index > 0;
 
     if (below)
         qdot_text_add(out, "<msub>");
     if (order > 0)
         qdot_text_add(out, order < 4 ? "<mover>" : "<msup>");
     qdot_text_add(out, "<mi>");
-    if (p.letter != NULL)
-        qdot_text_add(out, p.letter);
+    if (p.greek)
+        greek_letters(name, p.letters, QDOT_MATHML, out);
     else
         qdot_text_add_n(out, name, p.letters);
     qdot_text_add(out, "</mi>");
@@ -173,8 +249,10 @@ name_mathml(const char *name, uint32_t order, qdot_text *out)
     if (p.digits > 0) {
         qdot_text_add(out, "<mn>");
         qdot_text_add_n(out, name + p.digits_at, p.digits);
-        qdot_text_add(out, p.index > 0 ? "</mn><mo>,</mo>" : "</mn>");
+        qdot_text_add(out, p.below + p.index > 0 ? "</mn><mo>,</mo>" : "</mn>");
     }
+    parts_of(name + p.below_at, p.below, '_', QDOT_MATHML, out);
+    qdot_text_add(out, p.below > 0 && p.index > 0 ? "<mo>,</mo>" : "");
     if (p.index > 0)
         index_of(name, QDOT_MATHML, out);
     qdot_text_add(out, "</mrow></msub>");
@@ -191,25 +269,27 @@ qdot_print_name(const char *name, qdot_style style, qdot_text *out)
     }
 }
 
-/* What stands in the brackets of a name, part by part. */
+/* Names and numbers apart by a sign, in a subscript apart by commas; in a line by that sign. */
 static void
-index_of(const char *name, qdot_style style, qdot_text *out)
+parts_of(const char *at, size_t length, char between, qdot_style style, qdot_text *out)
 {
-    struct parts p = split(name);
+    const char *apart = style == QDOT_MATHML                       ? "<mo>,</mo>"
+                        : style == QDOT_UNICODE && between == '_' ? "_"
+                                                                  : ",";
 
-    for (size_t i = p.index_at, end = p.index_at + p.index; i < end;) {
-        size_t n = strcspn(name + i, ",");
+    for (size_t i = 0; i < length;) {
+        size_t n = i;
         char *part;
 
-        if (i + n > end)
-            n = end - i;
-        part = qdot_strndup(name + i + (name[i] == ' '), n - (name[i] == ' '));
+        while (n < length && at[n] != between)
+            n++;
+        n -= i;
+        part = qdot_strndup(at + i + (at[i] == ' '), n - (at[i] == ' '));
         if (part == NULL) {
             out->failed = true;
             return;
         }
-        if (i > p.index_at)
-            qdot_text_add(out, style == QDOT_MATHML ? "<mo>,</mo>" : ",");
+        qdot_text_add(out, i > 0 ? apart : "");
         if (all_digits(part, strlen(part)))
             qdot_text_format(out, style == QDOT_MATHML ? "<mn>%s</mn>" : "%s", part);
         else

@@ -112,7 +112,7 @@ children(printer *p, qdot_expr e, uint32_t from, uint32_t to, const char *betwee
  * written already; flip: a difference takes the minus. (print-product.c) */
 void qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip);
 /* (print-function.c) */
-void qdot_print_function(printer *p, qdot_expr e);
+void qdot_print_function(printer *p, qdot_expr e, int context);
 void qdot_print_ufun(printer *p, qdot_expr e, int context);
 /* What stands before a base with a superscript; the exponent, its sign turned where it stands
  * below a bar, and what ends it. (print-product.c) */

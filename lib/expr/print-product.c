@@ -28,6 +28,27 @@ below(const qdot_pool *pool, qdot_expr e)
 
 /* --- powers ----------------------------------------------------------------------------------- */
 
+/* The size of a number that is no node. */
+static void
+say_number(printer *p, const fmpz_t n, const fmpz_t d)
+{
+    qdot_text text = {0};
+    fmpq_t x;
+
+    fmpq_init(x);
+    fmpz_abs(fmpq_numref(x), n);
+    if (d != NULL)
+        fmpz_set(fmpq_denref(x), d);
+    qdot_print_number(x, p->style, false, 0, &text);
+    fmpq_clear(x);
+    if (qdot_text_status(&text) != QDOT_OK) {
+        p->status = QDOT_ENOMEM;
+        qdot_text_clear(&text);
+        return;
+    }
+    piece(p, (struct piece){.text = text.at, .own = true});
+}
+
 void
 qdot_print_raise(printer *p)
 {
@@ -56,7 +77,14 @@ qdot_print_exponent(printer *p, qdot_expr e, bool turned)
     }
     if (is_drawn(p)) {
         say(p, styled(p, "", "", "^{", "</mrow><mrow>"));
-        piece(p, number);
+        if (p->style == QDOT_LATEX && x != NULL && !fmpz_is_one(fmpq_denref(x))) {
+            say(p, !turned && qdot_rational_sgn(x) < 0 ? "-" : "");
+            say_number(p, fmpq_numref(x), NULL); /* r^{1/3} */
+            say(p, "/");
+            say_number(p, fmpq_denref(x), NULL);
+        } else {
+            piece(p, number);
+        }
         say(p, styled(p, "", "", "}", "</mrow></msup>"));
         return;
     }
@@ -240,27 +268,6 @@ forget_root(struct root *r)
         return;
     fmpq_clear(r->c);
     fmpq_clear(r->number);
-}
-
-/* The size of a number that is no node. */
-static void
-say_number(printer *p, const fmpz_t n, const fmpz_t d)
-{
-    qdot_text text = {0};
-    fmpq_t x;
-
-    fmpq_init(x);
-    fmpz_abs(fmpq_numref(x), n);
-    if (d != NULL)
-        fmpz_set(fmpq_denref(x), d);
-    qdot_print_number(x, p->style, false, 0, &text);
-    fmpq_clear(x);
-    if (qdot_text_status(&text) != QDOT_OK) {
-        p->status = QDOT_ENOMEM;
-        qdot_text_clear(&text);
-        return;
-    }
-    piece(p, (struct piece){.text = text.at, .own = true});
 }
 
 /* What joins two factors. */

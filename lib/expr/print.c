@@ -346,7 +346,7 @@ open_node(printer *p, const struct piece *x)
     case QDOT_PROD:
         qdot_print_scaled(p, ARGS(pool, x->e)[0], x->e, x->context, false);
         break;
-    case QDOT_FUN: qdot_print_function(p, x->e); break;
+    case QDOT_FUN: qdot_print_function(p, x->e, x->context); break;
     case QDOT_UFUN: qdot_print_ufun(p, x->e, x->context); break;
     case QDOT_REL: open_relation(p, x->e, x->context); break;
     case QDOT_LOGIC: open_logic(p, x->e, x->context); break;

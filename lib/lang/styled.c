@@ -36,11 +36,19 @@ plain_word(writer *w, const char *word, bool called)
     static const char *const known[] = {"sin", "cos",  "tan",  "sec",  "csc",
                                         "cot", "sinh", "cosh", "tanh", "exp",
                                         "log", "min",  "max",  "pi"};
+    static const struct {
+        const char *word, *sign;
+    } joining[] = {{"and", "\\wedge"}, {"or", "\\vee"}, {"not", "\\neg"}};
 
     if (w->style == QDOT_UNICODE || strlen(word) == 1) {
         qdot_text_add(w->out, word);
         return;
     }
+    for (size_t i = 0; i < sizeof joining / sizeof *joining; i++)
+        if (strcmp(word, joining[i].word) == 0) {
+            qdot_text_add(w->out, joining[i].sign);
+            return;
+        }
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(word, known[i]) == 0) {
             qdot_text_format(w->out, "\\%s", word);
@@ -170,6 +178,12 @@ power(writer *w)
     size_t n = strspn(w->at + 1, "0123456789");
 
     w->at++;
+    if (w->style == QDOT_LATEX && *w->at == '(' && w->depth < sizeof w->closing) {
+        w->closing[w->depth++] = '}'; /* x^(1/3): the brackets are the group's */
+        qdot_text_add(w->out, "^{");
+        w->at++;
+        return;
+    }
     if (n == 0 || w->at[n] == '.') {
         qdot_text_char(w->out, '^');
         return;
@@ -188,7 +202,7 @@ next(writer *w)
 {
     static const struct {
         const char *plain, *unicode, *latex;
-    } words[] = {{"<=", "≤", "\\le "}, {">=", "≥", "\\ge "}, {"*", " ", " "},
+    } words[] = {{"<=", "≤", "\\le "}, {">=", "≥", "\\ge "}, {"*", " ", " "}, {"==", "=", "="},
                  {"-", "−", "-"},      {"'", "′", "'"},      {"%", "%", "\\%"}};
 
     if (is_letter(*w->at))
