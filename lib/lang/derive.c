@@ -93,6 +93,19 @@ spin(derivation *d, const qdot_body *b)
     return named(d, "w[", b->name, "]", tidy(d, w));
 }
 
+/* What the steps below may use beside the laws of algebra. */
+static qdot_status
+assumptions(derivation *d)
+{
+    const qdot_scene *s = d->session->scene;
+
+    if (s->assumed.n > 0)
+        heading(d, "Assumed");
+    for (size_t i = 0; i < s->assumed.n; i++)
+        QDOT_TRY(relation(d, NULL, s->assumed.at[i].relation));
+    return QDOT_OK;
+}
+
 /* r, v = sum dr/dq q' + dr/dt and v^2 of everything that has a mass. */
 static qdot_status
 kinematics(derivation *d)
@@ -199,6 +212,34 @@ holds_velocity(const qdot_scene *s, qdot_expr e)
     return (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY) != 0;
 }
 
+static bool
+no_forces(qdot_scene *s)
+{
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        if (qdot_mech_force(s, s->coordinates.at[i]) != QDOT_ZERO)
+            return false;
+    return true;
+}
+
+/* f' = 0 and f'' = 0, as far as the constraint has them to give. */
+static qdot_status
+slopes(derivation *d, const qdot_constraint *c)
+{
+    static const char *const names[] = {"f'", "f''"};
+    enum { LINE = 60 };
+    qdot_pool *pool = d->session->pool;
+    qdot_expr f = c->f;
+
+    for (int k = (int)c->kind; k < 2; k++) {
+        f = qdot_ddt(pool, f);
+        if (f == QDOT_NIL || qdot_expr_size(pool, f) > LINE)
+            break;
+        QDOT_TRY(relation(d, names[k - (int)c->kind],
+                          qdot_rel(pool, QDOT_EQ, f, QDOT_ZERO)));
+    }
+    return qdot_pool_check(pool);
+}
+
 static qdot_status
 right_sides(derivation *d)
 {
@@ -225,7 +266,9 @@ right_sides(derivation *d)
         QDOT_TRY(qdot_text_status(&title));
         heading(d, qdot_text_str(&title));
         qdot_text_clear(&title);
-        for (size_t i = 0; i < s->coordinates.n; i++)
+        if (no_forces(s))
+            qdot_text_add(&d->text, "    none\n");
+        for (size_t i = 0; i < s->coordinates.n && !no_forces(s); i++)
             QDOT_TRY(named(d, "Q[", name_of(d, i), "]",
                            qdot_mech_force(s, s->coordinates.at[i])));
     }
@@ -237,6 +280,7 @@ right_sides(derivation *d)
 
         QDOT_TRY(relation(d, c->label == NULL ? NULL : c->name,
                           qdot_rel(s->pool, QDOT_EQ, c->left, c->right)));
+        QDOT_TRY(slopes(d, c));
     }
     return QDOT_OK;
 }
@@ -260,6 +304,13 @@ equations(derivation *d)
     qdot_text_clear(&title);
     for (size_t i = 0; i < s->coordinates.n; i++)
         QDOT_TRY(relation(d, NULL, qdot_mech_equation(s, s->coordinates.at[i])));
+    if (s->constraints.n > 0)
+        qdot_text_format(&d->text,
+                         "    with the constraints %zu equations for %zu coordinate%s and "
+                         "%zu multiplier%s\n",
+                         s->coordinates.n + s->constraints.n, s->coordinates.n,
+                         s->coordinates.n == 1 ? "" : "s", s->constraints.n,
+                         s->constraints.n == 1 ? "" : "s");
     return QDOT_OK;
 }
 
@@ -299,6 +350,8 @@ qdot_derive_all(qdot_cursor *c)
                         "there is nothing to derive: no coordinate is declared");
         status = qdot_hint("coord theta");
     }
+    if (status == QDOT_OK)
+        status = assumptions(&d);
     if (status == QDOT_OK && c->session->scene->lagrangian == QDOT_NIL)
         status = kinematics(&d);
     if (status == QDOT_OK)
