@@ -286,6 +286,7 @@ sim_sources = \
 	lib/sim/constrained-near.c \
 	lib/sim/constrained-put.c \
 	lib/sim/constrained-series.c \
+	lib/sim/constrained-start.c \
 	lib/sim/constrained.c \
 	lib/sim/constraints.c \
 	lib/sim/course.c \
@@ -737,12 +738,15 @@ script_tests = \
 	tests/bad/solve-for-sum.lag \
 	tests/bad/start-anywhere.lag \
 	tests/bad/start-contradictory.lag \
+	tests/bad/start-dependent.lag \
 	tests/bad/start-domain.lag \
 	tests/bad/start-exactly-velocity.lag \
 	tests/bad/start-exactly.lag \
 	tests/bad/start-label.lag \
+	tests/bad/start-no-direction.lag \
 	tests/bad/start-no-position.lag \
 	tests/bad/start-parameter.lag \
+	tests/bad/start-touching.lag \
 	tests/bad/start-two-answers.lag \
 	tests/bad/start-unnamed-domain.lag \
 	tests/bad/start-velocities.lag \
@@ -946,12 +950,15 @@ test_files = \
 	tests/bad/solve-for-sum.out \
 	tests/bad/start-anywhere.out \
 	tests/bad/start-contradictory.out \
+	tests/bad/start-dependent.out \
 	tests/bad/start-domain.out \
 	tests/bad/start-exactly-velocity.out \
 	tests/bad/start-exactly.out \
 	tests/bad/start-label.out \
+	tests/bad/start-no-direction.out \
 	tests/bad/start-no-position.out \
 	tests/bad/start-parameter.out \
+	tests/bad/start-touching.out \
 	tests/bad/start-two-answers.out \
 	tests/bad/start-unnamed-domain.out \
 	tests/bad/start-velocities.out \

@@ -42,6 +42,15 @@ void qdot_constrained_load(qdot_constrained *h, double t, const double *y);
 void qdot_constrained_positions(qdot_constrained *h);
 void qdot_constrained_velocities(qdot_constrained *h);
 
+/* Both. */
+void qdot_constrained_residuals(qdot_constrained *h);
+
+/* What rounding of x, q or q', makes of the rows, A being there: bounds [m] grow to it. */
+void qdot_constrained_raise_bounds(const qdot_constrained_level *level, const double *x,
+                                   double *bound);
+/* M and A at what is loaded, factored. Errors: qdot_constrained_factor's. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_factor_metric(qdot_constrained *h,
+                                                           qdot_constrained_level *level);
 /* M and A at what is loaded, into a level. */
 void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level);
 

@@ -8,9 +8,6 @@
 #include "sim/constrained-parts.h"
 #include "tape/shake.h"
 
-/* A start may break a constraint by the rounding of decimals as people type them. */
-static const double start_tolerance = 1e-9;
-
 /* Values below it count as so large where rounding is judged: at rest all are 0. */
 static const double least_size = 0x1p-10;
 
@@ -80,8 +77,8 @@ qdot_constrained_velocities(qdot_constrained *h)
         h->w[k] = c->rows[k].kind != QDOT_ACCELERATION ? *out++ : 0;
 }
 
-static void
-residuals(qdot_constrained *h)
+void
+qdot_constrained_residuals(qdot_constrained *h)
 {
     qdot_constrained_positions(h);
     qdot_constrained_velocities(h);
@@ -172,7 +169,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
 
     qdot_constrained_load(h, t, y);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
-        residuals(h);
+        qdot_constrained_residuals(h);
     qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
     gamma = unpack(h, all, h->out + n);
     memcpy(x, h->out, n * sizeof *x);
@@ -199,7 +196,7 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
                                    .worst_velocity = SIZE_MAX};
 
     qdot_constrained_load(h, t, y);
-    residuals(h);
+    qdot_constrained_residuals(h);
     for (size_t k = 0; k < h->c->m; k++) {
         if (h->c->rows[k].kind == QDOT_HOLONOMIC && !(fabs(h->f[k]) < r.position)) {
             r.position = fabs(h->f[k]);
@@ -216,8 +213,8 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
 /* --- projection --------------------------------------------------------------------- */
 
 /* What rounding of x, q or q', makes of the rows, A being there. */
-static void
-raise_bounds(const level *l, const double *x, double *bound)
+void
+qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
 {
     for (size_t k = 0; k < l->m; k++)
         bound[l->row[k]] =
@@ -226,8 +223,8 @@ raise_bounds(const level *l, const double *x, double *bound)
 }
 
 /* M and A at what is loaded, factored. */
-static qdot_status
-factor_metric(qdot_constrained *h, level *l)
+qdot_status
+qdot_constrained_factor_metric(qdot_constrained *h, level *l)
 {
     qdot_constrained_metric(h, l);
     l->filled = true;
@@ -351,10 +348,10 @@ project(qdot_constrained *h, const part *p, double t, const double *y, bool *fac
         if (k == most_iterations || isnan(now) || (k > 2 && !(now < before)))
             break;
         if (!*factored)
-            QDOT_TRY(factor_metric(h, l));
+            QDOT_TRY(qdot_constrained_factor_metric(h, l));
         *factored = true;
         if (!bounded) {
-            raise_bounds(l, p->x, p->bound);
+            qdot_constrained_raise_bounds(l, p->x, p->bound);
             bounded = true;
             take_residual(l, p->residual, p->carry);
             now = excess(l, p->bound);
@@ -402,75 +399,6 @@ qdot_constrained_cost(const qdot_plan *p)
     return 150 + 3 * (often + 10 * calls) + (double)qdot_tape_operations(c->metric) +
            10 * (double)qdot_tape_calls(c->metric) + 60.0 * (double)c->m +
            15.0 * (double)c->n_slopes + 10.0 * (double)p->n;
-}
-
-/* --- the start ---------------------------------------------------------------------- */
-
-static qdot_status
-broken(const qdot_constrained *h, size_t row, double residual, const char *what)
-{
-    qdot_fail(QDOT_EINVAL, "the start breaks the constraint %s: %s is %.3g, not 0",
-              h->c->rows[row].name, what, residual);
-    return qdot_hint("start values that fulfil it");
-}
-
-/* Rows that were left out as repetitions must agree with those that were not. */
-static qdot_status
-check_repeated(qdot_constrained *h)
-{
-    const level *all = h->at[QDOT_ACCELERATION];
-    const qdot_saddle *s = &all->saddle;
-    const size_t n = h->plan->n;
-    const double *gamma = h->out + n + h->c->n_masses + h->c->n_slopes;
-
-    for (size_t j = s->rank; j < s->m; j++) {
-        size_t k = s->pivot[j];
-        double sum = -gamma[k], size = fabs(gamma[k]);
-
-        for (size_t i = 0; i < n; i++) {
-            sum += s->A[k * n + i] * h->a[i];
-            size = fmax(size, fabs(s->A[k * n + i] * h->a[i]));
-        }
-        if (fabs(sum) > 1e-6 * fmax(1, size))
-            return qdot_fail(QDOT_EINVAL,
-                             "constraint %s contradicts the others: they leave it a "
-                             "second derivative of %.3g",
-                             h->c->rows[k].name, sum);
-    }
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
-{
-    const size_t n = h->plan->n;
-    level *l = h->at[QDOT_HOLONOMIC];
-    double moved;
-
-    qdot_constrained_load(h, t, y);
-    residuals(h);
-    for (size_t k = 0; k < h->c->m; k++)
-        if (!(fabs(h->f[k]) <= start_tolerance))
-            return broken(h, k, h->f[k], "left - right");
-    for (size_t k = 0; k < h->c->m; k++)
-        if (!(fabs(h->w[k]) <= start_tolerance))
-            return broken(h, k, h->w[k],
-                          h->c->rows[k].kind == QDOT_HOLONOMIC
-                              ? "the time derivative of left - right"
-                              : "left - right");
-    /* the bounds, before anything is judged by them */
-    if (l->m > 0) {
-        QDOT_TRY(factor_metric(h, l));
-        raise_bounds(l, y, h->f_bound);
-    }
-    l = h->at[QDOT_VELOCITY];
-    if (l->m > 0) {
-        QDOT_TRY(factor_metric(h, l));
-        raise_bounds(l, y + n, h->w_bound);
-    }
-    QDOT_TRY(qdot_constrained_project(t, y, low, &moved, h));
-    QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
-    return check_repeated(h);
 }
 
 size_t
