@@ -370,25 +370,25 @@ decide_alone(forms *f, size_t k, qdot_integrability *result)
     return QDOT_OK;
 }
 
-/* Leave out the forms whose dw does not vanish until all do. What is left out in the first
- * round is surely not integrable; later ones might be, by a combination of forms. */
+/* Leave out the forms whose dw does not vanish until all do. A round that leaves out one form
+ * gives the next derived system exactly, since no combination with it vanishes either: what
+ * fails there is surely not integrable. Of two or more left out a combination might stay. */
 static qdot_status
 decide_together(forms *f, size_t k, qdot_integrability *result)
 {
-    bool first = true, changed = true, surely = true;
+    bool changed = true, surely = true;
 
     for (size_t j = 0; j < f->m; j++)
         f->in[j] = true;
     while (changed && f->in[k]) {
         qdot_integrability one = {0};
+        size_t out = 0;
 
         changed = false;
         QDOT_TRY(reduce(f));
         QDOT_TRY(vanishes(f, k, result));
-        if (result->decision.verdict != QDOT_PROVED) {
-            surely = first;
+        if (result->decision.verdict != QDOT_PROVED)
             break;
-        }
         for (size_t j = 0; j < f->m; j++) {
             if (!f->in[j] || j == k)
                 continue;
@@ -396,9 +396,9 @@ decide_together(forms *f, size_t k, qdot_integrability *result)
             if (one.decision.verdict != QDOT_PROVED) {
                 f->in[j] = false;
                 changed = true;
+                surely = surely && ++out == 1 && one.decision.verdict == QDOT_REFUTED;
             }
         }
-        first = false;
     }
     if (!surely && result->decision.verdict == QDOT_REFUTED)
         result->decision = (qdot_decision){.verdict = QDOT_UNDECIDED};
