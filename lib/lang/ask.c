@@ -67,6 +67,33 @@ member_name(qdot_session *session, const char *name, bool by_coordinate, uint32_
         qdot_text_format(out, "[%u]", i + 1);
 }
 
+/* `equilibria[1]`, whose equations belong together. */
+static bool
+is_one_equilibrium(const char *name)
+{
+    return strncmp(name, "equilibria[", 11) == 0 && strchr(name + 11, '[') == NULL;
+}
+
+/* `equilibria[1]: x = 0, y = 0` */
+static qdot_status
+answer_joined(qdot_session *session, const char *name, qdot_expr list)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    qdot_text_format(&text, "%s: ", name);
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i > 0 ? ", " : "");
+        status = qdot_answer_formula(session, qdot_expr_arg(session->pool, list, i), &text);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
 static qdot_status
 answer_list(qdot_session *session, const char *name, qdot_expr list)
 {
@@ -75,8 +102,10 @@ answer_list(qdot_session *session, const char *name, qdot_expr list)
     bool by_coordinate = row != NULL && row->over_coordinates &&
                          qdot_names_find(session->names, name) == NULL;
 
-    if (n == 0)
+    if (n == 0 || (session->json && is_one_equilibrium(name)))
         return qdot_answer_expr(session, name, list);
+    if (is_one_equilibrium(name))
+        return answer_joined(session, name, list);
     for (uint32_t i = 0; i < n; i++) {
         qdot_expr one = qdot_expr_arg(session->pool, list, i);
         qdot_text member = {0};
@@ -363,6 +392,8 @@ qdot_ask_show(qdot_cursor *c)
         status = print_label(session, name, &text);
     } else if (quantity != NULL) {
         qdot_text_format(&text, "%s: %s", quantity->usage, quantity->summary);
+    } else if (strcmp(name, "pi") == 0 || strcmp(name, "t") == 0) {
+        qdot_text_add(&text, name[0] == 't' ? "t: the time" : "pi: the number 3.14159...");
     } else if (builtin != NULL) {
         qdot_text_format(&text, "%s: %s", builtin->usage, builtin->summary);
     } else if (qdot_statement_find(name) != NULL) {
@@ -414,6 +445,7 @@ qdot_ask_forces(qdot_cursor *c)
 {
     qdot_session *session = c->session;
     qdot_text text = {0};
+    qdot_status status;
     qdot_expr forces;
 
     QDOT_TRY(qdot_cursor_expect_end(c));
@@ -424,8 +456,10 @@ qdot_ask_forces(qdot_cursor *c)
                                              (uint32_t)session->scene->coordinates.n,
                                              session->scene->coordinates.at)));
     QDOT_TRY(answer_list(session, "forces", forces));
-    return answer_text(session, "forces", qdot_mech_forces_parts(session->scene, session->style, &text),
-                       &text);
+    status = qdot_mech_forces_parts(session->scene, session->style, &text);
+    if (status == QDOT_OK && text.n == 0)
+        qdot_text_add(&text, "nothing is applied");
+    return answer_text(session, "forces", status, &text);
 }
 
 qdot_status

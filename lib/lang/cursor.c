@@ -250,6 +250,11 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         found(what, t);
         return qdot_hint("one `for` ends a statement: for k = 1..3, j = 1..2");
     }
+    if (qdot_cursor_is_word(c, "to") && t[1].kind == QDOT_TOKEN_END && before != NULL &&
+        ends_operand(before)) {
+        found(what, t);
+        return qdot_hint("behind `to` stands the name of a file in quotes: to \"a.txt\"");
+    }
     if (before == NULL || before->kind == QDOT_TOKEN_END) {
         found(what, t);
         return hint_foreign(t);

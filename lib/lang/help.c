@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "lang/answer.h"
+#include "ode/method.h"
 
 /* A word and what follows it, in two columns. */
 static void
@@ -150,6 +151,10 @@ look_up(qdot_text *text, const char *word)
     for (size_t i = 0; i < sizeof topics / sizeof *topics; i++)
         if (strcmp(word, topics[i].word) == 0)
             explain(text, topics[i].usage, topics[i].summary, topics[i].example);
+    if (qdot_ode_method_find(word) != NULL) {
+        qdot_text_format(text, "run T0..T1 method %s", word);
+        qdot_text_format(text, "\n    %s\n", qdot_ode_method_find(word)->fits);
+    }
     if (text->n == 0)
         look_up_option(text, word);
     return text->n > 0;

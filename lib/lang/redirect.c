@@ -47,6 +47,18 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
     return end - 2;
 }
 
+/* Endings that figures and tables, or answers of a later version, have. */
+static bool
+is_of_the_language(const char *ending)
+{
+    static const char *const words[] = {".svg", ".png", ".pdf", ".html", ".csv", ".h5"};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(ending, words[i]) == 0)
+            return true;
+    return false;
+}
+
 qdot_status
 qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
 {
@@ -67,6 +79,11 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
         session->out = r->file;
         session->json = endings[i].json;
         return QDOT_OK;
+    }
+    if (!is_of_the_language(ending)) {
+        (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file ends in what it is to be",
+                        path);
+        return qdot_hint("as in \"a.txt\", \"a.tex\", \"a.json\"");
     }
     (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: this answer in a file `%s`", ending);
     return qdot_hint(

@@ -216,7 +216,10 @@ quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
 {
     QDOT_TRY(row->get(s, n, index, value));
     QDOT_TRY(qdot_resolve_check(s->pool, *value));
-    return primes > 0 ? no_prime(row->name, "is no coordinate") : QDOT_OK;
+    if (primes == 0)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ETYPE, "`%s` is a value of the scene, no coordinate", row->name);
+    return qdot_hint("write ddt(%s%s)", row->name, n > 0 ? "[...]" : "");
 }
 
 /* The coordinates that the entries of a value of the scene go by; nil: numbers alone. */

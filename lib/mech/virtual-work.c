@@ -371,8 +371,6 @@ qdot_mech_forces_parts(qdot_scene *s, qdot_style style, qdot_text *out)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
-        size_t lines = 0;
-
         for (size_t a = 0; a < SOURCES; a++)
             for (size_t k = 0; k < sources[a].count(s); k++) {
                 qdot_expr part = qdot_mech_tidy(s, sources[a].force(s, k, i, false));
@@ -386,12 +384,7 @@ qdot_mech_forces_parts(qdot_scene *s, qdot_style style, qdot_text *out)
                                  name ? " " : "", name ? name : "");
                 QDOT_TRY(qdot_print_formula(s->pool, part, style, out));
                 qdot_text_char(out, '\n');
-                lines++;
             }
-        if (lines > 0)
-            continue;
-        QDOT_TRY(qdot_print_formula(s->pool, q, style, out));
-        qdot_text_add(out, ": 0\n");
     }
     return qdot_text_status(out);
 }

@@ -28,3 +28,8 @@ say 'coord x; series(x^2, x, 2)'
 say 'coord x; subs(x, 2)'
 say 'coord x; diff(x)'
 say 'coord x; sin(u) = 3; sin(2)'
+say "coord x; particle b mass 1 at x; T'"
+say 'coord x; x to'
+say 'coord x; x to "a.foo"'
+say 'coord x; x to "a.h5"'
+say 'help taylor; show pi; show t'
