@@ -95,6 +95,7 @@ ode_sources = \
 	lib/ode/method.c \
 	lib/ode/precise.c \
 	lib/ode/stepper.c \
+	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
 	lib/ode/trajectory.c
 
@@ -109,6 +110,7 @@ ode_headers = \
 	lib/ode/precise.h \
 	lib/ode/stepper.h \
 	lib/ode/system.h \
+	lib/ode/taylor-numbers.h \
 	lib/ode/taylor.h \
 	lib/ode/trajectory.h
 

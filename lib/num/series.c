@@ -8,28 +8,97 @@
 #include "num/kinds.h"
 #include "num/sum.h"
 
+/* Vectors are handed to inline functions only. */
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+/* Vectors read the larger half of a double without a sign, made from its bits >> 20, as
+ * the double `read` + those in units of 2^-52: what its logarithm is, to 0.09, after this. */
+static const double read = 0x1p52, unit_of_log = 0x1p-32, bias = 1023;
+
 void
 qdot_series_weights_set(qdot_series_weights *w, int p, double term)
 {
+    const int half = p / 2;
+
     w->p = p;
+    w->term = term;
     for (int k = 0; k < QDOT_SERIES_MOST + 8; k++) {
+        const bool upper = k > half && k <= p, lower = k >= 2 && k <= half;
+        const double from = bias + read * unit_of_log;
+
         w->inverse[k] = k > 0 ? 1.0 / k : 1;
-        w->upper[k] = k > p / 2 && k <= p ? 0 : INFINITY;
-        w->lower[k] = k >= 2 && k <= p / 2 ? term : INFINITY;
+        w->share[k] = upper || lower ? -unit_of_log / k : 0;
+        w->upper[k] = upper ? from / k : INFINITY;
+        w->lower[k] = lower ? (from + term) / k : INFINITY;
     }
+    /* a zero is read as 2^-bias, what is no number as 2^(bias + 1) */
+    w->upper_most = (bias - 1) / p;
+    w->lower_most = half >= 2 ? (bias - 1 + term) / half : INFINITY;
+    w->lower_least = half >= 2 ? (term - bias) / half : -INFINITY;
 }
 
+/* log2 of the largest of order k; -inf where there is none, inf where one is no number. */
+static double
+log_largest(size_t n, const double *x, size_t stride, const double *scale, int k)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        const double c = fabs(x[i * stride + (size_t)k]) * scale[i];
+
+        if (!(c < INFINITY))
+            return INFINITY;
+        most = c > most ? c : most;
+    }
+    return log2(most);
+}
+
+/* `reach` of anything. */
+static qdot_series_reach
+reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights *w,
+             const double *scale)
+{
+    qdot_series_reach r = {INFINITY, INFINITY};
+
+    for (int k = 2; k <= w->p; k++) {
+        const double log = log_largest(n, x, stride, scale, k);
+
+        if (k > w->p / 2)
+            r.upper = fmin(r.upper, -log / k);
+        else
+            r.lower = fmin(r.lower, (w->term - log) / k);
+    }
+    return r;
+}
+
+#define LANES 4
 #define NAME(x) portable_##x
 #define LABEL "portable"
-#define LANES 2
 #define MA(a, b, c) ((a) * (b) + (c))
 #define VECTOR_MA(a, b, c) ((a) * (b) + (c))
+#define VECTOR_LARGER(a, b) PORTABLE_PICK(portable_integers, (a) > (b), a, b)
+#define VECTOR_LESS(a, b) PORTABLE_PICK(portable_vector, (a) < (b), a, b)
+#define FOUR_MORE(a, b) PORTABLE_PICK(portable_four, (a) > (b), a, b)
+#define FOUR_FMA(a, b, c)                                                                \
+    ((portable_four){fma((a)[0], (b)[0], (c)[0]), fma((a)[1], (b)[1], (c)[1]),           \
+                     fma((a)[2], (b)[2], (c)[2]), fma((a)[3], (b)[3], (c)[3])})
+#define LANE_SUM(a) (((a)[0] + (a)[1]) + ((a)[2] + (a)[3]))
+#define FOUR_SUMS(a, b, c, d)                                                            \
+    ((portable_four){LANE_SUM(a), LANE_SUM(b), LANE_SUM(c), LANE_SUM(d)})
+/* a where `is`, else b */
+#define PORTABLE_PICK(type, is, a, b)                                                    \
+    ((type)(((portable_integers)(a) & (portable_integers)(is))                           \
+            | ((portable_integers)(b) & ~(portable_integers)(is))))
 #include "num/series.def"
 #undef NAME
 #undef LABEL
-#undef LANES
 #undef MA
 #undef VECTOR_MA
+#undef VECTOR_LARGER
+#undef VECTOR_LESS
+#undef FOUR_MORE
+#undef FOUR_FMA
+#undef FOUR_SUMS
 
 #ifdef QDOT_X86_KINDS
 #define MA(a, b, c) __builtin_fma(a, b, c)
@@ -39,14 +108,34 @@ qdot_series_weights_set(qdot_series_weights *w, int p, double term)
 #include <immintrin.h>
 #define NAME(x) avx2_##x
 #define LABEL "avx2"
-#define LANES 4
 #define VECTOR_MA(a, b, c)                                                               \
     ((avx2_vector)_mm256_fmadd_pd((__m256d)(a), (__m256d)(b), (__m256d)(c)))
+#define VECTOR_LARGER(a, b)                                                              \
+    ((avx2_integers)_mm256_blendv_pd((__m256d)(b), (__m256d)(a), (__m256d)((a) > (b))))
+#define VECTOR_LESS(a, b) ((avx2_vector)_mm256_min_pd((__m256d)(a), (__m256d)(b)))
+#define FOUR_MORE(a, b) ((NAME(four))_mm256_max_pd((__m256d)(a), (__m256d)(b)))
+#define FOUR_FMA(a, b, c)                                                                \
+    ((NAME(four))_mm256_fmadd_pd((__m256d)(a), (__m256d)(b), (__m256d)(c)))
+#define FOUR_SUMS(a, b, c, d)                                                            \
+    ((NAME(four))fours_summed((__m256d)(a), (__m256d)(b), (__m256d)(c), (__m256d)(d)))
+
+static inline __attribute__((always_inline)) __m256d
+fours_summed(__m256d a, __m256d b, __m256d c, __m256d d)
+{
+    const __m256d ab = _mm256_hadd_pd(a, b), cd = _mm256_hadd_pd(c, d);
+
+    return _mm256_add_pd(_mm256_permute2f128_pd(ab, cd, 0x20),
+                         _mm256_permute2f128_pd(ab, cd, 0x31));
+}
+
 #include "num/series.def"
 #undef NAME
 #undef LABEL
 #undef LANES
 #undef VECTOR_MA
+#undef VECTOR_LARGER
+#undef VECTOR_LESS
+#undef FOUR_SUMS
 #pragma GCC pop_options
 
 #pragma GCC push_options
@@ -56,6 +145,19 @@ qdot_series_weights_set(qdot_series_weights *w, int p, double term)
 #define LANES 8
 #define VECTOR_MA(a, b, c)                                                               \
     ((avx512_vector)_mm512_fmadd_pd((__m512d)(a), (__m512d)(b), (__m512d)(c)))
+#define VECTOR_LARGER(a, b)                                                              \
+    ((avx512_integers)_mm512_max_epi64((__m512i)(a), (__m512i)(b)))
+#define VECTOR_LESS(a, b) ((avx512_vector)_mm512_min_pd((__m512d)(a), (__m512d)(b)))
+#define FOUR_SUMS(a, b, c, d)                                                            \
+    ((NAME(four))fours_summed(folded((__m512d)(a)), folded((__m512d)(b)),                \
+                              folded((__m512d)(c)), folded((__m512d)(d))))
+
+static inline __attribute__((always_inline)) __m256d
+folded(__m512d a)
+{
+    return _mm256_add_pd(_mm512_castpd512_pd256(a), _mm512_extractf64x4_pd(a, 1));
+}
+
 #include "num/series.def"
 #undef NAME
 #undef LABEL

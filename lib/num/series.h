@@ -38,12 +38,16 @@ typedef struct {
     double upper, lower;
 } qdot_series_reach;
 
-/* Of `reach`, by order: 1/k; what is subtracted from, infinite at orders that do not
- * count. */
+/* Of `reach`, by order: what the logarithm of a coefficient is multiplied by and taken
+ * from, infinite at orders that do not count; 1/k; and between what bounds a result stands
+ * for numbers that are not zero. */
 typedef struct {
     int p;
+    double term;
     double inverse[QDOT_SERIES_MOST + 8];
+    double share[QDOT_SERIES_MOST + 8];
     double upper[QDOT_SERIES_MOST + 8], lower[QDOT_SERIES_MOST + 8];
+    double upper_most, lower_most, lower_least;
 } qdot_series_weights;
 
 void qdot_series_weights_set(qdot_series_weights *w, int p, double term);
@@ -57,10 +61,13 @@ typedef struct {
     size_t stride;
     int p;
     double s, unit;          /* t' = t + unit s */
+    /* All of these have room for 8 more: */
     const double *y, *carry; /* [n] */
     double *next, *next_carry;
-    double *value; /* [n] scratch */
-    double *slope; /* [n] sum k x_k s^(k-1), of those behind `linked` only */
+    double *size, *scale; /* [n] max(1, |next|), and its inverse */
+    /* [n] Of those behind `linked` only: the slope at the end times the step, sum k x_k s^k,
+     * and the sizes of its terms, that of x_1 s and `size` summed. */
+    double *slope, *terms;
 } qdot_series_step;
 
 typedef struct {
@@ -81,6 +88,9 @@ typedef struct {
      * and slope[i] = sum_{k=1..p} k x_k s^(k-1). slope may be NULL. */
     void (*tails)(size_t n, const double *x, size_t stride, int p, double s,
                   double *value, double *slope);
+
+    /* How far one series strays from its beginning: sum_{k=1..p} |x_k| |s|^k. */
+    double (*span)(const double *x, int p, double s);
 
     /* peaks[k] = max_i scale[i] |x[i stride + k]|, k = 0 ... p, infinite or NaN where a
      * coefficient is; both filled up to 8: stride is a multiple of it, peaks has room. */

@@ -9,12 +9,12 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "num/series.h"
-#include "num/sum.h"
+#include "ode/taylor-numbers.h"
 
 static const double tol_default = 1e-12;
 static const uint64_t max_steps_default = 50000000;
 
-enum { least_order = 6 };
+enum { ARRAYS = 9 };
 
 /* A step over a place that it should not end upon: how far beyond, and the noise from which
  * on it is taken in any case. */
@@ -22,14 +22,6 @@ static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
 
 /* A projection moves by its own rounding, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
-
-/* Steps aim at less than the tolerance, which the errors of thousands of them may share:
- * at tol^(5/4), down to a tenth of what the first of two doubles can hold. */
-static double
-aim(double tol)
-{
-    return fmax(tol * sqrt(sqrt(tol)), 1e-17);
-}
 
 /* log2 of the largest term, over the size of the state, whose rounding may count. */
 static const double term_least = -1;
@@ -56,11 +48,15 @@ typedef struct {
     double per_unit; /* its inverse */
     bool extended; /* the series is there to order p */
 
-    double *y, *carry;         /* [n] the state now */
-    double *next, *next_carry; /* [n] at the end of the step tried */
-    double *value, *slope;     /* [n] of the polynomial */
-    double *first;             /* [n] x_i1 */
-    bool *follows;             /* [n] it is not integrated */
+    /* [n], with the room that qdot_series_step wants */
+    double *y, *carry;           /* the state now */
+    double *scale;               /* 1/max(1, |y|) */
+    double *next, *next_carry;   /* at the end of the step tried */
+    double *next_size, *next_scale;
+    double *slope, *terms;       /* of the polynomial there */
+    size_t *confirmed;           /* [n_confirmed] what the defect is looked at of */
+    size_t n_confirmed;
+    qdot_series_step step;       /* of those */
     double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] and what fills a vector */
     qdot_series_weights weights;
     qdot_error undefined;      /* what f said last */
@@ -91,20 +87,6 @@ is_too_short(double t, double h)
     return !(h > 16 * DBL_EPSILON * fabs(t) && h > 16 * DBL_MIN) && h < floor_of_step(t);
 }
 
-/* The power of two at or below |h|, with the sign of h. */
-static double
-unit_for(double h)
-{
-    uint64_t bits;
-
-    memcpy(&bits, &h, sizeof bits);
-    bits &= (uint64_t)0xfff << 52;
-    if ((bits << 1) == 0) /* not a normal number */
-        return h != 0 ? copysign(ldexp(1, ilogb(h)), h) : 1;
-    memcpy(&h, &bits, sizeof h);
-    return h;
-}
-
 static void
 set_unit(run *r, double unit)
 {
@@ -112,53 +94,13 @@ set_unit(run *r, double unit)
     r->per_unit = 1 / unit;
 }
 
-static double
-larger(double a, double b)
+static void
+swap(double **a, double **b)
 {
-    return a > b ? a : b;
-}
+    double *c = *a;
 
-static double
-smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-/* 2^x to 0.002: the step it is for is a guess, and the libraries' takes as long as three
- * orders of a series. */
-static double
-rough_exp2(double x)
-{
-    double whole, part, power;
-    int64_t bits;
-
-    if (!(fabs(x) < 1000))
-        return exp2(x);
-    whole = (double)(int64_t)x;
-    whole -= whole > x;
-    part = x - whole;
-    bits = ((int64_t)whole + 1023) << 52;
-    memcpy(&power, &bits, sizeof power);
-    return power * (1 + part * (0.6565 + 0.3435 * part));
-}
-
-int
-qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
-{
-    const double *c = series->cost;
-    double L = -log(aim(tol)), least = INFINITY;
-    int best = least_order;
-
-    for (int p = least_order; p <= series->most; p++) {
-        double cost = (c[0] + c[1] * p + c[2] * p * p) * exp(L / p);
-
-        if (cost < least) {
-            least = cost;
-            best = p;
-        }
-    }
-    best += more;
-    return best < series->most ? best : series->most;
+    *a = *b;
+    *b = c;
 }
 
 /* --- the state from the series ------------------------------------------------------ */
@@ -167,45 +109,50 @@ qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
 static void
 advance_state(run *r, int order, double s)
 {
-    const qdot_series_step step = {.n = r->n,
-                                   .linked = r->series->checked,
-                                   .x = r->series->x,
-                                   .stride = r->series->stride,
-                                   .p = order,
-                                   .s = s,
-                                   .unit = r->unit,
-                                   .y = r->y,
-                                   .carry = r->carry,
-                                   .next = r->next,
-                                   .next_carry = r->next_carry,
-                                   .value = r->value,
-                                   .slope = r->slope};
-
-    r->kernels->advance(&step);
-    for (size_t i = r->series->checked; i < r->n; i++)
-        r->first[i] = r->series->x[i * r->series->stride + 1];
+    r->step.p = order;
+    r->step.s = s;
+    r->step.unit = r->unit;
+    r->kernels->advance(&r->step);
 }
 
-void
-qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double h,
-                         double t, const double *y0, double *y)
+/* Of the arrays as they are now. */
+static void
+aim_step(run *r)
 {
-    const qdot_ode_series *series = system->series;
-    double s = (t - t0) / unit_for(h);
-
-    qdot_series_kernels_get()->tails(system->n, series->x, series->stride, p, s, y, NULL);
-    for (size_t i = 0; i < system->n; i++)
-        y[i] = y0[i] + s * (series->x[i * series->stride + 1] + y[i]);
+    r->step = (qdot_series_step){.n = r->n,
+                                 .linked = r->series->checked,
+                                 .x = r->series->x,
+                                 .stride = r->series->stride,
+                                 .y = r->y,
+                                 .carry = r->carry,
+                                 .next = r->next,
+                                 .next_carry = r->next_carry,
+                                 .size = r->next_size,
+                                 .scale = r->next_scale,
+                                 .slope = r->slope,
+                                 .terms = r->terms};
 }
 
-qdot_status
-qdot_ode_taylor_expand(const qdot_ode_system *system, int p, double t0, double h,
-                       const double *y0)
+/* The step tried is taken. */
+static void
+arrive(run *r)
 {
-    const qdot_ode_series *series = system->series;
+    swap(&r->y, &r->next);
+    swap(&r->carry, &r->next_carry);
+    swap(&r->scale, &r->next_scale);
+    r->step.y = r->y;
+    r->step.carry = r->carry;
+    r->step.next = r->next;
+    r->step.next_carry = r->next_carry;
+    r->step.scale = r->next_scale;
+}
 
-    QDOT_TRY(series->begin(t0, y0, unit_for(h), series->user));
-    return series->extend(p, series->user);
+/* Where the state has been changed. */
+static void
+take_size(run *r, size_t i)
+{
+    r->next_size[i] = qdot_larger(1, fabs(r->next[i]));
+    r->next_scale[i] = 1 / r->next_size[i];
 }
 
 /* --- the length of a step ----------------------------------------------------------- */
@@ -219,14 +166,12 @@ log_step(run *r)
     qdot_series_reach reach;
     double l;
 
-    for (size_t i = 0; i < r->n; i++)
-        r->value[i] = 1 / larger(1, fabs(r->y[i]));
     reach = r->kernels->reach(r->n, r->series->x, r->series->stride, &r->weights,
-                              r->value);
+                              r->scale);
     if (isinf(reach.upper))
         return reach.upper > 0 ? INFINITY : NAN;
     l = reach.upper + r->log_aim * r->weights.inverse[r->p];
-    return smaller(l, reach.lower);
+    return qdot_smaller(l, reach.lower);
 }
 
 /* The same by whatever coefficients there are: INFINITY where there are none. */
@@ -235,7 +180,7 @@ log_step_of_all(run *r)
 {
     double least = INFINITY;
 
-    r->kernels->peaks(r->n, r->series->x, r->series->stride, r->p, r->value, r->peaks);
+    r->kernels->peaks(r->n, r->series->x, r->series->stride, r->p, r->scale, r->peaks);
     for (int k = 1; k <= r->p; k++)
         if (r->peaks[k] > 0)
             least = fmin(least, -log2(r->peaks[k]) / k);
@@ -262,7 +207,7 @@ begin(run *r, double t, const double *y)
     r->held = r->tol;
     r->log_aim = r->log_wanted;
     if (r->series->noise) {
-        r->held = smaller(1, larger(r->tol, r->series->noise(r->series->user)));
+        r->held = qdot_smaller(1, qdot_larger(r->tol, r->series->noise(r->series->user)));
         if (r->held > r->tol)
             r->log_aim = fmax(r->log_aim, log2(r->held));
     }
@@ -283,7 +228,7 @@ cut_series(run *r, double h)
         power *= s;
         for (size_t i = 0; i < r->n; i++)
             now = fmax(now, fabs(series->x[i * series->stride + (size_t)k]) * power
-                                / fmax(1, fabs(r->y[i])));
+                                * r->scale[i]);
         if (k > 4 && fmax(before, now) < least) {
             least = fmax(before, now);
             r->cut = k;
@@ -330,7 +275,7 @@ length_of_step(run *r, double *h)
         if (isnan(l)) { /* overflow, if the first orders exist */
             far = -10 - 40 * tries;
         } else {
-            *h = fabs(r->unit) * rough_exp2(l);
+            *h = fabs(r->unit) * qdot_rough_exp2(l);
             keep_off(r, h);
             /* nothing there, or too small for a double: judge by what is */
             far = l < INFINITY ? l : log_step_of_all(r);
@@ -370,27 +315,23 @@ followers_agree(const run *r, double h, double share)
     return true;
 }
 
-/* Whether the slope of the polynomial, in r->slope per old unit, is that of the equations
- * begun anew at its end. */
+/* Whether the slope of the polynomial, in r->slope over that part of the step h, is that of
+ * the equations begun anew at its end. */
 static bool
-confirms(const run *r, double h, double old_unit, double old_held)
+confirms(const run *r, double h, double part, double old_held)
 {
     const qdot_ode_series *series = r->series;
-    double steps = h / old_unit, now = h * r->per_unit;
-    double rounding = 64 * DBL_EPSILON;
-    double share = 10 * (r->p + 1) * larger(r->held, old_held);
+    const double now = part * h * r->per_unit, rounding = 64 * DBL_EPSILON;
+    const double share = part * 10 * (r->p + 1) * qdot_larger(r->held, old_held);
 
-    for (size_t i = series->checked; i < r->n; i++) {
-        double f = series->x[i * series->stride + 1] * now, P = r->slope[i] * steps;
-        double size = larger(1, fabs(r->next[i]));
+    for (size_t k = 0; k < r->n_confirmed; k++) {
+        const size_t i = r->confirmed[k];
+        const double f = series->x[i * series->stride + 1] * now;
 
-        if (r->follows[i])
-            continue;
-        if (!(fabs(P - f) <=
-              share * size + rounding * (fabs(P) + fabs(r->first[i] * steps) + size)))
+        if (!(fabs(r->slope[i] - f) <= share * r->next_size[i] + rounding * r->terms[i]))
             return false;
     }
-    return followers_agree(r, h, share);
+    return followers_agree(r, part * h, share);
 }
 
 /* Whether it also is inside the step, at places without a pattern. The series is
@@ -399,14 +340,14 @@ static qdot_status
 confirms_inside(run *r, double h, bool *good)
 {
     static const double places[] = {0.31830988618379067, 0.70710678118654752};
-    const double old_unit = r->unit, old_held = r->held;
+    const double old_held = r->held;
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
         advance_state(r, r->p, places[k] * h / r->unit);
         status = begin(r, r->t + places[k] * h, r->next);
         if (status == QDOT_OK) {
-            *good = confirms(r, h, old_unit, old_held);
+            *good = confirms(r, h, places[k], old_held);
             status = begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
@@ -421,15 +362,6 @@ may_be_undefined(qdot_status status)
     return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EFAILED;
 }
 
-static void
-swap(double **a, double **b)
-{
-    double *c = *a;
-
-    *a = *b;
-    *b = c;
-}
-
 /* The state at the end of the step tried, brought back to where solutions are. */
 static qdot_status
 project(run *r, double t_end, double *moved)
@@ -437,18 +369,24 @@ project(run *r, double t_end, double *moved)
     *moved = 0;
     if (!r->system->project)
         return QDOT_OK;
-    return r->system->project(t_end, r->next, r->next_carry, moved, r->system->user);
+    QDOT_TRY(r->system->project(t_end, r->next, r->next_carry, moved, r->system->user));
+    for (size_t i = 0; i < r->n && *moved > 0; i++)
+        take_size(r, i);
+    return QDOT_OK;
 }
 
 /* What is not integrated, at the end of the step. */
 static void
-take_followers(const run *r)
+take_followers(run *r)
 {
     const qdot_ode_following *f = r->system->following;
 
     for (size_t k = 0; f && k < f->n; k++) {
-        r->next[f->index[k]] = r->series->x[f->index[k] * r->series->stride];
-        r->next_carry[f->index[k]] = 0;
+        const size_t i = f->index[k];
+
+        r->next[i] = r->series->x[i * r->series->stride];
+        r->next_carry[i] = 0;
+        take_size(r, i);
     }
 }
 
@@ -457,7 +395,7 @@ take_followers(const run *r)
 static qdot_status
 try_step(run *r, double h, double t_end, bool unsure, bool *good)
 {
-    const double old_unit = r->unit, old_held = r->held;
+    const double old_held = r->held;
     const bool fixed = r->options->h_fixed > 0;
     double moved;
     qdot_status status;
@@ -479,10 +417,10 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     *good = fixed || moved <= 100 * r->held + rounding_of_projection;
     if (!*good)
         return QDOT_OK;
-    set_unit(r, unit_for(h));
+    set_unit(r, qdot_step_unit(h));
     status = begin(r, t_end, r->next);
     if (status == QDOT_OK)
-        *good = fixed || confirms(r, h, old_unit, old_held);
+        *good = fixed || confirms(r, h, 1, old_held);
     if (status == QDOT_OK && *good)
         take_followers(r);
     if (status == QDOT_OK && *good && r->options->accepted) {
@@ -498,8 +436,7 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
         r->series->crossed(r->place, r->series->user);
     r->place = NAN;
     r->t = t_end;
-    swap(&r->y, &r->next);
-    swap(&r->carry, &r->next_carry);
+    arrive(r);
     r->result->stats.steps++;
     r->result->stats.projections += moved > 0;
     return QDOT_OK;
@@ -549,7 +486,7 @@ advance(run *r)
             return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                              (unsigned long long)r->max_steps);
         if (tries > 0) { /* the series is another one's by now */
-            set_unit(r, r->direction * unit_for(most));
+            set_unit(r, r->direction * qdot_step_unit(most));
             status = begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
@@ -558,7 +495,7 @@ advance(run *r)
             if (r->options->h_fixed > 0)
                 h = r->options->h_fixed;
             unsure = isinf(h);
-            h = smaller(h, most);
+            h = qdot_smaller(h, most);
             end = end_of_step(r, h);
             h = r->direction * (end - r->t);
             if (end != r->t1 && is_too_short(r->t, h))
@@ -592,7 +529,7 @@ loop(run *r)
     if (r->t == r->t1)
         return QDOT_OK;
     if (r->options->h_first > 0)
-        r->unit = unit_for(r->options->h_first);
+        r->unit = qdot_step_unit(r->options->h_first);
     set_unit(r, r->direction * fabs(r->unit));
     status = begin(r, r->t, r->y);
     if (may_be_undefined(status)) {
@@ -606,12 +543,51 @@ loop(run *r)
     return QDOT_OK;
 }
 
+/* The arrays of a run: here, so that all of them are given back. */
+static void
+list_arrays(run *r, double ***arrays)
+{
+    arrays[0] = &r->y;
+    arrays[1] = &r->carry;
+    arrays[2] = &r->scale;
+    arrays[3] = &r->next;
+    arrays[4] = &r->next_carry;
+    arrays[5] = &r->next_size;
+    arrays[6] = &r->next_scale;
+    arrays[7] = &r->slope;
+    arrays[8] = &r->terms;
+}
+
+static qdot_status
+make_room(run *r)
+{
+    const qdot_ode_following *f = r->system->following;
+    double **arrays[ARRAYS];
+
+    list_arrays(r, arrays);
+    for (size_t i = 0; i < ARRAYS; i++) {
+        *arrays[i] = qdot_calloc(r->n + 8, sizeof(double));
+        if (!*arrays[i])
+            return QDOT_ENOMEM;
+    }
+    r->confirmed = qdot_calloc(r->n, sizeof *r->confirmed);
+    if (!r->confirmed)
+        return QDOT_ENOMEM;
+    for (size_t i = r->series->checked; i < r->n; i++) {
+        bool follows = false;
+
+        for (size_t k = 0; f && k < f->n; k++)
+            follows = follows || f->index[k] == i;
+        if (!follows)
+            r->confirmed[r->n_confirmed++] = i;
+    }
+    aim_step(r);
+    return QDOT_OK;
+}
+
 static qdot_status
 prepare(run *r, double t0, double t1, const double *y)
 {
-    double **arrays[] = {&r->y,   &r->carry, &r->next,  &r->next_carry,
-                         &r->value, &r->slope, &r->first};
-
     if (!isfinite(t0) || !isfinite(t1) || !isfinite(t1 - t0))
         return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
     if (r->n == 0)
@@ -625,20 +601,13 @@ prepare(run *r, double t0, double t1, const double *y)
     for (size_t i = 0; i < r->n; i++)
         if (!isfinite(y[i]))
             return qdot_fail(QDOT_EINVAL, "initial value %zu is not finite", i + 1);
-    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
-        *arrays[i] = qdot_calloc(r->n, sizeof(double));
-        if (!*arrays[i])
-            return QDOT_ENOMEM;
-    }
-    r->follows = qdot_calloc(r->n, sizeof *r->follows);
-    if (!r->follows)
-        return QDOT_ENOMEM;
-    for (size_t k = 0; r->system->following && k < r->system->following->n; k++)
-        r->follows[r->system->following->index[k]] = true;
+    QDOT_TRY(make_room(r));
     memcpy(r->y, y, r->n * sizeof *y);
     if (r->options->carry)
         memcpy(r->carry, r->options->carry, r->n * sizeof *y);
-    r->log_wanted = log2(aim(r->tol));
+    for (size_t i = 0; i < r->n; i++)
+        r->scale[i] = 1 / qdot_larger(1, fabs(y[i]));
+    r->log_wanted = log2(qdot_step_aim(r->tol));
     r->log_term = fmax(term_least, r->log_wanted + 53);
     r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->order_more);
     qdot_series_weights_set(&r->weights, r->p, r->log_term);
@@ -648,12 +617,12 @@ prepare(run *r, double t0, double t1, const double *y)
 static void
 release(run *r)
 {
-    double *arrays[] = {r->y,   r->carry, r->next,  r->next_carry,
-                        r->value, r->slope, r->first};
+    double **arrays[ARRAYS];
 
-    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
-        qdot_free(arrays[i]);
-    qdot_free(r->follows);
+    list_arrays(r, arrays);
+    for (size_t i = 0; i < ARRAYS; i++)
+        qdot_free(*arrays[i]);
+    qdot_free(r->confirmed);
 }
 
 qdot_status

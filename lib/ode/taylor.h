@@ -32,8 +32,8 @@
  * summed up to its least term, or stays well before (series.ahead).
  *
  * Times are doubles exactly: h is the difference of two. The state is a sum of two
- * doubles, advanced by the series evaluated by Horner's rule, whose first product and sum
- * are exact.
+ * doubles, advanced by the series, whose first product and sum are exact; the powers of
+ * the step are made once for all components.
  *
  * Between steps the state is the series again, expanded from the stored point: as
  * accurate as the run.

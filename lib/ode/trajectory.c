@@ -64,10 +64,11 @@ qdot_trajectory_clear(qdot_trajectory *tr)
     *tr = (qdot_trajectory){0};
 }
 
-qdot_status
-qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
+/* For one point more. */
+static qdot_status
+make_room(qdot_trajectory *tr, double t)
 {
-    size_t wanted = tr->count + 1;
+    const size_t wanted = tr->count + 1;
 
     if (wanted > most_bytes / sizeof(double) / (tr->n + 1)) {
         qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g: the run takes more than 2 GB", t);
@@ -77,10 +78,22 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
         QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, wanted, sizeof *tr->t));
     if (wanted * tr->n > tr->y_capacity)
         QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, wanted * tr->n, sizeof *tr->y));
-    tr->t[tr->count] = t;
-    for (size_t i = 0; i < tr->n; i++)
-        tr->y[tr->count * tr->n + i] = y[i];
-    tr->count = wanted;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
+{
+    const size_t n = tr->n;
+    double *to;
+
+    /* a power of two at a time: the limit is looked at with each */
+    if (tr->count == tr->t_capacity || (tr->count + 1) * n > tr->y_capacity)
+        QDOT_TRY(make_room(tr, t));
+    to = tr->y + tr->count * n;
+    tr->t[tr->count++] = t;
+    for (size_t i = 0; i < n; i++)
+        to[i] = y[i];
     return QDOT_OK;
 }
 

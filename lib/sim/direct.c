@@ -24,6 +24,12 @@ typedef struct {
     size_t n_couplings;
 } block_series;
 
+/* A momentum that is kept: its first double, the next one on the side of its second, and
+ * the chance of that. */
+typedef struct {
+    double hi, lo, far, chance;
+} momentum;
+
 struct qdot_direct {
     const qdot_plan *plan;
     const qdot_series_kernels *kernels;
@@ -40,6 +46,7 @@ struct qdot_direct {
     bool diagonal;          /* all are outputs */
     const double **rates;   /* [n_kept] series of velocities that are outputs */
     const double *hi, *lo;  /* [n_kept] their momenta; borrowed */
+    momentum *momenta;      /* [n_kept] as they were drawn last */
     bool plain;             /* of those, hi alone */
     double inverse[most_order + 2];
 };
@@ -139,25 +146,64 @@ show_rates(qdot_direct *e, int p)
     }
 }
 
+/* What the momenta are from t on. */
+static void
+draw_momenta(qdot_direct *e, double t)
+{
+    const size_t n = e->plan->n;
+
+    for (size_t c = 0; c < e->plan->n_kept; c++) {
+        momentum *m = e->momenta + c;
+        double *to = e->t + (c + 1) * e->stride;
+
+        *to = e->hi[c];
+        if (e->plain || e->lo[c] == 0)
+            continue;
+        if (m->hi != e->hi[c] || m->lo != e->lo[c]) {
+            *m = (momentum){.hi = e->hi[c], .lo = e->lo[c]};
+            m->far = nextafter(m->hi, m->lo > 0 ? INFINITY : -INFINITY);
+            m->chance = m->lo / (m->far - m->hi);
+        }
+        if (qdot_taylor_chance(t, n + c) < m->chance)
+            *to = m->far;
+    }
+}
+
+/* Which of them is undefined. */
+static qdot_status
+say_undefined(const qdot_direct *e)
+{
+    const qdot_plan *p = e->plan;
+
+    for (size_t i = 0; i < p->n; i++)
+        if (e->a[i] && !isfinite(e->a[i][0]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             p->names[i]);
+    for (size_t c = 0; c < p->n_kept; c++)
+        if (!isfinite(e->rates[c][0]))
+            return qdot_fail(QDOT_EDOMAIN, "the velocity of %s is undefined",
+                             p->names[p->kept[c]]);
+    return QDOT_OK;
+}
+
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
     qdot_direct *e = user;
-    size_t n = e->plan->n;
+    const size_t n = e->plan->n, kept = e->plan->n_kept;
+    double *q = e->q, *v = e->v, nothing = 0; /* a sum of zeros, if all is finite */
 
     e->unit = unit;
-    for (size_t i = 0; i < n; i++) {
-        e->q[i * e->stride] = y[i];
-        e->q[i * e->stride + 1] = unit * y[n + i];
-        e->v[i * e->stride] = y[n + i];
+    for (size_t i = 0; i < n; i++, q += e->stride, v += e->stride) {
+        q[0] = y[i];
+        q[1] = unit * y[n + i];
+        v[0] = y[n + i];
     }
     e->t[0] = t;
     e->t[1] = unit;
     qdot_taylor_draw(e->taylor, t);
-    for (size_t c = 0; e->hi && c < e->plan->n_kept; c++)
-        e->t[(c + 1) * e->stride] = e->plain ? e->hi[c]
-                                             : qdot_taylor_drawn(t, n + c, e->hi[c],
-                                                                 e->lo[c]);
+    if (e->hi)
+        draw_momenta(e, t);
     if (e->diagonal) {
         qdot_taylor_begin(e->taylor, unit);
     } else {
@@ -165,14 +211,13 @@ begin(double t, const double *y, double unit, void *user)
         integrate(e, 0);
     }
     for (size_t i = 0; i < n; i++)
-        if (e->a[i] && !isfinite(e->a[i][0]))
-            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
-                             e->plan->names[i]);
-    for (size_t c = 0; c < e->plan->n_kept; c++)
-        if (!isfinite(e->rates[c][0]))
-            return qdot_fail(QDOT_EDOMAIN, "the velocity of %s is undefined",
-                             e->plan->names[e->plan->kept[c]]);
-    show_rates(e, 1);
+        nothing += e->a[i] ? 0 * e->a[i][0] : 0;
+    for (size_t c = 0; c < kept; c++)
+        nothing += 0 * e->rates[c][0];
+    if (nothing != 0)
+        return say_undefined(e);
+    if (kept > 0)
+        show_rates(e, 1);
     return QDOT_OK;
 }
 
@@ -280,7 +325,8 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
     e->outputs = qdot_calloc(outputs + 1, sizeof *e->outputs);
     e->blocks = qdot_calloc(p->structure.blocks + 1, sizeof *e->blocks);
     e->rates = qdot_calloc(p->n_kept + 1, sizeof *e->rates);
-    if (!e->a || !e->solved || !e->outputs || !e->blocks || !e->rates)
+    e->momenta = qdot_calloc(p->n_kept + 1, sizeof *e->momenta);
+    if (!e->a || !e->solved || !e->outputs || !e->blocks || !e->rates || !e->momenta)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_blocks_init(&e->solvers, p, shaken));
     for (size_t b = 0; b < p->structure.blocks; b++)
@@ -340,6 +386,7 @@ qdot_direct_free(qdot_direct *e)
     qdot_blocks_clear(&e->solvers);
     qdot_free(e->outputs);
     qdot_free(e->rates);
+    qdot_free(e->momenta);
     qdot_free(e->blocks);
     qdot_free(e->a);
     qdot_free(e->solved);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "tape/lanes.h"
 
 void
 qdot_drifts_clear(qdot_drifts *d)
@@ -34,14 +35,33 @@ is_switch(const qdot_trajectory *tr, size_t piece, size_t k)
                && !at[piece + 1].jumped);
 }
 
+/* The quantity at points from the first on, as many as there are lanes; c one group. Behind
+ * the last it is that of the last. */
+static void
+evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, double *in,
+         double *c, double *work)
+{
+    const size_t n = tr->n;
+
+    for (size_t l = 0; l < QDOT_LANES; l++) {
+        const size_t k = first + l < tr->count ? first + l : tr->count - 1;
+        const double *y = tr->y + k * n;
+
+        for (size_t i = 0; i < n; i++)
+            in[i * QDOT_LANES + l] = y[i];
+        in[n * QDOT_LANES + l] = tr->t[k];
+    }
+    qdot_lanes_eval(tape, in, c, work);
+}
+
 static qdot_status
 follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
 {
     size_t n = tr->n;
-    double *in = qdot_malloc((n + 1) * sizeof *in);
-    double *work = qdot_malloc((qdot_tape_work(tape) + 1) * sizeof *work), c;
+    double *in = qdot_malloc(QDOT_LANES * (n + 1) * sizeof *in);
+    double *work = qdot_malloc(QDOT_LANES * (qdot_tape_work(tape) + 1) * sizeof *work);
+    double c[QDOT_LANES], start = 0;
     qdot_status status = in && work ? QDOT_OK : QDOT_ENOMEM;
-    double start = 0;
     size_t piece = 0;
 
     drift->drift = 0;
@@ -50,18 +70,20 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
 
         if (k % 1024 == 0)
             status = qdot_interrupt_check();
-        memcpy(in, tr->y + k * n, n * sizeof *in);
-        in[n] = tr->t[k];
-        qdot_tape_eval(tape, in, &c, work);
+        if (k % QDOT_LANES == 0)
+            evaluate(tape, tr, k, in, c, work);
+        change = c[k % QDOT_LANES];
         if (k == 0)
-            drift->start = start = c;
+            drift->start = start = change;
         /* what an event changes is no drift */
         for (; piece < tr->pieces.n && tr->pieces.at[piece].first <= k; piece++)
             if (tr->pieces.at[piece].jumped)
-                start = c;
+                start = change;
         if (piece > 0 && is_switch(tr, piece - 1, k))
             continue;
-        change = fabs(c - start) / fmax(1, fabs(start));
+        change = fabs(change - start);
+        if (fabs(start) > 1)
+            change /= fabs(start);
         if (!(change <= drift->drift)) /* a NaN stays */
             drift->drift = change;
     }

@@ -18,42 +18,63 @@ static const double least_part = 0.01;
 /* Where beyond the horizon expressions are compared. */
 enum { LOOKS = 32 };
 
+/* Of how many points a run is looked at first. */
+enum { SAMPLES = 64, MOST_POINTS = 4096 };
+
 typedef struct {
     const qdot_run *run;
     qdot_trajectory_cursor *companion;
     double *y;      /* [n] the companion's */
-    double *d;      /* [points] distances */
-    size_t points;  /* of the run that can be compared */
+    size_t *point;  /* [points] of the run, in order: those that are compared */
+    double *t, *d;  /* [points] their times; distances there */
+    size_t points;
+    size_t *pieces; /* [points] their pieces */
     double threshold;
 } search;
 
 /* --- variation ----------------------------------------------------------------------- */
 
+/* The least and the largest of component i, over every so many points. */
+static void
+widen(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *high)
+{
+    for (size_t k = 0; k < tr->count; k += stride) {
+        const double y = tr->y[k * tr->n + i];
+
+        *low = y < *low ? y : *low;
+        *high = y > *high ? y : *high;
+    }
+}
+
 static double
-variation(const qdot_trajectory *a, const qdot_trajectory *b)
+variation(const qdot_trajectory *a, const qdot_trajectory *b, size_t stride)
 {
     double most = 0;
 
     for (size_t i = 0; i < a->n; i++) {
         double low = INFINITY, high = -INFINITY;
 
-        for (size_t k = 0; k < a->count; k++) {
-            low = fmin(low, a->y[k * a->n + i]);
-            high = fmax(high, a->y[k * a->n + i]);
-        }
-        for (size_t k = 0; b && k < b->count; k++) {
-            low = fmin(low, b->y[k * a->n + i]);
-            high = fmax(high, b->y[k * a->n + i]);
-        }
+        widen(a, i, stride, &low, &high);
+        if (b)
+            widen(b, i, stride, &low, &high);
         most = fmax(most, 0.5 * (high - low) / fmax(1, fmax(fabs(low), fabs(high))));
     }
     return most;
 }
 
+/* Whether it is above x. More points only add to what is below a half. */
+static bool
+varies_by_more(const qdot_trajectory *tr, double x)
+{
+    if (x < 0.5 && variation(tr, NULL, tr->count / SAMPLES + 1) > x)
+        return true;
+    return variation(tr, NULL, 1) > x;
+}
+
 double
 qdot_horizon_variation(const qdot_trajectory *tr)
 {
-    return variation(tr, NULL);
+    return variation(tr, NULL, 1);
 }
 
 /* --- distances ----------------------------------------------------------------------- */
@@ -84,30 +105,72 @@ distance(const search *s, size_t k)
     return most;
 }
 
-/* d at the points of the run, as far as the companion goes the same way. */
+/* The distance at point k of the run, which is of that piece; where the companion has no
+ * state the one before stays. */
+static qdot_status
+measure_at(search *s, size_t k, size_t piece, double *d)
+{
+    qdot_status status;
+
+    QDOT_TRY(qdot_interrupt_check());
+    status = qdot_trajectory_read_piece(s->companion, piece, s->run->course.tr.t[k], s->y);
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return status;
+    if (status == QDOT_OK)
+        *d = distance(s, k);
+    return QDOT_OK;
+}
+
+/* d at points of the run, as far as the companion goes the same way: at all of them, or at
+ * one of every so many, without a pattern that a period could share. */
 static qdot_status
 measure(search *s)
 {
     const qdot_trajectory *a = &s->run->course.tr, *b = &s->run->companion.tr;
     const double way = a->t[a->count - 1] < a->t[0] ? -1 : 1;
     const size_t pieces = common_pieces(a, b);
+    const size_t end = pieces < a->pieces.n ? a->pieces.at[pieces].first : a->count;
+    const size_t stride = end / MOST_POINTS + 1;
     size_t piece = 0;
+    double d = 0;
 
-    s->points = pieces < a->pieces.n ? a->pieces.at[pieces].first : a->count;
-    for (size_t k = 0; k < s->points; k++) {
-        qdot_status status;
+    for (size_t from = 0; from < end; from += stride) {
+        size_t k = from + (from * 2654435761U >> 7) % stride;
 
+        k = from == 0 ? 0 : k < end ? k : end - 1;
         while (piece + 1 < pieces && a->pieces.at[piece + 1].first <= k)
             piece++;
-        QDOT_TRY(qdot_interrupt_check());
-        if (way * (a->t[k] - b->t[b->count - 1]) > 0 && piece + 1 == b->pieces.n) {
-            s->points = k; /* it did not come so far */
-            break;
+        if (way * (a->t[k] - b->t[b->count - 1]) > 0 && piece + 1 == b->pieces.n)
+            break; /* it did not come so far */
+        QDOT_TRY(measure_at(s, k, piece, &d));
+        s->point[s->points] = k;
+        s->pieces[s->points] = piece;
+        s->t[s->points] = a->t[k];
+        s->d[s->points++] = d;
+    }
+    return QDOT_OK;
+}
+
+/* Of the points that were left out before place k, in its piece, the first over the
+ * threshold takes that place, with the last below it before. */
+static qdot_status
+look_between(search *s, size_t k)
+{
+    const size_t piece = s->pieces[k];
+
+    if (k == 0 || s->pieces[k - 1] != piece)
+        return QDOT_OK;
+    for (size_t i = s->point[k - 1] + 1; i < s->point[k]; i++) {
+        double d = s->d[k - 1];
+
+        QDOT_TRY(measure_at(s, i, piece, &d));
+        if (d >= s->threshold) {
+            s->t[k] = s->run->course.tr.t[i];
+            s->d[k] = d;
+            return QDOT_OK;
         }
-        status = qdot_trajectory_read_piece(s->companion, piece, a->t[k], s->y);
-        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
-            return status;
-        s->d[k] = status == QDOT_OK ? distance(s, k) : k > 0 ? s->d[k - 1] : 0;
+        s->t[k - 1] = s->run->course.tr.t[i];
+        s->d[k - 1] = d;
     }
     return QDOT_OK;
 }
@@ -118,7 +181,7 @@ measure(search *s)
 static size_t
 first_lost(const search *s)
 {
-    const double *t = s->run->course.tr.t;
+    const double *t = s->t;
     double over = 0, all = 0;
     size_t first = SIZE_MAX;
 
@@ -139,7 +202,7 @@ first_lost(const search *s)
 static double
 mean_from(const search *s, size_t k)
 {
-    const double *t = s->run->course.tr.t;
+    const double *t = s->t;
     double sum = 0, all = 0;
 
     for (; k + 1 < s->points; k++) {
@@ -154,7 +217,7 @@ mean_from(const search *s, size_t k)
 static double
 crossing(const search *s, size_t k)
 {
-    const double *t = s->run->course.tr.t;
+    const double *t = s->t;
     double low, high;
 
     if (k == 0 || !(s->d[k - 1] > 0) || !(s->d[k - 1] < s->threshold))
@@ -169,22 +232,27 @@ find(qdot_run *run, search *s)
 {
     const qdot_trajectory *a = &run->course.tr, *b = &run->companion.tr;
     qdot_run_report *report = &run->report;
-    double size = variation(a, b);
+    double size = variation(a, b, 1);
     const double length = fabs(a->t[a->count - 1] - a->t[0]);
+    const size_t room = (a->count < MOST_POINTS ? a->count : MOST_POINTS) + 1;
     size_t first;
 
     s->run = run;
     s->threshold = QDOT_HORIZON_NONE_LEFT * size;
     s->y = qdot_malloc(a->n * sizeof *s->y);
-    s->d = qdot_malloc(a->count * sizeof *s->d);
-    if (!s->y || !s->d)
+    s->t = qdot_malloc(2 * room * sizeof *s->t);
+    s->point = qdot_malloc(2 * room * sizeof *s->point);
+    if (!s->y || !s->t || !s->point)
         return QDOT_ENOMEM;
+    s->d = s->t + room;
+    s->pieces = s->point + room;
     QDOT_TRY(qdot_trajectory_open(b, qdot_course_systems(&run->companion), &s->companion));
     QDOT_TRY(measure(s));
     first = first_lost(s);
     if (first == SIZE_MAX || size < tolerances * fmax(report->tol, 0x1p-53)
-        || fabs(a->t[a->count - 1] - a->t[first]) < least_part * length)
+        || fabs(a->t[a->count - 1] - s->t[first]) < least_part * length)
         return QDOT_OK;
+    QDOT_TRY(look_between(s, first));
     report->horizon = crossing(s, first);
     qdot_free(run->doubt); /* of the end: it needs none any more */
     run->doubt = NULL;
@@ -199,13 +267,12 @@ qdot_horizon_find(qdot_run *run)
     qdot_run_report *report = &run->report;
     search s = {0};
     qdot_status status;
-    double least;
 
     report->horizon = NAN;
     if (tr->count < 2)
         return QDOT_OK;
-    least = fmax(variation(tr, NULL), tolerances * fmax(report->tol, 0x1p-53));
-    if (report->error < worth_looking * least)
+    if (report->error < worth_looking * tolerances * fmax(report->tol, 0x1p-53)
+        || varies_by_more(tr, report->error / worth_looking))
         return QDOT_OK;
     QDOT_TRY(qdot_run_companion(run));
     if (!run->has_companion)
@@ -213,7 +280,8 @@ qdot_horizon_find(qdot_run *run)
     status = find(run, &s);
     qdot_trajectory_close(s.companion);
     qdot_free(s.y);
-    qdot_free(s.d);
+    qdot_free(s.t);
+    qdot_free(s.point);
     return status == QDOT_EDOMAIN || status == QDOT_EFAILED ? QDOT_OK : status;
 }
 

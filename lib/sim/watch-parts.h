@@ -10,6 +10,7 @@
 #define QDOT_SIM_WATCH_PARTS_H
 
 #include "num/chebyshev.h"
+#include "num/series.h"
 #include "sim/watch.h"
 
 enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
@@ -23,6 +24,7 @@ struct qdot_watch_state {
 
 struct qdot_watch {
     const qdot_plan *plan;
+    const qdot_series_kernels *kernels;
     qdot_tape *tape, *sizes; /* g; the sums of the sizes of their terms */
     size_t m, n;             /* functions; coordinates */
     bool accelerations;

@@ -139,15 +139,13 @@ is_far(const qdot_watch *w, size_t i, double t, const double *y,
        const qdot_ode_series *series, int order, double unit)
 {
     size_t c = w->coordinate[i];
-    double distance = fabs(w->y[c] - w->bound[i]), reach = 0, s;
+    double distance = fabs(w->y[c] - w->bound[i]);
 
     if (!series)
         return fmin(distance, fabs(y[c] - w->bound[i])) >
                fabs(t - w->t) * fmax(fabs(w->y[w->n + c]), fabs(y[w->n + c]));
-    s = fabs((t - w->t) / unit);
-    for (int p = order; p > 0; p--)
-        reach = (reach + fabs(series->x[c * series->stride + (size_t)p])) * s;
-    return distance > reach;
+    return distance
+           > w->kernels->span(series->x + c * series->stride, order, (t - w->t) / unit);
 }
 
 static int
@@ -382,6 +380,7 @@ qdot_watch_new(const qdot_plan *plan, size_t m, const qdot_expr *g, bool shaken,
     if (!w)
         return QDOT_ENOMEM;
     w->plan = plan;
+    w->kernels = qdot_series_kernels_get();
     w->m = m;
     w->n = plan->n;
     w->tol = tol;

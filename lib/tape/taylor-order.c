@@ -32,16 +32,6 @@ qdot_taylor_draw(qdot_taylor *t, double time)
     }
 }
 
-double
-qdot_taylor_drawn(double time, size_t i, double hi, double lo)
-{
-    double far = nextafter(hi, lo > 0 ? INFINITY : -INFINITY);
-
-    if (lo == 0 || !(qdot_taylor_chance(time, i) < lo / (far - hi)))
-        return hi;
-    return far;
-}
-
 /* --- evaluation --------------------------------------------------------------------- */
 
 static void

@@ -54,9 +54,6 @@ struct qdot_taylor_drawn {
     double near, far, chance; /* of the far one */
 };
 
-/* A number in [0, 1) for draw i of the stretch that begins at t, always the same one. */
-double qdot_taylor_chance(double t, size_t i);
-
 struct qdot_taylor {
     const qdot_series_kernels *kernels;
     size_t stride, inputs, outputs, rows;

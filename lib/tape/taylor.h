@@ -69,8 +69,9 @@ bool qdot_taylor_is_constant(const qdot_taylor *taylor, size_t i);
  * nothing is drawn. */
 void qdot_taylor_draw(qdot_taylor *taylor, double t);
 
-/* The same for a number hi + lo that an input has: what hi is there is for that stretch. */
-double qdot_taylor_drawn(double t, size_t i, double hi, double lo);
+/* The chances themselves: a number in [0, 1) for draw i of the stretch that begins at t,
+ * always the same one. */
+double qdot_taylor_chance(double t, size_t i);
 
 /* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
  * and inf as IEEE 754 has them. */

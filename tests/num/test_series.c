@@ -194,36 +194,79 @@ reach_is_the_least_of_its_half(void **state)
 static void
 states_are_advanced_in_two_doubles(void **state)
 {
-    enum { n = 6, stride = 24, p = 15 };
-    double x[n * stride], y[n], carry[n], next[n], low[n], value[n], slope[n];
-    qdot_series_step step = {n, 2, x, stride, p, 0.3, 4, y, carry, next, low, value, slope};
+    enum { n = 6, room = n + 8, stride = 48 };
+    double x[n * stride], y[room] = {0}, carry[room] = {0}, next[room], low[room];
+    double size[room], scale[room], slope[room], terms[room];
+    qdot_series_step step = {.n = n,
+                             .x = x,
+                             .stride = stride,
+                             .s = 0.3,
+                             .unit = 4,
+                             .y = y,
+                             .carry = carry,
+                             .next = next,
+                             .next_carry = low,
+                             .size = size,
+                             .scale = scale,
+                             .slope = slope,
+                             .terms = terms};
 
     (void)state;
-    for (size_t i = 0; i < n * stride; i++)
-        x[i] = some(i) * pow(0.01, (double)(i % stride) - 1);
     for (size_t i = 0; i < n; i++) {
-        y[i] = some(50 + i);
+        y[i] = 2 * some(50 + i);
         carry[i] = 0x1p-55 * some(60 + i);
     }
-    for (size_t kind = 0; qdot_series_kernels_at(kind); kind++) {
-        qdot_series_kernels_at(kind)->advance(&step);
-        for (size_t i = 0; i < n; i++) {
-            long double sum = (long double)y[i] + carry[i], d = 0, power = 1;
+    for (step.p = 3; step.p < stride; step.p += 2)
+        for (size_t kind = 0; qdot_series_kernels_at(kind); kind++) {
+            step.linked = (size_t)step.p / 2 % 2 ? 2 : 5;
+            for (size_t i = 0; i < n * stride; i++)
+                x[i] = i % stride > (size_t)step.p
+                           ? NAN
+                           : some(i) * pow(0.01, (double)(i % stride) - 1);
+            qdot_series_kernels_at(kind)->advance(&step);
+            for (size_t i = 0; i < n; i++) {
+                long double sum = (long double)y[i] + carry[i], d = 0, power = 1;
 
-            if (i < 2)
-                sum += step.s * step.unit * (long double)carry[2 + i];
-            for (size_t k = 1; k <= p; k++) {
-                d += (long double)k * x[i * stride + k] * power;
-                power *= step.s;
-                sum += x[i * stride + k] * power;
-            }
-            if (!(fabsl(next[i] - sum + low[i]) < 0x1p-60L))
-                fail_msg("%zu: off by %.3Lg", i, next[i] - sum + low[i]);
-            assert_true(fabs(low[i]) <= 0x1p-53 * fabs(next[i]));
-            if (i >= 2)
+                if (i < step.linked && step.linked + i < n)
+                    sum += step.s * step.unit * (long double)carry[step.linked + i];
+                for (int k = 1; k <= step.p; k++) {
+                    power *= step.s;
+                    d += (long double)k * x[i * stride + (size_t)k] * power;
+                    sum += x[i * stride + (size_t)k] * power;
+                }
+                if (!(fabsl(next[i] - sum + low[i]) < 0x1p-60L))
+                    fail_msg("%zu: off by %.3Lg", i, next[i] - sum + low[i]);
+                assert_true(fabs(low[i]) <= 0x1p-53 * fabs(next[i]));
+                assert_true(size[i] == fmax(1, fabs(next[i])));
+                assert_true(scale[i] == 1 / size[i]);
+                if (i < step.linked)
+                    continue;
                 close_to(slope[i], d, 2, "slope", i);
+                close_to(terms[i], fabsl(d) + fabs(step.s * x[i * stride + 1]) + size[i],
+                         2, "terms", i);
+            }
         }
-    }
+}
+
+/* From its beginning no series strays further. */
+static void
+spans_are_sums_of_sizes(void **state)
+{
+    enum { stride = 48 };
+    double x[stride];
+
+    (void)state;
+    for (int p = 3; p < stride; p++)
+        for (size_t kind = 0; qdot_series_kernels_at(kind); kind++) {
+            long double sum = 0;
+
+            for (int k = 0; k < stride; k++)
+                x[k] = k > p ? NAN : some((size_t)(p + k));
+            for (int k = 1; k <= p; k++)
+                sum += fabsl(x[k] * powl(0.9, k));
+            close_to(qdot_series_kernels_at(kind)->span(x, p, -0.9), sum, 4, "span",
+                     (size_t)p);
+        }
 }
 
 int
@@ -233,6 +276,7 @@ main(void)
         cmocka_unit_test(peaks_are_the_largest_and_lose_nothing),
         cmocka_unit_test(reach_is_the_least_of_its_half),
         cmocka_unit_test(states_are_advanced_in_two_doubles),
+        cmocka_unit_test(spans_are_sums_of_sizes),
         cmocka_unit_test(products_of_series_are_sums_of_products),
         cmocka_unit_test(members_are_taken_one_by_one),
         cmocka_unit_test(tails_are_values_and_slopes),
