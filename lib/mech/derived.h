@@ -175,6 +175,9 @@ qdot_expr qdot_potential_with_velocities(qdot_scene *s);
 /* dL/dx, x a coordinate, velocity or t, from the parts of L. */
 qdot_expr qdot_lagrangian_slope(qdot_scene *s, qdot_expr x);
 bool qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has);
+/* Whether that is proved zero, x a coordinate or t: entry by entry of M and b where V holds no
+ * velocities. */
+bool qdot_lagrangian_is_still(qdot_scene *s, qdot_expr x);
 
 /* --- virtual-work.c --- */
 /* Generalized force on coordinate i. people: simplified. applied: without -dV/dq. */

@@ -314,7 +314,7 @@ qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
     *has = false;
     if (!qdot_mass_get(s))
         return false;
-    for (size_t i = 0; i < s->coordinates.n; i++) {
+    for (size_t i = 0; i < s->coordinates.n && !*has; i++) {
         const qdot_symbol *symbol = qdot_expr_symbol(s->pool, x);
 
         if (symbol->class == QDOT_COORD && symbol->order == 1) {
@@ -326,15 +326,17 @@ qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
                 qdot_mass_entry(s, i, j) != QDOT_ZERO || s->derived->b[j] != QDOT_ZERO;
             continue;
         }
-        for (size_t j = i; j < s->coordinates.n; j++)
-            *has |= qdot_expr_contains(s->pool, qdot_mass_entry(s, i, j), x);
-        *has |= qdot_expr_contains(s->pool, s->derived->b[i], x);
+        for (size_t j = i; j < s->coordinates.n && !*has; j++)
+            *has = qdot_expr_contains(s->pool, qdot_mass_entry(s, i, j), x);
+        *has = *has || qdot_expr_contains(s->pool, s->derived->b[i], x);
     }
+    if (*has)
+        return !qdot_pool_failed(s->pool);
     V = raw_potential(s);
     if (V == QDOT_NIL)
         return false;
-    *has |= qdot_expr_contains(s->pool, s->derived->c, x) ||
-            qdot_expr_contains(s->pool, V, x);
+    *has = qdot_expr_contains(s->pool, s->derived->c, x) ||
+           qdot_expr_contains(s->pool, V, x);
     return !qdot_pool_failed(s->pool);
 }
 
@@ -351,6 +353,38 @@ qdot_lagrangian_slope(qdot_scene *s, qdot_expr x)
     T = qdot_add(pool, quadratic_part(s),
                  qdot_add(pool, linear_part(s), qdot_derived_get(s)->c));
     return qdot_sub(pool, qdot_diff(pool, T, x), qdot_diff(pool, raw_potential(s), x));
+}
+
+static bool
+is_still(qdot_scene *s, qdot_expr e, qdot_expr x, const qdot_facts *facts)
+{
+    e = qdot_diff(s->pool, e, x);
+    return e == QDOT_ZERO || qdot_is_zero(s->pool, e, facts);
+}
+
+bool
+qdot_lagrangian_is_still(qdot_scene *s, qdot_expr x)
+{
+    const qdot_facts facts = qdot_scene_facts(s);
+    bool has;
+
+    if (!qdot_lagrangian_has(s, x, &has))
+        return false;
+    if (!has)
+        return true;
+    if (qdot_mech_stated(s) || qdot_potential_with_velocities(s) != QDOT_ZERO)
+        return qdot_is_zero(s->pool, qdot_lagrangian_slope(s, x), &facts);
+    /* velocities stand beside the entries of M and b alone: each slope has to vanish, and
+     * most often the first that has one does not */
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        for (size_t j = i; j < s->coordinates.n; j++)
+            if (!is_still(s, qdot_mass_entry(s, i, j), x, &facts))
+                return false;
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        if (!is_still(s, qdot_derived_get(s)->b[i], x, &facts))
+            return false;
+    return is_still(s, qdot_sub(s->pool, qdot_derived_get(s)->c, raw_potential(s)), x,
+                    &facts);
 }
 
 /* --- conservation ---------------------------------------------------------------------

@@ -52,18 +52,6 @@ qdot_mech_momenta(qdot_scene *s)
     return list;
 }
 
-/* Whether dL/dx is proved zero, without deriving it where x does not stand in L. */
-static bool
-slope_vanishes(qdot_scene *s, qdot_expr x)
-{
-    qdot_facts facts = qdot_scene_facts(s);
-    bool has;
-
-    if (!qdot_lagrangian_has(s, x, &has))
-        return false;
-    return !has || qdot_is_zero(s->pool, qdot_lagrangian_slope(s, x), &facts);
-}
-
 qdot_status
 qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *c, bool *is)
 {
@@ -71,7 +59,7 @@ qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *c, bool *is)
 
     *c = (qdot_cyclic){.coordinate = s->coordinates.at[i]};
     *is = false;
-    if (slope_vanishes(s, c->coordinate)) {
+    if (qdot_lagrangian_is_still(s, c->coordinate)) {
         c->momentum = qdot_mech_momentum(s, c->coordinate);
         c->rate = qdot_add(s->pool, qdot_force_total(s, i, true, true),
                            qdot_constraint_reaction(s, i));
