@@ -8,7 +8,8 @@
 #include "base/memory.h"
 #include "sim/constraints.h"
 
-/* Below it, or a hundred tolerances but no more than the second, q is 0. */
+/* Below it, or a thousand tolerances (states read just beside such a place are worth no
+ * more) but no more than the second, q is 0. */
 static const double dependent = 1e-5, most_dependent = 1e-3;
 
 /* A minimum that is less of the points beside it is looked at; one of which so much is left
@@ -185,7 +186,7 @@ qdot_status
 qdot_passed_tell(const qdot_course *course, qdot_text *to)
 {
     search s = {.course = course,
-                .enough = fmin(most_dependent, fmax(dependent, 100 * course->touch_tol))};
+                .enough = fmin(most_dependent, fmax(dependent, 1000 * course->touch_tol))};
     const qdot_constrained *first =
         course->binds.n > 0 && course->binds.at[0] ? qdot_bind_held(course->binds.at[0])
                                                    : NULL;
