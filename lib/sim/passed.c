@@ -8,8 +8,7 @@
 #include "base/memory.h"
 #include "sim/constraints.h"
 
-/* Below it, or a thousand tolerances (states read just beside such a place are worth no
- * more) but no more than the second, q is 0. */
+/* Below it, or a hundred tolerances but no more than the second, q is 0. */
 static const double dependent = 1e-5, most_dependent = 1e-3;
 
 /* A minimum that is less of the points beside it is looked at; one of which so much is left
@@ -47,7 +46,7 @@ look(search *s, double t, double *q)
     return QDOT_OK;
 }
 
-/* The minimum between a and b, where q falls below `start`; s->y is a state within rounding
+/* The minimum between a and b, at which q is `start` or more; s->y is a state within rounding
  * of it. */
 static qdot_status
 descend(search *s, double a, double b, double start, double *at, double *least)
@@ -120,7 +119,8 @@ take(search *s, double t, double q)
     s->q[2] = q;
     if (++s->taken < 3 || !comes_down(s->q))
         return QDOT_OK;
-    QDOT_TRY(descend(s, s->t[0], s->t[2], s->q[1], &at, &least));
+    /* from the sides: in the middle it may be near 0 before the sections are */
+    QDOT_TRY(descend(s, s->t[0], s->t[2], fmin(s->q[0], s->q[2]), &at, &least));
     return least < s->enough ? note(s, at) : QDOT_OK;
 }
 
@@ -186,7 +186,7 @@ qdot_status
 qdot_passed_tell(const qdot_course *course, qdot_text *to)
 {
     search s = {.course = course,
-                .enough = fmin(most_dependent, fmax(dependent, 1000 * course->touch_tol))};
+                .enough = fmin(most_dependent, fmax(dependent, 100 * course->touch_tol))};
     const qdot_constrained *first =
         course->binds.n > 0 && course->binds.at[0] ? qdot_bind_held(course->binds.at[0])
                                                    : NULL;
