@@ -144,7 +144,7 @@ equations_are_worked_on_side_by_side(void **state)
     assert_prints(p.pool, qdot_value_sub(p.pool, e, a), "x - a = 0");
     u = qdot_vector(p.pool, 2, (qdot_expr[]){x, a});
     v = qdot_vector(p.pool, 2, (qdot_expr[]){QDOT_ONE, x});
-    assert_prints(p.pool, qdot_value_equation(p.pool, u, v), "(x = 1, a = x)");
+    assert_prints(p.pool, qdot_value_equation(p.pool, u, v), "(x, a) = (1, x)");
 }
 
 static void

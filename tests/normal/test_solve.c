@@ -38,7 +38,7 @@ static const struct {
     {"x^3 - 8", "x", "2"},
     {"x^3 + 8", "x", "-2"},
     {"(x - 1)^2*(x + 3)", "x", "-3; 1"},
-    {"x^2 - k", "x", "-sqrt(k) |[0 < k]; sqrt(k) |[0 < k]"},
+    {"x^2 - k", "x", "-sqrt(k) |[k > 0]; sqrt(k) |[k > 0]"},
     {"sin(phi)", "phi", "0; pi"},
     {"sin(theta)*cos(theta)", "theta", "1/2*pi"},
     {"2*cos(phi) - 1", "phi", "-1/3*pi; 1/3*pi"},
