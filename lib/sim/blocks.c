@@ -70,21 +70,22 @@ qdot_blocks_invert(qdot_blocks *b, size_t k)
 
     if (!s->inverse)
         return;
-    /* rows of L^-1, each as far as its diagonal */
+    /* rows of L^-1, each of those before it; what is beyond their diagonals is 0 */
     for (size_t i = 0; i < n; i++) {
         const double *L = s->a + i * n;
         double *row = s->lower + i * m, scale = 1 / L[i];
 
-        memset(row, 0, i * sizeof *row);
         for (size_t j = 0; j < i; j++)
-            kernels->add(j + 1, -L[j] * scale, s->lower + j * m, row);
+            s->x[j] = -L[j] * scale;
+        kernels->multiply(m, i, s->lower, s->x, row);
         row[i] = scale;
     }
-    memset(s->inverse, 0, n * m * sizeof *s->inverse);
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++)
-            kernels->add(i + 1, s->lower[i * m + j], s->lower + i * m,
-                         s->inverse + j * m);
+    /* of L^-T L^-1 row j: by column j of L^-1, which begins at its diagonal */
+    for (size_t j = 0; j < n; j++) {
+        for (size_t i = j; i < n; i++)
+            s->x[i - j] = s->lower[i * m + j];
+        kernels->multiply(m, n - j, s->lower + j * m, s->x, s->inverse + j * m);
+    }
 }
 
 void

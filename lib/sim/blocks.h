@@ -35,7 +35,8 @@ void qdot_blocks_solve(const qdot_blocks *b, size_t k);
 
 /* For many right-hand sides: the inverse of block k, factored, as L^-T L^-1, and its
  * product with `x`. Its error is of the size of _solve's, not as reliably: for the
- * orders of a series beyond the first. An indefinite block is solved. */
+ * orders of a series beyond the first. An indefinite block is solved. _invert overwrites
+ * `x`. */
 QDOT_MUST_CHECK qdot_status qdot_blocks_prepare(qdot_blocks *b, size_t k);
 void qdot_blocks_invert(qdot_blocks *b, size_t k);
 void qdot_blocks_apply(const qdot_blocks *b, size_t k);
