@@ -591,6 +591,7 @@ script_tests = \
 	tests/script/mechanism-program.lag \
 	tests/script/mechanism-pulley.lag \
 	tests/script/mechanism-quick-return.lag \
+	tests/script/mechanism-referees.lag \
 	tests/script/mechanism-rolling-cone.lag \
 	tests/script/mechanism-rolling-disc.lag \
 	tests/script/mechanism-rolling-sphere.lag \
@@ -792,6 +793,7 @@ script_tests = \
 	examples/four-bar.lag \
 	examples/generalized-momenta.lag \
 	examples/geometry.lag \
+	examples/half-pipe.lag \
 	examples/hamiltonian.lag \
 	examples/heavy-top.lag \
 	examples/holonomic-in-disguise.lag \
@@ -1147,6 +1149,7 @@ test_files = \
 	tests/script/mechanism-program.out \
 	tests/script/mechanism-pulley.out \
 	tests/script/mechanism-quick-return.out \
+	tests/script/mechanism-referees.out \
 	tests/script/mechanism-rolling-cone.out \
 	tests/script/mechanism-rolling-disc.out \
 	tests/script/mechanism-rolling-sphere.out \
