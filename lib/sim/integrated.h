@@ -14,6 +14,7 @@ struct qdot_run {
     qdot_multipliers multipliers;
     double *start;        /* [2n] y at t0 */
     double *start_low;    /* [2n] what the exact start is beyond it */
+    size_t factored;      /* matrices, by the integration */
     double t0, t1;        /* as asked for */
     double t1_low;        /* what the exact limit is beyond it */
     int t0_side, t1_side; /* where the exact limits lie beside them */

@@ -305,6 +305,10 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                                          run->t0, run->t1, run->start);
 
     *interrupted = status == QDOT_EINTR;
+    run->factored = 0; /* reading the run factors, too */
+    for (size_t i = 0; i < run->course.binds.n; i++)
+        if (run->course.binds.at[i])
+            run->factored += qdot_bind_factored(run->course.binds.at[i]);
     if (!is_kept(status) || run->course.tr.count == 0)
         return status;
     if (!*interrupted)
@@ -350,10 +354,7 @@ fill_report(qdot_run *run, double tol)
     r->rejected = stats->rejected;
     r->evals = stats->evaluations;
     r->jacobians = stats->jacobians;
-    r->factorizations = stats->factorisations;
-    for (size_t i = 0; i < run->course.binds.n; i++)
-        if (run->course.binds.at[i])
-            r->factorizations += qdot_bind_factored(run->course.binds.at[i]);
+    r->factorizations = stats->factorisations + run->factored;
     r->pieces = run->course.tr.pieces.n;
     r->modes = run->stage.modes.n;
     r->doubt = run->doubt;
