@@ -599,6 +599,7 @@ script_tests = \
 	tests/script/mechanism-top.lag \
 	tests/script/modes.lag \
 	tests/script/moving.lag \
+	tests/script/multipliers-known.lag \
 	tests/script/names.lag \
 	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
@@ -1157,6 +1158,7 @@ test_files = \
 	tests/script/mechanism-top.out \
 	tests/script/modes.out \
 	tests/script/moving.out \
+	tests/script/multipliers-known.out \
 	tests/script/names.out \
 	tests/script/normalise.sed \
 	tests/script/on-surfaces.out \

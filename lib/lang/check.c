@@ -137,13 +137,14 @@ add_constraint(qdot_session *session, facts *f, size_t i, bool accelerations)
     return QDOT_OK;
 }
 
-/* `eom`: accelerations by their solution; what constraints say of q and q' holds
+/* `eom`: accelerations and multipliers by their solution; what constraints say of q and q' holds
  * beside it. */
 static qdot_status
 add_motion(qdot_session *session, facts *f)
 {
     qdot_pool *pool = session->pool;
     qdot_expr accels = qdot_mech_accels(session->scene);
+    bool unique = true; /* the multipliers; else their equations stand */
 
     f->motion = true;
     QDOT_TRY(qdot_pool_check(pool));
@@ -153,8 +154,26 @@ add_motion(qdot_session *session, facts *f)
         QDOT_TRY(add_replacement(session, f, qdot_symbol_jet(pool, q, 2),
                                  qdot_expr_arg(pool, accels, i)));
     }
-    for (size_t i = 0; i < session->scene->constraints.n; i++)
+    for (size_t i = 0; i < session->scene->constraints.n; i++) {
+        qdot_expr value = qdot_mech_multiplier(session->scene, i);
+
+        unique &= value != QDOT_NIL;
+        if (value != QDOT_NIL)
+            QDOT_TRY(add_replacement(
+                session, f, session->scene->constraints.at[i].multiplier, value));
         QDOT_TRY(add_constraint(session, f, i, false));
+    }
+    for (size_t i = 0; i < session->scene->coordinates.n && !unique; i++) {
+        qdot_expr equation =
+            qdot_mech_equation(session->scene, session->scene->coordinates.at[i]);
+
+        QDOT_TRY(qdot_pool_check(pool));
+        equation = replace(session, f, qdot_sub(pool, qdot_expr_arg(pool, equation, 0),
+                                                qdot_expr_arg(pool, equation, 1)));
+        QDOT_TRY(qdot_pool_check(pool));
+        if (equation != QDOT_ZERO)
+            QDOT_TRY(qdot_vec_push(&f->relations, equation));
+    }
     return QDOT_OK;
 }
 

@@ -93,7 +93,10 @@ accels_get(qdot_scene *s)
         qdot_derived_array(s, &d->accel, n)) {
         for (size_t i = 0; i < n; i++)
             d->accel[i] = qdot_mech_tidy(s, work[size * size + size + i]);
-        done = !qdot_pool_failed(s->pool);
+        done = !qdot_pool_failed(s->pool) &&
+               qdot_derived_array(s, &d->lambda, s->constraints.n);
+        for (size_t k = n; done && k < size && size - n == s->constraints.n; k++)
+            d->lambda[which[k - n]] = work[size * size + size + k];
         if (!done) {
             qdot_free(d->accel);
             d->accel = NULL;
@@ -114,6 +117,12 @@ qdot_mech_accel(qdot_scene *s, qdot_expr q)
     if (!qdot_derived_index(s, q, &i) || !accels_get(s))
         return QDOT_NIL;
     return s->derived->accel[i];
+}
+
+qdot_expr
+qdot_mech_multiplier(qdot_scene *s, size_t k)
+{
+    return accels_get(s) ? s->derived->lambda[k] : QDOT_NIL;
 }
 
 qdot_expr

@@ -26,6 +26,7 @@ derived_clear(qdot_derived *d)
     qdot_free(d->left);
     qdot_free(d->equation);
     qdot_free(d->accel);
+    qdot_free(d->lambda);
     qdot_free(d->independent);
     qdot_free(d->patterns.at);
 }

@@ -70,6 +70,7 @@ struct qdot_derived {
     qdot_expr kinetic, potential, lagrangian, energy, mass_matrix;
     qdot_expr *momentum, *force, *rest, *left, *equation; /* [n] each */
     qdot_expr *accel;                                     /* [n], all at once */
+    qdot_expr *lambda; /* [constraints], with accel; nil where they are not unique */
     qdot_expr numeric_mass, numeric_forcing;
     bool *independent; /* [constraints] */
     bool unmet;        /* no point was found where they all hold */

@@ -47,6 +47,9 @@ qdot_expr qdot_mech_equations(qdot_scene *s);             /* LIST */
 /* q'' solved for, multipliers eliminated; QDOT_ELIMIT past the budget, QDOT_ESINGULAR names q. */
 qdot_expr qdot_mech_accel(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST, in order of q */
+/* lambda of constraint k in q, q', t, from the same equations; nil without a failure: constraints
+ * repeat one another, the multipliers are not unique. */
+qdot_expr qdot_mech_multiplier(qdot_scene *s, size_t k);
 
 /* --- conservation, counting --- */
 typedef struct {
