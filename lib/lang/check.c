@@ -379,6 +379,7 @@ typedef struct {
     qdot_expr left, right;
     comparison how;
     double tol;
+    qdot_passed passed; /* on the way to the sides */
 } question;
 
 /* `conserved E`, but not the value `conserved[2]`. */
@@ -453,7 +454,12 @@ read_question(qdot_cursor *c, question *q, facts *f)
         q->conserved = true;
         QDOT_TRY(qdot_read_side(c, &q->left));
     } else {
-        QDOT_TRY(read_comparison(c, q));
+        qdot_status status;
+
+        c->session->passed = &q->passed;
+        status = read_comparison(c, q);
+        c->session->passed = NULL;
+        QDOT_TRY(status);
     }
     while (!qdot_cursor_is_end(c)) {
         if (qdot_cursor_accept_word(c, "when")) {
@@ -495,6 +501,16 @@ turn(qdot_decision *decision)
     decision->right = left;
 }
 
+/* What was passed, what `when` replaces put in; nil on failure. */
+static qdot_expr
+passed_list(qdot_session *session, const facts *f, const question *q)
+{
+    qdot_expr list =
+        qdot_list(session->pool, (uint32_t)q->passed.value.n, q->passed.value.at);
+
+    return list == QDOT_NIL ? list : replace(session, f, list);
+}
+
 static qdot_status
 answer(qdot_cursor *c, question *q, facts *f)
 {
@@ -530,7 +546,9 @@ answer(qdot_cursor *c, question *q, facts *f)
         QDOT_TRY(qdot_pool_check(pool));
         /* accelerations follow a function of time whatever its second derivative is */
         known = (qdot_facts){f->relations.n, f->relations.at, f->conditions.n,
-                             f->conditions.at, f->motion && !f->stated ? 2 : 0};
+                             f->conditions.at, f->motion && !f->stated ? 2 : 0,
+                             q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q)};
+        QDOT_TRY(qdot_pool_check(pool));
         if (q->turned) {
             QDOT_TRY(decide(session, right, left, q->how, &known, &decision));
             turn(&decision);
@@ -559,6 +577,7 @@ qdot_check(qdot_cursor *c)
         c->error_at = start->start;
         status = answer(c, &q, &f);
     }
+    qdot_free(q.passed.value.at);
     free_facts(&f);
     return status;
 }

@@ -48,6 +48,30 @@ push(machine *m, qdot_expr value)
     return qdot_vec_push(&m->stack, s);
 }
 
+/* Keep a value that must exist, of a scalar with symbols. */
+static qdot_status
+pass(machine *m, qdot_expr value)
+{
+    qdot_passed *p = m->session->passed;
+
+    if (p == NULL || p->spoiled || p->branches > 0 || value == QDOT_NIL || !qdot_expr_is_scalar(m->pool, value) ||
+        qdot_expr_kind(m->pool, value) == QDOT_NUM)
+        return QDOT_OK;
+    return qdot_vec_push(&p->value, value);
+}
+
+/* Functions of numbers only: what else is called may take its arguments apart. */
+static void
+spoil(machine *m, const char *name)
+{
+    qdot_fun_id id;
+
+    if (m->session->passed != NULL &&
+        ((!qdot_fun_find(name, &id) && strcmp(name, "sqrt") != 0) ||
+         qdot_names_find(m->session->names, name) != NULL))
+        m->session->passed->spoiled = true;
+}
+
 static slot *
 from_top(machine *m, size_t n)
 {
@@ -161,6 +185,9 @@ product(machine *m, size_t n)
         bool divide = s[i].sign->text[0] == '/';
 
         m->blame = s[i].sign;
+        if (divide && m->session->passed != NULL &&
+            qdot_expr_is_scalar(m->pool, m->args.at[i]))
+            QDOT_TRY(pass(m, qdot_div(m->pool, QDOT_ONE, m->args.at[i])));
         if (at_once && !divide)
             continue;
         if (at_once)
@@ -303,6 +330,8 @@ if_test(machine *m, const qdot_code *code, uint32_t *pc)
     slot *s = from_top(m, 1);
     slot none = {0};
 
+    if (m->session->passed != NULL)
+        m->session->passed->branches++;
     if (s->run != NULL)
         return along_runs();
     if (!is_condition(m, s->value))
@@ -321,6 +350,8 @@ if_else(machine *m, const qdot_code *code, uint32_t *pc)
 {
     if (from_top(m, 2)->value != QDOT_TRUE)
         return;
+    if (m->session->passed != NULL)
+        m->session->passed->branches--;
     *from_top(m, 2) = *from_top(m, 1);
     m->stack.n--;
     *pc = code->to;
@@ -333,6 +364,8 @@ if_end(machine *m)
     qdot_expr c, a, b;
     uint32_t n;
 
+    if (m->session->passed != NULL)
+        m->session->passed->branches--;
     if (from_top(m, 3)->value == QDOT_FALSE) {
         *from_top(m, 3) = *from_top(m, 1);
         m->stack.n -= 2;
@@ -414,7 +447,8 @@ call(machine *m, const qdot_code *code)
                                m->args.at, run, &value, &over));
     QDOT_TRY(push(m, value));
     from_top(m, 1)->over = over;
-    return QDOT_OK;
+    spoil(m, code->token->text);
+    return pass(m, value);
 }
 
 static qdot_status
@@ -568,7 +602,8 @@ step(machine *m, const qdot_code *code, uint32_t *pc)
         return push(m, qdot_value_neg(m->pool, m->args.at[0]));
     case QDOT_CODE_POWER:
         QDOT_TRY(take(m, 2));
-        return push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1]));
+        QDOT_TRY(push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1])));
+        return pass(m, from_top(m, 1)->value);
     case QDOT_CODE_RELATION:
         QDOT_TRY(take(m, 2));
         QDOT_TRY(relation(m, code->token, m->args.at[0], m->args.at[1], &value));

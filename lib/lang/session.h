@@ -32,6 +32,13 @@ typedef struct {
     qdot_run *run;
 } qdot_named_run;
 
+/* What the sides of a check are made through: each must have a value where they are compared. */
+typedef struct {
+    qdot_vec(qdot_expr) value;
+    bool spoiled;      /* by a function that may take it apart (subs) */
+    unsigned branches; /* of ifs under way: what stands there need not exist */
+} qdot_passed;
+
 typedef struct qdot_session {
     qdot_pool *pool;
     qdot_scene *scene;
@@ -57,6 +64,7 @@ typedef struct qdot_session {
     size_t figures;        /* NAME-1.svg ... */
     bool quit;             /* `quit` was said */
     size_t loops;          /* loops under way: what they hold must outlive them */
+    qdot_passed *passed;   /* while the sides of a check are read; else NULL */
 } qdot_session;
 
 qdot_session *qdot_session_new(FILE *out, FILE *err); /* NULL: no memory */

@@ -450,7 +450,7 @@ has_no_branches(const struct cases *c)
 
 /* At the zero of a sign a side that divides by it has no value, and nothing is claimed there. */
 static bool
-nothing_is_claimed(const struct cases *c, qdot_status status, const int *sign)
+no_value_at_zero(const struct cases *c, qdot_status status, const int *sign)
 {
     bool at_zero = false;
 
@@ -479,6 +479,20 @@ at_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
         return qdot_subs(pool, e, 1, &x, &rest);
     }
     return e;
+}
+
+/* Whether what must have a value has none at the zeros of this case. */
+static bool
+nothing_is_claimed(struct cases *c, const int *sign, const qdot_facts *facts)
+{
+    qdot_expr e = facts == NULL ? QDOT_NIL : facts->defined;
+
+    for (size_t k = 0; k < c->n_signs && e != QDOT_NIL; k++)
+        if (sign[k] == 0)
+            e = at_zero_of(c->pool, e, c->sign[k]);
+    if (!qdot_pool_failed(c->pool))
+        return false;
+    return qdot_pool_check(c->pool) == QDOT_EDOMAIN;
 }
 
 /* What is known in a case: what is known anyway, orders, signs and zeros. */
@@ -530,12 +544,13 @@ prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *f
     }
     if (qdot_pool_failed(c->pool)) { /* a division by zero */
         status = qdot_pool_check(c->pool);
-        *equal = nothing_is_claimed(c, status, sign);
+        *equal = no_value_at_zero(c, status, sign);
         qdot_free(condition);
         return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
     }
     learn(c, order, sign, facts, &known, zero, condition);
-    if (!c->too_much)
+    *equal = nothing_is_claimed(c, sign, facts);
+    if (!c->too_much && !*equal)
         status = qdot_prove_equal(c->pool, side[0], side[1], &known, equal);
     if (status == QDOT_OK && !*equal && !c->too_much)
         status = qdot_prove_defined(c->pool, side[0], side[1], &known, equal, &empty);

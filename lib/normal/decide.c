@@ -194,7 +194,10 @@ static qdot_status
 look_at_points(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
                const struct look *look, qdot_decision *d)
 {
-    struct sides sides = {left, right, qdot_list(pool, 0, NULL)};
+    struct sides sides = {left, right,
+                          facts != NULL && facts->defined != QDOT_NIL
+                              ? facts->defined
+                              : qdot_list(pool, 0, NULL)};
 
     return look_at_sides(pool, &sides, facts, look, d);
 }
@@ -235,6 +238,22 @@ need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return QDOT_OK;
 }
 
+/* Two LISTs one after the other. */
+static qdot_expr
+joined(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    uint32_t m = qdot_expr_count(pool, a), n = qdot_expr_count(pool, b);
+    qdot_expr *all = qdot_malloc((m + n + 1) * sizeof *all), list;
+
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < m + n; i++)
+        all[i] = i < m ? qdot_expr_arg(pool, a, i) : qdot_expr_arg(pool, b, i - m);
+    list = qdot_list(pool, m + n, all);
+    qdot_free(all);
+    return list;
+}
+
 /* Once more, with undefined functions of equal arguments made one: at a point where two
  * of them have arguments that cannot be told apart nothing is known. */
 static qdot_status
@@ -242,7 +261,7 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
                 qdot_decision *d)
 {
     /* the arguments themselves stay as they are, except for what is inside them */
-    qdot_expr e[3] = {left, right, QDOT_NIL};
+    qdot_expr e[3] = {left, right, QDOT_NIL}, both[2];
     bool any = false, changed = true;
     struct sides sides;
 
@@ -255,6 +274,10 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
     }
     if (!any)
         return QDOT_OK;
+    both[0] = e[2];
+    both[1] = facts == NULL ? QDOT_NIL : facts->defined;
+    if (both[1] != QDOT_NIL)
+        e[2] = joined(pool, both[0], both[1]);
     sides = (struct sides){e[0], e[1], e[2]};
     return look_at_sides(pool, &sides, facts, &thorough, d);
 }

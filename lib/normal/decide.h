@@ -32,6 +32,9 @@ typedef struct {
      * the relations themselves. 0: their consequences may bind any that is higher than theirs. 2:
      * the relations are constraints of a motion whose accelerations are put in. */
     uint32_t free_derivatives;
+    /* A LIST (or nil) of what must have values where sides are compared, though it may be gone from
+     * them: sqrt(x) for sqrt(x)^2, which is x. */
+    qdot_expr defined;
 } qdot_facts;
 
 typedef struct {

@@ -289,12 +289,14 @@ tell(void *user, qdot_expr gap, bool weak)
 
 /* What holds wherever the sides have values, and what conditions say once taken apart. */
 static qdot_status
-gather_implied(job *j)
+gather_implied(job *j, const qdot_facts *facts)
 {
     size_t given = j->gap.n;
 
     for (size_t i = 0; i < given; i++)
         QDOT_TRY(qdot_defined_apart(j->pool, j->gap.at[i], j->weak.at[i], tell, j));
+    if (facts != NULL && facts->defined != QDOT_NIL)
+        QDOT_TRY(qdot_defined(j->pool, 1, &facts->defined, tell, j));
     return qdot_defined(j->pool, 2, j->e, tell, j);
 }
 
@@ -352,7 +354,7 @@ qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr
     if (status == QDOT_OK && atoms != QDOT_NIL)
         status = gather(&j, facts, atoms);
     if (status == QDOT_OK && implied)
-        status = gather_implied(&j);
+        status = gather_implied(&j, facts);
     if (status == QDOT_OK)
         status = solve_relations(&j, nr);
     for (size_t i = 0; i < j.gap.n && status == QDOT_OK; i++) {

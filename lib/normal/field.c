@@ -359,6 +359,17 @@ make_rules(qdot_field *f)
     return QDOT_OK;
 }
 
+/* The bases of a lattice, charged as elimination costs. */
+static qdot_status
+solve_lattice(qdot_field *f, qdot_lattice *l)
+{
+    size_t least = l->n_rows < l->n_monos ? l->n_rows : l->n_monos;
+
+    if (!qdot_field_charge(f, (slong)(1 + l->n_rows * l->n_monos / 64), (slong)(1 + least)))
+        return f->state == QDOT_FIELD_FAILED ? f->status : QDOT_ELIMIT;
+    return qdot_lattice_solve(l, f->pool);
+}
+
 static qdot_status
 settle(qdot_field *f, struct found *g)
 {
@@ -371,17 +382,17 @@ settle(qdot_field *f, struct found *g)
         }
     QDOT_TRY(merge_hyperbolic(f));
     if (f->circular.n_rows > 0) {
-        QDOT_TRY(qdot_lattice_solve(&f->circular, f->pool));
+        QDOT_TRY(solve_lattice(f, &f->circular));
         QDOT_TRY(add_pairs(f, g, &f->circular, QDOT_SIN, QDOT_COS, QDOT_GEN_SIN,
                            QDOT_GEN_COS));
     }
     if (f->hyperbolic.n_rows > 0) {
-        QDOT_TRY(qdot_lattice_solve(&f->hyperbolic, f->pool));
+        QDOT_TRY(solve_lattice(f, &f->hyperbolic));
         QDOT_TRY(add_pairs(f, g, &f->hyperbolic, QDOT_SINH, QDOT_COSH, QDOT_GEN_SINH,
                            QDOT_GEN_COSH));
     }
     if (f->exponential.n_rows > 0) {
-        QDOT_TRY(qdot_lattice_solve(&f->exponential, f->pool));
+        QDOT_TRY(solve_lattice(f, &f->exponential));
         QDOT_TRY(add_exponentials(f, g));
     }
     if (g->n > 1)

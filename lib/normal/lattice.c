@@ -146,17 +146,20 @@ static qdot_expr
 combination(qdot_lattice *l, qdot_pool *pool, size_t n, const qdot_lattice_term *term,
             const fmpq_t unit, const fmpq_t scalar)
 {
-    qdot_expr sum = QDOT_ZERO;
+    qdot_expr *terms = qdot_malloc((n + 1) * sizeof *terms), sum;
     fmpq_t c;
 
+    if (terms == NULL)
+        return qdot_pool_fail(pool);
     fmpq_init(c);
     for (size_t i = 0; i < n; i++) {
         fmpq_div(c, &term[i].c, scalar);
         fmpq_mul(c, c, unit);
-        sum = qdot_add(pool, sum,
-                       qdot_mul(pool, qdot_expr_fmpq(pool, c), l->mono[term[i].mono]));
+        terms[i] = qdot_mul(pool, qdot_expr_fmpq(pool, c), l->mono[term[i].mono]);
     }
+    sum = qdot_sum(pool, n, terms);
     fmpq_clear(c);
+    qdot_free(terms);
     return sum;
 }
 

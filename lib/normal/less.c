@@ -362,11 +362,13 @@ static qdot_status
 refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
        const qdot_facts *facts, qdot_decision *d)
 {
-    qdot_expr e[2] = {left, right};
+    qdot_expr none = qdot_list(pool, 0, NULL);
+    qdot_expr e[3] = {left, right,
+                      facts != NULL && facts->defined != QDOT_NIL ? facts->defined : none};
     qdot_sample s;
     arb_t gap;
 
-    QDOT_TRY(qdot_sample_begin(&s, pool, 2, e, facts));
+    QDOT_TRY(qdot_sample_begin(&s, pool, 3, e, facts));
     arb_init(gap);
     for (int k = 0; s.possible && k < TRIES && d->verdict == QDOT_UNDECIDED; k++) {
         if (qdot_interrupt_flag)
@@ -378,6 +380,10 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
                        r = qdot_ball_get(&s.ball, right);
 
             if (!here || l == NULL || r == NULL)
+                continue;
+            for (uint32_t i = 0; i < qdot_expr_count(pool, e[2]); i++)
+                here &= qdot_ball_get(&s.ball, qdot_expr_arg(pool, e[2], i)) != NULL;
+            if (!here)
                 continue;
             arb_sub(gap, l, r, prec);
             if (!arb_contains_zero(gap) || arb_is_zero(gap)) {

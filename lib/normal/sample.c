@@ -12,6 +12,7 @@
 
 #define WORK 4000000
 #define SIMPLE 24 /* points with small numbers */
+#define FAR 96    /* from here on some with large ones */
 
 /* --- solving a relation for one atom ----------------------------------------------- */
 
@@ -490,6 +491,11 @@ choose(qdot_sample *s, qdot_sample_atom *a, int k)
     double about = k < SIMPLE ? 0.1 : 0.01; /* integers first */
     uint8_t sign = qdot_expr_node(s->pool, a->atom)->sign;
 
+    if (k >= FAR && k % 3 == 0) { /* what is defined far out only */
+        size *= 1000;
+        lo = -size;
+        hi = size;
+    }
     if (qdot_sample_is_sign(s->pool, a->atom)) {
         fmpq_set_si(&a->x, draw(s, 2) == 0 ? 1 : -1, 1);
         qdot_sample_set(a, 64);

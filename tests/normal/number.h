@@ -158,7 +158,7 @@ number_pair(const qdot_pool *pool, qdot_expr left, qdot_expr right, unsigned k, 
 }
 
 /* Compare at the k-th point: 1 they differ, 0 they agree as far as seen, -1 not defined. The
- * difference must stand at twice the digits. */
+ * difference must stand at many times the digits: cosh(700)^2 - sinh(700)^2 is 0 at 1024 bits. */
 static int
 number_compare(const qdot_pool *pool, qdot_expr left, qdot_expr right, unsigned k)
 {
@@ -166,7 +166,7 @@ number_compare(const qdot_pool *pool, qdot_expr left, qdot_expr right, unsigned 
     int result = 0;
 
     for (int i = 0; i < 2; i++) {
-        mpfr_prec_t prec = i == 0 ? 512 : 1024;
+        mpfr_prec_t prec = i == 0 ? 512 : 8192;
 
         mpfr_inits2(prec, l, r, d[i], (mpfr_ptr)0);
         if (number_pair(pool, left, right, k, l, r))
