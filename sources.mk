@@ -210,9 +210,12 @@ tape_sources = \
 	lib/tape/lower.c \
 	lib/tape/precise.c \
 	lib/tape/tape.c \
+	lib/tape/taylor-code-order.c \
+	lib/tape/taylor-code.c \
 	lib/tape/taylor-correct.c \
 	lib/tape/taylor-order.c \
-	lib/tape/taylor.c
+	lib/tape/taylor.c \
+	lib/tape/x86.c
 
 tape_headers = \
 	lib/tape/angle.h \
@@ -227,9 +230,12 @@ tape_headers = \
 	lib/tape/precise.h \
 	lib/tape/shake.h \
 	lib/tape/tape.h \
+	lib/tape/taylor-code.h \
+	lib/tape/taylor-generator.h \
 	lib/tape/taylor-order.def \
 	lib/tape/taylor-steps.h \
-	lib/tape/taylor.h
+	lib/tape/taylor.h \
+	lib/tape/x86.h
 
 mech_sources = \
 	lib/mech/accel.c \
@@ -543,7 +549,9 @@ unit_tests = \
 	tests/tape/test_lanes \
 	tests/tape/test_precise \
 	tests/tape/test_tape \
-	tests/tape/test_taylor
+	tests/tape/test_taylor-code \
+	tests/tape/test_taylor \
+	tests/tape/test_x86
 
 script_tests = \
 	tests/script/bad-runs.sh \
@@ -997,6 +1005,7 @@ test_files = \
 	tests/examples/degrees-of-freedom.out \
 	tests/examples/double-pendulum-cartesian.out \
 	tests/examples/double-pendulum.out \
+	tests/examples/dry-friction.out \
 	tests/examples/elastic-pendulum.out \
 	tests/examples/equilibria.out \
 	tests/examples/flexing-wire.out \

@@ -23,6 +23,8 @@ typedef struct {
     /* What an expansion to order p costs, about cost[0] + cost[1] p + cost[2] p^2
      * nanoseconds. */
     double cost[3];
+    /* Expansions to order p are going to be many; before them. May be NULL. */
+    qdot_status (*prepare)(int p, void *user);
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Then orders 2 ... p. */

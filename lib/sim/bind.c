@@ -319,6 +319,18 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
     return status;
 }
 
+void
+qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
+{
+    const char *why = "machine code is made where nothing is solved between two orders";
+    const size_t bytes = b->direct ? qdot_direct_code(b->direct, &why) : 0;
+
+    if (bytes > 0)
+        qdot_text_format(to, "machine code for AVX-512, %.1f kB", 1e-3 * (double)bytes);
+    else
+        qdot_text_format(to, "kernels; %s", why);
+}
+
 size_t
 qdot_bind_factored(const qdot_bind *b)
 {

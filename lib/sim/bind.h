@@ -8,6 +8,7 @@
 #ifndef QDOT_SIM_BIND_H
 #define QDOT_SIM_BIND_H
 
+#include "base/text.h"
 #include "ode/system.h"
 #include "sim/constrained.h"
 #include "sim/plan.h"
@@ -39,6 +40,11 @@ QDOT_MUST_CHECK qdot_status qdot_bind_check(qdot_bind *bind, double t, double *y
 
 /* Of a plan with constraints, else NULL: sim/constrained.h. Borrowed. */
 qdot_constrained *qdot_bind_held(qdot_bind *bind);
+
+/* How its Taylor series are computed once they are prepared, added to a text: `machine code
+ * for AVX-512, 10.3 kB`, or `kernels` and why. */
+void qdot_bind_tell_code(const qdot_bind *bind, qdot_text *to);
+
 /* How often M was factored. */
 size_t qdot_bind_factored(const qdot_bind *bind);
 

@@ -135,20 +135,36 @@ say_blocks(const qdot_plan *p, qdot_text *out)
     }
 }
 
+/* What an expansion to order p is computed by. */
+static qdot_status
+say_code(const qdot_bind *bind, const qdot_ode_series *series, int p, qdot_text *out)
+{
+    if (series->prepare)
+        QDOT_TRY(series->prepare(p, series->user));
+    qdot_bind_tell_code(bind, out);
+    return QDOT_OK;
+}
+
 /* Of Taylor series: the order, the form of the equations, what an order costs. */
 static qdot_status
 say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
 {
     qdot_bind *bind;
     qdot_ode_system system;
+    qdot_status status;
+    int order;
 
     if (!p->method->series)
         return QDOT_OK;
     QDOT_TRY(qdot_bind_new(p, false, &bind));
     system = qdot_bind_system(bind);
-    qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n",
-                     qdot_ode_taylor_order(system.series, tol, 0), tol);
+    order = qdot_ode_taylor_order(system.series, tol, 0);
+    qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n", order, tol);
+    qdot_text_add(out, "recurrences: ");
+    status = say_code(bind, system.series, order, out);
+    qdot_text_char(out, '\n');
     qdot_bind_free(bind);
+    QDOT_TRY(status);
     if (p->eliminated)
         qdot_text_format(out,
                          "form: multipliers eliminated beforehand, %g convolutions an order; "
@@ -216,13 +232,17 @@ say_parts(const qdot_plan *p, bool watched, double tol, qdot_text *out)
         if (p->method->series) {
             qdot_ode_system system;
             qdot_bind *bind;
+            qdot_status status;
+            int order;
 
             QDOT_TRY(qdot_bind_new(p->parts[k], false, &bind));
             system = qdot_bind_system(bind);
-            qdot_text_format(out, ": order %d, %g convolutions an order",
-                             qdot_ode_taylor_order(system.series, tol, 0),
+            order = qdot_ode_taylor_order(system.series, tol, 0);
+            qdot_text_format(out, ": order %d, %g convolutions an order; ", order,
                              r->convolutions_derived);
+            status = say_code(bind, system.series, order, out);
             qdot_bind_free(bind);
+            QDOT_TRY(status);
         }
         if (r->n_kept > 0) {
             qdot_text_add(out, "; ");

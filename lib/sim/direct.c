@@ -222,6 +222,14 @@ begin(double t, const double *y, double unit, void *user)
 }
 
 static qdot_status
+prepare(int p, void *user)
+{
+    qdot_direct *e = user;
+
+    return e->diagonal ? qdot_taylor_prepare(e->taylor, p - 1) : QDOT_OK;
+}
+
+static qdot_status
 extend(int p, void *user)
 {
     qdot_direct *e = user;
@@ -348,6 +356,7 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
                                   .x = e->q,
                                   .stride = e->stride,
                                   .checked = p->n,
+                                  .prepare = prepare,
                                   .begin = begin,
                                   .extend = extend,
                                   .user = e};
@@ -420,6 +429,16 @@ qdot_direct_convolutions(const qdot_direct *e)
     for (size_t b = 0; b < e->plan->structure.blocks; b++)
         sum += (double)e->blocks[b].n_couplings;
     return sum;
+}
+
+size_t
+qdot_direct_code(const qdot_direct *e, const char **why)
+{
+    const size_t bytes = qdot_taylor_code_bytes(e->taylor, why);
+
+    if (bytes == 0 && !*why)
+        *why = "machine code is made where nothing is solved between two orders";
+    return bytes;
 }
 
 size_t

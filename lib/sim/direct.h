@@ -39,4 +39,8 @@ const qdot_ode_series *qdot_direct_series(const qdot_direct *direct);
 double qdot_direct_convolutions(const qdot_direct *direct);
 size_t qdot_direct_factored(const qdot_direct *direct);
 
+/* How long the machine code is that an expansion to the order prepared last runs as, in
+ * bytes; 0: kernels run, *why says for what reason. */
+size_t qdot_direct_code(const qdot_direct *direct, const char **why);
+
 #endif

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "tape/taylor-code.h"
 #include "tape/taylor-steps.h"
 
 /* Bits without a pattern: the finalizer of MurmurHash3. */
@@ -160,6 +161,8 @@ qdot_taylor_begin(qdot_taylor *t, double unit)
 {
     order_zero(t);
     link_zero(t, unit);
+    if (t->code)
+        qdot_taylor_code_unit(t->code, unit);
 }
 
 void
@@ -168,6 +171,10 @@ qdot_taylor_extend(qdot_taylor *t, int from, int to)
     step_function *const (*const function)[QDOT_T_COUNT] = functions();
     const size_t n = t->length + t->n_links;
 
+    if (t->code && from == 1 && to == qdot_taylor_code_orders(t->code)) {
+        qdot_taylor_code_run(t->code, t);
+        return;
+    }
     for (int k = from; k <= to; k++)
         order(t, n, function[k]);
 }

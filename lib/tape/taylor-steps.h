@@ -57,6 +57,7 @@ struct qdot_taylor_drawn {
 struct qdot_taylor {
     const qdot_series_kernels *kernels;
     size_t stride, inputs, outputs, rows;
+    size_t moving; /* of the inputs the first, which are no numbers */
     double convolutions;
     double *coefficients;     /* [rows x stride], the inputs first */
     const double **output;    /* [outputs] rows */
@@ -67,6 +68,8 @@ struct qdot_taylor {
     struct qdot_taylor_drawn *drawn; /* [n_drawn] */
     size_t n_drawn;
     struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */
+    struct qdot_taylor_code *code; /* taylor-code.c; NULL: the kernels run, */
+    const char *no_code;           /* for this reason; NULL: none was asked for */
 };
 
 void qdot_taylor_changes_free(qdot_taylor *t);

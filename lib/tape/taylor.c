@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "tape/shake.h"
+#include "tape/taylor-code.h"
 #include "tape/taylor-steps.h"
 
 /* --- building ----------------------------------------------------------------------- */
@@ -346,6 +347,7 @@ settle(qdot_taylor *t, const builder *b, int most)
     t->outputs = tape->outputs;
     t->length = b->drafts.n - 1;
     t->convolutions = b->convolutions;
+    t->moving = b->moving;
     t->coefficients = qdot_calloc(t->rows * t->stride + 1, sizeof *t->coefficients);
     t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
     t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
@@ -460,6 +462,7 @@ qdot_taylor_free(qdot_taylor *t)
     if (!t)
         return;
     qdot_taylor_changes_free(t);
+    qdot_taylor_code_free(t->code);
     qdot_free(t->coefficients);
     qdot_free(t->output);
     qdot_free(t->constant);
@@ -483,6 +486,24 @@ qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
         .second = twice != SIZE_MAX ? t->coefficients + twice * t->stride : NULL,
         .x = from};
     return QDOT_OK;
+}
+
+qdot_status
+qdot_taylor_prepare(qdot_taylor *t, int to)
+{
+    if (to < 1 || to > QDOT_SERIES_MOST)
+        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", to);
+    if (t->code && qdot_taylor_code_orders(t->code) == to)
+        return QDOT_OK;
+    qdot_taylor_code_free(t->code);
+    return qdot_taylor_code_new(t, to, &t->code, &t->no_code);
+}
+
+size_t
+qdot_taylor_code_bytes(const qdot_taylor *t, const char **why)
+{
+    *why = t->code ? NULL : t->no_code;
+    return t->code ? qdot_taylor_code_size(t->code) : 0;
 }
 
 double *

@@ -89,6 +89,14 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size
 void qdot_taylor_begin(qdot_taylor *taylor, double unit);
 void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
 
+/* Orders 1 ... to are going to be evaluated again and again, by qdot_taylor_begin and then
+ * qdot_taylor_extend(1, to): as machine code, where that can be made (taylor-code.h). All
+ * links are there by now. Whatever else is evaluated is so by the kernels, as everything is
+ * without this call. Errors: QDOT_EINVAL (to), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to);
+/* How long the code is; 0: there is none, and *why says so, NULL if none was asked for. */
+size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
+
 /* The first n inputs will have their newest coefficients corrected. kept [outputs]: whether
  * an output is read after that, NULL: all are; of the others only what further orders
  * need is brought up to date. */

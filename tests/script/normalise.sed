@@ -30,3 +30,7 @@ s/\(tol[a-z]*["]*[ :=]*[0-9.]*\)E-/\1e-/g
 s/error \(0\|TINY\)\(, of velocities \(0\|TINY\)\)\{0,1\}/error TINY/
 s/projected after [0-9][0-9]* steps\{0,1\}/projected after N steps/
 }
+
+# What Taylor series are computed by is a matter of the processor.
+s/machine code for AVX-512, [0-9.]* kB/CODE/
+s/kernels; machine code needs AVX-512/CODE/

@@ -1,0 +1,660 @@
+/* taylor-code-order.c -- the recurrences as code: an order of a step.
+ *
+ * Of a product sum_{j=0..k} x_j y_{k-j} the terms without orders 0, 1, k - 1 and k are in
+ * a vector by now (taylor-code.c). The others are added one by one, in the order in which
+ * they come to be known: from the newest to the result it is one operation.
+ */
+#include <stddef.h>
+
+#include "tape/taylor-generator.h"
+
+enum {
+    first_scalar = QDOT_CODE_FIRST_SCALAR,
+    behind_scalars = first_scalar + QDOT_CODE_SCALARS,
+    latency = 4
+};
+
+/* --- registers ---------------------------------------------------------------------- */
+
+static int
+touch(qdot_generator *g, int reg)
+{
+    g->used[reg] = ++g->clock;
+    return reg;
+}
+
+static int
+fresh(qdot_generator *g)
+{
+    int reg = first_scalar;
+
+    for (int i = first_scalar; i < behind_scalars; i++)
+        if (g->used[i] < g->used[reg])
+            reg = i;
+    g->held[reg] = QDOT_CODE_NONE;
+    return touch(g, reg);
+}
+
+static void
+hold(qdot_generator *g, int reg, uint32_t row, int k)
+{
+    g->held[reg] = row;
+    g->held_order[reg] = k;
+    g->where[4 * row + (uint32_t)(k & 3)] = (unsigned char)reg;
+}
+
+/* The register with coefficient k of a row that moves. */
+static int
+coefficient(qdot_generator *g, uint32_t row, int k)
+{
+    unsigned char *where = &g->where[4 * row + (uint32_t)(k & 3)];
+    int reg = *where;
+
+    if (g->held[reg] == row && g->held_order[reg] == k)
+        return touch(g, reg);
+    reg = fresh(g);
+    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, qdot_code_coefficient(g, row, k));
+    hold(g, reg, row, k);
+    return reg;
+}
+
+static int *
+ready(qdot_generator *g, uint32_t row, int k)
+{
+    return &g->ready[4 * row + (uint32_t)(k & 3)];
+}
+
+/* --- sums --------------------------------------------------------------------------- */
+
+/* A number in a register, or less it. */
+typedef struct {
+    int reg; /* -1: 0 */
+    bool own, negative;
+    int ready;
+} value;
+
+/* +- factor times coefficient k of a row; without a factor: as it is. */
+typedef struct {
+    bool minus, plain;
+    qdot_x86_rm factor;
+    uint32_t row;
+    int k;
+} term;
+
+typedef struct {
+    value v; /* what there is of it */
+    int n;
+    term terms[8];
+} sum;
+
+static qdot_x86_rm
+at(const qdot_generator *g, const double *row, int k)
+{
+    return qdot_code_coefficient(g, qdot_code_row(g, row), k);
+}
+
+static void
+add(qdot_generator *g, sum *s, bool minus, const double *x)
+{
+    const uint32_t row = qdot_code_row(g, x);
+
+    if (g->moving[row])
+        s->terms[s->n++] = (term){.minus = minus, .plain = true, .row = row, .k = g->k};
+}
+
+static void
+times(qdot_generator *g, sum *s, bool minus, qdot_x86_rm factor, const double *x, int k)
+{
+    const uint32_t row = qdot_code_row(g, x);
+
+    if (g->moving[row] && k > 0)
+        s->terms[s->n++] = (term){minus, false, factor, row, k};
+}
+
+static void
+add_value(qdot_generator *g, value *v, bool minus, int b)
+{
+    const int a = v->reg;
+
+    touch(g, a);
+    v->reg = fresh(g);
+    if (v->negative && !minus)
+        qdot_x86_emit(&g->x, QDOT_X86_SUB, v->reg, b, qdot_x86_reg(a));
+    else if (v->negative != minus)
+        qdot_x86_emit(&g->x, QDOT_X86_SUB, v->reg, a, qdot_x86_reg(b));
+    else
+        qdot_x86_emit(&g->x, QDOT_X86_ADD, v->reg, a, qdot_x86_reg(b));
+    v->negative = v->negative && minus;
+    v->own = true;
+}
+
+static void
+add_product(qdot_generator *g, value *v, bool minus, qdot_x86_rm factor, int b)
+{
+    static const qdot_x86_name in_place[2][2] = {{QDOT_X86_MADD, QDOT_X86_NMADD},
+                                                 {QDOT_X86_MSUB, QDOT_X86_NMSUB}};
+    static const qdot_x86_name over[2][2] = {{QDOT_X86_MADD_OVER, QDOT_X86_NMADD_OVER},
+                                             {QDOT_X86_MSUB_OVER, QDOT_X86_NMSUB_OVER}};
+    const int a = v->reg;
+
+    if (a < 0) {
+        v->reg = fresh(g);
+        qdot_x86_emit(&g->x, QDOT_X86_MUL, v->reg, b, factor);
+        v->negative = minus;
+    } else if (v->own) {
+        qdot_x86_emit(&g->x, in_place[v->negative][minus], touch(g, a), b, factor);
+        v->negative = false;
+    } else {
+        touch(g, a);
+        v->reg = fresh(g);
+        qdot_x86_emit(&g->x, factor.memory ? QDOT_X86_LOAD : QDOT_X86_LOAD_ALL, v->reg, 0,
+                      factor);
+        qdot_x86_emit(&g->x, over[v->negative][minus], v->reg, b, qdot_x86_reg(a));
+        v->negative = false;
+    }
+    v->own = true;
+}
+
+/* What is known last is added last. */
+static void
+sort(qdot_generator *g, sum *s)
+{
+    for (int i = 1; i < s->n; i++) {
+        const term now = s->terms[i];
+        const int when = *ready(g, now.row, now.k);
+        int j = i;
+
+        for (; j > 0 && *ready(g, s->terms[j - 1].row, s->terms[j - 1].k) > when; j--)
+            s->terms[j] = s->terms[j - 1];
+        s->terms[j] = now;
+    }
+}
+
+static value
+total(qdot_generator *g, sum *s)
+{
+    value v = s->v;
+
+    sort(g, s);
+    for (int i = 0; i < s->n; i++) {
+        const term *t = s->terms + i;
+        const int when = *ready(g, t->row, t->k), b = coefficient(g, t->row, t->k);
+
+        if (t->plain && v.reg < 0) {
+            v = (value){.reg = b, .negative = t->minus, .ready = when};
+            continue;
+        }
+        if (t->plain)
+            add_value(g, &v, t->minus, b);
+        else
+            add_product(g, &v, t->minus, t->factor, b);
+        v.ready = (v.ready > when ? v.ready : when) + latency;
+    }
+    return v;
+}
+
+static void
+scale(qdot_generator *g, value *v, qdot_x86_rm factor)
+{
+    const int a = v->reg;
+
+    if (a < 0)
+        return;
+    touch(g, a);
+    v->reg = fresh(g);
+    qdot_x86_emit(&g->x, QDOT_X86_MUL, v->reg, a, factor);
+    v->own = true;
+    v->ready += latency;
+}
+
+/* The sum so far, times a factor. */
+static void
+scale_sum(qdot_generator *g, sum *s, qdot_x86_rm factor)
+{
+    s->v = total(g, s);
+    s->n = 0;
+    scale(g, &s->v, factor);
+}
+
+/* Coefficient k of a row. */
+static void
+finish(qdot_generator *g, value v, const double *to, int k)
+{
+    const uint32_t row = qdot_code_row(g, to);
+
+    if (v.reg < 0) {
+        v.reg = fresh(g);
+        v.own = true;
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD, v.reg, 0, qdot_code_work(QDOT_CODE_ORDERS));
+    }
+    if (v.negative)
+        scale(g, &v, qdot_code_work(QDOT_CODE_INVERSES));
+    qdot_x86_emit(&g->x, QDOT_X86_STORE, v.reg, 0, qdot_code_coefficient(g, row, k));
+    *ready(g, row, k) = v.ready;
+    if (v.own)
+        hold(g, v.reg, row, k);
+}
+
+static void
+finish_sum(qdot_generator *g, sum *s, const double *to)
+{
+    finish(g, total(g, s), to, g->k);
+}
+
+/* --- products of lower orders ------------------------------------------------------- */
+
+/* Product i of a step but for the terms with orders 0, 1, k - 1 and k. */
+static sum
+past(qdot_generator *g, const qdot_taylor_step *s, int i)
+{
+    const uint32_t n = g->step_sums[3 * (size_t)(s - g->t->steps) + (size_t)i];
+    const qdot_code_vector *v;
+    sum sum = {.v = {.reg = -1}};
+
+    if (n == QDOT_CODE_NONE || g->k < 4)
+        return sum;
+    v = &g->sums.at[n].v;
+    sum.v.reg = v->reg[0];
+    if (v->reg[0] < 0) {
+        sum.v.reg = fresh(g);
+        sum.v.own = true;
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD, sum.v.reg, 0, qdot_code_work(v->at));
+    }
+    return sum;
+}
+
+static void
+negate(sum *s)
+{
+    s->v.negative = !s->v.negative;
+}
+
+/* The terms with orders 1 and k - 1, x_1 and y_1 given where they are found, perhaps with a
+ * factor. */
+static void
+lately(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y,
+       qdot_x86_rm y1, const double *x)
+{
+    if (!g->moving[qdot_code_row(g, x)] || !g->moving[qdot_code_row(g, y)])
+        return;
+    times(g, s, minus, x1, y, g->k - 1);
+    if (g->k > 2)
+        times(g, s, minus, y1, x, g->k - 1);
+}
+
+static qdot_x86_rm
+c_of(const qdot_generator *g, const qdot_taylor_step *s)
+{
+    return qdot_x86_at(QDOT_X86_RSI,
+                       (int32_t)((size_t)(s - g->t->steps) * sizeof *s
+                                 + offsetof(qdot_taylor_step, c)));
+}
+
+static qdot_x86_rm
+inverse(const qdot_generator *g)
+{
+    return qdot_code_work(QDOT_CODE_INVERSES + (size_t)g->k);
+}
+
+static qdot_x86_rm
+slot(const qdot_generator *g, const qdot_taylor_step *s, size_t i)
+{
+    return qdot_code_work(g->step_slots[s - g->t->steps] + i);
+}
+
+/* slot <- a b */
+static void
+keep(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm b, qdot_x86_rm to)
+{
+    const int reg = fresh(g);
+
+    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, a);
+    qdot_x86_emit(&g->x, QDOT_X86_MUL, reg, reg, b);
+    qdot_x86_emit(&g->x, QDOT_X86_STORE, reg, 0, to);
+}
+
+static void
+keep_twice(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm to)
+{
+    keep(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2), to);
+}
+
+/* --- the recurrences ---------------------------------------------------------------- */
+
+static void
+linear(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum sum = {.v = {.reg = -1}};
+
+    switch (s->op) {
+    case QDOT_T_NEG: add(g, &sum, true, s->x); break;
+    case QDOT_T_ADD:
+    case QDOT_T_SUB:
+        add(g, &sum, false, s->x);
+        add(g, &sum, s->op == QDOT_T_SUB, s->y);
+        break;
+    default:
+        if (s->op != QDOT_T_SCALE)
+            add(g, &sum, s->op == QDOT_T_SCALESUB, s->z);
+        times(g, &sum, s->op == QDOT_T_SCALEOFF, at(g, s->x, 0), s->y, g->k);
+    }
+    finish_sum(g, &sum, s->to);
+}
+
+static void
+product(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum sum = past(g, s, 0);
+    const bool minus = s->op == QDOT_T_NMADD;
+
+    if (minus)
+        negate(&sum);
+    if (s->op != QDOT_T_MUL)
+        add(g, &sum, s->op == QDOT_T_MSUB, s->z);
+    lately(g, &sum, minus, at(g, s->x, 1), s->y, at(g, s->y, 1), s->x);
+    times(g, &sum, minus, at(g, s->x, 0), s->y, g->k);
+    times(g, &sum, minus, at(g, s->y, 0), s->x, g->k);
+    finish_sum(g, &sum, s->to);
+}
+
+/* Slots: 2 x_0, 2 x_1 */
+static void
+square(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum sum = past(g, s, 0);
+
+    times(g, &sum, false, g->k == 2 ? at(g, s->x, 1) : slot(g, s, 1), s->x, g->k - 1);
+    times(g, &sum, false, slot(g, s, 0), s->x, g->k);
+    finish_sum(g, &sum, s->to);
+}
+
+static void
+square_zero(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep_twice(g, at(g, s->x, 0), slot(g, s, 0));
+}
+
+static void
+square_one(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep_twice(g, at(g, s->x, 1), slot(g, s, 1));
+}
+
+/* Slots, over y_0: c_0, c_1, y_1 */
+static void
+quotient(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum sum = past(g, s, 0);
+
+    scale_sum(g, &sum, c_of(g, s));
+    negate(&sum);
+    lately(g, &sum, true, slot(g, s, 1), s->y, slot(g, s, 2), s->to);
+    times(g, &sum, false, c_of(g, s), s->x, g->k);
+    times(g, &sum, true, slot(g, s, 0), s->y, g->k);
+    finish_sum(g, &sum, s->to);
+}
+
+static void
+quotient_zero(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep(g, at(g, s->to, 0), c_of(g, s), slot(g, s, 0));
+}
+
+static void
+quotient_one(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep(g, at(g, s->to, 1), c_of(g, s), slot(g, s, 1));
+    keep(g, at(g, s->y, 1), c_of(g, s), slot(g, s, 2));
+}
+
+/* Slots: c_1/(2 c_0), c_1/c_0 */
+static void
+root(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum sum = past(g, s, 0);
+
+    scale_sum(g, &sum, c_of(g, s));
+    negate(&sum);
+    times(g, &sum, true, slot(g, s, g->k > 2), s->to, g->k - 1);
+    times(g, &sum, false, c_of(g, s), s->x, g->k);
+    finish_sum(g, &sum, s->to);
+}
+
+static void
+root_one(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep(g, at(g, s->to, 1), c_of(g, s), slot(g, s, 0));
+    keep_twice(g, slot(g, s, 0), slot(g, s, 1));
+}
+
+/* k times coefficient k of x. */
+static void
+weighted(qdot_generator *g, const double *x, const double *to)
+{
+    sum d = {.v = {.reg = -1}};
+
+    times(g, &d, false, qdot_code_work(QDOT_CODE_ORDERS + (size_t)g->k), x, g->k);
+    finish_sum(g, &d, to);
+}
+
+/* d_1/k, for a product with d over k; k > 1. */
+static qdot_x86_rm
+first_over_order(qdot_generator *g, const qdot_taylor_step *s)
+{
+    const int reg = fresh(g);
+
+    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, at(g, s->d, 1));
+    qdot_x86_emit(&g->x, QDOT_X86_MUL, reg, reg, inverse(g));
+    return qdot_x86_reg(reg);
+}
+
+/* y of y' = x' u: product i of a step is that of d and u. */
+static void
+integrated(qdot_generator *g, const qdot_taylor_step *s, int i, bool minus,
+           const double *u, const double *to)
+{
+    sum sum = past(g, s, i);
+
+    if (g->k > 2)
+        times(g, &sum, false, at(g, u, 1), s->d, g->k - 1);
+    scale_sum(g, &sum, inverse(g));
+    if (minus)
+        negate(&sum);
+    if (g->k > 1)
+        times(g, &sum, minus, first_over_order(g, s), u, g->k - 1);
+    times(g, &sum, minus, at(g, u, 0), s->x, g->k);
+    finish_sum(g, &sum, to);
+}
+
+static void
+wave(qdot_generator *g, const qdot_taylor_step *s)
+{
+    weighted(g, s->x, s->d);
+    integrated(g, s, 0, false, s->second, s->to);
+    integrated(g, s, 1, s->op == QDOT_T_SINCOS, s->to, s->second);
+}
+
+static void
+exponential(qdot_generator *g, const qdot_taylor_step *s)
+{
+    weighted(g, s->x, s->d);
+    integrated(g, s, 0, false, s->to, s->to);
+}
+
+/* Slots: (r + 1)/x_0, r p_0/x_0; p_1/x_0, x_1/x_0 */
+static void
+power(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum sum = past(g, s, 0), other = past(g, s, 1);
+
+    weighted(g, s->x, s->d);
+    lately(g, &sum, false, at(g, s->d, 1), s->to, at(g, s->to, 1), s->d);
+    scale_sum(g, &sum, inverse(g));
+    scale_sum(g, &sum, slot(g, s, 0));
+    if (other.v.reg >= 0)
+        add_product(g, &sum.v, true, c_of(g, s), other.v.reg);
+    lately(g, &sum, true, slot(g, s, 3), s->to, slot(g, s, 2), s->x);
+    times(g, &sum, false, slot(g, s, 1), s->x, g->k);
+    finish_sum(g, &sum, s->to);
+}
+
+static void
+power_zero(qdot_generator *g, const qdot_taylor_step *s)
+{
+    const int a = fresh(g), b = fresh(g);
+
+    qdot_x86_emit(&g->x, QDOT_X86_LOAD, a, 0, at(g, s->z, 0));
+    qdot_x86_emit(&g->x, QDOT_X86_ADD, b, a, qdot_code_work(QDOT_CODE_ORDERS + 1));
+    qdot_x86_emit(&g->x, QDOT_X86_MUL, b, b, c_of(g, s));
+    qdot_x86_emit(&g->x, QDOT_X86_STORE, b, 0, slot(g, s, 0));
+    qdot_x86_emit(&g->x, QDOT_X86_MUL, a, a, at(g, s->to, 0));
+    qdot_x86_emit(&g->x, QDOT_X86_MUL, a, a, c_of(g, s));
+    qdot_x86_emit(&g->x, QDOT_X86_STORE, a, 0, slot(g, s, 1));
+}
+
+static void
+power_one(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep(g, at(g, s->to, 1), c_of(g, s), slot(g, s, 2));
+    keep(g, at(g, s->x, 1), c_of(g, s), slot(g, s, 3));
+}
+
+/* d, then to = d/k */
+static void
+finish_weighted(qdot_generator *g, value d, const qdot_taylor_step *s)
+{
+    value l = d;
+
+    finish(g, d, s->d, g->k);
+    scale(g, &l, inverse(g));
+    finish(g, l, s->to, g->k);
+}
+
+/* Slots: k/y_0; d_1/y_0, y_1/y_0 */
+static void
+ratio(qdot_generator *g, const qdot_taylor_step *s)
+{
+    const qdot_x86_rm k = qdot_code_work(QDOT_CODE_ORDERS + (size_t)g->k);
+    sum d = past(g, s, 0);
+
+    scale_sum(g, &d, c_of(g, s));
+    negate(&d);
+    lately(g, &d, true, slot(g, s, 1), s->y, slot(g, s, 2), s->d);
+    keep(g, k, c_of(g, s), slot(g, s, 0));
+    times(g, &d, s->sign < 0, slot(g, s, 0), s->x, g->k);
+    finish_weighted(g, total(g, &d), s);
+}
+
+static void
+ratio_one(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep(g, at(g, s->d, 1), c_of(g, s), slot(g, s, 1));
+    keep(g, at(g, s->y, 1), c_of(g, s), slot(g, s, 2));
+}
+
+/* Slots: 2 to_0, 2 to_1 */
+static void
+hyperbolic_tangent(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum other;
+
+    weighted(g, s->x, s->d);
+    integrated(g, s, 0, false, s->second, s->to);
+    other = past(g, s, 1);
+    negate(&other);
+    times(g, &other, true, g->k == 2 ? at(g, s->to, 1) : slot(g, s, 1), s->to, g->k - 1);
+    times(g, &other, true, slot(g, s, 0), s->to, g->k);
+    finish_sum(g, &other, s->second);
+}
+
+static void
+tangent_zero(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep_twice(g, at(g, s->to, 0), slot(g, s, 0));
+}
+
+static void
+tangent_one(qdot_generator *g, const qdot_taylor_step *s)
+{
+    keep_twice(g, at(g, s->to, 1), slot(g, s, 1));
+}
+
+/* second, third, d: j x_j, j y_j, j to_j */
+static void
+arctangent(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum d = past(g, s, 0);
+
+    weighted(g, s->x, s->second);
+    weighted(g, s->y, s->third);
+    for (int i = 1; i < 3; i++) {
+        const value v = past(g, s, i).v;
+
+        if (v.reg >= 0 && d.v.reg >= 0)
+            add_value(g, &d.v, true, v.reg);
+        else if (v.reg >= 0)
+            d.v = (value){.reg = v.reg, .negative = true};
+    }
+    lately(g, &d, false, at(g, s->second, 1), s->y, at(g, s->y, 1), s->second);
+    lately(g, &d, true, at(g, s->third, 1), s->x, at(g, s->x, 1), s->third);
+    lately(g, &d, true, at(g, s->d, 1), s->z, at(g, s->z, 1), s->d);
+    times(g, &d, false, at(g, s->y, 0), s->second, g->k);
+    times(g, &d, true, at(g, s->x, 0), s->third, g->k);
+    scale_sum(g, &d, c_of(g, s));
+    finish_weighted(g, d.v, s);
+}
+
+static void
+integral(qdot_generator *g, const qdot_taylor_step *s)
+{
+    const size_t k = (size_t)g->k;
+    sum once = {.v = {.reg = -1}}, twice = once;
+
+    times(g, &once, false, qdot_code_work(QDOT_CODE_ONCE + k), s->x, g->k);
+    times(g, &twice, false, qdot_code_work(QDOT_CODE_TWICE + k), s->x, g->k);
+    finish(g, total(g, &once), s->to, g->k + 1);
+    if (s->second)
+        finish(g, total(g, &twice), s->second, g->k + 2);
+}
+
+enum { TO, SECOND, THIRD, D, X, Y, Z };
+
+const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT] = {
+    [QDOT_T_NEG] = {0, {{0}}, linear, NULL, NULL, 0},
+    [QDOT_T_ADD] = {0, {{0}}, linear, NULL, NULL, 0},
+    [QDOT_T_SUB] = {0, {{0}}, linear, NULL, NULL, 0},
+    [QDOT_T_SCALE] = {0, {{0}}, linear, NULL, NULL, 0},
+    [QDOT_T_SCALEADD] = {0, {{0}}, linear, NULL, NULL, 0},
+    [QDOT_T_SCALESUB] = {0, {{0}}, linear, NULL, NULL, 0},
+    [QDOT_T_SCALEOFF] = {0, {{0}}, linear, NULL, NULL, 0},
+    [QDOT_T_MUL] = {1, {{X, Y}}, product, NULL, NULL, 0},
+    [QDOT_T_SQUARE] = {1, {{X, X}}, square, square_zero, square_one, 2},
+    [QDOT_T_MADD] = {1, {{X, Y}}, product, NULL, NULL, 0},
+    [QDOT_T_MSUB] = {1, {{X, Y}}, product, NULL, NULL, 0},
+    [QDOT_T_NMADD] = {1, {{X, Y}}, product, NULL, NULL, 0},
+    [QDOT_T_DIV] = {1, {{TO, Y}}, quotient, quotient_zero, quotient_one, 3},
+    [QDOT_T_SQRT] = {1, {{TO, TO}}, root, NULL, root_one, 2},
+    [QDOT_T_SINCOS] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},
+    [QDOT_T_SINHCOSH] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},
+    [QDOT_T_EXP] = {1, {{D, TO}}, exponential, NULL, NULL, 0},
+    [QDOT_T_POW] = {2, {{D, TO}, {X, TO}}, power, power_zero, power_one, 4},
+    [QDOT_T_RATIO] = {1, {{D, Y}}, ratio, NULL, ratio_one, 3},
+    [QDOT_T_TANH] = {2,
+                     {{D, SECOND}, {TO, TO}},
+                     hyperbolic_tangent,
+                     tangent_zero,
+                     tangent_one,
+                     2},
+    [QDOT_T_LINK] = {0, {{0}}, integral, NULL, NULL, 0},
+    [QDOT_T_ATAN2] = {3, {{SECOND, Y}, {THIRD, X}, {D, Z}}, arctangent, NULL, NULL, 0},
+};
+
+const double *
+qdot_code_factor(const qdot_taylor_step *s, unsigned char name)
+{
+    const double *const rows[] = {[TO] = s->to, [SECOND] = s->second, [THIRD] = s->third,
+                                  [D] = s->d,   [X] = s->x,           [Y] = s->y,
+                                  [Z] = s->z};
+
+    return rows[name];
+}

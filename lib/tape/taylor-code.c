@@ -1,0 +1,473 @@
+/* taylor-code.c -- the frame of a program's code: vectors of products, registers, memory. */
+#include "tape/taylor-code.h"
+
+#include <string.h>
+
+#include "tape/taylor-generator.h"
+
+#if defined __x86_64__ && defined __LP64__ && (defined __unix__ || defined __APPLE__)
+#define CAN_RUN
+#include <sys/mman.h>
+#endif
+
+enum {
+    page = 4096,
+    /* Before the first instruction: sanitizers look there for what they know of a function. */
+    head = 64,
+    /* Longer code is not there when it is wanted: the kernels are. */
+    most_bytes = 1 << 18,
+    temporary = 0,
+    spread_first = 2,
+    newest_lane = 1,   /* masks */
+    older_lanes = 2,
+    all_but_last = 3
+};
+
+typedef void kernel(double *coefficients, qdot_taylor_step *steps, double *work);
+
+struct qdot_taylor_code {
+    void *memory;
+    size_t size, used;
+    double *allocated, *work; /* the same, aligned */
+    int to;
+    double unit;
+};
+
+/* --- products of lower orders ------------------------------------------------------- */
+
+static int
+least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static int
+most(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static int
+blocks_of(int n)
+{
+    return (n + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES;
+}
+
+static qdot_x86_rm
+block_at(const qdot_code_vector *v, int b)
+{
+    return v->reg[b] >= 0 ? qdot_x86_reg(v->reg[b])
+                          : qdot_code_work(v->at + (size_t)(QDOT_CODE_LANES * b));
+}
+
+/* Coefficient m of a row beside those below it. */
+static void
+insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m)
+{
+    const int b = (m - 2) / QDOT_CODE_LANES, lane = (m - 2) % QDOT_CODE_LANES;
+    const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
+
+    if (lane == 0) { /* the others become 0 */
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, qdot_code_coefficient(g, row, m));
+    } else {
+        if (v->reg[b] < 0)
+            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, reg, 0, block_at(v, b));
+        g->x.mask = newest_lane;
+        qdot_x86_emit(&g->x, QDOT_X86_SPREAD, reg, 0, qdot_code_coefficient(g, row, m));
+        g->x.mask = 0;
+    }
+    if (v->reg[b] < 0)
+        qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(v, b));
+}
+
+/* The register with coefficient m of a row in every lane. */
+static int
+spread(qdot_generator *g, uint32_t row, int m)
+{
+    const int mask = g->x.mask;
+    int i;
+
+    for (i = 0; i < 2; i++)
+        if (g->spread[i] == row)
+            return spread_first + i;
+    i = g->next_spread;
+    g->next_spread = 1 - i;
+    g->spread[i] = row;
+    g->x.mask = 0;
+    qdot_x86_emit(&g->x, QDOT_X86_SPREAD, spread_first + i, 0,
+                  qdot_code_coefficient(g, row, m));
+    g->x.mask = mask;
+    return spread_first + i;
+}
+
+/* to += coefficient m of a row times block b of v; the first time it is that. */
+static void
+multiply(qdot_generator *g, int to, bool first, uint32_t row, int m,
+         const qdot_code_vector *v, int b)
+{
+    const qdot_x86_name name = first ? QDOT_X86_MUL_ALL : QDOT_X86_MADD_ALL;
+
+    if (v->reg[b] >= 0) {
+        qdot_x86_rm one = qdot_code_coefficient(g, row, m);
+
+        one.spread = true;
+        qdot_x86_emit(&g->x, name, to, v->reg[b], one);
+    } else {
+        qdot_x86_emit(&g->x, name, to, spread(g, row, m), block_at(v, b));
+    }
+}
+
+/* Block b of a sum, of `before`, moved on by one order, into `to`. */
+static void
+move_on(qdot_generator *g, const qdot_code_vector *v, int b, int before, int to)
+{
+    if (b + 1 < before) {
+        int high = v->reg[b + 1];
+
+        if (high < 0)
+            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, high = temporary + 1, 0,
+                          block_at(v, b + 1));
+        qdot_x86_align(&g->x, to, high, block_at(v, b), 1);
+        return;
+    }
+    if (v->reg[b] < 0)
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(v, b));
+    g->x.mask = all_but_last;
+    g->x.zeroing = true;
+    qdot_x86_align(&g->x, to, to, qdot_x86_reg(to), 1);
+    g->x.mask = 0;
+    g->x.zeroing = false;
+}
+
+/* What is made of order m and those from 2 up to it. `with` lanes are of orders up to m,
+ * `without` below it; the lanes of order m itself are in the vectors by now. */
+static void
+add_order(qdot_generator *g, const qdot_code_sum *s, int m)
+{
+    const int n = g->n, with = least(m, n - m) - 1, without = least(m - 1, n - m) - 1;
+    const int before = m > 2 ? blocks_of(least(m - 1, n - m + 1) - 1) : 0;
+    const qdot_code_vector *x = &g->rows.at[g->row_vector[s->x]];
+    const qdot_code_vector *y = &g->rows.at[g->row_vector[s->y]], *v = &s->v;
+
+    for (int b = 0; b < blocks_of(with); b++) {
+        const int to = v->reg[b] >= 0 ? v->reg[b] : temporary;
+
+        if (b < before)
+            move_on(g, v, b, before, to);
+        multiply(g, to, b >= before, s->x, m, y, b);
+        if (QDOT_CODE_LANES * b < without) {
+            if (without == m - 2 && QDOT_CODE_LANES * (b + 1) > without)
+                g->x.mask = older_lanes;
+            multiply(g, to, false, s->y, m, x, b);
+            g->x.mask = 0;
+        }
+        if (v->reg[b] < 0)
+            qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, to, 0, block_at(v, b));
+    }
+}
+
+static void
+add_order_to_all(qdot_generator *g, int m)
+{
+    const int lane = (m - 2) % QDOT_CODE_LANES;
+
+    if (g->sums.n == 0)
+        return;
+    g->spread[0] = g->spread[1] = QDOT_CODE_NONE;
+    qdot_x86_set_mask(&g->x, newest_lane, 1u << lane);
+    qdot_x86_set_mask(&g->x, older_lanes, (1u << lane) - 1);
+    if (m <= g->n / 2)
+        for (size_t i = 0; i < g->rows.n; i++)
+            insert(g, g->rows.at + i, g->row_of.at[i], m);
+    for (size_t i = 0; i < g->sums.n; i++)
+        add_order(g, g->sums.at + i, m);
+}
+
+/* --- what there is ------------------------------------------------------------------ */
+
+static void
+find_moving(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t i = 0; i < t->moving; i++)
+        g->moving[i] = true;
+    for (size_t i = t->still; i < t->length; i++) {
+        const qdot_taylor_step *s = t->steps + i;
+        const double *rows[] = {s->to, s->second, s->third, s->d};
+
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+            if (rows[k])
+                g->moving[qdot_code_row(g, rows[k])] = true;
+    }
+}
+
+static const qdot_code_vector in_memory = {.reg = {-1, -1, -1}};
+
+static qdot_status
+vector_for(qdot_generator *g, uint32_t row)
+{
+    if (g->row_vector[row] != QDOT_CODE_NONE)
+        return QDOT_OK;
+    g->row_vector[row] = (uint32_t)g->rows.n;
+    QDOT_TRY(qdot_vec_push(&g->row_of, row));
+    return qdot_vec_push(&g->rows, in_memory);
+}
+
+static qdot_status
+find_sums(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t i = t->still; i < t->length; i++) {
+        const qdot_taylor_step *s = t->steps + i;
+        const qdot_code_recurrence *r = qdot_code_recurrences + s->op;
+
+        g->step_slots[i] = (uint32_t)(QDOT_CODE_SLOTS + g->n_slots);
+        g->n_slots += r->slots;
+        for (int k = 0; k < r->sums; k++) {
+            const uint32_t x = qdot_code_row(g, qdot_code_factor(s, r->factors[k][0]));
+            const uint32_t y = qdot_code_row(g, qdot_code_factor(s, r->factors[k][1]));
+            const qdot_code_sum sum = {x, y, in_memory};
+
+            if (!g->moving[x] || !g->moving[y])
+                continue;
+            QDOT_TRY(vector_for(g, x));
+            QDOT_TRY(vector_for(g, y));
+            g->step_sums[3 * i + (size_t)k] = (uint32_t)g->sums.n;
+            QDOT_TRY(qdot_vec_push(&g->sums, sum));
+        }
+    }
+    return QDOT_OK;
+}
+
+/* Registers from the last one down, first for what every order needs; places in memory for
+ * all. Doubles of work space. */
+static size_t
+give_places(qdot_generator *g)
+{
+    const int blocks = blocks_of(most(g->n / 2 - 1, 1));
+    const int lowest = QDOT_CODE_FIRST_SCALAR + QDOT_CODE_SCALARS;
+    size_t at = QDOT_CODE_SLOTS + (g->n_slots + 7) / 8 * 8;
+    int reg = QDOT_CODE_REGISTERS;
+
+    for (int b = 0; b < blocks; b++) {
+        for (size_t i = 0; i < g->sums.n && reg > lowest; i++)
+            g->sums.at[i].v.reg[b] = --reg;
+        for (size_t i = 0; i < g->rows.n && reg > lowest; i++)
+            g->rows.at[i].reg[b] = --reg;
+    }
+    for (size_t i = 0; i < g->sums.n; i++, at += (size_t)(QDOT_CODE_LANES * blocks))
+        g->sums.at[i].v.at = at;
+    for (size_t i = 0; i < g->rows.n; i++, at += (size_t)(QDOT_CODE_LANES * blocks))
+        g->rows.at[i].at = at;
+    return at;
+}
+
+/* --- code --------------------------------------------------------------------------- */
+
+static void
+emit_once(qdot_generator *g, bool after_one)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t i = t->still; i < t->length; i++) {
+        const qdot_code_recurrence *r = qdot_code_recurrences + t->steps[i].op;
+
+        if (after_one ? r->after_one != NULL : r->after_zero != NULL)
+            (after_one ? r->after_one : r->after_zero)(g, t->steps + i);
+    }
+}
+
+static void
+emit_all(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (int i = 0; i < QDOT_CODE_REGISTERS; i++)
+        g->held[i] = QDOT_CODE_NONE;
+    qdot_x86_set_mask(&g->x, all_but_last, 0x7f);
+    for (g->k = 1; g->k <= g->n && g->x.bytes.n <= most_bytes; g->k++) {
+        if (g->k <= 2)
+            emit_once(g, g->k == 2);
+        if (g->k > 3)
+            add_order_to_all(g, g->k - 2);
+        for (size_t i = t->still; i < t->length + t->n_links; i++)
+            qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+    }
+    qdot_x86_return(&g->x);
+}
+
+static qdot_status
+make_work(qdot_taylor_code *c, size_t doubles)
+{
+    c->allocated = qdot_calloc(doubles + QDOT_CODE_LANES, sizeof(double));
+    if (!c->allocated)
+        return QDOT_ENOMEM;
+    c->work = c->allocated;
+    while ((uintptr_t)c->work % (QDOT_CODE_LANES * sizeof(double)) != 0)
+        c->work++;
+    for (int k = 1; k < QDOT_CODE_TABLE; k++) {
+        c->work[QDOT_CODE_INVERSES + k] = 1.0 / k;
+        c->work[QDOT_CODE_ORDERS + k] = k;
+    }
+    c->work[QDOT_CODE_INVERSES] = -1;
+    return QDOT_OK;
+}
+
+/* Memory is written or run, never both. Whether the system let it. */
+static bool
+install(qdot_taylor_code *c, const unsigned char *bytes, size_t n)
+{
+#ifdef CAN_RUN
+    c->used = n;
+    c->size = (head + n + page - 1) / page * page;
+    c->memory = mmap(NULL, c->size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS,
+                     -1, 0);
+    if (c->memory == MAP_FAILED) {
+        c->memory = NULL;
+        return false;
+    }
+    memcpy((unsigned char *)c->memory + head, bytes, n);
+    return mprotect(c->memory, c->size, PROT_READ | PROT_EXEC) == 0;
+#else
+    (void)c, (void)bytes, (void)n;
+    return false;
+#endif
+}
+
+/* Whether all that is linked is of the program. */
+static bool
+reaches_all(const qdot_taylor *t)
+{
+    const double *end = t->coefficients + t->rows * t->stride;
+
+    for (size_t l = 0; l < t->n_links; l++) {
+        const double *x = t->steps[t->length + l].x;
+
+        if (x < t->coefficients || x >= end)
+            return false;
+    }
+    return true;
+}
+
+static qdot_status
+generate(qdot_generator *g, qdot_taylor_code *c, const char **why)
+{
+    const size_t rows = g->t->rows, length = g->t->length;
+
+    g->moving = qdot_calloc(rows + 1, sizeof *g->moving);
+    g->row_vector = qdot_calloc(rows + 1, sizeof *g->row_vector);
+    g->ready = qdot_calloc(4 * rows + 1, sizeof *g->ready);
+    g->where = qdot_calloc(4 * rows + 1, sizeof *g->where);
+    g->step_sums = qdot_calloc(3 * length + 1, sizeof *g->step_sums);
+    g->step_slots = qdot_calloc(length + 1, sizeof *g->step_slots);
+    if (!g->moving || !g->row_vector || !g->ready || !g->where || !g->step_sums || !g->step_slots)
+        return QDOT_ENOMEM;
+    memset(g->row_vector, 0xff, rows * sizeof *g->row_vector);
+    memset(g->step_sums, 0xff, 3 * length * sizeof *g->step_sums);
+    find_moving(g);
+    QDOT_TRY(find_sums(g));
+    QDOT_TRY(make_work(c, give_places(g)));
+    QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
+    emit_all(g);
+    QDOT_TRY(g->x.status);
+    if (g->x.bytes.n > most_bytes)
+        *why = "machine code for them would be too long";
+    else if (!install(c, g->x.bytes.at, g->x.bytes.n))
+        *why = "the system runs no code made at run time";
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_taylor_code_new(const qdot_taylor *t, int to, qdot_taylor_code **code,
+                     const char **why)
+{
+    qdot_generator g = {.t = t, .n = to};
+    qdot_taylor_code *c;
+    qdot_status status;
+
+    *code = NULL;
+    *why = NULL;
+    if (!qdot_x86_is_here()) {
+        *why = "machine code needs AVX-512";
+        return QDOT_OK;
+    }
+    if (!reaches_all(t)) {
+        *why = "what is linked is found elsewhere";
+        return QDOT_OK;
+    }
+    c = qdot_calloc(1, sizeof *c);
+    if (!c)
+        return QDOT_ENOMEM;
+    c->to = to;
+    status = generate(&g, c, why);
+    qdot_free(g.moving);
+    qdot_free(g.row_vector);
+    qdot_free(g.ready);
+    qdot_free(g.where);
+    qdot_free(g.step_sums);
+    qdot_free(g.step_slots);
+    qdot_free(g.rows.at);
+    qdot_free(g.row_of.at);
+    qdot_free(g.sums.at);
+    qdot_free(g.x.bytes.at);
+    if (status != QDOT_OK || *why) {
+        qdot_taylor_code_free(c);
+        return status;
+    }
+    *code = c;
+    return QDOT_OK;
+}
+
+void
+qdot_taylor_code_free(qdot_taylor_code *c)
+{
+    if (!c)
+        return;
+#ifdef CAN_RUN
+    if (c->memory)
+        munmap(c->memory, c->size);
+#endif
+    qdot_free(c->allocated);
+    qdot_free(c);
+}
+
+/* --- running ------------------------------------------------------------------------ */
+
+void
+qdot_taylor_code_unit(qdot_taylor_code *c, double unit)
+{
+    double *w = c->work;
+
+    if (unit == c->unit)
+        return;
+    c->unit = unit;
+    for (size_t k = 0; k <= (size_t)c->to; k++) {
+        w[QDOT_CODE_ONCE + k] = unit * w[QDOT_CODE_INVERSES + k + 1];
+        w[QDOT_CODE_TWICE + k] =
+            unit * w[QDOT_CODE_INVERSES + k + 2] * w[QDOT_CODE_ONCE + k];
+    }
+}
+
+void
+qdot_taylor_code_run(const qdot_taylor_code *c, qdot_taylor *t)
+{
+    const unsigned char *first = (const unsigned char *)c->memory + head;
+    kernel *code;
+
+    memcpy(&code, &first, sizeof code);
+    code(t->coefficients, t->steps, c->work);
+}
+
+int
+qdot_taylor_code_orders(const qdot_taylor_code *c)
+{
+    return c->to;
+}
+
+size_t
+qdot_taylor_code_size(const qdot_taylor_code *c)
+{
+    return c->used;
+}

@@ -1,0 +1,48 @@
+/* taylor-code.h -- a Taylor program as machine code: its orders without a loop, a call or a
+ * pointer, rows at constant places. Internal to tape/.
+ *
+ * What a product c = x y takes at order k, sum_{j=0..k} x_j y_{k-j}, is not summed up there.
+ * When order m of x and y is known, all that is made of it and orders up to m is added to
+ * what later orders are going to be, a whole vector at once:
+ *
+ *     S <- (S moved on by one order) + x_m (y_2, y_3, ..., y_m) + y_m (x_2, ..., x_{m-1}),
+ *
+ * so that nothing is read backwards and no vector is ever added up: the first of S is what
+ * order m + 2 begins with. Orders 0 and 1 of one factor come with the newest two of the
+ * other and are added singly. Of orders 1 ... n the vectors have n/2 numbers, since the sum
+ * of two orders is at most n. S and the vectors of rows stay in registers from order to
+ * order, as many as there is room for.
+ *
+ * It needs AVX-512, and a system that lets a program run what it wrote. Where it runs the
+ * last bits of coefficients are other ones than those of taylor-order.def.
+ *
+ * Source  van der Hoeven, J. Symbolic Comput. 34 (2002) 479, 4.1, for the order of the sum.
+ * Tests   tests/tape/test_taylor-code.c
+ */
+#ifndef QDOT_TAPE_TAYLOR_CODE_H
+#define QDOT_TAPE_TAYLOR_CODE_H
+
+#include "tape/taylor-steps.h"
+
+typedef struct qdot_taylor_code qdot_taylor_code;
+
+/* Of orders 1 ... to of a program and its links. *code NULL, and *why says it, where there is
+ * none: the processor or the system has no way, or it would be too long. Errors:
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_code_new(const qdot_taylor *t, int to,
+                                                 qdot_taylor_code **code,
+                                                 const char **why);
+void qdot_taylor_code_free(qdot_taylor_code *code);
+
+/* What links multiply with; before the orders are run. */
+void qdot_taylor_code_unit(qdot_taylor_code *code, double unit);
+
+/* All its orders of the program it was made of, order 0 and what is linked to it being
+ * there. */
+void qdot_taylor_code_run(const qdot_taylor_code *code, qdot_taylor *t);
+
+int qdot_taylor_code_orders(const qdot_taylor_code *code);
+/* Bytes. */
+size_t qdot_taylor_code_size(const qdot_taylor_code *code);
+
+#endif

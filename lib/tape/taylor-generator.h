@@ -1,0 +1,107 @@
+/* taylor-generator.h -- what the files that write a Taylor program as machine code share
+ * (taylor-code.h). Internal to tape/.
+ *
+ * The code is run with three addresses: of the rows of coefficients (rdi), of the steps
+ * (rsi), of work space (rdx) that begins with tables by order and holds one number here and
+ * there (slots) and the vectors that have no register.
+ */
+#ifndef QDOT_TAPE_TAYLOR_GENERATOR_H
+#define QDOT_TAPE_TAYLOR_GENERATOR_H
+
+#include "tape/taylor-steps.h"
+#include "tape/x86.h"
+
+enum {
+    QDOT_CODE_LANES = 8,
+    /* Vectors of a row, or of the sums that one product has still to come. */
+    QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES,
+    QDOT_CODE_REGISTERS = 32,
+    QDOT_CODE_FIRST_SCALAR = 4, /* those below are for a moment */
+    QDOT_CODE_SCALARS = 14,
+    /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, and the two
+     * factors of a link; then slots. */
+    QDOT_CODE_TABLE = QDOT_SERIES_MOST + 8,
+    QDOT_CODE_INVERSES = 0,
+    QDOT_CODE_ORDERS = QDOT_CODE_TABLE,
+    QDOT_CODE_ONCE = 2 * QDOT_CODE_TABLE,
+    QDOT_CODE_TWICE = 3 * QDOT_CODE_TABLE,
+    QDOT_CODE_SLOTS = 4 * QDOT_CODE_TABLE
+};
+
+/* Lane i is coefficient i + 2 of a row; of the sums that order m has been added to, order
+ * m + 2 + i. */
+typedef struct {
+    int reg[QDOT_CODE_BLOCKS]; /* -1: in memory, */
+    size_t at;                 /* there, in doubles */
+} qdot_code_vector;
+
+/* sum x_i y_j of i, j >= 2, for orders to come. */
+typedef struct {
+    uint32_t x, y; /* rows */
+    qdot_code_vector v;
+} qdot_code_sum;
+
+typedef struct {
+    qdot_x86 x;
+    const qdot_taylor *t;
+    int n;                  /* orders */
+    int k;                  /* the order at hand */
+    bool *moving;           /* [rows] it has more than order 0 */
+    uint32_t *row_vector;   /* [rows] number in `rows`; QDOT_CODE_NONE */
+    uint32_t *step_sums;    /* [length x 3] number in `sums`; QDOT_CODE_NONE */
+    uint32_t *step_slots;   /* [length] the first, in doubles */
+    int *ready;             /* [rows x 4] when coefficients are there, by order mod 4 */
+    qdot_vec(qdot_code_vector) rows;
+    qdot_vec(uint32_t) row_of; /* the same */
+    qdot_vec(qdot_code_sum) sums;
+    size_t n_slots;
+
+    /* Registers that hold a coefficient, least recently used first to go. */
+    unsigned char *where; /* [rows x 4] the register that may hold them, likewise */
+    uint32_t held[QDOT_CODE_REGISTERS]; /* the row; QDOT_CODE_NONE */
+    int held_order[QDOT_CODE_REGISTERS];
+    unsigned used[QDOT_CODE_REGISTERS], clock;
+    uint32_t spread[2]; /* rows whose coefficient fills a register */
+    int next_spread;
+} qdot_generator;
+
+#define QDOT_CODE_NONE UINT32_MAX
+
+/* A recurrence as code. */
+typedef struct {
+    /* The sums over lower orders are of these products. */
+    int sums;
+    unsigned char factors[3][2];
+    /* Order g->k of a step; and what is had once for all orders: as soon as order 0 is there,
+     * and order 1. */
+    void (*order)(qdot_generator *g, const qdot_taylor_step *s);
+    void (*after_zero)(qdot_generator *g, const qdot_taylor_step *s);
+    void (*after_one)(qdot_generator *g, const qdot_taylor_step *s);
+    size_t slots;
+} qdot_code_recurrence;
+
+/* By qdot_taylor_op. */
+extern const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT];
+
+/* A row of a step by its name in the table above. */
+const double *qdot_code_factor(const qdot_taylor_step *s, unsigned char name);
+
+static inline uint32_t
+qdot_code_row(const qdot_generator *g, const double *row)
+{
+    return (uint32_t)((size_t)(row - g->t->coefficients) / g->t->stride);
+}
+
+static inline qdot_x86_rm
+qdot_code_coefficient(const qdot_generator *g, uint32_t row, int k)
+{
+    return qdot_x86_at(QDOT_X86_RDI, (int32_t)(8 * (row * g->t->stride + (size_t)k)));
+}
+
+static inline qdot_x86_rm
+qdot_code_work(size_t i)
+{
+    return qdot_x86_at(QDOT_X86_RDX, (int32_t)(8 * i));
+}
+
+#endif

@@ -1,0 +1,147 @@
+/* x86.c -- the encoding. */
+#include "tape/x86.h"
+
+#include <string.h>
+
+static const struct {
+    unsigned char map, prefix, opcode;
+    bool wide;
+} instructions[QDOT_X86_COUNT] = {
+#define X(ID, map, prefix, opcode, wide) [QDOT_X86_##ID] = {map, prefix, opcode, wide},
+    QDOT_X86_INSTRUCTIONS(X)
+#undef X
+};
+
+/* No instruction is longer. */
+enum { longest = 16 };
+
+/* Room for one more. After a failure they are all written to the same place. */
+static unsigned char *
+room(qdot_x86 *x)
+{
+    if (x->status == QDOT_OK && x->bytes.n + longest > x->bytes.capacity)
+        x->status = qdot_grow(&x->bytes.at, &x->bytes.capacity, x->bytes.n + longest, 1);
+    return x->status == QDOT_OK ? x->bytes.at + x->bytes.n : x->nowhere;
+}
+
+static void
+written(qdot_x86 *x, const unsigned char *from, const unsigned char *to)
+{
+    if (x->status == QDOT_OK)
+        x->bytes.n += (size_t)(to - from);
+}
+
+static unsigned char *
+little_endian(unsigned char *at, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        *at++ = (unsigned char)(value >> 8 * i);
+    return at;
+}
+
+/* Bit `at` of a register's number, at place `to` of a byte, inverted as EVEX has it. */
+static unsigned
+inverted(int reg, int at, int to)
+{
+    return (unsigned)(~reg >> at & 1) << to;
+}
+
+static unsigned char *
+prefix(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int first,
+       qdot_x86_rm rm)
+{
+    const unsigned sixteens = rm.memory ? 1 : inverted(rm.reg, 4, 0);
+    const unsigned length = instructions[name].wide ? 2 : 0;
+
+    *at++ = 0x62;
+    *at++ = (unsigned char)(inverted(reg, 3, 7) | sixteens << 6 | inverted(rm.reg, 3, 5)
+                            | inverted(reg, 4, 4) | instructions[name].map);
+    *at++ = (unsigned char)(0x84 | (unsigned)(~first & 15) << 3
+                            | instructions[name].prefix);
+    *at++ = (unsigned char)((unsigned)x->zeroing << 7 | length << 5
+                            | (unsigned)rm.spread << 4 | inverted(first, 4, 3)
+                            | (unsigned)x->mask);
+    return at;
+}
+
+/* Offsets that are a multiple of what is read take a byte, if that multiple does. */
+static unsigned char *
+operands(unsigned char *at, int reg, qdot_x86_rm rm, int size)
+{
+    const unsigned low = (unsigned)(reg & 7) << 3 | (unsigned)(rm.reg & 7);
+
+    if (!rm.memory) {
+        *at++ = (unsigned char)(0xc0 | low);
+    } else if (rm.offset % size == 0 && rm.offset / size >= -128
+               && rm.offset / size < 128) {
+        *at++ = (unsigned char)(0x40 | low);
+        *at++ = (unsigned char)(rm.offset / size);
+    } else {
+        *at++ = (unsigned char)(0x80 | low);
+        at = little_endian(at, (uint32_t)rm.offset);
+    }
+    return at;
+}
+
+static unsigned char *
+encode(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int first,
+       qdot_x86_rm rm)
+{
+    const bool whole = instructions[name].wide && name != QDOT_X86_SPREAD && !rm.spread;
+
+    at = prefix(x, at, name, reg, first, rm);
+    *at++ = instructions[name].opcode;
+    return operands(at, reg, rm, whole ? 64 : 8);
+}
+
+void
+qdot_x86_emit(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+{
+    unsigned char *from = room(x);
+
+    written(x, from, encode(x, from, name, reg, first, rm));
+}
+
+void
+qdot_x86_align(qdot_x86 *x, int reg, int high, qdot_x86_rm low, int from)
+{
+    unsigned char *start = room(x);
+    unsigned char *at = encode(x, start, QDOT_X86_ALIGN, reg, high, low);
+
+    *at++ = (unsigned char)from;
+    written(x, start, at);
+}
+
+void
+qdot_x86_set_mask(qdot_x86 *x, int m, unsigned lanes)
+{
+    unsigned char *from = room(x), *at = from;
+
+    *at++ = 0xb8; /* mov eax, lanes */
+    at = little_endian(at, lanes);
+    *at++ = 0xc5; /* kmovw m, eax */
+    *at++ = 0xf8;
+    *at++ = 0x92;
+    *at++ = (unsigned char)(0xc0 | (unsigned)m << 3);
+    written(x, from, at);
+}
+
+void
+qdot_x86_return(qdot_x86 *x)
+{
+    static const unsigned char bytes[] = {0xc5, 0xf8, 0x77 /* vzeroupper */, 0xc3 /* ret */};
+    unsigned char *from = room(x);
+
+    memcpy(from, bytes, sizeof bytes);
+    written(x, from, from + sizeof bytes);
+}
+
+bool
+qdot_x86_is_here(void)
+{
+#if defined __x86_64__ && defined __GNUC__ && defined __LP64__
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
+#else
+    return false;
+#endif
+}

@@ -1,0 +1,92 @@
+/* x86.h -- instructions of x86-64 with AVX-512, as bytes: the few that sums of products need.
+ *
+ * Every instruction is of the form
+ *
+ *     reg <- f(reg, first, rm),   rm a register or a place in memory
+ *
+ * with vector registers 0 ... 31, whose lowest double a scalar instruction means. A store
+ * has what it stores in `reg` and its place in `rm`. Writing never fails at once: a buffer
+ * that could not grow says so at the end.
+ *
+ * Source  Intel 64 and IA-32 Architectures Software Developer's Manual 2, 2.7 (EVEX).
+ * Tests   tests/tape/test_x86.c
+ */
+#ifndef QDOT_TAPE_X86_H
+#define QDOT_TAPE_X86_H
+
+#include <stdint.h>
+
+#include "base/memory.h"
+
+/* X(ID, map, prefix, opcode, wide): opcode map, mandatory prefix (0 none, 1 66, 2 F3, 3 F2),
+ * whether it is of whole vectors. */
+#define QDOT_X86_INSTRUCTIONS(X)                                                         \
+    X(LOAD, 1, 3, 0x10, false)        /* reg = rm, the rest 0 */                         \
+    X(STORE, 1, 3, 0x11, false)       /* rm = reg */                                     \
+    X(ADD, 1, 3, 0x58, false)         /* reg = first + rm */                             \
+    X(MUL, 1, 3, 0x59, false)                                                            \
+    X(SUB, 1, 3, 0x5c, false)                                                            \
+    X(MADD_OVER, 2, 1, 0xa9, false)   /* reg = first reg + rm */                         \
+    X(MSUB_OVER, 2, 1, 0xab, false)   /* reg = first reg - rm */                         \
+    X(NMADD_OVER, 2, 1, 0xad, false)  /* reg = rm - first reg */                         \
+    X(NMSUB_OVER, 2, 1, 0xaf, false)  /* reg = -first reg - rm */                        \
+    X(MADD, 2, 1, 0xb9, false)        /* reg = first rm + reg */                         \
+    X(MSUB, 2, 1, 0xbb, false)        /* reg = first rm - reg */                         \
+    X(NMADD, 2, 1, 0xbd, false)       /* reg = reg - first rm */                         \
+    X(NMSUB, 2, 1, 0xbf, false)       /* reg = -first rm - reg */                        \
+    X(LOAD_ALL, 1, 1, 0x10, true)                                                        \
+    X(STORE_ALL, 1, 1, 0x11, true)                                                       \
+    X(MUL_ALL, 1, 1, 0x59, true)                                                         \
+    X(MADD_ALL, 2, 1, 0xb8, true)     /* reg = first rm + reg */                         \
+    X(SPREAD, 2, 1, 0x19, true)       /* reg = the double rm in every lane */            \
+    X(ALIGN, 3, 1, 0x03, true)        /* reg = the lanes of rm, then first, from the one  \
+                                         that is said on */
+
+typedef enum {
+#define X(ID, map, prefix, opcode, wide) QDOT_X86_##ID,
+    QDOT_X86_INSTRUCTIONS(X)
+#undef X
+        QDOT_X86_COUNT
+} qdot_x86_name;
+
+/* General registers that hold addresses. */
+typedef enum { QDOT_X86_RDX = 2, QDOT_X86_RSI = 6, QDOT_X86_RDI = 7 } qdot_x86_base;
+
+/* A register, or a place in memory; of that one double may stand for every lane. */
+typedef struct {
+    bool memory, spread;
+    int reg; /* or base */
+    int32_t offset;
+} qdot_x86_rm;
+
+typedef struct {
+    qdot_vec(unsigned char) bytes;
+    qdot_status status;
+    unsigned char nowhere[16]; /* what is written after a failure */
+    int mask; /* of the instructions that follow; 0: none */
+    bool zeroing; /* what it leaves out becomes 0, else stays */
+} qdot_x86;
+
+static inline qdot_x86_rm
+qdot_x86_reg(int reg)
+{
+    return (qdot_x86_rm){.reg = reg};
+}
+
+static inline qdot_x86_rm
+qdot_x86_at(qdot_x86_base base, int32_t offset)
+{
+    return (qdot_x86_rm){.memory = true, .reg = base, .offset = offset};
+}
+
+void qdot_x86_emit(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm);
+/* The lanes of low, then high, from lane `from` on. */
+void qdot_x86_align(qdot_x86 *x, int reg, int high, qdot_x86_rm low, int from);
+/* Mask register m (1 ... 7) = lanes, a bit each. */
+void qdot_x86_set_mask(qdot_x86 *x, int m, unsigned lanes);
+void qdot_x86_return(qdot_x86 *x);
+
+/* Whether this processor and its system have all that. */
+bool qdot_x86_is_here(void);
+
+#endif

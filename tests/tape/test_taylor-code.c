@@ -1,0 +1,260 @@
+/* test_taylor-code.c -- machine code against the kernels: every recurrence, every order.
+ *
+ * Where there is no machine code the first of these tests says so and the others compare the
+ * kernels with themselves.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "expr/calculus.h"
+#include "num/series.h"
+#include "tape/taylor.h"
+#include "tape/x86.h"
+
+/* Inputs of q'' = e(q, p, q', p', t, m): two coordinates, their velocities, the time, a
+ * number. */
+enum { Q, P, V, W, T, M, INPUTS, MOVING = M, MOST = QDOT_SERIES_MOST - 2 };
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr in[INPUTS], above, within; /* above 1; between -1 and 1 */
+} scene;
+
+static void
+begin(scene *f)
+{
+    static const char *const names[] = {"q", "p", "v", "w", "t", "m"};
+    qdot_pool *pool = f->pool = qdot_pool_new();
+    qdot_expr squares;
+
+    for (size_t i = 0; i < INPUTS; i++)
+        f->in[i] = i == T ? QDOT_T : qdot_symbol_get(pool, QDOT_PARAM, names[i]);
+    squares = qdot_add(pool, qdot_mul(pool, f->in[Q], f->in[Q]),
+                       qdot_mul(pool, f->in[P], f->in[W]));
+    f->above = qdot_add(pool, qdot_expr_int(pool, 3), squares);
+    f->within = qdot_div(pool, f->in[V], f->above);
+}
+
+static void
+start(qdot_taylor *t, double unit, double moved)
+{
+    static const double zero[INPUTS] = {0.7, 0.45, 0.31, -0.42, 0.25, 1.7};
+
+    for (size_t i = 0; i < INPUTS; i++)
+        qdot_taylor_input(t, i)[0] = moved * zero[i];
+    qdot_taylor_input(t, Q)[1] = moved * unit * zero[V];
+    qdot_taylor_input(t, P)[1] = moved * unit * zero[W];
+    qdot_taylor_input(t, T)[1] = unit;
+}
+
+static qdot_taylor *
+linked(const qdot_tape *tape, int to, bool code)
+{
+    qdot_taylor *t;
+
+    assert_int_equal(qdot_taylor_new_moving(tape, false, QDOT_SERIES_MOST, MOVING, &t),
+                     QDOT_OK);
+    assert_int_equal(qdot_taylor_link(t, V, Q, qdot_taylor_output(t, 0)), QDOT_OK);
+    assert_int_equal(qdot_taylor_link(t, W, SIZE_MAX, qdot_taylor_output(t, 1)), QDOT_OK);
+    assert_int_equal(qdot_taylor_link(t, P, SIZE_MAX, qdot_taylor_input(t, W)), QDOT_OK);
+    if (code)
+        assert_int_equal(qdot_taylor_prepare(t, to), QDOT_OK);
+    return t;
+}
+
+static const double *
+row_of(qdot_taylor *t, size_t i)
+{
+    return i < INPUTS ? qdot_taylor_input(t, i) : qdot_taylor_output(t, i - INPUTS);
+}
+
+/* Rows to order `to`, by the code and by the kernels, differ less than they do from those of
+ * a start moved by 1e-12; beyond, what is not to be written has been marked. */
+static void
+compare(qdot_taylor *const of[3], int to, const char *what)
+{
+    const int last[INPUTS + 2] = {to + 2, to + 1, to + 1, to + 1, 1, 0, to, to};
+
+    for (size_t i = 0; i < INPUTS + 2; i++) {
+        const double *a = row_of(of[0], i), *b = row_of(of[1], i), *c = row_of(of[2], i);
+        double room = 0;
+
+        for (int k = 0; k <= QDOT_SERIES_MOST; k++) {
+            room = fmax(0.5 * room, 0.1 * fabs(c[k] - b[k]) + 1e-14 * fabs(b[k]));
+            if (k > last[i] ? a[k] != b[k] : !(fabs(a[k] - b[k]) <= room))
+                fail_msg("%s, row %zu, order %d of %d: %.17g, not %.17g", what, i, k, to,
+                         a[k], b[k]);
+        }
+    }
+}
+
+/* The same expansion three times: by the code, by kernels, by kernels from another start. */
+static void
+expand(qdot_taylor *const of[3], int to, double unit)
+{
+    for (int l = 0; l < 3; l++) {
+        for (size_t i = 0; i < MOVING; i++)
+            for (int k = to + 3; k <= QDOT_SERIES_MOST; k++)
+                qdot_taylor_input(of[l], i)[k] = 1e9;
+        start(of[l], unit, l < 2 ? 1 : 1 + 1e-12);
+        qdot_taylor_begin(of[l], unit);
+        qdot_taylor_extend(of[l], 1, to);
+    }
+}
+
+static void
+code_agrees(scene *f, qdot_expr e, const char *what)
+{
+    qdot_expr out[] = {qdot_div(f->pool, e, qdot_expr_int(f->pool, 5)),
+                       qdot_sub(f->pool, qdot_mul(f->pool, f->in[M], f->in[Q]),
+                                qdot_mul(f->pool, f->in[V], f->in[P]))};
+    qdot_tape *tape;
+
+    assert_int_equal(qdot_tape_new(f->pool, INPUTS, f->in, 2, out, &tape), QDOT_OK);
+    for (int to = 1; to <= MOST; to++) {
+        qdot_taylor *of[] = {linked(tape, to, true), linked(tape, to, false),
+                             linked(tape, to, false)};
+
+        expand(of, to, 2);
+        compare(of, to, what);
+        expand(of, to, 3);
+        compare(of, to, what);
+        for (int l = 0; l < 3; l++)
+            qdot_taylor_free(of[l]);
+    }
+    qdot_tape_free(tape);
+}
+
+static void
+there_is_code_or_a_reason(void **state)
+{
+    scene f;
+    qdot_expr out[2];
+    qdot_tape *tape;
+    qdot_taylor *t;
+    const char *why;
+
+    (void)state;
+    begin(&f);
+    out[0] = qdot_fun1(f.pool, QDOT_SIN, f.in[Q]);
+    out[1] = f.within;
+    assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, 2, out, &tape), QDOT_OK);
+    t = linked(tape, 20, false);
+    assert_int_equal(qdot_taylor_code_bytes(t, &why), 0);
+    assert_null(why);
+    assert_int_equal(qdot_taylor_prepare(t, 0), QDOT_EINVAL);
+    assert_int_equal(qdot_taylor_prepare(t, 20), QDOT_OK);
+    if (qdot_taylor_code_bytes(t, &why) == 0)
+        print_message("no machine code: %s\n", why);
+    assert_true((qdot_taylor_code_bytes(t, &why) > 0) == (why == NULL));
+    assert_true(!qdot_x86_is_here() == (why && strstr(why, "AVX-512")));
+    qdot_taylor_free(t);
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
+static void
+functions_agree(void **state)
+{
+    static const struct {
+        qdot_fun_id f;
+        bool above;
+        const char *name;
+    } rows[] = {
+        {QDOT_SIN, false, "sin"},     {QDOT_COS, true, "cos"},
+        {QDOT_TAN, false, "tan"},     {QDOT_ASIN, false, "asin"},
+        {QDOT_ACOS, false, "acos"},   {QDOT_ATAN, true, "atan"},
+        {QDOT_SINH, false, "sinh"},   {QDOT_COSH, false, "cosh"},
+        {QDOT_TANH, false, "tanh"},   {QDOT_ASINH, false, "asinh"},
+        {QDOT_ACOSH, true, "acosh"},  {QDOT_ATANH, false, "atanh"},
+        {QDOT_EXP, false, "exp"},     {QDOT_LOG, true, "log"},
+    };
+    scene f;
+
+    (void)state;
+    begin(&f);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        code_agrees(&f, qdot_fun1(f.pool, rows[i].f, rows[i].above ? f.above : f.within),
+                    rows[i].name);
+    code_agrees(&f, qdot_fun(f.pool, QDOT_ATAN2, 2, (qdot_expr[]){f.above, f.within}),
+                "atan2");
+    qdot_pool_free(f.pool);
+}
+
+static void
+arithmetic_agrees(void **state)
+{
+    scene f;
+    qdot_pool *pool;
+    qdot_expr s, c, m, half, third;
+
+    (void)state;
+    begin(&f);
+    pool = f.pool;
+    s = qdot_fun1(pool, QDOT_SIN, f.in[Q]);
+    c = qdot_fun1(pool, QDOT_EXP, f.within);
+    m = f.in[M];
+    half = qdot_div(pool, QDOT_ONE, qdot_expr_int(pool, 2));
+    third = qdot_div(pool, QDOT_ONE, qdot_expr_int(pool, 3));
+    code_agrees(&f, qdot_mul(pool, s, c), "product");
+    code_agrees(&f, qdot_mul(pool, m, c), "product with a number");
+    code_agrees(&f, qdot_div(pool, s, f.above), "quotient");
+    code_agrees(&f, qdot_div(pool, m, f.above), "quotient of a number");
+    code_agrees(&f, qdot_div(pool, f.in[T], f.above), "quotient of the time");
+    code_agrees(&f, qdot_pow_int(pool, s, 2), "square");
+    code_agrees(&f, qdot_pow_int(pool, f.above, -3), "inverse cube");
+    code_agrees(&f, qdot_pow(pool, f.above, half), "root");
+    code_agrees(&f, qdot_pow(pool, f.above, third), "power");
+    code_agrees(&f, qdot_pow(pool, f.above, f.within), "power to a power");
+    code_agrees(&f, qdot_add(pool, qdot_mul(pool, s, c), f.in[V]), "product and sum");
+    code_agrees(&f, qdot_sub(pool, qdot_mul(pool, s, c), f.in[V]), "product less");
+    code_agrees(&f, qdot_sub(pool, f.in[V], qdot_mul(pool, s, c)), "less a product");
+    code_agrees(&f, qdot_add(pool, qdot_mul(pool, m, c), s), "scaled and sum");
+    code_agrees(&f, qdot_sub(pool, qdot_mul(pool, m, c), s), "scaled less");
+    code_agrees(&f, qdot_sub(pool, s, qdot_mul(pool, m, c)), "less scaled");
+    code_agrees(&f, qdot_sub(pool, m, c), "number less");
+    code_agrees(&f, qdot_neg(pool, qdot_add(pool, s, c)), "negative sum");
+    code_agrees(&f, qdot_neg(pool, m), "a number");
+    code_agrees(&f, QDOT_T, "the time");
+    qdot_pool_free(pool);
+}
+
+/* More vectors than registers. */
+static void
+long_programs_agree(void **state)
+{
+    scene f;
+    qdot_expr e;
+
+    (void)state;
+    begin(&f);
+    e = f.in[Q];
+    for (int i = 0; i < 12; i++) {
+        qdot_expr s = qdot_fun1(f.pool, i % 2 ? QDOT_SIN : QDOT_COS, e);
+
+        e = qdot_add(f.pool, qdot_mul(f.pool, s, f.in[i % T]),
+                     qdot_div(f.pool, e, f.above));
+    }
+    code_agrees(&f, e, "long program");
+    qdot_pool_free(f.pool);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(there_is_code_or_a_reason),
+        cmocka_unit_test(functions_agree),
+        cmocka_unit_test(arithmetic_agrees),
+        cmocka_unit_test(long_programs_agree),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,98 @@
+/* test_x86.c -- bytes of instructions as GNU as writes them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tape/x86.h"
+
+/* One instruction of each kind of operand; masks as the row says. */
+static void
+instructions_have_their_bytes(void **state)
+{
+    enum { DI = QDOT_X86_RDI, SI = QDOT_X86_RSI, DX = QDOT_X86_RDX };
+    static const struct {
+        qdot_x86_name name;
+        int reg, first;
+        qdot_x86_rm rm;
+        int mask, from; /* from: of an alignment, else -1 */
+        bool zeroing;
+        const char *text;
+        size_t n;
+        const char *bytes;
+    } rows[] = {
+        {QDOT_X86_LOAD, 4, 0, {true, false, DI, 0x18}, 0, -1, false,
+         "vmovsd 0x18(%rdi),%xmm4", 7, "\x62\xf1\xff\x08\x10\x67\x03"},
+        {QDOT_X86_STORE, 17, 0, {true, false, SI, 0x1000}, 0, -1, false,
+         "vmovsd %xmm17,0x1000(%rsi)", 10, "\x62\xe1\xff\x08\x11\x8e\x00\x10\x00\x00"},
+        {QDOT_X86_ADD, 5, 10, {false, false, 19, 0}, 0, -1, false,
+         "vaddsd %xmm19,%xmm10,%xmm5", 6, "\x62\xb1\xaf\x08\x58\xeb"},
+        {QDOT_X86_SUB, 16, 31, {true, false, DX, 8}, 0, -1, false,
+         "vsubsd 0x8(%rdx),%xmm31,%xmm16", 7, "\x62\xe1\x87\x00\x5c\x42\x01"},
+        {QDOT_X86_MUL, 9, 1, {true, false, DI, -0x400}, 0, -1, false,
+         "vmulsd -0x400(%rdi),%xmm1,%xmm9", 7, "\x62\x71\xf7\x08\x59\x4f\x80"},
+        {QDOT_X86_MADD, 24, 7, {false, false, 31, 0}, 0, -1, false,
+         "vfmadd231sd %xmm31,%xmm7,%xmm24", 6, "\x62\x02\xc5\x08\xb9\xc7"},
+        {QDOT_X86_NMADD_OVER, 3, 20, {true, false, DX, 0x408}, 0, -1, false,
+         "vfnmadd213sd 0x408(%rdx),%xmm20,%xmm3", 10,
+         "\x62\xf2\xdd\x00\xad\x9a\x08\x04\x00\x00"},
+        {QDOT_X86_MADD_ALL, 18, 30, {true, true, DI, 0x123458}, 0, -1, false,
+         "vfmadd231pd 0x123458(%rdi){1to8},%zmm30,%zmm18", 10,
+         "\x62\xe2\x8d\x50\xb8\x97\x58\x34\x12\x00"},
+        {QDOT_X86_MADD_ALL, 0, 2, {true, false, DX, 0x40}, 2, -1, false,
+         "vfmadd231pd 0x40(%rdx),%zmm2,%zmm0{%k2}", 7, "\x62\xf2\xed\x4a\xb8\x42\x01"},
+        {QDOT_X86_MUL_ALL, 0, 2, {true, false, DX, 0x88}, 0, -1, false,
+         "vmulpd 0x88(%rdx),%zmm2,%zmm0", 10, "\x62\xf1\xed\x48\x59\x82\x88\x00\x00\x00"},
+        {QDOT_X86_SPREAD, 29, 0, {true, false, DI, 0x30}, 1, -1, false,
+         "vbroadcastsd 0x30(%rdi),%zmm29{%k1}", 7, "\x62\x62\xfd\x49\x19\x6f\x06"},
+        {QDOT_X86_STORE_ALL, 0, 0, {true, false, DX, 0xc0}, 0, -1, false,
+         "vmovupd %zmm0,0xc0(%rdx)", 7, "\x62\xf1\xfd\x48\x11\x42\x03"},
+        {QDOT_X86_ALIGN, 8, 8, {false, false, 8, 0}, 3, 1, true,
+         "valignq $1,%zmm8,%zmm8,%zmm8{%k3}{z}", 7, "\x62\x53\xbd\xcb\x03\xc0\x01"},
+        {QDOT_X86_ALIGN, 0, 23, {true, false, DX, 0x80}, 0, 1, false,
+         "valignq $1,0x80(%rdx),%zmm23,%zmm0", 8, "\x62\xf3\xc5\x40\x03\x42\x02\x01"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        qdot_x86 x = {.mask = rows[i].mask, .zeroing = rows[i].zeroing};
+
+        if (rows[i].from >= 0)
+            qdot_x86_align(&x, rows[i].reg, rows[i].first, rows[i].rm, rows[i].from);
+        else
+            qdot_x86_emit(&x, rows[i].name, rows[i].reg, rows[i].first, rows[i].rm);
+        assert_int_equal(x.status, QDOT_OK);
+        if (x.bytes.n != rows[i].n || memcmp(x.bytes.at, rows[i].bytes, rows[i].n) != 0)
+            fail_msg("%s is written otherwise", rows[i].text);
+        qdot_free(x.bytes.at);
+    }
+}
+
+static void
+masks_and_the_end_have_theirs(void **state)
+{
+    static const unsigned char bytes[] = {0xb8, 0x7f, 0,    0,    0,    0xc5, 0xf8,
+                                          0x92, 0xd8, 0xc5, 0xf8, 0x77, 0xc3};
+    qdot_x86 x = {0};
+
+    (void)state;
+    qdot_x86_set_mask(&x, 3, 0x7f);
+    qdot_x86_return(&x);
+    assert_int_equal(x.bytes.n, sizeof bytes);
+    assert_memory_equal(x.bytes.at, bytes, sizeof bytes);
+    qdot_free(x.bytes.at);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(instructions_have_their_bytes),
+        cmocka_unit_test(masks_and_the_end_have_theirs),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
