@@ -320,6 +320,7 @@ sim_sources = \
 	lib/sim/piece.c \
 	lib/sim/plan.c \
 	lib/sim/precise-bind.c \
+	lib/sim/precise-course.c \
 	lib/sim/precise-value.c \
 	lib/sim/precise.c \
 	lib/sim/quotient.c \
@@ -372,6 +373,7 @@ sim_headers = \
 	lib/sim/piece.h \
 	lib/sim/plan.h \
 	lib/sim/precise-bind.h \
+	lib/sim/precise-course.h \
 	lib/sim/precise-pair.h \
 	lib/sim/precise.h \
 	lib/sim/quotient.h \
@@ -562,6 +564,7 @@ script_tests = \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
 	tests/script/derive.lag \
+	tests/script/digits-events.lag \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
 	tests/script/dof-redundant.lag \
@@ -657,12 +660,12 @@ script_tests = \
 	tests/bad/defined-by-itself.lag \
 	tests/bad/digits-constraint.lag \
 	tests/bad/digits-domain.lag \
+	tests/bad/digits-event-constraint.lag \
 	tests/bad/digits-half.lag \
 	tests/bad/digits-many.lag \
 	tests/bad/digits-method.lag \
 	tests/bad/digits-none.lag \
 	tests/bad/digits-outside.lag \
-	tests/bad/digits-switch.lag \
 	tests/bad/digits-tol.lag \
 	tests/bad/digits-treatment.lag \
 	tests/bad/digits-unset.lag \
@@ -870,12 +873,12 @@ test_files = \
 	tests/bad/defined-by-itself.out \
 	tests/bad/digits-constraint.out \
 	tests/bad/digits-domain.out \
+	tests/bad/digits-event-constraint.out \
 	tests/bad/digits-half.out \
 	tests/bad/digits-many.out \
 	tests/bad/digits-method.out \
 	tests/bad/digits-none.out \
 	tests/bad/digits-outside.out \
-	tests/bad/digits-switch.out \
 	tests/bad/digits-tol.out \
 	tests/bad/digits-treatment.out \
 	tests/bad/digits-unset.out \
@@ -1110,6 +1113,7 @@ test_files = \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
 	tests/script/derive.out \
+	tests/script/digits-events.out \
 	tests/script/digits-table.out \
 	tests/script/digits.out \
 	tests/script/dof-redundant.out \

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lang/answer.h"
+#include "lang/digits.h"
 #include "lang/number.h"
 
 /* --- declared ------------------------------------------------------------------------ */
@@ -106,6 +107,13 @@ qdot_event_is(const qdot_session *session, const char *run, const char *name)
     return false;
 }
 
+/* The digits of its time; 0: a double. */
+static int
+digits_of(const qdot_run *run, const qdot_run_occurrence *o)
+{
+    return o->exact == QDOT_NIL ? 0 : qdot_run_get_report(run)->digits;
+}
+
 /* The k-th time (k from 1) of an event, or all of them (k = 0) as a list. */
 qdot_status
 qdot_event_time(qdot_session *session, const char *run, const char *name, long k,
@@ -127,8 +135,12 @@ qdot_event_time(qdot_session *session, const char *run, const char *name, long k
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         if (strcmp(list[i].event, name) != 0)
             continue;
-        status = qdot_vec_push(
-            &all, qdot_number_measured(session, list[i].t, list[i].error));
+        status = qdot_vec_push(&all, qdot_number_measured_as(
+                                         session, (qdot_measured){.value = list[i].t,
+                                                                  .error = list[i].error,
+                                                                  .digits = digits_of(
+                                                                      named->run, &list[i]),
+                                                                  .exact = list[i].exact}));
     }
     if (status == QDOT_OK && k == 0) {
         *value = qdot_list(session->pool, (uint32_t)all.n, all.at);
@@ -200,12 +212,36 @@ list_numbers(qdot_session *session, const qdot_run_occurrence *list, size_t n)
     return QDOT_OK;
 }
 
+/* Of a run with `digits`: the times as strings. */
+static qdot_status
+list_exact(qdot_session *session, const qdot_run *run, const qdot_run_occurrence *list,
+           size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr all;
+        bool before = false;
+
+        for (size_t k = 0; k < i; k++)
+            before = before || strcmp(list[k].event, list[i].event) == 0;
+        if (before)
+            continue;
+        QDOT_TRY(qdot_event_time(session, NULL, list[i].event, 0, &all));
+        QDOT_TRY(qdot_digits_answer(session, list[i].event, all,
+                                    qdot_run_get_report(run)->digits));
+    }
+    return QDOT_OK;
+}
+
 /* "cross[2]  t = 3.1234 ± 2e-15  rising" */
-static void
-add_line(qdot_text *text, const qdot_run_occurrence *o, size_t k)
+static qdot_status
+add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occurrence *o,
+         size_t k)
 {
     qdot_text_format(text, "%s[%zu]  t = ", o->event, k);
-    qdot_answer_digits(text, o->t, o->error);
+    if (digits > 0)
+        QDOT_TRY(qdot_digits_text(session, o->exact, digits, o->error, text));
+    else
+        qdot_answer_digits(text, o->t, o->error);
     if (isnan(o->error)) {
         qdot_text_add(text, " (error unknown)");
     } else {
@@ -216,6 +252,7 @@ add_line(qdot_text *text, const qdot_run_occurrence *o, size_t k)
                      o->way > 0   ? "rising"
                      : o->way < 0 ? "falling"
                                   : "touching");
+    return QDOT_OK;
 }
 
 qdot_status
@@ -225,7 +262,7 @@ qdot_event_list(qdot_cursor *c)
     const qdot_run_occurrence *list;
     qdot_named_run *run;
     qdot_text text = {0};
-    qdot_status status;
+    qdot_status status = QDOT_OK;
     size_t n;
 
     QDOT_TRY(qdot_cursor_expect_end(c));
@@ -234,17 +271,20 @@ qdot_event_list(qdot_cursor *c)
     QDOT_TRY(qdot_number_find_run(session, NULL, &run));
     QDOT_TRY(qdot_run_occurrences(run->run, &list, &n));
     if (session->json && n > 0)
-        return list_numbers(session, list, n);
-    for (size_t i = 0; i < n; i++) {
+        return qdot_run_get_report(run->run)->digits > 0
+                   ? list_exact(session, run->run, list, n)
+                   : list_numbers(session, list, n);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         size_t k = 1;
 
         for (size_t j = 0; j < i; j++)
             k += strcmp(list[j].event, list[i].event) == 0;
-        add_line(&text, &list[i], k);
+        status = add_line(session, digits_of(run->run, &list[i]), &text, &list[i], k);
     }
     if (n == 0)
         qdot_text_format(&text, "no event occurred in %s", run->name);
-    status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
     if (status == QDOT_OK)
         status = qdot_answer_text(session, "events", qdot_text_str(&text));
     qdot_text_clear(&text);

@@ -385,6 +385,12 @@ measured_symbol(qdot_session *session, qdot_measured m)
 }
 
 qdot_expr
+qdot_number_measured_as(qdot_session *session, qdot_measured m)
+{
+    return measured_symbol(session, m);
+}
+
+qdot_expr
 qdot_number_measured(qdot_session *session, double value, double error)
 {
     return measured_symbol(session, (qdot_measured){.value = value, .error = error});

@@ -65,6 +65,7 @@ QDOT_MUST_CHECK qdot_status qdot_number_along(qdot_session *session, const char 
 
 /* A number of a run, from now on a symbol. */
 qdot_expr qdot_number_measured(qdot_session *session, double value, double error);
+qdot_expr qdot_number_measured_as(qdot_session *session, qdot_measured m);
 
 /* --- range.c: max, min, mean, drift over a range ------------------------------------- */
 

@@ -405,5 +405,6 @@ qdot_course_clear(qdot_course *c)
     qdot_free(c->systems.at);
     qdot_free(c->watches.at);
     qdot_free(c->occurrences.at);
+    qdot_free(c->ends.at);
     *c = (qdot_course){0};
 }

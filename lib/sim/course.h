@@ -29,6 +29,13 @@ typedef struct {
     int way; /* left - right goes up or down as t grows; 0: it touches 0 */
 } qdot_occurrence;
 
+/* What ended a piece. */
+typedef struct {
+    size_t piece, function; /* of the trajectory; of the mode */
+    double t;
+    qdot_watched what;
+} qdot_course_end;
+
 typedef struct qdot_course {
     qdot_stage *stage; /* borrowed */
     bool shaken;
@@ -39,6 +46,7 @@ typedef struct qdot_course {
     qdot_vec(qdot_ode_system) systems;   /* by mode */
     qdot_vec(qdot_watch *) watches;      /* by mode */
     qdot_vec(qdot_occurrence) occurrences;
+    qdot_vec(qdot_course_end) ends; /* in their order; several at one time may be of one piece */
     size_t stopped_by; /* the event; SIZE_MAX: none */
     char reason[400];  /* why it ended early; "" */
     bool failed;       /* that is a failure */

@@ -34,6 +34,8 @@ how_it_ended(qdot_run *run, const qdot_domains *domains)
 
     if (result->outcome == QDOT_ODE_FAILED)
         return say_failure(run, result);
+    if (run->course.stopped_by != SIZE_MAX || run->course.reason[0] != '\0')
+        return qdot_run_say_course(run);
     if (!domains->left)
         return QDOT_OK;
     snprintf(reason, sizeof reason, "%.100s left its domain %.200s at t = %.15g",
@@ -99,18 +101,44 @@ keep_end(qdot_run *run)
     return qdot_pool_check(run->plan->pool);
 }
 
+/* In doubles through all events and switches: which follow each other, and about where. */
+static qdot_status
+find_guide(qdot_run *run, const qdot_run_request *request)
+{
+    const qdot_stage *stage = &run->stage;
+    qdot_ode_options options = {
+        .tol = request->tol, .carry = run->start_low, .t1_low = run->t1_low};
+    qdot_status status;
+
+    for (size_t i = 0; i < stage->events.n; i++)
+        if (stage->events.at[i].then && run->plan->constraints) {
+            qdot_fail(QDOT_ENOTBUILT,
+                      "not built yet: `digits` with constraints and the event %.100s, which "
+                      "changes the state",
+                      stage->events.at[i].name);
+            return qdot_hint("a run in doubles: tol 1e-15");
+        }
+    status = qdot_course_run(&run->course, run->plan->method, &options, run->t0, run->t1,
+                             run->start);
+    return run->course.tr.count > 0 && (status == QDOT_EFAILED || status == QDOT_ESINGULAR
+                                        || status == QDOT_EDOMAIN)
+               ? QDOT_OK
+               : status;
+}
+
 qdot_status
 qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
                       qdot_domains *domains, bool *interrupted)
 {
+    const qdot_course *guide = NULL;
     qdot_error failure;
     qdot_status status;
 
-    if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: digits with %s",
-                         run->stage.events.n > 0 ? "events"
-                                                 : "equations that switch");
-    status = qdot_precise_pair_new(run->plan, request, domains, &run->precise);
+    if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0) {
+        QDOT_TRY(find_guide(run, request));
+        guide = &run->course;
+    }
+    status = qdot_precise_pair_new(run->plan, request, domains, guide, &run->precise);
     failure = *qdot_last_error();
     *interrupted = status == QDOT_EINTR && run->precise;
     if (*interrupted)
@@ -154,4 +182,22 @@ qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs, qdot_expr
     if (!run->precise)
         return qdot_fail(QDOT_EINVAL, "the run was made in doubles");
     return qdot_precise_pair_values(run->precise, m, exprs, time, values, errors);
+}
+
+qdot_status
+qdot_digits_occurrences(qdot_run *run)
+{
+    const qdot_course *c = &run->course;
+
+    run->occurrences.n = 0;
+    for (size_t i = 0; i < c->occurrences.n; i++) {
+        const qdot_occurrence *o = &c->occurrences.at[i];
+        qdot_run_occurrence out = {
+            .event = run->stage.events.at[o->event].name, .t = o->t, .way = o->way};
+
+        out.exact = qdot_precise_pair_time(run->precise, i, &out.error);
+        QDOT_TRY(qdot_pool_check(run->plan->pool));
+        QDOT_TRY(qdot_vec_push(&run->occurrences, out));
+    }
+    return QDOT_OK;
 }

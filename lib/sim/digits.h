@@ -18,4 +18,7 @@ QDOT_MUST_CHECK qdot_status qdot_digits_carry_out(qdot_run *run, qdot_scene *sce
 /* What the report of a run in doubles has otherwise. */
 void qdot_digits_fill_report(qdot_run *run);
 
+/* run->occurrences of such a run. Errors: QDOT_ENOMEM, those of the pool. */
+QDOT_MUST_CHECK qdot_status qdot_digits_occurrences(struct qdot_run *run);
+
 #endif

@@ -41,6 +41,9 @@ struct qdot_run {
 /* The run has failed, and why; the text is copied. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_why(struct qdot_run *run, const char *reason);
 
+/* The same, of a run that what happened in it ended; else nothing. */
+QDOT_MUST_CHECK qdot_status qdot_run_say_course(struct qdot_run *run);
+
 /* The companion's trajectory over all that the run covers; where it ends early errors
  * are unknown. QDOT_OK without one, too: has_companion tells. */
 QDOT_MUST_CHECK qdot_status qdot_run_companion(struct qdot_run *run);

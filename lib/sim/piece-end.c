@@ -148,6 +148,13 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
         const qdot_watched *w = &m->watched[root->function];
         bool fast = false;
 
+        if (w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].stop
+            || x->c->stage->events.at[w->index].then)
+            status = qdot_vec_push(&x->c->ends,
+                                   ((qdot_course_end){x->c->tr.pieces.n - 1,
+                                                      root->function, t, *w}));
+        if (status != QDOT_OK)
+            break;
         if (w->kind == QDOT_WATCH_DOMAIN) {
             say_left(x, w);
             *over = true;

@@ -2,19 +2,32 @@
 #ifndef QDOT_SIM_PRECISE_PAIR_H
 #define QDOT_SIM_PRECISE_PAIR_H
 
+#include "sim/course.h"
 #include "sim/precise-bind.h"
 #include "sim/precise.h"
 
 #define QDOT_LOG2_10 3.3219280948873626
 
+/* A piece of it: one, where nothing divides the run. */
+typedef struct {
+    qdot_precise_run run;
+    size_t mode;
+    bool jumped;
+} qdot_precise_segment;
+
 /* One of the two runs. */
 typedef struct {
-    qdot_precise_bind *bind;
-    qdot_precise_run run;
+    qdot_precise_bind **binds; /* [modes], as far as they were met; NULL else */
+    size_t n_binds;
+    qdot_vec(qdot_precise_segment) segments;
+    const qdot_course *guide; /* NULL: nothing divides the run */
+    struct qdot_precise_course *course; /* with a guide */
+    qdot_reals times;         /* of the guide's occurrences */
+    qdot_ode_result result;   /* of all segments */
     qdot_reals start; /* t0, t1, y0 [2n] */
-    double digits;
+    double digits, log2_tol;
     int order;
-    size_t near; /* of qdot_precise_at */
+    size_t near, near_segment; /* of qdot_precise_at */
     qdot_status status;
     qdot_domains *domains; /* watched by the run itself; else NULL */
     double *y;             /* [2n] for them */
@@ -23,11 +36,23 @@ typedef struct {
 struct qdot_precise_pair {
     const qdot_plan *plan;
     const qdot_run_request *request; /* while it is made */
+    const qdot_course *guide; /* what divides it; NULL */
     size_t n;                        /* 2 plan->n */
     int digits;
     qdot_precise_side run, companion;
     double log10_error; /* NaN: unknown */
 };
+
+/* Its first and its last point. */
+mpfr_t *qdot_precise_first(const qdot_precise_side *side);
+mpfr_t *qdot_precise_last(const qdot_precise_side *side);
+
+/* The segment that t lies in: of two the later. */
+size_t qdot_precise_segment_at(const qdot_precise_side *side, mpfr_srcptr t);
+
+/* The state y [2n] at t of a segment. */
+QDOT_MUST_CHECK qdot_status qdot_precise_state_in(qdot_precise_side *side, size_t segment,
+                                                  mpfr_srcptr t, mpfr_t *y);
 
 /* The state y [2n] of one of them at t, which must lie within it. */
 QDOT_MUST_CHECK qdot_status qdot_precise_state(qdot_precise_side *side, mpfr_srcptr t,

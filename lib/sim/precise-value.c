@@ -19,6 +19,7 @@ typedef struct {
     qdot_precise *program;
     size_t m;
     bool accelerations; /* the program reads q'' */
+    size_t segment;     /* of the side, that is read */
     qdot_reals numbers; /* t, y [2n] */
 } reader;
 
@@ -45,7 +46,8 @@ reader_init(reader *r, const qdot_plan *plan, qdot_precise_side *side,
 static qdot_status
 evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
 {
-    const qdot_precise_system *system = qdot_precise_bind_system(r->side->bind);
+    qdot_precise_bind *bind = r->side->binds[r->side->segments.at[r->segment].mode];
+    const qdot_precise_system *system = qdot_precise_bind_system(bind);
     const size_t n = r->plan->n;
 
     for (size_t i = 0; i < 2 * n; i++)
@@ -57,10 +59,10 @@ evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
     }
     for (size_t i = 0; r->accelerations && i < n; i++)
         mpfr_set(qdot_precise_input(r->program, 2 * n + 1 + i)[0],
-                 qdot_precise_bind_acceleration(r->side->bind, i), RN);
+                 qdot_precise_bind_acceleration(bind, i), RN);
     for (size_t k = 0; r->accelerations && r->plan->constraints
                        && k < r->plan->constraints->m; k++)
-        qdot_precise_bind_multiplier(r->side->bind, k,
+        qdot_precise_bind_multiplier(bind, k,
                                      qdot_precise_input(r->program, 3 * n + 1 + k)[0]);
     qdot_precise_order(r->program, 0);
     return QDOT_OK;
@@ -70,15 +72,14 @@ evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
 static qdot_status
 read_at(reader *r)
 {
-    const qdot_precise_run *run = &r->side->run;
     mpfr_ptr t = r->numbers.at[0];
     mpfr_srcptr ends[2];
     int way;
 
-    if (run->count == 0)
+    if (r->side->segments.n == 0 || r->side->segments.at[0].run.count == 0)
         return qdot_fail(QDOT_EDOMAIN, "there is no run");
-    ends[0] = qdot_precise_point(run, 0)[0];
-    ends[1] = qdot_precise_point(run, run->count - 1)[0];
+    ends[0] = qdot_precise_first(r->side)[0];
+    ends[1] = qdot_precise_last(r->side)[0];
     way = mpfr_less_p(ends[1], ends[0]) ? -1 : 1;
     for (int i = 0; i < 2; i++) {
         bool beyond = (i == 1 ? way : -way) * mpfr_cmp(t, ends[i]) > 0;
@@ -86,7 +87,8 @@ read_at(reader *r)
         if (beyond && mpfr_get_d(t, RN) == mpfr_get_d(ends[i], RN))
             mpfr_set(t, ends[i], RN);
     }
-    QDOT_TRY(qdot_precise_state(r->side, t, r->numbers.at + 1));
+    r->segment = qdot_precise_segment_at(r->side, t);
+    QDOT_TRY(qdot_precise_state_in(r->side, r->segment, t, r->numbers.at + 1));
     return evaluate(r, t, (const mpfr_t *)r->numbers.at + 1);
 }
 
@@ -216,36 +218,48 @@ qdot_precise_pair_sample_values(qdot_precise_pair *pair, size_t m, const qdot_ex
 
 /* --- drifts -------------------------------------------------------------------------- */
 
+/* A segment: the drift from w[0], which is what it starts with where `anew`. Where the
+ * equations switch its ends are on neither side. */
 static qdot_status
-follow(reader *r, qdot_drift *drift)
+follow_segment(reader *r, bool anew, bool cut, mpfr_t *w, qdot_drift *drift)
 {
-    const qdot_precise_run *run = &r->side->run;
-    qdot_reals w;
+    const qdot_precise_run *run = &r->side->segments.at[r->segment].run;
 
-    QDOT_TRY(qdot_reals_init(&w, 2, r->side->start.bits));
-    drift->drift = 0;
-    for (size_t k = 0; k < run->count; k++) {
+    for (size_t k = anew ? 0 : 1; k < run->count - cut; k++) {
         const mpfr_t *point = (const mpfr_t *)qdot_precise_point(run, k);
-        qdot_status status = evaluate(r, point[0], point + 1);
         mpfr_srcptr c = qdot_precise_output(r->program, 0)[0];
         double change;
 
-        if (status == QDOT_OK)
-            status = qdot_interrupt_check();
-        if (status != QDOT_OK) {
-            qdot_reals_clear(&w);
-            return status;
-        }
+        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(evaluate(r, point[0], point + 1));
         if (k == 0)
-            mpfr_set(w.at[0], c, RN);
-        mpfr_sub(w.at[1], c, w.at[0], RN);
-        change =
-            exp2(qdot_real_log2(w.at[1]) - fmax(0, qdot_real_log2(w.at[0])));
+            mpfr_set(w[0], c, RN);
+        mpfr_sub(w[1], c, w[0], RN);
+        change = exp2(qdot_real_log2(w[1]) - fmax(0, qdot_real_log2(w[0])));
         if (!(change <= drift->drift)) /* a NaN stays */
             drift->drift = change;
     }
-    qdot_reals_clear(&w);
     return QDOT_OK;
+}
+
+static qdot_status
+follow(reader *r, qdot_drift *drift)
+{
+    const qdot_precise_side *s = r->side;
+    qdot_status status = QDOT_OK;
+    qdot_reals w;
+
+    QDOT_TRY(qdot_reals_init(&w, 2, s->start.bits));
+    drift->drift = 0;
+    for (size_t k = 0; k < s->segments.n && status == QDOT_OK; k++) {
+        bool cut = k + 1 < s->segments.n && !s->segments.at[k + 1].jumped;
+
+        r->segment = k;
+        if (s->segments.at[k].run.count > 0)
+            status = follow_segment(r, k == 0 || s->segments.at[k].jumped, cut, w.at, drift);
+    }
+    qdot_reals_clear(&w);
+    return status;
 }
 
 qdot_status

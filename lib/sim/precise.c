@@ -9,7 +9,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "sim/constraints.h"
-#include "sim/precise-pair.h"
+#include "sim/precise-course.h"
 #include "tape/constant.h"
 #include "tape/precise.h"
 
@@ -71,8 +71,14 @@ qdot_precise_request(const qdot_run_request *request)
 static void
 side_clear(qdot_precise_side *s)
 {
-    qdot_precise_bind_free(s->bind);
-    qdot_precise_run_clear(&s->run);
+    qdot_precise_course_clear(s);
+    for (size_t i = 0; i < s->n_binds; i++)
+        qdot_precise_bind_free(s->binds[i]);
+    qdot_free(s->binds);
+    for (size_t i = 0; i < s->segments.n; i++)
+        qdot_precise_run_clear(&s->segments.at[i].run);
+    qdot_free(s->segments.at);
+    qdot_reals_clear(&s->times);
     qdot_reals_clear(&s->start);
     qdot_free(s->y);
     *s = (qdot_precise_side){.near = SIZE_MAX};
@@ -131,12 +137,20 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
     const size_t n = pair->plan->n;
     mpfr_prec_t bits = (mpfr_prec_t)ceil(digits * QDOT_LOG2_10) + guard_bits;
     double cost[3];
+    size_t modes;
 
     side_clear(s);
     s->digits = digits;
+    s->log2_tol = -digits * QDOT_LOG2_10;
+    s->guide = pair->guide;
+    modes = s->guide ? s->guide->stage->modes.n : 1;
+    s->binds = qdot_calloc(modes, sizeof *s->binds);
+    if (!s->binds)
+        return QDOT_ENOMEM;
+    s->n_binds = modes;
     qdot_precise_bind_cost(pair->plan, bits, cost);
     s->order = qdot_precise_order_for(-digits * QDOT_LOG2_10, cost) + orders_more;
-    QDOT_TRY(qdot_precise_bind_new(pair->plan, s->order, bits, &s->bind));
+    QDOT_TRY(qdot_precise_bind_new(pair->plan, s->order, bits, &s->binds[0]));
     QDOT_TRY(qdot_reals_init(&s->start, 2 + 2 * n, bits));
     s->y = qdot_calloc(2 * n, sizeof *s->y);
     if (!s->y)
@@ -147,7 +161,8 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
         QDOT_TRY(qdot_precise_constant(pair->plan, request->q0[i], s->start.at[2 + i]));
         QDOT_TRY(qdot_precise_constant(pair->plan, request->v0[i], s->start.at[2 + n + i]));
     }
-    return check_start(s, pair->plan, (int)fmin(digits - guard_digits, pair->digits));
+    QDOT_TRY(check_start(s, pair->plan, (int)fmin(digits - guard_digits, pair->digits)));
+    return s->guide ? qdot_precise_course_init(s) : QDOT_OK;
 }
 
 /* After a step: whether it left a domain. */
@@ -157,7 +172,7 @@ watch(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user)
     qdot_precise_side *s = user;
 
     (void)t;
-    for (size_t i = 0; i < s->run.n; i++)
+    for (size_t i = 0; i < s->segments.at[0].run.n; i++)
         s->y[i] = mpfr_get_d(y[i], RN);
     return qdot_domains_watch(0, s->y, stop, s->domains);
 }
@@ -165,17 +180,27 @@ watch(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user)
 static void
 side_run(qdot_precise_side *s)
 {
-    qdot_precise_options options = {.log2_tol = -s->digits * QDOT_LOG2_10, .order = s->order};
+    qdot_precise_options options = {.log2_tol = s->log2_tol, .order = s->order};
+    qdot_precise_run *run;
 
+    s->near = SIZE_MAX;
+    if (s->guide) {
+        qdot_precise_course_run(s);
+        return;
+    }
     if (s->domains && s->domains->n > 0) {
         s->domains->left = NULL;
         options.accepted = watch;
         options.user = s;
     }
-    s->near = SIZE_MAX;
-    s->status = qdot_precise_integrate(qdot_precise_bind_system(s->bind), &options,
+    s->status = qdot_vec_push(&s->segments, (qdot_precise_segment){0});
+    if (s->status != QDOT_OK)
+        return;
+    run = &s->segments.at[0].run;
+    s->status = qdot_precise_integrate(qdot_precise_bind_system(s->binds[0]), &options,
                                        s->start.at[0], s->start.at[1],
-                                       (const mpfr_t *)s->start.at + 2, &s->run);
+                                       (const mpfr_t *)s->start.at + 2, run);
+    s->result = run->result;
 }
 
 static void *
@@ -194,10 +219,60 @@ is_kept(qdot_status status)
            || status == QDOT_ESINGULAR;
 }
 
+mpfr_t *
+qdot_precise_first(const qdot_precise_side *s)
+{
+    return qdot_precise_point(&s->segments.at[0].run, 0);
+}
+
+mpfr_t *
+qdot_precise_last(const qdot_precise_side *s)
+{
+    const qdot_precise_run *run = &s->segments.at[s->segments.n - 1].run;
+
+    return qdot_precise_point(run, run->count - 1);
+}
+
+/* Whether it has points at all. */
+static bool
+is_there(const qdot_precise_side *s)
+{
+    return s->segments.n > 0 && s->segments.at[s->segments.n - 1].run.count > 0;
+}
+
+size_t
+qdot_precise_segment_at(const qdot_precise_side *s, mpfr_srcptr t)
+{
+    size_t low = 0, high = s->segments.n;
+    int way = mpfr_less_p(qdot_precise_last(s)[0], qdot_precise_first(s)[0]) ? -1 : 1;
+
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (way * mpfr_cmp(t, qdot_precise_point(&s->segments.at[middle].run, 0)[0]) >= 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+qdot_status
+qdot_precise_state_in(qdot_precise_side *s, size_t segment, mpfr_srcptr t, mpfr_t *y)
+{
+    const qdot_precise_segment *at = &s->segments.at[segment];
+
+    if (segment != s->near_segment)
+        s->near = SIZE_MAX;
+    s->near_segment = segment;
+    return qdot_precise_at(&at->run, qdot_precise_bind_system(s->binds[at->mode]), t,
+                           &s->near, y);
+}
+
 qdot_status
 qdot_precise_state(qdot_precise_side *s, mpfr_srcptr t, mpfr_t *y)
 {
-    return qdot_precise_at(&s->run, qdot_precise_bind_system(s->bind), t, &s->near, y);
+    return qdot_precise_state_in(s, qdot_precise_segment_at(s, t), t, y);
 }
 
 /* The last step ended outside a domain: back to the last time inside it, to the bits that
@@ -205,15 +280,16 @@ qdot_precise_state(qdot_precise_side *s, mpfr_srcptr t, mpfr_t *y)
 static qdot_status
 cut_at_domain(qdot_precise_side *s)
 {
-    const size_t last = s->run.count - 1, n = s->run.n;
+    qdot_precise_run *run = &s->segments.at[0].run;
+    const size_t last = run->count - 1, n = run->n;
     qdot_reals w;
     mpfr_t *inside, *outside, *middle, *y;
     qdot_status status = qdot_reals_init(&w, 3 + 2 * n, s->start.bits);
 
     QDOT_TRY(status);
     inside = w.at, outside = w.at + 1, middle = w.at + 2, y = w.at + 3;
-    mpfr_set(*inside, qdot_precise_point(&s->run, last - 1)[0], RN);
-    mpfr_set(*outside, qdot_precise_point(&s->run, last)[0], RN);
+    mpfr_set(*inside, qdot_precise_point(run, last - 1)[0], RN);
+    mpfr_set(*outside, qdot_precise_point(run, last)[0], RN);
     for (int k = 0; k < 64 && status == QDOT_OK; k++) {
         mpfr_add(*middle, *inside, *outside, RN);
         mpfr_div_2ui(*middle, *middle, 1, RN);
@@ -225,7 +301,8 @@ cut_at_domain(qdot_precise_side *s)
     if (status == QDOT_OK)
         status = qdot_precise_state(s, *inside, y);
     if (status == QDOT_OK)
-        qdot_precise_cut(&s->run, *inside, (const mpfr_t *)y);
+        qdot_precise_cut(run, *inside, (const mpfr_t *)y);
+    s->result.t = run->result.t;
     qdot_reals_clear(&w);
     return status;
 }
@@ -258,11 +335,18 @@ ascending(const void *a, const void *b)
 static qdot_status
 end_of_companion(const qdot_precise_side *a, qdot_precise_side *b, mpfr_srcptr t, mpfr_t *y)
 {
-    const mpfr_t *end = (const mpfr_t *)qdot_precise_point(&b->run, b->run.count - 1);
+    const mpfr_t *end = (const mpfr_t *)qdot_precise_last(b);
+    const bool there = a->guide && a->guide->reason[0] == '\0'
+                       && a->guide->stopped_by == SIZE_MAX;
 
+    if (a->guide && !there) { /* both ended by what happened */
+        for (size_t i = 0; i < a->guide->tr.n; i++)
+            mpfr_set(y[i], end[1 + i], RN);
+        return QDOT_OK;
+    }
     if (!mpfr_equal_p(t, a->start.at[1]) || !mpfr_equal_p(end[0], b->start.at[1]))
         return qdot_precise_state(b, t, y);
-    for (size_t i = 0; i < b->run.n; i++)
+    for (size_t i = 0; i < b->segments.at[0].run.n; i++)
         mpfr_set(y[i], end[1 + i], RN);
     return QDOT_OK;
 }
@@ -273,8 +357,8 @@ compare(qdot_precise_pair *pair)
 {
     qdot_precise_side *a = &pair->run, *b = &pair->companion;
     const size_t n = pair->n;
-    mpfr_srcptr t0 = qdot_precise_point(&a->run, 0)[0];
-    const mpfr_t *end = (const mpfr_t *)qdot_precise_point(&a->run, a->run.count - 1);
+    mpfr_srcptr t0 = qdot_precise_first(a)[0];
+    const mpfr_t *end = (const mpfr_t *)qdot_precise_last(a);
     double between[PLACES];
     size_t known = 0;
     qdot_reals w;
@@ -287,6 +371,10 @@ compare(qdot_precise_pair *pair)
     status = end_of_companion(a, b, end[0], yb);
     if (status == QDOT_OK) {
         pair->log10_error = distance(n, end + 1, (const mpfr_t *)yb, w.at[0]);
+        if (a->guide && a->guide->stopped_by != SIZE_MAX)
+            pair->log10_error =
+                fmax(pair->log10_error,
+                     distance(1, end, (const mpfr_t *)qdot_precise_last(b), w.at[0]));
         for (size_t k = 0; k < PLACES && status == QDOT_OK; k++) {
             mpfr_sub(w.at[1], end[0], t0, RN);
             mpfr_mul_d(w.at[1], w.at[1], places[k], RN);
@@ -329,9 +417,9 @@ carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
         side_run(b);
     if (!is_kept(a->status))
         return a->status;
-    if (domains->left)
+    if (!a->guide && domains->left)
         QDOT_TRY(cut_at_domain(a));
-    if (b->run.count > 0)
+    if (is_there(a) && is_there(b))
         QDOT_TRY(compare(pair));
     return b->status == QDOT_EINTR || b->status == QDOT_ENOMEM ? b->status : QDOT_OK;
 }
@@ -380,7 +468,8 @@ settle(qdot_precise_pair *pair, qdot_domains *domains)
 
 qdot_status
 qdot_precise_pair_new(const qdot_plan *plan, const qdot_run_request *request,
-                      qdot_domains *domains, qdot_precise_pair **out)
+                      qdot_domains *domains, const qdot_course *guide,
+                      qdot_precise_pair **out)
 {
     qdot_precise_pair *pair = qdot_calloc(1, sizeof *pair);
     qdot_status status;
@@ -392,9 +481,10 @@ qdot_precise_pair_new(const qdot_plan *plan, const qdot_run_request *request,
     pair->n = 2 * plan->n;
     pair->digits = request->digits;
     pair->request = request;
+    pair->guide = guide;
     status = settle(pair, domains);
     pair->request = NULL;
-    if (status == QDOT_EINTR && pair->run.run.count > 0)
+    if (status == QDOT_EINTR && is_there(&pair->run))
         pair->log10_error = NAN; /* it may not have had its digits yet */
     else if (status != QDOT_OK) {
         qdot_precise_pair_free(pair);
@@ -419,7 +509,7 @@ qdot_precise_pair_free(qdot_precise_pair *pair)
 const qdot_ode_result *
 qdot_precise_pair_result(const qdot_precise_pair *pair)
 {
-    return &pair->run.run.result;
+    return &pair->run.result;
 }
 
 double
@@ -443,24 +533,45 @@ qdot_precise_pair_tol(const qdot_precise_pair *pair)
 size_t
 qdot_precise_pair_factored(const qdot_precise_pair *pair)
 {
-    return qdot_precise_bind_factored(pair->run.bind);
+    size_t sum = 0;
+
+    for (size_t i = 0; i < pair->run.n_binds; i++)
+        if (pair->run.binds[i])
+            sum += qdot_precise_bind_factored(pair->run.binds[i]);
+    return sum;
 }
 
 qdot_expr
 qdot_precise_pair_end(const qdot_precise_pair *pair, size_t i)
 {
-    const qdot_precise_run *run = &pair->run.run;
-
-    return qdot_constant_of_real(pair->plan->pool,
-                                 qdot_precise_point(run, run->count - 1)[1 + i]);
+    return qdot_constant_of_real(pair->plan->pool, qdot_precise_last(&pair->run)[1 + i]);
 }
 
-/* A point of the trajectory in doubles, unless it is not beyond the last one. */
-static qdot_status
-push(qdot_trajectory *tr, double t, double t_end, const double *y)
+qdot_expr
+qdot_precise_pair_time(const qdot_precise_pair *pair, size_t i, double *error)
 {
-    if (tr->count > 0 && !((t_end - t) * (t - tr->t[tr->count - 1]) >= 0
-                           && t != tr->t[tr->count - 1]))
+    const qdot_precise_side *a = &pair->run, *b = &pair->companion;
+    qdot_reals w;
+
+    *error = NAN;
+    if (i >= a->times.n || i >= b->times.n || !mpfr_number_p(a->times.at[i])
+        || qdot_reals_init(&w, 1, b->start.bits) != QDOT_OK)
+        return QDOT_NIL;
+    mpfr_sub(w.at[0], a->times.at[i], b->times.at[i], RN);
+    if (mpfr_number_p(w.at[0]))
+        *error = qdot_precise_power(fmax(qdot_real_log2(w.at[0]) / QDOT_LOG2_10,
+                                         fmax(0, qdot_real_log2(a->times.at[i])) / QDOT_LOG2_10
+                                             - a->digits));
+    qdot_reals_clear(&w);
+    return qdot_constant_of_real(pair->plan->pool, a->times.at[i]);
+}
+
+/* A point of the trajectory in doubles, unless it is not beyond the last one of its piece. */
+static qdot_status
+push(qdot_trajectory *tr, bool first, double t, double t_end, const double *y)
+{
+    if (!first && tr->count > 0
+        && !((t_end - t) * (t - tr->t[tr->count - 1]) >= 0 && t != tr->t[tr->count - 1]))
         return QDOT_OK;
     QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, tr->count + 1, sizeof *tr->t));
     QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, (tr->count + 1) * tr->n, sizeof *tr->y));
@@ -470,29 +581,44 @@ push(qdot_trajectory *tr, double t, double t_end, const double *y)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_precise_pair_sample(const qdot_precise_pair *pair, qdot_trajectory *tr)
+static qdot_status
+sample_segment(const qdot_precise_pair *pair, const qdot_precise_segment *segment,
+               qdot_trajectory *tr)
 {
-    const qdot_precise_side *s = &pair->run;
-    const qdot_precise_run *run = &s->run;
+    const qdot_precise_run *run = &segment->run;
     const double t_end = mpfr_get_d(qdot_precise_point(run, run->count - 1)[0], RN);
+    double *y = pair->run.y;
 
-    qdot_trajectory_clear(tr);
-    tr->n = pair->n;
-    tr->method = pair->plan->method;
-    tr->tol = 1e-15;
-    tr->result = run->result;
+    QDOT_TRY(qdot_vec_push(&tr->pieces,
+                           ((qdot_trajectory_piece){tr->count, segment->mode,
+                                                    segment->jumped})));
     for (size_t k = 0; k < run->count; k++) {
         const mpfr_t *point = (const mpfr_t *)qdot_precise_point(run, k);
 
         for (size_t i = 0; k > 0 && i < QDOT_PRECISE_INSIDE; i++) {
             const double *row = qdot_precise_inside(run, k - 1) + i * (pair->n + 1);
 
-            QDOT_TRY(push(tr, row[0], t_end, row + 1));
+            QDOT_TRY(push(tr, false, row[0], t_end, row + 1));
         }
         for (size_t i = 0; i < pair->n; i++)
-            s->y[i] = mpfr_get_d(point[1 + i], RN);
-        QDOT_TRY(push(tr, mpfr_get_d(point[0], RN), t_end, s->y));
+            y[i] = mpfr_get_d(point[1 + i], RN);
+        QDOT_TRY(push(tr, k == 0, mpfr_get_d(point[0], RN), t_end, y));
     }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_precise_pair_sample(const qdot_precise_pair *pair, qdot_trajectory *tr)
+{
+    const qdot_precise_side *s = &pair->run;
+
+    qdot_trajectory_clear(tr);
+    tr->n = pair->n;
+    tr->method = pair->plan->method;
+    tr->tol = 1e-15;
+    tr->result = s->result;
+    for (size_t k = 0; k < s->segments.n; k++)
+        if (s->segments.at[k].run.count > 0)
+            QDOT_TRY(sample_segment(pair, &s->segments.at[k], tr));
     return QDOT_OK;
 }

@@ -26,6 +26,7 @@
 #ifndef QDOT_SIM_PRECISE_H
 #define QDOT_SIM_PRECISE_H
 
+#include "sim/course.h"
 #include "sim/domain.h"
 #include "sim/drift.h"
 #include "sim/plan.h"
@@ -44,12 +45,15 @@ QDOT_MUST_CHECK qdot_status qdot_precise_check(const qdot_scene *scene,
 /* The request as the plan and qdot_precise_pair_new want it: by Taylor series. */
 qdot_run_request qdot_precise_request(const qdot_run_request *request);
 
-/* Both runs of a request, whose plan has the method taylor; plan borrowed. QDOT_OK
+/* Both runs of a request, whose plan has the method taylor; plan borrowed. Where events or
+ * switches divide the run, `guide` has been through them in doubles, and is borrowed; else
+ * NULL (sim/precise-course.h). QDOT_OK
  * whenever there is a run, kept in *pair; its result may be a failure. QDOT_EINTR with
  * *pair: the run so far. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_new(const qdot_plan *plan,
                                                   const qdot_run_request *request,
                                                   qdot_domains *domains,
+                                                  const struct qdot_course *guide,
                                                   qdot_precise_pair **pair);
 void qdot_precise_pair_free(qdot_precise_pair *pair);
 
@@ -61,6 +65,9 @@ size_t qdot_precise_pair_factored(const qdot_precise_pair *pair);
 
 /* The end state, component i of (q, q'), as the rational number that was computed. */
 qdot_expr qdot_precise_pair_end(const qdot_precise_pair *pair, size_t i);
+
+/* Of the guide's occurrence i the time, nil where it is not known, and its error, NaN then. */
+qdot_expr qdot_precise_pair_time(const qdot_precise_pair *pair, size_t i, double *error);
 
 /* The points of the run as doubles, and some within each step: tr is filled with them,
  * near enough to each other for the steps of a run in doubles. */

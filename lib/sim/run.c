@@ -208,8 +208,8 @@ qdot_run_say_why(qdot_run *run, const char *reason)
 }
 
 /* The reason of a run that ended early by what happened in it. */
-static qdot_status
-say_course(qdot_run *run)
+qdot_status
+qdot_run_say_course(qdot_run *run)
 {
     const qdot_course *c = &run->course;
 
@@ -315,7 +315,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
         QDOT_TRY(say_crossings(run, interrupted));
     if (status != QDOT_OK)
         return say_failure(run, status);
-    return say_course(run);
+    return qdot_run_say_course(run);
 }
 
 /* --- the report --------------------------------------------------------------------- */

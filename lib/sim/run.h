@@ -94,6 +94,7 @@ typedef struct {
     const char *event;
     double t, error; /* NaN: unknown */
     int way;         /* 1: rising, -1: falling, 0: it touched */
+    qdot_expr exact; /* of a run with `digits` the time as a rational; else nil */
 } qdot_run_occurrence;
 
 /* Integrate. On QDOT_OK *run is owned by the caller; report->status may still be FAILED (a

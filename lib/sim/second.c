@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "ode/companion.h"
+#include "sim/digits.h"
 #include "sim/integrated.h"
 #include "tape/shake.h"
 
@@ -360,7 +361,8 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
         status = qdot_vec_push(
             &run->occurrences,
             ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,
-                                   by + DBL_EPSILON * fabs(o->t), o->way}));
+                                   by + DBL_EPSILON * fabs(o->t), o->way,
+                                   QDOT_NIL}));
     }
     qdot_free(seen);
     return status;
@@ -369,6 +371,10 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
 qdot_status
 qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
 {
+    if (!run->occurrence_errors && run->precise) {
+        QDOT_TRY(qdot_digits_occurrences(run));
+        run->occurrence_errors = true;
+    }
     if (!run->occurrence_errors) {
         by_event own = {0}, others[2] = {{0}};
         size_t events = run->stage.events.n;

@@ -69,7 +69,7 @@ static void
 evaluate_sides(const qdot_stage *s, double t, const double *y, size_t k, double by,
                double *in, double *u, double *work)
 {
-    size_t n = 2 * s->scene->coordinates.n;
+    size_t n = 2 * (s->modes.n > 0 ? s->modes.at[0]->plan->n : s->scene->coordinates.n);
 
     memcpy(in, y, n * sizeof *y);
     in[n] = t;
@@ -305,6 +305,8 @@ qdot_stage_mode(qdot_stage *s, const long *side, size_t *mode)
             *mode = i;
             return QDOT_OK;
         }
+    if (!s->scene)
+        return qdot_fail(QDOT_EFAILED, "it goes on by equations that the run did not meet");
     m = qdot_calloc(1, sizeof *m);
     if (!m)
         return QDOT_ENOMEM;

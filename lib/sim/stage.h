@@ -59,7 +59,8 @@ QDOT_MUST_CHECK qdot_status qdot_stage_begin(qdot_stage *stage, qdot_scene *scen
                                              const qdot_run_request *request);
 void qdot_stage_clear(qdot_stage *stage);
 
-/* The mode with these sides [surfaces], made if it is new. */
+/* The mode with these sides [surfaces], made if it is new. QDOT_EFAILED where that comes after
+ * the run (stage->scene is NULL). */
 QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const long *side,
                                             size_t *mode);
 

@@ -308,6 +308,24 @@ a_spring(fixture *f)
     line(f, spring);
 }
 
+/* The same, which turns round at 1/2. */
+static void
+a_rebound(fixture *f)
+{
+    qdot_event wall = {.name = (char *)"wall", .right = QDOT_HALF};
+    qdot_expr x, v;
+
+    line(f, spring);
+    x = f->scene->coordinates.at[0];
+    v = velocity(f, x);
+    wall.left = x;
+    must(qdot_vec_push(&wall.targets, v));
+    must(qdot_vec_push(&wall.values, qdot_neg(f->pool, v)));
+    must(qdot_scene_event(f->scene, &wall));
+    qdot_free(wall.targets.at);
+    qdot_free(wall.values.at);
+}
+
 /* Out of memory at the n-th allocation of a run, for n up to where it passes, `most` at the
  * highest; past every `thin` of them n goes on by one more. */
 static void
@@ -339,6 +357,7 @@ every_failed_allocation_is_survived(void **state)
 {
     (void)state;
     survives(a_spring, 10, 20000, 20000);
+    survives(a_rebound, 10, 200, 20000);
 }
 
 /* A bob on a rod from (3/5, -4/5) at rest. */
