@@ -137,6 +137,23 @@ read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bo
     return qdot_pool_check(pool);
 }
 
+/* No moment about the centre is known to be negative. */
+static qdot_status
+need_moments(qdot_scene *s, qdot_expr inertia, bool moved)
+{
+    bool scalar = qdot_expr_is_scalar(s->pool, inertia);
+
+    for (uint32_t k = 0; k < (scalar ? 1 : 9); k += 4) {
+        qdot_expr moment = scalar ? inertia : qdot_expr_arg(s->pool, inertia, k);
+
+        if ((qdot_expr_node(s->pool, moment)->sign & QDOT_NEG) != QDOT_NEG)
+            continue;
+        qdot_fail(QDOT_EDOMAIN, "a moment of inertia cannot be negative");
+        return moved ? qdot_hint("about P it is at least m |P|^2") : QDOT_EDOMAIN;
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr inertia,
                 qdot_expr about, qdot_expr position, qdot_expr angle, qdot_expr rotation)
@@ -153,8 +170,10 @@ qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr inert
     if (qdot_mech_stated(s))
         return qdot_fail(QDOT_EINVAL, "the scene states its Lagrangian: a body beside it "
                                       "would not count");
-    if (name && qdot_scene_has_label(s, name))
-        return qdot_fail(QDOT_ENAME, "%s is a label of the scene already", name);
+    if (name && qdot_scene_has_label(s, name)) {
+        qdot_fail(QDOT_ENAME, "%s is a label of the scene already", name);
+        return qdot_hint("`remove %s` takes it out", name);
+    }
     if (mass == QDOT_NIL || inertia == QDOT_NIL || position == QDOT_NIL ||
         (plane && angle == QDOT_NIL))
         return qdot_fail(QDOT_EINVAL, "a body needs its mass, inertia, position and %s",
@@ -180,6 +199,7 @@ qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr inert
         return qdot_fail(QDOT_EINVAL, "inertia is fixed in the body: it cannot hold "
                                       "coordinates");
     QDOT_TRY(read_inertia(s, mass, inertia, about, plane, &b.inertia));
+    QDOT_TRY(need_moments(s, b.inertia, about != QDOT_NIL));
     if (plane)
         b.rotation = plane_turn(pool, angle);
     QDOT_TRY(qdot_pool_check(pool));
