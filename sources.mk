@@ -568,6 +568,7 @@ script_tests = \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
 	tests/script/dof-redundant.lag \
+	tests/script/double-energy.lag \
 	tests/script/doubts.sh \
 	tests/script/equilibria.lag \
 	tests/script/event-at-rest.lag \
@@ -1117,6 +1118,7 @@ test_files = \
 	tests/script/digits-table.out \
 	tests/script/digits.out \
 	tests/script/dof-redundant.out \
+	tests/script/double-energy.out \
 	tests/script/doubts.out \
 	tests/script/equilibria.out \
 	tests/script/event-at-rest.out \

@@ -33,9 +33,13 @@ QDOT_MUST_CHECK qdot_status qdot_blocks_factor(qdot_blocks *b, size_t k);
 /* Solve with block k, factored, for its `x`. */
 void qdot_blocks_solve(const qdot_blocks *b, size_t k);
 
+/* Orders of a series up to this one are solved for: an error of the inverse is the same at all
+ * orders of a step, and would make the energy drift as t. */
+enum { QDOT_BLOCKS_SOLVED = 3 };
+
 /* For many right-hand sides: the inverse of block k, factored, as L^-T L^-1, and its
  * product with `x`. Its error is of the size of _solve's, not as reliably: for the
- * orders of a series beyond the first. An indefinite block is solved. _invert overwrites
+ * orders of a series beyond that. An indefinite block is solved. _invert overwrites
  * `x`. */
 QDOT_MUST_CHECK qdot_status qdot_blocks_prepare(qdot_blocks *b, size_t k);
 void qdot_blocks_invert(qdot_blocks *b, size_t k);

@@ -102,12 +102,12 @@ accelerations(qdot_direct *e, int k)
         if (block->n == 1)
             continue;
         right_hand_side(e, b, k);
-        if (k == 0) {
+        if (k == 0)
             QDOT_TRY(factor(e, b));
+        if (k <= QDOT_BLOCKS_SOLVED)
             qdot_blocks_solve(&e->solvers, b);
-        } else {
+        else
             qdot_blocks_apply(&e->solvers, b);
-        }
         for (size_t i = 0; i < block->n; i++)
             e->solved[block->index[i] * e->stride + (size_t)k] = x[i];
     }

@@ -125,7 +125,7 @@ solve_blocks(const qdot_shifted *s, int k)
         }
         for (size_t i = 0; i < block->n; i++)
             x[i] = s->R[block->index[i]];
-        if (k == 0)
+        if (k <= QDOT_BLOCKS_SOLVED)
             qdot_blocks_solve(&s->solvers, b);
         else
             qdot_blocks_apply(&s->solvers, b);
@@ -149,7 +149,7 @@ solve(const qdot_shifted *s, int k)
         R[i] = s->applied[i] ? s->force_scale * s->applied[i][k] : 0;
     for (size_t j = 0; j < r->n_slopes; j++)
         R[r->slopes[j].coordinate] -= s->products[j];
-    if (s->whole && k > 0) {
+    if (s->whole && k > QDOT_BLOCKS_SOLVED) {
         s->kernels->multiply(all->m, n, all->inverse, R, all->lower);
         return all->lower;
     }
