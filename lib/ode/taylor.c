@@ -109,6 +109,8 @@ swap(double **a, double **b)
 static void
 advance_state(run *r, int order, double s)
 {
+    r->step.x = r->series->x; /* another's, after a `begin` that chose it */
+    r->step.stride = r->series->stride;
     r->step.p = order;
     r->step.s = s;
     r->step.unit = r->unit;
@@ -121,8 +123,6 @@ aim_step(run *r)
 {
     r->step = (qdot_series_step){.n = r->n,
                                  .linked = r->series->checked,
-                                 .x = r->series->x,
-                                 .stride = r->series->stride,
                                  .y = r->y,
                                  .carry = r->carry,
                                  .next = r->next,

@@ -232,6 +232,16 @@ ahead(void *user)
     return e->now == e->other ? e->other->ahead(e->other->user) : 0;
 }
 
+static qdot_status
+prepare(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    if (e->other->prepare)
+        QDOT_TRY(e->other->prepare(p, e->other->user));
+    return e->own->prepare ? e->own->prepare(p, e->own->user) : QDOT_OK;
+}
+
 qdot_status
 qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *other,
                     qdot_eliminated **eliminated)
@@ -254,6 +264,7 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
     e->series = *e->own;
     e->series.most = e->own->most < other->most ? e->own->most : other->most;
     e->series.cost[0] += 200 + qdot_constrained_cost(plan);
+    e->series.prepare = prepare;
     e->series.begin = begin;
     e->series.extend = extend;
     e->series.noise = noise;
