@@ -357,15 +357,22 @@ product(qdot_generator *g, const qdot_taylor_step *s)
     finish_sum(g, &sum, s->to);
 }
 
-/* Slots: 2 x_0, 2 x_1 */
+/* +- sum_{j=0..k} x_j x_{k-j}, of which `sum` is the rest. Slots: 2 x_0, 2 x_1 */
+static void
+finish_square(qdot_generator *g, const qdot_taylor_step *s, sum *sum, bool minus,
+              const double *x, const double *to)
+{
+    times(g, sum, minus, g->k == 2 ? at(g, x, 1) : slot(g, s, 1), x, g->k - 1);
+    times(g, sum, minus, slot(g, s, 0), x, g->k);
+    finish_sum(g, sum, to);
+}
+
 static void
 square(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum sum = past(g, s, 0);
 
-    times(g, &sum, false, g->k == 2 ? at(g, s->x, 1) : slot(g, s, 1), s->x, g->k - 1);
-    times(g, &sum, false, slot(g, s, 0), s->x, g->k);
-    finish_sum(g, &sum, s->to);
+    finish_square(g, s, &sum, false, s->x, s->to);
 }
 
 static void
@@ -562,9 +569,7 @@ hyperbolic_tangent(qdot_generator *g, const qdot_taylor_step *s)
     integrated(g, s, 0, false, s->second, s->to);
     other = past(g, s, 1);
     negate(&other);
-    times(g, &other, true, g->k == 2 ? at(g, s->to, 1) : slot(g, s, 1), s->to, g->k - 1);
-    times(g, &other, true, slot(g, s, 0), s->to, g->k);
-    finish_sum(g, &other, s->second);
+    finish_square(g, s, &other, true, s->to, s->second);
 }
 
 static void
