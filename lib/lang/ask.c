@@ -67,6 +67,18 @@ member_name(qdot_session *session, const char *name, bool by_coordinate, uint32_
         qdot_text_format(out, "[%u]", i + 1);
 }
 
+/* Answer with what was written, and let go of it. */
+static qdot_status
+answer_text(qdot_session *session, const char *name, qdot_status status, qdot_text *text)
+{
+    if (status == QDOT_OK)
+        status = qdot_text_status(text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(text));
+    qdot_text_clear(text);
+    return status;
+}
+
 /* `equilibria[1]`, whose equations belong together. */
 static bool
 is_one_equilibrium(const char *name)
@@ -86,12 +98,7 @@ answer_joined(qdot_session *session, const char *name, qdot_expr list)
         qdot_text_add(&text, i > 0 ? ", " : "");
         status = qdot_answer_formula(session, qdot_expr_arg(session->pool, list, i), &text);
     }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, name, qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return answer_text(session, name, status, &text);
 }
 
 static qdot_status
@@ -235,12 +242,7 @@ qdot_ask_print(qdot_cursor *c)
         if (status == QDOT_OK)
             status = qdot_cursor_expect_end(c);
     }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&line);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(c->session, "print", qdot_text_str(&line));
-    qdot_text_clear(&line);
-    return status;
+    return answer_text(c->session, "print", status, &line);
 }
 
 /* --- names -------------------------------------------------------------------------- */
@@ -335,13 +337,9 @@ qdot_ask_vars(qdot_cursor *c)
         qdot_text_add(&text, i > 0 ? "\n" : "");
         status = print_name(session, qdot_names_at(session->names, i), &text);
     }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(
-            session, "vars", text.n > 0 ? qdot_text_str(&text) : "nothing is declared");
-    qdot_text_clear(&text);
-    return status;
+    if (status == QDOT_OK && text.n == 0)
+        qdot_text_add(&text, "nothing is declared");
+    return answer_text(session, "vars", status, &text);
 }
 
 /* The line of the scene that declares a label. */
@@ -405,27 +403,10 @@ qdot_ask_show(qdot_cursor *c)
         (void)qdot_fail(QDOT_ENAME, "`%s` is not declared", name);
         return near != NULL ? qdot_hint("did you mean `%s`?", near) : QDOT_ENAME;
     }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, name, qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return answer_text(session, name, status, &text);
 }
 
 /* --- the scene ---------------------------------------------------------------------- */
-
-/* Answer with what `print` writes, and let go of it. */
-static qdot_status
-answer_text(qdot_session *session, const char *name, qdot_status status, qdot_text *text)
-{
-    if (status == QDOT_OK)
-        status = qdot_text_status(text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, name, qdot_text_str(text));
-    qdot_text_clear(text);
-    return status;
-}
 
 qdot_status
 qdot_ask_scene(qdot_cursor *c)
