@@ -261,15 +261,19 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
     }
     e->own = e->now = qdot_direct_series(e->direct);
     e->other = other;
-    e->series = *e->own;
-    e->series.most = e->own->most < other->most ? e->own->most : other->most;
-    e->series.cost[0] += 200 + qdot_constrained_cost(plan);
-    e->series.prepare = prepare;
-    e->series.begin = begin;
-    e->series.extend = extend;
-    e->series.noise = noise;
-    e->series.ahead = ahead;
-    e->series.user = e;
+    e->series =
+        (qdot_ode_series){.most = e->own->most < other->most ? e->own->most : other->most,
+                          .x = e->own->x,
+                          .stride = e->own->stride,
+                          .checked = e->own->checked,
+                          .cost = {e->own->cost[0] + 200 + qdot_constrained_cost(plan),
+                                   e->own->cost[1], e->own->cost[2]},
+                          .prepare = prepare,
+                          .begin = begin,
+                          .extend = extend,
+                          .noise = noise,
+                          .ahead = ahead,
+                          .user = e};
     *eliminated = e;
     return QDOT_OK;
 }
