@@ -431,42 +431,68 @@ tied_bob(fixture *f)
     set(f, "g", "9.81");
 }
 
+/* That scene at a loose tolerance, by both of its series. */
+typedef struct {
+    qdot_plan *plan;
+    qdot_bind *bind;
+    qdot_constrained_series *whole;
+    const qdot_ode_series *series[2]; /* with multipliers eliminated; solved for */
+} both;
+
+static void
+both_begin(both *b, fixture *f)
+{
+    tied_bob(f);
+    f->request.tol = 1e-5;
+    must(qdot_plan_new(f->scene, &f->request, &b->plan));
+    assert_non_null(b->plan->eliminated);
+    must(qdot_bind_new(b->plan, false, &b->bind));
+    must(qdot_constrained_series_new(b->plan, false, &b->whole));
+    b->series[0] = qdot_bind_system(b->bind).series;
+    b->series[1] = qdot_constrained_series_get(b->whole);
+}
+
+static void
+both_expand(const both *b, double t, const double *y, double unit, int p)
+{
+    for (int k = 0; k < 2; k++) {
+        must(b->series[k]->begin(t, y, unit, b->series[k]->user));
+        must(b->series[k]->extend(p, b->series[k]->user));
+    }
+}
+
+static void
+both_end(both *b)
+{
+    qdot_constrained_series_free(b->whole);
+    qdot_bind_free(b->bind);
+    qdot_plan_free(b->plan);
+}
+
 /* Multipliers eliminated beforehand or solved for at every order: one motion. */
 static void
 both_series_are_one(void **state)
 {
     static const double y[] = {0.48, 0.6, 0.64, 0.32, 0.5, -0.70875};
     const size_t n = 3;
-    qdot_constrained_series *whole;
-    const qdot_ode_series *series[2];
-    qdot_bind *bind;
+    const qdot_ode_series *const *series;
     qdot_plan *plan;
     fixture f;
+    both b;
 
     (void)state;
-    tied_bob(&f);
-    f.request.tol = 1e-5;
-    must(qdot_plan_new(f.scene, &f.request, &plan));
-    assert_non_null(plan->eliminated);
-    must(qdot_bind_new(plan, false, &bind));
-    must(qdot_constrained_series_new(plan, false, &whole));
-    series[0] = qdot_bind_system(bind).series;
-    series[1] = qdot_constrained_series_get(whole);
-    for (int k = 0; k < 2; k++) {
-        must(series[k]->begin(0.3, y, 0.5, series[k]->user));
-        must(series[k]->extend(20, series[k]->user));
-    }
+    both_begin(&b, &f);
+    series = b.series;
+    both_expand(&b, 0.3, y, 0.5, 20);
     assert_true(series[0]->x != series[1]->x);
     for (size_t i = 0; i < 2 * n; i++)
         for (size_t k = 0; k < 20; k++) {
-            double a = series[0]->x[i * series[0]->stride + k];
-            double b = series[1]->x[i * series[1]->stride + k];
+            double own = series[0]->x[i * series[0]->stride + k];
+            double other = series[1]->x[i * series[1]->stride + k];
 
-            assert_true(fabs(a - b) < 1e-13 * fmax(1, fabs(b)));
+            assert_true(fabs(own - other) < 1e-13 * fmax(1, fabs(other)));
         }
-    qdot_constrained_series_free(whole);
-    qdot_bind_free(bind);
-    qdot_plan_free(plan);
+    both_end(&b);
     /* to the last digits no elimination without a correction */
     f.request.tol = 1e-12;
     must(qdot_plan_new(f.scene, &f.request, &plan));
@@ -479,36 +505,24 @@ both_series_are_one(void **state)
 static void
 rows_nearly_dependent_are_not_eliminated(void **state)
 {
-    qdot_constrained_series *whole;
-    const qdot_ode_series *series[2];
     double y[] = {0, 0, 0, 0, 0, 0};
-    qdot_bind *bind;
-    qdot_plan *plan;
+    const qdot_ode_series *const *series;
     fixture f;
+    both b;
 
     (void)state;
-    tied_bob(&f);
-    f.request.tol = 1e-5;
-    must(qdot_plan_new(f.scene, &f.request, &plan));
-    must(qdot_bind_new(plan, false, &bind));
-    must(qdot_constrained_series_new(plan, false, &whole));
-    series[0] = qdot_bind_system(bind).series;
-    series[1] = qdot_constrained_series_get(whole);
+    both_begin(&b, &f);
+    series = b.series;
     /* the sphere's normal (x, y, z) beside the blade's (1, -z, 0) */
     y[2] = 0.1;
     y[0] = sqrt((1 - y[2] * y[2]) / (1 + y[2] * y[2]));
     y[1] = -y[2] * y[0];
-    for (int k = 0; k < 2; k++) {
-        must(series[k]->begin(0, y, 1, series[k]->user));
-        must(series[k]->extend(12, series[k]->user));
-    }
+    both_expand(&b, 0, y, 1, 12);
     for (size_t i = 0; i < 6; i++)
         for (size_t k = 0; k < 12; k++)
             assert_true(series[0]->x[i * series[0]->stride + k] ==
                         series[1]->x[i * series[1]->stride + k]);
-    qdot_constrained_series_free(whole);
-    qdot_bind_free(bind);
-    qdot_plan_free(plan);
+    both_end(&b);
     end(&f);
 }
 
