@@ -163,6 +163,7 @@ normal_sources = \
 	lib/normal/trig-form.c \
 	lib/normal/unify.c \
 	lib/normal/value.c \
+	lib/normal/within.c \
 	lib/normal/zero.c
 
 normal_headers = \
@@ -197,6 +198,7 @@ normal_headers = \
 	lib/normal/together.h \
 	lib/normal/unify.h \
 	lib/normal/value.h \
+	lib/normal/within.h \
 	lib/normal/zero.h
 
 tape_sources = \

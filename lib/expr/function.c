@@ -337,6 +337,23 @@ absolute(qdot_pool *pool, qdot_expr x)
     return e;
 }
 
+/* A product without its factors that are positive. */
+static qdot_expr
+without_positive(qdot_pool *pool, qdot_expr x)
+{
+    qdot_expr rest = QDOT_ONE;
+    uint32_t n;
+
+    if (x == QDOT_NIL || NODE(pool, x)->kind != QDOT_PROD || NODE(pool, x)->n <= 3)
+        return x;
+    n = NODE(pool, x)->n;
+    for (uint32_t i = 1; i < n; i += 2)
+        if ((NODE(pool, ARGS(pool, x)[i])->sign & QDOT_POS) != QDOT_POS)
+            rest = qdot_mul(pool, rest,
+                            qdot_pow(pool, ARGS(pool, x)[i], ARGS(pool, x)[i + 1]));
+    return rest;
+}
+
 static qdot_expr
 signum(qdot_pool *pool, qdot_expr x)
 {
@@ -350,7 +367,7 @@ signum(qdot_pool *pool, qdot_expr x)
         return QDOT_ZERO;
     if (qdot_expr_is_negative(pool, x))
         return qdot_neg(pool, signum(pool, qdot_neg(pool, x)));
-    x = qdot_expr_strip(pool, x);
+    x = without_positive(pool, qdot_expr_strip(pool, x));
     return x == QDOT_NIL ? x : plain(pool, QDOT_SIGN, 1, &x);
 }
 

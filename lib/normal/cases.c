@@ -5,8 +5,9 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/prove.h"
+#include "normal/within.h"
 
-enum { LEAVES = 4, SIGNS = 3, NODES = 24 };
+enum { LEAVES = 4, SIGNS = 3, NODES = 24, LINKS = SIGNS * LEAVES };
 
 static bool
 is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
@@ -105,100 +106,6 @@ sign_key(qdot_pool *pool, qdot_expr u, int *sign)
     return u;
 }
 
-/* --- inverse functions within their values --------------------------------------------- */
-
-/* Whether bound <= n/2 pi (below: >=), for a rational or a rational times pi. */
-static bool
-bounded(const qdot_pool *pool, qdot_expr bound, long n, bool below)
-{
-    const fmpq *x = qdot_expr_rational(pool, bound);
-    fmpq_t limit, c;
-    int order = 0;
-    bool known = true;
-
-    if (bound == QDOT_NIL)
-        return false;
-    fmpq_init(limit);
-    fmpq_init(c);
-    if (x != NULL) { /* 355/113 is above pi, 333/106 below: on the safe side */
-        bool less = (n > 0) != below;
-
-        fmpq_set(c, x);
-        fmpq_set_si(limit, n * (less ? 333 : 355), 2 * (less ? 106 : 113));
-    } else if (bound == QDOT_PI) {
-        fmpq_one(c);
-        fmpq_set_si(limit, n, 2);
-    } else if (qdot_expr_kind(pool, bound) == QDOT_PROD &&
-               qdot_expr_count(pool, bound) == 3 &&
-               qdot_expr_arg(pool, bound, 1) == QDOT_PI &&
-               qdot_expr_arg(pool, bound, 2) == QDOT_ONE) {
-        fmpq_set(c, qdot_expr_rational(pool, qdot_expr_arg(pool, bound, 0)));
-        fmpq_set_si(limit, n, 2);
-    } else {
-        known = false;
-    }
-    if (known)
-        order = fmpq_cmp(c, limit);
-    fmpq_clear(limit);
-    fmpq_clear(c);
-    return known && (below ? order >= 0 : order <= 0);
-}
-
-/* Whether x is a symbol declared within [from, to], in units of pi/2. */
-static bool
-lies_within(const qdot_pool *pool, qdot_expr x, long from, long to)
-{
-    const qdot_symbol *s = qdot_expr_symbol(pool, x);
-
-    return s != NULL && bounded(pool, s->lo, from, true) &&
-           bounded(pool, s->hi, to, false);
-}
-
-/* The angle of which y = p sin(x), x = p cos(x), p > 0; nil: none. */
-static qdot_expr
-angle_of(qdot_pool *pool, qdot_expr y, qdot_expr x)
-{
-    qdot_expr atoms = qdot_expr_atoms(pool, y, false);
-
-    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms); i++) {
-        qdot_expr u = qdot_expr_arg(pool, atoms, i), p;
-        const qdot_symbol *s = qdot_expr_symbol(pool, u);
-
-        if (!lies_within(pool, u, -2, 2) ||
-            (s->lo != QDOT_NIL && !s->lo_open && !bounded(pool, s->lo, -1, true)))
-            continue;
-        p = qdot_div(pool, y, qdot_fun1(pool, QDOT_SIN, u));
-        if (p != QDOT_NIL && qdot_expr_node(pool, p)->sign == QDOT_POS &&
-            qdot_div(pool, x, qdot_fun1(pool, QDOT_COS, u)) == p)
-            return u;
-    }
-    return QDOT_NIL;
-}
-
-static qdot_expr
-within_values(qdot_pool *pool, qdot_expr e, void *user)
-{
-    qdot_expr x, u;
-
-    (void)user;
-    if (qdot_expr_kind(pool, e) != QDOT_FUN)
-        return QDOT_NIL;
-    if (is_function(pool, e, QDOT_ATAN2))
-        return angle_of(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
-    x = qdot_expr_arg(pool, e, 0);
-    if (qdot_expr_kind(pool, x) != QDOT_FUN)
-        return QDOT_NIL;
-    u = qdot_expr_arg(pool, x, 0);
-    if ((is_function(pool, e, QDOT_ACOS) && is_function(pool, x, QDOT_COS) &&
-         lies_within(pool, u, 0, 2)) ||
-        (is_function(pool, e, QDOT_ASIN) && is_function(pool, x, QDOT_SIN) &&
-         lies_within(pool, u, -1, 1)) ||
-        (is_function(pool, e, QDOT_ATAN) && is_function(pool, x, QDOT_TAN) &&
-         lies_within(pool, u, -1, 1)))
-        return u;
-    return QDOT_NIL;
-}
-
 /* --- what there is to tell apart -------------------------------------------------------- */
 
 struct cases {
@@ -211,6 +118,19 @@ struct cases {
     qdot_expr node[NODES],
         to[NODES]; /* the functions, inner ones first, and their values */
     size_t n;
+    /* what is proved to be the one at `place` of `list`, or its negative */
+    struct alias {
+        const qdot_expr *list;
+        qdot_expr e;
+        size_t place;
+        int turn;
+    } alias[NODES];
+    size_t n_aliases;
+    /* sign[k] is leaf[i] - leaf[j] */
+    struct link {
+        size_t k, i, j;
+    } link[LINKS];
+    size_t n_links;
     bool too_much;
 };
 
@@ -224,10 +144,50 @@ place_in(const qdot_expr *list, size_t n, qdot_expr e)
     return i;
 }
 
+static bool
+is_proved(struct cases *c, qdot_expr a, qdot_expr b)
+{
+    bool equal = false;
+
+    if (qdot_prove_equal(c->pool, a, b, NULL, &equal) != QDOT_OK)
+        c->too_much = true;
+    return equal;
+}
+
+/* The place in a list of what is proved to be e, or (turn not NULL) -e; n: there is none. */
+static size_t
+place_of(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *turn)
+{
+    size_t place = place_in(list, n, e);
+    qdot_expr other = turn == NULL || e == QDOT_NIL ? e : qdot_neg(c->pool, e);
+
+    if (turn != NULL)
+        *turn = 1;
+    if (place < n || e == QDOT_NIL || c->too_much)
+        return place;
+    for (size_t i = 0; i < c->n_aliases; i++)
+        if (c->alias[i].list == list && c->alias[i].e == e) {
+            if (turn != NULL)
+                *turn = c->alias[i].turn;
+            return c->alias[i].place;
+        }
+    for (size_t i = 0; i < n && place == n && c->n_aliases < NODES; i++) {
+        int t = is_proved(c, list[i], e) ? 1 : other != e && is_proved(c, list[i], other) ? -1 : 0;
+
+        if (t == 0)
+            continue;
+        place = i;
+        if (turn != NULL)
+            *turn = t;
+        c->alias[c->n_aliases++] = (struct alias){list, e, i, t};
+    }
+    return place;
+}
+
 static void
 add_leaf(struct cases *c, qdot_expr e)
 {
-    if (place_in(c->leaf, c->n_leaves, e) < c->n_leaves)
+    if (place_of(c, c->leaf, c->n_leaves, e, NULL) < c->n_leaves)
         return;
     if (c->n_leaves == LEAVES)
         c->too_much = true;
@@ -241,10 +201,11 @@ add_sign(struct cases *c, qdot_expr u, bool zero)
 {
     int turned;
     qdot_expr key = sign_key(c->pool, u, &turned);
-    size_t k = place_in(c->sign, c->n_signs, key);
+    size_t k;
 
     if (key != QDOT_NIL && qdot_expr_kind(c->pool, key) == QDOT_NUM)
         return SIGNS;
+    k = place_of(c, c->sign, c->n_signs, key, &turned);
     if (k == SIGNS || key == QDOT_NIL) {
         c->too_much = true;
         return SIGNS;
@@ -311,6 +272,33 @@ look_inside(struct cases *c, qdot_expr e)
     return QDOT_OK;
 }
 
+/* Signs of differences of leaves: an order knows them. */
+static void
+link_signs(struct cases *c)
+{
+    for (size_t k = 0; k < c->n_signs; k++)
+        for (size_t i = 0; i < c->n_leaves; i++)
+            for (size_t j = 0; j < c->n_leaves && !c->too_much; j++)
+                if (i != j && is_proved(c, c->sign[k], qdot_sub(c->pool, c->leaf[i], c->leaf[j])))
+                    c->link[c->n_links++] = (struct link){k, i, j};
+}
+
+/* Whether signs contradict an order: leaf[i] <= leaf[j], yet leaf[i] - leaf[j] > 0. */
+static bool
+contradicts(const struct cases *c, const size_t *order, const int *sign)
+{
+    for (size_t n = 0; n < c->n_links; n++) {
+        const struct link *l = &c->link[n];
+        size_t i = 0;
+
+        while (order[i] != l->i && order[i] != l->j)
+            i++;
+        if (order[i] == l->i ? sign[l->k] > 0 : sign[l->k] < 0)
+            return true;
+    }
+    return false;
+}
+
 static qdot_status
 gather(struct cases *c)
 {
@@ -328,6 +316,7 @@ gather(struct cases *c)
         QDOT_TRY(look_inside(c, c->leaf[i]));
     for (size_t i = 0; i < c->n_signs && !c->too_much; i++)
         QDOT_TRY(look_inside(c, c->sign[i]));
+    link_signs(c);
     return QDOT_OK;
 }
 
@@ -337,13 +326,20 @@ gather(struct cases *c)
 static int
 sign_in(struct cases *c, qdot_expr u, const int *sign)
 {
-    int turned;
+    int turned, again;
     qdot_expr key = sign_key(c->pool, u, &turned);
-    size_t k = place_in(c->sign, c->n_signs, key);
+    size_t k;
 
-    if (k == c->n_signs) /* a number */
-        return key == QDOT_NIL ? 0 : turned * fmpq_sgn(qdot_expr_rational(c->pool, key));
-    return turned * sign[k];
+    if (key == QDOT_NIL)
+        return 0;
+    if (qdot_expr_kind(c->pool, key) == QDOT_NUM)
+        return turned * fmpq_sgn(qdot_expr_rational(c->pool, key));
+    k = place_of(c, c->sign, c->n_signs, key, &again);
+    if (k == c->n_signs) {
+        c->too_much = true;
+        return 0;
+    }
+    return turned * again * sign[k];
 }
 
 /* Whether a condition holds in a case; a loop over its parts, 1 false, 2 true. */
@@ -388,7 +384,7 @@ holds_in(struct cases *c, qdot_expr condition, const int *sign)
 
 /* The argument that max or min chooses. */
 static qdot_expr
-chosen(const struct cases *c, qdot_expr e, size_t k, const size_t *rank)
+chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
 {
     size_t best = SIZE_MAX;
 
@@ -396,7 +392,11 @@ chosen(const struct cases *c, qdot_expr e, size_t k, const size_t *rank)
         qdot_expr x = qdot_expr_arg(c->pool, e, i);
         size_t inner = place_in(c->node, k, x), at;
 
-        at = place_in(c->leaf, c->n_leaves, inner < k ? c->to[inner] : x);
+        at = place_of(c, c->leaf, c->n_leaves, inner < k ? c->to[inner] : x, NULL);
+        if (at == c->n_leaves) {
+            c->too_much = true;
+            return x;
+        }
         if (best == SIZE_MAX || (is_function(c->pool, e, QDOT_MAX)
                                      ? rank[at] > rank[best]
                                      : rank[at] < rank[best]))
@@ -504,6 +504,8 @@ learn(struct cases *c, const size_t *order, const int *sign, const qdot_facts *f
     size_t nr = 0, nc = 0;
 
     *known = facts == NULL ? (qdot_facts){0} : *facts;
+    for (size_t i = 0; i < known->n_relations; i++)
+        relation[nr++] = known->relations[i];
     for (size_t i = 0; i < known->n_conditions; i++)
         condition[nc++] = known->conditions[i];
     for (size_t i = 0; i < c->n_signs; i++)
@@ -526,14 +528,18 @@ static qdot_status
 prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
       bool *equal)
 {
-    size_t given = facts == NULL ? 0 : facts->n_conditions;
-    qdot_expr *condition = qdot_malloc((given + SIGNS + LEAVES) * sizeof *condition);
-    qdot_expr side[2], zero[SIGNS];
+    size_t given = facts == NULL ? 0 : facts->n_conditions + facts->n_relations;
+    qdot_expr *condition = qdot_malloc((given + 2 * SIGNS + LEAVES) * sizeof *condition);
+    qdot_expr side[2], *relation;
     qdot_status status = condition == NULL ? QDOT_ENOMEM : QDOT_OK;
     bool empty = false;
     qdot_facts known;
 
-    *equal = false;
+    *equal = status == QDOT_OK && contradicts(c, order, sign);
+    if (*equal) { /* there is no such point */
+        qdot_free(condition);
+        return status;
+    }
     QDOT_TRY(status);
     put_in(c, order, sign);
     for (int i = 0; i < 2; i++) {
@@ -548,7 +554,8 @@ prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *f
         qdot_free(condition);
         return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
     }
-    learn(c, order, sign, facts, &known, zero, condition);
+    relation = condition + (facts == NULL ? 0 : facts->n_conditions) + SIGNS + LEAVES;
+    learn(c, order, sign, facts, &known, relation, condition);
     *equal = nothing_is_claimed(c, sign, facts);
     if (!c->too_much && !*equal)
         status = qdot_prove_equal(c->pool, side[0], side[1], &known, equal);
@@ -607,10 +614,8 @@ qdot_prove_cases(qdot_pool *pool, qdot_expr left, qdot_expr right,
     int sign[SIGNS];
 
     *equal = false;
-    if (facts != NULL && facts->n_relations > 0)
-        return QDOT_OK;
-    c.side[0] = qdot_walk_map(pool, left, within_values, NULL);
-    c.side[1] = qdot_walk_map(pool, right, within_values, NULL);
+    c.side[0] = qdot_within_values(pool, left);
+    c.side[1] = qdot_within_values(pool, right);
     for (int i = 0; i < 2; i++)
         c.side[i] = qdot_walk_map(pool, c.side[i], signs_apart, NULL);
     QDOT_TRY(qdot_pool_check(pool));

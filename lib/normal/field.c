@@ -198,6 +198,19 @@ ascending(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
+/* How many terms and factors are looked at for e: its own, or those of an angle. */
+static slong
+length_of(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_kind kind = qdot_expr_kind(pool, e);
+
+    if (kind == QDOT_FUN)
+        e = qdot_expr_arg(pool, e, 0);
+    return kind == QDOT_SUM || kind == QDOT_PROD || kind == QDOT_FUN
+               ? (slong)qdot_expr_count(pool, e)
+               : 0;
+}
+
 /* All nodes that the values are made through, children first. */
 static qdot_status
 look_at_all(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
@@ -222,7 +235,7 @@ look_at_all(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
         QDOT_TRY(qdot_map_set(&f->nodes, at, 0));
         QDOT_TRY(qdot_grow(&f->node, &capacity, f->n_nodes + 1, sizeof *f->node));
         f->node[f->n_nodes++] = at;
-        if (!qdot_field_charge(f, 8, 8))
+        if (!qdot_field_charge(f, 8, 8 + length_of(f->pool, at)))
             return f->state == QDOT_FIELD_FAILED ? f->status : QDOT_ELIMIT;
         QDOT_TRY(look_at_node(f, g, at));
     }

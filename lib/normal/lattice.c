@@ -7,11 +7,14 @@
 #include "base/memory.h"
 
 #define FARTHEST 200
+#define FEW 16 /* are looked through one by one */
 
 static qdot_status
 monomial(qdot_lattice *l, qdot_expr mono, uint32_t *index)
 {
-    for (size_t i = 0; i < l->n_monos; i++)
+    if (qdot_map_get(&l->monos, mono, index))
+        return QDOT_OK;
+    for (size_t i = 0; i < l->n_monos && l->n_monos <= FEW; i++)
         if (l->mono[i] == mono) {
             *index = (uint32_t)i;
             return QDOT_OK;
@@ -19,6 +22,9 @@ monomial(qdot_lattice *l, qdot_expr mono, uint32_t *index)
     QDOT_TRY(qdot_grow(&l->mono, &l->monos_capacity, l->n_monos + 1, sizeof *l->mono));
     *index = (uint32_t)l->n_monos;
     l->mono[l->n_monos++] = mono;
+    for (size_t i = l->n_monos == FEW + 1 ? 0 : l->n_monos - 1;
+         i < l->n_monos && l->n_monos > FEW; i++)
+        QDOT_TRY(qdot_map_set(&l->monos, l->mono[i], (uint32_t)i));
     return QDOT_OK;
 }
 
@@ -96,22 +102,35 @@ parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg,
     return status;
 }
 
+bool
+qdot_lattice_find(const qdot_lattice *l, qdot_expr arg, uint32_t *index)
+{
+    if (l->n_rows > FEW)
+        return qdot_map_get(&l->rows, arg, index);
+    for (size_t i = 0; i < l->n_rows; i++)
+        if (l->row[i].arg == arg) {
+            *index = (uint32_t)i;
+            return true;
+        }
+    return false;
+}
+
 qdot_status
 qdot_lattice_add(qdot_lattice *l, qdot_pool *pool, qdot_expr arg, bool offsets,
                  uint32_t *index)
 {
     qdot_lattice_row *row;
 
-    for (size_t i = 0; i < l->n_rows; i++)
-        if (l->row[i].arg == arg) {
-            *index = (uint32_t)i;
-            return QDOT_OK;
-        }
+    if (qdot_lattice_find(l, arg, index))
+        return QDOT_OK;
     QDOT_TRY(qdot_grow(&l->row, &l->rows_capacity, l->n_rows + 1, sizeof *l->row));
     *index = (uint32_t)l->n_rows;
     row = &l->row[l->n_rows++];
     *row = (qdot_lattice_row){.arg = arg};
     fmpq_init(&row->pi);
+    for (size_t i = l->n_rows == FEW + 1 ? 0 : l->n_rows - 1;
+         i < l->n_rows && l->n_rows > FEW; i++)
+        QDOT_TRY(qdot_map_set(&l->rows, l->row[i].arg, (uint32_t)i));
     return parse(l, pool, row, arg, offsets);
 }
 
@@ -333,5 +352,7 @@ qdot_lattice_clear(qdot_lattice *l)
     qdot_free(l->row);
     qdot_free(l->mono);
     qdot_free(l->base);
+    qdot_map_clear(&l->rows);
+    qdot_map_clear(&l->monos);
     *l = (qdot_lattice){0};
 }

@@ -14,6 +14,7 @@
 
 #include "base/status.h"
 #include "expr/expr.h"
+#include "normal/map.h"
 
 typedef struct {
     uint32_t mono;
@@ -36,12 +37,15 @@ typedef struct {
     size_t n_monos, monos_capacity;
     qdot_expr *base; /* [n_bases] */
     size_t n_bases;
+    qdot_map rows, monos; /* their numbers, once there are many */
 } qdot_lattice;
 
 /* Add an argument (a sum of terms; twice is once). `offsets`: split multiples of pi off.
  * *row: its number. Errors: QDOT_ENOMEM, the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_lattice_add(qdot_lattice *l, qdot_pool *pool,
                                              qdot_expr arg, bool offsets, uint32_t *row);
+/* The number of an argument that was added. False: it was not. */
+bool qdot_lattice_find(const qdot_lattice *l, qdot_expr arg, uint32_t *row);
 /* Find the bases and all coordinates. QDOT_ELIMIT: a coordinate beyond +-200. */
 QDOT_MUST_CHECK qdot_status qdot_lattice_solve(qdot_lattice *l, qdot_pool *pool);
 void qdot_lattice_clear(qdot_lattice *l);

@@ -6,7 +6,8 @@
 #include "normal/field.h"
 #include "normal/split.h"
 
-#define WORK 400000
+#define WORK 400000     /* for one argument */
+#define ALL_WORK 20000000 /* for those of one expression */
 #define MOST_MULTIPLE 12
 #define MOST_PARTS 16
 
@@ -125,14 +126,14 @@ whole_and_rest(qdot_field *f, const qdot_ratio *x)
 
 /* An angle as a sum of terms: a polynomial and what is left over the denominator. */
 static qdot_expr
-flat_angle(qdot_pool *pool, qdot_expr e)
+flat_angle(qdot_pool *pool, qdot_expr e, int64_t work)
 {
     qdot_expr sum = e;
     qdot_field f;
 
     if (is_flat(pool, e, false))
         return e;
-    qdot_field_begin(&f, pool, 1, &e, WORK);
+    qdot_field_begin(&f, pool, 1, &e, work);
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
@@ -370,7 +371,7 @@ exponential(qdot_pool *pool, qdot_expr arg)
 /* --- the pass ---------------------------------------------------------------------- */
 
 static qdot_expr
-function(qdot_pool *pool, qdot_expr e)
+function(qdot_pool *pool, qdot_expr e, int64_t work)
 {
     uint32_t op = qdot_expr_node(pool, e)->op, n = qdot_expr_count(pool, e);
     qdot_expr arg = qdot_expr_arg(pool, e, 0), args[4], resolved;
@@ -385,14 +386,14 @@ function(qdot_pool *pool, qdot_expr e)
     case QDOT_SINH:
     case QDOT_COSH:
     case QDOT_TANH:
-        arg = flat_angle(pool, arg);
+        arg = flat_angle(pool, arg, work);
         if (arg == QDOT_NIL)
             return arg;
         resolved = resolve(pool, op, arg);
         return resolved != QDOT_NIL || qdot_pool_failed(pool) ? resolved
                                                               : qdot_fun1(pool, op, arg);
     case QDOT_EXP:
-        arg = flat_angle(pool, arg);
+        arg = flat_angle(pool, arg, work);
         return arg == QDOT_NIL ? arg : exponential(pool, arg);
     case QDOT_ABS: return qdot_split_abs(pool, arg);
     case QDOT_LOG: return qdot_split_log(pool, arg);
@@ -400,7 +401,7 @@ function(qdot_pool *pool, qdot_expr e)
         if (n > 4)
             return e;
         for (uint32_t i = 0; i < n; i++)
-            args[i] = qdot_prepare_flat(pool, qdot_expr_arg(pool, e, i), WORK);
+            args[i] = qdot_prepare_flat(pool, qdot_expr_arg(pool, e, i), work);
         return qdot_rebuild(pool, e, args);
     }
 }
@@ -429,7 +430,7 @@ remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x,
 
 /* Powers with fractional exponents split, others with normal base and exponent. */
 static qdot_expr
-product(qdot_pool *pool, qdot_expr e, qdot_map *origins)
+product(qdot_pool *pool, qdot_expr e, qdot_map *origins, int64_t work)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr result;
@@ -449,15 +450,15 @@ product(qdot_pool *pool, qdot_expr e, qdot_map *origins)
         else if (qdot_expr_kind(pool, x) == QDOT_NUM)
             remember_base(pool, origins, power = qdot_split_power(pool, b, x), x, b);
         else
-            power = qdot_pow(pool, qdot_prepare_flat(pool, b, WORK),
-                             qdot_prepare_flat(pool, x, WORK));
+            power = qdot_pow(pool, qdot_prepare_flat(pool, b, work),
+                             qdot_prepare_flat(pool, x, work));
         result = qdot_mul(pool, result, power);
     }
     return result;
 }
 
 static qdot_expr
-with_flat_args(qdot_pool *pool, qdot_expr e, uint32_t count)
+with_flat_args(qdot_pool *pool, qdot_expr e, uint32_t count, int64_t work)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr *args = qdot_malloc((n + 1) * sizeof *args), result;
@@ -467,7 +468,7 @@ with_flat_args(qdot_pool *pool, qdot_expr e, uint32_t count)
     for (uint32_t i = 0; i < n; i++) {
         args[i] = qdot_expr_arg(pool, e, i);
         if (i < count)
-            args[i] = qdot_prepare_flat(pool, args[i], WORK);
+            args[i] = qdot_prepare_flat(pool, args[i], work);
     }
     result = qdot_rebuild(pool, e, args);
     qdot_free(args);
@@ -475,7 +476,7 @@ with_flat_args(qdot_pool *pool, qdot_expr e, uint32_t count)
 }
 
 static qdot_expr
-node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins)
+node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins, int64_t work)
 {
     qdot_expr before = e, now;
 
@@ -483,10 +484,10 @@ node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins)
     if (e == QDOT_NIL)
         return e;
     switch (qdot_expr_kind(pool, e)) {
-    case QDOT_FUN: now = function(pool, e); break;
-    case QDOT_PROD: return product(pool, e, origins);
-    case QDOT_UFUN: now = with_flat_args(pool, e, qdot_expr_count(pool, e) / 2); break;
-    case QDOT_REL: return with_flat_args(pool, e, 2);
+    case QDOT_FUN: now = function(pool, e, work); break;
+    case QDOT_PROD: return product(pool, e, origins, work);
+    case QDOT_UFUN: now = with_flat_args(pool, e, qdot_expr_count(pool, e) / 2, work); break;
+    case QDOT_REL: return with_flat_args(pool, e, 2, work);
     default: return e;
     }
     if (now != QDOT_NIL &&
@@ -519,6 +520,7 @@ qdot_expr
 qdot_prepare_from(qdot_pool *pool, qdot_expr e, qdot_map *origins)
 {
     qdot_expr result = e;
+    int64_t work, functions = 1;
     qdot_walk w;
 
     if (e == QDOT_NIL || qdot_pool_failed(pool))
@@ -527,11 +529,14 @@ qdot_prepare_from(qdot_pool *pool, qdot_expr e, qdot_map *origins)
         return e;
     if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n; i++)
+        functions += qdot_expr_kind(pool, w.at[i]) >= QDOT_PROD;
+    work = ALL_WORK / functions < WORK ? ALL_WORK / functions : WORK;
     for (size_t i = 0; i < w.n && !qdot_pool_failed(pool); i++) {
         qdot_expr at = w.at[i];
         qdot_kind kind = qdot_expr_kind(pool, at);
 
-        result = kind == QDOT_NUM || kind == QDOT_SYM ? at : node(pool, &w, at, origins);
+        result = kind == QDOT_NUM || kind == QDOT_SYM ? at : node(pool, &w, at, origins, work);
         qdot_walk_set(&w, at, result);
     }
     qdot_walk_end(&w);

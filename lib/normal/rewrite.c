@@ -2,6 +2,7 @@
 #include "normal/rewrite.h"
 
 #include "base/memory.h"
+#include "expr/calculus.h"
 #include "expr/walk.h"
 
 static qdot_expr
@@ -49,6 +50,7 @@ whole_part(qdot_pool *pool, qdot_expr x)
 {
     qdot_expr k;
 
+    x = qdot_expand(pool, x); /* (c + 8)/4 */
     if (x == QDOT_NIL || qdot_expr_kind(pool, x) != QDOT_SUM)
         return qdot_fun1(pool, QDOT_FLOOR, x);
     k = qdot_fun1(pool, QDOT_FLOOR, qdot_expr_arg(pool, x, 0));

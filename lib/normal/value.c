@@ -384,10 +384,9 @@ offset(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpq_t pi)
 static const qdot_lattice_row *
 row_of(const qdot_lattice *l, qdot_expr arg)
 {
-    for (size_t i = 0; i < l->n_rows; i++)
-        if (l->row[i].arg == arg)
-            return &l->row[i];
-    return NULL;
+    uint32_t i;
+
+    return qdot_lattice_find(l, arg, &i) ? &l->row[i] : NULL;
 }
 
 static slong

@@ -13,8 +13,8 @@
 #include "expr/expr.h"
 #include "expr/walk.h"
 
-/* A number for a symbol: the k-th point. Bounds of a domain must be open and finite numbers or
- * pi. */
+/* A number for a symbol: the k-th point. Known domains: (0, pi), (0, oo), (-1, 1),
+ * (1, oo). */
 static void
 number_of_symbol(const qdot_pool *pool, qdot_expr e, unsigned k, mpfr_t x)
 {
@@ -32,6 +32,10 @@ number_of_symbol(const qdot_pool *pool, qdot_expr e, unsigned k, mpfr_t x)
     u = (double)(hash * 2654435761ul % 1000003) / 1000003.0;
     if (s->lo == QDOT_ZERO && s->hi == QDOT_PI)
         u = 0.05 + 3.0 * u;
+    else if (s->lo == QDOT_MINUS_ONE && s->hi == QDOT_ONE)
+        u = 1.96 * u - 0.98;
+    else if (s->lo == QDOT_ONE)
+        u = 1.05 + 2.5 * u;
     else if (s->lo == QDOT_ZERO)
         u = 0.1 + 2.5 * u;
     else
@@ -78,12 +82,23 @@ number_of_function(unsigned op, const mpfr_t u, const mpfr_t v, mpfr_t x)
             table[i].f(x, u, MPFR_RNDN);
             return;
         }
+    if (mpfr_nan_p(u) || mpfr_nan_p(v)) {
+        mpfr_set_nan(x);
+        return;
+    }
     switch (op) {
     case QDOT_ABS: mpfr_abs(x, u, MPFR_RNDN); break;
     case QDOT_SIGN: mpfr_set_si(x, mpfr_sgn(u), MPFR_RNDN); break;
+    case QDOT_FLOOR: mpfr_floor(x, u); break;
     case QDOT_ATAN2: mpfr_atan2(x, u, v, MPFR_RNDN); break;
     case QDOT_MIN: mpfr_min(x, u, v, MPFR_RNDN); break;
     case QDOT_MAX: mpfr_max(x, u, v, MPFR_RNDN); break;
+    case QDOT_MOD: /* u - v floor(u/v) */
+        mpfr_div(x, u, v, MPFR_RNDN);
+        mpfr_floor(x, x);
+        mpfr_mul(x, x, v, MPFR_RNDN);
+        mpfr_sub(x, u, x, MPFR_RNDN);
+        break;
     default: mpfr_set_nan(x);
     }
 }
@@ -122,7 +137,25 @@ number_of_node(const qdot_pool *pool, const qdot_walk *w, mpfr_t *value, qdot_ex
             mpfr_mul(x, x, y, MPFR_RNDN);
         }
         break;
+    case QDOT_REL:
+        mpfr_sub(y, ARG(1), ARG(0), MPFR_RNDN);
+        if (mpfr_nan_p(y))
+            mpfr_set_nan(x);
+        else
+            mpfr_set_si(x,
+                        qdot_expr_node(pool, e)->op == QDOT_LT   ? mpfr_sgn(y) > 0
+                        : qdot_expr_node(pool, e)->op == QDOT_LE ? mpfr_sgn(y) >= 0
+                                                                 : mpfr_zero_p(y),
+                        MPFR_RNDN);
+        break;
     case QDOT_FUN:
+        if (qdot_expr_node(pool, e)->op == QDOT_IF) {
+            if (mpfr_nan_p(ARG(0)))
+                mpfr_set_nan(x);
+            else
+                mpfr_set(x, mpfr_zero_p(ARG(0)) ? ARG(2) : ARG(1), MPFR_RNDN);
+            break;
+        }
         number_of_function(qdot_expr_node(pool, e)->op, ARG(0), ARG(n > 1), x);
         break;
     case QDOT_UFUN: number_of_ufun(pool, e, ARG(0), x); break;

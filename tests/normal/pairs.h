@@ -3,8 +3,8 @@
  * Both sides of a pair grow together: what is put above a pair (u, u') is a theorem, its left
  * side over u, its right side over u'. `pairs_near` changes one node of one side.
  *
- * Names: x, y, z, u coordinates; r > 0, 0 < theta < pi; x' a velocity; a, b > 0 and c, k
- * parameters; t; f(s) an undefined function.
+ * Names: x, y, z, u coordinates; r > 0, 0 < theta < pi; x' a velocity; a, b > 0, -1 < w < 1, v > 1
+ * and c, k parameters; t; f(s) an undefined function.
  */
 #ifndef QDOT_TESTS_NORMAL_PAIRS_H
 #define QDOT_TESTS_NORMAL_PAIRS_H
@@ -19,7 +19,7 @@ typedef struct {
     qdot_pool *pool;
     uint64_t seed;
     uint32_t f;
-    qdot_expr positive[4], any[8];
+    qdot_expr positive[4], any[8], within, beyond;
     bool inside; /* nothing outside the class that is decided has been used */
 } pairs;
 
@@ -57,6 +57,10 @@ pairs_begin(pairs *g, uint64_t seed)
         qdot_symbol_domain(g->pool, g->positive[i], QDOT_ZERO, true, QDOT_NIL, false);
     g->positive[3] = qdot_symbol_get(g->pool, QDOT_COORD, "theta");
     qdot_symbol_domain(g->pool, g->positive[3], QDOT_ZERO, true, QDOT_PI, true);
+    g->within = qdot_symbol_get(g->pool, QDOT_PARAM, "w");
+    qdot_symbol_domain(g->pool, g->within, QDOT_MINUS_ONE, true, QDOT_ONE, true);
+    g->beyond = qdot_symbol_get(g->pool, QDOT_PARAM, "v");
+    qdot_symbol_domain(g->pool, g->beyond, QDOT_ONE, true, QDOT_NIL, false);
     for (int i = 0; i < 4; i++)
         g->any[i] = qdot_symbol_get(g->pool, QDOT_COORD, any[i]);
     g->any[4] = qdot_symbol_get(g->pool, QDOT_PARAM, "c");
@@ -426,6 +430,229 @@ pairs_rational(pairs *g, int depth)
     }
 }
 
+/* --- cases, steps, bounds, powers, inverse functions --------------------------------------- */
+
+static qdot_expr
+fun2(pairs *g, qdot_fun_id id, qdot_expr a, qdot_expr b)
+{
+    qdot_expr args[2] = {a, b};
+
+    return qdot_fun(g->pool, id, 2, args);
+}
+
+static qdot_expr
+choice(pairs *g, qdot_rel_op op, qdot_expr l, qdot_expr r, qdot_expr yes, qdot_expr no)
+{
+    qdot_expr args[3] = {qdot_rel(g->pool, op, l, r), yes, no};
+
+    return qdot_fun(g->pool, QDOT_IF, 3, args);
+}
+
+/* Whether a derivative of e is one wherever e has a value. */
+static bool
+smooth(pairs *g, qdot_expr e)
+{
+    bool good = true;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_walk_begin(g->pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n; i++)
+        if (qdot_expr_kind(g->pool, w.at[i]) == QDOT_FUN)
+            switch (qdot_expr_node(g->pool, w.at[i])->op) {
+            case QDOT_SIGN:
+            case QDOT_MIN:
+            case QDOT_MAX:
+            case QDOT_MOD:
+            case QDOT_FLOOR:
+            case QDOT_IF: good = false; break;
+            default: break;
+            }
+    qdot_walk_end(&w);
+    return good;
+}
+
+/* abs, sign, min, max, if, floor, mod. */
+static pair
+pairs_cases(pairs *g, int depth)
+{
+    pair u = pairs_make(g, depth), v = pairs_make(g, 0);
+    qdot_expr n = num(g, 1 + pairs_random(g, 5), 1), two = num(g, 2, 1);
+    qdot_expr m = quo(g, n, num(g, 1 + pairs_random(g, 3), 1));
+    qdot_expr gap = fun(g, QDOT_ABS, sub(g, u.r, v.r));
+
+    g->inside = false;
+    switch (pairs_random(g, 16)) {
+    case 0:
+        return (pair){choice(g, QDOT_LT, QDOT_ZERO, u.l, u.l, qdot_neg(g->pool, u.l)),
+                      fun(g, QDOT_ABS, u.r)};
+    case 1: return (pair){choice(g, QDOT_LE, u.l, v.l, u.l, v.l), fun2(g, QDOT_MIN, u.r, v.r)};
+    case 2:
+        return (pair){fun2(g, QDOT_MAX, u.l, v.l), half(g, add(g, add(g, u.r, v.r), gap))};
+    case 3:
+        return (pair){fun2(g, QDOT_MIN, u.l, v.l),
+                      sub(g, add(g, u.r, v.r), fun2(g, QDOT_MAX, u.r, v.r))};
+    case 4:
+        return (pair){mul(g, fun2(g, QDOT_MIN, u.l, v.l), fun2(g, QDOT_MAX, u.l, v.l)),
+                      mul(g, u.r, v.r)};
+    case 5:
+        return (pair){sub(g, fun2(g, QDOT_MAX, u.l, v.l), fun2(g, QDOT_MIN, u.l, v.l)), gap};
+    case 6: return (pair){mul(g, fun(g, QDOT_SIGN, u.l), fun(g, QDOT_ABS, u.l)), u.r};
+    case 7:
+        return (pair){fun(g, QDOT_SIGN, mul(g, u.l, v.l)),
+                      mul(g, fun(g, QDOT_SIGN, u.r), fun(g, QDOT_SIGN, v.r))};
+    case 8: return (pair){fun(g, QDOT_ABS, u.l), fun2(g, QDOT_MAX, u.r, qdot_neg(g->pool, u.r))};
+    case 9: return (pair){fun(g, QDOT_FLOOR, add(g, u.l, n)), add(g, fun(g, QDOT_FLOOR, u.r), n)};
+    case 10:
+        return (pair){fun2(g, QDOT_MOD, u.l, m),
+                      sub(g, u.r, mul(g, m, fun(g, QDOT_FLOOR, quo(g, u.r, m))))};
+    case 11:
+        return (pair){fun2(g, QDOT_MOD, add(g, u.l, mul(g, two, m)), m),
+                      fun2(g, QDOT_MOD, u.r, m)};
+    case 12: return (pair){power(g, fun(g, QDOT_SIGN, u.l), 3), fun(g, QDOT_SIGN, u.r)};
+    case 13:
+        return (pair){fun2(g, QDOT_MAX, u.l, fun2(g, QDOT_MIN, u.l, v.l)), u.r};
+    case 14:
+        return (pair){choice(g, QDOT_LT, u.l, v.l, power(g, u.l, 2), mul(g, u.l, u.l)),
+                      power(g, u.r, 2)};
+    default:
+        return (pair){choice(g, QDOT_LT, u.l, n, QDOT_ONE, QDOT_MINUS_ONE),
+                      qdot_neg(g->pool, choice(g, QDOT_LE, n, u.r, QDOT_ONE, QDOT_MINUS_ONE))};
+    }
+}
+
+/* What declared bounds say. */
+static pair
+pairs_bounded(pairs *g)
+{
+    qdot_pool *p = g->pool;
+    qdot_expr w = g->within, v = g->beyond, th = g->positive[3], two = num(g, 2, 1);
+    qdot_expr n = num(g, 1 + pairs_random(g, 4), 1), x = pairs_random(g, 2) == 0 ? w : v;
+
+    g->inside = false;
+    switch (pairs_random(g, 14)) {
+    case 0: return (pair){fun(g, QDOT_ABS, sub(g, w, n)), sub(g, n, w)};
+    case 1: return (pair){qdot_sqrt(p, power(g, sub(g, QDOT_ONE, v), 2)), sub(g, v, QDOT_ONE)};
+    case 2:
+        return (pair){qdot_sqrt(p, sub(g, power(g, v, 2), QDOT_ONE)),
+                      mul(g, qdot_sqrt(p, sub(g, v, QDOT_ONE)),
+                          qdot_sqrt(p, add(g, v, QDOT_ONE)))};
+    case 3:
+        return (pair){mul(g, qdot_sqrt(p, add(g, QDOT_ONE, w)), qdot_sqrt(p, sub(g, QDOT_ONE, w))),
+                      qdot_sqrt(p, sub(g, QDOT_ONE, power(g, w, 2)))};
+    case 4: return (pair){fun2(g, QDOT_MAX, w, v), v};
+    case 5: return (pair){fun(g, QDOT_SIGN, sub(g, v, w)), QDOT_ONE};
+    case 6: return (pair){fun(g, QDOT_ACOS, fun(g, QDOT_COS, th)), th};
+    case 7:
+        return (pair){fun2(g, QDOT_ATAN2, mul(g, v, fun(g, QDOT_SIN, th)),
+                           mul(g, v, fun(g, QDOT_COS, th))),
+                      th};
+    case 8:
+        return (pair){fun(g, QDOT_ATANH, w),
+                      half(g, fun(g, QDOT_LOG, quo(g, add(g, QDOT_ONE, w), sub(g, QDOT_ONE, w))))};
+    case 9:
+        return (pair){fun(g, QDOT_ACOSH, v),
+                      fun(g, QDOT_LOG, add(g, v, qdot_sqrt(p, sub(g, power(g, v, 2), QDOT_ONE))))};
+    case 10:
+        return (pair){qdot_sqrt(p, sub(g, QDOT_ONE, power(g, fun(g, QDOT_SIN, half(g, th)), 2))),
+                      fun(g, QDOT_COS, half(g, th))};
+    case 11:
+        return (pair){fun(g, QDOT_ABS, fun(g, QDOT_COS, x)),
+                      qdot_sqrt(p, half(g, add(g, QDOT_ONE, fun(g, QDOT_COS, mul(g, two, x)))))};
+    case 12:
+        return (pair){choice(g, QDOT_LT, w, v, w, v), w};
+    default:
+        return (pair){add(g, fun(g, QDOT_ASIN, w), fun(g, QDOT_ACOS, w)), half(g, QDOT_PI)};
+    }
+}
+
+/* Rational powers of what is positive. */
+static pair
+pairs_powers(pairs *g, int depth)
+{
+    qdot_pool *p = g->pool;
+    pair s = pairs_positive(g, depth), q = pairs_positive(g, 0), u = pairs_make(g, 0);
+    long d = 2 + (long)pairs_random(g, 4), n = 1 + (long)pairs_random(g, 6);
+    qdot_expr x = num(g, n, d), y = num(g, 1 + pairs_random(g, 4), 2 + pairs_random(g, 3));
+    qdot_expr root = num(g, 1, d);
+
+    switch (pairs_random(g, 9)) {
+    case 0:
+        return (pair){mul(g, qdot_pow(p, s.l, x), qdot_pow(p, s.l, y)),
+                      qdot_pow(p, s.r, add(g, x, y))};
+    case 1:
+        return (pair){qdot_pow(p, qdot_pow(p, s.l, x), y), qdot_pow(p, s.r, mul(g, x, y))};
+    case 2:
+        return (pair){qdot_pow(p, mul(g, s.l, q.l), x),
+                      mul(g, qdot_pow(p, s.r, x), qdot_pow(p, q.r, x))};
+    case 3: return (pair){power(g, qdot_pow(p, s.l, root), d), s.r};
+    case 4:
+        return (pair){qdot_pow(p, quo(g, s.l, q.l), root),
+                      quo(g, qdot_pow(p, s.r, root), qdot_pow(p, q.r, root))};
+    case 5:
+        return (pair){qdot_pow(p, power(g, u.l, 2), num(g, 3, 2)),
+                      power(g, fun(g, QDOT_ABS, u.r), 3)};
+    case 6:
+        return (pair){qdot_pow(p, power(g, u.l, 4), num(g, 1, 4)), fun(g, QDOT_ABS, u.r)};
+    case 7:
+        return (pair){quo(g, sub(g, s.l, q.l), sub(g, qdot_pow(p, s.l, num(g, 1, 3)),
+                                                   qdot_pow(p, q.l, num(g, 1, 3)))),
+                      add(g, add(g, qdot_pow(p, s.r, num(g, 2, 3)),
+                                 qdot_pow(p, mul(g, s.r, q.r), num(g, 1, 3))),
+                          qdot_pow(p, q.r, num(g, 2, 3)))};
+    default:
+        return (pair){qdot_pow(p, s.l, num(g, -n, d)), quo(g, QDOT_ONE, qdot_pow(p, s.r, x))};
+    }
+}
+
+/* Functions of inverse functions, and these in other words. */
+static pair
+pairs_under(pairs *g)
+{
+    qdot_pool *p = g->pool;
+    pair u = pairs_make(g, 0), s = pairs_positive(g, 1);
+    qdot_expr one = QDOT_ONE, two = num(g, 2, 1), square = power(g, u.r, 2);
+    qdot_expr below = qdot_sqrt(p, sub(g, one, square)),
+              above = qdot_sqrt(p, add(g, one, square));
+    qdot_expr v = g->beyond;
+
+    switch (pairs_random(g, 14)) {
+    case 0: return (pair){fun(g, QDOT_TAN, fun(g, QDOT_ACOS, u.l)), quo(g, below, u.r)};
+    case 1: return (pair){fun(g, QDOT_COS, fun(g, QDOT_ASIN, u.l)), below};
+    case 2: return (pair){fun(g, QDOT_COSH, fun(g, QDOT_ASINH, u.l)), above};
+    case 3: return (pair){fun(g, QDOT_TANH, fun(g, QDOT_ASINH, u.l)), quo(g, u.r, above)};
+    case 4:
+        return (pair){fun(g, QDOT_SINH, fun(g, QDOT_ACOSH, v)),
+                      qdot_sqrt(p, sub(g, power(g, v, 2), one))};
+    case 5: return (pair){fun(g, QDOT_SINH, fun(g, QDOT_ATANH, u.l)), quo(g, u.r, below)};
+    case 6:
+        return (pair){fun(g, QDOT_COS, mul(g, two, fun(g, QDOT_ACOS, u.l))),
+                      sub(g, mul(g, two, square), one)};
+    case 7:
+        return (pair){fun(g, QDOT_TAN, half(g, fun(g, QDOT_ASIN, u.l))),
+                      quo(g, u.r, add(g, one, below))};
+    case 8:
+        return (pair){fun(g, QDOT_COS, fun2(g, QDOT_ATAN2, u.l, s.l)),
+                      quo(g, s.r, qdot_sqrt(p, add(g, square, power(g, s.r, 2))))};
+    case 9:
+        g->inside = false;
+        return (pair){fun(g, QDOT_ASINH, u.l), fun(g, QDOT_LOG, add(g, u.r, above))};
+    case 10:
+        g->inside = false;
+        return (pair){fun(g, QDOT_LOG, power(g, s.l, 3)),
+                      mul(g, num(g, 3, 1), fun(g, QDOT_LOG, s.r))};
+    case 11:
+        g->inside = false;
+        return (pair){fun(g, QDOT_ASIN, fun(g, QDOT_TANH, u.l)),
+                      fun(g, QDOT_ATAN, fun(g, QDOT_SINH, u.r))};
+    case 12:
+        g->inside = false;
+        return (pair){fun(g, QDOT_ATAN, u.l), fun2(g, QDOT_ATAN2, u.r, one)};
+    default:
+        return (pair){fun(g, QDOT_EXP, fun(g, QDOT_ASINH, u.l)), add(g, u.r, above)};
+    }
+}
+
 /* What is done to both sides alike, or to one of them without a change of its value. */
 static pair
 pairs_transform(pairs *g, int depth)
@@ -434,7 +661,10 @@ pairs_transform(pairs *g, int depth)
     qdot_expr x = g->any[pairs_random(g, 6)];
 
     switch (pairs_random(g, 5)) {
-    case 0: return (pair){qdot_diff(g->pool, u.l, x), qdot_diff(g->pool, u.r, x)};
+    case 0:
+        if (!smooth(g, u.l) || !smooth(g, u.r))
+            return u;
+        return (pair){qdot_diff(g->pool, u.l, x), qdot_diff(g->pool, u.r, x)};
     case 1:
         return (pair){qdot_subs(g->pool, u.l, 1, &x, &v.l),
                       qdot_subs(g->pool, u.r, 1, &x, &v.r)};
@@ -456,7 +686,11 @@ pairs_make(pairs *g, int depth)
                                     : g->any[pairs_random(g, 8)];
         return (pair){e, e};
     }
-    switch (pairs_random(g, 12)) {
+    switch (pairs_random(g, 16)) {
+    case 15: return pairs_powers(g, depth - 1);
+    case 14: return pairs_under(g);
+    case 13: return pairs_bounded(g);
+    case 12: return pairs_cases(g, depth - 1);
     case 11: return pairs_inverse(g);
     case 10: return pairs_number(g);
     case 0:
@@ -478,7 +712,9 @@ pairs_other_function(pairs *g, qdot_expr e)
     static const qdot_fun_id swap[][2] = {
         {QDOT_SIN, QDOT_COS},   {QDOT_COS, QDOT_SIN},  {QDOT_SINH, QDOT_COSH},
         {QDOT_COSH, QDOT_SINH}, {QDOT_TAN, QDOT_COT},  {QDOT_SEC, QDOT_CSC},
-        {QDOT_ASIN, QDOT_ATAN}, {QDOT_EXP, QDOT_COSH}, {QDOT_ATAN, QDOT_ASIN}};
+        {QDOT_ASIN, QDOT_ATAN}, {QDOT_EXP, QDOT_COSH}, {QDOT_ATAN, QDOT_ASIN},
+        {QDOT_ACOS, QDOT_ASIN}, {QDOT_ASINH, QDOT_ATAN}, {QDOT_SIGN, QDOT_ATAN},
+        {QDOT_FLOOR, QDOT_SIN}};
     unsigned op = qdot_expr_node(g->pool, e)->op;
 
     for (size_t i = 0; i < sizeof swap / sizeof *swap; i++)

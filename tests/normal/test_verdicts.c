@@ -47,10 +47,11 @@ tell(const qdot_pool *pool, const char *what, uint64_t seed, pair p)
     qdot_text_clear(&r);
 }
 
-/* What is known beside a pair: `symbol` has the value `means`, said as relation or condition. */
+/* What is known beside a pair: symbols have the values `means`, said as relation or condition. */
 typedef struct {
     qdot_facts facts;
-    qdot_expr said, symbol, means;
+    size_t n;
+    qdot_expr said[2], symbol[2], means[2];
 } knowledge;
 
 /* Whether a value shows them to differ. */
@@ -58,8 +59,8 @@ static bool
 differ(qdot_pool *pool, pair p, const knowledge *known)
 {
     if (known != NULL) {
-        p.l = qdot_subs(pool, p.l, 1, &known->symbol, &known->means);
-        p.r = qdot_subs(pool, p.r, 1, &known->symbol, &known->means);
+        p.l = qdot_subs(pool, p.l, known->n, known->symbol, known->means);
+        p.r = qdot_subs(pool, p.r, known->n, known->symbol, known->means);
         if (qdot_pool_check(pool) != QDOT_OK)
             return false;
     }
@@ -118,35 +119,100 @@ count_falsehood(pairs *g, pair p, const knowledge *known, uint64_t seed, tally *
     }
 }
 
-/* The relation z s = e, or the condition x > 0; p then holds by it. False if there is none. */
+/* `symbol` has the value `means`. */
+static void
+let(knowledge *k, qdot_expr symbol, qdot_expr means)
+{
+    k->symbol[k->n] = symbol;
+    k->means[k->n++] = means;
+}
+
+static void
+condition(pairs *g, knowledge *k, qdot_expr l, qdot_expr r)
+{
+    k->said[k->facts.n_conditions++] = qdot_rel(g->pool, QDOT_LT, l, r);
+}
+
+/* Conditions; what follows from them is put beside p. */
+static void
+learn_condition(pairs *g, pair *p, knowledge *k)
+{
+    qdot_pool *pool = g->pool;
+    qdot_expr x = g->any[0], y = g->any[1], pick[2] = {x, y};
+
+    switch (pairs_random(g, 4)) {
+    case 0: { /* x > 0 */
+        qdot_expr size = fun(g, QDOT_ABS, x);
+
+        condition(g, k, QDOT_ZERO, x);
+        let(k, x, fun(g, QDOT_EXP, x));
+        p->l = qdot_subs(pool, p->l, 1, &x, &size);
+        break;
+    }
+    case 1: /* x < y */
+        condition(g, k, x, y);
+        let(k, y, add(g, x, fun(g, QDOT_EXP, y)));
+        p->l = add(g, p->l, fun(g, QDOT_ABS, sub(g, x, y)));
+        p->r = add(g, p->r, sub(g, y, x));
+        break;
+    case 2: /* x < y */
+        condition(g, k, x, y);
+        let(k, y, add(g, x, fun(g, QDOT_EXP, y)));
+        p->l = add(g, p->l, qdot_fun(pool, QDOT_MAX, 2, pick));
+        p->r = add(g, p->r, y);
+        break;
+    default: /* -1 < x < 1 */
+        condition(g, k, QDOT_MINUS_ONE, x);
+        condition(g, k, x, QDOT_ONE);
+        let(k, x, fun(g, QDOT_TANH, x));
+        p->l = add(g, p->l, qdot_sqrt(pool, power(g, sub(g, x, QDOT_ONE), 2)));
+        p->r = add(g, p->r, sub(g, QDOT_ONE, x));
+    }
+}
+
+/* A relation z s = e, or x^2 + y^2 = r^2. False where z is in s or e. */
+static bool
+learn_relation(pairs *g, pair *p, knowledge *k)
+{
+    qdot_pool *pool = g->pool;
+    qdot_expr x = g->any[0], y = g->any[1], z = g->any[2], r = g->positive[2];
+
+    k->facts.n_relations = 1;
+    if (pairs_random(g, 3) == 0) {
+        qdot_expr sum = add(g, power(g, x, 2), power(g, y, 2));
+        pair q = pairs_make(g, 1);
+
+        k->said[0] = sub(g, sum, power(g, r, 2));
+        let(k, x, mul(g, r, fun(g, QDOT_COS, x)));
+        let(k, y, mul(g, r, fun(g, QDOT_SIN, x)));
+        p->l = add(g, p->l, mul(g, sum, q.l));
+        p->r = add(g, p->r, mul(g, q.r, power(g, r, 2)));
+    } else {
+        pair e = pairs_rational(g, 1), s = pairs_positive(g, 1);
+        qdot_expr means = qdot_div(pool, e.l, s.l);
+
+        if (qdot_pool_check(pool) != QDOT_OK || means == QDOT_NIL ||
+            qdot_expr_contains(pool, means, z))
+            return false;
+        let(k, z, means);
+        k->said[0] = qdot_sub(pool, qdot_mul(pool, z, s.r), e.r);
+        p->r = qdot_subs(pool, p->r, 1, &z, &means);
+    }
+    return true;
+}
+
+/* Something known; p then holds by it. False if there is none. */
 static bool
 learn(pairs *g, pair *p, knowledge *k)
 {
-    qdot_pool *pool = g->pool;
+    bool relation = pairs_random(g, 2) == 0;
 
     *k = (knowledge){0};
-    if (pairs_random(g, 2) == 0) {
-        qdot_expr x = g->any[0], size = qdot_fun1(pool, QDOT_ABS, x);
-
-        k->symbol = x;
-        k->means = qdot_fun1(pool, QDOT_EXP, x);
-        k->said = qdot_rel(pool, QDOT_LT, QDOT_ZERO, x);
-        k->facts.n_conditions = 1;
-        p->l = qdot_subs(pool, p->l, 1, &x, &size);
-    } else {
-        pair e = pairs_rational(g, 1), s = pairs_positive(g, 1);
-        qdot_expr z = g->any[2];
-
-        k->symbol = z;
-        k->means = qdot_div(pool, e.l, s.l);
-        if (qdot_pool_check(pool) != QDOT_OK || k->means == QDOT_NIL ||
-            qdot_expr_contains(pool, k->means, z))
-            return false;
-        k->said = qdot_sub(pool, qdot_mul(pool, z, s.r), e.r);
-        k->facts.n_relations = 1;
-        p->r = qdot_subs(pool, p->r, 1, &z, &k->means);
-    }
-    k->facts.relations = k->facts.conditions = &k->said;
+    if (relation && !learn_relation(g, p, k))
+        return false;
+    if (!relation)
+        learn_condition(g, p, k);
+    k->facts.relations = k->facts.conditions = k->said;
     return true;
 }
 

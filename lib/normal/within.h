@@ -1,0 +1,17 @@
+/* within.h -- inverse functions of their own functions, within their values:
+ *
+ *     acos(cos(x)) = x for 0 <= x <= pi, likewise asin and atan; atan2(p sin(x), p cos(x)) = x, p > 0,
+ *
+ * where the declared domain of x lies there.
+ *
+ * Tests  tests/normal/test_decide.c, tests/script/identities-cases.inc
+ */
+#ifndef QDOT_NORMAL_WITHIN_H
+#define QDOT_NORMAL_WITHIN_H
+
+#include "expr/expr.h"
+
+/* e with x in their place; nil where that fails. */
+qdot_expr qdot_within_values(qdot_pool *pool, qdot_expr e);
+
+#endif
