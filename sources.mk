@@ -123,6 +123,7 @@ normal_sources = \
 	lib/normal/collect.c \
 	lib/normal/common.c \
 	lib/normal/constant.c \
+	lib/normal/cramer.c \
 	lib/normal/decide.c \
 	lib/normal/defined.c \
 	lib/normal/domain.c \
@@ -172,6 +173,7 @@ normal_headers = \
 	lib/normal/ball.h \
 	lib/normal/cases.h \
 	lib/normal/constant.h \
+	lib/normal/cramer.h \
 	lib/normal/decide.h \
 	lib/normal/defined.h \
 	lib/normal/domain.h \
@@ -558,6 +560,7 @@ unit_tests = \
 	tests/tape/test_x86
 
 script_tests = \
+	tests/script/accel-long.lag \
 	tests/script/bad-runs.sh \
 	tests/script/cases.sh \
 	tests/script/check.lag \
@@ -1106,6 +1109,7 @@ test_files = \
 	tests/normal/text.h \
 	tests/num/kit.h \
 	tests/ode/problems.h \
+	tests/script/accel-long.out \
 	tests/script/bad-runs.out \
 	tests/script/cases.inc \
 	tests/script/cases.json \

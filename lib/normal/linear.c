@@ -1,5 +1,7 @@
-/* linear.c -- linear systems: Bareiss' fraction-free elimination over polynomials. */
+/* linear.c -- linear systems, block by block: Bareiss' fraction-free elimination over polynomials. */
 #include "base/memory.h"
+#include "expr/walk.h"
+#include "normal/cramer.h"
 #include "normal/field.h"
 #include "normal/flint.h"
 #include "normal/prepare.h"
@@ -241,6 +243,48 @@ solve(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b, qdot_
     return status;
 }
 
+/* The operations of all entries. */
+static uint64_t
+operations(const qdot_pool *pool, size_t n, const qdot_expr *e)
+{
+    uint64_t sum = 0;
+
+    for (size_t i = 0; i < n; i++)
+        sum += qdot_expr_size(pool, e[i]);
+    return sum;
+}
+
+/* Of long entries, which multiplied out make a solution too long to be found or to be read,
+ * the one by Cramer's rule where that is shorter. status: what became of x so far. */
+static qdot_status
+keep_entries(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
+             qdot_expr *x, const qdot_facts *facts, qdot_status status)
+{
+    qdot_expr y[QDOT_CRAMER_MOST];
+
+    if (n > QDOT_CRAMER_MOST || (status != QDOT_OK && status != QDOT_ELIMIT) ||
+        (status == QDOT_OK &&
+         operations(pool, n, x) <= operations(pool, n * n, A) + operations(pool, n, b)))
+        return status;
+    if (status == QDOT_ELIMIT) {
+        qdot_decision d;
+
+        QDOT_TRY(qdot_decide_equal(pool, qdot_cramer_determinant(pool, n, A), QDOT_ZERO,
+                                   facts, &d));
+        if (d.verdict != QDOT_REFUTED)
+            return qdot_fail(QDOT_ELIMIT,
+                             "past the work budget: whether a system of %u equations has "
+                             "one solution is not decided",
+                             n);
+    }
+    QDOT_TRY(qdot_cramer(pool, n, A, b, y));
+    for (uint32_t i = 0; i < n; i++)
+        if (status == QDOT_ELIMIT ||
+            qdot_expr_size(pool, y[i]) < qdot_expr_size(pool, x[i]))
+            x[i] = qdot_simplify(pool, y[i], facts);
+    return qdot_pool_check(pool);
+}
+
 struct system {
     qdot_pool *pool;
     uint32_t n;
@@ -251,12 +295,75 @@ struct system {
     qdot_status status;
 };
 
+/* One block: the m unknowns whose `block` is k. */
+static qdot_status
+solve_block(struct system *s, uint32_t k, uint32_t m, const uint32_t *block)
+{
+    qdot_expr *A = qdot_malloc(((size_t)m * m + 2 * m) * sizeof *A), *b, *x;
+    uint32_t at = 0, row = 0, pivot = 0;
+    qdot_status status;
+
+    if (A == NULL)
+        return QDOT_ENOMEM;
+    b = A + (size_t)m * m;
+    x = b + m;
+    for (uint32_t i = 0; i < s->n; i++) {
+        if (block[i] != k)
+            continue;
+        b[row++] = s->b[i];
+        for (uint32_t j = 0; j < s->n; j++)
+            if (block[j] == k)
+                A[at++] = s->A[i * s->n + j];
+    }
+    status = solve(s->pool, m, A, b, x, &pivot, s->facts);
+    status = keep_entries(s->pool, m, A, b, x, s->facts, status);
+    for (uint32_t i = 0, to = 0; i < s->n; i++) {
+        if (block[i] != k)
+            continue;
+        if (to == pivot)
+            *s->pivot = i;
+        s->x[i] = x[to++];
+    }
+    qdot_free(A);
+    return status;
+}
+
+/* block[i]: the first unknown that i is coupled to, by way of others too. */
+static void
+find_blocks(uint32_t n, const qdot_expr *A, uint32_t *block)
+{
+    for (uint32_t i = 0; i < n; i++)
+        block[i] = i;
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < n; j++) {
+            uint32_t from = block[i] > block[j] ? block[i] : block[j];
+            uint32_t to = block[i] > block[j] ? block[j] : block[i];
+
+            for (uint32_t l = 0; l < n && from != to && A[i * n + j] != QDOT_ZERO; l++)
+                if (block[l] == from)
+                    block[l] = to;
+        }
+}
+
 static void
 solve_system(void *user)
 {
     struct system *s = user;
+    uint32_t *block = qdot_malloc((s->n + 1) * sizeof *block);
 
-    s->status = solve(s->pool, s->n, s->A, s->b, s->x, s->pivot, s->facts);
+    s->status = block == NULL ? QDOT_ENOMEM : QDOT_OK;
+    if (block == NULL)
+        return;
+    find_blocks(s->n, s->A, block);
+    for (uint32_t k = 0; k < s->n && s->status == QDOT_OK; k++) {
+        uint32_t m = 0;
+
+        for (uint32_t i = 0; i < s->n; i++)
+            m += block[i] == k;
+        if (m > 0)
+            s->status = solve_block(s, k, m, block);
+    }
+    qdot_free(block);
 }
 
 qdot_status

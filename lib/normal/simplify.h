@@ -36,9 +36,10 @@ qdot_expr qdot_common_out(qdot_pool *pool, qdot_expr e);
 /* The exact normal form as an expression: numerator over denominator, coprime, expanded. */
 qdot_expr qdot_normal(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
-/* Solve the n x n linear system A x = b symbolically, fraction-free, zero pivots recognised by
- * the normal form. QDOT_ESINGULAR: *pivot is the column without one. QDOT_ELIMIT past the
- * budget: the message says how large. A [n*n] row-major, b [n], x [n]. */
+/* Solve the n x n linear system A x = b symbolically, block by block, fraction-free, zero pivots
+ * recognised by the normal form; small blocks whose solution multiplied out would be longer than
+ * what was given, by Cramer's rule (cramer.h). QDOT_ESINGULAR: *pivot is the column without one.
+ * QDOT_ELIMIT past the budget: the message says how large. A [n*n] row-major, b [n], x [n]. */
 QDOT_MUST_CHECK qdot_status qdot_solve_linear(qdot_pool *pool, uint32_t n,
                                               const qdot_expr *A, const qdot_expr *b,
                                               qdot_expr *x, uint32_t *pivot,

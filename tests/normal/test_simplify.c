@@ -324,9 +324,65 @@ value(const qdot_pool *pool, qdot_expr e, unsigned salt)
     case QDOT_EXP: return exp(y);
     case QDOT_LOG: return log(y);
     case QDOT_ABS: return fabs(y);
+    case QDOT_ATAN: return atan(y);
     default: return NAN;
     }
 }
+
+static void
+entries_too_long_to_be_multiplied_out_are_kept(void **state)
+{
+    static const char *const entries[] = {
+        "m*(a^2*cos(x)^2 + (sin(x + z) - x/sqrt(x^2 + 1) - 3)^2 + 1) + "
+        "L*(sin(x + z)^2 + (2/3*x + 1/(x^2 + 1))^2 + (sin(x) + x*cos(x))^2)",
+        "m*atan(x)*exp(y)*(1 + sqrt(2 + y^2))", "m*atan(x)*exp(y)*(1 + sqrt(2 + y^2))",
+        "L*(3 + cosh(y)^2 + (1 + sin(x)*y)^2) + m*(y^2 + (log(2 + x^2) - y)^4)"};
+    static const char *const rights[] = {"m*(a + sin(x))^3*sqrt(1 + x^2) - y*cos(z)",
+                                         "(x + y + z)^4 + L*sin(x - y)"};
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr a[4], b[2], x[2];
+    uint64_t given = 0;
+    uint32_t pivot;
+
+    (void)state;
+    for (int i = 0; i < 4; i++)
+        given += qdot_expr_size(pool, a[i] = text_read(pool, entries[i]));
+    for (int i = 0; i < 2; i++)
+        given += qdot_expr_size(pool, b[i] = text_read(pool, rights[i]));
+    assert_int_equal(qdot_solve_linear(pool, 2, a, b, x, &pivot, NULL), QDOT_OK);
+    for (int i = 0; i < 2; i++) {
+        qdot_expr sum = qdot_add(pool, qdot_mul(pool, a[2 * i], x[0]),
+                                 qdot_mul(pool, a[2 * i + 1], x[1]));
+
+        assert_true(qdot_expr_size(pool, x[i]) < 2 * given);
+        for (unsigned salt = 1; salt <= 5; salt++)
+            assert_true(fabs(value(pool, sum, salt) - value(pool, b[i], salt)) <
+                        1e-9 * (1 + fabs(value(pool, b[i], salt))));
+    }
+    qdot_pool_free(pool);
+}
+
+/* x1, x3 on one side and x2 on the other; and a pivot that is counted in the whole. */
+static void
+blocks_are_solved_apart(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr m = text_read(pool, "m"), L = text_read(pool, "L");
+    qdot_expr a[9] = {m, QDOT_ZERO, L, QDOT_ZERO, L, QDOT_ZERO, L, QDOT_ZERO, m};
+    qdot_expr b[3] = {L, m, m}, x[3];
+    uint32_t pivot;
+
+    (void)state;
+    assert_int_equal(qdot_solve_linear(pool, 3, a, b, x, &pivot, NULL), QDOT_OK);
+    assert_int_equal(x[0], QDOT_ZERO);
+    assert_int_equal(x[1], text_read(pool, "m/L"));
+    assert_int_equal(x[2], QDOT_ONE);
+    a[0] = a[2] = a[6] = m;
+    assert_int_equal(qdot_solve_linear(pool, 3, a, b, x, &pivot, NULL), QDOT_ESINGULAR);
+    assert_int_equal(pivot, 2);
+    qdot_pool_free(pool);
+}
+
 
 static uint64_t seed = 362436069u;
 
@@ -482,6 +538,8 @@ main(void)
         cmocka_unit_test(the_double_pendulum_is_solved),
         cmocka_unit_test(a_hidden_zero_pivot_is_singular),
         cmocka_unit_test(a_zero_on_the_diagonal_is_passed),
+        cmocka_unit_test(entries_too_long_to_be_multiplied_out_are_kept),
+        cmocka_unit_test(blocks_are_solved_apart),
         cmocka_unit_test(random_values_are_kept),
         cmocka_unit_test(sums_of_angles_are_seen),
         cmocka_unit_test(long_sums_come_back_in_time),
