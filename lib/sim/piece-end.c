@@ -4,9 +4,14 @@
 #include <math.h>
 #include <string.h>
 
-/* One thing may happen so often within a 1e-9 of the time of the run. */
+/* Of the time of a run: one thing may happen MOST_REPEATS times within a MOMENT; or as often at
+ * intervals of the SAME_RATIO, if those to come do not end NEAR. A motion that comes to rest
+ * at x is lost to rounding when it moves by less than an ulp of x, which it does for an
+ * interval of 1e-8 of its time. */
 enum { MOST_REPEATS = 4 };
-static const double accumulation = 1e-9;
+#define MOMENT 1e-9
+#define NEAR 1e-6
+#define SAME_RATIO 1e-3
 
 void
 qdot_piece_stop(qdot_piece *x, bool failed)
@@ -65,32 +70,53 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
     return status;
 }
 
-/* Whether a thing happens ever faster. */
-static qdot_status
-accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes)
+/* Intervals that shrink by one ratio: with the next one at t, how long all that are to come
+ * take together; infinite where they do not. */
+static double
+remaining(qdot_piece_repeat *r, double t)
 {
-    double span = accumulation * fmax(fabs(t), fabs(x->t1 - x->c->tr.t[0]));
+    double interval = fabs(t - r->last), ratio = interval / r->interval;
+
+    r->steady = ratio < 1 && fabs(ratio - r->ratio) <= SAME_RATIO * (1 - ratio)
+                    ? r->steady + 1
+                    : 0;
+    r->last = t;
+    r->interval = interval;
+    r->ratio = ratio;
+    return r->steady >= MOST_REPEATS ? interval * ratio / (1 - ratio) : INFINITY;
+}
+
+/* Whether a thing happens ever faster: too often within a moment, or at intervals that shrink
+ * by one ratio to a time near. *left: to that time. */
+static qdot_status
+accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *left)
+{
+    double reach = fmax(fabs(t), fabs(x->t1 - x->c->tr.t[0]));
     qdot_piece_repeat *r = NULL;
 
     *yes = false;
+    *left = 0;
     for (size_t i = 0; i < x->repeats.n; i++)
         if (x->repeats.at[i].kind == w->kind && x->repeats.at[i].index == w->index)
             r = &x->repeats.at[i];
     if (!r) {
-        qdot_piece_repeat new = {w->kind, w->index, 1, t};
+        qdot_piece_repeat new = {
+            .kind = w->kind, .index = w->index, .n = 1, .since = t, .last = t};
 
         return qdot_vec_push(&x->repeats, new);
     }
-    if (fabs(t - r->since) > span) {
+    if (fabs(t - r->since) > MOMENT * reach) {
         r->since = t;
         r->n = 0;
     }
-    *yes = ++r->n > MOST_REPEATS;
+    *left = remaining(r, t);
+    *yes = ++r->n > MOST_REPEATS || *left <= NEAR * reach;
+    *left = isfinite(*left) ? *left : 0;
     return QDOT_OK;
 }
 
 static void
-say_accumulated(qdot_piece *x, const qdot_watched *w, double t)
+say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
 {
     qdot_text text = {0};
 
@@ -100,9 +126,11 @@ say_accumulated(qdot_piece *x, const qdot_watched *w, double t)
     else if (qdot_stage_describe(x->c->stage, w->index,
                                  qdot_piece_mode(x)->side[w->index], &text) != QDOT_OK)
         qdot_text_add(&text, "a switch of the equations");
-    snprintf(x->c->reason, sizeof x->c->reason,
-             "stopped at t = %.15g: %.200s comes ever faster there, without end", t,
-             qdot_text_str(&text));
+    snprintf(
+        x->c->reason, sizeof x->c->reason,
+        "stopped at t = %.15g: %.200s comes ever faster there, without end before t = "
+        "%.10g",
+        t, qdot_text_str(&text), t + copysign(left, x->direction));
     qdot_text_clear(&text);
 }
 
@@ -146,13 +174,14 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++) {
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
+        double left = 0;
         bool fast = false;
 
-        if (w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].stop
-            || x->c->stage->events.at[w->index].then)
-            status = qdot_vec_push(&x->c->ends,
-                                   ((qdot_course_end){x->c->tr.pieces.n - 1,
-                                                      root->function, t, *w}));
+        if (w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].stop ||
+            x->c->stage->events.at[w->index].then)
+            status = qdot_vec_push(
+                &x->c->ends,
+                ((qdot_course_end){x->c->tr.pieces.n - 1, root->function, t, *w}));
         if (status != QDOT_OK)
             break;
         if (w->kind == QDOT_WATCH_DOMAIN) {
@@ -179,9 +208,9 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
                 continue;
         }
         if (status == QDOT_OK)
-            status = accumulates(x, w, t, &fast);
+            status = accumulates(x, w, t, &fast, &left);
         if (fast && !*over) {
-            say_accumulated(x, w, t);
+            say_accumulated(x, w, t, left);
             *over = true;
             qdot_piece_stop(x, true);
         }

@@ -20,8 +20,11 @@ typedef enum {
 /* How often a thing happened since. */
 typedef struct {
     qdot_watched_kind kind;
-    size_t index, n;
+    size_t index, n; /* n: how often since `since` */
     double since;
+    double last, interval, ratio; /* the last time, how long before it the one before was, and
+                                     that over the interval before */
+    size_t steady;                /* how often that ratio was the same, in a row */
 } qdot_piece_repeat;
 
 /* The arrays and the cursor belong to course.c, which frees them. */

@@ -9,6 +9,8 @@ printf '%sevent land: y = 0 stop\nrun 0..3 as a\nland\nstart a\nstate = value(y,
     qdot -q --json - | grep -o '"kind":"run".*"tol"\|"status".*\|"kind":"numbers".*'
 printf '%sparam e = 0.5\nevent bounce: y = 0 falling then y'"' = -e*y'"'\nrun 0..10\n' "$scene" |
     qdot -q - 2>&1 | grep failed
+printf 'coord y\nparticle p mass 1 at (0, y)\npotential y^2/2\nstart y = 1\nevent bounce: y = 0.2 falling then y'"' = -y'/2"'\nrun 0..10\n' |
+    qdot -q - 2>&1 | grep failed
 printf '%sevent bounce: y = 0 falling then y'"' = 0"'\nrun 0..10\n' "$scene" | qdot -q - 2>&1 | grep failed
 printf 'param m = 1\ncoord -1 < x <= 1\nparticle p mass m at (x, 0)\nstart x'"' = 1"'\nrun 0..3\n' |
     qdot -q - 2>&1 | grep failed
