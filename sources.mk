@@ -296,6 +296,7 @@ sim_sources = \
 	lib/sim/blocks.c \
 	lib/sim/constrained-jacobian.c \
 	lib/sim/constrained-near.c \
+	lib/sim/constrained-project.c \
 	lib/sim/constrained-put.c \
 	lib/sim/constrained-series.c \
 	lib/sim/constrained-start.c \

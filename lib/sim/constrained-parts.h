@@ -51,6 +51,10 @@ void qdot_constrained_raise_bounds(const qdot_constrained_level *level, const do
 /* M and A at what is loaded, factored. Errors: qdot_constrained_factor's. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor_metric(qdot_constrained *h,
                                                            qdot_constrained_level *level);
+/* Factor a system of the rows that `row` [s->m] says (NULL: all); its failures named. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_factor_rows(const qdot_plan *plan,
+                                                         qdot_saddle *s,
+                                                         const size_t *row);
 /* M and A at what is loaded, into a level. */
 void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level);
 

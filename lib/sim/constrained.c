@@ -1,17 +1,11 @@
 /* constrained.c -- tapes into saddle-point systems, one for each level of differentiation. */
 #include "sim/constrained.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "sim/constrained-parts.h"
 #include "tape/shake.h"
-
-/* Values below it count as so large where rounding is judged: at rest all are 0. */
-static const double least_size = 0x1p-10;
-
-enum { most_iterations = 6 };
 
 typedef qdot_constrained_level level;
 
@@ -126,8 +120,8 @@ dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
     return QDOT_ESINGULAR;
 }
 
-static qdot_status
-factor(const qdot_plan *p, qdot_saddle *s, const size_t *row)
+qdot_status
+qdot_constrained_factor_rows(const qdot_plan *p, qdot_saddle *s, const size_t *row)
 {
     size_t failed = 0;
     qdot_status status = qdot_saddle_factor(s, &failed);
@@ -143,7 +137,7 @@ factor(const qdot_plan *p, qdot_saddle *s, const size_t *row)
 qdot_status
 qdot_constrained_factor(const qdot_plan *plan, qdot_saddle *s)
 {
-    return factor(plan, s, NULL);
+    return qdot_constrained_factor_rows(plan, s, NULL);
 }
 
 static void
@@ -176,7 +170,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     memcpy(x + n, gamma, m * sizeof *x);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         damp(h, x + n);
-    QDOT_TRY(factor(p, &all->saddle, all->row));
+    QDOT_TRY(qdot_constrained_factor_rows(p, &all->saddle, all->row));
     qdot_saddle_solve_refined(&all->saddle);
     for (size_t i = 0; i < n; i++) {
         a[i] = x[i];
@@ -208,180 +202,6 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
         }
     }
     return r;
-}
-
-/* --- projection --------------------------------------------------------------------- */
-
-/* What rounding of x, q or q', makes of the rows, A being there. */
-void
-qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
-{
-    for (size_t k = 0; k < l->m; k++)
-        bound[l->row[k]] =
-            fmax(bound[l->row[k]],
-                 DBL_EPSILON * qdot_saddle_row_size(&l->saddle, k, x, least_size));
-}
-
-/* M and A at what is loaded, factored. */
-qdot_status
-qdot_constrained_factor_metric(qdot_constrained *h, level *l)
-{
-    qdot_constrained_metric(h, l);
-    l->filled = true;
-    l->moves = l->few && qdot_least_move_factor(&l->move, l->saddle.A, l->saddle.M,
-                                                h->plan->n + 1);
-    return l->moves ? QDOT_OK : factor(h->plan, &l->saddle, l->row);
-}
-
-/* What is left of the rows. What the carry adds is a matter of A, once that is there. */
-static void
-take_residual(level *l, const double *residual, const double *carry)
-{
-    for (size_t k = 0; k < l->m; k++) {
-        l->residual[k] = residual[l->row[k]];
-        if (carry && l->filled)
-            l->residual[k] += qdot_saddle_row(&l->saddle, k, carry);
-    }
-}
-
-/* The largest of that over its bound; INFINITY before there are bounds. */
-static double
-excess(const level *l, const double *bound)
-{
-    double most = 0;
-
-    for (size_t k = 0; k < l->m; k++) {
-        const double f = fabs(l->residual[k]), b = bound[l->row[k]];
-
-        if (f <= b)
-            continue;
-        if (!(b > 0 && f < INFINITY))
-            return INFINITY;
-        most = f > most * b ? f / b : most;
-    }
-    return most;
-}
-
-/* hi + lo += x; qdot_sum_advance, whose header and that of expr/ share a name. */
-static void
-advance(double *hi, double *lo, double x)
-{
-    double a = *hi, b = *lo + x, s = a + b, bb = s - a;
-
-    *lo = (a - (s - bb)) + (b - bb);
-    *hi = s;
-}
-
-/* One step of Newton's method on x, q or q'. */
-static void
-step(const qdot_constrained *h, level *l, double *x, double *carry, double *moved)
-{
-    const size_t n = h->plan->n;
-    double *change = l->saddle.x;
-
-    for (size_t k = 0; k < l->m; k++)
-        change[n + k] = -l->residual[k];
-    if (l->moves) {
-        qdot_least_move_solve(&l->move, change + n, change);
-    } else {
-        memset(change, 0, n * sizeof *change);
-        qdot_saddle_solve(&l->saddle);
-    }
-    for (size_t i = 0; i < n; i++) {
-        const double size = fabs(x[i]), by = fabs(change[i]);
-
-        if (!(by <= *moved * (size > 1 ? size : 1)))
-            *moved = by / (size > 1 ? size : 1);
-        if (carry)
-            advance(&x[i], &carry[i], change[i]);
-        else
-            x[i] += change[i];
-    }
-}
-
-/* Whether what is left is what moving x by rounding of max(1, |x|) makes: where x is 0 the
- * bounds are too, and cannot be met. */
-static bool
-is_rounding(const level *l, const double *residual, const double *x)
-{
-    for (size_t k = 0; k < l->m; k++)
-        if (!(fabs(residual[l->row[k]])
-              <= DBL_EPSILON * qdot_saddle_row_size(&l->saddle, k, x, 1)))
-            return false;
-    return true;
-}
-
-/* One of the two levels: what is moved, q or q', its carry or NULL, its residuals, how
- * they are found, their bounds. */
-typedef struct {
-    level *l;
-    double *x, *carry;
-    const double *residual;
-    void (*find)(qdot_constrained *h);
-    double *bound;
-} part;
-
-/* M and A stay those of the place where they were factored, `factored` says whether they
- * are: Newton's method converges with them as fast as the state was near. */
-static qdot_status
-project(qdot_constrained *h, const part *p, double t, const double *y, bool *factored,
-        double *moved)
-{
-    level *l = p->l;
-    double before = INFINITY;
-    bool bounded = false;
-
-    if (l->m == 0)
-        return QDOT_OK;
-    for (int k = 0; k <= most_iterations; k++) {
-        double now;
-
-        qdot_constrained_load(h, t, y);
-        p->find(h);
-        take_residual(l, p->residual, p->carry);
-        now = excess(l, p->bound);
-        if (now <= 1)
-            return QDOT_OK;
-        /* what is left is rounding when it shrinks no more */
-        if (bounded && !(now < 0.5 * before) && now < 1e4)
-            return QDOT_OK;
-        if (k == most_iterations || isnan(now) || (k > 2 && !(now < before)))
-            break;
-        if (!*factored)
-            QDOT_TRY(qdot_constrained_factor_metric(h, l));
-        *factored = true;
-        if (!bounded) {
-            qdot_constrained_raise_bounds(l, p->x, p->bound);
-            bounded = true;
-            take_residual(l, p->residual, p->carry);
-            now = excess(l, p->bound);
-            if (now <= 1)
-                return QDOT_OK;
-        }
-        before = now;
-        step(h, l, p->x, p->carry, moved);
-    }
-    return bounded && is_rounding(l, p->residual, p->x)
-               ? QDOT_OK
-               : qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
-}
-
-qdot_status
-qdot_constrained_project(double t, double *y, double *carry, double *moved, void *user)
-{
-    qdot_constrained *h = user;
-    const size_t n = h->plan->n;
-    const part q = {h->at[QDOT_HOLONOMIC], y, carry, h->f, qdot_constrained_positions, h->f_bound};
-    const part v = {h->at[QDOT_VELOCITY], y + n, carry ? carry + n : NULL, h->w,
-                    qdot_constrained_velocities, h->w_bound};
-    bool factored = false;
-
-    *moved = 0;
-    if (h->plan->treatment != QDOT_RUN_PROJECT)
-        return QDOT_OK;
-    QDOT_TRY(project(h, &q, t, y, &factored, moved));
-    factored = factored && v.l == q.l;
-    return project(h, &v, t, y, &factored, moved);
 }
 
 double

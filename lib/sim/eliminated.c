@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/calculus.h"
 #include "ode/taylor.h"
 #include "sim/constrained.h"
 #include "sim/constrained-series.h"
@@ -44,6 +45,31 @@ slope(const qdot_constraints *c, size_t row, size_t coordinate)
     return QDOT_ZERO;
 }
 
+/* A row's S where the row is held: of a rod, a circle or a sphere S = r f + c with numbers r
+ * and c, and f is 0. */
+static qdot_expr
+where_held(const elimination *e, size_t k, qdot_expr S)
+{
+    const qdot_constraints_row *row = e->c->rows + k;
+    qdot_pool *pool = e->plan->pool;
+    size_t s = 0;
+    qdot_expr x, f, r;
+
+    while (s < e->c->n_slopes && e->c->slopes[s].row != k)
+        s++;
+    if (e->plan->treatment != QDOT_RUN_PROJECT || row->kind != QDOT_HOLONOMIC ||
+        s == e->c->n_slopes)
+        return S;
+    x = e->plan->inputs[e->c->slopes[s].column];
+    f = qdot_diff(pool, qdot_diff(pool, row->f, x), x);
+    r = qdot_diff(pool, qdot_diff(pool, S, x), x);
+    if (qdot_expr_kind(pool, f) != QDOT_NUM || qdot_expr_kind(pool, r) != QDOT_NUM ||
+        f == QDOT_ZERO || r == QDOT_ZERO)
+        return S;
+    r = qdot_expand(pool, qdot_sub(pool, S, qdot_mul(pool, qdot_div(pool, r, f), row->f)));
+    return qdot_expr_kind(pool, r) == QDOT_NUM ? r : S;
+}
+
 static void
 form(elimination *e)
 {
@@ -65,6 +91,7 @@ form(elimination *e)
                 e->S[k][l] = qdot_add(pool, e->S[k][l],
                                       qdot_mul(pool, part, slope(e->c, l, i)));
         }
+        e->S[k][k] = where_held(e, k, e->S[k][k]);
         e->b[k] = qdot_hold(pool, e->b[k]);
         for (size_t l = 0; l <= k; l++)
             e->S[k][l] = qdot_hold(pool, e->S[k][l]);

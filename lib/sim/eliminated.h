@@ -10,6 +10,10 @@
  * coefficients (sim/constrained-series.h) and its rounding is that of an elimination without
  * a correction: it is for tolerances from QDOT_ELIMINATED_TOL on, where it is cheaper.
  *
+ * Of a rod, a circle or a sphere S_kk = r f_k + c with numbers r and c. Where states are
+ * projected f_k is 0, and S_kk = c: so a rod's division, its squares are gone. Left alone,
+ * off the constraints, S stays what it is.
+ *
  * d_k/S_kk, pivot over diagonal, is the squared sine between a row and those before it. At
  * a state where it is small the other series takes over.
  *

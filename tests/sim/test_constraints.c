@@ -501,6 +501,29 @@ both_series_are_one(void **state)
     end(&f);
 }
 
+/* A rod that is held has a constant S: nothing is divided by. Left alone it has not. */
+static void
+held_rods_are_not_measured(void **state)
+{
+    qdot_plan *plan;
+    fixture f;
+    size_t held;
+
+    (void)state;
+    cartesian_pendulum(&f);
+    f.request.tol = 1e-5;
+    must(qdot_plan_new(f.scene, &f.request, &plan));
+    assert_non_null(plan->eliminated);
+    held = qdot_tape_operations(plan->eliminated->tape);
+    qdot_plan_free(plan);
+    f.request.treatment = QDOT_RUN_NONE;
+    must(qdot_plan_new(f.scene, &f.request, &plan));
+    assert_non_null(plan->eliminated);
+    assert_true(held < qdot_tape_operations(plan->eliminated->tape));
+    qdot_plan_free(plan);
+    end(&f);
+}
+
 /* Where rows come near each other the form that knows of it takes over. */
 static void
 rows_nearly_dependent_are_not_eliminated(void **state)
@@ -541,6 +564,7 @@ main(void)
         cmocka_unit_test(slopes_are_those_of_the_right_hand_side),
         cmocka_unit_test(implicit_methods_agree),
         cmocka_unit_test(both_series_are_one),
+        cmocka_unit_test(held_rods_are_not_measured),
         cmocka_unit_test(rows_nearly_dependent_are_not_eliminated),
     };
 
