@@ -92,7 +92,7 @@ accels_get(qdot_scene *s)
             QDOT_OK &&
         qdot_derived_array(s, &d->accel, n)) {
         for (size_t i = 0; i < n; i++)
-            d->accel[i] = qdot_mech_tidy(s, work[size * size + size + i]);
+            d->accel[i] = work[size * size + size + i];
         done = !qdot_pool_failed(s->pool) &&
                qdot_derived_array(s, &d->lambda, s->constraints.n);
         for (size_t k = n; done && k < size && size - n == s->constraints.n; k++)

@@ -8,6 +8,8 @@
 #include "normal/simplify.h"
 
 #define WORK 30000000
+/* So many times Cramer's, a solution multiplied out is not simplified to less. */
+#define TOO_LONG 4
 
 /* The rows of [A b] as polynomials, times the common multiples of their denominators. */
 static void
@@ -236,8 +238,6 @@ solve(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b, qdot_
         status = f.status;
     qdot_field_end(&f);
     qdot_free(e);
-    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
-        x[i] = qdot_simplify(pool, x[i], facts);
     if (status == QDOT_OK && qdot_pool_failed(pool))
         return qdot_pool_check(pool);
     return status;
@@ -254,19 +254,20 @@ operations(const qdot_pool *pool, size_t n, const qdot_expr *e)
     return sum;
 }
 
-/* Of long entries, which multiplied out make a solution too long to be found or to be read,
- * the one by Cramer's rule where that is shorter. status: what became of x so far. */
+/* Each x the simpler of what elimination gave (status: or did not) and Cramer's rule, which is
+ * asked where that is longer than what was given: multiplied out, long entries make a solution
+ * too long to be found or to be read. */
 static qdot_status
-keep_entries(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
-             qdot_expr *x, const qdot_facts *facts, qdot_status status)
+simplest(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
+         qdot_expr *x, const qdot_facts *facts, qdot_status status)
 {
     qdot_expr y[QDOT_CRAMER_MOST];
+    bool known = status == QDOT_OK, asked = false;
 
-    if (n > QDOT_CRAMER_MOST || (status != QDOT_OK && status != QDOT_ELIMIT) ||
-        (status == QDOT_OK &&
-         operations(pool, n, x) <= operations(pool, n * n, A) + operations(pool, n, b)))
-        return status;
-    if (status == QDOT_ELIMIT) {
+    if (n <= QDOT_CRAMER_MOST && (known || status == QDOT_ELIMIT))
+        asked = !known || operations(pool, n, x) >
+                              operations(pool, n * n, A) + operations(pool, n, b);
+    if (asked && !known) {
         qdot_decision d;
 
         QDOT_TRY(qdot_decide_equal(pool, qdot_cramer_determinant(pool, n, A), QDOT_ZERO,
@@ -276,13 +277,21 @@ keep_entries(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b
                              "past the work budget: whether a system of %u equations has "
                              "one solution is not decided",
                              n);
+        status = QDOT_OK;
     }
-    QDOT_TRY(qdot_cramer(pool, n, A, b, y));
-    for (uint32_t i = 0; i < n; i++)
-        if (status == QDOT_ELIMIT ||
-            qdot_expr_size(pool, y[i]) < qdot_expr_size(pool, x[i]))
+    if (asked)
+        QDOT_TRY(qdot_cramer(pool, n, A, b, y));
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
+        if (known && (!asked || qdot_expr_size(pool, x[i]) <=
+                                    TOO_LONG * qdot_expr_size(pool, y[i])))
+            x[i] = qdot_simplify(pool, x[i], facts);
+        else
+            x[i] = QDOT_NIL;
+        if (asked &&
+            (x[i] == QDOT_NIL || qdot_expr_size(pool, y[i]) < qdot_expr_size(pool, x[i])))
             x[i] = qdot_simplify(pool, y[i], facts);
-    return qdot_pool_check(pool);
+    }
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
 struct system {
@@ -316,7 +325,7 @@ solve_block(struct system *s, uint32_t k, uint32_t m, const uint32_t *block)
                 A[at++] = s->A[i * s->n + j];
     }
     status = solve(s->pool, m, A, b, x, &pivot, s->facts);
-    status = keep_entries(s->pool, m, A, b, x, s->facts, status);
+    status = simplest(s->pool, m, A, b, x, s->facts, status);
     for (uint32_t i = 0, to = 0; i < s->n; i++) {
         if (block[i] != k)
             continue;
