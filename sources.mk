@@ -576,6 +576,7 @@ script_tests = \
 	tests/script/dof-redundant.lag \
 	tests/script/double-energy.lag \
 	tests/script/doubts.sh \
+	tests/script/end-errors.sh \
 	tests/script/equilibria.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
@@ -1127,6 +1128,8 @@ test_files = \
 	tests/script/dof-redundant.out \
 	tests/script/double-energy.out \
 	tests/script/doubts.out \
+	tests/script/end-errors.inc \
+	tests/script/end-errors.out \
 	tests/script/equilibria.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \

@@ -12,6 +12,9 @@
 
 static const double unit = 0x1p-53;
 
+/* Of roundings, for the floor. */
+static const double most_floor = 32;
+
 /* Of a companion by Taylor series beside a stiff method, which steps over what is fast:
  * where it gets stuck there the method's partner takes over. */
 static const uint64_t most_explicit_steps = 100000;
@@ -49,6 +52,8 @@ struct qdot_companion {
     size_t n_shown;
     atomic_bool leave; /* the run ended elsewhere */
     atomic_uint_fast64_t most_steps;
+    double share; /* of the second one's distance that counts */
+    double floor; /* of the error */
     follower at[2];
     size_t count;
 };
@@ -76,13 +81,25 @@ qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *m
 /* Signs without a pattern that a symmetric system could share (Knuth's multiplicative
  * hash of the index, bit 31). */
 double
-qdot_companion_moved(double y, size_t i, size_t number)
+qdot_companion_moved(double y, size_t i, size_t number, double by)
 {
     bool up = (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 == number % 2;
 
     if (y == 0)
         return up ? unit : -unit;
-    return nextafter(y, up ? INFINITY : -INFINITY);
+    return y + by * (nextafter(y, up ? INFINITY : -INFINITY) - y);
+}
+
+double
+qdot_companion_far(uint64_t steps)
+{
+    return fmin(QDOT_COMPANION_FAR, fmax(1, floor(sqrt((double)steps))));
+}
+
+double
+qdot_companion_floor(uint64_t steps)
+{
+    return unit * fmin(most_floor, fmax(1, sqrt((double)steps)));
 }
 
 static qdot_status
@@ -218,8 +235,9 @@ apart(const qdot_companion *c, const double *a, const double *b)
     return worst;
 }
 
-/* The largest distance of any two of the runs, y being the one of the run itself and the
- * companions' k-th states of n, SIZE_MAX: their ends. */
+/* The largest distance of any two of the runs, that of the second companion by its share,
+ * y being the one of the run itself and the companions' k-th states of n, SIZE_MAX: their
+ * ends. */
 static double
 largest_distance(const qdot_companion *c, const double *y, size_t k)
 {
@@ -228,9 +246,9 @@ largest_distance(const qdot_companion *c, const double *y, size_t k)
 
     for (size_t i = 0; i < c->count; i++) {
         of[i] = k == SIZE_MAX ? c->at[i].y : c->at[i].own + k * c->n;
-        worst = fmax(worst, apart(c, y, of[i]));
+        worst = fmax(worst, (i ? c->share : 1) * apart(c, y, of[i]));
     }
-    return c->count == 2 ? fmax(worst, apart(c, of[0], of[1])) : worst;
+    return c->count == 2 ? fmax(worst, c->share * apart(c, of[0], of[1])) : worst;
 }
 
 /* The median over the times between. */
@@ -269,7 +287,8 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
     for (size_t i = 0; i < c->n; i++)
-        f->start[i] = qdot_companion_moved(request->y0[i], i, number);
+        f->start[i] = qdot_companion_moved(request->y0[i], i, number,
+                                           number ? QDOT_COMPANION_FAR : 1);
     if (f->system.project) { /* only along what solutions may do */
         double by;
 
@@ -293,6 +312,8 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     c->tol = qdot_companion_tolerance(request->system, request->method, request->tol);
     c->t1 = request->t1;
     c->t1_low = request->t1_low;
+    c->share = 1;
+    c->floor = unit;
     c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);
     if (c->method->series)
         choose_times(c, request->t0);
@@ -325,7 +346,8 @@ arrive(follower *f, bool whole, double t_end, const double *y, double *differenc
         out->result = f->result;
     out->known = out->known && f->result.outcome == QDOT_ODE_DONE;
     for (size_t i = 0; i < c->n && out->known && difference; i++)
-        difference[i] = fmax(fabs(y[i] - f->y[i]), f->number ? difference[i] : 0);
+        difference[i] = f->number ? fmax(difference[i], c->share * fabs(y[i] - f->y[i]))
+                                  : fabs(y[i] - f->y[i]);
     return whole && c->n_shown == PLACES && f->reached == PLACES;
 }
 
@@ -333,6 +355,8 @@ void
 qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
     atomic_store(&c->most_steps, QDOT_COMPANION_PATIENCE * steps + QDOT_COMPANION_STEPS);
+    c->share = qdot_companion_far(steps) / QDOT_COMPANION_FAR;
+    c->floor = qdot_companion_floor(steps);
 }
 
 void
@@ -348,7 +372,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         if (c->at[k].running)
             pthread_join(c->at[k].thread, NULL);
     atomic_store(&c->leave, false);
-    *out = (qdot_companion_estimate){.known = true, .error = unit, .tol = c->tol};
+    *out = (qdot_companion_estimate){.known = true, .error = c->floor, .tol = c->tol};
     for (size_t k = 0; k < c->count; k++)
         between = arrive(c->at + k, whole, t_end, y, difference, out) && between;
     if (out->known)

@@ -18,14 +18,18 @@
  * that of the run itself.
  *
  *     difference_i = |y_i - y*_i|
- *     error        = max(2^-53, max_i difference_i / max(1, min(|y_i|, |y*_i|)))
+ *     error        = max(floor, max_i difference_i / max(1, min(|y_i|, |y*_i|)))
+ *     floor        = 2^-53 min(sqrt(steps), 32)
  *
  * An estimate, not a bound. Where rounding is all there is the difference of two random
  * walks may be small by chance: near an instability everything is one number, and one
  * run in ten would be wrong by more than 3 times its statement. So such a run
  * (QDOT_COMPANION_TWIN_TOL) has two companions, moved to either side, by one order more
- * and by three; the largest distance of any two of the three runs counts, and it is at least
- * the move itself.
+ * and by three; the largest distance of any two of the three runs counts.
+ *     The second one is there for what chance cannot hide: the amplification of the scene. It
+ * starts QDOT_COMPANION_FAR doubles away (zeros stay 2^-53 away: of their scale nothing is
+ * known), and of its distances min(1, sqrt(steps)/QDOT_COMPANION_FAR) counts, what a random
+ * walk of one rounding a step would have moved the start by.
  *
  * A companion that does not arrive gives no number: known is false, the error a NaN.
  *
@@ -89,6 +93,15 @@ void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
  * as many and QDOT_COMPANION_STEPS more does not arrive: beside a scene at rest, which one
  * step may cross, one moved by a rounding swings for all of the time. */
 void qdot_companion_limit(qdot_companion *c, uint64_t steps);
+
+/* By how many doubles the second companion starts away: a walk of so many steps, from 1 to
+ * QDOT_COMPANION_FAR. */
+double qdot_companion_far(uint64_t steps);
+#define QDOT_COMPANION_FAR 3.0
+
+/* What a run of so many steps may err by in any case. */
+double qdot_companion_floor(uint64_t steps);
+
 #define QDOT_COMPANION_PATIENCE 100
 #define QDOT_COMPANION_STEPS 200000
 
@@ -108,7 +121,8 @@ const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
 double qdot_companion_tolerance(const qdot_ode_system *system,
                                 const qdot_ode_method *method, double tol);
 
-/* Where companion 0 or 1 starts in component i. */
-double qdot_companion_moved(double y, size_t i, size_t number);
+/* Where companion 0 or 1 starts in component i: so many doubles beyond y, a whole number;
+ * of a zero 2^-53. */
+double qdot_companion_moved(double y, size_t i, size_t number, double by);
 
 #endif

@@ -412,7 +412,9 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
         t_end = step.t_end;
         h = t_end - r->t;
     }
-    advance_state(r, r->cut, (t_end == r->t1 ? h + r->options->t1_low : h) * r->per_unit);
+    if (t_end == r->t1)
+        h += r->options->t1_low; /* all of it: the defect is looked at over the same length */
+    advance_state(r, r->cut, h * r->per_unit);
     QDOT_TRY(project(r, t_end, &moved));
     *good = fixed || moved <= 100 * r->held + rounding_of_projection;
     if (!*good)

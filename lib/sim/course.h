@@ -34,6 +34,7 @@ typedef struct {
     size_t piece, function; /* of the trajectory; of the mode */
     double t;
     qdot_watched what;
+    bool exact; /* it lies at t, not just before */
 } qdot_course_end;
 
 typedef struct qdot_course {

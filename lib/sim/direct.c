@@ -49,6 +49,7 @@ struct qdot_direct {
     momentum *momenta;      /* [n_kept] as they were drawn last */
     bool plain;             /* of those, hi alone */
     double inverse[most_order + 2];
+    int exact; /* QDOT_TAYLOR_EXACT, or less */
 };
 
 /* f_k of a block less what M of orders above 0 takes of it. */
@@ -127,11 +128,19 @@ integrate(qdot_direct *e, int k)
         if (!e->a[i])
             continue;
         a = e->a[i][k];
+        if (k <= e->exact) {
+            e->v[i * e->stride + (size_t)k + 1] = e->unit * a / (k + 1);
+            e->q[i * e->stride + (size_t)k + 2] =
+                e->unit * (e->unit * a) / ((k + 1) * (k + 2));
+            continue;
+        }
         e->v[i * e->stride + (size_t)k + 1] = once * a;
         e->q[i * e->stride + (size_t)k + 2] = twice * a;
     }
     for (size_t c = 0; c < e->plan->n_kept; c++)
-        e->q[e->plan->kept[c] * e->stride + (size_t)k + 1] = once * e->rates[c][k];
+        e->q[e->plan->kept[c] * e->stride + (size_t)k + 1] =
+            k <= e->exact ? e->unit * e->rates[c][k] / (k + 1)
+                                   : once * e->rates[c][k];
 }
 
 /* Coefficients below p of velocities that follow from momenta, where others read them. */
@@ -226,6 +235,7 @@ prepare(int p, void *user)
 {
     qdot_direct *e = user;
 
+    e->exact = p > QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT : 0;
     return e->diagonal ? qdot_taylor_prepare(e->taylor, p - 1) : QDOT_OK;
 }
 

@@ -328,7 +328,7 @@ static void
 move(double *x, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        x[i] = qdot_companion_moved(x[i], i, 0);
+        x[i] = qdot_companion_moved(x[i], i, 0, 1);
 }
 
 static qdot_status

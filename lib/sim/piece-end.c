@@ -181,7 +181,8 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
             x->c->stage->events.at[w->index].then)
             status = qdot_vec_push(
                 &x->c->ends,
-                ((qdot_course_end){x->c->tr.pieces.n - 1, root->function, t, *w}));
+                ((qdot_course_end){x->c->tr.pieces.n - 1, root->function, t, *w,
+                                   root->exact}));
         if (status != QDOT_OK)
             break;
         if (w->kind == QDOT_WATCH_DOMAIN) {

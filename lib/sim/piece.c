@@ -139,7 +139,7 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
 
         if (w) {
             qdot_root root = {(size_t)(w - qdot_piece_mode(x)->watched), t0, -w->inside,
-                              0};
+                              0, true};
 
             x->intent = QDOT_PIECE_ENDS;
             x->t_act = t0;

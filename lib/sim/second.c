@@ -73,9 +73,10 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
              double *y)
 {
     const size_t n = 2 * run->plan->n;
+    const double far = qdot_companion_far(run->course.tr.result.stats.steps);
 
     for (size_t i = 0; i < n; i++)
-        y[i] = qdot_companion_moved(run->start[i], i, number);
+        y[i] = qdot_companion_moved(run->start[i], i, number, number ? far : 1);
     if (system->project) { /* along what solutions may do */
         double by;
 
@@ -201,6 +202,36 @@ find_doubt(qdot_run *run, const qdot_course *c)
     return say_doubt(run, "the second run went through other events or switches");
 }
 
+/* A piece ends at the first double behind the root that ends it, in all runs alike: what the
+ * other system would have done in half the time between doubles, for each end of a piece
+ * added to floor [n]. */
+static qdot_status
+add_delays(const qdot_course *c, double *floor)
+{
+    const qdot_trajectory *tr = &c->tr;
+    double *before = qdot_malloc(2 * tr->n * sizeof *before), *behind = before + tr->n;
+    qdot_status status = before ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < c->ends.n && status == QDOT_OK; k++) {
+        const qdot_course_end *end = c->ends.at + k;
+        const size_t first =
+            end->piece + 1 < tr->pieces.n ? tr->pieces.at[end->piece + 1].first : 0;
+        const qdot_ode_system *old = qdot_course_systems(c) + tr->pieces.at[end->piece].mode;
+        const qdot_ode_system *next;
+
+        if (end->exact || first == 0 || (k > 0 && end[-1].piece == end->piece))
+            continue;
+        next = qdot_course_systems(c) + tr->pieces.at[end->piece + 1].mode;
+        if (old->rhs(end->t, tr->y + (first - 1) * tr->n, before, old->user) != QDOT_OK
+            || next->rhs(end->t, tr->y + first * tr->n, behind, next->user) != QDOT_OK)
+            continue; /* it is a floor only */
+        for (size_t i = 0; i < tr->n; i++)
+            floor[i] += 0x1p-53 * fabs(end->t) * fabs(behind[i] - before[i]);
+    }
+    qdot_free(before);
+    return status;
+}
+
 /* The distance of the ends, a time where an event stopped them; NaN where they do not
  * compare. */
 static qdot_status
@@ -208,15 +239,18 @@ end_distance(qdot_run *run, const qdot_course *other, double *error)
 {
     const qdot_trajectory *a = &run->course.tr, *b = &other->tr;
     const double *y = a->y + (a->count - 1) * a->n;
-    double t = a->t[a->count - 1], worst = 0x1p-53, *z;
+    double t = a->t[a->count - 1], *z;
+    double worst = qdot_companion_floor(a->result.stats.steps);
     qdot_trajectory_cursor *cursor = NULL;
     qdot_status status;
 
     *error = NAN;
     if (!went_alike(&run->course, other) || run->course.stopped_by != other->stopped_by)
         return find_doubt(run, other);
-    z = qdot_malloc(a->n * sizeof *z);
-    status = z ? qdot_trajectory_open(b, qdot_course_systems(other), &cursor) : QDOT_ENOMEM;
+    z = qdot_calloc(2 * a->n, sizeof *z);
+    status = z ? add_delays(&run->course, z + a->n) : QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = qdot_trajectory_open(b, qdot_course_systems(other), &cursor);
     if (status == QDOT_OK && run->course.stopped_by != SIZE_MAX) {
         double end = b->t[b->count - 1];
 
@@ -226,7 +260,7 @@ end_distance(qdot_run *run, const qdot_course *other, double *error)
         status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, t, z);
     }
     for (size_t i = 0; i < a->n && status == QDOT_OK; i++)
-        worst = fmax(worst, fabs(z[i] - y[i]) / fmax(1, fabs(y[i])));
+        worst = fmax(worst, fmax(fabs(z[i] - y[i]), z[a->n + i]) / fmax(1, fabs(y[i])));
     if (status == QDOT_OK)
         *error = worst;
     qdot_trajectory_close(cursor);

@@ -173,7 +173,7 @@ order(qdot_shifted *s, int m)
     accelerate(s, k);
     a = solve(s, k);
     for (size_t i = 0; i < n; i++)
-        s->R[i] = inverse * a[i];
+        s->R[i] = k <= QDOT_TAYLOR_EXACT ? a[i] / (m * (m - 1)) : inverse * a[i];
     qdot_taylor_correct(s->places, m, s->R);
     accelerate(s, k);
     take_slopes(s, m);

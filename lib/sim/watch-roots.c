@@ -131,7 +131,7 @@ locate(qdot_watch *w, const qdot_watch_walk *k, size_t i, int way, double lo, do
             at_lo = value;
         }
     }
-    *root = (qdot_root){i, hi, way, fmax(fabs(at_lo), fabs(at_hi))};
+    *root = (qdot_root){i, hi, way, fmax(fabs(at_lo), fabs(at_hi)), at_hi == 0};
     return QDOT_OK;
 }
 
@@ -188,7 +188,7 @@ pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
     int before = w->now.sign[i];
 
     if (before != 0 && sign != 0)
-        QDOT_TRY(qdot_watch_push(w, (qdot_root){i, p->a, before == sign ? 0 : sign, 0}));
+        QDOT_TRY(qdot_watch_push(w, (qdot_root){i, p->a, before == sign ? 0 : sign, 0, true}));
     w->now.sign[i] = sign != 0 ? sign : before;
     return QDOT_OK;
 }
@@ -232,7 +232,7 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
             QDOT_TRY(is_touch(w, k, p, i, x[e], v, &touch));
         if (touch || (e + 1 < n && there == 0)) {
             if (sign != 0 && !is_start_again(p, to))
-                QDOT_TRY(qdot_watch_push(w, (qdot_root){i, to, 0, fabs(v)}));
+                QDOT_TRY(qdot_watch_push(w, (qdot_root){i, to, 0, fabs(v), false}));
             continue;
         }
         if (there != 0 && sign != 0 && there != sign) {

@@ -183,7 +183,7 @@ end_on_zero(qdot_watch *w, double t)
 {
     for (size_t i = 0; i < w->m; i++)
         if (w->now.g0[i] == 0 && w->now.sign[i] != 0 && w->live[i])
-            QDOT_TRY(qdot_watch_push(w, (qdot_root){i, t, -w->now.sign[i], 0}));
+            QDOT_TRY(qdot_watch_push(w, (qdot_root){i, t, -w->now.sign[i], 0, true}));
     return QDOT_OK;
 }
 

@@ -31,6 +31,7 @@ typedef struct {
     double t;
     int way;         /* the sign it goes over to in the direction of the run; 0: none */
     double residual; /* |g| at the doubles on both sides of it, the larger */
+    bool exact;      /* g is 0 at t */
 } qdot_root;
 
 /* How states within a step are had. */

@@ -615,6 +615,10 @@ integral(qdot_generator *g, const qdot_taylor_step *s)
     const size_t k = (size_t)g->k;
     sum once = {.v = {.reg = -1}}, twice = once;
 
+    if (g->k <= QDOT_TAYLOR_EXACT && g->n >= QDOT_TAYLOR_EXACT_FROM) {
+        times(g, &once, false, qdot_code_work(QDOT_CODE_ONCE_LOW + k), s->x, g->k);
+        times(g, &twice, false, qdot_code_work(QDOT_CODE_TWICE_LOW + k), s->x, g->k);
+    }
     times(g, &once, false, qdot_code_work(QDOT_CODE_ONCE + k), s->x, g->k);
     times(g, &twice, false, qdot_code_work(QDOT_CODE_TWICE + k), s->x, g->k);
     finish(g, total(g, &once), s->to, g->k + 1);

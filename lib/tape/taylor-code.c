@@ -1,6 +1,7 @@
 /* taylor-code.c -- the frame of a program's code: vectors of products, registers, memory. */
 #include "tape/taylor-code.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "tape/taylor-generator.h"
@@ -31,6 +32,7 @@ struct qdot_taylor_code {
     double *allocated, *work; /* the same, aligned */
     int to;
     double unit;
+    double once_low[QDOT_TAYLOR_EXACT + 1], twice_low[QDOT_TAYLOR_EXACT + 1]; /* at unit 1 */
 };
 
 /* --- products of lower orders ------------------------------------------------------- */
@@ -298,6 +300,13 @@ emit_all(qdot_generator *g)
     qdot_x86_return(&g->x);
 }
 
+/* 1/n less its double. */
+static double
+beyond(int n)
+{
+    return fma(-1.0 / n, n, 1) / n;
+}
+
 static qdot_status
 make_work(qdot_taylor_code *c, size_t doubles)
 {
@@ -309,7 +318,12 @@ make_work(qdot_taylor_code *c, size_t doubles)
         c->work++;
     for (int k = 1; k < QDOT_CODE_TABLE; k++) {
         c->work[QDOT_CODE_INVERSES + k] = 1.0 / k;
+        c->work[QDOT_CODE_PAIRS + k - 1] = 1.0 / (k * (k + 1));
         c->work[QDOT_CODE_ORDERS + k] = k;
+    }
+    for (int k = 0; k <= QDOT_TAYLOR_EXACT; k++) {
+        c->once_low[k] = beyond(k + 1);
+        c->twice_low[k] = beyond((k + 1) * (k + 2));
     }
     c->work[QDOT_CODE_INVERSES] = -1;
     return QDOT_OK;
@@ -445,8 +459,11 @@ qdot_taylor_code_unit(qdot_taylor_code *c, double unit)
     c->unit = unit;
     for (size_t k = 0; k <= (size_t)c->to; k++) {
         w[QDOT_CODE_ONCE + k] = unit * w[QDOT_CODE_INVERSES + k + 1];
-        w[QDOT_CODE_TWICE + k] =
-            unit * w[QDOT_CODE_INVERSES + k + 2] * w[QDOT_CODE_ONCE + k];
+        w[QDOT_CODE_TWICE + k] = unit * unit * w[QDOT_CODE_PAIRS + k];
+    }
+    for (size_t k = 0; k <= QDOT_TAYLOR_EXACT; k++) {
+        w[QDOT_CODE_ONCE_LOW + k] = unit * c->once_low[k];
+        w[QDOT_CODE_TWICE_LOW + k] = unit * unit * c->twice_low[k];
     }
 }
 

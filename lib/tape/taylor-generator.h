@@ -18,14 +18,17 @@ enum {
     QDOT_CODE_REGISTERS = 32,
     QDOT_CODE_FIRST_SCALAR = 4, /* those below are for a moment */
     QDOT_CODE_SCALARS = 14,
-    /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, and the two
-     * factors of a link; then slots. */
+    /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, the two factors of
+     * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); then slots. */
     QDOT_CODE_TABLE = QDOT_SERIES_MOST + 8,
     QDOT_CODE_INVERSES = 0,
     QDOT_CODE_ORDERS = QDOT_CODE_TABLE,
     QDOT_CODE_ONCE = 2 * QDOT_CODE_TABLE,
     QDOT_CODE_TWICE = 3 * QDOT_CODE_TABLE,
-    QDOT_CODE_SLOTS = 4 * QDOT_CODE_TABLE
+    QDOT_CODE_ONCE_LOW = 4 * QDOT_CODE_TABLE,
+    QDOT_CODE_TWICE_LOW = 5 * QDOT_CODE_TABLE,
+    QDOT_CODE_PAIRS = 6 * QDOT_CODE_TABLE,
+    QDOT_CODE_SLOTS = 7 * QDOT_CODE_TABLE
 };
 
 /* Lane i is coefficient i + 2 of a row; of the sums that order m has been added to, order

@@ -310,6 +310,24 @@ energy_does_not_drift(void **state)
         fail_msg("energy off by %g", E - E0);
 }
 
+/* The last step goes beyond its double; the slope must be looked at as far. */
+static void
+an_end_beyond_its_double_rejects_nothing(void **state)
+{
+    (void)state;
+    for (double low = -0x1p-53; low < 0x1p-52; low += 0x1p-53) {
+        qdot_ode_options o = {.tol = 1e-16, .t1_low = 16 * low};
+        double y[2] = {2, 0};
+        qdot_ode_result r;
+        fixture f;
+
+        start(&f, 0);
+        assert_int_equal(qdot_ode_integrate(&f.system, f.taylor, &o, 0, 22.123, y, &r),
+                         QDOT_OK);
+        assert_true(r.outcome == QDOT_ODE_DONE && r.stats.rejected == 0);
+    }
+}
+
 static void
 the_stated_error_is_honest(void **state)
 {
@@ -376,6 +394,7 @@ main(void)
         cmocka_unit_test(a_singularity_ends_the_run_and_says_when),
         cmocka_unit_test(between_steps_it_is_as_accurate),
         cmocka_unit_test(energy_does_not_drift),
+        cmocka_unit_test(an_end_beyond_its_double_rejects_nothing),
         cmocka_unit_test(the_stated_error_is_honest),
         cmocka_unit_test(nonsense_is_refused),
     };

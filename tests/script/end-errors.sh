@@ -1,0 +1,18 @@
+# Stated errors of ends against runs with `digits`: scenes with damping, forces by t, stated
+# Lagrangians, varying mass, events, switches, constraints, near collisions and unstable rests. The
+# true error is at most 3 times the stated one, the stated one at most 100 times the true one
+# where that is above 1e-14. The ends are not doubles.
+for name in $(sed -n 's/^### //p' end-errors.inc); do
+    echo "### $name"
+    {
+        sed -n "/^### $name\$/,/^### /p" end-errors.inc | sed '/^###/d; /^run/d'
+        limits=$(sed -n "/^### $name\$/,/^### /s/^run //p" end-errors.inc | head -n 1)
+        echo "run $limits digits 20"
+        for method in taylor dop853 rk8pd; do
+            for tol in 1e-6 1e-9 1e-12 1e-15; do
+                echo "run $limits tol $tol method $method"
+            done
+        done
+    } | qdot -q --json -
+done >answers
+awk -f end-errors.awk answers
