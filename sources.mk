@@ -126,6 +126,7 @@ normal_sources = \
 	lib/normal/cramer.c \
 	lib/normal/decide.c \
 	lib/normal/defined.c \
+	lib/normal/denominators.c \
 	lib/normal/domain.c \
 	lib/normal/factor.c \
 	lib/normal/field.c \

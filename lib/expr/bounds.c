@@ -82,6 +82,53 @@ of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
     }
 }
 
+static bool
+is_two(const fmpq *k)
+{
+    return k != NULL && fmpz_is_one(fmpq_denref(k)) && qdot_integer_is(fmpq_numref(k), 2);
+}
+
+static void
+square(struct bound *b, const struct bound *end)
+{
+    qdot_rational_mul(&b->x, &end->x, &end->x);
+    b->known = true;
+    b->open = end->open;
+}
+
+/* Of s^2, s a symbol within bounds: of two of opposite signs the larger square is the upper one. */
+static void
+of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, struct bound *hi)
+{
+    struct bound least = {{0, 1}, false, false}, most = {{0, 1}, false, false};
+
+    declared(pool, s->lo, s->lo_open, false, &least);
+    declared(pool, s->hi, s->hi_open, true, &most);
+    if (least.known && qdot_rational_sgn(&least.x) >= 0) {
+        square(lo, &least);
+        if (most.known)
+            square(hi, &most);
+    } else if (most.known && qdot_rational_sgn(&most.x) <= 0) {
+        square(lo, &most);
+        if (least.known)
+            square(hi, &least);
+    } else if (least.known && most.known) {
+        struct bound other = {{0, 1}, false, false};
+        int d;
+
+        square(hi, &least);
+        square(&other, &most);
+        d = qdot_rational_cmp(&other.x, &hi->x);
+        if (d > 0)
+            square(hi, &most);
+        else if (d == 0)
+            hi->open &= other.open;
+        fmpq_clear(&other.x);
+    }
+    fmpq_clear(&least.x);
+    fmpq_clear(&most.x);
+}
+
 /* Of a term without its coefficient. */
 static void
 of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
@@ -99,8 +146,13 @@ of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
         break;
     case QDOT_FUN: of_function(node->op, lo, hi); break;
     case QDOT_PROD:
-        if (node->n == 3 && ARGS(pool, e)[0] == QDOT_ONE)
+        if (node->n != 3 || ARGS(pool, e)[0] != QDOT_ONE)
+            break;
+        s = qdot_expr_symbol(pool, ARGS(pool, e)[1]);
+        if (s == NULL)
             of_power(pool, e, lo, hi);
+        else if (is_two(NUMBER(pool, ARGS(pool, e)[2])))
+            of_square(pool, s, lo, hi);
         break;
     default: break;
     }

@@ -32,14 +32,17 @@ level(uint32_t holds)
     return 0;
 }
 
-/* Order of kinds within a level: among parameters a sum stands first, (m1 + m2)*L^2. */
+/* Order of kinds within a level: among parameters a sum stands first, (m1 + m2)*L^2; undefined
+ * functions stand last but for their values at a place, f'(a)*(x - a). */
 static int
 kind_rank(const qdot_node *node)
 {
-    static const int rank[] = {0, 1, 3, 6, 5, 4, 4, 7, 8, 9, 10, 11};
+    static const int rank[] = {0, 1, 3, 6, 5, 4, 7, 8, 9, 10, 11, 12};
 
     if (node->kind == QDOT_SUM && level(node->holds) == 1)
         return 2;
+    if (node->kind == QDOT_UFUN && !(node->holds & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
+        return rank[QDOT_FUN];
     return rank[node->kind];
 }
 
@@ -89,6 +92,14 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
             return compare_symbols(&pool->symbols.at[x->at], &pool->symbols.at[y->at]);
         if (x->kind != y->kind) /* an elementary and an undefined function */
             return three(x->kind, y->kind);
+        if (x->kind == QDOT_FUN && x->n == 1 && y->n == 1 &&
+            ARGS(pool, a)[0] != ARGS(pool, b)[0]) { /* sinh(u)^2 + sin(v)^2 */
+            a = ARGS(pool, a)[0];
+            b = ARGS(pool, b)[0];
+            continue;
+        }
+        if (x->kind == QDOT_FUN && (x->n == 1) != (y->n == 1))
+            return three(x->n, y->n);
         if (x->op != y->op)
             return three(x->op, y->op);
         if (x->n != y->n)
@@ -131,6 +142,25 @@ is_root(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
            !fmpz_is_one(fmpq_denref(x));
 }
 
+/* Bases among terms: derivatives of a function by its first argument before others, the higher
+ * before the lower: f_rr + f_r/r + f_pp/r^2. */
+static int
+compare_bases(const qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
+
+    if (x->kind == QDOT_UFUN && y->kind == QDOT_UFUN && x->op == y->op && x->n == y->n &&
+        deep(x) == deep(y) && level(x->holds) == level(y->holds))
+        for (uint32_t i = x->n / 2; i < x->n; i++) {
+            int d = qdot_rational_cmp(RATIONAL(pool, ARGS(pool, b)[i]),
+                                      RATIONAL(pool, ARGS(pool, a)[i]));
+
+            if (d != 0)
+                return d;
+        }
+    return qdot_expr_compare(pool, a, b);
+}
+
 int
 qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -148,7 +178,7 @@ qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
                 ? 0
                 : is_root(pool, base_a, exp_a) - is_root(pool, base_b, exp_b);
         if (d == 0)
-            d = qdot_expr_compare(pool, base_a, base_b);
+            d = compare_bases(pool, base_a, base_b);
         if (d == 0)
             d = qdot_expr_compare(pool, exp_b, exp_a);
         if (d != 0)
@@ -163,7 +193,10 @@ qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
     switch (NODE(pool, e)->kind) {
     case QDOT_NUM: return qdot_rational_sgn(RATIONAL(pool, e)) < 0;
     case QDOT_PROD: return qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[0])) < 0;
-    case QDOT_SUM: return qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;
+    case QDOT_SUM: /* what is known to be positive is not: cosh(v) - cos(u) */
+        return NODE(pool, e)->sign & (QDOT_GE0 | QDOT_LE0)
+                   ? !(NODE(pool, e)->sign & QDOT_GE0)
+                   : qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;
     default: return false;
     }
 }

@@ -46,10 +46,11 @@ is_constant(const qdot_pool *pool, qdot_expr e)
            0;
 }
 
-/* Whether a product is one of constants and of functions of coordinates. */
+/* Whether a term enters by functions of coordinates: R sin(x), r cos(x). */
 static bool
 is_by_functions(const qdot_pool *pool, qdot_expr e)
 {
+    bool any = false;
     const qdot_node *node = NODE(pool, e);
     uint32_t allowed =
         QDOT_HAS_PARAM | QDOT_HAS_FORMAL | QDOT_HAS_COORD | QDOT_HAS_TIME | QDOT_HAS_FUN;
@@ -61,10 +62,12 @@ is_by_functions(const qdot_pool *pool, qdot_expr e)
     for (uint32_t i = 1; i < node->n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i];
 
-        if (!is_constant(pool, b) && NODE(pool, b)->kind != QDOT_FUN)
+        if (!is_constant(pool, b) && NODE(pool, b)->kind != QDOT_FUN &&
+            NODE(pool, b)->kind != QDOT_SYM)
             return false;
+        any |= !is_constant(pool, b) && NODE(pool, b)->kind == QDOT_FUN;
     }
-    return true;
+    return any;
 }
 
 static bool
@@ -86,7 +89,45 @@ constants_first(const qdot_pool *pool, qdot_expr e)
     return constants > 0 && others > 0;
 }
 
-/* The terms as they are written, 0 the number: the first that needs no minus leads. */
+static bool
+needs_minus(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t i)
+{
+    const qdot_expr *args = ARGS(pool, e);
+
+    return is_minus(pool, i == 0 ? args[0] : args[i + 1]) != turned &&
+           (i == 0 || qdot_expr_turnable(pool, args[i]) == QDOT_NIL);
+}
+
+/* What stands in a term beside parameters and functions; of the number nothing. */
+static uint32_t
+sort_of(const qdot_pool *pool, qdot_expr e, uint32_t i)
+{
+    const uint32_t either = QDOT_HAS_PARAM | QDOT_HAS_FORMAL | QDOT_HAS_FUN;
+
+    return i == 0 ? 0 : NODE(pool, ARGS(pool, e)[i])->holds & ~either;
+}
+
+/* The term at `lead` needs no minus, those before it do: it goes first, and what is of the sort of
+ * one passed goes before that too: m2 + m3 - m1, but y - x + 1. */
+static void
+pluses_first(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order, uint32_t lead,
+             uint32_t n)
+{
+    for (uint32_t k = lead; k < n; k++) {
+        uint32_t to = k, i = order[k];
+
+        if (needs_minus(pool, e, turned, i))
+            continue;
+        while (to > 0 && needs_minus(pool, e, turned, order[to - 1]) &&
+               (k == lead || sort_of(pool, e, i) == sort_of(pool, e, order[to - 1])))
+            to--;
+        memmove(order + to + 1, order + to, (k - to) * sizeof *order);
+        order[to] = i;
+    }
+}
+
+/* The terms as they are written, 0 the number: where the first needs a minus, those that need none
+ * lead. */
 static uint32_t
 arrange(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order)
 {
@@ -114,18 +155,11 @@ arrange(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order)
     if (others == 0)
         others = count;
     for (; lead < others; lead++) {
-        uint32_t i = order[lead];
-
-        if (is_minus(pool, i == 0 ? args[0] : args[i + 1]) == turned ||
-            (i > 0 && qdot_expr_turnable(pool, args[i]) != QDOT_NIL))
+        if (!needs_minus(pool, e, turned, order[lead]))
             break;
     }
-    if (lead < others) {
-        uint32_t i = order[lead];
-
-        memmove(order + 1, order, lead * sizeof *order);
-        order[0] = i;
-    }
+    if (lead > 0 && lead < others)
+        pluses_first(pool, e, turned, order, lead, others);
     return count;
 }
 

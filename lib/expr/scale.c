@@ -128,6 +128,25 @@ qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e)
            (node->kind == QDOT_FUN && node->op != QDOT_EXP && node->op != QDOT_ABS);
 }
 
+/* Whether b^x is an odd power of a sum that may be turned: its sign is not known. */
+static bool
+is_free(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+{
+    const fmpq *k = NUMBER(pool, x);
+
+    return NODE(pool, b)->kind == QDOT_SUM && !(NODE(pool, b)->sign & QDOT_GE0) &&
+           k != NULL && fmpz_is_one(fmpq_denref(k)) && !fmpz_is_even(fmpq_numref(k));
+}
+
+static bool
+has_minus(const qdot_pool *pool, qdot_expr sum)
+{
+    for (uint32_t k = 0; k < NODE(pool, sum)->n; k += 2)
+        if (qdot_rational_sgn(RATIONAL(pool, ARGS(pool, sum)[k])) < 0)
+            return true;
+    return false;
+}
+
 qdot_expr
 qdot_expr_turnable(const qdot_pool *pool, qdot_expr e)
 {
@@ -135,20 +154,14 @@ qdot_expr_turnable(const qdot_pool *pool, qdot_expr e)
     qdot_expr power = QDOT_NIL; /* one to an odd power, where there is no other */
 
     for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < n; i += 2) {
-        qdot_expr b = ARGS(pool, e)[i];
-        const fmpq *x = NUMBER(pool, ARGS(pool, e)[i + 1]);
+        qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
-        if (NODE(pool, b)->kind != QDOT_SUM || x == NULL || !fmpz_is_one(fmpq_denref(x)) ||
-            fmpz_is_even(fmpq_numref(x)))
+        if (!is_free(pool, b, x) || !has_minus(pool, b))
             continue;
-        for (uint32_t k = 0; k < NODE(pool, b)->n; k += 2) {
-            if (qdot_rational_sgn(RATIONAL(pool, ARGS(pool, b)[k])) >= 0)
-                continue;
-            if (fmpq_is_one(x))
-                return b;
-            if (power == QDOT_NIL)
-                power = b;
-        }
+        if (x == QDOT_ONE)
+            return b;
+        if (power == QDOT_NIL)
+            power = b;
     }
     return power;
 }

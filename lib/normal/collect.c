@@ -1,6 +1,7 @@
 /* collect.c -- polynomials collected in velocities and accelerations, common factors
  * out. */
 #include "base/memory.h"
+#include "expr/walk.h"
 #include "normal/factor.h"
 #include "normal/form.h"
 #include "normal/items.h"
@@ -29,7 +30,7 @@ say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     fmpz_mpoly_t whole;
-    qdot_expr e;
+    qdot_expr e, out;
     fmpz_t content;
     fmpq_t k;
 
@@ -39,9 +40,15 @@ say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
     _fmpz_vec_content(content, p->coeffs, fmpz_mpoly_length(p, f->ctx));
     fmpz_mpoly_scalar_divexact_fmpz(whole, p, content, f->ctx);
     fmpq_mul_fmpz(k, c, content);
+    out = fmpz_is_pm1(fmpq_numref(k))
+              ? QDOT_NIL
+              : scaled(f->pool, k, qdot_form_coefficient(form, whole));
     fmpz_mpoly_scalar_mul_fmpz(whole, whole, fmpq_numref(k), f->ctx);
     fmpz_one(fmpq_numref(k));
     e = scaled(f->pool, k, qdot_form_coefficient(form, whole));
+    if (out != QDOT_NIL &&
+        qdot_expr_size(f->pool, out) <= qdot_expr_size(f->pool, e)) /* 2*(1 - x)*v' */
+        e = out;
     fmpz_clear(content);
     fmpq_clear(k);
     fmpz_mpoly_clear(whole, f->ctx);
@@ -330,6 +337,10 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     if (groups.n > 1) {
         qdot_expr out;
 
+        if (form->quotient && fmpz_is_one(fmpq_denref(c))) /* 2*(u*u' + v*v')/d */
+            qdot_form_keep(
+                pool, &best,
+                scaled(pool, c, say_collected(form, &groups, unit, one, false)));
         qdot_form_keep(pool, &best, say_collected(form, &groups, unit, c, true));
         common(f, g, &groups);
         out = qdot_form_coefficient(form, g);

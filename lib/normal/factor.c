@@ -267,6 +267,37 @@ qdot_factor(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
     return by_monomials(f, out, p);
 }
 
+bool
+qdot_factor_join(qdot_field *f, qdot_factors *factors)
+{
+    fmpz_mpoly_t product;
+    bool any = false;
+
+    fmpz_mpoly_init(product, f->ctx);
+    for (slong i = 0; i < factors->n; i++)
+        for (slong j = i + 1; j < factors->n && qdot_field_goes(f); j++) {
+            slong a = fmpz_mpoly_length(factors->poly + i, f->ctx),
+                  b = fmpz_mpoly_length(factors->poly + j, f->ctx);
+
+            if (factors->exp[i] != factors->exp[j] || a < 2 || b < 2 ||
+                !qdot_field_charge(f, a, b))
+                continue;
+            fmpz_mpoly_mul(product, factors->poly + i, factors->poly + j, f->ctx);
+            if (fmpz_mpoly_length(product, f->ctx) > (a > b ? a : b))
+                continue;
+            fmpz_mpoly_swap(factors->poly + i, product, f->ctx);
+            factors->n--;
+            fmpz_mpoly_swap(factors->poly + j, factors->poly + factors->n, f->ctx);
+            factors->exp[j] = factors->exp[factors->n];
+            fmpz_mpoly_clear(factors->poly + factors->n, f->ctx);
+            factors->complete = false;
+            any = true;
+            j = i; /* the product may go with one before */
+        }
+    fmpz_mpoly_clear(product, f->ctx);
+    return any;
+}
+
 void
 qdot_factor_clear(qdot_field *f, qdot_factors *out)
 {

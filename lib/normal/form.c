@@ -291,12 +291,25 @@ by_roots(qdot_form *form, const fmpz_mpoly_t p)
     return sum == QDOT_NIL ? sum : qdot_mul(f->pool, front, sum);
 }
 
+static qdot_expr
+plain_product(qdot_form *form, const qdot_factors *factors)
+{
+    qdot_pool *pool = form->f->pool;
+    qdot_expr product = qdot_form_integer(pool, factors->content);
+
+    for (slong i = 0; i < factors->n; i++)
+        product = qdot_mul(pool, product,
+                           qdot_pow_int(pool, sum_or_squares(form, factors->poly + i),
+                                        factors->exp[i]));
+    return product;
+}
+
 /* A polynomial without fast and trigonometric variables. */
 qdot_expr
 qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
-    qdot_expr best = qdot_form_recall(form, p), product;
+    qdot_expr best = qdot_form_recall(form, p);
     qdot_factors factors;
 
     if (best != QDOT_NIL)
@@ -308,13 +321,9 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
         qdot_form_keep(f->pool, &best, by_roots(form, p));
     if (fmpz_mpoly_length(p, f->ctx) > 2 || fmpz_mpoly_total_degree_si(p, f->ctx) > 1) {
         if (qdot_factor(f, &factors, p) == QDOT_OK) {
-            product = qdot_form_integer(f->pool, factors.content);
-            for (slong i = 0; i < factors.n; i++)
-                product =
-                    qdot_mul(f->pool, product,
-                             qdot_pow_int(f->pool, sum_or_squares(form, factors.poly + i),
-                                          factors.exp[i]));
-            qdot_form_keep(f->pool, &best, product);
+            qdot_form_keep(f->pool, &best, plain_product(form, &factors));
+            if (qdot_factor_join(f, &factors))
+                qdot_form_keep(f->pool, &best, plain_product(form, &factors));
         }
         qdot_factor_clear(f, &factors);
     }
@@ -436,6 +445,19 @@ say_sum(qdot_form *form, const fmpz_mpoly_t p)
 }
 
 static qdot_expr
+product_of_sums(qdot_form *form, const qdot_factors *factors)
+{
+    qdot_pool *pool = form->f->pool;
+    qdot_expr e = qdot_form_integer(pool, factors->content);
+
+    for (slong i = 0; i < factors->n; i++)
+        e = qdot_mul(
+            pool, e,
+            qdot_pow_int(pool, say_sum(form, factors->poly + i), factors->exp[i]));
+    return e;
+}
+
+static qdot_expr
 say_factors(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
@@ -443,11 +465,9 @@ say_factors(qdot_form *form, const fmpz_mpoly_t p)
     qdot_factors factors;
 
     if (qdot_factor(f, &factors, p) == QDOT_OK) {
-        e = qdot_form_integer(f->pool, factors.content);
-        for (slong i = 0; i < factors.n; i++)
-            e = qdot_mul(
-                f->pool, e,
-                qdot_pow_int(f->pool, say_sum(form, factors.poly + i), factors.exp[i]));
+        e = product_of_sums(form, &factors);
+        if (qdot_factor_join(f, &factors)) /* cosh(u)^2 - cos(v)^2 */
+            qdot_form_keep(f->pool, &e, product_of_sums(form, &factors));
     }
     qdot_factor_clear(f, &factors);
     return e;

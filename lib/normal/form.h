@@ -27,6 +27,12 @@ qdot_expr qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
 /* The forms of a quotient: the shortest of them and of *best (quotient.c). */
 void qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best);
 
+/* Of c r the coefficients of monomials in what moves, each over what is left of the denominator,
+ * equal denominators together, and what all share in front: the shortest of these and of *best
+ * (denominators.c). */
+void qdot_form_say_apart(qdot_form *form, const qdot_ratio *r, const fmpq_t c,
+                         qdot_expr *best);
+
 /* The coefficient of a monomial in velocities: no fast variable in p. */
 qdot_expr qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p);
 

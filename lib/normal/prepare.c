@@ -417,15 +417,27 @@ remember(qdot_pool *pool, qdot_map *origins, qdot_expr now, qdot_expr before)
         qdot_pool_fail(pool);
 }
 
-/* The base of a power x made of b, if b is left as a whole under the root. */
+/* The base of a power x made of b, if b is left as a whole under the root, or the product of the
+ * sums that it came apart into: (cosh(u) - cos(v))*(cosh(u) + cos(v)). */
 static void
 remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x,
               qdot_expr b)
 {
-    if (origins != NULL && power != QDOT_NIL &&
-        qdot_expr_kind(pool, power) == QDOT_PROD && qdot_expr_count(pool, power) == 3 &&
-        qdot_expr_arg(pool, power, 0) == QDOT_ONE && qdot_expr_arg(pool, power, 2) == x)
-        remember(pool, origins, qdot_expr_arg(pool, power, 1), b);
+    qdot_expr bases = QDOT_ONE;
+
+    if (origins == NULL || power == QDOT_NIL ||
+        qdot_expr_kind(pool, power) != QDOT_PROD ||
+        qdot_expr_arg(pool, power, 0) != QDOT_ONE)
+        return;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, power); i += 2) {
+        qdot_expr base = qdot_expr_arg(pool, power, i);
+
+        if (qdot_expr_arg(pool, power, i + 1) != x ||
+            (i > 1 && qdot_expr_kind(pool, base) != QDOT_SUM))
+            return;
+        bases = qdot_mul(pool, bases, base);
+    }
+    remember(pool, origins, bases, b);
 }
 
 /* Powers with fractional exponents split, others with normal base and exponent. */

@@ -1,4 +1,5 @@
 /* quotient.c -- all that can be said of one quotient: over its denominator, or taken apart. */
+#include "base/memory.h"
 #include "normal/factor.h"
 #include "normal/form.h"
 #include "normal/items.h"
@@ -109,60 +110,6 @@ spread_alike(struct saying *s, const qdot_ratio *r, const fmpq_t c)
     return status == QDOT_OK ? sum : QDOT_NIL;
 }
 
-/* What stands in velocities beside one coefficient. */
-struct share {
-    qdot_expr coefficient, sum;
-};
-
-/* Each coefficient of a monomial in velocities over what is left of the denominator by itself, equal
- * ones together: dz^2 + a^2*(du^2 + dv^2)/(cosh(v) - cos(u))^2. */
-static qdot_expr
-spread_coefficients(struct saying *s, const qdot_ratio *r, const fmpq_t c)
-{
-    enum { MOST_SHARES = 40 };
-    qdot_field *f = s->f;
-    struct share share[MOST_SHARES];
-    qdot_expr sum = QDOT_ZERO;
-    qdot_groups groups;
-    slong n = 0;
-
-    if (qdot_factor_group(f, &groups, r->n, s->form->fast) != QDOT_OK || groups.n < 2 ||
-        groups.n > MOST_SHARES)
-        sum = QDOT_NIL;
-    for (slong i = 0; i < groups.n && sum != QDOT_NIL; i++) {
-        qdot_ratio part;
-        qdot_expr e, monomial;
-        slong at = 0;
-        fmpq_t one, k;
-
-        fmpq_init(one);
-        fmpq_init(k);
-        fmpq_one(one);
-        qdot_ratio_init(f, &part);
-        fmpz_mpoly_set(part.n, groups.poly + i, f->ctx);
-        fmpz_mpoly_set(part.d, r->d, f->ctx);
-        qdot_ratio_cancel(f, &part);
-        content(f, k, &part);
-        fmpq_mul(k, k, c);
-        e = qdot_div(s->pool, qdot_form_say(s->form, part.n, k),
-                     qdot_form_coefficient(s->form, part.d));
-        monomial = qdot_form_monomial(f, one, groups.key + i * f->n);
-        while (at < n && share[at].coefficient != e)
-            at++;
-        if (at == n)
-            share[n++] = (struct share){e, QDOT_ZERO};
-        share[at].sum = qdot_add(s->pool, share[at].sum, monomial);
-        qdot_ratio_clear(f, &part);
-        fmpq_clear(one);
-        fmpq_clear(k);
-    }
-    qdot_factor_ungroup(f, &groups);
-    for (slong i = 0; i < n && sum != QDOT_NIL; i++)
-        sum =
-            qdot_add(s->pool, sum, qdot_mul(s->pool, share[i].coefficient, share[i].sum));
-    return sum;
-}
-
 static bool
 cancels(qdot_field *f, const fmpz_mpoly_t p, const fmpz_mpoly_t d)
 {
@@ -226,6 +173,35 @@ say_below(struct saying *s, qdot_ratio *r, fmpq_t c)
     return qdot_form_coefficient(s->form, r->d);
 }
 
+/* A sum of first degree in undefined functions and their derivatives, nothing else moving, is
+ * collected in them as in velocities: the Laplacian of f. */
+static void
+derivatives_move(qdot_form *form, const qdot_ratio *r)
+{
+    qdot_field *f = form->f;
+    bool *moves = qdot_calloc((size_t)f->n + 1, sizeof *moves), linear = moves != NULL;
+    ulong *exp = qdot_malloc(((size_t)f->n + 1) * sizeof *exp);
+
+    for (slong v = 0; v < f->n && linear; v++) {
+        moves[v] = qdot_expr_kind(f->pool, f->gen[v].expr) == QDOT_UFUN;
+        linear = !(moves[v] && fmpz_mpoly_degree_si(r->d, v, f->ctx) > 0);
+    }
+    for (slong i = 0; i < fmpz_mpoly_length(r->n, f->ctx) && linear && exp != NULL; i++) {
+        ulong degree = 0;
+
+        fmpz_mpoly_get_term_exp_ui(exp, r->n, i, f->ctx);
+        for (slong v = 0; v < f->n; v++) {
+            degree += moves[v] ? exp[v] : 0;
+            linear &= !(f->gen[v].fast && exp[v] > 0);
+        }
+        linear &= degree == 1;
+    }
+    for (slong v = 0; v < f->n; v++)
+        form->fast[v] = f->gen[v].fast || (linear && moves[v] && exp != NULL);
+    qdot_free(moves);
+    qdot_free(exp);
+}
+
 void
 qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best)
 {
@@ -244,6 +220,7 @@ qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best)
     qdot_ratio_set(f, &r, from);
     content(f, c, &r);
     form->quotient = false;
+    derivatives_move(form, &r);
     if (!fmpz_mpoly_is_one(r.d, f->ctx)) {
         bool apart = comes_apart(form, &r);
 
@@ -259,7 +236,7 @@ qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best)
             qdot_form_keep(s->pool, s->best, spread(s, &r, c));
         if (apart && fmpz_mpoly_length(r.n, f->ctx) > 1)
             qdot_form_keep(s->pool, s->best, spread_alike(s, &r, c));
-        qdot_form_keep(s->pool, s->best, spread_coefficients(s, &r, c));
+        qdot_form_say_apart(form, &r, c, s->best);
     } else {
         qdot_form_keep(s->pool, s->best, qdot_form_say(s->form, r.n, c));
     }

@@ -124,6 +124,81 @@ origin(qdot_pool *pool, qdot_expr node, void *user)
     return qdot_expr_size(pool, before) < qdot_expr_size(pool, node) ? before : QDOT_NIL;
 }
 
+/* Powers x of sums in a product, as bits of `with`: of their product's origin, where it has one. */
+static qdot_expr
+as_one_root(qdot_pool *pool, const qdot_map *map, qdot_expr e, qdot_expr x, uint32_t with)
+{
+    qdot_expr bases = QDOT_ONE, powers = QDOT_ONE;
+    uint32_t before;
+
+    for (uint32_t i = 0; i < 32 && 2 * i + 2 < qdot_expr_count(pool, e); i++)
+        if (with >> i & 1) {
+            qdot_expr b = qdot_expr_arg(pool, e, 2 * i + 1);
+
+            bases = qdot_mul(pool, bases, b);
+            powers = qdot_mul(pool, powers, qdot_pow(pool, b, x));
+        }
+    if (bases == QDOT_NIL || powers == QDOT_NIL || !qdot_map_get(map, bases, &before))
+        return QDOT_NIL;
+    return qdot_mul(pool, qdot_div(pool, e, powers), qdot_pow(pool, before, x));
+}
+
+/* Roots of sums that came apart as the roots they were: all of one exponent, or two of them. */
+static qdot_expr
+together(qdot_pool *pool, const qdot_map *map, qdot_expr e)
+{
+    uint32_t n = (qdot_expr_count(pool, e) - 1) / 2;
+
+    for (uint32_t i = 0; i < n && i < 32; i++) {
+        qdot_expr x = qdot_expr_arg(pool, e, 2 * i + 2), one;
+        const fmpq *k = qdot_expr_rational(pool, x);
+        uint32_t alike = 0;
+
+        if (k == NULL || fmpz_is_one(fmpq_denref(k)))
+            continue;
+        for (uint32_t j = i; j < n && j < 32; j++)
+            if (qdot_expr_arg(pool, e, 2 * j + 2) == x &&
+                qdot_expr_kind(pool, qdot_expr_arg(pool, e, 2 * j + 1)) == QDOT_SUM)
+                alike |= UINT32_C(1) << j;
+        if ((alike & (alike - 1)) == 0)
+            continue;
+        one = as_one_root(pool, map, e, x, alike);
+        for (uint32_t j = i + 1; j < n && j < 32 && one == QDOT_NIL; j++)
+            if (alike >> i & alike >> j & 1)
+                one = as_one_root(pool, map, e, x,
+                                  UINT32_C(1) << i | UINT32_C(1) << j);
+        if (one != QDOT_NIL)
+            return one;
+    }
+    return QDOT_NIL;
+}
+
+static qdot_expr
+roots_back(qdot_pool *pool, qdot_expr e, const qdot_map *map)
+{
+    enum { TIMES = 4 };
+    qdot_expr result = e;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return e;
+    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
+        result = qdot_walk_rebuild(pool, &w, w.at[i]);
+        for (int k = 0; k < TIMES && result != QDOT_NIL &&
+                        qdot_expr_kind(pool, result) == QDOT_PROD;
+             k++) {
+            qdot_expr one = together(pool, map, result);
+
+            if (one == QDOT_NIL || one == result)
+                break;
+            result = one;
+        }
+        qdot_walk_set(&w, w.at[i], result);
+    }
+    qdot_walk_end(&w);
+    return result;
+}
+
 /* --- scalars ----------------------------------------------------------------------- */
 
 /* A failure on the way to a candidate is forgotten; memory and Ctrl-C are not. */
@@ -180,8 +255,10 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
         s.best = qdot_products_signs(pool, s.best);
         if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
             keep(&s, qdot_products_out(pool, s.best));
-        if (s.best != QDOT_NIL && origins.map.n > 0)
+        if (s.best != QDOT_NIL && origins.map.n > 0) {
+            keep(&s, roots_back(pool, s.best, &origins.map));
             keep(&s, qdot_walk_map(pool, s.best, origin, &origins));
+        }
     }
     if (f.state == QDOT_FIELD_FAILED &&
         (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
