@@ -120,6 +120,7 @@ normal_sources = \
 	lib/normal/antiderivative.c \
 	lib/normal/ball.c \
 	lib/normal/cases.c \
+	lib/normal/cells.c \
 	lib/normal/collect.c \
 	lib/normal/common.c \
 	lib/normal/constant.c \
@@ -134,6 +135,7 @@ normal_sources = \
 	lib/normal/flint.c \
 	lib/normal/form.c \
 	lib/normal/ideal.c \
+	lib/normal/inequality.c \
 	lib/normal/items.c \
 	lib/normal/lattice.c \
 	lib/normal/less.c \
@@ -147,10 +149,12 @@ normal_sources = \
 	lib/normal/products.c \
 	lib/normal/proportion.c \
 	lib/normal/prove.c \
+	lib/normal/question.c \
 	lib/normal/quotient.c \
 	lib/normal/range.c \
 	lib/normal/ratio.c \
 	lib/normal/rationalize.c \
+	lib/normal/real-zeros.c \
 	lib/normal/rewrite.c \
 	lib/normal/sample-edge.c \
 	lib/normal/sample.c \
@@ -173,6 +177,7 @@ normal_headers = \
 	lib/normal/antiderivative.h \
 	lib/normal/ball.h \
 	lib/normal/cases.h \
+	lib/normal/cells.h \
 	lib/normal/constant.h \
 	lib/normal/cramer.h \
 	lib/normal/decide.h \
@@ -183,6 +188,7 @@ normal_headers = \
 	lib/normal/flint.h \
 	lib/normal/form.h \
 	lib/normal/ideal.h \
+	lib/normal/inequality.h \
 	lib/normal/items.h \
 	lib/normal/lattice.h \
 	lib/normal/map.h \
@@ -192,7 +198,9 @@ normal_headers = \
 	lib/normal/prepare.h \
 	lib/normal/products.h \
 	lib/normal/prove.h \
+	lib/normal/question.h \
 	lib/normal/rationalize.h \
+	lib/normal/real-zeros.h \
 	lib/normal/rewrite.h \
 	lib/normal/sample.h \
 	lib/normal/simplify.h \
@@ -514,6 +522,7 @@ unit_tests = \
 	tests/normal/test_antiderivative \
 	tests/normal/test_decide \
 	tests/normal/test_flint \
+	tests/normal/test_less \
 	tests/normal/test_simplify \
 	tests/normal/test_solve \
 	tests/normal/test_verdicts \
@@ -1154,6 +1163,7 @@ test_files = \
 	tests/script/identities-exp.inc \
 	tests/script/identities-facts.inc \
 	tests/script/identities-inverse.inc \
+	tests/script/identities-less.inc \
 	tests/script/identities-mechanics.inc \
 	tests/script/identities-near.inc \
 	tests/script/identities-open.inc \

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "normal/constant.h"
 #include "normal/prove.h"
 #include "normal/within.h"
 
@@ -172,7 +173,9 @@ place_of(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *tur
             return c->alias[i].place;
         }
     for (size_t i = 0; i < n && place == n && c->n_aliases < NODES; i++) {
-        int t = is_proved(c, list[i], e) ? 1 : other != e && is_proved(c, list[i], other) ? -1 : 0;
+        int t = is_proved(c, list[i], e)                     ? 1
+                : other != e && is_proved(c, list[i], other) ? -1
+                                                             : 0;
 
         if (t == 0)
             continue;
@@ -203,7 +206,7 @@ add_sign(struct cases *c, qdot_expr u, bool zero)
     qdot_expr key = sign_key(c->pool, u, &turned);
     size_t k;
 
-    if (key != QDOT_NIL && qdot_expr_kind(c->pool, key) == QDOT_NUM)
+    if (key != QDOT_NIL && qdot_is_constant(c->pool, key))
         return SIGNS;
     k = place_of(c, c->sign, c->n_signs, key, &turned);
     if (k == SIGNS || key == QDOT_NIL) {
@@ -279,7 +282,8 @@ link_signs(struct cases *c)
     for (size_t k = 0; k < c->n_signs; k++)
         for (size_t i = 0; i < c->n_leaves; i++)
             for (size_t j = 0; j < c->n_leaves && !c->too_much; j++)
-                if (i != j && is_proved(c, c->sign[k], qdot_sub(c->pool, c->leaf[i], c->leaf[j])))
+                if (i != j &&
+                    is_proved(c, c->sign[k], qdot_sub(c->pool, c->leaf[i], c->leaf[j])))
                     c->link[c->n_links++] = (struct link){k, i, j};
 }
 
@@ -322,6 +326,17 @@ gather(struct cases *c)
 
 /* --- a case ------------------------------------------------------------------------------ */
 
+static int
+sign_of_constant(struct cases *c, qdot_expr e)
+{
+    qdot_constant_sign sign;
+
+    if (qdot_constant_decide(c->pool, e, &sign) != QDOT_OK ||
+        sign == QDOT_CONSTANT_UNKNOWN)
+        c->too_much = true;
+    return sign == QDOT_CONSTANT_POSITIVE ? 1 : sign == QDOT_CONSTANT_NEGATIVE ? -1 : 0;
+}
+
 /* The sign of u in a case. */
 static int
 sign_in(struct cases *c, qdot_expr u, const int *sign)
@@ -332,8 +347,8 @@ sign_in(struct cases *c, qdot_expr u, const int *sign)
 
     if (key == QDOT_NIL)
         return 0;
-    if (qdot_expr_kind(c->pool, key) == QDOT_NUM)
-        return turned * fmpq_sgn(qdot_expr_rational(c->pool, key));
+    if (qdot_is_constant(c->pool, key))
+        return turned * sign_of_constant(c, key);
     k = place_of(c, c->sign, c->n_signs, key, &again);
     if (k == c->n_signs) {
         c->too_much = true;
@@ -360,10 +375,9 @@ holds_in(struct cases *c, qdot_expr condition, const int *sign)
         bool good = e == QDOT_TRUE;
 
         if (qdot_expr_kind(pool, e) == QDOT_REL) {
-            int s = sign_in(c,
-                            qdot_sub(pool, qdot_expr_arg(pool, e, 1),
-                                     qdot_expr_arg(pool, e, 0)),
-                            sign);
+            int s = sign_in(
+                c, qdot_sub(pool, qdot_expr_arg(pool, e, 1), qdot_expr_arg(pool, e, 0)),
+                sign);
 
             good = op == QDOT_EQ ? s == 0 : op == QDOT_LT ? s > 0 : s >= 0;
         } else if (qdot_expr_kind(pool, e) == QDOT_LOGIC) {
@@ -371,7 +385,9 @@ holds_in(struct cases *c, qdot_expr condition, const int *sign)
             for (uint32_t k = 0; k < qdot_expr_count(pool, e); k++) {
                 bool part = qdot_walk_get(&w, qdot_expr_arg(pool, e, k)) == 2;
 
-                good = op == QDOT_NOT ? !part : op == QDOT_AND ? good && part : good || part;
+                good = op == QDOT_NOT   ? !part
+                       : op == QDOT_AND ? good && part
+                                        : good || part;
             }
         }
         value = good ? 2 : 1;
@@ -397,9 +413,9 @@ chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
             c->too_much = true;
             return x;
         }
-        if (best == SIZE_MAX || (is_function(c->pool, e, QDOT_MAX)
-                                     ? rank[at] > rank[best]
-                                     : rank[at] < rank[best]))
+        if (best == SIZE_MAX ||
+            (is_function(c->pool, e, QDOT_MAX) ? rank[at] > rank[best]
+                                               : rank[at] < rank[best]))
             best = at;
     }
     return c->leaf[best];
@@ -470,7 +486,8 @@ at_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
         qdot_expr x = sum ? qdot_expr_arg(pool, key, i) : key;
         qdot_expr c = sum ? qdot_expr_arg(pool, key, i + 1) : QDOT_ONE, rest;
 
-        if (qdot_expr_kind(pool, x) != QDOT_SYM || qdot_expr_is_class(pool, x, QDOT_CONST))
+        if (qdot_expr_kind(pool, x) != QDOT_SYM ||
+            qdot_expr_is_class(pool, x, QDOT_CONST))
             continue;
         rest = qdot_sub(pool, key, qdot_mul(pool, c, x));
         if (rest == QDOT_NIL || qdot_expr_contains(pool, rest, x))

@@ -9,6 +9,7 @@
 #include "normal/decide.h"
 #include "normal/factor.h"
 #include "normal/flint.h"
+#include "normal/inequality.h"
 #include "normal/prepare.h"
 #include "normal/sample.h"
 #include "normal/simplify.h"
@@ -363,8 +364,8 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
        const qdot_facts *facts, qdot_decision *d)
 {
     qdot_expr none = qdot_list(pool, 0, NULL);
-    qdot_expr e[3] = {left, right,
-                      facts != NULL && facts->defined != QDOT_NIL ? facts->defined : none};
+    qdot_expr e[3] = {
+        left, right, facts != NULL && facts->defined != QDOT_NIL ? facts->defined : none};
     qdot_sample s;
     arb_t gap;
 
@@ -405,11 +406,53 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
 }
 
+/* At a point, a LIST of symbol = rational, that was found where right - left is negative (or zero). */
+static qdot_status
+refute_there(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+             const qdot_facts *facts, qdot_expr at, qdot_decision *d)
+{
+    qdot_expr none = qdot_list(pool, 0, NULL);
+    qdot_expr e[4] = {left, right, qdot_sub(pool, right, left),
+                      facts != NULL && facts->defined != QDOT_NIL ? facts->defined
+                                                                  : none};
+    arb_srcptr l, r, gap;
+    bool here = true;
+    qdot_ball ball;
+
+    for (int k = 0; k < 4; k++)
+        for (uint32_t i = 0; i < qdot_expr_count(pool, at) && e[k] != QDOT_NIL; i++) {
+            qdot_expr row = qdot_expr_arg(pool, at, i);
+            qdot_expr x = qdot_expr_arg(pool, row, 0), v = qdot_expr_arg(pool, row, 1);
+
+            e[k] = qdot_subs(pool, e[k], 1, &x, &v);
+        }
+    if (e[0] == QDOT_NIL || e[1] == QDOT_NIL || e[2] == QDOT_NIL || e[3] == QDOT_NIL)
+        return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_OK
+                                                     : qdot_last_error()->status;
+    QDOT_TRY(qdot_ball_begin(&ball, pool, 4, e));
+    qdot_ball_eval(&ball, 512, no_atom, NULL);
+    l = qdot_ball_get(&ball, e[0]);
+    r = qdot_ball_get(&ball, e[1]);
+    gap = qdot_ball_get(&ball, e[2]);
+    for (uint32_t i = 0; i < qdot_expr_count(pool, e[3]); i++)
+        here &= qdot_ball_get(&ball, qdot_expr_arg(pool, e[3], i)) != NULL;
+    if (here && l != NULL && r != NULL && gap != NULL &&
+        (arb_is_negative(gap) || (strict && arb_is_zero(gap)))) {
+        d->verdict = QDOT_REFUTED;
+        d->at = at;
+        d->left = arf_get_d(arb_midref(l), ARF_RND_NEAR);
+        d->right = arf_get_d(arb_midref(r), ARF_RND_NEAR);
+    }
+    qdot_ball_end(&ball);
+    return QDOT_OK;
+}
+
 static qdot_status
 decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
        const qdot_facts *facts, qdot_decision *d)
 {
-    qdot_expr gap;
+    qdot_expr gap, at;
+    bool holds;
     qdot_status status;
 
     *d = (qdot_decision){.verdict = QDOT_UNDECIDED};
@@ -428,7 +471,16 @@ decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     status = qdot_pool_check(pool); /* a division by zero on the way proves nothing */
     if (status == QDOT_ENOMEM || status == QDOT_EINTR)
         return status;
-    return refute(pool, left, right, strict, facts, d);
+    QDOT_TRY(refute(pool, left, right, strict, facts, d));
+    if (d->verdict != QDOT_UNDECIDED)
+        return QDOT_OK;
+    QDOT_TRY(
+        qdot_inequality(pool, qdot_sub(pool, right, left), strict, facts, &holds, &at));
+    if (holds)
+        d->verdict = QDOT_PROVED;
+    else if (at != QDOT_NIL)
+        QDOT_TRY(refute_there(pool, left, right, strict, facts, at, d));
+    return QDOT_OK;
 }
 
 struct order {

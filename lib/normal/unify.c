@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/walk.h"
+#include "normal/cases.h"
 #include "normal/prove.h"
 #include "normal/sample.h"
 
@@ -155,6 +156,8 @@ find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
         if (other != arg && j->proofs++ < MOST_PROOFS)
             status = (j->only_undefined ? qdot_prove_harder : qdot_prove_equal)(
                 j->pool, arg, other, j->facts, &equal);
+        if (status == QDOT_OK && other != arg && !equal && j->only_undefined)
+            status = qdot_prove_cases(j->pool, arg, other, j->facts, &equal);
         if (other == arg || equal) {
             *with = s->arg;
             return status;

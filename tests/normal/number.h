@@ -192,7 +192,7 @@ number_pair(const qdot_pool *pool, qdot_expr left, qdot_expr right, unsigned k, 
 
 /* Compare at the k-th point: 1 they differ, 0 they agree as far as seen, -1 not defined. The
  * difference must stand at many times the digits: cosh(700)^2 - sinh(700)^2 is 0 at 1024 bits. */
-static int
+__attribute__((unused)) static int
 number_compare(const qdot_pool *pool, qdot_expr left, qdot_expr right, unsigned k)
 {
     mpfr_t l, r, d[2];

@@ -726,7 +726,7 @@ pairs_other_function(pairs *g, qdot_expr e)
 }
 
 /* e with one node changed, everywhere it stands. */
-static qdot_expr
+__attribute__((unused)) static qdot_expr
 pairs_near(pairs *g, qdot_expr e)
 {
     qdot_walk w;

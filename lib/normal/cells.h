@@ -1,0 +1,45 @@
+/* cells.h -- is e >= 0 wherever conditions hold? Algebraic e, decided cell by cell.
+ *
+ * e and the conditions g > 0 (or g >= 0) are made of symbols and rational numbers by + - * /, roots and
+ * absolute values. Polynomials whose zeros bound the regions where e and the g keep their signs - norms
+ * over the roots, bases of even roots, denominators - are projected, one symbol after another, to
+ * leading coefficients, discriminants and resultants. Over a region where none of these vanishes the
+ * zeros above lie in separate sheets, so rational points between all real zeros, taken symbol by symbol,
+ * meet every open cell. In each one point decides: balls, and where these hold zero the norm form.
+ *
+ * So e >= 0 is known on a dense part of the open set g > 0, and by continuity on its closure: all of
+ * the set that linear g >= 0 leave. With several symbols a weak condition that is not linear is not used,
+ * and nothing is said where the base of a root is neither linear nor known not to be negative (x^2*(x - 1)
+ * has a root at 0 too, with none beside it). With one symbol such points are looked at one by one, and
+ * so are the zeros of e: e > 0 is decided there.
+ *
+ * Source  A. Strzebonski, "Solving systems of strict polynomial inequalities", J. Symbolic Computation
+ *         29 (2000) 471; S. McCallum, "Solving polynomial strict inequalities using cylindrical
+ *         algebraic decomposition", The Computer Journal 36 (1993) 432.
+ * Tests   tests/normal/test_less.c
+ */
+#ifndef QDOT_NORMAL_CELLS_H
+#define QDOT_NORMAL_CELLS_H
+
+#include "expr/expr.h"
+
+typedef struct {
+    qdot_expr gap; /* > 0, or >= 0 if weak */
+    bool weak;
+} qdot_cells_condition;
+
+typedef enum {
+    QDOT_CELLS_UNKNOWN,  /* too large, or outside the class */
+    QDOT_CELLS_EMPTY,    /* the conditions leave no open set */
+    QDOT_CELLS_POSITIVE, /* e > 0 wherever it is defined */
+    QDOT_CELLS_NOT_NEGATIVE,
+    QDOT_CELLS_NEGATIVE, /* at the point *at */
+    QDOT_CELLS_ZERO      /* one symbol: e >= 0, and e = 0 at the point *at */
+} qdot_cells;
+
+/* *at: a LIST of equations symbol = rational. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_cells_decide(qdot_pool *pool, qdot_expr e, size_t n,
+                                              const qdot_cells_condition *condition,
+                                              qdot_cells *result, qdot_expr *at);
+
+#endif

@@ -1,0 +1,20 @@
+/* real-zeros.h -- the real zeros of a polynomial over Z, and fractions between them.
+ *
+ * Tests  tests/normal/test_less.c
+ */
+#ifndef QDOT_NORMAL_REAL_ZEROS_H
+#define QDOT_NORMAL_REAL_ZEROS_H
+
+#include <arb.h>
+#include <flint/fmpq.h>
+#include <flint/fmpz_poly.h>
+
+/* The real zeros of p, which has none twice, ascending, their balls apart from each other. The number
+ * of them; -1: too much. *zeros: a vector of as many balls as p has degrees, NULL if none was made;
+ * the caller's (_arb_vec_clear). */
+slong qdot_real_zeros(const fmpz_poly_t p, arb_ptr *zeros);
+
+/* x = a fraction with few digits above all of a (NULL: no bound) and below all of b. */
+void qdot_between_zeros(fmpq_t x, arb_srcptr a, arb_srcptr b);
+
+#endif
