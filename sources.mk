@@ -224,6 +224,7 @@ tape_sources = \
 	lib/tape/precise.c \
 	lib/tape/tape.c \
 	lib/tape/taylor-code-order.c \
+	lib/tape/taylor-code-solve.c \
 	lib/tape/taylor-code.c \
 	lib/tape/taylor-correct.c \
 	lib/tape/taylor-order.c \
@@ -243,6 +244,7 @@ tape_headers = \
 	lib/tape/precise.h \
 	lib/tape/shake.h \
 	lib/tape/tape.h \
+	lib/tape/taylor-code-sum.h \
 	lib/tape/taylor-code.h \
 	lib/tape/taylor-generator.h \
 	lib/tape/taylor-order.def \

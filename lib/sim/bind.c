@@ -322,7 +322,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
 void
 qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
 {
-    const char *why = "machine code is made where nothing is solved between two orders";
+    const char *why = "machine code is made where equations are taken as M q'' = f";
     const size_t bytes = b->direct ? qdot_direct_code(b->direct, &why) : 0;
 
     if (bytes > 0)

@@ -11,6 +11,9 @@
 
 enum { most_order = 44 };
 
+/* Unknowns of a larger block are not solved for by machine code, number by number. */
+enum { most_linked = 6 };
+
 /* An entry of M that moves: of row i, times the acceleration j. */
 typedef struct {
     size_t i; /* within the block */
@@ -20,6 +23,8 @@ typedef struct {
 typedef struct {
     const double *const *f; /* [n] series of the block's f */
     const double *const *M; /* lower triangle by rows; NULL: constant */
+    double *const *a;       /* [n] what is solved for; NULL: an output */
+    double *matrices;       /* as qdot_taylor_solve has them */
     coupling *couplings;
     size_t n_couplings;
 } block_series;
@@ -41,9 +46,9 @@ struct qdot_direct {
     size_t stride;
     const double **outputs; /* [outputs of the tape] */
     block_series *blocks;   /* [blocks] */
-    const double **a;       /* [n] series of q'': an output of the tape, or */
-    double *solved;         /* [n x stride] */
+    const double **a;       /* [n] series of q'': an output of the tape, or solved for */
     bool diagonal;          /* all are outputs */
+    bool linked;            /* the program knows all that it takes to go on alone */
     const double **rates;   /* [n_kept] series of velocities that are outputs */
     const double *hi, *lo;  /* [n_kept] their momenta; borrowed */
     momentum *momenta;      /* [n_kept] as they were drawn last */
@@ -110,7 +115,7 @@ accelerations(qdot_direct *e, int k)
         else
             qdot_blocks_apply(&e->solvers, b);
         for (size_t i = 0; i < block->n; i++)
-            e->solved[block->index[i] * e->stride + (size_t)k] = x[i];
+            e->blocks[b].a[i][k] = x[i];
     }
     return QDOT_OK;
 }
@@ -217,7 +222,10 @@ begin(double t, const double *y, double unit, void *user)
         qdot_taylor_begin(e->taylor, unit);
     } else {
         QDOT_TRY(accelerations(e, 0));
-        integrate(e, 0);
+        if (e->linked)
+            qdot_taylor_begin_links(e->taylor, unit);
+        else
+            integrate(e, 0);
     }
     for (size_t i = 0; i < n; i++)
         nothing += e->a[i] ? 0 * e->a[i][0] : 0;
@@ -236,7 +244,26 @@ prepare(int p, void *user)
     qdot_direct *e = user;
 
     e->exact = p > QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT : 0;
-    return e->diagonal ? qdot_taylor_prepare(e->taylor, p - 1) : QDOT_OK;
+    return e->linked ? qdot_taylor_prepare(e->taylor, p - 1) : QDOT_OK;
+}
+
+/* The matrices of what the program solves for. */
+static void
+hand_over(qdot_direct *e)
+{
+    for (size_t b = 0; b < e->plan->structure.blocks; b++) {
+        const qdot_solver *s = e->solvers.at + b;
+        const size_t n = e->plan->blocks[b].n;
+        double *to = e->blocks[b].matrices;
+
+        if (n == 1)
+            continue;
+        for (size_t i = 0; i < n; i++) {
+            memcpy(to + i * n, s->a + i * n, i * sizeof *to);
+            to[i * n + i] = 1 / s->a[i * n + i];
+            memcpy(to + (n + i) * n, s->inverse + i * s->m, n * sizeof *to);
+        }
+    }
 }
 
 static qdot_status
@@ -252,6 +279,12 @@ extend(int p, void *user)
     for (size_t b = 0; b < e->plan->structure.blocks; b++)
         if (e->plan->blocks[b].n > 1 && !e->plan->blocks[b].constant)
             qdot_blocks_invert(&e->solvers, b);
+    if (e->linked && qdot_taylor_is_code(e->taylor, p - 1)) {
+        hand_over(e);
+        qdot_taylor_extend(e->taylor, 1, p - 1);
+        show_rates(e, p);
+        return QDOT_OK;
+    }
     for (int k = 1; k < p; k++) {
         QDOT_TRY(accelerations(e, k));
         integrate(e, k);
@@ -261,6 +294,29 @@ extend(int p, void *user)
 }
 
 /* --- building ----------------------------------------------------------------------- */
+
+/* The series of a block's accelerations, f being the tape's outputs from `from` on and M, if
+ * it is not constant, those behind. */
+static qdot_status
+unknowns(qdot_direct *e, size_t b, size_t from)
+{
+    const qdot_plan_block *block = e->plan->blocks + b;
+    const size_t n = block->n, entries = block->constant ? 0 : n * (n + 1) / 2;
+    block_series *s = e->blocks + b;
+    size_t *outputs = qdot_calloc(n + entries, sizeof *outputs);
+    qdot_status status;
+
+    if (!outputs)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n + entries; i++)
+        outputs[i] = from + i;
+    status = qdot_taylor_solve(e->taylor, n, outputs, entries > 0 ? outputs + n : NULL,
+                               QDOT_BLOCKS_SOLVED, &s->a, &s->matrices);
+    qdot_free(outputs);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        e->a[block->index[i]] = s->a[i];
+    return status;
+}
 
 /* Where the tape's outputs are found, and which entries of M move. */
 static qdot_status
@@ -279,10 +335,12 @@ find_outputs(qdot_direct *e, size_t count)
 
         s->f = e->outputs + at;
         at += n;
-        for (size_t i = 0; i < n; i++)
-            e->a[block->index[i]] =
-                n == 1 ? s->f[0] : e->solved + block->index[i] * e->stride;
-        if (n == 1 || block->constant)
+        if (n == 1) {
+            e->a[block->index[0]] = s->f[0];
+            continue;
+        }
+        QDOT_TRY(unknowns(e, b, at - n));
+        if (block->constant)
             continue;
         s->M = e->outputs + at;
         s->couplings = qdot_calloc(n * n, sizeof *s->couplings);
@@ -333,18 +391,17 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
     size_t outputs = qdot_tape_outputs(p->tape);
 
     QDOT_TRY(qdot_taylor_new_moving(p->tape, shaken, most_order, 2 * p->n + 1,
-                                    &e->taylor));
+                                    p->n, &e->taylor));
     e->stride = qdot_taylor_stride(e->taylor);
     e->q = qdot_taylor_input(e->taylor, 0);
     e->v = qdot_taylor_input(e->taylor, p->n);
     e->t = qdot_taylor_input(e->taylor, 2 * p->n);
     e->a = qdot_calloc(p->n, sizeof *e->a);
-    e->solved = qdot_calloc(p->n * e->stride, sizeof *e->solved);
     e->outputs = qdot_calloc(outputs + 1, sizeof *e->outputs);
     e->blocks = qdot_calloc(p->structure.blocks + 1, sizeof *e->blocks);
     e->rates = qdot_calloc(p->n_kept + 1, sizeof *e->rates);
     e->momenta = qdot_calloc(p->n_kept + 1, sizeof *e->momenta);
-    if (!e->a || !e->solved || !e->outputs || !e->blocks || !e->rates || !e->momenta)
+    if (!e->a || !e->outputs || !e->blocks || !e->rates || !e->momenta)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_blocks_init(&e->solvers, p, shaken));
     for (size_t b = 0; b < p->structure.blocks; b++)
@@ -354,10 +411,13 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
                 qdot_blocks_invert(&e->solvers, b);
         }
     QDOT_TRY(find_outputs(e, outputs));
-    for (size_t i = 0; i < p->n && e->diagonal; i++)
+    e->linked = !p->indefinite || e->diagonal;
+    for (size_t b = 0; b < p->structure.blocks; b++)
+        e->linked = e->linked && p->blocks[b].n <= most_linked;
+    for (size_t i = 0; i < p->n && e->linked; i++)
         if (e->a[i])
             QDOT_TRY(qdot_taylor_link(e->taylor, p->n + i, i, e->a[i]));
-    for (size_t c = 0; c < p->n_kept && e->diagonal; c++)
+    for (size_t c = 0; c < p->n_kept && e->linked; c++)
         QDOT_TRY(qdot_taylor_link(e->taylor, p->kept[c], SIZE_MAX, e->rates[c]));
     e->plain = shaken;
     for (int k = 1; k < most_order + 2; k++)
@@ -408,7 +468,6 @@ qdot_direct_free(qdot_direct *e)
     qdot_free(e->momenta);
     qdot_free(e->blocks);
     qdot_free(e->a);
-    qdot_free(e->solved);
     qdot_free(e);
 }
 
@@ -447,7 +506,8 @@ qdot_direct_code(const qdot_direct *e, const char **why)
     const size_t bytes = qdot_taylor_code_bytes(e->taylor, why);
 
     if (bytes == 0 && !*why)
-        *why = "machine code is made where nothing is solved between two orders";
+        *why = e->linked ? "machine code is not asked for"
+                         : "machine code solves for few unknowns, with M definite";
     return bytes;
 }
 

@@ -7,7 +7,8 @@
  *     a block of one     a_k is an output of the tape
  *     a constant block   M a_k = f_k
  *     any other          M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}: one factorisation an
- *                        expansion, one back-substitution an order
+ *                        expansion, one back-substitution an order, by the machine code
+ *                        itself where there is some and blocks are small
  *
  * Tests  tests/sim/test_taylor.c
  */

@@ -30,10 +30,18 @@ struct qdot_taylor_code {
     void *memory;
     size_t size, used;
     double *allocated, *work; /* the same, aligned */
+    uint32_t *blocks; /* [blocks] where the work space has their matrices */
     int to;
     double unit;
-    double once_low[QDOT_TAYLOR_EXACT + 1], twice_low[QDOT_TAYLOR_EXACT + 1]; /* at unit 1 */
+    double once_low[QDOT_CODE_EXACT + 1], twice_low[QDOT_CODE_EXACT + 1]; /* at unit 1 */
 };
+
+/* Orders that are added to vectors by the same instructions. */
+typedef struct {
+    int blocks;   /* of sums */
+    int inserted; /* the block of rows that the order itself enters; -1: none */
+    int orders;
+} phase;
 
 /* --- products of lower orders ------------------------------------------------------- */
 
@@ -64,20 +72,15 @@ block_at(const qdot_code_vector *v, int b)
 
 /* Coefficient m of a row beside those below it. */
 static void
-insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m)
+insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
 {
-    const int b = (m - 2) / QDOT_CODE_LANES, lane = (m - 2) % QDOT_CODE_LANES;
     const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
-    if (lane == 0) { /* the others become 0 */
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, qdot_code_coefficient(g, row, m));
-    } else {
-        if (v->reg[b] < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, reg, 0, block_at(v, b));
-        g->x.mask = newest_lane;
-        qdot_x86_emit(&g->x, QDOT_X86_SPREAD, reg, 0, qdot_code_coefficient(g, row, m));
-        g->x.mask = 0;
-    }
+    if (v->reg[b] < 0)
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, reg, 0, block_at(v, b));
+    g->x.mask = newest_lane;
+    qdot_x86_emit(&g->x, QDOT_X86_SPREAD, reg, 0, qdot_code_coefficient(g, row, m));
+    g->x.mask = 0;
     if (v->reg[b] < 0)
         qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(v, b));
 }
@@ -102,28 +105,25 @@ spread(qdot_generator *g, uint32_t row, int m)
     return spread_first + i;
 }
 
-/* to += coefficient m of a row times block b of v; the first time it is that. */
+/* to += coefficient m of a row times block b of v. */
 static void
-multiply(qdot_generator *g, int to, bool first, uint32_t row, int m,
-         const qdot_code_vector *v, int b)
+multiply(qdot_generator *g, int to, uint32_t row, int m, const qdot_code_vector *v, int b)
 {
-    const qdot_x86_name name = first ? QDOT_X86_MUL_ALL : QDOT_X86_MADD_ALL;
-
     if (v->reg[b] >= 0) {
         qdot_x86_rm one = qdot_code_coefficient(g, row, m);
 
         one.spread = true;
-        qdot_x86_emit(&g->x, name, to, v->reg[b], one);
+        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, v->reg[b], one);
     } else {
-        qdot_x86_emit(&g->x, name, to, spread(g, row, m), block_at(v, b));
+        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, spread(g, row, m), block_at(v, b));
     }
 }
 
-/* Block b of a sum, of `before`, moved on by one order, into `to`. */
+/* Block b of a sum, of `blocks`, moved on by one order, into `to`. */
 static void
-move_on(qdot_generator *g, const qdot_code_vector *v, int b, int before, int to)
+move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
 {
-    if (b + 1 < before) {
+    if (b + 1 < blocks) {
         int high = v->reg[b + 1];
 
         if (high < 0)
@@ -141,48 +141,50 @@ move_on(qdot_generator *g, const qdot_code_vector *v, int b, int before, int to)
     g->x.zeroing = false;
 }
 
-/* What is made of order m and those from 2 up to it. `with` lanes are of orders up to m,
- * `without` below it; the lanes of order m itself are in the vectors by now. */
+/* What is made of order m and those from 2 up to it, in a phase. The lanes of order m itself
+ * are in the vectors by now. */
 static void
-add_order(qdot_generator *g, const qdot_code_sum *s, int m)
+add_order(qdot_generator *g, const phase *p, const qdot_code_sum *s, int m)
 {
-    const int n = g->n, with = least(m, n - m) - 1, without = least(m - 1, n - m) - 1;
-    const int before = m > 2 ? blocks_of(least(m - 1, n - m + 1) - 1) : 0;
     const qdot_code_vector *x = &g->rows.at[g->row_vector[s->x]];
     const qdot_code_vector *y = &g->rows.at[g->row_vector[s->y]], *v = &s->v;
 
-    for (int b = 0; b < blocks_of(with); b++) {
+    for (int b = 0; b < p->blocks; b++) {
         const int to = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
-        if (b < before)
-            move_on(g, v, b, before, to);
-        multiply(g, to, b >= before, s->x, m, y, b);
-        if (QDOT_CODE_LANES * b < without) {
-            if (without == m - 2 && QDOT_CODE_LANES * (b + 1) > without)
-                g->x.mask = older_lanes;
-            multiply(g, to, false, s->y, m, x, b);
-            g->x.mask = 0;
-        }
+        if (!s->further)
+            move_on(g, v, b, p->blocks, to);
+        else if (v->reg[b] < 0)
+            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(v, b));
+        multiply(g, to, s->x, m, y, b);
+        if (b == p->inserted)
+            g->x.mask = older_lanes;
+        multiply(g, to, s->y, m, x, b);
+        g->x.mask = 0;
         if (v->reg[b] < 0)
             qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, to, 0, block_at(v, b));
     }
 }
 
 static void
-add_order_to_all(qdot_generator *g, int m)
+add_order_to_all(qdot_generator *g, const phase *p, int m)
 {
-    const int lane = (m - 2) % QDOT_CODE_LANES;
-
-    if (g->sums.n == 0)
-        return;
     g->spread[0] = g->spread[1] = QDOT_CODE_NONE;
-    qdot_x86_set_mask(&g->x, newest_lane, 1u << lane);
-    qdot_x86_set_mask(&g->x, older_lanes, (1u << lane) - 1);
-    if (m <= g->n / 2)
-        for (size_t i = 0; i < g->rows.n; i++)
-            insert(g, g->rows.at + i, g->row_of.at[i], m);
+    for (size_t i = 0; p->inserted >= 0 && i < g->rows.n; i++)
+        insert(g, g->rows.at + i, g->row_of.at[i], m, p->inserted);
     for (size_t i = 0; i < g->sums.n; i++)
-        add_order(g, g->sums.at + i, m);
+        add_order(g, p, g->sums.at + i, m);
+}
+
+/* Block b of a vector becomes 0. */
+static void
+clear(qdot_generator *g, const qdot_code_vector *v, int b)
+{
+    const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
+
+    qdot_x86_emit(&g->x, QDOT_X86_XOR_ALL, reg, reg, qdot_x86_reg(reg));
+    if (v->reg[b] < 0)
+        qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(v, b));
 }
 
 /* --- what there is ------------------------------------------------------------------ */
@@ -204,6 +206,20 @@ find_moving(qdot_generator *g)
     }
 }
 
+static void
+find_moving_unknowns(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t k = 0; k < t->n_blocks; k++)
+        for (size_t i = 0; i < t->blocks[k].n; i++) {
+            g->moving[qdot_code_row(g, t->blocks[k].a[i])] = true;
+            g->moving[qdot_code_row(g, t->blocks[k].r[i])] = true;
+        }
+}
+
+_Static_assert((int)QDOT_CODE_EXACT >= (int)QDOT_TAYLOR_EXACT, "the first loop is exact");
+
 static const qdot_code_vector in_memory = {.reg = {-1, -1, -1}};
 
 static qdot_status
@@ -214,6 +230,16 @@ vector_for(qdot_generator *g, uint32_t row)
     g->row_vector[row] = (uint32_t)g->rows.n;
     QDOT_TRY(qdot_vec_push(&g->row_of, row));
     return qdot_vec_push(&g->rows, in_memory);
+}
+
+static qdot_status
+add_sum(qdot_generator *g, uint32_t x, uint32_t y, bool further)
+{
+    const qdot_code_sum sum = {x, y, further, in_memory};
+
+    QDOT_TRY(vector_for(g, x));
+    QDOT_TRY(vector_for(g, y));
+    return qdot_vec_push(&g->sums, sum);
 }
 
 static qdot_status
@@ -230,14 +256,34 @@ find_sums(qdot_generator *g)
         for (int k = 0; k < r->sums; k++) {
             const uint32_t x = qdot_code_row(g, qdot_code_factor(s, r->factors[k][0]));
             const uint32_t y = qdot_code_row(g, qdot_code_factor(s, r->factors[k][1]));
-            const qdot_code_sum sum = {x, y, in_memory};
 
             if (!g->moving[x] || !g->moving[y])
                 continue;
-            QDOT_TRY(vector_for(g, x));
-            QDOT_TRY(vector_for(g, y));
             g->step_sums[3 * i + (size_t)k] = (uint32_t)g->sums.n;
-            QDOT_TRY(qdot_vec_push(&g->sums, sum));
+            QDOT_TRY(add_sum(g, x, y, false));
+        }
+    }
+    return QDOT_OK;
+}
+
+/* The couplings of an unknown are one sum. */
+static qdot_status
+find_unknown_sums(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t k = 0; k < t->n_blocks; k++) {
+        const qdot_taylor_block *b = t->blocks + k;
+
+        g->block_slots[k] = (uint32_t)(QDOT_CODE_SLOTS + g->n_slots);
+        g->n_slots += 2 * b->n * b->n;
+        for (size_t c = 0; c < b->n_couplings; c++) {
+            const qdot_taylor_coupling *m = b->couplings + c;
+            const bool further = c > 0 && m[-1].i == m->i;
+
+            if (!further)
+                g->unknown_sums[qdot_code_row(g, b->r[m->i])] = (uint32_t)g->sums.n;
+            QDOT_TRY(add_sum(g, qdot_code_row(g, m->M), qdot_code_row(g, m->a), further));
         }
     }
     return QDOT_OK;
@@ -255,12 +301,19 @@ give_places(qdot_generator *g)
 
     for (int b = 0; b < blocks; b++) {
         for (size_t i = 0; i < g->sums.n && reg > lowest; i++)
-            g->sums.at[i].v.reg[b] = --reg;
+            if (!g->sums.at[i].further)
+                g->sums.at[i].v.reg[b] = --reg;
         for (size_t i = 0; i < g->rows.n && reg > lowest; i++)
             g->rows.at[i].reg[b] = --reg;
     }
-    for (size_t i = 0; i < g->sums.n; i++, at += (size_t)(QDOT_CODE_LANES * blocks))
+    for (size_t i = 0; i < g->sums.n; i++) {
+        if (g->sums.at[i].further) {
+            g->sums.at[i].v = g->sums.at[i - 1].v;
+            continue;
+        }
         g->sums.at[i].v.at = at;
+        at += (size_t)(QDOT_CODE_LANES * blocks);
+    }
     for (size_t i = 0; i < g->rows.n; i++, at += (size_t)(QDOT_CODE_LANES * blocks))
         g->rows.at[i].at = at;
     return at;
@@ -281,22 +334,124 @@ emit_once(qdot_generator *g, bool after_one)
     }
 }
 
+/* An order of all recurrences, their vectors being up to date. */
 static void
-emit_all(qdot_generator *g)
+emit_order(qdot_generator *g)
 {
     const qdot_taylor *t = g->t;
 
+    for (size_t i = t->still; i < t->length; i++)
+        qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+    for (size_t i = 0; i < t->n_blocks; i++)
+        qdot_code_solve(g, i);
+    for (size_t i = t->length; i < t->length + t->n_links; i++)
+        qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+}
+
+/* None holds anything; those for single numbers make a ring. */
+static void
+begin_registers(qdot_generator *g)
+{
+    const int first = QDOT_CODE_FIRST_SCALAR, last = first + QDOT_CODE_SCALARS - 1;
+
+    for (int i = 0; i < QDOT_CODE_REGISTERS; i++) {
+        g->held[i] = QDOT_CODE_NONE;
+        g->behind[i] = i < last ? i + 1 : first;
+        g->ahead[i] = i > first ? i - 1 : last;
+    }
+    g->latest = last;
+}
+
+/* No register is known to hold a coefficient; when they were there is as of an order before.
+ * */
+static void
+forget(qdot_generator *g)
+{
     for (int i = 0; i < QDOT_CODE_REGISTERS; i++)
         g->held[i] = QDOT_CODE_NONE;
+    for (size_t row = 0; row < g->t->rows; row++) {
+        int *ready = g->ready + 4 * row, first = ready[0];
+
+        memmove(ready, ready + 1, 3 * sizeof *ready);
+        ready[3] = first;
+    }
+}
+
+/* Orders k = m + 2 for the m of a phase. */
+static void
+emit_phase(qdot_generator *g, const phase *p, const phase *before)
+{
+    size_t from;
+
+    if (p->blocks > before->blocks)
+        for (size_t i = 0; i < g->sums.n; i++)
+            clear(g, &g->sums.at[i].v, p->blocks - 1);
+    if (p->inserted >= 0) {
+        for (size_t i = 0; i < g->rows.n; i++)
+            clear(g, g->rows.at + i, p->inserted);
+        qdot_x86_set_mask(&g->x, newest_lane, 1);
+        qdot_x86_set_mask(&g->x, older_lanes, 0);
+    }
+    if (before->orders > 0)
+        forget(g);
+    g->k = QDOT_CODE_ANY;
+    g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted == 0;
+    from = qdot_x86_repeat(&g->x, p->orders);
+    add_order_to_all(g, p, g->k - 2);
+    emit_order(g);
+    qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_R8, 8);
+    qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_R9, 8);
+    if (p->inserted >= 0) {
+        qdot_x86_join_masks(&g->x, older_lanes, newest_lane);
+        qdot_x86_raise_mask(&g->x, newest_lane);
+    }
+    qdot_x86_again(&g->x, from);
+}
+
+/* What adding order m takes. */
+static phase
+phase_of(const qdot_generator *g, int m)
+{
+    const int half = g->n / 2, all = blocks_of(most(half - 1, 1));
+
+    if (m <= half)
+        return (phase){.blocks = blocks_of(m - 1), .inserted = (m - 2) / QDOT_CODE_LANES};
+    return (phase){.blocks = least(all, blocks_of(g->n - m)), .inserted = -1};
+}
+
+static void
+emit_phases(qdot_generator *g)
+{
+    phase now = {0}, before = {0};
+
+    for (int m = 2; m <= g->n - 2 && g->x.bytes.n <= most_bytes; m++) {
+        const phase p = phase_of(g, m), next = phase_of(g, m + 1);
+
+        now = (phase){p.blocks, p.inserted, now.orders + 1};
+        if (m < g->n - 2 && next.blocks == p.blocks && next.inserted == p.inserted)
+            continue;
+        emit_phase(g, &now, &before);
+        before = now;
+        now.orders = 0;
+    }
+}
+
+static void
+emit_all(qdot_generator *g)
+{
+    begin_registers(g);
+    g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
     qdot_x86_set_mask(&g->x, all_but_last, 0x7f);
-    for (g->k = 1; g->k <= g->n && g->x.bytes.n <= most_bytes; g->k++) {
+    for (g->k = 1; g->k <= least(g->n, QDOT_CODE_SINGLY); g->k++) {
         if (g->k <= 2)
             emit_once(g, g->k == 2);
-        if (g->k > 3)
-            add_order_to_all(g, g->k - 2);
-        for (size_t i = t->still; i < t->length + t->n_links; i++)
-            qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+        emit_order(g);
     }
+    qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_RDI, 8 * (QDOT_CODE_SINGLY + 1));
+    qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_RDX, 8 * (QDOT_CODE_SINGLY + 1));
+    for (int i = 0; i < QDOT_CODE_REGISTERS; i++)
+        g->held[i] = QDOT_CODE_NONE;
+    emit_phases(g);
     qdot_x86_return(&g->x);
 }
 
@@ -321,7 +476,7 @@ make_work(qdot_taylor_code *c, size_t doubles)
         c->work[QDOT_CODE_PAIRS + k - 1] = 1.0 / (k * (k + 1));
         c->work[QDOT_CODE_ORDERS + k] = k;
     }
-    for (int k = 0; k <= QDOT_TAYLOR_EXACT; k++) {
+    for (int k = 0; k <= QDOT_CODE_EXACT; k++) {
         c->once_low[k] = beyond(k + 1);
         c->twice_low[k] = beyond((k + 1) * (k + 2));
     }
@@ -376,12 +531,18 @@ generate(qdot_generator *g, qdot_taylor_code *c, const char **why)
     g->where = qdot_calloc(4 * rows + 1, sizeof *g->where);
     g->step_sums = qdot_calloc(3 * length + 1, sizeof *g->step_sums);
     g->step_slots = qdot_calloc(length + 1, sizeof *g->step_slots);
-    if (!g->moving || !g->row_vector || !g->ready || !g->where || !g->step_sums || !g->step_slots)
+    g->unknown_sums = qdot_calloc(rows + 1, sizeof *g->unknown_sums);
+    g->block_slots = qdot_calloc(g->t->n_blocks + 1, sizeof *g->block_slots);
+    if (!g->moving || !g->row_vector || !g->ready || !g->where || !g->step_sums ||
+        !g->step_slots || !g->unknown_sums || !g->block_slots)
         return QDOT_ENOMEM;
     memset(g->row_vector, 0xff, rows * sizeof *g->row_vector);
+    memset(g->unknown_sums, 0xff, rows * sizeof *g->unknown_sums);
     memset(g->step_sums, 0xff, 3 * length * sizeof *g->step_sums);
     find_moving(g);
+    find_moving_unknowns(g);
     QDOT_TRY(find_sums(g));
+    QDOT_TRY(find_unknown_sums(g));
     QDOT_TRY(make_work(c, give_places(g)));
     QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
     emit_all(g);
@@ -416,12 +577,14 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, qdot_taylor_code **code,
         return QDOT_ENOMEM;
     c->to = to;
     status = generate(&g, c, why);
+    c->blocks = g.block_slots;
     qdot_free(g.moving);
     qdot_free(g.row_vector);
     qdot_free(g.ready);
     qdot_free(g.where);
     qdot_free(g.step_sums);
     qdot_free(g.step_slots);
+    qdot_free(g.unknown_sums);
     qdot_free(g.rows.at);
     qdot_free(g.row_of.at);
     qdot_free(g.sums.at);
@@ -444,6 +607,7 @@ qdot_taylor_code_free(qdot_taylor_code *c)
         munmap(c->memory, c->size);
 #endif
     qdot_free(c->allocated);
+    qdot_free(c->blocks);
     qdot_free(c);
 }
 
@@ -461,7 +625,7 @@ qdot_taylor_code_unit(qdot_taylor_code *c, double unit)
         w[QDOT_CODE_ONCE + k] = unit * w[QDOT_CODE_INVERSES + k + 1];
         w[QDOT_CODE_TWICE + k] = unit * unit * w[QDOT_CODE_PAIRS + k];
     }
-    for (size_t k = 0; k <= QDOT_TAYLOR_EXACT; k++) {
+    for (size_t k = 0; k <= QDOT_CODE_EXACT; k++) {
         w[QDOT_CODE_ONCE_LOW + k] = unit * c->once_low[k];
         w[QDOT_CODE_TWICE_LOW + k] = unit * unit * c->twice_low[k];
     }
@@ -473,6 +637,11 @@ qdot_taylor_code_run(const qdot_taylor_code *c, qdot_taylor *t)
     const unsigned char *first = (const unsigned char *)c->memory + head;
     kernel *code;
 
+    for (size_t k = 0; k < t->n_blocks; k++) {
+        const qdot_taylor_block *b = t->blocks + k;
+
+        memcpy(c->work + c->blocks[k], b->matrices, 2 * b->n * b->n * sizeof(double));
+    }
     memcpy(&code, &first, sizeof code);
     code(t->coefficients, t->steps, c->work);
 }

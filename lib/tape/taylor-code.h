@@ -1,5 +1,5 @@
-/* taylor-code.h -- a Taylor program as machine code: its orders without a loop, a call or a
- * pointer, rows at constant places. Internal to tape/.
+/* taylor-code.h -- a Taylor program as machine code: an order without a call or a pointer,
+ * rows at constant places. Internal to tape/.
  *
  * What a product c = x y takes at order k, sum_{j=0..k} x_j y_{k-j}, is not summed up there.
  * When order m of x and y is known, all that is made of it and orders up to m is added to
@@ -11,7 +11,11 @@
  * order m + 2 begins with. Orders 0 and 1 of one factor come with the newest two of the
  * other and are added singly. Of orders 1 ... n the vectors have n/2 numbers, since the sum
  * of two orders is at most n. S and the vectors of rows stay in registers from order to
- * order, as many as there is room for.
+ * order, as many as there is room for. Orders with the same number of vectors at work are
+ * one loop.
+ *
+ * Unknowns (qdot_taylor_solve) are solved for at the end of every order, by the matrices
+ * that are there when the code is run.
  *
  * It needs AVX-512, and a system that lets a program run what it wrote. Where it runs the
  * last bits of coefficients are other ones than those of taylor-order.def.

@@ -3,7 +3,8 @@
  *
  * The code is run with three addresses: of the rows of coefficients (rdi), of the steps
  * (rsi), of work space (rdx) that begins with tables by order and holds one number here and
- * there (slots) and the vectors that have no register.
+ * there (slots) and the vectors that have no register. Orders beyond the first three are a
+ * few loops; in them r8 and r9 are the first and the last moved on to the order at hand.
  */
 #ifndef QDOT_TAPE_TAYLOR_GENERATOR_H
 #define QDOT_TAPE_TAYLOR_GENERATOR_H
@@ -28,7 +29,13 @@ enum {
     QDOT_CODE_ONCE_LOW = 4 * QDOT_CODE_TABLE,
     QDOT_CODE_TWICE_LOW = 5 * QDOT_CODE_TABLE,
     QDOT_CODE_PAIRS = 6 * QDOT_CODE_TABLE,
-    QDOT_CODE_SLOTS = 7 * QDOT_CODE_TABLE
+    QDOT_CODE_SLOTS = 7 * QDOT_CODE_TABLE,
+    /* What is written for several orders is written as of this one, and those beside it; a
+     * multiple of 4. */
+    QDOT_CODE_ANY = 1000,
+    /* Orders one after another, and the last of the first loop: links are exact that far. */
+    QDOT_CODE_SINGLY = 3,
+    QDOT_CODE_EXACT = QDOT_CODE_SINGLY + QDOT_CODE_LANES
 };
 
 /* Lane i is coefficient i + 2 of a row; of the sums that order m has been added to, order
@@ -41,6 +48,7 @@ typedef struct {
 /* sum x_i y_j of i, j >= 2, for orders to come. */
 typedef struct {
     uint32_t x, y; /* rows */
+    bool further;  /* it is part of the sum before it, whose vector is `v` */
     qdot_code_vector v;
 } qdot_code_sum;
 
@@ -49,10 +57,13 @@ typedef struct {
     const qdot_taylor *t;
     int n;                  /* orders */
     int k;                  /* the order at hand */
+    bool exact;             /* links have factors of two doubles at it */
     bool *moving;           /* [rows] it has more than order 0 */
     uint32_t *row_vector;   /* [rows] number in `rows`; QDOT_CODE_NONE */
     uint32_t *step_sums;    /* [length x 3] number in `sums`; QDOT_CODE_NONE */
     uint32_t *step_slots;   /* [length] the first, in doubles */
+    uint32_t *unknown_sums; /* [rows] of what is solved for by row, likewise */
+    uint32_t *block_slots;  /* [blocks] */
     int *ready;             /* [rows x 4] when coefficients are there, by order mod 4 */
     qdot_vec(qdot_code_vector) rows;
     qdot_vec(uint32_t) row_of; /* the same */
@@ -63,7 +74,9 @@ typedef struct {
     unsigned char *where; /* [rows x 4] the register that may hold them, likewise */
     uint32_t held[QDOT_CODE_REGISTERS]; /* the row; QDOT_CODE_NONE */
     int held_order[QDOT_CODE_REGISTERS];
-    unsigned used[QDOT_CODE_REGISTERS], clock;
+    /* Those for single numbers by their last use: behind a register the next, the least
+     * recently used behind the last of all, which is `latest`. */
+    int behind[QDOT_CODE_REGISTERS], ahead[QDOT_CODE_REGISTERS], latest;
     uint32_t spread[2]; /* rows whose coefficient fills a register */
     int next_spread;
 } qdot_generator;
@@ -86,6 +99,9 @@ typedef struct {
 /* By qdot_taylor_op. */
 extern const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT];
 
+/* Order g->k of unknowns. */
+void qdot_code_solve(qdot_generator *g, size_t block);
+
 /* A row of a step by its name in the table above. */
 const double *qdot_code_factor(const qdot_taylor_step *s, unsigned char name);
 
@@ -98,13 +114,26 @@ qdot_code_row(const qdot_generator *g, const double *row)
 static inline qdot_x86_rm
 qdot_code_coefficient(const qdot_generator *g, uint32_t row, int k)
 {
-    return qdot_x86_at(QDOT_X86_RDI, (int32_t)(8 * (row * g->t->stride + (size_t)k)));
+    const int32_t at = (int32_t)(8 * (row * g->t->stride));
+
+    if (k > QDOT_CODE_ANY / 2)
+        return qdot_x86_at(QDOT_X86_R8, at + 8 * (k - QDOT_CODE_ANY));
+    return qdot_x86_at(QDOT_X86_RDI, at + 8 * k);
 }
 
 static inline qdot_x86_rm
 qdot_code_work(size_t i)
 {
     return qdot_x86_at(QDOT_X86_RDX, (int32_t)(8 * i));
+}
+
+/* Of a table what it has for order k. */
+static inline qdot_x86_rm
+qdot_code_entry(size_t table, int k)
+{
+    if (k > QDOT_CODE_ANY / 2)
+        return qdot_x86_at(QDOT_X86_R9, (int32_t)(8 * table) + 8 * (k - QDOT_CODE_ANY));
+    return qdot_code_work(table + (size_t)k);
 }
 
 #endif

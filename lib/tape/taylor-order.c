@@ -140,8 +140,8 @@ qdot_taylor_order(qdot_taylor *t, int k)
 }
 
 /* Of inputs that are integrals, what order 0 gives; and the unit for the others. */
-static void
-link_zero(const qdot_taylor *t, double unit)
+void
+qdot_taylor_begin_links(qdot_taylor *t, double unit)
 {
     for (size_t l = 0; l < t->n_links; l++) {
         qdot_taylor_step *link = t->steps + t->length + l;
@@ -154,15 +154,15 @@ link_zero(const qdot_taylor *t, double unit)
             link->second[2] = 0.5 * unit * first;
         }
     }
+    if (t->code)
+        qdot_taylor_code_unit(t->code, unit);
 }
 
 void
 qdot_taylor_begin(qdot_taylor *t, double unit)
 {
     order_zero(t);
-    link_zero(t, unit);
-    if (t->code)
-        qdot_taylor_code_unit(t->code, unit);
+    qdot_taylor_begin_links(t, unit);
 }
 
 void
@@ -171,7 +171,7 @@ qdot_taylor_extend(qdot_taylor *t, int from, int to)
     step_function *const (*const function)[QDOT_T_COUNT] = functions();
     const size_t n = t->length + t->n_links;
 
-    if (t->code && from == 1 && to == qdot_taylor_code_orders(t->code)) {
+    if (from == 1 && qdot_taylor_is_code(t, to)) {
         qdot_taylor_code_run(t->code, t);
         return;
     }

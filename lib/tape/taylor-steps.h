@@ -54,10 +54,28 @@ struct qdot_taylor_drawn {
     double near, far, chance; /* of the far one */
 };
 
+/* Unknowns, solved for at every order (qdot_taylor_solve). */
+typedef struct {
+    uint32_t i; /* in row i M times a */
+    const double *M, *a;
+} qdot_taylor_coupling;
+
+typedef struct {
+    size_t n;
+    int solved;       /* orders up to this one by the factor */
+    const double **f; /* [n] */
+    double **a;       /* [n] */
+    double **r;       /* [n] what is left of f; work */
+    qdot_taylor_coupling *couplings; /* by i */
+    size_t n_couplings;
+    double *matrices; /* [n x n] L, inverses on its diagonal; [n x n] M_0^-1 */
+} qdot_taylor_block;
+
 struct qdot_taylor {
     const qdot_series_kernels *kernels;
     size_t stride, inputs, outputs, rows;
     size_t moving; /* of the inputs the first, which are no numbers */
+    size_t spare;  /* the first row that is free for what is solved for */
     double convolutions;
     double *coefficients;     /* [rows x stride], the inputs first */
     const double **output;    /* [outputs] rows */
@@ -65,6 +83,8 @@ struct qdot_taylor {
     qdot_taylor_step *steps; /* [length + n_links], then QDOT_T_END */
     size_t length, n_links;
     size_t still; /* of the steps the first, which have order 0 only */
+    qdot_taylor_block *blocks; /* [n_blocks] */
+    size_t n_blocks;
     struct qdot_taylor_drawn *drawn; /* [n_drawn] */
     size_t n_drawn;
     struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */

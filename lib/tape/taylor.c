@@ -335,14 +335,15 @@ place(const qdot_taylor *t, row r)
 
 /* Rows get their places, steps their pointers. */
 static qdot_status
-settle(qdot_taylor *t, const builder *b, int most)
+settle(qdot_taylor *t, const builder *b, int most, size_t unknowns)
 {
     const qdot_tape *tape = b->tape;
     size_t still = 0;
 
     /* an odd number of cache lines apart, so that rows do not share a few sets */
     t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
-    t->rows = b->constants.n;
+    t->spare = b->constants.n;
+    t->rows = t->spare + 2 * unknowns;
     t->inputs = tape->inputs;
     t->outputs = tape->outputs;
     t->length = b->drafts.n - 1;
@@ -354,7 +355,7 @@ settle(qdot_taylor *t, const builder *b, int most)
     t->steps = qdot_calloc(b->drafts.n, sizeof *t->steps);
     if (!t->coefficients || !t->output || !t->constant || !t->steps)
         return QDOT_ENOMEM;
-    for (size_t r = 0; r < t->rows; r++)
+    for (size_t r = 0; r < t->spare; r++)
         if (!isnan(b->constants.at[r]))
             t->coefficients[r * t->stride] = b->constants.at[r];
     for (size_t i = 0; i < b->drafts.n; i++)
@@ -397,7 +398,8 @@ settle(qdot_taylor *t, const builder *b, int most)
 }
 
 static qdot_status
-make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
+make(const qdot_tape *tape, int most, size_t moving, size_t unknowns,
+     qdot_taylor **taylor)
 {
     const char *hindrance = qdot_taylor_hindrance(tape);
     builder b = {.tape = tape, .moving = moving};
@@ -415,7 +417,7 @@ make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
     b.at = qdot_calloc(tape->places + 1, sizeof *b.at);
     status = t && b.at ? build(&b) : QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = settle(t, &b, most);
+        status = settle(t, &b, most, unknowns);
     qdot_free(b.at);
     qdot_free(b.drafts.at);
     qdot_free(b.constants.at);
@@ -433,19 +435,19 @@ make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
 qdot_status
 qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
 {
-    return make(tape, most, tape->inputs, taylor);
+    return make(tape, most, tape->inputs, 0, taylor);
 }
 
 qdot_status
 qdot_taylor_new_moving(const qdot_tape *tape, bool shaken, int most, size_t moving,
-                       qdot_taylor **taylor)
+                       size_t unknowns, qdot_taylor **taylor)
 {
     qdot_tape *copy = NULL;
     qdot_status status;
 
     if (shaken)
         QDOT_TRY(qdot_tape_shake(tape, &copy));
-    status = make(copy ? copy : tape, most, moving, taylor);
+    status = make(copy ? copy : tape, most, moving, unknowns, taylor);
     qdot_tape_free(copy);
     return status;
 }
@@ -453,7 +455,16 @@ qdot_taylor_new_moving(const qdot_tape *tape, bool shaken, int most, size_t movi
 qdot_status
 qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken, int most, qdot_taylor **taylor)
 {
-    return qdot_taylor_new_moving(tape, shaken, most, tape->inputs, taylor);
+    return qdot_taylor_new_moving(tape, shaken, most, tape->inputs, 0, taylor);
+}
+
+static void
+free_block(qdot_taylor_block *b)
+{
+    qdot_free(b->f);
+    qdot_free(b->a);
+    qdot_free(b->couplings);
+    qdot_free(b->matrices);
 }
 
 void
@@ -463,6 +474,9 @@ qdot_taylor_free(qdot_taylor *t)
         return;
     qdot_taylor_changes_free(t);
     qdot_taylor_code_free(t->code);
+    for (size_t b = 0; b < t->n_blocks; b++)
+        free_block(t->blocks + b);
+    qdot_free(t->blocks);
     qdot_free(t->coefficients);
     qdot_free(t->output);
     qdot_free(t->constant);
@@ -488,12 +502,62 @@ qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
     return QDOT_OK;
 }
 
+/* Row i of the lower triangle, and of what it stands for above. */
+static void
+couple(const qdot_taylor *t, qdot_taylor_block *b, const size_t *M, size_t i)
+{
+    for (size_t j = 0; j < b->n; j++) {
+        const size_t low = i < j ? i : j, high = i < j ? j : i;
+        const size_t output = M[high * (high + 1) / 2 + low];
+
+        if (!t->constant[output])
+            b->couplings[b->n_couplings++] =
+                (qdot_taylor_coupling){(uint32_t)i, t->output[output], b->a[j]};
+    }
+}
+
+qdot_status
+qdot_taylor_solve(qdot_taylor *t, size_t n, const size_t *f, const size_t *M, int solved,
+                  double *const **a, double **matrices)
+{
+    size_t capacity = t->n_blocks;
+    qdot_taylor_block *b;
+
+    if (t->spare + 2 * n > t->rows)
+        return qdot_fail(QDOT_EINVAL, "there is no room for %zu unknowns", n);
+    QDOT_TRY(qdot_grow(&t->blocks, &capacity, capacity + 1, sizeof *t->blocks));
+    b = t->blocks + t->n_blocks++;
+    *b = (qdot_taylor_block){.n = n, .solved = solved};
+    b->f = qdot_calloc(n, sizeof *b->f);
+    b->a = qdot_calloc(2 * n, sizeof *b->a);
+    b->couplings = qdot_calloc(n * n, sizeof *b->couplings);
+    b->matrices = qdot_calloc(2 * n * n, sizeof *b->matrices);
+    if (!b->f || !b->a || !b->couplings || !b->matrices)
+        return QDOT_ENOMEM;
+    b->r = b->a + n;
+    for (size_t i = 0; i < 2 * n; i++)
+        b->a[i] = place(t, (row)t->spare++);
+    for (size_t i = 0; i < n; i++)
+        b->f[i] = t->output[f[i]];
+    for (size_t i = 0; M && i < n; i++)
+        couple(t, b, M, i);
+    *a = b->a;
+    *matrices = b->matrices;
+    return QDOT_OK;
+}
+
+bool
+qdot_taylor_is_code(const qdot_taylor *t, int to)
+{
+    return t->code && qdot_taylor_code_orders(t->code) == to;
+}
+
 qdot_status
 qdot_taylor_prepare(qdot_taylor *t, int to)
 {
     if (to < 1 || to > QDOT_SERIES_MOST)
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", to);
-    if (t->code && qdot_taylor_code_orders(t->code) == to)
+    if (qdot_taylor_is_code(t, to))
         return QDOT_OK;
     qdot_taylor_code_free(t->code);
     return qdot_taylor_code_new(t, to, &t->code, &t->no_code);

@@ -49,10 +49,11 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_new(const qdot_tape *tape, int most,
 QDOT_MUST_CHECK qdot_status qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken,
                                                    int most, qdot_taylor **taylor);
 /* The same where the inputs from `moving` on are numbers: they have no coefficients but of
- * order 0, and what is made of them alone is computed there only. */
+ * order 0, and what is made of them alone is computed there only. There is room to solve for
+ * `unknowns` rows. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_new_moving(const qdot_tape *tape, bool shaken,
                                                    int most, size_t moving,
-                                                   qdot_taylor **taylor);
+                                                   size_t unknowns, qdot_taylor **taylor);
 void qdot_taylor_free(qdot_taylor *taylor);
 
 /* Whether the tape has a series: the operation that has none, or NULL. */
@@ -89,10 +90,28 @@ void qdot_taylor_order(qdot_taylor *taylor, int k);
 QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size_t twice,
                                              const double *from);
 
+/* n further rows a, the unknowns of
+ *
+ *     sum_j M_ij a_j = f_i,   so   M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j},
+ *
+ * M [n(n+1)/2] the lower triangle by rows (NULL: only numbers) and f [n] being outputs by
+ * their numbers. *a [n] are the rows, whose order 0 is the caller's to solve for; so are
+ * all others where an expansion is not machine code, and code is all that this is for.
+ * *matrices [2 n n] is to be filled before each expansion: the Cholesky factor of M_0 by
+ * rows, its diagonal inverted, by which orders up to `solved` are found; M_0^-1 by rows, by
+ * which the others. Both are the program's. Before anything is linked. Errors: QDOT_EINVAL
+ * (no room for so many), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_solve(qdot_taylor *taylor, size_t n,
+                                              const size_t *f, const size_t *M,
+                                              int solved, double *const **a,
+                                              double **matrices);
+
 /* Order 0 of all that is computed, and what is linked. Then orders `from` to `to`, each
  * followed by what is linked to it in the order in which it was; `to` below the program's
  * highest but one. */
 void qdot_taylor_begin(qdot_taylor *taylor, double unit);
+/* Of _begin what is linked alone, order 0 of all being there, unknowns too. */
+void qdot_taylor_begin_links(qdot_taylor *taylor, double unit);
 void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
 
 /* Orders 1 ... to are going to be evaluated again and again, by qdot_taylor_begin and then
@@ -100,6 +119,8 @@ void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
  * links are there by now. Whatever else is evaluated is so by the kernels, as everything is
  * without this call. Errors: QDOT_EINVAL (to), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to);
+/* Whether orders 1 ... to are machine code. */
+bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
 /* How long the code is; 0: there is none, and *why says so, NULL if none was asked for. */
 size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 

@@ -126,14 +126,75 @@ qdot_x86_set_mask(qdot_x86 *x, int m, unsigned lanes)
     written(x, from, at);
 }
 
+static void
+write_bytes(qdot_x86 *x, size_t n, const unsigned char *bytes)
+{
+    unsigned char *from = room(x);
+
+    memcpy(from, bytes, n);
+    written(x, from, from + n);
+}
+
+void
+qdot_x86_join_masks(qdot_x86 *x, int m, int more)
+{
+    const unsigned char korw[] = {0xc5, (unsigned char)(0xc4 | (unsigned)(~m & 15) << 3), 0x45,
+                                  (unsigned char)(0xc0 | (unsigned)m << 3 | (unsigned)more)};
+
+    write_bytes(x, sizeof korw, korw);
+}
+
+void
+qdot_x86_raise_mask(qdot_x86 *x, int m)
+{
+    const unsigned char kshiftlw[] = {
+        0xc4, 0xe3, 0xf9, 0x32, (unsigned char)(0xc0 | (unsigned)m << 3 | (unsigned)m), 1};
+
+    write_bytes(x, sizeof kshiftlw, kshiftlw);
+}
+
+void
+qdot_x86_address(qdot_x86 *x, qdot_x86_base to, qdot_x86_base from, int32_t offset)
+{
+    unsigned char *start = room(x), *at = start;
+
+    *at++ = (unsigned char)(0x48 | (unsigned)(to >> 3) << 2 | (unsigned)(from >> 3));
+    *at++ = 0x8d; /* lea */
+    *at++ = (unsigned char)(0x80 | (unsigned)(to & 7) << 3 | (unsigned)(from & 7));
+    at = little_endian(at, (uint32_t)offset);
+    written(x, start, at);
+}
+
+size_t
+qdot_x86_repeat(qdot_x86 *x, int times)
+{
+    unsigned char *start = room(x), *at = start;
+
+    *at++ = 0xb9; /* mov ecx, times */
+    at = little_endian(at, (uint32_t)times);
+    written(x, start, at);
+    return x->bytes.n;
+}
+
+void
+qdot_x86_again(qdot_x86 *x, size_t from)
+{
+    unsigned char *start = room(x), *at = start;
+
+    *at++ = 0xff; /* dec ecx */
+    *at++ = 0xc9;
+    *at++ = 0x0f; /* jnz from */
+    *at++ = 0x85;
+    at = little_endian(at, (uint32_t)(from - (x->bytes.n + 8)));
+    written(x, start, at);
+}
+
 void
 qdot_x86_return(qdot_x86 *x)
 {
     static const unsigned char bytes[] = {0xc5, 0xf8, 0x77 /* vzeroupper */, 0xc3 /* ret */};
-    unsigned char *from = room(x);
 
-    memcpy(from, bytes, sizeof bytes);
-    written(x, from, from + sizeof bytes);
+    write_bytes(x, sizeof bytes, bytes);
 }
 
 bool

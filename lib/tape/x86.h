@@ -39,6 +39,7 @@
     X(MUL_ALL, 1, 1, 0x59, true)                                                         \
     X(MADD_ALL, 2, 1, 0xb8, true)     /* reg = first rm + reg */                         \
     X(SPREAD, 2, 1, 0x19, true)       /* reg = the double rm in every lane */            \
+    X(XOR_ALL, 1, 1, 0xef, true)      /* reg = first xor rm: 0 of one with itself */       \
     X(ALIGN, 3, 1, 0x03, true)        /* reg = the lanes of rm, then first, from the one  \
                                          that is said on */
 
@@ -50,7 +51,13 @@ typedef enum {
 } qdot_x86_name;
 
 /* General registers that hold addresses. */
-typedef enum { QDOT_X86_RDX = 2, QDOT_X86_RSI = 6, QDOT_X86_RDI = 7 } qdot_x86_base;
+typedef enum {
+    QDOT_X86_RDX = 2,
+    QDOT_X86_RSI = 6,
+    QDOT_X86_RDI = 7,
+    QDOT_X86_R8 = 8,
+    QDOT_X86_R9 = 9
+} qdot_x86_base;
 
 /* A register, or a place in memory; of that one double may stand for every lane. */
 typedef struct {
@@ -84,6 +91,15 @@ void qdot_x86_emit(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86
 void qdot_x86_align(qdot_x86 *x, int reg, int high, qdot_x86_rm low, int from);
 /* Mask register m (1 ... 7) = lanes, a bit each. */
 void qdot_x86_set_mask(qdot_x86 *x, int m, unsigned lanes);
+/* Mask register m takes on the lanes of `more`; it moves up by a lane. */
+void qdot_x86_join_masks(qdot_x86 *x, int m, int more);
+void qdot_x86_raise_mask(qdot_x86 *x, int m);
+/* to = from + offset */
+void qdot_x86_address(qdot_x86 *x, qdot_x86_base to, qdot_x86_base from, int32_t offset);
+/* What stands between the two is run `times`, at least once; returns its place. Not one in
+ * another. */
+size_t qdot_x86_repeat(qdot_x86 *x, int times);
+void qdot_x86_again(qdot_x86 *x, size_t from);
 void qdot_x86_return(qdot_x86 *x);
 
 /* Whether this processor and its system have all that. */

@@ -59,7 +59,7 @@ linked(const qdot_tape *tape, int to, bool code)
 {
     qdot_taylor *t;
 
-    assert_int_equal(qdot_taylor_new_moving(tape, false, QDOT_SERIES_MOST, MOVING, &t),
+    assert_int_equal(qdot_taylor_new_moving(tape, false, QDOT_SERIES_MOST, MOVING, 0, &t),
                      QDOT_OK);
     assert_int_equal(qdot_taylor_link(t, V, Q, qdot_taylor_output(t, 0)), QDOT_OK);
     assert_int_equal(qdot_taylor_link(t, W, SIZE_MAX, qdot_taylor_output(t, 1)), QDOT_OK);
@@ -246,6 +246,201 @@ long_programs_agree(void **state)
     qdot_pool_free(f.pool);
 }
 
+/* --- unknowns ----------------------------------------------------------------------- */
+
+enum { UNKNOWNS = 5, SOLVED = 3 };
+
+/* sum_j M_ij a_j = f_i; V is the integral of a_0, Q twice, and W that of the last one. */
+typedef struct {
+    qdot_taylor *t;
+    size_t n;
+    bool constant; /* M has numbers only */
+    double M[UNKNOWNS][UNKNOWNS], L[UNKNOWNS][UNKNOWNS]; /* M_0 and its factor */
+    double *const *a, *matrices;
+} equations;
+
+static size_t
+entry(const equations *e, size_t i, size_t j)
+{
+    return e->n + (i < j ? j * (j + 1) / 2 + i : i * (i + 1) / 2 + j);
+}
+
+static void
+make_equations(equations *e, const qdot_tape *tape, size_t n, bool constant, int to,
+               bool code)
+{
+    size_t outputs[UNKNOWNS + UNKNOWNS * (UNKNOWNS + 1) / 2];
+
+    for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++)
+        outputs[i] = i;
+    *e = (equations){.n = n, .constant = constant};
+    assert_int_equal(
+        qdot_taylor_new_moving(tape, false, QDOT_SERIES_MOST, MOVING, n, &e->t), QDOT_OK);
+    assert_int_equal(qdot_taylor_solve(e->t, n, outputs, constant ? NULL : outputs + n,
+                                       SOLVED, &e->a, &e->matrices),
+                     QDOT_OK);
+    assert_int_equal(qdot_taylor_solve(e->t, 1, outputs, NULL, SOLVED, &e->a,
+                                       &e->matrices),
+                     QDOT_EINVAL);
+    assert_int_equal(qdot_taylor_link(e->t, V, Q, e->a[0]), QDOT_OK);
+    assert_int_equal(qdot_taylor_link(e->t, W, SIZE_MAX, e->a[n - 1]), QDOT_OK);
+    assert_int_equal(qdot_taylor_link(e->t, P, SIZE_MAX, qdot_taylor_input(e->t, W)),
+                     QDOT_OK);
+    if (code)
+        assert_int_equal(qdot_taylor_prepare(e->t, to), QDOT_OK);
+}
+
+/* x becomes M_0^-1 x. */
+static void
+solve_zero(const equations *e, double *x)
+{
+    for (size_t i = 0; i < e->n; i++) {
+        for (size_t j = 0; j < i; j++)
+            x[i] -= e->L[i][j] * x[j];
+        x[i] /= e->L[i][i];
+    }
+    for (size_t i = e->n; i-- > 0;) {
+        for (size_t j = i + 1; j < e->n; j++)
+            x[i] -= e->L[j][i] * x[j];
+        x[i] /= e->L[i][i];
+    }
+}
+
+static void
+factor_zero(equations *e)
+{
+    const size_t n = e->n;
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double sum = e->M[i][j];
+
+            for (size_t k = 0; k < j; k++)
+                sum -= e->L[i][k] * e->L[j][k];
+            e->L[i][j] = i == j ? sqrt(sum) : sum / e->L[j][j];
+        }
+    for (size_t i = 0; i < n; i++) {
+        double unit[UNKNOWNS] = {0};
+
+        for (size_t j = 0; j < n; j++)
+            e->matrices[i * n + j] = j < i ? e->L[i][j] : j == i ? 1 / e->L[i][i] : NAN;
+        unit[i] = 1;
+        solve_zero(e, unit);
+        memcpy(e->matrices + (n + i) * n, unit, n * sizeof *unit);
+    }
+}
+
+/* Order k of the unknowns, by the definition. */
+static void
+solve_order(const equations *e, int k)
+{
+    double x[UNKNOWNS];
+
+    for (size_t i = 0; i < e->n; i++) {
+        x[i] = qdot_taylor_output(e->t, i)[k];
+        for (size_t j = 0; j < e->n && !e->constant; j++)
+            for (int m = 1; m <= k; m++)
+                x[i] -= qdot_taylor_output(e->t, entry(e, i, j))[m] * e->a[j][k - m];
+    }
+    solve_zero(e, x);
+    for (size_t i = 0; i < e->n; i++)
+        e->a[i][k] = x[i];
+}
+
+static void
+expand_equations(equations *e, int to, double unit, double moved, bool code)
+{
+    for (size_t i = 0; i < MOVING; i++)
+        for (int k = to + 3; k <= QDOT_SERIES_MOST; k++)
+            qdot_taylor_input(e->t, i)[k] = 1e9;
+    start(e->t, unit, moved);
+    qdot_taylor_order(e->t, 0);
+    for (size_t i = 0; i < e->n; i++)
+        for (size_t j = 0; j < e->n; j++)
+            e->M[i][j] = e->constant ? (i == j ? 3.5 : 0.25)
+                                     : qdot_taylor_output(e->t, entry(e, i, j))[0];
+    factor_zero(e);
+    solve_order(e, 0);
+    qdot_taylor_begin_links(e->t, unit);
+    if (code) {
+        qdot_taylor_extend(e->t, 1, to);
+        return;
+    }
+    for (int k = 1; k <= to; k++) {
+        double *v = qdot_taylor_input(e->t, V), *w = qdot_taylor_input(e->t, W);
+
+        qdot_taylor_order(e->t, k);
+        solve_order(e, k);
+        v[k + 1] = unit / (k + 1) * e->a[0][k];
+        w[k + 1] = unit / (k + 1) * e->a[e->n - 1][k];
+        qdot_taylor_input(e->t, Q)[k + 2] = unit / (k + 2) * v[k + 1];
+        qdot_taylor_input(e->t, P)[k + 1] = unit / (k + 1) * w[k];
+    }
+}
+
+/* f, then M by rows: what is on its diagonal moves or, every third, does not. */
+static void
+outputs_of(scene *f, size_t n, qdot_expr *out)
+{
+    qdot_pool *pool = f->pool;
+
+    for (size_t i = 0; i < n; i++)
+        out[i] = i % 2 ? qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, qdot_expr_int(pool, (long)i),
+                                                            f->in[Q]))
+                       : qdot_mul(pool, f->in[V], f->in[i % T]);
+    out += n;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            const qdot_expr part = qdot_expr_int(pool, (long)(1 + i + j));
+
+            if (i == j)
+                *out++ = i % 3 ? qdot_add(pool, part, qdot_add(pool, part, f->above))
+                               : qdot_expr_int(pool, 3);
+            else
+                *out++ = qdot_div(pool, (i + j) % 2 ? qdot_fun1(pool, QDOT_COS, f->in[P])
+                                                    : f->within,
+                                  part);
+        }
+}
+
+static void
+unknowns_agree(void **state)
+{
+    qdot_expr out[UNKNOWNS + UNKNOWNS * (UNKNOWNS + 1) / 2];
+    scene f;
+
+    (void)state;
+    begin(&f);
+    for (size_t n = 1; n <= UNKNOWNS; n++) {
+        qdot_tape *tape;
+
+        outputs_of(&f, n, out);
+        assert_int_equal(
+            qdot_tape_new(f.pool, INPUTS, f.in, n + n * (n + 1) / 2, out, &tape), QDOT_OK);
+        for (int to = 1; to <= MOST; to += n < 3 ? 1 : 5)
+            for (int constant = 0; constant < 2; constant++) {
+                equations e[3];
+                qdot_taylor *of[3];
+                const char *why;
+
+                for (int l = 0; l < 3; l++) {
+                    make_equations(e + l, tape, n, constant, to, l == 0);
+                    of[l] = e[l].t;
+                }
+                for (int unit = 2; unit <= 3; unit++) {
+                    for (int l = 0; l < 3; l++)
+                        expand_equations(e + l, to, unit, l < 2 ? 1 : 1 + 1e-12,
+                                         qdot_taylor_code_bytes(of[l], &why) > 0);
+                    compare(of, to, constant ? "constant unknowns" : "unknowns");
+                }
+                for (int l = 0; l < 3; l++)
+                    qdot_taylor_free(of[l]);
+            }
+        qdot_tape_free(tape);
+    }
+    qdot_pool_free(f.pool);
+}
+
 int
 main(void)
 {
@@ -254,6 +449,7 @@ main(void)
         cmocka_unit_test(functions_agree),
         cmocka_unit_test(arithmetic_agrees),
         cmocka_unit_test(long_programs_agree),
+        cmocka_unit_test(unknowns_agree),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

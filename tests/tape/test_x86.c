@@ -50,6 +50,12 @@ instructions_have_their_bytes(void **state)
          "vbroadcastsd 0x30(%rdi),%zmm29{%k1}", 7, "\x62\x62\xfd\x49\x19\x6f\x06"},
         {QDOT_X86_STORE_ALL, 0, 0, {true, false, DX, 0xc0}, 0, -1, false,
          "vmovupd %zmm0,0xc0(%rdx)", 7, "\x62\xf1\xfd\x48\x11\x42\x03"},
+        {QDOT_X86_XOR_ALL, 17, 17, {false, false, 17, 0}, 0, -1, false,
+         "vpxorq %zmm17,%zmm17,%zmm17", 6, "\x62\xa1\xf5\x40\xef\xc9"},
+        {QDOT_X86_ADD, 1, 20, {true, false, QDOT_X86_R8, 0x10}, 0, -1, false,
+         "vaddsd 0x10(%r8),%xmm20,%xmm1", 7, "\x62\xd1\xdf\x00\x58\x48\x02"},
+        {QDOT_X86_MUL, 19, 20, {true, false, QDOT_X86_R9, -0x320}, 0, -1, false,
+         "vmulsd -0x320(%r9),%xmm20,%xmm19", 7, "\x62\xc1\xdf\x00\x59\x59\x9c"},
         {QDOT_X86_ALIGN, 8, 8, {false, false, 8, 0}, 3, 1, true,
          "valignq $1,%zmm8,%zmm8,%zmm8{%k3}{z}", 7, "\x62\x53\xbd\xcb\x03\xc0\x01"},
         {QDOT_X86_ALIGN, 0, 23, {true, false, DX, 0x80}, 0, 1, false,
@@ -86,12 +92,40 @@ masks_and_the_end_have_theirs(void **state)
     qdot_free(x.bytes.at);
 }
 
+static void
+loops_have_theirs(void **state)
+{
+    static const unsigned char bytes[] = {
+        0x4c, 0x8d, 0x87, 0x20, 0,    0,    0,    /* lea 0x20(%rdi),%r8 */
+        0x4d, 0x8d, 0x89, 8,    0,    0,    0,    /* lea 8(%r9),%r9 */
+        0xb9, 7,    0,    0,    0,                /* mov $7,%ecx */
+        0xc5, 0xec, 0x45, 0xd1,                   /* korw %k1,%k2,%k2 */
+        0xc4, 0xe3, 0xf9, 0x32, 0xc9, 1,          /* kshiftlw $1,%k1,%k1 */
+        0xff, 0xc9,                               /* dec %ecx */
+        0x0f, 0x85, 0xee, 0xff, 0xff, 0xff        /* jne */
+    };
+    qdot_x86 x = {0};
+    size_t from;
+
+    (void)state;
+    qdot_x86_address(&x, QDOT_X86_R8, QDOT_X86_RDI, 0x20);
+    qdot_x86_address(&x, QDOT_X86_R9, QDOT_X86_R9, 8);
+    from = qdot_x86_repeat(&x, 7);
+    qdot_x86_join_masks(&x, 2, 1);
+    qdot_x86_raise_mask(&x, 1);
+    qdot_x86_again(&x, from);
+    assert_int_equal(x.bytes.n, sizeof bytes);
+    assert_memory_equal(x.bytes.at, bytes, sizeof bytes);
+    qdot_free(x.bytes.at);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(instructions_have_their_bytes),
         cmocka_unit_test(masks_and_the_end_have_theirs),
+        cmocka_unit_test(loops_have_theirs),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
