@@ -124,6 +124,7 @@ normal_sources = \
 	lib/normal/collect.c \
 	lib/normal/common.c \
 	lib/normal/constant.c \
+	lib/normal/contradiction.c \
 	lib/normal/cramer.c \
 	lib/normal/decide.c \
 	lib/normal/defined.c \
@@ -179,6 +180,7 @@ normal_headers = \
 	lib/normal/cases.h \
 	lib/normal/cells.h \
 	lib/normal/constant.h \
+	lib/normal/contradiction.h \
 	lib/normal/cramer.h \
 	lib/normal/decide.h \
 	lib/normal/defined.h \

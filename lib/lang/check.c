@@ -12,6 +12,7 @@
 #include "lang/ask.h"
 #include "lang/digits.h"
 #include "mech/quantity.h"
+#include "normal/contradiction.h"
 
 /* Everything that may be used: the scene's facts and what stands behind `when`. */
 typedef struct {
@@ -511,6 +512,41 @@ passed_list(qdot_session *session, const facts *f, const question *q)
     return list == QDOT_NIL ? list : replace(session, f, list);
 }
 
+/* Beside what no refutation answers: whether there is anything to compare at all. */
+static qdot_status
+look_for_contradiction(qdot_session *session, const facts *f, const qdot_facts *known)
+{
+    qdot_pool *pool = session->pool;
+    qdot_vec(qdot_expr) conditions = {0};
+    qdot_facts all = *known;
+    qdot_status status = QDOT_OK;
+    bool found = false;
+
+    for (size_t i = 0; i < known->n_conditions && status == QDOT_OK; i++)
+        status = qdot_vec_push(&conditions, replace(session, f, known->conditions[i]));
+    for (size_t i = 0; i < f->from.n && status == QDOT_OK; i++) { /* bounds of what is replaced */
+        qdot_symbol s = *qdot_expr_symbol(pool, f->from.at[i]);
+
+        if (s.lo != QDOT_NIL)
+            status = qdot_vec_push(&conditions, qdot_rel(pool, s.lo_open ? QDOT_LT : QDOT_LE,
+                                                         s.lo, f->to.at[i]));
+        if (s.hi != QDOT_NIL && status == QDOT_OK)
+            status = qdot_vec_push(&conditions, qdot_rel(pool, s.hi_open ? QDOT_LT : QDOT_LE,
+                                                         f->to.at[i], s.hi));
+    }
+    all.n_conditions = conditions.n;
+    all.conditions = conditions.at;
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_contradiction(pool, &all, &found);
+    qdot_free(conditions.at);
+    if (status == QDOT_OK && found)
+        status = qdot_answer_notice(session, "what is assumed contradicts itself or the declared "
+                                             "domains: there is nothing to compare");
+    return status;
+}
+
 static qdot_status
 answer(qdot_cursor *c, question *q, facts *f)
 {
@@ -556,6 +592,9 @@ answer(qdot_cursor *c, question *q, facts *f)
             QDOT_TRY(decide(session, left, right, q->how, &known, &decision));
         }
     }
+    if (!q->within && !measured &&
+        (decision.verdict == QDOT_PROVED || decision.points == 0 || f->from.n > 0))
+        QDOT_TRY(look_for_contradiction(session, f, &known));
     if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
         session->refuted = true;
     return qdot_answer_check(session, q->left, q->right, &decision);
