@@ -754,6 +754,9 @@ script_tests = \
 	tests/bad/race-methods.lag \
 	tests/bad/race-option.lag \
 	tests/bad/race-stopped.lag \
+	tests/bad/range-pole-max.lag \
+	tests/bad/range-pole-mean.lag \
+	tests/bad/range-pole-min.lag \
 	tests/bad/reactions-none.lag \
 	tests/bad/redeclared-coordinate.lag \
 	tests/bad/redeclared-parameter.lag \
@@ -761,6 +764,8 @@ script_tests = \
 	tests/bad/reset-in-loop.lag \
 	tests/bad/rest-negative-value.lag \
 	tests/bad/rest-negative.lag \
+	tests/bad/run-hopeless-digits.lag \
+	tests/bad/run-hopeless.lag \
 	tests/bad/same-label.lag \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
@@ -967,6 +972,9 @@ test_files = \
 	tests/bad/race-methods.out \
 	tests/bad/race-option.out \
 	tests/bad/race-stopped.out \
+	tests/bad/range-pole-max.out \
+	tests/bad/range-pole-mean.out \
+	tests/bad/range-pole-min.out \
 	tests/bad/reactions-none.out \
 	tests/bad/redeclared-coordinate.out \
 	tests/bad/redeclared-parameter.out \
@@ -974,6 +982,8 @@ test_files = \
 	tests/bad/reset-in-loop.out \
 	tests/bad/rest-negative-value.out \
 	tests/bad/rest-negative.out \
+	tests/bad/run-hopeless-digits.out \
+	tests/bad/run-hopeless.out \
 	tests/bad/same-label.out \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \

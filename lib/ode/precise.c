@@ -78,6 +78,11 @@ qdot_precise_inside(const qdot_precise_run *run, size_t k)
     return run->inside + k * QDOT_PRECISE_INSIDE * (run->n + 1);
 }
 
+/* After so many points a run is asked how many there will be, and broken off from that many
+ * on: far more than memory holds. */
+enum { looks = 1 << 14 };
+static const double hopeless = 1e10;
+
 /* Room for one point more: allocated a chunk at a time, between steps. */
 static qdot_status
 reserve(qdot_precise_run *run, double max_bytes)
@@ -396,6 +401,22 @@ advance(state *s)
     }
 }
 
+/* As that of trajectory.c. */
+static qdot_status
+foresee(const state *s)
+{
+    const double t0 = mpfr_get_d(qdot_precise_point(s->run, 0)[0], RN);
+    const double t = mpfr_get_d(s->t, RN), t1 = mpfr_get_d(s->t1, RN);
+    const double steps = (double)s->run->count, all = steps * ((t1 - t0) / (t - t0));
+
+    if (!(all > hopeless))
+        return QDOT_OK;
+    qdot_fail(QDOT_ELIMIT,
+              "stopped at t = %.6g after %.0f steps: at this rate t = %.3g is %.2g steps away",
+              t, steps, t1, all - steps);
+    return qdot_hint("a shorter run, or other units of time");
+}
+
 static qdot_status
 loop(state *s)
 {
@@ -424,6 +445,8 @@ loop(state *s)
         QDOT_TRY(reserve(s->run, max_bytes));
         QDOT_TRY(advance(s));
         store(s->run, s->t, s->y);
+        if (s->run->count % looks == 0)
+            QDOT_TRY(foresee(s));
         if (s->options->accepted)
             QDOT_TRY(s->options->accepted(s->t, (const mpfr_t *)s->y, &stop,
                                           s->options->user));

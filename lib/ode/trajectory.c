@@ -12,6 +12,11 @@
 
 static const size_t most_bytes = (size_t)2 << 30;
 
+/* After so many points, each time, a run is asked how many there will be: from a thousand times
+ * the most that are taken on, it is broken off. */
+enum { looks = 1 << 18 };
+static const double hopeless = 5e10;
+
 struct qdot_trajectory_cursor {
     const qdot_trajectory *tr;
     const qdot_ode_system *systems; /* [modes] */
@@ -34,6 +39,7 @@ struct qdot_trajectory_cursor {
 typedef struct {
     qdot_trajectory *tr;
     const qdot_ode_options *options;
+    double t1;
 } recorder;
 
 static qdot_status
@@ -97,11 +103,28 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
     return QDOT_OK;
 }
 
+/* A run that has got nowhere in many steps is not carried to the limit of steps. */
+static qdot_status
+foresee(const recorder *r, double t)
+{
+    const double steps = (double)r->tr->count, t0 = r->tr->t[0];
+    const double all = steps * ((r->t1 - t0) / (t - t0));
+
+    if (!(all > hopeless))
+        return QDOT_OK;
+    qdot_fail(QDOT_ELIMIT,
+              "stopped at t = %.6g after %.0f steps: at this rate t = %.3g is %.2g steps away",
+              t, steps, r->t1, all - steps);
+    return qdot_hint("at most 5e7 steps are taken: a shorter run, or other units of time");
+}
+
 static qdot_status
 record(double t, const double *y, bool *stop, void *user)
 {
     recorder *r = user;
 
+    if (r->tr->count % looks == 0)
+        QDOT_TRY(foresee(r, t));
     if (r->options->accepted)
         QDOT_TRY(r->options->accepted(t, y, stop, r->options->user));
     return qdot_trajectory_store(r->tr, t, y);
@@ -115,7 +138,7 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     qdot_ode_options own = options ? *options : (qdot_ode_options){0};
     const qdot_ode_options theirs = own;
     const qdot_trajectory_piece whole = {0};
-    recorder r = {.tr = tr, .options = &theirs};
+    recorder r = {.tr = tr, .options = &theirs, .t1 = t1};
     double *y = qdot_malloc(system->n * sizeof *y);
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
 
@@ -164,7 +187,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     /* `accepted` is ours from here on: whether theirs goes by parts has been decided */
     qdot_ode_options own = *options;
     qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
-    recorder r = {.tr = tr, .options = options};
+    recorder r = {.tr = tr, .options = options, .t1 = t1};
     qdot_ode_stats before = tr->result.stats;
     double t0 = tr->t[tr->count - 1];
     double *y = qdot_malloc(system->n * sizeof *y);

@@ -21,6 +21,13 @@ enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, MOST_PARTS = 4096 };
 /* Of the noise of evaluating: coefficients below it are nothing else. */
 static const double noises = 8;
 
+/* A part that no polynomial fits however short it is holds a jump, or a pole where values are
+ * so many times those of the step; a pole whose integral exists leaves that little of it. */
+static const double beyond_bounds = 0x1p16, least_integral = 0x1p-20;
+
+/* An end of the range where the limit from within is another value. */
+static const double jump = 0x1p-30;
+
 typedef struct {
     qdot_reader reader;
     size_t piece;
@@ -31,6 +38,11 @@ typedef struct {
     double rough;             /* what parts that stay rough leave open of the extrema */
     double noise;             /* of evaluating it in the step at hand */
     size_t parts;             /* of that step so far */
+    double typical;           /* value in that step */
+    double length;            /* of that step */
+    bool above, below;        /* it has no bound there, at the time */
+    bool diverges;            /* nor has its integral */
+    double pole;
     bool begun;
     bool odd[2]; /* the step begins, ends where equations switch: sign(0) is no limit */
     double ends[2];
@@ -63,23 +75,63 @@ meet(scan *s, double x)
     s->smallest = fmin(s->smallest, x);
 }
 
+/* How far rounding moves the nodes, of the length of the part. */
+static double
+blur(const part *p)
+{
+    return DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
+}
+
 static qdot_status
 fit(scan *s, part *p, int nodes, bool *good)
 {
-    double blur =
-        DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a), tail;
+    double tail;
 
     p->n = nodes;
     for (int j = 0; j < nodes; j++)
         QDOT_TRY(value_at(s, time_at(p, qdot_chebyshev_node(nodes, j)), &p->values[j]));
     qdot_chebyshev_fit(nodes, p->values, p->c);
     tail = qdot_chebyshev_tail(nodes, p->c);
-    *good = tail <= (0x1p-44 + 8 * blur) * qdot_chebyshev_size(nodes, p->c);
+    *good = tail <= (0x1p-44 + 8 * blur(p)) * qdot_chebyshev_size(nodes, p->c);
     if (!*good && tail <= noises * s->noise) {
         *good = true;
         s->rough = fmax(s->rough, noises * s->noise);
     }
     return QDOT_OK;
+}
+
+/* The value x at an end of a part, or where that is a point by itself the limit. */
+static double
+from_within(scan *s, const part *p, int end, double x)
+{
+    double limit = qdot_chebyshev_at(p->n, p->c, end == 0 ? -1 : 1);
+    double size = qdot_chebyshev_size(p->n, p->c);
+
+    if (fabs(x - limit) <= jump * size || 8 * blur(p) > jump)
+        return x;
+    s->rough = fmax(s->rough, 16 * DBL_EPSILON * size);
+    return limit;
+}
+
+/* In a part that could not be shorter. */
+static void
+look_for_pole(scan *s, const part *p)
+{
+    const double most = beyond_bounds * s->typical;
+    double low = INFINITY, high = -INFINITY;
+
+    for (int j = 0; j < p->n; j++) {
+        low = fmin(low, p->values[j]);
+        high = fmax(high, p->values[j]);
+    }
+    if (high <= most && low >= -most)
+        return;
+    s->above = s->above || high > most;
+    s->below = s->below || low < -most;
+    s->diverges = s->diverges
+                  || fmax(high, -low) * fabs(p->b - p->a)
+                         > least_integral * s->typical * s->length;
+    s->pole = p->b;
 }
 
 /* Ends, extrema, integral of a part. */
@@ -97,6 +149,8 @@ take_part(scan *s, const part *p, bool good)
             s->rough = fmax(s->rough, 16 * DBL_EPSILON * qdot_chebyshev_size(p->n, p->c));
         } else {
             QDOT_TRY(value_at(s, t, &x));
+            if (good)
+                x = from_within(s, p, end, x);
         }
         meet(s, x);
         if (!s->begun)
@@ -139,6 +193,19 @@ find_noise(scan *s, double a, double b)
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
+/* The mean of the sizes of the values but for the largest. */
+static double
+middling(const part *p)
+{
+    double sum = 0, largest = 0;
+
+    for (int j = 0; j < p->n; j++) {
+        sum += fabs(p->values[j]);
+        largest = fmax(largest, fabs(p->values[j]));
+    }
+    return (sum - largest) / (p->n - 1);
+}
+
 static qdot_status
 scan_step(scan *s, double a, double b)
 {
@@ -148,6 +215,7 @@ scan_step(scan *s, double a, double b)
     ends[0] = b;
     s->ends[0] = a;
     s->ends[1] = b;
+    s->length = fabs(b - a);
     QDOT_TRY(find_noise(s, a, b));
     while (depth > 0) {
         part p = {.a = from, .b = ends[depth - 1]};
@@ -162,10 +230,14 @@ scan_step(scan *s, double a, double b)
             if (good || nodes == MOST_NODES || short_one)
                 break;
         }
+        if (s->parts == 0 && depth == 1)
+            s->typical = middling(&p);
         if (good)
             s->nodes = nodes;
         if (good || short_one || depth == DEEPEST || ++s->parts > MOST_PARTS) {
             QDOT_TRY(take_part(s, &p, good));
+            if (short_one)
+                look_for_pole(s, &p);
             from = p.b;
             depth--;
             continue;
@@ -206,7 +278,7 @@ scan_course(scan *s, double from, double to)
                 QDOT_TRY(scan_step(s, a, b));
                 continue;
             }
-            if (from != to && (s->odd[0] || s->odd[1]))
+            if (from != to) /* a point by itself, which its steps have met */
                 continue;
             QDOT_TRY(value_at(s, a, &x));
             meet(s, x);
@@ -233,6 +305,21 @@ result(const scan *s, qdot_range_kind kind, double from, double to)
 }
 
 static qdot_status
+check_bounds(const scan *s, qdot_range_kind kind)
+{
+    if (kind == QDOT_RANGE_MEAN ? !s->diverges
+        : kind == QDOT_RANGE_MAX ? !s->above
+        : kind == QDOT_RANGE_MIN ? !s->below
+                                 : !s->above && !s->below)
+        return QDOT_OK;
+    return qdot_fail(QDOT_EDOMAIN,
+                     kind == QDOT_RANGE_MEAN  ? "it has no mean: its integral diverges at t = %.9g"
+                     : kind == QDOT_RANGE_MIN ? "it has no bound: it falls below all towards t = %.9g"
+                                              : "it has no bound: it grows beyond all towards t = %.9g",
+                     s->pole);
+}
+
+static qdot_status
 over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tape,
             bool accelerations, qdot_range_kind kind, double from, double to,
             double *value, double *rough)
@@ -245,6 +332,8 @@ over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tap
         status = scan_course(&s, from, to);
     if (status == QDOT_OK && !s.begun)
         status = qdot_fail(QDOT_EDOMAIN, "the range holds nothing of the run");
+    if (status == QDOT_OK)
+        status = check_bounds(&s, kind);
     if (status == QDOT_OK) {
         *value = result(&s, kind, from, to);
         *rough = s.rough;

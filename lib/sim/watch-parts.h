@@ -45,6 +45,7 @@ struct qdot_watch {
     int *first;      /* [m] */
     bool *slow;      /* [m] it leaves its zero slower than can be told at the start */
     bool *fresh;     /* [m] nothing of `first` is known yet */
+    bool *grazed;    /* [m] it touches 0 at the end of the step */
     bool *live;      /* [m] may have a root in this step */
     int nodes;       /* that did the last time */
     double *samples; /* [m x QDOT_WATCH_NODES] */

@@ -200,12 +200,36 @@ is_start_again(const qdot_watch_part *p, double t)
     return p->from_zero && fabs(t - p->a) <= 0x1p-40 * fabs(p->b - p->a);
 }
 
+/* Whether the part ends on an extremum that is 0, or so near to one that rounding would have
+ * it cross twice. */
+static bool
+grazes_at_end(const qdot_watch_part *p)
+{
+    double d[QDOT_WATCH_NODES], size = qdot_chebyshev_size(p->n, p->c);
+
+    if (fabs(p->at_end) > 0x1p-46 * size)
+        return false;
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    return fabs(qdot_chebyshev_at(p->n - 1, d, 1)) <= 0x1p-20 * size;
+}
+
+/* What touched 0 within the part, so near to its end, is the same touch. */
+static void
+forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    while (w->roots.n > 0 && w->roots.at[w->roots.n - 1].function == i
+           && w->roots.at[w->roots.n - 1].way == 0
+           && fabs(w->roots.at[w->roots.n - 1].t - p->b) <= 0x1p-18 * fabs(p->b - p->a))
+        w->roots.n--;
+}
+
 qdot_status
 qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p,
                  size_t i)
 {
     double d[QDOT_WATCH_NODES], x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
     int n = 0, sign = w->now.sign[i];
+    bool grazes;
 
     if (vanishes(w, p, i)) {
         w->now.on[i] = true;
@@ -221,9 +245,10 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
         n = qdot_chebyshev_crossings(p->n - 1, d, x);
     }
     x[n++] = 1;
+    grazes = grazes_at_end(p);
     for (int e = 0; e < n; e++) {
         double v = qdot_chebyshev_at(p->n, p->c, x[e]);
-        int there = e + 1 < n ? qdot_watch_sign(v) : qdot_watch_sign(p->at_end);
+        int there = e + 1 < n ? qdot_watch_sign(v) : grazes ? 0 : qdot_watch_sign(p->at_end);
         double to = e + 1 < n ? qdot_watch_time(p, x[e]) : p->b;
         bool touch = false;
         qdot_root root;
@@ -253,7 +278,10 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
                                          least_slope(p) * qdot_chebyshev_size(p->n, p->c);
         w->fresh[i] = false;
     }
-    w->now.on[i] = p->at_end == 0;
+    if (grazes)
+        forget_touch(w, p, i);
+    w->grazed[i] = grazes && sign != 0;
+    w->now.on[i] = grazes || p->at_end == 0;
     w->now.g0[i] = p->at_end;
     return QDOT_OK;
 }

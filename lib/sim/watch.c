@@ -182,7 +182,9 @@ static qdot_status
 end_on_zero(qdot_watch *w, double t)
 {
     for (size_t i = 0; i < w->m; i++)
-        if (w->now.g0[i] == 0 && w->now.sign[i] != 0 && w->live[i])
+        if (w->grazed[i])
+            QDOT_TRY(qdot_watch_push(w, (qdot_root){i, t, 0, fabs(w->now.g0[i]), true}));
+        else if (w->now.g0[i] == 0 && w->now.sign[i] != 0 && w->live[i])
             QDOT_TRY(qdot_watch_push(w, (qdot_root){i, t, -w->now.sign[i], 0, true}));
     return QDOT_OK;
 }
@@ -208,7 +210,7 @@ qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t, const 
         w->noise[i] = NAN;
         w->fresh[i] = true;
         w->first[i] = w->start.sign[i];
-        w->slow[i] = false;
+        w->slow[i] = w->grazed[i] = false;
     }
     if (any)
         QDOT_TRY(look_at_step(w, &k, t));
@@ -338,7 +340,7 @@ make_room(qdot_watch *w)
                                  QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
                              sizeof *at);
     int *signs = qdot_calloc(3 * m + 1, sizeof *signs);
-    bool *flags = qdot_calloc(5 * m + 1, sizeof *flags);
+    bool *flags = qdot_calloc(6 * m + 1, sizeof *flags);
 
     w->in = at;
     w->first = signs;
@@ -366,6 +368,7 @@ make_room(qdot_watch *w)
     w->start.on = flags + 2 * m;
     w->now.on = flags + 3 * m;
     w->slow = flags + 4 * m;
+    w->grazed = flags + 5 * m;
     return QDOT_OK;
 }
 
