@@ -29,11 +29,34 @@ typedef struct {
     const qdot_pool *pool;
     qdot_style style;
     qdot_expr ascending; /* a LIST: terms by their degree in these; nil: as they stand */
+    qdot_expr below; /* a difference below several entries of a matrix: it keeps its sign */
+    bool below_turned, turning; /* that is the other one; while such an entry is opened */
     qdot_text *out;
     pieces todo; /* a stack */
     pieces next; /* of the node being opened, in reading order */
     qdot_status status;
 } printer;
+
+/* Whether e stands over the difference that keeps its sign. */
+static inline bool
+is_over_below(const printer *p, qdot_expr e)
+{
+    for (uint32_t i = 1; p->below != QDOT_NIL && NODE(p->pool, e)->kind == QDOT_PROD &&
+                         i < NODE(p->pool, e)->n;
+         i += 2)
+        if (ARGS(p->pool, e)[i] == p->below)
+            return ARGS(p->pool, e)[i + 1] == QDOT_MINUS_ONE;
+    return false;
+}
+
+/* The difference among the factors of e that takes a minus sign before them (pool.h). */
+static inline qdot_expr
+turnable(const printer *p, qdot_expr e)
+{
+    qdot_expr b = qdot_expr_turnable(p->pool, e);
+
+    return b != QDOT_NIL && b == p->below && is_over_below(p, e) ? QDOT_NIL : b;
+}
 
 static inline void
 piece(printer *p, struct piece x)

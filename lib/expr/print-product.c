@@ -430,7 +430,7 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
         if (under)
             open_root(p, e, r);
         else
-            factor(p, b, x, down, context, b == turned);
+            factor(p, b, x, down, context, b == turned || (p->turning && b == p->below));
         first = false;
     }
 }
@@ -442,10 +442,10 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     const fmpq *x = RATIONAL(pool, c);
     bool drawn = is_drawn(p);
     struct root r;
-    qdot_expr turned = flip || (qdot_rational_sgn(x) < 0 && context >= 0)
-                           ? qdot_expr_turnable(pool, e)
-                           : QDOT_NIL;
-    bool minus = qdot_rational_sgn(x) < 0 && context >= 0 && turned == QDOT_NIL;
+    bool turning = p->below_turned && context >= 0 && is_over_below(p, e);
+    bool negative = context >= 0 && (qdot_rational_sgn(x) < 0) != turning;
+    qdot_expr turned = flip || negative ? turnable(p, e) : QDOT_NIL;
+    bool minus = negative && turned == QDOT_NIL;
 
     find_root(pool, x, e, &r);
     if (r.any)
@@ -463,6 +463,7 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
                        ? written > 1 || minus || e == QDOT_ONE || up + down > 0
                        : context == FACTOR && (minus || down > 0 || fraction);
 
+    p->turning = turning;
     if (bracket)
         open_bracket(p);
     if (minus)
@@ -497,5 +498,6 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     }
     if (bracket)
         close_bracket(p);
+    p->turning = false;
     forget_root(&r);
 }

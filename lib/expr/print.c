@@ -26,7 +26,7 @@ static void
 term(printer *p, qdot_expr c, qdot_expr t, bool turned, bool leads)
 {
     bool minus = is_minus(p->pool, c) != turned;
-    bool flip = minus && qdot_expr_turnable(p->pool, t) != QDOT_NIL;
+    bool flip = minus && turnable(p, t) != QDOT_NIL;
 
     if (minus && !flip)
         say(p, leads ? styled(p, "-", "−", "-", "<mo>−</mo>")
@@ -90,36 +90,47 @@ constants_first(const qdot_pool *pool, qdot_expr e)
 }
 
 static bool
-needs_minus(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t i)
+needs_minus(const printer *p, qdot_expr e, bool turned, uint32_t i)
 {
-    const qdot_expr *args = ARGS(pool, e);
+    const qdot_expr *args = ARGS(p->pool, e);
 
-    return is_minus(pool, i == 0 ? args[0] : args[i + 1]) != turned &&
-           (i == 0 || qdot_expr_turnable(pool, args[i]) == QDOT_NIL);
+    return is_minus(p->pool, i == 0 ? args[0] : args[i + 1]) != turned &&
+           (i == 0 || turnable(p, args[i]) == QDOT_NIL);
 }
 
-/* What stands in a term beside parameters and functions; of the number nothing. */
+/* What stands in a term beside parameters and functions; of the number nothing; roots of sums are a
+ * sort of their own. */
 static uint32_t
 sort_of(const qdot_pool *pool, qdot_expr e, uint32_t i)
 {
     const uint32_t either = QDOT_HAS_PARAM | QDOT_HAS_FORMAL | QDOT_HAS_FUN;
+    const uint32_t root = UINT32_C(1) << 31;
+    qdot_expr t = i == 0 ? QDOT_ONE : ARGS(pool, e)[i];
+    uint32_t sort = NODE(pool, t)->holds & ~either;
 
-    return i == 0 ? 0 : NODE(pool, ARGS(pool, e)[i])->holds & ~either;
+    for (uint32_t k = 1; NODE(pool, t)->kind == QDOT_PROD && k < NODE(pool, t)->n; k += 2) {
+        const fmpq *x = NUMBER(pool, ARGS(pool, t)[k + 1]);
+
+        if (NODE(pool, ARGS(pool, t)[k])->kind == QDOT_SUM && x != NULL &&
+            !fmpz_is_one(fmpq_denref(x)))
+            sort |= root;
+    }
+    return sort;
 }
 
 /* The term at `lead` needs no minus, those before it do: it goes first, and what is of the sort of
  * one passed goes before that too: m2 + m3 - m1, but y - x + 1. */
 static void
-pluses_first(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order, uint32_t lead,
+pluses_first(const printer *p, qdot_expr e, bool turned, uint32_t *order, uint32_t lead,
              uint32_t n)
 {
     for (uint32_t k = lead; k < n; k++) {
         uint32_t to = k, i = order[k];
 
-        if (needs_minus(pool, e, turned, i))
+        if (needs_minus(p, e, turned, i))
             continue;
-        while (to > 0 && needs_minus(pool, e, turned, order[to - 1]) &&
-               (k == lead || sort_of(pool, e, i) == sort_of(pool, e, order[to - 1])))
+        while (to > 0 && needs_minus(p, e, turned, order[to - 1]) &&
+               (k == lead || sort_of(p->pool, e, i) == sort_of(p->pool, e, order[to - 1])))
             to--;
         memmove(order + to + 1, order + to, (k - to) * sizeof *order);
         order[to] = i;
@@ -129,8 +140,9 @@ pluses_first(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order, u
 /* The terms as they are written, 0 the number: where the first needs a minus, those that need none
  * lead. */
 static uint32_t
-arrange(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order)
+arrange(const printer *p, qdot_expr e, bool turned, uint32_t *order)
 {
+    const qdot_pool *pool = p->pool;
     const qdot_expr *args = ARGS(pool, e);
     uint32_t n = NODE(pool, e)->n, count = 0, lead = 0, others;
     uint32_t late = NODE(pool, e)->holds & QDOT_HAS_MULTIPLIER;
@@ -155,11 +167,11 @@ arrange(const qdot_pool *pool, qdot_expr e, bool turned, uint32_t *order)
     if (others == 0)
         others = count;
     for (; lead < others; lead++) {
-        if (!needs_minus(pool, e, turned, order[lead]))
+        if (!needs_minus(p, e, turned, order[lead]))
             break;
     }
     if (lead > 0 && lead < others)
-        pluses_first(pool, e, turned, order, lead, others);
+        pluses_first(p, e, turned, order, lead, others);
     return count;
 }
 
@@ -224,7 +236,7 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
     }
     count = p->ascending != QDOT_NIL && context < FACTOR
                 ? arrange_by_degree(p, e, order)
-                                     : arrange(p->pool, e, turned, order);
+                                     : arrange(p, e, turned, order);
     if (context >= FACTOR)
         open_bracket(p);
     for (uint32_t k = 0; k < count; k++) {
@@ -408,6 +420,7 @@ write_node(printer *p, struct piece x)
 {
     uint8_t kind = NODE(p->pool, x.e)->kind;
     bool again = x.coefficient == QDOT_NIL && p->ascending == QDOT_NIL &&
+                 p->below == QDOT_NIL &&
                  (kind == QDOT_SUM || kind == QDOT_FUN || kind == QDOT_UFUN ||
                   (kind == QDOT_SYM && p->style != QDOT_PLAIN));
 
@@ -420,6 +433,50 @@ write_node(printer *p, struct piece x)
         open_node(p, &x);
         x.ends = true;
         piece(p, x);
+    }
+}
+
+/* The difference below an entry of a matrix; nil: there is none. */
+static qdot_expr
+difference_below(const qdot_pool *pool, qdot_expr e)
+{
+    for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < NODE(pool, e)->n; i += 2) {
+        qdot_expr b = ARGS(pool, e)[i];
+        if (ARGS(pool, e)[i + 1] == QDOT_MINUS_ONE && NODE(pool, b)->kind == QDOT_SUM &&
+            !(NODE(pool, b)->sign & QDOT_GE0))
+            for (uint32_t k = 0; k < NODE(pool, b)->n; k += 2)
+                if (is_minus(pool, ARGS(pool, b)[k]))
+                    return b;
+    }
+    return QDOT_NIL;
+}
+
+/* Entries of a matrix over one difference show it alike, with the sign by which fewer of them have a
+ * minus, else the first none: [d, -b; -c, a] over a*d - b*c. */
+static void
+find_below(printer *p, qdot_expr e)
+{
+    const qdot_node *node = NODE(p->pool, e);
+    int minuses = 0, count = 0;
+
+    for (uint32_t i = 0; i < node->n && node->kind == QDOT_MAT; i++) {
+        qdot_expr entry = ARGS(p->pool, e)[i], b = difference_below(p->pool, entry);
+        bool minus;
+
+        if (b == QDOT_NIL || (p->below != QDOT_NIL && b != p->below))
+            continue;
+        minus = is_minus(p->pool, ARGS(p->pool, entry)[0]);
+        if (count == 0)
+            p->below_turned = minus;
+        p->below = b;
+        count++;
+        minuses += minus;
+    }
+    if (2 * minuses != count)
+        p->below_turned = 2 * minuses > count;
+    if (count < 2) {
+        p->below = QDOT_NIL;
+        p->below_turned = false;
     }
 }
 
@@ -441,10 +498,14 @@ qdot_status
 qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_style style,
                   qdot_text *out)
 {
-    printer p = {.pool = pool, .style = style, .ascending = in, .out = out};
+    printer p = {.pool = pool,
+                 .style = style,
+                 .ascending = in,
+                 .out = out};
 
     if (e == QDOT_NIL)
         return qdot_fail(QDOT_EINVAL, "nothing to print");
+    find_below(&p, e);
     child(&p, e, TOP);
     while (p.status == QDOT_OK && (p.next.n > 0 || p.todo.n > 0)) {
         struct piece x;

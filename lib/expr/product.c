@@ -365,6 +365,22 @@ merge_turned(struct product *p)
     return false;
 }
 
+/* Whether sign(u) stands among the factors; it is taken out. */
+static bool
+takes_sign(struct product *p, size_t n, qdot_expr u)
+{
+    for (size_t i = 0; i < n; i++) {
+        const qdot_node *base = NODE(p->pool, p->at[i].base);
+
+        if (base->kind == QDOT_FUN && base->op == QDOT_SIGN &&
+            ARGS(p->pool, p->at[i].base)[0] == u && p->at[i].exponent == QDOT_ONE) {
+            p->at[i].exponent = QDOT_ZERO;
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Merge equal bases, then rewrite each pair that is not canonical. Returns whether the list
  * changed in a way that asks for another round. */
 static bool
@@ -420,6 +436,16 @@ round_of_merging(struct product *p)
         } else if (base->kind == QDOT_FUN && base->op == QDOT_ABS &&
                    is_even(pool, x.exponent)) {
             qdot_expr arg = ARGS(pool, x.base)[0];
+
+            p->n = n;
+            push(p, arg, x.exponent);
+            n = p->n;
+            again = true;
+        } else if (base->kind == QDOT_FUN && base->op == QDOT_ABS &&
+                   is_integer(pool, x.exponent) &&
+                   qdot_rational_sgn(RATIONAL(pool, x.exponent)) > 0 &&
+                   takes_sign(p, n, ARGS(pool, x.base)[0])) {
+            qdot_expr arg = ARGS(pool, x.base)[0]; /* |u| sign(u) = u */
 
             p->n = n;
             push(p, arg, x.exponent);

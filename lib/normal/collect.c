@@ -184,14 +184,14 @@ is_one_thing(const qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *gro
 }
 
 /* Whether g comes out as in a book: nothing of it is left in the quotients (m*L^2 comes
- * out of m*L^2*q'' + m*L^2*..., but L1 stays in (m1 + m2)*L1^2*q1'' + m2*L1*L2*...),
- * and it is not taken out of a sum of a kinetic and a potential part. */
+ * out of m*L^2*q'' + m*L^2*..., but L1 stays in (m1 + m2)*L1^2*q1'' + m2*L1*L2*..., if
+ * not above a denominator), and it is not taken out of a sum of a kinetic and a potential part. */
 static bool
 goes_out_whole(qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
 {
     qdot_field *f = form->f;
 
-    for (slong v = 0; v < f->n; v++) {
+    for (slong v = 0; v < f->n && !form->quotient; v++) {
         slong degree = fmpz_mpoly_degree_si(g, v, f->ctx);
 
         for (slong i = 0; i < groups->n && degree > 0; i++)
@@ -238,7 +238,7 @@ say_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     fmpq_one(one);
     form->depth++;
     if ((factors.n > 1 || (factors.n == 1 && factors.exp[0] > 1)) &&
-        comes_apart(f, &factors)) {
+        (form->quotient || comes_apart(f, &factors))) {
         e = scaled(f->pool, c, qdot_form_integer(f->pool, factors.content));
         for (slong i = 0; i < factors.n; i++)
             e = qdot_mul(f->pool, e,

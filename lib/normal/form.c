@@ -10,7 +10,8 @@
 #include "normal/factor.h"
 #include "normal/items.h"
 
-enum { MOST_GROUPS = 120, MOST_DEPTH = 60, MOST_HORNER = 60, MOST_FLIPS = 2 };
+enum { MOST_GROUPS = 120, MOST_DEPTH = 60, MOST_HORNER = 60, MOST_TRIED = 12,
+       MOST_FLIPS = 2 };
 
 qdot_status
 qdot_form_begin(qdot_form *form, qdot_field *f)
@@ -106,33 +107,32 @@ take_content(qdot_field *f, fmpz_mpoly_t rest, fmpz_t c, const fmpz_mpoly_t p)
 
 /* --- without trigonometric variables: common powers out ---------------------------- */
 
-/* The power whose taking out saves most. */
+/* What taking out a power of each variable saves; the power in power[]. The one that saves most; -1:
+ * there is none. */
 static slong
-best_power(qdot_field *f, const fmpz_mpoly_t p, ulong *power)
+best_power(qdot_field *f, const fmpz_mpoly_t p, ulong *power, slong *saved)
 {
-    slong length = fmpz_mpoly_length(p, f->ctx), best = -1, most = 0;
-    ulong *exp = qdot_malloc(((size_t)f->n + 1) * 3 * sizeof *exp);
-    ulong *count = exp + f->n, *least = count + f->n;
+    slong length = fmpz_mpoly_length(p, f->ctx), best = -1;
+    ulong *exp = qdot_malloc(((size_t)f->n + 1) * 2 * sizeof *exp);
+    ulong *count = exp + f->n;
 
     if (exp == NULL)
         return -1;
-    memset(count, 0, 2 * (size_t)f->n * sizeof *count);
+    memset(count, 0, (size_t)f->n * sizeof *count);
     for (slong i = 0; i < length; i++) {
         fmpz_mpoly_get_term_exp_ui(exp, p, i, f->ctx);
         for (slong v = 0; v < f->n; v++)
             if (exp[v] > 0) {
-                if (count[v]++ == 0 || exp[v] < least[v])
-                    least[v] = exp[v];
+                if (count[v]++ == 0 || exp[v] < power[v])
+                    power[v] = exp[v];
             }
     }
     for (slong v = 0; v < f->n; v++) {
-        slong saved = ((slong)count[v] - 1) * (least[v] > 1 ? 2 : 1);
-
-        if (count[v] >= 2 && (slong)count[v] < length && saved > most) {
-            most = saved;
+        saved[v] = ((slong)count[v] - 1) * (power[v] > 1 ? 2 : 1);
+        if (count[v] < 2 || (slong)count[v] == length)
+            saved[v] = 0;
+        if (saved[v] > 0 && (best < 0 || saved[v] > saved[best]))
             best = v;
-            *power = least[v];
-        }
     }
     qdot_free(exp);
     return best;
@@ -163,16 +163,39 @@ part(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong 
     fmpz_mpoly_clear(x, f->ctx);
 }
 
-/* Bounded by MOST_DEPTH levels and MOST_HORNER terms, whatever the input. */
+/* rest with v^power out of what it divides, kept if it is the shortest. */
+static void
+keep_collected(qdot_form *form, const fmpz_mpoly_t rest, slong v, ulong power,
+               qdot_expr factor, qdot_expr plain, qdot_expr *best)
+{
+    qdot_field *f = form->f;
+    qdot_pool *pool = f->pool;
+    qdot_expr x = qdot_pow_int(pool, f->gen[v].expr, (long)power), collected;
+    fmpz_mpoly_t q, r;
+
+    fmpz_mpoly_init(q, f->ctx);
+    fmpz_mpoly_init(r, f->ctx);
+    part(f, q, r, rest, v, power);
+    collected = qdot_form_horner(form, q);
+    /* of two as long the one collected where parameters are: (m1 - m2)*x */
+    if (collected == QDOT_NIL ||
+        (qdot_expr_node(pool, collected)->holds & ~(uint32_t)QDOT_HAS_PARAM) != 0)
+        qdot_form_keep(pool, best, plain);
+    x = qdot_add(pool, qdot_mul(pool, x, collected), qdot_form_horner(form, r));
+    qdot_form_keep(pool, best, qdot_mul(pool, factor, x));
+    fmpz_mpoly_clear(q, f->ctx);
+    fmpz_mpoly_clear(r, f->ctx);
+}
+
+/* Bounded by MOST_DEPTH levels and MOST_HORNER terms, whatever the input; at the top, of few terms,
+ * every variable that saves most is tried. */
 qdot_expr
 qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     qdot_pool *pool = f->pool;
-    qdot_expr best = QDOT_NIL, factor, plain, collected;
-    fmpz_mpoly_t rest, q, r;
-    ulong power = 1;
-    slong v;
+    qdot_expr best = QDOT_NIL, factor, plain;
+    fmpz_mpoly_t rest;
     fmpz_t c;
 
     if (fmpz_mpoly_length(p, f->ctx) <= 2 || fmpz_mpoly_length(p, f->ctx) > MOST_HORNER ||
@@ -182,30 +205,28 @@ qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
     }
     fmpz_init(c);
     fmpz_mpoly_init(rest, f->ctx);
-    fmpz_mpoly_init(q, f->ctx);
-    fmpz_mpoly_init(r, f->ctx);
     form->depth++;
     factor = take_content(f, rest, c, p);
     factor = qdot_mul(pool, qdot_form_integer(pool, c), factor);
     plain = qdot_mul(pool, factor, qdot_field_expr(f, rest));
-    v = fmpz_mpoly_length(rest, f->ctx) > 2 ? best_power(f, rest, &power) : -1;
-    if (v >= 0) {
-        qdot_expr x = qdot_pow_int(pool, f->gen[v].expr, (long)power);
+    if (fmpz_mpoly_length(rest, f->ctx) > 2) {
+        ulong *power = qdot_calloc(2 * (size_t)f->n + 1, sizeof *power);
+        slong *saved = (slong *)power + f->n, v;
+        bool all = form->horner == 0 && fmpz_mpoly_length(rest, f->ctx) <= MOST_TRIED;
 
-        part(f, q, r, rest, v, power);
-        collected = qdot_form_horner(form, q);
-        /* of two as long the one collected where parameters are: (m1 - m2)*x */
-        if (collected == QDOT_NIL ||
-            (qdot_expr_node(pool, collected)->holds & ~(uint32_t)QDOT_HAS_PARAM) != 0)
-            qdot_form_keep(pool, &best, plain);
-        x = qdot_add(pool, qdot_mul(pool, x, collected), qdot_form_horner(form, r));
-        qdot_form_keep(pool, &best, qdot_mul(pool, factor, x));
+        form->horner++;
+        v = power == NULL ? -1 : best_power(f, rest, power, saved);
+        if (v >= 0)
+            keep_collected(form, rest, v, power[v], factor, plain, &best);
+        for (slong w = v + 1; v >= 0 && w < f->n && all; w++)
+            if (saved[w] == saved[v])
+                keep_collected(form, rest, w, power[w], factor, plain, &best);
+        form->horner--;
+        qdot_free(power);
     }
     qdot_form_keep(pool, &best, plain);
     form->depth--;
     fmpz_mpoly_clear(rest, f->ctx);
-    fmpz_mpoly_clear(q, f->ctx);
-    fmpz_mpoly_clear(r, f->ctx);
     fmpz_clear(c);
     return best;
 }
@@ -317,6 +338,13 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
     if (fmpz_mpoly_length(p, f->ctx) <= 1)
         return qdot_field_expr(f, p);
     best = sum_or_squares(form, p);
+    if (fmpz_mpoly_length(p, f->ctx) <= 4) { /* sign(x)*(1 - abs(x)) is sign(x) - x */
+        qdot_expr sum = qdot_field_expr(f, p);
+
+        if (sum != QDOT_NIL && best != QDOT_NIL &&
+            qdot_expr_size(f->pool, sum) < qdot_expr_size(f->pool, best))
+            best = sum;
+    }
     if (fmpz_mpoly_length(p, f->ctx) > 2)
         qdot_form_keep(f->pool, &best, by_roots(form, p));
     if (fmpz_mpoly_length(p, f->ctx) > 2 || fmpz_mpoly_total_degree_si(p, f->ctx) > 1) {

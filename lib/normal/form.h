@@ -14,7 +14,7 @@ typedef struct {
     fmpz_mpoly_struct *known;
     qdot_expr *said;
     size_t n, known_capacity, said_capacity;
-    int depth;
+    int depth, horner; /* of products within products, of powers taken out */
     bool quotient; /* what is said stands over a denominator */
 } qdot_form;
 

@@ -35,6 +35,24 @@ is_cosine(const qdot_field *f, slong v)
     return f->gen[v].kind == QDOT_GEN_COS || f->gen[v].kind == QDOT_GEN_COSH;
 }
 
+/* r = from with c^2 = 1 - s^2 in the angle whose cosine is v, or in all (f->n) or none (-1), cancelled;
+ * false: that cannot be. */
+static bool
+turn(qdot_field *f, qdot_ratio *r, const qdot_ratio *from, slong v)
+{
+    qdot_ratio_set(f, r, from);
+    for (slong c = 0; c < f->n && qdot_field_goes(f); c++)
+        if (c == v || (v == f->n && is_cosine(f, c))) {
+            if (qdot_factor_flip(f, r->n, r->n, c) != QDOT_OK ||
+                qdot_factor_flip(f, r->d, r->d, c) != QDOT_OK)
+                return false;
+        }
+    if (!qdot_field_goes(f) || fmpz_mpoly_is_zero(r->d, f->ctx))
+        return false;
+    qdot_ratio_cancel(f, r);
+    return qdot_field_goes(f);
+}
+
 /* The quotient with c^2 = 1 - s^2 in one angle, where that cancels. */
 static void
 say_turned(struct simplifier *s, const qdot_ratio *from)
@@ -51,13 +69,50 @@ say_turned(struct simplifier *s, const qdot_ratio *from)
             continue;
         turns++;
         qdot_ratio_init(f, &r);
-        if (qdot_factor_flip(f, r.n, from->n, v) == QDOT_OK &&
-            qdot_factor_flip(f, r.d, from->d, v) == QDOT_OK && qdot_field_goes(f) &&
-            !fmpz_mpoly_is_zero(r.d, f->ctx)) {
-            qdot_ratio_cancel(f, &r);
+        if (turn(f, &r, from, v))
             qdot_form_say_quotient(&s->form, &r, &s->best);
-        }
         qdot_ratio_clear(f, &r);
+    }
+}
+
+/* n/d with d = r^2 d' as (n r/r^2)/(r d'), where n r is r^2 times something: (a r - b)/b, b = r^2, is
+ * (a - r)/r. */
+static void
+say_rooted(struct simplifier *s, const qdot_ratio *from)
+{
+    qdot_field *f = s->f;
+    int turns = 0;
+
+    for (slong v = 0; v < f->n && turns < MOST_TURNS && qdot_field_goes(f); v++) {
+        fmpz_mpoly_t root;
+        qdot_ratio x, r;
+
+        if (f->gen[v].kind != QDOT_GEN_ROOT || f->gen[v].order != 2 ||
+            fmpz_mpoly_degree_si(from->n, v, f->ctx) == 0 ||
+            fmpz_mpoly_degree_si(from->d, v, f->ctx) > 0)
+            continue;
+        turns++;
+        fmpz_mpoly_init(root, f->ctx);
+        qdot_ratio_init(f, &x);
+        fmpz_mpoly_gen(root, v, f->ctx);
+        qdot_field_mul(f, x.n, from->n, root);
+        fmpz_mpoly_set(x.d, from->d, f->ctx);
+        for (slong c = -1; c <= f->n && qdot_field_goes(f); c++) {
+            qdot_expr e = QDOT_NIL;
+
+            if (c >= 0 && c < f->n &&
+                (!is_cosine(f, c) || fmpz_mpoly_degree_si(x.d, c, f->ctx) < 2))
+                continue;
+            qdot_ratio_init(f, &r);
+            if (turn(f, &r, &x, c) && fmpz_mpoly_total_degree_si(r.d, f->ctx) <
+                                          fmpz_mpoly_total_degree_si(x.d, f->ctx)) {
+                qdot_form_say_quotient(&s->form, &r, &e);
+                keep(s, qdot_div(s->pool, e, f->gen[v].expr));
+            }
+            qdot_ratio_clear(f, &r);
+        }
+        qdot_ratio_clear(f, &x);
+        fmpz_mpoly_clear(root, f->ctx);
     }
 }
 
@@ -71,6 +126,8 @@ all_candidates(struct simplifier *s, const qdot_ratio *r)
         return;
     }
     qdot_form_say_quotient(&s->form, r, &s->best);
+    if (!fmpz_mpoly_is_one(r->d, f->ctx))
+        say_rooted(s, r);
     if (qdot_form_has_trig(&s->form, r->d)) {
         say_turned(s, r);
         keep(s, qdot_products_tangents(s->pool, s->best));

@@ -12,8 +12,19 @@
 
 enum { MOST_ANGLES = 4, MOST_HARMONICS = 40, MOST_DEGREE = 8, MOST_FLIPS = 3 };
 
+/* Whether a product stands over something. */
+static bool
+is_over(const qdot_pool *pool, qdot_expr e)
+{
+    for (uint32_t i = 2;
+         qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e); i += 2)
+        if (qdot_expr_is_negative(pool, qdot_expr_arg(pool, e, i)))
+            return true;
+    return false;
+}
+
 /* What a person would rather not read in e, its sum factors and those of its terms: a minus in
- * front of a sum, a difference. */
+ * front of a sum, a difference, a fraction within a product. */
 static int
 awkward(const qdot_pool *pool, qdot_expr e, bool inner)
 {
@@ -36,6 +47,9 @@ awkward(const qdot_pool *pool, qdot_expr e, bool inner)
                       c = i == 0 ? x : qdot_expr_arg(pool, e, i + 1);
 
             count += fmpq_sgn(qdot_expr_rational(pool, c)) < 0;
+            if (inner)
+                count += !fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, c))) +
+                         (i > 0 && is_over(pool, x));
             if (i > 0 && !inner && qdot_expr_kind(pool, x) == QDOT_PROD)
                 count += awkward(pool, x, true);
         }
