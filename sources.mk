@@ -580,6 +580,7 @@ script_tests = \
 	tests/script/cases.sh \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
+	tests/script/constraint-fades.sh \
 	tests/script/constraint-switches.lag \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
@@ -620,6 +621,7 @@ script_tests = \
 	tests/script/mechanism-gears.lag \
 	tests/script/mechanism-ladder.lag \
 	tests/script/mechanism-moving-support.lag \
+	tests/script/mechanism-parallelogram.lag \
 	tests/script/mechanism-peaucellier.lag \
 	tests/script/mechanism-program.lag \
 	tests/script/mechanism-pulley.lag \
@@ -1142,6 +1144,7 @@ test_files = \
 	tests/script/cases.out \
 	tests/script/check.out \
 	tests/script/conserved.out \
+	tests/script/constraint-fades.out \
 	tests/script/constraint-switches.out \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
@@ -1196,6 +1199,7 @@ test_files = \
 	tests/script/mechanism-gears.out \
 	tests/script/mechanism-ladder.out \
 	tests/script/mechanism-moving-support.out \
+	tests/script/mechanism-parallelogram.out \
 	tests/script/mechanism-peaucellier.out \
 	tests/script/mechanism-program.out \
 	tests/script/mechanism-pulley.out \

@@ -28,6 +28,7 @@ typedef struct {
     qdot_expr *z;                          /* [m] */
     double *value;                         /* of e */
     double *at, *step, *gram, *rhs, *rows; /* z [m], [m], [c*c], [c], [c*n] */
+    double off;                            /* the largest |f| at z */
 } problem;
 
 static void
@@ -130,7 +131,9 @@ newton_step(problem *p, double mu)
     }
 }
 
-/* Bring p->at where all constraints hold; *found whether it did. */
+/* Bring p->at where all constraints hold; *found whether it did, p->off how well. Where rows are
+ * dependent all along, Newton's method takes a part of the way at a time, and the place is
+ * as far off as the root of that: it goes on for what it can. */
 static qdot_status
 assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
 {
@@ -144,7 +147,8 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
         double before = size, scale = 1;
 
         QDOT_TRY(qdot_interrupt_check());
-        if (size < 1e-12) {
+        p->off = size;
+        if (size < 1e-15) {
             *found = true;
             return QDOT_OK;
         }
@@ -160,19 +164,23 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
         }
         if (!(size < before)) {
             QDOT_TRY(evaluate(s, p, seed, &size));
+            p->off = size;
             *found = size < 1e-10;
             return QDOT_OK;
         }
         mu = fmax(mu * 0.3, 1e-12);
     }
+    p->off = size;
+    *found = size < 1e-12;
     return QDOT_OK;
 }
 
 /* Rows one after another by Gram-Schmidt, twice; those that leave something are
- * independent. */
+ * independent: more than the place is off. */
 static size_t
 rank(qdot_scene *s, problem *p, bool *independent)
 {
+    const double nothing = fmax(1e-6, 100 * sqrt(p->off));
     size_t found = 0, n = p->n;
 
     for (size_t k = 0; k < p->c; k++) {
@@ -201,7 +209,7 @@ rank(qdot_scene *s, problem *p, bool *independent)
         for (size_t i = 0; i < n; i++)
             left += row[i] * row[i];
         left = sqrt(left);
-        if (left < 1e-6)
+        if (left < nothing)
             continue;
         for (size_t i = 0; i < n; i++)
             row[i] /= left;

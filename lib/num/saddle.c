@@ -18,6 +18,9 @@ static const double dependent = 1e-9, lost = 1e-13;
  * beyond that the null space has a look. */
 static const double trusted = 1e-3, usual = 0.2, more = 1.25;
 
+/* Of a squared norm. */
+static const double faded = 1e-14;
+
 /* Up to so many unknowns an inverse is made for many right-hand sides. */
 enum { most_inverted = 24, lanes = 8 };
 
@@ -39,6 +42,7 @@ qdot_saddle_init(qdot_saddle *s, size_t n, size_t m, bool indefinite)
     s->A = qdot_calloc(m * n + 1, sizeof *s->A);
     s->x = qdot_calloc(all, sizeof *s->x);
     s->pivot = qdot_calloc(m + 1, sizeof *s->pivot);
+    s->widest = qdot_calloc(m + 1, sizeof *s->widest);
     s->d = qdot_calloc(n, sizeof *s->d);
     s->e = qdot_calloc(m + 1, sizeof *s->e);
     s->S = qdot_calloc(n * n, sizeof *s->S);
@@ -56,7 +60,7 @@ qdot_saddle_init(qdot_saddle *s, size_t n, size_t m, bool indefinite)
         s->inverse = qdot_calloc(width(s) * (n + m), sizeof *s->inverse);
     s->start = qdot_calloc(m + 1, sizeof *s->start);
     s->column = qdot_calloc(m * n + 1, sizeof *s->column);
-    if (!s->start || !s->column || !s->M || !s->A || !s->x || !s->pivot || !s->d || !s->e || !s->S || !s->Q ||
+    if (!s->start || !s->column || !s->M || !s->A || !s->x || !s->pivot || !s->widest || !s->d || !s->e || !s->S || !s->Q ||
         !s->R || !s->beta || !s->N || !s->V || !s->T || !s->u || !s->w || !s->y ||
         !s->keep || (inverted && !s->inverse))
         return QDOT_ENOMEM;
@@ -72,7 +76,7 @@ qdot_saddle_clear(qdot_saddle *s)
 {
     double *arrays[] = {s->M, s->A, s->x, s->d, s->e, s->S, s->Q,       s->R,
                         s->beta, s->N, s->V, s->T, s->u, s->w, s->y, s->keep,
-                        s->inverse};
+                        s->inverse, s->widest};
 
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         qdot_free(arrays[i]);
@@ -380,6 +384,25 @@ factor_directly(qdot_saddle *s)
         return false;
     }
     return known && left > trusted && left > usual * s->record;
+}
+
+size_t
+qdot_saddle_faded(qdot_saddle *s)
+{
+    size_t found = s->m;
+
+    for (size_t k = 0; k < s->m; k++) {
+        const double *A = s->A + k * s->n;
+        double sum = 0;
+
+        for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
+            sum += A[s->column[e]] * A[s->column[e]];
+        if (sum > s->widest[k])
+            s->widest[k] = sum;
+        else if (sum < faded * s->widest[k])
+            found = k;
+    }
+    return found;
 }
 
 qdot_status

@@ -50,6 +50,7 @@ typedef struct {
     size_t factored; /* how often */
     size_t last;     /* the last pivot, by its place; of a failure the one that failed */
     size_t *pivot;   /* [m] the rows of A in the order of the pivoting */
+    double *widest;  /* [m] the largest squared norm of each row so far */
 
     bool indefinite; /* Z^T M Z by LDL^T, else by Cholesky */
     double *d, *e;   /* [n], [m] scales of unknowns and rows */
@@ -94,6 +95,10 @@ QDOT_MUST_CHECK qdot_status qdot_saddle_pattern(qdot_saddle *s, size_t masses,
 double qdot_saddle_row(const qdot_saddle *s, size_t k, const double *x);
 double qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x,
                             double least);
+
+/* A row that has shrunk below 1e-7 of the largest that it was, and has no direction left that
+ * rounding did not make; m: there is none. Once before each factorisation. */
+size_t qdot_saddle_faded(qdot_saddle *s);
 
 /* Factor what stands in M and A, which are kept. QDOT_ESINGULAR: A has lost rank
  * (*failed is a row of it, n + k), or M is singular on its null space (*failed is an

@@ -13,6 +13,19 @@ length_of_name(const char *name, bool label)
     return comma ? (size_t)(comma - name) : strlen(name);
 }
 
+/* "rod", and of a vector constraint's component "pin, 1": pin[1]. Without it if `label`. */
+static void
+add_name(qdot_text *to, const char *name, size_t length, bool label)
+{
+    const char *comma = strrchr(name, ',');
+
+    if (label || !comma)
+        qdot_text_format(to, "%.*s", (int)length, name);
+    else
+        qdot_text_format(to, "%.*s[%s]", (int)(comma - name), name,
+                         comma + 1 + strspn(comma + 1, " "));
+}
+
 void
 qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to)
 {
@@ -35,10 +48,10 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
                 continue;
             before = name;
             names += pass == 0;
-            if (pass == 1)
-                qdot_text_format(to, "%s%.*s",
-                                 said == 0 ? "" : said + 1 == names ? " and " : ", ",
-                                 (int)n, name);
+            if (pass == 1) {
+                qdot_text_add(to, said == 0 ? "" : said + 1 == names ? " and " : ", ");
+                add_name(to, name, n, count > many);
+            }
             said++;
         }
     }

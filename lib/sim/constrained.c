@@ -123,9 +123,17 @@ dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
 qdot_status
 qdot_constrained_factor_rows(const qdot_plan *p, qdot_saddle *s, const size_t *row)
 {
+    const size_t faded = qdot_saddle_faded(s);
     size_t failed = 0;
-    qdot_status status = qdot_saddle_factor(s, &failed);
+    qdot_status status;
 
+    if (faded < s->m) {
+        const size_t k = row ? row[faded] : faded;
+
+        return qdot_fail(QDOT_ESINGULAR, "constraint %.300s has no direction here",
+                         p->constraints->rows[k].name);
+    }
+    status = qdot_saddle_factor(s, &failed);
     if (status != QDOT_ESINGULAR)
         return status;
     if (failed >= p->n)

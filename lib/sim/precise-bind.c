@@ -44,6 +44,7 @@ struct qdot_precise_bind {
     qdot_reals numbers;     /* of the solvers; then 2 of scratch */
     mpfr_t *w;
     mp_limb_t *work;
+    double *widest; /* [constraints] the largest squared norm of each row of A so far */
     size_t factored;
 };
 
@@ -96,6 +97,33 @@ entry(const qdot_precise_bind *e, size_t k, size_t *i, size_t *j, size_t *at)
     return true;
 }
 
+/* A row that has shrunk far below the largest that it was has no direction left that the error
+ * of the run did not make, of whose size it is when a velocity in it is its root. */
+static qdot_status
+find_faded(qdot_precise_bind *e)
+{
+    const qdot_constraints *c = e->plan->constraints;
+    const double faded = ldexp(1, -(int)e->system.bits / 2);
+    size_t s = 0;
+
+    for (size_t k = 0; k < c->m; k++) {
+        double sum = 0;
+
+        for (; s < c->n_slopes && c->slopes[s].row == k; s++) {
+            const double x =
+                mpfr_get_d(e->outputs[e->plan->n + c->n_masses + s][0], MPFR_RNDN);
+
+            sum += x * x;
+        }
+        if (sum > e->widest[k])
+            e->widest[k] = sum;
+        else if (sum < faded * e->widest[k])
+            return qdot_fail(QDOT_ESINGULAR, "constraint %.300s has no direction here",
+                             c->rows[k].name);
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 factor_tied(qdot_precise_bind *e)
 {
@@ -103,6 +131,7 @@ factor_tied(qdot_precise_bind *e)
     solver *s = e->solvers;
     size_t failed, i, j, at;
 
+    QDOT_TRY(find_faded(e));
     for (i = 0; i < size * size; i++)
         mpfr_set_zero(s->lu[i], 1);
     for (size_t k = 0; entry(e, k, &i, &j, &at); k++) {
@@ -158,8 +187,9 @@ make_tied(qdot_precise_bind *e)
     s->y = s->x + size;
     s->order = qdot_calloc(size, sizeof *s->order);
     s->scale = qdot_calloc(size, sizeof *s->scale);
+    e->widest = qdot_calloc(c->m, sizeof *e->widest);
     s->couplings = qdot_calloc(2 * (c->n_masses + c->n_slopes) + 1, sizeof *s->couplings);
-    if (!s->order || !s->scale || !s->couplings)
+    if (!s->order || !s->scale || !e->widest || !s->couplings)
         return QDOT_ENOMEM;
     for (i = 0; i < e->plan->n; i++)
         e->a[i] = (const mpfr_t *)e->solved.at + i * e->stride;
@@ -427,6 +457,7 @@ qdot_precise_bind_free(qdot_precise_bind *e)
     qdot_free(e->a);
     qdot_free(e->solvers);
     qdot_free(e->work);
+    qdot_free(e->widest);
     qdot_free(e);
 }
 
