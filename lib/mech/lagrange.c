@@ -210,7 +210,9 @@ left_side(qdot_scene *s, size_t i)
     sum[terms++] = qdot_lagrange_rest(s, i);
     left = qdot_sum(pool, terms, sum);
     qdot_free(sum);
-    return d->left[i] = qdot_common_out(pool, qdot_mech_tidy_whole(s, left));
+    if (left == QDOT_NIL || !qdot_simplify_is_collected(pool, left))
+        left = qdot_mech_tidy_whole(s, left);
+    return d->left[i] = qdot_common_out(pool, left);
 }
 
 qdot_expr

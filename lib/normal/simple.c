@@ -2,6 +2,8 @@
  * sums that mechanics brings most are of two angles, and need no field. */
 #include "normal/simplify.h"
 
+enum { MOST_COLLECTED = 16 };
+
 /* a + b + c, parameters. */
 static bool
 is_plain_sum(const qdot_pool *pool, qdot_expr e)
@@ -49,6 +51,80 @@ is_simple_product(const qdot_pool *pool, qdot_expr e)
             return false;
     }
     return functions <= 1 && sums <= 1 && (functions + sums == 0 || !below);
+}
+
+/* --- sums collected in velocities -------------------------------------------------------- */
+
+#define FAST (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)
+
+/* sin or cos of a coordinate or of the difference of two. */
+static bool
+is_angle_function(const qdot_pool *pool, qdot_expr e)
+{
+    unsigned op = qdot_expr_node(pool, e)->op;
+    qdot_expr a;
+
+    if (qdot_expr_kind(pool, e) != QDOT_FUN || (op != QDOT_SIN && op != QDOT_COS))
+        return false;
+    a = qdot_expr_arg(pool, e, 0);
+    if (qdot_expr_kind(pool, a) != QDOT_SUM)
+        return qdot_expr_is_coordinate(pool, a);
+    return qdot_expr_count(pool, a) == 5 && qdot_expr_arg(pool, a, 0) == QDOT_ZERO &&
+           qdot_expr_is_coordinate(pool, qdot_expr_arg(pool, a, 1)) &&
+           qdot_expr_is_coordinate(pool, qdot_expr_arg(pool, a, 3)) &&
+           qdot_expr_arg(pool, a, 2) ==
+               (qdot_expr_arg(pool, a, 4) == QDOT_ONE ? QDOT_MINUS_ONE : QDOT_ONE);
+}
+
+/* A term c w f(angle) of symbols, one sum of parameters at most, and one velocity or acceleration w, to
+ * whatever power: *fast. */
+static bool
+read_collected(const qdot_pool *pool, qdot_expr t, qdot_expr *fast, qdot_expr *power)
+{
+    int functions = 0, sums = 0, moving = 0;
+    long k;
+
+    if (qdot_expr_kind(pool, t) != QDOT_PROD)
+        return false;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, t); i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, t, i);
+
+        if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, t, i + 1), &k) || k < 1)
+            return false;
+        if (qdot_expr_node(pool, b)->holds & FAST) {
+            *fast = b;
+            *power = qdot_expr_arg(pool, t, i + 1);
+            moving++;
+        } else if (is_plain_sum(pool, b)) {
+            sums++;
+        } else if (is_angle_function(pool, b)) {
+            functions += (int)k;
+        } else if (!qdot_expr_is_class(pool, b, QDOT_PARAM)) {
+            return false;
+        }
+    }
+    return moving == 1 && qdot_expr_kind(pool, *fast) == QDOT_SYM && sums <= 1 &&
+           functions <= 1;
+}
+
+bool
+qdot_simplify_is_collected(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr fast[2 * MOST_COLLECTED];
+    uint32_t n = qdot_expr_count(pool, e) / 2;
+
+    if (qdot_expr_kind(pool, e) != QDOT_SUM || qdot_expr_arg(pool, e, 0) != QDOT_ZERO ||
+        n < 2 || n > MOST_COLLECTED)
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        if (!read_collected(pool, qdot_expr_arg(pool, e, 1 + 2 * i), &fast[2 * i],
+                            &fast[2 * i + 1]))
+            return false;
+        for (uint32_t j = 0; j < i; j++)
+            if (fast[2 * i] == fast[2 * j] && fast[2 * i + 1] == fast[2 * j + 1])
+                return false;
+    }
+    return true;
 }
 
 bool

@@ -23,6 +23,11 @@ qdot_expr qdot_simplify_within(qdot_pool *pool, qdot_expr e, const qdot_facts *f
  * times one function and one sum of parameters at most. e a scalar. */
 bool qdot_simplify_is_done(const qdot_pool *pool, qdot_expr e);
 
+/* Whether e is a sum of terms in different velocities and accelerations, one in each to whatever power,
+ * times parameters, one sum of them and one sine or cosine of a coordinate or of the difference of two
+ * at most: nothing in two of them goes together but a common factor. */
+bool qdot_simplify_is_collected(const qdot_pool *pool, qdot_expr e);
+
 /* The simplest form of e without relations where it is seen at a glance: e itself if it is done,
  * P cos(a - b) for P cos(a) cos(b) + P sin(a) sin(b) and its like, P powers of symbols and a, b
  * coordinates. Nil: it takes more than a glance. e a scalar. */
