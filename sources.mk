@@ -339,6 +339,7 @@ sim_sources = \
 	lib/sim/plan.c \
 	lib/sim/precise-bind.c \
 	lib/sim/precise-course.c \
+	lib/sim/precise-distance.c \
 	lib/sim/precise-value.c \
 	lib/sim/precise.c \
 	lib/sim/quotient.c \
@@ -683,11 +684,13 @@ script_tests = \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
 	tests/bad/digits-constraint.lag \
+	tests/bad/digits-cusp.lag \
 	tests/bad/digits-domain.lag \
 	tests/bad/digits-event-constraint.lag \
 	tests/bad/digits-half.lag \
 	tests/bad/digits-many.lag \
 	tests/bad/digits-method.lag \
+	tests/bad/digits-node.lag \
 	tests/bad/digits-none.lag \
 	tests/bad/digits-outside.lag \
 	tests/bad/digits-tol.lag \
@@ -901,11 +904,13 @@ test_files = \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \
 	tests/bad/digits-constraint.out \
+	tests/bad/digits-cusp.out \
 	tests/bad/digits-domain.out \
 	tests/bad/digits-event-constraint.out \
 	tests/bad/digits-half.out \
 	tests/bad/digits-many.out \
 	tests/bad/digits-method.out \
+	tests/bad/digits-node.out \
 	tests/bad/digits-none.out \
 	tests/bad/digits-outside.out \
 	tests/bad/digits-tol.out \

@@ -43,6 +43,28 @@ struct qdot_precise_pair {
     double log10_error; /* NaN: unknown */
 };
 
+/* log10 of a distance at which two runs have nothing to do with each other. */
+extern const double qdot_precise_parted;
+
+/* pair->log10_error, at the end and between; NaN where the companion does not reach it.
+ * Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_precise_compare(qdot_precise_pair *pair);
+
+/* What the passes of a pair, with more digits each, have shown so far; from {.t = NaN}. */
+typedef struct {
+    double t;                   /* when they parted the last time; NaN */
+    double digits, log10_error; /* of the first pass that came together */
+} qdot_precise_progress;
+
+/* In a chaotic scene twice the digits last twice the time; where they part at the same time
+ * again there is a singularity. Through one, such as a cusp of constraints, an error follows
+ * a root of what is carried, where it follows that itself along any smooth motion. Both are
+ * QDOT_EFAILED, with the time or what was gained.
+ *
+ * Tests  tests/bad/digits-cusp.lag, digits-node.lag */
+QDOT_MUST_CHECK qdot_status qdot_precise_check_progress(qdot_precise_pair *pair,
+                                                        qdot_precise_progress *progress);
+
 /* Its first and its last point. */
 mpfr_t *qdot_precise_first(const qdot_precise_side *side);
 mpfr_t *qdot_precise_last(const qdot_precise_side *side);

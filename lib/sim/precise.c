@@ -15,9 +15,6 @@
 
 #define RN MPFR_RNDN
 
-/* log10 of a distance at which two runs have nothing to do with each other. */
-static const double parted = -4;
-
 enum {
     first_digits = 19,    /* of the pair that measures the amplification */
     guard_digits = 3,
@@ -26,12 +23,6 @@ enum {
     guard_bits = 32,
     most_passes = 8
 };
-
-/* Where in a run the distance is looked at too; without a pattern that a period could
- * share. */
-static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
-                                0.7853, 0.8311, 0.8929, 0.9467};
-enum { PLACES = sizeof places / sizeof places[0] };
 
 qdot_status
 qdot_precise_check(const qdot_scene *scene, const qdot_run_request *request)
@@ -307,94 +298,6 @@ cut_at_domain(qdot_precise_side *s)
     return status;
 }
 
-/* --- the distance -------------------------------------------------------------------- */
-
-/* log10 max_i |a_i - b_i| / max(1, |b_i|) */
-static double
-distance(size_t n, const mpfr_t *a, const mpfr_t *b, mpfr_ptr w)
-{
-    double most = -INFINITY;
-
-    for (size_t i = 0; i < n; i++) {
-        mpfr_sub(w, a[i], b[i], RN);
-        most = fmax(most, qdot_real_log2(w) - fmax(0, qdot_real_log2(b[i])));
-    }
-    return most / QDOT_LOG2_10;
-}
-
-static int
-ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
-/* The companion's state at the end t of the run. Both may have ended on t1, which is not
- * the same number in both to the last bit. */
-static qdot_status
-end_of_companion(const qdot_precise_side *a, qdot_precise_side *b, mpfr_srcptr t, mpfr_t *y)
-{
-    const mpfr_t *end = (const mpfr_t *)qdot_precise_last(b);
-    const bool there = a->guide && a->guide->reason[0] == '\0'
-                       && a->guide->stopped_by == SIZE_MAX;
-
-    if (a->guide && !there) { /* both ended by what happened */
-        for (size_t i = 0; i < a->guide->tr.n; i++)
-            mpfr_set(y[i], end[1 + i], RN);
-        return QDOT_OK;
-    }
-    if (!mpfr_equal_p(t, a->start.at[1]) || !mpfr_equal_p(end[0], b->start.at[1]))
-        return qdot_precise_state(b, t, y);
-    for (size_t i = 0; i < b->segments.at[0].run.n; i++)
-        mpfr_set(y[i], end[1 + i], RN);
-    return QDOT_OK;
-}
-
-/* log10 of the error at the end; NaN where the companion does not reach it. */
-static qdot_status
-compare(qdot_precise_pair *pair)
-{
-    qdot_precise_side *a = &pair->run, *b = &pair->companion;
-    const size_t n = pair->n;
-    mpfr_srcptr t0 = qdot_precise_first(a)[0];
-    const mpfr_t *end = (const mpfr_t *)qdot_precise_last(a);
-    double between[PLACES];
-    size_t known = 0;
-    qdot_reals w;
-    mpfr_t *ya, *yb;
-    qdot_status status;
-
-    pair->log10_error = NAN;
-    QDOT_TRY(qdot_reals_init(&w, 2 * n + 2, b->start.bits));
-    ya = w.at + 2, yb = ya + n;
-    status = end_of_companion(a, b, end[0], yb);
-    if (status == QDOT_OK) {
-        pair->log10_error = distance(n, end + 1, (const mpfr_t *)yb, w.at[0]);
-        if (a->guide && a->guide->stopped_by != SIZE_MAX)
-            pair->log10_error =
-                fmax(pair->log10_error,
-                     distance(1, end, (const mpfr_t *)qdot_precise_last(b), w.at[0]));
-        for (size_t k = 0; k < PLACES && status == QDOT_OK; k++) {
-            mpfr_sub(w.at[1], end[0], t0, RN);
-            mpfr_mul_d(w.at[1], w.at[1], places[k], RN);
-            mpfr_add(w.at[1], w.at[1], t0, RN);
-            status = qdot_precise_state(a, w.at[1], ya);
-            if (status == QDOT_OK)
-                status = qdot_precise_state(b, w.at[1], yb);
-            if (status == QDOT_OK)
-                between[known++] =
-                    distance(n, (const mpfr_t *)ya, (const mpfr_t *)yb, w.at[0]);
-        }
-        qsort(between, known, sizeof *between, ascending);
-        if (known > 0)
-            pair->log10_error = fmax(pair->log10_error, between[known / 2]);
-        pair->log10_error = fmax(pair->log10_error, -a->digits);
-    }
-    qdot_reals_clear(&w);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
-}
-
 /* --- both ---------------------------------------------------------------------------- */
 
 /* The pair with `digits`: run, and compared. QDOT_OK whenever there is a run. */
@@ -420,7 +323,7 @@ carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
     if (!a->guide && domains->left)
         QDOT_TRY(cut_at_domain(a));
     if (is_there(a) && is_there(b))
-        QDOT_TRY(compare(pair));
+        QDOT_TRY(qdot_precise_compare(pair));
     return b->status == QDOT_EINTR || b->status == QDOT_ENOMEM ? b->status : QDOT_OK;
 }
 
@@ -437,7 +340,7 @@ digits_wanted(const qdot_precise_pair *pair)
                    : pair->digits + 2 * guard_digits;
     if (pair->log10_error <= wanted)
         return 0;
-    if (pair->log10_error > parted) /* not even the amplification is known */
+    if (pair->log10_error > qdot_precise_parted) /* not even the amplification is known */
         return fmax(2 * digits, pair->digits + guard_digits);
     more = pair->digits + guard_digits + (pair->log10_error + digits);
     return fmax(more, digits + guard_digits);
@@ -446,6 +349,7 @@ digits_wanted(const qdot_precise_pair *pair)
 static qdot_status
 settle(qdot_precise_pair *pair, qdot_domains *domains)
 {
+    qdot_precise_progress progress = {.t = NAN};
     double digits = first_digits;
 
     for (int passes = 0; digits > 0;) {
@@ -455,7 +359,9 @@ settle(qdot_precise_pair *pair, qdot_domains *domains)
                              "10^%.1f",
                              pair->digits, pair->run.digits, pair->log10_error);
         QDOT_TRY(carry_out(pair, digits, domains));
-        if (!(pair->log10_error > parted)) /* while they part, digits double: no pass */
+        QDOT_TRY(qdot_precise_check_progress(pair, &progress));
+        /* while they part, digits double: no pass */
+        if (!(pair->log10_error > qdot_precise_parted))
             passes++;
         digits = digits_wanted(pair);
         if (digits > 4 * QDOT_PRECISE_MOST_DIGITS)
