@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include <arb_fmpz_poly.h>
-#include <flint/fmpq_poly.h>
 #include <flint/fmpz_mpoly_factor.h>
 
 #include "base/interrupt.h"
@@ -18,10 +17,9 @@
 
 enum {
     MOST_SYMBOLS = 4,
-    MOST_POLYNOMIALS = 60, /* a level */
+    MOST_POLYNOMIALS = 30, /* a level */
     MOST_TERMS = 300,
     MOST_DEGREE = 40,
-    MOST_CELLS = 4000,
     MOST_CONDITIONS = 16,
     MOST_BITS = 2048
 };
@@ -44,12 +42,37 @@ typedef struct {
     arb_t root;   /* with one symbol: in place of x[0] */
     bool at_root;
     qdot_ball ball;
-    slong cells;
+    int64_t *work; /* what is left of the budget */
     bool too_much, any, inside, touches;
     qdot_expr point;
 } cells;
 
 /* --- polynomials in symbols only ------------------------------------------------------- */
+
+static bool
+charge(cells *c, int64_t work)
+{
+    *c->work -= work;
+    c->too_much |= *c->work < 0 || qdot_interrupt_flag;
+    return !c->too_much;
+}
+
+/* Before a resultant (of a polynomial with itself: its discriminant): Bezout's bound of its degree, and
+ * so of its terms, times what each of them takes. */
+static bool
+charge_resultant(cells *c, const fmpz_mpoly_t p, const fmpz_mpoly_t q, slong v)
+{
+    const int64_t least = 1000;
+    slong degree =
+        fmpz_mpoly_total_degree_si(p, c->f.ctx) * fmpz_mpoly_total_degree_si(q, c->f.ctx);
+    slong sides =
+        fmpz_mpoly_degree_si(p, v, c->f.ctx) + fmpz_mpoly_degree_si(q, v, c->f.ctx);
+    int64_t terms = 1;
+
+    for (slong k = 1; k < c->n && terms < *c->work; k++)
+        terms *= 1 + degree / k;
+    return charge(c, least + terms * sides * sides);
+}
 
 static bool
 reasonable(const cells *c, const fmpz_mpoly_t p)
@@ -103,7 +126,8 @@ add(cells *c, const fmpz_mpoly_t p, polynomials *also)
 
     if (fmpz_mpoly_is_fmpz(p, c->f.ctx) || c->too_much)
         return;
-    if (!reasonable(c, p) || qdot_interrupt_flag) {
+    if (!reasonable(c, p) || !charge(c, 100 * fmpz_mpoly_length(p, c->f.ctx) *
+                                            fmpz_mpoly_total_degree_si(p, c->f.ctx))) {
         c->too_much = true;
         return;
     }
@@ -141,6 +165,7 @@ to_norm(cells *c, fmpz_mpoly_t p)
         if (fmpz_mpoly_degree_si(p, r->var, f->ctx) == 0)
             continue;
         if (!reasonable(c, p) || !reasonable(c, r->poly) || r->power > 8 ||
+            !charge_resultant(c, p, r->poly, r->var) ||
             !fmpz_mpoly_resultant(p, p, r->poly, r->var, f->ctx))
             c->too_much = true;
     }
@@ -186,14 +211,16 @@ project(cells *c, slong k)
         fmpz_mpoly_univar_get_term_coeff(p, u, 0, c->f.ctx);
         fmpz_mpoly_univar_clear(u, c->f.ctx);
         add(c, p, NULL);
-        if (fmpz_mpoly_degree_si(l->at + i, v, c->f.ctx) > 1 && !c->too_much) {
+        if (fmpz_mpoly_degree_si(l->at + i, v, c->f.ctx) > 1 && !c->too_much &&
+            charge_resultant(c, l->at + i, l->at + i, v)) {
             if (!fmpz_mpoly_discriminant(p, l->at + i, v, c->f.ctx))
                 c->too_much = true;
             else
                 add(c, p, NULL);
         }
         for (size_t j = 0; j < i && !c->too_much; j++) {
-            if (!fmpz_mpoly_resultant(p, l->at + i, l->at + j, v, c->f.ctx))
+            if (!charge_resultant(c, l->at + i, l->at + j, v) ||
+                !fmpz_mpoly_resultant(p, l->at + i, l->at + j, v, c->f.ctx))
                 c->too_much = true;
             else
                 add(c, p, NULL);
@@ -288,6 +315,8 @@ look_here(cells *c)
 
     for (slong prec = 64; prec <= MOST_BITS && (p == UNCLEAR || (p == INSIDE && s == 2));
          prec *= 2) {
+        if (!charge(c, prec / 4 * (int64_t)c->ball.walk.n))
+            return false;
         qdot_ball_eval(&c->ball, prec, value_of, c);
         p = look_around(c);
         s = sign_here(c, c->all[0]);
@@ -309,38 +338,9 @@ look_here(cells *c)
 
 /* p over the points chosen so far. */
 static void
-put_in(const cells *c, fmpz_poly_t r, const fmpz_mpoly_t p, slong k)
+put_in(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k)
 {
-    ulong *exp = qdot_malloc(((size_t)c->f.n + 1) * sizeof *exp);
-    fmpq_poly_t sum;
-    fmpq_t a, b;
-
-    fmpz_poly_zero(r);
-    if (exp == NULL)
-        return;
-    fmpq_poly_init(sum);
-    fmpq_init(a);
-    fmpq_init(b);
-    for (slong i = 0; i < fmpz_mpoly_length(p, c->f.ctx); i++) {
-        slong d;
-
-        fmpz_mpoly_get_term_exp_ui(exp, p, i, c->f.ctx);
-        fmpq_set_fmpz(a, p->coeffs + i);
-        for (slong j = 0; j < k; j++) {
-            fmpq_pow_si(b, &c->x[j], (slong)exp[c->symbol[j]]);
-            fmpq_mul(a, a, b);
-        }
-        d = (slong)exp[c->symbol[k]];
-        fmpq_poly_get_coeff_fmpq(b, sum, d);
-        fmpq_add(a, a, b);
-        fmpq_poly_set_coeff_fmpq(sum, d, a);
-    }
-    fmpq_poly_get_numerator(r, sum);
-    fmpz_poly_primitive_part(r, r);
-    fmpq_clear(a);
-    fmpq_clear(b);
-    fmpq_poly_clear(sum);
-    qdot_free(exp);
+    qdot_polynomial_over(r, p, k, c->symbol, c->x, c->f.ctx);
 }
 
 /* The zeros of what stands in a level, over the points chosen. */
@@ -363,7 +363,10 @@ zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
     fmpz_poly_gcd(g, product, p);
     fmpz_poly_div(product, product, g);
     *room = fmpz_poly_degree(product);
-    n = qdot_real_zeros(product, zeros);
+    *zeros = NULL;
+    n = charge(c, 20 * (1 + *room) * (1 + *room) * (1 + fmpz_poly_max_limbs(product)))
+            ? qdot_real_zeros(product, zeros)
+            : -1;
     fmpz_poly_clear(p);
     fmpz_poly_clear(product);
     fmpz_poly_clear(g);
@@ -442,7 +445,8 @@ lift(cells *c, slong k)
         qdot_between_zeros(&c->x[k], i > 0 ? zero + i - 1 : NULL,
                            i < n ? zero + i : NULL);
         c->chosen = k + 1;
-        c->too_much |= ++c->cells > MOST_CELLS || qdot_interrupt_flag;
+        if (!charge(c, 20 * (int64_t)c->ball.walk.n))
+            break;
         if (k + 1 < c->n) { /* what is known to fail already */
             qdot_ball_eval(&c->ball, 64, value_of, c);
             if (look_around(c) == OUTSIDE)
@@ -636,14 +640,14 @@ search(cells *c, qdot_cells *result)
 
 qdot_status
 qdot_cells_decide(qdot_pool *pool, qdot_expr e, size_t n,
-                  const qdot_cells_condition *condition, qdot_cells *result,
-                  qdot_expr *at)
+                  const qdot_cells_condition *condition, int64_t *work,
+                  qdot_cells *result, qdot_expr *at)
 {
-    cells c = {.pool = pool, .n_conditions = n};
+    cells c = {.pool = pool, .n_conditions = n, .work = work};
 
     *result = QDOT_CELLS_UNKNOWN;
     *at = QDOT_NIL;
-    if (n > MOST_CONDITIONS)
+    if (n > MOST_CONDITIONS || *work < 0)
         return QDOT_OK;
     c.all = qdot_malloc((n + 1) * sizeof *c.all);
     if (c.all == NULL)

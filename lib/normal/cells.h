@@ -37,9 +37,11 @@ typedef enum {
     QDOT_CELLS_ZERO      /* one symbol: e >= 0, and e = 0 at the point *at */
 } qdot_cells;
 
-/* *at: a LIST of equations symbol = rational. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* *at: a LIST of equations symbol = rational. *work, about 20 ns each, is used up; past it nothing is
+ * known. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_cells_decide(qdot_pool *pool, qdot_expr e, size_t n,
                                               const qdot_cells_condition *condition,
-                                              qdot_cells *result, qdot_expr *at);
+                                              int64_t *work, qdot_cells *result,
+                                              qdot_expr *at);
 
 #endif

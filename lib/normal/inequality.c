@@ -14,6 +14,7 @@
 
 enum { MOST_CASES = 64, MOST_SLOPES = 3, MOST_MARGINS = 12, MOST_SAID = 8 };
 #define WORK 20000
+#define ALL_WORK 30000000
 
 /* A division by zero on the way is no failure. */
 static qdot_status
@@ -194,7 +195,8 @@ with_margin(qdot_pool *pool, const qdot_question *q, bool *proved)
             qdot_expr less = qdot_sub(
                 pool, q->e, qdot_mul(pool, qdot_expr_ratio(pool, 1, c), margin[i]));
 
-            QDOT_TRY(qdot_cells_decide(pool, less, q->n, q->condition, &result, &at));
+            QDOT_TRY(
+                qdot_cells_decide(pool, less, q->n, q->condition, q->work, &result, &at));
             *proved = result == QDOT_CELLS_POSITIVE ||
                       result == QDOT_CELLS_NOT_NEGATIVE || result == QDOT_CELLS_ZERO;
         }
@@ -262,7 +264,7 @@ settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bool *any,
         drop_unconnected(pool, q);
     if (q->too_much || qdot_pool_failed(pool))
         return only_grave(pool);
-    QDOT_TRY(qdot_cells_decide(pool, q->e, q->n, q->condition, &result, &point));
+    QDOT_TRY(qdot_cells_decide(pool, q->e, q->n, q->condition, q->work, &result, &point));
     *any |= result > QDOT_CELLS_EMPTY;
     switch (result) {
     case QDOT_CELLS_EMPTY: *proved = !q->chosen; break;
@@ -287,8 +289,8 @@ settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bool *any,
 }
 
 static qdot_status
-by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts, bool *proved,
-         qdot_expr *at)
+by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
+         int64_t *work, bool *proved, qdot_expr *at)
 {
     qdot_question *q = qdot_malloc(MOST_CASES * sizeof *q);
     size_t n = 1, done = 0;
@@ -299,6 +301,7 @@ by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts, boo
     if (status != QDOT_OK)
         return status;
     ask(pool, &q[0], e, facts);
+    q[0].work = work;
     qdot_question_whole_parts(pool, &q[0]);
     while (n > 0 && *proved && status == QDOT_OK) {
         qdot_question *last = &q[n - 1];
@@ -376,7 +379,7 @@ is_smooth(qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_status prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes,
-                                 bool *proved);
+                                 int64_t *work, bool *proved);
 
 /* e(a) >= 0 (> 0: *above). */
 static bool
@@ -421,7 +424,7 @@ reaches(qdot_pool *pool, qdot_expr bound, qdot_expr a, bool up, qdot_expr *end,
  * stretch, e > e(a) there. */
 static qdot_status
 one_side(qdot_pool *pool, qdot_expr slope, qdot_expr x, qdot_expr a, bool up, int slopes,
-         bool *proved)
+         int64_t *work, bool *proved)
 {
     qdot_symbol s = *qdot_expr_symbol(pool, x);
     qdot_expr end, y, to;
@@ -440,11 +443,12 @@ one_side(qdot_pool *pool, qdot_expr slope, qdot_expr x, qdot_expr a, bool up, in
     slope = qdot_subs(pool, up ? slope : qdot_neg(pool, slope), 1, &x, &to);
     if (slope == QDOT_NIL)
         return only_grave(pool);
-    return prove_somehow(pool, slope, false, slopes - 1, proved);
+    return prove_somehow(pool, slope, false, slopes - 1, work, proved);
 }
 
 static qdot_status
-by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, bool *proved)
+by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
+          bool *proved)
 {
     qdot_expr atoms = qdot_expr_atoms(pool, e, true), points[3] = {QDOT_ZERO, QDOT_ONE},
               x, slope;
@@ -472,9 +476,9 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, bool *proved)
             continue;
         if (strict && !above && !(a == s.lo && s.lo_open) && !(a == s.hi && s.hi_open))
             continue;
-        QDOT_TRY(one_side(pool, slope, x, a, true, slopes, &up));
+        QDOT_TRY(one_side(pool, slope, x, a, true, slopes, work, &up));
         if (up)
-            QDOT_TRY(one_side(pool, slope, x, a, false, slopes, &down));
+            QDOT_TRY(one_side(pool, slope, x, a, false, slopes, work, &down));
         *proved = up && down;
     }
     return qdot_pool_failed(pool) ? only_grave(pool) : QDOT_OK;
@@ -482,14 +486,15 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, bool *proved)
 
 /* Bounded by MOST_SLOPES, whatever the input. */
 static qdot_status
-prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes, bool *proved)
+prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
+              bool *proved)
 {
     qdot_expr at = QDOT_NIL;
 
-    QDOT_TRY(by_cases(pool, e, strict, NULL, proved, &at));
+    QDOT_TRY(by_cases(pool, e, strict, NULL, work, proved, &at));
     if (*proved || at != QDOT_NIL)
         return QDOT_OK;
-    return by_slopes(pool, e, strict, slopes, proved);
+    return by_slopes(pool, e, strict, slopes, work, proved);
 }
 
 /* --- all -------------------------------------------------------------------------------------- */
@@ -497,7 +502,8 @@ prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes, bool *prove
 /* Conditions, and relations that can be solved, put into the symbols; what is left of them. Slopes
  * too. */
 static qdot_status
-unfolded(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts, bool *proved)
+unfolded(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
+         int64_t *work, bool *proved)
 {
     size_t nr = facts->n_relations;
     qdot_expr *all = qdot_malloc((nr + 1) * sizeof *all), at = QDOT_NIL;
@@ -518,9 +524,9 @@ unfolded(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts, boo
     known.n_conditions = positive.n;
     known.conditions = positive.at;
     if (status == QDOT_OK && !qdot_pool_failed(pool) && !empty && nr > 0)
-        status = by_cases(pool, all[0], strict, &known, proved, &at);
+        status = by_cases(pool, all[0], strict, &known, work, proved, &at);
     if (status == QDOT_OK && !qdot_pool_failed(pool) && !empty && !*proved)
-        status = by_slopes(pool, all[0], strict, MOST_SLOPES, proved);
+        status = by_slopes(pool, all[0], strict, MOST_SLOPES, work, proved);
     qdot_free(positive.at);
     qdot_free(all);
     return status == QDOT_OK ? only_grave(pool) : status;
@@ -531,6 +537,7 @@ qdot_inequality(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *fac
                 bool *proved, qdot_expr *at)
 {
     static const qdot_facts nothing = {0};
+    int64_t work = ALL_WORK;
 
     *proved = false;
     *at = QDOT_NIL;
@@ -539,8 +546,8 @@ qdot_inequality(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *fac
     if (facts == NULL)
         facts = &nothing;
     if (facts->n_relations == 0)
-        QDOT_TRY(by_cases(pool, e, strict, facts, proved, at));
+        QDOT_TRY(by_cases(pool, e, strict, facts, &work, proved, at));
     if (*proved || *at != QDOT_NIL)
         return QDOT_OK;
-    return unfolded(pool, e, strict, facts, proved);
+    return unfolded(pool, e, strict, facts, &work, proved);
 }

@@ -14,6 +14,7 @@ typedef struct {
     qdot_cells_condition condition[QDOT_QUESTION_CONDITIONS];
     size_t n;
     bool too_much;
+    int64_t *work; /* what is left of the budget of all questions */
     bool chosen; /* by an if: what no open set holds counts too */
     bool exact; /* a point where it fails is a point of the question that was asked */
 } qdot_question;

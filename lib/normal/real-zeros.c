@@ -5,6 +5,9 @@
 #include <stdlib.h>
 
 #include <arb_fmpz_poly.h>
+#include <flint/fmpq_poly.h>
+
+#include "base/memory.h"
 
 enum { MOST_DEGREE = 160 };
 
@@ -81,4 +84,40 @@ qdot_between_zeros(fmpq_t x, arb_srcptr a, arb_srcptr b)
     arf_clear(hi);
     arf_clear(t);
     fmpz_clear(n);
+}
+
+void
+qdot_polynomial_over(fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k,
+                     const slong *symbol, const fmpq *x, const fmpz_mpoly_ctx_t ctx)
+{
+    ulong *exp = qdot_malloc(((size_t)fmpz_mpoly_ctx_nvars(ctx) + 1) * sizeof *exp);
+    fmpq_poly_t sum;
+    fmpq_t a, b;
+
+    fmpz_poly_zero(r);
+    if (exp == NULL)
+        return;
+    fmpq_poly_init(sum);
+    fmpq_init(a);
+    fmpq_init(b);
+    for (slong i = 0; i < fmpz_mpoly_length(p, ctx); i++) {
+        slong d;
+
+        fmpz_mpoly_get_term_exp_ui(exp, p, i, ctx);
+        fmpq_set_fmpz(a, p->coeffs + i);
+        for (slong j = 0; j < k; j++) {
+            fmpq_pow_si(b, x + j, (slong)exp[symbol[j]]);
+            fmpq_mul(a, a, b);
+        }
+        d = (slong)exp[symbol[k]];
+        fmpq_poly_get_coeff_fmpq(b, sum, d);
+        fmpq_add(a, a, b);
+        fmpq_poly_set_coeff_fmpq(sum, d, a);
+    }
+    fmpq_poly_get_numerator(r, sum);
+    fmpz_poly_primitive_part(r, r);
+    fmpq_clear(a);
+    fmpq_clear(b);
+    fmpq_poly_clear(sum);
+    qdot_free(exp);
 }

@@ -7,7 +7,13 @@
 
 #include <arb.h>
 #include <flint/fmpq.h>
+#include <flint/fmpz_mpoly.h>
 #include <flint/fmpz_poly.h>
+
+/* r = c p over x[0 .. k) in the variables symbol[0 .. k), a polynomial in symbol[k], c > 0; p holds no
+ * others. 0 where memory ends. */
+void qdot_polynomial_over(fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k,
+                          const slong *symbol, const fmpq *x, const fmpz_mpoly_ctx_t ctx);
 
 /* The real zeros of p, which has none twice, ascending, their balls apart from each other. The number
  * of them; -1: too much. *zeros: a vector of as many balls as p has degrees, NULL if none was made;
