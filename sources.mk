@@ -230,6 +230,7 @@ tape_sources = \
 	lib/tape/taylor-code.c \
 	lib/tape/taylor-correct.c \
 	lib/tape/taylor-order.c \
+	lib/tape/taylor-wide.c \
 	lib/tape/taylor.c \
 	lib/tape/x86.c
 
@@ -251,6 +252,8 @@ tape_headers = \
 	lib/tape/taylor-generator.h \
 	lib/tape/taylor-order.def \
 	lib/tape/taylor-steps.h \
+	lib/tape/taylor-wide.def \
+	lib/tape/taylor-wide.h \
 	lib/tape/taylor.h \
 	lib/tape/x86.h
 
@@ -351,6 +354,7 @@ sim_sources = \
 	lib/sim/run.c \
 	lib/sim/second.c \
 	lib/sim/shifted-lanes.c \
+	lib/sim/shifted-wide.c \
 	lib/sim/shifted.c \
 	lib/sim/size.c \
 	lib/sim/stage.c \
@@ -403,6 +407,7 @@ sim_headers = \
 	lib/sim/run.h \
 	lib/sim/shifted-lanes.def \
 	lib/sim/shifted-lanes.h \
+	lib/sim/shifted-wide.h \
 	lib/sim/shifted.h \
 	lib/sim/size.h \
 	lib/sim/stage.h \
@@ -572,6 +577,7 @@ unit_tests = \
 	tests/tape/test_precise \
 	tests/tape/test_tape \
 	tests/tape/test_taylor-code \
+	tests/tape/test_taylor-wide \
 	tests/tape/test_taylor \
 	tests/tape/test_x86
 

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "num/series.h"
 #include "sim/blocks.h"
+#include "sim/shifted-wide.h"
 #include "tape/shake.h"
 #include "tape/taylor.h"
 
@@ -42,6 +43,7 @@ struct qdot_shifted {
     double *Fs;              /* [orders x members] F of each slope's function */
     bool one_each;           /* a slope a function, in their order: Fs is F */
     double *products;        /* [members] */
+    qdot_shifted_wide *wide; /* all this by vectors; NULL: one by one */
     double *R;               /* [n] */
     bool whole;              /* one block holds all coordinates, in their order */
     double *in, *out, *work; /* of `masses` */
@@ -134,27 +136,60 @@ solve_blocks(const qdot_shifted *s, int k)
     }
 }
 
-/* unit^2 q'' of order k; where it is left. */
+/* -R of order k, what q has at order k + 2 taken as 0. */
+static void
+residual_of(qdot_shifted *s, int k)
+{
+    const qdot_residual *r = s->residual;
+
+    accelerate(s, k);
+    s->kernels->dots(s->members, (size_t)k + 1, s->J, s->Fs + (size_t)k * s->members,
+                     s->products);
+    for (size_t i = 0; i < s->plan->n; i++)
+        s->R[i] = s->applied[i] ? s->force_scale * s->applied[i][k] : 0;
+    for (size_t j = 0; j < r->n_slopes; j++)
+        s->R[r->slopes[j].coordinate] -= s->products[j];
+}
+
+/* The same by vectors; they have what `places` applies. */
+static void
+wide_residual(qdot_shifted *s, int m)
+{
+    const qdot_residual *r = s->residual;
+
+    qdot_shifted_wide_residual(s->wide, m, s->force_scale, s->R);
+    for (size_t i = 0; i < s->plan->n && s->forces; i++)
+        if (s->applied[i] && r->force[i] & QDOT_RESIDUAL_FORCES)
+            s->R[i] += s->force_scale * s->applied[i][m - 2];
+}
+
+/* unit^2 q'' of order k from -R; where it is left. */
 static const double *
 solve(const qdot_shifted *s, int k)
 {
     const qdot_solver *all = s->solvers.at;
-    const qdot_residual *r = s->residual;
-    const size_t n = s->plan->n;
-    double *R = s->R;
 
-    s->kernels->dots(s->members, (size_t)k + 1, s->J, s->Fs + (size_t)k * s->members,
-                     s->products);
-    for (size_t i = 0; i < n; i++)
-        R[i] = s->applied[i] ? s->force_scale * s->applied[i][k] : 0;
-    for (size_t j = 0; j < r->n_slopes; j++)
-        R[r->slopes[j].coordinate] -= s->products[j];
     if (s->whole && k > QDOT_BLOCKS_SOLVED) {
-        s->kernels->multiply(all->m, n, all->inverse, R, all->lower);
+        s->kernels->multiply(all->m, s->plan->n, all->inverse, s->R, all->lower);
         return all->lower;
     }
     solve_blocks(s, k);
-    return R;
+    return s->R;
+}
+
+/* Coefficients m of q, in R, are known now. */
+static void
+correct(qdot_shifted *s, int m)
+{
+    if (s->wide) {
+        qdot_shifted_wide_correct(s->wide, m, s->R);
+        for (size_t i = 0; i < s->plan->n; i++)
+            s->q[i * s->stride + (size_t)m] = s->R[i];
+        return;
+    }
+    qdot_taylor_correct(s->places, m, s->R);
+    accelerate(s, m - 2);
+    take_slopes(s, m);
 }
 
 /* Coefficients m >= 2 of q and m - 1 of v. */
@@ -166,17 +201,19 @@ order(qdot_shifted *s, int m)
     const double inverse = 1.0 / (m * (m - 1)), per_unit = m / s->unit;
     const double *a;
 
-    for (size_t i = 0; i < n; i++)
-        s->q[i * s->stride + (size_t)m] = 0;
-    qdot_taylor_order(s->places, m);
     evaluate_forces(s, k);
-    accelerate(s, k);
+    if (s->wide) {
+        wide_residual(s, m);
+    } else {
+        for (size_t i = 0; i < n; i++)
+            s->q[i * s->stride + (size_t)m] = 0;
+        qdot_taylor_order(s->places, m);
+        residual_of(s, k);
+    }
     a = solve(s, k);
     for (size_t i = 0; i < n; i++)
         s->R[i] = k <= QDOT_TAYLOR_EXACT ? a[i] / (m * (m - 1)) : inverse * a[i];
-    qdot_taylor_correct(s->places, m, s->R);
-    accelerate(s, k);
-    take_slopes(s, m);
+    correct(s, m);
     for (size_t i = 0; i < n; i++)
         s->v[i * s->stride + (size_t)m - 1] = per_unit * s->R[i];
 }
@@ -222,9 +259,14 @@ begin(double t, const double *y, double unit, void *user)
         qdot_taylor_draw(s->forces, t);
     }
     QDOT_TRY(factor(s, t, y));
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < (s->wide ? 1 : 2); k++) {
         qdot_taylor_order(s->places, k);
         take_slopes(s, k);
+    }
+    if (s->wide) {
+        for (size_t i = 0; i < n; i++)
+            s->R[i] = unit * y[n + i];
+        qdot_shifted_wide_begin(s->wide, s->places, s->R);
     }
     order(s, 2);
     for (size_t i = 0; i < n; i++)
@@ -271,6 +313,27 @@ make_tapes(qdot_shifted *s, bool shaken)
     return shaken ? qdot_tape_shake(r->masses, &s->masses) : QDOT_OK;
 }
 
+/* By vectors. */
+static void
+estimate_wide(qdot_shifted *s)
+{
+    const double n = (double)s->plan->n;
+    double *c = s->series.cost, convolutions, products, begun;
+
+    qdot_shifted_wide_count(s->wide, &convolutions, &products, &begun);
+    c[0] = 600 + 25.0 * (double)qdot_tape_calls(s->residual->places) +
+           1.2 * (double)qdot_tape_operations(s->residual->masses) + 40 * n + 4 * n * n +
+           0.25 * n * n * n;
+    c[1] = 20 + 4 * begun + 0.5 * products + 3 * n + 0.3 * n * n;
+    c[2] = 0.1 * convolutions;
+    if (s->forces) {
+        c[1] += 1.2 * (double)qdot_taylor_length(s->forces) +
+                3.5 * qdot_taylor_convolutions(s->forces);
+        c[2] += 0.12 * qdot_taylor_convolutions(s->forces);
+    }
+}
+
+/* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
 static void
 estimate_cost(qdot_shifted *s)
 {
@@ -282,6 +345,10 @@ estimate_cost(qdot_shifted *s)
     double scalar = qdot_taylor_convolutions(s->places) +
                     (s->forces ? qdot_taylor_convolutions(s->forces) : 0);
 
+    if (s->wide) {
+        estimate_wide(s);
+        return;
+    }
     c[0] = 100 + 15.0 * (double)qdot_tape_calls(r->places) +
            1.0 * (double)qdot_tape_operations(r->masses) + 2 * length + 10 * n;
     c[1] = 10 + 3 * length + 3.5 * scalar + 6 * n + 6.0 * (double)r->functions +
@@ -351,7 +418,7 @@ make(qdot_shifted *s, bool shaken)
     s->J = qdot_calloc(orders * s->members + 1, sizeof *s->J);
     s->Fs = qdot_calloc(orders * s->members + 1, sizeof *s->Fs);
     s->products = qdot_calloc(s->members + 1, sizeof *s->products);
-    s->R = qdot_calloc(p->n, sizeof *s->R);
+    s->R = qdot_calloc(p->n + lanes, sizeof *s->R);
     s->applied = qdot_calloc(p->n, sizeof *s->applied);
     s->in = qdot_calloc(2 * p->n + 1, sizeof *s->in);
     s->out = qdot_calloc(qdot_tape_outputs(r->masses) + 1, sizeof *s->out);
@@ -375,6 +442,8 @@ make(qdot_shifted *s, bool shaken)
     for (size_t i = 0; i < p->n; i++)
         s->whole = s->whole && p->blocks->index[i] == i;
     QDOT_TRY(multiply_out(s));
+    if (s->W)
+        QDOT_TRY(qdot_shifted_wide_new(r, p->n, s->places, s->W, s->rows, &s->wide));
     s->series = (qdot_ode_series){.most = most_order - 4,
                                   .x = s->q,
                                   .stride = s->stride,
@@ -418,6 +487,7 @@ qdot_shifted_free(qdot_shifted *s)
     qdot_tape_free(s->masses);
     if (s->solvers.plan)
         qdot_blocks_clear(&s->solvers);
+    qdot_shifted_wide_free(s->wide);
     qdot_free(s->weight);
     qdot_free(s->d);
     qdot_free(s->x);
