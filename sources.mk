@@ -620,6 +620,7 @@ script_tests = \
 	tests/script/include.lag \
 	tests/script/inner-times.sh \
 	tests/script/integrable.lag \
+	tests/script/json-run.sh \
 	tests/script/json.lag \
 	tests/script/jumps.sh \
 	tests/script/loops.lag \
@@ -1162,7 +1163,9 @@ test_files = \
 	tests/script/derive.out \
 	tests/script/digits-events.out \
 	tests/script/digits-table.out \
+	tests/script/digits.csv \
 	tests/script/digits.out \
+	tests/script/digits.txt \
 	tests/script/dof-redundant.out \
 	tests/script/double-energy.out \
 	tests/script/doubts.out \
@@ -1202,6 +1205,7 @@ test_files = \
 	tests/script/included.inc \
 	tests/script/inner-times.out \
 	tests/script/integrable.out \
+	tests/script/json-run.out \
 	tests/script/json.out \
 	tests/script/jumps.out \
 	tests/script/loops.out \

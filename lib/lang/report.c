@@ -105,6 +105,35 @@ field(qdot_text *line, const char *name, double value)
     qdot_answer_json_double(line, value);
 }
 
+/* All that should have been kept, by name. */
+static void
+drifts_json(qdot_text *line, const qdot_run_report *r)
+{
+    qdot_text_add(line, ",\"drifts\":{");
+    for (size_t i = 0; i < r->n_drifts; i++) {
+        if (i > 0)
+            qdot_text_char(line, ',');
+        qdot_text_json(line, r->drifts[i].name);
+        qdot_text_char(line, ':');
+        qdot_answer_json_double(line, r->drifts[i].drift);
+    }
+    qdot_text_char(line, '}');
+}
+
+/* The parts that were integrated apart. */
+static void
+parts_json(qdot_text *line, const qdot_run_report *r)
+{
+    qdot_text_add(line, ",\"parts\":[");
+    for (size_t i = 0; i < r->n_parts; i++) {
+        qdot_text_add(line, i > 0 ? ",{\"coordinates\":" : "{\"coordinates\":");
+        qdot_text_json(line, r->parts[i].coordinates);
+        qdot_text_format(line, ",\"steps\":%zu,\"rejected\":%zu}", r->parts[i].steps,
+                         r->parts[i].rejected);
+    }
+    qdot_text_char(line, ']');
+}
+
 static qdot_status
 run_json(qdot_session *session, const char *name, const qdot_run_report *r,
          qdot_text *line)
@@ -128,6 +157,7 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
     field(line, "error", r->error);
     field(line, "horizon", r->horizon);
     field(line, "energy_drift", r->energy_drift);
+    drifts_json(line, r);
     field(line, "constraint_drift", r->m > 0 ? r->constraint_drift : NAN);
     qdot_text_add(line, ",\"state\":{");
     QDOT_TRY(each_state(session, r, QDOT_PLAIN, state_json, line));
@@ -136,6 +166,8 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
         qdot_text_json(line, r->reason);
     else
         qdot_text_add(line, "null");
+    if (r->n_parts > 0)
+        parts_json(line, r);
     qdot_text_add(line, "}\n");
     return QDOT_OK;
 }
@@ -239,9 +271,10 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
         qdot_text_add(line, "; ");
         counted(line, r->jacobians, "Jacobian");
     }
-    if (r->apart) {
-        qdot_text_add(line, "\n  apart: ");
-        qdot_text_add(line, r->apart);
+    for (size_t i = 0; i < r->n_parts; i++) {
+        qdot_text_format(line, "%s%s ", i == 0 ? "\n  apart: " : "; ",
+                         r->parts[i].coordinates);
+        counted(line, r->parts[i].steps, "step");
     }
     qdot_text_add(line, "\n  cpu ");
     seconds(line, r->cpu);

@@ -20,7 +20,8 @@ struct qdot_run {
     int t0_side, t1_side; /* where the exact limits lie beside them */
     char *reason;
     qdot_text notice;     /* of the start */
-    qdot_text apart; /* of the report */
+    qdot_text part_names;               /* of the report, each ended by a 0 */
+    qdot_vec(qdot_run_part) parts;
     qdot_run_report report;
     qdot_vec(qdot_run_occurrence) occurrences;
     bool occurrence_errors; /* they have been found */

@@ -47,7 +47,8 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->start_low);
     qdot_free(run->reason);
     qdot_text_clear(&run->notice);
-    qdot_text_clear(&run->apart);
+    qdot_text_clear(&run->part_names);
+    qdot_free(run->parts.at);
     qdot_multipliers_clear(&run->multipliers);
     qdot_free(run);
 }
@@ -325,18 +326,26 @@ static qdot_status
 say_apart(qdot_run *run)
 {
     const qdot_trajectory *tr = &run->course.tr;
+    qdot_text *names = &run->part_names;
+    const char *at;
 
     for (size_t k = 0; k < tr->n_tracks; k++) {
         const qdot_plan *part = run->plan->parts[k];
-        unsigned long long steps = tr->tracks[k].result.stats.steps;
+        const qdot_ode_stats *stats = &tr->tracks[k].result.stats;
 
-        qdot_text_add(&run->apart, k ? "; " : "");
         for (size_t i = 0; i < part->n; i++)
-            qdot_text_format(&run->apart, "%s%s", i ? ", " : "", part->names[i]);
-        qdot_text_format(&run->apart, " %llu step%s", steps, steps == 1 ? "" : "s");
+            qdot_text_format(names, "%s%s", i ? ", " : "", part->names[i]);
+        qdot_text_char(names, '\0');
+        QDOT_TRY(qdot_vec_push(&run->parts,
+                               ((qdot_run_part){NULL, stats->steps, stats->rejected})));
     }
-    run->report.apart = tr->n_tracks > 0 ? qdot_text_str(&run->apart) : NULL;
-    return qdot_text_status(&run->apart);
+    QDOT_TRY(qdot_text_status(names));
+    at = qdot_text_str(names);
+    for (size_t k = 0; k < run->parts.n; k++, at += strlen(at) + 1)
+        run->parts.at[k].coordinates = at;
+    run->report.n_parts = run->parts.n;
+    run->report.parts = run->parts.at;
+    return QDOT_OK;
 }
 
 static void

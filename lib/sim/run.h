@@ -47,6 +47,12 @@ typedef struct {
     bool kept;           /* it is a constant of the integration (sim/routh.h): drift is 0 */
 } qdot_drift;
 
+/* Coordinates that were integrated apart from the others. */
+typedef struct {
+    const char *coordinates; /* "x, y" */
+    size_t steps, rejected;
+} qdot_run_part;
+
 typedef struct qdot_run qdot_run;
 
 typedef struct {
@@ -84,8 +90,8 @@ typedef struct {
     size_t projections;            /* steps after which the state was moved */
     qdot_run_treatment treatment;
     size_t pieces, modes;          /* of a run that events or switches divide; else 1 */
-    const char *apart;             /* steps of the parts that were integrated apart, a line;
-                                      NULL: there are none */
+    size_t n_parts;                /* 0: all went together */
+    const qdot_run_part *parts;
     const char *doubt;             /* why the error is unknown, where that is known; NULL */
 } qdot_run_report;
 
