@@ -25,6 +25,10 @@ typedef struct {
     double cost[3];
     /* Expansions to order p are going to be many; before them. May be NULL. */
     qdot_status (*prepare)(int p, void *user);
+    /* The same as machine code, before a `begin`; it takes as long to write as worth/p
+     * expansions save by it. May be NULL. */
+    qdot_status (*write)(int p, void *user);
+    double worth;
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Then orders 2 ... p. */

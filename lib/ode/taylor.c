@@ -26,6 +26,9 @@ static const double rounding_of_projection = 1e-13;
 /* log2 of the largest term, over the size of the state, whose rounding may count. */
 static const double term_least = -1;
 
+/* Steps by which the number of those to come is known. */
+enum { few_steps = 6 };
+
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
 
@@ -47,6 +50,8 @@ typedef struct {
     double unit;   /* of the series: t' = t + unit s; a power of two, signed */
     double per_unit; /* its inverse */
     bool extended; /* the series is there to order p */
+    bool written;  /* as machine code */
+    double t0;
 
     /* [n], with the room that qdot_series_step wants */
     double *y, *carry;           /* the state now */
@@ -390,6 +395,20 @@ take_followers(run *r)
     }
 }
 
+/* Machine code for the expansions, once a few steps have shown that many will follow. */
+static qdot_status
+write_code(run *r, double t)
+{
+    const double steps = (double)r->result->stats.steps + 1;
+    const double left = steps * (r->t1 - t) / (t - r->t0);
+
+    if (r->written || steps < few_steps || !r->series->write ||
+        !(left * r->p > r->series->worth))
+        return QDOT_OK;
+    r->written = true;
+    return r->series->write(r->p, r->series->user);
+}
+
 /* Try a step of h from t to t_end. On QDOT_OK and *good it has been taken, and the
  * series is begun at its end. Otherwise nothing has changed but the series. */
 static qdot_status
@@ -420,6 +439,7 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     if (!*good)
         return QDOT_OK;
     set_unit(r, qdot_step_unit(h));
+    QDOT_TRY(write_code(r, t_end));
     status = begin(r, t_end, r->next);
     if (status == QDOT_OK)
         *good = fixed || confirms(r, h, 1, old_held);
@@ -640,6 +660,7 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
              .result = result,
              .n = system->n,
              .t = t0,
+             .t0 = t0,
              .t1 = t1,
              .direction = t1 < t0 ? -1 : 1,
              .unit = 1,

@@ -244,7 +244,15 @@ prepare(int p, void *user)
     qdot_direct *e = user;
 
     e->exact = p > QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT : 0;
-    return e->linked ? qdot_taylor_prepare(e->taylor, p - 1) : QDOT_OK;
+    return QDOT_OK;
+}
+
+static qdot_status
+write_code(int p, void *user)
+{
+    const qdot_direct *e = user;
+
+    return qdot_taylor_prepare(e->taylor, p - 1);
 }
 
 /* The matrices of what the program solves for. */
@@ -427,6 +435,8 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
                                   .stride = e->stride,
                                   .checked = p->n,
                                   .prepare = prepare,
+                                  .write = e->linked ? write_code : NULL,
+                                  .worth = 800 + 5000 / (double)(qdot_taylor_length(e->taylor) + 1),
                                   .begin = begin,
                                   .extend = extend,
                                   .user = e};

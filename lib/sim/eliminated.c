@@ -269,6 +269,14 @@ prepare(int p, void *user)
     return e->own->prepare ? e->own->prepare(p, e->own->user) : QDOT_OK;
 }
 
+static qdot_status
+write_code(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->own->write(p, e->own->user);
+}
+
 qdot_status
 qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *other,
                     qdot_eliminated **eliminated)
@@ -296,6 +304,8 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
                           .cost = {e->own->cost[0] + 200 + qdot_constrained_cost(plan),
                                    e->own->cost[1], e->own->cost[2]},
                           .prepare = prepare,
+                          .write = e->own->write ? write_code : NULL,
+                          .worth = e->own->worth,
                           .begin = begin,
                           .extend = extend,
                           .noise = noise,
