@@ -14,15 +14,21 @@ bind(void *session, qdot_expr e)
     return qdot_session_bind(session, e);
 }
 
+static qdot_status
+need_coordinates(const qdot_session *session)
+{
+    if (session->scene->coordinates.n > 0)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
+    return qdot_hint("declare them: coord theta");
+}
+
 qdot_status
 qdot_equilibria_find(qdot_session *session, qdot_equilibrium **list, size_t *n)
 {
     *list = NULL;
     *n = 0;
-    if (session->scene->coordinates.n == 0) {
-        (void)qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
-        return qdot_hint("declare them: coord theta");
-    }
+    QDOT_TRY(need_coordinates(session));
     return qdot_equilibrium_find(session->scene, bind, session, list, n);
 }
 
@@ -63,7 +69,8 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
     size_t n = 0, at = 0;
 
     if (equations == QDOT_NIL) { /* the first that is not unstable */
-        QDOT_TRY(qdot_equilibria_find(session, &list, &n));
+        QDOT_TRY(need_coordinates(session));
+        QDOT_TRY(qdot_equilibrium_first(session->scene, bind, session, &list, &n));
         while (at < n && list[at].stability == QDOT_UNSTABLE)
             at++;
         if (at < n)

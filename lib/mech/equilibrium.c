@@ -526,9 +526,9 @@ search(rest *r, qdot_expr equations, qdot_binder bind, void *user)
 
 /* --- all of them ------------------------------------------------------------------------- */
 
-/* Stability, in numbers where the place is. */
+/* Stability, in numbers where the place is; `first`: up to the first that is not unstable. */
 static qdot_status
-judge(rest *r, qdot_binder bind, void *user)
+judge(rest *r, bool first, qdot_binder bind, void *user)
 {
     for (size_t i = 0; i < r->found.n; i++) {
         QDOT_TRY(qdot_equilibrium_judge(r->s, &r->found.at[i]));
@@ -543,13 +543,15 @@ judge(rest *r, qdot_binder bind, void *user)
             if (when == QDOT_FALSE)
                 r->found.at[i].stability = QDOT_UNSTABLE;
         }
+        if (first && r->found.at[i].stability != QDOT_UNSTABLE)
+            r->found.n = i + 1;
     }
     return QDOT_OK;
 }
 
-qdot_status
-qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user,
-                      qdot_equilibrium **list, size_t *n)
+static qdot_status
+find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibrium **list,
+     size_t *n)
 {
     rest r = {.s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .complete = true};
     branch first, b;
@@ -568,7 +570,7 @@ qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user,
     if (status == QDOT_OK && !r.complete)
         status = search(&r, first.equations, bind, user);
     if (status == QDOT_OK)
-        status = judge(&r, bind, user);
+        status = judge(&r, first_only, bind, user);
     qdot_free(r.todo.at);
     qdot_free(r.unknowns.at);
     if (status != QDOT_OK) {
@@ -578,4 +580,18 @@ qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user,
     *list = r.found.at;
     *n = r.found.n;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user,
+                      qdot_equilibrium **list, size_t *n)
+{
+    return find(s, false, bind, user, list, n);
+}
+
+qdot_status
+qdot_equilibrium_first(qdot_scene *s, qdot_binder bind, void *user,
+                       qdot_equilibrium **list, size_t *n)
+{
+    return find(s, true, bind, user, list, n);
 }

@@ -48,6 +48,11 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bin
                                                   void *user, qdot_equilibrium **list,
                                                   size_t *n);
 
+/* The same up to the first that is not unstable; all if there is none. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_first(qdot_scene *s, qdot_binder bind,
+                                                   void *user, qdot_equilibrium **list,
+                                                   size_t *n);
+
 /* The equations of motion about `equations`: M, Gamma, H [*n * *n] over the coordinates of the
  * tangent space; N [coordinates * *n], x = N y. Each owned by the caller. keep_free: with the
  * coordinates that stand in no equation. */

@@ -8,7 +8,7 @@
 #include "normal/sample.h"
 #include "normal/simplify.h"
 
-enum { WORK = 1000000 };
+enum { WORK = 1000000, PRODUCT_WORK = 100000, POINTS = 24 };
 
 typedef struct {
     qdot_pool *pool;
@@ -73,11 +73,33 @@ sign_of_constant(job *j, qdot_expr e)
     return sign;
 }
 
+/* Whether e is above 0 at some points, below 0 at others: then no sign is to be proved. */
+static void
+look(job *j, qdot_expr e, bool *above, bool *below)
+{
+    qdot_sample sample;
+
+    *above = *below = false;
+    if (qdot_sample_begin(&sample, j->pool, 1, &e, j->facts) != QDOT_OK)
+        return;
+    for (int k = 0; k < POINTS && sample.possible && !(*above && *below); k++) {
+        arb_srcptr v;
+
+        qdot_sample_point(&sample, k);
+        if (!qdot_sample_eval(&sample, 64) || (v = qdot_ball_get(&sample.ball, e)) == NULL)
+            continue;
+        *above |= arb_is_positive(v);
+        *below |= arb_is_negative(v);
+    }
+    qdot_sample_end(&sample);
+}
+
 /* 1, -1: proved; 0: not known. */
 static int
 sign_of(job *j, qdot_expr e)
 {
     uint8_t sign = qdot_expr_node(j->pool, e)->sign;
+    bool above, below;
     qdot_decision d;
 
     if ((sign & QDOT_POS) == QDOT_POS)
@@ -86,10 +108,13 @@ sign_of(job *j, qdot_expr e)
         return -1;
     if ((qdot_expr_node(j->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)
         return sign_of_constant(j, e);
-    if (qdot_decide_less(j->pool, QDOT_ZERO, e, true, j->facts, &d) == QDOT_OK &&
+    look(j, e, &above, &below);
+    if (!below &&
+        qdot_decide_less(j->pool, QDOT_ZERO, e, true, j->facts, &d) == QDOT_OK &&
         d.verdict == QDOT_PROVED)
         return 1;
-    if (qdot_decide_less(j->pool, e, QDOT_ZERO, true, j->facts, &d) == QDOT_OK &&
+    if (!above &&
+        qdot_decide_less(j->pool, e, QDOT_ZERO, true, j->facts, &d) == QDOT_OK &&
         d.verdict == QDOT_PROVED)
         return -1;
     return 0;
@@ -153,6 +178,7 @@ conclude(job *j)
 {
     qdot_pool *pool = j->pool;
     qdot_expr rest;
+    bool spent;
 
     if (j->rest.n == 0)
         return j->sign > 0 ? QDOT_TRUE : QDOT_FALSE;
@@ -160,7 +186,8 @@ conclude(job *j)
         rest = j->rest.at[0];
         return without_minus(pool, j->sign > 0 ? rest : qdot_neg(pool, rest));
     }
-    rest = qdot_simplify(pool, qdot_product(pool, j->rest.n, j->rest.at), j->facts);
+    rest = qdot_simplify_within(pool, qdot_product(pool, j->rest.n, j->rest.at), j->facts,
+                                PRODUCT_WORK, &spent);
     return without_minus(pool, j->sign > 0 ? rest : qdot_neg(pool, rest));
 }
 
