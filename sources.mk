@@ -732,6 +732,7 @@ script_tests = \
 	tests/bad/integrable-unknown.lag \
 	tests/bad/interrupt.sh \
 	tests/bad/lagrangian-beside.lag \
+	tests/bad/lambda-component.lag \
 	tests/bad/lambda-unknown.lag \
 	tests/bad/laplacian-oblique.lag \
 	tests/bad/log-zero.lag \
@@ -759,6 +760,7 @@ script_tests = \
 	tests/bad/number-times.lag \
 	tests/bad/operator-end.lag \
 	tests/bad/outside-run.lag \
+	tests/bad/over-constrained.lag \
 	tests/bad/pi-parameter.lag \
 	tests/bad/pi-redefined.lag \
 	tests/bad/picture-kind.lag \
@@ -952,6 +954,7 @@ test_files = \
 	tests/bad/integrable-unknown.out \
 	tests/bad/interrupt.out \
 	tests/bad/lagrangian-beside.out \
+	tests/bad/lambda-component.out \
 	tests/bad/lambda-unknown.out \
 	tests/bad/laplacian-oblique.out \
 	tests/bad/log-zero.out \
@@ -979,6 +982,7 @@ test_files = \
 	tests/bad/number-times.out \
 	tests/bad/operator-end.out \
 	tests/bad/outside-run.out \
+	tests/bad/over-constrained.out \
 	tests/bad/pi-parameter.out \
 	tests/bad/pi-redefined.out \
 	tests/bad/picture-kind.out \

@@ -107,10 +107,12 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
     for (size_t k = 0; k < dof->constraints; k++) {
         if (dof->is_independent[k])
             continue;
-        qdot_text_add(out, found++ > 0 ? ", " : "\nredundant, beside those before: ");
+        qdot_text_add(out, found++ > 0   ? ", "
+                           : dof->unmet ? "\nredundant or contradicting those before: "
+                                        : "\nredundant, beside those before: ");
         print_constraint(&scene->constraints.at[k], out);
     }
-    if (found > 0)
+    if (found > 0 && !dof->unmet)
         qdot_text_add(out, "; the motion is unique, the multipliers are not");
     if (dof->unmet)
         qdot_text_add(out, "\nno configuration was found at which all constraints hold");

@@ -210,6 +210,30 @@ get_delta(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 
 /* --- multipliers -------------------------------------------------------------------- */
 
+/* Nothing is called `name`, "rod, 2": the constraint before the comma, if there is one, has
+ * fewer components. */
+static qdot_status
+no_component(qdot_session *s, const char *name)
+{
+    const size_t length = strcspn(name, ",");
+    size_t components = 0;
+
+    for (size_t i = 0; name[length] != '\0' && i < s->scene->constraints.n; i++) {
+        const qdot_constraint *c = &s->scene->constraints.at[i];
+
+        if (strlen(c->name) == length && strncmp(c->name, name, length) == 0) {
+            qdot_fail(QDOT_ENAME, "constraint `%s` has one component only", c->name);
+            return qdot_hint("write lambda[%.80s]", c->name);
+        }
+        components += c->label != NULL && strlen(c->label) == length &&
+                      strncmp(c->label, name, length) == 0;
+    }
+    if (components == 0)
+        return qdot_hints_unknown_label(s, "constraint", name);
+    return qdot_fail(QDOT_ENAME, "constraint `%.*s` has %zu components, and no `%.200s`",
+                     (int)length, name, components, name);
+}
+
 /* lambda[rod], lambda[pin, 1], lambda[2] of a constraint without label. */
 static qdot_status
 get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
@@ -244,7 +268,7 @@ get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
                            name.at);
         qdot_hint("write lambda[%.80s, 1]", name.at);
     } else if (status == QDOT_OK) {
-        status = qdot_hints_unknown_label(s, "constraint", name.at);
+        status = no_component(s, name.at);
     }
     qdot_text_clear(&name);
     return status;
