@@ -648,6 +648,7 @@ script_tests = \
 	tests/script/order.lag \
 	tests/script/parts.lag \
 	tests/script/pendulum.lag \
+	tests/script/plan-chain.lag \
 	tests/script/race.sh \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
@@ -1238,6 +1239,7 @@ test_files = \
 	tests/script/order.out \
 	tests/script/parts.out \
 	tests/script/pendulum.out \
+	tests/script/plan-chain.out \
 	tests/script/race.out \
 	tests/script/ranges.out \
 	tests/script/reactions.out \

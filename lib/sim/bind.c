@@ -325,7 +325,9 @@ qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
     const char *why = "machine code is made where equations are taken as M q'' = f";
     const size_t bytes = b->direct ? qdot_direct_code(b->direct, &why) : 0;
 
-    if (bytes > 0)
+    if (b->shifted && qdot_shifted_is_wide(b->shifted))
+        qdot_text_add(to, "kernels, like steps as vectors");
+    else if (bytes > 0)
         qdot_text_format(to, "machine code for AVX-512, %.1f kB", 1e-3 * (double)bytes);
     else
         qdot_text_format(to, "kernels; %s", why);

@@ -70,6 +70,15 @@ qdot_blocks_invert(qdot_blocks *b, size_t k)
 
     if (!s->inverse)
         return;
+    if (n == 2) { /* done before vectors are loaded */
+        const double first = 1 / s->a[0], second = 1 / s->a[3];
+        const double other = -s->a[2] * first * second;
+
+        s->inverse[0] = first * first + other * other;
+        s->inverse[1] = s->inverse[m] = other * second;
+        s->inverse[m + 1] = second * second;
+        return;
+    }
     /* rows of L^-1, each of those before it; what is beyond their diagonals is 0 */
     for (size_t i = 0; i < n; i++) {
         const double *L = s->a + i * n;

@@ -325,7 +325,8 @@ estimate_wide(qdot_shifted *s)
            1.2 * (double)qdot_tape_operations(s->residual->masses) + 40 * n + 4 * n * n +
            0.25 * n * n * n;
     c[1] = 20 + 4 * begun + 0.5 * products + 3 * n + 0.3 * n * n;
-    c[2] = 0.1 * convolutions;
+    /* more than it takes: orders near 40 cost the last digits */
+    c[2] = 0.3 * convolutions;
     if (s->forces) {
         c[1] += 1.2 * (double)qdot_taylor_length(s->forces) +
                 3.5 * qdot_taylor_convolutions(s->forces);
@@ -517,6 +518,12 @@ qdot_shifted_convolutions(const qdot_shifted *s)
     return qdot_taylor_convolutions(s->places) +
            (s->forces ? qdot_taylor_convolutions(s->forces) : 0) +
            (double)s->residual->n_slopes;
+}
+
+bool
+qdot_shifted_is_wide(const qdot_shifted *s)
+{
+    return s->wide != NULL;
 }
 
 size_t

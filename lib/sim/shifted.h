@@ -23,6 +23,8 @@ const qdot_ode_series *qdot_shifted_series(const qdot_shifted *shifted);
 
 /* Convolutions an order; how often M was factored. */
 double qdot_shifted_convolutions(const qdot_shifted *shifted);
+/* Whether like steps are taken as vectors (sim/shifted-wide.h). */
+bool qdot_shifted_is_wide(const qdot_shifted *shifted);
 size_t qdot_shifted_factored(const qdot_shifted *shifted);
 
 #endif
