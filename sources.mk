@@ -589,6 +589,7 @@ script_tests = \
 	tests/script/conserved.lag \
 	tests/script/constraint-fades.sh \
 	tests/script/constraint-switches.lag \
+	tests/script/coordinates.lag \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
 	tests/script/derive.lag \
@@ -1163,6 +1164,7 @@ test_files = \
 	tests/script/conserved.out \
 	tests/script/constraint-fades.out \
 	tests/script/constraint-switches.out \
+	tests/script/coordinates.out \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
 	tests/script/derive.out \

@@ -32,15 +32,25 @@ level(uint32_t holds)
     return 0;
 }
 
-/* Order of kinds within a level: among parameters a sum stands first, (m1 + m2)*L^2; undefined
- * functions stand last but for their values at a place, f'(a)*(x - a). */
+/* The level of a factor: a function of parameters or time stands with those of coordinates, behind
+ * what it multiplies: m*g*x*sin(alpha). */
+static int
+factor_level(const qdot_node *node)
+{
+    int l = level(node->holds);
+
+    return node->kind == QDOT_FUN && l > 0 && l < 3 ? 3 : l;
+}
+
+/* Order of kinds within a level: among parameters a sum of symbols stands first, (m1 + m2)*L^2, a
+ * longer one behind, m*(R^2 + h^2); undefined functions stand last but for their values at a place, f'(a)*(x - a). */
 static int
 kind_rank(const qdot_node *node)
 {
     static const int rank[] = {0, 1, 3, 6, 5, 4, 7, 8, 9, 10, 11, 12};
 
-    if (node->kind == QDOT_SUM && level(node->holds) == 1)
-        return 2;
+    if (node->kind == QDOT_SUM && level(node->holds) == 1 && node->size <= node->n / 2)
+        return 2; /* of k terms about as many operations: hardly more than symbols */
     if (node->kind == QDOT_UFUN && !(node->holds & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
         return rank[QDOT_FUN];
     return rank[node->kind];
@@ -81,7 +91,7 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
             return 0;
         if (deep(x) != deep(y)) /* or a comparison would go down all the way */
             return three(deep(x), deep(y));
-        d = x->holds == y->holds ? 0 : level(x->holds) - level(y->holds);
+        d = x->holds == y->holds && x->kind == y->kind ? 0 : factor_level(x) - factor_level(y);
         if (d == 0)
             d = kind_rank(x) - kind_rank(y);
         if (d != 0)
@@ -142,13 +152,16 @@ is_root(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
            !fmpz_is_one(fmpq_denref(x));
 }
 
-/* Bases among terms: derivatives of a function by its first argument before others, the higher
- * before the lower: f_rr + f_r/r + f_pp/r^2. */
+/* Bases among terms: sums of parameters first; derivatives of a function by its first argument before
+ * others, the higher before the lower: f_rr + f_r/r + f_pp/r^2. */
 static int
 compare_bases(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
 
+    if ((x->kind == QDOT_SUM) != (y->kind == QDOT_SUM) && deep(x) == deep(y) &&
+        factor_level(x) == 1 && factor_level(y) == 1)
+        return x->kind == QDOT_SUM ? -1 : 1;
     if (x->kind == QDOT_UFUN && y->kind == QDOT_UFUN && x->op == y->op && x->n == y->n &&
         deep(x) == deep(y) && level(x->holds) == level(y->holds))
         for (uint32_t i = x->n / 2; i < x->n; i++) {

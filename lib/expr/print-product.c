@@ -388,14 +388,15 @@ joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
     return dot(p);
 }
 
-/* Where a factor stands: of parameters, the roots of their sums behind them, the others:
- * a sqrt(b + c) x. */
+/* Where a factor stands: of parameters, the roots of their sums behind them, functions and the
+ * others: a sqrt(b + c) x sin(alpha). */
 static uint32_t
 place(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *k = qdot_expr_rational(pool, x);
 
-    if (NODE(pool, b)->holds & ~(uint32_t)(QDOT_HAS_PARAM | QDOT_HAS_FUN | QDOT_HAS_FORMAL))
+    if (NODE(pool, b)->kind == QDOT_FUN ||
+        (NODE(pool, b)->holds & ~(uint32_t)(QDOT_HAS_PARAM | QDOT_HAS_FUN | QDOT_HAS_FORMAL)))
         return 2;
     return NODE(pool, b)->kind == QDOT_SUM && k != NULL && !fmpz_is_one(fmpq_denref(k));
 }
@@ -435,6 +436,15 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
     }
 }
 
+static bool
+has_pi_below(const qdot_pool *pool, qdot_expr e)
+{
+    for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < NODE(pool, e)->n; i += 2)
+        if (ARGS(pool, e)[i] == QDOT_PI && below(pool, ARGS(pool, e)[i + 1]))
+            return true;
+    return false;
+}
+
 void
 qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
 {
@@ -454,8 +464,8 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     bool fraction = !fmpz_is_one(fmpq_denref(x));
     uint32_t up = count_factors(pool, e, &r, false),
              down = count_factors(pool, e, &r, true);
-    /* the number's denominator: 1/2*m/r, but 1/(2*r) where nothing else stands above */
-    bool inside = fraction && down > 0 && (up == 0 || drawn);
+    /* the number's denominator: 1/2*m/r, but 1/(2*r) where nothing else stands above, h/(2*pi) */
+    bool inside = fraction && down > 0 && (up == 0 || drawn || has_pi_below(pool, e));
     bool number = up == 0 || !fmpz_is_pm1(fmpq_numref(x)) || (fraction && !inside);
     bool several = !drawn && (down > 1 || inside), frac = drawn && down > 0;
     uint32_t written = number + up + down;

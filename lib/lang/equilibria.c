@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "expr/calculus.h"
 #include "lang/answer.h"
 #include "lang/statement.h"
 #include "mech/quantity.h"
@@ -88,6 +89,27 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
 
 /* --- equilibria ------------------------------------------------------------------------- */
 
+/* a > |b| for a > b and a + b > 0, a positive; else nil. */
+static qdot_expr
+as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
+{
+    qdot_expr sum, b;
+
+    if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_kind(pool, other) != QDOT_REL ||
+        qdot_expr_node(pool, one)->op != QDOT_LT ||
+        qdot_expr_node(pool, other)->op != QDOT_LT)
+        return QDOT_NIL;
+    one = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
+    other = qdot_sub(pool, qdot_expr_arg(pool, other, 1), qdot_expr_arg(pool, other, 0));
+    sum = qdot_expand(pool, qdot_mul(pool, QDOT_HALF, qdot_add(pool, one, other)));
+    b = qdot_expand(pool, qdot_mul(pool, QDOT_HALF, qdot_sub(pool, one, other)));
+    if (sum == QDOT_NIL || b == QDOT_NIL || qdot_expr_kind(pool, b) == QDOT_SUM ||
+        (qdot_expr_node(pool, sum)->sign & QDOT_POS) != QDOT_POS ||
+        (qdot_expr_node(pool, b)->sign & (QDOT_GE0 | QDOT_LE0)) != 0)
+        return QDOT_NIL;
+    return qdot_rel(pool, QDOT_LT, qdot_fun1(pool, QDOT_ABS, b), sum);
+}
+
 /* `a > b and c > d`; a relation reads with > as people say it, and `g < 0`. */
 static qdot_status
 print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
@@ -96,8 +118,15 @@ print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
 
     for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++) {
         qdot_expr one = qdot_expr_arg(pool, list, i);
+        bool first = i == 0;
 
-        qdot_text_add(out, i > 0 ? " and " : "");
+        if (i + 1 < qdot_expr_count(pool, list)) {
+            qdot_expr both = as_magnitude(pool, one, qdot_expr_arg(pool, list, i + 1));
+
+            i += both != QDOT_NIL;
+            one = both != QDOT_NIL ? both : one;
+        }
+        qdot_text_add(out, first ? "" : " and ");
         if (qdot_expr_kind(pool, one) != QDOT_REL ||
             qdot_expr_node(pool, one)->op != QDOT_LT ||
             qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {

@@ -278,29 +278,39 @@ conditions_left(const rest *r, qdot_expr conditions)
     return left;
 }
 
+/* Whether a full turn of u changes no equation. */
+static bool
+is_angle(const rest *r, qdot_expr u, qdot_expr equations)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
+              shifted = qdot_add(pool, u, turn);
+
+    shifted = qdot_subs(pool, equations, 1, &u, &shifted);
+    for (uint32_t i = 0; shifted != QDOT_NIL && i < qdot_expr_count(pool, equations); i++)
+        if (!qdot_is_zero(pool,
+                          qdot_sub(pool, qdot_expr_arg(pool, shifted, i),
+                                   qdot_expr_arg(pool, equations, i)),
+                          &r->facts))
+            return false;
+    return shifted != QDOT_NIL;
+}
+
 /* An angle beyond -pi < q <= pi that came of others: turned back where the equations allow it. */
 static qdot_expr
 turned(const rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
 {
     qdot_pool *pool = r->pool;
     const qdot_symbol *x = qdot_expr_symbol(pool, u);
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), shifted;
+    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
     double v;
 
     if (x->class != QDOT_COORD || x->lo != QDOT_NIL || x->hi != QDOT_NIL ||
         qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_FUN ||
         !qdot_expr_contains(pool, value, QDOT_PI) ||
         qdot_generic_evaluate(pool, 1, &value, 0, NULL, NULL, 1, &v) != QDOT_OK ||
-        !isfinite(v))
+        !isfinite(v) || !is_angle(r, u, equations))
         return value;
-    shifted = qdot_add(pool, u, turn);
-    shifted = qdot_subs(pool, equations, 1, &u, &shifted);
-    for (uint32_t i = 0; i < qdot_expr_count(pool, equations); i++)
-        if (!qdot_is_zero(pool,
-                          qdot_sub(pool, qdot_expr_arg(pool, shifted, i),
-                                   qdot_expr_arg(pool, equations, i)),
-                          &r->facts))
-            return value;
     for (; v > M_PI + 1e-9; v -= 2 * M_PI)
         value = qdot_sub(pool, value, turn);
     for (; v <= -M_PI + 1e-9; v += 2 * M_PI)
@@ -524,6 +534,91 @@ search(rest *r, qdot_expr equations, qdot_binder bind, void *user)
     return status;
 }
 
+/* --- what is there twice ----------------------------------------------------------------- */
+
+/* Whether d is a whole number of turns. */
+static bool
+is_turns(const rest *r, qdot_expr d)
+{
+    const fmpq *c;
+
+    d = qdot_simplify(r->pool, d, &r->facts);
+    if (d == QDOT_NIL || qdot_expr_kind(r->pool, d) != QDOT_PROD ||
+        qdot_expr_count(r->pool, d) != 3 || qdot_expr_arg(r->pool, d, 1) != QDOT_PI ||
+        qdot_expr_arg(r->pool, d, 2) != QDOT_ONE)
+        return false;
+    c = qdot_expr_rational(r->pool, qdot_expr_arg(r->pool, d, 0));
+    return fmpz_is_one(fmpq_denref(c)) && fmpz_is_even(fmpq_numref(c));
+}
+
+/* Whether the place `one` lies in the family `all` (or is it, full turns away), where that exists. */
+static bool
+lies_in(const rest *r, const qdot_equilibrium *one, const qdot_equilibrium *all,
+        qdot_expr equations)
+{
+    qdot_pool *pool = r->pool;
+    uint32_t n = qdot_expr_count(pool, one->equations),
+             m = qdot_expr_count(pool, all->equations);
+    qdot_expr *from = qdot_calloc(2 * (size_t)n + 1, sizeof *from), *to;
+    bool inside = m <= n;
+
+    if (from == NULL)
+        return false;
+    to = from + n;
+    for (uint32_t i = 0; i < n && inside; i++) {
+        from[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, one->equations, i), 0);
+        to[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, one->equations, i), 1);
+    }
+    for (uint32_t k = 0; k < m && inside; k++) {
+        qdot_expr u = qdot_expr_arg(pool, qdot_expr_arg(pool, all->equations, k), 0),
+                  v = qdot_expr_arg(pool, qdot_expr_arg(pool, all->equations, k), 1), d;
+        uint32_t i = 0;
+
+        while (i < n && from[i] != u)
+            i++;
+        if (i == n) {
+            inside = false;
+            break;
+        }
+        d = qdot_sub(pool, to[i], qdot_subs(pool, v, n, from, to));
+        inside = d != QDOT_NIL && (d == QDOT_ZERO ||
+                                   (qdot_mech_holds(r->s, d) != 0 &&
+                                    qdot_is_zero(pool, d, &r->facts)) ||
+                                   (is_turns(r, d) && is_angle(r, u, equations)));
+    }
+    if (inside && all->exists != QDOT_NIL && all->exists != one->exists) {
+        qdot_expr left =
+            conditions_left(r, qdot_subs(pool, all->exists, n, from, to));
+
+        inside = left == QDOT_NIL && !qdot_pool_failed(pool);
+    }
+    qdot_free(from);
+    return inside;
+}
+
+/* Places in a family that is listed too, or full turns from one listed before, are left out. */
+static qdot_status
+leave_out_twice(rest *r, qdot_expr equations)
+{
+    size_t kept = 0;
+    bool *out = qdot_calloc(r->found.n + 1, sizeof *out);
+
+    if (out == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < r->found.n; i++)
+        for (size_t j = 0; j < r->found.n && !out[i]; j++)
+            out[i] = j != i && !out[j] && !r->found.at[i].numeric &&
+                     (j < i || qdot_expr_count(r->pool, r->found.at[j].equations) <
+                                   qdot_expr_count(r->pool, r->found.at[i].equations)) &&
+                     lies_in(r, &r->found.at[i], &r->found.at[j], equations);
+    for (size_t i = 0; i < r->found.n; i++)
+        if (!out[i])
+            r->found.at[kept++] = r->found.at[i];
+    r->found.n = kept;
+    qdot_free(out);
+    return qdot_pool_check(r->pool);
+}
+
 /* --- all of them ------------------------------------------------------------------------- */
 
 /* Stability, in numbers where the place is; `first`: up to the first that is not unstable. */
@@ -569,6 +664,8 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
     }
     if (status == QDOT_OK && !r.complete)
         status = search(&r, first.equations, bind, user);
+    if (status == QDOT_OK)
+        status = leave_out_twice(&r, first.equations);
     if (status == QDOT_OK)
         status = judge(&r, first_only, bind, user);
     qdot_free(r.todo.at);

@@ -277,6 +277,83 @@ works_nothing(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
     return true;
 }
 
+/* What stands below in v, once: v is multiplied by it. */
+static qdot_expr
+denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
+{
+    qdot_expr all = QDOT_ONE;
+    fmpz_t lcm;
+
+    fmpz_init_set_ui(lcm, 1);
+    for (size_t k = 0; k < m && all != QDOT_NIL; k++) {
+        qdot_expr rest = qdot_mul(pool, v[k], all);
+        const fmpq *c = qdot_expr_rational(pool, v[k]);
+
+        if (rest != QDOT_NIL && qdot_expr_kind(pool, rest) == QDOT_PROD) {
+            c = qdot_expr_rational(pool, qdot_expr_arg(pool, rest, 0));
+            for (uint32_t i = 1; i < qdot_expr_count(pool, rest); i += 2) {
+                qdot_expr x = qdot_expr_arg(pool, rest, i + 1);
+
+                if (qdot_expr_is_negative(pool, x))
+                    all = qdot_mul(pool, all,
+                                   qdot_pow(pool, qdot_expr_arg(pool, rest, i),
+                                            qdot_neg(pool, x)));
+            }
+        }
+        if (c != NULL)
+            fmpz_lcm(lcm, lcm, fmpq_denref(c));
+    }
+    if (!fmpz_is_one(lcm)) {
+        fmpq_t c;
+
+        fmpq_init(c);
+        fmpq_set_fmpz(c, lcm);
+        all = qdot_mul(pool, all, qdot_expr_fmpq(pool, c));
+        fmpq_clear(c);
+    }
+    fmpz_clear(lcm);
+    return all;
+}
+
+/* The sign as in books: the energy, x y' - y x', a translation. */
+static void
+turn(const search *f, const unknown *u, size_t m, qdot_expr *v)
+{
+    qdot_pool *pool = f->pool;
+    size_t lead = m;
+    int best = 0;
+
+    for (size_t k = m; k-- > 0;) { /* what is declared first stands last */
+        int rank = u[k].kind == TIME                          ? 4
+                   : u[k].kind == ROTATION && u[k].i > u[k].j ? 3
+                   : u[k].kind == TRANSLATION                 ? 2
+                                                              : 1;
+
+        v[k] = qdot_simplify(pool, v[k], NULL);
+        if (v[k] != QDOT_ZERO && rank > best) {
+            best = rank;
+            lead = k;
+        }
+    }
+    if (lead < m && v[lead] != QDOT_NIL && qdot_expr_is_negative(pool, v[lead]))
+        for (size_t k = 0; k < m; k++)
+            v[k] = qdot_neg(pool, v[k]);
+}
+
+/* tau h - sum, the energy with its own sign: as it is said by itself, or all in one. */
+static qdot_expr
+with_energy(const search *f, qdot_expr tau, qdot_expr sum)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr h = qdot_mul(pool, tau, qdot_mech_energy(f->s)), apart, whole;
+
+    apart = qdot_sub(pool, h, qdot_simplify(pool, sum, &f->facts));
+    whole = qdot_simplify(pool, qdot_expand(pool, qdot_sub(pool, h, sum)), &f->facts);
+    if (apart == QDOT_NIL || whole == QDOT_NIL)
+        return QDOT_NIL;
+    return qdot_expr_size(pool, whole) < qdot_expr_size(pool, apart) ? whole : apart;
+}
+
 /* The quantity of the symmetry v, if all is proved. */
 static qdot_expr
 quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
@@ -301,19 +378,41 @@ quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
         if (xi != QDOT_ZERO)
             sum = qdot_add(pool, sum, qdot_mul(pool, xi, qdot_mech_momentum(f->s, q)));
     }
-    if (tau != QDOT_ZERO) {
+    if (tau != QDOT_ZERO)
         change =
             qdot_add(pool, change, qdot_mul(pool, tau, qdot_diff(pool, f->L, QDOT_T)));
-        sum = qdot_sub(pool, sum, qdot_mul(pool, tau, qdot_mech_energy(f->s)));
-    }
     change = qdot_simplify(pool, change, &f->facts);
     if (change == QDOT_NIL || !gauge(f, change, &K))
         return QDOT_NIL;
     sum = qdot_sub(pool, sum, K);
-    if (tau != QDOT_ZERO) /* the energy with its own sign */
-        sum = qdot_expand(pool, qdot_neg(pool, sum));
-    sum = qdot_simplify(pool, sum, &f->facts);
+    if (tau == QDOT_ZERO)
+        sum = qdot_simplify(pool, sum, &f->facts);
+    else
+        sum = with_energy(f, tau, sum);
     return qdot_mech_holds(f->s, sum) & motion ? sum : QDOT_NIL;
+}
+
+/* The quantity of v, or of v without denominators where that is shorter. */
+static qdot_expr
+shortest(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr by, one, other;
+
+    turn(f, f->unknowns.at, m, v);
+    one = quantity(f, f->unknowns.at, m, e, v);
+    by = denominators(pool, m, v);
+    if (one == QDOT_NIL || by == QDOT_ONE || by == QDOT_NIL)
+        return one;
+    for (size_t k = 0; k < m; k++)
+        v[k] = qdot_simplify(pool, qdot_mul(pool, v[k], by), NULL);
+    other = quantity(f, f->unknowns.at, m, e, v);
+    /* of two as long that without fractions: 3*m1*x1' + 2*m2*x2' */
+    return other != QDOT_NIL &&
+                   qdot_expr_size(pool, other) <
+                       qdot_expr_size(pool, one) + (qdot_expr_kind(pool, by) == QDOT_NUM)
+               ? other
+               : one;
 }
 
 /* --- the search ----------------------------------------------------------------------- */
@@ -395,7 +494,7 @@ search_linear(search *f)
     if (status == QDOT_OK && m > 0)
         status = qdot_null_space(f->pool, rows(f), m, e, &basis, &count);
     for (size_t k = count; k-- > 0 && status == QDOT_OK;) {
-        qdot_expr one = quantity(f, f->unknowns.at, m, e, basis + k * m);
+        qdot_expr one = shortest(f, m, e, basis + k * m);
 
         status = qdot_pool_check(f->pool);
         if (status == QDOT_OK && one != QDOT_NIL)

@@ -94,6 +94,39 @@ look(job *j, qdot_expr e, bool *above, bool *below)
     qdot_sample_end(&sample);
 }
 
+static bool
+is_known(const job *j, qdot_expr b)
+{
+    if ((qdot_expr_node(j->pool, b)->sign & QDOT_POS) == QDOT_POS)
+        return true;
+    for (size_t i = 0; i < j->n_known; i++)
+        if (j->known[i] == b)
+            return true;
+    return false;
+}
+
+/* Whether e is a product of powers, or of powers of products, of what is known to be positive. */
+static bool
+is_of_known(const job *j, qdot_expr e)
+{
+    qdot_pool *pool = j->pool;
+
+    if (qdot_expr_kind(pool, e) != QDOT_PROD || qdot_expr_is_negative(pool, e))
+        return false;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i);
+
+        if (is_known(j, b))
+            continue;
+        if (qdot_expr_kind(pool, b) != QDOT_PROD || qdot_expr_is_negative(pool, b))
+            return false;
+        for (uint32_t k = 1; k < qdot_expr_count(pool, b); k += 2)
+            if (!is_known(j, qdot_expr_arg(pool, b, k)))
+                return false;
+    }
+    return true;
+}
+
 /* 1, -1: proved; 0: not known. */
 static int
 sign_of(job *j, qdot_expr e)
@@ -106,6 +139,8 @@ sign_of(job *j, qdot_expr e)
         return 1;
     if ((sign & QDOT_NEG) == QDOT_NEG)
         return -1;
+    if (j->n_known > 0 && is_of_known(j, e))
+        return 1;
     if ((qdot_expr_node(j->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)
         return sign_of_constant(j, e);
     look(j, e, &above, &below);

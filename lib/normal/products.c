@@ -111,6 +111,59 @@ signs_in_front(qdot_pool *pool, qdot_expr e)
     return result;
 }
 
+/* c (c1 a + ...) with a fraction c as a sum, where that is shorter: v^2/4 + x^2 for (v^2 + 4 x^2)/4. */
+static qdot_expr
+number_in(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr sum, rest = QDOT_ZERO, c = qdot_expr_arg(pool, e, 0);
+
+    if (qdot_expr_count(pool, e) != 3 || qdot_expr_arg(pool, e, 2) != QDOT_ONE ||
+        fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, c))))
+        return e;
+    sum = qdot_expr_arg(pool, e, 1);
+    if (qdot_expr_kind(pool, sum) != QDOT_SUM)
+        return e;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, sum); i += 2)
+        rest = qdot_add(pool, rest,
+                        qdot_mul(pool,
+                                 qdot_mul(pool, c, qdot_expr_arg(pool, sum, i + 1)),
+                                 qdot_expr_arg(pool, sum, i)));
+    rest = qdot_add(pool, rest, qdot_mul(pool, c, qdot_expr_arg(pool, sum, 0)));
+    return rest != QDOT_NIL && qdot_expr_size(pool, rest) < qdot_expr_size(pool, e) ? rest : e;
+}
+
+/* The same of a factor of a product: c (c1 a + ...) x. */
+static qdot_expr
+number_into(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr c = qdot_expr_arg(pool, e, 0);
+
+    if (qdot_expr_count(pool, e) == 3 || fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, c))))
+        return number_in(pool, e);
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i), one, result;
+
+        if (qdot_expr_kind(pool, b) != QDOT_SUM || qdot_expr_arg(pool, e, i + 1) != QDOT_ONE)
+            continue;
+        one = qdot_mul(pool, c, b);
+        if (one == QDOT_NIL || qdot_expr_kind(pool, one) != QDOT_PROD)
+            continue;
+        one = number_in(pool, one);
+        if (one == QDOT_NIL || qdot_expr_kind(pool, one) != QDOT_SUM)
+            continue;
+        result = qdot_mul(pool, qdot_div(pool, e, qdot_mul(pool, c, b)), one);
+        if (result != QDOT_NIL && qdot_expr_size(pool, result) < qdot_expr_size(pool, e))
+            return result;
+    }
+    return e;
+}
+
+qdot_expr
+qdot_products_numbers(qdot_pool *pool, qdot_expr e)
+{
+    return on_nodes(pool, e, QDOT_PROD, number_into);
+}
+
 qdot_expr
 qdot_products_tangents(qdot_pool *pool, qdot_expr e)
 {

@@ -178,7 +178,13 @@ origin(qdot_pool *pool, qdot_expr node, void *user)
 
     if (!qdot_map_get(&o->map, node, &before))
         return QDOT_NIL;
-    return qdot_expr_size(pool, before) < qdot_expr_size(pool, node) ? before : QDOT_NIL;
+    /* of two as long a sum: sqrt(v^2 - x^2), not sqrt((v - x)*(v + x)) */
+    return qdot_expr_size(pool, before) <
+                   qdot_expr_size(pool, node) +
+                       (qdot_expr_kind(pool, before) == QDOT_SUM &&
+                        qdot_expr_kind(pool, node) == QDOT_PROD)
+               ? before
+               : QDOT_NIL;
 }
 
 /* Powers x of sums in a product, as bits of `with`: of their product's origin, where it has one. */
@@ -312,9 +318,18 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
         s.best = qdot_products_signs(pool, s.best);
         if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
             keep(&s, qdot_products_out(pool, s.best));
+        if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
+            keep(&s, qdot_products_numbers(pool, s.best));
         if (s.best != QDOT_NIL && origins.map.n > 0) {
-            keep(&s, roots_back(pool, s.best, &origins.map));
-            keep(&s, qdot_walk_map(pool, s.best, origin, &origins));
+            qdot_expr back = roots_back(pool, s.best, &origins.map);
+
+            if (back != QDOT_NIL &&
+                qdot_expr_size(pool, back) <= qdot_expr_size(pool, s.best))
+                s.best = back;
+            back = qdot_walk_map(pool, s.best, origin, &origins);
+            if (back != QDOT_NIL &&
+                qdot_expr_size(pool, back) <= qdot_expr_size(pool, s.best))
+                s.best = back;
         }
     }
     if (f.state == QDOT_FIELD_FAILED &&
