@@ -221,6 +221,15 @@ ends_in(const char *path, const char *ending)
     return n > m && strcmp(path + n - m, ending) == 0;
 }
 
+static bool
+any_done(const qdot_workprecision *w)
+{
+    for (size_t i = 0; i < w->n; i++)
+        if (isfinite(w->rows[i].err))
+            return true;
+    return false;
+}
+
 static qdot_status
 tell(qdot_session *session, const qdot_workprecision *w, const char *path)
 {
@@ -232,7 +241,8 @@ tell(qdot_session *session, const qdot_workprecision *w, const char *path)
                                     w->unfit[i].method, w->unfit[i].reason));
     if (path == NULL) {
         QDOT_TRY(answer_table(session, w));
-        return figure(session, w, NULL);
+        return any_done(w) ? figure(session, w, NULL)
+                           : qdot_fail(QDOT_EFAILED, "no method came to the end");
     }
     if (!ends_in(path, ".csv") && !ends_in(path, ".txt"))
         return figure(session, w, path);

@@ -145,8 +145,12 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
         status = QDOT_OK;
     if (status == QDOT_OK)
         status = qdot_precise_pair_sample(run->precise, &run->course.tr);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK) {
+        const size_t stopped_by = guide ? guide->stopped_by : SIZE_MAX;
+
         status = qdot_course_prepare(&run->course);
+        run->course.stopped_by = stopped_by;
+    }
     if (status == QDOT_OK)
         status = how_it_ended(run, domains);
     if (status == QDOT_OK && !*interrupted)

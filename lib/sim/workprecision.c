@@ -8,6 +8,7 @@
 #include "ode/integrate.h"
 #include "sim/bind.h"
 #include "sim/constrained.h"
+#include "sim/course.h"
 #include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/plan.h"
@@ -23,7 +24,12 @@ static const double reference_tol = 1e-15;
 
 /* A method at work. */
 typedef struct {
-    qdot_plan *plan;
+    qdot_run_request request;
+    qdot_stage stage;
+    qdot_course course; /* of a run that may be divided into pieces */
+    bool pieces;
+    double t_end;
+    qdot_plan *plan; /* the stage's */
     qdot_bind *bind;
     qdot_ode_system inner, system; /* the system counts evaluations of the inner one */
     qdot_ode_series series;
@@ -41,6 +47,8 @@ typedef struct {
 typedef struct {
     size_t n;
     double *high, *low;
+    double t_end;
+    bool stopped;     /* by an event, there */
     double variation; /* of the motion (horizon.h) */
 } reference;
 
@@ -86,7 +94,9 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
         status = QDOT_ENOMEM;
     else
         r->low = r->high + r->n;
-    if (status == QDOT_OK && report->status != QDOT_RUN_DONE)
+    r->t_end = report->t1;
+    r->stopped = report->status == QDOT_RUN_STOPPED;
+    if (status == QDOT_OK && report->status == QDOT_RUN_FAILED)
         status = qdot_fail(QDOT_EFAILED, "the reference did not reach the end: %.300s",
                            report->reason);
     if (status == QDOT_OK && isnan(report->error))
@@ -102,10 +112,11 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     return status;
 }
 
+/* The time counts where an event ends the run. */
 static double
-error_against(const reference *r, const double *y)
+error_against(const reference *r, const double *y, double t)
 {
-    double most = 0;
+    double most = r->stopped ? fabs(t - r->t_end) / fmax(1, fabs(r->t_end)) : 0;
 
     for (size_t i = 0; i < r->n; i++) {
         double e = fabs((y[i] - r->high[i]) - r->low[i]) / fmax(1, fabs(r->high[i]));
@@ -191,8 +202,9 @@ follow(double t, const double *y, bool *stop, void *user)
 static void
 worker_clear(worker *w)
 {
+    qdot_course_clear(&w->course);
     qdot_bind_free(w->bind);
-    qdot_plan_free(w->plan);
+    qdot_stage_clear(&w->stage);
     qdot_tape_free(w->energy);
     qdot_free(w->start);
     qdot_free(w->in);
@@ -278,15 +290,17 @@ static qdot_status
 worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
             const char *method, double budget)
 {
-    qdot_run_request own = *request;
     double n, operations;
 
-    own.method = method;
-    own.digits = 0;
-    own.tol = 1e-12;
-    if (scene->events.n > 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: workprecision with events");
-    QDOT_TRY(qdot_plan_new(scene, &own, &w->plan));
+    w->request = *request;
+    w->request.method = method;
+    w->request.digits = 0;
+    w->request.tol = 1e-12;
+    QDOT_TRY(qdot_stage_begin(&w->stage, scene, &w->request));
+    w->plan = w->stage.modes.at[0]->plan;
+    w->pieces = w->stage.switches.surfaces.n > 0;
+    for (size_t i = 0; i < w->stage.events.n; i++)
+        w->pieces = w->pieces || w->stage.events.at[i].stop || w->stage.events.at[i].then;
     QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
     QDOT_TRY(read_start(w, request));
     QDOT_TRY(settle_start(w, scene, request));
@@ -304,6 +318,64 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     return QDOT_OK;
 }
 
+/* Whether the energy is that of the start all along. */
+static bool
+keeps_energy(const worker *w)
+{
+    for (size_t i = 0; i < w->stage.events.n; i++)
+        if (w->stage.events.at[i].then)
+            return false;
+    return w->energy != NULL;
+}
+
+/* What is followed, at all points of the course. */
+static void
+follow_course(worker *w)
+{
+    const qdot_trajectory *tr = &w->course.tr;
+
+    w->drift = w->residual = 0;
+    for (size_t k = 0; k < tr->count; k++) {
+        const double *y = tr->y + k * tr->n;
+        const qdot_trajectory_piece *p = tr->pieces.at + qdot_trajectory_piece_of(tr, k);
+
+        if (keeps_energy(w))
+            follow_energy(w, tr->t[k], y);
+        if (w->held) {
+            w->held = qdot_bind_held(w->course.binds.at[p->mode]);
+            follow_constraints(w, tr->t[k], y);
+        }
+    }
+}
+
+/* The same where events, domains or switches divide it. */
+static qdot_status
+go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
+{
+    const uint64_t a_step = w->plan->method->series ? 1 : 10; /* evaluations, about */
+    const qdot_ode_options options = {.tol = tol,
+                                      .carry = w->low,
+                                      .t1_low = w->t1_low,
+                                      .max_steps = w->most_evaluations / a_step + 1};
+    const qdot_trajectory *tr = &w->course.tr;
+    qdot_status status;
+
+    qdot_course_clear(&w->course);
+    w->course.stage = &w->stage;
+    w->course.touch_tol = tol;
+    status = qdot_course_run(&w->course, w->plan->method, &options, w->t0, w->t1, w->start);
+    *result = tr->result;
+    if (tr->count == 0)
+        return status == QDOT_OK ? qdot_fail(QDOT_EFAILED, "nothing was integrated") : status;
+    memcpy(w->y, tr->y + (tr->count - 1) * tr->n, tr->n * sizeof *w->y);
+    w->t_end = tr->t[tr->count - 1];
+    if (status == QDOT_OK && w->course.failed)
+        return qdot_fail(QDOT_EFAILED, "%s", w->course.reason);
+    if (watched && status == QDOT_OK)
+        follow_course(w);
+    return status;
+}
+
 /* From the start to the end, `watched` or timed. */
 static qdot_status
 go(worker *w, double tol, bool watched, qdot_ode_result *result)
@@ -311,8 +383,11 @@ go(worker *w, double tol, bool watched, qdot_ode_result *result)
     qdot_ode_options options = {
         .tol = tol, .carry = w->low, .t1_low = w->t1_low};
 
+    if (w->pieces)
+        return go_in_pieces(w, tol, watched, result);
     memcpy(w->y, w->start, w->inner.n * sizeof *w->y);
     w->evaluations = 0;
+    w->t_end = w->t1;
     if (watched && (w->energy || w->held)) {
         w->drift = w->residual = 0;
         options.accepted = follow;
@@ -381,12 +456,17 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
         return QDOT_OK;
     }
     QDOT_TRY(status);
-    row->err = error_against(r, w->y);
+    if (r->stopped != (w->pieces && w->course.stopped_by != SIZE_MAX)) {
+        strcpy(row->status, r->stopped ? "failed: the event that ends the run was not met"
+                                       : "failed: an event ended the run");
+        return QDOT_OK;
+    }
+    row->err = error_against(r, w->y, w->t_end);
     strcpy(row->status, row->err >= QDOT_HORIZON_NONE_LEFT * r->variation
                             ? "done: no digit is right"
                             : "done");
     row->scd = -log10(fmax(row->err, 0x1p-60));
-    if (w->energy)
+    if (keeps_energy(w))
         row->energy_err = w->drift;
     if (w->held)
         row->constraint_err = w->residual;

@@ -14,6 +14,10 @@
  *     time        CPU seconds of the integration alone, this thread, no companion: the
  *                 least and the median of three to nine runs
  *
+ * Events with `then` or `stop` and switches divide the runs as they do any (course.h); their
+ * location is part of the time. Where an event ends them its time is compared, too; the energy
+ * is followed where no event changes the state.
+ *
  * A run whose error is a tenth of the motion's variation (horizon.h) is a row that says
  * that no digit is right; one that fails, or that takes more evaluations than are worth waiting for, is a row
  * that says so. The run whose energy is followed is not one of those timed.

@@ -37,6 +37,15 @@ awk -F , 'NR > 1 && $1 !~ /bsimp|msbdf/ && ($13 != "done" || $3 > 1e5*$2 + 20*$1
     print "what is this:", $0 }
     NR > 1 { rows++ }
     END { print rows % 13, "left of rows by thirteen" }' tied.csv
+# Events that change the state, switches, and an event that ends the runs, whose time counts.
+for scene in "coord x; particle a mass 1 at x; force -9.81 on x; event hit: x = 0 falling then x' = -0.8*x'
+start x = 1; workprecision 0..0.6" "coord x; particle a mass 1 at x; potential x^2/2 + abs(x)/3
+start x = 1; workprecision 0..1.5" "coord r > 0, phi; particle a mass 1 at (r*cos(phi), r*sin(phi)); potential -1/r
+event full: phi = 1 rising stop; start r = 0.5, phi' = 3; workprecision 0..50"; do
+    echo "$scene to \"divided.csv\"" | qdot -q - | sed '/^err/d'
+    awk -F , 'NR > 1 && $1 !~ /ms|bsimp/ && ($12 != "done" || $3 > 1000*$2 + 1e-13) { print "what is this:", $0 }
+        NR > 1 { rows++; done += $12 == "done" } END { print rows, done }' divided.csv
+done
 # What cannot be said is refused before anything is integrated.
 echo 'coord x; particle a mass 1 at x; workprecision 0..1 to "wp.h5"' | qdot -
 echo 'coord x; particle a mass 1 at x; workprecision 0..0' | qdot -
