@@ -138,6 +138,7 @@ normal_sources = \
 	lib/normal/ideal.c \
 	lib/normal/inequality.c \
 	lib/normal/items.c \
+	lib/normal/known-signs.c \
 	lib/normal/lattice.c \
 	lib/normal/less.c \
 	lib/normal/linear.c \
@@ -162,6 +163,7 @@ normal_sources = \
 	lib/normal/simple.c \
 	lib/normal/simplify.c \
 	lib/normal/solve-factors.c \
+	lib/normal/solve-signs.c \
 	lib/normal/solve-sort.c \
 	lib/normal/solve.c \
 	lib/normal/split.c \
@@ -659,6 +661,7 @@ script_tests = \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
 	tests/script/several.sh \
+	tests/script/signs.lag \
 	tests/script/solve.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
@@ -1251,6 +1254,7 @@ test_files = \
 	tests/script/run.out \
 	tests/script/saved-run.out \
 	tests/script/several.out \
+	tests/script/signs.out \
 	tests/script/solve.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \

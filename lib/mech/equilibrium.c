@@ -346,6 +346,27 @@ with_domains(const rest *r, const branch *b)
     return all;
 }
 
+/* Whether the equations have values there: that a numerator vanishes is not enough. */
+static qdot_status
+are_defined(const rest *r, qdot_expr equations, qdot_expr values, bool *yes)
+{
+    uint32_t n = qdot_expr_count(r->pool, values);
+    qdot_expr *from = qdot_malloc((2 * (size_t)n + 1) * sizeof *from);
+    qdot_status status;
+
+    if (from == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++) {
+        from[i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 0);
+        from[n + i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 1);
+    }
+    (void)qdot_subs(r->pool, equations, n, from, from + n);
+    qdot_free(from);
+    status = qdot_pool_check(r->pool);
+    *yes = status == QDOT_OK;
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
 /* The known values in the order of the unknowns. */
 static qdot_status
 emit(rest *r, const branch *b, qdot_expr equations)
@@ -353,6 +374,7 @@ emit(rest *r, const branch *b, qdot_expr equations)
     qdot_pool *pool = r->pool;
     qdot_equilibrium e = {.exists = QDOT_NIL};
     qdot_expr *list;
+    bool yes = true;
     size_t n = 0;
 
     e.exists = conditions_left(r, with_domains(r, b));
@@ -377,9 +399,11 @@ emit(rest *r, const branch *b, qdot_expr equations)
     e.equations = qdot_list(pool, (uint32_t)n, list);
     qdot_free(list);
     QDOT_TRY(qdot_pool_check(pool));
-    for (size_t i = 0; i < r->found.n; i++)
-        if (r->found.at[i].equations == e.equations)
-            return QDOT_OK;
+    QDOT_TRY(are_defined(r, equations, e.equations, &yes));
+    for (size_t i = 0; yes && i < r->found.n; i++)
+        yes = r->found.at[i].equations != e.equations;
+    if (!yes)
+        return QDOT_OK;
     if (r->found.n >= MOST_SOLUTIONS)
         return too_many();
     return qdot_vec_push(&r->found, e);

@@ -53,7 +53,8 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_first(qdot_scene *s, qdot_binder bi
                                                    void *user, qdot_equilibrium **list,
                                                    size_t *n);
 
-/* The equations of motion about `equations`: M, Gamma, H [*n * *n] over the coordinates of the
+/* The equations of motion about `equations`, which hold where `exists` does (a LIST; nil:
+ * everywhere): M, Gamma, H [*n * *n] over the coordinates of the
  * tangent space; N [coordinates * *n], x = N y. Each owned by the caller. keep_free: with the
  * coordinates that stand in no equation. */
 typedef struct {
@@ -61,7 +62,7 @@ typedef struct {
     qdot_expr *M, *Gamma, *H, *N;
 } qdot_linear_motion;
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_linear(qdot_scene *s, qdot_expr equations,
-                                                    bool keep_free,
+                                                    qdot_expr exists, bool keep_free,
                                                     qdot_linear_motion *out);
 void qdot_linear_motion_clear(qdot_linear_motion *m);
 

@@ -453,7 +453,7 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     for (size_t k = 0; k < s->constraints.n; k++)
         if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
             return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
-    QDOT_TRY(qdot_equilibrium_linear(s, equations, true, &j.m));
+    QDOT_TRY(qdot_equilibrium_linear(s, equations, QDOT_NIL, true, &j.m));
     status = check_motion(&j);
     if (status == QDOT_OK && !numbers)
         status = exact(&j, &done);

@@ -10,20 +10,42 @@
 
 /* --- linear motion -------------------------------------------------------------------- */
 
+/* The facts of a scene where it has an equilibrium: the conditions under which that exists are
+ * among them. own: to be freed. */
+static qdot_status
+facts_at(qdot_scene *s, qdot_expr exists, qdot_facts *facts, qdot_expr **own)
+{
+    uint32_t n = exists == QDOT_NIL ? 0 : qdot_expr_count(s->pool, exists);
+
+    *facts = qdot_scene_facts(s);
+    *own = qdot_malloc((facts->n_conditions + n + 1) * sizeof **own);
+    if (*own == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < facts->n_conditions; i++)
+        (*own)[i] = facts->conditions[i];
+    for (uint32_t i = 0; i < n; i++)
+        (*own)[facts->n_conditions + i] = qdot_expr_arg(s->pool, exists, i);
+    facts->conditions = *own;
+    facts->n_conditions += n;
+    return QDOT_OK;
+}
+
 /* e at rest at the equilibrium, simplified. */
 typedef struct {
     qdot_scene *s;
     qdot_facts facts;
+    qdot_expr *own; /* the facts' conditions */
     size_t n;
     qdot_expr *from, *to;
 } place;
 
 static qdot_status
-place_begin(place *p, qdot_scene *s, qdot_expr equations)
+place_begin(place *p, qdot_scene *s, qdot_expr equations, qdot_expr exists)
 {
     size_t n = s->coordinates.n, m = qdot_expr_count(s->pool, equations);
 
-    *p = (place){.s = s, .facts = qdot_scene_facts(s), .n = 2 * n + m};
+    *p = (place){.s = s, .n = 2 * n + m};
+    QDOT_TRY(facts_at(s, exists, &p->facts, &p->own));
     p->from = qdot_calloc(2 * p->n + 1, sizeof *p->from);
     if (p->from == NULL)
         return QDOT_ENOMEM;
@@ -40,6 +62,13 @@ place_begin(place *p, qdot_scene *s, qdot_expr equations)
         p->to[2 * n + i] = qdot_expr_arg(s->pool, one, 1);
     }
     return qdot_pool_check(s->pool);
+}
+
+static void
+place_end(place *p)
+{
+    qdot_free(p->from);
+    qdot_free(p->own);
 }
 
 static qdot_expr
@@ -177,8 +206,8 @@ qdot_linear_motion_clear(qdot_linear_motion *m)
 }
 
 qdot_status
-qdot_equilibrium_linear(qdot_scene *s, qdot_expr equations, bool keep_free,
-                        qdot_linear_motion *out)
+qdot_equilibrium_linear(qdot_scene *s, qdot_expr equations, qdot_expr exists,
+                        bool keep_free, qdot_linear_motion *out)
 {
     size_t n = s->coordinates.n, m = 0;
     qdot_expr *X = qdot_calloc(4 * n * n + 1, sizeof *X), *N;
@@ -188,7 +217,7 @@ qdot_equilibrium_linear(qdot_scene *s, qdot_expr equations, bool keep_free,
 
     *out = (qdot_linear_motion){0};
     if (status == QDOT_OK)
-        status = place_begin(&p, s, equations);
+        status = place_begin(&p, s, equations, exists);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         left_out[i] = !keep_free && is_free(s, equations, s->coordinates.at[i]);
     if (status == QDOT_OK)
@@ -216,7 +245,7 @@ qdot_equilibrium_linear(qdot_scene *s, qdot_expr equations, bool keep_free,
     }
     qdot_free(X);
     qdot_free(left_out);
-    qdot_free(p.from);
+    place_end(&p);
     if (status != QDOT_OK)
         qdot_linear_motion_clear(out);
     return status;
@@ -347,16 +376,16 @@ is_damping(judgement *j, size_t n, const qdot_expr *Gamma, bool *none)
 
 /* One degree of freedom where H = 0: the first derivative of the force that is not. */
 static qdot_status
-higher(judgement *j, qdot_expr equations, qdot_stability *stability)
+higher(judgement *j, qdot_equilibrium *at_rest)
 {
     qdot_scene *s = j->s;
     qdot_pool *pool = s->pool;
     qdot_expr q = s->coordinates.at[0], e = qdot_mech_equation(s, q), answer;
     place p = {0};
-    qdot_status status = place_begin(&p, s, equations);
+    qdot_status status = place_begin(&p, s, at_rest->equations, at_rest->exists);
 
     if (status != QDOT_OK || e == QDOT_NIL) {
-        qdot_free(p.from);
+        place_end(&p);
         return status != QDOT_OK ? status : qdot_pool_check(pool);
     }
     e = qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
@@ -370,12 +399,12 @@ higher(judgement *j, qdot_expr equations, qdot_stability *stability)
             continue;
         answer = qdot_positive(pool, value, &j->facts, j->known.n, j->known.at);
         if (k % 2 == 0 || answer == QDOT_FALSE)
-            *stability = QDOT_UNSTABLE;
+            at_rest->stability = QDOT_UNSTABLE;
         else if (answer == QDOT_TRUE)
-            *stability = QDOT_STABLE;
+            at_rest->stability = QDOT_STABLE;
         break;
     }
-    qdot_free(p.from);
+    place_end(&p);
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
@@ -438,7 +467,7 @@ judge(judgement *j, const qdot_linear_motion *m, qdot_equilibrium *e)
         j->when.n = 0;
     }
     if (how == UNKNOWN && m->n == 1 && j->s->coordinates.n == 1 && no_gyro)
-        QDOT_TRY(higher(j, e->equations, &e->stability));
+        QDOT_TRY(higher(j, e));
     return QDOT_OK;
 }
 
@@ -470,9 +499,10 @@ drop_implied(judgement *j, size_t n)
 qdot_status
 qdot_equilibrium_judge(qdot_scene *s, qdot_equilibrium *e)
 {
-    judgement j = {.s = s, .facts = qdot_scene_facts(s)};
+    judgement j = {.s = s};
     qdot_linear_motion m;
-    qdot_status status = QDOT_OK;
+    qdot_status status;
+    qdot_expr *own;
     size_t known;
 
     e->stability = QDOT_STABILITY_UNDECIDED;
@@ -480,7 +510,8 @@ qdot_equilibrium_judge(qdot_scene *s, qdot_equilibrium *e)
     for (size_t k = 0; k < s->constraints.n; k++)
         if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
             return QDOT_OK;
-    QDOT_TRY(qdot_equilibrium_linear(s, e->equations, false, &m));
+    QDOT_TRY(qdot_equilibrium_linear(s, e->equations, e->exists, false, &m));
+    status = facts_at(s, e->exists, &j.facts, &own);
     for (uint32_t i = 0; e->exists != QDOT_NIL &&
                          i < qdot_expr_count(s->pool, e->exists) && status == QDOT_OK;
          i++)
@@ -496,6 +527,7 @@ qdot_equilibrium_judge(qdot_scene *s, qdot_equilibrium *e)
     if (status == QDOT_OK)
         status = qdot_pool_check(s->pool);
     qdot_linear_motion_clear(&m);
+    qdot_free(own);
     qdot_free(j.known.at);
     qdot_free(j.when.at);
     return status;

@@ -456,6 +456,7 @@ qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
     bool spent;
 
+    e = qdot_known_signs(pool, e, facts);
     e = qdot_simplify_within(pool, e, facts, QDOT_SIMPLIFY_WORK, &spent);
     if (spent)
         qdot_pool_unfinished(pool);

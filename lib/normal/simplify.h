@@ -33,6 +33,10 @@ bool qdot_simplify_is_collected(const qdot_pool *pool, qdot_expr e);
  * coordinates. Nil: it takes more than a glance. e a scalar. */
 qdot_expr qdot_simplify_seen(qdot_pool *pool, qdot_expr e);
 
+/* e with u for |u|, 1 for sign u where the conditions of `facts` make u > 0, and so with -u, -1; of
+ * what declared domains say the constructors know. qdot_simplify does so. */
+qdot_expr qdot_known_signs(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
+
 /* A sum with the factors that all its terms share in front, where that is shorter; a product of a
  * fraction and a sum with other numbers in it as that sum, each term with its own. The form of T,
  * of equations, of Hamilton's function. */

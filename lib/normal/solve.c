@@ -641,12 +641,16 @@ qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
 {
     solver s = {.pool = pool, .f = f, .x = x, .facts = facts, .complete = true};
     qdot_status status;
+    qdot_expr u;
 
     *roots = NULL;
     *n = 0;
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
+    u = qdot_solve_sign(pool, f, x);
+    if (u != QDOT_NIL)
+        return qdot_solve_by_sign(pool, f, x, u, facts, roots, n, complete);
     status = qdot_flint_run(pool, solve_guarded, &s);
     if (status != QDOT_OK) { /* nothing is there any more */
         *complete = false;

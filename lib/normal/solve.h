@@ -5,7 +5,9 @@
  *     a polynomial in x, or in one function of x, of degree 1 or 2, or in a power of it;
  *     a polynomial in sin u or cos u alone of that kind; a sin u + b cos u = d;
  *     A(cos u) + B(cos u) sin u, whose resolvent A^2 = (1 - cos^2 u) B^2 is of that kind;
- *     a root r, r^q = b(x), that stands linearly: its resolvent, each solution tried.
+ *     a root r, r^q = b(x), that stands linearly: its resolvent, each solution tried;
+ *
+ * with |u(x)| and sign u(x) once for either sign of u.
  *
  * Angles (u rational in x) are given in -pi < x <= pi, else in x's declared domain.
  * Solutions outside that, or where f is not defined, are left out; where it depends on
@@ -29,6 +31,14 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                        const qdot_facts *facts, qdot_root **roots,
                                        size_t *n, bool *complete);
+
+/* The innermost u of |u| and sign u in f that holds x, nil: none; and qdot_solve where there is
+ * one: a case for u > 0 and one for u < 0, their roots with that as a condition. */
+qdot_expr qdot_solve_sign(qdot_pool *pool, qdot_expr f, qdot_expr x);
+QDOT_MUST_CHECK qdot_status qdot_solve_by_sign(qdot_pool *pool, qdot_expr f, qdot_expr x,
+                                               qdot_expr u, const qdot_facts *facts,
+                                               qdot_root **roots, size_t *n,
+                                               bool *complete);
 
 /* Sort them by their values, if all are constants; else they stay as they are. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_solve_sort(qdot_pool *pool, size_t n, qdot_root *roots);
