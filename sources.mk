@@ -594,6 +594,7 @@ script_tests = \
 	tests/script/coordinates.lag \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
+	tests/script/derive-styles.lag \
 	tests/script/derive.lag \
 	tests/script/digits-events.lag \
 	tests/script/digits-table.lag \
@@ -1170,6 +1171,7 @@ test_files = \
 	tests/script/coordinates.out \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
+	tests/script/derive-styles.out \
 	tests/script/derive.out \
 	tests/script/digits-events.out \
 	tests/script/digits-table.out \

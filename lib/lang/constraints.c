@@ -25,6 +25,16 @@ print_constraint(const qdot_constraint *c, qdot_text *out)
         qdot_text_add(out, c->name);
 }
 
+/* A value between the marks of a formula. */
+static qdot_status
+formula(qdot_session *session, qdot_expr e, qdot_text *out)
+{
+    qdot_answer_math(session, true, out);
+    QDOT_TRY(qdot_answer_print(session, e, session->style, out));
+    qdot_answer_math(session, false, out);
+    return qdot_text_status(out);
+}
+
 /* --- reactions ---------------------------------------------------------------------- */
 
 static bool
@@ -45,19 +55,19 @@ print_reaction(qdot_session *session, const qdot_reaction *r, qdot_text *out)
     qdot_pool *pool = session->pool;
 
     if (r->name == NULL)
-        qdot_print_name(qdot_expr_symbol(pool, r->coordinate)->name, session->style, out);
+        QDOT_TRY(formula(session, r->coordinate, out));
     else
         qdot_text_add(out, r->name);
     if (r->name == NULL || r->torque == QDOT_NIL || !is_zero(pool, r->force)) {
         qdot_text_add(out, r->name == NULL ? ": generalized reaction " : ": force ");
-        QDOT_TRY(qdot_answer_print(session, r->force, session->style, out));
+        QDOT_TRY(formula(session, r->force, out));
         if (r->torque == QDOT_NIL || is_zero(pool, r->torque))
             return QDOT_OK;
         qdot_text_add(out, " at its centre, torque ");
     } else {
         qdot_text_add(out, ": torque ");
     }
-    return qdot_answer_print(session, r->torque, session->style, out);
+    return formula(session, r->torque, out);
 }
 
 qdot_status
@@ -126,7 +136,7 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
 static qdot_status
 print_integral(qdot_session *session, qdot_expr integral, qdot_text *out)
 {
-    QDOT_TRY(qdot_answer_print(session, integral, session->style, out));
+    QDOT_TRY(formula(session, integral, out));
     qdot_text_add(out, " = const");
     return QDOT_OK;
 }
@@ -137,11 +147,11 @@ print_refuted(qdot_session *session, const qdot_integrability *i, qdot_text *out
     qdot_expr at = i->decision.at;
 
     qdot_text_add(out, " is not integrable: dw along ");
-    QDOT_TRY(qdot_print(session->pool, i->along[0], session->style, out));
+    QDOT_TRY(formula(session, i->along[0], out));
     qdot_text_add(out, " and ");
-    QDOT_TRY(qdot_print(session->pool, i->along[1], session->style, out));
+    QDOT_TRY(formula(session, i->along[1], out));
     qdot_text_add(out, " is ");
-    QDOT_TRY(qdot_answer_print(session, i->component, session->style, out));
+    QDOT_TRY(formula(session, i->component, out));
     if (at == QDOT_NIL || qdot_expr_count(session->pool, at) == 0)
         return QDOT_OK;
     if (isfinite(i->decision.left)) {
@@ -150,8 +160,7 @@ print_refuted(qdot_session *session, const qdot_integrability *i, qdot_text *out
     }
     for (uint32_t k = 0; k < qdot_expr_count(session->pool, at); k++) {
         qdot_text_add(out, k == 0 ? " at " : ", ");
-        QDOT_TRY(qdot_print(session->pool, qdot_expr_arg(session->pool, at, k),
-                            session->style, out));
+        QDOT_TRY(formula(session, qdot_expr_arg(session->pool, at, k), out));
     }
     return QDOT_OK;
 }

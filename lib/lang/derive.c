@@ -1,6 +1,8 @@
 /* derive.c -- the whole derivation, from r(q) to the equations, as a textbook would. */
 #include "lang/statement.h"
 
+#include <stdio.h>
+
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
@@ -48,13 +50,58 @@ named(derivation *d, const char *before, const char *of, const char *behind,
     return QDOT_OK;
 }
 
-/* The relation as it stands, behind its label. */
+/* `    d/dt dF/dq' = value` (total), `dF/dq' = value` or, not `fast`, `dF/dq = value`; drawn as a fraction
+ * where the style draws. */
+static qdot_status
+slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value)
+{
+    qdot_session *s = d->session;
+    qdot_expr q = s->scene->coordinates.at[i];
+    bool latex = s->style == QDOT_LATEX;
+    char before[16];
+
+    if (!latex && s->style != QDOT_MATHML) {
+        snprintf(before, sizeof before, "%sd%c/d", total ? "d/dt " : "", F);
+        return named(d, before, qdot_expr_symbol(s->pool, q)->name, fast ? "'" : "",
+                     value);
+    }
+    q = qdot_symbol_jet(s->pool, q, fast);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    qdot_text_add(&d->text, "    ");
+    qdot_answer_math(s, true, &d->text);
+    if (total)
+        qdot_text_add(&d->text, latex ? "\\frac{d}{dt} "
+                                      : "<mfrac><mi>d</mi><mrow><mi>d</mi><mi>t</mi></mrow></mfrac>"
+                                        "<mo>&#x2062;</mo>");
+    qdot_text_format(&d->text,
+                     latex ? "\\frac{\\partial %c}{\\partial "
+                           : "<mfrac><mrow><mo>∂</mo><mi>%c</mi></mrow><mrow><mo>∂</mo>",
+                     F);
+    QDOT_TRY(qdot_print(s->pool, q, s->style, &d->text));
+    qdot_text_add(&d->text, latex ? "}" : "</mrow></mfrac>");
+    qdot_text_add(&d->text, qdot_answer_equals(s));
+    QDOT_TRY(qdot_answer_print(s, value, s->style, &d->text));
+    qdot_answer_math(s, false, &d->text);
+    qdot_text_char(&d->text, '\n');
+    return QDOT_OK;
+}
+
+/* The relation as it stands, behind its label: in LaTeX as text. */
 static qdot_status
 relation(derivation *d, const char *label, qdot_expr e)
 {
+    bool latex = d->session->style == QDOT_LATEX;
+
     QDOT_TRY(qdot_pool_check(d->session->pool));
-    qdot_text_format(&d->text, "    %s%s", label == NULL ? "" : label,
-                     label == NULL ? "" : ": ");
+    qdot_text_add(&d->text, "    ");
+    if (label != NULL) {
+        qdot_text_add(&d->text, latex ? "\\text{" : "");
+        for (const char *c = label; *c != '\0'; c++) {
+            qdot_text_add(&d->text, latex && *c == '_' ? "\\" : "");
+            qdot_text_char(&d->text, *c);
+        }
+        qdot_text_add(&d->text, latex ? "}: " : ": ");
+    }
     QDOT_TRY(qdot_answer_formula(d->session, e, &d->text));
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
@@ -170,6 +217,7 @@ left_sides(derivation *d)
     qdot_pool *pool = s->pool;
     bool stated = s->lagrangian != QDOT_NIL;
     qdot_expr F = stated ? qdot_mech_lagrangian(s) : qdot_mech_kinetic(s);
+    char letter = stated ? 'L' : 'T';
 
     heading(d, "Momenta: p = dL/dq'");
     for (size_t i = 0; i < s->coordinates.n; i++)
@@ -182,11 +230,9 @@ left_sides(derivation *d)
 
         slope = tidy(d, slope);
         if (slope != QDOT_NIL && slope != qdot_mech_momentum(s, q))
-            QDOT_TRY(named(d, stated ? "dL/d" : "dT/d", name_of(d, i), "'", slope));
-        QDOT_TRY(named(d, stated ? "d/dt dL/d" : "d/dt dT/d", name_of(d, i), "'",
-                       tidy(d, qdot_ddt(pool, slope))));
-        QDOT_TRY(named(d, stated ? "dL/d" : "dT/d", name_of(d, i), "",
-                       tidy(d, qdot_diff(pool, F, q))));
+            QDOT_TRY(slope_is(d, letter, false, true, i, slope));
+        QDOT_TRY(slope_is(d, letter, true, true, i, tidy(d, qdot_ddt(pool, slope))));
+        QDOT_TRY(slope_is(d, letter, false, false, i, tidy(d, qdot_diff(pool, F, q))));
     }
     return QDOT_OK;
 }
