@@ -34,6 +34,8 @@ double_number(qdot_session *session, double value, double error, qdot_text *numb
 {
     if (session->json)
         qdot_answer_json_double(number, value);
+    else if (!isfinite(value))
+        qdot_text_add(number, "unknown"); /* a multiplier where a constraint has no direction */
     else
         qdot_answer_digits(number, value,
                            isfinite(error) ? fmax(error, 2e-16) * fmax(1, fabs(value))
