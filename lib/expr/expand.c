@@ -5,7 +5,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 
-enum { MOST_TERMS = 2000000 };
+enum { MOST_TERMS = 1500000 }; /* products of terms, all of one expansion */
 
 /* Terms of e as a sum: count, and the i-th. */
 static uint32_t
@@ -32,7 +32,7 @@ term_at(qdot_pool *pool, qdot_expr e, uint32_t i)
 
 /* a b, both expanded, expanded. */
 static qdot_expr
-multiply(qdot_pool *pool, qdot_expr a, qdot_expr b)
+multiply(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
 {
     uint32_t na, nb;
     qdot_vec(qdot_expr) terms = {0};
@@ -44,9 +44,11 @@ multiply(qdot_pool *pool, qdot_expr a, qdot_expr b)
     nb = term_count(pool, b);
     if (na == 1 && nb == 1)
         return qdot_mul(pool, a, b);
-    if ((uint64_t)na * nb > MOST_TERMS)
-        return qdot_pool_refuse(pool, QDOT_ELIMIT, "expanding it takes %llu products of terms",
-                                (unsigned long long)na * nb);
+    *work += (uint64_t)na * nb;
+    if (*work > MOST_TERMS)
+        return qdot_pool_refuse(pool, QDOT_ELIMIT,
+                                "expanding it takes more than %llu products of terms",
+                                (unsigned long long)*work);
     for (uint32_t i = 0; i < na && !FAILED(pool); i++) {
         qdot_expr x = term_at(pool, a, i);
 
@@ -61,33 +63,33 @@ multiply(qdot_pool *pool, qdot_expr a, qdot_expr b)
 
 /* s^n of an expanded sum, n >= 1, by squaring. */
 static qdot_expr
-power(qdot_pool *pool, qdot_expr s, unsigned long n)
+power(qdot_pool *pool, qdot_expr s, unsigned long n, uint64_t *work)
 {
     qdot_expr result = QDOT_ONE;
 
     for (; n > 0 && !FAILED(pool); n >>= 1) {
         if (n & 1)
-            result = multiply(pool, result, s);
+            result = multiply(pool, result, s, work);
         if (n > 1)
-            s = multiply(pool, s, s);
+            s = multiply(pool, s, s, work);
     }
     return result;
 }
 
 /* c times a bare sum as a sum. */
 static qdot_expr
-distribute(qdot_pool *pool, qdot_expr e)
+distribute(qdot_pool *pool, qdot_expr e, uint64_t *work)
 {
     qdot_expr rest = qdot_expr_strip(pool, e);
 
     return rest == QDOT_NIL || NODE(pool, rest)->kind != QDOT_SUM
                ? e
-               : multiply(pool, ARGS(pool, e)[0], rest);
+               : multiply(pool, ARGS(pool, e)[0], rest, work);
 }
 
 /* A product of parts that are expanded already. */
 static qdot_expr
-expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w)
+expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w, uint64_t *work)
 {
     qdot_expr result = ARGS(pool, e)[0], below = QDOT_ONE;
     uint32_t n = NODE(pool, e)->n;
@@ -100,15 +102,15 @@ expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w)
         if (base == QDOT_NIL || exponent == QDOT_NIL)
             return QDOT_NIL;
         if (!qdot_expr_to_int(pool, exponent, &k) || NODE(pool, base)->kind != QDOT_SUM)
-            result = multiply(pool, result, qdot_pow(pool, base, exponent));
+            result = multiply(pool, result, qdot_pow(pool, base, exponent), work);
         else if (k > 0)
-            result = multiply(pool, result, power(pool, base, (unsigned long)k));
+            result = multiply(pool, result, power(pool, base, (unsigned long)k, work), work);
         else
-            below = multiply(pool, below, power(pool, base, 0ul - (unsigned long)k));
+            below = multiply(pool, below, power(pool, base, 0ul - (unsigned long)k, work), work);
     }
     if (below == QDOT_ONE || below == QDOT_NIL)
         return below == QDOT_NIL ? QDOT_NIL : result;
-    return multiply(pool, result, qdot_pow(pool, below, QDOT_MINUS_ONE));
+    return multiply(pool, result, qdot_pow(pool, below, QDOT_MINUS_ONE), work);
 }
 
 qdot_expr
@@ -117,6 +119,7 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
     qdot_walk w;
     qdot_vec(qdot_expr) args = {0};
     qdot_expr result = QDOT_NIL;
+    uint64_t work = 0;
 
     if (e == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
@@ -127,7 +130,7 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
         uint32_t n = NODE(pool, node)->n;
 
         if (NODE(pool, node)->kind == QDOT_PROD) {
-            result = expand_product(pool, node, &w);
+            result = expand_product(pool, node, &w, &work);
         } else if (n > 0) {
             if (qdot_grow(&args.at, &args.capacity, n, sizeof *args.at) != QDOT_OK) {
                 qdot_pool_fail(pool);
@@ -138,7 +141,7 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
             result = qdot_rebuild(pool, node, args.at);
             if (NODE(pool, node)->kind == QDOT_SUM && result != QDOT_NIL &&
                 NODE(pool, result)->kind == QDOT_PROD)
-                result = distribute(pool, result); /* one term is left: 2 times a sum */
+                result = distribute(pool, result, &work); /* one term is left: 2 times a sum */
         } else {
             result = node;
         }

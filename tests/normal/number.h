@@ -62,7 +62,25 @@ number_of_ufun(const qdot_pool *pool, qdot_expr e, const mpfr_t u, mpfr_t x)
     mpfr_clear(power);
 }
 
-/* NaN where it is not defined in the reals. */
+/* Whether u is 0 (or an integer) but for rounding, so that it may be on either side of it. */
+static bool
+number_is_close(const mpfr_t u, bool whole)
+{
+    bool close;
+    mpfr_t d;
+
+    mpfr_init2(d, mpfr_get_prec(u));
+    if (whole)
+        mpfr_rint(d, u, MPFR_RNDN);
+    else
+        mpfr_set_zero(d, 1);
+    mpfr_sub(d, u, d, MPFR_RNDN);
+    close = !mpfr_zero_p(d) && mpfr_get_exp(d) < -(mpfr_exp_t)(mpfr_get_prec(u) / 2);
+    mpfr_clear(d);
+    return close;
+}
+
+/* NaN where it is not defined in the reals, or jumps too near. */
 static void
 number_of_function(unsigned op, const mpfr_t u, const mpfr_t v, mpfr_t x)
 {
@@ -83,6 +101,10 @@ number_of_function(unsigned op, const mpfr_t u, const mpfr_t v, mpfr_t x)
             return;
         }
     if (mpfr_nan_p(u) || mpfr_nan_p(v)) {
+        mpfr_set_nan(x);
+        return;
+    }
+    if ((op == QDOT_SIGN || op == QDOT_FLOOR) && number_is_close(u, op == QDOT_FLOOR)) {
         mpfr_set_nan(x);
         return;
     }
@@ -139,7 +161,7 @@ number_of_node(const qdot_pool *pool, const qdot_walk *w, mpfr_t *value, qdot_ex
         break;
     case QDOT_REL:
         mpfr_sub(y, ARG(1), ARG(0), MPFR_RNDN);
-        if (mpfr_nan_p(y))
+        if (mpfr_nan_p(y) || number_is_close(y, false))
             mpfr_set_nan(x);
         else
             mpfr_set_si(x,
