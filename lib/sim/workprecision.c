@@ -288,14 +288,14 @@ prepare_energy(worker *w, qdot_scene *scene)
 
 static qdot_status
 worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
-            const char *method, double budget)
+            const char *method, double tol, double budget)
 {
     double n, operations;
 
     w->request = *request;
     w->request.method = method;
     w->request.digits = 0;
-    w->request.tol = 1e-12;
+    w->request.tol = tol;
     QDOT_TRY(qdot_stage_begin(&w->stage, scene, &w->request));
     w->plan = w->stage.modes.at[0]->plan;
     w->pieces = w->stage.switches.surfaces.n > 0;
@@ -494,19 +494,43 @@ push_unfit(qdot_workprecision *out, const char *method)
     return QDOT_OK;
 }
 
-static qdot_status
-climb(worker *w, const reference *r, qdot_workprecision *out)
+static double
+rung(int k)
 {
-    for (int k = FIRST; k <= LAST; k++) {
+    return strtod((char[]){'1', 'e', '-', (char)('0' + k / 10), (char)('0' + k % 10), 0}, NULL);
+}
+
+/* A form of the equations may be for some tolerances only (sim/eliminated.h). */
+static bool
+is_planned_anew(const worker *w)
+{
+    return w->plan->constraints && w->plan->method->series;
+}
+
+/* A method over the ladder. */
+static qdot_status
+climb(qdot_scene *scene, const qdot_run_request *request, const char *method,
+      const reference *r, qdot_workprecision *out)
+{
+    const double budget = out->budget > 0 ? out->budget : budget_default;
+    worker w = {0};
+    qdot_status status = worker_init(&w, scene, request, method, rung(FIRST), budget);
+
+    for (int k = FIRST; k <= LAST && status == QDOT_OK; k++) {
         qdot_workprecision_row row;
 
-        QDOT_TRY(one_row(w, strtod((char[]){'1', 'e', '-', (char)('0' + k / 10),
-                                            (char)('0' + k % 10), 0},
-                                   NULL),
-                         r, &row));
-        QDOT_TRY(push_row(out, &row));
+        if (k > FIRST && is_planned_anew(&w)) {
+            worker_clear(&w);
+            w = (worker){0};
+            status = worker_init(&w, scene, request, method, rung(k), budget);
+        }
+        if (status == QDOT_OK)
+            status = one_row(&w, rung(k), r, &row);
+        if (status == QDOT_OK)
+            status = push_row(out, &row);
     }
-    return QDOT_OK;
+    worker_clear(&w);
+    return status;
 }
 
 qdot_status
@@ -519,15 +543,10 @@ qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
     out->constraints = scene->constraints.n > 0;
     for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++) {
         const char *method = qdot_ode_method_at(i)->name;
-        worker w = {0};
 
-        status = worker_init(
-            &w, scene, request, method, out->budget > 0 ? out->budget : budget_default);
+        status = climb(scene, request, method, &r, out);
         if (status == QDOT_ENOTBUILT)
             status = push_unfit(out, method);
-        else if (status == QDOT_OK)
-            status = climb(&w, &r, out);
-        worker_clear(&w);
     }
     qdot_free(r.high);
     return status;

@@ -2,6 +2,7 @@
 #include "scenes.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
@@ -52,6 +53,44 @@ every_method_climbs_the_ladder(void **state)
         assert_true(r->time_min > 0 && r->time_median >= r->time_min);
         assert_true(r->evals > 0 && r->steps > 0);
     }
+    qdot_workprecision_clear(&w);
+    end(&f);
+}
+
+/* Where the form of the equations depends on the tolerance (a mass on a rod: eliminated
+ * down to 1e-9) a row takes the steps of a run at that tolerance. */
+static void
+rows_are_planned_as_runs_are(void **state)
+{
+    fixture f;
+    qdot_workprecision w = {0};
+    qdot_expr x, y, r2;
+    size_t seen = 0;
+
+    (void)state;
+    begin(&f);
+    x = coordinate(&f, "x");
+    y = coordinate(&f, "y");
+    must(qdot_scene_particle(f.scene, "bob", QDOT_ONE, pair(&f, x, y)));
+    must(qdot_scene_potential(f.scene, y));
+    r2 = qdot_add(f.pool, times(&f, x, x), times(&f, y, y));
+    must(qdot_scene_constraint(f.scene, "rod", r2, QDOT_ONE));
+    f.q0[0] = QDOT_ONE;
+    f.request.t1 = qdot_expr_int(f.pool, 5);
+    f.request.method = "taylor";
+    must(qdot_workprecision_measure(f.scene, &f.request, &w));
+    for (size_t k = 0; k < w.n; k++) {
+        qdot_run *r;
+
+        if (strcmp(w.rows[k].method, "taylor") != 0)
+            continue;
+        f.request.tol = w.rows[k].tol;
+        r = run(&f);
+        assert_int_equal(w.rows[k].steps, qdot_run_get_report(r)->steps);
+        qdot_run_free(r);
+        seen++;
+    }
+    assert_int_equal(seen, 13);
     qdot_workprecision_clear(&w);
     end(&f);
 }
@@ -156,6 +195,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_method_climbs_the_ladder),
+        cmocka_unit_test(rows_are_planned_as_runs_are),
         cmocka_unit_test(errors_are_those_of_runs),
         cmocka_unit_test(without_conservation_there_is_no_energy_error),
         cmocka_unit_test(hopeless_runs_are_rows_that_say_so),
