@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "expr/walk.h"
+#include "lang/ask.h"
 #include "show/sink.h"
 
 /* Write a finished text and let go of it. */
@@ -433,12 +434,18 @@ point_json(qdot_session *session, qdot_expr at, qdot_text *line)
     return QDOT_OK;
 }
 
-/* A side of a check; how large it is where it is too large. */
+/* A side of a check; numbers of runs as they are; how large it is where it is too large. */
 static qdot_status
 print_side(qdot_session *session, qdot_expr side, qdot_text *out)
 {
     uint64_t size = qdot_expr_size(session->pool, side);
+    double number;
 
+    if (qdot_expr_is_scalar(session->pool, side) && qdot_ask_is_measured(session, side)) {
+        QDOT_TRY(qdot_session_number(session, side, &number, NULL));
+        qdot_text_double(out, number, 17);
+        return QDOT_OK;
+    }
     if (size <= QDOT_ANSWER_OPERATIONS)
         return qdot_print(session->pool, side, QDOT_PLAIN, out);
     qdot_text_format(out, "(%" PRIu64 " operations)", size);

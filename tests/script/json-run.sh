@@ -26,3 +26,4 @@ potential -1/r
 start r = 1
 run 0..2 as e
 SCENE
+qdot -q --json -e 'coord x; particle a mass 1 at x; start x'"'"' = 1; run 0..2; check value(x, 1) == 2 within 1e-9' | tail -n 1
