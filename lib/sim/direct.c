@@ -267,8 +267,7 @@ hand_over(qdot_direct *e)
         if (n == 1)
             continue;
         for (size_t i = 0; i < n; i++) {
-            memcpy(to + i * n, s->a + i * n, i * sizeof *to);
-            to[i * n + i] = 1 / s->a[i * n + i];
+            memcpy(to + i * n, s->a + i * n, (i + 1) * sizeof *to);
             memcpy(to + (n + i) * n, s->inverse + i * s->m, n * sizeof *to);
         }
     }

@@ -1,7 +1,7 @@
 /* taylor-code-solve.c -- unknowns as code: M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}. */
 #include "tape/taylor-code-sum.h"
 
-/* L, inverses on its diagonal, then M_0^-1. */
+/* L, then M_0^-1. */
 static qdot_x86_rm
 factor_at(const qdot_generator *g, size_t block, size_t i, size_t j)
 {
@@ -55,6 +55,16 @@ right_hand_side(qdot_generator *g, const qdot_taylor_block *b, size_t i)
     finish_sum(g, &s, b->r[i]);
 }
 
+/* The sum over entry i of the diagonal: the rounding of its inverse would be that of every
+ * order. */
+static void
+divide(qdot_generator *g, size_t block, size_t i, sum *s)
+{
+    s->v = total(g, s);
+    s->n = 0;
+    scale_by(g, QDOT_X86_DIV, &s->v, factor_at(g, block, i, i));
+}
+
 /* r becomes L^-1 r, then a = L^-T r. */
 static void
 by_factor(qdot_generator *g, size_t block)
@@ -69,7 +79,7 @@ by_factor(qdot_generator *g, size_t block)
             settle(g, &s, 1);
             times(g, &s, true, factor_at(g, block, i, j), b->r[j], g->k);
         }
-        scale_sum(g, &s, factor_at(g, block, i, i));
+        divide(g, block, i, &s);
         finish_sum(g, &s, b->r[i]);
     }
     for (size_t i = b->n; i-- > 0;) {
@@ -80,7 +90,7 @@ by_factor(qdot_generator *g, size_t block)
             settle(g, &s, 1);
             times(g, &s, true, factor_at(g, block, j, i), b->a[j], g->k);
         }
-        scale_sum(g, &s, factor_at(g, block, i, i));
+        divide(g, block, i, &s);
         finish_sum(g, &s, b->a[i]);
     }
 }

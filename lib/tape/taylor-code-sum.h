@@ -13,7 +13,8 @@
 enum {
     QDOT_CODE_TERMS = 8,
     behind_scalars = QDOT_CODE_FIRST_SCALAR + QDOT_CODE_SCALARS,
-    latency = 4
+    latency = 4,
+    latency_of_division = 14
 };
 
 /* --- registers ---------------------------------------------------------------------- */
@@ -203,8 +204,9 @@ total(qdot_generator *g, sum *s)
     return v;
 }
 
+/* MUL or DIV, by `factor`. */
 static inline void
-scale(qdot_generator *g, value *v, qdot_x86_rm factor)
+scale_by(qdot_generator *g, qdot_x86_name name, value *v, qdot_x86_rm factor)
 {
     const int a = v->reg;
 
@@ -212,9 +214,15 @@ scale(qdot_generator *g, value *v, qdot_x86_rm factor)
         return;
     touch(g, a);
     v->reg = fresh(g);
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, v->reg, a, factor);
+    qdot_x86_emit(&g->x, name, v->reg, a, factor);
     v->own = true;
-    v->ready += latency;
+    v->ready += name == QDOT_X86_DIV ? latency_of_division : latency;
+}
+
+static inline void
+scale(qdot_generator *g, value *v, qdot_x86_rm factor)
+{
+    scale_by(g, QDOT_X86_MUL, v, factor);
 }
 
 /* The sum so far, times a factor. */

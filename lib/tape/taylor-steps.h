@@ -68,7 +68,7 @@ typedef struct {
     double **r;       /* [n] what is left of f; work */
     qdot_taylor_coupling *couplings; /* by i */
     size_t n_couplings;
-    double *matrices; /* [n x n] L, inverses on its diagonal; [n x n] M_0^-1 */
+    double *matrices; /* [n x n] L; [n x n] M_0^-1 */
 } qdot_taylor_block;
 
 struct qdot_taylor {

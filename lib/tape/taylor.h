@@ -98,8 +98,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size
  * their numbers. *a [n] are the rows, whose order 0 is the caller's to solve for; so are
  * all others where an expansion is not machine code, and code is all that this is for.
  * *matrices [2 n n] is to be filled before each expansion: the Cholesky factor of M_0 by
- * rows, its diagonal inverted, by which orders up to `solved` are found; M_0^-1 by rows, by
- * which the others. Both are the program's. Before anything is linked. Errors: QDOT_EINVAL
+ * rows, by which orders up to `solved` are found; M_0^-1 by rows, by which the others. Both are the program's. Before anything is linked. Errors: QDOT_EINVAL
  * (no room for so many), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_solve(qdot_taylor *taylor, size_t n,
                                               const size_t *f, const size_t *M,

@@ -26,6 +26,7 @@
     X(ADD, 1, 3, 0x58, false)         /* reg = first + rm */                             \
     X(MUL, 1, 3, 0x59, false)                                                            \
     X(SUB, 1, 3, 0x5c, false)                                                            \
+    X(DIV, 1, 3, 0x5e, false)         /* reg = first / rm */                             \
     X(MADD_OVER, 2, 1, 0xa9, false)   /* reg = first reg + rm */                         \
     X(MSUB_OVER, 2, 1, 0xab, false)   /* reg = first reg - rm */                         \
     X(NMADD_OVER, 2, 1, 0xad, false)  /* reg = rm - first reg */                         \

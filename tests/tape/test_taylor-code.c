@@ -323,7 +323,7 @@ factor_zero(equations *e)
         double unit[UNKNOWNS] = {0};
 
         for (size_t j = 0; j < n; j++)
-            e->matrices[i * n + j] = j < i ? e->L[i][j] : j == i ? 1 / e->L[i][i] : NAN;
+            e->matrices[i * n + j] = j <= i ? e->L[i][j] : NAN;
         unit[i] = 1;
         solve_zero(e, unit);
         memcpy(e->matrices + (n + i) * n, unit, n * sizeof *unit);

@@ -50,6 +50,8 @@ instructions_have_their_bytes(void **state)
          "vbroadcastsd 0x30(%rdi),%zmm29{%k1}", 7, "\x62\x62\xfd\x49\x19\x6f\x06"},
         {QDOT_X86_STORE_ALL, 0, 0, {true, false, DX, 0xc0}, 0, -1, false,
          "vmovupd %zmm0,0xc0(%rdx)", 7, "\x62\xf1\xfd\x48\x11\x42\x03"},
+        {QDOT_X86_DIV, 4, 18, {true, false, DX, 0x28}, 0, -1, false,
+         "vdivsd 0x28(%rdx),%xmm18,%xmm4", 7, "\x62\xf1\xef\x00\x5e\x62\x05"},
         {QDOT_X86_XOR_ALL, 17, 17, {false, false, 17, 0}, 0, -1, false,
          "vpxorq %zmm17,%zmm17,%zmm17", 6, "\x62\xa1\xf5\x40\xef\xc9"},
         {QDOT_X86_ADD, 1, 20, {true, false, QDOT_X86_R8, 0x10}, 0, -1, false,
