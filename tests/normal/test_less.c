@@ -93,6 +93,11 @@ speaks_against(pairs *g, qdot_expr e)
     bool against = false;
     mpfr_t l, r;
 
+    if (e == QDOT_NIL) { /* undefined once something is put in */
+        (void)!qdot_pool_check(g->pool);
+        return false;
+    }
+
     mpfr_inits2(300, l, r, (mpfr_ptr)0);
     for (unsigned k = 0; k < POINTS && !against; k++)
         if (number_pair(g->pool, e, QDOT_ZERO, k, l, r)) {
@@ -115,6 +120,8 @@ point_refutes(pairs *g, qdot_expr e, qdot_expr at, bool strict)
 
         e = qdot_subs(g->pool, e, 1, &x, &v);
     }
+    if (e == QDOT_NIL)
+        return false;
     mpfr_inits2(300, l, r, (mpfr_ptr)0);
     if (number_pair(g->pool, e, QDOT_ZERO, 0, l, r))
         good = mpfr_sgn(l) < 0 || (strict && (mpfr_zero_p(l) || mpfr_get_exp(l) < -200));
