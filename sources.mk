@@ -268,6 +268,7 @@ mech_sources = \
 	lib/mech/derived.c \
 	lib/mech/energy.c \
 	lib/mech/equilibrium-numeric.c \
+	lib/mech/equilibrium-twice.c \
 	lib/mech/equilibrium.c \
 	lib/mech/event.c \
 	lib/mech/freedom.c \
@@ -298,6 +299,7 @@ mech_sources = \
 mech_headers = \
 	lib/mech/dalembert.h \
 	lib/mech/derived.h \
+	lib/mech/equilibrium-rest.h \
 	lib/mech/equilibrium.h \
 	lib/mech/geometry.h \
 	lib/mech/hamilton.h \

@@ -6,29 +6,13 @@
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/derived.h"
+#include "mech/equilibrium-rest.h"
 #include "mech/quantity.h"
 #include "normal/positive.h"
 #include "normal/simplify.h"
 #include "normal/solve.h"
 
 enum { MOST_BRANCHES = 10000, MOST_SOLUTIONS = 1024 };
-
-/* What is left to solve, and what is known: LISTs. */
-typedef struct {
-    qdot_expr equations, known, conditions;
-} branch;
-
-typedef struct {
-    qdot_scene *s;
-    qdot_pool *pool;
-    qdot_facts facts;
-    qdot_vec(qdot_expr) unknowns; /* coordinates, then multipliers */
-    size_t coordinates;           /* of them */
-    qdot_vec(branch) todo;
-    qdot_vec(qdot_equilibrium) found;
-    bool complete;
-} rest;
 
 /* --- lists ----------------------------------------------------------------------- */
 
@@ -50,7 +34,7 @@ appended(qdot_pool *pool, qdot_expr list, size_t n, const qdot_expr *more)
 }
 
 static size_t
-holds_unknowns(const rest *r, qdot_expr e)
+holds_unknowns(const qdot_rest *r, qdot_expr e)
 {
     size_t n = 0;
 
@@ -97,7 +81,7 @@ residual(qdot_pool *pool, qdot_expr equation)
 
 /* Every equation, simplified, those that hold identically left out. */
 static qdot_status
-equations_at_rest(rest *r, qdot_expr *list)
+equations_at_rest(qdot_rest *r, qdot_expr *list)
 {
     qdot_scene *s = r->s;
     size_t n = s->coordinates.n, m = n + s->constraints.n, count = 0;
@@ -127,7 +111,7 @@ equations_at_rest(rest *r, qdot_expr *list)
 }
 
 static qdot_status
-begin(rest *r, branch *first)
+begin(qdot_rest *r, qdot_rest_branch *first)
 {
     qdot_scene *s = r->s;
     qdot_expr none = qdot_list(r->pool, 0, NULL);
@@ -150,7 +134,7 @@ begin(rest *r, branch *first)
 /* How hard it is to solve a factor for an unknown: 0 the only one in it; 1 linear, never
  * divided by anything unknown; 2 linear; 3 else; 9 not there. */
 static int
-effort(const rest *r, qdot_expr factor, qdot_expr u)
+effort(const qdot_rest *r, qdot_expr factor, qdot_expr u)
 {
     qdot_expr slope;
 
@@ -166,7 +150,7 @@ effort(const rest *r, qdot_expr factor, qdot_expr u)
 
 /* The easiest unknown of a factor, multipliers before coordinates. */
 static int
-easiest(const rest *r, qdot_expr factor, size_t *which)
+easiest(const qdot_rest *r, qdot_expr factor, size_t *which)
 {
     int least = 9;
 
@@ -183,14 +167,14 @@ easiest(const rest *r, qdot_expr factor, size_t *which)
 
 /* The branch with u = value put in everywhere. */
 static qdot_status
-with_value(rest *r, const branch *b, qdot_expr equations, qdot_expr u,
+with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
            const qdot_root *root)
 {
     qdot_pool *pool = r->pool;
     qdot_expr equation = qdot_rel(pool, QDOT_EQ, u, root->value);
-    branch next = {qdot_subs(pool, equations, 1, &u, &root->value),
-                   qdot_subs(pool, b->known, 1, &u, &root->value),
-                   qdot_subs(pool, b->conditions, 1, &u, &root->value)};
+    qdot_rest_branch next = {qdot_subs(pool, equations, 1, &u, &root->value),
+                             qdot_subs(pool, b->known, 1, &u, &root->value),
+                             qdot_subs(pool, b->conditions, 1, &u, &root->value)};
     uint32_t n = qdot_expr_count(pool, b->known);
     qdot_expr *known;
 
@@ -222,7 +206,7 @@ with_value(rest *r, const branch *b, qdot_expr equations, qdot_expr u,
 
 /* factor = 0 for its easiest unknown; where it is a u + b with unknowns in a, also a = b = 0. */
 static qdot_status
-split(rest *r, const branch *b, qdot_expr others, qdot_expr factor)
+split(qdot_rest *r, const qdot_rest_branch *b, qdot_expr others, qdot_expr factor)
 {
     qdot_pool *pool = r->pool;
     qdot_root *roots = NULL;
@@ -242,7 +226,7 @@ split(rest *r, const branch *b, qdot_expr others, qdot_expr factor)
     if (status == QDOT_OK && how == 2) {
         qdot_expr both[2] = {qdot_diff(pool, factor, u),
                              qdot_subs(pool, factor, 1, &u, &zero)};
-        branch next = *b;
+        qdot_rest_branch next = *b;
 
         next.equations = appended(pool, others, 2, both);
         status = qdot_pool_check(pool);
@@ -252,9 +236,8 @@ split(rest *r, const branch *b, qdot_expr others, qdot_expr factor)
     return status;
 }
 
-/* Conditions at what is known: QDOT_FALSE if one fails; else those that say something. */
-static qdot_expr
-conditions_left(const rest *r, qdot_expr conditions)
+qdot_expr
+qdot_rest_conditions_left(const qdot_rest *r, qdot_expr conditions)
 {
     qdot_pool *pool = r->pool;
     qdot_expr left = QDOT_NIL;
@@ -278,9 +261,8 @@ conditions_left(const rest *r, qdot_expr conditions)
     return left;
 }
 
-/* Whether a full turn of u changes no equation. */
-static bool
-is_angle(const rest *r, qdot_expr u, qdot_expr equations)
+bool
+qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations)
 {
     qdot_pool *pool = r->pool;
     qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
@@ -298,7 +280,7 @@ is_angle(const rest *r, qdot_expr u, qdot_expr equations)
 
 /* An angle beyond -pi < q <= pi that came of others: turned back where the equations allow it. */
 static qdot_expr
-turned(const rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
+turned(const qdot_rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
 {
     qdot_pool *pool = r->pool;
     const qdot_symbol *x = qdot_expr_symbol(pool, u);
@@ -309,7 +291,7 @@ turned(const rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
         qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_FUN ||
         !qdot_expr_contains(pool, value, QDOT_PI) ||
         qdot_generic_evaluate(pool, 1, &value, 0, NULL, NULL, 1, &v) != QDOT_OK ||
-        !isfinite(v) || !is_angle(r, u, equations))
+        !isfinite(v) || !qdot_rest_is_angle(r, u, equations))
         return value;
     for (; v > M_PI + 1e-9; v -= 2 * M_PI)
         value = qdot_sub(pool, value, turn);
@@ -321,7 +303,7 @@ turned(const rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
 /* The conditions of a branch, and that each value lies within the domain of its coordinate: a rational
  * one of the parameters, an angle does. */
 static qdot_expr
-with_domains(const rest *r, const branch *b)
+with_domains(const qdot_rest *r, const qdot_rest_branch *b)
 {
     qdot_pool *pool = r->pool;
     qdot_expr all = b->conditions;
@@ -348,7 +330,7 @@ with_domains(const rest *r, const branch *b)
 
 /* Whether the equations have values there: that a numerator vanishes is not enough. */
 static qdot_status
-are_defined(const rest *r, qdot_expr equations, qdot_expr values, bool *yes)
+are_defined(const qdot_rest *r, qdot_expr equations, qdot_expr values, bool *yes)
 {
     uint32_t n = qdot_expr_count(r->pool, values);
     qdot_expr *from = qdot_malloc((2 * (size_t)n + 1) * sizeof *from);
@@ -369,7 +351,7 @@ are_defined(const rest *r, qdot_expr equations, qdot_expr values, bool *yes)
 
 /* The known values in the order of the unknowns. */
 static qdot_status
-emit(rest *r, const branch *b, qdot_expr equations)
+emit(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations)
 {
     qdot_pool *pool = r->pool;
     qdot_equilibrium e = {.exists = QDOT_NIL};
@@ -377,7 +359,7 @@ emit(rest *r, const branch *b, qdot_expr equations)
     bool yes = true;
     size_t n = 0;
 
-    e.exists = conditions_left(r, with_domains(r, b));
+    e.exists = qdot_rest_conditions_left(r, with_domains(r, b));
     QDOT_TRY(qdot_pool_check(pool));
     if (e.exists == QDOT_FALSE)
         return QDOT_OK;
@@ -412,7 +394,8 @@ emit(rest *r, const branch *b, qdot_expr equations)
 /* The factors of every equation; the one whose hardest factor is easiest. *dead: one of them is
  * never 0. */
 static qdot_status
-choose(rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others, bool *dead)
+choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
+       bool *dead)
 {
     qdot_pool *pool = r->pool;
     uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
@@ -456,7 +439,7 @@ choose(rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others, bool
 }
 
 static qdot_status
-step(rest *r, const branch *b, qdot_expr all)
+step(qdot_rest *r, const qdot_rest_branch *b, qdot_expr all)
 {
     qdot_expr factors, others;
     bool dead;
@@ -491,7 +474,7 @@ decimal(qdot_pool *pool, double x)
 
 /* The name of a symbol in e that is no unknown. */
 static const char *
-unset(const rest *r, qdot_expr e)
+unset(const qdot_rest *r, qdot_expr e)
 {
     qdot_expr atoms = qdot_expr_atoms(r->pool, e, true);
 
@@ -511,7 +494,7 @@ unset(const rest *r, qdot_expr e)
 }
 
 static qdot_status
-search(rest *r, qdot_expr equations, qdot_binder bind, void *user)
+search(qdot_rest *r, qdot_expr equations, qdot_binder bind, void *user)
 {
     qdot_pool *pool = r->pool;
     size_t n = r->unknowns.n, count = 0;
@@ -558,96 +541,11 @@ search(rest *r, qdot_expr equations, qdot_binder bind, void *user)
     return status;
 }
 
-/* --- what is there twice ----------------------------------------------------------------- */
-
-/* Whether d is a whole number of turns. */
-static bool
-is_turns(const rest *r, qdot_expr d)
-{
-    const fmpq *c;
-
-    d = qdot_simplify(r->pool, d, &r->facts);
-    if (d == QDOT_NIL || qdot_expr_kind(r->pool, d) != QDOT_PROD ||
-        qdot_expr_count(r->pool, d) != 3 || qdot_expr_arg(r->pool, d, 1) != QDOT_PI ||
-        qdot_expr_arg(r->pool, d, 2) != QDOT_ONE)
-        return false;
-    c = qdot_expr_rational(r->pool, qdot_expr_arg(r->pool, d, 0));
-    return fmpz_is_one(fmpq_denref(c)) && fmpz_is_even(fmpq_numref(c));
-}
-
-/* Whether the place `one` lies in the family `all` (or is it, full turns away), where that exists. */
-static bool
-lies_in(const rest *r, const qdot_equilibrium *one, const qdot_equilibrium *all,
-        qdot_expr equations)
-{
-    qdot_pool *pool = r->pool;
-    uint32_t n = qdot_expr_count(pool, one->equations),
-             m = qdot_expr_count(pool, all->equations);
-    qdot_expr *from = qdot_calloc(2 * (size_t)n + 1, sizeof *from), *to;
-    bool inside = m <= n;
-
-    if (from == NULL)
-        return false;
-    to = from + n;
-    for (uint32_t i = 0; i < n && inside; i++) {
-        from[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, one->equations, i), 0);
-        to[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, one->equations, i), 1);
-    }
-    for (uint32_t k = 0; k < m && inside; k++) {
-        qdot_expr u = qdot_expr_arg(pool, qdot_expr_arg(pool, all->equations, k), 0),
-                  v = qdot_expr_arg(pool, qdot_expr_arg(pool, all->equations, k), 1), d;
-        uint32_t i = 0;
-
-        while (i < n && from[i] != u)
-            i++;
-        if (i == n) {
-            inside = false;
-            break;
-        }
-        d = qdot_sub(pool, to[i], qdot_subs(pool, v, n, from, to));
-        inside = d != QDOT_NIL && (d == QDOT_ZERO ||
-                                   (qdot_mech_holds(r->s, d) != 0 &&
-                                    qdot_is_zero(pool, d, &r->facts)) ||
-                                   (is_turns(r, d) && is_angle(r, u, equations)));
-    }
-    if (inside && all->exists != QDOT_NIL && all->exists != one->exists) {
-        qdot_expr left =
-            conditions_left(r, qdot_subs(pool, all->exists, n, from, to));
-
-        inside = left == QDOT_NIL && !qdot_pool_failed(pool);
-    }
-    qdot_free(from);
-    return inside;
-}
-
-/* Places in a family that is listed too, or full turns from one listed before, are left out. */
-static qdot_status
-leave_out_twice(rest *r, qdot_expr equations)
-{
-    size_t kept = 0;
-    bool *out = qdot_calloc(r->found.n + 1, sizeof *out);
-
-    if (out == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < r->found.n; i++)
-        for (size_t j = 0; j < r->found.n && !out[i]; j++)
-            out[i] = j != i && !out[j] && !r->found.at[i].numeric &&
-                     (j < i || qdot_expr_count(r->pool, r->found.at[j].equations) <
-                                   qdot_expr_count(r->pool, r->found.at[i].equations)) &&
-                     lies_in(r, &r->found.at[i], &r->found.at[j], equations);
-    for (size_t i = 0; i < r->found.n; i++)
-        if (!out[i])
-            r->found.at[kept++] = r->found.at[i];
-    r->found.n = kept;
-    qdot_free(out);
-    return qdot_pool_check(r->pool);
-}
-
 /* --- all of them ------------------------------------------------------------------------- */
 
 /* Stability, in numbers where the place is; `first`: up to the first that is not unstable. */
 static qdot_status
-judge(rest *r, bool first, qdot_binder bind, void *user)
+judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
 {
     for (size_t i = 0; i < r->found.n; i++) {
         QDOT_TRY(qdot_equilibrium_judge(r->s, &r->found.at[i]));
@@ -656,7 +554,7 @@ judge(rest *r, bool first, qdot_binder bind, void *user)
             qdot_expr when = bind(user, r->found.at[i].stable_when);
 
             QDOT_TRY(qdot_pool_check(r->pool));
-            when = conditions_left(r, when);
+            when = qdot_rest_conditions_left(r, when);
             QDOT_TRY(qdot_pool_check(r->pool));
             r->found.at[i].stable_when = when == QDOT_FALSE ? QDOT_NIL : when;
             if (when == QDOT_FALSE)
@@ -669,11 +567,12 @@ judge(rest *r, bool first, qdot_binder bind, void *user)
 }
 
 static qdot_status
-find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibrium **list,
-     size_t *n)
+find(qdot_scene *s, bool first_only, qdot_binder bind, void *user,
+     qdot_equilibrium **list, size_t *n)
 {
-    rest r = {.s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .complete = true};
-    branch first, b;
+    qdot_rest r = {
+        .s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .complete = true};
+    qdot_rest_branch first, b;
     qdot_status status = qdot_pool_check(s->pool);
 
     *list = NULL;
@@ -689,7 +588,7 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
     if (status == QDOT_OK && !r.complete)
         status = search(&r, first.equations, bind, user);
     if (status == QDOT_OK)
-        status = leave_out_twice(&r, first.equations);
+        status = qdot_rest_leave_out_twice(&r, first.equations);
     if (status == QDOT_OK)
         status = judge(&r, first_only, bind, user);
     qdot_free(r.todo.at);

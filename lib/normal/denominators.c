@@ -67,25 +67,6 @@ cancel(qdot_field *f, qdot_ratio *r)
     qdot_ratio_clear(f, &from);
 }
 
-/* r = k r', both sides primitive, the leading coefficient below positive. */
-static void
-content(qdot_field *f, fmpq_t k, qdot_ratio *r)
-{
-    fmpz_t n, d;
-
-    fmpz_init(n);
-    fmpz_init(d);
-    _fmpz_vec_content(n, r->n->coeffs, fmpz_mpoly_length(r->n, f->ctx));
-    _fmpz_vec_content(d, r->d->coeffs, fmpz_mpoly_length(r->d, f->ctx));
-    if (fmpz_sgn(fmpz_mpoly_leadcoeff(r->d)) < 0)
-        fmpz_neg(d, d);
-    fmpz_mpoly_scalar_divexact_fmpz(r->n, r->n, n, f->ctx);
-    fmpz_mpoly_scalar_divexact_fmpz(r->d, r->d, d, f->ctx);
-    fmpq_set_fmpz_frac(k, n, d);
-    fmpz_clear(n);
-    fmpz_clear(d);
-}
-
 /* The coefficients, each cancelled; false where there are too few or too many. */
 static bool
 begin(struct parts *p, qdot_form *form, const qdot_ratio *r, const fmpq_t c)
@@ -111,7 +92,7 @@ begin(struct parts *p, qdot_form *form, const qdot_ratio *r, const fmpq_t c)
         fmpz_mpoly_set(one->r.n, p->groups.poly + i, f->ctx);
         fmpz_mpoly_set(one->r.d, r->d, f->ctx);
         cancel(f, &one->r);
-        content(f, one->k, &one->r);
+        qdot_ratio_content(f, one->k, &one->r);
         fmpq_mul(one->k, one->k, c);
         if (i == 0) {
             fmpz_mpoly_set(p->above, one->r.n, f->ctx);
@@ -206,8 +187,7 @@ say_group(struct parts *p, slong i)
     fmpz_mpoly_scalar_divexact_fmpz(sum, sum, k, f->ctx);
     fmpq_set_fmpz_frac(front, k, lcm);
     p->form->quotient = !fmpz_mpoly_is_one(first->r.d, f->ctx);
-    e = qdot_div(f->pool, qdot_form_say(p->form, sum, front),
-                 say_below(p, first->r.d));
+    e = qdot_div(f->pool, qdot_form_say(p->form, sum, front), say_below(p, first->r.d));
     e = with_tangents(f->pool, e);
     fmpz_mpoly_clear(sum, f->ctx);
     fmpz_mpoly_clear(term, f->ctx);
@@ -257,8 +237,7 @@ say_part(struct parts *p, struct part *one, unsigned which)
     qdot_expr e;
 
     p->form->quotient = !fmpz_mpoly_is_one(one->r.d, p->f->ctx);
-    e = qdot_div(pool, qdot_form_say(p->form, one->r.n, one->k),
-                 say_below(p, one->r.d));
+    e = qdot_div(pool, qdot_form_say(p->form, one->r.n, one->k), say_below(p, one->r.d));
     e = with_tangents(pool, e);
     one->shared = e == QDOT_NIL ? e : sums_of(pool, e, which);
     one->own = qdot_div(pool, e, one->shared);
@@ -309,8 +288,7 @@ say_by_sums(struct parts *p, unsigned which)
         say_part(p, &p->at[i], which);
     for (slong i = 0; i < p->n; i++)
         if (!p->at[i].said)
-            sum =
-                qdot_add(pool, sum, qdot_mul(pool, say_beside(p, i), p->at[i].shared));
+            sum = qdot_add(pool, sum, qdot_mul(pool, say_beside(p, i), p->at[i].shared));
     return sum;
 }
 

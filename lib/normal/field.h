@@ -122,6 +122,8 @@ void qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, slong n);
 void qdot_ratio_scale(qdot_field *f, qdot_ratio *r, const fmpq_t c);
 /* Common factors out, the denominator's leading coefficient positive. */
 void qdot_ratio_cancel(qdot_field *f, qdot_ratio *r);
+/* r = k r', both sides of r' primitive, the leading coefficient below positive; r becomes r'. */
+void qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r);
 
 /* p as an expression, expanded. */
 qdot_expr qdot_field_expr(qdot_field *f, const fmpz_mpoly_t p);

@@ -14,25 +14,6 @@ struct saying {
     qdot_expr *best;
 };
 
-/* n = c n', d = d', both primitive; c rational. */
-static void
-content(qdot_field *f, fmpq_t c, qdot_ratio *r)
-{
-    fmpz_t n, d;
-
-    fmpz_init(n);
-    fmpz_init(d);
-    _fmpz_vec_content(n, r->n->coeffs, fmpz_mpoly_length(r->n, f->ctx));
-    _fmpz_vec_content(d, r->d->coeffs, fmpz_mpoly_length(r->d, f->ctx));
-    if (fmpz_sgn(fmpz_mpoly_leadcoeff(r->d)) < 0)
-        fmpz_neg(d, d);
-    fmpz_mpoly_scalar_divexact_fmpz(r->n, r->n, n, f->ctx);
-    fmpz_mpoly_scalar_divexact_fmpz(r->d, r->d, d, f->ctx);
-    fmpq_set_fmpz_frac(c, n, d);
-    fmpz_clear(n);
-    fmpz_clear(d);
-}
-
 /* Each term over a monomial denominator by itself. */
 static qdot_expr
 spread(struct saying *s, const qdot_ratio *r, const fmpq_t c)
@@ -218,7 +199,7 @@ qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best)
     fmpq_init(c);
     qdot_ratio_init(f, &r);
     qdot_ratio_set(f, &r, from);
-    content(f, c, &r);
+    qdot_ratio_content(f, c, &r);
     form->quotient = false;
     derivatives_move(form, &r);
     if (!fmpz_mpoly_is_one(r.d, f->ctx)) {

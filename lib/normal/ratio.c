@@ -316,3 +316,21 @@ qdot_field_ratio_expr(qdot_field *f, const qdot_ratio *r)
         return n;
     return qdot_div(f->pool, n, qdot_field_expr(f, r->d));
 }
+
+void
+qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r)
+{
+    fmpz_t n, d;
+
+    fmpz_init(n);
+    fmpz_init(d);
+    _fmpz_vec_content(n, r->n->coeffs, fmpz_mpoly_length(r->n, f->ctx));
+    _fmpz_vec_content(d, r->d->coeffs, fmpz_mpoly_length(r->d, f->ctx));
+    if (fmpz_sgn(fmpz_mpoly_leadcoeff(r->d)) < 0)
+        fmpz_neg(d, d);
+    fmpz_mpoly_scalar_divexact_fmpz(r->n, r->n, n, f->ctx);
+    fmpz_mpoly_scalar_divexact_fmpz(r->d, r->d, d, f->ctx);
+    fmpq_set_fmpz_frac(k, n, d);
+    fmpz_clear(n);
+    fmpz_clear(d);
+}

@@ -35,23 +35,6 @@ qdot_solve_sign(qdot_pool *pool, qdot_expr f, qdot_expr x)
     return u;
 }
 
-/* Both conditions. nil: none. */
-static qdot_expr
-both(qdot_pool *pool, qdot_expr list, qdot_expr relation)
-{
-    uint32_t n = list == QDOT_NIL ? 0 : qdot_expr_count(pool, list);
-    qdot_expr result = QDOT_NIL, *all = qdot_malloc((n + 1) * sizeof *all);
-
-    if (all == NULL)
-        return qdot_pool_fail(pool);
-    for (uint32_t i = 0; i < n; i++)
-        all[i] = qdot_expr_arg(pool, list, i);
-    all[n] = relation;
-    result = qdot_list(pool, n + 1, all);
-    qdot_free(all);
-    return result;
-}
-
 /* A root on the border of the cases, u = 0, counts where f itself is defined and 0. */
 static bool
 holds(by_sign *s, qdot_expr value)
@@ -79,8 +62,8 @@ add(by_sign *s, qdot_root root, qdot_expr side)
     for (size_t i = 0; i < s->roots.n; i++)
         if (s->roots.at[i].value == root.value)
             when = QDOT_FALSE;
-    if (when != QDOT_TRUE && when != QDOT_FALSE && when != QDOT_NIL)
-        root.condition = both(s->pool, root.condition, when);
+    if (when != QDOT_FALSE && when != QDOT_NIL)
+        root.condition = qdot_solve_both(s->pool, root.condition, when);
     QDOT_TRY(qdot_pool_check(s->pool));
     return when == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&s->roots, root);
 }

@@ -38,11 +38,10 @@ tidy(const solver *s, qdot_expr e)
 
 /* --- conditions -------------------------------------------------------------------- */
 
-/* Both conditions; QDOT_FALSE if one is. nil: none. */
-static qdot_expr
-both(solver *s, qdot_expr a, qdot_expr relation)
+qdot_expr
+qdot_solve_both(qdot_pool *pool, qdot_expr a, qdot_expr relation)
 {
-    uint32_t n = a == QDOT_NIL ? 0 : qdot_expr_count(s->pool, a);
+    uint32_t n = a == QDOT_NIL ? 0 : qdot_expr_count(pool, a);
     qdot_expr *all, result;
 
     if (a == QDOT_FALSE || relation == QDOT_FALSE)
@@ -51,16 +50,16 @@ both(solver *s, qdot_expr a, qdot_expr relation)
         return a;
     all = qdot_malloc((n + 1) * sizeof *all);
     if (all == NULL)
-        return qdot_pool_fail(s->pool);
+        return qdot_pool_fail(pool);
     for (uint32_t i = 0; i < n; i++) {
-        all[i] = qdot_expr_arg(s->pool, a, i);
+        all[i] = qdot_expr_arg(pool, a, i);
         if (all[i] == relation) {
             qdot_free(all);
             return a;
         }
     }
     all[n] = relation;
-    result = qdot_list(s->pool, n + 1, all);
+    result = qdot_list(pool, n + 1, all);
     qdot_free(all);
     return result;
 }
@@ -189,7 +188,7 @@ extract(solver *s, qdot_expr v, long k, qdot_expr condition, root_list *out)
     }
     if (k % 2 == 0)
         kind = positive(s, v);
-    condition = both(s, condition, kind);
+    condition = qdot_solve_both(s->pool, condition, kind);
     if (condition == QDOT_FALSE)
         return QDOT_OK;
     if (k % 2 != 0 && (qdot_expr_node(s->pool, v)->sign & QDOT_NEG) == QDOT_NEG)
@@ -240,7 +239,7 @@ polynomial(solver *s, const qdot_expr *c, long degree, qdot_expr condition,
                  qdot_product(pool, 3, (qdot_expr[]){qdot_expr_int(pool, 4), a, c[0]})));
     QDOT_TRY(qdot_pool_check(pool));
     kind = discriminant == QDOT_ZERO ? QDOT_TRUE : positive(s, discriminant);
-    condition = both(s, condition, kind);
+    condition = qdot_solve_both(s->pool, condition, kind);
     if (condition == QDOT_FALSE)
         return QDOT_OK;
     root = qdot_sqrt(pool, discriminant);
@@ -296,7 +295,8 @@ below_one(solver *s, qdot_expr v)
 
     return below == QDOT_FALSE || above == QDOT_FALSE
                ? QDOT_FALSE
-               : both(s, both(s, QDOT_NIL, below), above);
+               : qdot_solve_both(s->pool, qdot_solve_both(s->pool, QDOT_NIL, below),
+                                 above);
 }
 
 static qdot_status
@@ -312,7 +312,7 @@ all_of(solver *s, qdot_expr a, qdot_expr b)
 {
     for (uint32_t i = 0;
          b != QDOT_NIL && b != QDOT_FALSE && i < qdot_expr_count(s->pool, b); i++)
-        a = both(s, a, qdot_expr_arg(s->pool, b, i));
+        a = qdot_solve_both(s->pool, a, qdot_expr_arg(s->pool, b, i));
     return b == QDOT_FALSE ? QDOT_FALSE : a;
 }
 
@@ -361,7 +361,8 @@ invert(solver *s, qdot_expr g, qdot_expr v, qdot_expr condition)
         qdot_expr least = h == QDOT_COSH ? QDOT_ONE : QDOT_ZERO;
 
         if (v != least)
-            condition = both(s, condition, positive(s, qdot_sub(pool, v, least)));
+            condition = qdot_solve_both(s->pool, condition,
+                                        positive(s, qdot_sub(pool, v, least)));
         if (condition == QDOT_FALSE)
             return QDOT_OK;
         w = h == QDOT_COSH ? qdot_fun1(pool, QDOT_ACOSH, v) : v;
@@ -369,7 +370,7 @@ invert(solver *s, qdot_expr g, qdot_expr v, qdot_expr condition)
         return solve_all(s, qdot_add(pool, u, w), condition);
     }
     if (h == QDOT_EXP)
-        condition = both(s, condition, positive(s, v));
+        condition = qdot_solve_both(s->pool, condition, positive(s, v));
     if (condition == QDOT_FALSE)
         return QDOT_OK;
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
@@ -398,7 +399,7 @@ mixed(solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_expr d, qdot_expr c
     }
     R = qdot_add(pool, qdot_mul(pool, a, a), qdot_mul(pool, b, b));
     kind = positive(s, tidy(s, qdot_sub(pool, R, qdot_mul(pool, d, d))));
-    condition = both(s, condition, kind);
+    condition = qdot_solve_both(s->pool, condition, kind);
     if (condition == QDOT_FALSE)
         return QDOT_OK;
     v = tidy(s, qdot_div(pool, qdot_neg(pool, d), qdot_sqrt(pool, R)));

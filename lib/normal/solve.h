@@ -40,6 +40,9 @@ QDOT_MUST_CHECK qdot_status qdot_solve_by_sign(qdot_pool *pool, qdot_expr f, qdo
                                                qdot_root **roots, size_t *n,
                                                bool *complete);
 
+/* A list of conditions (nil: none) and one more; QDOT_FALSE if one is. */
+qdot_expr qdot_solve_both(qdot_pool *pool, qdot_expr conditions, qdot_expr relation);
+
 /* Sort them by their values, if all are constants; else they stay as they are. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_solve_sort(qdot_pool *pool, size_t n, qdot_root *roots);
 
