@@ -15,6 +15,9 @@ static const double unit = 0x1p-53;
 /* Of roundings, for the floor. */
 static const double most_floor = 32;
 
+/* The scale of random walks by three of them. */
+static const double roughly_known = 1.5;
+
 /* Of a companion by Taylor series beside a stiff method, which steps over what is fast:
  * where it gets stuck there the method's partner takes over. */
 static const uint64_t most_explicit_steps = 100000;
@@ -268,6 +271,20 @@ median_between(const qdot_companion *c)
     return errors[PLACES / 2];
 }
 
+/* Whether both companions are apart from the run by numbers that have nothing in common, after
+ * many steps: then rounding rules, and three walks are all that is known of it. */
+static bool
+is_walk(const qdot_companion *c, const double *y)
+{
+    double first, second;
+
+    if (c->count < 2 || c->floor < most_floor * unit)
+        return false;
+    first = apart(c, y, c->at[0].y);
+    second = apart(c, y, c->at[1].y);
+    return fabs(first - second) > 0.1 * fmax(first, second);
+}
+
 static qdot_status
 prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
 {
@@ -379,6 +396,8 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         out->error = fmax(out->error, largest_distance(c, y, SIZE_MAX));
     if (out->known && between)
         out->error = fmax(out->error, median_between(c));
+    if (out->known && is_walk(c, y))
+        out->error *= roughly_known;
     if (!out->known) {
         out->error = NAN;
         for (size_t i = 0; i < c->n && difference; i++)

@@ -26,6 +26,8 @@
  * run in ten would be wrong by more than 3 times its statement. So such a run
  * (QDOT_COMPANION_TWIN_TOL) has two companions, moved to either side, by one order more
  * and by three; the largest distance of any two of the three runs counts.
+ * Beyond 1024 steps, where the two are apart from the run by different numbers, that is three
+ * samples of a walk, and half as much again is stated.
  *     The second one is there for what chance cannot hide: the amplification of the scene. It
  * starts QDOT_COMPANION_FAR doubles away (zeros stay 2^-53 away: of their scale nothing is
  * known), and of its distances min(1, sqrt(steps)/QDOT_COMPANION_FAR) counts, what a random
