@@ -280,6 +280,68 @@ say_apart(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
     return e;
 }
 
+static ulong
+degree_of(const qdot_groups *groups, slong i, slong n)
+{
+    ulong degree = 0;
+
+    for (slong v = 0; v < n; v++)
+        degree += groups->key[i * n + v];
+    return degree;
+}
+
+static bool
+all_of_degree(const qdot_groups *groups, slong n, ulong degree)
+{
+    for (slong i = 0; i < groups->n; i++)
+        if (degree_of(groups, i, n) != degree)
+            return false;
+    return true;
+}
+
+/* What is of second degree in velocities, of first, of none, each by itself:
+ * m*(x'^2 + y'^2)/2 + m*w*(x*y' - y*x') + m*w^2*(x^2 + y^2)/2. Nil: it is of one degree. */
+static qdot_expr
+say_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
+{
+    enum { MOST_DEGREE = 8 };
+    qdot_field *f = form->f;
+    qdot_expr sum = QDOT_ZERO;
+    fmpz_mpoly_t part, monomial;
+    int parts = 0;
+
+    for (slong i = 0; i < groups->n; i++) {
+        if (degree_of(groups, i, f->n) > MOST_DEGREE)
+            return QDOT_NIL;
+        for (slong v = 0; v < f->n; v++) /* an energy, not an equation of motion */
+            if (groups->key[i * f->n + v] > 0 &&
+                !(qdot_expr_node(f->pool, f->gen[v].expr)->holds & QDOT_HAS_VELOCITY))
+                return QDOT_NIL;
+    }
+    fmpz_mpoly_init(part, f->ctx);
+    fmpz_mpoly_init(monomial, f->ctx);
+    for (ulong degree = 0; degree <= MOST_DEGREE; degree++) {
+        fmpz_mpoly_zero(part, f->ctx);
+        for (slong i = 0; i < groups->n; i++) {
+            if (degree_of(groups, i, f->n) != degree)
+                continue;
+            fmpz_mpoly_zero(monomial, f->ctx);
+            fmpz_mpoly_push_term_si_ui(monomial, 1, groups->key + i * f->n, f->ctx);
+            fmpz_mpoly_mul(monomial, monomial, groups->poly + i, f->ctx);
+            fmpz_mpoly_add(part, part, monomial, f->ctx);
+        }
+        if (fmpz_mpoly_is_zero(part, f->ctx))
+            continue;
+        if (all_of_degree(groups, f->n, degree))
+            break;
+        parts++;
+        sum = qdot_add(f->pool, sum, qdot_form_say(form, part, c));
+    }
+    fmpz_mpoly_clear(part, f->ctx);
+    fmpz_mpoly_clear(monomial, f->ctx);
+    return parts > 1 ? sum : QDOT_NIL;
+}
+
 /* By what stands in front of coordinates and velocities: m1*(x1*y1' - y1*x1') + m2*(x2*y2' - y2*x2'). */
 static qdot_expr
 say_by_parameters(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
@@ -357,6 +419,8 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
             qdot_form_keep(pool, &best, say_product(form, p, c));
         if (!all_moving(f, &groups) && (form->quotient || is_linear(form, &groups)))
             qdot_form_keep(pool, &best, say_apart(form, &groups, c));
+        if (form->depth == 0 && !form->quotient)
+            qdot_form_keep(pool, &best, say_by_degree(form, &groups, c));
         if (!qdot_form_has_trig(form, p)) {
             if (is_linear(form, &groups))
                 qdot_form_keep(pool, &best, say_by_parameters(form, p, c));
