@@ -162,9 +162,10 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
             for (size_t i = 0; i < p->m; i++)
                 p->at[i] += scale * p->step[i];
         }
-        if (!(size < before)) {
+        if (!(size < before))
             QDOT_TRY(evaluate(s, p, seed, &size));
-            p->off = size;
+        if (!(size < before) || (size < 1e-10 && size > before / 2)) {
+            p->off = size; /* what is left is rounding, or the damping's */
             *found = size < 1e-10;
             return QDOT_OK;
         }

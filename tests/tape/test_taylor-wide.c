@@ -30,7 +30,7 @@ push(scene *f, qdot_expr e)
 static void
 begin(scene *f)
 {
-    char name[8];
+    char name[16];
 
     *f = (scene){.pool = qdot_pool_new()};
     for (int i = 0; i < N; i++) {
