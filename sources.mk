@@ -611,6 +611,7 @@ script_tests = \
 	tests/script/event-ends.sh \
 	tests/script/event-roots.lag \
 	tests/script/events.lag \
+	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/flat-places.lag \
 	tests/script/flexing.lag \
@@ -1191,6 +1192,7 @@ test_files = \
 	tests/script/event-ends.out \
 	tests/script/event-roots.out \
 	tests/script/events.out \
+	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/flat-places.out \
 	tests/script/flexing.out \

@@ -1,6 +1,11 @@
 /* solve-factors.c -- an expression as a product. */
+#include <stdio.h>
+#include <stdlib.h>
+
 #include "base/memory.h"
+#include "expr/calculus.h"
 #include "expr/tensor.h"
+#include "expr/walk.h"
 #include "normal/factor.h"
 #include "normal/flint.h"
 #include "normal/prepare.h"
@@ -113,15 +118,86 @@ qdot_solve_factors(qdot_pool *pool, qdot_expr e)
     return status == QDOT_OK ? x.result : qdot_pool_fail(pool);
 }
 
+/* --- functions as they stand ----------------------------------------------------------------- */
+
+enum { MOST_FUNCTIONS = 32 };
+
+/* Functions and the symbols in their places. */
+struct unrelated {
+    uint32_t n;
+    qdot_expr of[MOST_FUNCTIONS], as[MOST_FUNCTIONS];
+};
+
+static qdot_expr
+as_symbol(qdot_pool *pool, qdot_expr node, void *user)
+{
+    struct unrelated *u = user;
+    char name[32];
+
+    if (qdot_expr_kind(pool, node) != QDOT_FUN)
+        return QDOT_NIL;
+    for (uint32_t i = 0; i < u->n; i++)
+        if (u->of[i] == node)
+            return u->as[i];
+    if (u->n == MOST_FUNCTIONS)
+        return node;
+    snprintf(name, sizeof name, "(function %u)", u->n);
+    u->of[u->n] = node;
+    return u->as[u->n++] = qdot_symbol_get(pool, QDOT_FORMAL, name);
+}
+
+/* How many factors stand above, each as often as its power says; 0: one of them can be said
+ * shorter, as sin(x)^2 + cos(x)^2 can. */
+static long
+count_factors(qdot_pool *pool, qdot_expr e)
+{
+    bool product = qdot_expr_kind(pool, e) == QDOT_PROD;
+    uint32_t n = product ? qdot_expr_count(pool, e) : 2;
+    long count = 0, power;
+
+    for (uint32_t i = 1; i < n; i += 2) {
+        qdot_expr base = product ? qdot_expr_arg(pool, e, i) : e,
+                  shorter = qdot_simplify(pool, base, NULL);
+
+        if (shorter == QDOT_NIL ||
+            qdot_expr_size(pool, shorter) < qdot_expr_size(pool, base))
+            return 0;
+        if (!product || !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &power))
+            power = 1;
+        count += power > 0 ? power : 0;
+    }
+    return count;
+}
+
+/* The product by all that relates functions to each other, or the one in which they stand for
+ * themselves, sin(y)^2 for (1 - cos(y)) (1 + cos(y)): more factors, then fewer operations. */
 static qdot_expr
 product_of(qdot_pool *pool, qdot_expr e, void *user)
 {
-    qdot_expr product = QDOT_NIL;
+    struct unrelated u = {0};
+    qdot_expr related = QDOT_NIL, apart = QDOT_NIL, bare;
+    long more;
 
     (void)user;
-    if (factors_of(pool, e, &product, NULL, NULL) != QDOT_OK)
+    if (factors_of(pool, e, &related, NULL, NULL) != QDOT_OK)
         return qdot_pool_fail(pool);
-    return product == QDOT_NIL ? e : product;
+    related = related == QDOT_NIL ? e : related;
+    bare = qdot_walk_map(pool, e, as_symbol, &u);
+    if (bare == QDOT_NIL || u.n == 0)
+        return bare == QDOT_NIL ? QDOT_NIL : related;
+    if (factors_of(pool, bare, &apart, NULL, NULL) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    if (apart == QDOT_NIL || related == QDOT_ZERO)
+        return related;
+    apart = qdot_subs(pool, apart, u.n, u.as, u.of);
+    if (apart == QDOT_NIL)
+        return QDOT_NIL;
+    more = count_factors(pool, apart);
+    more = more == 0 ? -1 : more - count_factors(pool, related);
+    return more > 0 || (more == 0 &&
+                        qdot_expr_size(pool, apart) < qdot_expr_size(pool, related))
+               ? apart
+               : related;
 }
 
 static void
