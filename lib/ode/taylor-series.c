@@ -6,6 +6,11 @@
 
 enum { least_order = 6 };
 
+/* Digits (natural ones) that an order is chosen for at least where it runs as machine code: of
+ * a step of few orders most is what every step takes, more than `cost`, which is of kernels,
+ * knows (doc/methods.md). */
+static const double least_digits = 16;
+
 int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
 {
@@ -13,6 +18,8 @@ qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
     double L = -log(qdot_step_aim(tol)), least = INFINITY;
     int best = least_order;
 
+    if (series->write)
+        L = fmax(L, least_digits);
     for (int p = least_order; p <= series->most; p++) {
         double cost = (c[0] + c[1] * p + c[2] * p * p) * exp(L / p);
 
