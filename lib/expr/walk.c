@@ -122,7 +122,8 @@ begin(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
     }
     if (w->n <= QDOT_WALK_FEW)
         w->value = w->few_value;
-    else if (status == QDOT_OK && (w->value = qdot_malloc(w->n * sizeof *w->value)) == NULL)
+    else if (status == QDOT_OK &&
+             (w->value = qdot_malloc(w->n * sizeof *w->value)) == NULL)
         status = QDOT_ENOMEM;
     if (status != QDOT_OK) {
         qdot_walk_end(w);
@@ -278,6 +279,25 @@ qdot_walk_map(qdot_pool *pool, qdot_expr e,
               qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user), void *user)
 {
     return qdot_walk_map_where(pool, e, UINT32_MAX, 0, leaf, user);
+}
+
+qdot_expr
+qdot_walk_replace(qdot_pool *pool, qdot_expr e, qdot_kind kind,
+                  qdot_expr (*f)(qdot_pool *pool, qdot_expr node, void *user), void *user)
+{
+    qdot_expr result = e;
+    qdot_walk w;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return e;
+    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
+        result = qdot_walk_rebuild(pool, &w, w.at[i]);
+        if (result != QDOT_NIL && qdot_expr_kind(pool, result) == kind)
+            result = f(pool, result, user);
+        qdot_walk_set(&w, w.at[i], result);
+    }
+    qdot_walk_end(&w);
+    return result;
 }
 
 bool

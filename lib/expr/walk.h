@@ -47,6 +47,12 @@ qdot_expr qdot_walk_map(qdot_pool *pool, qdot_expr e,
                         qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
                         void *user);
 
+/* Rebuild e from the leaves: every node of a kind, its children replaced, becomes f of it. Nil: f
+ * gave nil somewhere, or the pool failed; e itself where there is no memory for the walk. */
+qdot_expr qdot_walk_replace(qdot_pool *pool, qdot_expr e, qdot_kind kind,
+                            qdot_expr (*f)(qdot_pool *pool, qdot_expr node, void *user),
+                            void *user);
+
 /* A node of the walk over the nodes that are its children's values: itself where they are the
  * children. Nil: the pool keeps the failure. */
 qdot_expr qdot_walk_rebuild(qdot_pool *pool, const qdot_walk *w, qdot_expr e);

@@ -25,6 +25,9 @@ typedef struct {
 /* Conditions at what is known: QDOT_FALSE if one fails; else those that say something. */
 qdot_expr qdot_rest_conditions_left(const qdot_rest *r, qdot_expr conditions);
 
+/* e with the values of equations u = value put in, all at once. */
+qdot_expr qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values);
+
 /* Whether a full turn of u changes no equation. */
 bool qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations);
 

@@ -24,42 +24,24 @@ lies_in(const qdot_rest *r, const qdot_equilibrium *one, const qdot_equilibrium 
         qdot_expr equations)
 {
     qdot_pool *pool = r->pool;
-    uint32_t n = qdot_expr_count(pool, one->equations),
-             m = qdot_expr_count(pool, all->equations);
-    qdot_expr *from = qdot_calloc(2 * (size_t)n + 1, sizeof *from), *to;
-    bool inside = m <= n;
+    uint32_t m = qdot_expr_count(pool, all->equations);
+    bool inside = m <= qdot_expr_count(pool, one->equations);
 
-    if (from == NULL)
-        return false;
-    to = from + n;
-    for (uint32_t i = 0; i < n && inside; i++) {
-        from[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, one->equations, i), 0);
-        to[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, one->equations, i), 1);
-    }
     for (uint32_t k = 0; k < m && inside; k++) {
         qdot_expr u = qdot_expr_arg(pool, qdot_expr_arg(pool, all->equations, k), 0),
-                  v = qdot_expr_arg(pool, qdot_expr_arg(pool, all->equations, k), 1), d;
-        uint32_t i = 0;
+                  v = qdot_expr_arg(pool, qdot_expr_arg(pool, all->equations, k), 1),
+                  there = qdot_rest_put(r, u, one->equations), d;
 
-        while (i < n && from[i] != u)
-            i++;
-        if (i == n) {
-            inside = false;
-            break;
-        }
-        d = qdot_sub(pool, to[i], qdot_subs(pool, v, n, from, to));
-        inside = d != QDOT_NIL &&
+        d = qdot_sub(pool, there, qdot_rest_put(r, v, one->equations));
+        inside = d != QDOT_NIL && there != u &&
                  (d == QDOT_ZERO ||
                   (qdot_mech_holds(r->s, d) != 0 && qdot_is_zero(pool, d, &r->facts)) ||
                   (is_turns(r, d) && qdot_rest_is_angle(r, u, equations)));
     }
-    if (inside && all->exists != QDOT_NIL && all->exists != one->exists) {
-        qdot_expr left =
-            qdot_rest_conditions_left(r, qdot_subs(pool, all->exists, n, from, to));
-
-        inside = left == QDOT_NIL && !qdot_pool_failed(pool);
-    }
-    qdot_free(from);
+    if (inside && all->exists != QDOT_NIL && all->exists != one->exists)
+        inside = qdot_rest_conditions_left(
+                     r, qdot_rest_put(r, all->exists, one->equations)) == QDOT_NIL &&
+                 !qdot_pool_failed(pool);
     return inside;
 }
 

@@ -328,22 +328,30 @@ with_domains(const qdot_rest *r, const qdot_rest_branch *b)
     return all;
 }
 
-/* Whether the equations have values there: that a numerator vanishes is not enough. */
-static qdot_status
-are_defined(const qdot_rest *r, qdot_expr equations, qdot_expr values, bool *yes)
+qdot_expr
+qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values)
 {
     uint32_t n = qdot_expr_count(r->pool, values);
     qdot_expr *from = qdot_malloc((2 * (size_t)n + 1) * sizeof *from);
-    qdot_status status;
 
     if (from == NULL)
-        return QDOT_ENOMEM;
+        return qdot_pool_fail(r->pool);
     for (uint32_t i = 0; i < n; i++) {
         from[i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 0);
         from[n + i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 1);
     }
-    (void)qdot_subs(r->pool, equations, n, from, from + n);
+    e = qdot_subs(r->pool, e, n, from, from + n);
     qdot_free(from);
+    return e;
+}
+
+/* Whether the equations have values there: that a numerator vanishes is not enough. */
+static qdot_status
+are_defined(const qdot_rest *r, qdot_expr equations, qdot_expr values, bool *yes)
+{
+    qdot_status status;
+
+    (void)qdot_rest_put(r, equations, values);
     status = qdot_pool_check(r->pool);
     *yes = status == QDOT_OK;
     return status == QDOT_EDOMAIN ? QDOT_OK : status;

@@ -23,26 +23,10 @@ known(qdot_pool *pool, qdot_expr node, void *user)
     return QDOT_NIL;
 }
 
-static bool
-has_sign(const qdot_pool *pool, qdot_expr e)
-{
-    bool found = false;
-    qdot_walk w;
-
-    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
-        return false;
-    for (size_t i = 0; i < w.n && !found; i++)
-        found = qdot_expr_kind(pool, w.at[i]) == QDOT_FUN &&
-                (qdot_expr_node(pool, w.at[i])->op == QDOT_ABS ||
-                 qdot_expr_node(pool, w.at[i])->op == QDOT_SIGN);
-    qdot_walk_end(&w);
-    return found;
-}
-
 qdot_expr
 qdot_known_signs(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
-    if (e == QDOT_NIL || facts == NULL || facts->n_conditions == 0 || !has_sign(pool, e))
+    if (e == QDOT_NIL || facts == NULL || facts->n_conditions == 0)
         return e;
     return qdot_walk_map(pool, e, known, (void *)(uintptr_t)facts);
 }

@@ -8,11 +8,12 @@
 
 /* In a product sin(a)^m cos(a)^-n is tan(a)^min(m, n) ..., likewise cot and tanh. */
 static qdot_expr
-tangents(qdot_pool *pool, qdot_expr e)
+tangents(qdot_pool *pool, qdot_expr e, void *user)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr result = e;
 
+    (void)user;
     for (uint32_t i = 1; i < n; i += 2)
         for (uint32_t j = 1; j < n; j += 2) {
             qdot_expr s = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, j), t;
@@ -50,26 +51,6 @@ tangents(qdot_pool *pool, qdot_expr e)
     return result;
 }
 
-/* Rebuild e from its leaves, `f` applied to every node of a kind. */
-static qdot_expr
-on_nodes(qdot_pool *pool, qdot_expr e, qdot_kind kind,
-         qdot_expr (*f)(qdot_pool *pool, qdot_expr node))
-{
-    qdot_expr result = e;
-    qdot_walk w;
-
-    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
-        return e;
-    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
-        result = qdot_walk_rebuild(pool, &w, w.at[i]);
-        if (result != QDOT_NIL && qdot_expr_kind(pool, result) == kind)
-            result = f(pool, result);
-        qdot_walk_set(&w, w.at[i], result);
-    }
-    qdot_walk_end(&w);
-    return result;
-}
-
 static bool
 all_negative(const qdot_pool *pool, qdot_expr sum)
 {
@@ -83,13 +64,14 @@ all_negative(const qdot_pool *pool, qdot_expr sum)
 
 /* (-a - b)*c is -(a + b)*c. */
 static qdot_expr
-signs_in_front(qdot_pool *pool, qdot_expr e)
+signs_in_front(qdot_pool *pool, qdot_expr e, void *user)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr few[24], *factor = few, result;
     bool any = false;
     long k;
 
+    (void)user;
     if (n > 24 || n < 5)
         return e;
     factor[0] = qdot_expr_arg(pool, e, 0);
@@ -125,25 +107,28 @@ number_in(qdot_pool *pool, qdot_expr e)
         return e;
     for (uint32_t i = 1; i < qdot_expr_count(pool, sum); i += 2)
         rest = qdot_add(pool, rest,
-                        qdot_mul(pool,
-                                 qdot_mul(pool, c, qdot_expr_arg(pool, sum, i + 1)),
+                        qdot_mul(pool, qdot_mul(pool, c, qdot_expr_arg(pool, sum, i + 1)),
                                  qdot_expr_arg(pool, sum, i)));
     rest = qdot_add(pool, rest, qdot_mul(pool, c, qdot_expr_arg(pool, sum, 0)));
-    return rest != QDOT_NIL && qdot_expr_size(pool, rest) < qdot_expr_size(pool, e) ? rest : e;
+    return rest != QDOT_NIL && qdot_expr_size(pool, rest) < qdot_expr_size(pool, e) ? rest
+                                                                                    : e;
 }
 
 /* The same of a factor of a product: c (c1 a + ...) x. */
 static qdot_expr
-number_into(qdot_pool *pool, qdot_expr e)
+number_into(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_expr c = qdot_expr_arg(pool, e, 0);
 
-    if (qdot_expr_count(pool, e) == 3 || fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, c))))
+    (void)user;
+    if (qdot_expr_count(pool, e) == 3 ||
+        fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, c))))
         return number_in(pool, e);
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
         qdot_expr b = qdot_expr_arg(pool, e, i), one, result;
 
-        if (qdot_expr_kind(pool, b) != QDOT_SUM || qdot_expr_arg(pool, e, i + 1) != QDOT_ONE)
+        if (qdot_expr_kind(pool, b) != QDOT_SUM ||
+            qdot_expr_arg(pool, e, i + 1) != QDOT_ONE)
             continue;
         one = qdot_mul(pool, c, b);
         if (one == QDOT_NIL || qdot_expr_kind(pool, one) != QDOT_PROD)
@@ -161,29 +146,30 @@ number_into(qdot_pool *pool, qdot_expr e)
 qdot_expr
 qdot_products_numbers(qdot_pool *pool, qdot_expr e)
 {
-    return on_nodes(pool, e, QDOT_PROD, number_into);
+    return qdot_walk_replace(pool, e, QDOT_PROD, number_into, NULL);
 }
 
 qdot_expr
 qdot_products_tangents(qdot_pool *pool, qdot_expr e)
 {
-    return on_nodes(pool, e, QDOT_PROD, tangents);
+    return qdot_walk_replace(pool, e, QDOT_PROD, tangents, NULL);
 }
 
 qdot_expr
 qdot_products_signs(qdot_pool *pool, qdot_expr e)
 {
-    return on_nodes(pool, e, QDOT_PROD, signs_in_front);
+    return qdot_walk_replace(pool, e, QDOT_PROD, signs_in_front, NULL);
 }
 
 /* sin(2 a) as 2 sin(a) cos(a). */
 static qdot_expr
-halved(qdot_pool *pool, qdot_expr e)
+halved(qdot_pool *pool, qdot_expr e, void *user)
 {
     qdot_expr a = qdot_expr_arg(pool, e, 0), half;
     bool even =
         qdot_expr_kind(pool, a) == QDOT_SUM || qdot_expr_kind(pool, a) == QDOT_PROD;
 
+    (void)user;
     if (qdot_expr_node(pool, e)->op != QDOT_SIN)
         return e;
     for (uint32_t i = 0; i < qdot_expr_count(pool, a) && even; i += 2) {
@@ -204,10 +190,11 @@ halved(qdot_pool *pool, qdot_expr e)
 /* The least power of a function in the terms of a sum, out: sin(a)*cos(a)*x + sin(a)^2*y =
  * sin(a)*(cos(a)*x + sin(a)*y). */
 static qdot_expr
-function_out(qdot_pool *pool, qdot_expr sum)
+function_out(qdot_pool *pool, qdot_expr sum, void *user)
 {
     qdot_expr first, best = sum;
 
+    (void)user;
     sum = best = qdot_common_out(pool, sum);
     if (sum == QDOT_NIL || qdot_expr_kind(pool, sum) != QDOT_SUM ||
         qdot_expr_arg(pool, sum, 0) != QDOT_ZERO || qdot_expr_count(pool, sum) < 5)
@@ -246,5 +233,6 @@ function_out(qdot_pool *pool, qdot_expr sum)
 qdot_expr
 qdot_products_out(qdot_pool *pool, qdot_expr e)
 {
-    return on_nodes(pool, on_nodes(pool, e, QDOT_FUN, halved), QDOT_SUM, function_out);
+    return qdot_walk_replace(pool, qdot_walk_replace(pool, e, QDOT_FUN, halved, NULL),
+                             QDOT_SUM, function_out, NULL);
 }

@@ -237,29 +237,18 @@ together(qdot_pool *pool, const qdot_map *map, qdot_expr e)
 }
 
 static qdot_expr
-roots_back(qdot_pool *pool, qdot_expr e, const qdot_map *map)
+roots_together(qdot_pool *pool, qdot_expr e, void *user)
 {
     enum { TIMES = 4 };
-    qdot_expr result = e;
-    qdot_walk w;
 
-    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &w) != QDOT_OK)
-        return e;
-    for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
-        result = qdot_walk_rebuild(pool, &w, w.at[i]);
-        for (int k = 0; k < TIMES && result != QDOT_NIL &&
-                        qdot_expr_kind(pool, result) == QDOT_PROD;
-             k++) {
-            qdot_expr one = together(pool, map, result);
+    for (int k = 0; k < TIMES && qdot_expr_kind(pool, e) == QDOT_PROD; k++) {
+        qdot_expr one = together(pool, user, e);
 
-            if (one == QDOT_NIL || one == result)
-                break;
-            result = one;
-        }
-        qdot_walk_set(&w, w.at[i], result);
+        if (one == QDOT_NIL || one == e)
+            break;
+        e = one;
     }
-    qdot_walk_end(&w);
-    return result;
+    return e;
 }
 
 /* --- scalars ----------------------------------------------------------------------- */
@@ -321,7 +310,7 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
         if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
             keep(&s, qdot_products_numbers(pool, s.best));
         if (s.best != QDOT_NIL && origins.map.n > 0) {
-            qdot_expr back = roots_back(pool, s.best, &origins.map);
+            qdot_expr back = qdot_walk_replace(pool, s.best, QDOT_PROD, roots_together, &origins.map);
 
             if (back != QDOT_NIL &&
                 qdot_expr_size(pool, back) <= qdot_expr_size(pool, s.best))

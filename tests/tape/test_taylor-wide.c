@@ -100,6 +100,16 @@ compare(const scene *f, qdot_taylor *t, const qdot_taylor_wide *w, int k)
 }
 
 static void
+begin_wide(scene *f, qdot_taylor **t, qdot_taylor_wide **w)
+{
+    begin(f);
+    fill(f);
+    assert_int_equal(qdot_taylor_new(f->tape, MOST, t), QDOT_OK);
+    assert_int_equal(qdot_taylor_wide_new(*t, N, w), QDOT_OK);
+    assert_non_null(*w);
+}
+
+static void
 vectors_agree(void **state)
 {
     size_t lanes[N], at;
@@ -108,11 +118,7 @@ vectors_agree(void **state)
     scene f;
 
     (void)state;
-    begin(&f);
-    fill(&f);
-    assert_int_equal(qdot_taylor_new(f.tape, MOST, &t), QDOT_OK);
-    assert_int_equal(qdot_taylor_wide_new(t, N, &w), QDOT_OK);
-    assert_non_null(w);
+    begin_wide(&f, &t, &w);
     for (size_t i = 0; i < N; i++)
         lanes[i] =
             i == 4 ? SIZE_MAX
@@ -158,10 +164,7 @@ sums_are_sums(void **state)
     scene f;
 
     (void)state;
-    begin(&f);
-    fill(&f);
-    assert_int_equal(qdot_taylor_new(f.tape, MOST, &t), QDOT_OK);
-    assert_int_equal(qdot_taylor_wide_new(t, N, &w), QDOT_OK);
+    begin_wide(&f, &t, &w);
     for (size_t i = 0; i < sizeof x / sizeof *x; i++) {
         x[i] = (double)(i * 37 % 101);
         y[i] = (double)(i * 53 % 97) - 40;
