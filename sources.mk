@@ -471,11 +471,13 @@ lang_sources = \
 	lib/lang/redirect.c \
 	lib/lang/report.c \
 	lib/lang/resolve.c \
+	lib/lang/rest.c \
 	lib/lang/session.c \
 	lib/lang/source.c \
 	lib/lang/start.c \
 	lib/lang/statement.c \
 	lib/lang/styled.c \
+	lib/lang/taken.c \
 	lib/lang/words.c \
 	lib/lang/workbench.c \
 	lib/lang/workprecision.c
@@ -496,8 +498,10 @@ lang_headers = \
 	lib/lang/number.h \
 	lib/lang/read.h \
 	lib/lang/redirect.h \
+	lib/lang/rest.h \
 	lib/lang/session.h \
-	lib/lang/statement.h
+	lib/lang/statement.h \
+	lib/lang/taken.h
 
 program_sources = \
 	src/main.c \
@@ -693,6 +697,7 @@ script_tests = \
 	tests/bad/constraint-jump.lag \
 	tests/bad/constraint-no-coordinate.lag \
 	tests/bad/constraint-nonlinear-acceleration.lag \
+	tests/bad/constraint-numbers.lag \
 	tests/bad/constraints-option.lag \
 	tests/bad/constraints-too-many.lag \
 	tests/bad/constraints-word.lag \
@@ -785,7 +790,10 @@ script_tests = \
 	tests/bad/redeclared-parameter.lag \
 	tests/bad/reserved.lag \
 	tests/bad/reset-in-loop.lag \
+	tests/bad/rest-negative-param.lag \
+	tests/bad/rest-negative-spring.lag \
 	tests/bad/rest-negative-value.lag \
+	tests/bad/rest-negative-with.lag \
 	tests/bad/rest-negative.lag \
 	tests/bad/run-hopeless-digits.lag \
 	tests/bad/run-hopeless.lag \
@@ -817,6 +825,8 @@ script_tests = \
 	tests/bad/start-velocities.lag \
 	tests/bad/string-number.lag \
 	tests/bad/style-unknown.lag \
+	tests/bad/taken-constraint.lag \
+	tests/bad/taken-nothing.lag \
 	tests/bad/text-compared.lag \
 	tests/bad/then-constraint.lag \
 	tests/bad/to-ending.lag \
@@ -915,6 +925,7 @@ test_files = \
 	tests/bad/constraint-jump.out \
 	tests/bad/constraint-no-coordinate.out \
 	tests/bad/constraint-nonlinear-acceleration.out \
+	tests/bad/constraint-numbers.out \
 	tests/bad/constraints-option.out \
 	tests/bad/constraints-too-many.out \
 	tests/bad/constraints-word.out \
@@ -1007,7 +1018,10 @@ test_files = \
 	tests/bad/redeclared-parameter.out \
 	tests/bad/reserved.out \
 	tests/bad/reset-in-loop.out \
+	tests/bad/rest-negative-param.out \
+	tests/bad/rest-negative-spring.out \
 	tests/bad/rest-negative-value.out \
+	tests/bad/rest-negative-with.out \
 	tests/bad/rest-negative.out \
 	tests/bad/run-hopeless-digits.out \
 	tests/bad/run-hopeless.out \
@@ -1039,6 +1053,8 @@ test_files = \
 	tests/bad/start-velocities.out \
 	tests/bad/string-number.out \
 	tests/bad/style-unknown.out \
+	tests/bad/taken-constraint.out \
+	tests/bad/taken-nothing.out \
 	tests/bad/text-compared.out \
 	tests/bad/then-constraint.out \
 	tests/bad/to-ending.out \

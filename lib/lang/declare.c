@@ -11,6 +11,8 @@
 #include "expr/walk.h"
 #include "lang/answer.h"
 #include "lang/declare.h"
+#include "lang/rest.h"
+#include "lang/taken.h"
 
 /* --- lists of names with domains ---------------------------------------------------- */
 
@@ -224,7 +226,7 @@ read_items(qdot_cursor *c, bool params, items *list)
 static qdot_status
 tell_hidden(qdot_session *session, const char *name, qdot_name_kind kind)
 {
-    const qdot_quantity *row = qdot_quantity_find(name), *other;
+    const qdot_quantity *row = qdot_quantity_find(name);
 
     if (row == NULL && qdot_builtin_find(name) != NULL &&
         (kind == QDOT_NAME_FUNCTION || kind == QDOT_NAME_UFUN))
@@ -232,12 +234,9 @@ tell_hidden(qdot_session *session, const char *name, qdot_name_kind kind)
                                   name);
     if (row == NULL || row->least > 0) /* only name[...] is the language's */
         return QDOT_OK;
-    for (size_t i = 0; (other = qdot_quantity_at(i)) != NULL; i++)
-        if (other != row && other->get == row->get &&
-            strlen(other->name) > strlen(row->name))
-            return qdot_answer_notice(session,
-                                      "`%s` is now your own; the language's is `%s`",
-                                      name, other->name);
+    if (qdot_taken_long_name(row) != NULL)
+        return qdot_answer_notice(session, "`%s` is now your own; the language's is `%s`",
+                                  name, qdot_taken_long_name(row));
     return qdot_answer_notice(session, "`%s` is now your own; it hides the language's",
                               name);
 }
@@ -379,6 +378,26 @@ qdot_declare_in_domain(qdot_session *session, qdot_expr symbol, qdot_expr value)
     return QDOT_OK;
 }
 
+/* Values that parameters get anew: no spring may become shorter than nothing. */
+static qdot_status
+check_rests(qdot_cursor *c, const items *list)
+{
+    qdot_number_pairs values = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < list->n && status == QDOT_OK; i++) {
+        const item *x = &list->at[i];
+        const qdot_name *old = qdot_names_find(c->session->names, x->name);
+
+        if (x->value != QDOT_NIL && old != NULL && old->kind == QDOT_NAME_PARAM)
+            status = qdot_number_push_pair(&values, x->start, old->value, x->value);
+    }
+    if (status == QDOT_OK)
+        status = qdot_rest_check_values(c, &values);
+    qdot_number_free_pairs(&values);
+    return status;
+}
+
 /* Parameters with their values; a value outside its domain takes all back. */
 static qdot_status
 declare_params(qdot_cursor *c, const items *list)
@@ -407,6 +426,7 @@ declare_params(qdot_cursor *c, const items *list)
             return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its own domain",
                              x->name, number);
     }
+    QDOT_TRY(check_rests(c, list));
     QDOT_TRY(declare_items(c, QDOT_NAME_PARAM, list));
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
         if (list->at[i].value != QDOT_NIL)

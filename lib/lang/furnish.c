@@ -10,6 +10,7 @@
 #include "expr/tensor.h"
 #include "lang/answer.h"
 #include "lang/constraints.h"
+#include "lang/rest.h"
 
 /* --- operands ----------------------------------------------------------------------- */
 
@@ -221,10 +222,11 @@ qdot_furnish_lagrangian(qdot_cursor *c)
 
 /* --- springs and dampers ------------------------------------------------------------ */
 
-/* [NAME] between A, B and two options; the second is NULL for a damper. */
+/* [NAME] between A, B and two options; the second is NULL for a damper, *second_at where its value
+ * stands. */
 static qdot_status
 read_link(qdot_cursor *c, const char *what, const char *first, const char *second,
-          const char *hint, qdot_link *link)
+          const char *hint, qdot_link *link, const qdot_token **second_at)
 {
     const qdot_token *start = c->at;
     const char *name = NULL;
@@ -250,6 +252,7 @@ read_link(qdot_cursor *c, const char *what, const char *first, const char *secon
             QDOT_TRY(qdot_read_scalar(c, &link->stiffness));
         } else if (second != NULL && qdot_cursor_accept_word(c, second)) {
             QDOT_TRY(qdot_statement_once(c, second, link->rest != QDOT_NIL));
+            *second_at = c->at;
             QDOT_TRY(qdot_read_scalar(c, &link->rest));
         } else {
             return qdot_cursor_expected(c, second != NULL
@@ -268,12 +271,20 @@ read_link(qdot_cursor *c, const char *what, const char *first, const char *secon
 qdot_status
 qdot_furnish_spring(qdot_cursor *c)
 {
+    const qdot_token *rest_at = NULL;
     qdot_link link = {0};
+    size_t start;
 
     QDOT_TRY(read_link(c, "a spring", "stiffness", "rest",
-                       "spring NAME between A, B stiffness K rest L", &link));
+                       "spring NAME between A, B stiffness K rest L", &link, &rest_at));
     if (link.rest == QDOT_NIL)
         link.rest = QDOT_ZERO;
+    start = c->error_at;
+    if (rest_at != NULL) {
+        c->error_at = rest_at->start;
+        QDOT_TRY(qdot_rest_check(c->session, link.name, link.rest));
+        c->error_at = start;
+    }
     return qdot_scene_spring(c->session->scene, &link);
 }
 
@@ -283,7 +294,7 @@ qdot_furnish_damper(qdot_cursor *c)
     qdot_link link = {0};
 
     QDOT_TRY(read_link(c, "a damper", "coefficient", NULL,
-                       "damper NAME between A, B coefficient C", &link));
+                       "damper NAME between A, B coefficient C", &link, NULL));
     return qdot_scene_damper(c->session->scene, &link);
 }
 
@@ -410,6 +421,9 @@ tell_dropped(qdot_session *session, const char *label, qdot_expr left, size_t ke
 
     if (kept >= given)
         return QDOT_OK;
+    if (given == 1)
+        return qdot_answer_notice(session, "the constraint%s%s says 0 = 0 and is left out",
+                                  label != NULL ? " " : "", label != NULL ? label : "");
     return qdot_answer_notice(session,
                               "%zu of the %zu components of the constraint%s%s "
                               "say 0 = 0 and are left out",

@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "lang/answer.h"
 #include "lang/declare.h"
+#include "lang/rest.h"
 #include "lang/statement.h"
 #include "tape/tape.h"
 
@@ -45,7 +46,7 @@ read_with(qdot_cursor *c, qdot_number_pairs *with)
         QDOT_TRY(qdot_declare_in_domain(c->session, symbol, value));
         QDOT_TRY(qdot_number_push_pair(with, start, symbol, value));
     } while (qdot_cursor_accept_op(c, ","));
-    return QDOT_OK;
+    return qdot_rest_check_values(c, with);
 }
 
 static qdot_status

@@ -10,6 +10,7 @@
 #include "expr/tensor.h"
 #include "lang/code.h"
 #include "lang/number.h"
+#include "lang/taken.h"
 
 qdot_status
 qdot_resolve_check(qdot_pool *pool, qdot_expr value)
@@ -214,7 +215,7 @@ static qdot_status
 quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
          const qdot_expr *index, qdot_expr *value)
 {
-    QDOT_TRY(row->get(s, n, index, value));
+    QDOT_TRY(qdot_taken_note(s, row, row->get(s, n, index, value)));
     QDOT_TRY(qdot_resolve_check(s->pool, *value));
     if (primes == 0)
         return QDOT_OK;

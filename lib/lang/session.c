@@ -62,6 +62,7 @@ qdot_session_free(qdot_session *session)
     qdot_free(session->set_values.at);
     qdot_free(session->start_symbols.at);
     qdot_free(session->start_values.at);
+    qdot_free(session->taken_told.at);
     for (size_t i = 0; i < session->including.n; i++)
         qdot_free(session->including.at[i]);
     qdot_free(session->including.at);

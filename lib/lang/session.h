@@ -63,6 +63,9 @@ typedef struct qdot_session {
         char *) including; /* files being read, for include cycles and relative paths */
     size_t figures;        /* NAME-1.svg ... */
     bool quit;             /* `quit` was said */
+    bool declares;         /* the statement under way declares what stands in a scene */
+    const char *taken;     /* the short name of a value that it read (lang/taken); NULL */
+    qdot_vec(const char *) taken_told; /* those told already */
     size_t loops;          /* loops under way: what they hold must outlive them */
     qdot_passed *passed;   /* while the sides of a check are read; else NULL */
 } qdot_session;

@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "lang/answer.h"
 #include "lang/declare.h"
+#include "lang/rest.h"
 #include "lang/statement.h"
 
 /* --- set ---------------------------------------------------------------------------- */
@@ -225,6 +226,8 @@ qdot_number_set(qdot_cursor *c)
         c->error_at = list.places.at[i]->start;
         status = qdot_declare_in_domain(session, list.symbols.at[i], list.values.at[i]);
     }
+    if (status == QDOT_OK)
+        status = qdot_rest_check_values(c, &list);
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
         qdot_declare_value(session, list.symbols.at[i], list.values.at[i], &status);
     qdot_number_free_pairs(&list);

@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "lang/answer.h"
 #include "lang/redirect.h"
+#include "lang/taken.h"
 
 typedef struct {
     size_t body, close; /* tokens: the first inside, the `}` */
@@ -137,6 +138,20 @@ is_unknown_word(const qdot_session *session, const qdot_token *name)
 }
 
 static qdot_status
+carry_out_row(qdot_cursor *c, const qdot_statement *row)
+{
+    qdot_status status;
+
+    c->session->declares = qdot_statement_declares(row);
+    qdot_taken_forget(c->session);
+    status = row->run(c);
+    if (c->session->declares)
+        status = qdot_taken_tell(c->session, status);
+    c->session->declares = false;
+    return status;
+}
+
+static qdot_status
 dispatch(qdot_cursor *c)
 {
     const qdot_statement *row =
@@ -150,7 +165,7 @@ dispatch(qdot_cursor *c)
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", row->word);
         }
         c->at++;
-        QDOT_TRY(row->run(c));
+        QDOT_TRY(carry_out_row(c, row));
     } else if (is_unknown_word(c->session, c->at)) {
         return unknown_word(c);
     } else {

@@ -25,6 +25,8 @@ typedef struct {
  * together. */
 const qdot_statement *qdot_statement_find(const char *word);
 const qdot_statement *qdot_statement_at(size_t i);
+/* Whether it declares a scene. */
+bool qdot_statement_declares(const qdot_statement *row);
 
 /* An error that has been reported already (by an included file) has this place. */
 #define QDOT_STATEMENT_REPORTED SIZE_MAX

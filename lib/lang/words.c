@@ -155,6 +155,12 @@ static const qdot_statement table[] = {
     {"quit", WORKBENCH, "quit", "leave", "quit", qdot_workbench_quit, true},
 };
 
+bool
+qdot_statement_declares(const qdot_statement *row)
+{
+    return strcmp(row->group, DECLARE) == 0;
+}
+
 const qdot_statement *
 qdot_statement_at(size_t i)
 {

@@ -24,9 +24,6 @@ fill_constraint(qdot_scene *s, size_t k, size_t row, size_t size, qdot_expr *A,
     for (size_t i = 0; i < n; i++) {
         qdot_expr slope = qdot_constraint_slope(s, k, i);
 
-        if (qdot_mech_holds(s, slope) & QDOT_HAS_ACCELERATION)
-            return qdot_fail(QDOT_EINVAL,
-                             "constraint %s is not linear in the accelerations", c->name);
         slope = qdot_mech_tidy(s, slope);
         A[row * size + i] = slope;
         A[i * size + row] = qdot_neg(pool, slope);

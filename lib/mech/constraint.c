@@ -71,6 +71,44 @@ refuse_contradiction(const qdot_scene *s, const char *name, qdot_expr f)
 }
 
 static qdot_status
+without_coordinates(void)
+{
+    qdot_fail(QDOT_EINVAL, "a constraint without coordinates");
+    return qdot_hint("`assume` states a relation between parameters, `set` gives values");
+}
+
+static qdot_status
+is_linear(qdot_scene *s, qdot_expr f, bool *linear)
+{
+    *linear = true;
+    for (size_t i = 0; i < s->coordinates.n && *linear; i++) {
+        qdot_expr slope = qdot_diff(s->pool, f, qdot_mech_jet(s, i, 2));
+
+        QDOT_TRY(qdot_pool_check(s->pool));
+        *linear = !(qdot_mech_holds(s, slope) & QDOT_HAS_ACCELERATION);
+    }
+    return QDOT_OK;
+}
+
+/* q'' is solved for: a constraint on accelerations is linear in them, at least once simplified. */
+static qdot_status
+make_linear(qdot_scene *s, const char *name, qdot_expr *f)
+{
+    bool linear;
+
+    QDOT_TRY(is_linear(s, *f, &linear));
+    if (linear)
+        return QDOT_OK;
+    *f = qdot_mech_tidy(s, *f);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    QDOT_TRY(is_linear(s, *f, &linear));
+    if (linear)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "constraint %s is not linear in the accelerations", name);
+    return qdot_hint("solve it for one of them: x'' = ...");
+}
+
+static qdot_status
 add_component(qdot_scene *s, const char *label, const char *stem, uint32_t component,
               qdot_expr left, qdot_expr right)
 {
@@ -97,11 +135,13 @@ add_component(qdot_scene *s, const char *label, const char *stem, uint32_t compo
     } else if (status == QDOT_OK) {
         status = highest(pool, c.f, &order);
         if (status == QDOT_OK && order < 0)
-            status = qdot_fail(QDOT_EINVAL, "a constraint without coordinates");
+            status = without_coordinates();
         else if (status == QDOT_OK && order > 2)
             status = qdot_fail(QDOT_EINVAL, "a constraint on a third derivative");
         else if (status == QDOT_OK)
             status = refuse_contradiction(s, qdot_text_str(&name), c.f);
+        if (status == QDOT_OK && order == 2)
+            status = make_linear(s, qdot_text_str(&name), &c.f);
         if (status == QDOT_OK) {
             c.kind = order == 0   ? QDOT_HOLONOMIC
                      : order == 1 ? QDOT_VELOCITY
@@ -147,6 +187,9 @@ qdot_scene_constraint(qdot_scene *s, const char *label, qdot_expr left, qdot_exp
         return qdot_fail(QDOT_EINVAL,
                          "a constraint holds coordinates, their derivatives, t "
                          "and parameters only");
+    if (!((qdot_mech_holds(s, left) | qdot_mech_holds(s, right)) &
+          (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)))
+        return without_coordinates();
     if (label && qdot_scene_has_label(s, label)) {
         qdot_fail(QDOT_ENAME, "%s is a label of the scene already", label);
         return qdot_hint("`remove %s` takes it out", label);

@@ -72,10 +72,6 @@ add_slopes(builder *b, size_t k)
         QDOT_TRY(qdot_pool_check(p->pool));
         if (slope == QDOT_ZERO)
             continue;
-        if (qdot_expr_node(p->pool, slope)->holds & QDOT_HAS_ACCELERATION)
-            return qdot_fail(QDOT_EINVAL,
-                             "constraint %s is not linear in the accelerations",
-                             row->name);
         QDOT_TRY(qdot_grow(&b->c->slopes, &capacity, b->c->n_slopes + 1,
                            sizeof *b->c->slopes));
         b->c->slopes[b->c->n_slopes++] =

@@ -62,8 +62,7 @@ struct qdot_constraints {
 };
 
 /* Of a scene whose plan has its values, M and f; NULL for a scene without. Errors:
- * QDOT_EINVAL names a constraint that is not linear in the accelerations; those of
- * lowering. */
+ * those of lowering. */
 QDOT_MUST_CHECK qdot_status qdot_constraints_new(const qdot_scene *scene,
                                                  const qdot_plan *plan,
                                                  qdot_constraints **constraints);

@@ -155,10 +155,12 @@ check_springs(const qdot_run *run, const qdot_scene *scene)
         qdot_expr rest = qdot_plan_substitute(run->plan, spring->rest);
 
         QDOT_TRY(qdot_pool_check(run->plan->pool));
-        if ((qdot_expr_node(run->plan->pool, rest)->sign & QDOT_NEG) == QDOT_NEG)
-            return qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative",
-                             spring->name ? "spring " : "a spring",
-                             spring->name ? spring->name : "");
+        if ((qdot_expr_node(run->plan->pool, rest)->sign & QDOT_NEG) == QDOT_NEG) {
+            (void)qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative",
+                            spring->name ? "spring " : "a spring",
+                            spring->name ? spring->name : "");
+            return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");
+        }
     }
     return QDOT_OK;
 }

@@ -47,6 +47,10 @@ wrong_declarations_are_refused(void **state)
     refused(k, qdot_scene_spring(k->scene, &link), QDOT_EINVAL, "one point");
     refused(k, qdot_scene_constraint(k->scene, "c", E(k, "a"), E(k, "2")), QDOT_EINVAL,
             "without coordinates");
+    refused(k, qdot_scene_constraint(k->scene, "c", E(k, "2"), E(k, "2")), QDOT_EINVAL,
+            "without coordinates");
+    refused(k, qdot_scene_constraint(k->scene, "c", E(k, "x''*y''"), E(k, "2")), QDOT_EINVAL,
+            "constraint c is not linear in the accelerations");
     refused(k, qdot_scene_constraint(k->scene, "bob", E(k, "x"), E(k, "2")), QDOT_ENAME,
             "bob");
     refused(k, qdot_scene_constraint(k->scene, "c", E(k, "(x, y)"), E(k, "2")),

@@ -297,11 +297,6 @@ what_cannot_be_held_is_refused(void **state)
     qdot_expr x;
 
     (void)state;
-    cartesian_pendulum(&f);
-    x = qdot_symbol_jet(f.pool, f.scene->coordinates.at[0], 2);
-    must(qdot_scene_constraint(f.scene, "bad", square(&f, x), QDOT_ONE));
-    refuses(&f, QDOT_EINVAL, "constraint bad is not linear in the accelerations");
-
     /* x'' = 0 and 2 x'' = 1: no start breaks them, no motion can do both */
     cartesian_pendulum(&f);
     x = qdot_symbol_jet(f.pool, f.scene->coordinates.at[0], 2);
