@@ -845,6 +845,7 @@ script_tests = \
 	examples/acceleration-constraint.lag \
 	examples/bead-on-wire.lag \
 	examples/bouncing-ball.lag \
+	examples/bricard.lag \
 	examples/car-axis.lag \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
@@ -1072,6 +1073,7 @@ test_files = \
 	tests/bad/wrong-arguments.out \
 	tests/examples/acceleration-constraint.out \
 	tests/examples/bead-on-wire.out \
+	tests/examples/bricard.out \
 	tests/examples/car-axis.out \
 	tests/examples/chain.out \
 	tests/examples/chaplygin-sleigh.out \

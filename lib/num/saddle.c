@@ -21,6 +21,10 @@ static const double trusted = 1e-3, usual = 0.2, more = 1.25;
 /* Of a squared norm. */
 static const double faded = 1e-14;
 
+/* Of the most mass beside it, what rounding makes of none; of the most that an unknown had,
+ * down to where its scale follows. */
+static const double nothing = 0x1p-92, lightest = 0x1p-14;
+
 /* Up to so many unknowns an inverse is made for many right-hand sides. */
 enum { most_inverted = 24, lanes = 8 };
 
@@ -43,6 +47,7 @@ qdot_saddle_init(qdot_saddle *s, size_t n, size_t m, bool indefinite)
     s->x = qdot_calloc(all, sizeof *s->x);
     s->pivot = qdot_calloc(m + 1, sizeof *s->pivot);
     s->widest = qdot_calloc(m + 1, sizeof *s->widest);
+    s->heaviest = qdot_calloc(n, sizeof *s->heaviest);
     s->d = qdot_calloc(n, sizeof *s->d);
     s->e = qdot_calloc(m + 1, sizeof *s->e);
     s->S = qdot_calloc(n * n, sizeof *s->S);
@@ -60,7 +65,8 @@ qdot_saddle_init(qdot_saddle *s, size_t n, size_t m, bool indefinite)
         s->inverse = qdot_calloc(width(s) * (n + m), sizeof *s->inverse);
     s->start = qdot_calloc(m + 1, sizeof *s->start);
     s->column = qdot_calloc(m * n + 1, sizeof *s->column);
-    if (!s->start || !s->column || !s->M || !s->A || !s->x || !s->pivot || !s->widest || !s->d || !s->e || !s->S || !s->Q ||
+    if (!s->start || !s->column || !s->M || !s->A || !s->x || !s->pivot || !s->widest ||
+        !s->heaviest || !s->d || !s->e || !s->S || !s->Q ||
         !s->R || !s->beta || !s->N || !s->V || !s->T || !s->u || !s->w || !s->y ||
         !s->keep || (inverted && !s->inverse))
         return QDOT_ENOMEM;
@@ -76,7 +82,7 @@ qdot_saddle_clear(qdot_saddle *s)
 {
     double *arrays[] = {s->M, s->A, s->x, s->d, s->e, s->S, s->Q,       s->R,
                         s->beta, s->N, s->V, s->T, s->u, s->w, s->y, s->keep,
-                        s->inverse, s->widest};
+                        s->inverse, s->widest, s->heaviest};
 
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         qdot_free(arrays[i]);
@@ -169,14 +175,34 @@ scale_of(double x, bool root)
     return ldexp(1, -(root ? k / 2 : k));
 }
 
+/* By each unknown's mass, or by the least of what it was; one that never had a mass counts
+ * as the heaviest. */
+static void
+scale_unknowns(qdot_saddle *s)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < s->n; i++)
+        most = fmax(most, fabs(s->M[i * s->n + i]));
+    for (size_t i = 0; i < s->n; i++) {
+        double mass = fabs(s->M[i * s->n + i]), *was = s->heaviest + i;
+
+        if (!(mass > nothing * most))
+            mass = 0;
+        *was = fmax(*was, mass);
+        if (*was == 0)
+            *was = most;
+        s->d[i] = scale_of(fmax(mass, lightest * *was), true);
+    }
+}
+
 /* S = D M D, and the rows of R = E A D. */
 static void
 scale(qdot_saddle *s)
 {
     const size_t n = s->n;
 
-    for (size_t i = 0; i < n; i++)
-        s->d[i] = scale_of(fabs(s->M[i * n + i]), true);
+    scale_unknowns(s);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             s->S[i * n + j] = s->d[i] * s->M[i * n + j] * s->d[j];
@@ -369,6 +395,17 @@ orthogonalise(qdot_saddle *s)
     }
 }
 
+/* What the pattern's factors find of independence; without a mass somewhere they are of no
+ * use, then or later. */
+static double
+factor_pattern(qdot_saddle *s)
+{
+    const double left = sqrt(qdot_sparse_factor(&s->sparse));
+
+    s->patterned = s->sparse.definite;
+    return left;
+}
+
 /* Whether the pattern will do. */
 static bool
 factor_directly(qdot_saddle *s)
@@ -378,7 +415,9 @@ factor_directly(qdot_saddle *s)
 
     if (!s->patterned || (!known && s->rank != QDOT_SADDLE_UNKNOWN))
         return false;
-    left = sqrt(qdot_sparse_factor(&s->sparse));
+    left = factor_pattern(s);
+    if (!s->patterned)
+        return false;
     if (left > more * s->record) {
         s->record = left;
         return false;
@@ -406,12 +445,10 @@ qdot_saddle_faded(qdot_saddle *s)
 }
 
 qdot_status
-qdot_saddle_factor(qdot_saddle *s, size_t *failed)
+qdot_saddle_factor_fully(qdot_saddle *s, size_t *failed)
 {
     s->factored++;
-    s->direct = factor_directly(s);
-    if (s->direct)
-        return QDOT_OK;
+    s->direct = false;
     scale(s);
     QDOT_TRY(triangulate(s, failed));
     form_Q(s);
@@ -419,6 +456,38 @@ qdot_saddle_factor(qdot_saddle *s, size_t *failed)
     if (s->rank < s->m)
         orthogonalise(s);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_saddle_factor(qdot_saddle *s, size_t *failed)
+{
+    if (!factor_directly(s))
+        return qdot_saddle_factor_fully(s, failed);
+    s->factored++;
+    s->direct = true;
+    return QDOT_OK;
+}
+
+double
+qdot_saddle_independence(qdot_saddle *s)
+{
+    const size_t factored = s->factored;
+    qdot_error before = *qdot_last_error();
+    size_t failed;
+    double found = 0;
+
+    if (s->patterned && s->rank == s->m) {
+        found = factor_pattern(s);
+        if (s->patterned)
+            return found;
+        found = 0;
+    }
+    if (qdot_saddle_factor_fully(s, &failed) == QDOT_OK)
+        found = s->rank > 0 ? s->quality : 1;
+    else
+        qdot_fail_again(&before);
+    s->factored = factored;
+    return found;
 }
 
 /* --- solution ----------------------------------------------------------------------- */

@@ -17,6 +17,9 @@
  * Unknowns and rows are scaled by powers of two, which make the diagonal of M and the
  * rows of A about 1: neither rank nor rounding depends on units.
  *
+ * A mass that fades (a pole of the coordinates, a thin rod's turn about itself) does not
+ * take its scale with it.
+ *
  * Where it is said which entries are ever nonzero, M is positive and the rows of A are
  * independent, the system is factored with that pattern instead (num/sparse.h), which is
  * shorter, of a chain by orders: but the null space decides the rank, and takes over where
@@ -44,13 +47,14 @@ typedef struct {
     double *A; /* [m x n] written by the caller */
     double *x; /* [n + m] right-hand side (b, c), then solution (x, mu) */
 
-    size_t rank;     /* r; QDOT_SADDLE_UNKNOWN before the first factorisation */
-    double quality;  /* |R_rr / R_11| of the last one; 1 where r is 0 */
-    double surplus;  /* the same of the largest column left out; 0 if there is none */
-    size_t factored; /* how often */
-    size_t last;     /* the last pivot, by its place; of a failure the one that failed */
-    size_t *pivot;   /* [m] the rows of A in the order of the pivoting */
-    double *widest;  /* [m] the largest squared norm of each row so far */
+    size_t rank;      /* r; QDOT_SADDLE_UNKNOWN before the first factorisation */
+    double quality;   /* |R_rr / R_11| of the last one; 1 where r is 0 */
+    double surplus;   /* the same of the largest column left out; 0 if there is none */
+    size_t factored;  /* how often */
+    size_t last;      /* the last pivot, by its place; of a failure the one that failed */
+    size_t *pivot;    /* [m] the rows of A in the order of the pivoting */
+    double *widest;   /* [m] the largest squared norm of each row so far */
+    double *heaviest; /* [n] the largest diagonal entry of M so far */
 
     bool indefinite; /* Z^T M Z by LDL^T, else by Cholesky */
     double *d, *e;   /* [n], [m] scales of unknowns and rows */
@@ -104,6 +108,13 @@ size_t qdot_saddle_faded(qdot_saddle *s);
  * (*failed is a row of it, n + k), or M is singular on its null space (*failed is an
  * unknown), or something is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_factor(qdot_saddle *s, size_t *failed);
+
+/* The same by the null space, whatever the pattern: it knows what is near. */
+QDOT_MUST_CHECK qdot_status qdot_saddle_factor_fully(qdot_saddle *s, size_t *failed);
+
+/* How far the rows of A are from losing rank, 0 ... 1; neither counted nor to be solved
+ * with. 0 where they have lost it. */
+double qdot_saddle_independence(qdot_saddle *s);
 
 /* Solve for s->x. */
 void qdot_saddle_solve(qdot_saddle *s);

@@ -8,6 +8,9 @@
 #include "base/memory.h"
 #include "num/sum.h"
 
+/* What rounding leaves of an entry that is nothing. */
+static const double semidefinite = 1e-12;
+
 void
 qdot_sparse_clear(qdot_sparse *s)
 {
@@ -270,10 +273,14 @@ qdot_sparse_factor(qdot_sparse *s)
 {
     double least = 1;
 
+    s->definite = true;
     for (size_t k = 0; k < s->n; k++) {
+        const bool positive = s->order[k] < s->positive;
         double made, d = factor_row(s, k, &made);
-        double left = (s->order[k] < s->positive ? d : -d) / made;
+        double left = (positive ? d : -d) / made;
 
+        if (positive && !(left > semidefinite))
+            s->definite = false;
         if (!(left > 0 && left < INFINITY))
             return 0;
         least = left < least ? left : least;

@@ -41,6 +41,7 @@ typedef struct {
     double *inverse; /* [n] 1/D */
     double *y, *low; /* [n] scratch; y 0 between calls */
     size_t filled;   /* entries of L */
+    bool definite;   /* by the last factorisation: the positive unknowns are, beyond rounding */
 } qdot_sparse;
 
 /* `entries` [count], rows and columns below n. Errors: QDOT_ENOMEM; clear it in any case. */

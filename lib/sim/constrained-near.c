@@ -57,6 +57,19 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
     }
 }
 
+qdot_status
+qdot_constrained_without_direction(const qdot_constraints *c, size_t row)
+{
+    qdot_text name = {0};
+
+    add_name(&name, c->rows[row].name, strlen(c->rows[row].name), false);
+    if (qdot_text_status(&name) == QDOT_OK)
+        qdot_fail(QDOT_ESINGULAR, "constraint %.300s has no direction here",
+                  qdot_text_str(&name));
+    qdot_text_clear(&name);
+    return QDOT_ESINGULAR;
+}
+
 size_t
 qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row,
                            qdot_text *names)
@@ -83,15 +96,12 @@ qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text 
 {
     static const double near = 1e-3;
     qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
-    const bool patterned = all->saddle.patterned;
     size_t failed;
     qdot_status status;
 
     qdot_constrained_load(h, t, y);
     qdot_constrained_metric(h, all);
-    all->saddle.patterned = false; /* the null space knows what is near */
-    status = qdot_saddle_factor(&all->saddle, &failed);
-    all->saddle.patterned = patterned;
+    status = qdot_saddle_factor_fully(&all->saddle, &failed);
     if (status == QDOT_OK ? all->saddle.rank == 0 || all->saddle.quality > near
                           : failed < h->plan->n)
         return false;
@@ -102,24 +112,8 @@ double
 qdot_constrained_independence(qdot_constrained *h, double t, const double *y)
 {
     qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
-    qdot_saddle *s = &all->saddle;
-    const bool patterned = s->patterned;
-    const size_t factored = s->factored;
-    qdot_error before;
-    size_t failed;
-    double found = 0;
 
     qdot_constrained_load(h, t, y);
     qdot_constrained_metric(h, all);
-    if (patterned && s->rank == s->m)
-        return sqrt(qdot_sparse_factor(&s->sparse));
-    before = *qdot_last_error();
-    s->patterned = false;
-    if (qdot_saddle_factor(s, &failed) == QDOT_OK)
-        found = s->rank > 0 ? s->quality : 1;
-    else
-        qdot_fail_again(&before);
-    s->patterned = patterned;
-    s->factored = factored;
-    return found;
+    return qdot_saddle_independence(&all->saddle);
 }

@@ -127,12 +127,8 @@ qdot_constrained_factor_rows(const qdot_plan *p, qdot_saddle *s, const size_t *r
     size_t failed = 0;
     qdot_status status;
 
-    if (faded < s->m) {
-        const size_t k = row ? row[faded] : faded;
-
-        return qdot_fail(QDOT_ESINGULAR, "constraint %.300s has no direction here",
-                         p->constraints->rows[k].name);
-    }
+    if (faded < s->m)
+        return qdot_constrained_without_direction(p->constraints, row ? row[faded] : faded);
     status = qdot_saddle_factor(s, &failed);
     if (status != QDOT_ESINGULAR)
         return status;

@@ -108,6 +108,10 @@ bool qdot_constrained_near(qdot_constrained *constrained, double t, const double
  * vector constraints once for all their components. */
 void qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to);
 
+/* The failure that row `row` of A has become 0. QDOT_ESINGULAR. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_without_direction(const qdot_constraints *c,
+                                                               size_t row);
+
 size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
 /* Independent rows; QDOT_SADDLE_UNKNOWN before anything was solved. */
 size_t qdot_constrained_rank(const qdot_constrained *constrained);

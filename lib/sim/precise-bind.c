@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "sim/blocks.h"
+#include "sim/constrained.h"
 #include "sim/constraints.h"
 #include "tape/constant.h"
 #include "tape/precise.h"
@@ -118,8 +119,7 @@ find_faded(qdot_precise_bind *e)
         if (sum > e->widest[k])
             e->widest[k] = sum;
         else if (sum < faded * e->widest[k])
-            return qdot_fail(QDOT_ESINGULAR, "constraint %.300s has no direction here",
-                             c->rows[k].name);
+            return qdot_constrained_without_direction(c, k);
     }
     return QDOT_OK;
 }

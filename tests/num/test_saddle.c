@@ -154,6 +154,35 @@ repeated_rows_give_the_least_multipliers(void **state)
     qdot_saddle_clear(&s);
 }
 
+/* An unknown whose mass fades to rounding keeps its scale, and the rows that it stands in their
+ * independence; the solution is that of no mass at all. */
+static void
+a_mass_that_fades_keeps_its_scale(void **state)
+{
+    const double A[2][3] = {{1, 2, 0}, {1, 0, 3}};
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double b[5] = {1, 2, 3, 4, 5};
+        size_t failed;
+        qdot_saddle s;
+
+        assert_int_equal(qdot_saddle_init(&s, 3, 2, false), QDOT_OK);
+        memcpy(s.A, A, sizeof A);
+        for (size_t i = 0; i < 3; i++)
+            s.M[i * 3 + i] = i > 0 ? 1 : k; /* never there, or at first */
+        assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+        assert_int_equal(s.rank, 2);
+        s.M[0] = 1e-24;
+        assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_OK);
+        assert_true(s.quality > 1e-3);
+        memcpy(s.x, b, sizeof b);
+        qdot_saddle_solve(&s);
+        assert_true(residual(&s, b) < 1e-14);
+        qdot_saddle_clear(&s);
+    }
+}
+
 /* A rank that was found is kept, and its loss told with the rows that are dependent. */
 static void
 a_lost_rank_is_told(void **state)
@@ -296,6 +325,7 @@ main(void)
         cmocka_unit_test(random_systems_are_solved),
         cmocka_unit_test(a_mass_that_is_singular_alone_is_enough),
         cmocka_unit_test(repeated_rows_give_the_least_multipliers),
+        cmocka_unit_test(a_mass_that_fades_keeps_its_scale),
         cmocka_unit_test(a_lost_rank_is_told),
         cmocka_unit_test(the_weakest_combination_is_found),
         cmocka_unit_test(a_pattern_is_no_other_solution),

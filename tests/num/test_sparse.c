@@ -148,6 +148,30 @@ what_is_left_is_said(void **state)
     assert_true(qdot_sparse_factor(&s) == 0);
     a.K[1][1] = 1;
     assert_true(qdot_sparse_factor(&s) > 0.4);
+    assert_true(s.definite);
+    qdot_sparse_clear(&s);
+}
+
+/* Masses that rounding alone parts are none. */
+static void
+a_mass_that_rounding_made_is_told(void **state)
+{
+    static matrix a;
+    qdot_sparse s;
+
+    (void)state;
+    a = (matrix){.n = 3, .positive = 2};
+    put(&a, 0, 0, 3);
+    put(&a, 1, 0, 1);
+    put(&a, 1, 1, 1.0 / 3 + 0x1p-53);
+    put(&a, 2, 0, 1);
+    put(&a, 2, 1, 1);
+    assert_int_equal(qdot_sparse_init(&s, 3, 2, a.count, a.entries), QDOT_OK);
+    assert_true(qdot_sparse_factor(&s) < 1e-12);
+    assert_false(s.definite);
+    a.K[1][1] = 0.5;
+    assert_true(qdot_sparse_factor(&s) > 0);
+    assert_true(s.definite);
     qdot_sparse_clear(&s);
 }
 
@@ -158,6 +182,7 @@ main(void)
         cmocka_unit_test(random_systems_are_solved),
         cmocka_unit_test(a_chain_stays_thin),
         cmocka_unit_test(what_is_left_is_said),
+        cmocka_unit_test(a_mass_that_rounding_made_is_told),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
