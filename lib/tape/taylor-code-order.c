@@ -83,7 +83,7 @@ static void
 finish_square(qdot_generator *g, const qdot_taylor_step *s, sum *sum, bool minus,
               const double *x, const double *to)
 {
-    times(g, sum, minus, g->k == 2 ? at(g, x, 1) : slot(g, s, 1), x, g->k - 1);
+    late(g, sum, minus, g->k == 2 ? at(g, x, 1) : slot(g, s, 1), x);
     times(g, sum, minus, slot(g, s, 0), x, g->k);
     finish_sum(g, sum, to);
 }
@@ -143,7 +143,7 @@ root(qdot_generator *g, const qdot_taylor_step *s)
 
     scale_sum(g, &sum, c_of(g, s));
     negate(&sum);
-    times(g, &sum, true, slot(g, s, g->k > 2), s->to, g->k - 1);
+    late(g, &sum, true, slot(g, s, g->k > 2), s->to);
     times(g, &sum, false, c_of(g, s), s->x, g->k);
     finish_sum(g, &sum, s->to);
 }
@@ -184,12 +184,12 @@ integrated(qdot_generator *g, const qdot_taylor_step *s, int i, bool minus,
     sum sum = past(g, s, i);
 
     if (g->k > 2)
-        times(g, &sum, false, at(g, u, 1), s->d, g->k - 1);
+        late(g, &sum, false, at(g, u, 1), s->d);
     scale_sum(g, &sum, inverse(g));
     if (minus)
         negate(&sum);
-    if (g->k > 1)
-        times(g, &sum, minus, first_over_order(g, s), u, g->k - 1);
+    if (g->k > 1 && g->lag > 1)
+        late(g, &sum, minus, first_over_order(g, s), u);
     times(g, &sum, minus, at(g, u, 0), s->x, g->k);
     finish_sum(g, &sum, to);
 }

@@ -268,7 +268,7 @@ past_of(qdot_generator *g, uint32_t n)
     const qdot_code_vector *v;
     sum sum = {.v = {.reg = -1}};
 
-    if (n == QDOT_CODE_NONE || g->k < 4)
+    if (n == QDOT_CODE_NONE || g->k < 2 * g->lag)
         return sum;
     v = &g->sums.at[n].v;
     sum.v.reg = v->reg[0];
@@ -293,17 +293,24 @@ negate(sum *s)
     s->v.negative = !s->v.negative;
 }
 
-/* The terms with orders 1 and k - 1, x_1 and y_1 given where they are found, perhaps with a
- * factor. */
+/* Of one with orders 1 and k - 1, where the vectors do not have it: x_1 and y. */
+static inline void
+late(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y)
+{
+    if (g->lag > 1)
+        times(g, s, minus, x1, y, g->k - 1);
+}
+
+/* Both, x_1 and y_1 given where they are found, perhaps with a factor. */
 static inline void
 lately(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y,
        qdot_x86_rm y1, const double *x)
 {
     if (!g->moving[qdot_code_row(g, x)] || !g->moving[qdot_code_row(g, y)])
         return;
-    times(g, s, minus, x1, y, g->k - 1);
+    late(g, s, minus, x1, y);
     if (g->k > 2)
-        times(g, s, minus, y1, x, g->k - 1);
+        late(g, s, minus, y1, x);
 }
 
 #endif

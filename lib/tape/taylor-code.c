@@ -17,6 +17,10 @@ enum {
     head = 64,
     /* Longer code is not there when it is wanted: the kernels are. */
     most_bytes = 1 << 18,
+    /* With fewer sums an order takes as long as its newest coefficient to be ready, and the
+     * way through the vectors is the longer one. With more it takes as long as its
+     * instructions, which are a third fewer where the vectors have all but order 0. */
+    few_sums = 5,
     temporary = 0,
     spread_first = 2,
     newest_lane = 1,   /* masks */
@@ -141,8 +145,8 @@ move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
     g->x.zeroing = false;
 }
 
-/* What is made of order m and those from 2 up to it, in a phase. The lanes of order m itself
- * are in the vectors by now. */
+/* What is made of order m and those from `lag` up to it, in a phase. The lanes of order m
+ * itself are in the vectors by now. */
 static void
 add_order(qdot_generator *g, const phase *p, const qdot_code_sum *s, int m)
 {
@@ -294,7 +298,7 @@ find_unknown_sums(qdot_generator *g)
 static size_t
 give_places(qdot_generator *g)
 {
-    const int blocks = blocks_of(most(g->n / 2 - 1, 1));
+    const int blocks = blocks_of(most(g->n / 2 + 1 - g->lag, 1));
     const int lowest = QDOT_CODE_FIRST_SCALAR + QDOT_CODE_SCALARS;
     size_t at = QDOT_CODE_SLOTS + (g->n_slots + 7) / 8 * 8;
     int reg = QDOT_CODE_REGISTERS;
@@ -377,7 +381,7 @@ forget(qdot_generator *g)
     }
 }
 
-/* Orders k = m + 2 for the m of a phase. */
+/* Orders k = m + lag for the m of a phase. */
 static void
 emit_phase(qdot_generator *g, const phase *p, const phase *before)
 {
@@ -397,7 +401,7 @@ emit_phase(qdot_generator *g, const phase *p, const phase *before)
     g->k = QDOT_CODE_ANY;
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted == 0;
     from = qdot_x86_repeat(&g->x, p->orders);
-    add_order_to_all(g, p, g->k - 2);
+    add_order_to_all(g, p, g->k - g->lag);
     emit_order(g);
     qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_R8, 8);
     qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_R9, 8);
@@ -412,11 +416,12 @@ emit_phase(qdot_generator *g, const phase *p, const phase *before)
 static phase
 phase_of(const qdot_generator *g, int m)
 {
-    const int half = g->n / 2, all = blocks_of(most(half - 1, 1));
+    const int half = g->n / 2, all = blocks_of(most(half + 1 - g->lag, 1));
 
     if (m <= half)
-        return (phase){.blocks = blocks_of(m - 1), .inserted = (m - 2) / QDOT_CODE_LANES};
-    return (phase){.blocks = least(all, blocks_of(g->n - m)), .inserted = -1};
+        return (phase){.blocks = blocks_of(m + 1 - g->lag),
+                       .inserted = (m - g->lag) / QDOT_CODE_LANES};
+    return (phase){.blocks = least(all, blocks_of(g->n - m + 2 - g->lag)), .inserted = -1};
 }
 
 static void
@@ -424,11 +429,11 @@ emit_phases(qdot_generator *g)
 {
     phase now = {0}, before = {0};
 
-    for (int m = 2; m <= g->n - 2 && g->x.bytes.n <= most_bytes; m++) {
+    for (int m = g->lag; m <= g->n - g->lag && g->x.bytes.n <= most_bytes; m++) {
         const phase p = phase_of(g, m), next = phase_of(g, m + 1);
 
         now = (phase){p.blocks, p.inserted, now.orders + 1};
-        if (m < g->n - 2 && next.blocks == p.blocks && next.inserted == p.inserted)
+        if (m < g->n - g->lag && next.blocks == p.blocks && next.inserted == p.inserted)
             continue;
         emit_phase(g, &now, &before);
         before = now;
@@ -439,16 +444,18 @@ emit_phases(qdot_generator *g)
 static void
 emit_all(qdot_generator *g)
 {
+    const int singly = 2 * g->lag - 1;
+
     begin_registers(g);
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
     qdot_x86_set_mask(&g->x, all_but_last, 0x7f);
-    for (g->k = 1; g->k <= least(g->n, QDOT_CODE_SINGLY); g->k++) {
+    for (g->k = 1; g->k <= least(g->n, singly); g->k++) {
         if (g->k <= 2)
             emit_once(g, g->k == 2);
         emit_order(g);
     }
-    qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_RDI, 8 * (QDOT_CODE_SINGLY + 1));
-    qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_RDX, 8 * (QDOT_CODE_SINGLY + 1));
+    qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_RDI, 8 * (singly + 1));
+    qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_RDX, 8 * (singly + 1));
     for (int i = 0; i < QDOT_CODE_REGISTERS; i++)
         g->held[i] = QDOT_CODE_NONE;
     emit_phases(g);
@@ -543,6 +550,7 @@ generate(qdot_generator *g, qdot_taylor_code *c, const char **why)
     find_moving_unknowns(g);
     QDOT_TRY(find_sums(g));
     QDOT_TRY(find_unknown_sums(g));
+    g->lag = g->sums.n < few_sums ? 2 : 1;
     QDOT_TRY(make_work(c, give_places(g)));
     QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
     emit_all(g);

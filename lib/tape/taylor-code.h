@@ -3,14 +3,15 @@
  *
  * What a product c = x y takes at order k, sum_{j=0..k} x_j y_{k-j}, is not summed up there.
  * When order m of x and y is known, all that is made of it and orders up to m is added to
- * what later orders are going to be, a whole vector at once:
+ * what later orders are going to be, a whole vector at once, from order l on:
  *
- *     S <- (S moved on by one order) + x_m (y_2, y_3, ..., y_m) + y_m (x_2, ..., x_{m-1}),
+ *     S <- (S moved on by one order) + x_m (y_l, ..., y_m) + y_m (x_l, ..., x_{m-1}),
  *
  * so that nothing is read backwards and no vector is ever added up: the first of S is what
- * order m + 2 begins with. Orders 0 and 1 of one factor come with the newest two of the
- * other and are added singly. Of orders 1 ... n the vectors have n/2 numbers, since the sum
- * of two orders is at most n. S and the vectors of rows stay in registers from order to
+ * order m + l begins with. Orders below l of one factor come with the newest of the other
+ * and are added singly. l is 2 where the time from one order to the next counts, 1 where
+ * the number of instructions does. Of orders 1 ... n the vectors have n/2 numbers, since the
+ * sum of two orders is at most n. S and the vectors of rows stay in registers from order to
  * order, as many as there is room for. Orders with the same number of vectors at work are
  * one loop.
  *

@@ -33,19 +33,18 @@ enum {
     /* What is written for several orders is written as of this one, and those beside it; a
      * multiple of 4. */
     QDOT_CODE_ANY = 1000,
-    /* Orders one after another, and the last of the first loop: links are exact that far. */
-    QDOT_CODE_SINGLY = 3,
-    QDOT_CODE_EXACT = QDOT_CODE_SINGLY + QDOT_CODE_LANES
+    /* No first loop goes further (it begins at twice the lag): links are exact that far. */
+    QDOT_CODE_EXACT = 3 + QDOT_CODE_LANES
 };
 
-/* Lane i is coefficient i + 2 of a row; of the sums that order m has been added to, order
- * m + 2 + i. */
+/* Lane i is coefficient i + lag of a row; of the sums that order m has been added to, order
+ * m + lag + i. */
 typedef struct {
     int reg[QDOT_CODE_BLOCKS]; /* -1: in memory, */
     size_t at;                 /* there, in doubles */
 } qdot_code_vector;
 
-/* sum x_i y_j of i, j >= 2, for orders to come. */
+/* sum x_i y_j of i, j >= lag, for orders to come. */
 typedef struct {
     uint32_t x, y; /* rows */
     bool further;  /* it is part of the sum before it, whose vector is `v` */
@@ -57,6 +56,7 @@ typedef struct {
     const qdot_taylor *t;
     int n;                  /* orders */
     int k;                  /* the order at hand */
+    int lag;                /* orders below it and their partners are added singly; 1 or 2 */
     bool exact;             /* links have factors of two doubles at it */
     bool *moving;           /* [rows] it has more than order 0 */
     uint32_t *row_vector;   /* [rows] number in `rows`; QDOT_CODE_NONE */
