@@ -695,6 +695,7 @@ script_tests = \
 	tests/bad/constraint-contradicts.lag \
 	tests/bad/constraint-corner.lag \
 	tests/bad/constraint-jump.lag \
+	tests/bad/constraint-leaves.lag \
 	tests/bad/constraint-no-coordinate.lag \
 	tests/bad/constraint-nonlinear-acceleration.lag \
 	tests/bad/constraint-numbers.lag \
@@ -809,10 +810,13 @@ script_tests = \
 	tests/bad/singular-mass.lag \
 	tests/bad/solve-beyond.lag \
 	tests/bad/solve-for-sum.lag \
+	tests/bad/start-abs.lag \
 	tests/bad/start-anywhere.lag \
 	tests/bad/start-contradictory.lag \
 	tests/bad/start-dependent.lag \
 	tests/bad/start-domain.lag \
+	tests/bad/start-everywhere.lag \
+	tests/bad/start-exactly-two.lag \
 	tests/bad/start-exactly-velocity.lag \
 	tests/bad/start-exactly.lag \
 	tests/bad/start-label.lag \
@@ -924,6 +928,7 @@ test_files = \
 	tests/bad/constraint-contradicts.out \
 	tests/bad/constraint-corner.out \
 	tests/bad/constraint-jump.out \
+	tests/bad/constraint-leaves.out \
 	tests/bad/constraint-no-coordinate.out \
 	tests/bad/constraint-nonlinear-acceleration.out \
 	tests/bad/constraint-numbers.out \
@@ -1038,10 +1043,13 @@ test_files = \
 	tests/bad/singular-mass.out \
 	tests/bad/solve-beyond.out \
 	tests/bad/solve-for-sum.out \
+	tests/bad/start-abs.out \
 	tests/bad/start-anywhere.out \
 	tests/bad/start-contradictory.out \
 	tests/bad/start-dependent.out \
 	tests/bad/start-domain.out \
+	tests/bad/start-everywhere.out \
+	tests/bad/start-exactly-two.out \
 	tests/bad/start-exactly-velocity.out \
 	tests/bad/start-exactly.out \
 	tests/bad/start-label.out \

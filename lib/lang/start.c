@@ -260,8 +260,10 @@ start_from_run(qdot_cursor *c)
     const qdot_run_report *report;
     qdot_named_run *run;
     const char *name;
+    bool exactly;
 
     QDOT_TRY(qdot_read_name(c, &name));
+    exactly = qdot_cursor_accept_word(c, "exactly");
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
     QDOT_TRY(qdot_number_find_run(session, name, &run));
@@ -281,6 +283,7 @@ start_from_run(qdot_cursor *c)
         QDOT_TRY(qdot_number_set_start(session, q, q0));
         QDOT_TRY(qdot_number_set_start(session, v, v0));
     }
+    session->start_exactly = exactly;
     return QDOT_OK;
 }
 
@@ -301,7 +304,13 @@ qdot_number_read_jet(qdot_cursor *c, qdot_expr *jet)
 static bool
 is_run_name(const qdot_cursor *c)
 {
-    return c->at->kind == QDOT_TOKEN_NAME && c->at[1].kind == QDOT_TOKEN_END;
+    const qdot_token *next = c->at + 1;
+
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return false;
+    if (next->kind == QDOT_TOKEN_NAME && strcmp(next->text, "exactly") == 0)
+        next++;
+    return next->kind == QDOT_TOKEN_END;
 }
 
 qdot_status

@@ -2,7 +2,8 @@
  *
  *     rows df/dq (holonomic), df/dq' (velocity), df/dq'' (acceleration)
  *
- * at a generic point where all constraints hold. Such points are found by damped Newton
+ * at a generic point where all constraints hold, with their derivatives up to the highest kind
+ * among them: x y = 1 leaves x' y + x y' no rate but 0. Such points are found by damped Newton
  * steps from random configurations with random parameters, and the largest rank seen
  * counts. Where none is found (undefined functions of coordinates, assumed relations,
  * constraints that contradict each other) rows are eliminated symbolically, entries that
@@ -20,10 +21,11 @@
  * points are looked at then. */
 enum { TRIALS = 12, MORE_TRIALS = 60, STEPS = 200 };
 
-/* Constraints f [c] and their slopes by z = (q, q', q''), [c * 3n], as expressions and
- * numbers. */
+/* Equations f [c], the constraints first, and their slopes by z = (q, q', q''), [c * 3n], as
+ * expressions and numbers. */
 typedef struct {
-    size_t n, c, m;                        /* coordinates, constraints, 3n */
+    size_t n, c, m;                        /* coordinates, equations, 3n */
+    size_t constraints;                    /* the others are derivatives of these */
     qdot_expr *e;                          /* f, then slopes: [c + c*m] */
     qdot_expr *z;                          /* [m] */
     double *value;                         /* of e */
@@ -39,19 +41,39 @@ problem_clear(problem *p)
     qdot_free(p->value);
 }
 
-static qdot_status
-problem_init(qdot_scene *s, problem *p)
+/* The derivatives that the constraints of lower kinds have at the levels of the others, behind the
+ * constraints in `e`, which has room for three of each; their number, and the kind of each. */
+static size_t
+add_derivatives(qdot_scene *s, qdot_expr *e, qdot_constraint_kind *kind)
 {
-    size_t n = s->coordinates.n, c = s->constraints.n, m = 3 * n, size = c + c * m;
+    size_t c = s->constraints.n, n = c;
+    qdot_constraint_kind highest = QDOT_HOLONOMIC;
 
-    *p = (problem){.n = n, .c = c, .m = m};
+    for (size_t k = 0; k < c; k++) {
+        e[k] = s->constraints.at[k].f;
+        kind[k] = s->constraints.at[k].kind;
+        highest = kind[k] > highest ? kind[k] : highest;
+    }
+    for (size_t k = 0; k < n; k++)
+        if (kind[k] < highest) {
+            kind[n] = kind[k] + 1;
+            e[n++] = qdot_ddt(s->pool, e[k]);
+        }
+    return n - c;
+}
+
+static qdot_status
+problem_fill(qdot_scene *s, problem *p, size_t c, const qdot_expr *f,
+             const qdot_constraint_kind *kind)
+{
+    size_t n = s->coordinates.n, m = 3 * n, size = c + c * m;
+
+    *p = (problem){.n = n, .c = c, .m = m, .constraints = s->constraints.n};
     p->e = qdot_calloc(size + 1, sizeof *p->e);
     p->z = qdot_calloc(m + 1, sizeof *p->z);
     p->value = qdot_calloc(size + 2 * m + c * c + c + c * n + 1, sizeof *p->value);
-    if (!p->e || !p->z || !p->value) {
-        problem_clear(p);
+    if (!p->e || !p->z || !p->value)
         return QDOT_ENOMEM;
-    }
     p->at = p->value + size;
     p->step = p->at + m;
     p->gram = p->step + m;
@@ -60,17 +82,31 @@ problem_init(qdot_scene *s, problem *p)
     for (size_t i = 0; i < m; i++)
         p->z[i] = qdot_mech_jet(s, i % n, (uint32_t)(i / n));
     for (size_t k = 0; k < c; k++) {
-        p->e[k] = s->constraints.at[k].f;
+        p->e[k] = f[k];
         for (size_t i = 0; i < m; i++)
-            p->e[c + k * m + i] = i / n <= (size_t)s->constraints.at[k].kind
+            p->e[c + k * m + i] = i / n <= (size_t)kind[k]
                                       ? qdot_diff(s->pool, p->e[k], p->z[i])
                                       : QDOT_ZERO;
     }
-    if (qdot_pool_failed(s->pool)) {
+    return qdot_pool_check(s->pool);
+}
+
+static qdot_status
+problem_init(qdot_scene *s, problem *p)
+{
+    size_t c = s->constraints.n;
+    qdot_expr *f = qdot_calloc(3 * c + 1, sizeof *f);
+    qdot_constraint_kind *kind = qdot_calloc(3 * c + 1, sizeof *kind);
+    qdot_status status = f && kind ? QDOT_OK : QDOT_ENOMEM;
+
+    *p = (problem){0};
+    if (status == QDOT_OK)
+        status = problem_fill(s, p, c + add_derivatives(s, f, kind), f, kind);
+    if (status != QDOT_OK)
         problem_clear(p);
-        return qdot_pool_check(s->pool);
-    }
-    return QDOT_OK;
+    qdot_free(f);
+    qdot_free(kind);
+    return status;
 }
 
 static qdot_status
@@ -184,7 +220,7 @@ rank(qdot_scene *s, problem *p, bool *independent)
     const double nothing = fmax(1e-6, 100 * sqrt(p->off));
     size_t found = 0, n = p->n;
 
-    for (size_t k = 0; k < p->c; k++) {
+    for (size_t k = 0; k < p->constraints; k++) {
         double *row = p->rows + found * n, norm = 0, left = 0;
         const double *slopes =
             p->value + p->c + k * p->m + n * (size_t)s->constraints.at[k].kind;
@@ -216,7 +252,7 @@ rank(qdot_scene *s, problem *p, bool *independent)
             row[i] /= left;
         independent[k] = true;
         if (++found == n) {
-            for (size_t rest = k + 1; rest < p->c; rest++)
+            for (size_t rest = k + 1; rest < p->constraints; rest++)
                 independent[rest] = false;
             break;
         }
@@ -253,8 +289,9 @@ can_sample(qdot_scene *s, const problem *p)
 static qdot_status
 by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
 {
-    bool *seen = qdot_calloc(p->c, sizeof *seen), found;
-    size_t most = 0, hits = 0, full = p->c < p->n ? p->c : p->n, trials = TRIALS;
+    size_t c = p->constraints, most = 0, hits = 0, full = c < p->n ? c : p->n;
+    size_t trials = TRIALS;
+    bool *seen = qdot_calloc(c, sizeof *seen), found;
     qdot_status status = seen ? QDOT_OK : QDOT_ENOMEM;
 
     for (uint64_t seed = 1; status == QDOT_OK && seed <= trials && most < full; seed++) {
@@ -267,7 +304,7 @@ by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
         r = rank(s, p, seen);
         if (hits++ == 0 || r > most) {
             most = r;
-            memcpy(independent, seen, p->c * sizeof *seen);
+            memcpy(independent, seen, c * sizeof *seen);
         }
     }
     *known = hits > 0;

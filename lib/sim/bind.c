@@ -256,7 +256,10 @@ jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
 static qdot_status
 project(double t, double *y, double *carry, double *moved, void *user)
 {
-    return qdot_constrained_project(t, y, carry, moved, ((qdot_bind *)user)->held);
+    qdot_constrained *held = ((qdot_bind *)user)->held;
+
+    QDOT_TRY(qdot_constrained_check_accelerations(held, t, y));
+    return qdot_constrained_project(t, y, carry, moved, held);
 }
 
 qdot_constrained *

@@ -55,6 +55,10 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_factor_metric(qdot_constrained *h,
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor_rows(const qdot_plan *plan,
                                                          qdot_saddle *s,
                                                          const size_t *row);
+/* After qdot_constrained_solve into h->a: rows that were left out as repetitions must agree with
+ * those that were not; else `broken`, with the name of one that does not. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_check_repeated(qdot_constrained *h,
+                                                            qdot_status broken);
 /* M and A at what is loaded, into a level. */
 void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level);
 

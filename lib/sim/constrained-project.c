@@ -191,6 +191,18 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
 }
 
 qdot_status
+qdot_constrained_check_accelerations(qdot_constrained *h, double t, const double *y)
+{
+    const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
+
+    if (h->at[QDOT_ACCELERATION]->m == h->at[QDOT_VELOCITY]->m || s->rank == s->m
+        || h->plan->treatment == QDOT_RUN_BAUMGARTE)
+        return QDOT_OK;
+    QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
+    return qdot_constrained_check_repeated(h, QDOT_EDOMAIN);
+}
+
+qdot_status
 qdot_constrained_project(double t, double *y, double *carry, double *moved, void *user)
 {
     qdot_constrained *h = user;

@@ -172,32 +172,6 @@ broken(const qdot_constrained *h, size_t row, double residual, const char *what)
     return qdot_hint("start values that fulfil it");
 }
 
-/* Rows that were left out as repetitions must agree with those that were not. */
-static qdot_status
-check_repeated(qdot_constrained *h)
-{
-    const qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
-    const qdot_saddle *s = &all->saddle;
-    const size_t n = h->plan->n;
-    const double *gamma = h->out + n + h->c->n_masses + h->c->n_slopes;
-
-    for (size_t j = s->rank; j < s->m; j++) {
-        size_t k = s->pivot[j];
-        double sum = -gamma[k], size = fabs(gamma[k]);
-
-        for (size_t i = 0; i < n; i++) {
-            sum += s->A[k * n + i] * h->a[i];
-            size = fmax(size, fabs(s->A[k * n + i] * h->a[i]));
-        }
-        if (fabs(sum) > 1e-6 * fmax(1, size))
-            return qdot_fail(QDOT_EINVAL,
-                             "constraint %s contradicts the others: they leave it a "
-                             "second derivative of %.3g",
-                             h->c->rows[k].name, sum);
-    }
-    return QDOT_OK;
-}
-
 qdot_status
 qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
 {
@@ -229,5 +203,5 @@ qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
     QDOT_TRY(qdot_constrained_project(t, y, low, &moved, h));
     QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
     QDOT_TRY(check_place(h, t, y));
-    return check_repeated(h);
+    return qdot_constrained_check_repeated(h, QDOT_EINVAL);
 }

@@ -187,6 +187,31 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     return QDOT_OK;
 }
 
+qdot_status
+qdot_constrained_check_repeated(qdot_constrained *h, qdot_status broken)
+{
+    const qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
+    const qdot_saddle *s = &all->saddle;
+    const size_t n = h->plan->n;
+    const double *gamma = h->out + n + h->c->n_masses + h->c->n_slopes;
+
+    for (size_t j = s->rank; j < s->m; j++) {
+        size_t k = s->pivot[j];
+        double sum = -gamma[k], size = fabs(gamma[k]);
+
+        for (size_t i = 0; i < n; i++) {
+            sum += s->A[k * n + i] * h->a[i];
+            size = fmax(size, fabs(s->A[k * n + i] * h->a[i]));
+        }
+        if (fabs(sum) > 1e-6 * fmax(1, size))
+            return qdot_fail(broken,
+                             "constraint %s contradicts the others: they leave it a "
+                             "second derivative of %.3g",
+                             h->c->rows[k].name, sum);
+    }
+    return QDOT_OK;
+}
+
 qdot_constrained_residual
 qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
 {

@@ -56,6 +56,12 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_jacobian(qdot_constrained *constrai
                                                       double t, const double *y,
                                                       double *dfdy, double *dfdt);
 
+/* Of accelerations nothing drifts: a constraint on them holds because it is solved for, but not
+ * where it repeats others at the start and says something else later. QDOT_EDOMAIN names one that
+ * does not hold at a state of the run. Test: tests/bad/constraint-leaves.lag. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_check_accelerations(qdot_constrained *constrained,
+                                                                 double t, const double *y);
+
 /* Move y [2n] (+ carry [2n], may be NULL) onto the constraints, as qdot_ode_system.project
  * is to: *moved is the largest change of a component relative to max(1, |y_i|), 0 where
  * nothing was done. QDOT_EDOMAIN where it does not converge. */

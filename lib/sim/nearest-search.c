@@ -56,7 +56,9 @@ evaluate(search *s, const double *at, bool measure)
 
         if (measure)
             s->size[k] = qdot_nearest_length(A + k * p->n, p->n);
-        if (F != 0)
+        if (!isfinite(s->size[k])) /* no slope: nothing is near */
+            sum = INFINITY;
+        else if (F != 0)
             sum += (F / s->size[k]) * (F / s->size[k]);
     }
     return isnan(sum) ? INFINITY : sum;
@@ -135,7 +137,8 @@ holds(const search *s, const double *at)
         size = fmax(size, fabs(at[s->p->first + i]));
     for (size_t k = 0; k < s->p->m; k++)
         if (s->p->value[k] != 0
-            && !(fabs(s->p->value[k]) <= on_it * (1 + size) * s->size[k]))
+            && !(isfinite(s->size[k])
+                 && fabs(s->p->value[k]) <= on_it * (1 + size) * s->size[k]))
             return false;
     return true;
 }
@@ -240,6 +243,7 @@ find_curves(qdot_nearest *p)
 
             if (!holds_symbol(p->pool, atoms, x))
                 continue;
+            p->bent = true;
             c = qdot_diff(p->pool, p->A[e], x);
             if (c == QDOT_ZERO)
                 continue;
@@ -407,7 +411,7 @@ static qdot_status
 look(search *s, double *at, double *best, double *other, qdot_nearest_outcome *outcome)
 {
     const qdot_nearest *p = s->p;
-    int points = p->curves == 0 ? 1 : s->n <= 8 ? 33 : s->n <= 32 ? 17 : 9;
+    int points = !p->bent ? 1 : s->n <= 8 ? 33 : s->n <= 32 ? 17 : 9;
     double nearest = INFINITY;
 
     *outcome = QDOT_NEAREST_NONE;

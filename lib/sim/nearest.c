@@ -119,11 +119,11 @@ qdot_nearest_distance(qdot_nearest *p, const double *at, const double *low,
     QDOT_TRY(residuals(p, at, low, distance));
     qdot_tape_eval(p->tape, at, p->value, p->work);
     for (size_t k = 0; k < p->m; k++) {
-        double F = distance[k];
+        double F = distance[k], slope = qdot_nearest_length(A + k * p->n, p->n);
 
         if (residual)
             residual[k] = F;
-        distance[k] = F == 0 ? 0 : fabs(F) / qdot_nearest_length(A + k * p->n, p->n);
+        distance[k] = F == 0 ? 0 : isfinite(slope) ? fabs(F) / slope : INFINITY;
     }
     return QDOT_OK;
 }

@@ -33,6 +33,7 @@ typedef struct {
     uint32_t *place;          /* [3 * curves] k, i, j of each second derivative */
     size_t curves;
     bool curves_known;
+    bool bent; /* A depends on the unknowns */
     double *value; /* [m + m*n] F and A, of the latest point */
     double *work;
 } qdot_nearest;

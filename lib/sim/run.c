@@ -182,12 +182,16 @@ static qdot_status
 settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
              const qdot_domains *domains)
 {
+    bool anew;
+
     if (scene->constraints.n == 0)
         return QDOT_OK;
     QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
                                run->start_low, &run->notice));
     if (run->notice.n > 0)
         run->report.notice = qdot_text_str(&run->notice);
+    QDOT_TRY(qdot_stage_settle(&run->stage, run->start, &anew));
+    run->plan = run->stage.modes.at[0]->plan;
     return QDOT_OK;
 }
 

@@ -342,15 +342,17 @@ start_numbers(const qdot_stage *s, double *t, double *y)
     return QDOT_OK;
 }
 
-/* The sides of the start, before there is a mode. */
+/* The sides at y, or at the start before there is a mode: side [surfaces]. */
 static qdot_status
-start_sides(qdot_stage *s, long *side)
+start_sides(const qdot_stage *s, const double *settled, long *side)
 {
     size_t n = s->scene->coordinates.n, m = s->switches.surfaces.n;
     double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0;
     double *in = qdot_calloc(2 * n + 1 + m + qdot_tape_work(s->sides) + 1, sizeof *in);
     qdot_status status = y && in ? start_numbers(s, &t, y) : QDOT_ENOMEM;
 
+    if (status == QDOT_OK && settled)
+        memcpy(y, settled, 2 * n * sizeof *y);
     if (status == QDOT_OK) {
         double *u = in + 2 * n + 1;
 
@@ -365,8 +367,9 @@ start_sides(qdot_stage *s, long *side)
     return status;
 }
 
-qdot_status
-qdot_stage_begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request)
+static qdot_status
+begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
+      const double *settled)
 {
     size_t mode;
     long *side;
@@ -382,9 +385,40 @@ qdot_stage_begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *reque
     if (s->switches.surfaces.n > 0)
         status = lower_sides(s);
     if (s->switches.surfaces.n > 0 && status == QDOT_OK)
-        status = start_sides(s, side);
+        status = start_sides(s, settled, side);
     if (status == QDOT_OK)
         status = qdot_stage_mode(s, side, &mode);
     qdot_free(side);
     return status;
+}
+
+qdot_status
+qdot_stage_begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request)
+{
+    return begin(s, scene, request, NULL);
+}
+
+qdot_status
+qdot_stage_settle(qdot_stage *s, const double *y, bool *anew)
+{
+    qdot_scene *scene = s->scene;
+    const qdot_run_request *request = s->request;
+    size_t m = s->switches.surfaces.n;
+    qdot_status status;
+    long *side;
+
+    *anew = false;
+    if (m == 0)
+        return QDOT_OK;
+    side = qdot_calloc(m, sizeof *side);
+    if (!side)
+        return QDOT_ENOMEM;
+    status = start_sides(s, y, side);
+    *anew = status == QDOT_OK &&
+            memcmp(side, s->modes.at[0]->side, m * sizeof *side) != 0;
+    qdot_free(side);
+    if (!*anew)
+        return status;
+    qdot_stage_clear(s);
+    return begin(s, scene, request, y);
 }

@@ -58,6 +58,10 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_stage_begin(qdot_stage *stage, qdot_scene *scene,
                                              const qdot_run_request *request);
 void qdot_stage_clear(qdot_stage *stage);
+/* The start was brought onto the constraints, to y [2n]: where that is on another side of a
+ * surface the stage is made anew from there, its plans too; *anew whether it was. */
+QDOT_MUST_CHECK qdot_status qdot_stage_settle(qdot_stage *stage, const double *y,
+                                              bool *anew);
 
 /* The mode with these sides [surfaces], made if it is new. QDOT_EFAILED where that comes after
  * the run (stage->scene is NULL). */

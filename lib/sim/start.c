@@ -11,7 +11,7 @@
 
 static const double breaks = 1e-14; /* relative to max(1, |x|) */
 
-enum { MOST_LISTED = 24 };
+enum { MOST_LISTED = 24, MOST_ANSWERED = 4 };
 
 /* Positions or velocities: what must hold of them. */
 typedef struct {
@@ -154,21 +154,48 @@ fail(qdot_text *text, qdot_status built)
 static qdot_status
 refuse(const level *l, const double *residual)
 {
+    const qdot_constraint *row;
     qdot_text text = {0};
     qdot_status status;
-    size_t worst = 0;
+    size_t worst = 0, broken = 0;
 
     for (size_t k = 1; k < l->m; k++)
         if (!(l->distance[k] <= l->distance[worst]))
             worst = k;
+    row = &l->scene->constraints.at[l->constraint[worst]];
     qdot_text_add(&text, "the start breaks ");
     status = print_broken(l, &text);
-    qdot_text_format(&text, ": %s is %.6g, not 0",
-                     l->velocities ? "its rate" : "left - right", residual[worst]);
+    for (size_t k = 0; k < l->m; k++)
+        broken += !(l->distance[k] <= breaks);
+    qdot_text_add(&text, l->velocities && row->kind == QDOT_HOLONOMIC
+                             ? ": the rate of left - right"
+                             : ": left - right");
+    if (broken > 1)
+        qdot_text_format(&text, " of %.100s", row->name);
+    qdot_text_format(&text, " is %.6g, not 0", residual[worst]);
     status = fail(&text, status);
     return status == QDOT_EINVAL
                ? qdot_hint("without `exactly` the start is moved onto the constraints")
                : status;
+}
+
+/* Of an answer x what another has not, "x = 1, y = 0". */
+static void
+print_answer(const level *l, const double *x, const double *other, qdot_text *out)
+{
+    size_t listed = 0;
+
+    for (size_t i = 0; i < l->n; i++) {
+        if (!(fabs(x[i] - other[i]) > 1e-6 * (1 + fabs(x[i]))))
+            continue;
+        if (listed == MOST_ANSWERED) {
+            qdot_text_add(out, " ...");
+            return;
+        }
+        qdot_text_add(out, listed++ > 0 ? ", " : " ");
+        print_unknown(l, i, out);
+        qdot_text_format(out, " = %.6g", x[i]);
+    }
 }
 
 static qdot_status
@@ -187,8 +214,10 @@ say_several(const level *l, const double *at, const double *other, bool all)
     qdot_text_add(&text, "the start breaks ");
     if (status == QDOT_OK)
         status = print_broken(l, &text);
-    qdot_text_format(&text, ", and two answers are equally near: %s = %.6g and %s = %.6g",
-                     qdot_text_str(&name), x[i], qdot_text_str(&name), other[i]);
+    qdot_text_add(&text, ", and two answers are equally near:");
+    print_answer(l, x, other, &text);
+    qdot_text_add(&text, " and");
+    print_answer(l, other, x, &text);
     status = fail(&text, status);
     if (status == QDOT_EINVAL)
         status = all ? qdot_hint("start %s = ...: a value nearer to one of them",

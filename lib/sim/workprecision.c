@@ -22,6 +22,9 @@ static const double budget_default = 3e8;
 /* Of a reference in doubles. */
 static const double reference_tol = 1e-15;
 
+/* An error below it is rounding, however little moved. */
+static const double rounding = 1e-14;
+
 /* A method at work. */
 typedef struct {
     qdot_run_request request;
@@ -240,6 +243,22 @@ read_start(worker *w, const qdot_run_request *request)
     return QDOT_OK;
 }
 
+/* Where the start is now another side of a surface may be in force. */
+static qdot_status
+settle_side(worker *w)
+{
+    bool anew;
+
+    qdot_bind_free(w->bind); /* of a plan that may go */
+    w->bind = NULL;
+    w->held = NULL;
+    QDOT_TRY(qdot_stage_settle(&w->stage, w->start, &anew));
+    w->plan = w->stage.modes.at[0]->plan;
+    QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
+    w->held = qdot_bind_held(w->bind);
+    return QDOT_OK;
+}
+
 /* Onto the constraints. */
 static qdot_status
 settle_start(worker *w, qdot_scene *scene, const qdot_run_request *request)
@@ -255,6 +274,8 @@ settle_start(worker *w, qdot_scene *scene, const qdot_run_request *request)
     if (status == QDOT_OK)
         status =
             qdot_start_settle(scene, w->plan, request, &domains, w->start, w->low, &notice);
+    if (status == QDOT_OK && w->stage.switches.surfaces.n > 0)
+        status = settle_side(w);
     if (status == QDOT_OK)
         status = qdot_bind_check(w->bind, w->t0, w->start, w->low);
     qdot_text_clear(&notice);
@@ -462,7 +483,8 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
         return QDOT_OK;
     }
     row->err = error_against(r, w->y, w->t_end);
-    strcpy(row->status, row->err >= QDOT_HORIZON_NONE_LEFT * r->variation
+    strcpy(row->status, row->err > rounding
+                                && row->err >= QDOT_HORIZON_NONE_LEFT * r->variation
                             ? "done: no digit is right"
                             : "done");
     row->scd = -log10(fmax(row->err, 0x1p-60));

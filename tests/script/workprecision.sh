@@ -46,6 +46,10 @@ event full: phi = 1 rising stop; start r = 0.5, phi' = 3; workprecision 0..50"; 
     awk -F , 'NR > 1 && $1 !~ /ms|bsimp/ && ($12 != "done" || $3 > 1000*$2 + 1e-13) { print "what is this:", $0 }
         NR > 1 { rows++; done += $12 == "done" } END { print rows, done }' divided.csv
 done
+# A scene at rest; the start is solved for, on another side of max than where it began.
+echo 'coord x, y; particle a mass 1 at (x, y); constraint c: max(x, y) = 3; start x = 1
+workprecision 0..1' | qdot --json - |
+    awk -F , '/"kind":"row"/ { rows++; if ($NF !~ /^"done"/) print "what is this:", $0 } END { print rows % 13, "left of rows by thirteen" }'
 # What cannot be said is refused before anything is integrated.
 echo 'coord x; particle a mass 1 at x; workprecision 0..1 to "wp.h5"' | qdot -
 echo 'coord x; particle a mass 1 at x; workprecision 0..0' | qdot -
