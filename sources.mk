@@ -440,6 +440,7 @@ lang_sources = \
 	lib/lang/ask.c \
 	lib/lang/bind.c \
 	lib/lang/builtin.c \
+	lib/lang/call.c \
 	lib/lang/carry.c \
 	lib/lang/check.c \
 	lib/lang/constraints.c \
@@ -453,6 +454,7 @@ lang_sources = \
 	lib/lang/equilibria.c \
 	lib/lang/evaluate.c \
 	lib/lang/event.c \
+	lib/lang/forms.c \
 	lib/lang/furnish.c \
 	lib/lang/help.c \
 	lib/lang/hints.c \
@@ -680,6 +682,7 @@ script_tests = \
 	tests/script/textbook.lag \
 	tests/script/to-file.sh \
 	tests/script/values.lag \
+	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
 	tests/bad/as-number.lag \
@@ -842,12 +845,14 @@ script_tests = \
 	tests/bad/unknown-label.lag \
 	tests/bad/unknown-name.lag \
 	tests/bad/unset.lag \
+	tests/bad/vector-functions.sh \
 	tests/bad/vector-mass.lag \
 	tests/bad/vector-vs-scalar-check.lag \
 	tests/bad/write-nowhere.lag \
 	tests/bad/wrong-arguments.lag \
 	examples/acceleration-constraint.lag \
 	examples/bead-on-wire.lag \
+	examples/bicycle.lag \
 	examples/bouncing-ball.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
@@ -1075,12 +1080,14 @@ test_files = \
 	tests/bad/unknown-label.out \
 	tests/bad/unknown-name.out \
 	tests/bad/unset.out \
+	tests/bad/vector-functions.out \
 	tests/bad/vector-mass.out \
 	tests/bad/vector-vs-scalar-check.out \
 	tests/bad/write-nowhere.out \
 	tests/bad/wrong-arguments.out \
 	tests/examples/acceleration-constraint.out \
 	tests/examples/bead-on-wire.out \
+	tests/examples/bicycle.out \
 	tests/examples/bricard.out \
 	tests/examples/car-axis.out \
 	tests/examples/chain.out \
@@ -1297,6 +1304,7 @@ test_files = \
 	tests/script/textbook.out \
 	tests/script/to-file.out \
 	tests/script/values.out \
+	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
 	tests/sim/scenes.h \
 	tests/tape/reference.h \

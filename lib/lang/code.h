@@ -104,7 +104,14 @@ QDOT_MUST_CHECK qdot_status qdot_resolve_index(qdot_cursor *c, const qdot_token 
 QDOT_MUST_CHECK qdot_status qdot_resolve_entry(qdot_session *session, qdot_expr e,
                                                qdot_expr over, uint32_t n,
                                                const qdot_expr *index, qdot_expr *value);
-/* name(args), name[index](args), name'(args). *over: as above. */
+/* The failure that a prime cannot stand at `name`. QDOT_ETYPE. */
+qdot_status qdot_resolve_no_prime(const char *name, const char *why);
+/* x(args), x'(args) of an undefined function; a prime only where it has one argument. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_undefined(qdot_session *session,
+                                                   const qdot_name *entry, unsigned primes,
+                                                   uint32_t n, const qdot_expr *args,
+                                                   qdot_expr *value);
+/* name(args), name[index](args), name'(args). *over: as above. In lang/call.c. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_token *token,
                                               unsigned primes, uint32_t indices,
                                               uint32_t n, const qdot_expr *values,

@@ -537,7 +537,7 @@ define_function(qdot_cursor *c)
         status = qdot_cursor_expect_op(c, "=");
     if (status == QDOT_OK)
         status = tell_circle(
-            c, start, qdot_declare_read_body(c, entry.formals, n, names, &entry.value));
+            c, start, qdot_declare_read_forms(c, entry.formals, n, names, &entry.value));
     if (status == QDOT_OK)
         status = qdot_cursor_expect_end(c);
     if (status == QDOT_OK) {

@@ -31,10 +31,17 @@ QDOT_MUST_CHECK qdot_status qdot_declare_meet_functions(qdot_session *session,
 QDOT_MUST_CHECK qdot_status qdot_declare_read_formals(qdot_cursor *c, qdot_expr *formals,
                                                       const qdot_token ***names,
                                                       size_t *n);
-/* An expression in which these names mean these symbols. */
+/* An expression in which these names mean these values. */
 QDOT_MUST_CHECK qdot_status qdot_declare_read_body(qdot_cursor *c, qdot_expr formals,
                                                    size_t n,
                                                    const qdot_token *const *names,
                                                    qdot_expr *body);
+/* The same for a function: its forms, for numbers, for plane and spatial vectors and square
+ * matrices of 2 and 3, as far as the expression has a meaning for them (lang/names.h). An
+ * error is that for numbers. */
+QDOT_MUST_CHECK qdot_status qdot_declare_read_forms(qdot_cursor *c, qdot_expr formals,
+                                                    size_t n,
+                                                    const qdot_token *const *names,
+                                                    qdot_expr *forms);
 
 #endif

@@ -12,7 +12,9 @@ typedef enum {
     QDOT_NAME_COORD,    /* value: the symbol */
     QDOT_NAME_UFUN,     /* ufun: its id; value: it at its declared arguments */
     QDOT_NAME_VALUE,    /* value: any value */
-    QDOT_NAME_FUNCTION, /* value: the body; formals: a LIST of FORMAL symbols */
+    QDOT_NAME_FUNCTION, /* formals: a LIST of FORMAL symbols; value: a LIST of forms, each a LIST
+                         * of what the arguments are there (the symbol, or a vector or matrix of
+                         * symbols) and the body for them */
     QDOT_NAME_INDEX     /* value: what a loop or sum binds just now; hides outer names */
 } qdot_name_kind;
 

@@ -1,4 +1,4 @@
-/* resolve.c -- what a name, name[...], name(...) means, and primes.
+/* resolve.c -- what a name and name[...] mean, and primes.
  *
  * In order: what a loop or sum binds, declared names, reserved ones (pi, t, dtheta),
  * the values of the scene, labels.
@@ -65,8 +65,8 @@ qdot_resolve_member(qdot_session *session, const char *name, uint32_t n,
 
 /* --- primes ------------------------------------------------------------------------- */
 
-static qdot_status
-no_prime(const char *name, const char *why)
+qdot_status
+qdot_resolve_no_prime(const char *name, const char *why)
 {
     qdot_fail(QDOT_ETYPE, "`%.200s` %s", name, why);
     return qdot_hint("the time derivative of an expression is ddt(...)");
@@ -82,10 +82,9 @@ ddt_times(qdot_session *s, unsigned primes, qdot_expr *value)
     return QDOT_OK;
 }
 
-/* x'(args) of an undefined function of one argument. */
-static qdot_status
-apply_undefined(qdot_session *s, const qdot_name *entry, unsigned primes, uint32_t n,
-                const qdot_expr *args, qdot_expr *value)
+qdot_status
+qdot_resolve_undefined(qdot_session *s, const qdot_name *entry, unsigned primes, uint32_t n,
+                       const qdot_expr *args, qdot_expr *value)
 {
     const qdot_ufun *f = qdot_ufun_get(s->pool, entry->ufun);
 
@@ -129,13 +128,13 @@ named(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value
         qdot_expr first = f->arity > 0 ? qdot_expr_arg(s->pool, f->formals, 0) : QDOT_NIL;
 
         if (f->arity != 1) {
-            no_prime(entry->name, "has several arguments: a prime does not say which");
+            qdot_resolve_no_prime(entry->name, "has several arguments: a prime does not say which");
             return qdot_hint("write diff(%.40s, s) or ddt(%.40s)", entry->name,
                              entry->name);
         }
-        return apply_undefined(s, entry, primes, 1, &first, value);
+        return qdot_resolve_undefined(s, entry, primes, 1, &first, value);
     }
-    return no_prime(entry->name,
+    return qdot_resolve_no_prime(entry->name,
                     entry->kind == QDOT_NAME_PARAM
                         ? "is a parameter: a prime goes after a coordinate"
                         : "is no coordinate: a prime goes after a coordinate");
@@ -156,7 +155,7 @@ reserved(const char *name, unsigned primes, bool *found, qdot_expr *value)
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)
         if (strcmp(name, fixed[i].name) == 0) {
             *value = fixed[i].value;
-            return primes > 0 ? no_prime(name, "is no coordinate") : QDOT_OK;
+            return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
         }
     *found = false;
     return QDOT_OK;
@@ -274,7 +273,7 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
         return QDOT_OK;
     QDOT_TRY(differential(s, name, &found, value));
     if (found)
-        return primes > 0 ? no_prime(name, "is no coordinate") : QDOT_OK;
+        return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
     row = qdot_quantity_find(name);
     if (row != NULL && row->least == 0) {
         QDOT_TRY(quantity(s, row, primes, 0, NULL, value));
@@ -285,7 +284,7 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
         return QDOT_OK;
     *value = argument_of(s, name);
     if (*value != QDOT_NIL)
-        return primes > 0 ? no_prime(name, "is no coordinate") : QDOT_OK;
+        return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
     if (qdot_names_is_family(s->names, name)) {
         qdot_fail(QDOT_ENAME, "`%.200s` is a family", name);
         return qdot_hint("write a member, %.80s[1]", name);
@@ -467,9 +466,13 @@ is_label_family(const qdot_scene *scene, const char *name)
 static bool
 may_be_family(const qdot_session *s, const char *name)
 {
+    const qdot_name *entry = qdot_names_find(s->names, name);
+
+    if (entry != NULL && entry->kind == QDOT_NAME_INDEX)
+        return false; /* an argument hides the family */
     if (qdot_names_is_family(s->names, name))
         return true;
-    if (qdot_names_find(s->names, name) != NULL)
+    if (entry != NULL)
         return false;
     return is_label_family(s->scene, name) ||
            (name[0] == 'd' && qdot_names_is_family(s->names, name + 1)) ||
@@ -560,131 +563,4 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
         return ddt_times(s, primes, value);
     }
     return quantity_index(s, row, primes, n, index, value);
-}
-
-/* --- calls -------------------------------------------------------------------------- */
-
-typedef struct {
-    qdot_expr formal, body;
-} mapping;
-
-static qdot_expr
-put_in(qdot_pool *pool, qdot_expr scalar, void *user)
-{
-    const mapping *m = user;
-
-    return qdot_subs(pool, m->body, 1, &m->formal, &scalar);
-}
-
-/* f(args) of a user's function: its body with the formals replaced; of one argument, also
- * on every member of a list, vector, matrix or equation. */
-static qdot_status
-apply_function(qdot_session *s, const qdot_name *entry, unsigned primes, uint32_t n,
-               const qdot_expr *args, qdot_expr *value)
-{
-    uint32_t arity = qdot_expr_count(s->pool, entry->formals);
-    qdot_expr body = entry->value, *formals;
-    mapping m;
-
-    if (n != arity)
-        return qdot_fail(QDOT_ETYPE, "`%.200s` takes %u argument%s, not %u", entry->name,
-                         arity, arity == 1 ? "" : "s", n);
-    if (primes > 0 && n != 1)
-        return no_prime(entry->name, "has several arguments: a prime does not say which");
-    m.formal = n > 0 ? qdot_expr_arg(s->pool, entry->formals, 0) : QDOT_NIL;
-    for (; primes > 0; primes--)
-        body = qdot_diff(s->pool, body, m.formal);
-    if (n == 1 && !qdot_expr_is_scalar(s->pool, args[0])) {
-        m.body = body;
-        *value = qdot_value_map(s->pool, args[0], put_in, &m);
-        return qdot_resolve_check(s->pool, *value);
-    }
-    for (uint32_t i = 0; i < n; i++)
-        if (!qdot_expr_is_scalar(s->pool, args[i]))
-            return qdot_fail(QDOT_ETYPE, "`%.200s` is a function of numbers, not of %s",
-                             entry->name, qdot_resolve_kind(s->pool, args[i]));
-    formals = qdot_malloc(n * sizeof *formals);
-    if (formals == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < n; i++)
-        formals[i] = qdot_expr_arg(s->pool, entry->formals, i);
-    *value = qdot_subs(s->pool, body, n, formals, args);
-    qdot_free(formals);
-    return qdot_resolve_check(s->pool, *value);
-}
-
-static qdot_status
-call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_expr *args,
-             const char *run, qdot_expr *value, qdot_expr *over)
-{
-    if ((int)n < row->least || (row->most >= 0 && (int)n > row->most)) {
-        if (row->least == row->most)
-            qdot_fail(QDOT_ETYPE, "%s takes %d argument%s, not %u", row->name, row->least,
-                      row->least == 1 ? "" : "s", n);
-        else if (row->most < 0)
-            qdot_fail(QDOT_ETYPE, "%s takes %d arguments or more, not %u", row->name,
-                      row->least, n);
-        else
-            qdot_fail(QDOT_ETYPE, "%s takes %d %s %d arguments, not %u", row->name,
-                      row->least, row->most == row->least + 1 ? "or" : "to",
-                      row->most, n);
-        return qdot_hint("as in %s", row->usage);
-    }
-    if (run != NULL && qdot_number_is_range(row->name))
-        QDOT_TRY(qdot_number_range(s, run, row->name, n, args, NULL, value));
-    else if (run != NULL)
-        QDOT_TRY(qdot_number_value(s, run, n, args, value));
-    else
-        QDOT_TRY(row->call(s, n, args, value));
-    QDOT_TRY(qdot_resolve_check(s->pool, *value));
-    if (row->over != NULL) {
-        *over = row->over(s, n, args);
-        return qdot_resolve_check(s->pool, *over);
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
-{
-    qdot_fail(QDOT_ESYNTAX, "`%.200s` is not a function", name);
-    if (entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] == QDOT_T)
-        return qdot_hint("a coordinate depends on the time by itself: write %.80s", name);
-    return qdot_hint("a product is written %.80s*(...)", name);
-}
-
-qdot_status
-qdot_resolve_call(qdot_cursor *c, const qdot_token *token, unsigned primes,
-                  uint32_t indices, uint32_t n, const qdot_expr *values, const char *run,
-                  qdot_expr *value, qdot_expr *over)
-{
-    qdot_session *s = c->session;
-    const qdot_expr *args = values + indices;
-    const qdot_builtin *row = indices == 0 ? qdot_builtin_find(token->text) : NULL;
-    const qdot_name *entry;
-    qdot_text spelled = {0};
-    qdot_status status;
-
-    *over = QDOT_NIL;
-    status = qdot_resolve_member(s, token->text, indices, values, &spelled);
-    entry = status == QDOT_OK ? qdot_names_find(s->names, spelled.at) : NULL;
-    if (status != QDOT_OK)
-        ;
-    else if (entry != NULL && entry->kind == QDOT_NAME_FUNCTION)
-        status = apply_function(s, entry, primes, n, args, value);
-    else if (entry != NULL && entry->kind == QDOT_NAME_UFUN)
-        status = apply_undefined(s, entry, primes, n, args, value);
-    else if (row != NULL && primes == 0)
-        status = call_builtin(s, row, n, args, run, value, over);
-    else if (row != NULL)
-        status = no_prime(token->text, "takes no prime: write diff(...)");
-    else if (entry != NULL || qdot_quantity_find(token->text) != NULL ||
-             qdot_scene_has_label(s->scene, spelled.at) ||
-             strcmp(token->text, "pi") == 0 || strcmp(token->text, "t") == 0 ||
-             qdot_names_is_family(s->names, token->text))
-        status = not_a_function(entry, spelled.at, n, args);
-    else
-        status = qdot_hints_unknown_function(c, token);
-    qdot_text_clear(&spelled);
-    return status;
 }

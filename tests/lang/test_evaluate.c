@@ -54,14 +54,17 @@ user_functions_replace_their_formals(void **state)
 {
     qdot_name f = {.name = (char *)"f", .kind = QDOT_NAME_FUNCTION};
     reading r;
-    qdot_expr u;
+    qdot_expr u, form[2];
 
     (void)state;
     reading_open(&r);
     u = qdot_symbol_get(r.session->pool, QDOT_FORMAL, "u");
     f.formals = qdot_list(r.session->pool, 1, &u);
     assert_int_equal(qdot_names_push(r.session->names, "u", u), QDOT_OK);
-    assert_int_equal(reading_value(&r, "u^2/2 + m", &f.value), QDOT_OK);
+    form[0] = u;
+    assert_int_equal(reading_value(&r, "u^2/2 + m", form + 1), QDOT_OK);
+    form[0] = qdot_list(r.session->pool, 2, form);
+    f.value = qdot_list(r.session->pool, 1, form);
     qdot_names_pop(r.session->names);
     assert_int_equal(qdot_names_declare(r.session->names, &f), QDOT_OK);
     assert_same(&r, "f(3)", "9/2 + m");
