@@ -17,8 +17,9 @@ static const double shallow = 0.75, floor_of_minimum = 0.2;
 
 enum { sections = 60, closed_in = 12, most_told = 60 };
 
-/* The steps of few may be long: they are looked at within, too. */
-enum { few_steps = 100, parts_of_a_step = 4 };
+/* The steps of few may be long, and so may one beside shorter ones: they are looked at within,
+ * too. */
+enum { few_steps = 100, parts_of_a_step = 4, most_parts = 64 };
 
 /* Some constraints, and when they were passed. */
 typedef struct {
@@ -46,35 +47,33 @@ look(search *s, double t, double *q)
     return QDOT_OK;
 }
 
-/* The minimum between a and b, at which q is `start` or more; s->y is a state within rounding
- * of it. */
+/* The minimum about t[1] between t[0] and t[2], where q is more, by golden sections; s->y is a
+ * state within rounding of it. */
 static qdot_status
-descend(search *s, double a, double b, double start, double *at, double *least)
+descend(search *s, const double *t, const double *q, double *at, double *least)
 {
-    static const double golden = 0.6180339887498949;
-    double c = b - golden * (b - a), d = a + golden * (b - a), qc, qd;
+    static const double golden = 0.3819660112501051;
+    const double start = fmin(q[0], q[2]);
+    double a = t[0], b = t[2], m = t[1], qm = q[1];
 
-    QDOT_TRY(look(s, c, &qc));
-    QDOT_TRY(look(s, d, &qd));
     for (int k = 0; k < sections; k++) {
+        const bool right = b - m > m - a;
+        const double u = right ? m + golden * (b - m) : m - golden * (m - a);
+        double qu;
+
         QDOT_TRY(qdot_interrupt_check());
-        if (k == closed_in && fmin(qc, qd) > floor_of_minimum * start)
+        if (k == closed_in && qm > floor_of_minimum * start)
             break;
-        if (qc < qd) {
-            b = d;
-            d = c;
-            qd = qc;
-            c = b - golden * (b - a);
-            QDOT_TRY(look(s, c, &qc));
+        QDOT_TRY(look(s, u, &qu));
+        if (qu < qm) {
+            *(right ? &a : &b) = m;
+            m = u;
+            qm = qu;
         } else {
-            a = c;
-            c = d;
-            qc = qd;
-            d = a + golden * (b - a);
-            QDOT_TRY(look(s, d, &qd));
+            *(right ? &b : &a) = u;
         }
     }
-    *at = qc < qd ? c : d;
+    *at = m;
     return look(s, *at, least);
 }
 
@@ -119,19 +118,34 @@ take(search *s, double t, double q)
     s->q[2] = q;
     if (++s->taken < 3 || !comes_down(s->q))
         return QDOT_OK;
-    /* from the sides: in the middle it may be near 0 before the sections are */
-    QDOT_TRY(descend(s, s->t[0], s->t[2], fmin(s->q[0], s->q[2]), &at, &least));
+    QDOT_TRY(descend(s, s->t, s->q, &at, &least));
     return least < s->enough ? note(s, at) : QDOT_OK;
+}
+
+/* In how many parts to look at the step that ends at stored point k, of those up to `end`. */
+static int
+parts_of(const qdot_trajectory *tr, size_t first, size_t k, size_t end)
+{
+    const double *t = tr->t + k, h = fabs(t[0] - t[-1]);
+    double beside = h;
+
+    if (k > first + 1)
+        beside = fmin(beside, fabs(t[-1] - t[-2]));
+    if (k + 1 < end)
+        beside = fmin(beside, fabs(t[1] - t[0]));
+    if (tr->count >= few_steps && h < parts_of_a_step * beside)
+        return 1;
+    return (int)fmin(most_parts, parts_of_a_step * h / fmax(beside, h / most_parts));
 }
 
 /* The places within the step that ends at stored point k. */
 static qdot_status
-take_inner(search *s, size_t k)
+take_inner(search *s, size_t k, int parts)
 {
     const double *t = s->course->tr.t + k - 1;
 
-    for (int j = 1; j < parts_of_a_step; j++) {
-        const double inner = t[0] + (t[1] - t[0]) * j / parts_of_a_step;
+    for (int j = 1; j < parts; j++) {
+        const double inner = t[0] + (t[1] - t[0]) * j / parts;
         double q;
 
         QDOT_TRY(look(s, inner, &q));
@@ -154,8 +168,8 @@ go_through(search *s)
         for (size_t k = p->first; k < end; k++) {
             if (k % 1024 == 0)
                 QDOT_TRY(qdot_interrupt_check());
-            if (k > p->first && tr->count < few_steps)
-                QDOT_TRY(take_inner(s, k));
+            if (k > p->first)
+                QDOT_TRY(take_inner(s, k, parts_of(tr, p->first, k, end)));
             QDOT_TRY(take(s, tr->t[k],
                           qdot_constrained_independence(s->held, tr->t[k],
                                                         tr->y + k * tr->n)));
