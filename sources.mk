@@ -663,6 +663,7 @@ script_tests = \
 	tests/script/pendulum.lag \
 	tests/script/plan-chain.lag \
 	tests/script/race.sh \
+	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
@@ -689,6 +690,7 @@ script_tests = \
 	tests/bad/bad-method.lag \
 	tests/bad/bad-tolerance.lag \
 	tests/bad/bare-power.lag \
+	tests/bad/beyond-doubles.lag \
 	tests/bad/big-d.lag \
 	tests/bad/binary.lag \
 	tests/bad/block-without-for.lag \
@@ -786,9 +788,11 @@ script_tests = \
 	tests/bad/race-methods.lag \
 	tests/bad/race-option.lag \
 	tests/bad/race-stopped.lag \
+	tests/bad/range-log.lag \
 	tests/bad/range-pole-max.lag \
 	tests/bad/range-pole-mean.lag \
 	tests/bad/range-pole-min.lag \
+	tests/bad/range-root.lag \
 	tests/bad/reactions-none.lag \
 	tests/bad/redeclared-coordinate.lag \
 	tests/bad/redeclared-parameter.lag \
@@ -924,6 +928,7 @@ test_files = \
 	tests/bad/bad-method.out \
 	tests/bad/bad-tolerance.out \
 	tests/bad/bare-power.out \
+	tests/bad/beyond-doubles.out \
 	tests/bad/big-d.out \
 	tests/bad/binary.out \
 	tests/bad/block-without-for.out \
@@ -1021,9 +1026,11 @@ test_files = \
 	tests/bad/race-methods.out \
 	tests/bad/race-option.out \
 	tests/bad/race-stopped.out \
+	tests/bad/range-log.out \
 	tests/bad/range-pole-max.out \
 	tests/bad/range-pole-mean.out \
 	tests/bad/range-pole-min.out \
+	tests/bad/range-root.out \
 	tests/bad/reactions-none.out \
 	tests/bad/redeclared-coordinate.out \
 	tests/bad/redeclared-parameter.out \
@@ -1285,6 +1292,7 @@ test_files = \
 	tests/script/pendulum.out \
 	tests/script/plan-chain.out \
 	tests/script/race.out \
+	tests/script/range-limits.out \
 	tests/script/ranges.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \

@@ -282,8 +282,8 @@ length_of_step(run *r, double *h)
         } else {
             *h = fabs(r->unit) * qdot_rough_exp2(l);
             keep_off(r, h);
-            /* nothing there, or too small for a double: judge by what is */
-            far = l < INFINITY ? l : log_step_of_all(r);
+            /* too small for a double: judge by what is; or a polynomial, of any step */
+            far = l < INFINITY ? l : fmax(0, log_step_of_all(r));
             if (!(fabs(far) > 8) || isinf(far))
                 return QDOT_OK;
         }
@@ -371,7 +371,13 @@ may_be_undefined(qdot_status status)
 static qdot_status
 project(run *r, double t_end, double *moved)
 {
+    double undefined = 0;
+
     *moved = 0;
+    for (size_t i = 0; i < r->n; i++)
+        undefined += r->next[i] - r->next[i];
+    if (undefined != 0)
+        return qdot_fail(QDOT_EDOMAIN, "the solution is beyond the largest double");
     if (!r->system->project)
         return QDOT_OK;
     QDOT_TRY(r->system->project(t_end, r->next, r->next_carry, moved, r->system->user));

@@ -25,6 +25,12 @@ static const double noises = 8;
  * so many times those of the step; a pole whose integral exists leaves that little of it. */
 static const double beyond_bounds = 0x1p16, least_integral = 0x1p-20;
 
+/* Towards a point where no polynomial fits, values are compared at distances that halve, from so
+ * many times the shortest part on. What grows by increments that fall by less than `slow` each time
+ * (a logarithm's do not fall) grows beyond all. */
+enum { NEAREST = 4, FARTHEST = 24 };
+static const double slow = 0.997, deep = 0x1p-24, blurred = 0x1p-14;
+
 /* An end of the range where the limit from within is another value. */
 static const double jump = 0x1p-30;
 
@@ -35,6 +41,7 @@ typedef struct {
     double first;             /* the value where the range begins */
     double largest, smallest; /* so far */
     long double integral;
+    double highest, lowest;   /* limits at points that no value reaches */
     double rough;             /* what parts that stay rough leave open of the extrema */
     double noise;             /* of evaluating it in the step at hand */
     size_t parts;             /* of that step so far */
@@ -132,6 +139,66 @@ look_for_pole(scan *s, const part *p)
                   || fmax(high, -low) * fabs(p->b - p->a)
                          > least_integral * s->typical * s->length;
     s->pole = p->b;
+}
+
+/* The values at so many lengths of the part beside its middle, v [2] the second at twice the
+ * distance; whether they are there. */
+static bool
+values_beside(scan *s, const part *p, int distance, int side, double *v)
+{
+    const double w = fabs(p->b - p->a), middle = 0.5 * (p->a + p->b);
+
+    for (int k = 0; k < 2; k++) {
+        double t = middle + side * ldexp(w, distance + k);
+
+        if (t < fmin(s->ends[0], s->ends[1]) || t > fmax(s->ends[0], s->ends[1])
+            || qdot_reader_at(&s->reader, s->piece, t, &v[k]) != QDOT_OK || !isfinite(v[k]))
+            return false;
+    }
+    return true;
+}
+
+/* What is left of increments of which the last is `last`: they fall by a ratio each time, or ever
+ * more slowly, as those of 1/log do, of which as many are left as there were. */
+static double
+left_of(double last, double middle, double first, int steps, double before)
+{
+    const double late = pow(last / middle, 2.0 / steps), early = pow(middle / first, 2.0 / steps);
+    const double ratio = pow(last / first, 1.0 / steps);
+
+    if (ratio >= slow)
+        return copysign(INFINITY, last);
+    return last * fmax(late > 0.9 && late > early + 0.003 ? before : 0, ratio / (1 - ratio));
+}
+
+/* What the values tend to towards the part from one side: increments that fall as a power add up
+ * to a limit, others have none. */
+static void
+look_towards(scan *s, const part *p, int side)
+{
+    double near[2], far[2], middle[2], last, limit;
+    int distance = FARTHEST;
+
+    if (!values_beside(s, p, NEAREST, side, near))
+        return;
+    while (distance > NEAREST + 4 && !values_beside(s, p, distance, side, far))
+        distance -= 4;
+    if (distance <= NEAREST + 4
+        || !values_beside(s, p, (distance + NEAREST) / 2, side, middle))
+        return;
+    last = near[0] - near[1];
+    if (!(fabs(last) > 4 * DBL_EPSILON * fabs(near[0])) || !(last * (far[0] - far[1]) > 0)
+        || !(last * (middle[0] - middle[1]) > 0))
+        return;
+    limit = near[0] + left_of(last, middle[0] - middle[1], far[0] - far[1],
+                              distance - NEAREST, log2(s->length / fabs(p->b - p->a)));
+    s->highest = fmax(s->highest, limit);
+    s->lowest = fmin(s->lowest, limit);
+    if (isinf(limit)) {
+        s->above = s->above || limit > 0;
+        s->below = s->below || limit < 0;
+        s->pole = 0.5 * (p->a + p->b);
+    }
 }
 
 /* Ends, extrema, integral of a part. */
@@ -235,9 +302,13 @@ scan_step(scan *s, double a, double b)
         if (good)
             s->nodes = nodes;
         if (good || short_one || depth == DEEPEST || ++s->parts > MOST_PARTS) {
-            QDOT_TRY(take_part(s, &p, good));
+                    QDOT_TRY(take_part(s, &p, good));
             if (short_one)
                 look_for_pole(s, &p);
+            if (fabs(p.b - p.a) <= deep * s->length && (short_one || 8 * blur(&p) > blurred)) {
+                look_towards(s, &p, 1);
+                look_towards(s, &p, -1);
+            }
             from = p.b;
             depth--;
             continue;
@@ -258,6 +329,8 @@ scan_course(scan *s, double from, double to)
     s->nodes = 16;
     s->largest = -INFINITY;
     s->smallest = INFINITY;
+    s->highest = -INFINITY;
+    s->lowest = INFINITY;
     for (s->piece = 0; s->piece < tr->pieces.n; s->piece++) {
         size_t k = tr->pieces.at[s->piece].first, first = k;
         bool more = s->piece + 1 < tr->pieces.n;
@@ -304,6 +377,20 @@ result(const scan *s, qdot_range_kind kind, double from, double to)
     }
 }
 
+/* How far limits that no value reached lie beyond those that were met. */
+static double
+beyond(const scan *s, qdot_range_kind kind)
+{
+    double above = fmax(0, s->highest - s->largest), below = fmax(0, s->smallest - s->lowest);
+
+    switch (kind) {
+    case QDOT_RANGE_MAX: return above;
+    case QDOT_RANGE_MIN: return below;
+    case QDOT_RANGE_MEAN: return 0;
+    default: return fmax(above, below) / fmax(1, fabs(s->first));
+    }
+}
+
 static qdot_status
 check_bounds(const scan *s, qdot_range_kind kind)
 {
@@ -336,7 +423,7 @@ over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tap
         status = check_bounds(&s, kind);
     if (status == QDOT_OK) {
         *value = result(&s, kind, from, to);
-        *rough = s.rough;
+        *rough = s.rough + beyond(&s, kind);
     }
     qdot_reader_clear(&s.reader);
     return status;
