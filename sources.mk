@@ -17,6 +17,7 @@ base_headers = \
 	lib/base/utf8.h
 
 num_sources = \
+	lib/num/articulated.c \
 	lib/num/batch.c \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
@@ -31,6 +32,8 @@ num_sources = \
 	lib/num/sum.c
 
 num_headers = \
+	lib/num/articulated.def \
+	lib/num/articulated.h \
 	lib/num/batch-kinds.def \
 	lib/num/batch-vector.def \
 	lib/num/batch.def \
@@ -353,11 +356,13 @@ sim_sources = \
 	lib/sim/race.c \
 	lib/sim/range.c \
 	lib/sim/reader.c \
+	lib/sim/residual-tree.c \
 	lib/sim/residual.c \
 	lib/sim/routh.c \
 	lib/sim/run.c \
 	lib/sim/second.c \
 	lib/sim/shifted-lanes.c \
+	lib/sim/shifted-tree.c \
 	lib/sim/shifted-wide.c \
 	lib/sim/shifted.c \
 	lib/sim/size.c \
@@ -406,11 +411,13 @@ sim_headers = \
 	lib/sim/quotient.h \
 	lib/sim/race.h \
 	lib/sim/reader.h \
+	lib/sim/residual-tree.h \
 	lib/sim/residual.h \
 	lib/sim/routh.h \
 	lib/sim/run.h \
 	lib/sim/shifted-lanes.def \
 	lib/sim/shifted-lanes.h \
+	lib/sim/shifted-tree.h \
 	lib/sim/shifted-wide.h \
 	lib/sim/shifted.h \
 	lib/sim/size.h \
@@ -546,6 +553,7 @@ unit_tests = \
 	tests/normal/test_simplify \
 	tests/normal/test_solve \
 	tests/normal/test_verdicts \
+	tests/num/test_articulated \
 	tests/num/test_batch \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
@@ -576,6 +584,7 @@ unit_tests = \
 	tests/sim/test_precise \
 	tests/sim/test_routh \
 	tests/sim/test_run \
+	tests/sim/test_shifted-tree \
 	tests/sim/test_start \
 	tests/sim/test_taylor \
 	tests/sim/test_workprecision \
@@ -662,6 +671,7 @@ script_tests = \
 	tests/script/parts.lag \
 	tests/script/pendulum.lag \
 	tests/script/plan-chain.lag \
+	tests/script/plan-tree.lag \
 	tests/script/race.sh \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
@@ -1291,6 +1301,7 @@ test_files = \
 	tests/script/parts.out \
 	tests/script/pendulum.out \
 	tests/script/plan-chain.out \
+	tests/script/plan-tree.out \
 	tests/script/race.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \

@@ -59,6 +59,12 @@ say_mass(const qdot_plan *p, qdot_text *out)
     else
         qdot_text_format(out, "%zu blocks that do not couple, the largest %zu x %zu",
                          p->structure.blocks, largest, largest);
+    if (p->tree_nodes > 0 && p->method->series) {
+        qdot_text_format(out, "; not formed: eliminated once a step along a %s of %zu, %s\n",
+                         p->tree_is_path ? "chain" : "tree", p->tree_nodes,
+                         p->tree_is_path ? "eight pieces at once" : "from its leaves");
+        return;
+    }
     qdot_text_format(out, "; %s",
                      p->indefinite ? "LDL^T, it may be indefinite" : "Cholesky");
     if (constant + single == p->structure.blocks)

@@ -365,6 +365,7 @@ choose_form(qdot_plan *p, qdot_scene *scene)
         if (qdot_plan_cost(qdot_shifted_series(shifted)) < p->cost) {
             p->cost = qdot_plan_cost(qdot_shifted_series(shifted));
             p->residual = residual;
+            p->tree_nodes = qdot_shifted_tree_size(shifted, &p->tree_is_path);
             residual = NULL;
         }
     }

@@ -69,6 +69,10 @@ struct qdot_plan {
      * looked at. */
     qdot_residual *residual;
     double convolutions_derived, convolutions_residual;
+    /* Of that residual: nodes of the tree that M is eliminated along, 0: it is factored;
+     * whether they are one path. */
+    size_t tree_nodes;
+    bool tree_is_path;
     double cost; /* of a step by the form taken: qdot_plan_cost */
 
     /* The same by groups of coordinates that know nothing of each other, two or more, for a

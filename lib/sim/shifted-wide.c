@@ -156,7 +156,7 @@ qdot_shifted_wide_new(const qdot_residual *r, size_t n, const qdot_taylor *place
     if (!w)
         return QDOT_ENOMEM;
     w->n = n;
-    status = qdot_taylor_wide_new(places, n, &w->places);
+    status = qdot_taylor_wide_new(places, n, NULL, 0, &w->places);
     if (status == QDOT_OK && w->places)
         status = build(&b);
     if (status != QDOT_OK || !w->places) {

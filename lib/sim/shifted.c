@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "num/series.h"
 #include "sim/blocks.h"
+#include "sim/shifted-tree.h"
 #include "sim/shifted-wide.h"
 #include "tape/shake.h"
 #include "tape/taylor.h"
@@ -17,6 +18,9 @@ enum { most_order = 44, lanes = 8 };
 /* Up to so many functions the tree is kept multiplied out: a matrix is work of another
  * order, but vectors take it, where a tree is one long chain of sums. */
 enum { most_dense = 48 };
+
+/* A pivot over the mass it is of from which on four digits are lost: M may be singular. */
+static const double least_pivot = 1e-4;
 
 struct qdot_shifted {
     const qdot_plan *plan;
@@ -44,6 +48,8 @@ struct qdot_shifted {
     bool one_each;           /* a slope a function, in their order: Fs is F */
     double *products;        /* [members] */
     qdot_shifted_wide *wide; /* all this by vectors; NULL: one by one */
+    qdot_shifted_tree *tree; /* and M eliminated along its tree; NULL: it has none */
+    size_t eliminated;       /* how often */
     double *R;               /* [n] */
     bool whole;              /* one block holds all coordinates, in their order */
     double *in, *out, *work; /* of `masses` */
@@ -192,6 +198,25 @@ correct(qdot_shifted *s, int m)
     take_slopes(s, m);
 }
 
+/* Order m by the tree. */
+static void
+tree_order(qdot_shifted *s, int m)
+{
+    const double per_unit = m / s->unit;
+    double *q = s->q + m, *v = s->v + m - 1;
+    const size_t n = s->plan->n, stride = s->stride;
+
+    evaluate_forces(s, m - 2);
+    for (size_t i = 0; i < n && s->forces; i++)
+        s->R[i] = s->applied[i] && s->residual->force[i] & QDOT_RESIDUAL_FORCES
+                      ? s->force_scale * s->applied[i][m - 2]
+                      : 0;
+    qdot_shifted_tree_order(s->tree, m, s->force_scale, s->forces ? s->R : NULL, q,
+                            stride);
+    for (size_t i = 0; i < n; i++)
+        v[i * stride] = per_unit * q[i * stride];
+}
+
 /* Coefficients m >= 2 of q and m - 1 of v. */
 static void
 order(qdot_shifted *s, int m)
@@ -201,6 +226,10 @@ order(qdot_shifted *s, int m)
     const double inverse = 1.0 / (m * (m - 1)), per_unit = m / s->unit;
     const double *a;
 
+    if (s->tree) {
+        tree_order(s, m);
+        return;
+    }
     evaluate_forces(s, k);
     if (s->wide) {
         wide_residual(s, m);
@@ -237,6 +266,44 @@ factor(qdot_shifted *s, double t, const double *y)
     return QDOT_OK;
 }
 
+/* Orders 0 and 1, and M eliminated along its tree. Where a pivot is small against its mass
+ * Cholesky's method says whether M is singular. */
+static qdot_status
+begin_tree(qdot_shifted *s, double t, const double *y)
+{
+    double lost;
+    bool good;
+
+    qdot_taylor_order(s->places, 0);
+    for (size_t i = 0; i < s->plan->n; i++)
+        s->R[i] = s->unit * y[s->plan->n + i];
+    good = qdot_shifted_tree_begin(s->tree, s->places, s->R, &lost);
+    s->eliminated++;
+    if (good && lost >= least_pivot)
+        return QDOT_OK;
+    QDOT_TRY(factor(s, t, y));
+    return good ? QDOT_OK
+                : qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular within rounding");
+}
+
+static qdot_status
+begin_orders(qdot_shifted *s, double t, const double *y)
+{
+    if (s->tree)
+        return begin_tree(s, t, y);
+    QDOT_TRY(factor(s, t, y));
+    for (int k = 0; k < (s->wide ? 1 : 2); k++) {
+        qdot_taylor_order(s->places, k);
+        take_slopes(s, k);
+    }
+    if (s->wide) {
+        for (size_t i = 0; i < s->plan->n; i++)
+            s->R[i] = s->unit * y[s->plan->n + i];
+        qdot_shifted_wide_begin(s->wide, s->places, s->R);
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
@@ -258,16 +325,7 @@ begin(double t, const double *y, double unit, void *user)
         s->ft[1] = unit;
         qdot_taylor_draw(s->forces, t);
     }
-    QDOT_TRY(factor(s, t, y));
-    for (int k = 0; k < (s->wide ? 1 : 2); k++) {
-        qdot_taylor_order(s->places, k);
-        take_slopes(s, k);
-    }
-    if (s->wide) {
-        for (size_t i = 0; i < n; i++)
-            s->R[i] = unit * y[n + i];
-        qdot_shifted_wide_begin(s->wide, s->places, s->R);
-    }
+    QDOT_TRY(begin_orders(s, t, y));
     order(s, 2);
     for (size_t i = 0; i < n; i++)
         if (!isfinite(s->v[i * s->stride + 1]))
@@ -281,7 +339,7 @@ extend(int p, void *user)
 {
     qdot_shifted *s = user;
 
-    for (size_t b = 0; b < s->plan->structure.blocks; b++)
+    for (size_t b = 0; b < s->plan->structure.blocks && !s->tree; b++)
         if (s->plan->blocks[b].n > 1 && !s->plan->blocks[b].constant)
             qdot_blocks_invert(&s->solvers, b);
     for (int m = 3; m <= p + 1; m++)
@@ -313,12 +371,23 @@ make_tapes(qdot_shifted *s, bool shaken)
     return shaken ? qdot_tape_shake(r->masses, &s->masses) : QDOT_OK;
 }
 
+/* Applied forces with velocities have a program of their own. */
+static void
+estimate_forces(const qdot_shifted *s, double *c)
+{
+    if (!s->forces)
+        return;
+    c[1] += 1.2 * (double)qdot_taylor_length(s->forces) +
+            3.5 * qdot_taylor_convolutions(s->forces);
+    c[2] += 0.12 * qdot_taylor_convolutions(s->forces);
+}
+
 /* By vectors. */
 static void
-estimate_wide(qdot_shifted *s)
+estimate_wide(const qdot_shifted *s, double *c)
 {
     const double n = (double)s->plan->n;
-    double *c = s->series.cost, convolutions, products, begun;
+    double convolutions, products, begun;
 
     qdot_shifted_wide_count(s->wide, &convolutions, &products, &begun);
     c[0] = 600 + 25.0 * (double)qdot_tape_calls(s->residual->places) +
@@ -327,11 +396,21 @@ estimate_wide(qdot_shifted *s)
     c[1] = 20 + 4 * begun + 0.5 * products + 3 * n + 0.3 * n * n;
     /* more than it takes: orders near 40 cost the last digits */
     c[2] = 0.3 * convolutions;
-    if (s->forces) {
-        c[1] += 1.2 * (double)qdot_taylor_length(s->forces) +
-                3.5 * qdot_taylor_convolutions(s->forces);
-        c[2] += 0.12 * qdot_taylor_convolutions(s->forces);
-    }
+    estimate_forces(s, c);
+}
+
+/* By the tree. */
+static void
+estimate_tree(const qdot_shifted *s, double *c)
+{
+    const double n = (double)s->plan->n;
+    double convolutions, products, begun;
+
+    qdot_shifted_tree_count(s->tree, &convolutions, &products, &begun);
+    c[0] = 400 + 20.0 * (double)qdot_tape_calls(s->residual->places) + 40 * n;
+    c[1] = 20 + begun + 0.4 * products + n;
+    c[2] = 0.3 * convolutions;
+    estimate_forces(s, c);
 }
 
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
@@ -346,8 +425,12 @@ estimate_cost(qdot_shifted *s)
     double scalar = qdot_taylor_convolutions(s->places) +
                     (s->forces ? qdot_taylor_convolutions(s->forces) : 0);
 
+    if (s->tree) {
+        estimate_tree(s, c);
+        return;
+    }
     if (s->wide) {
-        estimate_wide(s);
+        estimate_wide(s, c);
         return;
     }
     c[0] = 100 + 15.0 * (double)qdot_tape_calls(r->places) +
@@ -390,6 +473,30 @@ multiply_out(qdot_shifted *s)
         s->x[f] = 1;
         gather_forces(s, s->F);
         memcpy(s->W + f * s->rows, s->F, n * sizeof *s->F);
+    }
+    return QDOT_OK;
+}
+
+/* Orders by vectors, along the tree or by W and M, whichever costs less. */
+static qdot_status
+choose_vectors(qdot_shifted *s)
+{
+    const qdot_residual *r = s->residual;
+    qdot_ode_series tree = {0}, wide = {0};
+
+    QDOT_TRY(qdot_shifted_tree_new(r, s->plan->n, s->places, s->weight, &s->tree));
+    if (s->W)
+        QDOT_TRY(qdot_shifted_wide_new(r, s->plan->n, s->places, s->W, s->rows, &s->wide));
+    if (!s->tree || !s->wide)
+        return QDOT_OK;
+    estimate_tree(s, tree.cost);
+    estimate_wide(s, wide.cost);
+    if (qdot_plan_cost(&tree) < qdot_plan_cost(&wide)) {
+        qdot_shifted_wide_free(s->wide);
+        s->wide = NULL;
+    } else {
+        qdot_shifted_tree_free(s->tree);
+        s->tree = NULL;
     }
     return QDOT_OK;
 }
@@ -443,8 +550,7 @@ make(qdot_shifted *s, bool shaken)
     for (size_t i = 0; i < p->n; i++)
         s->whole = s->whole && p->blocks->index[i] == i;
     QDOT_TRY(multiply_out(s));
-    if (s->W)
-        QDOT_TRY(qdot_shifted_wide_new(r, p->n, s->places, s->W, s->rows, &s->wide));
+    QDOT_TRY(choose_vectors(s));
     s->series = (qdot_ode_series){.most = most_order - 4,
                                   .x = s->q,
                                   .stride = s->stride,
@@ -489,6 +595,7 @@ qdot_shifted_free(qdot_shifted *s)
     if (s->solvers.plan)
         qdot_blocks_clear(&s->solvers);
     qdot_shifted_wide_free(s->wide);
+    qdot_shifted_tree_free(s->tree);
     qdot_free(s->weight);
     qdot_free(s->d);
     qdot_free(s->x);
@@ -520,14 +627,21 @@ qdot_shifted_convolutions(const qdot_shifted *s)
            (double)s->residual->n_slopes;
 }
 
+size_t
+qdot_shifted_tree_size(const qdot_shifted *s, bool *path)
+{
+    *path = s->tree && qdot_shifted_tree_is_path(s->tree);
+    return s->tree ? qdot_shifted_tree_nodes(s->tree) : 0;
+}
+
 bool
 qdot_shifted_is_wide(const qdot_shifted *s)
 {
-    return s->wide != NULL;
+    return s->wide || s->tree;
 }
 
 size_t
 qdot_shifted_factored(const qdot_shifted *s)
 {
-    return s->solvers.factored;
+    return s->solvers.factored + s->eliminated;
 }

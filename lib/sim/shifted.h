@@ -1,7 +1,7 @@
 /* shifted.h -- Taylor coefficients of the motion from d'Alembert's residual
  * (residual.h).
  *
- * Tests  tests/sim/test_taylor.c
+ * Tests  tests/sim/test_taylor.c, test_shifted-tree.c
  */
 #ifndef QDOT_SIM_SHIFTED_H
 #define QDOT_SIM_SHIFTED_H
@@ -23,8 +23,10 @@ const qdot_ode_series *qdot_shifted_series(const qdot_shifted *shifted);
 
 /* Convolutions an order; how often M was factored. */
 double qdot_shifted_convolutions(const qdot_shifted *shifted);
-/* Whether like steps are taken as vectors (sim/shifted-wide.h). */
+/* Whether like steps are taken as vectors (sim/shifted-wide.h, shifted-tree.h). */
 bool qdot_shifted_is_wide(const qdot_shifted *shifted);
+/* Nodes of the tree that M is eliminated along; 0: it is not. Whether they are one path. */
+size_t qdot_shifted_tree_size(const qdot_shifted *shifted, bool *path);
 size_t qdot_shifted_factored(const qdot_shifted *shifted);
 
 #endif

@@ -39,8 +39,9 @@ typedef struct {
 
 struct qdot_taylor_wide {
     const kernels *kernels;
-    size_t inputs; /* that are corrected, filled up to full vectors */
-    size_t n;      /* of them */
+    size_t n;         /* inputs that are corrected; */
+    size_t corrected; /* their lanes; */
+    size_t inputs;    /* filled up to full vectors */
     size_t width, rows, stride;
     int orders;
     const double *coefficients; /* the program's, for numbers of rows */
@@ -114,7 +115,8 @@ typedef struct {
 typedef struct {
     qdot_taylor_wide *w;
     const qdot_taylor *t;
-    size_t *level; /* [rows] */
+    const size_t *inputs; /* their lanes; NULL: in their order */
+    size_t *level;        /* [rows] */
     member *members;
     size_t n_members, deepest;
     size_t *lanes; /* scratch */
@@ -195,10 +197,10 @@ first_lanes(builder *b)
     size_t at;
 
     for (size_t r = 0; r < w->rows; r++) {
-        w->lane[r] = r < w->n ? r : NO_LANE;
+        w->lane[r] = r >= w->n ? NO_LANE : b->inputs ? b->inputs[r] : r;
         b->level[r] = 0;
     }
-    w->width = w->inputs = full(w->n);
+    w->width = w->inputs = full(w->corrected);
     at = take_lanes(w, t->inputs - w->n);
     for (size_t r = w->n; r < t->inputs; r++)
         w->lane[r] = at++;
@@ -334,10 +336,11 @@ build(builder *b, bool *built)
 }
 
 qdot_status
-qdot_taylor_wide_new(const qdot_taylor *t, size_t n, qdot_taylor_wide **wide)
+qdot_taylor_wide_new(const qdot_taylor *t, size_t n, const size_t *lane, size_t lanes,
+                     qdot_taylor_wide **wide)
 {
     qdot_taylor_wide *w = qdot_calloc(1, sizeof *w);
-    builder b = {.w = w, .t = t};
+    builder b = {.w = w, .t = t, .inputs = lane};
     bool built = false;
     qdot_status status;
 
@@ -346,6 +349,7 @@ qdot_taylor_wide_new(const qdot_taylor *t, size_t n, qdot_taylor_wide **wide)
         return QDOT_ENOMEM;
     w->kernels = kernels_here();
     w->n = n;
+    w->corrected = lane ? lanes : n;
     w->rows = t->rows;
     w->stride = t->stride;
     w->orders = (int)t->stride;
@@ -398,8 +402,11 @@ qdot_taylor_wide_lane(const qdot_taylor_wide *w, const double *row)
 qdot_status
 qdot_taylor_wide_settle(qdot_taylor_wide *w)
 {
-    const size_t n = ((size_t)w->orders + 1) * w->width;
+    size_t n;
 
+    /* orders an even number of lines of a cache apart would meet in a part of it */
+    w->width += w->width % (2 * QDOT_WIDE_LANES) ? 0 : QDOT_WIDE_LANES;
+    n = ((size_t)w->orders + 1) * w->width;
     w->allocated = qdot_calloc(n + QDOT_WIDE_LANES, sizeof(double));
     if (!w->allocated)
         return QDOT_ENOMEM;
@@ -433,7 +440,7 @@ qdot_taylor_wide_order(qdot_taylor_wide *w, int k)
 void
 qdot_taylor_wide_correct(qdot_taylor_wide *w, int k, const double *newest)
 {
-    memcpy(w->N, newest, w->n * sizeof *newest);
+    memcpy(w->N, newest, w->corrected * sizeof *newest);
     w->kernels->correct(w->groups.at, w->groups.n, w->X, w->N, w->width, w->inputs, k);
 }
 

@@ -34,13 +34,15 @@ typedef struct {
 } qdot_wide_columns;
 
 /* Of a program, borrowed, whose inputs from n on have no coefficients beyond order 1 and are
- * not corrected. *wide NULL: it has recurrences that are not built as vectors, or too few
- * steps alike. Errors: QDOT_ENOMEM. */
+ * not corrected. lane [n]: which of `lanes` lanes those before are, in what order steps alike
+ * follow; NULL: the first n, in their order. *wide NULL: it has recurrences that are not
+ * built as vectors, or too few steps alike. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_new(const qdot_taylor *t, size_t n,
+                                                 const size_t *lane, size_t lanes,
                                                  qdot_taylor_wide **wide);
 void qdot_taylor_wide_free(qdot_taylor_wide *wide);
 
-/* Lanes of an order; where it has them. Those of the first n inputs are the first n. */
+/* Lanes of an order, an odd number of eights; where it has them. */
 size_t qdot_taylor_wide_width(const qdot_taylor_wide *wide);
 double *qdot_taylor_wide_at(const qdot_taylor_wide *wide, int k);
 /* The lane of a row of the program. */
@@ -54,7 +56,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_wide_align(qdot_taylor_wide *wide, size_
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_settle(qdot_taylor_wide *wide);
 
 /* Order 0, from the program's. Order k > 0 with coefficients k of the first n inputs at 0;
- * what changes when they are newest [n]. */
+ * what changes when they are newest [n], or [lanes]. */
 void qdot_taylor_wide_begin(qdot_taylor_wide *wide, const qdot_taylor *t);
 void qdot_taylor_wide_order(qdot_taylor_wide *wide, int k);
 void qdot_taylor_wide_correct(qdot_taylor_wide *wide, int k, const double *newest);

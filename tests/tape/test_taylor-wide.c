@@ -105,7 +105,7 @@ begin_wide(scene *f, qdot_taylor **t, qdot_taylor_wide **w)
     begin(f);
     fill(f);
     assert_int_equal(qdot_taylor_new(f->tape, MOST, t), QDOT_OK);
-    assert_int_equal(qdot_taylor_wide_new(*t, N, w), QDOT_OK);
+    assert_int_equal(qdot_taylor_wide_new(*t, N, NULL, 0, w), QDOT_OK);
     assert_non_null(*w);
 }
 
@@ -224,7 +224,7 @@ others_have_none(void **state)
         assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.out.n, f.out.at, &f.tape),
                          QDOT_OK);
         assert_int_equal(qdot_taylor_new(f.tape, MOST, &t), QDOT_OK);
-        assert_int_equal(qdot_taylor_wide_new(t, N, &w), QDOT_OK);
+        assert_int_equal(qdot_taylor_wide_new(t, N, NULL, 0, &w), QDOT_OK);
         assert_null(w);
         qdot_taylor_free(t);
         end(&f);

@@ -1,0 +1,565 @@
+/* articulated.c -- factors node by node; solutions by vectors along a path, else by nodes. */
+#include "num/articulated.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "num/kinds.h"
+
+/* Vectors are handed to inline functions only. */
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+enum {
+    most = QDOT_ARTICULATED_COMPONENTS,
+    most_unknowns = QDOT_ARTICULATED_UNKNOWNS,
+    pieces = 8
+};
+
+#define NONE QDOT_ARTICULATED_NONE
+
+/* Of paths whose nodes have m components, c unknowns. */
+typedef struct {
+    size_t m, c;
+    void (*chain)(qdot_articulated *a);
+    void (*path)(qdot_articulated *a, const double *const *S, const double *const *d,
+                 double factor, const double *const *r, double *const *q,
+                 double *const *F);
+} kernels;
+
+struct qdot_articulated {
+    size_t nodes, m, c, slots;
+    const kernels *kernels; /* NULL: there are none */
+    bool path;
+    size_t *slot;     /* [nodes] */
+    uint32_t *parent; /* [nodes x m] */
+    uint8_t *unknowns;
+    double *weight, *below; /* [nodes x m x m] W, and summed over what hangs there */
+    double *passed;         /* [nodes x m x m] I summed over children; scratch */
+    double *numbers;        /* all of these: */
+    double *there;          /* 1 in slots of nodes, else 0 */
+    double *I_0, *I, *A, *Up, *Down; /* [m x m]; products along a piece to its ends */
+    double *B, *H;                   /* [m x c], [c x c] */
+    double *d, *Z, *x, *w;           /* of a solution: [m], [c] */
+    double *up, *down;               /* [3 x m x m] of 8: what 1, 2, 4 pieces make */
+};
+
+typedef long long lane_numbers __attribute__((vector_size(64)));
+
+#define SHAPES(X) X(1, 1) X(2, 1) X(3, 1) X(3, 2)
+
+enum { shapes = 4 };
+
+#define NAME(x) portable_##x
+#define MA(a, b, c) ((a) * (b) + (c))
+#include "num/articulated.def"
+#undef NAME
+#undef MA
+
+#ifdef QDOT_X86_KINDS
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#define NAME(x) avx2_##x
+#define MA(a, b, c) ((a) * (b) + (c))
+#include "num/articulated.def"
+#undef NAME
+#undef MA
+#pragma GCC pop_options
+
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx2,fma")
+#include <immintrin.h>
+#define NAME(x) avx512_##x
+#define MA(a, b, c)                                                                      \
+    ((avx512_vector)_mm512_fmadd_pd((__m512d)(a), (__m512d)(b), (__m512d)(c)))
+#include "num/articulated.def"
+#undef NAME
+#undef MA
+#pragma GCC pop_options
+#endif
+
+/* NULL: there are none for this shape. */
+static const kernels *
+kernels_of(size_t m, size_t c)
+{
+    const kernels *k = portable_kernels;
+
+#ifdef QDOT_X86_KINDS
+    if (qdot_kind_is_here(2))
+        k = avx512_kernels;
+    else if (qdot_kind_is_here(1))
+        k = avx2_kernels;
+#endif
+    for (size_t i = 0; i < shapes; i++)
+        if (k[i].m == m && k[i].c == c)
+            return k + i;
+    return NULL;
+}
+
+/* --- building ----------------------------------------------------------------------- */
+
+/* One parent a node, before it. */
+static bool
+is_tree(const qdot_articulated_tree *t)
+{
+    for (size_t n = 0; n < t->nodes; n++) {
+        uint32_t parent = NONE;
+
+        for (size_t i = 0; i < t->m; i++) {
+            const uint32_t at = t->parent[n * t->m + i];
+
+            if (at == NONE)
+                continue;
+            if (at / t->m >= n || (parent != NONE && at / t->m != parent))
+                return false;
+            parent = at / (uint32_t)t->m;
+        }
+        if (t->unknowns[n] > t->c)
+            return false;
+    }
+    return true;
+}
+
+static bool
+is_path(const qdot_articulated_tree *t)
+{
+    for (size_t e = 0; e < t->nodes * t->m; e++)
+        if (t->parent[e] != (e < t->m ? NONE : (uint32_t)(e - t->m)))
+            return false;
+    return true;
+}
+
+/* Node n of a path: which of eight pieces, and where in it; the first may have one more. */
+static size_t
+slot_on_path(size_t n, size_t nodes)
+{
+    const size_t longest = (nodes + pieces - 1) / pieces;
+    const size_t longer = nodes - pieces * (longest - 1);
+
+    if (n < longer * longest)
+        return n % longest * pieces + n / longest;
+    n -= longer * longest;
+    return n % (longest - 1) * pieces + longer + n / (longest - 1);
+}
+
+static double *
+take(double **numbers, size_t n)
+{
+    double *at = *numbers;
+
+    *numbers += n;
+    return at;
+}
+
+static qdot_status
+make_numbers(qdot_articulated *a)
+{
+    const size_t m = a->m, c = a->c, square = m * m * a->slots;
+    const size_t all =
+        (1 + 5 * m * m + m * c + c * c + 3 * m + c) * a->slots + 6 * m * m * pieces;
+    double *at;
+
+    a->numbers = qdot_calloc(all + pieces, sizeof *a->numbers);
+    if (!a->numbers)
+        return QDOT_ENOMEM;
+    at = a->numbers;
+    while ((uintptr_t)at % (pieces * sizeof *at) != 0)
+        at++;
+    a->there = take(&at, a->slots);
+    a->I_0 = take(&at, square);
+    a->I = take(&at, square);
+    a->A = take(&at, square);
+    a->Up = take(&at, square);
+    a->Down = take(&at, square);
+    a->B = take(&at, m * c * a->slots);
+    a->H = take(&at, c * c * a->slots);
+    a->d = take(&at, m * a->slots);
+    a->Z = take(&at, m * a->slots);
+    a->x = take(&at, m * a->slots);
+    a->w = take(&at, c * a->slots);
+    a->up = take(&at, 3 * m * m * pieces);
+    a->down = take(&at, 3 * m * m * pieces);
+    /* what is no node passes on what it is given */
+    for (size_t i = 0; i < m; i++)
+        for (size_t s = 0; s < a->slots; s++)
+            a->A[(i * m + i) * a->slots + s] = 1;
+    for (size_t n = 0; n < a->nodes; n++)
+        a->there[a->slot[n]] = 1;
+    return QDOT_OK;
+}
+
+/* `from` [m x m] of node n, added to what is kept of its parent. */
+static void
+pass_on(const qdot_articulated *a, size_t n, const double *from, double *to)
+{
+    const size_t m = a->m;
+    const uint32_t *parent = a->parent + n * m;
+
+    for (size_t i = 0; i < m; i++)
+        for (size_t k = 0; k < m && parent[i] != NONE; k++)
+            if (parent[k] != NONE)
+                to[parent[i] * m + parent[k] % m] += from[i * m + k];
+}
+
+static qdot_status
+make(qdot_articulated *a, const qdot_articulated_tree *t)
+{
+    const size_t entries = t->nodes * t->m, square = entries * t->m;
+
+    a->slot = qdot_calloc(t->nodes, sizeof *a->slot);
+    a->parent = qdot_calloc(entries, sizeof *a->parent);
+    a->unknowns = qdot_calloc(t->nodes, sizeof *a->unknowns);
+    a->weight = qdot_calloc(square, sizeof *a->weight);
+    a->below = qdot_calloc(square, sizeof *a->below);
+    a->passed = qdot_calloc(square, sizeof *a->passed);
+    if (!a->slot || !a->parent || !a->unknowns || !a->weight || !a->below || !a->passed)
+        return QDOT_ENOMEM;
+    memcpy(a->parent, t->parent, entries * sizeof *a->parent);
+    memcpy(a->unknowns, t->unknowns, t->nodes * sizeof *a->unknowns);
+    memcpy(a->weight, t->weight, square * sizeof *a->weight);
+    memcpy(a->below, t->weight, square * sizeof *a->below);
+    for (size_t n = t->nodes; n-- > 0;)
+        pass_on(a, n, a->below + n * t->m * t->m, a->below);
+    for (size_t n = 0; n < t->nodes; n++)
+        a->slot[n] = a->path ? slot_on_path(n, t->nodes) : n;
+    return make_numbers(a);
+}
+
+qdot_status
+qdot_articulated_new(const qdot_articulated_tree *t, qdot_articulated **articulated)
+{
+    qdot_articulated *a;
+    qdot_status status;
+
+    *articulated = NULL;
+    if (t->nodes == 0 || t->m == 0 || t->m > most || t->c == 0 || t->c > most_unknowns ||
+        !is_tree(t))
+        return qdot_fail(QDOT_EINVAL, "there is no tree to eliminate along");
+    a = qdot_calloc(1, sizeof *a);
+    if (!a)
+        return QDOT_ENOMEM;
+    a->nodes = t->nodes;
+    a->m = t->m;
+    a->c = t->c;
+    a->slots = (t->nodes + pieces - 1) / pieces * pieces;
+    a->kernels = kernels_of(t->m, t->c);
+    a->path = a->kernels && is_path(t);
+    status = make(a, t);
+    if (status != QDOT_OK) {
+        qdot_articulated_free(a);
+        return status;
+    }
+    *articulated = a;
+    return QDOT_OK;
+}
+
+void
+qdot_articulated_free(qdot_articulated *a)
+{
+    if (!a)
+        return;
+    qdot_free(a->slot);
+    qdot_free(a->parent);
+    qdot_free(a->unknowns);
+    qdot_free(a->weight);
+    qdot_free(a->below);
+    qdot_free(a->passed);
+    qdot_free(a->numbers);
+    qdot_free(a);
+}
+
+size_t
+qdot_articulated_slots(const qdot_articulated *a)
+{
+    return a->slots;
+}
+
+size_t
+qdot_articulated_slot(const qdot_articulated *a, size_t node)
+{
+    return a->slot[node];
+}
+
+bool
+qdot_articulated_is_path(const qdot_articulated *a)
+{
+    return a->path;
+}
+
+/* --- factors ------------------------------------------------------------------------ */
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* A node at hand. */
+typedef struct {
+    double S[most_unknowns * most]; /* [c x m] */
+    double I[most * most], A[most * most], rest[most * most];
+    double B[most * most_unknowns];
+    double H[most_unknowns * most_unknowns];
+} node;
+
+/* H = D^-1, D = S^T I S, by its factors; the unknown whose pivot is not positive, or c.
+ * `below` is I as if nothing were free, for what the diagonal of the full matrix is. */
+INLINE size_t
+invert(node *v, const size_t m, const size_t c, size_t unknowns, const double *below,
+       const double *IS, double *lost)
+{
+    double L[most_unknowns][most_unknowns] = {{0}}, pivot[most_unknowns];
+
+    for (size_t k = 0; k < c; k++)
+        for (size_t l = 0; l < c; l++)
+            v->H[k * c + l] = 0;
+    for (size_t k = 0; k < unknowns; k++) {
+        double diagonal = 0;
+
+        for (size_t l = 0; l <= k; l++) {
+            double D = 0;
+
+            for (size_t i = 0; i < m; i++)
+                D += v->S[l * m + i] * IS[k * m + i];
+            for (size_t j = 0; j < l; j++)
+                D -= L[k][j] * pivot[j] * L[l][j];
+            if (l < k)
+                L[k][l] = D / pivot[l];
+            else
+                pivot[k] = D;
+        }
+        for (size_t i = 0; i < m; i++)
+            for (size_t j = 0; j < m; j++)
+                diagonal += v->S[k * m + i] * below[i * m + j] * v->S[k * m + j];
+        if (!(pivot[k] > 0 && pivot[k] < INFINITY))
+            return k;
+        if (pivot[k] < *lost * diagonal)
+            *lost = pivot[k] / diagonal;
+        L[k][k] = 1;
+    }
+    for (size_t e = 0; e < unknowns; e++) { /* columns */
+        double x[most_unknowns] = {0};
+
+        x[e] = 1;
+        for (size_t k = e + 1; k < unknowns; k++)
+            for (size_t l = e; l < k; l++)
+                x[k] -= L[k][l] * x[l];
+        for (size_t k = unknowns; k-- > 0;) {
+            double z = x[k] / pivot[k];
+
+            for (size_t l = k + 1; l < unknowns; l++)
+                z -= L[l][k] * v->H[l * c + e];
+            v->H[k * c + e] = z;
+        }
+    }
+    return c;
+}
+
+/* A, B, H and what is left of I, in `rest`; as `invert`. */
+INLINE size_t
+eliminate(node *v, const size_t m, const size_t c, size_t unknowns, const double *below,
+          double *lost)
+{
+    double IS[most_unknowns * most] = {0}, AI[most * most];
+    size_t bad;
+
+    for (size_t k = 0; k < c; k++)
+        for (size_t i = 0; i < m; i++) {
+            double s = 0;
+
+            for (size_t j = 0; j < m; j++)
+                s += v->I[i * m + j] * v->S[k * m + j];
+            IS[k * m + i] = s;
+        }
+    bad = invert(v, m, c, unknowns, below, IS, lost);
+    for (size_t i = 0; i < m; i++)
+        for (size_t k = 0; k < c; k++) {
+            double s = 0;
+
+            for (size_t l = 0; l < c; l++)
+                s += IS[l * m + i] * v->H[l * c + k];
+            v->B[i * c + k] = s;
+        }
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++) {
+            double s = i == j;
+
+            for (size_t k = 0; k < c; k++)
+                s -= v->B[i * c + k] * v->S[k * m + j];
+            v->A[i * m + j] = s;
+        }
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++) {
+            double s = 0;
+
+            for (size_t k = 0; k < m; k++)
+                s += v->A[i * m + k] * v->I[k * m + j];
+            AI[i * m + j] = s;
+        }
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double s = 0;
+
+            for (size_t k = 0; k < m; k++)
+                s += AI[i * m + k] * v->A[j * m + k];
+            v->rest[i * m + j] = v->rest[j * m + i] = s;
+        }
+    return bad;
+}
+
+INLINE void
+put(double *to, size_t slots, size_t at, const double *from, const size_t n)
+{
+    for (size_t e = 0; e < n; e++)
+        to[e * slots + at] = from[e];
+}
+
+/* From the leaves to the roots. */
+INLINE bool
+factor_of(qdot_articulated *a, const size_t m, const size_t c, const double *const *S,
+          double *lost, size_t *failed, size_t *unknown)
+{
+    const size_t square = m * m;
+    node v;
+
+    memset(a->passed, 0, a->nodes * square * sizeof *a->passed);
+    for (size_t n = a->nodes; n-- > 0;) {
+        const size_t at = a->slot[n], unknowns = a->unknowns[n];
+        size_t bad;
+
+        for (size_t e = 0; e < c * m; e++)
+            v.S[e] = S[e][at];
+        for (size_t e = 0; e < square; e++)
+            v.I[e] = a->weight[n * square + e] + a->passed[n * square + e];
+        bad = eliminate(&v, m, c, unknowns, a->below + n * square, lost);
+        if (bad < unknowns) {
+            *failed = n;
+            *unknown = bad;
+            return false;
+        }
+        put(a->I_0, a->slots, at, v.I, square);
+        put(a->I, a->slots, at, v.rest, square);
+        put(a->A, a->slots, at, v.A, square);
+        put(a->B, a->slots, at, v.B, m * c);
+        put(a->H, a->slots, at, v.H, c * c);
+        if (a->path && n > 0)
+            memcpy(a->passed + (n - 1) * square, v.rest, square * sizeof *v.rest);
+        else if (!a->path)
+            pass_on(a, n, v.rest, a->passed);
+    }
+    return true;
+}
+
+bool
+qdot_articulated_factor(qdot_articulated *a, const double *const *S, double *lost,
+                        size_t *failed, size_t *unknown)
+{
+    bool good;
+
+    *lost = 1;
+    if (a->m == 2 && a->c == 1)
+        good = factor_of(a, 2, 1, S, lost, failed, unknown);
+    else if (a->m == 3 && a->c == 2)
+        good = factor_of(a, 3, 2, S, lost, failed, unknown);
+    else
+        good = factor_of(a, a->m, a->c, S, lost, failed, unknown);
+    if (good && a->path)
+        a->kernels->chain(a);
+    return good;
+}
+
+/* --- solutions node by node --------------------------------------------------------- */
+
+/* What node n passes on to its parent: A Z + I d + B r. */
+INLINE void
+go_up(qdot_articulated *a, const size_t m, const size_t c, size_t n,
+      const double *const *d, double factor, const double *const *r)
+{
+    const size_t slots = a->slots;
+    double Z[most], x[most];
+
+    for (size_t i = 0; i < m; i++) {
+        x[i] = a->d[i * slots + n] = factor * d[i][n];
+        Z[i] = a->Z[i * slots + n];
+    }
+    for (size_t i = 0; i < m; i++) {
+        const uint32_t to = a->parent[n * m + i];
+        double s = 0;
+
+        if (to == NONE)
+            continue;
+        for (size_t k = 0; k < m; k++)
+            s += a->I[(i * m + k) * slots + n] * x[k];
+        for (size_t k = 0; k < c; k++)
+            s += a->B[(i * c + k) * slots + n] * r[k][n];
+        for (size_t k = 0; k < m; k++)
+            s += a->A[(i * m + k) * slots + n] * Z[k];
+        a->Z[to % m * slots + to / m] += s;
+    }
+}
+
+/* q, x and F of node n, its parent's x known. */
+INLINE void
+go_down(qdot_articulated *a, const size_t m, const size_t c, size_t n,
+        const double *const *S, const double *const *r, double *const *q,
+        double *const *F)
+{
+    const size_t slots = a->slots;
+    double y[most], left[most_unknowns];
+
+    for (size_t k = 0; k < c; k++) {
+        left[k] = r[k][n];
+        for (size_t i = 0; i < m; i++)
+            left[k] -= S[k * m + i][n] * a->Z[i * slots + n];
+    }
+    for (size_t i = 0; i < m; i++) {
+        const uint32_t from = a->parent[n * m + i];
+
+        y[i] =
+            a->d[i * slots + n] + (from == NONE ? 0 : a->x[from % m * slots + from / m]);
+    }
+    for (size_t k = 0; k < c; k++) {
+        double s = 0;
+
+        for (size_t l = 0; l < c; l++)
+            s += a->H[(k * c + l) * slots + n] * left[l];
+        for (size_t i = 0; i < m; i++)
+            s -= a->B[(i * c + k) * slots + n] * y[i];
+        q[k][n] = s;
+    }
+    for (size_t k = 0; k < c; k++)
+        for (size_t i = 0; i < m; i++)
+            y[i] += S[k * m + i][n] * q[k][n];
+    for (size_t i = 0; i < m; i++) {
+        double s = a->Z[i * slots + n];
+
+        for (size_t k = 0; k < m; k++)
+            s += a->I_0[(i * m + k) * slots + n] * y[k];
+        a->x[i * slots + n] = y[i];
+        F[i][n] = s;
+    }
+}
+
+INLINE void
+solve_nodes(qdot_articulated *a, const size_t m, const size_t c, const double *const *S,
+            const double *const *d, double factor, const double *const *r,
+            double *const *q, double *const *F)
+{
+    memset(a->Z, 0, m * a->slots * sizeof *a->Z);
+    for (size_t n = a->nodes; n-- > 0;)
+        go_up(a, m, c, n, d, factor, r);
+    for (size_t n = 0; n < a->nodes; n++)
+        go_down(a, m, c, n, S, r, q, F);
+}
+
+void
+qdot_articulated_solve(qdot_articulated *a, const double *const *S,
+                       const double *const *d, double factor, const double *const *r,
+                       double *const *q, double *const *F)
+{
+    if (a->path)
+        a->kernels->path(a, S, d, factor, r, q, F);
+    else if (a->m == 2 && a->c == 1)
+        solve_nodes(a, 2, 1, S, d, factor, r, q, F);
+    else if (a->m == 3 && a->c == 2)
+        solve_nodes(a, 3, 2, S, d, factor, r, q, F);
+    else
+        solve_nodes(a, a->m, a->c, S, d, factor, r, q, F);
+}
