@@ -19,6 +19,7 @@ base_headers = \
 num_sources = \
 	lib/num/articulated.c \
 	lib/num/batch.c \
+	lib/num/bordered.c \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
 	lib/num/ldlt.c \
@@ -38,6 +39,7 @@ num_headers = \
 	lib/num/batch-vector.def \
 	lib/num/batch.def \
 	lib/num/batch.h \
+	lib/num/bordered.h \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
 	lib/num/kinds.h \
@@ -235,6 +237,7 @@ tape_sources = \
 	lib/tape/taylor-code.c \
 	lib/tape/taylor-correct.c \
 	lib/tape/taylor-order.c \
+	lib/tape/taylor-unknowns.c \
 	lib/tape/taylor-wide.c \
 	lib/tape/taylor.c \
 	lib/tape/x86.c
@@ -317,6 +320,7 @@ mech_headers = \
 sim_sources = \
 	lib/sim/bind.c \
 	lib/sim/blocks.c \
+	lib/sim/bordered.c \
 	lib/sim/constrained-jacobian.c \
 	lib/sim/constrained-near.c \
 	lib/sim/constrained-project.c \
@@ -355,6 +359,7 @@ sim_sources = \
 	lib/sim/quotient.c \
 	lib/sim/race.c \
 	lib/sim/range.c \
+	lib/sim/rates.c \
 	lib/sim/reader.c \
 	lib/sim/residual-tree.c \
 	lib/sim/residual.c \
@@ -379,6 +384,7 @@ sim_sources = \
 sim_headers = \
 	lib/sim/bind.h \
 	lib/sim/blocks.h \
+	lib/sim/bordered.h \
 	lib/sim/constrained-parts.h \
 	lib/sim/constrained-series.h \
 	lib/sim/constrained.h \
@@ -410,6 +416,7 @@ sim_headers = \
 	lib/sim/precise.h \
 	lib/sim/quotient.h \
 	lib/sim/race.h \
+	lib/sim/rates.h \
 	lib/sim/reader.h \
 	lib/sim/residual-tree.h \
 	lib/sim/residual.h \
@@ -575,6 +582,7 @@ unit_tests = \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_table \
+	tests/sim/test_bordered \
 	tests/sim/test_constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \

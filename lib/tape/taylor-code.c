@@ -25,7 +25,8 @@ enum {
     spread_first = 2,
     newest_lane = 1,   /* masks */
     older_lanes = 2,
-    all_but_last = 3
+    all_but_last = 3,
+    known_lanes = 4 /* older and newest */
 };
 
 typedef void kernel(double *coefficients, qdot_taylor_step *steps, double *work);
@@ -65,6 +66,13 @@ static int
 blocks_of(int n)
 {
     return (n + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES;
+}
+
+/* With a lag of 1 the coefficients of a row are its vector, from order 1 on, as they stand. */
+static bool
+rows_as_they_stand(const qdot_generator *g)
+{
+    return g->lag == 1;
 }
 
 static qdot_x86_rm
@@ -109,11 +117,16 @@ spread(qdot_generator *g, uint32_t row, int m)
     return spread_first + i;
 }
 
-/* to += coefficient m of a row times block b of v. */
+/* to += coefficient m of a row times block b of another. */
 static void
-multiply(qdot_generator *g, int to, uint32_t row, int m, const qdot_code_vector *v, int b)
+multiply(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b)
 {
-    if (v->reg[b] >= 0) {
+    const qdot_code_vector *v = &g->rows.at[g->row_vector[other]];
+
+    if (rows_as_they_stand(g)) {
+        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, spread(g, row, m),
+                      qdot_code_coefficient(g, other, 1 + QDOT_CODE_LANES * b));
+    } else if (v->reg[b] >= 0) {
         qdot_x86_rm one = qdot_code_coefficient(g, row, m);
 
         one.spread = true;
@@ -150,8 +163,7 @@ move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
 static void
 add_order(qdot_generator *g, const phase *p, const qdot_code_sum *s, int m)
 {
-    const qdot_code_vector *x = &g->rows.at[g->row_vector[s->x]];
-    const qdot_code_vector *y = &g->rows.at[g->row_vector[s->y]], *v = &s->v;
+    const qdot_code_vector *v = &s->v;
 
     for (int b = 0; b < p->blocks; b++) {
         const int to = v->reg[b] >= 0 ? v->reg[b] : temporary;
@@ -160,10 +172,12 @@ add_order(qdot_generator *g, const phase *p, const qdot_code_sum *s, int m)
             move_on(g, v, b, p->blocks, to);
         else if (v->reg[b] < 0)
             qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(v, b));
-        multiply(g, to, s->x, m, y, b);
+        if (b == p->inserted && rows_as_they_stand(g))
+            g->x.mask = known_lanes;
+        multiply(g, to, s->x, m, s->y, b);
         if (b == p->inserted)
             g->x.mask = older_lanes;
-        multiply(g, to, s->y, m, x, b);
+        multiply(g, to, s->y, m, s->x, b);
         g->x.mask = 0;
         if (v->reg[b] < 0)
             qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, to, 0, block_at(v, b));
@@ -174,7 +188,7 @@ static void
 add_order_to_all(qdot_generator *g, const phase *p, int m)
 {
     g->spread[0] = g->spread[1] = QDOT_CODE_NONE;
-    for (size_t i = 0; p->inserted >= 0 && i < g->rows.n; i++)
+    for (size_t i = 0; p->inserted >= 0 && !rows_as_they_stand(g) && i < g->rows.n; i++)
         insert(g, g->rows.at + i, g->row_of.at[i], m, p->inserted);
     for (size_t i = 0; i < g->sums.n; i++)
         add_order(g, p, g->sums.at + i, m);
@@ -307,7 +321,7 @@ give_places(qdot_generator *g)
         for (size_t i = 0; i < g->sums.n && reg > lowest; i++)
             if (!g->sums.at[i].further)
                 g->sums.at[i].v.reg[b] = --reg;
-        for (size_t i = 0; i < g->rows.n && reg > lowest; i++)
+        for (size_t i = 0; !rows_as_they_stand(g) && i < g->rows.n && reg > lowest; i++)
             g->rows.at[i].reg[b] = --reg;
     }
     for (size_t i = 0; i < g->sums.n; i++) {
@@ -318,8 +332,10 @@ give_places(qdot_generator *g)
         g->sums.at[i].v.at = at;
         at += (size_t)(QDOT_CODE_LANES * blocks);
     }
-    for (size_t i = 0; i < g->rows.n; i++, at += (size_t)(QDOT_CODE_LANES * blocks))
+    for (size_t i = 0; !rows_as_they_stand(g) && i < g->rows.n; i++) {
         g->rows.at[i].at = at;
+        at += (size_t)(QDOT_CODE_LANES * blocks);
+    }
     return at;
 }
 
@@ -391,10 +407,11 @@ emit_phase(qdot_generator *g, const phase *p, const phase *before)
         for (size_t i = 0; i < g->sums.n; i++)
             clear(g, &g->sums.at[i].v, p->blocks - 1);
     if (p->inserted >= 0) {
-        for (size_t i = 0; i < g->rows.n; i++)
+        for (size_t i = 0; !rows_as_they_stand(g) && i < g->rows.n; i++)
             clear(g, g->rows.at + i, p->inserted);
         qdot_x86_set_mask(&g->x, newest_lane, 1);
         qdot_x86_set_mask(&g->x, older_lanes, 0);
+        qdot_x86_set_mask(&g->x, known_lanes, 1);
     }
     if (before->orders > 0)
         forget(g);
@@ -408,6 +425,7 @@ emit_phase(qdot_generator *g, const phase *p, const phase *before)
     if (p->inserted >= 0) {
         qdot_x86_join_masks(&g->x, older_lanes, newest_lane);
         qdot_x86_raise_mask(&g->x, newest_lane);
+        qdot_x86_join_masks(&g->x, known_lanes, newest_lane);
     }
     qdot_x86_again(&g->x, from);
 }

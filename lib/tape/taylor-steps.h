@@ -77,7 +77,8 @@ struct qdot_taylor {
     size_t moving; /* of the inputs the first, which are no numbers */
     size_t spare;  /* the first row that is free for what is solved for */
     double convolutions;
-    double *coefficients;     /* [rows x stride], the inputs first */
+    double *allocated;
+    double *coefficients;     /* [rows x stride], the inputs first; order 1 begins a line */
     const double **output;    /* [outputs] rows */
     bool *constant;           /* [outputs] */
     qdot_taylor_step *steps; /* [length + n_links], then QDOT_T_END */

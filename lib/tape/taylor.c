@@ -7,12 +7,15 @@
 #include "tape/shake.h"
 #include "tape/taylor-code.h"
 #include "tape/taylor-steps.h"
+#include "tape/x86.h"
 
 /* --- building ----------------------------------------------------------------------- */
 
 typedef uint32_t row; /* of coefficients, by number while the rows are not yet there */
 
 #define NO_ROW UINT32_MAX
+
+enum { LINE = 8 }; /* doubles of a line of the cache */
 
 /* A step while rows are numbers. */
 typedef struct {
@@ -349,12 +352,15 @@ settle(qdot_taylor *t, const builder *b, int most, size_t unknowns)
     t->length = b->drafts.n - 1;
     t->convolutions = b->convolutions;
     t->moving = b->moving;
-    t->coefficients = qdot_calloc(t->rows * t->stride + 1, sizeof *t->coefficients);
+    t->allocated = qdot_calloc(t->rows * t->stride + LINE, sizeof *t->coefficients);
     t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
     t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
     t->steps = qdot_calloc(b->drafts.n, sizeof *t->steps);
-    if (!t->coefficients || !t->output || !t->constant || !t->steps)
+    if (!t->allocated || !t->output || !t->constant || !t->steps)
         return QDOT_ENOMEM;
+    t->coefficients = t->allocated;
+    while ((uintptr_t)(t->coefficients + 1) % (LINE * sizeof(double)) != 0)
+        t->coefficients++;
     for (size_t r = 0; r < t->spare; r++)
         if (!isnan(b->constants.at[r]))
             t->coefficients[r * t->stride] = b->constants.at[r];
@@ -477,7 +483,7 @@ qdot_taylor_free(qdot_taylor *t)
     for (size_t b = 0; b < t->n_blocks; b++)
         free_block(t->blocks + b);
     qdot_free(t->blocks);
-    qdot_free(t->coefficients);
+    qdot_free(t->allocated);
     qdot_free(t->output);
     qdot_free(t->constant);
     qdot_free(t->steps);
@@ -502,48 +508,10 @@ qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
     return QDOT_OK;
 }
 
-/* Row i of the lower triangle, and of what it stands for above. */
-static void
-couple(const qdot_taylor *t, qdot_taylor_block *b, const size_t *M, size_t i)
+bool
+qdot_taylor_may_be_code(void)
 {
-    for (size_t j = 0; j < b->n; j++) {
-        const size_t low = i < j ? i : j, high = i < j ? j : i;
-        const size_t output = M[high * (high + 1) / 2 + low];
-
-        if (!t->constant[output])
-            b->couplings[b->n_couplings++] =
-                (qdot_taylor_coupling){(uint32_t)i, t->output[output], b->a[j]};
-    }
-}
-
-qdot_status
-qdot_taylor_solve(qdot_taylor *t, size_t n, const size_t *f, const size_t *M, int solved,
-                  double *const **a, double **matrices)
-{
-    size_t capacity = t->n_blocks;
-    qdot_taylor_block *b;
-
-    if (t->spare + 2 * n > t->rows)
-        return qdot_fail(QDOT_EINVAL, "there is no room for %zu unknowns", n);
-    QDOT_TRY(qdot_grow(&t->blocks, &capacity, capacity + 1, sizeof *t->blocks));
-    b = t->blocks + t->n_blocks++;
-    *b = (qdot_taylor_block){.n = n, .solved = solved};
-    b->f = qdot_calloc(n, sizeof *b->f);
-    b->a = qdot_calloc(2 * n, sizeof *b->a);
-    b->couplings = qdot_calloc(n * n, sizeof *b->couplings);
-    b->matrices = qdot_calloc(2 * n * n, sizeof *b->matrices);
-    if (!b->f || !b->a || !b->couplings || !b->matrices)
-        return QDOT_ENOMEM;
-    b->r = b->a + n;
-    for (size_t i = 0; i < 2 * n; i++)
-        b->a[i] = place(t, (row)t->spare++);
-    for (size_t i = 0; i < n; i++)
-        b->f[i] = t->output[f[i]];
-    for (size_t i = 0; M && i < n; i++)
-        couple(t, b, M, i);
-    *a = b->a;
-    *matrices = b->matrices;
-    return QDOT_OK;
+    return qdot_x86_is_here();
 }
 
 bool

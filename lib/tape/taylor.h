@@ -105,6 +105,19 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_solve(qdot_taylor *taylor, size_t n,
                                               int solved, double *const **a,
                                               double **matrices);
 
+/* Entry (i, j) of a matrix: an output by its number. */
+typedef struct {
+    size_t i, j, output;
+} qdot_taylor_entry;
+
+/* The same for any M: entries [count] by rows i ascending, those left out being numbers that
+ * never change. By M_0^-1 alone where `solved` is 0 or less; else M is as above. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_solve_entries(qdot_taylor *taylor, size_t n,
+                                                      const size_t *f, size_t count,
+                                                      const qdot_taylor_entry *entries,
+                                                      int solved, double *const **a,
+                                                      double **matrices);
+
 /* Order 0 of all that is computed, and what is linked. Then orders `from` to `to`, each
  * followed by what is linked to it in the order in which it was; `to` below the program's
  * highest but one. */
@@ -120,6 +133,8 @@ void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
 QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to);
 /* Whether orders 1 ... to are machine code. */
 bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
+/* Whether this processor has machine code at all. */
+bool qdot_taylor_may_be_code(void);
 /* How long the code is; 0: there is none, and *why says so, NULL if none was asked for. */
 size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 
