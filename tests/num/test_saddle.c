@@ -9,6 +9,7 @@
 
 #include "kit.h"
 
+#include "num/bordered.h"
 #include "num/least-move.h"
 #include "num/saddle.h"
 
@@ -318,6 +319,51 @@ few_rows_move_least(void **state)
     }
 }
 
+/* K times what it has become is the identity. */
+static void
+a_bordered_matrix_is_inverted(void **state)
+{
+    enum { all = QDOT_BORDERED_MOST };
+
+    (void)state;
+    for (size_t n = 1; n < all; n++)
+        for (size_t m = 0; m <= n && n + m <= all; m++) {
+            double K[all][all] = {{0}}, before[all][all];
+            qdot_saddle s;
+
+            assert_int_equal(qdot_saddle_init(&s, n, m, false), QDOT_OK);
+            fill_mass(&s, n, false);
+            fill_rows(&s);
+            for (size_t i = 0; i < n; i++)
+                for (size_t j = 0; j < n; j++)
+                    K[i][j] = ldexp(s.M[i * n + j], -10 * (int)(i % 3 + j % 3)) + (i == j);
+            for (size_t k = 0; k < m; k++)
+                for (size_t j = 0; j < n; j++)
+                    K[n + k][j] = K[j][n + k] = s.A[k * n + j];
+            memcpy(before, K, sizeof K);
+            assert_true(qdot_bordered_invert(n, m, K, 1e-9));
+            for (size_t i = 0; i < n + m; i++)
+                for (size_t j = 0; j < n + m; j++) {
+                    double sum = i == j ? -1 : 0, size = 1;
+
+                    for (size_t k = 0; k < n + m; k++) {
+                        sum += before[i][k] * K[k][j];
+                        size += fabs(before[i][k] * K[k][j]);
+                    }
+                    assert_true(fabs(sum) < 1e-11 * size);
+                }
+            /* a row that repeats another; no mass */
+            memcpy(K, before, sizeof K);
+            for (size_t j = 0; m > 1 && j < n; j++)
+                K[n + m - 1][j] = K[j][n + m - 1] = K[n][j];
+            assert_int_equal(qdot_bordered_invert(n, m, K, 1e-9), m < 2);
+            memcpy(K, before, sizeof K);
+            K[0][0] = 0;
+            assert_false(qdot_bordered_invert(n, m, K, 1e-9));
+            qdot_saddle_clear(&s);
+        }
+}
+
 int
 main(void)
 {
@@ -330,6 +376,7 @@ main(void)
         cmocka_unit_test(the_weakest_combination_is_found),
         cmocka_unit_test(a_pattern_is_no_other_solution),
         cmocka_unit_test(few_rows_move_least),
+        cmocka_unit_test(a_bordered_matrix_is_inverted),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
