@@ -6,6 +6,7 @@
 
 #include "sim/blocks.h"
 #include "sim/direct.h"
+#include "sim/bordered.h"
 #include "sim/eliminated.h"
 #include "sim/constrained.h"
 #include "sim/momenta.h"
@@ -23,6 +24,7 @@ struct qdot_bind {
     qdot_shifted *shifted;
     qdot_constrained_series *tied;            /* or, of a plan with constraints: */
     qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
+    qdot_bordered *bordered;       /* likewise */
     const qdot_ode_series *series; /* its callbacks; else NULL */
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of the tape */
@@ -63,6 +65,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_direct_free(b->direct);
     qdot_shifted_free(b->shifted);
     qdot_eliminated_free(b->eliminated);
+    qdot_bordered_free(b->bordered);
     qdot_constrained_series_free(b->tied);
     qdot_tape_free(b->tape);
     if (b->reduced_blocks.plan)
@@ -326,7 +329,9 @@ void
 qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
 {
     const char *why = "machine code is made where equations are taken as M q'' = f";
-    const size_t bytes = b->direct ? qdot_direct_code(b->direct, &why) : 0;
+    const size_t bytes = b->direct     ? qdot_direct_code(b->direct, &why)
+                         : b->bordered ? qdot_bordered_code(b->bordered, &why)
+                                       : 0;
 
     if (b->shifted && qdot_shifted_is_wide(b->shifted))
         qdot_text_add(to, "kernels, like steps as vectors");
@@ -358,10 +363,14 @@ make_held(qdot_bind *b, bool shaken)
         return QDOT_OK;
     QDOT_TRY(qdot_constrained_series_new(b->plan, shaken, &b->tied));
     b->series = qdot_constrained_series_get(b->tied);
-    if (!b->plan->eliminated)
-        return QDOT_OK;
-    QDOT_TRY(qdot_eliminated_new(b->plan, shaken, b->series, &b->eliminated));
-    b->series = qdot_eliminated_series(b->eliminated);
+    if (b->plan->eliminated) {
+        QDOT_TRY(qdot_eliminated_new(b->plan, shaken, b->series, &b->eliminated));
+        b->series = qdot_eliminated_series(b->eliminated);
+    }
+    if (b->plan->bordered) {
+        QDOT_TRY(qdot_bordered_new(b->plan, shaken, b->series, &b->bordered));
+        b->series = qdot_bordered_series(b->bordered);
+    }
     return QDOT_OK;
 }
 

@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "sim/rates.h"
 #include "sim/switch.h"
 
 typedef qdot_vec(qdot_expr) expressions;
@@ -106,6 +107,13 @@ add_derivatives(builder *b, size_t k)
         zeros[i] = QDOT_ZERO;
     rest = qdot_subs(p->pool, f, p->n, p->inputs + 2 * p->n + 1, zeros);
     qdot_free(zeros);
+    if (row->kind == QDOT_HOLONOMIC) {
+        qdot_expr shared;
+
+        QDOT_TRY(qdot_rates_second(p->pool, row->f, &shared));
+        if (shared != QDOT_NIL)
+            rest = shared;
+    }
     rest = qdot_neg(p->pool, rest);
     QDOT_TRY(qdot_pool_check(p->pool));
     return qdot_vec_push(&b->gamma, rest);

@@ -179,6 +179,13 @@ say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
                          "where constraints come near each other, and under tolerances below "
                          "%g, the same matrix at every order\n",
                          p->eliminated->convolutions_derived, QDOT_ELIMINATED_TOL);
+    else if (p->bordered)
+        qdot_text_format(out,
+                         "form: multipliers solved for beside the accelerations at every "
+                         "order, inside the code; before it is written, where constraints "
+                         "come near each other, and under tolerances below %g, constraints "
+                         "by their own coefficients, %g convolutions an order\n",
+                         QDOT_ELIMINATED_TOL, p->convolutions_derived);
     else if (p->constraints)
         qdot_text_format(out,
                          "form: the same matrix at every order, %g convolutions an order; "

@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "sim/bordered.h"
 #include "sim/constraints.h"
 #include "sim/direct.h"
 #include "sim/eliminated.h"
@@ -421,7 +422,10 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     /* methods that keep the past have no use for a state moved off it */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
-    return request->digits > 0 ? QDOT_OK : qdot_eliminated_find(p, request->tol);
+    if (request->digits > 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_eliminated_find(p, request->tol));
+    return qdot_bordered_find(p, request->tol);
 }
 
 static qdot_status
