@@ -2,25 +2,27 @@
 #include "ode/taylor.h"
 
 #include "num/series.h"
+#include "ode/companion.h"
 #include "ode/taylor-numbers.h"
 
-enum { least_order = 6 };
+/* Companions want orders of their own above that of a run. */
+enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
-/* Digits (natural ones) that an order is chosen for at least where it runs as machine code: of
- * a step of few orders most is what every step takes, more than `cost`, which is of kernels,
- * knows (doc/methods.md). */
-static const double least_digits = 16;
+/* Digits (natural ones) that an order is chosen for at least where it runs as machine code: an
+ * oscillation that is hardly there yet bounds the step, and as it has no singularity a higher
+ * order is worth more than its radius says (doc/methods.md). */
+static const double least_digits = 14;
 
 int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
 {
-    const double *c = series->cost;
+    const double *c = series->write ? series->written : series->cost;
     double L = -log(qdot_step_aim(tol)), least = INFINITY;
     int best = least_order;
 
     if (series->write)
         L = fmax(L, least_digits);
-    for (int p = least_order; p <= series->most; p++) {
+    for (int p = least_order; p <= series->most - of_companions; p++) {
         double cost = (c[0] + c[1] * p + c[2] * p * p) * exp(L / p);
 
         if (cost < least) {

@@ -306,6 +306,8 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
                           .prepare = prepare,
                           .write = e->own->write ? write_code : NULL,
                           .worth = e->own->worth,
+                          .written = {e->own->written[0] + 200 + qdot_constrained_cost(plan),
+                                      e->own->written[1], e->own->written[2]},
                           .begin = begin,
                           .extend = extend,
                           .noise = noise,

@@ -1,4 +1,4 @@
-/* horizon.c -- run and companion followed until they have nothing to do with each other. */
+/* horizon.c -- run and companions followed until they have nothing to do with each other. */
 #include "sim/horizon.h"
 
 #include <math.h>
@@ -23,6 +23,7 @@ enum { SAMPLES = 64, MOST_POINTS = 4096 };
 
 typedef struct {
     const qdot_run *run;
+    const qdot_course *other; /* a companion of it */
     qdot_trajectory_cursor *companion;
     double *y;      /* [n] the companion's */
     size_t *point;  /* [points] of the run, in order: those that are compared */
@@ -126,7 +127,7 @@ measure_at(search *s, size_t k, size_t piece, double *d)
 static qdot_status
 measure(search *s)
 {
-    const qdot_trajectory *a = &s->run->course.tr, *b = &s->run->companion.tr;
+    const qdot_trajectory *a = &s->run->course.tr, *b = &s->other->tr;
     const double way = a->t[a->count - 1] < a->t[0] ? -1 : 1;
     const size_t pieces = common_pieces(a, b);
     const size_t end = pieces < a->pieces.n ? a->pieces.at[pieces].first : a->count;
@@ -227,10 +228,12 @@ crossing(const search *s, size_t k)
     return t[k - 1] + fmin(1, low / high) * (t[k] - t[k - 1]);
 }
 
+/* Where that one is lost, before what has been found so far. */
 static qdot_status
 find(qdot_run *run, search *s)
 {
-    const qdot_trajectory *a = &run->course.tr, *b = &run->companion.tr;
+    const qdot_trajectory *a = &run->course.tr, *b = &s->other->tr;
+    const double way = run->t1 < run->t0 ? -1 : 1;
     qdot_run_report *report = &run->report;
     double size = variation(a, b, 1);
     const double length = fabs(a->t[a->count - 1] - a->t[0]);
@@ -246,18 +249,32 @@ find(qdot_run *run, search *s)
         return QDOT_ENOMEM;
     s->d = s->t + room;
     s->pieces = s->point + room;
-    QDOT_TRY(qdot_trajectory_open(b, qdot_course_systems(&run->companion), &s->companion));
+    QDOT_TRY(qdot_trajectory_open(b, qdot_course_systems(s->other), &s->companion));
     QDOT_TRY(measure(s));
     first = first_lost(s);
     if (first == SIZE_MAX || size < tolerances * fmax(report->tol, 0x1p-53)
         || fabs(a->t[a->count - 1] - s->t[first]) < least_part * length)
         return QDOT_OK;
     QDOT_TRY(look_between(s, first));
-    report->horizon = crossing(s, first);
+    if (!(way * (crossing(s, first) - report->horizon) > 0))
+        report->horizon = crossing(s, first);
     qdot_free(run->doubt); /* of the end: it needs none any more */
     run->doubt = NULL;
     report->error = fmax(report->error, mean_from(s, first)); /* of a NaN the mean */
     return QDOT_OK;
+}
+
+static qdot_status
+find_by(qdot_run *run, const qdot_course *other)
+{
+    search s = {.other = other};
+    qdot_status status = find(run, &s);
+
+    qdot_trajectory_close(s.companion);
+    qdot_free(s.y);
+    qdot_free(s.t);
+    qdot_free(s.point);
+    return status == QDOT_EDOMAIN || status == QDOT_EFAILED ? QDOT_OK : status;
 }
 
 qdot_status
@@ -265,8 +282,6 @@ qdot_horizon_find(qdot_run *run)
 {
     const qdot_trajectory *tr = &run->course.tr;
     qdot_run_report *report = &run->report;
-    search s = {0};
-    qdot_status status;
 
     report->horizon = NAN;
     if (tr->count < 2)
@@ -274,15 +289,11 @@ qdot_horizon_find(qdot_run *run)
     if (report->error < worth_looking * tolerances * fmax(report->tol, 0x1p-53)
         || varies_by_more(tr, report->error / worth_looking))
         return QDOT_OK;
-    QDOT_TRY(qdot_run_companion(run));
-    if (!run->has_companion)
-        return QDOT_OK;
-    status = find(run, &s);
-    qdot_trajectory_close(s.companion);
-    qdot_free(s.y);
-    qdot_free(s.t);
-    qdot_free(s.point);
-    return status == QDOT_EDOMAIN || status == QDOT_EFAILED ? QDOT_OK : status;
+    /* one may stay beside it for a while by chance */
+    QDOT_TRY(qdot_run_twin(run));
+    if (run->has_companion)
+        QDOT_TRY(find_by(run, &run->companion));
+    return run->has_twin ? find_by(run, &run->twin) : QDOT_OK;
 }
 
 bool

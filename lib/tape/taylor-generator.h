@@ -18,7 +18,7 @@ enum {
     QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES,
     QDOT_CODE_REGISTERS = 32,
     QDOT_CODE_FIRST_SCALAR = 4, /* those below are for a moment */
-    QDOT_CODE_SCALARS = 14,
+    QDOT_CODE_SCALARS = 10,
     /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, the two factors of
      * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); then slots. */
     QDOT_CODE_TABLE = QDOT_SERIES_MOST + 8,
