@@ -531,12 +531,6 @@ qdot_taylor_prepare(qdot_taylor *t, int to)
     return qdot_taylor_code_new(t, to, &t->code, &t->no_code);
 }
 
-bool
-qdot_taylor_may_be_code(void)
-{
-    return qdot_x86_is_here();
-}
-
 size_t
 qdot_taylor_code_bytes(const qdot_taylor *t, const char **why)
 {
