@@ -16,7 +16,7 @@ static const double least_digits = 14;
 int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
 {
-    const double *c = series->write ? series->written : series->cost;
+    const double *c = series->written[0] > 0 ? series->written : series->cost;
     double L = -log(qdot_step_aim(tol)), least = INFINITY;
     int best = least_order;
 
