@@ -11,7 +11,7 @@
 #include "tape/taylor.h"
 
 /* Parents are looked for among so many functions before. */
-enum { looked_at = 8 };
+enum { looked_at = 40 };
 
 typedef struct {
     const qdot_plan *plan;
@@ -47,16 +47,13 @@ function_of(builder *b, qdot_expr e, uint32_t *f)
     return qdot_vec_push(&b->functions, e);
 }
 
+/* Functions x, y and weight of a term, values in place. */
 static qdot_status
-add_term(builder *b, const qdot_dalembert_term *term)
+add_term(builder *b, qdot_expr x, qdot_expr y, qdot_expr w)
 {
-    qdot_expr x = qdot_plan_substitute(b->plan, term->x);
-    qdot_expr y = qdot_plan_substitute(b->plan, term->y);
-    qdot_expr w = qdot_plan_substitute(b->plan, term->w);
     qdot_residual_weight *weight = b->r->weights + b->r->n_weights++;
     int side;
 
-    QDOT_TRY(qdot_pool_check(b->plan->pool));
     QDOT_TRY(function_of(b, x, &weight->from));
     QDOT_TRY(function_of(b, y, &weight->to));
     QDOT_TRY(qdot_constant_round(b->plan->pool, w, &weight->w, &side));
@@ -64,24 +61,52 @@ add_term(builder *b, const qdot_dalembert_term *term)
     return QDOT_OK;
 }
 
-/* The parent that leaves the shortest difference. */
+/* All at once: what they share is put in once. */
+static qdot_status
+add_terms(builder *b, const qdot_dalembert_term *terms, size_t n)
+{
+    qdot_pool *pool = b->plan->pool;
+    qdot_expr *all = qdot_calloc(3 * n, sizeof *all), list;
+    qdot_status status;
+
+    if (!all)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        all[3 * i] = terms[i].x;
+        all[3 * i + 1] = terms[i].y;
+        all[3 * i + 2] = terms[i].w;
+    }
+    list = qdot_plan_substitute(b->plan, qdot_list(pool, (uint32_t)(3 * n), all));
+    qdot_free(all);
+    status = qdot_pool_check(pool);
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        status =
+            add_term(b, qdot_expr_arg(pool, list, 3 * i),
+                     qdot_expr_arg(pool, list, 3 * i + 1), qdot_expr_arg(pool, list, 3 * i + 2));
+    return status;
+}
+
+/* The parent that leaves the shortest difference; one that it is as near to as that to its
+ * own is not looked beyond. */
 static qdot_status
 find_parent(builder *b, size_t f)
 {
     qdot_pool *pool = b->plan->pool;
     qdot_expr e = b->functions.at[f], best = e;
     uint64_t shortest = qdot_expr_size(pool, e);
+    bool near = qdot_expr_kind(pool, e) != QDOT_SUM;
 
     b->r->parent[f] = UINT32_MAX;
-    for (size_t i = f; i-- > 0 && i + looked_at >= f;) {
+    for (size_t i = f; i-- > 0 && !near && i + looked_at >= f;) {
         qdot_expr d = qdot_sub(pool, e, b->functions.at[i]);
 
         QDOT_TRY(qdot_pool_check(pool));
-        if (qdot_expr_size(pool, d) < shortest) {
-            shortest = qdot_expr_size(pool, d);
-            best = d;
-            b->r->parent[f] = (uint32_t)i;
-        }
+        if (qdot_expr_size(pool, d) >= shortest)
+            continue;
+        shortest = qdot_expr_size(pool, d);
+        near = shortest <= qdot_expr_size(pool, b->differences.at[i]);
+        best = d;
+        b->r->parent[f] = (uint32_t)i;
     }
     return qdot_vec_push(&b->differences, best);
 }
@@ -171,8 +196,7 @@ build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr Q)
     r->force = qdot_calloc(p->n, sizeof *r->force);
     if (!r->weights || !r->force)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        QDOT_TRY(add_term(b, terms + i));
+    QDOT_TRY(add_terms(b, terms, n));
     r->functions = b->functions.n;
     r->parent = qdot_calloc(r->functions, sizeof *r->parent);
     if (!r->parent)
