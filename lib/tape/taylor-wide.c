@@ -16,13 +16,14 @@ static const double least_alike = 2.5;
 
 #define NO_LANE SIZE_MAX
 
-enum { COPIED = QDOT_T_COUNT }; /* a group that is operands put side by side */
+/* Groups that are operands put side by side; those that have order 0 only. */
+enum { COPIED = QDOT_T_COUNT, COPIED_ONCE };
 
 typedef struct {
     int op;
     size_t lanes;                  /* filled up to full vectors */
     size_t to, second, d, x, y, z; /* its first lanes */
-    size_t count;                  /* COPIED: of `from` */
+    size_t count;                  /* copied: of `from` */
     size_t *from;
 } group;
 
@@ -46,7 +47,8 @@ struct qdot_taylor_wide {
     int orders;
     const double *coefficients; /* the program's, for numbers of rows */
     size_t *lane;               /* [rows] */
-    size_t constant;            /* a lane that is 0 beyond order 0 */
+    size_t constant;            /* the first lane that is 0 beyond order 0, itself 0 there; */
+    size_t changing;            /* behind the last of them */
     qdot_vec(group) groups;
     double *allocated, *X, *N; /* [orders x width], [width] */
     double convolutions;
@@ -110,6 +112,7 @@ kernels_here(void)
 typedef struct {
     const qdot_taylor_step *step;
     size_t level, x, y, z; /* lanes */
+    size_t first;          /* of these the first that has more than order 0 */
 } member;
 
 typedef struct {
@@ -164,10 +167,17 @@ take_lanes(qdot_taylor_wide *w, size_t n)
     return at;
 }
 
+/* Whether a lane has more than order 0. */
+static bool
+changes(const qdot_taylor_wide *w, size_t lane)
+{
+    return lane < w->constant || lane >= w->changing;
+}
+
 qdot_status
 qdot_taylor_wide_align(qdot_taylor_wide *w, size_t count, const size_t *lanes, size_t *at)
 {
-    group g = {.op = COPIED, .count = count, .lanes = full(count)};
+    group g = {.op = COPIED_ONCE, .count = count, .lanes = full(count)};
     bool aligned = lanes[0] % QDOT_WIDE_LANES == 0;
 
     for (size_t i = 1; i < count; i++)
@@ -178,8 +188,11 @@ qdot_taylor_wide_align(qdot_taylor_wide *w, size_t count, const size_t *lanes, s
     g.from = qdot_calloc(count, sizeof *g.from);
     if (!g.from)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         g.from[i] = lanes[i] == NO_LANE ? w->constant : lanes[i];
+        if (changes(w, g.from[i]))
+            g.op = COPIED;
+    }
     *at = g.to = take_lanes(w, count);
     if (qdot_vec_push(&w->groups, g) != QDOT_OK) {
         qdot_free(g.from);
@@ -218,7 +231,7 @@ first_lanes(builder *b)
     for (size_t r = t->inputs; r < w->rows; r++)
         if (w->lane[r] == NO_LANE)
             w->lane[r] = at++;
-    w->width = full(at);
+    w->width = w->changing = full(at);
 }
 
 /* The steps that move with their levels; false: one is not built. */
@@ -249,6 +262,8 @@ by_operands(const void *left, const void *right)
 {
     const member *a = left, *b = right;
 
+    if (a->first != b->first)
+        return a->first < b->first ? -1 : 1;
     if (a->x != b->x)
         return a->x < b->x ? -1 : 1;
     if (a->y != b->y)
@@ -276,6 +291,7 @@ add_group(builder *b, member *m, size_t n)
         m[i].x = w->lane[row_of(w, m[i].step->x)];
         m[i].y = w->lane[row_of(w, m[i].step->y)];
         m[i].z = w->lane[row_of(w, m[i].step->z)];
+        m[i].first = changes(w, m[i].x) ? m[i].x : changes(w, m[i].y) ? m[i].y : m[i].z;
     }
     qsort(m, n, sizeof *m, by_operands);
     QDOT_TRY(align(b, m, n, offsetof(member, x), &g.x));
@@ -426,7 +442,7 @@ qdot_taylor_wide_begin(qdot_taylor_wide *w, const qdot_taylor *t)
     for (size_t r = w->n; r < t->inputs; r++)
         w->X[w->width + w->lane[r]] = t->coefficients[r * w->stride + 1];
     for (const group *g = w->groups.at; g < w->groups.at + w->groups.n; g++)
-        if (g->op == COPIED)
+        if (g->op >= COPIED)
             copy(g, w->X);
 }
 
