@@ -11,7 +11,7 @@
 #include "tape/taylor.h"
 
 /* Parents are looked for among so many functions before. */
-enum { looked_at = 40 };
+enum { near = 8, looked_at = 64 };
 
 typedef struct {
     const qdot_plan *plan;
@@ -86,25 +86,64 @@ add_terms(builder *b, const qdot_dalembert_term *terms, size_t n)
     return status;
 }
 
-/* The parent that leaves the shortest difference; one that it is as near to as that to its
- * own is not looked beyond. */
+static size_t
+terms_of(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_SUM ? qdot_expr_count(pool, e) / 2 : 1;
+}
+
+/* Terms that the difference of two sums has at least, but for those that differ by a factor.
+ * Both have their terms in one order. */
+static size_t
+terms_apart(const qdot_pool *pool, qdot_expr e, qdot_expr g)
+{
+    const size_t n = terms_of(pool, e), m = terms_of(pool, g);
+    size_t common = 0;
+
+    if (qdot_expr_kind(pool, g) != QDOT_SUM)
+        return n - 1;
+    for (size_t k = 0, at = 0; k < m; k++) {
+        const qdot_expr term = qdot_expr_arg(pool, g, (uint32_t)(2 * k + 1));
+        size_t i = at;
+
+        while (i < n && qdot_expr_arg(pool, e, (uint32_t)(2 * i + 1)) != term)
+            i++;
+        if (i == n)
+            continue;
+        common += qdot_expr_arg(pool, e, (uint32_t)(2 * i + 2)) ==
+                  qdot_expr_arg(pool, g, (uint32_t)(2 * k + 2));
+        at = i + 1;
+    }
+    return n + m - 2 * common;
+}
+
+/* The parent that leaves the fewest terms, of those the shortest; far ones are looked at where
+ * no near one leaves a single term. */
 static qdot_status
 find_parent(builder *b, size_t f)
 {
     qdot_pool *pool = b->plan->pool;
     qdot_expr e = b->functions.at[f], best = e;
     uint64_t shortest = qdot_expr_size(pool, e);
-    bool near = qdot_expr_kind(pool, e) != QDOT_SUM;
+    size_t fewest = terms_of(pool, e);
+    const size_t first = f > looked_at ? f - looked_at : 0;
 
     b->r->parent[f] = UINT32_MAX;
-    for (size_t i = f; i-- > 0 && !near && i + looked_at >= f;) {
-        qdot_expr d = qdot_sub(pool, e, b->functions.at[i]);
+    for (size_t i = f; i-- > first && qdot_expr_kind(pool, e) == QDOT_SUM;) {
+        qdot_expr d;
+        size_t terms;
 
-        QDOT_TRY(qdot_pool_check(pool));
-        if (qdot_expr_size(pool, d) >= shortest)
+        if (i + near < f && fewest == 1)
+            break;
+        if (terms_apart(pool, e, b->functions.at[i]) > fewest)
             continue;
+        d = qdot_sub(pool, e, b->functions.at[i]);
+        QDOT_TRY(qdot_pool_check(pool));
+        terms = terms_of(pool, d);
+        if (terms > fewest || (terms == fewest && qdot_expr_size(pool, d) >= shortest))
+            continue;
+        fewest = terms;
         shortest = qdot_expr_size(pool, d);
-        near = shortest <= qdot_expr_size(pool, b->differences.at[i]);
         best = d;
         b->r->parent[f] = (uint32_t)i;
     }

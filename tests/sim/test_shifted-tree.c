@@ -233,6 +233,35 @@ branches_are_a_tree(void **state)
     end(&f);
 }
 
+/* Two links on every link: what the last ones hang on was told long before. */
+static void
+far_parents_are_found(void **state)
+{
+    enum { N = 31 };
+    qdot_expr x[N], y[N], one;
+    fixture f;
+    found at;
+
+    (void)state;
+    begin(&f);
+    one = number(&f, "1");
+    for (int k = 0; k < N; k++) {
+        x[k] = k > 0 ? x[(k - 1) / 2] : QDOT_ZERO;
+        y[k] = k > 0 ? y[(k - 1) / 2] : QDOT_ZERO;
+        hang(&f, k, one, x + k, y + k);
+        bob(&f, k, "1.5", x[k], y[k]);
+    }
+    must(qdot_scene_gravity(f.scene, pair(&f, QDOT_ZERO, number(&f, "-9.81"))));
+    at = find(&f);
+    assert_non_null(at.tree);
+    assert_int_equal(at.tree->nodes, N);
+    for (uint32_t k = 1; k < N; k++)
+        assert_int_equal(at.tree->parent[2 * k], 2 * ((k - 1) / 2));
+    orders_agree(&at);
+    release(&at);
+    end(&f);
+}
+
 /* Three links with a mass in the middle of each, and one at its end. */
 static found
 rods(fixture *f, bool ends)
@@ -297,6 +326,7 @@ main(void)
         cmocka_unit_test(a_chain_is_a_path),
         cmocka_unit_test(a_chain_in_space_is_a_path_too),
         cmocka_unit_test(branches_are_a_tree),
+        cmocka_unit_test(far_parents_are_found),
         cmocka_unit_test(masses_that_move_together_are_a_node),
         cmocka_unit_test(a_coordinate_of_two_nodes_has_no_tree),
     };
