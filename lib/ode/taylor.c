@@ -26,7 +26,7 @@ static const double rounding_of_projection = 1e-13;
 /* log2 of the largest term, over the size of the state, whose rounding may count. */
 static const double term_least = -1;
 
-/* Steps by which the number of those to come is known. */
+/* Steps by which the number of those to come is known; before, it has to be as much larger. */
 enum { few_steps = 6 };
 
 /* Tries at one place where f is undefined: a quarter each. */
@@ -408,8 +408,8 @@ write_code(run *r, double t)
     const double steps = (double)r->result->stats.steps + 1;
     const double left = steps * (r->t1 - t) / (t - r->t0);
 
-    if (r->written || steps < few_steps || !r->series->write ||
-        !(left * r->p > r->series->worth))
+    if (r->written || !r->series->write ||
+        !(left * r->p * fmin(1, steps / few_steps) > r->series->worth))
         return QDOT_OK;
     r->written = true;
     return r->series->write(r->p, r->series->user);

@@ -260,7 +260,7 @@ make(qdot_bordered *e, const qdot_plan *p, bool shaken, const qdot_ode_series *o
                                   .cost = {other->cost[0], other->cost[1], other->cost[2]},
                                   .prepare = prepare,
                                   .write = write_code,
-                                  .worth = 800,
+                                  .worth = 400,
                                   .begin = begin,
                                   .extend = extend,
                                   .noise = other->noise ? noise : NULL,

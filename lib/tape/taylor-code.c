@@ -9,6 +9,11 @@
 #if defined __x86_64__ && defined __LP64__ && (defined __unix__ || defined __APPLE__)
 #define CAN_RUN
 #include <sys/mman.h>
+#ifdef MAP_POPULATE /* one call instead of a fault for each page */
+#define POPULATED MAP_POPULATE
+#else
+#define POPULATED 0
+#endif
 #endif
 
 enum {
@@ -430,16 +435,20 @@ emit_phase(qdot_generator *g, const phase *p, const phase *before)
     qdot_x86_again(&g->x, from);
 }
 
-/* What adding order m takes. */
+/* What adding order m takes. Rows as they stand go on beyond half of the orders, where all
+ * their lanes are known: what those beyond it make is of no order that is wanted. */
 static phase
 phase_of(const qdot_generator *g, int m)
 {
     const int half = g->n / 2, all = blocks_of(most(half + 1 - g->lag, 1));
+    int blocks;
 
     if (m <= half)
         return (phase){.blocks = blocks_of(m + 1 - g->lag),
                        .inserted = (m - g->lag) / QDOT_CODE_LANES};
-    return (phase){.blocks = least(all, blocks_of(g->n - m + 2 - g->lag)), .inserted = -1};
+    blocks = least(all, blocks_of(g->n - m + 2 - g->lag));
+    return (phase){.blocks = blocks,
+                   .inserted = rows_as_they_stand(g) && blocks == all ? all - 1 : -1};
 }
 
 static void
@@ -516,7 +525,7 @@ install(qdot_taylor_code *c, const unsigned char *bytes, size_t n)
 #ifdef CAN_RUN
     c->used = n;
     c->size = (head + n + page - 1) / page * page;
-    c->memory = mmap(NULL, c->size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS,
+    c->memory = mmap(NULL, c->size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | POPULATED,
                      -1, 0);
     if (c->memory == MAP_FAILED) {
         c->memory = NULL;
