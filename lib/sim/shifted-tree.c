@@ -224,7 +224,7 @@ qdot_shifted_tree_begin(qdot_shifted_tree *s, const qdot_taylor *places,
     qdot_taylor_wide_order(s->places, 1);
     for (size_t i = 0; i < s->n; i++)
         s->q[s->lane[i]] = first[i];
-    qdot_taylor_wide_correct(s->places, 1, s->q);
+    qdot_taylor_wide_correct(s->places, 1, s->q, 1);
     point(s, 0, s->c * s->m, s->J, S);
     return qdot_articulated_factor(s->system, S, lost, &node, &unknown);
 }
@@ -235,32 +235,29 @@ right_side(qdot_shifted_tree *s, int k, double scale, const double *more)
 {
     const size_t width = qdot_taylor_wide_width(s->places);
     const double *J = qdot_taylor_wide_at(s->places, 1);
-    const double *F = s->F + (size_t)(k - 1) * s->forces;
+    const double *F = s->F + (size_t)(k > 0 ? k - 1 : 0) * s->forces;
     const double *now = qdot_taylor_wide_at(s->places, k);
 
     for (size_t u = 0; u < s->c; u++) {
         double *r = s->r + u * s->slots;
         const double *Q = s->applied[u] == SIZE_MAX ? NULL : now + s->applied[u];
 
-        for (size_t at = 0; at < s->slots && k > 0; at += lanes) {
+        for (size_t at = 0; at < s->slots; at += lanes) {
             qdot_wide_pair pair[components];
 
             for (size_t i = 0; i < s->m; i++)
                 pair[i] =
                     (qdot_wide_pair){J + s->J[u * s->m + i] + at, F + i * s->slots + at};
-            qdot_taylor_wide_dots(s->places, s->m, pair, (size_t)k, width, s->forces,
-                                  r + at);
+            qdot_taylor_wide_rest(s->places, s->m, pair, (size_t)k, width, s->forces, scale,
+                                  Q ? Q + at : NULL, r + at);
         }
-        for (size_t l = 0; l < s->slots; l++)
-            r[l] = (Q ? scale * Q[l] : 0) - (k > 0 ? r[l] : 0);
     }
     for (size_t i = 0; i < s->n && more; i++)
         s->r[s->lane[i]] += more[i];
 }
 
 void
-qdot_shifted_tree_order(qdot_shifted_tree *s, int m, double scale, const double *more,
-                        double *q, size_t stride)
+qdot_shifted_tree_order(qdot_shifted_tree *s, int m, double scale, const double *more)
 {
     const int k = m - 2;
     const double factor = m * (m - 1);
@@ -278,11 +275,14 @@ qdot_shifted_tree_order(qdot_shifted_tree *s, int m, double scale, const double 
     for (size_t i = 0; i < s->m; i++)
         F[i] = s->F + (size_t)k * s->forces + i * s->slots;
     qdot_articulated_solve(s->system, S, d, factor, r, found, F);
-    for (size_t l = 0; l < s->c * s->slots; l++)
-        s->q[l] /= factor;
-    qdot_taylor_wide_correct(s->places, m, s->q);
-    for (size_t i = 0; i < s->n; i++)
-        q[i * stride] = s->q[s->lane[i]];
+    qdot_taylor_wide_correct(s->places, m, s->q, factor);
+}
+
+void
+qdot_shifted_tree_rows(const qdot_shifted_tree *s, int last, double per_unit, double *q,
+                       double *v, size_t stride)
+{
+    qdot_taylor_wide_rows(s->places, last, per_unit, q, v, stride);
 }
 
 void

@@ -32,10 +32,13 @@ QDOT_MUST_CHECK bool qdot_shifted_tree_begin(qdot_shifted_tree *tree,
                                              const qdot_taylor *places,
                                              const double *first, double *lost);
 
-/* Coefficients m >= 2 of q into q [i stride], i < n: `scale` times what the program applies,
- * and of order m - 2 more [n], already times it (NULL: nothing). */
+/* Coefficients m >= 2 of q: `scale` times what the program applies, and of order m - 2 more
+ * [n], already times it (NULL: nothing). Then those of orders 2 ... last where they belong,
+ * as qdot_taylor_wide_rows has it. */
 void qdot_shifted_tree_order(qdot_shifted_tree *tree, int m, double scale,
-                             const double *more, double *q, size_t stride);
+                             const double *more);
+void qdot_shifted_tree_rows(const qdot_shifted_tree *tree, int last, double per_unit,
+                            double *q, double *v, size_t stride);
 
 /* As qdot_shifted_wide_count; `products` of the sweeps. */
 void qdot_shifted_tree_count(const qdot_shifted_tree *tree, double *convolutions,

@@ -194,7 +194,7 @@ qdot_shifted_wide_begin(qdot_shifted_wide *w, const qdot_taylor *places,
 {
     qdot_taylor_wide_begin(w->places, places);
     qdot_taylor_wide_order(w->places, 1);
-    qdot_taylor_wide_correct(w->places, 1, first);
+    qdot_taylor_wide_correct(w->places, 1, first, 1);
 }
 
 /* F of order m - 2 from coefficients m of the differences. */
@@ -246,7 +246,7 @@ qdot_shifted_wide_residual(qdot_shifted_wide *w, int m, double scale, double *R)
 void
 qdot_shifted_wide_correct(qdot_shifted_wide *w, int m, const double *newest)
 {
-    qdot_taylor_wide_correct(w->places, m, newest);
+    qdot_taylor_wide_correct(w->places, m, newest, 1);
     forces(w, m);
 }
 

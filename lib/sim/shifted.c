@@ -202,19 +202,14 @@ correct(qdot_shifted *s, int m)
 static void
 tree_order(qdot_shifted *s, int m)
 {
-    const double per_unit = m / s->unit;
-    double *q = s->q + m, *v = s->v + m - 1;
-    const size_t n = s->plan->n, stride = s->stride;
-
     evaluate_forces(s, m - 2);
-    for (size_t i = 0; i < n && s->forces; i++)
+    for (size_t i = 0; i < s->plan->n && s->forces; i++)
         s->R[i] = s->applied[i] && s->residual->force[i] & QDOT_RESIDUAL_FORCES
                       ? s->force_scale * s->applied[i][m - 2]
                       : 0;
-    qdot_shifted_tree_order(s->tree, m, s->force_scale, s->forces ? s->R : NULL, q,
-                            stride);
-    for (size_t i = 0; i < n; i++)
-        v[i * stride] = per_unit * q[i * stride];
+    qdot_shifted_tree_order(s->tree, m, s->force_scale, s->forces ? s->R : NULL);
+    if (s->forces)
+        qdot_shifted_tree_rows(s->tree, m, 1 / s->unit, s->q, s->v, s->stride);
 }
 
 /* Coefficients m >= 2 of q and m - 1 of v. */
@@ -327,6 +322,8 @@ begin(double t, const double *y, double unit, void *user)
     }
     QDOT_TRY(begin_orders(s, t, y));
     order(s, 2);
+    if (s->tree)
+        qdot_shifted_tree_rows(s->tree, 2, 1 / unit, s->q, s->v, s->stride);
     for (size_t i = 0; i < n; i++)
         if (!isfinite(s->v[i * s->stride + 1]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
@@ -344,6 +341,8 @@ extend(int p, void *user)
             qdot_blocks_invert(&s->solvers, b);
     for (int m = 3; m <= p + 1; m++)
         order(s, m);
+    if (s->tree)
+        qdot_shifted_tree_rows(s->tree, p + 1, 1 / s->unit, s->q, s->v, s->stride);
     return QDOT_OK;
 }
 

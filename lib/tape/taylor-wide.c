@@ -31,9 +31,13 @@ typedef struct {
 typedef struct {
     void (*order)(const group *groups, size_t n, double *X, size_t width, int k);
     void (*correct)(const group *groups, size_t n, double *X, double *N, size_t width,
-                    size_t inputs, int k);
+                    size_t inputs, int k, const double *newest, double divisor);
     void (*dots)(size_t pairs, const qdot_wide_pair *pair, size_t n, size_t x_stride,
                  size_t y_stride, double *out);
+    void (*rest)(size_t pairs, const qdot_wide_pair *pair, size_t n, size_t x_stride,
+                 size_t y_stride, double scale, const double *from, double *out);
+    void (*rows)(const double *X, size_t width, int last, double per_unit, double *const *q,
+                 double *const *v);
     void (*multiply)(const qdot_wide_columns *columns, const double *in, double factor,
                      double *out);
 } kernels;
@@ -47,6 +51,7 @@ struct qdot_taylor_wide {
     int orders;
     const double *coefficients; /* the program's, for numbers of rows */
     size_t *lane;               /* [rows] */
+    size_t *input;              /* [inputs] which of them a lane is; NO_LANE: none */
     size_t constant;            /* the first lane that is 0 beyond order 0, itself 0 there; */
     size_t changing;            /* behind the last of them */
     qdot_vec(group) groups;
@@ -214,6 +219,10 @@ first_lanes(builder *b)
         b->level[r] = 0;
     }
     w->width = w->inputs = full(w->corrected);
+    for (size_t l = 0; l < w->inputs; l++)
+        w->input[l] = NO_LANE;
+    for (size_t r = 0; r < w->n; r++)
+        w->input[w->lane[r]] = r;
     at = take_lanes(w, t->inputs - w->n);
     for (size_t r = w->n; r < t->inputs; r++)
         w->lane[r] = at++;
@@ -341,7 +350,8 @@ build(builder *b, bool *built)
     b->lanes = qdot_calloc(rows + 1, sizeof *b->lanes);
     b->members = qdot_calloc(b->t->length + 1, sizeof *b->members);
     b->w->lane = qdot_calloc(rows + 1, sizeof *b->w->lane);
-    if (!b->level || !b->lanes || !b->members || !b->w->lane)
+    b->w->input = qdot_calloc(full(b->w->corrected) + 1, sizeof *b->w->input);
+    if (!b->level || !b->lanes || !b->members || !b->w->lane || !b->w->input)
         return QDOT_ENOMEM;
     first_lanes(b);
     *built = find_members(b);
@@ -391,6 +401,7 @@ qdot_taylor_wide_free(qdot_taylor_wide *w)
         qdot_free(w->groups.at[i].from);
     qdot_free(w->groups.at);
     qdot_free(w->lane);
+    qdot_free(w->input);
     qdot_free(w->allocated);
     qdot_free(w);
 }
@@ -454,10 +465,38 @@ qdot_taylor_wide_order(qdot_taylor_wide *w, int k)
 }
 
 void
-qdot_taylor_wide_correct(qdot_taylor_wide *w, int k, const double *newest)
+qdot_taylor_wide_correct(qdot_taylor_wide *w, int k, const double *newest, double divisor)
 {
-    memcpy(w->N, newest, w->corrected * sizeof *newest);
-    w->kernels->correct(w->groups.at, w->groups.n, w->X, w->N, w->width, w->inputs, k);
+    if (w->corrected < w->inputs) { /* lanes beyond them stay 0 */
+        memcpy(w->N, newest, w->corrected * sizeof *newest);
+        memset(w->N + w->corrected, 0, (w->inputs - w->corrected) * sizeof *newest);
+        newest = w->N;
+    }
+    w->kernels->correct(w->groups.at, w->groups.n, w->X, w->N, w->width, w->inputs, k,
+                        newest, divisor);
+}
+
+void
+qdot_taylor_wide_rows(const qdot_taylor_wide *w, int last, double per_unit, double *q,
+                      double *v, size_t stride)
+{
+    double nowhere[QDOT_SERIES_MOST + 2 * QDOT_WIDE_LANES];
+
+    for (size_t i = 0; i < w->n && last == 2; i++) {
+        q[i * stride + 2] = w->X[2 * w->width + w->lane[i]];
+        v[i * stride + 1] = 2 * per_unit * q[i * stride + 2];
+    }
+    for (size_t at = 0; last > 2 && at < w->inputs; at += QDOT_WIDE_LANES) {
+        double *to_q[QDOT_WIDE_LANES], *to_v[QDOT_WIDE_LANES];
+
+        for (size_t l = 0; l < QDOT_WIDE_LANES; l++) {
+            const size_t i = w->input[at + l];
+
+            to_q[l] = i == NO_LANE ? nowhere : q + i * stride;
+            to_v[l] = i == NO_LANE ? nowhere : v + i * stride;
+        }
+        w->kernels->rows(w->X + at, w->width, last, per_unit, to_q, to_v);
+    }
 }
 
 void
@@ -465,6 +504,14 @@ qdot_taylor_wide_dots(const qdot_taylor_wide *w, size_t pairs, const qdot_wide_p
                       size_t n, size_t x_stride, size_t y_stride, double *out)
 {
     w->kernels->dots(pairs, pair, n, x_stride, y_stride, out);
+}
+
+void
+qdot_taylor_wide_rest(const qdot_taylor_wide *w, size_t pairs, const qdot_wide_pair *pair,
+                      size_t n, size_t x_stride, size_t y_stride, double scale,
+                      const double *from, double *out)
+{
+    w->kernels->rest(pairs, pair, n, x_stride, y_stride, scale, from, out);
 }
 
 void

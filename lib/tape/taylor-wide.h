@@ -56,15 +56,24 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_wide_align(qdot_taylor_wide *wide, size_
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_settle(qdot_taylor_wide *wide);
 
 /* Order 0, from the program's. Order k > 0 with coefficients k of the first n inputs at 0;
- * what changes when they are newest [n], or [lanes]. */
+ * what changes when they are newest [n], or [lanes], over `divisor` (exactly in low orders). */
 void qdot_taylor_wide_begin(qdot_taylor_wide *wide, const qdot_taylor *t);
 void qdot_taylor_wide_order(qdot_taylor_wide *wide, int k);
-void qdot_taylor_wide_correct(qdot_taylor_wide *wide, int k, const double *newest);
+void qdot_taylor_wide_correct(qdot_taylor_wide *wide, int k, const double *newest,
+                              double divisor);
+/* Coefficients 2 ... last of the first n inputs into q [n x stride] by rows, and k per_unit
+ * times them, k that of each, into v [n x stride] at k - 1. Up to seven more are written. */
+void qdot_taylor_wide_rows(const qdot_taylor_wide *wide, int last, double per_unit,
+                           double *q, double *v, size_t stride);
 
 /* out [8] = the sum of n orders of pairs, strides in doubles. */
 void qdot_taylor_wide_dots(const qdot_taylor_wide *wide, size_t pairs,
                            const qdot_wide_pair *pair, size_t n, size_t x_stride,
                            size_t y_stride, double *out);
+/* The same taken from scale times from [8]; from NULL: from 0. */
+void qdot_taylor_wide_rest(const qdot_taylor_wide *wide, size_t pairs,
+                           const qdot_wide_pair *pair, size_t n, size_t x_stride,
+                           size_t y_stride, double scale, const double *from, double *out);
 /* out [8] = factor times the product. */
 void qdot_taylor_wide_multiply(const qdot_taylor_wide *wide,
                                const qdot_wide_columns *columns, const double *in,

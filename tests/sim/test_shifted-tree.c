@@ -97,7 +97,8 @@ orders_agree(const found *at)
     assert_non_null(tree);
     assert_true(qdot_shifted_tree_begin(tree, places, first, &lost));
     for (int m = 2; m <= P; m++)
-        qdot_shifted_tree_order(tree, m, unit * unit, NULL, q + m, stride);
+        qdot_shifted_tree_order(tree, m, unit * unit, NULL);
+    qdot_shifted_tree_rows(tree, P, 1 / unit, q, qdot_taylor_input(places, n), stride);
     compare(a, n, q, stride, P);
     qdot_shifted_tree_free(tree);
     qdot_direct_free(direct);

@@ -141,7 +141,7 @@ vectors_agree(void **state)
                 qdot_taylor_wide_begin(w, t);
             } else {
                 qdot_taylor_wide_order(w, k);
-                qdot_taylor_wide_correct(w, k, newest);
+                qdot_taylor_wide_correct(w, k, newest, 1);
             }
             compare(&f, t, w, k);
             for (size_t i = 0; i < N; i++)
