@@ -27,7 +27,7 @@ static const double rounding_of_projection = 1e-13;
 static const double term_least = -1;
 
 /* Steps by which the number of those to come is known; before, it has to be as much larger. */
-enum { few_steps = 6 };
+enum { few_steps = 4 };
 
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
@@ -409,7 +409,7 @@ write_code(run *r, double t)
     const double left = steps * (r->t1 - t) / (t - r->t0);
 
     if (r->written || !r->series->write ||
-        !(left * r->p * fmin(1, steps / few_steps) > r->series->worth))
+        !(left * r->p * fmin(1, (steps + 1) / few_steps) > r->series->worth))
         return QDOT_OK;
     r->written = true;
     return r->series->write(r->p, r->series->user);

@@ -305,9 +305,9 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
                                    e->own->cost[1], e->own->cost[2]},
                           .prepare = prepare,
                           .write = e->own->write ? write_code : NULL,
-                          .worth = e->own->worth,
-                          .written = {e->own->written[0] + 200 + qdot_constrained_cost(plan),
-                                      e->own->written[1], e->own->written[2]},
+                          .worth = 500,
+                          .written = {e->own->written[0], e->own->written[1],
+                                      e->own->written[2]}, /* see sim/bordered.c */
                           .begin = begin,
                           .extend = extend,
                           .noise = noise,
