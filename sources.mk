@@ -26,6 +26,7 @@ num_sources = \
 	lib/num/least-move.c \
 	lib/num/real.c \
 	lib/num/row-space.c \
+	lib/num/saddle-rows.c \
 	lib/num/saddle.c \
 	lib/num/series.c \
 	lib/num/sparse.c \
@@ -163,6 +164,7 @@ normal_sources = \
 	lib/normal/rationalize.c \
 	lib/normal/real-zeros.c \
 	lib/normal/rewrite.c \
+	lib/normal/root-parts.c \
 	lib/normal/sample-edge.c \
 	lib/normal/sample.c \
 	lib/normal/simple.c \
@@ -211,6 +213,7 @@ normal_headers = \
 	lib/normal/rationalize.h \
 	lib/normal/real-zeros.h \
 	lib/normal/rewrite.h \
+	lib/normal/root-parts.h \
 	lib/normal/sample.h \
 	lib/normal/simplify.h \
 	lib/normal/solve.h \

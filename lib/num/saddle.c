@@ -18,9 +18,6 @@ static const double dependent = 1e-9, lost = 1e-13;
  * beyond that the null space has a look. */
 static const double trusted = 1e-3, usual = 0.2, more = 1.25;
 
-/* Of a squared norm. */
-static const double faded = 1e-14;
-
 /* Of the most mass beside it, what rounding makes of none; of the most that an unknown had,
  * down to where its scale follows. */
 static const double nothing = 0x1p-92, lightest = 0x1p-14;
@@ -425,25 +422,6 @@ factor_directly(qdot_saddle *s)
     return known && left > trusted && left > usual * s->record;
 }
 
-size_t
-qdot_saddle_faded(qdot_saddle *s)
-{
-    size_t found = s->m;
-
-    for (size_t k = 0; k < s->m; k++) {
-        const double *A = s->A + k * s->n;
-        double sum = 0;
-
-        for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
-            sum += A[s->column[e]] * A[s->column[e]];
-        if (sum > s->widest[k])
-            s->widest[k] = sum;
-        else if (sum < faded * s->widest[k])
-            found = k;
-    }
-    return found;
-}
-
 qdot_status
 qdot_saddle_factor_fully(qdot_saddle *s, size_t *failed)
 {
@@ -645,44 +623,4 @@ qdot_saddle_apply(qdot_saddle *s)
     }
     qdot_series_kernels_get()->multiply(width(s), all, s->inverse, s->x, s->keep);
     memcpy(s->x, s->keep, all * sizeof *s->x);
-}
-
-void
-qdot_saddle_weakest(qdot_saddle *s, double *row, double *column)
-{
-    const size_t n = s->n, last = s->rank - 1;
-
-    for (size_t k = 0; k < s->m; k++)
-        row[k] = 0;
-    row[s->pivot[last]] = s->e[s->pivot[last]];
-    for (size_t j = last; j-- > 0;) {
-        double sum = s->R[last * n + j];
-
-        for (size_t k = j + 1; k < last; k++)
-            sum -= s->R[k * n + j] * s->u[k];
-        s->u[j] = sum / s->R[j * n + j];
-        row[s->pivot[j]] = -s->u[j] * s->e[s->pivot[j]];
-    }
-    for (size_t i = 0; i < n; i++)
-        column[i] = s->Q[last * n + i] * s->d[i];
-}
-
-void
-qdot_saddle_parts(qdot_saddle *s, double *part)
-{
-    const size_t n = s->n, last = s->last;
-
-    for (size_t k = 0; k < s->m; k++)
-        part[k] = 0;
-    if (last >= s->m)
-        return;
-    part[s->pivot[last]] = 1;
-    for (size_t j = last < n ? last : n; j-- > 0;) {
-        double sum = s->R[last * n + j];
-
-        for (size_t k = j + 1; k < last && k < n; k++)
-            sum -= s->R[k * n + j] * s->u[k];
-        s->u[j] = sum / s->R[j * n + j];
-        part[s->pivot[j]] = fmin(1, fabs(s->u[j]));
-    }
 }

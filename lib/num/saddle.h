@@ -132,8 +132,9 @@ void qdot_saddle_apply(qdot_saddle *s);
  * `direct`. r > 0. */
 void qdot_saddle_weakest(qdot_saddle *s, double *row, double *column);
 
-/* The size of row i's part in the dependency nearest to happening (of the last pivot on
- * those before it), 0 ... 1, into part [m]. */
-void qdot_saddle_parts(qdot_saddle *s, double *part);
+/* The size of row i's part in the dependencies nearest to happening, 0 ... 1, into part [m]: of
+ * the last pivot, and every one below `below` of the first, on those before them; and of rows left
+ * out that share rows with these, and are no longer. */
+void qdot_saddle_parts(qdot_saddle *s, double below, double *part);
 
 #endif

@@ -72,7 +72,7 @@ qdot_constrained_without_direction(const qdot_constraints *c, size_t row)
 
 size_t
 qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row,
-                           qdot_text *names)
+                           double below, qdot_text *names)
 {
     double *part = s->w; /* scratch of n + m */
     bool *in = qdot_calloc(c->m + 1, sizeof *in);
@@ -80,7 +80,7 @@ qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s, const size
 
     if (!in)
         return 0;
-    qdot_saddle_parts(s, part);
+    qdot_saddle_parts(s, below, part);
     for (size_t k = 0; k < s->m; k++)
         if (part[k] > QDOT_CONSTRAINED_PART) {
             in[row ? row[k] : k] = true;
@@ -105,7 +105,7 @@ qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text 
     if (status == QDOT_OK ? all->saddle.rank == 0 || all->saddle.quality > near
                           : failed < h->plan->n)
         return false;
-    return qdot_constrained_dependent(h->c, &all->saddle, all->row, names) > 0;
+    return qdot_constrained_dependent(h->c, &all->saddle, all->row, near, names) > 0;
 }
 
 double

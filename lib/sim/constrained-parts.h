@@ -62,10 +62,10 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_check_repeated(qdot_constrained *h,
 /* M and A at what is loaded, into a level. */
 void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level);
 
-/* The rows of a dependency by name, added to a text; their number. row [s->m] of the
- * constraints, NULL: all. */
+/* The rows of the dependencies (qdot_saddle_parts) by name, added to a text; their number.
+ * row [s->m] of the constraints, NULL: all. */
 size_t qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s,
-                                  const size_t *row, qdot_text *names);
+                                  const size_t *row, double below, qdot_text *names);
 
 /* Room for a Jacobian; outputs: the most of a tape. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_make_slopes(qdot_constrained *h,

@@ -110,8 +110,9 @@ qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *l)
 static qdot_status
 dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
 {
+    static const double lost = 1e-9; /* of independence: as much as nothing */
     qdot_text names = {0};
-    const size_t count = qdot_constrained_dependent(c, s, row, &names);
+    const size_t count = qdot_constrained_dependent(c, s, row, lost, &names);
 
     if (qdot_text_status(&names) == QDOT_OK && count > 0)
         qdot_fail(QDOT_ESINGULAR, "%.300s %s here", qdot_text_str(&names),

@@ -202,7 +202,7 @@ a_lost_rank_is_told(void **state)
         s.A[8 + i] = -3 * s.A[i];
     assert_int_equal(qdot_saddle_factor(&s, &failed), QDOT_ESINGULAR);
     assert_true(failed == 4 || failed == 6);
-    qdot_saddle_parts(&s, part);
+    qdot_saddle_parts(&s, 0, part);
     assert_true(part[0] > 0.1 && part[1] < 1e-9 && part[2] > 0.1);
     qdot_saddle_clear(&s);
 }

@@ -1,0 +1,99 @@
+/* saddle-rows.c -- rows of A that fade, or depend on others. */
+#include <math.h>
+
+#include "num/saddle.h"
+
+/* Of a squared norm. */
+static const double faded = 1e-14;
+
+/* Of a row in a dependency. */
+static const double participates = 1e-6;
+
+size_t
+qdot_saddle_faded(qdot_saddle *s)
+{
+    size_t found = s->m;
+
+    for (size_t k = 0; k < s->m; k++) {
+        const double *A = s->A + k * s->n;
+        double sum = 0;
+
+        for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
+            sum += A[s->column[e]] * A[s->column[e]];
+        if (sum > s->widest[k])
+            s->widest[k] = sum;
+        else if (sum < faded * s->widest[k])
+            found = k;
+    }
+    return found;
+}
+
+void
+qdot_saddle_weakest(qdot_saddle *s, double *row, double *column)
+{
+    const size_t n = s->n, last = s->rank - 1;
+
+    for (size_t k = 0; k < s->m; k++)
+        row[k] = 0;
+    row[s->pivot[last]] = s->e[s->pivot[last]];
+    for (size_t j = last; j-- > 0;) {
+        double sum = s->R[last * n + j];
+
+        for (size_t k = j + 1; k < last; k++)
+            sum -= s->R[k * n + j] * s->u[k];
+        s->u[j] = sum / s->R[j * n + j];
+        row[s->pivot[j]] = -s->u[j] * s->e[s->pivot[j]];
+    }
+    for (size_t i = 0; i < n; i++)
+        column[i] = s->Q[last * n + i] * s->d[i];
+}
+
+/* Column k on the first `sound` pivots, into s->u; how many take part, and of them in `part`. */
+static size_t
+depend(const qdot_saddle *s, size_t k, size_t sound, const double *part, size_t *met)
+{
+    const size_t n = s->n;
+    size_t count = 0;
+
+    *met = 0;
+
+    for (size_t j = sound; j-- > 0;) {
+        double sum = s->R[k * n + j];
+
+        for (size_t i = j + 1; i < sound; i++)
+            sum -= s->R[i * n + j] * s->u[i];
+        s->u[j] = sum / s->R[j * n + j];
+        if (fabs(s->u[j]) > participates) {
+            count++;
+            *met += part[s->pivot[j]] > participates;
+        }
+    }
+    return count;
+}
+
+void
+qdot_saddle_parts(qdot_saddle *s, double below, double *part)
+{
+    const size_t last = s->last;
+    size_t sound = 0; /* pivots */
+    size_t longest = 0;
+
+    for (size_t k = 0; k < s->m; k++)
+        part[k] = 0;
+    if (last >= s->m)
+        return;
+    while (sound < last && sound < s->n &&
+           fabs(s->R[sound * s->n + sound]) > below * fabs(s->R[0]))
+        sound++;
+    for (size_t k = sound; k < s->m; k++) {
+        size_t met;
+        const size_t count = depend(s, k, sound, part, &met);
+
+        if (k > last && (met == 0 || count > longest))
+            continue; /* a repetition of its own */
+        longest = count > longest ? count : longest;
+        part[s->pivot[k]] = 1;
+        for (size_t j = 0; j < sound; j++)
+            part[s->pivot[j]] = fmax(part[s->pivot[j]], fmin(1, fabs(s->u[j])));
+    }
+}
