@@ -240,6 +240,7 @@ tape_sources = \
 	lib/tape/taylor-code.c \
 	lib/tape/taylor-correct.c \
 	lib/tape/taylor-order.c \
+	lib/tape/taylor-text.c \
 	lib/tape/taylor-unknowns.c \
 	lib/tape/taylor-wide.c \
 	lib/tape/taylor.c \
@@ -263,6 +264,7 @@ tape_headers = \
 	lib/tape/taylor-generator.h \
 	lib/tape/taylor-order.def \
 	lib/tape/taylor-steps.h \
+	lib/tape/taylor-text.h \
 	lib/tape/taylor-wide.def \
 	lib/tape/taylor-wide.h \
 	lib/tape/taylor.h \

@@ -11,7 +11,7 @@ enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 /* Digits (natural ones) that an order is chosen for at least where it runs as machine code: an
  * oscillation that is hardly there yet bounds the step, and as it has no singularity a higher
  * order is worth more than its radius says (doc/methods.md). */
-static const double least_digits = 14;
+static const double least_digits = 18;
 
 int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)

@@ -1,31 +1,21 @@
-/* taylor-code.c -- the frame of a program's code: vectors of products, registers, memory. */
+/* taylor-code.c -- the frame of a program's code: vectors of products, registers, loops. */
 #include "tape/taylor-code.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "tape/taylor-generator.h"
-
-#if defined __x86_64__ && defined __LP64__ && (defined __unix__ || defined __APPLE__)
-#define CAN_RUN
-#include <sys/mman.h>
-#ifdef MAP_POPULATE /* one call instead of a fault for each page */
-#define POPULATED MAP_POPULATE
-#else
-#define POPULATED 0
-#endif
-#endif
+#include "tape/taylor-text.h"
 
 enum {
-    page = 4096,
-    /* Before the first instruction: sanitizers look there for what they know of a function. */
-    head = 64,
     /* Longer code is not there when it is wanted: the kernels are. */
     most_bytes = 1 << 18,
     /* With fewer sums an order takes as long as its newest coefficient to be ready, and the
      * way through the vectors is the longer one. With more it takes as long as its
      * instructions, which are a third fewer where the vectors have all but order 0. */
     few_sums = 5,
+    /* So many do not fit into registers by far. */
+    many_vectors = 40,
     temporary = 0,
     spread_first = 2,
     newest_lane = 1,   /* masks */
@@ -37,10 +27,8 @@ enum {
 typedef void kernel(double *coefficients, qdot_taylor_step *steps, double *work);
 
 struct qdot_taylor_code {
-    void *memory;
-    size_t size, used;
+    qdot_taylor_text *text;
     double *allocated, *work; /* the same, aligned */
-    uint32_t *blocks; /* [blocks] where the work space has their matrices */
     int to;
     double unit;
     double once_low[QDOT_CODE_EXACT + 1], twice_low[QDOT_CODE_EXACT + 1]; /* at unit 1 */
@@ -73,11 +61,13 @@ blocks_of(int n)
     return (n + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES;
 }
 
-/* With a lag of 1 the coefficients of a row are its vector, from order 1 on, as they stand. */
+/* With a lag of 1 the coefficients of a row are its vector, from order 1 on, as they stand: in
+ * long programs, for a vector read soon after one of its numbers was written waits for that to
+ * leave the processor (8 to 30 % of shorter ones). */
 static bool
 rows_as_they_stand(const qdot_generator *g)
 {
-    return g->lag == 1;
+    return g->lag == 1 && g->sums.n + g->rows.n > many_vectors;
 }
 
 static qdot_x86_rm
@@ -518,27 +508,6 @@ make_work(qdot_taylor_code *c, size_t doubles)
     return QDOT_OK;
 }
 
-/* Memory is written or run, never both. Whether the system let it. */
-static bool
-install(qdot_taylor_code *c, const unsigned char *bytes, size_t n)
-{
-#ifdef CAN_RUN
-    c->used = n;
-    c->size = (head + n + page - 1) / page * page;
-    c->memory = mmap(NULL, c->size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | POPULATED,
-                     -1, 0);
-    if (c->memory == MAP_FAILED) {
-        c->memory = NULL;
-        return false;
-    }
-    memcpy((unsigned char *)c->memory + head, bytes, n);
-    return mprotect(c->memory, c->size, PROT_READ | PROT_EXEC) == 0;
-#else
-    (void)c, (void)bytes, (void)n;
-    return false;
-#endif
-}
-
 /* Whether all that is linked is of the program. */
 static bool
 reaches_all(const qdot_taylor *t)
@@ -555,7 +524,7 @@ reaches_all(const qdot_taylor *t)
 }
 
 static qdot_status
-generate(qdot_generator *g, qdot_taylor_code *c, const char **why)
+generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
 {
     const size_t rows = g->t->rows, length = g->t->length;
 
@@ -578,22 +547,42 @@ generate(qdot_generator *g, qdot_taylor_code *c, const char **why)
     QDOT_TRY(find_sums(g));
     QDOT_TRY(find_unknown_sums(g));
     g->lag = g->sums.n < few_sums ? 2 : 1;
-    QDOT_TRY(make_work(c, give_places(g)));
+    text->doubles = give_places(g);
     QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
     emit_all(g);
     QDOT_TRY(g->x.status);
     if (g->x.bytes.n > most_bytes)
         *why = "machine code for them would be too long";
-    else if (!install(c, g->x.bytes.at, g->x.bytes.n))
+    else if (!qdot_taylor_text_fill(text, g->x.bytes.at, g->x.bytes.n))
         *why = "the system runs no code made at run time";
     return QDOT_OK;
+}
+
+static qdot_status
+write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **why)
+{
+    qdot_generator g = {.t = t, .n = to};
+    qdot_status status = generate(&g, text, why);
+
+    text->blocks = g.block_slots;
+    qdot_free(g.moving);
+    qdot_free(g.row_vector);
+    qdot_free(g.ready);
+    qdot_free(g.where);
+    qdot_free(g.step_sums);
+    qdot_free(g.step_slots);
+    qdot_free(g.unknown_sums);
+    qdot_free(g.rows.at);
+    qdot_free(g.row_of.at);
+    qdot_free(g.sums.at);
+    qdot_free(g.x.bytes.at);
+    return status;
 }
 
 qdot_status
 qdot_taylor_code_new(const qdot_taylor *t, int to, qdot_taylor_code **code,
                      const char **why)
 {
-    qdot_generator g = {.t = t, .n = to};
     qdot_taylor_code *c;
     qdot_status status;
 
@@ -611,19 +600,14 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, qdot_taylor_code **code,
     if (!c)
         return QDOT_ENOMEM;
     c->to = to;
-    status = generate(&g, c, why);
-    c->blocks = g.block_slots;
-    qdot_free(g.moving);
-    qdot_free(g.row_vector);
-    qdot_free(g.ready);
-    qdot_free(g.where);
-    qdot_free(g.step_sums);
-    qdot_free(g.step_slots);
-    qdot_free(g.unknown_sums);
-    qdot_free(g.rows.at);
-    qdot_free(g.row_of.at);
-    qdot_free(g.sums.at);
-    qdot_free(g.x.bytes.at);
+    status = qdot_taylor_text_take(t, to, &c->text);
+    if (status == QDOT_OK && !c->text->memory) {
+        status = write_text(t, to, c->text, why);
+        if (status == QDOT_OK && !*why)
+            qdot_taylor_text_keep(c->text);
+    }
+    if (status == QDOT_OK && !*why)
+        status = make_work(c, c->text->doubles);
     if (status != QDOT_OK || *why) {
         qdot_taylor_code_free(c);
         return status;
@@ -637,12 +621,8 @@ qdot_taylor_code_free(qdot_taylor_code *c)
 {
     if (!c)
         return;
-#ifdef CAN_RUN
-    if (c->memory)
-        munmap(c->memory, c->size);
-#endif
+    qdot_taylor_text_give(c->text);
     qdot_free(c->allocated);
-    qdot_free(c->blocks);
     qdot_free(c);
 }
 
@@ -669,13 +649,13 @@ qdot_taylor_code_unit(qdot_taylor_code *c, double unit)
 void
 qdot_taylor_code_run(const qdot_taylor_code *c, qdot_taylor *t)
 {
-    const unsigned char *first = (const unsigned char *)c->memory + head;
+    const unsigned char *first = qdot_taylor_text_first(c->text);
     kernel *code;
 
     for (size_t k = 0; k < t->n_blocks; k++) {
         const qdot_taylor_block *b = t->blocks + k;
 
-        memcpy(c->work + c->blocks[k], b->matrices, 2 * b->n * b->n * sizeof(double));
+        memcpy(c->work + c->text->blocks[k], b->matrices, 2 * b->n * b->n * sizeof(double));
     }
     memcpy(&code, &first, sizeof code);
     code(t->coefficients, t->steps, c->work);
@@ -690,5 +670,5 @@ qdot_taylor_code_orders(const qdot_taylor_code *c)
 size_t
 qdot_taylor_code_size(const qdot_taylor_code *c)
 {
-    return c->used;
+    return c->text->used;
 }

@@ -259,6 +259,53 @@ long_programs_agree(void **state)
     qdot_pool_free(f.pool);
 }
 
+/* What was written for a program is run by the next of its shape, not by one that differs in an
+ * operation or a row. */
+static void
+kept_code_agrees(void **state)
+{
+    enum { PROGRAMS = 5, TO = 20 };
+    scene f;
+    qdot_pool *pool;
+    qdot_tape *tapes[PROGRAMS];
+
+    (void)state;
+    begin(&f);
+    pool = f.pool;
+    for (int i = 0; i < PROGRAMS; i++) {
+        qdot_expr s = qdot_fun1(pool, i < 2 ? QDOT_SIN : QDOT_COS, f.in[i == 2 ? P : Q]);
+        qdot_expr factor = qdot_mul(pool, qdot_expr_int(pool, 3 + i), f.within);
+        qdot_expr product = qdot_mul(pool, s, factor);
+        qdot_expr out[] = {i == 4 ? qdot_sub(pool, product, f.in[V])
+                                  : qdot_add(pool, product, f.in[V]),
+                           f.within};
+
+        assert_int_equal(qdot_tape_new(pool, INPUTS, f.in, 2, out, tapes + i), QDOT_OK);
+    }
+    for (int round = 0; round < 3; round++)
+        for (int i = 0; i < PROGRAMS; i++) {
+            qdot_taylor *beside = linked(tapes[i], TO, round == 2);
+            qdot_taylor *of[] = {linked(tapes[i], TO, true), linked(tapes[i], TO, false),
+                                 linked(tapes[i], TO, false)};
+
+            expand(of, TO, 2);
+            compare(of, TO, "kept code");
+            if (round == 2) {
+                qdot_taylor_free(of[0]);
+                of[0] = beside;
+                beside = NULL;
+                expand(of, TO, 3);
+                compare(of, TO, "kept code, another beside it");
+            }
+            for (int l = 0; l < 3; l++)
+                qdot_taylor_free(of[l]);
+            qdot_taylor_free(beside);
+        }
+    for (int i = 0; i < PROGRAMS; i++)
+        qdot_tape_free(tapes[i]);
+    qdot_pool_free(pool);
+}
+
 /* --- unknowns ----------------------------------------------------------------------- */
 
 enum { UNKNOWNS = 5, SOLVED = 3 };
@@ -462,6 +509,7 @@ main(void)
         cmocka_unit_test(functions_agree),
         cmocka_unit_test(arithmetic_agrees),
         cmocka_unit_test(long_programs_agree),
+        cmocka_unit_test(kept_code_agrees),
         cmocka_unit_test(unknowns_agree),
     };
 
