@@ -31,7 +31,8 @@ num_sources = \
 	lib/num/series.c \
 	lib/num/sparse.c \
 	lib/num/structure.c \
-	lib/num/sum.c
+	lib/num/sum.c \
+	lib/num/two.c
 
 num_headers = \
 	lib/num/articulated.def \
@@ -54,7 +55,9 @@ num_headers = \
 	lib/num/series.h \
 	lib/num/sparse.h \
 	lib/num/structure.h \
-	lib/num/sum.h
+	lib/num/sum.h \
+	lib/num/two.def \
+	lib/num/two.h
 
 expr_sources = \
 	lib/expr/bounds.c \
@@ -244,6 +247,7 @@ tape_sources = \
 	lib/tape/taylor-unknowns.c \
 	lib/tape/taylor-wide.c \
 	lib/tape/taylor.c \
+	lib/tape/two.c \
 	lib/tape/x86.c
 
 tape_headers = \
@@ -268,6 +272,8 @@ tape_headers = \
 	lib/tape/taylor-wide.def \
 	lib/tape/taylor-wide.h \
 	lib/tape/taylor.h \
+	lib/tape/two.def \
+	lib/tape/two.h \
 	lib/tape/x86.h
 
 mech_sources = \
@@ -577,6 +583,7 @@ unit_tests = \
 	tests/num/test_sparse \
 	tests/num/test_structure \
 	tests/num/test_sum \
+	tests/num/test_two \
 	tests/ode/test_companion \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
@@ -611,6 +618,7 @@ unit_tests = \
 	tests/tape/test_taylor-code \
 	tests/tape/test_taylor-wide \
 	tests/tape/test_taylor \
+	tests/tape/test_two \
 	tests/tape/test_x86
 
 script_tests = \

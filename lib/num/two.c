@@ -1,0 +1,122 @@
+/* two.c -- functions of sums of two doubles, for each kind of processor. */
+#include "num/two.h"
+
+#include <stdbool.h>
+#include <pthread.h>
+
+#include <mpfr.h>
+
+#include "num/kinds.h"
+
+enum { QUARTER = 64, POWERS = 64 }; /* steps of an angle to pi/2; of a power to 2 */
+
+/* Beyond it a multiple of the step is no longer taken off by three doubles. */
+static const double most_angle = 0x1p40;
+
+/* pi/(2 QUARTER), log(2)/POWERS */
+static double angle_step[3], power_step[3];
+static qdot_two sines[QUARTER + 1], powers[POWERS];
+
+static const qdot_two sixth = {0x1.5555555555555p-3, 0x1.5555555555555p-57};
+static const qdot_two sixth_of_a_fourth = {0x1.5555555555555p-5, 0x1.5555555555555p-59};
+
+static qdot_two
+split(mpfr_ptr x)
+{
+    qdot_two r = {mpfr_get_d(x, MPFR_RNDN), 0};
+
+    mpfr_sub_d(x, x, r.hi, MPFR_RNDN);
+    r.lo = mpfr_get_d(x, MPFR_RNDN);
+    return r;
+}
+
+/* x is used up. */
+static void
+split_in_three(mpfr_ptr x, double *part)
+{
+    for (int i = 0; i < 3; i++) {
+        part[i] = mpfr_get_d(x, MPFR_RNDN);
+        mpfr_sub_d(x, x, part[i], MPFR_RNDN);
+    }
+}
+
+static void
+fill_tables(void)
+{
+    mpfr_t step, x;
+
+    mpfr_inits2(256, step, x, (mpfr_ptr)0);
+    mpfr_const_pi(step, MPFR_RNDN);
+    mpfr_div_ui(step, step, 2 * QUARTER, MPFR_RNDN);
+    for (unsigned i = 0; i <= QUARTER; i++) {
+        mpfr_mul_ui(x, step, i, MPFR_RNDN);
+        mpfr_sin(x, x, MPFR_RNDN);
+        sines[i] = split(x);
+    }
+    split_in_three(step, angle_step);
+    for (unsigned i = 0; i < POWERS; i++) {
+        mpfr_set_d(x, (double)i / POWERS, MPFR_RNDN);
+        mpfr_exp2(x, x, MPFR_RNDN);
+        powers[i] = split(x);
+    }
+    mpfr_const_log2(step, MPFR_RNDN);
+    mpfr_div_ui(step, step, POWERS, MPFR_RNDN);
+    split_in_three(step, power_step);
+    mpfr_clears(step, x, (mpfr_ptr)0);
+    mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);
+}
+
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+/* Of angles that no motion has. */
+static void
+sincos_beyond(qdot_two x, qdot_two *sine, qdot_two *cosine)
+{
+    mpfr_t s, c;
+
+    if (!isfinite(x.hi)) {
+        *sine = *cosine = (qdot_two){NAN, NAN};
+        return;
+    }
+    mpfr_inits2(256, s, c, (mpfr_ptr)0);
+    mpfr_set_d(s, x.hi, MPFR_RNDN);
+    mpfr_add_d(s, s, x.lo, MPFR_RNDN);
+    mpfr_sin_cos(s, c, s, MPFR_RNDN);
+    *sine = split(s);
+    *cosine = split(c);
+    mpfr_clears(s, c, (mpfr_ptr)0);
+}
+
+#define NAME(x) portable_##x
+#include "num/two.def"
+#undef NAME
+
+#ifdef QDOT_X86_KINDS
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#define NAME(x) fma_##x
+#include "num/two.def"
+#undef NAME
+#pragma GCC pop_options
+#endif
+
+const qdot_two_functions *
+qdot_two_functions_at(size_t i)
+{
+    pthread_once(&once, fill_tables);
+    if (i == 0)
+        return &portable_functions;
+#ifdef QDOT_X86_KINDS
+    if (i == 1 && qdot_kind_is_here(1))
+        return &fma_functions;
+#endif
+    return NULL;
+}
+
+const qdot_two_functions *
+qdot_two_functions_get(void)
+{
+    const qdot_two_functions *best = qdot_two_functions_at(1);
+
+    return best ? best : qdot_two_functions_at(0);
+}

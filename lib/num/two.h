@@ -1,0 +1,170 @@
+/* two.h -- numbers as the sum of two doubles: about 31 digits.
+ *
+ *     x = hi + lo,   |lo| <= ulp(hi)/2
+ *
+ * Sums err by 2^-104 (|a| + |b|), products and quotients by 2^-102 of themselves; nothing is
+ * said where hi overflows or lo would be below 2^-1022. Functions err by less than 2^-84 of
+ * themselves, where the argument's own 2^-104 do not make more of it.
+ *
+ * Source  Dekker, Numer. Math. 18 (1971) 224; Hida, Li & Bailey, Proc. 15th IEEE Symp.
+ *         Computer Arithmetic (2001) 155; Joldes, Muller & Popescu, ACM TOMS 44 (2017) 15.
+ * Tests   tests/num/test_two.c
+ */
+#ifndef QDOT_NUM_TWO_H
+#define QDOT_NUM_TWO_H
+
+#include <math.h>
+#include <stddef.h>
+
+typedef struct {
+    double hi, lo;
+} qdot_two;
+
+/* They become part of kernels that are compiled for several processors. */
+#define QDOT_TWO_INLINE static inline __attribute__((always_inline))
+
+/* a + b rounded, and what that leaves (num/sum.h, whose other names are taken above). */
+QDOT_TWO_INLINE double
+qdot_two_rounded_sum(double a, double b, double *e)
+{
+    const double s = a + b, bb = s - a;
+
+    *e = (a - (s - bb)) + (b - bb);
+    return s;
+}
+
+/* hi + lo, |lo| not beyond |hi| */
+QDOT_TWO_INLINE qdot_two
+qdot_two_of(double hi, double lo)
+{
+    const double s = hi + lo;
+
+    return (qdot_two){s, lo - (s - hi)};
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_neg(qdot_two a)
+{
+    return (qdot_two){-a.hi, -a.lo};
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_add(qdot_two a, qdot_two b)
+{
+    double e;
+    const double s = qdot_two_rounded_sum(a.hi, b.hi, &e);
+
+    return qdot_two_of(s, e + (a.lo + b.lo));
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_sub(qdot_two a, qdot_two b)
+{
+    return qdot_two_add(a, qdot_two_neg(b));
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_add_double(qdot_two a, double b)
+{
+    double e;
+    const double s = qdot_two_rounded_sum(a.hi, b, &e);
+
+    return qdot_two_of(s, e + a.lo);
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_mul(qdot_two a, qdot_two b)
+{
+    const double p = a.hi * b.hi, e = fma(a.hi, b.hi, -p);
+
+    return qdot_two_of(p, fma(a.hi, b.lo, fma(a.lo, b.hi, e)));
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_mul_double(qdot_two a, double b)
+{
+    const double p = a.hi * b;
+
+    return qdot_two_of(p, fma(a.lo, b, fma(a.hi, b, -p)));
+}
+
+/* By a power of two: exact. */
+QDOT_TWO_INLINE qdot_two
+qdot_two_scale(qdot_two a, double power)
+{
+    return (qdot_two){power * a.hi, power * a.lo};
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_div(qdot_two a, qdot_two b)
+{
+    const double q = a.hi / b.hi;
+    const qdot_two left = qdot_two_sub(a, qdot_two_mul_double(b, q));
+
+    return qdot_two_of(q, left.hi / b.hi);
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_div_double(qdot_two a, double b)
+{
+    const double q = a.hi / b;
+
+    return qdot_two_of(q, (fma(-q, b, a.hi) + a.lo) / b);
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_sqrt(qdot_two a)
+{
+    const double r = sqrt(a.hi);
+
+    if (!(r > 0))
+        return (qdot_two){r, 0};
+    return qdot_two_of(r, (fma(-r, r, a.hi) + a.lo) / (2 * r));
+}
+
+/* A sum of products on its way: sum + rest, not brought into form before its end. */
+typedef struct {
+    double sum, rest;
+} qdot_two_dot;
+
+QDOT_TWO_INLINE void
+qdot_two_dot_add(qdot_two_dot *d, qdot_two a, qdot_two b)
+{
+    const double p = a.hi * b.hi;
+    double e;
+
+    d->rest += fma(a.hi, b.lo, fma(a.lo, b.hi, fma(a.hi, b.hi, -p)));
+    d->sum = qdot_two_rounded_sum(d->sum, p, &e);
+    d->rest += e;
+}
+
+QDOT_TWO_INLINE qdot_two
+qdot_two_dot_value(qdot_two_dot d)
+{
+    return qdot_two_of(d.sum, d.rest);
+}
+
+/* Functions; for the processor at hand. Where they are undefined NaN, as libm has it. Each
+ * may be called by several threads at once. */
+typedef struct {
+    void (*sincos)(qdot_two x, qdot_two *sine, qdot_two *cosine);
+    void (*sinhcosh)(qdot_two x, qdot_two *sine, qdot_two *cosine);
+    qdot_two (*exp)(qdot_two x);
+    qdot_two (*log)(qdot_two x);
+    qdot_two (*pow)(qdot_two x, qdot_two y);
+    qdot_two (*tanh)(qdot_two x);
+    qdot_two (*asin)(qdot_two x);
+    qdot_two (*acos)(qdot_two x);
+    qdot_two (*atan)(qdot_two x);
+    qdot_two (*atan2)(qdot_two y, qdot_two x);
+    qdot_two (*asinh)(qdot_two x);
+    qdot_two (*acosh)(qdot_two x);
+    qdot_two (*atanh)(qdot_two x);
+} qdot_two_functions;
+
+/* Those that fit this processor; the first call fills their tables. */
+const qdot_two_functions *qdot_two_functions_get(void);
+/* Kind i, portable first, of those this processor can run; NULL beyond the last. */
+const qdot_two_functions *qdot_two_functions_at(size_t i);
+
+#endif
