@@ -101,6 +101,7 @@ ode_sources = \
 	lib/ode/companion.c \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
+	lib/ode/leading.c \
 	lib/ode/method.c \
 	lib/ode/precise.c \
 	lib/ode/stepper.c \
@@ -115,6 +116,7 @@ ode_headers = \
 	lib/ode/dop853.def \
 	lib/ode/dop853.h \
 	lib/ode/integrate.h \
+	lib/ode/leading.h \
 	lib/ode/method.h \
 	lib/ode/precise.h \
 	lib/ode/stepper.h \
@@ -351,6 +353,7 @@ sim_sources = \
 	lib/sim/ensemble.c \
 	lib/sim/failure.c \
 	lib/sim/horizon.c \
+	lib/sim/leading.c \
 	lib/sim/members.c \
 	lib/sim/momenta.c \
 	lib/sim/multipliers.c \
@@ -411,6 +414,7 @@ sim_headers = \
 	lib/sim/failure.h \
 	lib/sim/horizon.h \
 	lib/sim/integrated.h \
+	lib/sim/leading.h \
 	lib/sim/members.def \
 	lib/sim/members.h \
 	lib/sim/momenta.h \
@@ -587,6 +591,7 @@ unit_tests = \
 	tests/ode/test_companion \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
+	tests/ode/test_leading \
 	tests/ode/test_method \
 	tests/ode/test_precise \
 	tests/ode/test_taylor \
@@ -666,6 +671,7 @@ script_tests = \
 	tests/script/json-run.sh \
 	tests/script/json.lag \
 	tests/script/jumps.sh \
+	tests/script/leading.sh \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-four-bar.lag \
@@ -1295,6 +1301,7 @@ test_files = \
 	tests/script/json-run.out \
 	tests/script/json.out \
 	tests/script/jumps.out \
+	tests/script/leading.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-four-bar.out \

@@ -8,7 +8,7 @@
 
 #include "num/kinds.h"
 
-enum { QUARTER = 64, POWERS = 64 }; /* steps of an angle to pi/2; of a power to 2 */
+enum { QUARTER = 512, POWERS = 64 }; /* steps of an angle to pi/2; of a power to 2 */
 
 /* Beyond it a multiple of the step is no longer taken off by three doubles. */
 static const double most_angle = 0x1p40;
@@ -43,16 +43,22 @@ split_in_three(mpfr_ptr x, double *part)
 static void
 fill_tables(void)
 {
-    mpfr_t step, x;
+    mpfr_t step, x, s, c, s1, c1;
 
-    mpfr_inits2(256, step, x, (mpfr_ptr)0);
+    mpfr_inits2(256, step, x, s, c, s1, c1, (mpfr_ptr)0);
     mpfr_const_pi(step, MPFR_RNDN);
     mpfr_div_ui(step, step, 2 * QUARTER, MPFR_RNDN);
-    for (unsigned i = 0; i <= QUARTER; i++) {
-        mpfr_mul_ui(x, step, i, MPFR_RNDN);
-        mpfr_sin(x, x, MPFR_RNDN);
+    mpfr_sin_cos(s1, c1, step, MPFR_RNDN);
+    mpfr_set_zero(s, 1);
+    mpfr_set_ui(c, 1, MPFR_RNDN);
+    for (unsigned i = 0; i < QUARTER; i++) { /* the next angle */
+        mpfr_set(x, s, MPFR_RNDN);
         sines[i] = split(x);
+        mpfr_fmma(x, s, c1, c, s1, MPFR_RNDN);
+        mpfr_fmms(c, c, c1, s, s1, MPFR_RNDN);
+        mpfr_swap(s, x);
     }
+    sines[QUARTER] = (qdot_two){1, 0};
     split_in_three(step, angle_step);
     for (unsigned i = 0; i < POWERS; i++) {
         mpfr_set_d(x, (double)i / POWERS, MPFR_RNDN);
@@ -62,7 +68,7 @@ fill_tables(void)
     mpfr_const_log2(step, MPFR_RNDN);
     mpfr_div_ui(step, step, POWERS, MPFR_RNDN);
     split_in_three(step, power_step);
-    mpfr_clears(step, x, (mpfr_ptr)0);
+    mpfr_clears(step, x, s, c, s1, c1, (mpfr_ptr)0);
     mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);
 }
 
@@ -119,4 +125,24 @@ qdot_two_functions_get(void)
     const qdot_two_functions *best = qdot_two_functions_at(1);
 
     return best ? best : qdot_two_functions_at(0);
+}
+
+const qdot_two_kernels *
+qdot_two_kernels_at(size_t i)
+{
+    if (i == 0)
+        return &portable_kernels;
+#ifdef QDOT_X86_KINDS
+    if (i == 1 && qdot_kind_is_here(1))
+        return &fma_kernels;
+#endif
+    return NULL;
+}
+
+const qdot_two_kernels *
+qdot_two_kernels_get(void)
+{
+    const qdot_two_kernels *best = qdot_two_kernels_at(1);
+
+    return best ? best : qdot_two_kernels_at(0);
 }

@@ -3,7 +3,7 @@
  *     x = hi + lo,   |lo| <= ulp(hi)/2
  *
  * Sums err by 2^-104 (|a| + |b|), products and quotients by 2^-102 of themselves; nothing is
- * said where hi overflows or lo would be below 2^-1022. Functions err by less than 2^-84 of
+ * said where hi overflows or lo would be below 2^-1022. Functions err by less than 2^-68 of
  * themselves, where the argument's own 2^-104 do not make more of it.
  *
  * Source  Dekker, Numer. Math. 18 (1971) 224; Hida, Li & Bailey, Proc. 15th IEEE Symp.
@@ -144,7 +144,23 @@ qdot_two_dot_value(qdot_two_dot d)
     return qdot_two_of(d.sum, d.rest);
 }
 
-/* Functions; for the processor at hand. Where they are undefined NaN, as libm has it. Each
+/* Sums of products; for the processor at hand. */
+typedef struct {
+    qdot_two (*mul)(qdot_two a, qdot_two b);
+    /* sum_{j<n} a[j] b[j], sum_{j<n} a[j] b[-j] */
+    qdot_two (*dot)(size_t n, const qdot_two *a, const qdot_two *b);
+    qdot_two (*convolve)(size_t n, const qdot_two *a, const qdot_two *b);
+    /* two[k] = s^k for k <= m, power[k] likewise for k <= p, p >= m >= 1 */
+    void (*powers)(qdot_two s, int m, int p, qdot_two *two, double *power);
+    /* sum_{k=0..m} first[k] two[k] + sum_{k=m+1..p} x[k] power[k] */
+    qdot_two (*series)(int m, int p, const qdot_two *first, const qdot_two *two,
+                       const double *x, const double *power);
+} qdot_two_kernels;
+
+const qdot_two_kernels *qdot_two_kernels_get(void);
+const qdot_two_kernels *qdot_two_kernels_at(size_t i);
+
+/* Functions; likewise. Where they are undefined NaN, as libm has it. Each
  * may be called by several threads at once. */
 typedef struct {
     void (*sincos)(qdot_two x, qdot_two *sine, qdot_two *cosine);

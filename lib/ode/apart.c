@@ -27,7 +27,8 @@ scatter(const qdot_ode_part *part, const double *own, double *y)
         y[part->index[i]] = own[i];
 }
 
-/* What one of them is integrated with; carry [n] is room for its own. */
+/* What one of them is integrated with; carry [n] is room for its own, in the end for what its
+ * end state is beyond y. */
 static qdot_ode_options
 options_of(const qdot_ode_part *part, const qdot_ode_options *whole, double *carry)
 {
@@ -38,6 +39,8 @@ options_of(const qdot_ode_part *part, const qdot_ode_options *whole, double *car
         gather(part, whole->carry, carry);
         own.carry = carry;
     }
+    own.beyond = NULL;
+    own.end_low = whole->end_low ? carry : NULL;
     return own;
 }
 
@@ -95,6 +98,8 @@ run_part(const parts *p, size_t k, qdot_ode_result *result)
     status = qdot_ode_integrate(part->system, p->method, &own, p->t0, p->result->t,
                                 p->room, result);
     scatter(part, p->room, p->y);
+    if (p->options->end_low)
+        scatter(part, own.end_low, p->options->end_low);
     add_up(p->result, result);
     return status;
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "ode/taylor-numbers.h"
 
 static const double unit = 0x1p-53;
 
@@ -35,6 +36,7 @@ typedef struct {
     double t0;
     double *start; /* [n] the moved y0 */
     double *low;   /* [n] what it is beyond that */
+    double *now;   /* [n] the same of y, where that is known */
     double *y;     /* [n] where it is */
     double *own;   /* [PLACES x n] its states there */
     size_t reached; /* how many of them, from the first */
@@ -48,7 +50,8 @@ typedef struct {
 struct qdot_companion {
     size_t n;
     const qdot_ode_method *run, *method; /* of the run, of the companions */
-    double tol, t1, t1_low;
+    double tol, t1, t1_low, t0_low;
+    bool leading;
     size_t samples; /* 0 or PLACES */
     double times[PLACES];
     double *shown; /* [PLACES x n] the states of the run there */
@@ -57,6 +60,7 @@ struct qdot_companion {
     atomic_uint_fast64_t most_steps;
     double share; /* of the second one's distance that counts */
     double floor; /* of the error */
+    bool is_long;
     follower at[2];
     size_t count;
 };
@@ -83,10 +87,23 @@ qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *m
 
 /* Signs without a pattern that a symmetric system could share (Knuth's multiplicative
  * hash of the index, bit 31). */
+static bool
+goes_up(size_t i, size_t number)
+{
+    return (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 == number % 2;
+}
+
+double
+qdot_companion_aside(double tol, double y, size_t i, size_t number, double by)
+{
+    by *= QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * fmax(1, fabs(y));
+    return goes_up(i, number) ? by : -by;
+}
+
 double
 qdot_companion_moved(double y, size_t i, size_t number, double by)
 {
-    bool up = (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 == number % 2;
+    const bool up = goes_up(i, number);
 
     if (y == 0)
         return up ? unit : -unit;
@@ -135,7 +152,9 @@ run_by(follower *f, const qdot_ode_method *method, double t1)
     qdot_ode_options options = {.tol = c->tol,
                                 .accepted = look,
                                 .user = f,
-                                .order_more = QDOT_COMPANION_ORDERS - 2 * (int)f->number};
+                                .order_more = QDOT_COMPANION_ORDERS - 2 * (int)f->number,
+                                .leading = c->leading,
+                                .end_low = c->leading ? f->now : NULL};
     double t = f->t0;
     qdot_ode_stats spent = f->result.stats;
 
@@ -147,7 +166,8 @@ run_by(follower *f, const qdot_ode_method *method, double t1)
         double to = last ? t1 : c->times[f->reached];
 
         options.t1_low = to == c->t1 ? c->t1_low : 0;
-        options.carry = t == f->t0 ? f->low : NULL;
+        options.carry = t == f->t0 ? f->low : c->leading ? f->now : NULL;
+        options.t0_low = t == f->t0 ? c->t0_low : 0;
         options.goes_on = t != f->t0;
         options.apart = true;
         if (qdot_ode_integrate(&f->system, method, &options, t, to, f->y, &f->result)
@@ -193,6 +213,7 @@ release(qdot_companion *c)
     for (size_t k = 0; k < c->count; k++) {
         qdot_free(c->at[k].start);
         qdot_free(c->at[k].low);
+        qdot_free(c->at[k].now);
         qdot_free(c->at[k].y);
         qdot_free(c->at[k].own);
     }
@@ -278,7 +299,7 @@ is_walk(const qdot_companion *c, const double *y)
 {
     double first, second;
 
-    if (c->count < 2 || c->floor < most_floor * unit)
+    if (c->count < 2 || !c->is_long)
         return false;
     first = apart(c, y, c->at[0].y);
     second = apart(c, y, c->at[1].y);
@@ -299,13 +320,18 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
     f->low = qdot_calloc(c->n, sizeof *f->low);
     f->y = qdot_malloc(c->n * sizeof *f->y);
     f->own = qdot_malloc(PLACES * c->n * sizeof *f->own);
-    if (!f->start || !f->low || !f->y || !f->own)
+    f->now = qdot_calloc(c->n, sizeof *f->now);
+    if (!f->start || !f->low || !f->now || !f->y || !f->own)
         return QDOT_ENOMEM;
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
-    for (size_t i = 0; i < c->n; i++)
-        f->start[i] = qdot_companion_moved(request->y0[i], i, number,
-                                           number ? QDOT_COMPANION_FAR : 1);
+    for (size_t i = 0; i < c->n; i++) {
+        const double y = request->y0[i], far = number ? QDOT_COMPANION_FAR : 1;
+
+        if (c->leading)
+            f->low[i] += qdot_companion_aside(request->tol, y, i, number, far);
+        f->start[i] = c->leading ? y : qdot_companion_moved(y, i, number, far);
+    }
     if (f->system.project) { /* only along what solutions may do */
         double by;
 
@@ -329,6 +355,8 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     c->tol = qdot_companion_tolerance(request->system, request->method, request->tol);
     c->t1 = request->t1;
     c->t1_low = request->t1_low;
+    c->t0_low = request->t0_low;
+    c->leading = request->leading;
     c->share = 1;
     c->floor = unit;
     c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);
@@ -373,7 +401,8 @@ qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
     atomic_store(&c->most_steps, QDOT_COMPANION_PATIENCE * steps + QDOT_COMPANION_STEPS);
     c->share = qdot_companion_far(steps) / QDOT_COMPANION_FAR;
-    c->floor = qdot_companion_floor(steps);
+    c->floor = c->leading ? unit : qdot_companion_floor(steps);
+    c->is_long = qdot_companion_floor(steps) >= most_floor * unit;
 }
 
 void

@@ -33,6 +33,14 @@
  * known), and of its distances min(1, sqrt(steps)/QDOT_COMPANION_FAR) counts, what a random
  * walk of one rounding a step would have moved the start by.
  *
+ *     A run whose first orders are sums of two doubles (leading.h) takes its inputs as they are
+ * written and errs by far less than a rounding a step. Its companions, of the same kind, start
+ *
+ *     QDOT_COMPANION_AIMS eps max(1, |y_i|)
+ *
+ * away, and three times that, eps being what a step of it may err by; the floor is 2^-53, by
+ * which its end is rounded.
+ *
  * A companion that does not arrive gives no number: known is false, the error a NaN.
  *
  * Numbers that enter f (parameters) are moved by the caller, in the companion's own
@@ -71,6 +79,8 @@ typedef struct {
     double t1_low;                  /* t1 beyond itself (integrate.h) */
     const double *y0;               /* [n] borrowed during _start */
     const double *carry;            /* [n] the start beyond y0; NULL: nothing; likewise */
+    bool leading;                   /* of the run (integrate.h) */
+    double t0_low;                  /* likewise */
     bool threaded; /* run them on threads of their own beside the caller; where none can
                       be had, or false, they run within _finish */
 } qdot_companion_request;
@@ -122,6 +132,11 @@ const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
                                              const qdot_ode_method *method);
 double qdot_companion_tolerance(const qdot_ode_system *system,
                                 const qdot_ode_method *method, double tol);
+
+/* By how much a companion starts away from y in component i, where it is of a run whose first
+ * orders are sums of two doubles: by so many times the least. */
+double qdot_companion_aside(double tol, double y, size_t i, size_t number, double by);
+#define QDOT_COMPANION_AIMS 0.5
 
 /* Where companion 0 or 1 starts in component i: so many doubles beyond y, a whole number;
  * of a zero 2^-53. */

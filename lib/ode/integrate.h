@@ -68,6 +68,13 @@ typedef struct {
     const double *carry;
     double t1_low;
     int order_more;
+    /* Of taylor.h only: the first orders of every step in two doubles (leading.h), which the
+     * system has; what t0 is beyond itself; where it is to be shown, while `accepted` runs,
+     * what the state is beyond y; and [n] what the end state is. */
+    bool leading;
+    double t0_low;
+    const double **beyond;
+    double *end_low;
     /* This goes on with the solution entered last (system->following). */
     bool goes_on;
     /* Of a system of parts: `accepted` is called for each, with what is its own. Else such a

@@ -8,6 +8,27 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "num/two.h"
+
+/* Where a solution is: t + t_low, y + carry [n] (carry NULL: 0). */
+typedef struct {
+    double t, t_low;
+    const double *y, *carry;
+} qdot_ode_place;
+
+/* The first orders of a series in sums of two doubles (ode/leading.h). */
+typedef struct {
+    const qdot_two *x; /* x_ik = x[i stride + k] for k below the stride */
+    size_t stride;
+    /* Order 0 of the solution through a place, by the unit of time given; then order k, those
+     * below being there, up to QDOT_ODE_LEADING_MOST. Failures are those of
+     * qdot_ode_system. */
+    void (*begin)(const qdot_ode_place *at, double unit, void *user);
+    qdot_status (*next)(int k, void *user);
+    void *user; /* borrowed */
+} qdot_ode_leading;
+
+enum { QDOT_ODE_LEADING_MOST = 12 };
 
 /* A system that gives the Taylor coefficients of its solutions. With s = (t' - t)/unit,
  *
@@ -98,6 +119,8 @@ typedef struct qdot_ode_system {
      * the whole (ode/apart.h). */
     const qdot_ode_part *parts;
     size_t n_parts;
+    /* The first orders of the series in two doubles; NULL if there are none; borrowed */
+    const qdot_ode_leading *leading;
 } qdot_ode_system;
 
 #endif

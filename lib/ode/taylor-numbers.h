@@ -5,16 +5,36 @@
 #ifndef QDOT_ODE_TAYLOR_NUMBERS_H
 #define QDOT_ODE_TAYLOR_NUMBERS_H
 
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
 /* Steps aim at less than the tolerance, which the errors of thousands of them may share:
- * at tol^(5/4), down to a tenth of what the first of two doubles can hold. */
+ * at tol^(5/4), down to a tenth of what the first of two doubles can hold unless the first
+ * orders are sums of two (leading.h). */
 static inline double
-qdot_step_aim(double tol)
+qdot_step_aim(double tol, bool leading)
 {
-    return fmax(tol * sqrt(sqrt(tol)), 1e-17);
+    const double aim = tol * sqrt(sqrt(tol));
+
+    return leading ? aim : fmax(aim, 1e-17);
+}
+
+/* No step is shorter. */
+static inline double
+qdot_step_floor(double t)
+{
+    t = fabs(t);
+    return fmax(16 * (nextafter(t, INFINITY) - t), 16 * DBL_MIN);
+}
+
+/* The spacing is the size over a number between 2^52 and 2^53: seldom worth the look. */
+static inline bool
+qdot_step_is_too_short(double t, double h)
+{
+    return !(h > 16 * DBL_EPSILON * fabs(t) && h > 16 * DBL_MIN) && h < qdot_step_floor(t);
 }
 
 /* The power of two at or below |h|, with the sign of h. */

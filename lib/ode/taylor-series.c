@@ -14,10 +14,10 @@ enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 static const double least_digits = 18;
 
 int
-qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
+qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, int more)
 {
     const double *c = series->written[0] > 0 ? series->written : series->cost;
-    double L = -log(qdot_step_aim(tol)), least = INFINITY;
+    double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
     int best = least_order;
 
     if (series->write)
@@ -32,6 +32,28 @@ qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more)
     }
     best += more;
     return best < series->most ? best : series->most;
+}
+
+double
+qdot_ode_taylor_least_term(const qdot_ode_series *series, size_t n, int p, double s,
+                           const double *scale, int *cut)
+{
+    double power = 1, before = INFINITY, least = INFINITY;
+
+    for (int k = 1; k <= p; k++) {
+        double now = 0;
+
+        power *= s;
+        for (size_t i = 0; i < n; i++)
+            now = fmax(now,
+                       fabs(series->x[i * series->stride + (size_t)k]) * power * scale[i]);
+        if (k > 4 && fmax(before, now) < least) {
+            least = fmax(before, now);
+            *cut = k;
+        }
+        before = now;
+    }
+    return least;
 }
 
 void

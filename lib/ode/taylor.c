@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "num/series.h"
+#include "ode/leading.h"
 #include "ode/taylor-numbers.h"
 
 static const double tol_default = 1e-12;
@@ -22,6 +23,9 @@ static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
 
 /* A projection moves by its own rounding, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
+
+/* The defect is one of doubles, in which a stiff force has few digits. */
+static const double least_held = 1e-14;
 
 /* log2 of the largest term, over the size of the state, whose rounding may count. */
 static const double term_least = -1;
@@ -75,21 +79,6 @@ cpu_now(void)
 
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* No step is shorter. */
-static double
-floor_of_step(double t)
-{
-    t = fabs(t);
-    return fmax(16 * (nextafter(t, INFINITY) - t), 16 * DBL_MIN);
-}
-
-/* The spacing is the size over a number between 2^52 and 2^53: seldom worth the look. */
-static bool
-is_too_short(double t, double h)
-{
-    return !(h > 16 * DBL_EPSILON * fabs(t) && h > 16 * DBL_MIN) && h < floor_of_step(t);
 }
 
 static void
@@ -209,7 +198,7 @@ begin(run *r, double t, const double *y)
     r->extended = false;
     QDOT_TRY(r->series->begin(t, y, r->unit, r->series->user));
     r->cut = r->p;
-    r->held = r->tol;
+    r->held = r->options->leading ? qdot_larger(r->tol, least_held) : r->tol;
     r->log_aim = r->log_wanted;
     if (r->series->noise) {
         r->held = qdot_smaller(1, qdot_larger(r->tol, r->series->noise(r->series->user)));
@@ -224,22 +213,9 @@ begin(run *r, double t, const double *y)
 static void
 cut_series(run *r, double h)
 {
-    const qdot_ode_series *series = r->series;
-    double s = h / fabs(r->unit), power = 1, before = INFINITY, least = INFINITY;
+    const double least = qdot_ode_taylor_least_term(r->series, r->n, r->p,
+                                                    h / fabs(r->unit), r->scale, &r->cut);
 
-    for (int k = 1; k <= r->p; k++) {
-        double now = 0;
-
-        power *= s;
-        for (size_t i = 0; i < r->n; i++)
-            now = fmax(now, fabs(series->x[i * series->stride + (size_t)k]) * power
-                                * r->scale[i]);
-        if (k > 4 && fmax(before, now) < least) {
-            least = fmax(before, now);
-            r->cut = k;
-        }
-        before = now;
-    }
     r->held = fmax(r->held, fmin(least_worth, 100 * least));
 }
 
@@ -415,6 +391,23 @@ write_code(run *r, double t)
     return r->series->write(r->p, r->series->user);
 }
 
+/* The same end, the first orders in two doubles. */
+static qdot_status
+advance_in_two(run *r, double t_end)
+{
+    qdot_ode_leading_step step = {.system = r->system,
+                                  .at = {r->t, r->t == r->t0 ? r->options->t0_low : 0, r->y,
+                                         r->carry},
+                                  .unit = r->unit,
+                                  .eps = exp2(r->log_wanted),
+                                  .scale = r->scale,
+                                  .p = r->cut};
+
+    step.h = qdot_two_rounded_sum(t_end, -r->t, &step.h_low);
+    step.h_low += (t_end == r->t1 ? r->options->t1_low : 0) - step.at.t_low;
+    return qdot_ode_leading_advance(&step, r->next, r->next_carry);
+}
+
 /* Try a step of h from t to t_end. On QDOT_OK and *good it has been taken, and the
  * series is begun at its end. Otherwise nothing has changed but the series. */
 static qdot_status
@@ -440,6 +433,8 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     if (t_end == r->t1)
         h += r->options->t1_low; /* all of it: the defect is looked at over the same length */
     advance_state(r, r->cut, h * r->per_unit);
+    if (r->options->leading)
+        QDOT_TRY(advance_in_two(r, t_end));
     QDOT_TRY(project(r, t_end, &moved));
     *good = fixed || moved <= 100 * r->held + rounding_of_projection;
     if (!*good)
@@ -454,6 +449,8 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     if (status == QDOT_OK && *good && r->options->accepted) {
         bool stop = false;
 
+        if (r->options->beyond)
+            *r->options->beyond = r->next_carry;
         status = r->options->accepted(t_end, r->next, &stop, r->options->user);
         if (stop)
             r->result->outcome = QDOT_ODE_STOPPED;
@@ -480,7 +477,7 @@ too_small(const run *r)
                          r->undefined.message);
     qdot_fail(QDOT_EFAILED,
               "stopped at t = %.17g: no step down to %.2g keeps the error below %.2g",
-              r->t, floor_of_step(r->t), r->tol);
+              r->t, qdot_step_floor(r->t), r->tol);
     return qdot_hint("the solution has a singularity there, or the tolerance is below "
                      "what double precision can hold");
 }
@@ -526,7 +523,7 @@ advance(run *r)
             h = qdot_smaller(h, most);
             end = end_of_step(r, h);
             h = r->direction * (end - r->t);
-            if (end != r->t1 && is_too_short(r->t, h))
+            if (end != r->t1 && qdot_step_is_too_short(r->t, h))
                 return too_small(r);
             status = try_step(r, end - r->t, end, unsure, &good);
             if (status == QDOT_OK && good)
@@ -543,7 +540,7 @@ advance(run *r)
             r->undefined_at = r->t + r->direction * h;
         }
         most = 0.25 * h;
-        if (tries == max_undefined || most < floor_of_step(r->t) ||
+        if (tries == max_undefined || most < qdot_step_floor(r->t) ||
             r->options->h_fixed > 0)
             return too_small(r);
     }
@@ -635,9 +632,10 @@ prepare(run *r, double t0, double t1, const double *y)
         memcpy(r->carry, r->options->carry, r->n * sizeof *y);
     for (size_t i = 0; i < r->n; i++)
         r->scale[i] = 1 / qdot_larger(1, fabs(y[i]));
-    r->log_wanted = log2(qdot_step_aim(r->tol));
+    r->log_wanted = log2(qdot_step_aim(r->tol, r->options->leading));
     r->log_term = fmax(term_least, r->log_wanted + 53);
-    r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->order_more);
+    r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->leading,
+                                 r->options->order_more);
     qdot_series_weights_set(&r->weights, r->p, r->log_term);
     return r->series->prepare ? r->series->prepare(r->p, r->series->user) : QDOT_OK;
 }
@@ -683,6 +681,8 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
     if (status == QDOT_OK) {
         status = loop(&r);
         memcpy(y, r.y, r.n * sizeof *y);
+        if (r.options->end_low)
+            memcpy(r.options->end_low, r.carry, r.n * sizeof *y);
     }
     release(&r);
     result->stats.cpu = cpu_now() - cpu_start;

@@ -54,8 +54,15 @@ QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *sys
                                                       double t0, double t1, double *y,
                                                       qdot_ode_result *result);
 
-/* The order of a run under tol; `more` orders on top. */
-int qdot_ode_taylor_order(const qdot_ode_series *series, double tol, int more);
+/* The order of a run under tol, its first orders in two doubles or not; `more` orders on
+ * top. */
+int qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading,
+                          int more);
+
+/* The least of the terms of order 5 ... p at s, two in a row, relative by scale [n], and the
+ * second of their orders. */
+double qdot_ode_taylor_least_term(const qdot_ode_series *series, size_t n, int p, double s,
+                                  const double *scale, int *cut);
 
 /* Expand about (t0, y0 [n]) for a step of about h to order p; then the state at t, from
  * that expansion. */

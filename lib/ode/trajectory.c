@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "ode/apart.h"
+#include "ode/leading.h"
 #include "ode/stepper.h"
 #include "ode/taylor.h"
 
@@ -40,6 +41,7 @@ typedef struct {
     qdot_trajectory *tr;
     const qdot_ode_options *options;
     double t1;
+    const double *low; /* [n] what the state is beyond y; NULL: nothing */
 } recorder;
 
 static qdot_status
@@ -66,6 +68,7 @@ qdot_trajectory_clear(qdot_trajectory *tr)
     clear_tracks(tr);
     qdot_free(tr->t);
     qdot_free(tr->y);
+    qdot_free(tr->low);
     qdot_free(tr->pieces.at);
     *tr = (qdot_trajectory){0};
 }
@@ -103,6 +106,19 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
     return QDOT_OK;
 }
 
+/* What the last point is beyond y; NULL: nothing. */
+static qdot_status
+store_low(qdot_trajectory *tr, const double *low)
+{
+    const size_t n = tr->n, at = (tr->count - 1) * n;
+
+    if (at + n > tr->low_capacity)
+        QDOT_TRY(qdot_grow(&tr->low, &tr->low_capacity, at + n, sizeof *tr->low));
+    for (size_t i = 0; i < n; i++)
+        tr->low[at + i] = low ? low[i] : 0;
+    return QDOT_OK;
+}
+
 /* A run that has got nowhere in many steps is not carried to the limit of steps. */
 static qdot_status
 foresee(const recorder *r, double t)
@@ -127,7 +143,17 @@ record(double t, const double *y, bool *stop, void *user)
         QDOT_TRY(foresee(r, t));
     if (r->options->accepted)
         QDOT_TRY(r->options->accepted(t, y, stop, r->options->user));
-    return qdot_trajectory_store(r->tr, t, y);
+    QDOT_TRY(qdot_trajectory_store(r->tr, t, y));
+    return r->tr->leading ? store_low(r->tr, r->low) : QDOT_OK;
+}
+
+/* The first point of a piece, and of its options what is kept with the run. */
+static qdot_status
+store_first(qdot_trajectory *tr, const qdot_ode_options *options, double t0,
+            const double *y)
+{
+    QDOT_TRY(qdot_trajectory_store(tr, t0, y));
+    return tr->leading ? store_low(tr, options->carry) : QDOT_OK;
 }
 
 qdot_status
@@ -149,15 +175,18 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     tr->method = method;
     tr->tol = own.tol != 0 ? own.tol : 1e-12;
     tr->order_more = own.order_more;
+    tr->leading = own.leading;
+    tr->t0_low = own.t0_low;
     tr->result = (qdot_ode_result){.outcome = QDOT_ODE_FAILED, .t = t0};
     own.accepted = record;
     own.apart = false;
     own.expanded = own.expanded ? pass_expanded : NULL;
+    own.beyond = &r.low;
     own.user = &r;
     if (status == QDOT_OK)
         status = qdot_vec_push(&tr->pieces, whole);
     if (status == QDOT_OK)
-        status = qdot_trajectory_store(tr, t0, y);
+        status = store_first(tr, &own, t0, y);
     if (status == QDOT_OK && qdot_ode_is_apart(system, &theirs))
         status = qdot_ode_apart_record(tr, system, &theirs, t1, y);
     else if (status == QDOT_OK)
@@ -196,6 +225,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     own.accepted = record;
     own.apart = false;
     own.expanded = own.expanded ? pass_expanded : NULL;
+    own.beyond = &r.low;
     own.user = &r;
     if (y)
         memcpy(y, y0, system->n * sizeof *y);
@@ -206,7 +236,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     if (status == QDOT_OK)
         status = qdot_vec_push(&tr->pieces, piece);
     if (status == QDOT_OK)
-        status = qdot_trajectory_store(tr, t0, y);
+        status = store_first(tr, &own, t0, y);
     clear_tracks(tr);
     if (status == QDOT_OK && piece.first == 0 && qdot_ode_is_apart(system, options))
         status = qdot_ode_apart_record(tr, system, options, t1, y);
@@ -287,15 +317,18 @@ enter(qdot_trajectory_cursor *c, size_t piece)
 
     c->piece = piece;
     if (system->following && !c->tr->entered) /* others may have followed it elsewhere */
-        QDOT_TRY(system->following->enter(c->tr->t[first], c->tr->y + first * c->tr->n,
-                                          NULL, system->following->user));
+        QDOT_TRY(system->following->enter(
+            c->tr->t[first], c->tr->y + first * c->tr->n,
+            c->tr->leading ? c->tr->low + first * c->tr->n : NULL,
+            system->following->user));
     if (system == c->system)
         return QDOT_OK;
     c->system = system;
     c->fresh = c->known = false;
     if (c->tr->method->series) {
         c->order =
-            qdot_ode_taylor_order(system->series, c->tr->tol, c->tr->order_more);
+            qdot_ode_taylor_order(system->series, c->tr->tol, c->tr->leading,
+                                  c->tr->order_more);
         return QDOT_OK;
     }
     qdot_ode_stepper_free(c->s);
@@ -407,6 +440,11 @@ read_series(qdot_trajectory_cursor *c, double t, double *y)
     if (!c->fresh)
         QDOT_TRY(qdot_ode_taylor_expand(c->system, c->order, t0, h, y0));
     c->fresh = true;
+    if (tr->leading)
+        return qdot_ode_leading_read(c->system, c->order, tr->tol,
+                                     &(qdot_ode_place){t0, c->at == 0 ? tr->t0_low : 0, y0,
+                                                       tr->low + c->at * tr->n},
+                                     h, t, y);
     qdot_ode_taylor_evaluate(c->system, c->order, t0, h, t, y0, y);
     return QDOT_OK;
 }

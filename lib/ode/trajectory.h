@@ -40,11 +40,14 @@ typedef struct qdot_trajectory {
     double *y;    /* [count x n] row-major */
     const qdot_ode_method *method;
     double tol;
-    int order_more;         /* of the run's options */
+    int order_more;         /* of the run's options, */
+    bool leading;           /* likewise, */
+    double t0_low;          /* likewise */
+    double *low;            /* [count x n] what the points are beyond y, if `leading` */
     qdot_ode_result result; /* of the run */
     bool entered;           /* its solution is entered already, elsewhere than at its first
                                point: it is a part of a longer one (ode/system.h) */
-    size_t t_capacity, y_capacity;
+    size_t t_capacity, y_capacity, low_capacity;
     qdot_vec(qdot_trajectory_piece) pieces;
     /* Of a system that was integrated in parts (ode/apart.h): that of each, by its steps; the
      * points above are those of the one with the most. Of one piece only. */

@@ -8,6 +8,7 @@
 #include "sim/direct.h"
 #include "sim/bordered.h"
 #include "sim/eliminated.h"
+#include "sim/leading.h"
 #include "sim/constrained.h"
 #include "sim/momenta.h"
 #include "sim/shifted.h"
@@ -26,6 +27,7 @@ struct qdot_bind {
     qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
     qdot_bordered *bordered;       /* likewise */
     const qdot_ode_series *series; /* its callbacks; else NULL */
+    qdot_leading *leading;         /* its first orders in two doubles, if they are wanted */
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of the tape */
     double *slopes;             /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
@@ -66,6 +68,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_shifted_free(b->shifted);
     qdot_eliminated_free(b->eliminated);
     qdot_bordered_free(b->bordered);
+    qdot_leading_free(b->leading);
     qdot_constrained_series_free(b->tied);
     qdot_tape_free(b->tape);
     if (b->reduced_blocks.plan)
@@ -280,6 +283,7 @@ qdot_bind_system(qdot_bind *b)
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
         .series = b->series,
+        .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,
@@ -417,6 +421,13 @@ make_parts(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
+/* The first orders of the series of p in two doubles. */
+static qdot_status
+make_leading(qdot_bind *b, const qdot_plan *p)
+{
+    return b->plan->leading ? qdot_leading_new(p, &b->leading) : QDOT_OK;
+}
+
 /* With momenta that are kept. */
 static qdot_status
 make_reduced(qdot_bind *b, bool shaken)
@@ -432,6 +443,10 @@ make_reduced(qdot_bind *b, bool shaken)
     QDOT_TRY(qdot_direct_new(r, shaken, &b->direct));
     qdot_direct_keep(b->direct, qdot_momenta_hi(b->momenta), qdot_momenta_lo(b->momenta));
     b->series = qdot_direct_series(b->direct);
+    QDOT_TRY(make_leading(b, r));
+    if (b->leading)
+        qdot_leading_keep(b->leading, qdot_momenta_hi(b->momenta),
+                          qdot_momenta_lo(b->momenta));
     return QDOT_OK;
 }
 
@@ -470,7 +485,7 @@ make(qdot_bind *b, bool shaken)
         QDOT_TRY(qdot_direct_new(p, shaken, &b->direct));
         b->series = qdot_direct_series(b->direct);
     }
-    return QDOT_OK;
+    return make_leading(b, p);
 }
 
 qdot_status

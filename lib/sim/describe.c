@@ -166,11 +166,15 @@ say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
         return QDOT_OK;
     QDOT_TRY(qdot_bind_new(p, false, &bind));
     system = qdot_bind_system(bind);
-    order = qdot_ode_taylor_order(system.series, tol, 0);
+    order = qdot_ode_taylor_order(system.series, tol, system.leading, 0);
     qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n", order, tol);
+
     qdot_text_add(out, "recurrences: ");
     status = say_code(bind, system.series, order, out);
     qdot_text_char(out, '\n');
+    if (system.leading)
+        qdot_text_add(out, "rounding: state, parameters and the first orders as sums of two "
+                           "doubles, where nothing divides the run\n");
     qdot_bind_free(bind);
     QDOT_TRY(status);
     if (p->eliminated)
@@ -252,10 +256,12 @@ say_parts(const qdot_plan *p, bool watched, double tol, qdot_text *out)
 
             QDOT_TRY(qdot_bind_new(p->parts[k], false, &bind));
             system = qdot_bind_system(bind);
-            order = qdot_ode_taylor_order(system.series, tol, 0);
+            order = qdot_ode_taylor_order(system.series, tol, system.leading, 0);
             qdot_text_format(out, ": order %d, %g convolutions an order; ", order,
                              r->convolutions_derived);
             status = say_code(bind, system.series, order, out);
+            if (system.leading)
+                qdot_text_add(out, "; first orders as sums of two doubles");
             qdot_bind_free(bind);
             QDOT_TRY(status);
         }

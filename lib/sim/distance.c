@@ -90,6 +90,8 @@ qdot_distance_new(qdot_run *run, const qdot_tape *tape, bool accelerations,
         d->n_others = k + 1;
         status = qdot_reader_init(d->others + k, run->plan, tape, courses[k],
                                   accelerations);
+        /* those of a run in two doubles share the rounding of a state that is read */
+        d->others[k].moved = run->leading ? (int)k + 1 : 0;
     }
     if (status == QDOT_OK)
         find_units(d);

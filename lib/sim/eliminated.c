@@ -338,7 +338,7 @@ qdot_eliminated_series(const qdot_eliminated *e)
 static double
 cost(const qdot_ode_series *series, double tol)
 {
-    const double p = qdot_ode_taylor_order(series, tol, 0), *c = series->cost;
+    const double p = qdot_ode_taylor_order(series, tol, false, 0), *c = series->cost;
 
     /* a step is as long as tol^(1/p) makes it, at 5/4 of the digits (ode/taylor.c) */
     return (c[0] + p * (c[1] + p * c[2])) * exp(-1.25 * log(tol) / p);

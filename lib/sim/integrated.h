@@ -16,7 +16,8 @@ struct qdot_run {
     double *start_low;    /* [2n] what the exact start is beyond it */
     size_t factored;      /* matrices, by the integration */
     double t0, t1;        /* as asked for */
-    double t1_low;        /* what the exact limit is beyond it */
+    double t0_low, t1_low; /* what the exact limits are beyond them */
+    bool leading;         /* first orders are sums of two doubles (ode/leading.h) */
     int t0_side, t1_side; /* where the exact limits lie beside them */
     char *reason;
     qdot_text notice;     /* of the start */

@@ -300,6 +300,6 @@ qdot_members_order(const qdot_members_model *model, double tol, int *order)
         c[1] += 5 * n + n * n;
         c[2] += 0.1 * n * n;
     }
-    *order = qdot_ode_taylor_order(&series, tol, 0);
+    *order = qdot_ode_taylor_order(&series, tol, false, 0);
     return QDOT_OK;
 }

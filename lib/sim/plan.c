@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "ode/leading.h"
 #include "sim/bordered.h"
 #include "sim/constraints.h"
 #include "sim/direct.h"
@@ -440,6 +441,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(qdot_plan_structure(p, NULL));
     QDOT_TRY(qdot_plan_lower(p, 2 * p->n + 1, 0, NULL));
     QDOT_TRY(check_series(p, qdot_taylor_hindrance(p->tape)));
+    p->leading = p->smooth && p->method->series && request->tol <= QDOT_ODE_LEADING_TOL;
     if (p->smooth)
         QDOT_TRY(choose_form(p, scene));
     if (request->digits > 0 || qdot_plan_needs_jacobian(p))
@@ -468,6 +470,7 @@ qdot_plan_of_part(const qdot_plan *of, size_t n, size_t more, qdot_plan **plan)
     r->chosen = of->chosen;
     r->indefinite = of->indefinite;
     r->smooth = of->smooth;
+    r->leading = of->leading;
     r->inputs = qdot_calloc(3 * n + 1 + more, sizeof *r->inputs);
     r->names = qdot_calloc(n, sizeof *r->names);
     r->M = qdot_calloc(n * n, sizeof *r->M);

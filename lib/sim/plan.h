@@ -64,6 +64,7 @@ struct qdot_plan {
      * and the lower triangle of M by rows. */
     qdot_tape *tape;
 
+    bool leading; /* first orders in two doubles are wanted (sim/leading.h) */
     bool smooth; /* the equations have Taylor series: for the method or its companion */
     /* Of those: the equations as d'Alembert's residual where that is
      * cheaper, else NULL; convolutions an order of either form, 0 where it was not

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "ode/companion.h"
+
 void
 qdot_reader_clear(qdot_reader *r)
 {
@@ -49,6 +51,8 @@ qdot_reader_at(qdot_reader *r, size_t piece, double t, double *out)
     QDOT_TRY(piece == SIZE_MAX
                  ? qdot_trajectory_read(r->cursor, t, r->in)
                  : qdot_trajectory_read_piece(r->cursor, piece, t, r->in));
+    for (size_t i = 0; i < 2 * r->plan->n && r->moved > 0; i++)
+        r->in[i] = qdot_companion_moved(r->in[i], i, (size_t)r->moved - 1, 1);
     return qdot_reader_evaluate(r, t, out);
 }
 

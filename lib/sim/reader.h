@@ -10,6 +10,7 @@ typedef struct {
     qdot_trajectory_cursor *cursor;
     const qdot_course *course;
     bool accelerations; /* the tape reads q'' or lambda */
+    int moved;          /* 0; else states are read moved to that side, by a double: 1, 2 */
     double *in;         /* [3n + 1 + m] */
     double *work;
 } qdot_reader;

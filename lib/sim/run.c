@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "ode/companion.h"
+#include "ode/leading.h"
 #include "sim/multipliers.h"
 #include "sim/passed.h"
 #include "sim/digits.h"
@@ -110,14 +111,13 @@ static qdot_status
 read_start(qdot_run *run, const qdot_run_request *request)
 {
     size_t n = run->plan->n;
-    double low;
     int side;
 
     run->start_low = qdot_calloc(2 * n, sizeof *run->start_low);
     run->start = qdot_calloc(2 * n, sizeof *run->start);
     if (!run->start || !run->start_low)
         return QDOT_ENOMEM;
-    QDOT_TRY(constant(run, request->t0, &run->t0, &run->t0_side, &low));
+    QDOT_TRY(constant(run, request->t0, &run->t0, &run->t0_side, &run->t0_low));
     QDOT_TRY(constant(run, request->t1, &run->t1, &run->t1_side, &run->t1_low));
     if (run->t0 == run->t1 && request->t0 != request->t1)
         QDOT_TRY(check_length(run, request));
@@ -306,8 +306,11 @@ say_failure(qdot_run *run, qdot_status status)
 static qdot_status
 integrate(qdot_run *run, double tol, bool *interrupted)
 {
-    qdot_ode_options options = {
-        .tol = tol, .carry = run->start_low, .t1_low = run->t1_low};
+    qdot_ode_options options = {.tol = tol,
+                                .carry = run->start_low,
+                                .t0_low = run->t0_low,
+                                .t1_low = run->t1_low,
+                                .leading = run->leading};
     qdot_status status = qdot_course_run(&run->course, run->plan->method, &options,
                                          run->t0, run->t1, run->start);
 
@@ -442,11 +445,15 @@ start_companion(qdot_run *run, double tol, beside *b)
     qdot_companion_request request = {.system = &system,
                                       .method = run->plan->method,
                                       .tol = tol,
-                                      .t0 = qdot_shake_double(run->t0, run->t0_side),
+                                      .t0 = run->leading ? run->t0
+                                                         : qdot_shake_double(
+                                                             run->t0, run->t0_side),
+                                      .t0_low = run->t0_low,
                                       .t1 = run->t1,
                                       .t1_low = run->t1_low,
                                       .y0 = run->start,
                                       .carry = run->start_low,
+                                      .leading = run->leading,
                                       .threaded = true};
 
     QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
@@ -545,6 +552,11 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     qdot_status status;
 
     *interrupted = false;
+    if (is_whole(run) && run->stage.events.n == 0) { /* these are found by doubles */
+        const qdot_ode_system system = qdot_bind_system(run->course.binds.at[0]);
+
+        run->leading = qdot_ode_has_leading(&system, run->plan->method, tol);
+    }
     status = is_whole(run) ? run_beside(run, tol, interrupted)
                            : run_after(run, tol, interrupted);
     run->report.tol = tol;

@@ -67,16 +67,22 @@ count(const qdot_course *c, size_t event)
 
 /* --- the companion ------------------------------------------------------------------- */
 
-/* The start of the companion into y [2n]: moved, but for what has to stay where it is. */
+/* The start of the companion into y [2n] and, of a run in two doubles, low: moved, but for
+ * what has to stay where it is. */
 static qdot_status
 begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, double t0,
-             double *y)
+             double *y, double *low)
 {
     const size_t n = 2 * run->plan->n;
-    const double far = qdot_companion_far(run->course.tr.result.stats.steps);
+    const double by =
+        number ? qdot_companion_far(run->course.tr.result.stats.steps) : 1;
 
-    for (size_t i = 0; i < n; i++)
-        y[i] = qdot_companion_moved(run->start[i], i, number, number ? far : 1);
+    for (size_t i = 0; i < n; i++) {
+        low[i] = run->start_low[i]
+                 + qdot_companion_aside(run->report.tol, run->start[i], i, number, by);
+        y[i] = run->leading ? run->start[i]
+                            : qdot_companion_moved(run->start[i], i, number, by);
+    }
     if (system->project) { /* along what solutions may do */
         double by;
 
@@ -115,7 +121,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
 {
     const qdot_ode_method *method = run->plan->method;
     qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS - 2 * (int)number};
-    double t0 = qdot_shake_double(run->t0, run->t0_side);
+    double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
     size_t n = 2 * run->plan->n;
     qdot_ode_system system;
     double *y;
@@ -130,10 +136,16 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
     options.max_steps = QDOT_COMPANION_PATIENCE * run->course.tr.result.stats.steps
                         + QDOT_COMPANION_STEPS;
-    y = qdot_malloc(n * sizeof *y);
+    y = qdot_malloc(2 * n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;
-    status = begin_beside(run, &system, number, t0, y);
+    status = begin_beside(run, &system, number, t0, y, y + n);
+    if (run->leading) {
+        options.leading = true;
+        options.carry = y + n;
+        options.t0_low = run->t0_low;
+        options.t1_low = goal(run) == run->t1 ? run->t1_low : 0;
+    }
     if (status != QDOT_OK) {
         qdot_free(y);
         return status == QDOT_ENOMEM ? status : QDOT_OK;

@@ -325,6 +325,6 @@ qdot_shifted_lanes_order(const qdot_plan *plan, double tol, int *order)
     c[1] = 4 * length + 3 * convolutions + 15 * n + n * n +
            8.0 * (double)(r->functions + r->n_weights);
     c[2] = 0.1 * convolutions;
-    *order = qdot_ode_taylor_order(&series, tol, 0);
+    *order = qdot_ode_taylor_order(&series, tol, false, 0);
     return QDOT_OK;
 }

@@ -85,7 +85,7 @@ of_a_double_pendulum(void **state)
         report = qdot_run_get_report(r);
         assert_int_equal(report->status, QDOT_RUN_DONE);
         assert_true(report->error > 0.5);
-        expected = true_horizon(&f, r, 30);
+        expected = true_horizon(&f, r, 40);
         is_near(report->horizon, expected, tols[k]);
         qdot_run_free(r);
         end(&f);

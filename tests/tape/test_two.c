@@ -121,7 +121,7 @@ are_near(const qdot_two *a, const mpfr_t *x, int k, size_t output)
     for (int j = 0; j <= k; j++)
         size = fmax(size, fabs(mpfr_get_d(x[j], MPFR_RNDN)));
     mpfr_clear(d);
-    if (!(error <= size * 0x1p-82))
+    if (!(error <= size * 0x1p-64))
         fail_msg("output %zu, order %d: 2^%.1f of %g", output, k, log2(error / size), size);
 }
 
