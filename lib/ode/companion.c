@@ -16,6 +16,9 @@ static const double unit = 0x1p-53;
 /* Of roundings, for the floor. */
 static const double most_floor = 32;
 
+/* What a velocity that follows from a momentum may be off by, in doubles. */
+static const double derived = 4;
+
 /* The scale of random walks by three of them. */
 static const double roughly_known = 1.5;
 
@@ -401,7 +404,9 @@ qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
     atomic_store(&c->most_steps, QDOT_COMPANION_PATIENCE * steps + QDOT_COMPANION_STEPS);
     c->share = qdot_companion_far(steps) / QDOT_COMPANION_FAR;
-    c->floor = c->leading ? unit : qdot_companion_floor(steps);
+    c->floor = !c->leading                    ? qdot_companion_floor(steps)
+               : c->at[0].system.following ? derived * unit
+                                           : unit;
     c->is_long = qdot_companion_floor(steps) >= most_floor * unit;
 }
 

@@ -39,7 +39,7 @@
  *     QDOT_COMPANION_AIMS eps max(1, |y_i|)
  *
  * away, and three times that, eps being what a step of it may err by; the floor is 2^-53, by
- * which its end is rounded.
+ * which its end is rounded, four times that where velocities follow from momenta.
  *
  * A companion that does not arrive gives no number: known is false, the error a NaN.
  *
@@ -136,7 +136,7 @@ double qdot_companion_tolerance(const qdot_ode_system *system,
 /* By how much a companion starts away from y in component i, where it is of a run whose first
  * orders are sums of two doubles: by so many times the least. */
 double qdot_companion_aside(double tol, double y, size_t i, size_t number, double by);
-#define QDOT_COMPANION_AIMS 0.5
+#define QDOT_COMPANION_AIMS 0.0625
 
 /* Where companion 0 or 1 starts in component i: so many doubles beyond y, a whole number;
  * of a zero 2^-53. */
