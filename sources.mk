@@ -716,6 +716,7 @@ script_tests = \
 	tests/script/switching.lag \
 	tests/script/text.lag \
 	tests/script/textbook.lag \
+	tests/script/three-bodies.lag \
 	tests/script/to-file.sh \
 	tests/script/values.lag \
 	tests/script/vector-functions.lag \
@@ -1347,6 +1348,7 @@ test_files = \
 	tests/script/switching.out \
 	tests/script/text.out \
 	tests/script/textbook.out \
+	tests/script/three-bodies.out \
 	tests/script/to-file.out \
 	tests/script/values.out \
 	tests/script/vector-functions.out \

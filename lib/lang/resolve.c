@@ -543,7 +543,9 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
     if (row != NULL && strcmp(name, "p") == 0 && n == 1 && primes == 0 &&
         (entry == NULL || !all_integers(s, n, index)) && beside_momenta(c, token))
         return independent_momentum(s, index[0], value);
-    if (row != NULL && row->least > 0 && (entry == NULL || !all_integers(s, n, index)))
+    if (row != NULL && row->least > 0 && !(entry || is_label_family(s->scene, name)))
+        return quantity_index(s, row, primes, n, index, value);
+    if (row != NULL && row->least > 0 && !all_integers(s, n, index))
         return quantity_index(s, row, primes, n, index, value);
     QDOT_TRY(resolve_member(c, token, primes, n, index, &found, value));
     if (found)

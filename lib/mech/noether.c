@@ -199,13 +199,14 @@ reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
     size_t height = 3 * columns + 2 * rows(f);
     gsl_matrix *A = gsl_matrix_calloc(height, columns);
     gsl_matrix *V = gsl_matrix_alloc(columns, columns);
-    gsl_vector *sigma = gsl_vector_alloc(columns);
+    gsl_vector *sigma = gsl_vector_alloc(columns), *work = gsl_vector_alloc(columns);
     qdot_status status = QDOT_ENOMEM;
 
-    if (A != NULL && V != NULL && sigma != NULL)
+    if (A != NULL && V != NULL && sigma != NULL && work != NULL)
         status = sample(f, e, columns, A->data, height);
     if (status == QDOT_OK) {
-        gsl_linalg_SV_decomp_jacobi(A, V, sigma);
+        /* not Jacobi's way: GSL's takes columns for noise that many rotations have met */
+        gsl_linalg_SV_decomp(A, V, sigma, work);
         for (size_t j = 0; j < columns; j++) {
             double along = 0;
 
@@ -218,6 +219,7 @@ reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
     gsl_matrix_free(A);
     gsl_matrix_free(V);
     gsl_vector_free(sigma);
+    gsl_vector_free(work);
     return status;
 }
 

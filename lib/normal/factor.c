@@ -310,14 +310,41 @@ qdot_factor_clear(qdot_field *f, qdot_factors *out)
 
 /* --- groups ------------------------------------------------------------------------ */
 
-static slong
-find_key(const qdot_groups *out, slong gens, const ulong *key)
+/* Where the groups are by their keys: open addressing, -1: free. */
+typedef struct {
+    slong *at;
+    size_t size; /* a power of 2, at least twice the groups */
+} index_of;
+
+static size_t
+place(const index_of *index, const qdot_groups *out, slong gens, const ulong *key)
 {
-    /* like keys often follow each other: look from the end */
-    for (slong i = out->n - 1; i >= 0; i--)
-        if (memcmp(out->key + i * gens, key, (size_t)gens * sizeof *key) == 0)
-            return i;
-    return -1;
+    uint64_t hash = 0xcbf29ce484222325u;
+
+    for (slong v = 0; v < gens; v++)
+        hash = (hash ^ key[v]) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
+    for (size_t k = hash & (index->size - 1);; k = (k + 1) & (index->size - 1))
+        if (index->at[k] < 0 || memcmp(out->key + index->at[k] * gens, key,
+                                       (size_t)gens * sizeof *key) == 0)
+            return k;
+}
+
+/* Room for one more. */
+static qdot_status
+grow_index(index_of *index, const qdot_groups *out, slong gens)
+{
+    if (index->size >= 2 * ((size_t)out->n + 1))
+        return QDOT_OK;
+    qdot_free(index->at);
+    index->size = index->size ? 2 * index->size : 16;
+    index->at = qdot_malloc(index->size * sizeof *index->at);
+    if (index->at == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < index->size; k++)
+        index->at[k] = -1;
+    for (slong i = 0; i < out->n; i++)
+        index->at[place(index, out, gens, out->key + i * gens)] = i;
+    return QDOT_OK;
 }
 
 qdot_status
@@ -326,6 +353,7 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
     slong gens = f->n, length = fmpz_mpoly_length(p, f->ctx);
     ulong *rest = qdot_malloc(((size_t)gens + 1) * 2 * sizeof *rest), *key = rest + gens;
     size_t keys = 0, polys = 0;
+    index_of index = {0};
     qdot_status status = rest == NULL ? QDOT_ENOMEM : QDOT_OK;
     fmpz_t c;
 
@@ -333,6 +361,7 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
     fmpz_init(c);
     for (slong i = 0; i < length && status == QDOT_OK; i++) {
         slong at;
+        size_t slot;
 
         fmpz_mpoly_get_term_exp_ui(rest, p, i, f->ctx);
         fmpz_mpoly_get_term_coeff_fmpz(c, p, i, f->ctx);
@@ -340,7 +369,11 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
             key[v] = by[v] ? rest[v] : 0;
             rest[v] = by[v] ? 0 : rest[v];
         }
-        at = find_key(out, gens, key);
+        status = grow_index(&index, out, gens);
+        if (status != QDOT_OK)
+            break;
+        slot = place(&index, out, gens, key);
+        at = index.at[slot];
         if (at < 0) {
             status =
                 qdot_grow(&out->key, &keys, (size_t)((out->n + 1) * gens), sizeof *key);
@@ -349,7 +382,7 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
                     qdot_grow(&out->poly, &polys, (size_t)out->n + 1, sizeof *out->poly);
             if (status != QDOT_OK)
                 break;
-            at = out->n++;
+            at = index.at[slot] = out->n++;
             memcpy(out->key + at * gens, key, (size_t)gens * sizeof *key);
             fmpz_mpoly_init(out->poly + at, f->ctx);
         }
@@ -357,6 +390,7 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
         fmpz_mpoly_push_term_fmpz_ui(out->poly + at, c, rest, f->ctx);
     }
     fmpz_clear(c);
+    qdot_free(index.at);
     qdot_free(rest);
     return status;
 }

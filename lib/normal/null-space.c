@@ -9,6 +9,7 @@
 #include "normal/factor.h"
 #include "normal/flint.h"
 #include "normal/prepare.h"
+#include "normal/root-parts.h"
 
 enum { WORK = 40000000 };
 
@@ -254,32 +255,52 @@ end(elimination *e)
     qdot_free(e->moving);
 }
 
+/* E prepared, each row taken apart by its roots, and divided by them. */
+static qdot_status
+take_apart(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
+           qdot_root_parts *parts)
+{
+    qdot_expr *row = qdot_malloc((n + 1) * sizeof *row);
+    size_t done = 0;
+    qdot_status status = row != NULL ? QDOT_OK : QDOT_ENOMEM;
+
+    parts->n = n;
+    for (size_t i = 0; i < rows && status == QDOT_OK; i++) {
+        for (size_t j = 0; j < n; j++)
+            row[j] = qdot_prepare(pool, E[i * n + j]);
+        status = qdot_pool_check(pool);
+        if (status == QDOT_OK)
+            status = qdot_root_parts_add(pool, parts, row);
+        for (; status == QDOT_OK && done < parts->entries.n; done++)
+            if (parts->roots.at[done / n] != QDOT_ONE)
+                parts->entries.at[done] = qdot_div(pool, parts->entries.at[done],
+                                                   parts->roots.at[done / n]);
+    }
+    qdot_free(row);
+    return status;
+}
+
 static qdot_status
 null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E, qdot_expr **basis,
            size_t *m)
 {
-    qdot_expr *all = qdot_malloc(rows * n * sizeof *all);
+    qdot_root_parts parts = {0};
     elimination e = {.pool = pool, .n = n};
-    qdot_status status = QDOT_OK;
+    qdot_status status = take_apart(pool, rows, n, E, &parts);
     qdot_field f;
 
     *basis = NULL;
     *m = 0;
-    if (all == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < rows * n; i++)
-        all[i] = qdot_prepare(pool, E[i]);
-    status = qdot_pool_check(pool);
     if (status != QDOT_OK) {
-        qdot_free(all);
+        qdot_root_parts_clear(&parts);
         return status;
     }
-    qdot_field_begin(&f, pool, rows * n, all, WORK);
+    qdot_field_begin(&f, pool, parts.entries.n, parts.entries.at, WORK);
     e.f = &f;
     if (qdot_field_goes(&f))
         status = begin(&e);
-    for (size_t i = 0; i < rows && status == QDOT_OK && qdot_field_goes(&f); i++)
-        status = take_row(&e, all + i * n);
+    for (size_t i = 0; i < parts.entries.n && status == QDOT_OK && qdot_field_goes(&f); i += n)
+        status = take_row(&e, parts.entries.at + i);
     if (status == QDOT_OK && qdot_field_goes(&f))
         status = vectors(&e, basis, m);
     if (status == QDOT_OK && f.state == QDOT_FIELD_FAILED)
@@ -288,7 +309,7 @@ null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E, qdot_expr
         status = qdot_fail(QDOT_ELIMIT, "the linear relations are too large to be found");
     end(&e);
     qdot_field_end(&f);
-    qdot_free(all);
+    qdot_root_parts_clear(&parts);
     return status;
 }
 

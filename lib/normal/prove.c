@@ -6,6 +6,7 @@
 #include "normal/angle-basis.h"
 #include "normal/domain.h"
 #include "normal/prepare.h"
+#include "normal/root-parts.h"
 #include "normal/rewrite.h"
 #include "normal/together.h"
 #include "normal/unify.h"
@@ -83,6 +84,37 @@ in_field(struct problem *p, bool signs, bool *zero)
         status = f.status;
     qdot_field_end(&f);
     return only_grave(status);
+}
+
+/* The same of what stands with each product of roots, where these are many: over one
+ * denominator with all of them it may be past the budget. */
+static qdot_status
+by_roots(struct problem *p, bool *zero)
+{
+    const qdot_expr left = p->e[0], right = p->e[1];
+    qdot_root_parts parts = {.n = 1};
+    qdot_expr d = QDOT_NIL;
+    qdot_status status = QDOT_OK;
+
+    *zero = false;
+    if (qdot_expr_is_scalar(p->pool, left) && qdot_expr_is_scalar(p->pool, right))
+        d = qdot_sub(p->pool, left, right);
+    if (d != QDOT_NIL && qdot_root_parts_many(p->pool, d)) {
+        status = only_grave(qdot_root_parts_add(p->pool, &parts, &d));
+        *zero = status == QDOT_OK;
+        p->e[1] = QDOT_ZERO;
+        for (size_t k = 0; k < parts.entries.n && status == QDOT_OK && *zero; k++) {
+            p->e[0] = qdot_div(p->pool, parts.entries.at[k], parts.roots.at[k]);
+            status = only_grave(qdot_pool_check(p->pool));
+            *zero = p->e[0] != QDOT_NIL;
+            if (status == QDOT_OK && *zero)
+                status = in_field(p, false, zero);
+        }
+        p->e[0] = left;
+        p->e[1] = right;
+    }
+    qdot_root_parts_clear(&parts);
+    return status;
 }
 
 /* Bases of roots that are positive as they stand; once multiplied out that is hard to see. */
@@ -171,6 +203,8 @@ qdot_prove_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
     if (status == QDOT_OK)
         status = prepare(&p);
     if (status == QDOT_OK)
+        status = by_roots(&p, equal);
+    if (status == QDOT_OK && !*equal)
         status = in_field(&p, true, equal);
     return finish(&p, status);
 }

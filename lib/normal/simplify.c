@@ -10,8 +10,10 @@
 #include "normal/ideal.h"
 #include "normal/prepare.h"
 #include "normal/products.h"
+#include "normal/root-parts.h"
 
 enum { WORK = QDOT_SIMPLIFY_WORK, MOST_TERMS = 2000, MOST_TURNS = 4 };
+
 
 /* --- candidates -------------------------------------------------------------------- */
 
@@ -387,17 +389,46 @@ inner(qdot_pool *pool, qdot_expr e, struct request *request)
     return result;
 }
 
+/* What stands with each product of roots by itself, if these are many: over one denominator with
+ * all of them it would be larger by orders. *whole: it is not yet simplified. */
+static qdot_expr
+by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *whole)
+{
+    qdot_root_parts parts = {.n = 1};
+    qdot_expr sum = QDOT_ZERO;
+
+    *whole = true;
+    if (!qdot_root_parts_many(pool, e))
+        return e;
+    if (qdot_root_parts_add(pool, &parts, &e) == QDOT_OK) {
+        *whole = parts.entries.n < QDOT_ROOTS_MANY;
+        for (size_t k = 0; k < parts.entries.n; k++)
+            sum = qdot_add(pool, sum,
+                           *whole ? parts.entries.at[k]
+                                  : inner(pool, outer(pool, parts.entries.at[k], request),
+                                          request));
+        /* of what falls away when it is expanded the rest; else it is as well as before */
+        if (sum != QDOT_NIL && (!*whole || qdot_root_parts_many(pool, sum)))
+            qdot_form_keep(pool, &sum, e);
+    }
+    qdot_root_parts_clear(&parts);
+    forgive(pool);
+    return qdot_pool_failed(pool) ? QDOT_NIL : sum;
+}
+
 static qdot_expr
 simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
 {
     const qdot_facts *facts = ((const struct request *)user)->facts;
-    qdot_expr best = QDOT_NIL;
+    const bool free = facts == NULL || facts->n_relations == 0;
+    qdot_expr best = free ? qdot_simplify_seen(pool, e) : QDOT_NIL;
+    bool whole = true;
 
-    if (facts == NULL || facts->n_relations == 0)
-        best = qdot_simplify_seen(pool, e);
     if (best != QDOT_NIL)
         return best;
-    best = outer(pool, e, user);
+    best = free ? by_roots(pool, e, user, &whole) : e;
+    if (whole)
+        best = outer(pool, best, user);
     if (best != QDOT_NIL && qdot_expr_is_scalar(pool, best))
         qdot_form_keep(pool, &best, inner(pool, best, user));
     return best;
