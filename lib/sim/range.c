@@ -187,7 +187,7 @@ look_towards(scan *s, const part *p, int side)
         || !values_beside(s, p, (distance + NEAREST) / 2, side, middle))
         return;
     last = near[0] - near[1];
-    if (!(fabs(last) > 4 * DBL_EPSILON * fabs(near[0])) || !(last * (far[0] - far[1]) > 0)
+    if (!(fabs(last) > fmax(4 * DBL_EPSILON * fabs(near[0]), noises * s->noise)) || !(last * (far[0] - far[1]) > 0)
         || !(last * (middle[0] - middle[1]) > 0))
         return;
     limit = near[0] + left_of(last, middle[0] - middle[1], far[0] - far[1],
@@ -302,7 +302,7 @@ scan_step(scan *s, double a, double b)
         if (good)
             s->nodes = nodes;
         if (good || short_one || depth == DEEPEST || ++s->parts > MOST_PARTS) {
-                    QDOT_TRY(take_part(s, &p, good));
+            QDOT_TRY(take_part(s, &p, good));
             if (short_one)
                 look_for_pole(s, &p);
             if (fabs(p.b - p.a) <= deep * s->length && (short_one || 8 * blur(&p) > blurred)) {
