@@ -169,6 +169,7 @@ normal_sources = \
 	lib/normal/rationalize.c \
 	lib/normal/real-zeros.c \
 	lib/normal/rewrite.c \
+	lib/normal/root-parts.c \
 	lib/normal/sample-edge.c \
 	lib/normal/sample.c \
 	lib/normal/simple.c \
@@ -217,6 +218,7 @@ normal_headers = \
 	lib/normal/rationalize.h \
 	lib/normal/real-zeros.h \
 	lib/normal/rewrite.h \
+	lib/normal/root-parts.h \
 	lib/normal/sample.h \
 	lib/normal/simplify.h \
 	lib/normal/solve.h \
