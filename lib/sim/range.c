@@ -177,7 +177,7 @@ static void
 look_towards(scan *s, const part *p, int side)
 {
     double near[2], far[2], middle[2], last, limit;
-    int distance = FARTHEST;
+    int distance = FARTHEST, steps;
 
     if (!values_beside(s, p, NEAREST, side, near))
         return;
@@ -187,11 +187,15 @@ look_towards(scan *s, const part *p, int side)
         || !values_beside(s, p, (distance + NEAREST) / 2, side, middle))
         return;
     last = near[0] - near[1];
-    if (!(fabs(last) > fmax(4 * DBL_EPSILON * fabs(near[0]), noises * s->noise)) || !(last * (far[0] - far[1]) > 0)
-        || !(last * (middle[0] - middle[1]) > 0))
+    steps = distance - NEAREST;
+    if (!(fabs(last) > fmax(4 * DBL_EPSILON * fabs(near[0]), noises * s->noise))
+        || !(last * (far[0] - far[1]) > 0) || !(last * (middle[0] - middle[1]) > 0))
+        return;
+    /* rounding's increments are as they come, and add up to none of them */
+    if (!((near[0] - far[0]) / last > 0.5 * steps * fmin(1, (far[0] - far[1]) / last)))
         return;
     limit = near[0] + left_of(last, middle[0] - middle[1], far[0] - far[1],
-                              distance - NEAREST, log2(s->length / fabs(p->b - p->a)));
+                              steps, log2(s->length / fabs(p->b - p->a)));
     s->highest = fmax(s->highest, limit);
     s->lowest = fmin(s->lowest, limit);
     if (isinf(limit)) {
