@@ -35,6 +35,7 @@ num_sources = \
 	lib/num/two.c
 
 num_headers = \
+	lib/num/articulated-plane.def \
 	lib/num/articulated.def \
 	lib/num/articulated.h \
 	lib/num/batch-kinds.def \

@@ -28,8 +28,18 @@ typedef struct {
                  double *const *F);
 } kernels;
 
+/* Of paths in a plane: what is lost, NaN or not positive where a pivot is not. */
+typedef struct {
+    double (*eliminate)(qdot_articulated *a, const double *const *S);
+    void (*path)(qdot_articulated *a, const double *const *S, const double *const *d,
+                 double factor, const double *const *r, double *const *q,
+                 double *const *F);
+} plane_kernels;
+
 struct qdot_articulated {
     size_t nodes, m, c, slots;
+    size_t longer;              /* pieces that have a node in the last slots */
+    const plane_kernels *plane; /* NULL: it is no path of links in a plane */
     const kernels *kernels; /* NULL: there are none */
     bool path;
     size_t *slot;     /* [nodes] */
@@ -43,6 +53,10 @@ struct qdot_articulated {
     double *B, *H;                   /* [m x c], [c x c] */
     double *d, *Z, *x, *w;           /* of a solution: [m], [c] */
     double *up, *down;               /* [3 x m x m] of 8: what 1, 2, 4 pieces make */
+    /* In a plane, too (articulated-plane.def): */
+    double *W, *Below;       /* [4] weight and below by slots */
+    double *t, *tn, *wt, *p; /* [2] t, that of the next, w; x of a solution */
+    double *k, *own, *ratio, *left; /* k' and k, w.t'; H (r - S.Z) */
 };
 
 typedef long long lane_numbers __attribute__((vector_size(64)));
@@ -130,6 +144,17 @@ is_path(const qdot_articulated_tree *t)
     return true;
 }
 
+/* Two components, an unknown at every node. */
+static bool
+is_plane(const qdot_articulated_tree *t)
+{
+    bool everywhere = t->m == 2 && t->c == 1;
+
+    for (size_t n = 0; n < t->nodes; n++)
+        everywhere = everywhere && t->unknowns[n] == 1;
+    return everywhere;
+}
+
 /* Node n of a path: which of eight pieces, and where in it; the first may have one more. */
 static size_t
 slot_on_path(size_t n, size_t nodes)
@@ -143,6 +168,18 @@ slot_on_path(size_t n, size_t nodes)
     return n % (longest - 1) * pieces + longer + n / (longest - 1);
 }
 
+static const plane_kernels *
+plane_kernels_here(void)
+{
+#ifdef QDOT_X86_KINDS
+    if (qdot_kind_is_here(2))
+        return &avx512_plane;
+    if (qdot_kind_is_here(1))
+        return &avx2_plane;
+#endif
+    return &portable_plane;
+}
+
 static double *
 take(double **numbers, size_t n)
 {
@@ -152,12 +189,34 @@ take(double **numbers, size_t n)
     return at;
 }
 
+/* Numbers of a path in a plane, `at` on. */
+static void
+make_plane(qdot_articulated *a, double *at)
+{
+    a->W = take(&at, 4 * a->slots);
+    a->Below = take(&at, 4 * a->slots);
+    a->t = take(&at, 2 * a->slots);
+    a->tn = take(&at, 2 * a->slots);
+    a->wt = take(&at, 2 * a->slots);
+    a->p = take(&at, 2 * a->slots);
+    a->k = take(&at, a->slots);
+    a->own = take(&at, a->slots);
+    a->ratio = take(&at, a->slots);
+    a->left = take(&at, a->slots);
+    for (size_t n = 0; n < a->nodes; n++)
+        for (size_t e = 0; e < 4; e++) {
+            a->W[e * a->slots + a->slot[n]] = a->weight[n * 4 + e];
+            a->Below[e * a->slots + a->slot[n]] = a->below[n * 4 + e];
+        }
+}
+
 static qdot_status
 make_numbers(qdot_articulated *a)
 {
     const size_t m = a->m, c = a->c, square = m * m * a->slots;
     const size_t all =
-        (1 + 5 * m * m + m * c + c * c + 3 * m + c) * a->slots + 6 * m * m * pieces;
+        (1 + 5 * m * m + m * c + c * c + 3 * m + c) * a->slots + 6 * m * m * pieces +
+        (a->plane ? 20 * a->slots : 0);
     double *at;
 
     a->numbers = qdot_calloc(all + pieces, sizeof *a->numbers);
@@ -180,6 +239,8 @@ make_numbers(qdot_articulated *a)
     a->w = take(&at, c * a->slots);
     a->up = take(&at, 3 * m * m * pieces);
     a->down = take(&at, 3 * m * m * pieces);
+    if (a->plane)
+        make_plane(a, at);
     /* what is no node passes on what it is given */
     for (size_t i = 0; i < m; i++)
         for (size_t s = 0; s < a->slots; s++)
@@ -245,6 +306,8 @@ qdot_articulated_new(const qdot_articulated_tree *t, qdot_articulated **articula
     a->slots = (t->nodes + pieces - 1) / pieces * pieces;
     a->kernels = kernels_of(t->m, t->c);
     a->path = a->kernels && is_path(t);
+    a->longer = t->nodes - pieces * ((t->nodes - 1) / pieces);
+    a->plane = a->path && is_plane(t) ? plane_kernels_here() : NULL;
     status = make(a, t);
     if (status != QDOT_OK) {
         qdot_articulated_free(a);
@@ -453,6 +516,12 @@ qdot_articulated_factor(qdot_articulated *a, const double *const *S, double *los
 {
     bool good;
 
+    if (a->plane) {
+        *lost = a->plane->eliminate(a, S);
+        if (*lost > 0)
+            return true;
+        *failed = *unknown = 0; /* below: which */
+    }
     *lost = 1;
     if (a->m == 2 && a->c == 1)
         good = factor_of(a, 2, 1, S, lost, failed, unknown);
@@ -460,9 +529,9 @@ qdot_articulated_factor(qdot_articulated *a, const double *const *S, double *los
         good = factor_of(a, 3, 2, S, lost, failed, unknown);
     else
         good = factor_of(a, a->m, a->c, S, lost, failed, unknown);
-    if (good && a->path)
+    if (good && a->path && !a->plane)
         a->kernels->chain(a);
-    return good;
+    return good && !a->plane;
 }
 
 /* --- solutions node by node --------------------------------------------------------- */
@@ -554,7 +623,9 @@ qdot_articulated_solve(qdot_articulated *a, const double *const *S,
                        const double *const *d, double factor, const double *const *r,
                        double *const *q, double *const *F)
 {
-    if (a->path)
+    if (a->plane)
+        a->plane->path(a, S, d, factor, r, q, F);
+    else if (a->path)
         a->kernels->path(a, S, d, factor, r, q, F);
     else if (a->m == 2 && a->c == 1)
         solve_nodes(a, 2, 1, S, d, factor, r, q, F);

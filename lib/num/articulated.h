@@ -17,7 +17,8 @@
  * I, A, B, H are found once, from the leaves to the roots: work N. A solution goes up with Z
  * and down with x. A tree that is one path is cut into eight pieces, which are the lanes of
  * vectors: the products of the A along them are made with the factors, so that a sweep of N
- * nodes waits for N/8 products and three more between the pieces. Other trees go node by node.
+ * nodes waits for N/8 products and three more between the pieces; links in a plane hand on
+ * numbers (articulated-plane.def). Other trees go node by node.
  *
  * Arrays hold components one after another, slots (places of nodes in vectors) within each.
  *
