@@ -361,6 +361,7 @@ sim_sources = \
 	lib/sim/nearest-search.c \
 	lib/sim/nearest.c \
 	lib/sim/noise.c \
+	lib/sim/over-root.c \
 	lib/sim/parts.c \
 	lib/sim/passed.c \
 	lib/sim/piece-end.c \
@@ -422,6 +423,7 @@ sim_headers = \
 	lib/sim/multipliers.h \
 	lib/sim/nearest.h \
 	lib/sim/noise.h \
+	lib/sim/over-root.h \
 	lib/sim/parts.h \
 	lib/sim/passed.h \
 	lib/sim/piece.h \

@@ -9,6 +9,7 @@
 #include "sim/constrained.h"
 #include "sim/constraints.h"
 #include "sim/eliminated.h"
+#include "sim/over-root.h"
 #include "tape/taylor.h"
 
 enum { most_order = 44, highest = most_order - 4, most = QDOT_BORDERED_MOST };
@@ -237,9 +238,10 @@ estimate_written(qdot_bordered *e, const qdot_plan *p)
 static qdot_status
 make(qdot_bordered *e, const qdot_plan *p, bool shaken, const qdot_ode_series *other)
 {
-    const size_t n = e->n, outputs = qdot_tape_outputs(p->tape);
+    const qdot_tape *tape = p->bordered ? p->bordered : p->tape;
+    const size_t n = e->n, outputs = qdot_tape_outputs(tape);
 
-    QDOT_TRY(qdot_taylor_new_moving(p->tape, shaken, most_order, 2 * n + 1, n + e->m,
+    QDOT_TRY(qdot_taylor_new_moving(tape, shaken, most_order, 2 * n + 1, n + e->m,
                                     &e->taylor));
     e->stride = qdot_taylor_stride(e->taylor);
     e->q = qdot_taylor_input(e->taylor, 0);
@@ -323,13 +325,41 @@ qdot_bordered_code(const qdot_bordered *e, const char **why)
 
 /* --- which is taken ------------------------------------------------------------------ */
 
+/* f, M, A, gamma of a plan; NULL: no memory. */
+static qdot_expr *
+equations(const qdot_plan *p, size_t *count)
+{
+    const qdot_constraints *c = p->constraints;
+    qdot_expr *out = qdot_calloc(p->n + c->n_masses + c->n_slopes + c->m, sizeof *out);
+    size_t n = 0;
+
+    for (size_t i = 0; out && i < p->n; i++)
+        out[n++] = qdot_over_root(p->pool, p->f[i]);
+    for (size_t k = 0; out && k < c->n_masses; k++)
+        out[n++] = p->M[c->masses[k].row * p->n + c->masses[k].column];
+    for (size_t k = 0; out && k < c->n_slopes; k++)
+        out[n++] = c->A[k];
+    for (size_t k = 0; out && k < c->m; k++)
+        out[n++] = c->gamma[k];
+    *count = n;
+    return out;
+}
+
 qdot_status
 qdot_bordered_find(qdot_plan *p, double tol)
 {
-    p->bordered = tol >= QDOT_ELIMINATED_TOL && p->smooth && p->method->series &&
-                  !p->indefinite && !p->eliminated &&
-                  p->treatment != QDOT_RUN_BAUMGARTE &&
-                  p->n + p->constraints->m <= QDOT_BORDERED_MOST &&
-                  qdot_taylor_may_be_code();
-    return QDOT_OK;
+    qdot_expr *out;
+    size_t count;
+    qdot_status status;
+
+    if (!(tol >= QDOT_ELIMINATED_TOL) || !p->smooth || !p->method->series || p->indefinite ||
+        p->eliminated || p->treatment == QDOT_RUN_BAUMGARTE ||
+        p->n + p->constraints->m > QDOT_BORDERED_MOST || !qdot_taylor_may_be_code())
+        return QDOT_OK;
+    out = equations(p, &count);
+    status = out ? qdot_pool_check(p->pool) : QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, count, out, &p->bordered);
+    qdot_free(out);
+    return status;
 }

@@ -24,8 +24,8 @@
 
 typedef struct qdot_bordered qdot_bordered;
 
-/* Whether a plan with constraints, complete but for it, takes this form at a tolerance, into
- * plan->bordered. Errors: QDOT_ENOMEM. */
+/* Where a plan with constraints, complete but for it, takes this form at a tolerance, its
+ * program plan->bordered; else NULL there. Errors: those of lowering. */
 QDOT_MUST_CHECK qdot_status qdot_bordered_find(qdot_plan *plan, double tol);
 
 /* Of such a plan and its other series, both borrowed. `shaken` as for qdot_bind_new. */

@@ -58,6 +58,7 @@ qdot_plan_free(qdot_plan *p)
     qdot_plan_free(p->eliminated);
     qdot_free(p->kept);
     qdot_tape_free(p->momenta);
+    qdot_tape_free(p->bordered);
     qdot_free(p);
 }
 

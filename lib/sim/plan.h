@@ -54,7 +54,7 @@ struct qdot_plan {
     qdot_constraints *constraints;
     qdot_run_treatment treatment;
     qdot_plan *eliminated; /* their q'' without multipliers (sim/eliminated.h); or NULL */
-    bool bordered;         /* machine code solves for multipliers too (sim/bordered.h) */
+    qdot_tape *bordered; /* or as `tape`, for machine code (sim/bordered.h); or NULL */
 
     /* Values of the request, for expressions asked for later; owned copies. */
     size_t n_values;

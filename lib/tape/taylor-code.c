@@ -528,6 +528,7 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
 {
     const size_t rows = g->t->rows, length = g->t->length;
 
+    g->per_row = ((uint64_t)1 << 32) / g->t->stride + 1;
     g->moving = qdot_calloc(rows + 1, sizeof *g->moving);
     g->row_vector = qdot_calloc(rows + 1, sizeof *g->row_vector);
     g->ready = qdot_calloc(4 * rows + 1, sizeof *g->ready);

@@ -6,6 +6,7 @@
 #include "sim/bind.h"
 #include "sim/bordered.h"
 #include "sim/constrained-series.h"
+#include "sim/over-root.h"
 #include "sim/rates.h"
 #include "tape/tape.h"
 #include "tape/taylor.h"
@@ -307,6 +308,46 @@ second_rates_are_those_of_the_whole(void **state)
     end(&f);
 }
 
+/* The pull of a spring along x and y: the same numbers by fewer operations. */
+static void
+springs_divide_once(void **state)
+{
+    static const double in[] = {0.3, 0.7};
+    fixture f;
+    qdot_expr q[2], r, pull, e[4];
+    qdot_tape *tapes[2];
+    double out[4], work[256];
+
+    (void)state;
+    begin(&f);
+    q[0] = coordinate(&f, "x");
+    q[1] = coordinate(&f, "y");
+    r = qdot_sqrt(f.pool, squares(&f, q[0], q[1]));
+    pull = qdot_sub(f.pool, times(&f, qdot_expr_int(f.pool, 3), r), QDOT_HALF);
+    for (int i = 0; i < 2; i++) {
+        e[i] = qdot_div(f.pool, qdot_product(f.pool, 3, (qdot_expr[]){QDOT_HALF, pull, q[i]}), r);
+        e[2 + i] = qdot_over_root(f.pool, e[i]);
+        assert_true(e[2 + i] != e[i]);
+    }
+    for (int k = 0; k < 2; k++) {
+        must(qdot_tape_new(f.pool, 2, q, 2, e + 2 * k, &tapes[k]));
+        assert_true(qdot_tape_work(tapes[k]) <= 256);
+        qdot_tape_eval(tapes[k], in, out + 2 * k, work);
+    }
+    for (int i = 0; i < 2; i++)
+        assert_true(fabs(out[i] - out[2 + i]) < 1e-15);
+    assert_true(qdot_tape_operations(tapes[1]) < qdot_tape_operations(tapes[0]));
+    /* another root, a power of the sum, nothing of the kind */
+    e[0] = qdot_div(f.pool, pull, qdot_sqrt(f.pool, q[0]));
+    e[1] = qdot_div(f.pool, square(&f, pull), r);
+    e[2] = times(&f, pull, r);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(qdot_over_root(f.pool, e[i]), e[i]);
+    qdot_tape_free(tapes[0]);
+    qdot_tape_free(tapes[1]);
+    end(&f);
+}
+
 static void
 every_failed_allocation_is_survived(void **state)
 {
@@ -327,6 +368,7 @@ main(void)
         cmocka_unit_test(dependent_rows_are_left_to_the_other),
         cmocka_unit_test(it_is_for_few_unknowns_and_loose_tolerances),
         cmocka_unit_test(second_rates_are_those_of_the_whole),
+        cmocka_unit_test(springs_divide_once),
         cmocka_unit_test(every_failed_allocation_is_survived),
     };
 
