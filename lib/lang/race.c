@@ -63,16 +63,27 @@ print_race(const qdot_race *race, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* Lane, tolerance, error, energy drift, constraint drift, CPU seconds. */
+/* Formulation, method, tolerance, error, energy drift, constraint drift, CPU seconds. */
 static qdot_status
 answer_rows(qdot_session *session, const qdot_race *race)
 {
     for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
         for (int k = 0; race->lane[i].name != NULL && k < QDOT_RACE_TOLERANCES; k++) {
             const qdot_race_entry *e = &race->lane[i].entry[k];
-            double row[] = {i + 1, e->tol, e->error, e->energy, e->constraint, e->cpu};
+            double row[] = {e->tol, e->error, e->energy, e->constraint, e->cpu};
+            qdot_text cells = {0};
+            qdot_status status;
 
-            QDOT_TRY(qdot_answer_row(session, sizeof row / sizeof *row, row));
+            qdot_text_json(&cells, race->lane[i].name);
+            qdot_text_char(&cells, ',');
+            qdot_text_json(&cells, e->method != NULL ? e->method : "");
+            for (size_t j = 0; j < sizeof row / sizeof *row; j++) {
+                qdot_text_char(&cells, ',');
+                qdot_answer_json_double(&cells, row[j]);
+            }
+            status = qdot_answer_cells(session, &cells);
+            qdot_text_clear(&cells);
+            QDOT_TRY(status);
         }
     return QDOT_OK;
 }
@@ -114,8 +125,7 @@ draw(qdot_session *session, const qdot_race *race, const char *path)
     figure.curves = n;
     if (n == 0)
         return qdot_fail(QDOT_EFAILED, "no lane of the race got to the end");
-    QDOT_TRY(qdot_figure_write(&figure, path));
-    return qdot_answer_file(session, path);
+    return qdot_draw_show(session, &figure, path);
 }
 
 static qdot_status
@@ -133,7 +143,7 @@ answer(qdot_session *session, const qdot_race *race, const char *path)
     if (status == QDOT_OK && session->json)
         status = answer_rows(session, race);
     qdot_text_clear(&text);
-    if (status == QDOT_OK && path != NULL)
+    if (status == QDOT_OK)
         status = draw(session, race, path);
     return status;
 }

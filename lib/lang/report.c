@@ -15,16 +15,15 @@ status_word(qdot_run_status status)
     return words[status];
 }
 
-/* Component i of the state in digits, for JSON in quotes. */
+/* Number i of the end state in digits, for JSON in quotes; its error is absolute. */
 static qdot_status
-exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double value,
+exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double error,
              qdot_text *number)
 {
     qdot_status status;
 
     qdot_text_add(number, session->json ? "\"" : "");
-    status = qdot_digits_text(session, r->exact[i], r->digits,
-                              r->error * fmax(1, fabs(value)), number);
+    status = qdot_digits_text(session, r->exact[i], r->digits, error, number);
     qdot_text_add(number, session->json ? "\"" : "");
     return status;
 }
@@ -64,8 +63,12 @@ each_state(qdot_session *session, const qdot_run_report *report, qdot_style styl
 
         if (status == QDOT_OK)
             status = qdot_print(session->pool, jet, style, &name);
-        if (status == QDOT_OK && report->exact != NULL && !multiplier)
-            status = exact_number(session, report, k % 2 * report->n + i, value, &number);
+        if (status == QDOT_OK && report->exact != NULL &&
+            (!multiplier || report->exact[k] != QDOT_NIL))
+            status = exact_number(session, report, multiplier ? k : k % 2 * report->n + i,
+                                  multiplier ? report->lambda_error[k - 2 * report->n]
+                                             : report->error * fmax(1, fabs(value)),
+                                  &number);
         else if (status == QDOT_OK)
             double_number(session, value,
                           multiplier ? report->lambda_error[k - 2 * report->n]
@@ -136,6 +139,36 @@ parts_json(qdot_text *line, const qdot_run_report *r)
     qdot_text_char(line, ']');
 }
 
+/* How the constraints were kept, and how sure the multipliers of "state" are. */
+static qdot_status
+constraints_json(qdot_session *session, const qdot_run_report *r, qdot_text *line)
+{
+    static const char *const treatments[] = {[QDOT_RUN_PROJECT] = "project",
+                                             [QDOT_RUN_BAUMGARTE] = "baumgarte",
+                                             [QDOT_RUN_NONE] = "none"};
+
+    qdot_text_format(line,
+                     ",\"constraints\":{\"count\":%zu,\"independent\":%zu,"
+                     "\"treatment\":\"%s\",\"projections\":%zu",
+                     r->m, r->independent,
+                     r->digits > 0 ? "digits" : treatments[r->treatment], r->projections);
+    field(line, "velocity_drift", r->velocity_drift);
+    qdot_text_add(line, ",\"errors\":{");
+    for (size_t k = 0; k < r->m; k++) {
+        qdot_text name = {0};
+        qdot_status status = qdot_print(session->pool, r->multipliers[k], QDOT_PLAIN, &name);
+
+        qdot_text_add(line, k > 0 ? "," : "");
+        qdot_text_json(line, qdot_text_str(&name));
+        qdot_text_char(line, ':');
+        qdot_answer_json_double(line, r->lambda_error[k]);
+        qdot_text_clear(&name);
+        QDOT_TRY(status);
+    }
+    qdot_text_add(line, "}}");
+    return QDOT_OK;
+}
+
 static qdot_status
 run_json(qdot_session *session, const char *name, const qdot_run_report *r,
          qdot_text *line)
@@ -170,6 +203,8 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
         qdot_text_add(line, "null");
     if (r->n_parts > 0)
         parts_json(line, r);
+    if (r->m > 0)
+        QDOT_TRY(constraints_json(session, r, line));
     qdot_text_add(line, "}\n");
     return QDOT_OK;
 }

@@ -91,14 +91,21 @@ measure_constraints(qdot_run *run)
 static qdot_status
 keep_end(qdot_run *run)
 {
-    const size_t n = 2 * run->plan->n;
+    const qdot_plan *p = run->plan;
+    const size_t n = 2 * p->n, m = p->constraints ? p->constraints->m : 0;
+    qdot_status status;
 
-    run->exact = qdot_calloc(n, sizeof *run->exact);
+    run->exact = qdot_calloc(n + m, sizeof *run->exact);
     if (!run->exact)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
         run->exact[i] = qdot_precise_pair_end(run->precise, i);
-    return qdot_pool_check(run->plan->pool);
+    QDOT_TRY(qdot_pool_check(p->pool));
+    if (m == 0 || !run->multipliers.error)
+        return QDOT_OK;
+    status = qdot_precise_pair_values(run->precise, m, p->inputs + 3 * p->n + 1, QDOT_NIL,
+                                      run->exact + n, run->multipliers.error);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* unknown: nil */
 }
 
 /* In doubles through all events and switches: which follow each other, and about where. */

@@ -54,8 +54,9 @@ QDOT_MUST_CHECK qdot_status qdot_run_companion(struct qdot_run *run);
 QDOT_MUST_CHECK qdot_status qdot_run_twin(struct qdot_run *run);
 
 /* The error of the end state of a run that has pieces; NaN with run->doubt where the two
- * runs met different events. */
-QDOT_MUST_CHECK qdot_status qdot_run_end_error(struct qdot_run *run, double *error);
+ * runs met different events. difference [2n], from zeros: that of each component. */
+QDOT_MUST_CHECK qdot_status qdot_run_end_error(struct qdot_run *run, double *error,
+                                               double *difference);
 
 /* Whether both runs went through the same pieces, so that states compare. */
 bool qdot_run_comparable(const struct qdot_run *run);

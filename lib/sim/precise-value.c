@@ -168,6 +168,18 @@ read_both(readers *r, double *errors)
     return QDOT_OK;
 }
 
+/* An exact time; nil: the end. */
+static qdot_status
+take_time(const qdot_plan *plan, qdot_expr time, reader *r)
+{
+    if (time != QDOT_NIL)
+        return qdot_precise_constant(plan, time, r->numbers.at[0]);
+    if (r->side->segments.n == 0 || r->side->segments.at[0].run.count == 0)
+        return qdot_fail(QDOT_EDOMAIN, "there is no run");
+    mpfr_set(r->numbers.at[0], qdot_precise_last(r->side)[0], RN);
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_precise_pair_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exprs,
                          qdot_expr time, qdot_expr *values, double *errors)
@@ -176,9 +188,9 @@ qdot_precise_pair_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exp
     qdot_status status = readers_init(&r, pair, m, exprs);
 
     if (status == QDOT_OK)
-        status = qdot_precise_constant(pair->plan, time, r.run.numbers.at[0]);
+        status = take_time(pair->plan, time, &r.run);
     if (status == QDOT_OK)
-        status = qdot_precise_constant(pair->plan, time, r.companion.numbers.at[0]);
+        status = take_time(pair->plan, time, &r.companion);
     if (status == QDOT_OK)
         status = read_both(&r, errors);
     for (size_t j = 0; j < m && status == QDOT_OK; j++) {

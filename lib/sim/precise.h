@@ -74,7 +74,7 @@ qdot_expr qdot_precise_pair_time(const qdot_precise_pair *pair, size_t i, double
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_sample(const qdot_precise_pair *pair,
                                                      qdot_trajectory *tr);
 
-/* Expressions [m] at a time, an exact constant: values [m] rationals, errors [m] (absolute;
+/* Expressions [m] at a time, an exact constant (nil: the end, as each run has it): values [m] rationals, errors [m] (absolute;
  * NaN unknown; may be NULL). Errors: as qdot_run_values. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_values(qdot_precise_pair *pair, size_t m,
                                                      const qdot_expr *exprs,

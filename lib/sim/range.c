@@ -25,11 +25,11 @@ static const double noises = 8;
  * so many times those of the step; a pole whose integral exists leaves that little of it. */
 static const double beyond_bounds = 0x1p16, least_integral = 0x1p-20;
 
-/* Towards a point where no polynomial fits, values are compared at distances that halve, from so
- * many times the shortest part on. What grows by increments that fall by less than `slow` each time
- * (a logarithm's do not fall) grows beyond all. */
-enum { NEAREST = 4, FARTHEST = 24 };
-static const double slow = 0.997, deep = 0x1p-24, blurred = 0x1p-14;
+/* Towards a point where no polynomial fits, values are compared at distances that fall to a quarter
+ * each time. What grows by increments that fall by less than `slow` (a logarithm's do not fall)
+ * grows beyond all. */
+enum { NEAREST = 4, INCREMENTS = 10, LEAST_INCREMENTS = 4 };
+static const double slow = 0.994, deep = 0x1p-24, blurred = 0x1p-14;
 
 /* An end of the range where the limit from within is another value. */
 static const double jump = 0x1p-30;
@@ -141,34 +141,54 @@ look_for_pole(scan *s, const part *p)
     s->pole = p->b;
 }
 
-/* The values at so many lengths of the part beside its middle, v [2] the second at twice the
- * distance; whether they are there. */
-static bool
-values_beside(scan *s, const part *p, int distance, int side, double *v)
+/* Values at lengths 2^NEAREST, 2^(NEAREST + 2) ... of the part beside its middle, as far as the step
+ * goes, as increments [..] towards it and the nearest value; how many. */
+static int
+increments_beside(scan *s, const part *p, int side, double *d, double *nearest)
 {
     const double w = fabs(p->b - p->a), middle = 0.5 * (p->a + p->b);
+    double before = 0;
+    int n = 0;
 
-    for (int k = 0; k < 2; k++) {
-        double t = middle + side * ldexp(w, distance + k);
+    for (; n <= INCREMENTS; n++) {
+        double t = middle + side * ldexp(w, NEAREST + 2 * n), v;
 
         if (t < fmin(s->ends[0], s->ends[1]) || t > fmax(s->ends[0], s->ends[1])
-            || qdot_reader_at(&s->reader, s->piece, t, &v[k]) != QDOT_OK || !isfinite(v[k]))
-            return false;
+            || qdot_reader_at(&s->reader, s->piece, t, &v) != QDOT_OK || !isfinite(v))
+            break;
+        if (n == 0)
+            *nearest = v;
+        else
+            d[n - 1] = before - v;
+        before = v;
     }
-    return true;
+    return n - 1;
 }
 
-/* What is left of increments of which the last is `last`: they fall by a ratio each time, or ever
- * more slowly, as those of 1/log do, of which as many are left as there were. */
-static double
-left_of(double last, double middle, double first, int steps, double before)
+/* Whether increments fall or grow by about the same ratio all along, as noise does not. */
+static bool
+is_regular(const double *d, int n, double *ratio)
 {
-    const double late = pow(last / middle, 2.0 / steps), early = pow(middle / first, 2.0 / steps);
-    const double ratio = pow(last / first, 1.0 / steps);
+    *ratio = n > 1 ? pow(d[0] / d[n - 1], 1.0 / (n - 1)) : NAN;
+    for (int k = 0; k + 1 < n; k++) {
+        double r = d[k] / d[k + 1];
+
+        if (!(r > 0.5 * *ratio && r < 2 * *ratio))
+            return false;
+    }
+    return n >= LEAST_INCREMENTS && *ratio > 0;
+}
+
+/* What is left of increments of which d[0] is the last: they fall by a ratio each time, or ever more
+ * slowly, as those of 1/log do, of which as many are left as there were. */
+static double
+left_of(const double *d, int n, double ratio, double before)
+{
+    const double late = d[0] / d[1], early = d[n - 2] / d[n - 1];
 
     if (ratio >= slow)
-        return copysign(INFINITY, last);
-    return last * fmax(late > 0.9 && late > early + 0.003 ? before : 0, ratio / (1 - ratio));
+        return copysign(INFINITY, d[0]);
+    return d[0] * fmax(late > 0.8 && late > early + 0.01 ? before : 0, ratio / (1 - ratio));
 }
 
 /* What the values tend to towards the part from one side: increments that fall as a power add up
@@ -176,26 +196,13 @@ left_of(double last, double middle, double first, int steps, double before)
 static void
 look_towards(scan *s, const part *p, int side)
 {
-    double near[2], far[2], middle[2], last, limit;
-    int distance = FARTHEST, steps;
+    double d[INCREMENTS + 1], nearest = 0, ratio, limit;
+    const int n = increments_beside(s, p, side, d, &nearest);
 
-    if (!values_beside(s, p, NEAREST, side, near))
+    if (n < LEAST_INCREMENTS || !is_regular(d, n, &ratio)
+        || !(fabs(d[0]) > fmax(4 * DBL_EPSILON * fabs(nearest), noises * s->noise)))
         return;
-    while (distance > NEAREST + 4 && !values_beside(s, p, distance, side, far))
-        distance -= 4;
-    if (distance <= NEAREST + 4
-        || !values_beside(s, p, (distance + NEAREST) / 2, side, middle))
-        return;
-    last = near[0] - near[1];
-    steps = distance - NEAREST;
-    if (!(fabs(last) > fmax(4 * DBL_EPSILON * fabs(near[0]), noises * s->noise))
-        || !(last * (far[0] - far[1]) > 0) || !(last * (middle[0] - middle[1]) > 0))
-        return;
-    /* rounding's increments are as they come, and add up to none of them */
-    if (!((near[0] - far[0]) / last > 0.5 * steps * fmin(1, (far[0] - far[1]) / last)))
-        return;
-    limit = near[0] + left_of(last, middle[0] - middle[1], far[0] - far[1],
-                              steps, log2(s->length / fabs(p->b - p->a)));
+    limit = nearest + left_of(d, n, ratio, 0.5 * log2(s->length / fabs(p->b - p->a)));
     s->highest = fmax(s->highest, limit);
     s->lowest = fmin(s->lowest, limit);
     if (isinf(limit)) {
@@ -306,7 +313,7 @@ scan_step(scan *s, double a, double b)
         if (good)
             s->nodes = nodes;
         if (good || short_one || depth == DEEPEST || ++s->parts > MOST_PARTS) {
-            QDOT_TRY(take_part(s, &p, good));
+                    QDOT_TRY(take_part(s, &p, good));
             if (short_one)
                 look_for_pole(s, &p);
             if (fabs(p.b - p.a) <= deep * s->length && (short_one || 8 * blur(&p) > blurred)) {

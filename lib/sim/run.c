@@ -535,6 +535,9 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
 static qdot_status
 run_after(qdot_run *run, double tol, bool *interrupted)
 {
+    double *difference;
+    qdot_status status;
+
     QDOT_TRY(integrate(run, tol, interrupted));
     run->report.error = NAN;
     run->report.tol = tol;
@@ -542,7 +545,13 @@ run_after(qdot_run *run, double tol, bool *interrupted)
         return QDOT_OK;
     QDOT_TRY(measure_multipliers(run));
     QDOT_TRY(qdot_run_twin(run));
-    return qdot_run_end_error(run, &run->report.error);
+    difference = qdot_calloc(run->course.tr.n + 1, sizeof *difference);
+    status = difference ? qdot_run_end_error(run, &run->report.error, difference) : QDOT_ENOMEM;
+    if (status == QDOT_OK && !isnan(run->report.error))
+        status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr, difference,
+                                         &run->multipliers);
+    qdot_free(difference);
+    return status;
 }
 
 /* The run, its error, and what should have been kept. */

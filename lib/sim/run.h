@@ -75,7 +75,7 @@ typedef struct {
     const double *q, *v;           /* [n] state at t1 */
     size_t operations;             /* of the tape, one evaluation of M and f */
     int digits;                    /* as asked for; 0: a run in doubles */
-    const qdot_expr *exact;        /* [2n] q, v at t1 as the rational numbers they are, of a run
+    const qdot_expr *exact;        /* [2n + m] q, v, multipliers (nil: unknown) at t1 as the rational numbers they are, of a run
                                       with `digits`; else NULL */
     const char *notice;            /* what a person must know of the start, a line each; NULL: nothing */
     /* Of a scene with constraints: */

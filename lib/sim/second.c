@@ -245,9 +245,9 @@ add_delays(const qdot_course *c, double *floor)
 }
 
 /* The distance of the ends, a time where an event stopped them; NaN where they do not
- * compare. */
+ * compare. That of each component is put where `difference` has less. */
 static qdot_status
-end_distance(qdot_run *run, const qdot_course *other, double *error)
+end_distance(qdot_run *run, const qdot_course *other, double *error, double *difference)
 {
     const qdot_trajectory *a = &run->course.tr, *b = &other->tr;
     const double *y = a->y + (a->count - 1) * a->n;
@@ -271,8 +271,12 @@ end_distance(qdot_run *run, const qdot_course *other, double *error)
     } else if (status == QDOT_OK) {
         status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, t, z);
     }
-    for (size_t i = 0; i < a->n && status == QDOT_OK; i++)
-        worst = fmax(worst, fmax(fabs(z[i] - y[i]), z[a->n + i]) / fmax(1, fabs(y[i])));
+    for (size_t i = 0; i < a->n && status == QDOT_OK; i++) {
+        const double apart = fmax(fabs(z[i] - y[i]), z[a->n + i]), size = fmax(1, fabs(y[i]));
+
+        worst = fmax(worst, apart / size);
+        difference[i] = fmax(difference[i], fmax(apart, 0x1p-53 * size));
+    }
     if (status == QDOT_OK)
         *error = worst;
     qdot_trajectory_close(cursor);
@@ -281,17 +285,17 @@ end_distance(qdot_run *run, const qdot_course *other, double *error)
 }
 
 qdot_status
-qdot_run_end_error(qdot_run *run, double *error)
+qdot_run_end_error(qdot_run *run, double *error, double *difference)
 {
     double second;
 
     *error = NAN;
     if (!run->has_companion)
         return find_doubt(run, &run->companion);
-    QDOT_TRY(end_distance(run, &run->companion, error));
+    QDOT_TRY(end_distance(run, &run->companion, error, difference));
     if (!run->has_twin || isnan(*error))
         return QDOT_OK;
-    QDOT_TRY(end_distance(run, &run->twin, &second));
+    QDOT_TRY(end_distance(run, &run->twin, &second, difference));
     *error = isnan(second) ? NAN : fmax(*error, second);
     return QDOT_OK;
 }

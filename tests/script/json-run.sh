@@ -19,6 +19,11 @@ constraint rod: x^2 + y^2 = 1
 gravity (0, -1)
 start x = 1
 run 0..1 as d
+event low: x = 0 stop
+run 0..9 as f
+remove low
+start y = 0 exactly
+run 0..1 digits 25 as h
 reset
 coord r > 0, phi
 particle p mass 1 at (r*cos(phi), r*sin(phi))
