@@ -21,12 +21,15 @@
  * points are looked at then. */
 enum { TRIALS = 12, MORE_TRIALS = 60, STEPS = 200 };
 
-/* Equations f [c], the constraints first, and their slopes by z = (q, q', q''), [c * 3n], as
- * expressions and numbers. */
+/* Equations f [c], the constraints first, and their slopes by z = (q, q', q''), m = 3n of them, those
+ * that are not 0 row by row: as expressions and numbers. */
 typedef struct {
     size_t n, c, m;                        /* coordinates, equations, 3n */
     size_t constraints;                    /* the others are derivatives of these */
-    qdot_expr *e;                          /* f, then slopes: [c + c*m] */
+    size_t slopes;                         /* not 0 */
+    size_t *first;                         /* [c + 1] of each row among the slopes */
+    size_t *column;                        /* [slopes] */
+    qdot_expr *e;                          /* f, then slopes: [c + slopes] */
     qdot_expr *z;                          /* [m] */
     double *value;                         /* of e */
     double *at, *step, *gram, *rhs, *rows; /* z [m], [m], [c*c], [c], [c*n] */
@@ -36,6 +39,8 @@ typedef struct {
 static void
 problem_clear(problem *p)
 {
+    qdot_free(p->first);
+    qdot_free(p->column);
     qdot_free(p->e);
     qdot_free(p->z);
     qdot_free(p->value);
@@ -62,33 +67,60 @@ add_derivatives(qdot_scene *s, qdot_expr *e, qdot_constraint_kind *kind)
     return n - c;
 }
 
+/* The slopes of equation k by what it holds. */
+static qdot_status
+add_slopes(qdot_scene *s, problem *p, size_t k, qdot_constraint_kind kind, size_t *capacity,
+           size_t *columns)
+{
+    qdot_expr atoms = qdot_expr_atoms(s->pool, p->e[k], false);
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    p->first[k] = p->slopes;
+    for (size_t i = 0; i < p->n * ((size_t)kind + 1); i++) {
+        bool there = false;
+        qdot_expr slope;
+
+        for (uint32_t a = 0; a < qdot_expr_count(s->pool, atoms) && !there; a++)
+            there = qdot_expr_arg(s->pool, atoms, a) == p->z[i];
+        slope = there ? qdot_diff(s->pool, p->e[k], p->z[i]) : QDOT_ZERO;
+        if (slope == QDOT_ZERO)
+            continue;
+        QDOT_TRY(qdot_grow(&p->e, capacity, p->c + p->slopes + 1, sizeof *p->e));
+        QDOT_TRY(qdot_grow(&p->column, columns, p->slopes + 1, sizeof *p->column));
+        p->e[p->c + p->slopes] = slope;
+        p->column[p->slopes++] = i;
+    }
+    return qdot_pool_check(s->pool);
+}
+
 static qdot_status
 problem_fill(qdot_scene *s, problem *p, size_t c, const qdot_expr *f,
              const qdot_constraint_kind *kind)
 {
-    size_t n = s->coordinates.n, m = 3 * n, size = c + c * m;
+    size_t n = s->coordinates.n, m = 3 * n, capacity = 0, columns = 0;
 
     *p = (problem){.n = n, .c = c, .m = m, .constraints = s->constraints.n};
-    p->e = qdot_calloc(size + 1, sizeof *p->e);
+    QDOT_TRY(qdot_grow(&p->e, &capacity, c + 1, sizeof *p->e));
     p->z = qdot_calloc(m + 1, sizeof *p->z);
-    p->value = qdot_calloc(size + 2 * m + c * c + c + c * n + 1, sizeof *p->value);
-    if (!p->e || !p->z || !p->value)
+    p->first = qdot_calloc(c + 1, sizeof *p->first);
+    if (!p->z || !p->first)
         return QDOT_ENOMEM;
-    p->at = p->value + size;
+    for (size_t i = 0; i < m; i++)
+        p->z[i] = qdot_mech_jet(s, i % n, (uint32_t)(i / n));
+    for (size_t k = 0; k < c; k++)
+        p->e[k] = f[k];
+    for (size_t k = 0; k < c; k++)
+        QDOT_TRY(add_slopes(s, p, k, kind[k], &capacity, &columns));
+    p->first[c] = p->slopes;
+    p->value = qdot_calloc(c + p->slopes + 2 * m + c * c + c + c * n + 1, sizeof *p->value);
+    if (!p->value)
+        return QDOT_ENOMEM;
+    p->at = p->value + c + p->slopes;
     p->step = p->at + m;
     p->gram = p->step + m;
     p->rhs = p->gram + c * c;
     p->rows = p->rhs + c;
-    for (size_t i = 0; i < m; i++)
-        p->z[i] = qdot_mech_jet(s, i % n, (uint32_t)(i / n));
-    for (size_t k = 0; k < c; k++) {
-        p->e[k] = f[k];
-        for (size_t i = 0; i < m; i++)
-            p->e[c + k * m + i] = i / n <= (size_t)kind[k]
-                                      ? qdot_diff(s->pool, p->e[k], p->z[i])
-                                      : QDOT_ZERO;
-    }
-    return qdot_pool_check(s->pool);
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -113,14 +145,39 @@ static qdot_status
 evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
 {
     *size = 0;
-    QDOT_TRY(qdot_generic_evaluate(s->pool, p->c + p->c * p->m, p->e, p->m, p->z, p->at,
+    QDOT_TRY(qdot_generic_evaluate(s->pool, p->c + p->slopes, p->e, p->m, p->z, p->at,
                                    seed, p->value));
     for (size_t k = 0; k < p->c; k++)
         *size = isfinite(p->value[k]) ? fmax(*size, fabs(p->value[k])) : INFINITY;
-    for (size_t k = p->c; k < p->c + p->c * p->m; k++)
+    for (size_t k = p->c; k < p->c + p->slopes; k++)
         if (!isfinite(p->value[k]))
             *size = INFINITY;
     return QDOT_OK;
+}
+
+/* A A^T, lower triangle; its trace. `row` [m] is scratch, left at 0. */
+static double
+fill_gram(problem *p, double *row)
+{
+    const double *A = p->value + p->c;
+    double trace = 0;
+
+    memset(row, 0, p->m * sizeof *row);
+    for (size_t i = 0; i < p->c; i++) {
+        for (size_t k = p->first[i]; k < p->first[i + 1]; k++)
+            row[p->column[k]] = A[k];
+        for (size_t j = 0; j <= i; j++) {
+            double dot = 0;
+
+            for (size_t k = p->first[j]; k < p->first[j + 1]; k++)
+                dot += A[k] * row[p->column[k]];
+            p->gram[i * p->c + j] = dot;
+            trace += i == j ? dot : 0;
+        }
+        for (size_t k = p->first[i]; k < p->first[i + 1]; k++)
+            row[p->column[k]] = 0;
+    }
+    return trace;
 }
 
 /* step = A^T (A A^T + mu 1)^-1 f, by Cholesky of the damped Gram matrix. */
@@ -128,18 +185,9 @@ static void
 newton_step(problem *p, double mu)
 {
     const double *A = p->value + p->c;
-    size_t c = p->c, m = p->m;
-    double *G = p->gram, *y = p->rhs, trace = 0;
+    size_t c = p->c;
+    double *G = p->gram, *y = p->rhs, trace = fill_gram(p, p->step);
 
-    for (size_t i = 0; i < c; i++)
-        for (size_t j = 0; j <= i; j++) {
-            double dot = 0;
-
-            for (size_t k = 0; k < m; k++)
-                dot += A[i * m + k] * A[j * m + k];
-            G[i * c + j] = dot;
-            trace += i == j ? dot : 0;
-        }
     for (size_t i = 0; i < c; i++)
         G[i * c + i] += (mu + 1e-13) * (trace + 1e-30);
     for (size_t i = 0; i < c; i++) {
@@ -160,11 +208,9 @@ newton_step(problem *p, double mu)
             y[i] -= G[k * c + i] * y[k];
         y[i] /= G[i * c + i];
     }
-    for (size_t k = 0; k < m; k++) {
-        p->step[k] = 0;
-        for (size_t i = 0; i < c; i++)
-            p->step[k] += A[i * m + k] * y[i];
-    }
+    for (size_t i = 0; i < c; i++) /* step is 0 by now */
+        for (size_t k = p->first[i]; k < p->first[i + 1]; k++)
+            p->step[p->column[k]] += A[k] * y[i];
 }
 
 /* Bring p->at where all constraints hold; *found whether it did, p->off how well. Where rows are
@@ -222,13 +268,14 @@ rank(qdot_scene *s, problem *p, bool *independent)
 
     for (size_t k = 0; k < p->constraints; k++) {
         double *row = p->rows + found * n, norm = 0, left = 0;
-        const double *slopes =
-            p->value + p->c + k * p->m + n * (size_t)s->constraints.at[k].kind;
+        const size_t lowest = n * (size_t)s->constraints.at[k].kind;
 
-        for (size_t i = 0; i < n; i++) {
-            row[i] = slopes[i];
-            norm = fmax(norm, fabs(row[i]));
-        }
+        memset(row, 0, n * sizeof *row);
+        for (size_t i = p->first[k]; i < p->first[k + 1]; i++)
+            if (p->column[i] >= lowest && p->column[i] < lowest + n) {
+                row[p->column[i] - lowest] = p->value[p->c + i];
+                norm = fmax(norm, fabs(p->value[p->c + i]));
+            }
         independent[k] = false;
         if (!(norm > 1e-6))
             continue;

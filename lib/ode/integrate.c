@@ -36,7 +36,14 @@ typedef struct {
     bool just_rejected; /* then the step that follows may not grow */
     qdot_error last_undefined; /* what f said */
     double undefined_at;       /* the end of that step; NaN before any */
+    double margin, margin_at;  /* system->margin where a step was taken back, and that t */
+    int crawled;               /* how often in a row steps were nothing beside what is ahead */
 } run;
+
+/* Steps below this part of the way to a place where nothing is determined, so many times one after
+ * another: rounding makes their error, and the place is never reached. */
+static const double crawl = 0x1p-8;
+enum { most_crawled = 4, seldom = 32 };
 
 const char *
 qdot_ode_outcome_name(qdot_ode_outcome outcome)
@@ -188,11 +195,32 @@ too_small(run *r)
     if (r->direction * (r->undefined_at - r->t) >= 0)
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
                          r->last_undefined.message);
+    if (r->crawled >= most_crawled)
+        return qdot_fail(QDOT_EFAILED,
+                         "stopped at t = %.17g: steps came down to %.2g, their error being of "
+                         "rounding", r->t, r->h);
     qdot_fail(QDOT_EFAILED,
               "stopped at t = %.17g: no step down to %.2g keeps the error below %.2g",
               r->t, floor_of_step(r), r->s->tol);
     return qdot_hint("the solution has a singularity there, or the tolerance is below "
                      "what double precision can hold");
+}
+
+/* Asked where a step was taken back, and now and then. Ahead lies where the margin, straight on, would be 0. */
+static bool
+crawls(run *r)
+{
+    const qdot_ode_system *system = r->s->system;
+    double now, ahead;
+
+    if (!system->margin || r->t == r->margin_at)
+        return false;
+    now = system->margin(r->t, r->s->y, system->user);
+    ahead = now * fabs(r->t - r->margin_at) / (r->margin - now);
+    r->crawled = r->margin > now && r->h < crawl * ahead ? r->crawled + 1 : 0;
+    r->margin = now;
+    r->margin_at = r->t;
+    return r->crawled >= most_crawled;
 }
 
 /* The step tried has the error asked for: take it, unless the caller objects. */
@@ -249,14 +277,16 @@ advance(run *r, bool *stop)
         return undefined(r, h, status);
     if (r->options->h_fixed > 0 && ratio < INFINITY)
         ratio = fmin(ratio, 1);
-    if (ratio <= 1)
-        return take(r, h, ratio, last, stop);
+    if (ratio <= 1) {
+        QDOT_TRY(take(r, h, ratio, last, stop));
+        return r->result->stats.steps % seldom == 0 && crawls(r) ? too_small(r) : QDOT_OK;
+    }
     r->result->stats.rejected++;
     r->just_rejected = true;
     control(r, h, ratio, false);
     if (r->options->h_fixed > 0)
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: the step overflows", r->t);
-    return r->h < floor_of_step(r) ? too_small(r) : QDOT_OK;
+    return r->h < floor_of_step(r) || crawls(r) ? too_small(r) : QDOT_OK;
 }
 
 static qdot_status
@@ -340,7 +370,8 @@ qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
              .result = result,
              .t = t0,
              .t1 = t1,
-             .undefined_at = NAN};
+             .undefined_at = NAN,
+             .margin_at = NAN};
     double tol = r.options->tol != 0 ? r.options->tol : tol_default;
     qdot_status status;
 

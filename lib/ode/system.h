@@ -114,6 +114,9 @@ typedef struct qdot_ode_system {
      * relative to max(1, |y_i|), 0 where nothing was done; a step that had to be moved by
      * far more than its error may be is taken back. NULL if there is nothing to do. */
     qdot_status (*project)(double t, double *y, double *carry, double *moved, void *user);
+    /* How far a state is from a place where the equations determine nothing, 0 there, in any unit:
+     * asked for where steps are taken back. NULL if there are no such places. */
+    double (*margin)(double t, const double *y, void *user);
     /* The same system once more as parts, all of its components in one of them, if there are
      * two or more; borrowed. Each then takes its own steps where nobody looks at those of
      * the whole (ode/apart.h). */

@@ -268,6 +268,12 @@ project(double t, double *y, double *carry, double *moved, void *user)
     return qdot_constrained_project(t, y, carry, moved, held);
 }
 
+static double
+margin(double t, const double *y, void *user)
+{
+    return qdot_constrained_independence(((qdot_bind *)user)->held, t, y);
+}
+
 qdot_constrained *
 qdot_bind_held(qdot_bind *b)
 {
@@ -288,6 +294,7 @@ qdot_bind_system(qdot_bind *b)
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,
         .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
+        .margin = b->held ? margin : NULL,
     };
 }
 

@@ -165,6 +165,14 @@ project(double t, double *y, double *carry, double *moved, void *user)
     return w->inner.project(t, y, carry, moved, w->inner.user);
 }
 
+static double
+margin(double t, const double *y, void *user)
+{
+    worker *w = user;
+
+    return w->inner.margin(t, y, w->inner.user);
+}
+
 static void
 follow_energy(worker *w, double t, const double *y)
 {
@@ -330,6 +338,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     w->system.rhs = counted_rhs;
     w->system.jacobian = w->inner.jacobian ? counted_jacobian : NULL;
     w->system.project = w->inner.project ? project : NULL;
+    w->system.margin = w->inner.margin ? margin : NULL;
     w->system.user = w;
     n = (double)w->plan->n;
     operations = (double)qdot_tape_operations(w->plan->tape) + n * n * n / 3 + 100;
