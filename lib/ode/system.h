@@ -50,7 +50,7 @@ typedef struct {
      * expansions save by it. May be NULL. */
     qdot_status (*write)(int p, void *user);
     double worth;
-    double written[3]; /* cost, then; zeros: as it is */
+    double written[3]; /* cost, then; zeros: there is none of it here */
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Then orders 2 ... p. */

@@ -20,7 +20,7 @@ qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, i
     double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
     int best = least_order;
 
-    if (series->write)
+    if (series->written[0] > 0)
         L = fmax(L, least_digits);
     for (int p = least_order; p <= series->most - of_companions; p++) {
         double cost = (c[0] + c[1] * p + c[2] * p * p) * exp(L / p);

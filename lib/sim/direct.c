@@ -401,10 +401,8 @@ estimate_written(qdot_direct *e)
     const double length = (double)qdot_taylor_length(e->taylor);
     double *c = e->series.written, convolutions = qdot_direct_convolutions(e);
 
-    if (!qdot_taylor_may_be_code()) {
-        memcpy(c, e->series.cost, sizeof e->series.cost);
+    if (!qdot_taylor_may_be_code())
         return;
-    }
     c[0] = 160 + 20 * (double)qdot_tape_calls(p->tape) + 3 * length + 10 * (double)p->n;
     c[1] = 3 + 0.4 * length + 0.6 * convolutions;
     c[2] = 0.03 * convolutions;
