@@ -658,6 +658,7 @@ script_tests = \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/flat-places.lag \
+	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
@@ -1276,6 +1277,7 @@ test_files = \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/flat-places.out \
+	tests/script/flat-stops.out \
 	tests/script/flexing.out \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
