@@ -354,6 +354,7 @@ sim_sources = \
 	lib/sim/ensemble.c \
 	lib/sim/failure.c \
 	lib/sim/horizon.c \
+	lib/sim/leading-residual.c \
 	lib/sim/leading.c \
 	lib/sim/members.c \
 	lib/sim/momenta.c \
@@ -416,6 +417,7 @@ sim_headers = \
 	lib/sim/failure.h \
 	lib/sim/horizon.h \
 	lib/sim/integrated.h \
+	lib/sim/leading-residual.h \
 	lib/sim/leading.h \
 	lib/sim/members.def \
 	lib/sim/members.h \

@@ -64,10 +64,11 @@ static qdot_status
 find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
 {
     const qdot_ode_leading *leading = step->system->leading;
-    const int most = step->p < QDOT_ODE_LEADING_MOST ? step->p : QDOT_ODE_LEADING_MOST;
+    const int most =
+        step->p <= QDOT_ODE_LEADING_MOST ? step->p - 1 : QDOT_ODE_LEADING_MOST;
     const int least = orders_of_terms(step, power);
 
-    leading->begin(&step->at, step->unit, leading->user);
+    QDOT_TRY(leading->begin(&step->at, step->unit, leading->user));
     for (*m = 1; *m <= most; ++*m) {
         QDOT_TRY(leading->next(*m, leading->user));
         if (*m >= least && agree(step, *m, fabs(power[*m])))

@@ -20,10 +20,11 @@ typedef struct {
 typedef struct {
     const qdot_two *x; /* x_ik = x[i stride + k] for k below the stride */
     size_t stride;
-    /* Order 0 of the solution through a place, by the unit of time given; then order k, those
-     * below being there, up to QDOT_ODE_LEADING_MOST. Failures are those of
+    /* Order 0 of the solution through a place, about which the series in doubles stands, by
+     * the same unit of time; then order k, those below being there, up to
+     * QDOT_ODE_LEADING_MOST and to one below the highest in doubles. Failures are those of
      * qdot_ode_system. */
-    void (*begin)(const qdot_ode_place *at, double unit, void *user);
+    qdot_status (*begin)(const qdot_ode_place *at, double unit, void *user);
     qdot_status (*next)(int k, void *user);
     void *user; /* borrowed */
 } qdot_ode_leading;

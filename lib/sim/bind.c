@@ -8,6 +8,7 @@
 #include "sim/direct.h"
 #include "sim/bordered.h"
 #include "sim/eliminated.h"
+#include "sim/leading-residual.h"
 #include "sim/leading.h"
 #include "sim/constrained.h"
 #include "sim/momenta.h"
@@ -27,7 +28,9 @@ struct qdot_bind {
     qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
     qdot_bordered *bordered;       /* likewise */
     const qdot_ode_series *series; /* its callbacks; else NULL */
-    qdot_leading *leading;         /* its first orders in two doubles, if they are wanted */
+    qdot_leading *leading;         /* its first orders in two doubles, if they are wanted: */
+    qdot_leading_residual *leading_residual; /* one of the two, */
+    const qdot_ode_leading *first; /* its callbacks */
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of the tape */
     double *slopes;             /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
@@ -69,6 +72,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_eliminated_free(b->eliminated);
     qdot_bordered_free(b->bordered);
     qdot_leading_free(b->leading);
+    qdot_leading_residual_free(b->leading_residual);
     qdot_constrained_series_free(b->tied);
     qdot_tape_free(b->tape);
     if (b->reduced_blocks.plan)
@@ -289,7 +293,7 @@ qdot_bind_system(qdot_bind *b)
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
         .series = b->series,
-        .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
+        .leading = b->first,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,
@@ -432,7 +436,16 @@ make_parts(qdot_bind *b, bool shaken)
 static qdot_status
 make_leading(qdot_bind *b, const qdot_plan *p)
 {
-    return b->plan->leading ? qdot_leading_new(p, &b->leading) : QDOT_OK;
+    if (!b->plan->leading)
+        return QDOT_OK;
+    if (p->residual) {
+        QDOT_TRY(qdot_leading_residual_new(p, b->series, &b->leading_residual));
+        b->first = qdot_leading_residual_get(b->leading_residual);
+        return QDOT_OK;
+    }
+    QDOT_TRY(qdot_leading_new(p, &b->leading));
+    b->first = qdot_leading_get(b->leading);
+    return QDOT_OK;
 }
 
 /* With momenta that are kept. */

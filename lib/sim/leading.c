@@ -152,7 +152,7 @@ integrate(qdot_leading *l, int k)
             l->kernels->mul(l->rates[c][k], once);
 }
 
-static void
+static qdot_status
 begin(const qdot_ode_place *at, double unit, void *user)
 {
     qdot_leading *l = user;
@@ -167,6 +167,7 @@ begin(const qdot_ode_place *at, double unit, void *user)
     l->t[1] = (qdot_two){unit, 0};
     for (size_t c = 0; c < p->n_kept; c++)
         l->t[(c + 1) * l->stride] = (qdot_two){l->hi[c], l->lo[c]};
+    return QDOT_OK;
 }
 
 static qdot_status

@@ -28,6 +28,7 @@ typedef struct {
     uint32_t to, from; /* F_to += w x''_from */
     double w;
     signed char side; /* where the exact w lies beside it */
+    double low;       /* how far */
 } qdot_residual_weight;
 
 typedef struct {

@@ -16,6 +16,7 @@ typedef struct {
     qdot_two *to;
     qdot_two *own[MOST_OWN]; /* further rows that it writes: the second result first */
     bool x_constant, y_constant;
+    uint32_t x_row, y_row, z_row, to_row; /* their numbers */
 } step;
 
 typedef void order_function(const step *i, int k, const qdot_two_functions *f);
@@ -27,6 +28,7 @@ struct qdot_tape_two {
     size_t still;      /* how many these are */
     const qdot_two **output;
     bool *constant; /* [outputs] */
+    double *note;   /* [rows] by how much the newest coefficient changes */
     const qdot_two_functions *functions;
     order_function *const *orders;
 };
@@ -85,6 +87,110 @@ qdot_tape_two_order(qdot_tape_two *t, int k)
         t->orders[i->op](i, k, t->functions);
 }
 
+/* --- correction ---------------------------------------------------------------------- */
+
+/* Slopes of a step at order 0, by operation.def: of its results for those of its operands. */
+static void
+slopes_of(const step *i, double da, double db, double dc, double *first, double *second)
+{
+    const double a = i->x[0].hi, b = i->y[0].hi, c = i->z[0].hi, d = i->to[0].hi;
+    const double e = i->op == QDOT_OP_SINCOS ? i->own[0][0].hi : 0, none = 0;
+    double dd = 0, de = 0;
+
+    (void)a, (void)b, (void)c, (void)d, (void)e, (void)none, (void)db, (void)dc;
+    switch (i->op) {
+#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+    case QDOT_OP_##ID: slopes; break;
+#include "tape/operation.def"
+#undef X
+    }
+    *first = dd;
+    *second = de;
+}
+
+static inline void
+change(qdot_two *row, int k, double by)
+{
+    row[k] = qdot_two_add_double(row[k], by);
+}
+
+/* Rows of its own, at order k: operands change by da and db, the result by dd. */
+static void
+correct_own(const step *i, int k, double da, double db, double dd)
+{
+    const double a = i->x[0].hi, b = i->y[0].hi, d = i->to[0].hi;
+    const double square = i->op == QDOT_OP_ASIN || i->op == QDOT_OP_ACOS
+                                  || i->op == QDOT_OP_ATANH
+                              ? -2 * a * da
+                              : 2 * a * da;
+    qdot_two *const *own = i->own;
+    double product;
+
+    switch (i->op) {
+    case QDOT_OP_SINCOS: change(own[1], k, k * da); break;
+    case QDOT_OP_SIN:
+        change(own[0], k, -d * da);
+        change(own[1], k, k * da);
+        break;
+    case QDOT_OP_COS:
+    case QDOT_OP_SINH:
+    case QDOT_OP_COSH:
+        change(own[0], k, d * da);
+        change(own[1], k, k * da);
+        break;
+    case QDOT_OP_TANH:
+        change(own[0], k, -2 * d * dd);
+        change(own[1], k, k * da);
+        break;
+    case QDOT_OP_EXP: change(own[0], k, k * da); break;
+    case QDOT_OP_ASIN:
+    case QDOT_OP_ACOS:
+    case QDOT_OP_ASINH:
+    case QDOT_OP_ACOSH: change(own[2], k, 0.5 * square / own[2][0].hi); /* fall through */
+    case QDOT_OP_ATAN:
+    case QDOT_OP_ATANH: change(own[1], k, square); /* fall through */
+    case QDOT_OP_LOG: change(own[0], k, k * dd); break;
+    case QDOT_OP_ATAN2:
+        change(own[0], k, k * dd);
+        change(own[1], k, 2 * (a * da + b * db));
+        change(own[2], k, k * da);
+        change(own[3], k, k * db);
+        break;
+    case QDOT_OP_POW:
+        if (i->y_constant) {
+            change(own[0], k, k * da);
+            break;
+        }
+        product = b * da / a + own[1][0].hi * db;
+        change(own[0], k, k * product);
+        change(own[1], k, da / a);
+        change(own[2], k, k * da / a);
+        change(own[3], k, product);
+        break;
+    }
+}
+
+void
+qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by)
+{
+    for (size_t i = 0; i < n; i++) {
+        t->note[i] = by[i];
+        change(t->numbers + i * t->stride, k, by[i]);
+    }
+    for (const step *i = t->steps + t->still, *end = t->steps + t->length; i < end; i++) {
+        const double da = t->note[i->x_row], db = t->note[i->y_row];
+        double *to = t->note + i->to_row, second;
+
+        slopes_of(i, da, db, t->note[i->z_row], to, &second);
+        change(i->to, k, *to);
+        if (i->op == QDOT_OP_SINCOS) { /* its second result is the row behind */
+            to[1] = second;
+            change(i->own[0], k, second);
+        }
+        correct_own(i, k, da, db, *to);
+    }
+}
+
 /* --- building ------------------------------------------------------------------------ */
 
 /* Rows of its own beside the result. */
@@ -136,7 +242,11 @@ build_one(qdot_tape_two *t, draft *d, const qdot_instruction *in, uint32_t *next
                 .z = row(t, z),
                 .to = row(t, to),
                 .x_constant = d->constant[x],
-                .y_constant = d->constant[y]};
+                .y_constant = d->constant[y],
+                .x_row = x,
+                .y_row = y,
+                .z_row = z,
+                .to_row = to};
     d->constant[to] = still;
     for (int k = 0; k < own_rows[in->op]; k++) {
         d->constant[*next] = still;
@@ -186,12 +296,13 @@ make(qdot_tape_two *t, const qdot_tape *tape, int most, size_t moving)
     t->orders = orders_here();
     t->numbers = qdot_calloc(rows * t->stride + 1, sizeof *t->numbers);
     t->steps = qdot_calloc(t->length + 1, sizeof *t->steps);
+    t->note = qdot_calloc(rows + 1, sizeof *t->note);
     t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
     t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
     d.at = qdot_calloc(tape->places + 1, sizeof *d.at);
     d.constant = qdot_calloc(rows + 1, sizeof *d.constant);
     d.moving = qdot_calloc(t->length + 1, sizeof *d.moving);
-    if (t->numbers && t->steps && t->output && t->constant && d.at && d.constant
+    if (t->numbers && t->note && t->steps && t->output && t->constant && d.at && d.constant
         && d.moving) {
         build(t, tape, moving, &d);
         status = QDOT_OK;
@@ -232,6 +343,7 @@ qdot_tape_two_free(qdot_tape_two *t)
     if (!t)
         return;
     qdot_free(t->numbers);
+    qdot_free(t->note);
     qdot_free(t->steps);
     qdot_free(t->output);
     qdot_free(t->constant);

@@ -34,4 +34,9 @@ bool qdot_tape_two_is_constant(const qdot_tape_two *t, size_t i);
  * and inf as IEEE 754 has them, where one of two doubles is. */
 void qdot_tape_two_order(qdot_tape_two *t, int k);
 
+/* Order k > 0 was evaluated, and is affine in the newest coefficients of the inputs: those of
+ * the first n change by `by`, numbers so small that a double of them is enough. All of order k
+ * is brought up to date, inputs too, by derivatives at order 0. */
+void qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by);
+
 #endif

@@ -65,7 +65,7 @@ begin(double t, const double *y, double unit, void *user)
     return extend(1, o);
 }
 
-static void
+static qdot_status
 begin_first(const qdot_ode_place *at, double unit, void *user)
 {
     oscillator *o = user;
@@ -74,6 +74,7 @@ begin_first(const qdot_ode_place *at, double unit, void *user)
     o->scale = (qdot_two){unit, 0};
     for (int i = 0; i < 2; i++)
         o->first[i * FIRST] = qdot_two_of(at->y[i], at->carry[i]);
+    return QDOT_OK;
 }
 
 static qdot_status

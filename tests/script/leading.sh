@@ -107,3 +107,12 @@ particle bob[k] mass 0.7 at (sum(sin(a[j]), j, 1, k), -sum(cos(a[j]), j, 1, k)) 
 gravity (0, -9.81)
 start a[k] = pi/2 for k = 1..N
 EOF
+
+scene 'chain by its residual, damped' 0 3 <<'EOF'
+N = 7
+coord a[k] for k = 1..N
+particle bob[k] mass 0.7 at (sum(sin(a[j]), j, 1, k), -sum(cos(a[j]), j, 1, k)) for k = 1..N
+gravity (0, -9.81)
+dissipation sum(0.05*a[k]'^2, k, 1, N)
+start a[k] = pi/2 for k = 1..N
+EOF

@@ -212,6 +212,50 @@ numbers_stay_numbers(void **state)
     qdot_pool_free(f.pool);
 }
 
+/* Order 3 with other coefficients, corrected, is order 3 with those meant, and order 4 goes on
+ * from there. */
+static void
+corrected_is_as_evaluated(void **state)
+{
+    enum { K = 3 };
+    fixture f;
+    qdot_tape *tape;
+    qdot_tape_two *two[2];
+    double by[2] = {1e-9, -3e-9};
+
+    (void)state;
+    smooth(&f);
+    assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.n, f.out, &tape), QDOT_OK);
+    for (int which = 0; which < 2; which++) {
+        assert_int_equal(qdot_tape_two_new(tape, K + 1, 3, &two[which]), QDOT_OK);
+        for (int k = 0; k <= K + 1; k++) {
+            for (size_t i = 0; i < INPUTS; i++) {
+                qdot_two *x = qdot_tape_two_input(two[which], i);
+
+                x[k] = coefficient(i, k);
+                if (k == K && i < 2 && which == 0)
+                    x[k] = qdot_two_add_double(x[k], -by[i]);
+            }
+            qdot_tape_two_order(two[which], k);
+            if (k == K && which == 0)
+                qdot_tape_two_correct(two[0], k, 2, by);
+        }
+    }
+    for (size_t i = 0; i < f.n; i++)
+        for (int k = K; k <= K + 1; k++) {
+            const qdot_two a = qdot_tape_two_output(two[0], i)[k];
+            const qdot_two b = qdot_tape_two_output(two[1], i)[k];
+            const double off = qdot_two_sub(a, b).hi;
+
+            if (!(fabs(off) <= 1e-23 * fmax(1, fabs(b.hi))))
+                fail_msg("output %zu, order %d: off by %g", i, k, off);
+        }
+    qdot_tape_two_free(two[0]);
+    qdot_tape_two_free(two[1]);
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
 int
 main(void)
 {
@@ -220,6 +264,7 @@ main(void)
         cmocka_unit_test(every_value_is_that_of_MPFR),
         cmocka_unit_test(what_switches_has_no_series),
         cmocka_unit_test(numbers_stay_numbers),
+        cmocka_unit_test(corrected_is_as_evaluated),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
