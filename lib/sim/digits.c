@@ -105,6 +105,9 @@ keep_end(qdot_run *run)
         return QDOT_OK;
     status = qdot_precise_pair_values(run->precise, m, p->inputs + 3 * p->n + 1, QDOT_NIL,
                                       run->exact + n, run->multipliers.error);
+    for (size_t k = 0; k < m; k++)
+        if (!isfinite(run->multipliers.lambda[k])) /* no direction in doubles: no digits */
+            run->exact[n + k] = QDOT_NIL;
     return status == QDOT_EDOMAIN ? QDOT_OK : status; /* unknown: nil */
 }
 
