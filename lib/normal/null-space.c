@@ -276,6 +276,8 @@ take_apart(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
                 parts->entries.at[done] = qdot_div(pool, parts->entries.at[done],
                                                    parts->roots.at[done / n]);
     }
+    for (size_t j = 0; parts->roots.n == 0 && j < n && status == QDOT_OK; j++)
+        status = qdot_vec_push(&parts->entries, QDOT_ZERO); /* no condition at all */
     qdot_free(row);
     return status;
 }
