@@ -59,8 +59,6 @@ struct qdot_articulated {
     double *k, *own, *ratio, *left; /* k' and k, w.t'; H (r - S.Z) */
 };
 
-typedef long long lane_numbers __attribute__((vector_size(64)));
-
 #define SHAPES(X) X(1, 1) X(2, 1) X(3, 1) X(3, 2)
 
 enum { shapes = 4 };
