@@ -3,8 +3,6 @@
  * NAME(u) = EXPR is evaluated when it is defined, so each kind of argument that it may be
  * called with gets an evaluation of its own: of a vector, with its components as symbols.
  */
-#include <string.h>
-
 #include "base/text.h"
 #include "lang/code.h"
 #include "lang/declare.h"
