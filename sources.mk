@@ -680,6 +680,8 @@ script_tests = \
 	tests/script/leading.sh \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
+	tests/script/mechanism-cycloid.lag \
+	tests/script/mechanism-cylinder.lag \
 	tests/script/mechanism-four-bar.lag \
 	tests/script/mechanism-gears.lag \
 	tests/script/mechanism-ladder.lag \
@@ -716,6 +718,7 @@ script_tests = \
 	tests/script/saved-run.sh \
 	tests/script/several.sh \
 	tests/script/signs.lag \
+	tests/script/slow-margin.lag \
 	tests/script/solve.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
@@ -1312,6 +1315,8 @@ test_files = \
 	tests/script/leading.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
+	tests/script/mechanism-cycloid.out \
+	tests/script/mechanism-cylinder.out \
 	tests/script/mechanism-four-bar.out \
 	tests/script/mechanism-gears.out \
 	tests/script/mechanism-ladder.out \
@@ -1349,6 +1354,7 @@ test_files = \
 	tests/script/saved-run.out \
 	tests/script/several.out \
 	tests/script/signs.out \
+	tests/script/slow-margin.out \
 	tests/script/solve.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \

@@ -9,17 +9,31 @@ static const double faded = 1e-14;
 /* Of a row in a dependency. */
 static const double participates = 1e-6;
 
+static double
+squared(const qdot_saddle *s, size_t k)
+{
+    const double *A = s->A + k * s->n;
+    double sum = 0;
+
+    for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
+        sum += A[s->column[e]] * A[s->column[e]];
+    return sum;
+}
+
+bool
+qdot_saddle_has_faded(const qdot_saddle *s, size_t k)
+{
+    return squared(s, k) < faded * s->widest[k];
+}
+
 size_t
 qdot_saddle_faded(qdot_saddle *s)
 {
     size_t found = s->m;
 
     for (size_t k = 0; k < s->m; k++) {
-        const double *A = s->A + k * s->n;
-        double sum = 0;
+        const double sum = squared(s, k);
 
-        for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
-            sum += A[s->column[e]] * A[s->column[e]];
         if (sum > s->widest[k])
             s->widest[k] = sum;
         else if (sum < faded * s->widest[k])

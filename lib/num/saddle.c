@@ -22,6 +22,9 @@ static const double trusted = 1e-3, usual = 0.2, more = 1.25;
  * down to where its scale follows. */
 static const double nothing = 0x1p-92, lightest = 0x1p-14;
 
+/* Of the largest that a row was, which others may stand for, down to where its scale follows. */
+static const double shrunk = 0x1p-10;
+
 /* Up to so many unknowns an inverse is made for many right-hand sides. */
 enum { most_inverted = 24, lanes = 8 };
 
@@ -193,6 +196,19 @@ scale_unknowns(qdot_saddle *s)
     }
 }
 
+/* What row k of R, of that norm, is scaled as. */
+static double
+size_of_row(const qdot_saddle *s, size_t k, double norm)
+{
+    const double *A = s->A + k * s->n;
+    double least;
+
+    if (s->rank == s->m || !(norm > 0))
+        return norm;
+    least = shrunk * sqrt(s->widest[k] / dot(s->n, A, A));
+    return least > 1 ? least * norm : norm;
+}
+
 /* S = D M D, and the rows of R = E A D. */
 static void
 scale(qdot_saddle *s)
@@ -208,7 +224,7 @@ scale(qdot_saddle *s)
 
         for (size_t i = 0; i < n; i++)
             row[i] = s->A[k * n + i] * s->d[i];
-        s->e[k] = scale_of(sqrt(dot(n, row, row)), false);
+        s->e[k] = scale_of(size_of_row(s, k, sqrt(dot(n, row, row))), false);
         for (size_t i = 0; i < n; i++)
             row[i] *= s->e[k];
         s->pivot[k] = k;

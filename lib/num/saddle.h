@@ -15,7 +15,8 @@
  * rounding of a later place, nor rows that nearly are.
  *
  * Unknowns and rows are scaled by powers of two, which make the diagonal of M and the
- * rows of A about 1: neither rank nor rounding depends on units.
+ * rows of A about 1: neither rank nor rounding depends on units. A row that has shrunk keeps the
+ * scale that it had as long as others may stand for it: its direction is one of rounding.
  *
  * A mass that fades (a pole of the coordinates, a thin rod's turn about itself) does not
  * take its scale with it.
@@ -53,7 +54,7 @@ typedef struct {
     size_t factored;  /* how often */
     size_t last;      /* the last pivot, by its place; of a failure the one that failed */
     size_t *pivot;    /* [m] the rows of A in the order of the pivoting */
-    double *widest;   /* [m] the largest squared norm of each row so far */
+    double *widest;   /* [m] the largest squared norm of each row so far; the caller may begin it */
     double *heaviest; /* [n] the largest diagonal entry of M so far */
 
     bool indefinite; /* Z^T M Z by LDL^T, else by Cholesky */
@@ -103,6 +104,9 @@ double qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x,
 /* A row that has shrunk below 1e-7 of the largest that it was, and has no direction left that
  * rounding did not make; m: there is none. Once before each factorisation. */
 size_t qdot_saddle_faded(qdot_saddle *s);
+
+/* Whether row k has, as of that call. */
+bool qdot_saddle_has_faded(const qdot_saddle *s, size_t k);
 
 /* Factor what stands in M and A, which are kept. QDOT_ESINGULAR: A has lost rank
  * (*failed is a row of it, n + k), or M is singular on its null space (*failed is an

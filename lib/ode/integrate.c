@@ -37,12 +37,15 @@ typedef struct {
     qdot_error last_undefined; /* what f said */
     double undefined_at;       /* the end of that step; NaN before any */
     double margin, margin_at;  /* system->margin where a step was taken back, and that t */
+    double best;               /* the largest margin met */
+    double longest;            /* step taken */
     int crawled;               /* how often in a row steps were nothing beside what is ahead */
 } run;
 
-/* Steps below this part of the way to a place where nothing is determined, so many times one after
- * another: rounding makes their error, and the place is never reached. */
-static const double crawl = 0x1p-8;
+/* Steps below this part of the way to a place where nothing is determined, and of the longest, so
+ * many times one after another, where rounding over what is left of the margin squared is above the
+ * tolerance: it makes their error, and the place is never reached. */
+static const double crawl = 0x1p-8, shrunk = 0x1p-4;
 enum { most_crawled = 4, seldom = 32 };
 
 const char *
@@ -217,7 +220,11 @@ crawls(run *r)
         return false;
     now = system->margin(r->t, r->s->y, system->user);
     ahead = now * fabs(r->t - r->margin_at) / (r->margin - now);
-    r->crawled = r->margin > now && r->h < crawl * ahead ? r->crawled + 1 : 0;
+    r->best = fmax(r->best, now);
+    r->crawled = r->margin > now && r->h < crawl * ahead && r->h < shrunk * r->longest
+                         && r->s->tol * now * now < DBL_EPSILON * r->best * r->best
+                     ? r->crawled + 1
+                     : 0;
     r->margin = now;
     r->margin_at = r->t;
     return r->crawled >= most_crawled;
@@ -243,6 +250,7 @@ take(run *r, double h, double ratio, bool last, bool *stop)
             return undefined(r, h, status);
         QDOT_TRY(status);
     }
+    r->longest = fmax(r->longest, h);
     control(r, h, ratio, true);
     result->stats.projections += r->s->projected;
     qdot_ode_stepper_accept(r->s);

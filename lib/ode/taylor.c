@@ -220,9 +220,9 @@ cut_series(run *r, double h)
 }
 
 /* A step that would end just before or upon a place near which the coefficients are worth
- * little goes over it, if that is not far, or stays well before. */
+ * little goes over it, if that is not far and was not tried in vain, or stays well before. */
 static void
-keep_off(run *r, double *h)
+keep_off(run *r, double *h, double most)
 {
     const qdot_ode_series *series = r->series;
     const double noise = series->noise ? series->noise(series->user) : 0;
@@ -234,8 +234,8 @@ keep_off(run *r, double *h)
     ahead = series->ahead(series->user);
     if (!(ahead > 0 && ahead < 4 * *h))
         return;
-    if (*h >= 0.8 * ahead || noise > near_noise) {
-        *h = fmax(*h, over * ahead);
+    if ((*h >= .8 * ahead || noise > near_noise) && over * ahead <= most) {
+        *h = qdot_smaller(most, fmax(*h, over * ahead));
         r->place = r->t + r->direction * ahead;
         cut_series(r, *h);
     } else if (*h > 0.5 * ahead) {
@@ -243,10 +243,10 @@ keep_off(run *r, double *h)
     }
 }
 
-/* *h positive; INFINITY where the series ends. The unit of the series is brought near the
+/* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of the series is brought near the
  * step where it is far from it. */
 static qdot_status
-length_of_step(run *r, double *h)
+length_of_step(run *r, double most, double *h)
 {
     for (int tries = 0;; tries++) {
         double l, far;
@@ -257,7 +257,7 @@ length_of_step(run *r, double *h)
             far = -10 - 40 * tries;
         } else {
             *h = fabs(r->unit) * qdot_rough_exp2(l);
-            keep_off(r, h);
+            keep_off(r, h, most);
             /* too small for a double: judge by what is; or a polynomial, of any step */
             far = l < INFINITY ? l : fmax(0, log_step_of_all(r));
             if (!(fabs(far) > 8) || isinf(far))
@@ -515,7 +515,7 @@ advance(run *r)
             status = begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
-            status = r->options->h_fixed > 0 ? expand(r) : length_of_step(r, &h);
+            status = r->options->h_fixed > 0 ? expand(r) : length_of_step(r, most, &h);
         if (status == QDOT_OK) {
             if (r->options->h_fixed > 0)
                 h = r->options->h_fixed;

@@ -91,6 +91,36 @@ qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s, const size
     return count;
 }
 
+qdot_status
+qdot_constrained_look_beside(const qdot_plan *plan, qdot_saddle *s, const size_t *row,
+                             const double *in)
+{
+    static const double beside = 1e-3;
+    const qdot_constraints *c = plan->constraints;
+    const size_t inputs = 2 * plan->n + 1, outputs = qdot_tape_outputs(c->metric);
+    double *room = qdot_calloc(inputs + outputs + qdot_tape_work(c->metric) + 1, sizeof *room);
+    double *out = room + inputs;
+    unsigned long seed = 12345;
+
+    if (!room)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < inputs; i++) {
+        seed = seed * 1103515245 + 12345;
+        room[i] = in[i] * (1 + beside * (1 + (double)(seed >> 16 & 0x7fff) / 0x8000));
+    }
+    qdot_tape_eval(c->metric, room, out, out + outputs);
+    for (size_t k = 0, at = 0; k < c->n_slopes; k++) {
+        const double slope = out[c->n_masses + k];
+
+        while (at < s->m && (row ? row[at] : at) < c->slopes[k].row)
+            at++;
+        if (at < s->m && (row ? row[at] : at) == c->slopes[k].row && isfinite(slope))
+            s->widest[at] += slope * slope;
+    }
+    qdot_free(room);
+    return QDOT_OK;
+}
+
 bool
 qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text *names)
 {

@@ -51,6 +51,14 @@ void qdot_constrained_raise_bounds(const qdot_constrained_level *level, const do
 /* M and A at what is loaded, factored. Errors: qdot_constrained_factor's. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor_metric(qdot_constrained *h,
                                                            qdot_constrained_level *level);
+/* At what is loaded, if the level was never factored: qdot_constrained_look_beside. */
+static inline qdot_status
+qdot_constrained_look_first(const qdot_constrained *h, qdot_constrained_level *level)
+{
+    return level->m > 1 && level->saddle.rank == QDOT_SADDLE_UNKNOWN
+               ? qdot_constrained_look_beside(h->plan, &level->saddle, level->row, h->in)
+               : QDOT_OK;
+}
 /* Factor a system of the rows that `row` [s->m] says (NULL: all); its failures named. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor_rows(const qdot_plan *plan,
                                                          qdot_saddle *s,

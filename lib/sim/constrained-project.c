@@ -35,6 +35,7 @@ qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
 qdot_status
 qdot_constrained_factor_metric(qdot_constrained *h, level *l)
 {
+    QDOT_TRY(qdot_constrained_look_first(h, l));
     qdot_constrained_metric(h, l);
     l->filled = true;
     l->moves = l->few && qdot_least_move_factor(&l->move, l->saddle.A, l->saddle.M,

@@ -21,6 +21,10 @@ enum { refined = 3, least_refined = 18 };
 /* Constraints are nearly dependent where less than this is left of their best. */
 static const double nearly = 0.3;
 
+/* Of what is left of their independence now, where a place ahead at which nothing is is believed:
+ * what Newton's method leaves there, and the highest of the orders it looks at. */
+static const double settled = 1e-6, shown = 0.5;
+
 /* A moving entry of M or A: of `to`, a place in the equations, +-sum_j entry_j of_{k - j}
  * is taken off, number `product` of those sums. */
 typedef struct {
@@ -251,6 +255,23 @@ load(qdot_constrained_series *e, double t, const double *y)
     }
 }
 
+/* Before the first factorisation. */
+static qdot_status
+look_beside(qdot_constrained_series *e, double t, const double *y)
+{
+    const size_t n = e->plan->n;
+    double *in = qdot_malloc((2 * n + 1) * sizeof *in);
+    qdot_status status = QDOT_ENOMEM;
+
+    if (in) {
+        memcpy(in, y, 2 * n * sizeof *in);
+        in[2 * n] = t;
+        status = qdot_constrained_look_beside(e->plan, &e->saddle, NULL, in);
+    }
+    qdot_free(in);
+    return status;
+}
+
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
@@ -264,6 +285,8 @@ begin(double t, const double *y, double unit, void *user)
             e->up[k] = k / unit;
     }
     load(e, t, y);
+    if (e->c->m > 1 && e->saddle.rank == QDOT_SADDLE_UNKNOWN)
+        QDOT_TRY(look_beside(e, t, y));
     for (int k = 0; h->taylor && k < 2; k++) {
         copy_order(e->q, e->stride, h->newest, h->stride, n, k);
         qdot_taylor_order(h->taylor, k);
@@ -310,13 +333,13 @@ noise(void *user)
 }
 
 /* The weakest combination of rows, along its own direction, is a scalar series that passes
- * 0 where they are dependent; its first root, from the lowest orders. */
+ * 0 where they are dependent; its first root, from the lowest orders, if these show one. */
 static double
 ahead(void *user)
 {
     qdot_constrained_series *e = user;
     const qdot_constraints *c = e->c;
-    double sigma[4] = {0}, s, *row = e->weak, *column = e->weak + c->m;
+    double sigma[4] = {0}, s, left, *row = e->weak, *column = e->weak + c->m;
 
     if (e->saddle.rank == 0)
         return 0;
@@ -331,7 +354,11 @@ ahead(void *user)
 
         s -= f / (sigma[1] + s * (2 * sigma[2] + s * 3 * sigma[3]));
     }
-    return s > 0 && isfinite(s) ? s * fabs(e->unit) : 0;
+    left = sigma[0] + s * (sigma[1] + s * (sigma[2] + s * sigma[3]));
+    if (!(s > 0 && fabs(left) < settled * fabs(sigma[0])
+          && fabs(s * s * s * sigma[3]) < shown * fabs(sigma[0])))
+        return 0;
+    return s * fabs(e->unit);
 }
 
 /* --- building ----------------------------------------------------------------------- */

@@ -121,6 +121,16 @@ dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
     return QDOT_ESINGULAR;
 }
 
+/* Rows that have faded, where some repeat others: one that is held has nothing to hold on to. */
+static qdot_status
+without_others(const qdot_constraints *c, const qdot_saddle *s, const size_t *row)
+{
+    for (size_t j = 0; j < s->rank; j++)
+        if (qdot_saddle_has_faded(s, s->pivot[j]))
+            return qdot_constrained_without_direction(c, row ? row[s->pivot[j]] : s->pivot[j]);
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_constrained_factor_rows(const qdot_plan *p, qdot_saddle *s, const size_t *row)
 {
@@ -128,9 +138,11 @@ qdot_constrained_factor_rows(const qdot_plan *p, qdot_saddle *s, const size_t *r
     size_t failed = 0;
     qdot_status status;
 
-    if (faded < s->m)
+    if (faded < s->m && s->rank == s->m)
         return qdot_constrained_without_direction(p->constraints, row ? row[faded] : faded);
     status = qdot_saddle_factor(s, &failed);
+    if (status == QDOT_OK && faded < s->m)
+        return without_others(p->constraints, s, row);
     if (status != QDOT_ESINGULAR)
         return status;
     if (failed >= p->n)
@@ -175,6 +187,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     memcpy(x + n, gamma, m * sizeof *x);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         damp(h, x + n);
+    QDOT_TRY(qdot_constrained_look_first(h, all));
     QDOT_TRY(qdot_constrained_factor_rows(p, &all->saddle, all->row));
     qdot_saddle_solve_refined(&all->saddle);
     for (size_t i = 0; i < n; i++) {

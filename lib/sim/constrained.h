@@ -98,6 +98,12 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_start(qdot_constrained *constrained
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor(const qdot_plan *plan,
                                                     qdot_saddle *s);
 
+/* Before the first factorisation of a system of the rows that `row` says (NULL: all): how large
+ * they are beside in [2n + 1] (q, q', t), so that what rounding leaves of one there is told from a
+ * direction. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_look_beside(const qdot_plan *plan, qdot_saddle *s,
+                                                         const size_t *row, const double *in);
+
 /* The least sine between a row of A and those before it, at y: 0 where rows that were
  * independent are no more; without a direction to be measured in, 1. */
 double qdot_constrained_independence(qdot_constrained *constrained, double t,
