@@ -243,6 +243,7 @@ tape_sources = \
 	lib/tape/tape.c \
 	lib/tape/taylor-code-order.c \
 	lib/tape/taylor-code-solve.c \
+	lib/tape/taylor-code-zero.c \
 	lib/tape/taylor-code.c \
 	lib/tape/taylor-correct.c \
 	lib/tape/taylor-order.c \

@@ -1,15 +1,5 @@
 /* taylor-code-order.c -- the recurrences as code: an order of a step. */
-#include <stddef.h>
-
 #include "tape/taylor-code-sum.h"
-
-static qdot_x86_rm
-c_of(const qdot_generator *g, const qdot_taylor_step *s)
-{
-    return qdot_x86_at(QDOT_X86_RSI,
-                       (int32_t)((size_t)(s - g->t->steps) * sizeof *s
-                                 + offsetof(qdot_taylor_step, c)));
-}
 
 static qdot_x86_rm
 inverse(const qdot_generator *g)
@@ -114,10 +104,10 @@ quotient(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum sum = past(g, s, 0);
 
-    scale_sum(g, &sum, c_of(g, s));
+    scale_sum(g, &sum, qdot_code_c(g, s));
     negate(&sum);
     lately(g, &sum, true, slot(g, s, 1), s->y, slot(g, s, 2), s->to);
-    times(g, &sum, false, c_of(g, s), s->x, g->k);
+    times(g, &sum, false, qdot_code_c(g, s), s->x, g->k);
     times(g, &sum, true, slot(g, s, 0), s->y, g->k);
     finish_sum(g, &sum, s->to);
 }
@@ -125,14 +115,14 @@ quotient(qdot_generator *g, const qdot_taylor_step *s)
 static void
 quotient_zero(qdot_generator *g, const qdot_taylor_step *s)
 {
-    keep(g, at(g, s->to, 0), c_of(g, s), slot(g, s, 0));
+    keep(g, at(g, s->to, 0), qdot_code_c(g, s), slot(g, s, 0));
 }
 
 static void
 quotient_one(qdot_generator *g, const qdot_taylor_step *s)
 {
-    keep(g, at(g, s->to, 1), c_of(g, s), slot(g, s, 1));
-    keep(g, at(g, s->y, 1), c_of(g, s), slot(g, s, 2));
+    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 1));
+    keep(g, at(g, s->y, 1), qdot_code_c(g, s), slot(g, s, 2));
 }
 
 /* Slots: c_1/(2 c_0), c_1/c_0 */
@@ -141,17 +131,17 @@ root(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum sum = past(g, s, 0);
 
-    scale_sum(g, &sum, c_of(g, s));
+    scale_sum(g, &sum, qdot_code_c(g, s));
     negate(&sum);
     late(g, &sum, true, slot(g, s, g->k > 2), s->to);
-    times(g, &sum, false, c_of(g, s), s->x, g->k);
+    times(g, &sum, false, qdot_code_c(g, s), s->x, g->k);
     finish_sum(g, &sum, s->to);
 }
 
 static void
 root_one(qdot_generator *g, const qdot_taylor_step *s)
 {
-    keep(g, at(g, s->to, 1), c_of(g, s), slot(g, s, 0));
+    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 0));
     keep_twice(g, slot(g, s, 0), slot(g, s, 1));
 }
 
@@ -220,7 +210,7 @@ power(qdot_generator *g, const qdot_taylor_step *s)
     scale_sum(g, &sum, inverse(g));
     scale_sum(g, &sum, slot(g, s, 0));
     if (other.v.reg >= 0)
-        add_product(g, &sum.v, true, c_of(g, s), other.v.reg);
+        add_product(g, &sum.v, true, qdot_code_c(g, s), other.v.reg);
     lately(g, &sum, true, slot(g, s, 3), s->to, slot(g, s, 2), s->x);
     times(g, &sum, false, slot(g, s, 1), s->x, g->k);
     finish_sum(g, &sum, s->to);
@@ -233,18 +223,18 @@ power_zero(qdot_generator *g, const qdot_taylor_step *s)
 
     qdot_x86_emit(&g->x, QDOT_X86_LOAD, a, 0, at(g, s->z, 0));
     qdot_x86_emit(&g->x, QDOT_X86_ADD, b, a, qdot_code_work(QDOT_CODE_ORDERS + 1));
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, b, b, c_of(g, s));
+    qdot_x86_emit(&g->x, QDOT_X86_MUL, b, b, qdot_code_c(g, s));
     qdot_x86_emit(&g->x, QDOT_X86_STORE, b, 0, slot(g, s, 0));
     qdot_x86_emit(&g->x, QDOT_X86_MUL, a, a, at(g, s->to, 0));
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, a, a, c_of(g, s));
+    qdot_x86_emit(&g->x, QDOT_X86_MUL, a, a, qdot_code_c(g, s));
     qdot_x86_emit(&g->x, QDOT_X86_STORE, a, 0, slot(g, s, 1));
 }
 
 static void
 power_one(qdot_generator *g, const qdot_taylor_step *s)
 {
-    keep(g, at(g, s->to, 1), c_of(g, s), slot(g, s, 2));
-    keep(g, at(g, s->x, 1), c_of(g, s), slot(g, s, 3));
+    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 2));
+    keep(g, at(g, s->x, 1), qdot_code_c(g, s), slot(g, s, 3));
 }
 
 /* d, then to = d/k */
@@ -265,10 +255,10 @@ ratio(qdot_generator *g, const qdot_taylor_step *s)
     const qdot_x86_rm k = qdot_code_entry(QDOT_CODE_ORDERS, g->k);
     sum d = past(g, s, 0);
 
-    scale_sum(g, &d, c_of(g, s));
+    scale_sum(g, &d, qdot_code_c(g, s));
     negate(&d);
     lately(g, &d, true, slot(g, s, 1), s->y, slot(g, s, 2), s->d);
-    keep(g, k, c_of(g, s), slot(g, s, 0));
+    keep(g, k, qdot_code_c(g, s), slot(g, s, 0));
     times(g, &d, s->sign < 0, slot(g, s, 0), s->x, g->k);
     finish_weighted(g, total(g, &d), s);
 }
@@ -276,8 +266,8 @@ ratio(qdot_generator *g, const qdot_taylor_step *s)
 static void
 ratio_one(qdot_generator *g, const qdot_taylor_step *s)
 {
-    keep(g, at(g, s->d, 1), c_of(g, s), slot(g, s, 1));
-    keep(g, at(g, s->y, 1), c_of(g, s), slot(g, s, 2));
+    keep(g, at(g, s->d, 1), qdot_code_c(g, s), slot(g, s, 1));
+    keep(g, at(g, s->y, 1), qdot_code_c(g, s), slot(g, s, 2));
 }
 
 /* Slots: 2 to_0, 2 to_1 */
@@ -326,7 +316,7 @@ arctangent(qdot_generator *g, const qdot_taylor_step *s)
     lately(g, &d, true, at(g, s->d, 1), s->z, at(g, s->z, 1), s->d);
     times(g, &d, false, at(g, s->y, 0), s->second, g->k);
     times(g, &d, true, at(g, s->x, 0), s->third, g->k);
-    scale_sum(g, &d, c_of(g, s));
+    scale_sum(g, &d, qdot_code_c(g, s));
     finish_weighted(g, d.v, s);
 }
 

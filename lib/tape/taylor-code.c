@@ -551,6 +551,8 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     text->doubles = give_places(g);
     QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
     emit_all(g);
+    text->begin = g->x.bytes.n;
+    qdot_code_zero(g);
     QDOT_TRY(g->x.status);
     if (g->x.bytes.n > most_bytes)
         *why = "machine code for them would be too long";
@@ -645,6 +647,16 @@ qdot_taylor_code_unit(qdot_taylor_code *c, double unit)
         w[QDOT_CODE_ONCE_LOW + k] = unit * c->once_low[k];
         w[QDOT_CODE_TWICE_LOW + k] = unit * unit * c->twice_low[k];
     }
+}
+
+void
+qdot_taylor_code_begin(const qdot_taylor_code *c, qdot_taylor *t)
+{
+    const unsigned char *first = qdot_taylor_text_first(c->text) + c->text->begin;
+    kernel *code;
+
+    memcpy(&code, &first, sizeof code);
+    code(t->coefficients, t->steps, c->work);
 }
 
 void

@@ -18,6 +18,9 @@
  * Unknowns (qdot_taylor_solve) are solved for at the end of every order, by the matrices
  * that are there when the code is run.
  *
+ * Order 0 is a second function: sums, products, quotients and roots as they stand, a call for each
+ * elementary function.
+ *
  * It needs AVX-512, and a system that lets a program run what it wrote. Where it runs the
  * last bits of coefficients are other ones than those of taylor-order.def.
  *
@@ -42,8 +45,10 @@ void qdot_taylor_code_free(qdot_taylor_code *code);
 /* What links multiply with; before the orders are run. */
 void qdot_taylor_code_unit(qdot_taylor_code *code, double unit);
 
-/* All its orders of the program it was made of, order 0 and what is linked to it being
- * there. */
+/* Order 0 of the program it was made of and, if nothing is solved for, what is linked to it, by
+ * the unit that is there. */
+void qdot_taylor_code_begin(const qdot_taylor_code *code, qdot_taylor *t);
+/* All its orders, order 0 and what is linked to it being there. */
 void qdot_taylor_code_run(const qdot_taylor_code *code, qdot_taylor *t);
 
 int qdot_taylor_code_orders(const qdot_taylor_code *code);

@@ -9,6 +9,8 @@
 #ifndef QDOT_TAPE_TAYLOR_GENERATOR_H
 #define QDOT_TAPE_TAYLOR_GENERATOR_H
 
+#include <stddef.h>
+
 #include "tape/taylor-steps.h"
 #include "tape/x86.h"
 
@@ -100,6 +102,9 @@ typedef struct {
 /* By qdot_taylor_op. */
 extern const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT];
 
+/* Order 0 of all steps, and of links; a function of its own. */
+void qdot_code_zero(qdot_generator *g);
+
 /* Order g->k of unknowns. */
 void qdot_code_solve(qdot_generator *g, size_t block);
 
@@ -120,6 +125,14 @@ qdot_code_coefficient(const qdot_generator *g, uint32_t row, int k)
     if (k > QDOT_CODE_ANY / 2)
         return qdot_x86_at(QDOT_X86_R8, at + 8 * (k - QDOT_CODE_ANY));
     return qdot_x86_at(QDOT_X86_RDI, at + 8 * k);
+}
+
+static inline qdot_x86_rm
+qdot_code_c(const qdot_generator *g, const qdot_taylor_step *s)
+{
+    return qdot_x86_at(QDOT_X86_RSI,
+                       (int32_t)((size_t)(s - g->t->steps) * sizeof *s
+                                 + offsetof(qdot_taylor_step, c)));
 }
 
 static inline qdot_x86_rm

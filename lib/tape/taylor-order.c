@@ -35,8 +35,8 @@ qdot_taylor_draw(qdot_taylor *t, double time)
 
 /* --- evaluation --------------------------------------------------------------------- */
 
-static void
-value_of_zero(qdot_taylor_step *i)
+void
+qdot_taylor_value(qdot_taylor_step *i)
 {
     double a = i->x[0], b = i->y[0], c = i->z[0], d = 0, e = 0;
 
@@ -112,7 +112,7 @@ static void
 order_zero(const qdot_taylor *t)
 {
     for (size_t i = 0; i < t->length; i++)
-        value_of_zero(t->steps + i);
+        qdot_taylor_value(t->steps + i);
 }
 
 /* Order k of the first n steps but those that have none, of an order's functions. */
@@ -135,7 +135,10 @@ qdot_taylor_order(qdot_taylor *t, int k)
         order(t, t->length, functions()[k]);
         return;
     }
-    order_zero(t);
+    if (t->code && t->n_blocks > 0)
+        qdot_taylor_code_begin(t->code, t);
+    else
+        order_zero(t);
     qdot_taylor_changes_stale(t);
 }
 
@@ -161,6 +164,13 @@ qdot_taylor_begin_links(qdot_taylor *t, double unit)
 void
 qdot_taylor_begin(qdot_taylor *t, double unit)
 {
+    if (t->code && t->n_blocks == 0) {
+        for (size_t l = 0; l < t->n_links; l++)
+            t->steps[t->length + l].c = unit;
+        qdot_taylor_code_unit(t->code, unit);
+        qdot_taylor_code_begin(t->code, t);
+        return;
+    }
     order_zero(t);
     qdot_taylor_begin_links(t, unit);
 }

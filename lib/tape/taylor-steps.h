@@ -93,6 +93,9 @@ struct qdot_taylor {
     const char *no_code;           /* for this reason; NULL: none was asked for */
 };
 
+/* Order 0 of a step. */
+void qdot_taylor_value(qdot_taylor_step *step);
+
 void qdot_taylor_changes_free(qdot_taylor *t);
 /* Order 0 has been evaluated. */
 void qdot_taylor_changes_stale(qdot_taylor *t);

@@ -30,7 +30,7 @@ static atomic_uint next_place;
 
 /* --- keys --------------------------------------------------------------------------- */
 
-enum { OF_ALL = 8, OF_STEP = 9, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
+enum { OF_ALL = 8, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
 
 static uint32_t
 row(const qdot_taylor *t, const double *x)
@@ -41,7 +41,7 @@ row(const qdot_taylor *t, const double *x)
 static size_t
 length_of_key(const qdot_taylor *t)
 {
-    size_t n = OF_ALL + OF_STEP * (t->length + t->n_links - t->still);
+    size_t n = OF_ALL + OF_STEP * (t->length + t->n_links);
 
     for (size_t k = 0; k < t->n_blocks; k++)
         n += OF_BLOCK + OF_UNKNOWN * t->blocks[k].n +
@@ -53,6 +53,7 @@ static uint32_t *
 put_step(const qdot_taylor *t, const qdot_taylor_step *s, uint32_t *to)
 {
     const uint32_t words[OF_STEP] = {s->op,
+                                     s->zero,
                                      (uint32_t)s->sign,
                                      row(t, s->to),
                                      row(t, s->second),
@@ -95,7 +96,7 @@ put_all(const qdot_taylor *t, int orders, uint32_t *to)
 
     memcpy(to, words, sizeof words);
     to += OF_ALL;
-    for (size_t i = t->still; i < t->length + t->n_links; i++)
+    for (size_t i = 0; i < t->length + t->n_links; i++)
         to = put_step(t, t->steps + i, to);
     for (size_t k = 0; k < t->n_blocks; k++)
         to = put_block(t, t->blocks + k, to);

@@ -19,6 +19,7 @@ typedef struct {
     size_t length;
     void *memory;
     size_t size, used; /* bytes: of the memory, of the code */
+    size_t begin;      /* where the function of order 0 is in it */
     size_t doubles;    /* of work space that it wants */
     uint32_t *blocks;  /* [blocks] where there it has their matrices */
     atomic_uint users;

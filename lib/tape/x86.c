@@ -197,6 +197,44 @@ qdot_x86_return(qdot_x86 *x)
     write_bytes(x, sizeof bytes, bytes);
 }
 
+void
+qdot_x86_frame(qdot_x86 *x)
+{
+    /* push rdi, rsi, rdx: with the way back these are 32 bytes, as calls want it */
+    static const unsigned char bytes[] = {0x57, 0x56, 0x52};
+
+    write_bytes(x, sizeof bytes, bytes);
+}
+
+void
+qdot_x86_call(qdot_x86 *x, void (*function)(void))
+{
+    static const unsigned char call_rax[] = {0xff, 0xd0};
+    static const unsigned char restore[] = {
+        0x48, 0x8b, 0x7c, 0x24, 0x10, /* mov rdi, [rsp + 16] */
+        0x48, 0x8b, 0x74, 0x24, 0x08, /* mov rsi, [rsp + 8] */
+        0x48, 0x8b, 0x14, 0x24        /* mov rdx, [rsp] */
+    };
+    const uint64_t address = (uint64_t)(uintptr_t)function;
+    unsigned char *start = room(x), *at = start;
+
+    *at++ = 0x48; /* mov rax, address */
+    *at++ = 0xb8;
+    at = little_endian(at, (uint32_t)address);
+    at = little_endian(at, (uint32_t)(address >> 32));
+    written(x, start, at);
+    write_bytes(x, sizeof call_rax, call_rax);
+    write_bytes(x, sizeof restore, restore);
+}
+
+void
+qdot_x86_unframe(qdot_x86 *x)
+{
+    static const unsigned char bytes[] = {0x48, 0x83, 0xc4, 0x18}; /* add rsp, 24 */
+
+    write_bytes(x, sizeof bytes, bytes);
+}
+
 bool
 qdot_x86_is_here(void)
 {

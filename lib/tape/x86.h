@@ -27,6 +27,7 @@
     X(MUL, 1, 3, 0x59, false)                                                            \
     X(SUB, 1, 3, 0x5c, false)                                                            \
     X(DIV, 1, 3, 0x5e, false)         /* reg = first / rm */                             \
+    X(ROOT, 1, 3, 0x51, false)        /* reg = sqrt(rm) */                               \
     X(MADD_OVER, 2, 1, 0xa9, false)   /* reg = first reg + rm */                         \
     X(MSUB_OVER, 2, 1, 0xab, false)   /* reg = first reg - rm */                         \
     X(NMADD_OVER, 2, 1, 0xad, false)  /* reg = rm - first reg */                         \
@@ -102,6 +103,11 @@ void qdot_x86_address(qdot_x86 *x, qdot_x86_base to, qdot_x86_base from, int32_t
 size_t qdot_x86_repeat(qdot_x86 *x, int times);
 void qdot_x86_again(qdot_x86 *x, size_t from);
 void qdot_x86_return(qdot_x86 *x);
+/* A C function is called; what the code was run with (rdi, rsi, rdx) is there again after it,
+ * vector registers are not. Between _frame and _unframe, the latter before the return. */
+void qdot_x86_frame(qdot_x86 *x);
+void qdot_x86_call(qdot_x86 *x, void (*function)(void));
+void qdot_x86_unframe(qdot_x86 *x);
 
 /* Whether this processor and its system have all that. */
 bool qdot_x86_is_here(void);

@@ -52,6 +52,8 @@ instructions_have_their_bytes(void **state)
          "vmovupd %zmm0,0xc0(%rdx)", 7, "\x62\xf1\xfd\x48\x11\x42\x03"},
         {QDOT_X86_DIV, 4, 18, {true, false, DX, 0x28}, 0, -1, false,
          "vdivsd 0x28(%rdx),%xmm18,%xmm4", 7, "\x62\xf1\xef\x00\x5e\x62\x05"},
+        {QDOT_X86_ROOT, 6, 20, {false, false, 20, 0}, 0, -1, false,
+         "vsqrtsd %xmm20,%xmm20,%xmm6", 6, "\x62\xb1\xdf\x00\x51\xf4"},
         {QDOT_X86_XOR_ALL, 17, 17, {false, false, 17, 0}, 0, -1, false,
          "vpxorq %zmm17,%zmm17,%zmm17", 6, "\x62\xa1\xf5\x40\xef\xc9"},
         {QDOT_X86_ADD, 1, 20, {true, false, QDOT_X86_R8, 0x10}, 0, -1, false,
@@ -121,6 +123,38 @@ loops_have_theirs(void **state)
     qdot_free(x.bytes.at);
 }
 
+static void
+nothing(void)
+{
+}
+
+static void
+calls_have_theirs(void **state)
+{
+    static const unsigned char before[] = {0x57, 0x56, 0x52, /* push %rdi, %rsi, %rdx */
+                                           0x48, 0xb8 /* movabs $..., %rax */};
+    static const unsigned char after[] = {
+        0xff, 0xd0,                   /* call *%rax */
+        0x48, 0x8b, 0x7c, 0x24, 0x10, /* mov 16(%rsp),%rdi */
+        0x48, 0x8b, 0x74, 0x24, 0x08, /* mov 8(%rsp),%rsi */
+        0x48, 0x8b, 0x14, 0x24,       /* mov (%rsp),%rdx */
+        0x48, 0x83, 0xc4, 0x18        /* add $24,%rsp */
+    };
+    const uint64_t address = (uint64_t)(uintptr_t)nothing;
+    qdot_x86 x = {0};
+
+    (void)state;
+    qdot_x86_frame(&x);
+    qdot_x86_call(&x, nothing);
+    qdot_x86_unframe(&x);
+    assert_int_equal(x.bytes.n, sizeof before + sizeof address + sizeof after);
+    assert_memory_equal(x.bytes.at, before, sizeof before);
+    for (size_t i = 0; i < sizeof address; i++)
+        assert_int_equal(x.bytes.at[sizeof before + i], address >> 8 * i & 0xff);
+    assert_memory_equal(x.bytes.at + sizeof before + sizeof address, after, sizeof after);
+    qdot_free(x.bytes.at);
+}
+
 int
 main(void)
 {
@@ -128,6 +162,7 @@ main(void)
         cmocka_unit_test(instructions_have_their_bytes),
         cmocka_unit_test(masks_and_the_end_have_theirs),
         cmocka_unit_test(loops_have_theirs),
+        cmocka_unit_test(calls_have_theirs),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
