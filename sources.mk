@@ -22,6 +22,7 @@ num_sources = \
 	lib/num/bordered.c \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
+	lib/num/hermite.c \
 	lib/num/ldlt.c \
 	lib/num/least-move.c \
 	lib/num/real.c \
@@ -45,6 +46,7 @@ num_headers = \
 	lib/num/bordered.h \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
+	lib/num/hermite.h \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
 	lib/num/least-move.h \
@@ -585,6 +587,7 @@ unit_tests = \
 	tests/num/test_batch \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
+	tests/num/test_hermite \
 	tests/num/test_ldlt \
 	tests/num/test_real \
 	tests/num/test_row-space \

@@ -26,6 +26,10 @@ static const double roughly_known = 1.5;
  * where it gets stuck there the method's partner takes over. */
 static const uint64_t most_explicit_steps = 100000;
 
+/* Times the steps of the run; what a companion may take beyond that, in steps and nanoseconds. */
+static const uint64_t patience = 20, patience_stiff = 100, most_beyond = 200000;
+static const double most_time = 2e9;
+
 /* Where in a run the times between lie; without a pattern that a period could share. */
 static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
                                 0.7853, 0.8311, 0.8929, 0.9467};
@@ -61,6 +65,7 @@ struct qdot_companion {
     size_t n_shown;
     atomic_bool leave; /* the run ended elsewhere */
     atomic_uint_fast64_t most_steps;
+    uint64_t run_steps; /* of the run, where most_steps is known */
     double share; /* of the second one's distance that counts */
     double floor; /* of the error */
     bool is_long;
@@ -197,7 +202,8 @@ run_to(follower *f, double t1)
         run_by(f, qdot_ode_method_find(c->run->partner), t1);
     if (f->steps > atomic_load(&c->most_steps) && f->result.reason[0] == '\0')
         snprintf(f->result.reason, sizeof f->result.reason,
-                 "it would take more than %llu steps", (unsigned long long)f->steps);
+                 "it would take more than %llu steps where this one took %llu",
+                 (unsigned long long)f->steps - 1, (unsigned long long)c->run_steps);
     f->finished = true;
 }
 
@@ -399,10 +405,23 @@ arrive(follower *f, bool whole, double t_end, const double *y, double *differenc
     return whole && c->n_shown == PLACES && f->reached == PLACES;
 }
 
+uint64_t
+qdot_companion_patience(const qdot_ode_system *system, const qdot_ode_method *method,
+                        uint64_t steps)
+{
+    const double n = (double)system->n, p = 20;
+    const double *c = system->series ? system->series->cost : NULL;
+    const double cost = c ? c[0] + c[1] * p + c[2] * p * p : n * n * n;
+
+    return (method->stiff ? patience_stiff : patience) * steps
+           + (uint64_t)fmin((double)most_beyond, most_time / fmax(1, cost));
+}
+
 void
 qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
-    atomic_store(&c->most_steps, QDOT_COMPANION_PATIENCE * steps + QDOT_COMPANION_STEPS);
+    c->run_steps = steps;
+    atomic_store(&c->most_steps, qdot_companion_patience(&c->at[0].system, c->run, steps));
     c->share = qdot_companion_far(steps) / QDOT_COMPANION_FAR;
     c->floor = !c->leading                    ? qdot_companion_floor(steps)
                : c->at[0].system.following ? derived * unit

@@ -101,9 +101,18 @@ const double *qdot_companion_times(const qdot_companion *c, size_t *count);
 /* The state y [n] of the run at time k of those; copied. */
 void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
 
-/* The run itself took so many steps. A companion that wants QDOT_COMPANION_PATIENCE times
- * as many and QDOT_COMPANION_STEPS more does not arrive: beside a scene at rest, which one
- * step may cross, one moved by a rounding swings for all of the time. */
+/* The most steps that a companion may take beside a run of so many by that method,
+ *
+ *     r steps + min(200000, 2 s/c),   r = 20; beside a stiff method 100, whose steps no fast motion
+ *                                     bounds,
+ *
+ * c being what a step costs (by the series' model, else n^3 ns). One that wants more does not
+ * arrive: it has met what the run has stepped over. The second term is for a scene at rest, which
+ * one step may cross, while one moved by a rounding swings for all of the time. */
+uint64_t qdot_companion_patience(const qdot_ode_system *system, const qdot_ode_method *method,
+                                 uint64_t steps);
+
+/* The run itself took so many steps: the companions get that much patience. */
 void qdot_companion_limit(qdot_companion *c, uint64_t steps);
 
 /* By how many doubles the second companion starts away: a walk of so many steps, from 1 to
@@ -113,9 +122,6 @@ double qdot_companion_far(uint64_t steps);
 
 /* What a run of so many steps may err by in any case. */
 double qdot_companion_floor(uint64_t steps);
-
-#define QDOT_COMPANION_PATIENCE 100
-#define QDOT_COMPANION_STEPS 200000
 
 /* The run itself has ended at t_end with y [n]: wait for the companion (that of a run
  * which ended before t1 starts again, to t_end), compare, and free it.

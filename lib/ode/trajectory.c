@@ -398,10 +398,11 @@ qdot_trajectory_close(qdot_trajectory_cursor *c)
 static qdot_status
 walk(qdot_trajectory_cursor *c, double t)
 {
+    enum { most = 2000 }; /* of a step of the run: few will do, but before a singular place */
     qdot_ode_stepper *s = c->s;
     double now = c->tr->t[c->at], h = t - now;
 
-    for (;;) {
+    for (int tries = 0;; tries++) {
         double ratio, factor = 0.25;
         bool last = fabs(h) >= fabs(t - now);
         qdot_status status;
@@ -423,6 +424,10 @@ walk(qdot_trajectory_cursor *c, double t)
             }
         }
         h *= factor;
+        if (tries == most)
+            return qdot_fail(QDOT_EFAILED,
+                             "the state at t = %.17g cannot be found from the run: steps there "
+                             "come down to %.2g", t, fabs(h));
         if (fabs(h) < 4 * DBL_EPSILON * fabs(now) || fabs(h) < DBL_MIN)
             return qdot_fail(QDOT_EFAILED,
                              "the state at t = %.17g cannot be found from the run", t);

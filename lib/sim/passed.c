@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "num/hermite.h"
 #include "sim/constraints.h"
 
 /* Below it, or a hundred tolerances but no more than the second, q is 0. */
@@ -14,6 +15,10 @@ static const double dependent = 1e-5, most_dependent = 1e-3;
 /* A minimum that is less of the points beside it is looked at; one of which so much is left
  * when the sections have closed in on it is none that comes to 0. */
 static const double shallow = 0.75, floor_of_minimum = 0.2;
+
+/* Times what counts as 0: between two minima that are one place, which a run came to in steps as
+ * short as rounding, q stays below it. */
+static const double away = 10;
 
 enum { sections = 60, closed_in = 12, most_told = 60 };
 
@@ -31,18 +36,71 @@ typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;
     qdot_constrained *held; /* of the piece at hand */
-    size_t piece;
+    size_t piece, end; /* and the stored point that it ends before */
     double *y; /* [2n] */
+    size_t step; /* whose end is stored point `step`: where between[] is of */
+    double *between; /* [4n] of a method without series: slopes of its ends' states */
+    bool sloped;     /* they are known; else those of cubics stand for them */
     double enough; /* of q, to be 0 */
     double t[3], q[3]; /* at the last places of the piece, */
     size_t taken;      /* as many */
+    double most;       /* q since the last that was told */
     qdot_vec(group) groups;
 } search;
+
+/* The step whose end is stored point k. */
+static void
+enter(search *s, size_t k)
+{
+    const qdot_trajectory *tr = &s->course->tr;
+    const qdot_ode_system *system =
+        qdot_course_systems(s->course) + tr->pieces.at[s->piece].mode;
+
+    s->step = k;
+    s->sloped = true;
+    for (size_t i = 0; i < 2 && s->sloped; i++) {
+        const size_t at = k - 1 + i;
+
+        s->sloped = system->rhs(tr->t[at], tr->y + at * tr->n, s->between + i * tr->n,
+                                system->user)
+                    == QDOT_OK;
+    }
+}
+
+/* The state at t by polynomials through the ends of a step: what a method without series knows
+ * between them costs steps of its own, which are tiny about the places that are looked for. */
+static void
+interpolate(search *s, double t)
+{
+    const qdot_trajectory *tr = &s->course->tr;
+    const size_t n = tr->n / 2, first = tr->pieces.at[s->piece].first;
+    const double way = tr->t[tr->count - 1] < tr->t[0] ? -1 : 1;
+    size_t k = s->step > first ? s->step : first + 1;
+
+    while (k > first + 1 && way * (t - tr->t[k - 1]) < 0)
+        k--;
+    while (k < s->end - 1 && way * (t - tr->t[k]) > 0)
+        k++;
+    if (k != s->step)
+        enter(s, k);
+    for (size_t i = 0; i < n; i++) {
+        const double *y = tr->y + (k - 1) * tr->n, *z = y + tr->n, h = tr->t[k] - tr->t[k - 1];
+        qdot_hermite_end from = {y[i], y[n + i], s->between[n + i]};
+        qdot_hermite_end to = {z[i], z[n + i], s->between[tr->n + n + i]};
+
+        if (!s->sloped)
+            qdot_hermite_cubic_ends(&from, &to, h);
+        s->y[i] = qdot_hermite_at(&from, &to, h, (t - tr->t[k - 1]) / h, s->y + n + i);
+    }
+}
 
 static qdot_status
 look(search *s, double t, double *q)
 {
-    QDOT_TRY(qdot_trajectory_read_piece(s->cursor, s->piece, t, s->y));
+    if (s->between)
+        interpolate(s, t);
+    else
+        QDOT_TRY(qdot_trajectory_read_piece(s->cursor, s->piece, t, s->y));
     *q = qdot_constrained_independence(s->held, t, s->y);
     return QDOT_OK;
 }
@@ -95,6 +153,9 @@ note(search *s, double t)
     }
     if (!g || g->names.at != names.at)
         qdot_text_clear(&names);
+    if (g && g->times.n > 0 && s->most < away * s->enough)
+        return QDOT_OK;
+    s->most = 0;
     return g ? qdot_vec_push(&g->times, t) : status;
 }
 
@@ -116,6 +177,7 @@ take(search *s, double t, double q)
     memmove(s->q, s->q + 1, 2 * sizeof *s->q);
     s->t[2] = t;
     s->q[2] = q;
+    s->most = fmax(s->most, s->q[1]); /* the newest may lie behind the minimum about to be told */
     if (++s->taken < 3 || !comes_down(s->q))
         return QDOT_OK;
     QDOT_TRY(descend(s, s->t, s->q, &at, &least));
@@ -164,6 +226,8 @@ go_through(search *s)
         const size_t end = s->piece + 1 < tr->pieces.n ? p[1].first : tr->count;
 
         s->taken = 0;
+        s->end = end;
+        s->step = 0;
         s->held = qdot_bind_held(s->course->binds.at[p->mode]);
         for (size_t k = p->first; k < end; k++) {
             if (k % 1024 == 0)
@@ -210,7 +274,10 @@ qdot_passed_tell(const qdot_course *course, qdot_text *to)
     if (!first || qdot_constrained_rows(first) < 2 || course->tr.count < 2)
         return QDOT_OK;
     s.y = qdot_calloc(course->tr.n, sizeof *s.y);
-    status = s.y ? qdot_trajectory_open(&course->tr, qdot_course_systems(course), &s.cursor)
+    if (!course->tr.method->series)
+        s.between = qdot_calloc(2 * course->tr.n, sizeof *s.between);
+    status = s.y && (s.between || course->tr.method->series)
+                 ? qdot_trajectory_open(&course->tr, qdot_course_systems(course), &s.cursor)
                  : QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = go_through(&s);
@@ -222,6 +289,7 @@ qdot_passed_tell(const qdot_course *course, qdot_text *to)
     }
     qdot_free(s.groups.at);
     qdot_trajectory_close(s.cursor);
+    qdot_free(s.between);
     qdot_free(s.y);
     return status == QDOT_OK ? qdot_text_status(to) : status;
 }

@@ -134,8 +134,8 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     if (method->stiff)
         system.series = NULL;
     options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
-    options.max_steps = QDOT_COMPANION_PATIENCE * run->course.tr.result.stats.steps
-                        + QDOT_COMPANION_STEPS;
+    options.max_steps =
+        qdot_companion_patience(&system, method, run->course.tr.result.stats.steps);
     y = qdot_malloc(2 * n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;
