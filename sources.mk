@@ -9,6 +9,7 @@ base_sources = \
 	lib/base/utf8.c
 
 base_headers = \
+	lib/base/clock.h \
 	lib/base/interrupt.h \
 	lib/base/memory.h \
 	lib/base/scope.h \
@@ -110,7 +111,8 @@ ode_sources = \
 	lib/ode/stepper.c \
 	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
-	lib/ode/trajectory.c
+	lib/ode/trajectory.c \
+	lib/ode/written.c
 
 ode_headers = \
 	lib/ode/apart.h \
@@ -126,7 +128,8 @@ ode_headers = \
 	lib/ode/system.h \
 	lib/ode/taylor-numbers.h \
 	lib/ode/taylor.h \
-	lib/ode/trajectory.h
+	lib/ode/trajectory.h \
+	lib/ode/written.h
 
 normal_sources = \
 	lib/normal/angle-basis.c \
@@ -605,6 +608,7 @@ unit_tests = \
 	tests/ode/test_precise \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
+	tests/ode/test_written \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_table \

@@ -4,8 +4,8 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/interrupt.h"
 #include "num/sum.h"
 #include "ode/apart.h"
@@ -54,15 +54,6 @@ qdot_ode_outcome_name(qdot_ode_outcome outcome)
     static const char *const names[] = {"done", "stopped", "failed"};
 
     return names[outcome];
-}
-
-static double
-cpu_now(void)
-{
-    struct timespec now;
-
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* The distance from |t| to the next double. */
@@ -163,18 +154,11 @@ control(run *r, double h, double ratio, bool accepted)
     r->h = accepted ? fmax(h * factor, h < r->h ? fmin(r->h, 5 * h) : 0) : h * factor;
 }
 
-/* Statuses by which f says that it does not exist at a point; any other ends the run. */
-static bool
-may_be_undefined(qdot_status status)
-{
-    return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EFAILED;
-}
-
 /* f is undefined somewhere within the step tried. */
 static qdot_status
 undefined(run *r, double h, qdot_status status)
 {
-    if (!may_be_undefined(status))
+    if (!qdot_ode_may_be_undefined(status))
         return status;
     r->last_undefined = *qdot_last_error();
     r->undefined_at = r->t + r->direction * h;
@@ -312,7 +296,7 @@ loop(run *r)
     } else {
         qdot_status status = first_step(r, distance);
 
-        if (may_be_undefined(status)) {
+        if (qdot_ode_may_be_undefined(status)) {
             r->last_undefined = *qdot_last_error();
             return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
                              r->last_undefined.message);
@@ -346,7 +330,7 @@ collect(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
     result->stats.evaluations = s->evaluations;
     result->stats.jacobians = s->jacobians;
     result->stats.factorisations = s->factorisations;
-    result->stats.cpu = cpu_now() - cpu_start;
+    result->stats.cpu = qdot_cpu_now() - cpu_start;
 }
 
 qdot_status
@@ -359,7 +343,7 @@ qdot_ode_enter(const qdot_ode_system *system, const qdot_ode_options *options, d
     if (!f || options->goes_on)
         return QDOT_OK;
     status = f->enter(t, y, options->carry, f->user);
-    if (may_be_undefined(status)) {
+    if (qdot_ode_may_be_undefined(status)) {
         const qdot_error why = *qdot_last_error();
 
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", t, why.message);
@@ -373,7 +357,7 @@ qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
                    qdot_ode_result *result)
 {
     static const qdot_ode_options defaults = {0};
-    double cpu_start = cpu_now();
+    double cpu_start = qdot_cpu_now();
     run r = {.options = options ? options : &defaults,
              .result = result,
              .t = t0,

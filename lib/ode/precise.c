@@ -3,8 +3,8 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
 
@@ -26,15 +26,6 @@ typedef struct {
     qdot_error undefined; /* what f said last */
     bool met;             /* ... it did */
 } state;
-
-static double
-cpu_now(void)
-{
-    struct timespec now;
-
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 int
 qdot_precise_order_for(double log2_tol, const double cost[3])
@@ -286,12 +277,6 @@ confirms_inside(state *s, bool *good)
 
 /* --- the loop ------------------------------------------------------------------------ */
 
-static bool
-may_be_undefined(qdot_status status)
-{
-    return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EFAILED;
-}
-
 /* Try a step of s->h to s->end. On QDOT_OK and *good it has been taken, and the series is
  * begun at its end. */
 static qdot_status
@@ -389,7 +374,7 @@ advance(state *s)
             if (status == QDOT_OK && good)
                 return QDOT_OK;
         }
-        if (status != QDOT_OK && !may_be_undefined(status))
+        if (status != QDOT_OK && !qdot_ode_may_be_undefined(status))
             return status;
         stats->rejected++;
         s->met = status != QDOT_OK;
@@ -430,7 +415,7 @@ loop(state *s)
     if (mpfr_equal_p(s->t, s->t1))
         return QDOT_OK;
     status = begin(s, s->t, s->y);
-    if (may_be_undefined(status)) {
+    if (qdot_ode_may_be_undefined(status)) {
         s->undefined = *qdot_last_error();
         s->met = true;
         return too_small(s);
@@ -486,7 +471,7 @@ qdot_precise_integrate(const qdot_precise_system *system,
                        const qdot_precise_options *options, mpfr_srcptr t0,
                        mpfr_srcptr t1, const mpfr_t *y0, qdot_precise_run *run)
 {
-    double start = cpu_now();
+    double start = qdot_cpu_now();
     state s = {.system = system,
                .options = options,
                .run = run,
@@ -505,7 +490,7 @@ qdot_precise_integrate(const qdot_precise_system *system,
     run->result.t =
         mpfr_get_d(run->count ? qdot_precise_point(run, run->count - 1)[0] : t0, RN);
     qdot_reals_clear(&s.numbers);
-    run->result.stats.cpu = cpu_now() - start;
+    run->result.stats.cpu = qdot_cpu_now() - start;
     if (status != QDOT_OK) {
         run->result.outcome = QDOT_ODE_FAILED;
         memcpy(run->result.reason, qdot_last_error()->message,

@@ -51,6 +51,12 @@ typedef struct {
      * expansions save by it. May be NULL. */
     qdot_status (*write)(int p, void *user);
     double worth;
+    /* Where there is `write`, these are too. Code that lies there from before becomes that of
+     * expansions to order p, where they are not code; asked for once; whether it has. Whether they
+     * are code. They are not any more. */
+    bool (*take)(int p, void *user);
+    bool (*there)(int p, void *user);
+    void (*drop)(void *user);
     double written[3]; /* cost, then; zeros: there is none of it here */
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
@@ -126,5 +132,12 @@ typedef struct qdot_ode_system {
     /* The first orders of the series in two doubles; NULL if there are none; borrowed */
     const qdot_ode_leading *leading;
 } qdot_ode_system;
+
+/* Statuses by which f says that it does not exist at a point. */
+static inline bool
+qdot_ode_may_be_undefined(qdot_status status)
+{
+    return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EFAILED;
+}
 
 #endif

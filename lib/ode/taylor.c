@@ -4,13 +4,14 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "num/series.h"
 #include "ode/leading.h"
 #include "ode/taylor-numbers.h"
+#include "ode/written.h"
 
 static const double tol_default = 1e-12;
 static const uint64_t max_steps_default = 50000000;
@@ -29,9 +30,6 @@ static const double least_held = 1e-14;
 
 /* log2 of the largest term, over the size of the state, whose rounding may count. */
 static const double term_least = -1;
-
-/* Steps by which the number of those to come is known; before, it has to be as much larger. */
-enum { few_steps = 4 };
 
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
@@ -54,8 +52,8 @@ typedef struct {
     double unit;   /* of the series: t' = t + unit s; a power of two, signed */
     double per_unit; /* its inverse */
     bool extended; /* the series is there to order p */
-    bool written;  /* as machine code */
-    double t0;
+    qdot_ode_written written;
+    double t0, first_unit;
 
     /* [n], with the room that qdot_series_step wants */
     double *y, *carry;           /* the state now */
@@ -71,15 +69,6 @@ typedef struct {
     qdot_error undefined;      /* what f said last */
     double undefined_at;       /* the end of the step that met it; NaN before any */
 } run;
-
-static double
-cpu_now(void)
-{
-    struct timespec now;
-
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void
 set_unit(run *r, double unit)
@@ -275,6 +264,15 @@ length_of_step(run *r, double most, double *h)
     }
 }
 
+static qdot_status
+step_wanted(run *r, double most, double *h)
+{
+    if (!(r->options->h_fixed > 0))
+        return length_of_step(r, most, h);
+    *h = r->options->h_fixed;
+    return expand(r);
+}
+
 /* --- confirmation ------------------------------------------------------------------- */
 
 /* The same of what is not integrated: its polynomial at the end, in r->next, against what
@@ -337,12 +335,6 @@ confirms_inside(run *r, double h, bool *good)
     return status;
 }
 
-static bool
-may_be_undefined(qdot_status status)
-{
-    return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EFAILED;
-}
-
 /* The state at the end of the step tried, brought back to where solutions are. */
 static qdot_status
 project(run *r, double t_end, double *moved)
@@ -377,18 +369,28 @@ take_followers(run *r)
     }
 }
 
-/* Machine code for the expansions, once a few steps have shown that many will follow. */
+/* Machine code for the expansions, once the steps that there are show that many follow. */
 static qdot_status
 write_code(run *r, double t)
 {
     const double steps = (double)r->result->stats.steps + 1;
-    const double left = steps * (r->t1 - t) / (t - r->t0);
 
-    if (r->written || !r->series->write ||
-        !(left * r->p * fmin(1, (steps + 1) / few_steps) > r->series->worth))
+    return qdot_ode_written_next(&r->written, steps, steps * (r->t1 - t) / (t - r->t0));
+}
+
+/* The same by the first, before it is taken. */
+static qdot_status
+judge_first(run *r, double most, double *h)
+{
+    bool again;
+
+    QDOT_TRY(qdot_ode_written_first(&r->written, fabs(r->t1 - r->t) / *h - 1, &again));
+    if (!again)
         return QDOT_OK;
-    r->written = true;
-    return r->series->write(r->p, r->series->user);
+    r->result->stats.evaluations = 0;
+    set_unit(r, r->first_unit);
+    QDOT_TRY(begin(r, r->t, r->y));
+    return step_wanted(r, most, h);
 }
 
 /* The same end, the first orders in two doubles. */
@@ -515,10 +517,10 @@ advance(run *r)
             status = begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
-            status = r->options->h_fixed > 0 ? expand(r) : length_of_step(r, most, &h);
+            status = step_wanted(r, most, &h);
+        if (status == QDOT_OK && r->written.first)
+            status = judge_first(r, most, &h);
         if (status == QDOT_OK) {
-            if (r->options->h_fixed > 0)
-                h = r->options->h_fixed;
             unsure = isinf(h);
             h = qdot_smaller(h, most);
             end = end_of_step(r, h);
@@ -528,11 +530,11 @@ advance(run *r)
             status = try_step(r, end - r->t, end, unsure, &good);
             if (status == QDOT_OK && good)
                 return QDOT_OK;
-        } else if (may_be_undefined(status)) {
+        } else if (qdot_ode_may_be_undefined(status)) {
             /* the point itself was good: only what is beyond it is not */
             h = fabs(r->unit);
         }
-        if (status != QDOT_OK && !may_be_undefined(status))
+        if (status != QDOT_OK && !qdot_ode_may_be_undefined(status))
             return status;
         r->result->stats.rejected++;
         if (status != QDOT_OK) {
@@ -555,9 +557,11 @@ loop(run *r)
         return QDOT_OK;
     if (r->options->h_first > 0)
         r->unit = qdot_step_unit(r->options->h_first);
-    set_unit(r, r->direction * fabs(r->unit));
+    r->first_unit = r->direction * fabs(r->unit);
+    r->written = qdot_ode_written_begin(r->series, r->p);
+    set_unit(r, r->first_unit);
     status = begin(r, r->t, r->y);
-    if (may_be_undefined(status)) {
+    if (qdot_ode_may_be_undefined(status)) {
         r->undefined = *qdot_last_error();
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
                          r->undefined.message);
@@ -656,7 +660,7 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
                           double t0, double t1, double *y, qdot_ode_result *result)
 {
     static const qdot_ode_options defaults = {0};
-    double cpu_start = cpu_now();
+    double cpu_start = qdot_cpu_now();
     run r = {.system = system,
              .series = system->series,
              .kernels = qdot_series_kernels_get(),
@@ -685,7 +689,7 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
             memcpy(r.options->end_low, r.carry, r.n * sizeof *y);
     }
     release(&r);
-    result->stats.cpu = cpu_now() - cpu_start;
+    result->stats.cpu = qdot_cpu_now() - cpu_start;
     result->t = r.t;
     if (status != QDOT_OK) {
         result->outcome = QDOT_ODE_FAILED;

@@ -102,15 +102,15 @@ begin(double t, const double *y, double unit, void *user)
 {
     qdot_bordered *e = user;
     const qdot_ode_series *other = e->other;
+    const bool code = qdot_taylor_is_code(e->taylor, e->p - 1);
+    const bool own = (code || !e->looked) && begin_own(e, t, y, unit);
 
     e->now = NULL;
     e->series.x = e->q;
     e->series.stride = e->stride;
-    if (!e->looked) {
-        e->fits = begin_own(e, t, y, unit);
-        e->looked = true;
-    }
-    if (qdot_taylor_is_code(e->taylor, e->p - 1) && begin_own(e, t, y, unit)) {
+    e->fits = e->looked ? e->fits : own;
+    e->looked = true;
+    if (code && own) {
         qdot_taylor_begin_links(e->taylor, unit);
         return QDOT_OK;
     }
@@ -157,13 +157,41 @@ prepare(int p, void *user)
     return e->other->prepare ? e->other->prepare(p, e->other->user) : QDOT_OK;
 }
 
+/* Where the first state is not one for it, there is none, kept or not. */
 static qdot_status
 write_code(int p, void *user)
 {
     qdot_bordered *e = user;
 
     e->p = p;
-    return e->fits || !e->looked ? qdot_taylor_prepare(e->taylor, p - 1) : QDOT_OK;
+    if (e->fits || !e->looked)
+        return qdot_taylor_prepare(e->taylor, p - 1);
+    qdot_taylor_drop_code(e->taylor);
+    return QDOT_OK;
+}
+
+static bool
+take_code(int p, void *user)
+{
+    const qdot_bordered *e = user;
+
+    return qdot_taylor_take_kept(e->taylor, p - 1);
+}
+
+static bool
+is_code(int p, void *user)
+{
+    const qdot_bordered *e = user;
+
+    return qdot_taylor_is_code(e->taylor, p - 1);
+}
+
+static void
+drop_code(void *user)
+{
+    const qdot_bordered *e = user;
+
+    qdot_taylor_drop_code(e->taylor);
 }
 
 /* --- building ------------------------------------------------------------------------ */
@@ -262,6 +290,9 @@ make(qdot_bordered *e, const qdot_plan *p, bool shaken, const qdot_ode_series *o
                                   .cost = {other->cost[0], other->cost[1], other->cost[2]},
                                   .prepare = prepare,
                                   .write = write_code,
+                                  .take = take_code,
+                                  .there = is_code,
+                                  .drop = drop_code,
                                   .worth = 400,
                                   .begin = begin,
                                   .extend = extend,

@@ -255,6 +255,30 @@ write_code(int p, void *user)
     return qdot_taylor_prepare(e->taylor, p - 1);
 }
 
+static bool
+take_code(int p, void *user)
+{
+    const qdot_direct *e = user;
+
+    return qdot_taylor_take_kept(e->taylor, p - 1);
+}
+
+static bool
+is_code(int p, void *user)
+{
+    const qdot_direct *e = user;
+
+    return qdot_taylor_is_code(e->taylor, p - 1);
+}
+
+static void
+drop_code(void *user)
+{
+    const qdot_direct *e = user;
+
+    qdot_taylor_drop_code(e->taylor);
+}
+
 /* The matrices of what the program solves for. */
 static void
 hand_over(qdot_direct *e)
@@ -459,6 +483,9 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
                                   .checked = p->n,
                                   .prepare = prepare,
                                   .write = e->linked ? write_code : NULL,
+                                  .take = take_code,
+                                  .there = is_code,
+                                  .drop = drop_code,
                                   .worth = 800 + 5000 / (double)(qdot_taylor_length(e->taylor) + 1),
                                   .begin = begin,
                                   .extend = extend,

@@ -277,6 +277,30 @@ write_code(int p, void *user)
     return e->own->write(p, e->own->user);
 }
 
+static bool
+take_code(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->own->take(p, e->own->user);
+}
+
+static bool
+is_code(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->own->there(p, e->own->user);
+}
+
+static void
+drop_code(void *user)
+{
+    const qdot_eliminated *e = user;
+
+    e->own->drop(e->own->user);
+}
+
 qdot_status
 qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *other,
                     qdot_eliminated **eliminated)
@@ -305,6 +329,9 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
                                    e->own->cost[1], e->own->cost[2]},
                           .prepare = prepare,
                           .write = e->own->write ? write_code : NULL,
+                          .take = take_code,
+                          .there = is_code,
+                          .drop = drop_code,
                           .worth = 500,
                           .written = {e->own->written[0], e->own->written[1],
                                       e->own->written[2]}, /* see sim/bordered.c */

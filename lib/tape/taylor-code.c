@@ -528,7 +528,6 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
 {
     const size_t rows = g->t->rows, length = g->t->length;
 
-    g->per_row = ((uint64_t)1 << 32) / g->t->stride + 1;
     g->moving = qdot_calloc(rows + 1, sizeof *g->moving);
     g->row_vector = qdot_calloc(rows + 1, sizeof *g->row_vector);
     g->ready = qdot_calloc(4 * rows + 1, sizeof *g->ready);
@@ -583,7 +582,7 @@ write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **wh
 }
 
 qdot_status
-qdot_taylor_code_new(const qdot_taylor *t, int to, qdot_taylor_code **code,
+qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code **code,
                      const char **why)
 {
     qdot_taylor_code *c;
@@ -604,14 +603,14 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, qdot_taylor_code **code,
         return QDOT_ENOMEM;
     c->to = to;
     status = qdot_taylor_text_take(t, to, &c->text);
-    if (status == QDOT_OK && !c->text->memory) {
+    if (status == QDOT_OK && !c->text->memory && !kept) {
         status = write_text(t, to, c->text, why);
         if (status == QDOT_OK && !*why)
             qdot_taylor_text_keep(c->text);
     }
-    if (status == QDOT_OK && !*why)
+    if (status == QDOT_OK && c->text->memory)
         status = make_work(c, c->text->doubles);
-    if (status != QDOT_OK || *why) {
+    if (status != QDOT_OK || !c->text->memory) {
         qdot_taylor_code_free(c);
         return status;
     }

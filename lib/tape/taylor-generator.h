@@ -56,7 +56,6 @@ typedef struct {
 typedef struct {
     qdot_x86 x;
     const qdot_taylor *t;
-    uint64_t per_row;       /* 2^32/stride, rounded up: a row's number without a division */
     int n;                  /* orders */
     int k;                  /* the order at hand */
     int lag;                /* orders below it and their partners are added singly; 1 or 2 */
@@ -114,7 +113,7 @@ const double *qdot_code_factor(const qdot_taylor_step *s, unsigned char name);
 static inline uint32_t
 qdot_code_row(const qdot_generator *g, const double *row)
 {
-    return (uint32_t)((uint64_t)(row - g->t->coefficients) * g->per_row >> 32);
+    return qdot_taylor_row(g->t, row);
 }
 
 static inline qdot_x86_rm

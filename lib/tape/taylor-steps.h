@@ -79,6 +79,7 @@ struct qdot_taylor {
     double convolutions;
     double *allocated;
     double *coefficients;     /* [rows x stride], the inputs first; order 1 begins a line */
+    uint64_t per_row; /* 2^32/stride, rounded up: a row's number without a division */
     const double **output;    /* [outputs] rows */
     bool *constant;           /* [outputs] */
     qdot_taylor_step *steps; /* [length + n_links], then QDOT_T_END */
@@ -91,10 +92,17 @@ struct qdot_taylor {
     struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */
     struct qdot_taylor_code *code; /* taylor-code.c; NULL: the kernels run, */
     const char *no_code;           /* for this reason; NULL: none was asked for */
+    bool asked;                    /* for code that is kept */
 };
 
 /* Order 0 of a step. */
 void qdot_taylor_value(qdot_taylor_step *step);
+
+static inline uint32_t
+qdot_taylor_row(const qdot_taylor *t, const double *row)
+{
+    return (uint32_t)((uint64_t)(row - t->coefficients) * t->per_row >> 32);
+}
 
 void qdot_taylor_changes_free(qdot_taylor *t);
 /* Order 0 has been evaluated. */

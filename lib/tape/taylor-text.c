@@ -35,7 +35,7 @@ enum { OF_ALL = 8, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 }
 static uint32_t
 row(const qdot_taylor *t, const double *x)
 {
-    return x ? (uint32_t)((size_t)(x - t->coefficients) / t->stride) : UINT32_MAX;
+    return x ? qdot_taylor_row(t, x) : UINT32_MAX;
 }
 
 static size_t

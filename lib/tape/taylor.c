@@ -345,6 +345,7 @@ settle(qdot_taylor *t, const builder *b, int most, size_t unknowns)
 
     /* an odd number of cache lines apart, so that rows do not share a few sets */
     t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
+    t->per_row = ((uint64_t)1 << 32) / t->stride + 1;
     t->spare = b->constants.n;
     t->rows = t->spare + 2 * unknowns;
     t->inputs = tape->inputs;
@@ -527,8 +528,26 @@ qdot_taylor_prepare(qdot_taylor *t, int to)
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", to);
     if (qdot_taylor_is_code(t, to))
         return QDOT_OK;
+    qdot_taylor_drop_code(t);
+    return qdot_taylor_code_new(t, to, false, &t->code, &t->no_code);
+}
+
+bool
+qdot_taylor_take_kept(qdot_taylor *t, int to)
+{
+    const char *why;
+
+    if (t->asked || t->code || to < 1 || to > QDOT_SERIES_MOST)
+        return false;
+    t->asked = true;
+    return qdot_taylor_code_new(t, to, true, &t->code, &why) == QDOT_OK && t->code;
+}
+
+void
+qdot_taylor_drop_code(qdot_taylor *t)
+{
     qdot_taylor_code_free(t->code);
-    return qdot_taylor_code_new(t, to, &t->code, &t->no_code);
+    t->code = NULL;
 }
 
 size_t

@@ -131,6 +131,11 @@ void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
  * links are there by now. Whatever else is evaluated is so by the kernels, as everything is
  * without this call. Errors: QDOT_EINVAL (to), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to);
+/* The same where such code lies there from before, and nothing is to be written; asked for
+ * once, beside other code never. False: nothing has changed. */
+bool qdot_taylor_take_kept(qdot_taylor *taylor, int to);
+/* All is evaluated by the kernels again. */
+void qdot_taylor_drop_code(qdot_taylor *taylor);
 /* Whether orders 1 ... to are machine code. */
 bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
 /* Whether this processor has machine code at all. */

@@ -1,0 +1,18 @@
+/* clock.h -- the processor's time.
+ */
+#ifndef QDOT_BASE_CLOCK_H
+#define QDOT_BASE_CLOCK_H
+
+#include <time.h>
+
+/* Of this thread, in seconds. */
+static inline double
+qdot_cpu_now(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+#endif

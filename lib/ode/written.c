@@ -1,0 +1,55 @@
+/* written.c -- a guess of the steps to come against what writing takes. */
+#include "ode/written.h"
+
+#include <math.h>
+
+/* Steps by which the number of those to come is known; before, it has to be as much larger. */
+static const double few_steps = 4;
+
+/* What the first step says: many starts are at rest, where steps are the longest. */
+static const double by_first = 1.5;
+
+static bool
+pays(const qdot_ode_written *w, double steps, double left)
+{
+    return left * w->p * fmin(1, (steps + 1) / few_steps) > w->series->worth;
+}
+
+qdot_ode_written
+qdot_ode_written_begin(const qdot_ode_series *series, int p)
+{
+    qdot_ode_written w = {.series = series, .p = p};
+
+    w.done = !series->write || series->there(p, series->user);
+    w.first = !w.done;
+    w.on_trial = w.first && series->take(p, series->user);
+    return w;
+}
+
+qdot_status
+qdot_ode_written_first(qdot_ode_written *w, double left, bool *again)
+{
+    const qdot_ode_series *s = w->series;
+    const bool wanted = by_first * left * w->p > s->worth, there = w->on_trial;
+
+    w->first = w->on_trial = false;
+    w->done = wanted;
+    *again = false;
+    if (wanted && !there) {
+        QDOT_TRY(s->write(w->p, s->user));
+        *again = s->there(w->p, s->user);
+    } else if (there && !wanted) {
+        s->drop(s->user);
+        *again = true;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_ode_written_next(qdot_ode_written *w, double steps, double left)
+{
+    if (w->done || !pays(w, steps, left))
+        return QDOT_OK;
+    w->done = true;
+    return w->series->write(w->p, w->series->user);
+}

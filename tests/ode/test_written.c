@@ -1,0 +1,153 @@
+/* test_written.c -- when code is written, kept and dropped, of a series that only counts. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "ode/written.h"
+
+/* Code that is there, code that lies there from before; calls. */
+typedef struct {
+    bool there, kept, refused;
+    int written, taken, dropped;
+} counts;
+
+static qdot_status
+write_it(int p, void *user)
+{
+    counts *c = user;
+
+    (void)p;
+    c->written++;
+    c->there = !c->refused;
+    return QDOT_OK;
+}
+
+static bool
+take_it(int p, void *user)
+{
+    counts *c = user;
+
+    (void)p;
+    c->taken++;
+    c->there = c->kept;
+    return c->kept;
+}
+
+static bool
+is_there(int p, void *user)
+{
+    (void)p;
+    return ((counts *)user)->there;
+}
+
+static void
+drop_it(void *user)
+{
+    counts *c = user;
+
+    c->there = false;
+    c->dropped++;
+}
+
+static qdot_ode_series
+series_of(counts *c)
+{
+    return (qdot_ode_series){.worth = 300,
+                             .write = write_it,
+                             .take = take_it,
+                             .there = is_there,
+                             .drop = drop_it,
+                             .user = c};
+}
+
+/* The first step leaves so many: whether code is there, and whether it is expanded again. */
+static void
+after_first(counts *c, double left, bool there, bool again)
+{
+    const qdot_ode_series series = series_of(c);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20);
+    bool said;
+
+    assert_true(w.first);
+    assert_int_equal(c->taken, 1);
+    assert_int_equal(qdot_ode_written_first(&w, left, &said), QDOT_OK);
+    assert_int_equal(c->there, there);
+    assert_int_equal(said, again);
+    assert_false(w.first);
+}
+
+static void
+what_lay_there_changes_nothing(void **state)
+{
+    (void)state;
+    for (int kept = 0; kept < 2; kept++) {
+        counts few = {.kept = kept}, many = few, none = few;
+
+        after_first(&many, 11, true, !kept);
+        assert_int_equal(many.written, !kept);
+        after_first(&few, 9, false, kept);
+        assert_int_equal(few.written, 0);
+        assert_int_equal(few.dropped, kept);
+        after_first(&none, -1, false, kept); /* all at once */
+    }
+}
+
+static void
+later_steps_say_it_too(void **state)
+{
+    counts c = {0};
+    const qdot_ode_series series = series_of(&c);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20);
+    bool again;
+
+    (void)state;
+    assert_int_equal(qdot_ode_written_first(&w, 5, &again), QDOT_OK);
+    assert_int_equal(qdot_ode_written_next(&w, 1, 29), QDOT_OK);
+    assert_int_equal(c.written, 0);
+    assert_int_equal(qdot_ode_written_next(&w, 1, 31), QDOT_OK);
+    assert_int_equal(c.written, 1);
+    assert_int_equal(qdot_ode_written_next(&w, 2, 1000), QDOT_OK);
+    assert_int_equal(c.written, 1);
+}
+
+static void
+what_cannot_be_written_is_not_expanded_again(void **state)
+{
+    counts c = {.refused = true};
+
+    (void)state;
+    after_first(&c, 1000, false, false);
+    assert_int_equal(c.written, 1);
+}
+
+static void
+where_it_is_or_cannot_be_nothing_is_asked(void **state)
+{
+    counts c = {.there = true};
+    qdot_ode_series series = series_of(&c);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20);
+
+    (void)state;
+    assert_false(w.first);
+    assert_int_equal(qdot_ode_written_next(&w, 10, 1e9), QDOT_OK);
+    series = (qdot_ode_series){.most = 20};
+    w = qdot_ode_written_begin(&series, 20);
+    assert_false(w.first);
+    assert_int_equal(qdot_ode_written_next(&w, 10, 1e9), QDOT_OK);
+    assert_int_equal(c.taken + c.written + c.dropped, 0);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_lay_there_changes_nothing),
+        cmocka_unit_test(later_steps_say_it_too),
+        cmocka_unit_test(what_cannot_be_written_is_not_expanded_again),
+        cmocka_unit_test(where_it_is_or_cannot_be_nothing_is_asked),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
