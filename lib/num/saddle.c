@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 #include "num/cholesky.h"
 #include "num/series.h"
@@ -306,6 +307,7 @@ triangulate(qdot_saddle *s, size_t *failed)
     s->quality = 1;
     s->surplus = 0;
     for (k = 0; k < most; k++) {
+        QDOT_TRY(qdot_interrupt_check());
         norm = bring_forward(s, k);
         if (!isfinite(norm))
             break;
@@ -336,7 +338,7 @@ form_Q(qdot_saddle *s)
     const size_t n = s->n;
 
     memset(s->Q, 0, n * n * sizeof *s->Q);
-    for (size_t j = 0; j < n; j++) {
+    for (size_t j = 0; j < n && !qdot_interrupt_flag; j++) {
         double *column = s->Q + j * n;
 
         column[j] = 1;
@@ -361,12 +363,13 @@ factor_free(qdot_saddle *s, size_t *failed)
     qdot_status status;
 
     for (size_t j = 0; j < f; j++) {
+        QDOT_TRY(qdot_interrupt_check());
         times_mass(s, s->Q + (r + j) * n, s->w);
         for (size_t i = j; i < f; i++)
             s->N[i * f + j] = dot(n, s->Q + (r + i) * n, s->w);
     }
     if (f == 0)
-        return QDOT_OK;
+        return qdot_interrupt_check();
     s->ldlt.n = f;
     status = s->indefinite ? qdot_ldlt_factor(&s->ldlt, s->N, &where)
                            : qdot_cholesky_factor(s->N, f, NULL, &where);

@@ -110,7 +110,7 @@ bool qdot_saddle_has_faded(const qdot_saddle *s, size_t k);
 
 /* Factor what stands in M and A, which are kept. QDOT_ESINGULAR: A has lost rank
  * (*failed is a row of it, n + k), or M is singular on its null space (*failed is an
- * unknown), or something is not finite. */
+ * unknown), or something is not finite. QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_factor(qdot_saddle *s, size_t *failed);
 
 /* The same by the null space, whatever the pattern: it knows what is near. */

@@ -132,6 +132,8 @@ qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text 
     qdot_constrained_load(h, t, y);
     qdot_constrained_metric(h, all);
     status = qdot_saddle_factor_fully(&all->saddle, &failed);
+    if (status == QDOT_EINTR)
+        return false;
     if (status == QDOT_OK ? all->saddle.rank == 0 || all->saddle.quality > near
                           : failed < h->plan->n)
         return false;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "sim/constrained-parts.h"
 
 enum { most_iterations = 30 };
@@ -95,8 +96,10 @@ bring(qdot_constrained *h, part *p, double t, const double *y, const char *who)
         if (!isfinite(now) || (k > 5 && !(now < before)))
             break;
         before = now;
-        if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK)
+        if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) {
+            QDOT_TRY(qdot_interrupt_check());
             break;
+        }
         qdot_saddle_solve_refined(&p->saddle);
         for (size_t i = 0; i < n; i++)
             if (!p->set[i])

@@ -168,8 +168,10 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
             qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_precise_pair_drifts(run->precise, &run->drifts);
-    if (status == QDOT_OK && run->plan->constraints && !*interrupted)
-        status = measure_constraints(run);
+    if (status == QDOT_OK && run->plan->constraints)
+        status = *interrupted ? qdot_multipliers_measure(run->course.binds.at, &run->course.tr,
+                                                         &run->multipliers)
+                              : measure_constraints(run);
     if (status == QDOT_OK)
         status = keep_end(run);
     if (status == QDOT_OK && *interrupted)

@@ -44,7 +44,7 @@ find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
     qdot_free(a);
     for (size_t k = 0; k < m && status != QDOT_OK; k++)
         b->lambda[k] = NAN;
-    if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN) {
+    if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN || status == QDOT_EINTR) {
         qdot_fail_again(&before);
         return QDOT_OK;
     }
@@ -78,8 +78,10 @@ qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
     for (size_t k = 0; k < tr->count; k++) {
         qdot_constrained_residual r;
 
-        if (k % 1024 == 0)
-            QDOT_TRY(qdot_interrupt_check());
+        if (k % 1024 == 0 && qdot_interrupt_check() != QDOT_OK) { /* the end is worth its moment */
+            b->position = b->velocity = NAN;
+            break;
+        }
         while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
             held = of_piece(binds, tr, ++piece);
         r = qdot_constrained_measure(held, tr->t[k], tr->y + k * tr->n);

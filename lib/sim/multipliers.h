@@ -17,7 +17,7 @@ typedef struct {
 } qdot_multipliers;
 
 /* Of a run that is there, its binds by the modes of its pieces; nothing for plans without
- * constraints. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+ * constraints; under Ctrl-C what belongs to the end, residuals NaN. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_multipliers_measure(qdot_bind *const *binds,
                                                      const qdot_trajectory *tr,
                                                      qdot_multipliers *b);

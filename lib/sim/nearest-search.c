@@ -152,7 +152,7 @@ restore(search *s, double *at)
     for (int k = 0; k < MOST_NEWTON; k++) {
         double before = evaluate(s, at, true), scale = 1, after = INFINITY, left;
 
-        if (!isfinite(before))
+        if (!isfinite(before) || qdot_interrupt_flag)
             return false;
         factor_rows(s);
         for (size_t i = 0; i < p->m; i++)
@@ -190,7 +190,7 @@ slide(search *s, double *at)
 
         (void)evaluate(s, at, true);
         factor_rows(s);
-        if (s->rows.rank >= s->n)
+        if (s->rows.rank >= s->n || qdot_interrupt_flag)
             return;
         near = distance(s, at);
         qdot_row_space_tangent(&s->rows, s->away);
@@ -342,6 +342,9 @@ polish(search *s, double *at)
         qdot_ldlt f;
         double step;
 
+        status = qdot_interrupt_check();
+        if (status != QDOT_OK)
+            break;
         if (p->curved)
             qdot_tape_eval(p->curved, at, s->curvature, s->curved_work);
         newton_system(s, at, K, r);
@@ -423,6 +426,7 @@ look(search *s, double *at, double *best, double *other, qdot_nearest_outcome *o
         if (!restore(s, at))
             continue;
         slide(s, at);
+        QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(polish(s, at));
         (void)evaluate(s, at, true);
         if (!holds(s, at) || (p->domains && qdot_domains_outside(p->domains, at)))

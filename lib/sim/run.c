@@ -502,7 +502,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
     if (b.companion && status == QDOT_OK && !*interrupted
         && run->course.tr.result.outcome == QDOT_ODE_DONE)
         status = show_states(run, b.companion);
-    if (status == QDOT_OK && !*interrupted)
+    if (status == QDOT_OK)
         status = measure_multipliers(run);
     if (b.companion) {
         bool there = run->course.tr.count > 0;
@@ -541,9 +541,9 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     QDOT_TRY(integrate(run, tol, interrupted));
     run->report.error = NAN;
     run->report.tol = tol;
+    QDOT_TRY(measure_multipliers(run));
     if (*interrupted)
         return QDOT_OK;
-    QDOT_TRY(measure_multipliers(run));
     QDOT_TRY(qdot_run_twin(run));
     difference = qdot_calloc(run->course.tr.n + 1, sizeof *difference);
     status = difference ? qdot_run_end_error(run, &run->report.error, difference) : QDOT_ENOMEM;
@@ -622,7 +622,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     run->stage.request = NULL;
     fill_report(run, request->tol);
     status = say_apart(run);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && !interrupted)
         status = name_redundant(run, scene, request);
     if (status != QDOT_OK) {
         qdot_run_free(run);
