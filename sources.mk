@@ -24,6 +24,7 @@ num_sources = \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
 	lib/num/hermite.c \
+	lib/num/kinds.c \
 	lib/num/ldlt.c \
 	lib/num/least-move.c \
 	lib/num/real.c \
@@ -242,6 +243,10 @@ tape_sources = \
 	lib/tape/derivative.c \
 	lib/tape/finish.c \
 	lib/tape/keymap.c \
+	lib/tape/lanes-code.c \
+	lib/tape/lanes-steps.c \
+	lib/tape/lanes-sums.c \
+	lib/tape/lanes-writer.c \
 	lib/tape/lanes.c \
 	lib/tape/lower.c \
 	lib/tape/precise.c \
@@ -266,6 +271,9 @@ tape_headers = \
 	lib/tape/derivative.def \
 	lib/tape/derivative.h \
 	lib/tape/keymap.h \
+	lib/tape/lanes-code.h \
+	lib/tape/lanes-program.h \
+	lib/tape/lanes-writer.h \
 	lib/tape/lanes.def \
 	lib/tape/lanes.h \
 	lib/tape/operation.def \
@@ -630,6 +638,7 @@ unit_tests = \
 	tests/src/test_prompt \
 	tests/tape/test_constant \
 	tests/tape/test_derivative \
+	tests/tape/test_lanes-code \
 	tests/tape/test_lanes \
 	tests/tape/test_precise \
 	tests/tape/test_tape \

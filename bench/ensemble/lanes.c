@@ -3,8 +3,8 @@
  *
  *     lanes SCENE LINKS MEMBERS TOL ROUNDS KIND
  *
- * KIND: of the vectors of the lanes, 0 portable, 1 AVX2, 2 AVX-512, where the processor
- * has them.
+ * KIND: of vectors and machine code, in lanes and alone: 0 portable, 1 AVX2, 2 AVX-512, where
+ * the processor has them.
  *
  * Prints: scene, members, tol, seconds one after another and in lanes (medians of the
  * rounds, interleaved), their ratio (median of the ratios), steps of both, the largest
@@ -17,6 +17,7 @@
 #include <time.h>
 
 #include "num/batch.h"
+#include "num/kinds.h"
 #include "ode/integrate.h"
 #include "sim/bind.h"
 #include "sim/ensemble.h"
@@ -136,7 +137,7 @@ main(int argc, char **argv)
         fprintf(stderr, "usage: lanes chain|henon LINKS MEMBERS TOL ROUNDS KIND\n");
         return 2;
     }
-    qdot_batch_limit((size_t)atoi(argv[6]));
+    qdot_kind_limit((size_t)atoi(argv[6]));
     links = atoi(argv[2]);
     members = (size_t)atol(argv[3]);
     request.tol = atof(argv[4]);

@@ -11,10 +11,17 @@
 #define QDOT_X86_KINDS
 #endif
 
-/* Whether the processor at hand is of a kind. */
+/* As if the processor were of no kind above this one, for measurements and tests; before
+ * anything else is made. What it is: 2 if never said. */
+void qdot_kind_limit(size_t kind);
+size_t qdot_kind_most(void);
+
+/* Whether the processor at hand is of a kind, and that is within the limit. */
 static inline bool
 qdot_kind_is_here(size_t kind)
 {
+    if (kind > qdot_kind_most())
+        return false;
     switch (kind) {
     case 0: return true;
 #ifdef QDOT_X86_KINDS

@@ -9,10 +9,14 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "num/series.h"
+#include "ode/taylor-numbers.h"
 
 enum { L = QDOT_LANES, most_rescales = 8, most_tries = 60 };
 
 static const size_t max_steps = 50000000;
+
+/* log2 of the largest term, over the size of the state, whose rounding may count. */
+static const double term_least = -1;
 
 /* The part of the way that a step goes whose series ends. */
 static const double part_of_way = 0.31830988618379067;
@@ -36,7 +40,7 @@ typedef struct {
     lane lanes[L];
     double t[L], unit[L], old_unit[L], s[L];
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
-    double log_tol;
+    double log_aim, log_term; /* as in taylor.c */
 } batch;
 
 static double
@@ -238,12 +242,32 @@ try_step(batch *b, size_t l, double h)
     b->s[l] = (end == a->t1 ? a->h + b->run->t1_low : a->h) / b->unit[l];
 }
 
+/* log2 of the steps in units, as `log_step` of taylor.c. */
+static void
+log_steps(const batch *b, const double *weight, double *steps)
+{
+    const qdot_ode_batch *system = b->system;
+    const int p = b->run->order;
+    double upper[L], lower[L];
+
+    b->kernels->log_steps(b->n, system->x, system->stride, p / 2 + 1, p, weight, 0, upper);
+    b->kernels->log_steps(b->n, system->x, system->stride, 2, p / 2, weight, b->log_term,
+                          lower);
+    for (size_t l = 0; l < L; l++) {
+        const double step = upper[l] + b->log_aim / p;
+
+        steps[l] = isnan(lower[l])                       ? NAN
+                   : isinf(step) || !(lower[l] < step) ? step
+                                                         : lower[l];
+    }
+}
+
 /* A step for each lane from the series that is there, or another unit for it. */
 static void
 choose_steps(batch *b)
 {
     const int p = b->run->order;
-    double upper[L], whole[L], *weight = b->value; /* free here */
+    double steps[L], whole[L], *weight = b->value; /* free here */
     bool known = false; /* `whole`, the same from all orders */
 
     for (size_t i = 0; i < b->n * L; i++) {
@@ -251,11 +275,10 @@ choose_steps(batch *b)
 
         weight[i] = 1 / (size > 1 ? size : 1);
     }
-    b->kernels->log_steps(b->n, b->system->x, b->system->stride, p / 2 + 1, p, weight,
-                          b->log_tol, upper);
+    log_steps(b, weight, steps);
     for (size_t l = 0; l < L; l++) {
         lane *a = b->lanes + l;
-        double step = upper[l], far = step;
+        double step = steps[l], far = step;
 
         b->s[l] = 0;
         b->old_unit[l] = b->unit[l];
@@ -266,9 +289,9 @@ choose_steps(batch *b)
         } else if (isinf(step)) {
             if (!known)
                 b->kernels->log_steps(b->n, b->system->x, b->system->stride, 1, p, weight,
-                                      b->log_tol, whole);
+                                      0, whole);
             known = true;
-            far = whole[l];
+            far = fmax(0, whole[l] + b->log_aim / p);
         }
         if (fabs(far) > 8 && !isinf(far) && a->rescales < most_rescales) {
             b->unit[l] = ldexp(b->unit[l], (int)fmax(-300, fmin(300, floor(far))));
@@ -361,11 +384,12 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
                .kernels = qdot_batch_kernels_get(),
                .run = run,
                .n = system->n,
-               .log_tol = log2(run->tol)};
+               .log_aim = log2(qdot_step_aim(run->tol, false))};
     size_t size = system->n * L;
     double *memory;
     qdot_status status;
 
+    b.log_term = fmax(term_least, b.log_aim + 53);
     run->expansions = 0;
     QDOT_TRY(check(system, run));
     memory = qdot_calloc(7 * size, sizeof *memory);

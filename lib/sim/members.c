@@ -1,14 +1,19 @@
 /* members.c -- order by order: tape, solve, integrate twice, for all lanes. */
 #include "sim/members.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "ode/taylor.h"
-#include "tape/lanes.h"
+#include "tape/lanes-code.h"
 #include "tape/taylor.h"
 
-enum { L = QDOT_LANES, most_order = 44 };
+enum { L = QDOT_LANES, most_order = 44, first_of_loop = 4 };
+
+/* Numbers of the code: units of time, their squares, right-hand sides of a block, then the
+ * inverses. A larger block than this has none. */
+enum { most_solved = 16, UNIT = 0, UNIT_SQUARE, RIGHT, INVERSES = RIGHT + most_solved };
 
 /* An entry of M that moves: of row i, times the acceleration j. */
 typedef struct {
@@ -18,6 +23,7 @@ typedef struct {
 
 typedef struct {
     const size_t *index; /* [n] its coordinates */
+    size_t number;       /* of the code's, the first of its inverse */
     const double **f; /* [n] series of the block's f */
     const double **M; /* lower triangle by rows */
     coupling *couplings;
@@ -49,6 +55,8 @@ struct qdot_members {
     block_series *blocks;   /* [blocks] */
     const double **a;       /* [n] series of q'': an output of the tape, or */
     double *solved;         /* [n x stride groups] */
+    int to;                 /* order of q'' that */
+    qdot_lanes_code *code;  /* goes to; NULL: kernels run */
 };
 
 static size_t
@@ -125,9 +133,40 @@ begin(const double *t, const double *y, const double *unit, void *user)
 }
 
 static void
+run_code(qdot_members *m)
+{
+    double *unit = qdot_lanes_code_number(m->code, UNIT);
+    double *square = qdot_lanes_code_number(m->code, UNIT_SQUARE);
+
+    for (size_t l = 0; l < L; l++) {
+        unit[l] = m->unit[l];
+        square[l] = m->unit[l] * m->unit[l];
+    }
+    for (size_t b = 0; b < m->model->structure.blocks; b++) {
+        const size_t n = block_size(m, b);
+
+        if (n == 1)
+            continue;
+        m->kernels->invert(n, m->blocks[b].A,
+                           qdot_lanes_code_number(m->code, m->blocks[b].number));
+        for (size_t i = 0; i < n; i++) {
+            const size_t at = m->blocks[b].index[i];
+
+            memcpy(qdot_lanes_code_row(m->code, at), m->a[at], L * sizeof **m->a);
+        }
+    }
+    qdot_lanes_code_run(m->code);
+}
+
+static void
 extend(int p, void *user)
 {
     qdot_members *m = user;
+
+    if (m->code && p == m->to + 1) {
+        run_code(m);
+        return;
+    }
 
     for (size_t b = 0; b < m->model->structure.blocks; b++)
         if (block_size(m, b) > 1)
@@ -144,6 +183,149 @@ take(size_t lane, size_t member, void *user)
     for (size_t i = 0; i < m->model->varied; i++)
         qdot_lanes_input(m->lanes, 2 * m->model->n + 1 + i)[lane] =
             m->parameters[member * m->model->varied + i];
+}
+
+/* --- the same as machine code ------------------------------------------------------- */
+
+static qdot_lanes_row
+input(const qdot_lanes_writer *w, qdot_members *m, size_t i)
+{
+    return qdot_lanes_row_of(w, qdot_lanes_input(m->lanes, i));
+}
+
+/* Of q'', by coordinate: a row of the program or of the code's own. */
+static qdot_lanes_row
+acceleration(const qdot_lanes_writer *w, const qdot_members *m, size_t i)
+{
+    const double *end = m->solved + m->model->n * m->stride * L;
+
+    return m->a[i] >= m->solved && m->a[i] < end ? qdot_lanes_further_row(w, i)
+                                                 : qdot_lanes_row_of(w, m->a[i]);
+}
+
+/* x = f_k - sum_{j=1..k} M_j a_{k-j}, row i of a block. */
+static void
+write_right_hand_side(qdot_lanes_writer *w, const qdot_members *m, const block_series *s,
+                      size_t i, int k)
+{
+    qdot_lanes_pair pairs[most_solved];
+    size_t n = 0;
+    qdot_lanes_sum x;
+
+    for (size_t c = 0; c < s->n_couplings; c++)
+        if (s->couplings[c].i == i)
+            pairs[n++] =
+                (qdot_lanes_pair){qdot_lanes_row_of(w, s->couplings[c].M),
+                                  acceleration(w, m, s->index[s->couplings[c].j])};
+    x = qdot_lanes_dots(w, n, pairs, k);
+    for (size_t c = 0; c < n; c++)
+        qdot_lanes_add_product(w, &x, false, (qdot_lanes_at){pairs[c].y, 0},
+                               (qdot_lanes_at){pairs[c].x, k});
+    qdot_lanes_negate(w, &x);
+    qdot_lanes_add(w, &x, false, (qdot_lanes_at){qdot_lanes_row_of(w, s->f[i]), k});
+    qdot_lanes_store(w, x, qdot_lanes_number(w, RIGHT + i));
+}
+
+static void
+write_block(qdot_lanes_writer *w, const qdot_members *m, size_t b, int k)
+{
+    const block_series *s = m->blocks + b;
+    const size_t n = block_size(m, b);
+
+    for (size_t i = 0; i < n; i++)
+        write_right_hand_side(w, m, s, i, k);
+    for (size_t i = 0; i < n; i++) {
+        qdot_lanes_sum a = QDOT_LANES_NOTHING;
+
+        for (size_t j = 0; j < n; j++)
+            qdot_lanes_add_product(w, &a, false, qdot_lanes_number(w, RIGHT + j),
+                                   qdot_lanes_number(w, s->number + i * n + j));
+        qdot_lanes_store(w, a, (qdot_lanes_at){acceleration(w, m, s->index[i]), k});
+    }
+}
+
+/* 1/(k + 1), 1/((k + 1)(k + 2)); and in low orders what these are beyond their doubles, for
+ * which a division is exact but for the last bit (tape/taylor.h). */
+static double
+once(int k)
+{
+    return 1.0 / (k + 1);
+}
+
+static double
+twice(int k)
+{
+    return 1.0 / ((k + 1) * (k + 2));
+}
+
+static double
+beyond(double inverse, int k, int divisor)
+{
+    return k <= QDOT_TAYLOR_EXACT ? fma(-inverse, divisor, 1) / divisor : 0;
+}
+
+static double
+once_beyond(int k)
+{
+    return beyond(once(k), k, k + 1);
+}
+
+static double
+twice_beyond(int k)
+{
+    return beyond(twice(k), k, (k + 1) * (k + 2));
+}
+
+/* to = unit^n a/divisor */
+static void
+write_integral(qdot_lanes_writer *w, const qdot_members *m, qdot_lanes_at a, size_t unit,
+               qdot_lanes_by_order *inverse, qdot_lanes_by_order *more, qdot_lanes_at to)
+{
+    qdot_lanes_sum factor = QDOT_LANES_NOTHING, sum = factor;
+
+    if (m->to >= QDOT_TAYLOR_EXACT_FROM) {
+        qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
+                               qdot_lanes_scalar_of(w, more, a.order));
+        qdot_lanes_scale(w, &sum, a);
+    }
+    qdot_lanes_add_product(w, &factor, false, qdot_lanes_number(w, unit),
+                           qdot_lanes_scalar_of(w, inverse, a.order));
+    qdot_lanes_add_scaled(w, &sum, factor, a);
+    qdot_lanes_store(w, sum, to);
+}
+
+/* An order of q'', k + 1 of velocities, k + 2 of coordinates. */
+static void
+write_order(qdot_lanes_writer *w, int k, void *user)
+{
+    qdot_members *m = user;
+    const size_t n = m->model->n;
+
+    qdot_lanes_steps(w, k);
+    for (size_t b = 0; b < m->model->structure.blocks; b++)
+        if (block_size(m, b) > 1)
+            write_block(w, m, b, k);
+    for (size_t i = 0; i < n; i++) {
+        const qdot_lanes_at a = {acceleration(w, m, i), k};
+
+        write_integral(w, m, a, UNIT_SQUARE, twice, twice_beyond,
+                       (qdot_lanes_at){input(w, m, i), k + 2});
+        write_integral(w, m, a, UNIT, once, once_beyond,
+                       (qdot_lanes_at){input(w, m, n + i), k + 1});
+    }
+}
+
+/* Order 2 of coordinates is there an order late. */
+static void
+write_expansion(qdot_lanes_writer *w, void *user)
+{
+    qdot_members *m = user;
+    const size_t n = m->model->n;
+
+    for (size_t i = 0; i < n; i++)
+        write_integral(w, m, (qdot_lanes_at){input(w, m, n + i), 1}, UNIT, once,
+                       once_beyond, (qdot_lanes_at){input(w, m, i), 2});
+    qdot_lanes_orders(w, 1, first_of_loop, m->to, write_order, m);
 }
 
 /* --- building ----------------------------------------------------------------------- */
@@ -196,11 +378,30 @@ find_outputs(qdot_members *m)
 }
 
 static qdot_status
+write_code(qdot_members *m, int most)
+{
+    size_t numbers = INVERSES;
+
+    m->to = most - 1;
+    for (size_t b = 0; b < m->model->structure.blocks; b++) {
+        const size_t n = block_size(m, b);
+
+        m->blocks[b].number = numbers;
+        if (n > most_solved)
+            return QDOT_OK;
+        if (n > 1)
+            numbers += n * n;
+    }
+    return qdot_lanes_code_new(m->lanes, m->model->n, numbers, write_expansion, m,
+                               &m->code);
+}
+
+static qdot_status
 make(qdot_members *m, const qdot_tape *tape, int most)
 {
     size_t n = m->model->n;
 
-    QDOT_TRY(qdot_lanes_new(tape, most, &m->lanes));
+    QDOT_TRY(qdot_lanes_new_moving(tape, most, 2 * n + 1, &m->lanes));
     m->stride = qdot_lanes_stride(m->lanes);
     m->q = qdot_lanes_input(m->lanes, 0);
     m->v = qdot_lanes_input(m->lanes, n);
@@ -211,7 +412,8 @@ make(qdot_members *m, const qdot_tape *tape, int most)
     m->blocks = qdot_calloc(m->model->structure.blocks, sizeof *m->blocks);
     if (!m->a || !m->solved || !m->outputs || !m->blocks)
         return QDOT_ENOMEM;
-    return find_outputs(m);
+    QDOT_TRY(find_outputs(m));
+    return write_code(m, most);
 }
 
 qdot_status
@@ -248,6 +450,7 @@ qdot_members_free(qdot_members *m)
         qdot_free(m->blocks[b].x);
         qdot_free(m->blocks[b].y);
     }
+    qdot_lanes_code_free(m->code);
     qdot_lanes_free(m->lanes);
     qdot_free(m->outputs);
     qdot_free(m->blocks);
@@ -276,30 +479,60 @@ qdot_members_system(qdot_members *m)
 }
 
 /* Nanoseconds for all lanes, as measured with AVX-512; only their ratios matter. */
+static void
+estimate(const qdot_members_model *model, double length, double convolutions, double *c)
+{
+    const double n = (double)model->n;
+
+    c[0] = 300 + 100 * (double)qdot_tape_calls(model->tape) + 5 * length + 20 * n;
+    c[1] = 2 * length + 3 * convolutions + 10 * n;
+    c[2] = 0.1 * convolutions;
+    for (size_t b = 0; b < model->structure.blocks; b++) {
+        double m = (double)(model->structure.start[b + 1] - model->structure.start[b]);
+
+        if (m == 1)
+            continue;
+        c[0] += m * m * m / 6;
+        c[1] += 5 * m + m * m;
+        c[2] += 0.1 * m * m;
+    }
+}
+
+/* The same of machine code, an order of which costs less beside what a step does. */
+static void
+estimate_written(const qdot_members_model *model, double length, double convolutions,
+                 double *c)
+{
+    const double n = (double)model->n;
+
+    c[0] = 500 + 100 * (double)qdot_tape_calls(model->tape) + 5 * length + 60 * n;
+    c[1] = 5 + 2.5 * length + 2 * convolutions + 5 * n;
+    c[2] = 0.09 * convolutions;
+    for (size_t b = 0; b < model->structure.blocks; b++) {
+        double m = (double)(model->structure.start[b + 1] - model->structure.start[b]);
+
+        if (m == 1)
+            continue;
+        c[0] += m * m * m / 6;
+        c[1] += m + m * m;
+        c[2] += 0.09 * m * m;
+    }
+}
+
 qdot_status
 qdot_members_order(const qdot_members_model *model, double tol, int *order)
 {
     qdot_ode_series series = {.most = most_order - 4};
-    double *c = series.cost, length, convolutions, calls;
+    double length, convolutions;
     qdot_taylor *taylor;
 
-    QDOT_TRY(qdot_taylor_new(model->tape, 0, &taylor));
+    QDOT_TRY(qdot_taylor_new_moving(model->tape, false, 0, 2 * model->n + 1, 0, &taylor));
     length = (double)qdot_taylor_length(taylor);
     convolutions = qdot_taylor_convolutions(taylor);
-    calls = (double)qdot_tape_calls(model->tape);
     qdot_taylor_free(taylor);
-    c[0] = 300 + 100 * calls + 5 * length + 20 * (double)model->n;
-    c[1] = 2 * length + 3 * convolutions + 10 * (double)model->n;
-    c[2] = 0.1 * convolutions;
-    for (size_t b = 0; b < model->structure.blocks; b++) {
-        double n = (double)(model->structure.start[b + 1] - model->structure.start[b]);
-
-        if (n == 1)
-            continue;
-        c[0] += n * n * n / 6;
-        c[1] += 5 * n + n * n;
-        c[2] += 0.1 * n * n;
-    }
+    estimate(model, length, convolutions, series.cost);
+    if (qdot_lanes_may_be_code())
+        estimate_written(model, length, convolutions, series.written);
     *order = qdot_ode_taylor_order(&series, tol, false, 0);
     return QDOT_OK;
 }

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tape/taylor-steps.h"
+#include "tape/lanes-program.h"
 
 /* As qdot_taylor_step. */
 typedef struct {
@@ -42,10 +42,11 @@ typedef struct {
 struct qdot_lanes {
     const qdot_batch_kernels *kernels;
     const lanes_kernels *kind;
-    size_t stride, inputs, outputs, length;
+    qdot_taylor *program; /* of one lane: rows and steps by numbers */
+    size_t stride, inputs, outputs, length, still;
     void *memory;          /* what the coefficients stand in */
     double *coefficients;  /* [rows x stride groups], from a cache line on */
-    double *inverses;      /* [length groups] */
+    double *inverses;      /* [length groups] behind them */
     lanes_step *steps;     /* [length], QDOT_T_END behind them */
     const double **output; /* [outputs] */
     bool *constant;        /* [outputs] */
@@ -75,8 +76,8 @@ qdot_lanes_free(qdot_lanes *t)
 {
     if (!t)
         return;
+    qdot_taylor_free(t->program);
     qdot_free(t->memory);
-    qdot_free(t->inverses);
     qdot_free(t->steps);
     qdot_free(t->output);
     qdot_free(t->constant);
@@ -98,22 +99,24 @@ allocate(qdot_lanes *t, const qdot_taylor *from, int most)
 {
     const size_t line = 64;
 
-    t->stride = (size_t)most + 2;
+    t->stride = (size_t)most + 3; /* code may go an order further */
     t->inputs = from->inputs;
     t->outputs = from->outputs;
     t->length = from->length;
+    t->still = from->still;
     t->n_drawn = from->n_drawn;
-    t->memory = qdot_calloc(from->rows * t->stride * QDOT_LANES + line / sizeof(double),
+    t->memory = qdot_calloc((from->rows * t->stride + t->length) * QDOT_LANES +
+                                line / sizeof(double),
                             sizeof(double));
-    t->inverses = qdot_calloc(t->length * QDOT_LANES + 1, sizeof *t->inverses);
     t->steps = qdot_calloc(t->length + 1, sizeof *t->steps);
     t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
     t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
     t->drawn = qdot_calloc(t->n_drawn + 1, sizeof *t->drawn);
-    if (!t->memory || !t->inverses || !t->steps || !t->output || !t->constant || !t->drawn)
+    if (!t->memory || !t->steps || !t->output || !t->constant || !t->drawn)
         return QDOT_ENOMEM;
     t->coefficients =
         (double *)(((uintptr_t)t->memory + line - 1) / line * line);
+    t->inverses = t->coefficients + from->rows * t->stride * QDOT_LANES;
     return QDOT_OK;
 }
 
@@ -158,7 +161,7 @@ fill(qdot_lanes *t, const qdot_taylor *from, int most)
 }
 
 qdot_status
-qdot_lanes_new(const qdot_tape *tape, int most, qdot_lanes **lanes)
+qdot_lanes_new_moving(const qdot_tape *tape, int most, size_t moving, qdot_lanes **lanes)
 {
     qdot_taylor *single;
     qdot_lanes *t;
@@ -167,16 +170,38 @@ qdot_lanes_new(const qdot_tape *tape, int most, qdot_lanes **lanes)
     *lanes = NULL;
     if (most < 0 || most > QDOT_SERIES_MOST)
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
-    QDOT_TRY(qdot_taylor_new(tape, 0, &single));
+    QDOT_TRY(qdot_taylor_new_moving(tape, false, 0, moving, 0, &single));
     t = qdot_calloc(1, sizeof *t);
-    status = t ? fill(t, single, most) : QDOT_ENOMEM;
-    qdot_taylor_free(single);
+    if (!t) {
+        qdot_taylor_free(single);
+        return QDOT_ENOMEM;
+    }
+    t->program = single;
+    status = fill(t, single, most);
     if (status != QDOT_OK) {
         qdot_lanes_free(t);
         return status;
     }
     *lanes = t;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_lanes_new(const qdot_tape *tape, int most, qdot_lanes **lanes)
+{
+    return qdot_lanes_new_moving(tape, most, tape->inputs, lanes);
+}
+
+const qdot_taylor *
+qdot_lanes_program(const qdot_lanes *t)
+{
+    return t->program;
+}
+
+double *
+qdot_lanes_inverse(qdot_lanes *t, size_t i)
+{
+    return t->inverses + i * QDOT_LANES;
 }
 
 double *
@@ -220,7 +245,7 @@ qdot_lanes_order(qdot_lanes *t, int k)
         for (const lanes_step *s = t->steps; s->op != QDOT_T_END; s++)
             t->kind->value_of_zero(s);
     else
-        t->kind->order(t->kernels, t->steps, k, t->inverse[k]);
+        t->kind->order(t->kernels, t->steps + t->still, k, t->inverse[k]);
 }
 
 void
@@ -228,5 +253,5 @@ qdot_lanes_correct(qdot_lanes *t, int k, size_t n, const double *newest)
 {
     for (size_t i = 0; i < n; i++)
         t->kind->renew(qdot_lanes_input(t, i), k, t->stride - 1, newest + i * QDOT_LANES);
-    t->kind->correct(t->steps, k, t->stride - 1);
+    t->kind->correct(t->steps + t->still, k, t->stride - 1);
 }

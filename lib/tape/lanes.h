@@ -21,6 +21,9 @@ typedef struct qdot_lanes qdot_lanes;
 /* As qdot_taylor_new. */
 QDOT_MUST_CHECK qdot_status qdot_lanes_new(const qdot_tape *tape, int most,
                                            qdot_lanes **lanes);
+/* The same where the inputs from `moving` on are numbers (qdot_taylor_new_moving). */
+QDOT_MUST_CHECK qdot_status qdot_lanes_new_moving(const qdot_tape *tape, int most,
+                                                  size_t moving, qdot_lanes **lanes);
 void qdot_lanes_free(qdot_lanes *lanes);
 
 /* As qdot_taylor_input, qdot_taylor_stride (in groups), qdot_taylor_output,

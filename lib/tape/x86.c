@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "num/kinds.h"
+
 static const struct {
     unsigned char map, prefix, opcode;
     bool wide;
@@ -64,15 +66,29 @@ prefix(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int fi
     return at;
 }
 
+/* Of vectors of four; a broadcast alone is of the other width there. */
+static unsigned char *
+narrow_prefix(unsigned char *at, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+{
+    const unsigned wide = name != QDOT_X86_SPREAD;
+
+    *at++ = 0xc4;
+    *at++ = (unsigned char)(inverted(reg, 3, 7) | 1u << 6 | inverted(rm.reg, 3, 5)
+                            | instructions[name].map);
+    *at++ = (unsigned char)(wide << 7 | (unsigned)(~first & 15) << 3 | 1u << 2
+                            | instructions[name].prefix);
+    return at;
+}
+
 /* Offsets that are a multiple of what is read take a byte, if that multiple does. */
 static unsigned char *
-operands(unsigned char *at, int reg, qdot_x86_rm rm, int size)
+operands(const qdot_x86 *x, unsigned char *at, int reg, qdot_x86_rm rm, int size)
 {
     const unsigned low = (unsigned)(reg & 7) << 3 | (unsigned)(rm.reg & 7);
 
     if (!rm.memory) {
         *at++ = (unsigned char)(0xc0 | low);
-    } else if (rm.offset % size == 0 && rm.offset / size >= -128
+    } else if (!x->far && rm.offset % size == 0 && rm.offset / size >= -128
                && rm.offset / size < 128) {
         *at++ = (unsigned char)(0x40 | low);
         *at++ = (unsigned char)(rm.offset / size);
@@ -89,9 +105,14 @@ encode(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int fi
 {
     const bool whole = instructions[name].wide && name != QDOT_X86_SPREAD && !rm.spread;
 
+    if (x->narrow && instructions[name].wide) {
+        at = narrow_prefix(at, name, reg, first, rm);
+        *at++ = instructions[name].opcode;
+        return operands(x, at, reg, rm, 1);
+    }
     at = prefix(x, at, name, reg, first, rm);
     *at++ = instructions[name].opcode;
-    return operands(at, reg, rm, whole ? 64 : 8);
+    return operands(x, at, reg, rm, whole ? 64 : 8);
 }
 
 void
@@ -190,6 +211,63 @@ qdot_x86_again(qdot_x86 *x, size_t from)
 }
 
 void
+qdot_x86_enter(qdot_x86 *x, size_t place)
+{
+    unsigned char *start = room(x), *at = start;
+
+    *at++ = 0xe8;
+    at = little_endian(at, (uint32_t)(place - (x->bytes.n + 5)));
+    written(x, start, at);
+}
+
+void
+qdot_x86_enter_at(qdot_x86 *x, qdot_x86_base at)
+{
+    const unsigned char call[] = {(unsigned char)(0x40 | (unsigned)at >> 3), 0xff,
+                                  (unsigned char)(0xd0 | ((unsigned)at & 7))};
+
+    write_bytes(x, sizeof call, call);
+}
+
+void
+qdot_x86_place(qdot_x86 *x, qdot_x86_base to, size_t place)
+{
+    unsigned char *start = room(x), *at = start;
+
+    *at++ = (unsigned char)(0x48 | (unsigned)to >> 3 << 2);
+    *at++ = 0x8d; /* lea to, [rip + ...] */
+    *at++ = (unsigned char)(0x05 | ((unsigned)to & 7) << 3);
+    at = little_endian(at, (uint32_t)(place - (x->bytes.n + 7)));
+    written(x, start, at);
+}
+
+void
+qdot_x86_push(qdot_x86 *x, qdot_x86_base reg)
+{
+    const unsigned char push[] = {(unsigned char)(0x40 | (unsigned)reg >> 3),
+                                  (unsigned char)(0x50 | ((unsigned)reg & 7))};
+
+    write_bytes(x, sizeof push, push);
+}
+
+void
+qdot_x86_pop(qdot_x86 *x, qdot_x86_base reg)
+{
+    const unsigned char pop[] = {(unsigned char)(0x40 | (unsigned)reg >> 3),
+                                 (unsigned char)(0x58 | ((unsigned)reg & 7))};
+
+    write_bytes(x, sizeof pop, pop);
+}
+
+void
+qdot_x86_leave(qdot_x86 *x)
+{
+    static const unsigned char ret = 0xc3;
+
+    write_bytes(x, 1, &ret);
+}
+
+void
 qdot_x86_return(qdot_x86 *x)
 {
     static const unsigned char bytes[] = {0xc5, 0xf8, 0x77 /* vzeroupper */, 0xc3 /* ret */};
@@ -239,7 +317,8 @@ bool
 qdot_x86_is_here(void)
 {
 #if defined __x86_64__ && defined __GNUC__ && defined __LP64__
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
+    return qdot_kind_most() > 1 && __builtin_cpu_supports("avx512f") &&
+           __builtin_cpu_supports("fma");
 #else
     return false;
 #endif

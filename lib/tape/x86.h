@@ -8,7 +8,7 @@
  * has what it stores in `reg` and its place in `rm`. Writing never fails at once: a buffer
  * that could not grow says so at the end.
  *
- * Source  Intel 64 and IA-32 Architectures Software Developer's Manual 2, 2.7 (EVEX).
+ * Source  Intel 64 and IA-32 Architectures Software Developer's Manual 2, 2.3 (VEX), 2.7 (EVEX).
  * Tests   tests/tape/test_x86.c
  */
 #ifndef QDOT_TAPE_X86_H
@@ -39,7 +39,10 @@
     X(LOAD_ALL, 1, 1, 0x10, true)                                                        \
     X(STORE_ALL, 1, 1, 0x11, true)                                                       \
     X(MUL_ALL, 1, 1, 0x59, true)                                                         \
+    X(ADD_ALL, 1, 1, 0x58, true)                                                         \
+    X(SUB_ALL, 1, 1, 0x5c, true)                                                         \
     X(MADD_ALL, 2, 1, 0xb8, true)     /* reg = first rm + reg */                         \
+    X(NMADD_ALL, 2, 1, 0xbc, true)    /* reg = reg - first rm */                         \
     X(SPREAD, 2, 1, 0x19, true)       /* reg = the double rm in every lane */            \
     X(XOR_ALL, 1, 1, 0xef, true)      /* reg = first xor rm: 0 of one with itself */       \
     X(ALIGN, 3, 1, 0x03, true)        /* reg = the lanes of rm, then first, from the one  \
@@ -54,11 +57,20 @@ typedef enum {
 
 /* General registers that hold addresses. */
 typedef enum {
+    QDOT_X86_RAX = 0,
+    QDOT_X86_RCX = 1,
     QDOT_X86_RDX = 2,
+    QDOT_X86_RBX = 3,
+    QDOT_X86_RBP = 5,
     QDOT_X86_RSI = 6,
     QDOT_X86_RDI = 7,
     QDOT_X86_R8 = 8,
-    QDOT_X86_R9 = 9
+    QDOT_X86_R9 = 9,
+    QDOT_X86_R10 = 10,
+    QDOT_X86_R11 = 11,
+    QDOT_X86_R13 = 13,
+    QDOT_X86_R14 = 14,
+    QDOT_X86_R15 = 15
 } qdot_x86_base;
 
 /* A register, or a place in memory; of that one double may stand for every lane. */
@@ -74,6 +86,8 @@ typedef struct {
     unsigned char nowhere[16]; /* what is written after a failure */
     int mask; /* of the instructions that follow; 0: none */
     bool zeroing; /* what it leaves out becomes 0, else stays */
+    bool far;     /* every offset takes four bytes: like instructions are equally long */
+    bool narrow;  /* whole vectors are of 4 doubles, registers 0 ... 15: AVX2 is enough */
 } qdot_x86;
 
 static inline qdot_x86_rm
@@ -102,6 +116,15 @@ void qdot_x86_address(qdot_x86 *x, qdot_x86_base to, qdot_x86_base from, int32_t
  * another. */
 size_t qdot_x86_repeat(qdot_x86 *x, int times);
 void qdot_x86_again(qdot_x86 *x, size_t from);
+/* What begins at that place, or at an address, is run up to its end, _leave. A place as an
+ * address. Registers that a caller wants back (rbx, rbp, r12 ... r15) are kept and restored,
+ * last in, first out. */
+void qdot_x86_enter(qdot_x86 *x, size_t place);
+void qdot_x86_enter_at(qdot_x86 *x, qdot_x86_base at);
+void qdot_x86_leave(qdot_x86 *x);
+void qdot_x86_place(qdot_x86 *x, qdot_x86_base to, size_t place);
+void qdot_x86_push(qdot_x86 *x, qdot_x86_base reg);
+void qdot_x86_pop(qdot_x86 *x, qdot_x86_base reg);
 void qdot_x86_return(qdot_x86 *x);
 /* A C function is called; what the code was run with (rdi, rsi, rdx) is there again after it,
  * vector registers are not. Between _frame and _unframe, the latter before the return. */
@@ -109,7 +132,7 @@ void qdot_x86_frame(qdot_x86 *x);
 void qdot_x86_call(qdot_x86 *x, void (*function)(void));
 void qdot_x86_unframe(qdot_x86 *x);
 
-/* Whether this processor and its system have all that. */
+/* Whether this processor and its system have all that (and num/kinds.h is not limited). */
 bool qdot_x86_is_here(void);
 
 #endif

@@ -123,6 +123,75 @@ loops_have_theirs(void **state)
     qdot_free(x.bytes.at);
 }
 
+/* Whole vectors, of eight doubles and of four. */
+static void
+vectors_of_both_widths_have_theirs(void **state)
+{
+    static const unsigned char bytes[] = {
+        0x62, 0xe1, 0xe5, 0x48, 0x58, 0x67, 1,          /* vaddpd 0x40(%rdi),%zmm3,%zmm20 */
+        0x62, 0x81, 0xe5, 0x48, 0x5c, 0xe7,             /* vsubpd %zmm31,%zmm3,%zmm20 */
+        0x62, 0xf2, 0xb5, 0x48, 0xbc, 0x4d, 2,          /* vfnmadd231pd 0x80(%rbp),... */
+        0x62, 0xf1, 0xfd, 0x48, 0x10, 0xa0, 0x40, 0, 0, 0, /* vmovupd 0x40(%rax),%zmm4 */
+        0xc4, 0x61, 0xfd, 0x10, 0x4f, 0x20,             /* vmovupd 0x20(%rdi),%ymm9 */
+        0xc4, 0xe1, 0xfd, 0x11, 0x42, 0x80,             /* vmovupd %ymm0,-0x80(%rdx) */
+        0xc4, 0x41, 0xe5, 0x58, 0xd4,                   /* vaddpd %ymm12,%ymm3,%ymm10 */
+        0xc4, 0xc1, 0xe5, 0x59, 0xad, 0, 1, 0, 0,       /* vmulpd 0x100(%r13),... */
+        0xc4, 0x42, 0xc5, 0xb8, 0x40, 0x48,             /* vfmadd231pd 0x48(%r8),... */
+        0xc4, 0x42, 0x8d, 0xbc, 0xef,                   /* vfnmadd231pd %ymm15,... */
+        0xc4, 0x62, 0x7d, 0x19, 0x5b, 0x30,             /* vbroadcastsd 0x30(%rbx),%ymm11 */
+        0xc4, 0xe1, 0xdd, 0xef, 0xe4                    /* vpxor %ymm4,%ymm4,%ymm4 */
+    };
+    const qdot_x86_base di = QDOT_X86_RDI;
+    qdot_x86 x = {0};
+
+    (void)state;
+    qdot_x86_emit(&x, QDOT_X86_ADD_ALL, 20, 3, qdot_x86_at(di, 0x40));
+    qdot_x86_emit(&x, QDOT_X86_SUB_ALL, 20, 3, qdot_x86_reg(31));
+    qdot_x86_emit(&x, QDOT_X86_NMADD_ALL, 1, 9, qdot_x86_at(QDOT_X86_RBP, 0x80));
+    x.far = true;
+    qdot_x86_emit(&x, QDOT_X86_LOAD_ALL, 4, 0, qdot_x86_at(QDOT_X86_RAX, 0x40));
+    x.far = false;
+    x.narrow = true;
+    qdot_x86_emit(&x, QDOT_X86_LOAD_ALL, 9, 0, qdot_x86_at(di, 0x20));
+    qdot_x86_emit(&x, QDOT_X86_STORE_ALL, 0, 0, qdot_x86_at(QDOT_X86_RDX, -0x80));
+    qdot_x86_emit(&x, QDOT_X86_ADD_ALL, 10, 3, qdot_x86_reg(12));
+    qdot_x86_emit(&x, QDOT_X86_MUL_ALL, 5, 3, qdot_x86_at(QDOT_X86_R13, 0x100));
+    qdot_x86_emit(&x, QDOT_X86_MADD_ALL, 8, 7, qdot_x86_at(QDOT_X86_R8, 0x48));
+    qdot_x86_emit(&x, QDOT_X86_NMADD_ALL, 13, 14, qdot_x86_reg(15));
+    qdot_x86_emit(&x, QDOT_X86_SPREAD, 11, 0, qdot_x86_at(QDOT_X86_RBX, 0x30));
+    qdot_x86_emit(&x, QDOT_X86_XOR_ALL, 4, 4, qdot_x86_reg(4));
+    assert_int_equal(x.bytes.n, sizeof bytes);
+    assert_memory_equal(x.bytes.at, bytes, sizeof bytes);
+    qdot_free(x.bytes.at);
+}
+
+static void
+sequences_have_theirs(void **state)
+{
+    static const unsigned char bytes[] = {
+        0xc3,                                     /* ret */
+        0x40, 0x53, 0x41, 0x55,                   /* push %rbx, %r13 */
+        0x4c, 0x8d, 0x1d, 0xf4, 0xff, 0xff, 0xff, /* lea -12(%rip),%r11 */
+        0x41, 0xff, 0xd3,                         /* call *%r11 */
+        0xe8, 0xec, 0xff, 0xff, 0xff,             /* call -20 */
+        0x41, 0x5d, 0x40, 0x5b                    /* pop %r13, %rbx */
+    };
+    qdot_x86 x = {0};
+
+    (void)state;
+    qdot_x86_leave(&x);
+    qdot_x86_push(&x, QDOT_X86_RBX);
+    qdot_x86_push(&x, QDOT_X86_R13);
+    qdot_x86_place(&x, QDOT_X86_R11, 0);
+    qdot_x86_enter_at(&x, QDOT_X86_R11);
+    qdot_x86_enter(&x, 0);
+    qdot_x86_pop(&x, QDOT_X86_R13);
+    qdot_x86_pop(&x, QDOT_X86_RBX);
+    assert_int_equal(x.bytes.n, sizeof bytes);
+    assert_memory_equal(x.bytes.at, bytes, sizeof bytes);
+    qdot_free(x.bytes.at);
+}
+
 static void
 nothing(void)
 {
@@ -162,6 +231,8 @@ main(void)
         cmocka_unit_test(instructions_have_their_bytes),
         cmocka_unit_test(masks_and_the_end_have_theirs),
         cmocka_unit_test(loops_have_theirs),
+        cmocka_unit_test(vectors_of_both_widths_have_theirs),
+        cmocka_unit_test(sequences_have_theirs),
         cmocka_unit_test(calls_have_theirs),
     };
 

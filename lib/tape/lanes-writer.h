@@ -1,0 +1,114 @@
+/* lanes-writer.h -- the writer of lanes-code.h from inside: rows, registers. Internal to
+ * tape/.
+ *
+ * The code is run with three addresses: of the program's coefficients (rdi), of scalars (rsi),
+ * of work space (rdx): numbers, what the steps keep between their two parts, what a sum has for
+ * the next order, further rows. In loops r9, rbx and r10 are these moved on to the order at hand,
+ * rbp the first to half of it; r11, r14 and r15 where the terms of sums, of pairs of them and of
+ * squares begin.
+ */
+#ifndef QDOT_TAPE_LANES_WRITER_H
+#define QDOT_TAPE_LANES_WRITER_H
+
+#include "num/series.h"
+#include "tape/lanes-code.h"
+#include "tape/lanes-program.h"
+#include "tape/x86.h"
+
+enum {
+    QDOT_WRITER_REGISTERS = 32,
+    QDOT_WRITER_RESTS = 2,
+    QDOT_WRITER_MOST_TABLES = 12,
+    QDOT_WRITER_GROUP = QDOT_LANES * sizeof(double)
+};
+
+/* What a row's number begins with that is none of the program or a further one. */
+enum {
+    QDOT_WRITER_NUMBERS = 1 << 24,
+    QDOT_WRITER_INVERSES = 2 << 24,
+    QDOT_WRITER_SCALARS = 3 << 24,
+    QDOT_WRITER_TABLES = 4 << 24, /* scalars by order: at it */
+    QDOT_WRITER_TABLE = QDOT_SERIES_MOST + 8,
+    /* What is written for all orders of a loop is written as of this one, and those beside
+     * it; half of it is half of theirs. */
+    QDOT_WRITER_ANY = 1000
+};
+
+/* What a register holds. */
+typedef struct {
+    bool holds, taken;
+    qdot_lanes_at at;
+    unsigned used; /* when */
+} qdot_writer_register;
+
+struct qdot_lanes_writer {
+    qdot_x86 x;
+    qdot_lanes *lanes;
+    const qdot_taylor *t;
+    size_t stride, further, numbers;
+    bool counting; /* the first time: nothing is written */
+    bool *moving;  /* [rows + further] it has more than order 0 */
+    bool *kept;    /* likewise: it is wanted to all orders */
+    bool *rests;   /* [length x QDOT_WRITER_RESTS] there is one at the order at hand */
+    int k;         /* the order at hand */
+    qdot_vec(double) scalars;
+    qdot_vec(qdot_lanes_by_order *) tables;
+    int registers, chains, moment, first_free; /* (lanes-code.c) */
+    qdot_writer_register reg[QDOT_WRITER_REGISTERS];
+    unsigned clock;
+    /* Where n terms begin, of one product and of two with a factor in common. */
+    size_t dot[QDOT_SERIES_MOST + 2], pair[QDOT_SERIES_MOST + 2];
+    /* Of sums in the order in which an order has them: the one that comes, how many there
+     * are; whether there is a part for the next order. */
+    size_t sum, sums;
+    qdot_vec(bool) ahead;
+    qdot_status status;
+};
+
+static inline qdot_lanes_row
+qdot_writer_row(const qdot_lanes_writer *w, const double *row)
+{
+    return (qdot_lanes_row)((size_t)(row - w->t->coefficients) / w->t->stride);
+}
+
+static inline qdot_lanes_at
+qdot_writer_inverse(size_t step)
+{
+    return (qdot_lanes_at){QDOT_WRITER_INVERSES + (qdot_lanes_row)step, 0};
+}
+
+/* An instruction, but when rows are only looked at; what it reads or writes. */
+void qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int first,
+                      qdot_x86_rm rm);
+qdot_x86_rm qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
+/* A register that is free, taken; 0 in one. */
+int qdot_writer_take(qdot_lanes_writer *w);
+void qdot_writer_clear(qdot_lanes_writer *w, int reg);
+/* Rows, of the program and further ones; groups of work space before these. */
+size_t qdot_writer_rows(const qdot_lanes_writer *w);
+size_t qdot_writer_groups(const qdot_lanes_writer *w);
+/* The sequence of terms of one product or two; at [stride] where they begin. */
+void qdot_writer_terms(qdot_lanes_writer *w, int products, size_t *at);
+
+/* Order k begins. */
+static inline void
+qdot_writer_begin(qdot_lanes_writer *w, int k)
+{
+    w->k = k;
+    w->sum = 0;
+}
+
+/* sums[0] = sum_{j=1..k-1} x_j y_{k-j}, sums[1] that of x and z; that of x and itself. */
+void qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
+                      qdot_lanes_row z, int k, qdot_lanes_sum *sums);
+qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k);
+
+/* sum = sum op other, whose register is given back. */
+void qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
+                      qdot_lanes_sum other);
+
+/* Between the two parts of a step. */
+void qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum);
+qdot_lanes_sum qdot_writer_kept(qdot_lanes_writer *w, size_t step, int i);
+
+#endif
