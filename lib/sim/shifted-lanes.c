@@ -1,20 +1,26 @@
 /* shifted-lanes.c -- order by order as shifted.c, for all lanes. */
 #include "sim/shifted-lanes.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "ode/taylor.h"
 #include "sim/blocks.h"
-#include "tape/lanes.h"
+#include "tape/lanes-code.h"
 #include "tape/shake.h"
 #include "tape/taylor.h"
 
-enum { L = QDOT_LANES, most_order = 44 };
+enum { L = QDOT_LANES, most_order = 44, first_of_loop = 6 };
+
+/* Numbers of the code: squares of units of time, inverses of them; then x'' [functions], -R [n]
+ * and the inverses of the blocks. A larger block than this has none. */
+enum { UNIT_SQUARE, PER_UNIT, NUMBERS, most_solved = 16 };
 
 typedef struct {
     double *A, *inverse; /* [n x n groups] of M_0: its factor; inverse */
     double *x, *y;       /* [n groups] */
+    size_t number;       /* of the code's, the first of its inverse */
 } solver;
 
 /* For one kind of processor (shifted-lanes.def). */
@@ -43,6 +49,9 @@ struct qdot_shifted_lanes {
     double *F;               /* [functions x stride groups] by order */
     double *R;               /* [n groups] */
     double *in, *out, *work; /* of `masses`, groups */
+    int to;                  /* order of q that */
+    qdot_lanes_code *code;   /* goes to; NULL: kernels run */
+    qdot_lanes_pair *pairs;  /* [n_slopes] while it is written */
 };
 
 bool
@@ -148,6 +157,29 @@ begin(const double *t, const double *y, const double *unit, void *user)
     order(s, 2);
 }
 
+/* What the code begins with: F of order 0 and the inverses of M_0. */
+static void
+run_code(const qdot_shifted_lanes *s)
+{
+    double *square = qdot_lanes_code_number(s->code, UNIT_SQUARE);
+    double *inverse = qdot_lanes_code_number(s->code, PER_UNIT);
+
+    for (size_t l = 0; l < L; l++) {
+        square[l] = s->unit[l] * s->unit[l];
+        inverse[l] = 1 / s->unit[l];
+    }
+    for (size_t b = 0; b < s->plan->structure.blocks; b++) {
+        const size_t n = s->plan->blocks[b].n;
+
+        memcpy(qdot_lanes_code_number(s->code, s->solvers[b].number),
+               s->solvers[b].inverse, n * n * L * sizeof *s->F);
+    }
+    for (size_t f = 0; f < s->residual->functions; f++)
+        memcpy(qdot_lanes_code_row(s->code, f), s->F + f * s->stride * L,
+               L * sizeof *s->F);
+    qdot_lanes_code_run(s->code);
+}
+
 static void
 extend(int p, void *user)
 {
@@ -157,8 +189,194 @@ extend(int p, void *user)
         if (!s->plan->blocks[b].constant)
             s->kernels->invert(s->plan->blocks[b].n, s->solvers[b].A,
                                s->solvers[b].inverse);
+    if (s->code && p + 1 == s->to) {
+        run_code(s);
+        return;
+    }
     for (int m = 3; m <= p + 1; m++)
         order(s, m);
+}
+
+/* --- the same as machine code ------------------------------------------------------- */
+
+static double
+factor_of(int m)
+{
+    return (double)m * (m - 1);
+}
+
+static double
+inverse_of(int m)
+{
+    return m > 1 ? 1.0 / (m * (m - 1)) : 0;
+}
+
+/* In low orders what that is beyond its double (tape/taylor.h). */
+static double
+beyond(int m)
+{
+    const double inverse = inverse_of(m);
+
+    return m > 1 && m - 2 <= QDOT_TAYLOR_EXACT ? fma(-inverse, m * (m - 1), 1) / (m * (m - 1))
+                                               : 0;
+}
+
+static double
+itself(int m)
+{
+    return m;
+}
+
+static qdot_lanes_at
+input(const qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t i, int m)
+{
+    return (qdot_lanes_at){qdot_lanes_row_of(w, s->q + i * s->stride * L), m};
+}
+
+static qdot_lanes_at
+second_derivative(const qdot_lanes_writer *w, size_t f)
+{
+    return qdot_lanes_number(w, NUMBERS + f);
+}
+
+static qdot_lanes_at
+remainder_of(const qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t i)
+{
+    return qdot_lanes_number(w, NUMBERS + s->residual->functions + i);
+}
+
+/* As `accelerate`. */
+static void
+write_forces(qdot_lanes_writer *w, const qdot_shifted_lanes *s, int m)
+{
+    const qdot_residual *r = s->residual;
+
+    for (size_t f = 0; f < r->functions; f++) {
+        qdot_lanes_sum x = QDOT_LANES_NOTHING;
+
+        if (r->parent[f] != UINT32_MAX)
+            qdot_lanes_add(w, &x, false, second_derivative(w, r->parent[f]));
+        qdot_lanes_add_product(w, &x, false, qdot_lanes_scalar_of(w, factor_of, m),
+                               (qdot_lanes_at){qdot_lanes_row_of(w, s->d[f]), m});
+        qdot_lanes_store(w, x, second_derivative(w, f));
+    }
+    for (size_t f = r->functions; f-- > 0;) {
+        qdot_lanes_sum F = QDOT_LANES_NOTHING;
+
+        for (size_t i = 0; i < r->n_weights; i++)
+            if (r->weights[i].to == f)
+                qdot_lanes_add_product(w, &F, false, qdot_lanes_scalar(w, s->weight[i]),
+                                       second_derivative(w, r->weights[i].from));
+        for (size_t child = f + 1; child < r->functions; child++)
+            if (r->parent[child] == f)
+                qdot_lanes_add(w, &F, false,
+                               (qdot_lanes_at){qdot_lanes_further_row(w, child), m - 2});
+        qdot_lanes_store(w, F, (qdot_lanes_at){qdot_lanes_further_row(w, f), m - 2});
+    }
+}
+
+/* As `gather`, for one coordinate; k > 0. */
+static void
+write_remainder(qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t i, int k)
+{
+    const qdot_residual *r = s->residual;
+    qdot_lanes_pair *pairs = s->pairs;
+    size_t n = 0;
+    qdot_lanes_sum R;
+
+    for (size_t j = 0; j < r->n_slopes; j++)
+        if (r->slopes[j].coordinate == i)
+            pairs[n++] =
+                (qdot_lanes_pair){qdot_lanes_row_of(w, s->slope[j]),
+                                  qdot_lanes_further_row(w, r->slopes[j].function)};
+    R = qdot_lanes_dots(w, n, pairs, k);
+    for (size_t j = 0; j < n; j++)
+        qdot_lanes_add_product(w, &R, false, (qdot_lanes_at){pairs[j].x, k},
+                               (qdot_lanes_at){pairs[j].y, 0});
+    for (size_t j = 0; j < n; j++)
+        qdot_lanes_add_product(w, &R, false, (qdot_lanes_at){pairs[j].x, 0},
+                               (qdot_lanes_at){pairs[j].y, k});
+    qdot_lanes_negate(w, &R);
+    if (s->Q[i])
+        qdot_lanes_add_product(w, &R, false, qdot_lanes_number(w, UNIT_SQUARE),
+                               (qdot_lanes_at){qdot_lanes_row_of(w, s->Q[i]), k});
+    qdot_lanes_store(w, R, remainder_of(w, s, i));
+}
+
+/* Coefficients m of q and m - 1 of v. */
+static void
+write_solution(qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t b, int m)
+{
+    const qdot_plan_block *block = s->plan->blocks + b;
+    const size_t n = block->n;
+
+    for (size_t i = 0; i < n; i++) {
+        const qdot_lanes_at q = input(w, s, block->index[i], m);
+        qdot_lanes_sum a = QDOT_LANES_NOTHING, v = a;
+
+        for (size_t j = 0; j < n; j++)
+            qdot_lanes_add_product(w, &a, false, remainder_of(w, s, block->index[j]),
+                                   qdot_lanes_number(w, s->solvers[b].number + i * n + j));
+        qdot_lanes_store(w, a, q);
+        a = QDOT_LANES_NOTHING;
+        if (s->to > QDOT_TAYLOR_EXACT_FROM)
+            qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, beyond, m));
+        qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, inverse_of, m));
+        qdot_lanes_store(w, a, q);
+        qdot_lanes_add_product(w, &v, false, qdot_lanes_number(w, PER_UNIT),
+                               qdot_lanes_scalar_of(w, itself, m));
+        qdot_lanes_scale(w, &v, q);
+        qdot_lanes_store(w, v, input(w, s, s->plan->n + block->index[i], m - 1));
+    }
+}
+
+/* As `order`. */
+static void
+write_order(qdot_lanes_writer *w, int m, void *user)
+{
+    const qdot_shifted_lanes *s = user;
+
+    qdot_lanes_steps_before(w, m);
+    for (size_t i = 0; i < s->plan->n; i++)
+        qdot_lanes_store(w, QDOT_LANES_NOTHING, input(w, s, i, m));
+    qdot_lanes_steps_after(w, m);
+    write_forces(w, s, m);
+    for (size_t i = 0; i < s->plan->n; i++)
+        write_remainder(w, s, i, m - 2);
+    for (size_t b = 0; b < s->plan->structure.blocks; b++)
+        write_solution(w, s, b, m);
+    qdot_lanes_steps_after(w, m);
+    write_forces(w, s, m);
+}
+
+static void
+write_expansion(qdot_lanes_writer *w, void *user)
+{
+    qdot_shifted_lanes *s = user;
+
+    qdot_lanes_orders(w, 3, first_of_loop, s->to, write_order, s);
+}
+
+/* Rows of the program that are read by order must be there from orders before the code's. */
+static qdot_status
+write_code(qdot_shifted_lanes *s, int most)
+{
+    size_t numbers = NUMBERS + s->residual->functions + s->plan->n;
+
+    s->to = most + 1;
+    for (size_t b = 0; b < s->plan->structure.blocks; b++) {
+        const size_t n = s->plan->blocks[b].n;
+
+        s->solvers[b].number = numbers;
+        if (n > most_solved)
+            return QDOT_OK;
+        numbers += n * n;
+    }
+    s->pairs = qdot_calloc(s->residual->n_slopes + 1, sizeof *s->pairs);
+    if (!s->pairs)
+        return QDOT_ENOMEM;
+    return qdot_lanes_code_new(s->places, s->residual->functions, numbers, write_expansion,
+                               s, &s->code);
 }
 
 /* --- building ----------------------------------------------------------------------- */
@@ -198,7 +416,8 @@ make_tapes(qdot_shifted_lanes *s, bool shaken, int most)
         QDOT_TRY(qdot_tape_shake(r->masses, &s->masses));
         QDOT_TRY(qdot_tape_shake(r->places, &copy));
     }
-    status = qdot_lanes_new(copy ? copy : r->places, most + 1, &s->places);
+    status = qdot_lanes_new_moving(copy ? copy : r->places, most + 1, 2 * s->plan->n + 1,
+                                   &s->places);
     qdot_tape_free(copy);
     return status;
 }
@@ -241,7 +460,7 @@ make(qdot_shifted_lanes *s, bool shaken, int most)
                               : r->weights[w].w;
     for (size_t b = 0; b < p->structure.blocks; b++)
         QDOT_TRY(make_solver(s, b, shaken));
-    return QDOT_OK;
+    return write_code(s, most);
 }
 
 qdot_status
@@ -278,6 +497,8 @@ qdot_shifted_lanes_free(qdot_shifted_lanes *s)
         qdot_free(s->solvers[b].x);
         qdot_free(s->solvers[b].y);
     }
+    qdot_lanes_code_free(s->code);
+    qdot_free(s->pairs);
     qdot_lanes_free(s->places);
     qdot_tape_free(s->masses);
     qdot_free(s->d);
@@ -325,6 +546,13 @@ qdot_shifted_lanes_order(const qdot_plan *plan, double tol, int *order)
     c[1] = 4 * length + 3 * convolutions + 15 * n + n * n +
            8.0 * (double)(r->functions + r->n_weights);
     c[2] = 0.1 * convolutions;
+    if (qdot_lanes_may_be_code() && n <= most_solved) {
+        double *w = series.written;
+
+        w[0] = c[0] + 300 + 60 * n;
+        w[1] = c[1];
+        w[2] = c[2];
+    }
     *order = qdot_ode_taylor_order(&series, tol, false, 0);
     return QDOT_OK;
 }

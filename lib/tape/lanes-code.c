@@ -118,13 +118,15 @@ static void
 write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *user,
           size_t *entry)
 {
-    static const qdot_x86_base restored[] = {QDOT_X86_RBX, QDOT_X86_RBP, QDOT_X86_R13,
+    static const qdot_x86_base restored[] = {QDOT_X86_RBX, QDOT_X86_RBP, QDOT_X86_R12, QDOT_X86_R13,
                                              QDOT_X86_R14, QDOT_X86_R15};
     const size_t n = sizeof restored / sizeof *restored;
 
     w->counting = counting;
     w->k = 0;
     w->clock = 0;
+    if (w->ahead.n > 0)
+        memset(w->ahead.at, 0, w->ahead.n * sizeof *w->ahead.at);
     memset(w->reg, 0, sizeof w->reg);
     if (!counting) {
         qdot_writer_terms(w, 1, w->dot);

@@ -101,7 +101,7 @@ void qdot_lanes_steps_before(qdot_lanes_writer *w, int k);
 void qdot_lanes_steps_after(qdot_lanes_writer *w, int k);
 
 /* The sum over pairs of sum_{j=1..k-1} x_j y_{k-j}. For the same sums in the same order
- * behind the steps of every order, k going up by 1 with theirs. */
+ * behind the steps of every order, k being theirs or an even number of orders below. */
 qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
                                const qdot_lanes_pair *pair, int k);
 /* sum +- a, sum +- a b, sum a; it is stored and its register given back. */

@@ -63,6 +63,16 @@ address(qdot_lanes_writer *w, qdot_x86_base to, qdot_lanes_row row, int order)
         qdot_x86_address(&w->x, to, (qdot_x86_base)rm.reg, rm.offset);
 }
 
+/* Where a register says, or at so many terms less: sums of a lower order than the steps. */
+static void
+enter_in_loop(qdot_lanes_writer *w, qdot_x86_base at, int less)
+{
+    if (less > 0)
+        qdot_x86_address(&w->x, QDOT_X86_R12, at,
+                         less * (int32_t)(w->dot[2] - w->dot[3]));
+    qdot_x86_enter_at(&w->x, less > 0 ? QDOT_X86_R12 : at);
+}
+
 /* Terms n, n - 1, ..., 1 of order k are added; z of two products only. In a loop the number
  * of a square's may be even or odd. */
 static void
@@ -82,7 +92,8 @@ call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
     if (w->counting)
         return;
     if (any)
-        qdot_x86_enter_at(&w->x, z ? QDOT_X86_R14 : square ? QDOT_X86_R15 : QDOT_X86_R11);
+        enter_in_loop(w, z ? QDOT_X86_R14 : square ? QDOT_X86_R15 : QDOT_X86_R11,
+                      QDOT_WRITER_ANY + k % 2 - k);
     else
         qdot_x86_enter(&w->x, z ? w->pair[n] : w->dot[n]);
 }

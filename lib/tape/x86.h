@@ -68,6 +68,7 @@ typedef enum {
     QDOT_X86_R9 = 9,
     QDOT_X86_R10 = 10,
     QDOT_X86_R11 = 11,
+    QDOT_X86_R12 = 12, /* no address of an operand */
     QDOT_X86_R13 = 13,
     QDOT_X86_R14 = 14,
     QDOT_X86_R15 = 15
