@@ -655,6 +655,7 @@ script_tests = \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
 	tests/script/constraint-fades.sh \
+	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
 	tests/script/coordinates.lag \
 	tests/script/declarations.lag \
@@ -1274,6 +1275,7 @@ test_files = \
 	tests/script/check.out \
 	tests/script/conserved.out \
 	tests/script/constraint-fades.out \
+	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
 	tests/script/coordinates.out \
 	tests/script/declarations.out \

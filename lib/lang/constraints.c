@@ -112,10 +112,10 @@ void
 qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
                                  qdot_text *out)
 {
-    size_t found = 0;
+    size_t found = 0, hidden = 0;
 
     for (size_t k = 0; k < dof->constraints; k++) {
-        if (dof->is_independent[k])
+        if (dof->is_independent[k] || dof->is_hidden[k])
             continue;
         qdot_text_add(out, found++ > 0   ? ", "
                            : dof->unmet ? "\nredundant or contradicting those before: "
@@ -124,6 +124,14 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
     }
     if (found > 0 && !dof->unmet)
         qdot_text_add(out, "; the motion is unique, the multipliers are not");
+    for (size_t k = 0; k < dof->constraints; k++) {
+        if (!dof->is_hidden[k])
+            continue;
+        qdot_text_add(out, hidden++ > 0 ? ", "
+                                        : "\nleaving, with those before, a condition that is none of the "
+                                          "constraints, and that n does not count: ");
+        print_constraint(&scene->constraints.at[k], out);
+    }
     if (dof->unmet)
         qdot_text_add(out, "\nno configuration was found at which all constraints hold");
     else if (dof->freedom == 0 && dof->coordinates > 0)

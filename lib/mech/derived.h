@@ -73,6 +73,7 @@ struct qdot_derived {
     qdot_expr *lambda; /* [constraints], with accel; nil where they are not unique */
     qdot_expr numeric_mass, numeric_forcing;
     bool *independent; /* [constraints] */
+    bool *hidden;      /* [constraints] behind those: leaves a condition (qdot_dof.is_hidden) */
     bool unmet;        /* no point was found where they all hold */
     bool conserved_known, conserved;
     /* Survives changes: the relations and their derivatives. */

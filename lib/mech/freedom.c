@@ -8,6 +8,12 @@
  * counts. Where none is found (undefined functions of coordinates, assumed relations,
  * constraints that contradict each other) rows are eliminated symbolically, entries that
  * the constraints prove zero counting as zero.
+ *
+ * A row that repeats others may still say more than they do: x = t and x' = y make y = 1. With
+ * F, W, G the equations of positions, velocities and accelerations, derivatives among them, such
+ * conditions are counted at those points by
+ *
+ *     rank d(F,W)/d(q,q') - rank dF/dq - rank dW/dq',   likewise F, W, G with q''.
  */
 #include <math.h>
 #include <string.h>
@@ -26,6 +32,8 @@ enum { TRIALS = 12, MORE_TRIALS = 60, STEPS = 200 };
 typedef struct {
     size_t n, c, m;                        /* coordinates, equations, 3n */
     size_t constraints;                    /* the others are derivatives of these */
+    qdot_constraint_kind *kind;            /* [c] */
+    size_t *of;                            /* [c] the constraint */
     size_t slopes;                         /* not 0 */
     size_t *first;                         /* [c + 1] of each row among the slopes */
     size_t *column;                        /* [slopes] */
@@ -39,6 +47,8 @@ typedef struct {
 static void
 problem_clear(problem *p)
 {
+    qdot_free(p->kind);
+    qdot_free(p->of);
     qdot_free(p->first);
     qdot_free(p->column);
     qdot_free(p->e);
@@ -47,9 +57,10 @@ problem_clear(problem *p)
 }
 
 /* The derivatives that the constraints of lower kinds have at the levels of the others, behind the
- * constraints in `e`, which has room for three of each; their number, and the kind of each. */
+ * constraints in `e`, which has room for three of each; their number, the kind of each, and which
+ * constraint it is of. */
 static size_t
-add_derivatives(qdot_scene *s, qdot_expr *e, qdot_constraint_kind *kind)
+add_derivatives(qdot_scene *s, qdot_expr *e, qdot_constraint_kind *kind, size_t *of)
 {
     size_t c = s->constraints.n, n = c;
     qdot_constraint_kind highest = QDOT_HOLONOMIC;
@@ -57,11 +68,13 @@ add_derivatives(qdot_scene *s, qdot_expr *e, qdot_constraint_kind *kind)
     for (size_t k = 0; k < c; k++) {
         e[k] = s->constraints.at[k].f;
         kind[k] = s->constraints.at[k].kind;
+        of[k] = k;
         highest = kind[k] > highest ? kind[k] : highest;
     }
     for (size_t k = 0; k < n; k++)
         if (kind[k] < highest) {
             kind[n] = kind[k] + 1;
+            of[n] = of[k];
             e[n++] = qdot_ddt(s->pool, e[k]);
         }
     return n - c;
@@ -129,15 +142,17 @@ problem_init(qdot_scene *s, problem *p)
     size_t c = s->constraints.n;
     qdot_expr *f = qdot_calloc(3 * c + 1, sizeof *f);
     qdot_constraint_kind *kind = qdot_calloc(3 * c + 1, sizeof *kind);
-    qdot_status status = f && kind ? QDOT_OK : QDOT_ENOMEM;
+    size_t *of = qdot_calloc(3 * c + 1, sizeof *of);
+    qdot_status status = f && kind && of ? QDOT_OK : QDOT_ENOMEM;
 
     *p = (problem){0};
     if (status == QDOT_OK)
-        status = problem_fill(s, p, c + add_derivatives(s, f, kind), f, kind);
+        status = problem_fill(s, p, c + add_derivatives(s, f, kind, of), f, kind);
+    p->kind = kind;
+    p->of = of;
     if (status != QDOT_OK)
         problem_clear(p);
     qdot_free(f);
-    qdot_free(kind);
     return status;
 }
 
@@ -307,6 +322,99 @@ rank(qdot_scene *s, problem *p, bool *independent)
     return found;
 }
 
+/* --- conditions that rows of one direction leave --------------------------------------- */
+
+/* Some of the constraints: those that are independent, and the others up to `last`. */
+typedef struct {
+    const problem *p;
+    const bool *independent;
+    size_t last;
+    double *rows; /* [c x m] scratch */
+} selection;
+
+/* The rank, at the point found, of their equations of kinds `least` to `most` by q (order 0) to the
+ * order `most`, without the orders below `lowest`. */
+static size_t
+rank_of_kinds(const selection *of, int least, int most, int lowest)
+{
+    const problem *p = of->p;
+    const double nothing = fmax(1e-6, 100 * sqrt(p->off));
+    const size_t low = p->n * (size_t)lowest, width = p->n * ((size_t)most + 1) - low;
+    size_t found = 0;
+
+    for (size_t k = 0; k < p->c; k++) {
+        double *row = of->rows + found * width, norm = 0, left = 0;
+
+        if ((p->of[k] > of->last && !of->independent[p->of[k]]) || (int)p->kind[k] < least
+            || (int)p->kind[k] > most)
+            continue;
+        memset(row, 0, width * sizeof *row);
+        for (size_t i = p->first[k]; i < p->first[k + 1]; i++)
+            if (p->column[i] >= low) {
+                row[p->column[i] - low] = p->value[p->c + i];
+                norm = fmax(norm, fabs(p->value[p->c + i]));
+            }
+        if (!(norm > 1e-6))
+            continue;
+        for (size_t i = 0; i < width; i++)
+            row[i] /= norm;
+        for (int twice = 0; twice < 2; twice++)
+            for (size_t j = 0; j < found; j++) {
+                const double *other = of->rows + j * width;
+                double dot = 0;
+
+                for (size_t i = 0; i < width; i++)
+                    dot += row[i] * other[i];
+                for (size_t i = 0; i < width; i++)
+                    row[i] -= dot * other[i];
+            }
+        for (size_t i = 0; i < width; i++)
+            left += row[i] * row[i];
+        left = sqrt(left);
+        for (size_t i = 0; i < width && left >= nothing; i++)
+            row[i] /= left;
+        found += left >= nothing;
+    }
+    return found;
+}
+
+/* How many conditions they leave. */
+static size_t
+count_hidden(const selection *of)
+{
+    size_t count = 0;
+
+    for (int kind = QDOT_VELOCITY; kind <= QDOT_ACCELERATION; kind++)
+        count += rank_of_kinds(of, 0, kind, 0) - rank_of_kinds(of, 0, kind - 1, 0)
+                 - rank_of_kinds(of, kind, kind, kind);
+    return count;
+}
+
+/* Which of the rows that are not independent leave one more. */
+static qdot_status
+find_hidden(const problem *p, const bool *independent, bool *hidden)
+{
+    selection of = {.p = p, .independent = independent};
+    size_t before = 0;
+
+    of.rows = qdot_calloc(p->c * p->m + 1, sizeof *of.rows);
+    if (!of.rows)
+        return QDOT_ENOMEM;
+    memset(hidden, 0, p->constraints * sizeof *hidden);
+    for (size_t k = 0; k < p->constraints; k++) {
+        size_t now;
+
+        if (independent[k])
+            continue;
+        of.last = k;
+        now = count_hidden(&of);
+        hidden[k] = now > before;
+        before = now;
+    }
+    qdot_free(of.rows);
+    return QDOT_OK;
+}
+
 /* Undefined functions whose arguments move cannot be given consistent values. */
 static bool
 can_sample(qdot_scene *s, const problem *p)
@@ -333,6 +441,7 @@ can_sample(qdot_scene *s, const problem *p)
     return true;
 }
 
+/* Into independent [2c], the second half: which leave a condition. */
 static qdot_status
 by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
 {
@@ -352,6 +461,8 @@ by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
         if (hits++ == 0 || r > most) {
             most = r;
             memcpy(independent, seen, c * sizeof *seen);
+            if (r < c)
+                status = find_hidden(p, independent, independent + c);
         }
     }
     *known = hits > 0;
@@ -418,7 +529,7 @@ qdot_freedom_independent(qdot_scene *s)
 
     if (d->independent)
         return true;
-    independent = qdot_calloc(s->constraints.n + 1, sizeof *independent);
+    independent = qdot_calloc(2 * s->constraints.n + 1, sizeof *independent);
     status = independent ? QDOT_OK : QDOT_ENOMEM;
     if (status == QDOT_OK && s->constraints.n && s->coordinates.n) {
         status = problem_init(s, &p);
@@ -439,6 +550,7 @@ qdot_freedom_independent(qdot_scene *s)
         return false;
     }
     d->independent = independent;
+    d->hidden = independent + s->constraints.n;
     return true;
 }
 
@@ -482,6 +594,7 @@ qdot_mech_dof(qdot_scene *s, qdot_dof *dof)
     *dof = (qdot_dof){.coordinates = s->coordinates.n,
                       .constraints = s->constraints.n,
                       .is_independent = s->derived->independent,
+                      .is_hidden = s->derived->hidden,
                       .unmet = s->derived->unmet,
                       .cartesian = is_cartesian(s),
                       .particles = s->particles.n,

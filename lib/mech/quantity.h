@@ -71,6 +71,9 @@ typedef struct {
     size_t freedom;                               /* coordinates - independent */
     const bool *is_independent; /* [constraints] of those declared before; borrowed until the
                                    scene changes */
+    const bool *is_hidden; /* [constraints] not independent, and yet more than a repetition: with those
+                              before it leaves a condition on coordinates or velocities that is none
+                              of the constraints (x = t, x' = y: y = 1); likewise */
     bool unmet;           /* no point was found where all constraints hold, whatever the
                              parameters: no proof that there is none */
     bool cartesian;       /* n = N D - C applies: every particle at plain coordinates */

@@ -64,9 +64,12 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_factor_rows(const qdot_plan *plan,
                                                          qdot_saddle *s,
                                                          const size_t *row);
 /* After qdot_constrained_solve into h->a: rows that were left out as repetitions must agree with
- * those that were not; else `broken`, with the name of one that does not. */
+ * those that were not, but for what drift that is not taken back makes of them; else `broken`, with
+ * the name of one that does not. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_check_repeated(qdot_constrained *h,
                                                             qdot_status broken);
+/* The first of those, after the same; SIZE_MAX: there is none. */
+size_t qdot_constrained_contradicting(qdot_constrained *h);
 /* M and A at what is loaded, into a level. */
 void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level);
 

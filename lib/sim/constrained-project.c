@@ -196,8 +196,7 @@ qdot_constrained_check_accelerations(qdot_constrained *h, double t, const double
 {
     const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
 
-    if (h->at[QDOT_ACCELERATION]->m == h->at[QDOT_VELOCITY]->m || s->rank == s->m
-        || h->plan->treatment == QDOT_RUN_BAUMGARTE)
+    if (h->at[QDOT_ACCELERATION]->m == h->at[QDOT_VELOCITY]->m || s->rank == s->m)
         return QDOT_OK;
     QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
     return qdot_constrained_check_repeated(h, QDOT_EDOMAIN);

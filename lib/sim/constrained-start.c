@@ -12,7 +12,10 @@ static const double start_tolerance = 1e-9;
  * that was dependent upon the others only at the start. */
 static const double beside = 1e-3, independent = 1e-7;
 
-enum { tries = 3, iterations = 12 };
+/* What repetitions leave of a velocity beside the start. */
+static const double hidden = 1e-9;
+
+enum { tries = 4, iterations = 12 };
 
 /* --- a start at which constraints happen to be dependent ----------------------------- */
 
@@ -81,14 +84,14 @@ step_aside(place *p, const double *y, int which)
     return most < 1e-10 * size;
 }
 
-/* The constraints of which `row` is a combination at the start, and itself. */
-static qdot_status
-refuse(place *p, const double *y, size_t row)
+/* The constraints of which `row` is a combination at the start, and itself, into `names`; their
+ * number. */
+static size_t
+name_dependent(place *p, const double *y, size_t row, qdot_text *names)
 {
     const size_t n = p->h->plan->n, m = p->h->c->m;
     bool *in = qdot_calloc(m + 1, sizeof *in);
     double *part = qdot_calloc(m + 1, sizeof *part);
-    qdot_text names = {0};
     size_t count = 1;
 
     if (in && part) {
@@ -108,20 +111,110 @@ refuse(place *p, const double *y, size_t row)
                 in[k] = true;
                 count++;
             }
-        qdot_constrained_name(p->h->c, in, &names);
+        qdot_constrained_name(p->h->c, in, names);
     }
-    if (in && part && qdot_text_status(&names) == QDOT_OK)
+    qdot_free(in);
+    qdot_free(part);
+    return count;
+}
+
+static qdot_status
+refuse(place *p, const double *y, size_t row)
+{
+    qdot_text names = {0};
+    const size_t count = name_dependent(p, y, row, &names);
+
+    if (qdot_text_status(&names) == QDOT_OK)
         qdot_fail(QDOT_ESINGULAR,
                   count == 1 ? "at the start %.200s has no direction, as it has beside it: what "
                                "the motion is from there is not determined"
                              : "at the start %.200s depend on each other, as they do not "
                                "beside it: what the motion is from there is not determined",
                   qdot_text_str(&names));
-    qdot_free(in);
-    qdot_free(part);
     qdot_text_clear(&names);
     (void)qdot_hint("a start beside that place");
     return QDOT_ESINGULAR;
+}
+
+/* --- conditions that only constraints together make ------------------------------------ */
+
+/* x = t and x' = y have one direction, and the second is no repetition: y = 1. */
+static qdot_status
+refuse_hidden(place *p, const double *y, size_t row, const char *of)
+{
+    qdot_text names = {0};
+
+    (void)name_dependent(p, y, row, &names);
+    if (qdot_text_status(&names) == QDOT_OK)
+        qdot_fail(QDOT_EINVAL,
+                  "%.200s together leave a condition on %s that is none of the constraints: it "
+                  "holds at the start, but not beside it",
+                  qdot_text_str(&names), of);
+    qdot_text_clear(&names);
+    (void)qdot_hint("that condition as a constraint too");
+    return QDOT_EINVAL;
+}
+
+/* Velocities beside those at p->y that the independent rows allow; *worst of the others, and by
+ * how much it is broken. Whether there are such. */
+static bool
+move_velocities(place *p, size_t *worst, double *by)
+{
+    const size_t n = p->h->plan->n, m = p->h->c->m;
+    double *v = p->y + n, size = 1, most = INFINITY;
+
+    for (size_t i = 0; i < n; i++)
+        size = fmax(size, fabs(v[i]));
+    for (size_t i = 0; i < n; i++) /* without a pattern */
+        v[i] += beside * size * sin(1.0 + 7.0 * (double)i);
+    for (int k = 0; k < iterations && most > 1e-12 * size; k++) {
+        qdot_constrained_load(p->h, p->t, p->y);
+        qdot_constrained_velocities(p->h);
+        for (size_t r = 0; r < m; r++)
+            p->b[r] = -p->h->w[r];
+        take_slopes(p, true);
+        for (size_t r = 0; r < m; r++)
+            if (p->h->c->rows[r].kind == QDOT_ACCELERATION)
+                memset(p->A + r * n, 0, n * sizeof *p->A);
+        qdot_row_space_factor(&p->rows, p->A, independent, false);
+        most = *by = 0;
+        for (size_t j = 0; j < m; j++) {
+            const size_t r = p->rows.order[j];
+
+            if (j < p->rows.rank) {
+                most = fmax(most, fabs(p->b[r]));
+            } else if (fabs(p->b[r]) > *by) {
+                *by = fabs(p->b[r]);
+                *worst = r;
+            }
+        }
+        qdot_row_space_shortest(&p->rows, p->b, p->x, NULL);
+        for (size_t i = 0; i < n; i++)
+            v[i] += p->x[i];
+    }
+    *by /= size;
+    return most < 1e-9 * size;
+}
+
+/* At a state beside the start, or a little later. */
+static qdot_status
+check_hidden(place *p, const double *y, bool later)
+{
+    size_t worst = 0;
+    double by = 0;
+
+    if (!move_velocities(p, &worst, &by))
+        return QDOT_OK;
+    if (by > hidden)
+        return refuse_hidden(p, y, worst, later ? "time" : "positions");
+    if (qdot_constrained_solve(p->h, p->t, p->y, p->h->a, NULL) != QDOT_OK ||
+        qdot_constrained_check_repeated(p->h, QDOT_EINVAL) == QDOT_OK)
+        return QDOT_OK;
+    worst = qdot_constrained_contradicting(p->h);
+    return refuse_hidden(p, y, worst,
+                         later                                              ? "time"
+                         : p->h->c->rows[worst].kind == QDOT_ACCELERATION ? "positions or velocities"
+                                                                          : "velocities");
 }
 
 /* Rows that repeat others at the start must do so beside it, too: else the rank that is kept
@@ -133,10 +226,12 @@ check_place(qdot_constrained *h, double t, const double *y)
     const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
     const size_t rank = s->rank, repeated = rank < m ? s->pivot[rank] : 0;
     place p = {.h = h, .t = t};
+    bool holds;
     qdot_status status;
 
     if (rank == m)
         return QDOT_OK;
+    holds = qdot_constrained_contradicting(h) == SIZE_MAX; /* the start itself */
     p.y = qdot_calloc(3 * n + m * n + m, sizeof *p.y);
     if (!p.y)
         return QDOT_ENOMEM;
@@ -145,13 +240,19 @@ check_place(qdot_constrained *h, double t, const double *y)
     p.b = p.A + m * n;
     status = qdot_row_space_init(&p.rows, m, n);
     for (int k = 0; k < tries && status == QDOT_OK; k++) {
+        const bool later = k + 1 == tries; /* after the start itself has been looked about */
+
+        p.t = later ? t + beside : t;
         if (!step_aside(&p, y, k))
             continue;
         take_slopes(&p, true);
         qdot_row_space_factor(&p.rows, p.A, independent, false);
-        if (p.rows.rank > rank)
+        if (p.rows.rank <= rank && holds)
+            status = check_hidden(&p, y, later);
+        else if (p.rows.rank > rank && !later)
             status = refuse(&p, y, repeated);
     }
+    p.t = t;
     if (status == QDOT_OK) { /* as it was, for what reads it next */
         memcpy(p.y, y, 2 * n * sizeof *y);
         take_slopes(&p, true);

@@ -201,29 +201,64 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     return QDOT_OK;
 }
 
+/* A q'' - gamma of row k, of whose terms the largest is *size. */
+static double
+left_of(const qdot_constrained *h, size_t k, double *size)
+{
+    const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
+    const size_t n = h->plan->n;
+    const double gamma = h->out[n + h->c->n_masses + h->c->n_slopes + k];
+    double sum = -gamma;
+
+    *size = fabs(gamma);
+    for (size_t i = 0; i < n; i++) {
+        sum += s->A[k * n + i] * h->a[i];
+        *size = fmax(*size, fabs(s->A[k * n + i] * h->a[i]));
+    }
+    return sum;
+}
+
+/* Of second derivatives, what drift makes of them: by the terms that would damp it. */
+static double
+by_drift(qdot_constrained *h)
+{
+    const double a = QDOT_CONSTRAINED_RATE;
+    double sum = 0;
+
+    if (h->plan->treatment == QDOT_RUN_PROJECT)
+        return 0;
+    qdot_constrained_residuals(h);
+    for (size_t k = 0; k < h->c->m; k++)
+        sum += 2 * a * fabs(h->w[k]) + a * a * fabs(h->f[k]);
+    return sum;
+}
+
+size_t
+qdot_constrained_contradicting(qdot_constrained *h)
+{
+    const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
+    const double drift = by_drift(h);
+
+    for (size_t j = s->rank; j < s->m; j++) {
+        double size;
+
+        if (fabs(left_of(h, s->pivot[j], &size)) > 1e-6 * fmax(1, size) + drift)
+            return s->pivot[j];
+    }
+    return SIZE_MAX;
+}
+
 qdot_status
 qdot_constrained_check_repeated(qdot_constrained *h, qdot_status broken)
 {
-    const qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
-    const qdot_saddle *s = &all->saddle;
-    const size_t n = h->plan->n;
-    const double *gamma = h->out + n + h->c->n_masses + h->c->n_slopes;
+    const size_t k = qdot_constrained_contradicting(h);
+    double size;
 
-    for (size_t j = s->rank; j < s->m; j++) {
-        size_t k = s->pivot[j];
-        double sum = -gamma[k], size = fabs(gamma[k]);
-
-        for (size_t i = 0; i < n; i++) {
-            sum += s->A[k * n + i] * h->a[i];
-            size = fmax(size, fabs(s->A[k * n + i] * h->a[i]));
-        }
-        if (fabs(sum) > 1e-6 * fmax(1, size))
-            return qdot_fail(broken,
-                             "constraint %s contradicts the others: they leave it a "
-                             "second derivative of %.3g",
-                             h->c->rows[k].name, sum);
-    }
-    return QDOT_OK;
+    return k == SIZE_MAX ? QDOT_OK
+                         : qdot_fail(broken,
+                                     "constraint %s contradicts the others: they leave it a "
+                                     "second derivative of %.3g",
+                                     h->c->rows[k].name, left_of(h, k, &size));
 }
 
 qdot_constrained_residual

@@ -99,8 +99,9 @@ form(elimination *e)
     }
 }
 
-/* S = L D L^T in its place. */
-static void
+/* S = L D L^T in its place; whether it has an inverse, as far as can be seen: constraints that
+ * repeat each other leave none. */
+static bool
 factor(elimination *e)
 {
     qdot_pool *pool = e->plan->pool;
@@ -109,6 +110,8 @@ factor(elimination *e)
     for (size_t k = 0; k < m; k++) {
         qdot_expr l[most_rows];
 
+        if (e->S[k][k] == QDOT_ZERO)
+            return false;
         for (size_t i = k + 1; i < m; i++) {
             l[i] = qdot_hold(pool, qdot_quotient(pool, e->S[i][k], e->S[k][k]));
             for (size_t j = k + 1; j <= i; j++)
@@ -118,6 +121,7 @@ factor(elimination *e)
         for (size_t i = k + 1; i < m; i++)
             e->S[i][k] = l[i];
     }
+    return true;
 }
 
 /* b becomes lambda. */
@@ -169,9 +173,9 @@ fits(const qdot_plan *p, double tol)
     return true;
 }
 
-/* Coordinate by coordinate q'', then d_k and S_kk of the rows. */
+/* Coordinate by coordinate q'', then d_k and S_kk of the rows; *there: they could be had. */
 static qdot_status
-fill(qdot_plan *r, const qdot_plan *p)
+fill(qdot_plan *r, const qdot_plan *p, bool *there)
 {
     elimination e = {.plan = p, .c = p->constraints};
     qdot_expr pivots[2 * most_rows];
@@ -186,7 +190,9 @@ fill(qdot_plan *r, const qdot_plan *p)
     memcpy(r->M, p->M, n * n * sizeof *r->M);
     memcpy(r->f, p->f, n * sizeof *r->f);
     form(&e);
-    factor(&e);
+    *there = factor(&e);
+    if (!*there)
+        return qdot_pool_check(p->pool);
     solve(&e);
     add_reactions(&e, r->f);
     for (size_t k = 0; k < m; k++) {
@@ -391,15 +397,15 @@ compare(const qdot_plan *p, double tol, bool *cheaper)
 qdot_status
 qdot_eliminated_find(qdot_plan *p, double tol)
 {
-    bool cheaper = false;
+    bool there = false, cheaper = false;
     qdot_status status;
 
     if (!fits(p, tol))
         return QDOT_OK;
     status = qdot_plan_of_part(p, p->n, 0, &p->eliminated);
     if (status == QDOT_OK)
-        status = fill(p->eliminated, p);
-    if (status == QDOT_OK)
+        status = fill(p->eliminated, p, &there);
+    if (status == QDOT_OK && there)
         status = compare(p, tol, &cheaper);
     if (status != QDOT_OK || !cheaper) {
         qdot_plan_free(p->eliminated);

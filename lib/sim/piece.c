@@ -251,11 +251,24 @@ look_at_step(qdot_piece *x, double t, const double *y)
     return QDOT_OK;
 }
 
+/* Where steps are projected that asks as well. */
+static qdot_status
+check_accelerations(const qdot_piece *x, double t, const double *y)
+{
+    const qdot_ode_system *system = &x->c->systems.at[x->mode];
+    qdot_constrained *held = system->n_parts == 0 ? qdot_bind_held(system->user) : NULL;
+
+    if (!held || (system->project && !x->method->multistep))
+        return QDOT_OK;
+    return qdot_constrained_check_accelerations(held, t, y);
+}
+
 static qdot_status
 accepted(double t, const double *y, bool *stop, void *user)
 {
     qdot_piece *x = user;
 
+    QDOT_TRY(check_accelerations(x, t, y));
     if (x->options->accepted)
         QDOT_TRY(x->options->accepted(t, y, stop, x->options->user));
     if (qdot_piece_mode(x)->m == 0)
