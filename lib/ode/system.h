@@ -58,6 +58,8 @@ typedef struct {
     bool (*there)(int p, void *user);
     void (*drop)(void *user);
     double written[3]; /* cost, then; zeros: there is none of it here */
+    double wider;      /* and of each 16 orders begun beyond `narrow` */
+    int narrow;
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Then orders 2 ... p. */

@@ -13,17 +13,30 @@ enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
  * order is worth more than its radius says (doc/methods.md). */
 static const double least_digits = 18;
 
+/* Half of so many orders beyond the narrow ones are a vector more (tape/taylor-code.h). */
+enum { orders_of_vector = 16 };
+
+static double
+cost_of(const qdot_ode_series *s, int p)
+{
+    const bool code = s->written[0] > 0;
+    const double *c = code ? s->written : s->cost;
+    const int more = code && p > s->narrow ? p - s->narrow : 0;
+
+    return c[0] + c[1] * p + c[2] * p * p +
+           s->wider * ((more + orders_of_vector - 1) / orders_of_vector);
+}
+
 int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, int more)
 {
-    const double *c = series->written[0] > 0 ? series->written : series->cost;
     double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
     int best = least_order;
 
     if (series->written[0] > 0)
         L = fmax(L, least_digits);
     for (int p = least_order; p <= series->most - of_companions; p++) {
-        double cost = (c[0] + c[1] * p + c[2] * p * p) * exp(L / p);
+        double cost = cost_of(series, p) * exp(L / p);
 
         if (cost < least) {
             least = cost;

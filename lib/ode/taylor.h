@@ -9,7 +9,8 @@
  *     (cost_0 + cost_1 p + cost_2 p^2) e^(L/p)
  *
  * least. Where cost_2 dominates that is L/2 (Jorba & Zou); short tapes take more. Where
- * recurrences are machine code it is series.written, and L at least 18.
+ * recurrences are machine code it is series.written, with series.wider for each vector of
+ * orders beyond the first, and L at least 18.
  *
  * The length of a step is
  *

@@ -14,6 +14,11 @@
 
 enum { most_order = 44, highest = most_order - 4, most = QDOT_BORDERED_MOST };
 
+/* The orders that are one vector (tape/taylor-code.h); loops where there are two, with the first
+ * orders; instructions that are kept decoded. */
+enum { narrow = 18 };
+static const double loops = 3.7, decoded = 3000;
+
 /* Squared sine below which the other series finds its way. */
 static const double least_sine = 0.1;
 
@@ -255,12 +260,17 @@ estimate_written(qdot_bordered *e, const qdot_plan *p)
 {
     const double all = (double)(e->n + e->m), sums = qdot_bordered_convolutions(e);
     const double length = (double)qdot_taylor_length(e->taylor);
+    const double instructions = 7 * length + 12 * sums + 1.5 * all * all; /* of an order */
     double *cost = e->series.written;
 
     cost[0] = 160 + 20 * (double)qdot_tape_calls(p->tape) + 3 * length + 20 * all +
               0.5 * all * all * all;
     cost[1] = 3 + 0.4 * length + 0.6 * sums + all * all;
     cost[2] = 0.03 * sums;
+    /* More vectors are loops of their own, read anew in every step where all of them are more
+     * than a processor keeps decoded. */
+    e->series.narrow = narrow;
+    e->series.wider = loops * instructions > decoded ? 0.3 * instructions : 0;
 }
 
 static qdot_status

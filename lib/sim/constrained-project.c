@@ -35,13 +35,14 @@ qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
 qdot_status
 qdot_constrained_factor_metric(qdot_constrained *h, level *l)
 {
-    QDOT_TRY(qdot_constrained_look_first(h, l));
     qdot_constrained_metric(h, l);
     l->filled = true;
     l->moves = l->few && qdot_least_move_factor(&l->move, l->saddle.A, l->saddle.M,
                                                 h->plan->n + 1);
-    return l->moves ? QDOT_OK
-                    : qdot_constrained_factor_rows(h->plan, &l->saddle, l->row);
+    if (l->moves)
+        return QDOT_OK;
+    QDOT_TRY(qdot_constrained_look_first(h, l));
+    return qdot_constrained_factor_rows(h->plan, &l->saddle, l->row);
 }
 
 /* One of the two levels: what is moved, q or q', its carry or NULL, and where it is loaded;

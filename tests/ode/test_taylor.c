@@ -382,6 +382,28 @@ nonsense_is_refused(void **state)
                      QDOT_EINVAL);
 }
 
+/* What a second vector of orders costs is no part of a smooth cost. */
+static void
+orders_stay_narrow_where_wider_ones_cost(void **state)
+{
+    qdot_ode_series series = {.most = 40, .written = {600, 89, 1.2}, .narrow = 18};
+    const int smooth = qdot_ode_taylor_order(&series, 1e-3, false, 0);
+
+    (void)state;
+    assert_in_range(smooth, 19, 24);
+    series.wider = 300;
+    assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 18);
+    assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 3), 21);
+    series.wider = 1;
+    assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), smooth);
+    series.written[0] = 0; /* no code */
+    series.wider = 1e6;
+    series.cost[0] = 600;
+    series.cost[1] = 89;
+    series.cost[2] = 1.2;
+    assert_true(qdot_ode_taylor_order(&series, 1e-12, false, 0) > 18);
+}
+
 int
 main(void)
 {
@@ -397,6 +419,7 @@ main(void)
         cmocka_unit_test(an_end_beyond_its_double_rejects_nothing),
         cmocka_unit_test(the_stated_error_is_honest),
         cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(orders_stay_narrow_where_wider_ones_cost),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
