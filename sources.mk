@@ -119,6 +119,7 @@ ode_headers = \
 	lib/ode/apart.h \
 	lib/ode/batch.h \
 	lib/ode/companion.h \
+	lib/ode/crawl.h \
 	lib/ode/dop853.def \
 	lib/ode/dop853.h \
 	lib/ode/integrate.h \
@@ -654,6 +655,7 @@ script_tests = \
 	tests/script/cases.sh \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
+	tests/script/constraint-ends.sh \
 	tests/script/constraint-fades.sh \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
@@ -1274,6 +1276,7 @@ test_files = \
 	tests/script/cases.out \
 	tests/script/check.out \
 	tests/script/conserved.out \
+	tests/script/constraint-ends.out \
 	tests/script/constraint-fades.out \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \

@@ -51,6 +51,15 @@ qdot_step_unit(double h)
     return h;
 }
 
+static inline void
+qdot_swap(double **a, double **b)
+{
+    double *c = *a;
+
+    *a = *b;
+    *b = c;
+}
+
 static inline double
 qdot_larger(double a, double b)
 {

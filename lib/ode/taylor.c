@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "num/series.h"
+#include "ode/crawl.h"
 #include "ode/leading.h"
 #include "ode/taylor-numbers.h"
 #include "ode/written.h"
@@ -68,6 +69,7 @@ typedef struct {
     qdot_series_weights weights;
     qdot_error undefined;      /* what f said last */
     double undefined_at;       /* the end of the step that met it; NaN before any */
+    qdot_ode_crawl crawl;
 } run;
 
 static void
@@ -75,15 +77,6 @@ set_unit(run *r, double unit)
 {
     r->unit = unit;
     r->per_unit = 1 / unit;
-}
-
-static void
-swap(double **a, double **b)
-{
-    double *c = *a;
-
-    *a = *b;
-    *b = c;
 }
 
 /* --- the state from the series ------------------------------------------------------ */
@@ -120,9 +113,9 @@ aim_step(run *r)
 static void
 arrive(run *r)
 {
-    swap(&r->y, &r->next);
-    swap(&r->carry, &r->next_carry);
-    swap(&r->scale, &r->next_scale);
+    qdot_swap(&r->y, &r->next);
+    qdot_swap(&r->carry, &r->next_carry);
+    qdot_swap(&r->scale, &r->next_scale);
     r->step.y = r->y;
     r->step.carry = r->carry;
     r->step.next = r->next;
@@ -567,8 +560,10 @@ loop(run *r)
                          r->undefined.message);
     }
     QDOT_TRY(status);
-    while (r->t != r->t1 && r->result->outcome != QDOT_ODE_STOPPED)
+    while (r->t != r->t1 && r->result->outcome != QDOT_ODE_STOPPED) {
         QDOT_TRY(advance(r));
+        QDOT_TRY(qdot_ode_crawl_look(&r->crawl, r->t, r->t1, r->max_steps));
+    }
     return QDOT_OK;
 }
 
@@ -669,6 +664,7 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
              .n = system->n,
              .t = t0,
              .t0 = t0,
+             .crawl.t = t0,
              .t1 = t1,
              .direction = t1 < t0 ? -1 : 1,
              .unit = 1,

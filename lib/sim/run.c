@@ -268,6 +268,7 @@ say_dependent(const qdot_run *run, qdot_text *reason)
         run->course.binds.at[0] ? qdot_bind_held(run->course.binds.at[0]) : NULL;
     qdot_text names = {0};
     bool found = held && !strstr(qdot_text_str(reason), "independent")
+                 && !strstr(qdot_text_str(reason), "no direction")
                  && qdot_constrained_near(held, run->course.tr.t[run->course.tr.count - 1],
                                           last_state(run), &names);
 

@@ -1,0 +1,40 @@
+/* crawl.h -- steps that have come down to nothing and will not arrive.
+ *
+ * A method may step over a place beyond which there is no solution, and then creep along it: each
+ * step keeps its error, none gets anywhere. A run crawls where the last 2000 steps were, but for
+ * few, below 2^-24 of the longest step taken and more of such would be left than the run has.
+ * Close passages take steps as short, but a few hundred.
+ *
+ * Tests  tests/script/constraint-ends.sh
+ */
+#ifndef QDOT_ODE_CRAWL_H
+#define QDOT_ODE_CRAWL_H
+
+#include <math.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+typedef struct {
+    double t;       /* the end of the step before */
+    double longest; /* step taken */
+    unsigned short_steps;
+} qdot_ode_crawl;
+
+/* After a step that ended at t, of a run to t1 that has `left` steps. QDOT_EFAILED: it crawls. */
+static inline qdot_status
+qdot_ode_crawl_look(qdot_ode_crawl *c, double t, double t1, uint64_t left)
+{
+    const double h = fabs(t - c->t);
+
+    c->t = t;
+    c->longest = h > c->longest ? h : c->longest;
+    if (h > 0x1p-24 * c->longest || fabs(t1 - t) < h * (double)left)
+        c->short_steps -= c->short_steps > 0;
+    else if (++c->short_steps > 2000)
+        return qdot_fail(QDOT_EFAILED,
+                         "stopped at t = %.17g: steps came down to %.2g and get nowhere", t, h);
+    return QDOT_OK;
+}
+
+#endif
