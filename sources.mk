@@ -726,6 +726,7 @@ script_tests = \
 	tests/script/parts.lag \
 	tests/script/pendulum.lag \
 	tests/script/plan-chain.lag \
+	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
 	tests/script/race.sh \
 	tests/script/range-limits.sh \
@@ -1364,6 +1365,7 @@ test_files = \
 	tests/script/parts.out \
 	tests/script/pendulum.out \
 	tests/script/plan-chain.out \
+	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
 	tests/script/race.out \
 	tests/script/range-limits.out \

@@ -287,19 +287,38 @@ qdot_number_run(qdot_cursor *c)
     return status;
 }
 
+/* As options of a run that would be taken; those that no plan depends on are refused. */
+static qdot_status
+read_plan_options(qdot_cursor *c, options *o)
+{
+    const qdot_token *start = c->at;
+
+    QDOT_TRY(read_options(c, o));
+    if (o->digits == 0 && o->name == NULL)
+        return QDOT_OK;
+    c->error_at = start->start;
+    (void)qdot_fail(QDOT_EINVAL, o->name ? "a plan has no name" : "`digits` has no plan");
+    return qdot_hint("plan tol 1e-9 method taylor");
+}
+
 qdot_status
 qdot_number_plan(qdot_cursor *c)
 {
+    options o = {.tol = 1e-12};
+    const qdot_token *start = c->at - 1;
     qdot_number_order request = {0};
     qdot_text text = {0};
-    qdot_status status;
+    qdot_status status = read_plan_options(c, &o);
 
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    status = qdot_number_fill_order(c->session, &request);
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = fill_with(c->session, &o.with, &request);
+    }
     request.request.t0 = QDOT_ZERO;
     request.request.t1 = QDOT_ONE;
-    request.request.tol = 1e-12;
-    request.request.method = "auto";
+    request.request.tol = o.tol;
+    request.request.method = o.method != NULL ? o.method : "auto";
+    request.request.treatment = o.treatment;
     if (status == QDOT_OK)
         status = qdot_run_plan(c->session->scene, &request.request, &text);
     if (status == QDOT_OK)
@@ -308,6 +327,7 @@ qdot_number_plan(qdot_cursor *c)
         status = qdot_answer_text(c->session, "plan", qdot_text_str(&text));
     qdot_text_clear(&text);
     qdot_number_free_order(&request);
+    qdot_number_free_pairs(&o.with);
     return status;
 }
 

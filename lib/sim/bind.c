@@ -344,9 +344,10 @@ void
 qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
 {
     const char *why = "machine code is made where equations are taken as M q'' = f";
-    const size_t bytes = b->direct     ? qdot_direct_code(b->direct, &why)
-                         : b->bordered ? qdot_bordered_code(b->bordered, &why)
-                                       : 0;
+    const size_t bytes = b->direct       ? qdot_direct_code(b->direct, &why)
+                         : b->bordered   ? qdot_bordered_code(b->bordered, &why)
+                         : b->eliminated ? qdot_eliminated_code(b->eliminated, &why)
+                                         : 0;
 
     if (b->shifted && qdot_shifted_is_wide(b->shifted))
         qdot_text_add(to, "kernels, like steps as vectors");

@@ -228,13 +228,31 @@ name_all(const qdot_plan *p, qdot_text *out)
         qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
 }
 
+/* What looks at the steps of the whole. */
+static void
+say_watched(const qdot_stage *s, const qdot_plan *p, qdot_text *out)
+{
+    size_t found = 0;
+
+    for (size_t i = 0; i < s->events.n; i++)
+        qdot_text_format(out, "%s%s", found++ ? ", " : "events ", s->events.at[i].name);
+    for (size_t i = 0; i < s->domains.n; i++)
+        qdot_text_format(out, "%s%s", i ? ", " : found ? " and bounds of " : "bounds of ",
+                         p->names[s->domains.at[i].coordinate]);
+    found += s->domains.n;
+    if (s->switches.surfaces.n > 0)
+        qdot_text_format(out, "%sswitches", found ? " and " : "");
+}
+
 /* Groups of coordinates that are integrated apart, or would be. */
 static qdot_status
-say_parts(const qdot_plan *p, bool watched, double tol, qdot_text *out)
+say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
 {
-    if (watched) {
-        qdot_text_add(out, "parts that know nothing of each other go together, for what is "
-                           "watched:");
+    if (s->modes.at[0]->m > 0) {
+        qdot_text_add(out, "parts that know nothing of each other go together, as steps of the "
+                           "whole are looked at for ");
+        say_watched(s, p, out);
+        qdot_text_char(out, ':');
         for (size_t k = 0; k < p->n_parts; k++) {
             qdot_text_add(out, k ? ";" : "");
             name_all(p->parts[k], out);
@@ -330,7 +348,7 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
     qdot_text_format(out, "method: %s, %s: %s\n", p->method->name,
                      p->chosen ? "chosen" : "asked for", p->method->fits);
     if (p->n_parts > 0)
-        status = say_parts(p, stage.modes.at[0]->m > 0, request->tol, out);
+        status = say_parts(&stage, p, request->tol, out);
     else
         status = say_series_of_all(p, request->tol, out);
     qdot_text_format(out, "error: %s by %s, at a tighter tolerance, on %s\n",

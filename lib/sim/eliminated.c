@@ -359,6 +359,12 @@ qdot_eliminated_free(qdot_eliminated *e)
     qdot_free(e);
 }
 
+size_t
+qdot_eliminated_code(const qdot_eliminated *e, const char **why)
+{
+    return qdot_direct_code(e->direct, why);
+}
+
 const qdot_ode_series *
 qdot_eliminated_series(const qdot_eliminated *e)
 {

@@ -39,6 +39,9 @@ QDOT_MUST_CHECK qdot_status qdot_eliminated_new(const qdot_plan *plan, bool shak
                                                 qdot_eliminated **eliminated);
 void qdot_eliminated_free(qdot_eliminated *eliminated);
 
+/* How long the code is, in bytes; 0: there is none, *why says for what reason. */
+size_t qdot_eliminated_code(const qdot_eliminated *eliminated, const char **why);
+
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_eliminated_series(const qdot_eliminated *eliminated);
 
