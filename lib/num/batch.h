@@ -57,6 +57,27 @@ typedef struct {
                     const double *y, const double *carry, double *next,
                     double *next_carry);
 
+    /* Sines and cosines of a group, each to 0.9 of a last place. A lane beyond 1e5, or not
+     * finite, by the C library: the others know nothing of it. */
+    void (*sincos)(const double *x, double *sine, double *cosine);
+
+    /* out = 1/max(1, |y|), [n] */
+    void (*weights)(size_t n, const double *y, double *out);
+
+    /* Whether slopes of a polynomial are those of the equations: of the n - checked behind
+     * `checked`, P = slope steps and f = x_1 now, steps and now one group,
+     *
+     *     |P - f| <= share size + rounding (|P| + |first steps| + size),
+     *
+     * size = max(1, |next|), and all x_1 finite. good, finite: a group of numbers, all bits
+     * set or none. */
+    void (*confirm)(size_t n, size_t checked, const double *x, size_t stride,
+                    const double *slope, const double *first, const double *next,
+                    const double *steps, const double *now, double share, double rounding,
+                    int64_t *good, int64_t *finite);
+    /* to [n] = from in the lanes that are set. */
+    void (*blend)(size_t n, const int64_t *set, const double *from, double *to);
+
     /* A [n x n] -> its Cholesky factor L below and on the diagonal, where 1/L_ii stands
      * for L_ii. A lane that is not positive definite gets NaN or infinities. */
     void (*factor)(size_t n, double *A);

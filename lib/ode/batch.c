@@ -28,7 +28,7 @@ typedef struct {
     bool ended;   /* the last series ended, and its step was good */
     bool ends;    /* the one being tried is such a one */
     double t1, direction;
-    double end, h, most; /* of the step tried; no longer ones for now */
+    double end, most; /* of the step tried; no longer ones for now */
     int tries, rescales;
 } lane;
 
@@ -39,23 +39,11 @@ typedef struct {
     size_t n, waiting; /* components; the next member */
     lane lanes[L];
     double t[L], unit[L], old_unit[L], s[L];
+    double h[L]; /* of the steps tried */
+    int64_t tried[L]; /* which are, all bits set or none */
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
     double log_aim, log_term; /* as in taylor.c */
 } batch;
-
-static double
-floor_of_step(double t)
-{
-    t = fabs(t);
-    return fmax(16 * (nextafter(t, INFINITY) - t), 16 * DBL_MIN);
-}
-
-/* The power of two at or below |h|, with the sign of h. */
-static double
-unit_for(double h)
-{
-    return h != 0 && isfinite(h) ? copysign(ldexp(1, ilogb(h)), h) : 1;
-}
 
 /* --- members come and go ------------------------------------------------------------ */
 
@@ -107,14 +95,12 @@ begin(batch *b)
 {
     double t[L], *y = b->value; /* free here */
 
-    memcpy(t, b->t, sizeof t);
     memcpy(y, b->y, b->n * L * sizeof *y);
-    for (size_t l = 0; l < L; l++)
-        if (b->lanes[l].tried) {
-            t[l] = b->lanes[l].end;
-            for (size_t i = 0; i < b->n; i++)
-                y[i * L + l] = b->next[i * L + l];
-        }
+    for (size_t l = 0; l < L; l++) {
+        b->tried[l] = b->lanes[l].tried ? -1 : 0;
+        t[l] = b->lanes[l].tried ? b->lanes[l].end : b->t[l];
+    }
+    b->kernels->blend(b->n, b->tried, b->next, y);
     b->system->begin(t, y, b->unit, b->system->user);
 }
 
@@ -124,45 +110,29 @@ coefficient(const batch *b, size_t i, int k)
     return b->system->x + (i * b->system->stride + (size_t)k) * L;
 }
 
-static bool
-is_defined(const batch *b, size_t l)
+/* As `confirms` of taylor.c, of all lanes. */
+static void
+confirm(const batch *b, int64_t *good, int64_t *defined)
 {
-    for (size_t i = 0; i < b->n; i++)
-        if (!isfinite(coefficient(b, i, 1)[l]))
-            return false;
-    return true;
-}
+    const qdot_ode_batch *system = b->system;
+    double steps[L], now[L];
 
-/* As `confirms` of taylor.c. */
-static bool
-confirms(const batch *b, size_t l)
-{
-    const lane *a = b->lanes + l;
-    double steps = a->h / b->old_unit[l], now = a->h / b->unit[l];
-    double rounding = 64 * DBL_EPSILON, share = 10 * (b->run->order + 1) * b->run->tol;
-
-    for (size_t i = b->system->checked; i < b->n; i++) {
-        double f = coefficient(b, i, 1)[l] * now, P = b->slope[i * L + l] * steps;
-        double size = fmax(1, fabs(b->next[i * L + l]));
-
-        if (!(fabs(P - f) <=
-              share * size +
-                  rounding * (fabs(P) + fabs(b->first[i * L + l] * steps) + size)))
-            return false;
+    for (size_t l = 0; l < L; l++) {
+        steps[l] = b->h[l] / b->old_unit[l];
+        now[l] = b->h[l] / b->unit[l];
     }
-    return is_defined(b, l);
+    b->kernels->confirm(b->n, system->checked, system->x, system->stride, b->slope, b->first,
+                        b->next, steps, now, 10 * (b->run->order + 1) * b->run->tol,
+                        64 * DBL_EPSILON, good, defined);
 }
 
+/* Lane l, whose state is that of the end by now. */
 static void
 accept(batch *b, size_t l)
 {
     lane *a = b->lanes + l;
 
     b->t[l] = a->end;
-    for (size_t i = 0; i < b->n; i++) {
-        b->y[i * L + l] = b->next[i * L + l];
-        b->carry[i * L + l] = b->next_carry[i * L + l];
-    }
     a->most = INFINITY;
     a->tries = a->rescales = 0;
     a->ended = a->ends;
@@ -176,10 +146,10 @@ reject(batch *b, size_t l)
     lane *a = b->lanes + l;
 
     b->run->results[a->member].rejected++;
-    a->most = 0.25 * fabs(a->h);
+    a->most = 0.25 * fabs(b->h[l]);
     a->ended = false;
-    b->unit[l] = a->direction * unit_for(a->most);
-    if (++a->tries > most_tries || a->most < floor_of_step(b->t[l]))
+    b->unit[l] = a->direction * qdot_step_unit(a->most);
+    if (++a->tries > most_tries || a->most < qdot_step_floor(b->t[l]))
         leave(b, l, QDOT_BATCH_STUCK);
 }
 
@@ -187,22 +157,28 @@ reject(batch *b, size_t l)
 static bool
 judge(batch *b)
 {
+    int64_t good[L], defined[L], taken[L];
     bool again = false;
 
+    confirm(b, good, defined);
+    for (size_t l = 0; l < L; l++)
+        taken[l] = good[l] & b->tried[l];
+    b->kernels->blend(b->n, taken, b->next, b->y);
+    b->kernels->blend(b->n, taken, b->next_carry, b->carry);
     for (size_t l = 0; l < L; l++) {
         lane *a = b->lanes + l;
 
         if (!a->active)
             continue;
         if (!a->tried) {
-            if (!is_defined(b, l)) {
+            if (!defined[l]) {
                 leave(b, l, QDOT_BATCH_UNDEFINED);
                 again = true;
             }
             continue;
         }
         a->tried = false;
-        if (confirms(b, l)) {
+        if (taken[l]) {
             const qdot_batch_result *r = b->run->results + a->member;
 
             accept(b, l);
@@ -226,20 +202,20 @@ try_step(batch *b, size_t l, double h)
     a->ends = isinf(h);
     if (a->ends)
         h = a->ended ? rest : part_of_way * rest;
-    h = fmin(h, a->most);
+    h = qdot_smaller(h, a->most);
     if (h < rest * (1 - 1e-12)) {
         end = b->t[l] + a->direction * (h > 0.5 * rest ? 0.5 * rest : h);
         if (!(a->direction * (a->t1 - end) > 0))
             end = a->t1;
     }
     a->end = end;
-    a->h = end - b->t[l];
-    if (end != a->t1 && fabs(a->h) < floor_of_step(b->t[l])) {
+    b->h[l] = end - b->t[l];
+    if (end != a->t1 && qdot_step_is_too_short(b->t[l], fabs(b->h[l]))) {
         leave(b, l, QDOT_BATCH_STUCK);
         return;
     }
     a->tried = true;
-    b->s[l] = (end == a->t1 ? a->h + b->run->t1_low : a->h) / b->unit[l];
+    b->s[l] = (end == a->t1 ? b->h[l] + b->run->t1_low : b->h[l]) / b->unit[l];
 }
 
 /* log2 of the steps in units, as `log_step` of taylor.c. */
@@ -270,11 +246,7 @@ choose_steps(batch *b)
     double steps[L], whole[L], *weight = b->value; /* free here */
     bool known = false; /* `whole`, the same from all orders */
 
-    for (size_t i = 0; i < b->n * L; i++) {
-        double size = fabs(b->y[i]);
-
-        weight[i] = 1 / (size > 1 ? size : 1);
-    }
+    b->kernels->weights(b->n, b->y, weight);
     log_steps(b, weight, steps);
     for (size_t l = 0; l < L; l++) {
         lane *a = b->lanes + l;
@@ -300,10 +272,10 @@ choose_steps(batch *b)
                 continue;
             leave(b, l, QDOT_BATCH_STUCK);
         } else if (isnan(step)) {
-            a->h = b->unit[l]; /* the point is good, only what is beyond it is not */
+            b->h[l] = b->unit[l]; /* the point is good, only what is beyond it is not */
             reject(b, l);
         } else
-            try_step(b, l, fabs(b->unit[l]) * exp2(step));
+            try_step(b, l, fabs(b->unit[l]) * qdot_rough_exp2(step));
     }
 }
 
@@ -321,7 +293,7 @@ go(batch *b)
         memcpy(b->first + i * L, coefficient(b, i, 1), L * sizeof *b->first);
     for (size_t l = 0; l < L; l++)
         if (b->lanes[l].tried)
-            b->unit[l] = unit_for(b->lanes[l].h);
+            b->unit[l] = qdot_step_unit(b->h[l]);
 }
 
 static bool

@@ -16,7 +16,7 @@ typedef struct {
 
 typedef struct {
     void (*eval)(const qdot_tape *tape, double *work);
-    void (*value_of_zero)(const lanes_step *step);
+    void (*value_of_zero)(const qdot_batch_kernels *kernels, const lanes_step *step);
     void (*order)(const qdot_batch_kernels *kernels, const lanes_step *steps, int k,
                   double inverse);
     void (*correct)(const lanes_step *steps, int k, size_t note);
@@ -243,7 +243,7 @@ qdot_lanes_order(qdot_lanes *t, int k)
 {
     if (k == 0)
         for (const lanes_step *s = t->steps; s->op != QDOT_T_END; s++)
-            t->kind->value_of_zero(s);
+            t->kind->value_of_zero(t->kernels, s);
     else
         t->kind->order(t->kernels, t->steps + t->still, k, t->inverse[k]);
 }

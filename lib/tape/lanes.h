@@ -2,7 +2,8 @@
  *
  * The same operations and the same recurrences as tape.h and taylor.h, every number a
  * group of QDOT_LANES doubles (num/batch.h). Elementary functions are called lane by
- * lane, so that a lane's value is the single one's.
+ * lane, so that a lane's value is the single one's; but for sines and cosines of series, which
+ * all lanes have at once (num/batch.h).
  *
  * Tests  tests/tape/test_lanes.c
  */

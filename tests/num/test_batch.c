@@ -108,6 +108,92 @@ series_are_summed_and_advanced(void **state)
     }
 }
 
+/* Error in last places of the largest doubles below 1. */
+static double
+places(double seen, long double want)
+{
+    int e;
+
+    (void)frexpl(want, &e);
+    return (double)(fabsl(seen - want) / ldexpl(1, e - 53));
+}
+
+static void
+sines_are_within_a_last_place(void **state)
+{
+    static const double odd[L] = {0, -0.0, 1e5, -3e7, INFINITY, NAN, 0x1.921fb54442d18p+0,
+                                  0x1.6ac5b262ca1ffp+9};
+    const qdot_batch_kernels *kernels;
+    double x[L], s[L], c[L];
+
+    (void)state;
+    for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
+        double worst = 0;
+
+        for (int k = 0; k < 20000; k++) {
+            for (size_t l = 0; l < L; l++)
+                x[l] = uniform() * (k % 4 == 0 ? 0.8 : k % 4 == 1 ? 10 : k % 4 == 2 ? 1e3 : 1e5);
+            kernels->sincos(x, s, c);
+            for (size_t l = 0; l < L; l++)
+                worst = fmax(worst, fmax(places(s[l], sinl(x[l])), places(c[l], cosl(x[l]))));
+        }
+        assert_true(worst < 0.9 && worst > 0.4);
+        kernels->sincos(odd, s, c);
+        assert_true(s[0] == 0 && !signbit(s[0]) && s[1] == 0 && signbit(s[1]) && c[1] == 1);
+        assert_true(s[2] == sin(1e5) && c[3] == cos(-3e7));
+        assert_true(isnan(s[4]) && isnan(c[4]) && isnan(s[5]));
+        for (size_t l = 6; l < L; l++)
+            assert_true(places(s[l], sinl(odd[l])) < 0.9 && places(c[l], cosl(odd[l])) < 0.9);
+    }
+}
+
+/* Slopes that agree, or not, a series that is not finite; the lanes that are set. */
+static void
+ends_of_steps_are_judged(void **state)
+{
+    enum { STRIDE = 2, STATE = 4, CHECKED = 2 };
+    const qdot_batch_kernels *kernels;
+
+    (void)state;
+    for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
+        double x[STATE * STRIDE * L], slope[STATE * L], first[STATE * L], next[STATE * L];
+        double steps[L], now[L], weight[STATE * L];
+        int64_t good[L], finite[L];
+
+        for (size_t i = 0; i < STATE; i++)
+            for (size_t l = 0; l < L; l++) {
+                x[(i * STRIDE + 1) * L + l] = 0.5 + (double)i;
+                x[i * STRIDE * L + l] = NAN;
+                slope[i * L + l] = 2 * (0.5 + (double)i);
+                first[i * L + l] = 1;
+                next[i * L + l] = l % 2 ? 0.5 : -4;
+            }
+        for (size_t l = 0; l < L; l++) {
+            steps[l] = 0.25;
+            now[l] = 0.5;
+        }
+        slope[2 * L + 1] += 0.5e-3; /* within */
+        slope[2 * L + 2] += 1e-2;   /* not; */
+        slope[3 * L + 3] -= 1e-2;
+        slope[1 * L + 4] -= 1;      /* not looked at */
+        slope[3 * L + 5] = NAN;
+        x[(0 * STRIDE + 1) * L + 6] = INFINITY;
+        x[(3 * STRIDE + 1) * L + 7] = NAN;
+        kernels->confirm(STATE, CHECKED, x, STRIDE, slope, first, next, steps, now, 2e-4,
+                         1e-16, good, finite);
+        for (size_t l = 0; l < L; l++) {
+            assert_int_equal(good[l], l < 2 || l == 4 ? -1 : 0);
+            assert_int_equal(finite[l], l < 6 ? -1 : 0);
+        }
+        kernels->weights(STATE, next, weight);
+        for (size_t i = 0; i < STATE * L; i++)
+            assert_true(weight[i] == (i % 2 ? 1 : 0.25));
+        kernels->blend(STATE, good, slope, weight);
+        for (size_t i = 0; i < STATE * L; i++)
+            assert_true(weight[i] == (good[i % L] ? slope[i] : i % 2 ? 1 : 0.25));
+    }
+}
+
 static void
 length_of_a_step_is_the_least(void **state)
 {
@@ -206,6 +292,8 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sums_of_products),
         cmocka_unit_test(series_are_summed_and_advanced),
+        cmocka_unit_test(sines_are_within_a_last_place),
+        cmocka_unit_test(ends_of_steps_are_judged),
         cmocka_unit_test(length_of_a_step_is_the_least),
         cmocka_unit_test(systems_are_solved),
         cmocka_unit_test(a_limit_is_kept),
