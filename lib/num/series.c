@@ -16,19 +16,20 @@
 static const double read = 0x1p52, unit_of_log = 0x1p-32, bias = 1023;
 
 void
-qdot_series_weights_set(qdot_series_weights *w, int p, double term)
+qdot_series_weights_set(qdot_series_weights *w, int p, double term, double fall)
 {
     const int half = p / 2;
 
     w->p = p;
     w->term = term;
+    w->fall = fall;
     for (int k = 0; k < QDOT_SERIES_MOST + 8; k++) {
         const bool upper = k > half && k <= p, lower = k >= 2 && k <= half;
         const double from = bias + read * unit_of_log;
 
         w->inverse[k] = k > 0 ? 1.0 / k : 1;
         w->share[k] = upper || lower ? -unit_of_log / k : 0;
-        w->upper[k] = upper ? from / k : INFINITY;
+        w->upper[k] = upper ? (from + fall * (p - k)) / k : INFINITY;
         w->lower[k] = lower ? (from + term) / k : INFINITY;
     }
     /* a zero is read as 2^-bias, what is no number as 2^(bias + 1) */
@@ -64,7 +65,7 @@ reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights
         const double log = log_largest(n, x, stride, scale, k);
 
         if (k > w->p / 2)
-            r.upper = fmin(r.upper, -log / k);
+            r.upper = fmin(r.upper, (w->fall * (w->p - k) - log) / k);
         else
             r.lower = fmin(r.lower, (w->term - log) / k);
     }

@@ -43,14 +43,14 @@ typedef struct {
  * for numbers that are not zero. */
 typedef struct {
     int p;
-    double term;
+    double term, fall;
     double inverse[QDOT_SERIES_MOST + 8];
     double share[QDOT_SERIES_MOST + 8];
     double upper[QDOT_SERIES_MOST + 8], lower[QDOT_SERIES_MOST + 8];
     double upper_most, lower_most, lower_least;
 } qdot_series_weights;
 
-void qdot_series_weights_set(qdot_series_weights *w, int p, double term);
+void qdot_series_weights_set(qdot_series_weights *w, int p, double term, double fall);
 
 /* next + next_carry = y + carry + sum_{k=1..p} x_k s^k, sums of two doubles, to twice the
  * precision but for the terms from order 2 on. The first `linked` have the others, in
@@ -99,7 +99,7 @@ typedef struct {
 
     /* How far a step may go: with m_k = max_i scale[i] |x[i stride + k]|, k = 0 ... p,
      *
-     *     upper = min over p/2 < k <= p      of  -log2(m_k)/k
+     *     upper = min over p/2 < k <= p      of  (fall (p - k) - log2(m_k))/k
      *     lower = min over 2 <= k <= p/2     of  (term - log2(m_k))/k
      *
      * to 0.09/k. Infinite where all these are zero; upper is -infinity where one of its

@@ -31,6 +31,9 @@ typedef struct {
 
 enum { QDOT_ODE_LEADING_MOST = 12 };
 
+/* `digits` below, unless an order costs little. */
+enum { QDOT_ODE_DIGITS = 18 };
+
 /* A system that gives the Taylor coefficients of its solutions. With s = (t' - t)/unit,
  *
  *     y_i(t') = sum_k x_ik s^k
@@ -60,6 +63,10 @@ typedef struct {
     double written[3]; /* cost, then; zeros: there is none of it here */
     double wider;      /* and of each 16 orders begun beyond `narrow` */
     int narrow;
+    /* Natural digits that an order is chosen for at least, then: an oscillation that is hardly there
+     * bounds the step, and as it has no singularity a higher order is worth more than its radius
+     * says (doc/methods.md). */
+    double digits;
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Then orders 2 ... p. */

@@ -22,6 +22,14 @@ qdot_step_aim(double tol, bool leading)
     return leading ? aim : fmax(aim, 1e-17);
 }
 
+/* log2 of what a term of the upper half may be larger, an order, than one of a steady fall to
+ * the error that a step of order p aims at: where that falls by less than 2^(1/2) an order. */
+static inline double
+qdot_step_fall(double log_aim, int p)
+{
+    return fmax(0, 0.5 + log_aim / p);
+}
+
 /* No step is shorter. */
 static inline double
 qdot_step_floor(double t)

@@ -8,11 +8,6 @@
 /* Companions want orders of their own above that of a run. */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
-/* Digits (natural ones) that an order is chosen for at least where it runs as machine code: an
- * oscillation that is hardly there yet bounds the step, and as it has no singularity a higher
- * order is worth more than its radius says (doc/methods.md). */
-static const double least_digits = 18;
-
 /* Half of so many orders beyond the narrow ones are a vector more (tape/taylor-code.h). */
 enum { orders_of_vector = 16 };
 
@@ -34,7 +29,7 @@ qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, i
     int best = least_order;
 
     if (series->written[0] > 0)
-        L = fmax(L, least_digits);
+        L = fmax(L, series->digits);
     for (int p = least_order; p <= series->most - of_companions; p++) {
         double cost = cost_of(series, p) * exp(L / p);
 

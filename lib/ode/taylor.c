@@ -635,7 +635,8 @@ prepare(run *r, double t0, double t1, const double *y)
     r->log_term = fmax(term_least, r->log_wanted + 53);
     r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->leading,
                                  r->options->order_more);
-    qdot_series_weights_set(&r->weights, r->p, r->log_term);
+    qdot_series_weights_set(&r->weights, r->p, r->log_term,
+                            qdot_step_fall(r->log_wanted, r->p));
     return r->series->prepare ? r->series->prepare(r->p, r->series->user) : QDOT_OK;
 }
 

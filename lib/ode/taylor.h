@@ -10,14 +10,17 @@
  *
  * least. Where cost_2 dominates that is L/2 (Jorba & Zou); short tapes take more. Where
  * recurrences are machine code it is series.written, with series.wider for each vector of
- * orders beyond the first, and L at least 18.
+ * orders beyond the first, and L at least series.digits.
  *
  * The length of a step is
  *
  *     h = rho eps^(1/p),   rho = min over k = p/2 ... p, i of (max(1, |y_i|)/|x_ik|)^(1/k):
  *
  * from the whole upper half of the series, since a symmetric start makes most of the
- * coefficients vanish. And no term of orders 2 ... p/2 may be so large that its rounding
+ * coefficients vanish. So a term at k may be eps^(k/p), a steady fall from the size of the state;
+ * where eps is so large that this is less than by 2^(1/2) an order, it may be eps 2^((p-k)/2):
+ * terms of a solution without singularities, an oscillation that is hardly there, fall ever
+ * faster. And no term of orders 2 ... p/2 may be so large that its rounding
  * counts beside eps (where it does anyway, above half the size of the state): solutions
  * without singularities would take steps whose terms cancel. A step is confirmed by the
  * defect at its end: the slope of the polynomial there against y' as the equations have it

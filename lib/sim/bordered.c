@@ -263,6 +263,7 @@ estimate_written(qdot_bordered *e, const qdot_plan *p)
     const double instructions = 7 * length + 12 * sums + 1.5 * all * all; /* of an order */
     double *cost = e->series.written;
 
+    e->series.digits = QDOT_ODE_DIGITS;
     cost[0] = 160 + 20 * (double)qdot_tape_calls(p->tape) + 3 * length + 20 * all +
               0.5 * all * all * all;
     cost[1] = 3 + 0.4 * length + 0.6 * sums + all * all;

@@ -427,6 +427,7 @@ estimate_written(qdot_direct *e)
 
     if (!qdot_taylor_may_be_code())
         return;
+    e->series.digits = e->diagonal ? 24 : QDOT_ODE_DIGITS;
     c[0] = 160 + 20 * (double)qdot_tape_calls(p->tape) + 3 * length + 10 * (double)p->n;
     c[1] = 3 + 0.4 * length + 0.6 * convolutions;
     c[2] = 0.03 * convolutions;

@@ -341,6 +341,7 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
                           .worth = 500,
                           .written = {e->own->written[0], e->own->written[1],
                                       e->own->written[2]}, /* see sim/bordered.c */
+                          .digits = QDOT_ODE_DIGITS,
                           .begin = begin,
                           .extend = extend,
                           .noise = noise,

@@ -157,7 +157,7 @@ reach_is_the_least_of_its_half(void **state)
     qdot_series_reach got;
 
     (void)state;
-    qdot_series_weights_set(&w, p, -1);
+    qdot_series_weights_set(&w, p, -1, 0.75);
     for (size_t kind = 0; qdot_series_kernels_at(kind); kind++) {
         const qdot_series_kernels *kernels = qdot_series_kernels_at(kind);
         double upper = INFINITY, lower = INFINITY;
@@ -172,7 +172,7 @@ reach_is_the_least_of_its_half(void **state)
             for (int i = 0; i < n; i++)
                 most = fmax(most, scale[i] * fabs(x[i * stride + k]));
             if (most > 0 && k > p / 2)
-                upper = fmin(upper, -log2(most) / k);
+                upper = fmin(upper, (0.75 * (p - k) - log2(most)) / k);
             if (most > 0 && k <= p / 2)
                 lower = fmin(lower, (-1 - log2(most)) / k);
         }
