@@ -386,7 +386,8 @@ nonsense_is_refused(void **state)
 static void
 orders_stay_narrow_where_wider_ones_cost(void **state)
 {
-    qdot_ode_series series = {.most = 40, .written = {600, 89, 1.2}, .narrow = 18};
+    qdot_ode_series series = {
+        .most = 40, .written = {600, 89, 1.2}, .narrow = 18, .digits = QDOT_ODE_DIGITS};
     const int smooth = qdot_ode_taylor_order(&series, 1e-3, false, 0);
 
     (void)state;
@@ -396,6 +397,8 @@ orders_stay_narrow_where_wider_ones_cost(void **state)
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 3), 21);
     series.wider = 1;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), smooth);
+    series.digits = 30;
+    assert_in_range(qdot_ode_taylor_order(&series, 1e-3, false, 0), smooth + 1, 30);
     series.written[0] = 0; /* no code */
     series.wider = 1e6;
     series.cost[0] = 600;
