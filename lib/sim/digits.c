@@ -46,12 +46,14 @@ how_it_ended(qdot_run *run, const qdot_domains *domains)
 /* The largest |f| over the points of the run, of the holonomic rows or of those of
  * velocities. */
 static qdot_status
-follow_rows(qdot_run *run, qdot_constraint_kind kind, double *most)
+follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, double *most)
 {
     const qdot_constraints *c = run->plan->constraints;
 
     for (size_t k = 0; k < c->m; k++) {
-        qdot_drift f = {.quantity = c->rows[k].f};
+        /* not the row's: that is of one side where the equations switch */
+        qdot_drift f = {
+            .quantity = qdot_plan_substitute(run->plan, scene->constraints.at[k].f)};
         qdot_drifts one = {.n = 1, .at = &f};
 
         if (c->rows[k].kind != kind)
@@ -65,7 +67,7 @@ follow_rows(qdot_run *run, qdot_constraint_kind kind, double *most)
 /* Multipliers of the end state as doubles have it; how far the constraints were left in
  * all digits. */
 static qdot_status
-measure_constraints(qdot_run *run)
+measure_constraints(qdot_run *run, const qdot_scene *scene)
 {
     const size_t n = 2 * run->plan->n;
     const qdot_trajectory *tr = &run->course.tr;
@@ -84,8 +86,8 @@ measure_constraints(qdot_run *run)
     qdot_free(difference);
     QDOT_TRY(status);
     run->multipliers.position = run->multipliers.velocity = NAN;
-    QDOT_TRY(follow_rows(run, QDOT_HOLONOMIC, &run->multipliers.position));
-    return follow_rows(run, QDOT_VELOCITY, &run->multipliers.velocity);
+    QDOT_TRY(follow_rows(run, scene, QDOT_HOLONOMIC, &run->multipliers.position));
+    return follow_rows(run, scene, QDOT_VELOCITY, &run->multipliers.velocity);
 }
 
 static qdot_status
@@ -171,7 +173,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     if (status == QDOT_OK && run->plan->constraints)
         status = *interrupted ? qdot_multipliers_measure(run->course.binds.at, &run->course.tr,
                                                          &run->multipliers)
-                              : measure_constraints(run);
+                              : measure_constraints(run, scene);
     if (status == QDOT_OK)
         status = keep_end(run);
     if (status == QDOT_OK && *interrupted)

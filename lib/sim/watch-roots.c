@@ -81,11 +81,13 @@ gone_over(qdot_watch *w, const qdot_watch_walk *k, size_t i, int way, double t,
     return QDOT_OK;
 }
 
-/* Within lo .. hi, which differ in sign, near guess. */
+/* Within lo .. hi, which differ in sign, near guess; *found false where they do not: a polynomial
+ * beside a jump overshoots. */
 static qdot_status
 locate(qdot_watch *w, const qdot_watch_walk *k, size_t i, int way, double lo, double hi,
-       double guess, qdot_root *root)
+       double guess, qdot_root *root, bool *found)
 {
+    const double end = hi;
     double step = 4 * (nextafter(fabs(guess), INFINITY) - fabs(guess)), value;
     double at_lo = 0, at_hi = 0;
     bool over;
@@ -131,6 +133,10 @@ locate(qdot_watch *w, const qdot_watch_walk *k, size_t i, int way, double lo, do
             at_lo = value;
         }
     }
+    over = true;
+    if (hi == end)
+        QDOT_TRY(gone_over(w, k, i, way, hi, &over, &at_hi));
+    *found = over;
     *root = (qdot_root){i, hi, way, fmax(fabs(at_lo), fabs(at_hi)), at_hi == 0};
     return QDOT_OK;
 }
@@ -250,7 +256,7 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
         double v = qdot_chebyshev_at(p->n, p->c, x[e]);
         int there = e + 1 < n ? qdot_watch_sign(v) : grazes ? 0 : qdot_watch_sign(p->at_end);
         double to = e + 1 < n ? qdot_watch_time(p, x[e]) : p->b;
-        bool touch = false;
+        bool touch = false, found;
         qdot_root root;
 
         if (e + 1 < n && there != 0)
@@ -263,9 +269,10 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
         if (there != 0 && sign != 0 && there != sign) {
             double guess = qdot_watch_time(p, between(p, x_from, x[e], there));
 
-            QDOT_TRY(locate(w, k, i, there, from, to, guess, &root));
-            if (!is_start_again(p, root.t))
+            QDOT_TRY(locate(w, k, i, there, from, to, guess, &root, &found));
+            if (found && !is_start_again(p, root.t))
                 QDOT_TRY(qdot_watch_push(w, root));
+            there = found ? there : sign;
         }
         sign = there != 0 ? there : sign;
         from = to;
