@@ -23,11 +23,11 @@ qdot_step_aim(double tol, bool leading)
 }
 
 /* log2 of what a term of the upper half may be larger, an order, than one of a steady fall to
- * the error that a step of order p aims at: where that falls by less than 2^(1/2) an order. */
+ * the error that a step of order p aims at: where that falls by less than 2^(2/3) an order. */
 static inline double
 qdot_step_fall(double log_aim, int p)
 {
-    return fmax(0, 0.5 + log_aim / p);
+    return fmax(0, 2.0 / 3 + log_aim / p);
 }
 
 /* No step is shorter. */

@@ -18,7 +18,7 @@
  *
  * from the whole upper half of the series, since a symmetric start makes most of the
  * coefficients vanish. So a term at k may be eps^(k/p), a steady fall from the size of the state;
- * where eps is so large that this is less than by 2^(1/2) an order, it may be eps 2^((p-k)/2):
+ * where eps is so large that this is less than by 2^(2/3) an order, it may be eps 4^((p-k)/3):
  * terms of a solution without singularities, an oscillation that is hardly there, fall ever
  * faster. And no term of orders 2 ... p/2 may be so large that its rounding
  * counts beside eps (where it does anyway, above half the size of the state): solutions
