@@ -386,6 +386,7 @@ sim_sources = \
 	lib/sim/precise-bind.c \
 	lib/sim/precise-course.c \
 	lib/sim/precise-distance.c \
+	lib/sim/precise-start.c \
 	lib/sim/precise-value.c \
 	lib/sim/precise.c \
 	lib/sim/quotient.c \
@@ -448,6 +449,7 @@ sim_headers = \
 	lib/sim/precise-bind.h \
 	lib/sim/precise-course.h \
 	lib/sim/precise-pair.h \
+	lib/sim/precise-start.h \
 	lib/sim/precise.h \
 	lib/sim/quotient.h \
 	lib/sim/race.h \
@@ -665,6 +667,7 @@ script_tests = \
 	tests/script/derive-styles.lag \
 	tests/script/derive.lag \
 	tests/script/digits-events.lag \
+	tests/script/digits-start.lag \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
 	tests/script/dof-redundant.lag \
@@ -1287,6 +1290,7 @@ test_files = \
 	tests/script/derive-styles.out \
 	tests/script/derive.out \
 	tests/script/digits-events.out \
+	tests/script/digits-start.out \
 	tests/script/digits-table.out \
 	tests/script/digits.csv \
 	tests/script/digits.out \

@@ -150,7 +150,8 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
         QDOT_TRY(find_guide(run, request));
         guide = &run->course;
     }
-    status = qdot_precise_pair_new(run->plan, request, domains, guide, &run->precise);
+    status = qdot_precise_pair_new(run->plan, request, run->start, domains, guide,
+                                   &run->precise);
     failure = *qdot_last_error();
     *interrupted = status == QDOT_EINTR && run->precise;
     if (*interrupted)

@@ -36,6 +36,7 @@ typedef struct {
 struct qdot_precise_pair {
     const qdot_plan *plan;
     const qdot_run_request *request; /* while it is made */
+    const double *settled;    /* [2 plan->n] the start in doubles; likewise */
     const qdot_course *guide; /* what divides it; NULL */
     size_t n;                        /* 2 plan->n */
     int digits;

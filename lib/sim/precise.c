@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "sim/constraints.h"
 #include "sim/precise-course.h"
+#include "sim/precise-start.h"
 #include "tape/constant.h"
 #include "tape/precise.h"
 
@@ -103,20 +104,26 @@ residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tap
     return QDOT_OK;
 }
 
-/* A start that only doubles were moved onto the constraints. */
+/* What the start leaves unnamed is solved for; where that is not determined, or named values had to
+ * give way, only doubles are on the constraints. */
 static qdot_status
-check_start(const qdot_precise_side *s, const qdot_plan *plan, int digits)
+settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, int digits)
 {
+    const qdot_plan *plan = pair->plan;
     double log2 = -INFINITY;
 
     if (!plan->constraints)
         return QDOT_OK;
+    QDOT_TRY(qdot_precise_start_solve(plan, pair->request, pair->settled,
+                                      -(digits + guard_digits) * QDOT_LOG2_10, s->start.bits,
+                                      s->start.at));
     QDOT_TRY(residual(s, plan, plan->constraints->positions, &log2));
     QDOT_TRY(residual(s, plan, plan->constraints->velocities, &log2));
     if (log2 <= -(digits + guard_digits) * QDOT_LOG2_10)
         return QDOT_OK;
-    qdot_fail(QDOT_ENOTBUILT, "not built yet: `digits` from a start that has to be solved "
-                              "for: it breaks the constraints as given");
+    qdot_fail(QDOT_ENOTBUILT, "not built yet: `digits` from a start that breaks the "
+                              "constraints as given, where what is not named is not all "
+                              "determined by them");
     return qdot_hint("start with every value exact, as x = sin(2), y = -cos(2)");
 }
 
@@ -152,7 +159,7 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
         QDOT_TRY(qdot_precise_constant(pair->plan, request->q0[i], s->start.at[2 + i]));
         QDOT_TRY(qdot_precise_constant(pair->plan, request->v0[i], s->start.at[2 + n + i]));
     }
-    QDOT_TRY(check_start(s, pair->plan, (int)fmin(digits - guard_digits, pair->digits)));
+    QDOT_TRY(settle_start(s, pair, (int)fmin(digits - guard_digits, pair->digits)));
     return s->guide ? qdot_precise_course_init(s) : QDOT_OK;
 }
 
@@ -374,7 +381,7 @@ settle(qdot_precise_pair *pair, qdot_domains *domains)
 
 qdot_status
 qdot_precise_pair_new(const qdot_plan *plan, const qdot_run_request *request,
-                      qdot_domains *domains, const qdot_course *guide,
+                      const double *start, qdot_domains *domains, const qdot_course *guide,
                       qdot_precise_pair **out)
 {
     qdot_precise_pair *pair = qdot_calloc(1, sizeof *pair);
@@ -388,8 +395,10 @@ qdot_precise_pair_new(const qdot_plan *plan, const qdot_run_request *request,
     pair->digits = request->digits;
     pair->request = request;
     pair->guide = guide;
+    pair->settled = start;
     status = settle(pair, domains);
     pair->request = NULL;
+    pair->settled = NULL;
     if (status == QDOT_EINTR && is_there(&pair->run))
         pair->log10_error = NAN; /* it may not have had its digits yet */
     else if (status != QDOT_OK) {

@@ -14,8 +14,9 @@
  *     the pair still agrees at its end), then D = N + log10 A + 3, and again with more
  *     until error <= 10^-N / 2.
  *
- * Constraints are not projected onto: what their drift grows to is measured with the rest. The
- * start has to keep them exactly as given; one that has to be solved for is QDOT_ENOTBUILT.
+ * Constraints are not projected onto: what their drift grows to is measured with the rest. What
+ * the start does not name is solved for where they determine it (sim/precise-start.h); a start that
+ * breaks them otherwise is QDOT_ENOTBUILT.
  *
  * Chaos costs digits and no more. What the double path refuses is refused in the same
  * words before. Along the run, values are those of the series of its steps, their error
@@ -45,13 +46,15 @@ QDOT_MUST_CHECK qdot_status qdot_precise_check(const qdot_scene *scene,
 /* The request as the plan and qdot_precise_pair_new want it: by Taylor series. */
 qdot_run_request qdot_precise_request(const qdot_run_request *request);
 
-/* Both runs of a request, whose plan has the method taylor; plan borrowed. Where events or
+/* Both runs of a request, whose plan has the method taylor; plan borrowed. start [2n]: in doubles, on
+ * the constraints. Where events or
  * switches divide the run, `guide` has been through them in doubles, and is borrowed; else
  * NULL (sim/precise-course.h). QDOT_OK
  * whenever there is a run, kept in *pair; its result may be a failure. QDOT_EINTR with
  * *pair: the run so far. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_new(const qdot_plan *plan,
                                                   const qdot_run_request *request,
+                                                  const double *start,
                                                   qdot_domains *domains,
                                                   const struct qdot_course *guide,
                                                   qdot_precise_pair **pair);
