@@ -25,6 +25,66 @@ exchange(size_t all, double (*K)[most], size_t k)
     }
 }
 
+/* S = A D^-1 A^T: what a row has beyond those before it is seen as it is exchanged. */
+static bool
+invert_schur(size_t m, double (*S)[most], double least)
+{
+    double whole[most];
+
+    for (size_t k = 0; k < m; k++)
+        whole[k] = S[k][k];
+    for (size_t k = 0; k < m; k++) {
+        if (!(S[k][k] > least * whole[k] && whole[k] < INFINITY))
+            return false;
+        exchange(m, S, k);
+    }
+    return true;
+}
+
+/* With W = D^-1 A^T and V = W S^-1:  K^-1 = [ D^-1 - V W^T   V ; V^T   -S^-1 ]. */
+bool
+qdot_bordered_invert_diagonal(size_t n, size_t m, double (*K)[QDOT_BORDERED_MOST],
+                              double least)
+{
+    double S[most][most] = {{0}}, W[most][most], V[most][most], D[most];
+
+    for (size_t i = 0; i < n; i++) {
+        if (!(K[i][i] > 0 && K[i][i] < INFINITY))
+            return false;
+        D[i] = 1 / K[i][i];
+        for (size_t k = 0; k < m; k++)
+            W[k][i] = D[i] * K[n + k][i];
+    }
+    for (size_t k = 0; k < m; k++)
+        for (size_t l = 0; l <= k; l++) {
+            for (size_t i = 0; i < n; i++)
+                S[k][l] += W[k][i] * K[n + l][i];
+            S[l][k] = S[k][l];
+        }
+    if (!invert_schur(m, S, least))
+        return false;
+    for (size_t k = 0; k < m; k++)
+        for (size_t i = 0; i < n; i++) {
+            double sum = 0;
+
+            for (size_t l = 0; l < m; l++)
+                sum += S[k][l] * W[l][i];
+            V[k][i] = K[i][n + k] = K[n + k][i] = sum;
+        }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) {
+            double sum = i == j ? D[i] : 0;
+
+            for (size_t k = 0; k < m; k++)
+                sum -= V[k][i] * W[k][j];
+            K[i][j] = sum;
+        }
+    for (size_t k = 0; k < m; k++)
+        for (size_t l = 0; l < m; l++)
+            K[n + k][n + l] = -S[k][l];
+    return true;
+}
+
 bool
 qdot_bordered_invert(size_t n, size_t m, double (*K)[QDOT_BORDERED_MOST], double least)
 {

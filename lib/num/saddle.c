@@ -143,8 +143,11 @@ qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x, double lea
     const double *A = s->A + k * s->n;
     double sum = 0;
 
-    for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
-        sum += fabs(A[s->column[e]]) * fmax(fabs(x[s->column[e]]), least);
+    for (size_t e = s->start[k]; e < s->start[k + 1]; e++) {
+        const double size = fabs(x[s->column[e]]);
+
+        sum += fabs(A[s->column[e]]) * (size > least ? size : least);
+    }
     return sum;
 }
 

@@ -73,6 +73,15 @@ qdot_trajectory_clear(qdot_trajectory *tr)
     *tr = (qdot_trajectory){0};
 }
 
+/* Doubles that arrays begin with: short runs do not grow at every other step. */
+enum { first_room = 512 };
+
+static size_t
+at_least(size_t wanted, size_t least)
+{
+    return wanted > least ? wanted : least;
+}
+
 /* For one point more. */
 static qdot_status
 make_room(qdot_trajectory *tr, double t)
@@ -84,9 +93,11 @@ make_room(qdot_trajectory *tr, double t)
         return qdot_hint("a coarser tolerance or a shorter run needs fewer points");
     }
     if (wanted > tr->t_capacity)
-        QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, wanted, sizeof *tr->t));
+        QDOT_TRY(qdot_grow(&tr->t, &tr->t_capacity, at_least(wanted, first_room / 8),
+                           sizeof *tr->t));
     if (wanted * tr->n > tr->y_capacity)
-        QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, wanted * tr->n, sizeof *tr->y));
+        QDOT_TRY(qdot_grow(&tr->y, &tr->y_capacity, at_least(wanted * tr->n, first_room),
+                           sizeof *tr->y));
     return QDOT_OK;
 }
 
@@ -113,7 +124,8 @@ store_low(qdot_trajectory *tr, const double *low)
     const size_t n = tr->n, at = (tr->count - 1) * n;
 
     if (at + n > tr->low_capacity)
-        QDOT_TRY(qdot_grow(&tr->low, &tr->low_capacity, at + n, sizeof *tr->low));
+        QDOT_TRY(qdot_grow(&tr->low, &tr->low_capacity, at_least(at + n, first_room),
+                           sizeof *tr->low));
     for (size_t i = 0; i < n; i++)
         tr->low[at + i] = low ? low[i] : 0;
     return QDOT_OK;

@@ -32,6 +32,7 @@ struct qdot_bordered {
     double *const *a;       /* [n + m] q'', -lambda */
     double *inverse;        /* [n + m x n + m] the program's */
     size_t couplings;       /* moving entries, both triangles */
+    bool diagonal;          /* M */
     int p;                  /* the order at hand */
     bool looked, fits;      /* at the first state: whether its rows are independent */
     const qdot_ode_series *other, *now; /* `now`: the one begun last; NULL: this one */
@@ -54,7 +55,8 @@ invert(const qdot_bordered *e)
     for (size_t k = 0; k < c->n_slopes; k++, entry++)
         K[n + c->slopes[k].row][c->slopes[k].column] =
             K[c->slopes[k].column][n + c->slopes[k].row] = **entry;
-    if (!qdot_bordered_invert(n, e->m, K, least_sine))
+    if (!(e->diagonal ? qdot_bordered_invert_diagonal
+                      : qdot_bordered_invert)(n, e->m, K, least_sine))
         return false;
     for (size_t i = 0; i < all; i++)
         memcpy(e->inverse + i * all, K[i], all * sizeof **K);
@@ -286,6 +288,9 @@ make(qdot_bordered *e, const qdot_plan *p, bool shaken, const qdot_ode_series *o
     e->q = qdot_taylor_input(e->taylor, 0);
     e->v = qdot_taylor_input(e->taylor, n);
     e->t = qdot_taylor_input(e->taylor, 2 * n);
+    e->diagonal = true;
+    for (size_t k = 0; k < e->c->n_masses; k++)
+        e->diagonal = e->diagonal && e->c->masses[k].row == e->c->masses[k].column;
     e->outputs = qdot_calloc(outputs + 1, sizeof *e->outputs);
     if (!e->outputs)
         return QDOT_ENOMEM;
