@@ -15,7 +15,14 @@ typedef struct {
 } lanes_step;
 
 typedef struct {
+    double *row;
+    double near, far;
+    int64_t limit; /* 2^53 times the chance of the far one, up */
+} drawn;
+
+typedef struct {
     void (*eval)(const qdot_tape *tape, double *work);
+    void (*draw)(const drawn *constants, size_t n, const double *time);
     void (*value_of_zero)(const qdot_batch_kernels *kernels, const lanes_step *step);
     void (*order)(const qdot_batch_kernels *kernels, const lanes_step *steps, int k,
                   double inverse);
@@ -33,11 +40,6 @@ static const lanes_kernels *const kinds[] = {
     &avx512_lanes,
 #endif
 };
-
-typedef struct {
-    double *row;
-    double near, far, chance;
-} drawn;
 
 struct qdot_lanes {
     const qdot_batch_kernels *kernels;
@@ -99,7 +101,8 @@ allocate(qdot_lanes *t, const qdot_taylor *from, int most)
 {
     const size_t line = 64;
 
-    t->stride = (size_t)most + 3; /* code may go an order further */
+    /* code may go an order further; rows are to share no few sets of a cache */
+    t->stride = ((size_t)most + 3) | 1;
     t->inputs = from->inputs;
     t->outputs = from->outputs;
     t->length = from->length;
@@ -151,7 +154,8 @@ fill(qdot_lanes *t, const qdot_taylor *from, int most)
     for (size_t i = 0; i < t->n_drawn; i++) {
         const struct qdot_taylor_drawn *d = from->drawn + i;
 
-        t->drawn[i] = (drawn){place(t, from, d->row), d->near, d->far, d->chance};
+        t->drawn[i] = (drawn){place(t, from, d->row), d->near, d->far,
+                              (int64_t)ceil(ldexp(d->chance, 53))};
     }
     for (int k = 1; k <= QDOT_SERIES_MOST; k++)
         t->inverse[k] = 1.0 / k;
@@ -231,11 +235,7 @@ qdot_lanes_is_constant(const qdot_lanes *t, size_t i)
 void
 qdot_lanes_draw(qdot_lanes *t, const double *time)
 {
-    for (size_t i = 0; i < t->n_drawn; i++)
-        for (size_t l = 0; l < QDOT_LANES; l++)
-            t->drawn[i].row[l] =
-                qdot_taylor_chance(time[l], i) < t->drawn[i].chance ? t->drawn[i].far
-                                                                    : t->drawn[i].near;
+    t->kind->draw(t->drawn, t->n_drawn, time);
 }
 
 void
