@@ -34,7 +34,6 @@ num_sources = \
 	lib/num/series.c \
 	lib/num/sparse.c \
 	lib/num/structure.c \
-	lib/num/sum.c \
 	lib/num/two.c
 
 num_headers = \

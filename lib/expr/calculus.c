@@ -202,14 +202,6 @@ derive(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
     return FAILED(pool) ? QDOT_NIL : result;
 }
 
-qdot_expr
-qdot_derive(qdot_pool *pool, qdot_expr e,
-            qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
-{
-    /* a symbol that is no constant holds its class */
-    return derive(pool, e, ~(uint32_t)QDOT_HAS_FUN, 0, of, user);
-}
-
 static qdot_expr
 with_respect_to(qdot_pool *pool, qdot_expr symbol, void *user)
 {

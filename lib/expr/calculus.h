@@ -7,12 +7,6 @@
 
 #include "expr/expr.h"
 
-/* A derivation: linear, Leibniz, chain rule; `of` gives it on symbols (QDOT_ZERO for constants).
- * Undefined functions by the chain rule over their arguments. */
-qdot_expr qdot_derive(qdot_pool *pool, qdot_expr e,
-                      qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user),
-                      void *user);
-
 /* de/dx, all other symbols held: q, q', q'', t, parameters are independent. x a SYM, else
  * QDOT_ETYPE. */
 qdot_expr qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x);

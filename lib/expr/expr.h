@@ -142,8 +142,6 @@ qdot_expr qdot_expr_arg(const qdot_pool *pool, qdot_expr e, uint32_t i);
 uint32_t qdot_expr_count(const qdot_pool *pool, qdot_expr e);
 
 bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* NUM ... UFUN, no words */
-bool qdot_expr_is_zero(qdot_expr e);
-bool qdot_expr_is_one(qdot_expr e);
 /* The rational of a NUM; NULL for any other kind. Valid until the next constructor call. */
 const fmpq *qdot_expr_rational(const qdot_pool *pool, qdot_expr e);
 /* Whether e is an integer that fits; *value it. */

@@ -551,18 +551,6 @@ qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e)
     return qdot_pool_is_scalar(pool, e);
 }
 
-bool
-qdot_expr_is_zero(qdot_expr e)
-{
-    return e == QDOT_ZERO;
-}
-
-bool
-qdot_expr_is_one(qdot_expr e)
-{
-    return e == QDOT_ONE;
-}
-
 const fmpq *
 qdot_expr_rational(const qdot_pool *pool, qdot_expr e)
 {

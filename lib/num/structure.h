@@ -30,12 +30,6 @@ QDOT_MUST_CHECK qdot_status qdot_structure_find(const bool *pattern, size_t n,
 void qdot_structure_clear(qdot_structure *s);
 
 static inline bool
-qdot_structure_is_diagonal(const qdot_structure *s)
-{
-    return s->blocks == s->n;
-}
-
-static inline bool
 qdot_structure_is_full(const qdot_structure *s)
 {
     return s->blocks <= 1;

@@ -2,14 +2,11 @@
  *
  *     s + e = a + b exactly,   s = fl(a + b)
  *
- * Source  Knuth, TAOCP 2, 4.2.2 theorem B (TwoSum); Neumaier, ZAMM 54 (1974) 39;
- *         Ogita, Rump & Oishi, SIAM J. Sci. Comput. 26 (2005) 1955 (Dot2).
+ * Source  Knuth, TAOCP 2, 4.2.2 theorem B (TwoSum); Neumaier, ZAMM 54 (1974) 39.
  * Tests   tests/num/test_sum.c
  */
 #ifndef QDOT_NUM_SUM_H
 #define QDOT_NUM_SUM_H
-
-#include <stddef.h>
 
 /* s = fl(a + b) returned, *e = (a + b) - s exactly, whatever the sizes of a and b.
  * If s overflows *e is not a number. */
@@ -49,11 +46,5 @@ qdot_sum_advance(double *hi, double *lo, double x)
 {
     *hi = qdot_two_sum(*hi, *lo + x, lo);
 }
-
-/* sum of x[0 .. n-1]; error below 2^-53 |result| + n^2 2^-106 sum |x|. */
-double qdot_sum_array(const double *x, size_t n);
-
-/* sum of x[i] y[i], i = 0 .. n-1, as if in twice the precision and rounded once. */
-double qdot_sum_dot(const double *x, const double *y, size_t n);
 
 #endif

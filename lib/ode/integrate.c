@@ -48,14 +48,6 @@ typedef struct {
 static const double crawl = 0x1p-8, shrunk = 0x1p-4;
 enum { most_crawled = 4, seldom = 32 };
 
-const char *
-qdot_ode_outcome_name(qdot_ode_outcome outcome)
-{
-    static const char *const names[] = {"done", "stopped", "failed"};
-
-    return names[outcome];
-}
-
 /* The distance from |t| to the next double. */
 static double
 spacing(double t)

@@ -95,9 +95,6 @@ typedef struct {
     char reason[512]; /* of a failure; else "" */
 } qdot_ode_result;
 
-/* The words of language.md: "done", "stopped", "failed". */
-const char *qdot_ode_outcome_name(qdot_ode_outcome outcome);
-
 /* Integrate y [n, in/out] from t0 to t1.
  *
  * Whatever is returned, y is the state at result->t, finite, and everything accepted on

@@ -28,7 +28,6 @@ struct qdot_precise {
     step *steps;        /* [length] */
     const mpfr_t **output;
     bool *constant; /* [outputs] */
-    double convolutions;
 };
 
 enum { SCRATCH = 4 };
@@ -394,19 +393,12 @@ static const struct {
 #undef X
 };
 
-/* Rows of its own beside the result, and what an order of it costs in convolutions. */
-static const struct {
-    int rows;
-    double cost;
-} needs[QDOT_OP_COUNT] = {
-    [QDOT_OP_MUL] = {0, 1},   [QDOT_OP_MADD] = {0, 1},   [QDOT_OP_MSUB] = {0, 1},
-    [QDOT_OP_NMADD] = {0, 1}, [QDOT_OP_DIV] = {0, 1},    [QDOT_OP_SQRT] = {0, 0.5},
-    [QDOT_OP_POW] = {4, 2},   [QDOT_OP_SINCOS] = {2, 2}, [QDOT_OP_SIN] = {2, 2},
-    [QDOT_OP_COS] = {2, 2},   [QDOT_OP_ASIN] = {3, 2},   [QDOT_OP_ACOS] = {3, 2},
-    [QDOT_OP_ATAN] = {2, 1.5}, [QDOT_OP_ATAN2] = {4, 4}, [QDOT_OP_SINH] = {2, 2},
-    [QDOT_OP_COSH] = {2, 2},  [QDOT_OP_TANH] = {2, 1.5}, [QDOT_OP_ASINH] = {3, 2},
-    [QDOT_OP_ACOSH] = {3, 2}, [QDOT_OP_ATANH] = {2, 1.5}, [QDOT_OP_EXP] = {1, 1},
-    [QDOT_OP_LOG] = {1, 1},
+/* Rows of its own beside the result. */
+static const int own_rows[QDOT_OP_COUNT] = {
+    [QDOT_OP_POW] = 4,   [QDOT_OP_SINCOS] = 2, [QDOT_OP_SIN] = 2,   [QDOT_OP_COS] = 2,
+    [QDOT_OP_ASIN] = 3,  [QDOT_OP_ACOS] = 3,   [QDOT_OP_ATAN] = 2,  [QDOT_OP_ATAN2] = 4,
+    [QDOT_OP_SINH] = 2,  [QDOT_OP_COSH] = 2,   [QDOT_OP_TANH] = 2,  [QDOT_OP_ASINH] = 3,
+    [QDOT_OP_ACOSH] = 3, [QDOT_OP_ATANH] = 2,  [QDOT_OP_EXP] = 1,   [QDOT_OP_LOG] = 1,
 };
 
 void
@@ -431,7 +423,7 @@ count_rows(const qdot_tape *tape)
     size_t rows = tape->inputs + tape->constants;
 
     for (size_t i = 0; i < tape->length; i++)
-        rows += 1 + (size_t)needs[tape->code[i].op].rows;
+        rows += 1 + (size_t)own_rows[tape->code[i].op];
     return rows;
 }
 
@@ -456,11 +448,8 @@ build_one(qdot_precise *p, draft *d, const qdot_instruction *in, step *s, uint32
                 .to = row(p, to),
                 .x_constant = d->constant[x],
                 .y_constant = d->constant[y]};
-    for (int k = 0; k < needs[in->op].rows; k++)
+    for (int k = 0; k < own_rows[in->op]; k++)
         s->own[k] = row(p, (*next)++);
-    if (needs[in->op].cost > 0 && !(operands > 1 && in->op != QDOT_OP_DIV && s->x_constant) &&
-        !(operands > 1 && in->op != QDOT_OP_POW && s->y_constant))
-        p->convolutions += x == y && operands > 1 ? 0.5 : needs[in->op].cost;
     d->at[in->to] = to;
     if (in->op == QDOT_OP_SINCOS)
         d->at[in->y] = to + 1;
@@ -580,16 +569,4 @@ bool
 qdot_precise_is_constant(const qdot_precise *p, size_t i)
 {
     return p->constant[i];
-}
-
-double
-qdot_precise_convolutions(const qdot_precise *p)
-{
-    return p->convolutions;
-}
-
-size_t
-qdot_precise_length(const qdot_precise *p)
-{
-    return p->length;
 }

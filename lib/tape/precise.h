@@ -40,8 +40,4 @@ bool qdot_precise_is_constant(const qdot_precise *p, size_t i);
  * and inf as MPFR has them. Nothing is allocated but by functions of MPFR at order 0. */
 void qdot_precise_order(qdot_precise *p, int k);
 
-/* Convolutions an order, and instructions. */
-double qdot_precise_convolutions(const qdot_precise *p);
-size_t qdot_precise_length(const qdot_precise *p);
-
 #endif

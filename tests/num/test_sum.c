@@ -24,9 +24,12 @@ static void
 cancelling_sum_is_exact(void **state)
 {
     const double x[] = {1e100, 1.0, -1e100, 2.385, 1e16, -1e16};
+    qdot_sum s = {0};
 
     (void)state;
-    assert_true(qdot_sum_array(x, 6) == 3.385);
+    for (int i = 0; i < 6; i++)
+        qdot_sum_add(&s, x[i]);
+    assert_true(qdot_sum_value(&s) == 3.385);
 }
 
 static void
@@ -56,16 +59,6 @@ advance_keeps_a_small_carry(void **state)
     assert_true(lo == 0);
 }
 
-static void
-dot_of_ill_conditioned_vectors_is_rounded_once(void **state)
-{
-    const double x[] = {0x1p30 + 1, 0x1p30 - 1, 1}, y[] = {0x1p30 - 1, -0x1p30, 0x1p30};
-    /* (2^60 - 1) - (2^60 - 2^30) + 2^30 */
-
-    (void)state;
-    assert_true(qdot_sum_dot(x, y, 3) == 0x1p31 - 1);
-}
-
 int
 main(void)
 {
@@ -74,7 +67,6 @@ main(void)
         cmocka_unit_test(cancelling_sum_is_exact),
         cmocka_unit_test(sum_of_tenths_matches_long_double),
         cmocka_unit_test(advance_keeps_a_small_carry),
-        cmocka_unit_test(dot_of_ill_conditioned_vectors_is_rounded_once),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
