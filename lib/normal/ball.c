@@ -251,11 +251,11 @@ qdot_ball_eval(qdot_ball *b, slong prec,
                 b->known[i] = e == QDOT_TRUE ? 1 : 2;
                 continue;
             }
-            known = e == QDOT_PI || of(user, e, y, prec);
+            known = e == QDOT_PI || (of && of(user, e, y, prec));
             if (e == QDOT_PI)
                 arb_const_pi(y, prec);
             break;
-        case QDOT_UFUN: known = of(user, e, y, prec); break;
+        case QDOT_UFUN: known = of && of(user, e, y, prec); break;
         case QDOT_SUM: known = sum(b, y, e, prec); break;
         case QDOT_PROD: known = product(b, y, e, prec); break;
         case QDOT_FUN: known = function(b, y, e, prec); break;

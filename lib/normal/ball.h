@@ -23,7 +23,7 @@ QDOT_MUST_CHECK qdot_status qdot_ball_begin(qdot_ball *b, qdot_pool *pool, size_
 void qdot_ball_end(qdot_ball *b);
 
 /* Evaluate all with prec bits. `of` gives the value of a symbol or of an application of
- * an undefined function; false: it has none. */
+ * an undefined function; false: it has none. NULL: none has. */
 void qdot_ball_eval(qdot_ball *b, slong prec,
                     bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
                     void *user);

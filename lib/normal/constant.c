@@ -243,16 +243,6 @@ separation(bound *b, qdot_expr e, double *bits)
     return status == QDOT_OK && *bits > MOST_BITS ? QDOT_EFAILED : status;
 }
 
-static bool
-no_atom(void *user, qdot_expr atom, arb_t value, slong prec)
-{
-    (void)user;
-    (void)atom;
-    (void)value;
-    (void)prec;
-    return false;
-}
-
 /* Enclosures with more and more bits, until one has no zero in it or is smaller than
  * 2^-bits. */
 static qdot_status
@@ -275,7 +265,7 @@ enclose(qdot_pool *pool, qdot_expr e, double bits, qdot_constant_sign *sign)
             status = qdot_interrupt_check();
             break;
         }
-        qdot_ball_eval(&ball, prec, no_atom, NULL);
+        qdot_ball_eval(&ball, prec, NULL, NULL);
         value = qdot_ball_get(&ball, e);
         if (value == NULL)
             continue;

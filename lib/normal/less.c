@@ -212,16 +212,6 @@ side(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-static bool
-no_atom(void *user, qdot_expr atom, arb_t value, slong prec)
-{
-    (void)user;
-    (void)atom;
-    (void)value;
-    (void)prec;
-    return false;
-}
-
 /* A bound without symbols as a double on its safe side. */
 static bool
 number(qdot_pool *pool, qdot_expr e, bool up, double *x)
@@ -231,7 +221,7 @@ number(qdot_pool *pool, qdot_expr e, bool up, double *x)
 
     if (e == QDOT_NIL || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
         return false;
-    qdot_ball_eval(&ball, 64, no_atom, NULL);
+    qdot_ball_eval(&ball, 64, NULL, NULL);
     value = qdot_ball_get(&ball, e);
     if (value != NULL) {
         arf_t bound;
@@ -430,7 +420,7 @@ refute_there(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_OK
                                                      : qdot_last_error()->status;
     QDOT_TRY(qdot_ball_begin(&ball, pool, 4, e));
-    qdot_ball_eval(&ball, 512, no_atom, NULL);
+    qdot_ball_eval(&ball, 512, NULL, NULL);
     l = qdot_ball_get(&ball, e[0]);
     r = qdot_ball_get(&ball, e[1]);
     gap = qdot_ball_get(&ball, e[2]);

@@ -80,16 +80,6 @@ range_of(qdot_pool *pool, qdot_expr e, struct range *r)
 }
 
 static bool
-no_atom(void *user, qdot_expr atom, arb_t value, slong prec)
-{
-    (void)user;
-    (void)atom;
-    (void)value;
-    (void)prec;
-    return false;
-}
-
-static bool
 to_double(qdot_pool *pool, qdot_expr e, double *x)
 {
     qdot_ball ball;
@@ -97,7 +87,7 @@ to_double(qdot_pool *pool, qdot_expr e, double *x)
 
     if (e == QDOT_NIL || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
         return false;
-    qdot_ball_eval(&ball, 64, no_atom, NULL);
+    qdot_ball_eval(&ball, 64, NULL, NULL);
     value = qdot_ball_get(&ball, e);
     if (value != NULL)
         *x = arf_get_d(arb_midref(value), ARF_RND_NEAR);
