@@ -46,6 +46,7 @@ struct qdot_precise_bind {
     mpfr_t *w;
     mp_limb_t *work;
     double *widest; /* [constraints] the largest squared norm of each row of A so far */
+    qdot_precise *held[2]; /* residuals of positions, of velocities; NULL without such rows */
     size_t factored;
 };
 
@@ -172,6 +173,69 @@ accelerations_tied(qdot_precise_bind *e, int k)
     return QDOT_OK;
 }
 
+/* log2 of the largest |A_ki u_i|, or of 1; u: a row of inputs. *at: the first of the slopes of
+ * row k, then that of the next row. */
+static double
+log2_terms(const qdot_precise_bind *e, size_t k, const mpfr_t *u, size_t *at)
+{
+    const qdot_constraints *c = e->plan->constraints;
+    double most = 0;
+
+    for (; *at < c->n_slopes && c->slopes[*at].row == k; ++*at)
+        most = fmax(most,
+                    qdot_real_log2(e->outputs[e->plan->n + c->n_masses + *at][0])
+                        + qdot_real_log2(u[c->slopes[*at].column * e->stride]));
+    return most;
+}
+
+/* Nothing is projected, and what drifts is of the last digits: where constraints are off by more than
+ * a quarter of them can tell, a step has passed a place behind which q'' = ... is not what they say,
+ * as y = sqrt(x) is left at y = 0. */
+static qdot_status
+find_left(qdot_precise_bind *e, const mpfr_t *y)
+{
+    const qdot_constraints *c = e->plan->constraints;
+    const size_t inputs = 2 * e->plan->n;
+    const double allowed = -(double)e->system.bits / 4;
+
+    for (size_t order = 0; order < 2; order++) {
+        const mpfr_t *u = order ? e->v : e->q;
+        size_t at = 0, out = 0;
+
+        if (!e->held[order])
+            continue;
+        for (size_t i = 0; i < inputs; i++)
+            mpfr_set(qdot_precise_input(e->held[order], i)[0], y[i], MPFR_RNDN);
+        mpfr_set(qdot_precise_input(e->held[order], inputs)[0], e->t[0], MPFR_RNDN);
+        qdot_precise_order(e->held[order], 0);
+        for (size_t k = 0; k < c->m; k++) {
+            const double terms = log2_terms(e, k, u, &at);
+
+            if (c->rows[k].kind > (order ? QDOT_VELOCITY : QDOT_HOLONOMIC))
+                continue;
+            /* NaN is no value of what the run could follow either */
+            if (!(qdot_real_log2(qdot_precise_output(e->held[order], out++)[0]) - terms
+                  <= allowed))
+                return qdot_fail(QDOT_EDOMAIN, "constraint %s does not hold beyond it",
+                                 c->rows[k].name);
+        }
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+make_held(qdot_precise_bind *e)
+{
+    const qdot_constraints *c = e->plan->constraints;
+    const qdot_tape *tapes[] = {c->positions, c->velocities};
+
+    for (size_t i = 0; i < 2; i++)
+        if (tapes[i] && qdot_tape_outputs(tapes[i]) > 0)
+            QDOT_TRY(qdot_precise_new(e->plan->pool, tapes[i], 0, e->system.bits,
+                                      &e->held[i]));
+    return QDOT_OK;
+}
+
 static qdot_status
 make_tied(qdot_precise_bind *e)
 {
@@ -200,7 +264,7 @@ make_tied(qdot_precise_bind *e)
         if (i != j)
             s->couplings[s->n_couplings++] = (coupling){j, i, e->outputs[at]};
     }
-    return QDOT_OK;
+    return make_held(e);
 }
 
 /* --- the accelerations --------------------------------------------------------------- */
@@ -288,7 +352,7 @@ begin(mpfr_srcptr t, const mpfr_t *y, void *user)
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
                              e->plan->names[i]);
     integrate(e, 0);
-    return QDOT_OK;
+    return e->plan->constraints ? find_left(e, y) : QDOT_OK;
 }
 
 static qdot_status
@@ -451,6 +515,8 @@ qdot_precise_bind_free(qdot_precise_bind *e)
         qdot_free(e->solvers[b].couplings);
     }
     qdot_precise_free(e->tape);
+    qdot_precise_free(e->held[0]);
+    qdot_precise_free(e->held[1]);
     qdot_reals_clear(&e->solved);
     qdot_reals_clear(&e->numbers);
     qdot_free(e->outputs);
