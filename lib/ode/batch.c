@@ -42,7 +42,7 @@ typedef struct {
     double h[L]; /* of the steps tried */
     int64_t tried[L]; /* which are, all bits set or none */
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
-    double log_aim, log_term; /* as in taylor.c */
+    double log_aim, log_term, fall; /* as in taylor.c */
 } batch;
 
 /* --- members come and go ------------------------------------------------------------ */
@@ -226,8 +226,9 @@ log_steps(const batch *b, const double *weight, double *steps)
     const int p = b->run->order;
     double upper[L], lower[L];
 
-    b->kernels->log_steps(b->n, system->x, system->stride, p / 2 + 1, p, weight, 0, upper);
-    b->kernels->log_steps(b->n, system->x, system->stride, 2, p / 2, weight, b->log_term,
+    b->kernels->log_steps(b->n, system->x, system->stride, p / 2 + 1, p, weight, 0,
+                          b->fall, upper);
+    b->kernels->log_steps(b->n, system->x, system->stride, 2, p / 2, weight, b->log_term, 0,
                           lower);
     for (size_t l = 0; l < L; l++) {
         const double step = upper[l] + b->log_aim / p;
@@ -261,7 +262,7 @@ choose_steps(batch *b)
         } else if (isinf(step)) {
             if (!known)
                 b->kernels->log_steps(b->n, b->system->x, b->system->stride, 1, p, weight,
-                                      0, whole);
+                                      0, 0, whole);
             known = true;
             far = fmax(0, whole[l] + b->log_aim / p);
         }
@@ -362,6 +363,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     qdot_status status;
 
     b.log_term = fmax(term_least, b.log_aim + 53);
+    b.fall = qdot_step_fall(b.log_aim, run->order);
     run->expansions = 0;
     QDOT_TRY(check(system, run));
     memory = qdot_calloc(7 * size, sizeof *memory);

@@ -10,7 +10,7 @@
  * first such step goes a part of the way that no period shares, and only the next one all
  * of it.
  *
- * Tests  tests/ode/test_batch.c, tests/sim/test_ensemble.c
+ * Tests  tests/sim/test_ensemble.c
  */
 #ifndef QDOT_ODE_BATCH_H
 #define QDOT_ODE_BATCH_H

@@ -214,7 +214,7 @@ length_of_a_step_is_the_least(void **state)
             }
         x[(2 * stride + 15) * L + 2] = NAN;
         x[(3 * stride + 20) * L + 3] = -INFINITY;
-        kernels->log_steps(N, x, stride, 13, ORDERS, weight, -40, seen);
+        kernels->log_steps(N, x, stride, 13, ORDERS, weight, -40, 0.5, seen);
         assert_true(isinf(seen[1]) && seen[1] > 0);
         assert_true(isnan(seen[2]) && isnan(seen[3]));
         for (size_t l = 0; l < L; l++) {
@@ -227,7 +227,8 @@ length_of_a_step_is_the_least(void **state)
                     most = fmax(most,
                                 fabs(x[(i * stride + k) * L + l]) * weight[i * L + l]);
                 if (most > 0)
-                    want = fmin(want, (-40 - log2(most)) / (double)k);
+                    want = fmin(want, (-40 + 0.5 * (double)(ORDERS - k) - log2(most))
+                                           / (double)k);
             }
             if (l != 1 && l != 2 && l != 3)
                 assert_true(fabs(seen[l] - want) < 0.1);
