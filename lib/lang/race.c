@@ -96,14 +96,15 @@ draw(qdot_session *session, const qdot_race *race, const char *path)
     double x[N][K], y[N][K];
     qdot_column columns_x[N], columns_y[N];
     size_t rows[N], n = 0;
-    qdot_figure figure = {.title = "work and precision",
-                          .x_label = "error at the end",
-                          .y_label = "CPU time / s",
+    qdot_figure figure = {.title = "a race: work and precision",
+                          .x_label = "error at the end, relative to max(1, |value|)",
+                          .y_label = "CPU time in s",
                           .x = columns_x,
                           .y = columns_y,
                           .rows = rows,
                           .log_x = true,
-                          .log_y = true};
+                          .log_y = true,
+                          .marks = true};
 
     for (int i = 0; i < N; i++) {
         size_t points = 0;

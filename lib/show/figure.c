@@ -151,6 +151,21 @@ nice_step(double span)
                                       : 5 * ten;
 }
 
+/* Powers of ten as tics of a long logarithmic axis, of which at most nine are labelled: where not
+ * every one is, gnuplot's own marks between them stand on the right half only. */
+static void
+add_log_axis(qdot_text *script, char axis, double least, double most)
+{
+    const double decades = log10(most / least);
+
+    qdot_text_format(script, "set logscale %c\nset format %c '%%.0e'\n", axis, axis);
+    if (!(decades > 5))
+        return;
+    qdot_text_format(script, "set %ctics 1e%d\n", axis, (int)ceil(decades / 8));
+    if (decades > 8)
+        qdot_text_format(script, "unset m%ctics\n", axis);
+}
+
 static void
 add_axes(qdot_text *script, const qdot_figure *figure, const extent *seen)
 {
@@ -178,9 +193,9 @@ add_axes(qdot_text *script, const qdot_figure *figure, const extent *seen)
         qdot_text_add(script, "set autoscale xfix\n");
     }
     if (figure->log_x)
-        qdot_text_add(script, "set logscale x\nset format x '%.0e'\n");
+        add_log_axis(script, 'x', seen->x_least, seen->x_most);
     if (figure->log_y)
-        qdot_text_add(script, "set logscale y\nset format y '%.0e'\n");
+        add_log_axis(script, 'y', seen->y_least, seen->y_most);
     qdot_text_add(script, figure->curves > 1 ? "set key outside right top Left reverse\n"
                                              : "unset key\n");
 }

@@ -264,6 +264,35 @@ flat_lone_and_logarithmic_curves_are_drawn(void **state)
     assert_non_null(strstr(qdot_last_error()->message, "positive"));
 }
 
+/* How often a text stands in another. */
+static int
+times(const char *text, const char *what)
+{
+    int n = 0;
+
+    for (; (text = strstr(text, what)) != NULL; text++)
+        n++;
+    return n;
+}
+
+static void
+long_logarithmic_axes_have_even_marks(void **state)
+{
+    const double at[] = {1, 2, 3}, height[] = {1e-15, 1e-9, 1e-2};
+    const qdot_column cx = {"x", at}, cy = {"y", height};
+    const size_t n = 3;
+    const qdot_figure figure = {.curves = 1, .x = &cx, .y = &cy, .rows = &n, .log_y = true};
+    char *text;
+
+    (void)state;
+    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    text = take("a.svg");
+    assert_int_equal(times(text, "1e-10<"), 1);
+    assert_in_range(times(text, "1e-"), 5, 9);
+    assert_in_range(times(text, " M"), 0, 10); /* no marks of 2, 3, ... 9 times what is labelled */
+    free(text);
+}
+
 static void
 paths_have_equal_axes(void **state)
 {
@@ -466,6 +495,7 @@ main(void)
         cmocka_unit_test(one_curve_has_no_key_two_have),
         cmocka_unit_test(points_that_are_not_finite_break_the_line),
         cmocka_unit_test(flat_lone_and_logarithmic_curves_are_drawn),
+        cmocka_unit_test(long_logarithmic_axes_have_even_marks),
         cmocka_unit_test(paths_have_equal_axes),
         cmocka_unit_test(a_locale_with_commas_changes_nothing),
         cmocka_unit_test(a_missing_gnuplot_is_said_with_a_hint),
