@@ -138,13 +138,24 @@ refuse(place *p, const double *y, size_t row)
 
 /* --- conditions that only constraints together make ------------------------------------ */
 
-/* x = t and x' = y have one direction, and the second is no repetition: y = 1. */
+/* x = t and x' = y have one direction, and the second is no repetition: y = 1. One alone that stands
+ * in for nothing has none. */
 static qdot_status
 refuse_hidden(place *p, const double *y, size_t row, const char *of)
 {
     qdot_text names = {0};
+    const size_t count = name_dependent(p, y, row, &names);
 
-    (void)name_dependent(p, y, row, &names);
+    if (count == 1) {
+        if (qdot_text_status(&names) == QDOT_OK)
+            qdot_fail(QDOT_ESINGULAR,
+                      "at the start %.200s has no direction: what the motion is from there is not "
+                      "determined",
+                      qdot_text_str(&names));
+        qdot_text_clear(&names);
+        (void)qdot_hint("a start beside that place");
+        return QDOT_ESINGULAR;
+    }
     if (qdot_text_status(&names) == QDOT_OK)
         qdot_fail(QDOT_EINVAL,
                   "%.200s together leave a condition on %s that is none of the constraints: it "

@@ -10,3 +10,7 @@ for how in '' 'method rk8pd' 'constraints none' 'digits 12'; do
     qdot -q -e "$scene
     run 0..0.5 $how" 2>/dev/null | sed -n 's/.*stopped/stopped/; s/\(0\.20185\)[0-9]*/\1/; /^stopped/p'
 done
+# At rest nothing says where to.
+qdot -q -e "$scene
+start x' = 0, y' = 0, z' = 0
+run 0..0.5" 2>&1 | sed -n '/error/,$p'
