@@ -9,7 +9,7 @@
 
 static const qdot_ode_method methods[] = {
     {"rk8pd", 8, false, false, false, 8, "rk8pd", 1e-2, 5e-15,
-     "Runge-Kutta of order 8: smooth scenes at any tolerance; the one to try first",
+     "Runge-Kutta of order 8: smooth scenes at any tolerance",
      &gsl_odeiv2_step_rk8pd, false, NULL},
     {"rkf45", 5, false, false, false, 5, "rk8pd", 1e-2, 5e-16,
      "Runge-Kutta-Fehlberg of order 5: coarse tolerances, cheap or rough scenes",
