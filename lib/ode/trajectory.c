@@ -603,6 +603,12 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
     return read_from(c, low, t, y);
 }
 
+uint64_t
+qdot_trajectory_evaluations(const qdot_trajectory_cursor *c)
+{
+    return c->s ? c->s->evaluations : 0;
+}
+
 size_t
 qdot_trajectory_mode_read(const qdot_trajectory_cursor *c)
 {

@@ -106,6 +106,9 @@ void qdot_trajectory_close(qdot_trajectory_cursor *c);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read(qdot_trajectory_cursor *c, double t,
                                                  double *y);
 
+/* What reading has cost so far, in evaluations of f; 0 by series. */
+uint64_t qdot_trajectory_evaluations(const qdot_trajectory_cursor *c);
+
 /* The mode of the piece in which the state just read stands. */
 size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 

@@ -42,6 +42,9 @@ typedef struct qdot_course {
     bool shaken;
     bool no_series;   /* of systems for a method without */
     double touch_tol; /* within which an extremum touches 0: that of the run */
+    /* evaluations for the states within steps that were looked at, and how many end the run
+     * as QDOT_ELIMIT; 0: any */
+    uint64_t looked, most_looked;
     qdot_trajectory tr;
     qdot_vec(qdot_bind *) binds;         /* by mode, as far as they were met; NULL else */
     qdot_vec(qdot_ode_system) systems;   /* by mode */

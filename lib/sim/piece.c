@@ -22,8 +22,17 @@ static qdot_status
 read_step(double t, double *y, void *user)
 {
     const qdot_piece *x = user;
+    const uint64_t before = qdot_trajectory_evaluations(x->cursor);
+    qdot_course *c = x->c;
 
-    return qdot_trajectory_read(x->cursor, t, y);
+    QDOT_TRY(qdot_trajectory_read(x->cursor, t, y));
+    c->looked += qdot_trajectory_evaluations(x->cursor) - before;
+    if (c->most_looked > 0 && c->looked > c->most_looked)
+        return qdot_fail(QDOT_ELIMIT,
+                         "stopped at t = %.6g after %llu evaluations within steps, to find "
+                         "events there",
+                         t, (unsigned long long)c->most_looked);
+    return QDOT_OK;
 }
 
 /* --- what a step holds --------------------------------------------------------------- */

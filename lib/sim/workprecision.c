@@ -340,7 +340,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     w->system.project = w->inner.project ? project : NULL;
     w->system.margin = w->inner.margin ? margin : NULL;
     w->system.user = w;
-    n = (double)w->plan->n;
+    n = (double)(w->plan->n + (w->held ? w->plan->constraints->m : 0));
     operations = (double)qdot_tape_operations(w->plan->tape) + n * n * n / 3 + 100;
     if (w->plan->method->series) /* an expansion is worth a few hundred evaluations */
         operations *= 200;
@@ -393,6 +393,7 @@ go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
     qdot_course_clear(&w->course);
     w->course.stage = &w->stage;
     w->course.touch_tol = tol;
+    w->course.most_looked = w->most_evaluations;
     status = qdot_course_run(&w->course, w->plan->method, &options, w->t0, w->t1, w->start);
     *result = tr->result;
     if (tr->count == 0)

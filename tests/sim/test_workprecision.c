@@ -171,6 +171,29 @@ hopeless_runs_are_rows_that_say_so(void **state)
     end(&f);
 }
 
+/* States within steps that are looked at for an event, though it never comes, are counted as well. */
+static void
+looks_for_events_are_counted(void **state)
+{
+    fixture f;
+    qdot_workprecision w = {.budget = 2e5};
+    char name[] = "far";
+    qdot_event e = {.name = name, .stop = true};
+    size_t within = 0;
+
+    (void)state;
+    oscillator(&f, false);
+    e.left = qdot_symbol_get(f.pool, QDOT_COORD, "x");
+    e.right = qdot_expr_int(f.pool, 2);
+    must(qdot_scene_event(f.scene, &e));
+    must(qdot_workprecision_measure(f.scene, &f.request, &w));
+    for (size_t k = 0; k < w.n; k++)
+        within += strstr(w.rows[k].status, "within steps") != NULL;
+    assert_true(within > 0 && within < w.n);
+    qdot_workprecision_clear(&w);
+    end(&f);
+}
+
 static void
 what_cannot_be_compared_is_refused(void **state)
 {
@@ -199,6 +222,7 @@ main(void)
         cmocka_unit_test(errors_are_those_of_runs),
         cmocka_unit_test(without_conservation_there_is_no_energy_error),
         cmocka_unit_test(hopeless_runs_are_rows_that_say_so),
+        cmocka_unit_test(looks_for_events_are_counted),
         cmocka_unit_test(what_cannot_be_compared_is_refused),
     };
 
