@@ -166,6 +166,32 @@ refuse_hidden(place *p, const double *y, size_t row, const char *of)
     return QDOT_EINVAL;
 }
 
+/* A little later no position was found: x = t^2 and x = t^2 + t^3 part, where the start left nothing of
+ * that. Rows that could not be met beside independent ones that are. */
+static qdot_status
+check_parted(place *p, const double *y, double t)
+{
+    const size_t m = p->h->c->m;
+    double met = 0, most = 0, before;
+    size_t worst = 0;
+
+    for (size_t j = 0; j < m; j++) {
+        const size_t r = p->rows.order[j];
+
+        if (j < p->rows.rank) {
+            met = fmax(met, fabs(p->b[r]));
+        } else if (fabs(p->b[r]) > most) {
+            most = fabs(p->b[r]);
+            worst = r;
+        }
+    }
+    qdot_constrained_load(p->h, t, y);
+    qdot_constrained_positions(p->h);
+    before = fabs(p->h->f[worst]);
+    return most > 1e-10 && most > 1e3 * (met + before) ? refuse_hidden(p, y, worst, "time")
+                                                       : QDOT_OK;
+}
+
 /* Velocities beside those at p->y that the independent rows allow; *worst of the others, and by
  * how much it is broken. Whether there are such. */
 static bool
@@ -254,8 +280,11 @@ check_place(qdot_constrained *h, double t, const double *y)
         const bool later = k + 1 == tries; /* after the start itself has been looked about */
 
         p.t = later ? t + beside : t;
-        if (!step_aside(&p, y, k))
+        if (!step_aside(&p, y, k)) {
+            if (later && holds)
+                status = check_parted(&p, y, t);
             continue;
+        }
         take_slopes(&p, true);
         qdot_row_space_factor(&p.rows, p.A, independent, false);
         if (p.rows.rank <= rank && holds)

@@ -23,6 +23,10 @@ constraint d: x'' = 1 + y'" "run 0..1 method rk8pd"
 echo "on time"
 try "constraint a: x = t
 constraint d: x' = cos(t)" "run 0..1 constraints none"
+for run in "" "constraints none" "method msadams"; do
+    try "constraint a: x = t^2
+constraint b: x = t^2 + t^3" "run 0..1 $run"
+done
 echo "none"
 try "constraint a: x = sin(t)
 constraint d: x' = cos(t)
