@@ -273,51 +273,56 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
     return QDOT_OK;
 }
 
-/* Rows one after another by Gram-Schmidt, twice; those that leave something are
- * independent: more than the place is off. */
+/* Whether row k, by what stands at `low` and the `width` variables from there on, leaves something
+ * beside the `found` rows by Gram-Schmidt, twice: more than the place is off. Then it is one more of
+ * them. */
+static bool
+add_row(const problem *p, size_t k, size_t low, size_t width, double *rows, size_t found)
+{
+    const double nothing = fmax(1e-6, 100 * sqrt(p->off));
+    double *row = rows + found * width, norm = 0, left = 0;
+
+    memset(row, 0, width * sizeof *row);
+    for (size_t i = p->first[k]; i < p->first[k + 1]; i++)
+        if (p->column[i] >= low && p->column[i] < low + width) {
+            row[p->column[i] - low] = p->value[p->c + i];
+            norm = fmax(norm, fabs(p->value[p->c + i]));
+        }
+    if (!(norm > 1e-6))
+        return false;
+    for (size_t i = 0; i < width; i++)
+        row[i] /= norm;
+    for (int twice = 0; twice < 2; twice++)
+        for (size_t j = 0; j < found; j++) {
+            const double *other = rows + j * width;
+            double dot = 0;
+
+            for (size_t i = 0; i < width; i++)
+                dot += row[i] * other[i];
+            for (size_t i = 0; i < width; i++)
+                row[i] -= dot * other[i];
+        }
+    for (size_t i = 0; i < width; i++)
+        left += row[i] * row[i];
+    left = sqrt(left);
+    if (left < nothing)
+        return false;
+    for (size_t i = 0; i < width; i++)
+        row[i] /= left;
+    return true;
+}
+
+/* Which rows are independent, one after another; their number. */
 static size_t
 rank(qdot_scene *s, problem *p, bool *independent)
 {
-    const double nothing = fmax(1e-6, 100 * sqrt(p->off));
-    size_t found = 0, n = p->n;
+    size_t found = 0;
 
     for (size_t k = 0; k < p->constraints; k++) {
-        double *row = p->rows + found * n, norm = 0, left = 0;
-        const size_t lowest = n * (size_t)s->constraints.at[k].kind;
+        const size_t low = p->n * (size_t)s->constraints.at[k].kind;
 
-        memset(row, 0, n * sizeof *row);
-        for (size_t i = p->first[k]; i < p->first[k + 1]; i++)
-            if (p->column[i] >= lowest && p->column[i] < lowest + n) {
-                row[p->column[i] - lowest] = p->value[p->c + i];
-                norm = fmax(norm, fabs(p->value[p->c + i]));
-            }
-        independent[k] = false;
-        if (!(norm > 1e-6))
-            continue;
-        for (size_t i = 0; i < n; i++)
-            row[i] /= norm;
-        for (int twice = 0; twice < 2; twice++)
-            for (size_t j = 0; j < found; j++) {
-                double dot = 0;
-
-                for (size_t i = 0; i < n; i++)
-                    dot += row[i] * p->rows[j * n + i];
-                for (size_t i = 0; i < n; i++)
-                    row[i] -= dot * p->rows[j * n + i];
-            }
-        for (size_t i = 0; i < n; i++)
-            left += row[i] * row[i];
-        left = sqrt(left);
-        if (left < nothing)
-            continue;
-        for (size_t i = 0; i < n; i++)
-            row[i] /= left;
-        independent[k] = true;
-        if (++found == n) {
-            for (size_t rest = k + 1; rest < p->constraints; rest++)
-                independent[rest] = false;
-            break;
-        }
+        independent[k] = found < p->n && add_row(p, k, low, p->n, p->rows, found);
+        found += independent[k];
     }
     return found;
 }
@@ -338,42 +343,14 @@ static size_t
 rank_of_kinds(const selection *of, int least, int most, int lowest)
 {
     const problem *p = of->p;
-    const double nothing = fmax(1e-6, 100 * sqrt(p->off));
     const size_t low = p->n * (size_t)lowest, width = p->n * ((size_t)most + 1) - low;
     size_t found = 0;
 
     for (size_t k = 0; k < p->c; k++) {
-        double *row = of->rows + found * width, norm = 0, left = 0;
-
         if ((p->of[k] > of->last && !of->independent[p->of[k]]) || (int)p->kind[k] < least
             || (int)p->kind[k] > most)
             continue;
-        memset(row, 0, width * sizeof *row);
-        for (size_t i = p->first[k]; i < p->first[k + 1]; i++)
-            if (p->column[i] >= low) {
-                row[p->column[i] - low] = p->value[p->c + i];
-                norm = fmax(norm, fabs(p->value[p->c + i]));
-            }
-        if (!(norm > 1e-6))
-            continue;
-        for (size_t i = 0; i < width; i++)
-            row[i] /= norm;
-        for (int twice = 0; twice < 2; twice++)
-            for (size_t j = 0; j < found; j++) {
-                const double *other = of->rows + j * width;
-                double dot = 0;
-
-                for (size_t i = 0; i < width; i++)
-                    dot += row[i] * other[i];
-                for (size_t i = 0; i < width; i++)
-                    row[i] -= dot * other[i];
-            }
-        for (size_t i = 0; i < width; i++)
-            left += row[i] * row[i];
-        left = sqrt(left);
-        for (size_t i = 0; i < width && left >= nothing; i++)
-            row[i] /= left;
-        found += left >= nothing;
+        found += add_row(p, k, low, width, of->rows, found);
     }
     return found;
 }

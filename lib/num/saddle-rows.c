@@ -12,12 +12,7 @@ static const double participates = 1e-6;
 static double
 squared(const qdot_saddle *s, size_t k)
 {
-    const double *A = s->A + k * s->n;
-    double sum = 0;
-
-    for (size_t e = s->start[k]; e < s->start[k + 1]; e++)
-        sum += A[s->column[e]] * A[s->column[e]];
-    return sum;
+    return qdot_saddle_row(s, k, s->A + k * s->n);
 }
 
 bool

@@ -15,9 +15,6 @@ enum { L = QDOT_LANES, most_rescales = 8, most_tries = 60 };
 
 static const size_t max_steps = 50000000;
 
-/* log2 of the largest term, over the size of the state, whose rounding may count. */
-static const double term_least = -1;
-
 /* The part of the way that a step goes whose series ends. */
 static const double part_of_way = 0.31830988618379067;
 
@@ -362,7 +359,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     double *memory;
     qdot_status status;
 
-    b.log_term = fmax(term_least, b.log_aim + 53);
+    b.log_term = qdot_step_term(b.log_aim);
     b.fall = qdot_step_fall(b.log_aim, run->order);
     run->expansions = 0;
     QDOT_TRY(check(system, run));

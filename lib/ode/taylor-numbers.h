@@ -30,6 +30,13 @@ qdot_step_fall(double log_aim, int p)
     return fmax(0, 2.0 / 3 + log_aim / p);
 }
 
+/* log2 of the largest term, over the size of the state, whose rounding may count. */
+static inline double
+qdot_step_term(double log_aim)
+{
+    return fmax(-1, log_aim + 53);
+}
+
 /* No step is shorter. */
 static inline double
 qdot_step_floor(double t)

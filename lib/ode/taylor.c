@@ -29,9 +29,6 @@ static const double rounding_of_projection = 1e-13;
 /* The defect is one of doubles, in which a stiff force has few digits. */
 static const double least_held = 1e-14;
 
-/* log2 of the largest term, over the size of the state, whose rounding may count. */
-static const double term_least = -1;
-
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
 
@@ -632,7 +629,7 @@ prepare(run *r, double t0, double t1, const double *y)
     for (size_t i = 0; i < r->n; i++)
         r->scale[i] = 1 / qdot_larger(1, fabs(y[i]));
     r->log_wanted = log2(qdot_step_aim(r->tol, r->options->leading));
-    r->log_term = fmax(term_least, r->log_wanted + 53);
+    r->log_term = qdot_step_term(r->log_wanted);
     r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->leading,
                                  r->options->order_more);
     qdot_series_weights_set(&r->weights, r->p, r->log_term,
