@@ -23,18 +23,10 @@ qdot_batch_kernels_at(size_t i)
     return NULL;
 }
 
-static _Atomic size_t highest = 2;
-
-void
-qdot_batch_limit(size_t kind)
-{
-    highest = kind < 2 ? kind : 2;
-}
-
 size_t
 qdot_batch_kind(void)
 {
-    size_t best = highest;
+    size_t best = 2;
 
     while (!qdot_batch_kernels_at(best))
         best--;

@@ -94,9 +94,7 @@ const qdot_batch_kernels *qdot_batch_kernels_get(void);
 /* Kind i, portable first, of those this processor can run; NULL beyond the last. */
 const qdot_batch_kernels *qdot_batch_kernels_at(size_t i);
 
-/* The kind that _get takes: the last there is, but none above the one limited to. The
- * limit is for tests and measurements, before anything else of a batch is made. */
+/* The kind that _get takes: the last there is (num/kinds.h). */
 size_t qdot_batch_kind(void);
-void qdot_batch_limit(size_t kind);
 
 #endif

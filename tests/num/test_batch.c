@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "num/batch.h"
+#include "num/kinds.h"
 
 enum { L = QDOT_LANES, ORDERS = 24, N = 5 };
 
@@ -280,9 +281,9 @@ static void
 a_limit_is_kept(void **state)
 {
     (void)state;
-    qdot_batch_limit(0);
+    qdot_kind_limit(0);
     assert_string_equal(qdot_batch_kernels_get()->name, "portable");
-    qdot_batch_limit(9);
+    qdot_kind_limit(9);
     assert_non_null(qdot_batch_kernels_get());
     assert_null(qdot_batch_kernels_at(3));
 }

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "expr/calculus.h"
+#include "num/kinds.h"
 #include "tape/lanes-code.h"
 
 enum { L = QDOT_LANES, INPUTS = 4, MOVING = 3, MOST_OUT = 64, MOST = 30 };
@@ -236,7 +237,7 @@ every_order_agrees_with_the_kernels(void **state)
     begin(&f);
     assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.n, f.out, &tape), QDOT_OK);
     for (size_t kind = 0; kind < 3; kind++) {
-        qdot_batch_limit(kind);
+        qdot_kind_limit(kind);
         if (kind == 0)
             assert_false(qdot_lanes_may_be_code());
         for (int to = 1; to <= MOST; to += to < 9 ? 1 : 5)
@@ -248,7 +249,7 @@ every_order_agrees_with_the_kernels(void **state)
                                                     .loop = loop,
                                                     .to = to + 2 * parts});
     }
-    qdot_batch_limit(2);
+    qdot_kind_limit(2);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
 }

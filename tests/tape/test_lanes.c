@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "num/kinds.h"
 #include "num/series.h"
 #include "tape/lanes.h"
 #include "tape/taylor.h"
@@ -109,7 +110,7 @@ values_are_those_of_one_at_a_time(void **state)
     assert_int_equal(qdot_tape_new(f.pool, 3, f.in, f.n, f.out, &tape), QDOT_OK);
     work = malloc(qdot_tape_work(tape) * L * sizeof *work);
     for (size_t kind = 0; kind < 3; kind++) {
-        qdot_batch_limit(kind);
+        qdot_kind_limit(kind);
         for (size_t l = 0; l < L; l++) {
             start(one, l);
             for (size_t i = 0; i < 3; i++)
@@ -125,7 +126,7 @@ values_are_those_of_one_at_a_time(void **state)
                              out[i * L + l], alone[i]);
         }
     }
-    qdot_batch_limit(2);
+    qdot_kind_limit(2);
     free(work);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
@@ -190,7 +191,7 @@ series_are_those_of_one_at_a_time(void **state)
         qdot_lanes *lanes;
         double one[3], t[L];
 
-        qdot_batch_limit(kind);
+        qdot_kind_limit(kind);
         assert_int_equal(qdot_taylor_new(tape, ORDERS, &single), QDOT_OK);
         assert_int_equal(qdot_lanes_new(tape, ORDERS, &lanes), QDOT_OK);
         for (size_t l = 0; l < L; l++)
@@ -232,7 +233,7 @@ series_are_those_of_one_at_a_time(void **state)
         qdot_lanes_free(lanes);
         qdot_taylor_free(single);
     }
-    qdot_batch_limit(2);
+    qdot_kind_limit(2);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
 }
