@@ -81,7 +81,7 @@ take_slopes(level *l, double *in, double *out)
     return l->space.rank == unknown;
 }
 
-/* From the doubles on, as long as it comes nearer; `digits` of rounding lie below 1. */
+/* From the doubles on, as long as it comes nearer, and down to a rounding of 1. */
 static qdot_status
 iterate(level *l, mpfr_prec_t bits)
 {

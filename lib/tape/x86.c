@@ -317,8 +317,7 @@ bool
 qdot_x86_is_here(void)
 {
 #if defined __x86_64__ && defined __GNUC__ && defined __LP64__
-    return qdot_kind_most() > 1 && __builtin_cpu_supports("avx512f") &&
-           __builtin_cpu_supports("fma");
+    return qdot_kind_is_here(2);
 #else
     return false;
 #endif
