@@ -116,6 +116,7 @@ ode_sources = \
 
 ode_headers = \
 	lib/ode/apart.h \
+	lib/ode/batch.def \
 	lib/ode/batch.h \
 	lib/ode/companion.h \
 	lib/ode/crawl.h \

@@ -2,6 +2,7 @@
 #include "num/batch.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "num/kinds.h"

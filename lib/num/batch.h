@@ -37,17 +37,18 @@ typedef struct {
      *     out = min_k (log_tol + fall (p - k) - log2 max_i |x_ik| weight_i) / k
      *
      * to 0.1; INFINITY where they hold nothing, NaN where they are not finite. weight [n],
-     * out one group. */
+     * inverse [k] = 1/k, out one group. */
     void (*log_steps)(size_t n, const double *x, size_t stride, int from, int p,
-                      const double *weight, double log_tol, double fall, double *out);
+                      const double *weight, const double *inverse, double log_tol,
+                      double fall, double *out);
 
     /* Of each of n series x [i stride + k], in groups: what is left of it from order 2 on,
      *
-     *     value[i] = sum_{k=2..p} x_k s^(k-1),   slope[i] = sum_{k=1..p} k x_k s^(k-1).
+     *     value[i] = sum_{k=2..p} x_k s^(k-1),   slope[i] = sum_{k=1..p} k x_k s^(k-1),
      *
-     * s is one group. */
-    void (*tails)(size_t n, const double *x, size_t stride, int p, const double *s,
-                  double *value, double *slope);
+     * the latter of those from `from` on. p >= 2; s is one group. */
+    void (*tails)(size_t n, size_t from, const double *x, size_t stride, int p,
+                  const double *s, double *value, double *slope);
 
     /* The sum of such a series by twice the precision: next + next_carry =
      * y + carry + s (x_1 + value) + s low, all [n]; low_i = unit carry_{i + checked} for
@@ -83,8 +84,12 @@ typedef struct {
     void (*factor)(size_t n, double *A);
     /* x [n] <- (L L^T)^-1 x */
     void (*solve)(size_t n, const double *L, double *x);
-    /* inverse [n x n] of L L^T; y [n] = A x. */
+    /* inverse [n x n] of L L^T */
     void (*invert)(size_t n, const double *L, double *inverse);
+    /* inverse of A [2 x 2], of which the upper corner is not read, by its cofactors; NaN in a
+     * lane that is not positive definite. */
+    void (*invert_two)(const double *A, double *inverse);
+    /* y [n] = A x */
     void (*multiply)(size_t n, const double *A, const double *x, double *y);
 } qdot_batch_kernels;
 

@@ -4,42 +4,65 @@
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "num/kinds.h"
 #include "num/series.h"
 #include "ode/taylor-numbers.h"
 
-enum { L = QDOT_LANES, most_rescales = 8, most_tries = 60 };
+enum { L = QDOT_LANES, most_rescales = 8, most_tries = 60, line = 64 };
 
-static const size_t max_steps = 50000000;
+static const int64_t max_steps = 50000000;
 
 /* The part of the way that a step goes whose series ends. */
 static const double part_of_way = 0.31830988618379067;
 
+/* Groups; what is a number of times or a question is an integer, of a question all bits or
+ * none. */
 typedef struct {
-    size_t member;
-    bool active;
-    bool tried;   /* a step is to be confirmed */
-    bool ended;   /* the last series ended, and its step was good */
-    bool ends;    /* the one being tried is such a one */
-    double t1, direction;
-    double end, most; /* of the step tried; no longer ones for now */
-    int tries, rescales;
-} lane;
+    _Alignas(64) double t[L], t1[L];
+    double direction[L], unit[L], old_unit[L];
+    double end[L], h[L], most[L];     /* of the step tried; no longer ones for now */
+    double s[L], way[L], now[L];      /* what it goes; h by the units before and behind it */
+    int64_t active[L], tried[L];      /* a step is to be confirmed */
+    int64_t good[L], defined[L];      /* it is; f is, where it ends */
+    int64_t ended[L], ends[L];        /* the last series ended, and its step was good; the one
+                                         being tried is such a one */
+    int64_t tries[L], rescales[L];    /* since the last good step */
+    int64_t steps[L], rejected[L];    /* of the member */
+    size_t member[L];
+} lanes;
 
 typedef struct {
+    bool (*choose)(lanes *a, const double *upper, const double *lower, double log_aim,
+                   double *log_step, int64_t *left);
+    bool (*accept)(lanes *a, int64_t most_steps, int64_t *taken, int64_t *odd);
+} decisions;
+
+#define BATCH_BODY "ode/batch.def"
+#include "num/batch-kinds.def"
+
+static const decisions *const kinds[] = {
+    &portable_decisions,
+#ifdef QDOT_X86_KINDS
+    &avx2_decisions,
+    &avx512_decisions,
+#endif
+};
+
+typedef struct {
+    lanes at;
     const qdot_ode_batch *system;
     const qdot_batch_kernels *kernels;
+    const decisions *decide;
     qdot_batch_run *run;
     size_t n, waiting; /* components; the next member */
-    lane lanes[L];
-    double t[L], unit[L], old_unit[L], s[L];
-    double h[L]; /* of the steps tried */
-    int64_t tried[L]; /* which are, all bits set or none */
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
     double log_aim, log_term, fall; /* as in taylor.c */
+    double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
 } batch;
 
 /* --- members come and go ------------------------------------------------------------ */
@@ -49,18 +72,23 @@ static void
 take(batch *b, size_t l)
 {
     qdot_batch_run *run = b->run;
-    lane *a = b->lanes + l;
+    lanes *a = &b->at;
 
+    a->tried[l] = a->active[l] = 0;
     while (b->waiting < run->members) {
         size_t m = b->waiting++;
 
         run->results[m] = (qdot_batch_result){.t = run->t0[m]};
         if (run->t0[m] == run->t1[m])
             continue;
-        *a = (lane){.member = m, .active = true, .t1 = run->t1[m], .most = INFINITY};
-        a->direction = run->t1[m] < run->t0[m] ? -1 : 1;
-        b->t[l] = run->t0[m];
-        b->unit[l] = a->direction;
+        a->member[l] = m;
+        a->active[l] = -1;
+        a->direction[l] = a->unit[l] = run->t1[m] < run->t0[m] ? -1 : 1;
+        a->t[l] = run->t0[m];
+        a->t1[l] = run->t1[m];
+        a->most[l] = INFINITY;
+        a->ended[l] = a->ends[l] = 0;
+        a->tries[l] = a->rescales[l] = a->steps[l] = a->rejected[l] = 0;
         for (size_t i = 0; i < b->n; i++) {
             b->y[i * L + l] = run->y[m * b->n + i];
             b->carry[i * L + l] = 0;
@@ -69,19 +97,19 @@ take(batch *b, size_t l)
             b->system->take(l, m, b->system->user);
         return;
     }
-    a->active = a->tried = false;
 }
 
 static void
 leave(batch *b, size_t l, qdot_batch_outcome outcome)
 {
-    lane *a = b->lanes + l;
-    qdot_batch_result *r = b->run->results + a->member;
+    const lanes *a = &b->at;
 
-    r->outcome = outcome;
-    r->t = b->t[l];
+    b->run->results[a->member[l]] = (qdot_batch_result){.outcome = outcome,
+                                                        .t = a->t[l],
+                                                        .steps = (size_t)a->steps[l],
+                                                        .rejected = (size_t)a->rejected[l]};
     for (size_t i = 0; i < b->n; i++)
-        b->run->y[a->member * b->n + i] = b->y[i * L + l];
+        b->run->y[a->member[l] * b->n + i] = b->y[i * L + l];
     take(b, l);
 }
 
@@ -90,15 +118,14 @@ leave(batch *b, size_t l, qdot_batch_outcome outcome)
 static void
 begin(batch *b)
 {
+    lanes *a = &b->at;
     double t[L], *y = b->value; /* free here */
 
+    memcpy(t, a->t, sizeof t);
     memcpy(y, b->y, b->n * L * sizeof *y);
-    for (size_t l = 0; l < L; l++) {
-        b->tried[l] = b->lanes[l].tried ? -1 : 0;
-        t[l] = b->lanes[l].tried ? b->lanes[l].end : b->t[l];
-    }
-    b->kernels->blend(b->n, b->tried, b->next, y);
-    b->system->begin(t, y, b->unit, b->system->user);
+    b->kernels->blend(1, a->tried, a->end, t);
+    b->kernels->blend(b->n, a->tried, b->next, y);
+    b->system->begin(t, y, a->unit, b->system->user);
 }
 
 static const double *
@@ -109,44 +136,27 @@ coefficient(const batch *b, size_t i, int k)
 
 /* As `confirms` of taylor.c, of all lanes. */
 static void
-confirm(const batch *b, int64_t *good, int64_t *defined)
+confirm(batch *b)
 {
     const qdot_ode_batch *system = b->system;
-    double steps[L], now[L];
+    lanes *a = &b->at;
 
-    for (size_t l = 0; l < L; l++) {
-        steps[l] = b->h[l] / b->old_unit[l];
-        now[l] = b->h[l] / b->unit[l];
-    }
     b->kernels->confirm(b->n, system->checked, system->x, system->stride, b->slope, b->first,
-                        b->next, steps, now, 10 * (b->run->order + 1) * b->run->tol,
-                        64 * DBL_EPSILON, good, defined);
-}
-
-/* Lane l, whose state is that of the end by now. */
-static void
-accept(batch *b, size_t l)
-{
-    lane *a = b->lanes + l;
-
-    b->t[l] = a->end;
-    a->most = INFINITY;
-    a->tries = a->rescales = 0;
-    a->ended = a->ends;
-    b->run->results[a->member].steps++;
+                        b->next, a->way, a->now, 10 * (b->run->order + 1) * b->run->tol,
+                        64 * DBL_EPSILON, a->good, a->defined);
 }
 
 /* Back to where the step began, which then is to be a quarter of it. */
 static void
 reject(batch *b, size_t l)
 {
-    lane *a = b->lanes + l;
+    lanes *a = &b->at;
 
-    b->run->results[a->member].rejected++;
-    a->most = 0.25 * fabs(b->h[l]);
-    a->ended = false;
-    b->unit[l] = a->direction * qdot_step_unit(a->most);
-    if (++a->tries > most_tries || a->most < qdot_step_floor(b->t[l]))
+    a->rejected[l]++;
+    a->most[l] = 0.25 * fabs(a->h[l]);
+    a->ended[l] = 0;
+    a->unit[l] = a->direction[l] * qdot_step_unit(a->most[l]);
+    if (++a->tries[l] > most_tries || a->most[l] < qdot_step_floor(a->t[l]))
         leave(b, l, QDOT_BATCH_STUCK);
 }
 
@@ -154,38 +164,25 @@ reject(batch *b, size_t l)
 static bool
 judge(batch *b)
 {
-    int64_t good[L], defined[L], taken[L];
-    bool again = false;
+    lanes *a = &b->at;
+    int64_t taken[L], odd[L];
+    bool again;
 
-    confirm(b, good, defined);
-    for (size_t l = 0; l < L; l++)
-        taken[l] = good[l] & b->tried[l];
+    confirm(b);
+    again = b->decide->accept(a, max_steps, taken, odd);
     b->kernels->blend(b->n, taken, b->next, b->y);
     b->kernels->blend(b->n, taken, b->next_carry, b->carry);
-    for (size_t l = 0; l < L; l++) {
-        lane *a = b->lanes + l;
-
-        if (!a->active)
+    for (size_t l = 0; again && l < L; l++) {
+        if (!odd[l])
             continue;
-        if (!a->tried) {
-            if (!defined[l]) {
-                leave(b, l, QDOT_BATCH_UNDEFINED);
-                again = true;
-            }
-            continue;
-        }
-        a->tried = false;
-        if (taken[l]) {
-            const qdot_batch_result *r = b->run->results + a->member;
-
-            accept(b, l);
-            if (b->t[l] != a->t1 && r->steps + r->rejected < max_steps)
-                continue;
-            leave(b, l, b->t[l] == a->t1 ? QDOT_BATCH_DONE : QDOT_BATCH_LIMIT);
-        } else
+        if (!a->tried[l])
+            leave(b, l, QDOT_BATCH_UNDEFINED);
+        else if (!taken[l])
             reject(b, l);
-        again = true;
+        else
+            leave(b, l, a->t[l] == a->t1[l] ? QDOT_BATCH_DONE : QDOT_BATCH_LIMIT);
     }
+    memset(a->tried, 0, sizeof a->tried);
     return again;
 }
 
@@ -193,88 +190,87 @@ judge(batch *b)
 static void
 try_step(batch *b, size_t l, double h)
 {
-    lane *a = b->lanes + l;
-    double rest = a->direction * (a->t1 - b->t[l]), end = a->t1;
+    lanes *a = &b->at;
+    double rest = a->direction[l] * (a->t1[l] - a->t[l]), end = a->t1[l];
 
-    a->ends = isinf(h);
-    if (a->ends)
-        h = a->ended ? rest : part_of_way * rest;
-    h = qdot_smaller(h, a->most);
+    a->ends[l] = isinf(h) ? -1 : 0;
+    if (isinf(h))
+        h = a->ended[l] ? rest : part_of_way * rest;
+    h = qdot_smaller(h, a->most[l]);
     if (h < rest * (1 - 1e-12)) {
-        end = b->t[l] + a->direction * (h > 0.5 * rest ? 0.5 * rest : h);
-        if (!(a->direction * (a->t1 - end) > 0))
-            end = a->t1;
+        end = a->t[l] + a->direction[l] * (h > 0.5 * rest ? 0.5 * rest : h);
+        if (!(a->direction[l] * (a->t1[l] - end) > 0))
+            end = a->t1[l];
     }
-    a->end = end;
-    b->h[l] = end - b->t[l];
-    if (end != a->t1 && qdot_step_is_too_short(b->t[l], fabs(b->h[l]))) {
+    a->end[l] = end;
+    a->h[l] = h = end - a->t[l];
+    if (end != a->t1[l] && qdot_step_is_too_short(a->t[l], fabs(h))) {
         leave(b, l, QDOT_BATCH_STUCK);
         return;
     }
-    a->tried = true;
-    b->s[l] = (end == a->t1 ? b->h[l] + b->run->t1_low : b->h[l]) / b->unit[l];
+    a->tried[l] = -1;
+    a->s[l] = (end == a->t1[l] ? h + b->run->t1_low : h) / a->unit[l];
+    a->way[l] = h / a->unit[l];
+    a->unit[l] = qdot_step_unit(h);
+    a->now[l] = h / a->unit[l];
 }
 
-/* log2 of the steps in units, as `log_step` of taylor.c. */
+/* log2 of the steps in units, by the halves of the series: see `log_step` of taylor.c. */
 static void
-log_steps(const batch *b, const double *weight, double *steps)
+log_steps(const batch *b, const double *weight, double *upper, double *lower)
 {
     const qdot_ode_batch *system = b->system;
     const int p = b->run->order;
-    double upper[L], lower[L];
 
-    b->kernels->log_steps(b->n, system->x, system->stride, p / 2 + 1, p, weight, 0,
-                          b->fall, upper);
-    b->kernels->log_steps(b->n, system->x, system->stride, 2, p / 2, weight, b->log_term, 0,
-                          lower);
-    for (size_t l = 0; l < L; l++) {
-        const double step = upper[l] + b->log_aim / p;
+    b->kernels->log_steps(b->n, system->x, system->stride, p / 2 + 1, p, weight, b->inverse,
+                          0, b->fall, upper);
+    b->kernels->log_steps(b->n, system->x, system->stride, 2, p / 2, weight, b->inverse,
+                          b->log_term, 0, lower);
+}
 
-        steps[l] = isnan(lower[l])                       ? NAN
-                   : isinf(step) || !(lower[l] < step) ? step
-                                                         : lower[l];
+/* Lane l, whose step the series does not just say: another unit for it, or what can be. */
+static void
+choose_step(batch *b, size_t l, double step, const double *weight)
+{
+    const int p = b->run->order;
+    lanes *a = &b->at;
+    double far = step;
+
+    if (isnan(step)) {
+        far = -10 - 40 * (double)a->rescales[l];
+    } else if (isinf(step)) {
+        double whole[L];
+
+        b->kernels->log_steps(b->n, b->system->x, b->system->stride, 1, p, weight,
+                              b->inverse, 0, 0, whole);
+        far = fmax(0, whole[l] + b->log_aim / p);
     }
+    if (fabs(far) > 8 && !isinf(far) && a->rescales[l] < most_rescales) {
+        a->unit[l] = ldexp(a->unit[l], (int)fmax(-300, fmin(300, floor(far))));
+        a->rescales[l]++;
+        if (!(fabs(a->unit[l]) >= DBL_MIN && isfinite(a->unit[l])))
+            leave(b, l, QDOT_BATCH_STUCK);
+    } else if (isnan(step)) {
+        a->h[l] = a->unit[l]; /* the point is good, only what is beyond it is not */
+        reject(b, l);
+    } else
+        try_step(b, l, fabs(a->unit[l]) * qdot_rough_exp2(step));
 }
 
 /* A step for each lane from the series that is there, or another unit for it. */
 static void
 choose_steps(batch *b)
 {
-    const int p = b->run->order;
-    double steps[L], whole[L], *weight = b->value; /* free here */
-    bool known = false; /* `whole`, the same from all orders */
+    double upper[L], lower[L], steps[L], *weight = b->value; /* free here */
+    int64_t left[L];
 
     b->kernels->weights(b->n, b->y, weight);
-    log_steps(b, weight, steps);
-    for (size_t l = 0; l < L; l++) {
-        lane *a = b->lanes + l;
-        double step = steps[l], far = step;
-
-        b->s[l] = 0;
-        b->old_unit[l] = b->unit[l];
-        if (!a->active)
-            continue;
-        if (isnan(step)) {
-            far = -10 - 40 * a->rescales;
-        } else if (isinf(step)) {
-            if (!known)
-                b->kernels->log_steps(b->n, b->system->x, b->system->stride, 1, p, weight,
-                                      0, 0, whole);
-            known = true;
-            far = fmax(0, whole[l] + b->log_aim / p);
-        }
-        if (fabs(far) > 8 && !isinf(far) && a->rescales < most_rescales) {
-            b->unit[l] = ldexp(b->unit[l], (int)fmax(-300, fmin(300, floor(far))));
-            a->rescales++;
-            if (fabs(b->unit[l]) >= DBL_MIN && isfinite(b->unit[l]))
-                continue;
-            leave(b, l, QDOT_BATCH_STUCK);
-        } else if (isnan(step)) {
-            b->h[l] = b->unit[l]; /* the point is good, only what is beyond it is not */
-            reject(b, l);
-        } else
-            try_step(b, l, fabs(b->unit[l]) * qdot_rough_exp2(step));
-    }
+    log_steps(b, weight, upper, lower);
+    if (!b->decide->choose(&b->at, upper, lower, b->log_aim / b->run->order, steps, left))
+        return;
+    for (size_t l = 0; l < L; l++)
+        if (left[l])
+            choose_step(b, l, steps[l], weight);
 }
 
 /* The end of each lane's step, and what will be asked of it. */
@@ -283,22 +279,19 @@ go(batch *b)
 {
     const qdot_ode_batch *system = b->system;
 
-    b->kernels->tails(b->n, system->x, system->stride, b->run->order, b->s, b->value,
-                      b->slope);
-    b->kernels->advance(b->n, system->checked, system->x, system->stride, b->s, b->old_unit,
-                        b->value, b->y, b->carry, b->next, b->next_carry);
+    b->kernels->tails(b->n, system->checked, system->x, system->stride, b->run->order,
+                      b->at.s, b->value, b->slope);
+    b->kernels->advance(b->n, system->checked, system->x, system->stride, b->at.s,
+                        b->at.old_unit, b->value, b->y, b->carry, b->next, b->next_carry);
     for (size_t i = system->checked; i < b->n; i++)
         memcpy(b->first + i * L, coefficient(b, i, 1), L * sizeof *b->first);
-    for (size_t l = 0; l < L; l++)
-        if (b->lanes[l].tried)
-            b->unit[l] = qdot_step_unit(b->h[l]);
 }
 
 static bool
 is_active(const batch *b)
 {
     for (size_t l = 0; l < L; l++)
-        if (b->lanes[l].active)
+        if (b->at.active[l])
             return true;
     return false;
 }
@@ -352,6 +345,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
 {
     batch b = {.system = system,
                .kernels = qdot_batch_kernels_get(),
+               .decide = kinds[qdot_batch_kind()],
                .run = run,
                .n = system->n,
                .log_aim = log2(qdot_step_aim(run->tol, false))};
@@ -363,10 +357,10 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     b.fall = qdot_step_fall(b.log_aim, run->order);
     run->expansions = 0;
     QDOT_TRY(check(system, run));
-    memory = qdot_calloc(7 * size, sizeof *memory);
+    memory = qdot_calloc(7 * size + line / sizeof *memory, sizeof *memory);
     if (!memory)
         return QDOT_ENOMEM;
-    b.y = memory;
+    b.y = (double *)(((uintptr_t)memory + line - 1) / line * line);
     b.carry = b.y + size;
     b.next = b.carry + size;
     b.next_carry = b.next + size;
@@ -374,7 +368,9 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     b.slope = b.value + size;
     b.first = b.slope + size;
     for (size_t l = 0; l < L; l++)
-        b.unit[l] = b.old_unit[l] = 1;
+        b.at.unit[l] = b.at.old_unit[l] = 1;
+    for (int k = 1; k <= QDOT_SERIES_MOST; k++)
+        b.inverse[k] = 1.0 / k;
     status = loop(&b);
     qdot_free(memory);
     return status;

@@ -28,7 +28,8 @@ typedef struct {
     const double **M; /* lower triangle by rows */
     coupling *couplings;
     size_t n_couplings;
-    double *A, *inverse; /* [n x n groups] of M_0: its factor; inverse */
+    double *A;           /* [n x n groups] of M_0, from below; its factor, of two rows itself */
+    double *inverse;     /* [n x n groups] */
     double *x, *y;       /* [n groups] right-hand side, solution */
 } block_series;
 
@@ -87,7 +88,18 @@ factor(qdot_members *m, size_t b)
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++)
             memcpy(s->A + (i * n + j) * L, s->M[at++], L * sizeof *s->A);
-    m->kernels->factor(n, s->A);
+    if (n == 2)
+        m->kernels->invert_two(s->A, s->inverse);
+    else
+        m->kernels->factor(n, s->A);
+}
+
+static void
+invert(qdot_members *m)
+{
+    for (size_t b = 0; b < m->model->structure.blocks; b++)
+        if (block_size(m, b) > 2)
+            m->kernels->invert(block_size(m, b), m->blocks[b].A, m->blocks[b].inverse);
 }
 
 /* a_k of every coordinate, orders below k being there; then orders k + 1 of velocities
@@ -103,10 +115,11 @@ order(qdot_members *m, int k)
         if (n == 1)
             continue;
         m->orders->couple(n, k, s, m->a, m->kernels->dot[k]);
-        if (k > 0) {
+        if (k == 0)
+            factor(m, b);
+        if (k > 0 || n == 2) {
             m->kernels->multiply(n, s->inverse, s->x, s->y);
         } else {
-            factor(m, b);
             memcpy(s->y, s->x, n * L * sizeof *s->y);
             m->kernels->solve(n, s->A, s->y);
         }
@@ -147,8 +160,8 @@ run_code(qdot_members *m)
 
         if (n == 1)
             continue;
-        m->kernels->invert(n, m->blocks[b].A,
-                           qdot_lanes_code_number(m->code, m->blocks[b].number));
+        memcpy(qdot_lanes_code_number(m->code, m->blocks[b].number), m->blocks[b].inverse,
+               n * n * L * sizeof(double));
         for (size_t i = 0; i < n; i++) {
             const size_t at = m->blocks[b].index[i];
 
@@ -163,14 +176,11 @@ extend(int p, void *user)
 {
     qdot_members *m = user;
 
+    invert(m);
     if (m->code && p == m->to + 1) {
         run_code(m);
         return;
     }
-
-    for (size_t b = 0; b < m->model->structure.blocks; b++)
-        if (block_size(m, b) > 1)
-            m->kernels->invert(block_size(m, b), m->blocks[b].A, m->blocks[b].inverse);
     for (int k = 1; k < p; k++)
         order(m, k);
 }

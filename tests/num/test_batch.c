@@ -85,7 +85,7 @@ series_are_summed_and_advanced(void **state)
     for (size_t i = 0; i < N * L; i++)
         carry[i] = uniform() * 0x1p-54;
     for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
-        kernels->tails(N, x, stride, ORDERS, s, value, slope);
+        kernels->tails(N, 1, x, stride, ORDERS, s, value, slope);
         kernels->advance(N, 2, x, stride, s, unit, value, y, carry, next, next_carry);
         for (size_t i = 0; i < N; i++)
             for (size_t l = 0; l < L; l++) {
@@ -96,7 +96,8 @@ series_are_summed_and_advanced(void **state)
                     d = d * s[l] + k * (long double)x[(i * stride + k) * L + l];
                 }
                 near(value[i * L + l], v, "tail");
-                near(slope[i * L + l], d, "slope");
+                if (i >= 1)
+                    near(slope[i * L + l], d, "slope");
                 low = i < 2 ? (long double)unit[l] * carry[(i + 2) * L + l] : 0;
                 total = y[i * L + l] + (long double)carry[i * L + l] +
                         s[l] * ((long double)x[(i * stride + 1) * L + l] +
@@ -200,9 +201,11 @@ length_of_a_step_is_the_least(void **state)
 {
     const size_t stride = ORDERS + 1;
     const qdot_batch_kernels *kernels;
-    double x[N * (ORDERS + 1) * L], weight[N * L], seen[L];
+    double x[N * (ORDERS + 1) * L], weight[N * L], seen[L], inverse[ORDERS + 1];
 
     (void)state;
+    for (int k = 1; k <= ORDERS; k++)
+        inverse[k] = 1.0 / k;
     for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
         fill(x, sizeof x / sizeof *x);
         for (size_t i = 0; i < N * L; i++)
@@ -215,7 +218,8 @@ length_of_a_step_is_the_least(void **state)
             }
         x[(2 * stride + 15) * L + 2] = NAN;
         x[(3 * stride + 20) * L + 3] = -INFINITY;
-        kernels->log_steps(N, x, stride, 13, ORDERS, weight, -40, 0.5, seen);
+        kernels->log_steps(N, x, stride, 13, ORDERS, weight, inverse, -40, 0.5,
+                           seen);
         assert_true(isinf(seen[1]) && seen[1] > 0);
         assert_true(isnan(seen[2]) && isnan(seen[3]));
         for (size_t l = 0; l < L; l++) {
@@ -277,6 +281,36 @@ systems_are_solved(void **state)
     }
 }
 
+/* Of two rows; lanes without a positive determinant, or entry, get no number. */
+static void
+two_rows_have_an_inverse(void **state)
+{
+    const qdot_batch_kernels *kernels;
+    double A[4 * L], inverse[4 * L];
+
+    (void)state;
+    for (size_t l = 0; l < L; l++) {
+        A[l] = 2 + 0.3 * (double)l;
+        A[L + l] = NAN; /* not read */
+        A[2 * L + l] = 0.7 - 0.2 * (double)l;
+        A[3 * L + l] = 1.5;
+    }
+    A[2 * L + 3] = 8;
+    A[4] = A[3 * L + 4] = -1;
+    for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
+        kernels->invert_two(A, inverse);
+        for (size_t l = 0; l < L; l++) {
+            const long double a = A[l], c = A[2 * L + l], b = A[3 * L + l], d = a * b - c * c;
+
+            for (size_t i = 0; i < 4; i++)
+                if (l == 3 || l == 4)
+                    assert_true(isnan(inverse[i * L + l]));
+                else
+                    near(inverse[i * L + l], (i == 0 ? b : i == 3 ? a : -c) / d, "inverse");
+        }
+    }
+}
+
 static void
 a_limit_is_kept(void **state)
 {
@@ -298,6 +332,7 @@ main(void)
         cmocka_unit_test(ends_of_steps_are_judged),
         cmocka_unit_test(length_of_a_step_is_the_least),
         cmocka_unit_test(systems_are_solved),
+        cmocka_unit_test(two_rows_have_an_inverse),
         cmocka_unit_test(a_limit_is_kept),
     };
 
