@@ -263,7 +263,8 @@ wants_both(qdot_scene *s, const qdot_expr *raw, size_t size)
     return s->coordinates.n <= n && cost(s, size, raw, &units) && units <= most;
 }
 
-/* The cheapest of M for people or not with f for people or not, into e [n n + n]. */
+/* The cheapest of M for people or not with f for people or not, into e [n n + n]; of equals
+ * that for people, whose angles are fewer sums. */
 static bool
 choose(qdot_scene *s, size_t n, qdot_expr *e)
 {
@@ -286,7 +287,7 @@ choose(qdot_scene *s, size_t n, qdot_expr *e)
     for (int form = 0; form < 4 && !qdot_pool_failed(s->pool); form++) {
         memcpy(mixed, form & 1 ? short_form : e, masses * sizeof *mixed);
         memcpy(mixed + masses, (form & 2 ? short_form : e) + masses, n * sizeof *mixed);
-        if (cost(s, size, mixed, &units) && units < least) {
+        if (cost(s, size, mixed, &units) && units <= least) {
             least = units;
             best = form;
         }

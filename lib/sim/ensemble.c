@@ -180,8 +180,8 @@ lower(const builder *b, qdot_members_model *model)
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
-        status = qdot_tape_new(pool, 2 * b->n + 1 + model->varied, b->inputs, out.n,
-                               out.at, &model->tape);
+        status = qdot_tape_new_for_series(pool, 2 * b->n + 1 + model->varied, b->inputs,
+                                          out.n, out.at, &model->tape);
     qdot_free(out.at);
     return status;
 }

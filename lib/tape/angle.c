@@ -3,7 +3,12 @@
 
 #include "tape/constant.h"
 
-enum { CALL = 20, ADDITION = 6, MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
+enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
+
+/* Of a number, in operations; of an order of a series, in products of series. */
+static const struct {
+    long call, addition;
+} number = {20, 6}, of_series = {2, 4};
 
 /* A base angle: unit * term; or, with term nil, a constant, whose pair costs nothing. */
 typedef struct {
@@ -50,6 +55,7 @@ typedef struct {
 
 struct qdot_angles {
     qdot_pool *pool;
+    long call, addition; /* what these cost */
     qdot_vec(part) parts;
     qdot_vec(argument) arguments;
     qdot_vec(base) bases;
@@ -284,7 +290,7 @@ find_sums(qdot_angles *a)
 static long
 turn(qdot_angles *a, argument *arg, bool composed)
 {
-    long change = composed ? -CALL : CALL;
+    long change = composed ? -a->call : a->call;
     const uint32_t before = composed ? 0 : 1; /* uses where this one alone matters */
 
     if (arg->composed == composed)
@@ -296,9 +302,9 @@ turn(qdot_angles *a, argument *arg, bool composed)
         base *b = a->bases.at + m->base;
         long cost = 0;
 
-        cost += sum->uses == before && sum->parent != NONE ? ADDITION : 0;
-        cost += m->uses == before && m->multiple > 1 ? ADDITION : 0;
-        cost += b->uses == before && b->term != QDOT_NIL ? CALL : 0;
+        cost += sum->uses == before && sum->parent != NONE ? a->addition : 0;
+        cost += m->uses == before && m->multiple > 1 ? a->addition : 0;
+        cost += b->uses == before && b->term != QDOT_NIL ? a->call : 0;
         change += composed ? cost : -cost;
         sum->uses += composed ? 1 : -1u;
         m->uses += composed ? 1 : -1u;
@@ -381,7 +387,8 @@ choose(qdot_angles *a)
 }
 
 qdot_status
-qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, qdot_angles **angles)
+qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, bool series,
+                qdot_angles **angles)
 {
     qdot_angles *a = qdot_calloc(1, sizeof *a);
     qdot_status status = a ? QDOT_OK : QDOT_ENOMEM;
@@ -390,6 +397,8 @@ qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, qdot_angles **angles)
     if (!a)
         return status;
     a->pool = pool;
+    a->call = series ? of_series.call : number.call;
+    a->addition = series ? of_series.addition : number.addition;
     for (size_t i = 0; i < walk->n && status == QDOT_OK; i++) {
         qdot_expr e = walk->at[i];
 

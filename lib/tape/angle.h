@@ -8,6 +8,8 @@
  * share the sums they begin with. An argument is either composed of base angles or called
  * for itself, whichever makes the whole cheaper: a call counts as 20 operations, an
  * addition of angles as 6. For a chain of N links that is N calls and N^2/2 additions.
+ * Where series are to run through the program instead, a call is two products of series and
+ * an addition four: then differences of angles are called for themselves.
  *
  * Tests  tests/tape/test_tape.c: the chain's counts, and values against libm.
  */
@@ -22,7 +24,7 @@ typedef struct qdot_angles qdot_angles;
 /* Read all arguments of sin ... cot in the walk and decide. Constructs numbers in the
  * pool. */
 QDOT_MUST_CHECK qdot_status qdot_angles_new(qdot_pool *pool, const qdot_walk *walk,
-                                            qdot_angles **angles);
+                                            bool series, qdot_angles **angles);
 void qdot_angles_free(qdot_angles *angles);
 
 /* Sine and cosine of the argument e, written into the code. The walk's value of e and

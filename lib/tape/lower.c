@@ -30,6 +30,7 @@ typedef struct {
     qdot_walk walk;
     known *known; /* [walk.n] */
     qdot_code code;
+    bool series; /* are to run through it */
     qdot_angles *angles;
 
     /* Scratch of lower_sum. */
@@ -474,7 +475,7 @@ lower(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr 
     if (status == QDOT_OK && !l->known)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = qdot_angles_new(l->pool, &l->walk, &l->angles);
+        status = qdot_angles_new(l->pool, &l->walk, l->series, &l->angles);
     if (status == QDOT_OK)
         status = lower_all(l, n, inputs);
     if (status == QDOT_OK) {
@@ -486,11 +487,11 @@ lower(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr 
     return status;
 }
 
-qdot_status
-qdot_tape_new(qdot_pool *pool, size_t n, const qdot_expr *inputs, size_t m,
-              const qdot_expr *outputs, qdot_tape **tape)
+static qdot_status
+tape_new(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t m,
+         const qdot_expr *outputs, qdot_tape **tape)
 {
-    lowering l = {.pool = pool};
+    lowering l = {.pool = pool, .series = series};
     qdot_status status;
 
     *tape = NULL;
@@ -512,4 +513,18 @@ qdot_tape_new(qdot_pool *pool, size_t n, const qdot_expr *inputs, size_t m,
     qdot_keymap_clear(&l.by_magnitude);
     qdot_walk_end(&l.walk);
     return status;
+}
+
+qdot_status
+qdot_tape_new(qdot_pool *pool, size_t n, const qdot_expr *inputs, size_t m,
+              const qdot_expr *outputs, qdot_tape **tape)
+{
+    return tape_new(pool, false, n, inputs, m, outputs, tape);
+}
+
+qdot_status
+qdot_tape_new_for_series(qdot_pool *pool, size_t n, const qdot_expr *inputs, size_t m,
+                         const qdot_expr *outputs, qdot_tape **tape)
+{
+    return tape_new(pool, true, n, inputs, m, outputs, tape);
 }

@@ -223,6 +223,11 @@ chain_calls_one_pair_a_link(void **state)
     assert_true(qdot_tape_operations(tape) <= N + 7 * N * (N - 1) / 2);
     qdot_tape_free(tape);
     compare(pool, N, q, m, out, at);
+    /* for series every pair is one of its own */
+    assert_int_equal(qdot_tape_new_for_series(pool, N, q, m, out, &tape), QDOT_OK);
+    assert_int_equal(qdot_tape_calls(tape), N + N * (N - 1) / 2);
+    assert_true(qdot_tape_operations(tape) <= N + 3 * N * (N - 1) / 2);
+    qdot_tape_free(tape);
     qdot_pool_free(pool);
 }
 
