@@ -242,6 +242,7 @@ tape_sources = \
 	lib/tape/code.c \
 	lib/tape/constant.c \
 	lib/tape/derivative.c \
+	lib/tape/disc.c \
 	lib/tape/finish.c \
 	lib/tape/keymap.c \
 	lib/tape/lanes-code.c \
@@ -271,6 +272,8 @@ tape_headers = \
 	lib/tape/constant.h \
 	lib/tape/derivative.def \
 	lib/tape/derivative.h \
+	lib/tape/disc.def \
+	lib/tape/disc.h \
 	lib/tape/keymap.h \
 	lib/tape/lanes-code.h \
 	lib/tape/lanes-program.h \
@@ -369,6 +372,7 @@ sim_sources = \
 	lib/sim/ensemble.c \
 	lib/sim/failure.c \
 	lib/sim/horizon.c \
+	lib/sim/hull.c \
 	lib/sim/leading-residual.c \
 	lib/sim/leading.c \
 	lib/sim/members.c \
@@ -432,6 +436,7 @@ sim_headers = \
 	lib/sim/ensemble.h \
 	lib/sim/failure.h \
 	lib/sim/horizon.h \
+	lib/sim/hull.h \
 	lib/sim/integrated.h \
 	lib/sim/leading-residual.h \
 	lib/sim/leading.h \
@@ -641,6 +646,7 @@ unit_tests = \
 	tests/src/test_prompt \
 	tests/tape/test_constant \
 	tests/tape/test_derivative \
+	tests/tape/test_disc \
 	tests/tape/test_lanes-code \
 	tests/tape/test_lanes \
 	tests/tape/test_precise \
@@ -724,6 +730,7 @@ script_tests = \
 	tests/script/moving.lag \
 	tests/script/multipliers-known.lag \
 	tests/script/names.lag \
+	tests/script/narrow.lag \
 	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
 	tests/script/parts.lag \
@@ -1363,6 +1370,7 @@ test_files = \
 	tests/script/moving.out \
 	tests/script/multipliers-known.out \
 	tests/script/names.out \
+	tests/script/narrow.out \
 	tests/script/normalise.sed \
 	tests/script/on-surfaces.out \
 	tests/script/order.out \

@@ -10,6 +10,9 @@ enum { most = QDOT_CHEBYSHEV_MOST, quarters = 4 * most };
 /* Halvings: an interval of this depth is 2^-44 of the whole. */
 enum { deepest = 45 };
 
+/* Of the largest coefficient: below which the last ones tell that a function is fitted. */
+static const double unfitted = 0x1p-36;
+
 /* cos(m pi / (2 most)) */
 static double cosine[quarters];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
@@ -141,6 +144,21 @@ qdot_chebyshev_size(int n, const double *c)
     for (int k = 0; k < n; k++)
         largest = fmax(largest, fabs(c[k]));
     return largest;
+}
+
+double
+qdot_chebyshev_ellipse(int n, const double *c, double noise, double rho)
+{
+    double sum = 0, power = 1;
+
+    if (!(qdot_chebyshev_tail(n, c) <= fmax(unfitted * qdot_chebyshev_size(n, c), noise)))
+        return INFINITY;
+    for (int k = 1; k < n; k++) {
+        power *= rho;
+        if (fabs(c[k]) > noise)
+            sum += 0.5 * fabs(c[k]) * (power + 1 / power);
+    }
+    return sum;
 }
 
 int

@@ -39,6 +39,14 @@ void qdot_chebyshev_halves(int n, const double *c, double *left, double *right);
 double qdot_chebyshev_tail(int n, const double *c);
 double qdot_chebyshev_size(int n, const double *c);
 
+/* A bound of |p - c_0| on the ellipse with foci -1, 1 whose half axes add up to rho >= 1,
+ *
+ *     sum_{k > 0} |c_k| (rho^k + rho^-k)/2,
+ *
+ * c fitted to values that are off by `noise`: coefficients that are nothing else are left
+ * out. Infinite where the last ones have not become small: p is not what was fitted. */
+double qdot_chebyshev_ellipse(int n, const double *c, double noise, double rho);
+
 /* Whether the bound shows that p has one sign throughout: it, else 0. */
 int qdot_chebyshev_sign(int n, const double *c);
 

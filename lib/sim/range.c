@@ -1,8 +1,9 @@
 /* range.c -- the extrema, the mean and the drift of an expression over a range of a run.
  *
  * Step by step the expression becomes Chebyshev polynomials (num/chebyshev.h), on parts
- * small enough for their last coefficients to vanish: extrema are where the derivative
- * changes its sign, the mean is the sum of their integrals.
+ * small enough for their last coefficients to vanish, and for nothing to hide between their
+ * nodes (sim/hull.h): extrema are where the derivative changes its sign, the mean is the sum
+ * of their integrals.
  */
 #include <float.h>
 #include <math.h>
@@ -12,11 +13,12 @@
 #include "expr/print.h"
 #include "num/chebyshev.h"
 #include "sim/horizon.h"
+#include "sim/hull.h"
 #include "sim/integrated.h"
 #include "sim/reader.h"
 #include "sim/noise.h"
 
-enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, MOST_PARTS = 4096 };
+enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, MOST_PARTS = 8192, LEAST_PARTS = 64 };
 
 /* Of the noise of evaluating: coefficients below it are nothing else. */
 static const double noises = 8;
@@ -29,6 +31,7 @@ static const double beyond_bounds = 0x1p16, least_integral = 0x1p-20;
  * each time. What grows by increments that fall by less than `slow` (a logarithm's do not fall)
  * grows beyond all. */
 enum { NEAREST = 4, INCREMENTS = 10, LEAST_INCREMENTS = 4 };
+static const double far_beside = 1024, grown = 8, beside = 0.4867;
 static const double slow = 0.994, deep = 0x1p-24, blurred = 0x1p-14;
 
 /* An end of the range where the limit from within is another value. */
@@ -36,21 +39,27 @@ static const double jump = 0x1p-30;
 
 typedef struct {
     qdot_reader reader;
+    qdot_hull hull;
+    qdot_range_kind kind;
     size_t piece;
     int nodes;
     double first;             /* the value where the range begins */
     double largest, smallest; /* so far */
     long double integral;
     double highest, lowest;   /* limits at points that no value reaches */
-    double rough;             /* what parts that stay rough leave open of the extrema */
+    double rough;             /* what values are off by */
+    double sure[2];           /* the largest is not below, the smallest not above */
+    double left;              /* what parts that stay rough leave open of the integral */
     double noise;             /* of evaluating it in the step at hand */
-    size_t parts;             /* of that step so far */
+    size_t parts;             /* of that step so far, */
+    size_t most_parts;        /* and at most: less after one that was not enough for */
     double typical;           /* value in that step */
     double length;            /* of that step */
     bool above, below;        /* it has no bound there, at the time */
     bool diverges;            /* nor has its integral */
     double pole;
     bool begun;
+    bool open;   /* what it is somewhere is not known at all */
     bool odd[2]; /* the step begins, ends where equations switch: sign(0) is no limit */
     double ends[2];
 } scan;
@@ -60,6 +69,15 @@ typedef struct {
     int n;
     double values[MOST_NODES], c[MOST_NODES];
 } part;
+
+/* What values at its nodes tell of a part. */
+typedef enum {
+    ROUGH,     /* they fit no polynomial */
+    UNSURE,    /* one, but something may hide between them */
+    SINGULAR,  /* one, and something in its formula may be singular */
+    SURE,
+    SURPASSED, /* it holds nothing beyond what was met elsewhere */
+} verdict;
 
 static double
 time_at(const part *p, double x)
@@ -80,6 +98,18 @@ meet(scan *s, double x)
 {
     s->largest = fmax(s->largest, x);
     s->smallest = fmin(s->smallest, x);
+    s->sure[0] = fmax(s->sure[0], x);
+    s->sure[1] = fmin(s->sure[1], x);
+}
+
+/* Values between which it is somewhere, nobody knows where. */
+static void
+meet_roughly(scan *s, double low, double high)
+{
+    s->largest = fmax(s->largest, high);
+    s->smallest = fmin(s->smallest, low);
+    s->sure[0] = fmax(s->sure[0], low);
+    s->sure[1] = fmin(s->sure[1], high);
 }
 
 /* How far rounding moves the nodes, of the length of the part. */
@@ -95,8 +125,10 @@ fit(scan *s, part *p, int nodes, bool *good)
     double tail;
 
     p->n = nodes;
-    for (int j = 0; j < nodes; j++)
+    for (int j = 0; j < nodes; j++) {
         QDOT_TRY(value_at(s, time_at(p, qdot_chebyshev_node(nodes, j)), &p->values[j]));
+        qdot_hull_sample(&s->hull, j, s->reader.in);
+    }
     qdot_chebyshev_fit(nodes, p->values, p->c);
     tail = qdot_chebyshev_tail(nodes, p->c);
     *good = tail <= (0x1p-44 + 8 * blur(p)) * qdot_chebyshev_size(nodes, p->c);
@@ -107,6 +139,47 @@ fit(scan *s, part *p, int nodes, bool *good)
     return QDOT_OK;
 }
 
+/* What the polynomial says of it, of the values at the nodes. */
+static verdict
+judge(scan *s, const part *p, bool good)
+{
+    double others = 0, miss;
+
+    qdot_hull_look(&s->hull, p->a, p->b, p->n, NULL, NULL);
+    miss = s->hull.miss[0];
+    for (int k = 1; k < p->n; k++)
+        others += fabs(p->c[k]);
+    if ((s->kind == QDOT_RANGE_MAX && p->c[0] + others + miss <= s->largest)
+        || (s->kind == QDOT_RANGE_MIN && p->c[0] - others - miss >= s->smallest))
+        return SURPASSED;
+    if (!good)
+        return ROUGH;
+    if (qdot_hull_is_hollow(&s->hull, 0, fabs(p->b - p->a) / s->length))
+        return SURE;
+    if (isnan(miss))
+        return SINGULAR;
+    return miss <= fmax((0x1p-44 + 8 * blur(p)) * qdot_chebyshev_size(p->n, p->c),
+                        noises * s->noise)
+               ? SURE
+               : UNSURE;
+}
+
+/* Of a part that was not looked at any closer: what its values may be at most. */
+static void
+leave_open(scan *s, const part *p)
+{
+    qdot_hull *h = &s->hull;
+
+    qdot_hull_look(h, p->a, p->b, p->n, NULL, NULL);
+    if (!qdot_hull_within(h, p->a, p->b, p->n) || !isfinite(h->out_radius[0])) {
+        s->open = true;
+        return;
+    }
+    s->highest = fmax(s->highest, h->out[0] + h->out_radius[0]);
+    s->lowest = fmin(s->lowest, h->out[0] - h->out_radius[0]);
+    s->left += 2 * h->out_radius[0] * fabs(p->b - p->a);
+}
+
 /* The value x at an end of a part, or where that is a point by itself the limit. */
 static double
 from_within(scan *s, const part *p, int end, double x)
@@ -114,17 +187,35 @@ from_within(scan *s, const part *p, int end, double x)
     double limit = qdot_chebyshev_at(p->n, p->c, end == 0 ? -1 : 1);
     double size = qdot_chebyshev_size(p->n, p->c);
 
-    if (fabs(x - limit) <= jump * size || 8 * blur(p) > jump)
+    if (fabs(x - limit) <= (jump + 8 * blur(p)) * size)
         return x;
     s->rough = fmax(s->rough, 16 * DBL_EPSILON * size);
     return limit;
+}
+
+/* Up to which size values near a short part are not those of a pole. */
+static double
+bounded(scan *s, const part *p)
+{
+    double most = 0;
+
+    if (s->typical > 0)
+        return beyond_bounds * s->typical;
+    for (int side = -1; side <= 1; side += 2) { /* 0 elsewhere: what it grows by towards here */
+        double t = p->a + side * far_beside * (p->b - p->a), v;
+
+        if (fmin(s->ends[0], s->ends[1]) <= t && t <= fmax(s->ends[0], s->ends[1])
+            && qdot_reader_at(&s->reader, s->piece, t, &v) == QDOT_OK && isfinite(v))
+            most = fmax(most, grown * fabs(v));
+    }
+    return most;
 }
 
 /* In a part that could not be shorter. */
 static void
 look_for_pole(scan *s, const part *p)
 {
-    const double most = beyond_bounds * s->typical;
+    const double most = bounded(s, p);
     double low = INFINITY, high = -INFINITY;
 
     for (int j = 0; j < p->n; j++) {
@@ -250,9 +341,8 @@ take_part(scan *s, const part *p, bool good)
             low = fmin(low, p->values[j]);
             high = fmax(high, p->values[j]);
         }
-        meet(s, low);
-        meet(s, high);
-        s->rough = fmax(s->rough, high - low);
+        meet_roughly(s, low, high);
+        s->left += (high - low) * fabs(p->b - p->a);
     }
     s->integral += 0.5L * (p->b - p->a) * qdot_chebyshev_integral(p->n, p->c);
     return QDOT_OK;
@@ -295,11 +385,13 @@ scan_step(scan *s, double a, double b)
     s->ends[1] = b;
     s->length = fabs(b - a);
     QDOT_TRY(find_noise(s, a, b));
+    qdot_hull_begin(&s->hull);
     while (depth > 0) {
         part p = {.a = from, .b = ends[depth - 1]};
         double t = fmax(fabs(p.a), fabs(p.b));
         bool good = false, short_one = fabs(p.b - p.a)
                                        <= fmax(64 * DBL_EPSILON * t, 0x1p-50 * fabs(b - a));
+        verdict v = ROUGH;
         int nodes = s->nodes;
 
         QDOT_TRY(qdot_interrupt_check());
@@ -308,14 +400,27 @@ scan_step(scan *s, double a, double b)
             if (good || nodes == MOST_NODES || short_one)
                 break;
         }
+        if (!short_one)
+            v = judge(s, &p, good);
+        /* what it jumps between while its inputs rest is their rounding */
+        short_one = short_one || (v == ROUGH && s->hull.resting);
         if (s->parts == 0 && depth == 1)
             s->typical = middling(&p);
         if (good)
             s->nodes = nodes;
-        if (good || short_one || depth == DEEPEST || ++s->parts > MOST_PARTS) {
-                    QDOT_TRY(take_part(s, &p, good));
+        if (v == SURPASSED) {
+            from = p.b;
+            depth--;
+            continue;
+        }
+        if (v == SURE || short_one || depth == DEEPEST || ++s->parts > s->most_parts) {
+            QDOT_TRY(take_part(s, &p, good));
             if (short_one)
                 look_for_pole(s, &p);
+            else if (v != SURE)
+                leave_open(s, &p);
+            if (s->parts == s->most_parts + 1 && s->most_parts > LEAST_PARTS)
+                s->most_parts /= 2;
             if (fabs(p.b - p.a) <= deep * s->length && (short_one || 8 * blur(&p) > blurred)) {
                 look_towards(s, &p, 1);
                 look_towards(s, &p, -1);
@@ -325,7 +430,8 @@ scan_step(scan *s, double a, double b)
             continue;
         }
         s->nodes = 16;
-        ends[depth++] = 0.5 * (p.a + p.b);
+        /* beside where it may be undefined, as sin(x)/x is */
+        ends[depth++] = p.a + (v == SINGULAR ? beside : 0.5) * (p.b - p.a);
     }
     return QDOT_OK;
 }
@@ -340,8 +446,8 @@ scan_course(scan *s, double from, double to)
     s->nodes = 16;
     s->largest = -INFINITY;
     s->smallest = INFINITY;
-    s->highest = -INFINITY;
-    s->lowest = INFINITY;
+    s->highest = s->sure[0] = -INFINITY;
+    s->lowest = s->sure[1] = INFINITY;
     for (s->piece = 0; s->piece < tr->pieces.n; s->piece++) {
         size_t k = tr->pieces.at[s->piece].first, first = k;
         bool more = s->piece + 1 < tr->pieces.n;
@@ -388,16 +494,20 @@ result(const scan *s, qdot_range_kind kind, double from, double to)
     }
 }
 
-/* How far limits that no value reached lie beyond those that were met. */
+/* What is open of a result: limits that no value reached lie beyond, parts that stayed rough may
+ * not reach. */
 static double
-beyond(const scan *s, qdot_range_kind kind)
+open_of(const scan *s, qdot_range_kind kind, double from, double to)
 {
-    double above = fmax(0, s->highest - s->largest), below = fmax(0, s->smallest - s->lowest);
+    double above = fmax(0, s->highest - s->largest) + (s->largest - s->sure[0]);
+    double below = fmax(0, s->smallest - s->lowest) + (s->sure[1] - s->smallest);
 
+    if (s->open)
+        return NAN;
     switch (kind) {
     case QDOT_RANGE_MAX: return above;
     case QDOT_RANGE_MIN: return below;
-    case QDOT_RANGE_MEAN: return 0;
+    case QDOT_RANGE_MEAN: return from == to ? 0 : s->left / fabs(to - from);
     default: return fmax(above, below) / fmax(1, fabs(s->first));
     }
 }
@@ -422,10 +532,12 @@ over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tap
             bool accelerations, qdot_range_kind kind, double from, double to,
             double *value, double *rough)
 {
-    scan s = {.begun = false};
+    scan s = {.kind = kind, .most_parts = MOST_PARTS};
     qdot_status status =
         qdot_reader_init(&s.reader, run->plan, tape, course, accelerations);
 
+    if (status == QDOT_OK)
+        status = qdot_hull_init(&s.hull, tape, 2 * run->plan->n);
     if (status == QDOT_OK)
         status = scan_course(&s, from, to);
     if (status == QDOT_OK && !s.begun)
@@ -434,8 +546,9 @@ over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tap
         status = check_bounds(&s, kind);
     if (status == QDOT_OK) {
         *value = result(&s, kind, from, to);
-        *rough = s.rough + beyond(&s, kind);
+        *rough = s.rough + open_of(&s, kind, from, to);
     }
+    qdot_hull_clear(&s.hull);
     qdot_reader_clear(&s.reader);
     return status;
 }

@@ -130,6 +130,32 @@ the_bound_shows_a_sign(void **state)
     assert_int_equal(qdot_chebyshev_sign(8, c), 0);
 }
 
+static double
+steep(double x)
+{
+    return 3 + 1 / (1.3 - x);
+}
+
+/* The bound holds on the ellipse, is near the truth, and is none where nothing is known. */
+static void
+an_ellipse_bounds_what_lies_around(void **state)
+{
+    const double rho = 1.7, far = 0.5 * (rho + 1 / rho);
+    double c[64], bound;
+
+    (void)state;
+    fit(64, steep, c);
+    bound = qdot_chebyshev_ellipse(64, c, 1e-15, rho);
+    assert_true(bound >= 0.999 * (steep(far) - c[0])); /* where it is largest */
+    assert_true(bound <= 1.001 * (steep(far) - c[0]));
+    fit(8, steep, c);
+    assert_true(isinf(qdot_chebyshev_ellipse(8, c, 1e-15, rho)));
+    fit(16, touching, c);
+    for (int k = 0; k < 16; k++) /* rounding stays rounding */
+        c[k] += 1e-16;
+    assert_true(qdot_chebyshev_ellipse(16, c, 4e-16, 14) < 1e5);
+}
+
 int
 main(void)
 {
@@ -138,6 +164,7 @@ main(void)
         cmocka_unit_test(every_root_is_found_once),
         cmocka_unit_test(a_root_without_change_of_sign_is_none),
         cmocka_unit_test(the_bound_shows_a_sign),
+        cmocka_unit_test(an_ellipse_bounds_what_lies_around),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

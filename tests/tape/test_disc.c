@@ -1,0 +1,249 @@
+/* test_disc.c -- tapes over discs: each operation at random places of random discs, and what an
+ * expression does not leave. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <complex.h>
+#undef I
+#include <math.h>
+#include <stdlib.h>
+
+#include "tape/code.h"
+#include "tape/disc.h"
+
+typedef double complex number;
+
+static double
+unit(void)
+{
+    return (double)rand() / RAND_MAX;
+}
+
+/* --- operations over complex numbers ------------------------------------------------- */
+
+static number
+plane_atan2(number y, number x)
+{
+    const number i = CMPLX(0, 1);
+
+    return (clog(x + i * y) - clog(x - i * y)) / (2 * i);
+}
+
+/* What operation.def has a complex meaning for; NULL: real places only. */
+#define UNARY(ID, value)                                                                 \
+    static number plane_##ID(number a, number b, number c)                               \
+    {                                                                                    \
+        (void)b, (void)c;                                                                \
+        return value;                                                                    \
+    }
+UNARY(NEG, -a)
+UNARY(ADD, a + b)
+UNARY(SUB, a - b)
+UNARY(MUL, a *b)
+UNARY(DIV, a / b)
+UNARY(MADD, a *b + c)
+UNARY(MSUB, a *b - c)
+UNARY(NMADD, c - a * b)
+UNARY(SQRT, csqrt(a))
+UNARY(POW, cpow(a, b))
+UNARY(SINCOS, csin(a))
+UNARY(SIN, csin(a))
+UNARY(COS, ccos(a))
+UNARY(ASIN, casin(a))
+UNARY(ACOS, cacos(a))
+UNARY(ATAN, catan(a))
+UNARY(ATAN2, plane_atan2(a, b))
+UNARY(SINH, csinh(a))
+UNARY(COSH, ccosh(a))
+UNARY(TANH, ctanh(a))
+UNARY(ASINH, casinh(a))
+UNARY(ACOSH, cacosh(a))
+UNARY(ATANH, catanh(a))
+UNARY(EXP, cexp(a))
+UNARY(LOG, clog(a))
+
+typedef number plane(number a, number b, number c);
+
+static plane *const planes[QDOT_OP_COUNT] = {
+#define ROW(ID) [QDOT_OP_##ID] = plane_##ID
+    ROW(NEG),  ROW(ADD),   ROW(SUB),   ROW(MUL),    ROW(DIV),   ROW(MADD),  ROW(MSUB),
+    ROW(NMADD), ROW(SQRT), ROW(POW),   ROW(SINCOS), ROW(SIN),   ROW(COS),   ROW(ASIN),
+    ROW(ACOS), ROW(ATAN),  ROW(ATAN2), ROW(SINH),   ROW(COSH),  ROW(TANH),  ROW(ASINH),
+    ROW(ACOSH), ROW(ATANH), ROW(EXP),  ROW(LOG),
+#undef ROW
+};
+
+/* A tape of one operation of three inputs; its second result too. */
+static qdot_tape *
+lone(qdot_pool *pool, qdot_op op)
+{
+    qdot_code code;
+    qdot_value v[2];
+    qdot_tape *tape;
+    int operands = qdot_operations[op].operands;
+
+    qdot_code_init(&code, pool, 3);
+    if (op == QDOT_OP_SINCOS) {
+        qdot_code_sincos(&code, 0, &v[0], &v[1]);
+    } else {
+        v[0] = qdot_code_op(&code, op, 0, operands > 1 ? 1 : 0, operands > 2 ? 2 : 0);
+        v[1] = v[0];
+    }
+    assert_int_equal(qdot_code_finish(&code, 2, v, &tape), QDOT_OK);
+    qdot_code_clear(&code);
+    return tape;
+}
+
+/* Places on the rim of the discs, where an analytic function goes farthest. */
+static void
+stays_inside(const char *name, plane *f, const double *c, const double *r, double C, double R)
+{
+    for (int k = 0; k < 12; k++) {
+        number z[3];
+        double far;
+
+        for (int i = 0; i < 3; i++)
+            z[i] = c[i] + r[i] * cexp(CMPLX(0, 6.2831853 * (k % 4 == 0 ? k / 12.0 : unit())));
+        far = cabs(f(z[0], z[1], z[2]) - C);
+        if (f == plane_ATAN2) /* whichever branches the logarithms are on */
+            far = fmin(far, fmin(cabs(f(z[0], z[1], z[2]) - C - M_PI),
+                                 cabs(f(z[0], z[1], z[2]) - C + M_PI)));
+        if (!(far <= R * (1 + 1e-9) + 1e-12 * fabs(C)))
+            fail_msg("%s: %g beyond %g; about %g %g %g, radii %g %g %g", name, far, R, c[0],
+                     c[1], c[2], r[0], r[1], r[2]);
+    }
+}
+
+static void
+stays_inside_on_the_line(const qdot_tape *tape, const char *name, const double *c,
+                         const double *r, double C, double R)
+{
+    double work[16], out[2], in[3];
+
+    assert_true(qdot_tape_work(tape) <= 16);
+    for (int k = 0; k < 12; k++) {
+        for (int i = 0; i < 3; i++)
+            in[i] = c[i] + r[i] * (2 * unit() - 1);
+        qdot_tape_eval(tape, in, out, work);
+        if (!(fabs(out[0] - C) <= R * (1 + 1e-9) + 1e-12 * fabs(C)))
+            fail_msg("%s: %g beyond %g; about %g %g, radii %g %g", name, out[0], R, c[0], c[1],
+                     r[0], r[1]);
+    }
+}
+
+static void
+no_operation_leaves_its_disc(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+
+    (void)state;
+    srand(7);
+    for (int op = 0; op < QDOT_OP_COUNT; op++) {
+        qdot_tape *tape = lone(pool, op);
+        double *work = malloc(qdot_disc_work(tape) * sizeof *work);
+        int bounded = 0;
+
+        for (int k = 0; k < 4000; k++) {
+            double c[3], r[3], C[2], R[2];
+
+            for (int i = 0; i < 3; i++) {
+                c[i] = 6 * unit() - 3;
+                r[i] = 2 * pow(unit(), 4);
+            }
+            if (k % 3 == 0)
+                r[1] = 0;
+            if (k % 6 == 0)
+                c[1] = floor(c[1]);
+            if (op == QDOT_OP_AND || op == QDOT_OP_OR || op == QDOT_OP_NOT ||
+                op == QDOT_OP_SELECT) {
+                c[0] = k % 2;
+                r[0] = 0;
+            }
+            qdot_disc_eval(tape, c, r, C, R, work);
+            if (!(R[0] < INFINITY))
+                continue;
+            bounded++;
+            if (planes[op])
+                stays_inside(qdot_operations[op].name, planes[op], c, r, C[0], R[0]);
+            stays_inside_on_the_line(tape, qdot_operations[op].name, c, r, C[0], R[0]);
+            if (op == QDOT_OP_SINCOS)
+                stays_inside("cos", plane_COS, c, r, C[1], R[1]);
+        }
+        if (bounded < 20)
+            fail_msg("%s: only %d of 4000 discs have a bound", qdot_operations[op].name,
+                     bounded);
+        free(work);
+        qdot_tape_free(tape);
+    }
+    qdot_pool_free(pool);
+}
+
+static double
+radius_of(qdot_op op, double a, double ra, double b, double rb)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_tape *tape = lone(pool, op);
+    double *work = malloc(qdot_disc_work(tape) * sizeof *work);
+    const double c[3] = {a, b, 0}, r[3] = {ra, rb, 0};
+    double C[2], R[2];
+
+    qdot_disc_eval(tape, c, r, C, R, work);
+    free(work);
+    qdot_tape_free(tape);
+    qdot_pool_free(pool);
+    return R[0];
+}
+
+static void
+what_is_singular_has_no_radius(void **state)
+{
+    (void)state;
+    assert_true(isnan(radius_of(QDOT_OP_DIV, 1, 0, 0.5, 0.5)));
+    assert_true(isnan(radius_of(QDOT_OP_SQRT, 1, 1.5, 0, 0)));
+    assert_true(isnan(radius_of(QDOT_OP_ABS, 0.1, 0.2, 0, 0)));
+    assert_true(isnan(radius_of(QDOT_OP_LT, 0.1, 0.2, 0.2, 0)));
+    assert_true(isnan(radius_of(QDOT_OP_FLOOR, 1.9, 0.2, 0, 0)));
+    assert_true(isnan(radius_of(QDOT_OP_ATAN2, 0.1, 0.2, -1, 0)));
+    assert_true(isnan(radius_of(QDOT_OP_TANH, 0.1, 1.6, 0, 0)));
+    assert_true(radius_of(QDOT_OP_TANH, 50, 20, 0, 0) < 1e-15);
+    assert_true(radius_of(QDOT_OP_EXP, -9e6, 1e6, 0, 0) == 0);
+    assert_true(isinf(radius_of(QDOT_OP_EXP, 9e6, 1e6, 0, 0)));
+    assert_true(radius_of(QDOT_OP_SIGN, 0, 0, 0, 0) == 0); /* a number */
+}
+
+/* c = a b - a once read, and what is not. */
+static void
+knows_what_is_read(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_code code;
+    qdot_value v;
+    qdot_tape *tape;
+    bool used[4];
+
+    (void)state;
+    qdot_code_init(&code, pool, 4);
+    v = qdot_code_op(&code, QDOT_OP_MUL, 0, 2, 0);
+    v = qdot_code_op(&code, QDOT_OP_SQRT, v, 0, 0);
+    assert_int_equal(qdot_code_finish(&code, 1, &v, &tape), QDOT_OK);
+    assert_int_equal(qdot_disc_reads(tape, used), QDOT_OK);
+    assert_true(used[0] && !used[1] && used[2] && !used[3]);
+    qdot_code_clear(&code);
+    qdot_tape_free(tape);
+    qdot_pool_free(pool);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_operation_leaves_its_disc),
+        cmocka_unit_test(what_is_singular_has_no_radius),
+        cmocka_unit_test(knows_what_is_read),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
