@@ -253,8 +253,10 @@ tape_sources = \
 	lib/tape/lower.c \
 	lib/tape/precise.c \
 	lib/tape/tape.c \
+	lib/tape/taylor-code-fold.c \
 	lib/tape/taylor-code-order.c \
 	lib/tape/taylor-code-solve.c \
+	lib/tape/taylor-code-vectors.c \
 	lib/tape/taylor-code-zero.c \
 	lib/tape/taylor-code.c \
 	lib/tape/taylor-correct.c \

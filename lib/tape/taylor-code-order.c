@@ -32,39 +32,13 @@ keep_twice(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm to)
 
 /* --- the recurrences ---------------------------------------------------------------- */
 
+/* A sum or a product. */
 static void
-linear(qdot_generator *g, const qdot_taylor_step *s)
+direct(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum sum = {.v = {.reg = -1}};
 
-    switch (s->op) {
-    case QDOT_T_NEG: add(g, &sum, true, s->x); break;
-    case QDOT_T_ADD:
-    case QDOT_T_SUB:
-        add(g, &sum, false, s->x);
-        add(g, &sum, s->op == QDOT_T_SUB, s->y);
-        break;
-    default:
-        if (s->op != QDOT_T_SCALE)
-            add(g, &sum, s->op == QDOT_T_SCALESUB, s->z);
-        times(g, &sum, s->op == QDOT_T_SCALEOFF, at(g, s->x, 0), s->y, g->k);
-    }
-    finish_sum(g, &sum, s->to);
-}
-
-static void
-product(qdot_generator *g, const qdot_taylor_step *s)
-{
-    sum sum = past(g, s, 0);
-    const bool minus = s->op == QDOT_T_NMADD;
-
-    if (minus)
-        negate(&sum);
-    if (s->op != QDOT_T_MUL)
-        add(g, &sum, s->op == QDOT_T_MSUB, s->z);
-    lately(g, &sum, minus, at(g, s->x, 1), s->y, at(g, s->y, 1), s->x);
-    times(g, &sum, minus, at(g, s->x, 0), s->y, g->k);
-    times(g, &sum, minus, at(g, s->y, 0), s->x, g->k);
+    add_terms(g, &sum, false, NULL, s);
     finish_sum(g, &sum, s->to);
 }
 
@@ -81,8 +55,9 @@ finish_square(qdot_generator *g, const qdot_taylor_step *s, sum *sum, bool minus
 static void
 square(qdot_generator *g, const qdot_taylor_step *s)
 {
-    sum sum = past(g, s, 0);
+    sum sum = {.v = {.reg = -1}};
 
+    add_past(g, &sum, false, NULL, s, 0);
     finish_square(g, s, &sum, false, s->x, s->to);
 }
 
@@ -102,12 +77,12 @@ square_one(qdot_generator *g, const qdot_taylor_step *s)
 static void
 quotient(qdot_generator *g, const qdot_taylor_step *s)
 {
-    sum sum = past(g, s, 0);
+    const qdot_x86_rm c = qdot_code_c(g, s);
+    sum sum = {.v = {.reg = -1}};
 
-    scale_sum(g, &sum, qdot_code_c(g, s));
-    negate(&sum);
+    add_past(g, &sum, true, &c, s, 0);
     lately(g, &sum, true, slot(g, s, 1), s->y, slot(g, s, 2), s->to);
-    times(g, &sum, false, qdot_code_c(g, s), s->x, g->k);
+    add_scaled(g, &sum, false, &c, s->x);
     times(g, &sum, true, slot(g, s, 0), s->y, g->k);
     finish_sum(g, &sum, s->to);
 }
@@ -129,12 +104,12 @@ quotient_one(qdot_generator *g, const qdot_taylor_step *s)
 static void
 root(qdot_generator *g, const qdot_taylor_step *s)
 {
-    sum sum = past(g, s, 0);
+    const qdot_x86_rm c = qdot_code_c(g, s);
+    sum sum = {.v = {.reg = -1}};
 
-    scale_sum(g, &sum, qdot_code_c(g, s));
-    negate(&sum);
+    add_past(g, &sum, true, &c, s, 0);
     late(g, &sum, true, slot(g, s, g->k > 2), s->to);
-    times(g, &sum, false, qdot_code_c(g, s), s->x, g->k);
+    add_scaled(g, &sum, false, &c, s->x);
     finish_sum(g, &sum, s->to);
 }
 
@@ -171,15 +146,19 @@ static void
 integrated(qdot_generator *g, const qdot_taylor_step *s, int i, bool minus,
            const double *u, const double *to)
 {
-    sum sum = past(g, s, i);
+    const qdot_x86_rm over = inverse(g);
+    sum sum = {.v = {.reg = -1}};
 
-    if (g->k > 2)
-        late(g, &sum, false, at(g, u, 1), s->d);
-    scale_sum(g, &sum, inverse(g));
-    if (minus)
-        negate(&sum);
-    if (g->k > 1 && g->lag > 1)
-        late(g, &sum, minus, first_over_order(g, s), u);
+    if (g->lag > 1) {
+        add_past(g, &sum, minus, NULL, s, i);
+        if (g->k > 2)
+            late(g, &sum, minus, at(g, u, 1), s->d);
+        scale_sum(g, &sum, over);
+        if (g->k > 1)
+            late(g, &sum, minus, first_over_order(g, s), u);
+    } else {
+        add_past(g, &sum, minus, &over, s, i);
+    }
     times(g, &sum, minus, at(g, u, 0), s->x, g->k);
     finish_sum(g, &sum, to);
 }
@@ -339,18 +318,18 @@ integral(qdot_generator *g, const qdot_taylor_step *s)
 enum { TO, SECOND, THIRD, D, X, Y, Z };
 
 const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT] = {
-    [QDOT_T_NEG] = {0, {{0}}, linear, NULL, NULL, 0},
-    [QDOT_T_ADD] = {0, {{0}}, linear, NULL, NULL, 0},
-    [QDOT_T_SUB] = {0, {{0}}, linear, NULL, NULL, 0},
-    [QDOT_T_SCALE] = {0, {{0}}, linear, NULL, NULL, 0},
-    [QDOT_T_SCALEADD] = {0, {{0}}, linear, NULL, NULL, 0},
-    [QDOT_T_SCALESUB] = {0, {{0}}, linear, NULL, NULL, 0},
-    [QDOT_T_SCALEOFF] = {0, {{0}}, linear, NULL, NULL, 0},
-    [QDOT_T_MUL] = {1, {{X, Y}}, product, NULL, NULL, 0},
+    [QDOT_T_NEG] = {0, {{0}}, direct, NULL, NULL, 0},
+    [QDOT_T_ADD] = {0, {{0}}, direct, NULL, NULL, 0},
+    [QDOT_T_SUB] = {0, {{0}}, direct, NULL, NULL, 0},
+    [QDOT_T_SCALE] = {0, {{0}}, direct, NULL, NULL, 0},
+    [QDOT_T_SCALEADD] = {0, {{0}}, direct, NULL, NULL, 0},
+    [QDOT_T_SCALESUB] = {0, {{0}}, direct, NULL, NULL, 0},
+    [QDOT_T_SCALEOFF] = {0, {{0}}, direct, NULL, NULL, 0},
+    [QDOT_T_MUL] = {1, {{X, Y}}, direct, NULL, NULL, 0},
     [QDOT_T_SQUARE] = {1, {{X, X}}, square, square_zero, square_one, 2},
-    [QDOT_T_MADD] = {1, {{X, Y}}, product, NULL, NULL, 0},
-    [QDOT_T_MSUB] = {1, {{X, Y}}, product, NULL, NULL, 0},
-    [QDOT_T_NMADD] = {1, {{X, Y}}, product, NULL, NULL, 0},
+    [QDOT_T_MADD] = {1, {{X, Y}}, direct, NULL, NULL, 0},
+    [QDOT_T_MSUB] = {1, {{X, Y}}, direct, NULL, NULL, 0},
+    [QDOT_T_NMADD] = {1, {{X, Y}}, direct, NULL, NULL, 0},
     [QDOT_T_DIV] = {1, {{TO, Y}}, quotient, quotient_zero, quotient_one, 3},
     [QDOT_T_SQRT] = {1, {{TO, TO}}, root, NULL, root_one, 2},
     [QDOT_T_SINCOS] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},

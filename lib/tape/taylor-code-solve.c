@@ -45,9 +45,9 @@ add_couplings(qdot_generator *g, const qdot_taylor_block *b, size_t i, bool late
 static void
 right_hand_side(qdot_generator *g, const qdot_taylor_block *b, size_t i)
 {
-    sum s = past_of(g, g->unknown_sums[qdot_code_row(g, b->r[i])]);
+    sum s = {.v = {.reg = -1}};
 
-    negate(&s);
+    add_past_of(g, &s, true, NULL, g->unknown_sums[qdot_code_row(g, b->r[i])]);
     add_couplings(g, b, i, false, &s);
     add_couplings(g, b, i, true, &s);
     settle(g, &s, 1);

@@ -13,15 +13,7 @@ enum {
     /* With fewer sums an order takes as long as its newest coefficient to be ready, and the
      * way through the vectors is the longer one. With more it takes as long as its
      * instructions, which are a third fewer where the vectors have all but order 0. */
-    few_sums = 5,
-    /* So many do not fit into registers by far. */
-    many_vectors = 40,
-    temporary = 0,
-    spread_first = 2,
-    newest_lane = 1,   /* masks */
-    older_lanes = 2,
-    all_but_last = 3,
-    known_lanes = 4 /* older and newest */
+    few_sums = 5
 };
 
 typedef void kernel(double *coefficients, qdot_taylor_step *steps, double *work);
@@ -33,15 +25,6 @@ struct qdot_taylor_code {
     double unit;
     double once_low[QDOT_CODE_EXACT + 1], twice_low[QDOT_CODE_EXACT + 1]; /* at unit 1 */
 };
-
-/* Orders that are added to vectors by the same instructions. */
-typedef struct {
-    int blocks;   /* of sums */
-    int inserted; /* the block of rows that the order itself enters; -1: none */
-    int orders;
-} phase;
-
-/* --- products of lower orders ------------------------------------------------------- */
 
 static int
 least(int a, int b)
@@ -59,145 +42,6 @@ static int
 blocks_of(int n)
 {
     return (n + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES;
-}
-
-/* With a lag of 1 the coefficients of a row are its vector, from order 1 on, as they stand: in
- * long programs, for a vector read soon after one of its numbers was written waits for that to
- * leave the processor (8 to 30 % of shorter ones). */
-static bool
-rows_as_they_stand(const qdot_generator *g)
-{
-    return g->lag == 1 && g->sums.n + g->rows.n > many_vectors;
-}
-
-static qdot_x86_rm
-block_at(const qdot_code_vector *v, int b)
-{
-    return v->reg[b] >= 0 ? qdot_x86_reg(v->reg[b])
-                          : qdot_code_work(v->at + (size_t)(QDOT_CODE_LANES * b));
-}
-
-/* Coefficient m of a row beside those below it. */
-static void
-insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
-{
-    const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
-
-    if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, reg, 0, block_at(v, b));
-    g->x.mask = newest_lane;
-    qdot_x86_emit(&g->x, QDOT_X86_SPREAD, reg, 0, qdot_code_coefficient(g, row, m));
-    g->x.mask = 0;
-    if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(v, b));
-}
-
-/* The register with coefficient m of a row in every lane. */
-static int
-spread(qdot_generator *g, uint32_t row, int m)
-{
-    const int mask = g->x.mask;
-    int i;
-
-    for (i = 0; i < 2; i++)
-        if (g->spread[i] == row)
-            return spread_first + i;
-    i = g->next_spread;
-    g->next_spread = 1 - i;
-    g->spread[i] = row;
-    g->x.mask = 0;
-    qdot_x86_emit(&g->x, QDOT_X86_SPREAD, spread_first + i, 0,
-                  qdot_code_coefficient(g, row, m));
-    g->x.mask = mask;
-    return spread_first + i;
-}
-
-/* to += coefficient m of a row times block b of another. */
-static void
-multiply(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b)
-{
-    const qdot_code_vector *v = &g->rows.at[g->row_vector[other]];
-
-    if (rows_as_they_stand(g)) {
-        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, spread(g, row, m),
-                      qdot_code_coefficient(g, other, 1 + QDOT_CODE_LANES * b));
-    } else if (v->reg[b] >= 0) {
-        qdot_x86_rm one = qdot_code_coefficient(g, row, m);
-
-        one.spread = true;
-        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, v->reg[b], one);
-    } else {
-        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, spread(g, row, m), block_at(v, b));
-    }
-}
-
-/* Block b of a sum, of `blocks`, moved on by one order, into `to`. */
-static void
-move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
-{
-    if (b + 1 < blocks) {
-        int high = v->reg[b + 1];
-
-        if (high < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, high = temporary + 1, 0,
-                          block_at(v, b + 1));
-        qdot_x86_align(&g->x, to, high, block_at(v, b), 1);
-        return;
-    }
-    if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(v, b));
-    g->x.mask = all_but_last;
-    g->x.zeroing = true;
-    qdot_x86_align(&g->x, to, to, qdot_x86_reg(to), 1);
-    g->x.mask = 0;
-    g->x.zeroing = false;
-}
-
-/* What is made of order m and those from `lag` up to it, in a phase. The lanes of order m
- * itself are in the vectors by now. */
-static void
-add_order(qdot_generator *g, const phase *p, const qdot_code_sum *s, int m)
-{
-    const qdot_code_vector *v = &s->v;
-
-    for (int b = 0; b < p->blocks; b++) {
-        const int to = v->reg[b] >= 0 ? v->reg[b] : temporary;
-
-        if (!s->further)
-            move_on(g, v, b, p->blocks, to);
-        else if (v->reg[b] < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(v, b));
-        if (b == p->inserted && rows_as_they_stand(g))
-            g->x.mask = known_lanes;
-        multiply(g, to, s->x, m, s->y, b);
-        if (b == p->inserted)
-            g->x.mask = older_lanes;
-        multiply(g, to, s->y, m, s->x, b);
-        g->x.mask = 0;
-        if (v->reg[b] < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, to, 0, block_at(v, b));
-    }
-}
-
-static void
-add_order_to_all(qdot_generator *g, const phase *p, int m)
-{
-    g->spread[0] = g->spread[1] = QDOT_CODE_NONE;
-    for (size_t i = 0; p->inserted >= 0 && !rows_as_they_stand(g) && i < g->rows.n; i++)
-        insert(g, g->rows.at + i, g->row_of.at[i], m, p->inserted);
-    for (size_t i = 0; i < g->sums.n; i++)
-        add_order(g, p, g->sums.at + i, m);
-}
-
-/* Block b of a vector becomes 0. */
-static void
-clear(qdot_generator *g, const qdot_code_vector *v, int b)
-{
-    const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
-
-    qdot_x86_emit(&g->x, QDOT_X86_XOR_ALL, reg, reg, qdot_x86_reg(reg));
-    if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(v, b));
 }
 
 /* --- what there is ------------------------------------------------------------------ */
@@ -316,7 +160,7 @@ give_places(qdot_generator *g)
         for (size_t i = 0; i < g->sums.n && reg > lowest; i++)
             if (!g->sums.at[i].further)
                 g->sums.at[i].v.reg[b] = --reg;
-        for (size_t i = 0; !rows_as_they_stand(g) && i < g->rows.n && reg > lowest; i++)
+        for (size_t i = 0; !qdot_code_rows_as_they_stand(g) && i < g->rows.n && reg > lowest; i++)
             g->rows.at[i].reg[b] = --reg;
     }
     for (size_t i = 0; i < g->sums.n; i++) {
@@ -327,7 +171,7 @@ give_places(qdot_generator *g)
         g->sums.at[i].v.at = at;
         at += (size_t)(QDOT_CODE_LANES * blocks);
     }
-    for (size_t i = 0; !rows_as_they_stand(g) && i < g->rows.n; i++) {
+    for (size_t i = 0; !qdot_code_rows_as_they_stand(g) && i < g->rows.n; i++) {
         g->rows.at[i].at = at;
         at += (size_t)(QDOT_CODE_LANES * blocks);
     }
@@ -356,7 +200,8 @@ emit_order(qdot_generator *g)
     const qdot_taylor *t = g->t;
 
     for (size_t i = t->still; i < t->length; i++)
-        qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+        if (!g->folded[qdot_code_row(g, t->steps[i].to)])
+            qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
     for (size_t i = 0; i < t->n_blocks; i++)
         qdot_code_solve(g, i);
     for (size_t i = t->length; i < t->length + t->n_links; i++)
@@ -377,79 +222,86 @@ begin_registers(qdot_generator *g)
     g->latest = last;
 }
 
-/* No register is known to hold a coefficient; when they were there is as of an order before.
- * */
+/* No register is known to hold a coefficient. */
 static void
 forget(qdot_generator *g)
 {
     for (int i = 0; i < QDOT_CODE_REGISTERS; i++)
         g->held[i] = QDOT_CODE_NONE;
-    for (size_t row = 0; row < g->t->rows; row++) {
-        int *ready = g->ready + 4 * row, first = ready[0];
+}
 
-        memmove(ready, ready + 1, 3 * sizeof *ready);
-        ready[3] = first;
+/* When coefficients were there is as of so many orders before. */
+static void
+look_back(qdot_generator *g, int orders)
+{
+    for (size_t row = 0; row < g->t->rows; row++) {
+        int *ready = g->ready + 4 * row, old[4];
+
+        memcpy(old, ready, sizeof old);
+        for (int i = 0; i < 4; i++)
+            ready[i] = old[(i + orders) & 3];
     }
 }
 
-/* Orders k = m + lag for the m of a phase. */
 static void
-emit_phase(qdot_generator *g, const phase *p, const phase *before)
+emit_body(qdot_generator *g, const qdot_code_phase *p)
+{
+    qdot_code_add_order(g, p, g->k - g->lag);
+    emit_order(g);
+}
+
+/* Orders k = m + lag for the m of a phase. What waits for what is known from an order to the
+ * next: it is written twice, and the second stays. */
+static void
+emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *before)
 {
     size_t from;
 
-    if (p->blocks > before->blocks)
-        for (size_t i = 0; i < g->sums.n; i++)
-            clear(g, &g->sums.at[i].v, p->blocks - 1);
-    if (p->inserted >= 0) {
-        for (size_t i = 0; !rows_as_they_stand(g) && i < g->rows.n; i++)
-            clear(g, g->rows.at + i, p->inserted);
-        qdot_x86_set_mask(&g->x, newest_lane, 1);
-        qdot_x86_set_mask(&g->x, older_lanes, 0);
-        qdot_x86_set_mask(&g->x, known_lanes, 1);
-    }
-    if (before->orders > 0)
-        forget(g);
+    qdot_code_begin_phase(g, p, before);
+    look_back(g, before->orders > 0 ? 1 : 2 * g->lag);
     g->k = QDOT_CODE_ANY;
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted == 0;
+    for (int i = 0; i < 2; i++) {
+        from = g->x.bytes.n;
+        forget(g);
+        emit_body(g, p);
+        look_back(g, 1);
+        g->x.bytes.n = from;
+    }
+    forget(g);
     from = qdot_x86_repeat(&g->x, p->orders);
-    add_order_to_all(g, p, g->k - g->lag);
-    emit_order(g);
+    emit_body(g, p);
     qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_R8, 8);
     qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_R9, 8);
-    if (p->inserted >= 0) {
-        qdot_x86_join_masks(&g->x, older_lanes, newest_lane);
-        qdot_x86_raise_mask(&g->x, newest_lane);
-        qdot_x86_join_masks(&g->x, known_lanes, newest_lane);
-    }
+    qdot_code_next_lane(g, p);
     qdot_x86_again(&g->x, from);
 }
 
 /* What adding order m takes. Rows as they stand go on beyond half of the orders, where all
  * their lanes are known: what those beyond it make is of no order that is wanted. */
-static phase
+static qdot_code_phase
 phase_of(const qdot_generator *g, int m)
 {
     const int half = g->n / 2, all = blocks_of(most(half + 1 - g->lag, 1));
     int blocks;
 
     if (m <= half)
-        return (phase){.blocks = blocks_of(m + 1 - g->lag),
+        return (qdot_code_phase){.blocks = blocks_of(m + 1 - g->lag),
                        .inserted = (m - g->lag) / QDOT_CODE_LANES};
     blocks = least(all, blocks_of(g->n - m + 2 - g->lag));
-    return (phase){.blocks = blocks,
-                   .inserted = rows_as_they_stand(g) && blocks == all ? all - 1 : -1};
+    return (qdot_code_phase){.blocks = blocks,
+                   .inserted = qdot_code_rows_as_they_stand(g) && blocks == all ? all - 1 : -1};
 }
 
 static void
 emit_phases(qdot_generator *g)
 {
-    phase now = {0}, before = {0};
+    qdot_code_phase now = {0}, before = {0};
 
     for (int m = g->lag; m <= g->n - g->lag && g->x.bytes.n <= most_bytes; m++) {
-        const phase p = phase_of(g, m), next = phase_of(g, m + 1);
+        const qdot_code_phase p = phase_of(g, m), next = phase_of(g, m + 1);
 
-        now = (phase){p.blocks, p.inserted, now.orders + 1};
+        now = (qdot_code_phase){p.blocks, p.inserted, now.orders + 1};
         if (m < g->n - g->lag && next.blocks == p.blocks && next.inserted == p.inserted)
             continue;
         emit_phase(g, &now, &before);
@@ -465,7 +317,7 @@ emit_all(qdot_generator *g)
 
     begin_registers(g);
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
-    qdot_x86_set_mask(&g->x, all_but_last, 0x7f);
+    qdot_code_begin_vectors(g);
     for (g->k = 1; g->k <= least(g->n, singly); g->k++) {
         if (g->k <= 2)
             emit_once(g, g->k == 2);
@@ -473,8 +325,6 @@ emit_all(qdot_generator *g)
     }
     qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_RDI, 8 * (singly + 1));
     qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_RDX, 8 * (singly + 1));
-    for (int i = 0; i < QDOT_CODE_REGISTERS; i++)
-        g->held[i] = QDOT_CODE_NONE;
     emit_phases(g);
     qdot_x86_return(&g->x);
 }
@@ -529,6 +379,8 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     const size_t rows = g->t->rows, length = g->t->length;
 
     g->moving = qdot_calloc(rows + 1, sizeof *g->moving);
+    g->folded = qdot_calloc(rows + 1, sizeof *g->folded);
+    g->maker = qdot_calloc(rows + 1, sizeof *g->maker);
     g->row_vector = qdot_calloc(rows + 1, sizeof *g->row_vector);
     g->ready = qdot_calloc(4 * rows + 1, sizeof *g->ready);
     g->where = qdot_calloc(4 * rows + 1, sizeof *g->where);
@@ -536,10 +388,11 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     g->step_slots = qdot_calloc(length + 1, sizeof *g->step_slots);
     g->unknown_sums = qdot_calloc(rows + 1, sizeof *g->unknown_sums);
     g->block_slots = qdot_calloc(g->t->n_blocks + 1, sizeof *g->block_slots);
-    if (!g->moving || !g->row_vector || !g->ready || !g->where || !g->step_sums ||
+    if (!g->moving || !g->folded || !g->maker || !g->row_vector || !g->ready || !g->where || !g->step_sums ||
         !g->step_slots || !g->unknown_sums || !g->block_slots)
         return QDOT_ENOMEM;
     memset(g->row_vector, 0xff, rows * sizeof *g->row_vector);
+    memset(g->maker, 0xff, rows * sizeof *g->maker);
     memset(g->unknown_sums, 0xff, rows * sizeof *g->unknown_sums);
     memset(g->step_sums, 0xff, 3 * length * sizeof *g->step_sums);
     find_moving(g);
@@ -547,6 +400,7 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     QDOT_TRY(find_sums(g));
     QDOT_TRY(find_unknown_sums(g));
     g->lag = g->sums.n < few_sums ? 2 : 1;
+    QDOT_TRY(qdot_code_fold(g));
     text->doubles = give_places(g);
     QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
     emit_all(g);
@@ -568,6 +422,9 @@ write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **wh
 
     text->blocks = g.block_slots;
     qdot_free(g.moving);
+    qdot_free(g.folded);
+    qdot_free(g.maker);
+    qdot_free(g.compositions.at);
     qdot_free(g.row_vector);
     qdot_free(g.ready);
     qdot_free(g.where);

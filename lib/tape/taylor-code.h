@@ -15,6 +15,11 @@
  * order, as many as there is room for. Orders with the same number of vectors at work are
  * one loop.
  *
+ * A sum, a difference, a multiple or a product that one other step adds up and nobody else
+ * reads has no row: its terms are terms of that step, by factors that are made once. What is
+ * known last is added last; when it is known is guessed from the order before, written for
+ * that alone.
+ *
  * Unknowns (qdot_taylor_solve) are solved for at the end of every order, by the matrices
  * that are there when the code is run.
  *

@@ -35,6 +35,8 @@ enum {
     /* What is written for several orders is written as of this one, and those beside it; a
      * multiple of 4. */
     QDOT_CODE_ANY = 1000,
+    /* What is folded has factors of its own (taylor-code-fold.c). */
+    QDOT_CODE_FOLDED_SLOTS = 4,
     /* No first loop goes further (it begins at twice the lag): links are exact that far. */
     QDOT_CODE_EXACT = 3 + QDOT_CODE_LANES
 };
@@ -53,6 +55,11 @@ typedef struct {
     qdot_code_vector v;
 } qdot_code_sum;
 
+/* A factor that is a product of two. */
+typedef struct {
+    qdot_x86_rm a, b;
+} qdot_code_composition;
+
 typedef struct {
     qdot_x86 x;
     const qdot_taylor *t;
@@ -61,6 +68,8 @@ typedef struct {
     int lag;                /* orders below it and their partners are added singly; 1 or 2 */
     bool exact;             /* links have factors of two doubles at it */
     bool *moving;           /* [rows] it has more than order 0 */
+    bool *folded;           /* [rows] its orders above 0 are terms of its one reader */
+    uint32_t *maker;        /* [rows] the step that it is `to` of; QDOT_CODE_NONE */
     uint32_t *row_vector;   /* [rows] number in `rows`; QDOT_CODE_NONE */
     uint32_t *step_sums;    /* [length x 3] number in `sums`; QDOT_CODE_NONE */
     uint32_t *step_slots;   /* [length] the first, in doubles */
@@ -71,6 +80,8 @@ typedef struct {
     qdot_vec(uint32_t) row_of; /* the same */
     qdot_vec(qdot_code_sum) sums;
     size_t n_slots;
+    qdot_vec(qdot_code_composition) compositions; /* in slots of their own, */
+    size_t fold_slots;                            /* from this one on */
 
     /* Registers that hold a coefficient, least recently used first to go. */
     unsigned char *where; /* [rows x 4] the register that may hold them, likewise */
@@ -84,6 +95,22 @@ typedef struct {
 } qdot_generator;
 
 #define QDOT_CODE_NONE UINT32_MAX
+
+/* Orders that are added to vectors by the same instructions. */
+typedef struct {
+    int blocks;   /* of sums */
+    int inserted; /* the block of rows that the order itself enters; -1: none */
+    int orders;
+} qdot_code_phase;
+
+/* Of the vectors of products (taylor-code-vectors.c): before anything; before a phase behind
+ * another; order m and all that is made of it and those from `lag` up to it; behind that. */
+void qdot_code_begin_vectors(qdot_generator *g);
+void qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p,
+                           const qdot_code_phase *before);
+void qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m);
+void qdot_code_next_lane(qdot_generator *g, const qdot_code_phase *p);
+bool qdot_code_rows_as_they_stand(const qdot_generator *g);
 
 /* A recurrence as code. */
 typedef struct {
@@ -104,11 +131,24 @@ extern const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT];
 /* Order 0 of all steps, and of links; a function of its own. */
 void qdot_code_zero(qdot_generator *g);
 
+/* Sums and products that are read once are added up where they are read: without rows, and
+ * without waits of their own. Sums of products being known. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_code_fold(qdot_generator *g);
+/* Where the product of two factors stands that no order changes. */
+qdot_x86_rm qdot_code_composed(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm b);
+
 /* Order g->k of unknowns. */
 void qdot_code_solve(qdot_generator *g, size_t block);
 
 /* A row of a step by its name in the table above. */
 const double *qdot_code_factor(const qdot_taylor_step *s, unsigned char name);
+
+/* When coefficient k of a row is there. */
+static inline int *
+qdot_code_ready(qdot_generator *g, uint32_t row, int k)
+{
+    return &g->ready[4 * row + (uint32_t)(k & 3)];
+}
 
 static inline uint32_t
 qdot_code_row(const qdot_generator *g, const double *row)

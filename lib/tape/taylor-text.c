@@ -30,7 +30,7 @@ static atomic_uint next_place;
 
 /* --- keys --------------------------------------------------------------------------- */
 
-enum { OF_ALL = 8, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
+enum { OF_ALL = 9, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
 
 static uint32_t
 row(const qdot_taylor *t, const double *x)
@@ -41,7 +41,7 @@ row(const qdot_taylor *t, const double *x)
 static size_t
 length_of_key(const qdot_taylor *t)
 {
-    size_t n = OF_ALL + OF_STEP * (t->length + t->n_links);
+    size_t n = OF_ALL + t->outputs + OF_STEP * (t->length + t->n_links);
 
     for (size_t k = 0; k < t->n_blocks; k++)
         n += OF_BLOCK + OF_UNKNOWN * t->blocks[k].n +
@@ -92,10 +92,13 @@ put_all(const qdot_taylor *t, int orders, uint32_t *to)
     const uint32_t words[OF_ALL] = {(uint32_t)orders,     (uint32_t)t->rows,
                                     (uint32_t)t->stride,  (uint32_t)t->moving,
                                     (uint32_t)t->still,   (uint32_t)t->length,
-                                    (uint32_t)t->n_links, (uint32_t)t->n_blocks};
+                                    (uint32_t)t->n_links, (uint32_t)t->n_blocks,
+                                    (uint32_t)t->outputs};
 
     memcpy(to, words, sizeof words);
     to += OF_ALL;
+    for (size_t i = 0; i < t->outputs; i++)
+        *to++ = row(t, t->output[i]);
     for (size_t i = 0; i < t->length + t->n_links; i++)
         to = put_step(t, t->steps + i, to);
     for (size_t k = 0; k < t->n_blocks; k++)

@@ -239,6 +239,73 @@ arithmetic_agrees(void **state)
     qdot_pool_free(pool);
 }
 
+/* Sums and products that are read once, within each other; more than one sum takes, and deeper;
+ * less what is made of one term. */
+static void
+folded_agrees(void **state)
+{
+    scene f;
+    qdot_pool *pool;
+    qdot_expr s, c, w, inner, deep, wide;
+
+    (void)state;
+    begin(&f);
+    pool = f.pool;
+    s = qdot_fun1(pool, QDOT_SIN, f.in[Q]);
+    c = qdot_fun1(pool, QDOT_COS, f.in[P]);
+    w = f.in[W];
+    inner = qdot_add(pool, qdot_mul(pool, f.in[M], s),
+                     qdot_mul(pool, qdot_expr_int(pool, -2), qdot_mul(pool, f.in[V], w)));
+    code_agrees(&f, qdot_neg(pool, qdot_div(pool, inner, f.above)), "sum over a row");
+    code_agrees(&f, qdot_mul(pool, f.in[M], qdot_sub(pool, c, inner)), "sum within a sum");
+    code_agrees(&f, qdot_neg(pool, qdot_mul(pool, f.in[M], s)), "less one term");
+    code_agrees(&f, qdot_pow(pool, qdot_add(pool, f.above, qdot_mul(pool, s, s)),
+                             qdot_div(pool, QDOT_ONE, qdot_expr_int(pool, 2))),
+                "root of a sum");
+    deep = wide = inner;
+    for (int i = 0; i < 12; i++) {
+        qdot_expr more = qdot_mul(pool, f.in[i % T], i % 2 ? s : c);
+
+        wide = qdot_add(pool, wide, qdot_mul(pool, qdot_expr_int(pool, 2 + i), more));
+        deep = qdot_mul(pool, f.in[M], qdot_sub(pool, i % 2 ? s : c, deep));
+    }
+    code_agrees(&f, wide, "wide");
+    code_agrees(&f, deep, "deep");
+    qdot_pool_free(pool);
+}
+
+/* A row is there where it is an output, whoever had a program of the same steps before. */
+static void
+outputs_are_there(void **state)
+{
+    enum { TO = 20 };
+    scene f;
+    qdot_expr product, sum;
+
+    (void)state;
+    begin(&f);
+    product = qdot_mul(f.pool, f.in[V], f.in[P]);
+    sum = qdot_add(f.pool, qdot_mul(f.pool, f.in[M], product), f.in[Q]);
+    for (int third = 0; third < 2; third++) {
+        const qdot_expr out[] = {sum, f.above, third > 0 ? product : f.in[Q]};
+        qdot_tape *tape;
+        qdot_taylor *of[3];
+
+        assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, 3, out, &tape), QDOT_OK);
+        for (int l = 0; l < 3; l++)
+            of[l] = linked(tape, TO, l == 0);
+        expand(of, TO, 2);
+        compare(of, TO, "of three");
+        for (int k = 0; k <= TO; k++)
+            assert_true(fabs(qdot_taylor_output(of[0], 2)[k] - qdot_taylor_output(of[1], 2)[k])
+                        <= 1e-13 * fabs(qdot_taylor_output(of[1], 2)[k]));
+        for (int l = 0; l < 3; l++)
+            qdot_taylor_free(of[l]);
+        qdot_tape_free(tape);
+    }
+    qdot_pool_free(f.pool);
+}
+
 /* More vectors than registers. */
 static void
 long_programs_agree(void **state)
@@ -510,6 +577,8 @@ main(void)
         cmocka_unit_test(there_is_code_or_a_reason),
         cmocka_unit_test(functions_agree),
         cmocka_unit_test(arithmetic_agrees),
+        cmocka_unit_test(folded_agrees),
+        cmocka_unit_test(outputs_are_there),
         cmocka_unit_test(long_programs_agree),
         cmocka_unit_test(kept_code_agrees),
         cmocka_unit_test(unknowns_agree),
