@@ -22,13 +22,12 @@ static const double derived = 4;
 /* The scale of random walks by three of them. */
 static const double roughly_known = 1.5;
 
-/* Of a companion by Taylor series beside a stiff method, which steps over what is fast:
- * where it gets stuck there the method's partner takes over. */
-static const uint64_t most_explicit_steps = 100000;
-
 /* Times the steps of the run; what a companion may take beyond that, in steps and nanoseconds. */
 static const uint64_t patience = 20, patience_stiff = 100, most_beyond = 200000;
 static const double most_time = 2e9;
+
+/* What the times between may add, in differences at the end. */
+static const double most_between = 30;
 
 /* Where in a run the times between lie; without a pattern that a period could share. */
 static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
@@ -87,7 +86,8 @@ qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *m
     bool same = partner == method;
 
     if (partner->series)
-        return fmax(partner->companion_ratio * tol, partner->companion_tol);
+        return fmax(fmin(partner->companion_ratio, method->companion_ratio) * tol,
+                    partner->companion_tol);
     if (same && method->companion_tol > tol / 4)
         return 10 * fmax(tol, method->companion_tol);
     return fmax(method->companion_ratio * tol, method->companion_tol);
@@ -167,7 +167,7 @@ run_by(follower *f, const qdot_ode_method *method, double t1)
     qdot_ode_stats spent = f->result.stats;
 
     if (method->series && c->run->stiff)
-        options.max_steps = most_explicit_steps;
+        options.max_steps = QDOT_COMPANION_EXPLICIT;
     memcpy(f->y, f->start, c->n * sizeof *f->y);
     for (f->reached = 0;;) {
         bool last = t1 != c->t1 || f->reached == c->samples;
@@ -448,7 +448,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
     if (out->known)
         out->error = fmax(out->error, largest_distance(c, y, SIZE_MAX));
     if (out->known && between)
-        out->error = fmax(out->error, median_between(c));
+        out->error = fmax(out->error, fmin(median_between(c), most_between * out->error));
     if (out->known && is_walk(c, y))
         out->error *= roughly_known;
     if (!out->known) {

@@ -4,8 +4,8 @@
  *
  *     by Taylor series where the system has them, else by the partner of the method
  *       (method.h); beside a stiff method by the partner too where series get stuck,
- *     under tol* = tol/100 (tol/10^4 for bsimp, whose error follows tol only roughly),
- *       not below the method's companion_tol. A method that is its own partner and would
+ *     under tol* = tol/100 (tol/10^4 for msbdf; tol/10^10 for bsimp, which at loose tolerances
+ *       is better than they ask for by as much), not below the method's companion_tol. A method that is its own partner and would
  *       not get 4 times tighter takes tol* = 10 max(tol, companion_tol): then the
  *       companion errs more, on the safe side (a tighter one would share the rounding of
  *       the coefficients, which is a drift and no noise). taylor, whose coefficients
@@ -95,7 +95,9 @@ QDOT_MUST_CHECK qdot_status qdot_companion_start(const qdot_companion_request *r
  *
  *     max(error at the end, median of the errors at those times)
  *
- * once the run has shown its states there; *count is 0 for other methods. */
+ * once the run has shown its states there, but not more than 30 times that at the end: where
+ * errors die out, as in stiff scenes, the last step may leave far less than those between.
+ * *count is 0 for other methods. */
 const double *qdot_companion_times(const qdot_companion *c, size_t *count);
 
 /* The state y [n] of the run at time k of those; copied. */
@@ -129,6 +131,10 @@ double qdot_companion_floor(uint64_t steps);
  * Never fails: what goes wrong makes the error unknown, result.reason says why. */
 void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                            double *difference, qdot_companion_estimate *out);
+
+/* The most steps of a companion by Taylor series beside a stiff method, which steps over what
+ * is fast: where it gets stuck there the method's partner takes over. */
+#define QDOT_COMPANION_EXPLICIT 100000
 
 /* Orders more that a companion by Taylor series takes (qdot_ode_options.order_more). */
 #define QDOT_COMPANION_ORDERS 3

@@ -254,13 +254,43 @@ check_level(qdot_piece *x, size_t from, double t, const double *y)
     return QDOT_OK;
 }
 
+/* A piece ends at the first double behind the root that ends it, in all courses alike: that is late,
+ * and never early, which adds up. A companion goes on as if it had left before the root, the other
+ * one as if later still: by half the time between doubles times how the equations differ. */
+static qdot_status
+make_up(qdot_piece *x, size_t from, double t, double *y)
+{
+    const qdot_ode_system *old = x->c->systems.at + from, *next = x->c->systems.at + x->mode;
+    const size_t surfaces = x->c->stage->switches.surfaces.n;
+    const double late = x->direction * x->c->early * 0x1p-53 * fabs(t);
+    double *moved = qdot_malloc(3 * x->n * sizeof *moved), *before = moved + x->n;
+    long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
+    qdot_status status = moved && sides ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = old->rhs(t, y, before, old->user);
+    if (status == QDOT_OK)
+        status = next->rhs(t, y, before + x->n, next->user);
+    for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
+        moved[i] = y[i] - late * (before[x->n + i] - before[i]);
+    if (status == QDOT_OK)
+        status = qdot_stage_sides(x->c->stage, t, y, sides, x->on);
+    if (status == QDOT_OK)
+        status = qdot_stage_sides(x->c->stage, t, moved, sides + surfaces, x->on);
+    if (status == QDOT_OK && memcmp(sides, sides + surfaces, surfaces * sizeof *sides) == 0)
+        memcpy(y, moved, x->n * sizeof *y);
+    qdot_free(moved);
+    qdot_free(sides);
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
 /* --- the whole ----------------------------------------------------------------------- */
 
 /* From y at t, which is the last point, through one piece that leaves well. */
 static qdot_status
-one_piece(qdot_piece *x, size_t from, double t, const double *y, bool jumped)
+one_piece(qdot_piece *x, size_t from, double t, double *y, bool jumped)
 {
-    bool again;
+    bool again, moved = false;
 
     x->tried.n = 0;
     for (;;) {
@@ -282,6 +312,10 @@ one_piece(qdot_piece *x, size_t from, double t, const double *y, bool jumped)
         if (x->c->reason[0] != '\0')
             return QDOT_OK;
         carry(x, from, jumped);
+        if (x->c->early != 0 && from != x->mode && !moved && !jumped
+            && !x->c->systems.at[x->mode].project)
+            QDOT_TRY(make_up(x, from, t, y));
+        moved = true;
         QDOT_TRY(qdot_piece_begin(x, t, y));
         QDOT_TRY(qdot_piece_integrate(x, t, y, jumped));
         if (x->intent != QDOT_PIECE_RETRIED)

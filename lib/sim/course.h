@@ -41,6 +41,7 @@ typedef struct qdot_course {
     qdot_stage *stage; /* borrowed */
     bool shaken;
     bool no_series;   /* of systems for a method without */
+    int early;        /* of companions, +-1: see make_up */
     double touch_tol; /* within which an extremum touches 0: that of the run */
     /* evaluations for the states within steps that were looked at, and how many end the run
      * as QDOT_ELIMIT; 0: any */

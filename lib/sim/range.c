@@ -23,6 +23,9 @@ enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, MOST_PARTS = 8192, LEAST_
 /* Of the noise of evaluating: coefficients below it are nothing else. */
 static const double noises = 8;
 
+/* Of the last coefficients of half as many nodes: what still has so much is no polynomial yet. */
+static const double no_progress = 0.25;
+
 /* A part that no polynomial fits however short it is holds a jump, or a pole where values are
  * so many times those of the step; a pole whose integral exists leaves that little of it. */
 static const double beyond_bounds = 0x1p16, least_integral = 0x1p-20;
@@ -51,6 +54,7 @@ typedef struct {
     double sure[2];           /* the largest is not below, the smallest not above */
     double left;              /* what parts that stay rough leave open of the integral */
     double noise;             /* of evaluating it in the step at hand */
+    double blur;              /* what a state off by 2^-53 max(1, |x|) makes of it there */
     size_t parts;             /* of that step so far, */
     size_t most_parts;        /* and at most: less after one that was not enough for */
     double typical;           /* value in that step */
@@ -67,6 +71,8 @@ typedef struct {
 typedef struct {
     double a, b;
     int n;
+    double tail; /* the last coefficients; INFINITY before they are known */
+    bool rough;  /* taken for what it is */
     double values[MOST_NODES], c[MOST_NODES];
 } part;
 
@@ -122,6 +128,7 @@ blur(const part *p)
 static qdot_status
 fit(scan *s, part *p, int nodes, bool *good)
 {
+    const double before = p->tail;
     double tail;
 
     p->n = nodes;
@@ -130,11 +137,18 @@ fit(scan *s, part *p, int nodes, bool *good)
         qdot_hull_sample(&s->hull, j, s->reader.in);
     }
     qdot_chebyshev_fit(nodes, p->values, p->c);
-    tail = qdot_chebyshev_tail(nodes, p->c);
+    tail = p->tail = qdot_chebyshev_tail(nodes, p->c);
     *good = tail <= (0x1p-44 + 8 * blur(p)) * qdot_chebyshev_size(nodes, p->c);
     if (!*good && tail <= noises * s->noise) {
         *good = true;
         s->rough = fmax(s->rough, noises * s->noise);
+    }
+    /* near 0 a state is off by more than its own last bit: the polynomial of its step is
+     * as rough as that, and no shorter part is smoother */
+    if (!*good && nodes == MOST_NODES && tail > no_progress * before
+        && tail <= noises * s->blur) {
+        *good = p->rough = true;
+        s->rough = fmax(s->rough, noises * tail);
     }
     return QDOT_OK;
 }
@@ -348,16 +362,34 @@ take_part(scan *s, const part *p, bool good)
     return QDOT_OK;
 }
 
-/* What evaluating it in the step is off by; 0 where that is not known. */
+static qdot_status
+find_blur(scan *s, double t)
+{
+    qdot_reader *r = &s->reader;
+    double value, other;
+
+    QDOT_TRY(value_at(s, t, &value));
+    for (size_t i = 0; i < 2 * r->plan->n; i++)
+        r->in[i] += (i % 2 ? -0x1p-53 : 0x1p-53) * fmax(1, fabs(r->in[i]));
+    QDOT_TRY(qdot_reader_evaluate(r, t, &other));
+    s->blur = fabs(other - value);
+    return QDOT_OK;
+}
+
+/* Noise and blur in the step; 0 where they are not known. */
 static qdot_status
 find_noise(scan *s, double a, double b)
 {
-    qdot_status status =
-        qdot_noise_at(&s->reader, s->piece, 0.5 * (a + b), &s->noise);
+    const double middle = 0.5 * (a + b);
+    qdot_status status = qdot_noise_at(&s->reader, s->piece, middle, &s->noise);
 
     s->parts = 0;
+    if (status == QDOT_OK)
+        status = find_blur(s, middle);
     if (status != QDOT_OK || !isfinite(s->noise))
         s->noise = 0;
+    if (status != QDOT_OK || !isfinite(s->blur))
+        s->blur = 0;
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
@@ -387,7 +419,7 @@ scan_step(scan *s, double a, double b)
     QDOT_TRY(find_noise(s, a, b));
     qdot_hull_begin(&s->hull);
     while (depth > 0) {
-        part p = {.a = from, .b = ends[depth - 1]};
+        part p = {.a = from, .b = ends[depth - 1], .tail = INFINITY};
         double t = fmax(fabs(p.a), fabs(p.b));
         bool good = false, short_one = fabs(p.b - p.a)
                                        <= fmax(64 * DBL_EPSILON * t, 0x1p-50 * fabs(b - a));
@@ -407,7 +439,7 @@ scan_step(scan *s, double a, double b)
         if (s->parts == 0 && depth == 1)
             s->typical = middling(&p);
         if (good)
-            s->nodes = nodes;
+            s->nodes = p.rough ? nodes / 2 : nodes;
         if (v == SURPASSED) {
             from = p.b;
             depth--;

@@ -109,15 +109,17 @@ begin_anew(qdot_course *c)
     const qdot_course empty = {.stage = c->stage,
                                .shaken = c->shaken,
                                .no_series = c->no_series,
+                               .early = c->early,
                                .touch_tol = c->touch_tol};
 
     qdot_course_clear(c);
     *c = empty;
 }
 
-/* Companion 0 or 1 into c; *has: there is one. */
+/* Companion 0 or 1 into c, by Taylor series if the system has them and c->no_series is not set;
+ * *has: there is one. */
 static qdot_status
-follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
+follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
 {
     const qdot_ode_method *method = run->plan->method;
     qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS - 2 * (int)number};
@@ -127,15 +129,14 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     double *y;
     qdot_status status;
 
-    c->shaken = number == 0;
-    c->touch_tol = run->report.tol;
-    c->no_series = method->stiff; /* series may get stuck */
     system = qdot_bind_system(run->course.binds.at[0]);
-    if (method->stiff)
+    if (c->no_series)
         system.series = NULL;
     options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
     options.max_steps =
         qdot_companion_patience(&system, method, run->course.tr.result.stats.steps);
+    if (method->stiff && system.series && options.max_steps > QDOT_COMPANION_EXPLICIT)
+        options.max_steps = QDOT_COMPANION_EXPLICIT;
     y = qdot_malloc(2 * n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;
@@ -166,6 +167,23 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     }
     qdot_free(y);
     return status == QDOT_EINTR || status == QDOT_ENOMEM ? status : QDOT_OK;
+}
+
+/* Beside a stiff method series may get stuck: then by its partner. */
+static qdot_status
+follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
+{
+    c->shaken = number == 0;
+    c->early = number == 0 ? 1 : -1;
+    c->touch_tol = run->report.tol;
+    c->no_series = false;
+    QDOT_TRY(follow_so(run, number, c, has));
+    if (!run->plan->method->stiff || (*has && c->tr.result.outcome != QDOT_ODE_FAILED))
+        return QDOT_OK;
+    c->no_series = true;
+    begin_anew(c);
+    *has = false;
+    return follow_so(run, number, c, has);
 }
 
 qdot_status

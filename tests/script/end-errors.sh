@@ -1,5 +1,5 @@
 # Stated errors of ends against runs with `digits`: scenes with damping, forces by t, stated
-# Lagrangians, varying mass, events, switches, constraints, near collisions and unstable rests. The
+# Lagrangians, varying mass, events, switches, constraints, near collisions, unstable rests and what dies out. The
 # true error is at most 3 times the stated one, the stated one at most 100 times the true one
 # where that is above 1e-14. The ends are not doubles.
 for name in $(sed -n 's/^### //p' end-errors.inc); do
@@ -12,6 +12,9 @@ for name in $(sed -n 's/^### //p' end-errors.inc); do
             for tol in 1e-6 1e-9 1e-12 1e-15; do
                 echo "run $limits tol $tol method $method"
             done
+        done
+        for tol in 1e-3 1e-6; do
+            echo "run $limits tol $tol method bsimp"
         done
     } | qdot -q --json -
 done >answers
