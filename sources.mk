@@ -416,6 +416,7 @@ sim_sources = \
 	lib/sim/switch.c \
 	lib/sim/value.c \
 	lib/sim/watch-roots.c \
+	lib/sim/watch-sure.c \
 	lib/sim/watch-values.c \
 	lib/sim/watch.c \
 	lib/sim/workprecision.c
@@ -732,6 +733,7 @@ script_tests = \
 	tests/script/moving.lag \
 	tests/script/multipliers-known.lag \
 	tests/script/names.lag \
+	tests/script/narrow-events.lag \
 	tests/script/narrow.lag \
 	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
@@ -1372,6 +1374,7 @@ test_files = \
 	tests/script/moving.out \
 	tests/script/multipliers-known.out \
 	tests/script/names.out \
+	tests/script/narrow-events.out \
 	tests/script/narrow.out \
 	tests/script/normalise.sed \
 	tests/script/on-surfaces.out \

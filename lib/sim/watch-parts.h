@@ -1,7 +1,7 @@
 /* watch-parts.h -- what a watch is made of.
  *
  * For watch.c only, which goes over a step part by part: values of the functions
- * (watch-values.c), and the polynomial of one function on one part with its roots
+ * (watch-values.c), what is sure of them (watch-sure.c), and the polynomial of one function on one part with its roots
  * (watch-roots.c).
  *
  * Tests  as watch.h
@@ -11,6 +11,7 @@
 
 #include "num/chebyshev.h"
 #include "num/series.h"
+#include "sim/hull.h"
 #include "sim/watch.h"
 
 enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
@@ -36,6 +37,11 @@ struct qdot_watch {
     double *moved;      /* [m] scratch of noise */
     double *z;          /* [2n] likewise */
     double *noise;      /* [m] of g in this step; NaN: not asked for */
+    double *size;       /* [m] of the polynomial fitted last, */
+    double *clear;      /* [m] and how far its bound keeps it from 0, if positive */
+    qdot_hull hull;     /* what lies between the nodes, */
+    bool hull_at_step;  /* or on the whole step: it is there */
+    bool all_bounds;
     double *final;      /* [m] g at its end */
     double length;      /* of the step */
 
@@ -73,6 +79,7 @@ typedef enum {
     QDOT_PART_GOOD,
     QDOT_PART_MORE_NODES,
     QDOT_PART_HALVED,
+    QDOT_PART_PARTED, /* beside the middle, where it may be singular */
     QDOT_PART_START_CUT /* a short part at its start alone */
 } qdot_watch_verdict;
 
@@ -112,6 +119,17 @@ QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w,
                                              const double *y, double by, double least,
                                              size_t i, double *noise);
 
+/* --- what is sure (watch-sure.c) ----------------------------------------------------- */
+
+/* Of polynomials that fit all values at `nodes`: whether no root hides between these. */
+qdot_watch_verdict qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes);
+
+/* Whether functions on the step to t, by its series, are bounded: then g_i keeps its sign where
+ * _excludes says so. */
+void qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int order,
+                      double unit);
+bool qdot_watch_excludes(const qdot_watch *w, size_t i);
+
 /* --- roots (watch-roots.c) ----------------------------------------------------------- */
 
 /* The time at x in -1 ... 1 of a part. */
@@ -119,6 +137,9 @@ double qdot_watch_time(const qdot_watch_part *p, double x);
 
 /* Function i on the part as a polynomial p->c, from w->samples at `nodes` nodes. */
 qdot_watch_verdict qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes);
+
+/* What of it is not told from rounding there, after a fit. */
+double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
 /* Its roots on the part, added to w->roots; w->now goes on to the part's end. */
 QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k,

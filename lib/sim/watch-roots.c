@@ -39,6 +39,26 @@ vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
     return size == 0 || size <= (p->from_zero ? 1e5 : 16) * w->noise[i];
 }
 
+double
+qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    const double part = (w->now.on[i] ? 1e-11 : resolved) + 8 * blur(p);
+
+    return fmax(part * w->size[i],
+                isnan(w->noise[i]) ? 0 : (w->now.on[i] ? 1e4 : 8) * w->noise[i]);
+}
+
+static void
+note_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    double others = 0;
+
+    for (int k = 1; k < p->n; k++)
+        others += fabs(p->c[k]);
+    w->size[i] = qdot_chebyshev_size(p->n, p->c);
+    w->clear[i] = fabs(p->c[0]) - others;
+}
+
 qdot_watch_verdict
 qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
 {
@@ -57,10 +77,10 @@ qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
     }
     qdot_chebyshev_fit(nodes, values, p->c);
     size = qdot_chebyshev_size(nodes, p->c);
+    note_sizes(w, p, i);
     if (!vanishes(w, p, i) &&
         qdot_chebyshev_tail(nodes, p->c) >
-            fmax(((p->from_zero ? 1e-11 : resolved) + 8 * blur(p)) * size,
-                 isnan(w->noise[i]) ? 0 : (p->from_zero ? 1e4 : 8) * w->noise[i]))
+            qdot_watch_least(w, p, i))
         return QDOT_PART_MORE_NODES;
     if (p->from_zero && !vanishes(w, p, i) &&
         fabs(qdot_chebyshev_at(nodes, p->c, -1)) <= least_slope(p) * size)

@@ -18,6 +18,7 @@ sample(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p, int no
     for (int j = 0; j < nodes; j++) {
         QDOT_TRY(qdot_watch_value_at(
             w, k->reader, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), w->g));
+        qdot_hull_sample(&w->hull, j, w->in);
         for (size_t i = 0; i < w->m; i++)
             w->samples[i * QDOT_WATCH_NODES + (size_t)j] = w->g[i];
     }
@@ -83,6 +84,13 @@ look_at_part(qdot_watch *w, const qdot_watch_walk *k, qdot_watch_part *p,
         if (*v != QDOT_PART_MORE_NODES || nodes == QDOT_WATCH_NODES)
             break;
     }
+    if (*v == QDOT_PART_GOOD) {
+        *v = qdot_watch_judge(w, p, nodes);
+        if (*v == QDOT_PART_HALVED) {
+            QDOT_TRY(find_noise(w, k));
+            *v = qdot_watch_judge(w, p, nodes);
+        }
+    }
     if (*v != QDOT_PART_GOOD && !is_short(w, p))
         return QDOT_OK;
     *v = QDOT_PART_GOOD;
@@ -119,7 +127,9 @@ look_at_step(qdot_watch *w, const qdot_watch_walk *k, double t)
             depth--;
             continue;
         }
-        middle = p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT ? 0.0625 : 0.5);
+        middle = p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT ? 0.0625
+                                      : v == QDOT_PART_PARTED  ? 0.4867
+                                                               : 0.5);
         if (depth == DEEPEST || ++parts > MOST_PARTS)
             return qdot_fail(QDOT_EFAILED, "an event cannot be resolved at t = %.15g",
                              p.a);
@@ -133,14 +143,17 @@ look_at_step(qdot_watch *w, const qdot_watch_walk *k, double t)
 
 /* --- steps --------------------------------------------------------------------------- */
 
-/* Whether a bound is far from the step. */
+/* Whether a zero is far from the step. */
 static bool
 is_far(const qdot_watch *w, size_t i, double t, const double *y,
        const qdot_ode_series *series, int order, double unit)
 {
     size_t c = w->coordinate[i];
-    double distance = fabs(w->y[c] - w->bound[i]);
+    double distance;
 
+    if (c == SIZE_MAX)
+        return qdot_watch_excludes(w, i);
+    distance = fabs(w->y[c] - w->bound[i]);
     if (!series)
         return fmin(distance, fabs(y[c] - w->bound[i])) >
                fabs(t - w->t) * fmax(fabs(w->y[w->n + c]), fabs(y[w->n + c]));
@@ -202,8 +215,13 @@ qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t, const 
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, reader, t, w->final));
     w->length = fabs(t - w->t);
+    if (w->all_bounds)
+        w->hull_at_step = false;
+    else
+        qdot_watch_bound(w, t, series, order, unit);
+    qdot_hull_begin(&w->hull);
     for (size_t i = 0; i < w->m; i++) {
-        w->live[i] = w->coordinate[i] == SIZE_MAX || w->start.on[i] ||
+        w->live[i] = w->start.on[i] ||
                      qdot_watch_sign(w->final[i]) != w->start.sign[i] ||
                      !is_far(w, i, t, y, series, order, unit);
         any |= w->live[i];
@@ -309,6 +327,9 @@ qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound)
 {
     w->coordinate[i] = coordinate;
     w->bound[i] = bound;
+    w->all_bounds = true;
+    for (size_t k = 0; k < w->m; k++)
+        w->all_bounds = w->all_bounds && w->coordinate[k] != SIZE_MAX;
 }
 
 void
@@ -318,6 +339,7 @@ qdot_watch_free(qdot_watch *w)
         return;
     qdot_tape_free(w->tape);
     qdot_tape_free(w->sizes);
+    qdot_hull_clear(&w->hull);
     qdot_free(w->coordinate);
     qdot_free(w->bound);
     qdot_free(w->in);
@@ -336,7 +358,7 @@ make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + work + 6 * m +
+    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + work + 8 * m +
                                  QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
                              sizeof *at);
     int *signs = qdot_calloc(3 * m + 1, sizeof *signs);
@@ -357,7 +379,9 @@ make_room(qdot_watch *w)
     w->g = w->work + work;
     w->moved = w->g + m;
     w->noise = w->moved + m;
-    w->final = w->noise + m;
+    w->size = w->noise + m;
+    w->clear = w->size + m;
+    w->final = w->clear + m;
     w->start.g0 = w->final + m;
     w->now.g0 = w->start.g0 + m;
     w->samples = w->now.g0 + m;
@@ -391,6 +415,8 @@ qdot_watch_new(const qdot_plan *plan, size_t m, const qdot_expr *g, bool shaken,
     status = qdot_watch_lower(w, g, shaken);
     if (status == QDOT_OK)
         status = make_room(w);
+    if (status == QDOT_OK)
+        status = qdot_hull_init(&w->hull, w->tape, 2 * w->n);
     if (status != QDOT_OK) {
         qdot_watch_free(w);
         return status;

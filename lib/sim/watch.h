@@ -3,7 +3,9 @@
  *     g_i(q, q', t, q'') = 0,   i = 0 ... m - 1,   t_k <= t < t_k+1
  *
  * On a part of a step every g_i becomes a Chebyshev polynomial (num/chebyshev.h) of 16 to
- * 64 terms whose last are below rounding; where they are not the part is halved. Between
+ * 64 terms whose last are below rounding, and discs (hull.h) say that nothing hides between
+ * its nodes; where that is not so the part is halved. A step by a series is left alone where
+ * discs keep g_i from 0. Between
  * its extrema, which are isolated by the bound of the derivative, a polynomial changes its
  * sign at most once: none is missed, however near two lie. A root is then located in
  * doubles of t by the states themselves: the first double at which g has gone over.
@@ -17,7 +19,7 @@
  * An extremum within rounding of 0, or within the tolerance of the run, is a root without
  * change of sign.
  *
- * Tests  tests/script/events.lag, event-roots.lag
+ * Tests  tests/script/events.lag, event-roots.lag, narrow-events.lag
  */
 #ifndef QDOT_SIM_WATCH_H
 #define QDOT_SIM_WATCH_H
