@@ -11,6 +11,20 @@ enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 /* Half of so many orders beyond the narrow ones are a vector more (tape/taylor-code.h). */
 enum { orders_of_vector = 16 };
 
+/* From order 6 on: z to a tenth, below which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. */
+static const unsigned char stable[] = {
+    5,   17,  33,  12,  14,  19,  33,  50,  26,  28,  35,  49,  65,  42,  45,
+    51,  65,  81,  60,  62,  68,  81,  97,  112, 79,  85,  97,  113, 128, 97,
+    102, 113, 128, 144, 115, 120, 129, 144, 160, 133, 137, 145, 160};
+
+double
+qdot_ode_taylor_stable(int p)
+{
+    const int i = p - least_order, last = (int)(sizeof stable / sizeof *stable) - 1;
+
+    return 0.1 * stable[i < 0 ? 0 : i > last ? last : i];
+}
+
 static double
 cost_of(const qdot_ode_series *s, int p)
 {
@@ -26,13 +40,17 @@ int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, int more)
 {
     double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
+    const bool more_digits = series->written[0] > 0 && L < series->digits;
+    const bool cheap = more_digits && series->digits > QDOT_ODE_DIGITS;
     int best = least_order;
 
-    if (series->written[0] > 0)
-        L = fmax(L, series->digits);
+    if (more_digits)
+        L = series->digits;
     for (int p = least_order; p <= series->most - of_companions; p++) {
         double cost = cost_of(series, p) * exp(L / p);
 
+        if (cheap)
+            cost *= p / qdot_ode_taylor_stable(p);
         if (cost < least) {
             least = cost;
             best = p;

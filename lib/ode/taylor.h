@@ -63,6 +63,12 @@ QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *sys
 int qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading,
                           int more);
 
+/* How long, in radians, steps of order p may be that let no oscillation grow: z to a tenth,
+ * up to which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. From p to p + 1 that may halve. Where an
+ * order costs little and is for an oscillation that is hardly there (series.digits) what it
+ * costs is weighed by that too. */
+double qdot_ode_taylor_stable(int p);
+
 /* The least of the terms of order 5 ... p at s, two in a row, relative by scale [n], and the
  * second of their orders. */
 double qdot_ode_taylor_least_term(const qdot_ode_series *series, size_t n, int p, double s,
