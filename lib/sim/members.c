@@ -9,7 +9,7 @@
 #include "tape/lanes-code.h"
 #include "tape/taylor.h"
 
-enum { L = QDOT_LANES, most_order = 44, first_of_loop = 4 };
+enum { L = QDOT_LANES, most_order = 44 };
 
 /* Numbers of the code: units of time, their squares, right-hand sides of a block, then the
  * inverses. A larger block than this has none. */
@@ -335,7 +335,7 @@ write_expansion(qdot_lanes_writer *w, void *user)
     for (size_t i = 0; i < n; i++)
         write_integral(w, m, (qdot_lanes_at){input(w, m, n + i), 1}, UNIT, once,
                        once_beyond, (qdot_lanes_at){input(w, m, i), 2});
-    qdot_lanes_orders(w, 1, first_of_loop, m->to, write_order, m);
+    qdot_lanes_orders(w, 1, 0, 1, m->to, write_order, m);
 }
 
 /* --- building ----------------------------------------------------------------------- */

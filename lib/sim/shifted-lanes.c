@@ -11,11 +11,11 @@
 #include "tape/shake.h"
 #include "tape/taylor.h"
 
-enum { L = QDOT_LANES, most_order = 44, first_of_loop = 6 };
+enum { L = QDOT_LANES, most_order = 44 };
 
-/* Numbers of the code: squares of units of time, inverses of them; then x'' [functions], -R [n]
- * and the inverses of the blocks. A larger block than this has none. */
-enum { UNIT_SQUARE, PER_UNIT, NUMBERS, most_solved = 16 };
+/* Numbers of the code: squares of units of time, inverses of them, these times the order; then
+ * x'' [functions], R [n] and the inverses of the blocks. A larger block than this has none. */
+enum { UNIT_SQUARE, PER_UNIT, M_PER_UNIT, NUMBERS, most_solved = 16 };
 
 typedef struct {
     double *A, *inverse; /* [n x n groups] of M_0: its factor; inverse */
@@ -52,6 +52,7 @@ struct qdot_shifted_lanes {
     int to;                  /* order of q that */
     qdot_lanes_code *code;   /* goes to; NULL: kernels run */
     qdot_lanes_pair *pairs;  /* [n_slopes] while it is written */
+    qdot_lanes_row *inputs;  /* [n] likewise */
 };
 
 bool
@@ -217,8 +218,14 @@ beyond(int m)
 {
     const double inverse = inverse_of(m);
 
-    return m > 1 && m - 2 <= QDOT_TAYLOR_EXACT ? fma(-inverse, m * (m - 1), 1) / (m * (m - 1))
-                                               : 0;
+    return m > 1 ? fma(-inverse, m * (m - 1), 1) / (m * (m - 1)) : 0;
+}
+
+/* Whether order m is divided so. */
+static bool
+is_exact(const qdot_shifted_lanes *s, int m)
+{
+    return s->to > QDOT_TAYLOR_EXACT_FROM && m - 2 <= QDOT_TAYLOR_EXACT;
 }
 
 static double
@@ -245,6 +252,15 @@ remainder_of(const qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t i)
     return qdot_lanes_number(w, NUMBERS + s->residual->functions + i);
 }
 
+static void
+add_force(qdot_lanes_writer *w, qdot_lanes_sum *F, qdot_lanes_at of_child)
+{
+    if (*F == QDOT_LANES_NOTHING)
+        *F = qdot_lanes_continue(w, of_child);
+    else
+        qdot_lanes_add(w, F, false, of_child);
+}
+
 /* As `accelerate`. */
 static void
 write_forces(qdot_lanes_writer *w, const qdot_shifted_lanes *s, int m)
@@ -255,7 +271,7 @@ write_forces(qdot_lanes_writer *w, const qdot_shifted_lanes *s, int m)
         qdot_lanes_sum x = QDOT_LANES_NOTHING;
 
         if (r->parent[f] != UINT32_MAX)
-            qdot_lanes_add(w, &x, false, second_derivative(w, r->parent[f]));
+            x = qdot_lanes_continue(w, second_derivative(w, r->parent[f]));
         qdot_lanes_add_product(w, &x, false, qdot_lanes_scalar_of(w, factor_of, m),
                                (qdot_lanes_at){qdot_lanes_row_of(w, s->d[f]), m});
         qdot_lanes_store(w, x, second_derivative(w, f));
@@ -263,14 +279,19 @@ write_forces(qdot_lanes_writer *w, const qdot_shifted_lanes *s, int m)
     for (size_t f = r->functions; f-- > 0;) {
         qdot_lanes_sum F = QDOT_LANES_NOTHING;
 
-        for (size_t i = 0; i < r->n_weights; i++)
-            if (r->weights[i].to == f)
-                qdot_lanes_add_product(w, &F, false, qdot_lanes_scalar(w, s->weight[i]),
-                                       second_derivative(w, r->weights[i].from));
         for (size_t child = f + 1; child < r->functions; child++)
             if (r->parent[child] == f)
-                qdot_lanes_add(w, &F, false,
-                               (qdot_lanes_at){qdot_lanes_further_row(w, child), m - 2});
+                add_force(w, &F, (qdot_lanes_at){qdot_lanes_further_row(w, child), m - 2});
+        for (size_t i = 0; i < r->n_weights; i++) {
+            const qdot_lanes_at x = second_derivative(w, r->weights[i].from);
+
+            if (r->weights[i].to != f)
+                continue;
+            if (s->weight[i] == 1)
+                qdot_lanes_add(w, &F, false, x);
+            else
+                qdot_lanes_add_product(w, &F, false, qdot_lanes_scalar(w, s->weight[i]), x);
+        }
         qdot_lanes_store(w, F, (qdot_lanes_at){qdot_lanes_further_row(w, f), m - 2});
     }
 }
@@ -296,9 +317,8 @@ write_remainder(qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t i, int
     for (size_t j = 0; j < n; j++)
         qdot_lanes_add_product(w, &R, false, (qdot_lanes_at){pairs[j].x, 0},
                                (qdot_lanes_at){pairs[j].y, k});
-    qdot_lanes_negate(w, &R);
     if (s->Q[i])
-        qdot_lanes_add_product(w, &R, false, qdot_lanes_number(w, UNIT_SQUARE),
+        qdot_lanes_add_product(w, &R, true, qdot_lanes_number(w, UNIT_SQUARE),
                                (qdot_lanes_at){qdot_lanes_row_of(w, s->Q[i]), k});
     qdot_lanes_store(w, R, remainder_of(w, s, i));
 }
@@ -315,17 +335,18 @@ write_solution(qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t b, int 
         qdot_lanes_sum a = QDOT_LANES_NOTHING, v = a;
 
         for (size_t j = 0; j < n; j++)
-            qdot_lanes_add_product(w, &a, false, remainder_of(w, s, block->index[j]),
+            qdot_lanes_add_product(w, &a, true, remainder_of(w, s, block->index[j]),
                                    qdot_lanes_number(w, s->solvers[b].number + i * n + j));
-        qdot_lanes_store(w, a, q);
-        a = QDOT_LANES_NOTHING;
-        if (s->to > QDOT_TAYLOR_EXACT_FROM)
+        if (is_exact(s, m)) {
+            qdot_lanes_store(w, a, q);
+            a = QDOT_LANES_NOTHING;
             qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, beyond, m));
-        qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, inverse_of, m));
+            qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, inverse_of, m));
+        } else {
+            qdot_lanes_scale(w, &a, qdot_lanes_scalar_of(w, inverse_of, m));
+        }
         qdot_lanes_store(w, a, q);
-        qdot_lanes_add_product(w, &v, false, qdot_lanes_number(w, PER_UNIT),
-                               qdot_lanes_scalar_of(w, itself, m));
-        qdot_lanes_scale(w, &v, q);
+        qdot_lanes_add_product(w, &v, false, q, qdot_lanes_number(w, M_PER_UNIT));
         qdot_lanes_store(w, v, input(w, s, s->plan->n + block->index[i], m - 1));
     }
 }
@@ -335,17 +356,21 @@ static void
 write_order(qdot_lanes_writer *w, int m, void *user)
 {
     const qdot_shifted_lanes *s = user;
+    const size_t n = s->plan->n;
+    qdot_lanes_sum m_per_unit = QDOT_LANES_NOTHING;
 
-    qdot_lanes_steps_before(w, m);
-    for (size_t i = 0; i < s->plan->n; i++)
-        qdot_lanes_store(w, QDOT_LANES_NOTHING, input(w, s, i, m));
-    qdot_lanes_steps_after(w, m);
+    for (size_t i = 0; i < n; i++)
+        s->inputs[i] = input(w, s, i, m).row;
+    qdot_lanes_steps_without(w, m, n, s->inputs);
     write_forces(w, s, m);
-    for (size_t i = 0; i < s->plan->n; i++)
+    for (size_t i = 0; i < n; i++)
         write_remainder(w, s, i, m - 2);
+    qdot_lanes_add_product(w, &m_per_unit, false, qdot_lanes_number(w, PER_UNIT),
+                           qdot_lanes_scalar_of(w, itself, m));
+    qdot_lanes_store(w, m_per_unit, qdot_lanes_number(w, M_PER_UNIT));
     for (size_t b = 0; b < s->plan->structure.blocks; b++)
         write_solution(w, s, b, m);
-    qdot_lanes_steps_after(w, m);
+    qdot_lanes_steps_with(w, m);
     write_forces(w, s, m);
 }
 
@@ -353,8 +378,9 @@ static void
 write_expansion(qdot_lanes_writer *w, void *user)
 {
     qdot_shifted_lanes *s = user;
+    const int loop = is_exact(s, 0) ? QDOT_TAYLOR_EXACT + 3 : 3;
 
-    qdot_lanes_orders(w, 3, first_of_loop, s->to, write_order, s);
+    qdot_lanes_orders(w, 3, 2, loop, s->to, write_order, s);
 }
 
 /* Rows of the program that are read by order must be there from orders before the code's. */
@@ -373,7 +399,8 @@ write_code(qdot_shifted_lanes *s, int most)
         numbers += n * n;
     }
     s->pairs = qdot_calloc(s->residual->n_slopes + 1, sizeof *s->pairs);
-    if (!s->pairs)
+    s->inputs = qdot_calloc(s->plan->n, sizeof *s->inputs);
+    if (!s->pairs || !s->inputs)
         return QDOT_ENOMEM;
     return qdot_lanes_code_new(s->places, s->residual->functions, numbers, write_expansion,
                                s, &s->code);
@@ -499,6 +526,7 @@ qdot_shifted_lanes_free(qdot_shifted_lanes *s)
     }
     qdot_lanes_code_free(s->code);
     qdot_free(s->pairs);
+    qdot_free(s->inputs);
     qdot_lanes_free(s->places);
     qdot_tape_free(s->masses);
     qdot_free(s->d);

@@ -10,12 +10,11 @@
 enum {
     /* Longer code is not there when it is wanted. */
     most_bytes = 1 << 19,
-    /* Registers of sums that a sequence of terms makes: two orders of one product or of two,
-     * each in chains that do not wait for each other. Behind them those for a moment, and
-     * those for coefficients. */
-    chains = 8,
-    chains_narrow = 4,
-    moments = 5
+    /* Orders of a block, and registers of sums that a sequence of terms makes: those of one
+     * product or of two, each in chains that do not wait for each other. Behind them one for
+     * a moment, and those for coefficients. */
+    block = 4,
+    chains = 8
 };
 
 typedef void kernel(double *coefficients, const double *scalars, double *work);
@@ -45,48 +44,78 @@ aim(qdot_lanes_writer *w, bool further, int k)
 {
     static const struct {
         qdot_x86_base to, from;
-        int bytes;
-    } rows[] = {{QDOT_X86_R9, QDOT_X86_RDI, QDOT_WRITER_GROUP},
-                {QDOT_X86_R10, QDOT_X86_RDX, QDOT_WRITER_GROUP},
-                {QDOT_X86_RBX, QDOT_X86_RSI, sizeof(double)},
-                {QDOT_X86_RBP, QDOT_X86_RDI, QDOT_WRITER_GROUP / 2}};
-    const int32_t dot = (int32_t)(w->dot[2] - w->dot[3]);
-    const int32_t pair = (int32_t)(w->pair[2] - w->pair[3]);
+        int bytes, part;
+    } rows[] = {{QDOT_X86_R9, QDOT_X86_RDI, QDOT_WRITER_GROUP, 1},
+                {QDOT_X86_R10, QDOT_X86_RDX, QDOT_WRITER_GROUP, 1},
+                {QDOT_X86_RBX, QDOT_X86_RSI, sizeof(double), 1},
+                {QDOT_X86_RBP, QDOT_X86_RDI, QDOT_WRITER_GROUP, 2}};
+    const int32_t dot = (int32_t)qdot_writer_term(w, w->dot);
+    const int32_t pair = (int32_t)qdot_writer_term(w, w->pair);
+    const int32_t half = (int32_t)qdot_writer_term(w, w->half);
 
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         qdot_x86_address(&w->x, rows[i].to, further ? rows[i].to : rows[i].from,
-                         k * rows[i].bytes);
+                         k / rows[i].part * rows[i].bytes);
     if (further) {
         qdot_x86_address(&w->x, QDOT_X86_R11, QDOT_X86_R11, -k * dot);
         qdot_x86_address(&w->x, QDOT_X86_R14, QDOT_X86_R14, -k * pair);
-        qdot_x86_address(&w->x, QDOT_X86_R15, QDOT_X86_R15, -k / 2 * dot);
+        qdot_x86_address(&w->x, QDOT_X86_R15, QDOT_X86_R15, -k / 2 * half);
     } else {
         qdot_x86_place(&w->x, QDOT_X86_R11, w->dot[k - 1]);
         qdot_x86_place(&w->x, QDOT_X86_R14, w->pair[k - 1]);
-        qdot_x86_place(&w->x, QDOT_X86_R15, w->dot[k / 2 - 1]);
+        qdot_x86_place(&w->x, QDOT_X86_R15, w->half[(k - 1) / 2]);
     }
 }
 
+/* An order of a block from `first` on, or of one so many blocks before it. */
+static void
+write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_order *write,
+          void *user)
+{
+    const int phase = (k - first) % w->block + (k < first ? w->block : 0);
+
+    w->phase = phase % w->block;
+    if (w->phase > k - from)
+        w->phase = k - from;
+    write(w, k, user);
+}
+
+/* From which order on no term of a block is of two of its coefficients. */
+static int
+least_of_loop(const qdot_lanes_writer *w, int late)
+{
+    for (size_t i = w->t->still; i < w->t->length; i++) {
+        const int op = w->t->steps[i].op;
+
+        if (op == QDOT_T_SQUARE || op == QDOT_T_SQRT || op == QDOT_T_TANH)
+            return 2 * w->block + late;
+    }
+    return w->block + late;
+}
+
 void
-qdot_lanes_orders(qdot_lanes_writer *w, int from, int loop, int to,
+qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
                   qdot_lanes_write_order *write, void *user)
 {
+    const int least = least_of_loop(w, late) > loop ? least_of_loop(w, late) : loop;
+    const int blocks = to >= least ? (to - least + 1) / w->block : 0;
+    const int first = to + 1 - blocks * w->block;
     size_t start = 0;
-    int k = from;
 
-    for (; k <= to && k < loop; k++)
-        write(w, k, user);
-    if (k > to)
+    for (int k = from; k < first; k++)
+        write_one(w, k, from, first, write, user);
+    if (blocks == 0)
         return;
     forget(w);
     if (!w->counting) {
-        aim(w, false, k);
-        start = qdot_x86_repeat(&w->x, (to - k + 2) / 2);
+        aim(w, false, first);
+        start = qdot_x86_repeat(&w->x, blocks);
     }
-    for (int odd = 0; odd < 2; odd++)
-        write(w, QDOT_WRITER_ANY + odd, user);
+    w->any = QDOT_WRITER_ANY + first % w->block;
+    for (int i = 0; i < w->block; i++)
+        write_one(w, w->any + i, from, w->any, write, user);
     if (!w->counting) {
-        aim(w, true, 2);
+        aim(w, true, w->block);
         qdot_x86_again(&w->x, start);
     }
     forget(w);
@@ -125,12 +154,15 @@ write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *us
     w->counting = counting;
     w->k = 0;
     w->clock = 0;
+    w->any = QDOT_WRITER_ANY;
+    w->phase = 0;
     if (w->ahead.n > 0)
         memset(w->ahead.at, 0, w->ahead.n * sizeof *w->ahead.at);
     memset(w->reg, 0, sizeof w->reg);
     if (!counting) {
-        qdot_writer_terms(w, 1, w->dot);
-        qdot_writer_terms(w, 2, w->pair);
+        qdot_writer_terms(w, w->windows, 1, w->dot);
+        qdot_writer_terms(w, w->windows, 2, w->pair);
+        qdot_writer_terms(w, false, 1, w->half);
     }
     *entry = w->x.bytes.n;
     for (size_t i = 0; i < n; i++)
@@ -178,10 +210,11 @@ make(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code 
 
     w->moving = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->moving);
     w->kept = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->kept);
+    w->absent = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->absent);
     w->rests = qdot_calloc(QDOT_WRITER_RESTS * w->t->length + 1, sizeof *w->rests);
     if (c)
         c->text = qdot_calloc(1, sizeof *c->text);
-    if (c && c->text && w->moving && w->kept && w->rests) {
+    if (c && c->text && w->moving && w->kept && w->absent && w->rests) {
         atomic_init(&c->text->users, 1);
         find_moving(w);
         write_all(w, true, write, user, &c->entry);
@@ -223,12 +256,15 @@ qdot_lanes_code_new(qdot_lanes *lanes, size_t rows, size_t numbers,
     if (kind == 0)
         return QDOT_OK;
     w.x.narrow = kind == 1;
-    w.chains = kind > 1 ? chains : chains_narrow;
+    w.block = block;
+    w.chains = chains;
     w.moment = w.chains;
-    w.first_free = w.moment + moments;
+    w.windows = kind > 1;
+    w.first_free = w.moment + 1 + (w.windows ? 2 * w.block : 0);
     status = make(&w, write, user, code);
     qdot_free(w.moving);
     qdot_free(w.kept);
+    qdot_free(w.absent);
     qdot_free(w.rests);
     qdot_free(w.scalars.at);
     qdot_free(w.tables.at);

@@ -4,17 +4,18 @@
  * Every number of the code is a group, a vector of the processor: coefficient k of a row. What
  * an order is made of is said by a function that is called while the code is written: the
  * recurrences of the program (_steps), sums of products over orders (_dots), and single
- * operations on an accumulator. Low orders are written one after another, the
- * others as a loop of two, places being constants but for the order; sums call one sequence of multiplications at the place from which on it has as many
- * as are wanted, whatever the rows. At an even order k it makes what is known of two orders,
- * for which coefficients are loaded once:
+ * operations on an accumulator. Low orders are written one after another, the others as a
+ * loop of blocks of four, places being constants but for the order. Sums call one sequence of
+ * multiplications at the place from which on it has as many as are wanted, whatever the rows.
+ * The first order K of a block makes what is known by then of all its sums,
  *
- *     sum_{j=1..k-1} x_j y_{k-j},   sum_{j=2..k-1} x_j y_{k+1-j},
+ *     sum_{j=i+1..K-1} x_j y_{K+i-j},   i = 0 ... 3,
  *
- * terms k - 1, k - 2, ..., 1 from the (k-1)-th before its end on; order k + 1 adds the two that
- * hold coefficients k. The newest are added last, for which nothing then waits. Results stay in
- * registers while there is room, and rows that no sum reads have a place for order 0 and one
- * for the order at hand only.
+ * terms K - 1, K - 2, ..., 1 from the (K-1)-th before its end on, for which coefficients are
+ * loaded once: a row that has left the nearest cache is brought there once a block. Order K + i
+ * adds the 2 i terms that hold coefficients from K on, the newest last, for which nothing then
+ * waits. Results stay in registers while there is room, and rows that no sum reads have a place
+ * for order 0 and one for the order at hand only.
  *
  * With AVX-512 a group is one vector. With AVX2 it is two, and the same code, in their
  * encoding, is run for each half. Without either there is none: kernels of lanes.h run. The
@@ -86,24 +87,26 @@ qdot_lanes_at qdot_lanes_scalar(qdot_lanes_writer *w, double value);
 /* The same, f(k). */
 qdot_lanes_at qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k);
 
-/* Orders from ... to, each once written for itself up to `loop`, an even number from 4 on, and
- * then two at a time, as a loop. In there k stands for them all: k + 1 and k - 2 are orders
- * beside it, and its parity is that of the order. One order more than `to` may be run: rows
- * have room for it. */
-void qdot_lanes_orders(qdot_lanes_writer *w, int from, int loop, int to,
+/* Orders from ... to, low ones each written for itself, the others four at a time, as a loop,
+ * from order `loop` or a later one on. In there k stands for them all: k + 1 and k - 2 are orders
+ * beside it. Sums of _dots are at most `late` orders below the steps'. */
+void qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
                        qdot_lanes_write_order *write, void *user);
 
 /* Order k = 1, 2, ... of all steps, orders below being there and k of the inputs. */
 void qdot_lanes_steps(qdot_lanes_writer *w, int k);
-/* The same in two: what needs no coefficient k; and the rest, as often as wanted, inputs being
- * others. */
-void qdot_lanes_steps_before(qdot_lanes_writer *w, int k);
-void qdot_lanes_steps_after(qdot_lanes_writer *w, int k);
+/* The same, coefficients k of some inputs being 0, whatever they have; and once more with those
+ * that they have by then. */
+void qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n,
+                              const qdot_lanes_row *inputs);
+void qdot_lanes_steps_with(qdot_lanes_writer *w, int k);
 
 /* The sum over pairs of sum_{j=1..k-1} x_j y_{k-j}. For the same sums in the same order
  * behind the steps of every order, k being theirs or an even number of orders below. */
 qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
                                const qdot_lanes_pair *pair, int k);
+/* What begins as a copy of it. */
+qdot_lanes_sum qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a);
 /* sum +- a, sum +- a b, sum a; it is stored and its register given back. */
 void qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                     qdot_lanes_at a);

@@ -39,10 +39,16 @@ inverse_of_order(const step *s)
     return qdot_lanes_scalar_of(s->w, inverse, s->k);
 }
 
+/* While inputs are left out a coefficient may be absent for it. */
 static void
 store(const step *s, qdot_lanes_sum sum, const double *to)
 {
-    qdot_lanes_store(s->w, sum, at(s, to, s->k));
+    qdot_lanes_writer *w = s->w;
+
+    if (w->without && sum == QDOT_LANES_NOTHING)
+        w->absent[qdot_writer_row(w, to)] = true;
+    else
+        qdot_lanes_store(w, sum, at(s, to, s->k));
 }
 
 /* sum + +-x_0 y_k */
@@ -308,9 +314,12 @@ qdot_lanes_steps(qdot_lanes_writer *w, int k)
 }
 
 void
-qdot_lanes_steps_before(qdot_lanes_writer *w, int k)
+qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *inputs)
 {
     qdot_writer_begin(w, k);
+    w->without = true;
+    for (size_t i = 0; i < n; i++)
+        w->absent[inputs[i]] = true;
     for (size_t i = w->t->still; i < w->t->length; i++) {
         const step s = {w, w->t->steps + i, i, k};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];
@@ -318,13 +327,16 @@ qdot_lanes_steps_before(qdot_lanes_writer *w, int k)
         before(&s, sums);
         for (int r = 0; r < QDOT_WRITER_RESTS; r++)
             qdot_writer_keep(w, i, r, sums[r]);
+        after(&s, sums);
     }
 }
 
 void
-qdot_lanes_steps_after(qdot_lanes_writer *w, int k)
+qdot_lanes_steps_with(qdot_lanes_writer *w, int k)
 {
-    w->k = k;
+    w->without = false;
+    for (size_t i = 0; i < qdot_writer_rows(w); i++)
+        w->absent[i] = false;
     for (size_t i = w->t->still; i < w->t->length; i++) {
         const step s = {w, w->t->steps + i, i, k};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];

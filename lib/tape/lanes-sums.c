@@ -1,54 +1,60 @@
-/* lanes-sums.c -- sums of products over orders, two orders at a time. */
+/* lanes-sums.c -- sums of products over orders, those of a block of orders together. */
 #include "tape/lanes-writer.h"
 
-/* A sequence of terms has sums of `products` times two orders; register c of sum s. */
+/* A sequence of terms has sums of `products` times the orders of a block; register c of the
+ * i-th order's of one. */
 static int
 chains_of(const qdot_lanes_writer *w, int products)
 {
-    return w->chains / (2 * products);
+    return w->chains / (w->block * products);
 }
 
 static int
-chain(const qdot_lanes_writer *w, int products, int sum, int c)
+chain(const qdot_lanes_writer *w, int products, int product, int i, int c)
 {
-    return sum * chains_of(w, products) + c % chains_of(w, products);
-}
+    const int n = chains_of(w, products);
 
-/* Where coefficient k - j of the other factor i is while term j is at work. */
-static int
-other(const qdot_lanes_writer *w, int i, int j)
-{
-    return w->moment + 1 + 2 * i + j % 2;
+    return (product * w->block + i) * n + c % n;
 }
 
 static const qdot_x86_base other_base[] = {QDOT_X86_R8, QDOT_X86_R13};
 
-/* Term j of rax and r8; and of rax and r13. Coefficient k + 1 - j is that of term j - 1, too. */
-static void
-emit_term(qdot_lanes_writer *w, int products, int j)
+/* What coefficient K + i - j of other factor p is multiplied from: a register that has it from
+ * the terms before on, or its place. */
+static qdot_x86_rm
+other(const qdot_lanes_writer *w, bool window, int p, int i, int j)
 {
-    const int32_t at = (int32_t)(j * QDOT_WRITER_GROUP);
+    const int B = w->block;
 
-    qdot_writer_emit(w, QDOT_X86_LOAD_ALL, w->moment, 0, qdot_x86_at(QDOT_X86_RAX, at));
-    for (int i = 0; i < products; i++) {
-        qdot_writer_emit(w, QDOT_X86_MADD_ALL, chain(w, products, 2 * i, j), w->moment,
-                         qdot_x86_reg(other(w, i, j)));
-        if (j == 1)
-            continue;
-        qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, i, j - 1), 0,
-                         qdot_x86_at(other_base[i], (int32_t)QDOT_WRITER_GROUP - at));
-        qdot_writer_emit(w, QDOT_X86_MADD_ALL, chain(w, products, 2 * i + 1, j),
-                         w->moment, qdot_x86_reg(other(w, i, j - 1)));
-    }
+    return window ? qdot_x86_reg(w->moment + 1 + p * B + ((i - j) % B + B) % B)
+                  : qdot_x86_at(other_base[p], (i - j) * (int32_t)QDOT_WRITER_GROUP);
+}
+
+/* Term j of rax and r8; and of rax and r13: of the orders that have coefficients below the
+ * block's first alone in it. */
+static void
+emit_term(qdot_lanes_writer *w, bool window, int products, int j)
+{
+    const int last = w->block - 1;
+
+    qdot_writer_emit(w, QDOT_X86_LOAD_ALL, w->moment, 0,
+                     qdot_x86_at(QDOT_X86_RAX, j * (int32_t)QDOT_WRITER_GROUP));
+    for (int p = 0; window && j > last && p < products; p++)
+        qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, true, p, last, j).reg, 0,
+                         other(w, false, p, last, j));
+    for (int i = 0; i <= last && i < j; i++)
+        for (int p = 0; p < products; p++)
+            qdot_writer_emit(w, QDOT_X86_MADD_ALL, chain(w, products, p, i, j), w->moment,
+                             other(w, window, p, i, j));
 }
 
 void
-qdot_writer_terms(qdot_lanes_writer *w, int products, size_t *at)
+qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at)
 {
-    w->x.far = true;
+    w->x.far = w->x.narrow; /* else all their offsets take one byte */
     for (int n = (int)w->stride - 1; n > 0; n--) {
         at[n] = w->x.bytes.n;
-        emit_term(w, products, n);
+        emit_term(w, window, products, n);
     }
     w->x.far = false;
     qdot_x86_leave(&w->x);
@@ -65,37 +71,39 @@ address(qdot_lanes_writer *w, qdot_x86_base to, qdot_lanes_row row, int order)
 
 /* Where a register says, or at so many terms less: sums of a lower order than the steps. */
 static void
-enter_in_loop(qdot_lanes_writer *w, qdot_x86_base at, int less)
+enter_in_loop(qdot_lanes_writer *w, qdot_x86_base at, const size_t *terms, int less)
 {
     if (less > 0)
         qdot_x86_address(&w->x, QDOT_X86_R12, at,
-                         less * (int32_t)(w->dot[2] - w->dot[3]));
+                         less * (int32_t)qdot_writer_term(w, terms));
     qdot_x86_enter_at(&w->x, less > 0 ? QDOT_X86_R12 : at);
 }
 
-/* Terms n, n - 1, ..., 1 of order k are added; z of two products only. In a loop the number
- * of a square's may be even or odd. */
+/* Terms n, n - 1, ..., 1 of a block from order K on are added; z of two products only. */
 static void
 call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
-           const qdot_lanes_row *z, int n, int k)
+           const qdot_lanes_row *z, int n, int K)
 {
     const qdot_lanes_row others[] = {y, z ? *z : y};
-    const bool any = k > QDOT_WRITER_ANY / 2, square = n < k - 1;
+    const bool any = K > QDOT_WRITER_ANY / 2, square = n < K - 1;
+    const bool window = w->windows && !square;
 
+    qdot_lanes_keep(w, x);
     address(w, QDOT_X86_RAX, x, 0);
     for (int i = 0; i < (z ? 2 : 1); i++) {
-        address(w, other_base[i], others[i], k);
-        for (int even = 0; even < (any && square ? 2 : 1); even++)
-            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, i, n + even), 0,
-                             qdot_writer_place(w, (qdot_lanes_at){others[i], k - n}));
+        qdot_lanes_keep(w, others[i]);
+        address(w, other_base[i], others[i], K);
+        for (int c = 0; window && c < n && c < w->block - 1; c++)
+            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, true, i, c, n).reg, 0,
+                             qdot_writer_place(w, (qdot_lanes_at){others[i], K - n + c}));
     }
     if (w->counting)
         return;
     if (any)
         enter_in_loop(w, z ? QDOT_X86_R14 : square ? QDOT_X86_R15 : QDOT_X86_R11,
-                      QDOT_WRITER_ANY + k % 2 - k);
+                      z ? w->pair : square ? w->half : w->dot, w->any - K);
     else
-        qdot_x86_enter(&w->x, z ? w->pair[n] : w->dot[n]);
+        qdot_x86_enter(&w->x, z ? w->pair[n] : square ? w->half[n] : w->dot[n]);
 }
 
 static void
@@ -105,28 +113,24 @@ clear_chains(qdot_lanes_writer *w)
         qdot_writer_clear(w, r);
 }
 
-/* The chains of a sum become one register. */
-static qdot_lanes_sum
-add_up(qdot_lanes_writer *w, int products, int sum)
+/* The chains of a sum become the first of them. */
+static int
+add_up(qdot_lanes_writer *w, int products, int product, int i)
 {
-    const int from = chain(w, products, sum, 0), n = chains_of(w, products);
-    const qdot_lanes_sum to = qdot_writer_take(w);
+    const int to = chain(w, products, product, i, 0), n = chains_of(w, products);
 
-    if (n > 2) {
-        qdot_writer_emit(w, QDOT_X86_ADD_ALL, from, from, qdot_x86_reg(from + 1));
-        qdot_writer_emit(w, QDOT_X86_ADD_ALL, from + 2, from + 2, qdot_x86_reg(from + 3));
-    }
-    if (n > 1)
-        qdot_writer_emit(w, QDOT_X86_ADD_ALL, to, from, qdot_x86_reg(from + n / 2));
-    else
-        qdot_writer_emit(w, QDOT_X86_LOAD_ALL, to, 0, qdot_x86_reg(from));
+    for (int half = n / 2; half > 0; half /= 2)
+        for (int c = 0; c < half; c++)
+            qdot_writer_emit(w, QDOT_X86_ADD_ALL, to + c, to + c,
+                             qdot_x86_reg(to + c + half));
     return to;
 }
 
 static qdot_lanes_at
-ahead(const qdot_lanes_writer *w, size_t sum)
+ahead(const qdot_lanes_writer *w, size_t sum, int i)
 {
-    return qdot_lanes_number(w, w->numbers + QDOT_WRITER_RESTS * w->t->length + sum);
+    return qdot_lanes_number(w, w->numbers + QDOT_WRITER_RESTS * w->t->length +
+                                    sum * (size_t)(w->block - 1) + (size_t)i - 1);
 }
 
 /* The number of the sum that comes. */
@@ -138,19 +142,27 @@ next_sum(qdot_lanes_writer *w)
     if (sum >= w->sums)
         w->sums = sum + 1;
     if (sum >= w->ahead.n && w->status == QDOT_OK)
-        w->status = qdot_vec_push(&w->ahead, false);
+        w->status = qdot_vec_push(&w->ahead, 0);
     return sum;
 }
 
-/* What an even order has made of a sum for the next one. */
-static void
-keep_ahead(qdot_lanes_writer *w, size_t sum, qdot_lanes_sum value)
+/* What n terms have made of a sum: of the block's first order, the value; of the others, kept
+ * until they come. */
+static qdot_lanes_sum
+share_out(qdot_lanes_writer *w, size_t sum, int products, int product, int n)
 {
-    if (w->status != QDOT_OK)
-        return;
-    w->ahead.at[sum] = value != QDOT_LANES_NOTHING;
-    if (value != QDOT_LANES_NOTHING)
-        qdot_lanes_store(w, value, ahead(w, sum));
+    qdot_lanes_sum first = QDOT_LANES_NOTHING;
+
+    if (n > 0) {
+        first = qdot_writer_take(w);
+        qdot_writer_emit(w, QDOT_X86_LOAD_ALL, first, 0,
+                         qdot_x86_reg(add_up(w, products, product, 0)));
+    }
+    for (int i = 1; i < w->block && i < n; i++)
+        qdot_writer_put(w, add_up(w, products, product, i), ahead(w, sum, i));
+    if (w->status == QDOT_OK)
+        w->ahead.at[sum] = n;
+    return first;
 }
 
 static qdot_lanes_sum
@@ -158,9 +170,15 @@ take_ahead(qdot_lanes_writer *w, size_t sum)
 {
     qdot_lanes_sum value = QDOT_LANES_NOTHING;
 
-    if (w->status == QDOT_OK && w->ahead.at[sum])
-        qdot_lanes_add(w, &value, false, ahead(w, sum));
+    if (w->status == QDOT_OK && w->ahead.at[sum] > w->phase)
+        qdot_lanes_add(w, &value, false, ahead(w, sum, w->phase));
     return value;
+}
+
+static int
+smaller(int a, int b)
+{
+    return a < b ? a : b;
 }
 
 static bool
@@ -169,19 +187,28 @@ both_move(const qdot_lanes_writer *w, const qdot_lanes_pair *pair)
     return w->moving[pair->x] && w->moving[pair->y];
 }
 
-/* Terms 1 and k - 1: all of order 2, and what order k - 1 has not made of an odd one. */
+/* Terms of order k that hold coefficients of its block, the newest last. */
 static void
-add_outer(qdot_lanes_writer *w, qdot_lanes_sum *sum, const qdot_lanes_pair *pair, int k)
+add_outer(qdot_lanes_writer *w, qdot_lanes_sum *sum, size_t pairs,
+          const qdot_lanes_pair *pair, int k)
 {
-    for (int j = 1; j<k; j += k> 2 ? k - 2 : 1)
-        qdot_lanes_add_product(w, sum, false, (qdot_lanes_at){pair->x, j},
-                               (qdot_lanes_at){pair->y, k - j});
+    for (int j = smaller(w->phase, k - 1); j > 0; j--)
+        for (size_t i = 0; i < pairs; i++) {
+            if (!both_move(w, pair + i))
+                continue;
+            qdot_lanes_add_product(w, sum, false, (qdot_lanes_at){pair[i].x, j},
+                                   (qdot_lanes_at){pair[i].y, k - j});
+            if (k - j > w->phase)
+                qdot_lanes_add_product(w, sum, false, (qdot_lanes_at){pair[i].x, k - j},
+                                       (qdot_lanes_at){pair[i].y, j});
+        }
 }
 
 qdot_lanes_sum
 qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs, const qdot_lanes_pair *pair, int k)
 {
     const size_t number = next_sum(w);
+    const int n = k - 1; /* terms, if the block begins */
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
     size_t moving = 0;
 
@@ -190,25 +217,18 @@ qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs, const qdot_lanes_pair *pair,
         qdot_lanes_keep(w, pair[i].y);
         moving += both_move(w, pair + i);
     }
-    if (k < 2 || moving == 0)
-        return sum;
-    if (k % 2 != 0 || k == 2) {
-        if (k > 2)
-            sum = take_ahead(w, number);
-        for (size_t i = 0; i < pairs; i++)
-            if (both_move(w, pair + i))
-                add_outer(w, &sum, pair + i, k);
-        if (k == 2)
-            keep_ahead(w, number, QDOT_LANES_NOTHING);
+    if (w->phase > 0) {
+        sum = take_ahead(w, number);
+        add_outer(w, &sum, pairs, pair, k);
         return sum;
     }
-    clear_chains(w);
-    for (size_t i = 0; i < pairs; i++)
-        if (both_move(w, pair + i))
-            call_terms(w, pair[i].x, pair[i].y, NULL, k - 1, k);
-    sum = add_up(w, 1, 0);
-    keep_ahead(w, number, add_up(w, 1, 1));
-    return sum;
+    if (n > 0 && moving > 0) {
+        clear_chains(w);
+        for (size_t i = 0; i < pairs; i++)
+            if (both_move(w, pair + i))
+                call_terms(w, pair[i].x, pair[i].y, NULL, n, k);
+    }
+    return share_out(w, number, 1, 0, moving > 0 ? n : 0);
 }
 
 void
@@ -218,7 +238,7 @@ qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
     const qdot_lanes_pair pairs[] = {{x, y}, {x, z}};
     size_t number[2];
 
-    if (k < 4 || k % 2 != 0 || !both_move(w, pairs) || !both_move(w, pairs + 1)) {
+    if (k < 2 || w->phase > 0 || !both_move(w, pairs) || !both_move(w, pairs + 1)) {
         for (int i = 0; i < 2; i++)
             sums[i] = qdot_lanes_dots(w, 1, pairs + i, k);
         return;
@@ -227,40 +247,42 @@ qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
         number[i] = next_sum(w);
     clear_chains(w);
     call_terms(w, x, y, &z, k - 1, k);
-    for (int i = 0; i < 2; i++) {
-        sums[i] = add_up(w, 2, 2 * i);
-        keep_ahead(w, number[i], add_up(w, 2, 2 * i + 1));
-    }
+    for (int i = 0; i < 2; i++)
+        sums[i] = share_out(w, number[i], 2, i, k - 1);
 }
 
-/* Half of the terms, twice, and the one in the middle. */
+/* Half of the terms, twice, and the one in the middle. Of those that are not of the block the
+ * ones next to the middle are added with it. */
 qdot_lanes_sum
 qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k)
 {
     const size_t number = next_sum(w);
-    const qdot_lanes_at middle = {x, k / 2}, first = {x, 1};
-    const qdot_lanes_at two = qdot_lanes_scalar(w, 2);
-    qdot_lanes_sum sum = QDOT_LANES_NOTHING, more = sum;
+    const int K = k - w->phase, n = K > 2 ? (K - 1) / 2 : 0, last = (k - 1) / 2;
+    const int from = n > w->phase ? n : w->phase;
+    const qdot_lanes_at middle = {x, k / 2};
+    qdot_lanes_sum sum;
 
     qdot_lanes_keep(w, x);
-    if (k < 2 || !w->moving[x])
-        return sum;
-    if (k % 2 != 0) {
+    if (!w->moving[x])
+        return QDOT_LANES_NOTHING;
+    if (w->phase > 0) {
         sum = take_ahead(w, number);
-        qdot_lanes_add_product(w, &sum, false, first, (qdot_lanes_at){x, k - 1});
-        qdot_lanes_scale(w, &sum, two);
-        return sum;
+    } else {
+        if (n > 0) {
+            clear_chains(w);
+            call_terms(w, x, x, NULL, n, K);
+        }
+        sum = share_out(w, number, 1, 0, n);
     }
-    if (k >= 4) {
-        clear_chains(w);
-        call_terms(w, x, x, NULL, k / 2 - 1, k);
-        sum = add_up(w, 1, 0);
-        more = add_up(w, 1, 1);
-        qdot_lanes_add_product(w, &more, false, middle, (qdot_lanes_at){x, k / 2 + 1});
-        qdot_lanes_scale(w, &sum, two);
-    }
-    keep_ahead(w, number, more);
-    qdot_lanes_add_product(w, &sum, false, middle, middle);
+    for (int j = last; j > from; j--)
+        qdot_lanes_add_product(w, &sum, false, (qdot_lanes_at){x, j},
+                               (qdot_lanes_at){x, k - j});
+    for (int j = smaller(w->phase, last); j > 0; j--)
+        qdot_lanes_add_product(w, &sum, false, (qdot_lanes_at){x, j},
+                               (qdot_lanes_at){x, k - j});
+    qdot_lanes_scale(w, &sum, qdot_lanes_scalar(w, 2));
+    if (k > 0 && k % 2 == 0)
+        qdot_lanes_add_product(w, &sum, false, middle, middle);
     return sum;
 }
 
@@ -275,7 +297,7 @@ qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum)
 {
     w->rests[QDOT_WRITER_RESTS * step + (size_t)i] = sum != QDOT_LANES_NOTHING;
     if (sum != QDOT_LANES_NOTHING)
-        qdot_lanes_store(w, sum, rest(w, step, i));
+        qdot_writer_put(w, sum, rest(w, step, i));
 }
 
 qdot_lanes_sum

@@ -17,11 +17,12 @@ is_row(const qdot_lanes_writer *w, qdot_lanes_row row)
     return row < qdot_writer_rows(w);
 }
 
-/* Its coefficient is 0 and nothing writes it. */
+/* A coefficient of a row is 0 and nothing writes it, or left out. */
 static bool
 vanishes(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    return a.order > 0 && !w->moving[a.row];
+    return is_row(w, a.row) && a.order > 0 &&
+           (!w->moving[a.row] || (w->absent[a.row] && a.order == w->k));
 }
 
 void
@@ -33,7 +34,8 @@ qdot_lanes_keep(qdot_lanes_writer *w, qdot_lanes_row row)
 size_t
 qdot_writer_groups(const qdot_lanes_writer *w)
 {
-    return w->numbers + QDOT_WRITER_RESTS * w->t->length + w->sums;
+    return w->numbers + QDOT_WRITER_RESTS * w->t->length +
+           w->sums * (size_t)(w->block - 1);
 }
 
 static qdot_x86_rm
@@ -44,9 +46,9 @@ groups_from(qdot_x86_base base, size_t groups)
 
 /* `groups` of one of the two arrays, at an order. */
 static qdot_x86_rm
-of_order(bool of_program, size_t groups, int order)
+of_order(const qdot_lanes_writer *w, bool of_program, size_t groups, int order)
 {
-    const int any = QDOT_WRITER_ANY, half = any / 2;
+    const int any = w->any, half = any / 2;
 
     if (order > half + half / 2)
         return qdot_x86_at(of_program ? QDOT_X86_R9 : QDOT_X86_R10,
@@ -69,7 +71,7 @@ qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a)
 
         return qdot_x86_at(any ? QDOT_X86_RBX : QDOT_X86_RSI,
                            (int32_t)sizeof(double) *
-                               (table + a.order - (any ? QDOT_WRITER_ANY : 0)));
+                               (table + a.order - (any ? w->any : 0)));
     }
     if (a.row >= QDOT_WRITER_SCALARS)
         return qdot_x86_at(QDOT_X86_RSI,
@@ -85,9 +87,9 @@ qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a)
         w->kept[a.row] = true;
     order = a.order > 0 && !w->kept[a.row] ? 1 : a.order;
     if (a.row < w->t->rows)
-        return of_order(true, a.row * w->stride, order);
-    return of_order(false, qdot_writer_groups(w) + (a.row - w->t->rows) * w->stride,
-                    order);
+        return of_order(w, true, a.row * w->stride, order);
+    return of_order(w, false,
+                    qdot_writer_groups(w) + (a.row - w->t->rows) * w->stride, order);
 }
 
 qdot_lanes_row
@@ -226,12 +228,22 @@ qdot_writer_clear(qdot_lanes_writer *w, int reg)
 
 /* --- sums --------------------------------------------------------------------------- */
 
+qdot_lanes_sum
+qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    const int reg = load(w, a);
+
+    w->reg[reg].holds = false;
+    w->reg[reg].taken = true;
+    return reg;
+}
+
 void
 qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus, qdot_lanes_at a)
 {
     qdot_x86_rm rm;
 
-    if (is_row(w, a.row) && vanishes(w, a))
+    if (vanishes(w, a))
         return;
     rm = operand(w, a);
     if (*sum == QDOT_LANES_NOTHING) {
@@ -252,7 +264,7 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
     int reg;
     qdot_x86_rm rm;
 
-    if ((is_row(w, a.row) && vanishes(w, a)) || (is_row(w, b.row) && vanishes(w, b)))
+    if (vanishes(w, a) || vanishes(w, b))
         return;
     if (holder(w, a) < 0 && holder(w, b) >= 0) {
         const qdot_lanes_at other = a;
@@ -291,8 +303,14 @@ qdot_lanes_add_scaled(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_sum 
 void
 qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
 {
-    if (*sum != QDOT_LANES_NOTHING)
-        qdot_writer_emit(w, QDOT_X86_MUL_ALL, *sum, *sum, operand(w, a));
+    if (*sum == QDOT_LANES_NOTHING)
+        return;
+    if (vanishes(w, a)) {
+        w->reg[*sum].taken = false;
+        *sum = QDOT_LANES_NOTHING;
+        return;
+    }
+    qdot_writer_emit(w, QDOT_X86_MUL_ALL, *sum, *sum, operand(w, a));
 }
 
 void
@@ -322,17 +340,25 @@ qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
 }
 
 void
-qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to)
+qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to)
 {
     const int before = holder(w, to);
 
     if (before >= 0)
         w->reg[before].holds = false;
+    qdot_writer_emit(w, QDOT_X86_STORE_ALL, reg, 0, qdot_writer_place(w, to));
+}
+
+void
+qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to)
+{
     if (sum == QDOT_LANES_NOTHING) {
         sum = qdot_writer_take(w);
         qdot_writer_clear(w, sum);
     }
-    qdot_writer_emit(w, QDOT_X86_STORE_ALL, sum, 0, qdot_writer_place(w, to));
+    qdot_writer_put(w, sum, to);
+    if (is_row(w, to.row))
+        w->absent[to.row] = false;
     w->reg[sum].taken = false;
     w->reg[sum].holds = true;
     w->reg[sum].at = to;

@@ -2,8 +2,8 @@
  * tape/.
  *
  * The code is run with three addresses: of the program's coefficients (rdi), of scalars (rsi),
- * of work space (rdx): numbers, what the steps keep between their two parts, what a sum has for
- * the next order, further rows. In loops r9, rbx and r10 are these moved on to the order at hand,
+ * of work space (rdx): numbers, what the steps keep for a second time, what a sum has for later
+ * orders of its block, further rows. In loops r9, rbx and r10 are these moved on to the order at hand,
  * rbp the first to half of it; r11, r14 and r15 where the terms of sums, of pairs of them and of
  * squares begin.
  */
@@ -29,8 +29,8 @@ enum {
     QDOT_WRITER_SCALARS = 3 << 24,
     QDOT_WRITER_TABLES = 4 << 24, /* scalars by order: at it */
     QDOT_WRITER_TABLE = QDOT_SERIES_MOST + 8,
-    /* What is written for all orders of a loop is written as of this one, and those beside
-     * it; half of it is half of theirs. */
+    /* What is written for all blocks of a loop is written as of this order or the next, odd
+     * if theirs are, and those beside it; half of it is half of theirs. */
     QDOT_WRITER_ANY = 1000
 };
 
@@ -49,19 +49,26 @@ struct qdot_lanes_writer {
     bool counting; /* the first time: nothing is written */
     bool *moving;  /* [rows + further] it has more than order 0 */
     bool *kept;    /* likewise: it is wanted to all orders */
+    bool *absent;  /* likewise: its coefficient of the order at hand is left out, or 0 for it */
+    bool without;  /* some may be */
     bool *rests;   /* [length x QDOT_WRITER_RESTS] there is one at the order at hand */
     int k;         /* the order at hand */
     qdot_vec(double) scalars;
     qdot_vec(qdot_lanes_by_order *) tables;
     int registers, chains, moment, first_free; /* (lanes-code.c) */
+    /* Orders whose sums are made together; how far that at hand is in such a block; the
+     * loop's first, as written. */
+    int block, phase, any;
     qdot_writer_register reg[QDOT_WRITER_REGISTERS];
     unsigned clock;
-    /* Where n terms begin, of one product and of two with a factor in common. */
-    size_t dot[QDOT_SERIES_MOST + 2], pair[QDOT_SERIES_MOST + 2];
+    /* Where n terms begin, of one product, of two with a factor in common, of a square;
+     * whether those of the former keep factors in registers. */
+    size_t dot[QDOT_SERIES_MOST + 2], pair[QDOT_SERIES_MOST + 2], half[QDOT_SERIES_MOST + 2];
+    bool windows;
     /* Of sums in the order in which an order has them: the one that comes, how many there
-     * are; whether there is a part for the next order. */
+     * are; of how many orders of the block there is a part. */
     size_t sum, sums;
-    qdot_vec(bool) ahead;
+    qdot_vec(int) ahead;
     qdot_status status;
 };
 
@@ -83,12 +90,15 @@ void qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int fir
 qdot_x86_rm qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
 /* A register that is free, taken; 0 in one. */
 int qdot_writer_take(qdot_lanes_writer *w);
+/* What some register has is stored; no other holds what was there. */
+void qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to);
 void qdot_writer_clear(qdot_lanes_writer *w, int reg);
 /* Rows, of the program and further ones; groups of work space before these. */
 size_t qdot_writer_rows(const qdot_lanes_writer *w);
 size_t qdot_writer_groups(const qdot_lanes_writer *w);
-/* The sequence of terms of one product or two; at [stride] where they begin. */
-void qdot_writer_terms(qdot_lanes_writer *w, int products, size_t *at);
+/* The sequence of terms of one product or two; at [stride] where they begin. With windows every
+ * coefficient of the other factors is loaded once, else once for each order. */
+void qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at);
 
 /* Order k begins. */
 static inline void
@@ -96,6 +106,13 @@ qdot_writer_begin(qdot_lanes_writer *w, int k)
 {
     w->k = k;
     w->sum = 0;
+}
+
+/* Bytes of a term of such a sequence, of one with all orders of a block. */
+static inline size_t
+qdot_writer_term(const qdot_lanes_writer *w, const size_t *at)
+{
+    return at[w->block] - at[w->block + 1];
 }
 
 /* sums[0] = sum_{j=1..k-1} x_j y_{k-j}, sums[1] that of x and z; that of x and itself. */
@@ -107,7 +124,7 @@ qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k)
 void qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
                       qdot_lanes_sum other);
 
-/* Between the two parts of a step. */
+/* For the second time that a step is made; the sum stays as it is. */
 void qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum);
 qdot_lanes_sum qdot_writer_kept(qdot_lanes_writer *w, size_t step, int i);
 

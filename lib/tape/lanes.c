@@ -101,8 +101,8 @@ allocate(qdot_lanes *t, const qdot_taylor *from, int most)
 {
     const size_t line = 64;
 
-    /* code may go an order further; rows are to share no few sets of a cache */
-    t->stride = ((size_t)most + 3) | 1;
+    /* and a note (correct); rows are to share no few sets of a cache */
+    t->stride = ((size_t)most + 2) | 1;
     t->inputs = from->inputs;
     t->outputs = from->outputs;
     t->length = from->length;
