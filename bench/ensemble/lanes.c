@@ -87,15 +87,130 @@ henon_heiles(qdot_pool *pool)
     return scene;
 }
 
-/* Starts near each other: angles 1 ... 1.5, or energies below escape. */
+static qdot_expr
+coordinate(qdot_pool *pool, qdot_scene *scene, const char *name)
+{
+    qdot_expr q = qdot_symbol_get(pool, QDOT_COORD, name);
+
+    must(qdot_scene_coordinate(scene, q));
+    return q;
+}
+
+/* Kepler's problem in polar coordinates, G M = 1. */
+static qdot_scene *
+kepler(qdot_pool *pool)
+{
+    qdot_scene *scene = qdot_scene_new(pool);
+    qdot_expr r = coordinate(pool, scene, "r"), phi = coordinate(pool, scene, "phi");
+    qdot_expr at[] = {qdot_mul(pool, r, qdot_fun1(pool, QDOT_COS, phi)),
+                      qdot_mul(pool, r, qdot_fun1(pool, QDOT_SIN, phi))};
+
+    must(qdot_scene_particle(scene, "p", QDOT_ONE, qdot_vector(pool, 2, at)));
+    must(qdot_scene_potential(scene, qdot_neg(pool, qdot_pow_int(pool, r, -1))));
+    return scene;
+}
+
+/* A pendulum of length 1 in space, g = 9.81. */
+static qdot_scene *
+spherical(qdot_pool *pool)
+{
+    qdot_scene *scene = qdot_scene_new(pool);
+    qdot_expr theta = coordinate(pool, scene, "theta"), phi = coordinate(pool, scene, "phi");
+    qdot_expr s = qdot_fun1(pool, QDOT_SIN, theta);
+    qdot_expr at[] = {qdot_mul(pool, s, qdot_fun1(pool, QDOT_COS, phi)),
+                      qdot_mul(pool, s, qdot_fun1(pool, QDOT_SIN, phi)),
+                      qdot_neg(pool, qdot_fun1(pool, QDOT_COS, theta))};
+    qdot_expr g[] = {QDOT_ZERO, QDOT_ZERO, qdot_expr_ratio(pool, -981, 100)};
+
+    must(qdot_scene_particle(scene, "p", QDOT_ONE, qdot_vector(pool, 3, at)));
+    must(qdot_scene_gravity(scene, qdot_vector(pool, 3, g)));
+    return scene;
+}
+
+/* A pendulum whose rod is a spring of length 1 and k/m = 1e6. */
+static qdot_scene *
+spring(qdot_pool *pool)
+{
+    qdot_scene *scene = qdot_scene_new(pool);
+    qdot_expr r = coordinate(pool, scene, "r"), theta = coordinate(pool, scene, "theta");
+    qdot_expr at[] = {qdot_mul(pool, r, qdot_fun1(pool, QDOT_SIN, theta)),
+                      qdot_neg(pool, qdot_mul(pool, r, qdot_fun1(pool, QDOT_COS, theta)))};
+    qdot_expr g[] = {QDOT_ZERO, qdot_expr_ratio(pool, -981, 100)};
+    qdot_expr V = qdot_pow_int(pool, qdot_sub(pool, r, QDOT_ONE), 2);
+
+    must(qdot_scene_particle(scene, "p", QDOT_ONE, qdot_vector(pool, 2, at)));
+    must(qdot_scene_gravity(scene, qdot_vector(pool, 2, g)));
+    must(qdot_scene_potential(scene, qdot_mul(pool, qdot_expr_int(pool, 500000), V)));
+    return scene;
+}
+
+/* q and q' of a member, u and w between 0 and 1: angles 1 ... 1.5 of a chain at rest; orbits of
+ * e = 0.9 from their pericentres. */
+static void
+start_kepler(double u, double w, double *y)
+{
+    (void)w;
+    y[0] = 0.1 * (1 + 0.2 * u);
+    y[1] = y[2] = 0;
+    y[3] = sqrt(1.9 / (y[0] * y[0] * y[0]));
+}
+
+static void
+start_spherical(double u, double w, double *y)
+{
+    y[0] = 1 + 0.5 * u;
+    y[1] = y[2] = 0;
+    y[3] = 0.01 * (1 + w);
+}
+
+static void
+start_spring(double u, double w, double *y)
+{
+    y[0] = 1.00000981;
+    y[1] = 1 + 0.5 * u;
+    y[2] = y[3] = 0 * w;
+}
+
+static const struct {
+    const char *name;
+    qdot_scene *(*make)(qdot_pool *pool);
+    void (*start)(double u, double w, double *y);
+} scenes[] = {
+    {"henon", henon_heiles, NULL},
+    {"kepler", kepler, start_kepler},
+    {"spherical", spherical, start_spherical},
+    {"spring", spring, start_spring},
+};
+
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+/* Its row; SCENES: a chain. */
+static size_t
+scene_of(const char *name)
+{
+    size_t i = 0;
+
+    while (i < SCENES && strcmp(scenes[i].name, name) != 0)
+        i++;
+    return i;
+}
+
+/* Starts near each other. */
 static void
 starts(const char *name, size_t n, size_t members, double *y)
 {
+    const size_t scene = scene_of(name);
+
     for (size_t m = 0; m < members; m++)
         for (size_t i = 0; i < 2 * n; i++) {
             double u = (double)((m * 7919 + i * 104729) % 1000) / 1000;
+            double w = (double)((m * 7919 + 104729) % 1000) / 1000;
 
-            if (strcmp(name, "chain") == 0)
+            if (scene < SCENES && scenes[scene].start) {
+                scenes[scene].start(u, w, y + m * 2 * n);
+                break;
+            }
+            if (scene == SCENES)
                 y[m * 2 * n + i] = i < n ? 1 + 0.5 * u : 0;
             else
                 y[m * 2 * n + i] = 0.1 + 0.15 * u;
@@ -134,7 +249,7 @@ main(int argc, char **argv)
     qdot_plan *plan;
 
     if (argc != 7 || !pool) {
-        fprintf(stderr, "usage: lanes chain|henon LINKS MEMBERS TOL ROUNDS KIND\n");
+        fprintf(stderr, "usage: lanes chain|henon|kepler|spherical|spring LINKS MEMBERS TOL ROUNDS KIND\n");
         return 2;
     }
     qdot_kind_limit((size_t)atoi(argv[6]));
@@ -142,7 +257,8 @@ main(int argc, char **argv)
     members = (size_t)atol(argv[3]);
     request.tol = atof(argv[4]);
     rounds = atoi(argv[5]) < MOST_ROUNDS ? atoi(argv[5]) : MOST_ROUNDS;
-    scene = strcmp(argv[1], "chain") == 0 ? chain(pool, links) : henon_heiles(pool);
+    scene = scene_of(argv[1]) < SCENES ? scenes[scene_of(argv[1])].make(pool)
+                                       : chain(pool, links);
     n = scene->coordinates.n;
     request.t0 = QDOT_ZERO;
     request.t1 = qdot_expr_int(pool, 10);
@@ -182,7 +298,7 @@ main(int argc, char **argv)
         lane_steps += results[m].steps;
     for (size_t i = 0; i < members * 2 * n; i++)
         difference = fmax(difference, fabs(y1[i] - y2[i]) / fmax(1, fabs(y1[i])));
-    printf("%-6s %2d %4zu %8.0e %10.3e %10.3e %6.2f %7zu %7zu %9.1e  %s\n", argv[1], links,
+    printf("%-9s %2d %4zu %8.0e %10.3e %10.3e %6.2f %7zu %7zu %9.1e  %s\n", argv[1], links,
            members, request.tol, median(single, rounds), median(lanes, rounds),
            median(ratio, rounds), steps, lane_steps, difference,
            qdot_batch_kernels_get()->name);

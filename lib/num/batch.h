@@ -34,13 +34,13 @@ typedef struct {
 
     /* The length of a step by orders from ... p of n series, log2 in units of s:
      *
-     *     out = min_k (log_tol + fall (p - k) - log2 max_i |x_ik| weight_i) / k
+     *     out = min_k (most_k - log2 max_i |x_ik| weight_i) inverse_k
      *
-     * to 0.1; INFINITY where they hold nothing, NaN where they are not finite. weight [n],
-     * inverse [k] = 1/k, out one group. */
+     * to 0.1, inverse_k = 1/k; INFINITY where they hold nothing, NaN where they are not
+     * finite. weight [n], out one group. */
     void (*log_steps)(size_t n, const double *x, size_t stride, int from, int p,
-                      const double *weight, const double *inverse, double log_tol,
-                      double fall, double *out);
+                      const double *weight, const double *inverse, const double *most,
+                      double *out);
 
     /* Of each of n series x [i stride + k], in groups: what is left of it from order 2 on,
      *

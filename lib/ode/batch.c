@@ -61,8 +61,11 @@ typedef struct {
     qdot_batch_run *run;
     size_t n, waiting; /* components; the next member */
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
-    double log_aim, log_term, fall; /* as in taylor.c */
-    double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
+    double log_aim; /* as in taylor.c */
+    /* By order: 1/k; log2 of how large terms may be, of the upper half beside that aim, of the
+     * lower one; 0. */
+    double inverse[QDOT_SERIES_MOST + 1], upper[QDOT_SERIES_MOST + 1];
+    double lower[QDOT_SERIES_MOST + 1], nothing[QDOT_SERIES_MOST + 1];
 } batch;
 
 /* --- members come and go ------------------------------------------------------------ */
@@ -223,9 +226,9 @@ log_steps(const batch *b, const double *weight, double *upper, double *lower)
     const int p = b->run->order;
 
     b->kernels->log_steps(b->n, system->x, system->stride, p / 2 + 1, p, weight, b->inverse,
-                          0, b->fall, upper);
+                          b->upper, upper);
     b->kernels->log_steps(b->n, system->x, system->stride, 2, p / 2, weight, b->inverse,
-                          b->log_term, 0, lower);
+                          b->lower, lower);
 }
 
 /* Lane l, whose step the series does not just say: another unit for it, or what can be. */
@@ -242,7 +245,7 @@ choose_step(batch *b, size_t l, double step, const double *weight)
         double whole[L];
 
         b->kernels->log_steps(b->n, b->system->x, b->system->stride, 1, p, weight,
-                              b->inverse, 0, 0, whole);
+                              b->inverse, b->nothing, whole);
         far = fmax(0, whole[l] + b->log_aim / p);
     }
     if (fabs(far) > 8 && !isinf(far) && a->rescales[l] < most_rescales) {
@@ -353,8 +356,6 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     double *memory;
     qdot_status status;
 
-    b.log_term = qdot_step_term(b.log_aim);
-    b.fall = qdot_step_fall(b.log_aim, run->order);
     run->expansions = 0;
     QDOT_TRY(check(system, run));
     memory = qdot_calloc(7 * size + line / sizeof *memory, sizeof *memory);
@@ -369,8 +370,11 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     b.first = b.slope + size;
     for (size_t l = 0; l < L; l++)
         b.at.unit[l] = b.at.old_unit[l] = 1;
-    for (int k = 1; k <= QDOT_SERIES_MOST; k++)
+    for (int k = 1; k <= run->order; k++) {
         b.inverse[k] = 1.0 / k;
+        b.upper[k] = qdot_step_fall(b.log_aim, run->order) * (run->order - k);
+        b.lower[k] = qdot_step_term(b.log_aim);
+    }
     status = loop(&b);
     qdot_free(memory);
     return status;

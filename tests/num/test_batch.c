@@ -201,11 +201,14 @@ length_of_a_step_is_the_least(void **state)
 {
     const size_t stride = ORDERS + 1;
     const qdot_batch_kernels *kernels;
-    double x[N * (ORDERS + 1) * L], weight[N * L], seen[L], inverse[ORDERS + 1];
+    double x[N * (ORDERS + 1) * L], weight[N * L], seen[L];
+    double inverse[ORDERS + 1], most[ORDERS + 1];
 
     (void)state;
-    for (int k = 1; k <= ORDERS; k++)
+    for (int k = 1; k <= ORDERS; k++) {
         inverse[k] = 1.0 / k;
+        most[k] = -40 + 0.5 * (ORDERS - k);
+    }
     for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
         fill(x, sizeof x / sizeof *x);
         for (size_t i = 0; i < N * L; i++)
@@ -218,22 +221,20 @@ length_of_a_step_is_the_least(void **state)
             }
         x[(2 * stride + 15) * L + 2] = NAN;
         x[(3 * stride + 20) * L + 3] = -INFINITY;
-        kernels->log_steps(N, x, stride, 13, ORDERS, weight, inverse, -40, 0.5,
-                           seen);
+        kernels->log_steps(N, x, stride, 13, ORDERS, weight, inverse, most, seen);
         assert_true(isinf(seen[1]) && seen[1] > 0);
         assert_true(isnan(seen[2]) && isnan(seen[3]));
         for (size_t l = 0; l < L; l++) {
             double want = INFINITY;
 
             for (size_t k = 13; k <= ORDERS; k++) {
-                double most = 0;
+                double size = 0;
 
                 for (size_t i = 0; i < N; i++)
-                    most = fmax(most,
+                    size = fmax(size,
                                 fabs(x[(i * stride + k) * L + l]) * weight[i * L + l]);
-                if (most > 0)
-                    want = fmin(want, (-40 + 0.5 * (double)(ORDERS - k) - log2(most))
-                                           / (double)k);
+                if (size > 0)
+                    want = fmin(want, (most[k] - log2(size)) / (double)k);
             }
             if (l != 1 && l != 2 && l != 3)
                 assert_true(fabs(seen[l] - want) < 0.1);
