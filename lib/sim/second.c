@@ -19,13 +19,21 @@ goal(const qdot_run *run)
 
 /* --- comparing ----------------------------------------------------------------------- */
 
+/* A last piece without length, as where a motion would slide, decides nothing: moved a little
+ * the companion may go on there, or end before it. */
 static bool
-went_alike(const qdot_course *a, const qdot_course *b)
+went_alike(const qdot_course *run, const qdot_course *other)
 {
-    if (a->tr.pieces.n != b->tr.pieces.n)
+    const qdot_trajectory *a = &run->tr, *b = &other->tr;
+    const qdot_trajectory_piece *last =
+        a->pieces.n > 1 ? a->pieces.at + a->pieces.n - 1 : NULL;
+    const bool point = last && !last->jumped && a->t[last->first] == a->t[a->count - 1];
+    const size_t n = a->pieces.n - (point ? 1 : 0);
+
+    if (b->pieces.n < n || b->pieces.n > a->pieces.n)
         return false;
-    for (size_t i = 0; i < a->tr.pieces.n; i++)
-        if (a->tr.pieces.at[i].mode != b->tr.pieces.at[i].mode)
+    for (size_t i = 0; i < n; i++)
+        if (a->pieces.at[i].mode != b->pieces.at[i].mode)
             return false;
     return true;
 }
