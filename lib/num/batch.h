@@ -36,8 +36,8 @@ typedef struct {
      *
      *     out = min_k (most_k - log2 max_i |x_ik| weight_i) inverse_k
      *
-     * to 0.1, inverse_k = 1/k; INFINITY where they hold nothing, NaN where they are not
-     * finite. weight [n], out one group. */
+     * to 0.1, inverse_k = 1/k, and not beyond 1000 inverse_p or so; INFINITY where they all hold
+     * nothing, NaN where they are not finite. n > 0, weight [n], out one group. */
     void (*log_steps)(size_t n, const double *x, size_t stride, int from, int p,
                       const double *weight, const double *inverse, const double *most,
                       double *out);

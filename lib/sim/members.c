@@ -11,9 +11,17 @@
 
 enum { L = QDOT_LANES, most_order = 44 };
 
-/* Numbers of the code: units of time, their squares, right-hand sides of a block, then the
- * inverses. A larger block than this has none. */
-enum { most_solved = 16, UNIT = 0, UNIT_SQUARE, RIGHT, INVERSES = RIGHT + most_solved };
+/* Numbers of the code: units of time, their squares, what an order of q'' is multiplied by,
+ * right-hand sides of a block, then the inverses. A larger block than this has none. */
+enum {
+    most_solved = 16,
+    UNIT = 0,
+    UNIT_SQUARE,
+    ONCE,
+    TWICE,
+    RIGHT,
+    INVERSES = RIGHT + most_solved
+};
 
 /* An entry of M that moves: of row i, times the acceleration j. */
 typedef struct {
@@ -231,8 +239,7 @@ write_right_hand_side(qdot_lanes_writer *w, const qdot_members *m, const block_s
     for (size_t c = 0; c < n; c++)
         qdot_lanes_add_product(w, &x, false, (qdot_lanes_at){pairs[c].y, 0},
                                (qdot_lanes_at){pairs[c].x, k});
-    qdot_lanes_negate(w, &x);
-    qdot_lanes_add(w, &x, false, (qdot_lanes_at){qdot_lanes_row_of(w, s->f[i]), k});
+    qdot_lanes_take_from(w, &x, (qdot_lanes_at){qdot_lanes_row_of(w, s->f[i]), k});
     qdot_lanes_store(w, x, qdot_lanes_number(w, RIGHT + i));
 }
 
@@ -286,21 +293,31 @@ twice_beyond(int k)
     return beyond(twice(k), k, (k + 1) * (k + 2));
 }
 
-/* to = unit^n a/divisor */
+/* factor = unit^n/divisor, and to = factor a */
+static void
+write_factor(qdot_lanes_writer *w, size_t unit, qdot_lanes_by_order *inverse, int k,
+             size_t factor)
+{
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
+                           qdot_lanes_scalar_of(w, inverse, k));
+    qdot_lanes_store(w, sum, qdot_lanes_number(w, factor));
+}
+
 static void
 write_integral(qdot_lanes_writer *w, const qdot_members *m, qdot_lanes_at a, size_t unit,
-               qdot_lanes_by_order *inverse, qdot_lanes_by_order *more, qdot_lanes_at to)
+               qdot_lanes_by_order *more, size_t factor, qdot_lanes_at to)
 {
-    qdot_lanes_sum factor = QDOT_LANES_NOTHING, sum = factor;
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
-    if (m->to >= QDOT_TAYLOR_EXACT_FROM) {
+    /* orders of the loop are beyond these */
+    if (m->to >= QDOT_TAYLOR_EXACT_FROM && a.order <= QDOT_TAYLOR_EXACT) {
         qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
                                qdot_lanes_scalar_of(w, more, a.order));
         qdot_lanes_scale(w, &sum, a);
     }
-    qdot_lanes_add_product(w, &factor, false, qdot_lanes_number(w, unit),
-                           qdot_lanes_scalar_of(w, inverse, a.order));
-    qdot_lanes_add_scaled(w, &sum, factor, a);
+    qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, factor), a);
     qdot_lanes_store(w, sum, to);
 }
 
@@ -312,15 +329,17 @@ write_order(qdot_lanes_writer *w, int k, void *user)
     const size_t n = m->model->n;
 
     qdot_lanes_steps(w, k);
+    write_factor(w, UNIT, once, k, ONCE);
+    write_factor(w, UNIT_SQUARE, twice, k, TWICE);
     for (size_t b = 0; b < m->model->structure.blocks; b++)
         if (block_size(m, b) > 1)
             write_block(w, m, b, k);
     for (size_t i = 0; i < n; i++) {
         const qdot_lanes_at a = {acceleration(w, m, i), k};
 
-        write_integral(w, m, a, UNIT_SQUARE, twice, twice_beyond,
+        write_integral(w, m, a, UNIT_SQUARE, twice_beyond, TWICE,
                        (qdot_lanes_at){input(w, m, i), k + 2});
-        write_integral(w, m, a, UNIT, once, once_beyond,
+        write_integral(w, m, a, UNIT, once_beyond, ONCE,
                        (qdot_lanes_at){input(w, m, n + i), k + 1});
     }
 }
@@ -332,10 +351,12 @@ write_expansion(qdot_lanes_writer *w, void *user)
     qdot_members *m = user;
     const size_t n = m->model->n;
 
+    write_factor(w, UNIT, once, 1, ONCE);
     for (size_t i = 0; i < n; i++)
-        write_integral(w, m, (qdot_lanes_at){input(w, m, n + i), 1}, UNIT, once,
-                       once_beyond, (qdot_lanes_at){input(w, m, i), 2});
-    qdot_lanes_orders(w, 1, 0, 1, m->to, write_order, m);
+        write_integral(w, m, (qdot_lanes_at){input(w, m, n + i), 1}, UNIT, once_beyond, ONCE,
+                       (qdot_lanes_at){input(w, m, i), 2});
+    qdot_lanes_orders(w, 1, 0, m->to >= QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT + 1 : 1,
+                      m->to, write_order, m);
 }
 
 /* --- building ----------------------------------------------------------------------- */
@@ -539,8 +560,6 @@ qdot_members_order(const qdot_members_model *model, double tol, int *order)
     estimate(model, length, convolutions, series.cost);
     if (qdot_lanes_may_be_code())
         estimate_written(model, convolutions, series.written);
-    series.narrow = QDOT_TAYLOR_EXACT_FROM; /* beyond it integrals are made with more care */
-    series.wider = 60 * (double)model->n;
     /* A few orders beyond the least cost hardly more, and where no pole is near, as of a stiff
      * spring, steps gain more by an order than its model has them gain. */
     *order = qdot_ode_taylor_order(&series, pow(tol, 1.15), false, 0);

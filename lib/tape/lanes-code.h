@@ -115,6 +115,8 @@ void qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minu
 /* sum + factor a, whose register is given back. */
 void qdot_lanes_add_scaled(qdot_lanes_writer *w, qdot_lanes_sum *sum,
                            qdot_lanes_sum factor, qdot_lanes_at a);
+/* a - sum */
+void qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_negate(qdot_lanes_writer *w, qdot_lanes_sum *sum);
 void qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to);

@@ -151,8 +151,8 @@ product(const step *s, qdot_lanes_sum sum)
     const bool minus = i->op == QDOT_T_NMADD;
 
     if (minus)
-        qdot_lanes_negate(s->w, &sum);
-    if (i->op != QDOT_T_MUL)
+        qdot_lanes_take_from(s->w, &sum, at(s, i->z, s->k));
+    else if (i->op != QDOT_T_MUL)
         qdot_lanes_add(s->w, &sum, i->op == QDOT_T_MSUB, at(s, i->z, s->k));
     with_newest(s, &sum, minus, i->x, i->y);
     with_newest(s, &sum, minus, i->y, i->x);
@@ -177,8 +177,7 @@ quotient(const step *s, qdot_lanes_sum sum)
 {
     const qdot_taylor_step *i = s->s;
 
-    qdot_lanes_negate(s->w, &sum);
-    qdot_lanes_add(s->w, &sum, false, at(s, i->x, s->k));
+    qdot_lanes_take_from(s->w, &sum, at(s, i->x, s->k));
     if (i->op == QDOT_T_DIV)
         with_newest(s, &sum, true, i->to, i->y);
     qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));

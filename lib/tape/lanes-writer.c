@@ -258,6 +258,17 @@ qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus, qdot_lanes
 }
 
 void
+qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
+{
+    if (*sum == QDOT_LANES_NOTHING)
+        qdot_lanes_add(w, sum, false, a);
+    else if (vanishes(w, a))
+        qdot_lanes_negate(w, sum);
+    else
+        qdot_writer_emit(w, QDOT_X86_SUB_ALL, *sum, load(w, a), qdot_x86_reg(*sum));
+}
+
+void
 qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                        qdot_lanes_at a, qdot_lanes_at b)
 {
