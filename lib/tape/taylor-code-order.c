@@ -299,31 +299,17 @@ arctangent(qdot_generator *g, const qdot_taylor_step *s)
     finish_weighted(g, d.v, s);
 }
 
-/* The row of which another is less the same, with *minus; else that one. */
-static const double *
-behind_sign(const qdot_generator *g, const double *x, bool *minus)
-{
-    const uint32_t maker = g->maker[qdot_code_row(g, x)];
-    const qdot_taylor_step *s = g->t->steps + maker;
-
-    *minus = maker != QDOT_CODE_NONE && s->op == QDOT_T_NEG
-             && !g->folded[qdot_code_row(g, s->x)];
-    return *minus ? s->x : x;
-}
-
 static void
 integral(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum once = {.v = {.reg = -1}}, twice = once;
-    bool minus;
-    const double *x = behind_sign(g, s->x, &minus);
 
     if (g->exact) {
-        times(g, &once, minus, qdot_code_entry(QDOT_CODE_ONCE_LOW, g->k), x, g->k);
-        times(g, &twice, minus, qdot_code_entry(QDOT_CODE_TWICE_LOW, g->k), x, g->k);
+        times(g, &once, false, qdot_code_entry(QDOT_CODE_ONCE_LOW, g->k), s->x, g->k);
+        times(g, &twice, false, qdot_code_entry(QDOT_CODE_TWICE_LOW, g->k), s->x, g->k);
     }
-    times(g, &once, minus, qdot_code_entry(QDOT_CODE_ONCE, g->k), x, g->k);
-    times(g, &twice, minus, qdot_code_entry(QDOT_CODE_TWICE, g->k), x, g->k);
+    times(g, &once, false, qdot_code_entry(QDOT_CODE_ONCE, g->k), s->x, g->k);
+    times(g, &twice, false, qdot_code_entry(QDOT_CODE_TWICE, g->k), s->x, g->k);
     finish(g, total(g, &once), s->to, g->k + 1);
     if (s->second)
         finish(g, total(g, &twice), s->second, g->k + 2);
