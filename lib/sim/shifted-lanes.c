@@ -122,7 +122,7 @@ factor(qdot_shifted_lanes *s, const double *t, const double *y)
 
     memcpy(s->in, y, 2 * p->n * L * sizeof *y);
     memcpy(s->in + 2 * p->n * L, t, L * sizeof *t);
-    qdot_lanes_eval(s->masses ? s->masses : s->residual->masses, s->in, s->out, s->work);
+    qdot_lanes_eval_near(s->masses ? s->masses : s->residual->masses, s->in, s->out, s->work);
     for (size_t b = 0; b < p->structure.blocks; b++) {
         const qdot_plan_block *block = p->blocks + b;
         size_t n = block->n;

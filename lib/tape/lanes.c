@@ -21,7 +21,7 @@ typedef struct {
 } drawn;
 
 typedef struct {
-    void (*eval)(const qdot_tape *tape, double *work);
+    void (*eval)(const qdot_tape *tape, const qdot_batch_kernels *kernels, double *work);
     void (*draw)(const drawn *constants, size_t n, const double *time);
     void (*value_of_zero)(const qdot_batch_kernels *kernels, const lanes_step *step);
     void (*order)(const qdot_batch_kernels *kernels, const lanes_step *steps, int k,
@@ -57,8 +57,9 @@ struct qdot_lanes {
     double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
 };
 
-void
-qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work)
+static void
+evaluate(const qdot_tape *tape, const qdot_batch_kernels *kernels, const double *in,
+         double *out, double *work)
 {
     size_t n = tape->inputs * QDOT_LANES;
 
@@ -67,10 +68,22 @@ qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *wo
     for (size_t i = 0; i < tape->constants; i++)
         for (size_t l = 0; l < QDOT_LANES; l++)
             work[n + i * QDOT_LANES + l] = tape->constant[i];
-    kinds[qdot_batch_kind()]->eval(tape, work);
+    kinds[qdot_batch_kind()]->eval(tape, kernels, work);
     for (size_t k = 0; k < tape->outputs; k++)
         memcpy(out + k * QDOT_LANES, work + tape->output[k] * QDOT_LANES,
                QDOT_LANES * sizeof *out);
+}
+
+void
+qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work)
+{
+    evaluate(tape, NULL, in, out, work);
+}
+
+void
+qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work)
+{
+    evaluate(tape, qdot_batch_kernels_get(), in, out, work);
 }
 
 void

@@ -15,6 +15,8 @@
 
 /* out [m groups] = outputs at in [n groups]; work [qdot_tape_work groups]. */
 void qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work);
+/* The same with sines and cosines as those of series. */
+void qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work);
 
 /* The series program with its coefficients: one a thread. */
 typedef struct qdot_lanes qdot_lanes;
