@@ -577,9 +577,9 @@ qdot_shifted_lanes_order(const qdot_plan *plan, double tol, int *order)
     if (qdot_lanes_may_be_code() && n <= most_solved) {
         double *w = series.written;
 
-        w[0] = c[0] + 300 + 60 * n;
-        w[1] = c[1];
-        w[2] = c[2];
+        w[0] = c[0] + 500 + 100 * n;
+        w[1] = 0.2 * c[1];
+        w[2] = 0.2 * convolutions;
     }
     *order = qdot_ode_taylor_order(&series, tol, false, 0);
     return QDOT_OK;
