@@ -218,14 +218,8 @@ beyond(int m)
 {
     const double inverse = inverse_of(m);
 
-    return m > 1 ? fma(-inverse, m * (m - 1), 1) / (m * (m - 1)) : 0;
-}
-
-/* Whether order m is divided so. */
-static bool
-is_exact(const qdot_shifted_lanes *s, int m)
-{
-    return s->to > QDOT_TAYLOR_EXACT_FROM && m - 2 <= QDOT_TAYLOR_EXACT;
+    return m > 1 && m - 2 <= QDOT_TAYLOR_EXACT ? fma(-inverse, m * (m - 1), 1) / (m * (m - 1))
+                                               : 0;
 }
 
 static double
@@ -314,16 +308,17 @@ write_remainder(qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t i, int
     for (size_t j = 0; j < n; j++)
         qdot_lanes_add_product(w, &R, false, (qdot_lanes_at){pairs[j].x, k},
                                (qdot_lanes_at){pairs[j].y, 0});
-    for (size_t j = 0; j < n; j++)
-        qdot_lanes_add_product(w, &R, false, (qdot_lanes_at){pairs[j].x, 0},
-                               (qdot_lanes_at){pairs[j].y, k});
     if (s->Q[i])
         qdot_lanes_add_product(w, &R, true, qdot_lanes_number(w, UNIT_SQUARE),
                                (qdot_lanes_at){qdot_lanes_row_of(w, s->Q[i]), k});
+    for (size_t j = 0; j < n; j++)
+        qdot_lanes_add_product(w, &R, false, (qdot_lanes_at){pairs[j].x, 0},
+                               (qdot_lanes_at){pairs[j].y, k});
     qdot_lanes_store(w, R, remainder_of(w, s, i));
 }
 
-/* Coefficients m of q and m - 1 of v. */
+/* Coefficients m of q and m - 1 of v. Remainders of the first coordinates, for which forces of
+ * all others are summed, come last. */
 static void
 write_solution(qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t b, int m)
 {
@@ -334,10 +329,10 @@ write_solution(qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t b, int 
         const qdot_lanes_at q = input(w, s, block->index[i], m);
         qdot_lanes_sum a = QDOT_LANES_NOTHING, v = a;
 
-        for (size_t j = 0; j < n; j++)
+        for (size_t j = n; j-- > 0;)
             qdot_lanes_add_product(w, &a, true, remainder_of(w, s, block->index[j]),
                                    qdot_lanes_number(w, s->solvers[b].number + i * n + j));
-        if (is_exact(s, m)) {
+        if (s->to > QDOT_TAYLOR_EXACT_FROM) {
             qdot_lanes_store(w, a, q);
             a = QDOT_LANES_NOTHING;
             qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, beyond, m));
@@ -363,7 +358,7 @@ write_order(qdot_lanes_writer *w, int m, void *user)
         s->inputs[i] = input(w, s, i, m).row;
     qdot_lanes_steps_without(w, m, n, s->inputs);
     write_forces(w, s, m);
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = n; i-- > 0;)
         write_remainder(w, s, i, m - 2);
     qdot_lanes_add_product(w, &m_per_unit, false, qdot_lanes_number(w, PER_UNIT),
                            qdot_lanes_scalar_of(w, itself, m));
@@ -378,9 +373,8 @@ static void
 write_expansion(qdot_lanes_writer *w, void *user)
 {
     qdot_shifted_lanes *s = user;
-    const int loop = is_exact(s, 0) ? QDOT_TAYLOR_EXACT + 3 : 3;
 
-    qdot_lanes_orders(w, 3, 2, loop, s->to, write_order, s);
+    qdot_lanes_orders(w, 3, 2, 3, s->to, write_order, s);
 }
 
 /* Rows of the program that are read by order must be there from orders before the code's. */

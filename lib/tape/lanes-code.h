@@ -102,7 +102,7 @@ void qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n,
 void qdot_lanes_steps_with(qdot_lanes_writer *w, int k);
 
 /* The sum over pairs of sum_{j=1..k-1} x_j y_{k-j}. For the same sums in the same order
- * behind the steps of every order, k being theirs or an even number of orders below. */
+ * behind the steps of every order, k being theirs or always as many orders below. */
 qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
                                const qdot_lanes_pair *pair, int k);
 /* What begins as a copy of it. */
