@@ -373,6 +373,7 @@ sim_sources = \
 	lib/sim/eliminated.c \
 	lib/sim/ensemble.c \
 	lib/sim/failure.c \
+	lib/sim/hidden.c \
 	lib/sim/horizon.c \
 	lib/sim/hull.c \
 	lib/sim/leading-residual.c \
@@ -438,6 +439,7 @@ sim_headers = \
 	lib/sim/eliminated.h \
 	lib/sim/ensemble.h \
 	lib/sim/failure.h \
+	lib/sim/hidden.h \
 	lib/sim/horizon.h \
 	lib/sim/hull.h \
 	lib/sim/integrated.h \
@@ -700,6 +702,7 @@ script_tests = \
 	tests/script/hamilton.lag \
 	tests/script/help-examples.lag \
 	tests/script/help.lag \
+	tests/script/hidden-forces.lag \
 	tests/script/history.lag \
 	tests/script/horizon.sh \
 	tests/script/identities.sh \
@@ -1328,6 +1331,7 @@ test_files = \
 	tests/script/hamilton.out \
 	tests/script/help-examples.out \
 	tests/script/help.out \
+	tests/script/hidden-forces.out \
 	tests/script/history.out \
 	tests/script/horizon.out \
 	tests/script/identities-angles.inc \

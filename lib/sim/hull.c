@@ -172,3 +172,16 @@ qdot_hull_is_hollow(const qdot_hull *h, size_t i, double part)
 {
     return isnan(h->miss[i]) && (part <= hollow || h->resting);
 }
+
+double
+qdot_hull_rounding(qdot_hull *h, double a, double b)
+{
+    for (size_t k = 0; k < h->n_used; k++) {
+        h->centre[h->used[k]] = h->fits[k * MOST];
+        h->radius[h->used[k]] = DBL_EPSILON * h->scale[k];
+    }
+    h->centre[h->time] = 0.5 * (a + b);
+    h->radius[h->time] = DBL_EPSILON * fabs(h->centre[h->time]);
+    evaluate(h);
+    return isfinite(h->out_radius[0]) ? h->out_radius[0] : 0;
+}

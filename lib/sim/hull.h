@@ -60,6 +60,10 @@ void qdot_hull_look(qdot_hull *h, double a, double b, int nodes, const bool *quo
  * bound of which near 0 its formula does not give. */
 bool qdot_hull_is_hollow(const qdot_hull *h, size_t i, double part);
 
+/* After _look: what rounding of the inputs makes of output 0 in the middle of the stretch, at most;
+ * 0 where it is singular. */
+double qdot_hull_rounding(qdot_hull *h, double a, double b);
+
 /* After _look: whether the inputs are known, and then h->out -+ h->out_radius hold the outputs on
  * a ... b. */
 bool qdot_hull_within(qdot_hull *h, double a, double b, int nodes);

@@ -26,6 +26,7 @@ struct qdot_run {
     qdot_run_report report;
     qdot_vec(qdot_run_occurrence) occurrences;
     bool occurrence_errors; /* they have been found */
+    bool hidden;            /* a step went over a force: no error is known */
     char *doubt;            /* why the error is unknown; NULL */
 
     /* The run whose distance from this one is the error between points: made with it
@@ -58,7 +59,8 @@ QDOT_MUST_CHECK qdot_status qdot_run_twin(struct qdot_run *run);
 QDOT_MUST_CHECK qdot_status qdot_run_end_error(struct qdot_run *run, double *error,
                                                double *difference);
 
-/* Whether both runs went through the same pieces, so that states compare. */
+/* Whether both runs went through the same pieces and saw what is in them, so that states
+ * compare. */
 bool qdot_run_comparable(const struct qdot_run *run);
 
 /* Whether the companions come as far as t, or ended as the run did. */

@@ -18,7 +18,7 @@
 #include "sim/reader.h"
 #include "sim/noise.h"
 
-enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, MOST_PARTS = 8192, LEAST_PARTS = 64 };
+enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, MANY_PARTS = 512, MOST_PARTS = 8192, LEAST_PARTS = 64 };
 
 /* Of the noise of evaluating: coefficients below it are nothing else. */
 static const double noises = 8;
@@ -155,9 +155,9 @@ fit(scan *s, part *p, int nodes, bool *good)
 
 /* What the polynomial says of it, of the values at the nodes. */
 static verdict
-judge(scan *s, const part *p, bool good)
+judge(scan *s, const part *p, bool *good)
 {
-    double others = 0, miss;
+    double others = 0, miss, rounded;
 
     qdot_hull_look(&s->hull, p->a, p->b, p->n, NULL, NULL);
     miss = s->hull.miss[0];
@@ -166,14 +166,20 @@ judge(scan *s, const part *p, bool good)
     if ((s->kind == QDOT_RANGE_MAX && p->c[0] + others + miss <= s->largest)
         || (s->kind == QDOT_RANGE_MIN && p->c[0] - others - miss >= s->smallest))
         return SURPASSED;
-    if (!good)
+    rounded = s->parts < MANY_PARTS ? 0
+                                    : noises * qdot_hull_rounding(&s->hull, p->a, p->b);
+    if (!*good && qdot_chebyshev_tail(p->n, p->c) <= rounded) {
+        *good = true;
+        s->rough = fmax(s->rough, rounded);
+    }
+    if (!*good)
         return ROUGH;
     if (qdot_hull_is_hollow(&s->hull, 0, fabs(p->b - p->a) / s->length))
         return SURE;
     if (isnan(miss))
         return SINGULAR;
     return miss <= fmax((0x1p-44 + 8 * blur(p)) * qdot_chebyshev_size(p->n, p->c),
-                        noises * s->noise)
+                        fmax(noises * s->noise, rounded))
                ? SURE
                : UNSURE;
 }
@@ -433,7 +439,7 @@ scan_step(scan *s, double a, double b)
                 break;
         }
         if (!short_one)
-            v = judge(s, &p, good);
+            v = judge(s, &p, &good);
         /* what it jumps between while its inputs rest is their rounding */
         short_one = short_one || (v == ROUGH && s->hull.resting);
         if (s->parts == 0 && depth == 1)

@@ -11,6 +11,7 @@
 #include "sim/passed.h"
 #include "sim/digits.h"
 #include "sim/failure.h"
+#include "sim/hidden.h"
 #include "sim/horizon.h"
 #include "sim/integrated.h"
 #include "sim/precise.h"
@@ -555,6 +556,28 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
+/* A force that no step saw leaves nothing of the error. */
+static qdot_status
+find_hidden(qdot_run *run)
+{
+    const qdot_error before = *qdot_last_error();
+    char text[200];
+    double t;
+
+    QDOT_TRY(qdot_hidden_find(&run->course, &run->hidden, &t));
+    qdot_fail_again(&before);
+    if (!run->hidden)
+        return QDOT_OK;
+    run->report.error = NAN;
+    snprintf(text, sizeof text,
+             "a force acts about t = %.6g for less than a step, which went over it: end a run "
+             "just before, and go on from there",
+             t);
+    qdot_free(run->doubt);
+    run->doubt = qdot_strdup(text);
+    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+}
+
 /* The run, its error, and what should have been kept. */
 static qdot_status
 carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
@@ -572,6 +595,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     run->report.tol = tol;
     if (status == QDOT_OK && !*interrupted)
         status = qdot_horizon_find(run);
+    if (status == QDOT_OK && !*interrupted)
+        status = find_hidden(run);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
     if (status == QDOT_EINTR) {

@@ -41,7 +41,7 @@ went_alike(const qdot_course *run, const qdot_course *other)
 bool
 qdot_run_comparable(const qdot_run *run)
 {
-    return run->has_companion && went_alike(&run->course, &run->companion)
+    return !run->hidden && run->has_companion && went_alike(&run->course, &run->companion)
            && (!run->has_twin || went_alike(&run->course, &run->twin));
 }
 

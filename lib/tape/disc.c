@@ -9,17 +9,24 @@
 
 /* --- bounds -------------------------------------------------------------------------- */
 
+/* x y, where 0 times what is beyond all doubles is 0 */
+static double
+times(double x, double y)
+{
+    return x == 0 || y == 0 ? 0 : x * y;
+}
+
 static double
 of_product(double a, double ra, double b, double rb)
 {
-    return fabs(a) * rb + fabs(b) * ra + ra * rb;
+    return times(fabs(a), rb) + times(fabs(b), ra) + times(ra, rb);
 }
 
 /* (a + u)/(b + v) - d = (u - d v)/(b + v), d = a/b */
 static double
 of_quotient(double d, double ra, double b, double rb)
 {
-    return fabs(b) > rb ? (ra + fabs(d) * rb) / (fabs(b) - rb) : NAN;
+    return fabs(b) > rb ? (ra + times(fabs(d), rb)) / (fabs(b) - rb) : NAN;
 }
 
 /* f(c + w) - f(c) = f'(c) sin w - f(c) (1 - cos w), and the like of hyperbolic ones */
@@ -186,4 +193,19 @@ qdot_disc_reads(const qdot_tape *tape, bool *used)
             used[tape->output[k]] = true;
     qdot_free(other);
     return QDOT_OK;
+}
+
+bool
+qdot_disc_may_hide(const qdot_tape *tape)
+{
+    for (size_t k = 0; k < tape->length; k++)
+        switch (tape->code[k].op) {
+        case QDOT_OP_EXP:
+        case QDOT_OP_TANH:
+        case QDOT_OP_SINH:
+        case QDOT_OP_COSH:
+        case QDOT_OP_POW: return true;
+        default: break;
+        }
+    return false;
 }

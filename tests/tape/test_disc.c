@@ -211,6 +211,8 @@ what_is_singular_has_no_radius(void **state)
     assert_true(radius_of(QDOT_OP_TANH, 50, 20, 0, 0) < 1e-15);
     assert_true(radius_of(QDOT_OP_EXP, -9e6, 1e6, 0, 0) == 0);
     assert_true(isinf(radius_of(QDOT_OP_EXP, 9e6, 1e6, 0, 0)));
+    assert_true(isinf(radius_of(QDOT_OP_MUL, 2, 0, 0, INFINITY)));
+    assert_true(radius_of(QDOT_OP_MUL, 0, 0, 3, INFINITY) == 0);
     assert_true(radius_of(QDOT_OP_SIGN, 0, 0, 0, 0) == 0); /* a number */
 }
 
