@@ -251,6 +251,7 @@ tape_sources = \
 	lib/tape/lanes-writer.c \
 	lib/tape/lanes.c \
 	lib/tape/lower.c \
+	lib/tape/near.c \
 	lib/tape/precise.c \
 	lib/tape/tape.c \
 	lib/tape/taylor-code-fold.c \
@@ -260,6 +261,7 @@ tape_sources = \
 	lib/tape/taylor-code-zero.c \
 	lib/tape/taylor-code.c \
 	lib/tape/taylor-correct.c \
+	lib/tape/taylor-near.c \
 	lib/tape/taylor-order.c \
 	lib/tape/taylor-text.c \
 	lib/tape/taylor-unknowns.c \
@@ -282,6 +284,7 @@ tape_headers = \
 	lib/tape/lanes-writer.h \
 	lib/tape/lanes.def \
 	lib/tape/lanes.h \
+	lib/tape/near.h \
 	lib/tape/operation.def \
 	lib/tape/precise.h \
 	lib/tape/shake.h \
@@ -654,6 +657,7 @@ unit_tests = \
 	tests/tape/test_disc \
 	tests/tape/test_lanes-code \
 	tests/tape/test_lanes \
+	tests/tape/test_near \
 	tests/tape/test_precise \
 	tests/tape/test_tape \
 	tests/tape/test_taylor-code \
@@ -693,6 +697,7 @@ script_tests = \
 	tests/script/events.lag \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
+	tests/script/far-away.lag \
 	tests/script/flat-places.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
@@ -1322,6 +1327,7 @@ test_files = \
 	tests/script/events.out \
 	tests/script/factor.out \
 	tests/script/fall.out \
+	tests/script/far-away.out \
 	tests/script/flat-places.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \

@@ -361,6 +361,8 @@ advance(state *s)
             log2_h = log2_step(s, s->p / 2 + 1);
             if (isnan(log2_h))
                 status = qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
+            else if (s->system->near)
+                log2_h = s->system->near(s->p, log2_h, s->system->user);
         }
         if (status == QDOT_OK) {
             bool unsure = isinf(log2_h);

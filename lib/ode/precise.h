@@ -33,6 +33,8 @@ typedef struct {
     /* orders 0 and 1 of the solution through y [n] at t, then 2 ... p */
     qdot_status (*begin)(mpfr_srcptr t, const mpfr_t *y, void *user);
     qdot_status (*extend)(int p, void *user);
+    /* As that of qdot_ode_series, of log2 of a step; NULL: any step */
+    double (*near)(int p, double log2_h, void *user);
     void *user; /* borrowed */
 } qdot_precise_system;
 

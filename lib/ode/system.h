@@ -81,6 +81,9 @@ typedef struct {
     double (*ahead)(void *user);
     /* A step has gone over the place that `ahead` said last, at time t; may be NULL. */
     void (*crossed)(double t, void *user);
+    /* A step of s units, INFINITY for any, or as much of it as no part of f that is not seen where
+     * it begins is stepped over in, by an expansion to order p; NULL: there are no such parts. */
+    double (*near)(int p, double s, void *user);
     void *user; /* borrowed */
 } qdot_ode_series;
 

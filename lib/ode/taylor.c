@@ -222,8 +222,8 @@ keep_off(run *r, double *h, double most)
     }
 }
 
-/* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of the series is brought near the
- * step where it is far from it. */
+/* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of
+ * the series is brought near the step where it is far from it. */
 static qdot_status
 length_of_step(run *r, double most, double *h)
 {
@@ -236,6 +236,8 @@ length_of_step(run *r, double most, double *h)
             far = -10 - 40 * tries;
         } else {
             *h = fabs(r->unit) * qdot_rough_exp2(l);
+            if (r->series->near)
+                *h = fabs(r->unit) * r->series->near(r->p, *h / fabs(r->unit), r->series->user);
             keep_off(r, h, most);
             /* too small for a double: judge by what is; or a polynomial, of any step */
             far = l < INFINITY ? l : fmax(0, log_step_of_all(r));

@@ -155,6 +155,17 @@ ahead(void *user)
     return e->now && e->now->ahead ? e->now->ahead(e->now->user) : 0;
 }
 
+/* Orders of forces end two below that of q. */
+static double
+near(int p, double s, void *user)
+{
+    const qdot_bordered *e = user;
+
+    if (e->now)
+        return e->now->near ? e->now->near(p, s, e->now->user) : s;
+    return qdot_taylor_near(e->taylor, p - 2, s);
+}
+
 static qdot_status
 prepare(int p, void *user)
 {
@@ -314,6 +325,8 @@ make(qdot_bordered *e, const qdot_plan *p, bool shaken, const qdot_ode_series *o
                                   .extend = extend,
                                   .noise = other->noise ? noise : NULL,
                                   .ahead = other->ahead ? ahead : NULL,
+                                  .near = other->near || qdot_taylor_has_exponentials(e->taylor)
+                                              ? near : NULL,
                                   .user = e};
     estimate_written(e, p);
     return QDOT_OK;

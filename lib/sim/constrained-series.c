@@ -464,6 +464,31 @@ find_outputs(qdot_constrained_series *e)
     return e->entries && e->others && e->sums ? QDOT_OK : QDOT_ENOMEM;
 }
 
+/* Orders of forces end two below that of q. */
+static double
+near(int p, double s, void *user)
+{
+    const qdot_constrained_series *e = user;
+
+    if (e->moves)
+        s = qdot_taylor_near(e->motion, p - 2, s);
+    for (int kind = 0; kind < 3; kind++)
+        if (e->kinds[kind].taylor)
+            s = qdot_taylor_near(e->kinds[kind].taylor, p - 2, s);
+    return s;
+}
+
+static bool
+has_exponentials(const qdot_constrained_series *e)
+{
+    bool some = qdot_taylor_has_exponentials(e->motion);
+
+    for (int kind = 0; kind < 3; kind++)
+        some = some || (e->kinds[kind].taylor
+                        && qdot_taylor_has_exponentials(e->kinds[kind].taylor));
+    return some;
+}
+
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
 static void
 estimate_cost(qdot_constrained_series *e)
@@ -521,6 +546,7 @@ make(qdot_constrained_series *e, bool shaken)
                                   .extend = extend,
                                   .noise = noise,
                                   .ahead = ahead,
+                                  .near = has_exponentials(e) ? near : NULL,
                                   .user = e};
     estimate_cost(e);
     return QDOT_OK;

@@ -393,6 +393,13 @@ find_outputs(qdot_direct *e, size_t count)
     return QDOT_OK;
 }
 
+/* Orders of forces end two below that of q. */
+static double
+near(int p, double s, void *user)
+{
+    return qdot_taylor_near(((const qdot_direct *)user)->taylor, p - 2, s);
+}
+
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
 static void
 estimate_cost(qdot_direct *e)
@@ -490,6 +497,7 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
                                   .worth = 800 + 5000 / (double)(qdot_taylor_length(e->taylor) + 1),
                                   .begin = begin,
                                   .extend = extend,
+                                  .near = qdot_taylor_has_exponentials(e->taylor) ? near : NULL,
                                   .user = e};
     estimate_cost(e);
     estimate_written(e);

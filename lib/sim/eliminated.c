@@ -265,6 +265,14 @@ ahead(void *user)
     return e->now == e->other ? e->other->ahead(e->other->user) : 0;
 }
 
+static double
+near(int p, double s, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->now->near ? e->now->near(p, s, e->now->user) : s;
+}
+
 static qdot_status
 prepare(int p, void *user)
 {
@@ -346,6 +354,7 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
                           .extend = extend,
                           .noise = noise,
                           .ahead = ahead,
+                          .near = e->own->near || other->near ? near : NULL,
                           .user = e};
     *eliminated = e;
     return QDOT_OK;

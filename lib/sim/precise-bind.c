@@ -446,6 +446,13 @@ make_solvers(qdot_precise_bind *e)
     return QDOT_OK;
 }
 
+/* Orders of forces end two below that of q. */
+static double
+near(int p, double log2_h, void *user)
+{
+    return qdot_precise_near(((const qdot_precise_bind *)user)->tape, p - 2, log2_h);
+}
+
 static qdot_status
 make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
 {
@@ -480,6 +487,7 @@ make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
                                       .stride = e->stride,
                                       .begin = begin,
                                       .extend = extend,
+                                      .near = near,
                                       .user = e};
     return p->constraints ? make_tied(e) : make_solvers(e);
 }

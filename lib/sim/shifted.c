@@ -446,6 +446,23 @@ estimate_cost(qdot_shifted *s)
     }
 }
 
+/* Orders of forces end two below that of q. */
+static double
+near(int p, double step, void *user)
+{
+    const qdot_shifted *s = user;
+
+    step = qdot_taylor_near(s->places, p - 2, step);
+    return s->forces ? qdot_taylor_near(s->forces, p - 2, step) : step;
+}
+
+static bool
+has_exponentials(const qdot_shifted *s)
+{
+    return qdot_taylor_has_exponentials(s->places)
+           || (s->forces && qdot_taylor_has_exponentials(s->forces));
+}
+
 static const double *
 applied(const qdot_shifted *s, uint32_t at)
 {
@@ -556,6 +573,7 @@ make(qdot_shifted *s, bool shaken)
                                   .checked = p->n,
                                   .begin = begin,
                                   .extend = extend,
+                                  .near = has_exponentials(s) ? near : NULL,
                                   .user = s};
     estimate_cost(s);
     return QDOT_OK;

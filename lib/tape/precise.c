@@ -1,11 +1,13 @@
 /* precise.c -- the recurrences in MPFR, a function a row of operation.def. */
 #include "tape/precise.h"
 
+#include <math.h>
 #include <stdint.h>
 
 #include "num/real.h"
 #include "tape/code.h"
 #include "tape/constant.h"
+#include "tape/near.h"
 #include "tape/taylor.h"
 
 enum { MOST_OWN = 4 };
@@ -29,6 +31,10 @@ struct qdot_precise {
     const mpfr_t **output;
     bool *constant; /* [outputs] */
 };
+
+/* Orders that are looked at of arguments of exponentials: those beyond add little to a step that
+ * goes no further than these say. */
+enum { QDOT_PRECISE_NEAR = 200 };
 
 enum { SCRATCH = 4 };
 
@@ -406,6 +412,41 @@ qdot_precise_order(qdot_precise *p, int k)
 {
     for (const step *i = p->steps, *end = i + p->length; i < end; i++)
         table[i->op].order(p, i, k);
+}
+
+/* How many times its argument an operation is the exponential of; 0: it is none. */
+static double
+times_argument(const step *i)
+{
+    switch (i->op) {
+    case QDOT_OP_EXP:
+    case QDOT_OP_SINH:
+    case QDOT_OP_COSH: return 1;
+    case QDOT_OP_TANH: return 2;
+    default: return 0;
+    }
+}
+
+double
+qdot_precise_near(const qdot_precise *p, int k, double log2_h)
+{
+    const double digits = (double)mpfr_get_prec(p->w[0]) * M_LN2;
+    double sizes[QDOT_PRECISE_NEAR + 1];
+
+    if (k > QDOT_PRECISE_NEAR)
+        k = QDOT_PRECISE_NEAR;
+    for (const step *i = p->steps, *end = i + p->length; i < end; i++) {
+        const double times = times_argument(i);
+
+        if (!(times > 0) || i->x_constant)
+            continue;
+        for (int j = 1; j <= k; j++)
+            sizes[j] = qdot_real_log2(i->x[j]);
+        log2_h = qdot_near_log2(
+            k, sizes, qdot_near_limit(k, times * mpfr_get_d(i->x[0], RN), digits) / times,
+            log2_h);
+    }
+    return log2_h;
 }
 
 /* --- building ------------------------------------------------------------------------ */

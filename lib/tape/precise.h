@@ -36,6 +36,10 @@ const mpfr_t *qdot_precise_output(const qdot_precise *p, size_t i);
 /* Whether output i is the same number whatever the inputs are. */
 bool qdot_precise_is_constant(const qdot_precise *p, size_t i);
 
+/* log2 of a step, INFINITY for any, or of as much of it as carries no argument of an exponential
+ * too far (near.h), orders up to k being there. */
+double qdot_precise_near(const qdot_precise *p, int k, double log2_h);
+
 /* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
  * and inf as MPFR has them. Nothing is allocated but by functions of MPFR at order 0. */
 void qdot_precise_order(qdot_precise *p, int k);
