@@ -3,7 +3,8 @@
  * A step is chosen by what its equations are where it begins. A force like
  * exp(-10^6 (t - 3)^2), or that of a wall as thin, is nothing there, and its series and differences
  * neither: the step goes over it, and so do those of a companion. Only functions that fall off
- * like an exponential hide so; where there are any (tape/disc.h), the outputs of the plan's
+ * like an exponential hide so; where there are any (tape/disc.h), and a step is so long that the
+ * argument of one goes over 10 or more, the outputs of the plan's
  * tape are looked at along the run, between 16 or 64 points of each step by discs
  * (sim/hull.h), part by part where these leave something open. What a part shows beyond the
  * polynomial through the points of the whole step, summed up, is what the step did not see.

@@ -145,9 +145,8 @@ step(const qdot_instruction *i, double *work, double *radius)
     }
 }
 
-void
-qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *C,
-               double *R, double *work)
+static void
+load(const qdot_tape *tape, const double *c, const double *r, double *work)
 {
     double *radius = work + tape->places;
 
@@ -158,6 +157,15 @@ qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *
     if (tape->constants)
         memcpy(work + tape->inputs, tape->constant, tape->constants * sizeof *work);
     memset(radius + tape->inputs, 0, tape->constants * sizeof *radius);
+}
+
+void
+qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *C,
+               double *R, double *work)
+{
+    double *radius = work + tape->places;
+
+    load(tape, c, r, work);
     for (size_t k = 0; k < tape->length; k++)
         step(tape->code + k, work, radius);
     for (size_t k = 0; k < tape->outputs; k++) {
@@ -195,17 +203,40 @@ qdot_disc_reads(const qdot_tape *tape, bool *used)
     return QDOT_OK;
 }
 
+static bool
+falls_off(uint32_t op)
+{
+    return op == QDOT_OP_EXP || op == QDOT_OP_TANH || op == QDOT_OP_SINH ||
+           op == QDOT_OP_COSH || op == QDOT_OP_POW;
+}
+
 bool
 qdot_disc_may_hide(const qdot_tape *tape)
 {
     for (size_t k = 0; k < tape->length; k++)
-        switch (tape->code[k].op) {
-        case QDOT_OP_EXP:
-        case QDOT_OP_TANH:
-        case QDOT_OP_SINH:
-        case QDOT_OP_COSH:
-        case QDOT_OP_POW: return true;
-        default: break;
-        }
+        if (falls_off(tape->code[k].op))
+            return true;
     return false;
+}
+
+double
+qdot_disc_reach(const qdot_tape *tape, const double *c, const double *r, double *work)
+{
+    double *radius = work + tape->places, reach = 0;
+
+    load(tape, c, r, work);
+    for (size_t k = 0; k < tape->length; k++) {
+        const qdot_instruction *i = tape->code + k;
+        const double a = fabs(work[i->x]), ra = radius[i->x];
+
+        if (falls_off(i->op)) {
+            const double by = i->op != QDOT_OP_POW ? ra
+                              : times(fabs(work[i->y]), ra / a)
+                                    + times(fabs(log(a)), radius[i->y]);
+
+            reach = by >= 0 ? fmax(reach, by) : INFINITY;
+        }
+        step(i, work, radius);
+    }
+    return reach;
 }

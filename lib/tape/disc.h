@@ -37,4 +37,8 @@ QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
  * nothing at a distance, all derivatives included. */
 bool qdot_disc_may_hide(const qdot_tape *tape);
 
+/* How far at most the arguments of these go over the discs c, r [inputs], that of a power by its
+ * logarithm: what is large by e^reach more somewhere than in the middle. Work as above. */
+double qdot_disc_reach(const qdot_tape *tape, const double *c, const double *r, double *work);
+
 #endif

@@ -216,6 +216,27 @@ what_is_singular_has_no_radius(void **state)
     assert_true(radius_of(QDOT_OP_SIGN, 0, 0, 0, 0) == 0); /* a number */
 }
 
+static void
+tells_how_far_arguments_of_exponentials_go(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_tape *wave = lone(pool, QDOT_OP_SIN), *fall = lone(pool, QDOT_OP_EXP);
+    qdot_tape *power = lone(pool, QDOT_OP_POW);
+    const double c[3] = {2, -50, 0}, r[3] = {0.1, 0, 0};
+    double work[16];
+
+    (void)state;
+    assert_false(qdot_disc_may_hide(wave));
+    assert_true(qdot_disc_may_hide(fall));
+    assert_true(qdot_disc_reach(wave, c, r, work) == 0);
+    assert_true(qdot_disc_reach(fall, c, r, work) == 0.1);
+    assert_float_equal(qdot_disc_reach(power, c, r, work), 2.5, 1e-12);
+    qdot_tape_free(wave);
+    qdot_tape_free(fall);
+    qdot_tape_free(power);
+    qdot_pool_free(pool);
+}
+
 /* c = a b - a once read, and what is not. */
 static void
 knows_what_is_read(void **state)
@@ -244,6 +265,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_operation_leaves_its_disc),
         cmocka_unit_test(what_is_singular_has_no_radius),
+        cmocka_unit_test(tells_how_far_arguments_of_exponentials_go),
         cmocka_unit_test(knows_what_is_read),
     };
 
