@@ -53,6 +53,7 @@ struct qdot_shifted_lanes {
     qdot_lanes_code *code;   /* goes to; NULL: kernels run */
     qdot_lanes_pair *pairs;  /* [n_slopes] while it is written */
     qdot_lanes_row *inputs;  /* [n] likewise */
+    qdot_lanes_row *differences; /* [functions] */
 };
 
 bool
@@ -351,12 +352,14 @@ static void
 write_order(qdot_lanes_writer *w, int m, void *user)
 {
     const qdot_shifted_lanes *s = user;
-    const size_t n = s->plan->n;
+    const size_t n = s->plan->n, functions = s->residual->functions;
     qdot_lanes_sum m_per_unit = QDOT_LANES_NOTHING;
 
     for (size_t i = 0; i < n; i++)
         s->inputs[i] = input(w, s, i, m).row;
-    qdot_lanes_steps_without(w, m, n, s->inputs);
+    for (size_t f = 0; f < functions; f++)
+        s->differences[f] = qdot_lanes_row_of(w, s->d[f]);
+    qdot_lanes_steps_without(w, m, n, s->inputs, functions, s->differences);
     write_forces(w, s, m);
     for (size_t i = n; i-- > 0;)
         write_remainder(w, s, i, m - 2);
@@ -394,7 +397,8 @@ write_code(qdot_shifted_lanes *s, int most)
     }
     s->pairs = qdot_calloc(s->residual->n_slopes + 1, sizeof *s->pairs);
     s->inputs = qdot_calloc(s->plan->n, sizeof *s->inputs);
-    if (!s->pairs || !s->inputs)
+    s->differences = qdot_calloc(s->residual->functions + 1, sizeof *s->differences);
+    if (!s->pairs || !s->inputs || !s->differences)
         return QDOT_ENOMEM;
     return qdot_lanes_code_new(s->places, s->residual->functions, numbers, write_expansion,
                                s, &s->code);
@@ -521,6 +525,7 @@ qdot_shifted_lanes_free(qdot_shifted_lanes *s)
     qdot_lanes_code_free(s->code);
     qdot_free(s->pairs);
     qdot_free(s->inputs);
+    qdot_free(s->differences);
     qdot_lanes_free(s->places);
     qdot_tape_free(s->masses);
     qdot_free(s->d);

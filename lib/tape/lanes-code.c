@@ -211,10 +211,14 @@ make(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code 
     w->moving = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->moving);
     w->kept = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->kept);
     w->absent = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->absent);
+    w->wanted = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->wanted);
+    w->idle = qdot_calloc(w->t->length + 1, sizeof *w->idle);
+    w->lacks = qdot_calloc(w->t->length + 1, sizeof *w->lacks);
     w->rests = qdot_calloc(QDOT_WRITER_RESTS * w->t->length + 1, sizeof *w->rests);
     if (c)
         c->text = qdot_calloc(1, sizeof *c->text);
-    if (c && c->text && w->moving && w->kept && w->absent && w->rests) {
+    if (c && c->text && w->moving && w->kept && w->absent && w->wanted && w->idle && w->lacks &&
+        w->rests) {
         atomic_init(&c->text->users, 1);
         find_moving(w);
         write_all(w, true, write, user, &c->entry);
@@ -265,6 +269,9 @@ qdot_lanes_code_new(qdot_lanes *lanes, size_t rows, size_t numbers,
     qdot_free(w.moving);
     qdot_free(w.kept);
     qdot_free(w.absent);
+    qdot_free(w.wanted);
+    qdot_free(w.idle);
+    qdot_free(w.lacks);
     qdot_free(w.rests);
     qdot_free(w.scalars.at);
     qdot_free(w.tables.at);

@@ -95,10 +95,11 @@ void qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int t
 
 /* Order k = 1, 2, ... of all steps, orders below being there and k of the inputs. */
 void qdot_lanes_steps(qdot_lanes_writer *w, int k);
-/* The same, coefficients k of some inputs being 0, whatever they have; and once more with those
- * that they have by then. */
+/* The same, coefficients k of some inputs being 0, whatever they have, of `wanted` rows alone;
+ * and once more, of all, with those that they have by then. */
 void qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n,
-                              const qdot_lanes_row *inputs);
+                              const qdot_lanes_row *inputs, size_t n_wanted,
+                              const qdot_lanes_row *wanted);
 void qdot_lanes_steps_with(qdot_lanes_writer *w, int k);
 
 /* The sum over pairs of sum_{j=1..k-1} x_j y_{k-j}. For the same sums in the same order

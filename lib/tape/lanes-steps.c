@@ -1,4 +1,6 @@
 /* lanes-steps.c -- the recurrences in lanes as code: an order of a step, in two parts. */
+#include <string.h>
+
 #include "tape/lanes-writer.h"
 
 /* What a step is made of, by rows. */
@@ -312,21 +314,74 @@ qdot_lanes_steps(qdot_lanes_writer *w, int k)
     }
 }
 
+/* Marks the rows that those wanted are made of, and the steps that make any. */
+static void
+find_wanted(qdot_lanes_writer *w, size_t n, const qdot_lanes_row *rows)
+{
+    memset(w->wanted, 0, qdot_writer_rows(w) * sizeof *w->wanted);
+    for (size_t i = 0; i < n; i++)
+        w->wanted[rows[i]] = true;
+    for (size_t i = w->t->length; i-- > w->t->still;) {
+        const qdot_taylor_step *s = w->t->steps + i;
+        const double *const made[] = {s->to, s->second, s->third, s->d};
+        const double *const of[] = {s->x, s->y, s->z};
+
+        w->idle[i] = true;
+        for (size_t r = 0; r < sizeof made / sizeof *made; r++)
+            if (made[r] && w->wanted[qdot_writer_row(w, made[r])])
+                w->idle[i] = false;
+        for (size_t r = 0; r < sizeof of / sizeof *of && !w->idle[i]; r++)
+            if (of[r])
+                w->wanted[qdot_writer_row(w, of[r])] = true;
+    }
+}
+
+/* Nothing but x, which was left out, is newest in it: that is all there is to add. */
+static bool
+lacks_argument(const step *s)
+{
+    return (s->s->op == QDOT_T_SINCOS || s->s->op == QDOT_T_SINHCOSH) &&
+           !s->w->idle[s->i] && s->w->absent[qdot_writer_row(s->w, s->s->x)];
+}
+
+static void
+add_argument(const step *s)
+{
+    const double *const to[] = {s->s->to, s->s->second};
+
+    weighted(s, s->s->x, s->s->d);
+    for (int i = 0; i < 2; i++) {
+        qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+        if (qdot_writer_is_kept(s->w, s->i, i))
+            sum = qdot_lanes_continue(s->w, at(s, to[i], s->k));
+        with_newest(s, &sum, i == 1 && s->s->op == QDOT_T_SINCOS, to[1 - i], s->s->x);
+        store(s, sum, to[i]);
+    }
+}
+
 void
-qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *inputs)
+qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *inputs,
+                         size_t n_wanted, const qdot_lanes_row *wanted)
 {
     qdot_writer_begin(w, k);
     w->without = true;
     for (size_t i = 0; i < n; i++)
         w->absent[inputs[i]] = true;
+    find_wanted(w, n_wanted, wanted);
     for (size_t i = w->t->still; i < w->t->length; i++) {
         const step s = {w, w->t->steps + i, i, k};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];
 
         before(&s, sums);
+        w->lacks[i] = lacks_argument(&s);
         for (int r = 0; r < QDOT_WRITER_RESTS; r++)
-            qdot_writer_keep(w, i, r, sums[r]);
-        after(&s, sums);
+            qdot_writer_keep(w, i, r, sums[r], !w->lacks[i]);
+        if (w->idle[i])
+            for (int r = 0; r < QDOT_WRITER_RESTS; r++)
+                qdot_writer_drop(w, sums[r]);
+        else
+            after(&s, sums);
     }
 }
 
@@ -340,6 +395,10 @@ qdot_lanes_steps_with(qdot_lanes_writer *w, int k)
         const step s = {w, w->t->steps + i, i, k};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];
 
+        if (w->lacks[i]) {
+            add_argument(&s);
+            continue;
+        }
         for (int r = 0; r < QDOT_WRITER_RESTS; r++)
             sums[r] = qdot_writer_kept(w, i, r);
         after(&s, sums);

@@ -293,10 +293,10 @@ rest(const qdot_lanes_writer *w, size_t step, int i)
 }
 
 void
-qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum)
+qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum, bool stored)
 {
     w->rests[QDOT_WRITER_RESTS * step + (size_t)i] = sum != QDOT_LANES_NOTHING;
-    if (sum != QDOT_LANES_NOTHING)
+    if (stored && sum != QDOT_LANES_NOTHING)
         qdot_writer_put(w, sum, rest(w, step, i));
 }
 
@@ -305,7 +305,7 @@ qdot_writer_kept(qdot_lanes_writer *w, size_t step, int i)
 {
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
-    if (w->rests[QDOT_WRITER_RESTS * step + (size_t)i])
+    if (qdot_writer_is_kept(w, step, i))
         qdot_lanes_add(w, &sum, false, rest(w, step, i));
     return sum;
 }

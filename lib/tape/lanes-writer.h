@@ -51,6 +51,9 @@ struct qdot_lanes_writer {
     bool *kept;    /* likewise: it is wanted to all orders */
     bool *absent;  /* likewise: its coefficient of the order at hand is left out, or 0 for it */
     bool without;  /* some may be */
+    bool *wanted;  /* likewise: something that is wanted then is made of it */
+    bool *idle;    /* [length] the step makes none of that */
+    bool *lacks;   /* [length] it lacked its argument, and nothing else */
     bool *rests;   /* [length x QDOT_WRITER_RESTS] there is one at the order at hand */
     int k;         /* the order at hand */
     qdot_vec(double) scalars;
@@ -124,8 +127,23 @@ qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k)
 void qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
                       qdot_lanes_sum other);
 
-/* For the second time that a step is made; the sum stays as it is. */
-void qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum);
+/* For the second time that a step is made: whether there is a sum, and if `stored` it; the sum
+ * stays as it is. Its register is given back by _drop. */
+void qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum,
+                      bool stored);
 qdot_lanes_sum qdot_writer_kept(qdot_lanes_writer *w, size_t step, int i);
+
+static inline bool
+qdot_writer_is_kept(const qdot_lanes_writer *w, size_t step, int i)
+{
+    return w->rests[QDOT_WRITER_RESTS * step + (size_t)i];
+}
+
+static inline void
+qdot_writer_drop(qdot_lanes_writer *w, qdot_lanes_sum sum)
+{
+    if (sum != QDOT_LANES_NOTHING)
+        w->reg[sum].taken = false;
+}
 
 #endif

@@ -116,10 +116,11 @@ order(qdot_lanes_writer *w, int k, void *user)
     qdot_lanes_sum sum, other = QDOT_LANES_NOTHING;
 
     if (p->parts) {
-        const qdot_lanes_row out[] = {qdot_lanes_row_of(w, qdot_lanes_input(p->lanes, 0)),
-                                      qdot_lanes_row_of(w, qdot_lanes_input(p->lanes, 1))};
+        const qdot_lanes_row in[] = {qdot_lanes_row_of(w, qdot_lanes_input(p->lanes, 0)),
+                                     qdot_lanes_row_of(w, qdot_lanes_input(p->lanes, 1))};
+        const qdot_lanes_row wanted[] = {output(w, p, 0), output(w, p, 13)};
 
-        qdot_lanes_steps_without(w, k, 2, out);
+        qdot_lanes_steps_without(w, k, 2, in, 2, wanted);
         qdot_lanes_steps_with(w, k);
     } else {
         qdot_lanes_steps(w, k);
