@@ -12,7 +12,7 @@ enum {
     most_bytes = 1 << 19,
     /* Orders of a block, and registers of sums that a sequence of terms makes: those of one
      * product or of two, each in chains that do not wait for each other. Behind them one for
-     * a moment, and those for coefficients. */
+     * a moment, windows of coefficients (lanes-sums.c), and those that are free. */
     block = 4,
     chains = 8
 };

@@ -2,10 +2,10 @@
  * tape/.
  *
  * The code is run with three addresses: of the program's coefficients (rdi), of scalars (rsi),
- * of work space (rdx): numbers, what the steps keep for a second time, what a sum has for later
- * orders of its block, further rows. In loops r9, rbx and r10 are these moved on to the order at hand,
- * rbp the first to half of it; r11, r14 and r15 where the terms of sums, of pairs of them and of
- * squares begin.
+ * of work space (rdx): numbers, what the steps keep for a second time, what a sum has for
+ * later orders of its block, further rows. In loops r9, rbx and r10 are these moved on to the
+ * first order of the block at hand, rbp the first to half of it; r11, r14 and r15 where the
+ * terms of sums, of pairs of them and of squares begin.
  */
 #ifndef QDOT_TAPE_LANES_WRITER_H
 #define QDOT_TAPE_LANES_WRITER_H
