@@ -2,7 +2,8 @@
  *
  * A step is chosen by what its equations are where it begins. A force like
  * exp(-10^6 (t - 3)^2), or that of a wall as thin, is nothing there, and its series and differences
- * neither: the step goes over it, and so do those of a companion. Only functions that fall off
+ * neither: the step goes over it, and so may those of a companion. Steps by series know the arguments
+ * of exponentials and do not; others do. Only functions that fall off
  * like an exponential hide so; where there are any (tape/disc.h), and a step is so long that the
  * argument of one goes over 10 or more, the outputs of the plan's
  * tape are looked at along the run, between 16 or 64 points of each step by discs

@@ -594,9 +594,9 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
                            : run_after(run, tol, interrupted);
     run->report.tol = tol;
     if (status == QDOT_OK && !*interrupted)
-        status = qdot_horizon_find(run);
-    if (status == QDOT_OK && !*interrupted)
         status = find_hidden(run);
+    if (status == QDOT_OK && !*interrupted && !run->hidden)
+        status = qdot_horizon_find(run);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
     if (status == QDOT_EINTR) {
