@@ -126,13 +126,15 @@ refuse(place *p, const double *y, size_t row)
 
     if (qdot_text_status(&names) == QDOT_OK)
         qdot_fail(QDOT_ESINGULAR,
-                  count == 1 ? "at the start %.200s has no direction, as it has beside it: what "
-                               "the motion is from there is not determined"
+                  count == 1 ? "at the start %.200s has no direction, its slopes being 0 there: "
+                               "what the motion is from there is not determined"
                              : "at the start %.200s depend on each other, as they do not "
                                "beside it: what the motion is from there is not determined",
                   qdot_text_str(&names));
     qdot_text_clear(&names);
-    (void)qdot_hint("a start beside that place");
+    (void)qdot_hint(count == 1 ? "a start beside that place, or the condition without a square: "
+                                 "`x = 0`, not `x^2 = 0`"
+                               : "a start beside that place");
     return QDOT_ESINGULAR;
 }
 
