@@ -375,6 +375,7 @@ sim_sources = \
 	lib/sim/drift.c \
 	lib/sim/eliminated.c \
 	lib/sim/ensemble.c \
+	lib/sim/exchange.c \
 	lib/sim/failure.c \
 	lib/sim/hidden.c \
 	lib/sim/horizon.c \
@@ -441,6 +442,7 @@ sim_headers = \
 	lib/sim/drift.h \
 	lib/sim/eliminated.h \
 	lib/sim/ensemble.h \
+	lib/sim/exchange.h \
 	lib/sim/failure.h \
 	lib/sim/hidden.h \
 	lib/sim/horizon.h \

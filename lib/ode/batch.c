@@ -59,7 +59,7 @@ typedef struct {
     const qdot_batch_kernels *kernels;
     const decisions *decide;
     qdot_batch_run *run;
-    size_t n, waiting; /* components; the next member */
+    size_t n, moving, waiting; /* components, the first of which move; the next member */
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
     double log_aim; /* as in taylor.c */
     /* By order: 1/k; log2 of how large terms may be, of the upper half beside that aim, of the
@@ -127,7 +127,7 @@ begin(batch *b)
     memcpy(t, a->t, sizeof t);
     memcpy(y, b->y, b->n * L * sizeof *y);
     b->kernels->blend(1, a->tried, a->end, t);
-    b->kernels->blend(b->n, a->tried, b->next, y);
+    b->kernels->blend(b->moving, a->tried, b->next, y);
     b->system->begin(t, y, a->unit, b->system->user);
 }
 
@@ -144,7 +144,7 @@ confirm(batch *b)
     const qdot_ode_batch *system = b->system;
     lanes *a = &b->at;
 
-    b->kernels->confirm(b->n, system->checked, system->x, system->stride, b->slope, b->first,
+    b->kernels->confirm(b->moving, system->checked, system->x, system->stride, b->slope, b->first,
                         b->next, a->way, a->now, 10 * (b->run->order + 1) * b->run->tol,
                         64 * DBL_EPSILON, a->good, a->defined);
 }
@@ -173,8 +173,8 @@ judge(batch *b)
 
     confirm(b);
     again = b->decide->accept(a, max_steps, taken, odd);
-    b->kernels->blend(b->n, taken, b->next, b->y);
-    b->kernels->blend(b->n, taken, b->next_carry, b->carry);
+    b->kernels->blend(b->moving, taken, b->next, b->y);
+    b->kernels->blend(b->moving, taken, b->next_carry, b->carry);
     for (size_t l = 0; again && l < L; l++) {
         if (!odd[l])
             continue;
@@ -225,9 +225,9 @@ log_steps(const batch *b, const double *weight, double *upper, double *lower)
     const qdot_ode_batch *system = b->system;
     const int p = b->run->order;
 
-    b->kernels->log_steps(b->n, system->x, system->stride, p / 2 + 1, p, weight, b->inverse,
+    b->kernels->log_steps(b->moving, system->x, system->stride, p / 2 + 1, p, weight, b->inverse,
                           b->upper, upper);
-    b->kernels->log_steps(b->n, system->x, system->stride, 2, p / 2, weight, b->inverse,
+    b->kernels->log_steps(b->moving, system->x, system->stride, 2, p / 2, weight, b->inverse,
                           b->lower, lower);
 }
 
@@ -244,7 +244,7 @@ choose_step(batch *b, size_t l, double step, const double *weight)
     } else if (isinf(step)) {
         double whole[L];
 
-        b->kernels->log_steps(b->n, b->system->x, b->system->stride, 1, p, weight,
+        b->kernels->log_steps(b->moving, b->system->x, b->system->stride, 1, p, weight,
                               b->inverse, b->nothing, whole);
         far = fmax(0, whole[l] + b->log_aim / p);
     }
@@ -267,7 +267,7 @@ choose_steps(batch *b)
     double upper[L], lower[L], steps[L], *weight = b->value; /* free here */
     int64_t left[L];
 
-    b->kernels->weights(b->n, b->y, weight);
+    b->kernels->weights(b->moving, b->y, weight);
     log_steps(b, weight, upper, lower);
     if (!b->decide->choose(&b->at, upper, lower, b->log_aim / b->run->order, steps, left))
         return;
@@ -282,11 +282,11 @@ go(batch *b)
 {
     const qdot_ode_batch *system = b->system;
 
-    b->kernels->tails(b->n, system->checked, system->x, system->stride, b->run->order,
+    b->kernels->tails(b->moving, system->checked, system->x, system->stride, b->run->order,
                       b->at.s, b->value, b->slope);
-    b->kernels->advance(b->n, system->checked, system->x, system->stride, b->at.s,
+    b->kernels->advance(b->moving, system->checked, system->x, system->stride, b->at.s,
                         b->at.old_unit, b->value, b->y, b->carry, b->next, b->next_carry);
-    for (size_t i = system->checked; i < b->n; i++)
+    for (size_t i = system->checked; i < b->moving; i++)
         memcpy(b->first + i * L, coefficient(b, i, 1), L * sizeof *b->first);
 }
 
@@ -351,6 +351,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
                .decide = kinds[qdot_batch_kind()],
                .run = run,
                .n = system->n,
+               .moving = system->n - system->still,
                .log_aim = log2(qdot_step_aim(run->tol, false))};
     size_t size = system->n * L;
     double *memory;

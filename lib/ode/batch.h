@@ -26,6 +26,8 @@ typedef struct {
     size_t n;        /* components */
     size_t checked;  /* dy_i/dt = y_{checked + i} for i below it: no check, and what the
                         sums carry enters order 1 */
+    size_t still;    /* of the last components: they keep their values, coefficients of order
+                        1 and above are 0 */
     const double *x; /* x_ik of lane l = x[(i stride + k) QDOT_LANES + l] */
     size_t stride;
     /* Lane `lane` is to be member `member` from now on: its parameters. NULL: nothing. */

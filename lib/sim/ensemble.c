@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "ode/companion.h"
+#include "sim/exchange.h"
 #include "sim/members.h"
 #include "sim/quotient.h"
 #include "sim/shifted-lanes.h"
@@ -23,7 +24,11 @@ typedef struct {
 struct qdot_ensemble {
     qdot_members_model model;
     qdot_tape *shaken;
-    qdot_plan *plan;          /* of d'Alembert's residual where that is shorter, else NULL */
+    /* Of d'Alembert's residual where that is shorter, or the one with reduced equations: the
+     * model then has the structure and the tape of these. NULL: neither. */
+    qdot_plan *plan;
+    const qdot_plan *reduced;
+    qdot_exchange *exchange;  /* of these */
     form members, companions; /* companions: made when first asked for */
     double t0, t1, t1_low, tol;
     int t1_side;
@@ -40,10 +45,17 @@ form_free(form *f)
 static qdot_status
 form_new(form *f, const qdot_ensemble *e, bool shaken, int order)
 {
-    if (e->plan)
+    if (e->plan && !e->reduced)
         return qdot_shifted_lanes_new(e->plan, shaken, order, &f->shifted);
     return qdot_members_new(&e->model, shaken ? e->shaken : e->model.tape, order,
                             &f->direct);
+}
+
+static void
+model_clear(qdot_members_model *model)
+{
+    qdot_tape_free(model->tape);
+    qdot_structure_clear(&model->structure);
 }
 
 void
@@ -53,10 +65,11 @@ qdot_ensemble_free(qdot_ensemble *e)
         return;
     form_free(&e->members);
     form_free(&e->companions);
+    qdot_exchange_free(e->exchange);
+    if (!e->reduced)
+        model_clear(&e->model);
     qdot_plan_free(e->plan);
-    qdot_tape_free(e->model.tape);
     qdot_tape_free(e->shaken);
-    qdot_structure_clear(&e->model.structure);
     qdot_free(e);
 }
 
@@ -186,20 +199,49 @@ lower(const builder *b, qdot_members_model *model)
     return status;
 }
 
-/* The residual form, where a single run takes it too. */
+/* Equations with momenta kept that lanes can do: no numbers for an M, and none whose velocities
+ * may cancel, of which a plan without a start does not know. */
+static bool
+may_be_reduced(const qdot_plan *r)
+{
+    if (!r || !r->smooth || r->subtracts)
+        return false;
+    for (size_t b = 0; b < r->structure.blocks; b++)
+        if (r->blocks[b].n > 1 && (r->blocks[b].constant || r->indefinite))
+            return false;
+    return true;
+}
+
 static qdot_status
-plan_residual(qdot_ensemble *e, const builder *b)
+reduce(qdot_ensemble *e)
+{
+    const qdot_plan *r = e->plan->reduced;
+
+    model_clear(&e->model);
+    e->reduced = r;
+    e->model.structure = r->structure;
+    e->model.tape = r->tape;
+    e->model.n_kept = r->n_kept;
+    e->model.kept = r->kept;
+    return qdot_exchange_new(r, &e->exchange);
+}
+
+/* The residual form, where a single run takes it too; likewise momenta that are kept. */
+static qdot_status
+plan_other_forms(qdot_ensemble *e, const builder *b)
 {
     qdot_run_request request = *b->request;
 
-    if (e->model.varied > 0 || e->model.structure.blocks == b->n)
+    if (e->model.varied > 0)
         return QDOT_OK;
     request.method = "taylor";
     QDOT_TRY(qdot_plan_new(b->scene, &request, &e->plan));
-    if (!qdot_shifted_lanes_applies(e->plan)) {
-        qdot_plan_free(e->plan);
-        e->plan = NULL;
-    }
+    if (qdot_shifted_lanes_applies(e->plan))
+        return QDOT_OK;
+    if (may_be_reduced(e->plan->reduced))
+        return reduce(e);
+    qdot_plan_free(e->plan);
+    e->plan = NULL;
     return QDOT_OK;
 }
 
@@ -226,8 +268,8 @@ make(qdot_ensemble *e, builder *b, size_t n_varied, const qdot_expr *varied)
     QDOT_TRY(derive(b));
     QDOT_TRY(find_structure(b, &e->model.structure));
     QDOT_TRY(lower(b, &e->model));
-    QDOT_TRY(plan_residual(e, b));
-    if (e->plan)
+    QDOT_TRY(plan_other_forms(e, b));
+    if (e->plan && !e->reduced)
         QDOT_TRY(qdot_shifted_lanes_order(e->plan, e->tol, &e->order));
     else
         QDOT_TRY(qdot_members_order(&e->model, e->tol, &e->order));
@@ -266,6 +308,9 @@ typedef struct {
     form system;
     qdot_batch_run run;
     double *memory, *parameters;
+    double *t1;       /* [members] as run.t1 */
+    double *momenta;  /* [n_kept] */
+    double *replaced; /* [members x n_kept] velocities that momenta stand in place of */
     qdot_status status;
     qdot_error error; /* of a pass on another thread */
 } pass;
@@ -282,16 +327,19 @@ pass_init(pass *p, const qdot_ensemble *e, size_t members, double tol, int order
           double t1, const double *y, const double *parameters)
 {
     size_t ys = members * 2 * e->model.n, ps = members * e->model.varied;
+    size_t kept = (members + 1) * e->model.n_kept;
     double *t0, *t1s;
 
-    p->memory = qdot_calloc(2 * members + ys + ps + 1, sizeof *p->memory);
+    p->memory = qdot_calloc(2 * members + ys + ps + kept + 1, sizeof *p->memory);
     p->run.results = qdot_calloc(members + 1, sizeof *p->run.results);
     if (!p->memory || !p->run.results)
         return QDOT_ENOMEM;
     t0 = p->memory;
-    t1s = t0 + members;
+    t1s = p->t1 = t0 + members;
     p->run.y = t1s + members;
     p->parameters = p->run.y + ys;
+    p->momenta = p->parameters + ps;
+    p->replaced = p->momenta + e->model.n_kept;
     for (size_t m = 0; m < members; m++) {
         t0[m] = e->t0;
         t1s[m] = t1;
@@ -336,9 +384,55 @@ make_companions(qdot_ensemble *e, int order)
 {
     if (e->companions.direct || e->companions.shifted)
         return QDOT_OK;
-    if (!e->plan && !e->shaken)
+    if ((!e->plan || e->reduced) && !e->shaken)
         QDOT_TRY(qdot_tape_shake(e->model.tape, &e->shaken));
     return form_new(&e->companions, e, true, order);
+}
+
+/* Velocities that follow from momenta that are kept give way to these. A member without them
+ * goes no way. */
+static void
+enter(const qdot_ensemble *e, pass *p)
+{
+    const size_t n = e->model.n, kept = e->model.n_kept;
+
+    for (size_t m = 0; e->reduced && m < p->run.members; m++) {
+        double *y = p->run.y + m * 2 * n;
+        const bool finite = qdot_exchange_enter(e->exchange, e->t0, y, p->momenta);
+
+        if (!finite)
+            p->t1[m] = e->t0;
+        for (size_t c = 0; c < kept; c++) {
+            double *v = y + n + e->model.kept[c];
+
+            p->replaced[m * kept + c] = *v;
+            if (finite)
+                *v = p->momenta[c];
+        }
+    }
+}
+
+/* And back. */
+static void
+come_back(const qdot_ensemble *e, pass *p)
+{
+    const size_t n = e->model.n, kept = e->model.n_kept;
+
+    for (size_t m = 0; e->reduced && m < p->run.members; m++) {
+        qdot_batch_result *r = p->run.results + m;
+        double *y = p->run.y + m * 2 * n;
+
+        for (size_t c = 0; c < kept; c++) {
+            double *v = y + n + e->model.kept[c];
+
+            p->momenta[c] = *v;
+            *v = p->replaced[m * kept + c];
+        }
+        if (r->steps > 0)
+            qdot_exchange_derive(e->exchange, r->t, p->momenta, y);
+        else if (p->t1[m] == e->t0 && e->t1 != e->t0)
+            r->outcome = QDOT_BATCH_UNDEFINED;
+    }
 }
 
 static qdot_status
@@ -412,13 +506,22 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
         companions.system = e->companions;
         move(companions.run.y, members * 2 * e->model.n);
         move(companions.parameters, members * e->model.varied);
+        enter(e, &companions);
+    }
+    if (status == QDOT_OK)
+        enter(e, &runs);
+    if (status == QDOT_OK && errors) {
         status = run_both(e, &runs, &companions);
     } else if (status == QDOT_OK) {
         pass_run(&runs);
         status = runs.status;
     }
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && errors)
+        come_back(e, &companions);
+    if (status == QDOT_OK) {
+        come_back(e, &runs);
         report(e, &runs, errors ? &companions : NULL, y, results);
+    }
     pass_clear(&runs);
     pass_clear(&companions);
     return status;

@@ -48,7 +48,7 @@ typedef struct {
                    qdot_batch_dot *dot);
     void (*keep)(size_t n, int k, const block_series *s, size_t stride, double *solved);
     void (*integrate)(size_t n, int k, const double *unit, const double *const *a,
-                      double *q, double *v, size_t stride);
+                      const double *const *rates, double *q, double *v, size_t stride);
 } members_kernels;
 
 struct qdot_members {
@@ -62,7 +62,8 @@ struct qdot_members {
     size_t stride;          /* groups */
     const double **outputs; /* of the tape */
     block_series *blocks;   /* [blocks] */
-    const double **a;       /* [n] series of q'': an output of the tape, or */
+    const double **rates;   /* [n] series of q' where the momentum is kept, or NULL, and */
+    const double **a;       /* [n] of q'' of the others: an output of the tape, or */
     double *solved;         /* [n x stride groups] */
     int to;                 /* order of q'' that */
     qdot_lanes_code *code;  /* goes to; NULL: kernels run */
@@ -133,7 +134,7 @@ order(qdot_members *m, int k)
         }
         m->orders->keep(n, k, s, m->stride, m->solved);
     }
-    m->orders->integrate(m->model->n, k, m->unit, m->a, m->q, m->v, m->stride);
+    m->orders->integrate(m->model->n, k, m->unit, m->a, m->rates, m->q, m->v, m->stride);
 }
 
 static void
@@ -147,6 +148,9 @@ begin(const double *t, const double *y, const double *unit, void *user)
         memcpy(m->q + i * m->stride * L, y + i * L, L * sizeof *y);
         memcpy(m->v + i * m->stride * L, y + (n + i) * L, L * sizeof *y);
     }
+    for (size_t c = 0; c < m->model->n_kept; c++)
+        memcpy(qdot_lanes_input(m->lanes, 2 * n + 1 + m->model->varied + c),
+               y + (n + m->model->kept[c]) * L, L * sizeof *y);
     memcpy(m->t, t, L * sizeof *t);
     memcpy(m->t + L, unit, L * sizeof *unit);
     qdot_lanes_draw(m->lanes, t);
@@ -321,7 +325,7 @@ write_integral(qdot_lanes_writer *w, const qdot_members *m, qdot_lanes_at a, siz
     qdot_lanes_store(w, sum, to);
 }
 
-/* An order of q'', k + 1 of velocities, k + 2 of coordinates. */
+/* An order of q'', k + 1 of velocities, k + 2 of coordinates; of q', k + 1 of coordinates. */
 static void
 write_order(qdot_lanes_writer *w, int k, void *user)
 {
@@ -335,8 +339,14 @@ write_order(qdot_lanes_writer *w, int k, void *user)
         if (block_size(m, b) > 1)
             write_block(w, m, b, k);
     for (size_t i = 0; i < n; i++) {
-        const qdot_lanes_at a = {acceleration(w, m, i), k};
+        qdot_lanes_at a;
 
+        if (m->rates[i]) {
+            write_integral(w, m, (qdot_lanes_at){qdot_lanes_row_of(w, m->rates[i]), k}, UNIT,
+                           once_beyond, ONCE, (qdot_lanes_at){input(w, m, i), k + 1});
+            continue;
+        }
+        a = (qdot_lanes_at){acceleration(w, m, i), k};
         write_integral(w, m, a, UNIT_SQUARE, twice_beyond, TWICE,
                        (qdot_lanes_at){input(w, m, i), k + 2});
         write_integral(w, m, a, UNIT, once_beyond, ONCE,
@@ -353,8 +363,9 @@ write_expansion(qdot_lanes_writer *w, void *user)
 
     write_factor(w, UNIT, once, 1, ONCE);
     for (size_t i = 0; i < n; i++)
-        write_integral(w, m, (qdot_lanes_at){input(w, m, n + i), 1}, UNIT, once_beyond, ONCE,
-                       (qdot_lanes_at){input(w, m, i), 2});
+        if (!m->rates[i])
+            write_integral(w, m, (qdot_lanes_at){input(w, m, n + i), 1}, UNIT, once_beyond,
+                           ONCE, (qdot_lanes_at){input(w, m, i), 2});
     qdot_lanes_orders(w, 1, 0, m->to >= QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT + 1 : 1,
                       m->to, write_order, m);
 }
@@ -405,6 +416,8 @@ find_outputs(qdot_members *m)
         QDOT_TRY(find_couplings(m, s, n, at));
         at += n * (n + 1) / 2;
     }
+    for (size_t c = 0; c < m->model->n_kept; c++)
+        m->rates[m->model->kept[c]] = m->outputs[at++];
     return QDOT_OK;
 }
 
@@ -438,10 +451,11 @@ make(qdot_members *m, const qdot_tape *tape, int most)
     m->v = qdot_lanes_input(m->lanes, n);
     m->t = qdot_lanes_input(m->lanes, 2 * n);
     m->a = qdot_calloc(n, sizeof *m->a);
+    m->rates = qdot_calloc(n, sizeof *m->rates);
     m->solved = qdot_calloc(n * m->stride * L, sizeof *m->solved);
     m->outputs = qdot_calloc(qdot_tape_outputs(tape) + 1, sizeof *m->outputs);
-    m->blocks = qdot_calloc(m->model->structure.blocks, sizeof *m->blocks);
-    if (!m->a || !m->solved || !m->outputs || !m->blocks)
+    m->blocks = qdot_calloc(m->model->structure.blocks + 1, sizeof *m->blocks);
+    if (!m->a || !m->rates || !m->solved || !m->outputs || !m->blocks)
         return QDOT_ENOMEM;
     QDOT_TRY(find_outputs(m));
     return write_code(m, most);
@@ -486,6 +500,7 @@ qdot_members_free(qdot_members *m)
     qdot_free(m->outputs);
     qdot_free(m->blocks);
     qdot_free(m->a);
+    qdot_free(m->rates);
     qdot_free(m->solved);
     qdot_free(m);
 }
@@ -496,10 +511,22 @@ qdot_members_set(qdot_members *m, const double *parameters)
     m->parameters = parameters;
 }
 
+/* Momenta at the end of a state. */
+static size_t
+still(const qdot_members *m)
+{
+    size_t k = 0;
+
+    while (k < m->model->n && m->rates[m->model->n - 1 - k])
+        k++;
+    return k;
+}
+
 qdot_ode_batch
 qdot_members_system(qdot_members *m)
 {
     return (qdot_ode_batch){.n = 2 * m->model->n,
+                            .still = still(m),
                             .checked = m->model->n,
                             .x = m->q,
                             .stride = m->stride,

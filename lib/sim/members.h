@@ -3,7 +3,10 @@
  *     M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j},   q'' = sum a_k s^k / unit^2
  *
  * as in sim/direct.h, with parameters that differ from member to member as further inputs
- * of the tape.
+ * of the tape. Where momenta of cyclic coordinates are kept (sim/routh.h) they are components
+ * of a state in place of those velocities, series of nothing but order 0, and
+ *
+ *     q_c,k+1 = unit r_c,k / (k + 1),   q_c' = r_c(q, q', t, p)
  *
  * Tests  tests/sim/test_ensemble.c
  */
@@ -14,10 +17,12 @@
 #include "ode/batch.h"
 #include "tape/tape.h"
 
-/* What all members share. The tape reads q [n], q' [n], t, parameters [varied], and gives
- * block by block: one coordinate, q''; else f and the lower triangle of M by rows. */
+/* What all members share. The tape reads q [n], q' [n], t, parameters [varied], momenta
+ * [n_kept], and gives block by block: one coordinate, q''; else f and the lower triangle of M by
+ * rows; then the rates of the coordinates whose momenta are kept, which are in no block. */
 typedef struct {
-    size_t n, varied;
+    size_t n, varied, n_kept;
+    const size_t *kept; /* [n_kept] borrowed */
     qdot_structure structure;
     qdot_tape *tape;
 } qdot_members_model;

@@ -91,6 +91,7 @@ struct qdot_plan {
      * outputs, blocks are those of the other coordinates. */
     size_t n_kept;
     size_t *kept;      /* [n_kept] */
+    bool subtracts;    /* velocities of these are sums, whose terms may cancel */
     qdot_tape *momenta; /* from q, q', t: [n_kept] */
 
     /* While it is made: the mode that its equations are frozen to; else NULL. */

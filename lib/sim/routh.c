@@ -379,6 +379,7 @@ choose(routh *e)
             status = fill_plan(e, how, r);
         if (status == QDOT_OK && r->smooth == e->p->smooth && r->cost < least) {
             least = r->cost;
+            r->subtracts = sums;
             qdot_plan_free(e->p->reduced);
             e->p->reduced = r;
             r = NULL;
