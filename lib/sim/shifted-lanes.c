@@ -208,18 +208,18 @@ factor_of(int m)
 }
 
 static double
-inverse_of(int m)
+minus_inverse_of(int m)
 {
-    return m > 1 ? 1.0 / (m * (m - 1)) : 0;
+    return m > 1 ? -1.0 / (m * (m - 1)) : 0;
 }
 
 /* In low orders what that is beyond its double (tape/taylor.h). */
 static double
-beyond(int m)
+minus_beyond(int m)
 {
-    const double inverse = inverse_of(m);
+    const double minus = minus_inverse_of(m);
 
-    return m > 1 && m - 2 <= QDOT_TAYLOR_EXACT ? fma(-inverse, m * (m - 1), 1) / (m * (m - 1))
+    return m > 1 && m - 2 <= QDOT_TAYLOR_EXACT ? -fma(minus, m * (m - 1), 1) / (m * (m - 1))
                                                : 0;
 }
 
@@ -247,13 +247,29 @@ remainder_of(const qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t i)
     return qdot_lanes_number(w, NUMBERS + s->residual->functions + i);
 }
 
-static void
-add_force(qdot_lanes_writer *w, qdot_lanes_sum *F, qdot_lanes_at of_child)
+/* No other weight is of what that one is of. */
+static bool
+is_alone(const qdot_residual *r, size_t weight)
 {
-    if (*F == QDOT_LANES_NOTHING)
-        *F = qdot_lanes_continue(w, of_child);
+    for (size_t i = 0; i < r->n_weights; i++)
+        if (i != weight && r->weights[i].from == r->weights[weight].from)
+            return false;
+    return true;
+}
+
+static void
+add_weighted(qdot_lanes_writer *w, const qdot_shifted_lanes *s, qdot_lanes_sum *F,
+             size_t weight)
+{
+    const qdot_residual *r = s->residual;
+    const qdot_lanes_at x = second_derivative(w, r->weights[weight].from);
+
+    if (s->weight[weight] != 1)
+        qdot_lanes_add_product(w, F, false, qdot_lanes_scalar(w, s->weight[weight]), x);
+    else if (*F == QDOT_LANES_NOTHING && is_alone(r, weight))
+        *F = qdot_lanes_continue_last(w, x);
     else
-        qdot_lanes_add(w, F, false, of_child);
+        qdot_lanes_add(w, F, false, x);
 }
 
 /* As `accelerate`. */
@@ -274,21 +290,17 @@ write_forces(qdot_lanes_writer *w, const qdot_shifted_lanes *s, int m)
     for (size_t f = r->functions; f-- > 0;) {
         qdot_lanes_sum F = QDOT_LANES_NOTHING;
 
+        for (size_t i = 0; i < r->n_weights; i++)
+            if (r->weights[i].to == f)
+                add_weighted(w, s, &F, i);
         for (size_t child = f + 1; child < r->functions; child++)
             if (r->parent[child] == f)
-                add_force(w, &F, (qdot_lanes_at){qdot_lanes_further_row(w, child), m - 2});
-        for (size_t i = 0; i < r->n_weights; i++) {
-            const qdot_lanes_at x = second_derivative(w, r->weights[i].from);
-
-            if (r->weights[i].to != f)
-                continue;
-            if (s->weight[i] == 1)
-                qdot_lanes_add(w, &F, false, x);
-            else
-                qdot_lanes_add_product(w, &F, false, qdot_lanes_scalar(w, s->weight[i]), x);
-        }
+                qdot_lanes_add(w, &F, false,
+                               (qdot_lanes_at){qdot_lanes_further_row(w, child), m - 2});
         qdot_lanes_store(w, F, (qdot_lanes_at){qdot_lanes_further_row(w, f), m - 2});
     }
+    for (size_t f = 0; f < r->functions; f++)
+        qdot_lanes_unread(w, second_derivative(w, f));
 }
 
 /* As `gather`, for one coordinate; k > 0. */
@@ -331,15 +343,17 @@ write_solution(qdot_lanes_writer *w, const qdot_shifted_lanes *s, size_t b, int 
         qdot_lanes_sum a = QDOT_LANES_NOTHING, v = a;
 
         for (size_t j = n; j-- > 0;)
-            qdot_lanes_add_product(w, &a, true, remainder_of(w, s, block->index[j]),
-                                   qdot_lanes_number(w, s->solvers[b].number + i * n + j));
+            qdot_lanes_add_product(w, &a, false, remainder_of(w, s, block->index[j]),
+                                   qdot_lanes_number(w, s->solvers[b].number +
+                                                            (i > j ? i * n + j : j * n + i)));
         if (s->to > QDOT_TAYLOR_EXACT_FROM) {
             qdot_lanes_store(w, a, q);
             a = QDOT_LANES_NOTHING;
-            qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, beyond, m));
-            qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, inverse_of, m));
+            qdot_lanes_add_product(w, &a, false, q, qdot_lanes_scalar_of(w, minus_beyond, m));
+            qdot_lanes_add_product(w, &a, false, q,
+                                   qdot_lanes_scalar_of(w, minus_inverse_of, m));
         } else {
-            qdot_lanes_scale(w, &a, qdot_lanes_scalar_of(w, inverse_of, m));
+            qdot_lanes_scale(w, &a, qdot_lanes_scalar_of(w, minus_inverse_of, m));
         }
         qdot_lanes_store(w, a, q);
         qdot_lanes_add_product(w, &v, false, q, qdot_lanes_number(w, M_PER_UNIT));
@@ -363,11 +377,16 @@ write_order(qdot_lanes_writer *w, int m, void *user)
     write_forces(w, s, m);
     for (size_t i = n; i-- > 0;)
         write_remainder(w, s, i, m - 2);
+    for (size_t f = 0; f < functions; f++)
+        qdot_lanes_unread(w, (qdot_lanes_at){qdot_lanes_further_row(w, f), m - 2});
     qdot_lanes_add_product(w, &m_per_unit, false, qdot_lanes_number(w, PER_UNIT),
                            qdot_lanes_scalar_of(w, itself, m));
     qdot_lanes_store(w, m_per_unit, qdot_lanes_number(w, M_PER_UNIT));
     for (size_t b = 0; b < s->plan->structure.blocks; b++)
         write_solution(w, s, b, m);
+    for (size_t i = 0; i < n; i++)
+        qdot_lanes_unread(w, remainder_of(w, s, i));
+    qdot_lanes_unread(w, qdot_lanes_number(w, M_PER_UNIT));
     qdot_lanes_steps_with(w, m);
     write_forces(w, s, m);
 }

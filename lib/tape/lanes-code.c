@@ -12,7 +12,8 @@ enum {
     most_bytes = 1 << 19,
     /* Orders of a block, and registers of sums that a sequence of terms makes: those of one
      * product or of two, each in chains that do not wait for each other. Behind them one for
-     * a moment, windows of coefficients (lanes-sums.c), and those that are free. */
+     * a moment, windows of coefficients (lanes-sums.c), and those that are always free; all but
+     * that for a moment hold what was loaded, and in orders that call no sequence results. */
     block = 4,
     chains = 8
 };
@@ -30,13 +31,6 @@ struct qdot_lanes_code {
 };
 
 /* --- loops -------------------------------------------------------------------------- */
-
-static void
-forget(qdot_lanes_writer *w)
-{
-    for (int r = 0; r < QDOT_WRITER_REGISTERS; r++)
-        w->reg[r].holds = false;
-}
 
 /* Addresses of order k, or of those a step of the loop further. */
 static void
@@ -106,7 +100,7 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
         write_one(w, k, from, first, write, user);
     if (blocks == 0)
         return;
-    forget(w);
+    qdot_writer_leave(w, w->registers);
     if (!w->counting) {
         aim(w, false, first);
         start = qdot_x86_repeat(&w->x, blocks);
@@ -114,11 +108,11 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
     w->any = QDOT_WRITER_ANY + first % w->block;
     for (int i = 0; i < w->block; i++)
         write_one(w, w->any + i, from, w->any, write, user);
+    qdot_writer_leave(w, w->registers);
     if (!w->counting) {
         aim(w, true, w->block);
         qdot_x86_again(&w->x, start);
     }
-    forget(w);
 }
 
 /* --- all of it ---------------------------------------------------------------------- */
@@ -168,6 +162,7 @@ write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *us
     for (size_t i = 0; i < n; i++)
         qdot_x86_push(&w->x, restored[i]);
     write(w, user);
+    qdot_writer_leave(w, w->registers);
     for (size_t i = n; i-- > 0;)
         qdot_x86_pop(&w->x, restored[i]);
     qdot_x86_return(&w->x);

@@ -14,8 +14,9 @@
  * terms K - 1, K - 2, ..., 1 from the (K-1)-th before its end on, for which coefficients are
  * loaded once: a row that has left the nearest cache is brought there once a block. Order K + i
  * adds the 2 i terms that hold coefficients from K on, the newest last, for which nothing then
- * waits. Results stay in registers while there is room, and rows that no sum reads have a place
- * for order 0 and one for the order at hand only.
+ * waits. Results stay in registers while there is room, and are stored when they leave them or
+ * the order ends: never, if others took their place by then or nothing reads them (_unread).
+ * Rows that no sum reads have a place for order 0 and one for the order at hand only.
  *
  * With AVX-512 a group is one vector. With AVX2 it is two, and the same code, in their
  * encoding, is run for each half. Without either there is none: kernels of lanes.h run. The
@@ -108,6 +109,8 @@ qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
                                const qdot_lanes_pair *pair, int k);
 /* What begins as a copy of it. */
 qdot_lanes_sum qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a);
+/* The same if nothing reads that any more (_unread). */
+qdot_lanes_sum qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a);
 /* sum +- a, sum +- a b, sum a; it is stored and its register given back. */
 void qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                     qdot_lanes_at a);
@@ -120,6 +123,9 @@ void qdot_lanes_add_scaled(qdot_lanes_writer *w, qdot_lanes_sum *sum,
 void qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_negate(qdot_lanes_writer *w, qdot_lanes_sum *sum);
+/* Nothing reads what was stored there before something is stored there again, after the run
+ * neither: it may stay out of memory. */
+void qdot_lanes_unread(qdot_lanes_writer *w, qdot_lanes_at a);
 void qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to);
 
 #endif

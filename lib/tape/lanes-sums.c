@@ -109,6 +109,7 @@ call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
 static void
 clear_chains(qdot_lanes_writer *w)
 {
+    qdot_writer_leave(w, w->first_free);
     for (int r = 0; r < w->chains; r++)
         qdot_writer_clear(w, r);
 }

@@ -156,24 +156,62 @@ use(qdot_lanes_writer *w, int reg)
     w->reg[reg].used = ++w->clock;
 }
 
-/* The least recently used that is not taken. */
+static void
+settle(qdot_lanes_writer *w, int reg)
+{
+    if (w->reg[reg].ahead)
+        qdot_writer_emit(w, QDOT_X86_STORE_ALL, reg, 0,
+                         qdot_writer_place(w, w->reg[reg].at));
+    w->reg[reg].ahead = false;
+}
+
+void
+qdot_writer_settle(qdot_lanes_writer *w)
+{
+    for (int r = 0; r < w->registers; r++)
+        settle(w, r);
+}
+
+static void
+leave(qdot_lanes_writer *w, int reg)
+{
+    settle(w, reg);
+    w->reg[reg].holds = false;
+}
+
+void
+qdot_writer_leave(qdot_lanes_writer *w, int end)
+{
+    for (int r = 0; r < end; r++)
+        leave(w, r);
+}
+
+/* The least recently used from `lowest` on that is not taken. */
 static int
-fresh(qdot_lanes_writer *w)
+fresh(qdot_lanes_writer *w, int lowest)
 {
     int best = -1;
 
-    for (int r = w->first_free; r < w->registers; r++)
-        if (!w->reg[r].taken && (best < 0 || w->reg[r].used < w->reg[best].used))
+    for (int r = lowest; r < w->registers; r++)
+        if (r != w->moment && !w->reg[r].taken &&
+            (best < 0 || w->reg[r].used < w->reg[best].used))
             best = r;
-    w->reg[best].holds = false;
+    leave(w, best);
     use(w, best);
     return best;
+}
+
+/* Sequences of terms are called by the first order of a block alone. */
+static int
+first_taken(const qdot_lanes_writer *w)
+{
+    return w->phase > 0 ? 0 : w->first_free;
 }
 
 int
 qdot_writer_take(qdot_lanes_writer *w)
 {
-    const int reg = fresh(w);
+    const int reg = fresh(w, first_taken(w));
 
     w->reg[reg].taken = true;
     return reg;
@@ -182,10 +220,18 @@ qdot_writer_take(qdot_lanes_writer *w)
 static int
 holder(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    for (int r = w->first_free; r < w->registers; r++)
+    for (int r = 0; r < w->registers; r++)
         if (w->reg[r].holds && w->reg[r].at.row == a.row && w->reg[r].at.order == a.order)
             return r;
     return -1;
+}
+
+static void
+fetch(qdot_lanes_writer *w, int reg, qdot_lanes_at a)
+{
+    qdot_writer_emit(w,
+                     a.row >= QDOT_WRITER_SCALARS ? QDOT_X86_SPREAD : QDOT_X86_LOAD_ALL,
+                     reg, 0, qdot_writer_place(w, a));
 }
 
 static int
@@ -197,10 +243,8 @@ load(qdot_lanes_writer *w, qdot_lanes_at a)
         use(w, reg);
         return reg;
     }
-    reg = fresh(w);
-    qdot_writer_emit(w,
-                     a.row >= QDOT_WRITER_SCALARS ? QDOT_X86_SPREAD : QDOT_X86_LOAD_ALL,
-                     reg, 0, qdot_writer_place(w, a));
+    reg = fresh(w, 0);
+    fetch(w, reg, a);
     w->reg[reg].holds = true;
     w->reg[reg].at = a;
     return reg;
@@ -231,11 +275,32 @@ qdot_writer_clear(qdot_lanes_writer *w, int reg)
 qdot_lanes_sum
 qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a)
 {
-    const int reg = load(w, a);
+    const int held = holder(w, a);
+    int reg = held;
 
+    if (held < first_taken(w) || w->reg[held].ahead) {
+        if (held >= 0)
+            use(w, held);
+        reg = fresh(w, first_taken(w));
+        if (held >= 0)
+            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, reg, 0, qdot_x86_reg(held));
+        else
+            fetch(w, reg, a);
+    }
     w->reg[reg].holds = false;
     w->reg[reg].taken = true;
+    use(w, reg);
     return reg;
+}
+
+qdot_lanes_sum
+qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    const int held = holder(w, a);
+
+    if (held >= 0)
+        w->reg[held].ahead = false;
+    return qdot_lanes_continue(w, a);
 }
 
 void
@@ -272,6 +337,7 @@ void
 qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                        qdot_lanes_at a, qdot_lanes_at b)
 {
+    bool passing;
     int reg;
     qdot_x86_rm rm;
 
@@ -283,8 +349,11 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
         a = b;
         b = other;
     }
+    passing = is_row(w, a.row) && a.order != w->k && holder(w, a) < 0;
     reg = load(w, a);
     rm = operand(w, b);
+    if (passing)
+        w->reg[reg].used = 0;
     if (*sum == QDOT_LANES_NOTHING) {
         *sum = qdot_writer_take(w);
         if (!minus) {
@@ -351,12 +420,18 @@ qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
 }
 
 void
+qdot_lanes_unread(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    const int reg = holder(w, a);
+
+    if (reg >= 0)
+        w->reg[reg] = (qdot_writer_register){.taken = w->reg[reg].taken};
+}
+
+void
 qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to)
 {
-    const int before = holder(w, to);
-
-    if (before >= 0)
-        w->reg[before].holds = false;
+    qdot_lanes_unread(w, to);
     qdot_writer_emit(w, QDOT_X86_STORE_ALL, reg, 0, qdot_writer_place(w, to));
 }
 
@@ -367,11 +442,12 @@ qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to)
         sum = qdot_writer_take(w);
         qdot_writer_clear(w, sum);
     }
-    qdot_writer_put(w, sum, to);
+    qdot_lanes_unread(w, to);
+    (void)qdot_writer_place(w, to); /* that it is there */
     if (is_row(w, to.row))
         w->absent[to.row] = false;
     w->reg[sum].taken = false;
-    w->reg[sum].holds = true;
+    w->reg[sum].holds = w->reg[sum].ahead = true;
     w->reg[sum].at = to;
     use(w, sum);
 }

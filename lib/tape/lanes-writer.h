@@ -37,6 +37,7 @@ enum {
 /* What a register holds. */
 typedef struct {
     bool holds, taken;
+    bool ahead; /* of memory, which has it only when it is left */
     qdot_lanes_at at;
     unsigned used; /* when */
 } qdot_writer_register;
@@ -93,6 +94,10 @@ void qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int fir
 qdot_x86_rm qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
 /* A register that is free, taken; 0 in one. */
 int qdot_writer_take(qdot_lanes_writer *w);
+/* What registers have for the places of results is stored there. */
+void qdot_writer_settle(qdot_lanes_writer *w);
+/* They hold nothing below register `end`; what they are ahead of is stored. */
+void qdot_writer_leave(qdot_lanes_writer *w, int end);
 /* What some register has is stored; no other holds what was there. */
 void qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to);
 void qdot_writer_clear(qdot_lanes_writer *w, int reg);
@@ -107,6 +112,7 @@ void qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *
 static inline void
 qdot_writer_begin(qdot_lanes_writer *w, int k)
 {
+    qdot_writer_settle(w);
     w->k = k;
     w->sum = 0;
 }
