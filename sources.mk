@@ -244,6 +244,7 @@ tape_sources = \
 	lib/tape/derivative.c \
 	lib/tape/disc.c \
 	lib/tape/finish.c \
+	lib/tape/interval.c \
 	lib/tape/keymap.c \
 	lib/tape/lanes-code.c \
 	lib/tape/lanes-steps.c \
@@ -278,6 +279,8 @@ tape_headers = \
 	lib/tape/derivative.h \
 	lib/tape/disc.def \
 	lib/tape/disc.h \
+	lib/tape/interval.def \
+	lib/tape/interval.h \
 	lib/tape/keymap.h \
 	lib/tape/lanes-code.h \
 	lib/tape/lanes-program.h \
@@ -402,6 +405,8 @@ sim_sources = \
 	lib/sim/precise.c \
 	lib/sim/quotient.c \
 	lib/sim/race.c \
+	lib/sim/range-poles.c \
+	lib/sim/range-seek.c \
 	lib/sim/range.c \
 	lib/sim/rates.c \
 	lib/sim/reader.c \
@@ -468,6 +473,7 @@ sim_headers = \
 	lib/sim/precise.h \
 	lib/sim/quotient.h \
 	lib/sim/race.h \
+	lib/sim/range-parts.h \
 	lib/sim/rates.h \
 	lib/sim/reader.h \
 	lib/sim/residual-tree.h \
@@ -657,6 +663,7 @@ unit_tests = \
 	tests/tape/test_constant \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
+	tests/tape/test_interval \
 	tests/tape/test_lanes-code \
 	tests/tape/test_lanes \
 	tests/tape/test_near \

@@ -337,11 +337,11 @@ static qdot_status
 compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
                 double tol, qdot_decision *decision)
 {
-    double difference;
+    double difference, errors[2];
     bool holds;
 
-    QDOT_TRY(qdot_session_number(session, left, &decision->left, NULL));
-    QDOT_TRY(qdot_session_number(session, right, &decision->right, NULL));
+    QDOT_TRY(qdot_session_number(session, left, &decision->left, &errors[0]));
+    QDOT_TRY(qdot_session_number(session, right, &decision->right, &errors[1]));
     difference = decision->left - decision->right;
     if (qdot_digits_of(session, left) > 0 || qdot_digits_of(session, right) > 0)
         QDOT_TRY(qdot_digits_difference(session, left, right, &difference));
@@ -350,7 +350,9 @@ compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparis
     else
         holds = how == LESS ? difference < 0 : difference <= 0;
     decision->verdict = holds ? QDOT_PROVED : QDOT_REFUTED;
-    return QDOT_OK;
+    if (holds || !(isnan(errors[0]) || isnan(errors[1])))
+        return QDOT_OK;
+    return qdot_answer_notice(session, "refuted by numbers whose error is unknown");
 }
 
 /* The same for every component; the first that is refuted decides. */

@@ -24,6 +24,7 @@ qdot_hull_clear(qdot_hull *h)
 {
     qdot_free(h->used);
     qdot_free(h->values);
+    qdot_free(h->span);
     *h = (qdot_hull){0};
 }
 
@@ -54,8 +55,11 @@ qdot_hull_init(qdot_hull *h, const qdot_tape *tape, size_t time)
     h->values = qdot_calloc((2 * MOST + 1) * h->n_used + 2 * inputs + 3 * m
                                 + qdot_disc_work(tape) + 1,
                             sizeof *h->values);
-    if (!h->values)
+    h->span = qdot_calloc(inputs + m + qdot_interval_work(tape) + 1, sizeof *h->span);
+    if (!h->values || !h->span)
         return QDOT_ENOMEM;
+    h->box = h->span + inputs;
+    h->span_work = h->box + m;
     h->fits = h->values + h->n_used * MOST;
     h->scale = h->fits + h->n_used * MOST;
     h->centre = h->scale + h->n_used;
@@ -129,6 +133,13 @@ go_around(qdot_hull *h, double a, double b, int nodes, double rho)
     return known;
 }
 
+static void
+fit_inputs(qdot_hull *h, int nodes)
+{
+    for (size_t k = 0; k < h->n_used; k++)
+        qdot_chebyshev_fit(nodes, h->values + k * MOST, h->fits + k * MOST);
+}
+
 void
 qdot_hull_look(qdot_hull *h, double a, double b, int nodes, const bool *quotients,
                const double *base)
@@ -138,8 +149,7 @@ qdot_hull_look(qdot_hull *h, double a, double b, int nodes, const bool *quotient
 
     while (ellipses[row].nodes < nodes)
         row++;
-    for (size_t k = 0; k < h->n_used; k++)
-        qdot_chebyshev_fit(nodes, h->values + k * MOST, h->fits + k * MOST);
+    fit_inputs(h, nodes);
     for (size_t i = 0; i < m; i++)
         h->miss[i] = NAN;
     for (int e = 0; e < ELLIPSES; e++) {
@@ -165,6 +175,21 @@ bool
 qdot_hull_within(qdot_hull *h, double a, double b, int nodes)
 {
     return go_around(h, a, b, nodes, 1);
+}
+
+void
+qdot_hull_enclose(qdot_hull *h, double a, double b, int nodes)
+{
+    fit_inputs(h, nodes);
+    for (size_t k = 0; k < h->n_used; k++) {
+        const double *c = h->fits + k * MOST;
+        const double r = qdot_chebyshev_ellipse(nodes, c, noise_of(h, k, a, b), 1);
+
+        h->span[h->used[k]] = (qdot_interval){nextafter(c[0] - r, -INFINITY),
+                                              nextafter(c[0] + r, INFINITY)};
+    }
+    h->span[h->time] = (qdot_interval){fmin(a, b), fmax(a, b)};
+    qdot_interval_eval(h->tape, h->span, h->box, h->span_work);
 }
 
 bool

@@ -10,6 +10,9 @@
  * between the points that is larger than what this says, as far as the inputs are what
  * their polynomials are: steps are short enough for that, or the bound is infinite.
  *
+ * Where discs have no bound - beyond what doubles hold, at switches - the same tape over intervals of
+ * the real line (tape/interval.h) may have one of the values on a ... b.
+ *
  * Source  Trefethen, Approximation Theory and Approximation Practice (2013), theorem 8.2,
  *         with 4 for the zeros of T_n (Mason & Handscomb 6.3: aliasing of those).
  * Tests   tests/script/narrow.lag
@@ -20,7 +23,7 @@
 #include <stdbool.h>
 
 #include "num/chebyshev.h"
-#include "tape/tape.h"
+#include "tape/interval.h"
 
 typedef struct {
     const qdot_tape *tape; /* borrowed */
@@ -35,6 +38,8 @@ typedef struct {
     double *out, *out_radius;  /* [outputs] of the last evaluation */
     double *miss;              /* [outputs] what qdot_hull_look found */
     double *work;
+    qdot_interval *span, *box; /* [inputs] on the stretch; [outputs] what qdot_hull_enclose found */
+    qdot_interval *span_work;
 } qdot_hull;
 
 /* For a tape whose input `time` is t. QDOT_ENOMEM; clear it in any case. */
@@ -67,6 +72,10 @@ double qdot_hull_rounding(qdot_hull *h, double a, double b);
 /* After _look: whether the inputs are known, and then h->out -+ h->out_radius hold the outputs on
  * a ... b. */
 bool qdot_hull_within(qdot_hull *h, double a, double b, int nodes);
+
+/* All `nodes` of a ... b are there. h->box [outputs] hold the outputs on a ... b where they are
+ * defined; infinite where no bound is known. */
+void qdot_hull_enclose(qdot_hull *h, double a, double b, int nodes);
 
 /* h->out -+ h->out_radius hold the outputs where each input i but t lies in centre -+ radius, which
  * stand in h->centre, h->radius, and t in a ... b. */

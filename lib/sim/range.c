@@ -11,85 +11,43 @@
 
 #include "base/interrupt.h"
 #include "expr/print.h"
-#include "num/chebyshev.h"
 #include "sim/horizon.h"
-#include "sim/hull.h"
-#include "sim/integrated.h"
-#include "sim/reader.h"
 #include "sim/noise.h"
+#include "sim/range-parts.h"
 
-enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, MANY_PARTS = 512, MOST_PARTS = 8192, LEAST_PARTS = 64 };
+enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, LEAST_PARTS = 64, MOST_PARTS = 8192 };
 
-/* Of the noise of evaluating: coefficients below it are nothing else. */
-static const double noises = 8;
+/* Parts of a step after which intervals are asked where its extrema are, and after which rounding is
+ * what there may be. */
+enum { SEEKING = 16, MANY_PARTS = 512 };
+
+/* What the last coefficients are, of the largest, where rounding of times is nothing. */
+static const double tight = 0x1p-44;
 
 /* Of the last coefficients of half as many nodes: what still has so much is no polynomial yet. */
 static const double no_progress = 0.25;
 
-/* A part that no polynomial fits however short it is holds a jump, or a pole where values are
- * so many times those of the step; a pole whose integral exists leaves that little of it. */
-static const double beyond_bounds = 0x1p16, least_integral = 0x1p-20;
+/* Where a part is cut that may be singular in its middle. */
+static const double beside = 0.4867;
 
-/* Towards a point where no polynomial fits, values are compared at distances that fall to a quarter
- * each time. What grows by increments that fall by less than `slow` (a logarithm's do not fall)
- * grows beyond all. */
-enum { NEAREST = 4, INCREMENTS = 10, LEAST_INCREMENTS = 4 };
-static const double far_beside = 1024, grown = 8, beside = 0.4867;
-static const double slow = 0.994, deep = 0x1p-24, blurred = 0x1p-14;
+/* A part so short, of its step, or so blurred, is looked at from its sides. */
+static const double deep = 0x1p-24, blurred = 0x1p-14;
 
 /* An end of the range where the limit from within is another value. */
 static const double jump = 0x1p-30;
 
-typedef struct {
-    qdot_reader reader;
-    qdot_hull hull;
-    qdot_range_kind kind;
-    size_t piece;
-    int nodes;
-    double first;             /* the value where the range begins */
-    double largest, smallest; /* so far */
-    long double integral;
-    double highest, lowest;   /* limits at points that no value reaches */
-    double rough;             /* what values are off by */
-    double sure[2];           /* the largest is not below, the smallest not above */
-    double left;              /* what parts that stay rough leave open of the integral */
-    double noise;             /* of evaluating it in the step at hand */
-    double blur;              /* what a state off by 2^-53 max(1, |x|) makes of it there */
-    size_t parts;             /* of that step so far, */
-    size_t most_parts;        /* and at most: less after one that was not enough for */
-    double typical;           /* value in that step */
-    double length;            /* of that step */
-    bool above, below;        /* it has no bound there, at the time */
-    bool diverges;            /* nor has its integral */
-    double pole;
-    bool begun;
-    bool open;   /* what it is somewhere is not known at all */
-    bool odd[2]; /* the step begins, ends where equations switch: sign(0) is no limit */
-    double ends[2];
-} scan;
-
-typedef struct {
-    double a, b;
-    int n;
-    double tail; /* the last coefficients; INFINITY before they are known */
-    bool rough;  /* taken for what it is */
-    double values[MOST_NODES], c[MOST_NODES];
-} part;
+typedef qdot_range_scan scan;
+typedef qdot_range_part part;
 
 /* What values at its nodes tell of a part. */
 typedef enum {
     ROUGH,     /* they fit no polynomial */
     UNSURE,    /* one, but something may hide between them */
     SINGULAR,  /* one, and something in its formula may be singular */
+    HOLLOW,    /* likewise, on a part so small that it is maybe none */
     SURE,
     SURPASSED, /* it holds nothing beyond what was met elsewhere */
 } verdict;
-
-static double
-time_at(const part *p, double x)
-{
-    return 0.5 * (p->a + p->b) + 0.5 * (p->b - p->a) * x;
-}
 
 static qdot_status
 value_at(scan *s, double t, double *x)
@@ -97,15 +55,6 @@ value_at(scan *s, double t, double *x)
     QDOT_TRY(qdot_reader_at(&s->reader, s->piece, t, x));
     return isfinite(*x) ? QDOT_OK
                         : qdot_fail(QDOT_EDOMAIN, "it is undefined at t = %.15g", t);
-}
-
-static void
-meet(scan *s, double x)
-{
-    s->largest = fmax(s->largest, x);
-    s->smallest = fmin(s->smallest, x);
-    s->sure[0] = fmax(s->sure[0], x);
-    s->sure[1] = fmin(s->sure[1], x);
 }
 
 /* Values between which it is somewhere, nobody knows where. */
@@ -118,13 +67,6 @@ meet_roughly(scan *s, double low, double high)
     s->sure[1] = fmin(s->sure[1], high);
 }
 
-/* How far rounding moves the nodes, of the length of the part. */
-static double
-blur(const part *p)
-{
-    return DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
-}
-
 static qdot_status
 fit(scan *s, part *p, int nodes, bool *good)
 {
@@ -133,29 +75,29 @@ fit(scan *s, part *p, int nodes, bool *good)
 
     p->n = nodes;
     for (int j = 0; j < nodes; j++) {
-        QDOT_TRY(value_at(s, time_at(p, qdot_chebyshev_node(nodes, j)), &p->values[j]));
+        QDOT_TRY(value_at(s, qdot_range_time(p, qdot_chebyshev_node(nodes, j)), &p->values[j]));
         qdot_hull_sample(&s->hull, j, s->reader.in);
     }
     qdot_chebyshev_fit(nodes, p->values, p->c);
     tail = p->tail = qdot_chebyshev_tail(nodes, p->c);
-    *good = tail <= (0x1p-44 + 8 * blur(p)) * qdot_chebyshev_size(nodes, p->c);
-    if (!*good && tail <= noises * s->noise) {
+    *good = tail <= (tight + 8 * qdot_range_blur(p)) * qdot_chebyshev_size(nodes, p->c);
+    if (!*good && tail <= QDOT_RANGE_NOISES * s->noise) {
         *good = true;
-        s->rough = fmax(s->rough, noises * s->noise);
+        s->rough = fmax(s->rough, QDOT_RANGE_NOISES * s->noise);
     }
     /* near 0 a state is off by more than its own last bit: the polynomial of its step is
      * as rough as that, and no shorter part is smoother */
     if (!*good && nodes == MOST_NODES && tail > no_progress * before
-        && tail <= noises * s->blur) {
+        && tail <= QDOT_RANGE_NOISES * s->blur) {
         *good = p->rough = true;
-        s->rough = fmax(s->rough, noises * tail);
+        s->rough = fmax(s->rough, QDOT_RANGE_NOISES * tail);
     }
     return QDOT_OK;
 }
 
 /* What the polynomial says of it, of the values at the nodes. */
 static verdict
-judge(scan *s, const part *p, bool *good)
+judge_fit(scan *s, const part *p, bool *good)
 {
     double others = 0, miss, rounded;
 
@@ -167,7 +109,7 @@ judge(scan *s, const part *p, bool *good)
         || (s->kind == QDOT_RANGE_MIN && p->c[0] - others - miss >= s->smallest))
         return SURPASSED;
     rounded = s->parts < MANY_PARTS ? 0
-                                    : noises * qdot_hull_rounding(&s->hull, p->a, p->b);
+                                    : QDOT_RANGE_NOISES * qdot_hull_rounding(&s->hull, p->a, p->b);
     if (!*good && qdot_chebyshev_tail(p->n, p->c) <= rounded) {
         *good = true;
         s->rough = fmax(s->rough, rounded);
@@ -175,29 +117,32 @@ judge(scan *s, const part *p, bool *good)
     if (!*good)
         return ROUGH;
     if (qdot_hull_is_hollow(&s->hull, 0, fabs(p->b - p->a) / s->length))
-        return SURE;
+        return HOLLOW;
     if (isnan(miss))
         return SINGULAR;
-    return miss <= fmax((0x1p-44 + 8 * blur(p)) * qdot_chebyshev_size(p->n, p->c),
-                        fmax(noises * s->noise, rounded))
+    return miss <= fmax((tight + 8 * qdot_range_blur(p)) * qdot_chebyshev_size(p->n, p->c),
+                        fmax(QDOT_RANGE_NOISES * s->noise, rounded))
                ? SURE
                : UNSURE;
 }
 
-/* Of a part that was not looked at any closer: what its values may be at most. */
-static void
-leave_open(scan *s, const part *p)
+static verdict
+judge(scan *s, const part *p, bool *good)
 {
-    qdot_hull *h = &s->hull;
+    const verdict v = judge_fit(s, p, good);
 
-    qdot_hull_look(h, p->a, p->b, p->n, NULL, NULL);
-    if (!qdot_hull_within(h, p->a, p->b, p->n) || !isfinite(h->out_radius[0])) {
-        s->open = true;
-        return;
-    }
-    s->highest = fmax(s->highest, h->out[0] + h->out_radius[0]);
-    s->lowest = fmin(s->lowest, h->out[0] - h->out_radius[0]);
-    s->left += 2 * h->out_radius[0] * fabs(p->b - p->a);
+    if (v == SURE || v == SURPASSED)
+        return v;
+    if (qdot_range_is_beneath(s, p))
+        return s->kind == QDOT_RANGE_MEAN ? SURE : SURPASSED;
+    /* where values have bounds for sure, the polynomial of an edge is not taken for it */
+    if (v == HOLLOW)
+        return s->kind == QDOT_RANGE_MEAN || s->hull.resting
+                       || qdot_range_is_beside_switch(s, p) || isinf(s->hull.box->lo)
+                       || isinf(s->hull.box->hi)
+                   ? SURE
+                   : SINGULAR;
+    return v;
 }
 
 /* The value x at an end of a part, or where that is a point by itself the limit. */
@@ -207,127 +152,17 @@ from_within(scan *s, const part *p, int end, double x)
     double limit = qdot_chebyshev_at(p->n, p->c, end == 0 ? -1 : 1);
     double size = qdot_chebyshev_size(p->n, p->c);
 
-    if (fabs(x - limit) <= (jump + 8 * blur(p)) * size)
+    if (fabs(x - limit) <= (jump + 8 * qdot_range_blur(p)) * size)
         return x;
     s->rough = fmax(s->rough, 16 * DBL_EPSILON * size);
     return limit;
 }
 
-/* Up to which size values near a short part are not those of a pole. */
-static double
-bounded(scan *s, const part *p)
-{
-    double most = 0;
-
-    if (s->typical > 0)
-        return beyond_bounds * s->typical;
-    for (int side = -1; side <= 1; side += 2) { /* 0 elsewhere: what it grows by towards here */
-        double t = p->a + side * far_beside * (p->b - p->a), v;
-
-        if (fmin(s->ends[0], s->ends[1]) <= t && t <= fmax(s->ends[0], s->ends[1])
-            && qdot_reader_at(&s->reader, s->piece, t, &v) == QDOT_OK && isfinite(v))
-            most = fmax(most, grown * fabs(v));
-    }
-    return most;
-}
-
-/* In a part that could not be shorter. */
-static void
-look_for_pole(scan *s, const part *p)
-{
-    const double most = bounded(s, p);
-    double low = INFINITY, high = -INFINITY;
-
-    for (int j = 0; j < p->n; j++) {
-        low = fmin(low, p->values[j]);
-        high = fmax(high, p->values[j]);
-    }
-    if (high <= most && low >= -most)
-        return;
-    s->above = s->above || high > most;
-    s->below = s->below || low < -most;
-    s->diverges = s->diverges
-                  || fmax(high, -low) * fabs(p->b - p->a)
-                         > least_integral * s->typical * s->length;
-    s->pole = p->b;
-}
-
-/* Values at lengths 2^NEAREST, 2^(NEAREST + 2) ... of the part beside its middle, as far as the step
- * goes, as increments [..] towards it and the nearest value; how many. */
-static int
-increments_beside(scan *s, const part *p, int side, double *d, double *nearest)
-{
-    const double w = fabs(p->b - p->a), middle = 0.5 * (p->a + p->b);
-    double before = 0;
-    int n = 0;
-
-    for (; n <= INCREMENTS; n++) {
-        double t = middle + side * ldexp(w, NEAREST + 2 * n), v;
-
-        if (t < fmin(s->ends[0], s->ends[1]) || t > fmax(s->ends[0], s->ends[1])
-            || qdot_reader_at(&s->reader, s->piece, t, &v) != QDOT_OK || !isfinite(v))
-            break;
-        if (n == 0)
-            *nearest = v;
-        else
-            d[n - 1] = before - v;
-        before = v;
-    }
-    return n - 1;
-}
-
-/* Whether increments fall or grow by about the same ratio all along, as noise does not. */
-static bool
-is_regular(const double *d, int n, double *ratio)
-{
-    *ratio = n > 1 ? pow(d[0] / d[n - 1], 1.0 / (n - 1)) : NAN;
-    for (int k = 0; k + 1 < n; k++) {
-        double r = d[k] / d[k + 1];
-
-        if (!(r > 0.5 * *ratio && r < 2 * *ratio))
-            return false;
-    }
-    return n >= LEAST_INCREMENTS && *ratio > 0;
-}
-
-/* What is left of increments of which d[0] is the last: they fall by a ratio each time, or ever more
- * slowly, as those of 1/log do, of which as many are left as there were. */
-static double
-left_of(const double *d, int n, double ratio, double before)
-{
-    const double late = d[0] / d[1], early = d[n - 2] / d[n - 1];
-
-    if (ratio >= slow)
-        return copysign(INFINITY, d[0]);
-    return d[0] * fmax(late > 0.8 && late > early + 0.01 ? before : 0, ratio / (1 - ratio));
-}
-
-/* What the values tend to towards the part from one side: increments that fall as a power add up
- * to a limit, others have none. */
-static void
-look_towards(scan *s, const part *p, int side)
-{
-    double d[INCREMENTS + 1], nearest = 0, ratio, limit;
-    const int n = increments_beside(s, p, side, d, &nearest);
-
-    if (n < LEAST_INCREMENTS || !is_regular(d, n, &ratio)
-        || !(fabs(d[0]) > fmax(4 * DBL_EPSILON * fabs(nearest), noises * s->noise)))
-        return;
-    limit = nearest + left_of(d, n, ratio, 0.5 * log2(s->length / fabs(p->b - p->a)));
-    s->highest = fmax(s->highest, limit);
-    s->lowest = fmin(s->lowest, limit);
-    if (isinf(limit)) {
-        s->above = s->above || limit > 0;
-        s->below = s->below || limit < 0;
-        s->pole = 0.5 * (p->a + p->b);
-    }
-}
-
 /* Ends, extrema, integral of a part. */
 static qdot_status
-take_part(scan *s, const part *p, bool good)
+take_part(scan *s, const part *p, bool good, bool sure)
 {
-    double x, d[MOST_NODES], at[MOST_NODES];
+    double x, d[MOST_NODES], at[MOST_NODES], low = INFINITY, high = -INFINITY;
     int n = 0;
 
     for (int end = 0; end < 2; end++) {
@@ -341,7 +176,9 @@ take_part(scan *s, const part *p, bool good)
             if (good)
                 x = from_within(s, p, end, x);
         }
-        meet(s, x);
+        low = fmin(low, x);
+        high = fmax(high, x);
+        qdot_range_meet(s, x);
         if (!s->begun)
             s->first = x;
         s->begun = true;
@@ -351,12 +188,16 @@ take_part(scan *s, const part *p, bool good)
         if (qdot_chebyshev_size(p->n - 1, d) > 0)
             n = qdot_chebyshev_crossings(p->n - 1, d, at);
         for (int k = 0; k < n; k++) {
-            QDOT_TRY(value_at(s, time_at(p, at[k]), &x));
-            meet(s, x);
+            QDOT_TRY(value_at(s, qdot_range_time(p, at[k]), &x));
+            low = fmin(low, x);
+            high = fmax(high, x);
+            qdot_range_meet(s, x);
         }
+        if (sure && 8 * qdot_range_blur(p) > tight)
+            qdot_range_bound_blurred(s, p, low, high);
     } else {
-        double low = INFINITY, high = -INFINITY;
-
+        low = INFINITY;
+        high = -INFINITY;
         for (int j = 0; j < p->n; j++) {
             low = fmin(low, p->values[j]);
             high = fmax(high, p->values[j]);
@@ -422,13 +263,12 @@ scan_step(scan *s, double a, double b)
     s->ends[0] = a;
     s->ends[1] = b;
     s->length = fabs(b - a);
+    s->sought = false;
     QDOT_TRY(find_noise(s, a, b));
     qdot_hull_begin(&s->hull);
     while (depth > 0) {
         part p = {.a = from, .b = ends[depth - 1], .tail = INFINITY};
-        double t = fmax(fabs(p.a), fabs(p.b));
-        bool good = false, short_one = fabs(p.b - p.a)
-                                       <= fmax(64 * DBL_EPSILON * t, 0x1p-50 * fabs(b - a));
+        bool good = false, short_one = qdot_range_is_short(s, &p);
         verdict v = ROUGH;
         int nodes = s->nodes;
 
@@ -447,26 +287,30 @@ scan_step(scan *s, double a, double b)
         if (good)
             s->nodes = p.rough ? nodes / 2 : nodes;
         if (v == SURPASSED) {
+            if (!s->begun)
+                QDOT_TRY(take_part(s, &p, good, false));
             from = p.b;
             depth--;
             continue;
         }
         if (v == SURE || short_one || depth == DEEPEST || ++s->parts > s->most_parts) {
-            QDOT_TRY(take_part(s, &p, good));
+            QDOT_TRY(take_part(s, &p, good, v == SURE));
             if (short_one)
-                look_for_pole(s, &p);
-            else if (v != SURE)
-                leave_open(s, &p);
+                qdot_range_look_for_pole(s, &p);
+            if (v != SURE)
+                qdot_range_leave_open(s, &p, short_one);
             if (s->parts == s->most_parts + 1 && s->most_parts > LEAST_PARTS)
                 s->most_parts /= 2;
-            if (fabs(p.b - p.a) <= deep * s->length && (short_one || 8 * blur(&p) > blurred)) {
-                look_towards(s, &p, 1);
-                look_towards(s, &p, -1);
+            if (fabs(p.b - p.a) <= deep * s->length && (short_one || 8 * qdot_range_blur(&p) > blurred)) {
+                qdot_range_look_towards(s, &p);
             }
             from = p.b;
             depth--;
             continue;
         }
+        if (s->parts >= SEEKING && !s->sought)
+            QDOT_TRY(qdot_range_seek(s));
+        s->sought = s->sought || s->parts >= SEEKING;
         s->nodes = 16;
         /* beside where it may be undefined, as sin(x)/x is */
         ends[depth++] = p.a + (v == SINGULAR ? beside : 0.5) * (p.b - p.a);
@@ -509,7 +353,7 @@ scan_course(scan *s, double from, double to)
             if (from != to) /* a point by itself, which its steps have met */
                 continue;
             QDOT_TRY(value_at(s, a, &x));
-            meet(s, x);
+            qdot_range_meet(s, x);
             if (!s->begun)
                 s->first = x;
             s->begun = true;

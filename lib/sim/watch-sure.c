@@ -4,11 +4,26 @@
 
 #include "sim/watch-parts.h"
 
+/* Where discs have no bound: whether the function keeps off 0 by its interval. */
+static bool
+keeps_off(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *enclosed)
+{
+    const qdot_interval *box = w->hull.box + i;
+
+    if (w->now.on[i])
+        return false;
+    if (!*enclosed)
+        qdot_hull_enclose(&w->hull, p->a, p->b, nodes);
+    *enclosed = true;
+    return box->lo > 0 || box->hi < 0;
+}
+
 qdot_watch_verdict
 qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
 {
     qdot_watch_verdict worst = QDOT_PART_GOOD;
     const double part = fabs(p->b - p->a) / w->length;
+    bool enclosed = false;
 
     qdot_hull_look(&w->hull, p->a, p->b, nodes, w->now.on, w->now.g0);
     for (size_t i = 0; i < w->m; i++) {
@@ -16,7 +31,7 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
         qdot_watch_verdict v = isnan(miss) ? QDOT_PART_PARTED : QDOT_PART_HALVED;
 
         if (!w->live[i] || miss < w->clear[i] || miss <= qdot_watch_least(w, p, i) ||
-            qdot_hull_is_hollow(&w->hull, i, part))
+            qdot_hull_is_hollow(&w->hull, i, part) || keeps_off(w, p, nodes, i, &enclosed))
             continue;
         worst = v > worst ? v : worst;
     }
