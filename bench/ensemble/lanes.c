@@ -249,7 +249,8 @@ main(int argc, char **argv)
     qdot_plan *plan;
 
     if (argc != 7 || !pool) {
-        fprintf(stderr, "usage: lanes chain|henon|kepler|spherical|spring LINKS MEMBERS TOL ROUNDS KIND\n");
+        fprintf(stderr, "usage: lanes chain|henon|kepler|spherical|spring LINKS MEMBERS TOL "
+                        "ROUNDS KIND\n");
         return 2;
     }
     qdot_kind_limit((size_t)atoi(argv[6]));

@@ -4,11 +4,12 @@
  *
  *     by Taylor series where the system has them, else by the partner of the method
  *       (method.h); beside a stiff method by the partner too where series get stuck,
- *     under tol* = tol/100 (tol/10^4 for msbdf; tol/10^10 for bsimp, which at loose tolerances
- *       is better than they ask for by as much), not below the method's companion_tol. A method that is its own partner and would
- *       not get 4 times tighter takes tol* = 10 max(tol, companion_tol): then the
- *       companion errs more, on the safe side (a tighter one would share the rounding of
- *       the coefficients, which is a drift and no noise). taylor, whose coefficients
+ *     under tol* = tol/100 (tol/10^4 for msbdf; tol/10^10 for bsimp, which at
+ *       loose tolerances is better than they ask for by as much), not below the method's
+ *       companion_tol. A method that is its own partner and would not get 4 times tighter
+ *       takes tol* = 10 max(tol, companion_tol): then the companion errs more, on the safe
+ *       side (a tighter one would share the rounding of the coefficients, which is a drift
+ *       and no noise). taylor, whose coefficients
  *       are computed and not rounded once for all, takes tol/100 down to 1e-16, and three
  *       orders more than that asks for,
  *     from the doubles next to y0, +-2^-53 for a zero, signs mixed,

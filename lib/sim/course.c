@@ -254,9 +254,10 @@ check_level(qdot_piece *x, size_t from, double t, const double *y)
     return QDOT_OK;
 }
 
-/* A piece ends at the first double behind the root that ends it, in all courses alike: that is late,
- * and never early, which adds up. A companion goes on as if it had left before the root, the other
- * one as if later still: by half the time between doubles times how the equations differ. */
+/* A piece ends at the first double behind the root that ends it, in all courses alike: that is
+ * late, and never early, which adds up. A companion goes on as if it had left before the root,
+ * the other one as if later still: by half the time between doubles times how the equations
+ * differ. */
 static qdot_status
 make_up(qdot_piece *x, size_t from, double t, double *y)
 {

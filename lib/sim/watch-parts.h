@@ -1,8 +1,8 @@
 /* watch-parts.h -- what a watch is made of.
  *
  * For watch.c only, which goes over a step part by part: values of the functions
- * (watch-values.c), what is sure of them (watch-sure.c), and the polynomial of one function on one part with its roots
- * (watch-roots.c).
+ * (watch-values.c), what is sure of them (watch-sure.c), and the polynomial of one function
+ * on one part with its roots (watch-roots.c).
  *
  * Tests  as watch.h
  */

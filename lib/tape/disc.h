@@ -33,8 +33,8 @@ void qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, dou
 /* Which inputs the tape reads at all, into used [inputs]; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
-/* Whether it has operations that fall off like an exponential, so that what is large somewhere may be
- * nothing at a distance, all derivatives included. */
+/* Whether it has operations that fall off like an exponential, so that what is large somewhere
+ * may be nothing at a distance, all derivatives included. */
 bool qdot_disc_may_hide(const qdot_tape *tape);
 
 /* How far at most the arguments of these go over the discs c, r [inputs], that of a power by its

@@ -388,8 +388,8 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     g->step_slots = qdot_calloc(length + 1, sizeof *g->step_slots);
     g->unknown_sums = qdot_calloc(rows + 1, sizeof *g->unknown_sums);
     g->block_slots = qdot_calloc(g->t->n_blocks + 1, sizeof *g->block_slots);
-    if (!g->moving || !g->folded || !g->maker || !g->row_vector || !g->ready || !g->where || !g->step_sums ||
-        !g->step_slots || !g->unknown_sums || !g->block_slots)
+    if (!g->moving || !g->folded || !g->maker || !g->row_vector || !g->ready || !g->where
+        || !g->step_sums || !g->step_slots || !g->unknown_sums || !g->block_slots)
         return QDOT_ENOMEM;
     memset(g->row_vector, 0xff, rows * sizeof *g->row_vector);
     memset(g->maker, 0xff, rows * sizeof *g->maker);

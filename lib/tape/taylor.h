@@ -155,7 +155,8 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_affine(qdot_taylor *taylor, size_t n,
 void qdot_taylor_correct(qdot_taylor *taylor, int k, const double *newest);
 
 /* The longest step, at most s (INFINITY: any), of the expansion that is there to order p which
- * carries no argument of an exponential too far (near.h), in units of time. Whether there are any. */
+ * carries no argument of an exponential too far (near.h), in units of time. Whether there are
+ * any. */
 double qdot_taylor_near(const qdot_taylor *taylor, int p, double s);
 bool qdot_taylor_has_exponentials(const qdot_taylor *taylor);
 
