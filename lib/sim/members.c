@@ -556,7 +556,7 @@ estimate(const qdot_members_model *model, double length, double convolutions, do
     }
 }
 
-/* The same of machine code: six scenes at orders 8 to 26, to 3 %. */
+/* The same of machine code: five scenes at orders 8 to 26, to 8 %. */
 static void
 estimate_written(const qdot_members_model *model, double convolutions, double *c)
 {
