@@ -97,7 +97,8 @@ qdot_range_meet(qdot_range_scan *s, double x)
 
 /* --- poles (range-poles.c) ----------------------------------------------------------- */
 
-/* Whether there is a pole in a part that could not be shorter. */
+/* Both after s->hull.box has been found for the part: where it is finite there is none.
+ * Whether there is a pole in a part that could not be shorter. */
 void qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p);
 
 /* What the values tend to towards a short part from both sides. */

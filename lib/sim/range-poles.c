@@ -12,6 +12,13 @@ enum { NEAREST = 4, INCREMENTS = 10, LEAST_INCREMENTS = 4 };
 static const double far_beside = 1024, grown = 8;
 static const double slow = 0.994;
 
+/* Values of the part have bounds: what they do is no pole, and may be nothing but rounding. */
+static bool
+has_bounds(const qdot_range_scan *s)
+{
+    return isfinite(s->hull.box->lo) && isfinite(s->hull.box->hi);
+}
+
 /* Up to which size values near a short part are not those of a pole. */
 static double
 bounded(qdot_range_scan *s, const qdot_range_part *p)
@@ -41,7 +48,7 @@ qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p)
         low = fmin(low, p->values[j]);
         high = fmax(high, p->values[j]);
     }
-    if (high <= most && low >= -most)
+    if (has_bounds(s) || (high <= most && low >= -most))
         return;
     s->above = s->above || high > most;
     s->below = s->below || low < -most;
@@ -125,6 +132,8 @@ look_towards(qdot_range_scan *s, const qdot_range_part *p, int side)
 void
 qdot_range_look_towards(qdot_range_scan *s, const qdot_range_part *p)
 {
+    if (has_bounds(s))
+        return;
     look_towards(s, p, 1);
     look_towards(s, p, -1);
 }

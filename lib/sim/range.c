@@ -295,15 +295,15 @@ scan_step(scan *s, double a, double b)
         }
         if (v == SURE || short_one || depth == DEEPEST || ++s->parts > s->most_parts) {
             QDOT_TRY(take_part(s, &p, good, v == SURE));
-            if (short_one)
-                qdot_range_look_for_pole(s, &p);
             if (v != SURE)
                 qdot_range_leave_open(s, &p, short_one);
+            if (short_one)
+                qdot_range_look_for_pole(s, &p);
             if (s->parts == s->most_parts + 1 && s->most_parts > LEAST_PARTS)
                 s->most_parts /= 2;
-            if (fabs(p.b - p.a) <= deep * s->length && (short_one || 8 * qdot_range_blur(&p) > blurred)) {
+            if (fabs(p.b - p.a) <= deep * s->length
+                && (short_one || 8 * qdot_range_blur(&p) > blurred))
                 qdot_range_look_towards(s, &p);
-            }
             from = p.b;
             depth--;
             continue;
