@@ -1429,6 +1429,7 @@ test_files = \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
 	tests/sim/scenes.h \
+	tests/tape/lone.h \
 	tests/tape/reference.h \
 	tests/tape/smooth.h \
 	tests/fuzz/fuzz-parse.c \

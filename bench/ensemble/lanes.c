@@ -42,6 +42,15 @@ now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static qdot_expr
+coordinate(qdot_pool *pool, qdot_scene *scene, const char *name)
+{
+    qdot_expr q = qdot_symbol_get(pool, QDOT_COORD, name);
+
+    must(qdot_scene_coordinate(scene, q));
+    return q;
+}
+
 /* A chain of bobs, m = l = 1, g = 9.81. */
 static qdot_scene *
 chain(qdot_pool *pool, int links)
@@ -54,8 +63,7 @@ chain(qdot_pool *pool, int links)
         qdot_expr q;
 
         snprintf(name, sizeof name, "theta[%d]", k);
-        q = qdot_symbol_get(pool, QDOT_COORD, name);
-        must(qdot_scene_coordinate(scene, q));
+        q = coordinate(pool, scene, name);
         r[0] = qdot_add(pool, r[0], qdot_fun1(pool, QDOT_SIN, q));
         r[1] = qdot_sub(pool, r[1], qdot_fun1(pool, QDOT_COS, q));
         snprintf(name, sizeof name, "bob[%d]", k);
@@ -71,11 +79,8 @@ static qdot_scene *
 henon_heiles(qdot_pool *pool)
 {
     qdot_scene *scene = qdot_scene_new(pool);
-    qdot_expr x = qdot_symbol_get(pool, QDOT_COORD, "x");
-    qdot_expr y = qdot_symbol_get(pool, QDOT_COORD, "y"), V;
+    qdot_expr x = coordinate(pool, scene, "x"), y = coordinate(pool, scene, "y"), V;
 
-    must(qdot_scene_coordinate(scene, x));
-    must(qdot_scene_coordinate(scene, y));
     must(qdot_scene_particle(scene, "p", QDOT_ONE,
                              qdot_vector(pool, 2, (qdot_expr[]){x, y})));
     V = qdot_add(pool, qdot_pow_int(pool, x, 2), qdot_pow_int(pool, y, 2));
@@ -85,15 +90,6 @@ henon_heiles(qdot_pool *pool)
                                    qdot_pow_int(pool, y, 3)));
     must(qdot_scene_potential(scene, V));
     return scene;
-}
-
-static qdot_expr
-coordinate(qdot_pool *pool, qdot_scene *scene, const char *name)
-{
-    qdot_expr q = qdot_symbol_get(pool, QDOT_COORD, name);
-
-    must(qdot_scene_coordinate(scene, q));
-    return q;
 }
 
 /* Kepler's problem in polar coordinates, G M = 1. */
@@ -166,9 +162,10 @@ start_spherical(double u, double w, double *y)
 static void
 start_spring(double u, double w, double *y)
 {
+    (void)w;
     y[0] = 1.00000981;
     y[1] = 1 + 0.5 * u;
-    y[2] = y[3] = 0 * w;
+    y[2] = y[3] = 0;
 }
 
 static const struct {

@@ -13,8 +13,8 @@
 #include "expr/calculus.h"
 #include "num/batch.h"
 #include "num/kinds.h"
-#include "tape/code.h"
 #include "tape/derivative.h"
+#include "lone.h"
 
 enum { MANY = 19, OUTPUTS = 6 };
 
@@ -37,27 +37,6 @@ derive(const qdot_tape *tape, const double *in, size_t from, size_t columns, dou
     free(work);
 }
 
-/* A tape of one operation of three inputs; its second result too. */
-static qdot_tape *
-lone(qdot_pool *pool, qdot_op op)
-{
-    qdot_code code;
-    qdot_value v[2];
-    qdot_tape *tape;
-    int operands = qdot_operations[op].operands;
-
-    qdot_code_init(&code, pool, 3);
-    if (op == QDOT_OP_SINCOS) {
-        qdot_code_sincos(&code, 0, &v[0], &v[1]);
-    } else {
-        v[0] = qdot_code_op(&code, op, 0, operands > 1 ? 1 : 0, operands > 2 ? 2 : 0);
-        v[1] = v[0];
-    }
-    assert_int_equal(qdot_code_finish(&code, 2, v, &tape), QDOT_OK);
-    qdot_code_clear(&code);
-    return tape;
-}
-
 /* The rows of operation.def, at points inside their domains and on both sides of what
  * switches, on every kind of processor. */
 static void
@@ -72,7 +51,7 @@ every_operation_agrees_with_differences(void **state)
     for (size_t kind = 0; kind < 3; kind++) {
         qdot_kind_limit(kind);
         for (int op = 0; op < QDOT_OP_COUNT; op++) {
-            qdot_tape *tape = lone(pool, op);
+            qdot_tape *tape = lone(pool, op, false);
             size_t compared = 0;
 
             for (size_t p = 0; p < sizeof points / sizeof *points; p++) {

@@ -11,16 +11,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "tape/code.h"
 #include "tape/disc.h"
+#include "lone.h"
 
 typedef double complex number;
-
-static double
-unit(void)
-{
-    return (double)rand() / RAND_MAX;
-}
 
 /* --- operations over complex numbers ------------------------------------------------- */
 
@@ -76,27 +70,6 @@ static plane *const planes[QDOT_OP_COUNT] = {
 #undef ROW
 };
 
-/* A tape of one operation of three inputs; its second result too. */
-static qdot_tape *
-lone(qdot_pool *pool, qdot_op op)
-{
-    qdot_code code;
-    qdot_value v[2];
-    qdot_tape *tape;
-    int operands = qdot_operations[op].operands;
-
-    qdot_code_init(&code, pool, 3);
-    if (op == QDOT_OP_SINCOS) {
-        qdot_code_sincos(&code, 0, &v[0], &v[1]);
-    } else {
-        v[0] = qdot_code_op(&code, op, 0, operands > 1 ? 1 : 0, operands > 2 ? 2 : 0);
-        v[1] = v[0];
-    }
-    assert_int_equal(qdot_code_finish(&code, 2, v, &tape), QDOT_OK);
-    qdot_code_clear(&code);
-    return tape;
-}
-
 /* Places on the rim of the discs, where an analytic function goes farthest. */
 static void
 stays_inside(const char *name, plane *f, const double *c, const double *r, double C, double R)
@@ -142,7 +115,7 @@ no_operation_leaves_its_disc(void **state)
     (void)state;
     srand(7);
     for (int op = 0; op < QDOT_OP_COUNT; op++) {
-        qdot_tape *tape = lone(pool, op);
+        qdot_tape *tape = lone(pool, op, false);
         double *work = malloc(qdot_disc_work(tape) * sizeof *work);
         int bounded = 0;
 
@@ -185,7 +158,7 @@ static double
 radius_of(qdot_op op, double a, double ra, double b, double rb)
 {
     qdot_pool *pool = qdot_pool_new();
-    qdot_tape *tape = lone(pool, op);
+    qdot_tape *tape = lone(pool, op, false);
     double *work = malloc(qdot_disc_work(tape) * sizeof *work);
     const double c[3] = {a, b, 0}, r[3] = {ra, rb, 0};
     double C[2], R[2];
@@ -220,8 +193,8 @@ static void
 tells_how_far_arguments_of_exponentials_go(void **state)
 {
     qdot_pool *pool = qdot_pool_new();
-    qdot_tape *wave = lone(pool, QDOT_OP_SIN), *fall = lone(pool, QDOT_OP_EXP);
-    qdot_tape *power = lone(pool, QDOT_OP_POW);
+    qdot_tape *wave = lone(pool, QDOT_OP_SIN, false), *fall = lone(pool, QDOT_OP_EXP, false);
+    qdot_tape *power = lone(pool, QDOT_OP_POW, false);
     const double c[3] = {2, -50, 0}, r[3] = {0.1, 0, 0};
     double work[16];
 
