@@ -24,8 +24,8 @@ typedef struct {
 struct qdot_ensemble {
     qdot_members_model model;
     qdot_tape *shaken;
-    /* Of d'Alembert's residual where that is shorter, or the one with reduced equations: the
-     * model then has the structure and the tape of these. NULL: neither. */
+    /* Of d'Alembert's residual where that is shorter, or the one with reduced equations, whose
+     * structure and tape are the model's then. NULL: neither. */
     qdot_plan *plan;
     const qdot_plan *reduced;
     qdot_exchange *exchange;  /* of these */
@@ -42,10 +42,16 @@ form_free(form *f)
     qdot_shifted_lanes_free(f->shifted);
 }
 
+static bool
+is_residual(const qdot_ensemble *e)
+{
+    return e->plan && !e->reduced;
+}
+
 static qdot_status
 form_new(form *f, const qdot_ensemble *e, bool shaken, int order)
 {
-    if (e->plan && !e->reduced)
+    if (is_residual(e))
         return qdot_shifted_lanes_new(e->plan, shaken, order, &f->shifted);
     return qdot_members_new(&e->model, shaken ? e->shaken : e->model.tape, order,
                             &f->direct);
@@ -269,7 +275,7 @@ make(qdot_ensemble *e, builder *b, size_t n_varied, const qdot_expr *varied)
     QDOT_TRY(find_structure(b, &e->model.structure));
     QDOT_TRY(lower(b, &e->model));
     QDOT_TRY(plan_other_forms(e, b));
-    if (e->plan && !e->reduced)
+    if (is_residual(e))
         QDOT_TRY(qdot_shifted_lanes_order(e->plan, e->tol, &e->order));
     else
         QDOT_TRY(qdot_members_order(&e->model, e->tol, &e->order));
@@ -384,7 +390,7 @@ make_companions(qdot_ensemble *e, int order)
 {
     if (e->companions.direct || e->companions.shifted)
         return QDOT_OK;
-    if ((!e->plan || e->reduced) && !e->shaken)
+    if (!is_residual(e) && !e->shaken)
         QDOT_TRY(qdot_tape_shake(e->model.tape, &e->shaken));
     return form_new(&e->companions, e, true, order);
 }

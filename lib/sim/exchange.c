@@ -2,9 +2,9 @@
 #include "sim/exchange.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/memory.h"
+#include "sim/momenta.h"
 #include "tape/two.h"
 
 struct qdot_exchange {
@@ -76,12 +76,9 @@ void
 qdot_exchange_derive(qdot_exchange *x, double t, const double *p, double *y)
 {
     const qdot_plan *r = x->plan;
-    const double *rates = x->out + qdot_tape_outputs(r->tape) - r->n_kept;
+    const double *rates =
+        qdot_momenta_rates(r, r->tape, t, y, p, x->in, x->out, x->work);
 
-    memcpy(x->in, y, 2 * r->n * sizeof *y);
-    x->in[2 * r->n] = t;
-    memcpy(x->in + 2 * r->n + 1, p, r->n_kept * sizeof *p);
-    qdot_tape_eval(r->tape, x->in, x->out, x->work);
     for (size_t k = 0; k < r->n_kept; k++)
         y[r->n + r->kept[k]] = rates[k];
 }

@@ -65,17 +65,27 @@ enter(double t, const double *y, const double *carry, void *user)
     return QDOT_OK;
 }
 
+const double *
+qdot_momenta_rates(const qdot_plan *reduced, const qdot_tape *tape, double t, const double *y,
+                   const double *p, double *in, double *out, double *work)
+{
+    const size_t n = 2 * reduced->n;
+
+    memcpy(in, y, n * sizeof *y);
+    in[n] = t;
+    memcpy(in + n + 1, p, reduced->n_kept * sizeof *p);
+    qdot_tape_eval(tape, in, out, work);
+    return out + qdot_tape_outputs(tape) - reduced->n_kept;
+}
+
 static qdot_status
 derive(double t, double *y, void *user)
 {
     qdot_momenta *m = user;
     const qdot_plan *p = m->plan;
-    const double *rates = m->out + qdot_tape_outputs(m->tape) - p->n_kept;
+    const double *rates =
+        qdot_momenta_rates(p, m->tape, t, y, m->hi, m->in, m->out, m->work);
 
-    memcpy(m->in, y, 2 * p->n * sizeof *y);
-    m->in[2 * p->n] = t;
-    memcpy(m->in + 2 * p->n + 1, m->hi, p->n_kept * sizeof *m->hi);
-    qdot_tape_eval(m->tape, m->in, m->out, m->work);
     for (size_t k = 0; k < p->n_kept; k++) {
         if (!isfinite(rates[k]))
             return qdot_fail(QDOT_EDOMAIN, "the velocity of %s is undefined",
