@@ -147,6 +147,16 @@ qdot_chebyshev_size(int n, const double *c)
 }
 
 double
+qdot_chebyshev_spread(int n, const double *c)
+{
+    double sum = 0;
+
+    for (int k = 1; k < n; k++)
+        sum += fabs(c[k]);
+    return sum;
+}
+
+double
 qdot_chebyshev_ellipse(int n, const double *c, double noise, double rho)
 {
     double sum = 0, power = 1;
@@ -164,11 +174,7 @@ qdot_chebyshev_ellipse(int n, const double *c, double noise, double rho)
 int
 qdot_chebyshev_sign(int n, const double *c)
 {
-    double others = 0;
-
-    for (int k = 1; k < n; k++)
-        others += fabs(c[k]);
-    return fabs(c[0]) > others ? (c[0] > 0) - (c[0] < 0) : 0;
+    return fabs(c[0]) > qdot_chebyshev_spread(n, c) ? (c[0] > 0) - (c[0] < 0) : 0;
 }
 
 /* --- roots -------------------------------------------------------------------------- */

@@ -20,6 +20,13 @@ enum { QDOT_CHEBYSHEV_MOST = 64 };
 /* Node j of n, descending in x; n: 8, 16, 32 or 64. */
 double qdot_chebyshev_node(int n, int j);
 
+/* The point of a ... b that x is. */
+static inline double
+qdot_chebyshev_place(double a, double b, double x)
+{
+    return 0.5 * (a + b) + 0.5 * (b - a) * x;
+}
+
 /* c [n] of the polynomial through values [n] at the nodes. */
 void qdot_chebyshev_fit(int n, const double *values, double *c);
 
@@ -38,6 +45,9 @@ void qdot_chebyshev_halves(int n, const double *c, double *left, double *right);
  * and the largest of all. */
 double qdot_chebyshev_tail(int n, const double *c);
 double qdot_chebyshev_size(int n, const double *c);
+
+/* sum_{k > 0} |c_k|, how far p goes from c_0 at most. */
+double qdot_chebyshev_spread(int n, const double *c);
 
 /* A bound of |p - c_0| on the ellipse with foci -1, 1 whose half axes add up to rho >= 1,
  *

@@ -65,7 +65,7 @@ take_plan(search *s, const qdot_course *course, const qdot_plan *plan)
 static double
 time_at(double a, double b, int nodes, int j)
 {
-    return 0.5 * (a + b) + 0.5 * (b - a) * qdot_chebyshev_node(nodes, j);
+    return qdot_chebyshev_place(a, b, qdot_chebyshev_node(nodes, j));
 }
 
 /* Values at the nodes of a ... b; *finite: all are numbers. */

@@ -65,6 +65,9 @@ void qdot_hull_look(qdot_hull *h, double a, double b, int nodes, const bool *quo
  * bound of which near 0 its formula does not give. */
 bool qdot_hull_is_hollow(const qdot_hull *h, size_t i, double part);
 
+/* Where a part is cut whose formula may be singular in its middle. */
+#define QDOT_HULL_BESIDE 0.4867
+
 /* After _look: what rounding of the inputs makes of output 0 in the middle of the stretch, at most;
  * 0 where it is singular. */
 double qdot_hull_rounding(qdot_hull *h, double a, double b);

@@ -66,7 +66,7 @@ qdot_range_blur(const qdot_range_part *p)
 static inline double
 qdot_range_time(const qdot_range_part *p, double x)
 {
-    return 0.5 * (p->a + p->b) + 0.5 * (p->b - p->a) * x;
+    return qdot_chebyshev_place(p->a, p->b, x);
 }
 
 /* A part so short that rounding of times is all that is in it. */

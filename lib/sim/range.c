@@ -27,9 +27,6 @@ static const double tight = 0x1p-44;
 /* Of the last coefficients of half as many nodes: what still has so much is no polynomial yet. */
 static const double no_progress = 0.25;
 
-/* Where a part is cut that may be singular in its middle. */
-static const double beside = 0.4867;
-
 /* A part so short, of its step, or so blurred, is looked at from its sides. */
 static const double deep = 0x1p-24, blurred = 0x1p-14;
 
@@ -99,14 +96,13 @@ fit(scan *s, part *p, int nodes, bool *good)
 static verdict
 judge_fit(scan *s, const part *p, bool *good)
 {
-    double others = 0, miss, rounded;
+    const double spread = qdot_chebyshev_spread(p->n, p->c);
+    double miss, rounded;
 
     qdot_hull_look(&s->hull, p->a, p->b, p->n, NULL, NULL);
     miss = s->hull.miss[0];
-    for (int k = 1; k < p->n; k++)
-        others += fabs(p->c[k]);
-    if ((s->kind == QDOT_RANGE_MAX && p->c[0] + others + miss <= s->largest)
-        || (s->kind == QDOT_RANGE_MIN && p->c[0] - others - miss >= s->smallest))
+    if ((s->kind == QDOT_RANGE_MAX && p->c[0] + spread + miss <= s->largest)
+        || (s->kind == QDOT_RANGE_MIN && p->c[0] - spread - miss >= s->smallest))
         return SURPASSED;
     rounded = s->parts < MANY_PARTS ? 0
                                     : QDOT_RANGE_NOISES * qdot_hull_rounding(&s->hull, p->a, p->b);
@@ -313,7 +309,7 @@ scan_step(scan *s, double a, double b)
         s->sought = s->sought || s->parts >= SEEKING;
         s->nodes = 16;
         /* beside where it may be undefined, as sin(x)/x is */
-        ends[depth++] = p.a + (v == SINGULAR ? beside : 0.5) * (p.b - p.a);
+        ends[depth++] = p.a + (v == SINGULAR ? QDOT_HULL_BESIDE : 0.5) * (p.b - p.a);
     }
     return QDOT_OK;
 }

@@ -27,7 +27,7 @@ least_slope(const qdot_watch_part *p)
 double
 qdot_watch_time(const qdot_watch_part *p, double x)
 {
-    return 0.5 * (p->a + p->b) + 0.5 * (p->b - p->a) * x;
+    return qdot_chebyshev_place(p->a, p->b, x);
 }
 
 /* Whether the function is nothing but rounding on the part. */
@@ -51,12 +51,8 @@ qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 static void
 note_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    double others = 0;
-
-    for (int k = 1; k < p->n; k++)
-        others += fabs(p->c[k]);
     w->size[i] = qdot_chebyshev_size(p->n, p->c);
-    w->clear[i] = fabs(p->c[0]) - others;
+    w->clear[i] = fabs(p->c[0]) - qdot_chebyshev_spread(p->n, p->c);
 }
 
 qdot_watch_verdict

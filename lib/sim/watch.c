@@ -128,7 +128,7 @@ look_at_step(qdot_watch *w, const qdot_watch_walk *k, double t)
             continue;
         }
         middle = p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT ? 0.0625
-                                      : v == QDOT_PART_PARTED  ? 0.4867
+                                      : v == QDOT_PART_PARTED  ? QDOT_HULL_BESIDE
                                                                : 0.5);
         if (depth == DEEPEST || ++parts > MOST_PARTS)
             return qdot_fail(QDOT_EFAILED, "an event cannot be resolved at t = %.15g",
