@@ -678,6 +678,7 @@ unit_tests = \
 script_tests = \
 	tests/script/accel-long.lag \
 	tests/script/bad-runs.sh \
+	tests/script/bodies-moved.lag \
 	tests/script/cases.sh \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
@@ -1303,6 +1304,7 @@ test_files = \
 	tests/ode/problems.h \
 	tests/script/accel-long.out \
 	tests/script/bad-runs.out \
+	tests/script/bodies-moved.out \
 	tests/script/cases.inc \
 	tests/script/cases.json \
 	tests/script/cases.out \

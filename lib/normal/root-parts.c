@@ -1,6 +1,7 @@
 /* root-parts.c -- terms gathered by their roots. */
 #include "normal/root-parts.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "expr/calculus.h"
@@ -63,19 +64,24 @@ roots_of(qdot_pool *pool, qdot_expr term)
     return roots;
 }
 
+/* A term of column j and the row of its roots. */
+struct placed {
+    size_t row, j;
+    qdot_expr term;
+};
+
 typedef struct {
     qdot_pool *pool;
     qdot_root_parts *to;
     size_t first; /* row */
+    qdot_vec(struct placed) placed;
 } division;
 
-/* Add `term` of column j to the row of its roots. */
+/* Note `term` of column j for the row of its roots. */
 static qdot_status
-put(division *d, size_t j, qdot_expr term)
+place(division *d, size_t j, qdot_expr term)
 {
-    const size_t n = d->to->n;
     const qdot_expr key = roots_of(d->pool, term);
-    qdot_expr *entry;
     size_t k = d->first;
 
     if (key == QDOT_NIL)
@@ -84,12 +90,10 @@ put(division *d, size_t j, qdot_expr term)
         k++;
     if (k == d->to->roots.n) {
         QDOT_TRY(qdot_vec_push(&d->to->roots, key));
-        for (size_t i = 0; i < n; i++)
+        for (size_t i = 0; i < d->to->n; i++)
             QDOT_TRY(qdot_vec_push(&d->to->entries, QDOT_ZERO));
     }
-    entry = d->to->entries.at + k * n + j;
-    *entry = qdot_add(d->pool, *entry, term);
-    return qdot_pool_check(d->pool);
+    return qdot_vec_push(&d->placed, ((struct placed){k, j, term}));
 }
 
 static qdot_status
@@ -103,16 +107,49 @@ divide(division *d, const qdot_expr *E)
         QDOT_TRY(qdot_pool_check(pool));
         if (qdot_expr_kind(pool, e) != QDOT_SUM) {
             if (e != QDOT_ZERO)
-                QDOT_TRY(put(d, j, e));
+                QDOT_TRY(place(d, j, e));
             continue;
         }
         if (qdot_expr_arg(pool, e, 0) != QDOT_ZERO)
-            QDOT_TRY(put(d, j, qdot_expr_arg(pool, e, 0)));
+            QDOT_TRY(place(d, j, qdot_expr_arg(pool, e, 0)));
         for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2)
-            QDOT_TRY(put(d, j, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1),
-                                        qdot_expr_arg(pool, e, i))));
+            QDOT_TRY(place(d, j, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1),
+                                          qdot_expr_arg(pool, e, i))));
     }
     return QDOT_OK;
+}
+
+static int
+by_entry(const void *left, const void *right)
+{
+    const struct placed *a = left, *b = right;
+
+    return a->row != b->row ? (a->row > b->row) - (a->row < b->row)
+                            : (a->j > b->j) - (a->j < b->j);
+}
+
+/* The terms of each entry, added at once: one at a time every partial sum would be a node. */
+static qdot_status
+add_up(division *d)
+{
+    qdot_vec(qdot_expr) terms = {0};
+    qdot_status status = QDOT_OK;
+
+    qsort(d->placed.at, d->placed.n, sizeof *d->placed.at, by_entry);
+    for (size_t i = 0; i < d->placed.n && status == QDOT_OK; i++) {
+        const struct placed *p = d->placed.at + i;
+
+        status = qdot_vec_push(&terms, p->term);
+        if (status == QDOT_OK &&
+            (i + 1 == d->placed.n || by_entry(p, p + 1) != 0)) {
+            d->to->entries.at[p->row * d->to->n + p->j] =
+                qdot_sum(d->pool, terms.n, terms.at);
+            status = qdot_pool_check(d->pool);
+            terms.n = 0;
+        }
+    }
+    qdot_free(terms.at);
+    return status;
 }
 
 qdot_status
@@ -123,6 +160,9 @@ qdot_root_parts_add(qdot_pool *pool, qdot_root_parts *parts, const qdot_expr *E)
 
     if (status == QDOT_OK && parts->roots.n == d.first + 1) /* as it stands: not expanded */
         memcpy(parts->entries.at + d.first * parts->n, E, parts->n * sizeof *E);
+    else if (status == QDOT_OK)
+        status = add_up(&d);
+    qdot_free(d.placed.at);
     return status;
 }
 
