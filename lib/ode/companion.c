@@ -19,8 +19,8 @@ static const double most_floor = 32;
 /* What a velocity that follows from a momentum may be off by, in doubles. */
 static const double derived = 4;
 
-/* The scale of random walks by three of them. */
-static const double roughly_known = 1.5;
+/* What a companion errs by beside its run, where the companions agree. */
+static const double most_share = 0.25;
 
 /* Times the steps of the run; what a companion may take beyond that, in steps and nanoseconds. */
 static const uint64_t patience = 20, patience_stiff = 100, most_beyond = 200000;
@@ -67,7 +67,6 @@ struct qdot_companion {
     uint64_t run_steps; /* of the run, where most_steps is known */
     double share; /* of the second one's distance that counts */
     double floor; /* of the error */
-    bool is_long;
     follower at[2];
     size_t count;
 };
@@ -127,7 +126,7 @@ qdot_companion_far(uint64_t steps)
 double
 qdot_companion_floor(uint64_t steps)
 {
-    return unit * fmin(most_floor, fmax(1, sqrt((double)steps)));
+    return 2 * unit * fmin(most_floor, fmax(1, sqrt((double)steps)));
 }
 
 static qdot_status
@@ -268,11 +267,16 @@ apart(const qdot_companion *c, const double *a, const double *b)
     return worst;
 }
 
-/* The largest distance of any two of the runs, that of the second companion by its share,
- * y being the one of the run itself and the companions' k-th states of n, SIZE_MAX: their
- * ends. */
+double
+qdot_companion_bound(double apart, double own)
+{
+    return (1 + most_share) * apart + own;
+}
+
+/* The bound of the run's state y by the companions' k-th states of n, SIZE_MAX: their ends. What
+ * the second companion is away counts by its share. */
 static double
-largest_distance(const qdot_companion *c, const double *y, size_t k)
+bound_at(const qdot_companion *c, const double *y, size_t k)
 {
     const double *of[2];
     double worst = 0;
@@ -281,7 +285,19 @@ largest_distance(const qdot_companion *c, const double *y, size_t k)
         of[i] = k == SIZE_MAX ? c->at[i].y : c->at[i].own + k * c->n;
         worst = fmax(worst, (i ? c->share : 1) * apart(c, y, of[i]));
     }
-    return c->count == 2 ? fmax(worst, c->share * apart(c, of[0], of[1])) : worst;
+    return qdot_companion_bound(worst,
+                                c->count == 2 ? c->share * apart(c, of[0], of[1]) : 0);
+}
+
+/* The bound of component i of the end. */
+static double
+bound_of(const qdot_companion *c, const double *y, size_t i)
+{
+    const double *a = c->at[0].y, *b = c->count == 2 ? c->at[1].y : NULL;
+
+    return b ? qdot_companion_bound(fmax(fabs(y[i] - a[i]), c->share * fabs(y[i] - b[i])),
+                                    c->share * fabs(a[i] - b[i]))
+             : qdot_companion_bound(fabs(y[i] - a[i]), 0);
 }
 
 /* The median over the times between. */
@@ -291,7 +307,7 @@ median_between(const qdot_companion *c)
     double errors[PLACES];
 
     for (size_t k = 0; k < PLACES; k++) {
-        double worst = largest_distance(c, c->shown + k * c->n, k);
+        double worst = bound_at(c, c->shown + k * c->n, k);
         size_t at = k;
 
         for (; at > 0 && errors[at - 1] > worst; at--)
@@ -299,20 +315,6 @@ median_between(const qdot_companion *c)
         errors[at] = worst;
     }
     return errors[PLACES / 2];
-}
-
-/* Whether both companions are apart from the run by numbers that have nothing in common, after
- * many steps: then rounding rules, and three walks are all that is known of it. */
-static bool
-is_walk(const qdot_companion *c, const double *y)
-{
-    double first, second;
-
-    if (c->count < 2 || !c->is_long)
-        return false;
-    first = apart(c, y, c->at[0].y);
-    second = apart(c, y, c->at[1].y);
-    return fabs(first - second) > 0.1 * fmax(first, second);
 }
 
 static qdot_status
@@ -389,8 +391,7 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
 
 /* Its end, and whether it shows the states between, too. */
 static bool
-arrive(follower *f, bool whole, double t_end, const double *y, double *difference,
-       qdot_companion_estimate *out)
+arrive(follower *f, bool whole, double t_end, qdot_companion_estimate *out)
 {
     const qdot_companion *c = f->of;
 
@@ -399,9 +400,6 @@ arrive(follower *f, bool whole, double t_end, const double *y, double *differenc
     if (f->number == 0)
         out->result = f->result;
     out->known = out->known && f->result.outcome == QDOT_ODE_DONE;
-    for (size_t i = 0; i < c->n && out->known && difference; i++)
-        difference[i] = f->number ? fmax(difference[i], c->share * fabs(y[i] - f->y[i]))
-                                  : fabs(y[i] - f->y[i]);
     return whole && c->n_shown == PLACES && f->reached == PLACES;
 }
 
@@ -426,7 +424,6 @@ qdot_companion_limit(qdot_companion *c, uint64_t steps)
     c->floor = !c->leading                    ? qdot_companion_floor(steps)
                : c->at[0].system.following ? derived * unit
                                            : unit;
-    c->is_long = qdot_companion_floor(steps) >= most_floor * unit;
 }
 
 void
@@ -444,17 +441,14 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
     atomic_store(&c->leave, false);
     *out = (qdot_companion_estimate){.known = true, .error = c->floor, .tol = c->tol};
     for (size_t k = 0; k < c->count; k++)
-        between = arrive(c->at + k, whole, t_end, y, difference, out) && between;
+        between = arrive(c->at + k, whole, t_end, out) && between;
     if (out->known)
-        out->error = fmax(out->error, largest_distance(c, y, SIZE_MAX));
+        out->error = fmax(out->error, bound_at(c, y, SIZE_MAX));
     if (out->known && between)
         out->error = fmax(out->error, fmin(median_between(c), most_between * out->error));
-    if (out->known && is_walk(c, y))
-        out->error *= roughly_known;
-    if (!out->known) {
+    if (!out->known)
         out->error = NAN;
-        for (size_t i = 0; i < c->n && difference; i++)
-            difference[i] = NAN;
-    }
+    for (size_t i = 0; i < c->n && difference; i++)
+        difference[i] = out->known ? bound_of(c, y, i) : NAN;
     release(c);
 }

@@ -18,17 +18,16 @@
  * rounding of the inputs (its zeros too) and, as all roundings of the second run differ,
  * that of the run itself.
  *
- *     difference_i = |y_i - y*_i|
- *     error        = max(floor, max_i difference_i / max(1, min(|y_i|, |y*_i|)))
- *     floor        = 2^-53 min(sqrt(steps), 32)
+ *     apart_i = max_k |y_i - y*_k,i|,   own_i = |y*_1,i - y*_2,i|
+ *     error   = max(floor, bound(apart, own))     (qdot_companion_bound)
+ *     floor   = 2^-52 min(sqrt(steps), 32)
  *
- * An estimate, not a bound. Where rounding is all there is the difference of two random
- * walks may be small by chance: near an instability everything is one number, and one
- * run in ten would be wrong by more than 3 times its statement. So such a run
- * (QDOT_COMPANION_TWIN_TOL) has two companions, moved to either side, by one order more
- * and by three; the largest distance of any two of the three runs counts.
- * Beyond 1024 steps, where the two are apart from the run by different numbers, that is three
- * samples of a walk, and half as much again is stated.
+ * where a distance of states is max_i |a_i - b_i| / max(1, min(|a_i|, |b_i|)).
+ *
+ * Two companions, moved to either side, by one order more and by three: where rounding is all
+ * there is the difference of two random walks may be small by chance, and near an instability
+ * everything is one number; where the tolerance rules, a method may be so much better than it asks
+ * for that a companion errs as much as the run.
  *     The second one is there for what chance cannot hide: the amplification of the scene. It
  * starts QDOT_COMPANION_FAR doubles away (zeros stay 2^-53 away: of their scale nothing is
  * known), and of its distances min(1, sqrt(steps)/QDOT_COMPANION_FAR) counts, what a random
@@ -68,13 +67,19 @@ typedef struct {
 
 typedef struct qdot_companion qdot_companion;
 
-/* Runs under tolerances up to this one want two. */
-#define QDOT_COMPANION_TWIN_TOL 1e-8
+/* What is stated of a number, by its largest distance from those of the companions and by theirs
+ * from each other (0: there is one companion),
+ *
+ *     bound = 5/4 apart + own
+ *
+ * a bound in 99 cases of 100: where the method's error rules, companions are off by a small part of
+ * `apart`, and agree; where they are off by more, as rounding has it, `own` shows it. */
+double qdot_companion_bound(double apart, double own);
 
 typedef struct {
     const qdot_ode_system *system;  /* for the companion alone if `threaded`; borrowed
                                        until _finish */
-    const qdot_ode_system *twin;    /* of a second companion; NULL: none; likewise */
+    const qdot_ode_system *twin;    /* of the second companion; NULL: none; likewise */
     const qdot_ode_method *method;  /* of the run */
     double tol, t0, t1;             /* of the run */
     double t1_low;                  /* t1 beyond itself (integrate.h) */

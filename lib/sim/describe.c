@@ -351,12 +351,10 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
         status = say_parts(&stage, p, request->tol, out);
     else
         status = say_series_of_all(p, request->tol, out);
-    qdot_text_format(out, "error: %s by %s, at a tighter tolerance, on %s\n",
-                     request->tol <= QDOT_COMPANION_TWIN_TOL ? "two companion runs"
-                                                             : "a companion run",
-                     p->smooth ? "taylor" : p->method->partner,
-                     request->tol <= QDOT_COMPANION_TWIN_TOL ? "threads of their own"
-                                                             : "a second thread");
+    qdot_text_format(out,
+                     "error: two companion runs by %s, at a tighter tolerance, on threads of "
+                     "their own\n",
+                     p->smooth ? "taylor" : p->method->partner);
     if (status == QDOT_OK)
         status = say_switches(&stage, out);
     qdot_stage_clear(&stage);

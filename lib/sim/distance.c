@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "ode/companion.h"
 #include "sim/integrated.h"
 
 /* Radians on either side. */
@@ -261,7 +262,7 @@ qdot_distance_at(qdot_distance *d, double t, const double *values, double *out)
     if (status == QDOT_OK)
         status = look_around(d, piece, k, own);
     for (size_t j = 0; j < d->m && status == QDOT_OK; j++)
-        out[j] = isnan(out[j]) ? NAN : fmax(out[j], own[j]);
+        out[j] = isnan(out[j]) ? NAN : qdot_companion_bound(out[j], own[j]);
     qdot_free(own);
     return status;
 }

@@ -8,7 +8,9 @@
  * is what is seen and what the companions themselves may be off by. All of these pass
  * through zero as g turns; so at one time they may be small by chance, and
  *
- *     error = max(d(t), max c(s) over s in W),   W = W_- or W_+, where that is less
+ *     error = bound(d(t), max c(s) over s in W),   W = W_- or W_+, where that is less
+ *
+ * (qdot_companion_bound)
  *
  * W_- and W_+ hold t and stored points of its piece before and after it, until the path of
  * the state, each component in units of its span over the run, has turned by 1/2: a

@@ -478,7 +478,8 @@ report(const qdot_ensemble *e, const pass *runs, const pass *companions, double 
         double error = known ? 0x1p-53 : NAN;
 
         for (size_t i = 0; i < n && known; i++)
-            error = fmax(error, fabs(mine[i] - companions->run.y[m * n + i]) /
+            error = fmax(error, qdot_companion_bound(
+                                    fabs(mine[i] - companions->run.y[m * n + i]), 0) /
                                     fmax(1, fabs(mine[i])));
         memcpy(y + m * n, mine, n * sizeof *y);
         results[m] = (qdot_ensemble_result){

@@ -11,6 +11,7 @@
 
 #include "base/interrupt.h"
 #include "expr/print.h"
+#include "ode/companion.h"
 #include "sim/horizon.h"
 #include "sim/noise.h"
 #include "sim/range-parts.h"
@@ -469,18 +470,16 @@ compare(const qdot_run *run, const qdot_tape *tape, bool accelerations,
         qdot_range_kind kind, double from, double to, double x, double *distance)
 {
     const qdot_course *courses[] = {&run->companion, &run->twin};
-    double theirs[2], rough;
+    double theirs[2], rough, apart = 0;
 
     if (!qdot_run_covered(run, to))
         return qdot_fail(QDOT_EDOMAIN, "a second run does not come so far");
-    *distance = 0;
     for (int k = 0; k < 1 + run->has_twin; k++) {
         QDOT_TRY(over_course(run, courses[k], tape, accelerations, kind, from, to,
                              &theirs[k], &rough));
-        *distance = fmax(*distance, fabs(theirs[k] - x));
+        apart = fmax(apart, fabs(theirs[k] - x));
     }
-    if (run->has_twin)
-        *distance = fmax(*distance, fabs(theirs[1] - theirs[0]));
+    *distance = qdot_companion_bound(apart, run->has_twin ? fabs(theirs[1] - theirs[0]) : 0);
     return QDOT_OK;
 }
 

@@ -445,6 +445,7 @@ start_companion(qdot_run *run, double tol, beside *b)
 {
     qdot_ode_system system, twin;
     qdot_companion_request request = {.system = &system,
+                                      .twin = &twin,
                                       .method = run->plan->method,
                                       .tol = tol,
                                       .t0 = run->leading ? run->t0
@@ -462,11 +463,8 @@ start_companion(qdot_run *run, double tol, beside *b)
     system = qdot_bind_system(b->shaken);
     if (!system.series)
         request.t1 = qdot_shake_double(run->t1, run->t1_side);
-    if (tol <= QDOT_COMPANION_TWIN_TOL) {
-        QDOT_TRY(qdot_bind_new(run->plan, false, &b->twin));
-        twin = qdot_bind_system(b->twin);
-        request.twin = &twin;
-    }
+    QDOT_TRY(qdot_bind_new(run->plan, false, &b->twin));
+    twin = qdot_bind_system(b->twin);
     return qdot_companion_start(&request, &b->companion);
 }
 
@@ -484,7 +482,7 @@ say_lost(qdot_run *run, const char *reason)
     return run->doubt ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The error by a companion beside the run, on a second thread. */
+/* The error by two companions beside the run, on threads of their own. */
 static qdot_status
 run_beside(qdot_run *run, double tol, bool *interrupted)
 {

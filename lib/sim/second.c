@@ -270,60 +270,69 @@ add_delays(const qdot_course *c, double *floor)
     return status;
 }
 
-/* The distance of the ends, a time where an event stopped them; NaN where they do not
- * compare. That of each component is put where `difference` has less. */
+/* The state y [n] of a companion at the end of the run, or, where an event stopped them, at its own
+ * end, at *t. *known: they compare. */
 static qdot_status
-end_distance(qdot_run *run, const qdot_course *other, double *error, double *difference)
+end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *known)
 {
-    const qdot_trajectory *a = &run->course.tr, *b = &other->tr;
-    const double *y = a->y + (a->count - 1) * a->n;
-    double t = a->t[a->count - 1], *z;
-    double worst = qdot_companion_floor(a->result.stats.steps);
+    const qdot_trajectory *b = &other->tr;
     qdot_trajectory_cursor *cursor = NULL;
     qdot_status status;
 
-    *error = NAN;
-    if (!went_alike(&run->course, other) || run->course.stopped_by != other->stopped_by)
+    *t = run->course.tr.t[run->course.tr.count - 1];
+    *known = went_alike(&run->course, other) && run->course.stopped_by == other->stopped_by;
+    if (!*known)
         return find_doubt(run, other);
-    z = qdot_calloc(2 * a->n, sizeof *z);
-    status = z ? add_delays(&run->course, z + a->n) : QDOT_ENOMEM;
-    if (status == QDOT_OK)
-        status = qdot_trajectory_open(b, qdot_course_systems(other), &cursor);
-    if (status == QDOT_OK && run->course.stopped_by != SIZE_MAX) {
-        double end = b->t[b->count - 1];
-
-        memcpy(z, b->y + (b->count - 1) * b->n, b->n * sizeof *z);
-        worst = fmax(worst, fabs(end - t) / fmax(1, fabs(t)));
-    } else if (status == QDOT_OK) {
-        status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, t, z);
+    if (run->course.stopped_by != SIZE_MAX) {
+        *t = b->t[b->count - 1];
+        memcpy(y, b->y + (b->count - 1) * b->n, b->n * sizeof *y);
+        return QDOT_OK;
     }
-    for (size_t i = 0; i < a->n && status == QDOT_OK; i++) {
-        const double apart = fmax(fabs(z[i] - y[i]), z[a->n + i]), size = fmax(1, fabs(y[i]));
-
-        worst = fmax(worst, apart / size);
-        difference[i] = fmax(difference[i], fmax(apart, 0x1p-53 * size));
-    }
+    status = qdot_trajectory_open(b, qdot_course_systems(other), &cursor);
     if (status == QDOT_OK)
-        *error = worst;
+        status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, *t, y);
     qdot_trajectory_close(cursor);
-    qdot_free(z);
+    *known = status == QDOT_OK;
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* What is stated of x, of which the companions have a and, if `both`, b. */
+static double
+bound(double x, double a, double b, bool both)
+{
+    return both ? qdot_companion_bound(fmax(fabs(a - x), fabs(b - x)), fabs(a - b))
+                : qdot_companion_bound(fabs(a - x), 0);
 }
 
 qdot_status
 qdot_run_end_error(qdot_run *run, double *error, double *difference)
 {
-    double second;
+    const qdot_trajectory *tr = &run->course.tr;
+    const double *y = tr->y + (tr->count - 1) * tr->n, t = tr->t[tr->count - 1];
+    double worst = qdot_companion_floor(tr->result.stats.steps), ends[2] = {t, t}, *of;
+    bool known = run->has_companion;
+    qdot_status status;
 
     *error = NAN;
-    if (!run->has_companion)
+    if (!known)
         return find_doubt(run, &run->companion);
-    QDOT_TRY(end_distance(run, &run->companion, error, difference));
-    if (!run->has_twin || isnan(*error))
-        return QDOT_OK;
-    QDOT_TRY(end_distance(run, &run->twin, &second, difference));
-    *error = isnan(second) ? NAN : fmax(*error, second);
-    return QDOT_OK;
+    of = qdot_calloc(3 * tr->n, sizeof *of); /* their ends, and what delays make */
+    status = of ? end_of(run, &run->companion, ends, of, &known) : QDOT_ENOMEM;
+    if (status == QDOT_OK && known && run->has_twin)
+        status = end_of(run, &run->twin, ends + 1, of + tr->n, &known);
+    if (status == QDOT_OK && known)
+        status = add_delays(&run->course, of + 2 * tr->n);
+    for (size_t i = 0; i < tr->n && status == QDOT_OK && known; i++) {
+        const double size = fmax(1, fabs(y[i]));
+        const double by = bound(y[i], of[i], of[tr->n + i], run->has_twin) + of[2 * tr->n + i];
+
+        worst = fmax(worst, by / size);
+        difference[i] = fmax(by, 0x1p-53 * size);
+    }
+    if (status == QDOT_OK && known)
+        *error = fmax(worst, bound(t, ends[0], ends[1], run->has_twin) / fmax(1, fabs(t)));
+    qdot_free(of);
+    return status;
 }
 
 /* --- occurrences --------------------------------------------------------------------- */
@@ -405,13 +414,13 @@ partner(const by_event *own, const by_event *other, size_t event, size_t k)
     return best;
 }
 
-/* |t - t*|; NaN without a partner. */
+/* t*; NaN without a partner. */
 static double
-time_distance(const by_event *own, const by_event *other, size_t event, size_t k, double t)
+time_of_partner(const by_event *own, const by_event *other, size_t event, size_t k)
 {
     const qdot_occurrence *p = partner(own, other, event, k);
 
-    return p ? fabs(p->t - t) : NAN;
+    return p ? p->t : NAN;
 }
 
 static qdot_status
@@ -428,12 +437,9 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
         double by = NAN;
 
         if (run->has_companion)
-            by = time_distance(own, others, o->event, k, o->t);
-        if (run->has_twin && !isnan(by)) {
-            double second = time_distance(own, others + 1, o->event, k, o->t);
-
-            by = isnan(second) ? NAN : fmax(by, second);
-        }
+            by = bound(o->t, time_of_partner(own, others, o->event, k),
+                       run->has_twin ? time_of_partner(own, others + 1, o->event, k) : 0,
+                       run->has_twin);
         status = qdot_vec_push(
             &run->occurrences,
             ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,

@@ -13,8 +13,7 @@ start(const qdot_ode_system *system, const qdot_ode_method *m, double tol, doubl
       const double *y0, bool threaded, qdot_companion **c)
 {
     qdot_companion_request request = {.system = system,
-                                      .twin = tol <= QDOT_COMPANION_TWIN_TOL ? system
-                                                                             : NULL,
+                                      .twin = system,
                                       .method = m,
                                       .tol = tol,
                                       .t1 = t1,
@@ -61,7 +60,7 @@ the_stated_error_is_honest(void **state)
                         estimate(all[p], qdot_ode_method_at(m), tol, t, true, &error);
 
                     assert_true(e.known);
-                    if (error > 3 * e.error || (error > 1e-14 && e.error > 100 * error))
+                    if (error > 1.5 * e.error || (error > 1e-14 && e.error > 200 * error))
                         fail_msg("%s, %s, tol %g, t %g: true %g, stated %g",
                                  qdot_ode_method_at(m)->name, all[p]->name, tol, t, error,
                                  e.error);
@@ -121,9 +120,10 @@ zeros_of_the_start_are_moved_too(void **state)
     assert_int_equal(qdot_ode_integrate(&s, m, NULL, 0, 5, y, &r), QDOT_OK);
     qdot_companion_finish(c, 5, y, NULL, &e);
     assert_true(y[0] == 0);
-    /* two companions, moved to either side, which resolve a value far below their tolerance
-     * only roughly */
-    assert_true(fabs(e.error / (0x1p-52 * exp(10)) - 1) < 0.05);
+    /* two companions, moved to either side by 2^-53, which resolve a value far below their
+     * tolerance only roughly */
+    assert_true(fabs(e.error / qdot_companion_bound(0x1p-53 * exp(10), 0x1p-52 * exp(10)) - 1)
+                < 0.05);
 }
 
 static qdot_status

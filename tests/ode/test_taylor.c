@@ -347,9 +347,7 @@ the_stated_error_is_honest(void **state)
         assert_int_equal(
             qdot_companion_start(
                 &(qdot_companion_request){.system = &g.system,
-                                          .twin = tols[i] <= QDOT_COMPANION_TWIN_TOL
-                                                      ? &h.system
-                                                      : NULL,
+                                          .twin = &h.system,
                                           .method = f.taylor,
                                           .tol = tols[i],
                                           .t1 = 30,
