@@ -1448,6 +1448,7 @@ other_files = \
 	bench/condition \
 	bench/constraints \
 	bench/counted \
+	bench/coverage \
 	bench/double-pendulum.lag \
 	bench/double-run.lag \
 	bench/ensemble/lanes.c \
