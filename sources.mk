@@ -37,6 +37,7 @@ num_sources = \
 	lib/num/two.c
 
 num_headers = \
+	lib/num/arb.h \
 	lib/num/articulated-plane.def \
 	lib/num/articulated.def \
 	lib/num/articulated.h \
@@ -151,7 +152,6 @@ normal_sources = \
 	lib/normal/domain.c \
 	lib/normal/factor.c \
 	lib/normal/field.c \
-	lib/normal/flint-list.c \
 	lib/normal/flint.c \
 	lib/normal/form.c \
 	lib/normal/ideal.c \

@@ -5,15 +5,13 @@
  * seen at a glance needs none of them. So the program is not linked with them but with this file:
  * each of their functions is a jump through a slot, and an empty slot loads the libraries.
  *
- * late.def is made by tools/late of what libqdot.a calls. Data cannot be found late; FLINT's
- * list of spare integers is asked for by qdot_flint_list, which is here in the archive's place.
+ * late.def is made by tools/late of what libqdot.a calls. Data cannot be found late, and
+ * none of theirs is used.
  */
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#include "normal/flint.h"
 
 static const char *const libraries[] = {
 #define LIBRARY(name) name,
@@ -89,15 +87,6 @@ qdot_late_find(size_t number)
 
     (void)pthread_once(&once, load);
     return qdot_late_slot[number];
-}
-
-void
-qdot_flint_list(qdot_flint_spare *list)
-{
-    (void)qdot_late_find(0);
-    list->at = find("mpz_free_arr"); /* of this thread */
-    list->n = find("mpz_free_num");
-    list->room = find("mpz_free_alloc");
 }
 
 /* What is empty goes on to `empty` with its number in r11, all arguments where they are: in

@@ -58,7 +58,6 @@ qdot_scope_end(qdot_scope *s)
 {
     qdot_scope_now = NULL;
     free(s->slot);
-    free(s->outlived.at);
     *s = (qdot_scope){0};
 }
 
@@ -130,26 +129,4 @@ qdot_scope_release(void *block)
     }
     s->slot[gap].block = NULL;
     return true;
-}
-
-void
-qdot_scope_outlive(void *owner, void *block)
-{
-    qdot_scope *s = qdot_scope_now;
-
-    if (s == NULL)
-        return;
-    (void)qdot_scope_release(block);
-    if (s->outlived.n == s->outlived.capacity) {
-        size_t room = 2 * s->outlived.capacity + 64;
-        void **more = realloc(s->outlived.at, room * sizeof *more);
-
-        if (more == NULL) {
-            s->outlived.missing = true;
-            return;
-        }
-        s->outlived.at = more;
-        s->outlived.capacity = room;
-    }
-    s->outlived.at[s->outlived.n++] = owner;
 }

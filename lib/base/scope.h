@@ -18,11 +18,6 @@ typedef struct {
     } * slot;
     size_t mask, n;
     size_t bytes; /* of all blocks noted */
-    struct {
-        void **at;
-        size_t n, capacity;
-        bool missing; /* there was no memory for one */
-    } outlived;       /* what was declared to outlive it */
 } qdot_scope;
 
 /* The thread's scope, NULL outside. */
@@ -42,8 +37,6 @@ void qdot_scope_resume(qdot_scope *s);
  * (whether it was in). */
 bool qdot_scope_note(void *block, size_t size);
 bool qdot_scope_release(void *block);
-/* What `owner` is, and its block, outlives the scope: the block is taken out, the owner listed. */
-void qdot_scope_outlive(void *owner, void *block);
 bool qdot_scope_has(const void *block);
 
 #endif

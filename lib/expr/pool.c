@@ -255,12 +255,31 @@ qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
     return true;
 }
 
-/* A number of the pool is not given back with what a computation leaves. */
-static void
-outlive(const fmpz_t x)
+/* *y = x for as long as the pool lives: a large integer is one of GMP's that is only read, in the
+ * pool's own memory, so that any thread may use it, whose FLINT made it or not. */
+static bool
+keep_integer(qdot_pool *pool, fmpz *y, const fmpz_t x)
 {
-    if (COEFF_IS_MPZ(*x))
-        qdot_scope_outlive(COEFF_TO_PTR(*x), COEFF_TO_PTR(*x)->_mp_d);
+    const __mpz_struct *from;
+    qdot_scope *scope;
+    size_t bytes;
+    char *room;
+
+    *y = *x;
+    if (!COEFF_IS_MPZ(*x))
+        return true;
+    from = COEFF_TO_PTR(*x);
+    bytes = mpz_size(from) * sizeof(mp_limb_t);
+    scope = qdot_scope_pause(); /* the pool outlives it */
+    room = qdot_arena_take(pool->arena, sizeof *from + bytes);
+    qdot_scope_resume(scope);
+    if (room == NULL)
+        return false;
+    memcpy(room + sizeof *from, mpz_limbs_read(from), bytes);
+    *y = PTR_TO_COEFF(mpz_roinit_n((__mpz_struct *)(void *)room,
+                                   (mp_limb_t *)(void *)(room + sizeof *from),
+                                   mpz_sgn(from) * (mp_size_t)mpz_size(from)));
+    return true;
 }
 
 qdot_expr
@@ -284,14 +303,10 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
             return e;
     }
     node.at = (uint32_t)pool->numbers.n;
-    fmpq_init(&copy);
-    qdot_rational_set(&copy, x);
-    if (qdot_vec_push(&pool->numbers, copy) != QDOT_OK) {
-        fmpq_clear(&copy);
+    if (!keep_integer(pool, fmpq_numref(&copy), fmpq_numref(x)) ||
+        !keep_integer(pool, fmpq_denref(&copy), fmpq_denref(x)) ||
+        qdot_vec_push(&pool->numbers, copy) != QDOT_OK)
         return qdot_pool_fail(pool);
-    }
-    outlive(fmpq_numref(&copy));
-    outlive(fmpq_denref(&copy));
     return append(pool, &node);
 }
 
@@ -484,8 +499,6 @@ qdot_pool_free(qdot_pool *pool)
 {
     if (pool == NULL)
         return;
-    for (size_t i = 0; i < pool->numbers.n; i++)
-        fmpq_clear(&pool->numbers.at[i]);
     qdot_free(pool->numbers.at);
     qdot_free(pool->nodes.at);
     qdot_free(pool->args.at);

@@ -9,12 +9,12 @@
 struct qdot_pool {
     qdot_vec(qdot_node) nodes;     /* [0] is nil */
     qdot_vec(qdot_expr) args;
-    qdot_vec(fmpq) numbers;
+    qdot_vec(fmpq) numbers; /* only read; FLINT is never to clear one */
     qdot_vec(qdot_symbol) symbols;
     qdot_vec(qdot_ufun) ufuns;
     uint32_t *table; /* open hash table of ids */
     uint32_t mask;
-    qdot_arena *arena; /* names */
+    qdot_arena *arena; /* names, limbs of large numbers */
     qdot_error error;  /* status QDOT_OK: none */
     uint64_t budget;
     bool unfinished;

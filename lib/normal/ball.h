@@ -3,10 +3,9 @@
 #ifndef QDOT_NORMAL_BALL_H
 #define QDOT_NORMAL_BALL_H
 
-#include <arb.h>
-
 #include "expr/expr.h"
 #include "expr/walk.h"
+#include "num/arb.h"
 
 /* One pass over some expressions; begun once, evaluated at many points. */
 typedef struct {

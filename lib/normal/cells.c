@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 
-#include <arb_fmpz_poly.h>
 #include <flint/fmpz_mpoly_factor.h>
 
 #include "base/interrupt.h"

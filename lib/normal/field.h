@@ -18,6 +18,7 @@
 #define QDOT_NORMAL_FIELD_H
 
 #include <flint/fmpz_mpoly.h>
+#include <flint/fmpz_vec.h>
 
 #include "expr/expr.h"
 #include "normal/lattice.h"

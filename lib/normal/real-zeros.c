@@ -4,7 +4,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include <arb_fmpz_poly.h>
 #include <flint/fmpq_poly.h>
 
 #include "base/memory.h"

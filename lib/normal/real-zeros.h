@@ -5,10 +5,11 @@
 #ifndef QDOT_NORMAL_REAL_ZEROS_H
 #define QDOT_NORMAL_REAL_ZEROS_H
 
-#include <arb.h>
 #include <flint/fmpq.h>
 #include <flint/fmpz_mpoly.h>
 #include <flint/fmpz_poly.h>
+
+#include "num/arb.h"
 
 /* r = c p over x[0 .. k) in the variables symbol[0 .. k), a polynomial in symbol[k], c > 0; p holds no
  * others. 0 where memory ends. */

@@ -3,11 +3,6 @@
 #include "tape/constant.h"
 
 #include <mpfr.h>
-#if __has_include(<arb.h>)
-#include <arb.h>
-#else
-#include <flint/arb.h>
-#endif
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -15,6 +10,7 @@
 #include "base/text.h"
 #include "expr/print.h"
 #include "expr/walk.h"
+#include "num/arb.h"
 #include "tape/tape.h"
 
 enum { FIRST_BITS = 256, MOST_BITS = 4096 };

@@ -1,10 +1,12 @@
 /* test_flint.c -- memory that ends and Ctrl-C inside FLINT: a status, no abort, nothing lost. */
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -295,12 +297,9 @@ ctrl_c_leaves_flint(void **state)
     qdot_pool_free(pool);
 }
 
-/* --- integers in use ---------------------------------------------------------------------- */
+/* --- what is left behind ------------------------------------------------------------------- */
 
-/* FLINT's spare integers (normal/flint.c). */
-extern _Thread_local ulong mpz_free_num;
-
-enum { MANY = 20000 };
+enum { MANY = 20000, TIMES = 40 };
 
 struct hoard {
     qdot_pool *pool;
@@ -337,47 +336,141 @@ hoard(void *user)
     _fmpz_vec_clear(x, MANY);
 }
 
-/* What a computation had in use is FLINT's again when it was left, but what the pool has; however
- * often, and whether the integers were made in it or before. */
+/* Bytes of this process that are in memory. */
+static double
+resident(void)
+{
+    FILE *file = fopen("/proc/self/statm", "r");
+    long all, here;
+
+    if (file == NULL || fscanf(file, "%ld %ld", &all, &here) != 2)
+        here = -1;
+    if (file != NULL)
+        fclose(file);
+    return (double)here * (double)sysconf(_SC_PAGESIZE);
+}
+
+/* Whether a computation ends or is left, the next finds FLINT as new: the numbers of the pool are
+ * what they were, whichever thread made them. */
 static void
-integers_in_use_are_not_lost(void **state)
+numbers_outlive_what_made_them(void **state)
 {
     qdot_pool *pool = qdot_pool_new();
-    struct hoard h = {.pool = pool, .leave = true};
-    ulong spare = mpz_free_num;
-    qdot_expr thirty;
+    struct hoard h = {.pool = pool};
+    qdot_expr thirty = qdot_expr_int(pool, 30);
 
     (void)state;
-    for (int made_before = 0; made_before < 2; made_before++) {
-        for (int i = 0; i < 5; i++) {
-            h.seed += 1000003;
-            assert_int_equal(qdot_flint_run(pool, hoard, &h), QDOT_EINTR);
-            qdot_interrupt_clear();
-            assert_int_equal(qdot_pool_check(pool), QDOT_OK);
-            /* three of each are in the pool, and their blocks are not given back */
-            assert_in_range(mpz_free_num + 3, spare,
-                            spare + (made_before ? 0 : 2 * 4096));
-            spare = mpz_free_num;
-            assert_int_not_equal(h.kept[0], QDOT_NIL);
-        }
-        h.leave = false;
+    for (int i = 0; i < 12; i++) {
         h.seed += 1000003;
-        assert_int_equal(qdot_flint_run(pool, hoard, &h), QDOT_OK);
-        assert_true(mpz_free_num > MANY);
-        spare = mpz_free_num;
-        h.leave = true;
+        h.leave = i % 4 != 3;
+        assert_int_equal(qdot_flint_run(pool, hoard, &h),
+                         h.leave ? QDOT_EINTR : QDOT_OK);
+        qdot_interrupt_clear();
+        assert_int_equal(qdot_pool_check(pool), QDOT_OK);
+        assert_int_not_equal(h.kept[0], QDOT_NIL);
     }
-    /* the numbers are what they were: raised again, they are found */
-    thirty = qdot_expr_int(pool, 30);
+    /* raised again, they are found */
     for (h.seed = 1000003; h.seed <= 12 * 1000003; h.seed += 1000003) {
         qdot_expr n = qdot_expr_int(pool, (long)h.seed);
         size_t count = qdot_pool_count(pool);
+        qdot_expr power = qdot_pow(pool, n, thirty);
 
-        assert_int_not_equal(qdot_pow(pool, n, thirty), QDOT_NIL);
+        assert_int_not_equal(power, QDOT_NIL);
         assert_int_equal(qdot_pool_count(pool), count);
+        assert_true(fmpz_fdiv_ui(fmpq_numref(qdot_expr_rational(pool, power)), h.seed) == 0);
     }
     qdot_pool_free(pool);
-    assert_true(mpz_free_num >= spare);
+}
+
+/* What was left forty times takes no more memory than what was left once, but for a tenth. */
+static void
+nothing_is_left_behind(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    struct hoard h = {.pool = pool, .leave = true, .seed = 7};
+    double before = resident(), once, often;
+
+    (void)state;
+    if (before < 0) /* no /proc here */
+        skip();
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(qdot_flint_run(pool, hoard, &h), QDOT_EINTR);
+        qdot_interrupt_clear();
+    }
+    once = resident();
+    for (int i = 0; i < TIMES; i++) {
+        assert_int_equal(qdot_flint_run(pool, hoard, &h), QDOT_EINTR);
+        qdot_interrupt_clear();
+    }
+    often = resident();
+    print_message("# %d times left: %+.0f kB\n", TIMES, (often - once) / 1024);
+    assert_true(often - once < 0.1 * TIMES * MANY * 20 * sizeof(mp_limb_t));
+    qdot_pool_free(pool);
+}
+
+/* A failure that the computation recorded is that of the thread which asked. */
+static void
+fail_inside(void *user)
+{
+    (void)user;
+    (void)qdot_fail(QDOT_EDOMAIN, "from inside");
+    (void)qdot_hint("look there");
+}
+
+static void
+do_nothing(void *user)
+{
+    *(int *)user = 1;
+}
+
+static void
+failures_pass_over(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    int done = 0;
+
+    (void)state;
+    assert_int_equal(qdot_flint_run(pool, fail_inside, NULL), QDOT_OK);
+    assert_string_equal(qdot_last_error()->message, "from inside");
+    assert_string_equal(qdot_last_error()->hint, "look there");
+    (void)qdot_fail(QDOT_EIO, "from before");
+    assert_int_equal(qdot_flint_run(pool, do_nothing, &done), QDOT_OK);
+    assert_int_equal(done, 1);
+    assert_string_equal(qdot_last_error()->message, "from before");
+    qdot_pool_free(pool);
+}
+
+/* --- threads that ask ---------------------------------------------------------------------- */
+
+static void *
+ask_often(void *user)
+{
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr *answer = user;
+
+    for (int i = 0; i < 20; i++) {
+        struct hoard h = {.pool = pool, .seed = 1 + (unsigned long)i};
+
+        if (qdot_flint_run(pool, hoard, &h) != QDOT_OK)
+            *answer = QDOT_ONE;
+    }
+    qdot_pool_free(pool);
+    return NULL;
+}
+
+static void
+threads_ask_at_the_same_time(void **state)
+{
+    pthread_t thread[3];
+    qdot_expr failed[3] = {QDOT_NIL, QDOT_NIL, QDOT_NIL};
+
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(pthread_create(thread + i, NULL, ask_often, failed + i), 0);
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(pthread_join(thread[i], NULL), 0);
+        assert_int_equal(failed[i], QDOT_NIL);
+    }
 }
 
 /* --- the bound ---------------------------------------------------------------------------- */
@@ -415,7 +508,10 @@ main(void)
         cmocka_unit_test(ctrl_c_is_heard_at_every_allocation),
         cmocka_unit_test(a_pool_is_usable_after_failures),
         cmocka_unit_test(ctrl_c_leaves_flint),
-        cmocka_unit_test(integers_in_use_are_not_lost),
+        cmocka_unit_test(numbers_outlive_what_made_them),
+        cmocka_unit_test(nothing_is_left_behind),
+        cmocka_unit_test(failures_pass_over),
+        cmocka_unit_test(threads_ask_at_the_same_time),
         cmocka_unit_test(the_bound_of_memory_is_a_limit),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

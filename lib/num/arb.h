@@ -1,0 +1,18 @@
+/* arb.h -- Arb's headers: of a library of its own beside FLINT 2, a part of FLINT since 3.
+ */
+#ifndef QDOT_NUM_ARB_H
+#define QDOT_NUM_ARB_H
+
+#include <flint/flint.h>
+
+#if __FLINT_RELEASE >= 30000
+#include <flint/acb.h>
+#include <flint/arb.h>
+#include <flint/arb_fmpz_poly.h>
+#else
+#include <acb.h>
+#include <arb.h>
+#include <arb_fmpz_poly.h>
+#endif
+
+#endif
