@@ -419,7 +419,9 @@ sim_sources = \
 	lib/sim/shifted-tree.c \
 	lib/sim/shifted-wide.c \
 	lib/sim/shifted.c \
+	lib/sim/side-search.c \
 	lib/sim/size.c \
+	lib/sim/stage-sides.c \
 	lib/sim/stage.c \
 	lib/sim/start.c \
 	lib/sim/substitute.c \
@@ -656,6 +658,7 @@ unit_tests = \
 	tests/sim/test_run \
 	tests/sim/test_shifted-tree \
 	tests/sim/test_start \
+	tests/sim/test_switch \
 	tests/sim/test_taylor \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
@@ -760,6 +763,7 @@ script_tests = \
 	tests/script/plan-chain.lag \
 	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
+	tests/script/pulse-train.lag \
 	tests/script/race.sh \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
@@ -777,6 +781,7 @@ script_tests = \
 	tests/script/start-mass.lag \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/switch-nested.lag \
 	tests/script/switching.lag \
 	tests/script/text.lag \
 	tests/script/textbook.lag \
@@ -1405,6 +1410,7 @@ test_files = \
 	tests/script/plan-chain.out \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
+	tests/script/pulse-train.out \
 	tests/script/race.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
@@ -1422,6 +1428,7 @@ test_files = \
 	tests/script/start-mass.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/switch-nested.out \
 	tests/script/switching.out \
 	tests/script/text.out \
 	tests/script/textbook.out \

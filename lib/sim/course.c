@@ -1,4 +1,4 @@
-/* course.c -- the loop over pieces: the mode of each, and the sides it starts on. */
+/* course.c -- the loop over pieces: the mode of each, and how one is left for the next. */
 #include "sim/course.h"
 
 #include <float.h>
@@ -11,9 +11,8 @@
 
 /* --- pieces -------------------------------------------------------------------------- */
 
-/* Everything of the mode with these sides. */
-static qdot_status
-enter_mode(qdot_piece *x)
+qdot_status
+qdot_piece_enter(qdot_piece *x)
 {
     qdot_course *c = x->c;
     const qdot_mode *m;
@@ -49,7 +48,6 @@ make_room(qdot_piece *x)
                2 * x->c->stage->domains.n + 1;
 
     x->side = qdot_calloc(m, sizeof *x->side);
-    x->on = qdot_calloc(m, sizeof *x->on);
     x->functions_on = qdot_calloc(m, sizeof *x->functions_on);
     x->before = qdot_calloc(m, sizeof *x->before);
     x->residual = qdot_calloc(m, sizeof *x->residual);
@@ -63,45 +61,13 @@ make_room(qdot_piece *x)
                                 .entered = true};
     x->step.t = qdot_calloc(2, sizeof *x->step.t);
     x->step.y = qdot_calloc(2 * x->n, sizeof *x->step.y);
-    if (!x->side || !x->on || !x->functions_on || !x->before || !x->residual ||
+    if (!x->side || !x->functions_on || !x->before || !x->residual ||
         !x->signs || !x->y || !x->step.t || !x->step.y)
         return QDOT_ENOMEM;
     x->y_act = x->y + x->n;
     return qdot_vec_push(&x->step.pieces, (qdot_trajectory_piece){0});
 }
-/* --- sides at the start of a piece --------------------------------------------------- */
-
-/* The sides at a state that is new, or where a piece ended: those that the state is
- * clearly on, and for the others what x->side has. */
-static qdot_status
-find_sides(qdot_piece *x, double t, const double *y, bool all)
-{
-    size_t surfaces = x->c->stage->switches.surfaces.n;
-    long *found = qdot_calloc(surfaces + 1, sizeof *found);
-    qdot_status status =
-        found ? qdot_stage_sides(x->c->stage, t, y, found, x->on) : QDOT_ENOMEM;
-
-    for (size_t i = 0; i < surfaces && status == QDOT_OK; i++)
-        if (all)
-            x->side[i] = found[i];
-    qdot_free(found);
-    return status;
-}
-
-/* Whether these sides were tried from here; they are now. */
-static qdot_status
-try_sides(qdot_piece *x, bool *again)
-{
-    size_t surfaces = x->c->stage->switches.surfaces.n;
-
-    *again = false;
-    for (size_t k = 0; k + surfaces <= x->tried.n && surfaces > 0; k += surfaces)
-        *again =
-            *again || memcmp(x->tried.at + k, x->side, surfaces * sizeof *x->side) == 0;
-    for (size_t i = 0; i < surfaces && !*again; i++)
-        QDOT_TRY(qdot_vec_push(&x->tried, x->side[i]));
-    return QDOT_OK;
-}
+/* --- what is known where a piece starts ---------------------------------------------- */
 
 /* Whether an event has been counted a double or so before the piece ended. */
 static bool
@@ -118,10 +84,10 @@ just_noted(const qdot_piece *x, size_t event)
     return false;
 }
 
-/* What is known of the functions where the last piece ended, by those of the next: events
- * and domains keep their places; a surface's are of the one that is on the same place. */
-static void
-carry(qdot_piece *x, size_t from, bool jumped)
+/* Events and domains keep their places; a surface's functions are of the one that is on the
+ * same place. */
+void
+qdot_piece_carry(qdot_piece *x, size_t from, bool jumped)
 {
     const qdot_mode *old = x->c->stage->modes.at[from], *next = qdot_piece_mode(x);
     size_t events = x->c->stage->events.n;
@@ -275,9 +241,9 @@ make_up(qdot_piece *x, size_t from, double t, double *y)
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
         moved[i] = y[i] - late * (before[x->n + i] - before[i]);
     if (status == QDOT_OK)
-        status = qdot_stage_sides(x->c->stage, t, y, sides, x->on);
+        status = qdot_stage_sides(x->c->stage, t, y, NULL, sides);
     if (status == QDOT_OK)
-        status = qdot_stage_sides(x->c->stage, t, moved, sides + surfaces, x->on);
+        status = qdot_stage_sides(x->c->stage, t, moved, NULL, sides + surfaces);
     if (status == QDOT_OK && memcmp(sides, sides + surfaces, surfaces * sizeof *sides) == 0)
         memcpy(y, moved, x->n * sizeof *y);
     qdot_free(moved);
@@ -287,41 +253,23 @@ make_up(qdot_piece *x, size_t from, double t, double *y)
 
 /* --- the whole ----------------------------------------------------------------------- */
 
-/* From y at t, which is the last point, through one piece that leaves well. */
-static qdot_status
-one_piece(qdot_piece *x, size_t from, double t, double *y, bool jumped)
+qdot_status
+qdot_piece_cross(qdot_piece *x, size_t from, double t, double *y, bool jumped, bool first)
 {
-    bool again, moved = false;
+    bool corners;
 
-    x->tried.n = 0;
-    for (;;) {
-        QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(try_sides(x, &again));
-        if (again) {
-            qdot_piece_slides(x, t);
-            qdot_piece_stop(x, true);
-            return QDOT_OK;
-        }
-        QDOT_TRY(enter_mode(x));
-        QDOT_TRY(turns_a_corner(x, from, t, y, &again));
-        if (again) {
-            qdot_piece_stop(x, true);
-            return QDOT_OK;
-        }
-        if (!jumped)
-            QDOT_TRY(check_level(x, from, t, y));
-        if (x->c->reason[0] != '\0')
-            return QDOT_OK;
-        carry(x, from, jumped);
-        if (x->c->early != 0 && from != x->mode && !moved && !jumped
-            && !x->c->systems.at[x->mode].project)
-            QDOT_TRY(make_up(x, from, t, y));
-        moved = true;
-        QDOT_TRY(qdot_piece_begin(x, t, y));
-        QDOT_TRY(qdot_piece_integrate(x, t, y, jumped));
-        if (x->intent != QDOT_PIECE_RETRIED)
-            return QDOT_OK;
-    }
+    QDOT_TRY(turns_a_corner(x, from, t, y, &corners));
+    if (corners)
+        return QDOT_OK;
+    if (!jumped)
+        QDOT_TRY(check_level(x, from, t, y));
+    if (x->c->reason[0] != '\0')
+        return QDOT_OK;
+    qdot_piece_carry(x, from, jumped);
+    if (x->c->early != 0 && from != x->mode && first && !jumped
+        && !x->c->systems.at[x->mode].project)
+        QDOT_TRY(make_up(x, from, t, y));
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -331,18 +279,20 @@ loop(qdot_piece *x, double t0, const double *y0)
     double *y = qdot_malloc(x->n * sizeof *y), t = t0;
     bool jumped = false, over = false;
     size_t from;
-    qdot_status status = y ? find_sides(x, t0, y0, true) : QDOT_ENOMEM;
+    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
 
+    if (status == QDOT_OK)
+        status = qdot_piece_sides(x, t0, y0, NULL);
     if (status == QDOT_OK)
         memcpy(y, y0, x->n * sizeof *y);
     if (status == QDOT_OK)
-        status = enter_mode(x);
+        status = qdot_piece_enter(x);
     from = x->mode;
     if (status == QDOT_OK) /* the start, to go on from */
         status = qdot_trajectory_run(&c->tr, &c->systems.at[x->mode], x->method,
                                      x->options, t0, t0, y0);
     while (status == QDOT_OK && !over) {
-        status = one_piece(x, from, t, y, jumped);
+        status = qdot_piece_search(x, from, t, y, jumped);
         if (status == QDOT_OK && c->reason[0] != '\0')
             qdot_piece_stop(x, true);
         if (status != QDOT_OK || x->intent != QDOT_PIECE_ENDS || c->reason[0] != '\0')
@@ -358,7 +308,7 @@ loop(qdot_piece *x, double t0, const double *y0)
         if (status == QDOT_OK && over)
             c->tr.result.outcome = c->failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
         if (status == QDOT_OK && !over)
-            status = find_sides(x, t, y, jumped);
+            status = qdot_piece_sides(x, t, y, jumped ? NULL : qdot_piece_mode(x)->side);
         if (t == x->t1 && !over) {
             if (jumped && status == QDOT_OK)
                 status = qdot_trajectory_resume(&c->tr, &c->systems.at[x->mode], x->mode,
@@ -389,15 +339,16 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
     qdot_trajectory_close(x.cursor);
     qdot_trajectory_clear(&x.step);
     qdot_free(x.side);
-    qdot_free(x.on);
     qdot_free(x.functions_on);
     qdot_free(x.before);
     qdot_free(x.residual);
     qdot_free(x.signs);
     qdot_free(x.fired.at);
+    qdot_free(x.crossed.at);
     qdot_free(x.y);
     qdot_free(x.roots.at);
     qdot_free(x.tried.at);
+    qdot_free(x.doubts.at);
     qdot_free(x.repeats.at);
     return status;
 }

@@ -6,9 +6,14 @@
  *     a coordinate leaves its domain            the run ends, on the last double inside
  *     the equations switch                      the next piece goes by the other side
  *
- * Which side a piece begins on where it starts on a surface is tried: the motion must
- * leave towards the side whose equations it goes by. Where no side does, the motion would
- * slide along the surface, which ends the run.
+ * Where a side changes, the arguments of switches around it jump: their sides are decided
+ * anew (sim/stage.h). Switches that are a rounding of t apart switch at one time.
+ *
+ * Which side a piece begins on where it starts on a surface is tried (side-search.c): the
+ * motion must leave towards the side whose equations it goes by, or stay on the surface where
+ * it goes by the equations of u = 0. Where no side does, the motion would slide along the
+ * surface, and where more than one does, what comes is not said by the equations: either
+ * ends the run.
  *
  * Events without `then` or `stop` are only noted. More than MOST_REPEATS occurrences of
  * one thing within 1e-9 of the run's time end it too: a ball that comes to rest.
@@ -34,7 +39,7 @@ typedef struct {
     size_t piece, function; /* of the trajectory; of the mode */
     double t;
     qdot_watched what;
-    bool exact; /* it lies at t, not just before */
+    double late; /* by how much t is behind it; 0: it lies at t */
 } qdot_course_end;
 
 typedef struct qdot_course {

@@ -134,24 +134,11 @@ say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
     qdot_text_clear(&text);
 }
 
-void
-qdot_piece_slides(qdot_piece *x, double t)
+/* A root lies between the doubles around it, where it is not one of them. */
+static double
+lateness(const qdot_root *root, double t)
 {
-    const qdot_mode *m = qdot_piece_mode(x);
-    qdot_text text = {0};
-
-    for (size_t i = 0; i < m->m; i++)
-        if (m->watched[i].kind == QDOT_WATCH_SURFACE && x->functions_on[i] &&
-            text.n == 0 &&
-            qdot_stage_describe(x->c->stage, m->watched[i].index,
-                                m->side[m->watched[i].index] + (m->watched[i].inside < 0),
-                                &text) != QDOT_OK)
-            qdot_text_truncate(&text, 0);
-    snprintf(x->c->reason, sizeof x->c->reason,
-             "stopped at t = %.15g: the motion would slide along %.200s, where the "
-             "equations switch: both sides lead back to it",
-             t, text.n > 0 ? qdot_text_str(&text) : "a surface");
-    qdot_text_clear(&text);
+    return fabs(t - root->t) + (root->exact ? 0 : 0x1p-53 * fabs(t));
 }
 
 /* All that occurs at t_act, in order; y is the state there, and then the one behind.
@@ -167,6 +154,7 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
     if (old)
         memcpy(old, y, x->n * sizeof *y);
     x->fired.n = 0;
+    x->crossed.n = 0;
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&x->fired, x->roots.at[i]);
     if (status == QDOT_OK)
@@ -182,7 +170,7 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
             status = qdot_vec_push(
                 &x->c->ends,
                 ((qdot_course_end){x->c->tr.pieces.n - 1, root->function, t, *w,
-                                   root->exact}));
+                                   lateness(root, t)}));
         if (status != QDOT_OK)
             break;
         if (w->kind == QDOT_WATCH_DOMAIN) {
@@ -192,7 +180,9 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
             break;
         }
         if (w->kind == QDOT_WATCH_SURFACE) {
-            x->side[w->index] = w->beyond;
+            x->side[w->index] = w->inside == 0 ? root->way : w->beyond;
+            if (w->inside != 0)
+                status = qdot_vec_push(&x->crossed, w->index);
         } else {
             const qdot_staged_event *e = &x->c->stage->events.at[w->index];
 
@@ -216,6 +206,8 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
             qdot_piece_stop(x, true);
         }
     }
+    if (*jumped)
+        x->crossed.n = 0;
     qdot_free(old);
     return status;
 }

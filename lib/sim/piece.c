@@ -1,6 +1,7 @@
 /* piece.c -- a piece integrated, every step of it looked at for what happens in it. */
 #include "sim/piece.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -67,26 +68,6 @@ note(qdot_piece *x, const qdot_root *root)
     return w->kind == QDOT_WATCH_EVENT ? qdot_vec_push(&x->c->occurrences, o) : QDOT_OK;
 }
 
-/* Whether the piece leaves the surfaces it starts on towards its own side. */
-static bool
-leaves_well(qdot_piece *x)
-{
-    const int *first = qdot_watch_first(qdot_piece_watch(x));
-    const qdot_mode *m = qdot_piece_mode(x);
-    bool well = true;
-
-    for (size_t i = 0; i < m->m; i++) {
-        const qdot_watched *w = &m->watched[i];
-
-        if (w->kind != QDOT_WATCH_SURFACE || !x->functions_on[i] || first[i] == 0 ||
-            first[i] == w->inside)
-            continue;
-        well = false;
-        x->side[w->index] = w->beyond;
-    }
-    return well;
-}
-
 /* A domain's bound that the piece starts on and does not leave inwards. */
 static const qdot_watched *
 leaves_domain(qdot_piece *x)
@@ -136,6 +117,63 @@ say_resting(qdot_piece *x, double t)
     return QDOT_OK;
 }
 
+/* Whether the piece goes on by its sides, behind its first step. */
+static qdot_status
+judge_sides(qdot_piece *x)
+{
+    if (x->search == QDOT_SIDES_KNOWN)
+        return QDOT_OK;
+    QDOT_TRY(qdot_piece_leaves_well(x, &x->well));
+    if (!x->well || x->search == QDOT_SIDES_COMPARED || qdot_piece_is_open(x))
+        x->intent = QDOT_PIECE_RETRIED;
+    return QDOT_OK;
+}
+
+/* A surface on which u stayed 0 until this step, and does no more. */
+static qdot_status
+leave_zero(qdot_piece *x, double t0)
+{
+    const int *first = qdot_watch_first(qdot_piece_watch(x));
+    const qdot_mode *m = qdot_piece_mode(x);
+
+    for (size_t i = 0; i < m->m; i++) {
+        if (m->watched[i].kind != QDOT_WATCH_SURFACE || m->watched[i].inside != 0
+            || first[i] == 0)
+            continue;
+        x->intent = QDOT_PIECE_ENDS;
+        x->t_act = t0;
+        QDOT_TRY(qdot_vec_push(&x->roots, ((qdot_root){i, t0, first[i], 0, true})));
+    }
+    return QDOT_OK;
+}
+
+/* How far behind one switch, of its time, another one is at the same time: what rounding
+ * makes of one moment that both stand for. */
+static const double same_time = 4 * DBL_EPSILON;
+
+static bool
+is_switch(const qdot_piece *x, const qdot_root *root)
+{
+    return qdot_piece_mode(x)->watched[root->function].kind == QDOT_WATCH_SURFACE;
+}
+
+/* When the piece ends that the root k of [n] ends: with the last switch of those at its time,
+ * if nothing else lies between. */
+static double
+end_of(const qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
+{
+    double t = roots[k].t;
+
+    if (!is_switch(x, &roots[k]))
+        return t;
+    for (size_t i = k + 1; i < n && fabs(roots[i].t - roots[k].t) <= same_time * fabs(t)
+                           && is_switch(x, &roots[i]);
+         i++)
+        if (is_occurrence(x, &roots[i]))
+            t = roots[i].t;
+    return t;
+}
+
 /* The roots of the step: noted up to the first that ends the piece. */
 static qdot_status
 take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
@@ -154,21 +192,24 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
             x->t_act = t0;
             return qdot_vec_push(&x->roots, root);
         }
-        if (!leaves_well(x)) {
-            x->intent = QDOT_PIECE_RETRIED;
+        QDOT_TRY(judge_sides(x));
+        if (x->intent == QDOT_PIECE_RETRIED)
             return QDOT_OK;
-        }
         if (!leaves_event(x))
             return say_resting(x, t0);
+    } else {
+        QDOT_TRY(leave_zero(x, t0));
+        if (x->intent == QDOT_PIECE_ENDS)
+            return QDOT_OK;
     }
     for (size_t i = 0; i < n; i++) {
         if (!is_occurrence(x, &roots[i]))
             continue;
-        if (x->intent == QDOT_PIECE_ENDS && roots[i].t != x->t_act)
+        if (x->intent == QDOT_PIECE_ENDS && x->direction * (roots[i].t - x->t_act) > 0)
             break;
         if (x->intent != QDOT_PIECE_ENDS && is_action(x, &roots[i])) {
             x->intent = QDOT_PIECE_ENDS;
-            x->t_act = roots[i].t;
+            x->t_act = end_of(x, roots, n, i);
             for (; x->c->occurrences.n > x->noted &&
                    x->c->occurrences.at[x->c->occurrences.n - 1].t == x->t_act;
                  x->c->occurrences.n--) /* they are noted again, in order */

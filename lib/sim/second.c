@@ -240,9 +240,8 @@ find_doubt(qdot_run *run, const qdot_course *c)
     return say_doubt(run, "the second run went through other events or switches");
 }
 
-/* A piece ends at the first double behind the root that ends it, in all runs alike: what the
- * other system would have done in half the time between doubles, for each end of a piece
- * added to floor [n]. */
+/* A piece ends behind the root that ends it, in all runs alike: what the other system would
+ * have done in that time, for each end of a piece added to floor [n]. */
 static qdot_status
 add_delays(const qdot_course *c, double *floor)
 {
@@ -257,14 +256,14 @@ add_delays(const qdot_course *c, double *floor)
         const qdot_ode_system *old = qdot_course_systems(c) + tr->pieces.at[end->piece].mode;
         const qdot_ode_system *next;
 
-        if (end->exact || first == 0 || (k > 0 && end[-1].piece == end->piece))
+        if (end->late == 0 || first == 0 || (k > 0 && end[-1].piece == end->piece))
             continue;
         next = qdot_course_systems(c) + tr->pieces.at[end->piece + 1].mode;
         if (old->rhs(end->t, tr->y + (first - 1) * tr->n, before, old->user) != QDOT_OK
             || next->rhs(end->t, tr->y + first * tr->n, behind, next->user) != QDOT_OK)
             continue; /* it is a floor only */
         for (size_t i = 0; i < tr->n; i++)
-            floor[i] += 0x1p-53 * fabs(end->t) * fabs(behind[i] - before[i]);
+            floor[i] += end->late * fabs(behind[i] - before[i]);
     }
     qdot_free(before);
     return status;

@@ -1,11 +1,8 @@
 /* stage.c -- events, domains and surfaces with numbers in place; the modes. */
 #include "sim/stage.h"
 
-#include <float.h>
-#include <math.h>
 #include <string.h>
 
-#include "expr/print.h"
 #include "sim/substitute.h"
 #include "tape/constant.h"
 
@@ -36,91 +33,6 @@ qdot_stage_clear(qdot_stage *s)
     qdot_domains_clear(&s->domains);
     qdot_tape_free(s->sides);
     *s = (qdot_stage){0};
-}
-
-/* --- sides of surfaces --------------------------------------------------------------- */
-
-/* u, and where it is a step its distance to the next integer too. */
-static qdot_status
-lower_sides(qdot_stage *s)
-{
-    qdot_pool *pool = s->scene->pool;
-    size_t n = s->scene->coordinates.n;
-    qdot_vec(qdot_expr) u = {0}, in = {0};
-    qdot_status status = QDOT_OK;
-
-    for (size_t order = 0; order < 2; order++)
-        for (size_t i = 0; i < n && status == QDOT_OK; i++)
-            status = qdot_vec_push(&in, qdot_symbol_jet(pool, s->scene->coordinates.at[i],
-                                                        (uint32_t)order));
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&in, QDOT_T);
-    for (size_t i = 0; i < s->switches.surfaces.n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&u, s->switches.surfaces.at[i].u);
-    if (status == QDOT_OK && u.n > 0)
-        status = qdot_tape_new(pool, in.n, in.at, u.n, u.at, &s->sides);
-    qdot_free(u.at);
-    qdot_free(in.at);
-    return status;
-}
-
-/* u [surfaces] where component k of the state is moved by the part `by` of itself. */
-static void
-evaluate_sides(const qdot_stage *s, double t, const double *y, size_t k, double by,
-               double *in, double *u, double *work)
-{
-    size_t n = 2 * (s->modes.n > 0 ? s->modes.at[0]->plan->n : s->scene->coordinates.n);
-
-    memcpy(in, y, n * sizeof *y);
-    in[n] = t;
-    if (k <= n)
-        in[k] *= 1 + by;
-    qdot_tape_eval(s->sides, in, u, work);
-}
-
-qdot_status
-qdot_stage_sides(const qdot_stage *s, double t, const double *y, long *side, bool *on)
-{
-    size_t m = s->switches.surfaces.n, n = 2 * s->modes.at[0]->plan->n;
-    double *u, *moved, *noise, *in, *work;
-
-    if (m == 0)
-        return QDOT_OK;
-    u = qdot_calloc(3 * m + n + 1 + qdot_tape_work(s->sides) + 1, sizeof *u);
-    if (!u)
-        return QDOT_ENOMEM;
-    moved = u + m;
-    noise = moved + m;
-    in = noise + m;
-    work = in + n + 1;
-    evaluate_sides(s, t, y, n + 1, 0, in, u, work);
-    for (size_t k = 0; k <= n; k++) {
-        evaluate_sides(s, t, y, k, 2 * DBL_EPSILON, in, moved, work);
-        for (size_t i = 0; i < m; i++)
-            noise[i] += isfinite(moved[i]) ? fabs(moved[i] - u[i]) : 0;
-    }
-    for (size_t i = 0; i < m; i++) {
-        bool steps = s->switches.surfaces.at[i].steps;
-        double near = steps ? round(u[i]) : 0;
-
-        on[i] = fabs(u[i] - near) <= noise[i];
-        if (steps)
-            side[i] = (long)(on[i] ? near : floor(u[i]));
-        else
-            side[i] = on[i] || u[i] > 0 ? 1 : -1;
-    }
-    qdot_free(u);
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_stage_describe(const qdot_stage *s, size_t surface, long side, qdot_text *out)
-{
-    const qdot_surface *x = &s->switches.surfaces.at[surface];
-
-    QDOT_TRY(qdot_print(s->switches.pool, x->u, QDOT_PLAIN, out));
-    qdot_text_format(out, " = %ld", x->steps ? side : 0);
-    return qdot_text_status(out);
 }
 
 /* --- events -------------------------------------------------------------------------- */
@@ -224,21 +136,43 @@ watch_domains(const qdot_stage *s, qdot_mode *m)
     return qdot_pool_check(p->pool);
 }
 
+/* Whether a side is that of the number u. */
+static bool
+is_side(qdot_pool *pool, qdot_expr u, bool steps, long side)
+{
+    qdot_expr k = qdot_expr_int(pool, side);
+
+    if (steps)
+        return qdot_rel(pool, QDOT_LE, k, u) == QDOT_TRUE
+               && qdot_rel(pool, QDOT_LT, u, qdot_add(pool, k, QDOT_ONE)) == QDOT_TRUE;
+    return qdot_fun1(pool, QDOT_SIGN, u) == k;
+}
+
+/* A surface that does not move in the mode is not watched. Where u stays 0 it must do so. */
 static qdot_status
 watch_surfaces(const qdot_stage *s, qdot_mode *m)
 {
     for (size_t i = 0; i < s->switches.surfaces.n; i++) {
         const qdot_surface *x = &s->switches.surfaces.at[i];
         qdot_pool *pool = s->switches.pool;
+        bool velocity;
         qdot_expr u;
 
         QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, 1, &x->u, &u));
+        if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, u, x->steps, m->side[i]))
+            return qdot_fail(QDOT_EFAILED, "a switch of the equations cannot be decided");
+        if (qdot_constant_is(pool, u))
+            continue;
+        velocity = (qdot_expr_node(pool, u)->holds
+                    & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+                   != 0;
         if (!x->steps) {
             watch_function(m, u,
                            (qdot_watched){.kind = QDOT_WATCH_SURFACE,
                                           .index = i,
                                           .inside = (int)m->side[i],
-                                          .beyond = -m->side[i]});
+                                          .beyond = -m->side[i],
+                                          .velocity = velocity});
             continue;
         }
         for (int k = 0; k < 2; k++)
@@ -246,7 +180,8 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
                            (qdot_watched){.kind = QDOT_WATCH_SURFACE,
                                           .index = i,
                                           .inside = k ? -1 : 1,
-                                          .beyond = m->side[i] + (k ? 1 : -1)});
+                                          .beyond = m->side[i] + (k ? 1 : -1),
+                                          .velocity = velocity});
     }
     return qdot_pool_check(s->switches.pool);
 }
@@ -346,24 +281,15 @@ start_numbers(const qdot_stage *s, double *t, double *y)
 static qdot_status
 start_sides(const qdot_stage *s, const double *settled, long *side)
 {
-    size_t n = s->scene->coordinates.n, m = s->switches.surfaces.n;
+    size_t n = s->scene->coordinates.n;
     double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0;
-    double *in = qdot_calloc(2 * n + 1 + m + qdot_tape_work(s->sides) + 1, sizeof *in);
-    qdot_status status = y && in ? start_numbers(s, &t, y) : QDOT_ENOMEM;
+    qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
 
     if (status == QDOT_OK && settled)
         memcpy(y, settled, 2 * n * sizeof *y);
-    if (status == QDOT_OK) {
-        double *u = in + 2 * n + 1;
-
-        evaluate_sides(s, t, y, 2 * n + 1, 0, in, u, u + m);
-        for (size_t i = 0; i < m; i++)
-            side[i] = s->switches.surfaces.at[i].steps ? (long)floor(u[i])
-                      : u[i] < 0                       ? -1
-                                                       : 1;
-    }
+    if (status == QDOT_OK)
+        status = qdot_stage_sides(s, t, y, NULL, side);
     qdot_free(y);
-    qdot_free(in);
     return status;
 }
 
@@ -383,7 +309,7 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
     if (!side)
         return QDOT_ENOMEM;
     if (s->switches.surfaces.n > 0)
-        status = lower_sides(s);
+        status = qdot_stage_lower_sides(s);
     if (s->switches.surfaces.n > 0 && status == QDOT_OK)
         status = start_sides(s, settled, side);
     if (status == QDOT_OK)

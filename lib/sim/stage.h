@@ -27,8 +27,9 @@ typedef enum { QDOT_WATCH_EVENT, QDOT_WATCH_DOMAIN, QDOT_WATCH_SURFACE } qdot_wa
 typedef struct {
     qdot_watched_kind kind;
     size_t index;   /* of the event, domain or surface */
-    int inside;     /* its sign in this mode; 0: of an event */
-    long beyond;    /* of a surface: the side on the other side */
+    int inside;     /* its sign in this mode; 0: of an event, or where a surface's u stays 0 */
+    long beyond;    /* of a surface: the side on the other side; not where u stays 0 */
+    bool velocity;  /* of a surface: u holds velocities, so that its rate is the mode's */
     size_t coordinate; /* of a domain */
     double bound;
 } qdot_watched;
@@ -50,7 +51,8 @@ typedef struct {
     qdot_domains domains;
     qdot_vec(qdot_staged_event) events;
     qdot_vec(qdot_mode *) modes;
-    qdot_tape *sides; /* from q, q', t, q'': u of every surface; NULL: none */
+    qdot_tape *sides; /* from q, q', t, sides: u of every surface, then sizes (sim/size.h);
+                         NULL: no surface */
 } qdot_stage;
 
 /* The mode of the start is the first: y [2n] at t. Surfaces that the start is on lie on
@@ -68,10 +70,18 @@ QDOT_MUST_CHECK qdot_status qdot_stage_settle(qdot_stage *stage, const double *y
 QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const long *side,
                                             size_t *mode);
 
-/* The sides of all surfaces at a state: side [surfaces]; on [surfaces]: it is that of
- * its upper neighbour, the state being on it. `work` is allocated inside. */
+/* stage->sides, of the scene's surfaces. Errors: as qdot_tape_new. */
+QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
+
+/* The sides of all surfaces at a state, the inner ones first, into side [surfaces].
+ *   old  [surfaces] or NULL: all are decided anew. A surface whose u is the same by the new
+ *        inner sides as it is by the old ones, and moves, keeps what side has for it: u did
+ *        not jump.
+ * Else the side is that of u. Where u is 0, or an integer of a floor, it is 0 if u does not
+ * move at all; if it does it is what side has, where that is a neighbour, and the upper one
+ * of those decided anew: to which the motion leaves is not known here. QDOT_EDOMAIN: a floor that no integer holds. `work` is allocated inside. */
 QDOT_MUST_CHECK qdot_status qdot_stage_sides(const qdot_stage *stage, double t,
-                                             const double *y, long *side, bool *on);
+                                             const double *y, const long *old, long *side);
 
 /* A surface in words: "x' = 0". */
 QDOT_MUST_CHECK qdot_status qdot_stage_describe(const qdot_stage *stage, size_t surface,

@@ -1,6 +1,7 @@
 /* switch.c -- what switches in the equations, found and frozen. */
 #include "sim/switch.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "expr/walk.h"
@@ -60,18 +61,30 @@ upright(qdot_pool *pool, qdot_expr u, bool *turned)
     return *turned ? qdot_neg(pool, u) : u;
 }
 
+static qdot_status collect(qdot_switches *s, qdot_expr e);
+
+/* Behind the surfaces inside it, which may be new: a difference is put in order. */
 static qdot_status
 add_surface(qdot_switches *s, qdot_expr u, bool steps)
 {
+    char name[32];
+    qdot_expr side;
     bool turned;
 
     if (!steps)
         u = upright(s->pool, u, &turned);
     QDOT_TRY(qdot_pool_check(s->pool));
+    if (!moves(s->pool, u)) /* what moved cancelled */
+        return QDOT_OK;
+    QDOT_TRY(collect(s, u));
     for (size_t i = 0; i < s->surfaces.n; i++)
         if (s->surfaces.at[i].u == u && s->surfaces.at[i].steps == steps)
             return QDOT_OK;
-    return qdot_vec_push(&s->surfaces, ((qdot_surface){u, steps}));
+    /* a space is in no name of a user */
+    snprintf(name, sizeof name, "side %zu", s->surfaces.n + 1);
+    side = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return qdot_vec_push(&s->surfaces, ((qdot_surface){u, steps, side}));
 }
 
 static qdot_status
@@ -86,9 +99,7 @@ add_atom(qdot_switches *s, qdot_expr e)
             return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&s->atoms, e));
     if (is_relation(pool, e))
-        return qdot_expr_node(pool, e)->op == QDOT_EQ
-                   ? QDOT_OK /* true at moments only */
-                   : add_surface(s, qdot_sub(pool, a, b), false);
+        return add_surface(s, qdot_sub(pool, a, b), false);
     if (is_function(pool, e, QDOT_ABS) || is_function(pool, e, QDOT_SIGN))
         return add_surface(s, a, false);
     if (is_function(pool, e, QDOT_FLOOR))
@@ -205,7 +216,7 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
 
 typedef struct {
     const qdot_switches *s;
-    const long *side;
+    const long *side; /* NULL: symbols */
     size_t done;       /* atoms frozen so far */
     qdot_expr *frozen; /* [atoms] */
 } freezer;
@@ -228,35 +239,53 @@ inner(const freezer *f, qdot_expr e)
     return qdot_walk_map(f->s->pool, e, look_up, (void *)f);
 }
 
-/* The side of u. */
-static long
+/* The side of u; of a u that does not move its sign or floor as it stands. */
+static qdot_expr
 side_of(const freezer *f, qdot_expr u, bool steps)
 {
+    qdot_pool *pool = f->s->pool;
     bool turned = false;
 
     if (!steps)
-        u = upright(f->s->pool, u, &turned);
-    for (size_t i = 0; i < f->s->surfaces.n; i++)
-        if (f->s->surfaces.at[i].u == u && f->s->surfaces.at[i].steps == steps)
-            return turned ? -f->side[i] : f->side[i];
-    return 0;
+        u = upright(pool, u, &turned);
+    for (size_t i = 0; i < f->s->surfaces.n; i++) {
+        const qdot_surface *x = &f->s->surfaces.at[i];
+        qdot_expr side;
+
+        if (x->u != u || x->steps != steps)
+            continue;
+        side = f->side ? qdot_expr_int(pool, f->side[i]) : x->side;
+        return turned ? qdot_neg(pool, side) : side;
+    }
+    u = qdot_fun1(pool, steps ? QDOT_FLOOR : QDOT_SIGN, u);
+    return turned ? qdot_neg(pool, u) : u;
 }
 
-/* Of min or max the argument that it is. */
+/* Of min or max the argument that no other one passes; the first of equal ones. */
 static qdot_expr
 chosen(const freezer *f, qdot_expr e, int way)
 {
     qdot_pool *pool = f->s->pool;
-    uint32_t n = qdot_expr_count(pool, e), best = 0;
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr best = inner(f, qdot_expr_arg(pool, e, n - 1));
 
-    for (uint32_t i = 1; i < n; i++) {
-        qdot_expr difference =
-            qdot_sub(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, best));
+    for (uint32_t i = n - 1; i-- > 0;) {
+        qdot_expr own = inner(f, qdot_expr_arg(pool, e, i)), kept = own;
 
-        if (side_of(f, difference, false) * way > 0)
-            best = i;
+        for (uint32_t j = i + 1; j < n; j++) {
+            qdot_expr side = side_of(f, qdot_sub(pool, qdot_expr_arg(pool, e, i),
+                                                 qdot_expr_arg(pool, e, j)),
+                                     false);
+
+            if (way < 0)
+                side = qdot_neg(pool, side);
+            kept = qdot_fun(pool, QDOT_IF, 3,
+                            (qdot_expr[]){qdot_rel(pool, QDOT_LE, QDOT_ZERO, side), kept,
+                                          best});
+        }
+        best = kept;
     }
-    return inner(f, qdot_expr_arg(pool, e, best));
+    return best;
 }
 
 static qdot_expr
@@ -267,21 +296,23 @@ freeze_atom(const freezer *f, qdot_expr e)
     qdot_expr a = qdot_expr_arg(pool, e, 0), b = n > 1 ? qdot_expr_arg(pool, e, 1) : a;
 
     if (is_relation(pool, e)) {
-        if (qdot_expr_node(pool, e)->op == QDOT_EQ)
-            return QDOT_FALSE;
-        return side_of(f, qdot_sub(pool, a, b), false) < 0 ? QDOT_TRUE : QDOT_FALSE;
+        qdot_rel_op op = qdot_expr_node(pool, e)->op;
+        qdot_expr side = side_of(f, qdot_sub(pool, a, b), false);
+
+        if (op == QDOT_EQ && qdot_expr_kind(pool, side) == QDOT_NUM)
+            return side == QDOT_ZERO ? QDOT_TRUE : QDOT_FALSE;
+        return qdot_rel(pool, op, side, QDOT_ZERO);
     }
     if (is_function(pool, e, QDOT_ABS))
-        return side_of(f, a, false) < 0 ? qdot_neg(pool, inner(f, a)) : inner(f, a);
+        return qdot_mul(pool, side_of(f, a, false), inner(f, a));
     if (is_function(pool, e, QDOT_SIGN))
-        return qdot_expr_int(pool, side_of(f, a, false));
+        return side_of(f, a, false);
     if (is_function(pool, e, QDOT_FLOOR))
-        return qdot_expr_int(pool, side_of(f, a, true));
+        return side_of(f, a, true);
     if (is_function(pool, e, QDOT_MOD))
         return qdot_sub(pool, inner(f, a),
                         qdot_mul(pool, inner(f, b),
-                                 qdot_expr_int(pool, side_of(f, qdot_div(pool, a, b),
-                                                             true))));
+                                 side_of(f, qdot_div(pool, a, b), true)));
     return chosen(f, e, is_function(pool, e, QDOT_MAX) ? 1 : -1);
 }
 
