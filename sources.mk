@@ -528,7 +528,7 @@ lang_sources = \
 	lib/lang/equilibria.c \
 	lib/lang/evaluate.c \
 	lib/lang/event.c \
-	lib/lang/forms.c \
+	lib/lang/function.c \
 	lib/lang/furnish.c \
 	lib/lang/help.c \
 	lib/lang/hints.c \
@@ -570,6 +570,7 @@ lang_headers = \
 	lib/lang/digits.h \
 	lib/lang/draw.h \
 	lib/lang/equilibria.h \
+	lib/lang/function.h \
 	lib/lang/names.h \
 	lib/lang/number.h \
 	lib/lang/read.h \
@@ -716,6 +717,8 @@ script_tests = \
 	tests/script/flexing.lag \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
+	tests/script/function-calculus.lag \
+	tests/script/functions.lag \
 	tests/script/geometry.lag \
 	tests/script/hamilton.lag \
 	tests/script/help-examples.lag \
@@ -763,6 +766,7 @@ script_tests = \
 	tests/script/plan-chain.lag \
 	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
+	tests/script/poisson.lag \
 	tests/script/pulse-train.lag \
 	tests/script/race.sh \
 	tests/script/range-limits.sh \
@@ -840,7 +844,13 @@ script_tests = \
 	tests/bad/family-and-vector.lag \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
-	tests/bad/function-by-itself.lag \
+	tests/bad/function-body.lag \
+	tests/bad/function-kind.lag \
+	tests/bad/function-mutual.lag \
+	tests/bad/function-name.lag \
+	tests/bad/function-operator-prime.lag \
+	tests/bad/function-recursion.lag \
+	tests/bad/function-syntax.lag \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
 	tests/bad/hamiltonian-singular.lag \
@@ -889,6 +899,7 @@ script_tests = \
 	tests/bad/pi-parameter.lag \
 	tests/bad/pi-redefined.lag \
 	tests/bad/picture-kind.lag \
+	tests/bad/poisson-acceleration.lag \
 	tests/bad/prime-of-product.lag \
 	tests/bad/race-methods.lag \
 	tests/bad/race-option.lag \
@@ -1078,7 +1089,13 @@ test_files = \
 	tests/bad/family-and-vector.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
-	tests/bad/function-by-itself.out \
+	tests/bad/function-body.out \
+	tests/bad/function-kind.out \
+	tests/bad/function-mutual.out \
+	tests/bad/function-name.out \
+	tests/bad/function-operator-prime.out \
+	tests/bad/function-recursion.out \
+	tests/bad/function-syntax.out \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
 	tests/bad/hamiltonian-singular.out \
@@ -1127,6 +1144,7 @@ test_files = \
 	tests/bad/pi-parameter.out \
 	tests/bad/pi-redefined.out \
 	tests/bad/picture-kind.out \
+	tests/bad/poisson-acceleration.out \
 	tests/bad/prime-of-product.out \
 	tests/bad/race-methods.out \
 	tests/bad/race-option.out \
@@ -1349,6 +1367,8 @@ test_files = \
 	tests/script/flexing.out \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
+	tests/script/function-calculus.out \
+	tests/script/functions.out \
 	tests/script/geometry.out \
 	tests/script/hamilton.out \
 	tests/script/help-examples.out \
@@ -1410,6 +1430,7 @@ test_files = \
 	tests/script/plan-chain.out \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
+	tests/script/poisson.out \
 	tests/script/pulse-train.out \
 	tests/script/race.out \
 	tests/script/range-limits.out \

@@ -9,6 +9,7 @@
 #include "lang/constraints.h"
 #include "lang/ask.h"
 #include "lang/digits.h"
+#include "lang/function.h"
 
 /* --- expressions -------------------------------------------------------------------- */
 
@@ -290,23 +291,6 @@ print_value(qdot_session *session, qdot_expr value, qdot_text *out)
     return QDOT_OK;
 }
 
-/* By the first of its forms, which is that for numbers if there is one. */
-static qdot_status
-print_function(qdot_session *session, const qdot_name *name, qdot_text *out)
-{
-    qdot_pool *pool = session->pool;
-    const qdot_expr form = qdot_expr_arg(pool, name->value, 0);
-    const uint32_t arity = qdot_expr_count(pool, name->formals);
-
-    qdot_text_format(out, "%s(", name->name);
-    for (uint32_t i = 0; i < arity; i++)
-        qdot_text_format(
-            out, "%s%s", i > 0 ? ", " : "",
-            qdot_expr_symbol(pool, qdot_expr_arg(pool, name->formals, i))->name);
-    qdot_text_add(out, ") = ");
-    return print_value(session, qdot_expr_arg(pool, form, arity), out);
-}
-
 /* A declared name as a statement that declares it. */
 static qdot_status
 print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
@@ -327,7 +311,7 @@ print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
     case QDOT_NAME_UFUN:
         qdot_text_add(out, "function ");
         return qdot_print(pool, name->value, QDOT_PLAIN, out);
-    case QDOT_NAME_FUNCTION: return print_function(session, name, out);
+    case QDOT_NAME_FUNCTION: return qdot_function_print(session, name, out);
     default:
         qdot_text_format(out, "%s = ", name->name);
         return print_value(session, name->value, out);

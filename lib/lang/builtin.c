@@ -11,6 +11,7 @@
 #include "lang/answer.h"
 #include "lang/code.h"
 #include "mech/geometry.h"
+#include "mech/hamilton.h"
 #include "normal/simplify.h"
 
 #define READ_SIZE 300 /* operations */
@@ -356,6 +357,33 @@ OF_FIELD(gradient)
 OF_FIELD(divergence)
 OF_FIELD(curl)
 OF_FIELD(laplacian)
+
+typedef struct {
+    qdot_session *session;
+    qdot_expr f, g; /* g nil: the one that is mapped */
+} bracket;
+
+static qdot_expr
+bracket_with(qdot_pool *pool, qdot_expr scalar, void *user)
+{
+    bracket *b = user, inner = {b->session, scalar, QDOT_NIL};
+
+    if (b->g == QDOT_NIL)
+        return qdot_hamilton_poisson(b->session->scene, b->f, scalar);
+    return qdot_value_map(pool, b->g, bracket_with, &inner);
+}
+
+/* Of each component where f or g is a vector. */
+static qdot_status
+call_poisson(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    bracket b = {s, QDOT_NIL, args[1]};
+
+    (void)n;
+    if (!qdot_expr_is_scalar(s->pool, args[0]) && !qdot_expr_is_scalar(s->pool, args[1]))
+        return qdot_fail(QDOT_ETYPE, "one of the two in poisson(f, g) is a number");
+    return give(s, qdot_value_map(s->pool, args[0], bracket_with, &b), value);
+}
 #undef OF_PLACE
 #undef OF_FIELD
 
@@ -576,6 +604,9 @@ static const qdot_builtin rows[] = {
           "curl((0, r), (r*cos(theta), r*sin(theta)))"),
     ROW(2, 2, laplacian, "laplacian(f, R)", "Laplacian of a scalar in coordinates r(q)",
         "laplacian(log(r), (r*cos(theta), r*sin(theta)))"),
+    ROW(2, 2, poisson, "poisson(f, g)",
+        "Poisson's bracket over the scene's coordinates q and momenta p[q]",
+        "poisson(r, p[r])"),
     {"point", 1, 2, call_point, "point(body, P)", "where the body-fixed point P is",
      "point(plate, (a, b))", QDOT_BUILTIN_LABEL, NULL},
     {"spin", 1, 1, call_spin, "spin(body)", "angular velocity; a number in the plane",

@@ -111,12 +111,18 @@ QDOT_MUST_CHECK qdot_status qdot_resolve_undefined(qdot_session *session,
                                                    const qdot_name *entry, unsigned primes,
                                                    uint32_t n, const qdot_expr *args,
                                                    qdot_expr *value);
-/* name(args), name[index](args), name'(args). *over: as above. In lang/call.c. */
+/* name(args), name[index](args), name'(args); labels [indices + n]: of the values that are
+ * positions of particles and bodies, else NULL. *over: as above. In lang/call.c. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_token *token,
                                               unsigned primes, uint32_t indices,
                                               uint32_t n, const qdot_expr *values,
-                                              const char *run, qdot_expr *value,
-                                              qdot_expr *over);
+                                              const char *const *labels, const char *run,
+                                              qdot_expr *value, qdot_expr *over);
+/* *label: of the particle or body that name or name[index ...] is, itself or as the argument
+ * of a function; NULL: it is none. Borrowed from the scene. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_label(qdot_session *session, const char *name,
+                                               uint32_t n, const qdot_expr *index,
+                                               const char **label);
 /* Append "name[1,2]", from values that must be integers; n = 0: "name". */
 QDOT_MUST_CHECK qdot_status qdot_resolve_member(qdot_session *session, const char *name,
                                                 uint32_t n, const qdot_expr *index,

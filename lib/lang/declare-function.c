@@ -185,7 +185,7 @@ rename_formal(qdot_pool *pool, qdot_expr formals, const char *name, qdot_expr sy
 }
 
 /* `own`, the symbol that stood for the argument, by the declared one, in every value named, asked
- * or set and in the scene. A function of the user's that has an argument of that name keeps it. */
+ * or set and in the scene. */
 static qdot_status
 replace_argument(qdot_session *session, qdot_expr own, qdot_expr symbol)
 {
@@ -195,8 +195,7 @@ replace_argument(qdot_session *session, qdot_expr own, qdot_expr symbol)
     for (size_t i = 0; (one = qdot_names_at(session->names, i)) != NULL; i++) {
         qdot_expr value = one->value;
 
-        if (value == QDOT_NIL || (one->kind == QDOT_NAME_FUNCTION &&
-                                  qdot_expr_contains(pool, one->formals, own)))
+        if (value == QDOT_NIL)
             continue;
         value = qdot_subs(pool, value, 1, &own, &symbol);
         QDOT_TRY(qdot_pool_check(pool));

@@ -11,6 +11,7 @@
 #include "expr/walk.h"
 #include "lang/answer.h"
 #include "lang/declare.h"
+#include "lang/function.h"
 #include "lang/rest.h"
 #include "lang/taken.h"
 
@@ -523,41 +524,6 @@ tell_circle(qdot_cursor *c, const qdot_token *start, qdot_status status)
     return status;
 }
 
-static qdot_status
-define_function(qdot_cursor *c)
-{
-    const qdot_token *start = c->at, **names = NULL;
-    qdot_name entry = {.name = (char *)start->text, .kind = QDOT_NAME_FUNCTION};
-    qdot_status status;
-    size_t n = 0;
-
-    c->at++;
-    status = qdot_declare_read_formals(c, &entry.formals, &names, &n);
-    if (status == QDOT_OK)
-        status = qdot_cursor_expect_op(c, "=");
-    if (status == QDOT_OK)
-        status = tell_circle(
-            c, start, qdot_declare_read_forms(c, entry.formals, n, names, &entry.value));
-    if (status == QDOT_OK)
-        status = qdot_cursor_expect_end(c);
-    if (status == QDOT_OK) {
-        const qdot_name *old = qdot_names_find(c->session->names, start->text);
-
-        c->error_at = start->start;
-        if (old != NULL && old->kind == QDOT_NAME_UFUN) {
-            (void)qdot_fail(QDOT_ENAME,
-                            "`%s` was declared as an undefined function at %s:%u",
-                            start->text, old->file, old->line);
-            status =
-                qdot_hint("set %s(...) = ... gives it a value for numbers", start->text);
-        } else {
-            status = qdot_declare_name(c, start, &entry);
-        }
-    }
-    qdot_free(names);
-    return status;
-}
-
 qdot_status
 qdot_declare_definition(qdot_cursor *c)
 {
@@ -567,7 +533,7 @@ qdot_declare_definition(qdot_cursor *c)
     const qdot_name *old;
 
     if (start[1].kind == QDOT_TOKEN_OPERATOR && strcmp(start[1].text, "(") == 0)
-        return define_function(c);
+        return qdot_function_define(c);
     QDOT_TRY(qdot_read_name(c, &name));
     entry.name = (char *)name;
     QDOT_TRY(qdot_cursor_expect_op(c, "="));

@@ -36,12 +36,5 @@ QDOT_MUST_CHECK qdot_status qdot_declare_read_body(qdot_cursor *c, qdot_expr for
                                                    size_t n,
                                                    const qdot_token *const *names,
                                                    qdot_expr *body);
-/* The same for a function: its forms, for numbers, for plane and spatial vectors and square
- * matrices of 2 and 3, as far as the expression has a meaning for them (lang/names.h). An
- * error is that for numbers. */
-QDOT_MUST_CHECK qdot_status qdot_declare_read_forms(qdot_cursor *c, qdot_expr formals,
-                                                    size_t n,
-                                                    const qdot_token *const *names,
-                                                    qdot_expr *forms);
 
 #endif

@@ -12,6 +12,7 @@ typedef struct {
     qdot_expr value;
     qdot_expr over;         /* coordinates its entries go by, or nil */
     const char *run;        /* meant along this run, or NULL */
+    const char *label;      /* it is the position of this particle or body, or NULL */
     const qdot_token *sign; /* the + - * / before it, or NULL for the first */
 } slot;
 
@@ -33,6 +34,7 @@ typedef struct {
     qdot_vec(frame) frames;
     qdot_vec(qdot_expr) terms; /* of all sums under way */
     qdot_vec(qdot_expr) args;  /* scratch */
+    qdot_vec(const char *) labels; /* of the arguments of the call under way */
     const qdot_token *blame;   /* where the caret goes if this fails */
     bool belongs;              /* the run that follows as MEMBER has been taken */
 } machine;
@@ -60,15 +62,15 @@ pass(machine *m, qdot_expr value)
     return qdot_vec_push(&p->value, value);
 }
 
-/* Functions of numbers only: what else is called may take its arguments apart. */
+/* Functions of numbers only: what else is called may take its arguments apart. The body of a
+ * user's own function is read in its turn. */
 static void
 spoil(machine *m, const char *name)
 {
     qdot_fun_id id;
 
-    if (m->session->passed != NULL &&
-        ((!qdot_fun_find(name, &id) && strcmp(name, "sqrt") != 0) ||
-         qdot_names_find(m->session->names, name) != NULL))
+    if (m->session->passed != NULL && !qdot_fun_find(name, &id) && strcmp(name, "sqrt") != 0 &&
+        qdot_names_find(m->session->names, name) == NULL)
         m->session->passed->spoiled = true;
 }
 
@@ -442,9 +444,13 @@ call(machine *m, const qdot_code *code)
 
     if (takes_run(m, code))
         run = common_run(m, n);
+    m->labels.n = 0;
+    QDOT_TRY(qdot_grow(&m->labels.at, &m->labels.capacity, n, sizeof *m->labels.at));
+    for (size_t i = n; i > 0; i--)
+        m->labels.at[m->labels.n++] = from_top(m, i)->label;
     QDOT_TRY(take(m, n));
     QDOT_TRY(qdot_resolve_call(m->c, code->token, code->primes, code->to, code->n,
-                               m->args.at, run, &value, &over));
+                               m->args.at, m->labels.at, run, &value, &over));
     QDOT_TRY(push(m, value));
     from_top(m, 1)->over = over;
     spoil(m, code->token->text);
@@ -506,7 +512,6 @@ name(machine *m, const qdot_code *code)
     qdot_expr value, over;
     bool found;
 
-
     QDOT_TRY(event(m, code, &found));
     if (found)
         return QDOT_OK;
@@ -514,12 +519,15 @@ name(machine *m, const qdot_code *code)
         QDOT_TRY(qdot_resolve_name(m->c, code->token, code->primes, &value, &over));
         QDOT_TRY(push(m, value));
         from_top(m, 1)->over = over;
-        return QDOT_OK;
+    } else {
+        QDOT_TRY(take(m, code->n));
+        QDOT_TRY(qdot_resolve_index(m->c, code->token, code->primes, code->n, m->args.at,
+                                    &value));
+        QDOT_TRY(push(m, value));
     }
-    QDOT_TRY(take(m, code->n));
-    QDOT_TRY(
-        qdot_resolve_index(m->c, code->token, code->primes, code->n, m->args.at, &value));
-    return push(m, value);
+    return code->primes > 0 ? QDOT_OK
+                            : qdot_resolve_label(m->session, code->token->text, code->n,
+                                                 m->args.at, &from_top(m, 1)->label);
 }
 
 /* A label travels as a symbol of its spelling; a loop's index stands for its value. */
@@ -533,6 +541,8 @@ label(machine *m, const qdot_code *code)
     if (code->n == 0 && bound != NULL && bound->kind == QDOT_NAME_INDEX &&
         !qdot_scene_has_label(m->session->scene, code->token->text))
         return push(m, bound->value);
+    if (code->n == 0 && bound != NULL && bound->label != NULL)
+        return push(m, qdot_symbol_get(m->pool, QDOT_FORMAL, bound->label));
     QDOT_TRY(take(m, code->n));
     status =
         qdot_resolve_member(m->session, code->token->text, code->n, m->args.at, &text);
@@ -676,5 +686,6 @@ qdot_evaluate(qdot_cursor *c, const qdot_program *program, qdot_expr *value,
     qdot_free(m.frames.at);
     qdot_free(m.terms.at);
     qdot_free(m.args.at);
+    qdot_free(m.labels.at);
     return status;
 }

@@ -28,6 +28,7 @@ struct qdot_names {
     size_t n_families;
     qdot_vec(entry *) order;
     qdot_vec(qdot_name) bound; /* innermost last */
+    size_t seen_from;          /* those before it are hidden */
 };
 
 static uint32_t
@@ -64,6 +65,7 @@ entry_free(entry *e)
         return;
     qdot_free(e->name.name);
     qdot_free(e->name.file);
+    qdot_function_body_release(e->name.body);
     qdot_free(e);
 }
 
@@ -121,7 +123,7 @@ qdot_names_find(const qdot_names *names, const char *name)
 {
     const entry *e;
 
-    for (size_t i = names->bound.n; i > 0; i--)
+    for (size_t i = names->bound.n; i > names->seen_from; i--)
         if (strcmp(names->bound.at[i - 1].name, name) == 0)
             return &names->bound.at[i - 1];
     e = find_declared(names, name);
@@ -151,6 +153,7 @@ kind_words(qdot_name_kind kind)
         [QDOT_NAME_PARAM] = "a parameter",   [QDOT_NAME_COORD] = "a coordinate",
         [QDOT_NAME_UFUN] = "a function",     [QDOT_NAME_VALUE] = "an expression",
         [QDOT_NAME_FUNCTION] = "a function", [QDOT_NAME_INDEX] = "an index",
+        [QDOT_NAME_ARGUMENT] = "an argument",
     };
 
     return words[kind];
@@ -368,6 +371,7 @@ insert(qdot_names *names, const qdot_name *name)
         qdot_free(e);
         return QDOT_ENOMEM;
     }
+    e->name.body = qdot_function_body_keep(name->body);
     e->order = names->order.n;
     if (qdot_vec_push(&names->order, e) != QDOT_OK) {
         entry_free(e);
@@ -403,6 +407,8 @@ qdot_names_declare(qdot_names *names, const qdot_name *entry)
     QDOT_TRY(copy_texts(&copy));
     qdot_free(old->name.name);
     qdot_free(old->name.file);
+    copy.body = qdot_function_body_keep(copy.body);
+    qdot_function_body_release(old->name.body);
     old->name = copy;
     return QDOT_OK;
 }
@@ -442,18 +448,52 @@ qdot_names_remove(qdot_names *names, const char *name)
     entry_free(e);
 }
 
-qdot_status
-qdot_names_push(qdot_names *names, const char *name, qdot_expr value)
+static qdot_status
+push(qdot_names *names, qdot_name bound)
 {
-    qdot_name bound = {.name = (char *)name, .kind = QDOT_NAME_INDEX, .value = value};
-
-    QDOT_TRY(check_reserved(name));
     QDOT_TRY(copy_texts(&bound));
     if (qdot_vec_push(&names->bound, bound) != QDOT_OK) {
         qdot_free(bound.name);
         return QDOT_ENOMEM;
     }
     return QDOT_OK;
+}
+
+qdot_status
+qdot_names_push(qdot_names *names, const char *name, qdot_expr value)
+{
+    QDOT_TRY(check_reserved(name));
+    return push(names, (qdot_name){
+                           .name = (char *)name, .kind = QDOT_NAME_INDEX, .value = value});
+}
+
+qdot_status
+qdot_names_push_argument(qdot_names *names, const char *name, qdot_expr value,
+                         const char *label)
+{
+    if (strcmp(name, "t") != 0) /* an argument t stands for the time */
+        QDOT_TRY(check_reserved(name));
+    return push(names, (qdot_name){.name = (char *)name,
+                                   .kind = QDOT_NAME_ARGUMENT,
+                                   .value = value,
+                                   .label = label});
+}
+
+size_t
+qdot_names_enclose(qdot_names *names)
+{
+    const size_t outer = names->seen_from;
+
+    names->seen_from = names->bound.n;
+    return outer;
+}
+
+void
+qdot_names_disclose(qdot_names *names, size_t outer)
+{
+    while (names->bound.n > names->seen_from)
+        qdot_names_pop(names);
+    names->seen_from = outer;
 }
 
 void
@@ -540,7 +580,7 @@ qdot_names_nearest(const qdot_names *names, const char *name, size_t n,
     s.least = 2 * (s.length < 7 ? 1 : s.length < 11 ? 2 : 3) + 2;
     if (s.length == 1)
         s.least = 2; /* the other case only */
-    for (size_t i = names->bound.n; i > 0; i--)
+    for (size_t i = names->bound.n; i > names->seen_from; i--)
         consider(&s, names->bound.at[i - 1].name);
     for (size_t i = 0; i < names->order.n; i++)
         consider(&s, names->order.at[i]->name.name);

@@ -5,6 +5,7 @@
 #ifndef QDOT_LANG_NAMES_H
 #define QDOT_LANG_NAMES_H
 
+#include "base/memory.h"
 #include "expr/expr.h"
 
 typedef enum {
@@ -12,11 +13,22 @@ typedef enum {
     QDOT_NAME_COORD,    /* value: the symbol */
     QDOT_NAME_UFUN,     /* ufun: its id; value: it at its declared arguments */
     QDOT_NAME_VALUE,    /* value: any value */
-    QDOT_NAME_FUNCTION, /* formals: a LIST of FORMAL symbols; value: a LIST of forms, each a LIST
-                         * of what the arguments are there (the symbol, or a vector or matrix of
-                         * symbols) and the body for them */
-    QDOT_NAME_INDEX     /* value: what a loop or sum binds just now; hides outer names */
+    QDOT_NAME_FUNCTION, /* formals: a LIST of symbols; body: its text; value: a LIST of the
+                         * values of body->captured */
+    QDOT_NAME_INDEX,    /* value: what a loop or sum binds just now; hides outer names */
+    QDOT_NAME_ARGUMENT  /* value: what a call gives a formal argument; hides outer names */
 } qdot_name_kind;
+
+/* The text of a function's body, shared by what uses it (lang/function.h). */
+typedef struct qdot_function_body {
+    unsigned uses;
+    struct qdot_source *source;          /* kept alive */
+    const struct qdot_token *from, *to;  /* its tokens, `to` behind the last */
+    qdot_vec(const char *) captured;     /* indices of loops round the definition */
+} qdot_function_body;
+
+qdot_function_body *qdot_function_body_keep(qdot_function_body *body); /* one use more; NULL: NULL */
+void qdot_function_body_release(qdot_function_body *body);    /* one use less; the last frees it */
 
 typedef struct {
     char *name;
@@ -24,6 +36,8 @@ typedef struct {
     qdot_expr value, formals;
     qdot_expr over; /* of a VALUE: the coordinates (a LIST) its entries go by, or nil */
     uint32_t ufun;
+    qdot_function_body *body;   /* of a FUNCTION */
+    const char *label; /* of an ARGUMENT: the particle or body whose position it is, or NULL */
     char *file; /* where it was declared */
     uint32_t line;
 } qdot_name;
@@ -40,7 +54,8 @@ bool qdot_names_is_family(const qdot_names *names, const char *name);
 /* Declare. A VALUE or FUNCTION replaces a VALUE or FUNCTION; the very same PARAM again is
  * allowed (its value changes); any other clash, a family and a plain name of one spelling ("a name is
  * never both" vector and family), reserved names (pi, t, p[..] Q[..] lambda[..] delta[..], dNAME of a coordinate):
- * QDOT_ENAME with where it was declared. `entry` is copied. */
+ * QDOT_ENAME with where it was declared. `entry` is copied, with one more use of
+ * its body. */
 QDOT_MUST_CHECK qdot_status qdot_names_declare(qdot_names *names, const qdot_name *entry);
 /* Other expressions for a declared name of the same meaning. */
 void qdot_names_update(qdot_names *names, const char *name, qdot_expr value,
@@ -50,6 +65,13 @@ void qdot_names_remove(qdot_names *names, const char *name);
 QDOT_MUST_CHECK qdot_status qdot_names_push(qdot_names *names, const char *name,
                                             qdot_expr value);
 void qdot_names_pop(qdot_names *names);
+/* Bind a formal argument; `label` is borrowed and outlives it. */
+QDOT_MUST_CHECK qdot_status qdot_names_push_argument(qdot_names *names, const char *name,
+                                                     qdot_expr value, const char *label);
+/* Hide what is bound so far, as the body of a function does; returns what makes it seen again.
+ * disclose() also unbinds what was bound since. */
+size_t qdot_names_enclose(qdot_names *names);
+void qdot_names_disclose(qdot_names *names, size_t outer);
 /* i-th in order of declaration (indices left out); NULL past the end. */
 const qdot_name *qdot_names_at(const qdot_names *names, size_t i);
 /* The declared or known name nearest in spelling (edit distance), NULL if none is near. `extra` [n]:

@@ -20,7 +20,7 @@ typedef enum {
     QDOT_TOKEN_OPERATOR /* ( ) [ ] { } , ; : . .. ' + - * / ^ = == < <= > >= % ... */
 } qdot_token_kind;
 
-typedef struct {
+typedef struct qdot_token {
     uint8_t kind;
     bool glued;             /* no blank before it */
     const char *text;       /* NUL-terminated, in the source's arena */
@@ -28,6 +28,7 @@ typedef struct {
 } qdot_token;
 
 typedef struct qdot_source {
+    unsigned uses; /* freed with the last */
     char *name;
     char *text; /* NUL-terminated copy */
     size_t length;
@@ -44,7 +45,8 @@ typedef struct qdot_source {
 QDOT_MUST_CHECK qdot_status qdot_source_new(const char *name, const char *text,
                                             size_t length, qdot_source **source,
                                             size_t *at);
-void qdot_source_free(qdot_source *source);
+qdot_source *qdot_source_keep(const qdot_source *source); /* one use more */
+void qdot_source_free(qdot_source *source);               /* one use less */
 
 /* Where a byte is: line and column from 1 (columns count characters). */
 void qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line,

@@ -63,6 +63,34 @@ qdot_resolve_member(qdot_session *session, const char *name, uint32_t n,
     return qdot_text_status(member);
 }
 
+qdot_status
+qdot_resolve_label(qdot_session *s, const char *name, uint32_t n, const qdot_expr *index,
+                   const char **label)
+{
+    const qdot_name *known;
+    const qdot_particle *particle;
+    const qdot_body *body;
+    qdot_text spelled = {0};
+
+    *label = NULL;
+    if (s->scene->particles.n + s->scene->bodies.n == 0)
+        return QDOT_OK;
+    known = qdot_names_find(s->names, name);
+    if (known != NULL) {
+        *label = n == 0 ? known->label : NULL;
+        return QDOT_OK;
+    }
+    for (uint32_t i = 0; i < n; i++)
+        if (qdot_expr_kind(s->pool, index[i]) != QDOT_NUM)
+            return QDOT_OK;
+    QDOT_TRY(qdot_resolve_member(s, name, n, index, &spelled));
+    particle = qdot_scene_find_particle(s->scene, spelled.at);
+    body = qdot_scene_find_body(s->scene, spelled.at);
+    qdot_text_clear(&spelled);
+    *label = particle != NULL ? particle->name : body != NULL ? body->name : NULL;
+    return QDOT_OK;
+}
+
 /* --- primes ------------------------------------------------------------------------- */
 
 qdot_status
@@ -117,11 +145,11 @@ named(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value
     if (primes == 0)
         return QDOT_OK;
     if (qdot_expr_is_class(s->pool, *value, QDOT_COORD) &&
-        entry->kind != QDOT_NAME_VALUE) {
+        entry->kind != QDOT_NAME_VALUE && entry->kind != QDOT_NAME_ARGUMENT) {
         *value = qdot_symbol_jet(s->pool, *value, primes);
         return qdot_resolve_check(s->pool, *value);
     }
-    if (entry->kind == QDOT_NAME_VALUE)
+    if (entry->kind == QDOT_NAME_VALUE || entry->kind == QDOT_NAME_ARGUMENT)
         return ddt_times(s, primes, value);
     if (entry->kind == QDOT_NAME_UFUN) {
         const qdot_ufun *f = qdot_ufun_get(s->pool, entry->ufun);
@@ -368,8 +396,8 @@ all_integers(qdot_session *s, uint32_t n, const qdot_expr *index)
     return true;
 }
 
-/* Whether `t` is a value that is written in momenta: hamiltonian, routhian, or a name, or
- * a value of before, in which momenta stand. */
+/* Whether `t` is written in momenta: hamiltonian, routhian, poisson(...), or a name, or a value
+ * of before, in which momenta stand. */
 static bool
 is_canonical(const qdot_session *s, const qdot_token *t)
 {
@@ -380,7 +408,7 @@ is_canonical(const qdot_session *s, const qdot_token *t)
         entry = qdot_names_find(s->names, t->text);
         if (entry == NULL)
             return strcmp(t->text, "hamiltonian") == 0 ||
-                   strcmp(t->text, "routhian") == 0;
+                   strcmp(t->text, "routhian") == 0 || strcmp(t->text, "poisson") == 0;
         e = entry->value;
     } else if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "%") == 0) {
         e = s->history.n > 0 ? s->history.at[s->history.n - 1] : QDOT_NIL;
@@ -468,7 +496,8 @@ may_be_family(const qdot_session *s, const char *name)
 {
     const qdot_name *entry = qdot_names_find(s->names, name);
 
-    if (entry != NULL && entry->kind == QDOT_NAME_INDEX)
+    if (entry != NULL &&
+        (entry->kind == QDOT_NAME_INDEX || entry->kind == QDOT_NAME_ARGUMENT))
         return false; /* an argument hides the family */
     if (qdot_names_is_family(s->names, name))
         return true;

@@ -8,6 +8,7 @@
 
 #include "lang/answer.h"
 #include "lang/carry.h"
+#include "lang/function.h"
 #include "lang/statement.h"
 
 enum { FILE_LIMIT = 1 << 28, INCLUDE_LIMIT = 100 };
@@ -90,6 +91,19 @@ is_kept(const qdot_pool *pool, const qdot_name *name)
     return (qdot_expr_node(pool, name->value)->holds & scene) == 0;
 }
 
+/* A function goes with the names that its body mentions. */
+static bool
+is_function_kept(const qdot_session *session, const qdot_name *function)
+{
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++)
+        if (!is_kept(session->pool, name) &&
+            qdot_function_mentions(session->pool, function, name->name))
+            return false;
+    return true;
+}
+
 /* Carry what is kept of `old` over into `fresh`, which has a pool and names of its
  * own. */
 static qdot_status
@@ -100,7 +114,8 @@ keep(const qdot_session *old, qdot_session *fresh)
     for (size_t i = 0; (name = qdot_names_at(old->names, i)) != NULL; i++) {
         qdot_name copy = *name;
 
-        if (!is_kept(old->pool, name))
+        if (!is_kept(old->pool, name) ||
+            (name->kind == QDOT_NAME_FUNCTION && !is_function_kept(old, name)))
             continue;
         copy.value = qdot_carry(old->pool, fresh->pool, name->value);
         copy.formals = qdot_carry(old->pool, fresh->pool, name->formals);

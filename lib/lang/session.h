@@ -66,6 +66,8 @@ typedef struct qdot_session {
     bool declares;         /* the statement under way declares what stands in a scene */
     const char *taken;     /* the short name of a value that it read (lang/taken); NULL */
     qdot_vec(const char *) taken_told; /* those told already */
+    unsigned calls;        /* of functions under way, within one another */
+    bool placed;           /* the error under way names its place in a body */
     size_t loops;          /* loops under way: what they hold must outlive them */
     qdot_passed *passed;   /* while the sides of a check are read; else NULL */
 } qdot_session;

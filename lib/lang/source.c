@@ -21,6 +21,7 @@ qdot_source_new(const char *name, const char *text, size_t length, qdot_source *
     s = qdot_calloc(1, sizeof *s);
     if (s == NULL)
         return QDOT_ENOMEM;
+    s->uses = 1;
     s->name = qdot_strdup(name);
     s->text = qdot_malloc(length + 1);
     s->arena = qdot_arena_new();
@@ -41,10 +42,19 @@ qdot_source_new(const char *name, const char *text, size_t length, qdot_source *
     return status;
 }
 
+qdot_source *
+qdot_source_keep(const qdot_source *source)
+{
+    qdot_source *own = (qdot_source *)source;
+
+    own->uses++;
+    return own;
+}
+
 void
 qdot_source_free(qdot_source *source)
 {
-    if (source == NULL)
+    if (source == NULL || --source->uses > 0)
         return;
     qdot_free(source->name);
     qdot_free(source->text);

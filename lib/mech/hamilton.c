@@ -140,36 +140,95 @@ quadratic(legendre *l)
     return qdot_sub(pool, sum, at_rest);
 }
 
+/* Solve the momenta of the coordinates q [n] for their velocities; l->q is the caller's to free.
+ * False: the pool has the cause. */
+static bool
+begin(legendre *l, qdot_scene *s, uint32_t n, const qdot_expr *q)
+{
+    qdot_pool *pool = s->pool;
+
+    *l = (legendre){.s = s,
+                    .pool = pool,
+                    .facts = qdot_scene_facts(s),
+                    .n = n,
+                    .L = qdot_mech_lagrangian(s)};
+    l->q = qdot_calloc((size_t)n * n + 5 * n + 1, sizeof *l->q);
+    if (l->q == NULL) {
+        qdot_pool_fail(pool);
+        return false;
+    }
+    l->qdot = l->q + n;
+    l->p = l->qdot + n;
+    l->rest = l->p + n;
+    l->solved = l->rest + n;
+    l->A = l->solved + n;
+    for (uint32_t i = 0; i < n; i++) {
+        l->q[i] = q[i];
+        l->qdot[i] = qdot_symbol_jet(pool, q[i], 1);
+        l->p[i] = qdot_symbol_of(pool, QDOT_MOMENTUM, q[i]);
+    }
+    return !qdot_pool_failed(pool) && linear_form(l) && solve(l);
+}
+
 /* sum p q' - L over the coordinates q [n], their velocities replaced. */
 static qdot_expr
 transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
-    qdot_pool *pool = s->pool;
-    legendre l = {.s = s,
-                  .pool = pool,
-                  .facts = qdot_scene_facts(s),
-                  .n = n,
-                  .L = qdot_mech_lagrangian(s)};
-    qdot_expr result = QDOT_NIL;
+    legendre l;
+    qdot_expr result = begin(&l, s, n, q) ? quadratic(&l) : QDOT_NIL;
 
-    l.q = qdot_calloc((size_t)n * n + 5 * n + 1, sizeof *l.q);
-    if (l.q == NULL)
-        return qdot_pool_fail(pool);
-    l.qdot = l.q + n;
-    l.p = l.qdot + n;
-    l.rest = l.p + n;
-    l.solved = l.rest + n;
-    l.A = l.solved + n;
-    for (uint32_t i = 0; i < n; i++) {
-        l.q[i] = q[i];
-        l.qdot[i] = qdot_symbol_jet(pool, q[i], 1);
-        l.p[i] = qdot_symbol_of(pool, QDOT_MOMENTUM, q[i]);
-    }
-    if (!qdot_pool_failed(pool) && linear_form(&l) && solve(&l)) {
-        result = quadratic(&l);
-    }
     qdot_free(l.q);
     return result;
+}
+
+/* e with every velocity replaced by what it is in momenta. */
+static qdot_expr
+in_momenta(qdot_scene *s, qdot_expr e)
+{
+    legendre l;
+
+    if (e == QDOT_NIL)
+        return QDOT_NIL;
+    if (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_ACCELERATION) {
+        qdot_mech_fail(s, QDOT_ETYPE,
+                       "a Poisson bracket is of functions of coordinates, momenta and "
+                       "velocities: here stands an acceleration");
+        return QDOT_NIL;
+    }
+    if (!(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY))
+        return e;
+    e = begin(&l, s, (uint32_t)s->coordinates.n, s->coordinates.at)
+            ? qdot_subs(s->pool, e, l.n, l.qdot, l.solved)
+            : QDOT_NIL;
+    qdot_free(l.q);
+    return e;
+}
+
+qdot_expr
+qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g)
+{
+    qdot_pool *pool = s->pool;
+    qdot_facts facts = qdot_scene_facts(s);
+    qdot_expr sum = QDOT_ZERO;
+
+    if (s->coordinates.n == 0) {
+        qdot_mech_fail(s, QDOT_EINVAL, "the scene has no coordinate");
+        return QDOT_NIL;
+    }
+    f = in_momenta(s, f);
+    g = in_momenta(s, g);
+    if (f == QDOT_NIL || g == QDOT_NIL)
+        return QDOT_NIL;
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_expr q = s->coordinates.at[i],
+                        p = qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+
+        sum = qdot_add(pool, sum,
+                       qdot_sub(pool,
+                                qdot_mul(pool, qdot_diff(pool, f, q), qdot_diff(pool, g, p)),
+                                qdot_mul(pool, qdot_diff(pool, f, p), qdot_diff(pool, g, q))));
+    }
+    return qdot_simplify(pool, sum, &facts);
 }
 
 qdot_expr

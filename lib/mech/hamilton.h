@@ -18,4 +18,10 @@
 qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
 qdot_expr qdot_hamilton_routhian(qdot_scene *s);
 
+/* Poisson's bracket sum (df/dq dg/dp - df/dp dg/dq) over all coordinates, f and g scalars; velocities
+ * in them are replaced by momenta first. Where there are constraints it is not Dirac's bracket.
+ *
+ * Source  Goldstein, Poole, Safko, 9.5. */
+qdot_expr qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g);
+
 #endif
