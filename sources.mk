@@ -548,6 +548,7 @@ lang_sources = \
 	lib/lang/report.c \
 	lib/lang/resolve.c \
 	lib/lang/rest.c \
+	lib/lang/series.c \
 	lib/lang/session.c \
 	lib/lang/source.c \
 	lib/lang/start.c \
@@ -777,6 +778,7 @@ script_tests = \
 	tests/script/routh.lag \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
+	tests/script/series-removable.lag \
 	tests/script/several.sh \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
@@ -924,6 +926,7 @@ script_tests = \
 	tests/bad/same-label.lag \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
+	tests/bad/series-none.sh \
 	tests/bad/set-circle.lag \
 	tests/bad/set-coordinate.lag \
 	tests/bad/set-domain.lag \
@@ -1169,6 +1172,7 @@ test_files = \
 	tests/bad/same-label.out \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
+	tests/bad/series-none.out \
 	tests/bad/set-circle.out \
 	tests/bad/set-coordinate.out \
 	tests/bad/set-domain.out \
@@ -1441,6 +1445,7 @@ test_files = \
 	tests/script/routh.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
+	tests/script/series-removable.out \
 	tests/script/several.out \
 	tests/script/signs.out \
 	tests/script/slow-margin.out \

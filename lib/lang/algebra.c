@@ -1,4 +1,4 @@
-/* algebra.c -- replacements, solutions, factors, series, eigenvalues. */
+/* algebra.c -- replacements, solutions, factors, eigenvalues. */
 #include "lang/algebra.h"
 
 #include "base/memory.h"
@@ -24,13 +24,8 @@ is_equation(const qdot_pool *pool, qdot_expr e)
 
 /* --- subs --------------------------------------------------------------------------- */
 
-typedef struct {
-    qdot_vec(qdot_expr) from, to;
-} replacements;
-
-/* Take the equation, or those in a list or vector, as replacements. */
-static qdot_status
-gather(qdot_session *s, const char *name, qdot_expr e, replacements *r)
+qdot_status
+qdot_algebra_gather(qdot_session *s, const char *name, qdot_expr e, qdot_replacements *r)
 {
     qdot_kind kind = qdot_expr_kind(s->pool, e);
     bool many = kind == QDOT_LIST || kind == QDOT_VEC;
@@ -53,23 +48,29 @@ gather(qdot_session *s, const char *name, qdot_expr e, replacements *r)
     return QDOT_OK;
 }
 
+void
+qdot_algebra_drop(qdot_replacements *r)
+{
+    qdot_free(r->from.at);
+    qdot_free(r->to.at);
+}
+
 qdot_status
 qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
-    replacements r = {0};
+    qdot_replacements r = {0};
     qdot_status status = QDOT_OK;
 
     for (uint32_t i = 1; i < n && status == QDOT_OK; i++)
-        status = gather(s, "subs", args[i], &r);
+        status = qdot_algebra_gather(s, "subs", args[i], &r);
     if (status == QDOT_OK)
         status =
             give(s, qdot_subs(s->pool, args[0], r.from.n, r.from.at, r.to.at), value);
-    qdot_free(r.from.at);
-    qdot_free(r.to.at);
+    qdot_algebra_drop(&r);
     return status;
 }
 
-/* --- factor, solve, series, eigenvalues --------------------------------------------- */
+/* --- factor, solve, eigenvalues ----------------------------------------------------- */
 
 qdot_status
 qdot_algebra_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
@@ -113,140 +114,6 @@ qdot_algebra_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
     qdot_free(values);
     qdot_free(roots);
     return qdot_resolve_check(s->pool, *value);
-}
-
-/* Whether the term is a product in which a sum holds one of the symbols. */
-static bool
-is_nested(const qdot_pool *pool, qdot_expr term, size_t n, const qdot_expr *symbols)
-{
-    for (uint32_t i = 1; qdot_expr_kind(pool, term) == QDOT_PROD &&
-                         i < qdot_expr_count(pool, term);
-         i += 2) {
-        qdot_expr base = qdot_expr_arg(pool, term, i);
-
-        for (size_t k = 0; qdot_expr_kind(pool, base) == QDOT_SUM && k < n; k++)
-            if (qdot_expr_contains(pool, base, symbols[k]))
-                return true;
-    }
-    return false;
-}
-
-typedef struct {
-    replacements r; /* x by a + ray u; u by x - a */
-    qdot_vec(qdot_expr) steps; /* u */
-} ray;
-
-/* Of one degree, its products of sums in u multiplied out. */
-static qdot_expr
-multiplied_out(qdot_pool *pool, qdot_expr scalar, void *user)
-{
-    const ray *x = user;
-    bool nested = is_nested(pool, scalar, x->steps.n, x->steps.at);
-
-    for (uint32_t i = 1; qdot_expr_kind(pool, scalar) == QDOT_SUM && !nested &&
-                         i < qdot_expr_count(pool, scalar);
-         i += 2)
-        nested = is_nested(pool, qdot_expr_arg(pool, scalar, i), x->steps.n, x->steps.at);
-    return nested ? qdot_expand(pool, scalar) : scalar;
-}
-
-/* The sum of D^k f / k! at ray = 0, in u. */
-static qdot_expr
-along(qdot_pool *pool, qdot_expr f, qdot_expr symbol, long most, ray *x)
-{
-    qdot_expr zero = QDOT_ZERO;
-    qdot_expr sum = f == QDOT_NIL ? f : qdot_subs(pool, f, 1, &symbol, &zero);
-
-    for (long k = 1; k <= most && sum != QDOT_NIL && f != QDOT_ZERO; k++) {
-        qdot_expr term;
-
-        f = qdot_value_div(pool, qdot_diff(pool, f, symbol), qdot_expr_int(pool, k));
-        term = qdot_subs(pool, f, 1, &symbol, &zero);
-        sum = qdot_value_add(pool, sum,
-                             qdot_value_map(pool, term, multiplied_out, x));
-    }
-    return sum;
-}
-
-/* Fill x of the equations x = a. */
-static qdot_status
-directions(qdot_session *s, qdot_expr symbol, uint32_t n, const qdot_expr *args, ray *x)
-{
-    qdot_pool *pool = s->pool;
-
-    for (uint32_t i = 0; i < n; i++)
-        QDOT_TRY(gather(s, "series", args[i], &x->r));
-    for (size_t i = 0; i < x->r.from.n; i++) {
-        qdot_text name = {0};
-        qdot_status status;
-
-        if (qdot_expr_kind(pool, x->r.from.at[i]) != QDOT_SYM)
-            return qdot_fail(QDOT_ETYPE, "a series is in symbols: series(e, x = a, n)");
-        qdot_text_format(&name, "ray %zu", i);
-        status = qdot_text_status(&name);
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&x->steps, qdot_symbol_get(pool, QDOT_FORMAL, name.at));
-        qdot_text_clear(&name);
-        QDOT_TRY(status);
-        x->r.to.at[i] =
-            qdot_add(pool, x->r.to.at[i], qdot_mul(pool, symbol, x->steps.at[i]));
-    }
-    return qdot_pool_check(pool);
-}
-
-static qdot_status
-series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long most,
-          qdot_expr *value)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr symbol = qdot_symbol_get(pool, QDOT_FORMAL, "ray");
-    ray x = {0};
-    qdot_status status = directions(s, symbol, n, args, &x);
-
-    if (status == QDOT_OK) {
-        qdot_expr sum = along(pool, qdot_subs(pool, e, x.r.from.n, x.r.from.at, x.r.to.at),
-                              symbol, most, &x);
-
-        for (size_t i = 0; i < x.r.from.n; i++) /* a + ray u, back to u = x - a */
-            x.r.to.at[i] = qdot_sub(pool, x.r.from.at[i],
-                                    qdot_subs(pool, x.r.to.at[i], 1, &symbol,
-                                              (qdot_expr[]){QDOT_ZERO}));
-        status = give(s, qdot_subs(pool, sum, x.steps.n, x.steps.at, x.r.to.at), value);
-        s->series_in = qdot_list(pool, (uint32_t)x.r.from.n, x.r.from.at);
-    }
-    qdot_free(x.r.from.at);
-    qdot_free(x.r.to.at);
-    qdot_free(x.steps.at);
-    return status;
-}
-
-/* series(e, x = a, y = b, n): in s up to s^n of e at x = a + s (x - a) ..., at s = 1; of a list
- * member by member. */
-qdot_status
-qdot_algebra_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    bool list = qdot_expr_kind(s->pool, args[0]) == QDOT_LIST;
-    uint32_t count = list ? qdot_expr_count(s->pool, args[0]) : 1;
-    qdot_expr *members;
-    qdot_status status = QDOT_OK;
-    long most;
-
-    QDOT_TRY(qdot_session_integer(s, args[n - 1], &most));
-    if (most < 0 || most > 1000)
-        return qdot_fail(QDOT_EDOMAIN, "a series goes up to degree 0 ... 1000, not %ld",
-                         most);
-    members = qdot_malloc((count + 1) * sizeof *members);
-    if (members == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < count && status == QDOT_OK; i++)
-        status = series_of(s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0], n - 2,
-                           args + 1, most, &members[i]);
-    if (status == QDOT_OK)
-        status = give(s, list ? qdot_list(s->pool, count, members) : members[0], value);
-    if (status == QDOT_OK)
-        s->series = *value;
-    qdot_free(members);
-    return status;
 }
 
 /* Every root of det(M - x 1), as often as it is one. */

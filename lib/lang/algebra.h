@@ -10,8 +10,18 @@
 QDOT_ALGEBRA(subs);
 QDOT_ALGEBRA(factor);
 QDOT_ALGEBRA(solve);
-QDOT_ALGEBRA(series);
+QDOT_ALGEBRA(series); /* in lang/series.c */
 QDOT_ALGEBRA(eigenvalues);
 #undef QDOT_ALGEBRA
+
+/* x = a, y = b as replacements; the arrays are the caller's to drop. */
+typedef struct {
+    qdot_vec(qdot_expr) from, to;
+} qdot_replacements;
+
+/* Add the equation e, or those in a list or vector; `name`: the function that takes them. */
+QDOT_MUST_CHECK qdot_status qdot_algebra_gather(qdot_session *s, const char *name, qdot_expr e,
+                                                qdot_replacements *r);
+void qdot_algebra_drop(qdot_replacements *r);
 
 #endif

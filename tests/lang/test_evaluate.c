@@ -52,25 +52,18 @@ undefined_functions_apply(void **state)
 static void
 user_functions_replace_their_formals(void **state)
 {
-    qdot_name f = {.name = (char *)"f", .kind = QDOT_NAME_FUNCTION};
+    static const char text[] = "f(u) = u^2/2 + m; D(u) = diff(u, theta)";
     reading r;
-    qdot_expr u, form[2];
 
     (void)state;
     reading_open(&r);
-    u = qdot_symbol_get(r.session->pool, QDOT_FORMAL, "u");
-    f.formals = qdot_list(r.session->pool, 1, &u);
-    assert_int_equal(qdot_names_push(r.session->names, "u", u), QDOT_OK);
-    form[0] = u;
-    assert_int_equal(reading_value(&r, "u^2/2 + m", form + 1), QDOT_OK);
-    form[0] = qdot_list(r.session->pool, 2, form);
-    f.value = qdot_list(r.session->pool, 1, form);
-    qdot_names_pop(r.session->names);
-    assert_int_equal(qdot_names_declare(r.session->names, &f), QDOT_OK);
+    assert_int_equal(qdot_session_run_text(r.session, "a", text, sizeof text - 1), 0);
     assert_same(&r, "f(3)", "9/2 + m");
     assert_same(&r, "f(f(2))", "(2 + m)^2/2 + m");
     assert_same(&r, "f'(theta)", "theta");
     assert_same(&r, "f((1, 2))", "(1/2 + m, 2 + m)");
+    assert_same(&r, "D(theta^2)", "2*theta");
+    assert_fails(&r, "D'(theta)", QDOT_ETYPE, 0, "no function of a number alone", "diff(D(");
     assert_fails(&r, "f(1, 2)", QDOT_ETYPE, 0, "`f` takes 1 argument, not 2", "");
     assert_fails(&r, "f", QDOT_ETYPE, 0, "`f` is a function", "f(...)");
     reading_close(&r);

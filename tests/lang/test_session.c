@@ -137,7 +137,7 @@ a_failed_statement_declares_nothing(void **state)
         "param u = w",        "function f(s), x(s)",
         "u = nothing",        "param u, v oops",
         "set m = 2, x = 1",   "particle p mass m at (x, q)",
-        "start x = 1, m = 2", "f(u) = u + nothing",
+        "start x = 1, m = 2", "f(u) = u + ",
     };
     talk *k = *state;
     size_t names;
