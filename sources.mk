@@ -1034,6 +1034,7 @@ script_tests = \
 	examples/virtual-work.lag
 
 meta_tests = \
+	tests/meta/bootstrap.test \
 	tests/meta/floors.test \
 	tests/meta/late.test \
 	tests/meta/manual.test \
