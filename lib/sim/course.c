@@ -222,24 +222,29 @@ check_level(qdot_piece *x, size_t from, double t, const double *y)
 
 /* A piece ends at the first double behind the root that ends it, in all courses alike: that is
  * late, and never early, which adds up. A companion goes on as if it had left before the root,
- * the other one as if later still: by half the time between doubles times how the equations
- * differ. */
+ * the other one as if later still: by half the time between doubles. In this time it goes by
+ * one mode, and takes back what it went by the other; SIZE_MAX is none. */
 static qdot_status
-make_up(qdot_piece *x, size_t from, double t, double *y)
+make_up(qdot_piece *x, size_t by, size_t instead_of, double t, double *y)
 {
-    const qdot_ode_system *old = x->c->systems.at + from, *next = x->c->systems.at + x->mode;
+    const size_t modes[] = {by, instead_of};
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     const double late = x->direction * x->c->early * 0x1p-53 * fabs(t);
-    double *moved = qdot_malloc(3 * x->n * sizeof *moved), *before = moved + x->n;
+    double *moved = qdot_malloc(2 * x->n * sizeof *moved), *rate = moved + x->n;
     long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
     qdot_status status = moved && sides ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = old->rhs(t, y, before, old->user);
-    if (status == QDOT_OK)
-        status = next->rhs(t, y, before + x->n, next->user);
-    for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
-        moved[i] = y[i] - late * (before[x->n + i] - before[i]);
+        memcpy(moved, y, x->n * sizeof *y);
+    for (size_t k = 0; k < 2 && status == QDOT_OK; k++) {
+        const qdot_ode_system *system = x->c->systems.at + modes[k];
+
+        if (modes[k] == SIZE_MAX)
+            continue;
+        status = system->rhs(t, y, rate, system->user);
+        for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
+            moved[i] += (k == 0 ? late : -late) * rate[i];
+    }
     if (status == QDOT_OK)
         status = qdot_stage_sides(x->c->stage, t, y, NULL, sides);
     if (status == QDOT_OK)
@@ -249,6 +254,13 @@ make_up(qdot_piece *x, size_t from, double t, double *y)
     qdot_free(moved);
     qdot_free(sides);
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* Whether a companion's state may be moved so: not along constraints. */
+static bool
+makes_up(const qdot_piece *x)
+{
+    return x->c->early != 0 && !x->c->systems.at[x->mode].project;
 }
 
 /* --- the whole ----------------------------------------------------------------------- */
@@ -266,10 +278,22 @@ qdot_piece_cross(qdot_piece *x, size_t from, double t, double *y, bool jumped, b
     if (x->c->reason[0] != '\0')
         return QDOT_OK;
     qdot_piece_carry(x, from, jumped);
-    if (x->c->early != 0 && from != x->mode && first && !jumped
-        && !x->c->systems.at[x->mode].project)
-        QDOT_TRY(make_up(x, from, t, y));
+    if (first && (jumped || from != x->mode) && makes_up(x))
+        QDOT_TRY(make_up(x, jumped ? SIZE_MAX : from, x->mode, t, y));
     return QDOT_OK;
+}
+
+/* Whether an event that ends the piece has a `then`. */
+static bool
+changes_state(const qdot_piece *x)
+{
+    for (size_t i = 0; i < x->roots.n; i++) {
+        const qdot_watched *w = &qdot_piece_mode(x)->watched[x->roots.at[i].function];
+
+        if (w->kind == QDOT_WATCH_EVENT && x->c->stage->events.at[w->index].then)
+            return true;
+    }
+    return false;
 }
 
 static qdot_status
@@ -301,7 +325,10 @@ loop(qdot_piece *x, double t0, const double *y0)
         jumped = false;
         t = c->tr.t[c->tr.count - 1];
         memcpy(y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *y);
-        status = qdot_piece_act(x, y, &over, &jumped);
+        if (makes_up(x) && changes_state(x))
+            status = make_up(x, x->mode, SIZE_MAX, t, y);
+        if (status == QDOT_OK)
+            status = qdot_piece_act(x, y, &over, &jumped);
         if (status == QDOT_OK && over && jumped)
             status = qdot_trajectory_resume(&c->tr, &c->systems.at[x->mode], x->mode,
                                             true, x->options, t, y);

@@ -124,7 +124,9 @@ compare(qdot_distance *d, size_t piece, double t, const double *values, double *
     for (size_t j = 0; j < d->m; j++)
         out[j] = own[j] = 0;
     for (size_t k = 0; k < d->n_others && there; k++, theirs += d->m) {
-        qdot_status status = qdot_reader_at(d->others + k, piece, t, theirs);
+        const size_t pieces = (k == 0 ? &d->run->companion : &d->run->twin)->tr.pieces.n;
+        const size_t same = piece < pieces ? piece : pieces - 1; /* one without length */
+        qdot_status status = qdot_reader_at(d->others + k, same, t, theirs);
 
         if (status != QDOT_OK && !is_nothing(status))
             return status;

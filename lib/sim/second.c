@@ -19,18 +19,29 @@ goal(const qdot_run *run)
 
 /* --- comparing ----------------------------------------------------------------------- */
 
-/* A last piece without length, as where a motion would slide, decides nothing: moved a little
- * the companion may go on there, or end before it. */
+/* A switch at the end is met or missed by a rounding of t. */
+static const double no_length = 8 * DBL_EPSILON;
+
+/* Whether the last piece has no length, as where a motion would slide. */
+static bool
+ends_in_point(const qdot_trajectory *tr)
+{
+    const qdot_trajectory_piece *last = tr->pieces.at + tr->pieces.n - 1;
+    const double end = tr->t[tr->count - 1];
+
+    return tr->pieces.n > 1 && !last->jumped
+           && fabs(end - tr->t[last->first]) <= no_length * fabs(end);
+}
+
+/* A last piece without length decides nothing: moved a little the companion may go on there,
+ * or end before it, and one that has it may be the companion's. */
 static bool
 went_alike(const qdot_course *run, const qdot_course *other)
 {
     const qdot_trajectory *a = &run->tr, *b = &other->tr;
-    const qdot_trajectory_piece *last =
-        a->pieces.n > 1 ? a->pieces.at + a->pieces.n - 1 : NULL;
-    const bool point = last && !last->jumped && a->t[last->first] == a->t[a->count - 1];
-    const size_t n = a->pieces.n - (point ? 1 : 0);
+    const size_t n = a->pieces.n - (ends_in_point(a) ? 1 : 0);
 
-    if (b->pieces.n < n || b->pieces.n > a->pieces.n)
+    if (b->pieces.n < n || b->pieces.n > a->pieces.n + (ends_in_point(b) ? 1 : 0))
         return false;
     for (size_t i = 0; i < n; i++)
         if (a->pieces.at[i].mode != b->pieces.at[i].mode)
