@@ -322,6 +322,7 @@ mech_sources = \
 	lib/mech/geometry.c \
 	lib/mech/hamilton.c \
 	lib/mech/integrable.c \
+	lib/mech/kind.c \
 	lib/mech/kinematics.c \
 	lib/mech/label.c \
 	lib/mech/lagrange.c \
@@ -333,8 +334,10 @@ mech_sources = \
 	lib/mech/nested.c \
 	lib/mech/noether.c \
 	lib/mech/numeric.c \
+	lib/mech/place.c \
 	lib/mech/reactions.c \
 	lib/mech/recursive.c \
+	lib/mech/remove.c \
 	lib/mech/scene-print.c \
 	lib/mech/scene-replace.c \
 	lib/mech/scene.c \
@@ -535,6 +538,7 @@ lang_sources = \
 	lib/lang/letters.c \
 	lib/lang/lex.c \
 	lib/lang/loop.c \
+	lib/lang/meant.c \
 	lib/lang/member.c \
 	lib/lang/names.c \
 	lib/lang/number.c \
@@ -545,9 +549,9 @@ lang_sources = \
 	lib/lang/range.c \
 	lib/lang/read.c \
 	lib/lang/redirect.c \
+	lib/lang/remove.c \
 	lib/lang/report.c \
 	lib/lang/resolve.c \
-	lib/lang/rest.c \
 	lib/lang/series.c \
 	lib/lang/session.c \
 	lib/lang/source.c \
@@ -555,6 +559,7 @@ lang_sources = \
 	lib/lang/statement.c \
 	lib/lang/styled.c \
 	lib/lang/taken.c \
+	lib/lang/values.c \
 	lib/lang/words.c \
 	lib/lang/workbench.c \
 	lib/lang/workprecision.c
@@ -572,14 +577,15 @@ lang_headers = \
 	lib/lang/draw.h \
 	lib/lang/equilibria.h \
 	lib/lang/function.h \
+	lib/lang/meant.h \
 	lib/lang/names.h \
 	lib/lang/number.h \
 	lib/lang/read.h \
 	lib/lang/redirect.h \
-	lib/lang/rest.h \
 	lib/lang/session.h \
 	lib/lang/statement.h \
-	lib/lang/taken.h
+	lib/lang/taken.h \
+	lib/lang/values.h
 
 program_sources = \
 	src/main.c \
@@ -682,6 +688,7 @@ unit_tests = \
 
 script_tests = \
 	tests/script/accel-long.lag \
+	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
 	tests/script/cases.sh \
@@ -716,6 +723,7 @@ script_tests = \
 	tests/script/flat-places.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
+	tests/script/force-material.lag \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
 	tests/script/function-calculus.lag \
@@ -734,6 +742,7 @@ script_tests = \
 	tests/script/json-run.sh \
 	tests/script/json.lag \
 	tests/script/jumps.sh \
+	tests/script/labels.lag \
 	tests/script/leading.sh \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
@@ -760,6 +769,7 @@ script_tests = \
 	tests/script/names.lag \
 	tests/script/narrow-events.lag \
 	tests/script/narrow.lag \
+	tests/script/notices.lag \
 	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
 	tests/script/parts.lag \
@@ -798,6 +808,13 @@ script_tests = \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
 	tests/bad/as-number.lag \
+	tests/bad/assumed-equation.lag \
+	tests/bad/assumed-function.lag \
+	tests/bad/assumed-later.lag \
+	tests/bad/assumed-param.lag \
+	tests/bad/assumed-said.lag \
+	tests/bad/assumed-set.lag \
+	tests/bad/assumed-with.lag \
 	tests/bad/bad-method.lag \
 	tests/bad/bad-tolerance.lag \
 	tests/bad/bare-power.lag \
@@ -868,6 +885,7 @@ script_tests = \
 	tests/bad/integrable-nonlinear.lag \
 	tests/bad/integrable-unknown.lag \
 	tests/bad/interrupt.sh \
+	tests/bad/label-term.lag \
 	tests/bad/lagrangian-beside.lag \
 	tests/bad/lambda-component.lag \
 	tests/bad/lambda-unknown.lag \
@@ -876,7 +894,10 @@ script_tests = \
 	tests/bad/lone-point.lag \
 	tests/bad/loop-half.lag \
 	tests/bad/loop-limit.lag \
+	tests/bad/material-particle.lag \
+	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
+	tests/bad/max-without-run.lag \
 	tests/bad/mismatched.lag \
 	tests/bad/missing-option.lag \
 	tests/bad/missing-times.lag \
@@ -914,6 +935,9 @@ script_tests = \
 	tests/bad/reactions-none.lag \
 	tests/bad/redeclared-coordinate.lag \
 	tests/bad/redeclared-parameter.lag \
+	tests/bad/remove-beyond.lag \
+	tests/bad/remove-none.lag \
+	tests/bad/remove-which.lag \
 	tests/bad/reserved.lag \
 	tests/bad/reset-in-loop.lag \
 	tests/bad/rest-negative-param.lag \
@@ -959,6 +983,7 @@ script_tests = \
 	tests/bad/taken-nothing.lag \
 	tests/bad/text-compared.lag \
 	tests/bad/then-constraint.lag \
+	tests/bad/then-parameter.lag \
 	tests/bad/to-ending.lag \
 	tests/bad/too-long.lag \
 	tests/bad/trailing.lag \
@@ -977,6 +1002,7 @@ script_tests = \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
 	examples/bouncing-ball.lag \
+	examples/bowling-ball.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
 	examples/chain.lag \
@@ -1045,6 +1071,13 @@ meta_tests = \
 test_files = \
 	tests/bad/acceleration-position.out \
 	tests/bad/as-number.out \
+	tests/bad/assumed-equation.out \
+	tests/bad/assumed-function.out \
+	tests/bad/assumed-later.out \
+	tests/bad/assumed-param.out \
+	tests/bad/assumed-said.out \
+	tests/bad/assumed-set.out \
+	tests/bad/assumed-with.out \
 	tests/bad/bad-method.out \
 	tests/bad/bad-tolerance.out \
 	tests/bad/bare-power.out \
@@ -1115,6 +1148,7 @@ test_files = \
 	tests/bad/integrable-nonlinear.out \
 	tests/bad/integrable-unknown.out \
 	tests/bad/interrupt.out \
+	tests/bad/label-term.out \
 	tests/bad/lagrangian-beside.out \
 	tests/bad/lambda-component.out \
 	tests/bad/lambda-unknown.out \
@@ -1123,7 +1157,10 @@ test_files = \
 	tests/bad/lone-point.out \
 	tests/bad/loop-half.out \
 	tests/bad/loop-limit.out \
+	tests/bad/material-particle.out \
+	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
+	tests/bad/max-without-run.out \
 	tests/bad/mismatched.out \
 	tests/bad/missing-option.out \
 	tests/bad/missing-times.out \
@@ -1161,6 +1198,9 @@ test_files = \
 	tests/bad/reactions-none.out \
 	tests/bad/redeclared-coordinate.out \
 	tests/bad/redeclared-parameter.out \
+	tests/bad/remove-beyond.out \
+	tests/bad/remove-none.out \
+	tests/bad/remove-which.out \
 	tests/bad/reserved.out \
 	tests/bad/reset-in-loop.out \
 	tests/bad/rest-negative-param.out \
@@ -1206,6 +1246,7 @@ test_files = \
 	tests/bad/taken-nothing.out \
 	tests/bad/text-compared.out \
 	tests/bad/then-constraint.out \
+	tests/bad/then-parameter.out \
 	tests/bad/to-ending.out \
 	tests/bad/too-long.out \
 	tests/bad/trailing.out \
@@ -1223,6 +1264,7 @@ test_files = \
 	tests/examples/acceleration-constraint.out \
 	tests/examples/bead-on-wire.out \
 	tests/examples/bicycle.out \
+	tests/examples/bowling-ball.out \
 	tests/examples/bricard.out \
 	tests/examples/car-axis.out \
 	tests/examples/chain.out \
@@ -1331,6 +1373,7 @@ test_files = \
 	tests/num/kit.h \
 	tests/ode/problems.h \
 	tests/script/accel-long.out \
+	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
 	tests/script/cases.inc \
@@ -1370,6 +1413,7 @@ test_files = \
 	tests/script/flat-places.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
+	tests/script/force-material.out \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
 	tests/script/function-calculus.out \
@@ -1401,6 +1445,7 @@ test_files = \
 	tests/script/json-run.out \
 	tests/script/json.out \
 	tests/script/jumps.out \
+	tests/script/labels.out \
 	tests/script/leading.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
@@ -1428,6 +1473,7 @@ test_files = \
 	tests/script/narrow-events.out \
 	tests/script/narrow.out \
 	tests/script/normalise.sed \
+	tests/script/notices.out \
 	tests/script/on-surfaces.out \
 	tests/script/order.out \
 	tests/script/parts.out \

@@ -567,16 +567,13 @@ qdot_answer_in_file(qdot_session *session, const char *path, const qdot_text *te
     return qdot_answer_file(session, path);
 }
 
-qdot_status
-qdot_answer_notice(qdot_session *session, const char *format, ...)
+enum { NOTICE = 4096 };
+
+static qdot_status
+put_notice(qdot_session *session, const char *message)
 {
     qdot_text line = {0};
-    char message[4096];
-    va_list ap;
 
-    va_start(ap, format);
-    vsnprintf(message, sizeof message, format, ap);
-    va_end(ap);
     if (session->console != NULL ? session->console_json : session->json) {
         qdot_text_add(&line, "{\"kind\":\"notice\",\"message\":");
         qdot_text_json(&line, message);
@@ -585,6 +582,40 @@ qdot_answer_notice(qdot_session *session, const char *format, ...)
         qdot_text_format(&line, "notice: %s\n", message);
     }
     return put(session->console != NULL ? session->console : session->out, &line);
+}
+
+qdot_status
+qdot_answer_notice(qdot_session *session, const char *format, ...)
+{
+    char message[NOTICE];
+    va_list ap;
+
+    va_start(ap, format);
+    vsnprintf(message, sizeof message, format, ap);
+    va_end(ap);
+    return put_notice(session, message);
+}
+
+qdot_status
+qdot_answer_notice_once(qdot_session *session, const char *format, ...)
+{
+    char message[NOTICE], *copy;
+    va_list ap;
+
+    va_start(ap, format);
+    vsnprintf(message, sizeof message, format, ap);
+    va_end(ap);
+    for (size_t i = 0; i < session->told.n; i++)
+        if (strcmp(session->told.at[i], message) == 0)
+            return QDOT_OK;
+    copy = qdot_strdup(message);
+    if (copy == NULL)
+        return QDOT_ENOMEM;
+    if (qdot_vec_push(&session->told, copy) != QDOT_OK) {
+        qdot_free(copy);
+        return QDOT_ENOMEM;
+    }
+    return put_notice(session, message);
 }
 
 static void

@@ -87,6 +87,10 @@ QDOT_MUST_CHECK qdot_status qdot_answer_in_file(qdot_session *session, const cha
 /* {"kind":"notice"}: `notice: MESSAGE` (printf). */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char *format,
                                                ...) QDOT_PRINTF(2, 3);
+/* The same, unless these very words were said in this session. */
+QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
+                                                    const char *format, ...)
+    QDOT_PRINTF(2, 3);
 
 /* The last failure: reported with line, caret and hint on session->err and, with
  * --json, as {"kind":"error"} on session->out. `at`: the byte of the source. source

@@ -6,6 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
+#include "lang/meant.h"
 #include "lang/number.h"
 #include "lang/algebra.h"
 #include "lang/answer.h"
@@ -49,7 +50,7 @@ elementary_of(qdot_pool *pool, qdot_expr scalar, void *user)
 }
 
 /* Of one argument on every scalar inside it; of more, of numbers. min and max of one list
- * or vector are those of its members. */
+ * or vector are those of its members, of one number that moves those of the latest run. */
 static qdot_status
 elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
            qdot_expr *value)
@@ -60,6 +61,9 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
 
     if (n == 1 && id != QDOT_MIN && id != QDOT_MAX)
         return give(s, qdot_value_map(s->pool, args[0], elementary_of, &id), value);
+    if (n == 1 && qdot_expr_is_scalar(s->pool, args[0]) &&
+        (qdot_expr_node(s->pool, args[0])->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
+        return qdot_number_range(s, NULL, qdot_fun_name(id), 1, args, NULL, value);
     if (n > 1 || (kind != QDOT_LIST && kind != QDOT_VEC) ||
         qdot_expr_count(s->pool, args[0]) == 0) {
         for (uint32_t i = 0; i < n; i++)
@@ -125,6 +129,8 @@ call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     if (times < 0)
         return qdot_fail(QDOT_EDOMAIN, "a derivative is taken 0, 1, 2 ... times, not %ld",
                          times);
+    if (args[1] == QDOT_T && times > 0)
+        QDOT_TRY(qdot_meant_tell_partial(s, e));
     for (; times > 0 && e != QDOT_NIL && e != QDOT_ZERO; times--)
         e = qdot_diff(s->pool, e, args[1]);
     return e == args[0] ? give(s, e, value) : give_short(s, e, value);

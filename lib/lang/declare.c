@@ -4,6 +4,7 @@
  * of them cannot be, those before it are taken back.
  */
 #include "lang/statement.h"
+#include "lang/values.h"
 
 #include <string.h>
 
@@ -12,8 +13,7 @@
 #include "lang/answer.h"
 #include "lang/declare.h"
 #include "lang/function.h"
-#include "lang/rest.h"
-#include "lang/taken.h"
+#include "lang/meant.h"
 
 /* --- lists of names with domains ---------------------------------------------------- */
 
@@ -223,25 +223,6 @@ read_items(qdot_cursor *c, bool params, items *list)
 
 /* --- declaring ---------------------------------------------------------------------- */
 
-/* A user's own name that a value of the language has too: say once how to reach that. */
-static qdot_status
-tell_hidden(qdot_session *session, const char *name, qdot_name_kind kind)
-{
-    const qdot_quantity *row = qdot_quantity_find(name);
-
-    if (row == NULL && qdot_builtin_find(name) != NULL &&
-        (kind == QDOT_NAME_FUNCTION || kind == QDOT_NAME_UFUN))
-        return qdot_answer_notice(session, "`%s` is now your own; it hides the language's",
-                                  name);
-    if (row == NULL || row->least > 0) /* only name[...] is the language's */
-        return QDOT_OK;
-    if (qdot_taken_long_name(row) != NULL)
-        return qdot_answer_notice(session, "`%s` is now your own; the language's is `%s`",
-                                  name, qdot_taken_long_name(row));
-    return qdot_answer_notice(session, "`%s` is now your own; it hides the language's",
-                              name);
-}
-
 qdot_status
 qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
 {
@@ -250,7 +231,7 @@ qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
     c->error_at = start->start;
     qdot_statement_place(c, start, entry);
     QDOT_TRY(qdot_names_declare(c->session->names, entry));
-    return again ? QDOT_OK : tell_hidden(c->session, entry->name, entry->kind);
+    return again ? QDOT_OK : qdot_meant_tell_definition(c, start, entry);
 }
 
 void
@@ -379,9 +360,9 @@ qdot_declare_in_domain(qdot_session *session, qdot_expr symbol, qdot_expr value)
     return QDOT_OK;
 }
 
-/* Values that parameters get anew: no spring may become shorter than nothing. */
+/* Values that parameters get anew. */
 static qdot_status
-check_rests(qdot_cursor *c, const items *list)
+check_values(qdot_cursor *c, const items *list)
 {
     qdot_number_pairs values = {0};
     qdot_status status = QDOT_OK;
@@ -394,7 +375,7 @@ check_rests(qdot_cursor *c, const items *list)
             status = qdot_number_push_pair(&values, x->start, old->value, x->value);
     }
     if (status == QDOT_OK)
-        status = qdot_rest_check_values(c, &values);
+        status = qdot_values_check(c, &values);
     qdot_number_free_pairs(&values);
     return status;
 }
@@ -427,7 +408,7 @@ declare_params(qdot_cursor *c, const items *list)
             return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its own domain",
                              x->name, number);
     }
-    QDOT_TRY(check_rests(c, list));
+    QDOT_TRY(check_values(c, list));
     QDOT_TRY(declare_items(c, QDOT_NAME_PARAM, list));
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
         if (list->at[i].value != QDOT_NIL)
@@ -494,10 +475,14 @@ qdot_declare_assume(qdot_cursor *c)
     several = qdot_expr_kind(pool, relation) == QDOT_LOGIC &&
               qdot_expr_node(pool, relation)->op == QDOT_AND; /* 0 < a < c */
     n = several ? qdot_expr_count(pool, relation) : 1;
-    for (uint32_t i = 0; i < n; i++)
-        QDOT_TRY(qdot_scene_assume(c->session->scene,
-                                   several ? qdot_expr_arg(pool, relation, i) : relation,
-                                   greater && !several));
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_assumption said = {several ? qdot_expr_arg(pool, relation, i) : relation,
+                                greater && !several};
+
+        if (qdot_expr_kind(pool, said.relation) == QDOT_REL)
+            QDOT_TRY(qdot_values_check_assumption(c->session, &said));
+        QDOT_TRY(qdot_scene_assume(c->session->scene, said.relation, said.turned));
+    }
     return QDOT_OK;
 }
 

@@ -258,6 +258,16 @@ holds_velocity(const qdot_scene *s, qdot_expr e)
     return (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY) != 0;
 }
 
+/* Whether a force acts on material at a place that may move within its body. */
+static bool
+on_material(const qdot_scene *s)
+{
+    for (size_t i = 0; i < s->forces.n; i++)
+        if (s->forces.at[i].material)
+            return true;
+    return false;
+}
+
 static bool
 no_forces(qdot_scene *s)
 {
@@ -300,7 +310,10 @@ right_sides(derivation *d)
 
         QDOT_TRY(qdot_pool_check(s->pool));
         qdot_text_format(&title, "Generalized forces%s: Q =%s%s%s%s",
-                         stated ? " beside L" : "", forces ? " sum F.dr/dq" : "",
+                         stated ? " beside L" : "",
+                         !forces            ? ""
+                         : on_material(s) ? " sum F.dv/dq'"
+                                          : " sum F.dr/dq",
                          forces && holds_velocity(s, V) ? " +" : "",
                          holds_velocity(s, V) ? " d/dt dV/dq' - dV/dq"
                          : stated             ? ""

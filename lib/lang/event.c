@@ -10,6 +10,22 @@
 
 /* --- declared ------------------------------------------------------------------------ */
 
+static qdot_status
+need_no_parameter(qdot_cursor *c)
+{
+    qdot_cursor look = *c;
+    const qdot_name *known;
+    const char *name;
+
+    if (c->at->kind != QDOT_TOKEN_NAME || qdot_read_name(&look, &name) != QDOT_OK)
+        return QDOT_OK;
+    known = qdot_names_find(c->session->names, name);
+    if (known == NULL || known->kind != QDOT_NAME_PARAM)
+        return QDOT_OK;
+    c->error_at = c->at->start;
+    return qdot_fail(QDOT_ENOTBUILT, "not built yet: an event that sets a parameter");
+}
+
 /* `Q = VALUE, Q' = VALUE` behind `then`. */
 static qdot_status
 read_changes(qdot_cursor *c, qdot_event *event)
@@ -17,6 +33,7 @@ read_changes(qdot_cursor *c, qdot_event *event)
     do {
         qdot_expr jet, value;
 
+        QDOT_TRY(need_no_parameter(c));
         QDOT_TRY(qdot_number_read_jet(c, &jet));
         QDOT_TRY(qdot_cursor_expect_op(c, "="));
         QDOT_TRY(qdot_read_scalar(c, &value));

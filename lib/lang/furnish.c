@@ -10,7 +10,8 @@
 #include "expr/tensor.h"
 #include "lang/answer.h"
 #include "lang/constraints.h"
-#include "lang/rest.h"
+#include "lang/meant.h"
+#include "lang/values.h"
 
 /* --- operands ----------------------------------------------------------------------- */
 
@@ -178,46 +179,82 @@ qdot_furnish_body(qdot_cursor *c)
 
 /* --- fields and energies ------------------------------------------------------------ */
 
+/* The statement of the field without label before one is added; nothing where there is none. */
+static qdot_status
+print_plain_gravity(const qdot_scene *scene, qdot_text *out)
+{
+    for (size_t i = 0; i < scene->gravities.n; i++)
+        if (scene->gravities.at[i].name == NULL)
+            QDOT_TRY(qdot_scene_print_at(scene, QDOT_GRAVITY, i, out));
+    return qdot_text_status(out);
+}
+
 qdot_status
 qdot_furnish_gravity(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
+    qdot_scene *scene = c->session->scene;
+    qdot_text before = {0};
+    const char *label;
     qdot_expr field;
+    qdot_status status = QDOT_OK;
 
+    QDOT_TRY(read_label(c, &label));
     QDOT_TRY(qdot_read_point(c, &field));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    return qdot_scene_gravity(c->session->scene, field);
+    if (label == NULL)
+        status = print_plain_gravity(scene, &before);
+    if (status == QDOT_OK)
+        status = qdot_scene_term(scene, QDOT_GRAVITY, label, field);
+    if (status == QDOT_OK && before.n > 0)
+        status = qdot_answer_notice(c->session,
+                                    "this takes the place of `%.*s`; fields with labels add up: "
+                                    "`gravity NAME: ...`",
+                                    (int)before.n - 1, qdot_text_str(&before));
+    qdot_text_clear(&before);
+    return status;
 }
 
 static qdot_status
-add_scalar(qdot_cursor *c, qdot_status (*add)(qdot_scene *s, qdot_expr e))
+add_term(qdot_cursor *c, qdot_scene_kind kind)
 {
     const qdot_token *start = c->at;
+    const char *label;
     qdot_expr e;
 
+    QDOT_TRY(read_label(c, &label));
+    if (label == NULL || !qdot_scene_has_label(c->session->scene, label))
+        start = c->at;
     QDOT_TRY(qdot_read_scalar(c, &e));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    return add(c->session->scene, e);
+    QDOT_TRY(qdot_scene_term(c->session->scene, kind, label, e));
+    return qdot_meant_tell_twice(c->session, kind);
 }
 
 qdot_status
 qdot_furnish_potential(qdot_cursor *c)
 {
-    return add_scalar(c, qdot_scene_potential);
+    return add_term(c, QDOT_POTENTIAL);
 }
 
 qdot_status
 qdot_furnish_dissipation(qdot_cursor *c)
 {
-    return add_scalar(c, qdot_scene_dissipation);
+    return add_term(c, QDOT_DISSIPATION);
 }
 
 qdot_status
 qdot_furnish_lagrangian(qdot_cursor *c)
 {
-    return add_scalar(c, qdot_scene_lagrangian);
+    const qdot_token *start = c->at;
+    qdot_expr L;
+
+    QDOT_TRY(qdot_read_scalar(c, &L));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    return qdot_scene_lagrangian(c->session->scene, L);
 }
 
 /* --- springs and dampers ------------------------------------------------------------ */
@@ -282,10 +319,11 @@ qdot_furnish_spring(qdot_cursor *c)
     start = c->error_at;
     if (rest_at != NULL) {
         c->error_at = rest_at->start;
-        QDOT_TRY(qdot_rest_check(c->session, link.name, link.rest));
+        QDOT_TRY(qdot_values_check_rest(c->session, link.name, link.rest));
         c->error_at = start;
     }
-    return qdot_scene_spring(c->session->scene, &link);
+    QDOT_TRY(qdot_scene_spring(c->session->scene, &link));
+    return qdot_meant_tell_twice(c->session, QDOT_SPRING);
 }
 
 qdot_status
@@ -295,7 +333,8 @@ qdot_furnish_damper(qdot_cursor *c)
 
     QDOT_TRY(read_link(c, "a damper", "coefficient", NULL,
                        "damper NAME between A, B coefficient C", &link, NULL));
-    return qdot_scene_damper(c->session->scene, &link);
+    QDOT_TRY(qdot_scene_damper(c->session->scene, &link));
+    return qdot_meant_tell_twice(c->session, QDOT_DAMPER);
 }
 
 /* --- forces and torques ------------------------------------------------------------- */
@@ -328,54 +367,101 @@ read_target(qdot_cursor *c, bool label_first, qdot_expr *coordinate, const char 
     return qdot_hint("declare it first");
 }
 
+/* The body of a place that is written point(BODY, P), and nothing else; NULL: it is not. */
+static const char *
+body_of_point(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
+{
+    qdot_cursor look = *c;
+    const char *name;
+    qdot_expr P;
+
+    look.at = from;
+    if (!qdot_cursor_accept_word(&look, "point") || !qdot_cursor_accept_op(&look, "(") ||
+        look.at->kind != QDOT_TOKEN_NAME || qdot_read_name(&look, &name) != QDOT_OK ||
+        !qdot_cursor_accept_op(&look, ",") || qdot_read_point(&look, &P) != QDOT_OK ||
+        !qdot_cursor_accept_op(&look, ")") || look.at != to)
+        return NULL;
+    return qdot_scene_find_body(c->session->scene, name) != NULL ? name : NULL;
+}
+
+/* action: the first token of the force. */
 static qdot_status
-force_at(qdot_cursor *c, const qdot_token *start, const char *label, qdot_expr force)
+force_at(qdot_cursor *c, const qdot_token *start, const qdot_token *action, const char *label,
+         qdot_expr force)
 {
     qdot_force f = {.name = (char *)label, .force = force};
     const qdot_token *from = c->at;
+    const char *body;
 
     QDOT_TRY(qdot_read_point(c, &f.point));
     f.on = (char *)sole_label(c, from, c->at);
+    body = f.on == NULL ? body_of_point(c, from, c->at) : NULL;
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    return qdot_scene_force(c->session->scene, &f);
+    QDOT_TRY(qdot_scene_force(c->session->scene, &f));
+    QDOT_TRY(qdot_meant_tell_twice(c->session, QDOT_FORCE));
+    return f.on == NULL ? qdot_meant_tell_place(c, f.point, body, action, from - 1)
+                        : QDOT_OK;
+}
+
+/* `on BODY at material P`, or `on NAME`: at its centre. */
+static qdot_status
+force_on(qdot_cursor *c, const qdot_token *start, const char *label, qdot_expr force,
+         const char *on)
+{
+    qdot_force f = {.name = (char *)label, .force = force, .on = (char *)on};
+    const qdot_token *place = c->at;
+
+    f.material = qdot_cursor_accept_word(c, "at");
+    if (f.material && !qdot_cursor_accept_word(c, "material")) {
+        (void)qdot_cursor_expected(c, "`material`");
+        return qdot_hint("force F at R acts at a place, force F on BODY at material R on what is "
+                         "there of the body");
+    }
+    if (f.material)
+        QDOT_TRY(qdot_read_point(c, &f.point));
+    else
+        f.point = qdot_scene_position(c->session->scene, on);
+    QDOT_TRY(qdot_pool_check(c->session->pool));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = f.material && qdot_scene_find_body(c->session->scene, on) == NULL
+                      ? place->start
+                      : start->start;
+    QDOT_TRY(qdot_scene_force(c->session->scene, &f));
+    return qdot_meant_tell_twice(c->session, QDOT_FORCE);
 }
 
 qdot_status
 qdot_furnish_force(qdot_cursor *c)
 {
-    const qdot_token *start = c->at;
+    const qdot_token *start = c->at, *action;
     const char *label, *on;
     qdot_expr force, coordinate;
+    qdot_torque torque;
     bool vector;
 
     QDOT_TRY(read_label(c, &label));
+    action = c->at;
     QDOT_TRY(qdot_read_point(c, &force));
     if (qdot_cursor_accept_word(c, "at"))
-        return force_at(c, start, label, force);
+        return force_at(c, start, action, label, force);
     if (!qdot_cursor_accept_word(c, "on"))
         return qdot_cursor_expected(c, "`on` or `at`");
     vector = qdot_expr_kind(c->session->pool, force) == QDOT_VEC;
     QDOT_TRY(read_target(c, vector, &coordinate, &on));
+    if (on != NULL)
+        return force_on(c, start, label, force, on);
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    if (coordinate != QDOT_NIL) {
-        qdot_torque torque = {
-            .name = (char *)label, .torque = force, .coordinate = coordinate, .force = true, .body = -1};
-
-        if (vector)
-            return qdot_fail(QDOT_ETYPE, "a generalized force is a number, not a vector");
-        return qdot_scene_torque(c->session->scene, &torque);
-    }
-    {
-        qdot_force f = {.name = (char *)label,
-                        .force = force,
-                        .on = (char *)on,
-                        .point = qdot_scene_position(c->session->scene, on)};
-
-        QDOT_TRY(qdot_pool_check(c->session->pool));
-        return qdot_scene_force(c->session->scene, &f);
-    }
+    if (vector)
+        return qdot_fail(QDOT_ETYPE, "a generalized force is a number, not a vector");
+    torque = (qdot_torque){.name = (char *)label,
+                           .torque = force,
+                           .coordinate = coordinate,
+                           .force = true,
+                           .body = -1};
+    QDOT_TRY(qdot_scene_torque(c->session->scene, &torque));
+    return qdot_meant_tell_twice(c->session, QDOT_TORQUE);
 }
 
 qdot_status
@@ -406,7 +492,8 @@ qdot_furnish_torque(qdot_cursor *c)
         torque.body = (int)(body - scene->bodies.at);
     }
     c->error_at = start->start;
-    return qdot_scene_torque(scene, &torque);
+    QDOT_TRY(qdot_scene_torque(scene, &torque));
+    return qdot_meant_tell_twice(c->session, QDOT_TORQUE);
 }
 
 /* --- constraints -------------------------------------------------------------------- */
@@ -431,6 +518,27 @@ tell_dropped(qdot_session *session, const char *label, qdot_expr left, size_t ke
                               label != NULL ? label : "");
 }
 
+/* A notice where all constraints from `before` on are there already; whether it is so. */
+static bool
+tell_same(qdot_session *session, size_t before, qdot_status *status)
+{
+    const qdot_scene *scene = session->scene;
+
+    for (size_t k = before; k < scene->constraints.n; k++) {
+        size_t i = 0;
+
+        while (i < before && scene->constraints.at[i].f != scene->constraints.at[k].f)
+            i++;
+        if (i == before)
+            return false;
+    }
+    if (before == scene->constraints.n)
+        return false;
+    *status = qdot_answer_notice(session, "the scene has this constraint already: beside the "
+                                          "first it is redundant");
+    return true;
+}
+
 qdot_status
 qdot_furnish_constraint(qdot_cursor *c)
 {
@@ -438,6 +546,7 @@ qdot_furnish_constraint(qdot_cursor *c)
     const qdot_token *start;
     const char *label;
     qdot_expr left, right;
+    qdot_status status;
     size_t before;
 
     QDOT_TRY(read_label(c, &label));
@@ -458,38 +567,7 @@ qdot_furnish_constraint(qdot_cursor *c)
     QDOT_TRY(qdot_scene_constraint(c->session->scene, label, left, right));
     QDOT_TRY(tell_dropped(c->session, label, left,
                           c->session->scene->constraints.n - before));
+    if (tell_same(c->session, before, &status))
+        return status;
     return qdot_constraints_tell_disguise(c->session, before);
-}
-
-/* What acted on a removed thing went with it: say so. */
-static qdot_status
-tell_removed(qdot_session *session, const char *label)
-{
-    const qdot_scene *scene = session->scene;
-    qdot_text list = {0};
-    qdot_status status;
-
-    if (scene->dropped.n == 0)
-        return QDOT_OK;
-    for (size_t i = 0; i < scene->dropped.n; i++)
-        qdot_text_format(&list, "%s%s", i > 0 ? ", " : "", scene->dropped.at[i]);
-    status = qdot_text_status(&list);
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "with %s went what acted on it: %s", label,
-                                    qdot_text_str(&list));
-    qdot_text_clear(&list);
-    return status;
-}
-
-qdot_status
-qdot_furnish_remove(qdot_cursor *c)
-{
-    const qdot_token *start = c->at;
-    const char *label;
-
-    QDOT_TRY(qdot_read_name(c, &label));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
-    QDOT_TRY(qdot_scene_remove(c->session->scene, label));
-    return tell_removed(c->session, label);
 }

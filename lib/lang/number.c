@@ -8,8 +8,9 @@
 #include "base/interrupt.h"
 #include "lang/answer.h"
 #include "lang/declare.h"
-#include "lang/rest.h"
+#include "lang/meant.h"
 #include "lang/statement.h"
+#include "lang/values.h"
 #include "tape/tape.h"
 
 /* --- run ---------------------------------------------------------------------------- */
@@ -46,7 +47,7 @@ read_with(qdot_cursor *c, qdot_number_pairs *with)
         QDOT_TRY(qdot_declare_in_domain(c->session, symbol, value));
         QDOT_TRY(qdot_number_push_pair(with, start, symbol, value));
     } while (qdot_cursor_accept_op(c, ","));
-    return qdot_rest_check_values(c, with);
+    return qdot_values_check(c, with);
 }
 
 static qdot_status
@@ -214,6 +215,16 @@ fill_with(qdot_session *session, const qdot_number_pairs *with, qdot_number_orde
     return status;
 }
 
+/* Whether an initial value is among those of `with`. */
+static bool
+names_start(const qdot_session *session, const qdot_number_pairs *with)
+{
+    for (size_t i = 0; i < with->symbols.n; i++)
+        if (qdot_expr_is_class(session->pool, with->symbols.at[i], QDOT_COORD))
+            return true;
+    return false;
+}
+
 /* Integrate, keep the run, tell how it went. */
 static qdot_status
 carry_out(qdot_cursor *c, const options *o, qdot_number_order *request)
@@ -237,6 +248,8 @@ carry_out(qdot_cursor *c, const options *o, qdot_number_order *request)
         next_name(session, name, sizeof name);
     QDOT_TRY(keep_run(session, o->name != NULL ? o->name : name, run));
     report = qdot_run_get_report(run);
+    if (!names_start(session, &o->with))
+        QDOT_TRY(qdot_meant_tell_start(session));
     for (const char *line = report->notice; line != NULL && *line != '\0';) {
         const char *behind = strchrnul(line, '\n');
 

@@ -63,7 +63,9 @@ qdot_session_free(qdot_session *session)
     qdot_free(session->set_values.at);
     qdot_free(session->start_symbols.at);
     qdot_free(session->start_values.at);
-    qdot_free(session->taken_told.at);
+    for (size_t i = 0; i < session->told.n; i++)
+        qdot_free(session->told.at[i]);
+    qdot_free(session->told.at);
     for (size_t i = 0; i < session->including.n; i++)
         qdot_free(session->including.at[i]);
     qdot_free(session->including.at);
@@ -78,17 +80,18 @@ qdot_session_free(qdot_session *session)
 
 /* --- reset -------------------------------------------------------------------------- */
 
+/* What goes with the scene. */
+enum {
+    SCENE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |
+            QDOT_HAS_MULTIPLIER | QDOT_HAS_DELTA | QDOT_HAS_DIFFERENTIAL
+};
+
 /* Whether a name outlives `reset scene`: parameters, and what holds no coordinate. */
 static bool
 is_kept(const qdot_pool *pool, const qdot_name *name)
 {
-    uint32_t scene = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
-                     QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER | QDOT_HAS_DELTA |
-                     QDOT_HAS_DIFFERENTIAL;
-
-    if (name->kind == QDOT_NAME_COORD)
-        return false;
-    return (qdot_expr_node(pool, name->value)->holds & scene) == 0;
+    return name->kind != QDOT_NAME_COORD &&
+           (qdot_expr_node(pool, name->value)->holds & SCENE) == 0;
 }
 
 /* A function goes with the names that its body mentions. */
@@ -138,6 +141,14 @@ keep(const qdot_session *old, qdot_session *fresh)
                                                                old->set_symbols.at[i])));
         QDOT_TRY(qdot_vec_push(&fresh->set_values, qdot_carry(old->pool, fresh->pool,
                                                               old->set_values.at[i])));
+    }
+    for (size_t i = 0; i < old->scene->assumed.n; i++) {
+        const qdot_assumption *said = &old->scene->assumed.at[i];
+
+        if (!(qdot_expr_node(old->pool, said->relation)->holds & SCENE))
+            QDOT_TRY(qdot_scene_assume(fresh->scene,
+                                       qdot_carry(old->pool, fresh->pool, said->relation),
+                                       said->turned));
     }
     for (size_t i = 0; i < old->measured.n; i++) {
         qdot_measured m = old->measured.at[i];
@@ -364,6 +375,17 @@ offer_labels(completion *c, const qdot_scene *scene)
     for (size_t i = 0; i < scene->constraints.n; i++)
         if (scene->constraints.at[i].label != NULL)
             offer(c, scene->constraints.at[i].label);
+#define OFFER(list)                                                                      \
+    for (size_t i = 0; i < scene->list.n; i++)                                           \
+        if (scene->list.at[i].name != NULL)                                              \
+            offer(c, scene->list.at[i].name);
+    OFFER(gravities)
+    OFFER(potentials)
+    OFFER(dissipations)
+    OFFER(forces)
+    OFFER(torques)
+    OFFER(events)
+#undef OFFER
 }
 
 qdot_status

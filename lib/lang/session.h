@@ -65,7 +65,7 @@ typedef struct qdot_session {
     bool quit;             /* `quit` was said */
     bool declares;         /* the statement under way declares what stands in a scene */
     const char *taken;     /* the short name of a value that it read (lang/taken); NULL */
-    qdot_vec(const char *) taken_told; /* those told already */
+    qdot_vec(char *) told; /* notices that are given once */
     unsigned calls;        /* of functions under way, within one another */
     bool placed;           /* the error under way names its place in a body */
     size_t loops;          /* loops under way: what they hold must outlive them */

@@ -8,8 +8,8 @@
 #include "expr/walk.h"
 #include "lang/answer.h"
 #include "lang/declare.h"
-#include "lang/rest.h"
 #include "lang/statement.h"
+#include "lang/values.h"
 
 /* --- set ---------------------------------------------------------------------------- */
 
@@ -227,7 +227,7 @@ qdot_number_set(qdot_cursor *c)
         status = qdot_declare_in_domain(session, list.symbols.at[i], list.values.at[i]);
     }
     if (status == QDOT_OK)
-        status = qdot_rest_check_values(c, &list);
+        status = qdot_values_check(c, &list);
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
         qdot_declare_value(session, list.symbols.at[i], list.values.at[i], &status);
     qdot_number_free_pairs(&list);
@@ -422,6 +422,7 @@ qdot_number_fill_order(qdot_session *session, qdot_number_order *o)
             QDOT_TRY(qdot_declare_in_domain(session, symbol, value));
         QDOT_TRY(qdot_number_push_pair(&o->values, NULL, symbol, value));
     }
+    QDOT_TRY(qdot_values_check_assumed(session));
     QDOT_TRY(order_start(session, o));
     o->request.n_values = o->values.symbols.n;
     o->request.symbols = o->values.symbols.at;

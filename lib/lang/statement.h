@@ -103,7 +103,8 @@ qdot_status qdot_furnish_force(qdot_cursor *c);
 qdot_status qdot_furnish_torque(qdot_cursor *c);
 qdot_status qdot_furnish_lagrangian(qdot_cursor *c);
 qdot_status qdot_furnish_constraint(qdot_cursor *c);
-qdot_status qdot_furnish_remove(qdot_cursor *c);
+/* remove.c */
+qdot_status qdot_remove(qdot_cursor *c);
 /* ask.c, check.c, derive.c */
 qdot_status qdot_ask_expression(qdot_cursor *c); /* at its first token */
 qdot_status qdot_ask_print(qdot_cursor *c);

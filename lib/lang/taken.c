@@ -61,12 +61,8 @@ qdot_taken_tell(qdot_session *session, qdot_status status)
         return explain(session, status);
     if (name == NULL)
         return QDOT_OK;
-    for (size_t i = 0; i < session->taken_told.n; i++)
-        if (strcmp(session->taken_told.at[i], name) == 0)
-            return QDOT_OK;
-    QDOT_TRY(qdot_vec_push(&session->taken_told, name));
-    return qdot_answer_notice(session,
-                              "`%s` is here the language's %s as it was until now; "
-                              "`param %s` before it declares your own",
-                              name, qdot_taken_long_name(qdot_quantity_find(name)), name);
+    return qdot_answer_notice_once(session,
+                                   "`%s` is here the language's %s as it was until now; "
+                                   "`param %s` before it declares your own",
+                                   name, qdot_taken_long_name(qdot_quantity_find(name)), name);
 }

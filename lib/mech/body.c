@@ -277,12 +277,34 @@ qdot_scene_spin(qdot_scene *s, const char *label)
     return qdot_body_spin(s, b);
 }
 
+/* v + w x (place - r), w a scalar in the plane. */
+static qdot_expr
+carried(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr v, qdot_expr w)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr arm = qdot_value_sub(pool, place, b->position), e[2];
+
+    if (v == QDOT_NIL || w == QDOT_NIL || arm == QDOT_NIL)
+        return QDOT_NIL;
+    if (b->angle == QDOT_NIL)
+        return qdot_value_add(pool, v, qdot_cross(pool, w, arm));
+    e[0] = qdot_neg(pool, qdot_mul(pool, w, qdot_expr_arg(pool, arm, 1)));
+    e[1] = qdot_mul(pool, w, qdot_expr_arg(pool, arm, 0));
+    return qdot_value_add(pool, v, qdot_vector(pool, 2, e));
+}
+
+qdot_expr
+qdot_body_partial_velocity(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr q)
+{
+    return carried(s, b, place, qdot_diff(s->pool, b->position, q),
+                   qdot_body_partial_spin(s, b, q));
+}
+
 qdot_expr
 qdot_scene_velocity(qdot_scene *s, const char *label, qdot_expr place)
 {
     qdot_pool *pool = s->pool;
     const qdot_body *b = qdot_scene_find_body(s, label);
-    qdot_expr v, w, arm;
 
     if (!b)
         return qdot_mech_fail(s, QDOT_ENAME, "there is no body %s", label);
@@ -292,17 +314,5 @@ qdot_scene_velocity(qdot_scene *s, const char *label, qdot_expr place)
         return qdot_mech_fail(s, QDOT_ETYPE,
                               "a place in the space of %s has %u components", label,
                               qdot_mech_dimension(pool, b->position));
-    v = qdot_ddt(pool, b->position);
-    w = qdot_body_spin(s, b);
-    arm = qdot_value_sub(pool, place, b->position);
-    if (v == QDOT_NIL || w == QDOT_NIL || arm == QDOT_NIL)
-        return QDOT_NIL;
-    if (b->angle != QDOT_NIL) {
-        qdot_expr e[2];
-
-        e[0] = qdot_neg(pool, qdot_mul(pool, w, qdot_expr_arg(pool, arm, 1)));
-        e[1] = qdot_mul(pool, w, qdot_expr_arg(pool, arm, 0));
-        return qdot_value_add(pool, v, qdot_vector(pool, 2, e));
-    }
-    return qdot_value_add(pool, v, qdot_cross(pool, w, arm));
+    return carried(s, b, place, qdot_ddt(pool, b->position), qdot_body_spin(s, b));
 }

@@ -114,11 +114,18 @@ uint32_t qdot_scene_dimension(const qdot_scene *s);
 /* Angular velocity as a linear form: its coefficient of q_i', from R or the angle. */
 qdot_expr qdot_body_spin(qdot_scene *s, const qdot_body *body);
 qdot_expr qdot_body_partial_spin(qdot_scene *s, const qdot_body *body, qdot_expr q);
+/* d velocity(body, place) / dq'. */
+qdot_expr qdot_body_partial_velocity(qdot_scene *s, const qdot_body *body, qdot_expr place,
+                                     qdot_expr q);
 /* Put [n] nil expressions in *array unless it is there. */
 bool qdot_derived_array(qdot_scene *s, qdot_expr **array, size_t n);
 void qdot_scene_forget_dropped(qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_scene_drop(qdot_scene *s, const char *kind,
                                             const char *name);
+void qdot_link_clear(qdot_link *link);
+void qdot_force_clear(qdot_force *force);
+/* Where among the torques the k-th of a kind (QDOT_FORCE beyond the forces, QDOT_TORQUE) is. */
+size_t qdot_scene_torque_at(const qdot_scene *s, qdot_scene_kind kind, size_t k);
 void qdot_constraint_clear(qdot_constraint *c);
 void qdot_event_clear(qdot_event *e);
 QDOT_MUST_CHECK qdot_status qdot_event_print(const qdot_scene *s, const qdot_event *e,

@@ -52,8 +52,8 @@ qdot_potential_with_velocities(qdot_scene *s)
     qdot_expr V = QDOT_ZERO;
 
     for (size_t i = 0; i < s->potentials.n; i++)
-        if (qdot_mech_holds(s, s->potentials.at[i]) & QDOT_HAS_VELOCITY)
-            V = qdot_add(s->pool, V, s->potentials.at[i]);
+        if (qdot_mech_holds(s, s->potentials.at[i].e) & QDOT_HAS_VELOCITY)
+            V = qdot_add(s->pool, V, s->potentials.at[i].e);
     return V;
 }
 
@@ -73,7 +73,7 @@ raw_potential(qdot_scene *s)
         V = qdot_neg(pool, qdot_kinematics_gravity(s, k, place));
     }
     for (size_t i = 0; i < s->potentials.n; i++)
-        V = qdot_add(pool, V, s->potentials.at[i]);
+        V = qdot_add(pool, V, s->potentials.at[i].e);
     for (size_t i = 0; i < s->springs.n; i++)
         V = qdot_add(pool, V, qdot_spring_potential(s, i));
     return V;

@@ -631,9 +631,9 @@ qdot_kinematics_gravity(qdot_scene *s, qdot_kinematics *k, const qdot_groups *a)
     qdot_expr field[3] = {QDOT_ZERO, QDOT_ZERO, QDOT_ZERO}, total = QDOT_NIL;
 
     for (size_t i = 0; i < s->gravities.n; i++)
-        for (uint32_t d = 0; d < qdot_mech_dimension(pool, s->gravities.at[i]); d++)
+        for (uint32_t d = 0; d < qdot_mech_dimension(pool, s->gravities.at[i].e); d++)
             field[d] = qdot_add(pool, field[d],
-                                qdot_mech_component(pool, s->gravities.at[i], d));
+                                qdot_mech_component(pool, s->gravities.at[i].e, d));
     for (size_t i = 0; i < a->n; i++)
         for (int d = 0; d < 3; d++) {
             uint32_t set;

@@ -1,4 +1,4 @@
-/* label.c -- things of the scene by their labels: find, remove. */
+/* label.c -- things of the scene by their labels. */
 #include <string.h>
 
 #include "mech/derived.h"
@@ -33,6 +33,15 @@ qdot_scene_has_label(const qdot_scene *s, const char *label)
 {
     if (qdot_scene_find_particle(s, label) || qdot_scene_find_body(s, label))
         return true;
+    for (size_t i = 0; i < s->gravities.n; i++)
+        if (same(s->gravities.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->potentials.n; i++)
+        if (same(s->potentials.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->dissipations.n; i++)
+        if (same(s->dissipations.at[i].name, label))
+            return true;
     for (size_t i = 0; i < s->springs.n; i++)
         if (same(s->springs.at[i].name, label))
             return true;
@@ -62,7 +71,7 @@ qdot_scene_dimension(const qdot_scene *s)
     if (s->bodies.n)
         return qdot_mech_dimension(s->pool, s->bodies.at[0].position);
     if (s->gravities.n)
-        return qdot_mech_dimension(s->pool, s->gravities.at[0]);
+        return qdot_mech_dimension(s->pool, s->gravities.at[0].e);
     if (s->forces.n)
         return qdot_mech_dimension(s->pool, s->forces.at[0].point);
     if (s->springs.n)
@@ -84,123 +93,4 @@ qdot_scene_position(const qdot_scene *s, const char *label)
         return b->position;
     qdot_fail(QDOT_ENAME, "there is no particle or body %s", label ? label : "");
     return qdot_pool_fail(s->pool);
-}
-
-qdot_status
-qdot_scene_drop(qdot_scene *s, const char *kind, const char *name)
-{
-    qdot_text text = {0};
-    char *copy;
-    qdot_status status;
-
-    qdot_text_add(&text, kind);
-    qdot_text_add(&text, name ? name : "");
-    status = qdot_text_status(&text);
-    copy = status == QDOT_OK ? qdot_strdup(qdot_text_str(&text)) : NULL;
-    qdot_text_clear(&text);
-    if (!copy)
-        return QDOT_ENOMEM;
-    if (qdot_vec_push(&s->dropped, copy) == QDOT_OK)
-        return QDOT_OK;
-    qdot_free(copy);
-    return QDOT_ENOMEM;
-}
-
-/* Keep the members for which `gone` is false. */
-#define FILTER(list, item, gone, clear)                                                  \
-    do {                                                                                 \
-        size_t kept_ = 0;                                                                \
-        for (size_t i_ = 0; i_ < (list).n; i_++) {                                       \
-            __typeof__((list).at) item = &(list).at[i_];                                 \
-            if (gone) {                                                                  \
-                clear;                                                                   \
-                found = true;                                                            \
-            } else {                                                                     \
-                (list).at[kept_++] = *item;                                              \
-            }                                                                            \
-        }                                                                                \
-        (list).n = kept_;                                                                \
-    } while (0)
-
-/* Name, for the notice, what acts on the thing that goes. Before anything is taken out.
- * */
-static qdot_status
-name_dependents(qdot_scene *s, const char *label, int body)
-{
-    for (size_t i = 0; i < s->springs.n; i++)
-        if (same(s->springs.at[i].end[0], label) || same(s->springs.at[i].end[1], label))
-            QDOT_TRY(s->springs.at[i].name
-                         ? qdot_scene_drop(s, "spring ", s->springs.at[i].name)
-                         : qdot_scene_drop(s, "a spring", NULL));
-    for (size_t i = 0; i < s->dampers.n; i++)
-        if (same(s->dampers.at[i].end[0], label) || same(s->dampers.at[i].end[1], label))
-            QDOT_TRY(s->dampers.at[i].name
-                         ? qdot_scene_drop(s, "damper ", s->dampers.at[i].name)
-                         : qdot_scene_drop(s, "a damper", NULL));
-    for (size_t i = 0; i < s->forces.n; i++)
-        if (same(s->forces.at[i].on, label))
-            QDOT_TRY(s->forces.at[i].name
-                         ? qdot_scene_drop(s, "force ", s->forces.at[i].name)
-                         : qdot_scene_drop(s, "a force", NULL));
-    for (size_t i = 0; i < s->torques.n; i++)
-        if (body >= 0 && s->torques.at[i].coordinate == QDOT_NIL &&
-            s->torques.at[i].body == body)
-            QDOT_TRY(s->torques.at[i].name
-                         ? qdot_scene_drop(s, "torque ", s->torques.at[i].name)
-                         : qdot_scene_drop(s, "a torque", NULL));
-    return QDOT_OK;
-}
-
-static void
-clear_link(qdot_link *link)
-{
-    qdot_free(link->name);
-    qdot_free(link->end[0]);
-    qdot_free(link->end[1]);
-}
-
-static void
-clear_force(qdot_force *force)
-{
-    qdot_free(force->name);
-    qdot_free(force->on);
-}
-
-qdot_status
-qdot_scene_remove(qdot_scene *s, const char *label)
-{
-    const qdot_body *b = qdot_scene_find_body(s, label);
-    int body = b ? (int)(b - s->bodies.at) : -1;
-    bool found = false, on_thing = b || qdot_scene_find_particle(s, label);
-
-    qdot_scene_forget_dropped(s);
-    if (qdot_scene_find_event(s, label)) { /* what was derived still holds */
-        FILTER(s->events, p, same(p->name, label), qdot_event_clear(p));
-        return found ? QDOT_OK : QDOT_EFAILED;
-    }
-    if (!qdot_scene_has_label(s, label))
-        return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
-    if (on_thing)
-        QDOT_TRY(name_dependents(s, label, body));
-    FILTER(s->particles, p, same(p->name, label), qdot_free(p->name));
-    FILTER(s->bodies, p, same(p->name, label), qdot_free(p->name));
-    FILTER(s->springs, p,
-           same(p->name, label) ||
-               (on_thing && (same(p->end[0], label) || same(p->end[1], label))),
-           clear_link(p));
-    FILTER(s->dampers, p,
-           same(p->name, label) ||
-               (on_thing && (same(p->end[0], label) || same(p->end[1], label))),
-           clear_link(p));
-    FILTER(s->forces, p, same(p->name, label) || (on_thing && same(p->on, label)),
-           clear_force(p));
-    FILTER(s->torques, p,
-           same(p->name, label) ||
-               (body >= 0 && p->coordinate == QDOT_NIL && p->body == body),
-           qdot_free(p->name));
-    for (size_t i = 0; body >= 0 && i < s->torques.n; i++)
-        s->torques.at[i].body -= s->torques.at[i].body > body;
-    FILTER(s->constraints, p, same(p->label, label), qdot_constraint_clear(p));
-    s->version++;
-    return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
 }

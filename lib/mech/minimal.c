@@ -281,6 +281,12 @@ copy_link(qdot_scene *to, const qdot_link *link, bool damper)
     return damper ? qdot_scene_damper(to, &copy) : qdot_scene_spring(to, &copy);
 }
 
+static qdot_status
+copy_term(qdot_scene *to, qdot_scene_kind kind, const qdot_term *term)
+{
+    return qdot_scene_term(to, kind, term->name, term->e);
+}
+
 /* Everything but coordinates and constraints. */
 static qdot_status
 copy_scene(const qdot_scene *s, qdot_scene *to)
@@ -295,15 +301,15 @@ copy_scene(const qdot_scene *s, qdot_scene *to)
                                  b->angle, b->angle == QDOT_NIL ? b->rotation : QDOT_NIL));
     }
     for (size_t i = 0; i < s->gravities.n; i++)
-        QDOT_TRY(qdot_scene_gravity(to, s->gravities.at[i]));
+        QDOT_TRY(copy_term(to, QDOT_GRAVITY, &s->gravities.at[i]));
     for (size_t i = 0; i < s->potentials.n; i++)
-        QDOT_TRY(qdot_scene_potential(to, s->potentials.at[i]));
+        QDOT_TRY(copy_term(to, QDOT_POTENTIAL, &s->potentials.at[i]));
     for (size_t i = 0; i < s->springs.n; i++)
         QDOT_TRY(copy_link(to, &s->springs.at[i], false));
     for (size_t i = 0; i < s->dampers.n; i++)
         QDOT_TRY(copy_link(to, &s->dampers.at[i], true));
     for (size_t i = 0; i < s->dissipations.n; i++)
-        QDOT_TRY(qdot_scene_dissipation(to, s->dissipations.at[i]));
+        QDOT_TRY(copy_term(to, QDOT_DISSIPATION, &s->dissipations.at[i]));
     for (size_t i = 0; i < s->forces.n; i++)
         QDOT_TRY(qdot_scene_force(to, &s->forces.at[i]));
     for (size_t i = 0; i < s->torques.n; i++)

@@ -151,9 +151,9 @@ motions(qdot_scene *s, const qdot_kinematics *k, qdot_expr *value)
         qdot_expr field = QDOT_ZERO;
 
         for (size_t i = 0; i < s->gravities.n; i++)
-            if (axis < qdot_mech_dimension(pool, s->gravities.at[i]))
+            if (axis < qdot_mech_dimension(pool, s->gravities.at[i].e))
                 field = qdot_add(pool, field,
-                                 qdot_mech_component(pool, s->gravities.at[i], axis));
+                                 qdot_mech_component(pool, s->gravities.at[i].e, axis));
         value[k->rest.n + axis] = field;
     }
     return !qdot_pool_failed(pool);

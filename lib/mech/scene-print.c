@@ -104,7 +104,9 @@ put_force(const qdot_scene *s, const qdot_force *f, qdot_text *out)
     QDOT_TRY(put(s, f->force, out));
     if (f->on)
         qdot_text_format(out, " on %s", f->on);
-    else
+    if (f->material)
+        QDOT_TRY(put_option(s, "at material", f->point, out));
+    else if (!f->on)
         QDOT_TRY(put_option(s, "at", f->point, out));
     qdot_text_char(out, '\n');
     return QDOT_OK;
@@ -196,6 +198,46 @@ put_statement(const qdot_scene *s, const char *word, qdot_expr e, qdot_text *out
 }
 
 static qdot_status
+put_term(const qdot_scene *s, const char *word, const qdot_term *term, qdot_text *out)
+{
+    qdot_text_format(out, "%s ", word);
+    if (term->name)
+        qdot_text_format(out, "%s: ", term->name);
+    QDOT_TRY(put(s, term->e, out));
+    qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_scene_print_at(const qdot_scene *s, qdot_scene_kind kind, size_t k, qdot_text *out)
+{
+    switch (kind) {
+    case QDOT_GRAVITY: return put_term(s, "gravity", &s->gravities.at[k], out);
+    case QDOT_POTENTIAL: return put_term(s, "potential", &s->potentials.at[k], out);
+    case QDOT_SPRING: return put_link(s, &s->springs.at[k], false, out);
+    case QDOT_DAMPER: return put_link(s, &s->dampers.at[k], true, out);
+    case QDOT_DISSIPATION: return put_term(s, "dissipation", &s->dissipations.at[k], out);
+    case QDOT_FORCE:
+        if (k < s->forces.n)
+            return put_force(s, &s->forces.at[k], out);
+        /* fallthrough */
+    case QDOT_TORQUE:
+        return put_torque(s, &s->torques.at[qdot_scene_torque_at(s, kind, k)], out);
+    }
+    return QDOT_OK;
+}
+
+/* All of the kinds [from, to]. */
+static qdot_status
+put_kinds(const qdot_scene *s, qdot_scene_kind from, qdot_scene_kind to, qdot_text *out)
+{
+    for (qdot_scene_kind kind = from; kind <= to; kind++)
+        for (size_t k = 0; k < qdot_scene_count(s, kind); k++)
+            QDOT_TRY(qdot_scene_print_at(s, kind, k, out));
+    return QDOT_OK;
+}
+
+static qdot_status
 put_assumption(const qdot_scene *s, const qdot_assumption *said, qdot_text *out)
 {
     bool strict = qdot_expr_node(s->pool, said->relation)->op == QDOT_LT;
@@ -226,22 +268,10 @@ qdot_scene_print(const qdot_scene *s, qdot_text *out)
     }
     for (size_t i = 0; i < s->bodies.n; i++)
         QDOT_TRY(put_body(s, &s->bodies.at[i], out));
-    for (size_t i = 0; i < s->gravities.n; i++)
-        QDOT_TRY(put_statement(s, "gravity", s->gravities.at[i], out));
-    for (size_t i = 0; i < s->potentials.n; i++)
-        QDOT_TRY(put_statement(s, "potential", s->potentials.at[i], out));
-    for (size_t i = 0; i < s->springs.n; i++)
-        QDOT_TRY(put_link(s, &s->springs.at[i], false, out));
-    for (size_t i = 0; i < s->dampers.n; i++)
-        QDOT_TRY(put_link(s, &s->dampers.at[i], true, out));
-    for (size_t i = 0; i < s->dissipations.n; i++)
-        QDOT_TRY(put_statement(s, "dissipation", s->dissipations.at[i], out));
+    QDOT_TRY(put_kinds(s, QDOT_GRAVITY, QDOT_DISSIPATION, out));
     if (s->lagrangian != QDOT_NIL)
         QDOT_TRY(put_statement(s, "lagrangian", s->lagrangian, out));
-    for (size_t i = 0; i < s->forces.n; i++)
-        QDOT_TRY(put_force(s, &s->forces.at[i], out));
-    for (size_t i = 0; i < s->torques.n; i++)
-        QDOT_TRY(put_torque(s, &s->torques.at[i], out));
+    QDOT_TRY(put_kinds(s, QDOT_FORCE, QDOT_TORQUE, out));
     QDOT_TRY(put_constraints(s, out));
     for (size_t i = 0; i < s->events.n; i++)
         QDOT_TRY(qdot_event_print(s, &s->events.at[i], out));

@@ -25,6 +25,13 @@ replace_all(const replacement *r, size_t n, qdot_expr *e)
 }
 
 static void
+replace_terms(const replacement *r, size_t n, qdot_term *terms)
+{
+    for (size_t i = 0; i < n; i++)
+        replace(r, &terms[i].e);
+}
+
+static void
 replace_links(const replacement *r, size_t n, qdot_link *links)
 {
     for (size_t i = 0; i < n; i++) {
@@ -77,9 +84,9 @@ qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to)
     replace_links(&r, s->springs.n, s->springs.at);
     replace_links(&r, s->dampers.n, s->dampers.at);
     replace_actions(&r, s);
-    replace_all(&r, s->gravities.n, s->gravities.at);
-    replace_all(&r, s->potentials.n, s->potentials.at);
-    replace_all(&r, s->dissipations.n, s->dissipations.at);
+    replace_terms(&r, s->gravities.n, s->gravities.at);
+    replace_terms(&r, s->potentials.n, s->potentials.at);
+    replace_terms(&r, s->dissipations.n, s->dissipations.at);
     for (size_t i = 0; i < s->assumed.n; i++)
         replace(&r, &s->assumed.at[i].relation);
     replace_all(&r, s->conditions.n, s->conditions.at);

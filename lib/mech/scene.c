@@ -44,12 +44,19 @@ qdot_scene_new(qdot_pool *pool)
     return s;
 }
 
-static void
-link_clear(qdot_link *link)
+void
+qdot_link_clear(qdot_link *link)
 {
     qdot_free(link->name);
     qdot_free(link->end[0]);
     qdot_free(link->end[1]);
+}
+
+void
+qdot_force_clear(qdot_force *force)
+{
+    qdot_free(force->name);
+    qdot_free(force->on);
 }
 
 void
@@ -77,15 +84,19 @@ qdot_scene_free(qdot_scene *s)
     for (size_t i = 0; i < s->bodies.n; i++)
         qdot_free(s->bodies.at[i].name);
     for (size_t i = 0; i < s->springs.n; i++)
-        link_clear(&s->springs.at[i]);
+        qdot_link_clear(&s->springs.at[i]);
     for (size_t i = 0; i < s->dampers.n; i++)
-        link_clear(&s->dampers.at[i]);
-    for (size_t i = 0; i < s->forces.n; i++) {
-        qdot_free(s->forces.at[i].name);
-        qdot_free(s->forces.at[i].on);
-    }
+        qdot_link_clear(&s->dampers.at[i]);
+    for (size_t i = 0; i < s->forces.n; i++)
+        qdot_force_clear(&s->forces.at[i]);
     for (size_t i = 0; i < s->torques.n; i++)
         qdot_free(s->torques.at[i].name);
+    for (size_t i = 0; i < s->gravities.n; i++)
+        qdot_free(s->gravities.at[i].name);
+    for (size_t i = 0; i < s->potentials.n; i++)
+        qdot_free(s->potentials.at[i].name);
+    for (size_t i = 0; i < s->dissipations.n; i++)
+        qdot_free(s->dissipations.at[i].name);
     for (size_t i = 0; i < s->constraints.n; i++)
         qdot_constraint_clear(&s->constraints.at[i]);
     for (size_t i = 0; i < s->events.n; i++)
@@ -238,22 +249,72 @@ qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr p
     return changed(s);
 }
 
+static qdot_status
+need_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
+{
+    switch (kind) {
+    case QDOT_GRAVITY:
+        QDOT_TRY(need_no_lagrangian(s, "gravity"));
+        return need_vector(s, e, "a uniform field", NO_PLACE);
+    case QDOT_POTENTIAL:
+        QDOT_TRY(need_no_lagrangian(s, "a potential"));
+        return need_scalar(s, e, "a potential", NO_ACCELERATION);
+    default: return need_scalar(s, e, "a dissipation function", NO_ACCELERATION);
+    }
+}
+
+/* The field without label; NULL: there is none. */
+static qdot_term *
+plain_gravity(const qdot_scene *s)
+{
+    for (size_t i = 0; i < s->gravities.n; i++)
+        if (!s->gravities.at[i].name)
+            return &s->gravities.at[i];
+    return NULL;
+}
+
+qdot_status
+qdot_scene_term(qdot_scene *s, qdot_scene_kind kind, const char *name, qdot_expr e)
+{
+    qdot_term term = {NULL, e}, *before = NULL;
+    qdot_status status;
+
+    qdot_scene_forget_dropped(s);
+    QDOT_TRY(need_new_label(s, name));
+    QDOT_TRY(need_term(s, kind, e));
+    if (kind == QDOT_GRAVITY && !name)
+        before = plain_gravity(s);
+    if (before) {
+        before->e = e;
+        return changed(s);
+    }
+    QDOT_TRY(copy_name(name, &term.name));
+    status = kind == QDOT_GRAVITY     ? qdot_vec_push(&s->gravities, term)
+             : kind == QDOT_POTENTIAL ? qdot_vec_push(&s->potentials, term)
+                                      : qdot_vec_push(&s->dissipations, term);
+    if (status != QDOT_OK) {
+        qdot_free(term.name);
+        return status;
+    }
+    return changed(s);
+}
+
 qdot_status
 qdot_scene_gravity(qdot_scene *s, qdot_expr field)
 {
-    QDOT_TRY(need_no_lagrangian(s, "gravity"));
-    QDOT_TRY(need_vector(s, field, "a uniform field", NO_PLACE));
-    QDOT_TRY(qdot_vec_push(&s->gravities, field));
-    return changed(s);
+    return qdot_scene_term(s, QDOT_GRAVITY, NULL, field);
 }
 
 qdot_status
 qdot_scene_potential(qdot_scene *s, qdot_expr V)
 {
-    QDOT_TRY(need_no_lagrangian(s, "a potential"));
-    QDOT_TRY(need_scalar(s, V, "a potential", NO_ACCELERATION));
-    QDOT_TRY(qdot_vec_push(&s->potentials, V));
-    return changed(s);
+    return qdot_scene_term(s, QDOT_POTENTIAL, NULL, V);
+}
+
+qdot_status
+qdot_scene_dissipation(qdot_scene *s, qdot_expr D)
+{
+    return qdot_scene_term(s, QDOT_DISSIPATION, NULL, D);
 }
 
 /* A spring or damper: checked, copied and appended to its list. */
@@ -292,7 +353,7 @@ add_link(qdot_scene *s, const qdot_link *link, bool damper)
         status =
             damper ? qdot_vec_push(&s->dampers, copy) : qdot_vec_push(&s->springs, copy);
     if (status != QDOT_OK) {
-        link_clear(&copy);
+        qdot_link_clear(&copy);
         return status;
     }
     return changed(s);
@@ -318,14 +379,6 @@ qdot_scene_damper(qdot_scene *s, const qdot_link *damper)
 }
 
 qdot_status
-qdot_scene_dissipation(qdot_scene *s, qdot_expr D)
-{
-    QDOT_TRY(need_scalar(s, D, "a dissipation function", NO_ACCELERATION));
-    QDOT_TRY(qdot_vec_push(&s->dissipations, D));
-    return changed(s);
-}
-
-qdot_status
 qdot_scene_force(qdot_scene *s, const qdot_force *force)
 {
     qdot_force copy = *force;
@@ -340,6 +393,8 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
         return qdot_fail(QDOT_ETYPE, "a force of %u components at a point of %u",
                          qdot_mech_dimension(s->pool, force->force),
                          qdot_mech_dimension(s->pool, force->point));
+    if (force->material && (!force->on || !qdot_scene_find_body(s, force->on)))
+        return qdot_fail(QDOT_EINVAL, "only a body has material at other places than its own");
     copy.name = copy.on = NULL;
     status = copy_name(force->name, &copy.name);
     if (status == QDOT_OK)
@@ -347,8 +402,7 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
     if (status == QDOT_OK)
         status = qdot_vec_push(&s->forces, copy);
     if (status != QDOT_OK) {
-        qdot_free(copy.name);
-        qdot_free(copy.on);
+        qdot_force_clear(&copy);
         return status;
     }
     return changed(s);

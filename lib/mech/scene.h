@@ -33,11 +33,19 @@ typedef struct {
     qdot_expr stiffness, rest; /* spring; of a damper: coefficient, nil */
 } qdot_link;
 
+/* A term of V, a term of the Rayleigh function, or a uniform field. */
+typedef struct {
+    char *name; /* NULL: no label */
+    qdot_expr e;
+} qdot_term;
+
 typedef struct {
     char *name;   /* NULL: no label */
     qdot_expr force; /* vector (or scalar in 1-D) */
     qdot_expr point; /* where it acts: a position */
     char *on;     /* label of the particle or body, NULL for a point */
+    bool material; /* on the material of body `on` that is at `point` just then:
+                      Q = F . dv/dq', v = velocity(on, point); else Q = F . d(point)/dq */
 } qdot_force;
 
 typedef struct {
@@ -82,10 +90,10 @@ typedef struct {
     qdot_vec(qdot_expr) coordinates;
     qdot_vec(qdot_particle) particles;
     qdot_vec(qdot_body) bodies;
-    qdot_vec(qdot_expr) gravities;    /* vectors: fields that add up */
-    qdot_vec(qdot_expr) potentials;   /* terms of V declared with `potential` */
+    qdot_vec(qdot_term) gravities;    /* vectors: fields that add up, one without label */
+    qdot_vec(qdot_term) potentials;   /* terms of V declared with `potential` */
     qdot_vec(qdot_link) springs, dampers;
-    qdot_vec(qdot_expr) dissipations; /* terms of the Rayleigh function */
+    qdot_vec(qdot_term) dissipations; /* terms of the Rayleigh function */
     qdot_vec(qdot_force) forces;
     qdot_vec(qdot_torque) torques;
     qdot_vec(qdot_constraint) constraints;
@@ -115,11 +123,28 @@ QDOT_MUST_CHECK qdot_status qdot_scene_body(qdot_scene *s, const char *name, qdo
                                             qdot_expr inertia, qdot_expr about,
                                             qdot_expr position, qdot_expr angle,
                                             qdot_expr rotation);
+/* What may be declared without a label, in the order of `scene`. */
+typedef enum {
+    QDOT_GRAVITY,
+    QDOT_POTENTIAL,
+    QDOT_SPRING,
+    QDOT_DAMPER,
+    QDOT_DISSIPATION,
+    QDOT_FORCE, /* on a particle, a body, at a place; then those on coordinates */
+    QDOT_TORQUE
+} qdot_scene_kind;
+
+/* A gravity, potential or dissipation with its label (NULL: none). A gravity without label takes
+ * the place of the one without label before. */
+QDOT_MUST_CHECK qdot_status qdot_scene_term(qdot_scene *s, qdot_scene_kind kind,
+                                            const char *name, qdot_expr e);
+/* The same without label. */
 QDOT_MUST_CHECK qdot_status qdot_scene_gravity(qdot_scene *s, qdot_expr field);
 QDOT_MUST_CHECK qdot_status qdot_scene_potential(qdot_scene *s, qdot_expr V);
 QDOT_MUST_CHECK qdot_status qdot_scene_spring(qdot_scene *s, const qdot_link *spring);
 QDOT_MUST_CHECK qdot_status qdot_scene_damper(qdot_scene *s, const qdot_link *damper);
 QDOT_MUST_CHECK qdot_status qdot_scene_dissipation(qdot_scene *s, qdot_expr D);
+/* material: QDOT_EINVAL unless `on` is a body. */
 QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *force);
 QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
 QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
@@ -135,9 +160,15 @@ const qdot_event *qdot_scene_find_event(const qdot_scene *s, const char *label);
 /* An equation or inequality the engine may use; turned: a < b was written b > a. QDOT_ETYPE: it is
  * neither; QDOT_EINVAL: it can never hold. */
 QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned);
-/* Take the labelled thing (particle, body, spring, damper, force, torque, constraint, event) out again.
- * What was declared to act on a removed particle or body goes with it, named in s->dropped. */
+/* Take the thing of that label out again. What was declared to act on a removed particle or body
+ * goes with it, named in s->dropped. */
 QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
+/* How many of a kind there are, with and without label; the k-th, from 0, taken out. */
+size_t qdot_scene_count(const qdot_scene *s, qdot_scene_kind kind);
+QDOT_MUST_CHECK qdot_status qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k);
+/* Whether the latest of a kind says what one before it says, both without label. QDOT_FORCE: on a
+ * particle, a body or at a place; QDOT_TORQUE: also those declared with `force`. */
+bool qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind);
 
 /* Rotation matrix Rz(phi) Rx(theta) Rz(psi). */
 qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi);
@@ -156,11 +187,20 @@ qdot_expr qdot_scene_position(const qdot_scene *s, const char *label);
 qdot_expr qdot_scene_point(qdot_scene *s, const char *body, qdot_expr P);
 qdot_expr qdot_scene_spin(qdot_scene *s, const char *body);
 qdot_expr qdot_scene_velocity(qdot_scene *s, const char *body, qdot_expr place);
+/* Bodies within which a place moves, by their labels, "a, b": no coordinate but theirs is in it, and
+ * d(place)/dt is proved to differ from the velocity of the material there. Nothing is appended for
+ * the place of a particle and for one that is fixed in a body. body: only this one is looked at;
+ * NULL: all. */
+QDOT_MUST_CHECK qdot_status qdot_scene_moves_within(qdot_scene *s, qdot_expr place,
+                                                    const char *body, qdot_text *out);
 
 /* The scene's facts for the engine (borrowed, valid until the scene changes). */
 qdot_facts qdot_scene_facts(const qdot_scene *s);
 
 /* `scene` printed: every declaration as a statement that parses back, a line each (plain style). */
 QDOT_MUST_CHECK qdot_status qdot_scene_print(const qdot_scene *s, qdot_text *out);
+/* The line of the k-th of a kind, from 0. */
+QDOT_MUST_CHECK qdot_status qdot_scene_print_at(const qdot_scene *s, qdot_scene_kind kind,
+                                                size_t k, qdot_text *out);
 
 #endif

@@ -3,6 +3,9 @@
  *     delta W = sum F . delta r = sum_j Q_j delta q_j,
  *     Q_j = sum F . dr/dq_j = sum F . dv/dq_j'      (Kane's form; both are computed)
  *
+ * At the material of a body that is at the place P just then, F . dv/dq_j' with
+ * v = r' + omega x (P - r): what rides along is the body, not P.
+ *
  * A potential that may hold velocities gives -dV/dq + d/dt dV/dq'; a damper pulls with -c
  * d' along its line: Q_j = -c d' dd/dq_j = -c (u.u') (u.du/dq_j) / u.u, u between the
  * ends.
@@ -43,7 +46,7 @@ gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
             for (size_t g = 0; g < s->gravities.n; g++)
                 Q = qdot_add(
                     pool, Q,
-                    qdot_mul(pool, m, qdot_mech_dot(pool, s->gravities.at[g], v)));
+                    qdot_mul(pool, m, qdot_mech_dot(pool, s->gravities.at[g].e, v)));
         }
     } else {
         kin = qdot_kinematics_get(s);
@@ -64,7 +67,7 @@ gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
         for (size_t g = 0; g < s->gravities.n; g++)
             Q = qdot_add(
                 pool, Q,
-                qdot_mul(pool, slope, qdot_mech_dot(pool, s->gravities.at[g], r)));
+                qdot_mul(pool, slope, qdot_mech_dot(pool, s->gravities.at[g].e, r)));
     }
     return Q;
 }
@@ -84,7 +87,7 @@ conservative(qdot_scene *s, qdot_expr V, size_t i, bool kane)
 static qdot_expr
 potential_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
-    return conservative(s, s->potentials.at[k], i, kane);
+    return conservative(s, s->potentials.at[k].e, i, kane);
 }
 
 /* Pull of a link, a scalar along u, by u . du/dq: -(pull) u.du. */
@@ -162,14 +165,23 @@ dissipation_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
     (void)kane;
     return qdot_neg(s->pool,
-                    qdot_diff(s->pool, s->dissipations.at[k], qdot_mech_jet(s, i, 1)));
+                    qdot_diff(s->pool, s->dissipations.at[k].e, qdot_mech_jet(s, i, 1)));
 }
 
+/* On the material of a body the place is carried along by nothing but the body. */
 static qdot_expr
 applied_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
-    return qdot_mech_dot(s->pool, s->forces.at[k].force,
-                         partial(s, s->forces.at[k].point, i, kane));
+    const qdot_force *f = &s->forces.at[k];
+    qdot_expr v;
+
+    if (!f->material)
+        return qdot_mech_dot(s->pool, f->force, partial(s, f->point, i, kane));
+    v = kane ? qdot_diff(s->pool, qdot_scene_velocity(s, f->on, f->point),
+                         qdot_mech_jet(s, i, 1))
+             : qdot_body_partial_velocity(s, qdot_scene_find_body(s, f->on), f->point,
+                                          s->coordinates.at[i]);
+    return qdot_mech_dot(s->pool, f->force, v);
 }
 
 static qdot_expr
@@ -208,12 +220,23 @@ COUNT(dissipations)
 COUNT(forces)
 COUNT(torques)
 
+/* Fields act together: where there is one, its label. */
 static const char *
-no_name(const qdot_scene *s, size_t k)
+gravity_name(const qdot_scene *s, size_t k)
 {
-    (void)s;
-    (void)k;
-    return NULL;
+    return s->gravities.n == 1 ? s->gravities.at[k].name : NULL;
+}
+
+static const char *
+potential_name(const qdot_scene *s, size_t k)
+{
+    return s->potentials.at[k].name;
+}
+
+static const char *
+dissipation_name(const qdot_scene *s, size_t k)
+{
+    return s->dissipations.at[k].name;
 }
 
 static const char *
@@ -272,11 +295,11 @@ static const struct {
     qdot_expr (*force)(qdot_scene *s, size_t k, size_t i, bool kane);
     const char *(*name)(const qdot_scene *s, size_t k);
 } sources[] = {
-    {gravity_words, true, count_gravity, gravity_force, no_name},
-    {potential_words, true, count_potentials, potential_force, no_name},
+    {gravity_words, true, count_gravity, gravity_force, gravity_name},
+    {potential_words, true, count_potentials, potential_force, potential_name},
     {spring_words, true, count_springs, spring_force, spring_name},
     {damper_words, false, count_dampers, damper_force, damper_name},
-    {dissipation_words, false, count_dissipations, dissipation_force, no_name},
+    {dissipation_words, false, count_dissipations, dissipation_force, dissipation_name},
     {force_words, false, count_forces, applied_force, force_name},
     {torque_words, false, count_torques, torque_force, torque_name},
 };

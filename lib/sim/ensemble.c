@@ -163,7 +163,7 @@ static bool
 is_indefinite(const qdot_scene *scene)
 {
     for (size_t i = 0; i < scene->potentials.n; i++)
-        if (qdot_expr_node(scene->pool, scene->potentials.at[i])->holds &
+        if (qdot_expr_node(scene->pool, scene->potentials.at[i].e)->holds &
             QDOT_HAS_VELOCITY)
             return true;
     return scene->lagrangian != QDOT_NIL;

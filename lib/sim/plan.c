@@ -187,7 +187,7 @@ derive(qdot_plan *p, qdot_scene *scene)
     }
     p->indefinite = scene->lagrangian != QDOT_NIL;
     for (size_t i = 0; i < scene->potentials.n; i++)
-        if (qdot_expr_node(p->pool, scene->potentials.at[i])->holds & QDOT_HAS_VELOCITY)
+        if (qdot_expr_node(p->pool, scene->potentials.at[i].e)->holds & QDOT_HAS_VELOCITY)
             p->indefinite = true;
     return QDOT_OK;
 }

@@ -177,8 +177,8 @@ find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
     if (switches(s, scene->lagrangian, &status))
         sum = scene->lagrangian;
     for (size_t i = 0; i < scene->potentials.n; i++)
-        if (switches(s, scene->potentials.at[i], &status))
-            sum = qdot_sub(pool, sum, scene->potentials.at[i]);
+        if (switches(s, scene->potentials.at[i].e, &status))
+            sum = qdot_sub(pool, sum, scene->potentials.at[i].e);
     if (status == QDOT_OK && sum != QDOT_ZERO) {
         sum = qdot_substitute(pool, sum, request->n_values, request->symbols,
                               request->values);

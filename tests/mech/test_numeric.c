@@ -258,7 +258,7 @@ add_body(world *w, int dim)
     }
     if (k->scene->gravities.n)
         w->L =
-            qdot_add(p, w->L, qdot_mul(p, m, qdot_dot(p, k->scene->gravities.at[0], r)));
+            qdot_add(p, w->L, qdot_mul(p, m, qdot_dot(p, k->scene->gravities.at[0].e, r)));
 }
 
 static void
@@ -323,7 +323,7 @@ build(world *w, uint64_t seed, bool bodies)
             w->L =
                 qdot_add(k->pool, w->L,
                          qdot_mul(k->pool, m,
-                                  qdot_mech_dot(k->pool, k->scene->gravities.at[0], r)));
+                                  qdot_mech_dot(k->pool, k->scene->gravities.at[0].e, r)));
     }
     if (bodies)
         add_body(w, dim);

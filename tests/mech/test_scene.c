@@ -41,6 +41,9 @@ wrong_declarations_are_refused(void **state)
     refused(k, qdot_scene_force(k->scene, &f), QDOT_ETYPE, "3 components");
     f.force = E(k, "(0, F*x'')");
     refused(k, qdot_scene_force(k->scene, &f), QDOT_EINVAL, "accelerations");
+    f = (qdot_force){
+        .force = E(k, "(0, F)"), .point = E(k, "(x, y)"), .on = (char *)"bob", .material = true};
+    refused(k, qdot_scene_force(k->scene, &f), QDOT_EINVAL, "material");
     refused(k, qdot_scene_dissipation(k->scene, E(k, "x''^2")), QDOT_EINVAL,
             "accelerations");
     link = (qdot_link){.at = {E(k, "(x, y)"), E(k, "(x, y)")}, .stiffness = E(k, "kk")};
@@ -113,6 +116,45 @@ what_acts_on_a_removed_particle_goes_with_it(void **state)
     assert_string_equal(k->scene->dropped.at[0], "spring s1");
     assert_string_equal(k->scene->dropped.at[1], "a force");
     SAME(k, qdot_mech_force(k->scene, E(k, "x")), "0");
+    kit_close(k);
+}
+
+/* By number in the order of `scene`; what was derived goes with it. */
+static void
+things_without_label_go_by_number(void **state)
+{
+    kit k_, *k = &k_;
+    qdot_torque on_y;
+
+    (void)state;
+    kit_open(k);
+    coords(k, "x y");
+    particle(k, "a", "m", "(x, y)");
+    must(qdot_scene_gravity(k->scene, E(k, "(0, -g)")));
+    must(qdot_scene_gravity(k->scene, E(k, "(0, -2*g)")));
+    assert_int_equal(qdot_scene_count(k->scene, QDOT_GRAVITY), 1);
+    must(qdot_scene_term(k->scene, QDOT_GRAVITY, "wind", E(k, "(w, 0)")));
+    must(qdot_scene_potential(k->scene, E(k, "x*y")));
+    must(qdot_scene_term(k->scene, QDOT_POTENTIAL, "well", E(k, "x*y")));
+    assert_false(qdot_scene_said_twice(k->scene, QDOT_POTENTIAL));
+    must(qdot_scene_potential(k->scene, E(k, "x*y")));
+    assert_true(qdot_scene_said_twice(k->scene, QDOT_POTENTIAL));
+    refused(k, qdot_scene_term(k->scene, QDOT_DISSIPATION, "wind", E(k, "x'^2")), QDOT_ENAME,
+            "wind");
+    torque(k, "tau", "y");
+    on_y = (qdot_torque){.torque = E(k, "f"), .coordinate = E(k, "y"), .force = true, .body = -1};
+    must(qdot_scene_torque(k->scene, &on_y));
+    assert_int_equal(qdot_scene_count(k->scene, QDOT_FORCE), 1);
+    assert_int_equal(qdot_scene_count(k->scene, QDOT_TORQUE), 1);
+    SAME(k, qdot_mech_force(k->scene, E(k, "x")), "m*w - 3*y");
+    SAME(k, qdot_mech_force(k->scene, E(k, "y")), "-2*m*g - 3*x + tau + f");
+    must(qdot_scene_remove_at(k->scene, QDOT_FORCE, 0));
+    must(qdot_scene_remove_at(k->scene, QDOT_GRAVITY, 0));
+    must(qdot_scene_remove_at(k->scene, QDOT_POTENTIAL, 2));
+    must(qdot_scene_remove(k->scene, "well"));
+    refused(k, qdot_scene_remove_at(k->scene, QDOT_FORCE, 0), QDOT_EINVAL, "number 1");
+    SAME(k, qdot_mech_force(k->scene, E(k, "x")), "m*w - y");
+    SAME(k, qdot_mech_force(k->scene, E(k, "y")), "-x + tau");
     kit_close(k);
 }
 
@@ -255,6 +297,14 @@ everything(qdot_pool *pool, qdot_scene *s, const qdot_expr *e)
     link.name = (char *)"d1";
     QDOT_TRY(qdot_scene_damper(s, &link));
     QDOT_TRY(qdot_scene_force(s, &force));
+    force = (qdot_force){.force = e[4], .point = e[4], .on = (char *)"plate", .material = true};
+    QDOT_TRY(qdot_scene_force(s, &force));
+    status = qdot_scene_moves_within(s, e[4], NULL, &out);
+    qdot_text_clear(&out);
+    QDOT_TRY(status);
+    QDOT_TRY(qdot_scene_term(s, QDOT_POTENTIAL, "well", e[0]));
+    QDOT_TRY(qdot_scene_remove_at(s, QDOT_POTENTIAL, 0));
+    QDOT_TRY(qdot_scene_term(s, QDOT_DISSIPATION, "drag", e[1]));
     QDOT_TRY(qdot_scene_torque(s, &torque));
     QDOT_TRY(qdot_scene_constraint(s, "pin", e[3], e[4]));
     QDOT_TRY(qdot_scene_assume(s, qdot_rel(pool, QDOT_EQ, e[5], QDOT_ONE), false));
@@ -398,6 +448,7 @@ main(void)
         cmocka_unit_test(wrong_declarations_are_refused),
         cmocka_unit_test(components_that_hold_identically_are_left_out),
         cmocka_unit_test(what_acts_on_a_removed_particle_goes_with_it),
+        cmocka_unit_test(things_without_label_go_by_number),
         cmocka_unit_test(scene_prints_as_statements),
         cmocka_unit_test(a_matrix_that_is_no_rotation_is_refused),
         cmocka_unit_test(redundant_constraints_do_not_count),

@@ -438,6 +438,34 @@ torque_on_a_spatial_body_works_through_its_spin_body(kit *k)
 }
 TEST(torque_on_a_spatial_body_works_through_its_spin)
 
+/* F . d velocity(body, P) / dq', whatever P is, and not F . dP/dq. */
+static void
+force_on_material_works_through_its_velocity_body(kit *k)
+{
+    qdot_expr R, P, v, F;
+
+    coords(k, "X Y phi theta psi");
+    P = E(k, "(X + 2*theta, Y*X, 3/4)");
+    F = E(k, "(F1, F2*X', F3)");
+    R = qdot_scene_euler(k->pool, E(k, "phi"), E(k, "theta"), E(k, "psi"));
+    must(qdot_scene_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL,
+                         E(k, "(X, Y, a*sin(theta))"), QDOT_NIL, R));
+    must(qdot_scene_force(k->scene, &(qdot_force){.force = F,
+                                                  .point = P,
+                                                  .on = (char *)"b",
+                                                  .material = true}));
+    v = qdot_scene_velocity(k->scene, "b", P);
+    for (int i = 0; i < 5; i++) {
+        qdot_expr q = k->scene->coordinates.at[i];
+        qdot_expr w = qdot_symbol_jet(k->pool, q, 1);
+
+        same_at(k, qdot_mech_force(k->scene, q), qdot_dot(k->pool, F, qdot_diff(k->pool, v, w)),
+                i);
+        same_at(k, qdot_mech_force_kane(k->scene, q), qdot_mech_force(k->scene, q), i);
+    }
+}
+TEST(force_on_material_works_through_its_velocity)
+
 static void
 magnetic_potential_gives_lorentz_force_body(kit *k)
 {
@@ -524,6 +552,7 @@ main(void)
         cmocka_unit_test(spatial_body_has_the_textbooks_energy),
         cmocka_unit_test(plane_body_and_its_points),
         cmocka_unit_test(torque_on_a_spatial_body_works_through_its_spin),
+        cmocka_unit_test(force_on_material_works_through_its_velocity),
         cmocka_unit_test(magnetic_potential_gives_lorentz_force),
         cmocka_unit_test(stated_lagrangian),
         cmocka_unit_test(masses_may_vary),
