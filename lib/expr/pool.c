@@ -8,6 +8,7 @@
 
 #include <flint/flint.h>
 #include <flint/fmpz.h>
+#include <gmp.h>
 
 #include "base/interrupt.h"
 #include "base/scope.h"
