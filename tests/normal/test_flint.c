@@ -404,7 +404,7 @@ nothing_is_left_behind(void **state)
     }
     often = resident();
     print_message("# %d times left: %+.0f kB\n", TIMES, (often - once) / 1024);
-    assert_true(often - once < 0.1 * TIMES * MANY * 20 * sizeof(mp_limb_t));
+    assert_true(often - once < 0.1 * TIMES * MANY * 20 * sizeof(ulong));
     qdot_pool_free(pool);
 }
 
