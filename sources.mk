@@ -716,6 +716,7 @@ script_tests = \
 	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
 	tests/script/event-roots.lag \
+	tests/script/event-time-errors.sh \
 	tests/script/events.lag \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
@@ -1406,6 +1407,7 @@ test_files = \
 	tests/script/event-constraints.out \
 	tests/script/event-ends.out \
 	tests/script/event-roots.out \
+	tests/script/event-time-errors.out \
 	tests/script/events.out \
 	tests/script/factor.out \
 	tests/script/fall.out \

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
 #include "lang/answer.h"
 #include "lang/declare.h"
 #include "lang/meant.h"
@@ -512,6 +514,49 @@ qdot_number_along(qdot_session *session, const char *run, qdot_expr e, size_t k,
     return qdot_run_values_beyond(named->run, 1, &e, k, times, lows, values, errors);
 }
 
+/* What the numbers of runs that stand in e are off by, as it makes e at t: sum |de/dm| error
+ * of m, added to *error. */
+static qdot_status
+add_error_within(qdot_session *session, const char *run, qdot_expr e, double t, double *error)
+{
+    const size_t n = session->measured.n;
+
+    for (size_t i = 0; i < n; i++) {
+        const qdot_measured m = session->measured.at[i];
+        double slope = 0, off, low = 0;
+        qdot_expr d;
+
+        if (!qdot_expr_contains(session->pool, e, m.symbol))
+            continue;
+        d = qdot_number_without_measured(session,
+                                         qdot_diff(session->pool, e, m.symbol));
+        QDOT_TRY(qdot_pool_check(session->pool));
+        QDOT_TRY(qdot_number_along(session, run, d, 1, &t, &low, &slope, &off));
+        *error += slope == 0 ? 0 : fabs(slope) * m.error;
+    }
+    return QDOT_OK;
+}
+
+/* The same of all components of args [n], whose numbers are m. */
+static qdot_status
+add_errors_within(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
+                  qdot_expr time, qdot_measured *m)
+{
+    double t;
+
+    QDOT_TRY(qdot_session_number(session, time, &t, NULL));
+    for (uint32_t i = 0; i < n; i++) {
+        const bool scalar = qdot_expr_is_scalar(session->pool, args[i]);
+        const uint32_t parts = scalar ? 1 : qdot_expr_count(session->pool, args[i]);
+
+        for (uint32_t k = 0; k < parts; k++, m++)
+            QDOT_TRY(add_error_within(session, run,
+                                      scalar ? args[i] : qdot_expr_arg(session->pool, args[i], k),
+                                      t, &m->error));
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_number_value(qdot_session *session, const char *run, uint32_t n,
                   const qdot_expr *args, qdot_expr *value)
@@ -540,6 +585,8 @@ qdot_number_value(qdot_session *session, const char *run, uint32_t n,
                  : qdot_run_get_report(named->run)->digits > 0
                      ? measure_exactly(session, named->run, &columns, args[n - 1], measured)
                      : measure(session, named->run, &columns, args[n - 1], measured);
+    if (status == QDOT_OK)
+        status = add_errors_within(session, run, n - 1, args, args[n - 1], measured);
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&symbols, measured_symbol(session, measured[i]));
     if (status == QDOT_OK) {

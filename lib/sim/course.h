@@ -18,7 +18,8 @@
  * Events without `then` or `stop` are only noted. More than MOST_REPEATS occurrences of
  * one thing within 1e-9 of the run's time end it too: a ball that comes to rest.
  *
- * Tests  tests/script/events.lag, switching.lag, event-ends.sh
+ * Tests  tests/script/events.lag, switching.lag, switch-nested.lag, event-ends.sh,
+ *        tests/sim/test_switch.c
  */
 #ifndef QDOT_SIM_COURSE_H
 #define QDOT_SIM_COURSE_H

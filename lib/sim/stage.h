@@ -1,7 +1,8 @@
 /* stage.h -- what may happen in a run: events, coordinates that leave their domains,
  * equations that switch; and a plan for every mode of these that was met.
  *
- * Tests  tests/script/events.lag, switching.lag, event-ends.sh
+ * Tests  tests/script/events.lag, switching.lag, switch-nested.lag, event-ends.sh,
+ *        tests/sim/test_switch.c
  */
 #ifndef QDOT_SIM_STAGE_H
 #define QDOT_SIM_STAGE_H

@@ -19,7 +19,7 @@
  * inside it, so that sides can be decided one after another; as expressions in q, q', t and
  * the sides, which are symbols then, all u are smooth.
  *
- * Tests  tests/script/switching.lag, tests/sim/test_taylor.c
+ * Tests  tests/script/switching.lag, switch-nested.lag, tests/sim/test_switch.c, test_taylor.c
  */
 #ifndef QDOT_SIM_SWITCH_H
 #define QDOT_SIM_SWITCH_H

@@ -1,0 +1,30 @@
+# What value() states covers the error of event times: a time in an expression, and the state
+# behind a thousand impacts.
+state=$(qdot -q --json - <<'LAG'
+coord x, y
+particle star mass 1 at (x, y)
+potential (x^2 + y^2)/2 + x^2*y - y^3/3
+event cr: x = 0 rising
+start y = -0.15, x' = 0.54
+run 0..60 tol 1e-6
+value(cr[3], 60)
+value(y - y + 2*cr[3], 60)
+reset scene
+coord x
+particle p mass 1 at x
+event r: x = 1 rising then x' = -x'
+event l: x = 0 falling then x' = -x'
+start x = 0.3, x' = sqrt(2)
+run 0..1000 tol 1e-9
+value(x, 1000)
+LAG
+)
+echo "$state" | sed -n 's/.*"kind":"number".*"value":\([-+.0-9e]*\),"error":\([-+.0-9e]*\).*/\1 \2/p' | awk '
+BEGIN {
+    truth[1] = 22.389846130829384; truth[2] = 44.779692261658768
+    n = 0.3 + 1000*sqrt(2); k = int(n/2); n -= 2*k; truth[3] = n > 1 ? 2 - n : n
+}
+{
+    off = $1 - truth[NR]; if (off < 0) off = -off
+    print (off <= 3*$2 && $2 <= 100*off + 1e-8) ? "covered" : "off by " off ", stated " $2
+}'
