@@ -321,6 +321,10 @@ loop(qdot_piece *x, double t0, const double *y0)
             qdot_piece_stop(x, true);
         if (status != QDOT_OK || x->intent != QDOT_PIECE_ENDS || c->reason[0] != '\0')
             break;
+        if (c->most_pieces > 0 && c->tr.pieces.n > c->most_pieces) {
+            qdot_piece_stop(x, true);
+            break;
+        }
         from = x->mode;
         jumped = false;
         t = c->tr.t[c->tr.count - 1];

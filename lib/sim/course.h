@@ -52,6 +52,7 @@ typedef struct qdot_course {
     /* evaluations for the states within steps that were looked at, and how many end the run
      * as QDOT_ELIMIT; 0: any */
     uint64_t looked, most_looked;
+    size_t most_pieces; /* after which a companion is given up; 0: any */
     qdot_trajectory tr;
     qdot_vec(qdot_bind *) binds;         /* by mode, as far as they were met; NULL else */
     qdot_vec(qdot_ode_system) systems;   /* by mode */

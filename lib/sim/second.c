@@ -129,6 +129,7 @@ begin_anew(qdot_course *c)
                                .shaken = c->shaken,
                                .no_series = c->no_series,
                                .early = c->early,
+                               .most_pieces = c->most_pieces,
                                .touch_tol = c->touch_tol};
 
     qdot_course_clear(c);
@@ -195,6 +196,8 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     c->shaken = number == 0;
     c->early = number == 0 ? 1 : -1;
     c->touch_tol = run->report.tol;
+    /* moved off a surface that the run rests on, it would cross it without end */
+    c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
     c->no_series = false;
     QDOT_TRY(follow_so(run, number, c, has));
     if (!run->plan->method->stiff || (*has && c->tr.result.outcome != QDOT_ODE_FAILED))
