@@ -520,6 +520,8 @@ lang_sources = \
 	lib/lang/call.c \
 	lib/lang/carry.c \
 	lib/lang/check.c \
+	lib/lang/closed-sum.c \
+	lib/lang/condition.c \
 	lib/lang/constraints.c \
 	lib/lang/cursor.c \
 	lib/lang/declare-function.c \
@@ -569,7 +571,9 @@ lang_headers = \
 	lib/lang/answer.h \
 	lib/lang/ask.h \
 	lib/lang/carry.h \
+	lib/lang/closed-sum.h \
 	lib/lang/code.h \
+	lib/lang/condition.h \
 	lib/lang/constraints.h \
 	lib/lang/declare.h \
 	lib/lang/digits-table.h \
@@ -745,6 +749,7 @@ script_tests = \
 	tests/script/jumps.sh \
 	tests/script/labels.lag \
 	tests/script/leading.sh \
+	tests/script/long-sums.lag \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -895,6 +900,7 @@ script_tests = \
 	tests/bad/lone-point.lag \
 	tests/bad/loop-half.lag \
 	tests/bad/loop-limit.lag \
+	tests/bad/loop-too-long.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -980,6 +986,8 @@ script_tests = \
 	tests/bad/start-velocities.lag \
 	tests/bad/string-number.lag \
 	tests/bad/style-unknown.lag \
+	tests/bad/sum-too-long-family.lag \
+	tests/bad/sum-too-long.lag \
 	tests/bad/taken-constraint.lag \
 	tests/bad/taken-nothing.lag \
 	tests/bad/text-compared.lag \
@@ -1158,6 +1166,7 @@ test_files = \
 	tests/bad/lone-point.out \
 	tests/bad/loop-half.out \
 	tests/bad/loop-limit.out \
+	tests/bad/loop-too-long.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
@@ -1243,6 +1252,8 @@ test_files = \
 	tests/bad/start-velocities.out \
 	tests/bad/string-number.out \
 	tests/bad/style-unknown.out \
+	tests/bad/sum-too-long-family.out \
+	tests/bad/sum-too-long.out \
 	tests/bad/taken-constraint.out \
 	tests/bad/taken-nothing.out \
 	tests/bad/text-compared.out \
@@ -1449,6 +1460,7 @@ test_files = \
 	tests/script/jumps.out \
 	tests/script/labels.out \
 	tests/script/leading.out \
+	tests/script/long-sums.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \

@@ -3,8 +3,9 @@
 
 #include "base/interrupt.h"
 #include "expr/tensor.h"
-#include "expr/walk.h"
+#include "lang/closed-sum.h"
 #include "lang/code.h"
+#include "lang/condition.h"
 #include "lang/number.h"
 
 /* A value on the stack. */
@@ -23,6 +24,7 @@ typedef struct {
     uint32_t resume; /* code after it */
     size_t terms;    /* where its terms begin */
     bool bound;      /* the index is bound just now */
+    qdot_expr symbol; /* what it is bound to for a formula of many terms; nil: to numbers */
 } frame;
 
 typedef struct {
@@ -202,35 +204,7 @@ product(machine *m, size_t n)
     return push(m, at_once ? qdot_product(m->pool, n, m->args.at) : value);
 }
 
-/* --- relations and logic ------------------------------------------------------------ */
-
-static qdot_status
-relation(machine *m, const qdot_token *op, qdot_expr a, qdot_expr b, qdot_expr *value)
-{
-    bool strict = op->text[1] == '\0';
-
-    if (op->text[0] == '=') {
-        *value = qdot_value_equation(m->pool, a, b);
-        return qdot_resolve_check(m->pool, *value);
-    }
-    if (!qdot_expr_is_scalar(m->pool, a) || !qdot_expr_is_scalar(m->pool, b)) {
-        qdot_expr odd = qdot_expr_is_scalar(m->pool, a) ? b : a;
-
-        return qdot_fail(QDOT_ETYPE, "`%s` compares numbers, not %s", op->text,
-                         qdot_resolve_kind(m->pool, odd));
-    }
-    *value = op->text[0] == '<' ? qdot_rel(m->pool, strict ? QDOT_LT : QDOT_LE, a, b)
-                                : qdot_rel(m->pool, strict ? QDOT_LT : QDOT_LE, b, a);
-    return qdot_resolve_check(m->pool, *value);
-}
-
-static bool
-is_condition(const machine *m, qdot_expr e)
-{
-    qdot_kind kind = qdot_expr_kind(m->pool, e);
-
-    return e == QDOT_TRUE || e == QDOT_FALSE || kind == QDOT_REL || kind == QDOT_LOGIC;
-}
+/* --- logic -------------------------------------------------------------------------- */
 
 static qdot_status
 logic(machine *m, qdot_logic_op op, size_t n)
@@ -239,27 +213,10 @@ logic(machine *m, qdot_logic_op op, size_t n)
 
     QDOT_TRY(take(m, n));
     for (size_t i = 0; i < n; i++)
-        if (!is_condition(m, m->args.at[i]))
+        if (!qdot_condition_is(m->pool, m->args.at[i]))
             return qdot_fail(QDOT_ETYPE, "`%s` joins conditions, not %s", names[op],
                              qdot_resolve_kind(m->pool, m->args.at[i]));
     return push(m, qdot_logic(m->pool, op, (uint32_t)n, m->args.at));
-}
-
-/* An equation between numbers stays one; as a condition it is true or false. */
-static qdot_expr
-decide(qdot_pool *pool, qdot_expr node, void *user)
-{
-    (void)user;
-    if (qdot_expr_kind(pool, node) == QDOT_REL &&
-        qdot_expr_node(pool, node)->op == QDOT_EQ) {
-        qdot_expr a = qdot_expr_arg(pool, node, 0), b = qdot_expr_arg(pool, node, 1);
-
-        if (a == b)
-            return QDOT_TRUE;
-        if (qdot_expr_kind(pool, a) == QDOT_NUM && qdot_expr_kind(pool, b) == QDOT_NUM)
-            return QDOT_FALSE;
-    }
-    return QDOT_NIL;
 }
 
 /* --- sum(EXPR, k, a, b) and if(C, A, B) --------------------------------------------- */
@@ -308,8 +265,48 @@ sum_begin(machine *m, const qdot_code *code, uint32_t *pc)
     QDOT_TRY(take(m, 2));
     QDOT_TRY(qdot_session_integer(m->session, m->args.at[0], &f.k));
     QDOT_TRY(qdot_session_integer(m->session, m->args.at[1], &f.last));
+    if (f.last > f.k && (unsigned long)f.last - (unsigned long)f.k >= QDOT_SUM_TERMS) {
+        f.symbol = qdot_symbol_get(m->pool, QDOT_FORMAL, "a summation index");
+        QDOT_TRY(qdot_resolve_check(m->pool, f.symbol));
+        QDOT_TRY(qdot_names_push(m->session->names, f.index, f.symbol));
+        f.bound = true;
+        *pc = code->to;
+        return qdot_vec_push(&m->frames, f);
+    }
     QDOT_TRY(qdot_vec_push(&m->frames, f));
     return sum_round(m, pc, code->to);
+}
+
+/* The summand as a function of the index is there: its sum by formula. */
+static qdot_status
+sum_by_formula(machine *m, uint32_t *pc)
+{
+    frame *f = &m->frames.at[m->frames.n - 1];
+    qdot_expr value;
+    qdot_status status;
+
+    if (!qdot_expr_is_scalar(m->pool, m->args.at[0]))
+        return qdot_fail(QDOT_EFAILED, "no formula is known");
+    status = qdot_closed_sum(m->pool, m->args.at[0], f->symbol, f->k, f->last, &value);
+    if (status != QDOT_OK && status != QDOT_EFAILED)
+        f->symbol = QDOT_NIL; /* a formula is known: its error is the one to tell */
+    QDOT_TRY(status);
+    qdot_names_pop(m->session->names);
+    *pc = f->resume;
+    m->frames.n--;
+    return push(m, value);
+}
+
+/* Evaluation failed in a sum that only a formula could give. */
+static qdot_status
+too_many_terms(const frame *f, qdot_status status)
+{
+    if (f->symbol == QDOT_NIL || status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return status;
+    (void)qdot_fail(QDOT_ELIMIT, "a sum of %lu terms, and none is known by a formula",
+                    (unsigned long)f->last - (unsigned long)f->k + 1);
+    return qdot_hint("more than %d terms must be polynomials in %.40s or powers r^%.40s",
+                     QDOT_SUM_TERMS, f->index, f->index);
 }
 
 /* The body's value is there. The SUM_BEGIN that began it stands before frame.resume. */
@@ -320,6 +317,8 @@ sum_next(machine *m, uint32_t *pc)
     uint32_t body = m->program->list.at[f->resume - 1].to;
 
     QDOT_TRY(take(m, 1));
+    if (f->symbol != QDOT_NIL)
+        return sum_by_formula(m, pc);
     QDOT_TRY(qdot_vec_push(&m->terms, m->args.at[0]));
     qdot_names_pop(m->session->names);
     f->bound = false;
@@ -336,10 +335,10 @@ if_test(machine *m, const qdot_code *code, uint32_t *pc)
         m->session->passed->branches++;
     if (s->run != NULL)
         return along_runs();
-    if (!is_condition(m, s->value))
+    if (!qdot_condition_is(m->pool, s->value))
         return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) takes a condition, not %s",
                          qdot_resolve_kind(m->pool, s->value));
-    s->value = qdot_walk_map(m->pool, s->value, decide, NULL);
+    s->value = qdot_condition_decide(m->pool, s->value);
     QDOT_TRY(qdot_resolve_check(m->pool, s->value));
     if (s->value != QDOT_FALSE)
         return QDOT_OK;
@@ -616,11 +615,13 @@ step(machine *m, const qdot_code *code, uint32_t *pc)
         return pass(m, from_top(m, 1)->value);
     case QDOT_CODE_RELATION:
         QDOT_TRY(take(m, 2));
-        QDOT_TRY(relation(m, code->token, m->args.at[0], m->args.at[1], &value));
+        QDOT_TRY(qdot_condition_relation(m->pool, code->token->text, m->args.at[0],
+                                         m->args.at[1], &value));
         return push(m, value);
     case QDOT_CODE_CHAIN:
         QDOT_TRY(take(m, 2));
-        QDOT_TRY(relation(m, code->token, m->args.at[0], m->args.at[1], &value));
+        QDOT_TRY(qdot_condition_relation(m->pool, code->token->text, m->args.at[0],
+                                         m->args.at[1], &value));
         QDOT_TRY(push(m, value));
         return push(m, m->args.at[1]);
     case QDOT_CODE_AND: return logic(m, QDOT_AND, code->n);
@@ -679,6 +680,8 @@ qdot_evaluate(qdot_cursor *c, const qdot_program *program, qdot_expr *value,
     } else if (m.blame != NULL) {
         c->error_at = m.blame->start;
     }
+    if (status != QDOT_OK && m.frames.n > 0)
+        status = too_many_terms(&m.frames.at[m.frames.n - 1], status);
     for (size_t i = m.frames.n; i > 0; i--) /* only after a failure */
         if (m.frames.at[i - 1].bound)
             qdot_names_pop(m.session->names);

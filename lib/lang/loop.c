@@ -60,6 +60,13 @@ read_index(qdot_loop *loop, qdot_cursor *c, qdot_loop_index *index, bool *empty)
         QDOT_TRY(qdot_session_integer(loop->session, from, &index->at));
         QDOT_TRY(qdot_session_integer(loop->session, to, &index->last));
         *empty = index->at > index->last;
+        if (!*empty &&
+            (unsigned long)index->last - (unsigned long)index->at >= QDOT_LOOP_PASSES) {
+            (void)qdot_fail(QDOT_ELIMIT, "a loop of %lu passes: more than %d",
+                            (unsigned long)index->last - (unsigned long)index->at + 1,
+                            QDOT_LOOP_PASSES);
+            return qdot_hint("a function of k needs no member for each: a(k) = ...");
+        }
     }
     index->behind = c->at;
     return QDOT_OK;

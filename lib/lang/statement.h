@@ -61,6 +61,8 @@ typedef struct {
     bool open; /* counted in session->loops */
 } qdot_loop;
 
+enum { QDOT_LOOP_PASSES = 10000000 }; /* the most of one index */
+
 /* Bind the indices to the first pass, then to the next; *more: there is such a pass. A
  * range may depend on the indices before it. After an error or the last pass nothing
  * is bound. */
