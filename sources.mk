@@ -156,6 +156,7 @@ normal_sources = \
 	lib/normal/form.c \
 	lib/normal/ideal.c \
 	lib/normal/inequality.c \
+	lib/normal/isolate.c \
 	lib/normal/items.c \
 	lib/normal/known-signs.c \
 	lib/normal/lattice.c \
@@ -213,6 +214,7 @@ normal_headers = \
 	lib/normal/form.h \
 	lib/normal/ideal.h \
 	lib/normal/inequality.h \
+	lib/normal/isolate.h \
 	lib/normal/items.h \
 	lib/normal/lattice.h \
 	lib/normal/map.h \
@@ -313,6 +315,8 @@ mech_sources = \
 	lib/mech/dalembert.c \
 	lib/mech/derived.c \
 	lib/mech/energy.c \
+	lib/mech/equilibrium-branches.c \
+	lib/mech/equilibrium-equations.c \
 	lib/mech/equilibrium-numeric.c \
 	lib/mech/equilibrium-twice.c \
 	lib/mech/equilibrium.c \
@@ -326,6 +330,8 @@ mech_sources = \
 	lib/mech/kinematics.c \
 	lib/mech/label.c \
 	lib/mech/lagrange.c \
+	lib/mech/linear-motion.c \
+	lib/mech/lyapunov.c \
 	lib/mech/mass-matrix.c \
 	lib/mech/metric.c \
 	lib/mech/minimal.c \
@@ -342,6 +348,8 @@ mech_sources = \
 	lib/mech/scene-replace.c \
 	lib/mech/scene.c \
 	lib/mech/squares.c \
+	lib/mech/stability-exact.c \
+	lib/mech/stability-numbers.c \
 	lib/mech/stability.c \
 	lib/mech/virtual-work.c
 
@@ -353,12 +361,15 @@ mech_headers = \
 	lib/mech/geometry.h \
 	lib/mech/hamilton.h \
 	lib/mech/integrable.h \
+	lib/mech/linear-motion.h \
+	lib/mech/lyapunov.h \
 	lib/mech/minimal.h \
 	lib/mech/noether.h \
 	lib/mech/quantity.h \
 	lib/mech/reactions.h \
 	lib/mech/scene.h \
-	lib/mech/squares.h
+	lib/mech/squares.h \
+	lib/mech/stability.h
 
 sim_sources = \
 	lib/sim/bind.c \
@@ -625,6 +636,7 @@ unit_tests = \
 	tests/mech/test_numeric \
 	tests/mech/test_scene \
 	tests/mech/test_scenes \
+	tests/mech/test_stability \
 	tests/normal/test_antiderivative \
 	tests/normal/test_decide \
 	tests/normal/test_flint \
@@ -696,6 +708,7 @@ script_tests = \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
 	tests/script/cases.sh \
+	tests/script/check-conserved.lag \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
 	tests/script/constraint-ends.sh \
@@ -735,6 +748,7 @@ script_tests = \
 	tests/script/functions.lag \
 	tests/script/geometry.lag \
 	tests/script/hamilton.lag \
+	tests/script/hanging-chain.lag \
 	tests/script/help-examples.lag \
 	tests/script/help.lag \
 	tests/script/hidden-forces.lag \
@@ -769,6 +783,7 @@ script_tests = \
 	tests/script/mechanism-rolling-sphere.lag \
 	tests/script/mechanism-slider-crank.lag \
 	tests/script/mechanism-top.lag \
+	tests/script/modes-order.lag \
 	tests/script/modes.lag \
 	tests/script/moving.lag \
 	tests/script/multipliers-known.lag \
@@ -791,6 +806,7 @@ script_tests = \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
 	tests/script/reset.lag \
+	tests/script/rests.lag \
 	tests/script/routh.lag \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
@@ -799,6 +815,7 @@ script_tests = \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
 	tests/script/solve.lag \
+	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
 	tests/script/styles-names.lag \
@@ -864,7 +881,6 @@ script_tests = \
 	tests/bad/eigenvalues-complex.lag \
 	tests/bad/empty-brackets.lag \
 	tests/bad/entry-range.lag \
-	tests/bad/equilibria-time.lag \
 	tests/bad/equilibria-unset.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/foreign-function.lag \
@@ -1130,7 +1146,6 @@ test_files = \
 	tests/bad/eigenvalues-complex.out \
 	tests/bad/empty-brackets.out \
 	tests/bad/entry-range.out \
-	tests/bad/equilibria-time.out \
 	tests/bad/equilibria-unset.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/foreign-function.out \
@@ -1391,6 +1406,7 @@ test_files = \
 	tests/script/cases.inc \
 	tests/script/cases.json \
 	tests/script/cases.out \
+	tests/script/check-conserved.out \
 	tests/script/check.out \
 	tests/script/conserved.out \
 	tests/script/constraint-ends.out \
@@ -1433,6 +1449,7 @@ test_files = \
 	tests/script/functions.out \
 	tests/script/geometry.out \
 	tests/script/hamilton.out \
+	tests/script/hanging-chain.out \
 	tests/script/help-examples.out \
 	tests/script/help.out \
 	tests/script/hidden-forces.out \
@@ -1480,6 +1497,7 @@ test_files = \
 	tests/script/mechanism-rolling-sphere.out \
 	tests/script/mechanism-slider-crank.out \
 	tests/script/mechanism-top.out \
+	tests/script/modes-order.out \
 	tests/script/modes.out \
 	tests/script/moving.out \
 	tests/script/multipliers-known.out \
@@ -1503,6 +1521,7 @@ test_files = \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
 	tests/script/reset.out \
+	tests/script/rests.out \
 	tests/script/routh.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
@@ -1511,6 +1530,7 @@ test_files = \
 	tests/script/signs.out \
 	tests/script/slow-margin.out \
 	tests/script/solve.out \
+	tests/script/stability.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
 	tests/script/styles-names.out \

@@ -11,6 +11,7 @@
 #include "lang/algebra.h"
 #include "lang/answer.h"
 #include "lang/code.h"
+#include "lang/equilibria.h"
 #include "mech/geometry.h"
 #include "mech/hamilton.h"
 #include "normal/simplify.h"
@@ -332,6 +333,15 @@ call_metric(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value
     return give(s, qdot_mech_metric(s->scene, args[0]), value);
 }
 
+/* --- rest ------------------------------------------------------------------------------ */
+
+static qdot_status
+call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return qdot_equilibria_stability(s, args[0], value);
+}
+
 /* --- geometry of r(q), or of a line element ----------------------------------------- */
 
 /* Of the place R alone. */
@@ -613,6 +623,10 @@ static const qdot_builtin rows[] = {
     ROW(2, 2, poisson, "poisson(f, g)",
         "Poisson's bracket over the scene's coordinates q and momenta p[q]",
         "poisson(r, p[r])"),
+    {"stability", 1, 1, call_stability, "stability(equilibria[k])",
+     "what is proved of it: stable, unstable, stable_to_first_order, undecided; while "
+     "parameters are free if(CONDITION, stable, undecided)",
+     "stability(equilibria[1])", 0, NULL},
     {"point", 1, 2, call_point, "point(body, P)", "where the body-fixed point P is",
      "point(plate, (a, b))", QDOT_BUILTIN_LABEL, NULL},
     {"spin", 1, 1, call_spin, "spin(body)", "angular velocity; a number in the plane",

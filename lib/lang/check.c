@@ -549,6 +549,19 @@ look_for_contradiction(qdot_session *session, const facts *f, const qdot_facts *
     return status;
 }
 
+/* The facts as a decision takes them, of the sides of q. */
+static qdot_facts
+all_known(qdot_session *session, const facts *f, const question *q)
+{
+    /* accelerations follow a function of time whatever its second derivative is */
+    return (qdot_facts){f->relations.n,
+                        f->relations.at,
+                        f->conditions.n,
+                        f->conditions.at,
+                        f->motion && !f->stated ? 2 : 0,
+                        q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q)};
+}
+
 static qdot_status
 answer(qdot_cursor *c, question *q, facts *f)
 {
@@ -559,13 +572,7 @@ answer(qdot_cursor *c, question *q, facts *f)
     qdot_facts known;
     bool measured;
 
-    if (q->conserved) {
-        q->left = qdot_ddt(pool, q->left);
-        q->right = QDOT_ZERO;
-        QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(add_motion(session, f));
-    }
-    unwrap(session->pool, &q->left, &q->right);
+    unwrap(pool, &q->left, &q->right);
     measured =
         qdot_ask_is_measured(session, q->left) || qdot_ask_is_measured(session, q->right);
     if (measured && q->how == EQUAL && !q->within) {
@@ -582,10 +589,7 @@ answer(qdot_cursor *c, question *q, facts *f)
         left = replace(session, f, q->left);
         right = replace(session, f, q->right);
         QDOT_TRY(qdot_pool_check(pool));
-        /* accelerations follow a function of time whatever its second derivative is */
-        known = (qdot_facts){f->relations.n, f->relations.at, f->conditions.n,
-                             f->conditions.at, f->motion && !f->stated ? 2 : 0,
-                             q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q)};
+        known = all_known(session, f, q);
         QDOT_TRY(qdot_pool_check(pool));
         if (q->turned) {
             QDOT_TRY(decide(session, right, left, q->how, &known, &decision));
@@ -602,6 +606,66 @@ answer(qdot_cursor *c, question *q, facts *f)
     return qdot_answer_check(session, q->left, q->right, &decision);
 }
 
+/* dE/dt = 0 along the motion, where that needs no accelerations; *done: it was decided so. Where multipliers
+ * are left, which the state tells, only a proof counts. */
+static qdot_status
+answer_by_rate(qdot_session *session, question *q, facts *f, bool *done)
+{
+    qdot_pool *pool = session->pool;
+    qdot_decision decision;
+    qdot_facts known;
+    qdot_expr rate;
+
+    *done = false;
+    if (!qdot_expr_is_scalar(pool, q->left) || session->scene->coordinates.n == 0 ||
+        f->from.n > 0 || qdot_ask_is_measured(session, q->left))
+        return QDOT_OK;
+    rate = qdot_mech_rate(session->scene, q->left);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (rate == QDOT_NIL)
+        return QDOT_OK;
+    f->motion = true;
+    for (size_t i = 0; i < session->scene->constraints.n; i++)
+        QDOT_TRY(add_constraint(session, f, i, false));
+    known = all_known(session, f, q);
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(decide_scalars(session, rate, QDOT_ZERO, EQUAL, &known, &decision));
+    *done = decision.verdict == QDOT_PROVED ||
+            (qdot_expr_node(pool, rate)->holds & QDOT_HAS_MULTIPLIER) == 0;
+    if (!*done)
+        return QDOT_OK;
+    if (decision.verdict == QDOT_PROVED)
+        QDOT_TRY(look_for_contradiction(session, f, &known));
+    if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
+        session->refuted = true;
+    return qdot_answer_check(session, rate, QDOT_ZERO, &decision);
+}
+
+/* `conserved E`: by its rate, else with accelerations put in; past the work budget that is undecided. */
+static qdot_status
+answer_conserved(qdot_cursor *c, question *q, facts *f)
+{
+    qdot_session *session = c->session;
+    bool done;
+    qdot_status status;
+
+    QDOT_TRY(answer_by_rate(session, q, f, &done));
+    if (done)
+        return QDOT_OK;
+    q->left = qdot_ddt(session->pool, q->left);
+    q->right = QDOT_ZERO;
+    QDOT_TRY(qdot_pool_check(session->pool));
+    status = add_motion(session, f);
+    if (status == QDOT_ELIMIT) {
+        qdot_decision decision = {.verdict = QDOT_UNDECIDED};
+
+        QDOT_TRY(qdot_answer_notice(session, "%s", qdot_last_error()->message));
+        return qdot_answer_check(session, q->left, q->right, &decision);
+    }
+    QDOT_TRY(status);
+    return answer(c, q, f);
+}
+
 qdot_status
 qdot_check(qdot_cursor *c)
 {
@@ -616,7 +680,7 @@ qdot_check(qdot_cursor *c)
         status = qdot_constraints_check_integrable(c, q.not);
     } else if (status == QDOT_OK) {
         c->error_at = start->start;
-        status = answer(c, &q, &f);
+        status = q.conserved ? answer_conserved(c, &q, &f) : answer(c, &q, &f);
     }
     qdot_free(q.passed.value.at);
     free_facts(&f);

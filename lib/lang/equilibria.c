@@ -25,27 +25,77 @@ need_coordinates(const qdot_session *session)
 }
 
 qdot_status
-qdot_equilibria_find(qdot_session *session, qdot_equilibrium **list, size_t *n)
+qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
 {
-    *list = NULL;
-    *n = 0;
+    *out = (qdot_equilibria){0};
     QDOT_TRY(need_coordinates(session));
-    return qdot_equilibrium_find(session->scene, bind, session, list, n);
+    return qdot_equilibrium_find(session->scene, bind, session, out);
 }
 
 qdot_status
-qdot_equilibria_list(qdot_session *session, const qdot_equilibrium *list, size_t n,
-                     qdot_expr *value)
+qdot_equilibria_list(qdot_session *session, const qdot_equilibria *all, qdot_expr *value)
 {
-    qdot_expr *members = qdot_malloc((n + 1) * sizeof *members);
+    qdot_expr *members = qdot_malloc((all->n + 1) * sizeof *members);
 
     if (members == NULL)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        members[i] = list[i].equations;
-    *value = qdot_list(session->pool, (uint32_t)n, members);
+    for (size_t i = 0; i < all->n; i++)
+        members[i] = all->at[i].equations;
+    *value = qdot_list(session->pool, (uint32_t)all->n, members);
     qdot_free(members);
     return qdot_pool_check(session->pool);
+}
+
+/* --- the verdict as a value ------------------------------------------------------------------ */
+
+qdot_expr
+qdot_equilibria_word(qdot_pool *pool, qdot_stability stability)
+{
+    static const char *const words[] = {
+        [QDOT_STABLE] = "stable",
+        [QDOT_UNSTABLE] = "unstable",
+        [QDOT_STABLE_TO_FIRST_ORDER] = "stable_to_first_order",
+        [QDOT_STABILITY_UNDECIDED] = "undecided",
+    };
+
+    return qdot_symbol_get(pool, QDOT_FORMAL, words[stability]);
+}
+
+static qdot_expr
+as_value(qdot_pool *pool, const qdot_equilibrium *e)
+{
+    qdot_expr word = qdot_equilibria_word(pool, e->stability), when[3];
+
+    if (e->stable_when == QDOT_NIL)
+        return word;
+    when[0] = qdot_expr_count(pool, e->stable_when) == 1
+                  ? qdot_expr_arg(pool, e->stable_when, 0)
+                  : qdot_logic(pool, QDOT_AND, qdot_expr_count(pool, e->stable_when),
+                               qdot_expr_args(pool, e->stable_when));
+    when[1] = word;
+    when[2] = qdot_equilibria_word(pool, QDOT_STABILITY_UNDECIDED);
+    return qdot_fun(pool, QDOT_IF, 3, when);
+}
+
+qdot_status
+qdot_equilibria_stability(qdot_session *session, qdot_expr equations, qdot_expr *value)
+{
+    qdot_equilibria all;
+    size_t at = 0;
+    qdot_status status = qdot_equilibria_find(session, &all);
+
+    while (status == QDOT_OK && at < all.n && all.at[at].equations != equations)
+        at++;
+    if (status == QDOT_OK && at == all.n) {
+        (void)qdot_fail(QDOT_EINVAL, "that is none of the scene's equilibria");
+        status = qdot_hint("stability(equilibria[1])");
+    }
+    if (status == QDOT_OK) {
+        *value = as_value(session->pool, &all.at[at]);
+        status = qdot_pool_check(session->pool);
+    }
+    qdot_equilibria_clear(&all);
+    return status;
 }
 
 /* Whether a value is one that was found in numbers: 15 decimal digits. */
@@ -63,28 +113,42 @@ is_numeric(qdot_session *session, qdot_expr equations)
     return false;
 }
 
+static qdot_status
+none_to_swing_about(const qdot_equilibria *all)
+{
+    if (all->n == 0)
+        return qdot_fail(QDOT_EINVAL, all->complete ? "the scene has no equilibrium"
+                                                    : "no equilibrium was found");
+    (void)qdot_fail(QDOT_EINVAL, "every equilibrium is unstable");
+    return qdot_hint("modes at equilibria[1]");
+}
+
 qdot_status
 qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
 {
-    qdot_equilibrium *list = NULL;
-    size_t n = 0, at = 0;
+    qdot_equilibria all;
+    size_t at = 0;
 
     if (equations == QDOT_NIL) { /* the first that is not unstable */
+        qdot_status status;
+
         QDOT_TRY(need_coordinates(session));
-        QDOT_TRY(qdot_equilibrium_first(session->scene, bind, session, &list, &n));
-        while (at < n && list[at].stability == QDOT_UNSTABLE)
+        QDOT_TRY(qdot_equilibrium_first(session->scene, bind, session, &all));
+        while (at < all.n && all.at[at].stability == QDOT_UNSTABLE)
             at++;
-        if (at < n)
-            equations = list[at].equations;
-        qdot_free(list);
-        if (at == n) {
-            (void)qdot_fail(QDOT_EINVAL, n == 0 ? "the scene has no equilibrium"
-                                                : "every equilibrium is unstable");
-            return n == 0 ? QDOT_EINVAL : qdot_hint("modes at equilibria[1]");
-        }
+        status = at < all.n ? QDOT_OK : none_to_swing_about(&all);
+        if (status == QDOT_OK)
+            equations = all.at[at].equations;
+        qdot_equilibria_clear(&all);
+        QDOT_TRY(status);
     }
-    return qdot_modes_about(session->scene, equations, is_numeric(session, equations),
-                            bind, session, modes);
+    QDOT_TRY(qdot_modes_about(session->scene, equations, is_numeric(session, equations),
+                              bind, session, modes));
+    return modes->unordered
+               ? qdot_answer_notice(session, "the declared signs do not decide the order of "
+                                             "the modes: it is that at one choice of the "
+                                             "parameters")
+               : QDOT_OK;
 }
 
 /* --- equilibria ------------------------------------------------------------------------- */
@@ -145,10 +209,12 @@ print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
 static qdot_status
 print_stability(qdot_session *session, const qdot_equilibrium *e, qdot_text *out)
 {
-    static const char *const words[] = {[QDOT_STABLE] = "stable",
-                                        [QDOT_UNSTABLE] = "unstable",
-                                        [QDOT_STABILITY_UNDECIDED] =
-                                            "stability undecided"};
+    static const char *const words[] = {
+        [QDOT_STABLE] = "stable",
+        [QDOT_UNSTABLE] = "unstable",
+        [QDOT_STABLE_TO_FIRST_ORDER] = "stable to first order",
+        [QDOT_STABILITY_UNDECIDED] = "stability undecided",
+    };
 
     if (e->numeric)
         qdot_text_add(out, "numeric, ");
@@ -158,7 +224,7 @@ print_stability(qdot_session *session, const qdot_equilibrium *e, qdot_text *out
         qdot_text_add(out, ", ");
     }
     qdot_text_add(out, words[e->stability]);
-    if (e->stability == QDOT_STABLE && e->stable_when != QDOT_NIL) {
+    if (e->stable_when != QDOT_NIL) {
         qdot_text_add(out, " when ");
         QDOT_TRY(print_conditions(session, e->stable_when, out));
     }
@@ -211,27 +277,57 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
     return status;
 }
 
+/* What is not there, or may be there beside: how much is known of that. */
+static qdot_status
+answer_rest(qdot_session *session, const qdot_equilibria *all)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (all->complete && all->n > 0)
+        return QDOT_OK;
+    if (all->complete) {
+        qdot_text_add(&text, "there is no equilibrium");
+    } else if (all->starts == 0) {
+        qdot_text_add(&text, all->n == 0 ? "no equilibrium was found; there may be some"
+                                         : "there may be others");
+    } else {
+        qdot_text_format(&text, "%s: %zu starts in numbers, within -%g..%g where no domain "
+                                "is declared",
+                         all->n == 0 ? "no equilibrium was found; there may be some"
+                                     : "there may be others",
+                         all->starts, all->reach, all->reach);
+    }
+    if (all->unproved > 0)
+        qdot_text_format(&text, "; %zu of them ended where the equations hold to rounding, "
+                                "but no rest is proved", all->unproved);
+    status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, "equilibria", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
 qdot_status
 qdot_equilibria_all(qdot_cursor *c)
 {
     qdot_session *session = c->session;
     const qdot_token *start = c->at - 1; /* the word */
-    qdot_equilibrium *list;
+    qdot_equilibria all;
     qdot_expr value;
     qdot_status status;
-    size_t n;
 
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    QDOT_TRY(qdot_equilibria_find(session, &list, &n));
-    status = qdot_equilibria_list(session, list, n, &value);
+    QDOT_TRY(qdot_equilibria_find(session, &all));
+    status = qdot_equilibria_list(session, &all, &value);
     if (status == QDOT_OK)
         status = qdot_vec_push(&session->history, value);
-    if (status == QDOT_OK && n == 0)
-        status = qdot_answer_text(session, "equilibria", "there is no equilibrium");
-    for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        status = answer_one(session, i, &list[i]);
-    qdot_free(list);
+    for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
+        status = answer_one(session, i, &all.at[i]);
+    if (status == QDOT_OK)
+        status = answer_rest(session, &all);
+    qdot_equilibria_clear(&all);
     return status;
 }
 

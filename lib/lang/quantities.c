@@ -326,17 +326,29 @@ get_conserved(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *va
 static qdot_status
 get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
-    qdot_equilibrium *list;
+    qdot_equilibria all;
     qdot_status status;
-    size_t count;
 
     (void)n, (void)index;
     QDOT_TRY(need_coordinates(s));
-    QDOT_TRY(qdot_equilibria_find(s, &list, &count));
-    status = qdot_equilibria_list(s, list, count, value);
-    qdot_free(list);
+    QDOT_TRY(qdot_equilibria_find(s, &all));
+    status = qdot_equilibria_list(s, &all, value);
+    qdot_equilibria_clear(&all);
     return status;
 }
+
+#define VERDICT(name, verdict)                                                           \
+    static qdot_status get_##name(qdot_session *s, uint32_t n, const qdot_expr *index,   \
+                                  qdot_expr *value)                                      \
+    {                                                                                    \
+        (void)n, (void)index;                                                            \
+        return give(s, qdot_equilibria_word(s->pool, verdict), value);                   \
+    }
+VERDICT(stable, QDOT_STABLE)
+VERDICT(unstable, QDOT_UNSTABLE)
+VERDICT(to_first_order, QDOT_STABLE_TO_FIRST_ORDER)
+VERDICT(undecided, QDOT_STABILITY_UNDECIDED)
+#undef VERDICT
 
 /* The frequencies; modes[k, x]: an amplitude. */
 static qdot_status
@@ -466,6 +478,15 @@ static const qdot_quantity rows[] = {
     {"equilibria", 0, 0, get_equilibria, "equilibria or equilibria[2]",
      "where the scene can rest, a list of equations each; alone, with their stability",
      "equilibria", false, NULL},
+    {"stable", 0, 0, get_stable, "stable", "a verdict of stability(equilibria[1])",
+     "check stability(equilibria[1]) == stable", false, NULL},
+    {"unstable", 0, 0, get_unstable, "unstable", "a verdict of stability(equilibria[1])",
+     "check stability(equilibria[1]) == unstable", false, NULL},
+    {"stable_to_first_order", 0, 0, get_to_first_order, "stable_to_first_order",
+     "a verdict of stability(equilibria[1]): the linear motion stays near",
+     "check stability(equilibria[1]) == stable_to_first_order", false, NULL},
+    {"undecided", 0, 0, get_undecided, "undecided", "a verdict of stability(equilibria[1])",
+     "check stability(equilibria[1]) == undecided", false, NULL},
     {"modes", 0, 2, get_modes, "modes, modes[k] or modes[k, theta]",
      "angular frequencies of the normal modes about the first equilibrium that is not "
      "unstable, ascending; modes[k, theta] is an amplitude, the first of a mode being 1",

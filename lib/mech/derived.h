@@ -193,6 +193,8 @@ bool qdot_lagrangian_is_still(qdot_scene *s, qdot_expr x);
 qdot_expr qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied);
 /* The same without gravity, not simplified. */
 qdot_expr qdot_force_but_gravity(qdot_scene *s, size_t i);
+/* What `force` and `torque` declare alone. */
+qdot_expr qdot_force_declared(qdot_scene *s, size_t i);
 
 /* --- lagrange.c --- */
 /* -(d/dt dF/dq' - dF/dq) at q'' = 0 for any F(q, q', t). */

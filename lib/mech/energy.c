@@ -425,6 +425,73 @@ constraint_power(qdot_scene *s, size_t k)
     return power;
 }
 
+/* dh/dt, with the multipliers' symbols. */
+static qdot_expr
+energy_rate(qdot_scene *s)
+{
+    qdot_expr rate = applied_power(s);
+
+    for (size_t k = 0; k < s->constraints.n; k++) {
+        qdot_expr power = constraint_power(s, k);
+
+        if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
+            power = qdot_neg(s->pool, power); /* q' df/dq = -df/dt */
+        rate = qdot_add(s->pool, rate,
+                        qdot_mul(s->pool, s->constraints.at[k].multiplier, power));
+    }
+    return rate;
+}
+
+/* dp/dt of coordinate i, likewise. */
+static qdot_expr
+momentum_rate(qdot_scene *s, size_t i)
+{
+    qdot_pool *pool = s->pool;
+
+    return qdot_sum(pool, 3,
+                    (qdot_expr[]){qdot_lagrangian_slope(s, s->coordinates.at[i]),
+                                  qdot_force_total(s, i, false, true),
+                                  qdot_constraint_reaction(s, i)});
+}
+
+static bool
+is_free_of_velocities(qdot_scene *s, qdot_expr e)
+{
+    return e != QDOT_NIL && (qdot_mech_holds(s, e) & (QDOT_HAS_VELOCITY |
+                                                      QDOT_HAS_ACCELERATION)) == 0;
+}
+
+/* E less a quantity whose rate needs no accelerations: what is left, free of velocities; else nil. */
+static qdot_expr
+rest_beside(qdot_scene *s, qdot_expr E, qdot_expr known)
+{
+    const qdot_facts facts = qdot_scene_facts(s);
+    qdot_expr rest = E == known ? QDOT_ZERO : qdot_sub(s->pool, E, known);
+
+    if (is_free_of_velocities(s, rest))
+        return rest;
+    rest = qdot_simplify(s->pool, rest, &facts);
+    return is_free_of_velocities(s, rest) ? rest : QDOT_NIL;
+}
+
+qdot_expr
+qdot_mech_rate(qdot_scene *s, qdot_expr E)
+{
+    qdot_expr rest;
+
+    if (is_free_of_velocities(s, E))
+        return qdot_ddt(s->pool, E);
+    rest = rest_beside(s, E, qdot_mech_energy(s));
+    if (rest != QDOT_NIL)
+        return qdot_add(s->pool, energy_rate(s), qdot_ddt(s->pool, rest));
+    for (size_t i = 0; i < s->coordinates.n && !qdot_pool_failed(s->pool); i++) {
+        rest = rest_beside(s, E, qdot_mech_momentum(s, s->coordinates.at[i]));
+        if (rest != QDOT_NIL)
+            return qdot_add(s->pool, momentum_rate(s, i), qdot_ddt(s->pool, rest));
+    }
+    return QDOT_NIL;
+}
+
 qdot_status
 qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
 {

@@ -1,46 +1,42 @@
-/* equilibrium-numeric.c -- roots of the equations at rest from many starts, each refined. */
+/* equilibrium-numeric.c -- places of rest in numbers: Levenberg's and Marquardt's steps from many
+ * starts, each place proved (normal/isolate.h).
+ *
+ * Starts lie within the declared domains, a full turn of an angle, and else within +-RANGE of several sizes.
+ * Multipliers begin with the values that leave least of the equations there; so what is
+ * searched through is the coordinates alone. A force that only fades, far away, leaves Newton's
+ * steps as long as the distance: no place to prove. */
 #include <math.h>
 
-#include <gsl/gsl_multiroots.h>
+#include <gsl/gsl_linalg.h>
 
 #include "base/interrupt.h"
-#include "mech/derived.h"
-#include "mech/equilibrium.h"
+#include "mech/equilibrium-rest.h"
+#include "normal/isolate.h"
 
-enum { STARTS = 240, STEPS = 200, MOST = 100 };
+enum { STARTS = 240, STEPS = 60, MOST = 100, NEWTON = 6 };
+
+/* How far starts go, by turns. */
+static const double ranges[] = {1.5, 4, 1.5, 12, 1.5, 4, 40, 100};
+enum { RANGES = sizeof ranges / sizeof *ranges };
 
 typedef struct {
+    qdot_rest *rest;
     qdot_pool *pool;
-    size_t n;
-    const qdot_expr *u, *r;
-    qdot_status status;
+    size_t n, slopes;
+    size_t coordinates;      /* the first of the unknowns; then multipliers */
+    const qdot_expr *u;
+    qdot_expr *e;            /* [n + slopes] residuals, then those slopes that are not 0 */
+    size_t *row, *column;    /* [slopes] */
+    double *lo, *hi;         /* [n] domains */
+    bool *angle;             /* [n] a full turn changes nothing */
+    double *value;           /* [n + slopes] at x */
+    double *x, *try, *step;  /* [n] */
+    double *rhs;             /* [n] */
+    gsl_matrix *J, *A;       /* slopes whole; J^T J + damping */
+    gsl_permutation *order;
 } problem;
 
-static int
-evaluate(const gsl_vector *x, void *user, gsl_vector *f)
-{
-    problem *p = user;
-
-    p->status =
-        qdot_generic_evaluate(p->pool, p->n, p->r, p->n, p->u, x->data, 1, f->data);
-    if (p->status != QDOT_OK)
-        return GSL_EFAILED;
-    for (size_t i = 0; i < p->n; i++)
-        if (!isfinite(f->data[i]))
-            return GSL_EDOM;
-    return GSL_SUCCESS;
-}
-
-static double
-size_at(problem *p, const double *x, double *f)
-{
-    double size = 0;
-
-    p->status = qdot_generic_evaluate(p->pool, p->n, p->r, p->n, p->u, x, 1, f);
-    for (size_t i = 0; i < p->n; i++)
-        size = isfinite(f[i]) ? fmax(size, fabs(f[i])) : INFINITY;
-    return size;
-}
+/* --- the problem ---------------------------------------------------------------------- */
 
 static double
 bound(const qdot_pool *pool, qdot_expr e, double otherwise)
@@ -54,26 +50,271 @@ bound(const qdot_pool *pool, qdot_expr e, double otherwise)
     return v;
 }
 
-/* Where the unknown may be; an angle is turned into -pi < q <= pi where the equations repeat. */
+static qdot_status
+problem_begin(problem *p, const qdot_expr *r)
+{
+    size_t n = p->n;
+
+    p->e = qdot_calloc(n + n * n + 1, sizeof *p->e);
+    p->row = qdot_calloc(2 * n * n + 1, sizeof *p->row);
+    p->value = qdot_calloc(n + n * n + 6 * n + 1, sizeof *p->value);
+    p->angle = qdot_calloc(n + 1, sizeof *p->angle);
+    p->J = gsl_matrix_alloc(n, n);
+    p->A = gsl_matrix_alloc(n, n);
+    p->order = gsl_permutation_alloc(n);
+    if (p->e == NULL || p->row == NULL || p->value == NULL || p->angle == NULL ||
+        p->J == NULL || p->A == NULL || p->order == NULL)
+        return QDOT_ENOMEM;
+    p->column = p->row + n * n;
+    p->x = p->value + n + n * n;
+    p->try = p->x + n;
+    p->step = p->try + n;
+    p->rhs = p->step + n;
+    p->lo = p->rhs + n;
+    p->hi = p->lo + n;
+    for (size_t i = 0; i < n; i++) {
+        p->e[i] = r[i];
+        for (size_t j = 0; j < n; j++) {
+            qdot_expr slope = qdot_diff(p->pool, r[i], p->u[j]);
+
+            if (slope == QDOT_ZERO)
+                continue;
+            p->e[n + p->slopes] = slope;
+            p->row[p->slopes] = i;
+            p->column[p->slopes++] = j;
+        }
+    }
+    QDOT_TRY(qdot_pool_check(p->pool));
+    for (size_t i = 0; i < n; i++) {
+        const qdot_symbol *q = qdot_expr_symbol(p->pool, p->u[i]);
+
+        p->lo[i] = bound(p->pool, q->lo, -INFINITY);
+        p->hi[i] = bound(p->pool, q->hi, INFINITY);
+    }
+    return QDOT_OK;
+}
+
+static void
+problem_end(problem *p)
+{
+    qdot_free(p->e);
+    qdot_free(p->row);
+    qdot_free(p->value);
+    qdot_free(p->angle);
+    gsl_matrix_free(p->J);
+    gsl_matrix_free(p->A);
+    gsl_permutation_free(p->order);
+}
+
+/* The residuals at x, with the slopes if wanted: their largest, INFINITY where one has no value. */
+static qdot_status
+evaluate(problem *p, const double *x, bool slopes, double *most)
+{
+    size_t m = p->n + (slopes ? p->slopes : 0);
+
+    QDOT_TRY(qdot_generic_evaluate(p->pool, m, p->e, p->n, p->u, x, 1, p->value));
+    *most = 0;
+    for (size_t i = 0; i < m; i++)
+        *most = !isfinite(p->value[i]) ? INFINITY
+                : i < p->n             ? fmax(*most, fabs(p->value[i]))
+                                       : *most;
+    if (!slopes || isinf(*most))
+        return QDOT_OK;
+    gsl_matrix_set_zero(p->J);
+    for (size_t k = 0; k < p->slopes; k++)
+        gsl_matrix_set(p->J, p->row[k], p->column[k], p->value[p->n + k]);
+    return QDOT_OK;
+}
+
+static double
+square(const problem *p)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < p->n; i++)
+        sum += p->value[i] * p->value[i];
+    return sum;
+}
+
+/* Which coordinates the equations repeat in after a full turn: at two places, to rounding. */
+static qdot_status
+find_angles(problem *p)
+{
+    for (size_t k = 0; k < p->coordinates; k++) {
+        p->angle[k] = isinf(p->lo[k]) && isinf(p->hi[k]);
+        for (int at = 1; at <= 2 && p->angle[k]; at++) {
+            double most, off = 0, *before = p->try;
+
+            for (size_t i = 0; i < p->n; i++)
+                p->x[i] = qdot_generic_value(p->pool, p->u[i], (uint64_t)at);
+            QDOT_TRY(evaluate(p, p->x, false, &most));
+            for (size_t i = 0; i < p->n; i++)
+                before[i] = p->value[i];
+            p->x[k] += 2 * M_PI;
+            QDOT_TRY(evaluate(p, p->x, false, &most));
+            for (size_t i = 0; i < p->n; i++)
+                off = fmax(off, fabs(p->value[i] - before[i]));
+            p->angle[k] = off < 1e-10 * fmax(1, most); /* no value: no angle */
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- steps -------------------------------------------------------------------------------- */
+
+/* step = -(J^T J + by)^-1 J^T r over the unknowns from `first` on; false where that fails. */
 static bool
-settle(problem *p, double *x, double *f)
+damped_step(problem *p, size_t first, double by)
+{
+    size_t m = p->n - first;
+    gsl_matrix_view J = gsl_matrix_submatrix(p->J, 0, first, p->n, m),
+                    A = gsl_matrix_submatrix(p->A, 0, 0, m, m);
+    gsl_vector_view step = gsl_vector_view_array(p->step + first, m);
+
+    for (size_t i = 0; i < m; i++) {
+        double sum = 0;
+
+        for (size_t k = 0; k < p->n; k++)
+            sum -= gsl_matrix_get(&J.matrix, k, i) * p->value[k];
+        p->step[first + i] = sum;
+        for (size_t j = 0; j <= i; j++) {
+            sum = 0;
+            for (size_t k = 0; k < p->n; k++)
+                sum += gsl_matrix_get(&J.matrix, k, i) * gsl_matrix_get(&J.matrix, k, j);
+            gsl_matrix_set(&A.matrix, i, j, sum);
+            gsl_matrix_set(&A.matrix, j, i, sum);
+        }
+    }
+    for (size_t i = 0; i < m; i++)
+        gsl_matrix_set(&A.matrix, i, i, gsl_matrix_get(&A.matrix, i, i) * (1 + by) + by * 1e-3);
+    return gsl_linalg_cholesky_decomp1(&A.matrix) == GSL_SUCCESS &&
+           gsl_linalg_cholesky_svx(&A.matrix, &step.vector) == GSL_SUCCESS;
+}
+
+/* Newton's step by LU; false where J is singular. */
+static bool
+newton_step(problem *p)
+{
+    gsl_vector_view step = gsl_vector_view_array(p->step, p->n);
+    int sign;
+
+    for (size_t i = 0; i < p->n; i++)
+        p->step[i] = -p->value[i];
+    if (gsl_linalg_LU_decomp(p->J, p->order, &sign) != GSL_SUCCESS ||
+        gsl_linalg_LU_svx(p->J, p->order, &step.vector) != GSL_SUCCESS)
+        return false;
+    for (size_t i = 0; i < p->n; i++)
+        if (!isfinite(p->step[i]))
+            return false;
+    return true;
+}
+
+static void
+begin_at(problem *p, uint64_t start)
 {
     for (size_t i = 0; i < p->n; i++) {
-        const qdot_symbol *q = qdot_expr_symbol(p->pool, p->u[i]);
-        double lo = bound(p->pool, q->lo, -INFINITY),
-               hi = bound(p->pool, q->hi, INFINITY);
-        double was = x[i],
-               turned = was - 2 * M_PI * ceil((was - M_PI) / (2 * M_PI) - 1e-9);
+        /* of two seeds: what a name says and what the start says do not go together */
+        double v = qdot_generic_value(p->pool, p->u[i], start),
+               range = p->angle[i] ? M_PI : ranges[start % RANGES];
 
-        if (was <= lo || was >= hi)
-            return false;
-        if (q->class != QDOT_COORD || isfinite(lo) || isfinite(hi) || turned == was)
-            continue;
-        x[i] = turned;
-        if (!(size_at(p, x, f) < 1e-8))
-            x[i] = was;
+        if (isinf(p->lo[i]) && isinf(p->hi[i]))
+            v *= range / 1.5;
+        else if (isinf(p->hi[i]))
+            v = p->lo[i] + (v - p->lo[i]) * range / 1.5;
+        else if (isinf(p->lo[i]))
+            v = p->hi[i] - (p->hi[i] - v) * range / 1.5;
+        p->x[i] = i < p->coordinates ? v : 0;
     }
-    return p->status == QDOT_OK;
+}
+
+typedef enum { NOWHERE, CANDIDATE, FLAT } end; /* FLAT: the equations hold, their slopes are singular */
+
+/* Whether what is left of the equations is rounding, beside what their slopes make of x. */
+static bool
+is_rounding(const problem *p, double most)
+{
+    double scale = 0;
+
+    for (size_t k = 0; k < p->slopes; k++)
+        scale = fmax(scale, fabs(p->value[p->n + k]) * fmax(fabs(p->x[p->column[k]]), 1e-3));
+    return most <= 1e-12 * scale;
+}
+
+static qdot_status
+descend(problem *p, end *how)
+{
+    double most, before, by = 1e-2, length = INFINITY;
+    bool holds;
+
+    *how = NOWHERE;
+    QDOT_TRY(evaluate(p, p->x, true, &most));
+    if (isfinite(most) && p->n > p->coordinates && damped_step(p, p->coordinates, 1e-12)) {
+        for (size_t i = p->coordinates; i < p->n; i++)
+            p->x[i] += p->step[i];
+        QDOT_TRY(evaluate(p, p->x, true, &most));
+    }
+    for (int k = 0; k < STEPS && isfinite(most) && most > 0; k++) {
+        before = square(p);
+        if (!damped_step(p, 0, by)) {
+            by = fmax(10 * by, 1e-8);
+            continue;
+        }
+        length = 0;
+        for (size_t i = 0; i < p->n; i++) {
+            p->try[i] = p->x[i] + p->step[i];
+            length = fmax(length, fabs(p->step[i]) / fmax(fabs(p->x[i]), 1e-3));
+        }
+        QDOT_TRY(evaluate(p, p->try, true, &most));
+        if (isfinite(most) && square(p) < before) {
+            for (size_t i = 0; i < p->n; i++)
+                p->x[i] = p->try[i];
+            by = fmax(by * 0.1, 1e-14);
+            if (length < 1e-9)
+                break;
+        } else {
+            by *= 10;
+            QDOT_TRY(evaluate(p, p->x, true, &most));
+            if (by > 1e12)
+                break;
+        }
+    }
+    if (!isfinite(most))
+        return QDOT_OK;
+    holds = is_rounding(p, most);
+    length = INFINITY;
+    for (int k = 0; k < NEWTON; k++) {
+        if (!newton_step(p))
+            break;
+        length = 0;
+        for (size_t i = 0; i < p->n; i++)
+            length = fmax(length, fabs(p->step[i]) / fmax(fabs(p->x[i]), 1e-3));
+        if (length > 0.1)
+            break;
+        for (size_t i = 0; i < p->n; i++)
+            p->x[i] += p->step[i];
+        QDOT_TRY(evaluate(p, p->x, true, &most));
+        if (!isfinite(most))
+            return QDOT_OK;
+        if (length < 1e-12)
+            break;
+    }
+    *how = length < 1e-7 ? CANDIDATE : holds ? FLAT : NOWHERE;
+    return QDOT_OK;
+}
+
+/* --- what was found --------------------------------------------------------------------- */
+
+/* Angles turned into -pi < q <= pi; whether x lies within the domains. */
+static bool
+settle(const problem *p, double *x)
+{
+    for (size_t i = 0; i < p->n; i++) {
+        if (p->angle[i])
+            x[i] -= 2 * M_PI * ceil((x[i] - M_PI) / (2 * M_PI) - 1e-9);
+        if (x[i] <= p->lo[i] || x[i] >= p->hi[i])
+            return false;
+    }
+    return true;
 }
 
 static bool
@@ -88,22 +329,6 @@ is_new(const double *found, size_t count, size_t n, const double *x)
             return false;
     }
     return true;
-}
-
-static bool
-refine(problem *p, gsl_multiroot_fsolver *solver, gsl_vector *x)
-{
-    gsl_multiroot_function F = {evaluate, p->n, p};
-
-    if (gsl_multiroot_fsolver_set(solver, &F, x) != GSL_SUCCESS)
-        return false;
-    for (int k = 0; k < STEPS; k++) {
-        if (gsl_multiroot_fsolver_iterate(solver) != GSL_SUCCESS)
-            break;
-        if (gsl_multiroot_test_residual(solver->f, 1e-14) == GSL_SUCCESS)
-            break;
-    }
-    return gsl_multiroot_test_residual(solver->f, 1e-9) == GSL_SUCCESS;
 }
 
 /* Ascending, by the first unknown, then the next. */
@@ -128,50 +353,71 @@ sort(double *found, size_t count, size_t n)
         }
 }
 
-qdot_status
-qdot_equilibrium_search(qdot_scene *s, size_t n, const qdot_expr *u, const qdot_expr *r,
-                        double **found, size_t *count)
+static qdot_status
+search(problem *p, qdot_isolate *isolate, qdot_places *out)
 {
-    problem p = {.pool = s->pool, .n = n, .u = u, .r = r};
+    size_t n = p->n;
+
+    for (uint64_t start = 1; start <= STARTS && out->n < MOST; start++) {
+        double *place = out->at + out->n * n, *radius = p->rhs;
+        end how;
+
+        QDOT_TRY(qdot_interrupt_check());
+        begin_at(p, start);
+        QDOT_TRY(descend(p, &how));
+        out->starts++;
+        if (how == NOWHERE || !settle(p, p->x) || !is_new(out->at, out->n, n, p->x))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            place[i] = p->x[i];
+        if (how == FLAT || !qdot_isolate_prove(isolate, place, radius)) {
+            out->unproved++;
+            continue;
+        }
+        for (size_t i = 0; i < n; i++)
+            if (fabs(place[i]) <= radius[i]) /* 0 as far as is known */
+                place[i] = 0;
+        if (settle(p, place) && is_new(out->at, out->n, n, place))
+            out->n++;
+    }
+    sort(out->at, out->n, n);
+    return QDOT_OK;
+}
+
+void
+qdot_places_clear(qdot_places *places)
+{
+    qdot_free(places->at);
+    *places = (qdot_places){0};
+}
+
+qdot_status
+qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
+{
+    problem p = {.rest = rest,
+                 .pool = rest->pool,
+                 .n = rest->unknowns.n,
+                 .coordinates = rest->coordinates,
+                 .u = rest->unknowns.at};
     gsl_error_handler_t *before = gsl_set_error_handler_off();
-    gsl_multiroot_fsolver *solver =
-        gsl_multiroot_fsolver_alloc(gsl_multiroot_fsolver_hybrids, n);
-    gsl_vector *x = gsl_vector_alloc(n);
-    double *f = qdot_calloc(n, sizeof *f);
-    qdot_status status = QDOT_OK;
+    qdot_isolate isolate;
+    qdot_status status = problem_begin(&p, r);
 
-    *count = 0;
-    *found = qdot_calloc(MOST * n, sizeof **found);
-    if (solver == NULL || x == NULL || f == NULL || *found == NULL)
+    *out = (qdot_places){.reach = ranges[RANGES - 1]};
+    out->at = qdot_calloc((MOST + 1) * p.n + 1, sizeof *out->at);
+    if (out->at == NULL)
         status = QDOT_ENOMEM;
-    for (uint64_t k = 0; k < STARTS && *count < MOST && status == QDOT_OK; k++) {
-        status = qdot_interrupt_check();
-        for (size_t i = 0; i < n; i++) {
-            const qdot_symbol *q = qdot_expr_symbol(s->pool, u[i]);
-            bool bounded = q->lo != QDOT_NIL || q->hi != QDOT_NIL;
-
-            gsl_vector_set(
-                x, i, (bounded ? 1 : 2.2) * qdot_generic_value(s->pool, u[i], k + 1));
-        }
-        if (status == QDOT_OK && refine(&p, solver, x) &&
-            settle(&p, solver->x->data, f) &&
-            is_new(*found, *count, n, solver->x->data)) {
-            for (size_t i = 0; i < n; i++)
-                (*found)[*count * n + i] =
-                    fabs(solver->x->data[i]) < 1e-14 ? 0 : solver->x->data[i];
-            ++*count;
-        }
-        if (status == QDOT_OK && p.status != QDOT_OK)
-            status = p.status;
+    if (status == QDOT_OK)
+        status = find_angles(&p);
+    if (status == QDOT_OK)
+        status = qdot_isolate_begin(&isolate, p.pool, p.n, r, p.u);
+    if (status == QDOT_OK) {
+        status = search(&p, &isolate, out);
+        qdot_isolate_end(&isolate);
     }
-    sort(*found, *count, n);
-    gsl_multiroot_fsolver_free(solver);
-    gsl_vector_free(x);
-    qdot_free(f);
+    problem_end(&p);
     gsl_set_error_handler(before);
-    if (status != QDOT_OK) {
-        qdot_free(*found);
-        *found = NULL;
-    }
+    if (status != QDOT_OK)
+        qdot_places_clear(out);
     return status;
 }

@@ -33,6 +33,11 @@ lies_in(const qdot_rest *r, const qdot_equilibrium *one, const qdot_equilibrium 
                   there = qdot_rest_put(r, u, one->equations), d;
 
         d = qdot_sub(pool, there, qdot_rest_put(r, v, one->equations));
+        if (d == QDOT_NIL) { /* the family has no member there */
+            if (qdot_pool_check(pool) != QDOT_EDOMAIN)
+                (void)qdot_pool_fail(pool);
+            return false;
+        }
         inside = d != QDOT_NIL && there != u &&
                  (d == QDOT_ZERO ||
                   (qdot_mech_holds(r->s, d) != 0 && qdot_is_zero(pool, d, &r->facts)) ||

@@ -1,469 +1,101 @@
-/* equilibrium.c -- the equations at rest, solved one unknown at a time. */
+/* equilibrium.c -- all equilibria of a scene: exactly, where that cannot do in numbers; judged. */
 #include "mech/equilibrium.h"
 
 #include <math.h>
 
-#include "base/interrupt.h"
-#include "expr/calculus.h"
-#include "expr/walk.h"
 #include "mech/equilibrium-rest.h"
-#include "mech/quantity.h"
-#include "normal/positive.h"
 #include "normal/simplify.h"
-#include "normal/solve.h"
 
-enum { MOST_BRANCHES = 10000, MOST_SOLUTIONS = 1024 };
+/* What exact solution may take before it gives way to numbers: scenes of books take some
+ * units, a chain of four links between two supports would take minutes. */
+enum { WORK = 1500 };
 
-/* --- lists ----------------------------------------------------------------------- */
-
-static qdot_expr
-appended(qdot_pool *pool, qdot_expr list, size_t n, const qdot_expr *more)
+static bool
+holds_time(const qdot_rest *r, qdot_expr e)
 {
-    uint32_t old = list == QDOT_NIL ? 0 : qdot_expr_count(pool, list);
-    qdot_expr *all = qdot_malloc((old + n + 1) * sizeof *all);
-
-    if (all == NULL)
-        return qdot_pool_fail(pool);
-    for (uint32_t i = 0; i < old; i++)
-        all[i] = qdot_expr_arg(pool, list, i);
-    for (size_t i = 0; i < n; i++)
-        all[old + i] = more[i];
-    list = qdot_list(pool, (uint32_t)(old + n), all);
-    qdot_free(all);
-    return list;
-}
-
-static size_t
-holds_unknowns(const qdot_rest *r, qdot_expr e)
-{
-    size_t n = 0;
-
-    for (size_t i = 0; i < r->unknowns.n; i++)
-        n += qdot_expr_contains(r->pool, e, r->unknowns.at[i]);
-    return n;
+    return (qdot_mech_holds(r->s, e) & QDOT_HAS_TIME) != 0;
 }
 
 static qdot_status
-too_many(void)
-{
-    return qdot_fail(QDOT_ELIMIT, "the scene has more than %d equilibria",
-                     MOST_SOLUTIONS);
-}
-
-/* --- the equations at rest ----------------------------------------------------------- */
-
-static qdot_expr
-at_rest(qdot_scene *s, qdot_expr e)
-{
-    size_t n = s->coordinates.n;
-    qdot_expr *from = qdot_calloc(4 * n + 1, sizeof *from);
-
-    if (from == NULL)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++) {
-        from[i] = qdot_mech_jet(s, i, 1);
-        from[n + i] = qdot_mech_jet(s, i, 2);
-        from[2 * n + i] = from[3 * n + i] = QDOT_ZERO;
-    }
-    e = qdot_subs(s->pool, e, 2 * n, from, from + 2 * n);
-    qdot_free(from);
-    return e;
-}
-
-static qdot_expr
-residual(qdot_pool *pool, qdot_expr equation)
-{
-    if (equation == QDOT_NIL)
-        return QDOT_NIL;
-    return qdot_sub(pool, qdot_expr_arg(pool, equation, 1),
-                    qdot_expr_arg(pool, equation, 0));
-}
-
-/* Every equation, simplified, those that hold identically left out. */
-static qdot_status
-equations_at_rest(qdot_rest *r, qdot_expr *list)
+find_unknowns(qdot_rest *r)
 {
     qdot_scene *s = r->s;
-    size_t n = s->coordinates.n, m = n + s->constraints.n, count = 0;
-    qdot_expr *e = qdot_calloc(m + 1, sizeof *e);
-    qdot_status status = QDOT_OK;
 
-    if (e == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < m && status == QDOT_OK; i++) {
-        qdot_expr one =
-            i < n ? residual(r->pool, qdot_mech_equation(s, s->coordinates.at[i]))
-                  : s->constraints.at[i - n].f;
-
-        one = qdot_simplify(r->pool, at_rest(s, one), &r->facts);
-        status = qdot_pool_check(r->pool);
-        if (status != QDOT_OK || one == QDOT_ZERO ||
-            qdot_is_zero(r->pool, one, &r->facts))
-            continue;
-        if (qdot_mech_holds(s, one) & QDOT_HAS_TIME)
-            status = qdot_fail(QDOT_EDOMAIN, "the equations at rest hold the time t: "
-                                             "there is no lasting equilibrium");
-        e[count++] = one;
-    }
-    *list = qdot_list(r->pool, (uint32_t)count, e);
-    qdot_free(e);
-    return status == QDOT_OK ? qdot_pool_check(r->pool) : status;
-}
-
-static qdot_status
-begin(qdot_rest *r, qdot_rest_branch *first)
-{
-    qdot_scene *s = r->s;
-    qdot_expr none = qdot_list(r->pool, 0, NULL);
-
-    first->known = first->conditions = none;
-    QDOT_TRY(equations_at_rest(r, &first->equations));
     for (size_t i = 0; i < s->coordinates.n; i++)
-        if (qdot_expr_contains(r->pool, first->equations, s->coordinates.at[i]))
+        if (qdot_expr_contains(r->pool, r->equations, s->coordinates.at[i]))
             QDOT_TRY(qdot_vec_push(&r->unknowns, s->coordinates.at[i]));
     r->coordinates = r->unknowns.n;
     for (size_t k = 0; k < s->constraints.n; k++)
-        if (qdot_expr_contains(r->pool, first->equations,
-                               s->constraints.at[k].multiplier))
+        if (qdot_expr_contains(r->pool, r->equations, s->constraints.at[k].multiplier))
             QDOT_TRY(qdot_vec_push(&r->unknowns, s->constraints.at[k].multiplier));
     return QDOT_OK;
 }
 
-/* --- one step of a branch ------------------------------------------------------------ */
-
-/* How hard it is to solve a factor for an unknown: 0 the only one in it; 1 linear, never
- * divided by anything unknown; 2 linear; 3 else; 9 not there. */
-static int
-effort(const qdot_rest *r, qdot_expr factor, qdot_expr u)
-{
-    qdot_expr slope;
-
-    if (!qdot_expr_contains(r->pool, factor, u))
-        return 9;
-    if (holds_unknowns(r, factor) == 1)
-        return 0;
-    slope = qdot_diff(r->pool, factor, u);
-    if (slope == QDOT_NIL || qdot_expr_contains(r->pool, slope, u))
-        return 3;
-    return holds_unknowns(r, slope) == 0 ? 1 : 2;
-}
-
-/* The easiest unknown of a factor, multipliers before coordinates. */
-static int
-easiest(const qdot_rest *r, qdot_expr factor, size_t *which)
-{
-    int least = 9;
-
-    for (size_t i = r->unknowns.n; i-- > 0;) {
-        int one = effort(r, factor, r->unknowns.at[i]);
-
-        if (one < least) {
-            least = one;
-            *which = i;
-        }
-    }
-    return least;
-}
-
-/* The branch with u = value put in everywhere. */
 static qdot_status
-with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
-           const qdot_root *root)
+begin_branch(qdot_rest *r, qdot_expr equations)
 {
-    qdot_pool *pool = r->pool;
-    qdot_expr equation = qdot_rel(pool, QDOT_EQ, u, root->value);
-    qdot_rest_branch next = {qdot_subs(pool, equations, 1, &u, &root->value),
-                             qdot_subs(pool, b->known, 1, &u, &root->value),
-                             qdot_subs(pool, b->conditions, 1, &u, &root->value)};
-    uint32_t n = qdot_expr_count(pool, b->known);
-    qdot_expr *known;
+    qdot_expr none = qdot_list(r->pool, 0, NULL);
+    qdot_rest_branch first = {equations, none, none};
 
-    if (qdot_pool_failed(pool)) { /* a denominator is 0 there: no solution */
-        qdot_status status = qdot_pool_check(pool);
-
-        return status == QDOT_EDOMAIN ? QDOT_OK : status;
-    }
-    /* unknowns stand on the left of `known`, so they stay */
-    known = qdot_malloc((n + 1) * sizeof *known);
-    if (known == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < n; i++)
-        known[i] = qdot_expr_arg(pool, next.known, i);
-    known[n] = equation;
-    next.known = qdot_list(pool, n + 1, known);
-    qdot_free(known);
-    for (uint32_t i = 0;
-         root->condition != QDOT_NIL && i < qdot_expr_count(pool, root->condition); i++) {
-        qdot_expr one = qdot_expr_arg(pool, root->condition, i);
-
-        next.conditions = appended(pool, next.conditions, 1, &one);
-    }
-    QDOT_TRY(qdot_pool_check(pool));
-    if (r->todo.n >= MOST_BRANCHES)
-        return too_many();
-    return qdot_vec_push(&r->todo, next);
+    QDOT_TRY(qdot_pool_check(r->pool));
+    return qdot_vec_push(&r->todo, first);
 }
 
-/* factor = 0 for its easiest unknown; where it is a u + b with unknowns in a, also a = b = 0. */
-static qdot_status
-split(qdot_rest *r, const qdot_rest_branch *b, qdot_expr others, qdot_expr factor)
+/* --- for all times ------------------------------------------------------------------------- */
+
+/* The coordinates' equations among those of a place. */
+static qdot_expr
+places_alone(const qdot_rest *r, qdot_expr equations)
 {
-    qdot_pool *pool = r->pool;
-    qdot_root *roots = NULL;
-    size_t n = 0, which = 0;
-    bool complete = true;
-    int how = easiest(r, factor, &which);
-    qdot_expr u = r->unknowns.at[which], zero = QDOT_ZERO;
-    qdot_status status;
+    qdot_expr list = qdot_list(r->pool, 0, NULL);
 
-    if (how == 9) /* a factor without unknowns: generic parameters, not 0 */
-        return QDOT_OK;
-    status = qdot_solve(pool, factor, u, &r->facts, &roots, &n, &complete);
-    r->complete = r->complete && complete;
-    for (size_t i = n; i-- > 0 && status == QDOT_OK;)
-        status = with_value(r, b, others, u, &roots[i]);
-    qdot_free(roots);
-    if (status == QDOT_OK && how == 2) {
-        qdot_expr both[2] = {qdot_diff(pool, factor, u),
-                             qdot_subs(pool, factor, 1, &u, &zero)};
-        qdot_rest_branch next = *b;
+    for (uint32_t k = 0; k < qdot_expr_count(r->pool, equations); k++) {
+        qdot_expr one = qdot_expr_arg(r->pool, equations, k);
 
-        next.equations = appended(pool, others, 2, both);
-        status = qdot_pool_check(pool);
+        if (qdot_expr_is_class(r->pool, qdot_expr_arg(r->pool, one, 0), QDOT_COORD))
+            list = qdot_rest_appended(r->pool, list, 1, &one);
+    }
+    return list;
+}
+
+/* Of the places found at one time those at which the equations hold for all, multipliers as they
+ * are then. Where some hold for a part of a family only, that part is not looked for. */
+static qdot_status
+keep_lasting(qdot_rest *r)
+{
+    size_t n = r->found.n;
+    qdot_equilibrium *before = r->found.at;
+    qdot_status status = QDOT_OK;
+
+    r->found.at = NULL;
+    r->found.n = r->found.capacity = 0;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_rest_branch b = {.known = places_alone(r, before[i].equations),
+                              .conditions = before[i].exists};
+        size_t had = r->found.n, kept = had;
+
+        if (b.conditions == QDOT_NIL)
+            b.conditions = qdot_list(r->pool, 0, NULL);
+        b.equations = qdot_rest_put(r, r->equations, b.known);
+        status = qdot_pool_check(r->pool);
+        if (status == QDOT_EDOMAIN)
+            status = QDOT_OK;
+        else if (status == QDOT_OK)
+            status = qdot_vec_push(&r->todo, b);
         if (status == QDOT_OK)
-            status = qdot_vec_push(&r->todo, next);
+            status = qdot_rest_solve(r);
+        for (size_t k = had; k < r->found.n; k++)
+            if (!holds_time(r, places_alone(r, r->found.at[k].equations)))
+                r->found.at[kept++] = r->found.at[k];
+        r->found.n = kept;
+        if (kept == had && qdot_expr_count(r->pool, b.known) < r->coordinates)
+            r->complete = false;
     }
+    qdot_free(before);
     return status;
 }
 
-qdot_expr
-qdot_rest_conditions_left(const qdot_rest *r, qdot_expr conditions)
-{
-    qdot_pool *pool = r->pool;
-    qdot_expr left = QDOT_NIL;
-
-    for (uint32_t i = 0; i < qdot_expr_count(pool, conditions); i++) {
-        qdot_expr one = qdot_expr_arg(pool, conditions, i);
-        bool there = false;
-
-        if (one == QDOT_TRUE)
-            continue;
-        if (one == QDOT_FALSE)
-            return QDOT_FALSE;
-        one = qdot_positive(pool, qdot_positive_of(pool, one), &r->facts, 0, NULL);
-        if (one == QDOT_FALSE || one == QDOT_NIL)
-            return one;
-        for (uint32_t k = 0; left != QDOT_NIL && k < qdot_expr_count(pool, left); k++)
-            there |= qdot_expr_arg(pool, left, k) == one;
-        if (one != QDOT_TRUE && !there)
-            left = appended(pool, left, 1, &one);
-    }
-    return left;
-}
-
-bool
-qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations)
-{
-    qdot_pool *pool = r->pool;
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
-              shifted = qdot_add(pool, u, turn);
-
-    shifted = qdot_subs(pool, equations, 1, &u, &shifted);
-    for (uint32_t i = 0; shifted != QDOT_NIL && i < qdot_expr_count(pool, equations); i++)
-        if (!qdot_is_zero(pool,
-                          qdot_sub(pool, qdot_expr_arg(pool, shifted, i),
-                                   qdot_expr_arg(pool, equations, i)),
-                          &r->facts))
-            return false;
-    return shifted != QDOT_NIL;
-}
-
-/* An angle beyond -pi < q <= pi that came of others: turned back where the equations allow it. */
-static qdot_expr
-turned(const qdot_rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
-{
-    qdot_pool *pool = r->pool;
-    const qdot_symbol *x = qdot_expr_symbol(pool, u);
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
-    double v;
-
-    if (x->class != QDOT_COORD || x->lo != QDOT_NIL || x->hi != QDOT_NIL ||
-        qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_FUN ||
-        !qdot_expr_contains(pool, value, QDOT_PI) ||
-        qdot_generic_evaluate(pool, 1, &value, 0, NULL, NULL, 1, &v) != QDOT_OK ||
-        !isfinite(v) || !qdot_rest_is_angle(r, u, equations))
-        return value;
-    for (; v > M_PI + 1e-9; v -= 2 * M_PI)
-        value = qdot_sub(pool, value, turn);
-    for (; v <= -M_PI + 1e-9; v += 2 * M_PI)
-        value = qdot_add(pool, value, turn);
-    return value;
-}
-
-/* The conditions of a branch, and that each value lies within the domain of its coordinate: a rational
- * one of the parameters, an angle does. */
-static qdot_expr
-with_domains(const qdot_rest *r, const qdot_rest_branch *b)
-{
-    qdot_pool *pool = r->pool;
-    qdot_expr all = b->conditions;
-
-    for (uint32_t k = 0; k < qdot_expr_count(pool, b->known); k++) {
-        qdot_expr u = qdot_expr_arg(pool, qdot_expr_arg(pool, b->known, k), 0),
-                  value = qdot_expr_arg(pool, qdot_expr_arg(pool, b->known, k), 1);
-        const qdot_symbol *x = qdot_expr_symbol(pool, u);
-        qdot_expr side[2] = {QDOT_NIL, QDOT_NIL};
-
-        if (x->class != QDOT_COORD ||
-            (qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_PARAM) != 0)
-            continue;
-        if (x->lo != QDOT_NIL)
-            side[0] = qdot_rel(pool, x->lo_open ? QDOT_LT : QDOT_LE, x->lo, value);
-        if (x->hi != QDOT_NIL)
-            side[1] = qdot_rel(pool, x->hi_open ? QDOT_LT : QDOT_LE, value, x->hi);
-        for (int i = 0; i < 2; i++)
-            if (side[i] != QDOT_NIL)
-                all = appended(pool, all, 1, &side[i]);
-    }
-    return all;
-}
-
-qdot_expr
-qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values)
-{
-    uint32_t n = qdot_expr_count(r->pool, values);
-    qdot_expr *from = qdot_malloc((2 * (size_t)n + 1) * sizeof *from);
-
-    if (from == NULL)
-        return qdot_pool_fail(r->pool);
-    for (uint32_t i = 0; i < n; i++) {
-        from[i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 0);
-        from[n + i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 1);
-    }
-    e = qdot_subs(r->pool, e, n, from, from + n);
-    qdot_free(from);
-    return e;
-}
-
-/* Whether the equations have values there: that a numerator vanishes is not enough. */
-static qdot_status
-are_defined(const qdot_rest *r, qdot_expr equations, qdot_expr values, bool *yes)
-{
-    qdot_status status;
-
-    (void)qdot_rest_put(r, equations, values);
-    status = qdot_pool_check(r->pool);
-    *yes = status == QDOT_OK;
-    return status == QDOT_EDOMAIN ? QDOT_OK : status;
-}
-
-/* The known values in the order of the unknowns. */
-static qdot_status
-emit(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations)
-{
-    qdot_pool *pool = r->pool;
-    qdot_equilibrium e = {.exists = QDOT_NIL};
-    qdot_expr *list;
-    bool yes = true;
-    size_t n = 0;
-
-    e.exists = qdot_rest_conditions_left(r, with_domains(r, b));
-    QDOT_TRY(qdot_pool_check(pool));
-    if (e.exists == QDOT_FALSE)
-        return QDOT_OK;
-    list = qdot_malloc((r->unknowns.n + 1) * sizeof *list);
-    if (list == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < r->unknowns.n; i++)
-        for (uint32_t k = 0; k < qdot_expr_count(pool, b->known); k++) {
-            qdot_expr one = qdot_expr_arg(pool, b->known, k),
-                      u = qdot_expr_arg(pool, one, 0);
-
-            if (u != r->unknowns.at[i])
-                continue;
-            list[n++] = qdot_rel(
-                pool, QDOT_EQ, u,
-                turned(r, u, qdot_simplify(pool, qdot_expr_arg(pool, one, 1), &r->facts),
-                       equations));
-        }
-    e.equations = qdot_list(pool, (uint32_t)n, list);
-    qdot_free(list);
-    QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(are_defined(r, equations, e.equations, &yes));
-    for (size_t i = 0; yes && i < r->found.n; i++)
-        yes = r->found.at[i].equations != e.equations;
-    if (!yes)
-        return QDOT_OK;
-    if (r->found.n >= MOST_SOLUTIONS)
-        return too_many();
-    return qdot_vec_push(&r->found, e);
-}
-
-/* The factors of every equation; the one whose hardest factor is easiest. *dead: one of them is
- * never 0. */
-static qdot_status
-choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
-       bool *dead)
-{
-    qdot_pool *pool = r->pool;
-    uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
-    qdot_expr *left = qdot_calloc(n + 1, sizeof *left), chosen = QDOT_NIL;
-    int least = 10;
-    size_t which;
-
-    *dead = false;
-    if (left == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < n && !*dead; i++) {
-        qdot_expr e = qdot_simplify(pool, qdot_expr_arg(pool, equations, i), &r->facts),
-                  list;
-        int hardest = 0;
-
-        if (e == QDOT_ZERO || e == QDOT_NIL || qdot_is_zero(pool, e, &r->facts))
-            continue;
-        list = qdot_solve_factors(pool, e);
-        if (list == QDOT_NIL)
-            break;
-        *dead = holds_unknowns(r, e) == 0;
-        for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
-            int one = easiest(r, qdot_expr_arg(pool, list, k), &which);
-
-            if (one < 9 && one > hardest)
-                hardest = one;
-        }
-        left[count++] = e;
-        if (hardest < least) {
-            least = hardest;
-            best = count - 1;
-            chosen = list;
-        }
-    }
-    *factors = count == 0 ? QDOT_NIL : chosen;
-    if (count > 0)
-        left[best] = left[count - 1];
-    *others = qdot_list(pool, count == 0 ? 0 : count - 1, left);
-    qdot_free(left);
-    return qdot_pool_check(pool);
-}
-
-static qdot_status
-step(qdot_rest *r, const qdot_rest_branch *b, qdot_expr all)
-{
-    qdot_expr factors, others;
-    bool dead;
-
-    QDOT_TRY(qdot_interrupt_check());
-    QDOT_TRY(choose(r, b->equations, &factors, &others, &dead));
-    if (dead)
-        return QDOT_OK;
-    if (factors == QDOT_NIL)
-        return emit(r, b, all);
-    for (uint32_t k = qdot_expr_count(r->pool, factors); k-- > 0;)
-        QDOT_TRY(split(r, b, others, qdot_expr_arg(r->pool, factors, k)));
-    return QDOT_OK;
-}
-
-/* --- where that cannot do: numbers ------------------------------------------------------ */
+/* --- numbers ---------------------------------------------------------------------------------- */
 
 static qdot_expr
 decimal(qdot_pool *pool, double x)
@@ -501,13 +133,63 @@ unset(const qdot_rest *r, qdot_expr e)
     return NULL;
 }
 
+/* Whether the place x [unknowns] is one of those known exactly. */
+static bool
+is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
+{
+    for (size_t i = 0; i < r->found.n; i++) {
+        qdot_expr all = r->found.at[i].equations;
+        bool same = !r->found.at[i].numeric;
+
+        for (uint32_t k = 0; same && k < qdot_expr_count(r->pool, all); k++) {
+            qdot_expr one = qdot_expr_arg(r->pool, all, k), e;
+            double off;
+
+            e = qdot_sub(r->pool, qdot_expr_arg(r->pool, one, 0),
+                         qdot_expr_arg(r->pool, one, 1));
+            e = e == QDOT_NIL || bind == NULL ? e : bind(user, e);
+            same = e != QDOT_NIL &&
+                   qdot_generic_evaluate(r->pool, 1, &e, r->unknowns.n, r->unknowns.at, x,
+                                         1, &off) == QDOT_OK &&
+                   fabs(off) < 1e-7;
+        }
+        if (same)
+            return true;
+    }
+    return false;
+}
+
 static qdot_status
-search(qdot_rest *r, qdot_expr equations, qdot_binder bind, void *user)
+add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user)
+{
+    size_t n = r->unknowns.n;
+    qdot_expr *list = qdot_malloc((n + 1) * sizeof *list);
+    qdot_status status = list == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t k = 0; k < places->n && status == QDOT_OK; k++) {
+        qdot_equilibrium one = {.numeric = true};
+
+        if (is_known(r, places->at + k * n, bind, user))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            list[i] = qdot_rel(r->pool, QDOT_EQ, r->unknowns.at[i],
+                               decimal(r->pool, places->at[k * n + i]));
+        one.equations = qdot_list(r->pool, (uint32_t)n, list);
+        status = qdot_pool_check(r->pool);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&r->found, one);
+    }
+    qdot_free(list);
+    return status;
+}
+
+static qdot_status
+search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_pool *pool = r->pool;
-    size_t n = r->unknowns.n, count = 0;
-    qdot_expr bound = bind == NULL ? equations : bind(user, equations), *e, *list;
-    double *found = NULL;
+    size_t n = r->unknowns.n;
+    qdot_expr bound = bind == NULL ? r->equations : bind(user, r->equations), *e;
+    qdot_places places;
     const char *name;
     qdot_status status;
 
@@ -524,102 +206,102 @@ search(qdot_rest *r, qdot_expr equations, qdot_binder bind, void *user)
         return qdot_fail(QDOT_EFAILED,
                          "the equilibria cannot be found: %u equations for %zu unknowns",
                          qdot_expr_count(pool, bound), n);
-    e = qdot_calloc(2 * n + 1, sizeof *e);
+    e = qdot_malloc((n + 1) * sizeof *e);
     if (e == NULL)
         return QDOT_ENOMEM;
-    list = e + n;
     for (size_t i = 0; i < n; i++)
         e[i] = qdot_expr_arg(pool, bound, (uint32_t)i);
-    status = qdot_equilibrium_search(r->s, n, r->unknowns.at, e, &found, &count);
-    if (status == QDOT_OK)
-        r->found.n = 0; /* the exact ones are among them */
-    for (size_t k = 0; k < count && status == QDOT_OK; k++) {
-        qdot_equilibrium one = {.numeric = true};
-
-        for (size_t i = 0; i < n; i++)
-            list[i] = qdot_rel(pool, QDOT_EQ, r->unknowns.at[i],
-                               decimal(pool, found[k * n + i]));
-        one.equations = qdot_list(pool, (uint32_t)n, list);
-        status = qdot_pool_check(pool);
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&r->found, one);
+    status = qdot_rest_search(r, e, &places);
+    if (status == QDOT_OK) {
+        out->starts = places.starts;
+        out->reach = places.reach;
+        out->unproved = places.unproved;
+        status = add_places(r, &places, bind, user);
+        qdot_places_clear(&places);
     }
-    qdot_free(found);
     qdot_free(e);
     return status;
 }
 
 /* --- all of them ------------------------------------------------------------------------- */
 
-/* Stability, in numbers where the place is; `first`: up to the first that is not unstable. */
+/* Stability; `first`: up to the first that is not unstable. */
 static qdot_status
 judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
 {
-    for (size_t i = 0; i < r->found.n; i++) {
-        QDOT_TRY(qdot_equilibrium_judge(r->s, &r->found.at[i]));
-        if (r->found.at[i].numeric && r->found.at[i].stable_when != QDOT_NIL &&
-            bind != NULL) {
-            qdot_expr when = bind(user, r->found.at[i].stable_when);
+    qdot_judge *judge;
+    qdot_status status = qdot_judge_new(r->s, r->equations, bind, user, &judge);
 
-            QDOT_TRY(qdot_pool_check(r->pool));
-            when = qdot_rest_conditions_left(r, when);
-            QDOT_TRY(qdot_pool_check(r->pool));
-            r->found.at[i].stable_when = when == QDOT_FALSE ? QDOT_NIL : when;
-            if (when == QDOT_FALSE)
-                r->found.at[i].stability = QDOT_UNSTABLE;
-        }
+    for (size_t i = 0; i < r->found.n && status == QDOT_OK; i++) {
+        status = qdot_judge_place(judge, &r->found.at[i]);
         if (first && r->found.at[i].stability != QDOT_UNSTABLE)
             r->found.n = i + 1;
     }
-    return QDOT_OK;
+    qdot_judge_free(judge);
+    return status;
 }
 
 static qdot_status
-find(qdot_scene *s, bool first_only, qdot_binder bind, void *user,
-     qdot_equilibrium **list, size_t *n)
+solve(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    qdot_rest r = {
-        .s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .complete = true};
-    qdot_rest_branch first, b;
-    qdot_status status = qdot_pool_check(s->pool);
+    qdot_expr equations;
+    bool lasting;
 
-    *list = NULL;
-    *n = 0;
-    if (status == QDOT_OK)
-        status = begin(&r, &first);
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&r.todo, first);
-    while (status == QDOT_OK && r.todo.n > 0) {
-        b = r.todo.at[--r.todo.n];
-        status = step(&r, &b, first.equations);
-    }
-    if (status == QDOT_OK && !r.complete)
-        status = search(&r, first.equations, bind, user);
-    if (status == QDOT_OK)
-        status = qdot_rest_leave_out_twice(&r, first.equations);
+    QDOT_TRY(qdot_pool_check(r->pool));
+    QDOT_TRY(qdot_rest_equations(r, &r->equations));
+    QDOT_TRY(find_unknowns(r));
+    lasting = holds_time(r, r->equations);
+    equations = r->equations;
+    if (lasting)
+        QDOT_TRY(qdot_rest_at_all_times(r, r->equations, &equations));
+    QDOT_TRY(begin_branch(r, equations));
+    QDOT_TRY(qdot_rest_solve(r));
+    if (lasting)
+        QDOT_TRY(keep_lasting(r));
+    else if (!r->complete)
+        QDOT_TRY(search(r, bind, user, out));
+    return qdot_rest_leave_out_twice(r, r->equations);
+}
+
+static qdot_status
+find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
+{
+    qdot_rest r = {.s = s,
+                   .pool = s->pool,
+                   .facts = qdot_scene_facts(s),
+                   .work = WORK,
+                   .complete = true};
+    qdot_status status;
+
+    *out = (qdot_equilibria){0};
+    status = solve(&r, bind, user, out);
     if (status == QDOT_OK)
         status = judge(&r, first_only, bind, user);
     qdot_free(r.todo.at);
     qdot_free(r.unknowns.at);
-    if (status != QDOT_OK) {
-        qdot_free(r.found.at);
-        return status;
-    }
-    *list = r.found.at;
-    *n = r.found.n;
-    return QDOT_OK;
+    out->at = r.found.at;
+    out->n = r.found.n;
+    out->complete = r.complete;
+    if (status != QDOT_OK)
+        qdot_equilibria_clear(out);
+    return status;
+}
+
+void
+qdot_equilibria_clear(qdot_equilibria *e)
+{
+    qdot_free(e->at);
+    *e = (qdot_equilibria){0};
 }
 
 qdot_status
-qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user,
-                      qdot_equilibrium **list, size_t *n)
+qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    return find(s, false, bind, user, list, n);
+    return find(s, false, bind, user, out);
 }
 
 qdot_status
-qdot_equilibrium_first(qdot_scene *s, qdot_binder bind, void *user,
-                       qdot_equilibrium **list, size_t *n)
+qdot_equilibrium_first(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    return find(s, true, bind, user, list, n);
+    return find(s, true, bind, user, out);
 }

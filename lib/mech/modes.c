@@ -9,6 +9,7 @@
 #include "expr/walk.h"
 #include "mech/derived.h"
 #include "mech/equilibrium.h"
+#include "mech/linear-motion.h"
 #include "normal/positive.h"
 #include "normal/rationalize.h"
 #include "normal/simplify.h"
@@ -24,7 +25,7 @@ typedef struct {
     void *user;
     qdot_linear_motion m;
     qdot_vec(qdot_expr) frequency, amplitude;
-    bool numeric;
+    bool numeric, unordered;
 } job;
 
 static bool
@@ -195,33 +196,79 @@ modes_of(job *j, qdot_expr W)
     return status;
 }
 
-/* Ascending at the values of the parameters, those without one at a generic place. */
+/* Whether a <= b: 1, -1 (a > b) by declared signs and assumptions; else 0. */
+static qdot_status
+order_of(const job *j, qdot_expr a, qdot_expr b, int *order)
+{
+    qdot_pool *pool = j->pool;
+    qdot_expr d = qdot_sub(pool, qdot_mul(pool, b, b), qdot_mul(pool, a, a));
+    qdot_decision decision;
+    uint8_t sign;
+
+    d = qdot_simplify(pool, d, &j->facts);
+    QDOT_TRY(qdot_pool_check(pool));
+    sign = qdot_expr_node(pool, d)->sign;
+    *order = sign & QDOT_GE0 ? 1 : sign & QDOT_LE0 ? -1 : 0;
+    for (int way = 1; way >= -1 && *order == 0; way -= 2) {
+        QDOT_TRY(qdot_decide_less(pool, way > 0 ? QDOT_ZERO : d, way > 0 ? d : QDOT_ZERO,
+                                  false, &j->facts, &decision));
+        if (decision.verdict == QDOT_PROVED)
+            *order = way;
+    }
+    return QDOT_OK;
+}
+
+/* The same at the values of the parameters, those without one at a generic place. */
+static int
+order_in_numbers(const job *j, qdot_expr a, qdot_expr b)
+{
+    qdot_expr pair[2] = {a, b};
+    double v[2];
+
+    for (int k = 0; k < 2; k++)
+        if (j->bind != NULL)
+            pair[k] = j->bind(j->user, pair[k]);
+    if (pair[0] == QDOT_NIL || pair[1] == QDOT_NIL ||
+        qdot_generic_evaluate(j->pool, 2, pair, 0, NULL, NULL, 1, v) != QDOT_OK)
+        return 1;
+    return v[0] > v[1] ? -1 : 1;
+}
+
 static void
+exchange_modes(job *j, size_t a, size_t b)
+{
+    size_t width = j->s->coordinates.n;
+    qdot_expr keep = j->frequency.at[a];
+
+    j->frequency.at[a] = j->frequency.at[b];
+    j->frequency.at[b] = keep;
+    for (size_t i = 0; i < width; i++) {
+        keep = j->amplitude.at[a * width + i];
+        j->amplitude.at[a * width + i] = j->amplitude.at[b * width + i];
+        j->amplitude.at[b * width + i] = keep;
+    }
+}
+
+/* Ascending. */
+static qdot_status
 sort(job *j)
 {
-    size_t n = j->frequency.n, width = j->s->coordinates.n;
-
-    for (size_t a = 1; a < n; a++)
+    for (size_t a = 1; a < j->frequency.n; a++)
         for (size_t b = a; b > 0; b--) {
-            qdot_expr pair[2] = {j->frequency.at[b - 1], j->frequency.at[b]}, keep;
-            double v[2];
+            qdot_expr left = j->frequency.at[b - 1], right = j->frequency.at[b];
+            int order = 1;
 
-            for (int k = 0; k < 2; k++)
-                if (j->bind != NULL)
-                    pair[k] = j->bind(j->user, pair[k]);
-            if (pair[0] == QDOT_NIL || pair[1] == QDOT_NIL ||
-                qdot_generic_evaluate(j->pool, 2, pair, 0, NULL, NULL, 1, v) != QDOT_OK ||
-                !(v[0] > v[1]))
-                break;
-            keep = j->frequency.at[b];
-            j->frequency.at[b] = j->frequency.at[b - 1];
-            j->frequency.at[b - 1] = keep;
-            for (size_t i = 0; i < width; i++) {
-                keep = j->amplitude.at[b * width + i];
-                j->amplitude.at[b * width + i] = j->amplitude.at[(b - 1) * width + i];
-                j->amplitude.at[(b - 1) * width + i] = keep;
+            if (left != right)
+                QDOT_TRY(order_of(j, left, right, &order));
+            if (order == 0) {
+                j->unordered = true;
+                order = order_in_numbers(j, left, right);
             }
+            if (order > 0)
+                break;
+            exchange_modes(j, b - 1, b);
         }
+    return QDOT_OK;
 }
 
 /* The two roots of det(H - W M) = 0 as
@@ -295,7 +342,7 @@ exact(job *j, bool *done)
     qdot_free(roots);
     *done = complete && j->frequency.n == n;
     if (status == QDOT_OK && *done)
-        sort(j);
+        status = sort(j);
     return status;
 }
 
@@ -453,7 +500,7 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     for (size_t k = 0; k < s->constraints.n; k++)
         if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
             return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
-    QDOT_TRY(qdot_equilibrium_linear(s, equations, QDOT_NIL, true, &j.m));
+    QDOT_TRY(qdot_linear_motion_about(s, equations, QDOT_NIL, &j.m));
     status = check_motion(&j);
     if (status == QDOT_OK && !numbers)
         status = exact(&j, &done);
@@ -466,6 +513,7 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     out->frequency = j.frequency.at;
     out->amplitude = j.amplitude.at;
     out->numeric = j.numeric;
+    out->unordered = j.unordered;
     if (status != QDOT_OK)
         qdot_modes_clear(out);
     return status;

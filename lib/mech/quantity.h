@@ -66,6 +66,10 @@ QDOT_MUST_CHECK qdot_status qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cy
 QDOT_MUST_CHECK qdot_status qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds);
 /* Whether h is proved conserved: dh/dt = 0 by the equations. */
 QDOT_MUST_CHECK qdot_status qdot_mech_energy_conserved(qdot_scene *s, bool *conserved);
+/* dE/dt of the motion, multipliers as symbols, where no acceleration has to be solved for: E is the
+ * energy h, a momentum p_i or nothing, and a function of q and t beside it. Nil without a failure:
+ * it is none of these. */
+qdot_expr qdot_mech_rate(qdot_scene *s, qdot_expr E);
 typedef struct {
     size_t coordinates, constraints, independent; /* independent by symbolic rank */
     size_t freedom;                               /* coordinates - independent */

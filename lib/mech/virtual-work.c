@@ -345,6 +345,18 @@ qdot_force_but_gravity(qdot_scene *s, size_t i)
     return Q;
 }
 
+qdot_expr
+qdot_force_declared(qdot_scene *s, size_t i)
+{
+    qdot_expr Q = QDOT_ZERO;
+
+    for (size_t k = 0; k < s->forces.n; k++)
+        Q = qdot_add(s->pool, Q, applied_force(s, k, i, false));
+    for (size_t k = 0; k < s->torques.n; k++)
+        Q = qdot_add(s->pool, Q, torque_force(s, k, i, false));
+    return Q;
+}
+
 /* --- asked ----------------------------------------------------------------------------
  * */
 

@@ -1,4 +1,4 @@
-/* solve-signs.c -- equations with |u(x)| and sign u(x): one case for each sign of u. */
+/* solve-signs.c -- equations with |u(x)| and sign u(x): one case for each sign of u, and u = 0. */
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
@@ -90,6 +90,22 @@ one_case(by_sign *s, long sign, bool *complete)
     return status;
 }
 
+/* u = 0 itself, where neither case may reach. */
+static qdot_status
+between(by_sign *s, bool *complete)
+{
+    qdot_root *roots = NULL;
+    bool all = false;
+    size_t n = 0;
+    qdot_status status = qdot_solve(s->pool, s->u, s->x, s->facts, &roots, &n, &all);
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        status = add(s, roots[i], QDOT_ONE);
+    *complete = *complete && all;
+    qdot_free(roots);
+    return status;
+}
+
 qdot_status
 qdot_solve_by_sign(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr u,
                    const qdot_facts *facts, qdot_root **roots, size_t *n, bool *complete)
@@ -101,6 +117,8 @@ qdot_solve_by_sign(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr u,
     status = one_case(&s, 1, complete);
     if (status == QDOT_OK)
         status = one_case(&s, -1, complete);
+    if (status == QDOT_OK)
+        status = between(&s, complete);
     if (status == QDOT_OK)
         status = qdot_solve_sort(pool, s.roots.n, s.roots.at);
     if (status != QDOT_OK) {

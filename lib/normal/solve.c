@@ -135,12 +135,33 @@ belongs(const solver *s, qdot_expr value, bool *yes)
     return qdot_pool_check(s->pool);
 }
 
-/* Whether f is 0 and defined at x = value: refuted ones are not. */
+/* Whether e is 0 at some points of the parameters' domains, as far as can be seen. */
 static qdot_status
-holds(const solver *s, qdot_expr value, bool *yes)
+vanishes_somewhere(const solver *s, qdot_expr e, bool *yes)
+{
+    qdot_sample sample;
+
+    *yes = false;
+    QDOT_TRY(qdot_sample_begin(&sample, s->pool, 1, &e, s->facts));
+    for (int k = 0; sample.possible && k < POINTS / 4 && !*yes; k++) {
+        arb_srcptr v;
+
+        qdot_sample_point(&sample, k);
+        *yes = qdot_sample_eval(&sample, 96) &&
+               (v = qdot_ball_get(&sample.ball, e)) != NULL && arb_contains_zero(v);
+    }
+    qdot_sample_end(&sample);
+    return qdot_pool_check(s->pool);
+}
+
+/* Whether f is 0 and defined at x = value: refuted ones are not. Where it is 0 for some parameters only, no
+ * condition says for which: then these are not all. */
+static qdot_status
+holds(solver *s, qdot_expr value, bool *yes)
 {
     qdot_expr at = qdot_subs(s->pool, s->f, 1, &s->x, &value);
     qdot_decision d;
+    bool sometimes;
 
     *yes = false;
     if (at == QDOT_NIL) { /* not defined there */
@@ -150,6 +171,10 @@ holds(const solver *s, qdot_expr value, bool *yes)
     }
     QDOT_TRY(qdot_decide_equal(s->pool, at, QDOT_ZERO, s->facts, &d));
     *yes = d.verdict != QDOT_REFUTED;
+    if (*yes)
+        return QDOT_OK;
+    QDOT_TRY(vanishes_somewhere(s, at, &sometimes));
+    s->complete = s->complete && !sometimes;
     return QDOT_OK;
 }
 

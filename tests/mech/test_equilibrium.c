@@ -1,20 +1,15 @@
-/* Equilibria, their stability and the modes about them. */
+/* Equilibria and the modes about them. */
 #include "kit.h"
 
 #include "mech/equilibrium.h"
 
-typedef struct {
-    qdot_equilibrium *list;
-    size_t n;
-} rest;
-
 static void
-find(kit *k, rest *r, size_t n)
+find(kit *k, qdot_equilibria *r, size_t n)
 {
-    must(qdot_equilibrium_find(k->scene, NULL, NULL, &r->list, &r->n));
+    must(qdot_equilibrium_find(k->scene, NULL, NULL, r));
     if (r->n != n)
         fail_msg("%zu equilibria, not %zu, the first %s", r->n, n,
-                 r->n > 0 ? show(k, r->list[0].equations) : "none");
+                 r->n > 0 ? show(k, r->at[0].equations) : "none");
     /* the other way round: the equations of motion hold there */
     for (size_t i = 0; i < r->n; i++)
         for (size_t j = 0; j < k->scene->coordinates.n; j++) {
@@ -28,14 +23,14 @@ find(kit *k, rest *r, size_t n)
 
                     e = qdot_subs(k->pool, e, 1, &jet, (qdot_expr[]){QDOT_ZERO});
                 }
-            for (uint32_t u = 0; u < qdot_expr_count(k->pool, r->list[i].equations);
+            for (uint32_t u = 0; u < qdot_expr_count(k->pool, r->at[i].equations);
                  u++) {
-                qdot_expr one = qdot_expr_arg(k->pool, r->list[i].equations, u);
+                qdot_expr one = qdot_expr_arg(k->pool, r->at[i].equations, u);
                 qdot_expr from = lhs(k, one), to = rhs(k, one);
 
                 e = qdot_subs(k->pool, e, 1, &from, &to);
             }
-            if (!r->list[i].numeric)
+            if (!r->at[i].numeric)
                 same_at(k, e, QDOT_ZERO, (int)i);
         }
 }
@@ -54,36 +49,36 @@ is(kit *k, const qdot_equilibrium *e, const char *equations, qdot_stability stab
 static void
 rotating_hoop_body(kit *k)
 {
-    rest r;
+    qdot_equilibria r;
 
     coords(k, "theta");
     particle(k, "bead", "m",
              "(R*sin(theta)*cos(W*t), R*sin(theta)*sin(W*t), -R*cos(theta))");
     gravity(k, "(0, 0, -g)");
     find(k, &r, 4);
-    is(k, &r.list[0], "[theta = 0]", QDOT_STABLE, "[R*W^2 < g]", "nil");
-    is(k, &r.list[1], "[theta = pi]", QDOT_UNSTABLE, "nil", "nil");
-    is(k, &r.list[2], "[theta = acos(g/(R*W^2))]", QDOT_STABLE, "nil", "[g < R*W^2]");
-    is(k, &r.list[3], "[theta = -acos(g/(R*W^2))]", QDOT_STABLE, "nil", "[g < R*W^2]");
-    qdot_free(r.list);
+    is(k, &r.at[0], "[theta = 0]", QDOT_STABLE, "[R*W^2 < g]", "nil");
+    is(k, &r.at[1], "[theta = pi]", QDOT_UNSTABLE, "nil", "nil");
+    is(k, &r.at[2], "[theta = acos(g/(R*W^2))]", QDOT_STABLE, "nil", "[g < R*W^2]");
+    is(k, &r.at[3], "[theta = -acos(g/(R*W^2))]", QDOT_STABLE, "nil", "[g < R*W^2]");
+    qdot_equilibria_clear(&r);
 }
 TEST(rotating_hoop)
 
 static void
 multipliers_are_included_body(kit *k)
 {
-    rest r;
+    qdot_equilibria r;
 
     coords(k, "x y");
     particle(k, "bob", "m", "(x, y)");
     gravity(k, "(0, -g)");
     constraint(k, "rod", "x^2 + y^2", "L^2");
     find(k, &r, 2);
-    is(k, &r.list[0], "[x = 0, y = -L, lambda[rod] = -1/2*m*g/L]", QDOT_STABLE, "nil",
+    is(k, &r.at[0], "[x = 0, y = -L, lambda[rod] = -1/2*m*g/L]", QDOT_STABLE, "nil",
        "nil");
-    is(k, &r.list[1], "[x = 0, y = L, lambda[rod] = 1/2*m*g/L]", QDOT_UNSTABLE, "nil",
+    is(k, &r.at[1], "[x = 0, y = L, lambda[rod] = 1/2*m*g/L]", QDOT_UNSTABLE, "nil",
        "nil");
-    qdot_free(r.list);
+    qdot_equilibria_clear(&r);
 }
 TEST(multipliers_are_included)
 
@@ -99,14 +94,14 @@ double_pendulum(kit *k)
 static void
 every_combination_body(kit *k)
 {
-    rest r;
+    qdot_equilibria r;
 
     double_pendulum(k);
     find(k, &r, 4);
-    is(k, &r.list[0], "[u = 0, v = 0]", QDOT_STABLE, "nil", "nil");
+    is(k, &r.at[0], "[u = 0, v = 0]", QDOT_STABLE, "nil", "nil");
     for (int i = 1; i < 4; i++)
-        assert_int_equal(r.list[i].stability, QDOT_UNSTABLE);
-    qdot_free(r.list);
+        assert_int_equal(r.at[i].stability, QDOT_UNSTABLE);
+    qdot_equilibria_clear(&r);
 }
 TEST(every_combination)
 
@@ -114,19 +109,19 @@ TEST(every_combination)
 static void
 gyroscopic_stabilisation_body(kit *k)
 {
-    rest r;
+    qdot_equilibria r;
 
     coords(k, "x y");
     must(qdot_scene_lagrangian(
         k->scene, E(k, "m*(x'^2 + y'^2)/2 + c*(x*y' - y*x')/2 + a*(x^2 + y^2)/2")));
     find(k, &r, 1);
-    assert_int_equal(r.list[0].stability, QDOT_STABLE);
-    assert_non_null(strstr(show(k, r.list[0].stable_when), "4*m*a < c^2"));
-    qdot_free(r.list);
-    torque(k, "-d*x'", "x"); /* dissipation undoes that: not decided here */
+    assert_int_equal(r.at[0].stability, QDOT_STABLE);
+    assert_non_null(strstr(show(k, r.at[0].stable_when), "4*m*a < c^2"));
+    qdot_equilibria_clear(&r);
+    torque(k, "-d*x'", "x"); /* dissipation undoes that */
     find(k, &r, 1);
-    assert_int_equal(r.list[0].stability, QDOT_STABILITY_UNDECIDED);
-    qdot_free(r.list);
+    assert_int_equal(r.at[0].stability, QDOT_UNSTABLE);
+    qdot_equilibria_clear(&r);
 }
 TEST(gyroscopic_stabilisation)
 
@@ -138,14 +133,14 @@ flat_bottoms_body(kit *k)
         const char *V;
         qdot_stability stability;
     } rows[] = {{"x^4", QDOT_STABLE}, {"-x^4", QDOT_UNSTABLE}, {"x^3", QDOT_UNSTABLE}};
-    rest r;
+    qdot_equilibria r;
 
     coords(k, "x");
     for (int i = 0; i < 3; i++) {
         must(qdot_scene_lagrangian(k->scene, E(k, "m*x'^2/2 - c*(%s)", rows[i].V)));
         find(k, &r, 1);
-        assert_int_equal(r.list[0].stability, rows[i].stability);
-        qdot_free(r.list);
+        assert_int_equal(r.at[0].stability, rows[i].stability);
+        qdot_equilibria_clear(&r);
     }
 }
 TEST(flat_bottoms)
@@ -154,63 +149,105 @@ TEST(flat_bottoms)
 static void
 roots_of_radicals_body(kit *k)
 {
-    rest r;
+    qdot_equilibria r;
 
     coords(k, "x");
     particle(k, "b", "m", "(x, 0)");
     must(qdot_scene_potential(k->scene, E(k, "c*(sqrt(x^2 + a^2) - L)^2/2")));
     find(k, &r, 3);
-    is(k, &r.list[0], "[x = 0]", QDOT_STABLE, "[L < a]", "nil");
-    assert_int_equal(r.list[1].stability, QDOT_STABLE);
-    assert_string_equal(show(k, r.list[1].exists), "[a < L]");
-    qdot_free(r.list);
+    is(k, &r.at[0], "[x = 0]", QDOT_STABLE, "[L < a]", "nil");
+    assert_int_equal(r.at[1].stability, QDOT_STABLE);
+    assert_string_equal(show(k, r.at[1].exists), "[a < L]");
+    qdot_equilibria_clear(&r);
 }
 TEST(roots_of_radicals)
 
 static void
 what_no_formula_gives_is_found_in_numbers_body(kit *k)
 {
-    rest r;
+    qdot_equilibria r;
     double x;
 
     coords(k, "x");
     must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - x^2/4 - sin(x)")));
     find(k, &r, 1);
-    assert_true(r.list[0].numeric);
+    assert_true(r.at[0].numeric);
     must(qdot_generic_evaluate(
-        k->pool, 1, (qdot_expr[]){rhs(k, qdot_expr_arg(k->pool, r.list[0].equations, 0))},
+        k->pool, 1, (qdot_expr[]){rhs(k, qdot_expr_arg(k->pool, r.at[0].equations, 0))},
         0, NULL, NULL, 1, &x));
     assert_true(fabs(x / 2 + cos(x)) < 1e-13);
-    assert_int_equal(r.list[0].stability, QDOT_STABLE);
-    qdot_free(r.list);
+    assert_int_equal(r.at[0].stability, QDOT_STABLE);
+    qdot_equilibria_clear(&r);
     must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - c*x^2/4 - sin(x)")));
-    assert_int_equal(qdot_equilibrium_find(k->scene, NULL, NULL, &r.list, &r.n),
-                     QDOT_EUNSET);
+    assert_int_equal(qdot_equilibrium_find(k->scene, NULL, NULL, &r), QDOT_EUNSET);
 }
 TEST(what_no_formula_gives_is_found_in_numbers)
 
+/* A force that comes and goes has no place of rest; where it only changes with time there is one. */
 static void
-time_has_no_rest_body(kit *k)
+rest_lasts_for_all_times_body(kit *k)
 {
-    rest r;
+    qdot_equilibria r;
 
     coords(k, "x");
     must(qdot_scene_lagrangian(k->scene, E(k, "m*x'^2/2 - c*x^2/2 + x*cos(t)")));
-    assert_int_equal(qdot_equilibrium_find(k->scene, NULL, NULL, &r.list, &r.n),
-                     QDOT_EDOMAIN);
+    find(k, &r, 0);
+    assert_true(r.complete);
+    qdot_equilibria_clear(&r);
+    must(qdot_scene_lagrangian(k->scene, E(k, "m*x'^2/2 - (1 + a*cos(t))*x^2/2")));
+    find(k, &r, 1);
+    is(k, &r.at[0], "[x = 0]", QDOT_STABILITY_UNDECIDED, "nil", "nil");
+    qdot_equilibria_clear(&r);
+    must(qdot_scene_lagrangian(k->scene, E(k, "m*x'^2/2 - cos(t)*(x - 2)^2*(x - 1)")));
+    find(k, &r, 2);
+    qdot_equilibria_clear(&r);
 }
-TEST(time_has_no_rest)
+TEST(rest_lasts_for_all_times)
+
+/* Multipliers may change with time though nothing moves. */
+static void
+multipliers_change_at_rest_body(kit *k)
+{
+    qdot_equilibria r;
+
+    coords(k, "x y");
+    particle(k, "bob", "m", "(x, y)");
+    must(qdot_scene_potential(k->scene, E(k, "m*(g + cos(t))*y")));
+    constraint(k, "rod", "x^2 + y^2", "L^2");
+    find(k, &r, 2);
+    is(k, &r.at[0], "[x = 0, y = -L, lambda[rod] = -1/2*m*(cos(t) + g)/L]",
+       QDOT_STABILITY_UNDECIDED, "nil", "nil");
+    qdot_equilibria_clear(&r);
+}
+TEST(multipliers_change_at_rest)
+
+/* Two fixed centres: one place; far away the force only fades. */
+static void
+a_fading_force_is_no_rest_body(kit *k)
+{
+    qdot_equilibria r;
+
+    coords(k, "x y");
+    must(qdot_scene_lagrangian(
+        k->scene, E(k, "(x'^2 + y'^2)/2 + 1/sqrt((x - 1)^2 + y^2) + 1/sqrt((x + 1)^2 + y^2)")));
+    find(k, &r, 1);
+    assert_true(r.at[0].numeric);
+    assert_int_equal(r.at[0].stability, QDOT_UNSTABLE);
+    assert_int_equal(r.unproved, 0);
+    qdot_equilibria_clear(&r);
+}
+TEST(a_fading_force_is_no_rest)
 
 /* w^2 = (2 -+ sqrt 2) g/l, amplitudes 1 : +-sqrt 2. */
 static void
 modes_of_the_double_pendulum_body(kit *k)
 {
     qdot_modes m;
-    rest r;
+    qdot_equilibria r;
 
     double_pendulum(k);
     find(k, &r, 4);
-    must(qdot_modes_about(k->scene, r.list[0].equations, false, NULL, NULL, &m));
+    must(qdot_modes_about(k->scene, r.at[0].equations, false, NULL, NULL, &m));
     assert_int_equal(m.n, 2);
     SAME(k, qdot_pow_int(k->pool, m.frequency[0], 2), "(2 - sqrt(2))*g/l");
     SAME(k, m.amplitude[0], "1");
@@ -218,9 +255,9 @@ modes_of_the_double_pendulum_body(kit *k)
     SAME(k, m.amplitude[3], "-sqrt(2)");
     qdot_modes_clear(&m);
     assert_int_equal(
-        qdot_modes_about(k->scene, r.list[3].equations, false, NULL, NULL, &m),
+        qdot_modes_about(k->scene, r.at[3].equations, false, NULL, NULL, &m),
         QDOT_EDOMAIN);
-    qdot_free(r.list);
+    qdot_equilibria_clear(&r);
 }
 TEST(modes_of_the_double_pendulum)
 
@@ -231,7 +268,7 @@ modes_in_numbers_body(kit *k)
 {
     double w, a[5], want;
     qdot_modes m;
-    rest r;
+    qdot_equilibria r;
 
     coords(k, "x1 x2 x3 x4 x5");
     must(qdot_scene_lagrangian(
@@ -239,7 +276,7 @@ modes_in_numbers_body(kit *k)
         E(k, "(x1'^2 + x2'^2 + x3'^2 + x4'^2 + x5'^2)/2 - (x1^2 + (x2 - x1)^2 + "
              "(x3 - x2)^2 + (x4 - x3)^2 + (x5 - x4)^2 + x5^2)/2")));
     find(k, &r, 1);
-    must(qdot_modes_about(k->scene, r.list[0].equations, true, NULL, NULL, &m));
+    must(qdot_modes_about(k->scene, r.at[0].equations, true, NULL, NULL, &m));
     assert_true(m.numeric);
     for (size_t i = 0; i < 5; i++) {
         must(qdot_generic_evaluate(k->pool, 1, &m.frequency[i], 0, NULL, NULL, 1, &w));
@@ -252,7 +289,7 @@ modes_in_numbers_body(kit *k)
         }
     }
     qdot_modes_clear(&m);
-    qdot_free(r.list);
+    qdot_equilibria_clear(&r);
 }
 TEST(modes_in_numbers)
 
@@ -261,20 +298,20 @@ static void
 free_motion_is_a_mode_body(kit *k)
 {
     qdot_modes m;
-    rest r;
+    qdot_equilibria r;
 
     coords(k, "x y");
     must(qdot_scene_lagrangian(k->scene, E(k, "a*x'^2/2 + b*y'^2/2 - c*(x - y)^2/2")));
     find(k, &r, 1);
-    assert_int_equal(r.list[0].stability, QDOT_STABILITY_UNDECIDED);
-    must(qdot_modes_about(k->scene, r.list[0].equations, false, NULL, NULL, &m));
+    assert_int_equal(r.at[0].stability, QDOT_STABILITY_UNDECIDED);
+    must(qdot_modes_about(k->scene, r.at[0].equations, false, NULL, NULL, &m));
     assert_int_equal(m.n, 2);
     SAME(k, m.frequency[0], "0");
     SAME(k, m.amplitude[1], "1");
     SAME(k, qdot_pow_int(k->pool, m.frequency[1], 2), "c/a + c/b");
     SAME(k, m.amplitude[3], "-a/b");
     qdot_modes_clear(&m);
-    qdot_free(r.list);
+    qdot_equilibria_clear(&r);
 }
 TEST(free_motion_is_a_mode)
 
@@ -289,7 +326,9 @@ main(void)
         cmocka_unit_test(flat_bottoms),
         cmocka_unit_test(roots_of_radicals),
         cmocka_unit_test(what_no_formula_gives_is_found_in_numbers),
-        cmocka_unit_test(time_has_no_rest),
+        cmocka_unit_test(rest_lasts_for_all_times),
+        cmocka_unit_test(multipliers_change_at_rest),
+        cmocka_unit_test(a_fading_force_is_no_rest),
         cmocka_unit_test(modes_of_the_double_pendulum),
         cmocka_unit_test(modes_in_numbers),
         cmocka_unit_test(free_motion_is_a_mode),

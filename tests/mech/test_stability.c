@@ -1,0 +1,70 @@
+/* What is said of stability is proved: a table of motions, each with what is true of it. */
+#include "kit.h"
+
+#include "mech/equilibrium.h"
+
+typedef struct {
+    const char *coordinates, *L;
+    const char *torque, *on; /* NULL: none */
+    qdot_stability stability;
+} row;
+
+static void
+judged_body(kit *k, const row *r)
+{
+    qdot_equilibria all;
+
+    coords(k, r->coordinates);
+    must(qdot_scene_lagrangian(k->scene, E(k, r->L)));
+    if (r->torque != NULL)
+        torque(k, r->torque, r->on);
+    must(qdot_equilibrium_find(k->scene, NULL, NULL, &all));
+    assert_int_equal(all.n, 1);
+    if (all.at[0].stability != r->stability)
+        fail_msg("%s with %s: %d, not %d", r->L, r->torque == NULL ? "nothing" : r->torque,
+                 all.at[0].stability, r->stability);
+    qdot_equilibria_clear(&all);
+}
+
+#define JUDGED(name, ...)                                                                \
+    static void name##_body(kit *k)                                                      \
+    {                                                                                    \
+        static const row r = __VA_ARGS__;                                                \
+                                                                                         \
+        judged_body(k, &r);                                                              \
+    }                                                                                    \
+    TEST(name)
+
+JUDGED(a_least_energy, {"x", "x'^2/2 - x^2/2", NULL, NULL, QDOT_STABLE})
+JUDGED(a_drive_that_grows, {"x", "x'^2/2 - x^2/2", "x'^3", "x", QDOT_STABLE_TO_FIRST_ORDER})
+JUDGED(a_drag_of_third_order, {"x", "x'^2/2 - x^2/2", "-x'^3", "x", QDOT_STABLE})
+JUDGED(dry_friction, {"x", "x'^2/2 - x^2/2", "-sign(x')", "x", QDOT_STABLE})
+JUDGED(linear_damping, {"x", "x'^2/2 - x^2/2", "-x'*(1 - x^2)", "x", QDOT_STABLE})
+JUDGED(van_der_pol, {"x", "x'^2/2 - x^2/2", "x'*(1 - x^2)", "x", QDOT_UNSTABLE})
+JUDGED(a_family_of_saddles, {"x y", "(x'^2 + y'^2)/2 - x*y^2/2", NULL, NULL, QDOT_STABILITY_UNDECIDED})
+JUDGED(a_trough, {"x y", "(x'^2 + y'^2)/2 - y^2/2", NULL, NULL, QDOT_STABLE})
+JUDGED(a_ridge, {"x y", "(x'^2 + y'^2)/2 + (1 + x^2)*y^2/2", NULL, NULL, QDOT_UNSTABLE})
+JUDGED(a_kink_at_the_bottom, {"x", "x'^2/2 - abs(x)", NULL, NULL, QDOT_STABLE})
+JUDGED(a_kink_on_top, {"x", "x'^2/2 + abs(x)", NULL, NULL, QDOT_UNSTABLE})
+JUDGED(a_flat_bottom, {"x", "x'^2/2 - x^4", "-x'", "x", QDOT_STABLE})
+JUDGED(a_flat_bottom_driven, {"x", "x'^2/2 - x^4", "x'^3", "x", QDOT_STABILITY_UNDECIDED})
+JUDGED(an_indefinite_mass, {"x y", "x'^2/2 - y'^2/2 - x^2/2 - y^2", NULL, NULL, QDOT_STABILITY_UNDECIDED})
+/* y/2 on x alone: a force without a potential */
+JUDGED(a_circulating_force, {"x y", "(x'^2 + y'^2)/2 - x^2/2 - y^2/2", "y/2", "x", QDOT_STABILITY_UNDECIDED})
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_least_energy),       cmocka_unit_test(a_drive_that_grows),
+        cmocka_unit_test(a_drag_of_third_order), cmocka_unit_test(dry_friction),
+        cmocka_unit_test(linear_damping),       cmocka_unit_test(van_der_pol),
+        cmocka_unit_test(a_family_of_saddles),  cmocka_unit_test(a_trough),
+        cmocka_unit_test(a_ridge),              cmocka_unit_test(a_kink_at_the_bottom),
+        cmocka_unit_test(a_kink_on_top),        cmocka_unit_test(a_flat_bottom),
+        cmocka_unit_test(a_flat_bottom_driven), cmocka_unit_test(an_indefinite_mass),
+        cmocka_unit_test(a_circulating_force),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
