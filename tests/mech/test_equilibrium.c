@@ -215,7 +215,7 @@ multipliers_change_at_rest_body(kit *k)
     must(qdot_scene_potential(k->scene, E(k, "m*(g + cos(t))*y")));
     constraint(k, "rod", "x^2 + y^2", "L^2");
     find(k, &r, 2);
-    is(k, &r.at[0], "[x = 0, y = -L, lambda[rod] = -1/2*m*(cos(t) + g)/L]",
+    is(k, &r.at[0], "[x = 0, y = -L, lambda[rod] = -1/2*m*(g + cos(t))/L]",
        QDOT_STABILITY_UNDECIDED, "nil", "nil");
     qdot_equilibria_clear(&r);
 }
