@@ -65,7 +65,7 @@ damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
 
             power = qdot_add(s->pool, power,
                              qdot_mul(s->pool, v,
-                                      qdot_diff(s->pool, s->dissipations.at[k], v)));
+                                      qdot_diff(s->pool, s->dissipations.at[k].e, v)));
         }
         *used = true;
         QDOT_TRY(never_negative(s, power, facts, yes));
