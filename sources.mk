@@ -721,6 +721,7 @@ script_tests = \
 	tests/script/derive-styles.lag \
 	tests/script/derive.lag \
 	tests/script/digits-events.lag \
+	tests/script/digits-members.lag \
 	tests/script/digits-start.lag \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
@@ -1419,6 +1420,7 @@ test_files = \
 	tests/script/derive-styles.out \
 	tests/script/derive.out \
 	tests/script/digits-events.out \
+	tests/script/digits-members.out \
 	tests/script/digits-start.out \
 	tests/script/digits-table.out \
 	tests/script/digits.csv \

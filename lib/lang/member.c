@@ -248,6 +248,44 @@ qdot_member_values(qdot_session *session, const char *run, qdot_expr e, size_t k
 }
 
 qdot_status
+qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+                    qdot_status (*measure)(qdot_session *session, const char *run, qdot_expr e,
+                                           qdot_expr time, qdot_measured *m),
+                    qdot_expr *value)
+{
+    mixture x = {0};
+    bool exact = true;
+    qdot_status status = find_symbols(session, e, &x);
+
+    *value = QDOT_NIL;
+    for (size_t i = 0; i < x.symbols.n && status == QDOT_OK && exact; i++) {
+        const qdot_member *m = find(session, x.symbols.at[i]);
+        qdot_named_run *named;
+
+        status = qdot_number_find_run(session, m != NULL ? m->run : run, &named);
+        exact = status == QDOT_OK && qdot_run_get_report(named->run)->digits > 0;
+    }
+    for (size_t i = 0; i < x.symbols.n && status == QDOT_OK && exact; i++) {
+        const qdot_member *m = find(session, x.symbols.at[i]);
+        qdot_measured number;
+        qdot_expr by;
+
+        status = m != NULL ? measure(session, m->run, m->value, time, &number)
+                           : measure(session, run, x.symbols.at[i], time, &number);
+        if (status != QDOT_OK)
+            break;
+        by = qdot_number_measured_as(session, number);
+        e = qdot_subs(session->pool, e, 1, &x.symbols.at[i], &by);
+    }
+    if (status == QDOT_OK && exact) {
+        *value = e;
+        status = qdot_pool_check(session->pool);
+    }
+    clear(&x);
+    return status;
+}
+
+qdot_status
 qdot_member_span(qdot_session *session, qdot_expr e, double *from, double *to)
 {
     for (size_t i = 0; i < session->members.n; i++) {

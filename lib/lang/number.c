@@ -476,18 +476,38 @@ measure_exactly(qdot_session *session, qdot_run *run, const qdot_number_columns 
     return status;
 }
 
-/* Where runs are named inside: one by one. */
+/* One column along a run, in doubles or with the digits of the run. */
 static qdot_status
-measure_members(qdot_session *session, const char *run, const qdot_number_columns *columns,
-                qdot_expr time, qdot_measured *m)
+measure_one(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+            qdot_measured *m)
+{
+    qdot_number_columns column = {.at = &e, .n = 1};
+    qdot_named_run *named = NULL;
+
+    QDOT_TRY(qdot_number_find_run(session, run, &named));
+    return qdot_run_get_report(named->run)->digits > 0
+               ? measure_exactly(session, named->run, &column, time, m)
+               : measure(session, named->run, &column, time, m);
+}
+
+/* A column that names runs inside. Along one run it is measured as any other; along several that
+ * all have digits it becomes *value, of numbers that each have theirs; else it is measured in
+ * doubles. */
+static qdot_status
+measure_members(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+                qdot_measured *m, qdot_expr *value)
 {
     double t, low;
+    bool mixed;
 
+    QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
+    if (!mixed)
+        return measure_one(session, run, e, time, m);
+    QDOT_TRY(qdot_member_exactly(session, run, e, time, measure_one, value));
+    if (*value != QDOT_NIL)
+        return QDOT_OK;
     QDOT_TRY(qdot_session_split(session, time, &t, &low));
-    for (size_t i = 0; i < columns->n; i++)
-        QDOT_TRY(qdot_number_along(session, run, columns->at[i], 1, &t, &low, &m[i].value,
-                                   &m[i].error));
-    return QDOT_OK;
+    return qdot_member_values(session, run, e, 1, &t, &low, &m->value, &m->error);
 }
 
 static bool
@@ -497,6 +517,23 @@ any_member(const qdot_session *session, const qdot_number_columns *columns)
         if (qdot_member_any(session, columns->at[i]))
             return true;
     return false;
+}
+
+/* The columns at a time: numbers m [columns], or values [columns] of such numbers, not nil. */
+static qdot_status
+measure_columns(qdot_session *session, const char *run, const qdot_number_columns *columns,
+                qdot_expr time, qdot_measured *m, qdot_expr *values)
+{
+    qdot_named_run *named = NULL;
+
+    QDOT_TRY(qdot_number_find_run(session, run, &named));
+    if (!any_member(session, columns))
+        return qdot_run_get_report(named->run)->digits > 0
+                   ? measure_exactly(session, named->run, columns, time, m)
+                   : measure(session, named->run, columns, time, m);
+    for (size_t i = 0; i < columns->n; i++)
+        QDOT_TRY(measure_members(session, run, columns->at[i], time, m + i, values + i));
+    return QDOT_OK;
 }
 
 qdot_status
@@ -564,6 +601,7 @@ qdot_number_value(qdot_session *session, const char *run, uint32_t n,
     qdot_number_columns columns = {0};
     qdot_vec(qdot_expr) symbols = {0};
     qdot_measured *measured = NULL;
+    qdot_expr *values = NULL;
     qdot_named_run *named = NULL;
     qdot_status status;
 
@@ -577,18 +615,17 @@ qdot_number_value(qdot_session *session, const char *run, uint32_t n,
         status = qdot_number_flatten(session, args[i], &columns);
     if (status == QDOT_OK) {
         measured = qdot_calloc(columns.n, sizeof *measured);
-        status = measured == NULL ? QDOT_ENOMEM : QDOT_OK;
+        values = qdot_calloc(columns.n, sizeof *values);
+        status = measured == NULL || values == NULL ? QDOT_ENOMEM : QDOT_OK;
     }
     if (status == QDOT_OK)
-        status = any_member(session, &columns)
-                     ? measure_members(session, run, &columns, args[n - 1], measured)
-                 : qdot_run_get_report(named->run)->digits > 0
-                     ? measure_exactly(session, named->run, &columns, args[n - 1], measured)
-                     : measure(session, named->run, &columns, args[n - 1], measured);
+        status = measure_columns(session, run, &columns, args[n - 1], measured, values);
     if (status == QDOT_OK)
         status = add_errors_within(session, run, n - 1, args, args[n - 1], measured);
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++)
-        status = qdot_vec_push(&symbols, measured_symbol(session, measured[i]));
+        status = qdot_vec_push(&symbols, values[i] != QDOT_NIL
+                                             ? values[i]
+                                             : measured_symbol(session, measured[i]));
     if (status == QDOT_OK) {
         *value = columns.n == 1
                      ? symbols.at[0]
@@ -596,6 +633,7 @@ qdot_number_value(qdot_session *session, const char *run, uint32_t n,
         status = qdot_pool_check(session->pool);
     }
     qdot_free(measured);
+    qdot_free(values);
     qdot_free(columns.at);
     qdot_free(symbols.at);
     return status;

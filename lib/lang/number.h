@@ -93,6 +93,13 @@ QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char
                                                qdot_expr e, size_t k, const double *times,
                                                const double *lows, double *values,
                                                double *errors);
+/* A mixed one whose runs all have digits, at a time: *value has its symbols replaced by numbers of
+ * their runs, as `measure` finds them. Nil where a run has none. */
+QDOT_MUST_CHECK qdot_status qdot_member_exactly(
+    qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+    qdot_status (*measure)(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+                           qdot_measured *m),
+    qdot_expr *value);
 /* from and to narrowed to what all its runs cover. */
 QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
                                              double *from, double *to);
