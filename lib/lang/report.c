@@ -339,7 +339,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     constraints_text(line, r);
     qdot_text_add(line, "\n  error of the end state: ");
     if (isfinite(r->error)) {
-        qdot_text_add(line, "about ");
+        qdot_text_add(line, "at most ");
         qdot_answer_bound(line, r->error);
     } else {
         qdot_text_add(line, "unknown");

@@ -11,7 +11,7 @@ s/^\(  hint: auto\), .*/\1, .../
 s/^  [0-9][0-9]* steps\{0,1\}, [0-9].*$/  STEPS/
 /^  apart: /s/ [0-9][0-9]* steps\{0,1\}/ STEPS/g
 /^  drift: /s/ [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}\(,\|$\)/ N\2/g
-s/^\(  error of the end state: about \).*/\1N/
+s/^\(  error of the end state: at most \).*/\1N/
 /^  end state:/,/^[^ ]/{
 /^    /s/ = -\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/ = N/g
 }
