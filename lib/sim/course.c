@@ -165,7 +165,7 @@ level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, doub
 
     memcpy(in, y, n * sizeof *in);
     in[n] = t;
-    if (k <= n)
+    if (k != SIZE_MAX)
         in[k] += 0x1p-26 * fmax(1, fabs(in[k]));
     qdot_tape_eval(m->level, in, &level, work);
     return level;
