@@ -27,10 +27,14 @@ static inline reference_value
 rational(const fmpq *x)
 {
     mpfr_t m;
+    mpq_t q;
     reference_value r;
 
     mpfr_init2(m, 64);
-    fmpq_get_mpfr(m, x, MPFR_RNDN);
+    mpq_init(q);
+    fmpq_get_mpq(q, x);
+    mpfr_set_q(m, q, MPFR_RNDN);
+    mpq_clear(q);
     r.v = mpfr_get_ld(m, MPFR_RNDN);
     r.err = eps * fabsl(r.v);
     mpfr_clear(m);
