@@ -135,7 +135,8 @@ add_up(division *d)
     qdot_vec(qdot_expr) terms = {0};
     qdot_status status = QDOT_OK;
 
-    qsort(d->placed.at, d->placed.n, sizeof *d->placed.at, by_entry);
+    if (d->placed.n > 0)
+        qsort(d->placed.at, d->placed.n, sizeof *d->placed.at, by_entry);
     for (size_t i = 0; i < d->placed.n && status == QDOT_OK; i++) {
         const struct placed *p = d->placed.at + i;
 
