@@ -606,8 +606,8 @@ answer(qdot_cursor *c, question *q, facts *f)
     return qdot_answer_check(session, q->left, q->right, &decision);
 }
 
-/* dE/dt = 0 along the motion, where that needs no accelerations; *done: it was decided so. Where multipliers
- * are left, which the state tells, only a proof counts. */
+/* dE/dt = 0 along the motion, where that needs no accelerations; *done: it was decided so.
+ * Where multipliers are left, which the state tells, only a proof counts. */
 static qdot_status
 answer_by_rate(qdot_session *session, question *q, facts *f, bool *done)
 {
@@ -641,7 +641,8 @@ answer_by_rate(qdot_session *session, question *q, facts *f, bool *done)
     return qdot_answer_check(session, rate, QDOT_ZERO, &decision);
 }
 
-/* `conserved E`: by its rate, else with accelerations put in; past the work budget that is undecided. */
+/* `conserved E`: by its rate, else with accelerations put in; past the work budget that is
+ * undecided. */
 static qdot_status
 answer_conserved(qdot_cursor *c, question *q, facts *f)
 {

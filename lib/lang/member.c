@@ -249,8 +249,6 @@ qdot_member_values(qdot_session *session, const char *run, qdot_expr e, size_t k
 
 qdot_status
 qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
-                    qdot_status (*measure)(qdot_session *session, const char *run, qdot_expr e,
-                                           qdot_expr time, qdot_measured *m),
                     qdot_expr *value)
 {
     mixture x = {0};
@@ -270,8 +268,9 @@ qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_ex
         qdot_measured number;
         qdot_expr by;
 
-        status = m != NULL ? measure(session, m->run, m->value, time, &number)
-                           : measure(session, run, x.symbols.at[i], time, &number);
+        status = m != NULL
+                     ? qdot_number_measure(session, m->run, m->value, time, &number)
+                     : qdot_number_measure(session, run, x.symbols.at[i], time, &number);
         if (status != QDOT_OK)
             break;
         by = qdot_number_measured_as(session, number);

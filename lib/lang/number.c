@@ -476,18 +476,24 @@ measure_exactly(qdot_session *session, qdot_run *run, const qdot_number_columns 
     return status;
 }
 
-/* One column along a run, in doubles or with the digits of the run. */
+/* Columns that name no run inside, along a run, in doubles or with the digits of the run. */
 static qdot_status
-measure_one(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
-            qdot_measured *m)
+measure_along(qdot_session *session, const char *run, const qdot_number_columns *columns,
+              qdot_expr time, qdot_measured *m)
 {
-    qdot_number_columns column = {.at = &e, .n = 1};
     qdot_named_run *named = NULL;
 
     QDOT_TRY(qdot_number_find_run(session, run, &named));
     return qdot_run_get_report(named->run)->digits > 0
-               ? measure_exactly(session, named->run, &column, time, m)
-               : measure(session, named->run, &column, time, m);
+               ? measure_exactly(session, named->run, columns, time, m)
+               : measure(session, named->run, columns, time, m);
+}
+
+qdot_status
+qdot_number_measure(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+                    qdot_measured *m)
+{
+    return measure_along(session, run, &(qdot_number_columns){.at = &e, .n = 1}, time, m);
 }
 
 /* A column that names runs inside. Along one run it is measured as any other; along several that
@@ -502,8 +508,8 @@ measure_members(qdot_session *session, const char *run, qdot_expr e, qdot_expr t
 
     QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
     if (!mixed)
-        return measure_one(session, run, e, time, m);
-    QDOT_TRY(qdot_member_exactly(session, run, e, time, measure_one, value));
+        return qdot_number_measure(session, run, e, time, m);
+    QDOT_TRY(qdot_member_exactly(session, run, e, time, value));
     if (*value != QDOT_NIL)
         return QDOT_OK;
     QDOT_TRY(qdot_session_split(session, time, &t, &low));
@@ -524,13 +530,8 @@ static qdot_status
 measure_columns(qdot_session *session, const char *run, const qdot_number_columns *columns,
                 qdot_expr time, qdot_measured *m, qdot_expr *values)
 {
-    qdot_named_run *named = NULL;
-
-    QDOT_TRY(qdot_number_find_run(session, run, &named));
     if (!any_member(session, columns))
-        return qdot_run_get_report(named->run)->digits > 0
-                   ? measure_exactly(session, named->run, columns, time, m)
-                   : measure(session, named->run, columns, time, m);
+        return measure_along(session, run, columns, time, m);
     for (size_t i = 0; i < columns->n; i++)
         QDOT_TRY(measure_members(session, run, columns->at[i], time, m + i, values + i));
     return QDOT_OK;

@@ -56,8 +56,12 @@ QDOT_MUST_CHECK qdot_status qdot_event_time(qdot_session *session, const char *r
 /* The run of that name, the latest for NULL. QDOT_ENAME where there is none. */
 QDOT_MUST_CHECK qdot_status qdot_number_find_run(qdot_session *session, const char *name,
                                                  qdot_named_run **run);
-/* One expression at times [k], each with what the exact one is beyond it (lows NULL: 0), along whatever runs it names, else along `run` (NULL: the
- * latest). */
+/* One expression, of one run alone, at a time, in doubles or with the digits of the run. */
+QDOT_MUST_CHECK qdot_status qdot_number_measure(qdot_session *session, const char *run,
+                                                qdot_expr e, qdot_expr time,
+                                                qdot_measured *m);
+/* One expression at times [k], each with what the exact one is beyond it (lows NULL: 0), along
+ * whatever runs it names, else along `run` (NULL: the latest). */
 QDOT_MUST_CHECK qdot_status qdot_number_along(qdot_session *session, const char *run,
                                               qdot_expr e, size_t k, const double *times,
                                               const double *lows, double *values,
@@ -94,12 +98,10 @@ QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char
                                                const double *lows, double *values,
                                                double *errors);
 /* A mixed one whose runs all have digits, at a time: *value has its symbols replaced by numbers of
- * their runs, as `measure` finds them. Nil where a run has none. */
-QDOT_MUST_CHECK qdot_status qdot_member_exactly(
-    qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
-    qdot_status (*measure)(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
-                           qdot_measured *m),
-    qdot_expr *value);
+ * their runs. Nil where a run has no digits. */
+QDOT_MUST_CHECK qdot_status qdot_member_exactly(qdot_session *session, const char *run,
+                                                qdot_expr e, qdot_expr time,
+                                                qdot_expr *value);
 /* from and to narrowed to what all its runs cover. */
 QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
                                              double *from, double *to);

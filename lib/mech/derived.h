@@ -15,7 +15,16 @@
 #ifndef QDOT_MECH_DERIVED_H
 #define QDOT_MECH_DERIVED_H
 
+#include <string.h>
+
 #include "mech/quantity.h"
+
+/* Whether two labels are the same; NULL is none. */
+static inline bool
+qdot_label_is(const char *a, const char *b)
+{
+    return a && b && strcmp(a, b) == 0;
+}
 
 /* w x' y'; axis: the component of a centre's or particle's position, -1 for a body's
  * axes. */

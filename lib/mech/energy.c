@@ -461,7 +461,8 @@ is_free_of_velocities(qdot_scene *s, qdot_expr e)
                                                       QDOT_HAS_ACCELERATION)) == 0;
 }
 
-/* E less a quantity whose rate needs no accelerations: what is left, free of velocities; else nil. */
+/* E less a quantity whose rate needs no accelerations: what is left, free of velocities; else
+ * nil. */
 static qdot_expr
 rest_beside(qdot_scene *s, qdot_expr E, qdot_expr known)
 {

@@ -1,4 +1,5 @@
-/* equilibrium-branches.c -- the equations at rest, solved one unknown at a time, factor by factor. */
+/* equilibrium-branches.c -- the equations at rest, solved one unknown at a time, factor by
+ * factor. */
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -207,8 +208,8 @@ turned(const qdot_rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
     return value;
 }
 
-/* The conditions of a branch, and that each value lies within the domain of its coordinate: a rational
- * one of the parameters, an angle does. */
+/* The conditions of a branch, and that each value lies within the domain of its coordinate: a
+ * rational one of the parameters, an angle does. */
 static qdot_expr
 with_domains(const qdot_rest *r, const qdot_rest_branch *b)
 {

@@ -6,28 +6,11 @@
  * solves them solves G for all t is looked at afterwards. Multipliers may depend on t: of an
  * equation that holds some, its value at that time alone is taken. */
 #include "mech/equilibrium-rest.h"
+#include "mech/linear-motion.h"
 #include "mech/quantity.h"
 #include "normal/simplify.h"
 
 enum { DERIVATIVES = 4 };
-
-static qdot_expr
-at_rest(qdot_scene *s, qdot_expr e)
-{
-    size_t n = s->coordinates.n;
-    qdot_expr *from = qdot_calloc(4 * n + 1, sizeof *from);
-
-    if (from == NULL)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++) {
-        from[i] = qdot_mech_jet(s, i, 1);
-        from[n + i] = qdot_mech_jet(s, i, 2);
-        from[2 * n + i] = from[3 * n + i] = QDOT_ZERO;
-    }
-    e = qdot_subs(s->pool, e, 2 * n, from, from + 2 * n);
-    qdot_free(from);
-    return e;
-}
 
 static qdot_expr
 residual(qdot_pool *pool, qdot_expr equation)
@@ -44,6 +27,7 @@ qdot_rest_equations(qdot_rest *r, qdot_expr *list)
     qdot_scene *s = r->s;
     size_t n = s->coordinates.n, m = n + s->constraints.n, count = 0;
     qdot_expr *e = qdot_calloc(m + 1, sizeof *e);
+    qdot_expr nowhere = qdot_list(r->pool, 0, NULL);
     qdot_status status = QDOT_OK;
 
     if (e == NULL)
@@ -53,7 +37,7 @@ qdot_rest_equations(qdot_rest *r, qdot_expr *list)
             i < n ? residual(r->pool, qdot_mech_equation(s, s->coordinates.at[i]))
                   : s->constraints.at[i - n].f;
 
-        one = qdot_simplify(r->pool, at_rest(s, one), &r->facts);
+        one = qdot_simplify(r->pool, qdot_rest_value(s, nowhere, one), &r->facts);
         status = qdot_pool_check(r->pool);
         if (status == QDOT_OK && one != QDOT_ZERO &&
             !qdot_is_zero(r->pool, one, &r->facts))

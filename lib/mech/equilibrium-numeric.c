@@ -20,7 +20,6 @@ static const double ranges[] = {1.5, 4, 1.5, 12, 1.5, 4, 40, 100};
 enum { RANGES = sizeof ranges / sizeof *ranges };
 
 typedef struct {
-    qdot_rest *rest;
     qdot_pool *pool;
     size_t n, slopes;
     size_t coordinates;      /* the first of the unknowns; then multipliers */
@@ -394,8 +393,7 @@ qdot_places_clear(qdot_places *places)
 qdot_status
 qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
 {
-    problem p = {.rest = rest,
-                 .pool = rest->pool,
+    problem p = {.pool = rest->pool,
                  .n = rest->unknowns.n,
                  .coordinates = rest->coordinates,
                  .u = rest->unknowns.at};

@@ -39,10 +39,12 @@ qdot_expr qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values);
 /* Whether a full turn of u changes no equation. */
 bool qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations);
 
-/* Solve all branches that are left to do, to r->found; r->complete: these are all. (equilibrium-branches.c) */
+/* Solve all branches that are left to do, to r->found; r->complete: these are all.
+ * (equilibrium-branches.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_solve(qdot_rest *r);
 
-/* The equations at rest, simplified, those that hold identically left out: a LIST. (equilibrium-equations.c) */
+/* The equations at rest, simplified, those that hold identically left out: a LIST.
+ * (equilibrium-equations.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_equations(qdot_rest *r, qdot_expr *list);
 /* What holds of a place at which they hold for all times: equations without t. */
 QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations,

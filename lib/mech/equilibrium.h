@@ -63,8 +63,8 @@ typedef struct {
     size_t unproved;      /* starts that ended where the equations hold to rounding, unproved */
 } qdot_equilibria;
 
-/* *out cleared by the caller. QDOT_EUNSET names a parameter if numbers are needed, QDOT_EFAILED if nothing
- * can be said. */
+/* *out cleared by the caller. QDOT_EUNSET names a parameter if numbers are needed, QDOT_EFAILED
+ * if nothing can be said. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bind,
                                                   void *user, qdot_equilibria *out);
 
@@ -83,12 +83,15 @@ QDOT_MUST_CHECK qdot_status qdot_judge_new(qdot_scene *s, qdot_expr at_rest,
 QDOT_MUST_CHECK qdot_status qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e);
 void qdot_judge_free(qdot_judge *judge);
 
-/* --- normal modes (modes.c) ----
- * (H - w^2 M) a = 0 about `equations`: frequencies w [n] ascending (unordered: pairs of them have no order
- * that is proved, they stand as at one place of the parameters), amplitudes a [n * coordinates], a row each, the first component that is not 0 is 1. Exact where the
- * characteristic polynomial factors into linear and quadratic ones in w^2, else (or at once, if
- * `numbers`) numbers, which need every parameter's value. QDOT_ETYPE with damping or gyroscopic terms, QDOT_EDOMAIN
- * where H is not positive semidefinite. */
+/* --- normal modes (modes.c) --------------------------------------------------------------- */
+
+/* (H - w^2 M) a = 0 about `equations`: frequencies w [n]
+ * ascending (unordered: pairs of them have no order that is proved, they stand as at one place
+ * of the parameters), amplitudes a [n * coordinates], a row each, the first component that is
+ * not 0 is 1. Exact where the characteristic polynomial factors into linear and quadratic ones
+ * in w^2, else (or at once, if `numbers`) numbers, which need every parameter's value.
+ * QDOT_ETYPE with damping or gyroscopic terms, QDOT_EDOMAIN where H is not positive
+ * semidefinite. */
 typedef struct {
     size_t n;
     qdot_expr *frequency, *amplitude;

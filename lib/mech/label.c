@@ -4,17 +4,11 @@
 #include "mech/derived.h"
 #include "mech/scene.h"
 
-static bool
-same(const char *a, const char *b)
-{
-    return a && b && strcmp(a, b) == 0;
-}
-
 const qdot_particle *
 qdot_scene_find_particle(const qdot_scene *s, const char *label)
 {
     for (size_t i = 0; i < s->particles.n; i++)
-        if (same(s->particles.at[i].name, label))
+        if (qdot_label_is(s->particles.at[i].name, label))
             return &s->particles.at[i];
     return NULL;
 }
@@ -23,7 +17,7 @@ const qdot_body *
 qdot_scene_find_body(const qdot_scene *s, const char *label)
 {
     for (size_t i = 0; i < s->bodies.n; i++)
-        if (same(s->bodies.at[i].name, label))
+        if (qdot_label_is(s->bodies.at[i].name, label))
             return &s->bodies.at[i];
     return NULL;
 }
@@ -34,31 +28,31 @@ qdot_scene_has_label(const qdot_scene *s, const char *label)
     if (qdot_scene_find_particle(s, label) || qdot_scene_find_body(s, label))
         return true;
     for (size_t i = 0; i < s->gravities.n; i++)
-        if (same(s->gravities.at[i].name, label))
+        if (qdot_label_is(s->gravities.at[i].name, label))
             return true;
     for (size_t i = 0; i < s->potentials.n; i++)
-        if (same(s->potentials.at[i].name, label))
+        if (qdot_label_is(s->potentials.at[i].name, label))
             return true;
     for (size_t i = 0; i < s->dissipations.n; i++)
-        if (same(s->dissipations.at[i].name, label))
+        if (qdot_label_is(s->dissipations.at[i].name, label))
             return true;
     for (size_t i = 0; i < s->springs.n; i++)
-        if (same(s->springs.at[i].name, label))
+        if (qdot_label_is(s->springs.at[i].name, label))
             return true;
     for (size_t i = 0; i < s->dampers.n; i++)
-        if (same(s->dampers.at[i].name, label))
+        if (qdot_label_is(s->dampers.at[i].name, label))
             return true;
     for (size_t i = 0; i < s->forces.n; i++)
-        if (same(s->forces.at[i].name, label))
+        if (qdot_label_is(s->forces.at[i].name, label))
             return true;
     for (size_t i = 0; i < s->torques.n; i++)
-        if (same(s->torques.at[i].name, label))
+        if (qdot_label_is(s->torques.at[i].name, label))
             return true;
     for (size_t i = 0; i < s->constraints.n; i++)
-        if (same(s->constraints.at[i].label, label))
+        if (qdot_label_is(s->constraints.at[i].label, label))
             return true;
     for (size_t i = 0; i < s->events.n; i++)
-        if (same(s->events.at[i].name, label))
+        if (qdot_label_is(s->events.at[i].name, label))
             return true;
     return false;
 }

@@ -19,7 +19,8 @@ typedef struct {
     bool damped;              /* Gamma has values: else it stands as 0 (|v| v at v = 0) */
 } qdot_linear_motion;
 
-/* About `equations`, which hold where `exists` does (a LIST; nil: everywhere). Owned by the caller. */
+/* About `equations`, which hold where `exists` does (a LIST; nil: everywhere). Owned by the
+ * caller. */
 QDOT_MUST_CHECK qdot_status qdot_linear_motion_about(qdot_scene *s, qdot_expr equations,
                                                      qdot_expr exists,
                                                      qdot_linear_motion *out);

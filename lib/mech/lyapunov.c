@@ -1,4 +1,5 @@
-/* lyapunov.c -- the work of what is applied beside a potential: none, never positive, or not known. */
+/* lyapunov.c -- the work of what is applied beside a potential: none, never positive, or not
+ * known. */
 #include "mech/lyapunov.h"
 
 #include "expr/calculus.h"

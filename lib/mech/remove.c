@@ -4,12 +4,6 @@
 #include "mech/derived.h"
 #include "mech/scene.h"
 
-static bool
-same(const char *a, const char *b)
-{
-    return a && b && strcmp(a, b) == 0;
-}
-
 qdot_status
 qdot_scene_drop(qdot_scene *s, const char *kind, const char *name)
 {
@@ -52,17 +46,19 @@ static qdot_status
 name_dependents(qdot_scene *s, const char *label, int body)
 {
     for (size_t i = 0; i < s->springs.n; i++)
-        if (same(s->springs.at[i].end[0], label) || same(s->springs.at[i].end[1], label))
+        if (qdot_label_is(s->springs.at[i].end[0], label) ||
+            qdot_label_is(s->springs.at[i].end[1], label))
             QDOT_TRY(s->springs.at[i].name
                          ? qdot_scene_drop(s, "spring ", s->springs.at[i].name)
                          : qdot_scene_drop(s, "a spring", NULL));
     for (size_t i = 0; i < s->dampers.n; i++)
-        if (same(s->dampers.at[i].end[0], label) || same(s->dampers.at[i].end[1], label))
+        if (qdot_label_is(s->dampers.at[i].end[0], label) ||
+            qdot_label_is(s->dampers.at[i].end[1], label))
             QDOT_TRY(s->dampers.at[i].name
                          ? qdot_scene_drop(s, "damper ", s->dampers.at[i].name)
                          : qdot_scene_drop(s, "a damper", NULL));
     for (size_t i = 0; i < s->forces.n; i++)
-        if (same(s->forces.at[i].on, label))
+        if (qdot_label_is(s->forces.at[i].on, label))
             QDOT_TRY(s->forces.at[i].name
                          ? qdot_scene_drop(s, "force ", s->forces.at[i].name)
                          : qdot_scene_drop(s, "a force", NULL));
@@ -84,35 +80,35 @@ qdot_scene_remove(qdot_scene *s, const char *label)
 
     qdot_scene_forget_dropped(s);
     if (qdot_scene_find_event(s, label)) { /* what was derived still holds */
-        FILTER(s->events, p, same(p->name, label), qdot_event_clear(p));
+        FILTER(s->events, p, qdot_label_is(p->name, label), qdot_event_clear(p));
         return found ? QDOT_OK : QDOT_EFAILED;
     }
     if (!qdot_scene_has_label(s, label))
         return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
     if (on_thing)
         QDOT_TRY(name_dependents(s, label, body));
-    FILTER(s->particles, p, same(p->name, label), qdot_free(p->name));
-    FILTER(s->bodies, p, same(p->name, label), qdot_free(p->name));
+    FILTER(s->particles, p, qdot_label_is(p->name, label), qdot_free(p->name));
+    FILTER(s->bodies, p, qdot_label_is(p->name, label), qdot_free(p->name));
     FILTER(s->springs, p,
-           same(p->name, label) ||
-               (on_thing && (same(p->end[0], label) || same(p->end[1], label))),
+           qdot_label_is(p->name, label) ||
+               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))),
            qdot_link_clear(p));
     FILTER(s->dampers, p,
-           same(p->name, label) ||
-               (on_thing && (same(p->end[0], label) || same(p->end[1], label))),
+           qdot_label_is(p->name, label) ||
+               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))),
            qdot_link_clear(p));
-    FILTER(s->forces, p, same(p->name, label) || (on_thing && same(p->on, label)),
+    FILTER(s->forces, p, qdot_label_is(p->name, label) || (on_thing && qdot_label_is(p->on, label)),
            qdot_force_clear(p));
     FILTER(s->torques, p,
-           same(p->name, label) ||
+           qdot_label_is(p->name, label) ||
                (body >= 0 && p->coordinate == QDOT_NIL && p->body == body),
            qdot_free(p->name));
     for (size_t i = 0; body >= 0 && i < s->torques.n; i++)
         s->torques.at[i].body -= s->torques.at[i].body > body;
-    FILTER(s->gravities, p, same(p->name, label), qdot_free(p->name));
-    FILTER(s->potentials, p, same(p->name, label), qdot_free(p->name));
-    FILTER(s->dissipations, p, same(p->name, label), qdot_free(p->name));
-    FILTER(s->constraints, p, same(p->label, label), qdot_constraint_clear(p));
+    FILTER(s->gravities, p, qdot_label_is(p->name, label), qdot_free(p->name));
+    FILTER(s->potentials, p, qdot_label_is(p->name, label), qdot_free(p->name));
+    FILTER(s->dissipations, p, qdot_label_is(p->name, label), qdot_free(p->name));
+    FILTER(s->constraints, p, qdot_label_is(p->label, label), qdot_constraint_clear(p));
     s->version++;
     return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
 }

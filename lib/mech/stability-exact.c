@@ -1,5 +1,5 @@
-/* stability-exact.c -- whether a scene stays near a place that is known exactly: by an energy, by the roots of the linear
- * motion, by the force on either side. */
+/* stability-exact.c -- whether a scene stays near a place that is known exactly: by an energy,
+ * by the roots of the linear motion, by the force on either side. */
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
@@ -113,6 +113,19 @@ definiteness(judgement *j, size_t n, const qdot_expr *A, definite *how)
     return QDOT_OK;
 }
 
+/* Whether A is positive definite without further conditions. */
+static qdot_status
+is_proved_definite(judgement *j, size_t n, const qdot_expr *A, bool *yes)
+{
+    mark before = mark_of(j);
+    definite how;
+
+    QDOT_TRY(definiteness(j, n, A, &how));
+    back_to(j, before);
+    *yes = how == POSITIVE;
+    return QDOT_OK;
+}
+
 static bool
 is_symmetric(judgement *j, size_t n, const qdot_expr *A, int sign)
 {
@@ -129,7 +142,6 @@ is_symmetric(judgement *j, size_t n, const qdot_expr *A, int sign)
         }
     return true;
 }
-
 
 /* Whether the symmetric part of Gamma is proved not negative: none, or diagonal of known signs. */
 static bool
@@ -166,8 +178,8 @@ twice_damping(judgement *j, size_t n, const qdot_expr *Gamma, qdot_expr **out)
 
 /* --- polynomials of Hurwitz ------------------------------------------------------------------ */
 
-/* Ask that all are positive, one after another. *how: POSITIVE, CONDITIONAL; NEGATIVE_SOMEWHERE where one is
- * proved below 0 whatever the parameters; else UNKNOWN. */
+/* Ask that all are positive, one after another. *how: POSITIVE, CONDITIONAL; NEGATIVE_SOMEWHERE
+ * where one is proved below 0 whatever the parameters; else UNKNOWN. */
 static qdot_status
 all_positive(judgement *j, size_t n, qdot_expr *e, definite *how)
 {
@@ -233,6 +245,7 @@ hurwitz(judgement *j, definite *how)
         qdot_product(pool, 3, (qdot_expr[]){a[1], a[1], a[4]}));
     return all_positive(j, 6, a, how);
 }
+
 /* det(-w^2 M + i w Gamma + H) = a w^4 - b w^2 + c, Gamma antisymmetric, n = 2: two positive w^2
  * that differ, or a root with a positive real part. */
 static qdot_status
@@ -259,9 +272,10 @@ gyroscopic(judgement *j, definite *how)
         how);
 }
 
-/* --- one degree of freedom, either side ---------------------------------------------------------- */
+/* --- one degree of freedom, either side ------------------------------------------------- */
 
-/* The first derivative by eps that is not 0 at eps = 0 of e: its sign, 0 where that is not known. */
+/* The first derivative by eps that is not 0 at eps = 0 of e: its sign, 0 where that is not
+ * known. */
 static qdot_status
 leading_sign(judgement *j, qdot_expr e, qdot_expr eps, int *sign)
 {
@@ -288,8 +302,8 @@ leading_sign(judgement *j, qdot_expr e, qdot_expr eps, int *sign)
     return qdot_pool_check(pool);
 }
 
-/* The potential of one coordinate rises on either side, or falls on one, by the force at q0 +- eps: also where
- * H = 0, or where the force jumps. */
+/* The potential of one coordinate rises on either side, or falls on one, by the force at q0 +-
+ * eps: also where H = 0, or where the force jumps. */
 static qdot_status
 by_sides(judgement *j, qdot_equilibrium *e)
 {
@@ -324,7 +338,7 @@ by_sides(judgement *j, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* --- the verdict ------------------------------------------------------------------------------- */
+/* --- the verdict ------------------------------------------------------------------------ */
 
 static qdot_stability
 conclude(definite how, qdot_stability verdict)
@@ -358,6 +372,7 @@ static qdot_status
 by_falling(judgement *j, qdot_equilibrium *e)
 {
     definite how;
+    bool mass;
     mark before = mark_of(j);
 
     if (!j->regular || !is_symmetric(j, j->m.n, j->m.Gamma, 1) ||
@@ -367,9 +382,8 @@ by_falling(judgement *j, qdot_equilibrium *e)
     back_to(j, before);
     if (how != NEGATIVE_SOMEWHERE)
         return QDOT_OK;
-    QDOT_TRY(definiteness(j, j->m.n, j->m.M, &how));
-    back_to(j, before);
-    if (how == POSITIVE)
+    QDOT_TRY(is_proved_definite(j, j->m.n, j->m.M, &mass));
+    if (mass)
         e->stability = QDOT_UNSTABLE;
     return QDOT_OK;
 }
@@ -379,15 +393,14 @@ static qdot_status
 by_roots(judgement *j, qdot_equilibrium *e)
 {
     mark before = mark_of(j);
-    definite how = UNKNOWN, mass;
+    definite how = UNKNOWN;
     qdot_expr *D = NULL;
-    bool no_damping = is_symmetric(j, j->n, j->Gamma, -1);
+    bool mass, no_damping = is_symmetric(j, j->n, j->Gamma, -1);
 
     if (!j->regular || j->n != j->m.n)
         return QDOT_OK;
-    QDOT_TRY(definiteness(j, j->n, j->M, &mass));
-    back_to(j, before);
-    if (mass != POSITIVE && j->n != 1)
+    QDOT_TRY(is_proved_definite(j, j->n, j->M, &mass));
+    if (!mass && j->n != 1)
         return QDOT_OK;
     if (!no_damping && j->n <= 2) {
         QDOT_TRY(hurwitz(j, &how));
@@ -417,16 +430,15 @@ static qdot_status
 to_first_order(judgement *j, qdot_equilibrium *e)
 {
     mark before = mark_of(j);
-    definite how = UNKNOWN, mass;
+    definite how = UNKNOWN;
+    bool mass;
     qdot_stability verdict = j->m.exact ? QDOT_STABLE : QDOT_STABLE_TO_FIRST_ORDER;
 
     if (!j->regular || j->n != j->m.n || !is_symmetric(j, j->n, j->H, 1))
         return QDOT_OK;
-    QDOT_TRY(definiteness(j, j->n, j->M, &mass));
-    if (mass != POSITIVE) {
-        back_to(j, before);
+    QDOT_TRY(is_proved_definite(j, j->n, j->M, &mass));
+    if (!mass)
         return QDOT_OK;
-    }
     if (is_damping(j, j->n, j->Gamma))
         QDOT_TRY(definiteness(j, j->n, j->H, &how));
     if (how != POSITIVE && how != CONDITIONAL && j->n == 2 &&
@@ -447,8 +459,8 @@ to_first_order(judgement *j, qdot_equilibrium *e)
 
 /* --- kinks ---------------------------------------------------------------------------------- */
 
-/* Whether the equations at rest have no slopes at the place: |u|, sign u where u = 0; of what else jumps it is not looked
- * into where. */
+/* Whether the equations at rest have no slopes at the place: |u|, sign u where u = 0; of what
+ * else jumps it is not looked into where. */
 static qdot_status
 kink_at(const judgement *j, qdot_expr equations, bool *yes)
 {
@@ -477,10 +489,10 @@ kink_at(const judgement *j, qdot_expr equations, bool *yes)
     return status;
 }
 
-/* --- one place ------------------------------------------------------------------------------------- */
+/* --- one place -------------------------------------------------------------------------- */
 
-/* The blocks of those y whose place is told: all but coordinates that stand in no equation at rest, along
- * which a family of rests is alike. */
+/* The blocks of those y whose place is told: all but coordinates that stand in no equation at
+ * rest, along which a family of rests is alike. */
 static qdot_status
 take_blocks(judgement *j)
 {

@@ -14,8 +14,8 @@
 #include "mech/quantity.h"
 #include "mech/stability.h"
 
-/* Of the largest entry: below SMALL is 0. Roots with real parts beyond AWAY of the fastest count as growing:
- * multiple ones scatter by the fourth root of rounding. */
+/* Of the largest entry: below SMALL is 0. Roots with real parts beyond AWAY of the fastest
+ * count as growing: multiple ones scatter by the fourth root of rounding. */
 static const double SMALL = 1e-9, AWAY = 1e-3, DECAYS = 1e-6;
 
 struct qdot_stability_numbers {
@@ -94,7 +94,7 @@ qdot_stability_numbers_free(qdot_stability_numbers *x)
     qdot_free(x);
 }
 
-/* --- the linear motion in numbers -------------------------------------------------------------- */
+/* --- the linear motion in numbers ------------------------------------------------------- */
 
 /* y in the tangent space: told ones first; M = 1 (L^-1 . L^-T of what it was). */
 typedef struct {
@@ -134,7 +134,8 @@ evaluate(qdot_stability_numbers *x, const qdot_equilibrium *e, bool *finite)
     return QDOT_OK;
 }
 
-/* A basis of the null space of A, the told coordinates' part first: N [n * m]. Free coordinates stand in no constraint. */
+/* A basis of the null space of A, the told coordinates' part first: N [n * m]. Free coordinates
+ * stand in no constraint. */
 static bool
 tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
 {
@@ -198,7 +199,8 @@ largest(size_t n, const double *x)
     return most;
 }
 
-/* Eigenvalues of the symmetric part of the leading k x k block of X [m * m], the least and the greatest. */
+/* Eigenvalues of the symmetric part of the leading k x k block of X [m * m], the least and the
+ * greatest. */
 static bool
 range_of(const double *X, size_t m, size_t k, double *least, double *most)
 {
@@ -291,7 +293,7 @@ normalise(motion *x)
     return true;
 }
 
-/* --- the verdict ---------------------------------------------------------------------------------- */
+/* --- the verdict ------------------------------------------------------------------------ */
 
 static qdot_stability
 by_roots(const motion *x, double h, double g, bool definite)

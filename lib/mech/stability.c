@@ -46,7 +46,7 @@ qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e)
     return qdot_stability_judge_exact(judge, e);
 }
 
-/* --- the scene --------------------------------------------------------------------------------------- */
+/* --- the scene -------------------------------------------------------------------------- */
 
 qdot_status
 qdot_judge_new(qdot_scene *s, qdot_expr at_rest, qdot_binder bind, void *user,

@@ -28,8 +28,8 @@ typedef struct {
     double *C, *work;   /* [n * n] */
 } qdot_isolate;
 
-/* For f [n] in the symbols x [n], which nothing else may stand beside but pi. Errors: QDOT_ENOMEM, QDOT_EINTR, the
- * pool's; then there is nothing to end. */
+/* For f [n] in the symbols x [n], which nothing else may stand beside but pi. Errors:
+ * QDOT_ENOMEM, QDOT_EINTR, the pool's; then there is nothing to end. */
 QDOT_MUST_CHECK qdot_status qdot_isolate_begin(qdot_isolate *s, qdot_pool *pool, size_t n,
                                                const qdot_expr *f, const qdot_expr *x);
 void qdot_isolate_end(qdot_isolate *s);

@@ -154,8 +154,8 @@ vanishes_somewhere(const solver *s, qdot_expr e, bool *yes)
     return qdot_pool_check(s->pool);
 }
 
-/* Whether f is 0 and defined at x = value: refuted ones are not. Where it is 0 for some parameters only, no
- * condition says for which: then these are not all. */
+/* Whether f is 0 and defined at x = value: refuted ones are not. Where it is 0 for some
+ * parameters only, no condition says for which: then these are not all. */
 static qdot_status
 holds(solver *s, qdot_expr value, bool *yes)
 {

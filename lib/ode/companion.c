@@ -289,15 +289,14 @@ bound_at(const qdot_companion *c, const double *y, size_t k)
                                 c->count == 2 ? c->share * apart(c, of[0], of[1]) : 0);
 }
 
-/* The bound of component i of the end. */
-static double
-bound_of(const qdot_companion *c, const double *y, size_t i)
+double
+qdot_companion_bound_of(double x, size_t count, const double *theirs, double share)
 {
-    const double *a = c->at[0].y, *b = c->count == 2 ? c->at[1].y : NULL;
+    const double apart = fabs(theirs[0] - x);
 
-    return b ? qdot_companion_bound(fmax(fabs(y[i] - a[i]), c->share * fabs(y[i] - b[i])),
-                                    c->share * fabs(a[i] - b[i]))
-             : qdot_companion_bound(fabs(y[i] - a[i]), 0);
+    return count == 2 ? qdot_companion_bound(fmax(apart, share * fabs(theirs[1] - x)),
+                                             share * fabs(theirs[1] - theirs[0]))
+                      : qdot_companion_bound(apart, 0);
 }
 
 /* The median over the times between. */
@@ -448,7 +447,11 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         out->error = fmax(out->error, fmin(median_between(c), most_between * out->error));
     if (!out->known)
         out->error = NAN;
-    for (size_t i = 0; i < c->n && difference; i++)
-        difference[i] = out->known ? bound_of(c, y, i) : NAN;
+    for (size_t i = 0; i < c->n && difference; i++) {
+        const double ends[] = {c->at[0].y[i], c->count == 2 ? c->at[1].y[i] : 0};
+
+        difference[i] =
+            out->known ? qdot_companion_bound_of(y[i], c->count, ends, c->share) : NAN;
+    }
     release(c);
 }

@@ -75,6 +75,9 @@ typedef struct qdot_companion qdot_companion;
  * a bound in 99 cases of 100: where the method's error rules, companions are off by a small part of
  * `apart`, and agree; where they are off by more, as rounding has it, `own` shows it. */
 double qdot_companion_bound(double apart, double own);
+/* The same of x, which is theirs [count] by the companions, 1 or 2: what the second one is away
+ * counts by its share. NaN where one has no value. */
+double qdot_companion_bound_of(double x, size_t count, const double *theirs, double share);
 
 typedef struct {
     const qdot_ode_system *system;  /* for the companion alone if `threaded`; borrowed

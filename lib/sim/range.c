@@ -463,23 +463,21 @@ rounding(qdot_run *run, qdot_range_kind kind, qdot_expr e, const qdot_tape *tape
     return QDOT_OK;
 }
 
-/* The largest distance of any two of the runs: x is the value of the run itself, NaN where
- * a companion has none. */
+/* What is stated of x, the value of the run itself, by those of the companions. */
 static qdot_status
 compare(const qdot_run *run, const qdot_tape *tape, bool accelerations,
         qdot_range_kind kind, double from, double to, double x, double *distance)
 {
     const qdot_course *courses[] = {&run->companion, &run->twin};
-    double theirs[2], rough, apart = 0;
+    const size_t companions = run->has_twin ? 2 : 1;
+    double theirs[2], rough;
 
     if (!qdot_run_covered(run, to))
         return qdot_fail(QDOT_EDOMAIN, "a second run does not come so far");
-    for (int k = 0; k < 1 + run->has_twin; k++) {
+    for (size_t k = 0; k < companions; k++)
         QDOT_TRY(over_course(run, courses[k], tape, accelerations, kind, from, to,
                              &theirs[k], &rough));
-        apart = fmax(apart, fabs(theirs[k] - x));
-    }
-    *distance = qdot_companion_bound(apart, run->has_twin ? fabs(theirs[1] - theirs[0]) : 0);
+    *distance = qdot_companion_bound_of(x, companions, theirs, 1);
     return QDOT_OK;
 }
 

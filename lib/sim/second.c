@@ -309,20 +309,13 @@ end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *know
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
-/* What is stated of x, of which the companions have a and, if `both`, b. */
-static double
-bound(double x, double a, double b, bool both)
-{
-    return both ? qdot_companion_bound(fmax(fabs(a - x), fabs(b - x)), fabs(a - b))
-                : qdot_companion_bound(fabs(a - x), 0);
-}
-
 qdot_status
 qdot_run_end_error(qdot_run *run, double *error, double *difference)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const double *y = tr->y + (tr->count - 1) * tr->n, t = tr->t[tr->count - 1];
     double worst = qdot_companion_floor(tr->result.stats.steps), ends[2] = {t, t}, *of;
+    const size_t companions = run->has_twin ? 2 : 1;
     bool known = run->has_companion;
     qdot_status status;
 
@@ -337,13 +330,15 @@ qdot_run_end_error(qdot_run *run, double *error, double *difference)
         status = add_delays(&run->course, of + 2 * tr->n);
     for (size_t i = 0; i < tr->n && status == QDOT_OK && known; i++) {
         const double size = fmax(1, fabs(y[i]));
-        const double by = bound(y[i], of[i], of[tr->n + i], run->has_twin) + of[2 * tr->n + i];
+        const double theirs[] = {of[i], of[tr->n + i]};
+        const double by = qdot_companion_bound_of(y[i], companions, theirs, 1) + of[2 * tr->n + i];
 
         worst = fmax(worst, by / size);
         difference[i] = fmax(by, 0x1p-53 * size);
     }
     if (status == QDOT_OK && known)
-        *error = fmax(worst, bound(t, ends[0], ends[1], run->has_twin) / fmax(1, fabs(t)));
+        *error = fmax(worst,
+                      qdot_companion_bound_of(t, companions, ends, 1) / fmax(1, fabs(t)));
     qdot_free(of);
     return status;
 }
@@ -440,6 +435,7 @@ static qdot_status
 compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
 {
     size_t events = run->stage.events.n, n = run->course.occurrences.n;
+    size_t companions = !run->has_companion ? 0 : run->has_twin ? 2 : 1;
     size_t *seen = qdot_calloc(events + 1, sizeof *seen);
     qdot_status status = seen ? QDOT_OK : QDOT_ENOMEM;
 
@@ -447,12 +443,12 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         const qdot_occurrence *o = &run->course.occurrences.at[i];
         size_t k = seen[o->event]++;
-        double by = NAN;
+        double by = NAN, theirs[2];
 
-        if (run->has_companion)
-            by = bound(o->t, time_of_partner(own, others, o->event, k),
-                       run->has_twin ? time_of_partner(own, others + 1, o->event, k) : 0,
-                       run->has_twin);
+        for (size_t j = 0; j < companions; j++)
+            theirs[j] = time_of_partner(own, others + j, o->event, k);
+        if (companions > 0)
+            by = qdot_companion_bound_of(o->t, companions, theirs, 1);
         status = qdot_vec_push(
             &run->occurrences,
             ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,

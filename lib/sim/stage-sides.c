@@ -74,52 +74,42 @@ begin(decision *d, const qdot_stage *s, double t, const double *y)
     d->out = d->before + m;
     d->in = d->out + 2 * m;
     d->work = d->in + n + 1 + m;
+    memcpy(d->in, y, n * sizeof *d->in);
+    d->in[n] = t;
     return QDOT_OK;
 }
 
-/* d->out, where component k of the state (n: t; beyond: none) is multiplied by 1 + by. */
+/* d->out at d->in, whose state is that of the decision again afterwards. */
 static void
-evaluate(decision *d, const long *side, size_t k, double by)
+evaluate(decision *d, const long *side)
 {
-    memcpy(d->in, d->y, d->n * sizeof *d->in);
-    d->in[d->n] = d->t;
-    if (k <= d->n)
-        d->in[k] *= 1 + by;
     for (size_t i = 0; i < d->m; i++)
         d->in[d->n + 1 + i] = (double)side[i];
     qdot_tape_eval(d->s->sides, d->in, d->out, d->work);
-}
-
-/* The same where the whole state is moved. */
-static void
-evaluate_aside(decision *d, const long *side, double by)
-{
     memcpy(d->in, d->y, d->n * sizeof *d->in);
     d->in[d->n] = d->t;
-    for (size_t k = 0; k <= d->n; k++)
-        d->in[k] += by / (1 + (double)k) * fmax(1, fabs(d->in[k]));
-    for (size_t i = 0; i < d->m; i++)
-        d->in[d->n + 1 + i] = (double)side[i];
-    qdot_tape_eval(d->s->sides, d->in, d->out, d->work);
 }
 
 /* u, noise and flat at these sides. */
 static void
 measure(decision *d, const long *side)
 {
-    evaluate(d, side, SIZE_MAX, 0);
+    evaluate(d, side);
     for (size_t i = 0; i < d->m; i++) {
         d->u[i] = d->out[i];
         d->noise[i] = rounding * d->out[d->m + i];
         d->flat[i] = true;
     }
     for (size_t k = 0; k <= d->n; k++) {
-        evaluate(d, side, k, 2 * DBL_EPSILON);
+        d->in[k] *= 1 + 2 * DBL_EPSILON;
+        evaluate(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->noise[i] += isfinite(d->out[i]) ? fabs(d->out[i] - d->u[i]) : 0;
     }
     for (size_t k = 0; k < 2; k++) {
-        evaluate_aside(d, side, aside[k]);
+        for (size_t i = 0; i <= d->n; i++)
+            d->in[i] += aside[k] / (1 + (double)i) * fmax(1, fabs(d->in[i]));
+        evaluate(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->flat[i] = d->flat[i] && d->out[i] == d->u[i];
     }
