@@ -709,6 +709,7 @@ script_tests = \
 	tests/script/bodies-moved.lag \
 	tests/script/cases.sh \
 	tests/script/check-conserved.lag \
+	tests/script/check-words.lag \
 	tests/script/check.lag \
 	tests/script/conserved.lag \
 	tests/script/constraint-ends.sh \
@@ -1408,6 +1409,7 @@ test_files = \
 	tests/script/cases.json \
 	tests/script/cases.out \
 	tests/script/check-conserved.out \
+	tests/script/check-words.out \
 	tests/script/check.out \
 	tests/script/conserved.out \
 	tests/script/constraint-ends.out \

@@ -11,6 +11,7 @@
 #include "lang/constraints.h"
 #include "lang/ask.h"
 #include "lang/digits.h"
+#include "lang/equilibria.h"
 #include "mech/quantity.h"
 #include "normal/contradiction.h"
 
@@ -227,6 +228,13 @@ decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, compariso
                                            decision);
 }
 
+/* A text, or a verdict of stability(...): equal to itself alone. */
+static bool
+is_word(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_is_class(pool, e, QDOT_WORDS) || qdot_equilibria_is_word(pool, e);
+}
+
 /* Two equations: one residual the other times a factor that has no zero. */
 static qdot_status
 decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
@@ -303,7 +311,9 @@ decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
         qdot_kind kind = qdot_expr_kind(pool, a);
         qdot_decision one = {.left = NAN, .right = NAN};
 
-        if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b)) {
+        if (how == EQUAL && is_word(pool, a) && is_word(pool, b)) {
+            one.verdict = a == b ? QDOT_PROVED : QDOT_REFUTED;
+        } else if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b)) {
             status = decide_scalars(session, a, b, how, known, &one);
         } else if (kind != qdot_expr_kind(pool, b) || kind == QDOT_LOGIC ||
                    qdot_expr_count(pool, a) != qdot_expr_count(pool, b) ||

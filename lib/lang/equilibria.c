@@ -48,17 +48,26 @@ qdot_equilibria_list(qdot_session *session, const qdot_equilibria *all, qdot_exp
 
 /* --- the verdict as a value ------------------------------------------------------------------ */
 
+static const char *const verdict_names[] = {
+    [QDOT_STABLE] = "stable",
+    [QDOT_UNSTABLE] = "unstable",
+    [QDOT_STABLE_TO_FIRST_ORDER] = "stable_to_first_order",
+    [QDOT_STABILITY_UNDECIDED] = "undecided",
+};
+
 qdot_expr
 qdot_equilibria_word(qdot_pool *pool, qdot_stability stability)
 {
-    static const char *const words[] = {
-        [QDOT_STABLE] = "stable",
-        [QDOT_UNSTABLE] = "unstable",
-        [QDOT_STABLE_TO_FIRST_ORDER] = "stable_to_first_order",
-        [QDOT_STABILITY_UNDECIDED] = "undecided",
-    };
+    return qdot_symbol_get(pool, QDOT_FORMAL, verdict_names[stability]);
+}
 
-    return qdot_symbol_get(pool, QDOT_FORMAL, words[stability]);
+bool
+qdot_equilibria_is_word(qdot_pool *pool, qdot_expr e)
+{
+    for (size_t i = 0; i < sizeof verdict_names / sizeof *verdict_names; i++)
+        if (e == qdot_equilibria_word(pool, (qdot_stability)i))
+            return true;
+    return false;
 }
 
 static qdot_expr

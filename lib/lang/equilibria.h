@@ -18,6 +18,7 @@ QDOT_MUST_CHECK qdot_status qdot_equilibria_stability(qdot_session *session,
                                                       qdot_expr *value);
 /* The word of a verdict, as people write it in a check. */
 qdot_expr qdot_equilibria_word(qdot_pool *pool, qdot_stability stability);
+bool qdot_equilibria_is_word(qdot_pool *pool, qdot_expr e);
 /* The modes there; nil: about the first equilibrium that is not unstable. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_modes_at(qdot_session *session,
                                                      qdot_expr equations,
