@@ -75,6 +75,7 @@ expr_sources = \
 	lib/expr/pool.c \
 	lib/expr/print-function.c \
 	lib/expr/print-name.c \
+	lib/expr/print-number.c \
 	lib/expr/print-product.c \
 	lib/expr/print.c \
 	lib/expr/printed.c \
@@ -555,6 +556,7 @@ lang_sources = \
 	lib/lang/member.c \
 	lib/lang/names.c \
 	lib/lang/number.c \
+	lib/lang/numeric.c \
 	lib/lang/parse.c \
 	lib/lang/plot.c \
 	lib/lang/quantities.c \
@@ -595,6 +597,7 @@ lang_headers = \
 	lib/lang/meant.h \
 	lib/lang/names.h \
 	lib/lang/number.h \
+	lib/lang/numeric.h \
 	lib/lang/read.h \
 	lib/lang/redirect.h \
 	lib/lang/session.h \
@@ -627,8 +630,10 @@ unit_tests = \
 	tests/lang/test_evaluate \
 	tests/lang/test_lex \
 	tests/lang/test_names \
+	tests/lang/test_numeric \
 	tests/lang/test_read \
 	tests/lang/test_session \
+	tests/lang/test_styles \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
@@ -793,9 +798,11 @@ script_tests = \
 	tests/script/narrow-events.lag \
 	tests/script/narrow.lag \
 	tests/script/notices.lag \
+	tests/script/numeric.lag \
 	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
 	tests/script/parts.lag \
+	tests/script/pasted.lag \
 	tests/script/pendulum.lag \
 	tests/script/plan-chain.lag \
 	tests/script/plan-options.lag \
@@ -941,6 +948,11 @@ script_tests = \
 	tests/bad/not-built.lag \
 	tests/bad/not-utf8.lag \
 	tests/bad/number-times.lag \
+	tests/bad/numeric-beside.lag \
+	tests/bad/numeric-digits.lag \
+	tests/bad/numeric-large.lag \
+	tests/bad/numeric-short.lag \
+	tests/bad/numeric-zero.lag \
 	tests/bad/operator-end.lag \
 	tests/bad/outside-run.lag \
 	tests/bad/over-constrained.lag \
@@ -1206,6 +1218,11 @@ test_files = \
 	tests/bad/not-built.out \
 	tests/bad/not-utf8.out \
 	tests/bad/number-times.out \
+	tests/bad/numeric-beside.out \
+	tests/bad/numeric-digits.out \
+	tests/bad/numeric-large.out \
+	tests/bad/numeric-short.out \
+	tests/bad/numeric-zero.out \
 	tests/bad/operator-end.out \
 	tests/bad/outside-run.out \
 	tests/bad/over-constrained.out \
@@ -1510,9 +1527,11 @@ test_files = \
 	tests/script/narrow.out \
 	tests/script/normalise.sed \
 	tests/script/notices.out \
+	tests/script/numeric.out \
 	tests/script/on-surfaces.out \
 	tests/script/order.out \
 	tests/script/parts.out \
+	tests/script/pasted.out \
 	tests/script/pendulum.out \
 	tests/script/plan-chain.out \
 	tests/script/plan-options.out \

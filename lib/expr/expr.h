@@ -187,6 +187,8 @@ typedef struct {
 /* The symbol of a class by its name, made if new. class: CONST, PARAM, FORMAL, COORD,
  * MULTIPLIER, WORDS. */
 qdot_expr qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name);
+/* Whether a parameter, coordinate, formal argument or multiplier is called so. */
+bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
 /* The order-th time derivative of a coordinate (order 0: itself; of a jet: counted on). */
 qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);
 /* dq or dt, p[q], delta[q]. class: DIFFERENTIAL, MOMENTUM, DELTA. */

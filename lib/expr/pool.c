@@ -374,6 +374,19 @@ qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name)
     return symbol(pool, &(qdot_symbol){.class = class, .name = name});
 }
 
+bool
+qdot_symbol_is_known(const qdot_pool *pool, const char *name)
+{
+    static const qdot_class classes[] = {QDOT_PARAM, QDOT_COORD, QDOT_FORMAL, QDOT_MULTIPLIER};
+    uint32_t hash;
+
+    for (size_t i = 0; i < sizeof classes / sizeof *classes; i++)
+        if (known_symbol(pool, &(qdot_symbol){.class = classes[i], .name = name}, &hash) !=
+            QDOT_NIL)
+            return true;
+    return false;
+}
+
 /* A symbol that belongs to a coordinate: its name by a pattern round the coordinate's. */
 static qdot_expr
 symbol_about(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t order,

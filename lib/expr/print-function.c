@@ -136,25 +136,26 @@ with_order(printer *p, const char *before, qdot_expr e, uint32_t order)
     say(p, raise ? "</mn></msup>" : "");
 }
 
-/* ∂²x/∂s∂t, at other arguments (∂x/∂s)(a, b). */
+/* \frac{\partial^{2} x}{\partial s \partial t}, where that is drawn; at other arguments these
+ * behind it. */
 static void
 derivative_partial(printer *p, qdot_expr e, uint32_t total, bool moved, int context)
 {
     const qdot_pool *pool = p->pool;
     const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
-    bool bracket = (moved && !is_drawn(p)) || (!moved && context >= BASE), first = true;
+    bool bracket = !moved && context >= BASE, first = true;
 
     if (bracket)
         open_bracket(p);
     say(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
-    with_order(p, styled(p, "", "∂", "\\partial", "<mo>∂</mo>"), QDOT_NIL, total);
+    with_order(p, styled(p, "", "", "\\partial", "<mo>∂</mo>"), QDOT_NIL, total);
     say(p, styled(p, "", "", " ", ""));
     name(p, f->name);
-    say(p, styled(p, "", "/", "}{", "</mrow><mrow>"));
+    say(p, styled(p, "", "", "}{", "</mrow><mrow>"));
     for (uint32_t i = 0; i < f->arity; i++) {
         if (order_of(pool, e, i) == 0)
             continue;
-        say(p, styled(p, "", "∂", first ? "\\partial " : " \\partial ", "<mo>∂</mo>"));
+        say(p, styled(p, "", "", first ? "\\partial " : " \\partial ", "<mo>∂</mo>"));
         with_order(p, "", ARGS(pool, f->formals)[i], order_of(pool, e, i));
         first = false;
     }
@@ -177,11 +178,12 @@ qdot_print_ufun(printer *p, qdot_expr e, int context)
         total += order_of(pool, e, i);
         moved |= ARGS(pool, e)[i] != ARGS(pool, f->formals)[i];
     }
-    if (total > 0 && f->arity > 1 && p->style != QDOT_PLAIN) {
+    if (total > 0 && f->arity > 1 && is_drawn(p)) {
         derivative_partial(p, e, total, moved, context);
         return;
     }
-    if (total > 0 && p->style == QDOT_PLAIN && (!moved || f->arity > 1 || total > 3)) {
+    if (total > 0 && !is_drawn(p) &&
+        (f->arity > 1 || (p->style == QDOT_PLAIN && (!moved || total > 3)))) {
         derivative_plain(p, e, moved);
         return;
     }

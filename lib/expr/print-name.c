@@ -1,14 +1,10 @@
-/* print-name.c -- symbols and numbers as text. */
+/* print-name.c -- symbols as text. */
 #include "expr/print-name.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include <flint/flint.h>
-#include <flint/fmpz.h>
-
 #include "base/memory.h"
-#include "expr/rational.h"
 
 static const struct {
     const char *spelled, *letter;
@@ -24,8 +20,6 @@ static const struct {
 };
 
 static const char *const subscript[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
-static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴",
-                                          "⁵", "⁶", "⁷", "⁸", "⁹"};
 
 static bool
 is_digit(char c)
@@ -127,10 +121,10 @@ all_digits(const char *text, size_t n)
 }
 
 static void
-small(const char *const *glyphs, const char *digits, size_t n, qdot_text *out)
+lower(const char *digits, size_t n, qdot_text *out)
 {
     for (size_t i = 0; i < n; i++)
-        qdot_text_add(out, glyphs[digits[i] - '0']);
+        qdot_text_add(out, subscript[digits[i] - '0']);
 }
 
 static void parts_of(const char *at, size_t length, char between, qdot_style style,
@@ -145,11 +139,44 @@ index_of(const char *name, qdot_style style, qdot_text *out)
     parts_of(name + p.index_at, p.index, ',', style, out);
 }
 
+static bool
+is_known(const qdot_pool *pool, const char *name, size_t letters, const char *pattern,
+         const char *digits, size_t n_digits)
+{
+    qdot_text other = {0};
+    bool is;
+
+    qdot_text_add_n(&other, name, letters);
+    qdot_text_format(&other, pattern, (int)n_digits, digits);
+    is = qdot_text_status(&other) != QDOT_OK ||
+         qdot_symbol_is_known(pool, qdot_text_str(&other));
+    qdot_text_clear(&other);
+    return is;
+}
+
+/* Whether x[1], x_1 may stand as x₁, which is else x1, else x[1]: no name that comes before is
+ * there. */
+static bool
+is_small(const qdot_pool *pool, const char *name, const struct parts *p)
+{
+    bool index = p->index > 0;
+    const char *digits = name + (index ? p->index_at : p->below_at);
+    size_t n = index ? p->index : p->below;
+
+    if (p->digits > 0 || (index && p->below > 0) || !all_digits(digits, n))
+        return false;
+    return pool == NULL ||
+           (!is_known(pool, name, p->letters, "%.*s", digits, n) &&
+            (index || !is_known(pool, name, p->letters, "[%.*s]", digits, n)));
+}
+
+/* θ̇₁: what the language reads as the name and its primes. */
 static void
-name_unicode(const char *name, uint32_t order, qdot_text *out)
+name_unicode(const qdot_pool *pool, const char *name, uint32_t order, qdot_text *out)
 {
     struct parts p = split(name);
-    bool one = p.letter != NULL || p.letters == 1;
+    bool lowered = is_small(pool, name, &p);
+    bool one = (p.letter != NULL || p.letters == 1) && (p.index == 0 || lowered);
 
     if (p.greek)
         greek_letters(name, p.letters, QDOT_UNICODE, out);
@@ -157,22 +184,17 @@ name_unicode(const char *name, uint32_t order, qdot_text *out)
         qdot_text_add_n(out, name, p.letters);
     if (one && (order == 1 || order == 2))
         qdot_text_add(out, order == 1 ? "\u0307" : "\u0308");
-    small(subscript, name + p.digits_at, p.digits, out);
-    if (p.below > 0 && p.digits == 0 && all_digits(name + p.below_at, p.below)) {
-        small(subscript, name + p.below_at, p.below, out);
+    lower(name + p.digits_at, p.digits, out);
+    if (lowered) {
+        lower(name + (p.index > 0 ? p.index_at : p.below_at),
+              p.index > 0 ? p.index : p.below, out);
     } else if (p.below > 0) {
         qdot_text_char(out, '_');
         parts_of(name + p.below_at, p.below, '_', QDOT_UNICODE, out);
     }
-    if (p.index > 0 && p.digits + p.below == 0 && all_digits(name + p.index_at, p.index)) {
-        small(subscript, name + p.index_at, p.index, out);
-    } else if (p.index > 0 && strcspn(name + p.index_at, "],") == p.index &&
-               !is_digit(name[p.index_at])) { /* of a coordinate or a label: Q_θ */
-        qdot_text_char(out, '_');
-        index_of(name, QDOT_UNICODE, out);
-    } else if (p.index > 0) {
+    if (!lowered && p.index > 0) {
         qdot_text_char(out, '[');
-        index_of(name, QDOT_UNICODE, out);
+        parts_of(name + p.index_at, p.index, ',', QDOT_UNICODE, out);
         qdot_text_char(out, ']');
     }
     if (!one || order > 2)
@@ -259,11 +281,11 @@ name_mathml(const char *name, uint32_t order, qdot_text *out)
 }
 
 void
-qdot_print_name(const char *name, qdot_style style, qdot_text *out)
+qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_text *out)
 {
     switch (style) {
     case QDOT_PLAIN: qdot_text_add(out, name); break;
-    case QDOT_UNICODE: name_unicode(name, 0, out); break;
+    case QDOT_UNICODE: name_unicode(pool, name, 0, out); break;
     case QDOT_LATEX: name_latex(name, 0, out); break;
     case QDOT_MATHML: name_mathml(name, 0, out); break;
     }
@@ -292,8 +314,10 @@ parts_of(const char *at, size_t length, char between, qdot_style style, qdot_tex
         qdot_text_add(out, i > 0 ? apart : "");
         if (all_digits(part, strlen(part)))
             qdot_text_format(out, style == QDOT_MATHML ? "<mn>%s</mn>" : "%s", part);
+        else if (style == QDOT_UNICODE && strchr(part, '[') != NULL)
+            qdot_text_add(out, part); /* a member's brackets stay */
         else
-            qdot_print_name(part, style, out);
+            qdot_print_name(NULL, part, style, out);
         qdot_free(part);
         i += n + 1;
     }
@@ -315,8 +339,8 @@ escape(const char *text, qdot_text *out)
 static const struct {
     const char *before[4], *behind[4]; /* by style */
 } about[] = {
-    [QDOT_MOMENTUM] = {{"p[", "p_", "p_{", "<msub><mi>p</mi>"},
-                       {"]", "", "}", "</msub>"}},
+    [QDOT_MOMENTUM] = {{"p[", "p[", "p_{", "<msub><mi>p</mi>"},
+                       {"]", "]", "}", "</msub>"}},
     [QDOT_DIFFERENTIAL] = {{"d", "d", "d", "<mrow><mi>d</mi>"}, {"", "", "", "</mrow>"}},
     [QDOT_DELTA] = {{"delta[", "δ", "\\delta ", "<mrow><mi>δ</mi>"},
                     {"]", "", "", "</mrow>"}},
@@ -342,7 +366,7 @@ qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_tex
     if (of_coordinate)
         qdot_text_add(out, about[s->class].before[style]);
     switch (style) {
-    case QDOT_UNICODE: name_unicode(name, s->order, out); break;
+    case QDOT_UNICODE: name_unicode(pool, name, s->order, out); break;
     case QDOT_LATEX: name_latex(name, s->order, out); break;
     default: name_mathml(name, s->order, out); break;
     }
@@ -363,159 +387,4 @@ qdot_print_latex_word(qdot_fun_id id)
     };
 
     return words[id];
-}
-
-/* --- numbers ------------------------------------------------------------------------------------ */
-
-static const struct {
-    int p, q;
-    const char *glyph;
-} fractions[] = {
-    {1, 2, "½"}, {1, 3, "⅓"}, {2, 3, "⅔"}, {1, 4, "¼"}, {3, 4, "¾"},
-    {1, 5, "⅕"}, {2, 5, "⅖"}, {3, 5, "⅗"}, {4, 5, "⅘"}, {1, 6, "⅙"},
-    {5, 6, "⅚"}, {1, 8, "⅛"}, {3, 8, "⅜"}, {5, 8, "⅝"}, {7, 8, "⅞"},
-};
-
-/* The sign for |x|, NULL if there is none. */
-static const char *
-glyph(const fmpq_t x)
-{
-    for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++)
-        if (qdot_integer_is(fmpq_denref(x), fractions[i].q) &&
-            (qdot_integer_is(fmpq_numref(x), fractions[i].p) ||
-             qdot_integer_is(fmpq_numref(x), -fractions[i].p)))
-            return fractions[i].glyph;
-    return NULL;
-}
-
-bool
-qdot_print_is_compact(const fmpq_t x)
-{
-    return fmpz_is_one(fmpq_denref(x)) || glyph(x) != NULL;
-}
-
-void
-qdot_print_order(uint32_t order, qdot_style style, bool bare, qdot_text *out)
-{
-    char digits[16];
-
-    if (order == 1 && !bare)
-        return;
-    snprintf(digits, sizeof digits, "%u", order);
-    if (style == QDOT_UNICODE)
-        small(superscript, digits, strlen(digits), out);
-    else
-        qdot_text_format(out, bare ? "%s" : "^{%s}", digits);
-}
-
-static void
-small_integer(int64_t n, qdot_text *out)
-{
-    char digits[24], *at = digits + sizeof digits;
-    uint64_t left = n < 0 ? -(uint64_t)n : (uint64_t)n;
-
-    *--at = '\0';
-    do
-        *--at = (char)('0' + left % 10);
-    while ((left /= 10) != 0);
-    if (n < 0)
-        *--at = '-';
-    qdot_text_add(out, at);
-}
-
-static void
-integer(const fmpz_t n, qdot_text *out)
-{
-    char few[64], *digits = few;
-
-    if (!COEFF_IS_MPZ(*n)) {
-        small_integer(*n, out);
-        return;
-    }
-    if (fmpz_sizeinbase(n, 10) + 2 > sizeof few) {
-        digits = qdot_malloc(fmpz_sizeinbase(n, 10) + 2);
-        if (digits == NULL) {
-            out->failed = true;
-            return;
-        }
-    }
-    fmpz_get_str(digits, 10, n);
-    qdot_text_add(out, digits);
-    if (digits != few)
-        qdot_free(digits);
-}
-
-/* <mn>3</mn>, <mfrac>...</mfrac>, its sign before it. */
-static void
-number_mathml(const fmpq_t x, int bracket, qdot_text *out)
-{
-    bool whole = fmpz_is_one(fmpq_denref(x)), minus = qdot_rational_sgn(x) < 0;
-    bool wrap = (bracket > 0 && minus) || (bracket == 2 && !whole);
-    fmpz_t top;
-
-    qdot_text_add(out, wrap ? "<mrow><mo>(</mo>" : minus ? "<mrow>" : "");
-    qdot_text_add(out, minus ? "<mo>−</mo>" : "");
-    qdot_text_add(out, whole ? "<mn>" : "<mfrac><mn>");
-    fmpz_init(top);
-    fmpz_abs(top, fmpq_numref(x));
-    integer(top, out);
-    fmpz_clear(top);
-    if (!whole) {
-        qdot_text_add(out, "</mn><mn>");
-        integer(fmpq_denref(x), out);
-    }
-    qdot_text_add(out, whole ? "</mn>" : "</mn></mfrac>");
-    qdot_text_add(out, wrap ? "<mo>)</mo></mrow>" : minus ? "</mrow>" : "");
-}
-
-void
-qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
-                  qdot_text *out)
-{
-    bool whole = fmpz_is_one(fmpq_denref(x));
-    bool wrap = (bracket > 0 && qdot_rational_sgn(x) < 0) || (bracket == 2 && !whole);
-    fmpz_t top;
-
-    if (raised) { /* an integer */
-        qdot_text digits = {0};
-
-        integer(fmpq_numref(x), &digits);
-        small(superscript, qdot_text_str(&digits), digits.n, out);
-        qdot_text_clear(&digits);
-        return;
-    }
-    if (style == QDOT_MATHML) {
-        number_mathml(x, bracket, out);
-        return;
-    }
-    if (wrap)
-        qdot_text_char(out, '(');
-    if (style == QDOT_UNICODE && !whole) {
-        const char *sign = glyph(x);
-
-        if (sign != NULL) {
-            qdot_text_add(out, qdot_rational_sgn(x) < 0 ? "−" : "");
-            qdot_text_add(out, sign);
-            if (wrap)
-                qdot_text_char(out, ')');
-            return;
-        }
-    }
-    if (style == QDOT_LATEX && !whole) {
-        qdot_text_add(out, qdot_rational_sgn(x) < 0 ? "-\\frac{" : "\\frac{");
-        fmpz_init(top);
-        fmpz_abs(top, fmpq_numref(x));
-        integer(top, out);
-        fmpz_clear(top);
-    } else {
-        integer(fmpq_numref(x), out);
-    }
-    if (!whole) {
-        qdot_text_add(out, style == QDOT_LATEX ? "}{" : "/");
-        integer(fmpq_denref(x), out);
-        if (style == QDOT_LATEX)
-            qdot_text_char(out, '}');
-    }
-    if (wrap)
-        qdot_text_char(out, ')');
 }

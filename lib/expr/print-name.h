@@ -15,7 +15,12 @@ const char *qdot_print_latex_word(qdot_fun_id id);
 void qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
                        qdot_text *out);
 
-/* Whether x is a whole number or has a sign of its own, as ½: a root may stand next to it. */
+/* Whether x is printed as a decimal number, 9.81: its denominator has a factor 5, and beside it 2
+ * alone; at most 40 digits where that is longer than the fraction. */
+bool qdot_print_is_decimal(const fmpq_t x);
+
+/* Whether x is a whole number, a decimal one or has a sign of its own, as ½: a root may stand next
+ * to it. */
 bool qdot_print_is_compact(const fmpq_t x);
 
 /* The order of a derivative: nothing for 1, else ², ^{2}; bare 1: the number alone, ⁴, 4. */

@@ -12,6 +12,7 @@
 /* The factors of a product that are written under one root. */
 struct root {
     bool any, above;  /* it stands above the bar */
+    bool decimal;     /* the number under the root is written as a decimal one */
     uint32_t last;    /* the last of them on its side: where it is written */
     fmpq_t c, number; /* what stands before the whole, and under the root */
 };
@@ -62,22 +63,24 @@ qdot_print_exponent(printer *p, qdot_expr e, bool turned)
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
-    bool integer =
-        x != NULL && fmpz_is_one(fmpq_denref(x)) && (qdot_rational_sgn(x) > 0 || turned);
+    bool positive = x != NULL && (qdot_rational_sgn(x) > 0 || turned);
+    bool integer = positive && fmpz_is_one(fmpq_denref(x));
+    bool bare = integer || (positive && qdot_print_is_decimal(x)); /* without brackets */
     struct piece number = {.e = e, .context = turned ? MAGNITUDE : TOP};
 
     if (turned && x == NULL) {
         /* -n as n: the coefficient's sign is left out */
         number.context = MAGNITUDE;
-        integer = NODE(pool, e)->n == 3 && ARGS(pool, e)[0] == QDOT_MINUS_ONE &&
-                  ARGS(pool, e)[2] == QDOT_ONE &&
-                  NODE(pool, ARGS(pool, e)[1])->kind == QDOT_SYM;
+        bare = NODE(pool, e)->n == 3 && ARGS(pool, e)[0] == QDOT_MINUS_ONE &&
+               ARGS(pool, e)[2] == QDOT_ONE &&
+               NODE(pool, ARGS(pool, e)[1])->kind == QDOT_SYM;
     } else if (x == NULL) {
-        integer = NODE(pool, e)->kind == QDOT_SYM;
+        bare = NODE(pool, e)->kind == QDOT_SYM;
     }
     if (is_drawn(p)) {
         say(p, styled(p, "", "", "^{", "</mrow><mrow>"));
-        if (p->style == QDOT_LATEX && x != NULL && !fmpz_is_one(fmpq_denref(x))) {
+        if (p->style == QDOT_LATEX && x != NULL && !fmpz_is_one(fmpq_denref(x)) &&
+            !qdot_print_is_decimal(x)) {
             say(p, !turned && qdot_rational_sgn(x) < 0 ? "-" : "");
             say_number(p, fmpq_numref(x), NULL); /* r^{1/3} */
             say(p, "/");
@@ -88,14 +91,14 @@ qdot_print_exponent(printer *p, qdot_expr e, bool turned)
         say(p, styled(p, "", "", "}", "</mrow></msup>"));
         return;
     }
-    if (p->style == QDOT_UNICODE && x != NULL && integer) {
+    if (p->style == QDOT_UNICODE && integer) {
         number.raised = true;
         piece(p, number);
         return;
     }
-    say(p, integer ? "^" : "^(");
+    say(p, bare ? "^" : "^(");
     piece(p, number);
-    if (!integer)
+    if (!bare)
         say(p, ")");
 }
 
@@ -259,6 +262,7 @@ find_root(const qdot_pool *pool, const fmpq *c, qdot_expr e, struct root *r)
         fmpz_set(fmpq_denref(r->number), g);
         fmpz_clear(g);
     }
+    r->decimal = qdot_print_is_decimal(r->number);
 }
 
 static void
@@ -274,7 +278,7 @@ forget_root(struct root *r)
 static const char *
 times(const printer *p)
 {
-    return styled(p, "*", " ", " ", "<mo>&#x2062;</mo>");
+    return styled(p, "*", "\u202F", " ", "<mo>&#x2062;</mo>");
 }
 
 static const char *
@@ -311,10 +315,10 @@ root_side(printer *p, qdot_expr e, const struct root *r, bool down, uint32_t cou
 {
     const qdot_pool *pool = p->pool;
     const fmpz *number = down ? fmpq_denref(r->number) : fmpq_numref(r->number);
-    bool first = true, shown = !fmpz_is_one(number) || count == 0;
+    bool first = true, shown = count == 0 || (r->decimal ? !down : !fmpz_is_one(number));
 
     if (shown)
-        say_number(p, number, NULL);
+        say_number(p, number, r->decimal ? fmpq_denref(r->number) : NULL);
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
@@ -337,6 +341,7 @@ open_root(printer *p, qdot_expr e, const struct root *r)
 {
     const qdot_pool *pool = p->pool;
     uint32_t count[2] = {0, 0};
+    bool below_bar = !r->decimal && !fmpz_is_one(fmpq_denref(r->number));
     bool fraction, several;
 
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
@@ -345,8 +350,8 @@ open_root(printer *p, qdot_expr e, const struct root *r)
         if (is_under(pool, r, b, x) && NODE(pool, b)->kind != QDOT_NUM)
             count[below(pool, x) == r->above]++;
     }
-    fraction = count[1] > 0 || !fmpz_is_one(fmpq_denref(r->number));
-    several = count[1] + !fmpz_is_one(fmpq_denref(r->number)) > 1 && !is_drawn(p);
+    fraction = count[1] > 0 || below_bar;
+    several = count[1] + below_bar > 1 && !is_drawn(p);
     say(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
     if (fraction)
         say(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
@@ -383,9 +388,8 @@ joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
 {
     if (NODE(p->pool, b)->kind != QDOT_NUM)
         return times(p);
-    if (is_sqrt(p->pool, e) && qdot_print_is_compact(number)) /* 2√3 */
-        return styled(p, "*", "", " ", "<mo>&#x2062;</mo>");
-    return dot(p);
+    return is_sqrt(p->pool, e) && qdot_print_is_compact(number) ? times(p) /* 2 √3 */
+                                                                : dot(p);
 }
 
 /* Where a factor stands: of parameters, the roots of their sums behind them, functions and the
@@ -461,12 +465,14 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     if (r.any)
         x = r.c;
 
-    bool fraction = !fmpz_is_one(fmpq_denref(x));
+    bool decimal = qdot_print_is_decimal(x);
+    bool fraction = !decimal && !fmpz_is_one(fmpq_denref(x));
     uint32_t up = count_factors(pool, e, &r, false),
              down = count_factors(pool, e, &r, true);
     /* the number's denominator: 1/2*m/r, but 1/(2*r) where nothing else stands above, h/(2*pi) */
     bool inside = fraction && down > 0 && (up == 0 || drawn || has_pi_below(pool, e));
-    bool number = up == 0 || !fmpz_is_pm1(fmpq_numref(x)) || (fraction && !inside);
+    bool number = up == 0 || decimal || !fmpz_is_pm1(fmpq_numref(x)) ||
+                  (fraction && !inside);
     bool several = !drawn && (down > 1 || inside), frac = drawn && down > 0;
     uint32_t written = number + up + down;
     bool bracket = context == BASE

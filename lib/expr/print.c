@@ -516,7 +516,7 @@ qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_style s
             break;
         x = p.todo.at[--p.todo.n];
         if (x.name)
-            qdot_print_name(x.text, style, out);
+            qdot_print_name(pool, x.text, style, out);
         else if (x.text != NULL)
             qdot_text_add(out, x.text);
         else if (x.order > 0)

@@ -27,6 +27,6 @@ QDOT_MUST_CHECK qdot_status qdot_print_formula(const qdot_pool *pool, qdot_expr 
 #define QDOT_PRINT_MATH "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
 
 /* A name alone (a label, a family member) in that style: theta1 is θ₁. */
-void qdot_print_name(const char *name, qdot_style style, qdot_text *out);
+void qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_text *out);
 
 #endif

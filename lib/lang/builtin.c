@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "lang/meant.h"
 #include "lang/number.h"
+#include "lang/numeric.h"
 #include "lang/algebra.h"
 #include "lang/answer.h"
 #include "lang/code.h"
@@ -639,6 +640,11 @@ static const qdot_builtin rows[] = {
      "e along the latest run at time t; value(a.e, t) along the run a",
      "value(theta, 20)", QDOT_BUILTIN_RUN, NULL},
 
+    {"numeric", 1, 2, qdot_numeric, "numeric(e), numeric(e, digits)",
+     "the number of e, with its error; symbols without a value stay", "numeric(sqrt(2), 30)", 0,
+     NULL},
+    {"N", 1, 2, qdot_numeric, "N(e), N(e, digits)", "short for numeric", "N(pi, 30)",
+     QDOT_BUILTIN_SHORT, NULL},
     {"mean", 1, -1, call_mean, "mean(e, a..b)",
      "the mean over a range of a run; max and min likewise", "mean(theta^2, 10..20)",
      QDOT_BUILTIN_RUN, NULL},

@@ -63,6 +63,15 @@ not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_
     return qdot_hint("a product is written %.80s*(...)", name);
 }
 
+/* Whether something that is no function goes by the name. */
+static bool
+is_value(const qdot_session *s, const qdot_name *entry, const char *name, const char *spelled)
+{
+    return entry != NULL || qdot_quantity_find(name) != NULL ||
+           qdot_scene_has_label(s->scene, spelled) || strcmp(name, "pi") == 0 ||
+           strcmp(name, "t") == 0 || qdot_names_is_family(s->names, name);
+}
+
 qdot_status
 qdot_resolve_call(qdot_cursor *c, const qdot_token *token, unsigned primes,
                   uint32_t indices, uint32_t n, const qdot_expr *values,
@@ -79,6 +88,9 @@ qdot_resolve_call(qdot_cursor *c, const qdot_token *token, unsigned primes,
     *over = QDOT_NIL;
     status = qdot_resolve_member(s, token->text, indices, values, &spelled);
     entry = status == QDOT_OK ? qdot_names_find(s->names, spelled.at) : NULL;
+    if (status == QDOT_OK && row != NULL && (row->flags & QDOT_BUILTIN_SHORT) &&
+        is_value(s, entry, token->text, spelled.at))
+        row = NULL;
     if (status != QDOT_OK)
         ;
     else if (entry != NULL && entry->kind == QDOT_NAME_FUNCTION)
@@ -89,10 +101,7 @@ qdot_resolve_call(qdot_cursor *c, const qdot_token *token, unsigned primes,
         status = call_builtin(s, row, n, args, run, value, over);
     else if (row != NULL)
         status = qdot_resolve_no_prime(token->text, "takes no prime: write diff(...)");
-    else if (entry != NULL || qdot_quantity_find(token->text) != NULL ||
-             qdot_scene_has_label(s->scene, spelled.at) ||
-             strcmp(token->text, "pi") == 0 || strcmp(token->text, "t") == 0 ||
-             qdot_names_is_family(s->names, token->text))
+    else if (is_value(s, entry, token->text, spelled.at))
         status = not_a_function(entry, spelled.at, n, args);
     else
         status = qdot_hints_unknown_function(c, token);

@@ -405,7 +405,8 @@ is_conserved(const qdot_cursor *c)
            qdot_names_find(c->session->names, "conserved") == NULL &&
            (next->kind == QDOT_TOKEN_NAME || next->kind == QDOT_TOKEN_NUMBER ||
             (next->kind == QDOT_TOKEN_OPERATOR &&
-             (strcmp(next->text, "(") == 0 || strcmp(next->text, "-") == 0)));
+             (strcmp(next->text, "(") == 0 || strcmp(next->text, "-") == 0 ||
+              strcmp(next->text, "sqrt") == 0)));
 }
 
 /* A bare relation, `check (a = b)`, `check E1`: its two sides. */

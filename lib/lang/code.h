@@ -10,6 +10,7 @@
 /* --- lexing ------------------------------------------------------------------------- */
 
 #define QDOT_LEX_TOKENS 10000000u  /* tokens of one source */
+#define QDOT_LEX_PRIMES 200u       /* primes behind one name */
 #define QDOT_LEX_BRACKETS 1000000u /* open brackets */
 
 /* Fill source->tokens from source->text. On failure the place is in *at. */
@@ -19,9 +20,14 @@ QDOT_MUST_CHECK qdot_status qdot_lex(qdot_source *source, size_t *at);
 const char *qdot_letters_greek(uint32_t c);
 /* Whether c is a Latin letter. */
 bool qdot_letters_latin(uint32_t c);
+/* The exact number of a QDOT_TOKEN_NUMBER: "9.81", or of a fraction of one sign "1/2". */
+qdot_expr qdot_lex_number(qdot_pool *pool, const char *text);
 /* The digit 0-9 that a subscript or superscript stands for, -1 if c is none. */
 int qdot_letters_subscript(uint32_t c);
 int qdot_letters_superscript(uint32_t c);
+/* How many dots the letter that text begins with carries, ẋ 1, ẍ 2; *letter the one below them. ä, ë,
+ * ï, ö, ü, ÿ are letters of names, and have none. */
+unsigned qdot_letters_dotted(const char *text, const char **letter);
 
 /* --- postfix code ------------------------------------------------------------------- */
 
@@ -92,6 +98,8 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
 
 /* --- meaning ------------------------------------------------------------------------ */
 
+/* What `x₁` may be, where nothing is called x1: form 0 "x[1]", form 1 "x_1". False: there is none. */
+bool qdot_resolve_small(const char *name, unsigned form, qdot_text *spelled);
 /* A bare name with `primes`. *over: the coordinates its entries go by, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_name(qdot_cursor *c, const qdot_token *token,
                                               unsigned primes, qdot_expr *value,

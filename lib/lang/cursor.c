@@ -145,7 +145,8 @@ static bool
 begins_operand(const qdot_token *t)
 {
     return t->kind == QDOT_TOKEN_NUMBER || t->kind == QDOT_TOKEN_NAME ||
-           (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "(") == 0);
+           (t->kind == QDOT_TOKEN_OPERATOR &&
+            (strcmp(t->text, "(") == 0 || strcmp(t->text, "sqrt") == 0));
 }
 
 static bool
@@ -193,7 +194,9 @@ missing_times(qdot_cursor *c, const qdot_token *before)
         strlen(before->text) + strlen(t->text) > 80)
         return qdot_hint("a product is written with `*`");
     return qdot_hint("write %s*%s%s", before->text, t->text,
-                     t->kind == QDOT_TOKEN_OPERATOR ? "...)" : "");
+                     t->kind != QDOT_TOKEN_OPERATOR ? ""
+                     : t->text[0] == '('            ? "...)"
+                                                    : "(...)");
 }
 
 static qdot_status

@@ -73,8 +73,20 @@ write_number(const char *d, long exponent, qdot_text *out)
     }
 }
 
+/* An exact number's digits end where 0s alone follow behind the point. */
+static void
+drop_zeros(char *d, long exponent)
+{
+    size_t sign = *d == '-', n = strlen(d), least = sign + 1;
+
+    if (exponent > 1 && sign + (size_t)exponent <= n)
+        least = sign + (size_t)exponent;
+    while (n > least && d[n - 1] == '0')
+        d[--n] = '\0';
+}
+
 static qdot_status
-write_real(mpfr_srcptr x, int digits, double error, qdot_text *out)
+write_real(mpfr_srcptr x, int digits, double error, bool shortly, qdot_text *out)
 {
     mpfr_exp_t exponent;
     char *d;
@@ -87,9 +99,29 @@ write_real(mpfr_srcptr x, int digits, double error, qdot_text *out)
                      MPFR_RNDN);
     if (d == NULL)
         return QDOT_ENOMEM;
+    if (shortly)
+        drop_zeros(d, (long)exponent);
     write_number(d, (long)exponent, out);
     mpfr_free_str(d);
     return QDOT_OK;
+}
+
+/* Whether the numbers in e, one at least, are of `numeric` without digits said. */
+static bool
+is_plain(qdot_session *session, qdot_expr e)
+{
+    bool any = false;
+
+    for (size_t i = 0; i < session->measured.n; i++) {
+        const qdot_measured *m = &session->measured.at[i];
+
+        if (!qdot_expr_contains(session->pool, e, m->symbol))
+            continue;
+        if (!m->plain)
+            return false;
+        any = true;
+    }
+    return any;
 }
 
 /* e as it is, its numbers of runs as the rationals that they are. */
@@ -111,7 +143,7 @@ qdot_digits_text(qdot_session *session, qdot_expr e, int digits, double error,
     mpfr_init2(x, (mpfr_prec_t)(3.33 * digits) + 64);
     status = value_of(session, e, x);
     if (status == QDOT_OK)
-        status = write_real(x, digits, error, out);
+        status = write_real(x, digits, error, error == 0 && is_plain(session, e), out);
     mpfr_clear(x);
     return status;
 }
@@ -137,12 +169,15 @@ add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
            qdot_text *errors)
 {
     double x, error;
+    const char *quote;
 
     QDOT_TRY(qdot_session_number(session, e, &x, &error));
     if (session->json) {
-        qdot_text_add(values, values->n > 0 ? ",\"" : "\"");
+        quote = is_plain(session, e) ? "" : "\"";
+        qdot_text_add(values, values->n > 0 ? "," : "");
+        qdot_text_add(values, quote);
         QDOT_TRY(qdot_digits_text(session, e, digits, error, values));
-        qdot_text_char(values, '"');
+        qdot_text_add(values, quote);
         qdot_text_add(errors, errors->n > 0 ? "," : "");
         qdot_answer_json_double(errors, error);
         return QDOT_OK;
@@ -151,7 +186,7 @@ add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
     QDOT_TRY(qdot_digits_text(session, e, digits, error, values));
     if (isnan(error)) {
         qdot_text_add(values, " (error unknown)");
-    } else {
+    } else if (error > 0) {
         qdot_text_add(values, " ± ");
         qdot_answer_bound(values, error);
     }

@@ -593,9 +593,7 @@ step(machine *m, const qdot_code *code, uint32_t *pc)
     qdot_expr value;
 
     switch ((qdot_code_op)code->op) {
-    case QDOT_CODE_NUMBER:
-        return push(
-            m, qdot_expr_decimal(m->pool, code->token->text, strlen(code->token->text)));
+    case QDOT_CODE_NUMBER: return push(m, qdot_lex_number(m->pool, code->token->text));
     case QDOT_CODE_NAME:
     case QDOT_CODE_INDEX_NAME: return name(m, code);
     case QDOT_CODE_LABEL: return label(m, code);

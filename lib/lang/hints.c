@@ -40,7 +40,8 @@ qdot_hints_nearest(qdot_session *session, const char *name)
     for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
         add(&list, qdot_quantity_at(i)->name);
     for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
-        add(&list, qdot_builtin_at(i)->name);
+        if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_SHORT))
+            add(&list, qdot_builtin_at(i)->name);
     nearest = qdot_names_nearest(session->names, name, list.n, list.at);
     qdot_free(list.at);
     return nearest;

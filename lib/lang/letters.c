@@ -1,4 +1,6 @@
 /* letters.c -- the letters a name may hold, and how Greek ones are spelled. */
+#include <string.h>
+
 #include "lang/code.h"
 
 static const struct {
@@ -62,4 +64,30 @@ qdot_letters_superscript(uint32_t c)
     if (c == 0xB2 || c == 0xB3)
         return (int)(c - 0xB0);
     return c == 0x2070 || (c >= 0x2074 && c <= 0x2079) ? (int)(c - 0x2070) : -1;
+}
+
+/* ä, ë, ï, ö, ü, ÿ are left out: they are letters of words. */
+static const struct {
+    const char *letter, *base;
+    unsigned dots;
+} dotted[] = {
+    {"ȧ", "a", 1}, {"ḃ", "b", 1}, {"ċ", "c", 1}, {"ḋ", "d", 1}, {"ė", "e", 1}, {"ḟ", "f", 1},
+    {"ġ", "g", 1}, {"ḣ", "h", 1}, {"ṁ", "m", 1}, {"ṅ", "n", 1}, {"ȯ", "o", 1}, {"ṗ", "p", 1},
+    {"ṙ", "r", 1}, {"ṡ", "s", 1}, {"ṫ", "t", 1}, {"ẇ", "w", 1}, {"ẋ", "x", 1}, {"ẏ", "y", 1},
+    {"ż", "z", 1}, {"Ȧ", "A", 1}, {"Ḃ", "B", 1}, {"Ċ", "C", 1}, {"Ḋ", "D", 1}, {"Ė", "E", 1},
+    {"Ḟ", "F", 1}, {"Ġ", "G", 1}, {"Ḣ", "H", 1}, {"İ", "I", 1}, {"Ṁ", "M", 1}, {"Ṅ", "N", 1},
+    {"Ȯ", "O", 1}, {"Ṗ", "P", 1}, {"Ṙ", "R", 1}, {"Ṡ", "S", 1}, {"Ṫ", "T", 1}, {"Ẇ", "W", 1},
+    {"Ẋ", "X", 1}, {"Ẏ", "Y", 1}, {"Ż", "Z", 1}, {"ẍ", "x", 2}, {"ẅ", "w", 2}, {"ḧ", "h", 2},
+    {"ẗ", "t", 2}, {"Ẍ", "X", 2}, {"Ẅ", "W", 2}, {"Ḧ", "H", 2},
+};
+
+unsigned
+qdot_letters_dotted(const char *text, const char **letter)
+{
+    for (size_t i = 0; i < sizeof dotted / sizeof *dotted && (text[0] & 0x80); i++)
+        if (strncmp(text, dotted[i].letter, strlen(dotted[i].letter)) == 0) {
+            *letter = dotted[i].base;
+            return dotted[i].dots;
+        }
+    return 0;
 }

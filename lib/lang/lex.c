@@ -51,6 +51,8 @@ static const struct {
     {"\xC2\xB7", "*"},      /* middle dot */
     {"\xE2\x8B\x85", "*"},  /* dot operator */
     {"\xC3\x97", "*"},      /* times */
+    {"\xE2\x80\xAF", "*"},  /* narrow no-break space: the product of style unicode */
+    {"\xE2\x88\x9A", "sqrt"}, /* square root: of the operand behind it */
     {"\xE2\x89\xA4", "<="}, /* less or equal */
     {"\xE2\x89\xA5", ">="}, /* greater or equal */
     {"\xE2\x89\xA0", "!="}, /* not equal */
@@ -58,16 +60,22 @@ static const struct {
     {"\xE2\x80\x99", "'"},  /* apostrophe */
 };
 
-/* Signs of print, and what to write for them. */
+/* Fractions of one sign: exact numbers. */
 static const struct {
-    const char *text, *ours;
-} foreign[] = {
+    const char *sign, *text;
+} fractions[] = {
     {"½", "1/2"}, {"⅓", "1/3"}, {"⅔", "2/3"}, {"¼", "1/4"}, {"¾", "3/4"},
     {"⅕", "1/5"}, {"⅖", "2/5"}, {"⅗", "3/5"}, {"⅘", "4/5"}, {"⅙", "1/6"},
     {"⅚", "5/6"}, {"⅛", "1/8"}, {"⅜", "3/8"}, {"⅝", "5/8"}, {"⅞", "7/8"},
-    {"√", "sqrt(x)"}, {"∂", "diff(e, x)"}, {"∑", "sum(e, k, a, b)"},
-    {"–", "-"}, {"—", "-"}, {"÷", "/"}, {"∧", "and"}, {"∨", "or"}, {"¬", "not"},
-    {"“", "\""}, {"”", "\""}, {"⟨", "("}, {"∇", "gradient(f, R)"},
+};
+
+/* Signs of print that are not read, and what to write for them. */
+static const struct {
+    const char *text, *ours;
+} foreign[] = {
+    {"∂", "diff(e, x)"}, {"∑", "sum(e, k, a, b)"}, {"–", "-"}, {"—", "-"}, {"÷", "/"},
+    {"∧", "and"}, {"∨", "or"}, {"¬", "not"}, {"“", "\""}, {"”", "\""}, {"⟨", "("},
+    {"∇", "gradient(f, R)"},
 };
 
 static bool
@@ -232,22 +240,137 @@ spell(lexer *x, qdot_text *name, bool first)
     return true;
 }
 
+/* Dots over the letter just read: as many primes; 0: none. */
+static unsigned
+lex_dots(lexer *x)
+{
+    size_t length;
+    uint32_t c = qdot_utf8_decode(x->source->text + x->i, &length);
+    unsigned dots = length == 0 ? 0 : c == 0x307 ? 1 : c == 0x308 ? 2 : c == 0x20DB ? 3 : 0;
+
+    x->i += dots > 0 ? length : 0;
+    return dots;
+}
+
+/* n primes, written as what stands from start on. */
+static qdot_status
+push_primes(lexer *x, unsigned n, size_t start, size_t end)
+{
+    for (unsigned i = 0; i < n; i++)
+        QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, "'", start, end));
+    return QDOT_OK;
+}
+
+/* A name; dots over its first letter are primes behind it: θ̇₁ is theta1'. */
 static qdot_status
 lex_name(lexer *x, qdot_text *name)
 {
     size_t start = x->i;
     const char *copy;
+    unsigned dots;
 
     qdot_text_truncate(name, 0);
-    if (!spell(x, name, true))
+    dots = qdot_letters_dotted(x->source->text + x->i, &copy);
+    if (dots > 0) {
+        qdot_text_char(name, *copy);
+        x->i += (size_t)qdot_utf8_length(x->source->text + x->i);
+    } else if (spell(x, name, true)) {
+        dots = lex_dots(x);
+    } else {
         return QDOT_OK;
+    }
     while (spell(x, name, false))
         ;
     QDOT_TRY(qdot_text_status(name));
     copy = qdot_arena_strndup(x->source->arena, name->at, name->n);
     if (copy == NULL)
         return QDOT_ENOMEM;
-    return push(x, QDOT_TOKEN_NAME, copy, start, x->i);
+    QDOT_TRY(push(x, QDOT_TOKEN_NAME, copy, start, x->i));
+    return push_primes(x, dots, start, x->i);
+}
+
+/* The value of a raised digit at `text`, -1: none; *length its bytes. */
+static int
+raised_digit(const char *text, size_t *length)
+{
+    uint32_t c = qdot_utf8_decode(text, length);
+
+    return *length > 0 ? qdot_letters_superscript(c) : -1;
+}
+
+static bool
+ends_operand(const lexer *x)
+{
+    return !x->blank && x->tokens.n > 0 &&
+           (last_is_kind(x, QDOT_TOKEN_NAME) || last_is_kind(x, QDOT_TOKEN_NUMBER) ||
+            (last_is_kind(x, QDOT_TOKEN_OPERATOR) && strchr(")]'", last_text(x)[0]) != NULL));
+}
+
+/* x⁻¹² as x^-12, x⁽⁴⁾ as x''''; behind an operand alone. */
+static qdot_status
+lex_raised(lexer *x, bool *found)
+{
+    static const char minus[] = "⁻", open[] = "⁽", close[] = "⁾";
+    const char *text = x->source->text;
+    size_t start = x->i, i = start, length;
+    bool order = strncmp(text + i, open, sizeof open - 1) == 0;
+    bool negative = strncmp(text + i, minus, sizeof minus - 1) == 0;
+    unsigned long n = 0;
+    qdot_text digits = {0};
+    const char *copy;
+    int digit;
+
+    *found = false;
+    if (!ends_operand(x))
+        return QDOT_OK;
+    i += order ? sizeof open - 1 : negative ? sizeof minus - 1 : 0;
+    while ((digit = raised_digit(text + i, &length)) >= 0) {
+        qdot_text_char(&digits, (char)('0' + digit));
+        n = n < 1000 ? 10 * n + (unsigned long)digit : n;
+        i += length;
+    }
+    if (digits.n == 0 || (order && strncmp(text + i, close, sizeof close - 1) != 0)) {
+        qdot_text_clear(&digits);
+        return QDOT_OK;
+    }
+    copy = qdot_arena_strndup(x->source->arena, digits.at, digits.n);
+    qdot_text_clear(&digits);
+    if (copy == NULL)
+        return QDOT_ENOMEM;
+    *found = true;
+    x->i = i + (order ? sizeof close - 1 : 0);
+    if (order && n <= QDOT_LEX_PRIMES)
+        return push_primes(x, (unsigned)n, start, x->i);
+    if (order)
+        return qdot_fail(QDOT_ELIMIT, "a derivative of order %s", copy);
+    QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, "^", start, x->i));
+    if (negative)
+        QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, "-", start, x->i));
+    return push(x, QDOT_TOKEN_NUMBER, copy, start, x->i);
+}
+
+static qdot_status
+lex_fraction(lexer *x, bool *found)
+{
+    *found = false;
+    for (size_t k = 0; k < sizeof fractions / sizeof *fractions && !*found; k++) {
+        size_t length = strlen(fractions[k].sign), start = x->i;
+
+        if (strncmp(x->source->text + start, fractions[k].sign, length) != 0)
+            continue;
+        *found = true;
+        x->i += length;
+        QDOT_TRY(push(x, QDOT_TOKEN_NUMBER, fractions[k].text, start, x->i));
+    }
+    return QDOT_OK;
+}
+
+qdot_expr
+qdot_lex_number(qdot_pool *pool, const char *text)
+{
+    return strlen(text) == 3 && text[1] == '/'
+               ? qdot_expr_ratio(pool, text[0] - '0', text[2] - '0')
+               : qdot_expr_decimal(pool, text, strlen(text));
 }
 
 /* "...": \" and \\ stand for the sign itself. */
@@ -390,7 +513,35 @@ lex_token(lexer *x, qdot_text *buffer)
         return QDOT_OK;
     }
     QDOT_TRY(lex_operator(x, &found));
+    if (!found)
+        QDOT_TRY(lex_fraction(x, &found));
+    if (!found)
+        QDOT_TRY(lex_raised(x, &found));
     return found ? QDOT_OK : refuse(x);
+}
+
+/* Where a line begins: step over prompts that were pasted with it. */
+static void
+skip_prompts(lexer *x)
+{
+    const char *text = x->source->text;
+    bool found = true;
+
+    while (found) {
+        size_t i = x->i + strspn(text + x->i, " \t"), n = 0;
+
+        if (strncmp(text + i, "qdot>", 5) == 0) {
+            n = 5;
+        } else if (strncmp(text + i, "...>", 4) == 0 || strncmp(text + i, "...:", 4) == 0) {
+            n = 4;
+        } else if (strncmp(text + i, "In [", 4) == 0) {
+            n = 4 + strspn(text + i + 4, "0123456789");
+            n = n > 4 && strncmp(text + i + n, "]:", 2) == 0 ? n + 2 : 0;
+        }
+        found = n > 0 && (i + n >= x->source->length || strchr(" \t\r\n", text[i + n]) != NULL);
+        if (found)
+            x->i = i + n;
+    }
 }
 
 static qdot_status
@@ -398,12 +549,15 @@ lex_all(lexer *x, qdot_text *buffer)
 {
     if (strncmp(x->source->text, "\xEF\xBB\xBF", 3) == 0)
         x->i = 3;
+    skip_prompts(x);
     while (x->i < x->source->length) {
         bool blank;
 
         QDOT_TRY(lex_blank(x, &blank));
         if (!blank)
             QDOT_TRY(lex_token(x, buffer));
+        else if (x->source->text[x->i - 1] == '\n')
+            skip_prompts(x);
     }
     if (x->open.n > 0) {
         const qdot_token *opened = &x->tokens.at[x->open.at[x->open.n - 1]];

@@ -19,6 +19,7 @@ typedef enum {
     OP_PRODUCT,
     OP_NEGATE,
     OP_POWER,
+    OP_ROOT, /* √ before an operand */
     OP_MEMBER, /* `a.` before an operand */
     IN_GROUP,  /* ( ) of an operand: a vector if it holds a comma */
     IN_LIST,   /* [ ]: a list or, with `;`, a matrix */
@@ -36,6 +37,7 @@ typedef struct {
     bool ranged; /* of IN_CALL: its last argument is a range */
     const qdot_token *token; /* the operator's last sign; what opened the bracket */
     const qdot_token *name;  /* of IN_SUM: its index */
+    const qdot_token *power; /* of IN_CALL: sin²(x) is sin(x)^2; NULL */
     uint32_t count;          /* operands or arguments complete so far */
     uint32_t columns, indices, at;
 } waiting;
@@ -123,6 +125,7 @@ reduce(parser *p)
         return emit(p, QDOT_CODE_PRODUCT, w.token, w.count + 1, 0, 0);
     case OP_NEGATE: return emit(p, QDOT_CODE_NEGATE, w.token, 1, 0, 0);
     case OP_POWER: return emit(p, QDOT_CODE_POWER, w.token, 2, 0, 0);
+    case OP_ROOT: return emit(p, QDOT_CODE_CALL, w.token, 1, 0, 0);
     default: return emit(p, QDOT_CODE_MEMBER, w.token, 1, 0, 0);
     }
 }
@@ -191,7 +194,7 @@ primes(parser *p)
 {
     unsigned n = 0;
 
-    while (n < 200 && p->c->at->glued && is_op(p->c->at, "'")) {
+    while (n < QDOT_LEX_PRIMES && p->c->at->glued && is_op(p->c->at, "'")) {
         p->c->at++;
         n++;
     }
@@ -258,6 +261,43 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
                                       : QDOT_OK;
 }
 
+/* Whether a raised number follows, x², glued to what stands before it. */
+static bool
+is_raised(const parser *p, const qdot_token *t)
+{
+    return is_op(t, "^") && t->glued && (p->c->source->text[t->start] & 0x80) != 0;
+}
+
+/* sin²(x), the cursor past `sin`. */
+static qdot_status
+raised_call(parser *p, const qdot_token *name)
+{
+    const qdot_token *power = p->c->at + 1;
+
+    if (is_op(power, "-")) {
+        qdot_fail(QDOT_ESYNTAX, "`%s` with a negative power: its inverse, or 1 over it?",
+                  name->text);
+        qdot_hint("write a%s(x), or 1/%s(x)", name->text, name->text);
+        return fail_at(p, power, QDOT_ESYNTAX);
+    }
+    p->c->at += 2;
+    QDOT_TRY(call(p, name, 0, 0));
+    if (top(p) != NULL && top(p)->token == name)
+        top(p)->power = power;
+    return QDOT_OK;
+}
+
+static bool
+is_function(const parser *p, const char *name)
+{
+    const qdot_session *s = p->c->session;
+
+    return qdot_names_find(s->names, name) == NULL
+               ? qdot_builtin_find(name) != NULL &&
+                     !(qdot_builtin_find(name)->flags & QDOT_BUILTIN_FORM)
+               : qdot_resolve_is_function(s, name);
+}
+
 static qdot_status
 name(parser *p)
 {
@@ -285,6 +325,9 @@ name(parser *p)
         (next->glued || qdot_names_find(p->c->session->names, t->text) == NULL ||
          qdot_resolve_is_function(p->c->session, t->text)))
         return call(p, t, n, 0);
+    if (n == 0 && is_raised(p, next) && is_function(p, t->text) &&
+        (is_op(next + 1, "-") || is_op(next + 2, "(")))
+        return raised_call(p, t);
     if (is_op(next, "[") && next->glued && n == 0) {
         bool multiplier = strcmp(t->text, "lambda") == 0;
 
@@ -343,6 +386,10 @@ operand(parser *p)
         return name(p);
     if (is_op(t, "%"))
         return history(p);
+    if (is_op(t, "sqrt")) {
+        p->c->at++;
+        return push(p, OP_ROOT, t);
+    }
     if (is_op(t, "-") || is_op(t, "+")) {
         p->c->at++;
         return t->text[0] == '-' ? push(p, OP_NEGATE, t) : QDOT_OK;
@@ -501,7 +548,11 @@ close_bracket(parser *p)
     default:
         if (w.ranged)
             return emit(p, QDOT_CODE_RANGE, w.token, w.count + 1, 0, 0);
-        return emit(p, QDOT_CODE_CALL, w.token, w.count + 1, w.indices, w.primes);
+        QDOT_TRY(emit(p, QDOT_CODE_CALL, w.token, w.count + 1, w.indices, w.primes));
+        if (w.power == NULL)
+            return QDOT_OK;
+        QDOT_TRY(emit(p, QDOT_CODE_NUMBER, w.power, 0, 0, 0));
+        return emit(p, QDOT_CODE_POWER, w.power, 2, 0, 0);
     }
 }
 
@@ -545,7 +596,12 @@ after(parser *p)
         p->c->at++;
         return push(p, IN_INDEX, t);
     }
-    while (top(p) != NULL && top(p)->kind == OP_MEMBER)
+    if (top(p) != NULL && top(p)->kind == OP_ROOT && is_op(t, "^") && !is_op(t - 1, ")")) {
+        qdot_fail(QDOT_ESYNTAX, "a root and a power: which comes first?");
+        qdot_hint("write √(x^2) or √(x)^2");
+        return fail_at(p, t, QDOT_ESYNTAX);
+    }
+    while (top(p) != NULL && (top(p)->kind == OP_MEMBER || top(p)->kind == OP_ROOT))
         QDOT_TRY(reduce(p));
 
     if (t->kind == QDOT_TOKEN_OPERATOR || t->kind == QDOT_TOKEN_NAME)

@@ -324,7 +324,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
         if (strcmp(d->name, "energy") == 0)
             qdot_text_add(line, d->name);
         else
-            qdot_print_name(d->name, session->style, line);
+            qdot_print_name(session->pool, d->name, session->style, line);
         qdot_text_char(line, ' ');
         if (d->kept)
             qdot_text_add(line, "kept");

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "base/utf8.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "lang/code.h"
@@ -281,6 +282,79 @@ argument_of(const qdot_session *s, const char *name)
     return QDOT_NIL;
 }
 
+/* `theta[2]`, bob[2], dtheta[2] by the spelling of the member. */
+static qdot_status
+member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
+       qdot_expr *value)
+{
+    const qdot_name *entry = qdot_names_find(s->names, spelled);
+
+    *found = entry != NULL;
+    if (entry != NULL)
+        return named(s, entry, primes, value);
+    QDOT_TRY(labelled(s, spelled, primes, found, value));
+    if (*found)
+        return QDOT_OK;
+    return differential(s, spelled, found, value);
+}
+
+bool
+qdot_resolve_small(const char *name, unsigned form, qdot_text *spelled)
+{
+    static const char *const forms[] = {"[%s]", "_%s"};
+    size_t n = strlen(name), digits = 0;
+
+    while (digits < n && strchr("0123456789", name[n - digits - 1]) != NULL)
+        digits++;
+    if (digits == 0 || digits == n || form >= sizeof forms / sizeof *forms)
+        return false;
+    qdot_text_truncate(spelled, 0);
+    qdot_text_add_n(spelled, name, n - digits);
+    qdot_text_format(spelled, forms[form], name + n - digits);
+    return true;
+}
+
+/* Whether a token is written with subscripts: x₁. */
+static bool
+is_small(const qdot_source *source, const qdot_token *token)
+{
+    const char *text = source->text + token->start;
+
+    for (size_t i = 0; i < token->length; i += qdot_utf8_length(text + i)) {
+        size_t length;
+
+        if (qdot_letters_subscript(qdot_utf8_decode(text + i, &length)) >= 0)
+            return true;
+    }
+    return false;
+}
+
+/* x₁, which is x1 or, where nothing is called so, x[1] or x_1. */
+static qdot_status
+small(qdot_cursor *c, const qdot_token *token, unsigned primes, bool *found, qdot_expr *value)
+{
+    qdot_text spelled = {0};
+    qdot_status status = QDOT_OK;
+
+    *found = false;
+    if (!is_small(c->source, token))
+        return QDOT_OK;
+    for (unsigned form = 0; status == QDOT_OK && !*found &&
+                            qdot_resolve_small(token->text, form, &spelled); form++) {
+        const char *name = qdot_text_str(&spelled);
+
+        status = qdot_text_status(&spelled);
+        if (status == QDOT_OK)
+            status = member(c->session, name, primes, found, value);
+        if (status == QDOT_OK && !*found && primes == 0) {
+            *value = argument_of(c->session, name);
+            *found = *value != QDOT_NIL;
+        }
+    }
+    qdot_text_clear(&spelled);
+    return status;
+}
+
 qdot_status
 qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
                   qdot_expr *value, qdot_expr *over)
@@ -293,6 +367,12 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
 
     *over = QDOT_NIL;
     if (entry != NULL) {
+        if (entry->kind == QDOT_NAME_VALUE) {
+            QDOT_TRY(small(c, token, primes, &found, value));
+            if (found)
+                return qdot_fail(QDOT_ENAME, "`%.200s`, or what is "
+                                             "printed so?", name);
+        }
         *over = entry->over;
         return named(s, entry, primes, value);
     }
@@ -313,11 +393,15 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     *value = argument_of(s, name);
     if (*value != QDOT_NIL)
         return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
+    QDOT_TRY(small(c, token, primes, &found, value));
+    if (found)
+        return QDOT_OK;
     if (qdot_names_is_family(s->names, name)) {
         qdot_fail(QDOT_ENAME, "`%.200s` is a family", name);
         return qdot_hint("write a member, %.80s[1]", name);
     }
-    if (qdot_builtin_find(name) != NULL) {
+    if (qdot_builtin_find(name) != NULL &&
+        !(qdot_builtin_find(name)->flags & QDOT_BUILTIN_SHORT)) {
         if (qdot_builtin_find(name)->flags & QDOT_BUILTIN_UNBUILT)
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name);
         return qdot_hints_bare_function(c, token);
@@ -455,22 +539,6 @@ quantity_index(qdot_session *s, const qdot_quantity *row, unsigned primes, uint3
         return qdot_fail(QDOT_ETYPE, "`%s[ ]` takes %d ind%s, not %u", row->name,
                          row->most, row->most == 1 ? "ex" : "ices", n);
     return quantity(s, row, primes, n, index, value);
-}
-
-/* `theta[2]`, bob[2], dtheta[2] by the spelling of the member. */
-static qdot_status
-member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
-       qdot_expr *value)
-{
-    const qdot_name *entry = qdot_names_find(s->names, spelled);
-
-    *found = entry != NULL;
-    if (entry != NULL)
-        return named(s, entry, primes, value);
-    QDOT_TRY(labelled(s, spelled, primes, found, value));
-    if (*found)
-        return QDOT_OK;
-    return differential(s, spelled, found, value);
 }
 
 /* Whether some label is a member of the family `name`. */

@@ -19,6 +19,7 @@ typedef struct {
     double value, error; /* error NaN: unknown */
     int digits;          /* > 0: of a run with `digits`, whose number is */
     qdot_expr exact;     /* ... this rational */
+    bool plain;          /* no digits were asked for: with --json a number, no string */
 } qdot_measured;
 
 /* a.EXPR within an expression: stands there as a FORMAL symbol. */

@@ -11,6 +11,7 @@
 
 #include "base/interrupt.h"
 #include "lang/answer.h"
+#include "lang/code.h"
 #include "lang/redirect.h"
 #include "lang/taken.h"
 
@@ -542,6 +543,47 @@ add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
     return printed;
 }
 
+/* x₁ that is x[1] or x_1, as that; false: it is neither. */
+static bool
+add_small(const qdot_session *session, const qdot_token *token, qdot_text *out)
+{
+    qdot_text spelled = {0};
+    bool is = false;
+
+    if (token->kind == QDOT_TOKEN_NAME && token->length != strlen(token->text) &&
+        qdot_names_find(session->names, token->text) == NULL)
+        for (unsigned form = 0;
+             !is && qdot_resolve_small(token->text, form, &spelled); form++)
+            is = qdot_names_find(session->names, qdot_text_str(&spelled)) != NULL;
+    qdot_text_add(out, is ? qdot_text_str(&spelled) : "");
+    qdot_text_clear(&spelled);
+    return is;
+}
+
+/* Signs that the letters at hand cannot say: ½, √2, sin²(x). False: there are none here; *used: how
+ * many tokens they are. */
+static bool
+add_sign(const qdot_token *k, const qdot_token *to, qdot_text *out, size_t *used)
+{
+    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+
+    *used = 1;
+    if (k->kind == QDOT_TOKEN_NUMBER && strchr(k->text, '/') != NULL) {
+        qdot_text_format(out, "(%s)", k->text);
+        return true;
+    }
+    if (is_op(k, "sqrt")) {
+        qdot_text_add(out, k + 1 < to && is_op(k + 1, "(") ? "sqrt" : "√");
+        return true;
+    }
+    if (!is_op(k, "^") || k + 2 >= to || k[1].start != k->start || !is_op(k + 2, "("))
+        return false;
+    for (const char *digit = k[1].text; *digit != '\0'; digit++)
+        qdot_text_add(out, raised[*digit - '0']);
+    *used = 2;
+    return true;
+}
+
 void
 qdot_statement_text(qdot_session *session, const qdot_token *from, const qdot_token *to,
                     qdot_text *out)
@@ -552,13 +594,16 @@ qdot_statement_text(qdot_session *session, const qdot_token *from, const qdot_to
         bool binary = k > from && ends_operand(k - 1) && is_spaced(k);
         bool words = k > from && k->kind != QDOT_TOKEN_OPERATOR &&
                      (k[-1].kind != QDOT_TOKEN_OPERATOR || ends_operand(k - 1));
+        size_t used;
 
         if (words && is_op(k - 1, "%"))
             words = false;
         qdot_text_add(out, binary || words ? " " : "");
         if (k->kind == QDOT_TOKEN_STRING)
             qdot_text_format(out, "\"%s\"", k->text);
-        else if (!add_index(session, k, out))
+        else if (add_sign(k, to, out, &used))
+            k += used - 1;
+        else if (!add_index(session, k, out) && !add_small(session, k, out))
             qdot_text_add(out, k->text);
         if (is_op(k, "[") || is_op(k, "(")) {
             depth++;

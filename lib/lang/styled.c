@@ -131,7 +131,7 @@ word(writer *w)
                                  : qdot_print(pool, jet, w->style, w->out);
         w->at += index + primes;
     } else {
-        qdot_print_name(name->name, w->style, w->out);
+        qdot_print_name(w->session->pool, name->name, w->style, w->out);
         w->at += index;
     }
     qdot_free(text);
@@ -202,7 +202,7 @@ next(writer *w)
 {
     static const struct {
         const char *plain, *unicode, *latex;
-    } words[] = {{"<=", "≤", "\\le "}, {">=", "≥", "\\ge "}, {"*", " ", " "}, {"==", "=", "="},
+    } words[] = {{"<=", "≤", "\\le "}, {">=", "≥", "\\ge "}, {"*", "\u202F", " "}, {"==", "=", "="},
                  {"-", "−", "-"},      {"'", "′", "'"},      {"%", "%", "\\%"}};
 
     if (is_letter(*w->at))

@@ -18,8 +18,6 @@ say 'param m; coord x m'
 say 'function f'
 say "coord x; x'(t)"
 say 'coord x; x(2)'
-say '½'
-say '√2'
 say 'coord x; x – 1'
 say '\theta'
 say 'coord x; x := 2'

@@ -139,8 +139,11 @@ read_operand(reader *r)
         return qdot_list(r->pool, read_list(r, args, "]"), args);
     if (!isdigit((unsigned char)*r->at))
         return read_name(r);
-    for (start = r->at; isdigit((unsigned char)*r->at); r->at++)
+    for (start = r->at; isdigit((unsigned char)*r->at) || *r->at == '.'; r->at++)
         ;
+    if (*r->at == 'e' && r->at[1] == '-')
+        for (r->at += 2; isdigit((unsigned char)*r->at); r->at++)
+            ;
     return qdot_expr_decimal(r->pool, start, (size_t)(r->at - start));
 }
 

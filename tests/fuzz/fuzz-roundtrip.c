@@ -1,5 +1,5 @@
-/* fuzz-roundtrip.c -- an expression, and its simplified form, is printed in plain style and
- * read again: the same expression. The simplified form must not be refuted as the other's
+/* fuzz-roundtrip.c -- an expression, and its simplified form, is printed in plain and in unicode
+ * style and read again: the same expression. The simplified form must not be refuted as the other's
  * equal.
  */
 #include "fuzz.h"
@@ -40,12 +40,12 @@ value_of(qdot_session *session, const char *text, size_t length)
 }
 
 static void
-read_again(qdot_session *session, const char *what, qdot_expr e)
+read_again_in(qdot_session *session, const char *what, qdot_style style, qdot_expr e)
 {
     qdot_text text = {0}, other = {0};
     qdot_expr again;
 
-    if (qdot_print(session->pool, e, QDOT_PLAIN, &text) == QDOT_OK) {
+    if (qdot_print(session->pool, e, style, &text) == QDOT_OK) {
         again = value_of(session, text.at, strlen(text.at));
         if (again != e && !interrupted()) {
             if (again == QDOT_NIL ||
@@ -56,6 +56,13 @@ read_again(qdot_session *session, const char *what, qdot_expr e)
     }
     qdot_text_clear(&text);
     qdot_text_clear(&other);
+}
+
+static void
+read_again(qdot_session *session, const char *what, qdot_expr e)
+{
+    read_again_in(session, what, QDOT_PLAIN, e);
+    read_again_in(session, what, QDOT_UNICODE, e);
 }
 
 static void
