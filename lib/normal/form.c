@@ -31,9 +31,7 @@ qdot_form_begin(qdot_form *form, qdot_field *f)
 void
 qdot_form_end(qdot_form *form)
 {
-    for (size_t i = 0; i < form->n; i++)
-        fmpz_mpoly_clear(form->known + i, form->f->ctx);
-    qdot_free(form->known);
+    qdot_polynomials_clear(form->f, &form->known);
     qdot_free(form->said);
     qdot_free(form->fast);
 }
@@ -41,24 +39,21 @@ qdot_form_end(qdot_form *form)
 qdot_expr
 qdot_form_recall(const qdot_form *form, const fmpz_mpoly_t p)
 {
-    for (size_t i = 0; i < form->n; i++)
-        if (fmpz_mpoly_equal(form->known + i, p, form->f->ctx))
-            return form->said[i];
-    return QDOT_NIL;
+    slong i = qdot_polynomials_find(form->f, &form->known, p);
+
+    return i < 0 ? QDOT_NIL : form->said[i];
 }
 
 qdot_expr
 qdot_form_remember(qdot_form *form, const fmpz_mpoly_t p, qdot_expr e)
 {
-    if (e == QDOT_NIL || form->n >= 200 ||
-        qdot_grow(&form->known, &form->known_capacity, form->n + 1,
-                  sizeof *form->known) != QDOT_OK ||
-        qdot_grow(&form->said, &form->said_capacity, form->n + 1, sizeof *form->said) !=
-            QDOT_OK)
+    if (e == QDOT_NIL || qdot_polynomials_find(form->f, &form->known, p) >= 0)
         return e;
-    fmpz_mpoly_init(form->known + form->n, form->f->ctx);
-    fmpz_mpoly_set(form->known + form->n, p, form->f->ctx);
-    form->said[form->n++] = e;
+    if (qdot_grow(&form->said, &form->said_capacity, form->known.n + 1, sizeof *form->said) !=
+            QDOT_OK ||
+        qdot_polynomials_add(form->f, &form->known, p) != QDOT_OK)
+        return qdot_pool_fail(form->f->pool);
+    form->said[form->known.n - 1] = e;
     return e;
 }
 

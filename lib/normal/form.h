@@ -5,15 +5,15 @@
 #ifndef QDOT_NORMAL_FORM_H
 #define QDOT_NORMAL_FORM_H
 
-#include "normal/field.h"
+#include "normal/polynomials.h"
 
 /* Kinds of variables, and what was already said. */
 typedef struct {
     qdot_field *f;
     bool *fast, *trig; /* [gens] */
-    fmpz_mpoly_struct *known;
-    qdot_expr *said;
-    size_t n, known_capacity, said_capacity;
+    qdot_polynomials known;
+    qdot_expr *said; /* [known.n] what was said of each */
+    size_t said_capacity;
     int depth, horner; /* of products within products, of powers taken out */
     bool quotient; /* what is said stands over a denominator */
 } qdot_form;

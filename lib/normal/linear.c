@@ -1,5 +1,8 @@
 /* linear.c -- linear systems, block by block: Bareiss' fraction-free elimination over polynomials. */
+#include <stdlib.h>
+
 #include "base/memory.h"
+#include "expr/tensor.h"
 #include "expr/walk.h"
 #include "normal/cramer.h"
 #include "normal/field.h"
@@ -60,6 +63,16 @@ vanishes(qdot_field *f, const fmpz_mpoly_t p)
     return zero;
 }
 
+/* Charge a product: of coefficients that fill words, as many times. */
+static bool
+charge_product(qdot_field *f, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
+{
+    slong bits = labs(fmpz_mpoly_max_bits(a)) + labs(fmpz_mpoly_max_bits(b));
+
+    return qdot_field_charge(f, fmpz_mpoly_length(a, f->ctx) * (1 + bits / FLINT_BITS),
+                             fmpz_mpoly_length(b, f->ctx));
+}
+
 /* x = (p a - b c)/d, exact over the polynomials (the rules are not used: they would
  * spoil it). */
 static void
@@ -70,15 +83,11 @@ step(qdot_field *f, fmpz_mpoly_t x, const fmpz_mpoly_t p, const fmpz_mpoly_t a,
 
     fmpz_mpoly_init(u, f->ctx);
     fmpz_mpoly_init(v, f->ctx);
-    if (qdot_field_charge(f, fmpz_mpoly_length(p, f->ctx),
-                          fmpz_mpoly_length(a, f->ctx)) &&
-        qdot_field_charge(f, fmpz_mpoly_length(b, f->ctx),
-                          fmpz_mpoly_length(c, f->ctx))) {
+    if (charge_product(f, p, a) && charge_product(f, b, c)) {
         fmpz_mpoly_mul(u, p, a, f->ctx);
         fmpz_mpoly_mul(v, b, c, f->ctx);
         fmpz_mpoly_sub(u, u, v, f->ctx);
-        if (qdot_field_charge(f, fmpz_mpoly_length(u, f->ctx),
-                              fmpz_mpoly_length(d, f->ctx)))
+        if (charge_product(f, u, d))
             fmpz_mpoly_divides(x, u, d, f->ctx);
     }
     fmpz_mpoly_clear(u, f->ctx);
@@ -254,6 +263,27 @@ operations(const qdot_pool *pool, size_t n, const qdot_expr *e)
     return sum;
 }
 
+/* Each e that is there, simplified; all at once, so that what stands in several is simplified once. */
+static qdot_status
+simplify_all(qdot_pool *pool, uint32_t n, qdot_expr *e, const qdot_facts *facts)
+{
+    qdot_expr *some = qdot_malloc(((size_t)n + 1) * sizeof *some), all;
+    uint32_t count = 0;
+
+    if (some == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++)
+        if (e[i] != QDOT_NIL)
+            some[count++] = e[i];
+    all = count == 0 ? QDOT_NIL : qdot_simplify(pool, qdot_list(pool, count, some), facts);
+    count = 0;
+    for (uint32_t i = 0; i < n && all != QDOT_NIL; i++)
+        if (e[i] != QDOT_NIL)
+            e[i] = qdot_expr_arg(pool, all, count++);
+    qdot_free(some);
+    return qdot_pool_check(pool);
+}
+
 /* Each x the simpler of what elimination gave (status: or did not) and Cramer's rule, which is
  * asked where that is longer than what was given: multiplied out, long entries make a solution
  * too long to be found or to be read. */
@@ -281,16 +311,20 @@ simplest(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b,
     }
     if (asked)
         QDOT_TRY(qdot_cramer(pool, n, A, b, y));
-    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
-        if (known && (!asked || qdot_expr_size(pool, x[i]) <=
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        if (!known || (asked && qdot_expr_size(pool, x[i]) >
                                     TOO_LONG * qdot_expr_size(pool, y[i])))
-            x[i] = qdot_simplify(pool, x[i], facts);
-        else
             x[i] = QDOT_NIL;
-        if (asked &&
-            (x[i] == QDOT_NIL || qdot_expr_size(pool, y[i]) < qdot_expr_size(pool, x[i])))
-            x[i] = qdot_simplify(pool, y[i], facts);
-    }
+    if (status == QDOT_OK)
+        status = simplify_all(pool, n, x, facts);
+    for (uint32_t i = 0; i < n && asked && status == QDOT_OK; i++)
+        if (x[i] != QDOT_NIL && qdot_expr_size(pool, y[i]) >= qdot_expr_size(pool, x[i]))
+            y[i] = QDOT_NIL;
+    if (asked && status == QDOT_OK)
+        status = simplify_all(pool, n, y, facts);
+    for (uint32_t i = 0; i < n && asked && status == QDOT_OK; i++)
+        if (y[i] != QDOT_NIL)
+            x[i] = y[i];
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 

@@ -269,6 +269,7 @@ struct request {
     const qdot_facts *facts;
     int64_t work; /* the budget of one scalar */
     bool spent;   /* some budget was */
+    qdot_map simplified; /* what stands inside functions and under roots -> its simplest form */
 };
 
 /* What stands inside functions and under roots is left as it is. */
@@ -352,6 +353,21 @@ is_root(const qdot_pool *pool, qdot_expr exponent)
     return x != NULL && !fmpz_is_one(fmpq_denref(x));
 }
 
+/* outer(e); what was simplified before is looked up: one root stands in many parts of a sum. */
+static qdot_expr
+outer_once(qdot_pool *pool, qdot_expr e, struct request *request)
+{
+    qdot_expr simplest;
+    uint32_t before;
+
+    if (qdot_map_get(&request->simplified, e, &before))
+        return before;
+    simplest = outer(pool, e, request);
+    if (simplest != QDOT_NIL && qdot_map_set(&request->simplified, e, simplest) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    return simplest;
+}
+
 /* Long arguments of functions and long bases of roots, inner ones first. */
 static qdot_expr
 inner(qdot_pool *pool, qdot_expr e, struct request *request)
@@ -377,7 +393,7 @@ inner(qdot_pool *pool, qdot_expr e, struct request *request)
 
             args[k] = (qdot_expr)qdot_walk_get(&w, old);
             if (inside && is_long(pool, args[k]))
-                args[k] = outer(pool, args[k], request);
+                args[k] = outer_once(pool, args[k], request);
             changed |= args[k] != old;
         }
         result = changed ? qdot_rebuild(pool, w.at[i], args) : w.at[i];
@@ -394,6 +410,7 @@ inner(qdot_pool *pool, qdot_expr e, struct request *request)
 static qdot_expr
 by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *whole)
 {
+    const bool spent = request->spent;
     qdot_root_parts parts = {.n = 1};
     qdot_expr sum = QDOT_ZERO;
 
@@ -402,11 +419,15 @@ by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *whole)
         return e;
     if (qdot_root_parts_add(pool, &parts, &e) == QDOT_OK) {
         *whole = parts.entries.n < QDOT_ROOTS_MANY;
-        for (size_t k = 0; k < parts.entries.n; k++)
+        request->spent = false;
+        for (size_t k = 0; k < parts.entries.n && !request->spent; k++)
             sum = qdot_add(pool, sum,
                            *whole ? parts.entries.at[k]
                                   : inner(pool, outer(pool, parts.entries.at[k], request),
                                           request));
+        if (request->spent) /* one part past the budget: its like would be, too */
+            sum = e;
+        request->spent |= spent;
         /* of what falls away when it is expanded the rest; else it is as well as before */
         if (sum != QDOT_NIL && (!*whole || qdot_root_parts_many(pool, sum)))
             qdot_form_keep(pool, &sum, e);
@@ -446,6 +467,7 @@ simplify_value(void *user)
     struct simplifying *x = user;
 
     x->result = qdot_value_map(x->pool, x->e, simplify_scalar, &x->request);
+    qdot_map_clear(&x->request.simplified);
 }
 
 qdot_expr

@@ -524,6 +524,37 @@ long_sums_come_back_in_time(void **state)
     qdot_pool_free(pool);
 }
 
+/* Constructor calls that simplifying takes. */
+static uint64_t
+work_of(const char *from)
+{
+    const uint64_t enough = UINT64_C(1) << 40;
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr e = text_read(pool, from);
+    uint64_t left;
+
+    (void)qdot_pool_budget(pool, enough);
+    assert_true(qdot_simplify(pool, e, NULL) != QDOT_NIL);
+    left = qdot_pool_budget(pool, UINT64_MAX);
+    qdot_pool_free(pool);
+    return enough - left;
+}
+
+/* Three roots, each in one part of a sum or in four of seven: their bases are simplified as often. */
+static void
+a_root_in_many_parts_is_simplified_once(void **state)
+{
+#define R1 "sqrt(2 + (sin(x)*cos(y) + x*y + z)^2 + x^4*cos(z)^2)"
+#define R2 "sqrt(3 + (sin(y)*cos(z) + y*z + w)^2 + y^4*cos(w)^2)"
+#define R3 "sqrt(5 + (sin(z)*cos(w) + z*w + x)^2 + z^4*cos(x)^2)"
+    const char *once = "u*" R1 " + v*" R2 " + phi*" R3;
+    const char *often = "u*" R1 " + v*" R2 " + phi*" R3 " + m*" R1 "*" R2 " + L*" R2 "*" R3
+                        " + g*" R1 "*" R3 " + k*" R1 "*" R2 "*" R3;
+
+    (void)state;
+    assert_true(work_of(often) < 2 * work_of(once));
+}
+
 int
 main(void)
 {
@@ -543,6 +574,7 @@ main(void)
         cmocka_unit_test(random_values_are_kept),
         cmocka_unit_test(sums_of_angles_are_seen),
         cmocka_unit_test(long_sums_come_back_in_time),
+        cmocka_unit_test(a_root_in_many_parts_is_simplified_once),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
