@@ -167,6 +167,7 @@ normal_sources = \
 	lib/normal/map.c \
 	lib/normal/nth-part.c \
 	lib/normal/null-space.c \
+	lib/normal/polynomials.c \
 	lib/normal/positive.c \
 	lib/normal/prepare.c \
 	lib/normal/products.c \
@@ -181,6 +182,7 @@ normal_sources = \
 	lib/normal/rewrite.c \
 	lib/normal/root-parts.c \
 	lib/normal/sample-edge.c \
+	lib/normal/sample-solve.c \
 	lib/normal/sample.c \
 	lib/normal/simple.c \
 	lib/normal/simplify.c \
@@ -221,6 +223,7 @@ normal_headers = \
 	lib/normal/map.h \
 	lib/normal/nth-part.h \
 	lib/normal/null-space.h \
+	lib/normal/polynomials.h \
 	lib/normal/positive.h \
 	lib/normal/prepare.h \
 	lib/normal/products.h \
@@ -708,7 +711,10 @@ unit_tests = \
 	tests/tape/test_x86
 
 script_tests = \
+	tests/script/accel-large-coefficients.lag \
 	tests/script/accel-long.lag \
+	tests/script/accel-one-root-in-many-parts.lag \
+	tests/script/accel-said-again.lag \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
@@ -1418,7 +1424,10 @@ test_files = \
 	tests/normal/text.h \
 	tests/num/kit.h \
 	tests/ode/problems.h \
+	tests/script/accel-large-coefficients.out \
 	tests/script/accel-long.out \
+	tests/script/accel-one-root-in-many-parts.out \
+	tests/script/accel-said-again.out \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \

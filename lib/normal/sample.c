@@ -10,146 +10,8 @@
 #include "normal/factor.h"
 #include "normal/prepare.h"
 
-#define WORK 4000000
 #define SIMPLE 24 /* points with small numbers */
 #define FAR 96    /* from here on some with large ones */
-
-/* --- solving a relation for one atom ----------------------------------------------- */
-
-/* The sign in front of a square root: 1 or -1, chosen at each point. */
-static qdot_expr
-either_sign(qdot_pool *pool, size_t i)
-{
-    char name[32];
-
-    snprintf(name, sizeof name, "(sign %zu)", i);
-    return qdot_symbol_get(pool, QDOT_FORMAL, name);
-}
-
-bool
-qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e)
-{
-    const qdot_symbol *s = qdot_expr_symbol(pool, e);
-
-    return s != NULL && strncmp(s->name, "(sign ", 6) == 0;
-}
-
-/* How gladly a relation is solved for this atom; 0: never. */
-static int
-fitness(const qdot_pool *pool, const qdot_gen *gen)
-{
-    const qdot_symbol *symbol = qdot_expr_symbol(pool, gen->expr);
-    int plain;
-
-    if (gen->kind != QDOT_GEN_PLAIN || qdot_sample_is_sign(pool, gen->expr))
-        return 0;
-    if (qdot_expr_kind(pool, gen->expr) == QDOT_UFUN)
-        return 5;
-    if (symbol == NULL)
-        return 0;
-    plain = symbol->lo == QDOT_NIL && symbol->hi == QDOT_NIL && symbol->sign == 0;
-    switch (symbol->class) {
-    case QDOT_MULTIPLIER: return 9;
-    case QDOT_COORD: return 3 + plain + (symbol->order < 2 ? 2 * (int)symbol->order : 4);
-    case QDOT_CONST: return 0;
-    case QDOT_PARAM: return 1 + plain;
-    default: return 2 + plain;
-    }
-}
-
-/* Whether gen v stands inside another generator that p holds. */
-static bool
-inside_another(qdot_field *f, const fmpz_mpoly_t p, slong v)
-{
-    for (slong w = 0; w < f->n; w++)
-        if (w != v && fmpz_mpoly_degree_si(p, w, f->ctx) > 0 &&
-            qdot_expr_contains(f->pool, f->gen[w].expr, f->gen[v].expr))
-            return true;
-    return false;
-}
-
-static qdot_expr
-coefficient(qdot_field *f, const qdot_groups *g, slong v, ulong k)
-{
-    for (slong i = 0; i < g->n; i++)
-        if (g->key[i * f->n + v] == k)
-            return qdot_field_expr(f, g->poly + i);
-    return QDOT_ZERO;
-}
-
-static qdot_expr
-solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree, qdot_expr either)
-{
-    qdot_pool *pool = f->pool;
-    bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
-    qdot_groups groups;
-    qdot_expr a, b, c, x = QDOT_NIL;
-
-    if (by == NULL)
-        return qdot_pool_fail(pool);
-    by[v] = true;
-    if (qdot_factor_group(f, &groups, p, by) == QDOT_OK) {
-        c = coefficient(f, &groups, v, 0);
-        b = coefficient(f, &groups, v, 1);
-        a = coefficient(f, &groups, v, 2);
-        if (degree == 1) {
-            x = qdot_neg(pool, qdot_div(pool, c, b));
-        } else {
-            qdot_expr d =
-                qdot_sub(pool, qdot_pow_int(pool, b, 2),
-                         qdot_mul(pool, qdot_expr_int(pool, 4), qdot_mul(pool, a, c)));
-
-            x = qdot_mul(pool, either, qdot_sqrt(pool, d));
-            x = qdot_div(pool, qdot_sub(pool, x, b),
-                         qdot_mul(pool, qdot_expr_int(pool, 2), a));
-        }
-    }
-    qdot_factor_ungroup(f, &groups);
-    qdot_free(by);
-    return x;
-}
-
-/* Solve relation = 0. *atom nil: it holds anyway. False: it cannot be solved. */
-static bool
-solve_relation(qdot_pool *pool, qdot_expr relation, size_t number, qdot_expr *atom,
-               qdot_expr *solution)
-{
-    qdot_expr e = qdot_prepare(pool, relation);
-    slong best = -1, best_degree = 0;
-    int fit = 0;
-    const qdot_ratio *r;
-    qdot_field f;
-
-    *atom = QDOT_NIL;
-    qdot_field_begin(&f, pool, 1, &e, WORK);
-    r = qdot_field_value(&f, e);
-    if (r == NULL || fmpz_mpoly_is_zero(r->n, f.ctx)) {
-        bool zero = r != NULL;
-
-        qdot_field_end(&f);
-        return zero;
-    }
-    for (slong v = 0; v < f.n; v++) {
-        slong degree = fmpz_mpoly_degree_si(r->n, v, f.ctx);
-        int here = degree == 0 || degree > 2
-                       ? 0
-                       : fitness(pool, &f.gen[v]) * (degree == 1 ? 2 : 1);
-
-        if (here > fit && !inside_another(&f, r->n, v)) {
-            fit = here;
-            best = v;
-            best_degree = degree;
-        }
-    }
-    if (best >= 0) {
-        *atom = f.gen[best].expr;
-        *solution = solve_for(&f, r->n, best, best_degree, either_sign(pool, number));
-    }
-    qdot_field_end(&f);
-    if (best >= 0 && *solution == QDOT_NIL && qdot_pool_check(pool) != QDOT_OK)
-        return false;
-    return best >= 0 && *solution != QDOT_NIL;
-}
 
 /* --- begin ------------------------------------------------------------------------- */
 
@@ -193,15 +55,39 @@ higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations,
     return false;
 }
 
-static qdot_status
-add_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution)
+static void
+add_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution, bool implicit)
 {
     qdot_sample_atom *a = &s->atom[s->n++];
 
-    *a = (qdot_sample_atom){.atom = atom, .solution = solution};
+    *a = (qdot_sample_atom){.atom = atom, .solution = solution, .implicit = implicit};
     fmpq_init(&a->x);
     arb_init(a->value);
-    return QDOT_OK;
+}
+
+/* The solved atoms, each after those that its solution holds; where two are solved for each other
+ * there are no points. */
+static void
+add_solved(qdot_sample *s, size_t n, qdot_expr *atom, const qdot_expr *solution,
+           const bool *implicit)
+{
+    for (size_t left = n, before = n + 1; left > 0 && left < before;) {
+        before = left;
+        for (size_t k = n; k-- > 0;) {
+            bool waits = atom[k] == QDOT_NIL;
+
+            for (size_t j = 0; j < n && !waits; j++)
+                waits = j != k && atom[j] != QDOT_NIL &&
+                        qdot_expr_contains(s->pool, solution[k], atom[j]);
+            if (waits)
+                continue;
+            add_atom(s, atom[k], solution[k], implicit[k]);
+            atom[k] = QDOT_NIL;
+            left--;
+        }
+    }
+    for (size_t k = 0; k < n; k++)
+        s->possible &= atom[k] == QDOT_NIL;
 }
 
 static qdot_expr
@@ -277,8 +163,9 @@ gather(qdot_sample *s, size_t n, const qdot_expr *e)
     static const qdot_facts nothing = {0};
     const qdot_facts *facts = s->facts == NULL ? &nothing : s->facts;
     size_t nr = facts->n_relations, solved = 0;
-    qdot_expr *r = qdot_malloc((3 * nr + 1) * sizeof *r), *atom = r + nr,
+    qdot_expr *r = qdot_calloc(4 * nr + 1, sizeof *r), *atom = r + nr,
               *solution = atom + nr;
+    bool *implicit = (bool *)(solution + nr);
     qdot_expr parts[6], atoms, of_relations;
     qdot_pool *pool = s->pool;
 
@@ -288,10 +175,11 @@ gather(qdot_sample *s, size_t n, const qdot_expr *e)
     for (size_t k = 0; k < nr; k++)
         r[k] = facts->relations[k];
     for (size_t k = 0; k < nr && s->possible; k++) {
-        s->possible = solve_relation(pool, r[k], k, &atom[solved], &solution[solved]);
+        s->possible = qdot_sample_solve(pool, r[k], k, solved, atom, &atom[solved],
+                                        &solution[solved], &implicit[solved]);
         if (!s->possible || atom[solved] == QDOT_NIL)
             continue;
-        for (size_t j = k + 1; j < nr; j++)
+        for (size_t j = k + 1; j < nr && !implicit[solved]; j++)
             r[j] = qdot_subs(pool, r[j], 1, &atom[solved], &solution[solved]);
         solved++;
     }
@@ -328,10 +216,9 @@ gather(qdot_sample *s, size_t n, const qdot_expr *e)
             for (size_t k = 0; k < solved; k++)
                 free_atom &= atom[k] != a;
             if (free_atom && bound_rank(pool, a) == rank)
-                (void)add_atom(s, a, QDOT_NIL);
+                add_atom(s, a, QDOT_NIL, false);
         }
-    for (size_t k = solved; k-- > 0;)
-        (void)add_atom(s, atom[k], solution[k]);
+    add_solved(s, solved, atom, solution, implicit);
     qdot_free(r);
     return QDOT_OK;
 }
@@ -363,6 +250,9 @@ qdot_sample_end(qdot_sample *s)
     for (size_t i = 0; i < s->n; i++) {
         fmpq_clear(&s->atom[i].x);
         arb_clear(s->atom[i].value);
+        if (s->atom[i].relation != NULL)
+            qdot_ball_end(s->atom[i].relation);
+        qdot_free(s->atom[i].relation);
     }
     qdot_free(s->atom);
     qdot_free(s->bound);
@@ -380,8 +270,8 @@ draw(qdot_sample *s, uint32_t below)
     return (uint32_t)((s->seed >> 33) % below);
 }
 
-static bool
-value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+bool
+qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     qdot_sample *s = user;
 
@@ -406,7 +296,7 @@ bound(qdot_sample *s, qdot_expr e, double *x)
         return false;
     if (qdot_ball_begin(&ball, s->pool, 1, &e) != QDOT_OK)
         return false;
-    qdot_ball_eval(&ball, 64, value_of, s);
+    qdot_ball_eval(&ball, 64, qdot_sample_value, s);
     value = qdot_ball_get(&ball, e);
     if (value != NULL)
         *x = arf_get_d(arb_midref(value), ARF_RND_NEAR);
@@ -481,25 +371,19 @@ qdot_sample_set(qdot_sample_atom *a, slong prec)
     a->ready = true;
 }
 
-static void
-choose(qdot_sample *s, qdot_sample_atom *a, int k)
+void
+qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
 {
-    const qdot_symbol *symbol = qdot_expr_symbol(s->pool, a->atom);
+    const qdot_symbol *symbol = qdot_expr_symbol(s->pool, atom);
+    const int k = s->k;
     double size = reach[(size_t)k % (sizeof reach / sizeof *reach)], lo = -size,
            hi = size, x;
-    double where = (1 + draw(s, 61)) / 63.0;
-    double about = k < SIMPLE ? 0.1 : 0.01; /* integers first */
-    uint8_t sign = qdot_expr_node(s->pool, a->atom)->sign;
+    uint8_t sign = qdot_expr_node(s->pool, atom)->sign;
 
     if (k >= FAR && k % 3 == 0) { /* what is defined far out only */
         size *= 1000;
         lo = -size;
         hi = size;
-    }
-    if (qdot_sample_is_sign(s->pool, a->atom)) {
-        fmpq_set_si(&a->x, draw(s, 2) == 0 ? 1 : -1, 1);
-        qdot_sample_set(a, 64);
-        return;
     }
     if (symbol != NULL) {
         qdot_expr elo = symbol->lo, ehi = symbol->hi;
@@ -514,12 +398,28 @@ choose(qdot_sample *s, qdot_sample_atom *a, int k)
         } else if (has_lo) {
             hi = lo + size;
         }
-        narrow(s, a->atom, size, &lo, &hi);
+        narrow(s, atom, size, &lo, &hi);
     }
     if ((sign & QDOT_GE0) && lo < 0)
         lo = 0;
     if ((sign & QDOT_LE0) && hi > 0)
         hi = 0;
+    *from = lo;
+    *to = hi;
+}
+
+static void
+choose(qdot_sample *s, qdot_sample_atom *a)
+{
+    double where = (1 + draw(s, 61)) / 63.0, lo, hi;
+    double about = s->k < SIMPLE ? 0.1 : 0.01; /* integers first */
+
+    if (qdot_sample_is_sign(s->pool, a->atom)) {
+        fmpq_set_si(&a->x, draw(s, 2) == 0 ? 1 : -1, 1);
+        qdot_sample_set(a, 64);
+        return;
+    }
+    qdot_sample_range(s, a->atom, &lo, &hi);
     between(&a->x, lo, hi, where, about);
     if (fmpq_is_zero(&a->x))
         between(&a->x, lo, hi, where * 0.9 + 0.01, about);
@@ -529,6 +429,7 @@ choose(qdot_sample *s, qdot_sample_atom *a, int k)
 void
 qdot_sample_point(qdot_sample *s, int k)
 {
+    s->k = k;
     s->seed = 0x9e3779b97f4a7c15u * (uint64_t)(k + 1);
     for (int i = 0; i < 8; i++)
         draw(s, 2);
@@ -536,7 +437,7 @@ qdot_sample_point(qdot_sample *s, int k)
         s->atom[i].ready = s->atom[i].turn = s->atom[i].edge = false;
     for (size_t i = 0; i < s->n; i++)
         if (s->atom[i].solution == QDOT_NIL)
-            choose(s, &s->atom[i], k);
+            choose(s, &s->atom[i]);
 }
 
 /* A solved value must surely lie in its domain. */
@@ -612,14 +513,19 @@ qdot_sample_values(qdot_sample *s, slong prec)
             continue;
         }
         a->ready = false;
-        qdot_ball_eval(&s->ball, prec, value_of, s);
+        if (a->implicit) {
+            if (!qdot_sample_root(s, a, prec))
+                return false;
+            continue;
+        }
+        qdot_ball_eval(&s->ball, prec, qdot_sample_value, s);
         value = qdot_ball_get(&s->ball, a->solution);
         if (value == NULL)
             return false;
         arb_set(a->value, value);
         a->ready = true;
     }
-    qdot_ball_eval(&s->ball, prec, value_of, s);
+    qdot_ball_eval(&s->ball, prec, qdot_sample_value, s);
     for (size_t i = 0; i < s->n; i++)
         if (!in_domain(s, &s->atom[i]))
             return false;

@@ -5,7 +5,8 @@
  * values (jets), except where two of one function would have equal arguments: such a
  * point is left out. With relations, each is solved for one symbol or application in
  * which it is linear or quadratic (either root, chosen at each point); where that cannot
- * be done there are no points.
+ * be done, at each point by itself for one symbol, whose value is then a ball that surely
+ * holds a solution. Two that would be solved for each other have no points.
  */
 #ifndef QDOT_NORMAL_SAMPLE_H
 #define QDOT_NORMAL_SAMPLE_H
@@ -15,6 +16,8 @@
 
 typedef struct {
     qdot_expr atom, solution; /* solution nil: free */
+    bool implicit;            /* solution is what is 0 */
+    qdot_ball *relation;      /* ... evaluated by itself; made when it is needed */
     fmpq x;                   /* free: its value */
     bool turn;                /* times pi */
     bool edge;                /* at a bound that belongs to it */
@@ -38,6 +41,8 @@ typedef struct {
     qdot_ball ball; /* the expressions, bounds, conditions, solutions */
     qdot_expr list; /* all of them */
     const qdot_facts *facts;
+    int k;             /* of the point */
+    int64_t root_work; /* done for implicit atoms, of a budget */
     uint64_t seed;
     bool possible; /* there can be points */
 } qdot_sample;
@@ -67,6 +72,17 @@ qdot_expr qdot_sample_list(qdot_sample *s);
 /* For the files of samples: the value of a free atom, put in; whether a symbol is the sign before a
  * root that solves a relation. */
 void qdot_sample_set(qdot_sample_atom *a, slong prec);
+/* Where values of an atom are looked for at the point of the moment. */
+void qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to);
+/* For qdot_ball_eval. */
+bool qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec);
+/* Solve relation = 0, the number-th, for an atom that is not taken: *atom = *solution, or (*implicit)
+ * *solution, the relation, is 0 at its value. *atom nil: it holds anyway. False: it cannot be solved. */
+bool qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n_taken,
+                       const qdot_expr *taken, qdot_expr *atom, qdot_expr *solution,
+                       bool *implicit);
+/* Find the value of an implicit atom, those it depends on being known. Whether there is one. */
+bool qdot_sample_root(qdot_sample *s, qdot_sample_atom *a, slong prec);
 bool qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e);
 
 #endif

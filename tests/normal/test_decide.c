@@ -213,6 +213,17 @@ static const struct conditional conditionals[] = {
     {"x", "1", {"m*x - m"}, QDOT_PROVED},
     {"sin(x)^2*y + cos(x)^2*y", "L", {"y - L"}, QDOT_PROVED},
     {"x^3", "1", {"x - 1"}, QDOT_PROVED},
+    /* relations that have no solution in closed form, solved at each point */
+    {"x", "739085133/1000000000", {"x - cos(x)"}, QDOT_REFUTED},
+    {"x'^2 + y'^2", "0", {"x + sin(x) + y^3 + y - 1", "x' + cos(x)*x' + 3*y^2*y' + y'"},
+     QDOT_REFUTED},
+    {"sin(x)^2", "1 - x^2", {"x - cos(x)"}, QDOT_PROVED},
+    /* one after the other, the second with what solves the first */
+    {"x*y", "1", {"x - cos(x)", "y + sin(y) - x"}, QDOT_REFUTED},
+    /* a change of sign that is a jump or a pole is no solution: no point, nothing is known */
+    {"x", "y", {"floor(x) + sin(x)/9 - 1/2"}, QDOT_UNDECIDED},
+    {"x", "y", {"sign(x) + sin(x)/9 - 1/2"}, QDOT_UNDECIDED},
+    {"x", "y", {"1/sinh(x) + cosh(x)/9*sinh(x)"}, QDOT_UNDECIDED},
 };
 
 static void
@@ -237,6 +248,28 @@ relations_are_used(void **state)
             fail_msg("%s == %s: verdict %d", c->left, c->right, d.verdict);
         qdot_pool_free(pool);
     }
+}
+
+/* What no rule of roots and sines makes short, beside a relation that no closed form solves: a point is
+ * found, and not all multiplied out first. */
+static void
+points_come_before_the_proof(void **state)
+{
+    const uint64_t enough = UINT64_C(1) << 40;
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr relation = text_read(
+        pool, "sqrt((x + sin(y) + 1)^2 + (y + cos(z))^2 + (z + sin(x + y))^2) - 3");
+    qdot_expr e = text_read(
+        pool, "(x*sin(y)*cos(z) + y*sin(z + x)^2 + z + u*v)^6*sqrt(2 + sin(x*y)^2 + u^2) + "
+              "(u + cos(x)*v + sin(y - z)*u)^6*sqrt(3 + (x + y)^2*cos(z)^2 + v^2) + "
+              "(u*v + z^2*sin(x))^6*sqrt(5 + (z + u)^2*cos(y)^2 + v^4) + w");
+    qdot_facts facts = {.n_relations = 1, .relations = &relation};
+
+    (void)state;
+    (void)qdot_pool_budget(pool, enough);
+    assert_false(qdot_is_zero(pool, e, &facts));
+    assert_true(enough - qdot_pool_budget(pool, UINT64_MAX) < 20000);
+    qdot_pool_free(pool);
 }
 
 /* --- constants, roots, signs ------------------------------------------------------- */
@@ -836,6 +869,7 @@ main(void)
         cmocka_unit_test(identities_are_proved),
         cmocka_unit_test(falsehoods_are_refuted),
         cmocka_unit_test(relations_are_used),
+        cmocka_unit_test(points_come_before_the_proof),
         cmocka_unit_test(twins_are_told_apart),
         cmocka_unit_test(constants_are_not_zero_for_being_small),
         cmocka_unit_test(conditions_are_used_in_proofs),
