@@ -742,6 +742,7 @@ script_tests = \
 	tests/script/doubts.sh \
 	tests/script/end-errors.sh \
 	tests/script/equilibria.lag \
+	tests/script/error-function.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
@@ -1460,6 +1461,7 @@ test_files = \
 	tests/script/end-errors.inc \
 	tests/script/end-errors.out \
 	tests/script/equilibria.out \
+	tests/script/error-function.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
 	tests/script/event-ends.out \

@@ -49,7 +49,9 @@ of_function(unsigned op, struct bound *lo, struct bound *hi)
     case QDOT_SIN:
     case QDOT_COS:
     case QDOT_SIGN: set(lo, -1, 1, false), set(hi, 1, 1, false); break;
-    case QDOT_TANH: set(lo, -1, 1, true), set(hi, 1, 1, true); break;
+    case QDOT_TANH:
+    case QDOT_ERF: set(lo, -1, 1, true), set(hi, 1, 1, true); break;
+    case QDOT_ERFC: set(lo, 0, 1, true), set(hi, 2, 1, true); break;
     case QDOT_COSH: set(lo, 1, 1, false); break;
     case QDOT_EXP: set(lo, 0, 1, true); break;
     case QDOT_ASIN:
@@ -74,8 +76,9 @@ of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
     case QDOT_SIN:
     case QDOT_COS:
     case QDOT_TANH:
+    case QDOT_ERF:
         set(lo, fmpz_is_even(fmpq_numref(k)) ? 0 : -1, 1, false);
-        set(hi, 1, 1, NODE(pool, b)->op == QDOT_TANH);
+        set(hi, 1, 1, NODE(pool, b)->op >= QDOT_TANH);
         break;
     case QDOT_COSH: set(lo, 1, 1, false); break;
     default: break;

@@ -296,6 +296,20 @@ exponential(qdot_pool *pool, qdot_expr x)
     return plain(pool, QDOT_EXP, 1, &x);
 }
 
+/* erf is odd, erfc(-x) = 2 - erfc(x). */
+static qdot_expr
+error_function(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+{
+    if (x == QDOT_ZERO)
+        return id == QDOT_ERF ? QDOT_ZERO : QDOT_ONE;
+    if (qdot_expr_is_negative(pool, x)) {
+        qdot_expr e = qdot_neg(pool, qdot_fun1(pool, id, qdot_neg(pool, x)));
+
+        return id == QDOT_ERF ? e : qdot_add(pool, qdot_expr_int(pool, 2), e);
+    }
+    return plain(pool, id, 1, &x);
+}
+
 static qdot_expr
 logarithm(qdot_pool *pool, qdot_expr x)
 {
@@ -517,6 +531,8 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_ATANH: return hyperbolic(pool, id, args[0]);
     case QDOT_EXP: return exponential(pool, args[0]);
     case QDOT_LOG: return logarithm(pool, args[0]);
+    case QDOT_ERF:
+    case QDOT_ERFC: return error_function(pool, id, args[0]);
     case QDOT_ABS: return absolute(pool, args[0]);
     case QDOT_SIGN: return signum(pool, args[0]);
     case QDOT_MIN:
@@ -541,6 +557,16 @@ one_plus(qdot_pool *pool, long c, qdot_expr x) /* 1 + c x^2 */
 {
     return qdot_add(pool, QDOT_ONE,
                     qdot_mul(pool, qdot_expr_int(pool, c), qdot_pow_int(pool, x, 2)));
+}
+
+static qdot_expr
+normal_density(qdot_pool *pool, long c, qdot_expr x) /* c e^(-x^2)/sqrt(pi) */
+{
+    return qdot_mul(
+        pool,
+        qdot_mul(pool, qdot_expr_int(pool, c),
+                 qdot_pow(pool, QDOT_PI, qdot_expr_ratio(pool, -1, 2))),
+        qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_pow_int(pool, x, 2))));
 }
 
 static qdot_expr
@@ -603,6 +629,8 @@ qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr
     case QDOT_ATANH: return qdot_div(pool, QDOT_ONE, one_plus(pool, -1, x));
     case QDOT_EXP: return qdot_fun1(pool, QDOT_EXP, x);
     case QDOT_LOG: return qdot_div(pool, QDOT_ONE, x);
+    case QDOT_ERF: return normal_density(pool, 2, x);
+    case QDOT_ERFC: return normal_density(pool, -2, x);
     case QDOT_ABS: return qdot_fun1(pool, QDOT_SIGN, x);
     case QDOT_SIGN:
     case QDOT_FLOOR: return QDOT_ZERO;

@@ -320,7 +320,8 @@ qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *ar
 
     switch (id) {
     case QDOT_EXP:
-    case QDOT_COSH: return QDOT_POS;
+    case QDOT_COSH:
+    case QDOT_ERFC: return QDOT_POS;
     case QDOT_ABS: return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0));
     case QDOT_ACOS: return QDOT_GE0;
     case QDOT_SINH:
@@ -329,6 +330,7 @@ qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *ar
     case QDOT_ATANH:
     case QDOT_ASIN:
     case QDOT_ATAN:
+    case QDOT_ERF:
     case QDOT_SIGN:
     case QDOT_HOLD: return s;
     case QDOT_SIN:

@@ -534,6 +534,8 @@ static const qdot_builtin rows[] = {
     ELEMENTARY(atanh, ATANH, "atanh(x)", "inverse hyperbolic tangent", "atanh(0)"),
     ELEMENTARY(exp, EXP, "exp(x)", "exponential function", "exp(0)"),
     ELEMENTARY(log, LOG, "log(x)", "natural logarithm, x > 0", "log(1)"),
+    ELEMENTARY(erf, ERF, "erf(x)", "error function, of a normal distribution", "erf(0)"),
+    ELEMENTARY(erfc, ERFC, "erfc(x)", "1 - erf(x), exact also where it is small", "erfc(0)"),
     ROW(1, 1, sqrt, "sqrt(x)", "square root, x >= 0", "sqrt(9/4)"),
     ELEMENTARY(abs, ABS, "abs(x)", "absolute value", "abs(-3)"),
     ELEMENTARY(sign, SIGN, "sign(x)", "-1, 0 or 1", "sign(-3)"),

@@ -30,6 +30,8 @@ ONE(acosh, acosh(x[0]))
 ONE(atanh, atanh(x[0]))
 ONE(exp, exp(x[0]))
 ONE(log, log(x[0]))
+ONE(erf, erf(x[0]))
+ONE(erfc, erfc(x[0]))
 ONE(abs, fabs(x[0]))
 ONE(floor, floor(x[0]))
 ONE(hold, x[0])
@@ -82,6 +84,7 @@ static double (*const functions[QDOT_FUNCTION_KINDS])(const double *x, uint32_t 
     [QDOT_ATAN2] = f_atan2, [QDOT_SINH] = f_sinh,   [QDOT_COSH] = f_cosh,
     [QDOT_TANH] = f_tanh,   [QDOT_ASINH] = f_asinh, [QDOT_ACOSH] = f_acosh,
     [QDOT_ATANH] = f_atanh, [QDOT_EXP] = f_exp,     [QDOT_LOG] = f_log,
+    [QDOT_ERF] = f_erf,     [QDOT_ERFC] = f_erfc,
     [QDOT_ABS] = f_abs,     [QDOT_SIGN] = f_sign,   [QDOT_MIN] = f_min,
     [QDOT_MAX] = f_max,     [QDOT_MOD] = f_mod,     [QDOT_FLOOR] = f_floor,
     [QDOT_IF] = f_if,       [QDOT_HOLD] = f_hold,

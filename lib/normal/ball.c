@@ -37,6 +37,7 @@ static unary *const table[QDOT_FUNCTION_KINDS] = {
     [QDOT_SINH] = arb_sinh,   [QDOT_COSH] = arb_cosh,   [QDOT_TANH] = arb_tanh,
     [QDOT_ASINH] = arb_asinh, [QDOT_ACOSH] = arb_acosh, [QDOT_ATANH] = arb_atanh,
     [QDOT_EXP] = arb_exp,     [QDOT_LOG] = arb_log,     [QDOT_ABS] = eval_abs,
+    [QDOT_ERF] = arb_hypgeom_erf, [QDOT_ERFC] = arb_hypgeom_erfc,
     [QDOT_SIGN] = eval_sign,  [QDOT_FLOOR] = arb_floor, [QDOT_HOLD] = arb_set_round,
 };
 

@@ -95,7 +95,8 @@ sign_key(qdot_pool *pool, qdot_expr u, int *sign)
             *sign = -*sign;
             u = qdot_neg(pool, u);
         } else if (op == QDOT_SINH || op == QDOT_TANH || op == QDOT_ASINH ||
-                   op == QDOT_ATANH || op == QDOT_ASIN || op == QDOT_ATAN) {
+                   op == QDOT_ATANH || op == QDOT_ASIN || op == QDOT_ATAN ||
+                   op == QDOT_ERF) {
             u = qdot_expr_arg(pool, u, 0);
         } else if (qdot_expr_kind(pool, u) == QDOT_PROD &&
                    qdot_expr_arg(pool, u, 0) != QDOT_ONE) {

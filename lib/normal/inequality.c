@@ -363,7 +363,9 @@ is_smooth(qdot_pool *pool, qdot_expr e)
             case QDOT_TANH:
             case QDOT_ATAN:
             case QDOT_ASINH:
-            case QDOT_EXP: break;
+            case QDOT_EXP:
+            case QDOT_ERF:
+            case QDOT_ERFC: break;
             case QDOT_LOG:
                 good = (qdot_expr_node(pool, qdot_expr_arg(pool, at, 0))->sign &
                         QDOT_POS) == QDOT_POS;

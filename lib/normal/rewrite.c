@@ -115,6 +115,7 @@ function(qdot_pool *pool, qdot_expr e, bool exponentials)
     case QDOT_ASINH: return area(pool, v, QDOT_ONE);
     case QDOT_ACOSH: return area(pool, v, QDOT_MINUS_ONE);
     case QDOT_ATANH: return log_ratio(pool, v);
+    case QDOT_ERFC: return qdot_sub(pool, QDOT_ONE, qdot_fun1(pool, QDOT_ERF, v));
     case QDOT_MAX: return extreme(pool, e, true);
     case QDOT_MIN: return extreme(pool, e, false);
     case QDOT_MOD: return modulo(pool, v, qdot_expr_arg(pool, e, 1));

@@ -273,7 +273,9 @@ analytic_function(const qdot_pool *pool, qdot_expr e)
     case QDOT_TANH:
     case QDOT_EXP:
     case QDOT_ATAN:
-    case QDOT_ASINH: return true;
+    case QDOT_ASINH:
+    case QDOT_ERF:
+    case QDOT_ERFC: return true;
     case QDOT_LOG: return (sign & QDOT_POS) == QDOT_POS;
     default: return false;
     }

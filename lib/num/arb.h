@@ -9,10 +9,12 @@
 #include <flint/acb.h>
 #include <flint/arb.h>
 #include <flint/arb_fmpz_poly.h>
+#include <flint/arb_hypgeom.h>
 #else
 #include <acb.h>
 #include <arb.h>
 #include <arb_fmpz_poly.h>
+#include <arb_hypgeom.h>
 #endif
 
 #endif

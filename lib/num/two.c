@@ -17,6 +17,7 @@ static const double most_angle = 0x1p40;
 static double angle_step[3], power_step[3];
 static qdot_two sines[QUARTER + 1], powers[POWERS];
 
+static const qdot_two two_over_root_pi = {0x1.20dd750429b6dp+0, 0x1.1ae3a914fed8p-56};
 static const qdot_two sixth = {0x1.5555555555555p-3, 0x1.5555555555555p-57};
 static const qdot_two sixth_of_a_fourth = {0x1.5555555555555p-5, 0x1.5555555555555p-59};
 

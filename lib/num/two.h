@@ -176,6 +176,8 @@ typedef struct {
     qdot_two (*asinh)(qdot_two x);
     qdot_two (*acosh)(qdot_two x);
     qdot_two (*atanh)(qdot_two x);
+    qdot_two (*erf)(qdot_two x);
+    qdot_two (*erfc)(qdot_two x);
 } qdot_two_functions;
 
 /* Those that fit this processor; the first call fills their tables. */

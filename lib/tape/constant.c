@@ -39,6 +39,7 @@ static void (*const unary[QDOT_FUNCTION_KINDS])(arb_t, const arb_t, slong) = {
     [QDOT_SINH] = arb_sinh,   [QDOT_COSH] = arb_cosh,   [QDOT_TANH] = arb_tanh,
     [QDOT_ASINH] = arb_asinh, [QDOT_ACOSH] = arb_acosh, [QDOT_ATANH] = arb_atanh,
     [QDOT_EXP] = arb_exp,     [QDOT_LOG] = arb_log,     [QDOT_ABS] = ball_abs,
+    [QDOT_ERF] = arb_hypgeom_erf, [QDOT_ERFC] = arb_hypgeom_erfc,
     [QDOT_SIGN] = ball_sign,  [QDOT_FLOOR] = arb_floor,  [QDOT_HOLD] = arb_set_round,
 };
 

@@ -50,6 +50,16 @@ of_tanh(double a, double r)
     return fmin(flat, sinh(r) / cosh(a) / (cosh(fmax(0, x)) * cos(r)));
 }
 
+/* erf: its slope 2 e^(-z^2)/sqrt(pi) is largest where x^2 - y^2 is least. */
+static double
+of_normal(double a, double r)
+{
+    const double x = fabs(a);
+    const double least = x < 2 * r ? 0.5 * x * x - r * r : (x - r) * (x - r);
+
+    return fmin(r * M_2_SQRTPI * exp(-least), x > 2 * r ? 2 : INFINITY);
+}
+
 /* atan2(y, x) is the imaginary part of log(x + i y): half a difference of two logarithms. */
 static double
 of_angle(double y, double ry, double x, double rx)

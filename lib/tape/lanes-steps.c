@@ -103,6 +103,7 @@ before(const step *s, qdot_lanes_sum *sums)
     case QDOT_T_SINCOS:
     case QDOT_T_SINHCOSH: pair(s, i->d, i->second, i->to, sums); break;
     case QDOT_T_EXP: sums[0] = dot(s, i->d, i->to); break;
+    case QDOT_T_ALONG: sums[0] = dot(s, i->d, i->y); break;
     case QDOT_T_POW: pair(s, i->to, i->d, i->x, sums); break;
     case QDOT_T_RATIO: sums[0] = dot(s, i->d, i->y); break;
     case QDOT_T_TANH:
@@ -286,6 +287,10 @@ after(const step *s, qdot_lanes_sum *sums)
     case QDOT_T_EXP:
         weighted(s, i->x, i->d);
         integrated(s, sums[0], false, i->to, i->to);
+        break;
+    case QDOT_T_ALONG:
+        weighted(s, i->x, i->d);
+        integrated(s, sums[0], false, i->y, i->to);
         break;
     case QDOT_T_POW: power(s, sums); break;
     case QDOT_T_RATIO: ratio(s, sums[0]); break;

@@ -337,6 +337,20 @@ hold(lowering *l, qdot_expr x, known *k)
     k->factor = minus ? QDOT_MINUS_ONE : QDOT_ONE;
 }
 
+/* erf and erfc read their slope too: their series are made of it. */
+static qdot_value
+error_function(lowering *l, qdot_fun_id f, qdot_value x)
+{
+    qdot_expr over =
+        qdot_mul(l->pool, qdot_expr_int(l->pool, f == QDOT_ERF ? 2 : -2),
+                 qdot_pow(l->pool, QDOT_PI, qdot_expr_ratio(l->pool, -1, 2)));
+    qdot_value square = op(l, QDOT_OP_MUL, x, x);
+    qdot_value e = op(l, QDOT_OP_EXP, op(l, QDOT_OP_NEG, square, 0), 0);
+
+    return op(l, f == QDOT_ERF ? QDOT_OP_ERF : QDOT_OP_ERFC, x,
+              op(l, QDOT_OP_MUL, e, qdot_code_constant(&l->code, over)));
+}
+
 static qdot_status
 lower_function(lowering *l, qdot_expr e, known *k)
 {
@@ -358,6 +372,10 @@ lower_function(lowering *l, qdot_expr e, known *k)
         k->bare = qdot_operations[direct[f]].operands == 1
                       ? op(l, direct[f], value_of(l, x), 0)
                       : fold(l, direct[f], e);
+        return QDOT_OK;
+    }
+    if (f == QDOT_ERF || f == QDOT_ERFC) {
+        k->bare = error_function(l, f, value_of(l, x));
         return QDOT_OK;
     }
     switch ((int)f) {

@@ -312,6 +312,22 @@ ROW(LOG)
     ratio(p, i->to, i->own[0], i->x, i->x, 1, k);
 }
 
+/* own: d; y is their slope */
+#define ALONG(ID, function)                                                              \
+    ROW(ID)                                                                              \
+    {                                                                                    \
+        if (k == 0) {                                                                    \
+            function(i->to[0], i->x[0], RN);                                             \
+            return;                                                                      \
+        }                                                                                \
+        slope(i->own[0], i->x, k);                                                       \
+        convolve(p, i->to[k], i->own[0], i->y, k, 1, 0);                                 \
+        mpfr_div_ui(i->to[k], i->to[k], (unsigned long)k, RN);                           \
+    }
+
+ALONG(ERF, mpfr_erf)
+ALONG(ERFC, mpfr_erfc)
+
 /* own: d, the square, its root */
 #define INVERSE(ID, function, c, square_sign, rooted, sign)                              \
     ROW(ID)                                                                              \
@@ -405,6 +421,7 @@ static const int own_rows[QDOT_OP_COUNT] = {
     [QDOT_OP_ASIN] = 3,  [QDOT_OP_ACOS] = 3,   [QDOT_OP_ATAN] = 2,  [QDOT_OP_ATAN2] = 4,
     [QDOT_OP_SINH] = 2,  [QDOT_OP_COSH] = 2,   [QDOT_OP_TANH] = 2,  [QDOT_OP_ASINH] = 3,
     [QDOT_OP_ACOSH] = 3, [QDOT_OP_ATANH] = 2,  [QDOT_OP_EXP] = 1,   [QDOT_OP_LOG] = 1,
+    [QDOT_OP_ERF] = 1,   [QDOT_OP_ERFC] = 1,
 };
 
 void

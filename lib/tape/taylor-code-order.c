@@ -178,6 +178,13 @@ exponential(qdot_generator *g, const qdot_taylor_step *s)
     integrated(g, s, 0, false, s->to, s->to);
 }
 
+static void
+along(qdot_generator *g, const qdot_taylor_step *s)
+{
+    weighted(g, s->x, s->d);
+    integrated(g, s, 0, false, s->y, s->to);
+}
+
 /* Slots: (r + 1)/x_0, r p_0/x_0; p_1/x_0, x_1/x_0 */
 static void
 power(qdot_generator *g, const qdot_taylor_step *s)
@@ -335,6 +342,7 @@ const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT] = {
     [QDOT_T_SINCOS] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},
     [QDOT_T_SINHCOSH] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},
     [QDOT_T_EXP] = {1, {{D, TO}}, exponential, NULL, NULL, 0},
+    [QDOT_T_ALONG] = {1, {{D, Y}}, along, NULL, NULL, 0},
     [QDOT_T_POW] = {2, {{D, TO}, {X, TO}}, power, power_zero, power_one, 4},
     [QDOT_T_RATIO] = {1, {{D, Y}}, ratio, NULL, ratio_one, 3},
     [QDOT_T_TANH] = {2,

@@ -207,6 +207,7 @@ differentiate(struct qdot_taylor_change *change)
     case QDOT_T_SINCOS: a = change->second ? -i->to[0] : i->second[0]; break;
     case QDOT_T_SINHCOSH: a = change->second ? i->to[0] : i->second[0]; break;
     case QDOT_T_EXP: a = i->to[0]; break;
+    case QDOT_T_ALONG: a = i->y[0]; break;
     case QDOT_T_POW: a = i->z[0] * i->to[0] * i->c; break;
     case QDOT_T_RATIO: a = i->sign * i->c; break;
     case QDOT_T_TANH: a = i->second[0] * (change->second ? -2 * i->to[0] : 1); break;

@@ -76,7 +76,7 @@ qdot_taylor_value(qdot_taylor_step *i)
     X(NEG, k) X(ADD, k) X(SUB, k) X(SCALE, k) X(SCALEADD, k) X(SCALESUB, k)              \
         X(SCALEOFF, k) X(MUL, k) X(SQUARE, k) X(MADD, k) X(MSUB, k) X(NMADD, k)          \
             X(DIV, k) X(SQRT, k) X(SINCOS, k) X(SINHCOSH, k) X(EXP, k) X(POW, k)         \
-                X(RATIO, k) X(TANH, k) X(ATAN2, k) X(LINK, k)
+                X(RATIO, k) X(ALONG, k) X(TANH, k) X(ATAN2, k) X(LINK, k)
 
 /* A step of a program, its order known to the compiler. */
 typedef void step_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);

@@ -27,6 +27,7 @@ typedef enum {
     QDOT_T_SINCOS, /* to, second; d: j x_j */
     QDOT_T_SINHCOSH,
     QDOT_T_EXP,
+    QDOT_T_ALONG, /* to' = x' y; d: j x_j */
     QDOT_T_POW,   /* d: j x_j; z: the exponent, a constant */
     QDOT_T_RATIO, /* l' = +-x'/y; d: j l_j; sign in `sign` */
     QDOT_T_TANH,  /* second: 1 - to^2; d: j x_j */

@@ -79,6 +79,7 @@ emit(builder *b, qdot_taylor_op op, int zero, row x, row y, row z)
         [QDOT_T_MUL] = 1,    [QDOT_T_SQUARE] = 0.5, [QDOT_T_MADD] = 1,
         [QDOT_T_MSUB] = 1,   [QDOT_T_NMADD] = 1,    [QDOT_T_DIV] = 1,
         [QDOT_T_SQRT] = 0.5, [QDOT_T_EXP] = 1,      [QDOT_T_POW] = 2,
+        [QDOT_T_ALONG] = 1,
         [QDOT_T_RATIO] = 1,  [QDOT_T_SINCOS] = 2,   [QDOT_T_SINHCOSH] = 2,
         [QDOT_T_TANH] = 1.5, [QDOT_T_ATAN2] = 3};
     const bool still = is_constant(b, x) && is_constant(b, y) && is_constant(b, z);
@@ -289,6 +290,11 @@ build_one(builder *b, const qdot_instruction *i, row *second)
     case QDOT_OP_ATAN2: return arctangent(b, x, y);
     case QDOT_OP_EXP:
         to = emit(b, QDOT_T_EXP, op, x, x, x);
+        with_d(b);
+        return to;
+    case QDOT_OP_ERF:
+    case QDOT_OP_ERFC:
+        to = emit(b, QDOT_T_ALONG, op, x, y, y);
         with_d(b);
         return to;
     case QDOT_OP_TANH:

@@ -16,6 +16,7 @@
  *     l' = a'/u          k u_0 l_k = k a_k - sum_{j=1..k-1} j l_j u_{k-j}: log (u = a),
  * atan
  *                        (1 + a^2), asin and acos (sqrt(1 - a^2)), asinh, acosh, atanh
+ *     erf, erfc          k c_k = sum_{j=1..k} j a_j b_{k-j}, b their slope
  *     tanh               k c_k = sum_{j=1..k} j a_j u_{k-j}, u = 1 - c^2
  *     l = atan2(y, x)    l' = (x y' - y x') / (x^2 + y^2)
  *

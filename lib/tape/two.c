@@ -142,7 +142,9 @@ correct_own(const step *i, int k, double da, double db, double dd)
         change(own[0], k, -2 * d * dd);
         change(own[1], k, k * da);
         break;
-    case QDOT_OP_EXP: change(own[0], k, k * da); break;
+    case QDOT_OP_EXP:
+    case QDOT_OP_ERF:
+    case QDOT_OP_ERFC: change(own[0], k, k * da); break;
     case QDOT_OP_ASIN:
     case QDOT_OP_ACOS:
     case QDOT_OP_ASINH:
@@ -199,6 +201,7 @@ static const unsigned char own_rows[QDOT_OP_COUNT] = {
     [QDOT_OP_ASIN] = 3,  [QDOT_OP_ACOS] = 3,   [QDOT_OP_ATAN] = 2,  [QDOT_OP_ATAN2] = 4,
     [QDOT_OP_SINH] = 2,  [QDOT_OP_COSH] = 2,   [QDOT_OP_TANH] = 2,  [QDOT_OP_ASINH] = 3,
     [QDOT_OP_ACOSH] = 3, [QDOT_OP_ATANH] = 2,  [QDOT_OP_EXP] = 1,   [QDOT_OP_LOG] = 1,
+    [QDOT_OP_ERF] = 1,   [QDOT_OP_ERFC] = 1,
 };
 
 /* While rows are numbers: which one a place of the tape has now, and whether it is

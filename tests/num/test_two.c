@@ -150,6 +150,10 @@ functions_of(const qdot_two_functions *f)
     TRY(asinh, mpfr_asinh, -1e6, 1e6, 0)
     TRY(acosh, mpfr_acosh, 1.001, 50, 0)
     TRY(atanh, mpfr_atanh, -0.999, 0.999, 0)
+    TRY(erf, mpfr_erf, -1e-3, 1e-3, 0)
+    TRY(erf, mpfr_erf, -8, 8, 0)
+    TRY(erfc, mpfr_erfc, -8, 2, 0)
+    TRY(erfc, mpfr_erfc, 0.5, 5, 0)
     for (int i = 0; i < 4 * TRIES; i++) {
         const qdot_two a = any(i % 4 == 0 ? 1e9 : i % 4 == 1 ? 700 : i % 4 == 2 ? 7 : 1e-3);
         qdot_two s, c;

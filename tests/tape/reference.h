@@ -62,6 +62,8 @@ call(unsigned op, long double x)
     case QDOT_ATANH: return atanhl(x);
     case QDOT_EXP: return expl(x);
     case QDOT_LOG: return logl(x);
+    case QDOT_ERF: return erfl(x);
+    case QDOT_ERFC: return erfcl(x);
     case QDOT_ABS: return fabsl(x);
     case QDOT_SIGN: return (x > 0) - (x < 0);
     case QDOT_FLOOR: return floorl(x);

@@ -69,7 +69,8 @@ functions_round_to_nearest(void **state)
                 {QDOT_EXP, mpfr_exp},   {QDOT_ATAN, mpfr_atan},   {QDOT_SINH, mpfr_sinh},
                 {QDOT_COSH, mpfr_cosh}, {QDOT_TANH, mpfr_tanh},   {QDOT_ASINH, mpfr_asinh},
                 {QDOT_SEC, mpfr_sec},   {QDOT_ASIN, mpfr_asin},   {QDOT_ACOS, mpfr_acos},
-                {QDOT_ATANH, mpfr_atanh}, {QDOT_LOG, mpfr_log}};
+                {QDOT_ATANH, mpfr_atanh}, {QDOT_LOG, mpfr_log},
+                {QDOT_ERF, mpfr_erf},   {QDOT_ERFC, mpfr_erfc}};
     qdot_pool *pool = qdot_pool_new();
     size_t compared = 0;
     mpfr_t x, y;

@@ -55,13 +55,18 @@ every_operation_agrees_with_differences(void **state)
             size_t compared = 0;
 
             for (size_t p = 0; p < sizeof points / sizeof *points; p++) {
+                const double a = points[p][0], slope = M_2_SQRTPI * exp(-a * a);
+                const double b = op == QDOT_OP_ERF    ? slope
+                                 : op == QDOT_OP_ERFC ? -slope
+                                                      : points[p][1];
+                const double at[] = {a, b, points[p][2]};
                 double out[2], plain[2], J[6], up[2], down[2];
 
-                derive(tape, points[p], 0, 3, out, J);
-                evaluate(tape, points[p], plain);
+                derive(tape, at, 0, 3, out, J);
+                evaluate(tape, at, plain);
                 assert_true(out[0] == plain[0] || isnan(plain[0]));
                 for (size_t j = 0; j < 3; j++) {
-                    double x[3] = {points[p][0], points[p][1], points[p][2]};
+                    double x[3] = {at[0], at[1], at[2]};
 
                     x[j] += h;
                     evaluate(tape, x, up);
@@ -71,7 +76,7 @@ every_operation_agrees_with_differences(void **state)
                         double want = (up[i] - down[i]) / (2 * h), got = J[3 * i + j];
 
                         /* not defined, or a corner */
-                        if (!isfinite(want) || points[p][0] == 0)
+                        if (!isfinite(want) || a == 0)
                             continue;
                         compared++;
                         if (!(fabs(got - want) <= 1e-8 * (1 + fabs(want))))

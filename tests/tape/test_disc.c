@@ -27,6 +27,22 @@ plane_atan2(number y, number x)
 }
 
 /* What operation.def has a complex meaning for; NULL: real places only. */
+/* erf(x + iy) - erf x = 2i/sqrt(pi) e^(-x^2) int_0^y e^(t^2 - 2ixt) dt, by Simpson's rule */
+static number
+beside_the_line(number z)
+{
+    const double x = creal(z), y = cimag(z);
+    const int n = 400;
+    number sum = 0;
+
+    for (int k = 0; k <= n; k++) {
+        const double t = y * k / n;
+
+        sum += (k == 0 || k == n ? 1 : k % 2 ? 4 : 2) * cexp(CMPLX(t * t - x * x, -2 * x * t));
+    }
+    return CMPLX(0, M_2_SQRTPI * y / (3 * n)) * sum;
+}
+
 #define UNARY(ID, value)                                                                 \
     static number plane_##ID(number a, number b, number c)                               \
     {                                                                                    \
@@ -58,6 +74,8 @@ UNARY(ACOSH, cacosh(a))
 UNARY(ATANH, catanh(a))
 UNARY(EXP, cexp(a))
 UNARY(LOG, clog(a))
+UNARY(ERF, erf(creal(a)) + beside_the_line(a))
+UNARY(ERFC, erfc(creal(a)) - beside_the_line(a))
 
 typedef number plane(number a, number b, number c);
 
@@ -67,6 +85,7 @@ static plane *const planes[QDOT_OP_COUNT] = {
     ROW(NMADD), ROW(SQRT), ROW(POW),   ROW(SINCOS), ROW(SIN),   ROW(COS),   ROW(ASIN),
     ROW(ACOS), ROW(ATAN),  ROW(ATAN2), ROW(SINH),   ROW(COSH),  ROW(TANH),  ROW(ASINH),
     ROW(ACOSH), ROW(ATANH), ROW(EXP),  ROW(LOG),
+    ROW(ERF), ROW(ERFC),
 #undef ROW
 };
 

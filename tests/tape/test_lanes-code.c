@@ -36,7 +36,8 @@ begin(scene *f)
 {
     static const qdot_fun_id functions[] = {QDOT_SIN,  QDOT_COS,   QDOT_ASIN, QDOT_ACOS,
                                             QDOT_ATAN, QDOT_SINH,  QDOT_COSH, QDOT_TANH,
-                                            QDOT_EXP,  QDOT_ASINH, QDOT_ATANH};
+                                            QDOT_EXP,  QDOT_ASINH, QDOT_ATANH, QDOT_ERF,
+                                            QDOT_ERFC};
     static const char *const names[] = {"x", "u", "t", "m"};
     qdot_pool *pool = f->pool = qdot_pool_new();
     qdot_expr x, u, t, m, s, e, third = qdot_expr_ratio(pool, 1, 3);

@@ -38,7 +38,8 @@ smooth(fixture *f)
 {
     static const qdot_fun_id below[] = {QDOT_SIN,  QDOT_COS,   QDOT_TAN,   QDOT_ASIN,
                                         QDOT_ACOS, QDOT_ATAN,  QDOT_SINH,  QDOT_COSH,
-                                        QDOT_TANH, QDOT_ASINH, QDOT_ATANH, QDOT_EXP};
+                                        QDOT_TANH, QDOT_ASINH, QDOT_ATANH, QDOT_EXP,
+                                        QDOT_ERF,  QDOT_ERFC};
     qdot_pool *pool = f->pool = qdot_pool_new();
     qdot_expr x = f->in[0] = qdot_symbol_get(pool, QDOT_COORD, "x");
     qdot_expr u = f->in[1] = qdot_symbol_get(pool, QDOT_COORD, "u");

@@ -82,7 +82,8 @@ every_function_has_its_series(void **state)
         {QDOT_COSH, false, "cosh"},   {QDOT_TANH, false, "tanh"},
         {QDOT_ASINH, false, "asinh"}, {QDOT_ACOSH, true, "acosh"},
         {QDOT_ATANH, false, "atanh"}, {QDOT_EXP, false, "exp"},
-        {QDOT_LOG, true, "log"},
+        {QDOT_LOG, true, "log"},      {QDOT_ERF, false, "erf"},
+        {QDOT_ERFC, true, "erfc"},
     };
     fixture f;
 

@@ -188,6 +188,7 @@ functions_agree(void **state)
         {QDOT_TANH, false, "tanh"},   {QDOT_ASINH, false, "asinh"},
         {QDOT_ACOSH, true, "acosh"},  {QDOT_ATANH, false, "atanh"},
         {QDOT_EXP, false, "exp"},     {QDOT_LOG, true, "log"},
+        {QDOT_ERF, false, "erf"},     {QDOT_ERFC, true, "erfc"},
     };
     scene f;
 
