@@ -43,7 +43,7 @@ enum { LIBRARIES = sizeof libraries / sizeof *libraries };
 static void *handle[LIBRARIES];
 
 /* As the loader does at the start of a program that cannot run. */
-static _Noreturn void
+static __attribute__((noreturn)) void
 give_up(void)
 {
     fprintf(stderr, "qdot: %s\n", dlerror());

@@ -13,6 +13,7 @@
 
 #include "base/memory.h"
 #include "lang/session.h"
+#include "num/kinds.h"
 #include "prompt.h"
 #include "signals.h"
 
@@ -31,6 +32,8 @@ static const char usage[] =
     "  -i, --interactive         go on at the prompt afterwards\n"
     "      --json                print one JSON object a result, nothing else\n"
     "  -q, --quiet               print no banner\n"
+    "      --processor=KIND      compute as if the processor had no more than KIND:\n"
+    "                            any, avx2, avx512\n"
     "      --help                print this help and exit\n"
     "      --version             print the version and exit\n"
     "  -                         standard input as a script\n"
@@ -65,10 +68,33 @@ static const struct option names[] = {
     {"interactive", no_argument, NULL, 'i'},
     {"json", no_argument, NULL, 'j'},
     {"quiet", no_argument, NULL, 'q'},
+    {"processor", required_argument, NULL, 'p'},
     {"help", no_argument, NULL, 'h'},
     {"version", no_argument, NULL, 'v'},
     {NULL, 0, NULL, 0},
 };
+
+static qdot_status
+bad_usage(void)
+{
+    fputs("Try 'qdot --help'.\n", stderr);
+    return qdot_fail(QDOT_EINVAL, "bad usage");
+}
+
+/* The kinds of num/kinds.h by their names. */
+static qdot_status
+limit_processor(const char *name)
+{
+    static const char *const kinds[] = {"any", "avx2", "avx512"};
+
+    for (size_t kind = 0; kind < sizeof kinds / sizeof *kinds; kind++)
+        if (strcmp(name, kinds[kind]) == 0) {
+            qdot_kind_limit(kind);
+            return QDOT_OK;
+        }
+    fprintf(stderr, "qdot: --processor=%s: it is any, avx2 or avx512\n", name);
+    return bad_usage();
+}
 
 static qdot_status
 read_options(int argc, char **argv, options *o)
@@ -85,9 +111,8 @@ read_options(int argc, char **argv, options *o)
         case 'q': o->quiet = true; break;
         case 'h': o->print = o->print != NULL ? o->print : usage; break;
         case 'v': o->print = o->print != NULL ? o->print : version; break;
-        default:
-            fputs("Try 'qdot --help'.\n", stderr);
-            return qdot_fail(QDOT_EINVAL, "bad usage");
+        case 'p': QDOT_TRY(limit_processor(optarg)); break;
+        default: return bad_usage();
         }
     }
     for (; optind < argc; optind++) /* after `--` */

@@ -44,7 +44,8 @@ assumed_otherwise(qdot_session *session, const qdot_assumption *said, const qdot
     qdot_status status = QDOT_OK;
 
     for (int k = 0; k < 2 && status == QDOT_OK; k++) {
-        qdot_text_format(&text, k ? " %s " : "", sign);
+        if (k > 0)
+            qdot_text_format(&text, " %s ", sign);
         status = qdot_print(pool, qdot_expr_arg(pool, said->relation, k ^ said->turned),
                             QDOT_PLAIN, &text);
     }

@@ -31,7 +31,7 @@ static _Thread_local struct {
 
 /* --- memory functions -------------------------------------------------------------------- */
 
-static _Noreturn void
+static __attribute__((noreturn)) void
 leave(qdot_status why)
 {
     guard.why = why;
@@ -130,7 +130,7 @@ give_back_limbs(void *block, size_t size)
     give_back(block);
 }
 
-static _Noreturn void
+static __attribute__((noreturn)) void
 gave_up(void)
 {
     if (guard.on)

@@ -8,9 +8,6 @@
 #include "base/memory.h"
 #include "num/kinds.h"
 
-/* Vectors are handed to inline functions only. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 enum {
     most = QDOT_ARTICULATED_COMPONENTS,
     most_unknowns = QDOT_ARTICULATED_UNKNOWNS,
@@ -70,25 +67,24 @@ enum { shapes = 4 };
 #undef MA
 
 #ifdef QDOT_X86_KINDS
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
+#include <immintrin.h>
+
+QDOT_KIND_AVX2
 #define NAME(x) avx2_##x
 #define MA(a, b, c) ((a) * (b) + (c))
 #include "num/articulated.def"
 #undef NAME
 #undef MA
-#pragma GCC pop_options
+QDOT_KIND_END
 
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx2,fma")
-#include <immintrin.h>
+QDOT_KIND_AVX512
 #define NAME(x) avx512_##x
 #define MA(a, b, c)                                                                      \
     ((avx512_vector)_mm512_fmadd_pd((__m512d)(a), (__m512d)(b), (__m512d)(c)))
 #include "num/articulated.def"
 #undef NAME
 #undef MA
-#pragma GCC pop_options
+QDOT_KIND_END
 #endif
 
 /* NULL: there are none for this shape. */

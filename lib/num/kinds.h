@@ -7,9 +7,26 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
+#if defined __x86_64__ && defined __GNUC__
 #define QDOT_X86_KINDS
 #endif
+
+/* Functions between QDOT_KIND_AVX2, or QDOT_KIND_AVX512, and QDOT_KIND_END are compiled for that
+ * kind; no header is to be included there. QDOT_UNROLL(n), before a loop: n turns of it, or as
+ * many as it has, are written out; 1: none. */
+#define QDOT_PRAGMA(x) _Pragma(#x)
+#ifdef __clang__
+#define QDOT_KIND_FOR(target_)                                                           \
+    QDOT_PRAGMA(clang attribute push(__attribute__((target(target_))), apply_to = function))
+#define QDOT_KIND_END QDOT_PRAGMA(clang attribute pop)
+#define QDOT_UNROLL(n) QDOT_PRAGMA(clang loop unroll_count(n))
+#else
+#define QDOT_KIND_FOR(target_) QDOT_PRAGMA(GCC push_options) QDOT_PRAGMA(GCC target(target_))
+#define QDOT_KIND_END QDOT_PRAGMA(GCC pop_options)
+#define QDOT_UNROLL(n) QDOT_PRAGMA(GCC unroll n)
+#endif
+#define QDOT_KIND_AVX2 QDOT_KIND_FOR("avx2,fma")
+#define QDOT_KIND_AVX512 QDOT_KIND_FOR("avx512f,avx2,fma")
 
 /* As if the processor were of no kind above this one, for measurements and tests; before
  * anything else is made. What it is: 2 if never said. */

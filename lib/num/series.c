@@ -8,9 +8,6 @@
 #include "num/kinds.h"
 #include "num/sum.h"
 
-/* Vectors are handed to inline functions only. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 /* Vectors read the larger half of a double without a sign, made from its bits >> 20, as
  * the double `read` + those in units of 2^-52: what its logarithm is, to 0.09, after this. */
 static const double read = 0x1p52, unit_of_log = 0x1p-32, bias = 1023;
@@ -102,11 +99,11 @@ reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights
 #undef FOUR_SUMS
 
 #ifdef QDOT_X86_KINDS
+#include <immintrin.h>
+
 #define MA(a, b, c) __builtin_fma(a, b, c)
 
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-#include <immintrin.h>
+QDOT_KIND_AVX2
 #define NAME(x) avx2_##x
 #define LABEL "avx2"
 #define VECTOR_MA(a, b, c)                                                               \
@@ -137,10 +134,9 @@ fours_summed(__m256d a, __m256d b, __m256d c, __m256d d)
 #undef VECTOR_LARGER
 #undef VECTOR_LESS
 #undef FOUR_SUMS
-#pragma GCC pop_options
+QDOT_KIND_END
 
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx2,fma")
+QDOT_KIND_AVX512
 #define NAME(x) avx512_##x
 #define LABEL "avx512"
 #define LANES 8
@@ -164,7 +160,7 @@ folded(__m512d a)
 #undef LABEL
 #undef LANES
 #undef VECTOR_MA
-#pragma GCC pop_options
+QDOT_KIND_END
 #endif
 
 const qdot_series_kernels *

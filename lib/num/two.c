@@ -99,12 +99,11 @@ sincos_beyond(qdot_two x, qdot_two *sine, qdot_two *cosine)
 #undef NAME
 
 #ifdef QDOT_X86_KINDS
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
+QDOT_KIND_AVX2
 #define NAME(x) fma_##x
 #include "num/two.def"
 #undef NAME
-#pragma GCC pop_options
+QDOT_KIND_END
 #endif
 
 const qdot_two_functions *

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "num/kinds.h"
 #include "tape/taylor-code.h"
 #include "tape/taylor-steps.h"
 
@@ -87,22 +88,20 @@ typedef void step_function(qdot_taylor_step *step, const qdot_series_kernels *ke
 #undef NAME
 #undef MA
 
-#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
-#define X86_KINDS
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
+#ifdef QDOT_X86_KINDS
+QDOT_KIND_AVX2
 #define NAME(x) fma_##x
 #define MA(a, b, c) __builtin_fma(a, b, c)
 #include "tape/taylor-order.def"
 #undef NAME
 #undef MA
-#pragma GCC pop_options
+QDOT_KIND_END
 #endif
 
 static step_function *const (*functions(void))[QDOT_T_COUNT]
 {
-#ifdef X86_KINDS
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+#ifdef QDOT_X86_KINDS
+    if (qdot_kind_is_here(1))
         return fma_steps;
 #endif
     return portable_steps;

@@ -8,9 +8,6 @@
 #include "num/kinds.h"
 #include "tape/taylor-steps.h"
 
-/* Vectors are handed to inline functions only. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 /* Steps a group, on an average, from which on vectors are worth it. */
 static const double least_alike = 2.5;
 
@@ -74,9 +71,9 @@ copy(const group *g, double *at)
 #undef MA
 
 #ifdef QDOT_X86_KINDS
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
 #include <immintrin.h>
+
+QDOT_KIND_AVX2
 #define NAME(x) avx2_##x
 #define MA(a, b, c)                                                                      \
     ((avx2_vector)_mm256_fmadd_pd((__m256d)(a), (__m256d)(b), (__m256d)(c)))
@@ -84,10 +81,9 @@ copy(const group *g, double *at)
 #undef NAME
 #undef MA
 #undef LANES
-#pragma GCC pop_options
+QDOT_KIND_END
 
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx2,fma")
+QDOT_KIND_AVX512
 #define LANES 8
 #define NAME(x) avx512_##x
 #define MA(a, b, c)                                                                      \
@@ -95,7 +91,7 @@ copy(const group *g, double *at)
 #include "tape/taylor-wide.def"
 #undef NAME
 #undef MA
-#pragma GCC pop_options
+QDOT_KIND_END
 #endif
 #undef LANES
 

@@ -60,12 +60,11 @@ whole_part(qdot_two a)
 #undef NAME
 
 #ifdef QDOT_X86_KINDS
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
+QDOT_KIND_AVX2
 #define NAME(x) fma_##x
 #include "tape/two.def"
 #undef NAME
-#pragma GCC pop_options
+QDOT_KIND_END
 #endif
 
 static order_function *const *
