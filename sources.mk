@@ -815,6 +815,7 @@ script_tests = \
 	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
 	tests/script/poisson.lag \
+	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
 	tests/script/race.sh \
 	tests/script/range-limits.sh \
@@ -1548,6 +1549,7 @@ test_files = \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
 	tests/script/poisson.out \
+	tests/script/processor.out \
 	tests/script/pulse-train.out \
 	tests/script/race.out \
 	tests/script/range-limits.out \

@@ -4,7 +4,7 @@
  * such groups by order, coefficient k of lane l at [k QDOT_LANES + l]. All lanes do the
  * same operations, so what one processor instruction does it does for all of them.
  *
- * Everything exists three times, as in series.h: portable vectors of GCC, AVX2 and
+ * Everything exists three times, as in series.h: portable vectors of the compiler, AVX2 and
  * AVX-512 with fused multiplications; code of another floor is made for all three in the
  * same way (batch-kinds.def).
  *

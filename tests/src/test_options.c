@@ -101,34 +101,6 @@ bad_usage_is_status_2(void **state)
     assert_non_null(strstr(said, "--help"));
 }
 
-/* What a run and its end are, all digits, with --processor=kind. */
-static void
-run_as_if(const char *kind, char *seen)
-{
-    char arguments[500];
-
-    snprintf(arguments, sizeof arguments,
-             "--json --processor %s -e '"
-             "coord x, y; particle p mass 1 at (x, y); potential -1/sqrt(x^2 + y^2); "
-             "start x = 1, y\' = 0.7; plan; run 0..30' | grep -o '\"end\":.*\"drift\"'",
-             kind);
-    assert_int_equal(run(arguments), 0);
-    strcpy(seen, said);
-}
-
-/* Each kind sums in its order, any other processor would not do. */
-static void
-the_processor_can_be_limited(void **state)
-{
-    static char any[MOST], more[MOST];
-
-    (void)state;
-    run_as_if("any", any);
-    run_as_if("avx512", more);
-    puts(any);
-    puts(more);
-}
-
 static void
 exit_status_says_what_happened(void **state)
 {
@@ -256,7 +228,6 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(version_and_help_are_printed),
         cmocka_unit_test(bad_usage_is_status_2),
-        cmocka_unit_test(the_processor_can_be_limited),
         cmocka_unit_test(exit_status_says_what_happened),
         cmocka_unit_test(tasks_share_a_session_in_their_order),
         cmocka_unit_test(the_first_failure_ends_it),
