@@ -92,6 +92,20 @@ add_node(qdot_walk *w, size_t *capacity, qdot_expr e)
     return w->n * 2 > w->mask ? enlarge(w) : QDOT_OK;
 }
 
+/* Places of all nodes in the table. */
+static void
+place_nodes(qdot_walk *w)
+{
+    memset(w->slot, 0, (w->mask + 1) * sizeof *w->slot);
+    for (size_t k = 0; k < w->n; k++) { /* each is new */
+        uint32_t i = hash_id(w->at[k]) & w->mask;
+
+        while (w->slot[i] != 0)
+            i = (i + 1) & w->mask;
+        w->slot[i] = (uint32_t)k + 1;
+    }
+}
+
 static qdot_status
 begin(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
       uint32_t touches, qdot_walk *w)
@@ -139,14 +153,7 @@ begin(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
             w->at[k] = e;
         }
         sort_ids(w->at, w->n, (qdot_expr *)w->value);
-        memset(w->slot, 0, (w->mask + 1) * sizeof *w->slot);
-        for (size_t k = 0; k < w->n; k++) { /* each is new */
-            uint32_t i = hash_id(w->at[k]) & w->mask;
-
-            while (w->slot[i] != 0)
-                i = (i + 1) & w->mask;
-            w->slot[i] = (uint32_t)k + 1;
-        }
+        place_nodes(w);
     }
     memset(w->value, 0, w->n * sizeof *w->value);
     return QDOT_OK;
@@ -169,6 +176,89 @@ qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e, uint32_t holds,
                       uint32_t touches, qdot_walk *w)
 {
     return begin(pool, 1, &e, holds, touches, w);
+}
+
+/* A node and where it comes to stand. */
+typedef struct {
+    qdot_expr e;
+    size_t place;
+} met;
+
+/* All nodes of the walk as they are met from the roots, parents first. Values are used up. */
+static void
+meet(qdot_walk *w, size_t n, const qdot_expr *roots, met *m)
+{
+    size_t known = 0;
+
+    memset(w->value, 0, w->n * sizeof *w->value);
+    for (size_t next = 0, root = 0; root < n || next < known;) {
+        const bool at_root = root < n;
+        const qdot_expr *e = at_root ? roots + root++ : ARGS(w->pool, m[next].e);
+        const uint32_t count = at_root ? *e != QDOT_NIL : NODE(w->pool, m[next++].e)->n;
+
+        for (uint32_t i = 0; i < count; i++)
+            if (!qdot_walk_get(w, e[i])) {
+                qdot_walk_set(w, e[i], 1);
+                m[known++].e = e[i];
+            }
+    }
+}
+
+/* The height of every node, 0 of a leaf, as its value; the largest. */
+static size_t
+heights(qdot_walk *w)
+{
+    uint64_t most = 0;
+
+    for (size_t k = 0; k < w->n; k++) {
+        const qdot_expr *children = ARGS(w->pool, w->at[k]);
+        uint64_t height = 0;
+
+        for (uint32_t i = 0; i < NODE(w->pool, w->at[k])->n; i++) {
+            const uint64_t child = qdot_walk_get(w, children[i]);
+
+            height = child >= height ? child + 1 : height;
+        }
+        w->value[k] = height;
+        most = height > most ? height : most;
+    }
+    return most;
+}
+
+qdot_status
+qdot_walk_begin_by_height(const qdot_pool *pool, size_t n, const qdot_expr *roots,
+                          qdot_walk *w)
+{
+    met *m;
+    size_t *first; /* of a height */
+    size_t most;
+
+    QDOT_TRY(begin(pool, n, roots, UINT32_MAX, 0, w));
+    if (w->n == 0)
+        return QDOT_OK;
+    m = qdot_malloc(w->n * sizeof *m);
+    first = qdot_calloc(w->n + 1, sizeof *first);
+    if (m == NULL || first == NULL) {
+        qdot_free(m);
+        qdot_free(first);
+        qdot_walk_end(w);
+        return QDOT_ENOMEM;
+    }
+    meet(w, n, roots, m);
+    most = heights(w);
+    for (size_t k = 0; k < w->n; k++)
+        first[w->value[k] + 1]++;
+    for (size_t height = 0; height < most; height++)
+        first[height + 1] += first[height];
+    for (size_t k = 0; k < w->n; k++)
+        m[k].place = first[qdot_walk_get(w, m[k].e)]++;
+    for (size_t k = 0; k < w->n; k++)
+        w->at[m[k].place] = m[k].e;
+    place_nodes(w);
+    memset(w->value, 0, w->n * sizeof *w->value);
+    qdot_free(m);
+    qdot_free(first);
+    return QDOT_OK;
 }
 
 void

@@ -19,7 +19,7 @@ enum { QDOT_WALK_FEW = 32 };
 /* Points into itself while there are few nodes: not to be copied. */
 typedef struct qdot_walk {
     const qdot_pool *pool;
-    qdot_expr *at;   /* [n] ascending ids, children before parents; owned */
+    qdot_expr *at;   /* [n] ascending ids or heights, children before parents; owned */
     size_t n;
     uint32_t *slot;  /* open hash table id -> index + 1; owned */
     uint32_t mask;
@@ -34,6 +34,10 @@ QDOT_MUST_CHECK qdot_status qdot_walk_begin(const qdot_pool *pool, qdot_expr e, 
 /* The same from several roots. */
 QDOT_MUST_CHECK qdot_status qdot_walk_begin_n(const qdot_pool *pool, size_t n,
                                               const qdot_expr *roots, qdot_walk *w);
+/* The same, nodes by their heights, those of one height as they are met from the roots: an order
+ * that does not depend on when which was made, and in which few wait for the one before. */
+QDOT_MUST_CHECK qdot_status qdot_walk_begin_by_height(const qdot_pool *pool, size_t n,
+                                                      const qdot_expr *roots, qdot_walk *w);
 void qdot_walk_end(qdot_walk *w);
 
 /* Index of a node in the walk; SIZE_MAX if it is not reachable. */

@@ -520,7 +520,7 @@ tape_new(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t
     for (size_t i = 0; i < m; i++)
         if (outputs[i] == QDOT_NIL)
             return qdot_fail(QDOT_EINVAL, "no expression to evaluate");
-    QDOT_TRY(qdot_walk_begin_n(pool, m, outputs, &l.walk));
+    QDOT_TRY(qdot_walk_begin_by_height(pool, m, outputs, &l.walk));
     qdot_code_init(&l.code, pool, n);
     status = lower(&l, n, inputs, m, outputs, tape);
     qdot_code_clear(&l.code);

@@ -44,6 +44,88 @@ a_walk_from_several_roots_is_their_union(void **state)
 }
 
 static void
+by_height_each_node_stands_behind_lower_ones(void **state)
+{
+    (void)state;
+    for (int trial = 0; trial < 500; trial++) {
+        formula f = formula_random(STEPS, 0), g = formula_random(STEPS, 0);
+        qdot_expr roots[] = {formula_build(&f, &p), QDOT_NIL, formula_build(&g, &p)};
+        qdot_walk w, all;
+        uint64_t last = 0;
+
+        if (qdot_pool_check(p.pool) != QDOT_OK)
+            continue;
+        assert_int_equal(qdot_walk_begin_n(p.pool, 3, roots, &all), QDOT_OK);
+        assert_int_equal(qdot_walk_begin_by_height(p.pool, 3, roots, &w), QDOT_OK);
+        assert_int_equal(w.n, all.n);
+        for (size_t i = 0; i < w.n; i++) {
+            uint64_t height = 0;
+
+            assert_true(qdot_walk_index(&all, w.at[i]) != SIZE_MAX);
+            assert_int_equal(qdot_walk_index(&w, w.at[i]), i);
+            assert_int_equal(w.value[i], 0);
+            for (uint32_t k = 0; k < qdot_expr_count(p.pool, w.at[i]); k++) {
+                const uint64_t child =
+                    qdot_walk_get(&all, qdot_expr_arg(p.pool, w.at[i], k));
+
+                height = child >= height ? child + 1 : height;
+            }
+            qdot_walk_set(&all, w.at[i], height);
+            assert_true(height >= last);
+            last = height;
+        }
+        qdot_walk_end(&w);
+        qdot_walk_end(&all);
+    }
+}
+
+/* A sum of products of functions, which are made forwards or backwards. */
+static qdot_expr
+sum_made(place *at, bool backwards)
+{
+    enum { TERMS = SYMBOLS * 4 };
+    static const qdot_fun_id function[] = {QDOT_SIN, QDOT_TANH, QDOT_EXP, QDOT_COS};
+    qdot_expr sum = QDOT_ZERO;
+
+    for (int i = 0; i < TERMS; i++) {
+        int k = backwards ? TERMS - 1 - i : i;
+        qdot_expr x = at->symbol[k / 4], y = at->symbol[(k / 4 + k % 4 + 1) % SYMBOLS];
+        qdot_expr f = qdot_fun1(at->pool, function[k % 4], x);
+
+        sum = qdot_add(at->pool, sum, qdot_mul(at->pool, f, qdot_mul(at->pool, y, f)));
+    }
+    return sum;
+}
+
+static void
+by_height_it_does_not_matter_when_nodes_were_made(void **state)
+{
+    place other;
+    qdot_walk a, b;
+    int moved = 0;
+
+    (void)state;
+    place_open(&other);
+    assert_int_equal(
+        qdot_walk_begin_by_height(p.pool, 1, (qdot_expr[]){sum_made(&p, false)}, &a),
+        QDOT_OK);
+    assert_int_equal(
+        qdot_walk_begin_by_height(other.pool, 1, (qdot_expr[]){sum_made(&other, true)}, &b),
+        QDOT_OK);
+    assert_int_equal(a.n, b.n);
+    for (size_t i = 0; i < a.n; i++) {
+        assert_string_equal(text_of(p.pool, a.at[i], QDOT_PLAIN),
+                            text_of(other.pool, b.at[i], QDOT_PLAIN));
+        for (size_t k = 0; k < i; k++)
+            moved += (a.at[k] < a.at[i]) != (b.at[k] < b.at[i]);
+    }
+    assert_true(moved > 100);
+    qdot_walk_end(&a);
+    qdot_walk_end(&b);
+    place_close(&other);
+}
+
+static void
 contains_agrees_with_the_walk(void **state)
 {
     (void)state;
@@ -135,6 +217,8 @@ main(void)
     const struct CMUnitTest tests[] = {
         TEST(every_reachable_node_stands_once_children_first),
         TEST(a_walk_from_several_roots_is_their_union),
+        TEST(by_height_each_node_stands_behind_lower_ones),
+        TEST(by_height_it_does_not_matter_when_nodes_were_made),
         TEST(contains_agrees_with_the_walk),
         TEST(atoms_stand_in_canonical_order),
         TEST(operations_are_counted),
