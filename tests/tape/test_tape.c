@@ -13,6 +13,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "tape/code.h"
 #include "tape/reference.h"
 #include "tape/shake.h"
 #include "tape/tape.h"
@@ -505,6 +506,44 @@ depth_is_no_limit(void **state)
     qdot_pool_free(pool);
 }
 
+/* Products of sines and cosines summed, made forwards or backwards; their tape. */
+static qdot_tape *
+made(bool backwards)
+{
+    enum { N = 9 };
+    qdot_pool *pool = qdot_pool_new();
+    qdot_expr q[N], sum = QDOT_ZERO;
+    qdot_tape *tape;
+
+    assert_non_null(pool);
+    for (int i = 0; i < N; i++)
+        q[i] = coordinate(pool, "q", i);
+    for (int j = 0; j < N; j++) {
+        int i = backwards ? N - 1 - j : j;
+        qdot_expr s = qdot_fun1(pool, QDOT_SIN, q[i]);
+        qdot_expr c = qdot_fun1(pool, QDOT_COS, q[(i + 4) % N]);
+
+        sum = qdot_add(pool, sum, qdot_mul(pool, qdot_mul(pool, s, c), q[(i + 7) % N]));
+    }
+    tape = lowered(pool, N, q, 1, &sum);
+    qdot_pool_free(pool);
+    return tape;
+}
+
+static void
+when_nodes_were_made_does_not_matter(void **state)
+{
+    qdot_tape *forwards = made(false), *backwards = made(true);
+
+    (void)state;
+    assert_int_equal(forwards->length, backwards->length);
+    assert_int_equal(forwards->output[0], backwards->output[0]);
+    assert_memory_equal(forwards->code, backwards->code,
+                        forwards->length * sizeof *forwards->code);
+    qdot_tape_free(forwards);
+    qdot_tape_free(backwards);
+}
+
 int
 main(void)
 {
@@ -524,6 +563,7 @@ main(void)
         cmocka_unit_test(vectors_are_refused),
         cmocka_unit_test(every_failed_allocation_is_survived),
         cmocka_unit_test(depth_is_no_limit),
+        cmocka_unit_test(when_nodes_were_made_does_not_matter),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
