@@ -15,7 +15,7 @@ judged_body(kit *k, const row *r)
     qdot_equilibria all;
 
     coords(k, r->coordinates);
-    must(qdot_scene_lagrangian(k->scene, E(k, r->L)));
+    must(qdot_scene_lagrangian(k->scene, E(k, "%s", r->L)));
     if (r->torque != NULL)
         torque(k, r->torque, r->on);
     must(qdot_equilibrium_find(k->scene, NULL, NULL, &all));

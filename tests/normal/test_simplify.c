@@ -333,8 +333,8 @@ static void
 entries_too_long_to_be_multiplied_out_are_kept(void **state)
 {
     static const char *const entries[] = {
-        "m*(a^2*cos(x)^2 + (sin(x + z) - x/sqrt(x^2 + 1) - 3)^2 + 1) + "
-        "L*(sin(x + z)^2 + (2/3*x + 1/(x^2 + 1))^2 + (sin(x) + x*cos(x))^2)",
+        ("m*(a^2*cos(x)^2 + (sin(x + z) - x/sqrt(x^2 + 1) - 3)^2 + 1) + "
+         "L*(sin(x + z)^2 + (2/3*x + 1/(x^2 + 1))^2 + (sin(x) + x*cos(x))^2)"),
         "m*atan(x)*exp(y)*(1 + sqrt(2 + y^2))", "m*atan(x)*exp(y)*(1 + sqrt(2 + y^2))",
         "L*(3 + cosh(y)^2 + (1 + sin(x)*y)^2) + m*(y^2 + (log(2 + x^2) - y)^4)"};
     static const char *const rights[] = {"m*(a + sin(x))^3*sqrt(1 + x^2) - y*cos(z)",

@@ -16,6 +16,10 @@
 
 typedef double complex number;
 
+#ifndef CMPLX /* glibc has it for gcc alone */
+#define CMPLX(re, im) __builtin_complex((double)(re), (double)(im))
+#endif
+
 /* --- operations over complex numbers ------------------------------------------------- */
 
 static number
