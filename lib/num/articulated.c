@@ -61,7 +61,7 @@ struct qdot_articulated {
 enum { shapes = 4 };
 
 #define NAME(x) portable_##x
-#define MA(a, b, c) ((a) * (b) + (c))
+#define MA(a, b, c) QDOT_VECTOR_MA(portable_vector, a, b, c)
 #include "num/articulated.def"
 #undef NAME
 #undef MA

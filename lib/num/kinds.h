@@ -49,6 +49,23 @@ qdot_kind_is_here(size_t kind)
     }
 }
 
+/* a b + c for portable kernels, of numbers and of vectors: fused where the machine that is compiled
+ * for always does that in one instruction (ARM64), and two roundings elsewhere. */
+#ifdef __FP_FAST_FMA
+#define QDOT_MA(a, b, c) __builtin_fma(a, b, c)
+#define QDOT_VECTOR_MA(type, a, b, c)                                                    \
+    ({                                                                                   \
+        const type a_ = (a), b_ = (b);                                                   \
+        type c_ = (c);                                                                   \
+        for (size_t i_ = 0; i_ < sizeof c_ / sizeof c_[0]; i_++)                         \
+            c_[i_] = __builtin_fma(a_[i_], b_[i_], c_[i_]);                              \
+        c_;                                                                              \
+    })
+#else
+#define QDOT_MA(a, b, c) ((a) * (b) + (c))
+#define QDOT_VECTOR_MA(type, a, b, c) ((a) * (b) + (c))
+#endif
+
 /* A kernel for each number of terms that is unrolled. */
 #define ROWS(X)                                                                          \
     X(0)                                                                                 \

@@ -72,8 +72,8 @@ reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights
 #define LANES 4
 #define NAME(x) portable_##x
 #define LABEL "portable"
-#define MA(a, b, c) ((a) * (b) + (c))
-#define VECTOR_MA(a, b, c) ((a) * (b) + (c))
+#define MA(a, b, c) QDOT_MA(a, b, c)
+#define VECTOR_MA(a, b, c) QDOT_VECTOR_MA(portable_vector, a, b, c)
 #define VECTOR_LARGER(a, b) PORTABLE_PICK(portable_integers, (a) > (b), a, b)
 #define VECTOR_LESS(a, b) PORTABLE_PICK(portable_vector, (a) < (b), a, b)
 #define FOUR_MORE(a, b) PORTABLE_PICK(portable_four, (a) > (b), a, b)

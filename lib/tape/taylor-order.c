@@ -83,7 +83,7 @@ qdot_taylor_value(qdot_taylor_step *i)
 typedef void step_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
 
 #define NAME(x) portable_##x
-#define MA(a, b, c) ((a) * (b) + (c))
+#define MA(a, b, c) QDOT_MA(a, b, c)
 #include "tape/taylor-order.def"
 #undef NAME
 #undef MA

@@ -65,7 +65,7 @@ copy(const group *g, double *at)
 
 #define LANES 4
 #define NAME(x) portable_##x
-#define MA(a, b, c) ((a) * (b) + (c))
+#define MA(a, b, c) QDOT_VECTOR_MA(portable_vector, a, b, c)
 #include "tape/taylor-wide.def"
 #undef NAME
 #undef MA
