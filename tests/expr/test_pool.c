@@ -107,7 +107,7 @@ a_budget_bounds_the_work(void **state)
     assert_true(before == UINT64_MAX);
     for (; i < 5000 && e != QDOT_NIL; i++)
         e = qdot_add(p.pool, qdot_fun1(p.pool, QDOT_SIN, e), p.symbol[0]);
-    assert_in_range(i, 100, 1001);
+    assert_true(i >= 100 && i <= 1001);
     assert_int_equal(qdot_pool_budget(p.pool, UINT64_MAX), 0);
     assert_int_equal(qdot_pool_check(p.pool), QDOT_ELIMIT);
     assert_int_not_equal(qdot_fun1(p.pool, QDOT_COS, p.symbol[5]), QDOT_NIL);

@@ -390,7 +390,7 @@ orders_stay_narrow_where_wider_ones_cost(void **state)
     const int smooth = qdot_ode_taylor_order(&series, 1e-3, false, 0);
 
     (void)state;
-    assert_in_range(smooth, 19, 24);
+    assert_true(smooth >= 19 && smooth <= 24);
     series.wider = 300;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 18);
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 3), 21);

@@ -288,8 +288,8 @@ long_logarithmic_axes_have_even_marks(void **state)
     assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
     text = take("a.svg");
     assert_int_equal(times(text, "1e-10<"), 1);
-    assert_in_range(times(text, "1e-"), 5, 9);
-    assert_in_range(times(text, " M"), 0, 10); /* no marks of 2, 3, ... 9 times what is labelled */
+    assert_true(times(text, "1e-") >= 5 && times(text, "1e-") <= 9);
+    assert_true(times(text, " M") <= 10); /* no marks of 2, 3, ... 9 times what is labelled */
     free(text);
 }
 
