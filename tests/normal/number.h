@@ -136,12 +136,15 @@ number_of_node(const qdot_pool *pool, const qdot_walk *w, mpfr_t *value, qdot_ex
     mpfr_init2(y, mpfr_get_prec(x));
     switch (qdot_expr_kind(pool, e)) {
     case QDOT_NUM: {
+        /* FLINT 3.6 knows GMP's types only if it was included behind GMP */
+        char *digits = fmpq_get_str(NULL, 10, qdot_expr_rational(pool, e));
         mpq_t q;
 
         mpq_init(q);
-        fmpq_get_mpq(q, qdot_expr_rational(pool, e));
+        mpq_set_str(q, digits, 10);
         mpfr_set_q(x, q, MPFR_RNDN);
         mpq_clear(q);
+        flint_free(digits);
         break;
     }
     case QDOT_SYM: number_of_symbol(pool, e, k, x); break;

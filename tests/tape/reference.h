@@ -26,13 +26,15 @@ static const long double eps = 0x1p-52L;
 static inline reference_value
 rational(const fmpq *x)
 {
+    char *digits = fmpq_get_str(NULL, 10, x);
     mpfr_t m;
     mpq_t q;
     reference_value r;
 
     mpfr_init2(m, 64);
     mpq_init(q);
-    fmpq_get_mpq(q, x);
+    mpq_set_str(q, digits, 10);
+    flint_free(digits);
     mpfr_set_q(m, q, MPFR_RNDN);
     mpq_clear(q);
     r.v = mpfr_get_ld(m, MPFR_RNDN);
