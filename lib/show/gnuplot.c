@@ -119,6 +119,13 @@ spawn_with(pid_t *child, const plumbing *p, posix_spawn_file_actions_t *actions,
 }
 
 static qdot_status
+missing(void)
+{
+    qdot_fail(QDOT_EIO, "figures are drawn by gnuplot, which is not installed");
+    return qdot_hint("apt install gnuplot-nox");
+}
+
+static qdot_status
 start(pid_t *child, const plumbing *p)
 {
     posix_spawn_file_actions_t actions;
@@ -135,10 +142,8 @@ start(pid_t *child, const plumbing *p)
     }
     if (failed == 0)
         return QDOT_OK;
-    if (failed == ENOENT) {
-        qdot_fail(QDOT_EIO, "figures are drawn by gnuplot, which is not installed");
-        return qdot_hint("apt install gnuplot-nox");
-    }
+    if (failed == ENOENT)
+        return missing();
     errno = failed;
     return broken("start gnuplot");
 }
@@ -177,9 +182,10 @@ finish(pid_t child, bool stop)
 }
 
 /* The first line in `said` (gnuplot's standard error) that tells what is wrong, as the
- * failure. Its errors read `line 12: what`, after an echo of the line and a caret. */
+ * failure. Its errors read `line 12: what`, after an echo of the line and a caret. Some systems
+ * tell of a program that is not there only by how the child ended. */
 static qdot_status
-complain(int said)
+complain(int said, int ended)
 {
     qdot_text all = {0};
     const char *line = "it says nothing", *found = NULL;
@@ -206,7 +212,10 @@ complain(int said)
         if (found != NULL)
             line = found;
     }
-    status = qdot_fail(QDOT_EIO, "gnuplot failed: %.300s", line);
+    if (found == NULL && WIFEXITED(ended) && WEXITSTATUS(ended) == 127)
+        status = missing();
+    else
+        status = qdot_fail(QDOT_EIO, "gnuplot failed: %.300s", line);
     qdot_text_clear(&all);
     return status;
 }
@@ -238,7 +247,7 @@ qdot_gnuplot_run(const qdot_text *script, qdot_text *image)
     if (status == QDOT_OK)
         status = qdot_interrupt_check();
     if (status == QDOT_OK && (ended != 0 || (image != NULL && image->n == before)))
-        status = complain(p.fd[SAID]);
+        status = complain(p.fd[SAID], ended);
     unplumb(&p);
     return status;
 }

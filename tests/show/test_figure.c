@@ -385,6 +385,8 @@ a_gnuplot_that_fails_is_told(void **state)
                      QDOT_EIO); /* reads and writes nothing */
     assert_int_equal(with_gnuplot("echo half; exit 3", "a.svg"), QDOT_EIO);
     assert_int_equal(with_gnuplot("echo half; kill -9 $$", "a.svg"), QDOT_EIO);
+    assert_int_equal(with_gnuplot("exit 127", "a.svg"), QDOT_EIO); /* a spawn that failed late */
+    assert_string_equal(qdot_last_error()->hint, "apt install gnuplot-nox");
     assert_int_equal(with_gnuplot("echo 'plot x' >&2; echo '     ^' >&2;"
                                   "echo '     line 0: no such thing' >&2; exit 1",
                                   "a.svg"),

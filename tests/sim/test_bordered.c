@@ -248,7 +248,10 @@ it_is_for_few_unknowns_and_loose_tolerances(void **state)
     (void)state;
     road(&f);
     must(qdot_plan_new(f.scene, &f.request, &plan));
-    assert_true((plan->bordered || plan->eliminated) == qdot_taylor_may_be_code());
+    if (qdot_taylor_may_be_code())
+        assert_true(plan->bordered || plan->eliminated);
+    else
+        assert_false(plan->bordered);
     qdot_plan_free(plan);
     f.request.tol = 1e-12;
     must(qdot_plan_new(f.scene, &f.request, &plan));
