@@ -410,6 +410,7 @@ sim_sources = \
 	lib/sim/nearest.c \
 	lib/sim/noise.c \
 	lib/sim/over-root.c \
+	lib/sim/parameter-states.c \
 	lib/sim/parts.c \
 	lib/sim/passed.c \
 	lib/sim/piece-end.c \
@@ -482,6 +483,7 @@ sim_headers = \
 	lib/sim/nearest.h \
 	lib/sim/noise.h \
 	lib/sim/over-root.h \
+	lib/sim/parameter-states.h \
 	lib/sim/parts.h \
 	lib/sim/passed.h \
 	lib/sim/piece.h \

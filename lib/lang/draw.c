@@ -424,7 +424,7 @@ whole_state(qdot_session *session, qdot_run *run, qdot_draw_operands *list)
     const qdot_run_report *report = qdot_run_get_report(run);
 
     for (unsigned order = 0; order < 2; order++)
-        for (size_t i = 0; i < report->n; i++) {
+        for (size_t i = 0; i < report->n - (order > 0 ? report->n_states : 0); i++) {
             qdot_expr jet = qdot_symbol_jet(session->pool, report->coordinates[i], order);
 
             QDOT_TRY(push_symbol(session, run, jet, list));

@@ -10,31 +10,46 @@
 
 /* --- declared ------------------------------------------------------------------------ */
 
+/* What `then` may set: a coordinate, a velocity, a parameter. */
 static qdot_status
-need_no_parameter(qdot_cursor *c)
+read_target(qdot_cursor *c, qdot_expr *target)
 {
-    qdot_cursor look = *c;
+    const qdot_token *start = c->at;
     const qdot_name *known;
+    qdot_cursor look = *c;
     const char *name;
 
-    if (c->at->kind != QDOT_TOKEN_NAME || qdot_read_name(&look, &name) != QDOT_OK)
-        return QDOT_OK;
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return qdot_number_read_jet(c, target);
+    QDOT_TRY(qdot_read_name(&look, &name));
     known = qdot_names_find(c->session->names, name);
-    if (known == NULL || known->kind != QDOT_NAME_PARAM)
+    if (known != NULL && known->kind == QDOT_NAME_PARAM) {
+        *c = look;
+        *target = known->value;
         return QDOT_OK;
-    c->error_at = c->at->start;
-    return qdot_fail(QDOT_ENOTBUILT, "not built yet: an event that sets a parameter");
+    }
+    if (known != NULL && known->kind == QDOT_NAME_COORD)
+        return qdot_number_read_jet(c, target);
+    c->error_at = start->start;
+    if (known == NULL) {
+        const char *near = qdot_names_nearest(c->session->names, name, 0, NULL);
+
+        (void)qdot_fail(QDOT_ENAME, "there is no coordinate and no parameter `%s`", name);
+        return near != NULL ? qdot_hint("did you mean `%s`?", near)
+                            : qdot_hint("param %s declares it", name);
+    }
+    (void)qdot_fail(QDOT_ENAME, "`%s` is not a coordinate or a parameter", name);
+    return qdot_hint("`then` sets coordinates, velocities and parameters");
 }
 
-/* `Q = VALUE, Q' = VALUE` behind `then`. */
+/* `Q = VALUE, Q' = VALUE, PARAMETER = VALUE` behind `then`. */
 static qdot_status
 read_changes(qdot_cursor *c, qdot_event *event)
 {
     do {
         qdot_expr jet, value;
 
-        QDOT_TRY(need_no_parameter(c));
-        QDOT_TRY(qdot_number_read_jet(c, &jet));
+        QDOT_TRY(read_target(c, &jet));
         QDOT_TRY(qdot_cursor_expect_op(c, "="));
         QDOT_TRY(qdot_read_scalar(c, &value));
         value = qdot_number_without_measured(c->session, value);

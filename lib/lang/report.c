@@ -41,42 +41,59 @@ double_number(qdot_session *session, double value, double error, qdot_text *numb
                                            : NAN);
 }
 
-/* The jets q_i and q_i' of coordinate i with their values at the end, then the
- * multipliers, to `each`. */
+/* What is at the end: jets, parameters that events set, multipliers. */
+typedef struct {
+    qdot_expr symbol;
+    double value, error; /* relative to max(1, |value|) */
+    size_t exact;        /* its place in report->exact */
+    bool first;          /* of a line */
+} end_number;
+
+/* Number k: q_0, q_0', q_1 ..., then the parameters, then the multipliers. */
+static end_number
+number_at(qdot_session *session, const qdot_run_report *r, size_t k)
+{
+    const size_t n = r->n - r->n_states;
+
+    if (k >= 2 * n + r->n_states) {
+        const size_t i = k - 2 * n - r->n_states;
+
+        return (end_number){r->multipliers[i], r->lambda[i],
+                            r->lambda_error[i] / fmax(1, fabs(r->lambda[i])), 2 * r->n + i,
+                            i % 2 == 0};
+    }
+    if (k >= 2 * n)
+        return (end_number){r->coordinates[k - n], r->q[k - n], r->error, k - n, true};
+    if (k % 2 == 0)
+        return (end_number){r->coordinates[k / 2], r->q[k / 2], r->error, k / 2, true};
+    return (end_number){qdot_symbol_jet(session->pool, r->coordinates[k / 2], 1), r->v[k / 2],
+                        r->error, r->n + k / 2, false};
+}
+
+/* All of them, with their values at the end, to `each`. */
 static qdot_status
 each_state(qdot_session *session, const qdot_run_report *report, qdot_style style,
-           void (*each)(qdot_text *line, size_t k, const char *name, const char *number),
+           void (*each)(qdot_text *line, size_t k, bool first, const char *name,
+                        const char *number),
            qdot_text *line)
 {
-    for (size_t k = 0; k < 2 * report->n + report->m; k++) {
-        size_t i = k / 2;
-        bool multiplier = i >= report->n;
-        qdot_expr jet =
-            multiplier   ? report->multipliers[k - 2 * report->n]
-            : k % 2 == 0 ? report->coordinates[i]
-                         : qdot_symbol_jet(session->pool, report->coordinates[i], 1);
-        double value = multiplier   ? report->lambda[k - 2 * report->n]
-                       : k % 2 == 0 ? report->q[i]
-                                    : report->v[i];
+    const size_t numbers = 2 * report->n - report->n_states + report->m;
+
+    for (size_t k = 0; k < numbers; k++) {
+        const end_number x = number_at(session, report, k);
+        const bool exact = report->exact != NULL && report->exact[x.exact] != QDOT_NIL;
         qdot_text name = {0}, number = {0};
         qdot_status status = qdot_pool_check(session->pool);
 
         if (status == QDOT_OK)
-            status = qdot_print(session->pool, jet, style, &name);
-        if (status == QDOT_OK && report->exact != NULL &&
-            (!multiplier || report->exact[k] != QDOT_NIL))
-            status = exact_number(session, report, multiplier ? k : k % 2 * report->n + i,
-                                  multiplier ? report->lambda_error[k - 2 * report->n]
-                                             : report->error * fmax(1, fabs(value)),
+            status = qdot_print(session->pool, x.symbol, style, &name);
+        if (status == QDOT_OK && exact)
+            status = exact_number(session, report, x.exact, x.error * fmax(1, fabs(x.value)),
                                   &number);
         else if (status == QDOT_OK)
-            double_number(session, value,
-                          multiplier ? report->lambda_error[k - 2 * report->n]
-                                           / fmax(1, fabs(value))
-                                     : report->error,
-                          &number);
+            double_number(session, x.value, x.error, &number);
         if (status == QDOT_OK)
-            each(line, k, qdot_text_str(&name), qdot_text_str(&number));
+            each(line, k, x.first, qdot_text_str(&name), qdot_text_str(&number));
         qdot_text_clear(&name);
         qdot_text_clear(&number);
         QDOT_TRY(status);
@@ -85,8 +102,9 @@ each_state(qdot_session *session, const qdot_run_report *report, qdot_style styl
 }
 
 static void
-state_json(qdot_text *line, size_t k, const char *name, const char *number)
+state_json(qdot_text *line, size_t k, bool first, const char *name, const char *number)
 {
+    (void)first;
     if (k > 0)
         qdot_text_char(line, ',');
     qdot_text_json(line, name);
@@ -95,9 +113,10 @@ state_json(qdot_text *line, size_t k, const char *name, const char *number)
 }
 
 static void
-state_text(qdot_text *line, size_t k, const char *name, const char *number)
+state_text(qdot_text *line, size_t k, bool first, const char *name, const char *number)
 {
-    qdot_text_add(line, k % 2 == 0 ? "\n    " : ", ");
+    (void)k;
+    qdot_text_add(line, first ? "\n    " : ", ");
     qdot_text_add(line, name);
     qdot_text_add(line, " = ");
     qdot_text_add(line, number);

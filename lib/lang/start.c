@@ -268,7 +268,7 @@ start_from_run(qdot_cursor *c)
     c->error_at = start->start;
     QDOT_TRY(qdot_number_find_run(session, name, &run));
     report = qdot_run_get_report(run->run);
-    for (size_t i = 0; i < report->n; i++) {
+    for (size_t i = 0; i < report->n - report->n_states; i++) {
         qdot_expr q = report->coordinates[i], v = qdot_symbol_jet(session->pool, q, 1);
         qdot_expr q0, v0;
 
@@ -404,6 +404,55 @@ order_start(qdot_session *session, qdot_number_order *o)
     return QDOT_OK;
 }
 
+/* Whether an event sets it, in a run. */
+static bool
+is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
+{
+    for (size_t i = 0; i < scene->events.n; i++)
+        for (size_t k = 0; k < scene->events.at[i].targets.n; k++)
+            if (scene->events.at[i].targets.at[k] == symbol)
+                return true;
+    return false;
+}
+
+/* The values, those of parameters that events set apart: what holds one of these follows it. */
+static qdot_status
+order_values(qdot_session *session, qdot_number_order *o)
+{
+    const size_t n = session->set_symbols.n;
+    qdot_expr *const at = session->set_values.at;
+    qdot_expr *kept = qdot_calloc(n + 1, sizeof *kept), *first = qdot_calloc(n + 1, sizeof *first);
+    qdot_status status = kept && first ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        first[i] = qdot_session_bind(session, at[i]);
+        status = qdot_pool_check(session->pool);
+        if (status == QDOT_OK &&
+            qdot_expr_is_class(session->pool, session->set_symbols.at[i], QDOT_PARAM))
+            status = qdot_declare_in_domain(session, session->set_symbols.at[i], first[i]);
+    }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        kept[i] = at[i];
+        if (is_set_by_event(session->scene, session->set_symbols.at[i]))
+            at[i] = session->set_symbols.at[i];
+    }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        const qdot_expr symbol = session->set_symbols.at[i];
+
+        status = qdot_number_push_pair(&o->values, NULL, symbol,
+                                       at[i] == symbol ? first[i]
+                                                       : qdot_session_bind(session, at[i]));
+        if (status == QDOT_OK)
+            status = qdot_pool_check(session->pool);
+    }
+    for (size_t i = 0; kept && i < n; i++)
+        if (kept[i] != QDOT_NIL)
+            at[i] = kept[i];
+    qdot_free(kept);
+    qdot_free(first);
+    return status;
+}
+
 /* The values and the start of the moment. */
 qdot_status
 qdot_number_fill_order(qdot_session *session, qdot_number_order *o)
@@ -413,15 +462,7 @@ qdot_number_fill_order(qdot_session *session, qdot_number_order *o)
                         "there is nothing to integrate: no coordinate is declared");
         return qdot_hint("coord theta");
     }
-    for (size_t i = 0; i < session->set_symbols.n; i++) {
-        qdot_expr symbol = session->set_symbols.at[i];
-        qdot_expr value = qdot_session_bind(session, session->set_values.at[i]);
-
-        QDOT_TRY(qdot_pool_check(session->pool));
-        if (qdot_expr_is_class(session->pool, symbol, QDOT_PARAM))
-            QDOT_TRY(qdot_declare_in_domain(session, symbol, value));
-        QDOT_TRY(qdot_number_push_pair(&o->values, NULL, symbol, value));
-    }
+    QDOT_TRY(order_values(session, o));
     QDOT_TRY(qdot_values_check_assumed(session));
     QDOT_TRY(order_start(session, o));
     o->request.n_values = o->values.symbols.n;

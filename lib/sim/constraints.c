@@ -61,7 +61,7 @@ add_slopes(builder *b, size_t k)
     size_t capacity = b->c->n_slopes;
 
     QDOT_TRY(qdot_pool_check(p->pool));
-    for (size_t i = 0; i < p->n; i++) {
+    for (size_t i = 0; i < p->n - p->n_states; i++) {
         qdot_expr x = jet(p, i, row->kind), slope;
         bool there = false;
 
@@ -82,6 +82,18 @@ add_slopes(builder *b, size_t k)
     return QDOT_OK;
 }
 
+/* e with the rates of parameters that events set, which are 0. */
+static qdot_expr
+without_rates(const qdot_plan *p, qdot_expr e)
+{
+    for (size_t i = p->n - p->n_states; i < p->n && e != QDOT_NIL; i++) {
+        const qdot_expr zero = QDOT_ZERO;
+
+        e = qdot_subs(p->pool, e, 1, &p->inputs[p->n + i], &zero);
+    }
+    return e;
+}
+
 /* Residuals, and gamma = -(what is left of the last derivative at q'' = 0). */
 static qdot_status
 add_derivatives(builder *b, size_t k)
@@ -92,12 +104,12 @@ add_derivatives(builder *b, size_t k)
 
     if (row->kind == QDOT_HOLONOMIC) {
         QDOT_TRY(qdot_vec_push(&b->positions, f));
-        f = qdot_ddt(p->pool, f);
+        f = without_rates(p, qdot_ddt(p->pool, f));
     }
     if (row->kind != QDOT_ACCELERATION) {
         QDOT_TRY(qdot_pool_check(p->pool));
         QDOT_TRY(qdot_vec_push(&b->velocities, f));
-        f = qdot_ddt(p->pool, f);
+        f = without_rates(p, qdot_ddt(p->pool, f));
     }
     QDOT_TRY(qdot_pool_check(p->pool));
     zeros = qdot_calloc(p->n, sizeof *zeros);
@@ -112,7 +124,7 @@ add_derivatives(builder *b, size_t k)
 
         QDOT_TRY(qdot_rates_second(p->pool, row->f, &shared));
         if (shared != QDOT_NIL)
-            rest = shared;
+            rest = without_rates(p, shared);
     }
     rest = qdot_neg(p->pool, rest);
     QDOT_TRY(qdot_pool_check(p->pool));

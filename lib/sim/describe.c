@@ -34,6 +34,8 @@ static void
 say_mass(const qdot_plan *p, qdot_text *out)
 {
     const char *when = p->method->series ? "once a step" : "at every evaluation";
+    const size_t n = p->n - p->n_kept - p->n_states; /* a parameter is a block of its own */
+    const size_t blocks = p->structure.blocks - p->n_states;
     size_t single = 0, constant = 0, largest = 0;
 
     for (size_t k = 0; k < p->structure.blocks; k++) {
@@ -44,21 +46,21 @@ say_mass(const qdot_plan *p, qdot_text *out)
     }
     if (p->n_kept > 0)
         say_kept(p, out);
-    if (p->structure.blocks == 0)
+    if (blocks == 0)
         return;
+    single -= p->n_states;
     qdot_text_format(out, "mass matrix%s: %zu x %zu, ",
-                     p->n_kept > 0 ? " of the others" : "", p->n - p->n_kept,
-                     p->n - p->n_kept);
-    if (single == p->structure.blocks) {
+                     p->n_kept > 0 ? " of the others" : "", n, n);
+    if (single == blocks) {
         qdot_text_add(out, "diagonal: the accelerations are divisions, nothing is "
                            "factored\n");
         return;
     }
-    if (p->structure.blocks == 1)
+    if (blocks == 1)
         qdot_text_add(out, "full");
     else
         qdot_text_format(out, "%zu blocks that do not couple, the largest %zu x %zu",
-                         p->structure.blocks, largest, largest);
+                         blocks, largest, largest);
     if (p->tree_nodes > 0 && p->method->series) {
         qdot_text_format(out, "; not formed: eliminated once a step along a %s of %zu, %s\n",
                          p->tree_is_path ? "chain" : "tree", p->tree_nodes,
@@ -67,7 +69,7 @@ say_mass(const qdot_plan *p, qdot_text *out)
     }
     qdot_text_format(out, "; %s",
                      p->indefinite ? "LDL^T, it may be indefinite" : "Cholesky");
-    if (constant + single == p->structure.blocks)
+    if (constant + single == blocks)
         qdot_text_add(out, "; constant: factored once\n");
     else if (constant > 0)
         qdot_text_format(out,
@@ -113,7 +115,7 @@ say_constraints(const qdot_plan *p, qdot_text *out)
     const char *before = "";
 
     qdot_text_format(out, "mass matrix: %zu x %zu, %zu entries in its lower triangle\n",
-                     p->n, p->n, c->n_masses);
+                     p->n - p->n_states, p->n - p->n_states, c->n_masses - p->n_states);
     qdot_text_format(out, "constraints: %zu:", c->m);
     for (int kind = 0; kind < 3; kind++)
         if (c->count[kind] > 0) {
@@ -312,8 +314,22 @@ say_switches(const qdot_stage *s, qdot_text *out)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
+/* What is integrated: coordinates, and parameters that events set. */
+static void
+say_coordinates(const qdot_plan *p, qdot_text *out)
+{
+    const size_t n = p->n - p->n_states;
+
+    qdot_text_format(out, "coordinates: %zu:", n);
+    for (size_t i = 0; i < p->n; i++) {
+        if (i == n)
+            qdot_text_add(out, "\nparameters that events set:");
+        qdot_text_format(out, "%s %s", i != 0 && i != n ? "," : "", p->names[i]);
+    }
+}
+
+static qdot_status
+describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
 {
     qdot_stage stage = {0};
     qdot_status status = qdot_stage_begin(&stage, scene, request);
@@ -323,9 +339,7 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
         qdot_stage_clear(&stage);
         return status;
     }
-    qdot_text_format(out, "coordinates: %zu:", p->n);
-    for (size_t i = 0; i < p->n; i++)
-        qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
+    say_coordinates(p, out);
     qdot_text_add(out, p->constraints
                            ? "\nequations: M q'' = f + A^T lambda with the constraints, as "
                              "y = (q, q')\n"
@@ -359,4 +373,16 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
         status = say_switches(&stage, out);
     qdot_stage_clear(&stage);
     return status == QDOT_OK ? qdot_text_status(out) : status;
+}
+
+qdot_status
+qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
+{
+    qdot_parameter_states states = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
+    status = describe(scene, &states.request, out);
+    qdot_parameter_states_clear(&states);
+    return status;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "expr/print.h"
+#include "sim/parameter-states.h"
 
 void
 qdot_domains_clear(qdot_domains *d)
@@ -42,12 +43,23 @@ describe(const qdot_plan *p, const qdot_symbol *s, const char *name, char **text
 }
 
 static qdot_status
-bound(const qdot_plan *p, qdot_expr e, double none, double *value)
+bound(const qdot_plan *p, const char *name, qdot_expr e, double none, double *value)
 {
+    bool some, moves;
+
     *value = none;
     if (e == QDOT_NIL)
         return QDOT_OK;
-    return qdot_tape_constant(p->pool, qdot_plan_substitute(p, e), value);
+    e = qdot_plan_substitute(p, e);
+    QDOT_TRY(qdot_pool_check(p->pool));
+    QDOT_TRY(qdot_parameter_states_occur(p, e, &some, &moves));
+    if (some) {
+        qdot_fail(QDOT_EINVAL,
+                  "the domain of %.100s holds a parameter that an event sets: it would move",
+                  name);
+        return qdot_hint("an event that stops the run, with the bound in it");
+    }
+    return qdot_tape_constant(p->pool, e, value);
 }
 
 qdot_status
@@ -63,8 +75,8 @@ qdot_domains_find(const qdot_plan *p, qdot_domains *d)
         if (s.lo == QDOT_NIL && s.hi == QDOT_NIL)
             continue;
         *x = (qdot_domain){.coordinate = i, .lo_open = s.lo_open, .hi_open = s.hi_open};
-        QDOT_TRY(bound(p, s.lo, -INFINITY, &x->lo));
-        QDOT_TRY(bound(p, s.hi, INFINITY, &x->hi));
+        QDOT_TRY(bound(p, p->names[i], s.lo, -INFINITY, &x->lo));
+        QDOT_TRY(bound(p, p->names[i], s.hi, INFINITY, &x->hi));
         QDOT_TRY(describe(p, &s, p->names[i], &x->text));
         d->n++;
     }

@@ -63,6 +63,10 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
             set[e->targets[i]] = true;
         }
     }
+    for (size_t i = p->n - p->n_states; status == QDOT_OK && i < p->n; i++)
+        set[i] = set[p->n + i] = true; /* no constraint moves a parameter */
+    if (status == QDOT_OK)
+        status = qdot_parameter_conditions_check(&x->c->stage->conditions, e->name, t, y, p->n);
     if (status == QDOT_OK && held)
         status = qdot_constrained_put(held, t, y, set, e->name);
     qdot_free(in);

@@ -10,6 +10,7 @@
 #include "sim/constraints.h"
 #include "sim/direct.h"
 #include "sim/eliminated.h"
+#include "sim/parameter-states.h"
 #include "sim/parts.h"
 #include "sim/quotient.h"
 #include "sim/residual.h"
@@ -136,7 +137,7 @@ copy_values(qdot_plan *p, const qdot_run_request *request)
 }
 
 static qdot_status
-name_coordinates(qdot_plan *p, const qdot_scene *scene)
+name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
     size_t n = p->n, m = scene->constraints.n;
 
@@ -145,7 +146,7 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene)
     if (!p->inputs || !p->names)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++) {
-        qdot_expr q = scene->coordinates.at[i];
+        qdot_expr q = qdot_parameter_states_coordinate(scene, request, i);
 
         p->inputs[i] = q;
         p->inputs[n + i] = qdot_symbol_jet(p->pool, q, 1);
@@ -164,7 +165,7 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene)
 static qdot_status
 derive(qdot_plan *p, qdot_scene *scene)
 {
-    size_t n = p->n;
+    const size_t n = p->n, m = n - p->n_states;
     qdot_expr M = qdot_mech_numeric_mass(scene), f = qdot_mech_numeric_forcing(scene);
 
     p->M = qdot_calloc(n * n, sizeof *p->M);
@@ -177,9 +178,12 @@ derive(qdot_plan *p, qdot_scene *scene)
     }
     QDOT_TRY(qdot_pool_check(p->pool));
     for (size_t i = 0; i < n; i++) {
-        p->f[i] = qdot_expr_arg(p->pool, f, (uint32_t)i);
+        p->f[i] = i < m ? qdot_expr_arg(p->pool, f, (uint32_t)i) : QDOT_ZERO;
         for (size_t j = 0; j < n; j++)
-            p->M[i * n + j] = qdot_expr_arg(p->pool, M, (uint32_t)(i * n + j));
+            p->M[i * n + j] = i < m && j < m
+                                  ? qdot_expr_arg(p->pool, M, (uint32_t)(i * m + j))
+                              : i == j ? QDOT_ONE
+                                       : QDOT_ZERO;
     }
     if (p->mode) {
         QDOT_TRY(qdot_switches_freeze(p->mode, p->side, n * n, p->M, p->M));
@@ -357,8 +361,8 @@ choose_form(qdot_plan *p, qdot_scene *scene)
     QDOT_TRY(qdot_plan_measure(p));
     for (size_t k = 0; k < p->structure.blocks; k++)
         coupled |= p->blocks[k].n > 1 && !p->blocks[k].constant;
-    /* d'Alembert's form is made of the scene, which switches */
-    if (p->mode && p->mode->atoms.n > 0)
+    /* d'Alembert's form is made of the scene, which switches, and of constant masses */
+    if ((p->mode && p->mode->atoms.n > 0) || p->n_states > 0)
         coupled = false;
     status = coupled ? qdot_residual_new(scene, p, &residual) : QDOT_OK;
     if (status == QDOT_OK && residual)
@@ -435,7 +439,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(find_method(p, request->method));
     QDOT_TRY(copy_values(p, request));
-    QDOT_TRY(name_coordinates(p, scene));
+    QDOT_TRY(name_coordinates(p, scene, request));
     QDOT_TRY(derive(p, scene));
     if (scene->constraints.n > 0)
         return constrain(p, scene, request);
@@ -492,7 +496,8 @@ qdot_plan_in_mode(qdot_scene *scene, const qdot_run_request *request,
     if (!p)
         return QDOT_ENOMEM;
     p->pool = scene->pool;
-    p->n = scene->coordinates.n;
+    p->n = qdot_parameter_states_coordinates(scene, request);
+    p->n_states = request->n_states;
     p->mode = switches;
     p->side = side;
     status = make(p, scene, request);

@@ -39,6 +39,7 @@ typedef struct qdot_plan qdot_plan;
 struct qdot_plan {
     qdot_pool *pool; /* borrowed */
     size_t n;        /* coordinates */
+    size_t n_states; /* the last of them: parameters that events set (sim/parameter-states.h) */
     qdot_expr *inputs; /* [3n + 1 + m] q, q', t, q'', lambda of m constraints */
     char **names;      /* [n] of the coordinates; owned */
     qdot_expr *M;      /* [n x n] */

@@ -87,6 +87,13 @@ in_scene(const routh *e, size_t i)
     return e->p->place ? e->p->place[i] : i;
 }
 
+/* Whether it is a parameter that events set (sim/parameter-states.h). */
+static bool
+is_state(const routh *e, size_t i)
+{
+    return in_scene(e, i) >= e->scene->coordinates.n;
+}
+
 /* How many coordinates one couples with in M. */
 static size_t
 coupled(const routh *e, size_t i)
@@ -106,7 +113,7 @@ find_cyclic(routh *e, bool *some)
         qdot_cyclic c;
         bool is, applied;
 
-        if (!may_be_absent(e, i) || !is_linear(e, i) || coupled(e, i) >= MOST_COUPLED)
+        if (is_state(e, i) || !may_be_absent(e, i) || !is_linear(e, i) || coupled(e, i) >= MOST_COUPLED)
             continue;
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(qdot_mech_cyclic_at(e->scene, in_scene(e, i), &c, &is));
@@ -242,6 +249,7 @@ begin_plan(const routh *e, qdot_plan **out)
 
     QDOT_TRY(qdot_plan_of_part(p, n, e->h, out));
     r = *out;
+    r->n_states = p->n_states;
     r->n_kept = e->h;
     r->kept = qdot_calloc(e->h, sizeof *r->kept);
     if (!r->kept)

@@ -14,6 +14,7 @@
 #include "sim/hidden.h"
 #include "sim/horizon.h"
 #include "sim/integrated.h"
+#include "sim/parameter-states.h"
 #include "sim/precise.h"
 #include "sim/start.h"
 #include "tape/constant.h"
@@ -380,6 +381,7 @@ fill_report(qdot_run *run, double tol)
     r->doubt = run->doubt;
     r->cpu = stats->cpu;
     r->n = p->n;
+    r->n_states = p->n_states;
     r->coordinates = p->inputs;
     r->q = last_state(run);
     r->v = r->q + p->n;
@@ -604,17 +606,15 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     return status;
 }
 
-qdot_status
-qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+static qdot_status
+make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **out)
 {
     const qdot_run_request precise = qdot_precise_request(asked);
     const qdot_run_request *request = asked->digits ? &precise : asked;
-    double clock = process_clock();
     bool interrupted = false;
     qdot_run *run;
     qdot_status status;
 
-    *out = NULL;
     QDOT_TRY(asked->digits ? qdot_precise_check(scene, asked) : check_tolerance(asked->tol));
     run = qdot_calloc(1, sizeof *run);
     if (!run)
@@ -658,4 +658,18 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     run->report.cpu_total = process_clock() - clock;
     *out = run;
     return interrupted ? QDOT_EINTR : QDOT_OK;
+}
+
+qdot_status
+qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+{
+    const double clock = process_clock();
+    qdot_parameter_states states = {0};
+    qdot_status status;
+
+    *out = NULL;
+    QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
+    status = make(scene, &states.request, clock, out);
+    qdot_parameter_states_clear(&states);
+    return status;
 }

@@ -34,6 +34,9 @@ typedef struct {
                                      max(1, |value|) */
     const char *method;           /* "auto" or a name of ode/method.h */
     qdot_run_treatment treatment; /* of a scene with constraints */
+    size_t n_states;              /* made by the run itself, leave it 0: parameters that events
+                                     set, as further coordinates (sim/parameter-states.h); */
+    const qdot_expr *states;      /* [n_states] their symbols; symbols, values, q0 ... know them */
     int digits;                   /* > 0: so many correct digits at the end (sim/precise.h);
                                      tol is not looked at */
 } qdot_run_request;
@@ -70,7 +73,8 @@ typedef struct {
     qdot_run_status status;
     const char *reason;            /* NULL when done */
     bool interrupted;              /* by Ctrl-C: only the states are known */
-    size_t n;                      /* coordinates */
+    size_t n;                      /* coordinates, and behind them */
+    size_t n_states;               /* parameters that events set, whose v is 0 */
     const qdot_expr *coordinates;  /* [n] symbols */
     const double *q, *v;           /* [n] state at t1 */
     size_t operations;             /* of the tape, one evaluation of M and f */

@@ -33,14 +33,17 @@ qdot_status
 qdot_stage_lower_sides(qdot_stage *s)
 {
     qdot_pool *pool = s->scene->pool;
-    size_t n = s->scene->coordinates.n, m = s->switches.surfaces.n, k = 0;
+    const size_t n = s->n, m = s->switches.surfaces.n;
+    size_t k = 0;
     qdot_expr *u = qdot_calloc(2 * m + 1, sizeof *u);
     qdot_expr *in = qdot_calloc(2 * n + 1 + m, sizeof *in);
     qdot_status status = u && in ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t order = 0; order < 2 && in; order++)
         for (size_t i = 0; i < n; i++)
-            in[k++] = qdot_symbol_jet(pool, s->scene->coordinates.at[i], (uint32_t)order);
+            in[k++] = qdot_symbol_jet(
+                pool, qdot_parameter_states_coordinate(s->scene, s->request, i),
+                (uint32_t)order);
     if (status == QDOT_OK)
         in[k++] = QDOT_T;
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
@@ -62,7 +65,7 @@ static qdot_status
 begin(decision *d, const qdot_stage *s, double t, const double *y)
 {
     size_t m = s->switches.surfaces.n;
-    size_t n = 2 * (s->modes.n > 0 ? s->modes.at[0]->plan->n : s->scene->coordinates.n);
+    const size_t n = 2 * s->n;
 
     *d = (decision){.s = s, .m = m, .n = n, .t = t, .y = y};
     d->u = qdot_calloc(5 * m + n + 1 + m + qdot_tape_work(s->sides) + 1, sizeof *d->u);
@@ -90,6 +93,13 @@ evaluate(decision *d, const long *side)
     d->in[d->n] = d->t;
 }
 
+/* Whether component i of the state is a parameter that events set: no motion moves it. */
+static bool
+is_parameter(const decision *d, size_t i)
+{
+    return i < d->n && i % d->s->n >= d->s->n - d->s->n_states;
+}
+
 /* u, noise and flat at these sides. */
 static void
 measure(decision *d, const long *side)
@@ -108,7 +118,8 @@ measure(decision *d, const long *side)
     }
     for (size_t k = 0; k < 2; k++) {
         for (size_t i = 0; i <= d->n; i++)
-            d->in[i] += aside[k] / (1 + (double)i) * fmax(1, fabs(d->in[i]));
+            if (!is_parameter(d, i))
+                d->in[i] += aside[k] / (1 + (double)i) * fmax(1, fabs(d->in[i]));
         evaluate(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->flat[i] = d->flat[i] && d->out[i] == d->u[i];

@@ -31,6 +31,7 @@ qdot_stage_clear(qdot_stage *s)
     qdot_free(s->modes.at);
     qdot_switches_clear(&s->switches);
     qdot_domains_clear(&s->domains);
+    qdot_parameter_conditions_clear(&s->conditions);
     qdot_tape_free(s->sides);
     *s = (qdot_stage){0};
 }
@@ -63,7 +64,7 @@ stage_changes(const qdot_plan *p, const qdot_event *event, qdot_staged_event *e)
         status = qdot_pool_check(p->pool);
         if (status != QDOT_OK)
             break;
-        e->targets[i] = place_of(p, event->targets.at[i]);
+        e->targets[i] = place_of(p, qdot_plan_substitute(p, event->targets.at[i]));
         e->accelerations |=
             (qdot_expr_node(p->pool, value)->holds
              & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
@@ -155,13 +156,14 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
     for (size_t i = 0; i < s->switches.surfaces.n; i++) {
         const qdot_surface *x = &s->switches.surfaces.at[i];
         qdot_pool *pool = s->switches.pool;
-        bool velocity;
+        bool velocity, some, moves;
         qdot_expr u;
 
         QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, 1, &x->u, &u));
         if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, u, x->steps, m->side[i]))
             return qdot_fail(QDOT_EFAILED, "a switch of the equations cannot be decided");
-        if (qdot_constant_is(pool, u))
+        QDOT_TRY(qdot_parameter_states_occur(m->plan, u, &some, &moves));
+        if (!moves)
             continue;
         velocity = (qdot_expr_node(pool, u)->holds
                     & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
@@ -213,6 +215,7 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
     if (s->modes.n == 0) {
         QDOT_TRY(qdot_domains_find(m->plan, &s->domains));
         QDOT_TRY(stage_events(s, m->plan));
+        QDOT_TRY(qdot_parameter_conditions_find(m->plan, s->scene, &s->conditions));
     }
     most = s->events.n + 2 * s->domains.n + 2 * surfaces;
     m->functions = qdot_calloc(most + 1, sizeof *m->functions);
@@ -265,7 +268,7 @@ start_numbers(const qdot_stage *s, double *t, double *y)
 {
     const qdot_run_request *r = s->request;
     qdot_pool *pool = s->scene->pool;
-    size_t n = s->scene->coordinates.n;
+    const size_t n = s->n;
 
     for (size_t k = 0; k <= 2 * n; k++) {
         qdot_expr e = k == 2 * n ? r->t0 : k < n ? r->q0[k] : r->v0[k - n];
@@ -281,7 +284,7 @@ start_numbers(const qdot_stage *s, double *t, double *y)
 static qdot_status
 start_sides(const qdot_stage *s, const double *settled, long *side)
 {
-    size_t n = s->scene->coordinates.n;
+    const size_t n = s->n;
     double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0;
     qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
 
@@ -303,6 +306,8 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
 
     s->scene = scene;
     s->request = request;
+    s->n = qdot_parameter_states_coordinates(scene, request);
+    s->n_states = request->n_states;
     QDOT_TRY(qdot_plan_check(scene));
     QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
     side = qdot_calloc(s->switches.surfaces.n + 1, sizeof *side);

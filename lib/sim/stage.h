@@ -8,6 +8,7 @@
 #define QDOT_SIM_STAGE_H
 
 #include "sim/domain.h"
+#include "sim/parameter-states.h"
 #include "sim/plan.h"
 #include "sim/switch.h"
 
@@ -16,7 +17,7 @@ typedef struct {
     qdot_expr function; /* left - right, the values put in */
     int way;            /* 1 rising, -1 falling as t grows, 0 either */
     bool stop;
-    size_t changes;  /* assignments of `then`: */
+    size_t changes;  /* assignments of `then`, to q, q' and parameters: */
     size_t *targets; /* [changes] places in y */
     qdot_tape *then; /* from q, q', t, q'' their values; NULL: none */
     bool accelerations; /* it reads q'' */
@@ -50,6 +51,8 @@ typedef struct {
     const qdot_run_request *request; /* likewise */
     qdot_switches switches;
     qdot_domains domains;
+    qdot_parameter_conditions conditions;
+    size_t n, n_states; /* coordinates of the run, of them parameters that events set */
     qdot_vec(qdot_staged_event) events;
     qdot_vec(qdot_mode *) modes;
     qdot_tape *sides; /* from q, q', t, sides: u of every surface, then sizes (sim/size.h);

@@ -77,6 +77,13 @@ level_clear(level *l)
     qdot_free(l->free);
 }
 
+/* Not a parameter that events set. */
+static bool
+is_moving(const level *l, size_t i)
+{
+    return i < l->n - l->plan->n_states;
+}
+
 /* The search over the equations F [m]. */
 static qdot_nearest
 equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains *domains)
@@ -351,7 +358,7 @@ static qdot_status
 metric(const level *l, const double *y, double *W)
 {
     qdot_pool *pool = l->plan->pool;
-    size_t n = l->n;
+    const size_t n = l->n, m = n - l->plan->n_states;
     qdot_expr M = qdot_mech_numeric_mass(l->scene), t = QDOT_T;
     qdot_expr *entries = qdot_calloc(n * n + 1, sizeof *entries);
     qdot_status status = entries ? QDOT_OK : QDOT_ENOMEM;
@@ -363,7 +370,10 @@ metric(const level *l, const double *y, double *W)
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
-        entries[i] = qdot_expr_arg(pool, M, (uint32_t)i);
+        entries[i] = is_moving(l, i / n) && is_moving(l, i % n)
+                         ? qdot_expr_arg(pool, M, (uint32_t)(i / n * m + i % n))
+                     : i / n == i % n ? QDOT_ONE
+                                      : QDOT_ZERO;
     if (status == QDOT_OK)
         status = evaluate(l, n * n, entries, y, W);
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
@@ -383,7 +393,7 @@ move_all(level *l, const qdot_domains *domains, double *y, double *other,
     qdot_status status = W ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < l->n; i++)
-        l->free[i] = true;
+        l->free[i] = is_moving(l, i);
     if (status == QDOT_OK)
         status = metric(l, y, W);
     if (status == QDOT_OK)
@@ -466,7 +476,7 @@ settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text 
         status = qdot_nearest_distance(&l->near, y, low, l->distance, residual);
     broken = status == QDOT_OK ? worst(l, y) : 0;
     for (size_t i = 0; i < l->n; i++)
-        l->free[i] = true;
+        l->free[i] = is_moving(l, i);
     if (status == QDOT_OK && !(broken <= breaks)) {
         status = l->request->exactly ? refuse(l, residual) : solve(l, domains, y, notice);
         for (size_t i = 0; i < l->n; i++)
@@ -493,10 +503,15 @@ slopes(const level *l, const double *y, double *A)
 
     for (size_t k = 0; k < c * n && status == QDOT_OK; k++) {
         const qdot_constraint *one = &scene->constraints.at[k / n];
-        qdot_expr e = qdot_diff(pool, one->f,
-                                qdot_symbol_jet(pool, scene->coordinates.at[k % n],
-                                                (uint32_t)one->kind));
+        qdot_expr e;
 
+        if (!is_moving(l, k % n)) {
+            entries[k] = QDOT_ZERO;
+            continue;
+        }
+        e = qdot_diff(
+            pool, one->f,
+            qdot_symbol_jet(pool, scene->coordinates.at[k % n], (uint32_t)one->kind));
         e = e == QDOT_NIL ? e : qdot_plan_substitute(l->plan, e);
         entries[k] = e == QDOT_NIL ? e : qdot_subs(pool, e, 1, &t, &l->request->t0);
     }

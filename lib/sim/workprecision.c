@@ -11,6 +11,7 @@
 #include "sim/course.h"
 #include "sim/horizon.h"
 #include "sim/integrated.h"
+#include "sim/parameter-states.h"
 #include "sim/plan.h"
 #include "sim/start.h"
 #include "tape/constant.h"
@@ -565,9 +566,8 @@ climb(qdot_scene *scene, const qdot_run_request *request, const char *method,
     return status;
 }
 
-qdot_status
-qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
-                           qdot_workprecision *out)
+static qdot_status
+measure(qdot_scene *scene, const qdot_run_request *request, qdot_workprecision *out)
 {
     reference r = {0};
     qdot_status status = make_reference(scene, request, &r, &out->ref_err);
@@ -581,6 +581,19 @@ qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
             status = push_unfit(out, method);
     }
     qdot_free(r.high);
+    return status;
+}
+
+qdot_status
+qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
+                           qdot_workprecision *out)
+{
+    qdot_parameter_states states = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
+    status = measure(scene, &states.request, out);
+    qdot_parameter_states_clear(&states);
     return status;
 }
 
