@@ -73,7 +73,8 @@ typedef struct {
     qdot_expr left, right;
     int way;   /* left - right goes 1 up, -1 down as t grows, 0 either way */
     bool stop; /* the run ends there */
-    qdot_vec(qdot_expr) targets, values; /* q or q' becomes the value, all at once */
+    qdot_vec(qdot_expr) targets, values; /* q, q' or a parameter becomes the value, all at
+                                            once */
 } qdot_event;
 
 /* What `assume` said, as it was said. */

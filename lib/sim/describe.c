@@ -133,9 +133,13 @@ say_constraints(const qdot_plan *p, qdot_text *out)
 static void
 say_blocks(const qdot_plan *p, qdot_text *out)
 {
-    if (p->structure.blocks <= 1 || p->structure.blocks == p->n - p->n_kept)
+    const size_t blocks = p->structure.blocks - p->n_states;
+
+    if (blocks <= 1 || blocks == p->n - p->n_kept - p->n_states)
         return;
     for (size_t k = 0; k < p->structure.blocks; k++) {
+        if (p->blocks[k].index[0] >= p->n - p->n_states)
+            continue;
         qdot_text_add(out, "  block:");
         for (size_t i = 0; i < p->blocks[k].n; i++)
             qdot_text_format(out, "%s %s", i ? "," : "", p->names[p->blocks[k].index[i]]);

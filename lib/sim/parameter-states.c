@@ -247,10 +247,12 @@ add_all(builder *b, const qdot_scene *scene)
         if (s.lo != QDOT_NIL)
             QDOT_TRY(add(b, s.lo, x,
                          (qdot_parameter_condition){.op = s.lo_open ? QDOT_LT : QDOT_LE,
-                                                    .turned = true}));
+                                                    .turned = true,
+                                                    .why = "declared"}));
         if (s.hi != QDOT_NIL)
             QDOT_TRY(add(b, x, s.hi,
-                         (qdot_parameter_condition){.op = s.hi_open ? QDOT_LT : QDOT_LE}));
+                         (qdot_parameter_condition){.op = s.hi_open ? QDOT_LT : QDOT_LE,
+                                                    .why = "declared"}));
     }
     for (size_t i = 0; i < scene->assumed.n; i++) {
         const qdot_assumption *said = &scene->assumed.at[i];
@@ -260,8 +262,12 @@ add_all(builder *b, const qdot_scene *scene)
             QDOT_TRY(add(b, qdot_expr_arg(pool, said->relation, 0),
                          qdot_expr_arg(pool, said->relation, 1),
                          (qdot_parameter_condition){
-                             .op = op, .turned = said->turned, .assumed = true}));
+                             .op = op, .turned = said->turned, .why = "assumed"}));
     }
+    for (size_t i = 0; i < scene->springs.n; i++)
+        QDOT_TRY(add(b, QDOT_ZERO, scene->springs.at[i].rest,
+                     (qdot_parameter_condition){
+                         .op = QDOT_LE, .turned = true, .why = "what a spring's rest length is"}));
     return QDOT_OK;
 }
 
@@ -313,7 +319,7 @@ qdot_parameter_conditions_check(const qdot_parameter_conditions *c, const char *
             status = qdot_fail(QDOT_EDOMAIN,
                                "at the event %.100s, t = %.15g: %.150s is %s, and %.10g %s "
                                "%.10g does not hold",
-                               event, t, x->text, x->assumed ? "assumed" : "declared",
+                               event, t, x->text, x->why,
                                side[x->turned], sign_of(x->op, x->turned), side[!x->turned]);
     }
     qdot_free(in);

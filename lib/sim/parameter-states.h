@@ -46,7 +46,7 @@ typedef struct {
     char *text;   /* "al > 0" */
     int op;       /* a qdot_rel_op of left and right */
     bool turned;  /* said with the right side first */
-    bool assumed; /* by `assume`; else a domain */
+    const char *why; /* "declared", "assumed" ... */
 } qdot_parameter_condition;
 
 typedef struct {
@@ -55,8 +55,8 @@ typedef struct {
     qdot_tape *sides; /* from q, q', t: left, right of each; NULL: no condition */
 } qdot_parameter_conditions;
 
-/* The declared domains of parameters and the assumptions that hold what events set, and nothing
- * that moves between them. Start from {0}. */
+/* The declared domains of parameters, the assumptions and the rest lengths of springs that hold
+ * what events set, and nothing that moves between them. Start from {0}. */
 QDOT_MUST_CHECK qdot_status qdot_parameter_conditions_find(const qdot_plan *plan,
                                                            const qdot_scene *scene,
                                                            qdot_parameter_conditions *c);

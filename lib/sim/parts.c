@@ -83,7 +83,6 @@ fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
     r->inputs[2 * n] = QDOT_T;
     for (size_t i = 0; i < n; i++) {
         r->place[i] = index[i];
-        r->n_states += index[i] >= p->n - p->n_states;
         r->inputs[i] = p->inputs[index[i]];
         r->inputs[n + i] = p->inputs[p->n + index[i]];
         r->inputs[2 * n + 1 + i] = p->inputs[2 * p->n + 1 + index[i]];

@@ -452,7 +452,8 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (request->digits > 0 || qdot_plan_needs_jacobian(p))
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));
-    return qdot_parts_find(p, scene, request);
+    /* events that set parameters look at the steps of the whole */
+    return p->n_states > 0 ? QDOT_OK : qdot_parts_find(p, scene, request);
 }
 
 qdot_status
