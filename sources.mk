@@ -686,6 +686,7 @@ unit_tests = \
 	tests/sim/test_equations \
 	tests/sim/test_horizon \
 	tests/sim/test_operations \
+	tests/sim/test_parameter_states \
 	tests/sim/test_parts \
 	tests/sim/test_precise \
 	tests/sim/test_routh \

@@ -114,10 +114,10 @@ put(qdot_constrained *h, part *p, double t, const double *y, const char *who)
     size_t count = 0;
     qdot_status status;
 
+    if (p->level->m == 0 || !p->set)
+        return QDOT_OK;
     for (size_t i = 0; i < h->plan->n; i++)
         count += p->set[i];
-    if (p->level->m == 0)
-        return QDOT_OK;
     status = qdot_saddle_init(&p->saddle, h->plan->n, p->level->m + count,
                               h->plan->indefinite);
     if (status == QDOT_OK)
@@ -127,18 +127,18 @@ put(qdot_constrained *h, part *p, double t, const double *y, const char *who)
 }
 
 qdot_status
-qdot_constrained_put(qdot_constrained *h, double t, double *y, const bool *set,
-                     const char *who)
+qdot_constrained_put(qdot_constrained *h, double t, double *y, const bool *q_set,
+                     const bool *v_set, const char *who)
 {
     const size_t n = h->plan->n;
     part q = {.level = h->at[QDOT_HOLONOMIC],
               .x = y,
-              .set = set,
+              .set = q_set,
               .residual = h->f,
               .find = qdot_constrained_positions};
     part v = {.level = h->at[QDOT_VELOCITY],
               .x = y + n,
-              .set = set + n,
+              .set = v_set,
               .residual = h->w,
               .find = qdot_constrained_velocities};
 

@@ -68,13 +68,13 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_check_accelerations(qdot_constraine
 QDOT_MUST_CHECK qdot_status qdot_constrained_project(double t, double *y, double *carry,
                                                      double *moved, void *constrained);
 
-/* The event `who` has set the values of y [2n] that `set` [2n] says: they stay, the others
+/* The event `who` has set the values of y [2n] that q_set and v_set [n] say: they stay, the others
  * move least in the metric of M until the constraints hold, first of positions, then of
- * velocities, as under an impulse. QDOT_EDOMAIN names a constraint that they leave no
- * way. Allocates. */
+ * velocities, as under an impulse. NULL: nothing was set that could break these, and none of them
+ * moves. QDOT_EDOMAIN names a constraint that they leave no way. Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_put(qdot_constrained *constrained, double t,
-                                                 double *y, const bool *set,
-                                                 const char *who);
+                                                 double *y, const bool *q_set,
+                                                 const bool *v_set, const char *who);
 
 /* Nanoseconds that bringing a step's end back takes, about: 0 where nothing is done. */
 double qdot_constrained_cost(const qdot_plan *plan);

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "expr/walk.h"
 #include "sim/constraints.h"
 #include "sim/failure.h"
 #include "sim/precise.h"
@@ -114,22 +113,6 @@ keep_end(qdot_run *run)
     return status == QDOT_EDOMAIN ? QDOT_OK : status; /* unknown: nil */
 }
 
-/* Whether what an event does may lead off the constraints: it sets more than parameters that
- * stand in none of them. */
-static bool
-leaves_constraints(const qdot_plan *p, const qdot_staged_event *e)
-{
-    for (size_t i = 0; i < e->changes; i++) {
-        if (e->targets[i] < p->n - p->n_states || e->targets[i] >= p->n)
-            return true;
-        for (size_t k = 0; k < p->constraints->m; k++)
-            if (qdot_expr_contains(p->pool, p->constraints->rows[k].f,
-                                   p->inputs[e->targets[i]]))
-                return true;
-    }
-    return false;
-}
-
 /* In doubles through all events and switches: which follow each other, and about where. */
 static qdot_status
 find_guide(qdot_run *run, const qdot_run_request *request)
@@ -140,7 +123,8 @@ find_guide(qdot_run *run, const qdot_run_request *request)
     qdot_status status;
 
     for (size_t i = 0; i < stage->events.n; i++)
-        if (run->plan->constraints && leaves_constraints(run->plan, &stage->events.at[i])) {
+        if (run->plan->constraints
+            && (stage->events.at[i].positions || stage->events.at[i].velocities)) {
             qdot_fail(QDOT_ENOTBUILT,
                       "not built yet: `digits` with constraints and the event %.100s, which "
                       "changes the state",

@@ -63,12 +63,11 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
             set[e->targets[i]] = true;
         }
     }
-    for (size_t i = p->n - p->n_states; status == QDOT_OK && i < p->n; i++)
-        set[i] = set[p->n + i] = true; /* no constraint moves a parameter */
     if (status == QDOT_OK)
         status = qdot_parameter_conditions_check(&x->c->stage->conditions, e->name, t, y, p->n);
     if (status == QDOT_OK && held)
-        status = qdot_constrained_put(held, t, y, set, e->name);
+        status = qdot_constrained_put(held, t, y, e->positions ? set : NULL,
+                                      e->velocities ? set + p->n : NULL, e->name);
     qdot_free(in);
     qdot_free(set);
     return status;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/walk.h"
 #include "sim/substitute.h"
 #include "tape/constant.h"
 
@@ -48,8 +49,27 @@ place_of(const qdot_plan *p, qdot_expr target)
     return k;
 }
 
+/* Whether the constraints at a new value of component k of the state may not hold. */
 static qdot_status
-stage_changes(const qdot_plan *p, const qdot_event *event, qdot_staged_event *e)
+find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_event *e)
+{
+    const bool parameter = k >= p->n - p->n_states && k < p->n;
+
+    e->velocities |= !parameter;
+    e->positions |= k < p->n - p->n_states;
+    for (size_t i = 0; parameter && i < scene->constraints.n; i++) {
+        const qdot_expr f = qdot_plan_substitute(p, scene->constraints.at[i].f);
+
+        QDOT_TRY(qdot_pool_check(p->pool));
+        if (qdot_expr_contains(p->pool, f, p->inputs[k]))
+            e->positions = e->velocities = true;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *event,
+              qdot_staged_event *e)
 {
     qdot_vec(qdot_expr) values = {0};
     qdot_status status = QDOT_OK;
@@ -69,7 +89,9 @@ stage_changes(const qdot_plan *p, const qdot_event *event, qdot_staged_event *e)
             (qdot_expr_node(p->pool, value)->holds
              & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
             != 0;
-        status = qdot_vec_push(&values, value);
+        status = find_broken(scene, p, e->targets[i], e);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&values, value);
     }
     if (status == QDOT_OK && e->changes > 0)
         status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, values.n, values.at,
@@ -90,7 +112,7 @@ stage_events(qdot_stage *s, const qdot_plan *p)
             qdot_plan_substitute(p, qdot_sub(p->pool, event->left, event->right));
         QDOT_TRY(qdot_pool_check(p->pool));
         e.name = qdot_strdup(event->name);
-        status = e.name ? stage_changes(p, event, &e) : QDOT_ENOMEM;
+        status = e.name ? stage_changes(s->scene, p, event, &e) : QDOT_ENOMEM;
         if (status == QDOT_OK)
             status = qdot_vec_push(&s->events, e);
         if (status != QDOT_OK) {

@@ -21,6 +21,7 @@ typedef struct {
     size_t *targets; /* [changes] places in y */
     qdot_tape *then; /* from q, q', t, q'' their values; NULL: none */
     bool accelerations; /* it reads q'' */
+    bool positions, velocities; /* what it sets may break constraints of these */
 } qdot_staged_event;
 
 typedef enum { QDOT_WATCH_EVENT, QDOT_WATCH_DOMAIN, QDOT_WATCH_SURFACE } qdot_watched_kind;
