@@ -749,6 +749,8 @@ script_tests = \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
+	tests/script/event-parameters-json.lag \
+	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
 	tests/script/event-time-errors.sh \
 	tests/script/events.lag \
@@ -1032,8 +1034,16 @@ script_tests = \
 	tests/bad/taken-constraint.lag \
 	tests/bad/taken-nothing.lag \
 	tests/bad/text-compared.lag \
+	tests/bad/then-assumed.lag \
 	tests/bad/then-constraint.lag \
+	tests/bad/then-declared.lag \
+	tests/bad/then-domain.lag \
+	tests/bad/then-large.lag \
+	tests/bad/then-named.lag \
 	tests/bad/then-parameter.lag \
+	tests/bad/then-rest.lag \
+	tests/bad/then-twice.lag \
+	tests/bad/then-unset.lag \
 	tests/bad/to-ending.lag \
 	tests/bad/too-long.lag \
 	tests/bad/trailing.lag \
@@ -1093,6 +1103,7 @@ script_tests = \
 	examples/pendulum-period.lag \
 	examples/pendulum.lag \
 	examples/polar.lag \
+	examples/pumped-swing.lag \
 	examples/race.lag \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
@@ -1302,8 +1313,16 @@ test_files = \
 	tests/bad/taken-constraint.out \
 	tests/bad/taken-nothing.out \
 	tests/bad/text-compared.out \
+	tests/bad/then-assumed.out \
 	tests/bad/then-constraint.out \
+	tests/bad/then-declared.out \
+	tests/bad/then-domain.out \
+	tests/bad/then-large.out \
+	tests/bad/then-named.out \
 	tests/bad/then-parameter.out \
+	tests/bad/then-rest.out \
+	tests/bad/then-twice.out \
+	tests/bad/then-unset.out \
 	tests/bad/to-ending.out \
 	tests/bad/too-long.out \
 	tests/bad/trailing.out \
@@ -1358,6 +1377,7 @@ test_files = \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \
 	tests/examples/polar.out \
+	tests/examples/pumped-swing.out \
 	tests/examples/rolling-disk.out \
 	tests/examples/rolling-wheel.out \
 	tests/examples/rotating-hoop.out \
@@ -1469,6 +1489,8 @@ test_files = \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
 	tests/script/event-ends.out \
+	tests/script/event-parameters-json.out \
+	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
 	tests/script/event-time-errors.out \
 	tests/script/events.out \

@@ -2,6 +2,7 @@
  * with them. */
 #include "lang/number.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "expr/calculus.h"
@@ -252,6 +253,30 @@ qdot_number_set_start(qdot_session *session, qdot_expr jet, qdot_expr value)
     return QDOT_OK;
 }
 
+/* What events set is for the rest of their run: told where a run goes on from its end. */
+static qdot_status
+tell_parameters(qdot_session *session, const char *name, const qdot_run_report *report)
+{
+    for (size_t i = report->n - report->n_states; i < report->n; i++) {
+        const char *parameter =
+            qdot_expr_symbol(session->pool, report->coordinates[i])->name;
+        const qdot_name *known = qdot_names_find(session->names, parameter);
+        double value;
+
+        if (known == NULL || known->kind != QDOT_NAME_PARAM ||
+            qdot_session_number(session, qdot_session_bind(session, known->value), &value,
+                                NULL) != QDOT_OK ||
+            fabs(value - report->q[i]) <= 1e-9 * fmax(1, fabs(value)))
+            continue;
+        QDOT_TRY(qdot_answer_notice(session,
+                                    "%.100s ended with %.100s = %.12g, which an event set for "
+                                    "that run; the next begins with %.12g again: set %.100s = "
+                                    "... changes that",
+                                    name, parameter, report->q[i], value, parameter));
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 start_from_run(qdot_cursor *c)
 {
@@ -284,7 +309,7 @@ start_from_run(qdot_cursor *c)
         QDOT_TRY(qdot_number_set_start(session, v, v0));
     }
     session->start_exactly = exactly;
-    return QDOT_OK;
+    return tell_parameters(session, run->name, report);
 }
 
 /* q or q' on the left of `start` */

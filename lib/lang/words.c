@@ -64,8 +64,10 @@ static const qdot_statement table[] = {
      "take a thing out of the scene again: by its label; the only one of its kind (gravity, "
      "potential, spring, damper, dissipation, force, torque), or the K-th", "remove d1",
      qdot_remove, false},
-    {"event", DECLARE, "event NAME: A = B [rising|falling] [stop] [then ...]",
-     "a moment of a run: noted, its end, or a change of the state there", "event cross: theta = 0 rising stop", qdot_event_declare, false},
+    {"event", DECLARE,
+     "event NAME: A = B [rising|falling] [stop] [then NAME = VALUE, ...]",
+     "a moment of a run: noted, its end, or a change there of coordinates, velocities and, for "
+     "the rest of the run, parameters", "event cross: theta = 0 rising stop", qdot_event_declare, false},
     {"reset", DECLARE, "reset | reset scene | reset start",
      "forget everything, or the scene, or the initial state", "reset scene",
      qdot_workbench_reset, false},

@@ -32,7 +32,7 @@ static void
 event(fixture *f, const char *name, qdot_expr left, size_t n, const qdot_expr *targets,
       const qdot_expr *values)
 {
-    qdot_event e = {.name = (char *)name, .left = left};
+    qdot_event e = {.name = (char *)name, .left = left, .right = QDOT_ZERO};
 
     for (size_t i = 0; i < n; i++) {
         must(qdot_vec_push(&e.targets, targets[i]));
@@ -134,7 +134,7 @@ errors_cover_a_value_of_the_state(void **state)
         double error, exact, later = 3 - M_PI / 3;
         fixture f;
         qdot_expr x = oscillator(&f), k = parameter(&f, "k"), v = velocity(&f, x), value;
-        qdot_event e = {.name = (char *)"half", .way = -1};
+        qdot_event e = {.name = (char *)"half", .right = QDOT_ZERO, .way = -1};
 
         f.request.tol = pow(10, -digits);
         f.request.method = methods[digits % 3];
@@ -432,7 +432,9 @@ values_against_what_is_declared_end_the_run(void **state)
     ends_by(&f, "c > k is assumed, and 3 > 3 does not hold");
 
     x = oscillator(&f); /* beyond all doubles */
-    sets(&f, "cross", x, "k", qdot_fun1(f.pool, QDOT_EXP, qdot_expr_int(f.pool, 1000)));
+    sets(&f, "cross", x, "k",
+         qdot_fun1(f.pool, QDOT_EXP,
+                   times(&f, qdot_expr_int(f.pool, 1000), parameter(&f, "k"))));
     ends_by(&f, "gives k no value");
 }
 
