@@ -96,6 +96,12 @@ check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
         return qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
     if (scene->constraints.n > 0)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with constraints");
+    for (size_t i = 0; i < scene->events.n; i++)
+        if (scene->events.at[i].stop || scene->events.at[i].targets.n > 0)
+            return qdot_fail(QDOT_ENOTBUILT,
+                             "not built yet: ensembles with the event %.100s, which %s",
+                             scene->events.at[i].name,
+                             scene->events.at[i].stop ? "stops a run" : "changes it");
     if (request->method && strcmp(request->method, "auto") != 0 &&
         strcmp(request->method, "taylor") != 0)
         return qdot_fail(QDOT_EINVAL, "an ensemble runs by taylor, not by %.50s",

@@ -28,7 +28,7 @@ typedef struct {
  *   varied  [n_varied] parameters that each member has its own values of; they may not be
  *           among the request's values
  * Errors: as qdot_run_new before anything is integrated; QDOT_ENOTBUILT: constraints,
- * equations that switch, coupled coordinates of a stated Lagrangian or of potentials with
+ * events that stop or change a run, equations that switch, coupled coordinates of a stated Lagrangian or of potentials with
  * velocities; QDOT_EINVAL: another method, starts given, a parameter given twice. The
  * scene may change afterwards. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_new(qdot_scene *scene,

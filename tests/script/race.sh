@@ -66,3 +66,14 @@ END
     sed -n 's/^{"kind":"row","values":\[\(.*\)\]}/\1/p' sphere.json |
         awk -F, '$1 ~ /minimal/ && $3 < 2e-12 && $4 < 1e-11 { good++ } END { print "minimal", good }'
 done
+# an event that changes the motion is in the coordinates as given
+qdot -q - <<'END' | sed -n 's/^not in/not in/p'
+param m = 1, g = 2
+coord x, y
+particle bob mass m at (x, y)
+gravity (0, -g)
+constraint rod: x^2 + y^2 = 1
+event low: x = 0 then g = 3
+start x = 3/5, y = -4/5
+race 0..2 to "events.svg"
+END

@@ -448,6 +448,12 @@ what_cannot_be_is_refused(void **state)
     e = prepare(&f, 0, NULL);
     assert_int_equal(qdot_ensemble_run(e, 1, y, NULL, false, &result), QDOT_EINVAL);
     qdot_ensemble_free(e);
+    must(qdot_scene_event(f.scene, &(qdot_event){.name = (char *)"stopper",
+                                                 .left = f.scene->coordinates.at[0],
+                                                 .right = QDOT_ZERO,
+                                                 .stop = true}));
+    refused(&f, 0, NULL, QDOT_ENOTBUILT, "the event stopper");
+    must(qdot_scene_remove(f.scene, "stopper"));
     must(qdot_scene_constraint(f.scene, "pin", f.scene->coordinates.at[0], QDOT_ZERO));
     refused(&f, 0, NULL, QDOT_ENOTBUILT, "constraints");
     end(&f);
