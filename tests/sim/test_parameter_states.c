@@ -325,7 +325,7 @@ goes_on_as_when_cut_by_hand(void **state)
     (void)state;
     for (int k = 0; k < 12; k++) {
         const double g1 = 5 + 10 * draw(&random), l1 = 0.5 + draw(&random), at = draw(&random);
-        double q[2], v[2], end_q[2], error;
+        double q[2] = {0}, v[2] = {0}, end_q[2] = {0}, error = 0;
         const qdot_run_report *report;
         qdot_expr v0;
         qdot_run *r;
