@@ -348,6 +348,7 @@ mech_sources = \
 	lib/mech/reactions.c \
 	lib/mech/recursive.c \
 	lib/mech/remove.c \
+	lib/mech/scene-parts.c \
 	lib/mech/scene-print.c \
 	lib/mech/scene-replace.c \
 	lib/mech/scene.c \
@@ -579,6 +580,7 @@ lang_sources = \
 	lib/lang/statement.c \
 	lib/lang/styled.c \
 	lib/lang/taken.c \
+	lib/lang/undo.c \
 	lib/lang/values.c \
 	lib/lang/words.c \
 	lib/lang/workbench.c \
@@ -608,6 +610,7 @@ lang_headers = \
 	lib/lang/session.h \
 	lib/lang/statement.h \
 	lib/lang/taken.h \
+	lib/lang/undo.h \
 	lib/lang/values.h
 
 program_sources = \

@@ -181,12 +181,18 @@ typedef struct {
     uint32_t rank;     /* order of declaration; a jet has its coordinate's */
     qdot_expr lo, hi;  /* declared domain, nil where there is none */
     bool lo_open, hi_open;
+    bool hidden;       /* not to be found by its name */
     uint8_t sign;
 } qdot_symbol;
 
 /* The symbol of a class by its name, made if new. class: CONST, PARAM, FORMAL, COORD,
  * MULTIPLIER, WORDS. */
 qdot_expr qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name);
+/* x is no longer what its name gets: qdot_symbol_get makes another one, of which nothing is known.
+ * What is built from x stays as it is; both must not meet in one expression. */
+void qdot_symbol_hide(qdot_pool *pool, qdot_expr x);
+/* x is again what its name gets; another symbol of that name is hidden. */
+void qdot_symbol_show(qdot_pool *pool, qdot_expr x);
 /* Whether a parameter, coordinate, formal argument or multiplier is called so. */
 bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
 /* The order-th time derivative of a coordinate (order 0: itself; of a jet: counted on). */

@@ -329,7 +329,7 @@ known_symbol(const qdot_pool *pool, const qdot_symbol *wanted, uint32_t *hash)
         const qdot_symbol *s = NODE(pool, e)->hash == h ? qdot_expr_symbol(pool, e) : NULL;
 
         if (s != NULL && s->class == wanted->class && s->base == wanted->base &&
-            s->order == wanted->order &&
+            s->order == wanted->order && !s->hidden &&
             (wanted->base != QDOT_NIL || strcmp(s->name, wanted->name) == 0))
             return e;
     }
@@ -372,6 +372,26 @@ qdot_expr
 qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name)
 {
     return symbol(pool, &(qdot_symbol){.class = class, .name = name});
+}
+
+void
+qdot_symbol_hide(qdot_pool *pool, qdot_expr x)
+{
+    pool->symbols.at[NODE(pool, x)->at].hidden = true;
+}
+
+void
+qdot_symbol_show(qdot_pool *pool, qdot_expr x)
+{
+    qdot_symbol *s = &pool->symbols.at[NODE(pool, x)->at];
+    uint32_t hash;
+    qdot_expr other;
+
+    s->hidden = true;
+    other = known_symbol(pool, s, &hash);
+    if (other != QDOT_NIL)
+        qdot_symbol_hide(pool, other);
+    s->hidden = false;
 }
 
 bool

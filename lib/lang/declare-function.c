@@ -199,7 +199,7 @@ replace_argument(qdot_session *session, qdot_expr own, qdot_expr symbol)
             continue;
         value = qdot_subs(pool, value, 1, &own, &symbol);
         QDOT_TRY(qdot_pool_check(pool));
-        qdot_names_update(session->names, one->name, value, one->formals);
+        QDOT_TRY(qdot_names_update(session->names, one->name, value, one->formals));
     }
     for (size_t i = 0; i < session->history.n; i++)
         session->history.at[i] =
@@ -236,7 +236,7 @@ qdot_declare_meet_functions(qdot_session *session, const char *name, qdot_expr s
         if (status == QDOT_OK)
             status = qdot_ufun_redeclare(session->pool, entry->ufun, formals);
         if (status == QDOT_OK)
-            qdot_names_update(session->names, met.at[i], entry->value, formals);
+            status = qdot_names_update(session->names, met.at[i], entry->value, formals);
     }
     if (status == QDOT_OK && met.n > 0)
         status = replace_argument(

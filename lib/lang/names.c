@@ -7,7 +7,8 @@
 #include "base/memory.h"
 
 typedef struct entry {
-    qdot_name name;
+    qdot_name name; /* first: who keeps a name keeps its entry */
+    unsigned uses;
     uint32_t hash;
     size_t order; /* where it stood when last put in order */
     struct entry *next;
@@ -29,6 +30,7 @@ struct qdot_names {
     qdot_vec(entry *) order;
     qdot_vec(qdot_name) bound; /* innermost last */
     size_t seen_from;          /* those before it are hidden */
+    size_t settled;            /* of `order`: not touched since */
 };
 
 static uint32_t
@@ -61,7 +63,7 @@ qdot_names_new(void)
 static void
 entry_free(entry *e)
 {
-    if (e == NULL)
+    if (--e->uses > 0)
         return;
     qdot_free(e->name.name);
     qdot_free(e->name.file);
@@ -356,22 +358,72 @@ copy_texts(qdot_name *name)
     return QDOT_OK;
 }
 
+/* An entry with a copy of *name; NULL: no memory. */
+static entry *
+entry_new(const qdot_name *name)
+{
+    entry *e = qdot_calloc(1, sizeof *e);
+
+    if (e == NULL)
+        return NULL;
+    e->uses = 1;
+    e->name = *name;
+    if (copy_texts(&e->name) != QDOT_OK) {
+        qdot_free(e);
+        return NULL;
+    }
+    e->name.body = qdot_function_body_keep(name->body);
+    e->hash = hash_of(name->name, strlen(name->name));
+    return e;
+}
+
+static void
+put_in_slot(qdot_names *names, entry *e)
+{
+    entry **slot = &names->slots[e->hash & (names->n_slots - 1)];
+
+    e->next = *slot;
+    *slot = e;
+}
+
+/* The pointer to e in its slot. */
+static entry **
+link_to(qdot_names *names, const entry *e)
+{
+    entry **link = &names->slots[e->hash & (names->n_slots - 1)];
+
+    while (*link != e)
+        link = &(*link)->next;
+    return link;
+}
+
+/* Where e is in the order: entries only ever move towards the front. */
+static size_t
+place_of(const qdot_names *names, const entry *e)
+{
+    size_t i = e->order < names->order.n ? e->order : names->order.n - 1;
+
+    while (names->order.at[i] != e)
+        i--;
+    return i;
+}
+
+static void
+touch(qdot_names *names, size_t i)
+{
+    if (i < names->settled)
+        names->settled = i;
+}
+
 static qdot_status
 insert(qdot_names *names, const qdot_name *name)
 {
     entry *e;
-    size_t slot;
 
     QDOT_TRY(make_room(names));
-    e = qdot_calloc(1, sizeof *e);
+    e = entry_new(name);
     if (e == NULL)
         return QDOT_ENOMEM;
-    e->name = *name;
-    if (copy_texts(&e->name) != QDOT_OK) {
-        qdot_free(e);
-        return QDOT_ENOMEM;
-    }
-    e->name.body = qdot_function_body_keep(name->body);
     e->order = names->order.n;
     if (qdot_vec_push(&names->order, e) != QDOT_OK) {
         entry_free(e);
@@ -382,10 +434,24 @@ insert(qdot_names *names, const qdot_name *name)
         entry_free(e);
         return QDOT_ENOMEM;
     }
-    e->hash = hash_of(name->name, strlen(name->name));
-    slot = e->hash & (names->n_slots - 1);
-    e->next = names->slots[slot];
-    names->slots[slot] = e;
+    put_in_slot(names, e);
+    return QDOT_OK;
+}
+
+/* Another entry in the place of `old`, which goes. */
+static qdot_status
+replace(qdot_names *names, entry *old, const qdot_name *name)
+{
+    entry *e = entry_new(name);
+
+    if (e == NULL)
+        return QDOT_ENOMEM;
+    e->order = place_of(names, old);
+    *link_to(names, old) = old->next;
+    put_in_slot(names, e);
+    names->order.at[e->order] = e;
+    touch(names, e->order);
+    entry_free(old);
     return QDOT_OK;
 }
 
@@ -393,7 +459,6 @@ qdot_status
 qdot_names_declare(qdot_names *names, const qdot_name *entry)
 {
     struct entry *old;
-    qdot_name copy = *entry;
 
     QDOT_TRY(check_reserved(entry->name));
     old = find_declared(names, entry->name);
@@ -404,49 +469,96 @@ qdot_names_declare(qdot_names *names, const qdot_name *entry)
         QDOT_TRY(check_differential(names, entry));
         return insert(names, entry);
     }
-    QDOT_TRY(copy_texts(&copy));
-    qdot_free(old->name.name);
-    qdot_free(old->name.file);
-    copy.body = qdot_function_body_keep(copy.body);
-    qdot_function_body_release(old->name.body);
-    old->name = copy;
-    return QDOT_OK;
+    return replace(names, old, entry);
 }
 
-void
+qdot_status
 qdot_names_update(qdot_names *names, const char *name, qdot_expr value, qdot_expr formals)
 {
     entry *e = find_declared(names, name);
+    qdot_name changed;
 
-    if (e == NULL)
-        return;
-    e->name.value = value;
-    e->name.formals = formals;
+    if (e == NULL || (e->name.value == value && e->name.formals == formals))
+        return QDOT_OK;
+    changed = e->name;
+    changed.value = value;
+    changed.formals = formals;
+    return replace(names, e, &changed);
 }
 
 void
 qdot_names_remove(qdot_names *names, const char *name)
 {
-    entry *e = find_declared(names, name), **link;
+    entry *e = find_declared(names, name);
     size_t length = family_length(name), i;
 
     if (e == NULL)
         return;
-    link = &names->slots[e->hash & (names->n_slots - 1)];
-    while (*link != e)
-        link = &(*link)->next;
-    *link = e->next;
+    *link_to(names, e) = e->next;
     if (length > 0)
         find_family(names, name, length)->members--;
-    /* entries only ever move towards the front */
-    for (i = e->order < names->order.n ? e->order : names->order.n - 1;
-         names->order.at[i] != e; i--)
-        ;
+    i = place_of(names, e);
+    touch(names, i);
     memmove(names->order.at + i, names->order.at + i + 1,
             (names->order.n - i - 1) * sizeof *names->order.at);
     names->order.n--;
     entry_free(e);
 }
+
+/* --- states kept -------------------------------------------------------------------- */
+
+const qdot_name *
+qdot_names_keep(const qdot_name *declared)
+{
+    ((entry *)declared)->uses++;
+    return declared;
+}
+
+void
+qdot_names_release(const qdot_name *declared)
+{
+    entry_free((entry *)declared);
+}
+
+size_t
+qdot_names_settled(const qdot_names *names)
+{
+    return names->settled;
+}
+
+void
+qdot_names_settle(qdot_names *names)
+{
+    names->settled = names->order.n;
+}
+
+void
+qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list)
+{
+    for (size_t i = 0; i < n; i++)
+        (void)qdot_names_keep(list[i]);
+    for (size_t i = 0; i < names->order.n; i++)
+        entry_free(names->order.at[i]);
+    for (size_t i = 0; i < names->n_slots; i++) {
+        names->slots[i] = NULL;
+        for (family *f = names->families[i]; f != NULL; f = f->next)
+            f->members = 0;
+    }
+    for (size_t i = 0; i < n; i++) {
+        entry *e = (entry *)list[i];
+        size_t length = family_length(e->name.name);
+
+        e->order = i;
+        names->order.at[i] = e; /* as many were there before */
+        put_in_slot(names, e);
+        if (length > 0)
+            find_family(names, e->name.name, length)->members++;
+    }
+    names->order.n = n;
+    qdot_names_settle(names);
+}
+
+/* --- bound names -------------------------------------------------------------------- */
 
 static qdot_status
 push(qdot_names *names, qdot_name bound)

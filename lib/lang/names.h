@@ -57,9 +57,9 @@ bool qdot_names_is_family(const qdot_names *names, const char *name);
  * QDOT_ENAME with where it was declared. `entry` is copied, with one more use of
  * its body. */
 QDOT_MUST_CHECK qdot_status qdot_names_declare(qdot_names *names, const qdot_name *entry);
-/* Other expressions for a declared name of the same meaning. */
-void qdot_names_update(qdot_names *names, const char *name, qdot_expr value,
-                       qdot_expr formals);
+/* Other expressions for a declared name of the same meaning. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_names_update(qdot_names *names, const char *name,
+                                              qdot_expr value, qdot_expr formals);
 void qdot_names_remove(qdot_names *names, const char *name);
 /* Bind and unbind an index or formal, innermost first. */
 QDOT_MUST_CHECK qdot_status qdot_names_push(qdot_names *names, const char *name,
@@ -72,6 +72,15 @@ QDOT_MUST_CHECK qdot_status qdot_names_push_argument(qdot_names *names, const ch
  * disclose() also unbinds what was bound since. */
 size_t qdot_names_enclose(qdot_names *names);
 void qdot_names_disclose(qdot_names *names, size_t outer);
+/* A declared name is never changed: another one takes its place. So a list of names is a state that
+ * can be kept: one use more of each, then back to exactly this list, in this order; release gives
+ * one use back. restore() cannot fail for names that were declared here. */
+const qdot_name *qdot_names_keep(const qdot_name *declared);
+void qdot_names_release(const qdot_name *declared);
+void qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list);
+/* The names before this one, in order, are those of the last call of settle or restore. */
+size_t qdot_names_settled(const qdot_names *names);
+void qdot_names_settle(qdot_names *names);
 /* i-th in order of declaration (indices left out); NULL past the end. */
 const qdot_name *qdot_names_at(const qdot_names *names, size_t i);
 /* The declared or known name nearest in spelling (edit distance), NULL if none is near. `extra` [n]:

@@ -144,25 +144,30 @@ read_options(qdot_cursor *c, options *o)
 static qdot_status
 keep_run(qdot_session *session, const char *name, qdot_run *run)
 {
-    qdot_named_run named = {.name = qdot_strdup(name), .run = run};
-    qdot_status status = named.name == NULL ? QDOT_ENOMEM : QDOT_OK;
+    qdot_named_run named = {
+        .name = qdot_strdup(name), .run = run, .uses = qdot_malloc(sizeof *named.uses)};
+    qdot_status status = QDOT_OK;
 
-    for (size_t i = 0; i < session->runs.n && status == QDOT_OK; i++) {
+    if (named.name == NULL || named.uses == NULL) {
+        qdot_free(named.name);
+        qdot_free(named.uses);
+        qdot_run_free(run);
+        return QDOT_ENOMEM;
+    }
+    *named.uses = 1;
+
+    for (size_t i = 0; i < session->runs.n; i++) {
         if (strcmp(session->runs.at[i].name, name) != 0)
             continue;
-        qdot_free(session->runs.at[i].name);
-        qdot_run_free(session->runs.at[i].run);
+        qdot_named_run_release(&session->runs.at[i]);
         memmove(&session->runs.at[i], &session->runs.at[i + 1],
                 (session->runs.n - i - 1) * sizeof named);
         session->runs.n--;
         break;
     }
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&session->runs, named);
-    if (status != QDOT_OK) {
-        qdot_free(named.name);
-        qdot_run_free(run);
-    }
+    status = qdot_vec_push(&session->runs, named);
+    if (status != QDOT_OK)
+        qdot_named_run_release(&named);
     return status;
 }
 

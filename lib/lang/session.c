@@ -10,6 +10,7 @@
 #include "lang/carry.h"
 #include "lang/function.h"
 #include "lang/statement.h"
+#include "lang/undo.h"
 
 enum { FILE_LIMIT = 1 << 28, INCLUDE_LIMIT = 100 };
 
@@ -35,15 +36,14 @@ qdot_session_new(FILE *out, FILE *err)
     return s;
 }
 
-static void
-forget_runs(qdot_session *s)
+void
+qdot_named_run_release(qdot_named_run *run)
 {
-    while (s->runs.n > 0) {
-        qdot_named_run *run = &s->runs.at[--s->runs.n];
-
-        qdot_free(run->name);
-        qdot_run_free(run->run);
-    }
+    if (--*run->uses > 0)
+        return;
+    qdot_free(run->name);
+    qdot_run_free(run->run);
+    qdot_free(run->uses);
 }
 
 void
@@ -51,7 +51,9 @@ qdot_session_free(qdot_session *session)
 {
     if (session == NULL)
         return;
-    forget_runs(session);
+    qdot_undo_free(session->undo);
+    for (size_t i = 0; i < session->runs.n; i++)
+        qdot_named_run_release(&session->runs.at[i]);
     qdot_free(session->runs.at);
     qdot_free(session->history.at);
     qdot_free(session->history_over.at);
@@ -161,10 +163,38 @@ keep(const qdot_session *old, qdot_session *fresh)
     return qdot_pool_check(fresh->pool);
 }
 
+void
+qdot_session_exchange(qdot_session *session, qdot_session *other)
+{
+    const qdot_session swap = *session;
+
+    *session = *other;
+    *other = swap;
+#define STAYS(field)                                                                     \
+    other->field = session->field;                                                       \
+    session->field = swap.field;
+    STAYS(out)
+    STAYS(err)
+    STAYS(style)
+    STAYS(json)
+    STAYS(timing)
+    STAYS(interactive)
+    STAYS(console)
+    STAYS(console_json)
+    STAYS(failed)
+    STAYS(refuted)
+    STAYS(figures)
+    STAYS(quit)
+    STAYS(undo)
+#undef STAYS
+    memcpy(&other->including, &session->including, sizeof session->including);
+    memcpy(&session->including, &swap.including, sizeof session->including);
+}
+
 qdot_status
 qdot_session_reset(qdot_session *session, bool everything)
 {
-    qdot_session *fresh, swap;
+    qdot_session *fresh;
     qdot_status status = QDOT_OK;
 
     if (session->loops > 0)
@@ -174,22 +204,13 @@ qdot_session_reset(qdot_session *session, bool everything)
         return QDOT_ENOMEM;
     if (!everything)
         status = keep(session, fresh);
-    if (status == QDOT_OK) {
-        swap = *session;
-        *session = *fresh;
-        *fresh = swap;
-        /* what is no part of a scene stays */
-        session->style = fresh->style;
-        session->json = fresh->json;
-        session->timing = fresh->timing;
-        session->interactive = fresh->interactive;
-        session->refuted = fresh->refuted;
-        session->figures = fresh->figures;
-        memcpy(&session->including, &fresh->including, sizeof session->including);
-        memset(&fresh->including, 0, sizeof fresh->including);
+    if (status != QDOT_OK) {
+        qdot_session_free(fresh);
+        return status;
     }
-    qdot_session_free(fresh);
-    return status;
+    qdot_session_exchange(session, fresh);
+    qdot_undo_reset(session, fresh);
+    return QDOT_OK;
 }
 
 /* --- texts and files ---------------------------------------------------------------- */

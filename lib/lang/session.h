@@ -28,10 +28,13 @@ typedef struct {
     char *run;
 } qdot_member;
 
+/* Shared by the session and the states that `undo` keeps. */
 typedef struct {
     char *name; /* "a", "run1" */
     qdot_run *run;
+    unsigned *uses;
 } qdot_named_run;
+void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
 
 /* What the sides of a check are made through: each must have a value where they are compared. */
 typedef struct {
@@ -70,6 +73,7 @@ typedef struct qdot_session {
     unsigned calls;        /* of functions under way, within one another */
     bool placed;           /* the error under way names its place in a body */
     size_t loops;          /* loops under way: what they hold must outlive them */
+    struct qdot_undo *undo; /* NULL: no statement yet */
     qdot_passed *passed;   /* while the sides of a check are read; else NULL */
 } qdot_session;
 
@@ -111,6 +115,8 @@ QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_exp
                                                  long *value);
 /* Forget the scene's coordinates, particles, ... (`reset scene`) or everything (`reset`). */
 QDOT_MUST_CHECK qdot_status qdot_session_reset(qdot_session *session, bool everything);
+/* All that `reset` forgets changes places; what is no part of a scene stays: style, files ... */
+void qdot_session_exchange(qdot_session *session, qdot_session *other);
 
 /* A number of a run enters expressions: value(...), in lang/number.c. `text` is the source text
  * between the brackets' tokens, see lang/read.h. */

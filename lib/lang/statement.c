@@ -14,6 +14,7 @@
 #include "lang/code.h"
 #include "lang/redirect.h"
 #include "lang/taken.h"
+#include "lang/undo.h"
 
 typedef struct {
     size_t body, close; /* tokens: the first inside, the `}` */
@@ -441,20 +442,50 @@ round_again(engine *x, size_t *next)
     return status;
 }
 
+/* One step from *i. */
+static qdot_status
+advance(engine *x, size_t *i)
+{
+    if (x->frames.n > 0 && *i == x->frames.at[x->frames.n - 1].close)
+        return round_again(x, i);
+    if (is_op(&x->tokens[*i], "{"))
+        return enter(x, *i, i);
+    if (x->tokens[*i].kind != QDOT_TOKEN_END)
+        return simple(x, *i, i);
+    ++*i;
+    return QDOT_OK;
+}
+
+/* The statement or block at *i, to its end. */
+static qdot_status
+whole(engine *x, size_t *i)
+{
+    const qdot_token *first = &x->tokens[*i], *last;
+    size_t begun = qdot_undo_begin(x->session);
+    qdot_status status;
+
+    do
+        status = advance(x, i);
+    while (status == QDOT_OK && x->frames.n > 0 && !x->session->quit);
+    last = &x->tokens[x->frames.n > 0         ? x->frames.at[0].resume
+                      : status == QDOT_OK     ? *i
+                                              : find_end(x, (size_t)(first - x->tokens))];
+    last -= last > first;
+    qdot_undo_end(x->session, begun, x->source->text + first->start,
+                  last->start + last->length - first->start);
+    return status;
+}
+
 static qdot_status
 carry_out(engine *x)
 {
     size_t i = 0;
 
     while (i < x->n && !x->session->quit) {
-        if (x->frames.n > 0 && i == x->frames.at[x->frames.n - 1].close)
-            QDOT_TRY(round_again(x, &i));
-        else if (x->tokens[i].kind == QDOT_TOKEN_END)
+        if (x->tokens[i].kind == QDOT_TOKEN_END)
             i++;
-        else if (is_op(&x->tokens[i], "{"))
-            QDOT_TRY(enter(x, i, &i));
         else
-            QDOT_TRY(simple(x, i, &i));
+            QDOT_TRY(whole(x, &i));
     }
     return QDOT_OK;
 }
@@ -467,6 +498,7 @@ qdot_statement_run_text(qdot_session *session, const char *name, const char *tex
 {
     engine x = {.session = session};
     qdot_status status = qdot_source_new(name, text, length, &x.source, &x.error_at);
+    size_t outer = qdot_undo_text_begin(session);
 
     if (status == QDOT_OK) {
         x.tokens = x.source->tokens.at;
@@ -475,6 +507,7 @@ qdot_statement_run_text(qdot_session *session, const char *name, const char *tex
     }
     if (status == QDOT_OK)
         status = carry_out(&x);
+    qdot_undo_text_end(session, outer);
     while (x.frames.n > 0) {
         if (status != QDOT_OK)
             tell_pass(&x, &x.frames.at[x.frames.n - 1].loop);

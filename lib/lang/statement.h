@@ -136,6 +136,9 @@ qdot_status qdot_draw_table(qdot_cursor *c);
 qdot_status qdot_draw_plot(qdot_cursor *c);
 qdot_status qdot_workprecision_statement(qdot_cursor *c);
 qdot_status qdot_draw_save(qdot_cursor *c);
+/* undo.c */
+qdot_status qdot_undo_back(qdot_cursor *c);
+qdot_status qdot_undo_again(qdot_cursor *c);
 /* workbench.c */
 qdot_status qdot_workbench_reset(qdot_cursor *c);
 qdot_status qdot_workbench_include(qdot_cursor *c);

@@ -153,6 +153,13 @@ static const qdot_statement table[] = {
     {"include", WORKBENCH, "include \"FILE.lag\"",
      "carry out another script, found beside this one", "include \"other.lag\"",
      qdot_workbench_include, false},
+    {"undo", WORKBENCH, "undo [N]",
+     "take back the last statement that changed the session, or the last N: declarations, "
+     "definitions, values, runs, resets; a whole `for`, block or `include` is one",
+     "undo", qdot_undo_back, false},
+    {"redo", WORKBENCH, "redo [N]",
+     "do again what `undo` took back, until another statement changes the session", "redo",
+     qdot_undo_again, false},
     {"style", WORKBENCH, "style plain | unicode | latex | mathml", "how expressions are written",
      "style latex", qdot_workbench_style, false},
     {"timing", WORKBENCH, "timing on | off", "tell the CPU time of every statement",

@@ -205,12 +205,8 @@ qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr inert
     QDOT_TRY(qdot_pool_check(pool));
     if (!plane)
         QDOT_TRY(check_rotation(s, rotation));
-    if (name && !(b.name = qdot_strdup(name)))
-        return QDOT_ENOMEM;
-    if (qdot_vec_push(&s->bodies, b) != QDOT_OK) {
-        qdot_free(b.name);
-        return QDOT_ENOMEM;
-    }
+    QDOT_TRY(qdot_scene_copy_text(s, name, &b.name));
+    QDOT_TRY(qdot_vec_push(&s->bodies, b));
     s->version++;
     return QDOT_OK;
 }

@@ -147,15 +147,13 @@ add_component(qdot_scene *s, const char *label, const char *stem, uint32_t compo
                      : order == 1 ? QDOT_VELOCITY
                                   : QDOT_ACCELERATION;
             c.multiplier = qdot_symbol_get(pool, QDOT_MULTIPLIER, qdot_text_str(&symbol));
-            c.name = qdot_strdup(qdot_text_str(&name));
-            c.label = label ? qdot_strdup(label) : NULL;
             status = qdot_pool_check(pool);
-            if (status == QDOT_OK && (!c.name || (label && !c.label)))
-                status = QDOT_ENOMEM;
+            if (status == QDOT_OK)
+                status = qdot_scene_copy_text(s, qdot_text_str(&name), &c.name);
+            if (status == QDOT_OK)
+                status = qdot_scene_copy_text(s, label, &c.label);
             if (status == QDOT_OK)
                 status = qdot_vec_push(&s->constraints, c);
-            if (status != QDOT_OK)
-                qdot_constraint_clear(&c);
         }
     }
     qdot_text_clear(&name);
@@ -203,8 +201,7 @@ qdot_scene_constraint(qdot_scene *s, const char *label, qdot_expr left, qdot_exp
                                qdot_mech_component(pool, left, i),
                                qdot_mech_component(pool, right, i));
     if (status != QDOT_OK) {
-        while (s->constraints.n > before)
-            qdot_constraint_clear(&s->constraints.at[--s->constraints.n]);
+        s->constraints.n = before;
         qdot_scene_forget_dropped(s);
         return status;
     }

@@ -131,12 +131,10 @@ bool qdot_derived_array(qdot_scene *s, qdot_expr **array, size_t n);
 void qdot_scene_forget_dropped(qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_scene_drop(qdot_scene *s, const char *kind,
                                             const char *name);
-void qdot_link_clear(qdot_link *link);
-void qdot_force_clear(qdot_force *force);
+/* A copy that lasts as long as the scene; *copy NULL for NULL. */
+QDOT_MUST_CHECK qdot_status qdot_scene_copy_text(qdot_scene *s, const char *text, char **copy);
 /* Where among the torques the k-th of a kind (QDOT_FORCE beyond the forces, QDOT_TORQUE) is. */
 size_t qdot_scene_torque_at(const qdot_scene *s, qdot_scene_kind kind, size_t k);
-void qdot_constraint_clear(qdot_constraint *c);
-void qdot_event_clear(qdot_event *e);
 QDOT_MUST_CHECK qdot_status qdot_event_print(const qdot_scene *s, const qdot_event *e,
                                              qdot_text *out);
 

@@ -5,15 +5,6 @@
 #include "mech/derived.h"
 #include "mech/scene.h"
 
-void
-qdot_event_clear(qdot_event *e)
-{
-    qdot_free(e->name);
-    qdot_free(e->targets.at);
-    qdot_free(e->values.at);
-    *e = (qdot_event){0};
-}
-
 const qdot_event *
 qdot_scene_find_event(const qdot_scene *s, const char *label)
 {
@@ -54,36 +45,32 @@ check(const qdot_scene *s, const qdot_event *e)
     return QDOT_OK;
 }
 
+/* A copy of its own of [n] expressions. */
 static qdot_status
-copy(const qdot_event *from, qdot_event *to)
+copy(qdot_scene *s, size_t n, qdot_expr **at)
 {
-    to->name = qdot_strdup(from->name);
-    to->left = from->left;
-    to->right = from->right;
-    to->way = from->way;
-    to->stop = from->stop;
-    for (size_t i = 0; i < from->targets.n; i++) {
-        QDOT_TRY(qdot_vec_push(&to->targets, from->targets.at[i]));
-        QDOT_TRY(qdot_vec_push(&to->values, from->values.at[i]));
-    }
-    return to->name ? QDOT_OK : QDOT_ENOMEM;
+    qdot_expr *own = qdot_arena_take(s->texts, (n + 1) * sizeof *own);
+
+    if (!own)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        own[i] = (*at)[i];
+    *at = own;
+    return QDOT_OK;
 }
 
 qdot_status
 qdot_scene_event(qdot_scene *s, const qdot_event *event)
 {
-    qdot_event own = {0};
-    qdot_status status;
+    qdot_event own = *event;
 
     if (qdot_scene_has_label(s, event->name))
         return qdot_fail(QDOT_ENAME, "%.100s is a label of the scene already", event->name);
     QDOT_TRY(check(s, event));
-    status = copy(event, &own);
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&s->events, own);
-    if (status != QDOT_OK)
-        qdot_event_clear(&own);
-    return status;
+    QDOT_TRY(qdot_scene_copy_text(s, event->name, &own.name));
+    QDOT_TRY(copy(s, own.targets.n, &own.targets.at));
+    QDOT_TRY(copy(s, own.values.n, &own.values.at));
+    return qdot_vec_push(&s->events, own);
 }
 
 qdot_status

@@ -44,9 +44,8 @@ qdot_scene_count(const qdot_scene *s, qdot_scene_kind kind)
 }
 
 /* Take out the member at k. */
-#define TAKE(list, k, clear)                                                             \
+#define TAKE(list, k)                                                                    \
     do {                                                                                 \
-        clear;                                                                           \
         memmove(&(list).at[k], &(list).at[(k) + 1],                                      \
                 ((list).n - (k) - 1) * sizeof *(list).at);                               \
         (list).n--;                                                                      \
@@ -61,22 +60,20 @@ qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k)
     if (k >= qdot_scene_count(s, kind))
         return qdot_fail(QDOT_EINVAL, "there is no number %zu to be removed", k + 1);
     switch (kind) {
-    case QDOT_GRAVITY: TAKE(s->gravities, k, qdot_free(s->gravities.at[k].name)); break;
-    case QDOT_POTENTIAL: TAKE(s->potentials, k, qdot_free(s->potentials.at[k].name)); break;
-    case QDOT_SPRING: TAKE(s->springs, k, qdot_link_clear(&s->springs.at[k])); break;
-    case QDOT_DAMPER: TAKE(s->dampers, k, qdot_link_clear(&s->dampers.at[k])); break;
-    case QDOT_DISSIPATION:
-        TAKE(s->dissipations, k, qdot_free(s->dissipations.at[k].name));
-        break;
+    case QDOT_GRAVITY: TAKE(s->gravities, k); break;
+    case QDOT_POTENTIAL: TAKE(s->potentials, k); break;
+    case QDOT_SPRING: TAKE(s->springs, k); break;
+    case QDOT_DAMPER: TAKE(s->dampers, k); break;
+    case QDOT_DISSIPATION: TAKE(s->dissipations, k); break;
     case QDOT_FORCE:
         if (k < s->forces.n) {
-            TAKE(s->forces, k, qdot_force_clear(&s->forces.at[k]));
+            TAKE(s->forces, k);
             break;
         }
         /* fallthrough */
     case QDOT_TORQUE:
         torque = qdot_scene_torque_at(s, kind, k);
-        TAKE(s->torques, torque, qdot_free(s->torques.at[torque].name));
+        TAKE(s->torques, torque);
         break;
     }
     s->version++;

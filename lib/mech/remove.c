@@ -25,13 +25,12 @@ qdot_scene_drop(qdot_scene *s, const char *kind, const char *name)
 }
 
 /* Keep the members for which `gone` is false. */
-#define FILTER(list, item, gone, clear)                                                  \
+#define FILTER(list, item, gone)                                                         \
     do {                                                                                 \
         size_t kept_ = 0;                                                                \
         for (size_t i_ = 0; i_ < (list).n; i_++) {                                       \
             __typeof__((list).at) item = &(list).at[i_];                                 \
             if (gone) {                                                                  \
-                clear;                                                                   \
                 found = true;                                                            \
             } else {                                                                     \
                 (list).at[kept_++] = *item;                                              \
@@ -80,35 +79,31 @@ qdot_scene_remove(qdot_scene *s, const char *label)
 
     qdot_scene_forget_dropped(s);
     if (qdot_scene_find_event(s, label)) { /* what was derived still holds */
-        FILTER(s->events, p, qdot_label_is(p->name, label), qdot_event_clear(p));
+        FILTER(s->events, p, qdot_label_is(p->name, label));
         return found ? QDOT_OK : QDOT_EFAILED;
     }
     if (!qdot_scene_has_label(s, label))
         return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
     if (on_thing)
         QDOT_TRY(name_dependents(s, label, body));
-    FILTER(s->particles, p, qdot_label_is(p->name, label), qdot_free(p->name));
-    FILTER(s->bodies, p, qdot_label_is(p->name, label), qdot_free(p->name));
+    FILTER(s->particles, p, qdot_label_is(p->name, label));
+    FILTER(s->bodies, p, qdot_label_is(p->name, label));
     FILTER(s->springs, p,
            qdot_label_is(p->name, label) ||
-               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))),
-           qdot_link_clear(p));
+               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))));
     FILTER(s->dampers, p,
            qdot_label_is(p->name, label) ||
-               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))),
-           qdot_link_clear(p));
-    FILTER(s->forces, p, qdot_label_is(p->name, label) || (on_thing && qdot_label_is(p->on, label)),
-           qdot_force_clear(p));
+               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))));
+    FILTER(s->forces, p, qdot_label_is(p->name, label) || (on_thing && qdot_label_is(p->on, label)));
     FILTER(s->torques, p,
            qdot_label_is(p->name, label) ||
-               (body >= 0 && p->coordinate == QDOT_NIL && p->body == body),
-           qdot_free(p->name));
+               (body >= 0 && p->coordinate == QDOT_NIL && p->body == body));
     for (size_t i = 0; body >= 0 && i < s->torques.n; i++)
         s->torques.at[i].body -= s->torques.at[i].body > body;
-    FILTER(s->gravities, p, qdot_label_is(p->name, label), qdot_free(p->name));
-    FILTER(s->potentials, p, qdot_label_is(p->name, label), qdot_free(p->name));
-    FILTER(s->dissipations, p, qdot_label_is(p->name, label), qdot_free(p->name));
-    FILTER(s->constraints, p, qdot_label_is(p->label, label), qdot_constraint_clear(p));
+    FILTER(s->gravities, p, qdot_label_is(p->name, label));
+    FILTER(s->potentials, p, qdot_label_is(p->name, label));
+    FILTER(s->dissipations, p, qdot_label_is(p->name, label));
+    FILTER(s->constraints, p, qdot_label_is(p->label, label));
     s->version++;
     return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
 }

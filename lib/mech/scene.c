@@ -37,33 +37,12 @@ qdot_scene_new(qdot_pool *pool)
     s->pool = pool;
     s->version = 1;
     s->derived = qdot_calloc(1, sizeof *s->derived);
-    if (!s->derived) {
-        qdot_free(s);
+    s->texts = qdot_arena_new();
+    if (!s->derived || !s->texts) {
+        qdot_scene_free(s);
         return NULL;
     }
     return s;
-}
-
-void
-qdot_link_clear(qdot_link *link)
-{
-    qdot_free(link->name);
-    qdot_free(link->end[0]);
-    qdot_free(link->end[1]);
-}
-
-void
-qdot_force_clear(qdot_force *force)
-{
-    qdot_free(force->name);
-    qdot_free(force->on);
-}
-
-void
-qdot_constraint_clear(qdot_constraint *c)
-{
-    qdot_free(c->name);
-    qdot_free(c->label);
 }
 
 void
@@ -79,28 +58,6 @@ qdot_scene_free(qdot_scene *s)
 {
     if (!s)
         return;
-    for (size_t i = 0; i < s->particles.n; i++)
-        qdot_free(s->particles.at[i].name);
-    for (size_t i = 0; i < s->bodies.n; i++)
-        qdot_free(s->bodies.at[i].name);
-    for (size_t i = 0; i < s->springs.n; i++)
-        qdot_link_clear(&s->springs.at[i]);
-    for (size_t i = 0; i < s->dampers.n; i++)
-        qdot_link_clear(&s->dampers.at[i]);
-    for (size_t i = 0; i < s->forces.n; i++)
-        qdot_force_clear(&s->forces.at[i]);
-    for (size_t i = 0; i < s->torques.n; i++)
-        qdot_free(s->torques.at[i].name);
-    for (size_t i = 0; i < s->gravities.n; i++)
-        qdot_free(s->gravities.at[i].name);
-    for (size_t i = 0; i < s->potentials.n; i++)
-        qdot_free(s->potentials.at[i].name);
-    for (size_t i = 0; i < s->dissipations.n; i++)
-        qdot_free(s->dissipations.at[i].name);
-    for (size_t i = 0; i < s->constraints.n; i++)
-        qdot_constraint_clear(&s->constraints.at[i]);
-    for (size_t i = 0; i < s->events.n; i++)
-        qdot_event_clear(&s->events.at[i]);
     qdot_free(s->events.at);
     qdot_scene_forget_dropped(s);
     qdot_free(s->dropped.at);
@@ -117,7 +74,10 @@ qdot_scene_free(qdot_scene *s)
     qdot_free(s->constraints.at);
     qdot_free(s->assumed.at);
     qdot_free(s->conditions.at);
-    qdot_derived_free(s->derived);
+    if (s->derived)
+        qdot_derived_free(s->derived);
+    if (s->texts)
+        qdot_arena_free(s->texts);
     qdot_free(s);
 }
 
@@ -188,14 +148,11 @@ need_no_lagrangian(const qdot_scene *s, const char *what)
                      what);
 }
 
-static qdot_status
-copy_name(const char *name, char **copy)
+qdot_status
+qdot_scene_copy_text(qdot_scene *s, const char *text, char **copy)
 {
-    *copy = NULL;
-    if (!name)
-        return QDOT_OK;
-    *copy = qdot_strdup(name);
-    return *copy ? QDOT_OK : QDOT_ENOMEM;
+    *copy = text ? qdot_arena_strndup(s->texts, text, strlen(text)) : NULL;
+    return *copy || !text ? QDOT_OK : QDOT_ENOMEM;
 }
 
 static qdot_status
@@ -241,11 +198,8 @@ qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr p
     QDOT_TRY(need_new_label(s, name));
     QDOT_TRY(need_mass(s, mass));
     QDOT_TRY(need_vector(s, position, "a position", NO_VELOCITY));
-    QDOT_TRY(copy_name(name, &p.name));
-    if (qdot_vec_push(&s->particles, p) != QDOT_OK) {
-        qdot_free(p.name);
-        return QDOT_ENOMEM;
-    }
+    QDOT_TRY(qdot_scene_copy_text(s, name, &p.name));
+    QDOT_TRY(qdot_vec_push(&s->particles, p));
     return changed(s);
 }
 
@@ -288,15 +242,11 @@ qdot_scene_term(qdot_scene *s, qdot_scene_kind kind, const char *name, qdot_expr
         before->e = e;
         return changed(s);
     }
-    QDOT_TRY(copy_name(name, &term.name));
+    QDOT_TRY(qdot_scene_copy_text(s, name, &term.name));
     status = kind == QDOT_GRAVITY     ? qdot_vec_push(&s->gravities, term)
              : kind == QDOT_POTENTIAL ? qdot_vec_push(&s->potentials, term)
                                       : qdot_vec_push(&s->dissipations, term);
-    if (status != QDOT_OK) {
-        qdot_free(term.name);
-        return status;
-    }
-    return changed(s);
+    return status == QDOT_OK ? changed(s) : status;
 }
 
 qdot_status
@@ -345,18 +295,13 @@ add_link(qdot_scene *s, const qdot_link *link, bool damper)
     QDOT_TRY(qdot_pool_check(s->pool));
     if (u2 == QDOT_ZERO)
         return qdot_fail(QDOT_EINVAL, "both ends are at one point");
-    copy.name = copy.end[0] = copy.end[1] = NULL;
-    status = copy_name(link->name, &copy.name);
+    status = qdot_scene_copy_text(s, link->name, &copy.name);
     for (int k = 0; k < 2 && status == QDOT_OK; k++)
-        status = copy_name(link->end[k], &copy.end[k]);
+        status = qdot_scene_copy_text(s, link->end[k], &copy.end[k]);
     if (status == QDOT_OK)
         status =
             damper ? qdot_vec_push(&s->dampers, copy) : qdot_vec_push(&s->springs, copy);
-    if (status != QDOT_OK) {
-        qdot_link_clear(&copy);
-        return status;
-    }
-    return changed(s);
+    return status == QDOT_OK ? changed(s) : status;
 }
 
 qdot_status
@@ -382,7 +327,6 @@ qdot_status
 qdot_scene_force(qdot_scene *s, const qdot_force *force)
 {
     qdot_force copy = *force;
-    qdot_status status;
 
     qdot_scene_forget_dropped(s);
     QDOT_TRY(need_new_label(s, force->name));
@@ -395,16 +339,9 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
                          qdot_mech_dimension(s->pool, force->point));
     if (force->material && (!force->on || !qdot_scene_find_body(s, force->on)))
         return qdot_fail(QDOT_EINVAL, "only a body has material at other places than its own");
-    copy.name = copy.on = NULL;
-    status = copy_name(force->name, &copy.name);
-    if (status == QDOT_OK)
-        status = copy_name(force->on, &copy.on);
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&s->forces, copy);
-    if (status != QDOT_OK) {
-        qdot_force_clear(&copy);
-        return status;
-    }
+    QDOT_TRY(qdot_scene_copy_text(s, force->name, &copy.name));
+    QDOT_TRY(qdot_scene_copy_text(s, force->on, &copy.on));
+    QDOT_TRY(qdot_vec_push(&s->forces, copy));
     return changed(s);
 }
 
@@ -434,11 +371,8 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
                                          : "a torque on a plane body is a number");
         QDOT_TRY(need_free_of(s, torque->torque, "a torque", NO_ACCELERATION));
     }
-    QDOT_TRY(copy_name(torque->name, &copy.name));
-    if (qdot_vec_push(&s->torques, copy) != QDOT_OK) {
-        qdot_free(copy.name);
-        return QDOT_ENOMEM;
-    }
+    QDOT_TRY(qdot_scene_copy_text(s, torque->name, &copy.name));
+    QDOT_TRY(qdot_vec_push(&s->torques, copy));
     return changed(s);
 }
 

@@ -1,6 +1,7 @@
 /* scene.h -- what a person declared: coordinates, r(q, t), masses, forces, constraints.
  *
- * A scene owns its arrays and names and borrows the pool. Nothing is derived here; mech/quantity.h
+ * A scene owns its arrays and texts and borrows the pool; texts stay as they are till its end, also
+ * those of things taken out again. Nothing is derived here; mech/quantity.h
  * derives on demand and keeps what it derived until the scene changes (qdot_scene.version).
  * Vectors are VECs of 2 or 3 components; in one dimension plain scalars.
  */
@@ -87,6 +88,7 @@ typedef struct qdot_derived qdot_derived; /* mech/quantity.c */
 
 typedef struct {
     qdot_pool *pool;  /* borrowed */
+    qdot_arena *texts;
     uint64_t version; /* grows with every change */
     qdot_vec(qdot_expr) coordinates;
     qdot_vec(qdot_particle) particles;
@@ -170,6 +172,18 @@ QDOT_MUST_CHECK qdot_status qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind 
 /* Whether the latest of a kind says what one before it says, both without label. QDOT_FORCE: on a
  * particle, a body or at a place; QDOT_TORQUE: also those declared with `force`. */
 bool qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind);
+
+/* The arrays of what is declared, one like the other: `size` bytes an item, which may be copied as
+ * it is. With `lagrangian` they are the state of a scene: who keeps a copy of all can go back to it,
+ * and then counts `version` on. */
+enum { QDOT_SCENE_PARTS = 15 };
+typedef struct {
+    void *at;            /* the pointer to the items */
+    size_t *n, *capacity, size;
+} qdot_scene_part;
+qdot_scene_part qdot_scene_part_at(qdot_scene *s, size_t k);
+/* Whether what is derived depends on part k. */
+bool qdot_scene_part_counts(size_t k);
 
 /* Rotation matrix Rz(phi) Rx(theta) Rz(psi). */
 qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi);

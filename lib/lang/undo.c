@@ -1,0 +1,715 @@
+/* undo.c -- what statements changed, kept to be taken back. */
+#include "lang/undo.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#include "lang/answer.h"
+#include "lang/statement.h"
+
+/* --- the state as arrays -------------------------------------------------------------- */
+
+enum {
+    SET_SYMBOLS = QDOT_SCENE_PARTS,
+    SET_VALUES,
+    START_SYMBOLS,
+    START_VALUES,
+    HISTORY,
+    HISTORY_OVER,
+    RUNS,
+    NAMES,
+    PARTS
+};
+enum { TEXT_LIMIT = 160 };
+
+/* What is no array. */
+typedef struct {
+    qdot_expr lagrangian, series, series_in;
+    qdot_style style;
+    bool timing, start_exactly;
+} single;
+
+/* Items of one part. */
+typedef struct {
+    unsigned char *at;
+    size_t n, capacity;
+} items;
+
+typedef struct {
+    items part[PARTS];
+    single single;
+} state;
+
+/* The items [at, at + n[0]) of a part became [at, at + n[1]). */
+typedef struct {
+    int part;
+    size_t at, n[2];
+    unsigned char *items[2];
+} change;
+
+/* What one statement changed: [0] before, [1] after. */
+typedef struct {
+    char *text;
+    bool joined; /* it goes with the record before it */
+    qdot_vec(change) changes;
+    single single[2];
+    size_t history[2];   /* answers given */
+    qdot_session *other; /* of `reset`: the session on the other side of it */
+    state *there;        /* ... and its state */
+} record;
+
+typedef qdot_vec(record) records;
+
+struct qdot_undo {
+    state now;               /* as the latest statement left it */
+    bool known;              /* it is */
+    qdot_vec(const qdot_name *) names; /* those of the session, in order */
+    records done, undone;
+    size_t floor;            /* records that the text under way cannot take back */
+    bool moved;              /* the statement under way is `undo` or `redo` */
+    size_t under_way;        /* statements, within one another */
+};
+
+static qdot_scene_part
+part_of(qdot_session *s, int k)
+{
+#define PART(list) {&(list).at, &(list).n, &(list).capacity, sizeof *(list).at}
+    const qdot_scene_part own[PARTS - QDOT_SCENE_PARTS] = {
+        PART(s->set_symbols),  PART(s->set_values), PART(s->start_symbols),
+        PART(s->start_values), PART(s->history),    PART(s->history_over),
+        PART(s->runs),         PART(s->undo->names),
+    };
+#undef PART
+
+    return k < QDOT_SCENE_PARTS ? qdot_scene_part_at(s->scene, (size_t)k)
+                                : own[k - QDOT_SCENE_PARTS];
+}
+
+static unsigned char *
+items_of(const qdot_scene_part *part)
+{
+    unsigned char *at;
+
+    memcpy(&at, part->at, sizeof at);
+    return at;
+}
+
+/* Whether a part changes with every answer. */
+static bool
+is_answers(int k)
+{
+    return k == HISTORY || k == HISTORY_OVER;
+}
+
+static single
+single_of(const qdot_session *s)
+{
+    return (single){.lagrangian = s->scene->lagrangian,
+                    .series = s->series,
+                    .series_in = s->series_in,
+                    .style = s->style,
+                    .timing = s->timing,
+                    .start_exactly = s->start_exactly};
+}
+
+static bool
+same_single(const single *a, const single *b)
+{
+    return a->lagrangian == b->lagrangian && a->style == b->style &&
+           a->timing == b->timing && a->start_exactly == b->start_exactly;
+}
+
+/* --- items ---------------------------------------------------------------------------- */
+
+/* One use more, or less, of what the items are. */
+static void
+count_uses(int part, const unsigned char *at, size_t n, bool more)
+{
+    for (size_t i = 0; i < n && part == RUNS; i++) {
+        qdot_named_run run;
+
+        memcpy(&run, at + i * sizeof run, sizeof run);
+        if (more)
+            ++*run.uses;
+        else
+            qdot_named_run_release(&run);
+    }
+    for (size_t i = 0; i < n && part == NAMES; i++) {
+        const qdot_name *name;
+
+        memcpy(&name, at + i * sizeof name, sizeof name);
+        if (more)
+            (void)qdot_names_keep(name);
+        else
+            qdot_names_release(name);
+    }
+}
+
+static void
+copy_bytes(unsigned char *to, const unsigned char *from, size_t n)
+{
+    if (n > 0)
+        memmove(to, from, n);
+}
+
+/* *to becomes a copy, with uses of its own. */
+static qdot_status
+copy_items(int part, const unsigned char *from, size_t n, size_t size, unsigned char **to)
+{
+    *to = qdot_malloc(n * size);
+    if (*to == NULL)
+        return QDOT_ENOMEM;
+    copy_bytes(*to, from, n * size);
+    count_uses(part, *to, n, true);
+    return QDOT_OK;
+}
+
+/* Room for `n` items. */
+static qdot_status
+make_room(qdot_scene_part *part, size_t n)
+{
+    unsigned char *at = items_of(part);
+
+    QDOT_TRY(qdot_grow(&at, part->capacity, n, part->size));
+    memcpy(part->at, &at, sizeof at);
+    return QDOT_OK;
+}
+
+/* The items [at, at + gone) give way to those of `in`, for which there is room. */
+static void
+splice(const qdot_scene_part *part, size_t at, size_t gone, const unsigned char *in,
+       size_t come)
+{
+    unsigned char *first = items_of(part) + at * part->size;
+
+    copy_bytes(first + come * part->size, first + gone * part->size,
+               (*part->n - at - gone) * part->size);
+    copy_bytes(first, in, come * part->size);
+    *part->n += come - gone;
+}
+
+/* The same of the copy that is kept, which has uses of its own. */
+static void
+splice_kept(state *kept, int k, size_t size, size_t at, size_t gone,
+            const unsigned char *in, size_t come)
+{
+    items *own = &kept->part[k];
+    const qdot_scene_part part = {&own->at, &own->n, &own->capacity, size};
+
+    count_uses(k, in, come, true);
+    count_uses(k, own->at + at * size, gone, false);
+    splice(&part, at, gone, in, come);
+}
+
+static void
+clear_state(state *s)
+{
+    for (int k = 0; k < PARTS; k++) {
+        count_uses(k, s->part[k].at, s->part[k].n, false);
+        qdot_free(s->part[k].at);
+    }
+    *s = (state){0};
+}
+
+/* --- records -------------------------------------------------------------------------- */
+
+static void
+clear_record(record *r)
+{
+    qdot_free(r->text);
+    for (size_t i = 0; i < r->changes.n; i++)
+        for (int side = 0; side < 2; side++) {
+            const change *c = &r->changes.at[i];
+
+            count_uses(c->part, c->items[side], c->n[side], false);
+            qdot_free(c->items[side]);
+        }
+    qdot_free(r->changes.at);
+    if (r->there != NULL)
+        clear_state(r->there);
+    qdot_free(r->there);
+    qdot_session_free(r->other);
+}
+
+static void
+clear_records(records *list)
+{
+    while (list->n > 0)
+        clear_record(&list->at[--list->n]);
+}
+
+/* Nothing can be undone any more. */
+static void
+forget(qdot_undo *u)
+{
+    clear_records(&u->done);
+    clear_records(&u->undone);
+    clear_state(&u->now);
+    u->known = false;
+    u->floor = 0;
+}
+
+void
+qdot_undo_free(qdot_undo *u)
+{
+    if (u == NULL)
+        return;
+    forget(u);
+    qdot_free(u->done.at);
+    qdot_free(u->undone.at);
+    qdot_free(u->names.at);
+    qdot_free(u);
+}
+
+/* --- comparing ------------------------------------------------------------------------ */
+
+/* The names of the session as an array. */
+static qdot_status
+list_names(qdot_session *s)
+{
+    qdot_undo *u = s->undo;
+    const qdot_name *name;
+    size_t settled = qdot_names_settled(s->names);
+
+    if (settled > u->names.n || !u->known)
+        settled = 0;
+    u->names.n = settled;
+    while ((name = qdot_names_at(s->names, u->names.n)) != NULL)
+        QDOT_TRY(qdot_vec_push(&u->names, name));
+    return QDOT_OK;
+}
+
+/* What differs in one part goes to r and into the copy that is kept. */
+static qdot_status
+compare_part(qdot_session *s, int k, record *r)
+{
+    qdot_scene_part live = part_of(s, k);
+    items *kept = &s->undo->now.part[k];
+    const unsigned char *new = items_of(&live), *old = kept->at;
+    const size_t size = live.size, least = *live.n < kept->n ? *live.n : kept->n;
+    size_t before = k == NAMES ? qdot_names_settled(s->names) : 0, behind = 0;
+    change c = {.part = k};
+    qdot_scene_part room = {&kept->at, &kept->n, &kept->capacity, size};
+    qdot_status status;
+
+    if (before > least)
+        before = 0;
+    while (before < least && memcmp(old + before * size, new + before * size, size) == 0)
+        before++;
+    if (before == *live.n && before == kept->n)
+        return QDOT_OK;
+    while (!is_answers(k) && behind < least - before &&
+           memcmp(old + (kept->n - behind - 1) * size, new + (*live.n - behind - 1) * size,
+                  size) == 0)
+        behind++;
+    c.at = before;
+    c.n[0] = kept->n - before - behind;
+    c.n[1] = *live.n - before - behind;
+    QDOT_TRY(make_room(&room, *live.n));
+    QDOT_TRY(copy_items(k, kept->at + before * size, c.n[0], size, &c.items[0]));
+    status = copy_items(k, new + before * size, c.n[1], size, &c.items[1]);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&r->changes, c);
+    if (status != QDOT_OK) {
+        for (int side = 0; side < 2; side++) {
+            count_uses(k, c.items[side], c.items[side] != NULL ? c.n[side] : 0, false);
+            qdot_free(c.items[side]);
+        }
+        return status;
+    }
+    splice_kept(&s->undo->now, k, size, c.at, c.n[0], c.items[1], c.n[1]);
+    return QDOT_OK;
+}
+
+/* The state that is kept becomes that of the session; r: the difference. */
+static qdot_status
+compare(qdot_session *s, record *r)
+{
+    state *now = &s->undo->now;
+
+    QDOT_TRY(list_names(s));
+    r->history[0] = now->part[HISTORY].n;
+    r->single[0] = now->single;
+    for (int k = 0; k < PARTS; k++)
+        QDOT_TRY(compare_part(s, k, r));
+    qdot_names_settle(s->names);
+    r->history[1] = now->part[HISTORY].n;
+    r->single[1] = now->single = single_of(s);
+    return QDOT_OK;
+}
+
+/* Whether a statement that only asks could leave this. */
+static bool
+is_nothing(const record *r)
+{
+    for (size_t i = 0; i < r->changes.n; i++)
+        if (!is_answers(r->changes.at[i].part))
+            return false;
+    return r->other == NULL && same_single(&r->single[0], &r->single[1]);
+}
+
+/* --- while statements run ------------------------------------------------------------- */
+
+size_t
+qdot_undo_text_begin(qdot_session *s)
+{
+    const size_t outer = s->undo != NULL ? s->undo->floor : 0;
+
+    if (s->undo != NULL && s->undo->under_way > 0)
+        s->undo->floor = s->undo->done.n;
+    return outer;
+}
+
+void
+qdot_undo_text_end(qdot_session *s, size_t outer)
+{
+    if (s->undo != NULL)
+        s->undo->floor = outer < s->undo->done.n ? outer : s->undo->done.n;
+}
+
+/* Nothing here is a failure of the statement under way: its error stays. */
+static void
+let_go(qdot_session *s, const qdot_error *error)
+{
+    forget(s->undo);
+    (void)qdot_fail_again(error);
+}
+
+size_t
+qdot_undo_begin(qdot_session *s)
+{
+    const qdot_error error = *qdot_last_error();
+    record r = {0};
+
+    if (s->undo == NULL)
+        s->undo = qdot_calloc(1, sizeof *s->undo);
+    if (s->undo == NULL) {
+        (void)qdot_fail_again(&error);
+        return 0;
+    }
+    s->undo->under_way++;
+    s->undo->moved = false;
+    if (s->undo->known) {
+        s->undo->now.single = single_of(s); /* a style from outside is no statement's */
+    } else if (compare(s, &r) == QDOT_OK) {
+        s->undo->known = true;
+    } else {
+        let_go(s, &error);
+    }
+    clear_record(&r);
+    return s->undo->done.n;
+}
+
+/* The source text in one line: `;` for what ends the lines of a block. */
+static char *
+one_line(const char *text, size_t length)
+{
+    qdot_text line = {0};
+    int open = 0; /* brackets within a line */
+    char *copy;
+
+    for (size_t i = 0; i < length; i++) {
+        bool blank = strchr(" \t\r\n", text[i]) != NULL;
+
+        open += (text[i] == '(' || text[i] == '[') - (text[i] == ')' || text[i] == ']');
+        if (text[i] == '\n' && open == 0 && line.n > 0 &&
+            strchr("{;\\ ", line.at[line.n - 1]) == NULL)
+            qdot_text_char(&line, ';');
+
+        if (line.n >= TEXT_LIMIT && ((unsigned char)text[i] & 0xc0) != 0x80) {
+            qdot_text_add(&line, " ...");
+            break;
+        }
+        if (!blank)
+            qdot_text_char(&line, text[i]);
+        else if (line.n > 0 && line.at[line.n - 1] != ' ')
+            qdot_text_char(&line, ' ');
+    }
+    copy = qdot_text_status(&line) == QDOT_OK ? qdot_strdup(qdot_text_str(&line)) : NULL;
+    qdot_text_clear(&line);
+    return copy;
+}
+
+/* What is new since `begun` is one thing to undo, called `text`. */
+static qdot_status
+join(qdot_undo *u, size_t begun, const char *text, size_t length)
+{
+    char *line;
+
+    if (u->done.n <= begun)
+        return QDOT_OK;
+    line = one_line(text, length);
+    if (line == NULL)
+        return QDOT_ENOMEM;
+    qdot_free(u->done.at[begun].text);
+    u->done.at[begun].text = line;
+    for (size_t i = begun + 1; i < u->done.n; i++)
+        u->done.at[i].joined = true;
+    return QDOT_OK;
+}
+
+static qdot_status
+push(qdot_undo *u, record *r)
+{
+    QDOT_TRY(qdot_vec_push(&u->done, *r));
+    *r = (record){0};
+    clear_records(&u->undone);
+    return QDOT_OK;
+}
+
+void
+qdot_undo_end(qdot_session *s, size_t begun, const char *text, size_t length)
+{
+    const qdot_error error = *qdot_last_error();
+    qdot_undo *u = s->undo;
+    qdot_status status = QDOT_OK;
+    record r = {0};
+
+    if (u == NULL)
+        return;
+    u->under_way--;
+    if (!u->known)
+        return;
+    status = compare(s, &r);
+    if (status == QDOT_OK && !is_nothing(&r))
+        status = push(u, &r);
+    if (status == QDOT_OK && !u->moved)
+        status = join(u, begun, text, length);
+    u->moved = false;
+    clear_record(&r);
+    if (status != QDOT_OK)
+        let_go(s, &error);
+}
+
+void
+qdot_undo_reset(qdot_session *s, qdot_session *other)
+{
+    const qdot_error error = *qdot_last_error();
+    qdot_undo *u = s->undo;
+    record r = {.other = other}, rest = {0};
+    qdot_status status = QDOT_ENOMEM;
+
+    if (u != NULL && u->known)
+        r.there = qdot_malloc(sizeof *r.there);
+    if (r.there != NULL) {
+        *r.there = u->now;
+        u->now = (state){0};
+        u->known = false;
+        r.single[0] = r.there->single;
+        status = compare(s, &rest);
+        r.single[1] = u->now.single;
+    }
+    if (status == QDOT_OK) {
+        u->known = true;
+        status = push(u, &r);
+    }
+    clear_record(&rest);
+    clear_record(&r);
+    if (status != QDOT_OK && u != NULL)
+        let_go(s, &error);
+}
+
+/* --- back and forth ------------------------------------------------------------------- */
+
+/* Symbols follow the names that mean them. */
+static void
+move_symbols(qdot_session *s, const change *c, int to)
+{
+    for (int step = 0; step < 2; step++) {
+        int side = step == 0 ? !to : to;
+
+        for (size_t i = 0; i < c->n[side]; i++) {
+            const qdot_name *name;
+
+            memcpy(&name, c->items[side] + i * sizeof name, sizeof name);
+            if (name->kind == QDOT_NAME_UFUN && step == 1)
+                (void)!qdot_ufun_redeclare(s->pool, name->ufun, name->formals);
+            if (name->kind != QDOT_NAME_PARAM && name->kind != QDOT_NAME_COORD)
+                continue;
+            if (step == 0)
+                qdot_symbol_hide(s->pool, name->value);
+            else
+                qdot_symbol_show(s->pool, name->value);
+        }
+    }
+}
+
+/* Answers beyond the first n are forgotten. */
+static void
+cut_history(qdot_session *s, size_t n)
+{
+    items *kept = s->undo->now.part;
+
+    if (s->history.n > n)
+        s->history.n = n;
+    if (s->history_over.n > n)
+        s->history_over.n = n;
+    for (int k = HISTORY; k <= HISTORY_OVER; k++)
+        if (kept[k].n > n)
+            kept[k].n = n;
+}
+
+/* The session on the other side of a `reset`. */
+static void
+cross(qdot_session *s, record *r)
+{
+    state there = *r->there;
+
+    qdot_session_exchange(s, r->other);
+    *r->there = s->undo->now;
+    s->undo->now = there;
+    s->undo->now.single = single_of(s);
+    s->undo->names.n = 0;
+    for (size_t i = 0; i < there.part[NAMES].n; i++) /* as many were there before */
+        memcpy(&s->undo->names.at[s->undo->names.n++],
+               there.part[NAMES].at + i * sizeof *s->undo->names.at,
+               sizeof *s->undo->names.at);
+}
+
+/* Room in the session and in the copy for what the record puts there. */
+static qdot_status
+prepare(qdot_session *s, const record *r, int to)
+{
+    for (size_t i = 0; i < r->changes.n; i++) {
+        const change *c = &r->changes.at[i];
+        qdot_scene_part live = part_of(s, c->part);
+        items *kept = &s->undo->now.part[c->part];
+        qdot_scene_part copy = {&kept->at, &kept->n, &kept->capacity, live.size};
+
+        QDOT_TRY(make_room(&live, *live.n + c->n[to]));
+        QDOT_TRY(make_room(&copy, kept->n + c->n[to]));
+    }
+    return QDOT_OK;
+}
+
+/* Go to one side of the record: 0 before the statement, 1 behind it. */
+static qdot_status
+apply(qdot_session *s, record *r, int to)
+{
+    qdot_undo *u = s->undo;
+    bool counts = r->single[0].lagrangian != r->single[1].lagrangian;
+
+    if (r->other != NULL) {
+        cross(s, r);
+        return QDOT_OK;
+    }
+    QDOT_TRY(prepare(s, r, to));
+    cut_history(s, r->history[!to]);
+    for (size_t i = 0; i < r->changes.n; i++) {
+        const change *c = &r->changes.at[i];
+        const qdot_scene_part live = part_of(s, c->part);
+
+        counts = counts || (c->part < QDOT_SCENE_PARTS &&
+                            qdot_scene_part_counts((size_t)c->part));
+        if (c->part == RUNS) {
+            count_uses(RUNS, c->items[to], c->n[to], true);
+            count_uses(RUNS, c->items[!to], c->n[!to], false);
+        }
+        splice(&live, c->at, c->n[!to], c->items[to], c->n[to]);
+        splice_kept(&u->now, c->part, live.size, c->at, c->n[!to], c->items[to], c->n[to]);
+        if (c->part == NAMES) {
+            move_symbols(s, c, to);
+            qdot_names_restore(s->names, u->names.n, u->names.at);
+        }
+    }
+    u->now.single = r->single[to];
+    s->scene->lagrangian = u->now.single.lagrangian;
+    s->series = u->now.single.series;
+    s->series_in = u->now.single.series_in;
+    s->style = u->now.single.style;
+    s->timing = u->now.single.timing;
+    s->start_exactly = u->now.single.start_exactly;
+    s->scene->version += counts;
+    return QDOT_OK;
+}
+
+/* The latest record of one list, to its other side, becomes the latest of the other. */
+static qdot_status
+move(qdot_session *s, records *from, records *into, int to)
+{
+    QDOT_TRY(qdot_grow(&into->at, &into->capacity, into->n + 1, sizeof *into->at));
+    QDOT_TRY(apply(s, &from->at[from->n - 1], to));
+    into->at[into->n++] = from->at[--from->n];
+    return QDOT_OK;
+}
+
+static qdot_status
+refuse(const qdot_cursor *c, const char *word, size_t n, long wanted)
+{
+    const qdot_undo *u = c->session->undo;
+
+    if (n > 0)
+        (void)qdot_fail(QDOT_EINVAL, "%zu statement%s can be %s, not %ld", n,
+                        n == 1 ? "" : "s", word, wanted);
+    else
+        (void)qdot_fail(QDOT_EINVAL, "there is nothing to be %s", word);
+    if (u != NULL && u->floor > 0 && u->floor == u->done.n)
+        return qdot_hint("within an included script `undo` goes back to its beginning");
+    return qdot_hint(strcmp(word, "undone") == 0
+                         ? "a statement that only asks changes nothing"
+                         : "`redo` does again what `undo` took back, until another statement "
+                           "changes the session");
+}
+
+/* `undo`, `undo N`, `redo`, `redo N` behind the word. */
+static qdot_status
+step(qdot_cursor *c, const char *name, const char *word, int to)
+{
+    qdot_session *s = c->session;
+    qdot_undo *u = s->undo;
+    const qdot_token *start = c->at > c->source->tokens.at ? c->at - 1 : c->at;
+    records none = {0}, *from = u == NULL ? &none : to == 0 ? &u->done : &u->undone;
+    const size_t least = u != NULL && to == 0 ? u->floor : 0;
+    size_t n = 0;
+    long wanted = 1;
+
+    if (!qdot_cursor_is_end(c)) {
+        start = c->at;
+        QDOT_TRY(qdot_read_integer(c, &wanted));
+    }
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    if (s->loops > 0)
+        return qdot_fail(QDOT_EINVAL, "`%s` has no place inside a loop", name);
+    for (size_t i = from->n; i > least; i--)
+        n += !from->at[i - 1].joined;
+    if (wanted < 1 || (size_t)wanted > n)
+        return wanted < 1 ? qdot_fail(QDOT_EINVAL, "how many statements? 1, 2, ...")
+                          : refuse(c, word, n, wanted);
+    u->moved = true;
+    for (; wanted > 0; wanted--) {
+        qdot_text line = {0};
+        const char *text = NULL;
+        qdot_status status = QDOT_OK;
+        bool more = true;
+
+        while (more && status == QDOT_OK) {
+            const record *r = &from->at[from->n - 1];
+
+            text = r->joined ? text : r->text;
+            more = to == 0 ? r->joined : from->n > 1 && from->at[from->n - 2].joined;
+            status = to == 0 ? move(s, &u->done, &u->undone, to)
+                             : move(s, &u->undone, &u->done, to);
+        }
+        QDOT_TRY(status);
+        qdot_text_format(&line, "%s: %s", word, text);
+        status = qdot_text_status(&line);
+        if (status == QDOT_OK)
+            status = qdot_answer_text(s, name, qdot_text_str(&line));
+        qdot_text_clear(&line);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_undo_back(qdot_cursor *c)
+{
+    return step(c, "undo", "undone", 0);
+}
+
+qdot_status
+qdot_undo_again(qdot_cursor *c)
+{
+    return step(c, "redo", "done again", 1);
+}
