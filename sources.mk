@@ -573,6 +573,7 @@ lang_sources = \
 	lib/lang/remove.c \
 	lib/lang/report.c \
 	lib/lang/resolve.c \
+	lib/lang/scene-file.c \
 	lib/lang/series.c \
 	lib/lang/session.c \
 	lib/lang/source.c \
@@ -607,6 +608,7 @@ lang_headers = \
 	lib/lang/numeric.h \
 	lib/lang/read.h \
 	lib/lang/redirect.h \
+	lib/lang/scene-file.h \
 	lib/lang/session.h \
 	lib/lang/statement.h \
 	lib/lang/taken.h \

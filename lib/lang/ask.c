@@ -10,6 +10,7 @@
 #include "lang/ask.h"
 #include "lang/digits.h"
 #include "lang/function.h"
+#include "lang/scene-file.h"
 
 /* --- expressions -------------------------------------------------------------------- */
 
@@ -248,27 +249,6 @@ qdot_ask_print(qdot_cursor *c)
 
 /* --- names -------------------------------------------------------------------------- */
 
-static qdot_status
-print_domain(qdot_session *session, const qdot_symbol *s, qdot_text *out)
-{
-    if (s->lo != QDOT_NIL && s->hi != QDOT_NIL) {
-        QDOT_TRY(qdot_print(session->pool, s->lo, QDOT_PLAIN, out));
-        qdot_text_format(out, " %s %s %s ", s->lo_open ? "<" : "<=", s->name,
-                         s->hi_open ? "<" : "<=");
-        return qdot_print(session->pool, s->hi, QDOT_PLAIN, out);
-    }
-    qdot_text_add(out, s->name);
-    if (s->lo != QDOT_NIL) {
-        qdot_text_add(out, s->lo_open ? " > " : " >= ");
-        return qdot_print(session->pool, s->lo, QDOT_PLAIN, out);
-    }
-    if (s->hi != QDOT_NIL) {
-        qdot_text_add(out, s->hi_open ? " < " : " <= ");
-        return qdot_print(session->pool, s->hi, QDOT_PLAIN, out);
-    }
-    return QDOT_OK;
-}
-
 /* The value that `set` or `param` gave a symbol; nil: none. */
 static qdot_expr
 set_value(const qdot_session *session, qdot_expr symbol)
@@ -302,7 +282,7 @@ print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
     case QDOT_NAME_PARAM:
     case QDOT_NAME_COORD:
         qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
-        QDOT_TRY(print_domain(session, qdot_expr_symbol(pool, name->value), out));
+        QDOT_TRY(qdot_scene_print_domain(session->scene, name->value, out));
         value = set_value(session, name->value);
         if (value == QDOT_NIL)
             return QDOT_OK;
@@ -408,6 +388,8 @@ qdot_ask_scene(qdot_cursor *c)
     qdot_text text = {0};
     qdot_status status;
 
+    if (qdot_cursor_accept_word(c, "to"))
+        return qdot_scene_file_write(c, false);
     QDOT_TRY(qdot_cursor_expect_end(c));
     status = qdot_scene_print(c->session->scene, &text);
     if (status == QDOT_OK && text.n == 0)

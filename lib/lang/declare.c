@@ -512,16 +512,18 @@ tell_circle(qdot_cursor *c, const qdot_token *start, qdot_status status)
 qdot_status
 qdot_declare_definition(qdot_cursor *c)
 {
-    const qdot_token *start = c->at;
+    const qdot_token *start = c->at, *right;
     qdot_name entry = {.kind = QDOT_NAME_VALUE};
     const char *name;
     const qdot_name *old;
+    qdot_status status;
 
     if (start[1].kind == QDOT_TOKEN_OPERATOR && strcmp(start[1].text, "(") == 0)
         return qdot_function_define(c);
     QDOT_TRY(qdot_read_name(c, &name));
     entry.name = (char *)name;
     QDOT_TRY(qdot_cursor_expect_op(c, "="));
+    right = c->at;
     QDOT_TRY(tell_circle(c, start, qdot_read_named(c, &entry.value, &entry.over)));
     QDOT_TRY(qdot_cursor_expect_end(c));
     old = qdot_names_find(c->session->names, name);
@@ -535,5 +537,10 @@ qdot_declare_definition(qdot_cursor *c)
                                : "start %s = ... gives its initial value",
                          name);
     }
-    return qdot_declare_name(c, start, &entry);
+    entry.body = qdot_function_body_new(c->source, right, c->at);
+    if (entry.body == NULL)
+        return QDOT_ENOMEM;
+    status = qdot_declare_name(c, start, &entry);
+    qdot_function_body_release(entry.body);
+    return status;
 }

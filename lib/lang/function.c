@@ -16,6 +16,21 @@
 /* --- the text of a body ------------------------------------------------------------- */
 
 qdot_function_body *
+qdot_function_body_new(const qdot_source *source, const qdot_token *from,
+                       const qdot_token *to)
+{
+    qdot_function_body *body = qdot_calloc(1, sizeof *body);
+
+    if (body == NULL)
+        return NULL;
+    body->uses = 1;
+    body->source = qdot_source_keep(source);
+    body->from = from;
+    body->to = to;
+    return body;
+}
+
+qdot_function_body *
 qdot_function_body_keep(qdot_function_body *body)
 {
     if (body != NULL)
@@ -113,7 +128,6 @@ read_body(qdot_cursor *c, qdot_name *entry)
     qdot_status status;
     size_t outer;
 
-    body->from = body->to = c->at;
     status = enclose(c->session, entry, NULL, &outer);
     if (status == QDOT_OK)
         status = qdot_parse(c, QDOT_PARSE_VALUE, &program);
@@ -139,11 +153,9 @@ qdot_function_define(qdot_cursor *c)
     qdot_free(names);
     QDOT_TRY(status);
     QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    entry.body = qdot_calloc(1, sizeof *entry.body);
+    entry.body = qdot_function_body_new(c->source, c->at, c->at);
     if (entry.body == NULL)
         return QDOT_ENOMEM;
-    entry.body->uses = 1;
-    entry.body->source = qdot_source_keep(c->source);
     status = read_body(c, &entry);
     old = qdot_names_find(c->session->names, start->text);
     if (status == QDOT_OK && old != NULL && old->kind == QDOT_NAME_UFUN) {

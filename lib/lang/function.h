@@ -34,6 +34,10 @@ QDOT_MUST_CHECK qdot_status qdot_function_call(qdot_session *session, const qdot
                                                const qdot_argument *args, qdot_expr *value,
                                                qdot_expr *over);
 
+/* The tokens [from, to) of a source, with one use; NULL: no memory. */
+qdot_function_body *qdot_function_body_new(const qdot_source *source, const qdot_token *from,
+                                           const qdot_token *to);
+
 /* Append "f(u, x) = diff(u, x) + 1". */
 QDOT_MUST_CHECK qdot_status qdot_function_print(qdot_session *session, const qdot_name *entry,
                                                 qdot_text *out);

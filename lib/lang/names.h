@@ -19,7 +19,8 @@ typedef enum {
     QDOT_NAME_ARGUMENT  /* value: what a call gives a formal argument; hides outer names */
 } qdot_name_kind;
 
-/* The text of a function's body, shared by what uses it (lang/function.h). */
+/* The text of a function's body (lang/function.h) or of the right side of a definition, shared by what
+ * uses it. */
 typedef struct qdot_function_body {
     unsigned uses;
     struct qdot_source *source;          /* kept alive */
@@ -36,7 +37,7 @@ typedef struct {
     qdot_expr value, formals;
     qdot_expr over; /* of a VALUE: the coordinates (a LIST) its entries go by, or nil */
     uint32_t ufun;
-    qdot_function_body *body;   /* of a FUNCTION */
+    qdot_function_body *body;   /* of a FUNCTION, a VALUE */
     const char *label; /* of an ARGUMENT: the particle or body whose position it is, or NULL */
     char *file; /* where it was declared */
     uint32_t line;

@@ -25,6 +25,7 @@ typedef struct {
     bool tol_given, treatment_given;
     qdot_run_treatment treatment;
     qdot_number_pairs with;
+    qdot_text text; /* of the statement, without its name */
 } options;
 
 /* NAME = VALUE of a parameter or of a coordinate or velocity. */
@@ -106,8 +107,20 @@ read_digits(qdot_cursor *c, options *o)
     return qdot_hint("digits 30");
 }
 
+/* What the tokens [from, to) say, behind what was said before. */
+static void
+add_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to, options *o)
+{
+    if (from == to)
+        return;
+    if (o->text.n > 0)
+        qdot_text_char(&o->text, ' ');
+    qdot_statement_text(c->session, from, to, &o->text);
+}
+
+/* start: the first token of the statement's operands. */
 static qdot_status
-read_options(qdot_cursor *c, options *o)
+read_options(qdot_cursor *c, const qdot_token *start, options *o)
 {
     while (!qdot_cursor_is_end(c)) {
         if (qdot_cursor_accept_word(c, "tol")) {
@@ -122,8 +135,10 @@ read_options(qdot_cursor *c, options *o)
         } else if (qdot_cursor_accept_word(c, "constraints")) {
             QDOT_TRY(read_treatment(c, o));
         } else if (qdot_cursor_accept_word(c, "as")) {
+            add_text(c, start, c->at - 1, o);
             QDOT_TRY(qdot_statement_once(c, "as", o->name != NULL));
             QDOT_TRY(qdot_read_name(c, &o->name));
+            start = c->at;
         } else if (qdot_cursor_accept_word(c, "with")) {
             QDOT_TRY(read_with(c, &o->with));
         } else {
@@ -131,6 +146,7 @@ read_options(qdot_cursor *c, options *o)
                 c, "`tol`, `digits`, `method`, `with`, `constraints` or `as`");
         }
     }
+    add_text(c, start, c->at, o);
     if (o->tol_given && o->digits > 0) {
         c->error_at = c->at->start;
         qdot_fail(QDOT_EINVAL, "`digits` sets the tolerance itself: no `tol` beside it");
@@ -142,14 +158,17 @@ read_options(qdot_cursor *c, options *o)
 /* Keep the run under its name; an older one of that name goes. Takes ownership in any
  * case. */
 static qdot_status
-keep_run(qdot_session *session, const char *name, qdot_run *run)
+keep_run(qdot_session *session, const char *name, const char *text, qdot_run *run)
 {
-    qdot_named_run named = {
-        .name = qdot_strdup(name), .run = run, .uses = qdot_malloc(sizeof *named.uses)};
+    qdot_named_run named = {.name = qdot_strdup(name),
+                            .text = qdot_strdup(text),
+                            .run = run,
+                            .uses = qdot_malloc(sizeof *named.uses)};
     qdot_status status = QDOT_OK;
 
-    if (named.name == NULL || named.uses == NULL) {
+    if (named.name == NULL || named.text == NULL || named.uses == NULL) {
         qdot_free(named.name);
+        qdot_free(named.text);
         qdot_free(named.uses);
         qdot_run_free(run);
         return QDOT_ENOMEM;
@@ -253,7 +272,7 @@ carry_out(qdot_cursor *c, const options *o, qdot_number_order *request)
         qdot_interrupt_clear(); /* heard: the run so far is kept and told */
     if (o->name == NULL)
         next_name(session, name, sizeof name);
-    QDOT_TRY(keep_run(session, o->name != NULL ? o->name : name, run));
+    QDOT_TRY(keep_run(session, o->name != NULL ? o->name : name, qdot_text_str(&o->text), run));
     report = qdot_run_get_report(run);
     if (!names_start(session, &o->with))
         QDOT_TRY(qdot_meant_tell_start(session));
@@ -284,7 +303,9 @@ qdot_number_run(qdot_cursor *c)
 
     status = qdot_read_range(c, &o.from, &o.to);
     if (status == QDOT_OK)
-        status = read_options(c, &o);
+        status = read_options(c, start, &o);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&o.text);
     if (status == QDOT_OK)
         c->error_at = start->start;
     if (status == QDOT_OK)
@@ -302,6 +323,7 @@ qdot_number_run(qdot_cursor *c)
     }
     if (status == QDOT_OK)
         status = carry_out(c, &o, &request);
+    qdot_text_clear(&o.text);
     qdot_number_free_order(&request);
     qdot_number_free_pairs(&o.with);
     return status;
@@ -313,7 +335,7 @@ read_plan_options(qdot_cursor *c, options *o)
 {
     const qdot_token *start = c->at;
 
-    QDOT_TRY(read_options(c, o));
+    QDOT_TRY(read_options(c, start, o));
     if (o->digits == 0 && o->name == NULL)
         return QDOT_OK;
     c->error_at = start->start;
@@ -347,6 +369,7 @@ qdot_number_plan(qdot_cursor *c)
         status = qdot_answer_text(c->session, "plan", qdot_text_str(&text));
     qdot_text_clear(&text);
     qdot_number_free_order(&request);
+    qdot_text_clear(&o.text);
     qdot_number_free_pairs(&o.with);
     return status;
 }

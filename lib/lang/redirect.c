@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "lang/answer.h"
+#include "lang/scene-file.h"
 #include "show/sink.h"
 
 static const struct {
@@ -42,7 +43,8 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
     while (end->kind != QDOT_TOKEN_END)
         end++;
     if (end - first < (row == NULL ? 3 : 2) || end[-1].kind != QDOT_TOKEN_STRING ||
-        end[-2].kind != QDOT_TOKEN_NAME || strcmp(end[-2].text, "to") != 0)
+        end[-2].kind != QDOT_TOKEN_NAME || strcmp(end[-2].text, "to") != 0 ||
+        (row != NULL && strcmp(row->word, "scene") == 0 && qdot_scene_file_is(end - 1)))
         return NULL;
     return end - 2;
 }

@@ -42,6 +42,7 @@ qdot_named_run_release(qdot_named_run *run)
     if (--*run->uses > 0)
         return;
     qdot_free(run->name);
+    qdot_free(run->text);
     qdot_run_free(run->run);
     qdot_free(run->uses);
 }

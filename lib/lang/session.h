@@ -31,6 +31,7 @@ typedef struct {
 /* Shared by the session and the states that `undo` keeps. */
 typedef struct {
     char *name; /* "a", "run1" */
+    char *text; /* the statement without its name: "run 0..20 tol 1e-9" */
     qdot_run *run;
     unsigned *uses;
 } qdot_named_run;

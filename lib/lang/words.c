@@ -79,7 +79,9 @@ static const qdot_statement table[] = {
      "decide an identity, an inequality, a conservation, or whether a velocity constraint "
      "is holonomic in disguise: proved, refuted or undecided",
      "check sin(x)^2 + cos(x)^2 == 1", qdot_check, false},
-    {"scene", ASK, "scene", "print what is declared", "scene", qdot_ask_scene, true},
+    {"scene", ASK, "scene [to \"FILE.lag\"]",
+     "print what is declared; to a .lag file: the statements that give the same scene again, with "
+     "definitions, values, start and events", "scene to \"x.lag\"", qdot_ask_scene, true},
     {"dof", ASK, "dof", "coordinates, independent constraints, degrees of freedom", "dof",
      qdot_ask_dof, true},
     {"forces", ASK, "forces", "the generalized forces, part by part", "forces",
@@ -121,7 +123,9 @@ static const qdot_statement table[] = {
      "plot EXPR, ... [vs EXPR | vs NAME = A..B [for ...]] [to \"FILE.svg\"]",
      "a figure along the latest run, or of an expression over a variable",
      "plot theta, theta' to \"fig.svg\"", qdot_draw_plot, false},
-    {"save", NUMBERS, "save RUN to \"FILE.csv\"", "a run whole: t, q, q', multipliers",
+    {"save", NUMBERS, "save RUN to \"FILE.csv\" | save session to \"FILE.lag\"",
+     "a run whole: t, q, q', multipliers; or the scene with the style and the runs made, as "
+     "statements",
      "save a to \"run.csv\"", qdot_draw_save, false},
     {"race", NUMBERS, "race T0..T1 [to \"FILE.svg\"]",
      "one scene as given (projected, Baumgarte, none) and in minimal coordinates: errors, "

@@ -12,12 +12,11 @@ put(const qdot_scene *s, qdot_expr e, qdot_text *out)
     return qdot_print(s->pool, e, QDOT_PLAIN, out);
 }
 
-static qdot_status
-put_coordinate(const qdot_scene *s, qdot_expr q, qdot_text *out)
+qdot_status
+qdot_scene_print_domain(const qdot_scene *s, qdot_expr symbol, qdot_text *out)
 {
-    qdot_symbol x = *qdot_expr_symbol(s->pool, q);
+    const qdot_symbol x = *qdot_expr_symbol(s->pool, symbol);
 
-    qdot_text_add(out, "coord ");
     if (x.lo != QDOT_NIL && x.hi != QDOT_NIL) {
         QDOT_TRY(put(s, x.lo, out));
         qdot_text_add(out, x.lo_open ? " < " : " <= ");
@@ -30,7 +29,6 @@ put_coordinate(const qdot_scene *s, qdot_expr q, qdot_text *out)
         qdot_text_add(out, x.lo_open ? " > " : " >= ");
         QDOT_TRY(put(s, x.lo, out));
     }
-    qdot_text_char(out, '\n');
     return QDOT_OK;
 }
 
@@ -255,8 +253,17 @@ put_assumption(const qdot_scene *s, const qdot_assumption *said, qdot_text *out)
 qdot_status
 qdot_scene_print(const qdot_scene *s, qdot_text *out)
 {
-    for (size_t i = 0; i < s->coordinates.n; i++)
-        QDOT_TRY(put_coordinate(s, s->coordinates.at[i], out));
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_text_add(out, "coord ");
+        QDOT_TRY(qdot_scene_print_domain(s, s->coordinates.at[i], out));
+        qdot_text_char(out, '\n');
+    }
+    return qdot_scene_print_things(s, out);
+}
+
+qdot_status
+qdot_scene_print_things(const qdot_scene *s, qdot_text *out)
+{
     for (size_t i = 0; i < s->assumed.n; i++)
         QDOT_TRY(put_assumption(s, &s->assumed.at[i], out));
     for (size_t i = 0; i < s->particles.n; i++) {

@@ -214,6 +214,11 @@ qdot_facts qdot_scene_facts(const qdot_scene *s);
 
 /* `scene` printed: every declaration as a statement that parses back, a line each (plain style). */
 QDOT_MUST_CHECK qdot_status qdot_scene_print(const qdot_scene *s, qdot_text *out);
+/* The same without the coordinates. */
+QDOT_MUST_CHECK qdot_status qdot_scene_print_things(const qdot_scene *s, qdot_text *out);
+/* A symbol with its domain, "0 < theta < pi". */
+QDOT_MUST_CHECK qdot_status qdot_scene_print_domain(const qdot_scene *s, qdot_expr x,
+                                                    qdot_text *out);
 /* The line of the k-th of a kind, from 0. */
 QDOT_MUST_CHECK qdot_status qdot_scene_print_at(const qdot_scene *s, qdot_scene_kind kind,
                                                 size_t k, qdot_text *out);
