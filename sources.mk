@@ -644,6 +644,7 @@ unit_tests = \
 	tests/lang/test_read \
 	tests/lang/test_session \
 	tests/lang/test_styles \
+	tests/lang/test_undo \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \

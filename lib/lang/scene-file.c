@@ -192,8 +192,8 @@ put_settings(const qdot_session *s, qdot_text *out)
 
 /* --- the file ------------------------------------------------------------------------- */
 
-static qdot_status
-put_all(qdot_session *s, bool whole, qdot_text *out)
+qdot_status
+qdot_scene_file_text(qdot_session *s, bool whole, qdot_text *out)
 {
     qdot_text_add(out, header);
     QDOT_TRY(put_symbols(s, out));
@@ -240,7 +240,7 @@ qdot_scene_file_write(qdot_cursor *c, bool whole)
         return qdot_cursor_expected(c, "the name of a file in quotes, \"x.lag\"");
     QDOT_TRY(qdot_read_string(c, &path));
     QDOT_TRY(qdot_cursor_expect_end(c));
-    status = put_all(c->session, whole, &text);
+    status = qdot_scene_file_text(c->session, whole, &text);
     c->error_at = start->start;
     if (status == QDOT_OK)
         status = may_overwrite(path);

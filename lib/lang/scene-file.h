@@ -21,7 +21,10 @@
 /* Whether the token is the name of such a file, "NAME.lag". */
 bool qdot_scene_file_is(const qdot_token *token);
 
-/* Behind `to`: whole: with the style and the runs of the session. Errors: QDOT_EIO; QDOT_EINVAL for
+/* Append what stands in such a file; whole: with the style and the runs of the session. */
+QDOT_MUST_CHECK qdot_status qdot_scene_file_text(qdot_session *session, bool whole,
+                                                 qdot_text *out);
+/* Behind `to`; whole: with the style and the runs of the session. Errors: QDOT_EIO; QDOT_EINVAL for
  * a script of somebody's. */
 QDOT_MUST_CHECK qdot_status qdot_scene_file_write(qdot_cursor *c, bool whole);
 
