@@ -21,6 +21,7 @@ enum {
     PARTS
 };
 enum { TEXT_LIMIT = 160 };
+static const size_t most_bytes = (size_t)256 << 20; /* of all records */
 
 /* What is no array. */
 typedef struct {
@@ -54,6 +55,7 @@ typedef struct {
     qdot_vec(change) changes;
     single single[2];
     size_t history[2];   /* answers given */
+    size_t bytes;        /* what it keeps that nobody else does, about */
     qdot_session *other; /* of `reset`: the session on the other side of it */
     state *there;        /* ... and its state */
 } record;
@@ -68,6 +70,7 @@ struct qdot_undo {
     size_t floor;            /* records that the text under way cannot take back */
     bool moved;              /* the statement under way is `undo` or `redo` */
     size_t under_way;        /* statements, within one another */
+    size_t bytes;            /* of `done` */
 };
 
 static qdot_scene_part
@@ -244,6 +247,7 @@ forget(qdot_undo *u)
 {
     clear_records(&u->done);
     clear_records(&u->undone);
+    u->bytes = 0;
     clear_state(&u->now);
     u->known = false;
     u->floor = 0;
@@ -448,13 +452,65 @@ join(qdot_undo *u, size_t begun, const char *text, size_t length)
     return QDOT_OK;
 }
 
-static qdot_status
-push(qdot_undo *u, record *r)
+static size_t
+bytes_of_runs(const unsigned char *at, size_t n)
 {
+    size_t bytes = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        qdot_named_run run;
+
+        memcpy(&run, at + i * sizeof run, sizeof run);
+        bytes += qdot_run_bytes(run.run);
+    }
+    return bytes;
+}
+
+static size_t
+bytes_of(qdot_session *s, const record *r)
+{
+    size_t bytes = sizeof *r + TEXT_LIMIT;
+
+    if (r->other != NULL)
+        bytes += qdot_pool_bytes(r->other->pool) +
+                 bytes_of_runs(r->there->part[RUNS].at, r->there->part[RUNS].n);
+    for (size_t i = 0; i < r->changes.n; i++) {
+        const change *c = &r->changes.at[i];
+
+        bytes += sizeof *c + (c->n[0] + c->n[1]) * part_of(s, c->part).size;
+        if (c->part == RUNS)
+            bytes += bytes_of_runs(c->items[0], c->n[0]);
+    }
+    return bytes;
+}
+
+static qdot_status
+push(qdot_session *s, record *r)
+{
+    qdot_undo *u = s->undo;
+
+    r->bytes = bytes_of(s, r);
     QDOT_TRY(qdot_vec_push(&u->done, *r));
+    u->bytes += r->bytes;
     *r = (record){0};
     clear_records(&u->undone);
     return QDOT_OK;
+}
+
+/* The oldest records go while all take too much. */
+static void
+trim(qdot_undo *u)
+{
+    size_t gone = 0;
+
+    while (u->bytes > most_bytes || (gone > 0 && gone < u->done.n && u->done.at[gone].joined)) {
+        u->bytes -= u->done.at[gone].bytes;
+        clear_record(&u->done.at[gone++]);
+    }
+    if (gone == 0)
+        return;
+    u->done.n -= gone;
+    memmove(u->done.at, u->done.at + gone, u->done.n * sizeof *u->done.at);
 }
 
 void
@@ -472,13 +528,15 @@ qdot_undo_end(qdot_session *s, size_t begun, const char *text, size_t length)
         return;
     status = compare(s, &r);
     if (status == QDOT_OK && !is_nothing(&r))
-        status = push(u, &r);
+        status = push(s, &r);
     if (status == QDOT_OK && !u->moved)
         status = join(u, begun, text, length);
     u->moved = false;
     clear_record(&r);
     if (status != QDOT_OK)
         let_go(s, &error);
+    else if (u->under_way == 0)
+        trim(u);
 }
 
 void
@@ -501,7 +559,7 @@ qdot_undo_reset(qdot_session *s, qdot_session *other)
     }
     if (status == QDOT_OK) {
         u->known = true;
-        status = push(u, &r);
+        status = push(s, &r);
     }
     clear_record(&rest);
     clear_record(&r);
@@ -629,6 +687,7 @@ move(qdot_session *s, records *from, records *into, int to)
 {
     QDOT_TRY(qdot_grow(&into->at, &into->capacity, into->n + 1, sizeof *into->at));
     QDOT_TRY(apply(s, &from->at[from->n - 1], to));
+    s->undo->bytes += to == 0 ? -from->at[from->n - 1].bytes : from->at[from->n - 1].bytes;
     into->at[into->n++] = from->at[--from->n];
     return QDOT_OK;
 }
@@ -646,7 +705,8 @@ refuse(const qdot_cursor *c, const char *word, size_t n, long wanted)
     if (u != NULL && u->floor > 0 && u->floor == u->done.n)
         return qdot_hint("within an included script `undo` goes back to its beginning");
     return qdot_hint(strcmp(word, "undone") == 0
-                         ? "a statement that only asks changes nothing"
+                         ? "a statement that only asks changes nothing; what takes more than "
+                           "256 MB is not kept"
                          : "`redo` does again what `undo` took back, until another statement "
                            "changes the session");
 }

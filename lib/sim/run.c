@@ -56,6 +56,27 @@ qdot_run_free(qdot_run *run)
     qdot_free(run);
 }
 
+static size_t
+bytes_of(const qdot_trajectory *tr)
+{
+    size_t bytes = (tr->t_capacity + tr->y_capacity + tr->low_capacity) * sizeof *tr->t;
+
+    for (size_t i = 0; i < tr->n_tracks; i++)
+        bytes += bytes_of(&tr->tracks[i]);
+    return bytes;
+}
+
+size_t
+qdot_run_bytes(const qdot_run *run)
+{
+    const size_t points = bytes_of(&run->course.tr) + bytes_of(&run->companion.tr) +
+                          bytes_of(&run->twin.tr);
+
+    /* of `digits`: those points again in long numbers, and the companion's */
+    return sizeof *run +
+           points * (1 + (run->precise ? 8 + (size_t)run->report.digits / 8 : 0));
+}
+
 const qdot_run_report *
 qdot_run_get_report(const qdot_run *run)
 {

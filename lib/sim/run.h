@@ -114,6 +114,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_run_new(qdot_scene *scene, const qdot_run_request *request,
                                          qdot_run **run);
 void qdot_run_free(qdot_run *run);
+size_t qdot_run_bytes(const qdot_run *run); /* what its points take, about */
 const qdot_run_report *qdot_run_get_report(const qdot_run *run);
 
 /* Any expressions [m] of the scene (coordinates, velocities, accelerations, t, parameters)
