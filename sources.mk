@@ -838,6 +838,7 @@ script_tests = \
 	tests/script/routh.lag \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
+	tests/script/scene-file.sh \
 	tests/script/series-removable.lag \
 	tests/script/several.sh \
 	tests/script/signs.lag \
@@ -854,6 +855,7 @@ script_tests = \
 	tests/script/textbook.lag \
 	tests/script/three-bodies.lag \
 	tests/script/to-file.sh \
+	tests/script/undo.lag \
 	tests/script/values.lag \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
@@ -1122,6 +1124,7 @@ script_tests = \
 	examples/stated-lagrangian.lag \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
+	examples/undo.lag \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag
@@ -1592,6 +1595,7 @@ test_files = \
 	tests/script/routh.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
+	tests/script/scene-file.out \
 	tests/script/series-removable.out \
 	tests/script/several.out \
 	tests/script/signs.out \
@@ -1608,6 +1612,7 @@ test_files = \
 	tests/script/textbook.out \
 	tests/script/three-bodies.out \
 	tests/script/to-file.out \
+	tests/script/undo.out \
 	tests/script/values.out \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \

@@ -451,7 +451,8 @@ qdot_draw_save(qdot_cursor *c)
         QDOT_TRY(qdot_read_name(c, &name));
     if (!qdot_cursor_accept_word(c, "to"))
         return qdot_cursor_expected(c, "`to` and the name of a file");
-    if (name != NULL && strcmp(name, "session") == 0 && qdot_scene_file_is(c->at))
+    if (name != NULL && strcmp(name, "session") == 0 &&
+        (qdot_scene_file_is(c->at) || qdot_number_find_run(c->session, name, &named) != QDOT_OK))
         return qdot_scene_file_write(c, true);
     QDOT_TRY(qdot_draw_read_file(c, &path));
     QDOT_TRY(qdot_cursor_expect_end(c));

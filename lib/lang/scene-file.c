@@ -1,13 +1,10 @@
 /* scene-file.c -- what is declared, written as the statements that declare it. */
 #include "lang/scene-file.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "expr/walk.h"
 #include "lang/answer.h"
-#include "lang/draw.h"
 #include "lang/function.h"
 #include "lang/number.h"
 #include "lang/statement.h"
@@ -75,16 +72,6 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
-/* Whether what a run gave stands in e. */
-static bool
-is_of_a_run(const qdot_session *s, qdot_expr e)
-{
-    for (size_t i = 0; i < s->members.n; i++)
-        if (qdot_expr_contains(s->pool, e, s->members.at[i].symbol))
-            return true;
-    return false;
-}
-
 /* Whether the text means the same wherever it stands: no `%`. */
 static bool
 is_lasting(const qdot_function_body *body)
@@ -113,25 +100,38 @@ put_form(qdot_session *s, const qdot_name *name, qdot_expr value, int form, qdot
     return QDOT_OK;
 }
 
+/* The first form that reads back; *is: there is one. */
+static qdot_status
+put_first(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr over,
+          qdot_text *out, bool *is)
+{
+    qdot_status status = QDOT_OK;
+
+    for (int form = 0; form < FORMS && status == QDOT_OK && !*is; form++) {
+        qdot_text right = {0};
+
+        status = put_form(s, name, value, form, &right);
+        if (status == QDOT_OK && right.n > 0)
+            status = reads_back(s, &right, value, over, is);
+        if (status == QDOT_OK && *is)
+            qdot_text_format(out, "%s = %s\n", name->name, qdot_text_str(&right));
+        qdot_text_clear(&right);
+    }
+    return status;
+}
+
 static qdot_status
 put_definition(qdot_session *s, const qdot_name *name, qdot_text *out)
 {
     const qdot_expr value = qdot_number_without_measured(s, name->value);
-    qdot_status status = qdot_pool_check(s->pool);
     bool is = false;
 
-    for (int form = 0; form < FORMS && status == QDOT_OK && !is; form++) {
-        qdot_text right = {0};
-
-        status = is_of_a_run(s, value) ? QDOT_OK : put_form(s, name, value, form, &right);
-        if (status == QDOT_OK && right.n > 0)
-            status = reads_back(s, &right, value, name->over, &is);
-        if (status == QDOT_OK && is)
-            qdot_text_format(out, "%s = %s\n", name->name, qdot_text_str(&right));
-        qdot_text_clear(&right);
-    }
-    if (status != QDOT_OK || is)
-        return status;
+    QDOT_TRY(qdot_pool_check(s->pool));
+    QDOT_TRY(put_first(s, name, value, name->over, out, &is));
+    if (!is && name->over != QDOT_NIL) /* its entries by numbers only */
+        QDOT_TRY(put_first(s, name, value, QDOT_NIL, out, &is));
+    if (is)
+        return QDOT_OK;
     qdot_text_format(out, "# %s: no statement gives this value\n", name->name);
     return qdot_answer_notice(s, "`%.200s` is not written: no statement gives its value again",
                               name->name);

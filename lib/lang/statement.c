@@ -98,7 +98,7 @@ is_used_as_name(const qdot_session *session, const qdot_token *name,
 
     if (row->alone)
         return (next->kind != QDOT_TOKEN_END && !is_word(next, "at") &&
-                !(is_word(next, "to") && next[1].kind == QDOT_TOKEN_STRING)) ||
+                !(is_word(next, "to") && next[1].kind != QDOT_TOKEN_OPERATOR)) ||
                declared;
     for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
         if (is_op(next, binary[i]))
