@@ -581,6 +581,7 @@ lang_sources = \
 	lib/lang/statement.c \
 	lib/lang/styled.c \
 	lib/lang/taken.c \
+	lib/lang/undo-state.c \
 	lib/lang/undo.c \
 	lib/lang/values.c \
 	lib/lang/words.c \
@@ -612,6 +613,7 @@ lang_headers = \
 	lib/lang/session.h \
 	lib/lang/statement.h \
 	lib/lang/taken.h \
+	lib/lang/undo-state.h \
 	lib/lang/undo.h \
 	lib/lang/values.h
 
@@ -855,6 +857,7 @@ script_tests = \
 	tests/script/textbook.lag \
 	tests/script/three-bodies.lag \
 	tests/script/to-file.sh \
+	tests/script/undo-included.sh \
 	tests/script/undo.lag \
 	tests/script/values.lag \
 	tests/script/vector-functions.lag \
@@ -1612,6 +1615,7 @@ test_files = \
 	tests/script/textbook.out \
 	tests/script/three-bodies.out \
 	tests/script/to-file.out \
+	tests/script/undo-included.out \
 	tests/script/undo.out \
 	tests/script/values.out \
 	tests/script/vector-functions.out \

@@ -386,7 +386,7 @@ put_in_slot(qdot_names *names, entry *e)
     *slot = e;
 }
 
-/* The pointer to e in its slot. */
+/* Its pointer in its slot. */
 static entry **
 link_to(qdot_names *names, const entry *e)
 {
@@ -406,13 +406,6 @@ place_of(const qdot_names *names, const entry *e)
     while (names->order.at[i] != e)
         i--;
     return i;
-}
-
-static void
-touch(qdot_names *names, size_t i)
-{
-    if (i < names->settled)
-        names->settled = i;
 }
 
 static qdot_status
@@ -450,7 +443,7 @@ replace(qdot_names *names, entry *old, const qdot_name *name)
     *link_to(names, old) = old->next;
     put_in_slot(names, e);
     names->order.at[e->order] = e;
-    touch(names, e->order);
+    names->settled = e->order < names->settled ? e->order : names->settled;
     entry_free(old);
     return QDOT_OK;
 }
@@ -498,7 +491,7 @@ qdot_names_remove(qdot_names *names, const char *name)
     if (length > 0)
         find_family(names, name, length)->members--;
     i = place_of(names, e);
-    touch(names, i);
+    names->settled = i < names->settled ? i : names->settled;
     memmove(names->order.at + i, names->order.at + i + 1,
             (names->order.n - i - 1) * sizeof *names->order.at);
     names->order.n--;

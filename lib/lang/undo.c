@@ -6,40 +6,10 @@
 
 #include "lang/answer.h"
 #include "lang/statement.h"
+#include "lang/undo-state.h"
 
-/* --- the state as arrays -------------------------------------------------------------- */
-
-enum {
-    SET_SYMBOLS = QDOT_SCENE_PARTS,
-    SET_VALUES,
-    START_SYMBOLS,
-    START_VALUES,
-    HISTORY,
-    HISTORY_OVER,
-    RUNS,
-    NAMES,
-    PARTS
-};
 enum { TEXT_LIMIT = 160 };
 static const size_t most_bytes = (size_t)256 << 20; /* of all records */
-
-/* What is no array. */
-typedef struct {
-    qdot_expr lagrangian, series, series_in;
-    qdot_style style;
-    bool timing, start_exactly;
-} single;
-
-/* Items of one part. */
-typedef struct {
-    unsigned char *at;
-    size_t n, capacity;
-} items;
-
-typedef struct {
-    items part[PARTS];
-    single single;
-} state;
 
 /* The items [at, at + n[0]) of a part became [at, at + n[1]). */
 typedef struct {
@@ -53,19 +23,18 @@ typedef struct {
     char *text;
     bool joined; /* it goes with the record before it */
     qdot_vec(change) changes;
-    single single[2];
+    qdot_undo_single single[2];
     size_t history[2];   /* answers given */
     size_t bytes;        /* what it keeps that nobody else does, about */
     qdot_session *other; /* of `reset`: the session on the other side of it */
-    state *there;        /* ... and its state */
+    qdot_undo_state *there;        /* ... and its qdot_undo_state */
 } record;
 
 typedef qdot_vec(record) records;
 
 struct qdot_undo {
-    state now;               /* as the latest statement left it */
+    qdot_undo_state now;               /* as the latest statement left it */
     bool known;              /* it is */
-    qdot_vec(const qdot_name *) names; /* those of the session, in order */
     records done, undone;
     size_t floor;            /* records that the text under way cannot take back */
     bool moved;              /* the statement under way is `undo` or `redo` */
@@ -73,145 +42,18 @@ struct qdot_undo {
     size_t bytes;            /* of `done` */
 };
 
-static qdot_scene_part
-part_of(qdot_session *s, int k)
-{
-#define PART(list) {&(list).at, &(list).n, &(list).capacity, sizeof *(list).at}
-    const qdot_scene_part own[PARTS - QDOT_SCENE_PARTS] = {
-        PART(s->set_symbols),  PART(s->set_values), PART(s->start_symbols),
-        PART(s->start_values), PART(s->history),    PART(s->history_over),
-        PART(s->runs),         PART(s->undo->names),
-    };
-#undef PART
-
-    return k < QDOT_SCENE_PARTS ? qdot_scene_part_at(s->scene, (size_t)k)
-                                : own[k - QDOT_SCENE_PARTS];
-}
-
-static unsigned char *
-items_of(const qdot_scene_part *part)
-{
-    unsigned char *at;
-
-    memcpy(&at, part->at, sizeof at);
-    return at;
-}
-
 /* Whether a part changes with every answer. */
 static bool
 is_answers(int k)
 {
-    return k == HISTORY || k == HISTORY_OVER;
-}
-
-static single
-single_of(const qdot_session *s)
-{
-    return (single){.lagrangian = s->scene->lagrangian,
-                    .series = s->series,
-                    .series_in = s->series_in,
-                    .style = s->style,
-                    .timing = s->timing,
-                    .start_exactly = s->start_exactly};
+    return k == QDOT_UNDO_HISTORY || k == QDOT_UNDO_HISTORY_OVER;
 }
 
 static bool
-same_single(const single *a, const single *b)
+same_single(const qdot_undo_single *a, const qdot_undo_single *b)
 {
     return a->lagrangian == b->lagrangian && a->style == b->style &&
            a->timing == b->timing && a->start_exactly == b->start_exactly;
-}
-
-/* --- items ---------------------------------------------------------------------------- */
-
-/* One use more, or less, of what the items are. */
-static void
-count_uses(int part, const unsigned char *at, size_t n, bool more)
-{
-    for (size_t i = 0; i < n && part == RUNS; i++) {
-        qdot_named_run run;
-
-        memcpy(&run, at + i * sizeof run, sizeof run);
-        if (more)
-            ++*run.uses;
-        else
-            qdot_named_run_release(&run);
-    }
-    for (size_t i = 0; i < n && part == NAMES; i++) {
-        const qdot_name *name;
-
-        memcpy(&name, at + i * sizeof name, sizeof name);
-        if (more)
-            (void)qdot_names_keep(name);
-        else
-            qdot_names_release(name);
-    }
-}
-
-static void
-copy_bytes(unsigned char *to, const unsigned char *from, size_t n)
-{
-    if (n > 0)
-        memmove(to, from, n);
-}
-
-/* *to becomes a copy, with uses of its own. */
-static qdot_status
-copy_items(int part, const unsigned char *from, size_t n, size_t size, unsigned char **to)
-{
-    *to = qdot_malloc(n * size);
-    if (*to == NULL)
-        return QDOT_ENOMEM;
-    copy_bytes(*to, from, n * size);
-    count_uses(part, *to, n, true);
-    return QDOT_OK;
-}
-
-/* Room for `n` items. */
-static qdot_status
-make_room(qdot_scene_part *part, size_t n)
-{
-    unsigned char *at = items_of(part);
-
-    QDOT_TRY(qdot_grow(&at, part->capacity, n, part->size));
-    memcpy(part->at, &at, sizeof at);
-    return QDOT_OK;
-}
-
-/* The items [at, at + gone) give way to those of `in`, for which there is room. */
-static void
-splice(const qdot_scene_part *part, size_t at, size_t gone, const unsigned char *in,
-       size_t come)
-{
-    unsigned char *first = items_of(part) + at * part->size;
-
-    copy_bytes(first + come * part->size, first + gone * part->size,
-               (*part->n - at - gone) * part->size);
-    copy_bytes(first, in, come * part->size);
-    *part->n += come - gone;
-}
-
-/* The same of the copy that is kept, which has uses of its own. */
-static void
-splice_kept(state *kept, int k, size_t size, size_t at, size_t gone,
-            const unsigned char *in, size_t come)
-{
-    items *own = &kept->part[k];
-    const qdot_scene_part part = {&own->at, &own->n, &own->capacity, size};
-
-    count_uses(k, in, come, true);
-    count_uses(k, own->at + at * size, gone, false);
-    splice(&part, at, gone, in, come);
-}
-
-static void
-clear_state(state *s)
-{
-    for (int k = 0; k < PARTS; k++) {
-        count_uses(k, s->part[k].at, s->part[k].n, false);
-        qdot_free(s->part[k].at);
-    }
-    *s = (state){0};
 }
 
 /* --- records -------------------------------------------------------------------------- */
@@ -224,12 +66,12 @@ clear_record(record *r)
         for (int side = 0; side < 2; side++) {
             const change *c = &r->changes.at[i];
 
-            count_uses(c->part, c->items[side], c->n[side], false);
+            qdot_undo_count(c->part, c->items[side], c->n[side], false);
             qdot_free(c->items[side]);
         }
     qdot_free(r->changes.at);
     if (r->there != NULL)
-        clear_state(r->there);
+        qdot_undo_clear(r->there);
     qdot_free(r->there);
     qdot_session_free(r->other);
 }
@@ -248,7 +90,7 @@ forget(qdot_undo *u)
     clear_records(&u->done);
     clear_records(&u->undone);
     u->bytes = 0;
-    clear_state(&u->now);
+    qdot_undo_clear(&u->now);
     u->known = false;
     u->floor = 0;
 }
@@ -261,7 +103,6 @@ qdot_undo_free(qdot_undo *u)
     forget(u);
     qdot_free(u->done.at);
     qdot_free(u->undone.at);
-    qdot_free(u->names.at);
     qdot_free(u);
 }
 
@@ -275,11 +116,11 @@ list_names(qdot_session *s)
     const qdot_name *name;
     size_t settled = qdot_names_settled(s->names);
 
-    if (settled > u->names.n || !u->known)
+    if (settled > u->now.names.n || !u->known)
         settled = 0;
-    u->names.n = settled;
-    while ((name = qdot_names_at(s->names, u->names.n)) != NULL)
-        QDOT_TRY(qdot_vec_push(&u->names, name));
+    u->now.names.n = settled;
+    while ((name = qdot_names_at(s->names, u->now.names.n)) != NULL)
+        QDOT_TRY(qdot_vec_push(&u->now.names, name));
     return QDOT_OK;
 }
 
@@ -287,11 +128,11 @@ list_names(qdot_session *s)
 static qdot_status
 compare_part(qdot_session *s, int k, record *r)
 {
-    qdot_scene_part live = part_of(s, k);
-    items *kept = &s->undo->now.part[k];
-    const unsigned char *new = items_of(&live), *old = kept->at;
+    qdot_scene_part live = qdot_undo_part(s, &s->undo->now, k);
+    qdot_undo_array *kept = &s->undo->now.part[k];
+    const unsigned char *new = qdot_undo_items(&live), *old = kept->at;
     const size_t size = live.size, least = *live.n < kept->n ? *live.n : kept->n;
-    size_t before = k == NAMES ? qdot_names_settled(s->names) : 0, behind = 0;
+    size_t before = k == QDOT_UNDO_NAMES ? qdot_names_settled(s->names) : 0, behind = 0;
     change c = {.part = k};
     qdot_scene_part room = {&kept->at, &kept->n, &kept->capacity, size};
     qdot_status status;
@@ -309,36 +150,36 @@ compare_part(qdot_session *s, int k, record *r)
     c.at = before;
     c.n[0] = kept->n - before - behind;
     c.n[1] = *live.n - before - behind;
-    QDOT_TRY(make_room(&room, *live.n));
-    QDOT_TRY(copy_items(k, kept->at + before * size, c.n[0], size, &c.items[0]));
-    status = copy_items(k, new + before * size, c.n[1], size, &c.items[1]);
+    QDOT_TRY(qdot_undo_make_room(&room, *live.n));
+    QDOT_TRY(qdot_undo_copy(k, kept->at + before * size, c.n[0], size, &c.items[0]));
+    status = qdot_undo_copy(k, new + before * size, c.n[1], size, &c.items[1]);
     if (status == QDOT_OK)
         status = qdot_vec_push(&r->changes, c);
     if (status != QDOT_OK) {
         for (int side = 0; side < 2; side++) {
-            count_uses(k, c.items[side], c.items[side] != NULL ? c.n[side] : 0, false);
+            qdot_undo_count(k, c.items[side], c.items[side] != NULL ? c.n[side] : 0, false);
             qdot_free(c.items[side]);
         }
         return status;
     }
-    splice_kept(&s->undo->now, k, size, c.at, c.n[0], c.items[1], c.n[1]);
+    qdot_undo_splice_kept(&s->undo->now, k, size, c.at, c.n[0], c.items[1], c.n[1]);
     return QDOT_OK;
 }
 
-/* The state that is kept becomes that of the session; r: the difference. */
+/* The qdot_undo_state that is kept becomes that of the session; r: the difference. */
 static qdot_status
 compare(qdot_session *s, record *r)
 {
-    state *now = &s->undo->now;
+    qdot_undo_state *now = &s->undo->now;
 
     QDOT_TRY(list_names(s));
-    r->history[0] = now->part[HISTORY].n;
+    r->history[0] = now->part[QDOT_UNDO_HISTORY].n;
     r->single[0] = now->single;
-    for (int k = 0; k < PARTS; k++)
+    for (int k = 0; k < QDOT_UNDO_PARTS; k++)
         QDOT_TRY(compare_part(s, k, r));
     qdot_names_settle(s->names);
-    r->history[1] = now->part[HISTORY].n;
-    r->single[1] = now->single = single_of(s);
+    r->history[1] = now->part[QDOT_UNDO_HISTORY].n;
+    r->single[1] = now->single = qdot_undo_single_of(s);
     return QDOT_OK;
 }
 
@@ -394,7 +235,7 @@ qdot_undo_begin(qdot_session *s)
     s->undo->under_way++;
     s->undo->moved = false;
     if (s->undo->known) {
-        s->undo->now.single = single_of(s); /* a style from outside is no statement's */
+        s->undo->now.single = qdot_undo_single_of(s); /* a style from outside is no statement's */
     } else if (compare(s, &r) == QDOT_OK) {
         s->undo->known = true;
     } else {
@@ -473,12 +314,12 @@ bytes_of(qdot_session *s, const record *r)
 
     if (r->other != NULL)
         bytes += qdot_pool_bytes(r->other->pool) +
-                 bytes_of_runs(r->there->part[RUNS].at, r->there->part[RUNS].n);
+                 bytes_of_runs(r->there->part[QDOT_UNDO_RUNS].at, r->there->part[QDOT_UNDO_RUNS].n);
     for (size_t i = 0; i < r->changes.n; i++) {
         const change *c = &r->changes.at[i];
 
-        bytes += sizeof *c + (c->n[0] + c->n[1]) * part_of(s, c->part).size;
-        if (c->part == RUNS)
+        bytes += sizeof *c + (c->n[0] + c->n[1]) * qdot_undo_part(s, &s->undo->now, c->part).size;
+        if (c->part == QDOT_UNDO_RUNS)
             bytes += bytes_of_runs(c->items[0], c->n[0]);
     }
     return bytes;
@@ -551,7 +392,7 @@ qdot_undo_reset(qdot_session *s, qdot_session *other)
         r.there = qdot_malloc(sizeof *r.there);
     if (r.there != NULL) {
         *r.there = u->now;
-        u->now = (state){0};
+        u->now = (qdot_undo_state){0};
         u->known = false;
         r.single[0] = r.there->single;
         status = compare(s, &rest);
@@ -596,13 +437,13 @@ move_symbols(qdot_session *s, const change *c, int to)
 static void
 cut_history(qdot_session *s, size_t n)
 {
-    items *kept = s->undo->now.part;
+    qdot_undo_array *kept = s->undo->now.part;
 
     if (s->history.n > n)
         s->history.n = n;
     if (s->history_over.n > n)
         s->history_over.n = n;
-    for (int k = HISTORY; k <= HISTORY_OVER; k++)
+    for (int k = QDOT_UNDO_HISTORY; k <= QDOT_UNDO_HISTORY_OVER; k++)
         if (kept[k].n > n)
             kept[k].n = n;
 }
@@ -611,17 +452,12 @@ cut_history(qdot_session *s, size_t n)
 static void
 cross(qdot_session *s, record *r)
 {
-    state there = *r->there;
+    const qdot_undo_state here = s->undo->now;
 
     qdot_session_exchange(s, r->other);
-    *r->there = s->undo->now;
-    s->undo->now = there;
-    s->undo->now.single = single_of(s);
-    s->undo->names.n = 0;
-    for (size_t i = 0; i < there.part[NAMES].n; i++) /* as many were there before */
-        memcpy(&s->undo->names.at[s->undo->names.n++],
-               there.part[NAMES].at + i * sizeof *s->undo->names.at,
-               sizeof *s->undo->names.at);
+    s->undo->now = *r->there;
+    *r->there = here;
+    s->undo->now.single = qdot_undo_single_of(s);
 }
 
 /* Room in the session and in the copy for what the record puts there. */
@@ -630,12 +466,12 @@ prepare(qdot_session *s, const record *r, int to)
 {
     for (size_t i = 0; i < r->changes.n; i++) {
         const change *c = &r->changes.at[i];
-        qdot_scene_part live = part_of(s, c->part);
-        items *kept = &s->undo->now.part[c->part];
+        qdot_scene_part live = qdot_undo_part(s, &s->undo->now, c->part);
+        qdot_undo_array *kept = &s->undo->now.part[c->part];
         qdot_scene_part copy = {&kept->at, &kept->n, &kept->capacity, live.size};
 
-        QDOT_TRY(make_room(&live, *live.n + c->n[to]));
-        QDOT_TRY(make_room(&copy, kept->n + c->n[to]));
+        QDOT_TRY(qdot_undo_make_room(&live, *live.n + c->n[to]));
+        QDOT_TRY(qdot_undo_make_room(&copy, kept->n + c->n[to]));
     }
     return QDOT_OK;
 }
@@ -655,19 +491,19 @@ apply(qdot_session *s, record *r, int to)
     cut_history(s, r->history[!to]);
     for (size_t i = 0; i < r->changes.n; i++) {
         const change *c = &r->changes.at[i];
-        const qdot_scene_part live = part_of(s, c->part);
+        const qdot_scene_part live = qdot_undo_part(s, &s->undo->now, c->part);
 
         counts = counts || (c->part < QDOT_SCENE_PARTS &&
                             qdot_scene_part_counts((size_t)c->part));
-        if (c->part == RUNS) {
-            count_uses(RUNS, c->items[to], c->n[to], true);
-            count_uses(RUNS, c->items[!to], c->n[!to], false);
+        if (c->part == QDOT_UNDO_RUNS) {
+            qdot_undo_count(QDOT_UNDO_RUNS, c->items[to], c->n[to], true);
+            qdot_undo_count(QDOT_UNDO_RUNS, c->items[!to], c->n[!to], false);
         }
-        splice(&live, c->at, c->n[!to], c->items[to], c->n[to]);
-        splice_kept(&u->now, c->part, live.size, c->at, c->n[!to], c->items[to], c->n[to]);
-        if (c->part == NAMES) {
+        qdot_undo_splice(&live, c->at, c->n[!to], c->items[to], c->n[to]);
+        qdot_undo_splice_kept(&u->now, c->part, live.size, c->at, c->n[!to], c->items[to], c->n[to]);
+        if (c->part == QDOT_UNDO_NAMES) {
             move_symbols(s, c, to);
-            qdot_names_restore(s->names, u->names.n, u->names.at);
+            qdot_names_restore(s->names, u->now.names.n, u->now.names.at);
         }
     }
     u->now.single = r->single[to];

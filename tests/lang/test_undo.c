@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/print.h"
 #include "lang/scene-file.h"
@@ -203,7 +204,8 @@ static void
 failures_leave_what_they_did(void **state)
 {
     talk *k = *state;
-    char *before, *seen;
+    char *before, *seen, path[] = "/tmp/test_undo-XXXXXX", include[64];
+    FILE *file;
 
     assert_int_equal(say(k, "param m; a = 1"), 0);
     before = state_of(k);
@@ -216,6 +218,15 @@ failures_leave_what_they_did(void **state)
     assert_string_equal(seen, before);
     free(seen);
     free(before);
+    /* an included script that fails, too */
+    file = fdopen(mkstemp(path), "w");
+    snprintf(include, sizeof include, "include \"%s\"", path);
+    assert_true(fputs("z = 1; y = 2\nnonsense\n", file) >= 0 && fclose(file) == 0);
+    assert_int_not_equal(say(k, include), 0);
+    assert_int_equal(say(k, "z + y; undo"), 0);
+    assert_non_null(strstr(heard(k), "undone: include"));
+    remove(path);
+    assert_int_not_equal(say(k, "z"), 0);
     assert_int_equal(say(k, "undo"), 0);
     assert_string_equal(heard(k), "undone: a = 1\n");
 }
@@ -258,12 +269,11 @@ runs_come_back(void **state)
 
 /* Whatever fails, what can still be undone can also be done again. */
 static void
-memory_failures_leave_it_whole(void **state)
+left_whole(void (*arm)(long n))
 {
     static const char text[] = "param a > 0; b = a^2; coord x; undo 2; redo; reset scene; undo";
     int status = 1;
 
-    (void)state;
     for (long n = 0; status != 0; n++) {
         char *before, *seen;
         talk *k;
@@ -271,9 +281,10 @@ memory_failures_leave_it_whole(void **state)
 
         assert_int_equal(begin((void **)&k), 0);
         assert_int_equal(say(k, "param m; coord y; R = m*y"), 0);
-        qdot_memory_fail_at(n);
+        arm(n);
         status = say(k, text);
-        qdot_memory_fail_at(-1);
+        arm(-1);
+        qdot_interrupt_clear();
         before = state_of(k);
         while (say(k, "undo") == 0)
             back++;
@@ -286,6 +297,20 @@ memory_failures_leave_it_whole(void **state)
         back_and_forth(k, "c = 2");
         end((void **)&k);
     }
+}
+
+static void
+failures_of_memory_leave_it_whole(void **state)
+{
+    (void)state;
+    left_whole(qdot_memory_fail_at);
+}
+
+static void
+ctrl_c_leaves_it_whole(void **state)
+{
+    (void)state;
+    left_whole(qdot_memory_press_at);
 }
 
 /* --- the scripts of this tree ----------------------------------------------------------- */
@@ -418,7 +443,8 @@ main(void)
         cmocka_unit_test_setup_teardown(failures_leave_what_they_did, begin, end),
         cmocka_unit_test_setup_teardown(a_name_declared_anew_has_no_past, begin, end),
         cmocka_unit_test_setup_teardown(runs_come_back, begin, end),
-        cmocka_unit_test_setup_teardown(memory_failures_leave_it_whole, begin, end),
+        cmocka_unit_test(failures_of_memory_leave_it_whole),
+        cmocka_unit_test(ctrl_c_leaves_it_whole),
         cmocka_unit_test(scripts_are_undone_statement_by_statement),
     };
 
