@@ -204,7 +204,7 @@ static void
 failures_leave_what_they_did(void **state)
 {
     talk *k = *state;
-    char *before, *seen, path[] = "/tmp/test_undo-XXXXXX", include[64];
+    char *before, *seen, path[] = "test_undo-XXXXXX", include[64];
     FILE *file;
 
     assert_int_equal(say(k, "param m; a = 1"), 0);
