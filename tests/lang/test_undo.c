@@ -244,6 +244,10 @@ a_name_declared_anew_has_no_past(void **state)
     assert_non_null(strstr(heard(k), "sqrt(m^2) = -m\n"));
     assert_int_equal(say(k, "undo; redo; sqrt(m^2)"), 0);
     assert_non_null(strstr(heard(k), "sqrt(m^2) = -m\n"));
+    /* nor has what was made of it */
+    assert_int_equal(say(k, "param u, w > 0; abs(u + w); undo; param u, w; abs(u + w)"), 0);
+    assert_non_null(strstr(heard(k), "w > 0\nabs(u + w)\n"));
+    assert_int_equal(say(k, "undo"), 0);
     /* what a function is of, too */
     assert_int_equal(say(k, "function y(w); param w > 0; diff(y(w), w); undo; y"), 0);
     assert_int_equal(say(k, "param w; sqrt(w^2); y"), 0);
