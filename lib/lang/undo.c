@@ -40,6 +40,7 @@ struct qdot_undo {
     bool moved;              /* the statement under way is `undo` or `redo` */
     size_t under_way;        /* statements, within one another */
     size_t bytes;            /* of `done` */
+    uint64_t version;        /* of the scene, as the statement before left it */
 };
 
 /* Whether a part changes with every answer. */
@@ -234,6 +235,7 @@ qdot_undo_begin(qdot_session *s)
     }
     s->undo->under_way++;
     s->undo->moved = false;
+    s->undo->version = s->scene->version;
     if (s->undo->known) {
         s->undo->now.single = qdot_undo_single_of(s); /* a style from outside is no statement's */
     } else if (compare(s, &r) == QDOT_OK) {
@@ -368,8 +370,11 @@ qdot_undo_end(qdot_session *s, size_t begun, const char *text, size_t length)
     if (!u->known)
         return;
     status = compare(s, &r);
-    if (status == QDOT_OK && !is_nothing(&r))
+    /* what is declared once more takes the place of itself: a change, which nothing shows */
+    if (status == QDOT_OK &&
+        (!is_nothing(&r) || (!u->moved && s->scene->version != u->version)))
         status = push(s, &r);
+    u->version = s->scene->version;
     if (status == QDOT_OK && !u->moved)
         status = join(u, begun, text, length);
     u->moved = false;
@@ -400,6 +405,7 @@ qdot_undo_reset(qdot_session *s, qdot_session *other)
     }
     if (status == QDOT_OK) {
         u->known = true;
+        u->version = s->scene->version;
         status = push(s, &r);
     }
     clear_record(&rest);
