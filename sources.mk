@@ -1468,6 +1468,7 @@ test_files = \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
+	tests/script/cases.awk \
 	tests/script/cases.inc \
 	tests/script/cases.json \
 	tests/script/cases.out \
@@ -1494,6 +1495,7 @@ test_files = \
 	tests/script/dof-redundant.out \
 	tests/script/double-energy.out \
 	tests/script/doubts.out \
+	tests/script/end-errors.awk \
 	tests/script/end-errors.inc \
 	tests/script/end-errors.out \
 	tests/script/equilibria.out \
@@ -1540,6 +1542,7 @@ test_files = \
 	tests/script/identities.out \
 	tests/script/include.out \
 	tests/script/included.inc \
+	tests/script/inner-times.awk \
 	tests/script/inner-times.out \
 	tests/script/integrable.out \
 	tests/script/json-run.out \

@@ -148,6 +148,16 @@ append(qdot_pool *pool, const qdot_node *node)
     return pool->table[i];
 }
 
+bool
+qdot_pool_interrupted(qdot_pool *pool)
+{
+    if (!qdot_interrupt_flag)
+        return false;
+    (void)qdot_interrupt_check();
+    qdot_pool_fail(pool);
+    return true;
+}
+
 /* Whether work may go on: counts the budget (a node of many args as several), looks for Ctrl-C. */
 static bool
 may_work(qdot_pool *pool, uint32_t args)
@@ -156,11 +166,8 @@ may_work(qdot_pool *pool, uint32_t args)
 
     if (pool->error.status != QDOT_OK)
         return false;
-    if (qdot_interrupt_flag) {
-        (void)qdot_interrupt_check();
-        qdot_pool_fail(pool);
+    if (qdot_pool_interrupted(pool))
         return false;
-    }
     if (pool->budget == UINT64_MAX)
         return true;
     if (pool->budget < cost) {

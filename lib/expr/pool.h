@@ -84,6 +84,9 @@ qdot_expr qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint
                               qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
                               void *user);
 
+/* Whether Ctrl-C was pressed; the pool has failed then. */
+bool qdot_pool_interrupted(qdot_pool *pool);
+
 /* Numbers of more digits than the language allows: refuses and returns true. */
 bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 

@@ -343,7 +343,8 @@ combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
                : c == NULL ? terms[only]
                            : qdot_mul(pool, c[only], terms[only]);
     begin(&s, pool);
-    for (size_t i = 0; i < n && !s.failed; i++)
+    /* numbers that grow without end make no nodes, which would look for Ctrl-C */
+    for (size_t i = 0; i < n && !s.failed && !qdot_pool_interrupted(pool); i++)
         add(&s, terms[i], c == NULL ? QDOT_ONE : c[i]);
     e = finish(&s);
     end(&s);
