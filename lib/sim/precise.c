@@ -430,7 +430,17 @@ qdot_precise_pair_result(const qdot_precise_pair *pair)
 double
 qdot_precise_power(double x)
 {
-    return isnan(x) ? NAN : fmax(exp10(x), DBL_MIN);
+    mpfr_t power; /* rounded alike by every C library */
+    double r;
+
+    if (isnan(x))
+        return NAN;
+    mpfr_init2(power, DBL_MANT_DIG);
+    mpfr_set_d(power, x, MPFR_RNDN);
+    mpfr_exp10(power, power, MPFR_RNDN);
+    r = mpfr_get_d(power, MPFR_RNDN);
+    mpfr_clear(power);
+    return fmax(r, DBL_MIN);
 }
 
 double
