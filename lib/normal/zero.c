@@ -136,15 +136,15 @@ common(slong a, slong b)
     return a;
 }
 
-/* The outermost root or absolute value in p, of a function if there is one; -1: none.
- * Roots of numbers count beside relations. */
+/* The first root or absolute value in p behind generator `after` (-1: of all), of functions; where
+ * there is none of any function, of a number, if there are relations. -1: no more. */
 static slong
-outermost(const qdot_zero *z, const fmpz_mpoly_t p)
+next_root(const qdot_zero *z, const fmpz_mpoly_t p, slong after)
 {
     const qdot_field *f = z->f;
     slong constant = -1;
 
-    for (slong v = 0; v < f->n; v++) {
+    for (slong v = after + 1; v < f->n; v++) {
         if ((f->gen[v].kind != QDOT_GEN_ROOT && f->gen[v].kind != QDOT_GEN_ABS) ||
             fmpz_mpoly_degree_si(p, v, f->ctx) == 0)
             continue;
@@ -153,7 +153,7 @@ outermost(const qdot_zero *z, const fmpz_mpoly_t p)
         if (constant < 0)
             constant = v;
     }
-    return z->ideal == NULL ? -1 : constant;
+    return z->ideal == NULL || after >= 0 ? -1 : constant;
 }
 
 static qdot_rule *
@@ -402,28 +402,37 @@ only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
 
 static qdot_status prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero);
 
-/* One irreducible factor. */
+/* Whether p is 0 if its norm is, by a root that the split takes out. */
+static bool
+follows_from_norm(qdot_zero *z, const fmpz_mpoly_t p, struct split *s, slong v)
+{
+    return split_at(z->f, s, p, v) &&
+           (s->order % 2 != 0 || opposite_signs(z, s) || only_this_branch(z, p, s));
+}
+
+/* One irreducible factor: by the outermost root of which enough is known. */
 static qdot_status
 prove_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
 {
     qdot_field *f = z->f;
-    slong v = outermost(z, p);
     qdot_status status = QDOT_OK;
-    struct split s;
-    fmpz_mpoly_t n;
+    bool found = false;
 
-    if (v < 0 || depth <= 0)
-        return QDOT_OK;
-    init(f, &s);
-    fmpz_mpoly_init(n, f->ctx);
-    if (split_at(f, &s, p, v) &&
-        (s.order % 2 != 0 || opposite_signs(z, &s) || only_this_branch(z, p, &s))) {
-        norm(f, n, &s);
-        if (qdot_field_goes(f))
-            status = prove(z, n, depth - 1, zero);
+    for (slong v = next_root(z, p, -1); v >= 0 && depth > 0 && !found; v = next_root(z, p, v)) {
+        struct split s;
+        fmpz_mpoly_t n;
+
+        init(f, &s);
+        fmpz_mpoly_init(n, f->ctx);
+        found = follows_from_norm(z, p, &s, v);
+        if (found) {
+            norm(f, n, &s);
+            if (qdot_field_goes(f))
+                status = prove(z, n, depth - 1, zero);
+        }
+        fmpz_mpoly_clear(n, f->ctx);
+        clear(f, &s);
     }
-    fmpz_mpoly_clear(n, f->ctx);
-    clear(f, &s);
     return status;
 }
 
@@ -448,7 +457,7 @@ prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
             status = qdot_zero_logarithms(z, q, zero);
         if (status == QDOT_OK && !*zero)
             status = qdot_zero_angles(z, q, zero);
-        if (status == QDOT_OK && !*zero && outermost(z, q) >= 0 &&
+        if (status == QDOT_OK && !*zero && next_root(z, q, -1) >= 0 &&
             fmpz_mpoly_length(q, f->ctx) < MOST_TERMS) {
             status = qdot_factor(f, &factors, q);
             for (slong i = 0; i < factors.n && status == QDOT_OK && !*zero; i++)

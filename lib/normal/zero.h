@@ -5,7 +5,7 @@
  *
  *   constants  the coefficients over the generators that are not constant are algebraic
  *              numbers; each is decided by its bound (constant.h).
- *   norms      p = P + Q R, R a power of the outermost root r or an absolute value,
+ *   norms      p = P + Q R, R a power of an outermost root r or an absolute value,
  *              R^k = B without r. Then P^k = (-Q)^k B, proved in turn, gives p = 0
  *                - for odd k, all being real;
  *                - for even k where P Q <= 0, from the signs of generators (declared
