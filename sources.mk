@@ -1454,6 +1454,7 @@ test_files = \
 	tests/fuzz/corpus/roundtrip/text.txt \
 	tests/fuzz/fuzz.h \
 	tests/lang/reading.h \
+	tests/lang/talk.h \
 	tests/mech/kit.h \
 	tests/normal/kit.h \
 	tests/normal/number.h \

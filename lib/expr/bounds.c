@@ -78,7 +78,7 @@ of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
     case QDOT_TANH:
     case QDOT_ERF:
         set(lo, fmpz_is_even(fmpq_numref(k)) ? 0 : -1, 1, false);
-        set(hi, 1, 1, NODE(pool, b)->op >= QDOT_TANH);
+        set(hi, 1, 1, NODE(pool, b)->op == QDOT_TANH || NODE(pool, b)->op == QDOT_ERF);
         break;
     case QDOT_COSH: set(lo, 1, 1, false); break;
     default: break;

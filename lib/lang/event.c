@@ -31,13 +31,8 @@ read_target(qdot_cursor *c, qdot_expr *target)
     if (known != NULL && known->kind == QDOT_NAME_COORD)
         return qdot_number_read_jet(c, target);
     c->error_at = start->start;
-    if (known == NULL) {
-        const char *near = qdot_names_nearest(c->session->names, name, 0, NULL);
-
-        (void)qdot_fail(QDOT_ENAME, "there is no coordinate and no parameter `%s`", name);
-        return near != NULL ? qdot_hint("did you mean `%s`?", near)
-                            : qdot_hint("param %s declares it", name);
-    }
+    if (known == NULL)
+        return qdot_number_unknown(c->session, "coordinate and no parameter", name);
     (void)qdot_fail(QDOT_ENAME, "`%s` is not a coordinate or a parameter", name);
     return qdot_hint("`then` sets coordinates, velocities and parameters");
 }

@@ -21,6 +21,9 @@ QDOT_MUST_CHECK qdot_status qdot_number_push_pair(qdot_number_pairs *p,
 QDOT_MUST_CHECK qdot_status qdot_number_read_parameter(qdot_cursor *c, qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_number_read_jet(qdot_cursor *c, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_number_read_constant(qdot_cursor *c, qdot_expr *value);
+/* QDOT_ENAME: there is no `what` of this name; a hint at the one that may have been meant. */
+QDOT_MUST_CHECK qdot_status qdot_number_unknown(const qdot_session *session, const char *what,
+                                                const char *name);
 
 /* From now on a run starts with this value of q or q'. */
 QDOT_MUST_CHECK qdot_status qdot_number_set_start(qdot_session *session, qdot_expr jet,

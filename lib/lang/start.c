@@ -12,6 +12,16 @@
 #include "lang/statement.h"
 #include "lang/values.h"
 
+qdot_status
+qdot_number_unknown(const qdot_session *session, const char *what, const char *name)
+{
+    const char *near = qdot_names_nearest(session->names, name, 0, NULL);
+
+    (void)qdot_fail(QDOT_ENAME, "there is no %s `%s`", what, name);
+    return near != NULL ? qdot_hint("did you mean `%s`?", near)
+                        : qdot_hint("param %s declares it", name);
+}
+
 /* --- set ---------------------------------------------------------------------------- */
 
 /* p[NAME] with NAME a coordinate: the independent momentum. */
@@ -47,13 +57,8 @@ qdot_number_read_parameter(qdot_cursor *c, qdot_expr *symbol)
         return QDOT_OK;
     }
     c->error_at = start->start;
-    if (known == NULL) {
-        const char *near = qdot_names_nearest(c->session->names, name, 0, NULL);
-
-        (void)qdot_fail(QDOT_ENAME, "there is no parameter `%s`", name);
-        return near != NULL ? qdot_hint("did you mean `%s`?", near)
-                            : qdot_hint("param %s declares it", name);
-    }
+    if (known == NULL)
+        return qdot_number_unknown(c->session, "parameter", name);
     (void)qdot_fail(QDOT_ENAME, "`%s` is not a parameter", name);
     return known->kind == QDOT_NAME_COORD  ? qdot_hint("start %s = ...", name)
            : known->kind == QDOT_NAME_UFUN ? qdot_hint("set %s(...) = ...", name)
@@ -440,42 +445,32 @@ is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
     return false;
 }
 
-/* The values, those of parameters that events set apart: what holds one of these follows it. */
+/* Values that hold parameters which events set, with these in them: they follow. */
 static qdot_status
-order_values(qdot_session *session, qdot_number_order *o)
+follow_events(qdot_session *session, qdot_number_order *o)
 {
     const size_t n = session->set_symbols.n;
+    const qdot_expr *symbols = session->set_symbols.at;
     qdot_expr *const at = session->set_values.at;
-    qdot_expr *kept = qdot_calloc(n + 1, sizeof *kept), *first = qdot_calloc(n + 1, sizeof *first);
-    qdot_status status = kept && first ? QDOT_OK : QDOT_ENOMEM;
+    qdot_expr *kept = qdot_malloc((n + 1) * sizeof *kept);
+    bool some = false;
 
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        first[i] = qdot_session_bind(session, at[i]);
-        status = qdot_pool_check(session->pool);
-        if (status == QDOT_OK &&
-            qdot_expr_is_class(session->pool, session->set_symbols.at[i], QDOT_PARAM))
-            status = qdot_declare_in_domain(session, session->set_symbols.at[i], first[i]);
-    }
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+    if (kept == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
         kept[i] = at[i];
-        if (is_set_by_event(session->scene, session->set_symbols.at[i]))
-            at[i] = session->set_symbols.at[i];
+        if (is_set_by_event(session->scene, symbols[i])) {
+            at[i] = symbols[i];
+            some = true;
+        }
     }
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        const qdot_expr symbol = session->set_symbols.at[i];
-
-        status = qdot_number_push_pair(&o->values, NULL, symbol,
-                                       at[i] == symbol ? first[i]
-                                                       : qdot_session_bind(session, at[i]));
-        if (status == QDOT_OK)
-            status = qdot_pool_check(session->pool);
-    }
-    for (size_t i = 0; kept && i < n; i++)
-        if (kept[i] != QDOT_NIL)
-            at[i] = kept[i];
+    for (size_t i = 0; i < n && some; i++)
+        if (at[i] != symbols[i])
+            o->values.values.at[i] = qdot_session_bind(session, at[i]);
+    for (size_t i = 0; i < n; i++)
+        at[i] = kept[i];
     qdot_free(kept);
-    qdot_free(first);
-    return status;
+    return qdot_pool_check(session->pool);
 }
 
 /* The values and the start of the moment. */
@@ -487,7 +482,16 @@ qdot_number_fill_order(qdot_session *session, qdot_number_order *o)
                         "there is nothing to integrate: no coordinate is declared");
         return qdot_hint("coord theta");
     }
-    QDOT_TRY(order_values(session, o));
+    for (size_t i = 0; i < session->set_symbols.n; i++) {
+        qdot_expr symbol = session->set_symbols.at[i];
+        qdot_expr value = qdot_session_bind(session, session->set_values.at[i]);
+
+        QDOT_TRY(qdot_pool_check(session->pool));
+        if (qdot_expr_is_class(session->pool, symbol, QDOT_PARAM))
+            QDOT_TRY(qdot_declare_in_domain(session, symbol, value));
+        QDOT_TRY(qdot_number_push_pair(&o->values, NULL, symbol, value));
+    }
+    QDOT_TRY(follow_events(session, o));
     QDOT_TRY(qdot_values_check_assumed(session));
     QDOT_TRY(order_start(session, o));
     o->request.n_values = o->values.symbols.n;

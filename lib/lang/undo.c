@@ -33,14 +33,14 @@ typedef struct {
 typedef qdot_vec(record) records;
 
 struct qdot_undo {
-    qdot_undo_state now;               /* as the latest statement left it */
-    bool known;              /* it is */
+    qdot_undo_state now; /* as the latest statement left it */
+    bool known;          /* it is */
     records done, undone;
-    size_t floor;            /* records that the text under way cannot take back */
-    bool moved;              /* the statement under way is `undo` or `redo` */
-    size_t under_way;        /* statements, within one another */
-    size_t bytes;            /* of `done` */
-    uint64_t version;        /* of the scene, as the statement before left it */
+    size_t floor;     /* records that the text under way cannot take back */
+    bool moved;       /* the statement under way is `undo` or `redo` */
+    size_t under_way; /* statements, within one another */
+    size_t bytes;     /* of `done` */
+    uint64_t version; /* of the scene, as the statement before left it */
 };
 
 /* Whether a part changes with every answer. */

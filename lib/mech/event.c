@@ -14,6 +14,15 @@ qdot_scene_find_event(const qdot_scene *s, const char *label)
     return NULL;
 }
 
+const qdot_event *
+qdot_scene_acting_event(const qdot_scene *s)
+{
+    for (size_t i = 0; i < s->events.n; i++)
+        if (s->events.at[i].stop || s->events.at[i].targets.n > 0)
+            return &s->events.at[i];
+    return NULL;
+}
+
 static qdot_status
 check(const qdot_scene *s, const qdot_event *e)
 {

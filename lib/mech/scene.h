@@ -160,6 +160,8 @@ QDOT_MUST_CHECK qdot_status qdot_scene_constraint(qdot_scene *s, const char *lab
  * does not know; a target twice. */
 QDOT_MUST_CHECK qdot_status qdot_scene_event(qdot_scene *s, const qdot_event *event);
 const qdot_event *qdot_scene_find_event(const qdot_scene *s, const char *label);
+/* The first event that does more than be noted: ends a run or sets something; NULL: none. */
+const qdot_event *qdot_scene_acting_event(const qdot_scene *s);
 /* An equation or inequality the engine may use; turned: a < b was written b > a. QDOT_ETYPE: it is
  * neither; QDOT_EINVAL: it can never hold. */
 QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned);

@@ -92,16 +92,16 @@ static qdot_status
 check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
       const qdot_expr *varied)
 {
+    const qdot_event *acting = qdot_scene_acting_event(scene);
+
     if (scene->coordinates.n == 0)
         return qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
     if (scene->constraints.n > 0)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with constraints");
-    for (size_t i = 0; i < scene->events.n; i++)
-        if (scene->events.at[i].stop || scene->events.at[i].targets.n > 0)
-            return qdot_fail(QDOT_ENOTBUILT,
-                             "not built yet: ensembles with the event %.100s, which %s",
-                             scene->events.at[i].name,
-                             scene->events.at[i].stop ? "stops a run" : "changes it");
+    if (acting)
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: ensembles with the event %.100s, which %s",
+                         acting->name, acting->stop ? "stops a run" : "changes it");
     if (request->method && strcmp(request->method, "auto") != 0 &&
         strcmp(request->method, "taylor") != 0)
         return qdot_fail(QDOT_EINVAL, "an ensemble runs by taylor, not by %.50s",

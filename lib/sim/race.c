@@ -231,10 +231,9 @@ try_minimal(race *r)
     qdot_minimal m;
     qdot_status status;
 
-    for (size_t i = 0; i < r->scene->events.n; i++)
-        if (r->scene->events.at[i].stop || r->scene->events.at[i].targets.n > 0)
-            return give_reason(&r->race->lane[MINIMAL],
-                               "events are met in the coordinates as given only");
+    if (qdot_scene_acting_event(r->scene))
+        return give_reason(&r->race->lane[MINIMAL],
+                           "events are met in the coordinates as given only");
     status = qdot_minimal_make(r->scene, size_at_start, r, &m);
     if (is_its_own(status))
         return give_reason(&r->race->lane[MINIMAL], qdot_last_error()->message);

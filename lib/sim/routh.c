@@ -113,7 +113,8 @@ find_cyclic(routh *e, bool *some)
         qdot_cyclic c;
         bool is, applied;
 
-        if (is_state(e, i) || !may_be_absent(e, i) || !is_linear(e, i) || coupled(e, i) >= MOST_COUPLED)
+        if (is_state(e, i) || !may_be_absent(e, i) || !is_linear(e, i) ||
+            coupled(e, i) >= MOST_COUPLED)
             continue;
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(qdot_mech_cyclic_at(e->scene, in_scene(e, i), &c, &is));

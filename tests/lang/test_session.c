@@ -1,86 +1,11 @@
 /* test_session.c -- a conversation: what is said, what is answered, what is left after
  * a failure. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "talk.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "lang/session.h"
-
-/* A session whose output and errors are kept. */
-typedef struct {
-    qdot_session *session;
-    FILE *out, *err;
-    char *out_text, *err_text;
-    size_t out_size, err_size;
-} talk;
-
-static int
-begin(void **state)
-{
-    talk *k = calloc(1, sizeof *k);
-
-    k->out = open_memstream(&k->out_text, &k->out_size);
-    k->err = open_memstream(&k->err_text, &k->err_size);
-    k->session = qdot_session_new(k->out, k->err);
-    *state = k;
-    return k->session == NULL;
-}
-
-static int
-end(void **state)
-{
-    talk *k = *state;
-
-    qdot_session_free(k->session);
-    fclose(k->out);
-    fclose(k->err);
-    free(k->out_text);
-    free(k->err_text);
-    free(k);
-    return 0;
-}
-
-static int
-say(talk *k, const char *text)
-{
-    return qdot_session_run_text(k->session, "test", text, strlen(text));
-}
-
-/* What was answered since the last look. */
-static const char *
-heard(talk *k)
-{
-    static char copy[65536];
-
-    fflush(k->out);
-    assert_true(k->out_size < sizeof copy);
-    memcpy(copy, k->out_text, k->out_size);
-    copy[k->out_size] = '\0';
-    rewind(k->out);
-    return copy;
-}
-
-static const char *
-complaint(talk *k)
-{
-    static char copy[65536];
-
-    fflush(k->err);
-    assert_true(k->err_size < sizeof copy);
-    memcpy(copy, k->err_text, k->err_size);
-    copy[k->err_size] = '\0';
-    rewind(k->err);
-    return copy;
-}
 
 static void
 exit_status_tells_syntax_from_failure(void **state)

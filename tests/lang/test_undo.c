@@ -1,68 +1,13 @@
 /* test_undo.c -- statements taken back: what is left is what was there before. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "talk.h"
 
 #include <glob.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/print.h"
 #include "lang/scene-file.h"
 #include "lang/statement.h"
-
-typedef struct {
-    qdot_session *session;
-    FILE *out, *err;
-    char *text;
-    size_t size;
-} talk;
-
-static int
-begin(void **state)
-{
-    talk *k = calloc(1, sizeof *k);
-
-    k->out = open_memstream(&k->text, &k->size);
-    k->err = fopen("/dev/null", "w");
-    k->session = qdot_session_new(k->out, k->err);
-    *state = k;
-    return k->session == NULL;
-}
-
-static int
-end(void **state)
-{
-    talk *k = *state;
-
-    qdot_session_free(k->session);
-    fclose(k->out);
-    fclose(k->err);
-    free(k->text);
-    free(k);
-    return 0;
-}
-
-static int
-say(talk *k, const char *text)
-{
-    return qdot_session_run_text(k->session, "test", text, strlen(text));
-}
-
-/* What was answered since the last look. */
-static const char *
-heard(talk *k)
-{
-    fflush(k->out);
-    k->text[k->size] = '\0';
-    rewind(k->out);
-    return k->text;
-}
 
 /* All that a session file says, and every name. */
 static char *
@@ -80,22 +25,28 @@ state_of(talk *k)
     return copy;
 }
 
+/* `word` leads to this state. */
+static void
+leads_to(talk *k, const char *word, const char *expected)
+{
+    char *seen;
+
+    assert_int_equal(say(k, word), 0);
+    seen = state_of(k);
+    assert_string_equal(seen, expected);
+    free(seen);
+}
+
 /* The statement undone is the state before, done again the state behind it. */
 static void
 back_and_forth(talk *k, const char *text)
 {
-    char *before = state_of(k), *behind, *seen;
+    char *before = state_of(k), *behind;
 
     assert_int_equal(say(k, text), 0);
     behind = state_of(k);
-    assert_int_equal(say(k, "undo"), 0);
-    seen = state_of(k);
-    assert_string_equal(seen, before);
-    free(seen);
-    assert_int_equal(say(k, "redo"), 0);
-    seen = state_of(k);
-    assert_string_equal(seen, behind);
-    free(seen);
+    leads_to(k, "undo", before);
+    leads_to(k, "redo", behind);
     free(before);
     free(behind);
 }
@@ -381,14 +332,8 @@ try_script(talk *k, const char *path)
             (void)say(k, statement);
             behind = state_of(k);
             if (strcmp(before, behind) != 0) {
-                assert_int_equal(say(k, "undo"), 0);
-                seen = state_of(k);
-                assert_string_equal(seen, before);
-                free(seen);
-                assert_int_equal(say(k, "redo"), 0);
-                seen = state_of(k);
-                assert_string_equal(seen, behind);
-                free(seen);
+                leads_to(k, "undo", before);
+                leads_to(k, "redo", behind);
                 tried++;
             }
             free(statement);
