@@ -1590,6 +1590,7 @@ test_files = \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
 	tests/script/poisson.out \
+	tests/script/processor.inc \
 	tests/script/processor.out \
 	tests/script/pulse-train.out \
 	tests/script/race.out \
