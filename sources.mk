@@ -1,70 +1,12 @@
 # sources.mk -- which files make qdot. Written by ./bootstrap sources; do not edit.
 
-base_sources = \
+library_sources = \
 	lib/base/interrupt.c \
 	lib/base/memory.c \
 	lib/base/scope.c \
 	lib/base/status.c \
 	lib/base/text.c \
-	lib/base/utf8.c
-
-base_headers = \
-	lib/base/clock.h \
-	lib/base/interrupt.h \
-	lib/base/memory.h \
-	lib/base/scope.h \
-	lib/base/status.h \
-	lib/base/text.h \
-	lib/base/utf8.h
-
-num_sources = \
-	lib/num/articulated.c \
-	lib/num/batch.c \
-	lib/num/bordered.c \
-	lib/num/chebyshev.c \
-	lib/num/cholesky.c \
-	lib/num/hermite.c \
-	lib/num/kinds.c \
-	lib/num/ldlt.c \
-	lib/num/least-move.c \
-	lib/num/real.c \
-	lib/num/row-space.c \
-	lib/num/saddle-rows.c \
-	lib/num/saddle.c \
-	lib/num/series.c \
-	lib/num/sparse.c \
-	lib/num/structure.c \
-	lib/num/two.c
-
-num_headers = \
-	lib/num/arb.h \
-	lib/num/articulated-plane.def \
-	lib/num/articulated.def \
-	lib/num/articulated.h \
-	lib/num/batch-kinds.def \
-	lib/num/batch-vector.def \
-	lib/num/batch.def \
-	lib/num/batch.h \
-	lib/num/bordered.h \
-	lib/num/chebyshev.h \
-	lib/num/cholesky.h \
-	lib/num/hermite.h \
-	lib/num/kinds.h \
-	lib/num/ldlt.h \
-	lib/num/least-move.h \
-	lib/num/real.h \
-	lib/num/row-space.h \
-	lib/num/saddle.h \
-	lib/num/series-dot.def \
-	lib/num/series.def \
-	lib/num/series.h \
-	lib/num/sparse.h \
-	lib/num/structure.h \
-	lib/num/sum.h \
-	lib/num/two.def \
-	lib/num/two.h
-
-expr_sources = \
+	lib/base/utf8.c \
 	lib/expr/bounds.c \
 	lib/expr/calculus.c \
 	lib/expr/construct.c \
@@ -86,56 +28,110 @@ expr_sources = \
 	lib/expr/sum.c \
 	lib/expr/tensor.c \
 	lib/expr/ufun.c \
-	lib/expr/walk.c
-
-expr_headers = \
-	lib/expr/calculus.h \
-	lib/expr/expr.h \
-	lib/expr/function.def \
-	lib/expr/pool.h \
-	lib/expr/print-name.h \
-	lib/expr/print-parts.h \
-	lib/expr/print.h \
-	lib/expr/printed.h \
-	lib/expr/rational.h \
-	lib/expr/tensor.h \
-	lib/expr/walk.h
-
-ode_sources = \
-	lib/ode/apart.c \
-	lib/ode/batch.c \
-	lib/ode/companion.c \
-	lib/ode/dop853.c \
-	lib/ode/integrate.c \
-	lib/ode/leading.c \
-	lib/ode/method.c \
-	lib/ode/precise.c \
-	lib/ode/stepper.c \
-	lib/ode/taylor-series.c \
-	lib/ode/taylor.c \
-	lib/ode/trajectory.c \
-	lib/ode/written.c
-
-ode_headers = \
-	lib/ode/apart.h \
-	lib/ode/batch.def \
-	lib/ode/batch.h \
-	lib/ode/companion.h \
-	lib/ode/crawl.h \
-	lib/ode/dop853.def \
-	lib/ode/dop853.h \
-	lib/ode/integrate.h \
-	lib/ode/leading.h \
-	lib/ode/method.h \
-	lib/ode/precise.h \
-	lib/ode/stepper.h \
-	lib/ode/system.h \
-	lib/ode/taylor-numbers.h \
-	lib/ode/taylor.h \
-	lib/ode/trajectory.h \
-	lib/ode/written.h
-
-normal_sources = \
+	lib/expr/walk.c \
+	lib/lang/algebra.c \
+	lib/lang/answer.c \
+	lib/lang/ask.c \
+	lib/lang/bind.c \
+	lib/lang/builtin.c \
+	lib/lang/call.c \
+	lib/lang/carry.c \
+	lib/lang/check.c \
+	lib/lang/closed-sum.c \
+	lib/lang/condition.c \
+	lib/lang/constraints.c \
+	lib/lang/cursor.c \
+	lib/lang/declare-function.c \
+	lib/lang/declare.c \
+	lib/lang/derive.c \
+	lib/lang/digits-table.c \
+	lib/lang/digits.c \
+	lib/lang/draw.c \
+	lib/lang/equilibria.c \
+	lib/lang/evaluate.c \
+	lib/lang/event.c \
+	lib/lang/function.c \
+	lib/lang/furnish.c \
+	lib/lang/help.c \
+	lib/lang/hints.c \
+	lib/lang/letters.c \
+	lib/lang/lex.c \
+	lib/lang/loop.c \
+	lib/lang/meant.c \
+	lib/lang/member.c \
+	lib/lang/names.c \
+	lib/lang/number.c \
+	lib/lang/numeric.c \
+	lib/lang/parse.c \
+	lib/lang/plot.c \
+	lib/lang/quantities.c \
+	lib/lang/race.c \
+	lib/lang/range.c \
+	lib/lang/read.c \
+	lib/lang/redirect.c \
+	lib/lang/remove.c \
+	lib/lang/report.c \
+	lib/lang/resolve.c \
+	lib/lang/scene-file.c \
+	lib/lang/series.c \
+	lib/lang/session.c \
+	lib/lang/source.c \
+	lib/lang/start.c \
+	lib/lang/statement.c \
+	lib/lang/styled.c \
+	lib/lang/taken.c \
+	lib/lang/undo-state.c \
+	lib/lang/undo.c \
+	lib/lang/values.c \
+	lib/lang/words.c \
+	lib/lang/workbench.c \
+	lib/lang/workprecision.c \
+	lib/machine/x86.c \
+	lib/mech/accel.c \
+	lib/mech/alike.c \
+	lib/mech/body.c \
+	lib/mech/constraint.c \
+	lib/mech/dalembert.c \
+	lib/mech/derived.c \
+	lib/mech/energy.c \
+	lib/mech/equilibrium-branches.c \
+	lib/mech/equilibrium-equations.c \
+	lib/mech/equilibrium-numeric.c \
+	lib/mech/equilibrium-twice.c \
+	lib/mech/equilibrium.c \
+	lib/mech/event.c \
+	lib/mech/freedom.c \
+	lib/mech/generic.c \
+	lib/mech/geometry.c \
+	lib/mech/hamilton.c \
+	lib/mech/integrable.c \
+	lib/mech/kind.c \
+	lib/mech/kinematics.c \
+	lib/mech/label.c \
+	lib/mech/lagrange.c \
+	lib/mech/linear-motion.c \
+	lib/mech/lyapunov.c \
+	lib/mech/mass-matrix.c \
+	lib/mech/metric.c \
+	lib/mech/minimal.c \
+	lib/mech/modes.c \
+	lib/mech/momentum.c \
+	lib/mech/nested.c \
+	lib/mech/noether.c \
+	lib/mech/numeric.c \
+	lib/mech/place.c \
+	lib/mech/reactions.c \
+	lib/mech/recursive.c \
+	lib/mech/remove.c \
+	lib/mech/scene-parts.c \
+	lib/mech/scene-print.c \
+	lib/mech/scene-replace.c \
+	lib/mech/scene.c \
+	lib/mech/squares.c \
+	lib/mech/stability-exact.c \
+	lib/mech/stability-numbers.c \
+	lib/mech/stability.c \
+	lib/mech/virtual-work.c \
 	lib/normal/angle-basis.c \
 	lib/normal/angle-sum.c \
 	lib/normal/antiderivative.c \
@@ -197,186 +193,64 @@ normal_sources = \
 	lib/normal/unify.c \
 	lib/normal/value.c \
 	lib/normal/within.c \
-	lib/normal/zero.c
-
-normal_headers = \
-	lib/normal/angle-basis.h \
-	lib/normal/antiderivative.h \
-	lib/normal/ball.h \
-	lib/normal/cases.h \
-	lib/normal/cells.h \
-	lib/normal/constant.h \
-	lib/normal/contradiction.h \
-	lib/normal/cramer.h \
-	lib/normal/decide.h \
-	lib/normal/defined.h \
-	lib/normal/domain.h \
-	lib/normal/factor.h \
-	lib/normal/field.h \
-	lib/normal/flint.h \
-	lib/normal/form.h \
-	lib/normal/ideal.h \
-	lib/normal/inequality.h \
-	lib/normal/isolate.h \
-	lib/normal/items.h \
-	lib/normal/lattice.h \
-	lib/normal/map.h \
-	lib/normal/nth-part.h \
-	lib/normal/null-space.h \
-	lib/normal/polynomials.h \
-	lib/normal/positive.h \
-	lib/normal/prepare.h \
-	lib/normal/products.h \
-	lib/normal/prove.h \
-	lib/normal/question.h \
-	lib/normal/rationalize.h \
-	lib/normal/real-zeros.h \
-	lib/normal/rewrite.h \
-	lib/normal/root-parts.h \
-	lib/normal/sample.h \
-	lib/normal/simplify.h \
-	lib/normal/solve.h \
-	lib/normal/split.h \
-	lib/normal/together.h \
-	lib/normal/unify.h \
-	lib/normal/value.h \
-	lib/normal/within.h \
-	lib/normal/zero.h
-
-tape_sources = \
-	lib/tape/angle.c \
-	lib/tape/code.c \
-	lib/tape/constant.c \
-	lib/tape/derivative.c \
-	lib/tape/disc.c \
-	lib/tape/finish.c \
-	lib/tape/interval.c \
-	lib/tape/keymap.c \
-	lib/tape/lanes-code.c \
-	lib/tape/lanes-steps.c \
-	lib/tape/lanes-sums.c \
-	lib/tape/lanes-writer.c \
-	lib/tape/lanes.c \
-	lib/tape/lower.c \
-	lib/tape/near.c \
-	lib/tape/precise.c \
-	lib/tape/tape.c \
-	lib/tape/taylor-code-fold.c \
-	lib/tape/taylor-code-order.c \
-	lib/tape/taylor-code-solve.c \
-	lib/tape/taylor-code-vectors.c \
-	lib/tape/taylor-code-zero.c \
-	lib/tape/taylor-code.c \
-	lib/tape/taylor-correct.c \
-	lib/tape/taylor-near.c \
-	lib/tape/taylor-order.c \
-	lib/tape/taylor-text.c \
-	lib/tape/taylor-unknowns.c \
-	lib/tape/taylor-wide.c \
-	lib/tape/taylor.c \
-	lib/tape/two.c \
-	lib/tape/x86.c
-
-tape_headers = \
-	lib/tape/angle.h \
-	lib/tape/code.h \
-	lib/tape/constant.h \
-	lib/tape/derivative.def \
-	lib/tape/derivative.h \
-	lib/tape/disc.def \
-	lib/tape/disc.h \
-	lib/tape/interval.def \
-	lib/tape/interval.h \
-	lib/tape/keymap.h \
-	lib/tape/lanes-code.h \
-	lib/tape/lanes-program.h \
-	lib/tape/lanes-writer.h \
-	lib/tape/lanes.def \
-	lib/tape/lanes.h \
-	lib/tape/near.h \
-	lib/tape/operation.def \
-	lib/tape/precise.h \
-	lib/tape/shake.h \
-	lib/tape/tape.h \
-	lib/tape/taylor-code-sum.h \
-	lib/tape/taylor-code.h \
-	lib/tape/taylor-generator.h \
-	lib/tape/taylor-order.def \
-	lib/tape/taylor-steps.h \
-	lib/tape/taylor-text.h \
-	lib/tape/taylor-wide.def \
-	lib/tape/taylor-wide.h \
-	lib/tape/taylor.h \
-	lib/tape/two.def \
-	lib/tape/two.h \
-	lib/tape/x86.h
-
-mech_sources = \
-	lib/mech/accel.c \
-	lib/mech/alike.c \
-	lib/mech/body.c \
-	lib/mech/constraint.c \
-	lib/mech/dalembert.c \
-	lib/mech/derived.c \
-	lib/mech/energy.c \
-	lib/mech/equilibrium-branches.c \
-	lib/mech/equilibrium-equations.c \
-	lib/mech/equilibrium-numeric.c \
-	lib/mech/equilibrium-twice.c \
-	lib/mech/equilibrium.c \
-	lib/mech/event.c \
-	lib/mech/freedom.c \
-	lib/mech/generic.c \
-	lib/mech/geometry.c \
-	lib/mech/hamilton.c \
-	lib/mech/integrable.c \
-	lib/mech/kind.c \
-	lib/mech/kinematics.c \
-	lib/mech/label.c \
-	lib/mech/lagrange.c \
-	lib/mech/linear-motion.c \
-	lib/mech/lyapunov.c \
-	lib/mech/mass-matrix.c \
-	lib/mech/metric.c \
-	lib/mech/minimal.c \
-	lib/mech/modes.c \
-	lib/mech/momentum.c \
-	lib/mech/nested.c \
-	lib/mech/noether.c \
-	lib/mech/numeric.c \
-	lib/mech/place.c \
-	lib/mech/reactions.c \
-	lib/mech/recursive.c \
-	lib/mech/remove.c \
-	lib/mech/scene-parts.c \
-	lib/mech/scene-print.c \
-	lib/mech/scene-replace.c \
-	lib/mech/scene.c \
-	lib/mech/squares.c \
-	lib/mech/stability-exact.c \
-	lib/mech/stability-numbers.c \
-	lib/mech/stability.c \
-	lib/mech/virtual-work.c
-
-mech_headers = \
-	lib/mech/dalembert.h \
-	lib/mech/derived.h \
-	lib/mech/equilibrium-rest.h \
-	lib/mech/equilibrium.h \
-	lib/mech/geometry.h \
-	lib/mech/hamilton.h \
-	lib/mech/integrable.h \
-	lib/mech/linear-motion.h \
-	lib/mech/lyapunov.h \
-	lib/mech/minimal.h \
-	lib/mech/noether.h \
-	lib/mech/quantity.h \
-	lib/mech/reactions.h \
-	lib/mech/scene.h \
-	lib/mech/squares.h \
-	lib/mech/stability.h
-
-sim_sources = \
+	lib/normal/zero.c \
+	lib/num/articulated.c \
+	lib/num/batch.c \
+	lib/num/bordered.c \
+	lib/num/chebyshev.c \
+	lib/num/cholesky.c \
+	lib/num/hermite.c \
+	lib/num/kinds.c \
+	lib/num/ldlt.c \
+	lib/num/least-move.c \
+	lib/num/real.c \
+	lib/num/row-space.c \
+	lib/num/saddle-rows.c \
+	lib/num/saddle.c \
+	lib/num/series.c \
+	lib/num/sparse.c \
+	lib/num/structure.c \
+	lib/num/two.c \
+	lib/ode/apart.c \
+	lib/ode/batch.c \
+	lib/ode/companion.c \
+	lib/ode/dop853.c \
+	lib/ode/integrate.c \
+	lib/ode/leading.c \
+	lib/ode/method.c \
+	lib/ode/precise.c \
+	lib/ode/stepper.c \
+	lib/ode/taylor-series.c \
+	lib/ode/taylor.c \
+	lib/ode/trajectory.c \
+	lib/ode/written.c \
+	lib/series/lanes-code.c \
+	lib/series/lanes-steps.c \
+	lib/series/lanes-sums.c \
+	lib/series/lanes-writer.c \
+	lib/series/lanes.c \
+	lib/series/near.c \
+	lib/series/precise.c \
+	lib/series/program.c \
+	lib/series/taylor-code-fold.c \
+	lib/series/taylor-code-order.c \
+	lib/series/taylor-code-solve.c \
+	lib/series/taylor-code-vectors.c \
+	lib/series/taylor-code-zero.c \
+	lib/series/taylor-code.c \
+	lib/series/taylor-correct.c \
+	lib/series/taylor-near.c \
+	lib/series/taylor-order.c \
+	lib/series/taylor-text.c \
+	lib/series/taylor-unknowns.c \
+	lib/series/taylor-wide.c \
+	lib/series/taylor.c \
+	lib/series/two.c \
+	lib/show/csv.c \
+	lib/show/figure.c \
+	lib/show/gnuplot.c \
+	lib/show/sink.c \
+	lib/show/table.c \
 	lib/sim/bind.c \
 	lib/sim/blocks.c \
 	lib/sim/bordered.c \
@@ -451,9 +325,190 @@ sim_sources = \
 	lib/sim/watch-sure.c \
 	lib/sim/watch-values.c \
 	lib/sim/watch.c \
-	lib/sim/workprecision.c
+	lib/sim/workprecision.c \
+	lib/tape/angle.c \
+	lib/tape/code.c \
+	lib/tape/constant.c \
+	lib/tape/derivative.c \
+	lib/tape/disc.c \
+	lib/tape/finish.c \
+	lib/tape/interval.c \
+	lib/tape/keymap.c \
+	lib/tape/lower.c \
+	lib/tape/tape.c
 
-sim_headers = \
+library_headers = \
+	lib/base/clock.h \
+	lib/base/interrupt.h \
+	lib/base/memory.h \
+	lib/base/scope.h \
+	lib/base/status.h \
+	lib/base/text.h \
+	lib/base/utf8.h \
+	lib/expr/calculus.h \
+	lib/expr/expr.h \
+	lib/expr/function.def \
+	lib/expr/pool.h \
+	lib/expr/print-name.h \
+	lib/expr/print-parts.h \
+	lib/expr/print.h \
+	lib/expr/printed.h \
+	lib/expr/rational.h \
+	lib/expr/tensor.h \
+	lib/expr/walk.h \
+	lib/lang/algebra.h \
+	lib/lang/answer.h \
+	lib/lang/ask.h \
+	lib/lang/carry.h \
+	lib/lang/closed-sum.h \
+	lib/lang/code.h \
+	lib/lang/condition.h \
+	lib/lang/constraints.h \
+	lib/lang/declare.h \
+	lib/lang/digits-table.h \
+	lib/lang/digits.h \
+	lib/lang/draw.h \
+	lib/lang/equilibria.h \
+	lib/lang/function.h \
+	lib/lang/meant.h \
+	lib/lang/names.h \
+	lib/lang/number.h \
+	lib/lang/numeric.h \
+	lib/lang/read.h \
+	lib/lang/redirect.h \
+	lib/lang/scene-file.h \
+	lib/lang/session.h \
+	lib/lang/statement.h \
+	lib/lang/taken.h \
+	lib/lang/undo-state.h \
+	lib/lang/undo.h \
+	lib/lang/values.h \
+	lib/machine/x86.h \
+	lib/mech/dalembert.h \
+	lib/mech/derived.h \
+	lib/mech/equilibrium-rest.h \
+	lib/mech/equilibrium.h \
+	lib/mech/geometry.h \
+	lib/mech/hamilton.h \
+	lib/mech/integrable.h \
+	lib/mech/linear-motion.h \
+	lib/mech/lyapunov.h \
+	lib/mech/minimal.h \
+	lib/mech/noether.h \
+	lib/mech/quantity.h \
+	lib/mech/reactions.h \
+	lib/mech/scene.h \
+	lib/mech/squares.h \
+	lib/mech/stability.h \
+	lib/normal/angle-basis.h \
+	lib/normal/antiderivative.h \
+	lib/normal/ball.h \
+	lib/normal/cases.h \
+	lib/normal/cells.h \
+	lib/normal/constant.h \
+	lib/normal/contradiction.h \
+	lib/normal/cramer.h \
+	lib/normal/decide.h \
+	lib/normal/defined.h \
+	lib/normal/domain.h \
+	lib/normal/factor.h \
+	lib/normal/field.h \
+	lib/normal/flint.h \
+	lib/normal/form.h \
+	lib/normal/ideal.h \
+	lib/normal/inequality.h \
+	lib/normal/isolate.h \
+	lib/normal/items.h \
+	lib/normal/lattice.h \
+	lib/normal/map.h \
+	lib/normal/nth-part.h \
+	lib/normal/null-space.h \
+	lib/normal/polynomials.h \
+	lib/normal/positive.h \
+	lib/normal/prepare.h \
+	lib/normal/products.h \
+	lib/normal/prove.h \
+	lib/normal/question.h \
+	lib/normal/rationalize.h \
+	lib/normal/real-zeros.h \
+	lib/normal/rewrite.h \
+	lib/normal/root-parts.h \
+	lib/normal/sample.h \
+	lib/normal/simplify.h \
+	lib/normal/solve.h \
+	lib/normal/split.h \
+	lib/normal/together.h \
+	lib/normal/unify.h \
+	lib/normal/value.h \
+	lib/normal/within.h \
+	lib/normal/zero.h \
+	lib/num/arb.h \
+	lib/num/articulated-plane.def \
+	lib/num/articulated.def \
+	lib/num/articulated.h \
+	lib/num/batch-kinds.def \
+	lib/num/batch-vector.def \
+	lib/num/batch.def \
+	lib/num/batch.h \
+	lib/num/bordered.h \
+	lib/num/chebyshev.h \
+	lib/num/cholesky.h \
+	lib/num/hermite.h \
+	lib/num/kinds.h \
+	lib/num/ldlt.h \
+	lib/num/least-move.h \
+	lib/num/real.h \
+	lib/num/row-space.h \
+	lib/num/saddle.h \
+	lib/num/series-dot.def \
+	lib/num/series.def \
+	lib/num/series.h \
+	lib/num/sparse.h \
+	lib/num/structure.h \
+	lib/num/sum.h \
+	lib/num/two.def \
+	lib/num/two.h \
+	lib/ode/apart.h \
+	lib/ode/batch.def \
+	lib/ode/batch.h \
+	lib/ode/companion.h \
+	lib/ode/crawl.h \
+	lib/ode/dop853.def \
+	lib/ode/dop853.h \
+	lib/ode/integrate.h \
+	lib/ode/leading.h \
+	lib/ode/method.h \
+	lib/ode/precise.h \
+	lib/ode/stepper.h \
+	lib/ode/system.h \
+	lib/ode/taylor-numbers.h \
+	lib/ode/taylor.h \
+	lib/ode/trajectory.h \
+	lib/ode/written.h \
+	lib/series/lanes-code.h \
+	lib/series/lanes-program.h \
+	lib/series/lanes-writer.h \
+	lib/series/lanes.def \
+	lib/series/lanes.h \
+	lib/series/linear.def \
+	lib/series/near.h \
+	lib/series/precise.h \
+	lib/series/program.h \
+	lib/series/recurrence.def \
+	lib/series/taylor-code-sum.h \
+	lib/series/taylor-code.h \
+	lib/series/taylor-generator.h \
+	lib/series/taylor-order.def \
+	lib/series/taylor-steps.h \
+	lib/series/taylor-text.h \
+	lib/series/taylor-wide.def \
+	lib/series/taylor-wide.h \
+	lib/series/taylor.h \
+	lib/series/two.def \
+	lib/series/two.h \
+	lib/show/gnuplot.h \
+	lib/show/show.h \
+	lib/show/sink.h \
 	lib/sim/bind.h \
 	lib/sim/blocks.h \
 	lib/sim/bordered.h \
@@ -515,107 +570,20 @@ sim_headers = \
 	lib/sim/switch.h \
 	lib/sim/watch-parts.h \
 	lib/sim/watch.h \
-	lib/sim/workprecision.h
-
-show_sources = \
-	lib/show/csv.c \
-	lib/show/figure.c \
-	lib/show/gnuplot.c \
-	lib/show/sink.c \
-	lib/show/table.c
-
-show_headers = \
-	lib/show/gnuplot.h \
-	lib/show/show.h \
-	lib/show/sink.h
-
-lang_sources = \
-	lib/lang/algebra.c \
-	lib/lang/answer.c \
-	lib/lang/ask.c \
-	lib/lang/bind.c \
-	lib/lang/builtin.c \
-	lib/lang/call.c \
-	lib/lang/carry.c \
-	lib/lang/check.c \
-	lib/lang/closed-sum.c \
-	lib/lang/condition.c \
-	lib/lang/constraints.c \
-	lib/lang/cursor.c \
-	lib/lang/declare-function.c \
-	lib/lang/declare.c \
-	lib/lang/derive.c \
-	lib/lang/digits-table.c \
-	lib/lang/digits.c \
-	lib/lang/draw.c \
-	lib/lang/equilibria.c \
-	lib/lang/evaluate.c \
-	lib/lang/event.c \
-	lib/lang/function.c \
-	lib/lang/furnish.c \
-	lib/lang/help.c \
-	lib/lang/hints.c \
-	lib/lang/letters.c \
-	lib/lang/lex.c \
-	lib/lang/loop.c \
-	lib/lang/meant.c \
-	lib/lang/member.c \
-	lib/lang/names.c \
-	lib/lang/number.c \
-	lib/lang/numeric.c \
-	lib/lang/parse.c \
-	lib/lang/plot.c \
-	lib/lang/quantities.c \
-	lib/lang/race.c \
-	lib/lang/range.c \
-	lib/lang/read.c \
-	lib/lang/redirect.c \
-	lib/lang/remove.c \
-	lib/lang/report.c \
-	lib/lang/resolve.c \
-	lib/lang/scene-file.c \
-	lib/lang/series.c \
-	lib/lang/session.c \
-	lib/lang/source.c \
-	lib/lang/start.c \
-	lib/lang/statement.c \
-	lib/lang/styled.c \
-	lib/lang/taken.c \
-	lib/lang/undo-state.c \
-	lib/lang/undo.c \
-	lib/lang/values.c \
-	lib/lang/words.c \
-	lib/lang/workbench.c \
-	lib/lang/workprecision.c
-
-lang_headers = \
-	lib/lang/algebra.h \
-	lib/lang/answer.h \
-	lib/lang/ask.h \
-	lib/lang/carry.h \
-	lib/lang/closed-sum.h \
-	lib/lang/code.h \
-	lib/lang/condition.h \
-	lib/lang/constraints.h \
-	lib/lang/declare.h \
-	lib/lang/digits-table.h \
-	lib/lang/digits.h \
-	lib/lang/draw.h \
-	lib/lang/equilibria.h \
-	lib/lang/function.h \
-	lib/lang/meant.h \
-	lib/lang/names.h \
-	lib/lang/number.h \
-	lib/lang/numeric.h \
-	lib/lang/read.h \
-	lib/lang/redirect.h \
-	lib/lang/scene-file.h \
-	lib/lang/session.h \
-	lib/lang/statement.h \
-	lib/lang/taken.h \
-	lib/lang/undo-state.h \
-	lib/lang/undo.h \
-	lib/lang/values.h
+	lib/sim/workprecision.h \
+	lib/tape/angle.h \
+	lib/tape/code.h \
+	lib/tape/constant.h \
+	lib/tape/derivative.def \
+	lib/tape/derivative.h \
+	lib/tape/disc.def \
+	lib/tape/disc.h \
+	lib/tape/interval.def \
+	lib/tape/interval.h \
+	lib/tape/keymap.h \
+	lib/tape/operation.def \
+	lib/tape/shake.h \
+	lib/tape/tape.h
 
 program_sources = \
 	src/main.c \
@@ -647,6 +615,7 @@ unit_tests = \
 	tests/lang/test_session \
 	tests/lang/test_styles \
 	tests/lang/test_undo \
+	tests/machine/test_x86 \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
@@ -685,6 +654,14 @@ unit_tests = \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
 	tests/ode/test_written \
+	tests/series/test_lanes-code \
+	tests/series/test_lanes \
+	tests/series/test_near \
+	tests/series/test_precise \
+	tests/series/test_taylor-code \
+	tests/series/test_taylor-wide \
+	tests/series/test_taylor \
+	tests/series/test_two \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_table \
@@ -710,16 +687,7 @@ unit_tests = \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
 	tests/tape/test_interval \
-	tests/tape/test_lanes-code \
-	tests/tape/test_lanes \
-	tests/tape/test_near \
-	tests/tape/test_precise \
-	tests/tape/test_tape \
-	tests/tape/test_taylor-code \
-	tests/tape/test_taylor-wide \
-	tests/tape/test_taylor \
-	tests/tape/test_two \
-	tests/tape/test_x86
+	tests/tape/test_tape
 
 script_tests = \
 	tests/script/accel-large-coefficients.lag \

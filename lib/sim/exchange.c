@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "sim/momenta.h"
-#include "tape/two.h"
+#include "series/two.h"
 
 struct qdot_exchange {
     const qdot_plan *plan;

@@ -8,7 +8,7 @@
 #include "sim/precise-pair.h"
 #include "sim/reader.h"
 #include "tape/constant.h"
-#include "tape/precise.h"
+#include "series/precise.h"
 
 #define RN MPFR_RNDN
 

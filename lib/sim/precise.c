@@ -12,7 +12,7 @@
 #include "sim/precise-course.h"
 #include "sim/precise-start.h"
 #include "tape/constant.h"
-#include "tape/precise.h"
+#include "series/precise.h"
 
 #define RN MPFR_RNDN
 

@@ -11,7 +11,7 @@
 #include "sim/shifted-tree.h"
 #include "sim/shifted-wide.h"
 #include "tape/shake.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 enum { most_order = 44, lanes = 8 };
 

@@ -9,7 +9,7 @@
 #include "sim/over-root.h"
 #include "sim/rates.h"
 #include "tape/tape.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 #include <math.h>
 
