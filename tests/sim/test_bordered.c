@@ -3,11 +3,11 @@
 #include "scenes.h"
 
 #include "expr/calculus.h"
-#include "sim/bind.h"
-#include "sim/bordered.h"
-#include "sim/constrained-series.h"
-#include "sim/over-root.h"
-#include "sim/rates.h"
+#include "sim/course/bind.h"
+#include "sim/form/bordered.h"
+#include "sim/form/constrained-series.h"
+#include "sim/model/power-quotient.h"
+#include "sim/model/rates.h"
 #include "tape/tape.h"
 #include "tape/taylor.h"
 
