@@ -20,16 +20,16 @@ static const struct {
 static const double hollow = 0x1p-36;
 
 void
-qdot_hull_clear(qdot_hull *h)
+qdot_polynomial_bounds_clear(qdot_polynomial_bounds *h)
 {
     qdot_free(h->used);
     qdot_free(h->values);
     qdot_free(h->span);
-    *h = (qdot_hull){0};
+    *h = (qdot_polynomial_bounds){0};
 }
 
 static qdot_status
-find_used(qdot_hull *h, size_t inputs)
+find_used(qdot_polynomial_bounds *h, size_t inputs)
 {
     bool *reads = qdot_calloc(inputs + 1, sizeof *reads);
     qdot_status status = reads ? qdot_disc_reads(h->tape, reads) : QDOT_ENOMEM;
@@ -46,11 +46,11 @@ find_used(qdot_hull *h, size_t inputs)
 }
 
 qdot_status
-qdot_hull_init(qdot_hull *h, const qdot_tape *tape, size_t time)
+qdot_polynomial_bounds_init(qdot_polynomial_bounds *h, const qdot_tape *tape, size_t time)
 {
     const size_t inputs = qdot_tape_inputs(tape), m = qdot_tape_outputs(tape);
 
-    *h = (qdot_hull){.tape = tape, .time = time};
+    *h = (qdot_polynomial_bounds){.tape = tape, .time = time};
     QDOT_TRY(find_used(h, inputs));
     h->values = qdot_calloc((2 * MOST + 1) * h->n_used + 2 * inputs + 3 * m
                                 + qdot_disc_work(tape) + 1,
@@ -72,13 +72,13 @@ qdot_hull_init(qdot_hull *h, const qdot_tape *tape, size_t time)
 }
 
 void
-qdot_hull_begin(qdot_hull *h)
+qdot_polynomial_bounds_begin(qdot_polynomial_bounds *h)
 {
     memset(h->scale, 0, h->n_used * sizeof *h->scale);
 }
 
 void
-qdot_hull_sample(qdot_hull *h, int j, const double *in)
+qdot_polynomial_bounds_sample(qdot_polynomial_bounds *h, int j, const double *in)
 {
     for (size_t k = 0; k < h->n_used; k++) {
         h->values[k * MOST + (size_t)j] = in[h->used[k]];
@@ -88,7 +88,7 @@ qdot_hull_sample(qdot_hull *h, int j, const double *in)
 
 /* What rounding of the input and of the times at which it is read makes of a coefficient. */
 static double
-noise_of(const qdot_hull *h, size_t k, double a, double b)
+noise_of(const qdot_polynomial_bounds *h, size_t k, double a, double b)
 {
     const double blur = DBL_EPSILON * fmax(fabs(a), fabs(b)) / fabs(b - a);
     const double *c = h->fits + k * MOST;
@@ -97,13 +97,13 @@ noise_of(const qdot_hull *h, size_t k, double a, double b)
 }
 
 static void
-evaluate(qdot_hull *h)
+evaluate(qdot_polynomial_bounds *h)
 {
     qdot_disc_eval(h->tape, h->centre, h->radius, h->out, h->out_radius, h->work);
 }
 
 void
-qdot_hull_span(qdot_hull *h, double a, double b)
+qdot_polynomial_bounds_span(qdot_polynomial_bounds *h, double a, double b)
 {
     h->centre[h->time] = 0.5 * (a + b);
     h->radius[h->time] = 0.5 * fabs(b - a);
@@ -112,7 +112,7 @@ qdot_hull_span(qdot_hull *h, double a, double b)
 
 /* Outputs on the ellipse of rho about a ... b; false where an input is not known there. */
 static bool
-go_around(qdot_hull *h, double a, double b, int nodes, double rho)
+go_around(qdot_polynomial_bounds *h, double a, double b, int nodes, double rho)
 {
     bool known = true;
 
@@ -134,15 +134,15 @@ go_around(qdot_hull *h, double a, double b, int nodes, double rho)
 }
 
 static void
-fit_inputs(qdot_hull *h, int nodes)
+fit_inputs(qdot_polynomial_bounds *h, int nodes)
 {
     for (size_t k = 0; k < h->n_used; k++)
         qdot_chebyshev_fit(nodes, h->values + k * MOST, h->fits + k * MOST);
 }
 
 void
-qdot_hull_look(qdot_hull *h, double a, double b, int nodes, const bool *quotients,
-               const double *base)
+qdot_polynomial_bounds_look(qdot_polynomial_bounds *h, double a, double b, int nodes,
+                            const bool *quotients, const double *base)
 {
     const size_t m = qdot_tape_outputs(h->tape);
     size_t row = 0;
@@ -172,13 +172,13 @@ qdot_hull_look(qdot_hull *h, double a, double b, int nodes, const bool *quotient
 }
 
 bool
-qdot_hull_within(qdot_hull *h, double a, double b, int nodes)
+qdot_polynomial_bounds_within(qdot_polynomial_bounds *h, double a, double b, int nodes)
 {
     return go_around(h, a, b, nodes, 1);
 }
 
 void
-qdot_hull_enclose(qdot_hull *h, double a, double b, int nodes)
+qdot_polynomial_bounds_enclose(qdot_polynomial_bounds *h, double a, double b, int nodes)
 {
     fit_inputs(h, nodes);
     for (size_t k = 0; k < h->n_used; k++) {
@@ -193,13 +193,13 @@ qdot_hull_enclose(qdot_hull *h, double a, double b, int nodes)
 }
 
 bool
-qdot_hull_is_hollow(const qdot_hull *h, size_t i, double part)
+qdot_polynomial_bounds_is_hollow(const qdot_polynomial_bounds *h, size_t i, double part)
 {
     return isnan(h->miss[i]) && (part <= hollow || h->resting);
 }
 
 double
-qdot_hull_rounding(qdot_hull *h, double a, double b)
+qdot_polynomial_bounds_rounding(qdot_polynomial_bounds *h, double a, double b)
 {
     for (size_t k = 0; k < h->n_used; k++) {
         h->centre[h->used[k]] = h->fits[k * MOST];

@@ -50,7 +50,7 @@ qdot_stage_lower_sides(qdot_stage *s)
         in[k++] = s->switches.surfaces.at[i].side;
         status = qdot_switches_freeze(&s->switches, NULL, 1, &s->switches.surfaces.at[i].u,
                                       u + i);
-        u[m + i] = qdot_size_of(pool, u[i]);
+        u[m + i] = qdot_term_magnitude(pool, u[i]);
     }
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);

@@ -56,7 +56,7 @@ typedef struct {
     size_t n, n_states; /* coordinates of the run, of them parameters that events set */
     qdot_vec(qdot_staged_event) events;
     qdot_vec(qdot_mode *) modes;
-    qdot_tape *sides; /* from q, q', t, sides: u of every surface, then sizes (sim/model/term-magnitude.h);
+    qdot_tape *sides; /* from q, q', t, sides: u of every surface, then the magnitudes of their terms;
                          NULL: no surface */
 } qdot_stage;
 

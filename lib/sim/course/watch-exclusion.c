@@ -1,4 +1,4 @@
-/* watch-exclusion.c -- what discs say of a step and its parts: that no root hides. */
+/* watch-exclusion.c -- parts of a step that hold no root, by bounds over discs. */
 #include <float.h>
 #include <math.h>
 
@@ -8,12 +8,12 @@
 static bool
 keeps_off(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *enclosed)
 {
-    const qdot_interval *box = w->hull.box + i;
+    const qdot_interval *box = w->bounds.box + i;
 
     if (w->now.on[i])
         return false;
     if (!*enclosed)
-        qdot_hull_enclose(&w->hull, p->a, p->b, nodes);
+        qdot_polynomial_bounds_enclose(&w->bounds, p->a, p->b, nodes);
     *enclosed = true;
     return box->lo > 0 || box->hi < 0;
 }
@@ -25,13 +25,14 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
     const double part = fabs(p->b - p->a) / w->length;
     bool enclosed = false;
 
-    qdot_hull_look(&w->hull, p->a, p->b, nodes, w->now.on, w->now.g0);
+    qdot_polynomial_bounds_look(&w->bounds, p->a, p->b, nodes, w->now.on, w->now.g0);
     for (size_t i = 0; i < w->m; i++) {
-        const double miss = w->hull.miss[i];
+        const double miss = w->bounds.miss[i];
         qdot_watch_verdict v = isnan(miss) ? QDOT_PART_PARTED : QDOT_PART_HALVED;
 
         if (!w->live[i] || miss < w->clear[i] || miss <= qdot_watch_least(w, p, i) ||
-            qdot_hull_is_hollow(&w->hull, i, part) || keeps_off(w, p, nodes, i, &enclosed))
+            qdot_polynomial_bounds_is_hollow(&w->bounds, i, part) ||
+            keeps_off(w, p, nodes, i, &enclosed))
             continue;
         worst = v > worst ? v : worst;
     }
@@ -44,7 +45,7 @@ qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int ord
                  double unit)
 {
     const double s = (t - w->t) / unit;
-    qdot_hull *h = &w->hull;
+    qdot_polynomial_bounds *h = &w->bounds;
 
     w->hull_at_step = false;
     if (!series || w->accelerations)
@@ -61,7 +62,7 @@ qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int ord
         h->centre[h->used[k]] = centre;
         h->radius[h->used[k]] = radius + 4 * DBL_EPSILON * fabs(centre);
     }
-    qdot_hull_span(h, w->t, t);
+    qdot_polynomial_bounds_span(h, w->t, t);
     w->hull_at_step = true;
 }
 
@@ -69,6 +70,6 @@ bool
 qdot_watch_excludes(const qdot_watch *w, size_t i)
 {
     return w->hull_at_step &&
-           fabs(w->hull.out[i]) > (1 + 0x1p-20) * w->hull.out_radius[i] &&
-           qdot_watch_sign(w->hull.out[i]) == w->start.sign[i];
+           fabs(w->bounds.out[i]) > (1 + 0x1p-20) * w->bounds.out_radius[i] &&
+           qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
 }

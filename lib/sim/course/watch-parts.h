@@ -39,7 +39,7 @@ struct qdot_watch {
     double *noise;      /* [m] of g in this step; NaN: not asked for */
     double *size;       /* [m] of the polynomial fitted last, */
     double *clear;      /* [m] and how far its bound keeps it from 0, if positive */
-    qdot_hull hull;     /* what lies between the nodes, */
+    qdot_polynomial_bounds bounds; /* what lies between the nodes, */
     bool hull_at_step;  /* or on the whole step: it is there */
     bool all_bounds;
     double *final;      /* [m] g at its end */

@@ -30,7 +30,7 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     if (status == QDOT_OK)
         status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, w->m, e, &tape);
     for (size_t i = 0; i < w->m && status == QDOT_OK; i++)
-        e[i] = qdot_size_of(p->pool, e[i]);
+        e[i] = qdot_term_magnitude(p->pool, e[i]);
     if (status == QDOT_OK)
         status = qdot_pool_check(p->pool);
     if (status == QDOT_OK)

@@ -18,7 +18,7 @@ sample(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p, int no
     for (int j = 0; j < nodes; j++) {
         QDOT_TRY(qdot_watch_value_at(
             w, k->reader, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), w->g));
-        qdot_hull_sample(&w->hull, j, w->in);
+        qdot_polynomial_bounds_sample(&w->bounds, j, w->in);
         for (size_t i = 0; i < w->m; i++)
             w->samples[i * QDOT_WATCH_NODES + (size_t)j] = w->g[i];
     }
@@ -127,9 +127,10 @@ look_at_step(qdot_watch *w, const qdot_watch_walk *k, double t)
             depth--;
             continue;
         }
-        middle = p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT ? 0.0625
-                                      : v == QDOT_PART_PARTED  ? QDOT_HULL_BESIDE
-                                                               : 0.5);
+        middle =
+            p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT ? 0.0625
+                                 : v == QDOT_PART_PARTED  ? QDOT_POLYNOMIAL_BOUNDS_BESIDE
+                                                          : 0.5);
         if (depth == DEEPEST || ++parts > MOST_PARTS)
             return qdot_fail(QDOT_EFAILED, "an event cannot be resolved at t = %.15g",
                              p.a);
@@ -219,7 +220,7 @@ qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t, const 
         w->hull_at_step = false;
     else
         qdot_watch_bound(w, t, series, order, unit);
-    qdot_hull_begin(&w->hull);
+    qdot_polynomial_bounds_begin(&w->bounds);
     for (size_t i = 0; i < w->m; i++) {
         w->live[i] = w->start.on[i] ||
                      qdot_watch_sign(w->final[i]) != w->start.sign[i] ||
@@ -339,7 +340,7 @@ qdot_watch_free(qdot_watch *w)
         return;
     qdot_tape_free(w->tape);
     qdot_tape_free(w->sizes);
-    qdot_hull_clear(&w->hull);
+    qdot_polynomial_bounds_clear(&w->bounds);
     qdot_free(w->coordinate);
     qdot_free(w->bound);
     qdot_free(w->in);
@@ -416,7 +417,7 @@ qdot_watch_new(const qdot_plan *plan, size_t m, const qdot_expr *g, bool shaken,
     if (status == QDOT_OK)
         status = make_room(w);
     if (status == QDOT_OK)
-        status = qdot_hull_init(&w->hull, w->tape, 2 * w->n);
+        status = qdot_polynomial_bounds_init(&w->bounds, w->tape, 2 * w->n);
     if (status != QDOT_OK) {
         qdot_watch_free(w);
         return status;

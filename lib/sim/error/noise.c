@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "sim/model/term-magnitude.h"
 
 /* Of the level of noise: what nearly all of it stays within. */
@@ -59,7 +60,39 @@ qdot_noise_at(qdot_reader *r, size_t piece, double t, double *noise)
     return status;
 }
 
-/* Sizes [m] of the terms become roundings. */
+/* The magnitudes [k x m] of the terms of exprs [m] at times [k], row by row; NaN where one has
+ * none. */
+static qdot_status
+magnitudes_along(const qdot_plan *plan, const qdot_course *course, size_t m,
+                 const qdot_expr *exprs, size_t k, const double *times,
+                 double *magnitudes)
+{
+    qdot_expr *e = qdot_malloc((m + 1) * sizeof *e);
+    qdot_reader r = {0};
+    qdot_tape *tape = NULL;
+    bool accelerations;
+    qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t j = 0; j < m && status == QDOT_OK; j++)
+        e[j] = qdot_term_magnitude(plan->pool, exprs[j]);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(plan->pool);
+    if (status == QDOT_OK)
+        status = qdot_reader_lower(plan, m, e, &tape, &accelerations);
+    if (status == QDOT_OK)
+        status = qdot_reader_init(&r, plan, tape, course, accelerations);
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        status = qdot_interrupt_check();
+        if (status == QDOT_OK)
+            status = qdot_reader_at(&r, SIZE_MAX, times[i], magnitudes + i * m);
+    }
+    qdot_reader_clear(&r);
+    qdot_tape_free(tape);
+    qdot_free(e);
+    return status;
+}
+
+/* Magnitudes [m] of the terms become roundings. */
 static qdot_status
 add(qdot_reader *r, double t, const double *values, double *noise, double *roundings)
 {
@@ -85,7 +118,7 @@ qdot_noise_roundings(const qdot_plan *plan, const qdot_course *course,
     qdot_status status = noise ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = qdot_size_along(plan, course, m, exprs, k, times, roundings);
+        status = magnitudes_along(plan, course, m, exprs, k, times, roundings);
     if (status == QDOT_OK)
         status = qdot_reader_init(&r, plan, tape, course, accelerations);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)

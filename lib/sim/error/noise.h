@@ -22,10 +22,10 @@ QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, size_t piece, double t
 
 /* What evaluating exprs [m] along a course at times [k] may be off by: roundings [k x m],
  *
- *     max(4 noise, DBL_EPSILON max(size, |g|))
+ *     max(4 noise, DBL_EPSILON max(magnitude, |g|))
  *
- * where size is that of its terms (sim/model/term-magnitude.h) and values [k x m] are g; `tape` holds the
- * exprs (sim/course/reader.h). Errors: as qdot_reader_at. */
+ * where magnitude is that of its terms (sim/model/term-magnitude.h) and values [k x m] are g;
+ * `tape` holds the exprs (sim/course/reader.h). Errors: as qdot_reader_at. */
 QDOT_MUST_CHECK qdot_status qdot_noise_roundings(const qdot_plan *plan,
                                                  const qdot_course *course,
                                                  const qdot_tape *tape,

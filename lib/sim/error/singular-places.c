@@ -261,7 +261,7 @@ tell(const group *g, qdot_text *to)
 }
 
 qdot_status
-qdot_passed_tell(const qdot_course *course, qdot_text *to)
+qdot_singular_places_tell(const qdot_course *course, qdot_text *to)
 {
     search s = {.course = course,
                 .enough = fmin(most_dependent, fmax(dependent, 100 * course->touch_tol))};

@@ -17,6 +17,7 @@
 /* "constraints a and b stop being independent about t = 1.5 and 2.5; the run goes over it,
  * at the accuracy left there", a line for every set of constraints, or nothing. Errors:
  * QDOT_ENOMEM, QDOT_EINTR; those of reading the run. */
-QDOT_MUST_CHECK qdot_status qdot_passed_tell(const qdot_course *course, qdot_text *to);
+QDOT_MUST_CHECK qdot_status qdot_singular_places_tell(const qdot_course *course,
+                                                      qdot_text *to);
 
 #endif

@@ -21,7 +21,7 @@ static const double short_reach = 10;
 typedef struct {
     const qdot_plan *plan; /* whose tape is read; NULL: none yet */
     qdot_reader reader;
-    qdot_hull hull;
+    qdot_polynomial_bounds bounds;
     size_t piece, m;
     double tol;
     double *out;    /* [m] */
@@ -37,7 +37,7 @@ static void
 leave_plan(search *s)
 {
     qdot_reader_clear(&s->reader);
-    qdot_hull_clear(&s->hull);
+    qdot_polynomial_bounds_clear(&s->bounds);
     qdot_free(s->out);
     *s = (search){.tol = s->tol};
 }
@@ -51,7 +51,7 @@ take_plan(search *s, const qdot_course *course, const qdot_plan *plan)
     s->plan = plan;
     s->m = m;
     QDOT_TRY(qdot_reader_init(&s->reader, plan, plan->tape, course, false));
-    QDOT_TRY(qdot_hull_init(&s->hull, plan->tape, 2 * plan->n));
+    QDOT_TRY(qdot_polynomial_bounds_init(&s->bounds, plan->tape, 2 * plan->n));
     s->out = qdot_calloc((2 * MANY + 3) * m + 1, sizeof *s->out);
     if (!s->out)
         return QDOT_ENOMEM;
@@ -75,7 +75,7 @@ sample(search *s, double a, double b, int nodes, bool *finite)
     *finite = true;
     for (int j = 0; j < nodes && *finite; j++) {
         QDOT_TRY(qdot_reader_at(&s->reader, s->piece, time_at(a, b, nodes, j), s->out));
-        qdot_hull_sample(&s->hull, j, s->reader.in);
+        qdot_polynomial_bounds_sample(&s->bounds, j, s->reader.in);
         for (size_t i = 0; i < s->m; i++) {
             s->values[i * MANY + (size_t)j] = s->out[i];
             s->largest[i] = fmax(s->largest[i], fabs(s->out[i]));
@@ -92,10 +92,10 @@ is_sure(search *s, double a, double b, int nodes)
 {
     double c[MANY];
 
-    qdot_hull_look(&s->hull, a, b, nodes, NULL, NULL);
+    qdot_polynomial_bounds_look(&s->bounds, a, b, nodes, NULL, NULL);
     for (size_t i = 0; i < s->m; i++) {
         qdot_chebyshev_fit(nodes, s->values + i * MANY, c);
-        if (fmax(s->hull.miss[i], qdot_chebyshev_tail(nodes, c)) >
+        if (fmax(s->bounds.miss[i], qdot_chebyshev_tail(nodes, c)) >
             nothing * s->largest[i] + 1e-300)
             return false;
     }
@@ -159,21 +159,21 @@ is_short(search *s, const double *from, const double *to)
 {
     const size_t n = s->plan->n;
     const double h = fabs(s->b - s->a);
-    qdot_hull *hull = &s->hull;
+    qdot_polynomial_bounds *bounds = &s->bounds;
 
     for (size_t i = 0; i < n; i++) {
         const double bend = fabs((to[i] - from[i]) / (s->b - s->a)
                                  - 0.5 * (from[n + i] + to[n + i]));
 
-        hull->centre[i] = 0.5 * (from[i] + to[i]);
-        hull->radius[i] = h * (fmax(fabs(from[n + i]), fabs(to[n + i])) + 2 * bend);
-        hull->centre[n + i] = 0.5 * (from[n + i] + to[n + i]);
-        hull->radius[n + i] = fabs(to[n + i] - from[n + i]) + 4 * bend;
+        bounds->centre[i] = 0.5 * (from[i] + to[i]);
+        bounds->radius[i] = h * (fmax(fabs(from[n + i]), fabs(to[n + i])) + 2 * bend);
+        bounds->centre[n + i] = 0.5 * (from[n + i] + to[n + i]);
+        bounds->radius[n + i] = fabs(to[n + i] - from[n + i]) + 4 * bend;
     }
-    hull->centre[2 * n] = 0.5 * (s->a + s->b);
-    hull->radius[2 * n] = 0.5 * h;
-    return qdot_disc_reach(s->plan->tape, hull->centre, hull->radius, hull->work)
-           <= short_reach;
+    bounds->centre[2 * n] = 0.5 * (s->a + s->b);
+    bounds->radius[2 * n] = 0.5 * h;
+    return qdot_disc_reach(s->plan->tape, bounds->centre, bounds->radius, bounds->work) <=
+           short_reach;
 }
 
 static qdot_status
@@ -181,7 +181,7 @@ look_at_step(search *s, bool *found)
 {
     bool finite;
 
-    qdot_hull_begin(&s->hull);
+    qdot_polynomial_bounds_begin(&s->bounds);
     QDOT_TRY(sample(s, s->a, s->b, FEW, &finite));
     if (!finite || is_sure(s, s->a, s->b, FEW))
         return QDOT_OK;
@@ -226,7 +226,7 @@ go_through(search *s, const qdot_course *course, bool *found)
 }
 
 qdot_status
-qdot_hidden_find(const qdot_course *course, bool *found, double *t)
+qdot_unresolved_forces_find(const qdot_course *course, bool *found, double *t)
 {
     search s = {.tol = course->tr.tol};
     qdot_status status;

@@ -21,7 +21,7 @@
  * step, and more than a hundredth of the tolerance; *t: about where. Not of stiff methods,
  * whose steps may go over what has died out.
  * Errors: QDOT_ENOMEM, QDOT_EINTR; what cannot be read shows nothing. */
-QDOT_MUST_CHECK qdot_status qdot_hidden_find(const qdot_course *course, bool *found,
-                                             double *t);
+QDOT_MUST_CHECK qdot_status qdot_unresolved_forces_find(const qdot_course *course,
+                                                        bool *found, double *t);
 
 #endif

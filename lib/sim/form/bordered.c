@@ -394,7 +394,7 @@ equations(const qdot_plan *p, size_t *count)
     size_t n = 0;
 
     for (size_t i = 0; out && i < p->n; i++)
-        out[n++] = qdot_over_root(p->pool, p->f[i]);
+        out[n++] = qdot_power_quotient(p->pool, p->f[i]);
     for (size_t k = 0; out && k < c->n_masses; k++)
         out[n++] = p->M[c->masses[k].row * p->n + c->masses[k].column];
     for (size_t k = 0; out && k < c->n_slopes; k++)

@@ -56,7 +56,7 @@ over(qdot_pool *pool, qdot_expr product, void *user)
 }
 
 qdot_expr
-qdot_over_root(qdot_pool *pool, qdot_expr e)
+qdot_power_quotient(qdot_pool *pool, qdot_expr e)
 {
     return qdot_walk_replace(pool, e, QDOT_PROD, over, NULL);
 }

@@ -12,6 +12,6 @@
 #include "expr/expr.h"
 
 /* Everywhere in e. Nil: the pool keeps the failure. */
-qdot_expr qdot_over_root(qdot_pool *pool, qdot_expr e);
+qdot_expr qdot_power_quotient(qdot_pool *pool, qdot_expr e);
 
 #endif

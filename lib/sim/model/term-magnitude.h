@@ -8,16 +8,9 @@
 #ifndef QDOT_SIM_TERM_MAGNITUDE_H
 #define QDOT_SIM_TERM_MAGNITUDE_H
 
-#include "sim/course/course.h"
+#include "expr/expr.h"
 
 /* That sum, as an expression; nil absorbs. */
-qdot_expr qdot_size_of(qdot_pool *pool, qdot_expr e);
-
-/* Its values along a course: sizes [k x m] of exprs [m] at times [k], row by row; NaN where it
- * has none. Errors: as qdot_reader_lower and qdot_reader_at. */
-QDOT_MUST_CHECK qdot_status qdot_size_along(const qdot_plan *plan,
-                                            const qdot_course *course, size_t m,
-                                            const qdot_expr *exprs, size_t k,
-                                            const double *times, double *sizes);
+qdot_expr qdot_term_magnitude(qdot_pool *pool, qdot_expr e);
 
 #endif

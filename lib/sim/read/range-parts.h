@@ -21,7 +21,7 @@
 
 typedef struct {
     qdot_reader reader;
-    qdot_hull hull;
+    qdot_polynomial_bounds bounds;
     qdot_range_kind kind;
     size_t piece;
     int nodes;
@@ -97,7 +97,7 @@ qdot_range_meet(qdot_range_scan *s, double x)
 
 /* --- poles (range-poles.c) ----------------------------------------------------------- */
 
-/* Both after s->hull.box has been found for the part: where it is finite there is none.
+/* Both after s->bounds.box has been found for the part: where it is finite there is none.
  * Whether there is a pole in a part that could not be shorter. */
 void qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p);
 
@@ -110,7 +110,7 @@ void qdot_range_look_towards(qdot_range_scan *s, const qdot_range_part *p);
  * farthest by its interval is halved first. */
 QDOT_MUST_CHECK qdot_status qdot_range_seek(qdot_range_scan *s);
 
-/* Of a part whose nodes s->hull has: whether it holds nothing beyond what was met, or of a mean
+/* Of a part whose nodes s->bounds has: whether it holds nothing beyond what was met, or of a mean
  * nothing that counts, as its interval shows. What that leaves open is noted. */
 bool qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p);
 

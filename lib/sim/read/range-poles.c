@@ -16,7 +16,7 @@ static const double slow = 0.994;
 static bool
 has_bounds(const qdot_range_scan *s)
 {
-    return isfinite(s->hull.box->lo) && isfinite(s->hull.box->hi);
+    return isfinite(s->bounds.box->lo) && isfinite(s->bounds.box->hi);
 }
 
 /* Up to which size values near a short part are not those of a pole. */

@@ -30,7 +30,7 @@ enclose(qdot_range_scan *s, double a, double b, int nodes)
         a = nextafter(a, b);
     if (b == s->ends[1])
         b = nextafter(b, a);
-    qdot_hull_enclose(&s->hull, a, b, nodes);
+    qdot_polynomial_bounds_enclose(&s->bounds, a, b, nodes);
 }
 
 /* --- seeking ------------------------------------------------------------------------- */
@@ -51,12 +51,12 @@ look(qdot_range_scan *s, double sign, stretch *x)
         double v;
 
         QDOT_TRY(qdot_reader_at(&s->reader, s->piece, t, &v));
-        qdot_hull_sample(&s->hull, j, s->reader.in);
+        qdot_polynomial_bounds_sample(&s->bounds, j, s->reader.in);
         if (isfinite(v) && t != s->ends[0] && t != s->ends[1])
             best = fmax(best, sign * v);
     }
     enclose(s, p.a, p.b, NODES);
-    x->most = sign > 0 ? s->hull.box->hi : -s->hull.box->lo;
+    x->most = sign > 0 ? s->bounds.box->hi : -s->bounds.box->lo;
     if (!isnan(best))
         qdot_range_meet(s, sign * best);
     return QDOT_OK;
@@ -126,7 +126,7 @@ note(qdot_range_scan *s, const qdot_range_part *p, double lo, double hi)
 bool
 qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p)
 {
-    const qdot_interval *box = s->hull.box;
+    const qdot_interval *box = s->bounds.box;
     bool below, above;
 
     enclose(s, p->a, p->b, p->n);
@@ -144,19 +144,19 @@ qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p)
 void
 qdot_range_bound_blurred(qdot_range_scan *s, const qdot_range_part *p, double low, double high)
 {
-    const double miss = s->hull.miss[0];
+    const double miss = s->bounds.miss[0];
     const double off = 4 * p->tail + (isnan(miss) ? 0 : miss);
 
     enclose(s, p->a, p->b, p->n);
-    s->highest = fmax(s->highest, fmin(s->hull.box->hi, high + off));
-    s->lowest = fmin(s->lowest, fmax(s->hull.box->lo, low - off));
+    s->highest = fmax(s->highest, fmin(s->bounds.box->hi, high + off));
+    s->lowest = fmin(s->lowest, fmax(s->bounds.box->lo, low - off));
     s->left += off * fabs(p->b - p->a);
 }
 
 void
 qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortest)
 {
-    qdot_hull *h = &s->hull;
+    qdot_polynomial_bounds *h = &s->bounds;
     double lo, hi;
 
     enclose(s, p->a, p->b, p->n);
@@ -166,7 +166,8 @@ qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortes
     if (shortest
         && (!isfinite(lo) || !isfinite(hi) || qdot_range_is_beside_switch(s, p)))
         return;
-    if (qdot_hull_within(h, p->a, p->b, p->n) && isfinite(h->out_radius[0])) {
+    if (qdot_polynomial_bounds_within(h, p->a, p->b, p->n) &&
+        isfinite(h->out_radius[0])) {
         lo = fmax(lo, h->out[0] - h->out_radius[0]);
         hi = fmin(hi, h->out[0] + h->out_radius[0]);
     }

@@ -74,7 +74,7 @@ fit(scan *s, part *p, int nodes, bool *good)
     p->n = nodes;
     for (int j = 0; j < nodes; j++) {
         QDOT_TRY(value_at(s, qdot_range_time(p, qdot_chebyshev_node(nodes, j)), &p->values[j]));
-        qdot_hull_sample(&s->hull, j, s->reader.in);
+        qdot_polynomial_bounds_sample(&s->bounds, j, s->reader.in);
     }
     qdot_chebyshev_fit(nodes, p->values, p->c);
     tail = p->tail = qdot_chebyshev_tail(nodes, p->c);
@@ -100,20 +100,22 @@ judge_fit(scan *s, const part *p, bool *good)
     const double spread = qdot_chebyshev_spread(p->n, p->c);
     double miss, rounded;
 
-    qdot_hull_look(&s->hull, p->a, p->b, p->n, NULL, NULL);
-    miss = s->hull.miss[0];
+    qdot_polynomial_bounds_look(&s->bounds, p->a, p->b, p->n, NULL, NULL);
+    miss = s->bounds.miss[0];
     if ((s->kind == QDOT_RANGE_MAX && p->c[0] + spread + miss <= s->largest)
         || (s->kind == QDOT_RANGE_MIN && p->c[0] - spread - miss >= s->smallest))
         return SURPASSED;
-    rounded = s->parts < MANY_PARTS ? 0
-                                    : QDOT_RANGE_NOISES * qdot_hull_rounding(&s->hull, p->a, p->b);
+    rounded =
+        s->parts < MANY_PARTS
+            ? 0
+            : QDOT_RANGE_NOISES * qdot_polynomial_bounds_rounding(&s->bounds, p->a, p->b);
     if (!*good && qdot_chebyshev_tail(p->n, p->c) <= rounded) {
         *good = true;
         s->rough = fmax(s->rough, rounded);
     }
     if (!*good)
         return ROUGH;
-    if (qdot_hull_is_hollow(&s->hull, 0, fabs(p->b - p->a) / s->length))
+    if (qdot_polynomial_bounds_is_hollow(&s->bounds, 0, fabs(p->b - p->a) / s->length))
         return HOLLOW;
     if (isnan(miss))
         return SINGULAR;
@@ -134,9 +136,9 @@ judge(scan *s, const part *p, bool *good)
         return s->kind == QDOT_RANGE_MEAN ? SURE : SURPASSED;
     /* where values have bounds for sure, the polynomial of an edge is not taken for it */
     if (v == HOLLOW)
-        return s->kind == QDOT_RANGE_MEAN || s->hull.resting
-                       || qdot_range_is_beside_switch(s, p) || isinf(s->hull.box->lo)
-                       || isinf(s->hull.box->hi)
+        return s->kind == QDOT_RANGE_MEAN || s->bounds.resting ||
+                       qdot_range_is_beside_switch(s, p) || isinf(s->bounds.box->lo) ||
+                       isinf(s->bounds.box->hi)
                    ? SURE
                    : SINGULAR;
     return v;
@@ -262,7 +264,7 @@ scan_step(scan *s, double a, double b)
     s->length = fabs(b - a);
     s->sought = false;
     QDOT_TRY(find_noise(s, a, b));
-    qdot_hull_begin(&s->hull);
+    qdot_polynomial_bounds_begin(&s->bounds);
     while (depth > 0) {
         part p = {.a = from, .b = ends[depth - 1], .tail = INFINITY};
         bool good = false, short_one = qdot_range_is_short(s, &p);
@@ -278,7 +280,7 @@ scan_step(scan *s, double a, double b)
         if (!short_one)
             v = judge(s, &p, &good);
         /* what it jumps between while its inputs rest is their rounding */
-        short_one = short_one || (v == ROUGH && s->hull.resting);
+        short_one = short_one || (v == ROUGH && s->bounds.resting);
         if (s->parts == 0 && depth == 1)
             s->typical = middling(&p);
         if (good)
@@ -310,7 +312,8 @@ scan_step(scan *s, double a, double b)
         s->sought = s->sought || s->parts >= SEEKING;
         s->nodes = 16;
         /* beside where it may be undefined, as sin(x)/x is */
-        ends[depth++] = p.a + (v == SINGULAR ? QDOT_HULL_BESIDE : 0.5) * (p.b - p.a);
+        ends[depth++] =
+            p.a + (v == SINGULAR ? QDOT_POLYNOMIAL_BOUNDS_BESIDE : 0.5) * (p.b - p.a);
     }
     return QDOT_OK;
 }
@@ -416,7 +419,7 @@ over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tap
         qdot_reader_init(&s.reader, run->plan, tape, course, accelerations);
 
     if (status == QDOT_OK)
-        status = qdot_hull_init(&s.hull, tape, 2 * run->plan->n);
+        status = qdot_polynomial_bounds_init(&s.bounds, tape, 2 * run->plan->n);
     if (status == QDOT_OK)
         status = scan_course(&s, from, to);
     if (status == QDOT_OK && !s.begun)
@@ -427,7 +430,7 @@ over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tap
         *value = result(&s, kind, from, to);
         *rough = s.rough + open_of(&s, kind, from, to);
     }
-    qdot_hull_clear(&s.hull);
+    qdot_polynomial_bounds_clear(&s.bounds);
     qdot_reader_clear(&s.reader);
     return status;
 }

@@ -262,7 +262,7 @@ say_crossings(qdot_run *run, bool *interrupted)
 {
     const qdot_error before = *qdot_last_error();
     qdot_text lines = {0};
-    qdot_status status = qdot_passed_tell(&run->course, &lines);
+    qdot_status status = qdot_singular_places_tell(&run->course, &lines);
 
     *interrupted = status == QDOT_EINTR;
     if (status == QDOT_OK && lines.n > 0)
@@ -585,7 +585,7 @@ find_hidden(qdot_run *run)
     char text[200];
     double t;
 
-    QDOT_TRY(qdot_hidden_find(&run->course, &run->hidden, &t));
+    QDOT_TRY(qdot_unresolved_forces_find(&run->course, &run->hidden, &t));
     qdot_fail_again(&before);
     if (!run->hidden)
         return QDOT_OK;

@@ -7,14 +7,14 @@
 #include "sim/model/momenta.h"
 #include "tape/two.h"
 
-struct qdot_exchange {
+struct qdot_ensemble_momenta {
     const qdot_plan *plan;
     qdot_tape_two *momenta;
     double *in, *out, *work; /* of the plan's tape */
 };
 
 static qdot_status
-make(qdot_exchange *x)
+make(qdot_ensemble_momenta *x)
 {
     const qdot_plan *p = x->plan;
 
@@ -26,9 +26,9 @@ make(qdot_exchange *x)
 }
 
 qdot_status
-qdot_exchange_new(const qdot_plan *reduced, qdot_exchange **out)
+qdot_ensemble_momenta_new(const qdot_plan *reduced, qdot_ensemble_momenta **out)
 {
-    qdot_exchange *x = qdot_calloc(1, sizeof *x);
+    qdot_ensemble_momenta *x = qdot_calloc(1, sizeof *x);
     qdot_status status;
 
     *out = NULL;
@@ -37,7 +37,7 @@ qdot_exchange_new(const qdot_plan *reduced, qdot_exchange **out)
     x->plan = reduced;
     status = make(x);
     if (status != QDOT_OK) {
-        qdot_exchange_free(x);
+        qdot_ensemble_momenta_free(x);
         return status;
     }
     *out = x;
@@ -45,7 +45,7 @@ qdot_exchange_new(const qdot_plan *reduced, qdot_exchange **out)
 }
 
 void
-qdot_exchange_free(qdot_exchange *x)
+qdot_ensemble_momenta_free(qdot_ensemble_momenta *x)
 {
     if (!x)
         return;
@@ -57,7 +57,8 @@ qdot_exchange_free(qdot_exchange *x)
 }
 
 bool
-qdot_exchange_enter(qdot_exchange *x, double t, const double *y, double *p)
+qdot_ensemble_momenta_enter(qdot_ensemble_momenta *x, double t, const double *y,
+                            double *p)
 {
     const size_t n = 2 * x->plan->n;
     bool finite = true;
@@ -73,7 +74,8 @@ qdot_exchange_enter(qdot_exchange *x, double t, const double *y, double *p)
 }
 
 void
-qdot_exchange_derive(qdot_exchange *x, double t, const double *p, double *y)
+qdot_ensemble_momenta_derive(qdot_ensemble_momenta *x, double t, const double *p,
+                             double *y)
 {
     const qdot_plan *r = x->plan;
     const double *rates =

@@ -10,18 +10,19 @@
 
 #include "sim/plan/plan.h"
 
-typedef struct qdot_exchange qdot_exchange; /* one a thread */
+typedef struct qdot_ensemble_momenta qdot_ensemble_momenta; /* one a thread */
 
 /* Of a reduced plan, borrowed. QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_exchange_new(const qdot_plan *reduced,
-                                              qdot_exchange **out);
-void qdot_exchange_free(qdot_exchange *x);
+QDOT_MUST_CHECK qdot_status qdot_ensemble_momenta_new(const qdot_plan *reduced,
+                                                      qdot_ensemble_momenta **out);
+void qdot_ensemble_momenta_free(qdot_ensemble_momenta *x);
 
 /* The momenta p [n_kept] that are kept from y [2n] on; false where one is not finite. */
-QDOT_MUST_CHECK bool qdot_exchange_enter(qdot_exchange *x, double t, const double *y,
-                                         double *p);
+QDOT_MUST_CHECK bool qdot_ensemble_momenta_enter(qdot_ensemble_momenta *x, double t,
+                                                 const double *y, double *p);
 /* The velocities that follow from p and y's other components, into y; not finite where they are
  * undefined. */
-void qdot_exchange_derive(qdot_exchange *x, double t, const double *p, double *y);
+void qdot_ensemble_momenta_derive(qdot_ensemble_momenta *x, double t, const double *p,
+                                  double *y);
 
 #endif

@@ -28,7 +28,7 @@ struct qdot_ensemble {
      * structure and tape are the model's then. NULL: neither. */
     qdot_plan *plan;
     const qdot_plan *reduced;
-    qdot_exchange *exchange;  /* of these */
+    qdot_ensemble_momenta *momenta; /* of these */
     form members, companions; /* companions: made when first asked for */
     double t0, t1, t1_low, tol;
     int t1_side;
@@ -71,7 +71,7 @@ qdot_ensemble_free(qdot_ensemble *e)
         return;
     form_free(&e->members);
     form_free(&e->companions);
-    qdot_exchange_free(e->exchange);
+    qdot_ensemble_momenta_free(e->momenta);
     if (!e->reduced)
         model_clear(&e->model);
     qdot_plan_free(e->plan);
@@ -235,7 +235,7 @@ reduce(qdot_ensemble *e)
     e->model.tape = r->tape;
     e->model.n_kept = r->n_kept;
     e->model.kept = r->kept;
-    return qdot_exchange_new(r, &e->exchange);
+    return qdot_ensemble_momenta_new(r, &e->momenta);
 }
 
 /* The residual form, where a single run takes it too; likewise momenta that are kept. */
@@ -410,7 +410,7 @@ enter(const qdot_ensemble *e, pass *p)
 
     for (size_t m = 0; e->reduced && m < p->run.members; m++) {
         double *y = p->run.y + m * 2 * n;
-        const bool finite = qdot_exchange_enter(e->exchange, e->t0, y, p->momenta);
+        const bool finite = qdot_ensemble_momenta_enter(e->momenta, e->t0, y, p->momenta);
 
         if (!finite)
             p->t1[m] = e->t0;
@@ -441,7 +441,7 @@ come_back(const qdot_ensemble *e, pass *p)
             *v = p->replaced[m * kept + c];
         }
         if (r->steps > 0)
-            qdot_exchange_derive(e->exchange, r->t, p->momenta, y);
+            qdot_ensemble_momenta_derive(e->momenta, r->t, p->momenta, y);
         else if (p->t1[m] == e->t0 && e->t1 != e->t0)
             r->outcome = QDOT_BATCH_UNDEFINED;
     }
