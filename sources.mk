@@ -1134,6 +1134,7 @@ script_tests = \
 
 meta_tests = \
 	tests/meta/bootstrap.test \
+	tests/meta/circles.test \
 	tests/meta/floors.test \
 	tests/meta/late.test \
 	tests/meta/manual.test \
