@@ -7,7 +7,7 @@
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "normal/simplify.h"
+#include "normal/simplify/simplify.h"
 #include "tape/taylor.h"
 
 /* Coordinates that couple with one that is eliminated fill M: beyond so many no more is
