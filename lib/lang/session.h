@@ -10,7 +10,7 @@
 
 #include "expr/print.h"
 #include "lang/names.h"
-#include "mech/quantity.h"
+#include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
 
 /* A number that a run gave: stands in expressions as a FORMAL symbol. */

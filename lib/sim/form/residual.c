@@ -5,7 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/dalembert.h"
+#include "mech/dynamics/dalembert.h"
 #include "sim/form/blocks.h"
 #include "tape/constant.h"
 #include "series/program.h"

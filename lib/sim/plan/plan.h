@@ -16,7 +16,7 @@
 #ifndef QDOT_SIM_PLAN_H
 #define QDOT_SIM_PLAN_H
 
-#include "mech/quantity.h"
+#include "mech/dynamics/quantity.h"
 #include "num/structure.h"
 #include "ode/method.h"
 #include "ode/system.h"

@@ -7,7 +7,7 @@
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "normal/simplify.h"
+#include "normal/simplify/simplify.h"
 #include "series/program.h"
 #include "series/taylor.h"
 
