@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "lang/session.h"
+#include "lang/session/session.h"
 #include "num/kinds.h"
 #include "prompt.h"
 #include "signals.h"

@@ -15,7 +15,7 @@
 
 #include "base/memory.h"
 #include "expr/print.h"
-#include "lang/read.h"
+#include "lang/language/read.h"
 
 typedef struct {
     qdot_session *session;

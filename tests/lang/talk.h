@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lang/session.h"
+#include "lang/session/session.h"
 
 typedef struct {
     qdot_session *session;

@@ -6,8 +6,8 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/print.h"
-#include "lang/scene-file.h"
-#include "lang/statement.h"
+#include "lang/commands/scene-file.h"
+#include "lang/commands/statement.h"
 
 /* All that a session file says, and every name. */
 static char *

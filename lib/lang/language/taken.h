@@ -1,0 +1,25 @@
+/* taken.h -- values of the language that a declaration took by their short name.
+ *
+ * `constraint rod: x^2 + y^2 = L^2` without a parameter L holds the Lagrange function; who wrote
+ * it hardly meant that. Tests: tests/script/declarations.lag, tests/bad/taken-*.lag.
+ */
+#ifndef QDOT_LANG_TAKEN_H
+#define QDOT_LANG_TAKEN_H
+
+#include "lang/language/read.h"
+
+/* The longer name of the same value, lagrange_function of L; NULL: there is none. */
+const char *qdot_taken_long_name(const qdot_quantity *row);
+
+/* The bare name of a value was read: kept if it has a longer one. status: what making the value
+ * gave; where that is an error its hint tells how the name becomes one's own. Returns status. */
+QDOT_MUST_CHECK qdot_status qdot_taken_note(qdot_session *session,
+                                            const qdot_quantity *row, qdot_status status);
+
+/* A notice of what was kept since it was last forgotten, once for each name; where the statement
+ * failed (status) and its error has no hint, the hint says it. Returns status, or why no notice
+ * could be given. */
+void qdot_taken_forget(qdot_session *session);
+QDOT_MUST_CHECK qdot_status qdot_taken_tell(qdot_session *session, qdot_status status);
+
+#endif
