@@ -532,58 +532,79 @@ show_headers = \
 lang_sources = \
 	lib/lang/answer/answer.c \
 	lib/lang/answer/digits.c \
+	lib/lang/answer/formula.c \
+	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
-	lib/lang/answer/styled.c \
 	lib/lang/commands/ask.c \
 	lib/lang/commands/check.c \
+	lib/lang/commands/complete.c \
 	lib/lang/commands/constraints.c \
 	lib/lang/commands/declare-function.c \
 	lib/lang/commands/declare.c \
 	lib/lang/commands/derive.c \
 	lib/lang/commands/digits-table.c \
-	lib/lang/commands/draw.c \
+	lib/lang/commands/equilibria.c \
 	lib/lang/commands/event.c \
-	lib/lang/commands/furnish.c \
+	lib/lang/commands/figure-file.c \
 	lib/lang/commands/help.c \
 	lib/lang/commands/loop.c \
-	lib/lang/commands/meant.c \
-	lib/lang/commands/number.c \
+	lib/lang/commands/objects.c \
+	lib/lang/commands/operands.c \
+	lib/lang/commands/pairs.c \
 	lib/lang/commands/plot.c \
 	lib/lang/commands/race.c \
 	lib/lang/commands/redirect.c \
 	lib/lang/commands/remove.c \
+	lib/lang/commands/request.c \
+	lib/lang/commands/reset.c \
+	lib/lang/commands/run.c \
 	lib/lang/commands/scene-file.c \
-	lib/lang/commands/start.c \
+	lib/lang/commands/script-file.c \
+	lib/lang/commands/script.c \
+	lib/lang/commands/set.c \
+	lib/lang/commands/settings.c \
 	lib/lang/commands/statement.c \
+	lib/lang/commands/table.c \
 	lib/lang/commands/undo.c \
-	lib/lang/commands/values.c \
-	lib/lang/commands/words.c \
-	lib/lang/commands/workbench.c \
+	lib/lang/commands/value-check.c \
+	lib/lang/commands/warnings.c \
 	lib/lang/commands/workprecision.c \
 	lib/lang/functions/algebra.c \
 	lib/lang/functions/builtin.c \
+	lib/lang/functions/entry.c \
 	lib/lang/functions/equilibria.c \
 	lib/lang/functions/numeric.c \
-	lib/lang/functions/quantities.c \
+	lib/lang/functions/quantity.c \
 	lib/lang/functions/series.c \
+	lib/lang/functions/short-names.c \
 	lib/lang/language/call.c \
 	lib/lang/language/closed-sum.c \
 	lib/lang/language/condition.c \
 	lib/lang/language/cursor.c \
 	lib/lang/language/evaluate.c \
+	lib/lang/language/formals.c \
 	lib/lang/language/function.c \
 	lib/lang/language/hints.c \
 	lib/lang/language/parse.c \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
-	lib/lang/language/taken.c \
+	lib/lang/language/token-text.c \
+	lib/lang/session/along.c \
 	lib/lang/session/bind.c \
-	lib/lang/session/carry.c \
+	lib/lang/session/event-time.c \
+	lib/lang/session/function-body.c \
+	lib/lang/session/labels.c \
+	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
+	lib/lang/session/runs.c \
 	lib/lang/session/session.c \
+	lib/lang/session/spelling.c \
+	lib/lang/session/transfer.c \
 	lib/lang/session/undo-state.c \
+	lib/lang/session/undo.c \
+	lib/lang/session/value-kind.c \
 	lib/lang/source/letters.c \
 	lib/lang/source/lex.c \
 	lib/lang/source/source.c
@@ -591,31 +612,62 @@ lang_sources = \
 lang_headers = \
 	lib/lang/answer/answer.h \
 	lib/lang/answer/digits.h \
-	lib/lang/commands/ask.h \
+	lib/lang/answer/formula.h \
+	lib/lang/answer/number-text.h \
+	lib/lang/answer/report.h \
+	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
 	lib/lang/commands/declare.h \
 	lib/lang/commands/digits-table.h \
-	lib/lang/commands/draw.h \
-	lib/lang/commands/meant.h \
-	lib/lang/commands/number.h \
+	lib/lang/commands/figure-file.h \
+	lib/lang/commands/loop.h \
+	lib/lang/commands/operands.h \
+	lib/lang/commands/pairs.h \
 	lib/lang/commands/redirect.h \
+	lib/lang/commands/request.h \
 	lib/lang/commands/scene-file.h \
+	lib/lang/commands/script.h \
+	lib/lang/commands/set.h \
 	lib/lang/commands/statement.h \
-	lib/lang/commands/undo.h \
-	lib/lang/commands/values.h \
+	lib/lang/commands/value-check.h \
+	lib/lang/commands/warnings.h \
 	lib/lang/functions/algebra.h \
+	lib/lang/functions/builtin.h \
+	lib/lang/functions/entry.h \
 	lib/lang/functions/equilibria.h \
 	lib/lang/functions/numeric.h \
+	lib/lang/functions/quantity.h \
+	lib/lang/functions/series.h \
+	lib/lang/functions/short-names.h \
 	lib/lang/language/closed-sum.h \
-	lib/lang/language/code.h \
 	lib/lang/language/condition.h \
+	lib/lang/language/cursor.h \
+	lib/lang/language/evaluator.h \
+	lib/lang/language/formals.h \
 	lib/lang/language/function.h \
+	lib/lang/language/hints.h \
 	lib/lang/language/read.h \
-	lib/lang/language/taken.h \
-	lib/lang/session/carry.h \
+	lib/lang/language/token-text.h \
+	lib/lang/session/along.h \
+	lib/lang/session/bind.h \
+	lib/lang/session/event-time.h \
+	lib/lang/session/function-body.h \
+	lib/lang/session/labels.h \
+	lib/lang/session/measured.h \
+	lib/lang/session/member.h \
 	lib/lang/session/names.h \
+	lib/lang/session/range.h \
+	lib/lang/session/runs.h \
 	lib/lang/session/session.h \
-	lib/lang/session/undo-state.h
+	lib/lang/session/spelling.h \
+	lib/lang/session/transfer.h \
+	lib/lang/session/undo-state.h \
+	lib/lang/session/undo.h \
+	lib/lang/session/value-kind.h \
+	lib/lang/source/letters.h \
+	lib/lang/source/lex.h \
+	lib/lang/source/source.h \
+	lib/lang/source/token.h
 
 program_sources = \
 	src/main.c \

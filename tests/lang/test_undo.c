@@ -8,6 +8,7 @@
 #include "expr/print.h"
 #include "lang/commands/scene-file.h"
 #include "lang/commands/statement.h"
+#include "lang/source/source.h"
 
 /* All that a session file says, and every name. */
 static char *

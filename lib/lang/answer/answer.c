@@ -4,11 +4,15 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "expr/walk.h"
-#include "lang/commands/ask.h"
+#include "lang/answer/formula.h"
+#include "lang/answer/number-text.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/value-kind.h"
+#include "lang/source/source.h"
 #include "show/sink.h"
 
 /* Write a finished text and let go of it. */
@@ -35,124 +39,16 @@ end_line(qdot_session *session, qdot_status status, qdot_text *line)
     return status;
 }
 
-/* Likewise of a formula, which qdot_answer_math began. */
+/* Likewise of a formula, which qdot_formula_bracket began. */
 static qdot_status
 end_formula(qdot_session *session, qdot_status status, qdot_text *line)
 {
-    qdot_answer_math(session, false, line);
+    qdot_formula_bracket(session, false, line);
     qdot_text_char(line, '\n');
     return end_line(session, status, line);
 }
 
-/* --- numbers ------------------------------------------------------------------------ */
-
-/* 1e-9, not 1e-09. */
-static void
-tidy_exponent(qdot_text *text, size_t from)
-{
-    char *e = strchr(text->at + from, 'e');
-
-    if (e == NULL || (e[1] != '-' && e[1] != '+') || e[2] != '0')
-        return;
-    memmove(e + 2, e + 3, strlen(e + 3) + 1);
-    qdot_text_truncate(text, text->n - 1);
-}
-
-void
-qdot_answer_digits(qdot_text *text, double value, double error)
-{
-    int digits = 10;
-    size_t before;
-
-    value += 0.0;     /* -0 is 0 */
-    if (error == 0) { /* the shortest that reads back as the same double */
-        for (digits = 1; digits < 17; digits++) {
-            char buffer[40];
-
-            snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-            if (strtod(buffer, NULL) == value)
-                break;
-        }
-        if (fabs(value) >= 1 && fabs(value) < 1e15) /* 10, not 1e+01 */
-            digits = (int)fmax(digits, floor(log10(fabs(value))) + 1);
-    } else if (isfinite(error) && isfinite(value) && value != 0) {
-        digits = (int)floor(log10(fabs(value))) - (int)floor(log10(error)) + 1;
-        digits = digits < 1 ? 1 : digits > 16 ? 16 : digits;
-    }
-    before = text->n;
-    qdot_text_double(text, value, digits);
-    if (!text->failed)
-        tidy_exponent(text, before);
-}
-
-void
-qdot_answer_bound(qdot_text *text, double error)
-{
-    double power, lead;
-
-    if (!isfinite(error) || error <= 0) {
-        qdot_text_double(text, error, 1);
-        return;
-    }
-    power = floor(log10(error));
-    lead = ceil(error / pow(10, power) - 1e-9);
-    if (lead > 9) {
-        lead = 1;
-        power++;
-    }
-    if (power >= -3 && power <= 3)
-        qdot_text_double(text, lead * pow(10, power), 1);
-    else
-        qdot_text_format(text, "%de%d", (int)lead, (int)power);
-}
-
-void
-qdot_answer_json_double(qdot_text *text, double value)
-{
-    if (isfinite(value))
-        qdot_text_double(text, value, 17);
-    else
-        qdot_text_add(text, "null");
-}
-
 /* --- expressions -------------------------------------------------------------------- */
-
-/* Whether e is the latest series, or one of a list of them. */
-static bool
-is_series(const qdot_session *session, qdot_expr e)
-{
-    qdot_expr all = session->series;
-
-    if (all == QDOT_NIL || e == all)
-        return e == all && all != QDOT_NIL;
-    for (uint32_t i = 0; qdot_expr_kind(session->pool, all) == QDOT_LIST &&
-                         i < qdot_expr_count(session->pool, all);
-         i++)
-        if (qdot_expr_arg(session->pool, all, i) == e)
-            return true;
-    return false;
-}
-
-qdot_status
-qdot_answer_print(qdot_session *session, qdot_expr e, qdot_style style, qdot_text *out)
-{
-    uint64_t size = qdot_expr_size(session->pool, e);
-
-    if (size <= QDOT_ANSWER_OPERATIONS)
-        return is_series(session, e)
-                   ? qdot_print_series(session->pool, e, session->series_in, style, out)
-                   : qdot_print(session->pool, e, style, out);
-    (void)qdot_fail(QDOT_ELIMIT,
-                    "%s%" PRIu64 " operations are too many to print: more than %u",
-                    size == UINT64_MAX ? "more than " : "", size, QDOT_ANSWER_OPERATIONS);
-    return qdot_hint("size(...) tells it; what it is used in goes on");
-}
-
-static bool
-is_equation(const qdot_pool *pool, qdot_expr e)
-{
-    return qdot_expr_kind(pool, e) == QDOT_REL;
-}
 
 /* A condition, or a vector of equations. */
 static bool
@@ -161,7 +57,7 @@ holds_relations(const qdot_pool *pool, qdot_expr e)
     qdot_kind kind = qdot_expr_kind(pool, e);
 
     return kind == QDOT_LOGIC ||
-           (kind == QDOT_VEC && is_equation(pool, qdot_expr_arg(pool, e, 0)));
+           (kind == QDOT_VEC && qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, 0)));
 }
 
 /* As typed it may stand with other spaces: A[1, 2] and A[1,2]. */
@@ -180,20 +76,20 @@ static qdot_status
 expr_text(qdot_session *session, const char *name, qdot_expr value)
 {
     qdot_text line = {0}, plain = {0}, shown = {0};
-    qdot_status status = qdot_answer_print(session, value, session->style, &shown);
+    qdot_status status = qdot_formula_print(session, value, session->style, &shown);
     bool bare = name == NULL || strlen(name) > 200;
     bool relation =
-        is_equation(session->pool, value) || holds_relations(session->pool, value);
+        qdot_value_kind_is_equation(session->pool, value) || holds_relations(session->pool, value);
 
     if (status == QDOT_OK && !bare)
-        status = qdot_answer_print(session, value, QDOT_PLAIN, &plain);
+        status = qdot_formula_print(session, value, QDOT_PLAIN, &plain);
     if (!bare && relation)
         bare = strpbrk(name, "=<>") != NULL;
-    qdot_answer_math(session, true, &line);
+    qdot_formula_bracket(session, true, &line);
     if (status == QDOT_OK && !bare && !same_but_spaces(name, qdot_text_str(&plain))) {
-        status = qdot_answer_name(session, name, &line);
+        status = qdot_formula_name(session, name, &line);
         if (!relation && value != QDOT_TRUE && value != QDOT_FALSE)
-            qdot_text_add(&line, qdot_answer_equals(session));
+            qdot_text_add(&line, qdot_formula_equals(session));
         else
             qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>:</mo>" : ": ");
     }
@@ -213,12 +109,12 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
 
     qdot_text_add(&line, "{\"kind\":\"expr\",\"name\":");
     qdot_text_json(&line, name == NULL ? "" : name);
-    status = qdot_answer_print(session, value, QDOT_PLAIN, &part);
+    status = qdot_formula_print(session, value, QDOT_PLAIN, &part);
     qdot_text_add(&line, ",\"plain\":");
     qdot_text_json(&line, qdot_text_str(&part));
     qdot_text_truncate(&part, 0);
     if (status == QDOT_OK)
-        status = qdot_answer_print(session, value, QDOT_LATEX, &part);
+        status = qdot_formula_print(session, value, QDOT_LATEX, &part);
     qdot_text_add(&line, ",\"latex\":");
     qdot_text_json(&line, qdot_text_str(&part));
     qdot_text_format(&line, ",\"ops\":%" PRIu64 "}\n",
@@ -247,11 +143,11 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
 
     if (session->json)
         return expr_json(session, name, value);
-    qdot_answer_math(session, true, &line);
+    qdot_formula_bracket(session, true, &line);
     status = qdot_print(session->pool, symbol, session->style, &line);
-    qdot_text_add(&line, qdot_answer_equals(session));
+    qdot_text_add(&line, qdot_formula_equals(session));
     if (status == QDOT_OK)
-        status = qdot_answer_print(session, value, session->style, &line);
+        status = qdot_formula_print(session, value, session->style, &line);
     return end_formula(session, status, &line);
 }
 
@@ -262,14 +158,14 @@ measured(const qdot_session *session, double value, double error, qdot_text *lin
     bool tags = session->style == QDOT_MATHML;
 
     qdot_text_add(line, tags ? "<mn>" : "");
-    qdot_answer_digits(line, value, error);
+    qdot_number_text(line, value, error);
     qdot_text_add(line, tags ? "</mn>" : "");
     if (isnan(error)) {
         qdot_text_add(line,
                       tags ? "<mtext> (error unknown)</mtext>" : " (error unknown)");
     } else if (error > 0) {
         qdot_text_add(line, tags ? "<mo>±</mo><mn>" : " ± ");
-        qdot_answer_bound(line, error);
+        qdot_number_text_bound(line, error);
         qdot_text_add(line, tags ? "</mn>" : "");
     }
 }
@@ -281,9 +177,9 @@ numbers_text(qdot_session *session, const char *name, size_t n, const double *va
     qdot_text line = {0};
     qdot_status status;
 
-    qdot_answer_math(session, true, &line);
-    status = qdot_answer_name(session, name, &line);
-    qdot_text_add(&line, qdot_answer_equals(session));
+    qdot_formula_bracket(session, true, &line);
+    status = qdot_formula_name(session, name, &line);
+    qdot_text_add(&line, qdot_formula_equals(session));
     for (size_t i = 0; i < n; i++) {
         if (i > 0)
             qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>,</mo>" : ", ");
@@ -301,9 +197,9 @@ qdot_answer_number(qdot_session *session, const char *name, double value, double
         qdot_text_add(&line, "{\"kind\":\"number\",\"name\":");
         qdot_text_json(&line, name);
         qdot_text_add(&line, ",\"value\":");
-        qdot_answer_json_double(&line, value);
+        qdot_number_text_json(&line, value);
         qdot_text_add(&line, ",\"error\":");
-        qdot_answer_json_double(&line, error);
+        qdot_number_text_json(&line, error);
         qdot_text_add(&line, "}\n");
         return put(session->out, &line);
     }
@@ -324,7 +220,7 @@ qdot_answer_numbers(qdot_session *session, const char *name, size_t n,
             for (size_t i = 0; i < n; i++) {
                 if (i > 0)
                     qdot_text_char(&line, ',');
-                qdot_answer_json_double(&line, pass == 0 ? values[i] : errors[i]);
+                qdot_number_text_json(&line, pass == 0 ? values[i] : errors[i]);
             }
         }
         qdot_text_add(&line, "]}\n");
@@ -350,9 +246,9 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
         qdot_text_add(&line, several ? "]}\n" : "}\n");
         return put(session->out, &line);
     }
-    qdot_answer_math(session, true, &line);
-    status = qdot_answer_name(session, name, &line);
-    qdot_text_add(&line, qdot_answer_equals(session));
+    qdot_formula_bracket(session, true, &line);
+    status = qdot_formula_name(session, name, &line);
+    qdot_text_add(&line, qdot_formula_equals(session));
     qdot_text_add(&line, session->style == QDOT_MATHML ? "<mtext>" : "");
     qdot_text_add(&line, qdot_text_str(values));
     qdot_text_add(&line, session->style == QDOT_MATHML ? "</mtext>" : "");
@@ -378,7 +274,7 @@ check_text(qdot_session *session, const qdot_decision *decision)
         for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
             qdot_text_add(&line, i == 0 ? " at " : ", ");
             status =
-                qdot_answer_formula(session, qdot_expr_arg(pool, decision->at, i), &line);
+                qdot_formula(session, qdot_expr_arg(pool, decision->at, i), &line);
         }
         if (isfinite(decision->left) && isfinite(decision->right)) {
             double apart = fabs(decision->left - decision->right);
@@ -426,7 +322,7 @@ point_json(qdot_session *session, qdot_expr at, qdot_text *line)
             qdot_text_char(line, ',');
         qdot_text_json(line, qdot_text_str(&name));
         qdot_text_char(line, ':');
-        qdot_answer_json_double(line, value);
+        qdot_number_text_json(line, value);
         qdot_text_clear(&name);
         QDOT_TRY(status);
     }
@@ -441,12 +337,12 @@ print_side(qdot_session *session, qdot_expr side, qdot_text *out)
     uint64_t size = qdot_expr_size(session->pool, side);
     double number;
 
-    if (qdot_expr_is_scalar(session->pool, side) && qdot_ask_is_measured(session, side)) {
+    if (qdot_expr_is_scalar(session->pool, side) && qdot_measured_occurs(session, side)) {
         QDOT_TRY(qdot_session_number(session, side, &number, NULL));
         qdot_text_double(out, number, 17);
         return QDOT_OK;
     }
-    if (size <= QDOT_ANSWER_OPERATIONS)
+    if (size <= QDOT_FORMULA_OPERATIONS)
         return qdot_print(session->pool, side, QDOT_PLAIN, out);
     qdot_text_format(out, "(%" PRIu64 " operations)", size);
     return QDOT_OK;
@@ -473,9 +369,9 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
         if (status == QDOT_OK)
             status = point_json(session, decision->at, &line);
         qdot_text_add(&line, ",\"values\":[");
-        qdot_answer_json_double(&line, decision->left);
+        qdot_number_text_json(&line, decision->left);
         qdot_text_char(&line, ',');
-        qdot_answer_json_double(&line, decision->right);
+        qdot_number_text_json(&line, decision->right);
         qdot_text_char(&line, ']');
     } else if (decision->verdict == QDOT_UNDECIDED) {
         qdot_text_format(&line, ",\"digits\":%d", decision->digits);
@@ -525,7 +421,7 @@ qdot_answer_row(qdot_session *session, size_t n, const double *values)
     for (size_t i = 0; i < n; i++) {
         if (i > 0)
             qdot_text_char(&line, ',');
-        qdot_answer_json_double(&line, values[i]);
+        qdot_number_text_json(&line, values[i]);
     }
     qdot_text_add(&line, "]}\n");
     return put(session->out, &line);

@@ -11,25 +11,8 @@
 #ifndef QDOT_LANG_ANSWER_H
 #define QDOT_LANG_ANSWER_H
 
-#include "lang/language/read.h"
+#include "lang/session/session.h"
 #include "normal/decide.h"
-
-#define QDOT_ANSWER_OPERATIONS 10000000u /* what is printed of one expression */
-
-/* Append e. QDOT_ELIMIT, before any work: more than QDOT_ANSWER_OPERATIONS. */
-QDOT_MUST_CHECK qdot_status qdot_answer_print(qdot_session *session, qdot_expr e,
-                                              qdot_style style, qdot_text *out);
-
-/* Append what an answer is called, in the style of the session: eom[θ₁], \mathrm{eom}_{\theta}. */
-QDOT_MUST_CHECK qdot_status qdot_answer_name(qdot_session *session, const char *name,
-                                             qdot_text *out);
-/* Append e in the style of the session, as a formula that stands in a text: MathML within its
- * <math>. */
-QDOT_MUST_CHECK qdot_status qdot_answer_formula(qdot_session *session, qdot_expr e,
-                                                qdot_text *out);
-/* The same by parts: what begins and ends a formula, and the sign = between two. */
-void qdot_answer_math(const qdot_session *session, bool open, qdot_text *out);
-const char *qdot_answer_equals(const qdot_session *session);
 
 /* {"kind":"expr"}: `name = value`, `name: left = right` for an equation; just the
  * value where the name says the same or is NULL. */
@@ -59,10 +42,6 @@ QDOT_MUST_CHECK qdot_status qdot_answer_numerals(qdot_session *session, const ch
 QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr left,
                                               qdot_expr right,
                                               const qdot_decision *decision);
-
-/* {"kind":"run"} */
-QDOT_MUST_CHECK qdot_status qdot_answer_run(qdot_session *session, const char *name,
-                                            const qdot_run_report *report);
 
 /* {"kind":"text"}: text as it stands, a newline added where there is none. */
 QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *name,
@@ -96,12 +75,5 @@ QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
  * --json, as {"kind":"error"} on session->out. `at`: the byte of the source. source
  * NULL: no place. */
 void qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at);
-
-/* Append a double as people read it: as many digits as the error leaves meaningful. */
-void qdot_answer_digits(qdot_text *text, double value, double error);
-/* Append an error bound, one digit, rounded up: 3e-13. */
-void qdot_answer_bound(qdot_text *text, double error);
-/* Append a double for JSON: 17 digits, null where it is not finite. */
-void qdot_answer_json_double(qdot_text *text, double value);
 
 #endif

@@ -6,6 +6,9 @@
 
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/number-text.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
 #include "tape/constant.h"
 
 int
@@ -128,7 +131,7 @@ is_plain(qdot_session *session, qdot_expr e)
 static qdot_status
 value_of(qdot_session *session, qdot_expr e, mpfr_ptr x)
 {
-    e = qdot_number_without_measured(session, qdot_session_bind(session, e));
+    e = qdot_measured_as_rationals(session, qdot_session_bind(session, e));
     QDOT_TRY(qdot_pool_check(session->pool));
     return qdot_constant_real(session->pool, e, x);
 }
@@ -179,7 +182,7 @@ add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
         QDOT_TRY(qdot_digits_text(session, e, digits, error, values));
         qdot_text_add(values, quote);
         qdot_text_add(errors, errors->n > 0 ? "," : "");
-        qdot_answer_json_double(errors, error);
+        qdot_number_text_json(errors, error);
         return QDOT_OK;
     }
     qdot_text_add(values, values->n > 0 ? ", " : "");
@@ -188,7 +191,7 @@ add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
         qdot_text_add(values, " (error unknown)");
     } else if (error > 0) {
         qdot_text_add(values, " ± ");
-        qdot_answer_bound(values, error);
+        qdot_number_text_bound(values, error);
     }
     return QDOT_OK;
 }

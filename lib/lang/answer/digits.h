@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_DIGITS_H
 #define QDOT_LANG_DIGITS_H
 
-#include "lang/commands/number.h"
+#include "lang/session/session.h"
 
 /* The fewest digits among the runs whose numbers stand in e, where all of them have
  * `digits`; else 0. */

@@ -1,9 +1,11 @@
 /* report.c -- a run told: what a person needs to know, and the same as JSON. */
-#include "lang/answer/answer.h"
-#include "lang/answer/digits.h"
+#include "lang/answer/report.h"
 
 #include <math.h>
 #include <string.h>
+
+#include "lang/answer/digits.h"
+#include "lang/answer/number-text.h"
 
 static const char *
 status_word(qdot_run_status status)
@@ -32,13 +34,13 @@ static void
 double_number(qdot_session *session, double value, double error, qdot_text *number)
 {
     if (session->json)
-        qdot_answer_json_double(number, value);
+        qdot_number_text_json(number, value);
     else if (!isfinite(value))
         qdot_text_add(number, "unknown"); /* a multiplier where a constraint has no direction */
     else
-        qdot_answer_digits(number, value,
-                           isfinite(error) ? fmax(error, 2e-16) * fmax(1, fabs(value))
-                                           : NAN);
+        qdot_number_text(number, value,
+                         isfinite(error) ? fmax(error, 2e-16) * fmax(1, fabs(value))
+                                         : NAN);
 }
 
 /* What is at the end: jets, parameters that events set, multipliers. */
@@ -126,7 +128,7 @@ static void
 field(qdot_text *line, const char *name, double value)
 {
     qdot_text_format(line, ",\"%s\":", name);
-    qdot_answer_json_double(line, value);
+    qdot_number_text_json(line, value);
 }
 
 /* All that should have been kept, by name. */
@@ -139,7 +141,7 @@ drifts_json(qdot_text *line, const qdot_run_report *r)
             qdot_text_char(line, ',');
         qdot_text_json(line, r->drifts[i].name);
         qdot_text_char(line, ':');
-        qdot_answer_json_double(line, r->drifts[i].drift);
+        qdot_number_text_json(line, r->drifts[i].drift);
     }
     qdot_text_char(line, '}');
 }
@@ -180,7 +182,7 @@ constraints_json(qdot_session *session, const qdot_run_report *r, qdot_text *lin
         qdot_text_add(line, k > 0 ? "," : "");
         qdot_text_json(line, qdot_text_str(&name));
         qdot_text_char(line, ':');
-        qdot_answer_json_double(line, r->lambda_error[k]);
+        qdot_number_text_json(line, r->lambda_error[k]);
         qdot_text_clear(&name);
         QDOT_TRY(status);
     }
@@ -197,9 +199,9 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
     qdot_text_add(line, ",\"method\":");
     qdot_text_json(line, r->method);
     qdot_text_add(line, ",\"t\":[");
-    qdot_answer_json_double(line, r->t0);
+    qdot_number_text_json(line, r->t0);
     qdot_text_char(line, ',');
-    qdot_answer_json_double(line, r->t1);
+    qdot_number_text_json(line, r->t1);
     qdot_text_char(line, ']');
     field(line, "tol", r->tol);
     qdot_text_format(line,
@@ -257,10 +259,10 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
     qdot_text_add(line, "\n  constraints: ");
     if (isfinite(r->constraint_drift)) {
         qdot_text_add(line, "error ");
-        qdot_answer_bound(line, r->constraint_drift);
+        qdot_number_text_bound(line, r->constraint_drift);
         if (isfinite(r->velocity_drift) && r->velocity_drift != r->constraint_drift) {
             qdot_text_add(line, ", of velocities ");
-            qdot_answer_bound(line, r->velocity_drift);
+            qdot_number_text_bound(line, r->velocity_drift);
         }
         qdot_text_add(line, "; ");
     }
@@ -288,7 +290,7 @@ end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
         QDOT_TRY(each_state(session, r, session->style, state_text, line));
     } else {
         qdot_text_add(line, "\n  horizon: t = ");
-        qdot_answer_digits(line, r->horizon, 0.005 * fabs(r->horizon));
+        qdot_number_text(line, r->horizon, 0.005 * fabs(r->horizon));
         qdot_text_add(line, r->tol > of_method
                                 ? "; no digit of the state beyond it is right under this tol"
                                 : ", where doubles are exhausted: no digit of the state "
@@ -303,16 +305,16 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
          qdot_text *line)
 {
     qdot_text_format(line, "%s: t = ", name);
-    qdot_answer_digits(line, r->t0, 0);
+    qdot_number_text(line, r->t0, 0);
     qdot_text_add(line, "..");
-    qdot_answer_digits(line, r->t1, 0);
+    qdot_number_text(line, r->t1, 0);
     qdot_text_format(line, ", method %s, ", r->method);
     if (r->digits > 0) {
         qdot_text_format(line, "digits %d, tol ", r->digits);
-        qdot_answer_bound(line, r->tol);
+        qdot_number_text_bound(line, r->tol);
     } else {
         qdot_text_add(line, "tol ");
-        qdot_answer_digits(line, r->tol, 0);
+        qdot_number_text(line, r->tol, 0);
     }
     qdot_text_format(line, ", %s", status_word(r->status));
     if (r->reason != NULL)
@@ -348,7 +350,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
         if (d->kept)
             qdot_text_add(line, "kept");
         else if (isfinite(d->drift))
-            qdot_answer_bound(line, d->drift);
+            qdot_number_text_bound(line, d->drift);
         else
             qdot_text_add(line, "unknown");
     }
@@ -359,7 +361,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     qdot_text_add(line, "\n  error of the end state: ");
     if (isfinite(r->error)) {
         qdot_text_add(line, "at most ");
-        qdot_answer_bound(line, r->error);
+        qdot_number_text_bound(line, r->error);
     } else {
         qdot_text_add(line, "unknown");
     }
@@ -367,7 +369,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
 }
 
 qdot_status
-qdot_answer_run(qdot_session *session, const char *name, const qdot_run_report *report)
+qdot_report_run(qdot_session *session, const char *name, const qdot_run_report *report)
 {
     qdot_text line = {0};
     qdot_status status = session->json ? run_json(session, name, report, &line)

@@ -1,29 +1,24 @@
 /* ask.c -- values asked for: expressions, print, show, vars, and the parts of a scene. */
-#include "lang/commands/statement.h"
-
 #include <inttypes.h>
 #include <string.h>
 
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/constraints.h"
-#include "lang/commands/ask.h"
 #include "lang/answer/digits.h"
-#include "lang/language/function.h"
+#include "lang/answer/formula.h"
+#include "lang/answer/number-text.h"
+#include "lang/commands/constraints.h"
 #include "lang/commands/scene-file.h"
+#include "lang/commands/statement.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/language/function.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
 
 /* --- expressions -------------------------------------------------------------------- */
-
-bool
-qdot_ask_is_measured(qdot_session *session, qdot_expr e)
-{
-    if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
-        return false;
-    for (size_t i = 0; i < session->measured.n; i++)
-        if (qdot_expr_contains(session->pool, e, session->measured.at[i].symbol))
-            return true;
-    return false;
-}
 
 /* A value in which numbers of a run stand: a number, or a list of them. */
 static qdot_status
@@ -98,7 +93,7 @@ answer_joined(qdot_session *session, const char *name, qdot_expr list)
     qdot_text_format(&text, "%s: ", name);
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
         qdot_text_add(&text, i > 0 ? ", " : "");
-        status = qdot_answer_formula(session, qdot_expr_arg(session->pool, list, i), &text);
+        status = qdot_formula(session, qdot_expr_arg(session->pool, list, i), &text);
     }
     return answer_text(session, name, status, &text);
 }
@@ -148,7 +143,7 @@ qdot_ask_expression(qdot_cursor *c)
     QDOT_TRY(qdot_read_named(c, &value, &over));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    qdot_statement_text(c->session, start, c->at, &name);
+    qdot_token_text(c->session, start, c->at, &name);
     if (name.n > 200) { /* longer than it helps: by its number in the history */
         qdot_text_truncate(&name, 0);
         qdot_text_format(&name, "%%%zu", session->history.n + 1);
@@ -156,7 +151,7 @@ qdot_ask_expression(qdot_cursor *c)
     status = qdot_text_status(&name);
     if (status == QDOT_OK)
         status = qdot_session_remember(session, value, over);
-    if (status == QDOT_OK && qdot_ask_is_measured(session, value))
+    if (status == QDOT_OK && qdot_measured_occurs(session, value))
         status = answer_measured(session, qdot_text_str(&name), value);
     else if (status == QDOT_OK && qdot_expr_kind(session->pool, value) == QDOT_LIST)
         status = answer_list(session, qdot_text_str(&name), value);
@@ -209,8 +204,8 @@ print_one(qdot_cursor *c, qdot_text *line)
     QDOT_TRY(qdot_read_value(c, &value));
     if (is_texts(session->pool, value))
         return add_texts(session, value, line);
-    if (!qdot_ask_is_measured(session, value))
-        return qdot_answer_formula(session, value, line);
+    if (!qdot_measured_occurs(session, value))
+        return qdot_formula(session, value, line);
     digits = qdot_digits_of(session, value);
     for (uint32_t i = 0;; i++) {
         bool scalar = qdot_expr_is_scalar(session->pool, value);
@@ -224,7 +219,7 @@ print_one(qdot_cursor *c, qdot_text *line)
         if (digits > 0)
             QDOT_TRY(qdot_digits_text(session, member, digits, error, line));
         else
-            qdot_answer_digits(line, x, error);
+            qdot_number_text(line, x, error);
         if (scalar)
             return QDOT_OK;
     }
@@ -265,7 +260,7 @@ print_value(qdot_session *session, qdot_expr value, qdot_text *out)
 {
     uint64_t size = qdot_expr_size(session->pool, value);
 
-    if (size <= QDOT_ANSWER_OPERATIONS)
+    if (size <= QDOT_FORMULA_OPERATIONS)
         return qdot_print(session->pool, value, QDOT_PLAIN, out);
     qdot_text_format(out, "... # %" PRIu64 " operations", size);
     return QDOT_OK;
@@ -453,19 +448,19 @@ print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
     qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
 
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_answer_formula(session, one->coordinate, text));
+    QDOT_TRY(qdot_formula(session, one->coordinate, text));
     qdot_text_add(text, ": ");
-    qdot_answer_math(session, true, text);
+    qdot_formula_bracket(session, true, text);
     QDOT_TRY(qdot_print(pool, p, session->style, text));
-    qdot_text_add(text, qdot_answer_equals(session));
-    QDOT_TRY(qdot_answer_print(session, one->momentum, session->style, text));
-    qdot_answer_math(session, false, text);
+    qdot_text_add(text, qdot_formula_equals(session));
+    QDOT_TRY(qdot_formula_print(session, one->momentum, session->style, text));
+    qdot_formula_bracket(session, false, text);
     if (one->rate == QDOT_NIL) {
         qdot_text_add(text, " is conserved");
         return QDOT_OK;
     }
     qdot_text_add(text, " changes at the rate ");
-    return qdot_answer_formula(session, one->rate, text);
+    return qdot_formula(session, one->rate, text);
 }
 
 /* With --json the momenta are values too: `p[theta] = ...` by the name of

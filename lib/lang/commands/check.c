@@ -1,6 +1,4 @@
 /* check.c -- `check`: is it so? Proved, refuted or undecided, component by component. */
-#include "lang/commands/statement.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -8,10 +6,15 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/constraints.h"
-#include "lang/commands/ask.h"
 #include "lang/answer/digits.h"
+#include "lang/answer/formula.h"
+#include "lang/commands/constraints.h"
+#include "lang/commands/statement.h"
 #include "lang/functions/equilibria.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/value-kind.h"
 #include "mech/quantity.h"
 #include "normal/contradiction.h"
 
@@ -257,7 +260,7 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
     QDOT_TRY(qdot_decide_proportional(pool, a, b, known, decision, &factor, &may_vanish));
     if (decision->verdict != QDOT_PROVED || !may_vanish || factor == QDOT_NIL)
         return QDOT_OK;
-    status = qdot_answer_formula(session, factor, &text);
+    status = qdot_formula(session, factor, &text);
     if (status == QDOT_OK)
         status = qdot_answer_notice(session,
                                     "the equations differ by the factor %s: where it is "
@@ -271,13 +274,7 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
 static const char *
 kind_word(const qdot_pool *pool, qdot_expr e)
 {
-    static const char *const words[] = {
-        [QDOT_SYM] = "a text", /* latex(...) */
-        [QDOT_REL] = "an equation", [QDOT_LOGIC] = "a condition", [QDOT_VEC] = "a vector",
-        [QDOT_MAT] = "a matrix",    [QDOT_LIST] = "a list",
-    };
-
-    return qdot_expr_is_scalar(pool, e) ? "a scalar" : words[qdot_expr_kind(pool, e)];
+    return qdot_expr_is_scalar(pool, e) ? "a scalar" : qdot_value_kind_words(pool, e);
 }
 
 static qdot_status
@@ -481,7 +478,7 @@ read_question(qdot_cursor *c, question *q, facts *f)
                 QDOT_TRY(read_condition(c, f));
             while (qdot_cursor_accept_op(c, ","));
         } else if (qdot_cursor_accept_word(c, "within")) {
-            QDOT_TRY(qdot_statement_once(c, "within", q->within));
+            QDOT_TRY(qdot_cursor_once(c, "within", q->within));
             q->within = true;
             QDOT_TRY(qdot_read_number(c, &q->tol));
         } else {
@@ -585,7 +582,7 @@ answer(qdot_cursor *c, question *q, facts *f)
 
     unwrap(pool, &q->left, &q->right);
     measured =
-        qdot_ask_is_measured(session, q->left) || qdot_ask_is_measured(session, q->right);
+        qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
     if (measured && q->how == EQUAL && !q->within) {
         (void)qdot_fail(QDOT_EINVAL, "numbers of a run are never exactly equal");
         return qdot_hint("check ... within 1e-9");
@@ -629,7 +626,7 @@ answer_by_rate(qdot_session *session, question *q, facts *f, bool *done)
 
     *done = false;
     if (!qdot_expr_is_scalar(pool, q->left) || session->scene->coordinates.n == 0 ||
-        f->from.n > 0 || qdot_ask_is_measured(session, q->left))
+        f->from.n > 0 || qdot_measured_occurs(session, q->left))
         return QDOT_OK;
     rate = qdot_mech_rate(session->scene, q->left);
     QDOT_TRY(qdot_pool_check(pool));

@@ -8,7 +8,9 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/formula.h"
 #include "lang/commands/statement.h"
+#include "lang/language/read.h"
 #include "mech/integrable.h"
 #include "mech/reactions.h"
 
@@ -29,9 +31,9 @@ print_constraint(const qdot_constraint *c, qdot_text *out)
 static qdot_status
 formula(qdot_session *session, qdot_expr e, qdot_text *out)
 {
-    qdot_answer_math(session, true, out);
-    QDOT_TRY(qdot_answer_print(session, e, session->style, out));
-    qdot_answer_math(session, false, out);
+    qdot_formula_bracket(session, true, out);
+    QDOT_TRY(qdot_formula_print(session, e, session->style, out));
+    qdot_formula_bracket(session, false, out);
     return qdot_text_status(out);
 }
 

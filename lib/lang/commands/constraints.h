@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_CONSTRAINTS_H
 #define QDOT_LANG_CONSTRAINTS_H
 
-#include "lang/language/read.h"
+#include "lang/language/cursor.h"
 
 /* `check [not] integrable LABEL`, behind these words: a verdict for each component of the
  * constraint. */

@@ -3,17 +3,19 @@
  * Every declaration is read to its end before the first of its names is declared; if one
  * of them cannot be, those before it are taken back.
  */
-#include "lang/commands/statement.h"
-#include "lang/commands/values.h"
+#include "lang/commands/declare.h"
 
 #include <string.h>
 
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/answer/answer.h"
-#include "lang/commands/declare.h"
+#include "lang/commands/statement.h"
+#include "lang/commands/value-check.h"
+#include "lang/commands/warnings.h"
 #include "lang/language/function.h"
-#include "lang/commands/meant.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/source/source.h"
 
 /* --- lists of names with domains ---------------------------------------------------- */
 
@@ -223,38 +225,25 @@ read_items(qdot_cursor *c, bool params, items *list)
 
 /* --- declaring ---------------------------------------------------------------------- */
 
+/* A declared name has the file and line of the token at `start`. */
+static void
+place(const qdot_cursor *c, const qdot_token *start, qdot_name *entry)
+{
+    uint32_t column;
+
+    entry->file = c->source->name;
+    qdot_source_locate(c->source, start->start, &entry->line, &column);
+}
+
 qdot_status
 qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
 {
     bool again = qdot_names_find(c->session->names, entry->name) != NULL;
 
     c->error_at = start->start;
-    qdot_statement_place(c, start, entry);
+    place(c, start, entry);
     QDOT_TRY(qdot_names_declare(c->session->names, entry));
-    return again ? QDOT_OK : qdot_meant_tell_definition(c, start, entry);
-}
-
-void
-qdot_declare_value(qdot_session *session, qdot_expr symbol, qdot_expr value,
-                   qdot_status *status)
-{
-    for (size_t i = 0; i < session->set_symbols.n; i++)
-        if (session->set_symbols.at[i] == symbol ||
-            (qdot_expr_kind(session->pool, symbol) == QDOT_UFUN &&
-             qdot_expr_kind(session->pool, session->set_symbols.at[i]) == QDOT_UFUN &&
-             qdot_expr_node(session->pool, symbol)->op ==
-                 qdot_expr_node(session->pool, session->set_symbols.at[i])->op)) {
-            session->set_symbols.at[i] = symbol;
-            session->set_values.at[i] = value;
-            return;
-        }
-    if (*status == QDOT_OK)
-        *status = qdot_vec_push(&session->set_symbols, symbol);
-    if (*status == QDOT_OK) {
-        *status = qdot_vec_push(&session->set_values, value);
-        if (*status != QDOT_OK)
-            session->set_symbols.n--;
-    }
+    return again ? QDOT_OK : qdot_warnings_definition(c, start, entry);
 }
 
 static bool
@@ -338,33 +327,11 @@ check_coordinates(qdot_cursor *c, const items *list)
     return QDOT_OK;
 }
 
-/* A value outside the domain of its parameter is an error at once where it is a
- * number. */
-qdot_status
-qdot_declare_in_domain(qdot_session *session, qdot_expr symbol, qdot_expr value)
-{
-    const qdot_symbol s = *qdot_expr_symbol(session->pool, symbol);
-    double x, bound;
-
-    if ((s.lo == QDOT_NIL && s.hi == QDOT_NIL) ||
-        qdot_session_number(session, value, &x, NULL) != QDOT_OK)
-        return QDOT_OK; /* no number yet */
-    if (s.lo != QDOT_NIL && qdot_session_number(session, s.lo, &bound, NULL) == QDOT_OK &&
-        (x < bound || (s.lo_open && x == bound)))
-        return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g",
-                         s.name, x, s.name, s.lo_open ? ">" : ">=", bound);
-    if (s.hi != QDOT_NIL && qdot_session_number(session, s.hi, &bound, NULL) == QDOT_OK &&
-        (x > bound || (s.hi_open && x == bound)))
-        return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g",
-                         s.name, x, s.name, s.hi_open ? "<" : "<=", bound);
-    return QDOT_OK;
-}
-
 /* Values that parameters get anew. */
 static qdot_status
 check_values(qdot_cursor *c, const items *list)
 {
-    qdot_number_pairs values = {0};
+    qdot_pairs values = {0};
     qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++) {
@@ -372,11 +339,11 @@ check_values(qdot_cursor *c, const items *list)
         const qdot_name *old = qdot_names_find(c->session->names, x->name);
 
         if (x->value != QDOT_NIL && old != NULL && old->kind == QDOT_NAME_PARAM)
-            status = qdot_number_push_pair(&values, x->start, old->value, x->value);
+            status = qdot_pairs_push(&values, x->start, old->value, x->value);
     }
     if (status == QDOT_OK)
-        status = qdot_values_check(c, &values);
-    qdot_number_free_pairs(&values);
+        status = qdot_value_check(c, &values);
+    qdot_pairs_free(&values);
     return status;
 }
 
@@ -394,7 +361,7 @@ declare_params(qdot_cursor *c, const items *list)
 
         c->error_at = x->start->start;
         if (x->value != QDOT_NIL && old != NULL && old->kind == QDOT_NAME_PARAM)
-            QDOT_TRY(qdot_declare_in_domain(session, old->value, x->value));
+            QDOT_TRY(qdot_session_in_domain(session, old->value, x->value));
         if (x->value == QDOT_NIL || !x->own ||
             qdot_session_number(session, x->value, &number, NULL) != QDOT_OK)
             continue;
@@ -412,9 +379,9 @@ declare_params(qdot_cursor *c, const items *list)
     QDOT_TRY(declare_items(c, QDOT_NAME_PARAM, list));
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
         if (list->at[i].value != QDOT_NIL)
-            qdot_declare_value(session,
-                               qdot_names_find(session->names, list->at[i].name)->value,
-                               list->at[i].value, &status);
+            qdot_session_set(session,
+                             qdot_names_find(session->names, list->at[i].name)->value,
+                             list->at[i].value, &status);
     return status;
 }
 
@@ -480,7 +447,7 @@ qdot_declare_assume(qdot_cursor *c)
                                 greater && !several};
 
         if (qdot_expr_kind(pool, said.relation) == QDOT_REL)
-            QDOT_TRY(qdot_values_check_assumption(c->session, &said));
+            QDOT_TRY(qdot_value_check_assumption(c->session, &said));
         QDOT_TRY(qdot_scene_assume(c->session->scene, said.relation, said.turned));
     }
     return QDOT_OK;
@@ -509,6 +476,26 @@ tell_circle(qdot_cursor *c, const qdot_token *start, qdot_status status)
     return status;
 }
 
+static qdot_status
+define_function(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_name entry;
+    qdot_status status = qdot_function_read(c, &entry);
+    const qdot_name *old = qdot_names_find(c->session->names, start->text);
+
+    if (status == QDOT_OK && old != NULL && old->kind == QDOT_NAME_UFUN) {
+        c->error_at = start->start;
+        (void)qdot_fail(QDOT_ENAME, "`%s` was declared as an undefined function at %s:%u",
+                        start->text, old->file, old->line);
+        status = qdot_hint("set %s(...) = ... gives it a value for numbers", start->text);
+    }
+    if (status == QDOT_OK)
+        status = qdot_declare_name(c, start, &entry);
+    qdot_function_body_release(entry.body);
+    return status;
+}
+
 qdot_status
 qdot_declare_definition(qdot_cursor *c)
 {
@@ -519,7 +506,7 @@ qdot_declare_definition(qdot_cursor *c)
     qdot_status status;
 
     if (start[1].kind == QDOT_TOKEN_OPERATOR && strcmp(start[1].text, "(") == 0)
-        return qdot_function_define(c);
+        return define_function(c);
     QDOT_TRY(qdot_read_name(c, &name));
     entry.name = (char *)name;
     QDOT_TRY(qdot_cursor_expect_op(c, "="));

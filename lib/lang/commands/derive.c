@@ -1,12 +1,12 @@
 /* derive.c -- the whole derivation, from r(q) to the equations, as a textbook would. */
-#include "lang/commands/statement.h"
-
 #include <stdio.h>
 
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/formula.h"
+#include "lang/commands/statement.h"
 #include "mech/quantity.h"
 #include "normal/simplify.h"
 
@@ -37,15 +37,15 @@ named(derivation *d, const char *before, const char *of, const char *behind,
     qdot_text_add(&name, of);
     qdot_text_add(&name, behind);
     qdot_text_add(&d->text, "    ");
-    qdot_answer_math(s, true, &d->text);
+    qdot_formula_bracket(s, true, &d->text);
     status = qdot_text_status(&name);
     if (status == QDOT_OK)
-        status = qdot_answer_name(s, qdot_text_str(&name), &d->text);
+        status = qdot_formula_name(s, qdot_text_str(&name), &d->text);
     qdot_text_clear(&name);
     QDOT_TRY(status);
-    qdot_text_add(&d->text, qdot_answer_equals(s));
-    QDOT_TRY(qdot_answer_print(s, value, s->style, &d->text));
-    qdot_answer_math(s, false, &d->text);
+    qdot_text_add(&d->text, qdot_formula_equals(s));
+    QDOT_TRY(qdot_formula_print(s, value, s->style, &d->text));
+    qdot_formula_bracket(s, false, &d->text);
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
 }
@@ -68,7 +68,7 @@ slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value
     q = qdot_symbol_jet(s->pool, q, fast);
     QDOT_TRY(qdot_pool_check(s->pool));
     qdot_text_add(&d->text, "    ");
-    qdot_answer_math(s, true, &d->text);
+    qdot_formula_bracket(s, true, &d->text);
     if (total)
         qdot_text_add(&d->text, latex ? "\\frac{d}{dt} "
                                       : "<mfrac><mi>d</mi><mrow><mi>d</mi><mi>t</mi></mrow></mfrac>"
@@ -79,9 +79,9 @@ slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value
                      F);
     QDOT_TRY(qdot_print(s->pool, q, s->style, &d->text));
     qdot_text_add(&d->text, latex ? "}" : "</mrow></mfrac>");
-    qdot_text_add(&d->text, qdot_answer_equals(s));
-    QDOT_TRY(qdot_answer_print(s, value, s->style, &d->text));
-    qdot_answer_math(s, false, &d->text);
+    qdot_text_add(&d->text, qdot_formula_equals(s));
+    QDOT_TRY(qdot_formula_print(s, value, s->style, &d->text));
+    qdot_formula_bracket(s, false, &d->text);
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
 }
@@ -102,7 +102,7 @@ relation(derivation *d, const char *label, qdot_expr e)
         }
         qdot_text_add(&d->text, latex ? "}: " : ": ");
     }
-    QDOT_TRY(qdot_answer_formula(d->session, e, &d->text));
+    QDOT_TRY(qdot_formula(d->session, e, &d->text));
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
 }

@@ -6,6 +6,8 @@
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
+#include "lang/answer/number-text.h"
+#include "lang/session/bind.h"
 
 /* All cells, row by row, the labels first. */
 typedef struct {
@@ -15,7 +17,7 @@ typedef struct {
 } cells;
 
 int
-qdot_digits_table_of(const qdot_draw_operands *list)
+qdot_digits_table_of(const qdot_operands *list)
 {
     int fewest = 0;
 
@@ -49,7 +51,7 @@ add_cell(cells *t, qdot_text *text)
 }
 
 static qdot_status
-add_labels(cells *t, const qdot_draw_operands *list)
+add_labels(cells *t, const qdot_operands *list)
 {
     qdot_text text = {0};
     qdot_status status;
@@ -70,7 +72,7 @@ add_labels(cells *t, const qdot_draw_operands *list)
 
 /* The values of one operand at a time. */
 static qdot_status
-add_values(qdot_session *session, cells *t, const qdot_draw_operand *o, qdot_expr time,
+add_values(qdot_session *session, cells *t, const qdot_operand *o, qdot_expr time,
            int digits)
 {
     const size_t n = o->columns.n;
@@ -93,7 +95,7 @@ add_values(qdot_session *session, cells *t, const qdot_draw_operand *o, qdot_exp
 }
 
 static qdot_status
-add_row(qdot_session *session, cells *t, const qdot_draw_operands *list, qdot_expr time,
+add_row(qdot_session *session, cells *t, const qdot_operands *list, qdot_expr time,
         int digits)
 {
     qdot_text text = {0};
@@ -101,7 +103,7 @@ add_row(qdot_session *session, cells *t, const qdot_draw_operands *list, qdot_ex
     qdot_status status = qdot_session_number(session, time, &x, NULL);
 
     if (status == QDOT_OK) {
-        qdot_answer_digits(&text, x, 0);
+        qdot_number_text(&text, x, 0);
         status = add_cell(t, &text);
     }
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
@@ -189,7 +191,7 @@ tell(qdot_session *session, const cells *t, const char *path)
 }
 
 qdot_status
-qdot_digits_table(qdot_session *session, const qdot_draw_operands *list, qdot_expr from,
+qdot_digits_table(qdot_session *session, const qdot_operands *list, qdot_expr from,
                   qdot_expr step, size_t rows, const char *path)
 {
     qdot_pool *pool = session->pool;

@@ -1,12 +1,16 @@
 /* event.c -- moments of a run: declared, listed, taken as times. */
-#include "lang/commands/statement.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/commands/number.h"
+#include "lang/answer/number-text.h"
+#include "lang/commands/set.h"
+#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/session/event-time.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
 
 /* --- declared ------------------------------------------------------------------------ */
 
@@ -20,7 +24,7 @@ read_target(qdot_cursor *c, qdot_expr *target)
     const char *name;
 
     if (c->at->kind != QDOT_TOKEN_NAME)
-        return qdot_number_read_jet(c, target);
+        return qdot_set_read_jet(c, target);
     QDOT_TRY(qdot_read_name(&look, &name));
     known = qdot_names_find(c->session->names, name);
     if (known != NULL && known->kind == QDOT_NAME_PARAM) {
@@ -29,10 +33,10 @@ read_target(qdot_cursor *c, qdot_expr *target)
         return QDOT_OK;
     }
     if (known != NULL && known->kind == QDOT_NAME_COORD)
-        return qdot_number_read_jet(c, target);
+        return qdot_set_read_jet(c, target);
     c->error_at = start->start;
     if (known == NULL)
-        return qdot_number_unknown(c->session, "coordinate and no parameter", name);
+        return qdot_set_unknown(c->session, "coordinate and no parameter", name);
     (void)qdot_fail(QDOT_ENAME, "`%s` is not a coordinate or a parameter", name);
     return qdot_hint("`then` sets coordinates, velocities and parameters");
 }
@@ -47,7 +51,7 @@ read_changes(qdot_cursor *c, qdot_event *event)
         QDOT_TRY(read_target(c, &jet));
         QDOT_TRY(qdot_cursor_expect_op(c, "="));
         QDOT_TRY(qdot_read_scalar(c, &value));
-        value = qdot_number_without_measured(c->session, value);
+        value = qdot_measured_as_rationals(c->session, value);
         QDOT_TRY(qdot_pool_check(c->session->pool));
         QDOT_TRY(qdot_vec_push(&event->targets, jet));
         QDOT_TRY(qdot_vec_push(&event->values, value));
@@ -64,13 +68,13 @@ read_options(qdot_cursor *c, qdot_event *event)
 
             c->at += !rising;
             QDOT_TRY(
-                qdot_statement_once(c, rising ? "rising" : "falling", event->way != 0));
+                qdot_cursor_once(c, rising ? "rising" : "falling", event->way != 0));
             event->way = rising ? 1 : -1;
         } else if (qdot_cursor_accept_word(c, "stop")) {
-            QDOT_TRY(qdot_statement_once(c, "stop", event->stop));
+            QDOT_TRY(qdot_cursor_once(c, "stop", event->stop));
             event->stop = true;
         } else if (qdot_cursor_accept_word(c, "then")) {
-            QDOT_TRY(qdot_statement_once(c, "then", event->targets.n > 0));
+            QDOT_TRY(qdot_cursor_once(c, "then", event->targets.n > 0));
             QDOT_TRY(read_changes(c, event));
         } else {
             return qdot_cursor_expected(c, "`rising`, `falling`, `stop` or `then`");
@@ -98,8 +102,8 @@ read_event(qdot_cursor *c, qdot_event *event)
     } else {
         return qdot_cursor_expected(c, "`=` and the other side");
     }
-    event->left = qdot_number_without_measured(c->session, event->left);
-    event->right = qdot_number_without_measured(c->session, event->right);
+    event->left = qdot_measured_as_rationals(c->session, event->left);
+    event->right = qdot_measured_as_rationals(c->session, event->right);
     QDOT_TRY(qdot_pool_check(pool));
     return read_options(c, event);
 }
@@ -118,68 +122,6 @@ qdot_event_declare(qdot_cursor *c)
     qdot_free(event.targets.at);
     qdot_free(event.values.at);
     return status;
-}
-
-/* --- times --------------------------------------------------------------------------- */
-
-bool
-qdot_event_is(const qdot_session *session, const char *run, const char *name)
-{
-    if (qdot_scene_find_event(session->scene, name) != NULL)
-        return true;
-    for (size_t i = session->runs.n; i-- > 0;)
-        if (run == NULL || strcmp(session->runs.at[i].name, run) == 0)
-            return session->runs.at[i].run != NULL &&
-                   qdot_run_has_event(session->runs.at[i].run, name);
-    return false;
-}
-
-/* The digits of its time; 0: a double. */
-static int
-digits_of(const qdot_run *run, const qdot_run_occurrence *o)
-{
-    return o->exact == QDOT_NIL ? 0 : qdot_run_get_report(run)->digits;
-}
-
-/* The k-th time (k from 1) of an event, or all of them (k = 0) as a list. */
-qdot_status
-qdot_event_time(qdot_session *session, const char *run, const char *name, long k,
-                qdot_expr *value)
-{
-    const qdot_run_occurrence *list;
-    qdot_vec(qdot_expr) all = {0};
-    qdot_named_run *named;
-    qdot_status status;
-    size_t n;
-
-    QDOT_TRY(qdot_number_find_run(session, run, &named));
-    if (!qdot_run_has_event(named->run, name)) {
-        (void)qdot_fail(QDOT_ENAME, "the run %.100s knows no event `%.100s`", named->name,
-                        name);
-        return qdot_hint("an event is declared before the run");
-    }
-    status = qdot_run_occurrences(named->run, &list, &n);
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        if (strcmp(list[i].event, name) != 0)
-            continue;
-        status = qdot_vec_push(&all, qdot_number_measured_as(
-                                         session, (qdot_measured){.value = list[i].t,
-                                                                  .error = list[i].error,
-                                                                  .digits = digits_of(
-                                                                      named->run, &list[i]),
-                                                                  .exact = list[i].exact}));
-    }
-    if (status == QDOT_OK && k == 0) {
-        *value = qdot_list(session->pool, (uint32_t)all.n, all.at);
-    } else if (status == QDOT_OK && (k < 1 || (size_t)k > all.n)) {
-        (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: the event occurred %zu time%s in %s", name,
-                        k, all.n, all.n == 1 ? "" : "s", named->name);
-        status = qdot_hint("`events` lists them");
-    } else if (status == QDOT_OK) {
-        *value = all.at[k - 1];
-    }
-    qdot_free(all.at);
-    return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
 }
 
 /* --- listed -------------------------------------------------------------------------- */
@@ -268,12 +210,12 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     if (digits > 0)
         QDOT_TRY(qdot_digits_text(session, o->exact, digits, o->error, text));
     else
-        qdot_answer_digits(text, o->t, o->error);
+        qdot_number_text(text, o->t, o->error);
     if (isnan(o->error)) {
         qdot_text_add(text, " (error unknown)");
     } else {
         qdot_text_add(text, " ± ");
-        qdot_answer_bound(text, o->error);
+        qdot_number_text_bound(text, o->error);
     }
     qdot_text_format(text, "  %s\n",
                      o->way > 0   ? "rising"
@@ -295,7 +237,7 @@ qdot_event_list(qdot_cursor *c)
     QDOT_TRY(qdot_cursor_expect_end(c));
     if (session->runs.n == 0)
         return list_declared(session);
-    QDOT_TRY(qdot_number_find_run(session, NULL, &run));
+    QDOT_TRY(qdot_runs_find(session, NULL, &run));
     QDOT_TRY(qdot_run_occurrences(run->run, &list, &n));
     if (session->json && n > 0)
         return qdot_run_get_report(run->run)->digits > 0
@@ -306,7 +248,7 @@ qdot_event_list(qdot_cursor *c)
 
         for (size_t j = 0; j < i; j++)
             k += strcmp(list[j].event, list[i].event) == 0;
-        status = add_line(session, digits_of(run->run, &list[i]), &text, &list[i], k);
+        status = add_line(session, qdot_event_digits(run->run, &list[i]), &text, &list[i], k);
     }
     if (n == 0)
         qdot_text_format(&text, "no event occurred in %s", run->name);

@@ -1,9 +1,11 @@
 /* help.c -- the tables, told: statements, functions, values. */
-#include "lang/commands/statement.h"
-
 #include <string.h>
 
 #include "lang/answer/answer.h"
+#include "lang/commands/statement.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/language/read.h"
 #include "ode/method.h"
 
 /* A word and what follows it, in two columns. */

@@ -1,7 +1,9 @@
 /* loop.c -- the indices of a `for`, pass by pass. */
-#include "lang/commands/statement.h"
+#include "lang/commands/loop.h"
 
 #include "base/interrupt.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
 
 /* Bind what index i stands at. */
 static qdot_status

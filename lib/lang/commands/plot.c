@@ -1,15 +1,17 @@
 /* plot.c -- curves: along runs against t, against each other, paths; an expression
  * over a variable. */
-#include "lang/commands/statement.h"
-
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "expr/calculus.h"
-#include "lang/answer/answer.h"
-#include "lang/commands/draw.h"
+#include "lang/commands/figure-file.h"
+#include "lang/commands/loop.h"
+#include "lang/commands/operands.h"
+#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/bind.h"
+#include "lang/session/member.h"
 #include "show/show.h"
 #include "tape/tape.h"
 
@@ -62,51 +64,6 @@ add_curve(figure *f, const char *label, size_t rows, curve **added)
 
 /* --- where it goes ------------------------------------------------------------------ */
 
-/* "dir/NAME-1.svg" for the script dir/NAME.lag, "qdot-1.svg" elsewhere. */
-static qdot_status
-default_path(qdot_session *session, qdot_text *path)
-{
-    const char *script =
-        session->including.n > 0 ? session->including.at[session->including.n - 1] : "-";
-    size_t n = strlen(script);
-
-    if (strcmp(script, "-") == 0)
-        qdot_text_add(path, "qdot");
-    else if (n > 4 && strcmp(script + n - 4, ".lag") == 0)
-        qdot_text_add_n(path, script, n - 4);
-    else
-        qdot_text_add(path, script);
-    qdot_text_format(path, "-%zu.svg", ++session->figures);
-    return qdot_text_status(path);
-}
-
-static bool
-has_window(const qdot_session *session)
-{
-    return !session->json && isatty(STDOUT_FILENO) &&
-           (getenv("DISPLAY") != NULL || getenv("WAYLAND_DISPLAY") != NULL);
-}
-
-qdot_status
-qdot_draw_show(qdot_session *session, const qdot_figure *figure, const char *path)
-{
-    qdot_text own = {0};
-    qdot_status status = QDOT_OK;
-
-    if (path != NULL)
-        qdot_text_add(&own, path);
-    else if (!has_window(session))
-        status = default_path(session, &own);
-    if (status == QDOT_OK)
-        status = qdot_text_status(&own);
-    if (status == QDOT_OK)
-        status = qdot_figure_write(figure, own.n > 0 ? qdot_text_str(&own) : NULL);
-    if (status == QDOT_OK && own.n > 0)
-        status = qdot_answer_file(session, qdot_text_str(&own));
-    qdot_text_clear(&own);
-    return status;
-}
-
 static qdot_status
 finish(qdot_session *session, figure *f)
 {
@@ -133,7 +90,7 @@ finish(qdot_session *session, figure *f)
     else if (status == QDOT_OK && n == 1)
         out.y_label = f->curves.at[0].label;
     if (status == QDOT_OK)
-        status = qdot_draw_show(session, &out, f->path);
+        status = qdot_figure_file_show(session, &out, f->path);
     qdot_free(columns);
     qdot_free(rows);
     return status;
@@ -143,7 +100,7 @@ finish(qdot_session *session, figure *f)
 
 /* Evenly spaced times, more of them where the run took many steps. */
 static qdot_status
-sample(const qdot_draw_operand *o, double **times, size_t *n)
+sample(const qdot_operand *o, double **times, size_t *n)
 {
     const qdot_run_report *report = qdot_run_get_report(o->run);
     size_t steps = 4 * report->steps + 1;
@@ -169,7 +126,7 @@ sample(const qdot_draw_operand *o, double **times, size_t *n)
 
 /* y against t or against `versus`; a vector is the path of its two components. */
 static qdot_status
-curve_along(figure *f, const qdot_draw_operand *y, const qdot_draw_operand *versus)
+curve_along(figure *f, const qdot_operand *y, const qdot_operand *versus)
 {
     double *times = NULL, *values = NULL;
     size_t rows = 0, m = y->columns.n;
@@ -181,7 +138,7 @@ curve_along(figure *f, const qdot_draw_operand *y, const qdot_draw_operand *vers
         status = values == NULL ? QDOT_ENOMEM : QDOT_OK;
     }
     if (status == QDOT_OK)
-        status = qdot_draw_values(y, rows, times, values);
+        status = qdot_operands_values(y, rows, times, values);
     if (status == QDOT_OK && y->vector) {
         status = add_curve(f, y->label, rows, &one);
         if (status == QDOT_OK) {
@@ -192,10 +149,10 @@ curve_along(figure *f, const qdot_draw_operand *y, const qdot_draw_operand *vers
     for (size_t i = 0; !y->vector && i < m && status == QDOT_OK; i++) {
         status = add_curve(f, y->label, rows, &one);
         if (status == QDOT_OK && versus != NULL) {
-            qdot_draw_operand x = *versus;
+            qdot_operand x = *versus;
 
             x.run = y->run;
-            status = qdot_draw_values(&x, rows, times, one->x);
+            status = qdot_operands_values(&x, rows, times, one->x);
         } else if (status == QDOT_OK) {
             memcpy(one->x, times, rows * sizeof *times);
         }
@@ -208,11 +165,11 @@ curve_along(figure *f, const qdot_draw_operand *y, const qdot_draw_operand *vers
 }
 
 static qdot_status
-check_paths(const qdot_draw_operands *list, const qdot_draw_operands *versus, bool *paths)
+check_paths(const qdot_operands *list, const qdot_operands *versus, bool *paths)
 {
     *paths = false;
     for (size_t i = 0; i < list->n; i++) {
-        const qdot_draw_operand *o = &list->at[i];
+        const qdot_operand *o = &list->at[i];
 
         *paths = *paths || o->vector;
         if (o->vector && o->columns.n > 2) {
@@ -233,25 +190,25 @@ check_paths(const qdot_draw_operands *list, const qdot_draw_operands *versus, bo
 }
 
 static qdot_status
-plot_runs(qdot_cursor *c, qdot_draw_operands *list, qdot_draw_operands *versus, figure *f)
+plot_runs(qdot_cursor *c, qdot_operands *list, qdot_operands *versus, figure *f)
 {
     const qdot_token *start = c->at;
     bool paths;
 
-    QDOT_TRY(qdot_draw_read(c, list));
+    QDOT_TRY(qdot_operands_read(c, list));
     while (!qdot_cursor_is_end(c)) {
         if (qdot_cursor_accept_word(c, "vs")) {
-            QDOT_TRY(qdot_statement_once(c, "vs", versus->n > 0));
-            QDOT_TRY(qdot_draw_read(c, versus));
+            QDOT_TRY(qdot_cursor_once(c, "vs", versus->n > 0));
+            QDOT_TRY(qdot_operands_read(c, versus));
         } else if (qdot_cursor_accept_word(c, "to")) {
-            QDOT_TRY(qdot_draw_read_file(c, &f->path));
+            QDOT_TRY(qdot_figure_file_read(c, &f->path));
         } else {
             return qdot_cursor_expected(c, "`vs`, `to` or the end of the statement");
         }
     }
     c->error_at = start->start;
     QDOT_TRY(check_paths(list, versus, &paths));
-    QDOT_TRY(qdot_draw_runs(c->session, list));
+    QDOT_TRY(qdot_operands_find_runs(c->session, list));
     f->equal_axes = paths;
     f->x_label = qdot_strdup(versus->n > 0 ? versus->at[0].label : paths ? "x" : "t");
     if (f->x_label == NULL)
@@ -339,7 +296,7 @@ curves_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, figure *f)
 
         QDOT_TRY(qdot_read_scalar(c, &e));
         c->error_at = start->start;
-        qdot_statement_text(c->session, start, c->at, &label);
+        qdot_token_text(c->session, start, c->at, &label);
         e = replace_indices(session, loop, e, &label);
         status = qdot_pool_check(session->pool);
         if (status == QDOT_OK)
@@ -379,7 +336,7 @@ read_variable(qdot_cursor *c, variable *v, figure *f)
     }
     v->behind = c->at;
     if (qdot_cursor_accept_word(c, "to"))
-        QDOT_TRY(qdot_draw_read_file(c, &f->path));
+        QDOT_TRY(qdot_figure_file_read(c, &f->path));
     return qdot_cursor_expect_end(c);
 }
 
@@ -445,9 +402,9 @@ plot_over(qdot_cursor *c, const qdot_token *vs, figure *f)
 }
 
 qdot_status
-qdot_draw_plot(qdot_cursor *c)
+qdot_plot_statement(qdot_cursor *c)
 {
-    qdot_draw_operands list = {0}, versus = {0};
+    qdot_operands list = {0}, versus = {0};
     const qdot_token *vs = find_variable(c);
     figure f = {0};
     qdot_status status =
@@ -456,7 +413,7 @@ qdot_draw_plot(qdot_cursor *c)
     if (status == QDOT_OK)
         status = finish(c->session, &f);
     free_figure(&f);
-    qdot_draw_free(&list);
-    qdot_draw_free(&versus);
+    qdot_operands_free(&list);
+    qdot_operands_free(&versus);
     return status;
 }

@@ -1,14 +1,16 @@
 /* race.c -- the statement `race`: a table, and a figure of error against time. */
-#include "sim/race.h"
-
 #include <math.h>
-#include <string.h>
 
 #include "lang/answer/answer.h"
-#include "lang/commands/draw.h"
-#include "lang/commands/number.h"
+#include "lang/answer/number-text.h"
+#include "lang/commands/figure-file.h"
+#include "lang/commands/request.h"
 #include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
 #include "show/show.h"
+#include "sim/race.h"
 
 /* "1e-12", "-" where there is none */
 static void
@@ -45,7 +47,7 @@ print_race(const qdot_race *race, qdot_text *out)
                      "race: end errors against the scene as given, projected, at tol %.0e, "
                      "its own error about ",
                      race->reference_tol);
-    qdot_answer_bound(out, race->reference_error);
+    qdot_number_text_bound(out, race->reference_error);
     if (race->minimal > 0)
         qdot_text_format(out, "\n%zu coordinates as given, %zu in minimal coordinates",
                          race->coordinates, race->minimal);
@@ -79,7 +81,7 @@ answer_rows(qdot_session *session, const qdot_race *race)
             qdot_text_json(&cells, e->method != NULL ? e->method : "");
             for (size_t j = 0; j < sizeof row / sizeof *row; j++) {
                 qdot_text_char(&cells, ',');
-                qdot_answer_json_double(&cells, row[j]);
+                qdot_number_text_json(&cells, row[j]);
             }
             status = qdot_answer_cells(session, &cells);
             qdot_text_clear(&cells);
@@ -126,7 +128,7 @@ draw(qdot_session *session, const qdot_race *race, const char *path)
     figure.curves = n;
     if (n == 0)
         return qdot_fail(QDOT_EFAILED, "no lane of the race got to the end");
-    return qdot_draw_show(session, &figure, path);
+    return qdot_figure_file_show(session, &figure, path);
 }
 
 static qdot_status
@@ -170,10 +172,10 @@ refuse_option(qdot_cursor *c)
 }
 
 qdot_status
-qdot_number_race(qdot_cursor *c)
+qdot_race_statement(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
-    qdot_number_order order = {0};
+    qdot_request order = {0};
     qdot_expr from, to;
     const char *path = NULL;
     qdot_race race;
@@ -183,17 +185,17 @@ qdot_number_race(qdot_cursor *c)
     while (!qdot_cursor_is_end(c)) {
         if (!qdot_cursor_accept_word(c, "to"))
             return refuse_option(c);
-        QDOT_TRY(qdot_draw_read_file(c, &path));
+        QDOT_TRY(qdot_figure_file_read(c, &path));
     }
     c->error_at = start->start;
-    status = qdot_number_fill_order(c->session, &order);
+    status = qdot_request_fill(c->session, &order);
     if (status == QDOT_OK) {
         qdot_session *session = c->session;
 
         order.request.t0 =
-            qdot_session_bind(session, qdot_number_without_measured(session, from));
+            qdot_session_bind(session, qdot_measured_as_rationals(session, from));
         order.request.t1 =
-            qdot_session_bind(session, qdot_number_without_measured(session, to));
+            qdot_session_bind(session, qdot_measured_as_rationals(session, to));
         order.request.method = "auto";
         order.request.tol = 1e-12;
         status = qdot_pool_check(session->pool);
@@ -205,6 +207,6 @@ qdot_number_race(qdot_cursor *c)
             qdot_race_clear(&race);
         }
     }
-    qdot_number_free_order(&order);
+    qdot_request_free(&order);
     return status;
 }

@@ -3,6 +3,7 @@
 
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
+#include "lang/language/read.h"
 
 /* What acted on a removed thing went with it: say so. */
 static qdot_status

@@ -6,8 +6,10 @@
 
 #include "lang/answer/answer.h"
 #include "lang/language/function.h"
-#include "lang/commands/number.h"
-#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/measured.h"
+#include "lang/source/source.h"
 
 static const char header[] = "# a scene written by qdot\n";
 
@@ -90,7 +92,7 @@ put_form(qdot_session *s, const qdot_name *name, qdot_expr value, int form, qdot
 {
     if (form == SAID) {
         if (name->body != NULL && is_lasting(name->body))
-            qdot_statement_text(s, name->body->from, name->body->to, out);
+            qdot_token_text(s, name->body->from, name->body->to, out);
         return QDOT_OK;
     }
     if (form == CANONICAL && !(qdot_expr_node(s->pool, value)->holds & QDOT_HAS_MOMENTUM))
@@ -123,7 +125,7 @@ put_first(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr ove
 static qdot_status
 put_definition(qdot_session *s, const qdot_name *name, qdot_text *out)
 {
-    const qdot_expr value = qdot_number_without_measured(s, name->value);
+    const qdot_expr value = qdot_measured_as_rationals(s, name->value);
     bool is = false;
 
     QDOT_TRY(qdot_pool_check(s->pool));

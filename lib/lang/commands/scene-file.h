@@ -16,7 +16,7 @@
 #ifndef QDOT_LANG_SCENE_FILE_H
 #define QDOT_LANG_SCENE_FILE_H
 
-#include "lang/language/read.h"
+#include "lang/language/cursor.h"
 
 /* Whether the token is the name of such a file, "NAME.lag". */
 bool qdot_scene_file_is(const qdot_token *token);

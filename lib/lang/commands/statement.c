@@ -1,665 +1,197 @@
-/* statement.c -- a source carried out, statement by statement.
- *
- * Blocks nest on an explicit stack of frames, one for each `{ ... } for` that runs. While
- * a statement with a trailing `for` runs, that word is an end to it: its token is an END
- * for the while.
- */
+/* statement.c -- the table of statements. Adding one is adding a row. */
 #include "lang/commands/statement.h"
 
 #include <string.h>
-#include <time.h>
 
-#include "base/interrupt.h"
-#include "lang/answer/answer.h"
-#include "lang/language/code.h"
-#include "lang/commands/redirect.h"
-#include "lang/language/taken.h"
-#include "lang/commands/undo.h"
+#define DECLARE "declaring a scene"
+#define ASK "asking"
+#define NUMBERS "numbers"
+#define WORKBENCH "workbench"
 
-typedef struct {
-    size_t body, close; /* tokens: the first inside, the `}` */
-    size_t resume;      /* the token behind the whole */
-    qdot_loop loop;
-} frame;
+static const qdot_statement table[] = {
+    /* --- section 2 ------------------------------------------------------------------ */
+    {"param", DECLARE, "param NAME [> 0] [= VALUE], ...",
+     "declare parameters; a sign spreads back over the bare names before it",
+     "param m, L > 0, g = 9.81", qdot_declare_param, false},
+    {"coord", DECLARE, "coord NAME, LO < NAME < HI, ...",
+     "declare generalized coordinates, each with its own domain",
+     "coord r > 0, 0 < theta < pi, phi", qdot_declare_coord, false},
+    {"function", DECLARE, "function NAME(ARGUMENTS), ...",
+     "declare undefined functions; the bare name means the function at these arguments",
+     "function x(s), y(s, t)", qdot_declare_function, false},
+    {"assume", DECLARE, "assume RELATION", "a relation that the engine may use",
+     "assume diff(x(s), s)^2 + diff(y(s), s)^2 = 1", qdot_declare_assume, false},
+    {"particle", DECLARE, "particle NAME mass M at R",
+     "a mass point at r(q, t), in 1, 2 or 3 dimensions", "particle bob mass m at (x, y)",
+     qdot_object_particle, false},
+    {"body", DECLARE,
+     "body NAME mass M inertia I [about P] at R angle A | euler(PHI, THETA, PSI) | "
+     "rotation MATRIX",
+     "a rigid body, planar (angle) or spatial (euler, rotation); R is its centre of mass",
+     "body plate mass m inertia I at (x, y) angle theta", qdot_object_body, false},
+    {"gravity", DECLARE, "gravity [NAME:] VECTOR",
+     "a uniform field that acts on every particle and body; said again it replaces the one "
+     "before, those with labels add up", "gravity (0, -g)",
+     qdot_object_gravity, false},
+    {"potential", DECLARE, "potential [NAME:] V", "a term of the potential energy",
+     "potential k*r^2/2", qdot_object_potential, false},
+    {"spring", DECLARE, "spring [NAME] between A, B stiffness K [rest L]",
+     "V = K/2 (d - L)^2, d the distance of A and B (particles, points, vectors)",
+     "spring s1 between bob, (0, 0) stiffness k rest L0", qdot_object_spring, false},
+    {"damper", DECLARE, "damper [NAME] between A, B coefficient C",
+     "pulls with -C d' along the line from A to B",
+     "damper d1 between bob, (0, 0) coefficient c", qdot_object_damper, false},
+    {"dissipation", DECLARE, "dissipation [NAME:] D",
+     "a term of the Rayleigh function: Q has -dD/dq'", "dissipation c*theta'^2/2",
+     qdot_object_dissipation, false},
+    {"force", DECLARE,
+     "force [NAME:] F on PARTICLE | on COORDINATE | at POINT | on BODY at material POINT",
+     "an applied force; it enters through virtual work; `at material`: on what is there of the "
+     "body, as friction at a contact",
+     "force (0, -m*g) on bob",
+     qdot_object_force, false},
+    {"torque", DECLARE, "torque [NAME:] TAU on COORDINATE | on BODY",
+     "a generalized force on a coordinate, or a torque on a body through its spin",
+     "torque tau on theta", qdot_object_torque, false},
+    {"lagrangian", DECLARE, "lagrangian L",
+     "state the Lagrangian itself, in place of particles and bodies",
+     "lagrangian m*x'^2/2 - k*x^2/2", qdot_object_lagrangian, false},
+    {"constraint", DECLARE, "constraint [NAME:] A = B",
+     "a constraint; its kind is the highest derivative it holds; lambda[NAME] is its "
+     "multiplier",
+     "constraint rod: x^2 + y^2 = L^2", qdot_object_constraint, false},
+    {"remove", DECLARE, "remove NAME | remove KIND [K]",
+     "take a thing out of the scene again: by its label; the only one of its kind (gravity, "
+     "potential, spring, damper, dissipation, force, torque), or the K-th", "remove d1",
+     qdot_remove, false},
+    {"event", DECLARE,
+     "event NAME: A = B [rising|falling] [stop] [then NAME = VALUE, ...]",
+     "a moment of a run: noted, its end, or a change there of coordinates, velocities and, for "
+     "the rest of the run, parameters", "event cross: theta = 0 rising stop", qdot_event_declare, false},
+    {"reset", DECLARE, "reset | reset scene | reset start",
+     "forget everything, or the scene, or the initial state", "reset scene",
+     qdot_reset, false},
 
-typedef struct {
-    qdot_session *session;
-    qdot_source *source;
-    qdot_token *tokens;
-    size_t n;
-    uint32_t *match; /* of each `{` its `}`; NULL where the source has no block */
-    qdot_vec(frame) frames;
-    size_t error_at;
-} engine;
+    /* --- section 3 ------------------------------------------------------------------ */
+    {"check", ASK,
+     "check [not] A == B [when C, D] [within E] | check [not] conserved E | "
+     "check [not] integrable LABEL",
+     "decide an identity, an inequality, a conservation, or whether a velocity constraint "
+     "is holonomic in disguise: proved, refuted or undecided",
+     "check sin(x)^2 + cos(x)^2 == 1", qdot_check, false},
+    {"scene", ASK, "scene [to \"FILE.lag\"]",
+     "print what is declared; to a .lag file: the statements that give the same scene again, with "
+     "definitions, values, start and events", "scene to \"x.lag\"", qdot_ask_scene, true},
+    {"dof", ASK, "dof", "coordinates, independent constraints, degrees of freedom", "dof",
+     qdot_ask_dof, true},
+    {"forces", ASK, "forces", "the generalized forces, part by part", "forces",
+     qdot_ask_forces, true},
+    {"cyclic", ASK, "cyclic", "the coordinates absent from L, each with its momentum",
+     "cyclic", qdot_ask_cyclic, true},
+    {"equilibria", ASK, "equilibria", "where the scene can rest, with stability",
+     "equilibria", qdot_equilibria_all, true},
+    {"modes", ASK, "modes [at EQUILIBRIUM]",
+     "normal modes about an equilibrium: frequencies and amplitudes",
+     "modes at equilibria[2]", qdot_equilibria_modes, true},
+    {"reactions", ASK, "reactions",
+     "the constraints' forces on each particle and body, by their multipliers",
+     "reactions", qdot_ask_reactions, true},
+    {"derive", ASK, "derive", "the derivation from r(q) to the equations, step by step",
+     "derive", qdot_derive_all, true},
 
-static bool
-is_op(const qdot_token *token, const char *op)
+    /* --- section 4 ------------------------------------------------------------------ */
+    {"set", NUMBERS, "set NAME = VALUE, ... | set F(ARGUMENTS) = EXPR",
+     "values of parameters and of declared functions, for numbers", "set m = 1, L = 1",
+     qdot_set_values, false},
+    {"start", NUMBERS, "start Q = VALUE, Q' = VALUE, ... [exactly] | start RUN",
+     "the initial state; changes only what it names; what constraints determine of the rest "
+     "is solved for, unless `exactly`",
+     "start theta = 2, theta' = 0",
+     qdot_set_start, false},
+    {"run", NUMBERS,
+     "run T0..T1 [tol E | digits N] [method NAME] [with NAME = VALUE, ...] "
+     "[constraints project|baumgarte|none] [as NAME]",
+     "integrate, and say how well it went", "run 0..20 tol 1e-12", qdot_run_statement,
+     false},
+    {"plan", NUMBERS,
+     "plan [tol E] [method NAME] [with NAME = VALUE, ...] [constraints project|baumgarte|none]",
+     "what the numerical side would do with this scene and why", "plan", qdot_run_plan_statement, false},
+    {"table", NUMBERS, "table EXPR, ... every DT [to \"FILE.csv\"]",
+     "a table along the latest run", "table theta, theta', energy every 0.1",
+     qdot_table_statement, false},
+    {"plot", NUMBERS,
+     "plot EXPR, ... [vs EXPR | vs NAME = A..B [for ...]] [to \"FILE.svg\"]",
+     "a figure along the latest run, or of an expression over a variable",
+     "plot theta, theta' to \"fig.svg\"", qdot_plot_statement, false},
+    {"save", NUMBERS, "save RUN to \"FILE.csv\" | save session to \"FILE.lag\"",
+     "a run whole: t, q, q', multipliers; or the scene with the style and the runs made, as "
+     "statements",
+     "save a to \"run.csv\"", qdot_table_save, false},
+    {"race", NUMBERS, "race T0..T1 [to \"FILE.svg\"]",
+     "one scene as given (projected, Baumgarte, none) and in minimal coordinates: errors, "
+     "drifts and times at a ladder of tolerances, and their figure",
+     "race 0..20", qdot_race_statement, false},
+    {"events", NUMBERS, "events", "what occurred in the latest run, and when", "events",
+     qdot_event_list, true},
+    {"workprecision", NUMBERS, "workprecision T0..T1 [to \"FILE\"]",
+     "error against time: every method over a ladder of tolerances",
+     "workprecision 0..20", qdot_workprecision_statement, false},
+    {"poincare", NUMBERS, "poincare A = B : EXPR, ...", "a section",
+     "poincare theta = 0 rising : theta2, theta2'", NULL, false},
+    {"lyapunov", NUMBERS, "lyapunov T0..T1", "the growth of nearby trajectories",
+     "lyapunov 0..1000", NULL, false},
+    {"sweep", NUMBERS, "sweep NAME = A..B step H run T0..T1 : EXPR [as NAME]",
+     "a run for each value", "sweep omega = 0..5 step 0.1 run 0..20 : value(theta, 20)",
+     NULL, false},
+    {"animate", NUMBERS, "animate to \"FILE\"", "a moving picture of a run",
+     "animate to \"double.html\"", NULL, false},
+
+    /* --- section 5 ------------------------------------------------------------------ */
+    {"help", WORKBENCH, "help [WORD]", "this list, or what a word means", "help particle",
+     qdot_help, false},
+    {"show", WORKBENCH, "show NAME", "what a name means and where it was declared",
+     "show m", qdot_ask_show, false},
+    {"vars", WORKBENCH, "vars", "every declared name", "vars", qdot_ask_vars, true},
+    {"print", WORKBENCH, "print EXPR, \"text\", ...", "expressions and texts in one line",
+     "print \"T is\", T", qdot_ask_print, false},
+    {"include", WORKBENCH, "include \"FILE.lag\"",
+     "carry out another script, found beside this one", "include \"other.lag\"",
+     qdot_settings_include, false},
+    {"undo", WORKBENCH, "undo [N]",
+     "take back the last statement that changed the session, or the last N: declarations, "
+     "definitions, values, runs, resets; a whole `for`, block or `include` is one",
+     "undo", qdot_undo_back, false},
+    {"redo", WORKBENCH, "redo [N]",
+     "do again what `undo` took back, until another statement changes the session", "redo",
+     qdot_undo_again, false},
+    {"style", WORKBENCH, "style plain | unicode | latex | mathml", "how expressions are written",
+     "style latex", qdot_settings_style, false},
+    {"timing", WORKBENCH, "timing on | off", "tell the CPU time of every statement",
+     "timing on", qdot_settings_timing, false},
+    {"report", WORKBENCH, "report to \"FILE\"", "everything as one page",
+     "report to \"x.html\"", NULL, false},
+    {"export", WORKBENCH, "export c|python|julia|latex EXPR to \"FILE\"",
+     "an expression as code", "export c eom to \"eom.c\"", NULL, false},
+    {"quit", WORKBENCH, "quit", "leave", "quit", qdot_settings_quit, true},
+};
+
+bool
+qdot_statement_declares(const qdot_statement *row)
 {
-    return token->kind == QDOT_TOKEN_OPERATOR && strcmp(token->text, op) == 0;
+    return strcmp(row->group, DECLARE) == 0;
 }
 
-static bool
-is_word(const qdot_token *token, const char *word)
+const qdot_statement *
+qdot_statement_at(size_t i)
 {
-    return token->kind == QDOT_TOKEN_NAME && strcmp(token->text, word) == 0;
+    return i < sizeof table / sizeof *table ? &table[i] : NULL;
 }
 
-/* --- what a statement is ------------------------------------------------------------ */
-
-/* The token behind the bracket that opens at `open`. */
-static const qdot_token *
-behind_bracket(const qdot_token *open)
+const qdot_statement *
+qdot_statement_find(const char *word)
 {
-    long depth = 0;
-
-    for (const qdot_token *k = open; k->kind != QDOT_TOKEN_END; k++) {
-        if (k->kind != QDOT_TOKEN_OPERATOR || k->text[1] != '\0')
-            continue;
-        depth += strchr("([{", k->text[0]) != NULL;
-        depth -= strchr(")]}", k->text[0]) != NULL;
-        if (depth == 0)
-            return k + 1;
-    }
-    return open; /* a statement cut by a `for` inside: not a bracket that closes */
-}
-
-/* NAME =, NAME[...] =, NAME(names) =. Behind a statement's word a bracket opens an
- * operand unless it is written close to it. */
-static bool
-is_definition(const qdot_token *name, bool word)
-{
-    const qdot_token *next = name + 1;
-
-    if (is_op(next, "="))
-        return true;
-    if (!(is_op(next, "[") || is_op(next, "(")) || (word && !next->glued))
-        return false;
-    if (is_op(next, "(")) {
-        const qdot_token *k = next + 1;
-
-        while (k->kind == QDOT_TOKEN_NAME && is_op(k + 1, ","))
-            k += 2;
-        return k->kind == QDOT_TOKEN_NAME && is_op(k + 1, ")") && is_op(k + 2, "=");
-    }
-    next = behind_bracket(next);
-    return is_op(next, "=");
-}
-
-/* Whether the statement's word is meant as a name here: `run*2`, a user's own `scene`. */
-static bool
-is_used_as_name(const qdot_session *session, const qdot_token *name,
-                const qdot_statement *row)
-{
-    static const char *const binary[] = {"*", "/",  "^",  "'", "==", "<",
-                                         ">", "<=", ">=", "=", "!=", "."};
-    const qdot_token *next = name + 1;
-    bool declared = qdot_names_find(session->names, name->text) != NULL ||
-                    qdot_names_is_family(session->names, name->text);
-
-    if (row->alone)
-        return (next->kind != QDOT_TOKEN_END && !is_word(next, "at") &&
-                !(is_word(next, "to") && next[1].kind != QDOT_TOKEN_OPERATOR)) ||
-               declared;
-    for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
-        if (is_op(next, binary[i]))
-            return true;
-    return declared &&
-           (next->kind == QDOT_TOKEN_END || is_op(next, "+") || is_op(next, "-") ||
-            ((is_op(next, "(") || is_op(next, "[")) && next->glued));
-}
-
-/* `partcle bob mass m`: two names side by side, the first of them unknown. */
-static qdot_status
-unknown_word(qdot_cursor *c)
-{
-    const char *words[128], *near;
-    size_t n = 0;
-
-    for (; n < 128 && qdot_statement_at(n) != NULL; n++)
-        words[n] = qdot_statement_at(n)->word;
-    near = qdot_names_nearest(c->session->names, c->at->text, n, words);
-    c->error_at = c->at->start;
-    (void)qdot_fail(QDOT_ESYNTAX, "no statement begins with `%s`", c->at->text);
-    if (is_word(c->at, "for"))
-        return qdot_hint("it ends one: print k^2 for k = 1..3");
-    return near != NULL && qdot_statement_find(near) != NULL
-               ? qdot_hint("did you mean `%s`?", near)
-               : qdot_hint("`help` lists the statements; a product is written with *");
-}
-
-static bool
-is_unknown_word(const qdot_session *session, const qdot_token *name)
-{
-    const char *text = name->text;
-
-    return name->kind == QDOT_TOKEN_NAME && name[1].kind == QDOT_TOKEN_NAME &&
-           !is_word(name + 1, "and") && !is_word(name + 1, "or") &&
-           !is_word(name, "not") && qdot_names_find(session->names, text) == NULL &&
-           !qdot_names_is_family(session->names, text) &&
-           qdot_quantity_find(text) == NULL && qdot_builtin_find(text) == NULL &&
-           !qdot_scene_has_label(session->scene, text) && strcmp(text, "t") != 0 &&
-           strcmp(text, "pi") != 0;
-}
-
-static qdot_status
-carry_out_row(qdot_cursor *c, const qdot_statement *row)
-{
-    qdot_status status;
-
-    c->session->declares = qdot_statement_declares(row);
-    qdot_taken_forget(c->session);
-    status = row->run(c);
-    if (c->session->declares)
-        status = qdot_taken_tell(c->session, status);
-    c->session->declares = false;
-    return status;
-}
-
-static qdot_status
-dispatch(qdot_cursor *c)
-{
-    const qdot_statement *row =
-        c->at->kind == QDOT_TOKEN_NAME ? qdot_statement_find(c->at->text) : NULL;
-
-    if (c->at->kind == QDOT_TOKEN_NAME && is_definition(c->at, row != NULL)) {
-        QDOT_TRY(qdot_declare_definition(c));
-    } else if (row != NULL && !is_used_as_name(c->session, c->at, row)) {
-        if (row->run == NULL) {
-            c->error_at = c->at->start;
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", row->word);
-        }
-        c->at++;
-        QDOT_TRY(carry_out_row(c, row));
-    } else if (is_unknown_word(c->session, c->at)) {
-        return unknown_word(c);
-    } else {
-        QDOT_TRY(qdot_ask_expression(c));
-    }
-    QDOT_TRY(qdot_pool_check(c->session->pool));
-    return qdot_cursor_expect_end(c);
-}
-
-/* The `to FILE` that ends the statement, where its own handler does not read it. */
-static const qdot_token *
-find_to(const qdot_session *session, const qdot_token *first)
-{
-    const qdot_statement *row =
-        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
-
-    if (first->kind == QDOT_TOKEN_NAME && is_definition(first, row != NULL))
-        return NULL;
-    if (row != NULL && is_used_as_name(session, first, row) && !is_word(first + 1, "to"))
-        row = NULL;
-    return qdot_redirect_find(row, first);
-}
-
-/* The statement with its answers in a file; `to` is an end to it for the while. */
-static qdot_status
-dispatch_to(engine *x, qdot_cursor *c, size_t to)
-{
-    qdot_redirect redirect;
-    qdot_status status;
-
-    c->error_at = x->tokens[to + 1].start;
-    QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
-    x->tokens[to].kind = QDOT_TOKEN_END;
-    status = dispatch(c);
-    x->tokens[to].kind = QDOT_TOKEN_NAME;
-    if (status == QDOT_OK)
-        c->error_at = x->tokens[to + 1].start;
-    return qdot_redirect_end(&redirect, status);
-}
-
-/* One notice for all forms of the answer that the work budget left unfinished. Where none is
- * shown, as by `check` or `run`, it does not matter. */
-static qdot_status
-tell_unfinished(qdot_session *session, const qdot_token *first)
-{
-    const qdot_statement *row =
-        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
-
-    if (!qdot_pool_unfinished_taken(session->pool) ||
-        (row != NULL && !row->alone && strcmp(row->word, "print") != 0))
-        return QDOT_OK;
-    return qdot_answer_notice(session, "simplification stopped at its budget of work: there "
-                                       "may be a shorter form");
-}
-
-static qdot_status
-statement(engine *x, size_t i)
-{
-    qdot_cursor c = {.session = x->session,
-                     .source = x->source,
-                     .at = &x->tokens[i],
-                     .error_at = x->tokens[i].start};
-    qdot_status status = qdot_interrupt_check();
-    const qdot_token *to = status == QDOT_OK ? find_to(x->session, &x->tokens[i]) : NULL;
-
-    (void)qdot_pool_unfinished_taken(x->session->pool); /* of a statement that failed */
-    if (status == QDOT_OK)
-        status = to == NULL ? dispatch(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
-    if (status == QDOT_OK)
-        return tell_unfinished(x->session, &x->tokens[i]);
-    x->error_at = c.error_at;
-    if (qdot_pool_failed(
-            x->session->pool)) { /* the statement's failure is the one to tell */
-        qdot_error error = *qdot_last_error();
-
-        (void)!qdot_pool_check(x->session->pool);
-        (void)qdot_fail_again(&error);
-    }
-    return status;
-}
-
-/* --- trailing `for` ----------------------------------------------------------------- */
-
-/* The top-level `for NAME =` of the statement at i, or its END. plot keeps the one
- * that goes with `vs NAME =`. */
-static size_t
-statement_end(const engine *x, size_t i)
-{
-    bool own = false;
-    long depth = 0;
-
-    for (size_t k = i;; k++) {
-        const qdot_token *token = &x->tokens[k];
-
-        if (token->kind == QDOT_TOKEN_END)
-            return k;
-        if (token->kind == QDOT_TOKEN_OPERATOR && token->text[1] == '\0') {
-            depth += strchr("([{", token->text[0]) != NULL;
-            depth -= strchr(")]}", token->text[0]) != NULL;
-        }
-        if (depth != 0 || k == i)
-            continue;
-        if (is_word(token, "vs") && token[1].kind == QDOT_TOKEN_NAME &&
-            is_op(token + 2, "=") && is_word(&x->tokens[i], "plot"))
-            own = true;
-        if (!own && is_word(token, "for") && token[1].kind == QDOT_TOKEN_NAME &&
-            (is_op(token + 2, "=") || token[2].kind == QDOT_TOKEN_NAME ||
-             token[2].kind == QDOT_TOKEN_END))
-            return k;
-    }
-}
-
-/* Index of the END at or behind i. */
-static size_t
-find_end(const engine *x, size_t i)
-{
-    while (x->tokens[i].kind != QDOT_TOKEN_END)
-        i++;
-    return i;
-}
-
-/* Say in which pass it failed, where there is room for a hint. */
-static void
-tell_pass(const engine *x, const qdot_loop *loop)
-{
-    qdot_text text = {0};
-
-    if (qdot_last_error()->hint[0] != '\0' || qdot_last_error()->status == QDOT_EINTR)
-        return;
-    for (size_t i = 0; i < loop->indices.n; i++) {
-        const qdot_loop_index *index = &loop->indices.at[i];
-
-        qdot_text_format(&text, "%s%s = ", i > 0 ? ", " : "", index->name);
-        if (!index->listed)
-            qdot_text_format(&text, "%ld", index->at);
-        else if (qdot_print(x->session->pool, index->values.at[index->next], QDOT_PLAIN,
-                            &text) != QDOT_OK)
-            break;
-    }
-    if (text.n > 0 && text.n < 100)
-        (void)qdot_hint("in the pass with %s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-}
-
-static qdot_status
-repeat(engine *x, size_t i, size_t word)
-{
-    qdot_cursor c = {
-        .session = x->session, .source = x->source, .at = &x->tokens[word + 1]};
-    qdot_loop loop;
-    qdot_status status;
-    bool more;
-
-    status = qdot_loop_begin(&loop, &c, &more);
-    while (status == QDOT_OK && more) {
-        x->tokens[word].kind = QDOT_TOKEN_END;
-        status = statement(x, i);
-        x->tokens[word].kind = QDOT_TOKEN_NAME;
-        if (status != QDOT_OK) {
-            tell_pass(x, &loop);
-            qdot_loop_end(&loop);
-            return status;
-        }
-        status = qdot_loop_next(&loop, &more);
-    }
-    if (status != QDOT_OK)
-        x->error_at = loop.error_at;
-    qdot_loop_end(&loop);
-    return status;
-}
-
-static void
-tell_time(const engine *x, clock_t since)
-{
-    qdot_text text = {0};
-    double s = (double)(clock() - since) / CLOCKS_PER_SEC;
-
-    qdot_text_add(&text, "cpu ");
-    qdot_text_double(&text, s * 1e3, 3);
-    qdot_text_format(&text, " ms; %zu nodes in ", qdot_pool_count(x->session->pool));
-    qdot_text_double(&text, (double)qdot_pool_bytes(x->session->pool) / 1e6, 3);
-    qdot_text_add(&text, " MB");
-    (void)!qdot_answer_text(x->session, "timing", qdot_text_str(&text));
-    qdot_text_clear(&text);
-}
-
-/* The simple statement at i, each pass of its `for`; *next: the token behind it. */
-static qdot_status
-simple(engine *x, size_t i, size_t *next)
-{
-    size_t end = statement_end(x, i);
-    clock_t since = clock();
-    bool timed = x->session->timing && x->frames.n == 0;
-
-    *next = find_end(x, end);
-    QDOT_TRY(x->tokens[end].kind == QDOT_TOKEN_END ? statement(x, i) : repeat(x, i, end));
-    if (timed && x->session->timing)
-        tell_time(x, since);
-    return QDOT_OK;
-}
-
-/* --- blocks ------------------------------------------------------------------------- */
-
-/* The `}` of every `{`. */
-static qdot_status
-match_blocks(engine *x)
-{
-    qdot_vec(uint32_t) open = {0};
-    qdot_status status = QDOT_OK;
-
-    for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
-        if (is_op(&x->tokens[i], "{")) {
-            if (x->match == NULL) {
-                x->match = qdot_calloc(x->n, sizeof *x->match);
-                if (x->match == NULL)
-                    status = QDOT_ENOMEM;
-            }
-            if (status == QDOT_OK)
-                status = qdot_vec_push(&open, (uint32_t)i);
-        } else if (is_op(&x->tokens[i], "}") && open.n > 0) {
-            x->match[open.at[--open.n]] = (uint32_t)i;
-        }
-    }
-    qdot_free(open.at);
-    return status;
-}
-
-/* Enter the block that opens at i, or step over it. */
-static qdot_status
-enter(engine *x, size_t i, size_t *next)
-{
-    frame f = {.body = i + 1, .close = x->match[i]};
-    qdot_cursor c = {
-        .session = x->session, .source = x->source, .at = &x->tokens[f.close + 1]};
-    qdot_status status;
-    bool more;
-
-    x->error_at = c.at->start;
-    QDOT_TRY(qdot_interrupt_check());
-    if (!qdot_cursor_accept_word(&c, "for"))
-        return qdot_cursor_expected(&c, "`for` behind the block");
-    f.resume = find_end(x, f.close + 1);
-    status = qdot_loop_begin(&f.loop, &c, &more);
-    if (status != QDOT_OK) {
-        x->error_at = f.loop.error_at;
-        return status;
-    }
-    *next = more ? f.body : f.resume;
-    if (!more)
-        return QDOT_OK;
-    status = qdot_vec_push(&x->frames, f);
-    if (status != QDOT_OK)
-        qdot_loop_end(&f.loop);
-    return status;
-}
-
-/* At the `}` of the innermost block: round again or on. */
-static qdot_status
-round_again(engine *x, size_t *next)
-{
-    frame *top = &x->frames.at[x->frames.n - 1];
-    bool more = false;
-    qdot_status status = qdot_loop_next(&top->loop, &more);
-
-    if (status != QDOT_OK)
-        x->error_at = top->loop.error_at;
-    *next = more ? top->body : top->resume;
-    if (!more) {
-        qdot_loop_end(&top->loop);
-        x->frames.n--;
-    }
-    return status;
-}
-
-/* One step from *i. */
-static qdot_status
-advance(engine *x, size_t *i)
-{
-    if (x->frames.n > 0 && *i == x->frames.at[x->frames.n - 1].close)
-        return round_again(x, i);
-    if (is_op(&x->tokens[*i], "{"))
-        return enter(x, *i, i);
-    if (x->tokens[*i].kind != QDOT_TOKEN_END)
-        return simple(x, *i, i);
-    ++*i;
-    return QDOT_OK;
-}
-
-/* The statement or block at *i, to its end. */
-static qdot_status
-whole(engine *x, size_t *i)
-{
-    const qdot_token *first = &x->tokens[*i], *last;
-    size_t begun = qdot_undo_begin(x->session);
-    qdot_status status;
-
-    do
-        status = advance(x, i);
-    while (status == QDOT_OK && x->frames.n > 0 && !x->session->quit);
-    last = &x->tokens[x->frames.n > 0         ? x->frames.at[0].resume
-                      : status == QDOT_OK     ? *i
-                                              : find_end(x, (size_t)(first - x->tokens))];
-    last -= last > first;
-    qdot_undo_end(x->session, begun, x->source->text + first->start,
-                  last->start + last->length - first->start);
-    return status;
-}
-
-static qdot_status
-carry_out(engine *x)
-{
-    size_t i = 0;
-
-    while (i < x->n && !x->session->quit) {
-        if (x->tokens[i].kind == QDOT_TOKEN_END)
-            i++;
-        else
-            QDOT_TRY(whole(x, &i));
-    }
-    return QDOT_OK;
-}
-
-/* --- a whole text ------------------------------------------------------------------- */
-
-qdot_status
-qdot_statement_run_text(qdot_session *session, const char *name, const char *text,
-                        size_t length)
-{
-    engine x = {.session = session};
-    qdot_status status = qdot_source_new(name, text, length, &x.source, &x.error_at);
-    size_t outer = qdot_undo_text_begin(session);
-
-    if (status == QDOT_OK) {
-        x.tokens = x.source->tokens.at;
-        x.n = x.source->tokens.n;
-        status = match_blocks(&x);
-    }
-    if (status == QDOT_OK)
-        status = carry_out(&x);
-    qdot_undo_text_end(session, outer);
-    while (x.frames.n > 0) {
-        if (status != QDOT_OK)
-            tell_pass(&x, &x.frames.at[x.frames.n - 1].loop);
-        qdot_loop_end(&x.frames.at[--x.frames.n].loop);
-    }
-    if (status != QDOT_OK && x.error_at != QDOT_STATEMENT_REPORTED)
-        qdot_answer_error(session, x.source, x.error_at);
-    if (status == QDOT_EINTR)
-        qdot_interrupt_clear();
-    qdot_free(x.frames.at);
-    qdot_free(x.match);
-    qdot_source_free(x.source);
-    return status;
-}
-
-/* --- shared by handlers ------------------------------------------------------------- */
-
-void
-qdot_statement_place(const qdot_cursor *c, const qdot_token *start, qdot_name *entry)
-{
-    uint32_t column;
-
-    entry->file = c->source->name;
-    qdot_source_locate(c->source, start->start, &entry->line, &column);
-}
-
-/* Whether a sign behind this token is one between two operands. */
-static bool
-ends_operand(const qdot_token *token)
-{
-    if (token->kind == QDOT_TOKEN_NAME)
-        return !is_word(token, "and") && !is_word(token, "or") && !is_word(token, "not");
-    return token->kind == QDOT_TOKEN_NUMBER || token->kind == QDOT_TOKEN_STRING ||
-           is_op(token, ")") || is_op(token, "]") || is_op(token, "'") ||
-           is_op(token, "%");
-}
-
-static bool
-is_spaced(const qdot_token *token)
-{
-    static const char *const spaced[] = {"+", "-", "=", "==", "<", ">", "<=", ">=", "!="};
-
-    for (size_t i = 0; i < sizeof spaced / sizeof *spaced; i++)
-        if (is_op(token, spaced[i]))
-            return true;
-    return false;
-}
-
-/* The value of a loop's index in place of its name; false: the name is none. */
-static bool
-add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
-{
-    const qdot_name *name = token->kind == QDOT_TOKEN_NAME
-                                ? qdot_names_find(session->names, token->text)
-                                : NULL;
-    qdot_text value = {0};
-    bool printed, whole;
-
-    if (name == NULL || name->kind != QDOT_NAME_INDEX)
-        return false;
-    printed = qdot_print(session->pool, name->value, QDOT_PLAIN, &value) == QDOT_OK;
-    whole = strspn(qdot_text_str(&value), "0123456789") == value.n;
-    if (printed)
-        qdot_text_format(out, whole ? "%s" : "(%s)", qdot_text_str(&value));
-    qdot_text_clear(&value);
-    return printed;
-}
-
-/* x₁ that is x[1] or x_1, as that; false: it is neither. */
-static bool
-add_small(const qdot_session *session, const qdot_token *token, qdot_text *out)
-{
-    qdot_text spelled = {0};
-    bool is = false;
-
-    if (token->kind == QDOT_TOKEN_NAME && token->length != strlen(token->text) &&
-        qdot_names_find(session->names, token->text) == NULL)
-        for (unsigned form = 0;
-             !is && qdot_resolve_small(token->text, form, &spelled); form++)
-            is = qdot_names_find(session->names, qdot_text_str(&spelled)) != NULL;
-    qdot_text_add(out, is ? qdot_text_str(&spelled) : "");
-    qdot_text_clear(&spelled);
-    return is;
-}
-
-/* Signs that the letters at hand cannot say: ½, √2, sin²(x). False: there are none here; *used: how
- * many tokens they are. */
-static bool
-add_sign(const qdot_token *k, const qdot_token *to, qdot_text *out, size_t *used)
-{
-    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-
-    *used = 1;
-    if (k->kind == QDOT_TOKEN_NUMBER && strchr(k->text, '/') != NULL) {
-        qdot_text_format(out, "(%s)", k->text);
-        return true;
-    }
-    if (is_op(k, "sqrt")) {
-        qdot_text_add(out, k + 1 < to && is_op(k + 1, "(") ? "sqrt" : "√");
-        return true;
-    }
-    if (!is_op(k, "^") || k + 2 >= to || k[1].start != k->start || !is_op(k + 2, "("))
-        return false;
-    for (const char *digit = k[1].text; *digit != '\0'; digit++)
-        qdot_text_add(out, raised[*digit - '0']);
-    *used = 2;
-    return true;
-}
-
-void
-qdot_statement_text(qdot_session *session, const qdot_token *from, const qdot_token *to,
-                    qdot_text *out)
-{
-    int depth = 0, member = 0; /* brackets; those of x[1,2], or 0 */
-
-    for (const qdot_token *k = from; k < to; k++) {
-        bool binary = k > from && ends_operand(k - 1) && is_spaced(k);
-        bool words = k > from && k->kind != QDOT_TOKEN_OPERATOR &&
-                     (k[-1].kind != QDOT_TOKEN_OPERATOR || ends_operand(k - 1));
-        size_t used;
-
-        if (words && is_op(k - 1, "%"))
-            words = false;
-        qdot_text_add(out, binary || words ? " " : "");
-        if (k->kind == QDOT_TOKEN_STRING)
-            qdot_text_format(out, "\"%s\"", k->text);
-        else if (add_sign(k, to, out, &used))
-            k += used - 1;
-        else if (!add_index(session, k, out) && !add_small(session, k, out))
-            qdot_text_add(out, k->text);
-        if (is_op(k, "[") || is_op(k, "(")) {
-            depth++;
-            if (member == 0 && k > from && k[-1].kind == QDOT_TOKEN_NAME &&
-                qdot_names_is_family(session->names, k[-1].text))
-                member = depth;
-        } else if (is_op(k, "]") || is_op(k, ")")) {
-            if (member == depth--)
-                member = 0;
-        }
-        if (binary || (is_op(k, ",") && member == 0 && k + 1 < to) ||
-            (is_op(k, ";") && k + 1 < to))
-            qdot_text_char(out, ' ');
-    }
-}
-
-qdot_status
-qdot_statement_once(qdot_cursor *c, const char *word, bool given)
-{
-    if (!given)
-        return QDOT_OK;
-    c->error_at = c->at > c->source->tokens.at ? c->at[-1].start : c->at->start;
-    return qdot_fail(QDOT_EINVAL, "`%s` is given twice", word);
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (strcmp(table[i].word, word) == 0)
+            return &table[i];
+    return NULL;
 }

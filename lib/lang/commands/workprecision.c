@@ -1,14 +1,18 @@
 /* workprecision.c -- error against time, every method: a table, a figure, a file. */
-#include "sim/workprecision.h"
-
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
 #include "lang/answer/answer.h"
-#include "lang/commands/draw.h"
+#include "lang/answer/number-text.h"
+#include "lang/commands/figure-file.h"
+#include "lang/commands/request.h"
 #include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
 #include "show/show.h"
+#include "sim/workprecision.h"
 
 /* The columns, in the order of every form. */
 enum { COLUMNS = 13, CONSTRAINT_ERR = 10 };
@@ -121,7 +125,7 @@ table(const qdot_workprecision *w, qdot_text *out)
     }
     qdot_text_add(out, "err: the largest error at the end, each relative to max(1, "
                        "|value|), against a reference whose own is ");
-    qdot_answer_bound(out, w->ref_err);
+    qdot_number_text_bound(out, w->ref_err);
     qdot_text_add(out, ";\nscd = -log10 err; time: CPU seconds of the integration, the "
                        "least and the median\n");
 }
@@ -140,7 +144,7 @@ rows_json(qdot_session *session, const qdot_workprecision *w)
             if (!has_column(w, i + 1))
                 continue;
             qdot_text_char(&values, ',');
-            qdot_answer_json_double(&values, x[i]);
+            qdot_number_text_json(&values, x[i]);
         }
         qdot_text_char(&values, ',');
         qdot_text_json(&values, w->rows[k].status);
@@ -204,7 +208,7 @@ figure(qdot_session *session, const qdot_workprecision *w, const char *path)
         rows[f.curves++] = at - first;
     }
     if (status == QDOT_OK)
-        status = qdot_draw_show(session, &f, path);
+        status = qdot_figure_file_show(session, &f, path);
     qdot_free(columns);
     qdot_free(values);
     qdot_free(rows);
@@ -263,7 +267,7 @@ read_path(qdot_cursor *c, const char **path)
 
         if (!qdot_cursor_accept_word(c, "to"))
             return qdot_cursor_expected(c, "`to` and the name of a file");
-        QDOT_TRY(qdot_draw_read_file(c, path));
+        QDOT_TRY(qdot_figure_file_read(c, path));
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
             good = good || ends_in(*path, known[i]);
         if (!good) {
@@ -281,7 +285,7 @@ qdot_workprecision_statement(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
     qdot_session *session = c->session;
-    qdot_number_order order = {0};
+    qdot_request order = {0};
     qdot_workprecision w = {0};
     const char *path = NULL;
     qdot_expr from, to;
@@ -290,12 +294,12 @@ qdot_workprecision_statement(qdot_cursor *c)
     QDOT_TRY(qdot_read_range(c, &from, &to));
     QDOT_TRY(read_path(c, &path));
     c->error_at = start->start;
-    status = qdot_number_fill_order(session, &order);
+    status = qdot_request_fill(session, &order);
     if (status == QDOT_OK) {
         order.request.t0 =
-            qdot_session_bind(session, qdot_number_without_measured(session, from));
+            qdot_session_bind(session, qdot_measured_as_rationals(session, from));
         order.request.t1 =
-            qdot_session_bind(session, qdot_number_without_measured(session, to));
+            qdot_session_bind(session, qdot_measured_as_rationals(session, to));
         status = qdot_pool_check(session->pool);
     }
     if (status == QDOT_OK)
@@ -303,6 +307,6 @@ qdot_workprecision_statement(qdot_cursor *c)
     if (status == QDOT_OK)
         status = tell(session, &w, path);
     qdot_workprecision_clear(&w);
-    qdot_number_free_order(&order);
+    qdot_request_free(&order);
     return status;
 }

@@ -1,4 +1,6 @@
 /* builtin.c -- the functions of the language, a row each: dispatch and help in one. */
+#include "lang/functions/builtin.h"
+
 #include <limits.h>
 #include <string.h>
 
@@ -6,42 +8,17 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/commands/meant.h"
-#include "lang/commands/number.h"
-#include "lang/functions/numeric.h"
+#include "lang/answer/formula.h"
 #include "lang/functions/algebra.h"
-#include "lang/answer/answer.h"
-#include "lang/language/code.h"
 #include "lang/functions/equilibria.h"
+#include "lang/functions/numeric.h"
+#include "lang/functions/series.h"
+#include "lang/session/along.h"
+#include "lang/session/labels.h"
+#include "lang/session/range.h"
+#include "lang/session/value-kind.h"
 #include "mech/geometry.h"
 #include "mech/hamilton.h"
-#include "normal/simplify.h"
-
-#define READ_SIZE 300 /* operations */
-
-static qdot_status
-give(qdot_session *s, qdot_expr result, qdot_expr *value)
-{
-    *value = result;
-    return qdot_resolve_check(s->pool, result);
-}
-
-/* In the shortest form found, where it is of a size that a person reads. */
-static qdot_status
-give_short(qdot_session *s, qdot_expr result, qdot_expr *value)
-{
-    qdot_facts facts = qdot_scene_facts(s->scene);
-
-    if (result != QDOT_NIL && qdot_expr_size(s->pool, result) <= READ_SIZE)
-        result = qdot_simplify(s->pool, result, &facts);
-    return give(s, result, value);
-}
-
-static bool
-is_equation(const qdot_pool *pool, qdot_expr e)
-{
-    return qdot_expr_kind(pool, e) == QDOT_REL && qdot_expr_node(pool, e)->op == QDOT_EQ;
-}
 
 /* --- elementary functions ----------------------------------------------------------- */
 
@@ -62,17 +39,17 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
     uint32_t count;
 
     if (n == 1 && id != QDOT_MIN && id != QDOT_MAX)
-        return give(s, qdot_value_map(s->pool, args[0], elementary_of, &id), value);
+        return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], elementary_of, &id), value);
     if (n == 1 && qdot_expr_is_scalar(s->pool, args[0]) &&
         (qdot_expr_node(s->pool, args[0])->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
-        return qdot_number_range(s, NULL, qdot_fun_name(id), 1, args, NULL, value);
+        return qdot_range_value(s, NULL, qdot_fun_name(id), 1, args, NULL, value);
     if (n > 1 || (kind != QDOT_LIST && kind != QDOT_VEC) ||
         qdot_expr_count(s->pool, args[0]) == 0) {
         for (uint32_t i = 0; i < n; i++)
             if (!qdot_expr_is_scalar(s->pool, args[i]))
                 return qdot_fail(QDOT_ETYPE, "%s takes numbers, not %s",
-                                 qdot_fun_name(id), qdot_resolve_kind(s->pool, args[i]));
-        return give(s, qdot_fun(s->pool, id, n, args), value);
+                                 qdot_fun_name(id), qdot_value_kind_words(s->pool, args[i]));
+        return qdot_value_kind_give(s->pool, qdot_fun(s->pool, id, n, args), value);
     }
     count = qdot_expr_count(s->pool, args[0]);
     members = qdot_malloc(count * sizeof *members);
@@ -80,7 +57,7 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
         return QDOT_ENOMEM;
     for (uint32_t i = 0; i < count; i++)
         members[i] = qdot_expr_arg(s->pool, args[0], i);
-    qdot_status status = count == 1 ? give(s, members[0], value)
+    qdot_status status = count == 1 ? qdot_value_kind_give(s->pool, members[0], value)
                                     : elementary(s, id, count, members, value);
     qdot_free(members);
     return status;
@@ -106,137 +83,10 @@ static qdot_status
 call_sqrt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
-    return give(s, qdot_value_map(s->pool, args[0], sqrt_of, NULL), value);
-}
-
-/* --- calculus ----------------------------------------------------------------------- */
-
-static qdot_status
-call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    qdot_expr e = args[0];
-    long times = 1;
-
-    if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] == QDOT_PI ||
-        args[1] == QDOT_TRUE || args[1] == QDOT_FALSE) {
-        qdot_fail(QDOT_ETYPE,
-                  "diff(e, x) takes a symbol for x: a parameter, a coordinate, "
-                  "a velocity or t");
-        if (qdot_expr_kind(s->pool, args[1]) == QDOT_UFUN)
-            return qdot_hint("as in diff(x(s), s)");
-        return QDOT_ETYPE;
-    }
-    if (n == 3)
-        QDOT_TRY(qdot_session_integer(s, args[2], &times));
-    if (times < 0)
-        return qdot_fail(QDOT_EDOMAIN, "a derivative is taken 0, 1, 2 ... times, not %ld",
-                         times);
-    if (args[1] == QDOT_T && times > 0)
-        QDOT_TRY(qdot_meant_tell_partial(s, e));
-    for (; times > 0 && e != QDOT_NIL && e != QDOT_ZERO; times--)
-        e = qdot_diff(s->pool, e, args[1]);
-    return e == args[0] ? give(s, e, value) : give_short(s, e, value);
-}
-
-static qdot_status
-call_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return give_short(s, qdot_ddt(s->pool, args[0]), value);
-}
-
-/* --- equations ---------------------------------------------------------------------- */
-
-typedef enum { LEFT, RIGHT, DIFFERENCE } side;
-
-static qdot_expr
-side_of(qdot_pool *pool, qdot_expr equation, side which)
-{
-    qdot_expr left = qdot_expr_arg(pool, equation, 0);
-    qdot_expr right = qdot_expr_arg(pool, equation, 1);
-
-    return which == LEFT ? left : which == RIGHT ? right : qdot_sub(pool, left, right);
-}
-
-/* A side of an equation, or of each in a list or vector of them. */
-static qdot_status
-sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *value)
-{
-    qdot_pool *pool = s->pool;
-    qdot_kind kind = qdot_expr_kind(pool, e);
-    uint32_t n = qdot_expr_count(pool, e);
-    qdot_expr *members, odd = e;
-    bool sound = kind == QDOT_LIST || kind == QDOT_VEC;
-
-    if (is_equation(pool, e))
-        return give(s, side_of(pool, e, which), value);
-    for (uint32_t i = 0; sound && i < n; i++)
-        if (!is_equation(pool, qdot_expr_arg(pool, e, i))) {
-            odd = qdot_expr_arg(pool, e, i);
-            sound = false;
-        }
-    if (!sound)
-        return qdot_fail(QDOT_ETYPE, "%s takes an equation, not %s", name,
-                         qdot_resolve_kind(pool, odd));
-    members = qdot_malloc(n * sizeof *members);
-    if (members == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < n; i++)
-        members[i] = side_of(pool, qdot_expr_arg(pool, e, i), which);
-    e = kind == QDOT_LIST ? qdot_list(pool, n, members) : qdot_vector(pool, n, members);
-    qdot_free(members);
-    return give(s, e, value);
-}
-
-static qdot_status
-call_lhs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return sides(s, "lhs", args[0], LEFT, value);
-}
-
-static qdot_status
-call_rhs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return sides(s, "rhs", args[0], RIGHT, value);
-}
-
-static qdot_status
-call_residual(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return sides(s, "residual", args[0], DIFFERENCE, value);
+    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], sqrt_of, NULL), value);
 }
 
 /* --- forms -------------------------------------------------------------------------- */
-
-static qdot_status
-call_expand(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return give(s, qdot_expand(s->pool, args[0]), value);
-}
-
-static qdot_status
-call_collect(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    if (!qdot_expr_is_scalar(s->pool, args[1]) ||
-        qdot_expr_kind(s->pool, args[1]) == QDOT_NUM)
-        return qdot_fail(QDOT_ETYPE,
-                         "collect(e, x) takes a symbol or an expression for x");
-    return give(s, qdot_collect(s->pool, args[0], args[1]), value);
-}
-
-static qdot_status
-call_simplify(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    qdot_facts facts = qdot_scene_facts(s->scene);
-
-    (void)n;
-    return give(s, qdot_simplify(s->pool, args[0], &facts), value);
-}
 
 static qdot_status
 call_size(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
@@ -244,7 +94,7 @@ call_size(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     uint64_t size = qdot_expr_size(s->pool, args[0]);
 
     (void)n;
-    return give(s, qdot_expr_int(s->pool, size > LONG_MAX ? LONG_MAX : (long)size),
+    return qdot_value_kind_give(s->pool, qdot_expr_int(s->pool, size > LONG_MAX ? LONG_MAX : (long)size),
                 value);
 }
 
@@ -261,14 +111,14 @@ call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     for (uint32_t i = 0; i < count && status == QDOT_OK; i++) {
         qdot_text text = {0};
 
-        status = qdot_answer_print(s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0],
-                                   QDOT_LATEX, &text);
+        status = qdot_formula_print(s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0],
+                                    QDOT_LATEX, &text);
         if (status == QDOT_OK)
             members[i] = qdot_symbol_get(s->pool, QDOT_WORDS, qdot_text_str(&text));
         qdot_text_clear(&text);
     }
     if (status == QDOT_OK)
-        status = give(s, list ? qdot_list(s->pool, count, members) : members[0], value);
+        status = qdot_value_kind_give(s->pool, list ? qdot_list(s->pool, count, members) : members[0], value);
     qdot_free(members);
     return status;
 }
@@ -280,14 +130,14 @@ call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
-        return give_short(s, function(s->pool, args[0]), value);                         \
+        return qdot_algebra_give_short(s, function(s->pool, args[0]), value);                         \
     }
 #define TWO(word, function)                                                              \
     static qdot_status call_##word(qdot_session *s, uint32_t n, const qdot_expr *args,   \
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
-        return give_short(s, function(s->pool, args[0], args[1]), value);                \
+        return qdot_algebra_give_short(s, function(s->pool, args[0], args[1]), value);                \
     }
 TWO(dot, qdot_dot)
 TWO(cross, qdot_cross)
@@ -307,7 +157,7 @@ check_place(qdot_session *s, const char *name, qdot_expr R)
     if (qdot_expr_is_scalar(s->pool, R) || qdot_expr_kind(s->pool, R) == QDOT_VEC)
         return QDOT_OK;
     return qdot_fail(QDOT_ETYPE, "%s(R) takes a vector r(q), not %s", name,
-                     qdot_resolve_kind(s->pool, R));
+                     qdot_value_kind_words(s->pool, R));
 }
 
 static qdot_status
@@ -315,7 +165,7 @@ call_ds2(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
     QDOT_TRY(check_place(s, "ds2", args[0]));
-    return give(s, qdot_mech_ds2(s->scene, args[0]), value);
+    return qdot_value_kind_give(s->pool, qdot_mech_ds2(s->scene, args[0]), value);
 }
 
 static qdot_status
@@ -323,7 +173,7 @@ call_speed2(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value
 {
     (void)n;
     QDOT_TRY(check_place(s, "speed2", args[0]));
-    return give(s, qdot_mech_speed2(s->scene, args[0]), value);
+    return qdot_value_kind_give(s->pool, qdot_mech_speed2(s->scene, args[0]), value);
 }
 
 static qdot_status
@@ -331,7 +181,7 @@ call_metric(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value
 {
     (void)n;
     QDOT_TRY(check_place(s, "metric", args[0]));
-    return give(s, qdot_mech_metric(s->scene, args[0]), value);
+    return qdot_value_kind_give(s->pool, qdot_mech_metric(s->scene, args[0]), value);
 }
 
 /* --- rest ------------------------------------------------------------------------------ */
@@ -352,7 +202,7 @@ call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
     {                                                                                    \
         (void)n;                                                                         \
         QDOT_TRY(check_place(s, #word, args[0]));                                        \
-        return give(s, qdot_geometry_##word(s->scene, args[0]), value);                  \
+        return qdot_value_kind_give(s->pool, qdot_geometry_##word(s->scene, args[0]), value);                  \
     }
 /* Of a field and the place R whose frame it is in. */
 #define OF_FIELD(word)                                                                   \
@@ -361,7 +211,7 @@ call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
     {                                                                                    \
         (void)n;                                                                         \
         QDOT_TRY(check_place(s, #word, args[1]));                                        \
-        return give(s, qdot_geometry_##word(s->scene, args[0], args[1]), value);         \
+        return qdot_value_kind_give(s->pool, qdot_geometry_##word(s->scene, args[0], args[1]), value);         \
     }
 OF_PLACE(christoffel)
 OF_PLACE(riemann)
@@ -399,7 +249,7 @@ call_poisson(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *valu
     (void)n;
     if (!qdot_expr_is_scalar(s->pool, args[0]) && !qdot_expr_is_scalar(s->pool, args[1]))
         return qdot_fail(QDOT_ETYPE, "one of the two in poisson(f, g) is a number");
-    return give(s, qdot_value_map(s->pool, args[0], bracket_with, &b), value);
+    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], bracket_with, &b), value);
 }
 #undef OF_PLACE
 #undef OF_FIELD
@@ -427,7 +277,7 @@ label_of(qdot_session *s, qdot_expr carrier, bool particles, const char **label)
             return QDOT_OK;
         return qdot_fail(QDOT_ETYPE, "`%.200s` is a particle, not a body", *label);
     }
-    return qdot_hints_unknown_label(s, particles ? "body or particle" : "body", *label);
+    return qdot_labels_unknown(s->scene, particles ? "body or particle" : "body", *label);
 }
 
 static qdot_status
@@ -436,7 +286,7 @@ call_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     const char *label = NULL;
 
     QDOT_TRY(label_of(s, args[0], n == 1, &label));
-    return give(s, qdot_scene_point(s->scene, label, n == 2 ? args[1] : QDOT_NIL), value);
+    return qdot_value_kind_give(s->pool, qdot_scene_point(s->scene, label, n == 2 ? args[1] : QDOT_NIL), value);
 }
 
 static qdot_status
@@ -446,7 +296,7 @@ call_spin(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 
     (void)n;
     QDOT_TRY(label_of(s, args[0], false, &label));
-    return give(s, qdot_scene_spin(s->scene, label), value);
+    return qdot_value_kind_give(s->pool, qdot_scene_spin(s->scene, label), value);
 }
 
 static qdot_status
@@ -456,7 +306,7 @@ call_velocity(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 
     (void)n;
     QDOT_TRY(label_of(s, args[0], false, &label));
-    return give(s, qdot_scene_velocity(s->scene, label, args[1]), value);
+    return qdot_value_kind_give(s->pool, qdot_scene_velocity(s->scene, label, args[1]), value);
 }
 
 /* --- numbers of a run --------------------------------------------------------------- */
@@ -464,19 +314,19 @@ call_velocity(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 static qdot_status
 call_mean(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
-    return qdot_number_range(s, NULL, "mean", n, args, NULL, value);
+    return qdot_range_value(s, NULL, "mean", n, args, NULL, value);
 }
 
 static qdot_status
 call_drift(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
-    return qdot_number_range(s, NULL, "drift", n, args, NULL, value);
+    return qdot_range_value(s, NULL, "drift", n, args, NULL, value);
 }
 
 static qdot_status
 call_value(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
-    return qdot_number_value(s, NULL, n, args, value);
+    return qdot_along_value(s, NULL, n, args, value);
 }
 
 /* --- the table ---------------------------------------------------------------------- */
@@ -548,28 +398,28 @@ static const qdot_builtin rows[] = {
     {"sum", 4, 4, call_form, "sum(EXPR, k, a, b)", "the sum over k = a ... b",
      "sum(k^2, k, 1, 3)", QDOT_BUILTIN_FORM, NULL},
 
-    ROW(2, 3, diff, "diff(e, x) or diff(e, x, n)",
+    ALGEBRA(2, 3, diff, "diff(e, x) or diff(e, x, n)",
         "partial derivative, n times; all other symbols held", "diff(sin(t)^2, t)"),
-    ROW(1, 1, ddt, "ddt(e)", "total time derivative", "ddt(t^2)"),
+    ALGEBRA(1, 1, ddt, "ddt(e)", "total time derivative", "ddt(t^2)"),
     ALGEBRA(
-        2, -1, subs, "subs(e, x = a, y = b)",
+        2, -1, subs, QDOT_ALGEBRA_SUBS,
         "e with the replacements made, all at once; a list of equations may stand there",
         "subs(t^2, t = 3)"),
-    ROW(1, 1, lhs, "lhs(a = b)", "left side of an equation", "lhs(t = 2)"),
-    ROW(1, 1, rhs, "rhs(a = b)", "right side of an equation", "rhs(t = 2)"),
-    ROW(1, 1, residual, "residual(a = b)", "left side minus right side",
+    ALGEBRA(1, 1, lhs, "lhs(a = b)", "left side of an equation", "lhs(t = 2)"),
+    ALGEBRA(1, 1, rhs, "rhs(a = b)", "right side of an equation", "rhs(t = 2)"),
+    ALGEBRA(1, 1, residual, "residual(a = b)", "left side minus right side",
         "residual(t = 2)"),
-    ROW(1, 1, expand, "expand(e)", "products multiplied out", "expand((t + 1)^2)"),
-    ROW(2, 2, collect, "collect(e, x)", "e as a sum over powers of x",
+    ALGEBRA(1, 1, expand, "expand(e)", "products multiplied out", "expand((t + 1)^2)"),
+    ALGEBRA(2, 2, collect, "collect(e, x)", "e as a sum over powers of x",
         "collect(t*2 + t*pi, t)"),
-    ROW(1, 1, simplify, "simplify(e)", "the shortest form found",
+    ALGEBRA(1, 1, simplify, "simplify(e)", "the shortest form found",
         "simplify(sin(t)^2 + cos(t)^2)"),
     ALGEBRA(1, 1, factor, "factor(e)", "e as a product of irreducible factors",
             "factor(t^2 - 1)"),
     ALGEBRA(2, 2, solve, "solve(a = b, x)",
             "every real x, a list; angles between -pi and pi; parameters are generic",
             "solve(t^2 = 4, t)"),
-    ALGEBRA(3, -1, series, "series(e, x = a, y = b, n)",
+    ALGEBRA(3, -1, series, QDOT_SERIES,
             "Taylor series about x = a, y = b: terms up to total degree n",
             "series(cos(t), t = 0, 4)"),
     ROW(1, 1, size, "size(e)", "number of operations in e", "size(t^2 + 1)"),

@@ -8,9 +8,9 @@
 #include "base/text.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/commands/ask.h"
-#include "lang/language/code.h"
-#include "lang/answer/digits.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/value-kind.h"
 #include "normal/decide.h"
 #include "tape/constant.h"
 
@@ -101,7 +101,7 @@ round_to(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, double *e
     if (minus && *value != QDOT_NIL)
         *value = qdot_neg(pool, *value);
     qdot_text_clear(&text);
-    return qdot_resolve_check(pool, *value);
+    return qdot_value_kind_check(pool, *value);
 }
 
 /* A constant as a decimal number of so many digits; and what that is off by. */
@@ -134,7 +134,7 @@ number(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 static qdot_status
 shortened(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 {
-    qdot_expr exact = qdot_number_without_measured(session, e);
+    qdot_expr exact = qdot_measured_as_rationals(session, e);
     double error;
 
     QDOT_TRY(qdot_pool_check(session->pool));
@@ -170,7 +170,7 @@ written(const writer *w, qdot_expr e, qdot_expr *value)
 {
     double error;
 
-    QDOT_TRY(qdot_resolve_check(w->pool, e));
+    QDOT_TRY(qdot_value_kind_check(w->pool, e));
     return decimal(w->pool, e, w->digits, value, &error);
 }
 
@@ -249,7 +249,7 @@ with_decimals(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
 
         status = node(&w, walk.at[i], &to);
         if (status == QDOT_OK)
-            status = qdot_resolve_check(pool, to);
+            status = qdot_value_kind_check(pool, to);
         qdot_walk_set(&walk, walk.at[i], to);
     }
     *value = status == QDOT_OK ? known(&w, e) : QDOT_NIL;
@@ -293,11 +293,11 @@ numbered(qdot_pool *pool, qdot_expr e, void *user)
     qdot_measured m = {0};
 
     (void)pool;
-    if (o->status != QDOT_OK || (o->plain && qdot_ask_is_measured(o->session, e)))
+    if (o->status != QDOT_OK || (o->plain && qdot_measured_occurs(o->session, e)))
         return e;
-    o->status = qdot_ask_is_measured(o->session, e) ? shortened(o->session, e, o, &m)
+    o->status = qdot_measured_occurs(o->session, e) ? shortened(o->session, e, o, &m)
                                                     : number(o->session, e, o, &m);
-    return o->status == QDOT_OK ? qdot_number_measured_as(o->session, m) : e;
+    return o->status == QDOT_OK ? qdot_measured_add(o->session, m) : e;
 }
 
 qdot_status
@@ -308,7 +308,7 @@ qdot_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr
     order o = {.session = session, .plain = n == 1};
     long digits = DIGITS;
 
-    QDOT_TRY(qdot_resolve_check(pool, e));
+    QDOT_TRY(qdot_value_kind_check(pool, e));
     if (n == 2) {
         QDOT_TRY(qdot_session_integer(session, args[1], &digits));
         if (digits < 1 || digits > MOST_DIGITS)
@@ -317,8 +317,8 @@ qdot_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr
     }
     if (qdot_expr_is_class(pool, e, QDOT_WORDS))
         return qdot_fail(QDOT_ETYPE, "numeric takes numbers, not a text");
-    exact = qdot_number_without_measured(session, e);
-    QDOT_TRY(qdot_resolve_check(pool, exact));
+    exact = qdot_measured_as_rationals(session, e);
+    QDOT_TRY(qdot_value_kind_check(pool, exact));
     if (exact == e && !(qdot_constant_is(pool, e) && is_flat(pool, e)))
         return beside_symbols(pool, e, (int)digits, value);
     if (!qdot_constant_is(pool, exact) || !is_flat(pool, e))
@@ -326,5 +326,5 @@ qdot_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr
     o.digits = (int)digits;
     *value = qdot_value_map(pool, e, numbered, &o);
     QDOT_TRY(o.status);
-    return qdot_resolve_check(pool, *value);
+    return qdot_value_kind_check(pool, *value);
 }

@@ -9,7 +9,7 @@
  * Source  powers by Miller's recurrence: Knuth, TAOCP 2, 4.7.
  * Tests   tests/script/series-removable.lag, tests/bad/series-none.sh
  */
-#include "lang/functions/algebra.h"
+#include "lang/functions/series.h"
 
 #include "base/interrupt.h"
 #include "base/memory.h"
@@ -17,7 +17,9 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/language/code.h"
+#include "lang/functions/algebra.h"
+#include "lang/session/bind.h"
+#include "lang/session/value-kind.h"
 #include "normal/decide.h"
 #include "normal/simplify.h"
 
@@ -207,7 +209,7 @@ static qdot_status
 shorten(course *x, qdot_expr *e)
 {
     *e = qdot_simplify(x->pool, *e, &x->facts);
-    return qdot_resolve_check(x->pool, *e);
+    return qdot_value_kind_check(x->pool, *e);
 }
 
 /* Leave out what vanishes at the front. */
@@ -237,7 +239,7 @@ multiply(course *x, laurent *s, const laurent *b, long most)
         for (long i = s->least; i <= k - b->least; i++)
             sum = qdot_add(x->pool, sum,
                            qdot_mul(x->pool, coefficient(s, i), coefficient(b, k - i)));
-        status = qdot_resolve_check(x->pool, sum);
+        status = qdot_value_kind_check(x->pool, sum);
         if (status == QDOT_OK)
             status = shorten(x, &sum);
         if (status == QDOT_OK)
@@ -268,7 +270,7 @@ power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *
             }
             a = qdot_div(pool, a, qdot_mul(pool, qdot_expr_int(pool, k), b->c.at[0]));
         }
-        QDOT_TRY(qdot_resolve_check(pool, a));
+        QDOT_TRY(qdot_value_kind_check(pool, a));
         QDOT_TRY(shorten(x, &a));
         QDOT_TRY(qdot_vec_push(&s->c, a));
         QDOT_TRY(qdot_interrupt_check());
@@ -306,9 +308,9 @@ derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, l
 
         if (k > 0 && e != QDOT_ZERO)
             e = qdot_div(x->pool, qdot_diff(x->pool, e, symbol), qdot_expr_int(x->pool, k));
-        QDOT_TRY(qdot_resolve_check(x->pool, e));
+        QDOT_TRY(qdot_value_kind_check(x->pool, e));
         c = multiplied_out(x, qdot_subs(x->pool, e, 1, &symbol, &at));
-        QDOT_TRY(qdot_resolve_check(x->pool, c));
+        QDOT_TRY(qdot_value_kind_check(x->pool, c));
         if (holds_power_of_zero(x->pool, c))
             return QDOT_EDOMAIN;
         QDOT_TRY(qdot_vec_push(&s->c, c));
@@ -358,7 +360,7 @@ sum_of(course *x, qdot_expr e, long most, laurent *s)
             sum = qdot_add(x->pool, sum,
                            qdot_mul(x->pool, coefficient(&parts[i], k),
                                     qdot_expr_arg(x->pool, e, i + 1)));
-        status = qdot_resolve_check(x->pool, sum);
+        status = qdot_value_kind_check(x->pool, sum);
         if (status == QDOT_OK)
             status = qdot_vec_push(&s->c, sum);
     }
@@ -417,7 +419,7 @@ product_of(course *x, qdot_expr e, long most, laurent *s)
             outside = qdot_mul(pool, outside, qdot_pow(pool, base, q));
     }
     if (status == QDOT_OK)
-        status = qdot_resolve_check(pool, outside);
+        status = qdot_value_kind_check(pool, outside);
     if (status == QDOT_OK)
         status = qdot_vec_push(&s->c, outside);
     s->least = 0;
@@ -588,7 +590,7 @@ sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
     course *x = d->x;
     laurent s = {0};
     qdot_expr f = qdot_subs(pool, scalar, x->r.from.n, x->r.from.at, x->r.to.at), sum = QDOT_ZERO;
-    qdot_status status = qdot_resolve_check(pool, f);
+    qdot_status status = qdot_value_kind_check(pool, f);
 
     if (status == QDOT_OK)
         status = check_switches(x, f);
@@ -619,7 +621,7 @@ directions(qdot_session *s, uint32_t n, const qdot_expr *args, course *x)
     qdot_pool *pool = s->pool;
 
     for (uint32_t i = 0; i < n; i++)
-        QDOT_TRY(qdot_algebra_gather(s, "series", args[i], &x->r));
+        QDOT_TRY(qdot_algebra_gather(s, "series", QDOT_SERIES, args[i], &x->r));
     for (size_t i = 0; i < x->r.from.n; i++) {
         qdot_text name = {0};
         qdot_status status;
@@ -654,10 +656,10 @@ series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long 
     if (status == QDOT_OK) {
         qdot_expr sum = qdot_value_map(pool, e, sum_along, &d);
 
-        status = qdot_resolve_check(pool, sum);
+        status = qdot_value_kind_check(pool, sum);
         if (status == QDOT_OK) {
             *value = in_symbols(&x, sum);
-            status = qdot_resolve_check(pool, *value);
+            status = qdot_value_kind_check(pool, *value);
         }
         s->series_in = qdot_list(pool, (uint32_t)x.r.from.n, x.r.from.at);
     }
@@ -690,7 +692,7 @@ qdot_algebra_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_exp
     if (status == QDOT_OK)
         *value = list ? qdot_list(s->pool, count, members) : members[0];
     if (status == QDOT_OK)
-        status = qdot_resolve_check(s->pool, *value);
+        status = qdot_value_kind_check(s->pool, *value);
     if (status == QDOT_OK)
         s->series = *value;
     qdot_free(members);

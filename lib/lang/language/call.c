@@ -3,9 +3,15 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "lang/language/code.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/entry.h"
+#include "lang/functions/quantity.h"
+#include "lang/language/evaluator.h"
 #include "lang/language/function.h"
-#include "lang/commands/number.h"
+#include "lang/language/hints.h"
+#include "lang/session/along.h"
+#include "lang/session/range.h"
+#include "lang/session/value-kind.h"
 
 static qdot_status
 call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_expr *args,
@@ -24,16 +30,16 @@ call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_ex
                       row->most, n);
         return qdot_hint("as in %s", row->usage);
     }
-    if (run != NULL && qdot_number_is_range(row->name))
-        QDOT_TRY(qdot_number_range(s, run, row->name, n, args, NULL, value));
+    if (run != NULL && qdot_range_is_word(row->name))
+        QDOT_TRY(qdot_range_value(s, run, row->name, n, args, NULL, value));
     else if (run != NULL)
-        QDOT_TRY(qdot_number_value(s, run, n, args, value));
+        QDOT_TRY(qdot_along_value(s, run, n, args, value));
     else
         QDOT_TRY(row->call(s, n, args, value));
-    QDOT_TRY(qdot_resolve_check(s->pool, *value));
+    QDOT_TRY(qdot_value_kind_check(s->pool, *value));
     if (row->over != NULL) {
         *over = row->over(s, n, args);
-        return qdot_resolve_check(s->pool, *over);
+        return qdot_value_kind_check(s->pool, *over);
     }
     return QDOT_OK;
 }
@@ -86,7 +92,7 @@ qdot_resolve_call(qdot_cursor *c, const qdot_token *token, unsigned primes,
     qdot_status status;
 
     *over = QDOT_NIL;
-    status = qdot_resolve_member(s, token->text, indices, values, &spelled);
+    status = qdot_entry_name(s, token->text, indices, values, &spelled);
     entry = status == QDOT_OK ? qdot_names_find(s->names, spelled.at) : NULL;
     if (status == QDOT_OK && row != NULL && (row->flags & QDOT_BUILTIN_SHORT) &&
         is_value(s, entry, token->text, spelled.at))

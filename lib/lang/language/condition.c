@@ -3,7 +3,7 @@
 
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/language/code.h"
+#include "lang/session/value-kind.h"
 
 qdot_status
 qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a, qdot_expr b,
@@ -13,13 +13,13 @@ qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a, qdot_expr 
 
     if (op[0] == '=') {
         *value = qdot_value_equation(pool, a, b);
-        return qdot_resolve_check(pool, *value);
+        return qdot_value_kind_check(pool, *value);
     }
     if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
         return qdot_fail(QDOT_ETYPE, "`%s` compares numbers, not %s", op,
-                         qdot_resolve_kind(pool, qdot_expr_is_scalar(pool, a) ? b : a));
+                         qdot_value_kind_words(pool, qdot_expr_is_scalar(pool, a) ? b : a));
     *value = op[0] == '<' ? qdot_rel(pool, kind, a, b) : qdot_rel(pool, kind, b, a);
-    return qdot_resolve_check(pool, *value);
+    return qdot_value_kind_check(pool, *value);
 }
 
 bool

@@ -1,26 +1,24 @@
 /* cursor.c -- steps over the tokens of a statement, and what to say where none fits. */
+#include "lang/language/cursor.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "lang/language/code.h"
-
-static bool
-is_sign(const qdot_token *t, const char *op)
-{
-    return t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, op) == 0;
-}
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/session/spelling.h"
 
 bool
 qdot_cursor_is_op(const qdot_cursor *c, const char *op)
 {
-    return c->at->kind == QDOT_TOKEN_OPERATOR && strcmp(c->at->text, op) == 0;
+    return qdot_token_is(c->at, op);
 }
 
 bool
 qdot_cursor_is_word(const qdot_cursor *c, const char *word)
 {
-    return c->at->kind == QDOT_TOKEN_NAME && strcmp(c->at->text, word) == 0;
+    return qdot_token_is_word(c->at, word);
 }
 
 bool
@@ -69,54 +67,6 @@ qdot_cursor_find_word(const qdot_cursor *c, const char *word)
             return t;
         }
     }
-}
-
-/* --- runs of a family ---------------------------------------------------------------- */
-
-bool
-qdot_cursor_has_runs(const qdot_cursor *c, const char *name)
-{
-    size_t n = strlen(name);
-
-    for (size_t i = 0; i < c->session->runs.n; i++) {
-        const char *run = c->session->runs.at[i].name;
-
-        if (strncmp(run, name, n) == 0 && run[n] == '[')
-            return true;
-    }
-    return false;
-}
-
-qdot_status
-qdot_cursor_accept_run(qdot_cursor *c, const qdot_token **run)
-{
-    qdot_cursor look = *c;
-    const qdot_token *behind = c->at + 1;
-    qdot_token *spelled;
-    const char *name;
-    long depth = 0;
-
-    *run = NULL;
-    for (;; behind++) {
-        if (behind->kind == QDOT_TOKEN_END)
-            return QDOT_OK;
-        depth += is_sign(behind, "[");
-        depth -= is_sign(behind, "]");
-        if (depth == 0)
-            break;
-    }
-    if (!is_sign(behind + 1, ".") || !behind[1].glued || !behind[2].glued ||
-        (behind[2].kind != QDOT_TOKEN_NAME && !is_sign(behind + 2, "(")))
-        return QDOT_OK;
-    QDOT_TRY(qdot_read_name(&look, &name));
-    spelled = qdot_arena_take(c->source->arena, sizeof *spelled);
-    if (spelled == NULL)
-        return QDOT_ENOMEM;
-    *spelled = *c->at;
-    spelled->text = name;
-    *run = spelled;
-    c->at = behind + 2;
-    return QDOT_OK;
 }
 
 /* --- errors ------------------------------------------------------------------------- */
@@ -174,7 +124,7 @@ hint_foreign(const qdot_token *t)
         {"%", "the remainder is mod(a, b)"},
     };
 
-    if (is_sign(t, ":") && is_sign(t + 1, "=") && t[1].glued)
+    if (qdot_token_is(t, ":") && qdot_token_is(t + 1, "=") && t[1].glued)
         return qdot_hint("write =");
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
         if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, foreign[i].text) == 0)
@@ -218,10 +168,7 @@ hint_word(const char *what, const char *name)
     char words[WORDS][LENGTH];
     const char *list[WORDS], *nearest;
     size_t n = 0;
-    qdot_names *none = qdot_names_new();
 
-    if (none == NULL)
-        return QDOT_ESYNTAX;
     for (const char *c = strchr(what, '`'); c != NULL && n < WORDS; c = strchr(c, '`')) {
         size_t length = strcspn(c + 1, "`");
 
@@ -234,10 +181,9 @@ hint_word(const char *what, const char *name)
         }
         c += length + 2;
     }
-    nearest = qdot_names_nearest(none, name, n, list);
+    nearest = qdot_spelling_nearest(name, n, list);
     if (nearest != NULL)
         qdot_hint("did you mean `%s`?", nearest);
-    qdot_names_free(none);
     return QDOT_ESYNTAX;
 }
 
@@ -304,4 +250,13 @@ qdot_cursor_expect_end(qdot_cursor *c)
     if (qdot_cursor_is_end(c))
         return QDOT_OK;
     return qdot_cursor_expected(c, "the end of the statement");
+}
+
+qdot_status
+qdot_cursor_once(qdot_cursor *c, const char *word, bool given)
+{
+    if (!given)
+        return QDOT_OK;
+    c->error_at = c->at > c->source->tokens.at ? c->at[-1].start : c->at->start;
+    return qdot_fail(QDOT_EINVAL, "`%s` is given twice", word);
 }

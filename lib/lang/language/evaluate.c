@@ -3,10 +3,18 @@
 
 #include "base/interrupt.h"
 #include "expr/tensor.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/entry.h"
+#include "lang/functions/quantity.h"
 #include "lang/language/closed-sum.h"
-#include "lang/language/code.h"
 #include "lang/language/condition.h"
-#include "lang/commands/number.h"
+#include "lang/language/evaluator.h"
+#include "lang/session/bind.h"
+#include "lang/session/event-time.h"
+#include "lang/session/member.h"
+#include "lang/session/range.h"
+#include "lang/session/value-kind.h"
+#include "lang/source/lex.h"
 
 /* A value on the stack. */
 typedef struct {
@@ -48,7 +56,7 @@ push(machine *m, qdot_expr value)
 {
     slot s = {.value = value};
 
-    QDOT_TRY(qdot_resolve_check(m->pool, value));
+    QDOT_TRY(qdot_value_kind_check(m->pool, value));
     return qdot_vec_push(&m->stack, s);
 }
 
@@ -97,7 +105,7 @@ enter(machine *m, slot *s)
         return QDOT_OK;
     s->value = qdot_member_of(m->session, s->run, s->value);
     s->run = NULL;
-    return qdot_resolve_check(m->pool, s->value);
+    return qdot_value_kind_check(m->pool, s->value);
 }
 
 /* The top n values, popped into m->args. */
@@ -150,7 +158,7 @@ term(machine *m, const qdot_token *sign)
     s->sign = sign;
     if (sign->text[0] == '-') {
         s->value = qdot_value_neg(m->pool, s->value);
-        return qdot_resolve_check(m->pool, s->value);
+        return qdot_value_kind_check(m->pool, s->value);
     }
     if (sign->text[0] == '/' && s->value == QDOT_ZERO)
         return qdot_fail(QDOT_EDOMAIN, "division by zero");
@@ -170,7 +178,7 @@ sum(machine *m, size_t n)
     for (size_t i = 1; i < n; i++) {
         m->blame = s[i].sign;
         value = qdot_value_add(m->pool, value, m->args.at[i]);
-        QDOT_TRY(qdot_resolve_check(m->pool, value));
+        QDOT_TRY(qdot_value_kind_check(m->pool, value));
     }
     return push(m, value);
 }
@@ -199,7 +207,7 @@ product(machine *m, size_t n)
         else
             value =
                 (divide ? qdot_value_div : qdot_value_mul)(m->pool, value, m->args.at[i]);
-        QDOT_TRY(qdot_resolve_check(m->pool, at_once ? m->args.at[i] : value));
+        QDOT_TRY(qdot_value_kind_check(m->pool, at_once ? m->args.at[i] : value));
     }
     return push(m, at_once ? qdot_product(m->pool, n, m->args.at) : value);
 }
@@ -215,7 +223,7 @@ logic(machine *m, qdot_logic_op op, size_t n)
     for (size_t i = 0; i < n; i++)
         if (!qdot_condition_is(m->pool, m->args.at[i]))
             return qdot_fail(QDOT_ETYPE, "`%s` joins conditions, not %s", names[op],
-                             qdot_resolve_kind(m->pool, m->args.at[i]));
+                             qdot_value_kind_words(m->pool, m->args.at[i]));
     return push(m, qdot_logic(m->pool, op, (uint32_t)n, m->args.at));
 }
 
@@ -231,7 +239,7 @@ sum_round(machine *m, uint32_t *pc, uint32_t body)
     QDOT_TRY(qdot_interrupt_check());
     if (f->k <= f->last) {
         value = qdot_expr_int(m->pool, f->k++);
-        QDOT_TRY(qdot_resolve_check(m->pool, value));
+        QDOT_TRY(qdot_value_kind_check(m->pool, value));
         QDOT_TRY(qdot_names_push(m->session->names, f->index, value));
         f->bound = true;
         *pc = body;
@@ -250,7 +258,7 @@ sum_round(machine *m, uint32_t *pc, uint32_t body)
     value = m->args.at[0];
     for (size_t i = 1; i < m->args.n; i++) {
         value = qdot_value_add(m->pool, value, m->args.at[i]);
-        QDOT_TRY(qdot_resolve_check(m->pool, value));
+        QDOT_TRY(qdot_value_kind_check(m->pool, value));
     }
     return push(m, value);
 }
@@ -267,7 +275,7 @@ sum_begin(machine *m, const qdot_code *code, uint32_t *pc)
     QDOT_TRY(qdot_session_integer(m->session, m->args.at[1], &f.last));
     if (f.last > f.k && (unsigned long)f.last - (unsigned long)f.k >= QDOT_SUM_TERMS) {
         f.symbol = qdot_symbol_get(m->pool, QDOT_FORMAL, "a summation index");
-        QDOT_TRY(qdot_resolve_check(m->pool, f.symbol));
+        QDOT_TRY(qdot_value_kind_check(m->pool, f.symbol));
         QDOT_TRY(qdot_names_push(m->session->names, f.index, f.symbol));
         f.bound = true;
         *pc = code->to;
@@ -337,9 +345,9 @@ if_test(machine *m, const qdot_code *code, uint32_t *pc)
         return along_runs();
     if (!qdot_condition_is(m->pool, s->value))
         return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) takes a condition, not %s",
-                         qdot_resolve_kind(m->pool, s->value));
+                         qdot_value_kind_words(m->pool, s->value));
     s->value = qdot_condition_decide(m->pool, s->value);
-    QDOT_TRY(qdot_resolve_check(m->pool, s->value));
+    QDOT_TRY(qdot_value_kind_check(m->pool, s->value));
     if (s->value != QDOT_FALSE)
         return QDOT_OK;
     *pc = code->to;
@@ -429,8 +437,8 @@ range(machine *m, const qdot_code *code)
     qdot_expr value;
 
     QDOT_TRY(take(m, code->n));
-    QDOT_TRY(qdot_number_range(m->session, run, code->token->text, code->n - 2,
-                               m->args.at, m->args.at + code->n - 2, &value));
+    QDOT_TRY(qdot_range_value(m->session, run, code->token->text, code->n - 2,
+                              m->args.at, m->args.at + code->n - 2, &value));
     return push(m, value);
 }
 
@@ -462,8 +470,8 @@ entry(machine *m, const qdot_code *code)
     qdot_expr over = from_top(m, code->n + 1)->over, value;
 
     QDOT_TRY(take_any(m, code->n + 1));
-    QDOT_TRY(qdot_resolve_entry(m->session, m->args.at[0], over, code->n, m->args.at + 1,
-                                &value));
+    QDOT_TRY(qdot_entry_of(m->session, m->args.at[0], over, code->n, m->args.at + 1,
+                           &value));
     return push(m, value);
 }
 
@@ -544,7 +552,7 @@ label(machine *m, const qdot_code *code)
         return push(m, qdot_symbol_get(m->pool, QDOT_FORMAL, bound->label));
     QDOT_TRY(take(m, code->n));
     status =
-        qdot_resolve_member(m->session, code->token->text, code->n, m->args.at, &text);
+        qdot_entry_name(m->session, code->token->text, code->n, m->args.at, &text);
     if (status == QDOT_OK)
         status = push(m, qdot_symbol_get(m->pool, QDOT_FORMAL, qdot_text_str(&text)));
     qdot_text_clear(&text);

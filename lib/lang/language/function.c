@@ -7,46 +7,13 @@
 #include "base/text.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
-#include "lang/language/code.h"
-#include "lang/commands/declare.h"
-#include "lang/commands/number.h"
-#include "lang/commands/statement.h"
+#include "lang/language/evaluator.h"
+#include "lang/language/formals.h"
+#include "lang/language/token-text.h"
+#include "lang/session/member.h"
+#include "lang/session/value-kind.h"
+#include "lang/source/source.h"
 #include "normal/decide.h"
-
-/* --- the text of a body ------------------------------------------------------------- */
-
-qdot_function_body *
-qdot_function_body_new(const qdot_source *source, const qdot_token *from,
-                       const qdot_token *to)
-{
-    qdot_function_body *body = qdot_calloc(1, sizeof *body);
-
-    if (body == NULL)
-        return NULL;
-    body->uses = 1;
-    body->source = qdot_source_keep(source);
-    body->from = from;
-    body->to = to;
-    return body;
-}
-
-qdot_function_body *
-qdot_function_body_keep(qdot_function_body *body)
-{
-    if (body != NULL)
-        body->uses++;
-    return body;
-}
-
-void
-qdot_function_body_release(qdot_function_body *body)
-{
-    if (body == NULL || --body->uses > 0)
-        return;
-    qdot_source_free(body->source);
-    qdot_free(body->captured.at);
-    qdot_free(body);
-}
 
 static bool
 is_formal(const qdot_pool *pool, qdot_expr formals, const char *name)
@@ -88,7 +55,7 @@ capture(qdot_session *s, qdot_function_body *body, qdot_expr formals, qdot_expr 
     }
     if (status == QDOT_OK) {
         *values = qdot_list(s->pool, (uint32_t)list.n, list.at);
-        status = qdot_resolve_check(s->pool, *values);
+        status = qdot_value_kind_check(s->pool, *values);
     }
     qdot_free(list.at);
     return status;
@@ -140,34 +107,20 @@ read_body(qdot_cursor *c, qdot_name *entry)
 }
 
 qdot_status
-qdot_function_define(qdot_cursor *c)
+qdot_function_read(qdot_cursor *c, qdot_name *entry)
 {
-    const qdot_token *start = c->at, **names = NULL;
-    qdot_name entry = {.name = (char *)start->text, .kind = QDOT_NAME_FUNCTION};
-    const qdot_name *old;
+    const qdot_token **names = NULL;
     qdot_status status;
     size_t n = 0;
 
+    *entry = (qdot_name){.name = (char *)c->at->text, .kind = QDOT_NAME_FUNCTION};
     c->at++;
-    status = qdot_declare_read_formals(c, &entry.formals, &names, &n);
+    status = qdot_formals_read(c, &entry->formals, &names, &n);
     qdot_free(names);
     QDOT_TRY(status);
     QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    entry.body = qdot_function_body_new(c->source, c->at, c->at);
-    if (entry.body == NULL)
-        return QDOT_ENOMEM;
-    status = read_body(c, &entry);
-    old = qdot_names_find(c->session->names, start->text);
-    if (status == QDOT_OK && old != NULL && old->kind == QDOT_NAME_UFUN) {
-        c->error_at = start->start;
-        (void)qdot_fail(QDOT_ENAME, "`%s` was declared as an undefined function at %s:%u",
-                        start->text, old->file, old->line);
-        status = qdot_hint("set %s(...) = ... gives it a value for numbers", start->text);
-    }
-    if (status == QDOT_OK)
-        status = qdot_declare_name(c, start, &entry);
-    qdot_function_body_release(entry.body);
-    return status;
+    entry->body = qdot_function_body_new(c->source, c->at, c->at);
+    return entry->body != NULL ? read_body(c, entry) : QDOT_ENOMEM;
 }
 
 /* --- calls -------------------------------------------------------------------------- */
@@ -204,7 +157,7 @@ evaluate(qdot_cursor *c, const qdot_function_body *body, qdot_expr *value, qdot_
     if (status != QDOT_OK || run == NULL)
         return status;
     *value = qdot_member_of(c->session, run, *value);
-    return qdot_resolve_check(c->session->pool, *value);
+    return qdot_value_kind_check(c->session->pool, *value);
 }
 
 /* The body with these arguments, as they are. */
@@ -273,7 +226,7 @@ apply_to_members(mapping *m, qdot_expr list, qdot_expr *value)
     }
     if (status == QDOT_OK) {
         *value = qdot_list(pool, n, made);
-        status = qdot_resolve_check(pool, *value);
+        status = qdot_value_kind_check(pool, *value);
     }
     qdot_free(made);
     return status;
@@ -292,7 +245,7 @@ apply_inside(mapping *m, qdot_expr arg, qdot_expr *value)
         status = apply_to_members(m, arg, value);
     } else {
         *value = qdot_value_map(m->s->pool, arg, of_scalar, m);
-        status = qdot_resolve_check(m->s->pool, *value);
+        status = qdot_value_kind_check(m->s->pool, *value);
     }
     return status == QDOT_ETYPE ? qdot_fail_again(&error) : status;
 }
@@ -326,7 +279,7 @@ derivative_at(mapping *m, qdot_expr arg, qdot_expr *value)
     QDOT_TRY(apply(m->s, m->entry, &at, &direct, &over));
     QDOT_TRY(apply(m->s, m->entry, &symbol, &body, &over));
     put = qdot_subs(pool, body, 1, &symbol.value, &arg);
-    QDOT_TRY(qdot_resolve_check(pool, put));
+    QDOT_TRY(qdot_value_kind_check(pool, put));
     if (put != direct &&
         (!qdot_expr_is_scalar(pool, put) || !qdot_expr_is_scalar(pool, direct) ||
          !qdot_is_zero(pool, qdot_sub(pool, put, direct), &facts))) {
@@ -338,7 +291,7 @@ derivative_at(mapping *m, qdot_expr arg, qdot_expr *value)
     for (unsigned k = m->primes; k > 0; k--)
         body = qdot_diff(pool, body, symbol.value);
     *value = qdot_subs(pool, body, 1, &symbol.value, &arg);
-    return qdot_resolve_check(pool, *value);
+    return qdot_value_kind_check(pool, *value);
 }
 
 qdot_status
@@ -361,7 +314,7 @@ qdot_function_call(qdot_session *s, const qdot_name *entry, unsigned primes, uin
     if (s->passed != NULL)
         s->passed->spoiled = true;
     *value = qdot_value_map(s->pool, args[0].value, of_scalar, &m);
-    return qdot_resolve_check(s->pool, *value);
+    return qdot_value_kind_check(s->pool, *value);
 }
 
 /* --- the function itself ------------------------------------------------------------ */
@@ -381,7 +334,7 @@ qdot_function_print(qdot_session *s, const qdot_name *entry, qdot_text *out)
     qdot_text_add(out, ") = ");
     status = enclose(s, entry, NULL, &outer);
     if (status == QDOT_OK)
-        qdot_statement_text(s, entry->body->from, entry->body->to, out);
+        qdot_token_text(s, entry->body->from, entry->body->to, out);
     qdot_names_disclose(s->names, outer);
     return status == QDOT_OK ? qdot_text_status(out) : status;
 }

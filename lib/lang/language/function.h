@@ -11,13 +11,14 @@
 #ifndef QDOT_LANG_FUNCTION_H
 #define QDOT_LANG_FUNCTION_H
 
-#include "lang/language/read.h"
+#include "lang/language/cursor.h"
 
 /* Calls within one another, over all functions. */
 enum { QDOT_FUNCTION_DEPTH = 500 };
 
-/* `NAME(names) = EXPR` at the cursor: a definition. The body is parsed for its syntax alone. */
-QDOT_MUST_CHECK qdot_status qdot_function_define(qdot_cursor *c);
+/* `NAME(names) = EXPR` at the cursor: a definition, not declared yet. The body is parsed for its
+ * syntax alone. entry->body, the caller's to release in any case, may be NULL. */
+QDOT_MUST_CHECK qdot_status qdot_function_read(qdot_cursor *c, qdot_name *entry);
 
 /* An argument of a call. */
 typedef struct {
@@ -33,10 +34,6 @@ QDOT_MUST_CHECK qdot_status qdot_function_call(qdot_session *session, const qdot
                                                unsigned primes, uint32_t n,
                                                const qdot_argument *args, qdot_expr *value,
                                                qdot_expr *over);
-
-/* The tokens [from, to) of a source, with one use; NULL: no memory. */
-qdot_function_body *qdot_function_body_new(const qdot_source *source, const qdot_token *from,
-                                           const qdot_token *to);
 
 /* Append "f(u, x) = diff(u, x) + 1". */
 QDOT_MUST_CHECK qdot_status qdot_function_print(qdot_session *session, const qdot_name *entry,

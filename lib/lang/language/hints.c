@@ -1,47 +1,27 @@
 /* hints.c -- what a person may have meant: the nearest name, our form of another. */
+#include "lang/language/hints.h"
+
 #include <stdio.h>
 #include <string.h>
 
-#include "lang/language/code.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/session/labels.h"
 
 /* --- the nearest of everything known ------------------------------------------------ */
-
-typedef qdot_vec(const char *) words;
-
-static void
-add(words *list, const char *word)
-{
-    if (word != NULL)
-        (void)qdot_vec_push(list, word); /* a hint less, if there is no memory */
-}
-
-static void
-add_labels(words *list, const qdot_scene *s)
-{
-    for (size_t i = 0; i < s->particles.n; i++)
-        add(list, s->particles.at[i].name);
-    for (size_t i = 0; i < s->bodies.n; i++)
-        add(list, s->bodies.at[i].name);
-    for (size_t i = 0; i < s->springs.n; i++)
-        add(list, s->springs.at[i].name);
-    for (size_t i = 0; i < s->dampers.n; i++)
-        add(list, s->dampers.at[i].name);
-    for (size_t i = 0; i < s->constraints.n; i++)
-        add(list, s->constraints.at[i].label);
-}
 
 const char *
 qdot_hints_nearest(qdot_session *session, const char *name)
 {
-    words list = {0};
+    qdot_words list = {0};
     const char *nearest;
 
-    add_labels(&list, session->scene);
+    qdot_labels_add(session->scene, &list);
     for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
-        add(&list, qdot_quantity_at(i)->name);
+        (void)qdot_vec_push(&list, qdot_quantity_at(i)->name); /* a hint less without memory */
     for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
         if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_SHORT))
-            add(&list, qdot_builtin_at(i)->name);
+            (void)qdot_vec_push(&list, qdot_builtin_at(i)->name);
     nearest = qdot_names_nearest(session->names, name, list.n, list.at);
     qdot_free(list.at);
     return nearest;
@@ -134,12 +114,6 @@ bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t si
         snprintf(text, size, "%.*s", (int)(t->start - from), c->source->text + from);
 }
 
-static bool
-is_op(const qdot_token *t, const char *op)
-{
-    return t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, op) == 0;
-}
-
 /* thetadot, thetaddot, theta_dot of a coordinate theta: its primes. */
 static bool
 hint_dot(qdot_cursor *c, const char *name)
@@ -177,7 +151,7 @@ qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
     char text[100];
 
     qdot_fail(QDOT_ENAME, "unknown name `%.200s`", member != NULL ? member : name);
-    if (is_op(token + 1, "[") && token[1].glued) {
+    if (qdot_token_is(token + 1, "[") && token[1].glued) {
         ours = our_function(name);
         if (ours != NULL) {
             bracket_text(c, token + 1, text, sizeof text);
@@ -186,7 +160,7 @@ qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
     }
     if (hint_dot(c, name))
         return QDOT_ENAME;
-    if (strcmp(name, "e") == 0 && is_op(token + 1, "^"))
+    if (strcmp(name, "e") == 0 && qdot_token_is(token + 1, "^"))
         return qdot_hint("the exponential function is exp(x)");
     if (strcmp(name, "Pi") == 0 || strcmp(name, "PI") == 0)
         return qdot_hint("write pi");
@@ -206,7 +180,7 @@ qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
     char text[100];
 
     qdot_fail(QDOT_ENAME, "unknown function `%.200s`", name);
-    if (ours != NULL && is_op(token + 1, "(")) {
+    if (ours != NULL && qdot_token_is(token + 1, "(")) {
         bracket_text(c, token + 1, text, sizeof text);
         return qdot_hint("write %s(%s)", ours, text);
     }
@@ -226,31 +200,15 @@ qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token)
     char text[100];
 
     qdot_fail(QDOT_ESYNTAX, "`%s` is a function: its argument goes in ( )", name);
-    if (is_op(next, "^") && next[1].kind != QDOT_TOKEN_END && is_op(next + 2, "(")) {
+    if (qdot_token_is(next, "^") && next[1].kind != QDOT_TOKEN_END && qdot_token_is(next + 2, "(")) {
         bracket_text(c, next + 2, text, sizeof text);
         return qdot_hint("write %s(%s)^%.40s", name, text, next[1].text);
     }
-    if (is_op(next, "[")) {
+    if (qdot_token_is(next, "[")) {
         bracket_text(c, next, text, sizeof text);
         return qdot_hint("write %s(%s)", name, text);
     }
     if (next->kind == QDOT_TOKEN_NAME || next->kind == QDOT_TOKEN_NUMBER)
         return qdot_hint("write %s(%.80s)", name, next->text);
     return qdot_hint("as in %s", qdot_builtin_find(name)->usage);
-}
-
-qdot_status
-qdot_hints_unknown_label(qdot_session *session, const char *what, const char *label)
-{
-    words list = {0};
-    qdot_names *none = qdot_names_new();
-    const char *nearest = NULL;
-
-    qdot_fail(QDOT_ENAME, "there is no %s `%.200s`", what, label);
-    add_labels(&list, session->scene);
-    if (none != NULL)
-        nearest = qdot_names_nearest(none, label, list.n, list.at);
-    qdot_names_free(none);
-    qdot_free(list.at);
-    return nearest != NULL ? qdot_hint("did you mean `%s`?", nearest) : QDOT_ENAME;
 }

@@ -6,8 +6,12 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "lang/language/code.h"
-#include "lang/commands/number.h"
+#include "lang/functions/builtin.h"
+#include "lang/language/evaluator.h"
+#include "lang/language/hints.h"
+#include "lang/session/range.h"
+#include "lang/session/runs.h"
+#include "lang/source/lex.h"
 
 /* What waits on the stack: operators by how they are read, and open brackets. */
 typedef enum {
@@ -310,7 +314,7 @@ name(parser *p)
         p->c->at++;
         return push(p, OP_MEMBER, t);
     }
-    if (is_op(next, "[") && next->glued && qdot_cursor_has_runs(p->c, t->text)) {
+    if (is_op(next, "[") && next->glued && qdot_runs_is_family(p->c->session, t->text)) {
         const qdot_token *run;
 
         p->c->at = t;
@@ -565,7 +569,7 @@ argument_range(parser *p)
     QDOT_TRY(reduce_all(p));
     w = top(p);
     if (w->kind != IN_CALL || w->ranged || w->count == 0 || w->indices > 0 ||
-        w->primes > 0 || !qdot_number_is_range(w->token->text) ||
+        w->primes > 0 || !qdot_range_is_word(w->token->text) ||
         qdot_resolve_is_function(p->c->session, w->token->text))
         return qdot_cursor_expected(p->c, w->kind == IN_CALL ? "`,` or `)`" : "`)`");
     w->ranged = true;

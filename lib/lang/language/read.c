@@ -4,7 +4,10 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "lang/language/code.h"
+#include "lang/language/evaluator.h"
+#include "lang/language/hints.h"
+#include "lang/session/bind.h"
+#include "lang/session/value-kind.h"
 
 static qdot_status
 read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
@@ -50,7 +53,7 @@ wrong_kind(qdot_cursor *c, const qdot_token *at, const char *wanted, qdot_expr v
 {
     c->error_at = at->start;
     return qdot_fail(QDOT_ETYPE, "%s belongs here, not %s", wanted,
-                     qdot_resolve_kind(c->session->pool, value));
+                     qdot_value_kind_words(c->session->pool, value));
 }
 
 static bool
@@ -193,7 +196,7 @@ qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet)
     if (order > 0)
         *jet = qdot_symbol_jet(pool, *jet, order);
     c->error_at = start->start;
-    return qdot_resolve_check(pool, *jet);
+    return qdot_value_kind_check(pool, *jet);
 }
 
 qdot_status
@@ -203,5 +206,37 @@ qdot_read_string(qdot_cursor *c, const char **text)
         return qdot_cursor_expected(c, "a text in quotes");
     *text = c->at->text;
     c->at++;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_cursor_accept_run(qdot_cursor *c, const qdot_token **run)
+{
+    qdot_cursor look = *c;
+    const qdot_token *behind = c->at + 1;
+    qdot_token *spelled;
+    const char *name;
+    long depth = 0;
+
+    *run = NULL;
+    for (;; behind++) {
+        if (behind->kind == QDOT_TOKEN_END)
+            return QDOT_OK;
+        depth += qdot_token_is(behind, "[");
+        depth -= qdot_token_is(behind, "]");
+        if (depth == 0)
+            break;
+    }
+    if (!qdot_token_is(behind + 1, ".") || !behind[1].glued || !behind[2].glued ||
+        (behind[2].kind != QDOT_TOKEN_NAME && !qdot_token_is(behind + 2, "(")))
+        return QDOT_OK;
+    QDOT_TRY(qdot_read_name(&look, &name));
+    spelled = qdot_arena_take(c->source->arena, sizeof *spelled);
+    if (spelled == NULL)
+        return QDOT_ENOMEM;
+    *spelled = *c->at;
+    spelled->text = name;
+    *run = spelled;
+    c->at = behind + 2;
     return QDOT_OK;
 }

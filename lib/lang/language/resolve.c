@@ -9,18 +9,13 @@
 #include "base/utf8.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
-#include "lang/language/code.h"
-#include "lang/commands/number.h"
-#include "lang/language/taken.h"
-
-qdot_status
-qdot_resolve_check(qdot_pool *pool, qdot_expr value)
-{
-    if (value != QDOT_NIL)
-        return QDOT_OK;
-    QDOT_TRY(qdot_pool_check(pool));
-    return qdot_fail(QDOT_EFAILED, "no value came out, and no reason");
-}
+#include "lang/functions/builtin.h"
+#include "lang/functions/entry.h"
+#include "lang/functions/short-names.h"
+#include "lang/language/evaluator.h"
+#include "lang/language/hints.h"
+#include "lang/session/value-kind.h"
+#include "lang/source/letters.h"
 
 bool
 qdot_resolve_is_function(const qdot_session *session, const char *name)
@@ -28,40 +23,6 @@ qdot_resolve_is_function(const qdot_session *session, const char *name)
     const qdot_name *n = qdot_names_find(session->names, name);
 
     return n != NULL && (n->kind == QDOT_NAME_FUNCTION || n->kind == QDOT_NAME_UFUN);
-}
-
-const char *
-qdot_resolve_kind(const qdot_pool *pool, qdot_expr e)
-{
-    switch (qdot_expr_kind(pool, e)) {
-    case QDOT_VEC: return "a vector";
-    case QDOT_MAT: return "a matrix";
-    case QDOT_LIST: return "a list";
-    case QDOT_REL:
-        return qdot_expr_node(pool, e)->op == QDOT_EQ ? "an equation" : "an inequality";
-    case QDOT_LOGIC: return "a condition";
-    case QDOT_SYM:
-        if (qdot_expr_is_class(pool, e, QDOT_WORDS))
-            return "a text";
-        /* fall through */
-    default: return e == QDOT_TRUE || e == QDOT_FALSE ? "a condition" : "a number";
-    }
-}
-
-qdot_status
-qdot_resolve_member(qdot_session *session, const char *name, uint32_t n,
-                    const qdot_expr *index, qdot_text *member)
-{
-    qdot_text_add(member, name);
-    for (uint32_t i = 0; i < n; i++) {
-        long k;
-
-        QDOT_TRY(qdot_session_integer(session, index[i], &k));
-        qdot_text_format(member, "%c%ld", i == 0 ? '[' : ',', k);
-    }
-    if (n > 0)
-        qdot_text_char(member, ']');
-    return qdot_text_status(member);
 }
 
 qdot_status
@@ -84,7 +45,7 @@ qdot_resolve_label(qdot_session *s, const char *name, uint32_t n, const qdot_exp
     for (uint32_t i = 0; i < n; i++)
         if (qdot_expr_kind(s->pool, index[i]) != QDOT_NUM)
             return QDOT_OK;
-    QDOT_TRY(qdot_resolve_member(s, name, n, index, &spelled));
+    QDOT_TRY(qdot_entry_name(s, name, n, index, &spelled));
     particle = qdot_scene_find_particle(s->scene, spelled.at);
     body = qdot_scene_find_body(s->scene, spelled.at);
     qdot_text_clear(&spelled);
@@ -106,7 +67,7 @@ ddt_times(qdot_session *s, unsigned primes, qdot_expr *value)
 {
     for (; primes > 0; primes--) {
         *value = qdot_ddt(s->pool, *value);
-        QDOT_TRY(qdot_resolve_check(s->pool, *value));
+        QDOT_TRY(qdot_value_kind_check(s->pool, *value));
     }
     return QDOT_OK;
 }
@@ -128,9 +89,9 @@ qdot_resolve_undefined(qdot_session *s, const qdot_name *entry, unsigned primes,
     for (uint32_t i = 0; i < n; i++)
         if (!qdot_expr_is_scalar(s->pool, args[i]))
             return qdot_fail(QDOT_ETYPE, "`%.200s` is a function of numbers, not of %s",
-                             entry->name, qdot_resolve_kind(s->pool, args[i]));
+                             entry->name, qdot_value_kind_words(s->pool, args[i]));
     *value = qdot_ufun_apply(s->pool, entry->ufun, args, primes > 0 ? &primes : NULL);
-    return qdot_resolve_check(s->pool, *value);
+    return qdot_value_kind_check(s->pool, *value);
 }
 
 /* A declared or bound name with its primes. */
@@ -148,7 +109,7 @@ named(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value
     if (qdot_expr_is_class(s->pool, *value, QDOT_COORD) &&
         entry->kind != QDOT_NAME_VALUE && entry->kind != QDOT_NAME_ARGUMENT) {
         *value = qdot_symbol_jet(s->pool, *value, primes);
-        return qdot_resolve_check(s->pool, *value);
+        return qdot_value_kind_check(s->pool, *value);
     }
     if (entry->kind == QDOT_NAME_VALUE || entry->kind == QDOT_NAME_ARGUMENT)
         return ddt_times(s, primes, value);
@@ -216,7 +177,7 @@ differential(qdot_session *s, const char *name, bool *found, qdot_expr *value)
             *value = qdot_symbol_of(s->pool, kinds[i].class, q->value);
         }
         *found = true;
-        return qdot_resolve_check(s->pool, *value);
+        return qdot_value_kind_check(s->pool, *value);
     }
     return QDOT_OK;
 }
@@ -235,7 +196,7 @@ labelled(qdot_session *s, const char *name, unsigned primes, bool *found,
         return qdot_hint("only particles and bodies have a position");
     }
     *value = qdot_scene_position(s->scene, name);
-    QDOT_TRY(qdot_resolve_check(s->pool, *value));
+    QDOT_TRY(qdot_value_kind_check(s->pool, *value));
     return ddt_times(s, primes, value);
 }
 
@@ -243,8 +204,8 @@ static qdot_status
 quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
          const qdot_expr *index, qdot_expr *value)
 {
-    QDOT_TRY(qdot_taken_note(s, row, row->get(s, n, index, value)));
-    QDOT_TRY(qdot_resolve_check(s->pool, *value));
+    QDOT_TRY(qdot_short_names_note(s, row, row->get(s, n, index, value)));
+    QDOT_TRY(qdot_value_kind_check(s->pool, *value));
     if (primes == 0)
         return QDOT_OK;
     (void)qdot_fail(QDOT_ETYPE, "`%s` is a value of the scene, no coordinate", row->name);
@@ -260,7 +221,7 @@ coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
         return QDOT_OK;
     *over =
         qdot_list(s->pool, (uint32_t)s->scene->coordinates.n, s->scene->coordinates.at);
-    return qdot_resolve_check(s->pool, *over);
+    return qdot_value_kind_check(s->pool, *over);
 }
 
 /* The argument that an undefined function was declared with, where nothing else is called so:
@@ -409,62 +370,6 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     return qdot_hints_unknown(c, token, NULL);
 }
 
-/* --- entries ------------------------------------------------------------------------ */
-
-/* An index as a number from 1: an integer, or a coordinate where entries go by those. */
-static qdot_status
-position(qdot_session *s, qdot_expr over, qdot_expr index, long *i)
-{
-    if (qdot_expr_is_coordinate(s->pool, index)) {
-        for (uint32_t k = 0; over != QDOT_NIL && k < qdot_expr_count(s->pool, over); k++)
-            if (qdot_expr_arg(s->pool, over, k) == index) {
-                *i = (long)k + 1;
-                return QDOT_OK;
-            }
-        return qdot_fail(QDOT_ETYPE,
-                         over != QDOT_NIL
-                             ? "`%.200s` is none of its coordinates"
-                             : "entries are counted from 1: `%.200s` is no index",
-                         qdot_expr_symbol(s->pool, index)->name);
-    }
-    return qdot_session_integer(s, index, i);
-}
-
-qdot_status
-qdot_resolve_entry(qdot_session *session, qdot_expr e, qdot_expr over, uint32_t n,
-                   const qdot_expr *index, qdot_expr *value)
-{
-    qdot_pool *pool = session->pool;
-    long i, j;
-
-    *value = e;
-    for (uint32_t k = 0; k < n;) {
-        switch (qdot_expr_kind(pool, *value)) {
-        case QDOT_MAT:
-            if (k + 1 >= n) {
-                qdot_fail(QDOT_ETYPE, "an entry of a matrix has two indices");
-                return qdot_hint("write M[1, 2]");
-            }
-            QDOT_TRY(position(session, over, index[k], &i));
-            QDOT_TRY(position(session, over, index[k + 1], &j));
-            *value = qdot_entry2(pool, *value, i, j);
-            k += 2;
-            break;
-        case QDOT_VEC:
-        case QDOT_LIST:
-            QDOT_TRY(position(session, over, index[k], &i));
-            *value = qdot_entry(pool, *value, i);
-            k++;
-            break;
-        default:
-            return qdot_fail(QDOT_ETYPE, "%s has no entries",
-                             qdot_resolve_kind(pool, *value));
-        }
-        QDOT_TRY(qdot_resolve_check(pool, *value));
-    }
-    return QDOT_OK;
-}
-
 /* --- name[...] ---------------------------------------------------------------------- */
 
 /* Whether all are numbers, of parameters perhaps: no coordinates, no labels. */
@@ -523,7 +428,7 @@ independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
     if (!qdot_expr_is_coordinate(s->pool, q))
         return qdot_fail(QDOT_ETYPE, "p[ ] takes a coordinate");
     *value = qdot_symbol_of(s->pool, QDOT_MOMENTUM, q);
-    return qdot_resolve_check(s->pool, *value);
+    return qdot_value_kind_check(s->pool, *value);
 }
 
 /* eom[theta], mass_matrix[a, b]; eom[1] is the first of the list. */
@@ -533,7 +438,7 @@ quantity_index(qdot_session *s, const qdot_quantity *row, unsigned primes, uint3
 {
     if (row->least == 0 && (row->most == 0 || all_integers(s, n, index))) {
         QDOT_TRY(quantity(s, row, primes, 0, NULL, value));
-        return qdot_resolve_entry(s, *value, QDOT_NIL, n, index, value);
+        return qdot_entry_of(s, *value, QDOT_NIL, n, index, value);
     }
     if ((int)n < row->least || (int)n > row->most)
         return qdot_fail(QDOT_ETYPE, "`%s[ ]` takes %d ind%s, not %u", row->name,
@@ -599,7 +504,7 @@ resolve_member(qdot_cursor *c, const qdot_token *token, unsigned primes, uint32_
     *found = false;
     if (!may_be_family(s, token->text))
         return QDOT_OK;
-    status = qdot_resolve_member(s, token->text, n, index, &spelled);
+    status = qdot_entry_name(s, token->text, n, index, &spelled);
     if (status == QDOT_OK)
         status = member(s, spelled.at, primes, found, value);
     if (status == QDOT_OK && !*found && qdot_names_is_family(s->names, token->text))
@@ -618,7 +523,7 @@ unknown_index(qdot_cursor *c, const qdot_token *token, uint32_t n, const qdot_ex
     for (uint32_t i = 0; i < n; i++)
         if (qdot_expr_kind(c->session->pool, index[i]) != QDOT_NUM)
             return qdot_hints_unknown(c, token, NULL);
-    status = qdot_resolve_member(c->session, token->text, n, index, &spelled);
+    status = qdot_entry_name(c->session, token->text, n, index, &spelled);
     if (status == QDOT_OK)
         status = qdot_hints_unknown(c, token, spelled.at);
     qdot_text_clear(&spelled);
@@ -658,7 +563,7 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
         QDOT_TRY(qdot_resolve_name(c, token, 0, &whole, &over));
         if (qdot_expr_is_scalar(s->pool, whole))
             return qdot_fail(QDOT_ETYPE, "`%.200s` is a number: it has no entries", name);
-        QDOT_TRY(qdot_resolve_entry(s, whole, over, n, index, value));
+        QDOT_TRY(qdot_entry_of(s, whole, over, n, index, value));
         return ddt_times(s, primes, value);
     }
     return quantity_index(s, row, primes, n, index, value);

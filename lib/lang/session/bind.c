@@ -1,13 +1,13 @@
 /* bind.c -- from expressions to numbers: the values of `set`, then those that runs
  * gave. */
-#include <inttypes.h>
+#include "lang/session/bind.h"
+
 #include <math.h>
-#include <string.h>
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "lang/session/session.h"
+#include "lang/session/value-kind.h"
 #include "tape/constant.h"
 #include "tape/tape.h"
 
@@ -186,15 +186,9 @@ evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *cons
 static qdot_status
 not_a_number(qdot_session *session, qdot_expr e)
 {
-    static const char *const kinds[] = {[QDOT_REL] = "an equation",
-                                        [QDOT_LOGIC] = "a condition",
-                                        [QDOT_VEC] = "a vector",
-                                        [QDOT_MAT] = "a matrix",
-                                        [QDOT_LIST] = "a list"};
-
     if (!qdot_expr_is_scalar(session->pool, e))
         return qdot_fail(QDOT_ETYPE, "%s stands where a number belongs",
-                         kinds[qdot_expr_kind(session->pool, e)]);
+                         qdot_value_kind_words(session->pool, e));
     return QDOT_OK;
 }
 
@@ -255,4 +249,26 @@ qdot_session_integer(qdot_session *session, qdot_expr e, long *value)
         status = qdot_hint("set %.100s = ... gives it a value", qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
+}
+
+/* A value outside the domain of its parameter is an error at once where it is a
+ * number. */
+qdot_status
+qdot_session_in_domain(qdot_session *session, qdot_expr symbol, qdot_expr value)
+{
+    const qdot_symbol s = *qdot_expr_symbol(session->pool, symbol);
+    double x, bound;
+
+    if ((s.lo == QDOT_NIL && s.hi == QDOT_NIL) ||
+        qdot_session_number(session, value, &x, NULL) != QDOT_OK)
+        return QDOT_OK; /* no number yet */
+    if (s.lo != QDOT_NIL && qdot_session_number(session, s.lo, &bound, NULL) == QDOT_OK &&
+        (x < bound || (s.lo_open && x == bound)))
+        return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g",
+                         s.name, x, s.name, s.lo_open ? ">" : ">=", bound);
+    if (s.hi != QDOT_NIL && qdot_session_number(session, s.hi, &bound, NULL) == QDOT_OK &&
+        (x > bound || (s.hi_open && x == bound)))
+        return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g",
+                         s.name, x, s.name, s.hi_open ? "<" : "<=", bound);
+    return QDOT_OK;
 }

@@ -4,7 +4,7 @@
  * the session remembers. An expression of such symbols is evaluated run by run, and then
  * itself; what is along no run named is along the latest.
  */
-#include "lang/commands/number.h"
+#include "lang/session/member.h"
 
 #include <float.h>
 #include <math.h>
@@ -13,6 +13,9 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
 #include "tape/tape.h"
 
 static const uint32_t motion = QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
@@ -190,7 +193,7 @@ read_symbols(qdot_session *session, const char *run, size_t k, const double *tim
         qdot_expr e = m != NULL ? m->value : x->symbols.at[i];
         qdot_named_run *named;
 
-        QDOT_TRY(qdot_number_find_run(session, m != NULL ? m->run : run, &named));
+        QDOT_TRY(qdot_runs_find(session, m != NULL ? m->run : run, &named));
         QDOT_TRY(qdot_run_values_beyond(named->run, 1, &e, k, times, lows,
                                         x->values + i * k, x->errors + i * k));
     }
@@ -260,7 +263,7 @@ qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_ex
         const qdot_member *m = find(session, x.symbols.at[i]);
         qdot_named_run *named;
 
-        status = qdot_number_find_run(session, m != NULL ? m->run : run, &named);
+        status = qdot_runs_find(session, m != NULL ? m->run : run, &named);
         exact = status == QDOT_OK && qdot_run_get_report(named->run)->digits > 0;
     }
     for (size_t i = 0; i < x.symbols.n && status == QDOT_OK && exact; i++) {
@@ -269,11 +272,11 @@ qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_ex
         qdot_expr by;
 
         status = m != NULL
-                     ? qdot_number_measure(session, m->run, m->value, time, &number)
-                     : qdot_number_measure(session, run, x.symbols.at[i], time, &number);
+                     ? qdot_runs_measure_one(session, m->run, m->value, time, &number)
+                     : qdot_runs_measure_one(session, run, x.symbols.at[i], time, &number);
         if (status != QDOT_OK)
             break;
-        by = qdot_number_measured_as(session, number);
+        by = qdot_measured_add(session, number);
         e = qdot_subs(session->pool, e, 1, &x.symbols.at[i], &by);
     }
     if (status == QDOT_OK && exact) {
@@ -293,7 +296,7 @@ qdot_member_span(qdot_session *session, qdot_expr e, double *from, double *to)
 
         if (!qdot_expr_contains(session->pool, e, session->members.at[i].symbol))
             continue;
-        QDOT_TRY(qdot_number_find_run(session, session->members.at[i].run, &named));
+        QDOT_TRY(qdot_runs_find(session, session->members.at[i].run, &named));
         report = qdot_run_get_report(named->run);
         *from = fmax(*from, fmin(report->t0, report->t1));
         *to = fmin(*to, fmax(report->t0, report->t1));

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "lang/session/spelling.h"
 
 typedef struct entry {
     qdot_name name; /* first: who keeps a name keeps its entry */
@@ -608,88 +609,18 @@ qdot_names_pop(qdot_names *names)
         qdot_free(names->bound.at[--names->bound.n].name);
 }
 
-/* --- the nearest in spelling -------------------------------------------------------- */
-
-enum { LONGEST = 64 };
-
-static int
-lower(char c)
-{
-    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : (unsigned char)c;
-}
-
-/* Twice the least number of letters put in, left out, changed or swapped; a change of
- * case alone costs half. Optimal string alignment (Damerau 1964). */
-static int
-distance(const char *a, size_t n, const char *b, size_t m)
-{
-    int rows[3][LONGEST + 1];
-
-    for (size_t j = 0; j <= m; j++)
-        rows[0][j] = 2 * (int)j;
-    for (size_t i = 1; i <= n; i++) {
-        int *row = rows[i % 3], *above = rows[(i - 1) % 3], *higher = rows[(i + 1) % 3];
-
-        row[0] = 2 * (int)i;
-        for (size_t j = 1; j <= m; j++) {
-            int change = a[i - 1] == b[j - 1]                 ? 0
-                         : lower(a[i - 1]) == lower(b[j - 1]) ? 1
-                                                              : 2;
-            int best = above[j - 1] + change;
-
-            if (above[j] + 2 < best)
-                best = above[j] + 2;
-            if (row[j - 1] + 2 < best)
-                best = row[j - 1] + 2;
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
-                higher[j - 2] + 2 < best)
-                best = higher[j - 2] + 2;
-            row[j] = best;
-        }
-    }
-    return rows[n % 3][m];
-}
-
-typedef struct {
-    const char *name, *best;
-    size_t length;
-    int least;
-} search;
-
-static void
-consider(search *s, const char *candidate)
-{
-    size_t m = strlen(candidate);
-    int d;
-
-    if (m > LONGEST || m > s->length + 3 || s->length > m + 3)
-        return;
-    d = distance(s->name, s->length, candidate, m);
-    /* a one-letter name is never a slip of another one, only of its other case */
-    if (m < 2 && d > 1)
-        return;
-    if (d < s->least) {
-        s->least = d;
-        s->best = candidate;
-    }
-}
-
 const char *
 qdot_names_nearest(const qdot_names *names, const char *name, size_t n,
                    const char *const *extra)
 {
-    search s = {.name = name, .length = strlen(name)};
+    qdot_spelling s;
 
-    if (s.length == 0 || s.length > LONGEST)
-        return NULL;
-    s.least = 2 * (s.length < 7 ? 1 : s.length < 11 ? 2 : 3) + 2;
-    if (s.length == 1)
-        s.least = 2; /* the other case only */
+    qdot_spelling_begin(&s, name);
     for (size_t i = names->bound.n; i > names->seen_from; i--)
-        consider(&s, names->bound.at[i - 1].name);
+        qdot_spelling_offer(&s, names->bound.at[i - 1].name);
     for (size_t i = 0; i < names->order.n; i++)
-        consider(&s, names->order.at[i]->name.name);
+        qdot_spelling_offer(&s, names->order.at[i]->name.name);
     for (size_t i = 0; i < n; i++)
-        consider(&s, extra[i]);
+        qdot_spelling_offer(&s, extra[i]);
     return s.best;
 }

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "expr/expr.h"
+#include "lang/session/function-body.h"
 
 typedef enum {
     QDOT_NAME_PARAM,    /* value: the symbol */
@@ -18,18 +19,6 @@ typedef enum {
     QDOT_NAME_INDEX,    /* value: what a loop or sum binds just now; hides outer names */
     QDOT_NAME_ARGUMENT  /* value: what a call gives a formal argument; hides outer names */
 } qdot_name_kind;
-
-/* The text of a function's body (lang/language/function.h) or of the right side of a definition, shared by what
- * uses it. */
-typedef struct qdot_function_body {
-    unsigned uses;
-    struct qdot_source *source;          /* kept alive */
-    const struct qdot_token *from, *to;  /* its tokens, `to` behind the last */
-    qdot_vec(const char *) captured;     /* indices of loops round the definition */
-} qdot_function_body;
-
-qdot_function_body *qdot_function_body_keep(qdot_function_body *body); /* one use more; NULL: NULL */
-void qdot_function_body_release(qdot_function_body *body);    /* one use less; the last frees it */
 
 typedef struct {
     char *name;

@@ -1,7 +1,12 @@
 /* range.c -- max, min, mean, drift over a range of a run. */
+#include "lang/session/range.h"
+
 #include <string.h>
 
-#include "lang/commands/number.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/member.h"
+#include "lang/session/runs.h"
 
 static const struct {
     const char *word;
@@ -12,7 +17,7 @@ static const struct {
              {"drift", QDOT_RANGE_DRIFT}};
 
 bool
-qdot_number_is_range(const char *word)
+qdot_range_is_word(const char *word)
 {
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strcmp(words[i].word, word) == 0)
@@ -34,19 +39,19 @@ measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr 
     if (mixed)
         return qdot_fail(QDOT_ENOTBUILT,
                          "not built yet: a range of several runs in one expression");
-    QDOT_TRY(qdot_number_find_run(session, run, &named));
+    QDOT_TRY(qdot_runs_find(session, run, &named));
     report = qdot_run_get_report(named->run);
     QDOT_TRY(qdot_run_range(named->run, kind, e, range != NULL ? range[0] : report->t0,
                             range != NULL ? range[1] : report->t1, &x, &error));
-    *value = qdot_number_measured(session, x, error);
+    *value = qdot_measured_new(session, x, error);
     return qdot_pool_check(session->pool);
 }
 
 qdot_status
-qdot_number_range(qdot_session *session, const char *run, const char *word, uint32_t n,
-                  const qdot_expr *args, const qdot_expr *range, qdot_expr *value)
+qdot_range_value(qdot_session *session, const char *run, const char *word, uint32_t n,
+                 const qdot_expr *args, const qdot_expr *range, qdot_expr *value)
 {
-    qdot_number_columns columns = {0};
+    qdot_runs_columns columns = {0};
     qdot_vec(qdot_expr) results = {0};
     qdot_range_kind kind = QDOT_RANGE_MAX;
     double ends[2];
@@ -60,7 +65,7 @@ qdot_number_range(qdot_session *session, const char *run, const char *word, uint
     for (int k = 0; k < 2 && range != NULL; k++)
         QDOT_TRY(qdot_session_number(session, range[k], &ends[k], NULL));
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
-        status = qdot_number_flatten(session, args[i], &columns);
+        status = qdot_runs_flatten(session, args[i], &columns);
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++) {
         qdot_expr one = QDOT_NIL;
 

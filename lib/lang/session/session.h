@@ -69,56 +69,30 @@ typedef struct qdot_session {
     size_t figures;        /* NAME-1.svg ... */
     bool quit;             /* `quit` was said */
     bool declares;         /* the statement under way declares what stands in a scene */
-    const char *taken;     /* the short name of a value that it read (lang/language/taken); NULL */
+    const char *taken;     /* the short name of a value that it read (lang/functions/short-names); NULL */
     qdot_vec(char *) told; /* notices that are given once */
     unsigned calls;        /* of functions under way, within one another */
     bool placed;           /* the error under way names its place in a body */
     size_t loops;          /* loops under way: what they hold must outlive them */
     struct qdot_undo *undo; /* NULL: no statement yet */
+    void (*undo_free)(struct qdot_undo *undo); /* set with it */
     qdot_passed *passed;   /* while the sides of a check are read; else NULL */
 } qdot_session;
 
 qdot_session *qdot_session_new(FILE *out, FILE *err); /* NULL: no memory */
 void qdot_session_free(qdot_session *session);
 
-/* Carry out a text. `name` is what errors call it ("a.lag", "-e", "prompt"). Stops at the
- * first error, which is reported on err (and as JSON on out). Returns the exit status so far: 0, 1 a
- * statement failed or a check was refuted, 2 a syntax error. */
-int qdot_session_run_text(qdot_session *session, const char *name, const char *text,
-                          size_t length);
-/* The same from a file ("-": standard input); unreadable, a directory, not UTF-8: an error. */
-int qdot_session_run_file(qdot_session *session, const char *path);
-
-/* For the prompt: whether the text so far is incomplete (an open bracket, a trailing \). */
-bool qdot_session_incomplete(const char *text, size_t length);
-
-/* Completions of a word prefix: statement words, functions, values, declared names; sorted, unique.
- * *words [*n] and each owned by the caller (qdot_free). */
-QDOT_MUST_CHECK qdot_status qdot_session_complete(qdot_session *session,
-                                                  const char *prefix, char ***words,
-                                                  size_t *n);
-
-/* e with the values of parameters (`set`, `param x = v`) put in; exact. Repeated, as values may
- * hold other parameters; a cycle is QDOT_EINVAL. */
-qdot_expr qdot_session_bind(qdot_session *session, qdot_expr e);
-/* As a double: bound, measured symbols put in; error (may be NULL) propagated from measured ones. */
-QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr e,
-                                                double *value, double *error);
-/* The same, and what an exact number is beyond the double; 0 of a measured one. */
-QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr e,
-                                               double *value, double *low);
-/* As an integer: QDOT_ETYPE with the value otherwise. */
 /* Add a value to the history: `%` from now on. over: the LIST of coordinates its entries go by, or
  * nil. */
 QDOT_MUST_CHECK qdot_status qdot_session_remember(qdot_session *session, qdot_expr value,
                                                   qdot_expr over);
-QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_expr e,
-                                                 long *value);
-/* Forget the scene's coordinates, particles, ... (`reset scene`) or everything (`reset`). */
-QDOT_MUST_CHECK qdot_status qdot_session_reset(qdot_session *session, bool everything);
+/* From now on the symbol (a parameter, a momentum) or undefined function (applied to formal symbols
+ * that stand in `value`) has this value for numbers. *status: QDOT_ENOMEM; unchanged if all is well. */
+void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
+                      qdot_status *status);
+/* From now on a run starts with this value of q or q'. */
+QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value);
 /* All that `reset` forgets changes places; what is no part of a scene stays: style, files ... */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 
-/* A number of a run enters expressions: value(...), in lang/commands/number.c. `text` is the source text
- * between the brackets' tokens, see lang/language/read.h. */
 #endif

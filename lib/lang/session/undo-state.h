@@ -1,6 +1,6 @@
 /* undo-state.h -- the state of a session as arrays of items that are copied as they are.
  *
- * Inside of lang/commands/undo. A qdot_scene_part says where an array is, in the session or in a copy; runs and
+ * Inside of lang/session/undo. A qdot_scene_part says where an array is, in the session or in a copy; runs and
  * names count who uses them. */
 #ifndef QDOT_LANG_UNDO_STATE_H
 #define QDOT_LANG_UNDO_STATE_H

@@ -1,7 +1,7 @@
 /* letters.c -- the letters a name may hold, and how Greek ones are spelled. */
-#include <string.h>
+#include "lang/source/letters.h"
 
-#include "lang/language/code.h"
+#include <string.h>
 
 static const struct {
     uint32_t code;

@@ -1,9 +1,12 @@
 /* lex.c -- from bytes to tokens. */
+#include "lang/source/lex.h"
+
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/text.h"
 #include "base/utf8.h"
-#include "lang/language/code.h"
+#include "lang/source/letters.h"
 
 typedef struct {
     qdot_source *source;

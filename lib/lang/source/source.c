@@ -1,8 +1,10 @@
 /* source.c -- a text with its tokens, and errors that show the place. */
+#include "lang/source/source.h"
+
 #include <string.h>
 
 #include "base/utf8.h"
-#include "lang/language/code.h"
+#include "lang/source/lex.h"
 
 /* Columns of a line that an error shows. */
 enum { SHOWN = 90 };
