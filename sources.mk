@@ -323,7 +323,7 @@ tape_headers = \
 mech_sources = \
 	lib/mech/dynamics/accel.c \
 	lib/mech/dynamics/alike.c \
-	lib/mech/dynamics/constraint.c \
+	lib/mech/dynamics/conservation.c \
 	lib/mech/dynamics/dalembert.c \
 	lib/mech/dynamics/energy.c \
 	lib/mech/dynamics/freedom.c \
@@ -334,11 +334,14 @@ mech_sources = \
 	lib/mech/dynamics/momentum.c \
 	lib/mech/dynamics/nested.c \
 	lib/mech/dynamics/numeric.c \
+	lib/mech/dynamics/potential.c \
 	lib/mech/dynamics/recursive.c \
 	lib/mech/dynamics/squares.c \
 	lib/mech/dynamics/virtual-work.c \
+	lib/mech/scene/access.c \
 	lib/mech/scene/body.c \
-	lib/mech/scene/derived.c \
+	lib/mech/scene/cache.c \
+	lib/mech/scene/constraint.c \
 	lib/mech/scene/event.c \
 	lib/mech/scene/kind.c \
 	lib/mech/scene/label.c \
@@ -368,12 +371,27 @@ mech_sources = \
 	lib/mech/study/stability.c
 
 mech_headers = \
+	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
+	lib/mech/dynamics/energy.h \
+	lib/mech/dynamics/freedom.h \
+	lib/mech/dynamics/generic.h \
+	lib/mech/dynamics/kinematics.h \
+	lib/mech/dynamics/lagrange.h \
+	lib/mech/dynamics/mass-matrix.h \
+	lib/mech/dynamics/nested.h \
+	lib/mech/dynamics/potential.h \
 	lib/mech/dynamics/quantity.h \
+	lib/mech/dynamics/recursive.h \
 	lib/mech/dynamics/squares.h \
-	lib/mech/scene/derived.h \
+	lib/mech/dynamics/virtual-work.h \
+	lib/mech/scene/access.h \
+	lib/mech/scene/body.h \
+	lib/mech/scene/cache.h \
+	lib/mech/scene/constraint.h \
 	lib/mech/scene/scene.h \
-	lib/mech/study/equilibrium-rest.h \
+	lib/mech/scene/things.h \
+	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
 	lib/mech/study/hamilton.h \
@@ -381,8 +399,10 @@ mech_headers = \
 	lib/mech/study/linear-motion.h \
 	lib/mech/study/lyapunov.h \
 	lib/mech/study/minimal.h \
+	lib/mech/study/modes.h \
 	lib/mech/study/noether.h \
 	lib/mech/study/reactions.h \
+	lib/mech/study/rest.h \
 	lib/mech/study/stability.h
 
 sim_sources = \
