@@ -1,70 +1,12 @@
 # sources.mk -- which files make qdot. Written by ./bootstrap sources; do not edit.
 
-base_sources = \
+library_sources = \
 	lib/base/interrupt.c \
 	lib/base/memory.c \
 	lib/base/scope.c \
 	lib/base/status.c \
 	lib/base/text.c \
-	lib/base/utf8.c
-
-base_headers = \
-	lib/base/clock.h \
-	lib/base/interrupt.h \
-	lib/base/memory.h \
-	lib/base/scope.h \
-	lib/base/status.h \
-	lib/base/text.h \
-	lib/base/utf8.h
-
-num_sources = \
-	lib/num/articulated.c \
-	lib/num/batch.c \
-	lib/num/bordered.c \
-	lib/num/chebyshev.c \
-	lib/num/cholesky.c \
-	lib/num/hermite.c \
-	lib/num/kinds.c \
-	lib/num/ldlt.c \
-	lib/num/least-move.c \
-	lib/num/real.c \
-	lib/num/row-space.c \
-	lib/num/saddle-rows.c \
-	lib/num/saddle.c \
-	lib/num/series.c \
-	lib/num/sparse.c \
-	lib/num/structure.c \
-	lib/num/two.c
-
-num_headers = \
-	lib/num/arb.h \
-	lib/num/articulated-plane.def \
-	lib/num/articulated.def \
-	lib/num/articulated.h \
-	lib/num/batch-kinds.def \
-	lib/num/batch-vector.def \
-	lib/num/batch.def \
-	lib/num/batch.h \
-	lib/num/bordered.h \
-	lib/num/chebyshev.h \
-	lib/num/cholesky.h \
-	lib/num/hermite.h \
-	lib/num/kinds.h \
-	lib/num/ldlt.h \
-	lib/num/least-move.h \
-	lib/num/real.h \
-	lib/num/row-space.h \
-	lib/num/saddle.h \
-	lib/num/series-dot.def \
-	lib/num/series.def \
-	lib/num/series.h \
-	lib/num/sparse.h \
-	lib/num/structure.h \
-	lib/num/sum.h \
-	lib/num/two.def \
-	lib/num/two.h
-
-expr_sources = \
+	lib/base/utf8.c \
 	lib/expr/bounds.c \
 	lib/expr/calculus.c \
 	lib/expr/construct.c \
@@ -86,56 +28,113 @@ expr_sources = \
 	lib/expr/sum.c \
 	lib/expr/tensor.c \
 	lib/expr/ufun.c \
-	lib/expr/walk.c
-
-expr_headers = \
-	lib/expr/calculus.h \
-	lib/expr/expr.h \
-	lib/expr/function.def \
-	lib/expr/pool.h \
-	lib/expr/print-name.h \
-	lib/expr/print-parts.h \
-	lib/expr/print.h \
-	lib/expr/printed.h \
-	lib/expr/rational.h \
-	lib/expr/tensor.h \
-	lib/expr/walk.h
-
-ode_sources = \
-	lib/ode/apart.c \
-	lib/ode/batch.c \
-	lib/ode/companion.c \
-	lib/ode/dop853.c \
-	lib/ode/integrate.c \
-	lib/ode/leading.c \
-	lib/ode/method.c \
-	lib/ode/precise.c \
-	lib/ode/stepper.c \
-	lib/ode/taylor-series.c \
-	lib/ode/taylor.c \
-	lib/ode/trajectory.c \
-	lib/ode/written.c
-
-ode_headers = \
-	lib/ode/apart.h \
-	lib/ode/batch.def \
-	lib/ode/batch.h \
-	lib/ode/companion.h \
-	lib/ode/crawl.h \
-	lib/ode/dop853.def \
-	lib/ode/dop853.h \
-	lib/ode/integrate.h \
-	lib/ode/leading.h \
-	lib/ode/method.h \
-	lib/ode/precise.h \
-	lib/ode/stepper.h \
-	lib/ode/system.h \
-	lib/ode/taylor-numbers.h \
-	lib/ode/taylor.h \
-	lib/ode/trajectory.h \
-	lib/ode/written.h
-
-normal_sources = \
+	lib/expr/walk.c \
+	lib/lang/algebra.c \
+	lib/lang/answer.c \
+	lib/lang/ask.c \
+	lib/lang/bind.c \
+	lib/lang/builtin.c \
+	lib/lang/call.c \
+	lib/lang/carry.c \
+	lib/lang/check.c \
+	lib/lang/closed-sum.c \
+	lib/lang/condition.c \
+	lib/lang/constraints.c \
+	lib/lang/cursor.c \
+	lib/lang/declare-function.c \
+	lib/lang/declare.c \
+	lib/lang/derive.c \
+	lib/lang/digits-table.c \
+	lib/lang/digits.c \
+	lib/lang/draw.c \
+	lib/lang/equilibria.c \
+	lib/lang/evaluate.c \
+	lib/lang/event.c \
+	lib/lang/function.c \
+	lib/lang/furnish.c \
+	lib/lang/help.c \
+	lib/lang/hints.c \
+	lib/lang/letters.c \
+	lib/lang/lex.c \
+	lib/lang/loop.c \
+	lib/lang/meant.c \
+	lib/lang/member.c \
+	lib/lang/names.c \
+	lib/lang/number.c \
+	lib/lang/numeric.c \
+	lib/lang/parse.c \
+	lib/lang/plot.c \
+	lib/lang/quantities.c \
+	lib/lang/race.c \
+	lib/lang/range.c \
+	lib/lang/read.c \
+	lib/lang/redirect.c \
+	lib/lang/remove.c \
+	lib/lang/report.c \
+	lib/lang/resolve.c \
+	lib/lang/scene-file.c \
+	lib/lang/series.c \
+	lib/lang/session.c \
+	lib/lang/source.c \
+	lib/lang/start.c \
+	lib/lang/statement.c \
+	lib/lang/styled.c \
+	lib/lang/taken.c \
+	lib/lang/undo-state.c \
+	lib/lang/undo.c \
+	lib/lang/values.c \
+	lib/lang/words.c \
+	lib/lang/workbench.c \
+	lib/lang/workprecision.c \
+	lib/machine/x86.c \
+	lib/mech/dynamics/accel.c \
+	lib/mech/dynamics/alike.c \
+	lib/mech/dynamics/conservation.c \
+	lib/mech/dynamics/dalembert.c \
+	lib/mech/dynamics/energy.c \
+	lib/mech/dynamics/freedom.c \
+	lib/mech/dynamics/generic.c \
+	lib/mech/dynamics/kinematics.c \
+	lib/mech/dynamics/lagrange.c \
+	lib/mech/dynamics/mass-matrix.c \
+	lib/mech/dynamics/momentum.c \
+	lib/mech/dynamics/nested.c \
+	lib/mech/dynamics/numeric.c \
+	lib/mech/dynamics/potential.c \
+	lib/mech/dynamics/recursive.c \
+	lib/mech/dynamics/squares.c \
+	lib/mech/dynamics/virtual-work.c \
+	lib/mech/scene/access.c \
+	lib/mech/scene/body.c \
+	lib/mech/scene/cache.c \
+	lib/mech/scene/constraint.c \
+	lib/mech/scene/event.c \
+	lib/mech/scene/kind.c \
+	lib/mech/scene/label.c \
+	lib/mech/scene/parts.c \
+	lib/mech/scene/place.c \
+	lib/mech/scene/print.c \
+	lib/mech/scene/remove.c \
+	lib/mech/scene/replace.c \
+	lib/mech/scene/scene.c \
+	lib/mech/study/equilibrium-branches.c \
+	lib/mech/study/equilibrium-equations.c \
+	lib/mech/study/equilibrium-numeric.c \
+	lib/mech/study/equilibrium-twice.c \
+	lib/mech/study/equilibrium.c \
+	lib/mech/study/geometry.c \
+	lib/mech/study/hamilton.c \
+	lib/mech/study/integrable.c \
+	lib/mech/study/linear-motion.c \
+	lib/mech/study/lyapunov.c \
+	lib/mech/study/metric.c \
+	lib/mech/study/minimal.c \
+	lib/mech/study/modes.c \
+	lib/mech/study/noether.c \
+	lib/mech/study/reactions.c \
+	lib/mech/study/stability-exact.c \
+	lib/mech/study/stability-numbers.c \
+	lib/mech/study/stability.c \
 	lib/normal/field/factor.c \
 	lib/normal/field/field.c \
 	lib/normal/field/flint.c \
@@ -198,9 +197,230 @@ normal_sources = \
 	lib/normal/solve/solve-factors.c \
 	lib/normal/solve/solve-signs.c \
 	lib/normal/solve/solve-sort.c \
-	lib/normal/solve/solve.c
+	lib/normal/solve/solve.c \
+	lib/num/articulated.c \
+	lib/num/batch.c \
+	lib/num/bordered.c \
+	lib/num/chebyshev.c \
+	lib/num/cholesky.c \
+	lib/num/hermite.c \
+	lib/num/kinds.c \
+	lib/num/ldlt.c \
+	lib/num/least-move.c \
+	lib/num/real.c \
+	lib/num/row-space.c \
+	lib/num/saddle-rows.c \
+	lib/num/saddle.c \
+	lib/num/series.c \
+	lib/num/sparse.c \
+	lib/num/structure.c \
+	lib/num/two.c \
+	lib/ode/apart.c \
+	lib/ode/batch.c \
+	lib/ode/companion.c \
+	lib/ode/dop853.c \
+	lib/ode/integrate.c \
+	lib/ode/leading.c \
+	lib/ode/method.c \
+	lib/ode/precise.c \
+	lib/ode/stepper.c \
+	lib/ode/taylor-series.c \
+	lib/ode/taylor.c \
+	lib/ode/trajectory.c \
+	lib/ode/written.c \
+	lib/series/lanes-code.c \
+	lib/series/lanes-steps.c \
+	lib/series/lanes-sums.c \
+	lib/series/lanes-writer.c \
+	lib/series/lanes.c \
+	lib/series/near.c \
+	lib/series/precise.c \
+	lib/series/program.c \
+	lib/series/taylor-code-fold.c \
+	lib/series/taylor-code-order.c \
+	lib/series/taylor-code-solve.c \
+	lib/series/taylor-code-vectors.c \
+	lib/series/taylor-code-zero.c \
+	lib/series/taylor-code.c \
+	lib/series/taylor-correct.c \
+	lib/series/taylor-near.c \
+	lib/series/taylor-order.c \
+	lib/series/taylor-text.c \
+	lib/series/taylor-unknowns.c \
+	lib/series/taylor-wide.c \
+	lib/series/taylor.c \
+	lib/series/two.c \
+	lib/show/csv.c \
+	lib/show/figure.c \
+	lib/show/gnuplot.c \
+	lib/show/sink.c \
+	lib/show/table.c \
+	lib/sim/course/bind.c \
+	lib/sim/course/course.c \
+	lib/sim/course/drift.c \
+	lib/sim/course/multipliers.c \
+	lib/sim/course/piece-end.c \
+	lib/sim/course/piece.c \
+	lib/sim/course/polynomial-bounds.c \
+	lib/sim/course/reader.c \
+	lib/sim/course/side-search.c \
+	lib/sim/course/stage-sides.c \
+	lib/sim/course/stage.c \
+	lib/sim/course/watch-exclusion.c \
+	lib/sim/course/watch-roots.c \
+	lib/sim/course/watch-values.c \
+	lib/sim/course/watch.c \
+	lib/sim/digits/digits.c \
+	lib/sim/digits/precise-course.c \
+	lib/sim/digits/precise-distance.c \
+	lib/sim/digits/precise-start.c \
+	lib/sim/digits/precise-value.c \
+	lib/sim/digits/precise.c \
+	lib/sim/error/companion.c \
+	lib/sim/error/distance.c \
+	lib/sim/error/failure.c \
+	lib/sim/error/horizon.c \
+	lib/sim/error/noise.c \
+	lib/sim/error/singular-places.c \
+	lib/sim/error/unresolved-forces.c \
+	lib/sim/form/blocks.c \
+	lib/sim/form/bordered.c \
+	lib/sim/form/constrained-series.c \
+	lib/sim/form/direct.c \
+	lib/sim/form/eliminated.c \
+	lib/sim/form/leading-residual.c \
+	lib/sim/form/leading.c \
+	lib/sim/form/members.c \
+	lib/sim/form/precise-bind.c \
+	lib/sim/form/residual-tree.c \
+	lib/sim/form/residual.c \
+	lib/sim/form/shifted-lanes.c \
+	lib/sim/form/shifted-tree.c \
+	lib/sim/form/shifted-wide.c \
+	lib/sim/form/shifted.c \
+	lib/sim/model/constrained-jacobian.c \
+	lib/sim/model/constrained-near.c \
+	lib/sim/model/constrained-project.c \
+	lib/sim/model/constrained-put.c \
+	lib/sim/model/constrained-start.c \
+	lib/sim/model/constrained.c \
+	lib/sim/model/constraints.c \
+	lib/sim/model/domain.c \
+	lib/sim/model/momenta.c \
+	lib/sim/model/parameter-states.c \
+	lib/sim/model/power-quotient.c \
+	lib/sim/model/quotient.c \
+	lib/sim/model/rates.c \
+	lib/sim/model/substitute.c \
+	lib/sim/model/switch.c \
+	lib/sim/model/term-magnitude.c \
+	lib/sim/plan/parts.c \
+	lib/sim/plan/plan.c \
+	lib/sim/plan/routh.c \
+	lib/sim/read/range-poles.c \
+	lib/sim/read/range-seek.c \
+	lib/sim/read/range.c \
+	lib/sim/read/value.c \
+	lib/sim/run/describe.c \
+	lib/sim/run/run.c \
+	lib/sim/start/nearest-search.c \
+	lib/sim/start/nearest.c \
+	lib/sim/start/start.c \
+	lib/sim/study/ensemble-momenta.c \
+	lib/sim/study/ensemble.c \
+	lib/sim/study/race.c \
+	lib/sim/study/workprecision.c \
+	lib/tape/angle.c \
+	lib/tape/code.c \
+	lib/tape/constant.c \
+	lib/tape/derivative.c \
+	lib/tape/disc.c \
+	lib/tape/finish.c \
+	lib/tape/interval.c \
+	lib/tape/keymap.c \
+	lib/tape/lower.c \
+	lib/tape/tape.c
 
-normal_headers = \
+library_headers = \
+	lib/base/clock.h \
+	lib/base/interrupt.h \
+	lib/base/memory.h \
+	lib/base/scope.h \
+	lib/base/status.h \
+	lib/base/text.h \
+	lib/base/utf8.h \
+	lib/expr/calculus.h \
+	lib/expr/expr.h \
+	lib/expr/function.def \
+	lib/expr/pool.h \
+	lib/expr/print-name.h \
+	lib/expr/print-parts.h \
+	lib/expr/print.h \
+	lib/expr/printed.h \
+	lib/expr/rational.h \
+	lib/expr/tensor.h \
+	lib/expr/walk.h \
+	lib/lang/algebra.h \
+	lib/lang/answer.h \
+	lib/lang/ask.h \
+	lib/lang/carry.h \
+	lib/lang/closed-sum.h \
+	lib/lang/code.h \
+	lib/lang/condition.h \
+	lib/lang/constraints.h \
+	lib/lang/declare.h \
+	lib/lang/digits-table.h \
+	lib/lang/digits.h \
+	lib/lang/draw.h \
+	lib/lang/equilibria.h \
+	lib/lang/function.h \
+	lib/lang/meant.h \
+	lib/lang/names.h \
+	lib/lang/number.h \
+	lib/lang/numeric.h \
+	lib/lang/read.h \
+	lib/lang/redirect.h \
+	lib/lang/scene-file.h \
+	lib/lang/session.h \
+	lib/lang/statement.h \
+	lib/lang/taken.h \
+	lib/lang/undo-state.h \
+	lib/lang/undo.h \
+	lib/lang/values.h \
+	lib/machine/x86.h \
+	lib/mech/dynamics/alike.h \
+	lib/mech/dynamics/dalembert.h \
+	lib/mech/dynamics/energy.h \
+	lib/mech/dynamics/freedom.h \
+	lib/mech/dynamics/generic.h \
+	lib/mech/dynamics/kinematics.h \
+	lib/mech/dynamics/lagrange.h \
+	lib/mech/dynamics/mass-matrix.h \
+	lib/mech/dynamics/nested.h \
+	lib/mech/dynamics/potential.h \
+	lib/mech/dynamics/quantity.h \
+	lib/mech/dynamics/recursive.h \
+	lib/mech/dynamics/squares.h \
+	lib/mech/dynamics/virtual-work.h \
+	lib/mech/scene/access.h \
+	lib/mech/scene/body.h \
+	lib/mech/scene/cache.h \
+	lib/mech/scene/constraint.h \
+	lib/mech/scene/scene.h \
+	lib/mech/scene/things.h \
+	lib/mech/study/equilibrium-search.h \
+	lib/mech/study/equilibrium.h \
+	lib/mech/study/geometry.h \
+	lib/mech/study/hamilton.h \
+	lib/mech/study/integrable.h \
+	lib/mech/study/linear-motion.h \
+	lib/mech/study/lyapunov.h \
+	lib/mech/study/minimal.h \
+	lib/mech/study/modes.h \
+	lib/mech/study/noether.h \
+	lib/mech/study/reactions.h \
+	lib/mech/study/rest.h \
+	lib/mech/study/stability.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
 	lib/normal/field/field.h \
@@ -250,43 +470,136 @@ normal_headers = \
 	lib/normal/solve/linear.h \
 	lib/normal/solve/null-space.h \
 	lib/normal/solve/proportion.h \
-	lib/normal/solve/solve.h
-
-tape_sources = \
-	lib/tape/angle.c \
-	lib/tape/code.c \
-	lib/tape/constant.c \
-	lib/tape/derivative.c \
-	lib/tape/disc.c \
-	lib/tape/finish.c \
-	lib/tape/interval.c \
-	lib/tape/keymap.c \
-	lib/tape/lanes-code.c \
-	lib/tape/lanes-steps.c \
-	lib/tape/lanes-sums.c \
-	lib/tape/lanes-writer.c \
-	lib/tape/lanes.c \
-	lib/tape/lower.c \
-	lib/tape/near.c \
-	lib/tape/precise.c \
-	lib/tape/tape.c \
-	lib/tape/taylor-code-fold.c \
-	lib/tape/taylor-code-order.c \
-	lib/tape/taylor-code-solve.c \
-	lib/tape/taylor-code-vectors.c \
-	lib/tape/taylor-code-zero.c \
-	lib/tape/taylor-code.c \
-	lib/tape/taylor-correct.c \
-	lib/tape/taylor-near.c \
-	lib/tape/taylor-order.c \
-	lib/tape/taylor-text.c \
-	lib/tape/taylor-unknowns.c \
-	lib/tape/taylor-wide.c \
-	lib/tape/taylor.c \
-	lib/tape/two.c \
-	lib/tape/x86.c
-
-tape_headers = \
+	lib/normal/solve/solve.h \
+	lib/num/arb.h \
+	lib/num/articulated-plane.def \
+	lib/num/articulated.def \
+	lib/num/articulated.h \
+	lib/num/batch-kinds.def \
+	lib/num/batch-vector.def \
+	lib/num/batch.def \
+	lib/num/batch.h \
+	lib/num/bordered.h \
+	lib/num/chebyshev.h \
+	lib/num/cholesky.h \
+	lib/num/hermite.h \
+	lib/num/kinds.h \
+	lib/num/ldlt.h \
+	lib/num/least-move.h \
+	lib/num/real.h \
+	lib/num/row-space.h \
+	lib/num/saddle.h \
+	lib/num/series-dot.def \
+	lib/num/series.def \
+	lib/num/series.h \
+	lib/num/sparse.h \
+	lib/num/structure.h \
+	lib/num/sum.h \
+	lib/num/two.def \
+	lib/num/two.h \
+	lib/ode/apart.h \
+	lib/ode/batch.def \
+	lib/ode/batch.h \
+	lib/ode/companion.h \
+	lib/ode/crawl.h \
+	lib/ode/dop853.def \
+	lib/ode/dop853.h \
+	lib/ode/integrate.h \
+	lib/ode/leading.h \
+	lib/ode/method.h \
+	lib/ode/precise.h \
+	lib/ode/stepper.h \
+	lib/ode/system.h \
+	lib/ode/taylor-numbers.h \
+	lib/ode/taylor.h \
+	lib/ode/trajectory.h \
+	lib/ode/written.h \
+	lib/series/lanes-code.h \
+	lib/series/lanes-program.h \
+	lib/series/lanes-writer.h \
+	lib/series/lanes.def \
+	lib/series/lanes.h \
+	lib/series/linear.def \
+	lib/series/near.h \
+	lib/series/precise.h \
+	lib/series/program.h \
+	lib/series/recurrence.def \
+	lib/series/taylor-code-sum.h \
+	lib/series/taylor-code.h \
+	lib/series/taylor-generator.h \
+	lib/series/taylor-order.def \
+	lib/series/taylor-steps.h \
+	lib/series/taylor-text.h \
+	lib/series/taylor-wide.def \
+	lib/series/taylor-wide.h \
+	lib/series/taylor.h \
+	lib/series/two.def \
+	lib/series/two.h \
+	lib/show/gnuplot.h \
+	lib/show/show.h \
+	lib/show/sink.h \
+	lib/sim/course/bind.h \
+	lib/sim/course/course.h \
+	lib/sim/course/drift.h \
+	lib/sim/course/multipliers.h \
+	lib/sim/course/piece.h \
+	lib/sim/course/polynomial-bounds.h \
+	lib/sim/course/reader.h \
+	lib/sim/course/run-state.h \
+	lib/sim/course/stage.h \
+	lib/sim/course/watch-parts.h \
+	lib/sim/course/watch.h \
+	lib/sim/digits/digits.h \
+	lib/sim/digits/precise-course.h \
+	lib/sim/digits/precise-pair.h \
+	lib/sim/digits/precise-start.h \
+	lib/sim/digits/precise.h \
+	lib/sim/error/distance.h \
+	lib/sim/error/failure.h \
+	lib/sim/error/horizon.h \
+	lib/sim/error/noise.h \
+	lib/sim/error/singular-places.h \
+	lib/sim/error/unresolved-forces.h \
+	lib/sim/form/blocks.h \
+	lib/sim/form/bordered.h \
+	lib/sim/form/constrained-series.h \
+	lib/sim/form/direct.h \
+	lib/sim/form/eliminated.h \
+	lib/sim/form/leading-residual.h \
+	lib/sim/form/leading.h \
+	lib/sim/form/members.def \
+	lib/sim/form/members.h \
+	lib/sim/form/precise-bind.h \
+	lib/sim/form/residual-tree.h \
+	lib/sim/form/residual.h \
+	lib/sim/form/shifted-lanes.def \
+	lib/sim/form/shifted-lanes.h \
+	lib/sim/form/shifted-tree.h \
+	lib/sim/form/shifted-wide.h \
+	lib/sim/form/shifted.h \
+	lib/sim/model/constrained-parts.h \
+	lib/sim/model/constrained.h \
+	lib/sim/model/constraints.h \
+	lib/sim/model/domain.h \
+	lib/sim/model/momenta.h \
+	lib/sim/model/parameter-states.h \
+	lib/sim/model/power-quotient.h \
+	lib/sim/model/quotient.h \
+	lib/sim/model/rates.h \
+	lib/sim/model/substitute.h \
+	lib/sim/model/switch.h \
+	lib/sim/model/term-magnitude.h \
+	lib/sim/plan/parts.h \
+	lib/sim/plan/plan.h \
+	lib/sim/plan/routh.h \
+	lib/sim/read/range-parts.h \
+	lib/sim/run/run.h \
+	lib/sim/start/nearest.h \
+	lib/sim/start/start.h \
+	lib/sim/study/ensemble-momenta.h \
+	lib/sim/study/ensemble.h \
+	lib/sim/study/race.h \
+	lib/sim/study/workprecision.h \
 	lib/tape/angle.h \
 	lib/tape/code.h \
 	lib/tape/constant.h \
@@ -297,354 +610,9 @@ tape_headers = \
 	lib/tape/interval.def \
 	lib/tape/interval.h \
 	lib/tape/keymap.h \
-	lib/tape/lanes-code.h \
-	lib/tape/lanes-program.h \
-	lib/tape/lanes-writer.h \
-	lib/tape/lanes.def \
-	lib/tape/lanes.h \
-	lib/tape/near.h \
 	lib/tape/operation.def \
-	lib/tape/precise.h \
 	lib/tape/shake.h \
-	lib/tape/tape.h \
-	lib/tape/taylor-code-sum.h \
-	lib/tape/taylor-code.h \
-	lib/tape/taylor-generator.h \
-	lib/tape/taylor-order.def \
-	lib/tape/taylor-steps.h \
-	lib/tape/taylor-text.h \
-	lib/tape/taylor-wide.def \
-	lib/tape/taylor-wide.h \
-	lib/tape/taylor.h \
-	lib/tape/two.def \
-	lib/tape/two.h \
-	lib/tape/x86.h
-
-mech_sources = \
-	lib/mech/dynamics/accel.c \
-	lib/mech/dynamics/alike.c \
-	lib/mech/dynamics/conservation.c \
-	lib/mech/dynamics/dalembert.c \
-	lib/mech/dynamics/energy.c \
-	lib/mech/dynamics/freedom.c \
-	lib/mech/dynamics/generic.c \
-	lib/mech/dynamics/kinematics.c \
-	lib/mech/dynamics/lagrange.c \
-	lib/mech/dynamics/mass-matrix.c \
-	lib/mech/dynamics/momentum.c \
-	lib/mech/dynamics/nested.c \
-	lib/mech/dynamics/numeric.c \
-	lib/mech/dynamics/potential.c \
-	lib/mech/dynamics/recursive.c \
-	lib/mech/dynamics/squares.c \
-	lib/mech/dynamics/virtual-work.c \
-	lib/mech/scene/access.c \
-	lib/mech/scene/body.c \
-	lib/mech/scene/cache.c \
-	lib/mech/scene/constraint.c \
-	lib/mech/scene/event.c \
-	lib/mech/scene/kind.c \
-	lib/mech/scene/label.c \
-	lib/mech/scene/parts.c \
-	lib/mech/scene/place.c \
-	lib/mech/scene/print.c \
-	lib/mech/scene/remove.c \
-	lib/mech/scene/replace.c \
-	lib/mech/scene/scene.c \
-	lib/mech/study/equilibrium-branches.c \
-	lib/mech/study/equilibrium-equations.c \
-	lib/mech/study/equilibrium-numeric.c \
-	lib/mech/study/equilibrium-twice.c \
-	lib/mech/study/equilibrium.c \
-	lib/mech/study/geometry.c \
-	lib/mech/study/hamilton.c \
-	lib/mech/study/integrable.c \
-	lib/mech/study/linear-motion.c \
-	lib/mech/study/lyapunov.c \
-	lib/mech/study/metric.c \
-	lib/mech/study/minimal.c \
-	lib/mech/study/modes.c \
-	lib/mech/study/noether.c \
-	lib/mech/study/reactions.c \
-	lib/mech/study/stability-exact.c \
-	lib/mech/study/stability-numbers.c \
-	lib/mech/study/stability.c
-
-mech_headers = \
-	lib/mech/dynamics/alike.h \
-	lib/mech/dynamics/dalembert.h \
-	lib/mech/dynamics/energy.h \
-	lib/mech/dynamics/freedom.h \
-	lib/mech/dynamics/generic.h \
-	lib/mech/dynamics/kinematics.h \
-	lib/mech/dynamics/lagrange.h \
-	lib/mech/dynamics/mass-matrix.h \
-	lib/mech/dynamics/nested.h \
-	lib/mech/dynamics/potential.h \
-	lib/mech/dynamics/quantity.h \
-	lib/mech/dynamics/recursive.h \
-	lib/mech/dynamics/squares.h \
-	lib/mech/dynamics/virtual-work.h \
-	lib/mech/scene/access.h \
-	lib/mech/scene/body.h \
-	lib/mech/scene/cache.h \
-	lib/mech/scene/constraint.h \
-	lib/mech/scene/scene.h \
-	lib/mech/scene/things.h \
-	lib/mech/study/equilibrium-search.h \
-	lib/mech/study/equilibrium.h \
-	lib/mech/study/geometry.h \
-	lib/mech/study/hamilton.h \
-	lib/mech/study/integrable.h \
-	lib/mech/study/linear-motion.h \
-	lib/mech/study/lyapunov.h \
-	lib/mech/study/minimal.h \
-	lib/mech/study/modes.h \
-	lib/mech/study/noether.h \
-	lib/mech/study/reactions.h \
-	lib/mech/study/rest.h \
-	lib/mech/study/stability.h
-
-sim_sources = \
-	lib/sim/bind.c \
-	lib/sim/blocks.c \
-	lib/sim/bordered.c \
-	lib/sim/constrained-jacobian.c \
-	lib/sim/constrained-near.c \
-	lib/sim/constrained-project.c \
-	lib/sim/constrained-put.c \
-	lib/sim/constrained-series.c \
-	lib/sim/constrained-start.c \
-	lib/sim/constrained.c \
-	lib/sim/constraints.c \
-	lib/sim/course.c \
-	lib/sim/describe.c \
-	lib/sim/digits.c \
-	lib/sim/direct.c \
-	lib/sim/distance.c \
-	lib/sim/domain.c \
-	lib/sim/drift.c \
-	lib/sim/eliminated.c \
-	lib/sim/ensemble.c \
-	lib/sim/exchange.c \
-	lib/sim/failure.c \
-	lib/sim/hidden.c \
-	lib/sim/horizon.c \
-	lib/sim/hull.c \
-	lib/sim/leading-residual.c \
-	lib/sim/leading.c \
-	lib/sim/members.c \
-	lib/sim/momenta.c \
-	lib/sim/multipliers.c \
-	lib/sim/nearest-search.c \
-	lib/sim/nearest.c \
-	lib/sim/noise.c \
-	lib/sim/over-root.c \
-	lib/sim/parameter-states.c \
-	lib/sim/parts.c \
-	lib/sim/passed.c \
-	lib/sim/piece-end.c \
-	lib/sim/piece.c \
-	lib/sim/plan.c \
-	lib/sim/precise-bind.c \
-	lib/sim/precise-course.c \
-	lib/sim/precise-distance.c \
-	lib/sim/precise-start.c \
-	lib/sim/precise-value.c \
-	lib/sim/precise.c \
-	lib/sim/quotient.c \
-	lib/sim/race.c \
-	lib/sim/range-poles.c \
-	lib/sim/range-seek.c \
-	lib/sim/range.c \
-	lib/sim/rates.c \
-	lib/sim/reader.c \
-	lib/sim/residual-tree.c \
-	lib/sim/residual.c \
-	lib/sim/routh.c \
-	lib/sim/run.c \
-	lib/sim/second.c \
-	lib/sim/shifted-lanes.c \
-	lib/sim/shifted-tree.c \
-	lib/sim/shifted-wide.c \
-	lib/sim/shifted.c \
-	lib/sim/side-search.c \
-	lib/sim/size.c \
-	lib/sim/stage-sides.c \
-	lib/sim/stage.c \
-	lib/sim/start.c \
-	lib/sim/substitute.c \
-	lib/sim/switch.c \
-	lib/sim/value.c \
-	lib/sim/watch-roots.c \
-	lib/sim/watch-sure.c \
-	lib/sim/watch-values.c \
-	lib/sim/watch.c \
-	lib/sim/workprecision.c
-
-sim_headers = \
-	lib/sim/bind.h \
-	lib/sim/blocks.h \
-	lib/sim/bordered.h \
-	lib/sim/constrained-parts.h \
-	lib/sim/constrained-series.h \
-	lib/sim/constrained.h \
-	lib/sim/constraints.h \
-	lib/sim/course.h \
-	lib/sim/digits.h \
-	lib/sim/direct.h \
-	lib/sim/distance.h \
-	lib/sim/domain.h \
-	lib/sim/drift.h \
-	lib/sim/eliminated.h \
-	lib/sim/ensemble.h \
-	lib/sim/exchange.h \
-	lib/sim/failure.h \
-	lib/sim/hidden.h \
-	lib/sim/horizon.h \
-	lib/sim/hull.h \
-	lib/sim/integrated.h \
-	lib/sim/leading-residual.h \
-	lib/sim/leading.h \
-	lib/sim/members.def \
-	lib/sim/members.h \
-	lib/sim/momenta.h \
-	lib/sim/multipliers.h \
-	lib/sim/nearest.h \
-	lib/sim/noise.h \
-	lib/sim/over-root.h \
-	lib/sim/parameter-states.h \
-	lib/sim/parts.h \
-	lib/sim/passed.h \
-	lib/sim/piece.h \
-	lib/sim/plan.h \
-	lib/sim/precise-bind.h \
-	lib/sim/precise-course.h \
-	lib/sim/precise-pair.h \
-	lib/sim/precise-start.h \
-	lib/sim/precise.h \
-	lib/sim/quotient.h \
-	lib/sim/race.h \
-	lib/sim/range-parts.h \
-	lib/sim/rates.h \
-	lib/sim/reader.h \
-	lib/sim/residual-tree.h \
-	lib/sim/residual.h \
-	lib/sim/routh.h \
-	lib/sim/run.h \
-	lib/sim/shifted-lanes.def \
-	lib/sim/shifted-lanes.h \
-	lib/sim/shifted-tree.h \
-	lib/sim/shifted-wide.h \
-	lib/sim/shifted.h \
-	lib/sim/size.h \
-	lib/sim/stage.h \
-	lib/sim/start.h \
-	lib/sim/substitute.h \
-	lib/sim/switch.h \
-	lib/sim/watch-parts.h \
-	lib/sim/watch.h \
-	lib/sim/workprecision.h
-
-show_sources = \
-	lib/show/csv.c \
-	lib/show/figure.c \
-	lib/show/gnuplot.c \
-	lib/show/sink.c \
-	lib/show/table.c
-
-show_headers = \
-	lib/show/gnuplot.h \
-	lib/show/show.h \
-	lib/show/sink.h
-
-lang_sources = \
-	lib/lang/algebra.c \
-	lib/lang/answer.c \
-	lib/lang/ask.c \
-	lib/lang/bind.c \
-	lib/lang/builtin.c \
-	lib/lang/call.c \
-	lib/lang/carry.c \
-	lib/lang/check.c \
-	lib/lang/closed-sum.c \
-	lib/lang/condition.c \
-	lib/lang/constraints.c \
-	lib/lang/cursor.c \
-	lib/lang/declare-function.c \
-	lib/lang/declare.c \
-	lib/lang/derive.c \
-	lib/lang/digits-table.c \
-	lib/lang/digits.c \
-	lib/lang/draw.c \
-	lib/lang/equilibria.c \
-	lib/lang/evaluate.c \
-	lib/lang/event.c \
-	lib/lang/function.c \
-	lib/lang/furnish.c \
-	lib/lang/help.c \
-	lib/lang/hints.c \
-	lib/lang/letters.c \
-	lib/lang/lex.c \
-	lib/lang/loop.c \
-	lib/lang/meant.c \
-	lib/lang/member.c \
-	lib/lang/names.c \
-	lib/lang/number.c \
-	lib/lang/numeric.c \
-	lib/lang/parse.c \
-	lib/lang/plot.c \
-	lib/lang/quantities.c \
-	lib/lang/race.c \
-	lib/lang/range.c \
-	lib/lang/read.c \
-	lib/lang/redirect.c \
-	lib/lang/remove.c \
-	lib/lang/report.c \
-	lib/lang/resolve.c \
-	lib/lang/scene-file.c \
-	lib/lang/series.c \
-	lib/lang/session.c \
-	lib/lang/source.c \
-	lib/lang/start.c \
-	lib/lang/statement.c \
-	lib/lang/styled.c \
-	lib/lang/taken.c \
-	lib/lang/undo-state.c \
-	lib/lang/undo.c \
-	lib/lang/values.c \
-	lib/lang/words.c \
-	lib/lang/workbench.c \
-	lib/lang/workprecision.c
-
-lang_headers = \
-	lib/lang/algebra.h \
-	lib/lang/answer.h \
-	lib/lang/ask.h \
-	lib/lang/carry.h \
-	lib/lang/closed-sum.h \
-	lib/lang/code.h \
-	lib/lang/condition.h \
-	lib/lang/constraints.h \
-	lib/lang/declare.h \
-	lib/lang/digits-table.h \
-	lib/lang/digits.h \
-	lib/lang/draw.h \
-	lib/lang/equilibria.h \
-	lib/lang/function.h \
-	lib/lang/meant.h \
-	lib/lang/names.h \
-	lib/lang/number.h \
-	lib/lang/numeric.h \
-	lib/lang/read.h \
-	lib/lang/redirect.h \
-	lib/lang/scene-file.h \
-	lib/lang/session.h \
-	lib/lang/statement.h \
-	lib/lang/taken.h \
-	lib/lang/undo-state.h \
-	lib/lang/undo.h \
-	lib/lang/values.h
+	lib/tape/tape.h
 
 program_sources = \
 	src/main.c \
@@ -676,6 +644,7 @@ unit_tests = \
 	tests/lang/test_session \
 	tests/lang/test_styles \
 	tests/lang/test_undo \
+	tests/machine/test_x86 \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
@@ -714,6 +683,14 @@ unit_tests = \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
 	tests/ode/test_written \
+	tests/series/test_lanes-code \
+	tests/series/test_lanes \
+	tests/series/test_near \
+	tests/series/test_precise \
+	tests/series/test_taylor-code \
+	tests/series/test_taylor-wide \
+	tests/series/test_taylor \
+	tests/series/test_two \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_table \
@@ -739,16 +716,7 @@ unit_tests = \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
 	tests/tape/test_interval \
-	tests/tape/test_lanes-code \
-	tests/tape/test_lanes \
-	tests/tape/test_near \
-	tests/tape/test_precise \
-	tests/tape/test_tape \
-	tests/tape/test_taylor-code \
-	tests/tape/test_taylor-wide \
-	tests/tape/test_taylor \
-	tests/tape/test_two \
-	tests/tape/test_x86
+	tests/tape/test_tape
 
 script_tests = \
 	tests/script/accel-large-coefficients.lag \
@@ -1163,6 +1131,7 @@ script_tests = \
 
 meta_tests = \
 	tests/meta/bootstrap.test \
+	tests/meta/circles.test \
 	tests/meta/floors.test \
 	tests/meta/late.test \
 	tests/meta/manual.test \
@@ -1619,6 +1588,7 @@ test_files = \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
 	tests/script/poisson.out \
+	tests/script/processor.inc \
 	tests/script/processor.out \
 	tests/script/pulse-train.out \
 	tests/script/race.out \

@@ -11,7 +11,7 @@
 #include "expr/print.h"
 #include "lang/names.h"
 #include "mech/dynamics/quantity.h"
-#include "sim/run.h"
+#include "sim/run/run.h"
 
 /* A number that a run gave: stands in expressions as a FORMAL symbol. */
 typedef struct {

@@ -13,7 +13,7 @@
 
 #include "base/memory.h"
 #include "mech/dynamics/quantity.h"
-#include "sim/run.h"
+#include "sim/run/run.h"
 
 enum { MOST_COORDINATES = 8, MOST_VALUES = 32 };
 

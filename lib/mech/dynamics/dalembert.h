@@ -6,7 +6,7 @@
  *
  *     sum w dy/dq_i x'' = Q_i
  *
- * For numbers only: x'' is the series of x, shifted (sim/residual.h).
+ * For numbers only: x'' is the series of x, shifted (sim/form/residual.h).
  *
  * Tests  tests/sim/test_taylor.c: against M q'' = f
  */
