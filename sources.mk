@@ -172,6 +172,7 @@ library_sources = \
 	lib/normal/prove/decide.c \
 	lib/normal/prove/defined.c \
 	lib/normal/prove/domain.c \
+	lib/normal/prove/equal.c \
 	lib/normal/prove/logarithm.c \
 	lib/normal/prove/nth-part.c \
 	lib/normal/prove/prove.c \
@@ -431,6 +432,7 @@ library_headers = \
 	lib/normal/field/normal-form.h \
 	lib/normal/field/polynomials.h \
 	lib/normal/field/prepare.h \
+	lib/normal/field/ratio.h \
 	lib/normal/field/root-parts.h \
 	lib/normal/field/split.h \
 	lib/normal/field/together.h \
@@ -452,6 +454,7 @@ library_headers = \
 	lib/normal/prove/decide.h \
 	lib/normal/prove/defined.h \
 	lib/normal/prove/domain.h \
+	lib/normal/prove/equal.h \
 	lib/normal/prove/nth-part.h \
 	lib/normal/prove/prove.h \
 	lib/normal/prove/rewrite.h \
