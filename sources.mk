@@ -110,7 +110,7 @@ library_sources = \
 	lib/machine/x86.c \
 	lib/mech/dynamics/accel.c \
 	lib/mech/dynamics/alike.c \
-	lib/mech/dynamics/constraint.c \
+	lib/mech/dynamics/conservation.c \
 	lib/mech/dynamics/dalembert.c \
 	lib/mech/dynamics/energy.c \
 	lib/mech/dynamics/freedom.c \
@@ -121,11 +121,14 @@ library_sources = \
 	lib/mech/dynamics/momentum.c \
 	lib/mech/dynamics/nested.c \
 	lib/mech/dynamics/numeric.c \
+	lib/mech/dynamics/potential.c \
 	lib/mech/dynamics/recursive.c \
 	lib/mech/dynamics/squares.c \
 	lib/mech/dynamics/virtual-work.c \
+	lib/mech/scene/access.c \
 	lib/mech/scene/body.c \
-	lib/mech/scene/derived.c \
+	lib/mech/scene/cache.c \
+	lib/mech/scene/constraint.c \
 	lib/mech/scene/event.c \
 	lib/mech/scene/kind.c \
 	lib/mech/scene/label.c \
@@ -190,6 +193,7 @@ library_sources = \
 	lib/normal/prove/decide.c \
 	lib/normal/prove/defined.c \
 	lib/normal/prove/domain.c \
+	lib/normal/prove/equal.c \
 	lib/normal/prove/logarithm.c \
 	lib/normal/prove/nth-part.c \
 	lib/normal/prove/prove.c \
@@ -437,12 +441,27 @@ library_headers = \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
 	lib/machine/x86.h \
+	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
+	lib/mech/dynamics/energy.h \
+	lib/mech/dynamics/freedom.h \
+	lib/mech/dynamics/generic.h \
+	lib/mech/dynamics/kinematics.h \
+	lib/mech/dynamics/lagrange.h \
+	lib/mech/dynamics/mass-matrix.h \
+	lib/mech/dynamics/nested.h \
+	lib/mech/dynamics/potential.h \
 	lib/mech/dynamics/quantity.h \
+	lib/mech/dynamics/recursive.h \
 	lib/mech/dynamics/squares.h \
-	lib/mech/scene/derived.h \
+	lib/mech/dynamics/virtual-work.h \
+	lib/mech/scene/access.h \
+	lib/mech/scene/body.h \
+	lib/mech/scene/cache.h \
+	lib/mech/scene/constraint.h \
 	lib/mech/scene/scene.h \
-	lib/mech/study/equilibrium-rest.h \
+	lib/mech/scene/things.h \
+	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
 	lib/mech/study/hamilton.h \
@@ -450,8 +469,10 @@ library_headers = \
 	lib/mech/study/linear-motion.h \
 	lib/mech/study/lyapunov.h \
 	lib/mech/study/minimal.h \
+	lib/mech/study/modes.h \
 	lib/mech/study/noether.h \
 	lib/mech/study/reactions.h \
+	lib/mech/study/rest.h \
 	lib/mech/study/stability.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
@@ -463,6 +484,7 @@ library_headers = \
 	lib/normal/field/normal-form.h \
 	lib/normal/field/polynomials.h \
 	lib/normal/field/prepare.h \
+	lib/normal/field/ratio.h \
 	lib/normal/field/root-parts.h \
 	lib/normal/field/split.h \
 	lib/normal/field/together.h \
@@ -484,6 +506,7 @@ library_headers = \
 	lib/normal/prove/decide.h \
 	lib/normal/prove/defined.h \
 	lib/normal/prove/domain.h \
+	lib/normal/prove/equal.h \
 	lib/normal/prove/nth-part.h \
 	lib/normal/prove/prove.h \
 	lib/normal/prove/rewrite.h \

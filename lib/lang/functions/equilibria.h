@@ -4,6 +4,7 @@
 
 #include "lang/session/session.h"
 #include "mech/study/equilibrium.h"
+#include "mech/study/modes.h"
 
 /* As qdot_equilibrium_find, with the values of `set`. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_find(qdot_session *session,

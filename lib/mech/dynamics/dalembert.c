@@ -1,7 +1,11 @@
 /* dalembert.c -- inertial terms and generalized forces, as they are. */
 #include "mech/dynamics/dalembert.h"
 
-#include "mech/scene/derived.h"
+#include "mech/dynamics/kinematics.h"
+#include "mech/dynamics/potential.h"
+#include "mech/dynamics/recursive.h"
+#include "mech/dynamics/virtual-work.h"
+#include "mech/scene/access.h"
 
 static qdot_expr
 forces(qdot_scene *s)

@@ -1,12 +1,12 @@
-/* equilibrium-rest.h -- a search for equilibria as its files see it. Internal to mech/. */
-#ifndef QDOT_MECH_EQUILIBRIUM_REST_H
-#define QDOT_MECH_EQUILIBRIUM_REST_H
+/* equilibrium-search.h -- a search for equilibria as its files see it. Internal to mech/. */
+#ifndef QDOT_MECH_EQUILIBRIUM_SEARCH_H
+#define QDOT_MECH_EQUILIBRIUM_SEARCH_H
 
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
-#include "mech/study/equilibrium.h"
+#include "mech/scene/things.h"
+#include "mech/study/rest.h"
 #include "normal/field/facts.h"
 
 /* What is left to solve, and what is known: LISTs. */

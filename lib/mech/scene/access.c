@@ -1,5 +1,5 @@
-/* derived.c -- the cache of a scene and what every chapter uses. */
-#include "mech/scene/derived.h"
+/* access.c -- what every chapter asks of a scene. */
+#include "mech/scene/access.h"
 
 #include "expr/calculus.h"
 #include "expr/tensor.h"
@@ -11,66 +11,8 @@ enum {
     WHOLE_LIMIT = 100  /* of a sum of simplified parts */
 };
 
-static void
-derived_clear(qdot_derived *d)
-{
-    qdot_kinematics_clear(&d->kinematics);
-    qdot_free(d->square_spring);
-    qdot_free(d->square_damper);
-    qdot_free(d->M);
-    qdot_free(d->b);
-    qdot_free(d->slopes.at);
-    qdot_free(d->momentum);
-    qdot_free(d->force);
-    qdot_free(d->rest);
-    qdot_free(d->left);
-    qdot_free(d->equation);
-    qdot_free(d->accel);
-    qdot_free(d->lambda);
-    qdot_free(d->independent);
-    qdot_free(d->patterns.at);
-}
-
-void
-qdot_derived_free(qdot_derived *d)
-{
-    if (!d)
-        return;
-    derived_clear(d);
-    qdot_free(d->relations.at);
-    qdot_free(d);
-}
-
-qdot_derived *
-qdot_derived_get(qdot_scene *s)
-{
-    qdot_derived *d = s->derived;
-
-    if (d->version != s->version) {
-        derived_clear(d);
-        *d = (qdot_derived){.relations.at = d->relations.at,
-                            .relations.n = d->relations.n,
-                            .relations.capacity = d->relations.capacity};
-        d->version = s->version;
-        d->n = s->coordinates.n;
-    }
-    return d;
-}
-
 bool
-qdot_derived_array(qdot_scene *s, qdot_expr **array, size_t n)
-{
-    if (*array)
-        return true;
-    *array = qdot_calloc(n ? n : 1, sizeof **array);
-    if (*array)
-        return true;
-    qdot_pool_fail(s->pool);
-    return false;
-}
-
-bool
-qdot_derived_index(qdot_scene *s, qdot_expr q, size_t *i)
+qdot_mech_index(qdot_scene *s, qdot_expr q, size_t *i)
 {
     const qdot_symbol *symbol;
 

@@ -1,12 +1,14 @@
 /* constraint.c -- f = left - right = 0: its kind, derivatives and reactions. */
+
+#include "mech/scene/constraint.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
-#include "mech/scene/scene.h"
+#include "mech/scene/access.h"
 #include "normal/prove/decide.h"
 
 /* The highest derivative of a coordinate in f; -1 without any. */
