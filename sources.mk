@@ -385,6 +385,7 @@ sim_sources = \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
 	lib/sim/course/reader.c \
+	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
@@ -408,6 +409,7 @@ sim_sources = \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
 	lib/sim/form/constrained-series.c \
+	lib/sim/form/derived.c \
 	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/leading-residual.c \
@@ -428,6 +430,7 @@ sim_sources = \
 	lib/sim/model/constrained.c \
 	lib/sim/model/constraints.c \
 	lib/sim/model/domain.c \
+	lib/sim/model/equations.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -439,6 +442,7 @@ sim_sources = \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
+	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range.c \
@@ -455,12 +459,15 @@ sim_sources = \
 
 sim_headers = \
 	lib/sim/course/bind.h \
+	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/drift.h \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
 	lib/sim/course/polynomial-bounds.h \
 	lib/sim/course/reader.h \
+	lib/sim/course/report.h \
+	lib/sim/course/root.h \
 	lib/sim/course/run-state.h \
 	lib/sim/course/stage.h \
 	lib/sim/course/watch-parts.h \
@@ -470,6 +477,7 @@ sim_headers = \
 	lib/sim/digits/precise-pair.h \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
+	lib/sim/error/companion.h \
 	lib/sim/error/distance.h \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
@@ -479,6 +487,7 @@ sim_headers = \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
 	lib/sim/form/constrained-series.h \
+	lib/sim/form/derived.h \
 	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/leading-residual.h \
@@ -497,11 +506,13 @@ sim_headers = \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \
 	lib/sim/model/domain.h \
+	lib/sim/model/equations.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
+	lib/sim/model/request.h \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \

@@ -9,7 +9,7 @@
 #ifndef QDOT_SIM_PIECE_H
 #define QDOT_SIM_PIECE_H
 
-#include "sim/course/course.h"
+#include "sim/course/course-state.h"
 
 typedef enum {
     QDOT_PIECE_GOES_ON,

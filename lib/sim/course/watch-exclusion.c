@@ -47,7 +47,7 @@ qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int ord
     const double s = (t - w->t) / unit;
     qdot_polynomial_bounds *h = &w->bounds;
 
-    w->hull_at_step = false;
+    w->bound_at_step = false;
     if (!series || w->accelerations)
         return;
     for (size_t k = 0; k < h->n_used; k++) {
@@ -63,13 +63,13 @@ qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int ord
         h->radius[h->used[k]] = radius + 4 * DBL_EPSILON * fabs(centre);
     }
     qdot_polynomial_bounds_span(h, w->t, t);
-    w->hull_at_step = true;
+    w->bound_at_step = true;
 }
 
 bool
 qdot_watch_excludes(const qdot_watch *w, size_t i)
 {
-    return w->hull_at_step &&
+    return w->bound_at_step &&
            fabs(w->bounds.out[i]) > (1 + 0x1p-20) * w->bounds.out_radius[i] &&
            qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
 }

@@ -12,7 +12,8 @@
 #include "num/chebyshev.h"
 #include "num/series.h"
 #include "sim/course/polynomial-bounds.h"
-#include "sim/course/watch.h"
+#include "sim/course/root.h"
+#include "sim/model/equations.h"
 
 enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
 
@@ -23,6 +24,7 @@ struct qdot_watch_state {
     double *g0; /* [m] g here */
 };
 
+typedef struct qdot_watch qdot_watch;
 struct qdot_watch {
     const qdot_plan *plan;
     const qdot_series_kernels *kernels;
@@ -40,7 +42,7 @@ struct qdot_watch {
     double *size;       /* [m] of the polynomial fitted last, */
     double *clear;      /* [m] and how far its bound keeps it from 0, if positive */
     qdot_polynomial_bounds bounds; /* what lies between the nodes, */
-    bool hull_at_step;  /* or on the whole step: it is there */
+    bool bound_at_step;  /* or on the whole step: it is there */
     bool all_bounds;
     double *final;      /* [m] g at its end */
     double length;      /* of the step */

@@ -217,7 +217,7 @@ qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t, const 
     QDOT_TRY(qdot_watch_value(w, reader, t, w->final));
     w->length = fabs(t - w->t);
     if (w->all_bounds)
-        w->hull_at_step = false;
+        w->bound_at_step = false;
     else
         qdot_watch_bound(w, t, series, order, unit);
     qdot_polynomial_bounds_begin(&w->bounds);

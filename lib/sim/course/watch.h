@@ -25,23 +25,8 @@
 #define QDOT_SIM_WATCH_H
 
 #include "ode/system.h"
-#include "sim/model/constrained.h"
-#include "sim/plan/plan.h"
-
-typedef struct {
-    size_t function;
-    double t;
-    int way;         /* the sign it goes over to in the direction of the run; 0: none */
-    double residual; /* |g| at the doubles on both sides of it, the larger */
-    bool exact;      /* g is 0 at t */
-} qdot_root;
-
-/* How states within a step are had. */
-typedef struct {
-    qdot_status (*read)(double t, double *y, void *user);
-    void *user;
-    const qdot_ode_system *system; /* for accelerations and multipliers */
-} qdot_watch_reader;
+#include "sim/course/root.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_watch qdot_watch;
 

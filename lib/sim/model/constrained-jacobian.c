@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "sim/model/constrained-parts.h"
+#include "sim/model/constrained.h"
 #include "tape/derivative.h"
 
 qdot_status

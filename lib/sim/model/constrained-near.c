@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "sim/model/constrained-parts.h"
+#include "sim/model/constrained.h"
 
 /* The length of a name, without its component if `label`. */
 static size_t
@@ -119,6 +120,14 @@ qdot_constrained_look_beside(const qdot_plan *plan, qdot_saddle *s, const size_t
     }
     qdot_free(room);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_constrained_look_first(const qdot_constrained *h, qdot_constrained_level *level)
+{
+    return level->m > 1 && level->saddle.rank == QDOT_SADDLE_UNKNOWN
+               ? qdot_constrained_look_beside(h->plan, &level->saddle, level->row, h->in)
+               : QDOT_OK;
 }
 
 bool

@@ -8,6 +8,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/simplify.h"
+#include "sim/form/derived.h"
 #include "tape/taylor.h"
 
 /* Coordinates that couple with one that is eliminated fill M: beyond so many no more is
