@@ -382,6 +382,8 @@ sim_sources = \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-end.c \
+	lib/sim/course/piece-enter.c \
+	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
 	lib/sim/course/reader.c \
@@ -396,6 +398,7 @@ sim_sources = \
 	lib/sim/digits/digits.c \
 	lib/sim/digits/precise-course.c \
 	lib/sim/digits/precise-distance.c \
+	lib/sim/digits/precise-pair.c \
 	lib/sim/digits/precise-start.c \
 	lib/sim/digits/precise-value.c \
 	lib/sim/digits/precise.c \
@@ -423,6 +426,7 @@ sim_sources = \
 	lib/sim/form/shifted-wide.c \
 	lib/sim/form/shifted.c \
 	lib/sim/model/constrained-jacobian.c \
+	lib/sim/model/constrained-names.c \
 	lib/sim/model/constrained-near.c \
 	lib/sim/model/constrained-project.c \
 	lib/sim/model/constrained-put.c \

@@ -1,8 +1,9 @@
 /* piece.h -- a piece of a course: what is known while it is integrated and where it ends.
  *
  * For course.c only. The loop over pieces is there; here the sides that a piece goes by are
- * found (side-search.c), it is integrated from its start with every step looked at (piece.c),
- * and what happens where it ends is done (piece-end.c).
+ * found (side-search.c, piece-sides.c), their mode is entered (piece-enter.c), the piece is
+ * integrated from its start with every step looked at (piece.c), and what happens where it ends
+ * is done (piece-end.c).
  *
  * Tests  as course.h
  */
@@ -89,13 +90,16 @@ qdot_piece_watch(const qdot_piece *x)
     return x->c->watches.at[x->mode];
 }
 
-/* Everything of the mode with the sides x->side, which becomes x->mode. */
-QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
-
 /* The sides of a piece from y [n] at t, decided from x->side; old [surfaces]: those that held
  * before, NULL: all are decided anew. Errors as qdot_stage_sides. */
-QDOT_MUST_CHECK qdot_status qdot_piece_sides(qdot_piece *x, double t, const double *y,
-                                             const long *old);
+QDOT_MUST_CHECK static inline qdot_status
+qdot_piece_sides(qdot_piece *x, double t, const double *y, const long *old)
+{
+    return qdot_stage_sides(x->c->stage, t, y, old, x->side);
+}
+
+/* Everything of the mode with the sides x->side, which becomes x->mode. */
+QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 
 /* One piece from y [n] at t, the last point, by the sides that it leaves well; x->side are
  * what is tried first. `jumped`, `from` (the mode before) as course.c has them. c->reason
@@ -110,6 +114,15 @@ void qdot_piece_carry(qdot_piece *x, size_t from, bool jumped);
  * functions: c->reason where it cannot be entered. */
 QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x, size_t from, double t, double *y,
                                              bool jumped, bool first);
+
+/* A piece ends at the first double behind the root that ends it, in all courses alike: that is
+ * late, and never early, which adds up. A companion goes on as if it had left before the root,
+ * the other one as if later still: by half the time between doubles. In this time it goes by
+ * one mode, and takes back what it went by the other; SIZE_MAX is none. */
+QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of,
+                                               double t, double *y);
+/* Whether a companion's state may be moved so: not along constraints. */
+bool qdot_piece_makes_up(const qdot_piece *x);
 
 /* The watch of x->mode, at the start (t, y [n]) of a piece: x->before and x->residual say
  * what is known of its functions there, x->functions_on is made. Errors as
@@ -138,5 +151,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_leaves_well(qdot_piece *x, bool *well);
 
 /* Where it does: whether other sides might do as well. */
 bool qdot_piece_is_open(const qdot_piece *x);
+/* x->doubts become the surfaces of which that is so. */
+QDOT_MUST_CHECK qdot_status qdot_piece_doubt_open(qdot_piece *x);
 
 #endif

@@ -75,10 +75,6 @@ void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level)
 size_t qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s,
                                   const size_t *row, double below, qdot_text *names);
 
-/* Room for a Jacobian; outputs: the most of a tape. */
-QDOT_MUST_CHECK qdot_status qdot_constrained_make_slopes(qdot_constrained *h,
-                                                         size_t outputs);
-
 static inline const qdot_tape *
 qdot_constrained_tape(const qdot_tape *own, const qdot_tape *plans)
 {
