@@ -17,7 +17,7 @@ make_room(qdot_piece *x)
     x->before = qdot_calloc(m, sizeof *x->before);
     x->residual = qdot_calloc(m, sizeof *x->residual);
     x->signs = qdot_calloc(m, sizeof *x->signs);
-    x->y = qdot_calloc(2 * x->n, sizeof *x->y);
+    x->y = qdot_calloc(3 * x->n, sizeof *x->y);
     x->step = (qdot_trajectory){.n = x->n,
                                 .count = 2,
                                 .method = x->method,
@@ -30,8 +30,10 @@ make_room(qdot_piece *x)
         !x->signs || !x->y || !x->step.t || !x->step.y)
         return QDOT_ENOMEM;
     x->y_act = x->y + x->n;
+    x->start.y = x->y_act + x->n;
     return qdot_vec_push(&x->step.pieces, (qdot_trajectory_piece){0});
 }
+
 /* Whether an event that ends the piece has a `then`. */
 static bool
 changes_state(const qdot_piece *x)
@@ -45,27 +47,33 @@ changes_state(const qdot_piece *x)
     return false;
 }
 
+/* The state that an event at the end of the run made becomes its last point. */
 static qdot_status
-loop(qdot_piece *x, double t0, const double *y0)
+resume(qdot_piece *x)
+{
+    return qdot_trajectory_resume(&x->c->tr, &x->c->systems.at[x->mode], x->mode, true,
+                                  x->options, x->start.t, x->start.y);
+}
+
+/* From y0 [n] at x->start.t. */
+static qdot_status
+loop(qdot_piece *x, const double *y0)
 {
     qdot_course *c = x->c;
-    double *y = qdot_malloc(x->n * sizeof *y), t = t0;
-    bool jumped = false, over = false;
-    size_t from;
-    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
+    double *y = x->start.y;
+    bool over = false;
+    qdot_status status;
 
-    if (status == QDOT_OK)
-        status = qdot_piece_sides(x, t0, y0, NULL);
-    if (status == QDOT_OK)
-        memcpy(y, y0, x->n * sizeof *y);
+    memcpy(y, y0, x->n * sizeof *y);
+    status = qdot_piece_sides(x, NULL);
     if (status == QDOT_OK)
         status = qdot_piece_enter(x);
-    from = x->mode;
+    x->start.from = x->mode;
     if (status == QDOT_OK) /* the start, to go on from */
-        status = qdot_trajectory_run(&c->tr, &c->systems.at[x->mode], x->method,
-                                     x->options, t0, t0, y0);
+        status = qdot_trajectory_run(&c->tr, &c->systems.at[x->mode], x->method, x->options,
+                                     x->start.t, x->start.t, y0);
     while (status == QDOT_OK && !over) {
-        status = qdot_piece_search(x, from, t, y, jumped);
+        status = qdot_piece_search(x);
         if (status == QDOT_OK && c->reason[0] != '\0')
             qdot_piece_stop(x, true);
         if (status != QDOT_OK || x->intent != QDOT_PIECE_ENDS || c->reason[0] != '\0')
@@ -74,30 +82,27 @@ loop(qdot_piece *x, double t0, const double *y0)
             qdot_piece_stop(x, true);
             break;
         }
-        from = x->mode;
-        jumped = false;
-        t = c->tr.t[c->tr.count - 1];
+        x->start.from = x->mode;
+        x->start.jumped = false;
+        x->start.t = c->tr.t[c->tr.count - 1];
         memcpy(y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *y);
         if (qdot_piece_makes_up(x) && changes_state(x))
-            status = qdot_piece_make_up(x, x->mode, SIZE_MAX, t, y);
+            status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)
-            status = qdot_piece_act(x, y, &over, &jumped);
-        if (status == QDOT_OK && over && jumped)
-            status = qdot_trajectory_resume(&c->tr, &c->systems.at[x->mode], x->mode,
-                                            true, x->options, t, y);
+            status = qdot_piece_act(x, &over);
+        if (status == QDOT_OK && over && x->start.jumped)
+            status = resume(x);
         if (status == QDOT_OK && over)
             c->tr.result.outcome = c->failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
         if (status == QDOT_OK && !over)
-            status = qdot_piece_sides(x, t, y, jumped ? NULL : qdot_piece_mode(x)->side);
-        if (t == x->t1 && !over) {
-            if (jumped && status == QDOT_OK)
-                status = qdot_trajectory_resume(&c->tr, &c->systems.at[x->mode], x->mode,
-                                                true, x->options, t, y);
+            status = qdot_piece_sides(x, x->start.jumped ? NULL : qdot_piece_mode(x)->side);
+        if (x->start.t == x->t1 && !over) {
+            if (x->start.jumped && status == QDOT_OK)
+                status = resume(x);
             c->tr.result.outcome = QDOT_ODE_DONE;
             break;
         }
     }
-    qdot_free(y);
     return status;
 }
 
@@ -110,12 +115,13 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                     .method = method,
                     .t1 = t1,
                     .direction = t1 < t0 ? -1 : 1,
-                    .n = 2 * c->stage->modes.at[0]->plan->n};
+                    .n = 2 * c->stage->modes.at[0]->plan->n,
+                    .start.t = t0};
     qdot_status status = make_room(&x);
 
     c->stopped_by = SIZE_MAX;
     if (status == QDOT_OK)
-        status = loop(&x, t0, y);
+        status = loop(&x, y);
     qdot_trajectory_close(x.cursor);
     qdot_trajectory_clear(&x.step);
     qdot_free(x.side);

@@ -55,13 +55,13 @@ just_noted(const qdot_piece *x, size_t event)
 /* Events and domains keep their places; a surface's functions are of the one that is on the
  * same place. */
 void
-qdot_piece_carry(qdot_piece *x, size_t from, bool jumped)
+qdot_piece_carry(qdot_piece *x)
 {
-    const qdot_mode *old = x->c->stage->modes.at[from], *next = qdot_piece_mode(x);
+    const qdot_mode *old = x->c->stage->modes.at[x->start.from], *next = qdot_piece_mode(x);
     size_t events = x->c->stage->events.n;
 
     for (size_t i = 0; i < next->m; i++) {
-        x->before[i] = jumped || i >= events || just_noted(x, i) ? 0 : x->signs[i];
+        x->before[i] = x->start.jumped || i >= events || just_noted(x, i) ? 0 : x->signs[i];
         x->residual[i] = -1;
     }
     for (size_t k = 0; k < x->fired.n; k++) {
@@ -90,10 +90,10 @@ static const double corner = 1e-6;
 /* Where constraints switch, the state that the last piece left must fulfil those of the new
  * side: on a corner the velocity does not, and nothing says what becomes of it. */
 static qdot_status
-turns_a_corner(qdot_piece *x, size_t from, double t, const double *y, bool *corners)
+turns_a_corner(qdot_piece *x, bool *corners)
 {
     qdot_constrained *held = qdot_bind_held(x->c->binds.at[x->mode]);
-    const qdot_mode *old = x->c->stage->modes.at[from], *now = qdot_piece_mode(x);
+    const qdot_mode *old = x->c->stage->modes.at[x->start.from], *now = qdot_piece_mode(x);
     const double enough = corner + 100 * x->options->tol;
     const qdot_constraints_row *row;
     qdot_constrained_residual r;
@@ -101,9 +101,9 @@ turns_a_corner(qdot_piece *x, size_t from, double t, const double *y, bool *corn
     qdot_status status = QDOT_OK;
 
     *corners = false;
-    if (from == x->mode || !held)
+    if (x->start.from == x->mode || !held)
         return QDOT_OK;
-    r = qdot_constrained_measure(held, t, y);
+    r = qdot_constrained_measure(held, x->start.t, x->start.y);
     *corners = r.position > enough || r.velocity > enough;
     if (!*corners)
         return QDOT_OK;
@@ -115,7 +115,7 @@ turns_a_corner(qdot_piece *x, size_t from, double t, const double *y, bool *corn
     snprintf(x->c->reason, sizeof x->c->reason,
              "stopped at t = %.15g: constraint %.60s %s where %.100s, and nothing says how the "
              "motion goes on",
-             t, row->name,
+             x->start.t, row->name,
              r.position > enough || row->kind != QDOT_HOLONOMIC ? "jumps" : "has a corner",
              qdot_text_str(&text));
     qdot_text_clear(&text);
@@ -157,14 +157,15 @@ is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
 /* c->reason, where T - V is not the same on both sides of a surface, at (t, y): more than
  * moving the state a little makes of it. */
 static qdot_status
-check_level(qdot_piece *x, size_t from, double t, const double *y)
+check_level(qdot_piece *x)
 {
-    const qdot_mode *a = x->c->stage->modes.at[from], *b = qdot_piece_mode(x);
+    const qdot_mode *a = x->c->stage->modes.at[x->start.from], *b = qdot_piece_mode(x);
     const size_t n = x->n;
+    const double t = x->start.t, *y = x->start.y;
     size_t work = 1;
     double *in, jump, least = 0;
 
-    if (from == x->mode || !a->level || !b->level || !is_wall(x, a, b))
+    if (x->start.from == x->mode || !a->level || !b->level || !is_wall(x, a, b))
         return QDOT_OK;
     work += qdot_tape_work(a->level) + qdot_tape_work(b->level);
     in = qdot_calloc(n + 1 + work, sizeof *in);
@@ -189,11 +190,12 @@ check_level(qdot_piece *x, size_t from, double t, const double *y)
 }
 
 qdot_status
-qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of, double t, double *y)
+qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of)
 {
     const size_t modes[] = {by, instead_of};
     const size_t surfaces = x->c->stage->switches.surfaces.n;
-    const double late = x->direction * x->c->early * 0x1p-53 * fabs(t);
+    const double t = x->start.t, late = x->direction * x->c->early * 0x1p-53 * fabs(t);
+    double *y = x->start.y;
     double *moved = qdot_malloc(2 * x->n * sizeof *moved), *rate = moved + x->n;
     long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
     qdot_status status = moved && sides ? QDOT_OK : QDOT_ENOMEM;
@@ -229,19 +231,19 @@ qdot_piece_makes_up(const qdot_piece *x)
 /* --- the whole ----------------------------------------------------------------------- */
 
 qdot_status
-qdot_piece_cross(qdot_piece *x, size_t from, double t, double *y, bool jumped, bool first)
+qdot_piece_cross(qdot_piece *x, bool first)
 {
     bool corners;
 
-    QDOT_TRY(turns_a_corner(x, from, t, y, &corners));
+    QDOT_TRY(turns_a_corner(x, &corners));
     if (corners)
         return QDOT_OK;
-    if (!jumped)
-        QDOT_TRY(check_level(x, from, t, y));
+    if (!x->start.jumped)
+        QDOT_TRY(check_level(x));
     if (x->c->reason[0] != '\0')
         return QDOT_OK;
-    qdot_piece_carry(x, from, jumped);
-    if (first && (jumped || from != x->mode) && qdot_piece_makes_up(x))
-        QDOT_TRY(qdot_piece_make_up(x, jumped ? SIZE_MAX : from, x->mode, t, y));
+    qdot_piece_carry(x);
+    if (first && (x->start.jumped || x->start.from != x->mode) && qdot_piece_makes_up(x))
+        QDOT_TRY(qdot_piece_make_up(x, x->start.jumped ? SIZE_MAX : x->start.from, x->mode));
     return QDOT_OK;
 }

@@ -2,7 +2,7 @@
 #ifndef QDOT_SIM_ROOT_H
 #define QDOT_SIM_ROOT_H
 
-#include "ode/system.h"
+#include "ode/integrate.h"
 
 typedef struct {
     size_t function;
