@@ -282,9 +282,12 @@ library_sources = \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-end.c \
+	lib/sim/course/piece-enter.c \
+	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
 	lib/sim/course/reader.c \
+	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
@@ -295,6 +298,7 @@ library_sources = \
 	lib/sim/digits/digits.c \
 	lib/sim/digits/precise-course.c \
 	lib/sim/digits/precise-distance.c \
+	lib/sim/digits/precise-pair.c \
 	lib/sim/digits/precise-start.c \
 	lib/sim/digits/precise-value.c \
 	lib/sim/digits/precise.c \
@@ -308,6 +312,7 @@ library_sources = \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
 	lib/sim/form/constrained-series.c \
+	lib/sim/form/derived.c \
 	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/leading-residual.c \
@@ -321,6 +326,7 @@ library_sources = \
 	lib/sim/form/shifted-wide.c \
 	lib/sim/form/shifted.c \
 	lib/sim/model/constrained-jacobian.c \
+	lib/sim/model/constrained-names.c \
 	lib/sim/model/constrained-near.c \
 	lib/sim/model/constrained-project.c \
 	lib/sim/model/constrained-put.c \
@@ -328,6 +334,7 @@ library_sources = \
 	lib/sim/model/constrained.c \
 	lib/sim/model/constraints.c \
 	lib/sim/model/domain.c \
+	lib/sim/model/equations.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -339,6 +346,7 @@ library_sources = \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
+	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range.c \
@@ -594,12 +602,15 @@ library_headers = \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/sim/course/bind.h \
+	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/drift.h \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
 	lib/sim/course/polynomial-bounds.h \
 	lib/sim/course/reader.h \
+	lib/sim/course/report.h \
+	lib/sim/course/root.h \
 	lib/sim/course/run-state.h \
 	lib/sim/course/stage.h \
 	lib/sim/course/watch-parts.h \
@@ -609,6 +620,7 @@ library_headers = \
 	lib/sim/digits/precise-pair.h \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
+	lib/sim/error/companion.h \
 	lib/sim/error/distance.h \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
@@ -618,6 +630,7 @@ library_headers = \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
 	lib/sim/form/constrained-series.h \
+	lib/sim/form/derived.h \
 	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/leading-residual.h \
@@ -636,11 +649,13 @@ library_headers = \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \
 	lib/sim/model/domain.h \
+	lib/sim/model/equations.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
+	lib/sim/model/request.h \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
