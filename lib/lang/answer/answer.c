@@ -218,8 +218,7 @@ qdot_answer_numbers(qdot_session *session, const char *name, size_t n,
         for (int pass = 0; pass < 2; pass++) {
             qdot_text_add(&line, pass == 0 ? ",\"values\":[" : "],\"errors\":[");
             for (size_t i = 0; i < n; i++) {
-                if (i > 0)
-                    qdot_text_char(&line, ',');
+                qdot_text_add(&line, i > 0 ? "," : "");
                 qdot_number_text_json(&line, pass == 0 ? values[i] : errors[i]);
             }
         }

@@ -323,11 +323,8 @@ decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
         } else if (kind == QDOT_REL) {
             status = decide_equations(session, a, b, known, &one);
         } else {
-            for (uint32_t i = qdot_expr_count(pool, a); i-- > 0 && status == QDOT_OK;) {
-                status = qdot_vec_push(&todo, qdot_expr_arg(pool, a, i));
-                if (status == QDOT_OK)
-                    status = qdot_vec_push(&todo, qdot_expr_arg(pool, b, i));
-            }
+            for (uint32_t i = 2 * qdot_expr_count(pool, a); i-- > 0 && status == QDOT_OK;)
+                status = qdot_vec_push(&todo, qdot_expr_arg(pool, i % 2 != 0 ? a : b, i / 2));
             continue;
         }
         if (status == QDOT_OK && one.verdict != QDOT_PROVED)
