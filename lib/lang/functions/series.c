@@ -139,7 +139,7 @@ shorten(course *x, qdot_expr *e)
     return qdot_value_kind_check(x->pool, *e);
 }
 
-/* Leave out what vanishes at the front. */
+/* Drop leading coefficients that are 0. */
 static void
 trim(course *x, laurent *s)
 {
@@ -246,7 +246,7 @@ derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, l
     return QDOT_OK;
 }
 
-/* The order at which e begins. */
+/* The order of the first term of e. */
 static qdot_status
 find_leading(course *x, qdot_expr e, long *least)
 {
@@ -406,7 +406,8 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
         trim(x, &inner);
     if (status == QDOT_OK && inner.least < 0)
         status = no_series(x, e, "its argument grows without bound at the point");
-    if (status == QDOT_OK && qdot_switch_at(x->pool, id, coefficient(&inner, 0), &x->facts))
+    if (status == QDOT_OK &&
+        qdot_switch_at(x->pool, id, coefficient(&inner, 0), &x->facts))
         status = no_series(x, e, "it switches at the point");
     if (status == QDOT_OK) {
         status = derivatives(x, qdot_fun1(pool, id, z), z, coefficient(&inner, 0), most, &outer);
@@ -475,7 +476,8 @@ has_whole_powers(qdot_pool *pool, qdot_expr product, qdot_expr step)
         long times;
 
         if (qdot_expr_contains(pool, qdot_expr_arg(pool, product, j), step) &&
-            (!qdot_expr_to_int(pool, qdot_expr_arg(pool, product, j + 1), &times) || times <= 0))
+            (!qdot_expr_to_int(pool, qdot_expr_arg(pool, product, j + 1), &times) ||
+             times <= 0))
             return false;
     }
     return true;

@@ -79,7 +79,8 @@ switches(const place *x, qdot_expr e)
     case QDOT_MAX: return meet(x, e);
     case QDOT_FLOOR: return jumps(x, qdot_expr_arg(pool, e, 0));
     case QDOT_MOD:
-        return jumps(x, qdot_div(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1)));
+        return jumps(
+            x, qdot_div(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1)));
     default: return false;
     }
 }

@@ -8,6 +8,7 @@
 QDOT_MUST_CHECK qdot_status qdot_switch_find(qdot_pool *pool, qdot_expr e, qdot_expr ray,
                                              const qdot_facts *facts, qdot_expr *part);
 /* Whether a function of one argument switches where that is `there`. */
-bool qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there, const qdot_facts *facts);
+bool qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there,
+                    const qdot_facts *facts);
 
 #endif

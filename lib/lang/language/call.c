@@ -79,7 +79,8 @@ is_value(const qdot_session *s, const qdot_name *entry, const char *name, const 
 }
 
 qdot_status
-qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value, qdot_expr *over)
+qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value,
+                  qdot_expr *over)
 {
     qdot_session *s = c->session;
     const char *name = call->token->text;

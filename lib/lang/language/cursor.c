@@ -211,7 +211,8 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
     }
     if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0)
         return found(what, t); /* behind an option word, not an operand */
-    if (word && t->kind == QDOT_TOKEN_NAME && !t->glued && !qdot_cursor_knows(c->session, t->text)) {
+    if (word && t->kind == QDOT_TOKEN_NAME && !t->glued &&
+        !qdot_cursor_knows(c->session, t->text)) {
         found(what, t); /* `2 tol` among words is no product */
         return hint_word(what, t->text);
     }

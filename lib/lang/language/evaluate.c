@@ -231,12 +231,13 @@ name(qdot_machine *m, const qdot_code *code)
                                     &value));
         QDOT_TRY(qdot_machine_push(m, value));
     }
-    return code->primes > 0 ? QDOT_OK
-                            : qdot_resolve_label(m->session, code->token->text, code->n,
-                                                 m->args.at, &qdot_machine_top(m, 1)->label);
+    return code->primes > 0
+               ? QDOT_OK
+               : qdot_resolve_label(m->session, code->token->text, code->n, m->args.at,
+                                    &qdot_machine_top(m, 1)->label);
 }
 
-/* A label travels as a symbol of its spelling; a loop's index stands for its value. */
+/* A label is pushed as a symbol of that name; a loop's index is replaced by its value. */
 static qdot_status
 label(qdot_machine *m, const qdot_code *code)
 {
@@ -253,7 +254,8 @@ label(qdot_machine *m, const qdot_code *code)
     status =
         qdot_entry_name(m->session, code->token->text, code->n, m->args.at, &text);
     if (status == QDOT_OK)
-        status = qdot_machine_push(m, qdot_symbol_get(m->pool, QDOT_FORMAL, qdot_text_str(&text)));
+        status = qdot_machine_push(
+            m, qdot_symbol_get(m->pool, QDOT_FORMAL, qdot_text_str(&text)));
     qdot_text_clear(&text);
     return status;
 }
@@ -300,7 +302,8 @@ step(qdot_machine *m, const qdot_code *code, uint32_t *pc)
     qdot_expr value;
 
     switch ((qdot_code_op)code->op) {
-    case QDOT_CODE_NUMBER: return qdot_machine_push(m, qdot_lex_number(m->pool, code->token->text));
+    case QDOT_CODE_NUMBER:
+        return qdot_machine_push(m, qdot_lex_number(m->pool, code->token->text));
     case QDOT_CODE_NAME:
     case QDOT_CODE_INDEX_NAME: return name(m, code);
     case QDOT_CODE_LABEL: return label(m, code);
@@ -316,7 +319,8 @@ step(qdot_machine *m, const qdot_code *code, uint32_t *pc)
         return qdot_machine_push(m, qdot_value_neg(m->pool, m->args.at[0]));
     case QDOT_CODE_POWER:
         QDOT_TRY(qdot_machine_take(m, 2));
-        QDOT_TRY(qdot_machine_push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1])));
+        QDOT_TRY(
+            qdot_machine_push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1])));
         return qdot_machine_pass(m, qdot_machine_top(m, 1)->value);
     case QDOT_CODE_RELATION:
         QDOT_TRY(qdot_machine_take(m, 2));
@@ -340,7 +344,8 @@ step(qdot_machine *m, const qdot_code *code, uint32_t *pc)
         return qdot_machine_push(m, qdot_list(m->pool, code->n, m->args.at));
     case QDOT_CODE_MATRIX:
         QDOT_TRY(qdot_machine_take(m, code->n));
-        return qdot_machine_push(m, qdot_matrix(m->pool, code->n / code->to, code->to, m->args.at));
+        return qdot_machine_push(
+            m, qdot_matrix(m->pool, code->n / code->to, code->to, m->args.at));
     case QDOT_CODE_MEMBER: return member(m, code->token->text);
     case QDOT_CODE_JUMP: *pc = code->to; return QDOT_OK;
     case QDOT_CODE_SUM_BEGIN: return qdot_forms_sum(m, code, pc);

@@ -5,8 +5,8 @@
 #include "lang/language/cursor.h"
 
 /* `(a, b, c)`: the tokens [*n] of the names, owned by the caller. */
-QDOT_MUST_CHECK qdot_status qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names,
-                                                    size_t *n);
+QDOT_MUST_CHECK qdot_status qdot_formals_read_names(qdot_cursor *c,
+                                                    const qdot_token ***names, size_t *n);
 /* `(u, v)`: a LIST of FORMAL symbols, and the tokens [*n] of their names, owned by the
  * caller. */
 QDOT_MUST_CHECK qdot_status qdot_formals_read(qdot_cursor *c, qdot_expr *formals,

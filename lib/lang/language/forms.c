@@ -143,7 +143,7 @@ qdot_forms_else(qdot_machine *m, const qdot_code *code, uint32_t *pc)
     *pc = code->to;
 }
 
-/* Both branches, the condition open; vectors of one size component by component. */
+/* if(...) with an undecided condition; of vectors of one size component by component. */
 qdot_status
 qdot_forms_end(qdot_machine *m)
 {

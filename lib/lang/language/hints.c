@@ -197,7 +197,8 @@ qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token)
     char text[100];
 
     qdot_fail(QDOT_ESYNTAX, "`%s` is a function: its argument goes in ( )", name);
-    if (qdot_token_is(next, "^") && next[1].kind != QDOT_TOKEN_END && qdot_token_is(next + 2, "(")) {
+    if (qdot_token_is(next, "^") && next[1].kind != QDOT_TOKEN_END &&
+        qdot_token_is(next + 2, "(")) {
         bracket_text(c, next + 2, text, sizeof text);
         return qdot_hint("write %s(%s)^%.40s", name, text, next[1].text);
     }

@@ -21,7 +21,8 @@ qdot_machine_pass(qdot_machine *m, qdot_expr value)
     qdot_passed *p = m->session->passed;
 
     if (p == NULL || p->spoiled || p->branches > 0 || value == QDOT_NIL ||
-        !qdot_expr_is_scalar(m->pool, value) || qdot_expr_kind(m->pool, value) == QDOT_NUM)
+        !qdot_expr_is_scalar(m->pool, value) ||
+        qdot_expr_kind(m->pool, value) == QDOT_NUM)
         return QDOT_OK;
     return qdot_vec_push(&p->value, value);
 }

@@ -30,7 +30,7 @@ find(const qdot_session *session, qdot_expr symbol)
     return NULL;
 }
 
-/* One scalar. */
+/* The symbol of the scalar e along the run. */
 static qdot_expr
 make(qdot_session *session, const char *run, qdot_expr e)
 {
@@ -270,9 +270,10 @@ qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_ex
         qdot_measured number;
         qdot_expr by;
 
-        status = m != NULL
-                     ? qdot_runs_measure_one(session, m->run, m->value, time, &number)
-                     : qdot_runs_measure_one(session, run, x.symbols.at[i], time, &number);
+        status =
+            m != NULL
+                ? qdot_runs_measure_one(session, m->run, m->value, time, &number)
+                : qdot_runs_measure_one(session, run, x.symbols.at[i], time, &number);
         if (status != QDOT_OK)
             break;
         by = qdot_measured_add(session, number);
