@@ -76,14 +76,17 @@ library_sources = \
 	lib/lang/functions/quantity.c \
 	lib/lang/functions/series.c \
 	lib/lang/functions/short-names.c \
+	lib/lang/functions/switch.c \
 	lib/lang/language/call.c \
 	lib/lang/language/closed-sum.c \
 	lib/lang/language/condition.c \
 	lib/lang/language/cursor.c \
 	lib/lang/language/evaluate.c \
 	lib/lang/language/formals.c \
+	lib/lang/language/forms.c \
 	lib/lang/language/function.c \
 	lib/lang/language/hints.c \
+	lib/lang/language/machine.c \
 	lib/lang/language/parse.c \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
@@ -419,13 +422,16 @@ library_headers = \
 	lib/lang/functions/quantity.h \
 	lib/lang/functions/series.h \
 	lib/lang/functions/short-names.h \
+	lib/lang/functions/switch.h \
 	lib/lang/language/closed-sum.h \
 	lib/lang/language/condition.h \
 	lib/lang/language/cursor.h \
 	lib/lang/language/evaluator.h \
 	lib/lang/language/formals.h \
+	lib/lang/language/forms.h \
 	lib/lang/language/function.h \
 	lib/lang/language/hints.h \
+	lib/lang/language/machine.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
 	lib/lang/session/along.h \

@@ -16,8 +16,9 @@ qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a, qdot_expr 
         return qdot_value_kind_check(pool, *value);
     }
     if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
-        return qdot_fail(QDOT_ETYPE, "`%s` compares numbers, not %s", op,
-                         qdot_value_kind_words(pool, qdot_expr_is_scalar(pool, a) ? b : a));
+        return qdot_fail(
+            QDOT_ETYPE, "`%s` compares numbers, not %s", op,
+            qdot_value_kind_words(pool, qdot_expr_is_scalar(pool, a) ? b : a));
     *value = op[0] == '<' ? qdot_rel(pool, kind, a, b) : qdot_rel(pool, kind, b, a);
     return qdot_value_kind_check(pool, *value);
 }

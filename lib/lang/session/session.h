@@ -91,7 +91,8 @@ QDOT_MUST_CHECK qdot_status qdot_session_remember(qdot_session *session, qdot_ex
 void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
                       qdot_status *status);
 /* From now on a run starts with this value of q or q'. */
-QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value);
+QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
+                                               qdot_expr value);
 /* All that `reset` forgets changes places; what is no part of a scene stays: style, files ... */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 
