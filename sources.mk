@@ -253,7 +253,7 @@ library_sources = \
 	lib/ode/taylor.c \
 	lib/ode/trajectory.c \
 	lib/ode/written.c \
-	lib/series/lanes-code.c \
+	lib/series/lanes-code-run.c \
 	lib/series/lanes-steps.c \
 	lib/series/lanes-sums.c \
 	lib/series/lanes-writer.c \
