@@ -13,6 +13,7 @@
 #include "lang/meant.h"
 #include "lang/statement.h"
 #include "lang/values.h"
+#include "tape/constant.h"
 #include "tape/tape.h"
 
 /* --- run ---------------------------------------------------------------------------- */

@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "tape/code.h"
+#include "tape/tape.h"
 
 /* Recurrences, by the names that recurrence.def has. */
 typedef enum {
