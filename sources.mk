@@ -29,63 +29,87 @@ library_sources = \
 	lib/expr/tensor.c \
 	lib/expr/ufun.c \
 	lib/expr/walk.c \
-	lib/lang/algebra.c \
-	lib/lang/answer.c \
-	lib/lang/ask.c \
-	lib/lang/bind.c \
-	lib/lang/builtin.c \
-	lib/lang/call.c \
-	lib/lang/carry.c \
-	lib/lang/check.c \
-	lib/lang/closed-sum.c \
-	lib/lang/condition.c \
-	lib/lang/constraints.c \
-	lib/lang/cursor.c \
-	lib/lang/declare-function.c \
-	lib/lang/declare.c \
-	lib/lang/derive.c \
-	lib/lang/digits-table.c \
-	lib/lang/digits.c \
-	lib/lang/draw.c \
-	lib/lang/equilibria.c \
-	lib/lang/evaluate.c \
-	lib/lang/event.c \
-	lib/lang/function.c \
-	lib/lang/furnish.c \
-	lib/lang/help.c \
-	lib/lang/hints.c \
-	lib/lang/letters.c \
-	lib/lang/lex.c \
-	lib/lang/loop.c \
-	lib/lang/meant.c \
-	lib/lang/member.c \
-	lib/lang/names.c \
-	lib/lang/number.c \
-	lib/lang/numeric.c \
-	lib/lang/parse.c \
-	lib/lang/plot.c \
-	lib/lang/quantities.c \
-	lib/lang/race.c \
-	lib/lang/range.c \
-	lib/lang/read.c \
-	lib/lang/redirect.c \
-	lib/lang/remove.c \
-	lib/lang/report.c \
-	lib/lang/resolve.c \
-	lib/lang/scene-file.c \
-	lib/lang/series.c \
-	lib/lang/session.c \
-	lib/lang/source.c \
-	lib/lang/start.c \
-	lib/lang/statement.c \
-	lib/lang/styled.c \
-	lib/lang/taken.c \
-	lib/lang/undo-state.c \
-	lib/lang/undo.c \
-	lib/lang/values.c \
-	lib/lang/words.c \
-	lib/lang/workbench.c \
-	lib/lang/workprecision.c \
+	lib/lang/answer/answer.c \
+	lib/lang/answer/digits.c \
+	lib/lang/answer/formula.c \
+	lib/lang/answer/number-text.c \
+	lib/lang/answer/report.c \
+	lib/lang/commands/ask.c \
+	lib/lang/commands/check.c \
+	lib/lang/commands/complete.c \
+	lib/lang/commands/constraints.c \
+	lib/lang/commands/declare-function.c \
+	lib/lang/commands/declare.c \
+	lib/lang/commands/derive.c \
+	lib/lang/commands/digits-table.c \
+	lib/lang/commands/equilibria.c \
+	lib/lang/commands/event.c \
+	lib/lang/commands/figure-file.c \
+	lib/lang/commands/help.c \
+	lib/lang/commands/loop.c \
+	lib/lang/commands/objects.c \
+	lib/lang/commands/operands.c \
+	lib/lang/commands/pairs.c \
+	lib/lang/commands/plot.c \
+	lib/lang/commands/race.c \
+	lib/lang/commands/redirect.c \
+	lib/lang/commands/remove.c \
+	lib/lang/commands/request.c \
+	lib/lang/commands/reset.c \
+	lib/lang/commands/run.c \
+	lib/lang/commands/scene-file.c \
+	lib/lang/commands/script-file.c \
+	lib/lang/commands/script.c \
+	lib/lang/commands/set.c \
+	lib/lang/commands/settings.c \
+	lib/lang/commands/statement.c \
+	lib/lang/commands/table.c \
+	lib/lang/commands/undo.c \
+	lib/lang/commands/value-check.c \
+	lib/lang/commands/warnings.c \
+	lib/lang/commands/workprecision.c \
+	lib/lang/functions/algebra.c \
+	lib/lang/functions/builtin.c \
+	lib/lang/functions/entry.c \
+	lib/lang/functions/equilibria.c \
+	lib/lang/functions/numeric.c \
+	lib/lang/functions/quantity.c \
+	lib/lang/functions/series.c \
+	lib/lang/functions/short-names.c \
+	lib/lang/functions/switch.c \
+	lib/lang/language/call.c \
+	lib/lang/language/closed-sum.c \
+	lib/lang/language/condition.c \
+	lib/lang/language/cursor.c \
+	lib/lang/language/evaluate.c \
+	lib/lang/language/formals.c \
+	lib/lang/language/forms.c \
+	lib/lang/language/function.c \
+	lib/lang/language/hints.c \
+	lib/lang/language/machine.c \
+	lib/lang/language/parse.c \
+	lib/lang/language/read.c \
+	lib/lang/language/resolve.c \
+	lib/lang/language/token-text.c \
+	lib/lang/session/along.c \
+	lib/lang/session/bind.c \
+	lib/lang/session/event-time.c \
+	lib/lang/session/function-body.c \
+	lib/lang/session/labels.c \
+	lib/lang/session/measured.c \
+	lib/lang/session/member.c \
+	lib/lang/session/names.c \
+	lib/lang/session/range.c \
+	lib/lang/session/runs.c \
+	lib/lang/session/session.c \
+	lib/lang/session/spelling.c \
+	lib/lang/session/transfer.c \
+	lib/lang/session/undo-state.c \
+	lib/lang/session/undo.c \
+	lib/lang/session/value-kind.c \
+	lib/lang/source/letters.c \
+	lib/lang/source/lex.c \
+	lib/lang/source/source.c \
 	lib/machine/x86.c \
 	lib/mech/dynamics/accel.c \
 	lib/mech/dynamics/alike.c \
@@ -264,9 +288,12 @@ library_sources = \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-end.c \
+	lib/sim/course/piece-enter.c \
+	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
 	lib/sim/course/reader.c \
+	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
@@ -277,6 +304,7 @@ library_sources = \
 	lib/sim/digits/digits.c \
 	lib/sim/digits/precise-course.c \
 	lib/sim/digits/precise-distance.c \
+	lib/sim/digits/precise-pair.c \
 	lib/sim/digits/precise-start.c \
 	lib/sim/digits/precise-value.c \
 	lib/sim/digits/precise.c \
@@ -290,6 +318,7 @@ library_sources = \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
 	lib/sim/form/constrained-series.c \
+	lib/sim/form/derived.c \
 	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/leading-residual.c \
@@ -303,6 +332,7 @@ library_sources = \
 	lib/sim/form/shifted-wide.c \
 	lib/sim/form/shifted.c \
 	lib/sim/model/constrained-jacobian.c \
+	lib/sim/model/constrained-names.c \
 	lib/sim/model/constrained-near.c \
 	lib/sim/model/constrained-project.c \
 	lib/sim/model/constrained-put.c \
@@ -310,6 +340,7 @@ library_sources = \
 	lib/sim/model/constrained.c \
 	lib/sim/model/constraints.c \
 	lib/sim/model/domain.c \
+	lib/sim/model/equations.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -321,6 +352,7 @@ library_sources = \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
+	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range.c \
@@ -365,33 +397,67 @@ library_headers = \
 	lib/expr/rational.h \
 	lib/expr/tensor.h \
 	lib/expr/walk.h \
-	lib/lang/algebra.h \
-	lib/lang/answer.h \
-	lib/lang/ask.h \
-	lib/lang/carry.h \
-	lib/lang/closed-sum.h \
-	lib/lang/code.h \
-	lib/lang/condition.h \
-	lib/lang/constraints.h \
-	lib/lang/declare.h \
-	lib/lang/digits-table.h \
-	lib/lang/digits.h \
-	lib/lang/draw.h \
-	lib/lang/equilibria.h \
-	lib/lang/function.h \
-	lib/lang/meant.h \
-	lib/lang/names.h \
-	lib/lang/number.h \
-	lib/lang/numeric.h \
-	lib/lang/read.h \
-	lib/lang/redirect.h \
-	lib/lang/scene-file.h \
-	lib/lang/session.h \
-	lib/lang/statement.h \
-	lib/lang/taken.h \
-	lib/lang/undo-state.h \
-	lib/lang/undo.h \
-	lib/lang/values.h \
+	lib/lang/answer/answer.h \
+	lib/lang/answer/digits.h \
+	lib/lang/answer/formula.h \
+	lib/lang/answer/number-text.h \
+	lib/lang/answer/report.h \
+	lib/lang/commands/complete.h \
+	lib/lang/commands/constraints.h \
+	lib/lang/commands/declare.h \
+	lib/lang/commands/digits-table.h \
+	lib/lang/commands/figure-file.h \
+	lib/lang/commands/loop.h \
+	lib/lang/commands/operands.h \
+	lib/lang/commands/pairs.h \
+	lib/lang/commands/redirect.h \
+	lib/lang/commands/request.h \
+	lib/lang/commands/scene-file.h \
+	lib/lang/commands/script.h \
+	lib/lang/commands/set.h \
+	lib/lang/commands/statement.h \
+	lib/lang/commands/value-check.h \
+	lib/lang/commands/warnings.h \
+	lib/lang/functions/algebra.h \
+	lib/lang/functions/builtin.h \
+	lib/lang/functions/entry.h \
+	lib/lang/functions/equilibria.h \
+	lib/lang/functions/numeric.h \
+	lib/lang/functions/quantity.h \
+	lib/lang/functions/series.h \
+	lib/lang/functions/short-names.h \
+	lib/lang/functions/switch.h \
+	lib/lang/language/closed-sum.h \
+	lib/lang/language/condition.h \
+	lib/lang/language/cursor.h \
+	lib/lang/language/evaluator.h \
+	lib/lang/language/formals.h \
+	lib/lang/language/forms.h \
+	lib/lang/language/function.h \
+	lib/lang/language/hints.h \
+	lib/lang/language/machine.h \
+	lib/lang/language/read.h \
+	lib/lang/language/token-text.h \
+	lib/lang/session/along.h \
+	lib/lang/session/bind.h \
+	lib/lang/session/event-time.h \
+	lib/lang/session/function-body.h \
+	lib/lang/session/labels.h \
+	lib/lang/session/measured.h \
+	lib/lang/session/member.h \
+	lib/lang/session/names.h \
+	lib/lang/session/range.h \
+	lib/lang/session/runs.h \
+	lib/lang/session/session.h \
+	lib/lang/session/spelling.h \
+	lib/lang/session/transfer.h \
+	lib/lang/session/undo-state.h \
+	lib/lang/session/undo.h \
+	lib/lang/session/value-kind.h \
+	lib/lang/source/letters.h \
+	lib/lang/source/lex.h \
+	lib/lang/source/source.h \
+	lib/lang/source/token.h \
 	lib/machine/x86.h \
 	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
@@ -548,12 +614,15 @@ library_headers = \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/sim/course/bind.h \
+	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/drift.h \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
 	lib/sim/course/polynomial-bounds.h \
 	lib/sim/course/reader.h \
+	lib/sim/course/report.h \
+	lib/sim/course/root.h \
 	lib/sim/course/run-state.h \
 	lib/sim/course/stage.h \
 	lib/sim/course/watch-parts.h \
@@ -563,6 +632,7 @@ library_headers = \
 	lib/sim/digits/precise-pair.h \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
+	lib/sim/error/companion.h \
 	lib/sim/error/distance.h \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
@@ -572,6 +642,7 @@ library_headers = \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
 	lib/sim/form/constrained-series.h \
+	lib/sim/form/derived.h \
 	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/leading-residual.h \
@@ -590,11 +661,13 @@ library_headers = \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \
 	lib/sim/model/domain.h \
+	lib/sim/model/equations.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
+	lib/sim/model/request.h \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \

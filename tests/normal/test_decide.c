@@ -11,6 +11,7 @@
 #include "normal/refute/constant.h"
 
 #include "normal/prove/equal.h"
+#include "normal/prove/prove.h"
 
 #include "normal/inequality/less.h"
 #include "normal/solve/proportion.h"

@@ -22,7 +22,7 @@
 #define QDOT_SIM_RESIDUAL_H
 
 #include "mech/scene/scene.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct {
     uint32_t to, from; /* F_to += w x''_from */

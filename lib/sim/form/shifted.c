@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "num/series.h"
 #include "sim/form/blocks.h"
+#include "sim/form/derived.h"
 #include "sim/form/shifted-tree.h"
 #include "sim/form/shifted-wide.h"
 #include "tape/shake.h"

@@ -23,7 +23,7 @@
 #ifndef QDOT_SIM_ROUTH_H
 #define QDOT_SIM_ROUTH_H
 
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 /* Into plan->reduced; NULL where nothing is cyclic or nothing is gained. The plan is made
  * but for this, without constraints. */

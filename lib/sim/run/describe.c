@@ -6,6 +6,7 @@
 #include "sim/course/stage.h"
 #include "sim/form/eliminated.h"
 #include "sim/model/constraints.h"
+#include "sim/run/run.h"
 
 /* What is integrated. */
 static const qdot_plan *
