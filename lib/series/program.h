@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "tape/code.h"
+#include "tape/tape.h"
 
 /* Up to this order of q'' an integral divides by k + 1 and k + 2, exactly but for the last
  * bit; beyond it multiplies by inverses. The rounding of an inverse is the same in every
