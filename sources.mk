@@ -1,70 +1,12 @@
 # sources.mk -- which files make qdot. Written by ./bootstrap sources; do not edit.
 
-base_sources = \
+library_sources = \
 	lib/base/interrupt.c \
 	lib/base/memory.c \
 	lib/base/scope.c \
 	lib/base/status.c \
 	lib/base/text.c \
-	lib/base/utf8.c
-
-base_headers = \
-	lib/base/clock.h \
-	lib/base/interrupt.h \
-	lib/base/memory.h \
-	lib/base/scope.h \
-	lib/base/status.h \
-	lib/base/text.h \
-	lib/base/utf8.h
-
-num_sources = \
-	lib/num/articulated.c \
-	lib/num/batch.c \
-	lib/num/bordered.c \
-	lib/num/chebyshev.c \
-	lib/num/cholesky.c \
-	lib/num/hermite.c \
-	lib/num/kinds.c \
-	lib/num/ldlt.c \
-	lib/num/least-move.c \
-	lib/num/real.c \
-	lib/num/row-space.c \
-	lib/num/saddle-rows.c \
-	lib/num/saddle.c \
-	lib/num/series.c \
-	lib/num/sparse.c \
-	lib/num/structure.c \
-	lib/num/two.c
-
-num_headers = \
-	lib/num/arb.h \
-	lib/num/articulated-plane.def \
-	lib/num/articulated.def \
-	lib/num/articulated.h \
-	lib/num/batch-kinds.def \
-	lib/num/batch-vector.def \
-	lib/num/batch.def \
-	lib/num/batch.h \
-	lib/num/bordered.h \
-	lib/num/chebyshev.h \
-	lib/num/cholesky.h \
-	lib/num/hermite.h \
-	lib/num/kinds.h \
-	lib/num/ldlt.h \
-	lib/num/least-move.h \
-	lib/num/real.h \
-	lib/num/row-space.h \
-	lib/num/saddle.h \
-	lib/num/series-dot.def \
-	lib/num/series.def \
-	lib/num/series.h \
-	lib/num/sparse.h \
-	lib/num/structure.h \
-	lib/num/sum.h \
-	lib/num/two.def \
-	lib/num/two.h
-
-expr_sources = \
+	lib/base/utf8.c \
 	lib/expr/bounds.c \
 	lib/expr/calculus.c \
 	lib/expr/construct.c \
@@ -86,22 +28,218 @@ expr_sources = \
 	lib/expr/sum.c \
 	lib/expr/tensor.c \
 	lib/expr/ufun.c \
-	lib/expr/walk.c
-
-expr_headers = \
-	lib/expr/calculus.h \
-	lib/expr/expr.h \
-	lib/expr/function.def \
-	lib/expr/pool.h \
-	lib/expr/print-name.h \
-	lib/expr/print-parts.h \
-	lib/expr/print.h \
-	lib/expr/printed.h \
-	lib/expr/rational.h \
-	lib/expr/tensor.h \
-	lib/expr/walk.h
-
-ode_sources = \
+	lib/expr/walk.c \
+	lib/lang/answer/answer.c \
+	lib/lang/answer/digits.c \
+	lib/lang/answer/formula.c \
+	lib/lang/answer/number-text.c \
+	lib/lang/answer/report.c \
+	lib/lang/commands/ask.c \
+	lib/lang/commands/check.c \
+	lib/lang/commands/complete.c \
+	lib/lang/commands/constraints.c \
+	lib/lang/commands/declare-function.c \
+	lib/lang/commands/declare.c \
+	lib/lang/commands/derive.c \
+	lib/lang/commands/digits-table.c \
+	lib/lang/commands/equilibria.c \
+	lib/lang/commands/event.c \
+	lib/lang/commands/figure-file.c \
+	lib/lang/commands/help.c \
+	lib/lang/commands/loop.c \
+	lib/lang/commands/objects.c \
+	lib/lang/commands/operands.c \
+	lib/lang/commands/pairs.c \
+	lib/lang/commands/plot.c \
+	lib/lang/commands/race.c \
+	lib/lang/commands/redirect.c \
+	lib/lang/commands/remove.c \
+	lib/lang/commands/request.c \
+	lib/lang/commands/reset.c \
+	lib/lang/commands/run.c \
+	lib/lang/commands/scene-file.c \
+	lib/lang/commands/script-file.c \
+	lib/lang/commands/script.c \
+	lib/lang/commands/set.c \
+	lib/lang/commands/settings.c \
+	lib/lang/commands/statement.c \
+	lib/lang/commands/table.c \
+	lib/lang/commands/undo.c \
+	lib/lang/commands/value-check.c \
+	lib/lang/commands/warnings.c \
+	lib/lang/commands/workprecision.c \
+	lib/lang/functions/algebra.c \
+	lib/lang/functions/builtin.c \
+	lib/lang/functions/entry.c \
+	lib/lang/functions/equilibria.c \
+	lib/lang/functions/numeric.c \
+	lib/lang/functions/quantity.c \
+	lib/lang/functions/series.c \
+	lib/lang/functions/short-names.c \
+	lib/lang/functions/switch.c \
+	lib/lang/language/call.c \
+	lib/lang/language/closed-sum.c \
+	lib/lang/language/condition.c \
+	lib/lang/language/cursor.c \
+	lib/lang/language/evaluate.c \
+	lib/lang/language/formals.c \
+	lib/lang/language/forms.c \
+	lib/lang/language/function.c \
+	lib/lang/language/hints.c \
+	lib/lang/language/machine.c \
+	lib/lang/language/parse.c \
+	lib/lang/language/read.c \
+	lib/lang/language/resolve.c \
+	lib/lang/language/token-text.c \
+	lib/lang/session/along.c \
+	lib/lang/session/bind.c \
+	lib/lang/session/event-time.c \
+	lib/lang/session/function-body.c \
+	lib/lang/session/labels.c \
+	lib/lang/session/measured.c \
+	lib/lang/session/member.c \
+	lib/lang/session/names.c \
+	lib/lang/session/range.c \
+	lib/lang/session/runs.c \
+	lib/lang/session/session.c \
+	lib/lang/session/spelling.c \
+	lib/lang/session/transfer.c \
+	lib/lang/session/undo-state.c \
+	lib/lang/session/undo.c \
+	lib/lang/session/value-kind.c \
+	lib/lang/source/letters.c \
+	lib/lang/source/lex.c \
+	lib/lang/source/source.c \
+	lib/machine/x86.c \
+	lib/mech/dynamics/accel.c \
+	lib/mech/dynamics/alike.c \
+	lib/mech/dynamics/conservation.c \
+	lib/mech/dynamics/dalembert.c \
+	lib/mech/dynamics/energy.c \
+	lib/mech/dynamics/freedom.c \
+	lib/mech/dynamics/generic.c \
+	lib/mech/dynamics/kinematics.c \
+	lib/mech/dynamics/lagrange.c \
+	lib/mech/dynamics/mass-matrix.c \
+	lib/mech/dynamics/momentum.c \
+	lib/mech/dynamics/nested.c \
+	lib/mech/dynamics/numeric.c \
+	lib/mech/dynamics/potential.c \
+	lib/mech/dynamics/recursive.c \
+	lib/mech/dynamics/squares.c \
+	lib/mech/dynamics/virtual-work.c \
+	lib/mech/scene/access.c \
+	lib/mech/scene/body.c \
+	lib/mech/scene/cache.c \
+	lib/mech/scene/constraint.c \
+	lib/mech/scene/event.c \
+	lib/mech/scene/kind.c \
+	lib/mech/scene/label.c \
+	lib/mech/scene/parts.c \
+	lib/mech/scene/place.c \
+	lib/mech/scene/print.c \
+	lib/mech/scene/remove.c \
+	lib/mech/scene/replace.c \
+	lib/mech/scene/scene.c \
+	lib/mech/study/equilibrium-branches.c \
+	lib/mech/study/equilibrium-equations.c \
+	lib/mech/study/equilibrium-numeric.c \
+	lib/mech/study/equilibrium-twice.c \
+	lib/mech/study/equilibrium.c \
+	lib/mech/study/geometry.c \
+	lib/mech/study/hamilton.c \
+	lib/mech/study/integrable.c \
+	lib/mech/study/linear-motion.c \
+	lib/mech/study/lyapunov.c \
+	lib/mech/study/metric.c \
+	lib/mech/study/minimal.c \
+	lib/mech/study/modes.c \
+	lib/mech/study/noether.c \
+	lib/mech/study/reactions.c \
+	lib/mech/study/stability-exact.c \
+	lib/mech/study/stability-numbers.c \
+	lib/mech/study/stability.c \
+	lib/normal/field/factor.c \
+	lib/normal/field/field.c \
+	lib/normal/field/flint.c \
+	lib/normal/field/ideal.c \
+	lib/normal/field/lattice.c \
+	lib/normal/field/map.c \
+	lib/normal/field/normal-form.c \
+	lib/normal/field/polynomials.c \
+	lib/normal/field/prepare.c \
+	lib/normal/field/ratio.c \
+	lib/normal/field/root-parts.c \
+	lib/normal/field/split.c \
+	lib/normal/field/together.c \
+	lib/normal/field/value.c \
+	lib/normal/form/collect.c \
+	lib/normal/form/common.c \
+	lib/normal/form/denominators.c \
+	lib/normal/form/form.c \
+	lib/normal/form/items.c \
+	lib/normal/form/products.c \
+	lib/normal/form/quotient.c \
+	lib/normal/form/shortest.c \
+	lib/normal/form/simple.c \
+	lib/normal/form/squares.c \
+	lib/normal/form/trig-form.c \
+	lib/normal/inequality/cells.c \
+	lib/normal/inequality/contradiction.c \
+	lib/normal/inequality/inequality.c \
+	lib/normal/inequality/less.c \
+	lib/normal/inequality/question.c \
+	lib/normal/inequality/real-zeros.c \
+	lib/normal/prove/angle-basis.c \
+	lib/normal/prove/angle-sum.c \
+	lib/normal/prove/cases.c \
+	lib/normal/prove/decide.c \
+	lib/normal/prove/defined.c \
+	lib/normal/prove/domain.c \
+	lib/normal/prove/equal.c \
+	lib/normal/prove/logarithm.c \
+	lib/normal/prove/nth-part.c \
+	lib/normal/prove/prove.c \
+	lib/normal/prove/range.c \
+	lib/normal/prove/rewrite.c \
+	lib/normal/prove/unify.c \
+	lib/normal/prove/within.c \
+	lib/normal/prove/zero.c \
+	lib/normal/refute/ball.c \
+	lib/normal/refute/constant.c \
+	lib/normal/refute/sample-edge.c \
+	lib/normal/refute/sample-solve.c \
+	lib/normal/refute/sample.c \
+	lib/normal/simplify/positive.c \
+	lib/normal/simplify/rationalize.c \
+	lib/normal/simplify/simplify.c \
+	lib/normal/solve/antiderivative.c \
+	lib/normal/solve/cramer.c \
+	lib/normal/solve/isolate.c \
+	lib/normal/solve/linear.c \
+	lib/normal/solve/null-space.c \
+	lib/normal/solve/proportion.c \
+	lib/normal/solve/solve-factors.c \
+	lib/normal/solve/solve-signs.c \
+	lib/normal/solve/solve-sort.c \
+	lib/normal/solve/solve.c \
+	lib/num/articulated.c \
+	lib/num/batch.c \
+	lib/num/bordered.c \
+	lib/num/chebyshev.c \
+	lib/num/cholesky.c \
+	lib/num/hermite.c \
+	lib/num/kinds.c \
+	lib/num/ldlt.c \
+	lib/num/least-move.c \
+	lib/num/real.c \
+	lib/num/row-space.c \
+	lib/num/saddle-rows.c \
+	lib/num/saddle.c \
+	lib/num/series.c \
+	lib/num/sparse.c \
+	lib/num/structure.c \
+	lib/num/two.c \
 	lib/ode/apart.c \
 	lib/ode/batch.c \
 	lib/ode/companion.c \
@@ -114,269 +252,34 @@ ode_sources = \
 	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
 	lib/ode/trajectory.c \
-	lib/ode/written.c
-
-ode_headers = \
-	lib/ode/apart.h \
-	lib/ode/batch.def \
-	lib/ode/batch.h \
-	lib/ode/companion.h \
-	lib/ode/crawl.h \
-	lib/ode/dop853.def \
-	lib/ode/dop853.h \
-	lib/ode/integrate.h \
-	lib/ode/leading.h \
-	lib/ode/method.h \
-	lib/ode/precise.h \
-	lib/ode/stepper.h \
-	lib/ode/system.h \
-	lib/ode/taylor-numbers.h \
-	lib/ode/taylor.h \
-	lib/ode/trajectory.h \
-	lib/ode/written.h
-
-normal_sources = \
-	lib/normal/angle-basis.c \
-	lib/normal/angle-sum.c \
-	lib/normal/antiderivative.c \
-	lib/normal/ball.c \
-	lib/normal/cases.c \
-	lib/normal/cells.c \
-	lib/normal/collect.c \
-	lib/normal/common.c \
-	lib/normal/constant.c \
-	lib/normal/contradiction.c \
-	lib/normal/cramer.c \
-	lib/normal/decide.c \
-	lib/normal/defined.c \
-	lib/normal/denominators.c \
-	lib/normal/domain.c \
-	lib/normal/factor.c \
-	lib/normal/field.c \
-	lib/normal/flint.c \
-	lib/normal/form.c \
-	lib/normal/ideal.c \
-	lib/normal/inequality.c \
-	lib/normal/isolate.c \
-	lib/normal/items.c \
-	lib/normal/known-signs.c \
-	lib/normal/lattice.c \
-	lib/normal/less.c \
-	lib/normal/linear.c \
-	lib/normal/logarithm.c \
-	lib/normal/map.c \
-	lib/normal/nth-part.c \
-	lib/normal/null-space.c \
-	lib/normal/polynomials.c \
-	lib/normal/positive.c \
-	lib/normal/prepare.c \
-	lib/normal/products.c \
-	lib/normal/proportion.c \
-	lib/normal/prove.c \
-	lib/normal/question.c \
-	lib/normal/quotient.c \
-	lib/normal/range.c \
-	lib/normal/ratio.c \
-	lib/normal/rationalize.c \
-	lib/normal/real-zeros.c \
-	lib/normal/rewrite.c \
-	lib/normal/root-parts.c \
-	lib/normal/sample-edge.c \
-	lib/normal/sample-solve.c \
-	lib/normal/sample.c \
-	lib/normal/simple.c \
-	lib/normal/simplify.c \
-	lib/normal/solve-factors.c \
-	lib/normal/solve-signs.c \
-	lib/normal/solve-sort.c \
-	lib/normal/solve.c \
-	lib/normal/split.c \
-	lib/normal/squares.c \
-	lib/normal/together.c \
-	lib/normal/trig-form.c \
-	lib/normal/unify.c \
-	lib/normal/value.c \
-	lib/normal/within.c \
-	lib/normal/zero.c
-
-normal_headers = \
-	lib/normal/angle-basis.h \
-	lib/normal/antiderivative.h \
-	lib/normal/ball.h \
-	lib/normal/cases.h \
-	lib/normal/cells.h \
-	lib/normal/constant.h \
-	lib/normal/contradiction.h \
-	lib/normal/cramer.h \
-	lib/normal/decide.h \
-	lib/normal/defined.h \
-	lib/normal/domain.h \
-	lib/normal/factor.h \
-	lib/normal/field.h \
-	lib/normal/flint.h \
-	lib/normal/form.h \
-	lib/normal/ideal.h \
-	lib/normal/inequality.h \
-	lib/normal/isolate.h \
-	lib/normal/items.h \
-	lib/normal/lattice.h \
-	lib/normal/map.h \
-	lib/normal/nth-part.h \
-	lib/normal/null-space.h \
-	lib/normal/polynomials.h \
-	lib/normal/positive.h \
-	lib/normal/prepare.h \
-	lib/normal/products.h \
-	lib/normal/prove.h \
-	lib/normal/question.h \
-	lib/normal/rationalize.h \
-	lib/normal/real-zeros.h \
-	lib/normal/rewrite.h \
-	lib/normal/root-parts.h \
-	lib/normal/sample.h \
-	lib/normal/simplify.h \
-	lib/normal/solve.h \
-	lib/normal/split.h \
-	lib/normal/together.h \
-	lib/normal/unify.h \
-	lib/normal/value.h \
-	lib/normal/within.h \
-	lib/normal/zero.h
-
-tape_sources = \
-	lib/tape/angle.c \
-	lib/tape/code.c \
-	lib/tape/constant.c \
-	lib/tape/derivative.c \
-	lib/tape/disc.c \
-	lib/tape/finish.c \
-	lib/tape/interval.c \
-	lib/tape/keymap.c \
-	lib/tape/lanes-code.c \
-	lib/tape/lanes-steps.c \
-	lib/tape/lanes-sums.c \
-	lib/tape/lanes-writer.c \
-	lib/tape/lanes.c \
-	lib/tape/lower.c \
-	lib/tape/near.c \
-	lib/tape/precise.c \
-	lib/tape/tape.c \
-	lib/tape/taylor-code-fold.c \
-	lib/tape/taylor-code-order.c \
-	lib/tape/taylor-code-solve.c \
-	lib/tape/taylor-code-vectors.c \
-	lib/tape/taylor-code-zero.c \
-	lib/tape/taylor-code.c \
-	lib/tape/taylor-correct.c \
-	lib/tape/taylor-near.c \
-	lib/tape/taylor-order.c \
-	lib/tape/taylor-text.c \
-	lib/tape/taylor-unknowns.c \
-	lib/tape/taylor-wide.c \
-	lib/tape/taylor.c \
-	lib/tape/two.c \
-	lib/tape/x86.c
-
-tape_headers = \
-	lib/tape/angle.h \
-	lib/tape/code.h \
-	lib/tape/constant.h \
-	lib/tape/derivative.def \
-	lib/tape/derivative.h \
-	lib/tape/disc.def \
-	lib/tape/disc.h \
-	lib/tape/interval.def \
-	lib/tape/interval.h \
-	lib/tape/keymap.h \
-	lib/tape/lanes-code.h \
-	lib/tape/lanes-program.h \
-	lib/tape/lanes-writer.h \
-	lib/tape/lanes.def \
-	lib/tape/lanes.h \
-	lib/tape/near.h \
-	lib/tape/operation.def \
-	lib/tape/precise.h \
-	lib/tape/shake.h \
-	lib/tape/tape.h \
-	lib/tape/taylor-code-sum.h \
-	lib/tape/taylor-code.h \
-	lib/tape/taylor-generator.h \
-	lib/tape/taylor-order.def \
-	lib/tape/taylor-steps.h \
-	lib/tape/taylor-text.h \
-	lib/tape/taylor-wide.def \
-	lib/tape/taylor-wide.h \
-	lib/tape/taylor.h \
-	lib/tape/two.def \
-	lib/tape/two.h \
-	lib/tape/x86.h
-
-mech_sources = \
-	lib/mech/accel.c \
-	lib/mech/alike.c \
-	lib/mech/body.c \
-	lib/mech/constraint.c \
-	lib/mech/dalembert.c \
-	lib/mech/derived.c \
-	lib/mech/energy.c \
-	lib/mech/equilibrium-branches.c \
-	lib/mech/equilibrium-equations.c \
-	lib/mech/equilibrium-numeric.c \
-	lib/mech/equilibrium-twice.c \
-	lib/mech/equilibrium.c \
-	lib/mech/event.c \
-	lib/mech/freedom.c \
-	lib/mech/generic.c \
-	lib/mech/geometry.c \
-	lib/mech/hamilton.c \
-	lib/mech/integrable.c \
-	lib/mech/kind.c \
-	lib/mech/kinematics.c \
-	lib/mech/label.c \
-	lib/mech/lagrange.c \
-	lib/mech/linear-motion.c \
-	lib/mech/lyapunov.c \
-	lib/mech/mass-matrix.c \
-	lib/mech/metric.c \
-	lib/mech/minimal.c \
-	lib/mech/modes.c \
-	lib/mech/momentum.c \
-	lib/mech/nested.c \
-	lib/mech/noether.c \
-	lib/mech/numeric.c \
-	lib/mech/place.c \
-	lib/mech/reactions.c \
-	lib/mech/recursive.c \
-	lib/mech/remove.c \
-	lib/mech/scene-parts.c \
-	lib/mech/scene-print.c \
-	lib/mech/scene-replace.c \
-	lib/mech/scene.c \
-	lib/mech/squares.c \
-	lib/mech/stability-exact.c \
-	lib/mech/stability-numbers.c \
-	lib/mech/stability.c \
-	lib/mech/virtual-work.c
-
-mech_headers = \
-	lib/mech/dalembert.h \
-	lib/mech/derived.h \
-	lib/mech/equilibrium-rest.h \
-	lib/mech/equilibrium.h \
-	lib/mech/geometry.h \
-	lib/mech/hamilton.h \
-	lib/mech/integrable.h \
-	lib/mech/linear-motion.h \
-	lib/mech/lyapunov.h \
-	lib/mech/minimal.h \
-	lib/mech/noether.h \
-	lib/mech/quantity.h \
-	lib/mech/reactions.h \
-	lib/mech/scene.h \
-	lib/mech/squares.h \
-	lib/mech/stability.h
-
-sim_sources = \
+	lib/ode/written.c \
+	lib/series/lanes-code.c \
+	lib/series/lanes-steps.c \
+	lib/series/lanes-sums.c \
+	lib/series/lanes-writer.c \
+	lib/series/lanes.c \
+	lib/series/near.c \
+	lib/series/precise.c \
+	lib/series/program.c \
+	lib/series/taylor-code-fold.c \
+	lib/series/taylor-code-order.c \
+	lib/series/taylor-code-solve.c \
+	lib/series/taylor-code-vectors.c \
+	lib/series/taylor-code-zero.c \
+	lib/series/taylor-code.c \
+	lib/series/taylor-correct.c \
+	lib/series/taylor-near.c \
+	lib/series/taylor-order.c \
+	lib/series/taylor-text.c \
+	lib/series/taylor-unknowns.c \
+	lib/series/taylor-wide.c \
+	lib/series/taylor.c \
+	lib/series/two.c \
+	lib/show/csv.c \
+	lib/show/figure.c \
+	lib/show/gnuplot.c \
+	lib/show/sink.c \
+	lib/show/table.c \
 	lib/sim/course/bind.c \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
@@ -459,9 +362,251 @@ sim_sources = \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/race.c \
-	lib/sim/study/workprecision.c
+	lib/sim/study/workprecision.c \
+	lib/tape/angle.c \
+	lib/tape/code.c \
+	lib/tape/constant.c \
+	lib/tape/derivative.c \
+	lib/tape/disc.c \
+	lib/tape/finish.c \
+	lib/tape/interval.c \
+	lib/tape/keymap.c \
+	lib/tape/lower.c \
+	lib/tape/tape.c
 
-sim_headers = \
+library_headers = \
+	lib/base/clock.h \
+	lib/base/interrupt.h \
+	lib/base/memory.h \
+	lib/base/scope.h \
+	lib/base/status.h \
+	lib/base/text.h \
+	lib/base/utf8.h \
+	lib/expr/calculus.h \
+	lib/expr/expr.h \
+	lib/expr/function.def \
+	lib/expr/pool.h \
+	lib/expr/print-name.h \
+	lib/expr/print-parts.h \
+	lib/expr/print.h \
+	lib/expr/printed.h \
+	lib/expr/rational.h \
+	lib/expr/tensor.h \
+	lib/expr/walk.h \
+	lib/lang/answer/answer.h \
+	lib/lang/answer/digits.h \
+	lib/lang/answer/formula.h \
+	lib/lang/answer/number-text.h \
+	lib/lang/answer/report.h \
+	lib/lang/commands/complete.h \
+	lib/lang/commands/constraints.h \
+	lib/lang/commands/declare.h \
+	lib/lang/commands/digits-table.h \
+	lib/lang/commands/figure-file.h \
+	lib/lang/commands/loop.h \
+	lib/lang/commands/operands.h \
+	lib/lang/commands/pairs.h \
+	lib/lang/commands/redirect.h \
+	lib/lang/commands/request.h \
+	lib/lang/commands/scene-file.h \
+	lib/lang/commands/script.h \
+	lib/lang/commands/set.h \
+	lib/lang/commands/statement.h \
+	lib/lang/commands/value-check.h \
+	lib/lang/commands/warnings.h \
+	lib/lang/functions/algebra.h \
+	lib/lang/functions/builtin.h \
+	lib/lang/functions/entry.h \
+	lib/lang/functions/equilibria.h \
+	lib/lang/functions/numeric.h \
+	lib/lang/functions/quantity.h \
+	lib/lang/functions/series.h \
+	lib/lang/functions/short-names.h \
+	lib/lang/functions/switch.h \
+	lib/lang/language/closed-sum.h \
+	lib/lang/language/condition.h \
+	lib/lang/language/cursor.h \
+	lib/lang/language/evaluator.h \
+	lib/lang/language/formals.h \
+	lib/lang/language/forms.h \
+	lib/lang/language/function.h \
+	lib/lang/language/hints.h \
+	lib/lang/language/machine.h \
+	lib/lang/language/read.h \
+	lib/lang/language/token-text.h \
+	lib/lang/session/along.h \
+	lib/lang/session/bind.h \
+	lib/lang/session/event-time.h \
+	lib/lang/session/function-body.h \
+	lib/lang/session/labels.h \
+	lib/lang/session/measured.h \
+	lib/lang/session/member.h \
+	lib/lang/session/names.h \
+	lib/lang/session/range.h \
+	lib/lang/session/runs.h \
+	lib/lang/session/session.h \
+	lib/lang/session/spelling.h \
+	lib/lang/session/transfer.h \
+	lib/lang/session/undo-state.h \
+	lib/lang/session/undo.h \
+	lib/lang/session/value-kind.h \
+	lib/lang/source/letters.h \
+	lib/lang/source/lex.h \
+	lib/lang/source/source.h \
+	lib/lang/source/token.h \
+	lib/machine/x86.h \
+	lib/mech/dynamics/alike.h \
+	lib/mech/dynamics/dalembert.h \
+	lib/mech/dynamics/energy.h \
+	lib/mech/dynamics/freedom.h \
+	lib/mech/dynamics/generic.h \
+	lib/mech/dynamics/kinematics.h \
+	lib/mech/dynamics/lagrange.h \
+	lib/mech/dynamics/mass-matrix.h \
+	lib/mech/dynamics/nested.h \
+	lib/mech/dynamics/potential.h \
+	lib/mech/dynamics/quantity.h \
+	lib/mech/dynamics/recursive.h \
+	lib/mech/dynamics/squares.h \
+	lib/mech/dynamics/virtual-work.h \
+	lib/mech/scene/access.h \
+	lib/mech/scene/body.h \
+	lib/mech/scene/cache.h \
+	lib/mech/scene/constraint.h \
+	lib/mech/scene/scene.h \
+	lib/mech/scene/things.h \
+	lib/mech/study/equilibrium-search.h \
+	lib/mech/study/equilibrium.h \
+	lib/mech/study/geometry.h \
+	lib/mech/study/hamilton.h \
+	lib/mech/study/integrable.h \
+	lib/mech/study/linear-motion.h \
+	lib/mech/study/lyapunov.h \
+	lib/mech/study/minimal.h \
+	lib/mech/study/modes.h \
+	lib/mech/study/noether.h \
+	lib/mech/study/reactions.h \
+	lib/mech/study/rest.h \
+	lib/mech/study/stability.h \
+	lib/normal/field/factor.h \
+	lib/normal/field/facts.h \
+	lib/normal/field/field.h \
+	lib/normal/field/flint.h \
+	lib/normal/field/ideal.h \
+	lib/normal/field/lattice.h \
+	lib/normal/field/map.h \
+	lib/normal/field/normal-form.h \
+	lib/normal/field/polynomials.h \
+	lib/normal/field/prepare.h \
+	lib/normal/field/ratio.h \
+	lib/normal/field/root-parts.h \
+	lib/normal/field/split.h \
+	lib/normal/field/together.h \
+	lib/normal/field/value.h \
+	lib/normal/form/common.h \
+	lib/normal/form/form.h \
+	lib/normal/form/items.h \
+	lib/normal/form/products.h \
+	lib/normal/form/shortest.h \
+	lib/normal/form/simple.h \
+	lib/normal/inequality/cells.h \
+	lib/normal/inequality/contradiction.h \
+	lib/normal/inequality/inequality.h \
+	lib/normal/inequality/less.h \
+	lib/normal/inequality/question.h \
+	lib/normal/inequality/real-zeros.h \
+	lib/normal/prove/angle-basis.h \
+	lib/normal/prove/cases.h \
+	lib/normal/prove/decide.h \
+	lib/normal/prove/defined.h \
+	lib/normal/prove/domain.h \
+	lib/normal/prove/equal.h \
+	lib/normal/prove/nth-part.h \
+	lib/normal/prove/prove.h \
+	lib/normal/prove/rewrite.h \
+	lib/normal/prove/unify.h \
+	lib/normal/prove/within.h \
+	lib/normal/prove/zero.h \
+	lib/normal/refute/ball.h \
+	lib/normal/refute/constant.h \
+	lib/normal/refute/sample.h \
+	lib/normal/simplify/positive.h \
+	lib/normal/simplify/rationalize.h \
+	lib/normal/simplify/simplify.h \
+	lib/normal/solve/antiderivative.h \
+	lib/normal/solve/cramer.h \
+	lib/normal/solve/isolate.h \
+	lib/normal/solve/linear.h \
+	lib/normal/solve/null-space.h \
+	lib/normal/solve/proportion.h \
+	lib/normal/solve/solve.h \
+	lib/num/arb.h \
+	lib/num/articulated-plane.def \
+	lib/num/articulated.def \
+	lib/num/articulated.h \
+	lib/num/batch-kinds.def \
+	lib/num/batch-vector.def \
+	lib/num/batch.def \
+	lib/num/batch.h \
+	lib/num/bordered.h \
+	lib/num/chebyshev.h \
+	lib/num/cholesky.h \
+	lib/num/hermite.h \
+	lib/num/kinds.h \
+	lib/num/ldlt.h \
+	lib/num/least-move.h \
+	lib/num/real.h \
+	lib/num/row-space.h \
+	lib/num/saddle.h \
+	lib/num/series-dot.def \
+	lib/num/series.def \
+	lib/num/series.h \
+	lib/num/sparse.h \
+	lib/num/structure.h \
+	lib/num/sum.h \
+	lib/num/two.def \
+	lib/num/two.h \
+	lib/ode/apart.h \
+	lib/ode/batch.def \
+	lib/ode/batch.h \
+	lib/ode/companion.h \
+	lib/ode/crawl.h \
+	lib/ode/dop853.def \
+	lib/ode/dop853.h \
+	lib/ode/integrate.h \
+	lib/ode/leading.h \
+	lib/ode/method.h \
+	lib/ode/precise.h \
+	lib/ode/stepper.h \
+	lib/ode/system.h \
+	lib/ode/taylor-numbers.h \
+	lib/ode/taylor.h \
+	lib/ode/trajectory.h \
+	lib/ode/written.h \
+	lib/series/lanes-code.h \
+	lib/series/lanes-program.h \
+	lib/series/lanes-writer.h \
+	lib/series/lanes.def \
+	lib/series/lanes.h \
+	lib/series/linear.def \
+	lib/series/near.h \
+	lib/series/precise.h \
+	lib/series/program.h \
+	lib/series/recurrence.def \
+	lib/series/taylor-code-sum.h \
+	lib/series/taylor-code.h \
+	lib/series/taylor-generator.h \
+	lib/series/taylor-order.def \
+	lib/series/taylor-steps.h \
+	lib/series/taylor-text.h \
+	lib/series/taylor-wide.def \
+	lib/series/taylor-wide.h \
+	lib/series/taylor.h \
+	lib/series/two.def \
+	lib/series/two.h \
+	lib/show/gnuplot.h \
+	lib/show/show.h \
+	lib/show/sink.h \
 	lib/sim/course/bind.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
@@ -530,107 +675,20 @@ sim_headers = \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/race.h \
-	lib/sim/study/workprecision.h
-
-show_sources = \
-	lib/show/csv.c \
-	lib/show/figure.c \
-	lib/show/gnuplot.c \
-	lib/show/sink.c \
-	lib/show/table.c
-
-show_headers = \
-	lib/show/gnuplot.h \
-	lib/show/show.h \
-	lib/show/sink.h
-
-lang_sources = \
-	lib/lang/algebra.c \
-	lib/lang/answer.c \
-	lib/lang/ask.c \
-	lib/lang/bind.c \
-	lib/lang/builtin.c \
-	lib/lang/call.c \
-	lib/lang/carry.c \
-	lib/lang/check.c \
-	lib/lang/closed-sum.c \
-	lib/lang/condition.c \
-	lib/lang/constraints.c \
-	lib/lang/cursor.c \
-	lib/lang/declare-function.c \
-	lib/lang/declare.c \
-	lib/lang/derive.c \
-	lib/lang/digits-table.c \
-	lib/lang/digits.c \
-	lib/lang/draw.c \
-	lib/lang/equilibria.c \
-	lib/lang/evaluate.c \
-	lib/lang/event.c \
-	lib/lang/function.c \
-	lib/lang/furnish.c \
-	lib/lang/help.c \
-	lib/lang/hints.c \
-	lib/lang/letters.c \
-	lib/lang/lex.c \
-	lib/lang/loop.c \
-	lib/lang/meant.c \
-	lib/lang/member.c \
-	lib/lang/names.c \
-	lib/lang/number.c \
-	lib/lang/numeric.c \
-	lib/lang/parse.c \
-	lib/lang/plot.c \
-	lib/lang/quantities.c \
-	lib/lang/race.c \
-	lib/lang/range.c \
-	lib/lang/read.c \
-	lib/lang/redirect.c \
-	lib/lang/remove.c \
-	lib/lang/report.c \
-	lib/lang/resolve.c \
-	lib/lang/scene-file.c \
-	lib/lang/series.c \
-	lib/lang/session.c \
-	lib/lang/source.c \
-	lib/lang/start.c \
-	lib/lang/statement.c \
-	lib/lang/styled.c \
-	lib/lang/taken.c \
-	lib/lang/undo-state.c \
-	lib/lang/undo.c \
-	lib/lang/values.c \
-	lib/lang/words.c \
-	lib/lang/workbench.c \
-	lib/lang/workprecision.c
-
-lang_headers = \
-	lib/lang/algebra.h \
-	lib/lang/answer.h \
-	lib/lang/ask.h \
-	lib/lang/carry.h \
-	lib/lang/closed-sum.h \
-	lib/lang/code.h \
-	lib/lang/condition.h \
-	lib/lang/constraints.h \
-	lib/lang/declare.h \
-	lib/lang/digits-table.h \
-	lib/lang/digits.h \
-	lib/lang/draw.h \
-	lib/lang/equilibria.h \
-	lib/lang/function.h \
-	lib/lang/meant.h \
-	lib/lang/names.h \
-	lib/lang/number.h \
-	lib/lang/numeric.h \
-	lib/lang/read.h \
-	lib/lang/redirect.h \
-	lib/lang/scene-file.h \
-	lib/lang/session.h \
-	lib/lang/statement.h \
-	lib/lang/taken.h \
-	lib/lang/undo-state.h \
-	lib/lang/undo.h \
-	lib/lang/values.h
+	lib/sim/study/workprecision.h \
+	lib/tape/angle.h \
+	lib/tape/code.h \
+	lib/tape/constant.h \
+	lib/tape/derivative.def \
+	lib/tape/derivative.h \
+	lib/tape/disc.def \
+	lib/tape/disc.h \
+	lib/tape/interval.def \
+	lib/tape/interval.h \
+	lib/tape/keymap.h \
+	lib/tape/operation.def \
+	lib/tape/shake.h \
+	lib/tape/tape.h
 
 program_sources = \
 	src/main.c \
@@ -662,6 +720,7 @@ unit_tests = \
 	tests/lang/test_session \
 	tests/lang/test_styles \
 	tests/lang/test_undo \
+	tests/machine/test_x86 \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
@@ -700,6 +759,14 @@ unit_tests = \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
 	tests/ode/test_written \
+	tests/series/test_lanes-code \
+	tests/series/test_lanes \
+	tests/series/test_near \
+	tests/series/test_precise \
+	tests/series/test_taylor-code \
+	tests/series/test_taylor-wide \
+	tests/series/test_taylor \
+	tests/series/test_two \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_table \
@@ -725,16 +792,7 @@ unit_tests = \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
 	tests/tape/test_interval \
-	tests/tape/test_lanes-code \
-	tests/tape/test_lanes \
-	tests/tape/test_near \
-	tests/tape/test_precise \
-	tests/tape/test_tape \
-	tests/tape/test_taylor-code \
-	tests/tape/test_taylor-wide \
-	tests/tape/test_taylor \
-	tests/tape/test_two \
-	tests/tape/test_x86
+	tests/tape/test_tape
 
 script_tests = \
 	tests/script/accel-large-coefficients.lag \
@@ -1606,6 +1664,7 @@ test_files = \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
 	tests/script/poisson.out \
+	tests/script/processor.inc \
 	tests/script/processor.out \
 	tests/script/pulse-train.out \
 	tests/script/race.out \

@@ -21,10 +21,8 @@
 #include "expr/print.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/derived.h"
-#include "mech/quantity.h"
-#include "normal/decide.h"
-#include "normal/simplify.h"
+#include "mech/scene/scene.h"
+#include "normal/prove/decide.h"
 
 typedef struct {
     qdot_pool *pool;

@@ -2,7 +2,8 @@
  * against the same field in Cartesian coordinates. */
 #include "kit.h"
 
-#include "mech/geometry.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/study/geometry.h"
 
 static qdot_expr
 curvature(kit *k, const char *R)

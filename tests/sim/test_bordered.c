@@ -10,7 +10,7 @@
 #include "sim/model/rates.h"
 #include "sim/plan/plan.h"
 #include "tape/tape.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 #include <math.h>
 

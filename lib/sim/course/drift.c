@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "tape/lanes.h"
+#include "series/lanes.h"
 
 void
 qdot_drifts_clear(qdot_drifts *d)

@@ -6,7 +6,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "tape/precise.h"
+#include "series/precise.h"
 
 #define RN MPFR_RNDN
 

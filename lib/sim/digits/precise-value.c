@@ -9,7 +9,7 @@
 #include "sim/digits/precise.h"
 #include "sim/model/constraints.h"
 #include "tape/constant.h"
-#include "tape/precise.h"
+#include "series/precise.h"
 
 #define RN MPFR_RNDN
 

@@ -11,7 +11,7 @@
 #include "sim/digits/precise-start.h"
 #include "sim/model/constraints.h"
 #include "tape/constant.h"
-#include "tape/precise.h"
+#include "series/precise.h"
 
 #define RN MPFR_RNDN
 

@@ -10,11 +10,11 @@
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
 #include "sim/model/power-quotient.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 enum { most_order = 44, highest = most_order - 4, most = QDOT_BORDERED_MOST };
 
-/* The orders that are one vector (tape/taylor-code.h); loops where there are two, with the first
+/* The orders that are one vector (series/taylor-code.h); loops where there are two, with the first
  * orders; instructions that are kept decoded. */
 enum { narrow = 18 };
 static const double loops = 3.7, decoded = 3000;

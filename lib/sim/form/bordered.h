@@ -4,7 +4,7 @@
  *     [ A_0    0   ] [ -l_k ] = [ gamma_k ] - sum  [ A_j    0   ] [ -l_{k-j} ]
  *                                            j=1
  *
- * is one more set of unknowns of the program of f, M, A and gamma (tape/taylor.h), so that a
+ * is one more set of unknowns of the program of f, M, A and gamma (series/taylor.h), so that a
  * whole expansion is a single call. Constraints are differentiated here, which takes more
  * convolutions than their own coefficients (sim/form/constrained-series.h), and the inverse is
  * found without a correction: it is for tolerances from QDOT_ELIMINATED_TOL on, as the form

@@ -3,7 +3,7 @@
  *
  * Order m of q begins as what doubles made of it; the residual that this leaves, in two
  * doubles, is as small as their rounding, and M_0^-1 of it, in doubles, is what is missing.
- * All of order m is corrected by that (tape/two.h).
+ * All of order m is corrected by that (series/two.h).
  *
  * Tests  tests/script/leading.sh
  */

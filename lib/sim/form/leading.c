@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "sim/form/blocks.h"
 #include "tape/constant.h"
-#include "tape/two.h"
+#include "series/two.h"
 
 /* Corrections of a solution at most, and what of it the next would have to be larger than. */
 enum { most_corrections = 4 };

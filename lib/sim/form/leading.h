@@ -1,7 +1,7 @@
 /* leading.h -- the first orders of the Taylor series of a motion in sums of two doubles.
  *
  * From the state, the parameters and constants as two doubles each: order k of the tape of
- * M q'' = f (tape/two.h), then
+ * M q'' = f (series/two.h), then
  *
  *     M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j},
  *

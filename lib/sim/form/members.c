@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 #include "ode/taylor.h"
-#include "tape/lanes-code.h"
-#include "tape/taylor.h"
+#include "series/lanes-code.h"
+#include "series/taylor.h"
 
 enum { L = QDOT_LANES, most_order = 44 };
 
@@ -266,7 +266,7 @@ write_block(qdot_lanes_writer *w, const qdot_members *m, size_t b, int k)
 }
 
 /* 1/(k + 1), 1/((k + 1)(k + 2)); and in low orders what these are beyond their doubles, for
- * which a division is exact but for the last bit (tape/taylor.h). */
+ * which a division is exact but for the last bit (series/taylor.h). */
 static double
 once(int k)
 {

@@ -10,8 +10,8 @@
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
 #include "tape/constant.h"
-#include "tape/precise.h"
-#include "tape/taylor.h"
+#include "series/precise.h"
+#include "series/taylor.h"
 
 static const double most_bytes = 2e9;
 

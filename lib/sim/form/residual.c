@@ -5,10 +5,11 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/dalembert.h"
+#include "mech/dynamics/dalembert.h"
 #include "sim/form/blocks.h"
 #include "tape/constant.h"
-#include "tape/taylor.h"
+#include "series/program.h"
+#include "series/taylor.h"
 
 /* Parents are looked for among so many functions before. */
 enum { near = 8, looked_at = 64 };
@@ -277,8 +278,8 @@ qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **resi
     qdot_free(b.differences.at);
     qdot_free(b.outputs.at);
     qdot_free(b.forces.at);
-    if (status == QDOT_OK && (qdot_taylor_hindrance(b.r->places) ||
-                              (b.r->forces && qdot_taylor_hindrance(b.r->forces)))) {
+    if (status == QDOT_OK && (qdot_program_hindrance(b.r->places) ||
+                              (b.r->forces && qdot_program_hindrance(b.r->forces)))) {
         qdot_residual_free(b.r);
         return QDOT_OK;
     }

@@ -21,7 +21,7 @@
 #ifndef QDOT_SIM_RESIDUAL_H
 #define QDOT_SIM_RESIDUAL_H
 
-#include "mech/scene.h"
+#include "mech/scene/scene.h"
 #include "sim/model/equations.h"
 
 typedef struct {

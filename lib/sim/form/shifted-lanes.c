@@ -7,9 +7,9 @@
 #include "base/memory.h"
 #include "ode/taylor.h"
 #include "sim/form/blocks.h"
-#include "tape/lanes-code.h"
+#include "series/lanes-code.h"
 #include "tape/shake.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 enum { L = QDOT_LANES, most_order = 44 };
 
@@ -213,7 +213,7 @@ minus_inverse_of(int m)
     return m > 1 ? -1.0 / (m * (m - 1)) : 0;
 }
 
-/* In low orders what that is beyond its double (tape/taylor.h). */
+/* In low orders what that is beyond its double (series/taylor.h). */
 static double
 minus_beyond(int m)
 {

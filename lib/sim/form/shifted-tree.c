@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "tape/taylor-wide.h"
+#include "series/taylor-wide.h"
 
 enum {
     lanes = QDOT_WIDE_LANES,

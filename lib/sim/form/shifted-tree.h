@@ -6,7 +6,7 @@
  *
  * is the system of num/articulated.h: one sweep up the tree and one down it give q'' and F of
  * order k together. Neither M nor W is formed, and an order is work N. Slopes, differences
- * and forces are vectors of eight nodes (tape/taylor-wide.h).
+ * and forces are vectors of eight nodes (series/taylor-wide.h).
  *
  * Tests  tests/sim/test_shifted-tree.c
  */
@@ -14,7 +14,7 @@
 #define QDOT_SIM_SHIFTED_TREE_H
 
 #include "sim/form/residual-tree.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 typedef struct qdot_shifted_tree qdot_shifted_tree;
 

@@ -6,7 +6,7 @@
  *
  * is vectors of slopes times vectors of forces, orders by orders, and each vector of forces
  * eight rows of W times the second derivatives of the differences, which are lanes of the
- * program (tape/taylor-wide.h).
+ * program (series/taylor-wide.h).
  *
  * Tests  tests/sim/test_taylor.c
  */
@@ -14,7 +14,7 @@
 #define QDOT_SIM_SHIFTED_WIDE_H
 
 #include "sim/form/residual.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 typedef struct qdot_shifted_wide qdot_shifted_wide;
 

@@ -12,7 +12,7 @@
 #include "sim/form/shifted-tree.h"
 #include "sim/form/shifted-wide.h"
 #include "tape/shake.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 enum { most_order = 44, lanes = 8 };
 

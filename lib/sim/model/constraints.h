@@ -5,7 +5,7 @@
  *     f(q, q', q'', t) = 0 acceleration   A = df/dq'', linear in q''
  *
  * Differentiated as often as the kind asks each says A q'' = gamma(q, q', t), and with
- * the signs of mech/quantity.h the motion is
+ * the signs of mech/dynamics/quantity.h the motion is
  *
  *     M q'' = f + A^T lambda,   A q'' = gamma
  *
@@ -17,7 +17,7 @@
 #ifndef QDOT_SIM_CONSTRAINTS_H
 #define QDOT_SIM_CONSTRAINTS_H
 
-#include "mech/scene.h"
+#include "mech/scene/scene.h"
 #include "num/saddle.h"
 #include "sim/model/equations.h"
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "tape/precise.h"
+#include "series/precise.h"
 
 /* Of a momentum: that of two doubles, and what its terms may cancel. */
 enum { bits = 256 };

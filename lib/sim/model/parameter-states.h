@@ -13,7 +13,7 @@
 #ifndef QDOT_SIM_PARAMETER_STATES_H
 #define QDOT_SIM_PARAMETER_STATES_H
 
-#include "mech/scene.h"
+#include "mech/scene/scene.h"
 #include "sim/model/equations.h"
 
 /* A request with these coordinates in it. Start from {0}. */

@@ -5,7 +5,7 @@
 #ifndef QDOT_SIM_REQUEST_H
 #define QDOT_SIM_REQUEST_H
 
-#include "mech/quantity.h"
+#include "mech/dynamics/quantity.h"
 
 /* What is done about drift off the constraints (sim/model/constrained.h). */
 typedef enum { QDOT_RUN_PROJECT, QDOT_RUN_BAUMGARTE, QDOT_RUN_NONE } qdot_run_treatment;

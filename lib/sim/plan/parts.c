@@ -6,7 +6,7 @@
 #include "expr/walk.h"
 #include "sim/form/derived.h"
 #include "sim/plan/routh.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 /* Parts have no d'Alembert's form: where that of the whole is so much shorter it stays
  * whole. */

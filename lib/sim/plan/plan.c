@@ -15,7 +15,8 @@
 #include "sim/model/switch.h"
 #include "sim/plan/parts.h"
 #include "sim/plan/routh.h"
-#include "tape/taylor.h"
+#include "series/program.h"
+#include "series/taylor.h"
 
 /* The method that `auto` is, and where the equations switch and so have no series: see
  * ode/method.h for when each fits. */
@@ -212,9 +213,9 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     p->tape = p->constraints->equations;
     p->constraints->equations = NULL;
     p->treatment = request->treatment;
-    hindrance = qdot_taylor_hindrance(p->tape);
+    hindrance = qdot_program_hindrance(p->tape);
     if (!hindrance)
-        hindrance = qdot_taylor_hindrance(p->constraints->positions);
+        hindrance = qdot_program_hindrance(p->constraints->positions);
     QDOT_TRY(check_series(p, hindrance));
     if (p->smooth)
         QDOT_TRY(find_cost(p));
@@ -238,7 +239,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         return constrain(p, scene, request);
     QDOT_TRY(qdot_plan_structure(p, NULL));
     QDOT_TRY(qdot_plan_lower(p, 2 * p->n + 1, 0, NULL));
-    QDOT_TRY(check_series(p, qdot_taylor_hindrance(p->tape)));
+    QDOT_TRY(check_series(p, qdot_program_hindrance(p->tape)));
     p->leading = p->smooth && p->method->series && request->tol <= QDOT_ODE_LEADING_TOL;
     if (p->smooth)
         QDOT_TRY(choose_form(p, scene));

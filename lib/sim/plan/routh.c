@@ -7,9 +7,10 @@
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "normal/simplify.h"
+#include "normal/simplify/simplify.h"
 #include "sim/form/derived.h"
-#include "tape/taylor.h"
+#include "series/program.h"
+#include "series/taylor.h"
 
 /* Coordinates that couple with one that is eliminated fill M: beyond so many no more is
  * tried than what does not couple. Forms are simplified up to so many operations. */
@@ -343,7 +344,7 @@ fill_plan(routh *e, way how, qdot_plan *r)
     qdot_free(rates);
     /* it may be a momentum that switches */
     if (status == QDOT_OK)
-        r->smooth = r->smooth && !qdot_taylor_hindrance(r->tape);
+        r->smooth = r->smooth && !qdot_program_hindrance(r->tape);
     return status == QDOT_OK ? find_cost(r) : status;
 }
 

@@ -7,7 +7,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "normal/ball.h"
+#include "normal/refute/ball.h"
 #include "tape/constant.h"
 
 enum { BITS = 256, MOST_REFINEMENTS = 150 };

@@ -6,7 +6,7 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
-#include "mech/minimal.h"
+#include "mech/study/minimal.h"
 #include "sim/course/run-state.h"
 #include "sim/model/substitute.h"
 #include "tape/constant.h"

@@ -1,0 +1,404 @@
+/* evaluate.c -- postfix code to a value: a loop over the code, with its own stacks. */
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "expr/tensor.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/entry.h"
+#include "lang/functions/quantity.h"
+#include "lang/language/condition.h"
+#include "lang/language/forms.h"
+#include "lang/session/bind.h"
+#include "lang/session/event-time.h"
+#include "lang/session/range.h"
+#include "lang/session/value-kind.h"
+#include "lang/source/lex.h"
+
+/* --- sums and products -------------------------------------------------------------- */
+
+/* The operand after `sign`: b of a - b is negated, b of a/b is left for the product. */
+static qdot_status
+term(qdot_machine *m, const qdot_token *sign)
+{
+    qdot_slot *s = qdot_machine_top(m, 1);
+
+    QDOT_TRY(qdot_machine_enter(m, s));
+    s->sign = sign;
+    if (sign->text[0] == '-') {
+        s->value = qdot_value_neg(m->pool, s->value);
+        return qdot_value_kind_check(m->pool, s->value);
+    }
+    if (sign->text[0] == '/' && s->value == QDOT_ZERO)
+        return qdot_fail(QDOT_EDOMAIN, "division by zero");
+    return QDOT_OK;
+}
+
+/* Sums of scalars at once; of other kinds one by one: the caret finds the sign. */
+static qdot_status
+sum(qdot_machine *m, size_t n)
+{
+    const qdot_slot *s = qdot_machine_top(m, n);
+    qdot_expr value = s[0].value;
+
+    QDOT_TRY(qdot_machine_take(m, n)); /* the slots above the stack stay readable */
+    if (qdot_machine_all_scalars(m))
+        return qdot_machine_push(m, qdot_sum(m->pool, n, m->args.at));
+    for (size_t i = 1; i < n; i++) {
+        m->blame = s[i].sign;
+        value = qdot_value_add(m->pool, value, m->args.at[i]);
+        QDOT_TRY(qdot_value_kind_check(m->pool, value));
+    }
+    return qdot_machine_push(m, value);
+}
+
+static qdot_status
+product(qdot_machine *m, size_t n)
+{
+    enum { LONG = 16 }; /* from here on at once */
+    const qdot_slot *s = qdot_machine_top(m, n);
+    qdot_expr value = s[0].value;
+    bool at_once;
+
+    QDOT_TRY(qdot_machine_take(m, n));
+    at_once = n > LONG && qdot_machine_all_scalars(m);
+    for (size_t i = 1; i < n; i++) {
+        bool divide = s[i].sign->text[0] == '/';
+
+        m->blame = s[i].sign;
+        if (divide && m->session->passed != NULL &&
+            qdot_expr_is_scalar(m->pool, m->args.at[i]))
+            QDOT_TRY(qdot_machine_pass(m, qdot_div(m->pool, QDOT_ONE, m->args.at[i])));
+        if (at_once && !divide)
+            continue;
+        if (at_once)
+            m->args.at[i] = qdot_div(m->pool, QDOT_ONE, m->args.at[i]);
+        else
+            value =
+                (divide ? qdot_value_div : qdot_value_mul)(m->pool, value, m->args.at[i]);
+        QDOT_TRY(qdot_value_kind_check(m->pool, at_once ? m->args.at[i] : value));
+    }
+    return qdot_machine_push(m, at_once ? qdot_product(m->pool, n, m->args.at) : value);
+}
+
+/* --- logic -------------------------------------------------------------------------- */
+
+static qdot_status
+logic(qdot_machine *m, qdot_logic_op op, size_t n)
+{
+    static const char *const names[] = {"and", "or", "not"};
+
+    QDOT_TRY(qdot_machine_take(m, n));
+    for (size_t i = 0; i < n; i++)
+        if (!qdot_condition_is(m->pool, m->args.at[i]))
+            return qdot_fail(QDOT_ETYPE, "`%s` joins conditions, not %s", names[op],
+                             qdot_value_kind_words(m->pool, m->args.at[i]));
+    return qdot_machine_push(m, qdot_logic(m->pool, op, (uint32_t)n, m->args.at));
+}
+
+/* --- names, calls, entries ---------------------------------------------------------- */
+
+/* The run that the top n values are meant along, no longer theirs; NULL where there are
+ * several. */
+static const char *
+common_run(qdot_machine *m, size_t n)
+{
+    const char *run = NULL;
+
+    for (size_t i = 1; i <= n; i++) {
+        const char *one = qdot_machine_top(m, i)->run;
+
+        if (one != NULL && run != NULL && strcmp(one, run) != 0)
+            return NULL;
+        run = one != NULL ? one : run;
+    }
+    for (size_t i = 1; i <= n; i++)
+        qdot_machine_top(m, i)->run = NULL;
+    return run;
+}
+
+/* value(...) and its kin look at the run of their arguments. */
+static bool
+takes_run(const qdot_machine *m, const qdot_code *code)
+{
+    const qdot_builtin *row = qdot_builtin_find(code->token->text);
+
+    return code->to == 0 && row != NULL && (row->flags & QDOT_BUILTIN_RUN) &&
+           !qdot_resolve_is_function(m->session, code->token->text);
+}
+
+/* max(e, a..b): the ends of the range stand last. */
+static qdot_status
+range(qdot_machine *m, const qdot_code *code)
+{
+    const char *run = common_run(m, code->n);
+    qdot_expr value;
+
+    QDOT_TRY(qdot_machine_take(m, code->n));
+    QDOT_TRY(qdot_range_value(m->session, run, code->token->text, code->n - 2,
+                              m->args.at, m->args.at + code->n - 2, &value));
+    return qdot_machine_push(m, value);
+}
+
+static qdot_status
+call(qdot_machine *m, const qdot_code *code)
+{
+    size_t n = code->n + code->to;
+    const char *run = NULL;
+    qdot_expr value, over = QDOT_NIL;
+
+    if (takes_run(m, code))
+        run = common_run(m, n);
+    m->labels.n = 0;
+    QDOT_TRY(qdot_grow(&m->labels.at, &m->labels.capacity, n, sizeof *m->labels.at));
+    for (size_t i = n; i > 0; i--)
+        m->labels.at[m->labels.n++] = qdot_machine_top(m, i)->label;
+    QDOT_TRY(qdot_machine_take(m, n));
+    QDOT_TRY(qdot_resolve_call(m->c,
+                               &(qdot_call){code->token, code->primes, code->to, code->n,
+                                            m->args.at, m->labels.at, run},
+                               &value, &over));
+    QDOT_TRY(qdot_machine_push(m, value));
+    qdot_machine_top(m, 1)->over = over;
+    qdot_machine_spoil(m, code->token->text);
+    return qdot_machine_pass(m, value);
+}
+
+static qdot_status
+entry(qdot_machine *m, const qdot_code *code)
+{
+    qdot_expr over = qdot_machine_top(m, code->n + 1)->over, value;
+
+    QDOT_TRY(qdot_machine_take_any(m, code->n + 1));
+    QDOT_TRY(qdot_entry_of(m->session, m->args.at[0], over, code->n, m->args.at + 1,
+                           &value));
+    return qdot_machine_push(m, value);
+}
+
+/* `cross[2]`, `cross`, a.cross[2]: times of an event, where no other name is. */
+static qdot_status
+event(qdot_machine *m, const qdot_code *code, bool *found)
+{
+    const qdot_code *next = code + 1;
+    bool member = next < m->program->list.at + m->program->list.n &&
+                  next->op == QDOT_CODE_MEMBER;
+    const char *run = member ? next->token->text : NULL, *text = code->token->text;
+    bool indexed = code->op == QDOT_CODE_INDEX_NAME;
+    qdot_text spelled = {0};
+    qdot_status status = QDOT_OK;
+    qdot_expr value;
+    long k = 0;
+
+    *found = false;
+    if (code->primes > 0 || code->n > 1 || qdot_names_find(m->session->names, text) ||
+        (!indexed && qdot_quantity_find(text)))
+        return QDOT_OK;
+    if (indexed && qdot_expr_kind(m->pool, qdot_machine_top(m, 1)->value) == QDOT_NUM) {
+        QDOT_TRY(qdot_session_integer(m->session, qdot_machine_top(m, 1)->value, &k));
+        qdot_text_format(&spelled, "%s[%ld]", text, k);
+        if (qdot_event_is(m->session, run, qdot_text_str(&spelled))) {
+            text = qdot_text_str(&spelled);
+            k = 0;
+        }
+    }
+    *found = qdot_event_is(m->session, run, text) && (!indexed || k != 0 || spelled.n > 0);
+    if (*found) {
+        status = qdot_event_time(m->session, run, text, k, &value);
+        m->stack.n -= status == QDOT_OK ? code->n : 0;
+        m->belongs = member;
+        if (status == QDOT_OK)
+            status = qdot_machine_push(m, value);
+    }
+    qdot_text_clear(&spelled);
+    return status;
+}
+
+static qdot_status
+name(qdot_machine *m, const qdot_code *code)
+{
+    qdot_expr value, over;
+    bool found;
+
+    QDOT_TRY(event(m, code, &found));
+    if (found)
+        return QDOT_OK;
+    if (code->op == QDOT_CODE_NAME) {
+        QDOT_TRY(qdot_resolve_name(m->c, code->token, code->primes, &value, &over));
+        QDOT_TRY(qdot_machine_push(m, value));
+        qdot_machine_top(m, 1)->over = over;
+    } else {
+        QDOT_TRY(qdot_machine_take(m, code->n));
+        QDOT_TRY(qdot_resolve_index(m->c, code->token, code->primes, code->n, m->args.at,
+                                    &value));
+        QDOT_TRY(qdot_machine_push(m, value));
+    }
+    return code->primes > 0
+               ? QDOT_OK
+               : qdot_resolve_label(m->session, code->token->text, code->n, m->args.at,
+                                    &qdot_machine_top(m, 1)->label);
+}
+
+/* A label is pushed as a symbol of that name; a loop's index is replaced by its value. */
+static qdot_status
+label(qdot_machine *m, const qdot_code *code)
+{
+    const qdot_name *bound = qdot_names_find(m->session->names, code->token->text);
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (code->n == 0 && bound != NULL && bound->kind == QDOT_NAME_INDEX &&
+        !qdot_scene_has_label(m->session->scene, code->token->text))
+        return qdot_machine_push(m, bound->value);
+    if (code->n == 0 && bound != NULL && bound->label != NULL)
+        return qdot_machine_push(m, qdot_symbol_get(m->pool, QDOT_FORMAL, bound->label));
+    QDOT_TRY(qdot_machine_take(m, code->n));
+    status =
+        qdot_entry_name(m->session, code->token->text, code->n, m->args.at, &text);
+    if (status == QDOT_OK)
+        status = qdot_machine_push(
+            m, qdot_symbol_get(m->pool, QDOT_FORMAL, qdot_text_str(&text)));
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+history(qdot_machine *m, uint32_t n)
+{
+    size_t count = m->session->history.n;
+
+    if (count == 0)
+        return qdot_fail(QDOT_EINVAL, "there is no value yet for `%%`");
+    if (n > count)
+        return qdot_fail(QDOT_EINVAL, "there are only %zu values so far", count);
+    count = n == 0 ? count : n;
+    QDOT_TRY(qdot_machine_push(m, m->session->history.at[count - 1]));
+    if (count <= m->session->history_over.n)
+        qdot_machine_top(m, 1)->over = m->session->history_over.at[count - 1];
+    return QDOT_OK;
+}
+
+static qdot_status
+member(qdot_machine *m, const char *run)
+{
+    if (m->belongs) {
+        m->belongs = false;
+        return QDOT_OK;
+    }
+    for (size_t i = 0; i < m->session->runs.n; i++)
+        if (strcmp(m->session->runs.at[i].name, run) == 0) {
+            if (qdot_machine_top(m, 1)->run != NULL)
+                return qdot_machine_along_runs();
+            qdot_machine_top(m, 1)->run = run;
+            return QDOT_OK;
+        }
+    qdot_fail(QDOT_ENAME, "there is no run `%s`", run);
+    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
+}
+
+/* --- the loop ----------------------------------------------------------------------- */
+
+static qdot_status
+step(qdot_machine *m, const qdot_code *code, uint32_t *pc)
+{
+    qdot_expr value;
+
+    switch ((qdot_code_op)code->op) {
+    case QDOT_CODE_NUMBER:
+        return qdot_machine_push(m, qdot_lex_number(m->pool, code->token->text));
+    case QDOT_CODE_NAME:
+    case QDOT_CODE_INDEX_NAME: return name(m, code);
+    case QDOT_CODE_LABEL: return label(m, code);
+    case QDOT_CODE_HISTORY: return history(m, code->n);
+    case QDOT_CODE_INDEX: return entry(m, code);
+    case QDOT_CODE_CALL: return call(m, code);
+    case QDOT_CODE_RANGE: return range(m, code);
+    case QDOT_CODE_TERM: return term(m, code->token);
+    case QDOT_CODE_SUM: return sum(m, code->n);
+    case QDOT_CODE_PRODUCT: return product(m, code->n);
+    case QDOT_CODE_NEGATE:
+        QDOT_TRY(qdot_machine_take(m, 1));
+        return qdot_machine_push(m, qdot_value_neg(m->pool, m->args.at[0]));
+    case QDOT_CODE_POWER:
+        QDOT_TRY(qdot_machine_take(m, 2));
+        QDOT_TRY(
+            qdot_machine_push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1])));
+        return qdot_machine_pass(m, qdot_machine_top(m, 1)->value);
+    case QDOT_CODE_RELATION:
+        QDOT_TRY(qdot_machine_take(m, 2));
+        QDOT_TRY(qdot_condition_relation(m->pool, code->token->text, m->args.at[0],
+                                         m->args.at[1], &value));
+        return qdot_machine_push(m, value);
+    case QDOT_CODE_CHAIN:
+        QDOT_TRY(qdot_machine_take(m, 2));
+        QDOT_TRY(qdot_condition_relation(m->pool, code->token->text, m->args.at[0],
+                                         m->args.at[1], &value));
+        QDOT_TRY(qdot_machine_push(m, value));
+        return qdot_machine_push(m, m->args.at[1]);
+    case QDOT_CODE_AND: return logic(m, QDOT_AND, code->n);
+    case QDOT_CODE_OR: return logic(m, QDOT_OR, code->n);
+    case QDOT_CODE_NOT: return logic(m, QDOT_NOT, 1);
+    case QDOT_CODE_VECTOR:
+        QDOT_TRY(qdot_machine_take(m, code->n));
+        return qdot_machine_push(m, qdot_vector(m->pool, code->n, m->args.at));
+    case QDOT_CODE_LIST:
+        QDOT_TRY(qdot_machine_take_any(m, code->n));
+        return qdot_machine_push(m, qdot_list(m->pool, code->n, m->args.at));
+    case QDOT_CODE_MATRIX:
+        QDOT_TRY(qdot_machine_take(m, code->n));
+        return qdot_machine_push(
+            m, qdot_matrix(m->pool, code->n / code->to, code->to, m->args.at));
+    case QDOT_CODE_MEMBER: return member(m, code->token->text);
+    case QDOT_CODE_JUMP: *pc = code->to; return QDOT_OK;
+    case QDOT_CODE_SUM_BEGIN: return qdot_forms_sum(m, code, pc);
+    case QDOT_CODE_SUM_NEXT: return qdot_forms_sum_next(m, pc);
+    case QDOT_CODE_IF_TEST: return qdot_forms_if(m, code, pc);
+    case QDOT_CODE_IF_ELSE: qdot_forms_else(m, code, pc); return QDOT_OK;
+    case QDOT_CODE_IF_END: return qdot_forms_end(m);
+    }
+    return qdot_fail(QDOT_EFAILED, "the reader lost its way");
+}
+
+static qdot_status
+run_program(qdot_machine *m)
+{
+    for (uint32_t pc = 0; pc < m->program->list.n;) {
+        const qdot_code *code = &m->program->list.at[pc++];
+
+        m->blame = code->token;
+        if ((pc & 0x3FFF) == 0)
+            QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(step(m, code, &pc));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_evaluate(qdot_cursor *c, const qdot_program *program, qdot_expr *value,
+              qdot_expr *over, const char **run)
+{
+    qdot_machine m = {
+        .c = c, .session = c->session, .pool = c->session->pool, .program = program};
+    qdot_status status = run_program(&m);
+
+    if (status == QDOT_OK) {
+        *value = m.stack.at[0].value;
+        if (over != NULL)
+            *over = m.stack.at[0].over;
+        if (run != NULL)
+            *run = m.stack.at[0].run;
+        else if (m.stack.at[0].run != NULL)
+            status = qdot_machine_along_runs();
+    } else if (m.blame != NULL) {
+        c->error_at = m.blame->start;
+    }
+    if (status != QDOT_OK && m.frames.n > 0)
+        status = qdot_forms_too_many_terms(&m.frames.at[m.frames.n - 1], status);
+    for (size_t i = m.frames.n; i > 0; i--) /* only after a failure */
+        if (m.frames.at[i - 1].bound)
+            qdot_names_pop(m.session->names);
+    qdot_free(m.stack.at);
+    qdot_free(m.frames.at);
+    qdot_free(m.terms.at);
+    qdot_free(m.args.at);
+    qdot_free(m.labels.at);
+    return status;
+}

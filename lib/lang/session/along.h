@@ -1,0 +1,13 @@
+/* along.h -- values along runs, of expressions that may name several of them. */
+#ifndef QDOT_LANG_ALONG_H
+#define QDOT_LANG_ALONG_H
+
+#include "lang/session/session.h"
+
+/* value(e1, ..., t) with args [n], the last the time; run NULL: the latest. The result holds
+ * measured symbols; several columns: a LIST. */
+QDOT_MUST_CHECK qdot_status qdot_along_value(qdot_session *session, const char *run,
+                                             uint32_t n, const qdot_expr *args,
+                                             qdot_expr *value);
+
+#endif

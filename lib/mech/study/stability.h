@@ -1,0 +1,47 @@
+/* stability.h -- whether a scene stays near its places of rest. Internal to mech/. */
+#ifndef QDOT_MECH_STABILITY_H
+#define QDOT_MECH_STABILITY_H
+
+#include "mech/study/lyapunov.h"
+#include "mech/study/rest.h"
+
+typedef struct qdot_stability_numbers qdot_stability_numbers;
+
+typedef struct {
+    qdot_scene *s;
+    qdot_binder bind;
+    void *user;
+    qdot_energy_law law;
+    bool holonomic;     /* every constraint is */
+    bool timed;         /* the equations hold t */
+    bool velocity_kink; /* |q'|, sign(q') ... stand in them: they have no linear part at rest */
+    qdot_expr at_rest;  /* the equations at rest, a LIST */
+    qdot_stability_numbers *numbers; /* for places in numbers, made when first needed */
+} qdot_judge;
+
+/* What holds of all places of a scene, whose equations at rest are a LIST; then each: e->stability
+ * and e->stable_when are set. */
+QDOT_MUST_CHECK qdot_status qdot_judge_new(qdot_scene *s, qdot_expr at_rest,
+                                           qdot_binder bind, void *user,
+                                           qdot_judge **out);
+QDOT_MUST_CHECK qdot_status qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e);
+void qdot_judge_free(qdot_judge *judge);
+
+/* |u|, sign u, floor ...: no slopes everywhere. */
+bool qdot_stability_has_kink(uint32_t op);
+
+/* A place known exactly, holonomic constraints (stability-exact.c). */
+QDOT_MUST_CHECK qdot_status qdot_stability_judge_exact(qdot_judge *judge,
+                                                       qdot_equilibrium *e);
+
+/* --- places in numbers (stability-numbers.c) ----
+ * The slopes of the equations, with the values of bind; freed by the caller. */
+QDOT_MUST_CHECK qdot_status qdot_stability_numbers_new(const qdot_judge *judge,
+                                                       qdot_stability_numbers **out);
+void qdot_stability_numbers_free(qdot_stability_numbers *numbers);
+/* e->stability of a place whose values are numbers. */
+QDOT_MUST_CHECK qdot_status qdot_stability_judge_numbers(const qdot_judge *judge,
+                                                         qdot_stability_numbers *numbers,
+                                                         qdot_equilibrium *e);
+
+#endif
