@@ -35,6 +35,7 @@ library_sources = \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
 	lib/lang/commands/ask.c \
+	lib/lang/commands/assumed.c \
 	lib/lang/commands/check.c \
 	lib/lang/commands/complete.c \
 	lib/lang/commands/constraints.c \
@@ -398,6 +399,7 @@ library_headers = \
 	lib/lang/answer/formula.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/commands/assumed.h \
 	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
 	lib/lang/commands/declare.h \
@@ -411,6 +413,7 @@ library_headers = \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
 	lib/lang/commands/set.h \
+	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
 	lib/lang/commands/value-check.h \
 	lib/lang/commands/warnings.h \
