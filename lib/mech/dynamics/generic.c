@@ -209,14 +209,16 @@ set(qdot_walk *w, qdot_expr e, double v)
 }
 
 qdot_status
-qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e, size_t m,
-                     const qdot_expr *symbols, const double *values, uint64_t seed,
-                     double *out)
+qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e,
+                      const qdot_generic_point *at, double *out)
 {
+    static const qdot_generic_point nothing = {.seed = 1};
     qdot_walk w;
     qdot_vec(double) x = {0};
     qdot_status status = QDOT_OK;
 
+    if (at == NULL)
+        at = &nothing;
     QDOT_TRY(qdot_walk_begin_n(pool, n, e, &w));
     for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
         const qdot_node *node = qdot_expr_node(pool, w.at[i]);
@@ -227,11 +229,11 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e, size_
             continue;
         }
         if (node->kind == QDOT_SYM) {
-            double v = qdot_generic_value(pool, w.at[i], seed);
+            double v = qdot_generic_value(pool, w.at[i], at->seed);
 
-            for (size_t k = 0; k < m; k++)
-                if (symbols[k] == w.at[i])
-                    v = values[k];
+            for (size_t k = 0; k < at->m; k++)
+                if (at->symbols[k] == w.at[i])
+                    v = at->values[k];
             set(&w, w.at[i], v);
             continue;
         }
@@ -240,7 +242,7 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e, size_
             for (int k = 0; k < 8; k++)
                 name[k + 1] = (char)('a' + (w.at[i] >> 4 * k & 15));
             name[9] = '\0';
-            set(&w, w.at[i], 0.5 + scatter(name, seed));
+            set(&w, w.at[i], 0.5 + scatter(name, at->seed));
             continue;
         }
         status = qdot_grow(&x.at, &x.capacity, node->n + 1u, sizeof *x.at);

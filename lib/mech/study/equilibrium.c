@@ -151,8 +151,10 @@ is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
                          qdot_expr_arg(r->pool, one, 1));
             e = e == QDOT_NIL || bind == NULL ? e : bind(user, e);
             same = e != QDOT_NIL &&
-                   qdot_generic_evaluate(r->pool, 1, &e, r->unknowns.n, r->unknowns.at, x,
-                                         1, &off) == QDOT_OK &&
+                   qdot_generic_evaluate(
+                       r->pool, 1, &e,
+                       &(qdot_generic_point){r->unknowns.n, r->unknowns.at, x, 1},
+                       &off) == QDOT_OK &&
                    fabs(off) < 1e-7;
         }
         if (same)

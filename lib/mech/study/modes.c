@@ -232,7 +232,7 @@ order_in_numbers(const job *j, qdot_expr a, qdot_expr b)
         if (j->bind != NULL)
             pair[k] = j->bind(j->user, pair[k]);
     if (pair[0] == QDOT_NIL || pair[1] == QDOT_NIL ||
-        qdot_generic_evaluate(j->pool, 2, pair, 0, NULL, NULL, 1, v) != QDOT_OK)
+        qdot_generic_evaluate(j->pool, 2, pair, NULL, v) != QDOT_OK)
         return 1;
     return v[0] > v[1] ? -1 : 1;
 }
@@ -397,7 +397,7 @@ values(const job *j, size_t n, const qdot_expr *e, double *out)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
         bound[i] = qdot_expr_arg(pool, list, (uint32_t)i);
-    status = qdot_generic_evaluate(pool, n, bound, 0, NULL, NULL, 1, out);
+    status = qdot_generic_evaluate(pool, n, bound, NULL, out);
     qdot_free(bound);
     return status;
 }

@@ -476,3 +476,11 @@ qdot_field_value(qdot_field *f, qdot_expr e)
         return NULL;
     return &f->value[i];
 }
+
+void
+qdot_field_cancelled(qdot_field *f, qdot_ratio *r, qdot_expr e)
+{
+    qdot_ratio_init(f, r);
+    qdot_ratio_set(f, r, qdot_field_value(f, e));
+    qdot_ratio_cancel(f, r);
+}

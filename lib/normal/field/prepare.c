@@ -65,9 +65,7 @@ qdot_prepare_flat(qdot_pool *pool, qdot_expr e, int64_t work)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, e));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, e);
         if (qdot_field_goes(&f))
             flat = qdot_field_ratio_expr(&f, &r);
         qdot_ratio_clear(&f, &r);
@@ -137,9 +135,7 @@ flat_angle(qdot_pool *pool, qdot_expr e, int64_t work)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, e));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, e);
         if (qdot_field_goes(&f))
             sum = whole_and_rest(&f, &r);
         if (!qdot_field_goes(&f))

@@ -266,9 +266,7 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
     if (qdot_field_goes(&f) && qdot_form_begin(&s.form, &f) == QDOT_OK) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, all[0]);
         if (qdot_field_goes(&f))
             all_candidates(&s, &r);
         if (nr > 0 && qdot_field_goes(&f) &&

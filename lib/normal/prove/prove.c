@@ -14,22 +14,23 @@
 static qdot_status
 unfold(qdot_problem *p, const qdot_facts *facts, bool implied, bool *empty)
 {
-    qdot_exprs positive = {0};
-    bool changed;
-    qdot_status status = qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, p->nr,
-                                            implied, &positive, &changed, empty);
+    qdot_domain_rest rest;
+    qdot_status status =
+        qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, p->nr, implied, &rest);
+    const size_t n = rest.positive.n;
     qdot_expr *all = status == QDOT_OK
-                         ? qdot_realloc(p->e, (2 + p->nr + positive.n + 1) * sizeof *all)
+                         ? qdot_realloc(p->e, (2 + p->nr + n + 1) * sizeof *all)
                          : NULL;
 
     if (all != NULL) {
         p->e = all;
-        p->np = positive.n;
-        p->conditional = positive.n > 0;
-        for (size_t i = 0; i < positive.n; i++)
-            p->e[2 + p->nr + i] = positive.at[i];
+        p->np = n;
+        p->conditional = n > 0;
+        for (size_t i = 0; i < n; i++)
+            p->e[2 + p->nr + i] = rest.positive.at[i];
     }
-    qdot_free(positive.at);
+    qdot_free(rest.positive.at);
+    *empty = rest.empty;
     return status != QDOT_OK ? status : all == NULL ? QDOT_ENOMEM : QDOT_OK;
 }
 

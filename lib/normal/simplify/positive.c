@@ -259,9 +259,7 @@ reduce_condition(void *user)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, all[0]);
         if (fmpz_mpoly_is_zero(r.n, f.ctx)) {
             x->result = QDOT_FALSE;
         } else {
