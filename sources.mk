@@ -256,7 +256,7 @@ library_sources = \
 	lib/ode/trajectory.c \
 	lib/ode/whole.c \
 	lib/ode/written.c \
-	lib/series/lanes-code.c \
+	lib/series/lanes-code-run.c \
 	lib/series/lanes-steps.c \
 	lib/series/lanes-sums.c \
 	lib/series/lanes-writer.c \
