@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "expr/walk.h"
 
 #define ONE(name, value)                                                                 \
@@ -257,4 +258,19 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e,
         out[i] = get(&w, e[i]);
     qdot_walk_end(&w);
     return status;
+}
+
+qdot_expr
+qdot_generic_decimal(qdot_pool *pool, double x)
+{
+    qdot_text text = {0};
+    qdot_expr e;
+
+    qdot_text_double(&text, x, 15);
+    e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
+        : text.at[0] == '-'
+            ? qdot_neg(pool, qdot_expr_decimal(pool, text.at + 1, text.n - 1))
+            : qdot_expr_decimal(pool, text.at, text.n);
+    qdot_text_clear(&text);
+    return e;
 }

@@ -18,6 +18,8 @@ QDOT_MUST_CHECK qdot_status qdot_generic_evaluate(const qdot_pool *pool, size_t 
                                                   const qdot_expr *e,
                                                   const qdot_generic_point *at,
                                                   double *out);
+/* x to 15 digits, exactly; nil: the pool failed. */
+qdot_expr qdot_generic_decimal(qdot_pool *pool, double x);
 /* A number of its own for a symbol: inside its domain, of about size 1. */
 double qdot_generic_value(const qdot_pool *pool, qdot_expr symbol, uint64_t seed);
 

@@ -226,35 +226,21 @@ COUNT(dissipations)
 COUNT(forces)
 COUNT(torques)
 
+#define NAME(what)                                                                       \
+    static const char *what##_name(const qdot_scene *s, size_t k)                        \
+    {                                                                                    \
+        return s->what##s.at[k].name;                                                    \
+    }
+NAME(potential)
+NAME(dissipation)
+NAME(spring)
+NAME(damper)
+
 /* Fields act together: where there is one, its label. */
 static const char *
 gravity_name(const qdot_scene *s, size_t k)
 {
     return s->gravities.n == 1 ? s->gravities.at[k].name : NULL;
-}
-
-static const char *
-potential_name(const qdot_scene *s, size_t k)
-{
-    return s->potentials.at[k].name;
-}
-
-static const char *
-dissipation_name(const qdot_scene *s, size_t k)
-{
-    return s->dissipations.at[k].name;
-}
-
-static const char *
-spring_name(const qdot_scene *s, size_t k)
-{
-    return s->springs.at[k].name;
-}
-
-static const char *
-damper_name(const qdot_scene *s, size_t k)
-{
-    return s->dampers.at[k].name;
 }
 
 static const char *
@@ -395,16 +381,7 @@ qdot_mech_force_kane(qdot_scene *s, qdot_expr q)
 qdot_expr
 qdot_mech_forces(qdot_scene *s)
 {
-    size_t n = s->coordinates.n;
-    qdot_expr *members = qdot_calloc(n + 1, sizeof *members), list;
-
-    if (!members)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++)
-        members[i] = qdot_mech_force(s, s->coordinates.at[i]);
-    list = qdot_list(s->pool, (uint32_t)n, members);
-    qdot_free(members);
-    return list;
+    return qdot_mech_each(s, qdot_mech_force);
 }
 
 qdot_status

@@ -351,19 +351,6 @@ exact(job *j, bool *done)
 
 /* --- numbers ------------------------------------------------------------------------------ */
 
-static qdot_expr
-decimal(qdot_pool *pool, double x)
-{
-    qdot_text text = {0};
-    qdot_expr e;
-
-    qdot_text_double(&text, fabs(x), 15);
-    e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
-                                           : qdot_expr_decimal(pool, text.at, text.n);
-    qdot_text_clear(&text);
-    return x < 0 ? qdot_neg(pool, e) : e;
-}
-
 /* Values of e [n], bound; QDOT_EUNSET names what has none. */
 static qdot_status
 values(const job *j, size_t n, const qdot_expr *e, double *out)
@@ -416,14 +403,14 @@ add_numeric(job *j, double w, const double *N, const gsl_matrix *Y, size_t k)
         most = fmax(most, fabs(x[i]));
     }
     if (status == QDOT_OK)
-        status = qdot_vec_push(&j->frequency, decimal(j->pool, w));
+        status = qdot_vec_push(&j->frequency, qdot_generic_decimal(j->pool, w));
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         double v;
 
         if (first == 0 && fabs(x[i]) > 1e-9 * most)
             first = x[i];
         v = fabs(x[i]) > 1e-12 * most && first != 0 ? x[i] / first : 0;
-        status = qdot_vec_push(&j->amplitude, decimal(j->pool, v));
+        status = qdot_vec_push(&j->amplitude, qdot_generic_decimal(j->pool, v));
     }
     qdot_free(x);
     return status == QDOT_OK ? qdot_pool_check(j->pool) : status;

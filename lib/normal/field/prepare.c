@@ -102,8 +102,7 @@ whole_and_rest(qdot_field *f, const qdot_ratio *x)
     fmpz_mpoly_init(q, f->ctx);
     fmpz_mpoly_init(r, f->ctx);
     fmpz_mpoly_init(d, f->ctx);
-    _fmpz_vec_content(fmpq_denref(c), x->d->coeffs, fmpz_mpoly_length(x->d, f->ctx));
-    fmpz_mpoly_scalar_divexact_fmpz(d, x->d, fmpq_denref(c), f->ctx);
+    qdot_field_primitive(f, fmpq_denref(c), d, x->d, false);
     if (qdot_field_charge(f, 4 * fmpz_mpoly_length(x->n, f->ctx),
                           fmpz_mpoly_length(d, f->ctx))) {
         fmpz_mpoly_quasidivrem(fmpq_numref(c), q, r, x->n, d, f->ctx);

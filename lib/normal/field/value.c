@@ -126,22 +126,13 @@ sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
 
 /* --- products ---------------------------------------------------------------------- */
 
-static qdot_rule *
-rule_of(qdot_field *f, slong v)
-{
-    for (size_t i = 0; i < f->n_rules; i++)
-        if (f->rule[i].var == v && f->rule[i].power > 0)
-            return &f->rule[i];
-    return NULL;
-}
-
 /* r = g^k, g the root at v; a negative power is made free of roots below the line by
  * the rule. */
 static void
 power_of_root(qdot_field *f, qdot_ratio *r, slong v, slong k)
 {
     qdot_ratio base, lift;
-    qdot_rule *rule = rule_of(f, v);
+    qdot_rule *rule = qdot_field_rule(f, v);
     slong q = (slong)f->gen[v].order, up = k < 0 ? (-k + q - 1) / q : 0;
 
     qdot_ratio_init(f, &base);

@@ -73,9 +73,7 @@ spread_alike(struct saying *s, const qdot_ratio *r, const fmpq_t c)
 
         fmpz_init(k);
         fmpq_init(front);
-        _fmpz_vec_content(k, items.at[i].sum->coeffs,
-                          fmpz_mpoly_length(items.at[i].sum, f->ctx));
-        fmpz_mpoly_scalar_divexact_fmpz(items.at[i].sum, items.at[i].sum, k, f->ctx);
+        qdot_field_primitive(f, k, items.at[i].sum, items.at[i].sum, false);
         fmpq_mul_fmpz(front, over, k);
         e = qdot_form_say(s->form, items.at[i].sum, front);
         e = qdot_div(s->pool, e, qdot_field_expr(f, items.at[i].key));

@@ -301,25 +301,6 @@ qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* A bound as a double, given the atoms chosen so far. */
-static bool
-bound(qdot_sample *s, qdot_expr e, double *x)
-{
-    qdot_ball ball;
-    arb_srcptr value;
-
-    if (e == QDOT_NIL)
-        return false;
-    if (qdot_ball_begin(&ball, s->pool, 1, &e) != QDOT_OK)
-        return false;
-    qdot_ball_eval(&ball, 64, qdot_sample_value, s);
-    value = qdot_ball_get(&ball, e);
-    if (value != NULL)
-        *x = arf_get_d(arb_midref(value), ARF_RND_NEAR);
-    qdot_ball_end(&ball);
-    return value != NULL;
-}
-
 /* A rational with a small denominator strictly between lo and hi, about so far from the
  * one to the other. */
 static void
@@ -354,7 +335,8 @@ narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
     double above = -HUGE_VAL, below = HUGE_VAL, x;
 
     for (size_t i = 0; i < s->n_bounds; i++) {
-        if (s->bound[i].atom != atom || !bound(s, s->bound[i].bound, &x))
+        if (s->bound[i].atom != atom ||
+            !qdot_ball_double(s->pool, s->bound[i].bound, qdot_sample_value, s, &x))
             continue;
         if (s->bound[i].below)
             below = fmin(below, x);
@@ -403,11 +385,11 @@ qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
     }
     if (symbol != NULL) {
         qdot_expr elo = symbol->lo, ehi = symbol->hi;
-        bool has_lo = bound(s, elo, &x);
+        bool has_lo = qdot_ball_double(s->pool, elo, qdot_sample_value, s, &x);
 
         if (has_lo)
             lo = x;
-        if (bound(s, ehi, &x)) {
+        if (qdot_ball_double(s->pool, ehi, qdot_sample_value, s, &x)) {
             hi = x;
             if (!has_lo)
                 lo = hi - 2 * size;

@@ -38,8 +38,7 @@ known_sign(job *j, const fmpz_mpoly_t p)
         fmpz_init(c);
         if (r != NULL && fmpz_mpoly_is_one(r->d, f->ctx) &&
             fmpz_mpoly_length(r->n, f->ctx) > 0) {
-            _fmpz_vec_content(c, r->n->coeffs, fmpz_mpoly_length(r->n, f->ctx));
-            fmpz_mpoly_scalar_divexact_fmpz(q, r->n, c, f->ctx);
+            qdot_field_primitive(f, c, q, r->n, false);
             if (fmpz_mpoly_equal(q, p, f->ctx))
                 sign = 1;
             fmpz_mpoly_neg(q, q, f->ctx);
