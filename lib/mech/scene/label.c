@@ -1,4 +1,4 @@
-/* label.c -- things of the scene by their labels. */
+/* label.c -- finds the items of a scene by their labels. */
 #include <stddef.h>
 
 #include "mech/scene/access.h"

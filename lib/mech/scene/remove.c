@@ -1,4 +1,4 @@
-/* remove.c -- things taken out of the scene by their labels, with what acted on them. */
+/* remove.c -- removes items of a scene by their labels, with the forces that act on them. */
 #include <string.h>
 
 #include "mech/scene/access.h"

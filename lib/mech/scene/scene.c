@@ -1,4 +1,4 @@
-/* scene.c -- declaring: every adder checks first and then adds. */
+/* scene.c -- declarations: each function checks its arguments, then adds the item. */
 
 #include "mech/scene/scene.h"
 

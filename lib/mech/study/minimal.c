@@ -1,4 +1,5 @@
-/* minimal.c -- constraints solved one after another, and the scene written anew. */
+/* minimal.c -- solves constraints one after another and rewrites the scene in the remaining
+ * coordinates. */
 #include "mech/study/minimal.h"
 
 #include <math.h>

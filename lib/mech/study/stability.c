@@ -1,4 +1,4 @@
-/* stability.c -- whether a scene stays near its places of rest: what holds of all of them. */
+/* stability.c -- judges the stability of equilibria: the facts that all of them share. */
 #include "mech/study/stability.h"
 
 #include "expr/calculus.h"

@@ -1,4 +1,4 @@
-/* field.c -- the generators of some expressions, and the field over them. */
+/* field.c -- finds the generators of some expressions and sets up the field over them. */
 #include "normal/field/field.h"
 
 #include <stdlib.h>

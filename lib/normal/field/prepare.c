@@ -1,4 +1,4 @@
-/* prepare.c -- one pass, children first: normal arguments, inverse functions resolved. */
+/* prepare.c -- one pass, children first: arguments made normal, inverse functions resolved. */
 #include "normal/field/prepare.h"
 
 #include "base/memory.h"
@@ -401,7 +401,7 @@ function(qdot_pool *pool, qdot_expr e, int64_t work)
     }
 }
 
-/* Remember that `now` stands where `before` stood; what cannot be remembered is only
+/* Remember that `now` stands where `before` stood; what cannot be kept is only
  * longer. */
 static void
 remember(qdot_pool *pool, qdot_map *origins, qdot_expr now, qdot_expr before)

@@ -1,4 +1,4 @@
-/* ratio.c -- arithmetic in a field: bounded calls of FLINT, the rules, quotients. */
+/* ratio.c -- arithmetic in a field: FLINT called within the budget, reduction by the rules, quotients. */
 #include "normal/field/ratio.h"
 
 #include "base/interrupt.h"

@@ -1,4 +1,4 @@
-/* split.c -- b = c prod f^m: positive factors, squares, and what must stay together. */
+/* split.c -- splits b = c prod f^m into positive factors, squares and a rest that stays together. */
 #include "normal/field/split.h"
 
 #include <flint/fmpz_factor.h>

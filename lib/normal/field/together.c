@@ -1,4 +1,4 @@
-/* together.c -- one field for the arguments of functions; inner ones with their outer ones. */
+/* together.c -- writes the arguments of all functions in one field, inner functions first. */
 #include "normal/field/together.h"
 
 #include "base/memory.h"

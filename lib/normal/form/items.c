@@ -1,4 +1,4 @@
-/* items.c -- equal keys found, their values added. */
+/* items.c -- adds the values of equal keys. */
 #include "normal/form/items.h"
 
 #include "base/memory.h"

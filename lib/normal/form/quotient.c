@@ -1,4 +1,4 @@
-/* quotient.c -- all that can be said of one quotient: over its denominator, or taken apart. */
+/* quotient.c -- the forms of one quotient: over its denominator, or as a sum of quotients. */
 #include "base/memory.h"
 #include "normal/field/factor.h"
 #include "normal/form/form.h"

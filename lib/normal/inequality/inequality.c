@@ -1,4 +1,5 @@
-/* inequality.c -- cases first, then functions by symbols, then the cells; slopes where that fails. */
+/* inequality.c -- tries cases, then symbols in place of functions, then cells; last, the sign
+ * of the slope. */
 #include "normal/inequality/inequality.h"
 
 #include <stdio.h>

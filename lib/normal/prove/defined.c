@@ -1,4 +1,4 @@
-/* defined.c -- nodes that are surely evaluated, and what each asks of its argument. */
+/* defined.c -- finds the nodes that are always evaluated and the conditions on their arguments. */
 #include "normal/prove/defined.h"
 
 #include "expr/calculus.h"

@@ -1,4 +1,4 @@
-/* domain.c -- conditions and bounds, one after another. */
+/* domain.c -- puts conditions and bounds into the symbols, one after another. */
 #include "normal/prove/domain.h"
 
 #include <stdio.h>
@@ -57,7 +57,7 @@ add_gap(job *j, qdot_expr gap, bool weak)
 
 /* --- bounds of a symbol -------------------------------------------------------- */
 
-/* Whether a < b for constants, surely. */
+/* Whether a < b is proved, a and b constants. */
 static bool
 surely_less(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {

@@ -1,4 +1,5 @@
-/* prove.c -- what is known is put in; then one proof after another, of what has become easier. */
+/* prove.c -- puts in what is known of signs and domains, then repeats the proof of equal.c on
+ * easier forms. */
 #include "normal/prove/prove.h"
 
 #include "normal/field/together.h"
@@ -107,6 +108,6 @@ qdot_prove_defined(qdot_pool *pool, qdot_expr left, qdot_expr right,
     if (empty != NULL)
         *empty = none;
     else
-        *equal &= !none; /* nothing is claimed of no points */
+        *equal &= !none; /* equality is not claimed where no point is left */
     return status;
 }

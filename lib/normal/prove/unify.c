@@ -1,4 +1,4 @@
-/* unify.c -- one pass, children first; candidates by their values at a few points. */
+/* unify.c -- one pass, children first; candidates are found by their values at a few points. */
 #include "normal/prove/unify.h"
 
 #include <math.h>

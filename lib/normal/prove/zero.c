@@ -1,4 +1,4 @@
-/* zero.c -- constants by their bounds, roots by norms and signs. */
+/* zero.c -- constants by their root bounds, roots by norms and signs. */
 #include "normal/prove/zero.h"
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* ball.c -- the table of functions in balls, and the pass. */
+/* ball.c -- the table of functions in ball arithmetic, and one pass over the nodes. */
 #include "normal/refute/ball.h"
 
 #include "base/memory.h"

@@ -36,7 +36,7 @@ qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e)
     return s != NULL && strncmp(s->name, "(sign ", 6) == 0;
 }
 
-/* How gladly a relation is solved for this atom; 0: never. */
+/* The preference for solving a relation for this atom; 0: never. */
 static int
 fitness(const qdot_pool *pool, const qdot_gen *gen)
 {

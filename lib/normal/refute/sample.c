@@ -1,4 +1,4 @@
-/* sample.c -- relations solved one after another; points; their checks. */
+/* sample.c -- solves relations one after another, chooses points and checks them. */
 #include "normal/refute/sample.h"
 
 #include <math.h>
@@ -556,7 +556,7 @@ qdot_sample_list(qdot_sample *s)
             x = qdot_expr_fmpq(s->pool, &s->atom[i].x);
             if (s->atom[i].turn)
                 x = qdot_mul(s->pool, x, QDOT_PI);
-        } else { /* its value, rounded for the eye */
+        } else { /* its value, rounded for printing */
             fmpq_t rounded;
 
             fmpq_init(rounded);

@@ -1,4 +1,4 @@
-/* positive.c -- factors of known sign left out. */
+/* positive.c -- drops the factors of known sign. */
 #include "normal/simplify/positive.h"
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* solve-factors.c -- an expression as a product. */
+/* solve-factors.c -- writes an expression as a product. */
 #include <stdio.h>
 #include <stdlib.h>
 

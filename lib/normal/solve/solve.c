@@ -1,4 +1,4 @@
-/* solve.c -- equations taken apart: factors, then the functions of x from outside in. */
+/* solve.c -- factors an equation, then inverts the functions of x from the outermost inwards. */
 #include "normal/solve/solve.h"
 
 #include <math.h>
