@@ -205,8 +205,7 @@ torque_force(qdot_scene *s, size_t k, size_t i, bool kane)
     return qdot_mech_dot(s->pool, torque->torque, slope);
 }
 
-/* --- the sources ----------------------------------------------------------------------
- * */
+/* --- the sources ---------------------------------------------------------------------- */
 
 static size_t
 count_gravity(const qdot_scene *s)
@@ -349,8 +348,7 @@ qdot_force_declared(qdot_scene *s, size_t i)
     return Q;
 }
 
-/* --- asked ----------------------------------------------------------------------------
- * */
+/* --- asked ---------------------------------------------------------------------------- */
 
 qdot_expr
 qdot_mech_force(qdot_scene *s, qdot_expr q)
