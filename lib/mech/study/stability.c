@@ -6,13 +6,6 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 
-bool
-qdot_stability_has_kink(uint32_t op)
-{
-    return op == QDOT_ABS || op == QDOT_SIGN || op == QDOT_FLOOR || op == QDOT_MOD ||
-           op == QDOT_MIN || op == QDOT_MAX || op == QDOT_IF;
-}
-
 static bool
 velocities_have_kinks(qdot_scene *s)
 {
