@@ -11,6 +11,7 @@
 #include "sim/form/derived.h"
 #include "series/program.h"
 #include "series/taylor.h"
+#include "tape/constant.h"
 
 /* Coordinates that couple with one that is eliminated fill M: beyond so many no more is
  * tried than what does not couple. Forms are simplified up to so many operations. */
