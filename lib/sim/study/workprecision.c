@@ -332,7 +332,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     w->system.project = w->inner.project ? project : NULL;
     w->system.margin = w->inner.margin ? margin : NULL;
     w->system.user = w;
-    n = (double)(w->plan->n + (w->held ? w->plan->constraints->m : 0));
+    n = (double)(w->plan->n + w->plan->m);
     operations = (double)qdot_tape_operations(w->plan->tape) + n * n * n / 3 + 100;
     if (w->plan->method->series) /* an expansion is worth a few hundred evaluations */
         operations *= 200;
