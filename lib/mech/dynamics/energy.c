@@ -220,8 +220,7 @@ qdot_mech_energy(qdot_scene *s)
     return d->energy = h;
 }
 
-/* --- slopes of L ----------------------------------------------------------------------
- * */
+/* --- slopes of L ---------------------------------------------------------------------- */
 
 bool
 qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)

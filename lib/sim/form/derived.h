@@ -13,7 +13,7 @@ double qdot_plan_cost(const qdot_ode_series *series);
 /* The convolutions and that cost of the derived form of a plan with a tape, put into it. */
 QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
 
-/* With all forms that it holds. */
+/* Free a plan with all the forms that it holds. */
 void qdot_plan_free(qdot_plan *plan);
 
 #endif
