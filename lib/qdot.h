@@ -23,8 +23,11 @@
  * Threads   Two threads may use two systems at the same time. One system and its motions must not be
  *           used by two threads at the same time. qdot_interrupt_set() concerns all systems.
  * Process   The library never exits, prints or installs a signal handler. It reads and writes files only
- *           where a statement says so (`include`, `to "FILE"`, `save`); `plot` starts gnuplot. It sets
- *           GSL's error handler to none. It expects the numeric locale to be that of C (LC_NUMERIC).
+ *           where a statement says so (`include`, `to "FILE"`, `save`); `plot` starts gnuplot. It expects
+ *           the numeric locale to be that of C (LC_NUMERIC) and turns GSL's error handler off. Exact
+ *           computations run on a thread of the library's, and while they do GMP's and FLINT's memory
+ *           functions are the library's: other threads must not use GMP with memory functions of their
+ *           own. Do not unload the library, nor use it in a child after fork().
  */
 #ifndef QDOT_H
 #define QDOT_H

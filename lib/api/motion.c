@@ -180,7 +180,7 @@ qdot_motion_summarize(const qdot_motion *motion, qdot_motion_summary *summary, s
         .doubt = r->doubt,
     };
     memcpy(summary, &all, size < sizeof all ? size : sizeof all);
-    return QDOT_RESULT_OK;
+    return qdot_api_accept(motion->system);
 }
 
 size_t
@@ -209,7 +209,7 @@ qdot_motion_end(const qdot_motion *motion, size_t n, double *q, double *v)
         memcpy(q, r->q, n * sizeof *q);
     if (v != NULL)
         memcpy(v, r->v, n * sizeof *v);
-    return QDOT_RESULT_OK;
+    return qdot_api_accept(motion->system);
 }
 
 const double *
@@ -248,5 +248,5 @@ qdot_motion_drift(const qdot_motion *motion, size_t i, const char **name, double
         *start = d->start;
     if (drift != NULL)
         *drift = d->drift;
-    return QDOT_RESULT_OK;
+    return qdot_api_accept(motion->system);
 }

@@ -181,6 +181,13 @@ qdot_api_end(qdot_system *system, qdot_status status)
 }
 
 qdot_result
+qdot_api_accept(qdot_system *system)
+{
+    system->error = (qdot_error){0};
+    return QDOT_RESULT_OK;
+}
+
+qdot_result
 qdot_api_refuse(qdot_system *system, const char *format, ...)
 {
     qdot_status status = qdot_api_begin(system);

@@ -30,6 +30,8 @@ QDOT_MUST_CHECK qdot_status qdot_api_begin(qdot_system *system);
 /* End it with this status; returns it, or that there was no memory for what was said. */
 qdot_result qdot_api_end(qdot_system *system, qdot_status status);
 
+/* A call that needs neither: it succeeded. */
+qdot_result qdot_api_accept(qdot_system *system);
 /* End a call at once, because of an argument: "CALL: what is wrong" (printf). */
 qdot_result qdot_api_refuse(qdot_system *system, const char *format, ...) QDOT_PRINTF(2, 3);
 

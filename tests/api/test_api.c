@@ -226,6 +226,7 @@ values_refuse_what_does_not_fit(void **state)
     expect_error(s, qdot_motion_values(m, "1", 1, times, 1, x, NULL), QDOT_RESULT_NAME,
                  "the run `run1` is no longer in the system");
     assert_int_equal(qdot_motion_end(m, 1, x, NULL), QDOT_RESULT_OK);
+    assert_string_equal(qdot_system_error(s), "");
     assert_string_equal(qdot_motion_coordinate(m, 0), "theta");
     expect_error(s, qdot_motion_events(m, &n), QDOT_RESULT_NAME, "the run `run1` is");
     qdot_motion_free(m);
