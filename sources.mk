@@ -430,6 +430,7 @@ sim_sources = \
 	lib/sim/range.c \
 	lib/sim/rates.c \
 	lib/sim/reader.c \
+	lib/sim/residual-energy.c \
 	lib/sim/residual-tree.c \
 	lib/sim/residual.c \
 	lib/sim/routh.c \
@@ -446,6 +447,7 @@ sim_sources = \
 	lib/sim/start.c \
 	lib/sim/substitute.c \
 	lib/sim/switch.c \
+	lib/sim/tree-alone.c \
 	lib/sim/value.c \
 	lib/sim/watch-roots.c \
 	lib/sim/watch-sure.c \
@@ -499,6 +501,7 @@ sim_headers = \
 	lib/sim/range-parts.h \
 	lib/sim/rates.h \
 	lib/sim/reader.h \
+	lib/sim/residual-energy.h \
 	lib/sim/residual-tree.h \
 	lib/sim/residual.h \
 	lib/sim/routh.h \
@@ -513,6 +516,7 @@ sim_headers = \
 	lib/sim/start.h \
 	lib/sim/substitute.h \
 	lib/sim/switch.h \
+	lib/sim/tree-alone.h \
 	lib/sim/watch-parts.h \
 	lib/sim/watch.h \
 	lib/sim/workprecision.h

@@ -57,6 +57,18 @@ qdot_potential_with_velocities(qdot_scene *s)
     return V;
 }
 
+qdot_expr
+qdot_potential_but_gravity(qdot_scene *s)
+{
+    qdot_expr V = QDOT_ZERO;
+
+    for (size_t i = 0; i < s->potentials.n; i++)
+        V = qdot_add(s->pool, V, s->potentials.at[i].e);
+    for (size_t i = 0; i < s->springs.n; i++)
+        V = qdot_add(s->pool, V, qdot_spring_potential(s, i));
+    return V;
+}
+
 /* V before simplification. */
 static qdot_expr
 raw_potential(qdot_scene *s)
@@ -72,11 +84,7 @@ raw_potential(qdot_scene *s)
             return QDOT_NIL;
         V = qdot_neg(pool, qdot_kinematics_gravity(s, k, place));
     }
-    for (size_t i = 0; i < s->potentials.n; i++)
-        V = qdot_add(pool, V, s->potentials.at[i].e);
-    for (size_t i = 0; i < s->springs.n; i++)
-        V = qdot_add(pool, V, qdot_spring_potential(s, i));
-    return V;
+    return qdot_add(pool, V, qdot_potential_but_gravity(s));
 }
 
 /* 1/2 sum M_ij q_i' q_j', scaled terms in order. */
@@ -302,6 +310,21 @@ qdot_mech_energy(qdot_scene *s)
 /* --- slopes of L ----------------------------------------------------------------------
  * */
 
+/* Whether t stands in anything that L is made of: seen before M is derived. */
+static bool
+time_stands(qdot_scene *s)
+{
+    const qdot_kinematics *k = qdot_kinematics_get(s);
+    uint32_t holds = qdot_mech_holds(s, qdot_potential_but_gravity(s));
+
+    for (size_t p = 0; k && p < k->terms.n; p++)
+        holds |= qdot_mech_holds(s, k->terms.at[p].w) | qdot_mech_holds(s, k->terms.at[p].x)
+                 | qdot_mech_holds(s, k->terms.at[p].y);
+    for (size_t i = 0; i < s->gravities.n; i++)
+        holds |= qdot_mech_holds(s, s->gravities.at[i].e);
+    return (holds & QDOT_HAS_TIME) != 0;
+}
+
 bool
 qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
 {
@@ -312,6 +335,8 @@ qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
         return !qdot_pool_failed(s->pool);
     }
     *has = false;
+    if (x == QDOT_T && !time_stands(s))
+        return !qdot_pool_failed(s->pool);
     if (!qdot_mass_get(s))
         return false;
     for (size_t i = 0; i < s->coordinates.n && !*has; i++) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "sim/residual-energy.h"
 #include "tape/lanes.h"
 
 void
@@ -126,7 +127,7 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
 
     if (status != QDOT_OK || !conserved)
         return fatal(status);
-    h = qdot_mech_energy(scene);
+    h = p->M ? qdot_mech_energy(scene) : p->residual->h;
     status = qdot_pool_check(p->pool);
     if (status != QDOT_OK || h == QDOT_NIL)
         return fatal(status);
@@ -149,40 +150,53 @@ is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
     return false;
 }
 
+/* The momentum of coordinate i, if it should stay. */
+static qdot_status
+measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr, size_t i,
+                 qdot_drifts *d)
+{
+    qdot_cyclic cyclic;
+    qdot_expr symbol;
+    qdot_status status;
+    char *name;
+    bool is;
+
+    QDOT_TRY(qdot_mech_cyclic_at(scene, i, &cyclic, &is));
+    if (!is || cyclic.rate != QDOT_NIL)
+        return QDOT_OK;
+    symbol = qdot_symbol_of(p->pool, QDOT_MOMENTUM, cyclic.coordinate);
+    QDOT_TRY(qdot_pool_check(p->pool));
+    name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
+    status = name ? measure(p, tr, cyclic.momentum, name, d) : QDOT_ENOMEM;
+    qdot_free(name);
+    if (status == QDOT_OK && d->n > 0 && is_kept(p, tr, cyclic.coordinate)
+        && d->at[d->n - 1].quantity == cyclic.momentum) {
+        d->at[d->n - 1].kept = true;
+        d->at[d->n - 1].drift = 0;
+    }
+    return status;
+}
+
 qdot_status
 qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
                     qdot_drifts *d)
 {
-    qdot_cyclic *cyclic = NULL;
-    size_t n = 0;
-    qdot_status status;
+    const size_t n = scene->coordinates.n;
+    bool *asked = qdot_malloc((n + 1) * sizeof *asked); /* it may be cyclic */
+    qdot_status status = asked ? QDOT_OK : QDOT_ENOMEM;
 
     d->at = qdot_calloc(p->n + 1, sizeof *d->at);
     if (!d->at)
-        return QDOT_ENOMEM;
-    QDOT_TRY(measure_energy(scene, p, tr, d));
-    status = qdot_mech_cyclic(scene, &cyclic, &n);
-    if (status != QDOT_OK)
-        return fatal(status);
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_expr symbol;
-
-        if (cyclic[i].rate != QDOT_NIL)
-            continue;
-        symbol = qdot_symbol_of(p->pool, QDOT_MOMENTUM, cyclic[i].coordinate);
-        status = qdot_pool_check(p->pool);
-        if (status == QDOT_OK) {
-            char *name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
-
-            status = name ? measure(p, tr, cyclic[i].momentum, name, d) : QDOT_ENOMEM;
-            if (status == QDOT_OK && d->n > 0 && is_kept(p, tr, cyclic[i].coordinate)
-                && d->at[d->n - 1].quantity == cyclic[i].momentum) {
-                d->at[d->n - 1].kept = true;
-                d->at[d->n - 1].drift = 0;
-            }
-            qdot_free(name);
-        }
-    }
-    qdot_free(cyclic);
-    return status;
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = measure_energy(scene, p, tr, d);
+    for (size_t i = 0; i < n && asked; i++)
+        asked[i] = true;
+    if (status == QDOT_OK && !p->M)
+        status = qdot_residual_absent(p->residual, n, asked);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        if (asked[i])
+            status = measure_momentum(scene, p, tr, i, d);
+    qdot_free(asked);
+    return fatal(status);
 }

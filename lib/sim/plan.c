@@ -18,6 +18,7 @@
 #include "sim/shifted.h"
 #include "sim/substitute.h"
 #include "sim/switch.h"
+#include "sim/tree-alone.h"
 #include "sim/constrained-series.h"
 #include "tape/constant.h"
 #include "tape/taylor.h"
@@ -67,6 +68,26 @@ size_t
 qdot_plan_inputs(const qdot_plan *p)
 {
     return 3 * p->n + 1 + (p->constraints ? p->constraints->m : 0);
+}
+
+size_t
+qdot_plan_operations(const qdot_plan *p, size_t *calls)
+{
+    const qdot_plan *moving = p->reduced ? p->reduced : p;
+    const qdot_tape *tapes[] = {moving->tape, NULL};
+    size_t operations = 0, of_calls = 0;
+
+    if (!moving->tape) {
+        tapes[0] = moving->residual->places;
+        tapes[1] = moving->residual->forces;
+    }
+    for (int i = 0; i < 2 && tapes[i]; i++) {
+        operations += qdot_tape_operations(tapes[i]);
+        of_calls += qdot_tape_calls(tapes[i]);
+    }
+    if (calls)
+        *calls = of_calls;
+    return operations;
 }
 
 bool
@@ -440,6 +461,9 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(find_method(p, request->method));
     QDOT_TRY(copy_values(p, request));
     QDOT_TRY(name_coordinates(p, scene, request));
+    QDOT_TRY(qdot_tree_alone_find(p, scene, request));
+    if (p->residual)
+        return QDOT_OK;
     QDOT_TRY(derive(p, scene));
     if (scene->constraints.n > 0)
         return constrain(p, scene, request);

@@ -42,8 +42,8 @@ struct qdot_plan {
     size_t n_states; /* the last of them: parameters that events set (sim/parameter-states.h) */
     qdot_expr *inputs; /* [3n + 1 + m] q, q', t, q'', lambda of m constraints */
     char **names;      /* [n] of the coordinates; owned */
-    qdot_expr *M;      /* [n x n] */
-    qdot_expr *f;      /* [n] */
+    qdot_expr *M;      /* [n x n] NULL, as f and tape, where only the tree is read */
+    qdot_expr *f;      /* [n]                                   (sim/tree-alone.h) */
     bool indefinite;   /* a stated Lagrangian, a potential with velocities: LDL^T */
     qdot_structure structure;
     qdot_plan_block *blocks; /* [structure.blocks] */
@@ -135,6 +135,10 @@ QDOT_MUST_CHECK qdot_status qdot_plan_lower(qdot_plan *plan, size_t inputs, size
 double qdot_plan_cost(const qdot_ode_series *series);
 /* The convolutions and that cost of the derived form of a plan with a tape, put into it. */
 QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
+
+/* Operations of the equations it integrates, evaluated once: of M and f, or of what the tree
+ * reads; *calls (NULL: not wanted) of them of elementary functions. */
+size_t qdot_plan_operations(const qdot_plan *plan, size_t *calls);
 
 /* How many inputs there are: 3n + 1 + m. */
 size_t qdot_plan_inputs(const qdot_plan *plan);

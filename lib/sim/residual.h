@@ -37,23 +37,30 @@ typedef struct {
 
 struct qdot_residual {
     size_t functions;
-    uint32_t *parent; /* [functions] UINT32_MAX: none; before its children */
+    qdot_expr *difference; /* [functions] d_f, the values put in */
+    uint32_t *parent;      /* [functions] UINT32_MAX: none; before its children */
     qdot_residual_weight *weights;
     size_t n_weights;
     qdot_residual_slope *slopes; /* dd_f/dq_i that are not zero */
     size_t n_slopes;
+    qdot_expr *applied; /* [n] Q_i, the values put in */
     uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
                         UINT32_MAX: zero */
     /* From q, q', t: */
     qdot_tape *places; /* d_f in their order, slopes, Q_i without velocities */
     qdot_tape *forces; /* Q_i with velocities; NULL: none */
-    qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows */
+    qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
+                          plan without M (sim/tree-alone.h) */
+
+    /* Once asked for: h as one expression, and from q, q', t (sim/residual-energy.h). */
+    qdot_expr h;
+    qdot_tape *energy;
 };
 
 #define QDOT_RESIDUAL_FORCES (UINT32_C(1) << 31)
 
-/* Of a scene whose plan has its structure. *residual is NULL where the form does not
- * apply. */
+/* Of a scene whose plan has its structure, or has no M. *residual is NULL where the form does
+ * not apply. */
 QDOT_MUST_CHECK qdot_status qdot_residual_new(qdot_scene *scene, const qdot_plan *plan,
                                               qdot_residual **residual);
 void qdot_residual_free(qdot_residual *residual);
