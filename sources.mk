@@ -568,6 +568,7 @@ lang_sources = \
 	lib/lang/number.c \
 	lib/lang/numeric.c \
 	lib/lang/parse.c \
+	lib/lang/partial-sum.c \
 	lib/lang/plot.c \
 	lib/lang/quantities.c \
 	lib/lang/race.c \
@@ -611,6 +612,7 @@ lang_headers = \
 	lib/lang/names.h \
 	lib/lang/number.h \
 	lib/lang/numeric.h \
+	lib/lang/partial-sum.h \
 	lib/lang/read.h \
 	lib/lang/redirect.h \
 	lib/lang/scene-file.h \

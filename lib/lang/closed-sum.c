@@ -144,3 +144,11 @@ qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first, long last
     }
     return qdot_pool_check(pool);
 }
+
+qdot_status
+qdot_closed_sum_unknown(const char *index, unsigned long terms)
+{
+    (void)qdot_fail(QDOT_ELIMIT, "a sum of %lu terms, and none is known by a formula", terms);
+    return qdot_hint("more than %d terms must be polynomials in %.40s or powers r^%.40s",
+                     QDOT_SUM_TERMS, index, index);
+}

@@ -18,4 +18,7 @@ enum { QDOT_SUM_TERMS = 1000000 };
 QDOT_MUST_CHECK qdot_status qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first,
                                             long last, qdot_expr *value);
 
+/* The failure of a sum of so many terms that none but a formula could give. QDOT_ELIMIT. */
+qdot_status qdot_closed_sum_unknown(const char *index, unsigned long terms);
+
 #endif

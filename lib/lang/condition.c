@@ -52,3 +52,28 @@ qdot_condition_decide(qdot_pool *pool, qdot_expr e)
 {
     return qdot_walk_map(pool, e, decide, NULL);
 }
+
+qdot_status
+qdot_condition_choose(qdot_pool *pool, qdot_expr c, qdot_expr a, qdot_expr b, qdot_expr *value)
+{
+    const uint32_t n = qdot_expr_count(pool, a);
+    qdot_expr *parts;
+
+    *value = QDOT_NIL;
+    if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b)) {
+        *value = qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){c, a, b});
+        return QDOT_OK;
+    }
+    if (qdot_expr_kind(pool, a) != QDOT_VEC || qdot_expr_kind(pool, b) != QDOT_VEC
+        || qdot_expr_count(pool, b) != n)
+        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) takes A and B of one kind");
+    parts = qdot_calloc(n, sizeof *parts);
+    if (parts == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++)
+        parts[i] = qdot_fun(pool, QDOT_IF, 3,
+                            (qdot_expr[]){c, qdot_expr_arg(pool, a, i), qdot_expr_arg(pool, b, i)});
+    *value = qdot_vector(pool, n, parts);
+    qdot_free(parts);
+    return QDOT_OK;
+}

@@ -7,6 +7,7 @@
 #include "lang/code.h"
 #include "lang/condition.h"
 #include "lang/number.h"
+#include "lang/partial-sum.h"
 
 /* A value on the stack. */
 typedef struct {
@@ -20,7 +21,9 @@ typedef struct {
 /* A sum(...) under way. */
 typedef struct {
     const char *index;
-    long k, last;
+    const qdot_token *place; /* where it stands */
+    bool varies;             /* terms depend on more than the index (lang/partial-sum) */
+    long first, k, last;
     uint32_t resume; /* code after it */
     size_t terms;    /* where its terms begin */
     bool bound;      /* the index is bound just now */
@@ -245,8 +248,13 @@ sum_round(machine *m, uint32_t *pc, uint32_t body)
     m->terms.n = f->terms;
     *pc = f->resume;
     m->frames.n--;
-    if (all_scalars(m))
-        return push(m, qdot_sum(m->pool, m->args.n, m->args.at));
+    if (all_scalars(m)) {
+        const qdot_partial_sum sum = {f->place, f->first, f->last,
+                                      qdot_sum(m->pool, m->args.n, m->args.at)};
+
+        QDOT_TRY(push(m, sum.value));
+        return f->varies || m->args.n == 0 ? QDOT_OK : qdot_partial_sum_keep(m->session, sum);
+    }
     value = m->args.at[0];
     for (size_t i = 1; i < m->args.n; i++) {
         value = qdot_value_add(m->pool, value, m->args.at[i]);
@@ -258,13 +266,22 @@ sum_round(machine *m, uint32_t *pc, uint32_t body)
 static qdot_status
 sum_begin(machine *m, const qdot_code *code, uint32_t *pc)
 {
-    frame f = {.index = m->c->source->tokens.at[code->n].text,
+    const qdot_partial_sum *known;
+    frame f = {.place = &m->c->source->tokens.at[code->n],
+               .varies = m->session->passed != NULL,
                .resume = *pc,
                .terms = m->terms.n};
 
+    f.index = f.place->text;
     QDOT_TRY(take(m, 2));
-    QDOT_TRY(qdot_session_integer(m->session, m->args.at[0], &f.k));
+    QDOT_TRY(qdot_session_integer(m->session, m->args.at[0], &f.first));
     QDOT_TRY(qdot_session_integer(m->session, m->args.at[1], &f.last));
+    f.k = f.first;
+    known = f.varies ? NULL : qdot_partial_sum_find(m->session, f.place, f.first, f.last);
+    if (known) {
+        f.k = known->last + 1;
+        QDOT_TRY(qdot_vec_push(&m->terms, known->value));
+    }
     if (f.last > f.k && (unsigned long)f.last - (unsigned long)f.k >= QDOT_SUM_TERMS) {
         f.symbol = qdot_symbol_get(m->pool, QDOT_FORMAL, "a summation index");
         QDOT_TRY(qdot_resolve_check(m->pool, f.symbol));
@@ -295,18 +312,6 @@ sum_by_formula(machine *m, uint32_t *pc)
     *pc = f->resume;
     m->frames.n--;
     return push(m, value);
-}
-
-/* Evaluation failed in a sum that only a formula could give. */
-static qdot_status
-too_many_terms(const frame *f, qdot_status status)
-{
-    if (f->symbol == QDOT_NIL || status == QDOT_ENOMEM || status == QDOT_EINTR)
-        return status;
-    (void)qdot_fail(QDOT_ELIMIT, "a sum of %lu terms, and none is known by a formula",
-                    (unsigned long)f->last - (unsigned long)f->k + 1);
-    return qdot_hint("more than %d terms must be polynomials in %.40s or powers r^%.40s",
-                     QDOT_SUM_TERMS, f->index, f->index);
 }
 
 /* The body's value is there. The SUM_BEGIN that began it stands before frame.resume. */
@@ -362,8 +367,7 @@ if_else(machine *m, const qdot_code *code, uint32_t *pc)
 static qdot_status
 if_end(machine *m)
 {
-    qdot_expr c, a, b;
-    uint32_t n;
+    qdot_expr value;
 
     if (m->session->passed != NULL)
         m->session->passed->branches--;
@@ -373,21 +377,8 @@ if_end(machine *m)
         return QDOT_OK;
     }
     QDOT_TRY(take(m, 3));
-    c = m->args.at[0], a = m->args.at[1], b = m->args.at[2];
-    if (qdot_expr_is_scalar(m->pool, a) && qdot_expr_is_scalar(m->pool, b))
-        return push(m, qdot_fun(m->pool, QDOT_IF, 3, m->args.at));
-    n = qdot_expr_count(m->pool, a);
-    if (qdot_expr_kind(m->pool, a) != QDOT_VEC ||
-        qdot_expr_kind(m->pool, b) != QDOT_VEC || qdot_expr_count(m->pool, b) != n)
-        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) takes A and B of one kind");
-    QDOT_TRY(qdot_grow(&m->args.at, &m->args.capacity, n, sizeof *m->args.at));
-    for (uint32_t i = 0; i < n; i++) {
-        qdot_expr parts[3] = {c, qdot_expr_arg(m->pool, a, i),
-                              qdot_expr_arg(m->pool, b, i)};
-
-        m->args.at[i] = qdot_fun(m->pool, QDOT_IF, 3, parts);
-    }
-    return push(m, qdot_vector(m->pool, n, m->args.at));
+    QDOT_TRY(qdot_condition_choose(m->pool, m->args.at[0], m->args.at[1], m->args.at[2], &value));
+    return push(m, value);
 }
 
 /* --- names, calls, entries ---------------------------------------------------------- */
@@ -554,16 +545,11 @@ label(machine *m, const qdot_code *code)
 static qdot_status
 history(machine *m, uint32_t n)
 {
-    size_t count = m->session->history.n;
+    qdot_expr value, over;
 
-    if (count == 0)
-        return qdot_fail(QDOT_EINVAL, "there is no value yet for `%%`");
-    if (n > count)
-        return qdot_fail(QDOT_EINVAL, "there are only %zu values so far", count);
-    count = n == 0 ? count : n;
-    QDOT_TRY(push(m, m->session->history.at[count - 1]));
-    if (count <= m->session->history_over.n)
-        from_top(m, 1)->over = m->session->history_over.at[count - 1];
+    QDOT_TRY(qdot_session_recall(m->session, n, &value, &over));
+    QDOT_TRY(push(m, value));
+    from_top(m, 1)->over = over;
     return QDOT_OK;
 }
 
@@ -574,18 +560,32 @@ member(machine *m, const char *run)
         m->belongs = false;
         return QDOT_OK;
     }
-    for (size_t i = 0; i < m->session->runs.n; i++)
-        if (strcmp(m->session->runs.at[i].name, run) == 0) {
-            if (from_top(m, 1)->run != NULL)
-                return along_runs();
-            from_top(m, 1)->run = run;
-            return QDOT_OK;
-        }
-    qdot_fail(QDOT_ENAME, "there is no run `%s`", run);
-    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
+    QDOT_TRY(qdot_member_check(m->session, run));
+    if (from_top(m, 1)->run != NULL)
+        return along_runs();
+    from_top(m, 1)->run = run;
+    return QDOT_OK;
 }
 
 /* --- the loop ----------------------------------------------------------------------- */
+
+/* What an instruction that was carried out makes the terms of the sums round it depend on. */
+static void
+note_use(machine *m, const qdot_code *code)
+{
+    const qdot_name *known;
+    size_t i = m->frames.n;
+
+    if (i == 0 || qdot_partial_sum_may_hold(m->session, code, from_top(m, 1)->value))
+        return;
+    known = code->op == QDOT_CODE_NAME ? qdot_names_find(m->session->names, code->token->text)
+                                       : NULL;
+    /* of sums round it up to the one whose index it is */
+    for (; i > 0 && !(known && known->kind == QDOT_NAME_INDEX
+                      && strcmp(m->frames.at[i - 1].index, known->name) == 0);
+         i--)
+        m->frames.at[i - 1].varies = true;
+}
 
 static qdot_status
 step(machine *m, const qdot_code *code, uint32_t *pc)
@@ -655,6 +655,8 @@ run_program(machine *m)
         if ((pc & 0x3FFF) == 0)
             QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(step(m, code, &pc));
+        if (code->op >= QDOT_CODE_NAME && code->op <= QDOT_CODE_RANGE)
+            note_use(m, code);
     }
     return QDOT_OK;
 }
@@ -678,8 +680,13 @@ qdot_evaluate(qdot_cursor *c, const qdot_program *program, qdot_expr *value,
     } else if (m.blame != NULL) {
         c->error_at = m.blame->start;
     }
-    if (status != QDOT_OK && m.frames.n > 0)
-        status = too_many_terms(&m.frames.at[m.frames.n - 1], status);
+    if (status != QDOT_OK && status != QDOT_ENOMEM && status != QDOT_EINTR && m.frames.n > 0) {
+        const frame *f = &m.frames.at[m.frames.n - 1];
+
+        if (f->symbol != QDOT_NIL)
+            status = qdot_closed_sum_unknown(f->index,
+                                             (unsigned long)f->last - (unsigned long)f->k + 1);
+    }
     for (size_t i = m.frames.n; i > 0; i--) /* only after a failure */
         if (m.frames.at[i - 1].bound)
             qdot_names_pop(m.session->names);

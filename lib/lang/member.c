@@ -300,3 +300,13 @@ qdot_member_span(qdot_session *session, qdot_expr e, double *from, double *to)
     }
     return QDOT_OK;
 }
+
+qdot_status
+qdot_member_check(const qdot_session *session, const char *run)
+{
+    for (size_t i = 0; i < session->runs.n; i++)
+        if (strcmp(session->runs.at[i].name, run) == 0)
+            return QDOT_OK;
+    qdot_fail(QDOT_ENAME, "there is no run `%s`", run);
+    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
+}

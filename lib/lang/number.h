@@ -88,6 +88,8 @@ QDOT_MUST_CHECK qdot_status qdot_number_range(qdot_session *session, const char 
 
 /* e along the run, as a symbol (of a vector or list: of its members) "a.x". */
 qdot_expr qdot_member_of(qdot_session *session, const char *run, qdot_expr e);
+/* QDOT_ENAME where there is no run of that name. */
+qdot_status qdot_member_check(const qdot_session *session, const char *run);
 /* Whether such symbols occur. */
 bool qdot_member_any(const qdot_session *session, qdot_expr e);
 /* Of an expression along one run only: the symbols replaced again and *run that run;

@@ -56,6 +56,7 @@ qdot_session_free(qdot_session *session)
     for (size_t i = 0; i < session->runs.n; i++)
         qdot_named_run_release(&session->runs.at[i]);
     qdot_free(session->runs.at);
+    qdot_free(session->partial_sums.at);
     qdot_free(session->history.at);
     qdot_free(session->history_over.at);
     qdot_free(session->measured.at);
@@ -457,5 +458,19 @@ qdot_session_remember(qdot_session *session, qdot_expr value, qdot_expr over)
     while (session->history_over.n < session->history.n)
         QDOT_TRY(qdot_vec_push(&session->history_over, QDOT_NIL));
     session->history_over.at[session->history.n - 1] = over;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_session_recall(const qdot_session *session, size_t n, qdot_expr *value, qdot_expr *over)
+{
+    const size_t count = session->history.n, at = n == 0 ? count : n;
+
+    if (count == 0)
+        return qdot_fail(QDOT_EINVAL, "there is no value yet for `%%`");
+    if (n > count)
+        return qdot_fail(QDOT_EINVAL, "there are only %zu values so far", count);
+    *value = session->history.at[at - 1];
+    *over = at <= session->history_over.n ? session->history_over.at[at - 1] : QDOT_NIL;
     return QDOT_OK;
 }

@@ -44,6 +44,8 @@ typedef struct {
     unsigned branches; /* of ifs under way: what stands there need not exist */
 } qdot_passed;
 
+struct qdot_partial_sum;
+
 typedef struct qdot_session {
     qdot_pool *pool;
     qdot_scene *scene;
@@ -74,6 +76,7 @@ typedef struct qdot_session {
     unsigned calls;        /* of functions under way, within one another */
     bool placed;           /* the error under way names its place in a body */
     size_t loops;          /* loops under way: what they hold must outlive them */
+    qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (lang/partial-sum) */
     struct qdot_undo *undo; /* NULL: no statement yet */
     qdot_passed *passed;   /* while the sides of a check are read; else NULL */
 } qdot_session;
@@ -112,6 +115,9 @@ QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr 
  * nil. */
 QDOT_MUST_CHECK qdot_status qdot_session_remember(qdot_session *session, qdot_expr value,
                                                   qdot_expr over);
+/* %n, n = 0: the latest. QDOT_EINVAL: there are not so many. */
+QDOT_MUST_CHECK qdot_status qdot_session_recall(const qdot_session *session, size_t n,
+                                                qdot_expr *value, qdot_expr *over);
 QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_expr e,
                                                  long *value);
 /* Forget the scene's coordinates, particles, ... (`reset scene`) or everything (`reset`). */

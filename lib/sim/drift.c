@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "sim/residual-energy.h"
+#include "sim/residual.h"
 #include "tape/lanes.h"
 
 void
@@ -181,22 +181,15 @@ qdot_status
 qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
                     qdot_drifts *d)
 {
-    const size_t n = scene->coordinates.n;
-    bool *asked = qdot_malloc((n + 1) * sizeof *asked); /* it may be cyclic */
-    qdot_status status = asked ? QDOT_OK : QDOT_ENOMEM;
+    const bool *absent = p->M ? NULL : p->residual->absent; /* others cannot be cyclic */
+    qdot_status status;
 
     d->at = qdot_calloc(p->n + 1, sizeof *d->at);
     if (!d->at)
-        status = QDOT_ENOMEM;
-    if (status == QDOT_OK)
-        status = measure_energy(scene, p, tr, d);
-    for (size_t i = 0; i < n && asked; i++)
-        asked[i] = true;
-    if (status == QDOT_OK && !p->M)
-        status = qdot_residual_absent(p->residual, n, asked);
-    for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        if (asked[i])
+        return QDOT_ENOMEM;
+    status = measure_energy(scene, p, tr, d);
+    for (size_t i = 0; i < scene->coordinates.n && status == QDOT_OK; i++)
+        if (!absent || absent[i])
             status = measure_momentum(scene, p, tr, i, d);
-    qdot_free(asked);
     return fatal(status);
 }

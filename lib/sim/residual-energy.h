@@ -12,14 +12,9 @@
 
 #include "sim/residual.h"
 
-/* Into residual->h and residual->energy, the values put in; these stay as they are where places
+/* Into residual->h, ->energy and ->absent, the values put in; these stay as they are where places
  * hold t: what Lagrange's equations conserve is not T + V there. Errors: those of deriving. */
 QDOT_MUST_CHECK qdot_status qdot_residual_add_energy(qdot_scene *scene, const qdot_plan *plan,
                                                      qdot_residual *residual);
-
-/* Of coordinates that h may be the same at any value of, by what a few places say: absent [n]. Of
- * a residual with an energy. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_residual_absent(const qdot_residual *residual, size_t n,
-                                                 bool *absent);
 
 #endif

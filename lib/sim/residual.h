@@ -55,6 +55,7 @@ struct qdot_residual {
     /* Once asked for: h as one expression, and from q, q', t (sim/residual-energy.h). */
     qdot_expr h;
     qdot_tape *energy;
+    bool *absent; /* [n] coordinates that h may be the same at any value of: so a few places say */
 };
 
 #define QDOT_RESIDUAL_FORCES (UINT32_C(1) << 31)

@@ -75,7 +75,7 @@ is_constant(const qdot_plan *p)
 /* Into *suits: one block that M couples, none of whose coordinates is to be eliminated
  * beforehand, as one is that few are coupled with and that does not stand in h. */
 static qdot_status
-judge(qdot_plan *p, const bool *pattern, const bool *absent, bool *suits, double *least)
+judge(qdot_plan *p, const bool *pattern, bool *suits, double *least)
 {
     const size_t n = p->n;
     size_t entries = 0;
@@ -88,7 +88,7 @@ judge(qdot_plan *p, const bool *pattern, const bool *absent, bool *suits, double
         for (size_t j = 0; j < n; j++)
             coupled += j != i && pattern[i * n + j];
         entries += coupled;
-        *suits = *suits && (coupled >= QDOT_ROUTH_COUPLED || !absent[i]);
+        *suits = *suits && (coupled >= QDOT_ROUTH_COUPLED || !p->residual->absent[i]);
     }
     *least = least_cost(n, entries);
     return QDOT_OK;
@@ -97,17 +97,14 @@ judge(qdot_plan *p, const bool *pattern, const bool *absent, bool *suits, double
 static qdot_status
 find_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double *least)
 {
-    bool *pattern = qdot_calloc((p->n + 1) * p->n, sizeof *pattern), *absent;
+    bool *pattern = qdot_calloc(p->n * p->n, sizeof *pattern);
     qdot_status status;
 
     *suits = false;
     if (!pattern)
         return QDOT_ENOMEM;
-    absent = pattern + p->n * p->n;
     find_pattern(tree, p->n, pattern);
-    status = qdot_residual_absent(p->residual, p->n, absent);
-    if (status == QDOT_OK)
-        status = judge(p, pattern, absent, suits, least);
+    status = judge(p, pattern, suits, least);
     qdot_free(pattern);
     if (status != QDOT_OK || !*suits)
         return status;
