@@ -19,8 +19,8 @@
 #include "num/batch.h"
 #include "num/kinds.h"
 #include "ode/integrate.h"
-#include "sim/bind.h"
-#include "sim/ensemble.h"
+#include "sim/course/bind.h"
+#include "sim/study/ensemble.h"
 
 enum { MOST = 16, MOST_ROUNDS = 99 };
 

@@ -2,7 +2,7 @@
  * in the middle.
  *
  * While a scope is a thread's current one, what memory.h allocates is noted in it, what it frees is
- * taken out. A block from before stays outside, however it grows. Used by normal/flint.c only.
+ * taken out. A block from before stays outside, however it grows. Used by normal/field/flint.c only.
  */
 #ifndef QDOT_BASE_SCOPE_H
 #define QDOT_BASE_SCOPE_H

@@ -43,6 +43,13 @@ typedef enum {
             return try_status_;                                                          \
     } while (0)
 
+/* What no other way of computing helps against: QDOT_ENOMEM, QDOT_EINTR; else QDOT_OK. */
+static inline qdot_status
+qdot_grave(qdot_status status)
+{
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
 /* The last failure of this thread. */
 typedef struct {
     qdot_status status;

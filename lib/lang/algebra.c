@@ -7,7 +7,8 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/code.h"
-#include "normal/solve.h"
+#include "normal/prove/decide.h"
+#include "normal/solve/solve.h"
 
 static qdot_status
 give(qdot_session *s, qdot_expr result, qdot_expr *value)

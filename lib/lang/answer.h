@@ -12,7 +12,7 @@
 #define QDOT_LANG_ANSWER_H
 
 #include "lang/read.h"
-#include "normal/decide.h"
+#include "normal/prove/decide.h"
 
 #define QDOT_ANSWER_OPERATIONS 10000000u /* what is printed of one expression */
 

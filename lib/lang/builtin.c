@@ -13,9 +13,9 @@
 #include "lang/answer.h"
 #include "lang/code.h"
 #include "lang/equilibria.h"
-#include "mech/geometry.h"
-#include "mech/hamilton.h"
-#include "normal/simplify.h"
+#include "mech/study/geometry.h"
+#include "mech/study/hamilton.h"
+#include "normal/simplify/simplify.h"
 
 #define READ_SIZE 300 /* operations */
 

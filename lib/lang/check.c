@@ -8,12 +8,14 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer.h"
-#include "lang/constraints.h"
 #include "lang/ask.h"
+#include "lang/constraints.h"
 #include "lang/digits.h"
 #include "lang/equilibria.h"
-#include "mech/quantity.h"
-#include "normal/contradiction.h"
+#include "mech/dynamics/quantity.h"
+#include "normal/inequality/contradiction.h"
+#include "normal/inequality/less.h"
+#include "normal/solve/proportion.h"
 
 /* Everything that may be used: the scene's facts and what stands behind `when`. */
 typedef struct {
@@ -565,10 +567,8 @@ static qdot_facts
 all_known(qdot_session *session, const facts *f, const question *q)
 {
     /* accelerations follow a function of time whatever its second derivative is */
-    return (qdot_facts){f->relations.n,
-                        f->relations.at,
-                        f->conditions.n,
-                        f->conditions.at,
+    return (qdot_facts){f->relations.n, f->relations.at,
+                        f->conditions.n, f->conditions.at,
                         f->motion && !f->stated ? 2 : 0,
                         q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q)};
 }

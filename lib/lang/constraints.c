@@ -9,8 +9,9 @@
 #include "expr/walk.h"
 #include "lang/answer.h"
 #include "lang/statement.h"
-#include "mech/integrable.h"
-#include "mech/reactions.h"
+#include "mech/study/integrable.h"
+#include "mech/study/reactions.h"
+#include "normal/prove/decide.h"
 
 /* "blade", "roll[2]" */
 static void

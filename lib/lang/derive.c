@@ -7,8 +7,9 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer.h"
-#include "mech/quantity.h"
-#include "normal/simplify.h"
+#include "mech/dynamics/quantity.h"
+#include "normal/form/common.h"
+#include "normal/simplify/simplify.h"
 
 typedef struct {
     qdot_session *session;

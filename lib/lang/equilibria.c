@@ -7,7 +7,7 @@
 #include "expr/calculus.h"
 #include "lang/answer.h"
 #include "lang/statement.h"
-#include "mech/quantity.h"
+#include "mech/dynamics/quantity.h"
 
 static qdot_expr
 bind(void *session, qdot_expr e)

@@ -3,7 +3,7 @@
 #define QDOT_LANG_EQUILIBRIA_H
 
 #include "lang/session.h"
-#include "mech/equilibrium.h"
+#include "mech/study/equilibrium.h"
 
 /* As qdot_equilibrium_find, with the values of `set`. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_find(qdot_session *session,

@@ -11,7 +11,7 @@
 #include "lang/declare.h"
 #include "lang/number.h"
 #include "lang/statement.h"
-#include "normal/decide.h"
+#include "normal/prove/decide.h"
 
 /* --- the text of a body ------------------------------------------------------------- */
 

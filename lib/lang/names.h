@@ -1,6 +1,6 @@
 /* names.h -- what the names of a session mean.
  *
- * A name is its canonical text: "theta", "theta[1]", "A[1,2]". Labels are not here (mech/scene.h).
+ * A name is its canonical text: "theta", "theta[1]", "A[1,2]". Labels are not here (mech/scene/scene.h).
  */
 #ifndef QDOT_LANG_NAMES_H
 #define QDOT_LANG_NAMES_H

@@ -11,7 +11,7 @@
 #include "lang/ask.h"
 #include "lang/code.h"
 #include "lang/digits.h"
-#include "normal/decide.h"
+#include "normal/prove/decide.h"
 #include "tape/constant.h"
 
 enum { MOST_DIGITS = 100000, LEAST_EXPONENT = -100000, DIGITS = 16, PASSES = 4 };

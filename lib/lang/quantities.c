@@ -4,10 +4,10 @@
 #include "base/memory.h"
 #include "lang/code.h"
 #include "lang/equilibria.h"
-#include "mech/hamilton.h"
-#include "mech/noether.h"
-#include "mech/quantity.h"
-#include "mech/reactions.h"
+#include "mech/study/hamilton.h"
+#include "mech/study/noether.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/study/reactions.h"
 
 static qdot_status
 give(qdot_session *s, qdot_expr result, qdot_expr *value)

@@ -1,5 +1,5 @@
 /* race.c -- the statement `race`: a table, and a figure of error against time. */
-#include "sim/race.h"
+#include "sim/study/race.h"
 
 #include <math.h>
 #include <string.h>

@@ -18,8 +18,8 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/code.h"
-#include "normal/decide.h"
-#include "normal/simplify.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
 
 /* Orders up to which a leading coefficient is looked for; nested parts that are taken apart. */
 enum { MOST_LEADING = 64, MOST_DEPTH = 100 };

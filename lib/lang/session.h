@@ -10,8 +10,8 @@
 
 #include "expr/print.h"
 #include "lang/names.h"
-#include "mech/quantity.h"
-#include "sim/run.h"
+#include "mech/dynamics/quantity.h"
+#include "sim/run/run.h"
 
 /* A number that a run gave: stands in expressions as a FORMAL symbol. */
 typedef struct {

@@ -6,7 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/declare.h"
-#include "normal/decide.h"
+#include "normal/inequality/less.h"
 
 static const uint32_t unknown = QDOT_HAS_PARAM | QDOT_HAS_UFUN | QDOT_HAS_MOMENTUM;
 

@@ -1,5 +1,5 @@
 /* workprecision.c -- error against time, every method: a table, a figure, a file. */
-#include "sim/workprecision.h"
+#include "sim/study/workprecision.h"
 
 #include <math.h>
 #include <stdarg.h>

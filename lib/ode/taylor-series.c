@@ -8,7 +8,7 @@
 /* Companions want orders of their own above that of a run. */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
-/* Half of so many orders beyond the narrow ones are a vector more (tape/taylor-code.h). */
+/* Half of so many orders beyond the narrow ones are a vector more (series/taylor-code.h). */
 enum { orders_of_vector = 16 };
 
 /* From order 6 on: z to a tenth, below which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. */

@@ -4,7 +4,7 @@
  *
  * for complex x as well, so that a function that is given as a tape is bounded throughout
  * an interval and around it. By Cauchy's estimate that bounds what a polynomial through its
- * values at a few points does not know (sim/hull.h). C_i is f_i(c). A radius is NaN
+ * values at a few points does not know (sim/course/polynomial-bounds.h). C_i is f_i(c). A radius is NaN
  * where an operation has a singularity in its disc, or switches there, and infinite where the bound
  * is too large for a double.
  *

@@ -5,8 +5,8 @@
 #include "fuzz.h"
 
 #include "expr/walk.h"
-#include "normal/decide.h"
-#include "normal/simplify.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
 
 enum { LARGEST = 2000 };
 

@@ -21,10 +21,9 @@
 #include "expr/print.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/derived.h"
-#include "mech/quantity.h"
-#include "normal/decide.h"
-#include "normal/simplify.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/derived.h"
+#include "normal/prove/decide.h"
 
 typedef struct {
     qdot_pool *pool;

@@ -1,7 +1,7 @@
 /* Equilibria and the modes about them. */
 #include "kit.h"
 
-#include "mech/equilibrium.h"
+#include "mech/study/equilibrium.h"
 
 static void
 find(kit *k, qdot_equilibria *r, size_t n)

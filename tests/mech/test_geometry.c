@@ -2,7 +2,7 @@
  * against the same field in Cartesian coordinates. */
 #include "kit.h"
 
-#include "mech/geometry.h"
+#include "mech/study/geometry.h"
 
 static qdot_expr
 curvature(kit *k, const char *R)

@@ -1,7 +1,8 @@
 /* Conserved quantities: which are found, and that each is constant by the equations of motion. */
 #include "kit.h"
 
-#include "mech/noether.h"
+#include "mech/study/noether.h"
+#include "normal/prove/decide.h"
 
 /* The other way round: dE/dt with the accelerations of the equations is 0. */
 static void

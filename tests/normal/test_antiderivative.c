@@ -6,7 +6,8 @@
 #include <cmocka.h>
 
 #include "expr/calculus.h"
-#include "normal/antiderivative.h"
+#include "normal/prove/decide.h"
+#include "normal/solve/antiderivative.h"
 
 static void
 known_integrals_differentiate_back(void **state)

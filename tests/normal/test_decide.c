@@ -8,11 +8,12 @@
 #include <cmocka.h>
 
 #include "expr/calculus.h"
-#include "normal/constant.h"
-#include "normal/decide.h"
+#include "normal/refute/constant.h"
 
-#include "normal/prove.h"
+#include "normal/prove/prove.h"
 
+#include "normal/inequality/less.h"
+#include "normal/solve/proportion.h"
 #include "text.h"
 
 struct pair {

@@ -16,12 +16,12 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/scope.h"
-#include "normal/decide.h"
-#include "normal/flint.h"
-#include "normal/positive.h"
-#include "normal/rationalize.h"
-#include "normal/simplify.h"
-#include "normal/solve.h"
+#include "normal/prove/decide.h"
+#include "normal/field/flint.h"
+#include "normal/simplify/positive.h"
+#include "normal/simplify/rationalize.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/solve.h"
 
 #include "text.h"
 

@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 #include "expr/print.h"
-#include "normal/decide.h"
 
+#include "normal/inequality/less.h"
 #include "number.h"
 #include "pairs.h"
 

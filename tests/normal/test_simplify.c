@@ -10,8 +10,13 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "normal/simplify.h"
 
+#include "normal/field/normal-form.h"
+#include "normal/form/shortest.h"
+#include "normal/form/simple.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/linear.h"
 #include "text.h"
 
 static const struct {
@@ -159,12 +164,12 @@ a_spent_budget_is_said(void **state)
     bool spent;
 
     (void)state;
-    best = qdot_simplify_within(pool, e, NULL, 200, &spent);
+    best = qdot_shortest_within(pool, e, NULL, 200, &spent);
     assert_true(spent);
     assert_true(best != QDOT_NIL);
     assert_true(qdot_expr_size(pool, best) <= qdot_expr_size(pool, e));
-    best = qdot_simplify_within(pool, text_read(pool, "1 - cos(x)^2"), NULL,
-                                QDOT_SIMPLIFY_WORK, &spent);
+    best = qdot_shortest_within(pool, text_read(pool, "1 - cos(x)^2"), NULL,
+                                QDOT_SHORTEST_WORK, &spent);
     assert_false(spent);
     assert_int_equal(best, text_read(pool, "sin(x)^2"));
     qdot_pool_free(pool);
@@ -489,7 +494,7 @@ sums_of_angles_are_seen(void **state)
         snprintf(text, sizeof text, "%s*%s %c %s*%s", f, one, k / 720 ? '-' : '+', f, two);
         e = text_read(pool, text);
         other = text_read(pool, "k");
-        at_sight = qdot_simplify_seen(pool, e);
+        at_sight = qdot_simple_seen(pool, e);
         if (at_sight != QDOT_NIL) {
             qdot_expr full = qdot_simplify(pool, e, &facts);
 

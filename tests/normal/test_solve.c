@@ -8,11 +8,12 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
-#include "normal/null-space.h"
 #include "expr/walk.h"
-#include "normal/positive.h"
-#include "normal/rationalize.h"
-#include "normal/solve.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/positive.h"
+#include "normal/simplify/rationalize.h"
+#include "normal/solve/null-space.h"
+#include "normal/solve/solve.h"
 
 static const char *
 shown(qdot_expr e)

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "expr/print.h"
-#include "normal/decide.h"
+#include "normal/prove/decide.h"
 
 #include "number.h"
 #include "pairs.h"

@@ -47,6 +47,11 @@ BEGIN { rounding = 4e-16 } # of the reference read as a double, and of a differe
     if (stated == "null" || worst > 3 * stated + rounding)
         print what ": true " worst ", stated only " stated
     if (worst > 1e-14 && stated > 100 * worst)
-        print what ": stated " stated ", true only " worst
+        overstated[++many] = what ": stated " stated ", true only " worst
 }
-END { print runs " runs compared" }
+END {
+    # by luck, rounding adds up to nearly nothing in a few: not the same ones on every machine
+    for (i = 1; many > runs / 100 && i <= many; i++)
+        print overstated[i]
+    print runs " runs compared"
+}

@@ -1,7 +1,7 @@
 # Stated errors of ends against runs with `digits`: scenes with damping, forces by t, stated
 # Lagrangians, varying mass, events, switches, constraints, near collisions, unstable rests and what dies out. The
-# true error is at most 3 times the stated one, the stated one at most 100 times the true one
-# where that is above 1e-14. The ends are not doubles.
+# true error is at most 3 times the stated one. Where it is above 1e-14 the stated one is at most 100
+# times the true one, but for one run of a hundred. The ends are not doubles.
 for name in $(sed -n 's/^### //p' end-errors.inc); do
     echo "### $name"
     {

@@ -9,6 +9,8 @@ s/[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} *\(us\|µs\|ms\|s\|min\) \([Cc][Pp][Uu]\)/
 s/method \(rk8pd\|dop853\|taylor\), tol/method AUTO, tol/
 s/^\(  hint: auto\), .*/\1, .../
 s/^  [0-9][0-9]* steps\{0,1\}, [0-9].*$/  STEPS/
+# Where a run failed is known to a dozen digits.
+/ failed: /s/^\(run[0-9]*: t = [^ ,]*\.\.[-0-9.]\{14\}\)[0-9]*,/\1,/
 /^  apart: /s/ [0-9][0-9]* steps\{0,1\}/ STEPS/g
 /^  drift: /s/ [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}\(,\|$\)/ N\2/g
 s/^\(  error of the end state: at most \).*/\1N/

@@ -12,8 +12,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "mech/quantity.h"
-#include "sim/run.h"
+#include "mech/dynamics/quantity.h"
+#include "sim/run/run.h"
 
 enum { MOST_COORDINATES = 8, MOST_VALUES = 32 };
 

@@ -3,13 +3,13 @@
 #include "scenes.h"
 
 #include "expr/calculus.h"
-#include "sim/bind.h"
-#include "sim/bordered.h"
-#include "sim/constrained-series.h"
-#include "sim/over-root.h"
-#include "sim/rates.h"
+#include "sim/course/bind.h"
+#include "sim/form/bordered.h"
+#include "sim/form/constrained-series.h"
+#include "sim/model/power-quotient.h"
+#include "sim/model/rates.h"
 #include "tape/tape.h"
-#include "tape/taylor.h"
+#include "series/taylor.h"
 
 #include <math.h>
 
@@ -329,7 +329,7 @@ springs_divide_once(void **state)
     pull = qdot_sub(f.pool, times(&f, qdot_expr_int(f.pool, 3), r), QDOT_HALF);
     for (int i = 0; i < 2; i++) {
         e[i] = qdot_div(f.pool, qdot_product(f.pool, 3, (qdot_expr[]){QDOT_HALF, pull, q[i]}), r);
-        e[2 + i] = qdot_over_root(f.pool, e[i]);
+        e[2 + i] = qdot_power_quotient(f.pool, e[i]);
         assert_true(e[2 + i] != e[i]);
     }
     for (int k = 0; k < 2; k++) {
@@ -345,7 +345,7 @@ springs_divide_once(void **state)
     e[1] = qdot_div(f.pool, square(&f, pull), r);
     e[2] = times(&f, pull, r);
     for (int i = 0; i < 3; i++)
-        assert_int_equal(qdot_over_root(f.pool, e[i]), e[i]);
+        assert_int_equal(qdot_power_quotient(f.pool, e[i]), e[i]);
     qdot_tape_free(tapes[0]);
     qdot_tape_free(tapes[1]);
     end(&f);

@@ -2,9 +2,9 @@
  * closed forms; drift, redundancy, what is refused. */
 #include "scenes.h"
 
-#include "sim/bind.h"
-#include "sim/constrained-series.h"
-#include "sim/constraints.h"
+#include "sim/course/bind.h"
+#include "sim/form/constrained-series.h"
+#include "sim/model/constraints.h"
 
 #include <math.h>
 

@@ -7,7 +7,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "num/kinds.h"
-#include "sim/ensemble.h"
+#include "sim/study/ensemble.h"
 
 enum { MOST_MEMBERS = 24 };
 

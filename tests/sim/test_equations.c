@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "sim/bind.h"
+#include "sim/course/bind.h"
 #include "tape/reference.h"
 
 enum { N = 3, PARTICLES = 3 };

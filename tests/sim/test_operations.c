@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "sim/plan.h"
-#include "sim/quotient.h"
+#include "sim/model/quotient.h"
+#include "sim/plan/plan.h"
 #include "tape/reference.h"
 
 enum { MOST = 64 };

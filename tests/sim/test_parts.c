@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include "sim/bind.h"
-#include "sim/parts.h"
+#include "sim/course/bind.h"
+#include "sim/plan/parts.h"
 
 /* A mass on a spring along each coordinate of `names`; k as many decimals. */
 static void

@@ -4,10 +4,10 @@
 
 #include <math.h>
 
-#include "sim/bind.h"
-#include "sim/direct.h"
-#include "sim/momenta.h"
-#include "sim/routh.h"
+#include "sim/course/bind.h"
+#include "sim/form/direct.h"
+#include "sim/model/momenta.h"
+#include "sim/plan/routh.h"
 
 /* --- scenes ---------------------------------------------------------------------------- */
 

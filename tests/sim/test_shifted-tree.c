@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#include "sim/direct.h"
-#include "sim/shifted-tree.h"
+#include "sim/form/direct.h"
+#include "sim/form/shifted-tree.h"
 
 /* A scene's plan, residual and tree. */
 typedef struct {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "sim/start.h"
+#include "sim/start/start.h"
 
 typedef struct {
     fixture f;

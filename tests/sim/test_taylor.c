@@ -4,9 +4,9 @@
 
 #include <math.h>
 
-#include "sim/direct.h"
-#include "sim/residual.h"
-#include "sim/shifted.h"
+#include "sim/form/direct.h"
+#include "sim/form/residual.h"
+#include "sim/form/shifted.h"
 
 /* A run of the scene by a method under a tolerance; the caller frees it. */
 static qdot_run *

@@ -7,7 +7,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "ode/method.h"
-#include "sim/workprecision.h"
+#include "sim/study/workprecision.h"
 
 /* x'' = -x, or with a force that shakes it, from x = 1 to t = 5. */
 static void

@@ -1,0 +1,38 @@
+/* dalembert.h -- the equations of motion before anything is differentiated twice.
+ *
+ * d'Alembert's principle over the scalar functions x, y of (q, t) that make the kinetic
+ * energy 1/2 sum w x' y' (a particle: m and each of its components; a body: its centre
+ * and its axes, weighted by second moments):
+ *
+ *     sum w dy/dq_i x'' = Q_i
+ *
+ * For numbers only: x'' is the series of x, shifted (sim/form/residual.h).
+ *
+ * Tests  tests/sim/test_taylor.c: against M q'' = f
+ */
+#ifndef QDOT_MECH_DALEMBERT_H
+#define QDOT_MECH_DALEMBERT_H
+
+#include "mech/scene/scene.h"
+
+typedef struct {
+    qdot_expr w, x, y;
+    int axis; /* x = y is this component of the place of a mass w; -1: neither is one */
+} qdot_dalembert_term;
+
+/* The terms [*n], owned by the caller, and Q_i, a VEC (a LIST for one coordinate), which
+ * holds everything applied, -dV/dq included. *n is 0 where the principle does not apply
+ * as it stands: a stated Lagrangian, potentials with velocities, masses that vary.
+ * Errors: those of deriving. */
+QDOT_MUST_CHECK qdot_status qdot_mech_dalembert(qdot_scene *s,
+                                                qdot_dalembert_term **terms, size_t *n,
+                                                qdot_expr *Q);
+
+/* V of this scene over places that are already there: sum -w g x of the terms with an axis, their
+ * x replaced by places [n], and what else has a potential, as it was declared. Nil: the pool keeps
+ * the failure. */
+qdot_expr qdot_mech_dalembert_potential(qdot_scene *s, size_t n,
+                                        const qdot_dalembert_term *terms,
+                                        const qdot_expr *places);
+
+#endif

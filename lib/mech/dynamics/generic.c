@@ -1,0 +1,256 @@
+/* generic.c -- expressions in double at a point: for ranks at generic configurations
+ * only. */
+#include <math.h>
+#include <string.h>
+
+#include "expr/walk.h"
+#include "mech/scene/derived.h"
+
+#define ONE(name, value)                                                                 \
+    static double f_##name(const double *x, uint32_t n)                                  \
+    {                                                                                    \
+        (void)n;                                                                         \
+        return value;                                                                    \
+    }
+ONE(sin, sin(x[0]))
+ONE(cos, cos(x[0]))
+ONE(tan, tan(x[0]))
+ONE(sec, 1 / cos(x[0]))
+ONE(csc, 1 / sin(x[0]))
+ONE(cot, cos(x[0]) / sin(x[0]))
+ONE(asin, asin(x[0]))
+ONE(acos, acos(x[0]))
+ONE(atan, atan(x[0]))
+ONE(atan2, atan2(x[0], x[1]))
+ONE(sinh, sinh(x[0]))
+ONE(cosh, cosh(x[0]))
+ONE(tanh, tanh(x[0]))
+ONE(asinh, asinh(x[0]))
+ONE(acosh, acosh(x[0]))
+ONE(atanh, atanh(x[0]))
+ONE(exp, exp(x[0]))
+ONE(log, log(x[0]))
+ONE(erf, erf(x[0]))
+ONE(erfc, erfc(x[0]))
+ONE(abs, fabs(x[0]))
+ONE(floor, floor(x[0]))
+ONE(hold, x[0])
+
+static double
+f_sign(const double *x, uint32_t n)
+{
+    (void)n;
+    return (x[0] > 0) - (x[0] < 0);
+}
+
+static double
+f_min(const double *x, uint32_t n)
+{
+    double least = x[0];
+
+    for (uint32_t i = 1; i < n; i++)
+        least = fmin(least, x[i]);
+    return least;
+}
+
+static double
+f_max(const double *x, uint32_t n)
+{
+    double most = x[0];
+
+    for (uint32_t i = 1; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
+
+static double
+f_mod(const double *x, uint32_t n)
+{
+    (void)n;
+    return x[0] - x[1] * floor(x[0] / x[1]);
+}
+
+static double
+f_if(const double *x, uint32_t n)
+{
+    (void)n;
+    return x[0] != 0 ? x[1] : x[2];
+}
+
+static double (*const functions[QDOT_FUNCTION_KINDS])(const double *x, uint32_t n) = {
+    [QDOT_SIN] = f_sin,     [QDOT_COS] = f_cos,     [QDOT_TAN] = f_tan,
+    [QDOT_SEC] = f_sec,     [QDOT_CSC] = f_csc,     [QDOT_COT] = f_cot,
+    [QDOT_ASIN] = f_asin,   [QDOT_ACOS] = f_acos,   [QDOT_ATAN] = f_atan,
+    [QDOT_ATAN2] = f_atan2, [QDOT_SINH] = f_sinh,   [QDOT_COSH] = f_cosh,
+    [QDOT_TANH] = f_tanh,   [QDOT_ASINH] = f_asinh, [QDOT_ACOSH] = f_acosh,
+    [QDOT_ATANH] = f_atanh, [QDOT_EXP] = f_exp,     [QDOT_LOG] = f_log,
+    [QDOT_ERF] = f_erf,     [QDOT_ERFC] = f_erfc,
+    [QDOT_ABS] = f_abs,     [QDOT_SIGN] = f_sign,   [QDOT_MIN] = f_min,
+    [QDOT_MAX] = f_max,     [QDOT_MOD] = f_mod,     [QDOT_FLOOR] = f_floor,
+    [QDOT_IF] = f_if,       [QDOT_HOLD] = f_hold,
+};
+
+static double
+rational(const fmpq *x)
+{
+    slong p, q;
+    double a = fmpz_get_d_2exp(&p, fmpq_numref(x));
+    double b = fmpz_get_d_2exp(&q, fmpq_denref(x));
+    slong shift = p - q;
+
+    return ldexp(a / b, shift > 5000 ? 5000 : shift < -5000 ? -5000 : (int)shift);
+}
+
+/* In (0, 1), of a name and a seed. */
+static double
+scatter(const char *name, uint64_t seed)
+{
+    uint64_t h = seed * 0x9e3779b97f4a7c15u + 0x1234567;
+
+    for (; *name; name++)
+        h = (h ^ (unsigned char)*name) * 0x100000001b3u;
+    h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ h >> 27) * 0x94d049bb133111ebu;
+    h ^= h >> 31;
+    return ((double)(h >> 11) + 0.5) / 9007199254740992.0;
+}
+
+static bool
+bound(const qdot_pool *pool, qdot_expr e, double *value)
+{
+    const fmpq *x = e == QDOT_NIL ? NULL : qdot_expr_rational(pool, e);
+
+    if (e == QDOT_PI)
+        *value = M_PI;
+    else if (x)
+        *value = rational(x);
+    return x || e == QDOT_PI;
+}
+
+double
+qdot_generic_value(const qdot_pool *pool, qdot_expr e, uint64_t seed)
+{
+    const qdot_symbol *x = qdot_expr_symbol(pool, e);
+    double u = scatter(x->name, seed), lo = 0, hi = 0;
+    bool above = bound(pool, x->lo, &lo), below = bound(pool, x->hi, &hi);
+
+    if (e == QDOT_PI)
+        return M_PI;
+    if (above && below)
+        return lo + (hi - lo) * (0.1 + 0.8 * u);
+    if (above)
+        return lo + 0.5 + u;
+    if (below)
+        return hi - 0.5 - u;
+    if ((x->sign & QDOT_NEG) == QDOT_NEG)
+        return -0.5 - u;
+    return x->class == QDOT_PARAM || x->sign & QDOT_GE0 ? 0.5 + u : 3 * u - 1.5;
+}
+
+static double
+power(double b, double e)
+{
+    return e == 1 ? b : e == -1 ? 1 / b : pow(b, e);
+}
+
+/* One node from its children's values x [n]. */
+static double
+combine(const qdot_node *node, const double *x)
+{
+    double v;
+
+    switch (node->kind) {
+    case QDOT_SUM:
+        v = x[0];
+        for (uint32_t i = 1; i + 1 < node->n; i += 2)
+            v += x[i] * x[i + 1];
+        return v;
+    case QDOT_PROD:
+        v = x[0];
+        for (uint32_t i = 1; i + 1 < node->n; i += 2)
+            v *= power(x[i], x[i + 1]);
+        return v;
+    case QDOT_FUN:
+        return functions[node->op] ? functions[node->op](x, node->n) : NAN;
+    case QDOT_REL:
+        return node->op == QDOT_LT ? x[0] < x[1] : node->op == QDOT_LE ? x[0] <= x[1]
+                                                                       : x[0] == x[1];
+    case QDOT_LOGIC:
+        v = node->op == QDOT_AND;
+        if (node->op == QDOT_NOT)
+            return x[0] == 0;
+        for (uint32_t i = 0; i < node->n; i++)
+            v = node->op == QDOT_AND ? v != 0 && x[i] != 0 : v != 0 || x[i] != 0;
+        return v;
+    default:
+        return NAN;
+    }
+}
+
+static double
+get(const qdot_walk *w, qdot_expr e)
+{
+    uint64_t bits = qdot_walk_get(w, e);
+    double v;
+
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+static void
+set(qdot_walk *w, qdot_expr e, double v)
+{
+    uint64_t bits;
+
+    memcpy(&bits, &v, sizeof bits);
+    qdot_walk_set(w, e, bits);
+}
+
+qdot_status
+qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e, size_t m,
+                     const qdot_expr *symbols, const double *values, uint64_t seed,
+                     double *out)
+{
+    qdot_walk w;
+    qdot_vec(double) x = {0};
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_walk_begin_n(pool, n, e, &w));
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
+        const qdot_node *node = qdot_expr_node(pool, w.at[i]);
+        char name[24];
+
+        if (node->kind == QDOT_NUM) {
+            set(&w, w.at[i], rational(qdot_expr_rational(pool, w.at[i])));
+            continue;
+        }
+        if (node->kind == QDOT_SYM) {
+            double v = qdot_generic_value(pool, w.at[i], seed);
+
+            for (size_t k = 0; k < m; k++)
+                if (symbols[k] == w.at[i])
+                    v = values[k];
+            set(&w, w.at[i], v);
+            continue;
+        }
+        if (node->kind == QDOT_UFUN) {
+            name[0] = 'u';
+            for (int k = 0; k < 8; k++)
+                name[k + 1] = (char)('a' + (w.at[i] >> 4 * k & 15));
+            name[9] = '\0';
+            set(&w, w.at[i], 0.5 + scatter(name, seed));
+            continue;
+        }
+        status = qdot_grow(&x.at, &x.capacity, node->n + 1u, sizeof *x.at);
+        if (status != QDOT_OK)
+            break;
+        for (uint32_t k = 0; k < node->n; k++)
+            x.at[k] = get(&w, qdot_expr_args(pool, w.at[i])[k]);
+        set(&w, w.at[i], combine(node, x.at));
+    }
+    qdot_free(x.at);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        out[i] = get(&w, e[i]);
+    qdot_walk_end(&w);
+    return status;
+}

@@ -1,0 +1,111 @@
+/* momentum.c -- p_i = dL/dq_i' = sum_j M_ij q_j' + b_i - dV/dq_i'; cyclic coordinates.
+ *
+ * Where dL/dq_i = 0 Lagrange's equation reads p_i' = Q_i + R_i, with Q what is applied
+ * beside V and R the reactions: p_i is conserved when both vanish.
+ */
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/scene/derived.h"
+#include "normal/prove/decide.h"
+
+qdot_expr
+qdot_mech_momentum(qdot_scene *s, qdot_expr q)
+{
+    qdot_pool *pool = s->pool;
+    qdot_derived *d;
+    qdot_expr p, V;
+    size_t i;
+
+    if (!qdot_derived_index(s, q, &i))
+        return QDOT_NIL;
+    d = qdot_derived_get(s);
+    if (!qdot_derived_array(s, &d->momentum, d->n))
+        return QDOT_NIL;
+    if (d->momentum[i] != QDOT_NIL)
+        return d->momentum[i];
+    if (qdot_mech_stated(s)) {
+        p = qdot_diff(pool, s->lagrangian, qdot_mech_jet(s, i, 1));
+        return d->momentum[i] = qdot_mech_tidy(s, p);
+    }
+    if (!qdot_mass_get(s))
+        return QDOT_NIL;
+    V = qdot_potential_with_velocities(s);
+    p = qdot_sub(pool, d->b[i], qdot_diff(pool, V, qdot_mech_jet(s, i, 1)));
+    for (size_t j = 0; j < d->n; j++)
+        p = qdot_add(pool, p,
+                     qdot_mul(pool, qdot_mass_entry(s, i, j), qdot_mech_jet(s, j, 1)));
+    return d->momentum[i] = qdot_mech_tidy_whole(s, p);
+}
+
+qdot_expr
+qdot_mech_momenta(qdot_scene *s)
+{
+    size_t n = s->coordinates.n;
+    qdot_expr *members = qdot_calloc(n + 1, sizeof *members), list;
+
+    if (!members)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < n; i++)
+        members[i] = qdot_mech_momentum(s, s->coordinates.at[i]);
+    list = qdot_list(s->pool, (uint32_t)n, members);
+    qdot_free(members);
+    return list;
+}
+
+qdot_status
+qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *c, bool *is)
+{
+    qdot_facts facts = qdot_scene_facts(s);
+
+    *c = (qdot_cyclic){.coordinate = s->coordinates.at[i]};
+    *is = false;
+    if (qdot_lagrangian_is_still(s, c->coordinate)) {
+        c->momentum = qdot_mech_momentum(s, c->coordinate);
+        c->rate = qdot_add(s->pool, qdot_force_total(s, i, true, true),
+                           qdot_constraint_reaction(s, i));
+        if (c->momentum != QDOT_NIL && !qdot_is_zero(s->pool, c->momentum, &facts)) {
+            if (qdot_is_zero(s->pool, c->rate, &facts))
+                c->rate = QDOT_NIL;
+            *is = true;
+        }
+    }
+    return qdot_pool_check(s->pool);
+}
+
+qdot_status
+qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n)
+{
+    qdot_vec(qdot_cyclic) found = {0};
+    qdot_status status = qdot_pool_check(s->pool);
+
+    for (size_t i = 0; i < s->coordinates.n && status == QDOT_OK; i++) {
+        qdot_cyclic c;
+        bool is;
+
+        status = qdot_mech_cyclic_at(s, i, &c, &is);
+        if (status == QDOT_OK && is)
+            status = qdot_vec_push(&found, c);
+    }
+    if (status != QDOT_OK) {
+        qdot_free(found.at);
+        found.at = NULL;
+        found.n = 0;
+    }
+    *list = found.at;
+    *n = found.n;
+    return status;
+}
+
+qdot_status
+qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds)
+{
+    *holds = false;
+    for (size_t i = 0; i < s->coordinates.n && !*holds; i++) {
+        qdot_expr Q = qdot_add(s->pool, qdot_force_total(s, i, false, true),
+                               qdot_constraint_reaction(s, i));
+
+        QDOT_TRY(qdot_pool_check(s->pool));
+        *holds = qdot_expr_contains(s->pool, Q, x);
+    }
+    return QDOT_OK;
+}

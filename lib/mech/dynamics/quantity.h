@@ -1,0 +1,97 @@
+/* quantity.h -- the values of a scene, derived on demand and kept until it changes.
+ *
+ * Each returns nil on failure; the pool keeps the cause (qdot_pool_check). Expressions are
+ * simplified for people unless said otherwise. Sign conventions: Lagrange's equations read
+ *
+ *     d/dt dT/dq' - dT/dq = Q + sum lambda df/d(q, q' or q'')
+ *
+ * with f = left - right the constraint. For a stated Lagrangian the left side is
+ * d/dt dL/dq' - dL/dq and Q holds only what is declared beside L.
+ */
+#ifndef QDOT_MECH_QUANTITY_H
+#define QDOT_MECH_QUANTITY_H
+
+#include "expr/print.h"
+#include "mech/scene/scene.h"
+
+/* --- kinematics and energy --- */
+qdot_expr qdot_mech_kinetic(qdot_scene *s);    /* T */
+qdot_expr qdot_mech_potential(qdot_scene *s);  /* V: gravity, potentials, springs */
+qdot_expr qdot_mech_lagrangian(qdot_scene *s); /* T - V, or as stated */
+qdot_expr qdot_mech_energy(qdot_scene *s);     /* h = sum p q' - L */
+qdot_expr qdot_mech_mass_matrix(qdot_scene *s); /* MAT n x n; of L: d2L/dq'dq' */
+
+/* --- geometry of r(q, t); R a VEC or scalar --- */
+qdot_expr qdot_mech_ds2(qdot_scene *s, qdot_expr R);    /* in dq, dt */
+qdot_expr qdot_mech_speed2(qdot_scene *s, qdot_expr R); /* in q' */
+qdot_expr qdot_mech_metric(qdot_scene *s, qdot_expr R); /* MAT; over the coordinates in R; or of
+                                                           a line element, a scalar in dq */
+/* The coordinates a metric is over: those in R (or whose differentials are), declared order. */
+qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* a LIST */
+
+/* --- momenta, forces --- */
+qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* dL/dq' */
+qdot_expr qdot_mech_momenta(qdot_scene *s);                /* LIST, in order of q */
+qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q], all that is applied */
+/* The same by Kane's form, sum F . dv/dq'. */
+qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
+qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST, in order of q */
+/* `forces` with its parts in words: one line a coordinate and source. */
+QDOT_MUST_CHECK qdot_status qdot_mech_forces_parts(qdot_scene *s, qdot_style style,
+                                                   qdot_text *out);
+qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum Q delta[q] */
+
+/* --- equations --- */
+qdot_expr qdot_mech_equation(qdot_scene *s, qdot_expr q); /* an EQ, with multipliers */
+qdot_expr qdot_mech_equations(qdot_scene *s);             /* LIST */
+/* q'' solved for, multipliers eliminated; QDOT_ELIMIT past the budget, QDOT_ESINGULAR names q. */
+qdot_expr qdot_mech_accel(qdot_scene *s, qdot_expr q);
+qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST, in order of q */
+/* lambda of constraint k in q, q', t, from the same equations; nil without a failure: constraints
+ * repeat one another, the multipliers are not unique. */
+qdot_expr qdot_mech_multiplier(qdot_scene *s, size_t k);
+
+/* --- conservation, counting --- */
+typedef struct {
+    qdot_expr coordinate, momentum;
+    qdot_expr rate;   /* dp/dt: nil when conserved; else the sum of applied forces, multipliers */
+} qdot_cyclic;
+/* Coordinates absent from L (their velocities may stand there). *list [*n], owned by caller. */
+QDOT_MUST_CHECK qdot_status qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n);
+/* The same of coordinate i alone; *is: whether it is one of them. */
+QDOT_MUST_CHECK qdot_status qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *cyclic,
+                                                bool *is);
+/* Whether x stands in what is applied along any coordinate beside V: forces, dampers,
+ * reactions. */
+QDOT_MUST_CHECK qdot_status qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds);
+/* Whether h is proved conserved: dh/dt = 0 by the equations. */
+QDOT_MUST_CHECK qdot_status qdot_mech_energy_conserved(qdot_scene *s, bool *conserved);
+/* dE/dt of the motion, multipliers as symbols, where no acceleration has to be solved for: E is the
+ * energy h, a momentum p_i or nothing, and a function of q and t beside it. Nil without a failure:
+ * it is none of these. */
+qdot_expr qdot_mech_rate(qdot_scene *s, qdot_expr E);
+typedef struct {
+    size_t coordinates, constraints, independent; /* independent by symbolic rank */
+    size_t freedom;                               /* coordinates - independent */
+    const bool *is_independent; /* [constraints] of those declared before; borrowed until the
+                                   scene changes */
+    const bool *is_hidden; /* [constraints] not independent, and yet more than a repetition: with those
+                              before it leaves a condition on coordinates or velocities that is none
+                              of the constraints (x = t, x' = y: y = 1); likewise */
+    bool unmet;           /* no point was found where all constraints hold, whatever the
+                             parameters: no proof that there is none */
+    bool cartesian;       /* n = N D - C applies: every particle at plain coordinates */
+    size_t particles, dimension;
+} qdot_dof;
+QDOT_MUST_CHECK qdot_status qdot_mech_dof(qdot_scene *s, qdot_dof *dof);
+/* f, df/dt, d2f/dt2 (as many as the kind asks) of constraint i, for `when LABEL` and checks. */
+qdot_expr qdot_mech_constraint_derivative(qdot_scene *s, size_t i, unsigned order);
+
+/* --- for numbers (sim/): unsimplified for people, cheap to evaluate ---
+ * M(q, t) q'' = f(q, q', t): M as MAT, f as VEC (LIST when n = 1); n coordinates in declared
+ * order. Built M before T, from Jacobians grouped as design idea 2 says, work N^2 for a chain. Without
+ * constraints' multipliers. */
+qdot_expr qdot_mech_numeric_mass(qdot_scene *s);
+qdot_expr qdot_mech_numeric_forcing(qdot_scene *s);
+
+#endif

@@ -1,0 +1,439 @@
+/* virtual-work.c -- generalized forces.
+ *
+ *     delta W = sum F . delta r = sum_j Q_j delta q_j,
+ *     Q_j = sum F . dr/dq_j = sum F . dv/dq_j'      (Kane's form; both are computed)
+ *
+ * At the material of a body that is at the place P just then, F . dv/dq_j' with
+ * v = r' + omega x (P - r): what rides along is the body, not P.
+ *
+ * A potential that may hold velocities gives -dV/dq + d/dt dV/dq'; a damper pulls with -c
+ * d' along its line: Q_j = -c d' dd/dq_j = -c (u.u') (u.du/dq_j) / u.u, u between the
+ * ends.
+ */
+#include "expr/calculus.h"
+#include "expr/print.h"
+#include "expr/tensor.h"
+#include "mech/scene/derived.h"
+
+/* dr/dq_i or, in Kane's form, dv/dq_i', of a place. */
+static qdot_expr
+partial(qdot_scene *s, qdot_expr r, size_t i, bool kane)
+{
+    if (kane)
+        return qdot_diff(s->pool, qdot_ddt(s->pool, r), qdot_mech_jet(s, i, 1));
+    return qdot_diff(s->pool, r, s->coordinates.at[i]);
+}
+
+/* The places of everything that has mass: their sum of m g . dr/dq. */
+static qdot_expr
+gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
+{
+    qdot_pool *pool = s->pool;
+    qdot_kinematics *kin;
+    qdot_expr Q;
+
+    (void)k;
+    if (kane) {
+        Q = QDOT_ZERO;
+        for (size_t p = 0; p < s->particles.n + s->bodies.n; p++) {
+            bool body = p >= s->particles.n;
+            const qdot_body *b = body ? &s->bodies.at[p - s->particles.n] : NULL;
+            qdot_expr m = body ? b->mass : s->particles.at[p].mass;
+            qdot_expr r = body ? b->position : s->particles.at[p].position;
+            qdot_expr v = partial(s, r, i, true);
+
+            for (size_t g = 0; g < s->gravities.n; g++)
+                Q = qdot_add(
+                    pool, Q,
+                    qdot_mul(pool, m, qdot_mech_dot(pool, s->gravities.at[g].e, v)));
+        }
+    } else {
+        kin = qdot_kinematics_get(s);
+        if (!kin)
+            return QDOT_NIL;
+        Q = qdot_kinematics_gravity(s, kin, &kin->dx[i]);
+    }
+    /* A mass that depends on q: V = -m g.r has a slope by m too. */
+    for (size_t p = 0; p < s->particles.n + s->bodies.n; p++) {
+        bool body = p >= s->particles.n;
+        const qdot_body *b = body ? &s->bodies.at[p - s->particles.n] : NULL;
+        qdot_expr m = body ? b->mass : s->particles.at[p].mass;
+        qdot_expr r = body ? b->position : s->particles.at[p].position, slope;
+
+        if (!(qdot_mech_holds(s, m) & QDOT_HAS_COORD))
+            continue;
+        slope = qdot_diff(pool, m, s->coordinates.at[i]);
+        for (size_t g = 0; g < s->gravities.n; g++)
+            Q = qdot_add(
+                pool, Q,
+                qdot_mul(pool, slope, qdot_mech_dot(pool, s->gravities.at[g].e, r)));
+    }
+    return Q;
+}
+
+static qdot_expr
+conservative(qdot_scene *s, qdot_expr V, size_t i, bool kane)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr v = qdot_mech_jet(s, i, 1);
+
+    if (qdot_mech_holds(s, V) & QDOT_HAS_VELOCITY)
+        return qdot_sub(pool, qdot_ddt(pool, qdot_diff(pool, V, v)),
+                        qdot_diff(pool, V, s->coordinates.at[i]));
+    return qdot_neg(pool, partial(s, V, i, kane));
+}
+
+static qdot_expr
+potential_force(qdot_scene *s, size_t k, size_t i, bool kane)
+{
+    return conservative(s, s->potentials.at[k].e, i, kane);
+}
+
+/* Pull of a link, a scalar along u, by u . du/dq: -(pull) u.du. */
+static qdot_expr
+along(qdot_scene *s, const qdot_link *link, size_t i, bool kane)
+{
+    qdot_expr u = qdot_value_sub(s->pool, link->at[0], link->at[1]);
+
+    return qdot_mech_dot(s->pool, u, partial(s, u, i, kane));
+}
+
+static qdot_expr
+spring_force(qdot_scene *s, size_t k, size_t i, bool kane)
+{
+    qdot_pool *pool = s->pool;
+    const qdot_link *spring = &s->springs.at[k];
+    qdot_expr d, pull = spring->stiffness;
+
+    if ((qdot_mech_holds(s, spring->stiffness) | qdot_mech_holds(s, spring->rest)) &
+        QDOT_HAS_COORD)
+        return conservative(s, qdot_spring_potential(s, k), i, kane);
+    if (!kane)
+        return qdot_neg(
+            pool, qdot_diff(pool, qdot_spring_potential(s, k), s->coordinates.at[i]));
+    if (spring->rest != QDOT_ZERO) {
+        d = qdot_sqrt(pool, qdot_link_square(s, false, k));
+        pull = qdot_mul(pool, pull,
+                        qdot_sub(pool, QDOT_ONE, qdot_div(pool, spring->rest, d)));
+    }
+    return qdot_neg(pool, qdot_mul(pool, pull, along(s, spring, i, true)));
+}
+
+/* e/2, a sum term by term: what is differentiated of a square has twos to lose. */
+static qdot_expr
+half(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr sum;
+
+    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_SUM)
+        return qdot_mul(pool, QDOT_HALF, e);
+    sum = qdot_mul(pool, QDOT_HALF, qdot_expr_arg(pool, e, 0));
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2)
+        sum = qdot_add(pool, sum,
+                       qdot_mul(pool,
+                                qdot_mul(pool, QDOT_HALF, qdot_expr_arg(pool, e, i + 1)),
+                                qdot_expr_arg(pool, e, i)));
+    return sum;
+}
+
+static qdot_expr
+damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
+{
+    qdot_pool *pool = s->pool;
+    const qdot_link *damper = &s->dampers.at[k];
+    qdot_expr square, u, rate, slope = along(s, damper, i, kane);
+
+    if (slope == QDOT_ZERO || slope == QDOT_NIL)
+        return slope;
+    if (qdot_mech_dimension(pool, damper->at[0]) == 1) {
+        u = qdot_sub(pool, damper->at[0], damper->at[1]);
+        rate = qdot_mul(pool, qdot_ddt(pool, u), partial(s, u, i, kane));
+        return qdot_neg(pool, qdot_mul(pool, damper->stiffness, rate));
+    }
+    /* By u.u simplified: u.u' and u.du/dq are half its derivatives. */
+    square = qdot_link_square(s, true, k);
+    rate = half(pool, qdot_ddt(pool, square));
+    if (!kane)
+        slope = half(pool, qdot_diff(pool, square, s->coordinates.at[i]));
+    return qdot_neg(pool, qdot_mul(pool, damper->stiffness,
+                                   qdot_div(pool, qdot_mul(pool, rate, slope), square)));
+}
+
+static qdot_expr
+dissipation_force(qdot_scene *s, size_t k, size_t i, bool kane)
+{
+    (void)kane;
+    return qdot_neg(s->pool,
+                    qdot_diff(s->pool, s->dissipations.at[k].e, qdot_mech_jet(s, i, 1)));
+}
+
+/* On the material of a body the place is carried along by nothing but the body. */
+static qdot_expr
+applied_force(qdot_scene *s, size_t k, size_t i, bool kane)
+{
+    const qdot_force *f = &s->forces.at[k];
+    qdot_expr v;
+
+    if (!f->material)
+        return qdot_mech_dot(s->pool, f->force, partial(s, f->point, i, kane));
+    v = kane ? qdot_diff(s->pool, qdot_scene_velocity(s, f->on, f->point),
+                         qdot_mech_jet(s, i, 1))
+             : qdot_body_partial_velocity(s, qdot_scene_find_body(s, f->on), f->point,
+                                          s->coordinates.at[i]);
+    return qdot_mech_dot(s->pool, f->force, v);
+}
+
+static qdot_expr
+torque_force(qdot_scene *s, size_t k, size_t i, bool kane)
+{
+    const qdot_torque *torque = &s->torques.at[k];
+    const qdot_body *b;
+    qdot_expr slope;
+
+    if (torque->coordinate != QDOT_NIL)
+        return torque->coordinate == s->coordinates.at[i] ? torque->torque : QDOT_ZERO;
+    b = &s->bodies.at[torque->body];
+    slope = kane ? qdot_diff(s->pool, qdot_body_spin(s, b), qdot_mech_jet(s, i, 1))
+                 : qdot_body_partial_spin(s, b, s->coordinates.at[i]);
+    return qdot_mech_dot(s->pool, torque->torque, slope);
+}
+
+/* --- the sources ----------------------------------------------------------------------
+ * */
+
+static size_t
+count_gravity(const qdot_scene *s)
+{
+    return s->gravities.n && s->particles.n + s->bodies.n;
+}
+
+#define COUNT(list)                                                                      \
+    static size_t count_##list(const qdot_scene *s)                                      \
+    {                                                                                    \
+        return s->list.n;                                                                \
+    }
+COUNT(potentials)
+COUNT(springs)
+COUNT(dampers)
+COUNT(dissipations)
+COUNT(forces)
+COUNT(torques)
+
+/* Fields act together: where there is one, its label. */
+static const char *
+gravity_name(const qdot_scene *s, size_t k)
+{
+    return s->gravities.n == 1 ? s->gravities.at[k].name : NULL;
+}
+
+static const char *
+potential_name(const qdot_scene *s, size_t k)
+{
+    return s->potentials.at[k].name;
+}
+
+static const char *
+dissipation_name(const qdot_scene *s, size_t k)
+{
+    return s->dissipations.at[k].name;
+}
+
+static const char *
+spring_name(const qdot_scene *s, size_t k)
+{
+    return s->springs.at[k].name;
+}
+
+static const char *
+damper_name(const qdot_scene *s, size_t k)
+{
+    return s->dampers.at[k].name;
+}
+
+static const char *
+force_name(const qdot_scene *s, size_t k)
+{
+    return s->forces.at[k].name ? s->forces.at[k].name : s->forces.at[k].on;
+}
+
+static const char *
+torque_name(const qdot_scene *s, size_t k)
+{
+    const qdot_torque *t = &s->torques.at[k];
+
+    return t->name                     ? t->name
+           : t->coordinate != QDOT_NIL ? qdot_expr_symbol(s->pool, t->coordinate)->name
+                                       : s->bodies.at[t->body].name;
+}
+
+/* What the k-th of a kind is called in an answer. */
+#define CALLED(list, word)                                                               \
+    static const char *list##_words(const qdot_scene *s, size_t k)                       \
+    {                                                                                    \
+        (void)s, (void)k;                                                                \
+        return word;                                                                     \
+    }
+CALLED(gravity, "gravity")
+CALLED(potential, "potential")
+CALLED(spring, "spring")
+CALLED(damper, "damper")
+CALLED(dissipation, "dissipation")
+CALLED(force, "force")
+#undef CALLED
+
+static const char *
+torque_words(const qdot_scene *s, size_t k)
+{
+    return s->torques.at[k].force ? "force" : "torque";
+}
+
+static const struct {
+    const char *(*words)(const qdot_scene *s, size_t k);
+    bool conservative; /* part of L where that is T - V */
+    size_t (*count)(const qdot_scene *s);
+    qdot_expr (*force)(qdot_scene *s, size_t k, size_t i, bool kane);
+    const char *(*name)(const qdot_scene *s, size_t k);
+} sources[] = {
+    {gravity_words, true, count_gravity, gravity_force, gravity_name},
+    {potential_words, true, count_potentials, potential_force, potential_name},
+    {spring_words, true, count_springs, spring_force, spring_name},
+    {damper_words, false, count_dampers, damper_force, damper_name},
+    {dissipation_words, false, count_dissipations, dissipation_force, dissipation_name},
+    {force_words, false, count_forces, applied_force, force_name},
+    {torque_words, false, count_torques, torque_force, torque_name},
+};
+enum { SOURCES = sizeof sources / sizeof *sources };
+
+static qdot_expr
+total(qdot_scene *s, size_t i, bool people, bool applied, bool kane)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr Q = QDOT_ZERO;
+    size_t parts = 0;
+
+    for (size_t a = 0; a < SOURCES; a++) {
+        if (applied && sources[a].conservative)
+            continue;
+        for (size_t k = 0; k < sources[a].count(s); k++) {
+            qdot_expr part = sources[a].force(s, k, i, kane);
+
+            if (part == QDOT_ZERO)
+                continue;
+            Q = qdot_add(pool, Q, people ? qdot_mech_alike(s, part) : part);
+            parts++;
+        }
+    }
+    return people && parts > 1 ? qdot_mech_alike(s, Q) : Q;
+}
+
+qdot_expr
+qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied)
+{
+    return total(s, i, people, applied, false);
+}
+
+qdot_expr
+qdot_force_but_gravity(qdot_scene *s, size_t i)
+{
+    qdot_expr Q = QDOT_ZERO;
+
+    for (size_t a = 0; a < SOURCES; a++)
+        for (size_t k = 0; sources[a].force != gravity_force && k < sources[a].count(s);
+             k++)
+            Q = qdot_add(s->pool, Q, sources[a].force(s, k, i, false));
+    return Q;
+}
+
+qdot_expr
+qdot_force_declared(qdot_scene *s, size_t i)
+{
+    qdot_expr Q = QDOT_ZERO;
+
+    for (size_t k = 0; k < s->forces.n; k++)
+        Q = qdot_add(s->pool, Q, applied_force(s, k, i, false));
+    for (size_t k = 0; k < s->torques.n; k++)
+        Q = qdot_add(s->pool, Q, torque_force(s, k, i, false));
+    return Q;
+}
+
+/* --- asked ----------------------------------------------------------------------------
+ * */
+
+qdot_expr
+qdot_mech_force(qdot_scene *s, qdot_expr q)
+{
+    qdot_derived *d;
+    size_t i;
+
+    if (!qdot_derived_index(s, q, &i))
+        return QDOT_NIL;
+    d = qdot_derived_get(s);
+    if (!qdot_derived_array(s, &d->force, d->n))
+        return QDOT_NIL;
+    if (d->force[i] != QDOT_NIL)
+        return d->force[i];
+    return d->force[i] = total(s, i, true, false, false);
+}
+
+qdot_expr
+qdot_mech_force_kane(qdot_scene *s, qdot_expr q)
+{
+    size_t i;
+
+    if (!qdot_derived_index(s, q, &i))
+        return QDOT_NIL;
+    return total(s, i, true, false, true);
+}
+
+qdot_expr
+qdot_mech_forces(qdot_scene *s)
+{
+    size_t n = s->coordinates.n;
+    qdot_expr *members = qdot_calloc(n + 1, sizeof *members), list;
+
+    if (!members)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < n; i++)
+        members[i] = qdot_mech_force(s, s->coordinates.at[i]);
+    list = qdot_list(s->pool, (uint32_t)n, members);
+    qdot_free(members);
+    return list;
+}
+
+qdot_status
+qdot_mech_forces_parts(qdot_scene *s, qdot_style style, qdot_text *out)
+{
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr q = s->coordinates.at[i];
+        for (size_t a = 0; a < SOURCES; a++)
+            for (size_t k = 0; k < sources[a].count(s); k++) {
+                qdot_expr part = qdot_mech_tidy(s, sources[a].force(s, k, i, false));
+                const char *name = sources[a].name(s, k);
+
+                QDOT_TRY(qdot_pool_check(s->pool));
+                if (part == QDOT_ZERO)
+                    continue;
+                QDOT_TRY(qdot_print_formula(s->pool, q, style, out));
+                qdot_text_format(out, ", %s%s%s: ", sources[a].words(s, k),
+                                 name ? " " : "", name ? name : "");
+                QDOT_TRY(qdot_print_formula(s->pool, part, style, out));
+                qdot_text_char(out, '\n');
+            }
+    }
+    return qdot_text_status(out);
+}
+
+qdot_expr
+qdot_mech_virtual_work(qdot_scene *s)
+{
+    qdot_expr W = QDOT_ZERO;
+
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr q = s->coordinates.at[i];
+
+        W = qdot_add(s->pool, W,
+                     qdot_mul(s->pool, qdot_mech_force(s, q),
+                              qdot_symbol_of(s->pool, QDOT_DELTA, q)));
+    }
+    return W;
+}

@@ -1,0 +1,315 @@
+/* body.c -- rigid bodies: R e_a are the body's axes in space, r the place of its centre.
+ *
+ *     r(P) = r + R P,    omega x = R' R^T,    v(X) = r' + omega x (X - r)
+ */
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/tensor.h"
+#include "mech/scene/derived.h"
+#include "mech/scene/scene.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+
+static qdot_expr
+turn(qdot_pool *pool, qdot_expr angle, uint32_t axis)
+{
+    qdot_expr c = qdot_fun1(pool, QDOT_COS, angle), s = qdot_fun1(pool, QDOT_SIN, angle);
+    qdot_expr minus = qdot_neg(pool, s), e[9];
+    uint32_t i = (axis + 1) % 3, j = (axis + 2) % 3;
+
+    for (int k = 0; k < 9; k++)
+        e[k] = QDOT_ZERO;
+    e[4 * axis] = QDOT_ONE;
+    e[3 * i + i] = e[3 * j + j] = c;
+    e[3 * i + j] = minus;
+    e[3 * j + i] = s;
+    return qdot_matrix(pool, 3, 3, e);
+}
+
+qdot_expr
+qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi)
+{
+    qdot_expr R = qdot_value_mul(pool, turn(pool, phi, 2), turn(pool, theta, 0));
+
+    return qdot_value_mul(pool, R, turn(pool, psi, 2));
+}
+
+static qdot_expr
+plane_turn(qdot_pool *pool, qdot_expr angle)
+{
+    qdot_expr c = qdot_fun1(pool, QDOT_COS, angle), s = qdot_fun1(pool, QDOT_SIN, angle);
+    qdot_expr e[4] = {c, qdot_neg(pool, s), s, c};
+
+    return qdot_matrix(pool, 2, 2, e);
+}
+
+/* R^T R = 1 and det R = 1, or the axes are no rigid body's. What is only undecided
+ * passes; constraints declared before (of a quaternion's length, say) may be used. */
+static qdot_status
+check_rotation(qdot_scene *s, qdot_expr R)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr RtR = qdot_value_mul(pool, qdot_transpose(pool, R), R);
+    qdot_expr *relations = NULL;
+    qdot_facts facts;
+    qdot_status status = qdot_pool_check(pool);
+
+    if (status == QDOT_OK)
+        status = qdot_constraint_facts(s, &relations, &facts);
+    for (uint32_t i = 0; i < 3 && status == QDOT_OK; i++)
+        for (uint32_t j = i; j < 3 && status == QDOT_OK; j++) {
+            qdot_decision seen;
+
+            status = qdot_decide_equal(pool, qdot_expr_arg(pool, RtR, 3 * i + j),
+                                       i == j ? QDOT_ONE : QDOT_ZERO, &facts, &seen);
+            if (status == QDOT_OK && seen.verdict == QDOT_REFUTED)
+                status = qdot_fail(QDOT_EDOMAIN,
+                                   "not a rotation: columns %u and %u are not %s", i + 1,
+                                   j + 1, i == j ? "of length 1" : "at right angles");
+        }
+    if (status == QDOT_OK) {
+        qdot_expr det = qdot_det(pool, R);
+        qdot_decision seen;
+
+        status = qdot_pool_check(pool);
+        if (status == QDOT_OK)
+            status = qdot_decide_equal(pool, det, QDOT_MINUS_ONE, &facts, &seen);
+        if (status == QDOT_OK && seen.verdict == QDOT_PROVED)
+            status = qdot_fail(QDOT_EDOMAIN, "not a rotation: a reflection");
+    }
+    qdot_free(relations);
+    return status;
+}
+
+/* Inertia as stored: a scalar, or a symmetric 3x3 MAT, about the centre of mass. */
+static qdot_status
+read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bool plane,
+             qdot_expr *inertia)
+{
+    qdot_pool *pool = s->pool;
+    uint32_t dim = plane ? 2 : 3;
+    qdot_expr I = given, P2 = QDOT_ZERO;
+
+    if (about != QDOT_NIL) {
+        if (qdot_mech_dimension(pool, about) != dim)
+            return qdot_fail(QDOT_ETYPE,
+                             "`about` takes a point of the body, %u components", dim);
+        P2 = qdot_mech_dot(pool, about, about);
+    }
+    if (plane) {
+        if (!qdot_expr_is_scalar(pool, I))
+            return qdot_fail(QDOT_ETYPE, "the inertia of a plane body is a number");
+        *inertia = qdot_sub(pool, I, qdot_mul(pool, mass, P2));
+        return qdot_pool_check(pool);
+    }
+    if (qdot_expr_kind(pool, I) == QDOT_VEC && qdot_expr_count(pool, I) == 3) {
+        qdot_expr e[9];
+
+        for (uint32_t k = 0; k < 9; k++)
+            e[k] = k % 4 ? QDOT_ZERO : qdot_expr_arg(pool, given, k / 4);
+        I = qdot_matrix(pool, 3, 3, e);
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_kind(pool, I) != QDOT_MAT || qdot_expr_count(pool, I) != 9 ||
+        qdot_expr_node(pool, I)->op != 3)
+        return qdot_fail(QDOT_ETYPE,
+                         "inertia is three moments or a symmetric 3x3 matrix");
+    for (uint32_t i = 0; i < 3; i++)
+        for (uint32_t j = i + 1; j < 3; j++)
+            if (qdot_expr_arg(pool, I, 3 * i + j) != qdot_expr_arg(pool, I, 3 * j + i))
+                return qdot_fail(QDOT_ETYPE, "an inertia matrix must be symmetric");
+    if (about != QDOT_NIL) {
+        qdot_expr e[9];
+
+        /* I_P = I + m (|P|^2 1 - P P^T) */
+        for (uint32_t i = 0; i < 3; i++)
+            for (uint32_t j = 0; j < 3; j++) {
+                qdot_expr PP = qdot_mul(pool, qdot_expr_arg(pool, about, i),
+                                        qdot_expr_arg(pool, about, j));
+                qdot_expr shift = qdot_sub(pool, i == j ? P2 : QDOT_ZERO, PP);
+
+                e[3 * i + j] = qdot_sub(pool, qdot_expr_arg(pool, I, 3 * i + j),
+                                        qdot_mul(pool, mass, shift));
+            }
+        I = qdot_matrix(pool, 3, 3, e);
+    }
+    *inertia = I;
+    return qdot_pool_check(pool);
+}
+
+/* No moment about the centre is known to be negative. */
+static qdot_status
+need_moments(qdot_scene *s, qdot_expr inertia, bool moved)
+{
+    bool scalar = qdot_expr_is_scalar(s->pool, inertia);
+
+    for (uint32_t k = 0; k < (scalar ? 1 : 9); k += 4) {
+        qdot_expr moment = scalar ? inertia : qdot_expr_arg(s->pool, inertia, k);
+
+        if ((qdot_expr_node(s->pool, moment)->sign & QDOT_NEG) != QDOT_NEG)
+            continue;
+        qdot_fail(QDOT_EDOMAIN, "a moment of inertia cannot be negative");
+        return moved ? qdot_hint("about P it is at least m |P|^2") : QDOT_EDOMAIN;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr inertia,
+                qdot_expr about, qdot_expr position, qdot_expr angle, qdot_expr rotation)
+{
+    qdot_pool *pool = s->pool;
+    bool plane = rotation == QDOT_NIL;
+    uint32_t space = qdot_scene_dimension(s), dim = qdot_mech_dimension(pool, position);
+    uint32_t moves = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |
+                     QDOT_HAS_MOMENTUM | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
+    qdot_body b = {NULL, mass, position, rotation, QDOT_NIL, plane ? angle : QDOT_NIL};
+
+    qdot_scene_forget_dropped(s);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_mech_stated(s))
+        return qdot_fail(QDOT_EINVAL, "the scene states its Lagrangian: a body beside it "
+                                      "would not count");
+    if (name && qdot_scene_has_label(s, name)) {
+        qdot_fail(QDOT_ENAME, "%s is a label of the scene already", name);
+        return qdot_hint("`remove %s` takes it out", name);
+    }
+    if (mass == QDOT_NIL || inertia == QDOT_NIL || position == QDOT_NIL ||
+        (plane && angle == QDOT_NIL))
+        return qdot_fail(QDOT_EINVAL, "a body needs its mass, inertia, position and %s",
+                         dim == 3 ? "rotation" : "angle");
+    if (!qdot_expr_is_scalar(pool, mass) || (plane && !qdot_expr_is_scalar(pool, angle)))
+        return qdot_fail(QDOT_ETYPE, "mass and angle of a body are numbers");
+    if (dim != (plane ? 2u : 3u))
+        return qdot_fail(QDOT_ETYPE, plane ? "a body with an angle is at (x, y)"
+                                           : "a body with a rotation is at (x, y, z)");
+    if (space && space != dim)
+        return qdot_fail(QDOT_ETYPE, "a body in %u dimensions in a scene of %u", dim,
+                         space);
+    if (!plane &&
+        (qdot_expr_kind(pool, rotation) != QDOT_MAT ||
+         qdot_expr_count(pool, rotation) != 9 || qdot_expr_node(pool, rotation)->op != 3))
+        return qdot_fail(QDOT_ETYPE, "a rotation in space is a 3x3 matrix");
+    if ((qdot_mech_holds(s, mass) | qdot_mech_holds(s, position) |
+         qdot_mech_holds(s, plane ? angle : rotation) | qdot_mech_holds(s, inertia) |
+         qdot_mech_holds(s, about)) &
+        moves)
+        return qdot_fail(QDOT_EINVAL, "a body is placed by coordinates and t only");
+    if ((qdot_mech_holds(s, inertia) | qdot_mech_holds(s, about)) & QDOT_HAS_COORD)
+        return qdot_fail(QDOT_EINVAL, "inertia is fixed in the body: it cannot hold "
+                                      "coordinates");
+    QDOT_TRY(read_inertia(s, mass, inertia, about, plane, &b.inertia));
+    QDOT_TRY(need_moments(s, b.inertia, about != QDOT_NIL));
+    if (plane)
+        b.rotation = plane_turn(pool, angle);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (!plane)
+        QDOT_TRY(check_rotation(s, rotation));
+    QDOT_TRY(qdot_scene_copy_text(s, name, &b.name));
+    QDOT_TRY(qdot_vec_push(&s->bodies, b));
+    s->version++;
+    return QDOT_OK;
+}
+
+qdot_expr
+qdot_scene_point(qdot_scene *s, const char *label, qdot_expr P)
+{
+    const qdot_body *b = qdot_scene_find_body(s, label);
+    uint32_t dim;
+
+    if (P == QDOT_NIL)
+        return qdot_scene_position(s, label);
+    if (!b && qdot_scene_find_particle(s, label))
+        return qdot_mech_fail(s, QDOT_ETYPE,
+                              "%s is a particle: it has no points of its own", label);
+    if (!b)
+        return qdot_mech_fail(s, QDOT_ENAME, "there is no body %s", label);
+    dim = qdot_mech_dimension(s->pool, b->position);
+    if (qdot_mech_dimension(s->pool, P) != dim)
+        return qdot_mech_fail(s, QDOT_ETYPE, "a point of %s has %u components", label,
+                              dim);
+    return qdot_value_add(s->pool, b->position, qdot_value_mul(s->pool, b->rotation, P));
+}
+
+/* The axial vector of A R^T, A a derivative of R; scalar in the plane: of the angle. */
+static qdot_expr
+axial(qdot_scene *s, const qdot_body *b, qdot_expr A)
+{
+    qdot_pool *pool = s->pool;
+    qdot_facts facts = qdot_scene_facts(s);
+    qdot_expr W = qdot_value_mul(pool, A, qdot_transpose(pool, b->rotation)), w[3];
+
+    if (W == QDOT_NIL)
+        return QDOT_NIL;
+    w[0] = qdot_simplify(pool, qdot_expr_arg(pool, W, 3 * 2 + 1), &facts);
+    w[1] = qdot_simplify(pool, qdot_expr_arg(pool, W, 3 * 0 + 2), &facts);
+    w[2] = qdot_simplify(pool, qdot_expr_arg(pool, W, 3 * 1 + 0), &facts);
+    return qdot_vector(pool, 3, w);
+}
+
+qdot_expr
+qdot_body_partial_spin(qdot_scene *s, const qdot_body *b, qdot_expr q)
+{
+    if (b->angle != QDOT_NIL)
+        return qdot_diff(s->pool, b->angle, q);
+    return axial(s, b, qdot_diff(s->pool, b->rotation, q));
+}
+
+qdot_expr
+qdot_body_spin(qdot_scene *s, const qdot_body *b)
+{
+    if (b->angle != QDOT_NIL)
+        return qdot_ddt(s->pool, b->angle);
+    return axial(s, b, qdot_ddt(s->pool, b->rotation));
+}
+
+qdot_expr
+qdot_scene_spin(qdot_scene *s, const char *label)
+{
+    const qdot_body *b = qdot_scene_find_body(s, label);
+
+    if (!b)
+        return qdot_mech_fail(s, QDOT_ENAME, "there is no body %s", label);
+    return qdot_body_spin(s, b);
+}
+
+/* v + w x (place - r), w a scalar in the plane. */
+static qdot_expr
+carried(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr v, qdot_expr w)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr arm = qdot_value_sub(pool, place, b->position), e[2];
+
+    if (v == QDOT_NIL || w == QDOT_NIL || arm == QDOT_NIL)
+        return QDOT_NIL;
+    if (b->angle == QDOT_NIL)
+        return qdot_value_add(pool, v, qdot_cross(pool, w, arm));
+    e[0] = qdot_neg(pool, qdot_mul(pool, w, qdot_expr_arg(pool, arm, 1)));
+    e[1] = qdot_mul(pool, w, qdot_expr_arg(pool, arm, 0));
+    return qdot_value_add(pool, v, qdot_vector(pool, 2, e));
+}
+
+qdot_expr
+qdot_body_partial_velocity(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr q)
+{
+    return carried(s, b, place, qdot_diff(s->pool, b->position, q),
+                   qdot_body_partial_spin(s, b, q));
+}
+
+qdot_expr
+qdot_scene_velocity(qdot_scene *s, const char *label, qdot_expr place)
+{
+    qdot_pool *pool = s->pool;
+    const qdot_body *b = qdot_scene_find_body(s, label);
+
+    if (!b)
+        return qdot_mech_fail(s, QDOT_ENAME, "there is no body %s", label);
+    if (place == QDOT_NIL)
+        return qdot_ddt(pool, b->position);
+    if (qdot_mech_dimension(pool, place) != qdot_mech_dimension(pool, b->position))
+        return qdot_mech_fail(s, QDOT_ETYPE,
+                              "a place in the space of %s has %u components", label,
+                              qdot_mech_dimension(pool, b->position));
+    return carried(s, b, place, qdot_ddt(pool, b->position), qdot_body_spin(s, b));
+}

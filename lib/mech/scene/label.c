@@ -1,0 +1,90 @@
+/* label.c -- things of the scene by their labels. */
+#include <string.h>
+
+#include "mech/scene/derived.h"
+#include "mech/scene/scene.h"
+
+const qdot_particle *
+qdot_scene_find_particle(const qdot_scene *s, const char *label)
+{
+    for (size_t i = 0; i < s->particles.n; i++)
+        if (qdot_label_is(s->particles.at[i].name, label))
+            return &s->particles.at[i];
+    return NULL;
+}
+
+const qdot_body *
+qdot_scene_find_body(const qdot_scene *s, const char *label)
+{
+    for (size_t i = 0; i < s->bodies.n; i++)
+        if (qdot_label_is(s->bodies.at[i].name, label))
+            return &s->bodies.at[i];
+    return NULL;
+}
+
+bool
+qdot_scene_has_label(const qdot_scene *s, const char *label)
+{
+    if (qdot_scene_find_particle(s, label) || qdot_scene_find_body(s, label))
+        return true;
+    for (size_t i = 0; i < s->gravities.n; i++)
+        if (qdot_label_is(s->gravities.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->potentials.n; i++)
+        if (qdot_label_is(s->potentials.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->dissipations.n; i++)
+        if (qdot_label_is(s->dissipations.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->springs.n; i++)
+        if (qdot_label_is(s->springs.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->dampers.n; i++)
+        if (qdot_label_is(s->dampers.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->forces.n; i++)
+        if (qdot_label_is(s->forces.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->torques.n; i++)
+        if (qdot_label_is(s->torques.at[i].name, label))
+            return true;
+    for (size_t i = 0; i < s->constraints.n; i++)
+        if (qdot_label_is(s->constraints.at[i].label, label))
+            return true;
+    for (size_t i = 0; i < s->events.n; i++)
+        if (qdot_label_is(s->events.at[i].name, label))
+            return true;
+    return false;
+}
+
+uint32_t
+qdot_scene_dimension(const qdot_scene *s)
+{
+    if (s->particles.n)
+        return qdot_mech_dimension(s->pool, s->particles.at[0].position);
+    if (s->bodies.n)
+        return qdot_mech_dimension(s->pool, s->bodies.at[0].position);
+    if (s->gravities.n)
+        return qdot_mech_dimension(s->pool, s->gravities.at[0].e);
+    if (s->forces.n)
+        return qdot_mech_dimension(s->pool, s->forces.at[0].point);
+    if (s->springs.n)
+        return qdot_mech_dimension(s->pool, s->springs.at[0].at[0]);
+    if (s->dampers.n)
+        return qdot_mech_dimension(s->pool, s->dampers.at[0].at[0]);
+    return 0;
+}
+
+qdot_expr
+qdot_scene_position(const qdot_scene *s, const char *label)
+{
+    const qdot_particle *p = qdot_scene_find_particle(s, label);
+    const qdot_body *b = p ? NULL : qdot_scene_find_body(s, label);
+
+    if (p)
+        return p->position;
+    if (b)
+        return b->position;
+    qdot_fail(QDOT_ENAME, "there is no particle or body %s", label ? label : "");
+    return qdot_pool_fail(s->pool);
+}

@@ -1,0 +1,286 @@
+/* scene-print.c -- the scene as the statements that declare it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "expr/print.h"
+#include "mech/scene/derived.h"
+#include "mech/scene/scene.h"
+
+static qdot_status
+put(const qdot_scene *s, qdot_expr e, qdot_text *out)
+{
+    return qdot_print(s->pool, e, QDOT_PLAIN, out);
+}
+
+qdot_status
+qdot_scene_print_domain(const qdot_scene *s, qdot_expr symbol, qdot_text *out)
+{
+    const qdot_symbol x = *qdot_expr_symbol(s->pool, symbol);
+
+    if (x.lo != QDOT_NIL && x.hi != QDOT_NIL) {
+        QDOT_TRY(put(s, x.lo, out));
+        qdot_text_add(out, x.lo_open ? " < " : " <= ");
+    }
+    qdot_text_add(out, x.name);
+    if (x.hi != QDOT_NIL) {
+        qdot_text_add(out, x.hi_open ? " < " : " <= ");
+        QDOT_TRY(put(s, x.hi, out));
+    } else if (x.lo != QDOT_NIL) {
+        qdot_text_add(out, x.lo_open ? " > " : " >= ");
+        QDOT_TRY(put(s, x.lo, out));
+    }
+    return QDOT_OK;
+}
+
+/* " mass M at R" */
+static qdot_status
+put_option(const qdot_scene *s, const char *word, qdot_expr e, qdot_text *out)
+{
+    qdot_text_format(out, " %s ", word);
+    return put(s, e, out);
+}
+
+static qdot_status
+put_inertia(const qdot_scene *s, qdot_expr I, qdot_text *out)
+{
+    qdot_pool *pool = s->pool;
+    bool diagonal = qdot_expr_kind(pool, I) == QDOT_MAT;
+
+    for (uint32_t k = 0; diagonal && k < 9; k++)
+        diagonal = k % 4 == 0 || qdot_expr_arg(pool, I, k) == QDOT_ZERO;
+    if (!diagonal)
+        return put_option(s, "inertia", I, out);
+    qdot_text_add(out, " inertia (");
+    for (uint32_t k = 0; k < 3; k++) {
+        qdot_text_add(out, k ? ", " : "");
+        QDOT_TRY(put(s, qdot_expr_arg(pool, I, 4 * k), out));
+    }
+    qdot_text_char(out, ')');
+    return QDOT_OK;
+}
+
+static qdot_status
+put_body(const qdot_scene *s, const qdot_body *b, qdot_text *out)
+{
+    qdot_text_format(out, "body %s", b->name ? b->name : "");
+    QDOT_TRY(put_option(s, "mass", b->mass, out));
+    QDOT_TRY(put_inertia(s, b->inertia, out));
+    QDOT_TRY(put_option(s, "at", b->position, out));
+    if (b->angle != QDOT_NIL)
+        QDOT_TRY(put_option(s, "angle", b->angle, out));
+    else
+        QDOT_TRY(put_option(s, "rotation", b->rotation, out));
+    qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+static qdot_status
+put_link(const qdot_scene *s, const qdot_link *link, bool damper, qdot_text *out)
+{
+    qdot_text_format(out, "%s%s%s between", damper ? "damper" : "spring",
+                     link->name ? " " : "", link->name ? link->name : "");
+    for (int k = 0; k < 2; k++) {
+        qdot_text_add(out, k ? ", " : " ");
+        if (link->end[k])
+            qdot_text_add(out, link->end[k]);
+        else
+            QDOT_TRY(put(s, link->at[k], out));
+    }
+    QDOT_TRY(put_option(s, damper ? "coefficient" : "stiffness", link->stiffness, out));
+    if (!damper && link->rest != QDOT_ZERO)
+        QDOT_TRY(put_option(s, "rest", link->rest, out));
+    qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+static qdot_status
+put_force(const qdot_scene *s, const qdot_force *f, qdot_text *out)
+{
+    qdot_text_add(out, "force ");
+    if (f->name)
+        qdot_text_format(out, "%s: ", f->name);
+    QDOT_TRY(put(s, f->force, out));
+    if (f->on)
+        qdot_text_format(out, " on %s", f->on);
+    if (f->material)
+        QDOT_TRY(put_option(s, "at material", f->point, out));
+    else if (!f->on)
+        QDOT_TRY(put_option(s, "at", f->point, out));
+    qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+static qdot_status
+put_torque(const qdot_scene *s, const qdot_torque *t, qdot_text *out)
+{
+    qdot_text_add(out, t->force ? "force " : "torque ");
+    if (t->name)
+        qdot_text_format(out, "%s: ", t->name);
+    QDOT_TRY(put(s, t->torque, out));
+    qdot_text_format(out, " on %s\n",
+                     t->coordinate != QDOT_NIL
+                         ? qdot_expr_symbol(s->pool, t->coordinate)->name
+                         : s->bodies.at[t->body].name);
+    return QDOT_OK;
+}
+
+/* Components of a vector constraint stand together; the place of one that was left out,
+ * as it holds identically, is 0 = 0. */
+static long
+component(const qdot_constraint *c)
+{
+    const char *comma = strchr(c->name, ',');
+
+    return comma ? strtol(comma + 1, NULL, 10) : 0;
+}
+
+static bool
+together(const qdot_constraint *a, const qdot_constraint *b)
+{
+    size_t stem = strcspn(a->name, ",");
+
+    return component(a) && component(b) > component(a) && strcspn(b->name, ",") == stem &&
+           strncmp(a->name, b->name, stem) == 0;
+}
+
+static qdot_status
+put_side(const qdot_scene *s, size_t from, size_t to, bool right, qdot_text *out)
+{
+    const qdot_constraint *c = s->constraints.at;
+    long place = 1, last = component(&c[to - 1]);
+
+    if (last == 0)
+        return put(s, right ? c[from].right : c[from].left, out);
+    if (last < 2)
+        last = 2; /* the others were left out */
+    qdot_text_char(out, '(');
+    for (size_t i = from; place <= last; place++) {
+        qdot_text_add(out, place > 1 ? ", " : "");
+        if (i < to && component(&c[i]) == place) {
+            QDOT_TRY(put(s, right ? c[i].right : c[i].left, out));
+            i++;
+        } else {
+            qdot_text_char(out, '0');
+        }
+    }
+    qdot_text_char(out, ')');
+    return QDOT_OK;
+}
+
+static qdot_status
+put_constraints(const qdot_scene *s, qdot_text *out)
+{
+    const qdot_constraint *c = s->constraints.at;
+
+    for (size_t i = 0, j; i < s->constraints.n; i = j) {
+        for (j = i + 1; j < s->constraints.n && together(&c[j - 1], &c[j]); j++)
+            ;
+        qdot_text_add(out, "constraint ");
+        if (c[i].label)
+            qdot_text_format(out, "%s: ", c[i].label);
+        QDOT_TRY(put_side(s, i, j, false, out));
+        qdot_text_add(out, " = ");
+        QDOT_TRY(put_side(s, i, j, true, out));
+        qdot_text_char(out, '\n');
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+put_statement(const qdot_scene *s, const char *word, qdot_expr e, qdot_text *out)
+{
+    qdot_text_format(out, "%s ", word);
+    QDOT_TRY(put(s, e, out));
+    qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+static qdot_status
+put_term(const qdot_scene *s, const char *word, const qdot_term *term, qdot_text *out)
+{
+    qdot_text_format(out, "%s ", word);
+    if (term->name)
+        qdot_text_format(out, "%s: ", term->name);
+    QDOT_TRY(put(s, term->e, out));
+    qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_scene_print_at(const qdot_scene *s, qdot_scene_kind kind, size_t k, qdot_text *out)
+{
+    switch (kind) {
+    case QDOT_GRAVITY: return put_term(s, "gravity", &s->gravities.at[k], out);
+    case QDOT_POTENTIAL: return put_term(s, "potential", &s->potentials.at[k], out);
+    case QDOT_SPRING: return put_link(s, &s->springs.at[k], false, out);
+    case QDOT_DAMPER: return put_link(s, &s->dampers.at[k], true, out);
+    case QDOT_DISSIPATION: return put_term(s, "dissipation", &s->dissipations.at[k], out);
+    case QDOT_FORCE:
+        if (k < s->forces.n)
+            return put_force(s, &s->forces.at[k], out);
+        /* fallthrough */
+    case QDOT_TORQUE:
+        return put_torque(s, &s->torques.at[qdot_scene_torque_at(s, kind, k)], out);
+    }
+    return QDOT_OK;
+}
+
+/* All of the kinds [from, to]. */
+static qdot_status
+put_kinds(const qdot_scene *s, qdot_scene_kind from, qdot_scene_kind to, qdot_text *out)
+{
+    for (qdot_scene_kind kind = from; kind <= to; kind++)
+        for (size_t k = 0; k < qdot_scene_count(s, kind); k++)
+            QDOT_TRY(qdot_scene_print_at(s, kind, k, out));
+    return QDOT_OK;
+}
+
+static qdot_status
+put_assumption(const qdot_scene *s, const qdot_assumption *said, qdot_text *out)
+{
+    bool strict = qdot_expr_node(s->pool, said->relation)->op == QDOT_LT;
+
+    if (!said->turned)
+        return put_statement(s, "assume", said->relation, out);
+    qdot_text_add(out, "assume ");
+    QDOT_TRY(put(s, qdot_expr_arg(s->pool, said->relation, 1), out));
+    qdot_text_add(out, strict ? " > " : " >= ");
+    QDOT_TRY(put(s, qdot_expr_arg(s->pool, said->relation, 0), out));
+    qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_scene_print(const qdot_scene *s, qdot_text *out)
+{
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_text_add(out, "coord ");
+        QDOT_TRY(qdot_scene_print_domain(s, s->coordinates.at[i], out));
+        qdot_text_char(out, '\n');
+    }
+    return qdot_scene_print_things(s, out);
+}
+
+qdot_status
+qdot_scene_print_things(const qdot_scene *s, qdot_text *out)
+{
+    for (size_t i = 0; i < s->assumed.n; i++)
+        QDOT_TRY(put_assumption(s, &s->assumed.at[i], out));
+    for (size_t i = 0; i < s->particles.n; i++) {
+        qdot_text_format(out, "particle %s",
+                         s->particles.at[i].name ? s->particles.at[i].name : "");
+        QDOT_TRY(put_option(s, "mass", s->particles.at[i].mass, out));
+        QDOT_TRY(put_option(s, "at", s->particles.at[i].position, out));
+        qdot_text_char(out, '\n');
+    }
+    for (size_t i = 0; i < s->bodies.n; i++)
+        QDOT_TRY(put_body(s, &s->bodies.at[i], out));
+    QDOT_TRY(put_kinds(s, QDOT_GRAVITY, QDOT_DISSIPATION, out));
+    if (s->lagrangian != QDOT_NIL)
+        QDOT_TRY(put_statement(s, "lagrangian", s->lagrangian, out));
+    QDOT_TRY(put_kinds(s, QDOT_FORCE, QDOT_TORQUE, out));
+    QDOT_TRY(put_constraints(s, out));
+    for (size_t i = 0; i < s->events.n; i++)
+        QDOT_TRY(qdot_event_print(s, &s->events.at[i], out));
+    return qdot_text_status(out);
+}

@@ -1,0 +1,109 @@
+/* remove.c -- things taken out of the scene by their labels, with what acted on them. */
+#include <string.h>
+
+#include "mech/scene/derived.h"
+#include "mech/scene/scene.h"
+
+qdot_status
+qdot_scene_drop(qdot_scene *s, const char *kind, const char *name)
+{
+    qdot_text text = {0};
+    char *copy;
+    qdot_status status;
+
+    qdot_text_add(&text, kind);
+    qdot_text_add(&text, name ? name : "");
+    status = qdot_text_status(&text);
+    copy = status == QDOT_OK ? qdot_strdup(qdot_text_str(&text)) : NULL;
+    qdot_text_clear(&text);
+    if (!copy)
+        return QDOT_ENOMEM;
+    if (qdot_vec_push(&s->dropped, copy) == QDOT_OK)
+        return QDOT_OK;
+    qdot_free(copy);
+    return QDOT_ENOMEM;
+}
+
+/* Keep the members for which `gone` is false. */
+#define FILTER(list, item, gone)                                                         \
+    do {                                                                                 \
+        size_t kept_ = 0;                                                                \
+        for (size_t i_ = 0; i_ < (list).n; i_++) {                                       \
+            __typeof__((list).at) item = &(list).at[i_];                                 \
+            if (gone) {                                                                  \
+                found = true;                                                            \
+            } else {                                                                     \
+                (list).at[kept_++] = *item;                                              \
+            }                                                                            \
+        }                                                                                \
+        (list).n = kept_;                                                                \
+    } while (0)
+
+/* Name, for the notice, what acts on the thing that goes. Before anything is taken out.
+ * */
+static qdot_status
+name_dependents(qdot_scene *s, const char *label, int body)
+{
+    for (size_t i = 0; i < s->springs.n; i++)
+        if (qdot_label_is(s->springs.at[i].end[0], label) ||
+            qdot_label_is(s->springs.at[i].end[1], label))
+            QDOT_TRY(s->springs.at[i].name
+                         ? qdot_scene_drop(s, "spring ", s->springs.at[i].name)
+                         : qdot_scene_drop(s, "a spring", NULL));
+    for (size_t i = 0; i < s->dampers.n; i++)
+        if (qdot_label_is(s->dampers.at[i].end[0], label) ||
+            qdot_label_is(s->dampers.at[i].end[1], label))
+            QDOT_TRY(s->dampers.at[i].name
+                         ? qdot_scene_drop(s, "damper ", s->dampers.at[i].name)
+                         : qdot_scene_drop(s, "a damper", NULL));
+    for (size_t i = 0; i < s->forces.n; i++)
+        if (qdot_label_is(s->forces.at[i].on, label))
+            QDOT_TRY(s->forces.at[i].name
+                         ? qdot_scene_drop(s, "force ", s->forces.at[i].name)
+                         : qdot_scene_drop(s, "a force", NULL));
+    for (size_t i = 0; i < s->torques.n; i++)
+        if (body >= 0 && s->torques.at[i].coordinate == QDOT_NIL &&
+            s->torques.at[i].body == body)
+            QDOT_TRY(s->torques.at[i].name
+                         ? qdot_scene_drop(s, "torque ", s->torques.at[i].name)
+                         : qdot_scene_drop(s, "a torque", NULL));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_scene_remove(qdot_scene *s, const char *label)
+{
+    const qdot_body *b = qdot_scene_find_body(s, label);
+    int body = b ? (int)(b - s->bodies.at) : -1;
+    bool found = false, on_thing = b || qdot_scene_find_particle(s, label);
+
+    qdot_scene_forget_dropped(s);
+    if (qdot_scene_find_event(s, label)) { /* what was derived still holds */
+        FILTER(s->events, p, qdot_label_is(p->name, label));
+        return found ? QDOT_OK : QDOT_EFAILED;
+    }
+    if (!qdot_scene_has_label(s, label))
+        return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
+    if (on_thing)
+        QDOT_TRY(name_dependents(s, label, body));
+    FILTER(s->particles, p, qdot_label_is(p->name, label));
+    FILTER(s->bodies, p, qdot_label_is(p->name, label));
+    FILTER(s->springs, p,
+           qdot_label_is(p->name, label) ||
+               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))));
+    FILTER(s->dampers, p,
+           qdot_label_is(p->name, label) ||
+               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))));
+    FILTER(s->forces, p, qdot_label_is(p->name, label) || (on_thing && qdot_label_is(p->on, label)));
+    FILTER(s->torques, p,
+           qdot_label_is(p->name, label) ||
+               (body >= 0 && p->coordinate == QDOT_NIL && p->body == body));
+    for (size_t i = 0; body >= 0 && i < s->torques.n; i++)
+        s->torques.at[i].body -= s->torques.at[i].body > body;
+    FILTER(s->gravities, p, qdot_label_is(p->name, label));
+    FILTER(s->potentials, p, qdot_label_is(p->name, label));
+    FILTER(s->dissipations, p, qdot_label_is(p->name, label));
+    FILTER(s->constraints, p, qdot_label_is(p->label, label));
+    s->version++;
+    return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
+}

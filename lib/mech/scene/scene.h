@@ -1,0 +1,228 @@
+/* scene.h -- what a person declared: coordinates, r(q, t), masses, forces, constraints.
+ *
+ * A scene owns its arrays and texts and borrows the pool; texts stay as they are till its end, also
+ * those of things taken out again. Nothing is derived here; mech/dynamics/quantity.h
+ * derives on demand and keeps what it derived until the scene changes (qdot_scene.version).
+ * Vectors are VECs of 2 or 3 components; in one dimension plain scalars.
+ */
+#ifndef QDOT_MECH_SCENE_H
+#define QDOT_MECH_SCENE_H
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/expr.h"
+#include "normal/field/facts.h"
+
+typedef struct {
+    char *name;
+    qdot_expr mass, position;
+} qdot_particle;
+
+typedef struct {
+    char *name;
+    qdot_expr mass, position; /* centre of mass, in 2 or 3 dimensions */
+    qdot_expr rotation;       /* a 2x2 or 3x3 MAT: its columns the body's axes in space */
+    qdot_expr inertia;        /* plane: a scalar; space: a symmetric 3x3 MAT, body axes, about the
+                                 centre of mass */
+    qdot_expr angle;          /* plane: the declared angle; nil in space */
+} qdot_body;
+
+typedef struct {
+    char *name; /* NULL: no label */
+    qdot_expr at[2]; /* the ends: positions */
+    char *end[2];    /* their labels, NULL for a point */
+    qdot_expr stiffness, rest; /* spring; of a damper: coefficient, nil */
+} qdot_link;
+
+/* A term of V, a term of the Rayleigh function, or a uniform field. */
+typedef struct {
+    char *name; /* NULL: no label */
+    qdot_expr e;
+} qdot_term;
+
+typedef struct {
+    char *name;   /* NULL: no label */
+    qdot_expr force; /* vector (or scalar in 1-D) */
+    qdot_expr point; /* where it acts: a position */
+    char *on;     /* label of the particle or body, NULL for a point */
+    bool material; /* on the material of body `on` that is at `point` just then:
+                      Q = F . dv/dq', v = velocity(on, point); else Q = F . d(point)/dq */
+} qdot_force;
+
+typedef struct {
+    char *name;       /* NULL */
+    qdot_expr torque; /* scalar; vector for a spatial body */
+    qdot_expr coordinate; /* a generalized force on this coordinate; nil: */
+    bool force;           /* it was declared with `force` */
+    int body;             /* on this body, through its spin */
+} qdot_torque;
+
+typedef enum { QDOT_HOLONOMIC, QDOT_VELOCITY, QDOT_ACCELERATION } qdot_constraint_kind;
+
+typedef struct {
+    char *name;       /* "rod", "pin, 1" for a component; "1", "2" ... without label */
+    char *label;      /* "rod", "pin"; NULL without label */
+    qdot_expr f;      /* left - right = 0 */
+    qdot_expr left, right;
+    qdot_constraint_kind kind; /* the highest derivative f holds */
+    qdot_expr multiplier;      /* the symbol lambda[name] */
+} qdot_constraint;
+
+/* A moment of a run: left = right. It is no part of the mechanics. */
+typedef struct {
+    char *name;
+    qdot_expr left, right;
+    int way;   /* left - right goes 1 up, -1 down as t grows, 0 either way */
+    bool stop; /* the run ends there */
+    qdot_vec(qdot_expr) targets, values; /* q, q' or a parameter becomes the value, all at
+                                            once */
+} qdot_event;
+
+/* What `assume` said, as it was said. */
+typedef struct {
+    qdot_expr relation;
+    bool turned; /* b > a, of the relation a < b */
+} qdot_assumption;
+
+typedef struct qdot_derived qdot_derived; /* mech/dynamics/quantity.c */
+
+typedef struct {
+    qdot_pool *pool;  /* borrowed */
+    qdot_arena *texts;
+    uint64_t version; /* grows with every change */
+    qdot_vec(qdot_expr) coordinates;
+    qdot_vec(qdot_particle) particles;
+    qdot_vec(qdot_body) bodies;
+    qdot_vec(qdot_term) gravities;    /* vectors: fields that add up, one without label */
+    qdot_vec(qdot_term) potentials;   /* terms of V declared with `potential` */
+    qdot_vec(qdot_link) springs, dampers;
+    qdot_vec(qdot_term) dissipations; /* terms of the Rayleigh function */
+    qdot_vec(qdot_force) forces;
+    qdot_vec(qdot_torque) torques;
+    qdot_vec(qdot_constraint) constraints;
+    qdot_vec(qdot_event) events;
+    qdot_vec(qdot_assumption) assumed;
+    qdot_vec(qdot_expr) conditions; /* its inequalities */
+    qdot_expr lagrangian;           /* stated; nil: T - V */
+    qdot_vec(char *) dropped;       /* what the latest call left out, for a notice: components of
+                                       a constraint that hold identically ("pin, 2"); what acted
+                                       on a removed thing ("spring s1", "a force") */
+    qdot_derived *derived;          /* owned; what was derived for `version` */
+} qdot_scene;
+
+qdot_scene *qdot_scene_new(qdot_pool *pool); /* NULL: no memory */
+void qdot_scene_free(qdot_scene *scene);
+
+/* Adders: check kinds and dimensions (QDOT_ETYPE), name clashes among labels (QDOT_ENAME), and
+ * that L is not stated beside particles (QDOT_EINVAL). Names are copied; NULL where allowed. On
+ * error the scene is unchanged. */
+QDOT_MUST_CHECK qdot_status qdot_scene_coordinate(qdot_scene *s, qdot_expr q);
+QDOT_MUST_CHECK qdot_status qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass,
+                                                qdot_expr position);
+/* Plane: rotation nil and angle given; inertia a scalar. Space: rotation a 3x3 MAT; inertia a VEC of
+ * three moments or a symmetric MAT; about (nil: the centre of mass) body-fixed: the parallel axis
+ * theorem is taken off. */
+QDOT_MUST_CHECK qdot_status qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass,
+                                            qdot_expr inertia, qdot_expr about,
+                                            qdot_expr position, qdot_expr angle,
+                                            qdot_expr rotation);
+/* What may be declared without a label, in the order of `scene`. */
+typedef enum {
+    QDOT_GRAVITY,
+    QDOT_POTENTIAL,
+    QDOT_SPRING,
+    QDOT_DAMPER,
+    QDOT_DISSIPATION,
+    QDOT_FORCE, /* on a particle, a body, at a place; then those on coordinates */
+    QDOT_TORQUE
+} qdot_scene_kind;
+
+/* A gravity, potential or dissipation with its label (NULL: none). A gravity without label takes
+ * the place of the one without label before. */
+QDOT_MUST_CHECK qdot_status qdot_scene_term(qdot_scene *s, qdot_scene_kind kind,
+                                            const char *name, qdot_expr e);
+/* The same without label. */
+QDOT_MUST_CHECK qdot_status qdot_scene_gravity(qdot_scene *s, qdot_expr field);
+QDOT_MUST_CHECK qdot_status qdot_scene_potential(qdot_scene *s, qdot_expr V);
+QDOT_MUST_CHECK qdot_status qdot_scene_spring(qdot_scene *s, const qdot_link *spring);
+QDOT_MUST_CHECK qdot_status qdot_scene_damper(qdot_scene *s, const qdot_link *damper);
+QDOT_MUST_CHECK qdot_status qdot_scene_dissipation(qdot_scene *s, qdot_expr D);
+/* material: QDOT_EINVAL unless `on` is a body. */
+QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *force);
+QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
+QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
+/* f = left - right; scalars, or VECs of equal size (one constraint a component: "pin, 1").
+ * Components proved to hold identically are left out and named in s->dropped. Without label the
+ * constraint is called by its number. QDOT_EINVAL: no coordinate in it, or a third derivative. */
+QDOT_MUST_CHECK qdot_status qdot_scene_constraint(qdot_scene *s, const char *label,
+                                                  qdot_expr left, qdot_expr right);
+/* An event; everything is copied. QDOT_EINVAL: it holds neither coordinate nor time, or what a run
+ * does not know; a target twice. */
+QDOT_MUST_CHECK qdot_status qdot_scene_event(qdot_scene *s, const qdot_event *event);
+const qdot_event *qdot_scene_find_event(const qdot_scene *s, const char *label);
+/* The first event that does more than be noted: ends a run or sets something; NULL: none. */
+const qdot_event *qdot_scene_acting_event(const qdot_scene *s);
+/* An equation or inequality the engine may use; turned: a < b was written b > a. QDOT_ETYPE: it is
+ * neither; QDOT_EINVAL: it can never hold. */
+QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned);
+/* Take the thing of that label out again. What was declared to act on a removed particle or body
+ * goes with it, named in s->dropped. */
+QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
+/* How many of a kind there are, with and without label; the k-th, from 0, taken out. */
+size_t qdot_scene_count(const qdot_scene *s, qdot_scene_kind kind);
+QDOT_MUST_CHECK qdot_status qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k);
+/* Whether the latest of a kind says what one before it says, both without label. QDOT_FORCE: on a
+ * particle, a body or at a place; QDOT_TORQUE: also those declared with `force`. */
+bool qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind);
+
+/* The arrays of what is declared, one like the other: `size` bytes an item, which may be copied as
+ * it is. With `lagrangian` they are the state of a scene: who keeps a copy of all can go back to it,
+ * and then counts `version` on. */
+enum { QDOT_SCENE_PARTS = 15 };
+typedef struct {
+    void *at;            /* the pointer to the items */
+    size_t *n, *capacity, size;
+} qdot_scene_part;
+qdot_scene_part qdot_scene_part_at(qdot_scene *s, size_t k);
+/* Whether what is derived depends on part k. */
+bool qdot_scene_part_counts(size_t k);
+
+/* Rotation matrix Rz(phi) Rx(theta) Rz(psi). */
+qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi);
+
+/* A symbol by another expression, in everything declared. */
+QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
+
+/* By label; NULL if there is none. */
+const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);
+const qdot_body *qdot_scene_find_body(const qdot_scene *s, const char *label);
+bool qdot_scene_has_label(const qdot_scene *s, const char *label);
+/* Position of a particle or body; nil and QDOT_ENAME if there is none. */
+qdot_expr qdot_scene_position(const qdot_scene *s, const char *label);
+/* point(body, P): where the body-fixed P is; of a particle: P must be absent. spin(body): scalar
+ * in the plane, VEC in inertial axes in space. velocity(body, P): of its material at place P. */
+qdot_expr qdot_scene_point(qdot_scene *s, const char *body, qdot_expr P);
+qdot_expr qdot_scene_spin(qdot_scene *s, const char *body);
+qdot_expr qdot_scene_velocity(qdot_scene *s, const char *body, qdot_expr place);
+/* Bodies within which a place moves, by their labels, "a, b": no coordinate but theirs is in it, and
+ * d(place)/dt is proved to differ from the velocity of the material there. Nothing is appended for
+ * the place of a particle and for one that is fixed in a body. body: only this one is looked at;
+ * NULL: all. */
+QDOT_MUST_CHECK qdot_status qdot_scene_moves_within(qdot_scene *s, qdot_expr place,
+                                                    const char *body, qdot_text *out);
+
+/* The scene's facts for the engine (borrowed, valid until the scene changes). */
+qdot_facts qdot_scene_facts(const qdot_scene *s);
+
+/* `scene` printed: every declaration as a statement that parses back, a line each (plain style). */
+QDOT_MUST_CHECK qdot_status qdot_scene_print(const qdot_scene *s, qdot_text *out);
+/* The same without the coordinates. */
+QDOT_MUST_CHECK qdot_status qdot_scene_print_things(const qdot_scene *s, qdot_text *out);
+/* A symbol with its domain, "0 < theta < pi". */
+QDOT_MUST_CHECK qdot_status qdot_scene_print_domain(const qdot_scene *s, qdot_expr x,
+                                                    qdot_text *out);
+/* The line of the k-th of a kind, from 0. */
+QDOT_MUST_CHECK qdot_status qdot_scene_print_at(const qdot_scene *s, qdot_scene_kind kind,
+                                                size_t k, qdot_text *out);
+
+#endif

@@ -1,0 +1,421 @@
+/* equilibrium-numeric.c -- places of rest in numbers: Levenberg's and Marquardt's steps from many
+ * starts, each place proved (normal/solve/isolate.h).
+ *
+ * Starts lie within the declared domains, a full turn of an angle, and else within +-RANGE of several sizes.
+ * Multipliers begin with the values that leave least of the equations there; so what is
+ * searched through is the coordinates alone. A force that only fades, far away, leaves Newton's
+ * steps as long as the distance: no place to prove. */
+#include <math.h>
+
+#include <gsl/gsl_linalg.h>
+
+#include "base/interrupt.h"
+#include "mech/study/equilibrium-rest.h"
+#include "normal/solve/isolate.h"
+
+enum { STARTS = 240, STEPS = 60, MOST = 100, NEWTON = 6 };
+
+/* How far starts go, by turns. */
+static const double ranges[] = {1.5, 4, 1.5, 12, 1.5, 4, 40, 100};
+enum { RANGES = sizeof ranges / sizeof *ranges };
+
+typedef struct {
+    qdot_pool *pool;
+    size_t n, slopes;
+    size_t coordinates;      /* the first of the unknowns; then multipliers */
+    const qdot_expr *u;
+    qdot_expr *e;            /* [n + slopes] residuals, then those slopes that are not 0 */
+    size_t *row, *column;    /* [slopes] */
+    double *lo, *hi;         /* [n] domains */
+    bool *angle;             /* [n] a full turn changes nothing */
+    double *value;           /* [n + slopes] at x */
+    double *x, *try, *step;  /* [n] */
+    double *rhs;             /* [n] */
+    gsl_matrix *J, *A;       /* slopes whole; J^T J + damping */
+    gsl_permutation *order;
+} problem;
+
+/* --- the problem ---------------------------------------------------------------------- */
+
+static double
+bound(const qdot_pool *pool, qdot_expr e, double otherwise)
+{
+    double v;
+
+    if (e == QDOT_NIL ||
+        qdot_generic_evaluate(pool, 1, &e, 0, NULL, NULL, 1, &v) != QDOT_OK ||
+        qdot_expr_node(pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN)
+        return otherwise;
+    return v;
+}
+
+static qdot_status
+problem_begin(problem *p, const qdot_expr *r)
+{
+    size_t n = p->n;
+
+    p->e = qdot_calloc(n + n * n + 1, sizeof *p->e);
+    p->row = qdot_calloc(2 * n * n + 1, sizeof *p->row);
+    p->value = qdot_calloc(n + n * n + 6 * n + 1, sizeof *p->value);
+    p->angle = qdot_calloc(n + 1, sizeof *p->angle);
+    p->J = gsl_matrix_alloc(n, n);
+    p->A = gsl_matrix_alloc(n, n);
+    p->order = gsl_permutation_alloc(n);
+    if (p->e == NULL || p->row == NULL || p->value == NULL || p->angle == NULL ||
+        p->J == NULL || p->A == NULL || p->order == NULL)
+        return QDOT_ENOMEM;
+    p->column = p->row + n * n;
+    p->x = p->value + n + n * n;
+    p->try = p->x + n;
+    p->step = p->try + n;
+    p->rhs = p->step + n;
+    p->lo = p->rhs + n;
+    p->hi = p->lo + n;
+    for (size_t i = 0; i < n; i++) {
+        p->e[i] = r[i];
+        for (size_t j = 0; j < n; j++) {
+            qdot_expr slope = qdot_diff(p->pool, r[i], p->u[j]);
+
+            if (slope == QDOT_ZERO)
+                continue;
+            p->e[n + p->slopes] = slope;
+            p->row[p->slopes] = i;
+            p->column[p->slopes++] = j;
+        }
+    }
+    QDOT_TRY(qdot_pool_check(p->pool));
+    for (size_t i = 0; i < n; i++) {
+        const qdot_symbol *q = qdot_expr_symbol(p->pool, p->u[i]);
+
+        p->lo[i] = bound(p->pool, q->lo, -INFINITY);
+        p->hi[i] = bound(p->pool, q->hi, INFINITY);
+    }
+    return QDOT_OK;
+}
+
+static void
+problem_end(problem *p)
+{
+    qdot_free(p->e);
+    qdot_free(p->row);
+    qdot_free(p->value);
+    qdot_free(p->angle);
+    gsl_matrix_free(p->J);
+    gsl_matrix_free(p->A);
+    gsl_permutation_free(p->order);
+}
+
+/* The residuals at x, with the slopes if wanted: their largest, INFINITY where one has no value. */
+static qdot_status
+evaluate(problem *p, const double *x, bool slopes, double *most)
+{
+    size_t m = p->n + (slopes ? p->slopes : 0);
+
+    QDOT_TRY(qdot_generic_evaluate(p->pool, m, p->e, p->n, p->u, x, 1, p->value));
+    *most = 0;
+    for (size_t i = 0; i < m; i++)
+        *most = !isfinite(p->value[i]) ? INFINITY
+                : i < p->n             ? fmax(*most, fabs(p->value[i]))
+                                       : *most;
+    if (!slopes || isinf(*most))
+        return QDOT_OK;
+    gsl_matrix_set_zero(p->J);
+    for (size_t k = 0; k < p->slopes; k++)
+        gsl_matrix_set(p->J, p->row[k], p->column[k], p->value[p->n + k]);
+    return QDOT_OK;
+}
+
+static double
+square(const problem *p)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < p->n; i++)
+        sum += p->value[i] * p->value[i];
+    return sum;
+}
+
+/* Which coordinates the equations repeat in after a full turn: at two places, to rounding. */
+static qdot_status
+find_angles(problem *p)
+{
+    for (size_t k = 0; k < p->coordinates; k++) {
+        p->angle[k] = isinf(p->lo[k]) && isinf(p->hi[k]);
+        for (int at = 1; at <= 2 && p->angle[k]; at++) {
+            double most, off = 0, *before = p->try;
+
+            for (size_t i = 0; i < p->n; i++)
+                p->x[i] = qdot_generic_value(p->pool, p->u[i], (uint64_t)at);
+            QDOT_TRY(evaluate(p, p->x, false, &most));
+            for (size_t i = 0; i < p->n; i++)
+                before[i] = p->value[i];
+            p->x[k] += 2 * M_PI;
+            QDOT_TRY(evaluate(p, p->x, false, &most));
+            for (size_t i = 0; i < p->n; i++)
+                off = fmax(off, fabs(p->value[i] - before[i]));
+            p->angle[k] = off < 1e-10 * fmax(1, most); /* no value: no angle */
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- steps -------------------------------------------------------------------------------- */
+
+/* step = -(J^T J + by)^-1 J^T r over the unknowns from `first` on; false where that fails. */
+static bool
+damped_step(problem *p, size_t first, double by)
+{
+    size_t m = p->n - first;
+    gsl_matrix_view J = gsl_matrix_submatrix(p->J, 0, first, p->n, m),
+                    A = gsl_matrix_submatrix(p->A, 0, 0, m, m);
+    gsl_vector_view step = gsl_vector_view_array(p->step + first, m);
+
+    for (size_t i = 0; i < m; i++) {
+        double sum = 0;
+
+        for (size_t k = 0; k < p->n; k++)
+            sum -= gsl_matrix_get(&J.matrix, k, i) * p->value[k];
+        p->step[first + i] = sum;
+        for (size_t j = 0; j <= i; j++) {
+            sum = 0;
+            for (size_t k = 0; k < p->n; k++)
+                sum += gsl_matrix_get(&J.matrix, k, i) * gsl_matrix_get(&J.matrix, k, j);
+            gsl_matrix_set(&A.matrix, i, j, sum);
+            gsl_matrix_set(&A.matrix, j, i, sum);
+        }
+    }
+    for (size_t i = 0; i < m; i++)
+        gsl_matrix_set(&A.matrix, i, i, gsl_matrix_get(&A.matrix, i, i) * (1 + by) + by * 1e-3);
+    return gsl_linalg_cholesky_decomp1(&A.matrix) == GSL_SUCCESS &&
+           gsl_linalg_cholesky_svx(&A.matrix, &step.vector) == GSL_SUCCESS;
+}
+
+/* Newton's step by LU; false where J is singular. */
+static bool
+newton_step(problem *p)
+{
+    gsl_vector_view step = gsl_vector_view_array(p->step, p->n);
+    int sign;
+
+    for (size_t i = 0; i < p->n; i++)
+        p->step[i] = -p->value[i];
+    if (gsl_linalg_LU_decomp(p->J, p->order, &sign) != GSL_SUCCESS ||
+        gsl_linalg_LU_svx(p->J, p->order, &step.vector) != GSL_SUCCESS)
+        return false;
+    for (size_t i = 0; i < p->n; i++)
+        if (!isfinite(p->step[i]))
+            return false;
+    return true;
+}
+
+static void
+begin_at(problem *p, uint64_t start)
+{
+    for (size_t i = 0; i < p->n; i++) {
+        /* of two seeds: what a name says and what the start says do not go together */
+        double v = qdot_generic_value(p->pool, p->u[i], start),
+               range = p->angle[i] ? M_PI : ranges[start % RANGES];
+
+        if (isinf(p->lo[i]) && isinf(p->hi[i]))
+            v *= range / 1.5;
+        else if (isinf(p->hi[i]))
+            v = p->lo[i] + (v - p->lo[i]) * range / 1.5;
+        else if (isinf(p->lo[i]))
+            v = p->hi[i] - (p->hi[i] - v) * range / 1.5;
+        p->x[i] = i < p->coordinates ? v : 0;
+    }
+}
+
+typedef enum { NOWHERE, CANDIDATE, FLAT } end; /* FLAT: the equations hold, their slopes are singular */
+
+/* Whether what is left of the equations is rounding, beside what their slopes make of x. */
+static bool
+is_rounding(const problem *p, double most)
+{
+    double scale = 0;
+
+    for (size_t k = 0; k < p->slopes; k++)
+        scale = fmax(scale, fabs(p->value[p->n + k]) * fmax(fabs(p->x[p->column[k]]), 1e-3));
+    return most <= 1e-12 * scale;
+}
+
+static qdot_status
+descend(problem *p, end *how)
+{
+    double most, before, by = 1e-2, length = INFINITY;
+    bool holds;
+
+    *how = NOWHERE;
+    QDOT_TRY(evaluate(p, p->x, true, &most));
+    if (isfinite(most) && p->n > p->coordinates && damped_step(p, p->coordinates, 1e-12)) {
+        for (size_t i = p->coordinates; i < p->n; i++)
+            p->x[i] += p->step[i];
+        QDOT_TRY(evaluate(p, p->x, true, &most));
+    }
+    for (int k = 0; k < STEPS && isfinite(most) && most > 0; k++) {
+        before = square(p);
+        if (!damped_step(p, 0, by)) {
+            by = fmax(10 * by, 1e-8);
+            continue;
+        }
+        length = 0;
+        for (size_t i = 0; i < p->n; i++) {
+            p->try[i] = p->x[i] + p->step[i];
+            length = fmax(length, fabs(p->step[i]) / fmax(fabs(p->x[i]), 1e-3));
+        }
+        QDOT_TRY(evaluate(p, p->try, true, &most));
+        if (isfinite(most) && square(p) < before) {
+            for (size_t i = 0; i < p->n; i++)
+                p->x[i] = p->try[i];
+            by = fmax(by * 0.1, 1e-14);
+            if (length < 1e-9)
+                break;
+        } else {
+            by *= 10;
+            QDOT_TRY(evaluate(p, p->x, true, &most));
+            if (by > 1e12)
+                break;
+        }
+    }
+    if (!isfinite(most))
+        return QDOT_OK;
+    holds = is_rounding(p, most);
+    length = INFINITY;
+    for (int k = 0; k < NEWTON; k++) {
+        if (!newton_step(p))
+            break;
+        length = 0;
+        for (size_t i = 0; i < p->n; i++)
+            length = fmax(length, fabs(p->step[i]) / fmax(fabs(p->x[i]), 1e-3));
+        if (length > 0.1)
+            break;
+        for (size_t i = 0; i < p->n; i++)
+            p->x[i] += p->step[i];
+        QDOT_TRY(evaluate(p, p->x, true, &most));
+        if (!isfinite(most))
+            return QDOT_OK;
+        if (length < 1e-12)
+            break;
+    }
+    *how = length < 1e-7 ? CANDIDATE : holds ? FLAT : NOWHERE;
+    return QDOT_OK;
+}
+
+/* --- what was found --------------------------------------------------------------------- */
+
+/* Angles turned into -pi < q <= pi; whether x lies within the domains. */
+static bool
+settle(const problem *p, double *x)
+{
+    for (size_t i = 0; i < p->n; i++) {
+        if (p->angle[i])
+            x[i] -= 2 * M_PI * ceil((x[i] - M_PI) / (2 * M_PI) - 1e-9);
+        if (x[i] <= p->lo[i] || x[i] >= p->hi[i])
+            return false;
+    }
+    return true;
+}
+
+static bool
+is_new(const double *found, size_t count, size_t n, const double *x)
+{
+    for (size_t k = 0; k < count; k++) {
+        double apart = 0;
+
+        for (size_t i = 0; i < n; i++)
+            apart = fmax(apart, fabs(found[k * n + i] - x[i]) / fmax(1, fabs(x[i])));
+        if (apart < 1e-7)
+            return false;
+    }
+    return true;
+}
+
+/* Ascending, by the first unknown, then the next. */
+static void
+sort(double *found, size_t count, size_t n)
+{
+    for (size_t a = 1; a < count; a++)
+        for (size_t b = a; b > 0; b--) {
+            double *x = found + (b - 1) * n, *y = found + b * n;
+            size_t i = 0;
+
+            while (i < n && fabs(x[i] - y[i]) < 1e-9)
+                i++;
+            if (i == n || x[i] < y[i])
+                break;
+            for (i = 0; i < n; i++) {
+                double keep = x[i];
+
+                x[i] = y[i];
+                y[i] = keep;
+            }
+        }
+}
+
+static qdot_status
+search(problem *p, qdot_isolate *isolate, qdot_places *out)
+{
+    size_t n = p->n;
+
+    for (uint64_t start = 1; start <= STARTS && out->n < MOST; start++) {
+        double *place = out->at + out->n * n, *radius = p->rhs;
+        end how;
+
+        QDOT_TRY(qdot_interrupt_check());
+        begin_at(p, start);
+        QDOT_TRY(descend(p, &how));
+        out->starts++;
+        if (how == NOWHERE || !settle(p, p->x) || !is_new(out->at, out->n, n, p->x))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            place[i] = p->x[i];
+        if (how == FLAT || !qdot_isolate_prove(isolate, place, radius)) {
+            out->unproved++;
+            continue;
+        }
+        for (size_t i = 0; i < n; i++)
+            if (fabs(place[i]) <= radius[i]) /* 0 as far as is known */
+                place[i] = 0;
+        if (settle(p, place) && is_new(out->at, out->n, n, place))
+            out->n++;
+    }
+    sort(out->at, out->n, n);
+    return QDOT_OK;
+}
+
+void
+qdot_places_clear(qdot_places *places)
+{
+    qdot_free(places->at);
+    *places = (qdot_places){0};
+}
+
+qdot_status
+qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
+{
+    problem p = {.pool = rest->pool,
+                 .n = rest->unknowns.n,
+                 .coordinates = rest->coordinates,
+                 .u = rest->unknowns.at};
+    gsl_error_handler_t *before = gsl_set_error_handler_off();
+    qdot_isolate isolate;
+    qdot_status status = problem_begin(&p, r);
+
+    *out = (qdot_places){.reach = ranges[RANGES - 1]};
+    out->at = qdot_calloc((MOST + 1) * p.n + 1, sizeof *out->at);
+    if (out->at == NULL)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = find_angles(&p);
+    if (status == QDOT_OK)
+        status = qdot_isolate_begin(&isolate, p.pool, p.n, r, p.u);
+    if (status == QDOT_OK) {
+        status = search(&p, &isolate, out);
+        qdot_isolate_end(&isolate);
+    }
+    problem_end(&p);
+    gsl_set_error_handler(before);
+    if (status != QDOT_OK)
+        qdot_places_clear(out);
+    return status;
+}

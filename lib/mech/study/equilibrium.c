@@ -1,0 +1,306 @@
+/* equilibrium.c -- all equilibria of a scene: exactly, where that cannot do in numbers; judged. */
+#include "mech/study/equilibrium.h"
+
+#include <math.h>
+
+#include "mech/study/equilibrium-rest.h"
+
+/* What exact solution may take before it gives way to numbers: scenes of books take some
+ * units, a chain of four links between two supports would take minutes. */
+enum { WORK = 1500 };
+
+static bool
+holds_time(const qdot_rest *r, qdot_expr e)
+{
+    return (qdot_mech_holds(r->s, e) & QDOT_HAS_TIME) != 0;
+}
+
+static qdot_status
+find_unknowns(qdot_rest *r)
+{
+    qdot_scene *s = r->s;
+
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        if (qdot_expr_contains(r->pool, r->equations, s->coordinates.at[i]))
+            QDOT_TRY(qdot_vec_push(&r->unknowns, s->coordinates.at[i]));
+    r->coordinates = r->unknowns.n;
+    for (size_t k = 0; k < s->constraints.n; k++)
+        if (qdot_expr_contains(r->pool, r->equations, s->constraints.at[k].multiplier))
+            QDOT_TRY(qdot_vec_push(&r->unknowns, s->constraints.at[k].multiplier));
+    return QDOT_OK;
+}
+
+static qdot_status
+begin_branch(qdot_rest *r, qdot_expr equations)
+{
+    qdot_expr none = qdot_list(r->pool, 0, NULL);
+    qdot_rest_branch first = {equations, none, none};
+
+    QDOT_TRY(qdot_pool_check(r->pool));
+    return qdot_vec_push(&r->todo, first);
+}
+
+/* --- for all times ------------------------------------------------------------------------- */
+
+/* The coordinates' equations among those of a place. */
+static qdot_expr
+places_alone(const qdot_rest *r, qdot_expr equations)
+{
+    qdot_expr list = qdot_list(r->pool, 0, NULL);
+
+    for (uint32_t k = 0; k < qdot_expr_count(r->pool, equations); k++) {
+        qdot_expr one = qdot_expr_arg(r->pool, equations, k);
+
+        if (qdot_expr_is_class(r->pool, qdot_expr_arg(r->pool, one, 0), QDOT_COORD))
+            list = qdot_rest_appended(r->pool, list, 1, &one);
+    }
+    return list;
+}
+
+/* Of the places found at one time those at which the equations hold for all, multipliers as they
+ * are then. Where some hold for a part of a family only, that part is not looked for. */
+static qdot_status
+keep_lasting(qdot_rest *r)
+{
+    size_t n = r->found.n;
+    qdot_equilibrium *before = r->found.at;
+    qdot_status status = QDOT_OK;
+
+    r->found.at = NULL;
+    r->found.n = r->found.capacity = 0;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_rest_branch b = {.known = places_alone(r, before[i].equations),
+                              .conditions = before[i].exists};
+        size_t had = r->found.n, kept = had;
+
+        if (b.conditions == QDOT_NIL)
+            b.conditions = qdot_list(r->pool, 0, NULL);
+        b.equations = qdot_rest_put(r, r->equations, b.known);
+        status = qdot_pool_check(r->pool);
+        if (status == QDOT_EDOMAIN)
+            status = QDOT_OK;
+        else if (status == QDOT_OK)
+            status = qdot_vec_push(&r->todo, b);
+        if (status == QDOT_OK)
+            status = qdot_rest_solve(r);
+        for (size_t k = had; k < r->found.n; k++)
+            if (!holds_time(r, places_alone(r, r->found.at[k].equations)))
+                r->found.at[kept++] = r->found.at[k];
+        r->found.n = kept;
+        if (kept == had && qdot_expr_count(r->pool, b.known) < r->coordinates)
+            r->complete = false;
+    }
+    qdot_free(before);
+    return status;
+}
+
+/* --- numbers ---------------------------------------------------------------------------------- */
+
+static qdot_expr
+decimal(qdot_pool *pool, double x)
+{
+    qdot_text text = {0};
+    qdot_expr e;
+
+    qdot_text_double(&text, x, 15);
+    e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
+        : text.at[0] == '-'
+            ? qdot_neg(pool, qdot_expr_decimal(pool, text.at + 1, text.n - 1))
+            : qdot_expr_decimal(pool, text.at, text.n);
+    qdot_text_clear(&text);
+    return e;
+}
+
+/* The name of a symbol in e that is no unknown. */
+static const char *
+unset(const qdot_rest *r, qdot_expr e)
+{
+    qdot_expr atoms = qdot_expr_atoms(r->pool, e, true);
+
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(r->pool, atoms); i++) {
+        qdot_expr x = qdot_expr_arg(r->pool, atoms, i);
+        bool is_unknown = qdot_expr_is_class(r->pool, x, QDOT_CONST);
+
+        for (size_t k = 0; k < r->unknowns.n; k++)
+            is_unknown |= r->unknowns.at[k] == x;
+        if (is_unknown)
+            continue;
+        return qdot_expr_kind(r->pool, x) == QDOT_SYM
+                   ? qdot_expr_symbol(r->pool, x)->name
+                   : qdot_ufun_get(r->pool, qdot_expr_node(r->pool, x)->op)->name;
+    }
+    return NULL;
+}
+
+/* Whether the place x [unknowns] is one of those known exactly. */
+static bool
+is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
+{
+    for (size_t i = 0; i < r->found.n; i++) {
+        qdot_expr all = r->found.at[i].equations;
+        bool same = !r->found.at[i].numeric;
+
+        for (uint32_t k = 0; same && k < qdot_expr_count(r->pool, all); k++) {
+            qdot_expr one = qdot_expr_arg(r->pool, all, k), e;
+            double off;
+
+            e = qdot_sub(r->pool, qdot_expr_arg(r->pool, one, 0),
+                         qdot_expr_arg(r->pool, one, 1));
+            e = e == QDOT_NIL || bind == NULL ? e : bind(user, e);
+            same = e != QDOT_NIL &&
+                   qdot_generic_evaluate(r->pool, 1, &e, r->unknowns.n, r->unknowns.at, x,
+                                         1, &off) == QDOT_OK &&
+                   fabs(off) < 1e-7;
+        }
+        if (same)
+            return true;
+    }
+    return false;
+}
+
+static qdot_status
+add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user)
+{
+    size_t n = r->unknowns.n;
+    qdot_expr *list = qdot_malloc((n + 1) * sizeof *list);
+    qdot_status status = list == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t k = 0; k < places->n && status == QDOT_OK; k++) {
+        qdot_equilibrium one = {.numeric = true};
+
+        if (is_known(r, places->at + k * n, bind, user))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            list[i] = qdot_rel(r->pool, QDOT_EQ, r->unknowns.at[i],
+                               decimal(r->pool, places->at[k * n + i]));
+        one.equations = qdot_list(r->pool, (uint32_t)n, list);
+        status = qdot_pool_check(r->pool);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&r->found, one);
+    }
+    qdot_free(list);
+    return status;
+}
+
+static qdot_status
+search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
+{
+    qdot_pool *pool = r->pool;
+    size_t n = r->unknowns.n;
+    qdot_expr bound = bind == NULL ? r->equations : bind(user, r->equations), *e;
+    qdot_places places;
+    const char *name;
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    name = unset(r, bound);
+    if (name != NULL) {
+        qdot_fail(QDOT_EUNSET,
+                  "the equilibria cannot be solved for exactly; numbers need a "
+                  "value of `%.100s`",
+                  name);
+        return qdot_hint("set %.100s = ...", name);
+    }
+    if (qdot_expr_count(pool, bound) != n)
+        return qdot_fail(QDOT_EFAILED,
+                         "the equilibria cannot be found: %u equations for %zu unknowns",
+                         qdot_expr_count(pool, bound), n);
+    e = qdot_malloc((n + 1) * sizeof *e);
+    if (e == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        e[i] = qdot_expr_arg(pool, bound, (uint32_t)i);
+    status = qdot_rest_search(r, e, &places);
+    if (status == QDOT_OK) {
+        out->starts = places.starts;
+        out->reach = places.reach;
+        out->unproved = places.unproved;
+        status = add_places(r, &places, bind, user);
+        qdot_places_clear(&places);
+    }
+    qdot_free(e);
+    return status;
+}
+
+/* --- all of them ------------------------------------------------------------------------- */
+
+/* Stability; `first`: up to the first that is not unstable. */
+static qdot_status
+judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
+{
+    qdot_judge *judge;
+    qdot_status status = qdot_judge_new(r->s, r->equations, bind, user, &judge);
+
+    for (size_t i = 0; i < r->found.n && status == QDOT_OK; i++) {
+        status = qdot_judge_place(judge, &r->found.at[i]);
+        if (first && r->found.at[i].stability != QDOT_UNSTABLE)
+            r->found.n = i + 1;
+    }
+    qdot_judge_free(judge);
+    return status;
+}
+
+static qdot_status
+solve(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
+{
+    qdot_expr equations;
+    bool lasting;
+
+    QDOT_TRY(qdot_pool_check(r->pool));
+    QDOT_TRY(qdot_rest_equations(r, &r->equations));
+    QDOT_TRY(find_unknowns(r));
+    lasting = holds_time(r, r->equations);
+    equations = r->equations;
+    if (lasting)
+        QDOT_TRY(qdot_rest_at_all_times(r, r->equations, &equations));
+    QDOT_TRY(begin_branch(r, equations));
+    QDOT_TRY(qdot_rest_solve(r));
+    if (lasting)
+        QDOT_TRY(keep_lasting(r));
+    else if (!r->complete)
+        QDOT_TRY(search(r, bind, user, out));
+    return qdot_rest_leave_out_twice(r, r->equations);
+}
+
+static qdot_status
+find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
+{
+    qdot_rest r = {.s = s,
+                   .pool = s->pool,
+                   .facts = qdot_scene_facts(s),
+                   .work = WORK,
+                   .complete = true};
+    qdot_status status;
+
+    *out = (qdot_equilibria){0};
+    status = solve(&r, bind, user, out);
+    if (status == QDOT_OK)
+        status = judge(&r, first_only, bind, user);
+    qdot_free(r.todo.at);
+    qdot_free(r.unknowns.at);
+    out->at = r.found.at;
+    out->n = r.found.n;
+    out->complete = r.complete;
+    if (status != QDOT_OK)
+        qdot_equilibria_clear(out);
+    return status;
+}
+
+void
+qdot_equilibria_clear(qdot_equilibria *e)
+{
+    qdot_free(e->at);
+    *e = (qdot_equilibria){0};
+}
+
+qdot_status
+qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
+{
+    return find(s, false, bind, user, out);
+}
+
+qdot_status
+qdot_equilibrium_first(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
+{
+    return find(s, true, bind, user, out);
+}

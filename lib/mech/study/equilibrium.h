@@ -1,0 +1,105 @@
+/* equilibrium.h -- where a scene can rest, whether it stays there, and how it swings about it.
+ *
+ * At rest, q' = q'' = 0, Lagrange's equations and the constraints read
+ *
+ *     G_i(q, lambda) = 0,   f_k(q) = 0.
+ *
+ * They are solved one for one unknown at a time, factor by factor, all combinations
+ * (normal/solve/solve.h); the multipliers are unknowns like the coordinates. A coordinate that stands
+ * in none of them is free and left out. Where they hold the time, the places are those at which they
+ * hold for all of it. What cannot be solved exactly is searched for in numbers, when every parameter
+ * has a value; each place found so is proved to be one (normal/solve/isolate.h).
+ *
+ * Stability. Linearised about a place, in the constraints' tangent space,
+ *
+ *     M y'' + Gamma y' + H y = 0
+ *
+ * (mech/study/linear-motion.h). Said is only what is proved:
+ *
+ *     stable     an energy that is kept or used up (mech/study/lyapunov.h) has a strict minimum there: M and
+ *                H positive definite, or one degree of freedom whose force points back on either side;
+ *                or all roots of det(M s^2 + Gamma s + H) have negative real parts; or the
+ *                equations are linear and the next holds; or nothing can move
+ *     unstable   one of the roots has a positive real part: H falls in some direction without gyroscopic
+ *                terms, or a condition of Hurwitz is broken; or one degree of freedom whose force points
+ *                away on one side and whose energy does not grow
+ *     to first order   the linear motion stays near, of the whole nothing is known
+ *     undecided  else, always with velocity constraints
+ *
+ * Source  Goldstein, Poole, Safko, Classical Mechanics, 6.1-6.2; Merkin, Introduction to the Theory of
+ *         Stability, 3 and 6 (Lagrange, Dirichlet, Kelvin).
+ * Tests   tests/mech/test_equilibrium.c, test_stability.c
+ */
+#ifndef QDOT_MECH_EQUILIBRIUM_H
+#define QDOT_MECH_EQUILIBRIUM_H
+
+#include "mech/scene/scene.h"
+
+typedef enum {
+    QDOT_STABLE,
+    QDOT_UNSTABLE,
+    QDOT_STABLE_TO_FIRST_ORDER,
+    QDOT_STABILITY_UNDECIDED
+} qdot_stability;
+
+typedef struct {
+    qdot_expr
+        equations;    /* a LIST: coordinate = value ..., then lambda[...] = value ... */
+    qdot_expr exists; /* a LIST of RELs under which it is real; nil: always */
+    qdot_stability stability;
+    qdot_expr stable_when; /* STABLE, TO_FIRST_ORDER: a LIST of RELs; nil: always */
+    bool numeric;
+} qdot_equilibrium;
+
+/* Values of parameters for numbers: e bound as far as they are known. */
+typedef qdot_expr (*qdot_binder)(void *user, qdot_expr e);
+
+typedef struct {
+    qdot_equilibrium *at; /* [n], owned */
+    size_t n;
+    bool complete;        /* these are all, parameters generic */
+    size_t starts;        /* of a search in numbers; 0: there was none */
+    double reach;         /* which began within +-reach where no domain is declared */
+    size_t unproved;      /* starts that ended where the equations hold to rounding, unproved */
+} qdot_equilibria;
+
+/* *out cleared by the caller. QDOT_EUNSET names a parameter if numbers are needed, QDOT_EFAILED
+ * if nothing can be said. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bind,
+                                                  void *user, qdot_equilibria *out);
+
+/* The same up to the first that is not unstable; all if there is none. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_first(qdot_scene *s, qdot_binder bind,
+                                                   void *user, qdot_equilibria *out);
+void qdot_equilibria_clear(qdot_equilibria *e);
+
+/* --- stability (stability.c) ----
+ * What holds of all places of a scene, whose equations at rest are a LIST; then each: e->stability
+ * and e->stable_when are set. */
+typedef struct qdot_judge qdot_judge;
+QDOT_MUST_CHECK qdot_status qdot_judge_new(qdot_scene *s, qdot_expr at_rest,
+                                           qdot_binder bind, void *user,
+                                           qdot_judge **out);
+QDOT_MUST_CHECK qdot_status qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e);
+void qdot_judge_free(qdot_judge *judge);
+
+/* --- normal modes (modes.c) --------------------------------------------------------------- */
+
+/* (H - w^2 M) a = 0 about `equations`: frequencies w [n]
+ * ascending (unordered: pairs of them have no order that is proved, they stand as at one place
+ * of the parameters), amplitudes a [n * coordinates], a row each, the first component that is
+ * not 0 is 1. Exact where the characteristic polynomial factors into linear and quadratic ones
+ * in w^2, else (or at once, if `numbers`) numbers, which need every parameter's value.
+ * QDOT_ETYPE with damping or gyroscopic terms, QDOT_EDOMAIN where H is not positive
+ * semidefinite. */
+typedef struct {
+    size_t n;
+    qdot_expr *frequency, *amplitude;
+    bool numeric, unordered;
+} qdot_modes;
+QDOT_MUST_CHECK qdot_status qdot_modes_about(qdot_scene *s, qdot_expr equations,
+                                             bool numbers, qdot_binder bind, void *user,
+                                             qdot_modes *out);
+void qdot_modes_clear(qdot_modes *m);
+
+#endif

@@ -1,0 +1,271 @@
+/* hamilton.c -- velocities for momenta, all of them or those of the cyclic coordinates. */
+#include "mech/study/hamilton.h"
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/dynamics/squares.h"
+#include "mech/scene/derived.h"
+#include "normal/form/common.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/linear.h"
+
+/* A Legendre transform over the velocities of n coordinates. */
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    qdot_facts facts;
+    uint32_t n;
+    qdot_expr L;
+    qdot_expr *q, *qdot, *p; /* [n] */
+    qdot_expr *rest;         /* [n]: p - dL/dq' at q' = 0 */
+    qdot_expr *A;            /* [n*n] d2L/dq'dq' */
+    qdot_expr *solved;       /* [n]: q' in terms of p */
+} legendre;
+
+/* p_i = sum A_ij q_j' + b_i. */
+static bool
+linear_form(legendre *l)
+{
+    qdot_pool *pool = l->pool;
+
+    for (uint32_t i = 0; i < l->n; i++) {
+        qdot_expr momentum = qdot_diff(pool, l->L, l->qdot[i]), at_rest = momentum;
+
+        for (uint32_t j = 0; j < l->n; j++) {
+            qdot_expr e =
+                qdot_simplify(pool, qdot_diff(pool, momentum, l->qdot[j]), &l->facts);
+
+            for (uint32_t k = 0; k < l->n && e != QDOT_NIL; k++)
+                if (qdot_expr_contains(pool, e, l->qdot[k])) {
+                    qdot_mech_fail(
+                        l->s, QDOT_EDOMAIN,
+                        "the momentum of %s is not linear in the velocities: they cannot "
+                        "be solved for",
+                        qdot_expr_symbol(pool, l->q[i])->name);
+                    return false;
+                }
+            l->A[i * l->n + j] = e;
+            at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[j], (qdot_expr[]){QDOT_ZERO});
+        }
+        l->rest[i] = qdot_sub(pool, l->p[i], at_rest);
+    }
+    return !qdot_pool_failed(pool);
+}
+
+static bool
+solve(legendre *l)
+{
+    uint32_t pivot = 0;
+    qdot_status status =
+        qdot_solve_linear(l->pool, l->n, l->A, l->rest, l->solved, &pivot, &l->facts);
+
+    if (status == QDOT_ESINGULAR)
+        qdot_mech_fail(l->s, QDOT_ESINGULAR,
+                       "the momenta do not determine the velocity of %s: the mass matrix "
+                       "is singular",
+                       qdot_expr_symbol(l->pool, l->q[pivot])->name);
+    else if (status != QDOT_OK)
+        qdot_pool_fail(l->pool);
+    return status == QDOT_OK;
+}
+
+/* 1/2 (p - b).A^-1 (p - b) over one block of A, as squares or solved for; which [m]. */
+static qdot_status
+add_block(legendre *l, qdot_squares *q, size_t m, const size_t *which)
+{
+    qdot_pool *pool = l->pool;
+    qdot_expr inverse[9], v[3], sum = QDOT_ZERO;
+    bool done = false;
+
+    if (m == 1)
+        return qdot_squares_add(
+            q, qdot_div(pool, QDOT_ONE, l->A[which[0] * l->n + which[0]]),
+            l->rest[which[0]]);
+    for (size_t i = 0; i < m && m <= 3; i++) {
+        v[i] = l->rest[which[i]];
+        for (size_t k = 0; k < m; k++)
+            inverse[i * m + k] = qdot_simplify(
+                pool, qdot_diff(pool, l->solved[which[i]], l->p[which[k]]), &l->facts);
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    if (m <= 3 && qdot_squares_worth(l->s, m, inverse))
+        QDOT_TRY(qdot_squares_complete(q, m, inverse, v, &done));
+    if (done)
+        return QDOT_OK;
+    for (size_t i = 0; i < m; i++)
+        sum = qdot_add(pool, sum, qdot_mul(pool, l->rest[which[i]], l->solved[which[i]]));
+    sum = qdot_simplify(pool, qdot_mul(pool, QDOT_HALF, sum), &l->facts);
+    if (sum != QDOT_NIL && qdot_expr_kind(pool, sum) == QDOT_PROD)
+        sum = qdot_common_out(pool, sum);
+    q->rest = qdot_add(pool, q->rest, sum);
+    return qdot_pool_check(pool);
+}
+
+/* L is of second degree in q', its slopes being linear: with b the momenta at q' = 0
+ *
+ *     sum p q' - L = 1/2 (p - b).A^-1 (p - b) - L at q' = 0
+ *
+ * without terms that cancel, block by block of A. */
+static qdot_expr
+quadratic(legendre *l)
+{
+    qdot_pool *pool = l->pool;
+    qdot_expr sum = QDOT_NIL, at_rest = l->L;
+    size_t *block = qdot_calloc(2 * (size_t)l->n + 1, sizeof *block),
+           *which = block + l->n;
+    qdot_status status = block == NULL ? QDOT_ENOMEM : QDOT_OK;
+    qdot_squares q;
+
+    qdot_squares_begin(&q, l->s);
+    if (block != NULL)
+        qdot_squares_blocks(l->n, l->A, block);
+    for (size_t i = 0; i < l->n && status == QDOT_OK; i++) {
+        size_t m = 0;
+
+        for (size_t k = i; k < l->n && block[i] == i; k++)
+            if (block[k] == i)
+                which[m++] = k;
+        if (m > 0)
+            status = add_block(l, &q, m, which);
+    }
+    if (status == QDOT_OK)
+        sum = qdot_common_out(pool, qdot_squares_sum(&q));
+    qdot_squares_clear(&q);
+    qdot_free(block);
+    if (status != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < l->n; i++)
+        at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[i], (qdot_expr[]){QDOT_ZERO});
+    if (l->s->lagrangian != QDOT_NIL) /* T - V is in its form */
+        at_rest = qdot_simplify(pool, at_rest, &l->facts);
+    return qdot_sub(pool, sum, at_rest);
+}
+
+/* Solve the momenta of the coordinates q [n] for their velocities; l->q is the caller's to free.
+ * False: the pool has the cause. */
+static bool
+begin(legendre *l, qdot_scene *s, uint32_t n, const qdot_expr *q)
+{
+    qdot_pool *pool = s->pool;
+
+    *l = (legendre){.s = s,
+                    .pool = pool,
+                    .facts = qdot_scene_facts(s),
+                    .n = n,
+                    .L = qdot_mech_lagrangian(s)};
+    l->q = qdot_calloc((size_t)n * n + 5 * n + 1, sizeof *l->q);
+    if (l->q == NULL) {
+        qdot_pool_fail(pool);
+        return false;
+    }
+    l->qdot = l->q + n;
+    l->p = l->qdot + n;
+    l->rest = l->p + n;
+    l->solved = l->rest + n;
+    l->A = l->solved + n;
+    for (uint32_t i = 0; i < n; i++) {
+        l->q[i] = q[i];
+        l->qdot[i] = qdot_symbol_jet(pool, q[i], 1);
+        l->p[i] = qdot_symbol_of(pool, QDOT_MOMENTUM, q[i]);
+    }
+    return !qdot_pool_failed(pool) && linear_form(l) && solve(l);
+}
+
+/* sum p q' - L over the coordinates q [n], their velocities replaced. */
+static qdot_expr
+transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
+{
+    legendre l;
+    qdot_expr result = begin(&l, s, n, q) ? quadratic(&l) : QDOT_NIL;
+
+    qdot_free(l.q);
+    return result;
+}
+
+/* e with every velocity replaced by what it is in momenta. */
+static qdot_expr
+in_momenta(qdot_scene *s, qdot_expr e)
+{
+    legendre l;
+
+    if (e == QDOT_NIL)
+        return QDOT_NIL;
+    if (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_ACCELERATION) {
+        qdot_mech_fail(s, QDOT_ETYPE,
+                       "a Poisson bracket is of functions of coordinates, momenta and "
+                       "velocities: here stands an acceleration");
+        return QDOT_NIL;
+    }
+    if (!(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY))
+        return e;
+    e = begin(&l, s, (uint32_t)s->coordinates.n, s->coordinates.at)
+            ? qdot_subs(s->pool, e, l.n, l.qdot, l.solved)
+            : QDOT_NIL;
+    qdot_free(l.q);
+    return e;
+}
+
+qdot_expr
+qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g)
+{
+    qdot_pool *pool = s->pool;
+    qdot_facts facts = qdot_scene_facts(s);
+    qdot_expr sum = QDOT_ZERO;
+
+    if (s->coordinates.n == 0) {
+        qdot_mech_fail(s, QDOT_EINVAL, "the scene has no coordinate");
+        return QDOT_NIL;
+    }
+    f = in_momenta(s, f);
+    g = in_momenta(s, g);
+    if (f == QDOT_NIL || g == QDOT_NIL)
+        return QDOT_NIL;
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_expr q = s->coordinates.at[i],
+                        p = qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+
+        sum = qdot_add(pool, sum,
+                       qdot_sub(pool,
+                                qdot_mul(pool, qdot_diff(pool, f, q), qdot_diff(pool, g, p)),
+                                qdot_mul(pool, qdot_diff(pool, f, p), qdot_diff(pool, g, q))));
+    }
+    return qdot_simplify(pool, sum, &facts);
+}
+
+qdot_expr
+qdot_hamilton_hamiltonian(qdot_scene *s)
+{
+    return transform(s, (uint32_t)s->coordinates.n, s->coordinates.at);
+}
+
+qdot_expr
+qdot_hamilton_routhian(qdot_scene *s)
+{
+    qdot_cyclic *list;
+    size_t n;
+    qdot_expr *q, result = QDOT_NIL;
+
+    if (qdot_mech_cyclic(s, &list, &n) != QDOT_OK)
+        return qdot_pool_fail(s->pool);
+    q = qdot_calloc(n + 1, sizeof *q);
+    if (q == NULL) {
+        qdot_pool_fail(s->pool);
+    } else {
+        for (size_t i = 0; i < n; i++)
+            q[i] = list[i].coordinate;
+        result = n == 0 ? qdot_mech_lagrangian(s) : transform(s, (uint32_t)n, q);
+        if (n > 0 && result != QDOT_NIL) {
+            qdot_facts facts = qdot_scene_facts(s);
+            qdot_expr shorter;
+
+            result = qdot_neg(s->pool, result);
+            shorter = qdot_simplify(s->pool, result, &facts);
+            if (qdot_expr_size(s->pool, shorter) < qdot_expr_size(s->pool, result))
+                result = shorter;
+        }
+    }
+    qdot_free(q);
+    qdot_free(list);
+    return result;
+}

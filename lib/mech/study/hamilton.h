@@ -1,0 +1,27 @@
+/* hamilton.h -- Legendre transforms of the Lagrangian: Hamilton's function and Routh's.
+ *
+ *     H(q, p, t) = sum p_i q_i' - L,            all velocities replaced by momenta
+ *     R          = L - sum_c p_c q_c',          those of the cyclic coordinates c only
+ *
+ * The velocities solve p_c = dL/dq_c', which must be linear in them (QDOT_EDOMAIN otherwise; a
+ * singular d2L/dq'dq': QDOT_ESINGULAR with the coordinate). Momenta are the symbols p[q].
+ * Nil on failure; the pool keeps the cause.
+ *
+ * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1 and 8.3; the sign of R as there turned.
+ * Tests   tests/mech/test_hamilton.c
+ */
+#ifndef QDOT_MECH_HAMILTON_H
+#define QDOT_MECH_HAMILTON_H
+
+#include "mech/scene/scene.h"
+
+qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
+qdot_expr qdot_hamilton_routhian(qdot_scene *s);
+
+/* Poisson's bracket sum (df/dq dg/dp - df/dp dg/dq) over all coordinates, f and g scalars; velocities
+ * in them are replaced by momenta first. Where there are constraints it is not Dirac's bracket.
+ *
+ * Source  Goldstein, Poole, Safko, 9.5. */
+qdot_expr qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g);
+
+#endif

@@ -1,0 +1,486 @@
+/* integrable.c -- dw on what the constraints leave; integrating factors. */
+#include "mech/study/integrable.h"
+
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/scene/derived.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/antiderivative.h"
+
+/* Forms over x = (q, t), n + 1 of them a row. */
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    size_t n;      /* coordinates and t */
+    qdot_expr *x;  /* [n] */
+    size_t m;      /* forms */
+    qdot_expr *a;  /* [m * n] */
+    size_t *of;    /* [m] whose */
+    bool *in;      /* [m] is still in the system */
+    qdot_expr *B;  /* [m * n] the system, reduced */
+    size_t *pivot; /* [m] */
+    size_t rank;
+    qdot_facts facts; /* the scene's, and its holonomic constraints */
+    qdot_expr *relations;
+} forms;
+
+static void
+forms_clear(forms *f)
+{
+    qdot_free(f->x);
+    qdot_free(f->a);
+    qdot_free(f->of);
+    qdot_free(f->in);
+    qdot_free(f->B);
+    qdot_free(f->pivot);
+    qdot_free(f->relations);
+}
+
+/* The form of constraint k; *linear whether it is one. */
+static qdot_status
+form_of(const forms *f, size_t k, qdot_expr *a, bool *linear)
+{
+    const qdot_constraint *c = &f->s->constraints.at[k];
+    qdot_expr rest = c->f;
+
+    *linear = c->kind != QDOT_ACCELERATION;
+    if (c->kind == QDOT_ACCELERATION)
+        return QDOT_OK;
+    for (size_t i = 0; i < f->n; i++) {
+        qdot_expr v = i + 1 < f->n ? qdot_mech_jet(f->s, i, 1) : QDOT_T;
+
+        if (c->kind == QDOT_HOLONOMIC) {
+            a[i] = qdot_diff(f->pool, c->f, f->x[i]);
+        } else if (i + 1 < f->n) {
+            a[i] = qdot_mech_tidy(f->s, qdot_diff(f->pool, c->f, v));
+            *linear &= !(qdot_mech_holds(f->s, a[i]) & QDOT_HAS_VELOCITY);
+            rest = qdot_sub(f->pool, rest, qdot_mul(f->pool, a[i], v));
+        } else {
+            a[i] = qdot_mech_tidy(f->s, rest);
+            *linear &= !(qdot_mech_holds(f->s, a[i]) & QDOT_HAS_VELOCITY);
+        }
+    }
+    return qdot_pool_check(f->pool);
+}
+
+static qdot_status
+forms_init(forms *f, qdot_scene *s)
+{
+    size_t c = s->constraints.n, known;
+
+    *f = (forms){.s = s, .pool = s->pool, .n = s->coordinates.n + 1};
+    f->facts = qdot_scene_facts(s);
+    known = f->facts.n_relations;
+    f->x = qdot_calloc(f->n, sizeof *f->x);
+    f->a = qdot_calloc(c * f->n + 1, sizeof *f->a);
+    f->B = qdot_calloc(c * f->n + 1, sizeof *f->B);
+    f->of = qdot_calloc(c + 1, sizeof *f->of);
+    f->in = qdot_calloc(c + 1, sizeof *f->in);
+    f->pivot = qdot_calloc(c + 1, sizeof *f->pivot);
+    f->relations = qdot_calloc(known + c + 1, sizeof *f->relations);
+    if (!f->x || !f->a || !f->B || !f->of || !f->in || !f->pivot || !f->relations)
+        return QDOT_ENOMEM;
+    if (known > 0)
+        memcpy(f->relations, f->facts.relations, known * sizeof *f->relations);
+    for (size_t i = 0; i + 1 < f->n; i++)
+        f->x[i] = s->coordinates.at[i];
+    f->x[f->n - 1] = QDOT_T;
+    for (size_t k = 0; k < c; k++) {
+        bool linear;
+
+        if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
+            f->relations[known++] = s->constraints.at[k].f;
+        QDOT_TRY(form_of(f, k, f->a + f->m * f->n, &linear));
+        if (linear)
+            f->of[f->m++] = k;
+    }
+    f->facts.n_relations = known;
+    f->facts.relations = f->relations;
+    return QDOT_OK;
+}
+
+/* --- what the system leaves --------------------------------------------------------- */
+
+/* A pivot is best a number, then what is short. */
+static qdot_status
+choose_pivot(const forms *f, qdot_expr *row, size_t *pivot)
+{
+    uint64_t least = UINT64_MAX;
+
+    *pivot = f->n;
+    for (size_t i = 0; i < f->n; i++) {
+        uint64_t size = qdot_expr_size(f->pool, row[i]) + 1;
+
+        if (row[i] == QDOT_ZERO)
+            continue;
+        if (qdot_expr_kind(f->pool, row[i]) != QDOT_NUM &&
+            qdot_is_zero(f->pool, row[i], &f->facts)) {
+            row[i] = QDOT_ZERO;
+            continue;
+        }
+        if (qdot_expr_kind(f->pool, row[i]) == QDOT_NUM)
+            size = 0;
+        if (size < least) {
+            least = size;
+            *pivot = i;
+        }
+    }
+    return qdot_pool_check(f->pool);
+}
+
+/* row -= row[pivot] by, whose entry there is 1 */
+static void
+eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot)
+{
+    qdot_expr head = row[pivot];
+
+    if (head == QDOT_ZERO)
+        return;
+    for (size_t i = 0; i < f->n; i++) {
+        if (by[i] == QDOT_ZERO)
+            continue;
+        row[i] = i == pivot ? QDOT_ZERO
+                            : qdot_mech_tidy(f->s, qdot_sub(f->pool, row[i],
+                                                            qdot_mul(f->pool, head,
+                                                                     by[i])));
+    }
+}
+
+/* B: dx_pivot = - sum over the others, of the forms that are in. */
+static qdot_status
+reduce(forms *f)
+{
+    f->rank = 0;
+    for (size_t k = 0; k < f->m; k++) {
+        qdot_expr *row = f->B + f->rank * f->n, head;
+        size_t p;
+
+        if (!f->in[k])
+            continue;
+        memcpy(row, f->a + k * f->n, f->n * sizeof *row);
+        for (size_t r = 0; r < f->rank; r++)
+            eliminate(f, row, f->B + r * f->n, f->pivot[r]);
+        QDOT_TRY(qdot_pool_check(f->pool));
+        QDOT_TRY(choose_pivot(f, row, &p));
+        if (p == f->n)
+            continue;
+        head = row[p];
+        for (size_t i = 0; i < f->n; i++)
+            row[i] = row[i] == QDOT_ZERO
+                         ? QDOT_ZERO
+                         : qdot_mech_tidy(f->s, qdot_div(f->pool, row[i], head));
+        row[p] = QDOT_ONE;
+        for (size_t r = 0; r < f->rank; r++)
+            eliminate(f, f->B + r * f->n, row, p);
+        f->pivot[f->rank++] = p;
+        QDOT_TRY(qdot_pool_check(f->pool));
+    }
+    return QDOT_OK;
+}
+
+static bool
+is_pivot(const forms *f, size_t i)
+{
+    for (size_t r = 0; r < f->rank; r++)
+        if (f->pivot[r] == i)
+            return true;
+    return false;
+}
+
+/* dw(x_i, x_j) of form k. */
+static qdot_expr
+curl(const forms *f, size_t k, size_t i, size_t j)
+{
+    const qdot_expr *a = f->a + k * f->n;
+
+    return i == j ? QDOT_ZERO
+                  : qdot_sub(f->pool, qdot_diff(f->pool, a[j], f->x[i]),
+                             qdot_diff(f->pool, a[i], f->x[j]));
+}
+
+/* dw(u_i, u_j), u_i = x_i - sum_r B_ri x_pivot(r). */
+static qdot_expr
+component(const forms *f, size_t k, size_t i, size_t j)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr sum = curl(f, k, i, j);
+
+    for (size_t r = 0; r < f->rank; r++) {
+        qdot_expr bi = f->B[r * f->n + i], bj = f->B[r * f->n + j];
+
+        sum = qdot_sub(pool, sum, qdot_mul(pool, bj, curl(f, k, i, f->pivot[r])));
+        sum = qdot_sub(pool, sum, qdot_mul(pool, bi, curl(f, k, f->pivot[r], j)));
+        for (size_t p = 0; p < f->rank; p++)
+            sum = qdot_add(pool, sum,
+                           qdot_mul(pool, qdot_mul(pool, bi, f->B[p * f->n + j]),
+                                    curl(f, k, f->pivot[r], f->pivot[p])));
+    }
+    return qdot_mech_tidy(f->s, sum);
+}
+
+/* Whether dw of form k vanishes on what the system leaves: the first component that does
+ * not, else one that is undecided, else proved. */
+static qdot_status
+vanishes(const forms *f, size_t k, qdot_integrability *result)
+{
+    result->decision = (qdot_decision){.verdict = QDOT_PROVED};
+    for (size_t i = 0; i < f->n; i++)
+        for (size_t j = i + 1; j < f->n; j++) {
+            qdot_decision one;
+            qdot_expr c;
+
+            if (is_pivot(f, i) || is_pivot(f, j))
+                continue;
+            c = component(f, k, i, j);
+            QDOT_TRY(qdot_pool_check(f->pool));
+            if (c == QDOT_ZERO)
+                continue;
+            QDOT_TRY(qdot_decide_equal(f->pool, c, QDOT_ZERO, &f->facts, &one));
+            if (one.verdict == QDOT_PROVED)
+                continue;
+            result->decision = one;
+            result->component = c;
+            result->along[0] = f->x[i];
+            result->along[1] = f->x[j];
+            if (one.verdict == QDOT_REFUTED)
+                return QDOT_OK;
+        }
+    return QDOT_OK;
+}
+
+/* --- integrals ---------------------------------------------------------------------- */
+
+static bool
+is_closed(const forms *f, const qdot_expr *a, const bool *held)
+{
+    for (size_t i = 0; i < f->n; i++)
+        for (size_t j = i + 1; j < f->n; j++) {
+            qdot_expr c;
+
+            if (held[i] || held[j])
+                continue;
+            c = qdot_sub(f->pool, qdot_diff(f->pool, a[j], f->x[i]),
+                         qdot_diff(f->pool, a[i], f->x[j]));
+            if (c != QDOT_ZERO && !qdot_is_zero(f->pool, c, &f->facts))
+                return false;
+        }
+    return !qdot_pool_failed(f->pool);
+}
+
+/* F of mu w, if that is closed and the table of integrals knows it. */
+static qdot_expr
+try_factor(const forms *f, size_t k, qdot_expr mu, const bool *held)
+{
+    qdot_expr *a = qdot_calloc(2 * f->n, sizeof *a), *x, F = QDOT_NIL;
+    size_t n = 0;
+
+    if (!a)
+        return qdot_pool_fail(f->pool);
+    x = a + f->n;
+    for (size_t i = 0; i < f->n; i++)
+        a[i] = qdot_mech_tidy(f->s, qdot_mul(f->pool, mu, f->a[k * f->n + i]));
+    if (!qdot_pool_failed(f->pool) && is_closed(f, a, held)) {
+        for (size_t i = 0; i < f->n; i++)
+            if (!held[i]) {
+                x[n] = f->x[i];
+                a[n++] = a[i];
+            }
+        F = qdot_potential_of(f->pool, n, x, a, &f->facts);
+    }
+    qdot_free(a);
+    return F;
+}
+
+/* exp(int h'(z) dz), h' = -dw(z, x_j)/a_j the same for every j and a function of z alone;
+ * nil otherwise. */
+static qdot_expr
+factor_of(const forms *f, size_t k, size_t z, const bool *held)
+{
+    const qdot_expr *a = f->a + k * f->n;
+    qdot_pool *pool = f->pool;
+    qdot_expr slope = QDOT_NIL, h;
+
+    for (size_t j = 0; j < f->n && slope == QDOT_NIL; j++)
+        if (j != z && !held[j] && a[j] != QDOT_ZERO)
+            slope = qdot_mech_tidy(f->s, qdot_neg(pool, qdot_div(pool, curl(f, k, z, j),
+                                                                 a[j])));
+    if (slope == QDOT_NIL || slope == QDOT_ZERO)
+        return QDOT_NIL;
+    for (size_t i = 0; i < f->n; i++)
+        if (i != z && qdot_expr_contains(pool, slope, f->x[i]))
+            return QDOT_NIL;
+    h = qdot_antiderivative(pool, slope, f->x[z], &f->facts);
+    return h == QDOT_NIL ? h
+                         : qdot_simplify(pool, qdot_fun1(pool, QDOT_EXP, h), &f->facts);
+}
+
+static void
+find_integral(const forms *f, size_t k, const bool *held, qdot_integrability *result)
+{
+    const qdot_expr *a = f->a + k * f->n;
+    qdot_expr mu = QDOT_ONE, F = try_factor(f, k, mu, held);
+
+    for (size_t i = 0; i < f->n && F == QDOT_NIL && !qdot_pool_failed(f->pool); i++) {
+        if (held[i] || a[i] == QDOT_ZERO || qdot_expr_kind(f->pool, a[i]) == QDOT_NUM)
+            continue;
+        mu = qdot_div(f->pool, QDOT_ONE, a[i]);
+        F = try_factor(f, k, mu, held);
+    }
+    for (size_t i = 0; i < f->n && F == QDOT_NIL && !qdot_pool_failed(f->pool); i++) {
+        mu = held[i] ? QDOT_NIL : factor_of(f, k, i, held);
+        F = mu == QDOT_NIL ? QDOT_NIL : try_factor(f, k, mu, held);
+    }
+    if (F != QDOT_NIL && qdot_expr_is_negative(f->pool, F)) {
+        F = qdot_neg(f->pool, F);
+        mu = qdot_neg(f->pool, mu);
+    }
+    result->integral = F;
+    result->factor = F == QDOT_NIL ? QDOT_NIL : mu;
+}
+
+/* Coordinates that another form of the system holds constant: a dz = 0 alone. */
+static void
+find_held(const forms *f, size_t k, bool *held)
+{
+    for (size_t j = 0; j < f->m; j++) {
+        size_t count = 0, which = 0;
+
+        for (size_t i = 0; i < f->n; i++)
+            if (f->a[j * f->n + i] != QDOT_ZERO) {
+                count++;
+                which = i;
+            }
+        if (j != k && f->in[j] && count == 1 && which + 1 < f->n)
+            held[which] = true;
+    }
+}
+
+/* --- the question ------------------------------------------------------------------- */
+
+static qdot_status
+decide_alone(forms *f, size_t k, qdot_integrability *result)
+{
+    memset(f->in, 0, f->m * sizeof *f->in);
+    f->in[k] = true;
+    QDOT_TRY(reduce(f));
+    QDOT_TRY(vanishes(f, k, result));
+    result->alone = result->decision.verdict == QDOT_PROVED;
+    return QDOT_OK;
+}
+
+/* Leave out the forms whose dw does not vanish until all do. A round that leaves out one form
+ * gives the next derived system exactly, since no combination with it vanishes either: what
+ * fails there is surely not integrable. Of two or more left out a combination might stay. */
+static qdot_status
+decide_together(forms *f, size_t k, qdot_integrability *result)
+{
+    bool changed = true, surely = true;
+
+    for (size_t j = 0; j < f->m; j++)
+        f->in[j] = true;
+    while (changed && f->in[k]) {
+        qdot_integrability one = {0};
+        size_t out = 0;
+
+        changed = false;
+        QDOT_TRY(reduce(f));
+        QDOT_TRY(vanishes(f, k, result));
+        if (result->decision.verdict != QDOT_PROVED)
+            break;
+        for (size_t j = 0; j < f->m; j++) {
+            if (!f->in[j] || j == k)
+                continue;
+            QDOT_TRY(vanishes(f, j, &one));
+            if (one.decision.verdict != QDOT_PROVED) {
+                f->in[j] = false;
+                changed = true;
+                surely = surely && ++out == 1 && one.decision.verdict == QDOT_REFUTED;
+            }
+        }
+    }
+    if (!surely && result->decision.verdict == QDOT_REFUTED)
+        result->decision = (qdot_decision){.verdict = QDOT_UNDECIDED};
+    return QDOT_OK;
+}
+
+/* Whether it holds what jumps: its derivative is that between the jumps, and so would be an
+ * integral. */
+static qdot_status
+jumps(const forms *f, size_t k, bool *yes)
+{
+    static const qdot_fun_id those[] = {QDOT_FLOOR, QDOT_MOD, QDOT_SIGN, QDOT_IF};
+    qdot_walk w;
+
+    *yes = false;
+    QDOT_TRY(qdot_walk_begin(f->pool, f->s->constraints.at[f->of[k]].f, &w));
+    for (size_t i = 0; i < w.n; i++)
+        for (size_t j = 0; j < sizeof those / sizeof *those; j++)
+            *yes = *yes
+                   || (qdot_expr_kind(f->pool, w.at[i]) == QDOT_FUN
+                       && qdot_expr_node(f->pool, w.at[i])->op == those[j]);
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}
+
+static qdot_status
+decide(forms *f, size_t k, bool alone, qdot_integrability *result)
+{
+    bool *held, jump;
+    qdot_status status;
+
+    QDOT_TRY(jumps(f, k, &jump));
+    if (jump) {
+        result->decision = (qdot_decision){.verdict = QDOT_UNDECIDED};
+        return QDOT_OK;
+    }
+    held = qdot_calloc(f->n, sizeof *held);
+    status = held ? decide_alone(f, k, result) : QDOT_ENOMEM;
+    if (status == QDOT_OK && !result->alone && !alone && f->m > 1) {
+        status = decide_together(f, k, result);
+        if (status == QDOT_OK && result->decision.verdict == QDOT_PROVED)
+            find_held(f, k, held);
+    }
+    if (status == QDOT_OK && result->decision.verdict == QDOT_PROVED) {
+        result->component = QDOT_NIL;
+        find_integral(f, k, held, result);
+        if (!result->alone)
+            result->factor = QDOT_NIL;
+        status = qdot_pool_check(f->pool);
+    }
+    qdot_free(held);
+    return status;
+}
+
+qdot_status
+qdot_mech_integrable(qdot_scene *s, size_t k, bool alone, qdot_integrability *result)
+{
+    const qdot_constraint *c = &s->constraints.at[k];
+    qdot_status status;
+    size_t row = 0;
+    forms f;
+
+    *result = (qdot_integrability){.component = QDOT_NIL, .integral = QDOT_NIL};
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (c->kind != QDOT_VELOCITY)
+        return qdot_fail(QDOT_EINVAL,
+                         c->kind == QDOT_HOLONOMIC
+                             ? "constraint %s holds no velocities: it is holonomic as it "
+                               "stands"
+                             : "constraint %s holds accelerations: the question is of "
+                               "velocity constraints",
+                         c->name);
+    status = forms_init(&f, s);
+    while (status == QDOT_OK && row < f.m && f.of[row] != k)
+        row++;
+    if (status == QDOT_OK && row == f.m)
+        status = qdot_fail(QDOT_EINVAL,
+                           "constraint %s is not linear in the velocities: the question "
+                           "is of those that are",
+                           c->name);
+    if (status == QDOT_OK)
+        status = decide(&f, row, alone, result);
+    forms_clear(&f);
+    return status;
+}

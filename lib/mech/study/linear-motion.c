@@ -1,0 +1,274 @@
+/* linear-motion.c -- the equations of motion about a place of rest, to first order. */
+#include "mech/study/linear-motion.h"
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/derived.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+
+/* --- linear motion -------------------------------------------------------------------- */
+
+qdot_status
+qdot_rest_facts(qdot_scene *s, qdot_expr exists, qdot_facts *facts, qdot_expr **own)
+{
+    uint32_t n = exists == QDOT_NIL ? 0 : qdot_expr_count(s->pool, exists);
+
+    *facts = qdot_scene_facts(s);
+    *own = qdot_malloc((facts->n_conditions + n + 1) * sizeof **own);
+    if (*own == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < facts->n_conditions; i++)
+        (*own)[i] = facts->conditions[i];
+    for (uint32_t i = 0; i < n; i++)
+        (*own)[facts->n_conditions + i] = qdot_expr_arg(s->pool, exists, i);
+    facts->conditions = *own;
+    facts->n_conditions += n;
+    return QDOT_OK;
+}
+
+/* e at rest at the equilibrium, simplified. */
+typedef struct {
+    qdot_scene *s;
+    qdot_facts facts;
+    qdot_expr *own; /* the facts' conditions */
+    size_t n;
+    qdot_expr *from, *to;
+} place;
+
+static qdot_status
+place_begin(place *p, qdot_scene *s, qdot_expr equations, qdot_expr exists)
+{
+    size_t n = s->coordinates.n, m = qdot_expr_count(s->pool, equations);
+
+    *p = (place){.s = s, .n = 2 * n + m};
+    QDOT_TRY(qdot_rest_facts(s, exists, &p->facts, &p->own));
+    p->from = qdot_calloc(2 * p->n + 1, sizeof *p->from);
+    if (p->from == NULL)
+        return QDOT_ENOMEM;
+    p->to = p->from + p->n;
+    for (size_t i = 0; i < n; i++) {
+        p->from[i] = qdot_mech_jet(s, i, 1);
+        p->from[n + i] = qdot_mech_jet(s, i, 2);
+        p->to[i] = p->to[n + i] = QDOT_ZERO;
+    }
+    for (size_t i = 0; i < m; i++) {
+        qdot_expr one = qdot_expr_arg(s->pool, equations, (uint32_t)i);
+
+        p->from[2 * n + i] = qdot_expr_arg(s->pool, one, 0);
+        p->to[2 * n + i] = qdot_expr_arg(s->pool, one, 1);
+    }
+    return qdot_pool_check(s->pool);
+}
+
+static void
+place_end(place *p)
+{
+    qdot_free(p->from);
+    qdot_free(p->own);
+}
+
+static qdot_expr
+at(const place *p, qdot_expr e)
+{
+    e = qdot_subs(p->s->pool, e, p->n, p->from, p->to);
+    return qdot_simplify(p->s->pool, e, &p->facts);
+}
+
+qdot_expr
+qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e)
+{
+    place p = {0};
+    qdot_status status = place_begin(&p, s, equations, QDOT_NIL);
+
+    e = status == QDOT_OK ? qdot_subs(s->pool, e, p.n, p.from, p.to)
+                          : qdot_pool_fail(s->pool);
+    place_end(&p);
+    return e;
+}
+
+/* The tangent space of the holonomic constraints: its columns, at stride n, a basis; which [n] the
+ * coordinate of each. */
+static qdot_status
+tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
+{
+    qdot_scene *s = p->s;
+    qdot_pool *pool = s->pool;
+    size_t n = s->coordinates.n, c = s->constraints.n, rank = 0, columns = 0;
+    qdot_expr *A = qdot_calloc(c * n + n + 1, sizeof *A);
+    size_t *pivot = qdot_calloc(c + 1, sizeof *pivot);
+    qdot_status status = A == NULL || pivot == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t k = 0; k < c && status == QDOT_OK; k++) { /* reduced rows, one by one */
+        qdot_expr *row = A + rank * n;
+        size_t j = 0;
+
+        for (size_t i = 0; i < n; i++)
+            row[i] = at(p, qdot_constraint_slope(s, k, i));
+        status = qdot_pool_check(pool);
+        for (size_t r = 0; r < rank && status == QDOT_OK; r++) {
+            qdot_expr by = row[pivot[r]];
+
+            for (size_t i = 0; i < n && by != QDOT_ZERO; i++)
+                row[i] = qdot_simplify(
+                    pool, qdot_sub(pool, row[i], qdot_mul(pool, by, A[r * n + i])),
+                    &p->facts);
+            status = qdot_pool_check(pool);
+        }
+        while (status == QDOT_OK && j < n && qdot_is_zero(pool, row[j], &p->facts))
+            j++;
+        if (status != QDOT_OK || j == n)
+            continue;
+        for (size_t i = n; i-- > 0;)
+            if (i != j)
+                row[i] = qdot_simplify(pool, qdot_div(pool, row[i], row[j]), &p->facts);
+        row[j] = QDOT_ONE;
+        for (size_t r = 0; r < rank; r++) {
+            qdot_expr by = A[r * n + j];
+
+            for (size_t i = 0; i < n && by != QDOT_ZERO; i++)
+                A[r * n + i] = qdot_simplify(
+                    pool, qdot_sub(pool, A[r * n + i], qdot_mul(pool, by, row[i])),
+                    &p->facts);
+        }
+        pivot[rank++] = j;
+        status = qdot_pool_check(pool);
+    }
+    for (size_t j = 0; j < n && status == QDOT_OK; j++) {
+        bool dependent = false;
+
+        for (size_t r = 0; r < rank; r++)
+            dependent |= pivot[r] == j;
+        if (dependent)
+            continue;
+        for (size_t i = 0; i < n; i++)
+            N[i * n + columns] = i == j ? QDOT_ONE : QDOT_ZERO;
+        for (size_t r = 0; r < rank; r++)
+            N[pivot[r] * n + columns] = qdot_neg(pool, A[r * n + j]);
+        out->which[columns++] = j;
+    }
+    out->n = columns;
+    out->rank = rank;
+    qdot_free(A);
+    qdot_free(pivot);
+    return status;
+}
+
+/* N^T X N, X [n*n], N [n*m]. */
+static qdot_status
+reduce(const place *p, const qdot_expr *X, const qdot_expr *N, size_t m, qdot_expr *out)
+{
+    qdot_pool *pool = p->s->pool;
+    size_t n = p->s->coordinates.n;
+
+    for (size_t a = 0; a < m; a++)
+        for (size_t b = 0; b < m; b++) {
+            qdot_expr sum = QDOT_ZERO;
+
+            for (size_t i = 0; i < n; i++)
+                for (size_t j = 0; j < n; j++)
+                    if (N[i * m + a] != QDOT_ZERO && N[j * m + b] != QDOT_ZERO &&
+                        X[i * n + j] != QDOT_ZERO)
+                        sum = qdot_add(
+                            pool, sum,
+                            qdot_product(
+                                pool, 3,
+                                (qdot_expr[]){N[i * m + a], X[i * n + j], N[j * m + b]}));
+            out[a * m + b] = qdot_simplify(pool, sum, &p->facts);
+        }
+    return qdot_pool_check(pool);
+}
+
+/* M, Gamma, H of all coordinates, [n*n] each, and out->exact, out->damped. */
+static qdot_status
+linearise(const place *p, qdot_expr *X, qdot_linear_motion *out)
+{
+    qdot_scene *s = p->s;
+    size_t n = s->coordinates.n;
+    const uint32_t motion =
+        QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME;
+
+    out->exact = s->constraints.n == 0;
+    out->damped = true;
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr equation = qdot_mech_equation(s, s->coordinates.at[i]), left;
+
+        QDOT_TRY(qdot_pool_check(s->pool));
+        left = qdot_sub(s->pool, qdot_expr_arg(s->pool, equation, 0),
+                        qdot_expr_arg(s->pool, equation, 1));
+        for (uint32_t order = 0; order < 3; order++)
+            for (size_t j = 0; j < n; j++) {
+                qdot_expr slope = qdot_diff(s->pool, left, qdot_mech_jet(s, j, order));
+
+                out->exact = out->exact && slope != QDOT_NIL &&
+                             (qdot_mech_holds(s, slope) & motion) == 0;
+                slope = at(p, slope);
+                if (order == 1 && slope == QDOT_NIL) { /* a root of velocities */
+                    qdot_status status = qdot_pool_check(s->pool);
+
+                    if (status != QDOT_EDOMAIN)
+                        return status;
+                    out->damped = false;
+                    slope = QDOT_ZERO;
+                }
+                X[(2 - order) * n * n + i * n + j] = slope;
+            }
+    }
+    return qdot_pool_check(s->pool);
+}
+
+void
+qdot_linear_motion_clear(qdot_linear_motion *m)
+{
+    qdot_free(m->M);
+    qdot_free(m->which);
+    *m = (qdot_linear_motion){0};
+}
+
+static qdot_status
+reduced(const place *p, const qdot_expr *X, const qdot_expr *columns,
+        qdot_linear_motion *out)
+{
+    size_t n = p->s->coordinates.n, m = out->n;
+
+    out->M = qdot_calloc(3 * m * m + n * m + 1, sizeof *out->M);
+    if (out->M == NULL)
+        return QDOT_ENOMEM;
+    out->Gamma = out->M + m * m;
+    out->H = out->Gamma + m * m;
+    out->N = out->H + m * m;
+    for (size_t i = 0; i < n; i++)
+        for (size_t a = 0; a < m; a++)
+            out->N[i * m + a] = columns[i * n + a];
+    for (int k = 0; k < 3; k++)
+        QDOT_TRY(reduce(p, X + (size_t)k * n * n, out->N, m, out->M + (size_t)k * m * m));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
+                         qdot_linear_motion *out)
+{
+    size_t n = s->coordinates.n;
+    qdot_expr *X = qdot_calloc(4 * n * n + 1, sizeof *X);
+    qdot_status status = X == NULL ? QDOT_ENOMEM : QDOT_OK;
+    place p = {0};
+
+    *out = (qdot_linear_motion){.which = qdot_calloc(n + 1, sizeof *out->which)};
+    if (out->which == NULL)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = place_begin(&p, s, equations, exists);
+    if (status == QDOT_OK)
+        status = linearise(&p, X, out);
+    if (status == QDOT_OK)
+        status = tangents(&p, X + 3 * n * n, out);
+    if (status == QDOT_OK)
+        status = reduced(&p, X, X + 3 * n * n, out);
+    qdot_free(X);
+    place_end(&p);
+    if (status != QDOT_OK)
+        qdot_linear_motion_clear(out);
+    return status;
+}

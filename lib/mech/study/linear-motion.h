@@ -1,0 +1,38 @@
+/* linear-motion.h -- the motion about a place of rest, to first order. Internal to mech/.
+ *
+ * With q = q0 + x, x = N y in the tangent space of the holonomic constraints,
+ *
+ *     M y'' + Gamma y' + H y = 0,   H = d(left - right)/dq at rest, multipliers held.
+ */
+#ifndef QDOT_MECH_LINEAR_MOTION_H
+#define QDOT_MECH_LINEAR_MOTION_H
+
+#include "mech/study/equilibrium.h"
+#include "normal/field/facts.h"
+
+typedef struct {
+    size_t n;
+    qdot_expr *M, *Gamma, *H; /* [n * n] */
+    qdot_expr *N;             /* [coordinates * n] */
+    size_t *which;            /* [n] the coordinate that y_a is */
+    size_t rank;              /* of the constraints' slopes at the place */
+    bool exact;               /* the equations are linear: nothing is left out */
+    bool damped;              /* Gamma has values: else it stands as 0 (|v| v at v = 0) */
+} qdot_linear_motion;
+
+/* About `equations`, which hold where `exists` does (a LIST; nil: everywhere). Owned by the
+ * caller. */
+QDOT_MUST_CHECK qdot_status qdot_linear_motion_about(qdot_scene *s, qdot_expr equations,
+                                                     qdot_expr exists,
+                                                     qdot_linear_motion *out);
+void qdot_linear_motion_clear(qdot_linear_motion *m);
+
+/* The facts of a scene where it has an equilibrium: the conditions under which that exists are
+ * among them. own: to be freed. */
+QDOT_MUST_CHECK qdot_status qdot_rest_facts(qdot_scene *s, qdot_expr exists,
+                                            qdot_facts *facts, qdot_expr **own);
+
+/* e with the values of a place, at rest: substitution alone. */
+qdot_expr qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e);
+
+#endif

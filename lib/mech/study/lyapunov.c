@@ -1,0 +1,128 @@
+/* lyapunov.c -- the work of what is applied beside a potential: none, never positive, or not
+ * known. */
+#include "mech/study/lyapunov.h"
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/derived.h"
+#include "normal/inequality/less.h"
+#include "normal/simplify/simplify.h"
+
+enum { MOST_DECIDED = 300 }; /* operations of a power that is asked for its sign */
+
+/* e at q' = 0. */
+static qdot_expr
+without_velocities(qdot_scene *s, qdot_expr e)
+{
+    for (size_t i = 0; i < s->coordinates.n && e != QDOT_NIL; i++) {
+        qdot_expr v = qdot_mech_jet(s, i, 1), zero = QDOT_ZERO;
+
+        e = qdot_subs(s->pool, e, 1, &v, &zero);
+    }
+    return e;
+}
+
+/* Whether e >= 0 is proved wherever it has a value. */
+static qdot_status
+never_negative(qdot_scene *s, qdot_expr e, const qdot_facts *facts, bool *yes)
+{
+    qdot_decision d;
+
+    e = qdot_simplify(s->pool, e, facts);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    *yes = (qdot_expr_node(s->pool, e)->sign & QDOT_GE0) != 0;
+    if (*yes || qdot_expr_size(s->pool, e) > MOST_DECIDED)
+        return QDOT_OK;
+    QDOT_TRY(qdot_decide_less(s->pool, QDOT_ZERO, e, false, facts, &d));
+    *yes = d.verdict == QDOT_PROVED;
+    return QDOT_OK;
+}
+
+/* Nothing of the scene changes with time by itself, and constraints bind coordinates alone. */
+static qdot_status
+is_still(qdot_scene *s, bool *yes)
+{
+    *yes = qdot_lagrangian_is_still(s, QDOT_T);
+    for (size_t k = 0; k < s->constraints.n; k++)
+        *yes = *yes && s->constraints.at[k].kind == QDOT_HOLONOMIC &&
+               (qdot_mech_holds(s, s->constraints.at[k].f) & QDOT_HAS_TIME) == 0;
+    return qdot_pool_check(s->pool);
+}
+
+/* Dampers and Rayleigh's function: *used where some are there, *yes where all take energy away. */
+static qdot_status
+damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
+{
+    *yes = true;
+    for (size_t k = 0; k < s->dampers.n && *yes; k++) {
+        *used = true;
+        QDOT_TRY(never_negative(s, s->dampers.at[k].stiffness, facts, yes));
+    }
+    for (size_t k = 0; k < s->dissipations.n && *yes; k++) {
+        qdot_expr power = QDOT_ZERO;
+
+        for (size_t i = 0; i < s->coordinates.n; i++) {
+            qdot_expr v = qdot_mech_jet(s, i, 1);
+
+            power = qdot_add(s->pool, power,
+                             qdot_mul(s->pool, v,
+                                      qdot_diff(s->pool, s->dissipations.at[k].e, v)));
+        }
+        *used = true;
+        QDOT_TRY(never_negative(s, power, facts, yes));
+    }
+    return QDOT_OK;
+}
+
+/* Forces and torques: *yes where those at rest have a potential and the rest takes energy away. */
+static qdot_status
+declared(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
+{
+    qdot_pool *pool = s->pool;
+    size_t n = s->coordinates.n;
+    qdot_expr *F = qdot_calloc(n + 1, sizeof *F), power = QDOT_ZERO;
+    qdot_status status = F == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    *yes = true;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_expr Q = qdot_force_declared(s, i);
+
+        F[i] = without_velocities(s, Q);
+        power = qdot_sub(pool, power,
+                         qdot_mul(pool, qdot_mech_jet(s, i, 1), qdot_sub(pool, Q, F[i])));
+        status = qdot_pool_check(pool);
+        *yes = *yes && status == QDOT_OK && (qdot_mech_holds(s, Q) & QDOT_HAS_TIME) == 0;
+    }
+    for (size_t i = 0; i < n && *yes; i++)
+        for (size_t k = 0; k < i && *yes; k++) {
+            qdot_expr curl = qdot_sub(pool, qdot_diff(pool, F[i], s->coordinates.at[k]),
+                                      qdot_diff(pool, F[k], s->coordinates.at[i]));
+
+            *yes = curl != QDOT_NIL && qdot_is_zero(pool, curl, facts);
+        }
+    qdot_free(F);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status != QDOT_OK || !*yes || qdot_is_zero(pool, power, facts))
+        return status;
+    *used = true;
+    return never_negative(s, power, facts, yes);
+}
+
+qdot_status
+qdot_energy_law_of(qdot_scene *s, qdot_energy_law *law)
+{
+    const qdot_facts facts = qdot_scene_facts(s);
+    bool yes, used = false;
+
+    *law = QDOT_ENERGY_UNKNOWN;
+    QDOT_TRY(is_still(s, &yes));
+    if (yes)
+        QDOT_TRY(damping(s, &facts, &yes, &used));
+    if (yes)
+        QDOT_TRY(declared(s, &facts, &yes, &used));
+    if (yes)
+        *law = used ? QDOT_ENERGY_USED : QDOT_ENERGY_KEPT;
+    return QDOT_OK;
+}

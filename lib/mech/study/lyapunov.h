@@ -1,0 +1,23 @@
+/* lyapunov.h -- whether an energy of a scene never grows. Internal to mech/.
+ *
+ * With Q_i what is declared beside L and F_i = Q_i at q' = 0, where dF_i/dq_j = dF_j/dq_i there is a
+ * potential U near each place, F = -dU/dq, and
+ *
+ *     E = sum q' dL/dq' - L + U,   dE/dt = -dL/dt + sum q'_i (Q_i - F_i):
+ *
+ * constraints between coordinates alone do no work. E is kept where that is 0, and used up where it is
+ * proved never positive. Beside it M decides: E rises with the velocities where M is positive
+ * definite, and with the coordinates where its Hessian at rest, H of mech/study/linear-motion.h, is.
+ *
+ * Source  Merkin, Introduction to the Theory of Stability, 3 (Lagrange, Dirichlet) and 6 (Kelvin, Chetaev).
+ */
+#ifndef QDOT_MECH_LYAPUNOV_H
+#define QDOT_MECH_LYAPUNOV_H
+
+#include "mech/scene/scene.h"
+
+typedef enum { QDOT_ENERGY_UNKNOWN, QDOT_ENERGY_KEPT, QDOT_ENERGY_USED } qdot_energy_law;
+
+QDOT_MUST_CHECK qdot_status qdot_energy_law_of(qdot_scene *s, qdot_energy_law *law);
+
+#endif

@@ -1,0 +1,39 @@
+/* minimal.h -- a scene with holonomic constraints in coordinates that need none.
+ *
+ * Constraint after constraint is solved, those before put in:
+ *
+ *     c x + g = 0, c free of motion       x = -g/c
+ *     s ((x - a)^2 + (y - b)^2 - l^2) = 0  x = a + l sin u, y = b - l cos u, u a new angle
+ *     s ((x - a)^2 + (y - b)^2 + (z - c)^2 - l^2) = 0
+ *                                         x = a + l sin u cos v, y = b + l sin u sin v,
+ *                                         z = c - l cos u, two; z, of the three, that which
+ *                                         starts nearest to the centre, far from the poles
+ *
+ * where c, s, l hold no coordinates and a, b, c of a centre and g none of x, y, z. What cannot be solved so,
+ * velocity and acceleration constraints, and generalized forces on a coordinate that would
+ * go, leave the scene without such a form.
+ *
+ * Tests  tests/script/race.lag
+ */
+#ifndef QDOT_MECH_MINIMAL_H
+#define QDOT_MECH_MINIMAL_H
+
+#include "mech/dynamics/quantity.h"
+
+typedef struct {
+    qdot_scene *scene; /* owned; NULL: there is no such form, `reason` says why */
+    char reason[160];
+    size_t n;          /* coordinates of the scene as given */
+    qdot_expr *given;  /* [n] these, by coordinates of `scene` */
+    size_t fresh;      /* new angles: the last coordinates of `scene` */
+    qdot_expr *angle;  /* [fresh] by the coordinates given */
+} qdot_minimal;
+
+/* size: what an expression in the coordinates and parameters is at the start, about; NULL:
+ * unknown. Errors: the pool's; a scene without that form is none. */
+QDOT_MUST_CHECK qdot_status qdot_minimal_make(qdot_scene *s,
+                                              double (*size)(qdot_expr e, void *user),
+                                              void *user, qdot_minimal *minimal);
+void qdot_minimal_clear(qdot_minimal *minimal);
+
+#endif

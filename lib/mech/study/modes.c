@@ -1,0 +1,521 @@
+/* modes.c -- normal modes about an equilibrium: exact where the characteristic polynomial
+ * factors, else numbers. */
+#include <math.h>
+
+#include <gsl/gsl_eigen.h>
+
+#include "expr/calculus.h"
+#include "expr/tensor.h"
+#include "expr/walk.h"
+#include "mech/scene/derived.h"
+#include "mech/study/equilibrium.h"
+#include "mech/study/linear-motion.h"
+#include "normal/inequality/less.h"
+#include "normal/simplify/positive.h"
+#include "normal/simplify/rationalize.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/solve.h"
+
+enum { MOST_EXACT = 6 };
+
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    qdot_facts facts;
+    qdot_binder bind;
+    void *user;
+    qdot_linear_motion m;
+    qdot_vec(qdot_expr) frequency, amplitude;
+    bool numeric, unordered;
+} job;
+
+static bool
+is_zero(const job *j, qdot_expr e)
+{
+    return e == QDOT_ZERO || qdot_is_zero(j->pool, e, &j->facts);
+}
+
+/* A coordinate without mass has no oscillation: its row of M is 0. */
+static qdot_status
+check_masses(const job *j)
+{
+    qdot_scene *s = j->s;
+
+    for (size_t i = 0; i < s->coordinates.n && s->constraints.n == 0; i++) {
+        const char *q = qdot_expr_symbol(j->pool, s->coordinates.at[i])->name;
+        bool moves = false;
+
+        for (size_t k = 0; k < s->coordinates.n && !moves; k++)
+            moves = !is_zero(j, qdot_mass_of_lagrangian(s, i, k));
+        QDOT_TRY(qdot_pool_check(j->pool));
+        if (moves)
+            continue;
+        (void)qdot_fail(QDOT_ESINGULAR,
+                        "nothing with mass moves with %.200s: it has no modes", q);
+        return qdot_hint("declare only the coordinates that the scene uses");
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+check_motion(const job *j)
+{
+    size_t n = j->m.n;
+
+    if (n == 0)
+        return qdot_fail(QDOT_EINVAL, "nothing can move there: there are no modes");
+    QDOT_TRY(check_masses(j));
+    for (size_t i = 0; i < n * n; i++)
+        if (!is_zero(j, j->m.Gamma[i]))
+            return qdot_fail(QDOT_ETYPE,
+                             "the motion about the equilibrium has damping or "
+                             "gyroscopic terms: it has no normal modes");
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < i; k++)
+            if (!is_zero(j, qdot_sub(j->pool, j->m.H[i * n + k], j->m.H[k * n + i])))
+                return qdot_fail(QDOT_ETYPE, "the forces have no potential: there are no "
+                                             "normal modes");
+    return qdot_pool_check(j->pool);
+}
+
+/* One mode: w, and x = N y with its first component that is not 0 made 1. */
+static qdot_status
+add_mode(job *j, qdot_expr w, const qdot_expr *y)
+{
+    qdot_pool *pool = j->pool;
+    size_t n = j->s->coordinates.n, m = j->m.n;
+    qdot_expr first = QDOT_NIL;
+
+    QDOT_TRY(qdot_vec_push(&j->frequency, w));
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr x = QDOT_ZERO;
+
+        for (size_t a = 0; a < m; a++)
+            x = qdot_add(pool, x, qdot_mul(pool, j->m.N[i * m + a], y[a]));
+        x = qdot_simplify(pool, x, &j->facts);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (first == QDOT_NIL && !is_zero(j, x))
+            first = x;
+        if (first != QDOT_NIL)
+            x = qdot_rationalize(pool, qdot_div(pool, x, first), &j->facts);
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(qdot_vec_push(&j->amplitude, x));
+    }
+    return QDOT_OK;
+}
+
+/* --- exact ---------------------------------------------------------------------------- */
+
+static qdot_status
+to_echelon(const job *j, qdot_expr *A, size_t *pivot, size_t *rank)
+{
+    qdot_pool *pool = j->pool;
+    size_t n = j->m.n;
+
+    *rank = 0;
+    for (size_t c = 0; c < n; c++) {
+        size_t r = *rank;
+
+        while (r < n && is_zero(j, A[r * n + c]))
+            r++;
+        if (r == n)
+            continue;
+        for (size_t k = 0; k < n; k++) {
+            qdot_expr keep = A[r * n + k];
+
+            A[r * n + k] = A[*rank * n + k];
+            A[*rank * n + k] = keep;
+        }
+        for (size_t k = n; k-- > 0;)
+            if (k != c)
+                A[*rank * n + k] = qdot_simplify(
+                    pool, qdot_div(pool, A[*rank * n + k], A[*rank * n + c]), &j->facts);
+        A[*rank * n + c] = QDOT_ONE;
+        for (r = 0; r < n; r++) {
+            qdot_expr by = A[r * n + c];
+
+            for (size_t k = 0; r != *rank && by != QDOT_ZERO && k < n; k++)
+                A[r * n + k] = qdot_simplify(
+                    pool,
+                    qdot_sub(pool, A[r * n + k], qdot_mul(pool, by, A[*rank * n + k])),
+                    &j->facts);
+        }
+        QDOT_TRY(qdot_pool_check(pool));
+        pivot[(*rank)++] = c;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+unstable(void)
+{
+    return qdot_fail(QDOT_EDOMAIN,
+                     "the equilibrium is not stable: there is no oscillation about it");
+}
+
+/* The modes of one root W = w^2: the null space of H - W M. */
+static qdot_status
+modes_of(job *j, qdot_expr W)
+{
+    qdot_pool *pool = j->pool;
+    size_t n = j->m.n, rank = 0;
+    qdot_expr *A = qdot_calloc(n * n + n, sizeof *A), *y = A + n * n;
+    size_t *pivot = qdot_calloc(n, sizeof *pivot);
+    qdot_expr w = qdot_sqrt(pool, W);
+    qdot_status status = QDOT_OK;
+
+    if (A == NULL || pivot == NULL)
+        status = QDOT_ENOMEM;
+    else if (qdot_positive(pool, W, &j->facts, 0, NULL) == QDOT_FALSE && !is_zero(j, W))
+        w = QDOT_NIL;
+    if (w == QDOT_NIL && status == QDOT_OK && !qdot_pool_failed(pool))
+        status = unstable();
+    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
+        A[i] = qdot_simplify(
+            pool, qdot_sub(pool, j->m.H[i], qdot_mul(pool, W, j->m.M[i])), &j->facts);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_EDOMAIN)
+        status = unstable();
+    if (status == QDOT_OK)
+        status = to_echelon(j, A, pivot, &rank);
+    for (size_t c = 0; c < n && status == QDOT_OK; c++) {
+        bool dependent = false;
+
+        for (size_t r = 0; r < rank; r++)
+            dependent |= pivot[r] == c;
+        if (dependent)
+            continue;
+        for (size_t i = 0; i < n; i++)
+            y[i] = i == c ? QDOT_ONE : QDOT_ZERO;
+        for (size_t r = 0; r < rank; r++)
+            y[pivot[r]] = qdot_neg(pool, A[r * n + c]);
+        status = add_mode(j, qdot_simplify(pool, w, &j->facts), y);
+    }
+    qdot_free(A);
+    qdot_free(pivot);
+    return status;
+}
+
+/* Whether a <= b: 1, -1 (a > b) by declared signs and assumptions; else 0. */
+static qdot_status
+order_of(const job *j, qdot_expr a, qdot_expr b, int *order)
+{
+    qdot_pool *pool = j->pool;
+    qdot_expr d = qdot_sub(pool, qdot_mul(pool, b, b), qdot_mul(pool, a, a));
+    qdot_decision decision;
+    uint8_t sign;
+
+    d = qdot_simplify(pool, d, &j->facts);
+    QDOT_TRY(qdot_pool_check(pool));
+    sign = qdot_expr_node(pool, d)->sign;
+    *order = sign & QDOT_GE0 ? 1 : sign & QDOT_LE0 ? -1 : 0;
+    for (int way = 1; way >= -1 && *order == 0; way -= 2) {
+        QDOT_TRY(qdot_decide_less(pool, way > 0 ? QDOT_ZERO : d, way > 0 ? d : QDOT_ZERO,
+                                  false, &j->facts, &decision));
+        if (decision.verdict == QDOT_PROVED)
+            *order = way;
+    }
+    return QDOT_OK;
+}
+
+/* The same at the values of the parameters, those without one at a generic place. */
+static int
+order_in_numbers(const job *j, qdot_expr a, qdot_expr b)
+{
+    qdot_expr pair[2] = {a, b};
+    double v[2];
+
+    for (int k = 0; k < 2; k++)
+        if (j->bind != NULL)
+            pair[k] = j->bind(j->user, pair[k]);
+    if (pair[0] == QDOT_NIL || pair[1] == QDOT_NIL ||
+        qdot_generic_evaluate(j->pool, 2, pair, 0, NULL, NULL, 1, v) != QDOT_OK)
+        return 1;
+    return v[0] > v[1] ? -1 : 1;
+}
+
+static void
+exchange_modes(job *j, size_t a, size_t b)
+{
+    size_t width = j->s->coordinates.n;
+    qdot_expr keep = j->frequency.at[a];
+
+    j->frequency.at[a] = j->frequency.at[b];
+    j->frequency.at[b] = keep;
+    for (size_t i = 0; i < width; i++) {
+        keep = j->amplitude.at[a * width + i];
+        j->amplitude.at[a * width + i] = j->amplitude.at[b * width + i];
+        j->amplitude.at[b * width + i] = keep;
+    }
+}
+
+/* Ascending. */
+static qdot_status
+sort(job *j)
+{
+    for (size_t a = 1; a < j->frequency.n; a++)
+        for (size_t b = a; b > 0; b--) {
+            qdot_expr left = j->frequency.at[b - 1], right = j->frequency.at[b];
+            int order = 1;
+
+            if (left != right)
+                QDOT_TRY(order_of(j, left, right, &order));
+            if (order == 0) {
+                j->unordered = true;
+                order = order_in_numbers(j, left, right);
+            }
+            if (order > 0)
+                break;
+            exchange_modes(j, b - 1, b);
+        }
+    return QDOT_OK;
+}
+
+/* The two roots of det(H - W M) = 0 as
+ *
+ *     2 a W = b -+ sqrt((M11 H22 - M22 H11)^2 + 4 (M11 H12 - M12 H11)(M22 H12 - M12 H22)),
+ *     a = det M,   b = M11 H22 + M22 H11 - 2 M12 H12,
+ *
+ * whose root is mostly shorter than that of b^2 - 4 a det H; taken where W is. */
+static void
+of_two(job *j, qdot_root *roots)
+{
+    qdot_pool *pool = j->pool;
+    const qdot_expr *M = j->m.M, *H = j->m.H;
+    qdot_expr cross[4], b, root, W[2];
+    static const int pick[3][4] = {{0, 3, 3, 0}, {0, 1, 1, 0}, {3, 1, 1, 3}};
+
+    for (int i = 0; i < 3; i++) /* M_x H_y - M_z H_w */
+        cross[i] =
+            qdot_simplify(pool,
+                          qdot_sub(pool, qdot_mul(pool, M[pick[i][0]], H[pick[i][1]]),
+                                   qdot_mul(pool, M[pick[i][2]], H[pick[i][3]])),
+                          &j->facts);
+    cross[3] = qdot_sub(pool, qdot_mul(pool, M[0], M[3]), qdot_mul(pool, M[1], M[1]));
+    b = qdot_add(pool, qdot_mul(pool, M[0], H[3]), qdot_mul(pool, M[3], H[0]));
+    b = qdot_sub(pool, b,
+                 qdot_mul(pool, qdot_expr_int(pool, 2), qdot_mul(pool, M[1], H[1])));
+    root = qdot_mul(pool, qdot_expr_int(pool, 4), qdot_mul(pool, cross[1], cross[2]));
+    root = qdot_add(pool, qdot_pow_int(pool, cross[0], 2), root);
+    root = qdot_sqrt(pool, qdot_simplify(pool, root, &j->facts));
+    for (int i = 0; i < 2; i++) {
+        W[i] = i == 0 ? qdot_sub(pool, b, root) : qdot_add(pool, b, root);
+        W[i] = qdot_div(pool, W[i], qdot_mul(pool, qdot_expr_int(pool, 2), cross[3]));
+        W[i] = qdot_simplify(pool, W[i], &j->facts);
+    }
+    if (qdot_pool_failed(pool))
+        return;
+    if (qdot_expr_size(pool, W[0]) + qdot_expr_size(pool, W[1]) <
+        qdot_expr_size(pool, roots[0].value) + qdot_expr_size(pool, roots[1].value))
+        for (int i = 0; i < 2; i++)
+            roots[i].value = W[i];
+}
+
+/* *done: all n modes were found. */
+static qdot_status
+exact(job *j, bool *done)
+{
+    qdot_pool *pool = j->pool;
+    size_t n = j->m.n, count = 0;
+    qdot_expr W = qdot_symbol_get(pool, QDOT_FORMAL, "omega^2"), *A, e;
+    qdot_root *roots = NULL;
+    bool complete = false;
+    qdot_status status;
+
+    *done = false;
+    if (n > MOST_EXACT)
+        return QDOT_OK;
+    A = qdot_calloc(n * n, sizeof *A);
+    if (A == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n * n; i++)
+        A[i] = qdot_sub(pool, j->m.H[i], qdot_mul(pool, W, j->m.M[i]));
+    e = n == 1 ? A[0] : qdot_det(pool, qdot_matrix(pool, (uint32_t)n, (uint32_t)n, A));
+    qdot_free(A);
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_solve(pool, e, W, &j->facts, &roots, &count, &complete));
+    if (n == 2 && count == 2 && complete)
+        of_two(j, roots);
+    status = qdot_pool_check(pool);
+    for (size_t k = 0; k < count && complete && status == QDOT_OK; k++)
+        status = modes_of(j, roots[k].value);
+    qdot_free(roots);
+    *done = complete && j->frequency.n == n;
+    if (status == QDOT_OK && *done)
+        status = sort(j);
+    return status;
+}
+
+/* --- numbers ------------------------------------------------------------------------------ */
+
+static qdot_expr
+decimal(qdot_pool *pool, double x)
+{
+    qdot_text text = {0};
+    qdot_expr e;
+
+    qdot_text_double(&text, fabs(x), 15);
+    e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
+                                           : qdot_expr_decimal(pool, text.at, text.n);
+    qdot_text_clear(&text);
+    return x < 0 ? qdot_neg(pool, e) : e;
+}
+
+/* Values of e [n], bound; QDOT_EUNSET names what has none. */
+static qdot_status
+values(const job *j, size_t n, const qdot_expr *e, double *out)
+{
+    qdot_pool *pool = j->pool;
+    qdot_expr list = qdot_list(pool, (uint32_t)n, e), atoms;
+    qdot_expr *bound;
+    qdot_status status;
+
+    if (list != QDOT_NIL && j->bind != NULL)
+        list = j->bind(j->user, list);
+    QDOT_TRY(qdot_pool_check(pool));
+    atoms = qdot_expr_atoms(pool, list, true);
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
+        qdot_expr x = qdot_expr_arg(pool, atoms, i);
+
+        if (qdot_expr_is_class(pool, x, QDOT_CONST))
+            continue;
+        qdot_fail(QDOT_EUNSET,
+                  "the modes cannot be found exactly; numbers need a value of `%.100s`",
+                  qdot_expr_kind(pool, x) == QDOT_SYM
+                      ? qdot_expr_symbol(pool, x)->name
+                      : qdot_ufun_get(pool, qdot_expr_node(pool, x)->op)->name);
+        return qdot_hint("set %.100s = ...", qdot_expr_kind(pool, x) == QDOT_SYM
+                                                 ? qdot_expr_symbol(pool, x)->name
+                                                 : "f(...)");
+    }
+    bound = qdot_malloc((n + 1) * sizeof *bound);
+    if (bound == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        bound[i] = qdot_expr_arg(pool, list, (uint32_t)i);
+    status = qdot_generic_evaluate(pool, n, bound, 0, NULL, NULL, 1, out);
+    qdot_free(bound);
+    return status;
+}
+
+/* x = N y, scaled so that the first component that is not small is 1. */
+static qdot_status
+add_numeric(job *j, double w, const double *N, const gsl_matrix *Y, size_t k)
+{
+    size_t n = j->s->coordinates.n, m = j->m.n;
+    double *x = qdot_calloc(n, sizeof *x), most = 0, first = 0;
+    qdot_status status = x == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        for (size_t a = 0; a < m; a++)
+            x[i] += N[i * m + a] * gsl_matrix_get(Y, a, k);
+        most = fmax(most, fabs(x[i]));
+    }
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&j->frequency, decimal(j->pool, w));
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        double v;
+
+        if (first == 0 && fabs(x[i]) > 1e-9 * most)
+            first = x[i];
+        v = fabs(x[i]) > 1e-12 * most && first != 0 ? x[i] / first : 0;
+        status = qdot_vec_push(&j->amplitude, decimal(j->pool, v));
+    }
+    qdot_free(x);
+    return status == QDOT_OK ? qdot_pool_check(j->pool) : status;
+}
+
+static qdot_status
+in_numbers(job *j)
+{
+    size_t n = j->s->coordinates.n, m = j->m.n;
+    double *v = qdot_calloc(3 * m * m + n * m + 1, sizeof *v);
+    gsl_matrix *H = gsl_matrix_alloc(m, m), *M = gsl_matrix_alloc(m, m),
+               *Y = gsl_matrix_alloc(m, m);
+    gsl_vector *W = gsl_vector_alloc(m);
+    gsl_eigen_gensymmv_workspace *work = gsl_eigen_gensymmv_alloc(m);
+    gsl_error_handler_t *before = gsl_set_error_handler_off();
+    qdot_status status =
+        v == NULL || H == NULL || M == NULL || Y == NULL || W == NULL || work == NULL
+            ? QDOT_ENOMEM
+            : QDOT_OK;
+
+    if (status == QDOT_OK) /* M, Gamma, H, N lie one behind another */
+        status = values(j, 3 * m * m + n * m, j->m.M, v);
+    for (size_t i = 0; i < m * m && status == QDOT_OK; i++) {
+        M->data[i] = v[i];
+        H->data[i] = v[2 * m * m + i];
+    }
+    if (status == QDOT_OK && gsl_eigen_gensymmv(H, M, W, Y, work) != GSL_SUCCESS)
+        status =
+            qdot_fail(QDOT_ESINGULAR, "the mass matrix is not positive definite there");
+    if (status == QDOT_OK)
+        gsl_eigen_gensymmv_sort(W, Y, GSL_EIGEN_SORT_VAL_ASC);
+    for (size_t k = 0; k < m && status == QDOT_OK; k++) {
+        double square = gsl_vector_get(W, k),
+               scale = fmax(fabs(gsl_vector_get(W, 0)), fabs(gsl_vector_get(W, m - 1)));
+
+        if (square < -1e-10 * scale)
+            status = unstable();
+        else
+            status = add_numeric(j, sqrt(square > 1e-13 * scale ? square : 0),
+                                 v + 3 * m * m, Y, k);
+    }
+    j->numeric = true;
+    gsl_set_error_handler(before);
+    gsl_matrix_free(H);
+    gsl_matrix_free(M);
+    gsl_matrix_free(Y);
+    gsl_vector_free(W);
+    if (work != NULL)
+        gsl_eigen_gensymmv_free(work);
+    qdot_free(v);
+    return status;
+}
+
+/* --- both ---------------------------------------------------------------------------------- */
+
+void
+qdot_modes_clear(qdot_modes *m)
+{
+    qdot_free(m->frequency);
+    qdot_free(m->amplitude);
+    *m = (qdot_modes){0};
+}
+
+qdot_status
+qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder bind,
+                 void *user, qdot_modes *out)
+{
+    job j = {.s = s,
+             .pool = s->pool,
+             .facts = qdot_scene_facts(s),
+             .bind = bind,
+             .user = user};
+    bool done = false;
+    qdot_status status;
+
+    *out = (qdot_modes){0};
+    for (size_t k = 0; k < s->constraints.n; k++)
+        if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
+            return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
+    QDOT_TRY(qdot_linear_motion_about(s, equations, QDOT_NIL, &j.m));
+    status = check_motion(&j);
+    if (status == QDOT_OK && !numbers)
+        status = exact(&j, &done);
+    if (status == QDOT_OK && !done) {
+        j.frequency.n = j.amplitude.n = 0;
+        status = in_numbers(&j);
+    }
+    qdot_linear_motion_clear(&j.m);
+    out->n = j.frequency.n;
+    out->frequency = j.frequency.at;
+    out->amplitude = j.amplitude.at;
+    out->numeric = j.numeric;
+    out->unordered = j.unordered;
+    if (status != QDOT_OK)
+        qdot_modes_clear(out);
+    return status;
+}

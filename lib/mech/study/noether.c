@@ -1,0 +1,568 @@
+/* noether.c -- symmetries linear in q and t, and what they conserve. */
+#include "mech/study/noether.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <gsl/gsl_linalg.h>
+
+#include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/derived.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/antiderivative.h"
+#include "normal/solve/null-space.h"
+
+enum { MOST_COORDINATES = 16 };
+
+/* An unknown of the ansatz. */
+typedef struct {
+    enum { BOOST, ROTATION, TRANSLATION, TIME } kind;
+    size_t i, j; /* xi_i has b t, c q_j, a */
+} unknown;
+
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    qdot_facts facts;
+    qdot_expr L;
+    size_t n;
+    qdot_expr *E;     /* [n]: d/dt dL/dq' - dL/dq */
+    qdot_expr *slope; /* [3*n*n]: dE_i/dq_j, dE_i/dq_j', dE_i/dq_j'' */
+    qdot_vec(unknown) unknowns;
+    qdot_vec(qdot_expr) found;
+} search;
+
+/* --- conditions --------------------------------------------------------------------- */
+
+static qdot_expr
+jet(const search *f, size_t i, uint32_t order)
+{
+    return qdot_mech_jet(f->s, i, order);
+}
+
+static qdot_expr
+slope(const search *f, uint32_t order, size_t i, size_t j)
+{
+    return f->slope[(order * f->n + i) * f->n + j];
+}
+
+/* E_i of the change of L under one unknown: E_i(dL) = dE_i(xi) + sum_j dxi_j/dq_i E_j. */
+static qdot_expr
+variation(const search *f, const unknown *u, size_t i)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr sum = QDOT_ZERO;
+
+    switch (u->kind) {
+    case TRANSLATION: return slope(f, 0, i, u->i);
+    case TIME: return qdot_diff(pool, f->E[i], QDOT_T);
+    case BOOST:
+        return qdot_add(pool, qdot_mul(pool, QDOT_T, slope(f, 0, i, u->i)),
+                        slope(f, 1, i, u->i));
+    case ROTATION:
+        for (uint32_t order = 0; order < 3; order++)
+            sum = qdot_add(pool, sum,
+                           qdot_mul(pool, jet(f, u->j, order), slope(f, order, i, u->i)));
+        return i == u->j ? qdot_add(pool, sum, f->E[u->i]) : sum;
+    }
+    return sum;
+}
+
+/* xi_j of one unknown. */
+static qdot_expr
+generator(const search *f, const unknown *u, size_t j)
+{
+    if (u->kind == TIME || u->i != j)
+        return QDOT_ZERO;
+    return u->kind == TRANSLATION ? QDOT_ONE
+           : u->kind == BOOST     ? QDOT_T
+                                  : jet(f, u->j, 0);
+}
+
+/* sum_j (xi_j - tau q_j') F_j for a force F. */
+static qdot_expr
+work_of(const search *f, const unknown *u, const qdot_expr *F)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    if (u->kind != TIME)
+        return qdot_mul(f->pool, generator(f, u, u->i), F[u->i]);
+    for (size_t j = 0; j < f->n; j++)
+        sum = qdot_sub(f->pool, sum, qdot_mul(f->pool, jet(f, j, 1), F[j]));
+    return sum;
+}
+
+/* The same for the reaction of a constraint, where the constraint holds: f is taken off. */
+static qdot_expr
+reaction_work(const search *f, const unknown *u, size_t k, const qdot_expr *F)
+{
+    const qdot_constraint *c = &f->s->constraints.at[k];
+    qdot_expr work;
+
+    if (u->kind == TIME && c->kind == QDOT_HOLONOMIC)
+        return qdot_diff(f->pool, c->f, QDOT_T);
+    work = work_of(f, u, F);
+    if (u->kind == TIME && c->kind == QDOT_VELOCITY)
+        work = qdot_add(f->pool, work, c->f);
+    return work;
+}
+
+static size_t
+rows(const search *f)
+{
+    return f->n + 1 + f->s->constraints.n;
+}
+
+/* All conditions, a column for each of the unknowns [m]. */
+static bool
+fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
+{
+    qdot_expr *F = qdot_calloc(f->n + 1, sizeof *F);
+
+    if (F == NULL) {
+        qdot_pool_fail(f->pool);
+        return false;
+    }
+    for (size_t i = 0; i < f->n; i++)
+        for (size_t j = 0; j < m; j++)
+            e[i * m + j] = variation(f, &u[j], i);
+    for (size_t i = 0; i < f->n; i++)
+        F[i] = qdot_force_total(f->s, i, false, true);
+    for (size_t j = 0; j < m; j++)
+        e[f->n * m + j] = work_of(f, &u[j], F);
+    for (size_t k = 0; k < f->s->constraints.n; k++) {
+        for (size_t i = 0; i < f->n; i++)
+            F[i] = qdot_constraint_slope(f->s, k, i);
+        for (size_t j = 0; j < m; j++)
+            e[(f->n + 1 + k) * m + j] = reaction_work(f, &u[j], k, F);
+    }
+    qdot_free(F);
+    return !qdot_pool_failed(f->pool);
+}
+
+/* --- which unknowns can be there at all: numbers at random points ------------------------- */
+
+/* Values of e [m] stacked over many points, parameters the same at all: A [*height * columns],
+ * each row of length about 1. */
+static qdot_status
+sample(const search *f, const qdot_expr *e, size_t columns, double *A, size_t height)
+{
+    qdot_pool *pool = f->pool;
+    size_t m = rows(f) * columns, at = 0;
+    qdot_vec(qdot_expr) parameters = {0};
+    qdot_vec(double) values = {0};
+    double *out = qdot_calloc(m, sizeof *out);
+    qdot_expr whole = qdot_list(pool, (uint32_t)m, e),
+              atoms = qdot_expr_atoms(pool, whole, false);
+    qdot_status status = out == NULL ? QDOT_ENOMEM : qdot_pool_check(pool);
+
+    for (uint32_t i = 0; status == QDOT_OK && i < qdot_expr_count(pool, atoms); i++) {
+        qdot_expr x = qdot_expr_arg(pool, atoms, i);
+
+        if (!qdot_expr_is_class(pool, x, QDOT_PARAM))
+            continue;
+        status = qdot_vec_push(&parameters, x);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&values, qdot_generic_value(pool, x, 1));
+    }
+    for (uint64_t seed = 2; status == QDOT_OK && at < height && seed < 4 * height + 20;
+         seed++) {
+        status = qdot_interrupt_check();
+        if (status == QDOT_OK)
+            status = qdot_generic_evaluate(pool, m, e, parameters.n, parameters.at,
+                                           values.at, seed, out);
+        for (size_t i = 0; status == QDOT_OK && i < rows(f) && at < height; i++) {
+            double length = 0;
+
+            for (size_t j = 0; j < columns; j++)
+                length = hypot(length, out[i * columns + j]);
+            if (!isfinite(length) || length == 0)
+                continue;
+            for (size_t j = 0; j < columns; j++)
+                A[at * columns + j] = out[i * columns + j] / length;
+            at++;
+        }
+    }
+    qdot_free(parameters.at);
+    qdot_free(values.at);
+    qdot_free(out);
+    return status;
+}
+
+/* possible [columns]: whether the null space of e reaches along the column. */
+static qdot_status
+reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
+{
+    size_t height = 3 * columns + 2 * rows(f);
+    gsl_matrix *A = gsl_matrix_calloc(height, columns);
+    gsl_matrix *V = gsl_matrix_alloc(columns, columns);
+    gsl_vector *sigma = gsl_vector_alloc(columns), *work = gsl_vector_alloc(columns);
+    qdot_status status = QDOT_ENOMEM;
+
+    if (A != NULL && V != NULL && sigma != NULL && work != NULL)
+        status = sample(f, e, columns, A->data, height);
+    if (status == QDOT_OK) {
+        /* not Jacobi's way: GSL's takes columns for noise that many rotations have met */
+        gsl_linalg_SV_decomp(A, V, sigma, work);
+        for (size_t j = 0; j < columns; j++) {
+            double along = 0;
+
+            for (size_t k = 0; k < columns; k++)
+                if (gsl_vector_get(sigma, k) <= 1e-9 * gsl_vector_get(sigma, 0))
+                    along = hypot(along, gsl_matrix_get(V, j, k));
+            possible[j] = along > 1e-6;
+        }
+    }
+    gsl_matrix_free(A);
+    gsl_matrix_free(V);
+    gsl_vector_free(sigma);
+    gsl_vector_free(work);
+    return status;
+}
+
+/* --- from a symmetry to its quantity ------------------------------------------------------ */
+
+/* sum_u v_u of(u). */
+static qdot_expr
+combine(const search *f, const unknown *u, size_t m, const qdot_expr *v, size_t j)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t k = 0; k < m; k++)
+        if (v[k] != QDOT_ZERO)
+            sum = qdot_add(f->pool, sum, qdot_mul(f->pool, v[k], generator(f, &u[k], j)));
+    return sum;
+}
+
+/* K with dK/dt = F, F linear in q': dK/dq_i = dF/dq_i', one coordinate after another, then t. False:
+ * none was found. */
+static bool
+gauge(const search *f, qdot_expr F, qdot_expr *K)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr rest = F;
+
+    *K = QDOT_ZERO;
+    for (size_t i = 0; i <= f->n && rest != QDOT_ZERO; i++) {
+        qdot_expr x = i < f->n ? jet(f, i, 0) : QDOT_T, part;
+
+        part = qdot_antiderivative(
+            pool, i < f->n ? qdot_diff(pool, rest, jet(f, i, 1)) : rest, x, &f->facts);
+        if (part == QDOT_NIL)
+            break;
+        *K = qdot_add(pool, *K, part);
+        rest = qdot_expand(pool, qdot_sub(pool, rest, qdot_ddt(pool, part)));
+    }
+    if (qdot_pool_failed(pool))
+        return false;
+    *K = qdot_simplify(pool, *K, &f->facts);
+    return *K != QDOT_NIL &&
+           qdot_is_zero(pool, qdot_sub(pool, qdot_ddt(pool, *K), F), &f->facts);
+}
+
+/* Whether nothing applied and no reaction works along (xi, tau): every such row of e. */
+static bool
+works_nothing(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
+{
+    for (size_t i = f->n; i < rows(f); i++) {
+        qdot_expr sum = QDOT_ZERO;
+
+        for (size_t k = 0; k < m; k++)
+            if (v[k] != QDOT_ZERO)
+                sum = qdot_add(f->pool, sum, qdot_mul(f->pool, v[k], e[i * m + k]));
+        if (!qdot_is_zero(f->pool, sum, &f->facts))
+            return false;
+    }
+    return true;
+}
+
+/* What stands below in v, once: v is multiplied by it. */
+static qdot_expr
+denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
+{
+    qdot_expr all = QDOT_ONE;
+    fmpz_t lcm;
+
+    fmpz_init_set_ui(lcm, 1);
+    for (size_t k = 0; k < m && all != QDOT_NIL; k++) {
+        qdot_expr rest = qdot_mul(pool, v[k], all);
+        const fmpq *c = qdot_expr_rational(pool, v[k]);
+
+        if (rest != QDOT_NIL && qdot_expr_kind(pool, rest) == QDOT_PROD) {
+            c = qdot_expr_rational(pool, qdot_expr_arg(pool, rest, 0));
+            for (uint32_t i = 1; i < qdot_expr_count(pool, rest); i += 2) {
+                qdot_expr x = qdot_expr_arg(pool, rest, i + 1);
+
+                if (qdot_expr_is_negative(pool, x))
+                    all = qdot_mul(pool, all,
+                                   qdot_pow(pool, qdot_expr_arg(pool, rest, i),
+                                            qdot_neg(pool, x)));
+            }
+        }
+        if (c != NULL)
+            fmpz_lcm(lcm, lcm, fmpq_denref(c));
+    }
+    if (!fmpz_is_one(lcm)) {
+        fmpq_t c;
+
+        fmpq_init(c);
+        fmpq_set_fmpz(c, lcm);
+        all = qdot_mul(pool, all, qdot_expr_fmpq(pool, c));
+        fmpq_clear(c);
+    }
+    fmpz_clear(lcm);
+    return all;
+}
+
+/* The sign as in books: the energy, x y' - y x', a translation. */
+static void
+turn(const search *f, const unknown *u, size_t m, qdot_expr *v)
+{
+    qdot_pool *pool = f->pool;
+    size_t lead = m;
+    int best = 0;
+
+    for (size_t k = m; k-- > 0;) { /* what is declared first stands last */
+        int rank = u[k].kind == TIME                          ? 4
+                   : u[k].kind == ROTATION && u[k].i > u[k].j ? 3
+                   : u[k].kind == TRANSLATION                 ? 2
+                                                              : 1;
+
+        v[k] = qdot_simplify(pool, v[k], NULL);
+        if (v[k] != QDOT_ZERO && rank > best) {
+            best = rank;
+            lead = k;
+        }
+    }
+    if (lead < m && v[lead] != QDOT_NIL && qdot_expr_is_negative(pool, v[lead]))
+        for (size_t k = 0; k < m; k++)
+            v[k] = qdot_neg(pool, v[k]);
+}
+
+/* tau h - sum, the energy with its own sign: as it is said by itself, or all in one. */
+static qdot_expr
+with_energy(const search *f, qdot_expr tau, qdot_expr sum)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr h = qdot_mul(pool, tau, qdot_mech_energy(f->s)), apart, whole;
+
+    apart = qdot_sub(pool, h, qdot_simplify(pool, sum, &f->facts));
+    whole = qdot_simplify(pool, qdot_expand(pool, qdot_sub(pool, h, sum)), &f->facts);
+    if (apart == QDOT_NIL || whole == QDOT_NIL)
+        return QDOT_NIL;
+    return qdot_expr_size(pool, whole) < qdot_expr_size(pool, apart) ? whole : apart;
+}
+
+/* The quantity of the symmetry v, if all is proved. */
+static qdot_expr
+quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
+         const qdot_expr *v)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr change = QDOT_ZERO, sum = QDOT_ZERO, tau = QDOT_ZERO, K;
+    const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY;
+
+    if (!works_nothing(f, m, e, v))
+        return QDOT_NIL;
+    for (size_t k = 0; k < m; k++)
+        if (u[k].kind == TIME)
+            tau = v[k];
+    for (size_t j = 0; j < f->n; j++) {
+        qdot_expr xi = combine(f, u, m, v, j), q = jet(f, j, 0), qdot = jet(f, j, 1);
+
+        change = qdot_add(pool, change, qdot_mul(pool, xi, qdot_diff(pool, f->L, q)));
+        change =
+            qdot_add(pool, change,
+                     qdot_mul(pool, qdot_ddt(pool, xi), qdot_diff(pool, f->L, qdot)));
+        if (xi != QDOT_ZERO)
+            sum = qdot_add(pool, sum, qdot_mul(pool, xi, qdot_mech_momentum(f->s, q)));
+    }
+    if (tau != QDOT_ZERO)
+        change =
+            qdot_add(pool, change, qdot_mul(pool, tau, qdot_diff(pool, f->L, QDOT_T)));
+    change = qdot_simplify(pool, change, &f->facts);
+    if (change == QDOT_NIL || !gauge(f, change, &K))
+        return QDOT_NIL;
+    sum = qdot_sub(pool, sum, K);
+    if (tau == QDOT_ZERO)
+        sum = qdot_simplify(pool, sum, &f->facts);
+    else
+        sum = with_energy(f, tau, sum);
+    return qdot_mech_holds(f->s, sum) & motion ? sum : QDOT_NIL;
+}
+
+/* The quantity of v, or of v without denominators where that is shorter. */
+static qdot_expr
+shortest(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr by, one, other;
+
+    turn(f, f->unknowns.at, m, v);
+    one = quantity(f, f->unknowns.at, m, e, v);
+    by = denominators(pool, m, v);
+    if (one == QDOT_NIL || by == QDOT_ONE || by == QDOT_NIL)
+        return one;
+    for (size_t k = 0; k < m; k++)
+        v[k] = qdot_simplify(pool, qdot_mul(pool, v[k], by), NULL);
+    other = quantity(f, f->unknowns.at, m, e, v);
+    /* of two as long that without fractions: 3*m1*x1' + 2*m2*x2' */
+    return other != QDOT_NIL &&
+                   qdot_expr_size(pool, other) <
+                       qdot_expr_size(pool, one) + (qdot_expr_kind(pool, by) == QDOT_NUM)
+               ? other
+               : one;
+}
+
+/* --- the search ----------------------------------------------------------------------- */
+
+static qdot_status
+add_unknown(search *f, int kind, size_t i, size_t j)
+{
+    unknown u = {.i = i, .j = j};
+
+    u.kind = kind;
+    return qdot_vec_push(&f->unknowns, u);
+}
+
+/* Those not conserved already. What comes late is preferred: simple before involved. */
+static qdot_status
+list_unknowns(search *f, const bool *cyclic, bool energy)
+{
+    for (size_t i = f->n; i-- > 0;)
+        QDOT_TRY(add_unknown(f, BOOST, i, 0));
+    for (size_t i = f->n; i-- > 0;)
+        for (size_t j = f->n; j-- > 0;)
+            if (j >= i)
+                QDOT_TRY(add_unknown(f, ROTATION, i, j));
+    for (size_t i = f->n; i-- > 0;)
+        for (size_t j = i; j-- > 0;)
+            QDOT_TRY(add_unknown(f, ROTATION, i, j));
+    if (!energy)
+        QDOT_TRY(add_unknown(f, TIME, 0, 0));
+    for (size_t i = f->n; i-- > 0;)
+        if (!cyclic[i])
+            QDOT_TRY(add_unknown(f, TRANSLATION, i, 0));
+    return QDOT_OK;
+}
+
+static qdot_status
+euler_lagrange(search *f)
+{
+    qdot_pool *pool = f->pool;
+    size_t n = f->n;
+
+    f->E = qdot_calloc(n + 3 * n * n + 1, sizeof *f->E);
+    if (f->E == NULL)
+        return QDOT_ENOMEM;
+    f->slope = f->E + n;
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr p = qdot_diff(pool, f->L, jet(f, i, 1));
+
+        f->E[i] = qdot_sub(pool, qdot_ddt(pool, p), qdot_diff(pool, f->L, jet(f, i, 0)));
+        for (uint32_t order = 0; order < 3; order++)
+            for (size_t j = 0; j < n; j++)
+                f->slope[(order * n + i) * n + j] =
+                    qdot_diff(pool, f->E[i], jet(f, j, order));
+    }
+    return qdot_pool_check(pool);
+}
+
+/* Every symmetry of the ansatz that is left. */
+static qdot_status
+search_linear(search *f)
+{
+    size_t all = f->unknowns.n, m = 0, count = 0;
+    qdot_expr *e = qdot_calloc(rows(f) * all + 1, sizeof *e), *basis = NULL;
+    bool *possible = qdot_calloc(all + 1, sizeof *possible);
+    qdot_status status = QDOT_ENOMEM;
+
+    if (e != NULL && possible != NULL)
+        status = euler_lagrange(f);
+    if (status == QDOT_OK && !fill(f, f->unknowns.at, all, e))
+        status = qdot_pool_check(f->pool);
+    if (status == QDOT_OK)
+        status = reach(f, e, all, possible);
+    if (status == QDOT_OK) {
+        for (size_t j = 0; j < all; j++)
+            if (possible[j])
+                f->unknowns.at[m++] = f->unknowns.at[j];
+        if (m > 0 && !fill(f, f->unknowns.at, m, e))
+            status = qdot_pool_check(f->pool);
+    }
+    if (status == QDOT_OK && m > 0)
+        status = qdot_null_space(f->pool, rows(f), m, e, &basis, &count);
+    for (size_t k = count; k-- > 0 && status == QDOT_OK;) {
+        qdot_expr one = shortest(f, m, e, basis + k * m);
+
+        status = qdot_pool_check(f->pool);
+        if (status == QDOT_OK && one != QDOT_NIL)
+            status = qdot_vec_push(&f->found, one);
+    }
+    qdot_free(basis);
+    qdot_free(possible);
+    qdot_free(e);
+    qdot_free(f->E);
+    f->E = NULL;
+    return status == QDOT_ELIMIT ? QDOT_OK : status;
+}
+
+static qdot_status
+conserved(search *f)
+{
+    qdot_cyclic *list = NULL;
+    size_t count = 0;
+    bool *cyclic = qdot_calloc(f->n + 1, sizeof *cyclic), energy = false;
+    qdot_status status =
+        cyclic == NULL ? QDOT_ENOMEM : qdot_mech_cyclic(f->s, &list, &count);
+
+    for (size_t k = 0; k < count && status == QDOT_OK; k++)
+        for (size_t i = 0; i < f->n; i++)
+            if (list[k].coordinate == f->s->coordinates.at[i] &&
+                list[k].rate == QDOT_NIL) {
+                cyclic[i] = true;
+                status = qdot_vec_push(&f->found, list[k].momentum);
+            }
+    if (status == QDOT_OK)
+        status = qdot_mech_energy_conserved(f->s, &energy);
+    if (status == QDOT_OK && energy) {
+        qdot_expr h = qdot_mech_energy(f->s);
+
+        status = qdot_pool_check(f->pool);
+        if (status == QDOT_OK &&
+            qdot_mech_holds(f->s, h) & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY))
+            status = qdot_vec_push(&f->found, h);
+    }
+    if (status == QDOT_OK && f->n <= MOST_COORDINATES)
+        status = list_unknowns(f, cyclic, energy);
+    if (status == QDOT_OK && f->unknowns.n > 0) {
+        f->L = qdot_mech_lagrangian(f->s);
+        status = qdot_pool_check(f->pool);
+        if (status == QDOT_OK)
+            status = search_linear(f);
+    }
+    qdot_free(list);
+    qdot_free(cyclic);
+    return status;
+}
+
+qdot_expr
+qdot_noether_conserved(qdot_scene *s)
+{
+    search f = {
+        .s = s, .pool = s->pool, .facts = qdot_scene_facts(s), .n = s->coordinates.n};
+    qdot_status status = conserved(&f);
+    qdot_expr result = QDOT_NIL;
+
+    if (status == QDOT_OK)
+        result = qdot_list(s->pool, (uint32_t)f.found.n, f.found.at);
+    else
+        qdot_pool_fail(s->pool);
+    qdot_free(f.unknowns.at);
+    qdot_free(f.found.at);
+    return result;
+}

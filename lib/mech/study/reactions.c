@@ -1,0 +1,242 @@
+/* reactions.c -- generalized reactions turned into forces where r(q) tells how. */
+#include "mech/study/reactions.h"
+
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/scene/derived.h"
+#include "normal/solve/linear.h"
+
+typedef struct {
+    qdot_scene *s;
+    size_t n;
+    qdot_expr *R;   /* [n] generalized reactions */
+    uint32_t *uses; /* [n] particles and bodies that depend on each coordinate */
+    bool *told;     /* [n] is in a force or torque */
+    qdot_vec(qdot_reaction) list;
+} work;
+
+/* A particle, or a body where it is not NULL. */
+typedef struct {
+    const char *name;
+    qdot_expr position;
+    const qdot_body *body;
+} thing;
+
+static bool
+depends(const work *w, const thing *one, size_t j)
+{
+    qdot_expr q = w->s->coordinates.at[j];
+    const qdot_pool *pool = w->s->pool;
+
+    return qdot_expr_contains(pool, one->position, q) ||
+           (one->body && qdot_expr_contains(pool, one->body->rotation, q));
+}
+
+/* d(position, turning)/dq_j as a column of numbers. */
+static uint32_t
+column(const work *w, const thing *one, size_t j, qdot_expr out[6])
+{
+    qdot_pool *pool = w->s->pool;
+    qdot_expr q = w->s->coordinates.at[j];
+    uint32_t dim = qdot_mech_dimension(pool, one->position), rows = 0;
+
+    for (uint32_t d = 0; d < dim; d++)
+        out[rows++] = qdot_diff(pool, qdot_mech_component(pool, one->position, d), q);
+    if (one->body) {
+        qdot_expr spin = qdot_body_partial_spin(w->s, one->body, q);
+        uint32_t turns = spin == QDOT_NIL ? 0 : qdot_mech_dimension(pool, spin);
+
+        for (uint32_t d = 0; d < turns; d++)
+            out[rows++] = qdot_mech_component(pool, spin, d);
+    }
+    return rows;
+}
+
+/* x = J (J^T J)^-1 R, J [rows x k] by columns; of a square J that is J^-T R. */
+static qdot_status
+along(const work *w, uint32_t rows, uint32_t k, const qdot_expr *J, const qdot_expr *R,
+      qdot_expr *x)
+{
+    qdot_pool *pool = w->s->pool;
+    qdot_facts facts = qdot_scene_facts(w->s);
+    qdot_expr A[36], y[6];
+    uint32_t pivot;
+    bool square = rows == k;
+
+    for (uint32_t i = 0; i < k; i++)
+        for (uint32_t j = 0; j < k; j++) {
+            A[i * k + j] = square ? J[i * rows + j] : QDOT_ZERO;
+            for (uint32_t d = 0; d < rows && !square; d++)
+                A[i * k + j] = qdot_add(
+                    pool, A[i * k + j],
+                    qdot_mul(pool, J[i * rows + d], J[j * rows + d]));
+        }
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_solve_linear(pool, k, A, R, y, &pivot, &facts));
+    for (uint32_t d = 0; d < rows; d++) {
+        x[d] = square ? y[d] : QDOT_ZERO;
+        for (uint32_t i = 0; i < k && !square; i++)
+            x[d] = qdot_add(pool, x[d], qdot_mul(pool, J[i * rows + d], y[i]));
+        x[d] = qdot_mech_tidy(w->s, x[d]);
+    }
+    return qdot_pool_check(pool);
+}
+
+/* Leave out of J [rows x k] the directions in which nothing moves; kept[] those that stay. */
+static uint32_t
+moving_rows(uint32_t rows, uint32_t k, qdot_expr *J, uint32_t kept[6])
+{
+    uint32_t m = 0;
+
+    for (uint32_t d = 0; d < rows; d++) {
+        bool moves = false;
+
+        for (uint32_t i = 0; i < k; i++)
+            moves |= J[i * rows + d] != QDOT_ZERO;
+        if (moves)
+            kept[m++] = d;
+    }
+    for (uint32_t i = 0; i < k; i++)
+        for (uint32_t d = 0; d < m; d++)
+            J[i * m + d] = J[i * rows + kept[d]]; /* m <= rows: nothing is lost */
+    return m;
+}
+
+/* The force on a thing, if its coordinates are its own. */
+static qdot_status
+reaction(work *w, const thing *one)
+{
+    qdot_pool *pool = w->s->pool;
+    uint32_t dim = qdot_mech_dimension(pool, one->position), rows = dim, k = 0;
+    uint32_t kept[6], moving;
+    qdot_reaction r = {.name = one->name};
+    qdot_expr J[36], R[6], part[6], x[6];
+    bool acts = false;
+    size_t own[6];
+    qdot_status status;
+
+    for (size_t j = 0; j < w->n; j++) {
+        if (!depends(w, one, j))
+            continue;
+        if (w->uses[j] > 1 || k == 6)
+            return QDOT_OK;
+        own[k++] = j;
+        acts |= w->R[j] != QDOT_ZERO;
+    }
+    if (!acts)
+        return QDOT_OK;
+    for (uint32_t i = 0; i < k; i++) {
+        qdot_expr slopes[6];
+
+        rows = column(w, one, own[i], slopes);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (rows < k) /* more coordinates than directions: not determined */
+            return QDOT_OK;
+        memcpy(J + i * rows, slopes, rows * sizeof *slopes);
+        R[i] = w->R[own[i]];
+    }
+    moving = moving_rows(rows, k, J, kept);
+    if (one->body && moving != k) /* a least force and torque would mix their units */
+        return QDOT_OK;
+    status = along(w, moving, k, J, R, part);
+    if (status == QDOT_ESINGULAR)
+        return QDOT_OK;
+    QDOT_TRY(status);
+    for (uint32_t d = 0; d < rows; d++)
+        x[d] = QDOT_ZERO;
+    for (uint32_t d = 0; d < moving; d++)
+        x[kept[d]] = part[d];
+    r.force = dim == 1 ? x[0] : qdot_vector(pool, dim, x);
+    if (one->body)
+        r.torque = rows - dim == 1 ? x[dim] : qdot_vector(pool, rows - dim, x + dim);
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < k; i++)
+        w->told[own[i]] = true;
+    return qdot_vec_push(&w->list, r);
+}
+
+static thing
+thing_at(const qdot_scene *s, size_t i)
+{
+    const qdot_body *b;
+
+    if (i < s->particles.n)
+        return (thing){s->particles.at[i].name, s->particles.at[i].position, NULL};
+    b = &s->bodies.at[i - s->particles.n];
+    return (thing){b->name, b->position, b};
+}
+
+static qdot_status
+collect(work *w)
+{
+    qdot_scene *s = w->s;
+    size_t things = s->particles.n + s->bodies.n;
+
+    for (size_t j = 0; j < w->n; j++)
+        w->R[j] = qdot_constraint_reaction(s, j);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    for (size_t i = 0; i < things; i++) {
+        thing one = thing_at(s, i);
+
+        for (size_t j = 0; j < w->n; j++)
+            w->uses[j] += depends(w, &one, j);
+    }
+    for (size_t i = 0; i < things; i++) {
+        thing one = thing_at(s, i);
+
+        QDOT_TRY(reaction(w, &one));
+    }
+    for (size_t j = 0; j < w->n; j++) {
+        qdot_reaction r = {.coordinate = s->coordinates.at[j], .force = w->R[j]};
+
+        if (!w->told[j] && w->R[j] != QDOT_ZERO)
+            QDOT_TRY(qdot_vec_push(&w->list, r));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_mech_reactions(qdot_scene *s, qdot_reaction **list, size_t *n)
+{
+    work w = {.s = s, .n = s->coordinates.n};
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    w.R = qdot_calloc(w.n + 1, sizeof *w.R);
+    w.uses = qdot_calloc(w.n + 1, sizeof *w.uses);
+    w.told = qdot_calloc(w.n + 1, sizeof *w.told);
+    status = w.R && w.uses && w.told ? collect(&w) : QDOT_ENOMEM;
+    qdot_free(w.R);
+    qdot_free(w.uses);
+    qdot_free(w.told);
+    if (status != QDOT_OK) {
+        qdot_free(w.list.at);
+        return status;
+    }
+    *list = w.list.at;
+    *n = w.list.n;
+    return QDOT_OK;
+}
+
+qdot_expr
+qdot_mech_reaction_list(qdot_scene *s)
+{
+    qdot_vec(qdot_expr) parts = {0};
+    qdot_reaction *list = NULL;
+    qdot_expr value = QDOT_NIL;
+    size_t n = 0;
+    qdot_status status = qdot_mech_reactions(s, &list, &n);
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        status = qdot_vec_push(&parts, list[i].force);
+        if (status == QDOT_OK && list[i].torque != QDOT_NIL)
+            status = qdot_vec_push(&parts, list[i].torque);
+    }
+    if (status == QDOT_OK)
+        value = qdot_list(s->pool, (uint32_t)parts.n, parts.at);
+    qdot_free(parts.at);
+    qdot_free(list);
+    return status == QDOT_OK ? value : qdot_pool_fail(s->pool);
+}

@@ -1,0 +1,39 @@
+/* reactions.h -- what the constraints do to each particle and body.
+ *
+ * Constraint f_k acts along its slope: the generalized reaction on q_j is
+ *
+ *     R_j = sum_k lambda_k df_k/dq_j   (df/dq', df/dq'' by the constraint's kind).
+ *
+ * A particle whose position alone depends on some coordinates bears a force of its own:
+ * the one along the directions dr/dq_j with
+ *
+ *     F . dr/dq_j = R_j   for each of these q_j:   F = J (J^T J)^-1 R,  J = dr/dq,
+ *
+ * lambda df/dr where the coordinates are Cartesian. A body bears a force at its centre of
+ * mass and a torque tau with F . dr/dq_j + tau . dw/dq_j' = R_j, w its spin, where these
+ * determine both. Coordinates that several things share keep their R_j as it is: how it is
+ * spread over them, r(q) does not tell.
+ *
+ * Tests  tests/script/reactions.lag, tests/script/mechanism-*.lag
+ */
+#ifndef QDOT_MECH_REACTIONS_H
+#define QDOT_MECH_REACTIONS_H
+
+#include "mech/dynamics/quantity.h"
+
+typedef struct {
+    const char *name;     /* of the particle or body, borrowed; NULL: a coordinate */
+    qdot_expr coordinate; /* nil: a particle or body */
+    qdot_expr force;      /* a vector (scalar in one dimension); of a coordinate: R_j */
+    qdot_expr torque;     /* of a body: a scalar in the plane, a vector; else nil */
+} qdot_reaction;
+
+/* *list [*n], owned by the caller: particles, bodies, then coordinates, in the order of
+ * their declaration; things on which no constraint acts are left out. Errors: the pool's. */
+QDOT_MUST_CHECK qdot_status qdot_mech_reactions(qdot_scene *s, qdot_reaction **list,
+                                                size_t *n);
+
+/* The forces and torques of that list as a LIST. */
+qdot_expr qdot_mech_reaction_list(qdot_scene *s);
+
+#endif

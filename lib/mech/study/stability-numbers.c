@@ -1,0 +1,385 @@
+/* stability-numbers.c -- whether a scene stays near a place that is known in numbers.
+ *
+ * Such a place was proved with all slopes of its equations (normal/solve/isolate.h), so that the constraints have
+ * full rank there and H, in their tangent space, is not singular. What counts is asked of eigenvalues with
+ * a margin that rounding does not reach; within it, nothing is said. */
+#include <math.h>
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_linalg.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/derived.h"
+#include "mech/study/stability.h"
+
+/* Of the largest entry: below SMALL is 0. Roots with real parts beyond AWAY of the fastest
+ * count as growing: multiple ones scatter by the fourth root of rounding. */
+static const double SMALL = 1e-9, AWAY = 1e-3, DECAYS = 1e-6;
+
+struct qdot_stability_numbers {
+    qdot_scene *s;
+    size_t n, c;    /* coordinates, constraints */
+    qdot_expr *e;   /* M, Gamma, H [n * n] each, then A [c * n] */
+    bool damped;    /* Gamma has values */
+    bool *told;     /* [n] stands in an equation at rest */
+    size_t m;       /* of symbols: jets 0, 1, 2, then multipliers */
+    qdot_expr *symbol;
+    double *at, *value;
+};
+
+qdot_status
+qdot_stability_numbers_new(const qdot_judge *judge, qdot_stability_numbers **out)
+{
+    qdot_scene *s = judge->s;
+    qdot_pool *pool = s->pool;
+    size_t n = s->coordinates.n, c = s->constraints.n, count = 3 * n * n + c * n;
+    qdot_stability_numbers *x = qdot_calloc(1, sizeof *x);
+    qdot_status status = QDOT_OK;
+
+    *out = NULL;
+    if (x == NULL)
+        return QDOT_ENOMEM;
+    *x = (qdot_stability_numbers){.s = s, .n = n, .c = c, .m = 3 * n + c};
+    x->e = qdot_calloc(count + x->m + 1, sizeof *x->e);
+    x->value = qdot_calloc(count + x->m + 1, sizeof *x->value);
+    x->told = qdot_calloc(n + 1, sizeof *x->told);
+    if (x->e == NULL || x->value == NULL || x->told == NULL)
+        status = QDOT_ENOMEM;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_expr equation = qdot_mech_equation(s, s->coordinates.at[i]), left;
+
+        status = qdot_pool_check(pool);
+        if (status != QDOT_OK)
+            break;
+        left = qdot_sub(pool, qdot_expr_arg(pool, equation, 0),
+                        qdot_expr_arg(pool, equation, 1));
+        for (uint32_t order = 0; order < 3; order++)
+            for (size_t j = 0; j < n; j++)
+                x->e[(2 - order) * n * n + i * n + j] =
+                    qdot_diff(pool, left, qdot_mech_jet(s, j, order));
+        for (size_t k = 0; k < c; k++)
+            x->e[3 * n * n + k * n + i] = qdot_constraint_slope(s, k, i);
+        x->told[i] = qdot_expr_contains(pool, judge->at_rest, s->coordinates.at[i]);
+        status = qdot_pool_check(pool);
+    }
+    for (size_t i = 0; i < count && judge->bind != NULL && status == QDOT_OK; i++) {
+        x->e[i] = judge->bind(judge->user, x->e[i]);
+        status = qdot_pool_check(pool);
+    }
+    if (status != QDOT_OK) {
+        qdot_stability_numbers_free(x);
+        return status;
+    }
+    x->symbol = x->e + count;
+    x->at = x->value + count;
+    for (uint32_t order = 0; order < 3; order++)
+        for (size_t i = 0; i < n; i++)
+            x->symbol[order * n + i] = qdot_mech_jet(s, i, order);
+    for (size_t k = 0; k < c; k++)
+        x->symbol[3 * n + k] = s->constraints.at[k].multiplier;
+    *out = x;
+    return QDOT_OK;
+}
+
+void
+qdot_stability_numbers_free(qdot_stability_numbers *x)
+{
+    if (x == NULL)
+        return;
+    qdot_free(x->e);
+    qdot_free(x->value);
+    qdot_free(x->told);
+    qdot_free(x);
+}
+
+/* --- the linear motion in numbers ------------------------------------------------------- */
+
+/* y in the tangent space: told ones first; M = 1 (L^-1 . L^-T of what it was). */
+typedef struct {
+    size_t m, told;
+    double *M, *G, *H; /* [m * m] */
+} motion;
+
+/* Values at the place; false where a coefficient has none. */
+static qdot_status
+evaluate(qdot_stability_numbers *x, const qdot_equilibrium *e, bool *finite)
+{
+    const qdot_pool *pool = x->s->pool;
+    size_t n = x->n, count = 3 * n * n + x->c * n;
+
+    for (size_t i = 0; i < x->m; i++) {
+        x->at[i] = 0;
+        for (uint32_t k = 0; k < qdot_expr_count(pool, e->equations); k++) {
+            qdot_expr one = qdot_expr_arg(pool, e->equations, k),
+                      value = qdot_expr_arg(pool, one, 1);
+
+            if (qdot_expr_arg(pool, one, 0) == x->symbol[i])
+                QDOT_TRY(
+                    qdot_generic_evaluate(pool, 1, &value, 0, NULL, NULL, 1, &x->at[i]));
+        }
+    }
+    QDOT_TRY(qdot_generic_evaluate(pool, count, x->e, x->m, x->symbol, x->at, 1, x->value));
+    *finite = x->damped = true;
+    for (size_t i = 0; i < count; i++) {
+        bool gamma = i >= n * n && i < 2 * n * n;
+
+        if (isfinite(x->value[i]))
+            continue;
+        x->damped = x->damped && !gamma;
+        *finite = *finite && gamma;
+        x->value[i] = 0;
+    }
+    return QDOT_OK;
+}
+
+/* A basis of the null space of A, the told coordinates' part first: N [n * m]. Free coordinates
+ * stand in no constraint. */
+static bool
+tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
+{
+    size_t n = x->n, c = x->c, rank = 0, column = 0, told = 0;
+    gsl_matrix *A = gsl_matrix_calloc(n + c, n), *V = gsl_matrix_alloc(n, n);
+    gsl_vector *S = gsl_vector_alloc(n), *work = gsl_vector_alloc(n);
+    bool fine = A != NULL && V != NULL && S != NULL && work != NULL;
+
+    for (size_t k = 0; k < c && fine; k++)
+        for (size_t i = 0; i < n; i++)
+            gsl_matrix_set(A, k, i, x->value[3 * n * n + k * n + i]);
+    for (size_t i = 0; i < n && fine; i++) { /* free ones kept apart by rows of their own */
+        told += x->told[i];
+        if (!x->told[i])
+            gsl_matrix_set(A, c + i, i, 1);
+    }
+    fine = fine && gsl_linalg_SV_decomp(A, V, S, work) == GSL_SUCCESS;
+    for (size_t i = 0; i < n && fine; i++)
+        rank += gsl_vector_get(S, i) > SMALL * gsl_vector_get(S, 0);
+    fine = fine && rank == c + (n - told);
+    out->told = fine ? n - rank : 0;
+    for (size_t k = rank; k < n && fine; k++, column++)
+        for (size_t i = 0; i < n; i++)
+            gsl_matrix_set(N, i, column, gsl_matrix_get(V, i, k));
+    for (size_t k = 0; k < n && fine; k++)
+        if (!x->told[k]) {
+            for (size_t i = 0; i < n; i++)
+                gsl_matrix_set(N, i, column, i == k);
+            column++;
+        }
+    out->m = column;
+    gsl_matrix_free(A);
+    gsl_matrix_free(V);
+    gsl_vector_free(S);
+    gsl_vector_free(work);
+    return fine;
+}
+
+/* X <- N^T X N, m x m. */
+static void
+reduce(const double *X, const gsl_matrix *N, size_t n, size_t m, double *out)
+{
+    for (size_t a = 0; a < m; a++)
+        for (size_t b = 0; b < m; b++) {
+            double sum = 0;
+
+            for (size_t i = 0; i < n; i++)
+                for (size_t k = 0; k < n; k++)
+                    sum += gsl_matrix_get(N, i, a) * X[i * n + k] * gsl_matrix_get(N, k, b);
+            out[a * m + b] = sum;
+        }
+}
+
+static double
+largest(size_t n, const double *x)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
+/* Eigenvalues of the symmetric part of the leading k x k block of X [m * m], the least and the
+ * greatest. */
+static bool
+range_of(const double *X, size_t m, size_t k, double *least, double *most)
+{
+    gsl_matrix *A = gsl_matrix_alloc(k, k);
+    gsl_vector *w = gsl_vector_alloc(k);
+    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(k);
+    bool fine = A != NULL && w != NULL && work != NULL;
+
+    for (size_t a = 0; a < k && fine; a++)
+        for (size_t b = 0; b < k; b++)
+            gsl_matrix_set(A, a, b, (X[a * m + b] + X[b * m + a]) / 2);
+    fine = fine && gsl_eigen_symm(A, w, work) == GSL_SUCCESS;
+    if (fine)
+        gsl_vector_minmax(w, least, most);
+    gsl_matrix_free(A);
+    gsl_vector_free(w);
+    if (work != NULL)
+        gsl_eigen_symm_free(work);
+    return fine;
+}
+
+/* The part of X that a transposition turns (sign 1: keeps) the sign of, its largest entry. */
+static double
+part(const double *X, size_t m, int sign)
+{
+    double most = 0;
+
+    for (size_t a = 0; a < m; a++)
+        for (size_t b = 0; b < m; b++)
+            most = fmax(most, fabs(X[a * m + b] + sign * X[b * m + a]) / 2);
+    return most;
+}
+
+/* Real and imaginary parts of the roots s of det(s^2 + G s + H), [2 m] each. */
+static bool
+roots(const motion *x, double *re, double *im)
+{
+    size_t m = x->m;
+    gsl_matrix *A = gsl_matrix_calloc(2 * m, 2 * m);
+    gsl_vector_complex *s = gsl_vector_complex_alloc(2 * m);
+    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(2 * m);
+    bool fine = A != NULL && s != NULL && work != NULL;
+
+    for (size_t a = 0; a < m && fine; a++) {
+        gsl_matrix_set(A, a, m + a, 1);
+        for (size_t b = 0; b < m; b++) {
+            gsl_matrix_set(A, m + a, b, -x->H[a * m + b]);
+            gsl_matrix_set(A, m + a, m + b, -x->G[a * m + b]);
+        }
+    }
+    fine = fine && gsl_eigen_nonsymm(A, s, work) == GSL_SUCCESS;
+    for (size_t k = 0; k < 2 * m && fine; k++) {
+        re[k] = GSL_REAL(gsl_vector_complex_get(s, k));
+        im[k] = GSL_IMAG(gsl_vector_complex_get(s, k));
+    }
+    gsl_matrix_free(A);
+    gsl_vector_complex_free(s);
+    if (work != NULL)
+        gsl_eigen_nonsymm_free(work);
+    return fine;
+}
+
+/* G and H where M is 1: y = L^-T z; false where M is not positive definite. */
+static bool
+normalise(motion *x)
+{
+    size_t m = x->m;
+    gsl_matrix_view M = gsl_matrix_view_array(x->M, m, m);
+    double least = 0, most = 0;
+
+    if (!range_of(x->M, m, m, &least, &most) || least <= 1e-12 * most ||
+        gsl_linalg_cholesky_decomp1(&M.matrix) != GSL_SUCCESS)
+        return false;
+    for (int k = 0; k < 2; k++) {
+        double *X = k == 0 ? x->G : x->H;
+
+        for (size_t b = 0; b < m; b++) /* L^-1 X */
+            for (size_t a = 0; a < m; a++) {
+                for (size_t i = 0; i < a; i++)
+                    X[a * m + b] -= x->M[a * m + i] * X[i * m + b];
+                X[a * m + b] /= x->M[a * m + a];
+            }
+        for (size_t a = 0; a < m; a++) /* . L^-T */
+            for (size_t b = 0; b < m; b++) {
+                for (size_t i = 0; i < b; i++)
+                    X[a * m + b] -= x->M[b * m + i] * X[a * m + i];
+                X[a * m + b] /= x->M[b * m + b];
+            }
+    }
+    return true;
+}
+
+/* --- the verdict ------------------------------------------------------------------------ */
+
+static qdot_stability
+by_roots(const motion *x, double h, double g, bool definite)
+{
+    double *re = qdot_calloc(4 * x->m + 1, sizeof *re), *im, fast = fmax(sqrt(h), g);
+    double decay = 0, growth = 0, gap = INFINITY, least, most;
+    qdot_stability verdict = QDOT_STABILITY_UNDECIDED;
+
+    if (re == NULL)
+        return verdict;
+    im = re + 2 * x->m;
+    if (roots(x, re, im)) {
+        decay = growth = re[0];
+        for (size_t i = 0; i < 2 * x->m; i++) {
+            decay = fmax(decay, re[i]);
+            growth = fmax(growth, re[i]);
+            for (size_t k = 0; k < i; k++)
+                gap = fmin(gap, hypot(re[i] - re[k], im[i] - im[k]));
+        }
+        if (growth > AWAY * fast)
+            verdict = QDOT_UNSTABLE;
+        else if (x->told == x->m && decay < -DECAYS * fast)
+            verdict = QDOT_STABLE;
+        else if (x->told == x->m && part(x->G, x->m, 1) <= SMALL * fast &&
+                 fabs(growth) < SMALL * fast && gap > AWAY * fast)
+            verdict = QDOT_STABLE_TO_FIRST_ORDER;
+    }
+    if (verdict == QDOT_STABILITY_UNDECIDED && definite && x->told == x->m &&
+        range_of(x->G, x->m, x->m, &least, &most)) {
+        if (least > SMALL * fmax(most, fast)) /* complete damping */
+            verdict = QDOT_STABLE;
+        else if (least >= -1e-12 * fmax(most, fast))
+            verdict = QDOT_STABLE_TO_FIRST_ORDER;
+    }
+    qdot_free(re);
+    return verdict;
+}
+
+static qdot_stability
+verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motion *x)
+{
+    double h, g, least, most;
+    bool symmetric, definite;
+
+    if (x->m == 0)
+        return QDOT_STABLE; /* nothing can move */
+    if (x->told == 0 || !normalise(x))
+        return QDOT_STABILITY_UNDECIDED;
+    h = largest(x->m * x->m, x->H);
+    g = largest(x->m * x->m, x->G);
+    if (!range_of(x->H, x->m, x->told, &least, &most))
+        return QDOT_STABILITY_UNDECIDED;
+    symmetric = part(x->H, x->m, -1) <= SMALL * h;
+    definite = symmetric && least > SMALL * h;
+    if (definite && judge->law != QDOT_ENERGY_UNKNOWN)
+        return QDOT_STABLE;
+    if (judge->velocity_kink || judge->timed || !numbers->damped)
+        return QDOT_STABILITY_UNDECIDED;
+    if (symmetric && least < -SMALL * h && part(x->G, x->m, -1) <= SMALL * fmax(g, sqrt(h)))
+        return QDOT_UNSTABLE;
+    return by_roots(x, h, g, definite);
+}
+
+qdot_status
+qdot_stability_judge_numbers(const qdot_judge *judge, qdot_stability_numbers *numbers,
+                             qdot_equilibrium *e)
+{
+    size_t n = numbers->n;
+    gsl_error_handler_t *before = gsl_set_error_handler_off();
+    gsl_matrix *N = gsl_matrix_calloc(n, n);
+    motion x = {.M = qdot_calloc(3 * n * n + 1, sizeof *x.M)};
+    bool finite = false;
+    qdot_status status = N == NULL || x.M == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    e->stability = QDOT_STABILITY_UNDECIDED;
+    if (status == QDOT_OK)
+        status = evaluate(numbers, e, &finite);
+    if (status == QDOT_OK && finite && tangents(numbers, N, &x)) {
+        x.G = x.M + x.m * x.m;
+        x.H = x.G + x.m * x.m;
+        for (size_t k = 0; k < 3; k++)
+            reduce(numbers->value + k * n * n, N, n, x.m, x.M + k * x.m * x.m);
+        e->stability = verdict_of(judge, numbers, &x);
+    }
+    gsl_set_error_handler(before);
+    gsl_matrix_free(N);
+    qdot_free(x.M);
+    return status;
+}

@@ -1,0 +1,93 @@
+/* stability.c -- whether a scene stays near its places of rest: what holds of all of them. */
+#include "mech/study/stability.h"
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/scene/derived.h"
+
+bool
+qdot_stability_has_kink(uint32_t op)
+{
+    return op == QDOT_ABS || op == QDOT_SIGN || op == QDOT_FLOOR || op == QDOT_MOD ||
+           op == QDOT_MIN || op == QDOT_MAX || op == QDOT_IF;
+}
+
+static bool
+velocities_have_kinks(qdot_scene *s)
+{
+    qdot_walk w;
+    bool found = false;
+
+    for (size_t i = 0; i < s->coordinates.n && !found; i++) {
+        if (qdot_walk_begin(s->pool, qdot_mech_equation(s, s->coordinates.at[i]), &w) !=
+            QDOT_OK)
+            return true;
+        for (size_t k = 0; k < w.n && !found; k++)
+            found = qdot_expr_kind(s->pool, w.at[k]) == QDOT_FUN &&
+                    qdot_stability_has_kink(qdot_expr_node(s->pool, w.at[k])->op) &&
+                    (qdot_mech_holds(s, w.at[k]) & QDOT_HAS_VELOCITY) != 0;
+        qdot_walk_end(&w);
+    }
+    return found;
+}
+
+qdot_status
+qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e)
+{
+    e->stability = QDOT_STABILITY_UNDECIDED;
+    e->stable_when = QDOT_NIL;
+    if (!judge->holonomic || (judge->timed && judge->law == QDOT_ENERGY_UNKNOWN))
+        return QDOT_OK;
+    if (e->numeric) {
+        if (judge->numbers == NULL)
+            QDOT_TRY(qdot_stability_numbers_new(judge, &judge->numbers));
+        return qdot_stability_judge_numbers(judge, judge->numbers, e);
+    }
+    return qdot_stability_judge_exact(judge, e);
+}
+
+/* --- the scene -------------------------------------------------------------------------- */
+
+qdot_status
+qdot_judge_new(qdot_scene *s, qdot_expr at_rest, qdot_binder bind, void *user,
+               qdot_judge **out)
+{
+    qdot_judge *judge = qdot_calloc(1, sizeof *judge);
+    qdot_status status = QDOT_OK;
+
+    *out = NULL;
+    if (judge == NULL)
+        return QDOT_ENOMEM;
+    *judge = (qdot_judge){
+        .s = s, .bind = bind, .user = user, .at_rest = at_rest, .holonomic = true};
+    for (size_t k = 0; k < s->constraints.n; k++) {
+        judge->holonomic = judge->holonomic && s->constraints.at[k].kind == QDOT_HOLONOMIC;
+        judge->timed = judge->timed ||
+                       (qdot_mech_holds(s, s->constraints.at[k].f) & QDOT_HAS_TIME) != 0;
+    }
+    for (size_t i = 0; i < s->coordinates.n && judge->holonomic; i++)
+        judge->timed = judge->timed ||
+                       (qdot_mech_holds(s, qdot_mech_equation(s, s->coordinates.at[i])) &
+                        QDOT_HAS_TIME) != 0;
+    if (judge->holonomic) {
+        judge->velocity_kink = velocities_have_kinks(s);
+        status = qdot_energy_law_of(s, &judge->law);
+    }
+    if (status == QDOT_OK)
+        status = qdot_pool_check(s->pool);
+    if (status != QDOT_OK) {
+        qdot_free(judge);
+        return status;
+    }
+    *out = judge;
+    return QDOT_OK;
+}
+
+void
+qdot_judge_free(qdot_judge *judge)
+{
+    if (judge == NULL)
+        return;
+    qdot_stability_numbers_free(judge->numbers);
+    qdot_free(judge);
+}

@@ -1,0 +1,378 @@
+/* flint.c -- the one file that knows how FLINT and GMP allocate, and the only longjmp. */
+#include "normal/field/flint.h"
+
+#include <pthread.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <flint/flint.h>
+#include <gmp.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "base/scope.h"
+
+/* FLINT's caches of a thread are given up beyond this many bytes. */
+#define KEPT ((size_t)64 << 20)
+/* FLINT recurses over variables; the address space is not used until it is. */
+#define STACK ((size_t)64 << 20)
+
+/* Of a thread that computes guarded. */
+static _Thread_local struct {
+    bool on;
+    qdot_status why;
+    jmp_buf out;
+    qdot_scope own;     /* what memory.h allocated in this computation */
+    qdot_scope library; /* what FLINT and GMP did, since the thread began */
+    size_t cached;      /* bytes of `library` when the computation began */
+} guard;
+
+/* --- memory functions -------------------------------------------------------------------- */
+
+static __attribute__((noreturn)) void
+leave(qdot_status why)
+{
+    guard.why = why;
+    longjmp(guard.out, 1);
+}
+
+/* Before anything of `size` bytes is asked for: a reason to leave. */
+static void
+look(size_t size)
+{
+    size_t caches = guard.library.bytes < guard.cached ? guard.library.bytes : guard.cached;
+    size_t held = guard.own.bytes + guard.library.bytes - caches;
+
+    if (qdot_interrupt_flag)
+        leave(qdot_interrupt_check());
+    if (size > QDOT_FLINT_MEMORY || held > QDOT_FLINT_MEMORY - size)
+        leave(qdot_fail(QDOT_ELIMIT, "more than %zu MB of memory",
+                        QDOT_FLINT_MEMORY >> 20));
+}
+
+/* What was asked for; none: away. In other threads there is nowhere to go. */
+static void *
+given(void *block)
+{
+    if (block != NULL)
+        return block;
+    if (guard.on)
+        leave(QDOT_ENOMEM);
+    abort();
+}
+
+static void *
+take(size_t size)
+{
+    void *block;
+
+    if (!guard.on)
+        return given(malloc(size));
+    look(size);
+    qdot_scope_now = &guard.library;
+    block = qdot_malloc(size);
+    qdot_scope_now = &guard.own;
+    return given(block);
+}
+
+static void *
+take_clear(size_t count, size_t size)
+{
+    void *block;
+
+    if (!guard.on)
+        return given(calloc(count, size));
+    look(count * size);
+    qdot_scope_now = &guard.library;
+    block = qdot_calloc(count, size);
+    qdot_scope_now = &guard.own;
+    return given(block);
+}
+
+static void *
+enlarge(void *block, size_t size)
+{
+    if (!guard.on)
+        return given(realloc(block, size));
+    look(size);
+    qdot_scope_now = &guard.library;
+    block = qdot_realloc(block, size);
+    qdot_scope_now = &guard.own;
+    return given(block);
+}
+
+static void
+give_back(void *block)
+{
+    if (!guard.on) {
+        free(block);
+        return;
+    }
+    qdot_scope_now = &guard.library;
+    qdot_free(block);
+    qdot_scope_now = &guard.own;
+}
+
+/* GMP's, which knows the sizes. */
+static void *
+enlarge_limbs(void *block, size_t old, size_t size)
+{
+    (void)old;
+    return enlarge(block, size);
+}
+
+static void
+give_back_limbs(void *block, size_t size)
+{
+    (void)size;
+    give_back(block);
+}
+
+static __attribute__((noreturn)) void
+gave_up(void)
+{
+    if (guard.on)
+        leave(qdot_fail(QDOT_ELIMIT, "FLINT gave up"));
+    abort();
+}
+
+#if __FLINT_RELEASE >= 30000
+
+/* Before the block stands where it begins. */
+static void *
+take_aligned(size_t alignment, size_t size)
+{
+    char *block = take(size + alignment + sizeof(void *));
+    uintptr_t past = (uintptr_t)block + sizeof(void *) + alignment - 1;
+    void **at = (void **)(void *)(block + (past - past % alignment - (uintptr_t)block));
+
+    at[-1] = block;
+    return at;
+}
+
+static void
+give_back_aligned(void *block)
+{
+    if (block != NULL)
+        give_back(((void **)block)[-1]);
+}
+
+#endif
+
+/* --- the functions in their places --------------------------------------------------------- */
+
+static struct {
+    pthread_mutex_t lock;
+    int users; /* computations that run; the first puts ours in place, the last takes them away */
+    void *(*take)(size_t), *(*take_clear)(size_t, size_t), *(*enlarge)(void *, size_t);
+    void (*give_back)(void *);
+    void *(*take_aligned)(size_t, size_t);
+    void (*give_back_aligned)(void *);
+    void *(*limbs)(size_t), *(*enlarge_limbs)(void *, size_t, size_t);
+    void (*give_back_limbs)(void *, size_t);
+} before = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+static void
+install(void)
+{
+    pthread_mutex_lock(&before.lock);
+    if (before.users++ == 0) {
+#if __FLINT_RELEASE >= 30000
+        __flint_get_all_memory_functions(&before.take, &before.take_clear, &before.enlarge,
+                                         &before.give_back, &before.take_aligned,
+                                         &before.give_back_aligned);
+        __flint_set_all_memory_functions(take, take_clear, enlarge, give_back, take_aligned,
+                                         give_back_aligned);
+#else
+        __flint_get_memory_functions(&before.take, &before.take_clear, &before.enlarge,
+                                     &before.give_back);
+        __flint_set_memory_functions(take, take_clear, enlarge, give_back);
+#endif
+        mp_get_memory_functions(&before.limbs, &before.enlarge_limbs,
+                                &before.give_back_limbs);
+        mp_set_memory_functions(take, enlarge_limbs, give_back_limbs);
+        flint_set_abort(gave_up);
+    }
+    pthread_mutex_unlock(&before.lock);
+}
+
+static void
+uninstall(void)
+{
+    pthread_mutex_lock(&before.lock);
+    if (--before.users == 0) {
+#if __FLINT_RELEASE >= 30000
+        __flint_set_all_memory_functions(before.take, before.take_clear, before.enlarge,
+                                         before.give_back, before.take_aligned,
+                                         before.give_back_aligned);
+#else
+        __flint_set_memory_functions(before.take, before.take_clear, before.enlarge,
+                                     before.give_back);
+#endif
+        mp_set_memory_functions(before.limbs, before.enlarge_limbs, before.give_back_limbs);
+        flint_set_abort(abort);
+    }
+    pthread_mutex_unlock(&before.lock);
+}
+
+/* --- the thread that computes ------------------------------------------------------------ */
+
+/* The lock is held by who computes, so that who asked goes on when it is done. */
+typedef struct {
+    pthread_t thread;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    enum { WAITING, ASKED, ENDING } state;
+    void (*work)(void *user);
+    void *user;
+    qdot_status status;
+    qdot_error error; /* the last failure: of who asks, then of who answers */
+} worker;
+
+/* The one of this thread, and what ends it with this thread. */
+static _Thread_local worker *mine;
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static pthread_key_t key;
+
+/* One computation. False: it was left, and FLINT's caches of this thread are to go. */
+static bool
+compute(worker *w)
+{
+    w->status = qdot_scope_begin(&guard.own);
+    if (w->status != QDOT_OK)
+        return true;
+    guard.cached = guard.library.bytes;
+    guard.on = true;
+    install();
+    if (setjmp(guard.out) == 0) {
+        w->work(w->user);
+        guard.on = false;
+        qdot_scope_end(&guard.own);
+    } else {
+        guard.on = false;
+        qdot_scope_discard(&guard.own);
+        w->status = guard.why;
+    }
+    uninstall();
+    return w->status == QDOT_OK;
+}
+
+static void *
+compute_for(void *user)
+{
+    worker *w = user;
+    bool begun = qdot_scope_begin(&guard.library) == QDOT_OK;
+
+    qdot_scope_now = NULL;
+    pthread_mutex_lock(&w->lock);
+    for (;;) {
+        while (w->state == WAITING)
+            pthread_cond_wait(&w->changed, &w->lock);
+        if (w->state == ENDING)
+            break;
+        (void)qdot_fail_again(&w->error);
+        if (!begun)
+            w->status = qdot_fail(QDOT_ENOMEM, "out of memory");
+        w->state = begun && compute(w) && guard.library.bytes <= KEPT ? WAITING : ENDING;
+        w->error = *qdot_last_error();
+        pthread_cond_signal(&w->changed);
+    }
+    if (begun) /* FLINT is not asked: when left it may have been in the middle of a change */
+        qdot_scope_discard(&guard.library);
+    pthread_mutex_unlock(&w->lock);
+    return NULL;
+}
+
+static void
+end(void *user)
+{
+    worker *w = user;
+
+    pthread_mutex_lock(&w->lock);
+    w->state = ENDING;
+    pthread_cond_signal(&w->changed);
+    pthread_mutex_unlock(&w->lock);
+    pthread_join(w->thread, NULL);
+    pthread_cond_destroy(&w->changed);
+    pthread_mutex_destroy(&w->lock);
+    qdot_free(w);
+}
+
+static void
+make_key(void)
+{
+    (void)pthread_key_create(&key, end);
+}
+
+/* The thread of who asks; signals are for the others. NULL: refused. */
+static worker *
+begin(void)
+{
+    worker *w = qdot_calloc(1, sizeof *w);
+    sigset_t all, old;
+    pthread_attr_t attr;
+    int refused;
+
+    if (w == NULL)
+        return NULL;
+    pthread_once(&once, make_key);
+    pthread_mutex_init(&w->lock, NULL);
+    pthread_cond_init(&w->changed, NULL);
+    pthread_attr_init(&attr);
+    pthread_attr_setstacksize(&attr, STACK);
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &old);
+    refused = pthread_create(&w->thread, &attr, compute_for, w);
+    pthread_sigmask(SIG_SETMASK, &old, NULL);
+    pthread_attr_destroy(&attr);
+    if (refused) {
+        qdot_free(w);
+        (void)qdot_fail(QDOT_ENOMEM, "the system refuses a thread for exact computations");
+        return NULL;
+    }
+    (void)pthread_setspecific(key, w);
+    return w;
+}
+
+qdot_status
+qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
+{
+    uint64_t budget;
+    qdot_status status;
+    bool ended;
+
+    if (guard.on) {
+        work(user);
+        return QDOT_OK;
+    }
+    if (mine == NULL)
+        mine = begin();
+    if (mine == NULL)
+        return QDOT_ENOMEM;
+    budget = qdot_pool_budget(pool, UINT64_MAX);
+    (void)qdot_pool_budget(pool, budget);
+
+    pthread_mutex_lock(&mine->lock);
+    mine->work = work;
+    mine->user = user;
+    mine->error = *qdot_last_error();
+    mine->state = ASKED;
+    pthread_cond_signal(&mine->changed);
+    while (mine->state == ASKED)
+        pthread_cond_wait(&mine->changed, &mine->lock);
+    ended = mine->state == ENDING;
+    status = mine->status;
+    (void)qdot_fail_again(&mine->error);
+    pthread_mutex_unlock(&mine->lock);
+
+    if (ended) {
+        (void)pthread_setspecific(key, NULL);
+        end(mine);
+        mine = NULL;
+    }
+    if (status != QDOT_OK)
+        (void)qdot_pool_budget(pool, budget);
+    return status;
+}

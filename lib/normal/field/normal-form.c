@@ -1,0 +1,73 @@
+/* normal-form.c -- a quotient in the field of its generators, cancelled, written out. */
+#include "normal/field/normal-form.h"
+
+#include "base/memory.h"
+#include "expr/tensor.h"
+#include "normal/field/flint.h"
+#include "normal/field/ideal.h"
+#include "normal/field/prepare.h"
+
+enum { WORK = 4000000 };
+
+static qdot_expr
+normal_scalar(qdot_pool *pool, qdot_expr e, void *user)
+{
+    const qdot_facts *facts = user;
+    size_t nr = facts == NULL ? 0 : facts->n_relations;
+    qdot_expr *all = qdot_malloc((nr + 1) * sizeof *all), result = e;
+    qdot_field f;
+
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    all[0] = qdot_prepare(pool, e);
+    for (size_t i = 0; i < nr; i++)
+        all[1 + i] = qdot_prepare(pool, facts->relations[i]);
+    qdot_field_begin(&f, pool, nr + 1, all, WORK);
+    if (qdot_field_goes(&f)) {
+        qdot_ratio r;
+
+        qdot_ratio_init(&f, &r);
+        qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
+        qdot_ratio_cancel(&f, &r);
+        if (nr > 0)
+            qdot_ideal_reduce_ratio(&f, &r, nr, all + 1);
+        if (qdot_field_goes(&f))
+            result = qdot_field_ratio_expr(&f, &r);
+        qdot_ratio_clear(&f, &r);
+    }
+    if (f.state == QDOT_FIELD_FAILED && qdot_grave(f.status) != QDOT_OK)
+        qdot_pool_fail(pool);
+    qdot_field_end(&f);
+    qdot_free(all);
+    if (qdot_grave(qdot_pool_check(pool)) != QDOT_OK)
+        qdot_pool_fail(pool);
+    return qdot_pool_failed(pool) ? QDOT_NIL : result == QDOT_NIL ? e : result;
+}
+
+struct normalizing {
+    qdot_pool *pool;
+    qdot_expr e, result;
+    const qdot_facts *facts;
+};
+
+static void
+normal_value(void *user)
+{
+    struct normalizing *x = user;
+
+    x->result = qdot_value_map(x->pool, x->e, normal_scalar, (void *)(uintptr_t)x->facts);
+}
+
+qdot_expr
+qdot_normal(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    struct normalizing x = {pool, e, e, facts};
+    qdot_status status;
+
+    if (e == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    status = qdot_flint_run(pool, normal_value, &x);
+    if (qdot_grave(status) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    return status == QDOT_OK ? x.result : e;
+}

@@ -1,0 +1,22 @@
+/* polynomials.h -- a table of polynomials of one field, found by value. */
+#ifndef QDOT_NORMAL_POLYNOMIALS_H
+#define QDOT_NORMAL_POLYNOMIALS_H
+
+#include "normal/field/field.h"
+
+/* Start with `qdot_polynomials t = {0};`. */
+typedef struct {
+    fmpz_mpoly_struct *at; /* [n] */
+    uint64_t *hash;        /* [n] */
+    uint32_t *place;       /* [places] by hash: index in `at` + 1, 0: free */
+    size_t n, places, at_capacity, hash_capacity;
+} qdot_polynomials;
+
+/* The index of p; -1 if it is not there. */
+slong qdot_polynomials_find(qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly_t p);
+/* Add p, which is not there, at index t->n. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_polynomials_add(qdot_field *f, qdot_polynomials *t,
+                                                 const fmpz_mpoly_t p);
+void qdot_polynomials_clear(qdot_field *f, qdot_polynomials *t);
+
+#endif

@@ -1,0 +1,36 @@
+/* root-parts.h -- what stands with each product of roots.
+ *
+ *     e = sum_k a_k R_k,    R_k different products of roots b^(1/2), b^(1/3) ... of moving bases,
+ *                           a_k free of them
+ *
+ * Square roots of different polynomials without a common factor, and their products, are
+ * independent over the rational functions (Besicovitch, J. London Math. Soc. 15 (1940) 3): e
+ * vanishes where every a_k does, whose denominators hold one R_k and not all of them.
+ *
+ * Tests  tests/script/three-bodies.lag, tests/normal/test_solve.c (linear relations)
+ */
+#ifndef QDOT_NORMAL_ROOT_PARTS_H
+#define QDOT_NORMAL_ROOT_PARTS_H
+
+#include "base/memory.h"
+#include "expr/expr.h"
+
+/* A matrix by rows of n entries, roots included, and the R_k of each row. */
+typedef struct {
+    size_t n;
+    qdot_vec(qdot_expr) entries, roots;
+} qdot_root_parts;
+
+/* So many roots of different sums are worth it. */
+enum { QDOT_ROOTS_MANY = 3 };
+
+/* Whether so many stand in e. */
+bool qdot_root_parts_many(qdot_pool *pool, qdot_expr e);
+
+/* Add the rows that E [n] falls into: itself where it has one part. A base that stands in two
+ * ways counts as two, unless E is prepared (normal/field/prepare.h). Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_root_parts_add(qdot_pool *pool, qdot_root_parts *parts,
+                                                const qdot_expr *E);
+void qdot_root_parts_clear(qdot_root_parts *parts);
+
+#endif

@@ -1,0 +1,90 @@
+/* together.c -- one field for the arguments of functions; inner ones with their outer ones. */
+#include "normal/field/together.h"
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/field/field.h"
+
+enum { MOST = 40, WORK = 4000000 };
+
+struct arguments {
+    qdot_expr at[MOST], flat[MOST];
+    size_t n;
+};
+
+static bool
+holds_functions(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_is_scalar(pool, e) && qdot_expr_kind(pool, e) != QDOT_FUN &&
+           (qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN);
+}
+
+static void
+add(struct arguments *a, qdot_expr e)
+{
+    for (size_t i = 0; i < a->n; i++)
+        if (a->at[i] == e)
+            return;
+    if (a->n < MOST)
+        a->at[a->n++] = e;
+}
+
+static qdot_status
+gather(struct arguments *a, qdot_pool *pool, size_t n, const qdot_expr *e)
+{
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin_n(pool, n, e, &w));
+    for (size_t i = 0; i < w.n; i++) {
+        qdot_kind kind = qdot_expr_kind(pool, w.at[i]);
+
+        for (uint32_t k = 0; kind == QDOT_FUN && k < qdot_expr_count(pool, w.at[i]); k++)
+            if (holds_functions(pool, qdot_expr_arg(pool, w.at[i], k)))
+                add(a, qdot_expr_arg(pool, w.at[i], k));
+    }
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}
+
+/* The arguments as values of one field; false: that stopped. */
+static bool
+flatten(struct arguments *a, qdot_pool *pool)
+{
+    bool good;
+    qdot_field f;
+
+    qdot_field_begin(&f, pool, a->n, a->at, WORK);
+    for (size_t i = 0; i < a->n && qdot_field_goes(&f); i++) {
+        qdot_ratio r;
+
+        qdot_ratio_init(&f, &r);
+        qdot_ratio_set(&f, &r, qdot_field_value(&f, a->at[i]));
+        qdot_ratio_cancel(&f, &r);
+        a->flat[i] = qdot_field_ratio_expr(&f, &r);
+        if (a->flat[i] != QDOT_NIL && qdot_field_goes(&f))
+            a->flat[i] = qdot_expand(pool, a->flat[i]);
+        qdot_ratio_clear(&f, &r);
+    }
+    good = qdot_field_goes(&f) && !qdot_pool_failed(pool);
+    qdot_field_end(&f);
+    return good;
+}
+
+qdot_status
+qdot_together(qdot_pool *pool, size_t n, qdot_expr *e, bool *changed)
+{
+    struct arguments a = {.n = 0};
+
+    *changed = false;
+    QDOT_TRY(gather(&a, pool, n, e));
+    if (a.n < 2 || !flatten(&a, pool))
+        return QDOT_OK;
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr to = qdot_subs(pool, e[i], a.n, a.at, a.flat);
+
+        *changed |= to != e[i];
+        e[i] = to;
+    }
+    return QDOT_OK;
+}

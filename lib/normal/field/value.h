@@ -1,0 +1,11 @@
+/* value.h -- the values of a field's nodes: one pass, children first. */
+#ifndef QDOT_NORMAL_VALUE_H
+#define QDOT_NORMAL_VALUE_H
+
+#include "normal/field/field.h"
+
+/* Fill f->value and the rules of roots. Errors: QDOT_ENOMEM, the pool's; a stop of the
+ * field is not an error. */
+QDOT_MUST_CHECK qdot_status qdot_value_all(qdot_field *f);
+
+#endif

@@ -1,0 +1,66 @@
+/* form.h -- polynomials of a field said as a person would: the fewest operations.
+ *
+ * Every function gives an expression equal to the polynomial by construction.
+ */
+#ifndef QDOT_NORMAL_FORM_H
+#define QDOT_NORMAL_FORM_H
+
+#include "normal/field/polynomials.h"
+
+/* Kinds of variables, and what was already said. */
+typedef struct {
+    qdot_field *f;
+    bool *fast, *trig; /* [gens] */
+    qdot_polynomials known;
+    qdot_expr *said; /* [known.n] what was said of each */
+    size_t said_capacity;
+    int depth, horner; /* of products within products, of powers taken out */
+    bool quotient; /* what is said stands over a denominator */
+} qdot_form;
+
+QDOT_MUST_CHECK qdot_status qdot_form_begin(qdot_form *form, qdot_field *f);
+void qdot_form_end(qdot_form *form);
+
+/* c times a polynomial: collected in velocities and accelerations, or as a product. */
+qdot_expr qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
+
+/* The forms of a quotient: the shortest of them and of *best (quotient.c). */
+void qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best);
+
+/* Of c r the coefficients of monomials in what moves, each over what is left of the denominator,
+ * equal denominators together, and what all share in front: the shortest of these and of *best
+ * (denominators.c). */
+void qdot_form_say_apart(qdot_form *form, const qdot_ratio *r, const fmpq_t c,
+                         qdot_expr *best);
+
+/* The coefficient of a monomial in velocities: no fast variable in p. */
+qdot_expr qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p);
+
+/* The same without trigonometric variables. */
+qdot_expr qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p);
+
+bool qdot_form_has_trig(const qdot_form *form, const fmpz_mpoly_t p);
+
+/* Without trigonometric variables: as a sum, common powers out. */
+qdot_expr qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p);
+
+/* c p as a sum of squares of two terms and what is left, each times c (squares.c); nil if
+ * there are none. */
+qdot_expr qdot_form_squares(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
+
+qdot_expr qdot_form_integer(qdot_pool *pool, const fmpz_t n);
+
+/* A polynomial in trigonometric variables alone (trig-form.c). */
+qdot_expr qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p);
+
+/* What was said of p before; nil if nothing. Remember e for p; returns e. */
+qdot_expr qdot_form_recall(const qdot_form *form, const fmpz_mpoly_t p);
+qdot_expr qdot_form_remember(qdot_form *form, const fmpz_mpoly_t p, qdot_expr e);
+
+/* Keep the smaller of *best (nil: none yet) and e. */
+void qdot_form_keep(qdot_pool *pool, qdot_expr *best, qdot_expr e);
+
+/* c * monomial, or a product of factors with exponents. */
+qdot_expr qdot_form_monomial(qdot_field *f, const fmpq_t c, const ulong *exp);
+
+#endif

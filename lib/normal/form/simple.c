@@ -1,0 +1,257 @@
+/* simple.c -- what is as simple as it can be, or becomes so by one rule, seen at a glance: of the
+ * sums that mechanics brings most are of two angles, and need no field. */
+#include "normal/form/simple.h"
+
+enum { MOST_COLLECTED = 16 };
+
+/* a + b + c, parameters. */
+static bool
+is_plain_sum(const qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+
+    if (qdot_expr_kind(pool, e) != QDOT_SUM || qdot_expr_arg(pool, e, 0) != QDOT_ZERO)
+        return false;
+    for (uint32_t i = 1; i < n; i += 2)
+        if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, e, i), QDOT_PARAM) ||
+            qdot_expr_arg(pool, e, i + 1) != QDOT_ONE)
+            return false;
+    return true;
+}
+
+/* f(x), x a symbol. */
+static bool
+is_plain_function(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_kind kind = qdot_expr_kind(pool, e);
+
+    return (kind == QDOT_FUN || kind == QDOT_UFUN) && qdot_expr_count(pool, e) <= 2 &&
+           qdot_expr_kind(pool, qdot_expr_arg(pool, e, 0)) == QDOT_SYM;
+}
+
+/* Powers of symbols; with positive ones also one function and one sum: nothing cancels. */
+static bool
+is_simple_product(const qdot_pool *pool, qdot_expr e)
+{
+    int functions = 0, sums = 0;
+    bool below = false;
+    long k;
+
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i);
+
+        if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k))
+            return false;
+        below |= k < 0;
+        if (qdot_expr_kind(pool, b) == QDOT_SYM)
+            continue;
+        functions += is_plain_function(pool, b);
+        sums += is_plain_sum(pool, b);
+        if (k != 1 || (!is_plain_function(pool, b) && !is_plain_sum(pool, b)))
+            return false;
+    }
+    return functions <= 1 && sums <= 1 && (functions + sums == 0 || !below);
+}
+
+/* --- sums collected in velocities -------------------------------------------------------- */
+
+#define FAST (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)
+
+/* sin or cos of a coordinate or of the difference of two. */
+static bool
+is_angle_function(const qdot_pool *pool, qdot_expr e)
+{
+    unsigned op = qdot_expr_node(pool, e)->op;
+    qdot_expr a;
+
+    if (qdot_expr_kind(pool, e) != QDOT_FUN || (op != QDOT_SIN && op != QDOT_COS))
+        return false;
+    a = qdot_expr_arg(pool, e, 0);
+    if (qdot_expr_kind(pool, a) != QDOT_SUM)
+        return qdot_expr_is_coordinate(pool, a);
+    return qdot_expr_count(pool, a) == 5 && qdot_expr_arg(pool, a, 0) == QDOT_ZERO &&
+           qdot_expr_is_coordinate(pool, qdot_expr_arg(pool, a, 1)) &&
+           qdot_expr_is_coordinate(pool, qdot_expr_arg(pool, a, 3)) &&
+           qdot_expr_arg(pool, a, 2) ==
+               (qdot_expr_arg(pool, a, 4) == QDOT_ONE ? QDOT_MINUS_ONE : QDOT_ONE);
+}
+
+/* A term c w f(angle) of symbols, one sum of parameters at most, and one velocity or acceleration w, to
+ * whatever power: *fast. */
+static bool
+read_collected(const qdot_pool *pool, qdot_expr t, qdot_expr *fast, qdot_expr *power)
+{
+    int functions = 0, sums = 0, moving = 0;
+    long k;
+
+    if (qdot_expr_kind(pool, t) != QDOT_PROD)
+        return false;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, t); i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, t, i);
+
+        if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, t, i + 1), &k) || k < 1)
+            return false;
+        if (qdot_expr_node(pool, b)->holds & FAST) {
+            *fast = b;
+            *power = qdot_expr_arg(pool, t, i + 1);
+            moving++;
+        } else if (is_plain_sum(pool, b)) {
+            sums++;
+        } else if (is_angle_function(pool, b)) {
+            functions += (int)k;
+        } else if (!qdot_expr_is_class(pool, b, QDOT_PARAM)) {
+            return false;
+        }
+    }
+    return moving == 1 && qdot_expr_kind(pool, *fast) == QDOT_SYM && sums <= 1 &&
+           functions <= 1;
+}
+
+bool
+qdot_simple_is_collected(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr fast[2 * MOST_COLLECTED];
+    uint32_t n = qdot_expr_count(pool, e) / 2;
+
+    if (qdot_expr_kind(pool, e) != QDOT_SUM || qdot_expr_arg(pool, e, 0) != QDOT_ZERO ||
+        n < 2 || n > MOST_COLLECTED)
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        if (!read_collected(pool, qdot_expr_arg(pool, e, 1 + 2 * i), &fast[2 * i],
+                            &fast[2 * i + 1]))
+            return false;
+        for (uint32_t j = 0; j < i; j++)
+            if (fast[2 * i] == fast[2 * j] && fast[2 * i + 1] == fast[2 * j + 1])
+                return false;
+    }
+    return true;
+}
+
+bool
+qdot_simple_is_done(const qdot_pool *pool, qdot_expr e)
+{
+    switch (qdot_expr_kind(pool, e)) {
+    case QDOT_NUM:
+    case QDOT_SYM: return true;
+    case QDOT_FUN:
+    case QDOT_UFUN: return is_plain_function(pool, e);
+    case QDOT_PROD: return is_simple_product(pool, e);
+    default: return is_plain_sum(pool, e);
+    }
+}
+
+/* --- sums of two angles --------------------------------------------------------------------- */
+
+/* A product of powers of symbols and of two sines and cosines of coordinates. */
+typedef struct {
+    qdot_expr angle[2]; /* in the order of the product; a square has the same twice */
+    bool sine[2];
+    uint32_t at[2]; /* where in the product */
+} two_angles;
+
+static bool
+read_two_angles(const qdot_pool *pool, qdot_expr e, two_angles *t)
+{
+    uint32_t found = 0;
+    long k;
+
+    if (qdot_expr_kind(pool, e) != QDOT_PROD)
+        return false;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr b = qdot_expr_arg(pool, e, i);
+        const qdot_node *node = qdot_expr_node(pool, b);
+
+        if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k))
+            return false;
+        if (node->kind == QDOT_SYM)
+            continue;
+        if (node->kind != QDOT_FUN || (node->op != QDOT_SIN && node->op != QDOT_COS) ||
+            !qdot_expr_is_coordinate(pool, qdot_expr_arg(pool, b, 0)) || k < 1 ||
+            found + k > 2)
+            return false;
+        for (; k > 0; k--, found++) {
+            t->angle[found] = qdot_expr_arg(pool, b, 0);
+            t->sine[found] = node->op == QDOT_SIN;
+            t->at[found] = i;
+        }
+    }
+    return found == 2;
+}
+
+/* The powers of symbols in the term; false: in the other term there are others. */
+static bool
+shared_powers(qdot_pool *pool, qdot_expr term, const two_angles *t, qdot_expr other,
+              const two_angles *u, qdot_expr *product)
+{
+    uint32_t i = 1, j = 1, n = qdot_expr_count(pool, term),
+             m = qdot_expr_count(pool, other);
+
+    *product = QDOT_ONE;
+    for (;;) {
+        qdot_expr b, x;
+
+        while (i < n && (i == t->at[0] || i == t->at[1]))
+            i += 2;
+        while (j < m && (j == u->at[0] || j == u->at[1]))
+            j += 2;
+        if (i >= n || j >= m)
+            return i >= n && j >= m;
+        b = qdot_expr_arg(pool, term, i);
+        x = qdot_expr_arg(pool, term, i + 1);
+        if (b != qdot_expr_arg(pool, other, j) || x != qdot_expr_arg(pool, other, j + 1))
+            return false;
+        *product = qdot_mul(pool, *product, qdot_pow(pool, b, x));
+        i += 2;
+        j += 2;
+    }
+}
+
+/* P cos(a) cos(b) + P sin(a) sin(b) is P cos(a - b), and so on; nil: e is no such sum. */
+static qdot_expr
+sum_of_angles(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr term[2], c[2], front, turn;
+    two_angles t, u;
+    bool same, swapped;
+
+    if (qdot_expr_kind(pool, e) != QDOT_SUM || qdot_expr_count(pool, e) != 5 ||
+        qdot_expr_arg(pool, e, 0) != QDOT_ZERO)
+        return QDOT_NIL;
+    for (uint32_t i = 0; i < 2; i++) {
+        term[i] = qdot_expr_arg(pool, e, 1 + 2 * i);
+        c[i] = qdot_expr_arg(pool, e, 2 + 2 * i);
+    }
+    if (!read_two_angles(pool, term[0], &t) || !read_two_angles(pool, term[1], &u))
+        return QDOT_NIL;
+    swapped = u.angle[0] != t.angle[0];
+    if (u.angle[swapped] != t.angle[0] || u.angle[!swapped] != t.angle[1] ||
+        u.sine[swapped] == t.sine[0] || u.sine[!swapped] == t.sine[1])
+        return QDOT_NIL;
+    same = c[0] == c[1];
+    if (!same && c[1] != qdot_neg(pool, c[0]))
+        return QDOT_NIL;
+    if (t.angle[0] == t.angle[1] && (!same || t.sine[0] != t.sine[1]))
+        return QDOT_NIL; /* of a double angle */
+    if (!shared_powers(pool, term[0], &t, term[1], &u, &front))
+        return QDOT_NIL;
+    if (t.angle[0] == t.angle[1])
+        return qdot_mul(pool, c[0], front);
+    if (t.sine[0] == t.sine[1]) { /* cos a cos b +- sin a sin b */
+        turn = same ? qdot_sub(pool, t.angle[0], t.angle[1])
+                    : qdot_add(pool, t.angle[0], t.angle[1]);
+        turn = qdot_fun1(pool, QDOT_COS, turn);
+        front = qdot_mul(pool, c[t.sine[0]], front);
+    } else { /* sin a cos b +- cos a sin b */
+        turn = same ? qdot_add(pool, t.angle[0], t.angle[1])
+                    : qdot_sub(pool, t.angle[!t.sine[0]], t.angle[t.sine[0]]);
+        turn = qdot_fun1(pool, QDOT_SIN, turn);
+        front = qdot_mul(pool, c[0], front);
+    }
+    return qdot_mul(pool, front, turn);
+}
+
+qdot_expr
+qdot_simple_seen(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_simple_is_done(pool, e) ? e : sum_of_angles(pool, e);
+}

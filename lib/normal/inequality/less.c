@@ -1,0 +1,534 @@
+/* less.c -- inequalities: signs of factors, ends of the ranges of cosines, boxes; else
+ * a point. */
+#include "normal/inequality/less.h"
+
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/field/factor.h"
+#include "normal/field/flint.h"
+#include "normal/field/prepare.h"
+#include "normal/form/shortest.h"
+#include "normal/inequality/inequality.h"
+#include "normal/refute/sample.h"
+
+enum { WORK = 4000000, MOST_ENDS = 5, MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200 };
+
+static uint8_t
+times(uint8_t a, uint8_t b)
+{
+    const uint8_t either = QDOT_GE0 | QDOT_LE0;
+    uint8_t known = 0;
+
+    if (((a & QDOT_GE0) && (b & QDOT_GE0)) || ((a & QDOT_LE0) && (b & QDOT_LE0)))
+        known = QDOT_GE0;
+    else if ((a & either) && (b & either))
+        known = QDOT_LE0;
+    return (uint8_t)(known | (a & b & QDOT_NE0));
+}
+
+static uint8_t
+node_sign(const qdot_pool *pool, qdot_expr e)
+{
+    return e == QDOT_NIL ? 0 : qdot_expr_node(pool, e)->sign;
+}
+
+/* --- ends of ranges ---------------------------------------------------------------- */
+
+/* The sign that holds at both ends, so between them, for what is linear there. */
+static uint8_t
+both(uint8_t a, uint8_t b)
+{
+    return a & b & (QDOT_GE0 | QDOT_LE0) ? (uint8_t)(a & b) : 0;
+}
+
+static uint8_t poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth);
+
+/* p = A x + B with x in [-1, 1] or [1, oo): from the ends. depth bounds the recursion. */
+static uint8_t
+by_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
+{
+    fmpz_mpoly_t at_one, at_other;
+    uint8_t sign;
+    fmpz_t end;
+
+    fmpz_init_set_si(end, 1);
+    fmpz_mpoly_init(at_one, f->ctx);
+    fmpz_mpoly_init(at_other, f->ctx);
+    fmpz_mpoly_evaluate_one_fmpz(at_one, p, v, end, f->ctx);
+    if (f->gen[v].kind == QDOT_GEN_COSH) {
+        fmpz_mpoly_derivative(at_other, p, v,
+                              f->ctx); /* A itself: its sign, at least as >= */
+        sign =
+            both(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth) | QDOT_NE0);
+    } else {
+        fmpz_set_si(end, -1);
+        fmpz_mpoly_evaluate_one_fmpz(at_other, p, v, end, f->ctx);
+        sign = both(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth));
+    }
+    fmpz_clear(end);
+    fmpz_mpoly_clear(at_one, f->ctx);
+    fmpz_mpoly_clear(at_other, f->ctx);
+    return sign;
+}
+
+static bool
+is_free_cosine(const qdot_field *f, const fmpz_mpoly_t p, slong v)
+{
+    qdot_gen_kind kind = f->gen[v].kind;
+
+    return (kind == QDOT_GEN_COS || kind == QDOT_GEN_SIN || kind == QDOT_GEN_COSH) &&
+           fmpz_mpoly_degree_si(p, v, f->ctx) == 1 &&
+           fmpz_mpoly_degree_si(p, (slong)f->gen[v].pair, f->ctx) == 0;
+}
+
+static uint8_t
+poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth)
+{
+    uint8_t sign;
+
+    if (fmpz_mpoly_is_zero(p, f->ctx))
+        return QDOT_GE0 | QDOT_LE0;
+    sign = node_sign(f->pool, qdot_field_expr(f, p));
+    if ((sign & (QDOT_GE0 | QDOT_LE0)) && (sign & QDOT_NE0))
+        return sign;
+    for (slong v = 0; v < f->n && depth > 0; v++)
+        if (is_free_cosine(f, p, v)) {
+            uint8_t here = by_ends(f, p, v, depth - 1);
+
+            if (here != 0)
+                return here | sign;
+        }
+    return sign;
+}
+
+static uint8_t
+product_sign(qdot_field *f, const fmpz_mpoly_t p)
+{
+    qdot_factors factors;
+    uint8_t sign = 0;
+
+    if (fmpz_mpoly_is_zero(p, f->ctx))
+        return QDOT_GE0 | QDOT_LE0;
+    if (qdot_factor(f, &factors, p) == QDOT_OK) {
+        sign = fmpz_sgn(factors.content) > 0 ? QDOT_POS : QDOT_NEG;
+        for (slong i = 0; i < factors.n; i++) {
+            uint8_t one = poly_sign(f, factors.poly + i, MOST_ENDS);
+
+            if (factors.exp[i] % 2 == 0)
+                one = (uint8_t)(QDOT_GE0 | (one & QDOT_NE0));
+            sign = times(sign, one);
+        }
+    }
+    qdot_factor_clear(f, &factors);
+    return sign;
+}
+
+static uint8_t
+sign_by_factors(qdot_pool *pool, qdot_expr e)
+{
+    uint8_t sign = 0;
+    const qdot_ratio *r;
+    qdot_field f;
+
+    e = qdot_prepare(pool, e);
+    qdot_field_begin(&f, pool, 1, &e, WORK);
+    r = qdot_field_value(&f, e);
+    if (r != NULL) {
+        qdot_ratio x;
+
+        qdot_ratio_init(&f, &x);
+        qdot_ratio_set(&f, &x, r);
+        qdot_ratio_cancel(&f, &x);
+        if (qdot_field_goes(&f))
+            sign = times(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
+        for (slong v = 0; v < f.n && sign == 0 && qdot_field_goes(&f); v++)
+            if (f.gen[v].kind == QDOT_GEN_COS &&
+                qdot_factor_flip(&f, x.n, x.n, v) == QDOT_OK)
+                sign = times(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
+        qdot_ratio_clear(&f, &x);
+    }
+    qdot_field_end(&f);
+    return sign;
+}
+
+/* --- domains moved to zero, boxes -------------------------------------------------- */
+
+/* x = lo + y or hi - y, y >= 0, for every bound that is a number but not zero;
+ * expanded. */
+static qdot_expr
+moved(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr atoms = qdot_expr_atoms(pool, e, false), result = e;
+    uint32_t n = atoms == QDOT_NIL ? 0 : qdot_expr_count(pool, atoms);
+
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr x = qdot_expr_arg(pool, atoms, i), y, to;
+        const qdot_symbol *s = qdot_expr_symbol(pool, x);
+        qdot_expr lo = s->lo, hi = s->hi;
+        bool open = lo != QDOT_NIL ? s->lo_open : s->hi_open;
+        char name[64];
+
+        if ((lo == QDOT_NIL && hi == QDOT_NIL) || lo == QDOT_ZERO)
+            continue;
+        snprintf(name, sizeof name, open ? "(shift %u)" : "(shift %u]", i);
+        y = qdot_symbol_get(pool, QDOT_FORMAL, name);
+        qdot_symbol_domain(pool, y, QDOT_ZERO, open, QDOT_NIL, false);
+        to = lo != QDOT_NIL ? qdot_add(pool, lo, y) : qdot_sub(pool, hi, y);
+        result = qdot_subs(pool, result, 1, &x, &to);
+    }
+    return result == e ? e : qdot_expand(pool, result);
+}
+
+struct box {
+    double lo[MOST_SIDES], hi[MOST_SIDES];
+};
+
+struct boxes {
+    qdot_expr atom[MOST_SIDES];
+    const struct box *box;
+    uint32_t n;
+};
+
+static bool
+side(void *user, qdot_expr atom, arb_t value, slong prec)
+{
+    const struct boxes *b = user;
+    arf_t lo, hi;
+
+    for (uint32_t i = 0; i < b->n; i++)
+        if (b->atom[i] == atom) {
+            arf_init(lo);
+            arf_init(hi);
+            arf_set_d(lo, b->box->lo[i]);
+            arf_set_d(hi, b->box->hi[i]);
+            arb_set_interval_arf(value, lo, hi, prec);
+            arf_clear(lo);
+            arf_clear(hi);
+            return true;
+        }
+    return false;
+}
+
+/* A bound without symbols as a double on its safe side. */
+static bool
+number(qdot_pool *pool, qdot_expr e, bool up, double *x)
+{
+    qdot_ball ball;
+    arb_srcptr value;
+
+    if (e == QDOT_NIL || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
+        return false;
+    qdot_ball_eval(&ball, 64, NULL, NULL);
+    value = qdot_ball_get(&ball, e);
+    if (value != NULL) {
+        arf_t bound;
+
+        arf_init(bound);
+        if (up)
+            arb_get_ubound_arf(bound, value, 64);
+        else
+            arb_get_lbound_arf(bound, value, 64);
+        *x = arf_get_d(bound, up ? ARF_RND_CEIL : ARF_RND_FLOOR);
+        arf_clear(bound);
+    }
+    qdot_ball_end(&ball);
+    return value != NULL;
+}
+
+/* Whether e > 0 on the whole (closed) box of its symbols' domains: halved until every
+ * part says so. */
+static bool
+positive_on_box(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr atoms = qdot_expr_atoms(pool, e, true);
+    struct boxes b = {.n = atoms == QDOT_NIL ? 99 : qdot_expr_count(pool, atoms)};
+    struct box *stack;
+    size_t depth = 0, done = 0;
+    qdot_ball ball;
+    bool positive = true;
+
+    if (b.n > MOST_SIDES)
+        return false;
+    stack = qdot_malloc((MOST_BOXES + 2) * sizeof *stack);
+    if (stack == NULL)
+        return false;
+    for (uint32_t i = 0; i < b.n && positive; i++) {
+        const qdot_symbol *s;
+
+        b.atom[i] = qdot_expr_arg(pool, atoms, i);
+        s = qdot_expr_symbol(pool, b.atom[i]);
+        positive = s != NULL && number(pool, s->lo, false, &stack[0].lo[i]) &&
+                   number(pool, s->hi, true, &stack[0].hi[i]);
+    }
+    if (!positive || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK) {
+        qdot_free(stack);
+        return false;
+    }
+    depth = 1;
+    while (depth > 0 && positive) {
+        struct box box = stack[--depth];
+        arb_srcptr value;
+        uint32_t widest = 0;
+
+        b.box = &box;
+        qdot_ball_eval(&ball, 53, side, &b);
+        value = qdot_ball_get(&ball, e);
+        if (value != NULL && arb_is_positive(value))
+            continue;
+        positive = ++done < MOST_BOXES && depth + 2 < MOST_BOXES && b.n > 0 &&
+                   !(value != NULL && arb_is_nonpositive(value)) && !qdot_interrupt_flag;
+        for (uint32_t i = 1; i < b.n; i++)
+            if (box.hi[i] - box.lo[i] > box.hi[widest] - box.lo[widest])
+                widest = i;
+        if (positive && box.hi[widest] - box.lo[widest] < 1e-9)
+            positive = false;
+        if (positive) {
+            double middle = (box.lo[widest] + box.hi[widest]) / 2;
+
+            stack[depth] = stack[depth + 1] = box;
+            stack[depth].hi[widest] = stack[depth + 1].lo[widest] = middle;
+            depth += 2;
+        }
+    }
+    qdot_ball_end(&ball);
+    qdot_free(stack);
+    return positive;
+}
+
+/* --- the decision ------------------------------------------------------------------ */
+
+static bool
+enough(uint8_t sign, bool strict)
+{
+    return strict ? (sign & QDOT_POS) == QDOT_POS : (sign & QDOT_GE0) != 0;
+}
+
+static bool
+proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
+{
+    qdot_expr s;
+
+    if (enough(node_sign(pool, d), strict))
+        return true;
+    s = qdot_shortest(pool, qdot_known_signs(pool, d, facts), facts);
+    if (s == QDOT_NIL)
+        return false;
+    if (enough(node_sign(pool, s), strict) || enough(sign_by_factors(pool, s), strict))
+        return true;
+    d = moved(pool, s);
+    if (d != s &&
+        (enough(node_sign(pool, d), strict) || enough(sign_by_factors(pool, d), strict)))
+        return true;
+    return positive_on_box(pool, s);
+}
+
+/* From a condition u < v: d is a positive multiple of v - u, or not less than it. */
+static bool
+proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
+{
+    for (size_t i = 0; facts != NULL && i < facts->n_conditions; i++) {
+        qdot_expr c = facts->conditions[i], gap, rest;
+        bool sharp;
+
+        if (qdot_expr_kind(pool, c) != QDOT_REL || qdot_expr_node(pool, c)->op == QDOT_EQ)
+            continue;
+        sharp = qdot_expr_node(pool, c)->op == QDOT_LT;
+        gap = qdot_sub(pool, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0));
+        if (strict && !sharp)
+            continue;
+        rest = qdot_sub(pool, d, gap);
+        if (qdot_is_zero(pool, rest, facts) || proved(pool, rest, false, facts))
+            return true;
+        if (gap != QDOT_ZERO && proved(pool, qdot_div(pool, d, gap), strict, facts))
+            return true;
+    }
+    return false;
+}
+
+/* A point where left - right is surely not negative (strict), or surely positive. */
+static qdot_status
+refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+       const qdot_facts *facts, qdot_decision *d)
+{
+    qdot_expr none = qdot_list(pool, 0, NULL);
+    qdot_expr e[3] = {
+        left, right, facts != NULL && facts->defined != QDOT_NIL ? facts->defined : none};
+    qdot_sample s;
+    arb_t gap;
+
+    QDOT_TRY(qdot_sample_begin(&s, pool, 3, e, facts));
+    arb_init(gap);
+    for (int k = 0; s.possible && k < TRIES && d->verdict == QDOT_UNDECIDED; k++) {
+        if (qdot_interrupt_flag)
+            break;
+        qdot_sample_point(&s, k);
+        for (slong prec = 64; prec <= 1024; prec *= 4) {
+            bool here = qdot_sample_eval(&s, prec);
+            arb_srcptr l = qdot_ball_get(&s.ball, left),
+                       r = qdot_ball_get(&s.ball, right);
+
+            if (!here || l == NULL || r == NULL)
+                continue;
+            for (uint32_t i = 0; i < qdot_expr_count(pool, e[2]); i++)
+                here &= qdot_ball_get(&s.ball, qdot_expr_arg(pool, e[2], i)) != NULL;
+            if (!here)
+                continue;
+            arb_sub(gap, l, r, prec);
+            if (!arb_contains_zero(gap) || arb_is_zero(gap)) {
+                if (arb_is_positive(gap) || (strict && arb_is_zero(gap))) {
+                    d->verdict = QDOT_REFUTED;
+                    d->at = qdot_sample_list(&s);
+                    d->left = arf_get_d(arb_midref(l), ARF_RND_NEAR);
+                    d->right = arf_get_d(arb_midref(r), ARF_RND_NEAR);
+                } else {
+                    d->points++;
+                }
+                break;
+            }
+        }
+    }
+    arb_clear(gap);
+    qdot_sample_end(&s);
+    QDOT_TRY(qdot_interrupt_flag ? qdot_interrupt_check() : QDOT_OK);
+    return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
+}
+
+/* At a point, a LIST of symbol = rational, that was found where right - left is negative (or zero). */
+static qdot_status
+refute_there(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+             const qdot_facts *facts, qdot_expr at, qdot_decision *d)
+{
+    qdot_expr none = qdot_list(pool, 0, NULL);
+    qdot_expr e[4] = {left, right, qdot_sub(pool, right, left),
+                      facts != NULL && facts->defined != QDOT_NIL ? facts->defined
+                                                                  : none};
+    arb_srcptr l, r, gap;
+    bool here = true;
+    qdot_ball ball;
+
+    for (int k = 0; k < 4; k++)
+        for (uint32_t i = 0; i < qdot_expr_count(pool, at) && e[k] != QDOT_NIL; i++) {
+            qdot_expr row = qdot_expr_arg(pool, at, i);
+            qdot_expr x = qdot_expr_arg(pool, row, 0), v = qdot_expr_arg(pool, row, 1);
+
+            e[k] = qdot_subs(pool, e[k], 1, &x, &v);
+        }
+    if (e[0] == QDOT_NIL || e[1] == QDOT_NIL || e[2] == QDOT_NIL || e[3] == QDOT_NIL)
+        return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_OK
+                                                     : qdot_last_error()->status;
+    QDOT_TRY(qdot_ball_begin(&ball, pool, 4, e));
+    qdot_ball_eval(&ball, 512, NULL, NULL);
+    l = qdot_ball_get(&ball, e[0]);
+    r = qdot_ball_get(&ball, e[1]);
+    gap = qdot_ball_get(&ball, e[2]);
+    for (uint32_t i = 0; i < qdot_expr_count(pool, e[3]); i++)
+        here &= qdot_ball_get(&ball, qdot_expr_arg(pool, e[3], i)) != NULL;
+    if (here && l != NULL && r != NULL && gap != NULL &&
+        (arb_is_negative(gap) || (strict && arb_is_zero(gap)))) {
+        d->verdict = QDOT_REFUTED;
+        d->at = at;
+        d->left = arf_get_d(arb_midref(l), ARF_RND_NEAR);
+        d->right = arf_get_d(arb_midref(r), ARF_RND_NEAR);
+    }
+    qdot_ball_end(&ball);
+    return QDOT_OK;
+}
+
+static qdot_status
+decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+       const qdot_facts *facts, qdot_decision *d)
+{
+    qdot_expr gap, at;
+    bool holds;
+    qdot_status status;
+
+    *d = (qdot_decision){.verdict = QDOT_UNDECIDED};
+    if (left == QDOT_NIL || right == QDOT_NIL)
+        return qdot_pool_failed(pool) ? qdot_pool_check(pool)
+                                      : qdot_fail(QDOT_EINVAL, "nothing to compare");
+    if (!qdot_expr_is_scalar(pool, left) || !qdot_expr_is_scalar(pool, right))
+        return qdot_fail(QDOT_ETYPE,
+                         "numbers are compared here, not vectors or equations");
+    gap = qdot_sub(pool, right, left);
+    if (gap != QDOT_NIL && (proved(pool, gap, strict, facts) ||
+                            proved_by_condition(pool, gap, strict, facts))) {
+        d->verdict = QDOT_PROVED;
+        return QDOT_OK;
+    }
+    status = qdot_pool_check(pool); /* a division by zero on the way proves nothing */
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return status;
+    QDOT_TRY(refute(pool, left, right, strict, facts, d));
+    if (d->verdict != QDOT_UNDECIDED)
+        return QDOT_OK;
+    QDOT_TRY(
+        qdot_inequality(pool, qdot_sub(pool, right, left), strict, facts, &holds, &at));
+    if (holds)
+        d->verdict = QDOT_PROVED;
+    else if (at != QDOT_NIL)
+        QDOT_TRY(refute_there(pool, left, right, strict, facts, at, d));
+    return QDOT_OK;
+}
+
+struct order {
+    qdot_pool *pool;
+    qdot_expr left, right;
+    bool strict;
+    const qdot_facts *facts;
+    qdot_decision d;
+    qdot_status status;
+};
+
+static void
+decide_order(void *user)
+{
+    struct order *x = user;
+
+    x->status = decide(x->pool, x->left, x->right, x->strict, x->facts, &x->d);
+}
+
+qdot_status
+qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+                 const qdot_facts *facts, qdot_decision *d)
+{
+    struct order x = {pool, left, right, strict, facts, {.verdict = QDOT_UNDECIDED}, 0};
+    qdot_status status = qdot_flint_run(pool, decide_order, &x);
+
+    *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};
+    return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
+}
+
+/* --- |u| and sign u where conditions say which sign u has --------------------------- */
+
+/* What takes the place of a node with a sign; nil: nothing. */
+static qdot_expr
+known(qdot_pool *pool, qdot_expr node, void *user)
+{
+    uint32_t op = qdot_expr_node(pool, node)->op;
+    qdot_decision above, below;
+    qdot_expr u;
+
+    if (qdot_expr_kind(pool, node) != QDOT_FUN || (op != QDOT_ABS && op != QDOT_SIGN))
+        return QDOT_NIL;
+    u = qdot_expr_arg(pool, node, 0);
+    if (qdot_decide_less(pool, QDOT_ZERO, u, true, user, &above) != QDOT_OK ||
+        qdot_decide_less(pool, u, QDOT_ZERO, true, user, &below) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    if (above.verdict == QDOT_PROVED)
+        return op == QDOT_ABS ? u : QDOT_ONE;
+    if (below.verdict == QDOT_PROVED)
+        return op == QDOT_ABS ? qdot_neg(pool, u) : QDOT_MINUS_ONE;
+    return QDOT_NIL;
+}
+
+qdot_expr
+qdot_known_signs(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    if (e == QDOT_NIL || facts == NULL || facts->n_conditions == 0)
+        return e;
+    return qdot_walk_map(pool, e, known, (void *)(uintptr_t)facts);
+}

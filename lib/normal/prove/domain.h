@@ -1,0 +1,29 @@
+/* domain.h -- what is known of signs, put into the symbols themselves.
+ *
+ * A condition g > 0 with g = c x + rest is solved for x: x = (y - rest)/c with a new
+ * symbol y > 0 in its place; a declared bound u > 3 likewise, u = 3 + y. What follows
+ * from signs alone then shows by itself: abs(u - 3) is abs(y), so y. A relation that is
+ * linear in a symbol, a x + b = 0 with a never zero, is solved and x put in everywhere.
+ *
+ * `implied`: so is what holds wherever e[0] and e[1] have values (defined.h).
+ *
+ * The new problem holds on a domain that is not smaller, so what is proved there is
+ * proved.
+ */
+#ifndef QDOT_NORMAL_DOMAIN_H
+#define QDOT_NORMAL_DOMAIN_H
+
+#include "base/memory.h"
+#include "normal/field/facts.h"
+
+typedef qdot_vec(qdot_expr) qdot_exprs;
+
+/* Rewrite e[n] in place; the last nr of them are relations, 0 once solved. *positive gets
+ * what conditions say to be > 0 and was not solved; *changed: whether anything was
+ * rewritten or is in *positive. *empty: conditions and declared signs contradict each other, no
+ * point is left. */
+QDOT_MUST_CHECK qdot_status qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts,
+                                               size_t n, qdot_expr *e, size_t nr,
+                                               bool implied, qdot_exprs *positive,
+                                               bool *changed, bool *empty);
+#endif

@@ -1,0 +1,430 @@
+/* unify.c -- one pass, children first; candidates by their values at a few points. */
+#include "normal/prove/unify.h"
+
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "expr/walk.h"
+#include "normal/prove/cases.h"
+#include "normal/prove/prove.h"
+#include "normal/refute/sample.h"
+
+enum {
+    MOST_SEEN = 150,
+    MOST_PROOFS = 80,
+    TRIES = 100,
+    PATIENCE = 80, /* tries for points where all is defined */
+    LARGEST_RATIO = 1000,
+    POINTS = 3
+};
+
+/* Arguments of one class are compared with one another. */
+typedef enum { NONE, ANGLE, ABSOLUTE, BASE, LOGARITHM, OTHER } class;
+
+/* An argument that stands for all that are multiples of it. */
+struct seen {
+    class class;
+    uint32_t op; /* OTHER: of this function */
+    qdot_kind kind;
+    qdot_expr arg; /* as it is now */
+    arb_struct at[POINTS];
+};
+
+typedef struct {
+    qdot_pool *pool;
+    const qdot_facts *facts;
+    qdot_sample sample;
+    qdot_walk walk;
+    arb_ptr value[POINTS]; /* [walk.n] */
+    uint8_t *known;        /* [walk.n] all points have a value */
+    struct seen *seen;
+    size_t n_seen;
+    int proofs;
+    bool only_undefined, changed;
+} job;
+
+/* --- values ------------------------------------------------------------------------ */
+
+static bool
+some_undefined(const job *j)
+{
+    for (size_t i = 0; i < j->walk.n; i++)
+        if (qdot_expr_is_scalar(j->pool, j->walk.at[i]) &&
+            qdot_ball_get(&j->sample.ball, j->walk.at[i]) == NULL)
+            return true;
+    return false;
+}
+
+static qdot_status
+evaluate(job *j, size_t n, const qdot_expr *e)
+{
+    int found = 0;
+
+    QDOT_TRY(qdot_sample_begin(&j->sample, j->pool, n, e, j->facts));
+    for (int k = 0; k < TRIES && j->sample.possible && found < POINTS; k++) {
+        qdot_sample_point(&j->sample, k);
+        if (!qdot_sample_values(&j->sample, 192) || (k < PATIENCE && some_undefined(j)))
+            continue;
+        for (size_t i = 0; i < j->walk.n; i++) {
+            arb_srcptr v = qdot_expr_is_scalar(j->pool, j->walk.at[i])
+                               ? qdot_ball_get(&j->sample.ball, j->walk.at[i])
+                               : NULL;
+
+            j->known[i] = (found == 0 || j->known[i]) && v != NULL;
+            if (v != NULL)
+                arb_set(j->value[found] + i, v);
+        }
+        found++;
+    }
+    qdot_sample_end(&j->sample);
+    for (size_t i = 0; i < j->walk.n && found < POINTS; i++)
+        j->known[i] = 0;
+    return QDOT_OK;
+}
+
+/* The fraction with a small denominator near x; false if there is none. */
+static bool
+small_fraction(fmpq_t c, double x)
+{
+    for (long d = 1; d <= 24; d++) {
+        double n = nearbyint(x * (double)d);
+
+        if (fabs(n) <= LARGEST_RATIO && n != 0 &&
+            fabs(x * (double)d - n) < 1e-10 * (fabs(n) + 1)) {
+            fmpq_set_si(c, (long)n, (ulong)d);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether the values say a = c b with a rational c. */
+static bool
+proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
+{
+    int k = 0;
+    arb_t x;
+    bool fits;
+
+    while (k + 1 < POINTS && arb_contains_zero(b->at + k))
+        k++;
+    arb_init(x);
+    arb_div(x, j->value[k] + a, b->at + k, 128);
+    fits = arb_is_finite(x) && small_fraction(c, arf_get_d(arb_midref(x), ARF_RND_NEAR));
+    for (k = 0; k < POINTS && fits; k++) {
+        arb_set_fmpq(x, c, 192);
+        arb_mul(x, x, b->at + k, 192);
+        fits = arb_overlaps(x, j->value[k] + a);
+    }
+    arb_clear(x);
+    return fits;
+}
+
+/* --- arguments --------------------------------------------------------------------- */
+
+/* Plain arguments are normal as they are, but others may be equal to them. */
+static bool
+worth_a_look(const qdot_pool *pool, qdot_expr arg)
+{
+    return qdot_expr_is_scalar(pool, arg) && qdot_expr_kind(pool, arg) != QDOT_NUM;
+}
+
+/* *with: what stands for `arg` (whose old node has the index `at`), times *c. */
+static qdot_status
+find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
+     qdot_expr *with, fmpq_t c)
+{
+    qdot_status status = QDOT_OK;
+    struct seen *new;
+
+    *with = QDOT_NIL;
+    if (!j->known[at])
+        return QDOT_OK;
+    for (size_t i = 0; i < j->n_seen && status == QDOT_OK; i++) {
+        struct seen *s = &j->seen[i];
+        bool equal = false;
+        qdot_expr other;
+
+        if (s->class != class || (class == OTHER && (s->op != op || s->kind != kind)) ||
+            !proportional(j, at, s, c))
+            continue;
+        if ((class == OTHER && !fmpq_is_one(c)) ||
+            ((class == BASE || class == LOGARITHM) && fmpq_sgn(c) < 0))
+            continue;
+        other = qdot_mul(j->pool, qdot_expr_fmpq(j->pool, c), s->arg);
+        if (other != arg && j->proofs++ < MOST_PROOFS)
+            status = (j->only_undefined ? qdot_prove_harder : qdot_prove_equal)(
+                j->pool, arg, other, j->facts, &equal);
+        if (status == QDOT_OK && other != arg && !equal && j->only_undefined)
+            status = qdot_prove_cases(j->pool, arg, other, j->facts, &equal);
+        if (other == arg || equal) {
+            *with = s->arg;
+            return status;
+        }
+    }
+    if (status != QDOT_OK || j->n_seen >= MOST_SEEN)
+        return status;
+    new = &j->seen[j->n_seen++];
+    *new = (struct seen){.class = class, .op = op, .kind = kind, .arg = arg};
+    for (int k = 0; k < POINTS; k++) {
+        arb_init(new->at + k);
+        arb_set(new->at + k, j->value[k] + at);
+    }
+    return QDOT_OK;
+}
+
+static class class_of(const job *j, uint32_t op)
+{
+    if (j->only_undefined)
+        return NONE;
+    if (op <= QDOT_COT || (op >= QDOT_SINH && op <= QDOT_TANH) || op == QDOT_EXP)
+        return ANGLE;
+    return op == QDOT_ABS ? ABSOLUTE : op == QDOT_LOG ? LOGARITHM : OTHER;
+}
+
+static size_t
+index_of(const job *j, qdot_expr old, uint32_t i)
+{
+    return qdot_walk_index(&j->walk, qdot_expr_arg(j->pool, old, i));
+}
+
+/* now: a function made of `old`, its arguments unified already inside. */
+static qdot_status
+function(job *j, qdot_expr old, qdot_expr *now)
+{
+    qdot_pool *pool = j->pool;
+    uint32_t op = qdot_expr_node(pool, *now)->op, n = qdot_expr_count(pool, *now);
+    class class = class_of(j, op);
+    qdot_expr args[4], with, scaled;
+    bool any = false;
+    fmpq_t c;
+
+    if (class == NONE || n > 4 || n != qdot_expr_count(pool, old) ||
+        qdot_expr_kind(pool, old) != QDOT_FUN)
+        return QDOT_OK;
+    fmpq_init(c);
+    for (uint32_t i = 0; i < n; i++) {
+        args[i] = qdot_expr_arg(pool, *now, i);
+        if (!worth_a_look(pool, args[i]))
+            continue;
+        if (find(j, class, op, QDOT_FUN, args[i], index_of(j, old, i), &with, c) !=
+            QDOT_OK)
+            break;
+        if (with == QDOT_NIL)
+            continue;
+        scaled = qdot_mul(pool, qdot_expr_fmpq(pool, c), with);
+        any |= scaled != args[i];
+        args[i] = scaled;
+        if (class == ABSOLUTE && any) { /* |c B| = |c| |B| */
+            fmpq_abs(c, c);
+            *now =
+                qdot_mul(pool, qdot_expr_fmpq(pool, c), qdot_fun1(pool, QDOT_ABS, with));
+            any = false;
+        } else if (class == LOGARITHM && any) {
+            *now = qdot_add(pool, qdot_fun1(pool, QDOT_LOG, qdot_expr_fmpq(pool, c)),
+                            qdot_fun1(pool, QDOT_LOG, with));
+            any = false;
+        } else {
+            continue;
+        }
+        j->changed = true;
+        break;
+    }
+    if (any) {
+        j->changed = true;
+        *now = qdot_fun(pool, op, n, args);
+    }
+    fmpq_clear(c);
+    return qdot_interrupt_flag ? qdot_interrupt_check() : QDOT_OK;
+}
+
+static qdot_status
+undefined(job *j, qdot_expr old, qdot_expr *now)
+{
+    qdot_pool *pool = j->pool;
+    uint32_t n = qdot_expr_count(pool, *now);
+    qdot_expr *args = qdot_malloc((n + 1) * sizeof *args), with;
+    qdot_status status = args == NULL ? QDOT_ENOMEM : QDOT_OK;
+    bool any = false;
+    fmpq_t c;
+
+    fmpq_init(c);
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
+        args[i] = qdot_expr_arg(pool, *now, i);
+        if (2 * i >= n) /* orders of derivatives */
+            continue;
+        status = find(j, OTHER, qdot_expr_node(pool, *now)->op, QDOT_UFUN, args[i],
+                      index_of(j, old, i), &with, c);
+        if (with != QDOT_NIL) {
+            any |= with != args[i];
+            args[i] = with;
+        }
+    }
+    if (any && status == QDOT_OK) {
+        j->changed = true;
+        *now = qdot_rebuild(pool, *now, args);
+    }
+    fmpq_clear(c);
+    qdot_free(args);
+    return status;
+}
+
+/* Powers with exponents that are not integers. */
+static qdot_status
+product(job *j, qdot_expr old, qdot_expr *now)
+{
+    qdot_pool *pool = j->pool;
+    uint32_t n = qdot_expr_count(pool, old);
+    qdot_expr result = qdot_expr_arg(pool, old, 0), with;
+    qdot_status status = QDOT_OK;
+    bool any = false;
+    fmpq_t c;
+    long k;
+
+    if (j->only_undefined)
+        return QDOT_OK;
+    fmpq_init(c);
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        qdot_expr b = (qdot_expr)qdot_walk_get(&j->walk, qdot_expr_arg(pool, old, i));
+        qdot_expr x = (qdot_expr)qdot_walk_get(&j->walk, qdot_expr_arg(pool, old, i + 1));
+        qdot_expr power;
+
+        if (b == QDOT_NIL || x == QDOT_NIL)
+            break;
+        power = qdot_pow(pool, b, x);
+        if (!qdot_expr_to_int(pool, x, &k) && worth_a_look(pool, b)) {
+            status = find(j, BASE, 0, QDOT_PROD, b, index_of(j, old, i), &with, c);
+            if (with != QDOT_NIL && with != b) {
+                any = true;
+                power = qdot_mul(pool, qdot_pow(pool, qdot_expr_fmpq(pool, c), x),
+                                 qdot_pow(pool, with, x));
+            }
+        }
+        result = qdot_mul(pool, result, power);
+    }
+    if (any && status == QDOT_OK) {
+        j->changed = true;
+        *now = result;
+    }
+    fmpq_clear(c);
+    return status;
+}
+
+/* --- the pass ---------------------------------------------------------------------- */
+
+static qdot_status
+node(job *j, qdot_expr old, qdot_expr *now)
+{
+    qdot_pool *pool = j->pool;
+    uint32_t n = qdot_expr_count(pool, old);
+    qdot_expr *args = qdot_malloc((n + 1) * sizeof *args);
+    bool same = true;
+
+    if (args == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr child = qdot_expr_arg(pool, old, i);
+
+        args[i] = (qdot_expr)qdot_walk_get(&j->walk, child);
+        same &= args[i] == child;
+    }
+    *now = same ? old : qdot_rebuild(pool, old, args);
+    qdot_free(args);
+    if (*now == QDOT_NIL)
+        return QDOT_OK;
+    switch (qdot_expr_kind(pool, old)) {
+    case QDOT_FUN:
+        return qdot_expr_kind(pool, *now) == QDOT_FUN ? function(j, old, now) : QDOT_OK;
+    case QDOT_UFUN: return undefined(j, old, now);
+    case QDOT_PROD: return product(j, old, now);
+    default: return QDOT_OK;
+    }
+}
+
+static qdot_status
+reserve(job *j)
+{
+    size_t n = j->walk.n + 1;
+
+    j->known = qdot_calloc(n, 1);
+    j->seen = qdot_calloc(MOST_SEEN, sizeof *j->seen);
+    if (j->known == NULL || j->seen == NULL)
+        return QDOT_ENOMEM;
+    for (int k = 0; k < POINTS; k++) {
+        j->value[k] = qdot_malloc(n * sizeof(arb_struct));
+        if (j->value[k] == NULL)
+            return QDOT_ENOMEM;
+        for (size_t i = 0; i < j->walk.n; i++)
+            arb_init(j->value[k] + i);
+    }
+    return QDOT_OK;
+}
+
+static void
+release(job *j)
+{
+    for (int k = 0; k < POINTS; k++) {
+        for (size_t i = 0; j->value[k] != NULL && i < j->walk.n; i++)
+            arb_clear(j->value[k] + i);
+        qdot_free(j->value[k]);
+        for (size_t i = 0; i < j->n_seen; i++)
+            arb_clear(j->seen[i].at + k);
+    }
+    qdot_free(j->known);
+    qdot_free(j->seen);
+    qdot_walk_end(&j->walk);
+}
+
+/* Whether anything can be compared at all. */
+static bool
+has_several(const job *j)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < j->walk.n; i++) {
+        qdot_kind kind = qdot_expr_kind(j->pool, j->walk.at[i]);
+
+        count += kind == QDOT_UFUN || (!j->only_undefined && kind == QDOT_FUN);
+        for (uint32_t k = 2; !j->only_undefined && kind == QDOT_PROD &&
+                             k < qdot_expr_count(j->pool, j->walk.at[i]);
+             k += 2) {
+            long whole;
+
+            count += !qdot_expr_to_int(j->pool, qdot_expr_arg(j->pool, j->walk.at[i], k),
+                                       &whole);
+        }
+    }
+    return count > 1;
+}
+
+qdot_status
+qdot_unify(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *facts,
+           bool only_undefined, bool *changed)
+{
+    job j = {.pool = pool, .facts = facts, .only_undefined = only_undefined};
+    qdot_status status;
+
+    *changed = false;
+    QDOT_TRY(qdot_walk_begin_n(pool, n, e, &j.walk));
+    if (!has_several(&j)) {
+        qdot_walk_end(&j.walk);
+        return QDOT_OK;
+    }
+    status = reserve(&j);
+    if (status == QDOT_OK)
+        status = evaluate(&j, n, e);
+    for (size_t i = 0; i < j.walk.n && status == QDOT_OK; i++) {
+        qdot_expr now = QDOT_NIL;
+
+        status = node(&j, j.walk.at[i], &now);
+        if (now == QDOT_NIL && status == QDOT_OK)
+            status = QDOT_EFAILED; /* a wrong turn */
+        qdot_walk_set(&j.walk, j.walk.at[i], now);
+    }
+    for (size_t i = 0; i < n && status == QDOT_OK && j.changed; i++)
+        e[i] = (qdot_expr)qdot_walk_get(&j.walk, e[i]);
+    *changed = status == QDOT_OK && j.changed;
+    release(&j);
+    return status == QDOT_EFAILED ? QDOT_OK : status;
+}

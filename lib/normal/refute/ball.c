@@ -1,0 +1,285 @@
+/* ball.c -- the table of functions in balls, and the pass. */
+#include "normal/refute/ball.h"
+
+#include "base/memory.h"
+
+/* --- functions --------------------------------------------------------------------- */
+
+/* Every domain error becomes an infinite or indeterminate ball, which is "not known". */
+
+static void
+eval_sign(arb_t y, const arb_t x, slong prec)
+{
+    (void)prec;
+    if (arb_is_positive(x))
+        arb_one(y);
+    else if (arb_is_negative(x))
+        arb_set_si(y, -1);
+    else if (arb_is_zero(x))
+        arb_zero(y);
+    else
+        arb_indeterminate(y);
+}
+
+static void
+eval_abs(arb_t y, const arb_t x, slong prec)
+{
+    (void)prec;
+    arb_abs(y, x);
+}
+
+typedef void unary(arb_t y, const arb_t x, slong prec);
+
+static unary *const table[QDOT_FUNCTION_KINDS] = {
+    [QDOT_SIN] = arb_sin,     [QDOT_COS] = arb_cos,     [QDOT_TAN] = arb_tan,
+    [QDOT_SEC] = arb_sec,     [QDOT_CSC] = arb_csc,     [QDOT_COT] = arb_cot,
+    [QDOT_ASIN] = arb_asin,   [QDOT_ACOS] = arb_acos,   [QDOT_ATAN] = arb_atan,
+    [QDOT_SINH] = arb_sinh,   [QDOT_COSH] = arb_cosh,   [QDOT_TANH] = arb_tanh,
+    [QDOT_ASINH] = arb_asinh, [QDOT_ACOSH] = arb_acosh, [QDOT_ATANH] = arb_atanh,
+    [QDOT_EXP] = arb_exp,     [QDOT_LOG] = arb_log,     [QDOT_ABS] = eval_abs,
+    [QDOT_ERF] = arb_hypgeom_erf, [QDOT_ERFC] = arb_hypgeom_erfc,
+    [QDOT_SIGN] = eval_sign,  [QDOT_FLOOR] = arb_floor, [QDOT_HOLD] = arb_set_round,
+};
+
+static size_t
+index_of(const qdot_ball *b, qdot_expr e, uint32_t i)
+{
+    return qdot_walk_index(&b->walk, qdot_expr_arg(b->pool, e, i));
+}
+
+static bool
+finite_args(const qdot_ball *b, qdot_expr e, uint32_t from)
+{
+    uint32_t n = qdot_expr_count(b->pool, e);
+
+    for (uint32_t i = from; i < n; i++)
+        if (b->known[index_of(b, e, i)] != 1)
+            return false;
+    return true;
+}
+
+/* x - y floor(x/y), which has the sign of y. */
+static void
+eval_mod(arb_t z, const arb_t x, const arb_t y, slong prec)
+{
+    arb_t quotient;
+
+    arb_init(quotient);
+    arb_div(quotient, x, y, prec);
+    arb_floor(quotient, quotient, prec);
+    arb_mul(quotient, quotient, y, prec);
+    arb_sub(z, x, quotient, prec);
+    arb_clear(quotient);
+}
+
+static bool
+function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+{
+    uint32_t op = qdot_expr_node(b->pool, e)->op, n = qdot_expr_count(b->pool, e);
+
+    if (op == QDOT_IF) {
+        uint8_t truth = b->known[index_of(b, e, 0)];
+        size_t branch;
+
+        if (truth == 0)
+            return false;
+        branch = index_of(b, e, truth == 1 ? 1 : 2);
+        arb_set(y, b->value + branch);
+        return b->known[branch] == 1;
+    }
+    if (!finite_args(b, e, 0))
+        return false;
+    if (table[op] != NULL) {
+        table[op](y, b->value + index_of(b, e, 0), prec);
+    } else if (op == QDOT_ATAN2) {
+        arb_srcptr v = b->value + index_of(b, e, 0), u = b->value + index_of(b, e, 1);
+
+        if (arb_contains_zero(v) && arb_contains_zero(u))
+            return false;
+        arb_atan2(y, v, u, prec);
+    } else if (op == QDOT_MOD) {
+        eval_mod(y, b->value + index_of(b, e, 0), b->value + index_of(b, e, 1), prec);
+    } else if (op == QDOT_MIN || op == QDOT_MAX) {
+        arb_set(y, b->value + index_of(b, e, 0));
+        for (uint32_t i = 1; i < n; i++)
+            (op == QDOT_MIN ? arb_min : arb_max)(y, y, b->value + index_of(b, e, i),
+                                                 prec);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* --- sums, products, relations ----------------------------------------------------- */
+
+static bool
+sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+{
+    uint32_t n = qdot_expr_count(b->pool, e);
+
+    if (!finite_args(b, e, 0))
+        return false;
+    arb_set_fmpq(y, qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, 0)), prec);
+    for (uint32_t i = 1; i < n; i += 2)
+        arb_addmul(y, b->value + index_of(b, e, i), b->value + index_of(b, e, i + 1),
+                   prec);
+    return true;
+}
+
+static bool
+power(arb_t y, const arb_t base, const fmpq *x, const arb_t exponent, slong prec)
+{
+    if (x == NULL) {
+        if (!arb_is_positive(base))
+            return false;
+        arb_pow(y, base, exponent, prec);
+    } else if (fmpz_is_one(fmpq_denref(x))) {
+        if (fmpq_sgn(x) < 0 && arb_contains_zero(base))
+            return false;
+        arb_pow_fmpz(y, base, fmpq_numref(x), prec);
+    } else {
+        if (!arb_is_nonnegative(base) || (fmpq_sgn(x) < 0 && arb_contains_zero(base)))
+            return false;
+        arb_pow_fmpq(y, base, x, prec);
+    }
+    return true;
+}
+
+static bool
+product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+{
+    uint32_t n = qdot_expr_count(b->pool, e);
+    bool known = finite_args(b, e, 0);
+    arb_t factor;
+
+    if (!known)
+        return false;
+    arb_init(factor);
+    arb_set_fmpq(y, qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, 0)), prec);
+    for (uint32_t i = 1; i < n && known; i += 2) {
+        known = power(factor, b->value + index_of(b, e, i),
+                      qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, i + 1)),
+                      b->value + index_of(b, e, i + 1), prec);
+        arb_mul(y, y, factor, prec);
+    }
+    arb_clear(factor);
+    return known;
+}
+
+static uint8_t
+relation(const qdot_ball *b, qdot_expr e)
+{
+    arb_srcptr l = b->value + index_of(b, e, 0), r = b->value + index_of(b, e, 1);
+
+    if (!finite_args(b, e, 0))
+        return 0;
+    switch (qdot_expr_node(b->pool, e)->op) {
+    case QDOT_EQ: return arb_eq(l, r) ? 1 : arb_ne(l, r) ? 2 : 0;
+    case QDOT_LT: return arb_lt(l, r) ? 1 : arb_ge(l, r) ? 2 : 0;
+    default: return arb_le(l, r) ? 1 : arb_gt(l, r) ? 2 : 0;
+    }
+}
+
+static uint8_t
+logic(const qdot_ball *b, qdot_expr e)
+{
+    uint32_t n = qdot_expr_count(b->pool, e), op = qdot_expr_node(b->pool, e)->op;
+    uint8_t all = op == QDOT_AND ? 1 : 2, decisive = op == QDOT_AND ? 2 : 1;
+
+    if (op == QDOT_NOT) {
+        uint8_t x = b->known[index_of(b, e, 0)];
+
+        return x == 0 ? 0 : (uint8_t)(3 - x);
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        uint8_t x = b->known[index_of(b, e, i)];
+
+        if (x == decisive)
+            return decisive;
+        if (x == 0)
+            all = 0;
+    }
+    return all;
+}
+
+/* --- the pass ---------------------------------------------------------------------- */
+
+qdot_status
+qdot_ball_begin(qdot_ball *b, qdot_pool *pool, size_t n, const qdot_expr *e)
+{
+    b->pool = pool;
+    QDOT_TRY(qdot_walk_begin_n(pool, n, e, &b->walk));
+    b->value = qdot_malloc((b->walk.n + 1) * sizeof *b->value);
+    b->known = qdot_calloc(b->walk.n + 1, 1);
+    if (b->value == NULL || b->known == NULL) {
+        qdot_walk_end(&b->walk);
+        qdot_free(b->value);
+        qdot_free(b->known);
+        return QDOT_ENOMEM;
+    }
+    for (size_t i = 0; i < b->walk.n; i++)
+        arb_init(b->value + i);
+    return QDOT_OK;
+}
+
+void
+qdot_ball_end(qdot_ball *b)
+{
+    for (size_t i = 0; i < b->walk.n; i++)
+        arb_clear(b->value + i);
+    qdot_free(b->value);
+    qdot_free(b->known);
+    qdot_walk_end(&b->walk);
+}
+
+void
+qdot_ball_eval(qdot_ball *b, slong prec,
+               bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
+               void *user)
+{
+    for (size_t i = 0; i < b->walk.n; i++) {
+        qdot_expr e = b->walk.at[i];
+        arb_ptr y = b->value + i;
+        bool known = false;
+
+        switch (qdot_expr_kind(b->pool, e)) {
+        case QDOT_NUM:
+            arb_set_fmpq(y, qdot_expr_rational(b->pool, e), prec);
+            known = true;
+            break;
+        case QDOT_SYM:
+            if (e == QDOT_TRUE || e == QDOT_FALSE) {
+                b->known[i] = e == QDOT_TRUE ? 1 : 2;
+                continue;
+            }
+            known = e == QDOT_PI || (of && of(user, e, y, prec));
+            if (e == QDOT_PI)
+                arb_const_pi(y, prec);
+            break;
+        case QDOT_UFUN: known = of && of(user, e, y, prec); break;
+        case QDOT_SUM: known = sum(b, y, e, prec); break;
+        case QDOT_PROD: known = product(b, y, e, prec); break;
+        case QDOT_FUN: known = function(b, y, e, prec); break;
+        case QDOT_REL: b->known[i] = relation(b, e); continue;
+        case QDOT_LOGIC: b->known[i] = logic(b, e); continue;
+        default: break;
+        }
+        b->known[i] = known && arb_is_finite(y);
+    }
+}
+
+arb_srcptr
+qdot_ball_get(const qdot_ball *b, qdot_expr e)
+{
+    size_t i = qdot_walk_index(&b->walk, e);
+
+    return i == SIZE_MAX || b->known[i] != 1 ? NULL : b->value + i;
+}
+
+int
+qdot_ball_truth(const qdot_ball *b, qdot_expr e)
+{
+    size_t i = qdot_walk_index(&b->walk, e);
+
+    return i == SIZE_MAX ? 0 : b->known[i];
+}

@@ -1,0 +1,88 @@
+/* sample.h -- points inside the declared domains, at which expressions are evaluated in
+ * balls.
+ *
+ * Symbols get small rationals. Applications of undefined functions are independent
+ * values (jets), except where two of one function would have equal arguments: such a
+ * point is left out. With relations, each is solved for one symbol or application in
+ * which it is linear or quadratic (either root, chosen at each point); where that cannot
+ * be done, at each point by itself for one symbol, whose value is then a ball that surely
+ * holds a solution. Two that would be solved for each other have no points.
+ */
+#ifndef QDOT_NORMAL_SAMPLE_H
+#define QDOT_NORMAL_SAMPLE_H
+
+#include "normal/field/facts.h"
+#include "normal/refute/ball.h"
+
+typedef struct {
+    qdot_expr atom, solution; /* solution nil: free */
+    bool implicit;            /* solution is what is 0 */
+    qdot_ball *relation;      /* ... evaluated by itself; made when it is needed */
+    fmpq x;                   /* free: its value */
+    bool turn;                /* times pi */
+    bool edge;                /* at a bound that belongs to it */
+    bool ready;
+    arb_t value;
+} qdot_sample_atom;
+
+/* What a condition that is linear in an atom says of it: below (or above) `bound`. */
+typedef struct {
+    qdot_expr atom, bound;
+    bool below;
+} qdot_sample_bound;
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_sample_atom
+        *atom; /* free ones by dependence of bounds, then the solved, last first */
+    size_t n;
+    qdot_sample_bound *bound;
+    size_t n_bounds, bounds_capacity;
+    qdot_ball ball; /* the expressions, bounds, conditions, solutions */
+    qdot_expr list; /* all of them */
+    const qdot_facts *facts;
+    int k;             /* of the point */
+    int64_t root_work; /* done for implicit atoms, of a budget */
+    uint64_t seed;
+    bool possible; /* there can be points */
+} qdot_sample;
+
+/* For e[n] under facts (may be NULL). Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
+QDOT_MUST_CHECK qdot_status qdot_sample_begin(qdot_sample *s, qdot_pool *pool, size_t n,
+                                              const qdot_expr *e,
+                                              const qdot_facts *facts);
+void qdot_sample_end(qdot_sample *s);
+
+/* Choose the k-th point. */
+void qdot_sample_point(qdot_sample *s, int k);
+/* The k-th point at which one atom is where sides may differ though they agree about it: 0, 1, -1, a
+ * quarter turn, a declared bound that belongs to it, another atom's value or its negative. False:
+ * there are no more. */
+bool qdot_sample_edge(qdot_sample *s, int k);
+/* Evaluate there; whether it is a point: conditions surely hold, solved values inside
+ * their domains. The values: qdot_ball_get(&s->ball, e). */
+bool qdot_sample_eval(qdot_sample *s, slong prec);
+/* The same, though applications of one undefined function might have equal arguments:
+ * their values are then not those of a function, but all others are right. */
+bool qdot_sample_values(qdot_sample *s, slong prec);
+
+/* The point as a LIST of equations atom = number. */
+qdot_expr qdot_sample_list(qdot_sample *s);
+
+/* For the files of samples: the value of a free atom, put in; whether a symbol is the sign before a
+ * root that solves a relation. */
+void qdot_sample_set(qdot_sample_atom *a, slong prec);
+/* Where values of an atom are looked for at the point of the moment. */
+void qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to);
+/* For qdot_ball_eval. */
+bool qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec);
+/* Solve relation = 0, the number-th, for an atom that is not taken: *atom = *solution, or (*implicit)
+ * *solution, the relation, is 0 at its value. *atom nil: it holds anyway. False: it cannot be solved. */
+bool qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n_taken,
+                       const qdot_expr *taken, qdot_expr *atom, qdot_expr *solution,
+                       bool *implicit);
+/* Find the value of an implicit atom, those it depends on being known. Whether there is one. */
+bool qdot_sample_root(qdot_sample *s, qdot_sample_atom *a, slong prec);
+bool qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e);
+
+#endif

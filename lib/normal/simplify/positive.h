@@ -1,0 +1,23 @@
+/* positive.h -- when is it positive? The shortest condition that says so.
+ *
+ * e is taken apart into factors; those whose sign is known (from declared domains, or from
+ * conditions that hold already) are left out:
+ *
+ *     m*R*(g - R*Omega^2) > 0   is   g > R*Omega^2   for m, R > 0.
+ *
+ * Tests  tests/normal/test_positive.c
+ */
+#ifndef QDOT_NORMAL_POSITIVE_H
+#define QDOT_NORMAL_POSITIVE_H
+
+#include "normal/field/facts.h"
+
+/* QDOT_TRUE, QDOT_FALSE (e is nowhere positive), or a REL `0 < rest`, its sides without minus
+ * signs. known [n]: scalars that are positive already. facts may be NULL. Nil on failure. */
+qdot_expr qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
+                        const qdot_expr *known);
+
+/* e - b for a relation b < e or b <= e: what it says is positive. */
+qdot_expr qdot_positive_of(qdot_pool *pool, qdot_expr relation);
+
+#endif

@@ -1,0 +1,11 @@
+/* simplify.h -- the form a person would write: the shortest (form/shortest.h), with absolute values
+ * and signs that the conditions of `facts` tell taken out first.
+ */
+#ifndef QDOT_NORMAL_SIMPLIFY_H
+#define QDOT_NORMAL_SIMPLIFY_H
+
+#include "normal/field/facts.h"
+
+qdot_expr qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
+
+#endif

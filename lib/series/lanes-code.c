@@ -1,0 +1,317 @@
+/* lanes-code.c -- the writer: places, registers, sums; and what it wrote, to be run. */
+#include "series/lanes-code.h"
+
+#include <string.h>
+
+#include "num/kinds.h"
+#include "series/lanes-writer.h"
+#include "series/taylor-text.h"
+
+enum {
+    /* Longer code is not there when it is wanted. */
+    most_bytes = 1 << 19,
+    /* Orders of a block, and registers of sums that a sequence of terms makes: those of one
+     * product or of two, each in chains that do not wait for each other. Behind them one for
+     * a moment, windows of coefficients (lanes-sums.c), and those that are always free; all but
+     * that for a moment hold what was loaded, and in orders that call no sequence results. */
+    block = 4,
+    chains = 8
+};
+
+typedef void kernel(double *coefficients, const double *scalars, double *work);
+
+struct qdot_lanes_code {
+    qdot_taylor_text *text;
+    size_t entry;
+    bool narrow;
+    double *coefficients; /* borrowed */
+    double *scalars;
+    double *allocated, *work;
+    size_t before_rows, stride; /* groups */
+};
+
+/* --- loops -------------------------------------------------------------------------- */
+
+/* Addresses of order k, or of those a step of the loop further. */
+static void
+aim(qdot_lanes_writer *w, bool further, int k)
+{
+    static const struct {
+        qdot_x86_base to, from;
+        int bytes, part;
+    } rows[] = {{QDOT_X86_R9, QDOT_X86_RDI, QDOT_WRITER_GROUP, 1},
+                {QDOT_X86_R10, QDOT_X86_RDX, QDOT_WRITER_GROUP, 1},
+                {QDOT_X86_RBX, QDOT_X86_RSI, sizeof(double), 1},
+                {QDOT_X86_RBP, QDOT_X86_RDI, QDOT_WRITER_GROUP, 2}};
+    const int32_t dot = (int32_t)qdot_writer_term(w, w->dot);
+    const int32_t pair = (int32_t)qdot_writer_term(w, w->pair);
+    const int32_t half = (int32_t)qdot_writer_term(w, w->half);
+
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        qdot_x86_address(&w->x, rows[i].to, further ? rows[i].to : rows[i].from,
+                         k / rows[i].part * rows[i].bytes);
+    if (further) {
+        qdot_x86_address(&w->x, QDOT_X86_R11, QDOT_X86_R11, -k * dot);
+        qdot_x86_address(&w->x, QDOT_X86_R14, QDOT_X86_R14, -k * pair);
+        qdot_x86_address(&w->x, QDOT_X86_R15, QDOT_X86_R15, -k / 2 * half);
+    } else {
+        qdot_x86_place(&w->x, QDOT_X86_R11, w->dot[k - 1]);
+        qdot_x86_place(&w->x, QDOT_X86_R14, w->pair[k - 1]);
+        qdot_x86_place(&w->x, QDOT_X86_R15, w->half[(k - 1) / 2]);
+    }
+}
+
+/* An order of a block from `first` on, or of one so many blocks before it. */
+static void
+write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_order *write,
+          void *user)
+{
+    const int phase = (k - first) % w->block + (k < first ? w->block : 0);
+
+    w->phase = phase % w->block;
+    if (w->phase > k - from)
+        w->phase = k - from;
+    write(w, k, user);
+}
+
+/* From which order on no term of a block is of two of its coefficients. */
+static int
+least_of_loop(const qdot_lanes_writer *w, int late)
+{
+    for (size_t i = w->t->still; i < w->t->length; i++) {
+        const int op = w->t->steps[i].op;
+
+        if (op == QDOT_T_SQUARE || op == QDOT_T_SQRT || op == QDOT_T_TANH)
+            return 2 * w->block + late;
+    }
+    return w->block + late;
+}
+
+void
+qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
+                  qdot_lanes_write_order *write, void *user)
+{
+    const int least = least_of_loop(w, late) > loop ? least_of_loop(w, late) : loop;
+    const int blocks = to >= least ? (to - least + 1) / w->block : 0;
+    const int first = to + 1 - blocks * w->block;
+    size_t start = 0;
+
+    for (int k = from; k < first; k++)
+        write_one(w, k, from, first, write, user);
+    if (blocks == 0)
+        return;
+    qdot_writer_leave(w, w->registers);
+    if (!w->counting) {
+        aim(w, false, first);
+        start = qdot_x86_repeat(&w->x, blocks);
+    }
+    w->any = QDOT_WRITER_ANY + first % w->block;
+    for (int i = 0; i < w->block; i++)
+        write_one(w, w->any + i, from, w->any, write, user);
+    qdot_writer_leave(w, w->registers);
+    if (!w->counting) {
+        aim(w, true, w->block);
+        qdot_x86_again(&w->x, start);
+    }
+}
+
+/* --- all of it ---------------------------------------------------------------------- */
+
+static void
+find_moving(qdot_lanes_writer *w)
+{
+    const qdot_taylor *t = w->t;
+
+    for (size_t i = 0; i < qdot_writer_rows(w); i++)
+        w->moving[i] = i < t->moving || i >= t->rows;
+    for (size_t i = 0; i < t->moving; i++)
+        w->kept[i] = true;
+    for (size_t i = t->still; i < t->length; i++) {
+        const double *const rows[] = {t->steps[i].to, t->steps[i].second,
+                                      t->steps[i].third, t->steps[i].d};
+
+        for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
+            if (rows[r])
+                w->moving[qdot_writer_row(w, rows[r])] = true;
+    }
+}
+
+/* The second time rows have their places; sums come first. */
+static void
+write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *user,
+          size_t *entry)
+{
+    static const qdot_x86_base restored[] = {QDOT_X86_RBX, QDOT_X86_RBP, QDOT_X86_R12, QDOT_X86_R13,
+                                             QDOT_X86_R14, QDOT_X86_R15};
+    const size_t n = sizeof restored / sizeof *restored;
+
+    w->counting = counting;
+    w->k = 0;
+    w->clock = 0;
+    w->any = QDOT_WRITER_ANY;
+    w->phase = 0;
+    if (w->ahead.n > 0)
+        memset(w->ahead.at, 0, w->ahead.n * sizeof *w->ahead.at);
+    memset(w->reg, 0, sizeof w->reg);
+    if (!counting) {
+        qdot_writer_terms(w, w->windows, 1, w->dot);
+        qdot_writer_terms(w, w->windows, 2, w->pair);
+        qdot_writer_terms(w, false, 1, w->half);
+    }
+    *entry = w->x.bytes.n;
+    for (size_t i = 0; i < n; i++)
+        qdot_x86_push(&w->x, restored[i]);
+    write(w, user);
+    qdot_writer_leave(w, w->registers);
+    for (size_t i = n; i-- > 0;)
+        qdot_x86_pop(&w->x, restored[i]);
+    qdot_x86_return(&w->x);
+    if (counting)
+        w->x.bytes.n = 0;
+}
+
+static qdot_status
+make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
+{
+    const size_t groups = qdot_writer_groups(w) + w->further * w->stride;
+    const size_t tables = (size_t)QDOT_WRITER_MOST_TABLES * QDOT_WRITER_TABLE;
+
+    c->coefficients = qdot_lanes_input(w->lanes, 0);
+    c->narrow = w->x.narrow;
+    c->before_rows = qdot_writer_groups(w);
+    c->stride = w->stride;
+    c->scalars = qdot_calloc(tables + w->scalars.n, sizeof *c->scalars);
+    c->allocated = qdot_calloc((groups + 1) * QDOT_LANES, sizeof *c->allocated);
+    if (!c->scalars || !c->allocated)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < w->tables.n; i++)
+        for (int k = 1; k < QDOT_WRITER_TABLE; k++)
+            c->scalars[i * QDOT_WRITER_TABLE + (size_t)k] = w->tables.at[i](k);
+    if (w->scalars.n > 0)
+        memcpy(c->scalars + tables, w->scalars.at, w->scalars.n * sizeof *c->scalars);
+    c->work = c->allocated;
+    while ((uintptr_t)c->work % QDOT_WRITER_GROUP != 0)
+        c->work++;
+    return QDOT_OK;
+}
+
+/* *code NULL if it cannot be. */
+static qdot_status
+make(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code **code)
+{
+    qdot_lanes_code *c = qdot_calloc(1, sizeof *c);
+    qdot_status status = QDOT_ENOMEM;
+    bool runs = false;
+
+    w->moving = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->moving);
+    w->kept = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->kept);
+    w->absent = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->absent);
+    w->wanted = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->wanted);
+    w->idle = qdot_calloc(w->t->length + 1, sizeof *w->idle);
+    w->lacks = qdot_calloc(w->t->length + 1, sizeof *w->lacks);
+    w->rests = qdot_calloc(QDOT_WRITER_RESTS * w->t->length + 1, sizeof *w->rests);
+    if (c)
+        c->text = qdot_calloc(1, sizeof *c->text);
+    if (c && c->text && w->moving && w->kept && w->absent && w->wanted && w->idle && w->lacks &&
+        w->rests) {
+        atomic_init(&c->text->users, 1);
+        find_moving(w);
+        write_all(w, true, write, user, &c->entry);
+        write_all(w, false, write, user, &c->entry);
+        status = w->status != QDOT_OK ? w->status : w->x.status;
+    }
+    if (status == QDOT_OK && w->x.bytes.n <= most_bytes) {
+        runs = qdot_taylor_text_fill(c->text, w->x.bytes.at, w->x.bytes.n);
+        status = make_memory(c, w);
+    }
+    if (status == QDOT_OK && runs) {
+        *code = c;
+        return QDOT_OK;
+    }
+    qdot_lanes_code_free(c);
+    return status;
+}
+
+bool
+qdot_lanes_may_be_code(void)
+{
+    return qdot_batch_kind() > 0;
+}
+
+qdot_status
+qdot_lanes_code_new(qdot_lanes *lanes, size_t rows, size_t numbers,
+                    qdot_lanes_write *write, void *user, qdot_lanes_code **code)
+{
+    const size_t kind = qdot_batch_kind();
+    qdot_lanes_writer w = {.lanes = lanes,
+                           .t = qdot_lanes_program(lanes),
+                           .stride = qdot_lanes_stride(lanes),
+                           .further = rows,
+                           .numbers = numbers,
+                           .registers = kind > 1 ? QDOT_WRITER_REGISTERS : 16};
+    qdot_status status;
+
+    *code = NULL;
+    if (kind == 0)
+        return QDOT_OK;
+    w.x.narrow = kind == 1;
+    w.block = block;
+    w.chains = chains;
+    w.moment = w.chains;
+    w.windows = kind > 1;
+    w.first_free = w.moment + 1 + (w.windows ? 2 * w.block : 0);
+    status = make(&w, write, user, code);
+    qdot_free(w.moving);
+    qdot_free(w.kept);
+    qdot_free(w.absent);
+    qdot_free(w.wanted);
+    qdot_free(w.idle);
+    qdot_free(w.lacks);
+    qdot_free(w.rests);
+    qdot_free(w.scalars.at);
+    qdot_free(w.tables.at);
+    qdot_free(w.ahead.at);
+    qdot_free(w.x.bytes.at);
+    return status;
+}
+
+void
+qdot_lanes_code_free(qdot_lanes_code *c)
+{
+    if (!c)
+        return;
+    qdot_taylor_text_give(c->text);
+    qdot_free(c->scalars);
+    qdot_free(c->allocated);
+    qdot_free(c);
+}
+
+void
+qdot_lanes_code_run(const qdot_lanes_code *c)
+{
+    const unsigned char *first = qdot_taylor_text_first(c->text) + c->entry;
+    kernel *code;
+
+    memcpy(&code, &first, sizeof code);
+    code(c->coefficients, c->scalars, c->work);
+    if (c->narrow)
+        code(c->coefficients + QDOT_LANES / 2, c->scalars, c->work + QDOT_LANES / 2);
+}
+
+size_t
+qdot_lanes_code_bytes(const qdot_lanes_code *c)
+{
+    return c->text->used;
+}
+
+double *
+qdot_lanes_code_number(const qdot_lanes_code *c, size_t i)
+{
+    return c->work + i * QDOT_LANES;
+}
+
+double *
+qdot_lanes_code_row(const qdot_lanes_code *c, size_t i)
+{
+    return c->work + (c->before_rows + i * c->stride) * QDOT_LANES;
+}

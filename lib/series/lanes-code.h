@@ -1,0 +1,131 @@
+/* lanes-code.h -- machine code for series in lanes: whatever is done order by order to groups
+ * (num/batch.h), written once for an expansion.
+ *
+ * Every number of the code is a group, a vector of the processor: coefficient k of a row. What
+ * an order is made of is said by a function that is called while the code is written: the
+ * recurrences of the program (_steps), sums of products over orders (_dots), and single
+ * operations on an accumulator. Low orders are written one after another, the others as a
+ * loop of blocks of four, places being constants but for the order. Sums call one sequence of
+ * multiplications at the place from which on it has as many as are wanted, whatever the rows.
+ * The first order K of a block makes what is known by then of all its sums,
+ *
+ *     sum_{j=i+1..K-1} x_j y_{K+i-j},   i = 0 ... 3,
+ *
+ * terms K - 1, K - 2, ..., 1 from the (K-1)-th before its end on, for which coefficients are
+ * loaded once: a row that has left the nearest cache is brought there once a block. Order K + i
+ * adds the 2 i terms that hold coefficients from K on, the newest last, for which nothing then
+ * waits. Results stay in registers while there is room, and are stored when they leave them or
+ * the order ends: never, if others took their place by then or nothing reads them (_unread).
+ * Rows that no sum reads have a place for order 0 and one for the order at hand only.
+ *
+ * With AVX-512 a group is one vector. With AVX2 it is two, and the same code, in their
+ * encoding, is run for each half. Without either there is none: kernels of lanes.h run. The
+ * last bits of coefficients may be other ones than theirs.
+ *
+ * Tests  tests/series/test_lanes-code.c
+ */
+#ifndef QDOT_SERIES_LANES_CODE_H
+#define QDOT_SERIES_LANES_CODE_H
+
+#include "series/lanes.h"
+
+typedef struct qdot_lanes_code qdot_lanes_code;
+typedef struct qdot_lanes_writer qdot_lanes_writer;
+
+/* A row: of the program by its number (_row, qdot_lanes_code_input), or one of the caller's. */
+typedef uint32_t qdot_lanes_row;
+
+/* A coefficient. */
+typedef struct {
+    qdot_lanes_row row;
+    int order;
+} qdot_lanes_at;
+
+/* Factors of a sum. */
+typedef struct {
+    qdot_lanes_row x, y;
+} qdot_lanes_pair;
+
+/* A register that something is added to; QDOT_LANES_NOTHING: 0. It is taken until it is
+ * stored; three may be so at a time. */
+typedef int qdot_lanes_sum;
+enum { QDOT_LANES_NOTHING = -1 };
+
+/* What is written. Called twice, the same in both: the first time to learn which rows it
+ * wants to all orders. */
+typedef void qdot_lanes_write(qdot_lanes_writer *writer, void *user);
+/* An order of it. */
+typedef void qdot_lanes_write_order(qdot_lanes_writer *writer, int k, void *user);
+/* A number that depends on the order. */
+typedef double qdot_lanes_by_order(int k);
+
+/* Of the program of `lanes`, borrowed. `rows` further rows to all its orders and `numbers` ones
+ * of order 0 are the caller's. *code NULL: the processor or the system has no way, or it would
+ * be too long. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_lanes_code_new(qdot_lanes *lanes, size_t rows,
+                                                size_t numbers, qdot_lanes_write *write,
+                                                void *user, qdot_lanes_code **code);
+/* Whether there can be any. */
+bool qdot_lanes_may_be_code(void);
+void qdot_lanes_code_free(qdot_lanes_code *code);
+void qdot_lanes_code_run(const qdot_lanes_code *code);
+size_t qdot_lanes_code_bytes(const qdot_lanes_code *code);
+
+/* Their places, for the caller to fill before and read after: [a group]. */
+double *qdot_lanes_code_number(const qdot_lanes_code *code, size_t i);
+double *qdot_lanes_code_row(const qdot_lanes_code *code, size_t i);
+
+/* --- writing ------------------------------------------------------------------------ */
+
+qdot_lanes_row qdot_lanes_row_of(const qdot_lanes_writer *w, const double *output);
+qdot_lanes_row qdot_lanes_further_row(const qdot_lanes_writer *w, size_t i);
+qdot_lanes_at qdot_lanes_number(const qdot_lanes_writer *w, size_t i);
+/* A row of the program is read to all orders after the run. */
+void qdot_lanes_keep(qdot_lanes_writer *w, qdot_lanes_row row);
+/* The same number in every lane. */
+qdot_lanes_at qdot_lanes_scalar(qdot_lanes_writer *w, double value);
+
+/* The same, f(k). */
+qdot_lanes_at qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k);
+
+/* Orders from ... to, low ones each written for itself, the others four at a time, as a loop,
+ * from order `loop` or a later one on. In there k stands for them all: k + 1 and k - 2 are orders
+ * beside it. Sums of _dots are at most `late` orders below the steps'. */
+void qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
+                       qdot_lanes_write_order *write, void *user);
+
+/* Order k = 1, 2, ... of all steps, orders below being there and k of the inputs. */
+void qdot_lanes_steps(qdot_lanes_writer *w, int k);
+/* The same, coefficients k of some inputs being 0, whatever they have, of `wanted` rows alone;
+ * and once more, of all, with those that they have by then. */
+void qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n,
+                              const qdot_lanes_row *inputs, size_t n_wanted,
+                              const qdot_lanes_row *wanted);
+void qdot_lanes_steps_with(qdot_lanes_writer *w, int k);
+
+/* The sum over pairs of sum_{j=1..k-1} x_j y_{k-j}. For the same sums in the same order
+ * behind the steps of every order, k being theirs or always as many orders below. */
+qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
+                               const qdot_lanes_pair *pair, int k);
+/* What begins as a copy of it. */
+qdot_lanes_sum qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a);
+/* The same if nothing reads that any more (_unread). */
+qdot_lanes_sum qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a);
+/* sum +- a, sum +- a b, sum a; it is stored and its register given back. */
+void qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
+                    qdot_lanes_at a);
+void qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
+                            qdot_lanes_at a, qdot_lanes_at b);
+/* sum + factor a, whose register is given back. */
+void qdot_lanes_add_scaled(qdot_lanes_writer *w, qdot_lanes_sum *sum,
+                           qdot_lanes_sum factor, qdot_lanes_at a);
+/* a - sum */
+void qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
+void qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
+void qdot_lanes_negate(qdot_lanes_writer *w, qdot_lanes_sum *sum);
+/* Nothing reads what was stored there before something is stored there again, after the run
+ * neither: it may stay out of memory. */
+void qdot_lanes_unread(qdot_lanes_writer *w, qdot_lanes_at a);
+void qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to);
+
+#endif

@@ -1,0 +1,411 @@
+/* lanes-steps.c -- the recurrences in lanes as code: an order of a step, in two parts. */
+#include <string.h>
+
+#include "series/lanes-writer.h"
+
+/* What a step is made of, by rows. */
+typedef struct {
+    qdot_lanes_writer *w;
+    const qdot_taylor_step *s;
+    size_t i; /* its number */
+    int k;
+} step;
+
+static qdot_lanes_at
+at(const step *s, const double *row, int order)
+{
+    return (qdot_lanes_at){qdot_writer_row(s->w, row), order};
+}
+
+static double
+inverse(int k)
+{
+    return 1.0 / k;
+}
+
+static double
+minus_inverse(int k)
+{
+    return -1.0 / k;
+}
+
+static double
+itself(int k)
+{
+    return k;
+}
+
+static qdot_lanes_at
+inverse_of_order(const step *s)
+{
+    return qdot_lanes_scalar_of(s->w, inverse, s->k);
+}
+
+/* While inputs are left out a coefficient may be absent for it. */
+static void
+store(const step *s, qdot_lanes_sum sum, const double *to)
+{
+    qdot_lanes_writer *w = s->w;
+
+    if (w->without && sum == QDOT_LANES_NOTHING)
+        w->absent[qdot_writer_row(w, to)] = true;
+    else
+        qdot_lanes_store(w, sum, at(s, to, s->k));
+}
+
+/* sum + +-x_0 y_k */
+static void
+with_newest(const step *s, qdot_lanes_sum *sum, bool minus, const double *x,
+            const double *y)
+{
+    qdot_lanes_add_product(s->w, sum, minus, at(s, x, 0), at(s, y, s->k));
+}
+
+/* --- what needs no coefficient k ---------------------------------------------------- */
+
+static qdot_lanes_sum
+dot(const step *s, const double *x, const double *y)
+{
+    const qdot_lanes_pair pair = {qdot_writer_row(s->w, x), qdot_writer_row(s->w, y)};
+
+    return qdot_lanes_dots(s->w, 1, &pair, s->k);
+}
+
+static qdot_lanes_sum
+square(const step *s, const double *x)
+{
+    return qdot_writer_square(s->w, qdot_writer_row(s->w, x), s->k);
+}
+
+/* sums[0] of x and y, [1] of x and z */
+static void
+pair(const step *s, const double *x, const double *y, const double *z,
+     qdot_lanes_sum *sums)
+{
+    qdot_writer_pair(s->w, qdot_writer_row(s->w, x), qdot_writer_row(s->w, y),
+                     qdot_writer_row(s->w, z), s->k, sums);
+}
+
+static void
+before(const step *s, qdot_lanes_sum *sums)
+{
+    const qdot_taylor_step *i = s->s;
+
+    sums[0] = sums[1] = QDOT_LANES_NOTHING;
+    switch (i->op) {
+    case QDOT_T_MUL:
+    case QDOT_T_MADD:
+    case QDOT_T_MSUB:
+    case QDOT_T_NMADD: sums[0] = dot(s, i->x, i->y); break;
+    case QDOT_T_SQUARE: sums[0] = square(s, i->x); break;
+    case QDOT_T_DIV: sums[0] = dot(s, i->y, i->to); break;
+    case QDOT_T_SQRT: sums[0] = square(s, i->to); break;
+    case QDOT_T_SINCOS:
+    case QDOT_T_SINHCOSH: pair(s, i->d, i->second, i->to, sums); break;
+    case QDOT_T_EXP: sums[0] = dot(s, i->d, i->to); break;
+    case QDOT_T_ALONG: sums[0] = dot(s, i->d, i->y); break;
+    case QDOT_T_POW: pair(s, i->to, i->d, i->x, sums); break;
+    case QDOT_T_RATIO: sums[0] = dot(s, i->d, i->y); break;
+    case QDOT_T_TANH:
+        sums[0] = dot(s, i->d, i->second);
+        sums[1] = square(s, i->to);
+        break;
+    case QDOT_T_ATAN2: {
+        const qdot_lanes_pair less[] = {
+            {qdot_writer_row(s->w, i->third), qdot_writer_row(s->w, i->x)},
+            {qdot_writer_row(s->w, i->d), qdot_writer_row(s->w, i->z)}};
+
+        sums[0] = dot(s, i->second, i->y);
+        sums[1] = qdot_lanes_dots(s->w, 2, less, s->k);
+        break;
+    }
+    default: break;
+    }
+}
+
+/* --- with coefficient k of the operands --------------------------------------------- */
+
+static void
+linear(const step *s)
+{
+    const qdot_taylor_step *i = s->s;
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    switch (i->op) {
+    case QDOT_T_NEG: qdot_lanes_add(s->w, &sum, true, at(s, i->x, s->k)); break;
+    case QDOT_T_ADD:
+    case QDOT_T_SUB:
+        qdot_lanes_add(s->w, &sum, false, at(s, i->x, s->k));
+        qdot_lanes_add(s->w, &sum, i->op == QDOT_T_SUB, at(s, i->y, s->k));
+        break;
+    default:
+        if (i->op != QDOT_T_SCALE)
+            qdot_lanes_add(s->w, &sum, i->op == QDOT_T_SCALESUB, at(s, i->z, s->k));
+        with_newest(s, &sum, i->op == QDOT_T_SCALEOFF, i->x, i->y);
+    }
+    store(s, sum, i->to);
+}
+
+/* x is the newer factor (taylor.c). */
+static void
+product(const step *s, qdot_lanes_sum sum)
+{
+    const qdot_taylor_step *i = s->s;
+    const bool minus = i->op == QDOT_T_NMADD;
+
+    if (minus)
+        qdot_lanes_take_from(s->w, &sum, at(s, i->z, s->k));
+    else if (i->op != QDOT_T_MUL)
+        qdot_lanes_add(s->w, &sum, i->op == QDOT_T_MSUB, at(s, i->z, s->k));
+    with_newest(s, &sum, minus, i->x, i->y);
+    with_newest(s, &sum, minus, i->y, i->x);
+    store(s, sum, i->to);
+}
+
+/* +-(sum + 2 x_0 x_k) */
+static void
+finish_square(const step *s, qdot_lanes_sum sum, bool minus, const double *x,
+              const double *to)
+{
+    if (minus)
+        qdot_lanes_negate(s->w, &sum);
+    with_newest(s, &sum, minus, x, x);
+    with_newest(s, &sum, minus, x, x);
+    store(s, sum, to);
+}
+
+/* (x_k - sum - y_k c_0) times the inverse; a root has no y. */
+static void
+quotient(const step *s, qdot_lanes_sum sum)
+{
+    const qdot_taylor_step *i = s->s;
+
+    qdot_lanes_take_from(s->w, &sum, at(s, i->x, s->k));
+    if (i->op == QDOT_T_DIV)
+        with_newest(s, &sum, true, i->to, i->y);
+    qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
+    store(s, sum, i->to);
+}
+
+/* to_k = k x_k */
+static void
+weighted(const step *s, const double *x, const double *to)
+{
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    qdot_lanes_add_product(s->w, &sum, false, qdot_lanes_scalar_of(s->w, itself, s->k),
+                           at(s, x, s->k));
+    store(s, sum, to);
+}
+
+/* y of y' = +-x' u */
+static void
+integrated(const step *s, qdot_lanes_sum sum, bool minus, const double *u,
+           const double *to)
+{
+    qdot_lanes_scale(s->w, &sum,
+                     qdot_lanes_scalar_of(s->w, minus ? minus_inverse : inverse, s->k));
+    with_newest(s, &sum, minus, u, s->s->x);
+    store(s, sum, to);
+}
+
+/* ((r + 1)/k sum d p - sum x p + r p_0 x_k)/x_0, the sums without their ends */
+static void
+power(const step *s, qdot_lanes_sum *sums)
+{
+    const qdot_taylor_step *i = s->s;
+    qdot_lanes_sum sum = sums[0], more = QDOT_LANES_NOTHING, end = QDOT_LANES_NOTHING;
+
+    weighted(s, i->x, i->d);
+    qdot_lanes_scale(s->w, &sum, inverse_of_order(s));
+    qdot_lanes_add(s->w, &more, false, at(s, i->z, 0));
+    qdot_lanes_add(s->w, &more, false, qdot_lanes_scalar(s->w, 1));
+    qdot_writer_join(s->w, QDOT_X86_MUL_ALL, &sum, more);
+    qdot_writer_join(s->w, QDOT_X86_SUB_ALL, &sum, sums[1]);
+    qdot_lanes_add_product(s->w, &end, false, at(s, i->z, 0), at(s, i->to, 0));
+    qdot_lanes_scale(s->w, &end, at(s, i->x, s->k));
+    qdot_writer_join(s->w, QDOT_X86_ADD_ALL, &sum, end);
+    qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
+    store(s, sum, i->to);
+}
+
+/* d, then to = d/k */
+static void
+finish_weighted(const step *s, qdot_lanes_sum sum)
+{
+    qdot_lanes_sum to = QDOT_LANES_NOTHING;
+
+    qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
+    store(s, sum, s->s->d);
+    qdot_lanes_add_product(s->w, &to, false, inverse_of_order(s), at(s, s->s->d, s->k));
+    store(s, to, s->s->to);
+}
+
+static void
+ratio(const step *s, qdot_lanes_sum sum)
+{
+    qdot_lanes_negate(s->w, &sum);
+    qdot_lanes_add_product(s->w, &sum, s->s->sign < 0,
+                           qdot_lanes_scalar_of(s->w, itself, s->k),
+                           at(s, s->s->x, s->k));
+    finish_weighted(s, sum);
+}
+
+static void
+arctangent(const step *s, qdot_lanes_sum *sums)
+{
+    const qdot_taylor_step *i = s->s;
+    qdot_lanes_sum sum = sums[0];
+
+    qdot_writer_join(s->w, QDOT_X86_SUB_ALL, &sum, sums[1]);
+    weighted(s, i->x, i->second);
+    weighted(s, i->y, i->third);
+    with_newest(s, &sum, false, i->y, i->second);
+    with_newest(s, &sum, true, i->x, i->third);
+    finish_weighted(s, sum);
+}
+
+static void
+after(const step *s, qdot_lanes_sum *sums)
+{
+    const qdot_taylor_step *i = s->s;
+
+    switch (i->op) {
+    case QDOT_T_MUL:
+    case QDOT_T_MADD:
+    case QDOT_T_MSUB:
+    case QDOT_T_NMADD: product(s, sums[0]); break;
+    case QDOT_T_SQUARE: finish_square(s, sums[0], false, i->x, i->to); break;
+    case QDOT_T_DIV:
+    case QDOT_T_SQRT: quotient(s, sums[0]); break;
+    case QDOT_T_SINCOS:
+    case QDOT_T_SINHCOSH:
+        weighted(s, i->x, i->d);
+        integrated(s, sums[0], false, i->second, i->to);
+        integrated(s, sums[1], i->op == QDOT_T_SINCOS, i->to, i->second);
+        break;
+    case QDOT_T_EXP:
+        weighted(s, i->x, i->d);
+        integrated(s, sums[0], false, i->to, i->to);
+        break;
+    case QDOT_T_ALONG:
+        weighted(s, i->x, i->d);
+        integrated(s, sums[0], false, i->y, i->to);
+        break;
+    case QDOT_T_POW: power(s, sums); break;
+    case QDOT_T_RATIO: ratio(s, sums[0]); break;
+    case QDOT_T_TANH:
+        weighted(s, i->x, i->d);
+        integrated(s, sums[0], false, i->second, i->to);
+        finish_square(s, sums[1], true, i->to, i->second);
+        break;
+    case QDOT_T_ATAN2: arctangent(s, sums); break;
+    default: linear(s); break;
+    }
+}
+
+/* --- all of them -------------------------------------------------------------------- */
+
+void
+qdot_lanes_steps(qdot_lanes_writer *w, int k)
+{
+    qdot_writer_begin(w, k);
+    for (size_t i = w->t->still; i < w->t->length; i++) {
+        const step s = {w, w->t->steps + i, i, k};
+        qdot_lanes_sum sums[QDOT_WRITER_RESTS];
+
+        before(&s, sums);
+        after(&s, sums);
+    }
+}
+
+/* Marks the rows that those wanted are made of, and the steps that make any. */
+static void
+find_wanted(qdot_lanes_writer *w, size_t n, const qdot_lanes_row *rows)
+{
+    memset(w->wanted, 0, qdot_writer_rows(w) * sizeof *w->wanted);
+    for (size_t i = 0; i < n; i++)
+        w->wanted[rows[i]] = true;
+    for (size_t i = w->t->length; i-- > w->t->still;) {
+        const qdot_taylor_step *s = w->t->steps + i;
+        const double *const made[] = {s->to, s->second, s->third, s->d};
+        const double *const of[] = {s->x, s->y, s->z};
+
+        w->idle[i] = true;
+        for (size_t r = 0; r < sizeof made / sizeof *made; r++)
+            if (made[r] && w->wanted[qdot_writer_row(w, made[r])])
+                w->idle[i] = false;
+        for (size_t r = 0; r < sizeof of / sizeof *of && !w->idle[i]; r++)
+            if (of[r])
+                w->wanted[qdot_writer_row(w, of[r])] = true;
+    }
+}
+
+/* Nothing but x, which was left out, is newest in it: that is all there is to add. */
+static bool
+lacks_argument(const step *s)
+{
+    return (s->s->op == QDOT_T_SINCOS || s->s->op == QDOT_T_SINHCOSH) &&
+           !s->w->idle[s->i] && s->w->absent[qdot_writer_row(s->w, s->s->x)];
+}
+
+static void
+add_argument(const step *s)
+{
+    const double *const to[] = {s->s->to, s->s->second};
+
+    weighted(s, s->s->x, s->s->d);
+    for (int i = 0; i < 2; i++) {
+        qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+        if (qdot_writer_is_kept(s->w, s->i, i))
+            sum = qdot_lanes_continue(s->w, at(s, to[i], s->k));
+        with_newest(s, &sum, i == 1 && s->s->op == QDOT_T_SINCOS, to[1 - i], s->s->x);
+        store(s, sum, to[i]);
+    }
+}
+
+void
+qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *inputs,
+                         size_t n_wanted, const qdot_lanes_row *wanted)
+{
+    qdot_writer_begin(w, k);
+    w->without = true;
+    for (size_t i = 0; i < n; i++)
+        w->absent[inputs[i]] = true;
+    find_wanted(w, n_wanted, wanted);
+    for (size_t i = w->t->still; i < w->t->length; i++) {
+        const step s = {w, w->t->steps + i, i, k};
+        qdot_lanes_sum sums[QDOT_WRITER_RESTS];
+
+        before(&s, sums);
+        w->lacks[i] = lacks_argument(&s);
+        for (int r = 0; r < QDOT_WRITER_RESTS; r++)
+            qdot_writer_keep(w, i, r, sums[r], !w->lacks[i]);
+        if (w->idle[i])
+            for (int r = 0; r < QDOT_WRITER_RESTS; r++)
+                qdot_writer_drop(w, sums[r]);
+        else
+            after(&s, sums);
+    }
+}
+
+void
+qdot_lanes_steps_with(qdot_lanes_writer *w, int k)
+{
+    w->without = false;
+    for (size_t i = 0; i < qdot_writer_rows(w); i++)
+        w->absent[i] = false;
+    for (size_t i = w->t->still; i < w->t->length; i++) {
+        const step s = {w, w->t->steps + i, i, k};
+        qdot_lanes_sum sums[QDOT_WRITER_RESTS];
+
+        if (w->lacks[i]) {
+            add_argument(&s);
+            continue;
+        }
+        for (int r = 0; r < QDOT_WRITER_RESTS; r++)
+            sums[r] = qdot_writer_kept(w, i, r);
+        after(&s, sums);
+    }
+}

@@ -1,0 +1,312 @@
+/* lanes-sums.c -- sums of products over orders, those of a block of orders together. */
+#include "series/lanes-writer.h"
+
+/* A sequence of terms has sums of `products` times the orders of a block; register c of the
+ * i-th order's of one. */
+static int
+chains_of(const qdot_lanes_writer *w, int products)
+{
+    return w->chains / (w->block * products);
+}
+
+static int
+chain(const qdot_lanes_writer *w, int products, int product, int i, int c)
+{
+    const int n = chains_of(w, products);
+
+    return (product * w->block + i) * n + c % n;
+}
+
+static const qdot_x86_base other_base[] = {QDOT_X86_R8, QDOT_X86_R13};
+
+/* What coefficient K + i - j of other factor p is multiplied from: a register that has it from
+ * the terms before on, or its place. */
+static qdot_x86_rm
+other(const qdot_lanes_writer *w, bool window, int p, int i, int j)
+{
+    const int B = w->block;
+
+    return window ? qdot_x86_reg(w->moment + 1 + p * B + ((i - j) % B + B) % B)
+                  : qdot_x86_at(other_base[p], (i - j) * (int32_t)QDOT_WRITER_GROUP);
+}
+
+/* Term j of rax and r8; and of rax and r13: of the orders that have coefficients below the
+ * block's first alone in it. */
+static void
+emit_term(qdot_lanes_writer *w, bool window, int products, int j)
+{
+    const int last = w->block - 1;
+
+    qdot_writer_emit(w, QDOT_X86_LOAD_ALL, w->moment, 0,
+                     qdot_x86_at(QDOT_X86_RAX, j * (int32_t)QDOT_WRITER_GROUP));
+    for (int p = 0; window && j > last && p < products; p++)
+        qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, true, p, last, j).reg, 0,
+                         other(w, false, p, last, j));
+    for (int i = 0; i <= last && i < j; i++)
+        for (int p = 0; p < products; p++)
+            qdot_writer_emit(w, QDOT_X86_MADD_ALL, chain(w, products, p, i, j), w->moment,
+                             other(w, window, p, i, j));
+}
+
+void
+qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at)
+{
+    w->x.far = w->x.narrow; /* else all their offsets take one byte */
+    for (int n = (int)w->stride - 1; n > 0; n--) {
+        at[n] = w->x.bytes.n;
+        emit_term(w, window, products, n);
+    }
+    w->x.far = false;
+    qdot_x86_leave(&w->x);
+}
+
+static void
+address(qdot_lanes_writer *w, qdot_x86_base to, qdot_lanes_row row, int order)
+{
+    const qdot_x86_rm rm = qdot_writer_place(w, (qdot_lanes_at){row, order});
+
+    if (!w->counting)
+        qdot_x86_address(&w->x, to, (qdot_x86_base)rm.reg, rm.offset);
+}
+
+/* Where a register says, or at so many terms less: sums of a lower order than the steps. */
+static void
+enter_in_loop(qdot_lanes_writer *w, qdot_x86_base at, const size_t *terms, int less)
+{
+    if (less > 0)
+        qdot_x86_address(&w->x, QDOT_X86_R12, at,
+                         less * (int32_t)qdot_writer_term(w, terms));
+    qdot_x86_enter_at(&w->x, less > 0 ? QDOT_X86_R12 : at);
+}
+
+/* Terms n, n - 1, ..., 1 of a block from order K on are added; z of two products only. */
+static void
+call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
+           const qdot_lanes_row *z, int n, int K)
+{
+    const qdot_lanes_row others[] = {y, z ? *z : y};
+    const bool any = K > QDOT_WRITER_ANY / 2, square = n < K - 1;
+    const bool window = w->windows && !square;
+
+    qdot_lanes_keep(w, x);
+    address(w, QDOT_X86_RAX, x, 0);
+    for (int i = 0; i < (z ? 2 : 1); i++) {
+        qdot_lanes_keep(w, others[i]);
+        address(w, other_base[i], others[i], K);
+        for (int c = 0; window && c < n && c < w->block - 1; c++)
+            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, true, i, c, n).reg, 0,
+                             qdot_writer_place(w, (qdot_lanes_at){others[i], K - n + c}));
+    }
+    if (w->counting)
+        return;
+    if (any)
+        enter_in_loop(w, z ? QDOT_X86_R14 : square ? QDOT_X86_R15 : QDOT_X86_R11,
+                      z ? w->pair : square ? w->half : w->dot, w->any - K);
+    else
+        qdot_x86_enter(&w->x, z ? w->pair[n] : square ? w->half[n] : w->dot[n]);
+}
+
+static void
+clear_chains(qdot_lanes_writer *w)
+{
+    qdot_writer_leave(w, w->first_free);
+    for (int r = 0; r < w->chains; r++)
+        qdot_writer_clear(w, r);
+}
+
+/* The chains of a sum become the first of them. */
+static int
+add_up(qdot_lanes_writer *w, int products, int product, int i)
+{
+    const int to = chain(w, products, product, i, 0), n = chains_of(w, products);
+
+    for (int half = n / 2; half > 0; half /= 2)
+        for (int c = 0; c < half; c++)
+            qdot_writer_emit(w, QDOT_X86_ADD_ALL, to + c, to + c,
+                             qdot_x86_reg(to + c + half));
+    return to;
+}
+
+static qdot_lanes_at
+ahead(const qdot_lanes_writer *w, size_t sum, int i)
+{
+    return qdot_lanes_number(w, w->numbers + QDOT_WRITER_RESTS * w->t->length +
+                                    sum * (size_t)(w->block - 1) + (size_t)i - 1);
+}
+
+/* The number of the sum that comes. */
+static size_t
+next_sum(qdot_lanes_writer *w)
+{
+    const size_t sum = w->sum++;
+
+    if (sum >= w->sums)
+        w->sums = sum + 1;
+    if (sum >= w->ahead.n && w->status == QDOT_OK)
+        w->status = qdot_vec_push(&w->ahead, 0);
+    return sum;
+}
+
+/* What n terms have made of a sum: of the block's first order, the value; of the others, kept
+ * until they come. */
+static qdot_lanes_sum
+share_out(qdot_lanes_writer *w, size_t sum, int products, int product, int n)
+{
+    qdot_lanes_sum first = QDOT_LANES_NOTHING;
+
+    if (n > 0) {
+        first = qdot_writer_take(w);
+        qdot_writer_emit(w, QDOT_X86_LOAD_ALL, first, 0,
+                         qdot_x86_reg(add_up(w, products, product, 0)));
+    }
+    for (int i = 1; i < w->block && i < n; i++)
+        qdot_writer_put(w, add_up(w, products, product, i), ahead(w, sum, i));
+    if (w->status == QDOT_OK)
+        w->ahead.at[sum] = n;
+    return first;
+}
+
+static qdot_lanes_sum
+take_ahead(qdot_lanes_writer *w, size_t sum)
+{
+    qdot_lanes_sum value = QDOT_LANES_NOTHING;
+
+    if (w->status == QDOT_OK && w->ahead.at[sum] > w->phase)
+        qdot_lanes_add(w, &value, false, ahead(w, sum, w->phase));
+    return value;
+}
+
+static int
+smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static bool
+both_move(const qdot_lanes_writer *w, const qdot_lanes_pair *pair)
+{
+    return w->moving[pair->x] && w->moving[pair->y];
+}
+
+/* Terms of order k that hold coefficients of its block, the newest last. */
+static void
+add_outer(qdot_lanes_writer *w, qdot_lanes_sum *sum, size_t pairs,
+          const qdot_lanes_pair *pair, int k)
+{
+    for (int j = smaller(w->phase, k - 1); j > 0; j--)
+        for (size_t i = 0; i < pairs; i++) {
+            if (!both_move(w, pair + i))
+                continue;
+            qdot_lanes_add_product(w, sum, false, (qdot_lanes_at){pair[i].x, j},
+                                   (qdot_lanes_at){pair[i].y, k - j});
+            if (k - j > w->phase)
+                qdot_lanes_add_product(w, sum, false, (qdot_lanes_at){pair[i].x, k - j},
+                                       (qdot_lanes_at){pair[i].y, j});
+        }
+}
+
+qdot_lanes_sum
+qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs, const qdot_lanes_pair *pair, int k)
+{
+    const size_t number = next_sum(w);
+    const int n = k - 1; /* terms, if the block begins */
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+    size_t moving = 0;
+
+    for (size_t i = 0; i < pairs; i++) {
+        qdot_lanes_keep(w, pair[i].x);
+        qdot_lanes_keep(w, pair[i].y);
+        moving += both_move(w, pair + i);
+    }
+    if (w->phase > 0) {
+        sum = take_ahead(w, number);
+        add_outer(w, &sum, pairs, pair, k);
+        return sum;
+    }
+    if (n > 0 && moving > 0) {
+        clear_chains(w);
+        for (size_t i = 0; i < pairs; i++)
+            if (both_move(w, pair + i))
+                call_terms(w, pair[i].x, pair[i].y, NULL, n, k);
+    }
+    return share_out(w, number, 1, 0, moving > 0 ? n : 0);
+}
+
+void
+qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
+                 qdot_lanes_row z, int k, qdot_lanes_sum *sums)
+{
+    const qdot_lanes_pair pairs[] = {{x, y}, {x, z}};
+    size_t number[2];
+
+    if (k < 2 || w->phase > 0 || !both_move(w, pairs) || !both_move(w, pairs + 1)) {
+        for (int i = 0; i < 2; i++)
+            sums[i] = qdot_lanes_dots(w, 1, pairs + i, k);
+        return;
+    }
+    for (int i = 0; i < 2; i++)
+        number[i] = next_sum(w);
+    clear_chains(w);
+    call_terms(w, x, y, &z, k - 1, k);
+    for (int i = 0; i < 2; i++)
+        sums[i] = share_out(w, number[i], 2, i, k - 1);
+}
+
+/* Half of the terms, twice, and the one in the middle. Of those that are not of the block the
+ * ones next to the middle are added with it. */
+qdot_lanes_sum
+qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k)
+{
+    const size_t number = next_sum(w);
+    const int K = k - w->phase, n = K > 2 ? (K - 1) / 2 : 0, last = (k - 1) / 2;
+    const int from = n > w->phase ? n : w->phase;
+    const qdot_lanes_at middle = {x, k / 2};
+    qdot_lanes_sum sum;
+
+    qdot_lanes_keep(w, x);
+    if (!w->moving[x])
+        return QDOT_LANES_NOTHING;
+    if (w->phase > 0) {
+        sum = take_ahead(w, number);
+    } else {
+        if (n > 0) {
+            clear_chains(w);
+            call_terms(w, x, x, NULL, n, K);
+        }
+        sum = share_out(w, number, 1, 0, n);
+    }
+    for (int j = last; j > from; j--)
+        qdot_lanes_add_product(w, &sum, false, (qdot_lanes_at){x, j},
+                               (qdot_lanes_at){x, k - j});
+    for (int j = smaller(w->phase, last); j > 0; j--)
+        qdot_lanes_add_product(w, &sum, false, (qdot_lanes_at){x, j},
+                               (qdot_lanes_at){x, k - j});
+    qdot_lanes_scale(w, &sum, qdot_lanes_scalar(w, 2));
+    if (k > 0 && k % 2 == 0)
+        qdot_lanes_add_product(w, &sum, false, middle, middle);
+    return sum;
+}
+
+static qdot_lanes_at
+rest(const qdot_lanes_writer *w, size_t step, int i)
+{
+    return qdot_lanes_number(w, w->numbers + QDOT_WRITER_RESTS * step + (size_t)i);
+}
+
+void
+qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum, bool stored)
+{
+    w->rests[QDOT_WRITER_RESTS * step + (size_t)i] = sum != QDOT_LANES_NOTHING;
+    if (stored && sum != QDOT_LANES_NOTHING)
+        qdot_writer_put(w, sum, rest(w, step, i));
+}
+
+qdot_lanes_sum
+qdot_writer_kept(qdot_lanes_writer *w, size_t step, int i)
+{
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    if (qdot_writer_is_kept(w, step, i))
+        qdot_lanes_add(w, &sum, false, rest(w, step, i));
+    return sum;
+}

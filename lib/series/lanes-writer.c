@@ -1,0 +1,453 @@
+/* lanes-writer.c -- places of coefficients, registers, operations on an accumulator. */
+#include <string.h>
+
+#include "series/lanes-writer.h"
+
+/* --- places ------------------------------------------------------------------------- */
+
+size_t
+qdot_writer_rows(const qdot_lanes_writer *w)
+{
+    return w->t->rows + w->further;
+}
+
+static bool
+is_row(const qdot_lanes_writer *w, qdot_lanes_row row)
+{
+    return row < qdot_writer_rows(w);
+}
+
+/* A coefficient of a row is 0 and nothing writes it, or left out. */
+static bool
+vanishes(const qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    return is_row(w, a.row) && a.order > 0 &&
+           (!w->moving[a.row] || (w->absent[a.row] && a.order == w->k));
+}
+
+void
+qdot_lanes_keep(qdot_lanes_writer *w, qdot_lanes_row row)
+{
+    w->kept[row] = true;
+}
+
+size_t
+qdot_writer_groups(const qdot_lanes_writer *w)
+{
+    return w->numbers + QDOT_WRITER_RESTS * w->t->length +
+           w->sums * (size_t)(w->block - 1);
+}
+
+static qdot_x86_rm
+groups_from(qdot_x86_base base, size_t groups)
+{
+    return qdot_x86_at(base, (int32_t)(groups * QDOT_WRITER_GROUP));
+}
+
+/* `groups` of one of the two arrays, at an order. */
+static qdot_x86_rm
+of_order(const qdot_lanes_writer *w, bool of_program, size_t groups, int order)
+{
+    const int any = w->any, half = any / 2;
+
+    if (order > half + half / 2)
+        return qdot_x86_at(of_program ? QDOT_X86_R9 : QDOT_X86_R10,
+                           (int32_t)((ptrdiff_t)groups + order - any) *
+                               (int32_t)QDOT_WRITER_GROUP);
+    if (order > half / 2) /* squares: of the program alone */
+        return qdot_x86_at(QDOT_X86_RBP, (int32_t)((ptrdiff_t)groups + order - half) *
+                                             (int32_t)QDOT_WRITER_GROUP);
+    return groups_from(of_program ? QDOT_X86_RDI : QDOT_X86_RDX, groups + (size_t)order);
+}
+
+qdot_x86_rm
+qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    int order;
+
+    if (a.row >= QDOT_WRITER_TABLES) {
+        const int32_t table = (int32_t)(a.row - QDOT_WRITER_TABLES) * QDOT_WRITER_TABLE;
+        const bool any = a.order > QDOT_WRITER_ANY / 2;
+
+        return qdot_x86_at(any ? QDOT_X86_RBX : QDOT_X86_RSI,
+                           (int32_t)sizeof(double) *
+                               (table + a.order - (any ? w->any : 0)));
+    }
+    if (a.row >= QDOT_WRITER_SCALARS)
+        return qdot_x86_at(QDOT_X86_RSI,
+                           (int32_t)sizeof(double) *
+                               (QDOT_WRITER_MOST_TABLES * QDOT_WRITER_TABLE +
+                                (int32_t)(a.row - QDOT_WRITER_SCALARS)));
+    if (a.row >= QDOT_WRITER_INVERSES)
+        return groups_from(QDOT_X86_RDI,
+                           w->t->rows * w->stride + a.row - QDOT_WRITER_INVERSES);
+    if (a.row >= QDOT_WRITER_NUMBERS)
+        return groups_from(QDOT_X86_RDX, a.row - QDOT_WRITER_NUMBERS);
+    if (a.order > 0 && a.order != w->k)
+        w->kept[a.row] = true;
+    order = a.order > 0 && !w->kept[a.row] ? 1 : a.order;
+    if (a.row < w->t->rows)
+        return of_order(w, true, a.row * w->stride, order);
+    return of_order(w, false,
+                    qdot_writer_groups(w) + (a.row - w->t->rows) * w->stride, order);
+}
+
+qdot_lanes_row
+qdot_lanes_row_of(const qdot_lanes_writer *w, const double *output)
+{
+    const size_t groups = (size_t)(output - qdot_lanes_input(w->lanes, 0)) / QDOT_LANES;
+
+    return (qdot_lanes_row)(groups / w->stride);
+}
+
+qdot_lanes_row
+qdot_lanes_further_row(const qdot_lanes_writer *w, size_t i)
+{
+    return (qdot_lanes_row)(w->t->rows + i);
+}
+
+qdot_lanes_at
+qdot_lanes_number(const qdot_lanes_writer *w, size_t i)
+{
+    (void)w;
+    return (qdot_lanes_at){QDOT_WRITER_NUMBERS + (qdot_lanes_row)i, 0};
+}
+
+qdot_lanes_at
+qdot_lanes_scalar(qdot_lanes_writer *w, double value)
+{
+    size_t i = w->scalars.n;
+
+    while (i > 0 && memcmp(w->scalars.at + i - 1, &value, sizeof value) != 0)
+        i--;
+    if (i == 0 && w->status == QDOT_OK)
+        w->status = qdot_vec_push(&w->scalars, value);
+    return (qdot_lanes_at){
+        QDOT_WRITER_SCALARS + (qdot_lanes_row)(i > 0 ? i - 1 : w->scalars.n - 1), 0};
+}
+
+qdot_lanes_at
+qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k)
+{
+    size_t i = 0;
+
+    while (i < w->tables.n && w->tables.at[i] != f)
+        i++;
+    if (i == w->tables.n && w->status == QDOT_OK)
+        w->status = i < QDOT_WRITER_MOST_TABLES
+                        ? qdot_vec_push(&w->tables, f)
+                        : qdot_fail(QDOT_EINVAL, "too many tables by order");
+    return (qdot_lanes_at){QDOT_WRITER_TABLES + (qdot_lanes_row)i, k};
+}
+
+/* --- registers ---------------------------------------------------------------------- */
+
+void
+qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int first,
+                 qdot_x86_rm rm)
+{
+    if (!w->counting)
+        qdot_x86_emit(&w->x, name, reg, first, rm);
+}
+
+static void
+use(qdot_lanes_writer *w, int reg)
+{
+    w->reg[reg].used = ++w->clock;
+}
+
+static void
+settle(qdot_lanes_writer *w, int reg)
+{
+    if (w->reg[reg].ahead)
+        qdot_writer_emit(w, QDOT_X86_STORE_ALL, reg, 0,
+                         qdot_writer_place(w, w->reg[reg].at));
+    w->reg[reg].ahead = false;
+}
+
+void
+qdot_writer_settle(qdot_lanes_writer *w)
+{
+    for (int r = 0; r < w->registers; r++)
+        settle(w, r);
+}
+
+static void
+leave(qdot_lanes_writer *w, int reg)
+{
+    settle(w, reg);
+    w->reg[reg].holds = false;
+}
+
+void
+qdot_writer_leave(qdot_lanes_writer *w, int end)
+{
+    for (int r = 0; r < end; r++)
+        leave(w, r);
+}
+
+/* The least recently used from `lowest` on that is not taken. */
+static int
+fresh(qdot_lanes_writer *w, int lowest)
+{
+    int best = -1;
+
+    for (int r = lowest; r < w->registers; r++)
+        if (r != w->moment && !w->reg[r].taken &&
+            (best < 0 || w->reg[r].used < w->reg[best].used))
+            best = r;
+    leave(w, best);
+    use(w, best);
+    return best;
+}
+
+/* Sequences of terms are called by the first order of a block alone. */
+static int
+first_taken(const qdot_lanes_writer *w)
+{
+    return w->phase > 0 ? 0 : w->first_free;
+}
+
+int
+qdot_writer_take(qdot_lanes_writer *w)
+{
+    const int reg = fresh(w, first_taken(w));
+
+    w->reg[reg].taken = true;
+    return reg;
+}
+
+static int
+holder(const qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    for (int r = 0; r < w->registers; r++)
+        if (w->reg[r].holds && w->reg[r].at.row == a.row && w->reg[r].at.order == a.order)
+            return r;
+    return -1;
+}
+
+static void
+fetch(qdot_lanes_writer *w, int reg, qdot_lanes_at a)
+{
+    qdot_writer_emit(w,
+                     a.row >= QDOT_WRITER_SCALARS ? QDOT_X86_SPREAD : QDOT_X86_LOAD_ALL,
+                     reg, 0, qdot_writer_place(w, a));
+}
+
+static int
+load(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    int reg = holder(w, a);
+
+    if (reg >= 0) {
+        use(w, reg);
+        return reg;
+    }
+    reg = fresh(w, 0);
+    fetch(w, reg, a);
+    w->reg[reg].holds = true;
+    w->reg[reg].at = a;
+    return reg;
+}
+
+/* A register that holds it, or its place. */
+static qdot_x86_rm
+operand(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    if (a.row < QDOT_WRITER_SCALARS && holder(w, a) < 0)
+        return qdot_writer_place(w, a);
+    return qdot_x86_reg(load(w, a));
+}
+
+/* 0, whatever the width: of one with itself, which takes no time. */
+void
+qdot_writer_clear(qdot_lanes_writer *w, int reg)
+{
+    const bool narrow = w->x.narrow;
+
+    w->x.narrow = narrow || reg < 16;
+    qdot_writer_emit(w, QDOT_X86_XOR_ALL, reg, reg, qdot_x86_reg(reg));
+    w->x.narrow = narrow;
+}
+
+/* --- sums --------------------------------------------------------------------------- */
+
+qdot_lanes_sum
+qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    const int held = holder(w, a);
+    int reg = held;
+
+    if (held < first_taken(w) || w->reg[held].ahead) {
+        if (held >= 0)
+            use(w, held);
+        reg = fresh(w, first_taken(w));
+        if (held >= 0)
+            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, reg, 0, qdot_x86_reg(held));
+        else
+            fetch(w, reg, a);
+    }
+    w->reg[reg].holds = false;
+    w->reg[reg].taken = true;
+    use(w, reg);
+    return reg;
+}
+
+qdot_lanes_sum
+qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    const int held = holder(w, a);
+
+    if (held >= 0)
+        w->reg[held].ahead = false;
+    return qdot_lanes_continue(w, a);
+}
+
+void
+qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus, qdot_lanes_at a)
+{
+    qdot_x86_rm rm;
+
+    if (vanishes(w, a))
+        return;
+    rm = operand(w, a);
+    if (*sum == QDOT_LANES_NOTHING) {
+        *sum = qdot_writer_take(w);
+        if (!minus) {
+            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, *sum, 0, rm);
+            return;
+        }
+        qdot_writer_clear(w, *sum);
+    }
+    qdot_writer_emit(w, minus ? QDOT_X86_SUB_ALL : QDOT_X86_ADD_ALL, *sum, *sum, rm);
+}
+
+void
+qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
+{
+    if (*sum == QDOT_LANES_NOTHING)
+        qdot_lanes_add(w, sum, false, a);
+    else if (vanishes(w, a))
+        qdot_lanes_negate(w, sum);
+    else
+        qdot_writer_emit(w, QDOT_X86_SUB_ALL, *sum, load(w, a), qdot_x86_reg(*sum));
+}
+
+void
+qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
+                       qdot_lanes_at a, qdot_lanes_at b)
+{
+    bool passing;
+    int reg;
+    qdot_x86_rm rm;
+
+    if (vanishes(w, a) || vanishes(w, b))
+        return;
+    if (holder(w, a) < 0 && holder(w, b) >= 0) {
+        const qdot_lanes_at other = a;
+
+        a = b;
+        b = other;
+    }
+    passing = is_row(w, a.row) && a.order != w->k && holder(w, a) < 0;
+    reg = load(w, a);
+    rm = operand(w, b);
+    if (passing)
+        w->reg[reg].used = 0;
+    if (*sum == QDOT_LANES_NOTHING) {
+        *sum = qdot_writer_take(w);
+        if (!minus) {
+            qdot_writer_emit(w, QDOT_X86_MUL_ALL, *sum, reg, rm);
+            return;
+        }
+        qdot_writer_clear(w, *sum);
+    }
+    qdot_writer_emit(w, minus ? QDOT_X86_NMADD_ALL : QDOT_X86_MADD_ALL, *sum, reg, rm);
+}
+
+void
+qdot_lanes_add_scaled(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_sum factor,
+                      qdot_lanes_at a)
+{
+    if (factor == QDOT_LANES_NOTHING)
+        return;
+    if (*sum == QDOT_LANES_NOTHING) {
+        *sum = factor;
+        qdot_lanes_scale(w, sum, a);
+        return;
+    }
+    qdot_writer_emit(w, QDOT_X86_MADD_ALL, *sum, factor, operand(w, a));
+    w->reg[factor].taken = false;
+}
+
+void
+qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
+{
+    if (*sum == QDOT_LANES_NOTHING)
+        return;
+    if (vanishes(w, a)) {
+        w->reg[*sum].taken = false;
+        *sum = QDOT_LANES_NOTHING;
+        return;
+    }
+    qdot_writer_emit(w, QDOT_X86_MUL_ALL, *sum, *sum, operand(w, a));
+}
+
+void
+qdot_lanes_negate(qdot_lanes_writer *w, qdot_lanes_sum *sum)
+{
+    if (*sum == QDOT_LANES_NOTHING)
+        return;
+    qdot_writer_clear(w, w->moment);
+    qdot_writer_emit(w, QDOT_X86_SUB_ALL, *sum, w->moment, qdot_x86_reg(*sum));
+}
+
+void
+qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
+                 qdot_lanes_sum other)
+{
+    if (other == QDOT_LANES_NOTHING)
+        return;
+    w->reg[other].taken = false;
+    if (*sum != QDOT_LANES_NOTHING) {
+        qdot_writer_emit(w, op, *sum, *sum, qdot_x86_reg(other));
+    } else if (op != QDOT_X86_MUL_ALL) {
+        *sum = other;
+        w->reg[other].taken = true;
+        if (op == QDOT_X86_SUB_ALL)
+            qdot_lanes_negate(w, sum);
+    }
+}
+
+void
+qdot_lanes_unread(qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    const int reg = holder(w, a);
+
+    if (reg >= 0)
+        w->reg[reg] = (qdot_writer_register){.taken = w->reg[reg].taken};
+}
+
+void
+qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to)
+{
+    qdot_lanes_unread(w, to);
+    qdot_writer_emit(w, QDOT_X86_STORE_ALL, reg, 0, qdot_writer_place(w, to));
+}
+
+void
+qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to)
+{
+    if (sum == QDOT_LANES_NOTHING) {
+        sum = qdot_writer_take(w);
+        qdot_writer_clear(w, sum);
+    }
+    qdot_lanes_unread(w, to);
+    (void)qdot_writer_place(w, to); /* that it is there */
+    if (is_row(w, to.row))
+        w->absent[to.row] = false;
+    w->reg[sum].taken = false;
+    w->reg[sum].holds = w->reg[sum].ahead = true;
+    w->reg[sum].at = to;
+    use(w, sum);
+}

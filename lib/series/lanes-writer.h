@@ -1,0 +1,155 @@
+/* lanes-writer.h -- the writer of lanes-code.h from inside: rows, registers. Internal to
+ * series/.
+ *
+ * The code is run with three addresses: of the program's coefficients (rdi), of scalars (rsi),
+ * of work space (rdx): numbers, what the steps keep for a second time, what a sum has for
+ * later orders of its block, further rows. In loops r9, rbx and r10 are these moved on to the
+ * first order of the block at hand, rbp the first to half of it; r11, r14 and r15 where the
+ * terms of sums, of pairs of them and of squares begin.
+ */
+#ifndef QDOT_SERIES_LANES_WRITER_H
+#define QDOT_SERIES_LANES_WRITER_H
+
+#include "num/series.h"
+#include "series/lanes-code.h"
+#include "series/lanes-program.h"
+#include "machine/x86.h"
+
+enum {
+    QDOT_WRITER_REGISTERS = 32,
+    QDOT_WRITER_RESTS = 2,
+    QDOT_WRITER_MOST_TABLES = 12,
+    QDOT_WRITER_GROUP = QDOT_LANES * sizeof(double)
+};
+
+/* What a row's number begins with that is none of the program or a further one. */
+enum {
+    QDOT_WRITER_NUMBERS = 1 << 24,
+    QDOT_WRITER_INVERSES = 2 << 24,
+    QDOT_WRITER_SCALARS = 3 << 24,
+    QDOT_WRITER_TABLES = 4 << 24, /* scalars by order: at it */
+    QDOT_WRITER_TABLE = QDOT_SERIES_MOST + 8,
+    /* What is written for all blocks of a loop is written as of this order or the next, odd
+     * if theirs are, and those beside it; half of it is half of theirs. */
+    QDOT_WRITER_ANY = 1000
+};
+
+/* What a register holds. */
+typedef struct {
+    bool holds, taken;
+    bool ahead; /* of memory, which has it only when it is left */
+    qdot_lanes_at at;
+    unsigned used; /* when */
+} qdot_writer_register;
+
+struct qdot_lanes_writer {
+    qdot_x86 x;
+    qdot_lanes *lanes;
+    const qdot_taylor *t;
+    size_t stride, further, numbers;
+    bool counting; /* the first time: nothing is written */
+    bool *moving;  /* [rows + further] it has more than order 0 */
+    bool *kept;    /* likewise: it is wanted to all orders */
+    bool *absent;  /* likewise: its coefficient of the order at hand is left out, or 0 for it */
+    bool without;  /* some may be */
+    bool *wanted;  /* likewise: something that is wanted then is made of it */
+    bool *idle;    /* [length] the step makes none of that */
+    bool *lacks;   /* [length] it lacked its argument, and nothing else */
+    bool *rests;   /* [length x QDOT_WRITER_RESTS] there is one at the order at hand */
+    int k;         /* the order at hand */
+    qdot_vec(double) scalars;
+    qdot_vec(qdot_lanes_by_order *) tables;
+    int registers, chains, moment, first_free; /* (lanes-code.c) */
+    /* Orders whose sums are made together; how far that at hand is in such a block; the
+     * loop's first, as written. */
+    int block, phase, any;
+    qdot_writer_register reg[QDOT_WRITER_REGISTERS];
+    unsigned clock;
+    /* Where n terms begin, of one product, of two with a factor in common, of a square;
+     * whether those of the former keep factors in registers. */
+    size_t dot[QDOT_SERIES_MOST + 2], pair[QDOT_SERIES_MOST + 2], half[QDOT_SERIES_MOST + 2];
+    bool windows;
+    /* Of sums in the order in which an order has them: the one that comes, how many there
+     * are; of how many orders of the block there is a part. */
+    size_t sum, sums;
+    qdot_vec(int) ahead;
+    qdot_status status;
+};
+
+static inline qdot_lanes_row
+qdot_writer_row(const qdot_lanes_writer *w, const double *row)
+{
+    return (qdot_lanes_row)((size_t)(row - w->t->coefficients) / w->t->stride);
+}
+
+static inline qdot_lanes_at
+qdot_writer_inverse(size_t step)
+{
+    return (qdot_lanes_at){QDOT_WRITER_INVERSES + (qdot_lanes_row)step, 0};
+}
+
+/* An instruction, but when rows are only looked at; what it reads or writes. */
+void qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int first,
+                      qdot_x86_rm rm);
+qdot_x86_rm qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
+/* A register that is free, taken; 0 in one. */
+int qdot_writer_take(qdot_lanes_writer *w);
+/* What registers have for the places of results is stored there. */
+void qdot_writer_settle(qdot_lanes_writer *w);
+/* They hold nothing below register `end`; what they are ahead of is stored. */
+void qdot_writer_leave(qdot_lanes_writer *w, int end);
+/* What some register has is stored; no other holds what was there. */
+void qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to);
+void qdot_writer_clear(qdot_lanes_writer *w, int reg);
+/* Rows, of the program and further ones; groups of work space before these. */
+size_t qdot_writer_rows(const qdot_lanes_writer *w);
+size_t qdot_writer_groups(const qdot_lanes_writer *w);
+/* The sequence of terms of one product or two; at [stride] where they begin. With windows every
+ * coefficient of the other factors is loaded once, else once for each order. */
+void qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at);
+
+/* Order k begins. */
+static inline void
+qdot_writer_begin(qdot_lanes_writer *w, int k)
+{
+    qdot_writer_settle(w);
+    w->k = k;
+    w->sum = 0;
+}
+
+/* Bytes of a term of such a sequence, of one with all orders of a block. */
+static inline size_t
+qdot_writer_term(const qdot_lanes_writer *w, const size_t *at)
+{
+    return at[w->block] - at[w->block + 1];
+}
+
+/* sums[0] = sum_{j=1..k-1} x_j y_{k-j}, sums[1] that of x and z; that of x and itself. */
+void qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
+                      qdot_lanes_row z, int k, qdot_lanes_sum *sums);
+qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k);
+
+/* sum = sum op other, whose register is given back. */
+void qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
+                      qdot_lanes_sum other);
+
+/* For the second time that a step is made: whether there is a sum, and if `stored` it; the sum
+ * stays as it is. Its register is given back by _drop. */
+void qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum,
+                      bool stored);
+qdot_lanes_sum qdot_writer_kept(qdot_lanes_writer *w, size_t step, int i);
+
+static inline bool
+qdot_writer_is_kept(const qdot_lanes_writer *w, size_t step, int i)
+{
+    return w->rests[QDOT_WRITER_RESTS * step + (size_t)i];
+}
+
+static inline void
+qdot_writer_drop(qdot_lanes_writer *w, qdot_lanes_sum sum)
+{
+    if (sum != QDOT_LANES_NOTHING)
+        w->reg[sum].taken = false;
+}
+
+#endif

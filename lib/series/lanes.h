@@ -1,0 +1,46 @@
+/* lanes.h -- a tape for eight systems at once, in double and over power series.
+ *
+ * The same operations and the same recurrences as tape.h and taylor.h, every number a
+ * group of QDOT_LANES doubles (num/batch.h). Elementary functions are called lane by
+ * lane, so that a lane's value is the single one's; but for sines and cosines of series, which
+ * all lanes have at once (num/batch.h).
+ *
+ * Tests  tests/series/test_lanes.c
+ */
+#ifndef QDOT_SERIES_LANES_H
+#define QDOT_SERIES_LANES_H
+
+#include "num/batch.h"
+#include "tape/tape.h"
+
+/* out [m groups] = outputs at in [n groups]; work [qdot_tape_work groups]. */
+void qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work);
+/* The same with sines and cosines as those of series. */
+void qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work);
+
+/* The series program with its coefficients: one a thread. */
+typedef struct qdot_lanes qdot_lanes;
+
+/* As qdot_taylor_new. */
+QDOT_MUST_CHECK qdot_status qdot_lanes_new(const qdot_tape *tape, int most,
+                                           qdot_lanes **lanes);
+/* The same where the inputs from `moving` on are numbers (qdot_taylor_new_moving). */
+QDOT_MUST_CHECK qdot_status qdot_lanes_new_moving(const qdot_tape *tape, int most,
+                                                  size_t moving, qdot_lanes **lanes);
+void qdot_lanes_free(qdot_lanes *lanes);
+
+/* As qdot_taylor_input, qdot_taylor_stride (in groups), qdot_taylor_output,
+ * qdot_taylor_is_constant. */
+double *qdot_lanes_input(qdot_lanes *lanes, size_t i);
+size_t qdot_lanes_stride(const qdot_lanes *lanes);
+const double *qdot_lanes_output(const qdot_lanes *lanes, size_t i);
+bool qdot_lanes_is_constant(const qdot_lanes *lanes, size_t i);
+
+/* As qdot_taylor_draw; t is a group. */
+void qdot_lanes_draw(qdot_lanes *lanes, const double *t);
+
+/* As qdot_taylor_order, qdot_taylor_correct; newest [n groups]. */
+void qdot_lanes_order(qdot_lanes *lanes, int k);
+void qdot_lanes_correct(qdot_lanes *lanes, int k, size_t n, const double *newest);
+
+#endif

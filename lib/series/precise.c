@@ -1,0 +1,328 @@
+/* precise.c -- a series program in MPFR. */
+#include "series/precise.h"
+
+#include <math.h>
+#include <stdint.h>
+
+#include "num/real.h"
+#include "series/near.h"
+#include "series/program.h"
+#include "tape/constant.h"
+
+/* As qdot_program_step, with the places of its rows. */
+typedef struct {
+    int op, zero, sign;
+    mpfr_t *x, *y, *z, *to, *second, *third, *d;
+} step;
+
+/* The first three of the scratch are U, V, W of recurrence.def, the last is that of sums. */
+enum { SCRATCH = 4 };
+
+struct qdot_precise {
+    qdot_program program;
+    size_t stride;
+    qdot_reals numbers; /* [rows x stride], the inputs first */
+    qdot_reals scratch; /* [SCRATCH] */
+    mp_limb_t *work;    /* of a dot */
+    mpfr_t *w;          /* scratch.at */
+    step *steps;        /* [program.length], END behind them */
+};
+
+/* Orders that are looked at of arguments of exponentials: those beyond add little to a step that
+ * goes no further than these say. */
+enum { QDOT_PRECISE_NEAR = 200 };
+
+#define RN MPFR_RNDN
+
+/* --- sums of products --------------------------------------------------------------- */
+
+/* sum = sum_{j=from..k-below} a_j b_{k-j} */
+static void
+convolve(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, int k, int from,
+         int below)
+{
+    int n = k - below - from + 1;
+
+    if (n > 0)
+        qdot_real_dot(sum, a + from, b + (k - from), (size_t)n, p->work);
+    else
+        mpfr_set_zero(sum, 1);
+}
+
+/* sum = sum_{j=from..k-from} a_j a_{k-j}; w[3] is used */
+static void
+square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
+{
+    int n = (k + 1) / 2 - from;
+
+    mpfr_set_zero(sum, 1);
+    if (n > 0)
+        qdot_real_dot(sum, a + from, a + (k - from), (size_t)n, p->work);
+    mpfr_mul_2ui(sum, sum, 1, RN);
+    if (k % 2 == 0 && k / 2 >= from) {
+        mpfr_sqr(p->w[3], a[k / 2], RN);
+        mpfr_add(sum, sum, p->w[3], RN);
+    }
+}
+
+/* --- order 0 ------------------------------------------------------------------------- */
+
+/* d = a - b floor(a/b) */
+static void
+modulo(mpfr_ptr d, mpfr_srcptr a, mpfr_srcptr b, mpfr_ptr w)
+{
+    mpfr_div(w, a, b, RN);
+    mpfr_floor(w, w);
+    mpfr_mul(w, w, b, RN);
+    mpfr_sub(d, a, w, RN);
+}
+
+/* 1 - tanh^2 beside tanh. */
+static void
+hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
+{
+    mpfr_tanh(d, a, RN);
+    mpfr_sqr(slope, d, RN);
+    mpfr_ui_sub(slope, 1, slope, RN);
+}
+
+static void
+value(qdot_precise *p, const step *i)
+{
+    mpfr_srcptr a = i->x[0], b = i->y[0], c = i->z[0];
+    mpfr_ptr d = i->to[0], w = p->w[0];
+
+    switch (i->zero) {
+    case QDOT_OP_NEG: mpfr_neg(d, a, RN); break;
+    case QDOT_OP_ADD: mpfr_add(d, a, b, RN); break;
+    case QDOT_OP_SUB: mpfr_sub(d, a, b, RN); break;
+    case QDOT_OP_MUL: mpfr_mul(d, a, b, RN); break;
+    case QDOT_OP_MADD: mpfr_mul(w, a, b, RN), mpfr_add(d, w, c, RN); break;
+    case QDOT_OP_MSUB: mpfr_mul(w, a, b, RN), mpfr_sub(d, w, c, RN); break;
+    case QDOT_OP_NMADD: mpfr_mul(w, a, b, RN), mpfr_sub(d, c, w, RN); break;
+    case QDOT_OP_DIV: mpfr_div(d, a, b, RN); break;
+    case QDOT_OP_SQRT: mpfr_sqrt(d, a, RN); break;
+    case QDOT_OP_POW: mpfr_pow(d, a, b, RN); break;
+    case QDOT_ZERO_POWER: mpfr_pow(d, b, c, RN); break;
+    case QDOT_OP_SINCOS: mpfr_sin_cos(d, i->second[0], a, RN); break;
+    case QDOT_ZERO_SINHCOSH: mpfr_sinh_cosh(d, i->second[0], a, RN); break;
+    case QDOT_OP_TANH: hyperbolic_tangent(d, i->second[0], a); break;
+    case QDOT_OP_ATAN2: mpfr_atan2(d, a, b, RN); break;
+    case QDOT_OP_EXP: mpfr_exp(d, a, RN); break;
+    case QDOT_OP_LOG: mpfr_log(d, a, RN); break;
+    case QDOT_OP_ERF: mpfr_erf(d, a, RN); break;
+    case QDOT_OP_ERFC: mpfr_erfc(d, a, RN); break;
+    case QDOT_OP_ASIN: mpfr_asin(d, a, RN); break;
+    case QDOT_OP_ACOS: mpfr_acos(d, a, RN); break;
+    case QDOT_OP_ATAN: mpfr_atan(d, a, RN); break;
+    case QDOT_OP_ASINH: mpfr_asinh(d, a, RN); break;
+    case QDOT_OP_ACOSH: mpfr_acosh(d, a, RN); break;
+    case QDOT_OP_ATANH: mpfr_atanh(d, a, RN); break;
+    case QDOT_OP_ABS: mpfr_abs(d, a, RN); break;
+    case QDOT_OP_SIGN:
+        if (mpfr_nan_p(a))
+            mpfr_set_nan(d);
+        else
+            mpfr_set_si(d, mpfr_sgn(a), RN);
+        break;
+    case QDOT_OP_MIN: mpfr_set(d, mpfr_nan_p(a) || mpfr_less_p(a, b) ? a : b, RN); break;
+    case QDOT_OP_MAX: mpfr_set(d, mpfr_nan_p(a) || mpfr_greater_p(a, b) ? a : b, RN); break;
+    case QDOT_OP_MOD: modulo(d, a, b, w); break;
+    case QDOT_OP_FLOOR: mpfr_floor(d, a); break;
+    case QDOT_OP_LT: mpfr_set_ui(d, mpfr_less_p(a, b) != 0, RN); break;
+    case QDOT_OP_LE: mpfr_set_ui(d, mpfr_lessequal_p(a, b) != 0, RN); break;
+    case QDOT_OP_EQ: mpfr_set_ui(d, mpfr_equal_p(a, b) != 0, RN); break;
+    case QDOT_OP_AND: mpfr_set_ui(d, !mpfr_zero_p(a) && !mpfr_zero_p(b), RN); break;
+    case QDOT_OP_OR: mpfr_set_ui(d, !mpfr_zero_p(a) || !mpfr_zero_p(b), RN); break;
+    case QDOT_OP_NOT: mpfr_set_ui(d, mpfr_zero_p(a) != 0, RN); break;
+    case QDOT_OP_SELECT: mpfr_set(d, !mpfr_zero_p(a) ? b : c, RN); break;
+    default: mpfr_set_nan(d); /* an operation without a value here does not pass the tests */
+    }
+}
+
+/* --- order k ------------------------------------------------------------------------- */
+
+#define X i->x[k]
+#define Y i->y[k]
+#define Z i->z[k]
+#define TO i->to[k]
+#define SECOND i->second[k]
+#define THIRD i->third[k]
+#define D i->d[k]
+#define U precise->w[0]
+#define V precise->w[1]
+#define W precise->w[2]
+#define SUM(r, a, b, from, below) convolve(precise, r, i->a, i->b, k, from, below);
+#define SQUARED(r, a, from) square(precise, r, i->a, k, from);
+#define ADD(r, p, q) mpfr_add(r, p, q, RN);
+#define SUB(r, p, q) mpfr_sub(r, p, q, RN);
+#define NEG(r, p) mpfr_neg(r, p, RN);
+#define HALF(r, p) mpfr_div_2ui(r, p, 1, RN);
+#define TIMES(r, p, b) mpfr_mul(r, p, i->b[0], RN);
+#define OVER(r, p, b) mpfr_div(r, p, i->b[0], RN);
+#define ORDERS(r, p) mpfr_mul_ui(r, p, (unsigned long)k, RN);
+#define PER_ORDER(r, p) mpfr_div_ui(r, p, (unsigned long)k, RN);
+#define SIGNED(r, p) mpfr_mul_si(r, p, i->sign, RN);
+
+static void
+order(qdot_precise *precise, const step *i, int k)
+{
+    switch (i->op) {
+#define RECURRENCE(ID, cost, body)                                                       \
+    case QDOT_T_##ID: body break;
+#include "series/recurrence.def"
+#undef RECURRENCE
+    }
+}
+
+#undef X
+#undef Y
+#undef Z
+#undef TO
+#undef SECOND
+#undef THIRD
+#undef D
+#undef U
+#undef V
+#undef W
+
+void
+qdot_precise_order(qdot_precise *p, int k)
+{
+    for (const step *i = p->steps + (k > 0 ? p->program.still : 0); i->op != QDOT_T_END; i++)
+        if (k > 0)
+            order(p, i, k);
+        else
+            value(p, i);
+}
+
+double
+qdot_precise_near(const qdot_precise *p, int k, double log2_h)
+{
+    const double digits = (double)mpfr_get_prec(p->w[0]) * M_LN2;
+    double sizes[QDOT_PRECISE_NEAR + 1];
+
+    if (k > QDOT_PRECISE_NEAR)
+        k = QDOT_PRECISE_NEAR;
+    for (const step *i = p->steps + p->program.still; i->op != QDOT_T_END; i++) {
+        const double times = qdot_recurrence_exponential(i->op);
+
+        if (!(times > 0))
+            continue;
+        for (int j = 1; j <= k; j++)
+            sizes[j] = qdot_real_log2(i->x[j]);
+        log2_h = qdot_near_log2(
+            k, sizes, qdot_near_limit(k, times * mpfr_get_d(i->x[0], RN), digits) / times,
+            log2_h);
+    }
+    return log2_h;
+}
+
+/* --- building ------------------------------------------------------------------------ */
+
+static mpfr_t *
+place(const qdot_precise *p, qdot_program_row r)
+{
+    return r == QDOT_NO_ROW ? NULL : p->numbers.at + (size_t)r * p->stride;
+}
+
+static qdot_status
+settle(qdot_precise *p, qdot_pool *pool, const qdot_tape *tape)
+{
+    const qdot_program *program = &p->program;
+
+    for (qdot_program_row r = 0; r < program->rows.n; r++) {
+        const qdot_program_row_info *row = program->rows.at + r;
+
+        if (row->source == QDOT_ROW_CONSTANT)
+            QDOT_TRY(qdot_constant_real(pool, tape->exact[row->at], place(p, r)[0]));
+        else if (row->source == QDOT_ROW_WHOLE)
+            mpfr_set_si(place(p, r)[0], row->at, RN);
+    }
+    for (size_t i = 0; i < program->steps.n; i++) {
+        const qdot_program_step *s = program->steps.at + i;
+
+        p->steps[i] = (step){.op = s->op,
+                             .zero = s->zero,
+                             .sign = s->sign,
+                             .x = place(p, s->x),
+                             .y = place(p, s->y),
+                             .z = place(p, s->z),
+                             .to = place(p, s->to),
+                             .second = place(p, s->second),
+                             .third = place(p, s->third),
+                             .d = place(p, s->d)};
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+make(qdot_precise *p, qdot_pool *pool, const qdot_tape *tape, int most, mpfr_prec_t bits)
+{
+    QDOT_TRY(qdot_program_init(tape, tape->inputs, most == 0, &p->program));
+    p->stride = (size_t)most + 1;
+    QDOT_TRY(qdot_reals_init(&p->numbers, p->program.rows.n * p->stride, bits));
+    QDOT_TRY(qdot_reals_init(&p->scratch, SCRATCH, bits));
+    p->w = p->scratch.at;
+    p->work = qdot_calloc(qdot_real_dot_work(bits), sizeof *p->work);
+    p->steps = qdot_calloc(p->program.steps.n, sizeof *p->steps);
+    if (!p->work || !p->steps)
+        return QDOT_ENOMEM;
+    return settle(p, pool, tape);
+}
+
+qdot_status
+qdot_precise_new(qdot_pool *pool, const qdot_tape *tape, int most, mpfr_prec_t bits,
+                 qdot_precise **precise)
+{
+    qdot_precise *p = qdot_calloc(1, sizeof *p);
+    qdot_status status;
+
+    *precise = NULL;
+    if (!p)
+        return QDOT_ENOMEM;
+    status = make(p, pool, tape, most, bits);
+    if (status != QDOT_OK) {
+        qdot_precise_free(p);
+        return status;
+    }
+    *precise = p;
+    return QDOT_OK;
+}
+
+void
+qdot_precise_free(qdot_precise *p)
+{
+    if (!p)
+        return;
+    qdot_program_clear(&p->program);
+    qdot_reals_clear(&p->numbers);
+    qdot_reals_clear(&p->scratch);
+    qdot_free(p->work);
+    qdot_free(p->steps);
+    qdot_free(p);
+}
+
+mpfr_t *
+qdot_precise_input(qdot_precise *p, size_t i)
+{
+    return p->numbers.at + i * p->stride;
+}
+
+size_t
+qdot_precise_stride(const qdot_precise *p)
+{
+    return p->stride;
+}
+
+const mpfr_t *
+qdot_precise_output(const qdot_precise *p, size_t i)
+{
+    return (const mpfr_t *)place(p, p->program.outputs.at[i]);
+}
+
+bool
+qdot_precise_is_constant(const qdot_precise *p, size_t i)
+{
+    return p->program.rows.at[p->program.outputs.at[i]].still;
+}

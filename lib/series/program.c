@@ -1,0 +1,362 @@
+/* program.c -- from a tape to the steps of a series program. */
+#include "series/program.h"
+
+typedef qdot_program_row row;
+
+typedef struct {
+    qdot_program *program;
+    const qdot_tape *tape;
+    row *at;                        /* [tape->places] the row that a place has now */
+    qdot_vec(row) sincos, sinhcosh; /* [rows] sine of the pair made of a row; QDOT_NO_ROW */
+    qdot_program_step nothing;       /* written to after a failure */
+    qdot_status status;
+} builder;
+
+static row
+new_row(builder *b, qdot_program_source source, int at, bool still)
+{
+    const qdot_program_row_info info = {.source = source, .still = still, .at = at};
+
+    if (b->status == QDOT_OK)
+        b->status = qdot_vec_push(&b->program->rows, info);
+    if (b->status == QDOT_OK)
+        b->status = qdot_vec_push(&b->sincos, QDOT_NO_ROW);
+    if (b->status == QDOT_OK)
+        b->status = qdot_vec_push(&b->sinhcosh, QDOT_NO_ROW);
+    return b->status == QDOT_OK ? (row)(b->program->rows.n - 1) : 0;
+}
+
+static bool
+is_constant(const builder *b, row r)
+{
+    return b->status == QDOT_OK && b->program->rows.at[r].still;
+}
+
+static void
+add(builder *b, qdot_program_step step)
+{
+    if (b->status == QDOT_OK)
+        b->status = qdot_vec_push(&b->program->steps, step);
+}
+
+/* The step just emitted. */
+static qdot_program_step *
+last(builder *b)
+{
+    return b->status == QDOT_OK ? b->program->steps.at + b->program->steps.n - 1 : &b->nothing;
+}
+
+static row
+emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
+{
+    static const double cost[QDOT_T_COUNT] = {
+#define RECURRENCE(ID, cost, body) [QDOT_T_##ID] = cost,
+#include "series/recurrence.def"
+#undef RECURRENCE
+    };
+    const bool still = is_constant(b, x) && is_constant(b, y) && is_constant(b, z);
+    const row to = new_row(b, QDOT_ROW_COMPUTED, 0, still);
+
+    b->program->convolutions += still ? 0 : cost[op];
+    add(b, (qdot_program_step){.op = (uint16_t)op,
+                              .zero = (uint16_t)zero,
+                              .sign = 1,
+                              .still = still,
+                              .to = to,
+                              .second = QDOT_NO_ROW,
+                              .third = QDOT_NO_ROW,
+                              .d = QDOT_NO_ROW,
+                              .x = x,
+                              .y = y,
+                              .z = z});
+    return to;
+}
+
+/* Further rows that the step just emitted writes. */
+static void
+with_d(builder *b)
+{
+    const row d = new_row(b, QDOT_ROW_COMPUTED, 0, last(b)->still);
+
+    last(b)->d = d;
+}
+
+static void
+with_second(builder *b)
+{
+    const row second = new_row(b, QDOT_ROW_COMPUTED, 0, last(b)->still);
+
+    last(b)->second = second;
+}
+
+static void
+with_third(builder *b)
+{
+    const row third = new_row(b, QDOT_ROW_COMPUTED, 0, last(b)->still);
+
+    last(b)->third = third;
+}
+
+/* A constant times x, and z. */
+static row
+scaled(builder *b, qdot_op op, row constant, row x, row z)
+{
+    static const qdot_recurrence scale[QDOT_OP_COUNT] = {[QDOT_OP_MUL] = QDOT_T_SCALE,
+                                                        [QDOT_OP_MADD] = QDOT_T_SCALEADD,
+                                                        [QDOT_OP_MSUB] = QDOT_T_SCALESUB,
+                                                        [QDOT_OP_NMADD] =
+                                                            QDOT_T_SCALEOFF};
+
+    return emit(b, scale[op], op, constant, x, z);
+}
+
+static row
+product(builder *b, qdot_op op, row x, row y, row z)
+{
+    static const qdot_recurrence plain[QDOT_OP_COUNT] = {[QDOT_OP_MUL] = QDOT_T_MUL,
+                                                        [QDOT_OP_MADD] = QDOT_T_MADD,
+                                                        [QDOT_OP_MSUB] = QDOT_T_MSUB,
+                                                        [QDOT_OP_NMADD] = QDOT_T_NMADD};
+    row square;
+
+    if (is_constant(b, x))
+        return scaled(b, op, x, y, z);
+    if (is_constant(b, y))
+        return scaled(b, op, y, x, z);
+    if (x != y) /* the newer factor first: rows follow each other as they are computed */
+        return x > y ? emit(b, plain[op], op, x, y, z) : emit(b, plain[op], op, y, x, z);
+    square = emit(b, QDOT_T_SQUARE, QDOT_OP_MUL, x, x, x);
+    if (op == QDOT_OP_MADD)
+        return emit(b, QDOT_T_ADD, QDOT_OP_ADD, square, z, z);
+    if (op == QDOT_OP_MSUB)
+        return emit(b, QDOT_T_SUB, QDOT_OP_SUB, square, z, z);
+    if (op == QDOT_OP_NMADD)
+        return emit(b, QDOT_T_SUB, QDOT_OP_SUB, z, square, square);
+    return square;
+}
+
+/* Sine of the pair of x, *cosine beside it. */
+static row
+pair(builder *b, qdot_recurrence op, row x, row *cosine)
+{
+    row *made;
+    row to;
+
+    if (b->status != QDOT_OK)
+        return *cosine = 0;
+    made = op == QDOT_T_SINCOS ? b->sincos.at + x : b->sinhcosh.at + x;
+    if (*made != QDOT_NO_ROW) {
+        *cosine = *made + 1;
+        return *made;
+    }
+    to = emit(b, op, op == QDOT_T_SINCOS ? QDOT_OP_SINCOS : QDOT_ZERO_SINHCOSH, x, x, x);
+    with_second(b);
+    with_d(b);
+    *cosine = to + 1;
+    if (b->status == QDOT_OK)
+        (op == QDOT_T_SINCOS ? b->sincos.at : b->sinhcosh.at)[x] = to;
+    return to;
+}
+
+static row
+whole(builder *b, int n)
+{
+    return new_row(b, QDOT_ROW_WHOLE, n, true);
+}
+
+static row
+sum(builder *b, qdot_op op, row x, row y)
+{
+    return emit(b, op == QDOT_OP_ADD ? QDOT_T_ADD : QDOT_T_SUB, op, x, y, y);
+}
+
+/* What the derivative of a function is divided by. */
+static row
+denominator(builder *b, qdot_op f, row x)
+{
+    row square, one;
+
+    if (f == QDOT_OP_LOG)
+        return x;
+    square = product(b, QDOT_OP_MUL, x, x, x);
+    one = whole(b, 1);
+    switch (f) {
+    case QDOT_OP_ATAN: return sum(b, QDOT_OP_ADD, one, square);
+    case QDOT_OP_ATANH: return sum(b, QDOT_OP_SUB, one, square);
+    case QDOT_OP_ASINH: square = sum(b, QDOT_OP_ADD, one, square); break;
+    case QDOT_OP_ACOSH: square = sum(b, QDOT_OP_SUB, square, one); break;
+    default: square = sum(b, QDOT_OP_SUB, one, square);
+    }
+    return emit(b, QDOT_T_SQRT, QDOT_OP_SQRT, square, square, square);
+}
+
+static row
+ratio(builder *b, qdot_op f, row x)
+{
+    row u = denominator(b, f, x), to = emit(b, QDOT_T_RATIO, f, x, u, u);
+
+    last(b)->sign = f == QDOT_OP_ACOS ? -1 : 1;
+    with_d(b);
+    return to;
+}
+
+static row
+power(builder *b, row x, row exponent)
+{
+    row to, l;
+
+    if (is_constant(b, exponent)) {
+        to = emit(b, QDOT_T_POW, QDOT_OP_POW, x, exponent, exponent);
+        with_d(b);
+        return to;
+    }
+    l = product(b, QDOT_OP_MUL, ratio(b, QDOT_OP_LOG, x), exponent, exponent);
+    to = emit(b, QDOT_T_EXP, QDOT_ZERO_POWER, l, x, exponent);
+    with_d(b);
+    return to;
+}
+
+static row
+arctangent(builder *b, row y, row x)
+{
+    row xx = product(b, QDOT_OP_MUL, x, x, x), u = product(b, QDOT_OP_MADD, y, y, xx);
+    row to = emit(b, QDOT_T_ATAN2, QDOT_OP_ATAN2, y, x, u);
+
+    with_second(b);
+    with_third(b);
+    with_d(b);
+    return to;
+}
+
+static row
+build_one(builder *b, const qdot_instruction *i, row *second)
+{
+    qdot_op op = (qdot_op)i->op;
+    row x = b->at[i->x], to, other;
+    row y = qdot_operations[op].operands > 1 ? b->at[i->y] : x;
+    row z = qdot_operations[op].operands > 2 ? b->at[i->z] : y;
+
+    switch (op) {
+    case QDOT_OP_NEG: return emit(b, QDOT_T_NEG, op, x, x, x);
+    case QDOT_OP_ADD:
+    case QDOT_OP_SUB: return sum(b, op, x, y);
+    case QDOT_OP_MUL:
+    case QDOT_OP_MADD:
+    case QDOT_OP_MSUB:
+    case QDOT_OP_NMADD: return product(b, op, x, y, z);
+    case QDOT_OP_DIV: return emit(b, QDOT_T_DIV, op, x, y, y);
+    case QDOT_OP_SQRT: return emit(b, QDOT_T_SQRT, op, x, x, x);
+    case QDOT_OP_POW: return power(b, x, y);
+    case QDOT_OP_SINCOS: return pair(b, QDOT_T_SINCOS, x, second);
+    case QDOT_OP_SIN: return pair(b, QDOT_T_SINCOS, x, &other);
+    case QDOT_OP_COS: return pair(b, QDOT_T_SINCOS, x, &other), other;
+    case QDOT_OP_SINH: return pair(b, QDOT_T_SINHCOSH, x, &other);
+    case QDOT_OP_COSH: return pair(b, QDOT_T_SINHCOSH, x, &other), other;
+    case QDOT_OP_ATAN2: return arctangent(b, x, y);
+    case QDOT_OP_EXP:
+        to = emit(b, QDOT_T_EXP, op, x, x, x);
+        with_d(b);
+        return to;
+    case QDOT_OP_ERF:
+    case QDOT_OP_ERFC:
+        to = emit(b, QDOT_T_ALONG, op, x, y, y);
+        with_d(b);
+        return to;
+    case QDOT_OP_TANH:
+        to = emit(b, QDOT_T_TANH, op, x, x, x);
+        with_second(b);
+        with_d(b);
+        return to;
+    default:
+        return op >= QDOT_OP_ABS ? emit(b, QDOT_T_VALUE, op, x, y, z) : ratio(b, op, x);
+    }
+}
+
+/* The operations without a series. */
+const char *
+qdot_program_hindrance(const qdot_tape *tape)
+{
+    for (size_t i = 0; i < tape->length; i++)
+        if (tape->code[i].op >= QDOT_OP_ABS)
+            return qdot_operations[tape->code[i].op].name;
+    return NULL;
+}
+
+/* Steps that are still go to the front, in the order in which they stand. */
+static qdot_status
+still_ones_first(qdot_program *p)
+{
+    qdot_program_step *moving = qdot_calloc(p->steps.n + 1, sizeof *moving);
+    size_t n = 0;
+
+    if (!moving)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < p->steps.n; i++)
+        if (p->steps.at[i].still)
+            p->steps.at[p->still++] = p->steps.at[i];
+        else
+            moving[n++] = p->steps.at[i];
+    for (size_t i = 0; i < n; i++)
+        p->steps.at[p->still + i] = moving[i];
+    p->length = p->still + n;
+    qdot_free(moving);
+    return QDOT_OK;
+}
+
+static qdot_status
+build(builder *b)
+{
+    const qdot_tape *tape = b->tape;
+    qdot_program *p = b->program;
+
+    for (size_t i = 0; i < tape->inputs; i++)
+        b->at[i] = new_row(b, QDOT_ROW_INPUT, (int)i, i >= p->moving);
+    for (size_t i = 0; i < tape->constants; i++)
+        b->at[tape->inputs + i] = new_row(b, QDOT_ROW_CONSTANT, (int)i, true);
+    for (size_t i = 0; i < tape->length && b->status == QDOT_OK; i++) {
+        const qdot_instruction *in = tape->code + i;
+        row second = QDOT_NO_ROW, to = build_one(b, in, &second);
+
+        b->at[in->to] = to;
+        if (in->op == QDOT_OP_SINCOS)
+            b->at[in->y] = second;
+    }
+    for (size_t i = 0; i < tape->outputs && b->status == QDOT_OK; i++)
+        b->status = qdot_vec_push(&p->outputs, b->at[tape->output[i]]);
+    QDOT_TRY(b->status);
+    QDOT_TRY(still_ones_first(p));
+    add(b, (qdot_program_step){.op = QDOT_T_END});
+    return b->status;
+}
+
+qdot_status
+qdot_program_init(const qdot_tape *tape, size_t moving, bool values_only,
+                         qdot_program *program)
+{
+    const char *hindrance = values_only ? NULL : qdot_program_hindrance(tape);
+    builder b = {.program = program, .tape = tape};
+
+    *program = (qdot_program){
+        .inputs = tape->inputs, .moving = moving, .constants = tape->constants};
+    if (hindrance)
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: Taylor series of equations that switch (%s)",
+                         hindrance);
+    b.at = qdot_calloc(tape->places + 1, sizeof *b.at);
+    b.status = b.at ? build(&b) : QDOT_ENOMEM;
+    qdot_free(b.at);
+    qdot_free(b.sincos.at);
+    qdot_free(b.sinhcosh.at);
+    if (b.status != QDOT_OK)
+        qdot_program_clear(program);
+    return b.status;
+}
+
+void
+qdot_program_clear(qdot_program *program)
+{
+    qdot_free(program->rows.at);
+    qdot_free(program->steps.at);
+    qdot_free(program->outputs.at);
+    *program = (qdot_program){0};
+}

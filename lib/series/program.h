@@ -1,0 +1,100 @@
+/* program.h -- a series program: what an expansion into a power series does, order by order.
+ *
+ * A program knows rows, each the coefficients of one series, and steps, each of which computes
+ * one order of one row or more from rows that come before it. It holds no coefficient: those
+ * belong to whoever carries it out (an executor: taylor.h, lanes.h, two.h, precise.h), in the
+ * arithmetic that it has. The recurrences are rows of recurrence.def.
+ *
+ * Tests  tests/series/test_program.c
+ */
+#ifndef QDOT_SERIES_PROGRAM_H
+#define QDOT_SERIES_PROGRAM_H
+
+#include "base/memory.h"
+#include "tape/code.h"
+
+/* Recurrences, by the names that recurrence.def has. */
+typedef enum {
+    QDOT_T_END,
+    QDOT_T_VALUE, /* order 0 alone: an operation that switches */
+#define RECURRENCE(ID, cost, body) QDOT_T_##ID,
+#include "series/recurrence.def"
+#undef RECURRENCE
+    QDOT_T_LINK, /* to' = unit x, second' = unit to (no row: none) */
+    QDOT_T_COUNT
+} qdot_recurrence;
+
+/* Values of order 0 that operation.def does not have. */
+enum {
+    QDOT_ZERO_SINHCOSH = QDOT_OP_COUNT, /* to, second of x */
+    QDOT_ZERO_POWER,                    /* y^z; x is the logarithm of it */
+    QDOT_ZERO_COUNT
+};
+
+typedef uint32_t qdot_program_row; /* a row by its number */
+
+#define QDOT_NO_ROW UINT32_MAX
+
+/* Where order 0 of a row comes from. */
+typedef enum {
+    QDOT_ROW_INPUT,    /* the caller; number `at` of the inputs */
+    QDOT_ROW_CONSTANT, /* constant `at` of the tape */
+    QDOT_ROW_WHOLE,    /* the whole number `at` */
+    QDOT_ROW_COMPUTED  /* a step */
+} qdot_program_source;
+
+typedef struct {
+    qdot_program_source source;
+    bool still; /* it has order 0 only */
+    int at;
+} qdot_program_row_info;
+
+/* Rows that a step does not have are QDOT_NO_ROW, operands that it does not have are x. */
+typedef struct {
+    uint16_t op, zero; /* recurrence; how order 0 is computed: an operation of a tape, or above */
+    int sign;          /* of RATIO */
+    bool still;        /* it has order 0 only */
+    qdot_program_row to, second, third, d, x, y, z;
+} qdot_program_step;
+
+typedef struct {
+    size_t inputs, moving; /* inputs; the first of them, which have more than order 0 */
+    size_t constants;      /* of the tape: the rows behind the inputs, in its order */
+    qdot_vec(qdot_program_row_info) rows; /* the inputs first */
+    qdot_vec(qdot_program_step) steps;    /* those that are still first; END behind them */
+    size_t length, still;                /* of steps */
+    qdot_vec(qdot_program_row) outputs;
+    double convolutions; /* an order; a square counts half */
+} qdot_program;
+
+/* The program of a tape, which is not kept, whose inputs from `moving` on are numbers. With
+ * `values_only` it has order 0 alone, and operations that switch are allowed. Errors:
+ * QDOT_ENOTBUILT (an operation that switches), QDOT_ENOMEM; `program` is then empty. */
+QDOT_MUST_CHECK qdot_status qdot_program_init(const qdot_tape *tape, size_t moving,
+                                                     bool values_only,
+                                                     qdot_program *program);
+void qdot_program_clear(qdot_program *program);
+
+/* Whether a tape has a series: the operation that has none, or NULL. */
+const char *qdot_program_hindrance(const qdot_tape *tape);
+
+/* Whether a recurrence sums products of lower orders. */
+static inline bool
+qdot_recurrence_looks_back(int op)
+{
+    return op >= QDOT_T_MUL && op < QDOT_T_LINK;
+}
+
+/* How many times its argument a recurrence's result is the exponential of; 0: it is none. */
+static inline double
+qdot_recurrence_exponential(int op)
+{
+    switch (op) {
+    case QDOT_T_EXP:
+    case QDOT_T_SINHCOSH: return 1;
+    case QDOT_T_TANH: return 2;
+    default: return 0;
+    }
+}
+
+#endif

@@ -1,0 +1,125 @@
+/* taylor-code-solve.c -- unknowns as code: M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}. */
+#include "series/taylor-code-sum.h"
+
+/* L, then M_0^-1. */
+static qdot_x86_rm
+factor_at(const qdot_generator *g, size_t block, size_t i, size_t j)
+{
+    return qdot_code_work(g->block_slots[block] + i * g->t->blocks[block].n + j);
+}
+
+static qdot_x86_rm
+inverse_at(const qdot_generator *g, size_t block, size_t i, size_t j)
+{
+    return factor_at(g, block, g->t->blocks[block].n + i, j);
+}
+
+/* What the sum has so far becomes its first term. */
+static void
+settle(qdot_generator *g, sum *s, int more)
+{
+    if (s->n + more <= QDOT_CODE_TERMS)
+        return;
+    s->v = total(g, s);
+    s->n = 0;
+}
+
+/* Terms of products M a of row i that the vectors do not have: `late`, those with order k of
+ * M, which are known after the others. */
+static void
+add_couplings(qdot_generator *g, const qdot_taylor_block *b, size_t i, bool late, sum *s)
+{
+    for (size_t c = 0; c < b->n_couplings; c++) {
+        const qdot_taylor_coupling *m = b->couplings + c;
+
+        if (m->i != i)
+            continue;
+        settle(g, s, 2);
+        if (late)
+            times(g, s, true, at(g, m->a, 0), m->M, g->k);
+        else
+            lately(g, s, true, at(g, m->M, 1), m->a, at(g, m->a, 1), m->M);
+    }
+}
+
+static void
+right_hand_side(qdot_generator *g, const qdot_taylor_block *b, size_t i)
+{
+    sum s = {.v = {.reg = -1}};
+
+    add_past_of(g, &s, true, NULL, g->unknown_sums[qdot_code_row(g, b->r[i])]);
+    add_couplings(g, b, i, false, &s);
+    add_couplings(g, b, i, true, &s);
+    settle(g, &s, 1);
+    add(g, &s, false, b->f[i]);
+    finish_sum(g, &s, b->r[i]);
+}
+
+/* The sum over entry i of the diagonal: the rounding of its inverse would be that of every
+ * order. */
+static void
+divide(qdot_generator *g, size_t block, size_t i, sum *s)
+{
+    s->v = total(g, s);
+    s->n = 0;
+    scale_by(g, QDOT_X86_DIV, &s->v, factor_at(g, block, i, i));
+}
+
+/* r becomes L^-1 r, then a = L^-T r. */
+static void
+by_factor(qdot_generator *g, size_t block)
+{
+    const qdot_taylor_block *b = g->t->blocks + block;
+
+    for (size_t i = 0; i < b->n; i++) {
+        sum s = {.v = {.reg = -1}};
+
+        add(g, &s, false, b->r[i]);
+        for (size_t j = 0; j < i; j++) {
+            settle(g, &s, 1);
+            times(g, &s, true, factor_at(g, block, i, j), b->r[j], g->k);
+        }
+        divide(g, block, i, &s);
+        finish_sum(g, &s, b->r[i]);
+    }
+    for (size_t i = b->n; i-- > 0;) {
+        sum s = {.v = {.reg = -1}};
+
+        add(g, &s, false, b->r[i]);
+        for (size_t j = i + 1; j < b->n; j++) {
+            settle(g, &s, 1);
+            times(g, &s, true, factor_at(g, block, j, i), b->a[j], g->k);
+        }
+        divide(g, block, i, &s);
+        finish_sum(g, &s, b->a[i]);
+    }
+}
+
+static void
+by_inverse(qdot_generator *g, size_t block)
+{
+    const qdot_taylor_block *b = g->t->blocks + block;
+
+    for (size_t i = 0; i < b->n; i++) {
+        sum s = {.v = {.reg = -1}};
+
+        for (size_t j = 0; j < b->n; j++) {
+            settle(g, &s, 1);
+            times(g, &s, false, inverse_at(g, block, i, j), b->r[j], g->k);
+        }
+        finish_sum(g, &s, b->a[i]);
+    }
+}
+
+void
+qdot_code_solve(qdot_generator *g, size_t block)
+{
+    const qdot_taylor_block *b = g->t->blocks + block;
+
+    for (size_t i = 0; i < b->n; i++)
+        right_hand_side(g, b, i);
+    if (g->k <= b->solved)
+        by_factor(g, block);
+    else
+        by_inverse(g, block);
+}

@@ -1,0 +1,499 @@
+/* taylor-code-sum.h -- sums of known coefficients as code: what a recurrence is written with.
+ * Internal to series/: for the files that write recurrences (taylor-code.h).
+ *
+ * Of a product sum_{j=0..k} x_j y_{k-j} the terms without orders 0, 1, k - 1 and k are in
+ * a vector by now (taylor-code.c). The others are added one by one, in the order in which
+ * they come to be known: from the newest to the result it is one operation.
+ */
+#ifndef QDOT_SERIES_TAYLOR_CODE_SUM_H
+#define QDOT_SERIES_TAYLOR_CODE_SUM_H
+
+#include "series/taylor-generator.h"
+
+enum {
+    QDOT_CODE_TERMS = 24,
+    behind_scalars = QDOT_CODE_FIRST_SCALAR + QDOT_CODE_SCALARS,
+    latency = 4,
+    latency_of_vectors = 12, /* from the newest coefficient to the next sum */
+    latency_of_division = 14
+};
+
+/* --- registers ---------------------------------------------------------------------- */
+
+static inline int
+touch(qdot_generator *g, int reg)
+{
+    const int first = g->behind[g->latest];
+
+    if (reg == g->latest || reg < QDOT_CODE_FIRST_SCALAR || reg >= behind_scalars)
+        return reg;
+    if (reg != first) { /* the ring is opened for it */
+        g->behind[g->ahead[reg]] = g->behind[reg];
+        g->ahead[g->behind[reg]] = g->ahead[reg];
+        g->behind[reg] = first;
+        g->ahead[reg] = g->latest;
+        g->ahead[first] = g->behind[g->latest] = reg;
+    }
+    g->latest = reg;
+    return reg;
+}
+
+static inline int
+fresh(qdot_generator *g)
+{
+    const int reg = g->behind[g->latest];
+
+    g->held[reg] = QDOT_CODE_NONE;
+    return touch(g, reg);
+}
+
+static inline void
+hold(qdot_generator *g, int reg, uint32_t row, int k)
+{
+    g->held[reg] = row;
+    g->held_order[reg] = k;
+    g->where[4 * row + (uint32_t)(k & 3)] = (unsigned char)reg;
+}
+
+/* The register with coefficient k of a row that moves. */
+static inline int
+coefficient(qdot_generator *g, uint32_t row, int k)
+{
+    unsigned char *where = &g->where[4 * row + (uint32_t)(k & 3)];
+    int reg = *where;
+
+    if (g->held[reg] == row && g->held_order[reg] == k)
+        return touch(g, reg);
+    reg = fresh(g);
+    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, qdot_code_coefficient(g, row, k));
+    hold(g, reg, row, k);
+    return reg;
+}
+
+/* --- sums --------------------------------------------------------------------------- */
+
+/* A number in a register, or less it. */
+typedef struct {
+    int reg; /* -1: 0 */
+    bool own, negative;
+    int ready;
+} value;
+
+/* +- factor times coefficient k of a row, or times a sum; without a factor: as it is. */
+typedef struct {
+    bool minus, plain;
+    qdot_x86_rm factor;
+    uint32_t row; /* QDOT_CODE_NONE: */
+    int k;
+    uint32_t past; /* the number of the sum */
+} term;
+
+typedef struct {
+    value v; /* what there is of it */
+    int n;
+    term terms[QDOT_CODE_TERMS];
+} sum;
+
+static inline qdot_x86_rm
+at(const qdot_generator *g, const double *row, int k)
+{
+    return qdot_code_coefficient(g, qdot_code_row(g, row), k);
+}
+
+static inline void
+times(qdot_generator *g, sum *s, bool minus, qdot_x86_rm factor, const double *x, int k)
+{
+    const uint32_t row = qdot_code_row(g, x);
+
+    if (g->moving[row] && k > 0)
+        s->terms[s->n++] = (term){minus, false, factor, row, k, 0};
+}
+
+static inline void
+add_value(qdot_generator *g, value *v, bool minus, int b)
+{
+    const int a = v->reg;
+
+    touch(g, a);
+    v->reg = fresh(g);
+    if (v->negative && !minus)
+        qdot_x86_emit(&g->x, QDOT_X86_SUB, v->reg, b, qdot_x86_reg(a));
+    else if (v->negative != minus)
+        qdot_x86_emit(&g->x, QDOT_X86_SUB, v->reg, a, qdot_x86_reg(b));
+    else
+        qdot_x86_emit(&g->x, QDOT_X86_ADD, v->reg, a, qdot_x86_reg(b));
+    v->negative = v->negative && minus;
+    v->own = true;
+}
+
+static inline void
+add_product(qdot_generator *g, value *v, bool minus, qdot_x86_rm factor, int b)
+{
+    static const qdot_x86_name in_place[2][2] = {{QDOT_X86_MADD, QDOT_X86_NMADD},
+                                                 {QDOT_X86_MSUB, QDOT_X86_NMSUB}};
+    static const qdot_x86_name over[2][2] = {{QDOT_X86_MADD_OVER, QDOT_X86_NMADD_OVER},
+                                             {QDOT_X86_MSUB_OVER, QDOT_X86_NMSUB_OVER}};
+    const int a = v->reg;
+
+    if (a < 0) {
+        v->reg = fresh(g);
+        qdot_x86_emit(&g->x, QDOT_X86_MUL, v->reg, b, factor);
+        v->negative = minus;
+    } else if (v->own) {
+        qdot_x86_emit(&g->x, in_place[v->negative][minus], touch(g, a), b, factor);
+        v->negative = false;
+    } else {
+        touch(g, a);
+        v->reg = fresh(g);
+        qdot_x86_emit(&g->x, factor.memory ? QDOT_X86_LOAD : QDOT_X86_LOAD_ALL, v->reg, 0,
+                      factor);
+        qdot_x86_emit(&g->x, over[v->negative][minus], v->reg, b, qdot_x86_reg(a));
+        v->negative = false;
+    }
+    v->own = true;
+}
+
+/* When the sum with the newest coefficients that it has is there. */
+static inline int
+past_ready(qdot_generator *g, uint32_t n)
+{
+    int when = 0;
+
+    do {
+        const qdot_code_sum *s = g->sums.at + n;
+        const int x = *qdot_code_ready(g, s->x, g->k - g->lag);
+        const int y = *qdot_code_ready(g, s->y, g->k - g->lag);
+
+        when = x > when ? x : when;
+        when = y > when ? y : when;
+    } while (++n < g->sums.n && g->sums.at[n].further);
+    return when + latency_of_vectors;
+}
+
+static inline int
+term_ready(qdot_generator *g, const term *t)
+{
+    return t->row != QDOT_CODE_NONE ? *qdot_code_ready(g, t->row, t->k)
+                                    : past_ready(g, t->past);
+}
+
+/* What is known last is added last. */
+static inline void
+sort(qdot_generator *g, sum *s, int *when)
+{
+    for (int i = 0; i < s->n; i++) {
+        const term now = s->terms[i];
+        const int now_ready = term_ready(g, &now);
+        int j = i;
+
+        for (; j > 0 && when[j - 1] > now_ready; j--) {
+            s->terms[j] = s->terms[j - 1];
+            when[j] = when[j - 1];
+        }
+        s->terms[j] = now;
+        when[j] = now_ready;
+    }
+    if (s->n > 1 && s->v.reg < 0 && s->terms[1].plain && !s->terms[0].plain) {
+        const term first = s->terms[0]; /* what is multiplied is added by the same instruction */
+        const int first_ready = when[0];
+
+        s->terms[0] = s->terms[1];
+        s->terms[1] = first;
+        when[0] = when[1];
+        when[1] = first_ready;
+    }
+}
+
+/* The register with a sum. */
+static inline int
+past_register(qdot_generator *g, uint32_t n)
+{
+    const qdot_code_vector *v = &g->sums.at[n].v;
+    int reg = v->reg[0];
+
+    if (reg < 0)
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg = fresh(g), 0, qdot_code_work(v->at));
+    return reg;
+}
+
+/* Of one term that is taken away. */
+static inline value
+less(qdot_generator *g, const term *t, int when)
+{
+    const int b = coefficient(g, t->row, t->k), reg = fresh(g);
+
+    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, t->factor);
+    qdot_x86_emit(&g->x, QDOT_X86_NMADD_OVER, reg, b, qdot_code_work(QDOT_CODE_ORDERS));
+    return (value){.reg = reg, .own = true, .ready = when + latency};
+}
+
+/* When a term is there that is added behind what is there at `before`. */
+static inline int
+behind(int before, int when)
+{
+    return (before > when ? before : when) + latency;
+}
+
+/* Whether terms that come together are sooner added up in two rows than in one. */
+static inline bool
+in_two(int first, const int *when, int n)
+{
+    int one = first, row[2] = {first, 0};
+
+    for (int i = 0; i < n; i++) {
+        const int shorter = row[1] < row[0];
+
+        one = behind(one, when[i]);
+        row[shorter] = behind(row[shorter], when[i]);
+    }
+    return n > 3 && behind(row[0], row[1]) + latency < one;
+}
+
+static inline void
+add_term(qdot_generator *g, value *v, const term *t, int when)
+{
+    const int b = t->row != QDOT_CODE_NONE ? coefficient(g, t->row, t->k)
+                                           : past_register(g, t->past);
+
+    if (t->plain && v->reg < 0) {
+        *v = (value){.reg = b, .negative = t->minus, .ready = when};
+        return;
+    }
+    if (t->plain)
+        add_value(g, v, t->minus, b);
+    else
+        add_product(g, v, t->minus, t->factor, b);
+    v->ready = behind(v->ready, when);
+}
+
+static inline value
+total(qdot_generator *g, sum *s)
+{
+    int when[QDOT_CODE_TERMS];
+    value v[2] = {s->v, {.reg = -1}};
+    bool two;
+
+    sort(g, s, when);
+    if (s->n == 1 && v->reg < 0 && s->terms->minus && !s->terms->plain &&
+        s->terms->factor.memory && s->terms->row != QDOT_CODE_NONE)
+        return less(g, s->terms, when[0]);
+    two = in_two(v->ready, when, s->n);
+    for (int i = 0; i < s->n; i++)
+        add_term(g, v + (two && v[1].ready < v[0].ready), s->terms + i, when[i]);
+    if (v[1].reg >= 0) {
+        const int ready = behind(v[0].ready, v[1].ready);
+
+        if (v[0].negative && !v[1].negative) {
+            const value first = v[0];
+
+            v[0] = v[1];
+            v[1] = first;
+        }
+        add_value(g, v, v[1].negative, v[1].reg);
+        v->ready = ready;
+    }
+    return v[0];
+}
+
+/* MUL or DIV, by `factor`. */
+static inline void
+scale_by(qdot_generator *g, qdot_x86_name name, value *v, qdot_x86_rm factor)
+{
+    const int a = v->reg;
+
+    if (a < 0)
+        return;
+    touch(g, a);
+    v->reg = fresh(g);
+    qdot_x86_emit(&g->x, name, v->reg, a, factor);
+    v->own = true;
+    v->ready += name == QDOT_X86_DIV ? latency_of_division : latency;
+}
+
+static inline void
+scale(qdot_generator *g, value *v, qdot_x86_rm factor)
+{
+    scale_by(g, QDOT_X86_MUL, v, factor);
+}
+
+/* The sum so far, times a factor. */
+static inline void
+scale_sum(qdot_generator *g, sum *s, qdot_x86_rm factor)
+{
+    s->v = total(g, s);
+    s->n = 0;
+    scale(g, &s->v, factor);
+}
+
+/* Coefficient k of a row. */
+static inline void
+finish(qdot_generator *g, value v, const double *to, int k)
+{
+    const uint32_t row = qdot_code_row(g, to);
+
+    if (v.reg < 0) {
+        v.reg = fresh(g);
+        v.own = true;
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD, v.reg, 0, qdot_code_work(QDOT_CODE_ORDERS));
+    }
+    if (v.negative)
+        scale(g, &v, qdot_code_work(QDOT_CODE_INVERSES));
+    qdot_x86_emit(&g->x, QDOT_X86_STORE, v.reg, 0, qdot_code_coefficient(g, row, k));
+    *qdot_code_ready(g, row, k) = v.ready;
+    if (v.own)
+        hold(g, v.reg, row, k);
+}
+
+static inline void
+finish_sum(qdot_generator *g, sum *s, const double *to)
+{
+    finish(g, total(g, s), to, g->k);
+}
+
+/* --- products of lower orders ------------------------------------------------------- */
+
+/* +- sum number n, of the terms with orders from `lag` on, times a factor; NULL: none. */
+static inline void
+add_past_of(qdot_generator *g, sum *s, bool minus, const qdot_x86_rm *factor, uint32_t n)
+{
+    term t = {.minus = minus, .plain = !factor, .row = QDOT_CODE_NONE, .past = n};
+
+    if (n == QDOT_CODE_NONE || g->k < 2 * g->lag)
+        return;
+    if (factor)
+        t.factor = *factor;
+    s->terms[s->n++] = t;
+}
+
+/* Product i of a step but for the terms with orders below `lag`. */
+static inline void
+add_past(qdot_generator *g, sum *sum, bool minus, const qdot_x86_rm *factor,
+         const qdot_taylor_step *s, int i)
+{
+    add_past_of(g, sum, minus, factor,
+                g->step_sums[3 * (size_t)(s - g->t->steps) + (size_t)i]);
+}
+
+static inline sum
+past(qdot_generator *g, const qdot_taylor_step *s, int i)
+{
+    sum sum = {.v = {.reg = -1}};
+
+    add_past(g, &sum, false, NULL, s, i);
+    sum.v = total(g, &sum);
+    sum.n = 0;
+    return sum;
+}
+
+static inline void
+negate(sum *s)
+{
+    s->v.negative = !s->v.negative;
+}
+
+/* Of one with orders 1 and k - 1, where the vectors do not have it: x_1 and y. */
+static inline void
+late(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y)
+{
+    if (g->lag > 1)
+        times(g, s, minus, x1, y, g->k - 1);
+}
+
+/* Both, x_1 and y_1 given where they are found, perhaps with a factor. */
+static inline void
+lately(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y,
+       qdot_x86_rm y1, const double *x)
+{
+    if (!g->moving[qdot_code_row(g, x)] || !g->moving[qdot_code_row(g, y)])
+        return;
+    late(g, s, minus, x1, y);
+    if (g->k > 2)
+        late(g, s, minus, y1, x);
+}
+
+/* --- sums within sums --------------------------------------------------------------- */
+
+static inline void add_terms(qdot_generator *g, sum *sum, bool minus,
+                             const qdot_x86_rm *scale, const qdot_taylor_step *s);
+
+/* +- coefficient k of a row times a factor (NULL: none), or what is folded into it. */
+static inline void
+add_scaled(qdot_generator *g, sum *s, bool minus, const qdot_x86_rm *scale, const double *x)
+{
+    const uint32_t row = qdot_code_row(g, x);
+    term t = {.minus = minus, .plain = !scale, .row = row, .k = g->k};
+
+    if (!g->moving[row])
+        return;
+    if (g->folded[row]) {
+        add_terms(g, s, minus, scale, g->t->steps + g->maker[row]);
+        return;
+    }
+    if (scale)
+        t.factor = *scale;
+    s->terms[s->n++] = t;
+}
+
+static inline void
+add(qdot_generator *g, sum *s, bool minus, const double *x)
+{
+    add_scaled(g, s, minus, NULL, x);
+}
+
+static inline qdot_x86_rm
+composed(qdot_generator *g, const qdot_x86_rm *scale, qdot_x86_rm factor)
+{
+    return scale ? qdot_code_composed(g, *scale, factor) : factor;
+}
+
+/* Those of a product. */
+static inline void
+add_product_terms(qdot_generator *g, sum *sum, bool minus, const qdot_x86_rm *scale,
+                  const qdot_taylor_step *s)
+{
+    const bool x = g->moving[qdot_code_row(g, s->x)], y = g->moving[qdot_code_row(g, s->y)];
+
+    add_past(g, sum, minus, scale, s, 0);
+    if (x && y && g->lag > 1 && g->k > 1) {
+        times(g, sum, minus, composed(g, scale, at(g, s->x, 1)), s->y, g->k - 1);
+        if (g->k > 2)
+            times(g, sum, minus, composed(g, scale, at(g, s->y, 1)), s->x, g->k - 1);
+    }
+    if (y)
+        times(g, sum, minus, composed(g, scale, at(g, s->x, 0)), s->y, g->k);
+    if (x)
+        times(g, sum, minus, composed(g, scale, at(g, s->y, 0)), s->x, g->k);
+}
+
+/* +- a sum or a product times a factor (NULL: none). What is folded stands at most a few
+ * deep (taylor-code-fold.c). */
+static inline void
+add_terms(qdot_generator *g, sum *sum, bool minus, const qdot_x86_rm *scale,
+          const qdot_taylor_step *s)
+{
+    qdot_x86_rm factor;
+
+    switch (s->op) {
+    case QDOT_T_NEG: add_scaled(g, sum, !minus, scale, s->x); return;
+    case QDOT_T_ADD:
+    case QDOT_T_SUB:
+        add_scaled(g, sum, minus, scale, s->x);
+        add_scaled(g, sum, minus != (s->op == QDOT_T_SUB), scale, s->y);
+        return;
+    case QDOT_T_SCALE:
+    case QDOT_T_SCALEADD:
+    case QDOT_T_SCALESUB:
+    case QDOT_T_SCALEOFF:
+        if (s->op != QDOT_T_SCALE)
+            add_scaled(g, sum, minus != (s->op == QDOT_T_SCALESUB), scale, s->z);
+        factor = composed(g, scale, at(g, s->x, 0));
+        add_scaled(g, sum, minus != (s->op == QDOT_T_SCALEOFF), &factor, s->y);
+        return;
+    default:
+        if (s->op != QDOT_T_MUL)
+            add_scaled(g, sum, minus != (s->op == QDOT_T_MSUB), scale, s->z);
+        add_product_terms(g, sum, minus != (s->op == QDOT_T_NMADD), scale, s);
+    }
+}
+
+#endif

@@ -1,0 +1,543 @@
+/* taylor-code.c -- the frame of a program's code: vectors of products, registers, loops. */
+#include "series/taylor-code.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "series/taylor-generator.h"
+#include "series/taylor-text.h"
+
+enum {
+    /* Longer code is not there when it is wanted: the kernels are. */
+    most_bytes = 1 << 18,
+    /* With fewer sums an order takes as long as its newest coefficient to be ready, and the
+     * way through the vectors is the longer one. With more it takes as long as its
+     * instructions, which are a third fewer where the vectors have all but order 0. */
+    few_sums = 5
+};
+
+typedef void kernel(double *coefficients, qdot_taylor_step *steps, double *work);
+
+struct qdot_taylor_code {
+    qdot_taylor_text *text;
+    double *allocated, *work; /* the same, aligned */
+    int to;
+    double unit;
+    double once_low[QDOT_CODE_EXACT + 1], twice_low[QDOT_CODE_EXACT + 1]; /* at unit 1 */
+};
+
+static int
+least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static int
+most(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static int
+blocks_of(int n)
+{
+    return (n + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES;
+}
+
+/* --- what there is ------------------------------------------------------------------ */
+
+static void
+find_moving(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t i = 0; i < t->moving; i++)
+        g->moving[i] = true;
+    for (size_t i = t->still; i < t->length; i++) {
+        const qdot_taylor_step *s = t->steps + i;
+        const double *rows[] = {s->to, s->second, s->third, s->d};
+
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+            if (rows[k])
+                g->moving[qdot_code_row(g, rows[k])] = true;
+    }
+}
+
+static void
+find_moving_unknowns(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t k = 0; k < t->n_blocks; k++)
+        for (size_t i = 0; i < t->blocks[k].n; i++) {
+            g->moving[qdot_code_row(g, t->blocks[k].a[i])] = true;
+            g->moving[qdot_code_row(g, t->blocks[k].r[i])] = true;
+        }
+}
+
+_Static_assert((int)QDOT_CODE_EXACT >= (int)QDOT_TAYLOR_EXACT, "the first loop is exact");
+
+static const qdot_code_vector in_memory = {.reg = {-1, -1, -1}};
+
+static qdot_status
+vector_for(qdot_generator *g, uint32_t row)
+{
+    if (g->row_vector[row] != QDOT_CODE_NONE)
+        return QDOT_OK;
+    g->row_vector[row] = (uint32_t)g->rows.n;
+    QDOT_TRY(qdot_vec_push(&g->row_of, row));
+    return qdot_vec_push(&g->rows, in_memory);
+}
+
+static qdot_status
+add_sum(qdot_generator *g, uint32_t x, uint32_t y, bool further)
+{
+    const qdot_code_sum sum = {x, y, further, in_memory};
+
+    QDOT_TRY(vector_for(g, x));
+    QDOT_TRY(vector_for(g, y));
+    return qdot_vec_push(&g->sums, sum);
+}
+
+static qdot_status
+find_sums(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t i = t->still; i < t->length; i++) {
+        const qdot_taylor_step *s = t->steps + i;
+        const qdot_code_recurrence *r = qdot_code_recurrences + s->op;
+
+        g->step_slots[i] = (uint32_t)(QDOT_CODE_SLOTS + g->n_slots);
+        g->n_slots += r->slots;
+        for (int k = 0; k < r->sums; k++) {
+            const uint32_t x = qdot_code_row(g, qdot_code_factor(s, r->factors[k][0]));
+            const uint32_t y = qdot_code_row(g, qdot_code_factor(s, r->factors[k][1]));
+
+            if (!g->moving[x] || !g->moving[y])
+                continue;
+            g->step_sums[3 * i + (size_t)k] = (uint32_t)g->sums.n;
+            QDOT_TRY(add_sum(g, x, y, false));
+        }
+    }
+    return QDOT_OK;
+}
+
+/* The couplings of an unknown are one sum. */
+static qdot_status
+find_unknown_sums(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t k = 0; k < t->n_blocks; k++) {
+        const qdot_taylor_block *b = t->blocks + k;
+
+        g->block_slots[k] = (uint32_t)(QDOT_CODE_SLOTS + g->n_slots);
+        g->n_slots += 2 * b->n * b->n;
+        for (size_t c = 0; c < b->n_couplings; c++) {
+            const qdot_taylor_coupling *m = b->couplings + c;
+            const bool further = c > 0 && m[-1].i == m->i;
+
+            if (!further)
+                g->unknown_sums[qdot_code_row(g, b->r[m->i])] = (uint32_t)g->sums.n;
+            QDOT_TRY(add_sum(g, qdot_code_row(g, m->M), qdot_code_row(g, m->a), further));
+        }
+    }
+    return QDOT_OK;
+}
+
+/* Registers from the last one down, first for what every order needs; places in memory for
+ * all. Doubles of work space. */
+static size_t
+give_places(qdot_generator *g)
+{
+    const int blocks = blocks_of(most(g->n / 2 + 1 - g->lag, 1));
+    const int lowest = QDOT_CODE_FIRST_SCALAR + QDOT_CODE_SCALARS;
+    size_t at = QDOT_CODE_SLOTS + (g->n_slots + 7) / 8 * 8;
+    int reg = QDOT_CODE_REGISTERS;
+
+    for (int b = 0; b < blocks; b++) {
+        for (size_t i = 0; i < g->sums.n && reg > lowest; i++)
+            if (!g->sums.at[i].further)
+                g->sums.at[i].v.reg[b] = --reg;
+        for (size_t i = 0; !qdot_code_rows_as_they_stand(g) && i < g->rows.n && reg > lowest; i++)
+            g->rows.at[i].reg[b] = --reg;
+    }
+    for (size_t i = 0; i < g->sums.n; i++) {
+        if (g->sums.at[i].further) {
+            g->sums.at[i].v = g->sums.at[i - 1].v;
+            continue;
+        }
+        g->sums.at[i].v.at = at;
+        at += (size_t)(QDOT_CODE_LANES * blocks);
+    }
+    for (size_t i = 0; !qdot_code_rows_as_they_stand(g) && i < g->rows.n; i++) {
+        g->rows.at[i].at = at;
+        at += (size_t)(QDOT_CODE_LANES * blocks);
+    }
+    return at;
+}
+
+/* --- code --------------------------------------------------------------------------- */
+
+static void
+emit_once(qdot_generator *g, bool after_one)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t i = t->still; i < t->length; i++) {
+        const qdot_code_recurrence *r = qdot_code_recurrences + t->steps[i].op;
+
+        if (after_one ? r->after_one != NULL : r->after_zero != NULL)
+            (after_one ? r->after_one : r->after_zero)(g, t->steps + i);
+    }
+}
+
+/* An order of all recurrences, their vectors being up to date. */
+static void
+emit_order(qdot_generator *g)
+{
+    const qdot_taylor *t = g->t;
+
+    for (size_t i = t->still; i < t->length; i++)
+        if (!g->folded[qdot_code_row(g, t->steps[i].to)])
+            qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+    for (size_t i = 0; i < t->n_blocks; i++)
+        qdot_code_solve(g, i);
+    for (size_t i = t->length; i < t->length + t->n_links; i++)
+        qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+}
+
+/* None holds anything; those for single numbers make a ring. */
+static void
+begin_registers(qdot_generator *g)
+{
+    const int first = QDOT_CODE_FIRST_SCALAR, last = first + QDOT_CODE_SCALARS - 1;
+
+    for (int i = 0; i < QDOT_CODE_REGISTERS; i++) {
+        g->held[i] = QDOT_CODE_NONE;
+        g->behind[i] = i < last ? i + 1 : first;
+        g->ahead[i] = i > first ? i - 1 : last;
+    }
+    g->latest = last;
+}
+
+/* No register is known to hold a coefficient. */
+static void
+forget(qdot_generator *g)
+{
+    for (int i = 0; i < QDOT_CODE_REGISTERS; i++)
+        g->held[i] = QDOT_CODE_NONE;
+}
+
+/* When coefficients were there is as of so many orders before. */
+static void
+look_back(qdot_generator *g, int orders)
+{
+    for (size_t row = 0; row < g->t->rows; row++) {
+        int *ready = g->ready + 4 * row, old[4];
+
+        memcpy(old, ready, sizeof old);
+        for (int i = 0; i < 4; i++)
+            ready[i] = old[(i + orders) & 3];
+    }
+}
+
+static void
+emit_body(qdot_generator *g, const qdot_code_phase *p)
+{
+    qdot_code_add_order(g, p, g->k - g->lag);
+    emit_order(g);
+}
+
+/* Orders k = m + lag for the m of a phase. What waits for what is known from an order to the
+ * next: it is written twice, and the second stays. */
+static void
+emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *before)
+{
+    size_t from;
+
+    qdot_code_begin_phase(g, p, before);
+    look_back(g, before->orders > 0 ? 1 : 2 * g->lag);
+    g->k = QDOT_CODE_ANY;
+    g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted == 0;
+    for (int i = 0; i < 2; i++) {
+        from = g->x.bytes.n;
+        forget(g);
+        emit_body(g, p);
+        look_back(g, 1);
+        g->x.bytes.n = from;
+    }
+    forget(g);
+    from = qdot_x86_repeat(&g->x, p->orders);
+    emit_body(g, p);
+    qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_R8, 8);
+    qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_R9, 8);
+    qdot_code_next_lane(g, p);
+    qdot_x86_again(&g->x, from);
+}
+
+/* What adding order m takes. Rows as they stand go on beyond half of the orders, where all
+ * their lanes are known: what those beyond it make is of no order that is wanted. */
+static qdot_code_phase
+phase_of(const qdot_generator *g, int m)
+{
+    const int half = g->n / 2, all = blocks_of(most(half + 1 - g->lag, 1));
+    int blocks;
+
+    if (m <= half)
+        return (qdot_code_phase){.blocks = blocks_of(m + 1 - g->lag),
+                       .inserted = (m - g->lag) / QDOT_CODE_LANES};
+    blocks = least(all, blocks_of(g->n - m + 2 - g->lag));
+    return (qdot_code_phase){.blocks = blocks,
+                   .inserted = qdot_code_rows_as_they_stand(g) && blocks == all ? all - 1 : -1};
+}
+
+static void
+emit_phases(qdot_generator *g)
+{
+    qdot_code_phase now = {0}, before = {0};
+
+    for (int m = g->lag; m <= g->n - g->lag && g->x.bytes.n <= most_bytes; m++) {
+        const qdot_code_phase p = phase_of(g, m), next = phase_of(g, m + 1);
+
+        now = (qdot_code_phase){p.blocks, p.inserted, now.orders + 1};
+        if (m < g->n - g->lag && next.blocks == p.blocks && next.inserted == p.inserted)
+            continue;
+        emit_phase(g, &now, &before);
+        before = now;
+        now.orders = 0;
+    }
+}
+
+static void
+emit_all(qdot_generator *g)
+{
+    const int singly = 2 * g->lag - 1;
+
+    begin_registers(g);
+    g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
+    qdot_code_begin_vectors(g);
+    for (g->k = 1; g->k <= least(g->n, singly); g->k++) {
+        if (g->k <= 2)
+            emit_once(g, g->k == 2);
+        emit_order(g);
+    }
+    qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_RDI, 8 * (singly + 1));
+    qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_RDX, 8 * (singly + 1));
+    emit_phases(g);
+    qdot_x86_return(&g->x);
+}
+
+/* 1/n less its double. */
+static double
+beyond(int n)
+{
+    return fma(-1.0 / n, n, 1) / n;
+}
+
+static qdot_status
+make_work(qdot_taylor_code *c, size_t doubles)
+{
+    c->allocated = qdot_calloc(doubles + QDOT_CODE_LANES, sizeof(double));
+    if (!c->allocated)
+        return QDOT_ENOMEM;
+    c->work = c->allocated;
+    while ((uintptr_t)c->work % (QDOT_CODE_LANES * sizeof(double)) != 0)
+        c->work++;
+    for (int k = 1; k < QDOT_CODE_TABLE; k++) {
+        c->work[QDOT_CODE_INVERSES + k] = 1.0 / k;
+        c->work[QDOT_CODE_PAIRS + k - 1] = 1.0 / (k * (k + 1));
+        c->work[QDOT_CODE_ORDERS + k] = k;
+    }
+    for (int k = 0; k <= QDOT_CODE_EXACT; k++) {
+        c->once_low[k] = beyond(k + 1);
+        c->twice_low[k] = beyond((k + 1) * (k + 2));
+    }
+    c->work[QDOT_CODE_INVERSES] = -1;
+    return QDOT_OK;
+}
+
+/* Whether all that is linked is of the program. */
+static bool
+reaches_all(const qdot_taylor *t)
+{
+    const double *end = t->coefficients + t->rows * t->stride;
+
+    for (size_t l = 0; l < t->n_links; l++) {
+        const double *x = t->steps[t->length + l].x;
+
+        if (x < t->coefficients || x >= end)
+            return false;
+    }
+    return true;
+}
+
+static qdot_status
+generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
+{
+    const size_t rows = g->t->rows, length = g->t->length;
+
+    g->moving = qdot_calloc(rows + 1, sizeof *g->moving);
+    g->folded = qdot_calloc(rows + 1, sizeof *g->folded);
+    g->maker = qdot_calloc(rows + 1, sizeof *g->maker);
+    g->row_vector = qdot_calloc(rows + 1, sizeof *g->row_vector);
+    g->ready = qdot_calloc(4 * rows + 1, sizeof *g->ready);
+    g->where = qdot_calloc(4 * rows + 1, sizeof *g->where);
+    g->step_sums = qdot_calloc(3 * length + 1, sizeof *g->step_sums);
+    g->step_slots = qdot_calloc(length + 1, sizeof *g->step_slots);
+    g->unknown_sums = qdot_calloc(rows + 1, sizeof *g->unknown_sums);
+    g->block_slots = qdot_calloc(g->t->n_blocks + 1, sizeof *g->block_slots);
+    if (!g->moving || !g->folded || !g->maker || !g->row_vector || !g->ready || !g->where
+        || !g->step_sums || !g->step_slots || !g->unknown_sums || !g->block_slots)
+        return QDOT_ENOMEM;
+    memset(g->row_vector, 0xff, rows * sizeof *g->row_vector);
+    memset(g->maker, 0xff, rows * sizeof *g->maker);
+    memset(g->unknown_sums, 0xff, rows * sizeof *g->unknown_sums);
+    memset(g->step_sums, 0xff, 3 * length * sizeof *g->step_sums);
+    find_moving(g);
+    find_moving_unknowns(g);
+    QDOT_TRY(find_sums(g));
+    QDOT_TRY(find_unknown_sums(g));
+    g->lag = g->sums.n < few_sums ? 2 : 1;
+    QDOT_TRY(qdot_code_fold(g));
+    text->doubles = give_places(g);
+    QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
+    emit_all(g);
+    text->begin = g->x.bytes.n;
+    qdot_code_zero(g);
+    QDOT_TRY(g->x.status);
+    if (g->x.bytes.n > most_bytes)
+        *why = "machine code for them would be too long";
+    else if (!qdot_taylor_text_fill(text, g->x.bytes.at, g->x.bytes.n))
+        *why = "the system runs no code made at run time";
+    return QDOT_OK;
+}
+
+static qdot_status
+write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **why)
+{
+    qdot_generator g = {.t = t, .n = to};
+    qdot_status status = generate(&g, text, why);
+
+    text->blocks = g.block_slots;
+    qdot_free(g.moving);
+    qdot_free(g.folded);
+    qdot_free(g.maker);
+    qdot_free(g.compositions.at);
+    qdot_free(g.row_vector);
+    qdot_free(g.ready);
+    qdot_free(g.where);
+    qdot_free(g.step_sums);
+    qdot_free(g.step_slots);
+    qdot_free(g.unknown_sums);
+    qdot_free(g.rows.at);
+    qdot_free(g.row_of.at);
+    qdot_free(g.sums.at);
+    qdot_free(g.x.bytes.at);
+    return status;
+}
+
+qdot_status
+qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code **code,
+                     const char **why)
+{
+    qdot_taylor_code *c;
+    qdot_status status;
+
+    *code = NULL;
+    *why = NULL;
+    if (!qdot_x86_is_here()) {
+        *why = "machine code needs AVX-512";
+        return QDOT_OK;
+    }
+    if (!reaches_all(t)) {
+        *why = "what is linked is found elsewhere";
+        return QDOT_OK;
+    }
+    c = qdot_calloc(1, sizeof *c);
+    if (!c)
+        return QDOT_ENOMEM;
+    c->to = to;
+    status = qdot_taylor_text_take(t, to, &c->text);
+    if (status == QDOT_OK && !c->text->memory && !kept) {
+        status = write_text(t, to, c->text, why);
+        if (status == QDOT_OK && !*why)
+            qdot_taylor_text_keep(c->text);
+    }
+    if (status == QDOT_OK && c->text->memory)
+        status = make_work(c, c->text->doubles);
+    if (status != QDOT_OK || !c->text->memory) {
+        qdot_taylor_code_free(c);
+        return status;
+    }
+    *code = c;
+    return QDOT_OK;
+}
+
+void
+qdot_taylor_code_free(qdot_taylor_code *c)
+{
+    if (!c)
+        return;
+    qdot_taylor_text_give(c->text);
+    qdot_free(c->allocated);
+    qdot_free(c);
+}
+
+/* --- running ------------------------------------------------------------------------ */
+
+void
+qdot_taylor_code_unit(qdot_taylor_code *c, double unit)
+{
+    double *w = c->work;
+
+    if (unit == c->unit)
+        return;
+    c->unit = unit;
+    for (size_t k = 0; k <= (size_t)c->to; k++) {
+        w[QDOT_CODE_ONCE + k] = unit * w[QDOT_CODE_INVERSES + k + 1];
+        w[QDOT_CODE_TWICE + k] = unit * unit * w[QDOT_CODE_PAIRS + k];
+    }
+    for (size_t k = 0; k <= QDOT_CODE_EXACT; k++) {
+        w[QDOT_CODE_ONCE_LOW + k] = unit * c->once_low[k];
+        w[QDOT_CODE_TWICE_LOW + k] = unit * unit * c->twice_low[k];
+    }
+}
+
+void
+qdot_taylor_code_begin(const qdot_taylor_code *c, qdot_taylor *t)
+{
+    const unsigned char *first = qdot_taylor_text_first(c->text) + c->text->begin;
+    kernel *code;
+
+    memcpy(&code, &first, sizeof code);
+    code(t->coefficients, t->steps, c->work);
+}
+
+void
+qdot_taylor_code_run(const qdot_taylor_code *c, qdot_taylor *t)
+{
+    const unsigned char *first = qdot_taylor_text_first(c->text);
+    kernel *code;
+
+    for (size_t k = 0; k < t->n_blocks; k++) {
+        const qdot_taylor_block *b = t->blocks + k;
+
+        memcpy(c->work + c->text->blocks[k], b->matrices, 2 * b->n * b->n * sizeof(double));
+    }
+    memcpy(&code, &first, sizeof code);
+    code(t->coefficients, t->steps, c->work);
+}
+
+int
+qdot_taylor_code_orders(const qdot_taylor_code *c)
+{
+    return c->to;
+}
+
+size_t
+qdot_taylor_code_size(const qdot_taylor_code *c)
+{
+    return c->text->used;
+}

@@ -1,0 +1,245 @@
+/* taylor-correct.c -- what follows when the newest coefficients of inputs become known. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "series/taylor-steps.h"
+
+/* A change of row `to` by a note[x] + b note[y] + c note[z]; factors from order 0. */
+struct qdot_taylor_change {
+    double *row;
+    uint32_t to, x, y, z;
+    double a, b, c;
+    const qdot_taylor_step *step;
+    bool second; /* of two rows of the step */
+};
+
+/* A row that holds j x_j: its change is k note[x], and nothing is made of it. */
+struct qdot_taylor_scaled_change {
+    double *row;
+    uint32_t x;
+};
+
+struct qdot_taylor_changes {
+    size_t n;     /* inputs that change */
+    double *note; /* [rows] what is added to the newest coefficient */
+    struct qdot_taylor_change *changes; /* in the order of the steps */
+    struct qdot_taylor_scaled_change *scaled;
+    size_t n_changes, n_scaled;
+    bool stale; /* order 0 is a new one */
+};
+
+void
+qdot_taylor_changes_free(qdot_taylor *t)
+{
+    if (!t->changes)
+        return;
+    qdot_free(t->changes->note);
+    qdot_free(t->changes->changes);
+    qdot_free(t->changes->scaled);
+    qdot_free(t->changes);
+    t->changes = NULL;
+}
+
+void
+qdot_taylor_changes_stale(qdot_taylor *t)
+{
+    if (t->changes)
+        t->changes->stale = true;
+}
+
+/* --- which rows change and are read again ------------------------------------------- */
+
+static size_t
+number(const qdot_taylor *t, const double *row)
+{
+    return (size_t)(row - t->coefficients) / t->stride;
+}
+
+/* Whether orders below the newest are read too. */
+static bool
+looks_back(const qdot_taylor_step *s)
+{
+    return s->op >= QDOT_T_MUL;
+}
+
+static bool
+operands_in(const qdot_taylor *t, const qdot_taylor_step *s, const bool *set)
+{
+    return set[number(t, s->x)] || set[number(t, s->y)] || set[number(t, s->z)];
+}
+
+/* changes: what depends on the inputs; read: what is asked for again after a correction. */
+static void
+mark(const qdot_taylor *t, size_t n, const bool *kept, bool *changes, bool *read)
+{
+    const qdot_taylor_step *s;
+
+    for (size_t i = 0; i < n; i++)
+        changes[i] = true;
+    for (s = t->steps; s->op != QDOT_T_END; s++)
+        if (operands_in(t, s, changes)) {
+            changes[number(t, s->to)] = true;
+            if (s->second)
+                changes[number(t, s->second)] = true;
+        }
+    for (size_t i = 0; i < t->outputs; i++)
+        if (!kept || kept[i])
+            read[number(t, t->output[i])] = true;
+    while (s != t->steps) {
+        const size_t to = number(t, (--s)->to);
+
+        if (looks_back(s)) {
+            /* a function's own rows are its history; a product's are not */
+            read[to] |= s->op > QDOT_T_NMADD;
+            read[number(t, s->x)] = read[number(t, s->y)] = true;
+            if (s->op > QDOT_T_NMADD || read[to])
+                read[number(t, s->z)] = true;
+        } else if (read[to]) {
+            read[number(t, s->x)] = read[number(t, s->y)] = read[number(t, s->z)] = true;
+        }
+    }
+}
+
+/* --- the list ----------------------------------------------------------------------- */
+
+static void
+add_change(qdot_taylor *t, const qdot_taylor_step *s, bool second)
+{
+    struct qdot_taylor_changes *c = t->changes;
+    double *row = second ? s->second : s->to;
+
+    c->changes[c->n_changes++] =
+        (struct qdot_taylor_change){.row = row,
+                                    .to = (uint32_t)number(t, row),
+                                    .x = (uint32_t)number(t, s->x),
+                                    .y = (uint32_t)number(t, s->y),
+                                    .z = (uint32_t)number(t, s->z),
+                                    .step = s,
+                                    .second = second};
+}
+
+static void
+add_scaled(qdot_taylor *t, double *row, const double *x)
+{
+    struct qdot_taylor_changes *c = t->changes;
+
+    c->scaled[c->n_scaled++] =
+        (struct qdot_taylor_scaled_change){row, (uint32_t)number(t, x)};
+}
+
+/* What changes by one step, a second row after the first. */
+static void
+list(qdot_taylor *t, const qdot_taylor_step *s)
+{
+    add_change(t, s, false);
+    switch (s->op) {
+    case QDOT_T_SINCOS:
+    case QDOT_T_SINHCOSH:
+    case QDOT_T_TANH: add_change(t, s, true); break;
+    case QDOT_T_ATAN2:
+        add_scaled(t, s->second, s->x);
+        add_scaled(t, s->third, s->y);
+        break;
+    }
+    if (s->d)
+        add_scaled(t, s->d,
+                   s->op == QDOT_T_RATIO || s->op == QDOT_T_ATAN2 ? s->to : s->x);
+}
+
+qdot_status
+qdot_taylor_affine(qdot_taylor *t, size_t n, const bool *kept)
+{
+    bool *changes = qdot_calloc(t->rows + 1, sizeof *changes);
+    bool *read = qdot_calloc(t->rows + 1, sizeof *read);
+    struct qdot_taylor_changes *c = qdot_calloc(1, sizeof *c);
+
+    qdot_taylor_changes_free(t);
+    t->changes = c;
+    if (c) {
+        c->n = n;
+        c->stale = true;
+        c->note = qdot_calloc(t->rows + 1, sizeof *c->note);
+        c->changes = qdot_calloc(2 * t->length + 1, sizeof *c->changes);
+        c->scaled = qdot_calloc(3 * t->length + 1, sizeof *c->scaled);
+    }
+    if (!changes || !read || !c || !c->note || !c->changes || !c->scaled) {
+        qdot_free(changes);
+        qdot_free(read);
+        return QDOT_ENOMEM;
+    }
+    mark(t, n, kept, changes, read);
+    for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++) {
+        const bool twice = s->second && s->op != QDOT_T_ATAN2;
+
+        if (changes[number(t, s->to)] &&
+            (read[number(t, s->to)] || (twice && read[number(t, s->second)])))
+            list(t, s);
+    }
+    qdot_free(changes);
+    qdot_free(read);
+    return QDOT_OK;
+}
+
+/* --- numbers ------------------------------------------------------------------------ */
+
+/* Derivatives of a step's row by its operands, at order 0. */
+static void
+differentiate(struct qdot_taylor_change *change)
+{
+    const qdot_taylor_step *i = change->step;
+    double a = 0, b = 0, c = 0;
+
+    switch (i->op) {
+    case QDOT_T_NEG: a = -1; break;
+    case QDOT_T_ADD: a = b = 1; break;
+    case QDOT_T_SUB: a = 1, b = -1; break;
+    case QDOT_T_SCALE: b = i->x[0]; break;
+    case QDOT_T_SCALEADD: b = i->x[0], c = 1; break;
+    case QDOT_T_SCALESUB: b = i->x[0], c = -1; break;
+    case QDOT_T_SCALEOFF: b = -i->x[0], c = 1; break;
+    case QDOT_T_MUL: a = i->y[0], b = i->x[0]; break;
+    case QDOT_T_SQUARE: a = 2 * i->x[0]; break;
+    case QDOT_T_MADD: a = i->y[0], b = i->x[0], c = 1; break;
+    case QDOT_T_MSUB: a = i->y[0], b = i->x[0], c = -1; break;
+    case QDOT_T_NMADD: a = -i->y[0], b = -i->x[0], c = 1; break;
+    case QDOT_T_DIV: a = i->c, b = -i->to[0] * i->c; break;
+    case QDOT_T_SQRT: a = i->c; break;
+    case QDOT_T_SINCOS: a = change->second ? -i->to[0] : i->second[0]; break;
+    case QDOT_T_SINHCOSH: a = change->second ? i->to[0] : i->second[0]; break;
+    case QDOT_T_EXP: a = i->to[0]; break;
+    case QDOT_T_ALONG: a = i->y[0]; break;
+    case QDOT_T_POW: a = i->z[0] * i->to[0] * i->c; break;
+    case QDOT_T_RATIO: a = i->sign * i->c; break;
+    case QDOT_T_TANH: a = i->second[0] * (change->second ? -2 * i->to[0] : 1); break;
+    case QDOT_T_ATAN2: a = i->y[0] * i->c, b = -i->x[0] * i->c; break;
+    }
+    change->a = a;
+    change->b = b;
+    change->c = c;
+}
+
+void
+qdot_taylor_correct(qdot_taylor *t, int k, const double *newest)
+{
+    struct qdot_taylor_changes *all = t->changes;
+    double *note = all->note;
+
+    if (all->stale) {
+        for (size_t i = 0; i < all->n_changes; i++)
+            differentiate(all->changes + i);
+        all->stale = false;
+    }
+    for (size_t i = 0; i < all->n; i++) {
+        note[i] = newest[i];
+        t->coefficients[i * t->stride + (size_t)k] += newest[i];
+    }
+    for (size_t i = 0; i < all->n_changes; i++) {
+        const struct qdot_taylor_change *c = all->changes + i;
+        const double d = c->a * note[c->x] + c->b * note[c->y] + c->c * note[c->z];
+
+        note[c->to] = d;
+        c->row[k] += d;
+    }
+    for (size_t i = 0; i < all->n_scaled; i++)
+        all->scaled[i].row[k] += k * note[all->scaled[i].x];
+}

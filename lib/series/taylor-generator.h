@@ -1,0 +1,192 @@
+/* taylor-generator.h -- what the files that write a Taylor program as machine code share
+ * (taylor-code.h). Internal to series/.
+ *
+ * The code is run with three addresses: of the rows of coefficients (rdi), of the steps
+ * (rsi), of work space (rdx) that begins with tables by order and holds one number here and
+ * there (slots) and the vectors that have no register. Orders beyond the first three are a
+ * few loops; in them r8 and r9 are the first and the last moved on to the order at hand.
+ */
+#ifndef QDOT_SERIES_TAYLOR_GENERATOR_H
+#define QDOT_SERIES_TAYLOR_GENERATOR_H
+
+#include <stddef.h>
+
+#include "series/taylor-steps.h"
+#include "machine/x86.h"
+
+enum {
+    QDOT_CODE_LANES = 8,
+    /* Vectors of a row, or of the sums that one product has still to come. */
+    QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES,
+    QDOT_CODE_REGISTERS = 32,
+    QDOT_CODE_FIRST_SCALAR = 4, /* those below are for a moment */
+    QDOT_CODE_SCALARS = 10,
+    /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, the two factors of
+     * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); then slots. */
+    QDOT_CODE_TABLE = QDOT_SERIES_MOST + 8,
+    QDOT_CODE_INVERSES = 0,
+    QDOT_CODE_ORDERS = QDOT_CODE_TABLE,
+    QDOT_CODE_ONCE = 2 * QDOT_CODE_TABLE,
+    QDOT_CODE_TWICE = 3 * QDOT_CODE_TABLE,
+    QDOT_CODE_ONCE_LOW = 4 * QDOT_CODE_TABLE,
+    QDOT_CODE_TWICE_LOW = 5 * QDOT_CODE_TABLE,
+    QDOT_CODE_PAIRS = 6 * QDOT_CODE_TABLE,
+    QDOT_CODE_SLOTS = 7 * QDOT_CODE_TABLE,
+    /* What is written for several orders is written as of this one, and those beside it; a
+     * multiple of 4. */
+    QDOT_CODE_ANY = 1000,
+    /* What is folded has factors of its own (taylor-code-fold.c). */
+    QDOT_CODE_FOLDED_SLOTS = 4,
+    /* No first loop goes further (it begins at twice the lag): links are exact that far. */
+    QDOT_CODE_EXACT = 3 + QDOT_CODE_LANES
+};
+
+/* Lane i is coefficient i + lag of a row; of the sums that order m has been added to, order
+ * m + lag + i. */
+typedef struct {
+    int reg[QDOT_CODE_BLOCKS]; /* -1: in memory, */
+    size_t at;                 /* there, in doubles */
+} qdot_code_vector;
+
+/* sum x_i y_j of i, j >= lag, for orders to come. */
+typedef struct {
+    uint32_t x, y; /* rows */
+    bool further;  /* it is part of the sum before it, whose vector is `v` */
+    qdot_code_vector v;
+} qdot_code_sum;
+
+/* A factor that is a product of two. */
+typedef struct {
+    qdot_x86_rm a, b;
+} qdot_code_composition;
+
+typedef struct {
+    qdot_x86 x;
+    const qdot_taylor *t;
+    int n;                  /* orders */
+    int k;                  /* the order at hand */
+    int lag;                /* orders below it and their partners are added singly; 1 or 2 */
+    bool exact;             /* links have factors of two doubles at it */
+    bool *moving;           /* [rows] it has more than order 0 */
+    bool *folded;           /* [rows] its orders above 0 are terms of its one reader */
+    uint32_t *maker;        /* [rows] the step that it is `to` of; QDOT_CODE_NONE */
+    uint32_t *row_vector;   /* [rows] number in `rows`; QDOT_CODE_NONE */
+    uint32_t *step_sums;    /* [length x 3] number in `sums`; QDOT_CODE_NONE */
+    uint32_t *step_slots;   /* [length] the first, in doubles */
+    uint32_t *unknown_sums; /* [rows] of what is solved for by row, likewise */
+    uint32_t *block_slots;  /* [blocks] */
+    int *ready;             /* [rows x 4] when coefficients are there, by order mod 4 */
+    qdot_vec(qdot_code_vector) rows;
+    qdot_vec(uint32_t) row_of; /* the same */
+    qdot_vec(qdot_code_sum) sums;
+    size_t n_slots;
+    qdot_vec(qdot_code_composition) compositions; /* in slots of their own, */
+    size_t fold_slots;                            /* from this one on */
+
+    /* Registers that hold a coefficient, least recently used first to go. */
+    unsigned char *where; /* [rows x 4] the register that may hold them, likewise */
+    uint32_t held[QDOT_CODE_REGISTERS]; /* the row; QDOT_CODE_NONE */
+    int held_order[QDOT_CODE_REGISTERS];
+    /* Those for single numbers by their last use: behind a register the next, the least
+     * recently used behind the last of all, which is `latest`. */
+    int behind[QDOT_CODE_REGISTERS], ahead[QDOT_CODE_REGISTERS], latest;
+    uint32_t spread[2]; /* rows whose coefficient fills a register */
+    int next_spread;
+} qdot_generator;
+
+#define QDOT_CODE_NONE UINT32_MAX
+
+/* Orders that are added to vectors by the same instructions. */
+typedef struct {
+    int blocks;   /* of sums */
+    int inserted; /* the block of rows that the order itself enters; -1: none */
+    int orders;
+} qdot_code_phase;
+
+/* Of the vectors of products (taylor-code-vectors.c): before anything; before a phase behind
+ * another; order m and all that is made of it and those from `lag` up to it; behind that. */
+void qdot_code_begin_vectors(qdot_generator *g);
+void qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p,
+                           const qdot_code_phase *before);
+void qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m);
+void qdot_code_next_lane(qdot_generator *g, const qdot_code_phase *p);
+bool qdot_code_rows_as_they_stand(const qdot_generator *g);
+
+/* A recurrence as code. */
+typedef struct {
+    /* The sums over lower orders are of these products. */
+    int sums;
+    unsigned char factors[3][2];
+    /* Order g->k of a step; and what is had once for all orders: as soon as order 0 is there,
+     * and order 1. */
+    void (*order)(qdot_generator *g, const qdot_taylor_step *s);
+    void (*after_zero)(qdot_generator *g, const qdot_taylor_step *s);
+    void (*after_one)(qdot_generator *g, const qdot_taylor_step *s);
+    size_t slots;
+} qdot_code_recurrence;
+
+/* By qdot_recurrence. */
+extern const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT];
+
+/* Order 0 of all steps, and of links; a function of its own. */
+void qdot_code_zero(qdot_generator *g);
+
+/* Sums and products that are read once are added up where they are read: without rows, and
+ * without waits of their own. Sums of products being known. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_code_fold(qdot_generator *g);
+/* Where the product of two factors stands that no order changes. */
+qdot_x86_rm qdot_code_composed(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm b);
+
+/* Order g->k of unknowns. */
+void qdot_code_solve(qdot_generator *g, size_t block);
+
+/* A row of a step by its name in the table above. */
+const double *qdot_code_factor(const qdot_taylor_step *s, unsigned char name);
+
+/* When coefficient k of a row is there. */
+static inline int *
+qdot_code_ready(qdot_generator *g, uint32_t row, int k)
+{
+    return &g->ready[4 * row + (uint32_t)(k & 3)];
+}
+
+static inline uint32_t
+qdot_code_row(const qdot_generator *g, const double *row)
+{
+    return qdot_taylor_row(g->t, row);
+}
+
+static inline qdot_x86_rm
+qdot_code_coefficient(const qdot_generator *g, uint32_t row, int k)
+{
+    const int32_t at = (int32_t)(8 * (row * g->t->stride));
+
+    if (k > QDOT_CODE_ANY / 2)
+        return qdot_x86_at(QDOT_X86_R8, at + 8 * (k - QDOT_CODE_ANY));
+    return qdot_x86_at(QDOT_X86_RDI, at + 8 * k);
+}
+
+static inline qdot_x86_rm
+qdot_code_c(const qdot_generator *g, const qdot_taylor_step *s)
+{
+    return qdot_x86_at(QDOT_X86_RSI,
+                       (int32_t)((size_t)(s - g->t->steps) * sizeof *s
+                                 + offsetof(qdot_taylor_step, c)));
+}
+
+static inline qdot_x86_rm
+qdot_code_work(size_t i)
+{
+    return qdot_x86_at(QDOT_X86_RDX, (int32_t)(8 * i));
+}
+
+/* Of a table what it has for order k. */
+static inline qdot_x86_rm
+qdot_code_entry(size_t table, int k)
+{
+    if (k > QDOT_CODE_ANY / 2)
+        return qdot_x86_at(QDOT_X86_R9, (int32_t)(8 * table) + 8 * (k - QDOT_CODE_ANY));
+    return qdot_code_work(table + (size_t)k);
+}
+
+#endif

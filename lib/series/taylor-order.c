@@ -1,0 +1,189 @@
+/* taylor-order.c -- the recurrences evaluated, order by order. */
+#include <math.h>
+#include <string.h>
+
+#include "num/kinds.h"
+#include "series/taylor-code.h"
+#include "series/taylor-steps.h"
+
+/* Bits without a pattern: the finalizer of MurmurHash3. */
+static uint64_t
+mix(uint64_t x)
+{
+    x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
+    x = (x ^ x >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
+    return x ^ x >> 33;
+}
+
+double
+qdot_taylor_chance(double time, size_t i)
+{
+    uint64_t bits;
+
+    memcpy(&bits, &time, sizeof bits);
+    return (double)(mix(bits + (i + 1) * UINT64_C(0x9e3779b97f4a7c15)) >> 11) * 0x1p-53;
+}
+
+void
+qdot_taylor_draw(qdot_taylor *t, double time)
+{
+    for (size_t i = 0; i < t->n_drawn; i++) {
+        struct qdot_taylor_drawn *d = t->drawn + i;
+
+        d->row[0] = qdot_taylor_chance(time, i) < d->chance ? d->far : d->near;
+    }
+}
+
+/* --- evaluation --------------------------------------------------------------------- */
+
+void
+qdot_taylor_value(qdot_taylor_step *i)
+{
+    double a = i->x[0], b = i->y[0], c = i->z[0], d = 0, e = 0;
+
+    switch (i->zero) {
+#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+    case QDOT_OP_##ID:                                                                   \
+        statement;                                                                       \
+        break;
+#include "tape/operation.def"
+#undef X
+    case QDOT_ZERO_SINHCOSH:
+        d = sinh(a);
+        e = cosh(a);
+        break;
+    case QDOT_ZERO_POWER: d = pow(b, c); break;
+    }
+    i->to[0] = d;
+    switch (i->op) {
+    case QDOT_T_SINCOS:
+    case QDOT_T_SINHCOSH: i->second[0] = e; break;
+    case QDOT_T_TANH: i->second[0] = (1 - d) * (1 + d); break;
+    case QDOT_T_DIV:
+    case QDOT_T_RATIO: i->c = 1 / b; break;
+    case QDOT_T_SQRT: i->c = 0.5 / d; break;
+    case QDOT_T_POW: i->c = 1 / a; break;
+    case QDOT_T_ATAN2: i->c = 1 / c; break;
+    }
+}
+
+#define ORDERS(X)                                                                        \
+    X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)     \
+        X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28)    \
+            X(29) X(30) X(31) X(32) X(33) X(34) X(35) X(36) X(37) X(38) X(39) X(40)      \
+                X(41) X(42) X(43) X(44) X(45) X(46) X(47) X(48)
+
+#define STEPS(X, k)                                                                      \
+    X(NEG, k) X(ADD, k) X(SUB, k) X(SCALE, k) X(SCALEADD, k) X(SCALESUB, k)              \
+        X(SCALEOFF, k) X(MUL, k) X(SQUARE, k) X(MADD, k) X(MSUB, k) X(NMADD, k)          \
+            X(DIV, k) X(SQRT, k) X(SINCOS, k) X(SINHCOSH, k) X(EXP, k) X(POW, k)         \
+                X(RATIO, k) X(ALONG, k) X(TANH, k) X(ATAN2, k) X(LINK, k)
+
+/* A step of a program, its order known to the compiler. */
+typedef void step_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
+
+#define NAME(x) portable_##x
+#define MA(a, b, c) QDOT_MA(a, b, c)
+#include "series/taylor-order.def"
+#undef NAME
+#undef MA
+
+#ifdef QDOT_X86_KINDS
+QDOT_KIND_AVX2
+#define NAME(x) fma_##x
+#define MA(a, b, c) __builtin_fma(a, b, c)
+#include "series/taylor-order.def"
+#undef NAME
+#undef MA
+QDOT_KIND_END
+#endif
+
+static step_function *const (*functions(void))[QDOT_T_COUNT]
+{
+#ifdef QDOT_X86_KINDS
+    if (qdot_kind_is_here(1))
+        return fma_steps;
+#endif
+    return portable_steps;
+}
+
+static void
+order_zero(const qdot_taylor *t)
+{
+    for (size_t i = 0; i < t->length; i++)
+        qdot_taylor_value(t->steps + i);
+}
+
+/* Order k of the first n steps but those that have none, of an order's functions. */
+static inline void
+order(const qdot_taylor *t, size_t n, step_function *const *function)
+{
+    const qdot_series_kernels *kernels = t->kernels;
+    qdot_taylor_step *s = t->steps + t->still, *const end = t->steps + n;
+
+    while (s < end) {
+        function[s->op](s, kernels);
+        s++;
+    }
+}
+
+void
+qdot_taylor_order(qdot_taylor *t, int k)
+{
+    if (k > 0) {
+        order(t, t->length, functions()[k]);
+        return;
+    }
+    if (t->code && t->n_blocks > 0)
+        qdot_taylor_code_begin(t->code, t);
+    else
+        order_zero(t);
+    qdot_taylor_changes_stale(t);
+}
+
+/* Of inputs that are integrals, what order 0 gives; and the unit for the others. */
+void
+qdot_taylor_begin_links(qdot_taylor *t, double unit)
+{
+    for (size_t l = 0; l < t->n_links; l++) {
+        qdot_taylor_step *link = t->steps + t->length + l;
+        const double first = unit * link->x[0];
+
+        link->c = unit;
+        link->to[1] = first;
+        if (link->second) {
+            link->second[1] = unit * link->to[0];
+            link->second[2] = 0.5 * unit * first;
+        }
+    }
+    if (t->code)
+        qdot_taylor_code_unit(t->code, unit);
+}
+
+void
+qdot_taylor_begin(qdot_taylor *t, double unit)
+{
+    if (t->code && t->n_blocks == 0) {
+        for (size_t l = 0; l < t->n_links; l++)
+            t->steps[t->length + l].c = unit;
+        qdot_taylor_code_unit(t->code, unit);
+        qdot_taylor_code_begin(t->code, t);
+        return;
+    }
+    order_zero(t);
+    qdot_taylor_begin_links(t, unit);
+}
+
+void
+qdot_taylor_extend(qdot_taylor *t, int from, int to)
+{
+    step_function *const (*const function)[QDOT_T_COUNT] = functions();
+    const size_t n = t->length + t->n_links;
+
+    if (from == 1 && qdot_taylor_is_code(t, to)) {
+        qdot_taylor_code_run(t->code, t);
+        return;
+    }
+    for (int k = from; k <= to; k++)
+        order(t, n, function[k]);
+}

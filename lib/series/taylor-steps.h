@@ -1,0 +1,79 @@
+/* taylor-steps.h -- a Taylor program from inside: its steps and rows. Internal to series/.
+ * */
+#ifndef QDOT_SERIES_TAYLOR_STEPS_H
+#define QDOT_SERIES_TAYLOR_STEPS_H
+
+#include "num/series.h"
+#include "series/program.h"
+#include "series/taylor.h"
+
+/* Rows of coefficients, by order. */
+typedef struct {
+    uint16_t op, zero; /* as qdot_program_step */
+    int sign;
+    double *to, *second, *third, *d;
+    const double *x, *y, *z;
+    double c; /* the inverse of what every order divides by; the unit of a LINK */
+} qdot_taylor_step;
+
+/* A constant between two doubles. */
+struct qdot_taylor_drawn {
+    double *row;
+    double near, far, chance; /* of the far one */
+};
+
+/* Unknowns, solved for at every order (qdot_taylor_solve). */
+typedef struct {
+    uint32_t i; /* in row i M times a */
+    const double *M, *a;
+} qdot_taylor_coupling;
+
+typedef struct {
+    size_t n;
+    int solved;       /* orders up to this one by the factor */
+    const double **f; /* [n] */
+    double **a;       /* [n] */
+    double **r;       /* [n] what is left of f; work */
+    qdot_taylor_coupling *couplings; /* by i */
+    size_t n_couplings;
+    double *matrices; /* [n x n] L; [n x n] M_0^-1 */
+} qdot_taylor_block;
+
+struct qdot_taylor {
+    const qdot_series_kernels *kernels;
+    size_t stride, inputs, outputs, rows;
+    size_t moving; /* of the inputs the first, which are no numbers */
+    size_t spare;  /* the first row that is free for what is solved for */
+    double convolutions;
+    double *allocated;
+    double *coefficients;     /* [rows x stride], the inputs first; order 1 begins a line */
+    uint64_t per_row; /* 2^32/stride, rounded up: a row's number without a division */
+    const double **output;    /* [outputs] rows */
+    bool *constant;           /* [outputs] */
+    qdot_taylor_step *steps; /* [length + n_links], then QDOT_T_END */
+    size_t length, n_links;
+    size_t still; /* of the steps the first, which have order 0 only */
+    qdot_taylor_block *blocks; /* [n_blocks] */
+    size_t n_blocks;
+    struct qdot_taylor_drawn *drawn; /* [n_drawn] */
+    size_t n_drawn;
+    struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */
+    struct qdot_taylor_code *code; /* taylor-code.c; NULL: the kernels run, */
+    const char *no_code;           /* for this reason; NULL: none was asked for */
+    bool asked;                    /* for code that is kept */
+};
+
+/* Order 0 of a step. */
+void qdot_taylor_value(qdot_taylor_step *step);
+
+static inline uint32_t
+qdot_taylor_row(const qdot_taylor *t, const double *row)
+{
+    return (uint32_t)((uint64_t)(row - t->coefficients) * t->per_row >> 32);
+}
+
+void qdot_taylor_changes_free(qdot_taylor *t);
+/* Order 0 has been evaluated. */
+void qdot_taylor_changes_stale(qdot_taylor *t);
+
+#endif

@@ -1,0 +1,209 @@
+/* taylor-text.c -- the key of a program, memory that is run, and a few places to keep it. */
+#include "series/taylor-text.h"
+
+#include <stdatomic.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#if defined __x86_64__ && defined __LP64__ && (defined __unix__ || defined __APPLE__)
+#define CAN_RUN
+#include <sys/mman.h>
+#ifdef MAP_POPULATE /* one call instead of a fault for each page */
+#define POPULATED MAP_POPULATE
+#else
+#define POPULATED 0
+#endif
+#endif
+
+enum {
+    page = 4096,
+    /* Before the first instruction: sanitizers look there for what they know of a function. */
+    head = 64,
+    kept = 16,
+    most_kept = 1 << 16 /* bytes: longer code is rare, and takes long to run */
+};
+
+/* Each counts as used by the shelf; nobody else sees one that is out for a look. */
+static _Atomic(qdot_taylor_text *) shelf[kept];
+static atomic_uint next_place;
+
+/* --- keys --------------------------------------------------------------------------- */
+
+enum { OF_ALL = 9, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
+
+static uint32_t
+row(const qdot_taylor *t, const double *x)
+{
+    return x ? qdot_taylor_row(t, x) : UINT32_MAX;
+}
+
+static size_t
+length_of_key(const qdot_taylor *t)
+{
+    size_t n = OF_ALL + t->outputs + OF_STEP * (t->length + t->n_links);
+
+    for (size_t k = 0; k < t->n_blocks; k++)
+        n += OF_BLOCK + OF_UNKNOWN * t->blocks[k].n +
+             OF_COUPLING * t->blocks[k].n_couplings;
+    return n;
+}
+
+static uint32_t *
+put_step(const qdot_taylor *t, const qdot_taylor_step *s, uint32_t *to)
+{
+    const uint32_t words[OF_STEP] = {s->op,
+                                     s->zero,
+                                     (uint32_t)s->sign,
+                                     row(t, s->to),
+                                     row(t, s->second),
+                                     row(t, s->third),
+                                     row(t, s->d),
+                                     row(t, s->x),
+                                     row(t, s->y),
+                                     row(t, s->z)};
+
+    memcpy(to, words, sizeof words);
+    return to + OF_STEP;
+}
+
+static uint32_t *
+put_block(const qdot_taylor *t, const qdot_taylor_block *b, uint32_t *to)
+{
+    *to++ = (uint32_t)b->n;
+    *to++ = (uint32_t)b->solved;
+    *to++ = (uint32_t)b->n_couplings;
+    for (size_t i = 0; i < b->n; i++) {
+        *to++ = row(t, b->f[i]);
+        *to++ = row(t, b->a[i]);
+        *to++ = row(t, b->r[i]);
+    }
+    for (size_t c = 0; c < b->n_couplings; c++) {
+        *to++ = b->couplings[c].i;
+        *to++ = row(t, b->couplings[c].M);
+        *to++ = row(t, b->couplings[c].a);
+    }
+    return to;
+}
+
+static void
+put_all(const qdot_taylor *t, int orders, uint32_t *to)
+{
+    const uint32_t words[OF_ALL] = {(uint32_t)orders,     (uint32_t)t->rows,
+                                    (uint32_t)t->stride,  (uint32_t)t->moving,
+                                    (uint32_t)t->still,   (uint32_t)t->length,
+                                    (uint32_t)t->n_links, (uint32_t)t->n_blocks,
+                                    (uint32_t)t->outputs};
+
+    memcpy(to, words, sizeof words);
+    to += OF_ALL;
+    for (size_t i = 0; i < t->outputs; i++)
+        *to++ = row(t, t->output[i]);
+    for (size_t i = 0; i < t->length + t->n_links; i++)
+        to = put_step(t, t->steps + i, to);
+    for (size_t k = 0; k < t->n_blocks; k++)
+        to = put_block(t, t->blocks + k, to);
+}
+
+/* --- keeping ------------------------------------------------------------------------ */
+
+void
+qdot_taylor_text_give(qdot_taylor_text *text)
+{
+    if (!text || atomic_fetch_sub(&text->users, 1) > 1)
+        return;
+#ifdef CAN_RUN
+    if (text->memory)
+        munmap(text->memory, text->size);
+#endif
+    qdot_free(text->key);
+    qdot_free(text->blocks);
+    qdot_free(text);
+}
+
+/* What is kept under a key, used once more; NULL. */
+static qdot_taylor_text *
+find(const uint32_t *key, size_t length)
+{
+    for (size_t i = 0; i < kept; i++) {
+        qdot_taylor_text *text = atomic_exchange(shelf + i, NULL), *none = NULL;
+        bool found;
+
+        if (!text)
+            continue;
+        found =
+            text->length == length && memcmp(text->key, key, length * sizeof *key) == 0;
+        if (found)
+            atomic_fetch_add(&text->users, 1);
+        if (!atomic_compare_exchange_strong(shelf + i, &none, text))
+            qdot_taylor_text_give(text); /* another one has come meanwhile */
+        if (found)
+            return text;
+    }
+    return NULL;
+}
+
+qdot_status
+qdot_taylor_text_take(const qdot_taylor *t, int to, qdot_taylor_text **text)
+{
+    const size_t length = length_of_key(t);
+    qdot_taylor_text *empty = qdot_calloc(1, sizeof *empty);
+
+    *text = NULL;
+    if (!empty)
+        return QDOT_ENOMEM;
+    atomic_init(&empty->users, 1);
+    empty->length = length;
+    empty->key = qdot_malloc(length * sizeof *empty->key);
+    if (!empty->key) {
+        qdot_taylor_text_give(empty);
+        return QDOT_ENOMEM;
+    }
+    put_all(t, to, empty->key);
+    *text = find(empty->key, length);
+    if (*text)
+        qdot_taylor_text_give(empty);
+    else
+        *text = empty;
+    return QDOT_OK;
+}
+
+bool
+qdot_taylor_text_fill(qdot_taylor_text *text, const unsigned char *code, size_t n)
+{
+#ifdef CAN_RUN
+    text->used = n;
+    text->size = (head + n + page - 1) / page * page;
+    text->memory = mmap(NULL, text->size, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | POPULATED, -1, 0);
+    if (text->memory == MAP_FAILED) {
+        text->memory = NULL;
+        return false;
+    }
+    memcpy((unsigned char *)text->memory + head, code, n);
+    if (mprotect(text->memory, text->size, PROT_READ | PROT_EXEC) == 0)
+        return true;
+    munmap(text->memory, text->size);
+    text->memory = NULL;
+    return false;
+#else
+    (void)text, (void)code, (void)n;
+    return false;
+#endif
+}
+
+const unsigned char *
+qdot_taylor_text_first(const qdot_taylor_text *text)
+{
+    return (const unsigned char *)text->memory + head;
+}
+
+void
+qdot_taylor_text_keep(qdot_taylor_text *text)
+{
+    if (text->used > most_kept)
+        return;
+    atomic_fetch_add(&text->users, 1);
+    qdot_taylor_text_give(
+        atomic_exchange(shelf + atomic_fetch_add(&next_place, 1) % kept, text));
+}

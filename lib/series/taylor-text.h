@@ -1,0 +1,42 @@
+/* taylor-text.h -- machine code of a Taylor program as memory: written once, run by all programs
+ * of the same shape. Internal to series/.
+ *
+ * Code depends on the operations of a program, on what they read and write, and on its order, not
+ * on any number (taylor-code.h). Runs of a scene, of a sweep, and pieces between events want the
+ * same again and again: the last few that were written are kept. Any thread may take and give.
+ *
+ * Tests  tests/series/test_taylor-code.c
+ */
+#ifndef QDOT_SERIES_TAYLOR_TEXT_H
+#define QDOT_SERIES_TAYLOR_TEXT_H
+
+#include <stdatomic.h>
+
+#include "series/taylor-steps.h"
+
+typedef struct {
+    uint32_t *key; /* [length] */
+    size_t length;
+    void *memory;
+    size_t size, used; /* bytes: of the memory, of the code */
+    size_t begin;      /* where the function of order 0 is in it */
+    size_t doubles;    /* of work space that it wants */
+    uint32_t *blocks;  /* [blocks] where there it has their matrices */
+    atomic_uint users;
+} qdot_taylor_text;
+
+/* Of orders 1 ... to of a program: one that is kept, its `memory` there, to be read only, or an
+ * empty one that has the key alone. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_text_take(const qdot_taylor *t, int to,
+                                                  qdot_taylor_text **text);
+/* Fill an empty one. Memory is written or run, never both. False: the system does not let it
+ * be run. */
+bool qdot_taylor_text_fill(qdot_taylor_text *text, const unsigned char *code, size_t n);
+/* It is complete: it is kept. */
+void qdot_taylor_text_keep(qdot_taylor_text *text);
+/* Its first instruction. */
+const unsigned char *qdot_taylor_text_first(const qdot_taylor_text *text);
+/* It is used no more by who took it. NULL is ignored. */
+void qdot_taylor_text_give(qdot_taylor_text *text);
+
+#endif

@@ -1,0 +1,530 @@
+/* taylor-wide.c -- steps put into groups, and the choice of kernels. */
+#include "series/taylor-wide.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "num/kinds.h"
+#include "series/taylor-steps.h"
+
+/* Steps a group, on an average, from which on vectors are worth it. */
+static const double least_alike = 2.5;
+
+#define NO_LANE SIZE_MAX
+
+/* Groups that are operands put side by side; those that have order 0 only. */
+enum { COPIED = QDOT_T_COUNT, COPIED_ONCE };
+
+typedef struct {
+    int op;
+    size_t lanes;                  /* filled up to full vectors */
+    size_t to, second, d, x, y, z; /* its first lanes */
+    size_t count;                  /* copied: of `from` */
+    size_t *from;
+} group;
+
+/* Coefficients by order, then lane. */
+typedef struct {
+    void (*order)(const group *groups, size_t n, double *X, size_t width, int k);
+    void (*correct)(const group *groups, size_t n, double *X, double *N, size_t width,
+                    size_t inputs, int k, const double *newest, double divisor);
+    void (*dots)(size_t pairs, const qdot_wide_pair *pair, size_t n, size_t x_stride,
+                 size_t y_stride, double *out);
+    void (*rest)(size_t pairs, const qdot_wide_pair *pair, size_t n, size_t x_stride,
+                 size_t y_stride, double scale, const double *from, double *out);
+    void (*rows)(const double *X, size_t width, int last, double per_unit, double *const *q,
+                 double *const *v);
+    void (*multiply)(const qdot_wide_columns *columns, const double *in, double factor,
+                     double *out);
+} kernels;
+
+struct qdot_taylor_wide {
+    const kernels *kernels;
+    size_t n;         /* inputs that are corrected; */
+    size_t corrected; /* their lanes; */
+    size_t inputs;    /* filled up to full vectors */
+    size_t width, rows, stride;
+    int orders;
+    const double *coefficients; /* the program's, for numbers of rows */
+    size_t *lane;               /* [rows] */
+    size_t *input;              /* [inputs] which of them a lane is; NO_LANE: none */
+    size_t constant;            /* the first lane that is 0 beyond order 0, itself 0 there; */
+    size_t changing;            /* behind the last of them */
+    qdot_vec(group) groups;
+    double *allocated, *X, *N; /* [orders x width], [width] */
+    double convolutions;
+};
+
+static inline void
+copy(const group *g, double *at)
+{
+    for (size_t i = 0; i < g->count; i++)
+        at[g->to + i] = at[g->from[i]];
+}
+
+#define LANES 4
+#define NAME(x) portable_##x
+#define MA(a, b, c) QDOT_VECTOR_MA(portable_vector, a, b, c)
+#include "series/taylor-wide.def"
+#undef NAME
+#undef MA
+
+#ifdef QDOT_X86_KINDS
+#include <immintrin.h>
+
+QDOT_KIND_AVX2
+#define NAME(x) avx2_##x
+#define MA(a, b, c)                                                                      \
+    ((avx2_vector)_mm256_fmadd_pd((__m256d)(a), (__m256d)(b), (__m256d)(c)))
+#include "series/taylor-wide.def"
+#undef NAME
+#undef MA
+#undef LANES
+QDOT_KIND_END
+
+QDOT_KIND_AVX512
+#define LANES 8
+#define NAME(x) avx512_##x
+#define MA(a, b, c)                                                                      \
+    ((avx512_vector)_mm512_fmadd_pd((__m512d)(a), (__m512d)(b), (__m512d)(c)))
+#include "series/taylor-wide.def"
+#undef NAME
+#undef MA
+QDOT_KIND_END
+#endif
+#undef LANES
+
+static const kernels *
+kernels_here(void)
+{
+#ifdef QDOT_X86_KINDS
+    if (qdot_kind_is_here(2))
+        return &avx512_kernels;
+    if (qdot_kind_is_here(1))
+        return &avx2_kernels;
+#endif
+    return &portable_kernels;
+}
+
+/* --- groups -------------------------------------------------------------------------- */
+
+/* A step and what it is put into a group by. */
+typedef struct {
+    const qdot_taylor_step *step;
+    size_t level, x, y, z; /* lanes */
+    size_t first;          /* of these the first that has more than order 0 */
+} member;
+
+typedef struct {
+    qdot_taylor_wide *w;
+    const qdot_taylor *t;
+    const size_t *inputs; /* their lanes; NULL: in their order */
+    size_t *level;        /* [rows] */
+    member *members;
+    size_t n_members, deepest;
+    size_t *lanes; /* scratch */
+} builder;
+
+static bool
+is_built(int op)
+{
+    switch (op) {
+    case QDOT_T_NEG:
+    case QDOT_T_ADD:
+    case QDOT_T_SUB:
+    case QDOT_T_SCALE:
+    case QDOT_T_SCALEADD:
+    case QDOT_T_SCALESUB:
+    case QDOT_T_SCALEOFF:
+    case QDOT_T_MUL:
+    case QDOT_T_SQUARE:
+    case QDOT_T_MADD:
+    case QDOT_T_MSUB:
+    case QDOT_T_NMADD:
+    case QDOT_T_SINCOS: return true;
+    default: return false;
+    }
+}
+
+static size_t
+row_of(const qdot_taylor_wide *w, const double *row)
+{
+    return (size_t)(row - w->coefficients) / w->stride;
+}
+
+static size_t
+full(size_t n)
+{
+    return (n + QDOT_WIDE_LANES - 1) / QDOT_WIDE_LANES * QDOT_WIDE_LANES;
+}
+
+static size_t
+take_lanes(qdot_taylor_wide *w, size_t n)
+{
+    const size_t at = w->width;
+
+    w->width += full(n);
+    return at;
+}
+
+/* Whether a lane has more than order 0. */
+static bool
+changes(const qdot_taylor_wide *w, size_t lane)
+{
+    return lane < w->constant || lane >= w->changing;
+}
+
+qdot_status
+qdot_taylor_wide_align(qdot_taylor_wide *w, size_t count, const size_t *lanes, size_t *at)
+{
+    group g = {.op = COPIED_ONCE, .count = count, .lanes = full(count)};
+    bool aligned = lanes[0] % QDOT_WIDE_LANES == 0;
+
+    for (size_t i = 1; i < count; i++)
+        aligned = aligned && lanes[i] == lanes[0] + i;
+    *at = lanes[0];
+    if (aligned)
+        return QDOT_OK;
+    g.from = qdot_calloc(count, sizeof *g.from);
+    if (!g.from)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < count; i++) {
+        g.from[i] = lanes[i] == NO_LANE ? w->constant : lanes[i];
+        if (changes(w, g.from[i]))
+            g.op = COPIED;
+    }
+    *at = g.to = take_lanes(w, count);
+    if (qdot_vec_push(&w->groups, g) != QDOT_OK) {
+        qdot_free(g.from);
+        return QDOT_ENOMEM;
+    }
+    return QDOT_OK;
+}
+
+/* Inputs, then what has order 0 only. */
+static void
+first_lanes(builder *b)
+{
+    qdot_taylor_wide *w = b->w;
+    const qdot_taylor *t = b->t;
+    size_t at;
+
+    for (size_t r = 0; r < w->rows; r++) {
+        w->lane[r] = r >= w->n ? NO_LANE : b->inputs ? b->inputs[r] : r;
+        b->level[r] = 0;
+    }
+    w->width = w->inputs = full(w->corrected);
+    for (size_t l = 0; l < w->inputs; l++)
+        w->input[l] = NO_LANE;
+    for (size_t r = 0; r < w->n; r++)
+        w->input[w->lane[r]] = r;
+    at = take_lanes(w, t->inputs - w->n);
+    for (size_t r = w->n; r < t->inputs; r++)
+        w->lane[r] = at++;
+    w->constant = take_lanes(w, 1);
+    for (size_t i = t->still; i < t->length; i++) {
+        const qdot_taylor_step *s = t->steps + i;
+
+        w->lane[row_of(w, s->to)] = 0; /* to come */
+        if (s->second)
+            w->lane[row_of(w, s->second)] = 0;
+        if (s->d)
+            w->lane[row_of(w, s->d)] = 0;
+    }
+    at = w->width;
+    for (size_t r = t->inputs; r < w->rows; r++)
+        if (w->lane[r] == NO_LANE)
+            w->lane[r] = at++;
+    w->width = w->changing = full(at);
+}
+
+/* The steps that move with their levels; false: one is not built. */
+static bool
+find_members(builder *b)
+{
+    const qdot_taylor *t = b->t;
+
+    for (size_t i = t->still; i < t->length; i++) {
+        const qdot_taylor_step *s = t->steps + i;
+        const size_t x = b->level[row_of(b->w, s->x)], y = b->level[row_of(b->w, s->y)];
+        const size_t z = b->level[row_of(b->w, s->z)];
+        size_t level = (x > y ? x : y) > z ? (x > y ? x : y) : z;
+
+        if (!is_built(s->op))
+            return false;
+        b->members[b->n_members++] = (member){.step = s, .level = ++level};
+        b->level[row_of(b->w, s->to)] = level;
+        if (s->second)
+            b->level[row_of(b->w, s->second)] = level;
+        b->deepest = level > b->deepest ? level : b->deepest;
+    }
+    return true;
+}
+
+static int
+by_operands(const void *left, const void *right)
+{
+    const member *a = left, *b = right;
+
+    if (a->first != b->first)
+        return a->first < b->first ? -1 : 1;
+    if (a->x != b->x)
+        return a->x < b->x ? -1 : 1;
+    if (a->y != b->y)
+        return a->y < b->y ? -1 : 1;
+    return a->z < b->z ? -1 : a->z > b->z;
+}
+
+static qdot_status
+align(builder *b, const member *m, size_t n, size_t offset, size_t *at)
+{
+    for (size_t i = 0; i < n; i++)
+        memcpy(b->lanes + i, (const char *)(m + i) + offset, sizeof *b->lanes);
+    return qdot_taylor_wide_align(b->w, n, b->lanes, at);
+}
+
+/* A group of n steps. */
+static qdot_status
+add_group(builder *b, member *m, size_t n)
+{
+    qdot_taylor_wide *w = b->w;
+    group g = {.op = m->step->op, .lanes = full(n)};
+    const double vectors = (double)(g.lanes / QDOT_WIDE_LANES);
+
+    for (size_t i = 0; i < n; i++) {
+        m[i].x = w->lane[row_of(w, m[i].step->x)];
+        m[i].y = w->lane[row_of(w, m[i].step->y)];
+        m[i].z = w->lane[row_of(w, m[i].step->z)];
+        m[i].first = changes(w, m[i].x) ? m[i].x : changes(w, m[i].y) ? m[i].y : m[i].z;
+    }
+    qsort(m, n, sizeof *m, by_operands);
+    QDOT_TRY(align(b, m, n, offsetof(member, x), &g.x));
+    QDOT_TRY(align(b, m, n, offsetof(member, y), &g.y));
+    QDOT_TRY(align(b, m, n, offsetof(member, z), &g.z));
+    g.to = take_lanes(w, n);
+    g.second = m->step->second ? take_lanes(w, n) : g.to;
+    g.d = m->step->d ? take_lanes(w, n) : g.to;
+    for (size_t i = 0; i < n; i++) {
+        w->lane[row_of(w, m[i].step->to)] = g.to + i;
+        if (m->step->second)
+            w->lane[row_of(w, m[i].step->second)] = g.second + i;
+        if (m->step->d)
+            w->lane[row_of(w, m[i].step->d)] = g.d + i;
+    }
+    if (g.op >= QDOT_T_MUL)
+        w->convolutions += g.op == QDOT_T_SINCOS ? 2 * vectors : vectors;
+    return qdot_vec_push(&w->groups, g);
+}
+
+static qdot_status
+add_groups(builder *b)
+{
+    member *now = qdot_calloc(b->n_members + 1, sizeof *now);
+    qdot_status status = now ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t level = 1; level <= b->deepest && status == QDOT_OK; level++)
+        for (int op = 0; op < QDOT_T_COUNT && status == QDOT_OK; op++) {
+            size_t n = 0;
+
+            for (size_t i = 0; i < b->n_members; i++)
+                if (b->members[i].level == level && b->members[i].step->op == op)
+                    now[n++] = b->members[i];
+            if (n > 0)
+                status = add_group(b, now, n);
+        }
+    qdot_free(now);
+    return status;
+}
+
+static qdot_status
+build(builder *b, bool *built)
+{
+    const size_t rows = b->w->rows;
+
+    b->level = qdot_calloc(rows + 1, sizeof *b->level);
+    b->lanes = qdot_calloc(rows + 1, sizeof *b->lanes);
+    b->members = qdot_calloc(b->t->length + 1, sizeof *b->members);
+    b->w->lane = qdot_calloc(rows + 1, sizeof *b->w->lane);
+    b->w->input = qdot_calloc(full(b->w->corrected) + 1, sizeof *b->w->input);
+    if (!b->level || !b->lanes || !b->members || !b->w->lane || !b->w->input)
+        return QDOT_ENOMEM;
+    first_lanes(b);
+    *built = find_members(b);
+    if (*built)
+        QDOT_TRY(add_groups(b));
+    *built = *built && (double)b->n_members >= least_alike * (double)b->w->groups.n;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_taylor_wide_new(const qdot_taylor *t, size_t n, const size_t *lane, size_t lanes,
+                     qdot_taylor_wide **wide)
+{
+    qdot_taylor_wide *w = qdot_calloc(1, sizeof *w);
+    builder b = {.w = w, .t = t, .inputs = lane};
+    bool built = false;
+    qdot_status status;
+
+    *wide = NULL;
+    if (!w)
+        return QDOT_ENOMEM;
+    w->kernels = kernels_here();
+    w->n = n;
+    w->corrected = lane ? lanes : n;
+    w->rows = t->rows;
+    w->stride = t->stride;
+    w->orders = (int)t->stride;
+    w->coefficients = t->coefficients;
+    status = build(&b, &built);
+    qdot_free(b.level);
+    qdot_free(b.lanes);
+    qdot_free(b.members);
+    if (status != QDOT_OK || !built) {
+        qdot_taylor_wide_free(w);
+        return status;
+    }
+    *wide = w;
+    return QDOT_OK;
+}
+
+void
+qdot_taylor_wide_free(qdot_taylor_wide *w)
+{
+    if (!w)
+        return;
+    for (size_t i = 0; i < w->groups.n; i++)
+        qdot_free(w->groups.at[i].from);
+    qdot_free(w->groups.at);
+    qdot_free(w->lane);
+    qdot_free(w->input);
+    qdot_free(w->allocated);
+    qdot_free(w);
+}
+
+/* --- evaluation ---------------------------------------------------------------------- */
+
+size_t
+qdot_taylor_wide_width(const qdot_taylor_wide *w)
+{
+    return w->width;
+}
+
+double *
+qdot_taylor_wide_at(const qdot_taylor_wide *w, int k)
+{
+    return w->X + (size_t)k * w->width;
+}
+
+size_t
+qdot_taylor_wide_lane(const qdot_taylor_wide *w, const double *row)
+{
+    return w->lane[row_of(w, row)];
+}
+
+qdot_status
+qdot_taylor_wide_settle(qdot_taylor_wide *w)
+{
+    size_t n;
+
+    /* orders an even number of lines of a cache apart would meet in a part of it */
+    w->width += w->width % (2 * QDOT_WIDE_LANES) ? 0 : QDOT_WIDE_LANES;
+    n = ((size_t)w->orders + 1) * w->width;
+    w->allocated = qdot_calloc(n + QDOT_WIDE_LANES, sizeof(double));
+    if (!w->allocated)
+        return QDOT_ENOMEM;
+    w->X = w->allocated;
+    while ((uintptr_t)w->X % (QDOT_WIDE_LANES * sizeof(double)) != 0)
+        w->X++;
+    w->N = w->X + (size_t)w->orders * w->width;
+    return QDOT_OK;
+}
+
+void
+qdot_taylor_wide_begin(qdot_taylor_wide *w, const qdot_taylor *t)
+{
+    for (size_t r = 0; r < w->rows; r++)
+        w->X[w->lane[r]] = t->coefficients[r * w->stride];
+    w->X[w->constant] = 0;
+    for (size_t r = w->n; r < t->inputs; r++)
+        w->X[w->width + w->lane[r]] = t->coefficients[r * w->stride + 1];
+    for (const group *g = w->groups.at; g < w->groups.at + w->groups.n; g++)
+        if (g->op >= COPIED)
+            copy(g, w->X);
+}
+
+void
+qdot_taylor_wide_order(qdot_taylor_wide *w, int k)
+{
+    memset(w->X + (size_t)k * w->width, 0, w->inputs * sizeof *w->X);
+    w->kernels->order(w->groups.at, w->groups.n, w->X, w->width, k);
+}
+
+void
+qdot_taylor_wide_correct(qdot_taylor_wide *w, int k, const double *newest, double divisor)
+{
+    if (w->corrected < w->inputs) { /* lanes beyond them stay 0 */
+        memcpy(w->N, newest, w->corrected * sizeof *newest);
+        memset(w->N + w->corrected, 0, (w->inputs - w->corrected) * sizeof *newest);
+        newest = w->N;
+    }
+    w->kernels->correct(w->groups.at, w->groups.n, w->X, w->N, w->width, w->inputs, k,
+                        newest, divisor);
+}
+
+void
+qdot_taylor_wide_rows(const qdot_taylor_wide *w, int last, double per_unit, double *q,
+                      double *v, size_t stride)
+{
+    double nowhere[QDOT_SERIES_MOST + 2 * QDOT_WIDE_LANES];
+
+    for (size_t i = 0; i < w->n && last == 2; i++) {
+        q[i * stride + 2] = w->X[2 * w->width + w->lane[i]];
+        v[i * stride + 1] = 2 * per_unit * q[i * stride + 2];
+    }
+    for (size_t at = 0; last > 2 && at < w->inputs; at += QDOT_WIDE_LANES) {
+        double *to_q[QDOT_WIDE_LANES], *to_v[QDOT_WIDE_LANES];
+
+        for (size_t l = 0; l < QDOT_WIDE_LANES; l++) {
+            const size_t i = w->input[at + l];
+
+            to_q[l] = i == NO_LANE ? nowhere : q + i * stride;
+            to_v[l] = i == NO_LANE ? nowhere : v + i * stride;
+        }
+        w->kernels->rows(w->X + at, w->width, last, per_unit, to_q, to_v);
+    }
+}
+
+void
+qdot_taylor_wide_dots(const qdot_taylor_wide *w, size_t pairs, const qdot_wide_pair *pair,
+                      size_t n, size_t x_stride, size_t y_stride, double *out)
+{
+    w->kernels->dots(pairs, pair, n, x_stride, y_stride, out);
+}
+
+void
+qdot_taylor_wide_rest(const qdot_taylor_wide *w, size_t pairs, const qdot_wide_pair *pair,
+                      size_t n, size_t x_stride, size_t y_stride, double scale,
+                      const double *from, double *out)
+{
+    w->kernels->rest(pairs, pair, n, x_stride, y_stride, scale, from, out);
+}
+
+void
+qdot_taylor_wide_multiply(const qdot_taylor_wide *w, const qdot_wide_columns *columns,
+                          const double *in, double factor, double *out)
+{
+    w->kernels->multiply(columns, in, factor, out);
+}
+
+double
+qdot_taylor_wide_convolutions(const qdot_taylor_wide *w)
+{
+    return w->convolutions;
+}
+
+size_t
+qdot_taylor_wide_groups(const qdot_taylor_wide *w)
+{
+    return w->groups.n;
+}

@@ -1,0 +1,278 @@
+/* taylor.c -- a series program in doubles: its rows, and what it links. */
+#include "series/taylor.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "tape/shake.h"
+#include "series/taylor-code.h"
+#include "series/taylor-steps.h"
+#include "machine/x86.h"
+
+/* --- building ----------------------------------------------------------------------- */
+
+enum { LINE = 8 }; /* doubles of a line of the cache */
+
+static double *
+place(const qdot_taylor *t, qdot_program_row r)
+{
+    return r == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)r * t->stride;
+}
+
+static qdot_status
+allocate(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns)
+{
+    /* an odd number of cache lines apart, so that rows do not share a few sets */
+    t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
+    t->per_row = ((uint64_t)1 << 32) / t->stride + 1;
+    t->spare = p->rows.n;
+    t->rows = t->spare + 2 * unknowns;
+    t->inputs = p->inputs;
+    t->outputs = p->outputs.n;
+    t->length = p->length;
+    t->still = p->still;
+    t->convolutions = p->convolutions;
+    t->moving = p->moving;
+    t->allocated = qdot_calloc(t->rows * t->stride + LINE, sizeof *t->coefficients);
+    t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
+    t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
+    t->steps = qdot_calloc(p->steps.n, sizeof *t->steps);
+    t->drawn = qdot_calloc(p->constants + 1, sizeof *t->drawn);
+    if (!t->allocated || !t->output || !t->constant || !t->steps || !t->drawn)
+        return QDOT_ENOMEM;
+    t->coefficients = t->allocated;
+    while ((uintptr_t)(t->coefficients + 1) % (LINE * sizeof(double)) != 0)
+        t->coefficients++;
+    return QDOT_OK;
+}
+
+/* Numbers get to their rows; which of them are drawn. */
+static void
+set_constants(qdot_taylor *t, const qdot_program *p, const qdot_tape *tape)
+{
+    for (size_t r = 0; r < t->spare; r++) {
+        const qdot_program_row_info *row = p->rows.at + r;
+        double *to = t->coefficients + r * t->stride;
+
+        if (row->source == QDOT_ROW_CONSTANT)
+            *to = tape->constant[row->at];
+        else if (row->source == QDOT_ROW_WHOLE)
+            *to = row->at;
+    }
+    for (size_t i = 0; i < tape->constants; i++)
+        if (tape->low[i] != 0) {
+            double near = tape->constant[i], far = qdot_shake_double(near, tape->side[i]);
+
+            t->drawn[t->n_drawn++] =
+                (struct qdot_taylor_drawn){t->coefficients + (t->inputs + i) * t->stride,
+                                           near, far, tape->low[i] / (far - near)};
+        }
+}
+
+/* Rows get their places, steps their pointers. */
+static qdot_status
+settle(qdot_taylor *t, const qdot_program *p, const qdot_tape *tape, int most,
+       size_t unknowns)
+{
+    QDOT_TRY(allocate(t, p, most, unknowns));
+    set_constants(t, p, tape);
+    for (size_t i = 0; i < p->steps.n; i++) {
+        const qdot_program_step *s = p->steps.at + i;
+
+        t->steps[i] = (qdot_taylor_step){.op = s->op,
+                                         .zero = s->zero,
+                                         .sign = s->sign,
+                                         .to = place(t, s->to),
+                                         .second = place(t, s->second),
+                                         .third = place(t, s->third),
+                                         .d = place(t, s->d),
+                                         .x = place(t, s->x),
+                                         .y = place(t, s->y),
+                                         .z = place(t, s->z)};
+    }
+    for (size_t i = 0; i < t->outputs; i++) {
+        const qdot_program_row r = p->outputs.at[i];
+
+        t->output[i] = place(t, r);
+        t->constant[i] = p->rows.at[r].still;
+    }
+    t->kernels = qdot_series_kernels_get();
+    return QDOT_OK;
+}
+
+static qdot_status
+make(const qdot_tape *tape, int most, size_t moving, size_t unknowns,
+     qdot_taylor **taylor)
+{
+    qdot_program program;
+    qdot_taylor *t;
+    qdot_status status;
+
+    *taylor = NULL;
+    if (most < 0 || most > QDOT_SERIES_MOST)
+        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
+    QDOT_TRY(qdot_program_init(tape, moving, false, &program));
+    t = qdot_calloc(1, sizeof *t);
+    status = t ? settle(t, &program, tape, most, unknowns) : QDOT_ENOMEM;
+    qdot_program_clear(&program);
+    if (status != QDOT_OK) {
+        qdot_taylor_free(t);
+        return status;
+    }
+    *taylor = t;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
+{
+    return make(tape, most, tape->inputs, 0, taylor);
+}
+
+qdot_status
+qdot_taylor_new_moving(const qdot_tape *tape, bool shaken, int most, size_t moving,
+                       size_t unknowns, qdot_taylor **taylor)
+{
+    qdot_tape *copy = NULL;
+    qdot_status status;
+
+    if (shaken)
+        QDOT_TRY(qdot_tape_shake(tape, &copy));
+    status = make(copy ? copy : tape, most, moving, unknowns, taylor);
+    qdot_tape_free(copy);
+    return status;
+}
+
+qdot_status
+qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken, int most, qdot_taylor **taylor)
+{
+    return qdot_taylor_new_moving(tape, shaken, most, tape->inputs, 0, taylor);
+}
+
+static void
+free_block(qdot_taylor_block *b)
+{
+    qdot_free(b->f);
+    qdot_free(b->a);
+    qdot_free(b->couplings);
+    qdot_free(b->matrices);
+}
+
+void
+qdot_taylor_free(qdot_taylor *t)
+{
+    if (!t)
+        return;
+    qdot_taylor_changes_free(t);
+    qdot_taylor_code_free(t->code);
+    for (size_t b = 0; b < t->n_blocks; b++)
+        free_block(t->blocks + b);
+    qdot_free(t->blocks);
+    qdot_free(t->allocated);
+    qdot_free(t->output);
+    qdot_free(t->constant);
+    qdot_free(t->steps);
+    qdot_free(t->drawn);
+    qdot_free(t);
+}
+
+qdot_status
+qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
+{
+    size_t capacity = t->length + t->n_links + 1;
+    qdot_taylor_step *link;
+
+    QDOT_TRY(qdot_grow(&t->steps, &capacity, capacity + 1, sizeof *t->steps));
+    link = t->steps + t->length + t->n_links++;
+    link[1] = link[0];
+    *link = (qdot_taylor_step){
+        .op = QDOT_T_LINK,
+        .to = t->coefficients + i * t->stride,
+        .second = twice != SIZE_MAX ? t->coefficients + twice * t->stride : NULL,
+        .x = from};
+    return QDOT_OK;
+}
+
+bool
+qdot_taylor_may_be_code(void)
+{
+    return qdot_x86_is_here();
+}
+
+bool
+qdot_taylor_is_code(const qdot_taylor *t, int to)
+{
+    return t->code && qdot_taylor_code_orders(t->code) == to;
+}
+
+qdot_status
+qdot_taylor_prepare(qdot_taylor *t, int to)
+{
+    if (to < 1 || to > QDOT_SERIES_MOST)
+        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", to);
+    if (qdot_taylor_is_code(t, to))
+        return QDOT_OK;
+    qdot_taylor_drop_code(t);
+    return qdot_taylor_code_new(t, to, false, &t->code, &t->no_code);
+}
+
+bool
+qdot_taylor_take_kept(qdot_taylor *t, int to)
+{
+    const char *why;
+
+    if (t->asked || t->code || to < 1 || to > QDOT_SERIES_MOST)
+        return false;
+    t->asked = true;
+    return qdot_taylor_code_new(t, to, true, &t->code, &why) == QDOT_OK && t->code;
+}
+
+void
+qdot_taylor_drop_code(qdot_taylor *t)
+{
+    qdot_taylor_code_free(t->code);
+    t->code = NULL;
+}
+
+size_t
+qdot_taylor_code_bytes(const qdot_taylor *t, const char **why)
+{
+    *why = t->code ? NULL : t->no_code;
+    return t->code ? qdot_taylor_code_size(t->code) : 0;
+}
+
+double *
+qdot_taylor_input(qdot_taylor *t, size_t i)
+{
+    return t->coefficients + i * t->stride;
+}
+
+size_t
+qdot_taylor_stride(const qdot_taylor *t)
+{
+    return t->stride;
+}
+
+const double *
+qdot_taylor_output(const qdot_taylor *t, size_t i)
+{
+    return t->output[i];
+}
+
+bool
+qdot_taylor_is_constant(const qdot_taylor *t, size_t i)
+{
+    return t->constant[i];
+}
+
+double
+qdot_taylor_convolutions(const qdot_taylor *t)
+{
+    return t->convolutions;
+}
+
+size_t
+qdot_taylor_length(const qdot_taylor *t)
+{
+    return t->length - t->still;
+}

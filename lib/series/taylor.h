@@ -1,0 +1,148 @@
+/* taylor.h -- a tape over truncated power series: Taylor coefficients of its outputs from
+ * those of its inputs.
+ *
+ * Every value v of the tape is a series v(s) = sum_k v_k s^k. One order is evaluated at
+ * a time, so that coefficient k + 1 of an input may be made from coefficient k of an
+ * output, as a differential equation asks. The recurrences are those of recurrence.def, what
+ * an expansion does those of program.h.
+ *
+ * Operations that switch (abs, sign, min, max, mod, floor, relations, if) have no series
+ * at the point where they switch: QDOT_ENOTBUILT names the operation.
+ *
+ * Tests   tests/series/test_taylor.c
+ */
+#ifndef QDOT_SERIES_TAYLOR_H
+#define QDOT_SERIES_TAYLOR_H
+
+#include "tape/tape.h"
+
+/* Up to this order of q'' an integral divides by k + 1 and k + 2, exactly but for the last
+ * bit; beyond it multiplies by inverses. The rounding of an inverse is the same in every
+ * step, and made the energy of an oscillator drift as t. Series up to less than so many
+ * orders err by more than that. */
+enum { QDOT_TAYLOR_EXACT = 6, QDOT_TAYLOR_EXACT_FROM = 26 };
+
+/* The program with its coefficients: one a thread. */
+typedef struct qdot_taylor qdot_taylor;
+
+/* For orders 0 ... most (at most QDOT_SERIES_MOST). The tape is read, not kept. Errors:
+ * QDOT_ENOTBUILT, QDOT_EINVAL (most), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_new(const qdot_tape *tape, int most,
+                                            qdot_taylor **taylor);
+/* The same of its shaken copy (shake.h) if `shaken`. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken,
+                                                   int most, qdot_taylor **taylor);
+/* The same where the inputs from `moving` on are numbers: they have no coefficients but of
+ * order 0, and what is made of them alone is computed there only. There is room to solve for
+ * `unknowns` rows. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_new_moving(const qdot_tape *tape, bool shaken,
+                                                   int most, size_t moving,
+                                                   size_t unknowns, qdot_taylor **taylor);
+void qdot_taylor_free(qdot_taylor *taylor);
+
+/* Coefficients by order of input i, to be written by the caller before each order. The
+ * rows of the inputs follow each other at a distance of qdot_taylor_stride doubles. */
+double *qdot_taylor_input(qdot_taylor *taylor, size_t i);
+size_t qdot_taylor_stride(const qdot_taylor *taylor);
+
+/* Coefficients by order of output i. */
+const double *qdot_taylor_output(const qdot_taylor *taylor, size_t i);
+/* Whether output i is the same number whatever the inputs that move are. */
+bool qdot_taylor_is_constant(const qdot_taylor *taylor, size_t i);
+
+/* Constants that are no doubles, for a stretch of time that begins at t: each becomes
+ * one of its two neighbours, drawn with the chances that make the exact value their
+ * mean. Over many steps what rounding such a constant does averages out, where always
+ * the same side would be a drift. The draw is a function of t alone. Of a shaken tape
+ * nothing is drawn. */
+void qdot_taylor_draw(qdot_taylor *taylor, double t);
+
+/* The chances themselves: a number in [0, 1) for draw i of the stretch that begins at t,
+ * always the same one. */
+double qdot_taylor_chance(double t, size_t i);
+
+/* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
+ * and inf as IEEE 754 has them. */
+void qdot_taylor_order(qdot_taylor *taylor, int k);
+
+/* Input i is the integral of `from`, a row of coefficients, over time: its order k + 1 is
+ * unit/(k + 1) times order k of that. Input `twice` (SIZE_MAX: none) is the integral of
+ * input i; its order k + 2 is there with k + 1 of that, an order before it is wanted. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size_t twice,
+                                             const double *from);
+
+/* n further rows a, the unknowns of
+ *
+ *     sum_j M_ij a_j = f_i,   so   M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j},
+ *
+ * M [n(n+1)/2] the lower triangle by rows (NULL: only numbers) and f [n] being outputs by
+ * their numbers. *a [n] are the rows, whose order 0 is the caller's to solve for; so are
+ * all others where an expansion is not machine code, and code is all that this is for.
+ * *matrices [2 n n] is to be filled before each expansion: the Cholesky factor of M_0 by
+ * rows, by which orders up to `solved` are found; M_0^-1 by rows, by which the others. Both are the program's. Before anything is linked. Errors: QDOT_EINVAL
+ * (no room for so many), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_solve(qdot_taylor *taylor, size_t n,
+                                              const size_t *f, const size_t *M,
+                                              int solved, double *const **a,
+                                              double **matrices);
+
+/* Entry (i, j) of a matrix: an output by its number. */
+typedef struct {
+    size_t i, j, output;
+} qdot_taylor_entry;
+
+/* The same for any M: entries [count] by rows i ascending, those left out being numbers that
+ * never change. By M_0^-1 alone where `solved` is 0 or less; else M is as above. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_solve_entries(qdot_taylor *taylor, size_t n,
+                                                      const size_t *f, size_t count,
+                                                      const qdot_taylor_entry *entries,
+                                                      int solved, double *const **a,
+                                                      double **matrices);
+
+/* Order 0 of all that is computed, and what is linked. Then orders `from` to `to`, each
+ * followed by what is linked to it in the order in which it was; `to` below the program's
+ * highest but one. */
+void qdot_taylor_begin(qdot_taylor *taylor, double unit);
+/* Of _begin what is linked alone, order 0 of all being there, unknowns too. */
+void qdot_taylor_begin_links(qdot_taylor *taylor, double unit);
+void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
+
+/* Orders 1 ... to are going to be evaluated again and again, by qdot_taylor_begin and then
+ * qdot_taylor_extend(1, to): as machine code, where that can be made (taylor-code.h). All
+ * links are there by now. Whatever else is evaluated is so by the kernels, as everything is
+ * without this call. Errors: QDOT_EINVAL (to), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to);
+/* The same where such code lies there from before, and nothing is to be written; asked for
+ * once, beside other code never. False: nothing has changed. */
+bool qdot_taylor_take_kept(qdot_taylor *taylor, int to);
+/* All is evaluated by the kernels again. */
+void qdot_taylor_drop_code(qdot_taylor *taylor);
+/* Whether orders 1 ... to are machine code. */
+bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
+/* Whether this processor has machine code at all. */
+bool qdot_taylor_may_be_code(void);
+/* How long the code is; 0: there is none, and *why says so, NULL if none was asked for. */
+size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
+
+/* The first n inputs will have their newest coefficients corrected. kept [outputs]: whether
+ * an output is read after that, NULL: all are; of the others only what further orders
+ * need is brought up to date. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_affine(qdot_taylor *taylor, size_t n,
+                                               const bool *kept);
+
+/* Order k was evaluated with coefficient k of these inputs at 0 and is affine in it: now
+ * it becomes newest [n]. Everything is brought up to date, by derivatives at order 0
+ * alone. k > 0. */
+void qdot_taylor_correct(qdot_taylor *taylor, int k, const double *newest);
+
+/* The longest step, at most s (INFINITY: any), of the expansion that is there to order p which
+ * carries no argument of an exponential too far (near.h), in units of time. Whether there are
+ * any. */
+double qdot_taylor_near(const qdot_taylor *taylor, int p, double s);
+bool qdot_taylor_has_exponentials(const qdot_taylor *taylor);
+
+/* Convolutions an order (a square counts half), and instructions. */
+double qdot_taylor_convolutions(const qdot_taylor *taylor);
+size_t qdot_taylor_length(const qdot_taylor *taylor);
+
+#endif

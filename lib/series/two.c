@@ -1,0 +1,317 @@
+/* two.c -- a series program in sums of two doubles. */
+#include "series/two.h"
+
+#include <stdint.h>
+
+#include "num/kinds.h"
+#include "series/program.h"
+
+/* As qdot_program_step, with the places of its rows. */
+typedef struct {
+    int op, zero, sign;
+    const qdot_two *x, *y, *z;
+    qdot_two *to, *second, *third, *d;
+} step;
+
+struct qdot_tape_two {
+    qdot_program program;
+    size_t stride;
+    qdot_two *numbers; /* [rows x stride], the inputs first */
+    step *steps;       /* [program.length], END behind them */
+    double *note;      /* [rows] by how much the newest coefficient changes */
+    const qdot_two_functions *functions;
+    void (*order)(const step *i, int k);
+};
+
+/* --- order 0 ------------------------------------------------------------------------ */
+
+static inline qdot_two
+truth(double x)
+{
+    return (qdot_two){x, 0};
+}
+
+static inline bool
+is_less(qdot_two a, qdot_two b)
+{
+    return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
+}
+
+static inline qdot_two
+whole_part(qdot_two a)
+{
+    const double hi = floor(a.hi);
+
+    return hi == a.hi ? qdot_two_of(hi, floor(a.lo)) : (qdot_two){hi, 0};
+}
+
+/* 1 - tanh^2 beside tanh. */
+static qdot_two
+hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
+{
+    const qdot_two d = f->tanh(a);
+
+    *slope = qdot_two_add_double(qdot_two_neg(qdot_two_mul(d, d)), 1);
+    return d;
+}
+
+static void
+value(const step *i, const qdot_two_functions *f)
+{
+    const qdot_two a = i->x[0], b = i->y[0], c = i->z[0];
+    qdot_two d;
+
+    switch (i->zero) {
+    case QDOT_OP_NEG: d = qdot_two_neg(a); break;
+    case QDOT_OP_ADD: d = qdot_two_add(a, b); break;
+    case QDOT_OP_SUB: d = qdot_two_sub(a, b); break;
+    case QDOT_OP_MUL: d = qdot_two_mul(a, b); break;
+    case QDOT_OP_MADD: d = qdot_two_add(qdot_two_mul(a, b), c); break;
+    case QDOT_OP_MSUB: d = qdot_two_sub(qdot_two_mul(a, b), c); break;
+    case QDOT_OP_NMADD: d = qdot_two_sub(c, qdot_two_mul(a, b)); break;
+    case QDOT_OP_DIV: d = qdot_two_div(a, b); break;
+    case QDOT_OP_SQRT: d = qdot_two_sqrt(a); break;
+    case QDOT_OP_POW: d = f->pow(a, b); break;
+    case QDOT_ZERO_POWER: d = f->pow(b, c); break;
+    case QDOT_OP_SINCOS: f->sincos(a, &d, i->second); break;
+    case QDOT_ZERO_SINHCOSH: f->sinhcosh(a, &d, i->second); break;
+    case QDOT_OP_TANH: d = hyperbolic_tangent(f, a, i->second); break;
+    case QDOT_OP_ATAN2: d = f->atan2(a, b); break;
+    case QDOT_OP_EXP: d = f->exp(a); break;
+    case QDOT_OP_LOG: d = f->log(a); break;
+    case QDOT_OP_ERF: d = f->erf(a); break;
+    case QDOT_OP_ERFC: d = f->erfc(a); break;
+    case QDOT_OP_ASIN: d = f->asin(a); break;
+    case QDOT_OP_ACOS: d = f->acos(a); break;
+    case QDOT_OP_ATAN: d = f->atan(a); break;
+    case QDOT_OP_ASINH: d = f->asinh(a); break;
+    case QDOT_OP_ACOSH: d = f->acosh(a); break;
+    case QDOT_OP_ATANH: d = f->atanh(a); break;
+    case QDOT_OP_ABS: d = a.hi < 0 ? qdot_two_neg(a) : a; break;
+    case QDOT_OP_SIGN: d = truth(isnan(a.hi) ? a.hi : (a.hi > 0) - (a.hi < 0)); break;
+    case QDOT_OP_MIN: d = isnan(a.hi) || is_less(a, b) ? a : b; break;
+    case QDOT_OP_MAX: d = isnan(a.hi) || is_less(b, a) ? a : b; break;
+    case QDOT_OP_MOD:
+        d = qdot_two_sub(a, qdot_two_mul(b, whole_part(qdot_two_div(a, b))));
+        break;
+    case QDOT_OP_FLOOR: d = whole_part(a); break;
+    case QDOT_OP_LT: d = truth(is_less(a, b)); break;
+    case QDOT_OP_LE: d = truth(is_less(a, b) || (a.hi == b.hi && a.lo == b.lo)); break;
+    case QDOT_OP_EQ: d = truth(a.hi == b.hi && a.lo == b.lo); break;
+    case QDOT_OP_AND: d = truth(a.hi != 0 && b.hi != 0); break;
+    case QDOT_OP_OR: d = truth(a.hi != 0 || b.hi != 0); break;
+    case QDOT_OP_NOT: d = truth(a.hi == 0); break;
+    case QDOT_OP_SELECT: d = a.hi != 0 ? b : c; break;
+    default: d = truth(NAN); /* an operation without a value here does not pass the tests */
+    }
+    i->to[0] = d;
+}
+
+/* --- order k ------------------------------------------------------------------------ */
+
+#define X i->x[k]
+#define Y i->y[k]
+#define Z i->z[k]
+#define TO i->to[k]
+#define SECOND i->second[k]
+#define THIRD i->third[k]
+#define D i->d[k]
+#define ADD(r, p, q) r = qdot_two_add(p, q);
+#define SUB(r, p, q) r = qdot_two_sub(p, q);
+#define NEG(r, p) r = qdot_two_neg(p);
+#define HALF(r, p) r = qdot_two_scale(p, 0.5);
+#define TIMES(r, p, b) r = qdot_two_mul(p, i->b[0]);
+#define OVER(r, p, b) r = qdot_two_div(p, i->b[0]);
+#define ORDERS(r, p) r = qdot_two_mul_double(p, k);
+#define PER_ORDER(r, p) r = qdot_two_div_double(p, k);
+#define SIGNED(r, p) r = i->sign < 0 ? qdot_two_neg(p) : p;
+
+#define NAME(x) portable_##x
+#include "series/two.def"
+#undef NAME
+
+#ifdef QDOT_X86_KINDS
+QDOT_KIND_AVX2
+#define NAME(x) fma_##x
+#include "series/two.def"
+#undef NAME
+QDOT_KIND_END
+#endif
+
+void
+qdot_tape_two_order(qdot_tape_two *t, int k)
+{
+    const step *i = t->steps + (k > 0 ? t->program.still : 0);
+
+    for (; i->op != QDOT_T_END; i++)
+        if (k > 0)
+            t->order(i, k);
+        else
+            value(i, t->functions);
+}
+
+#undef X
+#undef Y
+#undef Z
+#undef TO
+#undef SECOND
+#undef THIRD
+#undef D
+#undef ADD
+#undef SUB
+#undef NEG
+#undef HALF
+#undef TIMES
+#undef OVER
+#undef ORDERS
+#undef PER_ORDER
+#undef SIGNED
+
+/* --- correction ---------------------------------------------------------------------- */
+
+/* Coefficient k of a row changes by its note. */
+static void
+change(qdot_tape_two *t, qdot_program_row row, int k)
+{
+    qdot_two *x = t->numbers + (size_t)row * t->stride + k;
+
+    if (row != QDOT_NO_ROW)
+        *x = qdot_two_add_double(*x, t->note[row]);
+}
+
+void
+qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by)
+{
+    const qdot_program_step *i = t->program.steps.at + t->program.still;
+    double *note = t->note, U, V, W;
+
+    for (size_t r = 0; r < n; r++) {
+        note[r] = by[r];
+        change(t, (qdot_program_row)r, k);
+    }
+    for (; i->op != QDOT_T_END; i++) {
+#define ZERO(row) t->numbers[(size_t)i->row * t->stride].hi
+#define NOTE(row) note[i->row]
+#include "series/linear.def"
+#undef ZERO
+#undef NOTE
+        change(t, i->to, k);
+        change(t, i->second, k);
+        change(t, i->third, k);
+        change(t, i->d, k);
+    }
+}
+
+/* --- building ------------------------------------------------------------------------ */
+
+static qdot_two *
+place(const qdot_tape_two *t, qdot_program_row r)
+{
+    return r == QDOT_NO_ROW ? NULL : t->numbers + (size_t)r * t->stride;
+}
+
+static void
+settle(qdot_tape_two *t, const qdot_tape *tape)
+{
+    const qdot_program *p = &t->program;
+
+    for (size_t r = 0; r < p->rows.n; r++) {
+        const qdot_program_row_info *row = p->rows.at + r;
+
+        if (row->source == QDOT_ROW_CONSTANT)
+            t->numbers[r * t->stride] =
+                (qdot_two){tape->constant[row->at], tape->low[row->at]};
+        else if (row->source == QDOT_ROW_WHOLE)
+            t->numbers[r * t->stride] = (qdot_two){row->at, 0};
+    }
+    for (size_t i = 0; i < p->steps.n; i++) {
+        const qdot_program_step *s = p->steps.at + i;
+
+        t->steps[i] = (step){.op = s->op,
+                             .zero = s->zero,
+                             .sign = s->sign,
+                             .x = place(t, s->x),
+                             .y = place(t, s->y),
+                             .z = place(t, s->z),
+                             .to = place(t, s->to),
+                             .second = place(t, s->second),
+                             .third = place(t, s->third),
+                             .d = place(t, s->d)};
+    }
+}
+
+static qdot_status
+make(qdot_tape_two *t, const qdot_tape *tape, int most, size_t moving)
+{
+    const qdot_program *p = &t->program;
+
+    QDOT_TRY(qdot_program_init(tape, moving, most == 0, &t->program));
+    t->stride = (size_t)most + 1;
+    t->functions = qdot_two_functions_get();
+    t->order = portable_order;
+#ifdef QDOT_X86_KINDS
+    if (qdot_kind_is_here(1))
+        t->order = fma_order;
+#endif
+    t->numbers = qdot_calloc(p->rows.n * t->stride + 1, sizeof *t->numbers);
+    t->steps = qdot_calloc(p->steps.n, sizeof *t->steps);
+    t->note = qdot_calloc(p->rows.n + 1, sizeof *t->note);
+    if (!t->numbers || !t->steps || !t->note)
+        return QDOT_ENOMEM;
+    settle(t, tape);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_tape_two_new(const qdot_tape *tape, int most, size_t moving, qdot_tape_two **two)
+{
+    qdot_tape_two *t = qdot_calloc(1, sizeof *t);
+    qdot_status status;
+
+    *two = NULL;
+    if (!t)
+        return QDOT_ENOMEM;
+    status = make(t, tape, most, moving);
+    if (status != QDOT_OK) {
+        qdot_tape_two_free(t);
+        return status;
+    }
+    *two = t;
+    return QDOT_OK;
+}
+
+void
+qdot_tape_two_free(qdot_tape_two *t)
+{
+    if (!t)
+        return;
+    qdot_program_clear(&t->program);
+    qdot_free(t->numbers);
+    qdot_free(t->note);
+    qdot_free(t->steps);
+    qdot_free(t);
+}
+
+qdot_two *
+qdot_tape_two_input(qdot_tape_two *t, size_t i)
+{
+    return t->numbers + i * t->stride;
+}
+
+size_t
+qdot_tape_two_stride(const qdot_tape_two *t)
+{
+    return t->stride;
+}
+
+const qdot_two *
+qdot_tape_two_output(const qdot_tape_two *t, size_t i)
+{
+    return place(t, t->program.outputs.at[i]);
+}
+
+bool
+qdot_tape_two_is_constant(const qdot_tape_two *t, size_t i)
+{
+    return t->program.rows.at[t->program.outputs.at[i]].still;
+}

@@ -1,0 +1,561 @@
+/* bind.c -- tape, then solve: the right-hand side and its Jacobian. */
+#include "sim/course/bind.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "sim/form/blocks.h"
+#include "sim/form/direct.h"
+#include "sim/form/bordered.h"
+#include "sim/form/eliminated.h"
+#include "sim/form/leading-residual.h"
+#include "sim/form/leading.h"
+#include "sim/model/constrained.h"
+#include "sim/model/momenta.h"
+#include "sim/form/shifted.h"
+#include "sim/form/constrained-series.h"
+#include "tape/derivative.h"
+#include "tape/shake.h"
+
+struct qdot_bind {
+    const qdot_plan *plan;
+    qdot_tape *tape; /* a shaken copy; else NULL */
+    qdot_blocks blocks;
+    qdot_constrained *held;            /* of a plan with constraints: in place of the blocks */
+    qdot_direct *direct;        /* where the equations are smooth, one of the two: */
+    qdot_shifted *shifted;
+    qdot_constrained_series *tied;            /* or, of a plan with constraints: */
+    qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
+    qdot_bordered *bordered;       /* likewise */
+    const qdot_ode_series *series; /* its callbacks; else NULL */
+    qdot_leading *leading;         /* its first orders in two doubles, if they are wanted: */
+    qdot_leading_residual *leading_residual; /* one of the two, */
+    const qdot_ode_leading *first; /* its callbacks */
+    /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
+     * when that is first asked for. */
+    qdot_shifted *elsewhere;
+    bool shaken;
+    double *in;                 /* [3n + 1] q, q', t, q'' */
+    double *out, *work;         /* of the tape */
+    double *slopes;             /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
+    double *slopes_work;
+
+    /* Of a plan with a reduced one, which is what is integrated: */
+    qdot_tape *reduced; /* a shaken copy; else NULL */
+    qdot_blocks reduced_blocks;
+    qdot_momenta *momenta;
+
+    /* Of a plan with parts: theirs. */
+    qdot_bind **parts;         /* [plan->n_parts] */
+    qdot_ode_system *systems;  /* [n_parts] */
+    qdot_ode_part *listed;     /* [n_parts] */
+    size_t *index;             /* [2n] what `listed` has */
+};
+
+static const qdot_tape *
+equations(const qdot_bind *b)
+{
+    return b->tape ? b->tape : b->plan->tape;
+}
+
+static const qdot_tape *
+reduced_equations(const qdot_bind *b)
+{
+    return b->reduced ? b->reduced : b->plan->reduced->tape;
+}
+
+void
+qdot_bind_free(qdot_bind *b)
+{
+    if (!b)
+        return;
+    qdot_blocks_clear(&b->blocks);
+    qdot_constrained_free(b->held);
+    qdot_direct_free(b->direct);
+    qdot_shifted_free(b->shifted);
+    qdot_shifted_free(b->elsewhere);
+    qdot_eliminated_free(b->eliminated);
+    qdot_bordered_free(b->bordered);
+    qdot_leading_free(b->leading);
+    qdot_leading_residual_free(b->leading_residual);
+    qdot_constrained_series_free(b->tied);
+    qdot_tape_free(b->tape);
+    if (b->reduced_blocks.plan)
+        qdot_blocks_clear(&b->reduced_blocks);
+    qdot_momenta_free(b->momenta);
+    qdot_tape_free(b->reduced);
+    for (size_t k = 0; b->parts && k < b->plan->n_parts; k++)
+        qdot_bind_free(b->parts[k]);
+    qdot_free(b->parts);
+    qdot_free(b->systems);
+    qdot_free(b->listed);
+    qdot_free(b->index);
+    qdot_free(b->in);
+    qdot_free(b->out);
+    qdot_free(b->work);
+    qdot_free(b->slopes);
+    qdot_free(b->slopes_work);
+    qdot_free(b);
+}
+
+/* --- the system --------------------------------------------------------------------- */
+
+static void
+load(const qdot_bind *b, double t, const double *y)
+{
+    size_t n = b->plan->n;
+
+    memcpy(b->in, y, 2 * n * sizeof *y);
+    b->in[2 * n] = t;
+}
+
+/* The accelerations of the blocks, from the outputs that begin at `out`; *end: what stands
+ * behind those. */
+static qdot_status
+solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
+{
+    for (size_t k = 0; k < blocks->plan->structure.blocks; k++) {
+        const qdot_plan_block *block = blocks->plan->blocks + k;
+        const double *x = blocks->at[k].x;
+
+        if (block->n == 1) {
+            a[block->index[0]] = *out++;
+            continue;
+        }
+        memcpy(blocks->at[k].x, out, block->n * sizeof *out);
+        out += block->n;
+        if (!block->constant) {
+            out = qdot_blocks_unpack(blocks, k, out);
+            QDOT_TRY(qdot_blocks_factor(blocks, k));
+        }
+        qdot_blocks_solve(blocks, k);
+        for (size_t i = 0; i < block->n; i++)
+            a[block->index[i]] = x[i];
+    }
+    *end = out;
+    return QDOT_OK;
+}
+
+/* The same where only the tree is there: by the beginning of a series. */
+static qdot_status
+begin_elsewhere(qdot_bind *b, double *a)
+{
+    const qdot_plan *p = b->plan;
+    const qdot_ode_series *series;
+
+    if (!b->elsewhere)
+        QDOT_TRY(qdot_shifted_new(p, p->residual, b->shaken, &b->elsewhere));
+    series = qdot_shifted_series(b->elsewhere);
+    QDOT_TRY(series->begin(b->in[2 * p->n], b->in, 1, series->user));
+    for (size_t i = 0; i < p->n; i++)
+        a[i] = series->x[(p->n + i) * series->stride + 1];
+    return QDOT_OK;
+}
+
+/* q'' at what is loaded, into a [n]. */
+static qdot_status
+accelerations(qdot_bind *b, double *a)
+{
+    const qdot_plan *p = b->plan;
+    const double *end;
+
+    if (b->held)
+        return qdot_constrained_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
+    if (!p->tape)
+        return begin_elsewhere(b, a);
+    qdot_tape_eval(equations(b), b->in, b->out, b->work);
+    QDOT_TRY(solve(&b->blocks, b->out, a, &end));
+    for (size_t i = 0; i < p->n; i++)
+        if (!isfinite(a[i]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             p->names[i]);
+    return QDOT_OK;
+}
+
+static qdot_status
+rhs(double t, const double *y, double *dydt, void *user)
+{
+    qdot_bind *b = user;
+    size_t n = b->plan->n;
+
+    load(b, t, y);
+    memcpy(dydt, y + n, n * sizeof *y);
+    return accelerations(b, dydt + n);
+}
+
+/* The same by the reduced plan: rates of the coordinates whose momenta are kept. */
+static qdot_status
+reduced_rhs(double t, const double *y, double *dydt, void *user)
+{
+    qdot_bind *b = user;
+    const qdot_plan *r = b->plan->reduced;
+    const size_t n = r->n;
+    const double *rates;
+
+    load(b, t, y);
+    memcpy(b->in + 2 * n + 1, qdot_momenta_hi(b->momenta), r->n_kept * sizeof *y);
+    memcpy(dydt, y + n, n * sizeof *y);
+    memset(dydt + n, 0, n * sizeof *y);
+    qdot_tape_eval(reduced_equations(b), b->in, b->out, b->work);
+    QDOT_TRY(solve(&b->reduced_blocks, b->out, dydt + n, &rates));
+    for (size_t k = 0; k < r->n_kept; k++)
+        dydt[r->kept[k]] = rates[k];
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(dydt[i] + dydt[n + i]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             r->names[i]);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y,
+                        double *a)
+{
+    qdot_bind *b = system->user;
+
+    if (b->held)
+        return qdot_constrained_solve(b->held, t, y, a, a + b->plan->n);
+    load(b, t, y);
+    return accelerations(b, a);
+}
+
+/* --- its Jacobian --------------------------------------------------------------------- */
+
+/* Of block k, whose outputs begin with `row` and which is factored: dq''/dz of its
+ * coordinates for z the column of slopes,
+ *
+ *     M dq''/dz = df/dz - dM/dz q'',
+ *
+ * into its x. */
+static void
+block_column(const qdot_bind *b, size_t k, size_t row, size_t column)
+{
+    const qdot_plan_block *block = b->plan->blocks + k;
+    const size_t columns = 2 * b->plan->n + 1;
+    const double *slope = b->slopes + row * columns + column;
+    const double *a = b->in + columns; /* q'' */
+    double *x = b->blocks.at[k].x;
+
+    for (size_t i = 0; i < block->n; i++, slope += columns)
+        x[i] = *slope;
+    if (block->n == 1)
+        return; /* the tape gives q'' itself */
+    for (size_t i = 0; i < block->n && !block->constant; i++)
+        for (size_t j = 0; j <= i; j++, slope += columns) {
+            x[i] -= *slope * a[block->index[j]];
+            if (j < i)
+                x[j] -= *slope * a[block->index[i]];
+        }
+    qdot_blocks_solve(&b->blocks, k);
+}
+
+static qdot_status
+jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
+{
+    qdot_bind *b = user;
+    const qdot_plan *p = b->plan;
+    const size_t n = p->n, columns = 2 * n + 1;
+    size_t row = 0;
+
+    if (b->held)
+        return qdot_constrained_jacobian(b->held, t, y, dfdy, dfdt);
+    load(b, t, y);
+    QDOT_TRY(accelerations(b, b->in + columns));
+    qdot_derivative_eval(equations(b), b->in, 0, columns, b->out, b->slopes,
+                         b->slopes_work);
+    memset(dfdy, 0, 4 * n * n * sizeof *dfdy);
+    for (size_t i = 0; i < n; i++) {
+        dfdy[i * 2 * n + n + i] = 1;
+        dfdt[i] = 0;
+    }
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+
+        for (size_t j = 0; j < columns; j++) {
+            block_column(b, k, row, j);
+            for (size_t i = 0; i < block->n; i++) {
+                size_t at = n + block->index[i];
+
+                *(j < 2 * n ? &dfdy[at * 2 * n + j] : &dfdt[at]) = b->blocks.at[k].x[i];
+            }
+        }
+        row += block->n;
+        if (block->n > 1 && !block->constant)
+            row += block->n * (block->n + 1) / 2;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+project(double t, double *y, double *carry, double *moved, void *user)
+{
+    qdot_constrained *held = ((qdot_bind *)user)->held;
+
+    QDOT_TRY(qdot_constrained_check_accelerations(held, t, y));
+    return qdot_constrained_project(t, y, carry, moved, held);
+}
+
+static double
+margin(double t, const double *y, void *user)
+{
+    return qdot_constrained_independence(((qdot_bind *)user)->held, t, y);
+}
+
+qdot_constrained *
+qdot_bind_held(qdot_bind *b)
+{
+    return b->held;
+}
+
+qdot_ode_system
+qdot_bind_system(qdot_bind *b)
+{
+    return (qdot_ode_system){
+        .n = 2 * b->plan->n,
+        .rhs = b->momenta ? reduced_rhs : rhs,
+        .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
+        .user = b,
+        .series = b->series,
+        .leading = b->first,
+        .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
+        .parts = b->listed,
+        .n_parts = b->listed ? b->plan->n_parts : 0,
+        .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
+        .margin = b->held ? margin : NULL,
+    };
+}
+
+qdot_status
+qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
+{
+    const qdot_plan *p = b->plan;
+    qdot_tape *masses = NULL;
+    qdot_status status = QDOT_OK;
+    qdot_expr M = QDOT_NIL;
+    double *work = NULL, m;
+
+    if (b->held) {
+        status = qdot_constrained_start(b->held, t, y, low);
+        return status == QDOT_EDOMAIN ? QDOT_OK : status; /* as below */
+    }
+    load(b, t, y);
+    for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+
+        if (block->n > 1)
+            continue; /* the solvers look themselves */
+        M = p->M[block->index[0] * (p->n + 1)];
+        QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &M, &masses));
+        work = qdot_malloc((qdot_tape_work(masses) + 1) * sizeof *work);
+        if (work)
+            qdot_tape_eval(masses, b->in, &m, work);
+        status = work ? QDOT_OK : QDOT_ENOMEM;
+        qdot_free(work);
+        qdot_tape_free(masses);
+        if (status == QDOT_OK && (p->indefinite ? m == 0 : !(m > 0)))
+            status = qdot_blocks_singular(p, block, 0);
+    }
+    if (status == QDOT_OK) {
+        status = accelerations(b, b->in + 2 * p->n + 1);
+        if (status == QDOT_EDOMAIN) /* the run itself says so, with its time */
+            status = QDOT_OK;
+    }
+    return status;
+}
+
+void
+qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
+{
+    const char *why = "machine code is made where equations are taken as M q'' = f";
+    const size_t bytes = b->direct       ? qdot_direct_code(b->direct, &why)
+                         : b->bordered   ? qdot_bordered_code(b->bordered, &why)
+                         : b->eliminated ? qdot_eliminated_code(b->eliminated, &why)
+                                         : 0;
+
+    if (b->shifted && qdot_shifted_is_wide(b->shifted))
+        qdot_text_add(to, "kernels, like steps as vectors");
+    else if (bytes > 0)
+        qdot_text_format(to, "machine code for AVX-512, %.1f kB", 1e-3 * (double)bytes);
+    else
+        qdot_text_format(to, "kernels; %s", why);
+}
+
+size_t
+qdot_bind_factored(const qdot_bind *b)
+{
+    size_t parts = 0;
+
+    for (size_t k = 0; b->parts && k < b->plan->n_parts; k++)
+        parts += qdot_bind_factored(b->parts[k]);
+    return parts + b->blocks.factored + (b->held ? qdot_constrained_factored(b->held) : 0)
+           + (b->tied ? qdot_constrained_series_factored(b->tied) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
+           + (b->shifted ? qdot_shifted_factored(b->shifted) : 0)
+           + b->reduced_blocks.factored;
+}
+
+/* With constraints. */
+static qdot_status
+make_held(qdot_bind *b, bool shaken)
+{
+    QDOT_TRY(qdot_constrained_new(b->plan, shaken, &b->held));
+    if (!b->plan->smooth)
+        return QDOT_OK;
+    QDOT_TRY(qdot_constrained_series_new(b->plan, shaken, &b->tied));
+    b->series = qdot_constrained_series_get(b->tied);
+    if (b->plan->eliminated) {
+        QDOT_TRY(qdot_eliminated_new(b->plan, shaken, b->series, &b->eliminated));
+        b->series = qdot_eliminated_series(b->eliminated);
+    }
+    if (b->plan->bordered) {
+        QDOT_TRY(qdot_bordered_new(b->plan, shaken, b->series, &b->bordered));
+        b->series = qdot_bordered_series(b->bordered);
+    }
+    return QDOT_OK;
+}
+
+/* What a method or its partner needs for the Jacobian. */
+static qdot_status
+make_slopes(qdot_bind *b)
+{
+    const qdot_plan *p = b->plan;
+
+    if (!qdot_plan_needs_jacobian(p))
+        return QDOT_OK;
+    b->slopes_work =
+        qdot_malloc((qdot_derivative_work(p->tape) + 1) * sizeof *b->slopes_work);
+    b->slopes = qdot_malloc((qdot_tape_outputs(p->tape) * (2 * p->n + 1) + 1)
+                            * sizeof *b->slopes);
+    return b->slopes && b->slopes_work ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* By groups of coordinates. */
+static qdot_status
+make_parts(qdot_bind *b, bool shaken)
+{
+    const qdot_plan *p = b->plan;
+    qdot_ode_part *listed;
+    size_t *at;
+
+    if (p->n_parts == 0)
+        return QDOT_OK;
+    b->parts = qdot_calloc(p->n_parts, sizeof(qdot_bind *));
+    b->systems = qdot_calloc(p->n_parts, sizeof *b->systems);
+    b->listed = listed = qdot_calloc(p->n_parts, sizeof *listed);
+    b->index = at = qdot_calloc(2 * p->n, sizeof *b->index);
+    if (!b->parts || !b->systems || !listed || !at)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < p->n_parts; k++) {
+        const qdot_plan *r = p->parts[k];
+
+        QDOT_TRY(qdot_bind_new(r, shaken, &b->parts[k]));
+        b->systems[k] = qdot_bind_system(b->parts[k]);
+        listed[k] = (qdot_ode_part){b->systems + k, at};
+        for (size_t i = 0; i < 2 * r->n; i++)
+            *at++ = i < r->n ? r->place[i] : p->n + r->place[i - r->n];
+    }
+    return QDOT_OK;
+}
+
+/* The first orders of the series of p in two doubles. */
+static qdot_status
+make_leading(qdot_bind *b, const qdot_plan *p)
+{
+    if (!b->plan->leading)
+        return QDOT_OK;
+    if (p->residual) {
+        QDOT_TRY(qdot_leading_residual_new(p, b->series, &b->leading_residual));
+        b->first = qdot_leading_residual_get(b->leading_residual);
+        return QDOT_OK;
+    }
+    QDOT_TRY(qdot_leading_new(p, &b->leading));
+    b->first = qdot_leading_get(b->leading);
+    return QDOT_OK;
+}
+
+/* With momenta that are kept. */
+static qdot_status
+make_reduced(qdot_bind *b, bool shaken)
+{
+    const qdot_plan *r = b->plan->reduced;
+
+    if (shaken)
+        QDOT_TRY(qdot_tape_shake(r->tape, &b->reduced));
+    QDOT_TRY(qdot_blocks_init(&b->reduced_blocks, r, shaken));
+    QDOT_TRY(qdot_momenta_new(r, reduced_equations(b), &b->momenta));
+    if (!r->smooth)
+        return QDOT_OK;
+    QDOT_TRY(qdot_direct_new(r, shaken, &b->direct));
+    qdot_direct_keep(b->direct, qdot_momenta_hi(b->momenta), qdot_momenta_lo(b->momenta));
+    b->series = qdot_direct_series(b->direct);
+    QDOT_TRY(make_leading(b, r));
+    if (b->leading)
+        qdot_leading_keep(b->leading, qdot_momenta_hi(b->momenta),
+                          qdot_momenta_lo(b->momenta));
+    return QDOT_OK;
+}
+
+/* M q'' = f: for all but a plan of which only the tree is there. */
+static qdot_status
+make_equations(qdot_bind *b, bool shaken)
+{
+    if (shaken)
+        QDOT_TRY(qdot_tape_shake(b->plan->tape, &b->tape));
+    QDOT_TRY(make_slopes(b));
+    QDOT_TRY(make_parts(b, shaken));
+    return qdot_blocks_init(&b->blocks, b->plan, shaken);
+}
+
+static qdot_status
+make(qdot_bind *b, bool shaken)
+{
+    const qdot_plan *p = b->plan;
+    const qdot_tape *tapes[2] = {p->tape, p->reduced ? p->reduced->tape : NULL};
+    size_t out = 0, work = 0;
+
+    for (int i = 0; i < 2; i++)
+        if (tapes[i]) {
+            out = qdot_tape_outputs(tapes[i]) > out ? qdot_tape_outputs(tapes[i]) : out;
+            work = qdot_tape_work(tapes[i]) > work ? qdot_tape_work(tapes[i]) : work;
+        }
+    b->in = qdot_calloc(3 * p->n + 1, sizeof *b->in);
+    b->out = qdot_calloc(out + 1, sizeof *b->out);
+    b->work = qdot_calloc(work + 1, sizeof *b->work);
+    if (!b->in || !b->out || !b->work)
+        return QDOT_ENOMEM;
+    if (p->constraints)
+        return make_held(b, shaken);
+    if (p->tape)
+        QDOT_TRY(make_equations(b, shaken));
+    if (p->reduced)
+        return make_reduced(b, shaken);
+    if (!p->smooth)
+        return QDOT_OK;
+    if (p->residual) {
+        QDOT_TRY(qdot_shifted_new(p, p->residual, shaken, &b->shifted));
+        b->series = qdot_shifted_series(b->shifted);
+    } else {
+        QDOT_TRY(qdot_direct_new(p, shaken, &b->direct));
+        b->series = qdot_direct_series(b->direct);
+    }
+    return make_leading(b, p);
+}
+
+qdot_status
+qdot_bind_new(const qdot_plan *plan, bool shaken, qdot_bind **bind)
+{
+    qdot_bind *b = qdot_calloc(1, sizeof *b);
+    qdot_status status;
+
+    *bind = NULL;
+    if (!b)
+        return QDOT_ENOMEM;
+    b->plan = plan;
+    b->shaken = shaken;
+    status = make(b, shaken);
+    if (status != QDOT_OK) {
+        qdot_bind_free(b);
+        b = NULL;
+    }
+    *bind = b;
+    return status;
+}

@@ -1,0 +1,195 @@
+/* drift.c -- max |c - c0| / max(1, |c0|) along a trajectory, by a tape a quantity. */
+#include "sim/course/drift.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "series/lanes.h"
+#include "sim/form/residual.h"
+
+void
+qdot_drifts_clear(qdot_drifts *d)
+{
+    for (size_t i = 0; i < d->n; i++)
+        qdot_free((char *)d->at[i].name);
+    qdot_free(d->at);
+    *d = (qdot_drifts){0};
+}
+
+/* Failures that end the whole; any other leaves a quantity out. */
+static qdot_status
+fatal(qdot_status status)
+{
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* Whether the equations switch at a point, which is stored twice: there sign(0) is 0, on
+ * neither side. */
+static bool
+is_switch(const qdot_trajectory *tr, size_t piece, size_t k)
+{
+    const qdot_trajectory_piece *at = tr->pieces.at;
+
+    return (piece > 0 && at[piece].first == k && !at[piece].jumped)
+           || (piece + 1 < tr->pieces.n && at[piece + 1].first == k + 1
+               && !at[piece + 1].jumped);
+}
+
+/* The quantity at points from the first on, as many as there are lanes; c one group. Behind
+ * the last it is that of the last. */
+static void
+evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, double *in,
+         double *c, double *work)
+{
+    const size_t n = tr->n;
+
+    for (size_t l = 0; l < QDOT_LANES; l++) {
+        const size_t k = first + l < tr->count ? first + l : tr->count - 1;
+        const double *y = tr->y + k * n;
+
+        for (size_t i = 0; i < n; i++)
+            in[i * QDOT_LANES + l] = y[i];
+        in[n * QDOT_LANES + l] = tr->t[k];
+    }
+    qdot_lanes_eval(tape, in, c, work);
+}
+
+static qdot_status
+follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
+{
+    size_t n = tr->n;
+    double *in = qdot_malloc(QDOT_LANES * (n + 1) * sizeof *in);
+    double *work = qdot_malloc(QDOT_LANES * (qdot_tape_work(tape) + 1) * sizeof *work);
+    double c[QDOT_LANES], start = 0;
+    qdot_status status = in && work ? QDOT_OK : QDOT_ENOMEM;
+    size_t piece = 0;
+
+    drift->drift = 0;
+    for (size_t k = 0; k < tr->count && status == QDOT_OK; k++) {
+        double change;
+
+        if (k % 1024 == 0)
+            status = qdot_interrupt_check();
+        if (k % QDOT_LANES == 0)
+            evaluate(tape, tr, k, in, c, work);
+        change = c[k % QDOT_LANES];
+        if (k == 0)
+            drift->start = start = change;
+        /* what an event changes is no drift */
+        for (; piece < tr->pieces.n && tr->pieces.at[piece].first <= k; piece++)
+            if (tr->pieces.at[piece].jumped)
+                start = change;
+        if (piece > 0 && is_switch(tr, piece - 1, k))
+            continue;
+        change = fabs(change - start);
+        if (fabs(start) > 1)
+            change /= fabs(start);
+        if (!(change <= drift->drift)) /* a NaN stays */
+            drift->drift = change;
+    }
+    qdot_free(in);
+    qdot_free(work);
+    return status;
+}
+
+static qdot_status
+measure(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
+        const char *name, qdot_drifts *d)
+{
+    qdot_drift x = {.quantity = quantity};
+    qdot_expr e = qdot_plan_substitute(p, quantity);
+    qdot_status status = qdot_pool_check(p->pool);
+    qdot_tape *tape = NULL;
+
+    if (status == QDOT_OK)
+        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &e, &tape);
+    if (status != QDOT_OK)
+        return fatal(status);
+    status = follow(tape, tr, &x);
+    qdot_tape_free(tape);
+    QDOT_TRY(status);
+    if (!isfinite(x.start)) /* beyond a double, or undefined: there is nothing to follow */
+        return QDOT_OK;
+    if (!(x.name = qdot_strdup(name)))
+        return QDOT_ENOMEM;
+    d->at[d->n++] = x;
+    return QDOT_OK;
+}
+
+static qdot_status
+measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
+               qdot_drifts *d)
+{
+    bool conserved = false;
+    qdot_expr h;
+    qdot_status status = qdot_mech_energy_conserved(scene, &conserved);
+
+    if (status != QDOT_OK || !conserved)
+        return fatal(status);
+    h = p->M ? qdot_mech_energy(scene) : p->residual->h;
+    status = qdot_pool_check(p->pool);
+    if (status != QDOT_OK || h == QDOT_NIL)
+        return fatal(status);
+    QDOT_TRY(measure(p, tr, h, "energy", d));
+    d->energy = d->n == 1;
+    return QDOT_OK;
+}
+
+/* Whether the run, in parts or whole, kept its momentum. */
+static bool
+is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
+{
+    for (size_t i = 0; i == 0 || i < tr->n_tracks; i++) {
+        const qdot_plan *r = tr->n_tracks > 0 ? p->parts[i]->reduced : p->reduced;
+
+        for (size_t k = 0; r && k < r->n_kept; k++)
+            if (r->inputs[r->kept[k]] == coordinate)
+                return true;
+    }
+    return false;
+}
+
+/* The momentum of coordinate i, if it should stay. */
+static qdot_status
+measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr, size_t i,
+                 qdot_drifts *d)
+{
+    qdot_cyclic cyclic;
+    qdot_expr symbol;
+    qdot_status status;
+    char *name;
+    bool is;
+
+    QDOT_TRY(qdot_mech_cyclic_at(scene, i, &cyclic, &is));
+    if (!is || cyclic.rate != QDOT_NIL)
+        return QDOT_OK;
+    symbol = qdot_symbol_of(p->pool, QDOT_MOMENTUM, cyclic.coordinate);
+    QDOT_TRY(qdot_pool_check(p->pool));
+    name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
+    status = name ? measure(p, tr, cyclic.momentum, name, d) : QDOT_ENOMEM;
+    qdot_free(name);
+    if (status == QDOT_OK && d->n > 0 && is_kept(p, tr, cyclic.coordinate)
+        && d->at[d->n - 1].quantity == cyclic.momentum) {
+        d->at[d->n - 1].kept = true;
+        d->at[d->n - 1].drift = 0;
+    }
+    return status;
+}
+
+qdot_status
+qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
+                    qdot_drifts *d)
+{
+    const bool *absent = p->M ? NULL : p->residual->absent; /* others cannot be cyclic */
+    qdot_status status;
+
+    d->at = qdot_calloc(p->n + 1, sizeof *d->at);
+    if (!d->at)
+        return QDOT_ENOMEM;
+    status = measure_energy(scene, p, tr, d);
+    for (size_t i = 0; i < scene->coordinates.n && status == QDOT_OK; i++)
+        if (!absent || absent[i])
+            status = measure_momentum(scene, p, tr, i, d);
+    return fatal(status);
+}

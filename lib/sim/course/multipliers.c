@@ -1,0 +1,159 @@
+/* multipliers.c -- residuals at every stored point, multipliers at the last. */
+#include "sim/course/multipliers.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "sim/model/constraints.h"
+
+void
+qdot_multipliers_clear(qdot_multipliers *b)
+{
+    qdot_free(b->lambda);
+    qdot_free(b->error);
+    *b = (qdot_multipliers){0};
+}
+
+static void
+widen(double *most, size_t row, double x)
+{
+    if (row != SIZE_MAX && !(x <= *most)) /* a NaN is replaced, and stays */
+        *most = x;
+}
+
+/* At the last point; NaN where the equations do not exist there. */
+static qdot_status
+find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
+                 qdot_multipliers *b)
+{
+    const double *y = tr->y + (tr->count - 1) * tr->n;
+    double *a = qdot_calloc(tr->n, sizeof *a);
+    qdot_error before = *qdot_last_error();
+    qdot_status status;
+
+    b->lambda = qdot_calloc(m, sizeof *b->lambda);
+    b->error = qdot_calloc(m, sizeof *b->error);
+    for (size_t k = 0; k < m && b->error; k++)
+        b->error[k] = NAN;
+    if (!a || !b->lambda || !b->error) {
+        qdot_free(a);
+        return QDOT_ENOMEM;
+    }
+    status = qdot_constrained_solve(held, tr->t[tr->count - 1], y, a, b->lambda);
+    qdot_free(a);
+    for (size_t k = 0; k < m && status != QDOT_OK; k++)
+        b->lambda[k] = NAN;
+    if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN || status == QDOT_EINTR) {
+        qdot_fail_again(&before);
+        return QDOT_OK;
+    }
+    return status;
+}
+
+/* The constraints of a piece; NULL without. */
+static qdot_constrained *
+of_piece(qdot_bind *const *binds, const qdot_trajectory *tr, size_t piece)
+{
+    return qdot_bind_held(binds[piece < tr->pieces.n ? tr->pieces.at[piece].mode : 0]);
+}
+
+static qdot_constrained *
+of_end(qdot_bind *const *binds, const qdot_trajectory *tr)
+{
+    return of_piece(binds, tr, tr->pieces.n > 0 ? tr->pieces.n - 1 : 0);
+}
+
+qdot_status
+qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
+                         qdot_multipliers *b)
+{
+    qdot_constrained *held = of_piece(binds, tr, 0);
+    size_t piece = 0;
+
+    qdot_multipliers_clear(b);
+    b->position = b->velocity = NAN;
+    if (!held || tr->count == 0)
+        return QDOT_OK;
+    for (size_t k = 0; k < tr->count; k++) {
+        qdot_constrained_residual r;
+
+        if (k % 1024 == 0 && qdot_interrupt_check() != QDOT_OK) { /* the end is worth its moment */
+            b->position = b->velocity = NAN;
+            break;
+        }
+        while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
+            held = of_piece(binds, tr, ++piece);
+        r = qdot_constrained_measure(held, tr->t[k], tr->y + k * tr->n);
+        widen(&b->position, r.worst_position, r.position);
+        widen(&b->velocity, r.worst_velocity, r.velocity);
+    }
+    held = of_end(binds, tr);
+    b->independent = qdot_constrained_rank(held);
+    return find_multipliers(held, tr, qdot_constrained_rows(held), b);
+}
+
+/* lambda at y with component i moved by h, into `out`; NaN where it does not exist. */
+static void
+look(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
+     double *out)
+{
+    qdot_error before = *qdot_last_error();
+    double kept = y[i];
+
+    y[i] += h;
+    if (qdot_constrained_solve(held, t, y, a, out) != QDOT_OK) {
+        out[0] = NAN;
+        qdot_fail_again(&before);
+    }
+    y[i] = kept;
+}
+
+qdot_status
+qdot_multipliers_errors(qdot_bind *const *binds, const qdot_trajectory *tr,
+                        const double *difference, qdot_multipliers *b)
+{
+    qdot_constrained *held = of_end(binds, tr);
+    const size_t n = tr->n, m = held ? qdot_constrained_rows(held) : 0;
+    double t, *y, *a, *up, *down;
+
+    if (m == 0 || tr->count == 0 || !b->error || isnan(difference[0]))
+        return QDOT_OK;
+    y = qdot_calloc(2 * n + 2 * m, sizeof *y);
+    if (!y)
+        return QDOT_ENOMEM;
+    a = y + n;
+    up = a + n;
+    down = up + m;
+    t = tr->t[tr->count - 1];
+    for (size_t i = 0; i < n; i++)
+        y[i] = tr->y[(tr->count - 1) * n + i];
+    for (size_t k = 0; k < m; k++)
+        b->error[k] = 4 * DBL_EPSILON * fabs(b->lambda[k]);
+    for (size_t i = 0; i < n; i++) {
+        double h = 0x1p-20 * fmax(1, fabs(y[i]));
+
+        look(held, t, y, i, h, a, up);
+        look(held, t, y, i, -h, a, down);
+        for (size_t k = 0; k < m; k++)
+            b->error[k] += fabs(up[k] - down[k]) / (2 * h) * difference[i];
+    }
+    qdot_free(y);
+    return QDOT_OK;
+}
+
+void
+qdot_multipliers_report(const qdot_multipliers *b, const qdot_plan *p, qdot_run_report *r)
+{
+    r->constraint_drift = r->velocity_drift = NAN;
+    if (!p->constraints)
+        return;
+    r->m = p->constraints->m;
+    r->multipliers = p->inputs + 3 * p->n + 1;
+    r->lambda = b->lambda;
+    r->lambda_error = b->error;
+    r->constraint_drift = isnan(b->position) ? b->velocity : b->position;
+    r->velocity_drift = b->velocity;
+    r->independent = b->independent;
+    r->treatment = p->treatment;
+}

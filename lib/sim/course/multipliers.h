@@ -1,0 +1,37 @@
+/* multipliers.h -- what a run of a scene with constraints has to say of them: drift along it,
+ * multipliers at its end.
+ *
+ * Tests  tests/sim/test_constraints.c
+ */
+#ifndef QDOT_SIM_MULTIPLIERS_H
+#define QDOT_SIM_MULTIPLIERS_H
+
+#include "ode/trajectory.h"
+#include "sim/course/bind.h"
+
+typedef struct {
+    double position, velocity; /* the largest residuals at stored points; NaN: none */
+    double *lambda;            /* [m] at the end */
+    double *error;             /* [m] of these, absolute; NaN: unknown */
+    size_t independent;
+} qdot_multipliers;
+
+/* Of a run that is there, its binds by the modes of its pieces; nothing for plans without
+ * constraints; under Ctrl-C what belongs to the end, residuals NaN. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_multipliers_measure(qdot_bind *const *binds,
+                                                     const qdot_trajectory *tr,
+                                                     qdot_multipliers *b);
+/* The errors of the multipliers at the end, from those of the state there:
+ *     error_k = sum_i |dlambda_k/dy_i| difference_i,   difference [2n]
+ * by central differences. Nothing for a plan without constraints. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_multipliers_errors(qdot_bind *const *binds,
+                                                    const qdot_trajectory *tr,
+                                                    const double *difference,
+                                                    qdot_multipliers *b);
+void qdot_multipliers_clear(qdot_multipliers *b);
+
+/* Into a report. */
+void qdot_multipliers_report(const qdot_multipliers *b, const qdot_plan *plan,
+                             qdot_run_report *r);
+
+#endif

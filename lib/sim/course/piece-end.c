@@ -1,0 +1,216 @@
+/* piece-end.c -- what is done where a piece ends. */
+#include "sim/course/piece.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Of the time of a run: one thing may happen MOST_REPEATS times within a MOMENT; or as often at
+ * intervals of the SAME_RATIO, if those to come do not end NEAR. A motion that comes to rest
+ * at x is lost to rounding when it moves by less than an ulp of x, which it does for an
+ * interval of 1e-8 of its time. */
+enum { MOST_REPEATS = 4 };
+#define MOMENT 1e-9
+#define NEAR 1e-6
+#define SAME_RATIO 1e-3
+
+void
+qdot_piece_stop(qdot_piece *x, bool failed)
+{
+    x->c->failed = failed;
+    x->c->tr.result.outcome = failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
+}
+
+static void
+say_left(qdot_piece *x, const qdot_watched *w)
+{
+    const qdot_domain *d = &x->c->stage->domains.at[w->index];
+
+    snprintf(x->c->reason, sizeof x->c->reason,
+             "%.100s left its domain %.200s at t = "
+             "%.15g",
+             qdot_piece_mode(x)->plan->names[d->coordinate], d->text, x->t_act);
+}
+
+/* The new values of an event, all from the old ones. */
+static qdot_status
+change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, double *y)
+{
+    const qdot_plan *p = qdot_piece_mode(x)->plan;
+    const qdot_ode_system *system = x->reader.system;
+    qdot_constrained *held = qdot_bind_held(system->user);
+    size_t inputs = qdot_plan_inputs(p);
+    double *in =
+        qdot_calloc(inputs + e->changes + 1 + qdot_tape_work(e->then), sizeof *in);
+    bool *set = qdot_calloc(2 * p->n, sizeof *set);
+    double *out = in ? in + inputs : NULL;
+    qdot_status status = in && set ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(in, old, x->n * sizeof *in);
+        in[x->n] = t;
+        if (e->accelerations)
+            status = qdot_bind_accelerations(system, t, old, in + x->n + 1);
+    }
+    if (status == QDOT_OK) {
+        qdot_tape_eval(e->then, in, out, out + e->changes + 1);
+        for (size_t i = 0; i < e->changes; i++) {
+            if (!isfinite(out[i]))
+                status = qdot_fail(
+                    QDOT_EDOMAIN, "the event %.100s gives %.100s no value at t = %.15g",
+                    e->name,
+                    e->targets[i] < p->n ? p->names[e->targets[i]] : "a velocity", t);
+            y[e->targets[i]] = out[i];
+            set[e->targets[i]] = true;
+        }
+    }
+    if (status == QDOT_OK)
+        status = qdot_parameter_conditions_check(&x->c->stage->conditions, e->name, t, y, p->n);
+    if (status == QDOT_OK && held)
+        status = qdot_constrained_put(held, t, y, e->positions ? set : NULL,
+                                      e->velocities ? set + p->n : NULL, e->name);
+    qdot_free(in);
+    qdot_free(set);
+    return status;
+}
+
+/* Intervals that shrink by one ratio: with the next one at t, how long all that are to come
+ * take together; infinite where they do not. */
+static double
+remaining(qdot_piece_repeat *r, double t)
+{
+    double interval = fabs(t - r->last), ratio = interval / r->interval;
+
+    r->steady = ratio < 1 && fabs(ratio - r->ratio) <= SAME_RATIO * (1 - ratio)
+                    ? r->steady + 1
+                    : 0;
+    r->last = t;
+    r->interval = interval;
+    r->ratio = ratio;
+    return r->steady >= MOST_REPEATS ? interval * ratio / (1 - ratio) : INFINITY;
+}
+
+/* Whether a thing happens ever faster: too often within a moment, or at intervals that shrink
+ * by one ratio to a time near. *left: to that time. */
+static qdot_status
+accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *left)
+{
+    double reach = fmax(fabs(t), fabs(x->t1 - x->c->tr.t[0]));
+    qdot_piece_repeat *r = NULL;
+
+    *yes = false;
+    *left = 0;
+    for (size_t i = 0; i < x->repeats.n; i++)
+        if (x->repeats.at[i].kind == w->kind && x->repeats.at[i].index == w->index)
+            r = &x->repeats.at[i];
+    if (!r) {
+        qdot_piece_repeat new = {
+            .kind = w->kind, .index = w->index, .n = 1, .since = t, .last = t};
+
+        return qdot_vec_push(&x->repeats, new);
+    }
+    if (fabs(t - r->since) > MOMENT * reach) {
+        r->since = t;
+        r->n = 0;
+    }
+    *left = remaining(r, t);
+    *yes = ++r->n > MOST_REPEATS || *left <= NEAR * reach;
+    *left = isfinite(*left) ? *left : 0;
+    return QDOT_OK;
+}
+
+static void
+say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
+{
+    qdot_text text = {0};
+
+    if (w->kind == QDOT_WATCH_EVENT)
+        qdot_text_format(&text, "the event %.100s",
+                         x->c->stage->events.at[w->index].name);
+    else if (qdot_stage_describe(x->c->stage, w->index,
+                                 qdot_piece_mode(x)->side[w->index], &text) != QDOT_OK)
+        qdot_text_add(&text, "a switch of the equations");
+    snprintf(
+        x->c->reason, sizeof x->c->reason,
+        "stopped at t = %.15g: %.200s comes ever faster there, without end before t = "
+        "%.10g",
+        t, qdot_text_str(&text), t + copysign(left, x->direction));
+    qdot_text_clear(&text);
+}
+
+/* A root lies between the doubles around it, where it is not one of them. */
+static double
+lateness(const qdot_root *root, double t)
+{
+    return fabs(t - root->t) + (root->exact ? 0 : 0x1p-53 * fabs(t));
+}
+
+/* All that occurs at t_act, in order; y is the state there, and then the one behind.
+ * *over: the run ends. */
+qdot_status
+qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
+{
+    double *old = qdot_malloc(x->n * sizeof *old);
+    qdot_status status = old ? QDOT_OK : QDOT_ENOMEM;
+    const qdot_mode *m = qdot_piece_mode(x);
+    double t = x->t_act;
+
+    if (old)
+        memcpy(old, y, x->n * sizeof *y);
+    x->fired.n = 0;
+    x->crossed.n = 0;
+    for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&x->fired, x->roots.at[i]);
+    if (status == QDOT_OK)
+        status = qdot_watch_look(qdot_piece_watch(x), &x->reader, t, y, x->signs);
+    for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++) {
+        const qdot_root *root = &x->roots.at[i];
+        const qdot_watched *w = &m->watched[root->function];
+        double left = 0;
+        bool fast = false;
+
+        if (w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].stop ||
+            x->c->stage->events.at[w->index].then)
+            status = qdot_vec_push(
+                &x->c->ends,
+                ((qdot_course_end){x->c->tr.pieces.n - 1, root->function, t, *w,
+                                   lateness(root, t)}));
+        if (status != QDOT_OK)
+            break;
+        if (w->kind == QDOT_WATCH_DOMAIN) {
+            say_left(x, w);
+            *over = true;
+            qdot_piece_stop(x, true);
+            break;
+        }
+        if (w->kind == QDOT_WATCH_SURFACE) {
+            x->side[w->index] = w->inside == 0 ? root->way : w->beyond;
+            if (w->inside != 0)
+                status = qdot_vec_push(&x->crossed, w->index);
+        } else {
+            const qdot_staged_event *e = &x->c->stage->events.at[w->index];
+
+            if (e->then) {
+                status = change(x, e, t, old, y);
+                *jumped = true;
+            }
+            if (e->stop && status == QDOT_OK) {
+                x->c->stopped_by = w->index;
+                *over = true;
+                qdot_piece_stop(x, false);
+            }
+            if (!e->stop && !e->then)
+                continue;
+        }
+        if (status == QDOT_OK)
+            status = accumulates(x, w, t, &fast, &left);
+        if (fast && !*over) {
+            say_accumulated(x, w, t, left);
+            *over = true;
+            qdot_piece_stop(x, true);
+        }
+    }
+    if (*jumped)
+        x->crossed.n = 0;
+    qdot_free(old);
+    return status;
+}

@@ -1,0 +1,399 @@
+/* piece.c -- a piece integrated, every step of it looked at for what happens in it. */
+#include "sim/course/piece.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "ode/taylor.h"
+
+/* --- reading within a step ----------------------------------------------------------- */
+
+static qdot_status
+read_series(double t, double *y, void *user)
+{
+    const qdot_piece *x = user;
+    const qdot_ode_expanded *s = x->expanded;
+
+    qdot_ode_taylor_evaluate(x->reader.system, s->order, s->t, s->unit, t, s->y, y);
+    return QDOT_OK;
+}
+
+static qdot_status
+read_step(double t, double *y, void *user)
+{
+    const qdot_piece *x = user;
+    const uint64_t before = qdot_trajectory_evaluations(x->cursor);
+    qdot_course *c = x->c;
+
+    QDOT_TRY(qdot_trajectory_read(x->cursor, t, y));
+    c->looked += qdot_trajectory_evaluations(x->cursor) - before;
+    if (c->most_looked > 0 && c->looked > c->most_looked)
+        return qdot_fail(QDOT_ELIMIT,
+                         "stopped at t = %.6g after %llu evaluations within steps, to find "
+                         "events there",
+                         t, (unsigned long long)c->most_looked);
+    return QDOT_OK;
+}
+
+/* --- what a step holds --------------------------------------------------------------- */
+
+static bool
+is_occurrence(const qdot_piece *x, const qdot_root *root)
+{
+    const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
+    int way = x->direction > 0 ? root->way : -root->way;
+
+    if (w->kind == QDOT_WATCH_EVENT)
+        return x->c->stage->events.at[w->index].way == 0 ||
+               x->c->stage->events.at[w->index].way == way;
+    return root->way != 0 && root->way != w->inside;
+}
+
+static bool
+is_action(const qdot_piece *x, const qdot_root *root)
+{
+    const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
+    const qdot_staged_event *e = &x->c->stage->events.at[w->index];
+
+    return w->kind != QDOT_WATCH_EVENT || e->stop || e->then;
+}
+
+static qdot_status
+note(qdot_piece *x, const qdot_root *root)
+{
+    const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
+    qdot_occurrence o = {w->index, root->t, x->direction > 0 ? root->way : -root->way};
+
+    return w->kind == QDOT_WATCH_EVENT ? qdot_vec_push(&x->c->occurrences, o) : QDOT_OK;
+}
+
+/* A domain's bound that the piece starts on and does not leave inwards. */
+static const qdot_watched *
+leaves_domain(qdot_piece *x)
+{
+    const int *first = qdot_watch_first(qdot_piece_watch(x));
+    const qdot_mode *m = qdot_piece_mode(x);
+
+    for (size_t i = 0; i < m->m; i++)
+        if (m->watched[i].kind == QDOT_WATCH_DOMAIN && x->functions_on[i] &&
+            first[i] == -m->watched[i].inside)
+            return &m->watched[i];
+    return NULL;
+}
+
+/* Whether what ended the piece before has been answered: an event with `then` that is met
+ * again at once, within rounding, in its own direction is a contact that lasts. */
+static bool
+leaves_event(qdot_piece *x)
+{
+    const int *first = qdot_watch_first(qdot_piece_watch(x));
+    const bool *slow = qdot_watch_slow(qdot_piece_watch(x));
+
+    for (size_t k = 0; k < x->fired.n; k++) {
+        size_t i = x->fired.at[k].function;
+        const qdot_watched *w =
+            i < x->c->stage->events.n ? &qdot_piece_mode(x)->watched[i] : NULL;
+
+        if (w && x->c->stage->events.at[w->index].then && x->functions_on[i] && slow[i] &&
+            first[i] != 0 && first[i] == x->fired.at[k].way) {
+            x->resting = w->index;
+            return false;
+        }
+    }
+    return true;
+}
+
+static qdot_status
+say_resting(qdot_piece *x, double t)
+{
+    snprintf(
+        x->c->reason, sizeof x->c->reason,
+        "stopped at t = %.15g: behind the event %.100s the motion does not leave it: "
+        "a contact that lasts is no event",
+        t, x->c->stage->events.at[x->resting].name);
+    x->t_act = t;
+    x->intent = QDOT_PIECE_ENDS;
+    return QDOT_OK;
+}
+
+/* Whether the piece goes on by its sides, behind its first step. */
+static qdot_status
+judge_sides(qdot_piece *x)
+{
+    if (x->search == QDOT_SIDES_KNOWN)
+        return QDOT_OK;
+    QDOT_TRY(qdot_piece_leaves_well(x, &x->well));
+    if (!x->well || x->search == QDOT_SIDES_COMPARED || qdot_piece_is_open(x))
+        x->intent = QDOT_PIECE_RETRIED;
+    return QDOT_OK;
+}
+
+/* A surface on which u stayed 0 until this step, and does no more. */
+static qdot_status
+leave_zero(qdot_piece *x, double t0)
+{
+    const int *first = qdot_watch_first(qdot_piece_watch(x));
+    const qdot_mode *m = qdot_piece_mode(x);
+
+    for (size_t i = 0; i < m->m; i++) {
+        if (m->watched[i].kind != QDOT_WATCH_SURFACE || m->watched[i].inside != 0
+            || first[i] == 0)
+            continue;
+        x->intent = QDOT_PIECE_ENDS;
+        x->t_act = t0;
+        QDOT_TRY(qdot_vec_push(&x->roots, ((qdot_root){i, t0, first[i], 0, true})));
+    }
+    return QDOT_OK;
+}
+
+/* How far behind one switch, of its time, another one is at the same time: what rounding
+ * makes of one moment that both stand for. */
+static const double same_time = 4 * DBL_EPSILON;
+
+static bool
+is_switch(const qdot_piece *x, const qdot_root *root)
+{
+    return qdot_piece_mode(x)->watched[root->function].kind == QDOT_WATCH_SURFACE;
+}
+
+/* When the piece ends that the root k of [n] ends: with the last switch of those at its time,
+ * if nothing else lies between. */
+static double
+end_of(const qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
+{
+    double t = roots[k].t;
+
+    if (!is_switch(x, &roots[k]))
+        return t;
+    for (size_t i = k + 1; i < n && fabs(roots[i].t - roots[k].t) <= same_time * fabs(t)
+                           && is_switch(x, &roots[i]);
+         i++)
+        if (is_occurrence(x, &roots[i]))
+            t = roots[i].t;
+    return t;
+}
+
+/* The roots of the step: noted up to the first that ends the piece. */
+static qdot_status
+take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
+{
+    x->roots.n = 0;
+    x->c->occurrences.n = x->noted;
+    x->intent = QDOT_PIECE_GOES_ON;
+    if (x->first_step) {
+        const qdot_watched *w = leaves_domain(x);
+
+        if (w) {
+            qdot_root root = {(size_t)(w - qdot_piece_mode(x)->watched), t0, -w->inside,
+                              0, true};
+
+            x->intent = QDOT_PIECE_ENDS;
+            x->t_act = t0;
+            return qdot_vec_push(&x->roots, root);
+        }
+        QDOT_TRY(judge_sides(x));
+        if (x->intent == QDOT_PIECE_RETRIED)
+            return QDOT_OK;
+        if (!leaves_event(x))
+            return say_resting(x, t0);
+    } else {
+        QDOT_TRY(leave_zero(x, t0));
+        if (x->intent == QDOT_PIECE_ENDS)
+            return QDOT_OK;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (!is_occurrence(x, &roots[i]))
+            continue;
+        if (x->intent == QDOT_PIECE_ENDS && x->direction * (roots[i].t - x->t_act) > 0)
+            break;
+        if (x->intent != QDOT_PIECE_ENDS && is_action(x, &roots[i])) {
+            x->intent = QDOT_PIECE_ENDS;
+            x->t_act = end_of(x, roots, n, i);
+            for (; x->c->occurrences.n > x->noted &&
+                   x->c->occurrences.at[x->c->occurrences.n - 1].t == x->t_act;
+                 x->c->occurrences.n--) /* they are noted again, in order */
+                ;
+            for (size_t k = 0; k < i; k++)
+                if (roots[k].t == x->t_act && is_occurrence(x, &roots[k])) {
+                    QDOT_TRY(note(x, &roots[k]));
+                    QDOT_TRY(qdot_vec_push(&x->roots, roots[k]));
+                }
+        }
+        QDOT_TRY(note(x, &roots[i]));
+        if (x->intent == QDOT_PIECE_ENDS)
+            QDOT_TRY(qdot_vec_push(&x->roots, roots[i]));
+    }
+    return QDOT_OK;
+}
+
+/* A bound that is passed at t_act: the piece ends a double before. */
+static void
+stay_inside(qdot_piece *x, double t0)
+{
+    for (size_t i = 0; i < x->roots.n; i++)
+        if (qdot_piece_mode(x)->watched[x->roots.at[i].function].kind ==
+                QDOT_WATCH_DOMAIN &&
+            x->t_act != t0)
+            x->t_act = nextafter(x->t_act, -x->direction * INFINITY);
+}
+
+/* Ends an integration that is gone on with otherwise. */
+static qdot_status
+break_off(qdot_piece *x)
+{
+    x->broken_off = true;
+    return qdot_fail(QDOT_ELIMIT, "the piece is over");
+}
+
+static qdot_status
+look_at_expanded(qdot_ode_expanded *step, void *user)
+{
+    qdot_piece *x = user;
+    const qdot_root *roots;
+    size_t n;
+
+    x->far = !x->first_step &&
+             qdot_watch_is_far(qdot_piece_watch(x), step->t_end, x->reader.system->series,
+                               step->order, step->unit);
+    if (x->far) {
+        x->intent = QDOT_PIECE_GOES_ON; /* of a longer step that was not taken */
+        x->c->occurrences.n = x->noted;
+        return QDOT_OK;
+    }
+    x->expanded = step;
+    QDOT_TRY(read_series(step->t_end, x->y, x));
+    QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), &x->reader, step->t_end, x->y,
+                             step->t_end == x->t1, x->reader.system->series, step->order,
+                             step->unit, &roots, &n));
+    QDOT_TRY(take_roots(x, step->t, roots, n));
+    if (x->intent == QDOT_PIECE_ENDS)
+        stay_inside(x, step->t);
+    if (x->intent == QDOT_PIECE_RETRIED ||
+        (x->intent == QDOT_PIECE_ENDS && x->t_act == step->t))
+        return break_off(x);
+    if (x->intent == QDOT_PIECE_ENDS)
+        step->t_end = x->t_act;
+    return QDOT_OK;
+}
+
+/* Without a series: from the ends of the step. */
+static qdot_status
+look_at_step(qdot_piece *x, double t, const double *y)
+{
+    const qdot_root *roots;
+    size_t n;
+
+    x->step.t[1] = t;
+    memcpy(x->step.y + x->n, y, x->n * sizeof *y);
+    qdot_trajectory_renew(x->cursor);
+    QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), &x->reader, t, y, t == x->t1, NULL, 0,
+                             0, &roots, &n));
+    QDOT_TRY(take_roots(x, x->step.t[0], roots, n));
+    if (x->intent == QDOT_PIECE_RETRIED)
+        return break_off(x);
+    if (x->intent == QDOT_PIECE_ENDS) {
+        stay_inside(x, x->step.t[0]);
+        return qdot_trajectory_read(x->cursor, x->t_act, x->y_act);
+    }
+    x->step.t[0] = t;
+    memcpy(x->step.y, y, x->n * sizeof *y);
+    return QDOT_OK;
+}
+
+/* Where steps are projected that asks as well. */
+static qdot_status
+check_accelerations(const qdot_piece *x, double t, const double *y)
+{
+    const qdot_ode_system *system = &x->c->systems.at[x->mode];
+    qdot_constrained *held = system->n_parts == 0 ? qdot_bind_held(system->user) : NULL;
+
+    if (!held || (system->project && !x->method->multistep))
+        return QDOT_OK;
+    return qdot_constrained_check_accelerations(held, t, y);
+}
+
+static qdot_status
+accepted(double t, const double *y, bool *stop, void *user)
+{
+    qdot_piece *x = user;
+
+    QDOT_TRY(check_accelerations(x, t, y));
+    if (x->options->accepted)
+        QDOT_TRY(x->options->accepted(t, y, stop, x->options->user));
+    if (qdot_piece_mode(x)->m == 0)
+        return QDOT_OK;
+    if (!x->method->series)
+        QDOT_TRY(look_at_step(x, t, y));
+    x->first_step = false;
+    if (x->far) {
+        qdot_watch_pass(qdot_piece_watch(x), t, y);
+        return QDOT_OK;
+    }
+    if (x->intent == QDOT_PIECE_ENDS) {
+        *stop = true;
+        return QDOT_OK;
+    }
+    x->noted = x->c->occurrences.n;
+    qdot_watch_take(qdot_piece_watch(x));
+    return QDOT_OK;
+}
+
+/* --- the piece ------------------------------------------------------------------------ */
+
+/* The watch at the start of a piece. */
+qdot_status
+qdot_piece_begin(qdot_piece *x, double t, const double *y)
+{
+    const qdot_ode_following *following = x->c->systems.at[x->mode].following;
+
+    qdot_trajectory_close(x->cursor);
+    x->cursor = NULL;
+    x->reader = (qdot_watch_reader){x->method->series ? read_series : read_step, x,
+                                    &x->c->systems.at[x->mode]};
+    if (qdot_piece_mode(x)->m == 0)
+        return QDOT_OK;
+    if (following)
+        QDOT_TRY(following->enter(t, y, NULL, following->user));
+    if (!x->method->series) {
+        x->step.t[0] = t;
+        x->step.t[1] = t + x->direction;
+        memcpy(x->step.y, y, x->n * sizeof *y);
+        QDOT_TRY(qdot_trajectory_open(&x->step, x->reader.system, &x->cursor));
+    }
+    return qdot_watch_begin(qdot_piece_watch(x), &x->reader, t, y,
+                            x->c->shaken && x->c->tr.count == 1, x->before, x->residual,
+                            x->functions_on);
+}
+
+/* Integrate a piece from y at t; the first one begins the trajectory. */
+qdot_status
+qdot_piece_integrate(qdot_piece *x, double t, const double *y, bool jumped)
+{
+    qdot_course *c = x->c;
+    qdot_ode_options options = *x->options;
+    qdot_status status;
+    const qdot_ode_system *system = &c->systems.at[x->mode];
+
+    options.accepted = accepted;
+    options.expanded =
+        qdot_piece_mode(x)->m > 0 && x->method->series ? look_at_expanded : NULL;
+    options.user = x;
+    options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted;
+    if (c->tr.count > 1 || t != c->tr.t[0])
+        options.carry = NULL;
+    x->intent = QDOT_PIECE_GOES_ON;
+    x->broken_off = false;
+    x->first_step = true;
+    x->far = false;
+    x->noted = c->occurrences.n;
+    status = qdot_trajectory_resume(&c->tr, system, x->mode, jumped, &options, x->t1, y);
+    if (x->broken_off) {
+        c->tr.result.outcome = QDOT_ODE_STOPPED;
+        c->tr.result.reason[0] = '\0';
+        return QDOT_OK;
+    }
+    if (status == QDOT_OK && x->intent == QDOT_PIECE_ENDS && !x->method->series)
+        qdot_trajectory_shorten(&c->tr, x->t_act, x->y_act);
+    return status;
+}

@@ -1,0 +1,38 @@
+/* reader.h -- expressions read along a course. */
+#ifndef QDOT_SIM_READER_H
+#define QDOT_SIM_READER_H
+
+#include "sim/course/course.h"
+
+typedef struct {
+    const qdot_plan *plan;
+    const qdot_tape *tape; /* borrowed */
+    qdot_trajectory_cursor *cursor;
+    const qdot_course *course;
+    bool accelerations; /* the tape reads q'' or lambda */
+    int moved;          /* 0; else states are read moved to that side, by a double: 1, 2 */
+    double *in;         /* [3n + 1 + m] */
+    double *work;
+} qdot_reader;
+
+/* A tape of expressions [m] with the values of the plan in place; whether it reads
+ * accelerations or multipliers. */
+QDOT_MUST_CHECK qdot_status qdot_reader_lower(const qdot_plan *plan, size_t m,
+                                              const qdot_expr *exprs, qdot_tape **tape,
+                                              bool *accelerations);
+
+/* For that tape along that course, both borrowed; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_reader_init(qdot_reader *r, const qdot_plan *plan,
+                                             const qdot_tape *tape,
+                                             const qdot_course *course,
+                                             bool accelerations);
+void qdot_reader_clear(qdot_reader *r);
+
+/* out [outputs of the tape] at t; within that piece of the run, unless it is SIZE_MAX. */
+QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
+                                           double *out);
+
+/* out for the state that stands in r->in [2n], by the piece that was read last. */
+QDOT_MUST_CHECK qdot_status qdot_reader_evaluate(qdot_reader *r, double t, double *out);
+
+#endif

@@ -1,0 +1,329 @@
+/* side-search.c -- the sides that a piece goes by, where it starts on surfaces.
+ *
+ * A side is right where the motion by its equations leaves to it: u > 0 behind the start by the
+ * equations of side 1, u < 0 by those of -1, u = 0 by those of 0; of a floor k where u goes
+ * up from k or stays, k - 1 where it goes down. The first step by a mode shows it. Sides that
+ * do not hold are changed to where the motion went; if that comes back to sides that were
+ * tried, all combinations of the surfaces in doubt are gone through.
+ *
+ * That a crossing goes on is known. So it is where u holds no velocity and has a slope: that
+ * is the same on either side. Else other sides may hold as well, and each is tried.
+ */
+#include "sim/course/piece.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+
+/* Surfaces in doubt at one time: 3^4 combinations at most. */
+enum { MOST_DOUBTS = 4 };
+
+qdot_status
+qdot_piece_sides(qdot_piece *x, double t, const double *y, const long *old)
+{
+    return qdot_stage_sides(x->c->stage, t, y, old, x->side);
+}
+
+/* --- what a first step shows --------------------------------------------------------- */
+
+static bool
+is_step(const qdot_piece *x, size_t surface)
+{
+    return x->c->stage->switches.surfaces.at[surface].steps;
+}
+
+/* Whether a function of a surface keeps to its side, by the sign behind the start. */
+static bool
+keeps(const qdot_piece *x, const qdot_watched *w, int first)
+{
+    return first == w->inside || (first == 0 && w->inside == 1 && is_step(x, w->index));
+}
+
+/* The side that a motion is on that does not keep to that at hand. */
+static long
+went_to(const qdot_piece *x, const qdot_watched *w, int first)
+{
+    return is_step(x, w->index) ? w->beyond : first;
+}
+
+static qdot_status
+doubt(qdot_piece *x, const qdot_watched *w, int first)
+{
+    const long now = qdot_piece_mode(x)->side[w->index];
+    qdot_piece_doubt d = {.surface = w->index, .n = 2, .sides = {now}};
+
+    for (size_t i = 0; i < x->doubts.n; i++)
+        if (x->doubts.at[i].surface == w->index)
+            return QDOT_OK;
+    if (is_step(x, w->index)) {
+        d.sides[1] = went_to(x, w, first);
+    } else {
+        d.n = 3;
+        d.sides[1] = now != 0 ? -now : 1;
+        d.sides[2] = now != 0 ? 0 : -1;
+    }
+    return qdot_vec_push(&x->doubts, d);
+}
+
+qdot_status
+qdot_piece_leaves_well(qdot_piece *x, bool *well)
+{
+    const int *first = qdot_watch_first(qdot_piece_watch(x));
+    const qdot_mode *m = qdot_piece_mode(x);
+
+    *well = true;
+    for (size_t i = 0; i < m->m; i++) {
+        const qdot_watched *w = &m->watched[i];
+
+        if (w->kind != QDOT_WATCH_SURFACE || keeps(x, w, first[i]))
+            continue;
+        *well = false;
+        x->side[w->index] = went_to(x, w, first[i]);
+        QDOT_TRY(doubt(x, w, first[i]));
+    }
+    return QDOT_OK;
+}
+
+static bool
+was_crossed(const qdot_piece *x, size_t surface)
+{
+    for (size_t k = 0; k < x->crossed.n; k++)
+        if (x->crossed.at[k] == surface)
+            return true;
+    return false;
+}
+
+/* Whether other sides than this of the mode at hand might hold, by function i. */
+static bool
+is_open(const qdot_piece *x, size_t i)
+{
+    const qdot_watched *w = &qdot_piece_mode(x)->watched[i];
+
+    return w->kind == QDOT_WATCH_SURFACE && x->functions_on[i]
+           && !was_crossed(x, w->index)
+           && (w->velocity || qdot_watch_slow(qdot_piece_watch(x))[i]
+               || qdot_watch_first(qdot_piece_watch(x))[i] == 0);
+}
+
+bool
+qdot_piece_is_open(const qdot_piece *x)
+{
+    for (size_t i = 0; i < qdot_piece_mode(x)->m; i++)
+        if (is_open(x, i))
+            return true;
+    return false;
+}
+
+/* --- words --------------------------------------------------------------------------- */
+
+static qdot_status
+describe(const qdot_piece *x, size_t surface, qdot_text *out)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+    long side = m->side[surface];
+
+    /* of a floor the integer that the piece starts on */
+    for (size_t i = 0; i < m->m; i++)
+        if (m->watched[i].kind == QDOT_WATCH_SURFACE && m->watched[i].index == surface
+            && x->functions_on[i])
+            side = m->side[surface] + (m->watched[i].inside < 0);
+    return qdot_stage_describe(x->c->stage, surface, side, out);
+}
+
+/* c->reason, about a surface. */
+static void
+say(qdot_piece *x, double t, size_t surface, const char *before, const char *behind)
+{
+    qdot_text text = {0};
+
+    if (describe(x, surface, &text) != QDOT_OK)
+        qdot_text_truncate(&text, 0);
+    snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: %s %.200s, %s", t,
+             before, text.n > 0 ? qdot_text_str(&text) : "a surface", behind);
+    qdot_text_clear(&text);
+    qdot_piece_stop(x, true);
+}
+
+static void
+say_slides(qdot_piece *x, double t)
+{
+    say(x, t, x->doubts.n > 0 ? x->doubts.at[0].surface : 0,
+        "the motion would slide along",
+        "where the equations switch: both sides lead back to it");
+}
+
+static void
+say_open(qdot_piece *x, double t, size_t surface)
+{
+    say(x, t, surface, "on",
+        "where the equations switch, the motion may go on in more than one way: which one "
+        "they do not say");
+}
+
+/* --- the search ---------------------------------------------------------------------- */
+
+/* Whether these sides were tried from here; they are now. */
+static qdot_status
+was_tried(qdot_piece *x, bool *again)
+{
+    size_t surfaces = x->c->stage->switches.surfaces.n;
+
+    *again = false;
+    for (size_t k = 0; k + surfaces <= x->tried.n && surfaces > 0; k += surfaces)
+        *again =
+            *again || memcmp(x->tried.at + k, x->side, surfaces * sizeof *x->side) == 0;
+    for (size_t i = 0; i < surfaces && !*again; i++)
+        QDOT_TRY(qdot_vec_push(&x->tried, x->side[i]));
+    return QDOT_OK;
+}
+
+/* x->side becomes the k-th combination of what is in doubt, from the sides tried first;
+ * *over: there is none. */
+static qdot_status
+combine(qdot_piece *x, size_t k, double t, const double *y, bool *over)
+{
+    size_t surfaces = x->c->stage->switches.surfaces.n;
+
+    *over = x->doubts.n > MOST_DOUBTS;
+    if (*over)
+        return QDOT_OK;
+    memcpy(x->side, x->tried.at, surfaces * sizeof *x->side);
+    for (size_t i = 0; i < x->doubts.n; i++) {
+        const qdot_piece_doubt *d = &x->doubts.at[i];
+
+        x->side[d->surface] = d->sides[k % d->n];
+        k /= d->n;
+    }
+    *over = k > 0;
+    return qdot_piece_sides(x, t, y, x->tried.at);
+}
+
+/* The next sides that were not tried from here; *over: there are none. */
+static qdot_status
+next_sides(qdot_piece *x, size_t *k, double t, const double *y, bool *over)
+{
+    bool again;
+
+    *over = false;
+    QDOT_TRY(was_tried(x, &again));
+    while (again && !*over) {
+        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(combine(x, (*k)++, t, y, over));
+        if (!*over)
+            QDOT_TRY(was_tried(x, &again));
+    }
+    return QDOT_OK;
+}
+
+/* By x->side from y at t: the whole piece, or its first step. */
+static qdot_status
+go(qdot_piece *x, double t, const double *y, bool jumped)
+{
+    QDOT_TRY(qdot_piece_begin(x, t, y));
+    return qdot_piece_integrate(x, t, y, jumped);
+}
+
+/* Whether the motion leaves to `side` of a surface, beside the sides that hold; a mode that
+ * cannot be gone by is no answer. */
+static qdot_status
+holds_too(qdot_piece *x, const long *held, size_t surface, long side, size_t from, double t,
+          const double *y, bool jumped, bool *too)
+{
+    const size_t surfaces = x->c->stage->switches.surfaces.n;
+    qdot_status status;
+
+    *too = false;
+    memcpy(x->side, held, surfaces * sizeof *x->side);
+    x->side[surface] = side;
+    QDOT_TRY(qdot_piece_sides(x, t, y, held));
+    status = qdot_piece_enter(x);
+    if (status == QDOT_OK) {
+        qdot_piece_carry(x, from, jumped);
+        status = go(x, t, y, jumped);
+        *too = status == QDOT_OK && x->intent == QDOT_PIECE_RETRIED && x->well
+               && x->side[surface] == side;
+    }
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* Whether the sides at hand, held [surfaces], are the only ones; c->reason where not. */
+static qdot_status
+compare(qdot_piece *x, const long *held, size_t from, double t, const double *y, bool jumped)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+    qdot_vec(qdot_piece_doubt) others = {0};
+    qdot_status status = QDOT_OK;
+
+    x->doubts.n = 0;
+    for (size_t i = 0; i < m->m && status == QDOT_OK; i++)
+        if (is_open(x, i))
+            status = doubt(x, &m->watched[i], -m->watched[i].inside);
+    for (size_t i = 0; i < x->doubts.n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&others, x->doubts.at[i]);
+    x->search = QDOT_SIDES_COMPARED;
+    for (size_t i = 0; i < others.n && status == QDOT_OK; i++)
+        for (size_t k = 1; k < others.at[i].n && status == QDOT_OK; k++) {
+            const size_t surface = others.at[i].surface;
+            bool too;
+
+            status = holds_too(x, held, surface, others.at[i].sides[k], from, t, y, jumped,
+                               &too);
+            if (status == QDOT_OK && too && x->c->reason[0] == '\0')
+                say_open(x, t, surface);
+        }
+    qdot_free(others.at);
+    return status;
+}
+
+/* By the sides that hold, when they have been compared. */
+static qdot_status
+go_by(qdot_piece *x, size_t from, double t, const double *y, bool jumped)
+{
+    const size_t surfaces = x->c->stage->switches.surfaces.n;
+    long *held = qdot_malloc((surfaces + 1) * sizeof *held);
+    qdot_status status = held ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(held, x->side, surfaces * sizeof *held);
+        status = compare(x, held, from, t, y, jumped);
+        memcpy(x->side, held, surfaces * sizeof *held);
+    }
+    qdot_free(held);
+    if (status != QDOT_OK || x->c->reason[0] != '\0')
+        return status;
+    x->search = QDOT_SIDES_KNOWN;
+    QDOT_TRY(qdot_piece_enter(x));
+    qdot_piece_carry(x, from, jumped);
+    return go(x, t, y, jumped);
+}
+
+qdot_status
+qdot_piece_search(qdot_piece *x, size_t from, double t, double *y, bool jumped)
+{
+    size_t combinations = 0;
+
+    x->tried.n = 0;
+    x->doubts.n = 0;
+    x->search = QDOT_SIDES_TRIED;
+    for (bool first = true;; first = false) {
+        bool over;
+
+        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(next_sides(x, &combinations, t, y, &over));
+        if (over) {
+            say_slides(x, t);
+            return QDOT_OK;
+        }
+        QDOT_TRY(qdot_piece_enter(x));
+        QDOT_TRY(qdot_piece_cross(x, from, t, y, jumped, first));
+        if (x->c->reason[0] != '\0')
+            return QDOT_OK;
+        QDOT_TRY(go(x, t, y, jumped));
+        if (x->intent != QDOT_PIECE_RETRIED)
+            return QDOT_OK;
+        if (x->well)
+            return go_by(x, from, t, y, jumped);
+        QDOT_TRY(qdot_piece_sides(x, t, y, qdot_piece_mode(x)->side));
+    }
+}

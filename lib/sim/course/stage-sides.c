@@ -1,0 +1,200 @@
+/* stage-sides.c -- on which side of every surface a state is, the inner ones first. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "expr/print.h"
+#include "sim/course/stage.h"
+#include "sim/model/term-magnitude.h"
+
+/* Of the size of its terms: what evaluating u may be off by. */
+static const double rounding = 4 * DBL_EPSILON;
+
+/* How far, of max(1, |y|), a state is moved to see whether u moves at all: by two numbers
+ * that nothing is made of. */
+static const double aside[] = {0x1.3a6e4p-9, -0x1.d19b2p-8};
+
+/* No floor beyond it, where doubles are integers only. */
+static const double most_steps = 0x1p53;
+
+/* u and its size for all surfaces at the sides at hand. */
+typedef struct {
+    const qdot_stage *s;
+    size_t m, n; /* surfaces; components of the state */
+    double t;
+    const double *y;
+    double *u, *noise; /* [m] what rounding of the state and of u makes of u */
+    bool *flat;        /* [m] u is the same wherever the state is moved */
+    double *before;    /* [m] u by the old sides */
+    double *out, *in, *work;
+} decision;
+
+qdot_status
+qdot_stage_lower_sides(qdot_stage *s)
+{
+    qdot_pool *pool = s->scene->pool;
+    const size_t n = s->n, m = s->switches.surfaces.n;
+    size_t k = 0;
+    qdot_expr *u = qdot_calloc(2 * m + 1, sizeof *u);
+    qdot_expr *in = qdot_calloc(2 * n + 1 + m, sizeof *in);
+    qdot_status status = u && in ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t order = 0; order < 2 && in; order++)
+        for (size_t i = 0; i < n; i++)
+            in[k++] = qdot_symbol_jet(
+                pool, qdot_parameter_states_coordinate(s->scene, s->request, i),
+                (uint32_t)order);
+    if (status == QDOT_OK)
+        in[k++] = QDOT_T;
+    for (size_t i = 0; i < m && status == QDOT_OK; i++) {
+        in[k++] = s->switches.surfaces.at[i].side;
+        status = qdot_switches_freeze(&s->switches, NULL, 1, &s->switches.surfaces.at[i].u,
+                                      u + i);
+        u[m + i] = qdot_term_magnitude(pool, u[i]);
+    }
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(pool, k, in, 2 * m, u, &s->sides);
+    qdot_free(u);
+    qdot_free(in);
+    return status;
+}
+
+static qdot_status
+begin(decision *d, const qdot_stage *s, double t, const double *y)
+{
+    size_t m = s->switches.surfaces.n;
+    const size_t n = 2 * s->n;
+
+    *d = (decision){.s = s, .m = m, .n = n, .t = t, .y = y};
+    d->u = qdot_calloc(5 * m + n + 1 + m + qdot_tape_work(s->sides) + 1, sizeof *d->u);
+    d->flat = qdot_calloc(m, sizeof *d->flat);
+    if (!d->u || !d->flat)
+        return QDOT_ENOMEM;
+    d->noise = d->u + m;
+    d->before = d->noise + m;
+    d->out = d->before + m;
+    d->in = d->out + 2 * m;
+    d->work = d->in + n + 1 + m;
+    memcpy(d->in, y, n * sizeof *d->in);
+    d->in[n] = t;
+    return QDOT_OK;
+}
+
+/* d->out at d->in, whose state is that of the decision again afterwards. */
+static void
+evaluate(decision *d, const long *side)
+{
+    for (size_t i = 0; i < d->m; i++)
+        d->in[d->n + 1 + i] = (double)side[i];
+    qdot_tape_eval(d->s->sides, d->in, d->out, d->work);
+    memcpy(d->in, d->y, d->n * sizeof *d->in);
+    d->in[d->n] = d->t;
+}
+
+/* Whether component i of the state is a parameter that events set: no motion moves it. */
+static bool
+is_parameter(const decision *d, size_t i)
+{
+    return i < d->n && i % d->s->n >= d->s->n - d->s->n_states;
+}
+
+/* u, noise and flat at these sides. */
+static void
+measure(decision *d, const long *side)
+{
+    evaluate(d, side);
+    for (size_t i = 0; i < d->m; i++) {
+        d->u[i] = d->out[i];
+        d->noise[i] = rounding * d->out[d->m + i];
+        d->flat[i] = true;
+    }
+    for (size_t k = 0; k <= d->n; k++) {
+        d->in[k] *= 1 + 2 * DBL_EPSILON;
+        evaluate(d, side);
+        for (size_t i = 0; i < d->m; i++)
+            d->noise[i] += isfinite(d->out[i]) ? fabs(d->out[i] - d->u[i]) : 0;
+    }
+    for (size_t k = 0; k < 2; k++) {
+        for (size_t i = 0; i <= d->n; i++)
+            if (!is_parameter(d, i))
+                d->in[i] += aside[k] / (1 + (double)i) * fmax(1, fabs(d->in[i]));
+        evaluate(d, side);
+        for (size_t i = 0; i < d->m; i++)
+            d->flat[i] = d->flat[i] && d->out[i] == d->u[i];
+    }
+}
+
+/* The side of surface i, which had `kept`. */
+static qdot_status
+decide(const decision *d, size_t i, bool anew, long kept, long *side)
+{
+    const bool steps = d->s->switches.surfaces.at[i].steps;
+    const double u = d->u[i], near = steps ? round(u) : 0;
+    const bool on = fabs(u - near) <= d->noise[i];
+
+    *side = kept;
+    if (isnan(u) || (!anew && !d->flat[i] && fabs(u - d->before[i]) <= d->noise[i]))
+        return QDOT_OK;
+    if (steps && !(fabs(u) < most_steps))
+        return qdot_fail(QDOT_EDOMAIN, "a floor or mod is too large at t = %.15g", d->t);
+    if (!on)
+        *side = steps ? (long)floor(u) : u > 0 ? 1 : -1;
+    else if (d->flat[i] || (steps && (anew || kept != (long)near - 1)))
+        *side = (long)near;
+    else if (anew)
+        *side = 1;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old, long *side)
+{
+    const size_t m = s->switches.surfaces.n;
+    long *kept;
+    decision d;
+    bool changed = true;
+    qdot_status status;
+
+    if (m == 0)
+        return QDOT_OK;
+    kept = qdot_calloc(m, sizeof *kept);
+    status = begin(&d, s, t, y);
+    if (!kept)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK) {
+        if (old) {
+            memcpy(kept, side, m * sizeof *kept);
+            measure(&d, old);
+            memcpy(d.before, d.u, m * sizeof *d.before);
+        } else {
+            memset(side, 0, m * sizeof *side);
+        }
+    }
+    /* as often as surfaces stand inside one another, at most */
+    for (size_t pass = 0; pass <= m && changed && status == QDOT_OK; pass++) {
+        measure(&d, side);
+        changed = false;
+        for (size_t i = 0; i < m && status == QDOT_OK; i++) {
+            const long was = side[i];
+
+            status = decide(&d, i, !old, kept[i], &side[i]);
+            changed |= side[i] != was;
+        }
+    }
+    qdot_free(kept);
+    qdot_free(d.u);
+    qdot_free(d.flat);
+    return status;
+}
+
+qdot_status
+qdot_stage_describe(const qdot_stage *s, size_t surface, long side, qdot_text *out)
+{
+    const qdot_surface *x = &s->switches.surfaces.at[surface];
+
+    QDOT_TRY(qdot_print(s->switches.pool, x->u, QDOT_PLAIN, out));
+    qdot_text_format(out, " = %ld", x->steps ? side : 0);
+    return qdot_text_status(out);
+}

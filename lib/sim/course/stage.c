@@ -1,0 +1,377 @@
+/* stage.c -- events, domains and surfaces with numbers in place; the modes. */
+#include "sim/course/stage.h"
+
+#include <string.h>
+
+#include "expr/walk.h"
+#include "sim/model/substitute.h"
+#include "tape/constant.h"
+
+static void
+clear_event(qdot_staged_event *e)
+{
+    qdot_free(e->name);
+    qdot_free(e->targets);
+    qdot_tape_free(e->then);
+}
+
+void
+qdot_stage_clear(qdot_stage *s)
+{
+    for (size_t i = 0; i < s->events.n; i++)
+        clear_event(&s->events.at[i]);
+    qdot_free(s->events.at);
+    for (size_t i = 0; i < s->modes.n; i++) {
+        qdot_plan_free(s->modes.at[i]->plan);
+        qdot_free(s->modes.at[i]->side);
+        qdot_tape_free(s->modes.at[i]->level);
+        qdot_free(s->modes.at[i]->functions);
+        qdot_free(s->modes.at[i]->watched);
+        qdot_free(s->modes.at[i]);
+    }
+    qdot_free(s->modes.at);
+    qdot_switches_clear(&s->switches);
+    qdot_domains_clear(&s->domains);
+    qdot_parameter_conditions_clear(&s->conditions);
+    qdot_tape_free(s->sides);
+    *s = (qdot_stage){0};
+}
+
+/* --- events -------------------------------------------------------------------------- */
+
+static size_t
+place_of(const qdot_plan *p, qdot_expr target)
+{
+    size_t k = 0;
+
+    while (k < 2 * p->n && p->inputs[k] != target)
+        k++;
+    return k;
+}
+
+/* Whether the constraints at a new value of component k of the state may not hold. */
+static qdot_status
+find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_event *e)
+{
+    const bool parameter = k >= p->n - p->n_states && k < p->n;
+
+    e->velocities |= !parameter;
+    e->positions |= k < p->n - p->n_states;
+    for (size_t i = 0; parameter && i < scene->constraints.n; i++) {
+        const qdot_expr f = qdot_plan_substitute(p, scene->constraints.at[i].f);
+
+        QDOT_TRY(qdot_pool_check(p->pool));
+        if (qdot_expr_contains(p->pool, f, p->inputs[k]))
+            e->positions = e->velocities = true;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *event,
+              qdot_staged_event *e)
+{
+    qdot_vec(qdot_expr) values = {0};
+    qdot_status status = QDOT_OK;
+
+    e->changes = event->targets.n;
+    e->targets = qdot_calloc(e->changes + 1, sizeof *e->targets);
+    if (!e->targets)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < e->changes && status == QDOT_OK; i++) {
+        qdot_expr value = qdot_plan_substitute(p, event->values.at[i]);
+
+        status = qdot_pool_check(p->pool);
+        if (status != QDOT_OK)
+            break;
+        e->targets[i] = place_of(p, qdot_plan_substitute(p, event->targets.at[i]));
+        e->accelerations |=
+            (qdot_expr_node(p->pool, value)->holds
+             & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+            != 0;
+        status = find_broken(scene, p, e->targets[i], e);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&values, value);
+    }
+    if (status == QDOT_OK && e->changes > 0)
+        status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, values.n, values.at,
+                               &e->then);
+    qdot_free(values.at);
+    return status;
+}
+
+static qdot_status
+stage_events(qdot_stage *s, const qdot_plan *p)
+{
+    for (size_t i = 0; i < s->scene->events.n; i++) {
+        const qdot_event *event = &s->scene->events.at[i];
+        qdot_staged_event e = {.way = event->way, .stop = event->stop};
+        qdot_status status;
+
+        e.function =
+            qdot_plan_substitute(p, qdot_sub(p->pool, event->left, event->right));
+        QDOT_TRY(qdot_pool_check(p->pool));
+        e.name = qdot_strdup(event->name);
+        status = e.name ? stage_changes(s->scene, p, event, &e) : QDOT_ENOMEM;
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&s->events, e);
+        if (status != QDOT_OK) {
+            clear_event(&e);
+            return status;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- modes --------------------------------------------------------------------------- */
+
+static void
+watch_function(qdot_mode *m, qdot_expr g, qdot_watched watched)
+{
+    m->functions[m->m] = g;
+    m->watched[m->m++] = watched;
+}
+
+static qdot_status
+watch_domains(const qdot_stage *s, qdot_mode *m)
+{
+    const qdot_plan *p = m->plan;
+
+    for (size_t i = 0; i < s->domains.n; i++) {
+        const qdot_domain *d = s->domains.at + i;
+        qdot_expr q = p->inputs[d->coordinate];
+        qdot_expr ends[] = {qdot_expr_symbol(p->pool, q)->lo,
+                            qdot_expr_symbol(p->pool, q)->hi};
+
+        for (int k = 0; k < 2; k++) {
+            double bound = k ? d->hi : d->lo;
+
+            if (ends[k] == QDOT_NIL)
+                continue;
+            watch_function(m, qdot_sub(p->pool, q, qdot_plan_substitute(p, ends[k])),
+                           (qdot_watched){.kind = QDOT_WATCH_DOMAIN,
+                                          .index = i,
+                                          .inside = k ? -1 : 1,
+                                          .coordinate = d->coordinate,
+                                          .bound = bound});
+        }
+    }
+    return qdot_pool_check(p->pool);
+}
+
+/* Whether a side is that of the number u. */
+static bool
+is_side(qdot_pool *pool, qdot_expr u, bool steps, long side)
+{
+    qdot_expr k = qdot_expr_int(pool, side);
+
+    if (steps)
+        return qdot_rel(pool, QDOT_LE, k, u) == QDOT_TRUE
+               && qdot_rel(pool, QDOT_LT, u, qdot_add(pool, k, QDOT_ONE)) == QDOT_TRUE;
+    return qdot_fun1(pool, QDOT_SIGN, u) == k;
+}
+
+/* A surface that does not move in the mode is not watched. Where u stays 0 it must do so. */
+static qdot_status
+watch_surfaces(const qdot_stage *s, qdot_mode *m)
+{
+    for (size_t i = 0; i < s->switches.surfaces.n; i++) {
+        const qdot_surface *x = &s->switches.surfaces.at[i];
+        qdot_pool *pool = s->switches.pool;
+        bool velocity, some, moves;
+        qdot_expr u;
+
+        QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, 1, &x->u, &u));
+        if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, u, x->steps, m->side[i]))
+            return qdot_fail(QDOT_EFAILED, "a switch of the equations cannot be decided");
+        QDOT_TRY(qdot_parameter_states_occur(m->plan, u, &some, &moves));
+        if (!moves)
+            continue;
+        velocity = (qdot_expr_node(pool, u)->holds
+                    & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+                   != 0;
+        if (!x->steps) {
+            watch_function(m, u,
+                           (qdot_watched){.kind = QDOT_WATCH_SURFACE,
+                                          .index = i,
+                                          .inside = (int)m->side[i],
+                                          .beyond = -m->side[i],
+                                          .velocity = velocity});
+            continue;
+        }
+        for (int k = 0; k < 2; k++)
+            watch_function(m, qdot_sub(pool, u, qdot_expr_int(pool, m->side[i] + k)),
+                           (qdot_watched){.kind = QDOT_WATCH_SURFACE,
+                                          .index = i,
+                                          .inside = k ? -1 : 1,
+                                          .beyond = m->side[i] + (k ? 1 : -1),
+                                          .velocity = velocity});
+    }
+    return qdot_pool_check(s->switches.pool);
+}
+
+static qdot_status
+lower_level(const qdot_stage *s, qdot_mode *m)
+{
+    qdot_expr level;
+
+    if (s->switches.level == QDOT_NIL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, 1, &s->switches.level, &level));
+    return qdot_tape_new(m->plan->pool, 2 * m->plan->n + 1, m->plan->inputs, 1, &level,
+                         &m->level);
+}
+
+static qdot_status
+make_mode(qdot_stage *s, const long *side, qdot_mode *m)
+{
+    size_t surfaces = s->switches.surfaces.n;
+    size_t most;
+
+    m->side = qdot_calloc(surfaces + 1, sizeof *m->side);
+    if (!m->side)
+        return QDOT_ENOMEM;
+    if (surfaces > 0)
+        memcpy(m->side, side, surfaces * sizeof *side);
+    QDOT_TRY(qdot_plan_in_mode(s->scene, s->request, &s->switches, m->side, &m->plan));
+    if (s->modes.n == 0) {
+        QDOT_TRY(qdot_domains_find(m->plan, &s->domains));
+        QDOT_TRY(stage_events(s, m->plan));
+        QDOT_TRY(qdot_parameter_conditions_find(m->plan, s->scene, &s->conditions));
+    }
+    most = s->events.n + 2 * s->domains.n + 2 * surfaces;
+    m->functions = qdot_calloc(most + 1, sizeof *m->functions);
+    m->watched = qdot_calloc(most + 1, sizeof *m->watched);
+    if (!m->functions || !m->watched)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < s->events.n; i++)
+        watch_function(m, s->events.at[i].function,
+                       (qdot_watched){.kind = QDOT_WATCH_EVENT, .index = i});
+    QDOT_TRY(watch_domains(s, m));
+    QDOT_TRY(lower_level(s, m));
+    return watch_surfaces(s, m);
+}
+
+qdot_status
+qdot_stage_mode(qdot_stage *s, const long *side, size_t *mode)
+{
+    size_t surfaces = s->switches.surfaces.n;
+    qdot_mode *m;
+    qdot_status status;
+
+    for (size_t i = 0; i < s->modes.n; i++)
+        if (surfaces == 0
+            || memcmp(s->modes.at[i]->side, side, surfaces * sizeof *side) == 0) {
+            *mode = i;
+            return QDOT_OK;
+        }
+    if (!s->scene)
+        return qdot_fail(QDOT_EFAILED, "it goes on by equations that the run did not meet");
+    m = qdot_calloc(1, sizeof *m);
+    if (!m)
+        return QDOT_ENOMEM;
+    *mode = s->modes.n;
+    status = qdot_vec_push(&s->modes, m);
+    if (status != QDOT_OK) {
+        qdot_free(m);
+        return status;
+    }
+    s->modes.n--; /* it counts once it is whole */
+    status = make_mode(s, side, m);
+    s->modes.n++;
+    return status;
+}
+
+/* --- the start ----------------------------------------------------------------------- */
+
+/* The request's start as doubles, y [2n]. */
+static qdot_status
+start_numbers(const qdot_stage *s, double *t, double *y)
+{
+    const qdot_run_request *r = s->request;
+    qdot_pool *pool = s->scene->pool;
+    const size_t n = s->n;
+
+    for (size_t k = 0; k <= 2 * n; k++) {
+        qdot_expr e = k == 2 * n ? r->t0 : k < n ? r->q0[k] : r->v0[k - n];
+
+        e = qdot_substitute(pool, e, r->n_values, r->symbols, r->values);
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(qdot_tape_constant(pool, e, k == 2 * n ? t : &y[k]));
+    }
+    return QDOT_OK;
+}
+
+/* The sides at y, or at the start before there is a mode: side [surfaces]. */
+static qdot_status
+start_sides(const qdot_stage *s, const double *settled, long *side)
+{
+    const size_t n = s->n;
+    double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0;
+    qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK && settled)
+        memcpy(y, settled, 2 * n * sizeof *y);
+    if (status == QDOT_OK)
+        status = qdot_stage_sides(s, t, y, NULL, side);
+    qdot_free(y);
+    return status;
+}
+
+static qdot_status
+begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
+      const double *settled)
+{
+    size_t mode;
+    long *side;
+    qdot_status status = QDOT_OK;
+
+    s->scene = scene;
+    s->request = request;
+    s->n = qdot_parameter_states_coordinates(scene, request);
+    s->n_states = request->n_states;
+    QDOT_TRY(qdot_plan_check(scene));
+    QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
+    side = qdot_calloc(s->switches.surfaces.n + 1, sizeof *side);
+    if (!side)
+        return QDOT_ENOMEM;
+    if (s->switches.surfaces.n > 0)
+        status = qdot_stage_lower_sides(s);
+    if (s->switches.surfaces.n > 0 && status == QDOT_OK)
+        status = start_sides(s, settled, side);
+    if (status == QDOT_OK)
+        status = qdot_stage_mode(s, side, &mode);
+    qdot_free(side);
+    return status;
+}
+
+qdot_status
+qdot_stage_begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request)
+{
+    return begin(s, scene, request, NULL);
+}
+
+qdot_status
+qdot_stage_settle(qdot_stage *s, const double *y, bool *anew)
+{
+    qdot_scene *scene = s->scene;
+    const qdot_run_request *request = s->request;
+    size_t m = s->switches.surfaces.n;
+    qdot_status status;
+    long *side;
+
+    *anew = false;
+    if (m == 0)
+        return QDOT_OK;
+    side = qdot_calloc(m, sizeof *side);
+    if (!side)
+        return QDOT_ENOMEM;
+    status = start_sides(s, y, side);
+    *anew = status == QDOT_OK &&
+            memcmp(side, s->modes.at[0]->side, m * sizeof *side) != 0;
+    qdot_free(side);
+    if (!*anew)
+        return status;
+    qdot_stage_clear(s);
+    return begin(s, scene, request, y);
+}

@@ -1,0 +1,75 @@
+/* watch-exclusion.c -- parts of a step that hold no root, by bounds over discs. */
+#include <float.h>
+#include <math.h>
+
+#include "sim/course/watch-parts.h"
+
+/* Where discs have no bound: whether the function keeps off 0 by its interval. */
+static bool
+keeps_off(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *enclosed)
+{
+    const qdot_interval *box = w->bounds.box + i;
+
+    if (w->now.on[i])
+        return false;
+    if (!*enclosed)
+        qdot_polynomial_bounds_enclose(&w->bounds, p->a, p->b, nodes);
+    *enclosed = true;
+    return box->lo > 0 || box->hi < 0;
+}
+
+qdot_watch_verdict
+qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
+{
+    qdot_watch_verdict worst = QDOT_PART_GOOD;
+    const double part = fabs(p->b - p->a) / w->length;
+    bool enclosed = false;
+
+    qdot_polynomial_bounds_look(&w->bounds, p->a, p->b, nodes, w->now.on, w->now.g0);
+    for (size_t i = 0; i < w->m; i++) {
+        const double miss = w->bounds.miss[i];
+        qdot_watch_verdict v = isnan(miss) ? QDOT_PART_PARTED : QDOT_PART_HALVED;
+
+        if (!w->live[i] || miss < w->clear[i] || miss <= qdot_watch_least(w, p, i) ||
+            qdot_polynomial_bounds_is_hollow(&w->bounds, i, part) ||
+            keeps_off(w, p, nodes, i, &enclosed))
+            continue;
+        worst = v > worst ? v : worst;
+    }
+    return worst;
+}
+
+/* Each term of a series goes from 0 to what it is at the end of the step. */
+void
+qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int order,
+                 double unit)
+{
+    const double s = (t - w->t) / unit;
+    qdot_polynomial_bounds *h = &w->bounds;
+
+    w->hull_at_step = false;
+    if (!series || w->accelerations)
+        return;
+    for (size_t k = 0; k < h->n_used; k++) {
+        const double *x = series->x + h->used[k] * series->stride;
+        double power = 1, centre = x[0], radius = 0;
+
+        for (int j = 1; j <= order; j++) {
+            power *= s;
+            centre += 0.5 * x[j] * power;
+            radius += 0.5 * fabs(x[j] * power);
+        }
+        h->centre[h->used[k]] = centre;
+        h->radius[h->used[k]] = radius + 4 * DBL_EPSILON * fabs(centre);
+    }
+    qdot_polynomial_bounds_span(h, w->t, t);
+    w->hull_at_step = true;
+}
+
+bool
+qdot_watch_excludes(const qdot_watch *w, size_t i)
+{
+    return w->hull_at_step &&
+           fabs(w->bounds.out[i]) > (1 + 0x1p-20) * w->bounds.out_radius[i] &&
+           qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
+}

@@ -1,0 +1,310 @@
+/* watch-roots.c -- one function on one part of a step: its polynomial and its roots. */
+#include "sim/course/watch-parts.h"
+
+#include <float.h>
+#include <math.h>
+
+/* What is small beside the largest coefficient: for a fit, and for the value of a
+ * function divided by the time since it was 0. */
+static const double resolved = 0x1p-44, resolved_start = 1e-9;
+
+/* --- its polynomial ------------------------------------------------------------------ */
+
+/* How far rounding moves the nodes, of the length of the part. */
+static double
+blur(const qdot_watch_part *p)
+{
+    return DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
+}
+
+/* Below which part of its size a function is not told from 0 where it leaves a zero. */
+static double
+least_slope(const qdot_watch_part *p)
+{
+    return fmax(resolved_start, 64 * blur(p));
+}
+
+double
+qdot_watch_time(const qdot_watch_part *p, double x)
+{
+    return qdot_chebyshev_place(p->a, p->b, x);
+}
+
+/* Whether the function is nothing but rounding on the part. */
+static bool
+vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    double size = qdot_chebyshev_size(p->n, p->c);
+
+    return size == 0 || size <= (p->from_zero ? 1e5 : 16) * w->noise[i];
+}
+
+double
+qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    const double part = (w->now.on[i] ? 1e-11 : resolved) + 8 * blur(p);
+
+    return fmax(part * w->size[i],
+                isnan(w->noise[i]) ? 0 : (w->now.on[i] ? 1e4 : 8) * w->noise[i]);
+}
+
+static void
+note_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    w->size[i] = qdot_chebyshev_size(p->n, p->c);
+    w->clear[i] = fabs(p->c[0]) - qdot_chebyshev_spread(p->n, p->c);
+}
+
+qdot_watch_verdict
+qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
+{
+    const double *g = w->samples + i * QDOT_WATCH_NODES;
+    double values[QDOT_WATCH_NODES], size;
+
+    p->n = nodes;
+    p->from_zero = w->now.on[i];
+    for (int j = 0; j < nodes; j++) {
+        values[j] = g[j];
+        if (p->from_zero) {
+            double t = qdot_watch_time(p, qdot_chebyshev_node(nodes, j));
+
+            values[j] = (g[j] - w->now.g0[i]) * ((p->b - p->a) / (t - p->a));
+        }
+    }
+    qdot_chebyshev_fit(nodes, values, p->c);
+    size = qdot_chebyshev_size(nodes, p->c);
+    note_sizes(w, p, i);
+    if (!vanishes(w, p, i) &&
+        qdot_chebyshev_tail(nodes, p->c) >
+            qdot_watch_least(w, p, i))
+        return QDOT_PART_MORE_NODES;
+    if (p->from_zero && !vanishes(w, p, i) &&
+        fabs(qdot_chebyshev_at(nodes, p->c, -1)) <= least_slope(p) * size)
+        return QDOT_PART_START_CUT;
+    return QDOT_PART_GOOD;
+}
+
+/* --- locating a root in doubles of t ------------------------------------------------- */
+
+/* Whether g_i has gone over to `way` at t. */
+static qdot_status
+gone_over(qdot_watch *w, const qdot_watch_walk *k, size_t i, int way, double t,
+          bool *over, double *value)
+{
+    QDOT_TRY(qdot_watch_value_at(w, k->reader, t, w->g));
+    *value = w->g[i];
+    *over = w->g[i] == 0 || qdot_watch_sign(w->g[i]) == way;
+    return QDOT_OK;
+}
+
+/* Within lo .. hi, which differ in sign, near guess; *found false where they do not: a polynomial
+ * beside a jump overshoots. */
+static qdot_status
+locate(qdot_watch *w, const qdot_watch_walk *k, size_t i, int way, double lo, double hi,
+       double guess, qdot_root *root, bool *found)
+{
+    const double end = hi;
+    double step = 4 * (nextafter(fabs(guess), INFINITY) - fabs(guess)), value;
+    double at_lo = 0, at_hi = 0;
+    bool over;
+
+    guess = k->direction > 0 ? fmin(fmax(guess, lo), hi) : fmax(fmin(guess, lo), hi);
+    QDOT_TRY(gone_over(w, k, i, way, guess, &over, &value));
+    for (bool back = over;; step *= 8) { /* outward from the guess */
+        double t = guess + (back ? -1 : 1) * k->direction * step;
+
+        if (back) {
+            hi = guess;
+            at_hi = value;
+        } else {
+            lo = guess;
+            at_lo = value;
+        }
+        if (back ? k->direction * (t - lo) <= 0 : k->direction * (hi - t) <= 0)
+            break;
+        guess = t;
+        QDOT_TRY(gone_over(w, k, i, way, guess, &over, &value));
+        if (over != back) {
+            if (over) {
+                hi = guess;
+                at_hi = value;
+            } else {
+                lo = guess;
+                at_lo = value;
+            }
+            break;
+        }
+    }
+    for (;;) {
+        double middle = lo + 0.5 * (hi - lo);
+
+        if (middle == lo || middle == hi)
+            break;
+        QDOT_TRY(gone_over(w, k, i, way, middle, &over, &value));
+        if (over) {
+            hi = middle;
+            at_hi = value;
+        } else {
+            lo = middle;
+            at_lo = value;
+        }
+    }
+    over = true;
+    if (hi == end)
+        QDOT_TRY(gone_over(w, k, i, way, hi, &over, &at_hi));
+    *found = over;
+    *root = (qdot_root){i, hi, way, fmax(fabs(at_lo), fabs(at_hi)), at_hi == 0};
+    return QDOT_OK;
+}
+
+/* --- its roots ----------------------------------------------------------------------- */
+
+/* Whether an extremum of value v at x is a root. */
+static qdot_status
+is_touch(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p, size_t i,
+         double x, double v, bool *touch)
+{
+    double size = qdot_chebyshev_size(p->n, p->c), noise = 0;
+    double t = qdot_watch_time(p, x);
+
+    *touch = fabs(v) <= 0x1p-48 * size;
+    if (*touch || p->from_zero || fabs(v) > 1e-3 * size)
+        return QDOT_OK;
+    QDOT_TRY(k->reader->read(t, w->z, k->reader->user));
+    QDOT_TRY(
+        qdot_watch_noise(w, k->reader, t, w->z, fmax(w->tol, 0x1p-50), 0, i, &noise));
+    *touch = fabs(v) <= noise;
+    return QDOT_OK;
+}
+
+/* The root of the polynomial between x0 and x1, where it is monotone. */
+static double
+between(const qdot_watch_part *p, double x0, double x1, int way)
+{
+    for (int k = 0; k < 60 && x1 - x0 > 1e-16; k++) {
+        double x = 0.5 * (x0 + x1);
+
+        if (qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x)) == way)
+            x1 = x;
+        else
+            x0 = x;
+    }
+    return x1;
+}
+
+/* The sign of a function behind its zero at the start of the part. */
+static int
+leaves_to(const qdot_watch_part *p)
+{
+    double at_start = qdot_chebyshev_at(p->n, p->c, -1);
+
+    if (fabs(at_start) > least_slope(p) * qdot_chebyshev_size(p->n, p->c))
+        return qdot_watch_sign(at_start);
+    return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, 1));
+}
+
+/* The zero at the start of the part: what became of it. */
+static qdot_status
+pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
+{
+    int before = w->now.sign[i];
+
+    if (before != 0 && sign != 0)
+        QDOT_TRY(qdot_watch_push(w, (qdot_root){i, p->a, before == sign ? 0 : sign, 0, true}));
+    w->now.sign[i] = sign != 0 ? sign : before;
+    return QDOT_OK;
+}
+
+/* A second root that rounding finds beside the zero at the start is that zero. */
+static bool
+is_start_again(const qdot_watch_part *p, double t)
+{
+    return p->from_zero && fabs(t - p->a) <= 0x1p-40 * fabs(p->b - p->a);
+}
+
+/* Whether the part ends on an extremum that is 0, or so near to one that rounding would have
+ * it cross twice. */
+static bool
+grazes_at_end(const qdot_watch_part *p)
+{
+    double d[QDOT_WATCH_NODES], size = qdot_chebyshev_size(p->n, p->c);
+
+    if (fabs(p->at_end) > 0x1p-46 * size)
+        return false;
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    return fabs(qdot_chebyshev_at(p->n - 1, d, 1)) <= 0x1p-20 * size;
+}
+
+/* What touched 0 within the part, so near to its end, is the same touch. */
+static void
+forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    while (w->roots.n > 0 && w->roots.at[w->roots.n - 1].function == i
+           && w->roots.at[w->roots.n - 1].way == 0
+           && fabs(w->roots.at[w->roots.n - 1].t - p->b) <= 0x1p-18 * fabs(p->b - p->a))
+        w->roots.n--;
+}
+
+qdot_status
+qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p,
+                 size_t i)
+{
+    double d[QDOT_WATCH_NODES], x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
+    int n = 0, sign = w->now.sign[i];
+    bool grazes;
+
+    if (vanishes(w, p, i)) {
+        w->now.on[i] = true;
+        w->now.g0[i] = p->at_end;
+        return QDOT_OK;
+    }
+    if (p->from_zero) {
+        sign = leaves_to(p);
+        QDOT_TRY(pass_start(w, p, i, sign));
+    }
+    if (qdot_chebyshev_sign(p->n, p->c) == 0) {
+        qdot_chebyshev_derivative(p->n, p->c, d);
+        n = qdot_chebyshev_crossings(p->n - 1, d, x);
+    }
+    x[n++] = 1;
+    grazes = grazes_at_end(p);
+    for (int e = 0; e < n; e++) {
+        double v = qdot_chebyshev_at(p->n, p->c, x[e]);
+        int there = e + 1 < n ? qdot_watch_sign(v) : grazes ? 0 : qdot_watch_sign(p->at_end);
+        double to = e + 1 < n ? qdot_watch_time(p, x[e]) : p->b;
+        bool touch = false, found;
+        qdot_root root;
+
+        if (e + 1 < n && there != 0)
+            QDOT_TRY(is_touch(w, k, p, i, x[e], v, &touch));
+        if (touch || (e + 1 < n && there == 0)) {
+            if (sign != 0 && !is_start_again(p, to))
+                QDOT_TRY(qdot_watch_push(w, (qdot_root){i, to, 0, fabs(v), false}));
+            continue;
+        }
+        if (there != 0 && sign != 0 && there != sign) {
+            double guess = qdot_watch_time(p, between(p, x_from, x[e], there));
+
+            QDOT_TRY(locate(w, k, i, there, from, to, guess, &root, &found));
+            if (found && !is_start_again(p, root.t))
+                QDOT_TRY(qdot_watch_push(w, root));
+            there = found ? there : sign;
+        }
+        sign = there != 0 ? there : sign;
+        from = to;
+        x_from = x[e];
+    }
+    w->now.sign[i] = sign;
+    if (w->fresh[i]) {
+        w->first[i] = p->from_zero ? leaves_to(p) : qdot_watch_sign(w->now.g0[i]);
+        w->slow[i] = p->from_zero && fabs(qdot_chebyshev_at(p->n, p->c, -1)) <=
+                                         least_slope(p) * qdot_chebyshev_size(p->n, p->c);
+        w->fresh[i] = false;
+    }
+    if (grazes)
+        forget_touch(w, p, i);
+    w->grazed[i] = grazes && sign != 0;
+    w->now.on[i] = grazes || p->at_end == 0;
+    w->now.g0[i] = p->at_end;
+    return QDOT_OK;
+}

@@ -1,0 +1,223 @@
+/* digits.c -- a pair of precise runs as a run. */
+#include "sim/digits/digits.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "sim/digits/precise.h"
+#include "sim/error/failure.h"
+#include "sim/model/constraints.h"
+
+/* As in doubles, with the end state rounded to them. */
+static qdot_status
+say_failure(qdot_run *run, const qdot_ode_result *result)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_text reason = {0};
+    qdot_status status;
+
+    qdot_text_add(&reason, result->reason);
+    status = qdot_failure_explain(run->plan, qdot_course_systems(&run->course), result->t,
+                                  tr->y + (tr->count - 1) * tr->n, run->t1 - run->t0,
+                                  &reason);
+    if (status == QDOT_OK)
+        status = qdot_run_say_why(run, qdot_text_str(&reason));
+    qdot_text_clear(&reason);
+    return status;
+}
+
+static qdot_status
+how_it_ended(qdot_run *run, const qdot_domains *domains)
+{
+    const qdot_ode_result *result = qdot_precise_pair_result(run->precise);
+    char reason[400];
+
+    if (result->outcome == QDOT_ODE_FAILED)
+        return say_failure(run, result);
+    if (run->course.stopped_by != SIZE_MAX || run->course.reason[0] != '\0')
+        return qdot_run_say_course(run);
+    if (!domains->left)
+        return QDOT_OK;
+    snprintf(reason, sizeof reason, "%.100s left its domain %.200s at t = %.15g",
+             run->plan->names[domains->left->coordinate], domains->left->text, result->t);
+    return qdot_run_say_why(run, reason);
+}
+
+/* The largest |f| over the points of the run, of the holonomic rows or of those of
+ * velocities. */
+static qdot_status
+follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, double *most)
+{
+    const qdot_constraints *c = run->plan->constraints;
+
+    for (size_t k = 0; k < c->m; k++) {
+        /* not the row's: that is of one side where the equations switch */
+        qdot_drift f = {
+            .quantity = qdot_plan_substitute(run->plan, scene->constraints.at[k].f)};
+        qdot_drifts one = {.n = 1, .at = &f};
+
+        if (c->rows[k].kind != kind)
+            continue;
+        QDOT_TRY(qdot_precise_pair_drifts(run->precise, &one));
+        *most = fmax(*most, f.drift); /* of a NaN the drift */
+    }
+    return QDOT_OK;
+}
+
+/* Multipliers of the end state as doubles have it; how far the constraints were left in
+ * all digits. */
+static qdot_status
+measure_constraints(qdot_run *run, const qdot_scene *scene)
+{
+    const size_t n = 2 * run->plan->n;
+    const qdot_trajectory *tr = &run->course.tr;
+    const double *y = tr->y + (tr->count - 1) * tr->n;
+    double *difference = qdot_calloc(n, sizeof *difference);
+    qdot_status status;
+
+    if (!difference)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        difference[i] = 0x1p-53 * fmax(1, fabs(y[i]));
+    status = qdot_multipliers_measure(run->course.binds.at, tr, &run->multipliers);
+    if (status == QDOT_OK)
+        status = qdot_multipliers_errors(run->course.binds.at, tr, difference,
+                                         &run->multipliers);
+    qdot_free(difference);
+    QDOT_TRY(status);
+    run->multipliers.position = run->multipliers.velocity = NAN;
+    QDOT_TRY(follow_rows(run, scene, QDOT_HOLONOMIC, &run->multipliers.position));
+    return follow_rows(run, scene, QDOT_VELOCITY, &run->multipliers.velocity);
+}
+
+static qdot_status
+keep_end(qdot_run *run)
+{
+    const qdot_plan *p = run->plan;
+    const size_t n = 2 * p->n, m = p->constraints ? p->constraints->m : 0;
+    qdot_status status;
+
+    run->exact = qdot_calloc(n + m, sizeof *run->exact);
+    if (!run->exact)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        run->exact[i] = qdot_precise_pair_end(run->precise, i);
+    QDOT_TRY(qdot_pool_check(p->pool));
+    if (m == 0 || !run->multipliers.error)
+        return QDOT_OK;
+    status = qdot_precise_pair_values(run->precise, m, p->inputs + 3 * p->n + 1, QDOT_NIL,
+                                      run->exact + n, run->multipliers.error);
+    for (size_t k = 0; k < m; k++)
+        if (!isfinite(run->multipliers.lambda[k])) /* no direction in doubles: no digits */
+            run->exact[n + k] = QDOT_NIL;
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* unknown: nil */
+}
+
+/* In doubles through all events and switches: which follow each other, and about where. */
+static qdot_status
+find_guide(qdot_run *run, const qdot_run_request *request)
+{
+    const qdot_stage *stage = &run->stage;
+    qdot_ode_options options = {
+        .tol = request->tol, .carry = run->start_low, .t1_low = run->t1_low};
+    qdot_status status;
+
+    for (size_t i = 0; i < stage->events.n; i++)
+        if (run->plan->constraints
+            && (stage->events.at[i].positions || stage->events.at[i].velocities)) {
+            qdot_fail(QDOT_ENOTBUILT,
+                      "not built yet: `digits` with constraints and the event %.100s, which "
+                      "changes the state",
+                      stage->events.at[i].name);
+            return qdot_hint("a run in doubles: tol 1e-15");
+        }
+    status = qdot_course_run(&run->course, run->plan->method, &options, run->t0, run->t1,
+                             run->start);
+    return run->course.tr.count > 0 && (status == QDOT_EFAILED || status == QDOT_ESINGULAR
+                                        || status == QDOT_EDOMAIN)
+               ? QDOT_OK
+               : status;
+}
+
+qdot_status
+qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
+                      qdot_domains *domains, bool *interrupted)
+{
+    const qdot_course *guide = NULL;
+    qdot_error failure;
+    qdot_status status;
+
+    if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0) {
+        QDOT_TRY(find_guide(run, request));
+        guide = &run->course;
+    }
+    status = qdot_precise_pair_new(run->plan, request, run->start, domains, guide,
+                                   &run->precise);
+    failure = *qdot_last_error();
+    *interrupted = status == QDOT_EINTR && run->precise;
+    if (*interrupted)
+        status = QDOT_OK;
+    if (status == QDOT_OK)
+        status = qdot_precise_pair_sample(run->precise, &run->course.tr);
+    if (status == QDOT_OK) {
+        const size_t stopped_by = guide ? guide->stopped_by : SIZE_MAX;
+
+        status = qdot_course_prepare(&run->course);
+        run->course.stopped_by = stopped_by;
+    }
+    if (status == QDOT_OK)
+        status = how_it_ended(run, domains);
+    if (status == QDOT_OK && !*interrupted)
+        status =
+            qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_precise_pair_drifts(run->precise, &run->drifts);
+    if (status == QDOT_OK && run->plan->constraints)
+        status = *interrupted ? qdot_multipliers_measure(run->course.binds.at, &run->course.tr,
+                                                         &run->multipliers)
+                              : measure_constraints(run, scene);
+    if (status == QDOT_OK)
+        status = keep_end(run);
+    if (status == QDOT_OK && *interrupted)
+        qdot_fail_again(&failure);
+    run->report.digits = request->digits;
+    return status;
+}
+
+void
+qdot_digits_fill_report(qdot_run *run)
+{
+    qdot_run_report *r = &run->report;
+
+    r->tol = qdot_precise_pair_tol(run->precise);
+    r->error = qdot_precise_pair_error(run->precise);
+    r->factorizations = qdot_precise_pair_factored(run->precise);
+    r->exact = run->exact;
+}
+
+qdot_status
+qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs, qdot_expr time,
+                      qdot_expr *values, double *errors)
+{
+    if (!run->precise)
+        return qdot_fail(QDOT_EINVAL, "the run was made in doubles");
+    return qdot_precise_pair_values(run->precise, m, exprs, time, values, errors);
+}
+
+qdot_status
+qdot_digits_occurrences(qdot_run *run)
+{
+    const qdot_course *c = &run->course;
+
+    run->occurrences.n = 0;
+    for (size_t i = 0; i < c->occurrences.n; i++) {
+        const qdot_occurrence *o = &c->occurrences.at[i];
+        qdot_run_occurrence out = {
+            .event = run->stage.events.at[o->event].name, .t = o->t, .way = o->way};
+
+        out.exact = qdot_precise_pair_time(run->precise, i, &out.error);
+        QDOT_TRY(qdot_pool_check(run->plan->pool));
+        QDOT_TRY(qdot_vec_push(&run->occurrences, out));
+    }
+    return QDOT_OK;
+}

@@ -1,0 +1,439 @@
+/* precise-course.c -- pieces one by one, their ends located, their changes made. */
+#include "sim/digits/precise-course.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "series/precise.h"
+
+#define RN MPFR_RNDN
+
+/* How far a root may lie from where the guide has it: a part of its piece. */
+static const double pad = 0x1p-8;
+
+enum { MOST_TRIES = 2000 };
+
+/* An expression in all digits. */
+typedef struct {
+    size_t mode, function; /* of a surface, domain or event; SIZE_MAX: `then` of event */
+    size_t event;
+    bool accelerations;
+    qdot_precise *program;
+} formula;
+
+struct qdot_precise_course {
+    qdot_vec(formula) formulas;
+    qdot_reals numbers; /* t, y [2n], old [2n], and the locator's */
+    mpfr_t *y, *old, *at;
+};
+
+enum { LO, HI, F_LO, F_HI, X, F_X, W, BEFORE, NUMBERS };
+
+/* --- what is prepared ---------------------------------------------------------------- */
+
+void
+qdot_precise_course_clear(qdot_precise_side *s)
+{
+    if (!s->course)
+        return;
+    for (size_t i = 0; i < s->course->formulas.n; i++)
+        qdot_precise_free(s->course->formulas.at[i].program);
+    qdot_free(s->course->formulas.at);
+    qdot_reals_clear(&s->course->numbers);
+    qdot_free(s->course);
+    s->course = NULL;
+}
+
+static const qdot_mode *
+mode_of(const qdot_precise_side *s, size_t mode)
+{
+    return s->guide->stage->modes.at[mode];
+}
+
+static formula *
+find(const qdot_precise_side *s, size_t mode, size_t function, size_t event)
+{
+    for (size_t i = 0; i < s->course->formulas.n; i++) {
+        formula *f = &s->course->formulas.at[i];
+
+        if (f->function == function && f->event == event
+            && (function == SIZE_MAX || f->mode == mode))
+            return f;
+    }
+    return NULL;
+}
+
+static qdot_status
+add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
+{
+    const qdot_mode *m = mode_of(s, mode);
+    const qdot_plan *p = m->plan;
+    formula f = {.mode = mode, .function = function, .event = event};
+    qdot_tape *own = NULL;
+    const qdot_tape *tape;
+    qdot_status status = QDOT_OK;
+
+    if (find(s, mode, function, event))
+        return QDOT_OK;
+    if (function == SIZE_MAX) {
+        tape = s->guide->stage->events.at[event].then;
+        f.accelerations = s->guide->stage->events.at[event].accelerations;
+    } else {
+        status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, 1,
+                               m->functions + function, &own);
+        tape = own;
+        f.accelerations = qdot_expr_node(p->pool, m->functions[function])->holds
+                          & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER);
+    }
+    if (status == QDOT_OK)
+        status = qdot_precise_new(p->pool, tape, 0, s->start.bits, &f.program);
+    qdot_tape_free(own);
+    if (status == QDOT_OK && (status = qdot_vec_push(&s->course->formulas, f)) != QDOT_OK)
+        qdot_precise_free(f.program);
+    return status;
+}
+
+static size_t
+piece_of(const qdot_course *g, double t)
+{
+    return qdot_trajectory_piece_of(&g->tr, qdot_trajectory_locate(&g->tr, t, 0));
+}
+
+qdot_status
+qdot_precise_course_init(qdot_precise_side *s)
+{
+    const qdot_course *g = s->guide;
+    const size_t n = g->tr.n;
+
+    s->course = qdot_calloc(1, sizeof *s->course);
+    if (!s->course)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_reals_init(&s->course->numbers, 1 + 2 * n + NUMBERS, s->start.bits));
+    s->course->y = s->course->numbers.at + 1;
+    s->course->old = s->course->y + n;
+    s->course->at = s->course->old + n;
+    QDOT_TRY(qdot_reals_init(&s->times, g->occurrences.n + 1, s->start.bits));
+    for (size_t i = 0; i < g->tr.pieces.n; i++) {
+        size_t mode = g->tr.pieces.at[i].mode;
+
+        if (!s->binds[mode])
+            QDOT_TRY(qdot_precise_bind_new(mode_of(s, mode)->plan, s->order,
+                                           s->start.bits, &s->binds[mode]));
+    }
+    for (size_t i = 0; i < g->ends.n; i++) {
+        const qdot_course_end *e = &g->ends.at[i];
+        size_t mode = g->tr.pieces.at[e->piece].mode;
+
+        QDOT_TRY(add(s, mode, e->function, SIZE_MAX));
+        if (e->what.kind == QDOT_WATCH_EVENT
+            && g->stage->events.at[e->what.index].then)
+            QDOT_TRY(add(s, mode, SIZE_MAX, e->what.index));
+    }
+    for (size_t i = 0; i < g->occurrences.n; i++)
+        QDOT_TRY(add(s, g->tr.pieces.at[piece_of(g, g->occurrences.at[i].t)].mode,
+                     g->occurrences.at[i].event, SIZE_MAX));
+    return QDOT_OK;
+}
+
+/* --- a function along a segment ------------------------------------------------------ */
+
+/* f at the state y of t. */
+static qdot_status
+evaluate(qdot_precise_side *s, const formula *f, size_t mode, mpfr_srcptr t,
+         const mpfr_t *y)
+{
+    const qdot_plan *p = mode_of(s, mode)->plan;
+    qdot_precise_bind *bind = s->binds[mode];
+
+    for (size_t i = 0; i < 2 * p->n; i++)
+        mpfr_set(qdot_precise_input(f->program, i)[0], y[i], RN);
+    mpfr_set(qdot_precise_input(f->program, 2 * p->n)[0], t, RN);
+    if (f->accelerations) {
+        s->near = SIZE_MAX;
+        QDOT_TRY(qdot_precise_bind_system(bind)->begin(
+            t, y, qdot_precise_bind_system(bind)->user));
+        for (size_t i = 0; i < p->n; i++)
+            mpfr_set(qdot_precise_input(f->program, 2 * p->n + 1 + i)[0],
+                     qdot_precise_bind_acceleration(bind, i), RN);
+        for (size_t k = 0; p->constraints && k < p->constraints->m; k++)
+            qdot_precise_bind_multiplier(
+                bind, k, qdot_precise_input(f->program, 3 * p->n + 1 + k)[0]);
+    }
+    qdot_precise_order(f->program, 0);
+    return QDOT_OK;
+}
+
+/* f at t of a segment into out, the state into s->course->y. */
+static qdot_status
+value_at(qdot_precise_side *s, size_t segment, const formula *f, mpfr_srcptr t,
+         mpfr_ptr out)
+{
+    QDOT_TRY(qdot_precise_state_in(s, segment, t, s->course->y));
+    QDOT_TRY(evaluate(s, f, s->segments.at[segment].mode, t,
+                      (const mpfr_t *)s->course->y));
+    mpfr_set(out, qdot_precise_output(f->program, 0)[0], RN);
+    return mpfr_number_p(out) ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "it has no value there");
+}
+
+/* at[LO] and at[HI]: around t, within the segment. */
+static void
+bracket(const qdot_precise_side *s, size_t segment, double t, double by)
+{
+    const qdot_precise_run *run = &s->segments.at[segment].run;
+    mpfr_t *at = s->course->at;
+    mpfr_srcptr first = qdot_precise_point(run, 0)[0];
+    mpfr_srcptr last = qdot_precise_point(run, run->count - 1)[0];
+    int way = mpfr_less_p(last, first) ? -1 : 1;
+
+    mpfr_set_d(at[LO], t, RN);
+    mpfr_set(at[HI], at[LO], RN);
+    mpfr_set_d(at[W], way * by, RN);
+    mpfr_sub(at[LO], at[LO], at[W], RN);
+    mpfr_add(at[HI], at[HI], at[W], RN);
+    if (way * mpfr_cmp(at[LO], first) < 0)
+        mpfr_set(at[LO], first, RN);
+    if (way * mpfr_cmp(at[HI], last) > 0)
+        mpfr_set(at[HI], last, RN);
+}
+
+/* The root of f near t into at[X]; *found: it changes its sign there. */
+static qdot_status
+locate(qdot_precise_side *s, size_t segment, const formula *f, double t, double by,
+       bool *found)
+{
+    mpfr_t *at = s->course->at;
+    int stayed = 0;
+    double least;
+
+    bracket(s, segment, t, by);
+    QDOT_TRY(value_at(s, segment, f, at[LO], at[F_LO]));
+    QDOT_TRY(value_at(s, segment, f, at[HI], at[F_HI]));
+    *found = mpfr_sgn(at[F_LO]) * mpfr_sgn(at[F_HI]) <= 0
+             && (mpfr_sgn(at[F_LO]) || mpfr_sgn(at[F_HI]));
+    if (!*found)
+        return QDOT_OK;
+    least = fmax(0, log2(fabs(t) + 1)) + 6 - (double)s->start.bits;
+    mpfr_set(at[BEFORE], at[LO], RN);
+    for (int tries = 0; tries < MOST_TRIES; tries++) {
+        QDOT_TRY(qdot_interrupt_check());
+        mpfr_sub(at[X], at[HI], at[LO], RN);
+        if (tries % 8 == 7) {
+            mpfr_div_2ui(at[X], at[X], 1, RN);
+        } else {
+            mpfr_sub(at[W], at[F_HI], at[F_LO], RN);
+            mpfr_mul(at[X], at[X], at[F_LO], RN);
+            mpfr_div(at[X], at[X], at[W], RN);
+            mpfr_neg(at[X], at[X], RN);
+        }
+        mpfr_add(at[X], at[X], at[LO], RN);
+        QDOT_TRY(value_at(s, segment, f, at[X], at[F_X]));
+        mpfr_sub(at[W], at[X], at[BEFORE], RN);
+        if (mpfr_zero_p(at[F_X]) || qdot_real_log2(at[W]) <= least)
+            return QDOT_OK;
+        mpfr_set(at[BEFORE], at[X], RN);
+        if (mpfr_sgn(at[F_X]) == mpfr_sgn(at[F_HI])) {
+            mpfr_swap(at[HI], at[X]);
+            mpfr_swap(at[F_HI], at[F_X]);
+            if (stayed == 1)
+                mpfr_div_2ui(at[F_LO], at[F_LO], 1, RN);
+            stayed = 1;
+        } else {
+            mpfr_swap(at[LO], at[X]);
+            mpfr_swap(at[F_LO], at[F_X]);
+            if (stayed == -1)
+                mpfr_div_2ui(at[F_HI], at[F_HI], 1, RN);
+            stayed = -1;
+        }
+    }
+    mpfr_set(at[X], at[LO], RN);
+    return QDOT_OK;
+}
+
+/* --- pieces -------------------------------------------------------------------------- */
+
+static double
+length_of(const qdot_course *g, size_t piece)
+{
+    const qdot_trajectory *tr = &g->tr;
+    size_t last = piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count;
+
+    return fabs(tr->t[last - 1] - tr->t[tr->pieces.at[piece].first]);
+}
+
+static qdot_status
+beyond_doubles(double t)
+{
+    qdot_fail(QDOT_ELIMIT,
+              "what happens at t = %.15g cannot be told apart in doubles, which `digits` "
+              "follows through events and switches",
+              t);
+    return qdot_hint("a run that ends before t = %.6g", t);
+}
+
+/* What the ends [n] of a piece change: s->course->y becomes the state behind. */
+static qdot_status
+change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n,
+       mpfr_srcptr t)
+{
+    const qdot_stage *stage = s->guide->stage;
+    const size_t mode = s->segments.at[segment].mode, size = s->guide->tr.n;
+
+    for (size_t i = 0; i < size; i++)
+        mpfr_set(s->course->old[i], s->course->y[i], RN);
+    for (size_t k = 0; k < n; k++) {
+        const qdot_staged_event *e = &stage->events.at[ends[k].what.index];
+        const formula *f;
+
+        if (ends[k].what.kind != QDOT_WATCH_EVENT || !e->then)
+            continue;
+        f = find(s, mode, SIZE_MAX, ends[k].what.index);
+        QDOT_TRY(evaluate(s, f, mode, t, (const mpfr_t *)s->course->old));
+        for (size_t i = 0; i < e->changes; i++)
+            mpfr_set(s->course->y[e->targets[i]], qdot_precise_output(f->program, i)[0],
+                     RN);
+    }
+    return QDOT_OK;
+}
+
+/* The piece ends where the first of its ends vanishes: the segment is cut there. */
+static qdot_status
+end_piece(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n)
+{
+    qdot_precise_run *run = &s->segments.at[segment].run;
+    const size_t mode = s->segments.at[segment].mode;
+    mpfr_t *at = s->course->at;
+    mpfr_ptr t = s->course->numbers.at[0];
+    bool found;
+
+    QDOT_TRY(locate(s, segment, find(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
+                    2 * pad * length_of(s->guide, segment), &found));
+    if (!found)
+        return beyond_doubles(ends[0].t);
+    mpfr_set(t, at[X], RN);
+    for (size_t k = 1; k < n; k++) { /* what happens with it happens in all digits */
+        const formula *f = find(s, mode, ends[k].function, SIZE_MAX);
+
+        QDOT_TRY(value_at(s, segment, f, t, at[F_X]));
+        if (qdot_real_log2(at[F_X]) > 0.75 * s->log2_tol)
+            return beyond_doubles(ends[0].t);
+    }
+    QDOT_TRY(qdot_precise_state_in(s, segment, t, s->course->y));
+    while (run->count > 2
+           && (mpfr_cmp(qdot_precise_point(run, run->count - 2)[0], t) == 0
+               || (mpfr_cmp(qdot_precise_point(run, run->count - 2)[0], t) > 0)
+                      == (mpfr_cmp(qdot_precise_point(run, run->count - 1)[0], t) > 0)))
+        run->count--;
+    qdot_precise_cut(run, t, (const mpfr_t *)s->course->y);
+    s->result.t = run->result.t;
+    s->near = SIZE_MAX;
+    return change(s, segment, ends, n, t);
+}
+
+static void
+count_result(qdot_precise_side *s, const qdot_ode_result *r)
+{
+    qdot_ode_stats sum = s->result.stats;
+
+    sum.steps += r->stats.steps;
+    sum.rejected += r->stats.rejected;
+    sum.evaluations += r->stats.evaluations;
+    sum.cpu += r->stats.cpu;
+    s->result = *r;
+    s->result.stats = sum;
+}
+
+/* Piece k from the state at numbers.at[0], y. */
+static qdot_status
+run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
+{
+    const qdot_trajectory *tr = &s->guide->tr;
+    const qdot_trajectory_piece *piece = &tr->pieces.at[k];
+    const size_t last = k + 1 < tr->pieces.n ? tr->pieces.at[k + 1].first : tr->count;
+    qdot_precise_options options = {.log2_tol = s->log2_tol, .order = s->order};
+    mpfr_ptr t = s->course->numbers.at[0], goal = s->course->at[X];
+    qdot_status status;
+
+    QDOT_TRY(qdot_vec_push(&s->segments, ((qdot_precise_segment){
+                                             .mode = piece->mode, .jumped = piece->jumped})));
+    if (n > 0) {
+        double way = s->guide->tr.t[tr->count - 1] < s->guide->tr.t[0] ? -1 : 1;
+
+        mpfr_set_d(goal, ends[0].t, RN);
+        mpfr_set_d(s->course->at[W], way * pad * length_of(s->guide, k), RN);
+        mpfr_add(goal, goal, s->course->at[W], RN);
+    } else {
+        mpfr_set(goal, piece->first + 1 == last ? t : s->start.at[1], RN);
+    }
+    s->near = SIZE_MAX;
+    status = qdot_precise_integrate(qdot_precise_bind_system(s->binds[piece->mode]),
+                                    &options, t, goal, (const mpfr_t *)s->course->y,
+                                    &s->segments.at[k].run);
+    count_result(s, &s->segments.at[k].run.result);
+    QDOT_TRY(status);
+    return n > 0 ? end_piece(s, k, ends, n) : QDOT_OK;
+}
+
+/* The times of what occurred. */
+static qdot_status
+time_occurrences(qdot_precise_side *s)
+{
+    const qdot_course *g = s->guide;
+
+    for (size_t i = 0; i < g->occurrences.n; i++) {
+        const qdot_occurrence *o = &g->occurrences.at[i];
+        size_t segment = piece_of(g, o->t);
+        const qdot_course_end *end = NULL;
+        bool found = false;
+
+        for (size_t k = 0; k < g->ends.n; k++)
+            if (g->ends.at[k].t == o->t)
+                end = &g->ends.at[k];
+        mpfr_set_nan(s->times.at[i]);
+        if (end && end->what.kind == QDOT_WATCH_EVENT && end->what.index == o->event) {
+            const qdot_precise_run *run = &s->segments.at[end->piece].run;
+
+            mpfr_set(s->times.at[i], qdot_precise_point(run, run->count - 1)[0], RN);
+            continue;
+        }
+        if (o->way == 0 || segment >= s->segments.n)
+            continue;
+        QDOT_TRY(locate(s, segment,
+                        find(s, s->segments.at[segment].mode, o->event, SIZE_MAX), o->t,
+                        pad * pad * length_of(g, segment), &found));
+        if (found)
+            mpfr_set(s->times.at[i], s->course->at[X], RN);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+follow(qdot_precise_side *s)
+{
+    const qdot_course *g = s->guide;
+    size_t at = 0;
+
+    mpfr_set(s->course->numbers.at[0], s->start.at[0], RN);
+    for (size_t i = 0; i < g->tr.n; i++)
+        mpfr_set(s->course->y[i], s->start.at[2 + i], RN);
+    for (size_t k = 0; k < g->tr.pieces.n; k++) {
+        size_t first = at;
+
+        QDOT_TRY(qdot_interrupt_check());
+        while (at < g->ends.n && g->ends.at[at].piece == k)
+            at++;
+        QDOT_TRY(run_piece(s, k, g->ends.at + first, at - first));
+    }
+    return time_occurrences(s);
+}
+
+void
+qdot_precise_course_run(qdot_precise_side *s)
+{
+    s->status = follow(s);
+    if (s->status != QDOT_OK && s->result.outcome != QDOT_ODE_FAILED) {
+        s->result.outcome = QDOT_ODE_FAILED;
+        memcpy(s->result.reason, qdot_last_error()->message, sizeof s->result.reason);
+    }
+}

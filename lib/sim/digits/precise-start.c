@@ -1,0 +1,163 @@
+/* precise-start.c -- Newton's method, residuals in MPFR. */
+#include "sim/digits/precise-start.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "num/real.h"
+#include "num/row-space.h"
+#include "sim/model/constraints.h"
+#include "series/precise.h
+
+#define RN MPFR_RNDN
+
+/* Of a row's length, what counts as a direction of its own. */
+static const double dependent = 1e-9;
+
+/* Positions or velocities. */
+typedef struct {
+    const qdot_plan *plan;
+    const double *y;   /* [2n] */
+    const bool *named; /* [n]; NULL: all */
+    bool velocities;
+    mpfr_t *start;  /* [2 + 2n] */
+    mpfr_t *x;      /* [n] of them */
+    size_t m;       /* equations */
+    qdot_precise *program;
+    double *A, *b, *dx, *work; /* [m x n], [m], [n] */
+    qdot_row_space space;
+} level;
+
+/* log2 of the largest equation at the start as it is. */
+static double
+evaluate(level *l)
+{
+    const size_t n = 2 * l->plan->n;
+    double log2 = -INFINITY;
+
+    for (size_t i = 0; i < n; i++)
+        mpfr_set(qdot_precise_input(l->program, i)[0], l->start[2 + i], RN);
+    mpfr_set(qdot_precise_input(l->program, n)[0], l->start[0], RN);
+    qdot_precise_order(l->program, 0);
+    for (size_t k = 0; k < l->m; k++) {
+        const double now = qdot_real_log2(qdot_precise_output(l->program, k)[0]);
+
+        log2 = isnan(now) ? INFINITY : fmax(log2, now);
+    }
+    return log2;
+}
+
+/* The slopes at y of what is free; whether they determine it. */
+static bool
+take_slopes(level *l, double *in, double *out)
+{
+    const qdot_constraints *c = l->plan->constraints;
+    const size_t n = l->plan->n;
+    size_t at = 0, unknown = 0;
+
+    memcpy(in, l->y, 2 * n * sizeof *in);
+    in[2 * n] = mpfr_get_d(l->start[0], RN);
+    qdot_tape_eval(c->metric, in, out, l->work);
+    for (size_t r = 0, s = 0; r < c->m; r++) {
+        const bool here = l->velocities ? c->rows[r].kind != QDOT_ACCELERATION
+                                        : c->rows[r].kind == QDOT_HOLONOMIC;
+
+        for (; s < c->n_slopes && c->slopes[s].row == r; s++)
+            if (here && !l->named[c->slopes[s].column])
+                l->A[at * n + c->slopes[s].column] = out[c->n_masses + s];
+        at += here;
+    }
+    for (size_t i = 0; i < n; i++) {
+        bool stands = false;
+
+        for (size_t k = 0; k < l->m; k++)
+            stands = stands || l->A[k * n + i] != 0;
+        if (stands)
+            mpfr_set_d(l->x[i], l->y[l->velocities * n + i], RN);
+        unknown += stands;
+    }
+    qdot_row_space_factor(&l->space, l->A, dependent, false);
+    return l->space.rank == unknown;
+}
+
+/* From the doubles on, as long as it comes nearer, and down to a rounding of 1. */
+static qdot_status
+iterate(level *l, mpfr_prec_t bits)
+{
+    double before = INFINITY;
+
+    for (double now = evaluate(l); now < before - 4 && now > -(double)bits; now = evaluate(l)) {
+        const long scale = (long)floor(now); /* doubles end at 2^-1074 */
+
+        QDOT_TRY(qdot_interrupt_check());
+        for (size_t k = 0; k < l->m; k++) {
+            long e;
+            const double part = mpfr_get_d_2exp(&e, qdot_precise_output(l->program, k)[0], RN);
+
+            l->b[k] = -ldexp(part, (int)fmax(-2000, (double)(e - scale)));
+        }
+        qdot_row_space_shortest(&l->space, l->b, l->dx, NULL);
+        for (size_t i = 0; i < l->plan->n; i++) {
+            mpfr_t step;
+
+            mpfr_init2(step, 64);
+            mpfr_set_d(step, l->dx[i], RN);
+            mpfr_mul_2si(step, step, scale, RN);
+            mpfr_add(l->x[i], l->x[i], step, RN);
+            mpfr_clear(step);
+        }
+        before = now;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+solve(level *l, const qdot_tape *tape, double enough, mpfr_prec_t bits)
+{
+    const qdot_tape *metric = l->plan->constraints->metric;
+    const size_t n = l->plan->n, outputs = qdot_tape_outputs(metric);
+    double *in;
+    qdot_status status;
+
+    l->m = qdot_tape_outputs(tape);
+    in = qdot_calloc(2 * n + 1 + outputs + qdot_tape_work(metric) + l->m * n + l->m + n + 1,
+                     sizeof *in);
+    status = in ? qdot_row_space_init(&l->space, l->m, n) : QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = qdot_precise_new(l->plan->pool, tape, 0, bits, &l->program);
+    if (status == QDOT_OK && evaluate(l) > enough) {
+        l->A = in + 2 * n + 1 + outputs;
+        l->b = l->A + l->m * n;
+        l->dx = l->b + l->m;
+        l->work = l->dx + n;
+        if (take_slopes(l, in, in + 2 * n + 1))
+            status = iterate(l, bits);
+    }
+    qdot_precise_free(l->program);
+    qdot_row_space_clear(&l->space);
+    qdot_free(in);
+    return status;
+}
+
+qdot_status
+qdot_precise_start_solve(const qdot_plan *plan, const qdot_run_request *request,
+                         const double *y, double enough, mpfr_prec_t bits, mpfr_t *start)
+{
+    const bool *const named[] = {request->q_named, request->v_named};
+    const qdot_constraints *c = plan->constraints;
+    const qdot_tape *const tapes[] = {c->positions, c->velocities};
+
+    for (size_t k = 0; k < 2; k++) {
+        level l = {.plan = plan,
+                   .y = y,
+                   .named = named[k],
+                   .velocities = k == 1,
+                   .start = start,
+                   .x = start + 2 + k * plan->n};
+
+        if (tapes[k] && qdot_tape_outputs(tapes[k]) > 0 && named[k])
+            QDOT_TRY(solve(&l, tapes[k], enough, bits));
+    }
+    return QDOT_OK;
+}

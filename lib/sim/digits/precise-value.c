@@ -1,0 +1,296 @@
+/* precise-value.c -- any expression along a pair of precise runs, and its error. */
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "expr/print.h"
+#include "sim/course/reader.h"
+#include "sim/digits/precise-pair.h"
+#include "sim/model/constraints.h"
+#include "tape/constant.h"
+#include "series/precise.h"
+
+#define RN MPFR_RNDN
+
+/* Expressions, read at the states of one of the two runs. */
+typedef struct {
+    const qdot_plan *plan;
+    qdot_precise_side *side;
+    qdot_precise *program;
+    size_t m;
+    bool accelerations; /* the program reads q'' */
+    size_t segment;     /* of the side, that is read */
+    qdot_reals numbers; /* t, y [2n] */
+} reader;
+
+static void
+reader_clear(reader *r)
+{
+    qdot_precise_free(r->program);
+    qdot_reals_clear(&r->numbers);
+}
+
+static qdot_status
+reader_init(reader *r, const qdot_plan *plan, qdot_precise_side *side,
+            const qdot_tape *tape, bool accelerations)
+{
+    *r = (reader){.plan = plan,
+                  .side = side,
+                  .m = qdot_tape_outputs(tape),
+                  .accelerations = accelerations};
+    QDOT_TRY(qdot_reals_init(&r->numbers, 1 + 2 * plan->n, side->start.bits));
+    return qdot_precise_new(plan->pool, tape, 0, side->start.bits, &r->program);
+}
+
+/* The program at the state y of t. */
+static qdot_status
+evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
+{
+    qdot_precise_bind *bind = r->side->binds[r->side->segments.at[r->segment].mode];
+    const qdot_precise_system *system = qdot_precise_bind_system(bind);
+    const size_t n = r->plan->n;
+
+    for (size_t i = 0; i < 2 * n; i++)
+        mpfr_set(qdot_precise_input(r->program, i)[0], y[i], RN);
+    mpfr_set(qdot_precise_input(r->program, 2 * n)[0], t, RN);
+    if (r->accelerations) {
+        r->side->near = SIZE_MAX;
+        QDOT_TRY(system->begin(t, y, system->user));
+    }
+    for (size_t i = 0; r->accelerations && i < n; i++)
+        mpfr_set(qdot_precise_input(r->program, 2 * n + 1 + i)[0],
+                 qdot_precise_bind_acceleration(bind, i), RN);
+    for (size_t k = 0; r->accelerations && r->plan->constraints
+                       && k < r->plan->constraints->m; k++)
+        qdot_precise_bind_multiplier(bind, k,
+                                     qdot_precise_input(r->program, 3 * n + 1 + k)[0]);
+    qdot_precise_order(r->program, 0);
+    return QDOT_OK;
+}
+
+/* At the time in numbers.at[0], which may be an end of the run but for its last bits. */
+static qdot_status
+read_at(reader *r)
+{
+    mpfr_ptr t = r->numbers.at[0];
+    mpfr_srcptr ends[2];
+    int way;
+
+    if (r->side->segments.n == 0 || r->side->segments.at[0].run.count == 0)
+        return qdot_fail(QDOT_EDOMAIN, "there is no run");
+    ends[0] = qdot_precise_first(r->side)[0];
+    ends[1] = qdot_precise_last(r->side)[0];
+    way = mpfr_less_p(ends[1], ends[0]) ? -1 : 1;
+    for (int i = 0; i < 2; i++) {
+        bool beyond = (i == 1 ? way : -way) * mpfr_cmp(t, ends[i]) > 0;
+
+        if (beyond && mpfr_get_d(t, RN) == mpfr_get_d(ends[i], RN))
+            mpfr_set(t, ends[i], RN);
+    }
+    r->segment = qdot_precise_segment_at(r->side, t);
+    QDOT_TRY(qdot_precise_state_in(r->side, r->segment, t, r->numbers.at + 1));
+    return evaluate(r, t, (const mpfr_t *)r->numbers.at + 1);
+}
+
+/* --- both ---------------------------------------------------------------------------- */
+
+/* The same expressions along both runs. */
+typedef struct {
+    qdot_precise_pair *pair;
+    qdot_tape *tape;
+    reader run, companion;
+    const qdot_expr *exprs;
+} readers;
+
+static void
+readers_clear(readers *r)
+{
+    reader_clear(&r->run);
+    reader_clear(&r->companion);
+    qdot_tape_free(r->tape);
+}
+
+static qdot_status
+readers_init(readers *r, qdot_precise_pair *pair, size_t m, const qdot_expr *exprs)
+{
+    bool accelerations;
+
+    *r = (readers){.pair = pair, .exprs = exprs};
+    QDOT_TRY(qdot_reader_lower(pair->plan, m, exprs, &r->tape, &accelerations));
+    QDOT_TRY(reader_init(&r->run, pair->plan, &pair->run, r->tape, accelerations));
+    return reader_init(&r->companion, pair->plan, &pair->companion, r->tape,
+                       accelerations);
+}
+
+static qdot_status
+undefined(const readers *r, size_t j)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(r->pair->plan->pool, r->exprs[j], QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EDOMAIN, "%.200s is undefined at t = %.15g",
+                           qdot_text_str(&text),
+                           mpfr_get_d(r->run.numbers.at[0], MPFR_RNDN));
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* Values of the run, and their distances from the companion's into errors [m] (may be
+ * NULL), at the times that stand in both. */
+static qdot_status
+read_both(readers *r, double *errors)
+{
+    const qdot_precise_pair *pair = r->pair;
+    qdot_status status;
+
+    QDOT_TRY(read_at(&r->run));
+    for (size_t j = 0; j < r->run.m; j++)
+        if (!mpfr_number_p(qdot_precise_output(r->run.program, j)[0]))
+            return undefined(r, j);
+    if (!errors)
+        return QDOT_OK;
+    status = isnan(pair->log10_error) ? QDOT_EDOMAIN : read_at(&r->companion);
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return status;
+    for (size_t j = 0; j < r->run.m; j++) {
+        mpfr_srcptr x = qdot_precise_output(r->run.program, j)[0];
+        mpfr_ptr w = r->companion.numbers.at[0]; /* read already */
+        double size = fmax(0, qdot_real_log2(x));
+
+        errors[j] = NAN;
+        if (status != QDOT_OK)
+            continue;
+        mpfr_sub(w, qdot_precise_output(r->companion.program, j)[0], x, RN);
+        errors[j] = qdot_precise_power(fmax(qdot_real_log2(w) / QDOT_LOG2_10,
+                                            size / QDOT_LOG2_10 - pair->run.digits));
+    }
+    return QDOT_OK;
+}
+
+/* An exact time; nil: the end. */
+static qdot_status
+take_time(const qdot_plan *plan, qdot_expr time, reader *r)
+{
+    if (time != QDOT_NIL)
+        return qdot_precise_constant(plan, time, r->numbers.at[0]);
+    if (r->side->segments.n == 0 || r->side->segments.at[0].run.count == 0)
+        return qdot_fail(QDOT_EDOMAIN, "there is no run");
+    mpfr_set(r->numbers.at[0], qdot_precise_last(r->side)[0], RN);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_precise_pair_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exprs,
+                         qdot_expr time, qdot_expr *values, double *errors)
+{
+    readers r;
+    qdot_status status = readers_init(&r, pair, m, exprs);
+
+    if (status == QDOT_OK)
+        status = take_time(pair->plan, time, &r.run);
+    if (status == QDOT_OK)
+        status = take_time(pair->plan, time, &r.companion);
+    if (status == QDOT_OK)
+        status = read_both(&r, errors);
+    for (size_t j = 0; j < m && status == QDOT_OK; j++) {
+        values[j] = qdot_constant_of_real(pair->plan->pool,
+                                          qdot_precise_output(r.run.program, j)[0]);
+        status = qdot_pool_check(pair->plan->pool);
+    }
+    readers_clear(&r);
+    return status;
+}
+
+qdot_status
+qdot_precise_pair_sample_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exprs,
+                                size_t k, const double *times, double *values,
+                                double *errors)
+{
+    readers r;
+    qdot_status status = readers_init(&r, pair, m, exprs);
+
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        status = qdot_interrupt_check();
+        mpfr_set_d(r.run.numbers.at[0], times[i], RN);
+        mpfr_set_d(r.companion.numbers.at[0], times[i], RN);
+        if (status == QDOT_OK)
+            status = read_both(&r, errors ? errors + i * m : NULL);
+        for (size_t j = 0; j < m && status == QDOT_OK; j++) {
+            double x = mpfr_get_d(qdot_precise_output(r.run.program, j)[0], RN);
+
+            values[i * m + j] = x;
+            if (errors)
+                errors[i * m + j] += 0x1p-53 * fabs(x);
+        }
+    }
+    readers_clear(&r);
+    return status;
+}
+
+/* --- drifts -------------------------------------------------------------------------- */
+
+/* A segment: the drift from w[0], which is what it starts with where `anew`. Where the
+ * equations switch its ends are on neither side. */
+static qdot_status
+follow_segment(reader *r, bool anew, bool cut, mpfr_t *w, qdot_drift *drift)
+{
+    const qdot_precise_run *run = &r->side->segments.at[r->segment].run;
+
+    for (size_t k = anew ? 0 : 1; k < run->count - cut; k++) {
+        const mpfr_t *point = (const mpfr_t *)qdot_precise_point(run, k);
+        mpfr_srcptr c = qdot_precise_output(r->program, 0)[0];
+        double change;
+
+        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(evaluate(r, point[0], point + 1));
+        if (k == 0)
+            mpfr_set(w[0], c, RN);
+        mpfr_sub(w[1], c, w[0], RN);
+        change = exp2(qdot_real_log2(w[1]) - fmax(0, qdot_real_log2(w[0])));
+        if (!(change <= drift->drift)) /* a NaN stays */
+            drift->drift = change;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+follow(reader *r, qdot_drift *drift)
+{
+    const qdot_precise_side *s = r->side;
+    qdot_status status = QDOT_OK;
+    qdot_reals w;
+
+    QDOT_TRY(qdot_reals_init(&w, 2, s->start.bits));
+    drift->drift = 0;
+    for (size_t k = 0; k < s->segments.n && status == QDOT_OK; k++) {
+        bool cut = k + 1 < s->segments.n && !s->segments.at[k + 1].jumped;
+
+        r->segment = k;
+        if (s->segments.at[k].run.count > 0)
+            status = follow_segment(r, k == 0 || s->segments.at[k].jumped, cut, w.at, drift);
+    }
+    qdot_reals_clear(&w);
+    return status;
+}
+
+qdot_status
+qdot_precise_pair_drifts(qdot_precise_pair *pair, qdot_drifts *drifts)
+{
+    for (size_t i = 0; i < drifts->n; i++) {
+        reader r = {0};
+        qdot_tape *tape = NULL;
+        bool accelerations;
+        qdot_status status =
+            qdot_reader_lower(pair->plan, 1, &drifts->at[i].quantity, &tape, &accelerations);
+
+        if (status == QDOT_OK)
+            status = reader_init(&r, pair->plan, &pair->run, tape, accelerations);
+        if (status == QDOT_OK)
+            status = follow(&r, drifts->at + i);
+        reader_clear(&r);
+        qdot_tape_free(tape);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}

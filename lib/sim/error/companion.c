@@ -1,0 +1,495 @@
+/* companion.c -- the companion of a run as a course of its own, and how the two compare. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "ode/companion.h"
+#include "sim/course/run-state.h"
+#include "sim/digits/digits.h"
+#include "tape/shake.h"
+
+/* Where it goes to: as far as the run did, or wanted to where events end it. */
+static double
+goal(const qdot_run *run)
+{
+    return run->course.stopped_by != SIZE_MAX
+               ? qdot_shake_double(run->t1, run->t1_side)
+               : run->course.tr.t[run->course.tr.count - 1];
+}
+
+/* --- comparing ----------------------------------------------------------------------- */
+
+/* A switch at the end is met or missed by a rounding of t. */
+static const double no_length = 8 * DBL_EPSILON;
+
+/* Whether the last piece has no length, as where a motion would slide. */
+static bool
+ends_in_point(const qdot_trajectory *tr)
+{
+    const qdot_trajectory_piece *last = tr->pieces.at + tr->pieces.n - 1;
+    const double end = tr->t[tr->count - 1];
+
+    return tr->pieces.n > 1 && !last->jumped
+           && fabs(end - tr->t[last->first]) <= no_length * fabs(end);
+}
+
+/* A last piece without length decides nothing: moved a little the companion may go on there,
+ * or end before it, and one that has it may be the companion's. */
+static bool
+went_alike(const qdot_course *run, const qdot_course *other)
+{
+    const qdot_trajectory *a = &run->tr, *b = &other->tr;
+    const size_t n = a->pieces.n - (ends_in_point(a) ? 1 : 0);
+
+    if (b->pieces.n < n || b->pieces.n > a->pieces.n + (ends_in_point(b) ? 1 : 0))
+        return false;
+    for (size_t i = 0; i < n; i++)
+        if (a->pieces.at[i].mode != b->pieces.at[i].mode)
+            return false;
+    return true;
+}
+
+bool
+qdot_run_comparable(const qdot_run *run)
+{
+    return !run->hidden && run->has_companion && went_alike(&run->course, &run->companion)
+           && (!run->has_twin || went_alike(&run->course, &run->twin));
+}
+
+static bool
+covers(const qdot_course *c, double t)
+{
+    const qdot_trajectory *tr = &c->tr;
+    double start = tr->t[0], end = tr->t[tr->count - 1];
+
+    return tr->result.outcome != QDOT_ODE_FAILED
+           || (start < end ? t <= end : start > end ? t >= end : t == end);
+}
+
+bool
+qdot_run_covered(const qdot_run *run, double t)
+{
+    return run->has_companion && covers(&run->companion, t)
+           && (!run->has_twin || covers(&run->twin, t));
+}
+
+/* How often an event occurred. */
+static size_t
+count(const qdot_course *c, size_t event)
+{
+    size_t n = 0;
+
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        n += c->occurrences.at[i].event == event;
+    return n;
+}
+
+/* --- the companion ------------------------------------------------------------------- */
+
+/* The start of the companion into y [2n] and, of a run in two doubles, low: moved, but for
+ * what has to stay where it is. */
+static qdot_status
+begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, double t0,
+             double *y, double *low)
+{
+    const size_t n = 2 * run->plan->n;
+    const double by =
+        number ? qdot_companion_far(run->course.tr.result.stats.steps) : 1;
+
+    for (size_t i = 0; i < n; i++) {
+        low[i] = run->start_low[i]
+                 + qdot_companion_aside(run->report.tol, run->start[i], i, number, by);
+        y[i] = run->leading ? run->start[i]
+                            : qdot_companion_moved(run->start[i], i, number, by);
+    }
+    if (system->project) { /* along what solutions may do */
+        double by;
+
+        QDOT_TRY(system->project(t0, y, NULL, &by, system->user));
+    }
+    /* a bound that the start is on stays where it is */
+    if (qdot_domains_outside(&run->stage.domains, y))
+        memcpy(y, run->start, n * sizeof *y);
+    return QDOT_OK;
+}
+
+static bool
+met_the_same(const qdot_run *run, const qdot_course *c)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++)
+        if (count(&run->course, i) != count(c, i))
+            return false;
+    return went_alike(&run->course, c);
+}
+
+static void
+begin_anew(qdot_course *c)
+{
+    const qdot_course empty = {.stage = c->stage,
+                               .shaken = c->shaken,
+                               .no_series = c->no_series,
+                               .early = c->early,
+                               .most_pieces = c->most_pieces,
+                               .touch_tol = c->touch_tol};
+
+    qdot_course_clear(c);
+    *c = empty;
+}
+
+/* Companion 0 or 1 into c, by Taylor series if the system has them and c->no_series is not set;
+ * *has: there is one. */
+static qdot_status
+follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
+{
+    const qdot_ode_method *method = run->plan->method;
+    qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS - 2 * (int)number};
+    double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
+    size_t n = 2 * run->plan->n;
+    qdot_ode_system system;
+    double *y;
+    qdot_status status;
+
+    system = qdot_bind_system(run->course.binds.at[0]);
+    if (c->no_series)
+        system.series = NULL;
+    options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
+    options.max_steps =
+        qdot_companion_patience(&system, method, run->course.tr.result.stats.steps);
+    if (method->stiff && system.series && options.max_steps > QDOT_COMPANION_EXPLICIT)
+        options.max_steps = QDOT_COMPANION_EXPLICIT;
+    y = qdot_malloc(2 * n * sizeof *y);
+    if (!y)
+        return QDOT_ENOMEM;
+    status = begin_beside(run, &system, number, t0, y, y + n);
+    if (run->leading) {
+        options.leading = true;
+        options.carry = y + n;
+        options.t0_low = run->t0_low;
+        options.t1_low = goal(run) == run->t1 ? run->t1_low : 0;
+    }
+    if (status != QDOT_OK) {
+        qdot_free(y);
+        return status == QDOT_ENOMEM ? status : QDOT_OK;
+    }
+    /* a start on a surface, moved to its other side, meets it once more: the second time
+     * it stays on it */
+    for (int tries = 0; tries < 2; tries++) {
+        status = qdot_course_run(c, qdot_companion_method(&system, method), &options, t0,
+                                 goal(run), y);
+        if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+            break;
+        *has = c->tr.count > 0;
+        if (!*has || met_the_same(run, c))
+            break;
+        if (tries == 0)
+            begin_anew(c);
+        memcpy(y, run->start, n * sizeof *y);
+    }
+    qdot_free(y);
+    return status == QDOT_EINTR || status == QDOT_ENOMEM ? status : QDOT_OK;
+}
+
+/* Beside a stiff method series may get stuck: then by its partner. */
+static qdot_status
+follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
+{
+    c->shaken = number == 0;
+    c->early = number == 0 ? 1 : -1;
+    c->touch_tol = run->report.tol;
+    /* moved off a surface that the run rests on, it would cross it without end */
+    c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
+    c->no_series = false;
+    QDOT_TRY(follow_so(run, number, c, has));
+    if (!run->plan->method->stiff || (*has && c->tr.result.outcome != QDOT_ODE_FAILED))
+        return QDOT_OK;
+    c->no_series = true;
+    begin_anew(c);
+    *has = false;
+    return follow_so(run, number, c, has);
+}
+
+qdot_status
+qdot_run_companion(qdot_run *run)
+{
+    if (run->has_companion || run->course.tr.count == 0)
+        return QDOT_OK;
+    return follow(run, 0, &run->companion, &run->has_companion);
+}
+
+qdot_status
+qdot_run_twin(qdot_run *run)
+{
+    QDOT_TRY(qdot_run_companion(run));
+    if (!run->has_companion || run->has_twin)
+        return QDOT_OK;
+    return follow(run, 1, &run->twin, &run->has_twin);
+}
+
+/* --- the error ----------------------------------------------------------------------- */
+
+static qdot_status
+say_doubt(qdot_run *run, const char *text)
+{
+    qdot_free(run->doubt);
+    run->doubt = qdot_strdup(text);
+    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* What it differs in from the run. */
+static qdot_status
+find_doubt(qdot_run *run, const qdot_course *c)
+{
+    char text[300];
+
+    for (size_t i = 0; i < run->stage.events.n; i++) {
+        size_t a = count(&run->course, i), b = count(c, i);
+
+        if (a == b)
+            continue;
+        snprintf(text, sizeof text,
+                 "the second run met the event %.100s %zu times, this one %zu times",
+                 run->stage.events.at[i].name, b, a);
+        return say_doubt(run, text);
+    }
+    return say_doubt(run, "the second run went through other events or switches");
+}
+
+/* A piece ends behind the root that ends it, in all runs alike: what the other system would
+ * have done in that time, for each end of a piece added to floor [n]. */
+static qdot_status
+add_delays(const qdot_course *c, double *floor)
+{
+    const qdot_trajectory *tr = &c->tr;
+    double *before = qdot_malloc(2 * tr->n * sizeof *before), *behind = before + tr->n;
+    qdot_status status = before ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < c->ends.n && status == QDOT_OK; k++) {
+        const qdot_course_end *end = c->ends.at + k;
+        const size_t first =
+            end->piece + 1 < tr->pieces.n ? tr->pieces.at[end->piece + 1].first : 0;
+        const qdot_ode_system *old = qdot_course_systems(c) + tr->pieces.at[end->piece].mode;
+        const qdot_ode_system *next;
+
+        if (end->late == 0 || first == 0 || (k > 0 && end[-1].piece == end->piece))
+            continue;
+        next = qdot_course_systems(c) + tr->pieces.at[end->piece + 1].mode;
+        if (old->rhs(end->t, tr->y + (first - 1) * tr->n, before, old->user) != QDOT_OK
+            || next->rhs(end->t, tr->y + first * tr->n, behind, next->user) != QDOT_OK)
+            continue; /* it is a floor only */
+        for (size_t i = 0; i < tr->n; i++)
+            floor[i] += end->late * fabs(behind[i] - before[i]);
+    }
+    qdot_free(before);
+    return status;
+}
+
+/* The state y [n] of a companion at the end of the run, or, where an event stopped them, at its own
+ * end, at *t. *known: they compare. */
+static qdot_status
+end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *known)
+{
+    const qdot_trajectory *b = &other->tr;
+    qdot_trajectory_cursor *cursor = NULL;
+    qdot_status status;
+
+    *t = run->course.tr.t[run->course.tr.count - 1];
+    *known = went_alike(&run->course, other) && run->course.stopped_by == other->stopped_by;
+    if (!*known)
+        return find_doubt(run, other);
+    if (run->course.stopped_by != SIZE_MAX) {
+        *t = b->t[b->count - 1];
+        memcpy(y, b->y + (b->count - 1) * b->n, b->n * sizeof *y);
+        return QDOT_OK;
+    }
+    status = qdot_trajectory_open(b, qdot_course_systems(other), &cursor);
+    if (status == QDOT_OK)
+        status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, *t, y);
+    qdot_trajectory_close(cursor);
+    *known = status == QDOT_OK;
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+qdot_status
+qdot_run_end_error(qdot_run *run, double *error, double *difference)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const double *y = tr->y + (tr->count - 1) * tr->n, t = tr->t[tr->count - 1];
+    double worst = qdot_companion_floor(tr->result.stats.steps), ends[2] = {t, t}, *of;
+    const size_t companions = run->has_twin ? 2 : 1;
+    bool known = run->has_companion;
+    qdot_status status;
+
+    *error = NAN;
+    if (!known)
+        return find_doubt(run, &run->companion);
+    of = qdot_calloc(3 * tr->n, sizeof *of); /* their ends, and what delays make */
+    status = of ? end_of(run, &run->companion, ends, of, &known) : QDOT_ENOMEM;
+    if (status == QDOT_OK && known && run->has_twin)
+        status = end_of(run, &run->twin, ends + 1, of + tr->n, &known);
+    if (status == QDOT_OK && known)
+        status = add_delays(&run->course, of + 2 * tr->n);
+    for (size_t i = 0; i < tr->n && status == QDOT_OK && known; i++) {
+        const double size = fmax(1, fabs(y[i]));
+        const double theirs[] = {of[i], of[tr->n + i]};
+        const double by = qdot_companion_bound_of(y[i], companions, theirs, 1) + of[2 * tr->n + i];
+
+        worst = fmax(worst, by / size);
+        difference[i] = fmax(by, 0x1p-53 * size);
+    }
+    if (status == QDOT_OK && known)
+        *error = fmax(worst,
+                      qdot_companion_bound_of(t, companions, ends, 1) / fmax(1, fabs(t)));
+    qdot_free(of);
+    return status;
+}
+
+/* --- occurrences --------------------------------------------------------------------- */
+
+bool
+qdot_run_has_event(const qdot_run *run, const char *name)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++)
+        if (strcmp(run->stage.events.at[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* The occurrences of a course event by event: those of event e are at[first[e]] to
+ * at[first[e + 1] - 1], in their order. */
+typedef struct {
+    size_t *first;             /* [events + 1] */
+    const qdot_occurrence **at;
+} by_event;
+
+static qdot_status
+sort_by_event(const qdot_course *c, size_t events, by_event *out)
+{
+    size_t n = c->occurrences.n, *next;
+
+    out->first = qdot_calloc(2 * events + 2, sizeof *out->first);
+    out->at = qdot_calloc(n + 1, sizeof *out->at);
+    if (!out->first || !out->at)
+        return QDOT_ENOMEM;
+    next = out->first + events + 1;
+    for (size_t i = 0; i < n; i++)
+        out->first[c->occurrences.at[i].event + 1]++;
+    for (size_t e = 0; e < events; e++) {
+        out->first[e + 1] += out->first[e];
+        next[e] = out->first[e];
+    }
+    for (size_t i = 0; i < n; i++)
+        out->at[next[c->occurrences.at[i].event]++] = &c->occurrences.at[i];
+    return QDOT_OK;
+}
+
+/* The nearest in time to t of at [n], which ascend or descend; NULL of none. */
+static const qdot_occurrence *
+nearest(const qdot_occurrence *const *at, size_t n, double t)
+{
+    size_t low = 0, high = n;
+    bool down = n > 1 && at[n - 1]->t < at[0]->t;
+
+    if (n == 0)
+        return NULL;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (down ? at[middle]->t >= t : at[middle]->t <= t)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high < n && fabs(at[high]->t - t) < fabs(at[low]->t - t) ? at[high] : at[low];
+}
+
+/* The occurrence of the companion that is the k-th one of the run's event: the k-th too,
+ * or, where one of them has more (at the very end of the run), the nearest, if it is much
+ * nearer than the next one of the run. */
+static const qdot_occurrence *
+partner(const by_event *own, const by_event *other, size_t event, size_t k)
+{
+    const qdot_occurrence *const *of = own->at + own->first[event];
+    size_t n = own->first[event + 1] - own->first[event];
+    size_t m = other->first[event + 1] - other->first[event];
+    const qdot_occurrence *best;
+
+    if (n == m)
+        return other->at[other->first[event] + k];
+    best = nearest(other->at + other->first[event], m, of[k]->t);
+    if (!best || (k > 0 && fabs(best->t - of[k]->t) > 0.1 * fabs(of[k - 1]->t - of[k]->t))
+        || (k + 1 < n && fabs(best->t - of[k]->t) > 0.1 * fabs(of[k + 1]->t - of[k]->t)))
+        return NULL;
+    return best;
+}
+
+/* t*; NaN without a partner. */
+static double
+time_of_partner(const by_event *own, const by_event *other, size_t event, size_t k)
+{
+    const qdot_occurrence *p = partner(own, other, event, k);
+
+    return p ? p->t : NAN;
+}
+
+static qdot_status
+compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
+{
+    size_t events = run->stage.events.n, n = run->course.occurrences.n;
+    size_t companions = !run->has_companion ? 0 : run->has_twin ? 2 : 1;
+    size_t *seen = qdot_calloc(events + 1, sizeof *seen);
+    qdot_status status = seen ? QDOT_OK : QDOT_ENOMEM;
+
+    run->occurrences.n = 0;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        const qdot_occurrence *o = &run->course.occurrences.at[i];
+        size_t k = seen[o->event]++;
+        double by = NAN, theirs[2];
+
+        for (size_t j = 0; j < companions; j++)
+            theirs[j] = time_of_partner(own, others + j, o->event, k);
+        if (companions > 0)
+            by = qdot_companion_bound_of(o->t, companions, theirs, 1);
+        status = qdot_vec_push(
+            &run->occurrences,
+            ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,
+                                   by + DBL_EPSILON * fabs(o->t), o->way,
+                                   QDOT_NIL}));
+    }
+    qdot_free(seen);
+    return status;
+}
+
+qdot_status
+qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
+{
+    if (!run->occurrence_errors && run->precise) {
+        QDOT_TRY(qdot_digits_occurrences(run));
+        run->occurrence_errors = true;
+    }
+    if (!run->occurrence_errors) {
+        by_event own = {0}, others[2] = {{0}};
+        size_t events = run->stage.events.n;
+        qdot_status status = QDOT_OK;
+
+        if (run->course.occurrences.n > 0)
+            QDOT_TRY(qdot_run_twin(run));
+        status = sort_by_event(&run->course, events, &own);
+        if (status == QDOT_OK)
+            status = sort_by_event(&run->companion, events, others);
+        if (status == QDOT_OK)
+            status = sort_by_event(&run->twin, events, others + 1);
+        if (status == QDOT_OK)
+            status = compare_occurrences(run, &own, others);
+        qdot_free(own.first);
+        qdot_free(own.at);
+        for (size_t i = 0; i < 2; i++) {
+            qdot_free(others[i].first);
+            qdot_free(others[i].at);
+        }
+        QDOT_TRY(status);
+        run->occurrence_errors = true;
+    }
+    *list = run->occurrences.at;
+    *n = run->occurrences.n;
+    return QDOT_OK;
+}

@@ -1,0 +1,270 @@
+/* distance.c -- differences at stored points, found once, and windows over them. */
+#include "sim/error/distance.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "ode/companion.h"
+#include "sim/course/run-state.h"
+
+/* Radians on either side. */
+static const double least_turn = 0.5;
+
+/* A component that moves by fewer tolerances turns by rounding alone. */
+static const double tolerances = 1000;
+
+/* What is known of a companion's error at best, as a part of the run's. */
+static const double least_share = 1.0 / 32;
+
+struct qdot_distance {
+    const qdot_run *run;
+    size_t m;
+    qdot_reader own, others[2];
+    size_t n_others;
+    double share; /* of D that the companions' own error may be, where truncation rules */
+    double *at;   /* [points x m] what the companions may be off by at the points */
+    bool *known;  /* [points] */
+    double *unit; /* [n] 1/span; 0: it does not count */
+    double *work; /* [4m] */
+    double *aside; /* [2m] */
+};
+
+void
+qdot_distance_free(qdot_distance *d)
+{
+    if (!d)
+        return;
+    qdot_reader_clear(&d->own);
+    for (size_t k = 0; k < d->n_others; k++)
+        qdot_reader_clear(d->others + k);
+    qdot_free(d->at);
+    qdot_free(d->known);
+    qdot_free(d->unit);
+    qdot_free(d->work);
+    qdot_free(d->aside);
+    qdot_free(d);
+}
+
+static void
+find_units(qdot_distance *d)
+{
+    const qdot_trajectory *tr = &d->run->course.tr;
+
+    for (size_t i = 0; i < tr->n; i++) {
+        double low = INFINITY, high = -INFINITY, least;
+
+        for (size_t k = 0; k < tr->count; k++) {
+            low = fmin(low, tr->y[k * tr->n + i]);
+            high = fmax(high, tr->y[k * tr->n + i]);
+        }
+        least = tolerances * fmax(d->run->report.tol, 0x1p-53)
+                * fmax(1, fmax(fabs(low), fabs(high)));
+        d->unit[i] = high - low > least ? 1 / (high - low) : 0;
+    }
+}
+
+qdot_status
+qdot_distance_new(qdot_run *run, const qdot_tape *tape, bool accelerations,
+                  qdot_distance **out)
+{
+    const qdot_course *courses[] = {&run->companion, &run->twin};
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_distance *d = qdot_calloc(1, sizeof *d);
+    const size_t m = qdot_tape_outputs(tape);
+    qdot_status status;
+
+    if (!(*out = d))
+        return QDOT_ENOMEM;
+    d->run = run;
+    d->share = fmin(1, fmax(least_share, 4 * run->companion.tr.tol / run->report.tol));
+    d->m = m;
+    d->at = qdot_calloc(tr->count * m + 1, sizeof *d->at);
+    d->known = qdot_calloc(tr->count + 1, sizeof *d->known);
+    d->unit = qdot_calloc(tr->n + 1, sizeof *d->unit);
+    d->work = qdot_calloc(4 * m + 1, sizeof *d->work);
+    d->aside = qdot_calloc(2 * m + 1, sizeof *d->aside);
+    status = d->at && d->known && d->unit && d->work && d->aside ? QDOT_OK : QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = qdot_reader_init(&d->own, run->plan, tape, &run->course, accelerations);
+    for (size_t k = 0; k < (run->has_twin ? 2 : 1) && status == QDOT_OK; k++) {
+        d->n_others = k + 1;
+        status = qdot_reader_init(d->others + k, run->plan, tape, courses[k],
+                                  accelerations);
+        /* those of a run in two doubles share the rounding of a state that is read */
+        d->others[k].moved = run->leading ? (int)k + 1 : 0;
+    }
+    if (status == QDOT_OK)
+        find_units(d);
+    else
+        qdot_distance_free(d);
+    if (status != QDOT_OK)
+        *out = NULL;
+    return status;
+}
+
+/* --- differences --------------------------------------------------------------------- */
+
+/* Where one of them is undefined, or has ended, there is nothing to compare. */
+static bool
+is_nothing(qdot_status status)
+{
+    return status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR;
+}
+
+/* At t in a piece: the larger of the differences from `values` into out [m], what the
+ * companions may be off by themselves into own [m]. NaN where one has no values. */
+static qdot_status
+compare(qdot_distance *d, size_t piece, double t, const double *values, double *out,
+        double *own)
+{
+    double *first = d->work, *theirs = first;
+    bool there = qdot_run_covered(d->run, t);
+
+    for (size_t j = 0; j < d->m; j++)
+        out[j] = own[j] = 0;
+    for (size_t k = 0; k < d->n_others && there; k++, theirs += d->m) {
+        const size_t pieces = (k == 0 ? &d->run->companion : &d->run->twin)->tr.pieces.n;
+        const size_t same = piece < pieces ? piece : pieces - 1; /* one without length */
+        qdot_status status = qdot_reader_at(d->others + k, same, t, theirs);
+
+        if (status != QDOT_OK && !is_nothing(status))
+            return status;
+        there = status == QDOT_OK;
+        for (size_t j = 0; j < d->m && there; j++) {
+            double by = fabs(theirs[j] - values[j]);
+
+            out[j] = by >= out[j] || isnan(by) ? by : out[j];
+            if (k > 0)
+                own[j] = fabs(theirs[j] - first[j]);
+        }
+    }
+    for (size_t j = 0; j < d->m; j++) {
+        if (!there)
+            out[j] = NAN;
+        own[j] = fmax(own[j], d->share * out[j]);
+    }
+    return QDOT_OK;
+}
+
+/* What the companions may be off by at a stored point; 0 where there is nothing. */
+static qdot_status
+at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
+{
+    const qdot_trajectory *tr = &d->run->course.tr;
+    double *values = d->work + 2 * d->m, *by = values + d->m, *at = d->at + k * d->m;
+    qdot_status status;
+
+    *out = at;
+    if (d->known[k])
+        return QDOT_OK;
+    status = qdot_reader_at(&d->own, piece, tr->t[k], values);
+    if (status == QDOT_OK)
+        status = compare(d, piece, tr->t[k], values, by, at);
+    if (status != QDOT_OK && !is_nothing(status))
+        return status;
+    for (size_t j = 0; j < d->m; j++)
+        if (status != QDOT_OK || !isfinite(at[j]))
+            at[j] = 0;
+    d->known[k] = true;
+    return QDOT_OK;
+}
+
+/* --- windows ------------------------------------------------------------------------- */
+
+static size_t
+last_of(const qdot_trajectory *tr, size_t piece)
+{
+    return (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count) - 1;
+}
+
+/* By how much the path turns at point k: the angle of the chords that meet there. */
+static double
+turn(const qdot_distance *d, size_t k)
+{
+    const qdot_trajectory *tr = &d->run->course.tr;
+    const double *y = tr->y + k * tr->n;
+    double before = 0, behind = 0, product = 0;
+
+    for (size_t i = 0; i < tr->n; i++) {
+        double a = d->unit[i] * (y[i] - y[i - tr->n]);
+        double b = d->unit[i] * (y[i + tr->n] - y[i]);
+
+        before += a * a;
+        behind += b * b;
+        product += a * b;
+    }
+    product /= sqrt(before * behind);
+    return isnan(product) ? 0 : acos(fmax(-1, fmin(1, product)));
+}
+
+/* The largest over the points on one side, from k on in steps of `way`, into out [m];
+ * *cut: a neighbouring piece ends it early. */
+static qdot_status
+look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool *cut)
+{
+    const qdot_trajectory *tr = &d->run->course.tr;
+    const size_t first = tr->pieces.at[piece].first, last = last_of(tr, piece);
+    double turned = 0;
+
+    for (size_t j = 0; j < d->m; j++)
+        out[j] = 0;
+    *cut = false;
+    for (int points = 0; points < QDOT_DISTANCE_POINTS && turned < least_turn; points++) {
+        const double *at;
+
+        QDOT_TRY(at_point(d, piece, k, &at));
+        for (size_t j = 0; j < d->m; j++)
+            out[j] = fmax(out[j], at[j]);
+        if (k == (way > 0 ? last : first)) {
+            *cut = k > 0; /* at the start of the run all is known */
+            return QDOT_OK;
+        }
+        if (k > first && k < last)
+            turned += turn(d, k);
+        k = way > 0 ? k + 1 : k - 1;
+    }
+    return QDOT_OK;
+}
+
+/* What the companions may be off by near t, which lies behind point k. */
+static qdot_status
+look_around(qdot_distance *d, size_t piece, size_t k, double *own)
+{
+    double *left = d->aside, *right = left + d->m;
+    bool left_cut, right_cut = true;
+
+    QDOT_TRY(look_aside(d, piece, k, -1, left, &left_cut));
+    if (k < last_of(&d->run->course.tr, piece))
+        QDOT_TRY(look_aside(d, piece, k + 1, 1, right, &right_cut));
+    else
+        memcpy(right, left, d->m * sizeof *right);
+    for (size_t j = 0; j < d->m; j++) {
+        double by = left_cut == right_cut ? fmin(left[j], right[j])
+                    : left_cut            ? right[j]
+                                          : left[j];
+
+        own[j] = fmax(own[j], left_cut && right_cut ? fmax(left[j], right[j]) : by);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_distance_at(qdot_distance *d, double t, const double *values, double *out)
+{
+    const qdot_trajectory *tr = &d->run->course.tr;
+    const size_t k = qdot_trajectory_locate(tr, t, 0), piece = qdot_trajectory_piece_of(tr, k);
+    double *own = qdot_malloc((d->m + 1) * sizeof *own);
+    qdot_status status = own ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_interrupt_check();
+    if (status == QDOT_OK)
+        status = compare(d, piece, t, values, out, own);
+    if (status == QDOT_OK)
+        status = look_around(d, piece, k, own);
+    for (size_t j = 0; j < d->m && status == QDOT_OK; j++)
+        out[j] = isnan(out[j]) ? NAN : qdot_companion_bound(out[j], own[j]);
+    qdot_free(own);
+    return status;
+}

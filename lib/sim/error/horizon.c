@@ -1,0 +1,357 @@
+/* horizon.c -- run and companions followed until they have nothing to do with each other. */
+#include "sim/error/horizon.h"
+
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "sim/course/run-state.h"
+
+/* Of the variation: what the end of a run shows where it is worth looking. */
+static const double worth_looking = 0.02;
+
+/* A motion smaller than so many tolerances is rounding. */
+static const double tolerances = 100;
+
+/* Of the run: what has to lie beyond the horizon. */
+static const double least_part = 0.01;
+
+/* Where beyond the horizon expressions are compared. */
+enum { LOOKS = 32 };
+
+/* Of how many points a run is looked at first. */
+enum { SAMPLES = 64, MOST_POINTS = 4096 };
+
+typedef struct {
+    const qdot_run *run;
+    const qdot_course *other; /* a companion of it */
+    qdot_trajectory_cursor *companion;
+    double *y;      /* [n] the companion's */
+    size_t *point;  /* [points] of the run, in order: those that are compared */
+    double *t, *d;  /* [points] their times; distances there */
+    size_t points;
+    size_t *pieces; /* [points] their pieces */
+    double threshold;
+} search;
+
+/* --- variation ----------------------------------------------------------------------- */
+
+/* The least and the largest of component i, over every so many points. */
+static void
+widen(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *high)
+{
+    for (size_t k = 0; k < tr->count; k += stride) {
+        const double y = tr->y[k * tr->n + i];
+
+        *low = y < *low ? y : *low;
+        *high = y > *high ? y : *high;
+    }
+}
+
+static double
+variation(const qdot_trajectory *a, const qdot_trajectory *b, size_t stride)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < a->n; i++) {
+        double low = INFINITY, high = -INFINITY;
+
+        widen(a, i, stride, &low, &high);
+        if (b)
+            widen(b, i, stride, &low, &high);
+        most = fmax(most, 0.5 * (high - low) / fmax(1, fmax(fabs(low), fabs(high))));
+    }
+    return most;
+}
+
+/* Whether it is above x. More points only add to what is below a half. */
+static bool
+varies_by_more(const qdot_trajectory *tr, double x)
+{
+    if (x < 0.5 && variation(tr, NULL, tr->count / SAMPLES + 1) > x)
+        return true;
+    return variation(tr, NULL, 1) > x;
+}
+
+double
+qdot_horizon_variation(const qdot_trajectory *tr)
+{
+    return variation(tr, NULL, 1);
+}
+
+/* --- distances ----------------------------------------------------------------------- */
+
+/* The pieces that both went through alike. */
+static size_t
+common_pieces(const qdot_trajectory *a, const qdot_trajectory *b)
+{
+    size_t n = 0;
+
+    while (n < a->pieces.n && n < b->pieces.n
+           && a->pieces.at[n].mode == b->pieces.at[n].mode)
+        n++;
+    return n;
+}
+
+static double
+distance(const search *s, size_t k)
+{
+    const qdot_trajectory *tr = &s->run->course.tr;
+    double most = 0;
+
+    for (size_t i = 0; i < tr->n; i++) {
+        double y = tr->y[k * tr->n + i];
+
+        most = fmax(most, fabs(y - s->y[i]) / fmax(1, fabs(y)));
+    }
+    return most;
+}
+
+/* The distance at point k of the run, which is of that piece; where the companion has no
+ * state the one before stays. */
+static qdot_status
+measure_at(search *s, size_t k, size_t piece, double *d)
+{
+    qdot_status status;
+
+    QDOT_TRY(qdot_interrupt_check());
+    status = qdot_trajectory_read_piece(s->companion, piece, s->run->course.tr.t[k], s->y);
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return status;
+    if (status == QDOT_OK)
+        *d = distance(s, k);
+    return QDOT_OK;
+}
+
+/* d at points of the run, as far as the companion goes the same way: at all of them, or at
+ * one of every so many, without a pattern that a period could share. */
+static qdot_status
+measure(search *s)
+{
+    const qdot_trajectory *a = &s->run->course.tr, *b = &s->other->tr;
+    const double way = a->t[a->count - 1] < a->t[0] ? -1 : 1;
+    const size_t pieces = common_pieces(a, b);
+    const size_t end = pieces < a->pieces.n ? a->pieces.at[pieces].first : a->count;
+    const size_t stride = end / MOST_POINTS + 1;
+    size_t piece = 0;
+    double d = 0;
+
+    for (size_t from = 0; from < end; from += stride) {
+        size_t k = from + (from * 2654435761U >> 7) % stride;
+
+        k = from == 0 ? 0 : k < end ? k : end - 1;
+        while (piece + 1 < pieces && a->pieces.at[piece + 1].first <= k)
+            piece++;
+        if (way * (a->t[k] - b->t[b->count - 1]) > 0 && piece + 1 == b->pieces.n)
+            break; /* it did not come so far */
+        QDOT_TRY(measure_at(s, k, piece, &d));
+        s->point[s->points] = k;
+        s->pieces[s->points] = piece;
+        s->t[s->points] = a->t[k];
+        s->d[s->points++] = d;
+    }
+    return QDOT_OK;
+}
+
+/* Of the points that were left out before place k, in its piece, the first over the
+ * threshold takes that place, with the last below it before. */
+static qdot_status
+look_between(search *s, size_t k)
+{
+    const size_t piece = s->pieces[k];
+
+    if (k == 0 || s->pieces[k - 1] != piece)
+        return QDOT_OK;
+    for (size_t i = s->point[k - 1] + 1; i < s->point[k]; i++) {
+        double d = s->d[k - 1];
+
+        QDOT_TRY(measure_at(s, i, piece, &d));
+        if (d >= s->threshold) {
+            s->t[k] = s->run->course.tr.t[i];
+            s->d[k] = d;
+            return QDOT_OK;
+        }
+        s->t[k - 1] = s->run->course.tr.t[i];
+        s->d[k - 1] = d;
+    }
+    return QDOT_OK;
+}
+
+/* --- the horizon --------------------------------------------------------------------- */
+
+/* The first point over the threshold from which on half of the time is; SIZE_MAX: none. */
+static size_t
+first_lost(const search *s)
+{
+    const double *t = s->t;
+    double over = 0, all = 0;
+    size_t first = SIZE_MAX;
+
+    for (size_t k = s->points; k-- > 0;) {
+        double step = k + 1 < s->points ? fabs(t[k + 1] - t[k]) : 0;
+
+        all += step;
+        if (!(s->d[k] >= s->threshold))
+            continue;
+        over += step;
+        if (over >= 0.5 * all)
+            first = k;
+    }
+    return first;
+}
+
+/* The mean over time of d from point k on. */
+static double
+mean_from(const search *s, size_t k)
+{
+    const double *t = s->t;
+    double sum = 0, all = 0;
+
+    for (; k + 1 < s->points; k++) {
+        double step = fabs(t[k + 1] - t[k]);
+
+        sum += 0.5 * step * (s->d[k] + s->d[k + 1]);
+        all += step;
+    }
+    return all > 0 ? sum / all : s->d[k];
+}
+
+static double
+crossing(const search *s, size_t k)
+{
+    const double *t = s->t;
+    double low, high;
+
+    if (k == 0 || !(s->d[k - 1] > 0) || !(s->d[k - 1] < s->threshold))
+        return t[k];
+    low = log(s->threshold / s->d[k - 1]);
+    high = log(s->d[k] / s->d[k - 1]);
+    return t[k - 1] + fmin(1, low / high) * (t[k] - t[k - 1]);
+}
+
+/* Where that one is lost, before what has been found so far. */
+static qdot_status
+find(qdot_run *run, search *s)
+{
+    const qdot_trajectory *a = &run->course.tr, *b = &s->other->tr;
+    const double way = run->t1 < run->t0 ? -1 : 1;
+    qdot_run_report *report = &run->report;
+    double size = variation(a, b, 1);
+    const double length = fabs(a->t[a->count - 1] - a->t[0]);
+    const size_t room = (a->count < MOST_POINTS ? a->count : MOST_POINTS) + 1;
+    size_t first;
+
+    s->run = run;
+    s->threshold = QDOT_HORIZON_NONE_LEFT * size;
+    s->y = qdot_malloc(a->n * sizeof *s->y);
+    s->t = qdot_malloc(2 * room * sizeof *s->t);
+    s->point = qdot_malloc(2 * room * sizeof *s->point);
+    if (!s->y || !s->t || !s->point)
+        return QDOT_ENOMEM;
+    s->d = s->t + room;
+    s->pieces = s->point + room;
+    QDOT_TRY(qdot_trajectory_open(b, qdot_course_systems(s->other), &s->companion));
+    QDOT_TRY(measure(s));
+    first = first_lost(s);
+    if (first == SIZE_MAX || size < tolerances * fmax(report->tol, 0x1p-53)
+        || fabs(a->t[a->count - 1] - s->t[first]) < least_part * length)
+        return QDOT_OK;
+    QDOT_TRY(look_between(s, first));
+    if (!(way * (crossing(s, first) - report->horizon) > 0))
+        report->horizon = crossing(s, first);
+    qdot_free(run->doubt); /* of the end: it needs none any more */
+    run->doubt = NULL;
+    report->error = fmax(report->error, mean_from(s, first)); /* of a NaN the mean */
+    return QDOT_OK;
+}
+
+static qdot_status
+find_by(qdot_run *run, const qdot_course *other)
+{
+    search s = {.other = other};
+    qdot_status status = find(run, &s);
+
+    qdot_trajectory_close(s.companion);
+    qdot_free(s.y);
+    qdot_free(s.t);
+    qdot_free(s.point);
+    return status == QDOT_EDOMAIN || status == QDOT_EFAILED ? QDOT_OK : status;
+}
+
+qdot_status
+qdot_horizon_find(qdot_run *run)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_run_report *report = &run->report;
+
+    report->horizon = NAN;
+    if (tr->count < 2)
+        return QDOT_OK;
+    if (report->error < worth_looking * tolerances * fmax(report->tol, 0x1p-53)
+        || varies_by_more(tr, report->error / worth_looking))
+        return QDOT_OK;
+    /* one may stay beside it for a while by chance */
+    QDOT_TRY(qdot_run_twin(run));
+    if (run->has_companion)
+        QDOT_TRY(find_by(run, &run->companion));
+    return run->has_twin ? find_by(run, &run->twin) : QDOT_OK;
+}
+
+bool
+qdot_horizon_passed(const qdot_run *run, double t)
+{
+    const double way = run->t1 < run->t0 ? -1 : 1;
+
+    return way * (t - run->report.horizon) > 0; /* a NaN: none */
+}
+
+/* --- expressions beyond it ----------------------------------------------------------- */
+
+static qdot_status
+compare(qdot_reader *readers, double t, size_t m, double *values, double *spread)
+{
+    for (int which = 0; which < 2; which++)
+        QDOT_TRY(qdot_reader_at(readers + which, SIZE_MAX, t, values + (size_t)which * m));
+    for (size_t j = 0; j < m; j++)
+        spread[j] += fabs(values[j] - values[m + j]);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_horizon_spread(const qdot_run *run, const qdot_tape *tape, bool accelerations,
+                    double *spread)
+{
+    const size_t m = qdot_tape_outputs(tape);
+    const qdot_course *courses[] = {&run->course, &run->companion};
+    const double from = run->report.horizon;
+    const double end = run->course.tr.t[run->course.tr.count - 1];
+    qdot_reader readers[2] = {0};
+    double *values;
+    int count = 0;
+    qdot_status status = QDOT_OK;
+
+    for (size_t j = 0; j < m; j++)
+        spread[j] = 0;
+    if (isnan(from) || !run->has_companion)
+        return QDOT_OK;
+    values = qdot_calloc(2 * m, sizeof *values);
+    if (!values)
+        return QDOT_ENOMEM;
+    for (int which = 0; which < 2 && status == QDOT_OK; which++)
+        status = qdot_reader_init(readers + which, run->plan, tape, courses[which],
+                                  accelerations);
+    for (int k = 0; k < LOOKS && status == QDOT_OK; k++) {
+        status =
+            compare(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);
+        if (status == QDOT_OK)
+            count++;
+        /* where one of them is undefined, or has ended, there is nothing to compare */
+        if (status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR)
+            status = QDOT_OK;
+    }
+    for (size_t j = 0; j < m && count > 0; j++)
+        spread[j] /= count;
+    for (int which = 0; which < 2; which++)
+        qdot_reader_clear(readers + which);
+    qdot_free(values);
+    return status;
+}

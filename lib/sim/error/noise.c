@@ -1,0 +1,129 @@
+/* noise.c -- third differences along a line of states. */
+#include "sim/error/noise.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "sim/model/term-magnitude.h"
+
+/* Of the level of noise: what nearly all of it stays within. */
+static const double levels = 4;
+
+enum { POINTS = 7, ORDER = 3 };
+static const double spacing = 0x1p-38;
+
+/* (ORDER!)^2 / (2 ORDER)!: what independent errors of variance 1 make of a difference. */
+static const double factor = 1.0 / 20;
+
+/* Signs without a pattern. */
+static double
+side(size_t i)
+{
+    return (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 ? 1 : -1;
+}
+
+static double
+level(const double *g, size_t m)
+{
+    double d[POINTS], sum = 0;
+
+    for (int s = 0; s < POINTS; s++)
+        d[s] = g[(size_t)s * m];
+    for (int order = 0; order < ORDER; order++)
+        for (int s = 0; s + 1 + order < POINTS; s++)
+            d[s] = d[s + 1] - d[s];
+    for (int s = 0; s + ORDER < POINTS; s++)
+        sum += d[s] * d[s];
+    return sqrt(factor * sum / (POINTS - ORDER));
+}
+
+qdot_status
+qdot_noise_at(qdot_reader *r, size_t piece, double t, double *noise)
+{
+    const size_t n = 2 * r->plan->n, m = qdot_tape_outputs(r->tape);
+    double *y = qdot_malloc((n + POINTS * m + 1) * sizeof *y), *g = y + n;
+    qdot_status status = y ? qdot_reader_at(r, piece, t, g) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        memcpy(y, r->in, n * sizeof *y);
+    for (int s = 1; s < POINTS && status == QDOT_OK; s++) {
+        for (size_t i = 0; i < n; i++)
+            r->in[i] = y[i] + s * spacing * side(i) * y[i];
+        status = qdot_reader_evaluate(r, t, g + (size_t)s * m);
+    }
+    for (size_t j = 0; j < m && status == QDOT_OK; j++)
+        noise[j] = level(g + j, m);
+    qdot_free(y);
+    return status;
+}
+
+/* The magnitudes [k x m] of the terms of exprs [m] at times [k], row by row; NaN where one has
+ * none. */
+static qdot_status
+magnitudes_along(const qdot_plan *plan, const qdot_course *course, size_t m,
+                 const qdot_expr *exprs, size_t k, const double *times,
+                 double *magnitudes)
+{
+    qdot_expr *e = qdot_malloc((m + 1) * sizeof *e);
+    qdot_reader r = {0};
+    qdot_tape *tape = NULL;
+    bool accelerations;
+    qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t j = 0; j < m && status == QDOT_OK; j++)
+        e[j] = qdot_term_magnitude(plan->pool, exprs[j]);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(plan->pool);
+    if (status == QDOT_OK)
+        status = qdot_reader_lower(plan, m, e, &tape, &accelerations);
+    if (status == QDOT_OK)
+        status = qdot_reader_init(&r, plan, tape, course, accelerations);
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        status = qdot_interrupt_check();
+        if (status == QDOT_OK)
+            status = qdot_reader_at(&r, SIZE_MAX, times[i], magnitudes + i * m);
+    }
+    qdot_reader_clear(&r);
+    qdot_tape_free(tape);
+    qdot_free(e);
+    return status;
+}
+
+/* Magnitudes [m] of the terms become roundings. */
+static qdot_status
+add(qdot_reader *r, double t, const double *values, double *noise, double *roundings)
+{
+    qdot_status status = qdot_noise_at(r, SIZE_MAX, t, noise);
+
+    for (size_t j = 0; j < qdot_tape_outputs(r->tape); j++) {
+        roundings[j] = DBL_EPSILON * fmax(roundings[j], fabs(values[j]));
+        if (status == QDOT_OK && isfinite(noise[j]))
+            roundings[j] = fmax(roundings[j], levels * noise[j]);
+    }
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+qdot_status
+qdot_noise_roundings(const qdot_plan *plan, const qdot_course *course,
+                     const qdot_tape *tape, bool accelerations, const qdot_expr *exprs,
+                     size_t k, const double *times, const double *values,
+                     double *roundings)
+{
+    size_t m = qdot_tape_outputs(tape);
+    double *noise = qdot_malloc((m + 1) * sizeof *noise);
+    qdot_reader r = {0};
+    qdot_status status = noise ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = magnitudes_along(plan, course, m, exprs, k, times, roundings);
+    if (status == QDOT_OK)
+        status = qdot_reader_init(&r, plan, tape, course, accelerations);
+    for (size_t i = 0; i < k && status == QDOT_OK; i++)
+        status = add(&r, times[i], values + i * m, noise, roundings + i * m);
+    qdot_reader_clear(&r);
+    qdot_free(noise);
+    return status;
+}

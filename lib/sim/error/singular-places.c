@@ -1,0 +1,295 @@
+/* singular-places.c -- minima of independence along a run. */
+#include "sim/error/singular-places.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "num/hermite.h"
+#include "sim/model/constraints.h"
+
+/* Below it, or a hundred tolerances but no more than the second, q is 0. */
+static const double dependent = 1e-5, most_dependent = 1e-3;
+
+/* A minimum that is less of the points beside it is looked at; one of which so much is left
+ * when the sections have closed in on it is none that comes to 0. */
+static const double shallow = 0.75, floor_of_minimum = 0.2;
+
+/* Times what counts as 0: between two minima that are one place, which a run came to in steps as
+ * short as rounding, q stays below it. */
+static const double away = 10;
+
+enum { sections = 60, closed_in = 12, most_told = 60 };
+
+/* The steps of few may be long, and so may one beside shorter ones: they are looked at within,
+ * too. */
+enum { few_steps = 100, parts_of_a_step = 4, most_parts = 64 };
+
+/* Some constraints, and when they were passed. */
+typedef struct {
+    qdot_text names;
+    qdot_vec(double) times;
+} group;
+
+typedef struct {
+    const qdot_course *course;
+    qdot_trajectory_cursor *cursor;
+    qdot_constrained *held; /* of the piece at hand */
+    size_t piece, end; /* and the stored point that it ends before */
+    double *y; /* [2n] */
+    size_t step; /* whose end is stored point `step`: where between[] is of */
+    double *between; /* [4n] of a method without series: slopes of its ends' states */
+    bool sloped;     /* they are known; else those of cubics stand for them */
+    double enough; /* of q, to be 0 */
+    double t[3], q[3]; /* at the last places of the piece, */
+    size_t taken;      /* as many */
+    double most;       /* q since the last that was told */
+    qdot_vec(group) groups;
+} search;
+
+/* The step whose end is stored point k. */
+static void
+enter(search *s, size_t k)
+{
+    const qdot_trajectory *tr = &s->course->tr;
+    const qdot_ode_system *system =
+        qdot_course_systems(s->course) + tr->pieces.at[s->piece].mode;
+
+    s->step = k;
+    s->sloped = true;
+    for (size_t i = 0; i < 2 && s->sloped; i++) {
+        const size_t at = k - 1 + i;
+
+        s->sloped = system->rhs(tr->t[at], tr->y + at * tr->n, s->between + i * tr->n,
+                                system->user)
+                    == QDOT_OK;
+    }
+}
+
+/* The state at t by polynomials through the ends of a step: what a method without series knows
+ * between them costs steps of its own, which are tiny about the places that are looked for. */
+static void
+interpolate(search *s, double t)
+{
+    const qdot_trajectory *tr = &s->course->tr;
+    const size_t n = tr->n / 2, first = tr->pieces.at[s->piece].first;
+    const double way = tr->t[tr->count - 1] < tr->t[0] ? -1 : 1;
+    size_t k = s->step > first ? s->step : first + 1;
+
+    while (k > first + 1 && way * (t - tr->t[k - 1]) < 0)
+        k--;
+    while (k < s->end - 1 && way * (t - tr->t[k]) > 0)
+        k++;
+    if (k != s->step)
+        enter(s, k);
+    for (size_t i = 0; i < n; i++) {
+        const double *y = tr->y + (k - 1) * tr->n, *z = y + tr->n, h = tr->t[k] - tr->t[k - 1];
+        qdot_hermite_end from = {y[i], y[n + i], s->between[n + i]};
+        qdot_hermite_end to = {z[i], z[n + i], s->between[tr->n + n + i]};
+
+        if (!s->sloped)
+            qdot_hermite_cubic_ends(&from, &to, h);
+        s->y[i] = qdot_hermite_at(&from, &to, h, (t - tr->t[k - 1]) / h, s->y + n + i);
+    }
+}
+
+static qdot_status
+look(search *s, double t, double *q)
+{
+    if (s->between)
+        interpolate(s, t);
+    else
+        QDOT_TRY(qdot_trajectory_read_piece(s->cursor, s->piece, t, s->y));
+    *q = qdot_constrained_independence(s->held, t, s->y);
+    return QDOT_OK;
+}
+
+/* The minimum about t[1] between t[0] and t[2], where q is more, by golden sections; s->y is a
+ * state within rounding of it. */
+static qdot_status
+descend(search *s, const double *t, const double *q, double *at, double *least)
+{
+    static const double golden = 0.3819660112501051;
+    const double start = fmin(q[0], q[2]);
+    double a = t[0], b = t[2], m = t[1], qm = q[1];
+
+    for (int k = 0; k < sections; k++) {
+        const bool right = b - m > m - a;
+        const double u = right ? m + golden * (b - m) : m - golden * (m - a);
+        double qu;
+
+        QDOT_TRY(qdot_interrupt_check());
+        if (k == closed_in && qm > floor_of_minimum * start)
+            break;
+        QDOT_TRY(look(s, u, &qu));
+        if (qu < qm) {
+            *(right ? &a : &b) = m;
+            m = u;
+            qm = qu;
+        } else {
+            *(right ? &b : &a) = u;
+        }
+    }
+    *at = m;
+    return look(s, *at, least);
+}
+
+static qdot_status
+note(search *s, double t)
+{
+    qdot_text names = {0};
+    qdot_status status = QDOT_OK;
+    group *g = NULL;
+
+    if (!qdot_constrained_near(s->held, t, s->y, &names))
+        qdot_text_add(&names, "constraints");
+    for (size_t i = 0; i < s->groups.n && !g; i++)
+        if (strcmp(qdot_text_str(&s->groups.at[i].names), qdot_text_str(&names)) == 0)
+            g = s->groups.at + i;
+    if (!g) {
+        status = qdot_vec_push(&s->groups, ((group){.names = names}));
+        g = status == QDOT_OK ? s->groups.at + s->groups.n - 1 : NULL;
+    }
+    if (!g || g->names.at != names.at)
+        qdot_text_clear(&names);
+    if (g && g->times.n > 0 && s->most < away * s->enough)
+        return QDOT_OK;
+    s->most = 0;
+    return g ? qdot_vec_push(&g->times, t) : status;
+}
+
+/* Whether q [3], at three points in a row, may come down to 0 about the middle one: it is
+ * least there, and not by little. */
+static bool
+comes_down(const double *q)
+{
+    return q[1] <= q[0] && q[1] < q[2] && q[1] < shallow * fmax(q[0], q[2]);
+}
+
+/* One more place of a piece. */
+static qdot_status
+take(search *s, double t, double q)
+{
+    double at, least;
+
+    memmove(s->t, s->t + 1, 2 * sizeof *s->t);
+    memmove(s->q, s->q + 1, 2 * sizeof *s->q);
+    s->t[2] = t;
+    s->q[2] = q;
+    s->most = fmax(s->most, s->q[1]); /* the newest may lie behind the minimum about to be told */
+    if (++s->taken < 3 || !comes_down(s->q))
+        return QDOT_OK;
+    QDOT_TRY(descend(s, s->t, s->q, &at, &least));
+    return least < s->enough ? note(s, at) : QDOT_OK;
+}
+
+/* In how many parts to look at the step that ends at stored point k, of those up to `end`. */
+static int
+parts_of(const qdot_trajectory *tr, size_t first, size_t k, size_t end)
+{
+    const double *t = tr->t + k, h = fabs(t[0] - t[-1]);
+    double beside = h;
+
+    if (k > first + 1)
+        beside = fmin(beside, fabs(t[-1] - t[-2]));
+    if (k + 1 < end)
+        beside = fmin(beside, fabs(t[1] - t[0]));
+    if (tr->count >= few_steps && h < parts_of_a_step * beside)
+        return 1;
+    return (int)fmin(most_parts, parts_of_a_step * h / fmax(beside, h / most_parts));
+}
+
+/* The places within the step that ends at stored point k. */
+static qdot_status
+take_inner(search *s, size_t k, int parts)
+{
+    const double *t = s->course->tr.t + k - 1;
+
+    for (int j = 1; j < parts; j++) {
+        const double inner = t[0] + (t[1] - t[0]) * j / parts;
+        double q;
+
+        QDOT_TRY(look(s, inner, &q));
+        QDOT_TRY(take(s, inner, q));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+go_through(search *s)
+{
+    const qdot_trajectory *tr = &s->course->tr;
+
+    for (s->piece = 0; s->piece < tr->pieces.n; s->piece++) {
+        const qdot_trajectory_piece *p = tr->pieces.at + s->piece;
+        const size_t end = s->piece + 1 < tr->pieces.n ? p[1].first : tr->count;
+
+        s->taken = 0;
+        s->end = end;
+        s->step = 0;
+        s->held = qdot_bind_held(s->course->binds.at[p->mode]);
+        for (size_t k = p->first; k < end; k++) {
+            if (k % 1024 == 0)
+                QDOT_TRY(qdot_interrupt_check());
+            if (k > p->first)
+                QDOT_TRY(take_inner(s, k, parts_of(tr, p->first, k, end)));
+            QDOT_TRY(take(s, tr->t[k],
+                          qdot_constrained_independence(s->held, tr->t[k],
+                                                        tr->y + k * tr->n)));
+        }
+    }
+    return QDOT_OK;
+}
+
+static void
+tell(const group *g, qdot_text *to)
+{
+    const size_t told = g->times.n < most_told ? g->times.n : most_told;
+
+    qdot_text_format(to, "%s%s stop being independent about t = ", to->n > 0 ? "\n" : "",
+                     qdot_text_str(&g->names));
+    for (size_t i = 0; i < told; i++)
+        qdot_text_format(to, "%s%.4g",
+                         i == 0                                   ? ""
+                         : i + 1 == told && told == g->times.n ? " and "
+                                                                  : ", ",
+                         g->times.at[i]);
+    if (told < g->times.n)
+        qdot_text_format(to, " and %zu times more", g->times.n - told);
+    qdot_text_add(to, "; the run goes over it, at the accuracy left there");
+}
+
+qdot_status
+qdot_singular_places_tell(const qdot_course *course, qdot_text *to)
+{
+    search s = {.course = course,
+                .enough = fmin(most_dependent, fmax(dependent, 100 * course->touch_tol))};
+    const qdot_constrained *first =
+        course->binds.n > 0 && course->binds.at[0] ? qdot_bind_held(course->binds.at[0])
+                                                   : NULL;
+    qdot_status status;
+
+    /* one constraint has nothing to depend on */
+    if (!first || qdot_constrained_rows(first) < 2 || course->tr.count < 2)
+        return QDOT_OK;
+    s.y = qdot_calloc(course->tr.n, sizeof *s.y);
+    if (!course->tr.method->series)
+        s.between = qdot_calloc(2 * course->tr.n, sizeof *s.between);
+    status = s.y && (s.between || course->tr.method->series)
+                 ? qdot_trajectory_open(&course->tr, qdot_course_systems(course), &s.cursor)
+                 : QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = go_through(&s);
+    for (size_t i = 0; i < s.groups.n; i++) {
+        if (status == QDOT_OK)
+            tell(s.groups.at + i, to);
+        qdot_text_clear(&s.groups.at[i].names);
+        qdot_free(s.groups.at[i].times.at);
+    }
+    qdot_free(s.groups.at);
+    qdot_trajectory_close(s.cursor);
+    qdot_free(s.between);
+    qdot_free(s.y);
+    return status == QDOT_OK ? qdot_text_status(to) : status;
+}

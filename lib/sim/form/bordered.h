@@ -1,0 +1,46 @@
+/* bordered.h -- accelerations and multipliers under few constraints, by machine code.
+ *
+ *     [ M_0  A_0^T ] [  a_k ]   [  f_k  ]    k  [ M_j  A_j^T ] [  a_{k-j} ]
+ *     [ A_0    0   ] [ -l_k ] = [ gamma_k ] - sum  [ A_j    0   ] [ -l_{k-j} ]
+ *                                            j=1
+ *
+ * is one more set of unknowns of the program of f, M, A and gamma (series/taylor.h), so that a
+ * whole expansion is a single call. Constraints are differentiated here, which takes more
+ * convolutions than their own coefficients (sim/form/constrained-series.h), and the inverse is
+ * found without a correction: it is for tolerances from QDOT_ELIMINATED_TOL on, as the form
+ * of eliminated.h is, and for n + m up to QDOT_BORDERED_MOST.
+ *
+ * It exists as code only. Before that is written, and at a state where a row of A has less
+ * than a third of its length left beyond the others, another series is begun; where the
+ * first state is one, nothing is written.
+ *
+ * Tests  tests/sim/test_bordered.c
+ */
+#ifndef QDOT_SIM_BORDERED_H
+#define QDOT_SIM_BORDERED_H
+
+#include "ode/system.h"
+#include "sim/plan/plan.h"
+
+typedef struct qdot_bordered qdot_bordered;
+
+/* Where a plan with constraints, complete but for it, takes this form at a tolerance, its
+ * program plan->bordered; else NULL there. Errors: those of lowering. */
+QDOT_MUST_CHECK qdot_status qdot_bordered_find(qdot_plan *plan, double tol);
+
+/* Of such a plan and its other series, both borrowed. `shaken` as for qdot_bind_new. */
+QDOT_MUST_CHECK qdot_status qdot_bordered_new(const qdot_plan *plan, bool shaken,
+                                              const qdot_ode_series *other,
+                                              qdot_bordered **bordered);
+void qdot_bordered_free(qdot_bordered *bordered);
+
+/* Its callbacks; borrowed. */
+const qdot_ode_series *qdot_bordered_series(const qdot_bordered *bordered);
+
+/* Convolutions an order. */
+double qdot_bordered_convolutions(const qdot_bordered *bordered);
+
+/* How long the code is, in bytes; 0: there is none, *why says for what reason. */
+size_t qdot_bordered_code(const qdot_bordered *bordered, const char **why);
+
+#endif

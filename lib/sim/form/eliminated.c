@@ -1,0 +1,431 @@
+/* eliminated.c -- L D L^T of A M^-1 A^T as expressions, and which of two series is taken. */
+#include "sim/form/eliminated.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "ode/taylor.h"
+#include "sim/model/constrained.h"
+#include "sim/form/constrained-series.h"
+#include "sim/model/constraints.h"
+#include "sim/form/direct.h"
+#include "sim/model/quotient.h"
+
+/* Beyond it an elimination in symbols takes more than one in numbers. */
+enum { most_rows = 3 };
+
+/* Squared sine below which the rows are not left to an elimination without pivots. */
+static const double least_sine = 0.1;
+
+/* --- the expressions ---------------------------------------------------------------- */
+
+/* S, then its factors: d on the diagonal, L below; what it is solved for; its diagonal. */
+typedef struct {
+    const qdot_plan *plan;
+    const qdot_constraints *c;
+    qdot_expr S[most_rows][most_rows], b[most_rows];
+    qdot_expr diagonal[most_rows];
+} elimination;
+
+static qdot_expr
+mass(const qdot_plan *p, size_t i)
+{
+    return p->M[i * (p->n + 1)];
+}
+
+/* A row's entry at a coordinate; 0 where it has none. */
+static qdot_expr
+slope(const qdot_constraints *c, size_t row, size_t coordinate)
+{
+    for (size_t s = 0; s < c->n_slopes; s++)
+        if (c->slopes[s].row == row && c->slopes[s].column == coordinate)
+            return c->A[s];
+    return QDOT_ZERO;
+}
+
+/* A row's S where the row is held: of a rod, a circle or a sphere S = r f + c with numbers r
+ * and c, and f is 0. */
+static qdot_expr
+where_held(const elimination *e, size_t k, qdot_expr S)
+{
+    const qdot_constraints_row *row = e->c->rows + k;
+    qdot_pool *pool = e->plan->pool;
+    size_t s = 0;
+    qdot_expr x, f, r;
+
+    while (s < e->c->n_slopes && e->c->slopes[s].row != k)
+        s++;
+    if (e->plan->treatment != QDOT_RUN_PROJECT || row->kind != QDOT_HOLONOMIC ||
+        s == e->c->n_slopes)
+        return S;
+    x = e->plan->inputs[e->c->slopes[s].column];
+    f = qdot_diff(pool, qdot_diff(pool, row->f, x), x);
+    r = qdot_diff(pool, qdot_diff(pool, S, x), x);
+    if (qdot_expr_kind(pool, f) != QDOT_NUM || qdot_expr_kind(pool, r) != QDOT_NUM ||
+        f == QDOT_ZERO || r == QDOT_ZERO)
+        return S;
+    r = qdot_expand(pool, qdot_sub(pool, S, qdot_mul(pool, qdot_div(pool, r, f), row->f)));
+    return qdot_expr_kind(pool, r) == QDOT_NUM ? r : S;
+}
+
+static void
+form(elimination *e)
+{
+    const qdot_plan *p = e->plan;
+    qdot_pool *pool = p->pool;
+
+    for (size_t k = 0; k < e->c->m; k++) {
+        e->b[k] = e->c->gamma[k];
+        for (size_t l = 0; l <= k; l++)
+            e->S[k][l] = QDOT_ZERO;
+        for (size_t i = 0; i < p->n; i++) {
+            const qdot_expr a = slope(e->c, k, i);
+            const qdot_expr part = qdot_quotient(pool, a, mass(p, i));
+
+            if (a == QDOT_ZERO)
+                continue;
+            e->b[k] = qdot_sub(pool, e->b[k], qdot_mul(pool, part, p->f[i]));
+            for (size_t l = 0; l <= k; l++)
+                e->S[k][l] = qdot_add(pool, e->S[k][l],
+                                      qdot_mul(pool, part, slope(e->c, l, i)));
+        }
+        e->S[k][k] = where_held(e, k, e->S[k][k]);
+        e->b[k] = qdot_hold(pool, e->b[k]);
+        for (size_t l = 0; l <= k; l++)
+            e->S[k][l] = qdot_hold(pool, e->S[k][l]);
+        e->diagonal[k] = e->S[k][k];
+    }
+}
+
+/* S = L D L^T in its place; whether it has an inverse, as far as can be seen: constraints that
+ * repeat each other leave none. */
+static bool
+factor(elimination *e)
+{
+    qdot_pool *pool = e->plan->pool;
+    const size_t m = e->c->m;
+
+    for (size_t k = 0; k < m; k++) {
+        qdot_expr l[most_rows];
+
+        if (e->S[k][k] == QDOT_ZERO)
+            return false;
+        for (size_t i = k + 1; i < m; i++) {
+            l[i] = qdot_hold(pool, qdot_quotient(pool, e->S[i][k], e->S[k][k]));
+            for (size_t j = k + 1; j <= i; j++)
+                e->S[i][j] = qdot_hold(
+                    pool, qdot_sub(pool, e->S[i][j], qdot_mul(pool, l[i], e->S[j][k])));
+        }
+        for (size_t i = k + 1; i < m; i++)
+            e->S[i][k] = l[i];
+    }
+    return true;
+}
+
+/* b becomes lambda. */
+static void
+solve(elimination *e)
+{
+    qdot_pool *pool = e->plan->pool;
+    const size_t m = e->c->m;
+
+    for (size_t i = 1; i < m; i++) {
+        for (size_t k = 0; k < i; k++)
+            e->b[i] = qdot_sub(pool, e->b[i], qdot_mul(pool, e->S[i][k], e->b[k]));
+        e->b[i] = qdot_hold(pool, e->b[i]);
+    }
+    for (size_t k = m; k-- > 0;) {
+        e->b[k] = qdot_quotient(pool, e->b[k], e->S[k][k]);
+        for (size_t i = k + 1; i < m; i++)
+            e->b[k] = qdot_sub(pool, e->b[k], qdot_mul(pool, e->S[i][k], e->b[i]));
+        e->b[k] = qdot_hold(pool, e->b[k]);
+    }
+}
+
+/* f + A^T lambda */
+static void
+add_reactions(const elimination *e, qdot_expr *f)
+{
+    qdot_pool *pool = e->plan->pool;
+
+    for (size_t s = 0; s < e->c->n_slopes; s++) {
+        qdot_expr *to = f + e->c->slopes[s].column;
+
+        *to = qdot_add(pool, *to, qdot_mul(pool, e->c->A[s], e->b[e->c->slopes[s].row]));
+    }
+}
+
+/* --- the plan ----------------------------------------------------------------------- */
+
+static bool
+fits(const qdot_plan *p, double tol)
+{
+    const qdot_constraints *c = p->constraints;
+
+    if (!(tol >= QDOT_ELIMINATED_TOL) || c->m > most_rows || !p->smooth || p->indefinite ||
+        p->treatment == QDOT_RUN_BAUMGARTE || !p->method->series || c->n_masses != p->n)
+        return false;
+    for (size_t k = 0; k < c->n_masses; k++)
+        if (c->masses[k].row != c->masses[k].column)
+            return false;
+    return true;
+}
+
+/* Coordinate by coordinate q'', then d_k and S_kk of the rows; *there: they could be had. */
+static qdot_status
+fill(qdot_plan *r, const qdot_plan *p, bool *there)
+{
+    elimination e = {.plan = p, .c = p->constraints};
+    qdot_expr pivots[2 * most_rows];
+    const size_t n = p->n, m = p->constraints->m;
+
+    for (size_t i = 0; i < n; i++) {
+        r->names[i] = qdot_strdup(p->names[i]);
+        if (!r->names[i])
+            return QDOT_ENOMEM;
+    }
+    memcpy(r->inputs, p->inputs, (3 * n + 1) * sizeof *r->inputs);
+    memcpy(r->M, p->M, n * n * sizeof *r->M);
+    memcpy(r->f, p->f, n * sizeof *r->f);
+    form(&e);
+    *there = factor(&e);
+    if (!*there)
+        return qdot_pool_check(p->pool);
+    solve(&e);
+    add_reactions(&e, r->f);
+    for (size_t k = 0; k < m; k++) {
+        pivots[k] = e.S[k][k];
+        pivots[m + k] = e.diagonal[k];
+    }
+    QDOT_TRY(qdot_pool_check(p->pool));
+    QDOT_TRY(qdot_plan_structure(r, NULL));
+    QDOT_TRY(qdot_plan_lower(r, 2 * n + 1, 2 * m, pivots));
+    return qdot_plan_measure(r);
+}
+
+/* --- the series --------------------------------------------------------------------- */
+
+struct qdot_eliminated {
+    size_t n, m;
+    qdot_direct *direct;
+    const qdot_ode_series *own, *other, *now; /* `now`: the one begun last */
+    qdot_ode_series series;
+};
+
+static bool
+independent(const qdot_eliminated *e)
+{
+    for (size_t k = 0; k < e->m; k++) {
+        const double d = qdot_direct_output(e->direct, e->n + k)[0];
+        const double S = qdot_direct_output(e->direct, e->n + e->m + k)[0];
+
+        if (!(d > least_sine * S))
+            return false;
+    }
+    return true;
+}
+
+static qdot_status
+begin(double t, const double *y, double unit, void *user)
+{
+    qdot_eliminated *e = user;
+    qdot_status status = e->own->begin(t, y, unit, e->own->user);
+
+    if (status != QDOT_OK && status != QDOT_EDOMAIN)
+        return status;
+    e->now = status == QDOT_OK && independent(e) ? e->own : e->other;
+    e->series.x = e->now->x;
+    e->series.stride = e->now->stride;
+    return e->now == e->own ? QDOT_OK : e->other->begin(t, y, unit, e->other->user);
+}
+
+static qdot_status
+extend(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->now->extend(p, e->now->user);
+}
+
+static double
+noise(void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->now == e->other ? e->other->noise(e->other->user) : 0;
+}
+
+static double
+ahead(void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->now == e->other ? e->other->ahead(e->other->user) : 0;
+}
+
+static double
+near(int p, double s, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->now->near ? e->now->near(p, s, e->now->user) : s;
+}
+
+static qdot_status
+prepare(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    if (e->other->prepare)
+        QDOT_TRY(e->other->prepare(p, e->other->user));
+    return e->own->prepare ? e->own->prepare(p, e->own->user) : QDOT_OK;
+}
+
+static qdot_status
+write_code(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->own->write(p, e->own->user);
+}
+
+static bool
+take_code(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->own->take(p, e->own->user);
+}
+
+static bool
+is_code(int p, void *user)
+{
+    const qdot_eliminated *e = user;
+
+    return e->own->there(p, e->own->user);
+}
+
+static void
+drop_code(void *user)
+{
+    const qdot_eliminated *e = user;
+
+    e->own->drop(e->own->user);
+}
+
+qdot_status
+qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *other,
+                    qdot_eliminated **eliminated)
+{
+    qdot_eliminated *e = qdot_calloc(1, sizeof *e);
+    qdot_status status;
+
+    *eliminated = NULL;
+    if (!e)
+        return QDOT_ENOMEM;
+    e->n = plan->n;
+    e->m = plan->constraints->m;
+    status = qdot_direct_new(plan->eliminated, shaken, &e->direct);
+    if (status != QDOT_OK) {
+        qdot_eliminated_free(e);
+        return status;
+    }
+    e->own = e->now = qdot_direct_series(e->direct);
+    e->other = other;
+    e->series =
+        (qdot_ode_series){.most = e->own->most < other->most ? e->own->most : other->most,
+                          .x = e->own->x,
+                          .stride = e->own->stride,
+                          .checked = e->own->checked,
+                          .cost = {e->own->cost[0] + 200 + qdot_constrained_cost(plan),
+                                   e->own->cost[1], e->own->cost[2]},
+                          .prepare = prepare,
+                          .write = e->own->write ? write_code : NULL,
+                          .take = take_code,
+                          .there = is_code,
+                          .drop = drop_code,
+                          .worth = 500,
+                          .written = {e->own->written[0], e->own->written[1],
+                                      e->own->written[2]}, /* see sim/form/bordered.c */
+                          .digits = QDOT_ODE_DIGITS,
+                          .begin = begin,
+                          .extend = extend,
+                          .noise = noise,
+                          .ahead = ahead,
+                          .near = e->own->near || other->near ? near : NULL,
+                          .user = e};
+    *eliminated = e;
+    return QDOT_OK;
+}
+
+void
+qdot_eliminated_free(qdot_eliminated *e)
+{
+    if (!e)
+        return;
+    qdot_direct_free(e->direct);
+    qdot_free(e);
+}
+
+size_t
+qdot_eliminated_code(const qdot_eliminated *e, const char **why)
+{
+    return qdot_direct_code(e->direct, why);
+}
+
+const qdot_ode_series *
+qdot_eliminated_series(const qdot_eliminated *e)
+{
+    return &e->series;
+}
+
+/* --- which is taken ----------------------------------------------------------------- */
+
+/* A step's by a series, at the order that is best at a tolerance. */
+static double
+cost(const qdot_ode_series *series, double tol)
+{
+    const double p = qdot_ode_taylor_order(series, tol, false, 0), *c = series->cost;
+
+    /* a step is as long as tol^(1/p) makes it, at 5/4 of the digits (ode/taylor.c) */
+    return (c[0] + p * (c[1] + p * c[2])) * exp(-1.25 * log(tol) / p);
+}
+
+/* Whether p->eliminated is cheaper than the other form. */
+static qdot_status
+compare(const qdot_plan *p, double tol, bool *cheaper)
+{
+    qdot_constrained_series *whole = NULL;
+    qdot_eliminated *e = NULL;
+    qdot_status status = qdot_constrained_series_new(p, false, &whole);
+
+    if (status == QDOT_OK)
+        status = qdot_eliminated_new(p, false, qdot_constrained_series_get(whole), &e);
+    if (status == QDOT_OK)
+        *cheaper = cost(&e->series, tol) < cost(e->other, tol);
+    qdot_eliminated_free(e);
+    qdot_constrained_series_free(whole);
+    return status;
+}
+
+qdot_status
+qdot_eliminated_find(qdot_plan *p, double tol)
+{
+    bool there = false, cheaper = false;
+    qdot_status status;
+
+    if (!fits(p, tol))
+        return QDOT_OK;
+    status = qdot_plan_of_part(p, p->n, 0, &p->eliminated);
+    if (status == QDOT_OK)
+        status = fill(p->eliminated, p, &there);
+    if (status == QDOT_OK && there)
+        status = compare(p, tol, &cheaper);
+    if (status != QDOT_OK || !cheaper) {
+        qdot_plan_free(p->eliminated);
+        p->eliminated = NULL;
+    }
+    return status;
+}

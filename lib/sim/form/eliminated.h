@@ -1,0 +1,48 @@
+/* eliminated.h -- accelerations under few constraints, multipliers eliminated beforehand.
+ *
+ * Where M is diagonal and there are only a few constraints A q'' = gamma, lambda is made by
+ * the tape itself, by L D L^T of S without pivots,
+ *
+ *     S = A M^-1 A^T,   S lambda = gamma - A M^-1 f,   q'' = M^-1 (f + A^T lambda)
+ *
+ * so that the motion has the direct series of an unconstrained one (sim/form/direct.h) and no
+ * matrix is solved at any order. It takes more convolutions than constraints by their own
+ * coefficients (sim/form/constrained-series.h) and its rounding is that of an elimination without
+ * a correction: it is for tolerances from QDOT_ELIMINATED_TOL on, where it is cheaper.
+ *
+ * Of a rod, a circle or a sphere S_kk = r f_k + c with numbers r and c. Where states are
+ * projected f_k is 0, and S_kk = c: so a rod's division, its squares are gone. Left alone,
+ * off the constraints, S stays what it is.
+ *
+ * d_k/S_kk, pivot over diagonal, is the squared sine between a row and those before it. At
+ * a state where it is small the other series takes over.
+ *
+ * Tests  tests/sim/test_constraints.c
+ */
+#ifndef QDOT_SIM_ELIMINATED_H
+#define QDOT_SIM_ELIMINATED_H
+
+#include "ode/system.h"
+#include "sim/plan/plan.h"
+
+#define QDOT_ELIMINATED_TOL 1e-9
+
+typedef struct qdot_eliminated qdot_eliminated;
+
+/* Of a plan with constraints, complete but for it, the form that is cheaper at a tolerance:
+ * plan->eliminated, or NULL there. Errors: those of lowering. */
+QDOT_MUST_CHECK qdot_status qdot_eliminated_find(qdot_plan *plan, double tol);
+
+/* Of such a plan and its other series, both borrowed. `shaken` as for qdot_bind_new. */
+QDOT_MUST_CHECK qdot_status qdot_eliminated_new(const qdot_plan *plan, bool shaken,
+                                                const qdot_ode_series *other,
+                                                qdot_eliminated **eliminated);
+void qdot_eliminated_free(qdot_eliminated *eliminated);
+
+/* How long the code is, in bytes; 0: there is none, *why says for what reason. */
+size_t qdot_eliminated_code(const qdot_eliminated *eliminated, const char **why);
+
+/* Its callbacks; borrowed. */
+const qdot_ode_series *qdot_eliminated_series(const qdot_eliminated *eliminated);
+
+#endif

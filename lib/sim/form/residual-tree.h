@@ -1,0 +1,37 @@
+/* residual-tree.h -- d'Alembert's residual as bodies that hang on each other.
+ *
+ * Functions that a weight couples, or that move with one coordinate, are components of a
+ * node; nodes hang on each other as their functions do (`parent` of residual.h). Where a
+ * coordinate's slopes are on one node each, and no node hangs on two, M is eliminated along
+ * that tree (num/articulated.h).
+ *
+ * Tests  tests/sim/test_shifted-tree.c
+ */
+#ifndef QDOT_SIM_RESIDUAL_TREE_H
+#define QDOT_SIM_RESIDUAL_TREE_H
+
+#include "num/articulated.h"
+#include "sim/form/residual.h"
+
+typedef struct {
+    size_t nodes, m, c;     /* components and coordinates of a node, at most */
+    uint32_t *function;     /* [nodes x m] UINT32_MAX: it has fewer */
+    uint32_t *coordinate;   /* [nodes x c] the same */
+    uint32_t *slope;        /* [nodes x c x m] output of `places`; UINT32_MAX: 0 */
+    uint32_t *node, *place; /* [functions] where a function is: node, component */
+    uint32_t *parent;       /* [nodes x m] as num/articulated.h has them */
+    uint8_t *unknowns;      /* [nodes] coordinates */
+} qdot_residual_tree;
+
+/* Of a residual with n coordinates. *tree NULL: it is none. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_residual_tree_new(const qdot_residual *r, size_t n,
+                                                   qdot_residual_tree **tree);
+void qdot_residual_tree_free(qdot_residual_tree *tree);
+
+/* The system of equations along it, w [n_weights] its weights. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_residual_tree_system(const qdot_residual_tree *tree,
+                                                      const qdot_residual *r,
+                                                      const double *w,
+                                                      qdot_articulated **system);
+
+#endif

@@ -1,0 +1,69 @@
+/* residual.h -- d'Alembert's form for Taylor series: no M^-1 f, nothing differentiated
+ * twice.
+ *
+ *     R_i = sum_f dd_f/dq_i F_f - Q_i = 0
+ *
+ * The functions x of mech/dalembert.h make a tree: where x is another one, its parent,
+ * and a little more, only the difference d is kept, x = x_parent + d. With x'' summed up
+ * from the roots and the forces w x'' from the leaves,
+ *
+ *     x_f'' = x_parent'' + d_f'',   F_f = sum w x'' + sum of F over the children,
+ *
+ * a chain of N links takes work N in all that, and 4 N convolutions an order.
+ *
+ * Order k of R, with coefficient k + 2 of q taken as 0, gives M_0 a_k = -R_k; a_k is then
+ * propagated (qdot_taylor_correct). The series of d'' is that of d, shifted.
+ *
+ * Source  Nedialkov & Pryce, BIT 45 (2005) 561; shared sums as in recursive Newton-Euler
+ *         schemes (Featherstone, Rigid Body Dynamics Algorithms, ch. 5).
+ * Tests   tests/sim/test_taylor.c
+ */
+#ifndef QDOT_SIM_RESIDUAL_H
+#define QDOT_SIM_RESIDUAL_H
+
+#include "mech/scene/scene.h"
+#include "sim/plan/plan.h"
+
+typedef struct {
+    uint32_t to, from; /* F_to += w x''_from */
+    double w;
+    signed char side; /* where the exact w lies beside it */
+    double low;       /* how far */
+} qdot_residual_weight;
+
+typedef struct {
+    uint32_t function, coordinate, output; /* of `places` */
+} qdot_residual_slope;
+
+struct qdot_residual {
+    size_t functions;
+    qdot_expr *difference; /* [functions] d_f, the values put in */
+    uint32_t *parent;      /* [functions] UINT32_MAX: none; before its children */
+    qdot_residual_weight *weights;
+    size_t n_weights;
+    qdot_residual_slope *slopes; /* dd_f/dq_i that are not zero */
+    size_t n_slopes;
+    qdot_expr *applied; /* [n] Q_i, the values put in */
+    uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
+                        UINT32_MAX: zero */
+    /* From q, q', t: */
+    qdot_tape *places; /* d_f in their order, slopes, Q_i without velocities */
+    qdot_tape *forces; /* Q_i with velocities; NULL: none */
+    qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
+                          plan without M (sim/plan/tree-alone.h) */
+
+    /* Once asked for: h as one expression, and from q, q', t (sim/form/residual-energy.h). */
+    qdot_expr h;
+    qdot_tape *energy;
+    bool *absent; /* [n] coordinates that h may be the same at any value of: so a few places say */
+};
+
+#define QDOT_RESIDUAL_FORCES (UINT32_C(1) << 31)
+
+/* Of a scene whose plan has its structure, or has no M. *residual is NULL where the form does
+ * not apply. */
+QDOT_MUST_CHECK qdot_status qdot_residual_new(qdot_scene *scene, const qdot_plan *plan,
+                                              qdot_residual **residual);
+void qdot_residual_free(qdot_residual *residual);
+
+#endif

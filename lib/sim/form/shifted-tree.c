@@ -1,0 +1,311 @@
+/* shifted-tree.c -- a program's lanes laid out by nodes, and an order of the residual. */
+#include "sim/form/shifted-tree.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "series/taylor-wide.h"
+
+enum {
+    lanes = QDOT_WIDE_LANES,
+    components = QDOT_ARTICULATED_COMPONENTS,
+    unknowns = QDOT_ARTICULATED_UNKNOWNS
+};
+
+#define NONE UINT32_MAX
+
+struct qdot_shifted_tree {
+    qdot_taylor_wide *places;
+    qdot_articulated *system;
+    size_t n, nodes, m, c, slots;
+    size_t *lane;         /* [n] of a coordinate: its k-th of a node in slots k ... */
+    size_t d[components]; /* the first lanes of the differences, */
+    size_t J[unknowns * components]; /* slopes [c x m], */
+    size_t applied[unknowns];        /* what is applied; SIZE_MAX: nothing */
+    size_t forces;         /* doubles of an order of F, an odd number of eights */
+    double *allocated, *F; /* [orders x forces] m times slots */
+    double *r, *q;         /* [c x slots] */
+};
+
+/* --- building ----------------------------------------------------------------------- */
+
+typedef struct {
+    qdot_shifted_tree *s;
+    const qdot_residual *r;
+    const qdot_residual_tree *tree;
+    const qdot_taylor *t;
+    size_t *at; /* [slots] */
+} builder;
+
+/* Where the outputs [nodes x step] of the program at `from` lie by slots; *to SIZE_MAX:
+ * there are none. */
+static qdot_status
+align(const builder *b, const uint32_t *from, size_t step, size_t *to)
+{
+    const qdot_shifted_tree *s = b->s;
+    bool some = false;
+
+    for (size_t k = 0; k < s->slots; k++)
+        b->at[k] = SIZE_MAX;
+    for (size_t n = 0; n < s->nodes; n++) {
+        const uint32_t output = from[n * step];
+
+        if (output == NONE)
+            continue;
+        b->at[qdot_articulated_slot(s->system, n)] =
+            qdot_taylor_wide_lane(s->places, qdot_taylor_output(b->t, output));
+        some = true;
+    }
+    *to = SIZE_MAX;
+    if (!some)
+        return QDOT_OK;
+    /* what is no node's may stand beside them: it is a number */
+    for (size_t k = s->nodes; k < s->slots; k++)
+        if (b->at[k - 1] != SIZE_MAX)
+            b->at[k] = b->at[k - 1] + 1;
+    return qdot_taylor_wide_align(s->places, s->slots, b->at, to);
+}
+
+/* The program's output that is applied to each coordinate, as they stand in the tree. */
+static qdot_status
+align_applied(const builder *b)
+{
+    const qdot_residual_tree *t = b->tree;
+    uint32_t *output = qdot_calloc(t->nodes * t->c, sizeof *output);
+    qdot_status status = output ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t e = 0; e < t->nodes * t->c && output; e++) {
+        const uint32_t i = t->coordinate[e];
+
+        output[e] =
+            i == NONE || b->r->force[i] & QDOT_RESIDUAL_FORCES ? NONE : b->r->force[i];
+    }
+    for (size_t k = 0; k < t->c && status == QDOT_OK; k++)
+        status = align(b, output + k, t->c, b->s->applied + k);
+    qdot_free(output);
+    return status;
+}
+
+static qdot_status
+make_room(qdot_shifted_tree *s, size_t orders)
+{
+    const size_t eights = s->m * s->slots / lanes;
+    const size_t few = s->c * s->slots;
+    double *at;
+
+    s->forces = (eights + (eights + 1) % 2) * lanes;
+    s->allocated =
+        qdot_calloc(orders * s->forces + 2 * few + lanes, sizeof *s->allocated);
+    if (!s->allocated)
+        return QDOT_ENOMEM;
+    at = s->allocated;
+    while ((uintptr_t)at % (lanes * sizeof *at) != 0)
+        at++;
+    s->F = at;
+    s->r = at + orders * s->forces;
+    s->q = s->r + few;
+    return QDOT_OK;
+}
+
+static qdot_status
+build(builder *b)
+{
+    qdot_shifted_tree *s = b->s;
+    const qdot_residual_tree *t = b->tree;
+
+    b->at = qdot_calloc(s->slots, sizeof *b->at);
+    if (!b->at)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < s->m; i++) /* differences are outputs by their numbers */
+        QDOT_TRY(align(b, t->function + i, t->m, s->d + i));
+    for (size_t e = 0; e < s->c * s->m; e++) {
+        QDOT_TRY(align(b, t->slope + e, t->c * t->m, s->J + e));
+        if (s->J[e] == SIZE_MAX) { /* nowhere: a row of zeros */
+            for (size_t k = 0; k < s->slots; k++)
+                b->at[k] = SIZE_MAX;
+            QDOT_TRY(qdot_taylor_wide_align(s->places, s->slots, b->at, s->J + e));
+        }
+    }
+    QDOT_TRY(align_applied(b));
+    QDOT_TRY(make_room(s, qdot_taylor_stride(b->t)));
+    return qdot_taylor_wide_settle(s->places);
+}
+
+static qdot_status
+make(builder *b, const double *w, bool *made)
+{
+    qdot_shifted_tree *s = b->s;
+    const qdot_residual_tree *t = b->tree;
+
+    *made = false;
+    QDOT_TRY(qdot_residual_tree_system(t, b->r, w, &s->system));
+    s->nodes = t->nodes;
+    s->m = t->m;
+    s->c = t->c;
+    s->slots = qdot_articulated_slots(s->system);
+    s->lane = qdot_calloc(s->n, sizeof *s->lane);
+    if (!s->lane)
+        return QDOT_ENOMEM;
+    for (size_t e = 0; e < t->nodes * t->c; e++)
+        if (t->coordinate[e] != NONE)
+            s->lane[t->coordinate[e]] =
+                e % t->c * s->slots + qdot_articulated_slot(s->system, e / t->c);
+    QDOT_TRY(qdot_taylor_wide_new(b->t, s->n, s->lane, s->c * s->slots, &s->places));
+    if (!s->places)
+        return QDOT_OK;
+    *made = true;
+    return build(b);
+}
+
+qdot_status
+qdot_shifted_tree_new(const qdot_residual *r, size_t n, const qdot_taylor *places,
+                      const double *w, qdot_shifted_tree **tree)
+{
+    qdot_residual_tree *found;
+    builder b = {.r = r, .t = places};
+    bool made = false;
+    qdot_status status;
+
+    *tree = NULL;
+    QDOT_TRY(qdot_residual_tree_new(r, n, &found));
+    if (!found)
+        return QDOT_OK;
+    b.tree = found;
+    b.s = qdot_calloc(1, sizeof *b.s);
+    if (b.s) {
+        b.s->n = n;
+        status = make(&b, w, &made);
+    } else {
+        status = QDOT_ENOMEM;
+    }
+    qdot_free(b.at);
+    qdot_residual_tree_free(found);
+    if (status != QDOT_OK || !made) {
+        qdot_shifted_tree_free(b.s);
+        return status;
+    }
+    *tree = b.s;
+    return QDOT_OK;
+}
+
+void
+qdot_shifted_tree_free(qdot_shifted_tree *s)
+{
+    if (!s)
+        return;
+    qdot_taylor_wide_free(s->places);
+    qdot_articulated_free(s->system);
+    qdot_free(s->lane);
+    qdot_free(s->allocated);
+    qdot_free(s);
+}
+
+/* --- an order ----------------------------------------------------------------------- */
+
+/* Pointers at order k of the lanes at [count]. */
+static void
+point(const qdot_shifted_tree *s, int k, size_t count, const size_t *at,
+      const double **to)
+{
+    const double *now = qdot_taylor_wide_at(s->places, k);
+
+    for (size_t i = 0; i < count; i++)
+        to[i] = now + at[i];
+}
+
+bool
+qdot_shifted_tree_begin(qdot_shifted_tree *s, const qdot_taylor *places,
+                        const double *first, double *lost)
+{
+    const double *S[unknowns * components];
+    size_t node, unknown;
+
+    qdot_taylor_wide_begin(s->places, places);
+    qdot_taylor_wide_order(s->places, 1);
+    for (size_t i = 0; i < s->n; i++)
+        s->q[s->lane[i]] = first[i];
+    qdot_taylor_wide_correct(s->places, 1, s->q, 1);
+    point(s, 0, s->c * s->m, s->J, S);
+    return qdot_articulated_factor(s->system, S, lost, &node, &unknown);
+}
+
+/* r = what is applied less slopes of orders 1 ... k times forces of orders k - 1 ... 0. */
+static void
+right_side(qdot_shifted_tree *s, int k, double scale, const double *more)
+{
+    const size_t width = qdot_taylor_wide_width(s->places);
+    const double *J = qdot_taylor_wide_at(s->places, 1);
+    const double *F = s->F + (size_t)(k > 0 ? k - 1 : 0) * s->forces;
+    const double *now = qdot_taylor_wide_at(s->places, k);
+
+    for (size_t u = 0; u < s->c; u++) {
+        double *r = s->r + u * s->slots;
+        const double *Q = s->applied[u] == SIZE_MAX ? NULL : now + s->applied[u];
+
+        for (size_t at = 0; at < s->slots; at += lanes) {
+            qdot_wide_pair pair[components];
+
+            for (size_t i = 0; i < s->m; i++)
+                pair[i] =
+                    (qdot_wide_pair){J + s->J[u * s->m + i] + at, F + i * s->slots + at};
+            qdot_taylor_wide_rest(s->places, s->m, pair, (size_t)k, width, s->forces, scale,
+                                  Q ? Q + at : NULL, r + at);
+        }
+    }
+    for (size_t i = 0; i < s->n && more; i++)
+        s->r[s->lane[i]] += more[i];
+}
+
+void
+qdot_shifted_tree_order(qdot_shifted_tree *s, int m, double scale, const double *more)
+{
+    const int k = m - 2;
+    const double factor = m * (m - 1);
+    const double *S[unknowns * components], *d[components], *r[unknowns];
+    double *found[unknowns], *F[components];
+
+    right_side(s, k, scale, more);
+    qdot_taylor_wide_order(s->places, m);
+    point(s, 0, s->c * s->m, s->J, S);
+    point(s, m, s->m, s->d, d);
+    for (size_t u = 0; u < s->c; u++) {
+        r[u] = s->r + u * s->slots;
+        found[u] = s->q + u * s->slots;
+    }
+    for (size_t i = 0; i < s->m; i++)
+        F[i] = s->F + (size_t)k * s->forces + i * s->slots;
+    qdot_articulated_solve(s->system, S, d, factor, r, found, F);
+    qdot_taylor_wide_correct(s->places, m, s->q, factor);
+}
+
+void
+qdot_shifted_tree_rows(const qdot_shifted_tree *s, int last, double per_unit, double *q,
+                       double *v, size_t stride)
+{
+    qdot_taylor_wide_rows(s->places, last, per_unit, q, v, stride);
+}
+
+void
+qdot_shifted_tree_count(const qdot_shifted_tree *s, double *convolutions,
+                        double *products, double *begun)
+{
+    const double m = (double)s->m, c = (double)s->c, eights = (double)s->slots / lanes;
+
+    *convolutions = qdot_taylor_wide_convolutions(s->places) + m * c * eights;
+    *products = (6 * m * m + 4 * m * c + c * c) * eights + 6 * (m * m + m);
+    if (!qdot_articulated_is_path(s->system))
+        *products = (4 * m * m + 4 * m * c + c * c) * (double)s->nodes;
+    *begun = 2 * (double)qdot_taylor_wide_groups(s->places) + 4 * c * eights;
+}
+
+size_t
+qdot_shifted_tree_nodes(const qdot_shifted_tree *s)
+{
+    return s->nodes;
+}
+
+bool
+qdot_shifted_tree_is_path(const qdot_shifted_tree *s)
+{
+    return qdot_articulated_is_path(s->system);
+}

@@ -1,0 +1,234 @@
+/* constrained-project.c -- states brought back onto the constraints: Newton's method, first on
+ * positions, then on velocities. It is called at every step. */
+#include "sim/model/constrained.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "sim/model/constrained-parts.h"
+
+/* Values below it count as so large where rounding is judged: at rest all are 0. */
+static const double least_size = 0x1p-10;
+
+/* A step that will have left less than this of a bound needs no look at what it left. */
+static const double sure = 0x1p-6;
+
+enum { most_iterations = 6 };
+
+typedef qdot_constrained_level level;
+
+/* What rounding of x, q or q', makes of the rows, A being there. */
+void
+qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
+{
+    for (size_t k = 0; k < l->m; k++) {
+        const double now =
+            DBL_EPSILON * qdot_saddle_row_size(&l->saddle, k, x, least_size);
+
+        if (!(now <= bound[l->row[k]]))
+            bound[l->row[k]] = now;
+    }
+}
+
+/* M and A at what is loaded, factored. */
+qdot_status
+qdot_constrained_factor_metric(qdot_constrained *h, level *l)
+{
+    qdot_constrained_metric(h, l);
+    l->filled = true;
+    l->moves = l->few && qdot_least_move_factor(&l->move, l->saddle.A, l->saddle.M,
+                                                h->plan->n + 1);
+    if (l->moves)
+        return QDOT_OK;
+    QDOT_TRY(qdot_constrained_look_first(h, l));
+    return qdot_constrained_factor_rows(h->plan, &l->saddle, l->row);
+}
+
+/* One of the two levels: what is moved, q or q', its carry or NULL, and where it is loaded;
+ * the tape of its residuals, their bounds. */
+typedef struct {
+    level *l;
+    const qdot_tape *tape;
+    double *x, *carry, *loaded;
+    double *bound;
+} part;
+
+/* How much of what is left a step of Newton's method leaves, M and A being those of a place
+ * near by, as far as that is known. */
+typedef struct {
+    bool factored;
+    double rate; /* INFINITY: it is not */
+} convergence;
+
+/* What the carry adds is a matter of A, once that is there. */
+static void
+add_carry(const part *p)
+{
+    for (size_t k = 0; p->carry && p->l->filled && k < p->l->m; k++)
+        p->l->residual[k] += qdot_saddle_row(&p->l->saddle, k, p->carry);
+}
+
+/* The largest residual over its bound; INFINITY before there are bounds, and where it is not
+ * finite. */
+static double
+excess(const part *p)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < p->l->m; k++) {
+        const double f = fabs(p->l->residual[k]), b = p->bound[p->l->row[k]];
+
+        if (f <= b)
+            continue;
+        if (!(b > 0 && f < INFINITY))
+            return INFINITY;
+        most = f > most * b ? f / b : most;
+    }
+    return most;
+}
+
+/* What is left of the rows at what is loaded. The outputs of the tape are the level's rows. */
+static double
+look(qdot_constrained *h, const part *p)
+{
+    qdot_tape_eval(p->tape, h->in, p->l->residual, h->work);
+    add_carry(p);
+    return excess(p);
+}
+
+/* hi + lo += x; qdot_sum_advance, whose header and that of expr/ share a name. */
+static inline void
+advance(double *hi, double *lo, double x)
+{
+    double a = *hi, b = *lo + x, s = a + b, bb = s - a;
+
+    *lo = (a - (s - bb)) + (b - bb);
+    *hi = s;
+}
+
+/* One step of Newton's method; what is moved is loaded again. */
+static void
+step(const part *p, size_t n, double *moved)
+{
+    level *l = p->l;
+    double *change = l->saddle.x, most = *moved;
+
+    for (size_t k = 0; k < l->m; k++)
+        change[n + k] = -l->residual[k];
+    if (l->moves) {
+        qdot_least_move_solve(&l->move, change + n, change);
+    } else {
+        memset(change, 0, n * sizeof *change);
+        qdot_saddle_solve(&l->saddle);
+    }
+    for (size_t i = 0; i < n; i++) {
+        const double size = fabs(p->x[i]), by = fabs(change[i]);
+
+        if (!(by <= most * (size > 1 ? size : 1)))
+            most = by / (size > 1 ? size : 1);
+        if (p->carry)
+            advance(&p->x[i], &p->carry[i], change[i]);
+        else
+            p->x[i] += change[i];
+        p->loaded[i] = p->x[i];
+    }
+    *moved = most;
+}
+
+/* Whether what is left is what moving x by rounding of max(1, |x|) makes: where x is 0 the
+ * bounds are too, and cannot be met. */
+static bool
+is_rounding(const part *p)
+{
+    for (size_t k = 0; k < p->l->m; k++)
+        if (!(fabs(p->l->residual[k])
+              <= DBL_EPSILON * qdot_saddle_row_size(&p->l->saddle, k, p->x, 1)))
+            return false;
+    return true;
+}
+
+/* M and A stay those of the place where they were factored, `c` says whether they are:
+ * Newton's method converges with them as fast as the state was near. What the last step
+ * leaves is known by those before it, and not looked at. */
+static qdot_status
+project(qdot_constrained *h, const part *p, convergence *c, double *moved)
+{
+    double before = INFINITY;
+    bool bounded = false;
+
+    for (int k = 0; k <= most_iterations; k++) {
+        double now = look(h, p);
+
+        if (bounded)
+            c->rate = now / before;
+        if (now <= 1)
+            return QDOT_OK;
+        /* what is left is rounding when it shrinks no more */
+        if (bounded && !(now < 0.5 * before) && now < 1e4)
+            return QDOT_OK;
+        if (k == most_iterations || isnan(now) || (k > 2 && !(now < before)))
+            break;
+        if (!bounded) {
+            const bool filled = p->l->filled;
+
+            if (!c->factored)
+                QDOT_TRY(qdot_constrained_factor_metric(h, p->l));
+            c->factored = bounded = true;
+            qdot_constrained_raise_bounds(p->l, p->x, p->bound);
+            if (!filled)
+                add_carry(p);
+            now = excess(p);
+            if (now <= 1)
+                return QDOT_OK;
+        }
+        before = now;
+        step(p, h->plan->n, moved);
+        if (c->rate * now <= sure)
+            return QDOT_OK;
+    }
+    return bounded && is_rounding(p)
+               ? QDOT_OK
+               : qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
+}
+
+qdot_status
+qdot_constrained_check_accelerations(qdot_constrained *h, double t, const double *y)
+{
+    const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
+
+    if (h->at[QDOT_ACCELERATION]->m == h->at[QDOT_VELOCITY]->m || s->rank == s->m)
+        return QDOT_OK;
+    QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
+    return qdot_constrained_check_repeated(h, QDOT_EDOMAIN);
+}
+
+qdot_status
+qdot_constrained_project(double t, double *y, double *carry, double *moved, void *user)
+{
+    qdot_constrained *h = user;
+    const size_t n = h->plan->n;
+    const part q = {h->at[QDOT_HOLONOMIC],
+                    qdot_constrained_tape(h->positions, h->c->positions),
+                    y,
+                    carry,
+                    h->in,
+                    h->f_bound};
+    const part v = {h->at[QDOT_VELOCITY],
+                    qdot_constrained_tape(h->velocities, h->c->velocities),
+                    y + n,
+                    carry ? carry + n : NULL,
+                    h->in + n,
+                    h->w_bound};
+    convergence c = {.rate = INFINITY};
+
+    *moved = 0;
+    if (h->plan->treatment != QDOT_RUN_PROJECT)
+        return QDOT_OK;
+    qdot_constrained_load(h, t, y);
+    if (q.l->m > 0)
+        QDOT_TRY(project(h, &q, &c, moved));
+    if (v.l != q.l)
+        c = (convergence){.rate = INFINITY};
+    return v.l->m > 0 ? project(h, &v, &c, moved) : QDOT_OK;
+}

@@ -1,0 +1,350 @@
+/* constrained-start.c -- whether a run may start at a state. */
+#include <math.h>
+#include <string.h>
+
+#include "num/row-space.h"
+#include "sim/model/constrained-parts.h"
+
+/* A start may break a constraint by the rounding of decimals as people type them. */
+static const double start_tolerance = 1e-9;
+
+/* How far beside a start its constraints are looked at, and what is left of a row there
+ * that was dependent upon the others only at the start. */
+static const double beside = 1e-3, independent = 1e-7;
+
+/* What repetitions leave of a velocity beside the start. */
+static const double hidden = 1e-9;
+
+enum { tries = 4, iterations = 12 };
+
+/* --- a start at which constraints happen to be dependent ----------------------------- */
+
+typedef struct {
+    qdot_constrained *h;
+    double t;
+    double *y; /* [2n] a state beside the start */
+    double *A; /* [m x n] holonomic rows, the others 0; or all */
+    double *b, *x;
+    qdot_row_space rows;
+} place;
+
+/* A at p->y, of holonomic rows or of all. */
+static void
+take_slopes(place *p, bool all)
+{
+    const size_t n = p->h->plan->n, m = p->h->c->m;
+    qdot_constrained_level *l = p->h->at[QDOT_ACCELERATION];
+
+    qdot_constrained_load(p->h, p->t, p->y);
+    qdot_constrained_metric(p->h, l);
+    memcpy(p->A, l->saddle.A, m * n * sizeof *p->A);
+    for (size_t k = 0; k < m && !all; k++)
+        if (p->h->c->rows[k].kind != QDOT_HOLONOMIC)
+            memset(p->A + k * n, 0, n * sizeof *p->A);
+}
+
+/* A state beside y on the constraints; whether one was found. */
+static bool
+step_aside(place *p, const double *y, int which)
+{
+    const size_t n = p->h->plan->n, m = p->h->c->m;
+    unsigned long seed = 12345 + (unsigned long)which;
+    double length = 0, size = 1, most = INFINITY;
+
+    memcpy(p->y, y, 2 * n * sizeof *y);
+    take_slopes(p, false);
+    qdot_row_space_factor(&p->rows, p->A, start_tolerance, false);
+    for (size_t i = 0; i < n; i++) {
+        seed = seed * 1103515245 + 12345;
+        p->x[i] = (double)(seed >> 16 & 0x7fff) / 0x4000 - 1;
+    }
+    qdot_row_space_tangent(&p->rows, p->x);
+    for (size_t i = 0; i < n; i++) {
+        length = fmax(length, fabs(p->x[i]));
+        size = fmax(size, fabs(y[i]));
+    }
+    for (size_t i = 0; i < n; i++)
+        p->y[i] += length > 1e-6 ? beside * size * p->x[i] / length : 0;
+    for (int k = 0; k < iterations; k++) {
+        qdot_constrained_load(p->h, p->t, p->y);
+        qdot_constrained_positions(p->h);
+        most = 0;
+        for (size_t r = 0; r < m; r++) {
+            p->b[r] = -p->h->f[r];
+            most = fmax(most, fabs(p->b[r]));
+        }
+        if (!(most > 1e-13 * size))
+            break;
+        take_slopes(p, false);
+        qdot_row_space_factor(&p->rows, p->A, start_tolerance, false);
+        qdot_row_space_shortest(&p->rows, p->b, p->x, NULL);
+        for (size_t i = 0; i < n; i++)
+            p->y[i] += p->x[i];
+    }
+    return most < 1e-10 * size;
+}
+
+/* The constraints of which `row` is a combination at the start, and itself, into `names`; their
+ * number. */
+static size_t
+name_dependent(place *p, const double *y, size_t row, qdot_text *names)
+{
+    const size_t n = p->h->plan->n, m = p->h->c->m;
+    bool *in = qdot_calloc(m + 1, sizeof *in);
+    double *part = qdot_calloc(m + 1, sizeof *part);
+    size_t count = 1;
+
+    if (in && part) {
+        memcpy(p->y, y, 2 * n * sizeof *y);
+        take_slopes(p, true);
+        for (size_t k = 0; k < m; k++) {
+            p->b[k] = 0;
+            for (size_t i = 0; i < n && k != row; i++)
+                p->b[k] += p->A[k * n + i] * p->A[row * n + i];
+        }
+        memset(p->A + row * n, 0, n * sizeof *p->A);
+        qdot_row_space_factor(&p->rows, p->A, start_tolerance, false);
+        qdot_row_space_shortest(&p->rows, p->b, p->x, part);
+        in[row] = true;
+        for (size_t k = 0; k < m; k++)
+            if (k != row && fabs(part[k]) > QDOT_CONSTRAINED_PART) {
+                in[k] = true;
+                count++;
+            }
+        qdot_constrained_name(p->h->c, in, names);
+    }
+    qdot_free(in);
+    qdot_free(part);
+    return count;
+}
+
+static qdot_status
+refuse(place *p, const double *y, size_t row)
+{
+    qdot_text names = {0};
+    const size_t count = name_dependent(p, y, row, &names);
+
+    if (qdot_text_status(&names) == QDOT_OK)
+        qdot_fail(QDOT_ESINGULAR,
+                  count == 1 ? "at the start %.200s has no direction, its slopes being 0 there: "
+                               "what the motion is from there is not determined"
+                             : "at the start %.200s depend on each other, as they do not "
+                               "beside it: what the motion is from there is not determined",
+                  qdot_text_str(&names));
+    qdot_text_clear(&names);
+    (void)qdot_hint(count == 1 ? "a start beside that place, or the condition without a square: "
+                                 "`x = 0`, not `x^2 = 0`"
+                               : "a start beside that place");
+    return QDOT_ESINGULAR;
+}
+
+/* --- conditions that only constraints together make ------------------------------------ */
+
+/* x = t and x' = y have one direction, and the second is no repetition: y = 1. One alone that stands
+ * in for nothing has none. */
+static qdot_status
+refuse_hidden(place *p, const double *y, size_t row, const char *of)
+{
+    qdot_text names = {0};
+    const size_t count = name_dependent(p, y, row, &names);
+
+    if (count == 1) {
+        if (qdot_text_status(&names) == QDOT_OK)
+            qdot_fail(QDOT_ESINGULAR,
+                      "at the start %.200s has no direction: what the motion is from there is not "
+                      "determined",
+                      qdot_text_str(&names));
+        qdot_text_clear(&names);
+        (void)qdot_hint("a start beside that place");
+        return QDOT_ESINGULAR;
+    }
+    if (qdot_text_status(&names) == QDOT_OK)
+        qdot_fail(QDOT_EINVAL,
+                  "%.200s together leave a condition on %s that is none of the constraints: it "
+                  "holds at the start, but not beside it",
+                  qdot_text_str(&names), of);
+    qdot_text_clear(&names);
+    (void)qdot_hint("that condition as a constraint too");
+    return QDOT_EINVAL;
+}
+
+/* A little later no position was found: x = t^2 and x = t^2 + t^3 part, where the start left nothing of
+ * that. Rows that could not be met beside independent ones that are. */
+static qdot_status
+check_parted(place *p, const double *y, double t)
+{
+    const size_t m = p->h->c->m;
+    double met = 0, most = 0, before;
+    size_t worst = 0;
+
+    for (size_t j = 0; j < m; j++) {
+        const size_t r = p->rows.order[j];
+
+        if (j < p->rows.rank) {
+            met = fmax(met, fabs(p->b[r]));
+        } else if (fabs(p->b[r]) > most) {
+            most = fabs(p->b[r]);
+            worst = r;
+        }
+    }
+    qdot_constrained_load(p->h, t, y);
+    qdot_constrained_positions(p->h);
+    before = fabs(p->h->f[worst]);
+    return most > 1e-10 && most > 1e3 * (met + before) ? refuse_hidden(p, y, worst, "time")
+                                                       : QDOT_OK;
+}
+
+/* Velocities beside those at p->y that the independent rows allow; *worst of the others, and by
+ * how much it is broken. Whether there are such. */
+static bool
+move_velocities(place *p, size_t *worst, double *by)
+{
+    const size_t n = p->h->plan->n, m = p->h->c->m;
+    double *v = p->y + n, size = 1, most = INFINITY;
+
+    for (size_t i = 0; i < n; i++)
+        size = fmax(size, fabs(v[i]));
+    for (size_t i = 0; i < n; i++) /* without a pattern */
+        v[i] += beside * size * sin(1.0 + 7.0 * (double)i);
+    for (int k = 0; k < iterations && most > 1e-12 * size; k++) {
+        qdot_constrained_load(p->h, p->t, p->y);
+        qdot_constrained_velocities(p->h);
+        for (size_t r = 0; r < m; r++)
+            p->b[r] = -p->h->w[r];
+        take_slopes(p, true);
+        for (size_t r = 0; r < m; r++)
+            if (p->h->c->rows[r].kind == QDOT_ACCELERATION)
+                memset(p->A + r * n, 0, n * sizeof *p->A);
+        qdot_row_space_factor(&p->rows, p->A, independent, false);
+        most = *by = 0;
+        for (size_t j = 0; j < m; j++) {
+            const size_t r = p->rows.order[j];
+
+            if (j < p->rows.rank) {
+                most = fmax(most, fabs(p->b[r]));
+            } else if (fabs(p->b[r]) > *by) {
+                *by = fabs(p->b[r]);
+                *worst = r;
+            }
+        }
+        qdot_row_space_shortest(&p->rows, p->b, p->x, NULL);
+        for (size_t i = 0; i < n; i++)
+            v[i] += p->x[i];
+    }
+    *by /= size;
+    return most < 1e-9 * size;
+}
+
+/* At a state beside the start, or a little later. */
+static qdot_status
+check_hidden(place *p, const double *y, bool later)
+{
+    size_t worst = 0;
+    double by = 0;
+
+    if (!move_velocities(p, &worst, &by))
+        return QDOT_OK;
+    if (by > hidden)
+        return refuse_hidden(p, y, worst, later ? "time" : "positions");
+    if (qdot_constrained_solve(p->h, p->t, p->y, p->h->a, NULL) != QDOT_OK ||
+        qdot_constrained_check_repeated(p->h, QDOT_EINVAL) == QDOT_OK)
+        return QDOT_OK;
+    worst = qdot_constrained_contradicting(p->h);
+    return refuse_hidden(p, y, worst,
+                         later                                              ? "time"
+                         : p->h->c->rows[worst].kind == QDOT_ACCELERATION ? "positions or velocities"
+                                                                          : "velocities");
+}
+
+/* Rows that repeat others at the start must do so beside it, too: else the rank that is kept
+ * is that of a moment. */
+static qdot_status
+check_place(qdot_constrained *h, double t, const double *y)
+{
+    const size_t n = h->plan->n, m = h->c->m;
+    const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
+    const size_t rank = s->rank, repeated = rank < m ? s->pivot[rank] : 0;
+    place p = {.h = h, .t = t};
+    bool holds;
+    qdot_status status;
+
+    if (rank == m)
+        return QDOT_OK;
+    holds = qdot_constrained_contradicting(h) == SIZE_MAX; /* the start itself */
+    p.y = qdot_calloc(3 * n + m * n + m, sizeof *p.y);
+    if (!p.y)
+        return QDOT_ENOMEM;
+    p.x = p.y + 2 * n;
+    p.A = p.x + n;
+    p.b = p.A + m * n;
+    status = qdot_row_space_init(&p.rows, m, n);
+    for (int k = 0; k < tries && status == QDOT_OK; k++) {
+        const bool later = k + 1 == tries; /* after the start itself has been looked about */
+
+        p.t = later ? t + beside : t;
+        if (!step_aside(&p, y, k)) {
+            if (later && holds)
+                status = check_parted(&p, y, t);
+            continue;
+        }
+        take_slopes(&p, true);
+        qdot_row_space_factor(&p.rows, p.A, independent, false);
+        if (p.rows.rank <= rank && holds)
+            status = check_hidden(&p, y, later);
+        else if (p.rows.rank > rank && !later)
+            status = refuse(&p, y, repeated);
+    }
+    p.t = t;
+    if (status == QDOT_OK) { /* as it was, for what reads it next */
+        memcpy(p.y, y, 2 * n * sizeof *y);
+        take_slopes(&p, true);
+        status = qdot_constrained_solve(h, t, y, h->a, NULL);
+    }
+    qdot_row_space_clear(&p.rows);
+    qdot_free(p.y);
+    return status;
+}
+
+/* --- the start ---------------------------------------------------------------------- */
+
+static qdot_status
+broken(const qdot_constrained *h, size_t row, double residual, const char *what)
+{
+    qdot_fail(QDOT_EINVAL, "the start breaks the constraint %s: %s is %.3g, not 0",
+              h->c->rows[row].name, what, residual);
+    return qdot_hint("start values that fulfil it");
+}
+
+qdot_status
+qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
+{
+    const size_t n = h->plan->n;
+    qdot_constrained_level *l = h->at[QDOT_HOLONOMIC];
+    double moved;
+
+    qdot_constrained_load(h, t, y);
+    qdot_constrained_residuals(h);
+    for (size_t k = 0; k < h->c->m; k++)
+        if (!(fabs(h->f[k]) <= start_tolerance))
+            return broken(h, k, h->f[k], "left - right");
+    for (size_t k = 0; k < h->c->m; k++)
+        if (!(fabs(h->w[k]) <= start_tolerance))
+            return broken(h, k, h->w[k],
+                          h->c->rows[k].kind == QDOT_HOLONOMIC
+                              ? "the time derivative of left - right"
+                              : "left - right");
+    /* the bounds, before anything is judged by them */
+    if (l->m > 0) {
+        QDOT_TRY(qdot_constrained_factor_metric(h, l));
+        qdot_constrained_raise_bounds(l, y, h->f_bound);
+    }
+    l = h->at[QDOT_VELOCITY];
+    if (l->m > 0) {
+        QDOT_TRY(qdot_constrained_factor_metric(h, l));
+        qdot_constrained_raise_bounds(l, y + n, h->w_bound);
+    }
+    QDOT_TRY(qdot_constrained_project(t, y, low, &moved, h));
+    QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, NULL));
+    QDOT_TRY(check_place(h, t, y));
+    return qdot_constrained_check_repeated(h, QDOT_EINVAL);
+}

@@ -1,0 +1,431 @@
+/* constrained.c -- tapes into saddle-point systems, one for each level of differentiation. */
+#include "sim/model/constrained.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "sim/model/constrained-parts.h"
+#include "tape/shake.h"
+
+typedef qdot_constrained_level level;
+
+void
+qdot_constrained_free(qdot_constrained *h)
+{
+    if (!h)
+        return;
+    for (int l = 0; l < 3; l++) {
+        qdot_saddle_clear(&h->levels[l].saddle);
+        qdot_free(h->levels[l].row);
+        qdot_free(h->levels[l].residual);
+        qdot_free(h->levels[l].move.W);
+    }
+    qdot_tape_free(h->positions);
+    qdot_tape_free(h->velocities);
+    qdot_tape_free(h->metric);
+    qdot_tape_free(h->equations);
+    qdot_free(h->in);
+    qdot_free(h->out);
+    qdot_free(h->work);
+    qdot_free(h->f);
+    qdot_free(h->w);
+    qdot_free(h->f_bound);
+    qdot_free(h->w_bound);
+    qdot_free(h->a);
+    qdot_free(h->slopes);
+    qdot_free(h->gains);
+    qdot_free(h->slopes_work);
+    qdot_free(h);
+}
+
+/* --- evaluation --------------------------------------------------------------------- */
+
+void
+qdot_constrained_load(qdot_constrained *h, double t, const double *y)
+{
+    memcpy(h->in, y, 2 * h->plan->n * sizeof *y);
+    h->in[2 * h->plan->n] = t;
+}
+
+/* Residuals of positions, of velocities at what is loaded, by row; 0 where a row has none.
+ */
+void
+qdot_constrained_positions(qdot_constrained *h)
+{
+    const qdot_constraints *c = h->c;
+    const double *out = h->out;
+
+    qdot_tape_eval(qdot_constrained_tape(h->positions, c->positions), h->in, h->out, h->work);
+    for (size_t k = 0; k < c->m; k++)
+        h->f[k] = c->rows[k].kind == QDOT_HOLONOMIC ? *out++ : 0;
+}
+
+void
+qdot_constrained_velocities(qdot_constrained *h)
+{
+    const qdot_constraints *c = h->c;
+    const double *out = h->out;
+
+    qdot_tape_eval(qdot_constrained_tape(h->velocities, c->velocities), h->in, h->out, h->work);
+    for (size_t k = 0; k < c->m; k++)
+        h->w[k] = c->rows[k].kind != QDOT_ACCELERATION ? *out++ : 0;
+}
+
+void
+qdot_constrained_residuals(qdot_constrained *h)
+{
+    qdot_constrained_positions(h);
+    qdot_constrained_velocities(h);
+}
+
+/* M and A from outputs into a level. Returns what stands behind them. */
+static const double *
+unpack(qdot_constrained *h, level *l, const double *from)
+{
+    const qdot_constraints *c = h->c;
+    const size_t n = h->plan->n;
+    size_t at = 0;
+
+    for (size_t k = 0; k < c->n_masses; k++) {
+        size_t i = c->masses[k].row, j = c->masses[k].column;
+
+        l->saddle.M[i * n + j] = l->saddle.M[j * n + i] = *from++;
+    }
+    for (size_t s = 0; s < c->n_slopes; s++, from++) {
+        while (at < l->m && l->row[at] < c->slopes[s].row)
+            at++;
+        if (at < l->m && l->row[at] == c->slopes[s].row)
+            l->saddle.A[at * n + c->slopes[s].column] = *from;
+    }
+    return from;
+}
+
+void
+qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *l)
+{
+    qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
+    unpack(h, l, h->out);
+}
+
+static qdot_status
+dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
+{
+    static const double lost = 1e-9; /* of independence: as much as nothing */
+    qdot_text names = {0};
+    const size_t count = qdot_constrained_dependent(c, s, row, lost, &names);
+
+    if (qdot_text_status(&names) == QDOT_OK && count > 0)
+        qdot_fail(QDOT_ESINGULAR, "%.300s %s here", qdot_text_str(&names),
+                  count == 1 ? "has no direction" : "stop being independent");
+    qdot_text_clear(&names);
+    return QDOT_ESINGULAR;
+}
+
+/* Rows that have faded, where some repeat others: one that is held has nothing to hold on to. */
+static qdot_status
+without_others(const qdot_constraints *c, const qdot_saddle *s, const size_t *row)
+{
+    for (size_t j = 0; j < s->rank; j++)
+        if (qdot_saddle_has_faded(s, s->pivot[j]))
+            return qdot_constrained_without_direction(c, row ? row[s->pivot[j]] : s->pivot[j]);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_constrained_factor_rows(const qdot_plan *p, qdot_saddle *s, const size_t *row)
+{
+    const size_t faded = qdot_saddle_faded(s);
+    size_t failed = 0;
+    qdot_status status;
+
+    if (faded < s->m && s->rank == s->m)
+        return qdot_constrained_without_direction(p->constraints, row ? row[faded] : faded);
+    status = qdot_saddle_factor(s, &failed);
+    if (status == QDOT_OK && faded < s->m)
+        return without_others(p->constraints, s, row);
+    if (status != QDOT_ESINGULAR)
+        return status;
+    if (failed >= p->n)
+        return dependent(p->constraints, s, row);
+    return qdot_fail(status, "the mass matrix is singular: no mass moves with %s",
+                     p->names[failed]);
+}
+
+qdot_status
+qdot_constrained_factor(const qdot_plan *plan, qdot_saddle *s)
+{
+    return qdot_constrained_factor_rows(plan, s, NULL);
+}
+
+static void
+damp(const qdot_constrained *h, double *gamma)
+{
+    const double a = QDOT_CONSTRAINED_RATE;
+
+    for (size_t k = 0; k < h->c->m; k++)
+        gamma[k] -= h->c->rows[k].kind == QDOT_HOLONOMIC
+                        ? 2 * a * h->w[k] + a * a * h->f[k]
+                        : a * h->w[k];
+}
+
+qdot_status
+qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a,
+                       double *lambda)
+{
+    const qdot_plan *p = h->plan;
+    const size_t n = p->n, m = h->c->m;
+    level *all = h->at[QDOT_ACCELERATION];
+    double *x = all->saddle.x;
+    const double *gamma;
+
+    qdot_constrained_load(h, t, y);
+    if (p->treatment == QDOT_RUN_BAUMGARTE)
+        qdot_constrained_residuals(h);
+    qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
+    gamma = unpack(h, all, h->out + n);
+    memcpy(x, h->out, n * sizeof *x);
+    memcpy(x + n, gamma, m * sizeof *x);
+    if (p->treatment == QDOT_RUN_BAUMGARTE)
+        damp(h, x + n);
+    QDOT_TRY(qdot_constrained_look_first(h, all));
+    QDOT_TRY(qdot_constrained_factor_rows(p, &all->saddle, all->row));
+    qdot_saddle_solve_refined(&all->saddle);
+    for (size_t i = 0; i < n; i++) {
+        a[i] = x[i];
+        if (!isfinite(a[i]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             p->names[i]);
+    }
+    for (size_t k = 0; lambda && k < m; k++)
+        lambda[k] = -x[n + k];
+    return QDOT_OK;
+}
+
+/* A q'' - gamma of row k, of whose terms the largest is *size. */
+static double
+left_of(const qdot_constrained *h, size_t k, double *size)
+{
+    const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
+    const size_t n = h->plan->n;
+    const double gamma = h->out[n + h->c->n_masses + h->c->n_slopes + k];
+    double sum = -gamma;
+
+    *size = fabs(gamma);
+    for (size_t i = 0; i < n; i++) {
+        sum += s->A[k * n + i] * h->a[i];
+        *size = fmax(*size, fabs(s->A[k * n + i] * h->a[i]));
+    }
+    return sum;
+}
+
+/* Of second derivatives, what drift makes of them: by the terms that would damp it. */
+static double
+by_drift(qdot_constrained *h)
+{
+    const double a = QDOT_CONSTRAINED_RATE;
+    double sum = 0;
+
+    if (h->plan->treatment == QDOT_RUN_PROJECT)
+        return 0;
+    qdot_constrained_residuals(h);
+    for (size_t k = 0; k < h->c->m; k++)
+        sum += 2 * a * fabs(h->w[k]) + a * a * fabs(h->f[k]);
+    return sum;
+}
+
+size_t
+qdot_constrained_contradicting(qdot_constrained *h)
+{
+    const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
+    const double drift = by_drift(h);
+
+    for (size_t j = s->rank; j < s->m; j++) {
+        double size;
+
+        if (fabs(left_of(h, s->pivot[j], &size)) > 1e-6 * fmax(1, size) + drift)
+            return s->pivot[j];
+    }
+    return SIZE_MAX;
+}
+
+qdot_status
+qdot_constrained_check_repeated(qdot_constrained *h, qdot_status broken)
+{
+    const size_t k = qdot_constrained_contradicting(h);
+    double size;
+
+    return k == SIZE_MAX ? QDOT_OK
+                         : qdot_fail(broken,
+                                     "constraint %s contradicts the others: they leave it a "
+                                     "second derivative of %.3g",
+                                     h->c->rows[k].name, left_of(h, k, &size));
+}
+
+qdot_constrained_residual
+qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
+{
+    qdot_constrained_residual r = {.worst_position = SIZE_MAX,
+                                   .worst_velocity = SIZE_MAX};
+
+    qdot_constrained_load(h, t, y);
+    qdot_constrained_residuals(h);
+    for (size_t k = 0; k < h->c->m; k++) {
+        if (h->c->rows[k].kind == QDOT_HOLONOMIC && !(fabs(h->f[k]) < r.position)) {
+            r.position = fabs(h->f[k]);
+            r.worst_position = k;
+        }
+        if (h->c->rows[k].kind != QDOT_ACCELERATION && !(fabs(h->w[k]) < r.velocity)) {
+            r.velocity = fabs(h->w[k]);
+            r.worst_velocity = k;
+        }
+    }
+    return r;
+}
+
+double
+qdot_constrained_cost(const qdot_plan *p)
+{
+    const qdot_constraints *c = p->constraints;
+    const double often = (double)(qdot_tape_operations(c->positions) +
+                                  qdot_tape_operations(c->velocities));
+    const double calls = (double)(qdot_tape_calls(c->positions) +
+                                  qdot_tape_calls(c->velocities));
+
+    if (p->treatment != QDOT_RUN_PROJECT)
+        return 0;
+    /* three evaluations of either level, one of the metric, the small steps between */
+    return 150 + 3 * (often + 10 * calls) + (double)qdot_tape_operations(c->metric) +
+           10 * (double)qdot_tape_calls(c->metric) + 60.0 * (double)c->m +
+           15.0 * (double)c->n_slopes + 10.0 * (double)p->n;
+}
+
+size_t
+qdot_constrained_rows(const qdot_constrained *h)
+{
+    return h->c->m;
+}
+
+size_t
+qdot_constrained_rank(const qdot_constrained *h)
+{
+    return h->at[QDOT_ACCELERATION]->saddle.rank;
+}
+
+size_t
+qdot_constrained_factored(const qdot_constrained *h)
+{
+    return h->levels[0].saddle.factored + h->levels[1].saddle.factored +
+           h->levels[2].saddle.factored;
+}
+
+/* --- building ----------------------------------------------------------------------- */
+
+static qdot_status
+find_pattern(const qdot_constraints *c, level *l)
+{
+    qdot_saddle_entry *slopes = qdot_calloc(c->n_slopes + 1, sizeof *slopes);
+    size_t count = 0, at = 0;
+    qdot_status status;
+
+    if (!slopes)
+        return QDOT_ENOMEM;
+    for (size_t s = 0; s < c->n_slopes; s++) {
+        while (at < l->m && l->row[at] < c->slopes[s].row)
+            at++;
+        if (at < l->m && l->row[at] == c->slopes[s].row)
+            slopes[count++] = (qdot_saddle_entry){(uint32_t)at, c->slopes[s].column};
+    }
+    status = qdot_saddle_pattern(&l->saddle, c->n_masses, c->masses, count, slopes);
+    qdot_free(slopes);
+    return status;
+}
+
+static qdot_status
+make_level(qdot_constrained *h, qdot_constraint_kind kind)
+{
+    const qdot_constraints *c = h->c;
+    level *l = h->levels + kind;
+
+    for (size_t k = 0; k < c->m; k++)
+        l->m += c->rows[k].kind <= kind;
+    h->at[kind] = l;
+    if (kind > 0 && h->at[kind - 1]->m == l->m) {
+        h->at[kind] = h->at[kind - 1];
+        l->m = 0;
+        return QDOT_OK;
+    }
+    l->row = qdot_calloc(l->m + 1, sizeof *l->row);
+    l->residual = qdot_calloc(l->m + 1, sizeof *l->residual);
+    l->move = (qdot_least_move){.n = h->plan->n, .m = l->m};
+    l->move.W = qdot_calloc(l->m * h->plan->n + 1, sizeof *l->move.W);
+    if (!l->row || !l->residual || !l->move.W)
+        return QDOT_ENOMEM;
+    l->few = l->m <= QDOT_LEAST_MOVE_ROWS && c->n_masses == h->plan->n && !h->plan->indefinite;
+    for (size_t k = 0; k < c->n_masses; k++)
+        l->few = l->few && c->masses[k].row == c->masses[k].column;
+    for (size_t k = 0, at = 0; k < c->m; k++)
+        if (c->rows[k].kind <= kind)
+            l->row[at++] = k;
+    QDOT_TRY(qdot_saddle_init(&l->saddle, h->plan->n, l->m, h->plan->indefinite));
+    return find_pattern(c, l);
+}
+
+static qdot_status
+shake(qdot_constrained *h)
+{
+    QDOT_TRY(qdot_tape_shake(h->c->positions, &h->positions));
+    QDOT_TRY(qdot_tape_shake(h->c->velocities, &h->velocities));
+    QDOT_TRY(qdot_tape_shake(h->c->metric, &h->metric));
+    return qdot_tape_shake(h->plan->tape, &h->equations);
+}
+
+static qdot_status
+make(qdot_constrained *h, bool shaken)
+{
+    const qdot_tape *tapes[] = {h->c->positions, h->c->velocities, h->c->metric,
+                                h->plan->tape};
+    size_t out = 0, work = 0, m = h->c->m;
+
+    for (size_t i = 0; i < sizeof tapes / sizeof *tapes; i++) {
+        size_t o = qdot_tape_outputs(tapes[i]), w = qdot_tape_work(tapes[i]);
+
+        out = o > out ? o : out;
+        work = w > work ? w : work;
+    }
+    h->in = qdot_calloc(2 * h->plan->n + 1, sizeof *h->in);
+    h->out = qdot_calloc(out + 1, sizeof *h->out);
+    h->work = qdot_calloc(work + 1, sizeof *h->work);
+    h->f = qdot_calloc(m + 1, sizeof *h->f);
+    h->w = qdot_calloc(m + 1, sizeof *h->w);
+    h->f_bound = qdot_calloc(m + 1, sizeof *h->f_bound);
+    h->w_bound = qdot_calloc(m + 1, sizeof *h->w_bound);
+    h->a = qdot_calloc(h->plan->n + m, sizeof *h->a);
+    if (!h->in || !h->out || !h->work || !h->f || !h->w || !h->a || !h->f_bound ||
+        !h->w_bound)
+        return QDOT_ENOMEM;
+    for (int kind = 0; kind < 3; kind++)
+        QDOT_TRY(make_level(h, (qdot_constraint_kind)kind));
+    if (qdot_plan_needs_jacobian(h->plan))
+        QDOT_TRY(qdot_constrained_make_slopes(h, out));
+    return shaken ? shake(h) : QDOT_OK;
+}
+
+qdot_status
+qdot_constrained_new(const qdot_plan *plan, bool shaken, qdot_constrained **held)
+{
+    qdot_constrained *h = qdot_calloc(1, sizeof *h);
+    qdot_status status;
+
+    *held = NULL;
+    if (!h)
+        return QDOT_ENOMEM;
+    h->plan = plan;
+    h->c = plan->constraints;
+    status = make(h, shaken);
+    if (status != QDOT_OK) {
+        qdot_constrained_free(h);
+        return status;
+    }
+    *held = h;
+    return QDOT_OK;
+}

@@ -1,0 +1,358 @@
+/* constraints.c -- f, its derivatives and slopes of every row, lowered. */
+#include "sim/model/constraints.h"
+
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "sim/model/rates.h"
+#include "sim/model/switch.h"
+
+typedef qdot_vec(qdot_expr) expressions;
+
+typedef struct {
+    const qdot_plan *plan;
+    qdot_constraints *c;
+    expressions positions, velocities, slopes, gamma, masses;
+} builder;
+
+void
+qdot_constraints_free(qdot_constraints *c)
+{
+    if (!c)
+        return;
+    for (size_t k = 0; c->rows && k < c->m; k++)
+        qdot_free(c->rows[k].name);
+    qdot_free(c->rows);
+    qdot_free(c->masses);
+    qdot_free(c->slopes);
+    qdot_free(c->sign);
+    qdot_free(c->A);
+    qdot_free(c->gamma);
+    qdot_tape_free(c->positions);
+    qdot_tape_free(c->velocities);
+    qdot_tape_free(c->metric);
+    qdot_tape_free(c->equations);
+    qdot_tape_free(c->motion);
+    for (int kind = 0; kind < 3; kind++)
+        qdot_tape_free(c->series[kind]);
+    qdot_free(c);
+}
+
+/* --- one row ------------------------------------------------------------------------ */
+
+/* Coordinate i differentiated as often as the kind says. */
+static qdot_expr
+jet(const qdot_plan *p, size_t i, qdot_constraint_kind kind)
+{
+    static const size_t block[] = {[QDOT_HOLONOMIC] = 0, [QDOT_VELOCITY] = 1};
+
+    if (kind == QDOT_ACCELERATION)
+        return p->inputs[2 * p->n + 1 + i];
+    return p->inputs[block[kind] * p->n + i];
+}
+
+static qdot_status
+add_slopes(builder *b, size_t k)
+{
+    const qdot_plan *p = b->plan;
+    const qdot_constraints_row *row = b->c->rows + k;
+    qdot_expr atoms = qdot_expr_atoms(p->pool, row->f, false);
+    size_t capacity = b->c->n_slopes;
+
+    QDOT_TRY(qdot_pool_check(p->pool));
+    for (size_t i = 0; i < p->n - p->n_states; i++) {
+        qdot_expr x = jet(p, i, row->kind), slope;
+        bool there = false;
+
+        for (uint32_t a = 0; a < qdot_expr_count(p->pool, atoms) && !there; a++)
+            there = qdot_expr_arg(p->pool, atoms, a) == x;
+        if (!there)
+            continue;
+        slope = qdot_diff(p->pool, row->f, x);
+        QDOT_TRY(qdot_pool_check(p->pool));
+        if (slope == QDOT_ZERO)
+            continue;
+        QDOT_TRY(qdot_grow(&b->c->slopes, &capacity, b->c->n_slopes + 1,
+                           sizeof *b->c->slopes));
+        b->c->slopes[b->c->n_slopes++] =
+            (qdot_constraints_entry){(uint32_t)k, (uint32_t)i};
+        QDOT_TRY(qdot_vec_push(&b->slopes, slope));
+    }
+    return QDOT_OK;
+}
+
+/* e with the rates of parameters that events set, which are 0. */
+static qdot_expr
+without_rates(const qdot_plan *p, qdot_expr e)
+{
+    for (size_t i = p->n - p->n_states; i < p->n && e != QDOT_NIL; i++) {
+        const qdot_expr zero = QDOT_ZERO;
+
+        e = qdot_subs(p->pool, e, 1, &p->inputs[p->n + i], &zero);
+    }
+    return e;
+}
+
+/* Residuals, and gamma = -(what is left of the last derivative at q'' = 0). */
+static qdot_status
+add_derivatives(builder *b, size_t k)
+{
+    const qdot_plan *p = b->plan;
+    const qdot_constraints_row *row = b->c->rows + k;
+    qdot_expr f = row->f, rest, *zeros;
+
+    if (row->kind == QDOT_HOLONOMIC) {
+        QDOT_TRY(qdot_vec_push(&b->positions, f));
+        f = without_rates(p, qdot_ddt(p->pool, f));
+    }
+    if (row->kind != QDOT_ACCELERATION) {
+        QDOT_TRY(qdot_pool_check(p->pool));
+        QDOT_TRY(qdot_vec_push(&b->velocities, f));
+        f = without_rates(p, qdot_ddt(p->pool, f));
+    }
+    QDOT_TRY(qdot_pool_check(p->pool));
+    zeros = qdot_calloc(p->n, sizeof *zeros);
+    if (!zeros)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < p->n; i++)
+        zeros[i] = QDOT_ZERO;
+    rest = qdot_subs(p->pool, f, p->n, p->inputs + 2 * p->n + 1, zeros);
+    qdot_free(zeros);
+    if (row->kind == QDOT_HOLONOMIC) {
+        qdot_expr shared;
+
+        QDOT_TRY(qdot_rates_second(p->pool, row->f, &shared));
+        if (shared != QDOT_NIL)
+            rest = without_rates(p, shared);
+    }
+    rest = qdot_neg(p->pool, rest);
+    QDOT_TRY(qdot_pool_check(p->pool));
+    return qdot_vec_push(&b->gamma, rest);
+}
+
+static qdot_status
+read_rows(builder *b, const qdot_scene *scene)
+{
+    const qdot_plan *p = b->plan;
+    qdot_constraints *c = b->c;
+
+    c->rows = qdot_calloc(scene->constraints.n, sizeof *c->rows);
+    if (!c->rows)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < scene->constraints.n; k++) {
+        const qdot_constraint *from = scene->constraints.at + k;
+        qdot_constraints_row *row = c->rows + k;
+
+        c->m++;
+        row->name = qdot_strdup(from->name);
+        row->kind = from->kind;
+        row->multiplier = from->multiplier;
+        row->of_kind = c->count[row->kind]++;
+        row->f = qdot_plan_substitute(p, from->f);
+        if (!row->name)
+            return QDOT_ENOMEM;
+        QDOT_TRY(qdot_pool_check(p->pool));
+        if (p->mode)
+            QDOT_TRY(qdot_switches_freeze(p->mode, p->side, 1, &row->f, &row->f));
+        QDOT_TRY(add_slopes(b, k));
+        QDOT_TRY(add_derivatives(b, k));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+read_masses(builder *b)
+{
+    const qdot_plan *p = b->plan;
+    size_t capacity = 0;
+
+    for (size_t i = 0; i < p->n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            if (p->M[i * p->n + j] == QDOT_ZERO)
+                continue;
+            QDOT_TRY(qdot_grow(&b->c->masses, &capacity, b->c->n_masses + 1,
+                               sizeof *b->c->masses));
+            b->c->masses[b->c->n_masses++] =
+                (qdot_constraints_entry){(uint32_t)i, (uint32_t)j};
+            QDOT_TRY(qdot_vec_push(&b->masses, p->M[i * p->n + j]));
+        }
+    return QDOT_OK;
+}
+
+/* --- tapes -------------------------------------------------------------------------- */
+
+static qdot_status
+push_all(expressions *to, size_t n, const qdot_expr *from)
+{
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(qdot_vec_push(to, from[i]));
+    return QDOT_OK;
+}
+
+static qdot_status
+lower(const qdot_plan *p, const expressions *out, qdot_tape **tape)
+{
+    return qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, out->n, out->at, tape);
+}
+
+static qdot_status
+lower_index_1(builder *b)
+{
+    const qdot_plan *p = b->plan;
+    expressions out = {0};
+    qdot_status status = push_all(&out, b->masses.n, b->masses.at);
+
+    if (status == QDOT_OK)
+        status = push_all(&out, b->slopes.n, b->slopes.at);
+    if (status == QDOT_OK)
+        status = lower(p, &out, &b->c->metric);
+    out.n = 0;
+    if (status == QDOT_OK)
+        status = push_all(&out, p->n, p->f);
+    if (status == QDOT_OK)
+        status = push_all(&out, b->masses.n, b->masses.at);
+    if (status == QDOT_OK)
+        status = push_all(&out, b->slopes.n, b->slopes.at);
+    if (status == QDOT_OK)
+        status = push_all(&out, b->gamma.n, b->gamma.at);
+    if (status == QDOT_OK)
+        status = lower(p, &out, &b->c->equations);
+    qdot_free(out.at);
+    return status;
+}
+
+/* The inputs of a series, the newest first; as many as returned. */
+static size_t
+series_inputs(const qdot_plan *p, qdot_constraint_kind kind, qdot_expr *inputs)
+{
+    const size_t n = p->n, bytes = n * sizeof *inputs;
+    const qdot_expr *q = p->inputs, *v = q + n, *a = q + 2 * n + 1;
+    size_t at = 0;
+
+    if (kind == QDOT_ACCELERATION) {
+        memcpy(inputs, a, bytes);
+        at += n;
+    }
+    memcpy(inputs + at, kind == QDOT_VELOCITY ? v : q, bytes);
+    memcpy(inputs + at + n, kind == QDOT_VELOCITY ? q : v, bytes);
+    inputs[at + 2 * n] = QDOT_T;
+    return at + 2 * n + 1;
+}
+
+/* A slope that is an earlier one of its row, negated, is that one: where both are
+ * multiplied by the row's multiplier it is done once. */
+static qdot_status
+find_signs(builder *b)
+{
+    qdot_constraints *c = b->c;
+
+    c->sign = qdot_calloc(c->n_slopes + 1, sizeof *c->sign);
+    if (!c->sign)
+        return QDOT_ENOMEM;
+    for (size_t s = 0; s < c->n_slopes; s++) {
+        const qdot_expr negated = qdot_neg(b->plan->pool, b->slopes.at[s]);
+
+        c->sign[s] = 1;
+        for (size_t i = s; i-- > 0 && c->slopes[i].row == c->slopes[s].row;)
+            if (b->slopes.at[i] == negated && c->sign[i] > 0)
+                c->sign[s] = -1;
+        if (c->sign[s] < 0)
+            b->slopes.at[s] = negated;
+    }
+    return qdot_pool_check(b->plan->pool);
+}
+
+static qdot_status
+lower_series(builder *b, qdot_constraint_kind kind)
+{
+    const qdot_plan *p = b->plan;
+    expressions out = {0};
+    qdot_expr *inputs = qdot_calloc(3 * p->n + 1, sizeof *inputs);
+    qdot_status status = inputs ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < b->c->m && status == QDOT_OK; k++)
+        if (b->c->rows[k].kind == kind)
+            status = qdot_vec_push(&out, b->c->rows[k].f);
+    for (size_t s = 0; s < b->c->n_slopes && status == QDOT_OK; s++)
+        if (b->c->rows[b->c->slopes[s].row].kind == kind)
+            status = qdot_vec_push(&out, b->slopes.at[s]);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(p->pool, series_inputs(p, kind, inputs), inputs, out.n,
+                               out.at, &b->c->series[kind]);
+    qdot_free(out.at);
+    qdot_free(inputs);
+    return status;
+}
+
+static qdot_status
+lower_motion(builder *b)
+{
+    expressions out = {0};
+    qdot_status status = push_all(&out, b->plan->n, b->plan->f);
+
+    if (status == QDOT_OK)
+        status = push_all(&out, b->masses.n, b->masses.at);
+    if (status == QDOT_OK)
+        status = lower(b->plan, &out, &b->c->motion);
+    qdot_free(out.at);
+    return status;
+}
+
+/* A and gamma, for whoever makes further equations of them. */
+static qdot_status
+keep_expressions(builder *b)
+{
+    qdot_constraints *c = b->c;
+
+    c->A = qdot_calloc(c->n_slopes + 1, sizeof *c->A);
+    c->gamma = qdot_calloc(c->m, sizeof *c->gamma);
+    if (!c->A || !c->gamma)
+        return QDOT_ENOMEM;
+    if (c->n_slopes > 0)
+        memcpy(c->A, b->slopes.at, c->n_slopes * sizeof *c->A);
+    memcpy(c->gamma, b->gamma.at, c->m * sizeof *c->gamma);
+    return QDOT_OK;
+}
+
+static qdot_status
+build(builder *b, const qdot_scene *scene)
+{
+    QDOT_TRY(read_rows(b, scene));
+    QDOT_TRY(keep_expressions(b));
+    QDOT_TRY(read_masses(b));
+    QDOT_TRY(lower(b->plan, &b->positions, &b->c->positions));
+    QDOT_TRY(lower(b->plan, &b->velocities, &b->c->velocities));
+    QDOT_TRY(lower_index_1(b));
+    QDOT_TRY(lower_motion(b));
+    QDOT_TRY(find_signs(b)); /* the other tapes have theirs by now */
+    for (int kind = 0; kind < 3; kind++)
+        if (b->c->count[kind] > 0)
+            QDOT_TRY(lower_series(b, (qdot_constraint_kind)kind));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_constraints_new(const qdot_scene *scene, const qdot_plan *plan,
+                     qdot_constraints **constraints)
+{
+    builder b = {.plan = plan};
+    qdot_status status;
+
+    *constraints = NULL;
+    if (scene->constraints.n == 0)
+        return QDOT_OK;
+    b.c = qdot_calloc(1, sizeof *b.c);
+    status = b.c ? build(&b, scene) : QDOT_ENOMEM;
+    qdot_free(b.positions.at);
+    qdot_free(b.velocities.at);
+    qdot_free(b.slopes.at);
+    qdot_free(b.gamma.at);
+    qdot_free(b.masses.at);
+    if (status != QDOT_OK) {
+        qdot_constraints_free(b.c);
+        return status;
+    }
+    *constraints = b.c;
+    return QDOT_OK;
+}

@@ -1,0 +1,71 @@
+/* constraints.h -- the constraints of a plan, with values in place, as tapes.
+ *
+ *     f(q, t) = 0          holonomic      A = df/dq
+ *     f(q, q', t) = 0      velocity       A = df/dq'  (nonlinear ones: Chetaev's rule)
+ *     f(q, q', q'', t) = 0 acceleration   A = df/dq'', linear in q''
+ *
+ * Differentiated as often as the kind asks each says A q'' = gamma(q, q', t), and with
+ * the signs of mech/dynamics/quantity.h the motion is
+ *
+ *     M q'' = f + A^T lambda,   A q'' = gamma
+ *
+ * (sim/model/constrained.h solves it). Rows stand in the order of the scene's constraints, a vector
+ * constraint one row a component.
+ *
+ * Tests  tests/sim/test_constraints.c
+ */
+#ifndef QDOT_SIM_CONSTRAINTS_H
+#define QDOT_SIM_CONSTRAINTS_H
+
+#include "mech/scene/scene.h"
+#include "num/saddle.h"
+#include "sim/plan/plan.h"
+
+typedef struct {
+    char *name;           /* "rod", "pin, 1"; owned */
+    qdot_constraint_kind kind;
+    qdot_expr f;          /* values in place */
+    qdot_expr multiplier; /* the symbol lambda[name] */
+    size_t of_kind;       /* its number among those of its kind */
+} qdot_constraints_row;
+
+/* An entry that is not zero: of M (row >= column) or of A (a constraint, a coordinate).
+ */
+typedef qdot_saddle_entry qdot_constraints_entry;
+
+struct qdot_constraints {
+    size_t m; /* rows */
+    size_t count[3]; /* of each kind */
+    qdot_constraints_row *rows;
+    qdot_constraints_entry *masses; /* [n_masses] of M */
+    size_t n_masses;
+    qdot_constraints_entry *slopes; /* [n_slopes] of A, row by row */
+    size_t n_slopes;
+    signed char *sign; /* [n_slopes] slopes of `series` times it are those of A */
+    qdot_expr *A;      /* [n_slopes] those of A */
+    qdot_expr *gamma;  /* [m] */
+
+    /* From q [n], q' [n], t, n the plan's. Residuals: */
+    qdot_tape *positions;  /* f of the holonomic rows, in their order */
+    qdot_tape *velocities; /* df/dt of the holonomic and f of the velocity rows, in the
+                              order of all rows, those of accelerations left out */
+    qdot_tape *metric;     /* M [n_masses], A [n_slopes] */
+    qdot_tape *equations;  /* f [n], M [n_masses], A [n_slopes], gamma [m]; given over to
+                              plan->tape, NULL after that */
+
+    /* For Taylor series: f [n], M [n_masses] from q, q', t; */
+    qdot_tape *motion;
+    /* and by kind, NULL without such rows: f of its rows, then their slopes but for
+     * `sign`, from first what is newest:
+     *     holonomic q, q', t   velocity q', q, t   acceleration q'', q, q', t */
+    qdot_tape *series[3];
+};
+
+/* Of a scene whose plan has its values, M and f; NULL for a scene without. Errors:
+ * those of lowering. */
+QDOT_MUST_CHECK qdot_status qdot_constraints_new(const qdot_scene *scene,
+                                                 const qdot_plan *plan,
+                                                 qdot_constraints **constraints);
+void qdot_constraints_free(qdot_constraints *c);
+
+#endif

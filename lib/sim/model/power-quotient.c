@@ -1,0 +1,62 @@
+/* power-quotient.c -- factor by factor of every product. */
+#include "sim/model/power-quotient.h"
+
+#include "expr/walk.h"
+
+/* Of a sum c + k b^p: k, c, and b^-p. */
+static bool
+is_power_and_number(qdot_pool *pool, qdot_expr sum, qdot_expr parts[3])
+{
+    if (qdot_expr_kind(pool, sum) != QDOT_SUM || qdot_expr_count(pool, sum) != 3 ||
+        qdot_expr_arg(pool, sum, 0) == QDOT_ZERO)
+        return false;
+    parts[0] = qdot_expr_arg(pool, sum, 2);
+    parts[1] = qdot_expr_arg(pool, sum, 0);
+    parts[2] = qdot_div(pool, QDOT_ONE, qdot_expr_arg(pool, sum, 1));
+    return true;
+}
+
+/* Whether a product has the one factor that a power b^-p is. */
+static bool
+has(const qdot_pool *pool, qdot_expr product, qdot_expr power)
+{
+    qdot_expr b = power, p = QDOT_ONE;
+
+    if (qdot_expr_kind(pool, power) == QDOT_PROD) {
+        if (qdot_expr_count(pool, power) != 3 || qdot_expr_arg(pool, power, 0) != QDOT_ONE)
+            return false;
+        b = qdot_expr_arg(pool, power, 1);
+        p = qdot_expr_arg(pool, power, 2);
+    }
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, product); i += 2)
+        if (qdot_expr_arg(pool, product, i) == b && qdot_expr_arg(pool, product, i + 1) == p)
+            return true;
+    return false;
+}
+
+static qdot_expr
+over(qdot_pool *pool, qdot_expr product, void *user)
+{
+    qdot_expr e = product, parts[3];
+
+    (void)user;
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, product); i += 2) {
+        const qdot_expr sum = qdot_expr_arg(pool, product, i);
+
+        if (qdot_expr_arg(pool, product, i + 1) != QDOT_ONE ||
+            !is_power_and_number(pool, sum, parts) || qdot_pool_failed(pool) ||
+            !has(pool, product, parts[2]))
+            continue;
+        e = qdot_div(pool, qdot_div(pool, e, sum), parts[2]);
+        return qdot_mul(pool, e,
+                        qdot_hold(pool, qdot_add(pool, parts[0],
+                                                 qdot_mul(pool, parts[1], parts[2]))));
+    }
+    return e;
+}
+
+qdot_expr
+qdot_power_quotient(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_walk_replace(pool, e, QDOT_PROD, over, NULL);
+}

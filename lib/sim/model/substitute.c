@@ -1,0 +1,93 @@
+/* substitute.c -- functions first, until none is left; then symbols. */
+#include "sim/model/substitute.h"
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+
+enum { MOST_NESTING = 64 };
+
+typedef struct {
+    size_t n;
+    const qdot_expr *symbols, *values;
+} table;
+
+/* The value of the function of which `node` is an application; nil if none is given. */
+static qdot_expr
+function_value(qdot_pool *pool, const table *t, qdot_expr node)
+{
+    for (size_t i = 0; i < t->n; i++)
+        if (qdot_expr_kind(pool, t->symbols[i]) == QDOT_UFUN
+            && qdot_expr_node(pool, t->symbols[i])->op == qdot_expr_node(pool, node)->op)
+            return t->values[i];
+    return QDOT_NIL;
+}
+
+/* D^orders value at the arguments of the application. */
+static qdot_expr
+apply(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const table *t = user;
+    qdot_expr value, formals, *from, *to;
+    uint32_t arity;
+
+    if (qdot_expr_kind(pool, node) != QDOT_UFUN)
+        return QDOT_NIL;
+    value = function_value(pool, t, node);
+    if (value == QDOT_NIL)
+        return QDOT_NIL;
+    arity = qdot_ufun_get(pool, qdot_expr_node(pool, node)->op)->arity;
+    formals = qdot_ufun_get(pool, qdot_expr_node(pool, node)->op)->formals;
+    from = qdot_malloc(2 * (size_t)arity * sizeof *from);
+    if (!from)
+        return qdot_pool_fail(pool);
+    to = from + arity;
+    for (uint32_t i = 0; i < arity; i++) {
+        long order = 0;
+
+        from[i] = qdot_expr_arg(pool, formals, i);
+        to[i] = qdot_expr_arg(pool, node, i);
+        qdot_expr_to_int(pool, qdot_expr_arg(pool, node, arity + i), &order);
+        for (long k = 0; k < order; k++)
+            value = qdot_diff(pool, value, from[i]);
+    }
+    value = qdot_subs(pool, value, arity, from, to);
+    qdot_free(from);
+    return value;
+}
+
+qdot_expr
+qdot_substitute(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *symbols,
+                const qdot_expr *values)
+{
+    table t = {n, symbols, values};
+    bool functions = false;
+    qdot_expr *from, before;
+    size_t count = 0;
+
+    for (size_t i = 0; i < n; i++)
+        functions |= qdot_expr_kind(pool, symbols[i]) == QDOT_UFUN;
+    for (int round = 0; functions && e != QDOT_NIL; round++) {
+        before = e;
+        e = qdot_walk_map(pool, e, apply, &t);
+        if (e == before)
+            break;
+        if (round == MOST_NESTING) {
+            qdot_fail(QDOT_EINVAL,
+                      "the functions that were set are defined by each other in a circle");
+            return qdot_pool_fail(pool);
+        }
+    }
+    from = qdot_malloc(2 * (n + 1) * sizeof *from);
+    if (!from)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < n; i++)
+        if (qdot_expr_kind(pool, symbols[i]) != QDOT_UFUN) {
+            from[count] = symbols[i];
+            from[n + 1 + count++] = values[i];
+        }
+    if (count > 0)
+        e = qdot_subs(pool, e, count, from, from + n + 1);
+    qdot_free(from);
+    return e;
+}

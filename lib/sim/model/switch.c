@@ -1,0 +1,414 @@
+/* switch.c -- what switches in the equations, found and frozen. */
+#include "sim/model/switch.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/walk.h"
+#include "mech/dynamics/dalembert.h"
+#include "sim/model/substitute.h"
+
+void
+qdot_switches_clear(qdot_switches *s)
+{
+    qdot_free(s->surfaces.at);
+    qdot_free(s->atoms.at);
+    *s = (qdot_switches){0};
+}
+
+static bool
+moves(const qdot_pool *pool, qdot_expr e)
+{
+    return (qdot_expr_node(pool, e)->holds
+            & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME
+               | QDOT_HAS_MULTIPLIER))
+           != 0;
+}
+
+static bool
+is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
+{
+    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == id;
+}
+
+static bool
+is_relation(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_REL;
+}
+
+/* Whether the node itself switches; `if` does by the relations in it. */
+static bool
+is_atom(const qdot_pool *pool, qdot_expr e)
+{
+    static const qdot_fun_id ids[] = {QDOT_ABS, QDOT_SIGN,  QDOT_MIN,
+                                      QDOT_MAX, QDOT_FLOOR, QDOT_MOD};
+
+    if (!moves(pool, e))
+        return false;
+    if (is_relation(pool, e))
+        return true;
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (is_function(pool, e, ids[i]))
+            return true;
+    return false;
+}
+
+/* u or -u, whichever prints without a sign in front; *turned: it is -u. */
+static qdot_expr
+upright(qdot_pool *pool, qdot_expr u, bool *turned)
+{
+    *turned = qdot_expr_is_negative(pool, u);
+    return *turned ? qdot_neg(pool, u) : u;
+}
+
+static qdot_status collect(qdot_switches *s, qdot_expr e);
+
+/* Behind the surfaces inside it, which may be new: a difference is put in order. */
+static qdot_status
+add_surface(qdot_switches *s, qdot_expr u, bool steps)
+{
+    char name[32];
+    qdot_expr side;
+    bool turned;
+
+    if (!steps)
+        u = upright(s->pool, u, &turned);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (!moves(s->pool, u)) /* what moved cancelled */
+        return QDOT_OK;
+    QDOT_TRY(collect(s, u));
+    for (size_t i = 0; i < s->surfaces.n; i++)
+        if (s->surfaces.at[i].u == u && s->surfaces.at[i].steps == steps)
+            return QDOT_OK;
+    /* a space is in no name of a user */
+    snprintf(name, sizeof name, "side %zu", s->surfaces.n + 1);
+    side = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return qdot_vec_push(&s->surfaces, ((qdot_surface){u, steps, side}));
+}
+
+static qdot_status
+add_atom(qdot_switches *s, qdot_expr e)
+{
+    qdot_pool *pool = s->pool;
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr a = qdot_expr_arg(pool, e, 0), b = n > 1 ? qdot_expr_arg(pool, e, 1) : a;
+
+    for (size_t i = 0; i < s->atoms.n; i++)
+        if (s->atoms.at[i] == e)
+            return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&s->atoms, e));
+    if (is_relation(pool, e))
+        return add_surface(s, qdot_sub(pool, a, b), false);
+    if (is_function(pool, e, QDOT_ABS) || is_function(pool, e, QDOT_SIGN))
+        return add_surface(s, a, false);
+    if (is_function(pool, e, QDOT_FLOOR))
+        return add_surface(s, a, true);
+    if (is_function(pool, e, QDOT_MOD))
+        return add_surface(s, qdot_div(pool, a, b), true);
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = i + 1; j < n; j++)
+            QDOT_TRY(add_surface(s,
+                                 qdot_sub(pool, qdot_expr_arg(pool, e, i),
+                                          qdot_expr_arg(pool, e, j)),
+                                 false));
+    return QDOT_OK;
+}
+
+/* Everything in e that switches. */
+static qdot_status
+collect(qdot_switches *s, qdot_expr e)
+{
+    qdot_walk walk;
+    qdot_status status = qdot_walk_begin(s->pool, e, &walk);
+
+    for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
+        if (is_atom(s->pool, walk.at[i]))
+            status = add_atom(s, walk.at[i]);
+    qdot_walk_end(&walk);
+    return status;
+}
+
+static bool
+switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
+{
+    bool found = false;
+    qdot_walk walk;
+
+    if (e == QDOT_NIL || *status != QDOT_OK)
+        return false;
+    *status = qdot_walk_begin(s->pool, e, &walk);
+    for (size_t i = 0; *status == QDOT_OK && i < walk.n; i++)
+        found = found || is_atom(s->pool, walk.at[i]);
+    qdot_walk_end(&walk);
+    return found;
+}
+
+/* q' M q' / 2 of a mass matrix with the values put in. */
+static qdot_expr
+kinetic(qdot_scene *scene, qdot_expr mass)
+{
+    qdot_pool *pool = scene->pool;
+    const size_t n = scene->coordinates.n;
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) {
+            qdot_expr v = qdot_symbol_jet(pool, scene->coordinates.at[i], 1);
+            qdot_expr w = qdot_symbol_jet(pool, scene->coordinates.at[j], 1);
+            qdot_expr entry = qdot_expr_arg(pool, mass, (uint32_t)(i * n + j));
+
+            sum = qdot_add(pool, sum, qdot_mul(pool, entry, qdot_mul(pool, v, w)));
+        }
+    return qdot_mul(pool, QDOT_HALF, sum);
+}
+
+/* s->level: of T, of each declared potential, of a stated Lagrangian, where they switch. */
+static qdot_status
+find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
+           qdot_expr mass)
+{
+    qdot_pool *pool = s->pool;
+    qdot_status status = QDOT_OK;
+    qdot_expr sum = QDOT_ZERO;
+
+    if (switches(s, mass, &status))
+        sum = kinetic(scene, mass);
+    if (switches(s, scene->lagrangian, &status))
+        sum = scene->lagrangian;
+    for (size_t i = 0; i < scene->potentials.n; i++)
+        if (switches(s, scene->potentials.at[i].e, &status))
+            sum = qdot_sub(pool, sum, scene->potentials.at[i].e);
+    if (status == QDOT_OK && sum != QDOT_ZERO) {
+        sum = qdot_substitute(pool, sum, request->n_values, request->symbols,
+                              request->values);
+        s->level = switches(s, sum, &status) ? sum : QDOT_NIL;
+    }
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+/* Whether a node may be, or become by its slopes or by the values put in, what switches: also a
+ * function whose value is set, and a root, which of a square is an absolute value. */
+static bool
+may_switch(const qdot_pool *pool, qdot_expr e)
+{
+    if (qdot_expr_kind(pool, e) == QDOT_UFUN || is_atom(pool, e))
+        return true;
+    for (uint32_t i = 2; qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e);
+         i += 2) {
+        long power;
+
+        if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i), &power))
+            return true;
+    }
+    return false;
+}
+
+static qdot_status
+look_at(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smooth)
+{
+    qdot_walk walk;
+    qdot_status status = qdot_walk_begin_n(pool, n, e, &walk);
+
+    for (size_t i = 0; status == QDOT_OK && i < walk.n && *smooth; i++)
+        *smooth = !may_switch(pool, walk.at[i]);
+    qdot_walk_end(&walk);
+    return status;
+}
+
+/* Whether nothing switches, by what the equations are made of: places, and what is applied. M and
+ * f need not be derived for that, which of many coordinates takes long. */
+static qdot_status
+see_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
+{
+    qdot_pool *pool = scene->pool;
+    qdot_dalembert_term *terms;
+    qdot_expr *e, Q;
+    size_t n;
+    qdot_status status;
+
+    *smooth = false;
+    QDOT_TRY(qdot_mech_dalembert(scene, &terms, &n, &Q));
+    if (n > 0 && scene->constraints.n == 0)
+        Q = qdot_substitute(pool, Q, request->n_values, request->symbols, request->values);
+    else
+        Q = QDOT_NIL;
+    e = qdot_calloc(3 * n + scene->potentials.n + 1, sizeof *e);
+    status = e ? qdot_pool_check(pool) : QDOT_ENOMEM;
+    if (status == QDOT_OK && Q != QDOT_NIL) {
+        size_t count = 0;
+
+        for (size_t i = 0; i < n; i++) {
+            e[count++] = terms[i].w;
+            e[count++] = terms[i].x;
+            e[count++] = terms[i].y;
+        }
+        for (size_t i = 0; i < scene->potentials.n; i++)
+            e[count++] = scene->potentials.at[i].e;
+        e[count++] = Q;
+        *smooth = true;
+        status = look_at(pool, count, e, smooth);
+    }
+    qdot_free(e);
+    qdot_free(terms);
+    return status;
+}
+
+qdot_status
+qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_switches *s)
+{
+    qdot_pool *pool = scene->pool;
+    bool smooth = false;
+    qdot_expr e[2];
+
+    s->pool = pool;
+    if (scene->coordinates.n >= QDOT_MANY_COORDINATES)
+        QDOT_TRY(see_smooth(scene, request, &smooth));
+    if (smooth)
+        return QDOT_OK;
+    e[0] = qdot_mech_numeric_mass(scene);
+    e[1] = qdot_mech_numeric_forcing(scene);
+    for (size_t i = 0; i < 2; i++) {
+        if (e[i] != QDOT_NIL)
+            e[i] = qdot_substitute(pool, e[i], request->n_values, request->symbols,
+                                   request->values);
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(collect(s, e[i]));
+    }
+    for (size_t k = 0; k < scene->constraints.n; k++) {
+        qdot_expr f = qdot_substitute(pool, scene->constraints.at[k].f, request->n_values,
+                                      request->symbols, request->values);
+
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(collect(s, f));
+    }
+    QDOT_TRY(find_level(s, scene, request, e[0]));
+    return s->level == QDOT_NIL ? QDOT_OK : collect(s, s->level);
+}
+
+/* --- freezing ------------------------------------------------------------------------ */
+
+typedef struct {
+    const qdot_switches *s;
+    const long *side; /* NULL: symbols */
+    size_t done;       /* atoms frozen so far */
+    qdot_expr *frozen; /* [atoms] */
+} freezer;
+
+static qdot_expr
+look_up(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const freezer *f = user;
+
+    (void)pool;
+    for (size_t i = 0; i < f->done; i++)
+        if (f->s->atoms.at[i] == node)
+            return f->frozen[i];
+    return QDOT_NIL;
+}
+
+static qdot_expr
+inner(const freezer *f, qdot_expr e)
+{
+    return qdot_walk_map(f->s->pool, e, look_up, (void *)f);
+}
+
+/* The side of u; of a u that does not move its sign or floor as it stands. */
+static qdot_expr
+side_of(const freezer *f, qdot_expr u, bool steps)
+{
+    qdot_pool *pool = f->s->pool;
+    bool turned = false;
+
+    if (!steps)
+        u = upright(pool, u, &turned);
+    for (size_t i = 0; i < f->s->surfaces.n; i++) {
+        const qdot_surface *x = &f->s->surfaces.at[i];
+        qdot_expr side;
+
+        if (x->u != u || x->steps != steps)
+            continue;
+        side = f->side ? qdot_expr_int(pool, f->side[i]) : x->side;
+        return turned ? qdot_neg(pool, side) : side;
+    }
+    u = qdot_fun1(pool, steps ? QDOT_FLOOR : QDOT_SIGN, u);
+    return turned ? qdot_neg(pool, u) : u;
+}
+
+/* Of min or max the argument that no other one passes; the first of equal ones. */
+static qdot_expr
+chosen(const freezer *f, qdot_expr e, int way)
+{
+    qdot_pool *pool = f->s->pool;
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr best = inner(f, qdot_expr_arg(pool, e, n - 1));
+
+    for (uint32_t i = n - 1; i-- > 0;) {
+        qdot_expr own = inner(f, qdot_expr_arg(pool, e, i)), kept = own;
+
+        for (uint32_t j = i + 1; j < n; j++) {
+            qdot_expr side = side_of(f, qdot_sub(pool, qdot_expr_arg(pool, e, i),
+                                                 qdot_expr_arg(pool, e, j)),
+                                     false);
+
+            if (way < 0)
+                side = qdot_neg(pool, side);
+            kept = qdot_fun(pool, QDOT_IF, 3,
+                            (qdot_expr[]){qdot_rel(pool, QDOT_LE, QDOT_ZERO, side), kept,
+                                          best});
+        }
+        best = kept;
+    }
+    return best;
+}
+
+static qdot_expr
+freeze_atom(const freezer *f, qdot_expr e)
+{
+    qdot_pool *pool = f->s->pool;
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr a = qdot_expr_arg(pool, e, 0), b = n > 1 ? qdot_expr_arg(pool, e, 1) : a;
+
+    if (is_relation(pool, e)) {
+        qdot_rel_op op = qdot_expr_node(pool, e)->op;
+        qdot_expr side = side_of(f, qdot_sub(pool, a, b), false);
+
+        if (op == QDOT_EQ && qdot_expr_kind(pool, side) == QDOT_NUM)
+            return side == QDOT_ZERO ? QDOT_TRUE : QDOT_FALSE;
+        return qdot_rel(pool, op, side, QDOT_ZERO);
+    }
+    if (is_function(pool, e, QDOT_ABS))
+        return qdot_mul(pool, side_of(f, a, false), inner(f, a));
+    if (is_function(pool, e, QDOT_SIGN))
+        return side_of(f, a, false);
+    if (is_function(pool, e, QDOT_FLOOR))
+        return side_of(f, a, true);
+    if (is_function(pool, e, QDOT_MOD))
+        return qdot_sub(pool, inner(f, a),
+                        qdot_mul(pool, inner(f, b),
+                                 side_of(f, qdot_div(pool, a, b), true)));
+    return chosen(f, e, is_function(pool, e, QDOT_MAX) ? 1 : -1);
+}
+
+qdot_status
+qdot_switches_freeze(const qdot_switches *s, const long *side, size_t n,
+                     const qdot_expr *e, qdot_expr *frozen)
+{
+    freezer f = {.s = s, .side = side};
+
+    if (s->atoms.n == 0) {
+        memcpy(frozen, e, n * sizeof *e);
+        return QDOT_OK;
+    }
+    f.frozen = qdot_calloc(s->atoms.n, sizeof *f.frozen);
+    if (!f.frozen)
+        return QDOT_ENOMEM;
+    for (; f.done < s->atoms.n; f.done++)
+        f.frozen[f.done] = freeze_atom(&f, s->atoms.at[f.done]);
+    for (size_t i = 0; i < n; i++)
+        frozen[i] = inner(&f, e[i]);
+    qdot_free(f.frozen);
+    return qdot_pool_check(s->pool);
+}

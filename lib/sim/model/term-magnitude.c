@@ -1,0 +1,18 @@
+/* term-magnitude.c -- the absolute values of the terms, added. */
+#include "sim/model/term-magnitude.h"
+
+qdot_expr
+qdot_term_magnitude(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr size;
+
+    if (qdot_expr_kind(pool, e) != QDOT_SUM)
+        return qdot_fun1(pool, QDOT_ABS, e);
+    size = qdot_fun1(pool, QDOT_ABS, qdot_expr_arg(pool, e, 0));
+    for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, e); k += 2)
+        size = qdot_add(pool, size,
+                        qdot_fun1(pool, QDOT_ABS,
+                                  qdot_mul(pool, qdot_expr_arg(pool, e, k),
+                                           qdot_expr_arg(pool, e, k + 1))));
+    return size;
+}

@@ -1,0 +1,584 @@
+/* routh.c -- which momenta are kept, elimination, and whether it pays. */
+#include "sim/plan/routh.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/simplify/simplify.h"
+#include "series/program.h"
+#include "series/taylor.h"
+
+/* Forms are simplified up to so many operations. */
+enum { SHORT = 120, SHORT_ENTRY = 60 };
+
+/* Terms of a velocity that add up to so much of it do no harm at any tolerance; and what
+ * the rounding of one counts for, over the steps of a run. */
+static const double harmless = 4, roundings = 64;
+
+/* How velocities are put into the other equations. */
+typedef enum { PUT_IN, HELD, SIMPLIFIED, WAYS } way;
+
+typedef struct {
+    qdot_plan *p; /* borrowed */
+    qdot_scene *scene;
+    const qdot_run_request *request;
+    qdot_pool *pool;
+    qdot_facts facts;
+    size_t n, h;
+    bool *cyclic;         /* [n] */
+    bool *gone;           /* [n] eliminated */
+    size_t *order;        /* [h] of elimination */
+    qdot_expr *M, *f;     /* [n x n], [n] of what is left */
+    qdot_expr *kept;      /* [n] p_c as a symbol */
+    qdot_expr *momentum;  /* [n] dL/dq_c' */
+    qdot_expr *rest;      /* [n] p_c - b_c of what is left */
+    qdot_expr *above;     /* [n] pivot q_c' by p and velocities not eliminated before */
+    qdot_expr *rate;      /* [n] q_c' likewise */
+    double *in, *out, *work;
+} routh;
+
+/* --- what is cyclic ------------------------------------------------------------------ */
+
+/* Numbers without a pattern in (0.3, 1.7), where most domains are. */
+static double
+place(size_t i)
+{
+    return 0.3 + 1.4 * fmod(0.5545497 * (double)(i + 1), 1);
+}
+
+/* Whether the tape, M and f, may be the same at any q_i: what a few places say. */
+static bool
+may_be_absent(const routh *e, size_t i)
+{
+    const qdot_tape *tape = e->p->tape;
+    const size_t inputs = 2 * e->n + 1, outputs = qdot_tape_outputs(tape);
+    double *there = e->out + outputs;
+
+    for (size_t k = 0; k < 2; k++) {
+        for (size_t j = 0; j < inputs; j++)
+            e->in[j] = place(j + 7 * k);
+        qdot_tape_eval(tape, e->in, e->out, e->work);
+        e->in[i] = place(i + 7 * k + 3);
+        qdot_tape_eval(tape, e->in, there, e->work);
+        for (size_t j = 0; j < outputs; j++)
+            if (fabs(e->out[j] - there[j]) > 1e-9 * (1 + fabs(there[j])))
+                return false;
+    }
+    return true;
+}
+
+/* Whether the velocities do not stand in row i of M: p_i is linear in them. */
+static bool
+is_linear(const routh *e, size_t i)
+{
+    for (size_t j = 0; j < e->n; j++)
+        if (qdot_expr_node(e->pool, e->M[i * e->n + j])->holds & QDOT_HAS_VELOCITY)
+            return false;
+    return true;
+}
+
+/* Which of the scene's coordinates it is. */
+static size_t
+in_scene(const routh *e, size_t i)
+{
+    return e->p->place ? e->p->place[i] : i;
+}
+
+/* Whether it is a parameter that events set (sim/model/parameter-states.h). */
+static bool
+is_state(const routh *e, size_t i)
+{
+    return in_scene(e, i) >= e->scene->coordinates.n;
+}
+
+/* How many coordinates one couples with in M. */
+static size_t
+coupled(const routh *e, size_t i)
+{
+    size_t n = 0;
+
+    for (size_t j = 0; j < e->n; j++)
+        n += j != i && e->M[i * e->n + j] != QDOT_ZERO;
+    return n;
+}
+
+static qdot_status
+find_cyclic(routh *e, bool *some)
+{
+    *some = false;
+    for (size_t i = 0; i < e->n; i++) {
+        qdot_cyclic c;
+        bool is, applied;
+
+        if (is_state(e, i) || !may_be_absent(e, i) || !is_linear(e, i) ||
+            coupled(e, i) >= QDOT_ROUTH_COUPLED)
+            continue;
+        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(qdot_mech_cyclic_at(e->scene, in_scene(e, i), &c, &is));
+        if (!is || c.rate != QDOT_NIL)
+            continue;
+        QDOT_TRY(qdot_mech_applied_holds(e->scene, c.coordinate, &applied));
+        if (applied)
+            continue;
+        e->momentum[i] = qdot_plan_substitute(e->p, c.momentum);
+        e->kept[i] = qdot_symbol_of(e->pool, QDOT_MOMENTUM, c.coordinate);
+        e->cyclic[i] = *some = true;
+        QDOT_TRY(qdot_pool_check(e->pool));
+    }
+    return QDOT_OK;
+}
+
+/* --- elimination --------------------------------------------------------------------- */
+
+static qdot_expr
+velocity(const routh *e, size_t i)
+{
+    return e->p->inputs[e->n + i];
+}
+
+static qdot_expr
+tidy(routh *e, qdot_expr x, unsigned most)
+{
+    if (qdot_pool_failed(e->pool) || qdot_expr_size(e->pool, x) > most)
+        return x;
+    return qdot_simplify(e->pool, x, &e->facts);
+}
+
+/* Cyclic coordinates do not stand in what they are absent from as functions: 0 for them
+ * makes that so to the eye. */
+static void
+take_out(routh *e)
+{
+    qdot_pool *pool = e->pool;
+
+    for (size_t c = 0; c < e->n; c++) {
+        const qdot_expr q = e->p->inputs[c], zero = QDOT_ZERO;
+
+        if (!e->cyclic[c])
+            continue;
+        for (size_t i = 0; i < e->n && !qdot_pool_failed(pool); i++) {
+            e->f[i] = qdot_subs(pool, e->f[i], 1, &q, &zero);
+            for (size_t j = 0; j < e->n; j++)
+                e->M[i * e->n + j] = qdot_subs(pool, e->M[i * e->n + j], 1, &q, &zero);
+            if (e->cyclic[i])
+                e->momentum[i] = qdot_subs(pool, e->momentum[i], 1, &q, &zero);
+        }
+    }
+    for (size_t c = 0; c < e->n && !qdot_pool_failed(pool); c++) {
+        qdot_expr b = e->momentum[c];
+
+        if (!e->cyclic[c])
+            continue;
+        for (size_t i = 0; i < e->n; i++) {
+            const qdot_expr v = velocity(e, i), zero = QDOT_ZERO;
+
+            b = qdot_subs(pool, b, 1, &v, &zero);
+        }
+        e->rest[c] = qdot_sub(pool, e->kept[c], b);
+    }
+}
+
+/* Row c out of all that is left, q_c' in terms of it. */
+static void
+eliminate(routh *e, size_t c)
+{
+    qdot_pool *pool = e->pool;
+    const size_t n = e->n;
+    const qdot_expr pivot = e->M[c * n + c];
+    qdot_expr rate = e->rest[c];
+
+    e->gone[c] = true;
+    for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
+        qdot_expr factor;
+
+        if (e->gone[i] || e->M[i * n + c] == QDOT_ZERO)
+            continue;
+        rate = qdot_sub(pool, rate, qdot_mul(pool, e->M[c * n + i], velocity(e, i)));
+        factor = qdot_div(pool, e->M[i * n + c], pivot);
+        for (size_t j = i; j < n; j++)
+            if (!e->gone[j] && e->M[c * n + j] != QDOT_ZERO)
+                e->M[i * n + j] = e->M[j * n + i] = tidy(
+                    e,
+                    qdot_sub(pool, e->M[i * n + j],
+                             qdot_mul(pool, factor, e->M[c * n + j])),
+                    SHORT_ENTRY);
+        e->f[i] = qdot_sub(pool, e->f[i], qdot_mul(pool, factor, e->f[c]));
+        if (e->cyclic[i])
+            e->rest[i] = qdot_sub(pool, e->rest[i], qdot_mul(pool, factor, e->rest[c]));
+    }
+    e->above[c] = rate;
+    e->rate[c] = qdot_div(pool, rate, pivot);
+}
+
+/* Whether nothing but M being singular makes the pivot of i vanish. An indefinite M may be
+ * regular where its parts are not. */
+static bool
+may_be_pivot(const routh *e, size_t i)
+{
+    const uint8_t sign = qdot_expr_node(e->pool, e->M[i * e->n + i])->sign;
+
+    return !e->p->indefinite || coupled(e, i) == 0 || (sign & (QDOT_GE0 | QDOT_LE0));
+}
+
+/* The cyclic coordinate left with the shortest pivot; SIZE_MAX: none. */
+static size_t
+shortest(const routh *e)
+{
+    size_t best = SIZE_MAX;
+    uint64_t least = UINT64_MAX;
+
+    for (size_t i = 0; i < e->n; i++)
+        if (e->cyclic[i] && !e->gone[i] && may_be_pivot(e, i)
+            && qdot_expr_size(e->pool, e->M[i * e->n + i]) < least) {
+            best = i;
+            least = qdot_expr_size(e->pool, e->M[i * e->n + i]);
+        }
+    return best;
+}
+
+/* --- a plan of what is left ------------------------------------------------------------ */
+
+static qdot_status
+begin_plan(const routh *e, qdot_plan **out)
+{
+    const qdot_plan *p = e->p;
+    const size_t n = e->n;
+    qdot_plan *r;
+
+    QDOT_TRY(qdot_plan_of_part(p, n, e->h, out));
+    r = *out;
+    r->n_states = p->n_states;
+    r->n_kept = e->h;
+    r->kept = qdot_calloc(e->h, sizeof *r->kept);
+    if (!r->kept)
+        return QDOT_ENOMEM;
+    memcpy(r->inputs, p->inputs, (2 * n + 1) * sizeof *r->inputs);
+    memcpy(r->M, e->M, n * n * sizeof *r->M);
+    memcpy(r->f, e->f, n * sizeof *r->f);
+    memcpy(r->kept, e->order, e->h * sizeof *r->kept);
+    for (size_t i = 0; i < n; i++) {
+        r->names[i] = qdot_strdup(p->names[i]);
+        if (!r->names[i])
+            return QDOT_ENOMEM;
+    }
+    for (size_t k = 0; k < e->h; k++)
+        r->inputs[2 * n + 1 + k] = e->kept[e->order[k]];
+    return QDOT_OK;
+}
+
+/* Velocities out of the equations of r, one after the other; their rates [h]. */
+static void
+put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
+{
+    qdot_pool *pool = e->pool;
+    const size_t n = e->n;
+
+    for (size_t k = 0; k < e->h; k++)
+        rates[k] = how == SIMPLIFIED ? tidy(e, e->rate[e->order[k]], SHORT)
+                                     : e->rate[e->order[k]];
+    for (size_t k = 0; k < e->h && !qdot_pool_failed(pool); k++) {
+        const qdot_expr v = velocity(e, e->order[k]);
+        const qdot_expr rate = how == HELD ? qdot_hold(pool, rates[k]) : rates[k];
+
+        for (size_t j = 0; j < k; j++)
+            rates[j] = qdot_subs(pool, rates[j], 1, &v, &rate);
+        for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
+            if (e->gone[i])
+                continue;
+            r->f[i] = qdot_subs(pool, r->f[i], 1, &v, &rate);
+            if (how == SIMPLIFIED)
+                r->f[i] = tidy(e, r->f[i], SHORT);
+            for (size_t j = 0; j < n; j++)
+                if (!e->gone[j])
+                    r->M[i * n + j] =
+                        qdot_subs(pool, r->M[i * n + j], 1, &v, &rate);
+        }
+    }
+}
+
+static double
+cost_of_evaluation(const qdot_tape *tape)
+{
+    return (double)(qdot_tape_operations(tape) + 15 * qdot_tape_calls(tape));
+}
+
+/* What a step of it costs, or an evaluation where there are no series. */
+static qdot_status
+find_cost(qdot_plan *r)
+{
+    if (r->smooth)
+        QDOT_TRY(qdot_plan_measure(r));
+    if (!r->smooth || !r->method->series)
+        r->cost = cost_of_evaluation(r->tape);
+    return QDOT_OK;
+}
+
+static qdot_status
+fill_plan(routh *e, way how, qdot_plan *r)
+{
+    const size_t n = e->n;
+    bool *left = qdot_calloc(n, sizeof *left);
+    qdot_expr *rates = qdot_calloc(e->h, sizeof *rates);
+    qdot_status status = left && rates ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; left && i < n; i++)
+        left[i] = !e->gone[i];
+    if (status == QDOT_OK) {
+        put_in(e, r, how, rates);
+        status = qdot_pool_check(e->pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_plan_structure(r, left);
+    if (status == QDOT_OK)
+        status = qdot_plan_lower(r, 2 * n + 1 + e->h, e->h, rates);
+    for (size_t k = 0; status == QDOT_OK && k < e->h; k++)
+        rates[k] = e->momentum[e->order[k]];
+    if (status == QDOT_OK)
+        status = qdot_tape_new(e->pool, 2 * n + 1, r->inputs, e->h, rates, &r->momenta);
+    qdot_free(left);
+    qdot_free(rates);
+    /* it may be a momentum that switches */
+    if (status == QDOT_OK)
+        r->smooth = r->smooth && !qdot_program_hindrance(r->tape);
+    return status == QDOT_OK ? find_cost(r) : status;
+}
+
+/* Whether a velocity is a sum, which what it is put into may be taken apart for. */
+static bool
+has_sum(const routh *e)
+{
+    for (size_t k = 0; k < e->h; k++) {
+        qdot_expr x = e->rate[e->order[k]];
+
+        if (qdot_expr_kind(e->pool, x) == QDOT_SUM)
+            return true;
+        if (qdot_expr_kind(e->pool, x) != QDOT_PROD)
+            continue;
+        for (uint32_t i = 1; i + 1 < qdot_expr_count(e->pool, x); i += 2)
+            if (qdot_expr_kind(e->pool, qdot_expr_arg(e->pool, x, i)) == QDOT_SUM)
+                return true;
+    }
+    return false;
+}
+
+static double
+cost_of_all(const qdot_plan *p)
+{
+    return p->method->series ? p->cost : cost_of_evaluation(p->tape);
+}
+
+/* The cheapest way, into the plan where it is cheaper than what is there. */
+static qdot_status
+choose(routh *e)
+{
+    double least = cost_of_all(e->p);
+    const bool sums = has_sum(e);
+    qdot_status status = QDOT_OK;
+
+    for (way how = PUT_IN; how < WAYS && status == QDOT_OK; how++) {
+        qdot_plan *r;
+
+        if (how == SIMPLIFIED && !sums)
+            continue;
+        status = begin_plan(e, &r);
+        if (status == QDOT_OK)
+            status = fill_plan(e, how, r);
+        if (status == QDOT_OK && r->smooth == e->p->smooth && r->cost < least) {
+            least = r->cost;
+            r->subtracts = sums;
+            qdot_plan_free(e->p->reduced);
+            e->p->reduced = r;
+            r = NULL;
+        }
+        qdot_plan_free(r);
+    }
+    return status;
+}
+
+/* --- what cancels --------------------------------------------------------------------- */
+
+/* Terms above the pivots of kept coordinates, one after the other. */
+typedef qdot_vec(qdot_expr) expressions;
+
+static qdot_status
+list_terms(const routh *e, expressions *out)
+{
+    for (size_t k = 0; k < e->h; k++) {
+        qdot_expr x = e->above[e->order[k]];
+        uint32_t count = qdot_expr_kind(e->pool, x) == QDOT_SUM
+                             ? qdot_expr_count(e->pool, x)
+                             : 0;
+
+        QDOT_TRY(qdot_vec_push(out, e->M[e->order[k] * (e->n + 1)]));
+        for (uint32_t i = 1; i + 1 < count; i += 2)
+            QDOT_TRY(qdot_vec_push(out, qdot_mul(e->pool, qdot_expr_arg(e->pool, x, i),
+                                                 qdot_expr_arg(e->pool, x, i + 1))));
+    }
+    return qdot_pool_check(e->pool);
+}
+
+/* The start of the run and the momenta there, into in [2n + 1 + h]. */
+static qdot_status
+find_start(routh *e, const qdot_plan *r, double *in)
+{
+    const qdot_run_request *q = e->request;
+    const size_t n = e->n;
+    double *work;
+
+    for (size_t i = 0; i < 2 * n + 1; i++) {
+        qdot_expr x = i < n       ? q->q0[in_scene(e, i)]
+                      : i < 2 * n ? q->v0[in_scene(e, i - n)]
+                                  : q->t0;
+
+        x = qdot_plan_substitute(e->p, x);
+        QDOT_TRY(qdot_pool_check(e->pool));
+        QDOT_TRY(qdot_tape_constant(e->pool, x, &in[i]));
+    }
+    work = qdot_calloc(qdot_tape_work(r->momenta) + 1, sizeof *work);
+    if (!work)
+        return QDOT_ENOMEM;
+    qdot_tape_eval(r->momenta, in, in + 2 * n + 1, work);
+    qdot_free(work);
+    return QDOT_OK;
+}
+
+/* What the rounding of terms above a pivot becomes in the velocity: the largest sum of their
+ * sizes, by the pivot, over max(1, |q_c'|). */
+static double
+largest_sum(const routh *e, const double *in, const double *out)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < e->h; k++) {
+        const qdot_expr x = e->above[e->order[k]];
+        const double pivot = fabs(*out++), v = in[e->n + e->order[k]];
+        uint32_t count = qdot_expr_kind(e->pool, x) == QDOT_SUM
+                             ? qdot_expr_count(e->pool, x)
+                             : 0;
+        double sum = 0;
+
+        for (uint32_t i = 1; i + 1 < count; i += 2)
+            sum += fabs(*out++);
+        most = fmax(most, sum / pivot / fmax(1, fabs(v)));
+    }
+    return most;
+}
+
+/* Whether what velocities are made of cancels further than the tolerance can bear, as a
+ * spinning top's p_phi - p_psi cos(theta) does. */
+static qdot_status
+find_cancellation(routh *e, bool *too_far)
+{
+    const qdot_plan *r = e->p->reduced;
+    const size_t inputs = 2 * e->n + 1 + e->h;
+    expressions terms = {0};
+    qdot_tape *tape = NULL;
+    double *in = qdot_calloc(inputs, sizeof *in), *out = NULL, most = 0;
+    qdot_status status = in ? list_terms(e, &terms) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = find_start(e, r, in);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(e->pool, inputs, r->inputs, terms.n, terms.at, &tape);
+    if (status == QDOT_OK
+        && !(out = qdot_calloc(terms.n + qdot_tape_work(tape) + 1, sizeof *out)))
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK) {
+        qdot_tape_eval(tape, in, out, out + terms.n);
+        most = largest_sum(e, in, out);
+    }
+    *too_far = !(most <= harmless || most * roundings * 0x1p-53 <= e->request->tol);
+    qdot_tape_free(tape);
+    qdot_free(terms.at);
+    qdot_free(in);
+    qdot_free(out);
+    return status;
+}
+
+/* --- all of it ----------------------------------------------------------------------- */
+
+static void
+routh_clear(routh *e)
+{
+    qdot_free(e->cyclic);
+    qdot_free(e->order);
+    qdot_free(e->M);
+    qdot_free(e->in);
+}
+
+static qdot_status
+routh_init(routh *e)
+{
+    const size_t n = e->n, outputs = qdot_tape_outputs(e->p->tape);
+
+    e->cyclic = qdot_calloc(2 * n, sizeof *e->cyclic);
+    e->order = qdot_calloc(n, sizeof *e->order);
+    e->M = qdot_calloc(n * n + 6 * n, sizeof *e->M);
+    e->in = qdot_calloc(2 * n + 1 + 2 * outputs + qdot_tape_work(e->p->tape) + 1,
+                        sizeof *e->in);
+    if (!e->cyclic || !e->order || !e->M || !e->in)
+        return QDOT_ENOMEM;
+    e->gone = e->cyclic + n;
+    e->f = e->M + n * n;
+    e->kept = e->f + n;
+    e->momentum = e->kept + n;
+    e->rest = e->momentum + n;
+    e->above = e->rest + n;
+    e->rate = e->above + n;
+    e->out = e->in + 2 * n + 1;
+    e->work = e->out + 2 * outputs;
+    memcpy(e->M, e->p->M, n * n * sizeof *e->M);
+    memcpy(e->f, e->p->f, n * sizeof *e->f);
+    return QDOT_OK;
+}
+
+static qdot_status
+reduce(routh *e)
+{
+    bool some, too_far = false;
+
+    QDOT_TRY(find_cyclic(e, &some));
+    if (!some)
+        return QDOT_OK;
+    take_out(e);
+    for (size_t c; !qdot_pool_failed(e->pool) && (c = shortest(e)) != SIZE_MAX;) {
+        e->order[e->h++] = c;
+        eliminate(e, c);
+    }
+    QDOT_TRY(qdot_pool_check(e->pool));
+    if (e->h > 0)
+        QDOT_TRY(choose(e));
+    if (e->p->reduced && has_sum(e) && e->request->q0 && e->request->v0)
+        QDOT_TRY(find_cancellation(e, &too_far));
+    if (too_far) {
+        qdot_plan_free(e->p->reduced);
+        e->p->reduced = NULL;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_routh_reduce(qdot_plan *plan, qdot_scene *scene, const qdot_run_request *request)
+{
+    routh e = {.p = plan,
+               .scene = scene,
+               .request = request,
+               .pool = plan->pool,
+               .facts = qdot_scene_facts(scene),
+               .n = plan->n};
+    qdot_status status = routh_init(&e);
+
+    if (status == QDOT_OK)
+        status = reduce(&e);
+    routh_clear(&e);
+    /* where a pivot vanishes, or 0 is outside what an expression allows: as they were */
+    if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_ELIMIT) {
+        qdot_plan_free(plan->reduced);
+        plan->reduced = NULL;
+        return QDOT_OK;
+    }
+    return status;
+}

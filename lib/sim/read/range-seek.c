@@ -1,0 +1,178 @@
+/* range-seek.c -- extrema as intervals have them: where they are, and what is open of them. */
+#include "base/interrupt.h"
+#include "sim/read/range-parts.h"
+
+enum { NODES = 16, MOST = 256 };
+
+/* Of the largest value: less than that beyond it is not looked for, in the end, and while seeking. Of
+ * the same: what counts nothing in a mean. */
+static const double slack = 0x1p-46, closer = 0x1p-52, nothing = 0x1p-80;
+
+static double
+size_of(const qdot_range_scan *s)
+{
+    const double size = fmax(fabs(s->largest), fabs(s->smallest));
+
+    return isfinite(size) ? size : 0; /* none was met yet */
+}
+
+static double
+slack_of(const qdot_range_scan *s, double x)
+{
+    return fmax(slack * fabs(x), QDOT_RANGE_NOISES * s->noise);
+}
+
+/* The ends of a step may be points by themselves. */
+static void
+enclose(qdot_range_scan *s, double a, double b, int nodes)
+{
+    if (a == s->ends[0])
+        a = nextafter(a, b);
+    if (b == s->ends[1])
+        b = nextafter(b, a);
+    qdot_polynomial_bounds_enclose(&s->bounds, a, b, nodes);
+}
+
+/* --- seeking ------------------------------------------------------------------------- */
+
+/* A stretch of the step, and what its values are at most; upside down for the least. */
+typedef struct {
+    double a, b, most;
+} stretch;
+
+static qdot_status
+look(qdot_range_scan *s, double sign, stretch *x)
+{
+    const qdot_range_part p = {.a = x->a, .b = x->b};
+    double best = NAN;
+
+    for (int j = 0; j < NODES; j++) {
+        const double t = qdot_range_time(&p, qdot_chebyshev_node(NODES, j));
+        double v;
+
+        QDOT_TRY(qdot_reader_at(&s->reader, s->piece, t, &v));
+        qdot_polynomial_bounds_sample(&s->bounds, j, s->reader.in);
+        if (isfinite(v) && t != s->ends[0] && t != s->ends[1])
+            best = fmax(best, sign * v);
+    }
+    enclose(s, p.a, p.b, NODES);
+    x->most = sign > 0 ? s->bounds.box->hi : -s->bounds.box->lo;
+    if (!isnan(best))
+        qdot_range_meet(s, sign * best);
+    return QDOT_OK;
+}
+
+static size_t
+farthest(const stretch *at, size_t n)
+{
+    size_t k = 0;
+
+    for (size_t i = 1; i < n; i++)
+        if (at[i].most > at[k].most
+            || (at[i].most == at[k].most
+                && fabs(at[i].b - at[i].a) > fabs(at[k].b - at[k].a)))
+            k = i;
+    return k;
+}
+
+static qdot_status
+seek(qdot_range_scan *s, double sign)
+{
+    stretch at[MOST] = {{s->ends[0], s->ends[1], INFINITY}};
+    size_t n = 1;
+
+    for (size_t looked = 0; n > 0 && looked < 2 * MOST;) {
+        const size_t k = farthest(at, n);
+        const double best = sign > 0 ? s->largest : -s->smallest;
+        const qdot_range_part p = {.a = at[k].a, .b = at[k].b};
+        const double middle = qdot_range_time(&p, 0);
+
+        if (at[k].most <= best + closer * fabs(best))
+            break;
+        at[k] = at[--n];
+        if (qdot_range_is_short(s, &p))
+            continue;
+        for (int half = 0; half < 2 && n < MOST; half++, looked++, n++) {
+            at[n] = half == 0 ? (stretch){p.a, middle, 0} : (stretch){middle, p.b, 0};
+            QDOT_TRY(look(s, sign, &at[n]));
+        }
+        QDOT_TRY(qdot_interrupt_check());
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_range_seek(qdot_range_scan *s)
+{
+    qdot_status status = QDOT_OK;
+
+    if (s->kind != QDOT_RANGE_MIN)
+        status = seek(s, 1);
+    if (status == QDOT_OK && s->kind != QDOT_RANGE_MAX)
+        status = seek(s, -1);
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* --- what is open -------------------------------------------------------------------- */
+
+static void
+note(qdot_range_scan *s, const qdot_range_part *p, double lo, double hi)
+{
+    s->highest = fmax(s->highest, hi);
+    s->lowest = fmin(s->lowest, lo);
+    s->left += (hi - lo) * fabs(p->b - p->a);
+}
+
+bool
+qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p)
+{
+    const qdot_interval *box = s->bounds.box;
+    bool below, above;
+
+    enclose(s, p->a, p->b, p->n);
+    below = box->hi <= s->largest + slack_of(s, s->largest);
+    above = box->lo >= s->smallest - slack_of(s, s->smallest);
+    if (s->kind == QDOT_RANGE_MEAN ? !(box->hi - box->lo <= nothing * size_of(s))
+        : s->kind == QDOT_RANGE_MAX ? !below
+        : s->kind == QDOT_RANGE_MIN ? !above
+                                    : !below || !above)
+        return false;
+    note(s, p, box->lo, box->hi);
+    return true;
+}
+
+void
+qdot_range_bound_blurred(qdot_range_scan *s, const qdot_range_part *p, double low, double high)
+{
+    const double miss = s->bounds.miss[0];
+    const double off = 4 * p->tail + (isnan(miss) ? 0 : miss);
+
+    enclose(s, p->a, p->b, p->n);
+    s->highest = fmax(s->highest, fmin(s->bounds.box->hi, high + off));
+    s->lowest = fmin(s->lowest, fmax(s->bounds.box->lo, low - off));
+    s->left += off * fabs(p->b - p->a);
+}
+
+void
+qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortest)
+{
+    qdot_polynomial_bounds *h = &s->bounds;
+    double lo, hi;
+
+    enclose(s, p->a, p->b, p->n);
+    lo = h->box->lo;
+    hi = h->box->hi;
+    /* a pole, or sin(x)/x, or beside a switch: as values are */
+    if (shortest
+        && (!isfinite(lo) || !isfinite(hi) || qdot_range_is_beside_switch(s, p)))
+        return;
+    if (qdot_polynomial_bounds_within(h, p->a, p->b, p->n) &&
+        isfinite(h->out_radius[0])) {
+        lo = fmax(lo, h->out[0] - h->out_radius[0]);
+        hi = fmin(hi, h->out[0] + h->out_radius[0]);
+    }
+    if ((s->kind != QDOT_RANGE_MIN && isinf(hi)) || (s->kind != QDOT_RANGE_MAX && isinf(lo)))
+        s->open = true;
+    else
+        note(s, p, lo, hi);
+}

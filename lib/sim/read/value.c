@@ -1,0 +1,172 @@
+/* value.c -- any expression along a run, and its error. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "expr/print.h"
+#include "sim/course/reader.h"
+#include "sim/course/run-state.h"
+#include "sim/digits/precise.h"
+#include "sim/error/distance.h"
+#include "sim/error/horizon.h"
+#include "sim/error/noise.h"
+
+/* Of t, for slopes. */
+static const double slope_over = 0x1p-28;
+
+/* --- asking ------------------------------------------------------------------------- */
+
+static qdot_status
+undefined(const qdot_run *run, qdot_expr e, double t)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(run->plan->pool, e, QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EDOMAIN, "%.200s is undefined at t = %.15g",
+                           qdot_text_str(&text), t);
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations,
+            const qdot_expr *exprs, size_t k, const double *times, const double *values,
+            double *errors)
+{
+    size_t m = qdot_tape_outputs(tape);
+    bool whole;
+    qdot_distance *distance = NULL;
+    double *spread, *roundings;
+    qdot_status status;
+
+    for (size_t i = 0; i < k * m; i++)
+        errors[i] = NAN;
+    QDOT_TRY(qdot_run_twin(run));
+    whole = qdot_run_comparable(run);
+    if (!whole && isnan(run->report.horizon))
+        return QDOT_OK;
+    spread = qdot_calloc(m + k * m + 1, sizeof *spread);
+    if (!spread)
+        return QDOT_ENOMEM;
+    roundings = spread + m;
+    status = qdot_horizon_spread(run, tape, accelerations, spread);
+    if (status == QDOT_OK)
+        status = qdot_noise_roundings(run->plan, &run->course, tape, accelerations, exprs, k,
+                                      times, values, roundings);
+    if (status == QDOT_OK)
+        status = qdot_distance_new(run, tape, accelerations, &distance);
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        bool beyond = qdot_horizon_passed(run, times[i]);
+        double *e = errors + i * m;
+
+        if (beyond && !whole)
+            continue;
+        status = qdot_distance_at(distance, times[i], values + i * m, e);
+        for (size_t j = 0; j < m && status == QDOT_OK; j++)
+            if (!isnan(e[j]))
+                e[j] = fmax(e[j], beyond ? spread[j] : 0) + roundings[i * m + j];
+    }
+    qdot_distance_free(distance);
+    qdot_free(spread);
+    return status;
+}
+
+static qdot_status
+read_values(qdot_run *run, const qdot_tape *tape, bool accelerations,
+            const qdot_expr *exprs, size_t k, const double *times, double *values)
+{
+    size_t m = qdot_tape_outputs(tape);
+    qdot_reader r = {0};
+    qdot_status status =
+        qdot_reader_init(&r, run->plan, tape, &run->course, accelerations);
+
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        status = qdot_interrupt_check();
+        if (status == QDOT_OK)
+            status = qdot_reader_at(&r, SIZE_MAX, times[i], values + i * m);
+        for (size_t j = 0; j < m && status == QDOT_OK; j++)
+            if (!isfinite(values[i * m + j]))
+                status = undefined(run, exprs[j], times[i]);
+    }
+    qdot_reader_clear(&r);
+    return status;
+}
+
+/* The piece that t lies in; of two the later. */
+static size_t
+piece_at(const qdot_trajectory *tr, double t)
+{
+    return qdot_trajectory_piece_of(tr, qdot_trajectory_locate(tr, t, 0));
+}
+
+/* What `low` beyond t adds to them: by slopes over h, within the piece. The ends of a run
+ * belong to its exact limits already. */
+static qdot_status
+go_beyond(const qdot_run *run, qdot_reader *r, double t, double low, size_t m,
+          double *moved, double *values)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const double end = tr->t[tr->count - 1], h = (end > t ? slope_over : -slope_over) * fabs(t);
+    qdot_status status;
+
+    if (low == 0 || t == tr->t[0] || (t == end && t == run->t1)
+        || !(fmin(tr->t[0], end) <= t + h && t + h <= fmax(tr->t[0], end))
+        || piece_at(tr, t) != piece_at(tr, t + h))
+        return QDOT_OK;
+    status = qdot_reader_at(r, SIZE_MAX, t + h, moved);
+    if (status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR)
+        return QDOT_OK;
+    for (size_t j = 0; j < m && status == QDOT_OK; j++)
+        if (isfinite(moved[j]))
+            values[j] += (moved[j] - values[j]) / h * low;
+    return status;
+}
+
+static qdot_status
+add_lows(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
+         const double *times, const double *lows, double *values)
+{
+    size_t m = qdot_tape_outputs(tape);
+    double *moved = qdot_malloc((m + 1) * sizeof *moved);
+    qdot_reader r = {0};
+    qdot_status status = moved ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_reader_init(&r, run->plan, tape, &run->course, accelerations);
+    for (size_t i = 0; i < k && status == QDOT_OK; i++)
+        status = go_beyond(run, &r, times[i], lows[i], m, moved, values + i * m);
+    qdot_reader_clear(&r);
+    qdot_free(moved);
+    return status;
+}
+
+qdot_status
+qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
+                const double *times, double *values, double *errors)
+{
+    return qdot_run_values_beyond(run, m, exprs, k, times, NULL, values, errors);
+}
+
+qdot_status
+qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
+                       const double *times, const double *lows, double *values,
+                       double *errors)
+{
+    bool accelerations;
+    qdot_tape *tape;
+    qdot_status status;
+
+    if (run->precise)
+        return qdot_precise_pair_sample_values(run->precise, m, exprs, k, times, values,
+                                               errors);
+    QDOT_TRY(qdot_reader_lower(run->plan, m, exprs, &tape, &accelerations));
+    status = read_values(run, tape, accelerations, exprs, k, times, values);
+    if (status == QDOT_OK && errors)
+        status = read_errors(run, tape, accelerations, exprs, k, times, values, errors);
+    if (status == QDOT_OK && lows)
+        status = add_lows(run, tape, accelerations, k, times, lows, values);
+    qdot_tape_free(tape);
+    return status;
+}

@@ -1,0 +1,696 @@
+/* run.c -- from a request to a run with its report. */
+#include "sim/run/run.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "ode/companion.h"
+#include "ode/leading.h"
+#include "sim/course/multipliers.h"
+#include "sim/error/singular-places.h"
+#include "sim/digits/digits.h"
+#include "sim/error/failure.h"
+#include "sim/error/unresolved-forces.h"
+#include "sim/error/horizon.h"
+#include "sim/course/run-state.h"
+#include "sim/model/parameter-states.h"
+#include "sim/digits/precise.h"
+#include "sim/start/start.h"
+#include "tape/constant.h"
+#include "tape/shake.h"
+
+/* The spacing of doubles is 2.2e-16 of their size: no step can be held to less. */
+static const double least_tol = 2.3e-16;
+
+static double
+process_clock(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void
+qdot_run_free(qdot_run *run)
+{
+    if (!run)
+        return;
+    qdot_course_clear(&run->course);
+    qdot_course_clear(&run->companion);
+    qdot_course_clear(&run->twin);
+    qdot_drifts_clear(&run->drifts);
+    qdot_precise_pair_free(run->precise);
+    qdot_free(run->exact);
+    qdot_stage_clear(&run->stage);
+    qdot_free(run->occurrences.at);
+    qdot_free(run->doubt);
+    qdot_free(run->start);
+    qdot_free(run->start_low);
+    qdot_free(run->reason);
+    qdot_text_clear(&run->notice);
+    qdot_text_clear(&run->part_names);
+    qdot_free(run->parts.at);
+    qdot_multipliers_clear(&run->multipliers);
+    qdot_free(run);
+}
+
+static size_t
+bytes_of(const qdot_trajectory *tr)
+{
+    size_t bytes = (tr->t_capacity + tr->y_capacity + tr->low_capacity) * sizeof *tr->t;
+
+    for (size_t i = 0; i < tr->n_tracks; i++)
+        bytes += bytes_of(&tr->tracks[i]);
+    return bytes;
+}
+
+size_t
+qdot_run_bytes(const qdot_run *run)
+{
+    const size_t points = bytes_of(&run->course.tr) + bytes_of(&run->companion.tr) +
+                          bytes_of(&run->twin.tr);
+
+    /* of `digits`: those points again in long numbers, and the companion's */
+    return sizeof *run +
+           points * (1 + (run->precise ? 8 + (size_t)run->report.digits / 8 : 0));
+}
+
+const qdot_run_report *
+qdot_run_get_report(const qdot_run *run)
+{
+    return &run->report;
+}
+
+const double *
+qdot_run_times(const qdot_run *run, size_t *n)
+{
+    *n = run->course.tr.count;
+    return run->course.tr.t;
+}
+
+static qdot_status
+check_tolerance(double tol)
+{
+    if (!(tol > 0))
+        return qdot_fail(QDOT_EINVAL, "the tolerance must be positive");
+    if (tol < least_tol) {
+        qdot_fail(QDOT_EINVAL, "the tolerance %.3g is below what a double can hold", tol);
+        return qdot_hint("tol 1e-15");
+    }
+    if (tol > 1)
+        return qdot_fail(QDOT_EINVAL, "the tolerance %.3g is too large: at most 1", tol);
+    return QDOT_OK;
+}
+
+/* --- the start ---------------------------------------------------------------------- */
+
+static qdot_status
+constant(const qdot_run *run, qdot_expr e, double *value, int *side, double *low)
+{
+    e = qdot_plan_substitute(run->plan, e);
+    QDOT_TRY(qdot_pool_check(run->plan->pool));
+    return qdot_constant_split(run->plan->pool, e, value, side, low);
+}
+
+/* Limits that are one double but not one number: the run would end where it begins. */
+static qdot_status
+check_length(qdot_run *run, const qdot_run_request *request)
+{
+    qdot_pool *pool = run->plan->pool;
+    double length, low;
+    int side;
+
+    QDOT_TRY(constant(run, qdot_sub(pool, request->t1, request->t0), &length, &side, &low));
+    if (length == 0)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "the limits are %.3g apart, but one and the same double",
+              fabs(length));
+    return qdot_hint("run 0..%.15g, with times counted from there", length);
+}
+
+static qdot_status
+read_start(qdot_run *run, const qdot_run_request *request)
+{
+    size_t n = run->plan->n;
+    int side;
+
+    run->start_low = qdot_calloc(2 * n, sizeof *run->start_low);
+    run->start = qdot_calloc(2 * n, sizeof *run->start);
+    if (!run->start || !run->start_low)
+        return QDOT_ENOMEM;
+    QDOT_TRY(constant(run, request->t0, &run->t0, &run->t0_side, &run->t0_low));
+    QDOT_TRY(constant(run, request->t1, &run->t1, &run->t1_side, &run->t1_low));
+    if (run->t0 == run->t1 && request->t0 != request->t1)
+        QDOT_TRY(check_length(run, request));
+    for (size_t i = 0; i < n; i++) {
+        QDOT_TRY(constant(run, request->q0[i], &run->start[i], &side,
+                          &run->start_low[i]));
+        QDOT_TRY(constant(run, request->v0[i], &run->start[n + i], &side,
+                          &run->start_low[n + i]));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+check_start(qdot_run *run)
+{
+    const qdot_domain *d = qdot_domains_outside(&run->stage.domains, run->start);
+
+    if (d) {
+        const char *name = run->plan->names[d->coordinate];
+
+        qdot_fail(QDOT_EDOMAIN, "the start %s = %.15g is outside its domain %.200s", name,
+                  run->start[d->coordinate], d->text);
+        return qdot_hint("start %s = ...", name);
+    }
+    /* the bind of the run itself: it keeps what it finds of the constraints */
+    QDOT_TRY(qdot_course_prepare(&run->course));
+    return qdot_bind_check(run->course.binds.at[0], run->t0, run->start, run->start_low);
+}
+
+static qdot_status
+check_springs(const qdot_run *run, const qdot_scene *scene)
+{
+    for (size_t i = 0; i < scene->springs.n; i++) {
+        const qdot_link *spring = &scene->springs.at[i];
+        qdot_expr rest = qdot_plan_substitute(run->plan, spring->rest);
+
+        QDOT_TRY(qdot_pool_check(run->plan->pool));
+        if ((qdot_expr_node(run->plan->pool, rest)->sign & QDOT_NEG) == QDOT_NEG) {
+            (void)qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative",
+                            spring->name ? "spring " : "a spring",
+                            spring->name ? spring->name : "");
+            return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");
+        }
+    }
+    return QDOT_OK;
+}
+
+/* The constraints that the run found redundant, by name. */
+static qdot_status
+name_redundant(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
+{
+    if (run->report.independent >= run->report.m)
+        return QDOT_OK;
+    QDOT_TRY(qdot_start_redundant(scene, run->plan, request, run->start, &run->notice));
+    if (run->notice.n > 0)
+        run->report.notice = qdot_text_str(&run->notice);
+    return QDOT_OK;
+}
+
+/* Onto the constraints. */
+static qdot_status
+settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
+             const qdot_domains *domains)
+{
+    bool anew;
+
+    if (scene->constraints.n == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
+                               run->start_low, &run->notice));
+    if (run->notice.n > 0)
+        run->report.notice = qdot_text_str(&run->notice);
+    QDOT_TRY(qdot_stage_settle(&run->stage, run->start, &anew));
+    run->plan = run->stage.modes.at[0]->plan;
+    return QDOT_OK;
+}
+
+/* --- the run ------------------------------------------------------------------------ */
+
+/* What ends a run without taking back what was integrated. */
+static bool
+is_kept(qdot_status status)
+{
+    return status == QDOT_OK || status == QDOT_EFAILED || status == QDOT_ELIMIT
+           || status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EINTR;
+}
+
+qdot_status
+qdot_run_say_why(qdot_run *run, const char *reason)
+{
+    run->report.status = QDOT_RUN_FAILED;
+    run->reason = qdot_strdup(reason);
+    run->report.reason = run->reason;
+    return run->reason ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* The reason of a run that ended early by what happened in it. */
+qdot_status
+qdot_run_say_course(qdot_run *run)
+{
+    const qdot_course *c = &run->course;
+
+    if (c->stopped_by != SIZE_MAX) {
+        char reason[200];
+
+        snprintf(reason, sizeof reason, "the event %.150s",
+                 run->stage.events.at[c->stopped_by].name);
+        QDOT_TRY(qdot_run_say_why(run, reason));
+        run->report.status = QDOT_RUN_STOPPED;
+        return QDOT_OK;
+    }
+    return c->reason[0] != '\0' ? qdot_run_say_why(run, c->reason) : QDOT_OK;
+}
+
+/* Where constraints stop being independent: what the run went over, into the notice. That it
+ * cannot be found is no failure of the run. */
+static qdot_status
+say_crossings(qdot_run *run, bool *interrupted)
+{
+    const qdot_error before = *qdot_last_error();
+    qdot_text lines = {0};
+    qdot_status status = qdot_singular_places_tell(&run->course, &lines);
+
+    *interrupted = status == QDOT_EINTR;
+    if (status == QDOT_OK && lines.n > 0)
+        qdot_text_format(&run->notice, "%s%s", run->notice.n > 0 ? "\n" : "",
+                         qdot_text_str(&lines));
+    qdot_text_clear(&lines);
+    if (run->notice.n > 0)
+        run->report.notice = qdot_text_str(&run->notice);
+    if (status == QDOT_ENOMEM)
+        return status;
+    qdot_fail_again(&before);
+    return qdot_text_status(&run->notice);
+}
+
+static const double *
+last_state(const qdot_run *run)
+{
+    return run->course.tr.y + (run->course.tr.count - 1) * run->course.tr.n;
+}
+
+/* The constraints that are nearly dependent where the run stopped; whether there are any. */
+static bool
+say_dependent(const qdot_run *run, qdot_text *reason)
+{
+    qdot_constrained *held =
+        run->course.binds.at[0] ? qdot_bind_held(run->course.binds.at[0]) : NULL;
+    qdot_text names = {0};
+    bool found = held && !strstr(qdot_text_str(reason), "independent")
+                 && !strstr(qdot_text_str(reason), "no direction")
+                 && qdot_constrained_near(held, run->course.tr.t[run->course.tr.count - 1],
+                                          last_state(run), &names);
+
+    if (found)
+        qdot_text_format(reason, "; %s stop being independent there, which method taylor can "
+                                 "go over",
+                         qdot_text_str(&names));
+    qdot_text_clear(&names);
+    return found;
+}
+
+/* The reason of a run that the integration gave up. */
+static qdot_status
+say_failure(qdot_run *run, qdot_status status)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const qdot_trajectory_piece *piece = tr->pieces.at + tr->pieces.n - 1;
+    const char *why = tr->result.reason[0] ? tr->result.reason : qdot_last_error()->message;
+    qdot_text reason = {0};
+
+    qdot_text_add(&reason, why);
+    if (!say_dependent(run, &reason) && status == QDOT_EFAILED)
+        status = qdot_failure_explain(run->plan,
+                                      qdot_course_systems(&run->course) + piece->mode,
+                                      tr->t[tr->count - 1], last_state(run),
+                                      run->t1 - run->t0, &reason);
+    else
+        status = qdot_text_status(&reason);
+    if (status == QDOT_OK)
+        status = qdot_run_say_why(run, qdot_text_str(&reason));
+    qdot_text_clear(&reason);
+    return status;
+}
+
+/* Integrate; QDOT_OK whenever there is a run to keep, *interrupted by Ctrl-C. */
+static qdot_status
+integrate(qdot_run *run, double tol, bool *interrupted)
+{
+    qdot_ode_options options = {.tol = tol,
+                                .carry = run->start_low,
+                                .t0_low = run->t0_low,
+                                .t1_low = run->t1_low,
+                                .leading = run->leading};
+    qdot_status status = qdot_course_run(&run->course, run->plan->method, &options,
+                                         run->t0, run->t1, run->start);
+
+    *interrupted = status == QDOT_EINTR;
+    run->factored = 0; /* reading the run factors, too */
+    for (size_t i = 0; i < run->course.binds.n; i++)
+        if (run->course.binds.at[i])
+            run->factored += qdot_bind_factored(run->course.binds.at[i]);
+    if (!is_kept(status) || run->course.tr.count == 0)
+        return status;
+    if (!*interrupted)
+        QDOT_TRY(say_crossings(run, interrupted));
+    if (status != QDOT_OK)
+        return say_failure(run, status);
+    return qdot_run_say_course(run);
+}
+
+/* --- the report --------------------------------------------------------------------- */
+
+/* How many steps each of the parts took that were integrated apart. */
+static qdot_status
+say_apart(qdot_run *run)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_text *names = &run->part_names;
+    const char *at;
+
+    for (size_t k = 0; k < tr->n_tracks; k++) {
+        const qdot_plan *part = run->plan->parts[k];
+        const qdot_ode_stats *stats = &tr->tracks[k].result.stats;
+
+        for (size_t i = 0; i < part->n; i++)
+            qdot_text_format(names, "%s%s", i ? ", " : "", part->names[i]);
+        qdot_text_char(names, '\0');
+        QDOT_TRY(qdot_vec_push(&run->parts,
+                               ((qdot_run_part){NULL, stats->steps, stats->rejected})));
+    }
+    QDOT_TRY(qdot_text_status(names));
+    at = qdot_text_str(names);
+    for (size_t k = 0; k < run->parts.n; k++, at += strlen(at) + 1)
+        run->parts.at[k].coordinates = at;
+    run->report.n_parts = run->parts.n;
+    run->report.parts = run->parts.at;
+    return QDOT_OK;
+}
+
+static void
+fill_report(qdot_run *run, double tol)
+{
+    qdot_run_report *r = &run->report;
+    const qdot_ode_stats *stats = &run->course.tr.result.stats;
+    const qdot_plan *p = run->plan;
+
+    r->method = p->method->name;
+    r->tol = tol;
+    r->t0 = run->t0;
+    r->t1 = run->course.tr.t[run->course.tr.count - 1];
+    r->steps = stats->steps;
+    r->rejected = stats->rejected;
+    r->evals = stats->evaluations;
+    r->jacobians = stats->jacobians;
+    r->factorizations = stats->factorisations + run->factored;
+    r->pieces = run->course.tr.pieces.n;
+    r->modes = run->stage.modes.n;
+    r->doubt = run->doubt;
+    r->cpu = stats->cpu;
+    r->n = p->n;
+    r->n_states = p->n_states;
+    r->coordinates = p->inputs;
+    r->q = last_state(run);
+    r->v = r->q + p->n;
+    r->operations = qdot_plan_operations(p, NULL);
+    r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
+    r->n_drifts = run->drifts.n;
+    r->drifts = run->drifts.at;
+    r->projections = stats->projections;
+    qdot_multipliers_report(&run->multipliers, p, r);
+}
+
+/* The states of the run at the times that the companion wants them. */
+static qdot_status
+show_states(qdot_run *run, qdot_companion *companion)
+{
+    qdot_trajectory_cursor *cursor;
+    size_t count, n = run->course.tr.n;
+    const double *times = qdot_companion_times(companion, &count);
+    double *y;
+    qdot_status status;
+
+    if (count == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_trajectory_open(&run->course.tr, qdot_course_systems(&run->course),
+                                  &cursor));
+    y = qdot_malloc(n * sizeof *y);
+    status = y ? QDOT_OK : QDOT_ENOMEM;
+    for (size_t k = 0; k < count && status == QDOT_OK; k++) {
+        status = qdot_trajectory_read(cursor, times[k], y);
+        if (status == QDOT_OK)
+            qdot_companion_show(companion, k, y);
+    }
+    qdot_free(y);
+    qdot_trajectory_close(cursor);
+    /* without them the error is that of the end alone */
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* Whether nothing can divide the run into pieces. */
+static bool
+is_whole(const qdot_run *run)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++)
+        if (run->stage.events.at[i].stop || run->stage.events.at[i].then)
+            return false;
+    return run->stage.switches.surfaces.n == 0;
+}
+
+static qdot_status
+measure_multipliers(qdot_run *run)
+{
+    return qdot_multipliers_measure(run->course.binds.at, &run->course.tr, &run->multipliers);
+}
+
+/* What a companion needs beside the run. */
+typedef struct {
+    qdot_bind *shaken, *twin; /* twin NULL: only one */
+    qdot_companion *companion;
+} beside;
+
+static qdot_status
+start_companion(qdot_run *run, double tol, beside *b)
+{
+    qdot_ode_system system, twin;
+    qdot_companion_request request = {.system = &system,
+                                      .twin = &twin,
+                                      .method = run->plan->method,
+                                      .tol = tol,
+                                      .t0 = run->leading ? run->t0
+                                                         : qdot_shake_double(
+                                                             run->t0, run->t0_side),
+                                      .t0_low = run->t0_low,
+                                      .t1 = run->t1,
+                                      .t1_low = run->t1_low,
+                                      .y0 = run->start,
+                                      .carry = run->start_low,
+                                      .leading = run->leading,
+                                      .threaded = true};
+
+    QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
+    system = qdot_bind_system(b->shaken);
+    if (!system.series)
+        request.t1 = qdot_shake_double(run->t1, run->t1_side);
+    QDOT_TRY(qdot_bind_new(run->plan, false, &b->twin));
+    twin = qdot_bind_system(b->twin);
+    return qdot_companion_start(&request, &b->companion);
+}
+
+/* Why there is no error. */
+static qdot_status
+say_lost(qdot_run *run, const char *reason)
+{
+    char text[400];
+
+    snprintf(text, sizeof text,
+             "a second run, from a start moved by a rounding, did not arrive%s%.300s",
+             reason[0] ? ": " : "", reason);
+    qdot_free(run->doubt);
+    run->doubt = qdot_strdup(text);
+    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* The error by two companions beside the run, on threads of their own. */
+static qdot_status
+run_beside(qdot_run *run, double tol, bool *interrupted)
+{
+    qdot_companion_estimate estimate = {.error = 0};
+    beside b = {0};
+    qdot_status status = QDOT_OK;
+
+    if (run->t0 != run->t1) {
+        /* Where the shaken constants have no inverse the error stays unknown. */
+        estimate.error = NAN;
+        status = start_companion(run, tol, &b);
+        if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN)
+            status = QDOT_OK;
+    }
+    if (status == QDOT_OK)
+        status = integrate(run, tol, interrupted);
+    if (b.companion && status == QDOT_OK && !*interrupted
+        && run->course.tr.result.outcome == QDOT_ODE_DONE)
+        status = show_states(run, b.companion);
+    if (status == QDOT_OK)
+        status = measure_multipliers(run);
+    if (b.companion) {
+        bool there = run->course.tr.count > 0;
+        qdot_error failure = *qdot_last_error();
+
+        double *difference = qdot_calloc(2 * run->plan->n, sizeof *difference);
+
+        qdot_companion_limit(b.companion, run->course.tr.result.stats.steps);
+        qdot_companion_finish(b.companion, there ? run->course.tr.result.t : run->t1,
+                              there ? last_state(run) : run->start, difference,
+                              &estimate);
+        if (!difference)
+            status = QDOT_ENOMEM;
+        else if (status == QDOT_OK && !*interrupted && there)
+            status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr,
+                                       difference, &run->multipliers);
+        qdot_free(difference);
+        if (status == QDOT_OK && !estimate.known)
+            status = say_lost(run, estimate.result.reason);
+        if (status != QDOT_OK || *interrupted)
+            qdot_fail_again(&failure);
+    }
+    qdot_bind_free(b.shaken);
+    qdot_bind_free(b.twin);
+    run->report.error = estimate.error;
+    return status;
+}
+
+/* The error by a companion that meets its own events, after the run. */
+static qdot_status
+run_after(qdot_run *run, double tol, bool *interrupted)
+{
+    double *difference;
+    qdot_status status;
+
+    QDOT_TRY(integrate(run, tol, interrupted));
+    run->report.error = NAN;
+    run->report.tol = tol;
+    QDOT_TRY(measure_multipliers(run));
+    if (*interrupted)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_twin(run));
+    difference = qdot_calloc(run->course.tr.n + 1, sizeof *difference);
+    status = difference ? qdot_run_end_error(run, &run->report.error, difference) : QDOT_ENOMEM;
+    if (status == QDOT_OK && !isnan(run->report.error))
+        status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr, difference,
+                                         &run->multipliers);
+    qdot_free(difference);
+    return status;
+}
+
+/* A force that no step saw leaves nothing of the error. */
+static qdot_status
+find_hidden(qdot_run *run)
+{
+    const qdot_error before = *qdot_last_error();
+    char text[200];
+    double t;
+
+    QDOT_TRY(qdot_unresolved_forces_find(&run->course, &run->hidden, &t));
+    qdot_fail_again(&before);
+    if (!run->hidden)
+        return QDOT_OK;
+    run->report.error = NAN;
+    snprintf(text, sizeof text,
+             "a force acts about t = %.6g for less than a step, which went over it: end a run "
+             "just before, and go on from there",
+             t);
+    qdot_free(run->doubt);
+    run->doubt = qdot_strdup(text);
+    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* The run, its error, and what should have been kept. */
+static qdot_status
+carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
+{
+    qdot_status status;
+
+    *interrupted = false;
+    if (is_whole(run) && run->stage.events.n == 0) { /* these are found by doubles */
+        const qdot_ode_system system = qdot_bind_system(run->course.binds.at[0]);
+
+        run->leading = qdot_ode_has_leading(&system, run->plan->method, tol);
+    }
+    status = is_whole(run) ? run_beside(run, tol, interrupted)
+                           : run_after(run, tol, interrupted);
+    run->report.tol = tol;
+    if (status == QDOT_OK && !*interrupted)
+        status = find_hidden(run);
+    if (status == QDOT_OK && !*interrupted && !run->hidden)
+        status = qdot_horizon_find(run);
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
+    if (status == QDOT_EINTR) {
+        *interrupted = true;
+        status = QDOT_OK;
+    }
+    return status;
+}
+
+static qdot_status
+make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **out)
+{
+    const qdot_run_request precise = qdot_precise_request(asked);
+    const qdot_run_request *request = asked->digits ? &precise : asked;
+    bool interrupted = false;
+    qdot_run *run;
+    qdot_status status;
+
+    QDOT_TRY(asked->digits ? qdot_precise_check(scene, asked) : check_tolerance(asked->tol));
+    run = qdot_calloc(1, sizeof *run);
+    if (!run)
+        return QDOT_ENOMEM;
+    run->report.horizon = NAN;
+    status = qdot_stage_begin(&run->stage, scene, request);
+    run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
+    run->course.touch_tol = request->tol;
+    if (status == QDOT_OK) {
+        run->plan = run->stage.modes.at[0]->plan;
+        status = read_start(run, request);
+    }
+    if (status == QDOT_OK)
+        status = check_springs(run, scene);
+    if (status == QDOT_OK)
+        status = settle_start(run, scene, request, &run->stage.domains);
+    if (status == QDOT_OK)
+        status = check_start(run);
+    if (status == QDOT_OK)
+        status = request->digits
+                     ? qdot_digits_carry_out(run, scene, request, &run->stage.domains,
+                                             &interrupted)
+                     : carry_out(run, scene, request->tol, &interrupted);
+    if (status != QDOT_OK) {
+        qdot_run_free(run);
+        return status;
+    }
+    run->stage.scene = NULL;
+    run->stage.request = NULL;
+    fill_report(run, request->tol);
+    status = say_apart(run);
+    if (status == QDOT_OK && !interrupted)
+        status = name_redundant(run, scene, request);
+    if (status != QDOT_OK) {
+        qdot_run_free(run);
+        return status;
+    }
+    if (request->digits)
+        qdot_digits_fill_report(run);
+    run->report.interrupted = interrupted;
+    run->report.cpu_total = process_clock() - clock;
+    *out = run;
+    return interrupted ? QDOT_EINTR : QDOT_OK;
+}
+
+qdot_status
+qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+{
+    const double clock = process_clock();
+    qdot_parameter_states states = {0};
+    qdot_status status;
+
+    *out = NULL;
+    QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
+    status = make(scene, &states.request, clock, out);
+    qdot_parameter_states_clear(&states);
+    return status;
+}

@@ -1,0 +1,598 @@
+/* start.c -- which values a start keeps, which are solved for, and what is said of it. */
+#include "sim/start/start.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "num/row-space.h"
+#include "sim/start/nearest.h"
+
+static const double breaks = 1e-14; /* relative to max(1, |x|) */
+
+enum { MOST_LISTED = 24, MOST_ANSWERED = 4 };
+
+/* Positions or velocities: what must hold of them. */
+typedef struct {
+    qdot_scene *scene;
+    const qdot_plan *plan;
+    const qdot_run_request *request;
+    bool velocities;
+    size_t n;
+    size_t m;
+    qdot_expr *F;        /* [m] */
+    size_t *constraint;  /* [m] whose F it is */
+    double *distance;    /* [m] as the start was */
+    bool *free;          /* [n] */
+    qdot_nearest near;
+    const double *before; /* [2n] */
+} level;
+
+/* --- the equations ------------------------------------------------------------------ */
+
+static qdot_status
+push(level *l, size_t k, qdot_expr F)
+{
+    qdot_expr t = QDOT_T;
+
+    F = qdot_plan_substitute(l->plan, F);
+    QDOT_TRY(qdot_pool_check(l->plan->pool));
+    F = qdot_subs(l->plan->pool, F, 1, &t, &l->request->t0);
+    QDOT_TRY(qdot_pool_check(l->plan->pool));
+    l->F[l->m] = F;
+    l->constraint[l->m++] = k;
+    return QDOT_OK;
+}
+
+static qdot_status
+level_init(level *l)
+{
+    const qdot_scene *scene = l->scene;
+    size_t c = scene->constraints.n;
+
+    l->F = qdot_calloc(c + 1, sizeof *l->F);
+    l->constraint = qdot_calloc(c + 1, sizeof *l->constraint);
+    l->distance = qdot_calloc(c + 1, sizeof *l->distance);
+    l->free = qdot_calloc(l->n + 1, sizeof *l->free);
+    if (!l->F || !l->constraint || !l->distance || !l->free)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < c; k++) {
+        const qdot_constraint *one = &scene->constraints.at[k];
+
+        if (one->kind == QDOT_HOLONOMIC)
+            QDOT_TRY(push(l, k, l->velocities ? qdot_ddt(scene->pool, one->f) : one->f));
+        else if (one->kind == QDOT_VELOCITY && l->velocities)
+            QDOT_TRY(push(l, k, one->f));
+    }
+    return QDOT_OK;
+}
+
+static void
+level_clear(level *l)
+{
+    qdot_free(l->F);
+    qdot_free(l->constraint);
+    qdot_free(l->distance);
+    qdot_free(l->free);
+}
+
+/* Not a parameter that events set. */
+static bool
+is_moving(const level *l, size_t i)
+{
+    return i < l->n - l->plan->n_states;
+}
+
+/* The search over the equations F [m]. */
+static qdot_nearest
+equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains *domains)
+{
+    return (qdot_nearest){.pool = l->plan->pool,
+                          .inputs = 2 * l->n,
+                          .symbol = l->plan->inputs,
+                          .first = l->velocities ? l->n : 0,
+                          .n = l->n,
+                          .m = m,
+                          .F = F,
+                          .domains = l->velocities ? NULL : domains};
+}
+
+/* --- words -------------------------------------------------------------------------- */
+
+static void
+print_unknown(const level *l, size_t i, qdot_text *out)
+{
+    qdot_text_format(out, "%s%s", l->plan->names[i], l->velocities ? "'" : "");
+}
+
+/* "constraint rod", "constraints a, pin[2] and b" */
+static void
+print_constraints(const level *l, const bool *which, qdot_text *out)
+{
+    size_t count = 0, done = 0;
+
+    for (size_t k = 0; k < l->m; k++)
+        count += which[k];
+    qdot_text_add(out, count == 1 ? "constraint " : "constraints ");
+    for (size_t k = 0; k < l->m; k++) {
+        const char *name = l->scene->constraints.at[l->constraint[k]].name;
+        const char *comma = strchr(name, ',');
+
+        if (!which[k])
+            continue;
+        if (done > 0)
+            qdot_text_add(out, done + 1 == count ? " and " : ", ");
+        done++;
+        if (comma)
+            qdot_text_format(out, "%.*s[%s]", (int)(comma - name), name,
+                             comma + 1 + strspn(comma + 1, " "));
+        else
+            qdot_text_add(out, name);
+    }
+}
+
+static qdot_status
+print_broken(const level *l, qdot_text *out)
+{
+    bool *which = qdot_calloc(l->m + 1, sizeof *which);
+
+    if (!which)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < l->m; k++)
+        which[k] = !(l->distance[k] <= breaks);
+    print_constraints(l, which, out);
+    qdot_free(which);
+    return QDOT_OK;
+}
+
+/* Fail with `text`, which is let go of. */
+static qdot_status
+fail(qdot_text *text, qdot_status built)
+{
+    if (built == QDOT_OK)
+        built = qdot_text_status(text);
+    if (built == QDOT_OK)
+        built = qdot_fail(QDOT_EINVAL, "%s", qdot_text_str(text));
+    qdot_text_clear(text);
+    return built;
+}
+
+static qdot_status
+refuse(const level *l, const double *residual)
+{
+    const qdot_constraint *row;
+    qdot_text text = {0};
+    qdot_status status;
+    size_t worst = 0, broken = 0;
+
+    for (size_t k = 1; k < l->m; k++)
+        if (!(l->distance[k] <= l->distance[worst]))
+            worst = k;
+    row = &l->scene->constraints.at[l->constraint[worst]];
+    qdot_text_add(&text, "the start breaks ");
+    status = print_broken(l, &text);
+    for (size_t k = 0; k < l->m; k++)
+        broken += !(l->distance[k] <= breaks);
+    qdot_text_add(&text, l->velocities && row->kind == QDOT_HOLONOMIC
+                             ? ": the rate of left - right"
+                             : ": left - right");
+    if (broken > 1)
+        qdot_text_format(&text, " of %.100s", row->name);
+    qdot_text_format(&text, " is %.6g, not 0", residual[worst]);
+    status = fail(&text, status);
+    return status == QDOT_EINVAL
+               ? qdot_hint("without `exactly` the start is moved onto the constraints")
+               : status;
+}
+
+/* Of an answer x what another has not, "x = 1, y = 0". */
+static void
+print_answer(const level *l, const double *x, const double *other, qdot_text *out)
+{
+    size_t listed = 0;
+
+    for (size_t i = 0; i < l->n; i++) {
+        if (!(fabs(x[i] - other[i]) > 1e-6 * (1 + fabs(x[i]))))
+            continue;
+        if (listed == MOST_ANSWERED) {
+            qdot_text_add(out, " ...");
+            return;
+        }
+        qdot_text_add(out, listed++ > 0 ? ", " : " ");
+        print_unknown(l, i, out);
+        qdot_text_format(out, " = %.6g", x[i]);
+    }
+}
+
+static qdot_status
+say_several(const level *l, const double *at, const double *other, bool all)
+{
+    const double *x = at + (l->velocities ? l->n : 0);
+    qdot_text text = {0}, name = {0};
+    qdot_status status = QDOT_OK;
+    size_t i = 0;
+
+    for (size_t j = 1; j < l->n; j++)
+        if (fabs(x[j] - other[j]) > fabs(x[i] - other[i]))
+            i = j;
+    print_unknown(l, i, &name);
+    status = qdot_text_status(&name);
+    qdot_text_add(&text, "the start breaks ");
+    if (status == QDOT_OK)
+        status = print_broken(l, &text);
+    qdot_text_add(&text, ", and two answers are equally near:");
+    print_answer(l, x, other, &text);
+    qdot_text_add(&text, " and");
+    print_answer(l, other, x, &text);
+    status = fail(&text, status);
+    if (status == QDOT_EINVAL)
+        status = all ? qdot_hint("start %s = ...: a value nearer to one of them",
+                                 qdot_text_str(&name))
+                     : qdot_hint("name one more value: start %s = %.6g",
+                                 qdot_text_str(&name), x[i]);
+    qdot_text_clear(&name);
+    return status;
+}
+
+static qdot_status
+say_moved(const level *l, const double *at, qdot_text *notice)
+{
+    size_t first = l->velocities ? l->n : 0, listed = 0, left = 0;
+    double most = 0;
+
+    if (notice->n > 0)
+        qdot_text_add(notice, "\n");
+    qdot_text_add(notice, "the start breaks ");
+    QDOT_TRY(print_broken(l, notice));
+    qdot_text_add(notice, "; moved least, in the metric of M:");
+    for (size_t i = 0; i < l->n; i++) {
+        double from = l->before[first + i], by = at[first + i] - from;
+
+        if (!(fabs(by) > breaks * fmax(1, fabs(from))))
+            continue;
+        if (listed == MOST_LISTED) {
+            left++;
+            most = fmax(most, fabs(by));
+            continue;
+        }
+        qdot_text_add(notice, listed++ > 0 ? ", " : " ");
+        print_unknown(l, i, notice);
+        qdot_text_format(notice, " from %.12g to %.12g (by %.3g)", from, at[first + i],
+                         by);
+    }
+    if (left > 0)
+        qdot_text_format(notice, ", and %zu more, at most by %.3g", left, most);
+    return qdot_text_status(notice);
+}
+
+/* --- contradictions ----------------------------------------------------------------- */
+
+/* Whether the equations `kept` can hold together. */
+static qdot_status
+can_hold(const level *l, const bool *kept, const qdot_domains *domains,
+         const double *start, bool *can)
+{
+    size_t m = 0;
+    qdot_expr *F = qdot_calloc(l->m + 1, sizeof *F);
+    double *at = qdot_calloc(3 * l->n + 1, sizeof *at);
+    qdot_nearest_outcome outcome = QDOT_NEAREST_FOUND;
+    qdot_nearest near;
+    qdot_status status = F && at ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < l->m && status == QDOT_OK; k++)
+        if (kept[k])
+            F[m++] = l->F[k];
+    near = equations(l, m, F, domains);
+    if (status == QDOT_OK && m > 0) {
+        status = qdot_nearest_begin(&near);
+        if (status == QDOT_OK) {
+            memcpy(at, start, 2 * l->n * sizeof *at);
+            status = qdot_nearest_find(&near, l->free, NULL, at, at + 2 * l->n, &outcome);
+            qdot_nearest_end(&near);
+        }
+    }
+    *can = outcome != QDOT_NEAREST_NONE;
+    qdot_free(F);
+    qdot_free(at);
+    return status;
+}
+
+/* No state keeps all of them: leave out one after another what is not to blame. */
+static qdot_status
+blame(const level *l, const qdot_domains *domains, const double *start)
+{
+    bool *kept = qdot_calloc(l->m + 1, sizeof *kept), can;
+    qdot_status status = kept ? QDOT_OK : QDOT_ENOMEM;
+    qdot_text text = {0};
+    size_t count = l->m;
+
+    for (size_t k = 0; k < l->m && status == QDOT_OK; k++)
+        kept[k] = true;
+    for (size_t k = l->m; k-- > 0 && status == QDOT_OK;) {
+        kept[k] = false;
+        status = can_hold(l, kept, domains, start, &can);
+        if (status == QDOT_OK && can)
+            kept[k] = true;
+        else
+            count--;
+    }
+    if (status == QDOT_OK) {
+        qdot_text_format(&text, "no %s found that keep%s ",
+                         l->velocities ? "velocities were" : "position was",
+                         l->velocities ? "" : "s");
+        print_constraints(l, kept, &text);
+        if (count > 1)
+            qdot_text_add(&text, ": they contradict each other");
+        status = fail(&text, status);
+    }
+    if (status == QDOT_EINVAL)
+        status = qdot_hint("check their parameters%s",
+                           count > 1 ? ", or remove one of them" : "");
+    qdot_free(kept);
+    return status;
+}
+
+/* --- a level ------------------------------------------------------------------------ */
+
+/* Expressions [m] of q and q' at y. */
+static qdot_status
+evaluate(const level *l, size_t m, const qdot_expr *exprs, const double *y, double *out)
+{
+    qdot_tape *tape;
+    double *work;
+    qdot_status status;
+
+    QDOT_TRY(qdot_tape_new(l->plan->pool, 2 * l->n, l->plan->inputs, m, exprs, &tape));
+    work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *work);
+    status = work ? QDOT_OK : QDOT_ENOMEM;
+    if (work)
+        qdot_tape_eval(tape, y, out, work);
+    qdot_tape_free(tape);
+    qdot_free(work);
+    return status;
+}
+
+/* M at the start. */
+static qdot_status
+metric(const level *l, const double *y, double *W)
+{
+    qdot_pool *pool = l->plan->pool;
+    const size_t n = l->n, m = n - l->plan->n_states;
+    qdot_expr M = qdot_mech_numeric_mass(l->scene), t = QDOT_T;
+    qdot_expr *entries = qdot_calloc(n * n + 1, sizeof *entries);
+    qdot_status status = entries ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK && M != QDOT_NIL)
+        M = qdot_plan_substitute(l->plan, M);
+    if (status == QDOT_OK && M != QDOT_NIL)
+        M = qdot_subs(pool, M, 1, &t, &l->request->t0);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
+        entries[i] = is_moving(l, i / n) && is_moving(l, i % n)
+                         ? qdot_expr_arg(pool, M, (uint32_t)(i / n * m + i % n))
+                     : i / n == i % n ? QDOT_ONE
+                                      : QDOT_ZERO;
+    if (status == QDOT_OK)
+        status = evaluate(l, n * n, entries, y, W);
+    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
+        if (!isfinite(W[i]))
+            W[i] = i % (n + 1) == 0;
+    qdot_free(entries);
+    return status;
+}
+
+/* All moves least. */
+static qdot_status
+move_all(level *l, const qdot_domains *domains, double *y, double *other,
+         qdot_text *notice)
+{
+    double *W = qdot_calloc(l->n * l->n + 1, sizeof *W);
+    qdot_nearest_outcome outcome = QDOT_NEAREST_NONE;
+    qdot_status status = W ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < l->n; i++)
+        l->free[i] = is_moving(l, i);
+    if (status == QDOT_OK)
+        status = metric(l, y, W);
+    if (status == QDOT_OK)
+        status = qdot_nearest_find(&l->near, l->free, W, y, other, &outcome);
+    qdot_free(W);
+    QDOT_TRY(status);
+    if (outcome == QDOT_NEAREST_NONE)
+        return blame(l, domains, y);
+    if (outcome == QDOT_NEAREST_SEVERAL)
+        return say_several(l, y, other, true);
+    return say_moved(l, y, notice);
+}
+
+/* The start breaks the equations. */
+static qdot_status
+solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
+{
+    const bool *named = l->velocities ? l->request->v_named : l->request->q_named;
+    qdot_nearest_outcome outcome = QDOT_NEAREST_NONE;
+    double *other = qdot_calloc(l->n + 1, sizeof *other);
+    qdot_status status = other ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < l->n; i++)
+        l->free[i] = named && !named[i];
+    if (status == QDOT_OK)
+        status = qdot_nearest_find(&l->near, l->free, NULL, y, other, &outcome);
+    if (status == QDOT_OK && outcome == QDOT_NEAREST_SEVERAL)
+        status = say_several(l, y, other, false);
+    else if (status == QDOT_OK && outcome == QDOT_NEAREST_NONE)
+        status = move_all(l, domains, y, other, notice);
+    qdot_free(other);
+    return status;
+}
+
+static double
+worst(const level *l, const double *y)
+{
+    double most = 0, size = 1;
+
+    for (size_t i = 0; i < l->n; i++)
+        size = fmax(size, fabs(y[l->near.first + i]));
+    for (size_t k = 0; k < l->m; k++)
+        most = !(l->distance[k] / size <= most) ? l->distance[k] / size : most;
+    return most;
+}
+
+/* What was not named, is in no constraint and may not be 0 has no value. */
+static qdot_status
+check_left_alone(const level *l, const qdot_domains *domains, const double *y)
+{
+    const bool *named = l->request->q_named;
+
+    for (size_t i = 0; named && !l->velocities && i < domains->n; i++) {
+        const qdot_domain *d = &domains->at[i];
+        double x = y[d->coordinate];
+        bool held = named[d->coordinate];
+
+        if ((d->lo_open ? x > d->lo : x >= d->lo) && (d->hi_open ? x < d->hi : x <= d->hi))
+            continue;
+        for (size_t k = 0; k < l->m && !held; k++)
+            held = qdot_expr_contains(l->plan->pool, l->F[k],
+                                      l->plan->inputs[d->coordinate]);
+        if (held)
+            continue;
+        qdot_fail(QDOT_EDOMAIN, "the start %s = 0 is outside its domain %.200s",
+                  l->plan->names[d->coordinate], d->text);
+        return qdot_hint("start %s = ...: what was never named starts at 0",
+                         l->plan->names[d->coordinate]);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text *notice)
+{
+    double *residual = qdot_calloc(l->m + 1, sizeof *residual), broken;
+    qdot_status status = residual ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_nearest_distance(&l->near, y, low, l->distance, residual);
+    broken = status == QDOT_OK ? worst(l, y) : 0;
+    for (size_t i = 0; i < l->n; i++)
+        l->free[i] = is_moving(l, i);
+    if (status == QDOT_OK && !(broken <= breaks)) {
+        status = l->request->exactly ? refuse(l, residual) : solve(l, domains, y, notice);
+        for (size_t i = 0; i < l->n; i++)
+            if (l->free[i])
+                low[l->near.first + i] = 0;
+    }
+    if (status == QDOT_OK && broken != 0)
+        status = qdot_nearest_refine(&l->near, l->free, y, low);
+    qdot_free(residual);
+    return status;
+}
+
+/* --- constraints that say nothing new ----------------------------------------------- */
+
+/* Rows of A by each constraint's kind, at y. */
+static qdot_status
+slopes(const level *l, const double *y, double *A)
+{
+    const qdot_scene *scene = l->scene;
+    qdot_pool *pool = l->plan->pool;
+    size_t n = l->n, c = scene->constraints.n;
+    qdot_expr *entries = qdot_calloc(c * n + 1, sizeof *entries), t = QDOT_T;
+    qdot_status status = entries ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < c * n && status == QDOT_OK; k++) {
+        const qdot_constraint *one = &scene->constraints.at[k / n];
+        qdot_expr e;
+
+        if (!is_moving(l, k % n)) {
+            entries[k] = QDOT_ZERO;
+            continue;
+        }
+        e = qdot_diff(
+            pool, one->f,
+            qdot_symbol_jet(pool, scene->coordinates.at[k % n], (uint32_t)one->kind));
+        e = e == QDOT_NIL ? e : qdot_plan_substitute(l->plan, e);
+        entries[k] = e == QDOT_NIL ? e : qdot_subs(pool, e, 1, &t, &l->request->t0);
+    }
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = evaluate(l, c * n, entries, y, A);
+    qdot_free(entries);
+    return status;
+}
+
+qdot_status
+qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
+                     const qdot_run_request *request, const double *y, qdot_text *notice)
+{
+    size_t n = plan->n, c = scene->constraints.n;
+    level l = {.scene = scene, .plan = plan, .request = request, .n = n};
+    double *A = qdot_calloc(c * n + 1, sizeof *A);
+    bool *which = qdot_calloc(c + 1, sizeof *which);
+    qdot_row_space rows = {0};
+    qdot_status status = A && which ? qdot_row_space_init(&rows, c, n) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = level_init(&l);
+    for (size_t k = 0; k < c && status == QDOT_OK; k++)
+        l.constraint[k] = k;
+    l.m = c;
+    if (status == QDOT_OK)
+        status = slopes(&l, y, A);
+    if (status == QDOT_OK) {
+        qdot_row_space_factor(&rows, A, 1e-9, true);
+        for (size_t k = rows.rank; k < c; k++)
+            which[rows.order[k]] = true;
+        if (rows.rank < c) {
+            if (notice->n > 0)
+                qdot_text_add(notice, "\n");
+            print_constraints(&l, which, notice);
+            qdot_text_add(notice, c - rows.rank == 1 ? " says" : " say");
+            qdot_text_add(notice, " nothing new at the start, beside those before");
+            status = qdot_text_status(notice);
+        }
+    }
+    level_clear(&l);
+    qdot_row_space_clear(&rows);
+    qdot_free(A);
+    qdot_free(which);
+    return status;
+}
+
+qdot_status
+qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
+                  const qdot_run_request *request, const qdot_domains *domains, double *y,
+                  double *low, qdot_text *notice)
+{
+    size_t n = plan->n;
+    double *before = qdot_calloc(2 * n + 1, sizeof *before);
+    qdot_status status = before ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        memcpy(before, y, 2 * n * sizeof *before);
+    for (int velocities = 0; velocities < 2 && status == QDOT_OK; velocities++) {
+        level l = {.scene = scene,
+                   .plan = plan,
+                   .request = request,
+                   .velocities = velocities,
+                   .n = n,
+                   .before = before};
+
+        status = level_init(&l);
+        if (status == QDOT_OK && l.m > 0) {
+            l.near = equations(&l, l.m, l.F, domains);
+            status = check_left_alone(&l, domains, y);
+            if (status == QDOT_OK)
+                status = qdot_nearest_begin(&l.near);
+            if (status == QDOT_OK) {
+                status = settle(&l, domains, y, low, notice);
+                qdot_nearest_end(&l.near);
+            }
+        }
+        level_clear(&l);
+    }
+    qdot_free(before);
+    return status;
+}

@@ -1,0 +1,322 @@
+/* race.c -- the lanes, the reference, the way from minimal coordinates back. */
+#include "sim/study/race.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "mech/study/minimal.h"
+#include "sim/course/run-state.h"
+#include "sim/model/substitute.h"
+#include "tape/constant.h"
+
+static const double reference_tol = 1e-15;
+static const double ladder[QDOT_RACE_TOLERANCES] = {1e-4,  1e-6,  1e-8,
+                                                    1e-10, 1e-12, 1e-14};
+
+/* Times below this are measured again. */
+static const double long_enough = 5e-3;
+enum { MOST_REPEATS = 5, MINIMAL = 3 };
+
+static const char *const names[QDOT_RACE_FORMULATIONS] = {
+    "as given, projected", "as given, baumgarte", "as given, none",
+    "minimal coordinates"};
+
+typedef struct {
+    qdot_scene *scene;
+    const qdot_run_request *request; /* as given */
+    qdot_run *reference;
+    size_t n;
+    double *end; /* [2n] of the reference */
+    double *values; /* [2n] */
+    qdot_race *race;
+} race;
+
+void
+qdot_race_clear(qdot_race *r)
+{
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        qdot_free(r->lane[i].reason);
+    qdot_free(r->notice);
+    *r = (qdot_race){0};
+}
+
+/* --- one lane ----------------------------------------------------------------------- */
+
+/* Worst of values [2n] against the reference. */
+static double
+error_of(const race *r)
+{
+    double worst = 0;
+
+    for (size_t i = 0; i < 2 * r->n; i++) {
+        double e = fabs(r->values[i] - r->end[i]) / fmax(1, fabs(r->end[i]));
+
+        worst = !(e <= worst) ? e : worst;
+    }
+    return worst;
+}
+
+/* state [2n]: q and q' of the scene as given, in the coordinates of `scene`. */
+static qdot_status
+one_run(race *r, qdot_scene *scene, const qdot_run_request *request,
+        const qdot_expr *state, qdot_race_entry *entry)
+{
+    double spent = 0;
+
+    entry->tol = request->tol;
+    entry->error = NAN;
+    entry->cpu = INFINITY;
+    for (int k = 0; k < MOST_REPEATS && spent < long_enough; k++) {
+        const qdot_run_report *report;
+        qdot_run *run = NULL;
+        qdot_status status = qdot_run_new(scene, request, &run);
+
+        if (status != QDOT_OK) {
+            qdot_run_free(run);
+            return status;
+        }
+        report = qdot_run_get_report(run);
+        entry->method = report->method;
+        entry->energy = report->energy_drift;
+        entry->constraint = scene == r->scene ? report->constraint_drift : NAN;
+        entry->cpu = fmin(entry->cpu, report->cpu);
+        spent += report->cpu;
+        if (report->status == QDOT_RUN_DONE && k == 0) {
+            status = qdot_run_values(run, 2 * r->n, state, 1, &report->t1, r->values,
+                                     NULL);
+            if (status == QDOT_OK)
+                entry->error = error_of(r);
+        }
+        if (report->status != QDOT_RUN_DONE)
+            spent = INFINITY;
+        qdot_run_free(run);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
+/* What one lane cannot do the others may. */
+static bool
+is_its_own(qdot_status status)
+{
+    return status == QDOT_EINVAL || status == QDOT_EDOMAIN || status == QDOT_ESINGULAR ||
+           status == QDOT_ENOTBUILT || status == QDOT_EFAILED || status == QDOT_ELIMIT;
+}
+
+static qdot_status
+give_reason(qdot_race_lane *lane, const char *reason)
+{
+    lane->name = NULL;
+    lane->reason = qdot_strdup(reason);
+    return lane->reason ? QDOT_OK : QDOT_ENOMEM;
+}
+
+static qdot_status
+run_lane(race *r, int which, qdot_scene *scene, qdot_run_request request,
+         const qdot_expr *state)
+{
+    qdot_race_lane *lane = &r->race->lane[which];
+
+    lane->name = r->scene->constraints.n > 0 ? names[which] : "as given";
+    for (int k = 0; k < QDOT_RACE_TOLERANCES; k++) {
+        qdot_status status = qdot_interrupt_check();
+
+        request.tol = ladder[k];
+        if (status == QDOT_OK)
+            status = one_run(r, scene, &request, state, &lane->entry[k]);
+        if (is_its_own(status))
+            return give_reason(lane, qdot_last_error()->message);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
+/* --- in minimal coordinates --------------------------------------------------------- */
+
+/* The rational that x + low is. */
+static qdot_expr
+exact(qdot_pool *pool, double x)
+{
+    int exponent;
+    long mantissa = (long)ldexp(frexp(x, &exponent), 53);
+
+    return qdot_mul(pool, qdot_expr_int(pool, mantissa),
+                    qdot_pow_int(pool, qdot_expr_int(pool, 2), exponent - 53));
+}
+
+/* An expression in the coordinates as given, at the settled start. */
+static qdot_expr
+at_start(const race *r, qdot_expr e)
+{
+    qdot_pool *pool = r->scene->pool;
+    const qdot_run *run = r->reference;
+    qdot_expr t = QDOT_T;
+
+    for (size_t i = 2 * r->n; i-- > 0;) {
+        qdot_expr x = qdot_symbol_jet(pool, r->scene->coordinates.at[i % r->n],
+                                      i < r->n ? 0 : 1);
+        qdot_expr value = qdot_add(pool, exact(pool, run->start[i]),
+                                   exact(pool, run->start_low[i]));
+
+        e = qdot_subs(pool, e, 1, &x, &value);
+    }
+    return qdot_subs(pool, e, 1, &t, &r->request->t0);
+}
+
+static qdot_status
+minimal_start(const race *r, const qdot_minimal *m, qdot_expr *q0, qdot_expr *v0)
+{
+    qdot_pool *pool = r->scene->pool;
+    size_t n = m->scene->coordinates.n, kept = n - m->fresh;
+
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr e = i < kept ? m->scene->coordinates.at[i] : m->angle[i - kept];
+
+        q0[i] = at_start(r, e);
+        v0[i] = at_start(r, qdot_ddt(pool, e));
+    }
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+run_minimal(race *r, const qdot_minimal *m)
+{
+    size_t n = m->scene->coordinates.n;
+    qdot_expr *state = qdot_calloc(2 * r->n + 2 * n + 1, sizeof *state), *q0, *v0;
+    qdot_run_request request = *r->request;
+    qdot_status status;
+
+    if (!state)
+        return QDOT_ENOMEM;
+    q0 = state + 2 * r->n;
+    v0 = q0 + n;
+    status = minimal_start(r, m, q0, v0);
+    for (size_t i = 0; i < r->n; i++) {
+        state[i] = m->given[i];
+        state[r->n + i] = qdot_ddt(r->scene->pool, m->given[i]);
+    }
+    if (status == QDOT_OK)
+        status = qdot_pool_check(r->scene->pool);
+    request.q0 = q0;
+    request.v0 = v0;
+    request.q_named = request.v_named = NULL;
+    if (status == QDOT_OK)
+        status = run_lane(r, MINIMAL, m->scene, request, state);
+    r->race->minimal = n;
+    qdot_free(state);
+    return status;
+}
+
+/* For minimal.h: of what holds more than coordinates and numbers nothing is known. */
+static double
+size_at_start(qdot_expr e, void *user)
+{
+    const race *r = user;
+    double x = 0;
+    int side;
+
+    e = qdot_substitute(r->scene->pool, at_start(r, e), r->request->n_values,
+                        r->request->symbols, r->request->values);
+    return e != QDOT_NIL && qdot_constant_is(r->scene->pool, e) &&
+                   qdot_constant_round(r->scene->pool, e, &x, &side) == QDOT_OK
+               ? x
+               : 0;
+}
+
+static qdot_status
+try_minimal(race *r)
+{
+    qdot_minimal m;
+    qdot_status status;
+
+    if (qdot_scene_acting_event(r->scene))
+        return give_reason(&r->race->lane[MINIMAL],
+                           "events are met in the coordinates as given only");
+    status = qdot_minimal_make(r->scene, size_at_start, r, &m);
+    if (is_its_own(status))
+        return give_reason(&r->race->lane[MINIMAL], qdot_last_error()->message);
+    QDOT_TRY(status);
+    if (!m.scene)
+        status = give_reason(&r->race->lane[MINIMAL], m.reason);
+    else if (m.scene->coordinates.n == 0)
+        status = give_reason(&r->race->lane[MINIMAL],
+                             "the constraints leave no freedom");
+    else
+        status = run_minimal(r, &m);
+    qdot_minimal_clear(&m);
+    return status;
+}
+
+/* --- the race ----------------------------------------------------------------------- */
+
+static qdot_status
+run_reference(race *r)
+{
+    qdot_run_request request = *r->request;
+    const qdot_run_report *report;
+
+    request.tol = reference_tol;
+    request.treatment = QDOT_RUN_PROJECT;
+    QDOT_TRY(qdot_run_new(r->scene, &request, &r->reference));
+    report = qdot_run_get_report(r->reference);
+    if (report->status == QDOT_RUN_STOPPED) {
+        (void)qdot_fail(QDOT_EINVAL, "the run ends early: %s", report->reason);
+        return qdot_hint("a race goes to the end: remove what stops it");
+    }
+    if (report->status != QDOT_RUN_DONE)
+        return qdot_fail(QDOT_EFAILED, "the reference of the race failed: %s",
+                         report->reason ? report->reason : "no reason is known");
+    r->race->reference_tol = reference_tol;
+    r->race->reference_error = report->error;
+    memcpy(r->end, report->q, r->n * sizeof *r->end);
+    memcpy(r->end + r->n, report->v, r->n * sizeof *r->end);
+    if (!report->notice)
+        return QDOT_OK;
+    r->race->notice = qdot_strdup(report->notice);
+    return r->race->notice ? QDOT_OK : QDOT_ENOMEM;
+}
+
+static qdot_status
+run_all(race *r)
+{
+    qdot_expr *state = qdot_calloc(2 * r->n + 1, sizeof *state);
+    qdot_run_request request = *r->request;
+    qdot_status status = state ? run_reference(r) : QDOT_ENOMEM;
+    int lanes = r->scene->constraints.n > 0 ? MINIMAL : 1;
+
+    for (size_t i = 0; i < r->n && status == QDOT_OK; i++) {
+        state[i] = r->scene->coordinates.at[i];
+        state[r->n + i] = qdot_symbol_jet(r->scene->pool, state[i], 1);
+        status = qdot_pool_check(r->scene->pool);
+    }
+    for (int k = 0; k < lanes && status == QDOT_OK; k++) {
+        request.treatment = (qdot_run_treatment)k;
+        status = run_lane(r, k, r->scene, request, state);
+    }
+    if (status == QDOT_OK && lanes > 1)
+        status = try_minimal(r);
+    qdot_free(state);
+    return status;
+}
+
+qdot_status
+qdot_race_hold(qdot_scene *scene, const qdot_run_request *request, qdot_race *result)
+{
+    race r = {.scene = scene,
+              .request = request,
+              .n = scene->coordinates.n,
+              .race = result};
+    qdot_status status;
+
+    *result = (qdot_race){.coordinates = r.n};
+    r.end = qdot_calloc(4 * r.n + 1, sizeof *r.end);
+    r.values = r.end ? r.end + 2 * r.n : NULL;
+    status = r.end ? run_all(&r) : QDOT_ENOMEM;
+    qdot_run_free(r.reference);
+    qdot_free(r.end);
+    if (status != QDOT_OK)
+        qdot_race_clear(result);
+    return status;
+}

@@ -1,0 +1,46 @@
+/* race.h -- one scene in every formulation it allows, each at a ladder of tolerances.
+ *
+ *     as given, with projection | Baumgarte's damping | nothing against drift
+ *     in minimal coordinates (mech/study/minimal.h), where the constraints can be solved
+ *
+ * The end error of a run is the largest difference of a coordinate or velocity of the scene
+ * as given from those of a reference, relative to max(1, |value|). The reference is the
+ * scene as given, projected, at the least tolerance; its own error is what is stated of it.
+ *
+ * Tests  tests/script/race.lag
+ */
+#ifndef QDOT_SIM_RACE_H
+#define QDOT_SIM_RACE_H
+
+#include "sim/run/run.h"
+
+enum { QDOT_RACE_FORMULATIONS = 4, QDOT_RACE_TOLERANCES = 6 };
+
+typedef struct {
+    const char *method;        /* NULL: it did not run */
+    double tol, error;         /* NaN where the run failed */
+    double energy, constraint; /* drifts; NaN: none */
+    double cpu;                /* s, the integration; the least of several runs */
+} qdot_race_entry;
+
+typedef struct {
+    const char *name; /* "as given, projected" ...; NULL: not run */
+    char *reason;     /* why it was not run; owned */
+    qdot_race_entry entry[QDOT_RACE_TOLERANCES];
+} qdot_race_lane;
+
+typedef struct {
+    qdot_race_lane lane[QDOT_RACE_FORMULATIONS];
+    size_t coordinates, minimal; /* as given; in minimal coordinates, 0: there are none */
+    double reference_tol, reference_error;
+    char *notice; /* of the start; NULL */
+} qdot_race;
+
+/* request: its tol, method and treatment are not read. Errors: as qdot_run_new; QDOT_EFAILED
+ * where the reference does not get to the end. */
+QDOT_MUST_CHECK qdot_status qdot_race_hold(qdot_scene *scene,
+                                           const qdot_run_request *request,
+                                           qdot_race *race);
+void qdot_race_clear(qdot_race *race);
+
+#endif

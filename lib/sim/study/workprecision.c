@@ -1,0 +1,606 @@
+/* workprecision.c -- the ladder climbed, method by method. */
+#include "sim/study/workprecision.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ode/integrate.h"
+#include "sim/course/bind.h"
+#include "sim/course/course.h"
+#include "sim/course/run-state.h"
+#include "sim/error/horizon.h"
+#include "sim/model/constrained.h"
+#include "sim/model/parameter-states.h"
+#include "sim/plan/plan.h"
+#include "sim/start/start.h"
+#include "tape/constant.h"
+
+enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
+
+static const double budget_default = 3e8;
+
+/* Of a reference in doubles. */
+static const double reference_tol = 1e-15;
+
+/* An error below it is rounding, however little moved. */
+static const double rounding = 1e-14;
+
+/* A method at work. */
+typedef struct {
+    qdot_run_request request;
+    qdot_stage stage;
+    qdot_course course; /* of a run that may be divided into pieces */
+    bool pieces;
+    double t_end;
+    qdot_plan *plan; /* the stage's */
+    qdot_bind *bind;
+    qdot_ode_system inner, system; /* the system counts evaluations of the inner one */
+    qdot_ode_series series;
+    uint64_t evaluations, most_evaluations;
+    double t0, t1, t1_low;
+    double *start, *low, *y; /* [2n] */
+    /* the energy along a run */
+    qdot_tape *energy; /* NULL: not conserved */
+    double *in, *work, energy0, drift;
+    qdot_constrained *held; /* NULL: no constraints */
+    double residual;        /* the largest met */
+} worker;
+
+/* What the reference ended in, to twice the precision of a double. */
+typedef struct {
+    size_t n;
+    double *high, *low;
+    double t_end;
+    bool stopped;     /* by an event, there */
+    double variation; /* of the motion (horizon.h) */
+} reference;
+
+/* --- the reference ------------------------------------------------------------------- */
+
+static qdot_status
+make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
+               double *error)
+{
+    qdot_run_request precise = *request;
+    const qdot_run_report *report;
+    qdot_run *run = NULL;
+    qdot_status status;
+    int side;
+
+    precise.method = "auto";
+    precise.digits = REFERENCE_DIGITS;
+    precise.tol = reference_tol;
+    status = qdot_run_new(scene, &precise, &run);
+    if (scene->constraints.n > 0 && (status == QDOT_ENOTBUILT || status == QDOT_ESINGULAR)) {
+        precise.digits = 0;
+        status = qdot_run_new(scene, &precise, &run);
+    }
+    if (status == QDOT_ENOTBUILT) {
+        qdot_error why = *qdot_last_error();
+
+        return qdot_fail(QDOT_ENOTBUILT, "no reference can be made: %.400s", why.message);
+    }
+    if (status != QDOT_OK) {
+        qdot_run_free(run);
+        return status;
+    }
+    report = qdot_run_get_report(run);
+    if (report->t0 == report->t1) {
+        qdot_run_free(run);
+        return qdot_fail(QDOT_EINVAL, "the run has no length: nothing can be compared");
+    }
+    *error = report->error;
+    r->n = 2 * report->n;
+    r->variation = qdot_horizon_variation(&run->course.tr);
+    r->high = qdot_calloc(2 * r->n, sizeof *r->high);
+    if (!r->high)
+        status = QDOT_ENOMEM;
+    else
+        r->low = r->high + r->n;
+    r->t_end = report->t1;
+    r->stopped = report->status == QDOT_RUN_STOPPED;
+    if (status == QDOT_OK && report->status == QDOT_RUN_FAILED)
+        status = qdot_fail(QDOT_EFAILED, "the reference did not reach the end: %.300s",
+                           report->reason);
+    if (status == QDOT_OK && isnan(report->error))
+        status = qdot_fail(QDOT_EFAILED, "the error of the reference is unknown");
+    for (size_t i = 0; i < r->n && status == QDOT_OK; i++) {
+        if (report->exact)
+            status = qdot_constant_split(scene->pool, report->exact[i], &r->high[i],
+                                         &side, &r->low[i]);
+        else
+            r->high[i] = i < report->n ? report->q[i] : report->v[i - report->n];
+    }
+    qdot_run_free(run);
+    return status;
+}
+
+/* The time counts where an event ends the run. */
+static double
+error_against(const reference *r, const double *y, double t)
+{
+    double most = r->stopped ? fabs(t - r->t_end) / fmax(1, fabs(r->t_end)) : 0;
+
+    for (size_t i = 0; i < r->n; i++) {
+        double e = fabs((y[i] - r->high[i]) - r->low[i]) / fmax(1, fabs(r->high[i]));
+
+        if (!(e <= most)) /* a NaN stays */
+            most = e;
+    }
+    return most;
+}
+
+/* --- a method ------------------------------------------------------------------------ */
+
+static qdot_status
+too_many(const worker *w, double t)
+{
+    return qdot_fail(QDOT_ELIMIT, "stopped at t = %.6g after %llu evaluations", t,
+                     (unsigned long long)w->most_evaluations);
+}
+
+static qdot_status
+counted_rhs(double t, const double *y, double *dydt, void *user)
+{
+    worker *w = user;
+
+    if (++w->evaluations > w->most_evaluations)
+        return too_many(w, t);
+    return w->inner.rhs(t, y, dydt, w->inner.user);
+}
+
+static qdot_status
+counted_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
+{
+    worker *w = user;
+
+    return w->inner.jacobian(t, y, dfdy, dfdt, w->inner.user);
+}
+
+static qdot_status
+project(double t, double *y, double *carry, double *moved, void *user)
+{
+    worker *w = user;
+
+    return w->inner.project(t, y, carry, moved, w->inner.user);
+}
+
+static double
+margin(double t, const double *y, void *user)
+{
+    worker *w = user;
+
+    return w->inner.margin(t, y, w->inner.user);
+}
+
+static void
+follow_energy(worker *w, double t, const double *y)
+{
+    const size_t n = w->inner.n;
+    double h, change;
+
+    memcpy(w->in, y, n * sizeof *y);
+    w->in[n] = t;
+    qdot_tape_eval(w->energy, w->in, &h, w->work);
+    change = fabs(h - w->energy0) / fmax(1, fabs(w->energy0));
+    if (!(change <= w->drift))
+        w->drift = change;
+}
+
+static void
+follow_constraints(worker *w, double t, const double *y)
+{
+    qdot_constrained_residual r = qdot_constrained_measure(w->held, t, y);
+    double residual = r.worst_position == SIZE_MAX ? r.velocity : r.position;
+
+    if (!(residual <= w->residual))
+        w->residual = residual;
+}
+
+static qdot_status
+follow(double t, const double *y, bool *stop, void *user)
+{
+    worker *w = user;
+
+    (void)stop;
+    if (w->energy)
+        follow_energy(w, t, y);
+    if (w->held)
+        follow_constraints(w, t, y);
+    return QDOT_OK;
+}
+
+static void
+worker_clear(worker *w)
+{
+    qdot_course_clear(&w->course);
+    qdot_bind_free(w->bind);
+    qdot_stage_clear(&w->stage);
+    qdot_tape_free(w->energy);
+    qdot_free(w->start);
+    qdot_free(w->in);
+}
+
+static qdot_status
+constant(const worker *w, qdot_expr e, double *value, double *low)
+{
+    int side;
+
+    e = qdot_plan_substitute(w->plan, e);
+    QDOT_TRY(qdot_pool_check(w->plan->pool));
+    return qdot_constant_split(w->plan->pool, e, value, &side, low);
+}
+
+static qdot_status
+read_start(worker *w, const qdot_run_request *request)
+{
+    const size_t n = w->plan->n;
+    double low;
+
+    w->start = qdot_calloc(6 * n, sizeof *w->start);
+    if (!w->start)
+        return QDOT_ENOMEM;
+    w->low = w->start + 2 * n;
+    w->y = w->low + 2 * n;
+    QDOT_TRY(constant(w, request->t0, &w->t0, &low));
+    QDOT_TRY(constant(w, request->t1, &w->t1, &w->t1_low));
+    for (size_t i = 0; i < n; i++) {
+        QDOT_TRY(constant(w, request->q0[i], &w->start[i], &w->low[i]));
+        QDOT_TRY(constant(w, request->v0[i], &w->start[n + i], &w->low[n + i]));
+    }
+    return QDOT_OK;
+}
+
+/* Where the start is now another side of a surface may be in force. */
+static qdot_status
+settle_side(worker *w)
+{
+    bool anew;
+
+    qdot_bind_free(w->bind); /* of a plan that may go */
+    w->bind = NULL;
+    w->held = NULL;
+    QDOT_TRY(qdot_stage_settle(&w->stage, w->start, &anew));
+    w->plan = w->stage.modes.at[0]->plan;
+    QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
+    w->held = qdot_bind_held(w->bind);
+    return QDOT_OK;
+}
+
+/* Onto the constraints. */
+static qdot_status
+settle_start(worker *w, qdot_scene *scene, const qdot_run_request *request)
+{
+    qdot_domains domains = {0};
+    qdot_text notice = {0};
+    qdot_status status;
+
+    w->held = qdot_bind_held(w->bind);
+    if (!w->held)
+        return QDOT_OK;
+    status = qdot_domains_find(w->plan, &domains);
+    if (status == QDOT_OK)
+        status =
+            qdot_start_settle(scene, w->plan, request, &domains, w->start, w->low, &notice);
+    if (status == QDOT_OK && w->stage.switches.surfaces.n > 0)
+        status = settle_side(w);
+    if (status == QDOT_OK)
+        status = qdot_bind_check(w->bind, w->t0, w->start, w->low);
+    qdot_text_clear(&notice);
+    qdot_domains_clear(&domains);
+    return status;
+}
+
+static qdot_status
+prepare_energy(worker *w, qdot_scene *scene)
+{
+    const qdot_plan *p = w->plan;
+    const size_t n = 2 * p->n;
+    bool conserved = false;
+    qdot_expr h;
+
+    QDOT_TRY(qdot_mech_energy_conserved(scene, &conserved));
+    if (!conserved)
+        return QDOT_OK;
+    h = qdot_plan_substitute(p, qdot_mech_energy(scene));
+    QDOT_TRY(qdot_pool_check(p->pool));
+    QDOT_TRY(qdot_tape_new(p->pool, n + 1, p->inputs, 1, &h, &w->energy));
+    w->in = qdot_calloc(n + 1 + qdot_tape_work(w->energy) + 1, sizeof *w->in);
+    if (!w->in)
+        return QDOT_ENOMEM;
+    w->work = w->in + n + 1;
+    memcpy(w->in, w->start, n * sizeof *w->in);
+    w->in[n] = w->t0;
+    qdot_tape_eval(w->energy, w->in, &w->energy0, w->work);
+    return QDOT_OK;
+}
+
+static qdot_status
+worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
+            const char *method, double tol, double budget)
+{
+    double n, operations;
+
+    w->request = *request;
+    w->request.method = method;
+    w->request.digits = 0;
+    w->request.tol = tol;
+    QDOT_TRY(qdot_stage_begin(&w->stage, scene, &w->request));
+    w->plan = w->stage.modes.at[0]->plan;
+    w->pieces = w->stage.switches.surfaces.n > 0;
+    for (size_t i = 0; i < w->stage.events.n; i++)
+        w->pieces = w->pieces || w->stage.events.at[i].stop || w->stage.events.at[i].then;
+    QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
+    QDOT_TRY(read_start(w, request));
+    QDOT_TRY(settle_start(w, scene, request));
+    QDOT_TRY(prepare_energy(w, scene));
+    w->inner = w->system = qdot_bind_system(w->bind);
+    w->system.rhs = counted_rhs;
+    w->system.jacobian = w->inner.jacobian ? counted_jacobian : NULL;
+    w->system.project = w->inner.project ? project : NULL;
+    w->system.margin = w->inner.margin ? margin : NULL;
+    w->system.user = w;
+    n = (double)(w->plan->n + (w->held ? w->plan->constraints->m : 0));
+    operations = (double)qdot_plan_operations(w->plan, NULL) + n * n * n / 3 + 100;
+    if (w->plan->method->series) /* an expansion is worth a few hundred evaluations */
+        operations *= 200;
+    w->most_evaluations = (uint64_t)fmax(100, budget / operations);
+    return QDOT_OK;
+}
+
+/* Whether the energy is that of the start all along. */
+static bool
+keeps_energy(const worker *w)
+{
+    for (size_t i = 0; i < w->stage.events.n; i++)
+        if (w->stage.events.at[i].then)
+            return false;
+    return w->energy != NULL;
+}
+
+/* What is followed, at all points of the course. */
+static void
+follow_course(worker *w)
+{
+    const qdot_trajectory *tr = &w->course.tr;
+
+    w->drift = w->residual = 0;
+    for (size_t k = 0; k < tr->count; k++) {
+        const double *y = tr->y + k * tr->n;
+        const qdot_trajectory_piece *p = tr->pieces.at + qdot_trajectory_piece_of(tr, k);
+
+        if (keeps_energy(w))
+            follow_energy(w, tr->t[k], y);
+        if (w->held) {
+            w->held = qdot_bind_held(w->course.binds.at[p->mode]);
+            follow_constraints(w, tr->t[k], y);
+        }
+    }
+}
+
+/* The same where events, domains or switches divide it. */
+static qdot_status
+go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
+{
+    const uint64_t a_step = w->plan->method->series ? 1 : 10; /* evaluations, about */
+    const qdot_ode_options options = {.tol = tol,
+                                      .carry = w->low,
+                                      .t1_low = w->t1_low,
+                                      .max_steps = w->most_evaluations / a_step + 1};
+    const qdot_trajectory *tr = &w->course.tr;
+    qdot_status status;
+
+    qdot_course_clear(&w->course);
+    w->course.stage = &w->stage;
+    w->course.touch_tol = tol;
+    w->course.most_looked = w->most_evaluations;
+    status = qdot_course_run(&w->course, w->plan->method, &options, w->t0, w->t1, w->start);
+    *result = tr->result;
+    if (tr->count == 0)
+        return status == QDOT_OK ? qdot_fail(QDOT_EFAILED, "nothing was integrated") : status;
+    memcpy(w->y, tr->y + (tr->count - 1) * tr->n, tr->n * sizeof *w->y);
+    w->t_end = tr->t[tr->count - 1];
+    if (status == QDOT_OK && w->course.failed)
+        return qdot_fail(QDOT_EFAILED, "%s", w->course.reason);
+    if (watched && status == QDOT_OK)
+        follow_course(w);
+    return status;
+}
+
+/* From the start to the end, `watched` or timed. */
+static qdot_status
+go(worker *w, double tol, bool watched, qdot_ode_result *result)
+{
+    qdot_ode_options options = {
+        .tol = tol, .carry = w->low, .t1_low = w->t1_low};
+
+    if (w->pieces)
+        return go_in_pieces(w, tol, watched, result);
+    memcpy(w->y, w->start, w->inner.n * sizeof *w->y);
+    w->evaluations = 0;
+    w->t_end = w->t1;
+    if (watched && (w->energy || w->held)) {
+        w->drift = w->residual = 0;
+        options.accepted = follow;
+        options.user = w;
+    }
+    if (w->plan->method->series)
+        options.max_steps = w->most_evaluations;
+    return qdot_ode_integrate(watched ? &w->system : &w->inner, w->plan->method, &options,
+                              w->t0, w->t1, w->y, result);
+}
+
+static int
+ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* Three runs at least, more of short ones. */
+static qdot_status
+take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
+{
+    double times[MOST_TIMES];
+    int n = first < 0.02 ? MOST_TIMES : first < 0.1 ? 5 : 3;
+
+    for (int i = 0; i < n; i++) {
+        qdot_ode_result result;
+
+        QDOT_TRY(go(w, tol, false, &result));
+        times[i] = result.stats.cpu;
+    }
+    qsort(times, (size_t)n, sizeof *times, ascending);
+    row->time_min = times[0];
+    row->time_median = times[n / 2];
+    return QDOT_OK;
+}
+
+static bool
+is_kept(qdot_status status)
+{
+    return status == QDOT_EFAILED || status == QDOT_ELIMIT || status == QDOT_EDOMAIN
+           || status == QDOT_ESINGULAR || status == QDOT_EINVAL;
+}
+
+static qdot_status
+one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
+{
+    qdot_ode_result result;
+    qdot_status status = go(w, tol, true, &result);
+
+    *row = (qdot_workprecision_row){.method = w->plan->method->name,
+                                    .tol = tol,
+                                    .err = NAN,
+                                    .scd = NAN,
+                                    .time_min = NAN,
+                                    .time_median = NAN,
+                                    .evals = result.stats.evaluations,
+                                    .steps = result.stats.steps,
+                                    .rejected = result.stats.rejected,
+                                    .energy_err = NAN,
+                                    .constraint_err = NAN};
+    if (is_kept(status)) {
+        snprintf(row->status, sizeof row->status, "failed: %.290s",
+                 qdot_last_error()->message);
+        return QDOT_OK;
+    }
+    QDOT_TRY(status);
+    if (r->stopped != (w->pieces && w->course.stopped_by != SIZE_MAX)) {
+        strcpy(row->status, r->stopped ? "failed: the event that ends the run was not met"
+                                       : "failed: an event ended the run");
+        return QDOT_OK;
+    }
+    row->err = error_against(r, w->y, w->t_end);
+    strcpy(row->status, row->err > rounding
+                                && row->err >= QDOT_HORIZON_NONE_LEFT * r->variation
+                            ? "done: no digit is right"
+                            : "done");
+    row->scd = -log10(fmax(row->err, 0x1p-60));
+    if (keeps_energy(w))
+        row->energy_err = w->drift;
+    if (w->held)
+        row->constraint_err = w->residual;
+    return take_times(w, tol, result.stats.cpu, row);
+}
+
+static qdot_status
+push_row(qdot_workprecision *out, const qdot_workprecision_row *row)
+{
+    QDOT_TRY(qdot_grow(&out->rows, &out->capacity, out->n + 1, sizeof *out->rows));
+    out->rows[out->n++] = *row;
+    return QDOT_OK;
+}
+
+static qdot_status
+push_unfit(qdot_workprecision *out, const char *method)
+{
+    qdot_workprecision_unfit *u;
+
+    QDOT_TRY(qdot_grow(&out->unfit, &out->unfit_capacity, out->n_unfit + 1,
+                       sizeof *out->unfit));
+    u = &out->unfit[out->n_unfit++];
+    u->method = method;
+    snprintf(u->reason, sizeof u->reason, "%.299s", qdot_last_error()->message);
+    return QDOT_OK;
+}
+
+static double
+rung(int k)
+{
+    return strtod((char[]){'1', 'e', '-', (char)('0' + k / 10), (char)('0' + k % 10), 0}, NULL);
+}
+
+/* A form of the equations may be for some tolerances only (sim/form/eliminated.h). */
+static bool
+is_planned_anew(const worker *w)
+{
+    return w->plan->constraints && w->plan->method->series;
+}
+
+/* A method over the ladder. */
+static qdot_status
+climb(qdot_scene *scene, const qdot_run_request *request, const char *method,
+      const reference *r, qdot_workprecision *out)
+{
+    const double budget = out->budget > 0 ? out->budget : budget_default;
+    worker w = {0};
+    qdot_status status = worker_init(&w, scene, request, method, rung(FIRST), budget);
+
+    for (int k = FIRST; k <= LAST && status == QDOT_OK; k++) {
+        qdot_workprecision_row row;
+
+        if (k > FIRST && is_planned_anew(&w)) {
+            worker_clear(&w);
+            w = (worker){0};
+            status = worker_init(&w, scene, request, method, rung(k), budget);
+        }
+        if (status == QDOT_OK)
+            status = one_row(&w, rung(k), r, &row);
+        if (status == QDOT_OK)
+            status = push_row(out, &row);
+    }
+    worker_clear(&w);
+    return status;
+}
+
+static qdot_status
+measure(qdot_scene *scene, const qdot_run_request *request, qdot_workprecision *out)
+{
+    reference r = {0};
+    qdot_status status = make_reference(scene, request, &r, &out->ref_err);
+
+    out->constraints = scene->constraints.n > 0;
+    for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++) {
+        const char *method = qdot_ode_method_at(i)->name;
+
+        status = climb(scene, request, method, &r, out);
+        if (status == QDOT_ENOTBUILT)
+            status = push_unfit(out, method);
+    }
+    qdot_free(r.high);
+    return status;
+}
+
+qdot_status
+qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
+                           qdot_workprecision *out)
+{
+    qdot_parameter_states states = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
+    status = measure(scene, &states.request, out);
+    qdot_parameter_states_clear(&states);
+    return status;
+}
+
+void
+qdot_workprecision_clear(qdot_workprecision *w)
+{
+    qdot_free(w->rows);
+    qdot_free(w->unfit);
+    *w = (qdot_workprecision){0};
+}

@@ -1,0 +1,272 @@
+/* test_two.c -- series in sums of two doubles against those in MPFR: every operation, every
+ * recurrence. */
+#include "tape/reference.h"
+
+#include <math.h>
+
+#include "series/precise.h"
+#include "series/two.h"
+
+enum { ORDERS = 9, MOST_OUT = 64, BITS = 256, INPUTS = 4 };
+
+/* x, u, t, of which series are given, and a number c. */
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr in[INPUTS], out[MOST_OUT];
+    size_t n;
+} fixture;
+
+static void
+push(fixture *f, qdot_expr e)
+{
+    assert_true(f->n < MOST_OUT);
+    f->out[f->n++] = e;
+}
+
+static qdot_expr
+apply(fixture *f, qdot_fun_id id, qdot_expr x)
+{
+    return qdot_fun1(f->pool, id, x);
+}
+
+/* 0 < x < 1 < u, t about 0.25, c = 0.7. */
+static void
+smooth(fixture *f)
+{
+    static const qdot_fun_id below[] = {QDOT_SIN,  QDOT_COS,   QDOT_TAN,   QDOT_ASIN,
+                                        QDOT_ACOS, QDOT_ATAN,  QDOT_SINH,  QDOT_COSH,
+                                        QDOT_TANH, QDOT_ASINH, QDOT_ATANH, QDOT_EXP,
+                                        QDOT_ERF,  QDOT_ERFC};
+    qdot_pool *pool = f->pool = qdot_pool_new();
+    qdot_expr x = f->in[0] = qdot_symbol_get(pool, QDOT_COORD, "x");
+    qdot_expr u = f->in[1] = qdot_symbol_get(pool, QDOT_COORD, "u");
+    qdot_expr t = f->in[2] = QDOT_T, s = apply(f, QDOT_SIN, u), e = apply(f, QDOT_EXP, x);
+    qdot_expr c = f->in[3] = qdot_symbol_get(pool, QDOT_PARAM, "c");
+    qdot_expr tenth = qdot_expr_ratio(pool, 1, 10), k = apply(f, QDOT_COS, c);
+
+    f->n = 0;
+    for (size_t i = 0; i < sizeof below / sizeof *below; i++)
+        push(f, apply(f, below[i], x));
+    push(f, apply(f, QDOT_LOG, u));
+    push(f, apply(f, QDOT_ACOSH, u));
+    push(f, apply(f, QDOT_SIN, qdot_mul(pool, t, x)));
+    push(f, apply(f, QDOT_COS, qdot_mul(pool, t, u)));
+    push(f, qdot_mul(pool, s, e));
+    push(f, qdot_div(pool, s, e));
+    push(f, qdot_div(pool, s, k));
+    push(f, qdot_pow_int(pool, s, 2));
+    push(f, qdot_pow_int(pool, u, -3));
+    push(f, qdot_sqrt(pool, u));
+    push(f, qdot_pow(pool, u, tenth));
+    push(f, qdot_pow(pool, u, c));
+    push(f, qdot_pow(pool, u, x));
+    push(f, qdot_sub(pool, qdot_mul(pool, s, e), qdot_mul(pool, e, t)));
+    push(f, qdot_sub(pool, x, qdot_mul(pool, s, t)));
+    push(f, qdot_add(pool, t, qdot_mul(pool, tenth, s)));
+    push(f, qdot_sub(pool, t, qdot_mul(pool, k, e)));
+    push(f, qdot_sub(pool, qdot_mul(pool, tenth, e), u));
+    push(f, qdot_sub(pool, qdot_mul(pool, s, u), qdot_mul(pool, t, t)));
+    push(f, qdot_neg(pool, s));
+    push(f, qdot_fun(pool, QDOT_ATAN2, 2, (qdot_expr[]){s, e}));
+    push(f, qdot_add(pool, apply(f, QDOT_SINH, s), apply(f, QDOT_COSH, s)));
+    push(f, tenth);
+    push(f, qdot_mul(pool, k, qdot_add(pool, QDOT_PI, c)));
+}
+
+static void
+switching(fixture *f)
+{
+    qdot_pool *pool;
+    qdot_expr x, u, t, less, same;
+
+    smooth(f);
+    pool = f->pool;
+    x = f->in[0], u = f->in[1], t = f->in[2];
+    less = qdot_rel(pool, QDOT_LT, x, t);
+    same = qdot_rel(pool, QDOT_EQ, x, t);
+    push(f, apply(f, QDOT_ABS, qdot_sub(pool, t, x)));
+    push(f, apply(f, QDOT_SIGN, qdot_sub(pool, t, x)));
+    push(f, apply(f, QDOT_FLOOR, qdot_mul(pool, u, qdot_expr_int(pool, 5))));
+    push(f, qdot_fun(pool, QDOT_MOD, 2, (qdot_expr[]){u, x}));
+    push(f, qdot_fun(pool, QDOT_MIN, 2, (qdot_expr[]){t, x}));
+    push(f, qdot_fun(pool, QDOT_MAX, 2, (qdot_expr[]){t, x}));
+    push(f, qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){less, x, u}));
+    push(f, qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){same, x, u}));
+    push(f, qdot_fun(pool, QDOT_IF, 3,
+                     (qdot_expr[]){qdot_rel(pool, QDOT_LE, x, u), x, t}));
+}
+
+/* Coefficient k of input i, no double. */
+static qdot_two
+coefficient(size_t i, int k)
+{
+    static const double first[INPUTS] = {0.4, 1.3, 0.25, 0.7};
+    const double hi = k == 0 ? first[i] : i == 2 ? (k == 1) : sin(7 * (double)i + k) / k;
+
+    if (i == 3 && k > 0)
+        return (qdot_two){0, 0};
+    return qdot_two_of(hi, hi * 0x1.23456789abcdep-54);
+}
+
+static void
+are_near(const qdot_two *a, const mpfr_t *x, int k, size_t output)
+{
+    double error, size = 1e-3;
+    mpfr_t d;
+
+    mpfr_init2(d, BITS);
+    mpfr_set_d(d, a[k].hi, MPFR_RNDN);
+    mpfr_add_d(d, d, a[k].lo, MPFR_RNDN);
+    mpfr_sub(d, d, x[k], MPFR_RNDN);
+    error = fabs(mpfr_get_d(d, MPFR_RNDN));
+    for (int j = 0; j <= k; j++)
+        size = fmax(size, fabs(mpfr_get_d(x[j], MPFR_RNDN)));
+    mpfr_clear(d);
+    if (!(error <= size * 0x1p-64))
+        fail_msg("output %zu, order %d: 2^%.1f of %g", output, k, log2(error / size), size);
+}
+
+/* Of the first so many outputs. */
+static void
+compare(fixture *f, int most)
+{
+    qdot_tape *tape;
+    qdot_tape_two *two;
+    qdot_precise *precise;
+
+    assert_int_equal(qdot_tape_new(f->pool, INPUTS, f->in, f->n, f->out, &tape), QDOT_OK);
+    assert_int_equal(qdot_tape_two_new(tape, most, 3, &two), QDOT_OK);
+    assert_int_equal(qdot_precise_new(f->pool, tape, most, BITS, &precise), QDOT_OK);
+    for (int k = 0; k <= most; k++) {
+        for (size_t i = 0; i < INPUTS; i++) {
+            const qdot_two c = coefficient(i, k);
+            mpfr_ptr x = qdot_precise_input(precise, i)[k];
+
+            qdot_tape_two_input(two, i)[k] = c;
+            mpfr_set_d(x, c.hi, MPFR_RNDN);
+            mpfr_add_d(x, x, c.lo, MPFR_RNDN);
+        }
+        qdot_tape_two_order(two, k);
+        qdot_precise_order(precise, k);
+        for (size_t i = 0; i < f->n; i++)
+            are_near(qdot_tape_two_output(two, i), qdot_precise_output(precise, i), k, i);
+    }
+    assert_int_equal(qdot_tape_two_stride(two), most + 1);
+    qdot_tape_two_free(two);
+    qdot_precise_free(precise);
+    qdot_tape_free(tape);
+}
+
+static void
+every_recurrence_is_that_of_MPFR(void **state)
+{
+    fixture f;
+
+    (void)state;
+    smooth(&f);
+    compare(&f, ORDERS);
+    qdot_pool_free(f.pool);
+}
+
+static void
+every_value_is_that_of_MPFR(void **state)
+{
+    fixture f;
+
+    (void)state;
+    switching(&f);
+    compare(&f, 0);
+    qdot_pool_free(f.pool);
+}
+
+static void
+what_switches_has_no_series(void **state)
+{
+    fixture f;
+    qdot_tape *tape;
+    qdot_tape_two *two;
+
+    (void)state;
+    switching(&f);
+    assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.n, f.out, &tape), QDOT_OK);
+    assert_int_equal(qdot_tape_two_new(tape, 2, INPUTS, &two), QDOT_ENOTBUILT);
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
+static void
+numbers_stay_numbers(void **state)
+{
+    fixture f;
+    qdot_tape *tape;
+    qdot_tape_two *two;
+
+    (void)state;
+    smooth(&f);
+    assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.n, f.out, &tape), QDOT_OK);
+    assert_int_equal(qdot_tape_two_new(tape, 2, 3, &two), QDOT_OK);
+    assert_true(qdot_tape_two_is_constant(two, f.n - 1));
+    assert_true(qdot_tape_two_is_constant(two, f.n - 2));
+    assert_false(qdot_tape_two_is_constant(two, 0));
+    qdot_tape_two_free(two);
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
+/* Order 3 with other coefficients, corrected, is order 3 with those meant, and order 4 goes on
+ * from there. */
+static void
+corrected_is_as_evaluated(void **state)
+{
+    enum { K = 3 };
+    fixture f;
+    qdot_tape *tape;
+    qdot_tape_two *two[2];
+    double by[2] = {1e-9, -3e-9};
+
+    (void)state;
+    smooth(&f);
+    assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.n, f.out, &tape), QDOT_OK);
+    for (int which = 0; which < 2; which++) {
+        assert_int_equal(qdot_tape_two_new(tape, K + 1, 3, &two[which]), QDOT_OK);
+        for (int k = 0; k <= K + 1; k++) {
+            for (size_t i = 0; i < INPUTS; i++) {
+                qdot_two *x = qdot_tape_two_input(two[which], i);
+
+                x[k] = coefficient(i, k);
+                if (k == K && i < 2 && which == 0)
+                    x[k] = qdot_two_add_double(x[k], -by[i]);
+            }
+            qdot_tape_two_order(two[which], k);
+            if (k == K && which == 0)
+                qdot_tape_two_correct(two[0], k, 2, by);
+        }
+    }
+    for (size_t i = 0; i < f.n; i++)
+        for (int k = K; k <= K + 1; k++) {
+            const qdot_two a = qdot_tape_two_output(two[0], i)[k];
+            const qdot_two b = qdot_tape_two_output(two[1], i)[k];
+            const double off = qdot_two_sub(a, b).hi;
+
+            if (!(fabs(off) <= 1e-23 * fmax(1, fabs(b.hi))))
+                fail_msg("output %zu, order %d: off by %g", i, k, off);
+        }
+    qdot_tape_two_free(two[0]);
+    qdot_tape_two_free(two[1]);
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_recurrence_is_that_of_MPFR),
+        cmocka_unit_test(every_value_is_that_of_MPFR),
+        cmocka_unit_test(what_switches_has_no_series),
+        cmocka_unit_test(numbers_stay_numbers),
+        cmocka_unit_test(corrected_is_as_evaluated),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
