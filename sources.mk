@@ -29,68 +29,89 @@ library_sources = \
 	lib/expr/tensor.c \
 	lib/expr/ufun.c \
 	lib/expr/walk.c \
-	lib/lang/algebra.c \
-	lib/lang/answer.c \
-	lib/lang/ask.c \
-	lib/lang/bind.c \
-	lib/lang/builtin.c \
-	lib/lang/call.c \
-	lib/lang/carry.c \
-	lib/lang/check.c \
-	lib/lang/closed-sum.c \
-	lib/lang/condition.c \
-	lib/lang/constraints.c \
-	lib/lang/cursor.c \
-	lib/lang/declare-function.c \
-	lib/lang/declare.c \
-	lib/lang/derive.c \
-	lib/lang/digits-table.c \
-	lib/lang/digits.c \
-	lib/lang/draw.c \
-	lib/lang/equilibria.c \
-	lib/lang/evaluate.c \
-	lib/lang/event.c \
-	lib/lang/function.c \
-	lib/lang/furnish.c \
-	lib/lang/help.c \
-	lib/lang/hints.c \
-	lib/lang/letters.c \
-	lib/lang/lex.c \
-	lib/lang/loop.c \
-	lib/lang/meant.c \
-	lib/lang/member.c \
-	lib/lang/names.c \
-	lib/lang/number.c \
-	lib/lang/numeric.c \
-	lib/lang/parse.c \
-	lib/lang/partial-sum.c \
-	lib/lang/plot.c \
-	lib/lang/quantities.c \
-	lib/lang/race.c \
-	lib/lang/range.c \
-	lib/lang/read.c \
-	lib/lang/redirect.c \
-	lib/lang/remove.c \
-	lib/lang/report.c \
-	lib/lang/resolve.c \
-	lib/lang/scene-file.c \
-	lib/lang/series.c \
-	lib/lang/session.c \
-	lib/lang/source.c \
-	lib/lang/start.c \
-	lib/lang/statement.c \
-	lib/lang/styled.c \
-	lib/lang/taken.c \
-	lib/lang/undo-state.c \
-	lib/lang/undo.c \
-	lib/lang/values.c \
-	lib/lang/words.c \
-	lib/lang/workbench.c \
-	lib/lang/workprecision.c \
+	lib/lang/answer/answer.c \
+	lib/lang/answer/digits.c \
+	lib/lang/answer/formula.c \
+	lib/lang/answer/number-text.c \
+	lib/lang/answer/report.c \
+	lib/lang/commands/ask.c \
+	lib/lang/commands/check.c \
+	lib/lang/commands/complete.c \
+	lib/lang/commands/constraints.c \
+	lib/lang/commands/declare-function.c \
+	lib/lang/commands/declare.c \
+	lib/lang/commands/derive.c \
+	lib/lang/commands/digits-table.c \
+	lib/lang/commands/equilibria.c \
+	lib/lang/commands/event.c \
+	lib/lang/commands/figure-file.c \
+	lib/lang/commands/help.c \
+	lib/lang/commands/loop.c \
+	lib/lang/commands/objects.c \
+	lib/lang/commands/operands.c \
+	lib/lang/commands/pairs.c \
+	lib/lang/commands/plot.c \
+	lib/lang/commands/race.c \
+	lib/lang/commands/redirect.c \
+	lib/lang/commands/remove.c \
+	lib/lang/commands/request.c \
+	lib/lang/commands/reset.c \
+	lib/lang/commands/run.c \
+	lib/lang/commands/scene-file.c \
+	lib/lang/commands/script-file.c \
+	lib/lang/commands/script.c \
+	lib/lang/commands/set.c \
+	lib/lang/commands/settings.c \
+	lib/lang/commands/statement.c \
+	lib/lang/commands/table.c \
+	lib/lang/commands/undo.c \
+	lib/lang/commands/value-check.c \
+	lib/lang/commands/warnings.c \
+	lib/lang/commands/workprecision.c \
+	lib/lang/functions/algebra.c \
+	lib/lang/functions/builtin.c \
+	lib/lang/functions/entry.c \
+	lib/lang/functions/equilibria.c \
+	lib/lang/functions/numeric.c \
+	lib/lang/functions/quantity.c \
+	lib/lang/functions/series.c \
+	lib/lang/functions/short-names.c \
+	lib/lang/language/call.c \
+	lib/lang/language/closed-sum.c \
+	lib/lang/language/condition.c \
+	lib/lang/language/cursor.c \
+	lib/lang/language/evaluate.c \
+	lib/lang/language/formals.c \
+	lib/lang/language/function.c \
+	lib/lang/language/hints.c \
+	lib/lang/language/parse.c \
+	lib/lang/language/partial-sum.c \
+	lib/lang/language/read.c \
+	lib/lang/language/resolve.c \
+	lib/lang/language/token-text.c \
+	lib/lang/session/along.c \
+	lib/lang/session/bind.c \
+	lib/lang/session/event-time.c \
+	lib/lang/session/function-body.c \
+	lib/lang/session/labels.c \
+	lib/lang/session/measured.c \
+	lib/lang/session/member.c \
+	lib/lang/session/names.c \
+	lib/lang/session/range.c \
+	lib/lang/session/runs.c \
+	lib/lang/session/session.c \
+	lib/lang/session/spelling.c \
+	lib/lang/session/transfer.c \
+	lib/lang/session/undo-state.c \
+	lib/lang/session/undo.c \
+	lib/lang/session/value-kind.c \
+	lib/lang/source/letters.c \
+	lib/lang/source/lex.c \
+	lib/lang/source/source.c \
 	lib/machine/x86.c \
 	lib/mech/dynamics/accel.c \
 	lib/mech/dynamics/alike.c \
-	lib/mech/dynamics/constraint.c \
+	lib/mech/dynamics/conservation.c \
 	lib/mech/dynamics/dalembert.c \
 	lib/mech/dynamics/energy.c \
 	lib/mech/dynamics/freedom.c \
@@ -101,11 +122,14 @@ library_sources = \
 	lib/mech/dynamics/momentum.c \
 	lib/mech/dynamics/nested.c \
 	lib/mech/dynamics/numeric.c \
+	lib/mech/dynamics/potential.c \
 	lib/mech/dynamics/recursive.c \
 	lib/mech/dynamics/squares.c \
 	lib/mech/dynamics/virtual-work.c \
+	lib/mech/scene/access.c \
 	lib/mech/scene/body.c \
-	lib/mech/scene/derived.c \
+	lib/mech/scene/cache.c \
+	lib/mech/scene/constraint.c \
 	lib/mech/scene/event.c \
 	lib/mech/scene/kind.c \
 	lib/mech/scene/label.c \
@@ -170,6 +194,7 @@ library_sources = \
 	lib/normal/prove/decide.c \
 	lib/normal/prove/defined.c \
 	lib/normal/prove/domain.c \
+	lib/normal/prove/equal.c \
 	lib/normal/prove/logarithm.c \
 	lib/normal/prove/nth-part.c \
 	lib/normal/prove/prove.c \
@@ -360,41 +385,87 @@ library_headers = \
 	lib/expr/rational.h \
 	lib/expr/tensor.h \
 	lib/expr/walk.h \
-	lib/lang/algebra.h \
-	lib/lang/answer.h \
-	lib/lang/ask.h \
-	lib/lang/carry.h \
-	lib/lang/closed-sum.h \
-	lib/lang/code.h \
-	lib/lang/condition.h \
-	lib/lang/constraints.h \
-	lib/lang/declare.h \
-	lib/lang/digits-table.h \
-	lib/lang/digits.h \
-	lib/lang/draw.h \
-	lib/lang/equilibria.h \
-	lib/lang/function.h \
-	lib/lang/meant.h \
-	lib/lang/names.h \
-	lib/lang/number.h \
-	lib/lang/numeric.h \
-	lib/lang/partial-sum.h \
-	lib/lang/read.h \
-	lib/lang/redirect.h \
-	lib/lang/scene-file.h \
-	lib/lang/session.h \
-	lib/lang/statement.h \
-	lib/lang/taken.h \
-	lib/lang/undo-state.h \
-	lib/lang/undo.h \
-	lib/lang/values.h \
+	lib/lang/answer/answer.h \
+	lib/lang/answer/digits.h \
+	lib/lang/answer/formula.h \
+	lib/lang/answer/number-text.h \
+	lib/lang/answer/report.h \
+	lib/lang/commands/complete.h \
+	lib/lang/commands/constraints.h \
+	lib/lang/commands/declare.h \
+	lib/lang/commands/digits-table.h \
+	lib/lang/commands/figure-file.h \
+	lib/lang/commands/loop.h \
+	lib/lang/commands/operands.h \
+	lib/lang/commands/pairs.h \
+	lib/lang/commands/redirect.h \
+	lib/lang/commands/request.h \
+	lib/lang/commands/scene-file.h \
+	lib/lang/commands/script.h \
+	lib/lang/commands/set.h \
+	lib/lang/commands/statement.h \
+	lib/lang/commands/value-check.h \
+	lib/lang/commands/warnings.h \
+	lib/lang/functions/algebra.h \
+	lib/lang/functions/builtin.h \
+	lib/lang/functions/entry.h \
+	lib/lang/functions/equilibria.h \
+	lib/lang/functions/numeric.h \
+	lib/lang/functions/quantity.h \
+	lib/lang/functions/series.h \
+	lib/lang/functions/short-names.h \
+	lib/lang/language/closed-sum.h \
+	lib/lang/language/condition.h \
+	lib/lang/language/cursor.h \
+	lib/lang/language/evaluator.h \
+	lib/lang/language/formals.h \
+	lib/lang/language/function.h \
+	lib/lang/language/hints.h \
+	lib/lang/language/partial-sum.h \
+	lib/lang/language/read.h \
+	lib/lang/language/token-text.h \
+	lib/lang/session/along.h \
+	lib/lang/session/bind.h \
+	lib/lang/session/event-time.h \
+	lib/lang/session/function-body.h \
+	lib/lang/session/labels.h \
+	lib/lang/session/measured.h \
+	lib/lang/session/member.h \
+	lib/lang/session/names.h \
+	lib/lang/session/range.h \
+	lib/lang/session/runs.h \
+	lib/lang/session/session.h \
+	lib/lang/session/spelling.h \
+	lib/lang/session/transfer.h \
+	lib/lang/session/undo-state.h \
+	lib/lang/session/undo.h \
+	lib/lang/session/value-kind.h \
+	lib/lang/source/letters.h \
+	lib/lang/source/lex.h \
+	lib/lang/source/source.h \
+	lib/lang/source/token.h \
 	lib/machine/x86.h \
+	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
+	lib/mech/dynamics/energy.h \
+	lib/mech/dynamics/freedom.h \
+	lib/mech/dynamics/generic.h \
+	lib/mech/dynamics/kinematics.h \
+	lib/mech/dynamics/lagrange.h \
+	lib/mech/dynamics/mass-matrix.h \
+	lib/mech/dynamics/nested.h \
+	lib/mech/dynamics/potential.h \
 	lib/mech/dynamics/quantity.h \
+	lib/mech/dynamics/recursive.h \
 	lib/mech/dynamics/squares.h \
-	lib/mech/scene/derived.h \
+	lib/mech/dynamics/virtual-work.h \
+	lib/mech/scene/access.h \
+	lib/mech/scene/body.h \
+	lib/mech/scene/cache.h \
+	lib/mech/scene/constraint.h \
 	lib/mech/scene/scene.h \
-	lib/mech/study/equilibrium-rest.h \
+	lib/mech/scene/things.h \
+	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
 	lib/mech/study/hamilton.h \
@@ -402,8 +473,10 @@ library_headers = \
 	lib/mech/study/linear-motion.h \
 	lib/mech/study/lyapunov.h \
 	lib/mech/study/minimal.h \
+	lib/mech/study/modes.h \
 	lib/mech/study/noether.h \
 	lib/mech/study/reactions.h \
+	lib/mech/study/rest.h \
 	lib/mech/study/stability.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
@@ -415,6 +488,7 @@ library_headers = \
 	lib/normal/field/normal-form.h \
 	lib/normal/field/polynomials.h \
 	lib/normal/field/prepare.h \
+	lib/normal/field/ratio.h \
 	lib/normal/field/root-parts.h \
 	lib/normal/field/split.h \
 	lib/normal/field/together.h \
@@ -436,6 +510,7 @@ library_headers = \
 	lib/normal/prove/decide.h \
 	lib/normal/prove/defined.h \
 	lib/normal/prove/domain.h \
+	lib/normal/prove/equal.h \
 	lib/normal/prove/nth-part.h \
 	lib/normal/prove/prove.h \
 	lib/normal/prove/rewrite.h \

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "lang/session.h"
+#include "lang/commands/script.h"
 #include "num/kinds.h"
 #include "prompt.h"
 #include "signals.h"
@@ -142,8 +142,8 @@ carry_out(qdot_session *session, const options *o)
 
         qdot_signals_computing();
         status = t->statements
-                     ? qdot_session_run_text(session, "-e", t->text, strlen(t->text))
-                     : qdot_session_run_file(session, t->text);
+                     ? qdot_script_run_text(session, "-e", t->text, strlen(t->text))
+                     : qdot_script_run_file(session, t->text);
     }
     if ((o->tasks.n > 0 && !o->interactive) || session->quit)
         return status;
@@ -153,7 +153,7 @@ carry_out(qdot_session *session, const options *o)
         int last;
 
         qdot_signals_computing();
-        last = qdot_session_run_file(session, "-");
+        last = qdot_script_run_file(session, "-");
         status = last > status ? last : status;
     }
     return status;

@@ -20,6 +20,7 @@
 #include <readline/readline.h>
 
 #include "base/memory.h"
+#include "lang/commands/complete.h"
 #include "signals.h"
 
 enum { HISTORY_LINES = 10000 };
@@ -109,7 +110,7 @@ next_word(const char *prefix, int again)
     if (again == 0) {
         words = NULL;
         n = at = 0;
-        if (qdot_session_complete(completing, prefix, &words, &n) != QDOT_OK)
+        if (qdot_complete(completing, prefix, &words, &n) != QDOT_OK)
             n = 0;
     }
     if (at < n) {
@@ -242,7 +243,7 @@ read_statement(qdot_text *text, const qdot_text *history)
         qdot_text_add(text, line);
         qdot_text_char(text, '\n');
         free(line);
-    } while (!text->failed && qdot_session_incomplete(text->at, text->n));
+    } while (!text->failed && qdot_script_is_incomplete(text->at, text->n));
     return LINE;
 }
 
@@ -266,7 +267,7 @@ qdot_prompt_run(qdot_session *session, bool banner)
         if (text.failed)
             fprintf(stderr, "qdot: out of memory\n");
         else
-            (void)qdot_session_run_text(session, "prompt", text.at, text.n);
+            (void)qdot_script_run_text(session, "prompt", text.at, text.n);
         fflush(session->out);
         fflush(session->err);
         if (text.failed)

@@ -15,8 +15,8 @@ typedef struct {
     mpfr_t *x, *y, *z, *to, *second, *third, *d;
 } step;
 
-/* The first three of the scratch are U, V, W of recurrence.def, the last is that of sums. */
-enum { SCRATCH = 4 };
+/* The first two of the scratch are U1, U2 of recurrence.def, the last is that of sums. */
+enum { SCRATCH = 3 };
 
 struct qdot_precise {
     qdot_program program;
@@ -49,7 +49,7 @@ convolve(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, int k,
         mpfr_set_zero(sum, 1);
 }
 
-/* sum = sum_{j=from..k-from} a_j a_{k-j}; w[3] is used */
+/* sum = sum_{j=from..k-from} a_j a_{k-j}; w[2] is used */
 static void
 square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
 {
@@ -60,8 +60,8 @@ square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
         qdot_real_dot(sum, a + from, a + (k - from), (size_t)n, p->work);
     mpfr_mul_2ui(sum, sum, 1, RN);
     if (k % 2 == 0 && k / 2 >= from) {
-        mpfr_sqr(p->w[3], a[k / 2], RN);
-        mpfr_add(sum, sum, p->w[3], RN);
+        mpfr_sqr(p->w[2], a[k / 2], RN);
+        mpfr_add(sum, sum, p->w[2], RN);
     }
 }
 
@@ -149,17 +149,19 @@ value(qdot_precise *p, const step *i)
 #define SECOND i->second[k]
 #define THIRD i->third[k]
 #define D i->d[k]
-#define U precise->w[0]
-#define V precise->w[1]
-#define W precise->w[2]
+#define U1 precise->w[0]
+#define U2 precise->w[1]
 #define SUM(r, a, b, from, below) convolve(precise, r, i->a, i->b, k, from, below);
+#define PAIR(r, s, a, b, c) SUM(r, a, b, 1, 0) SUM(s, a, c, 1, 0)
 #define SQUARED(r, a, from) square(precise, r, i->a, k, from);
 #define ADD(r, p, q) mpfr_add(r, p, q, RN);
 #define SUB(r, p, q) mpfr_sub(r, p, q, RN);
 #define NEG(r, p) mpfr_neg(r, p, RN);
-#define HALF(r, p) mpfr_div_2ui(r, p, 1, RN);
 #define TIMES(r, p, b) mpfr_mul(r, p, i->b[0], RN);
+#define PLUS_TIMES(r, q, p, b) mpfr_fma(r, p, i->b[0], q, RN);
+#define MINUS_TIMES(r, q, p, b) mpfr_fms(r, p, i->b[0], q, RN), mpfr_neg(r, r, RN);
 #define OVER(r, p, b) mpfr_div(r, p, i->b[0], RN);
+#define OVER_TWICE(r, p, b) mpfr_div(r, p, i->b[0], RN), mpfr_div_2ui(r, r, 1, RN);
 #define ORDERS(r, p) mpfr_mul_ui(r, p, (unsigned long)k, RN);
 #define PER_ORDER(r, p) mpfr_div_ui(r, p, (unsigned long)k, RN);
 #define SIGNED(r, p) mpfr_mul_si(r, p, i->sign, RN);
@@ -182,9 +184,8 @@ order(qdot_precise *precise, const step *i, int k)
 #undef SECOND
 #undef THIRD
 #undef D
-#undef U
-#undef V
-#undef W
+#undef U1
+#undef U2
 
 void
 qdot_precise_order(qdot_precise *p, int k)

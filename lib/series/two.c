@@ -119,9 +119,11 @@ value(const step *i, const qdot_two_functions *f)
 #define ADD(r, p, q) r = qdot_two_add(p, q);
 #define SUB(r, p, q) r = qdot_two_sub(p, q);
 #define NEG(r, p) r = qdot_two_neg(p);
-#define HALF(r, p) r = qdot_two_scale(p, 0.5);
 #define TIMES(r, p, b) r = qdot_two_mul(p, i->b[0]);
+#define PLUS_TIMES(r, q, p, b) r = qdot_two_add(q, qdot_two_mul(p, i->b[0]));
+#define MINUS_TIMES(r, q, p, b) r = qdot_two_sub(q, qdot_two_mul(p, i->b[0]));
 #define OVER(r, p, b) r = qdot_two_div(p, i->b[0]);
+#define OVER_TWICE(r, p, b) r = qdot_two_scale(qdot_two_div(p, i->b[0]), 0.5);
 #define ORDERS(r, p) r = qdot_two_mul_double(p, k);
 #define PER_ORDER(r, p) r = qdot_two_div_double(p, k);
 #define SIGNED(r, p) r = i->sign < 0 ? qdot_two_neg(p) : p;
@@ -160,7 +162,9 @@ qdot_tape_two_order(qdot_tape_two *t, int k)
 #undef ADD
 #undef SUB
 #undef NEG
-#undef HALF
+#undef PLUS_TIMES
+#undef MINUS_TIMES
+#undef OVER_TWICE
 #undef TIMES
 #undef OVER
 #undef ORDERS
@@ -183,7 +187,7 @@ void
 qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by)
 {
     const qdot_program_step *i = t->program.steps.at + t->program.still;
-    double *note = t->note, U, V, W;
+    double *note = t->note, U1, U2;
 
     for (size_t r = 0; r < n; r++) {
         note[r] = by[r];
@@ -192,9 +196,15 @@ qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by)
     for (; i->op != QDOT_T_END; i++) {
 #define ZERO(row) t->numbers[(size_t)i->row * t->stride].hi
 #define NOTE(row) note[i->row]
+#define OVER_ZERO(p, row) (p) / ZERO(row)
+#define OVER_TWICE_ZERO(p, row) 0.5 * (p) / ZERO(row)
+#define NOTHING 0
 #include "series/linear.def"
 #undef ZERO
 #undef NOTE
+#undef OVER_ZERO
+#undef OVER_TWICE_ZERO
+#undef NOTHING
         change(t, i->to, k);
         change(t, i->second, k);
         change(t, i->third, k);

@@ -16,8 +16,8 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_begin(data, size);
     session->json = json;
     session->style = size > 1 ? (qdot_style)(data[size - 2] % 3) : QDOT_PLAIN;
-    (void)qdot_session_incomplete((const char *)data, size);
-    (void)qdot_session_run_text(session, "fuzz", (const char *)data, size);
+    (void)qdot_script_is_incomplete((const char *)data, size);
+    (void)qdot_script_run_text(session, "fuzz", (const char *)data, size);
     qdot_session_free(session);
     fuzz_end();
     return 0;

@@ -33,7 +33,7 @@ value_of(qdot_session *session, const char *text, size_t length)
 {
     size_t before = session->history.n;
 
-    if (qdot_session_run_text(session, "fuzz", text, length) != 0 ||
+    if (qdot_script_run_text(session, "fuzz", text, length) != 0 ||
         session->history.n != before + 1)
         return QDOT_NIL;
     return session->history.at[before];
@@ -110,7 +110,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_ready();
     session = qdot_session_new(fuzz_nowhere, fuzz_nowhere);
     if (session == NULL ||
-        qdot_session_run_text(session, "scene", scene, sizeof scene - 1) != 0)
+        qdot_script_run_text(session, "scene", scene, sizeof scene - 1) != 0)
         abort();
     fuzz_begin(data, size);
     e = value_of(session, (const char *)data, size);

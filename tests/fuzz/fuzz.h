@@ -20,7 +20,7 @@
 #include <time.h>
 
 #include "base/interrupt.h"
-#include "lang/session.h"
+#include "lang/commands/script.h"
 
 enum { LIMIT = 2000, EARLY = 64 }; /* milliseconds */
 

@@ -15,7 +15,9 @@
 
 #include "base/memory.h"
 #include "expr/print.h"
-#include "lang/read.h"
+#include "lang/commands/script.h"
+#include "lang/language/read.h"
+#include "lang/source/source.h"
 
 typedef struct {
     qdot_session *session;

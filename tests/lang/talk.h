@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lang/session.h"
+#include "lang/commands/script.h"
 
 typedef struct {
     qdot_session *session;
@@ -50,7 +50,7 @@ end(void **state)
 static inline int
 say(talk *k, const char *text)
 {
-    return qdot_session_run_text(k->session, "test", text, strlen(text));
+    return qdot_script_run_text(k->session, "test", text, strlen(text));
 }
 
 static inline const char *

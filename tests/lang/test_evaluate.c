@@ -57,7 +57,7 @@ user_functions_replace_their_formals(void **state)
 
     (void)state;
     reading_open(&r);
-    assert_int_equal(qdot_session_run_text(r.session, "a", text, sizeof text - 1), 0);
+    assert_int_equal(qdot_script_run_text(r.session, "a", text, sizeof text - 1), 0);
     assert_same(&r, "f(3)", "9/2 + m");
     assert_same(&r, "f(f(2))", "(2 + m)^2/2 + m");
     assert_same(&r, "f'(theta)", "theta");

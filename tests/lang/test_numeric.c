@@ -3,6 +3,8 @@
 
 #include "reading.h"
 
+#include "lang/session/bind.h"
+
 /* The number that a text gave: its digits and its error. */
 static qdot_measured
 number_of(qdot_session *session, const char *e, int digits)
@@ -10,7 +12,7 @@ number_of(qdot_session *session, const char *e, int digits)
     char text[200];
 
     snprintf(text, sizeof text, "numeric(%s, %d)", e, digits);
-    assert_int_equal(qdot_session_run_text(session, "a", text, strlen(text)), 0);
+    assert_int_equal(qdot_script_run_text(session, "a", text, strlen(text)), 0);
     assert_true(session->measured.n > 0);
     return session->measured.at[session->measured.n - 1];
 }
@@ -62,12 +64,12 @@ symbols_stay(void **state)
     static const char scene[] = "param m\ncoord x";
 
     (void)state;
-    assert_int_equal(qdot_session_run_text(session, "a", scene, strlen(scene)), 0);
+    assert_int_equal(qdot_script_run_text(session, "a", scene, strlen(scene)), 0);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[200];
 
         snprintf(text, sizeof text, "numeric(%s)\n%s", rows[i].e, rows[i].decimals);
-        assert_int_equal(qdot_session_run_text(session, "a", text, strlen(text)), 0);
+        assert_int_equal(qdot_script_run_text(session, "a", text, strlen(text)), 0);
         assert_int_equal(session->history.at[2 * i], session->history.at[2 * i + 1]);
     }
     qdot_session_free(session);

@@ -6,6 +6,8 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "lang/commands/complete.h"
+#include "lang/session/bind.h"
 
 static void
 exit_status_tells_syntax_from_failure(void **state)
@@ -211,7 +213,7 @@ an_open_bracket_goes_on(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_int_equal(qdot_session_incomplete(cases[i].text, strlen(cases[i].text)),
+        assert_int_equal(qdot_script_is_incomplete(cases[i].text, strlen(cases[i].text)),
                          cases[i].incomplete);
 }
 
@@ -223,7 +225,7 @@ completions_are_sorted_and_unique(void **state)
     size_t n;
 
     say(k, "param part, party; coord x; particle partner mass part at x");
-    assert_int_equal(qdot_session_complete(k->session, "part", &words, &n), QDOT_OK);
+    assert_int_equal(qdot_complete(k->session, "part", &words, &n), QDOT_OK);
     assert_int_equal(n, 4);
     assert_string_equal(words[0], "part");
     assert_string_equal(words[1], "particle");
@@ -232,7 +234,7 @@ completions_are_sorted_and_unique(void **state)
     for (size_t i = 0; i < n; i++)
         qdot_free(words[i]);
     qdot_free(words);
-    assert_int_equal(qdot_session_complete(k->session, "", &words, &n), QDOT_OK);
+    assert_int_equal(qdot_complete(k->session, "", &words, &n), QDOT_OK);
     assert_true(n > 100);
     for (size_t i = 0; i + 1 < n; i++)
         assert_true(strcmp(words[i], words[i + 1]) < 0);
@@ -259,9 +261,9 @@ a_directory_or_nothing_is_no_script(void **state)
 {
     talk *k = *state;
 
-    assert_int_equal(qdot_session_run_file(k->session, "."), 1);
+    assert_int_equal(qdot_script_run_file(k->session, "."), 1);
     assert_non_null(strstr(complaint(k), "is a directory"));
-    assert_int_equal(qdot_session_run_file(k->session, "no such file"), 1);
+    assert_int_equal(qdot_script_run_file(k->session, "no such file"), 1);
     assert_non_null(strstr(complaint(k), "cannot be opened"));
 }
 
@@ -287,7 +289,7 @@ no_memory_is_an_error_everywhere(void **state)
 
         qdot_memory_fail_at(n);
         s = qdot_session_new(sink, sink);
-        last = s == NULL ? 1 : qdot_session_run_text(s, "test", text, strlen(text));
+        last = s == NULL ? 1 : qdot_script_run_text(s, "test", text, strlen(text));
         qdot_memory_fail_at(-1);
         qdot_session_free(s);
         assert_true(n < 10000000);

@@ -58,7 +58,7 @@ value_of(qdot_session *session, const char *text)
 {
     size_t before = session->history.n;
 
-    if (qdot_session_run_text(session, "a", text, strlen(text)) != 0 ||
+    if (qdot_script_run_text(session, "a", text, strlen(text)) != 0 ||
         session->history.n != before + 1)
         return QDOT_NIL;
     return session->history.at[before];
@@ -92,11 +92,11 @@ what_is_printed_is_read(void **state)
 
     (void)state;
     assert_non_null(session);
-    assert_int_equal(qdot_session_run_text(session, "a", scene, sizeof scene - 1), 0);
-    assert_int_equal(qdot_session_run_text(session, "a",
-                                           "lagrangian m*(x'^2 + y'^2 + theta'^2)/2\n"
-                                           "constraint e: x^2 + y^2 = 1",
-                                           67),
+    assert_int_equal(qdot_script_run_text(session, "a", scene, sizeof scene - 1), 0);
+    assert_int_equal(qdot_script_run_text(session, "a",
+                                          "lagrangian m*(x'^2 + y'^2 + theta'^2)/2\n"
+                                          "constraint e: x^2 + y^2 = 1",
+                                          67),
                      0);
     seed = 3;
     for (int i = 0; i < 4000; i++) {

@@ -6,8 +6,9 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/print.h"
-#include "lang/scene-file.h"
-#include "lang/statement.h"
+#include "lang/commands/scene-file.h"
+#include "lang/commands/statement.h"
+#include "lang/source/source.h"
 
 /* All that a session file says, and every name. */
 static char *

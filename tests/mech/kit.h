@@ -21,8 +21,7 @@
 #include "expr/print.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/dynamics/quantity.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/scene.h"
 #include "normal/prove/decide.h"
 
 typedef struct {

@@ -1,7 +1,10 @@
 /* Equilibria and the modes about them. */
 #include "kit.h"
 
+#include "mech/dynamics/generic.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/study/equilibrium.h"
+#include "mech/study/modes.h"
 
 static void
 find(kit *k, qdot_equilibria *r, size_t n)

@@ -2,6 +2,7 @@
  * against the same field in Cartesian coordinates. */
 #include "kit.h"
 
+#include "mech/dynamics/quantity.h"
 #include "mech/study/geometry.h"
 
 static qdot_expr

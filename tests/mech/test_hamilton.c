@@ -1,6 +1,7 @@
 /* Hamilton's and Routh's functions against the textbooks', and against each other's equations. */
 #include "kit.h"
 
+#include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
 
 static qdot_expr

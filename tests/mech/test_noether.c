@@ -1,6 +1,7 @@
 /* Conserved quantities: which are found, and that each is constant by the equations of motion. */
 #include "kit.h"
 
+#include "mech/dynamics/quantity.h"
 #include "mech/study/noether.h"
 #include "normal/prove/decide.h"
 

@@ -6,6 +6,8 @@
  * applied forces.
  */
 #include "kit.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
 
 enum { MOST = 6 };
 

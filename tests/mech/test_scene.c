@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include "kit.h"
+#include "mech/dynamics/quantity.h"
 
 static void
 refused(kit *k, qdot_status got, qdot_status want, const char *words)

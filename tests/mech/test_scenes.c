@@ -1,5 +1,6 @@
 /* The rows of the scenes that define the mission, each a decision. */
 #include "kit.h"
+#include "mech/dynamics/quantity.h"
 
 static qdot_expr
 Q(kit *k, const char *q)

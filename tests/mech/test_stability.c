@@ -1,6 +1,7 @@
 /* What is said of stability is proved: a table of motions, each with what is true of it. */
 #include "kit.h"
 
+#include "mech/scene/scene.h"
 #include "mech/study/equilibrium.h"
 
 typedef struct {

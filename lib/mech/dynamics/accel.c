@@ -7,7 +7,13 @@
  * are left out (mech/dynamics/freedom.c): q'' does not depend on how they share the reaction.
  */
 #include "expr/calculus.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/freedom.h"
+#include "mech/dynamics/lagrange.h"
+#include "mech/dynamics/mass-matrix.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+#include "mech/scene/cache.h"
+#include "mech/scene/constraint.h"
 #include "normal/solve/linear.h"
 
 static qdot_status
@@ -111,7 +117,7 @@ qdot_mech_accel(qdot_scene *s, qdot_expr q)
 {
     size_t i;
 
-    if (!qdot_derived_index(s, q, &i) || !accels_get(s))
+    if (!qdot_mech_index(s, q, &i) || !accels_get(s))
         return QDOT_NIL;
     return s->derived->accel[i];
 }

@@ -4,11 +4,14 @@
  * in as one symbol: nothing can cancel against its terms. Then symbols of one class and sign
  * are looked through: the pattern is known, or it is simplified and remembered.
  */
+#include "mech/dynamics/alike.h"
+
 #include <stdio.h>
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
+#include "mech/scene/cache.h"
 #include "normal/form/simple.h"
 
 enum { PATTERNS = 256, PATTERN_ATOMS = 20, UNITS = 4 };
@@ -54,7 +57,7 @@ with_units(qdot_scene *s, qdot_expr e, units *u)
     qdot_walk w;
 
     u->n = 0;
-    if (s->derived->relations.n || s->conditions.n)
+    if (s->relations.n || s->conditions.n)
         return e;
     if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
@@ -123,7 +126,7 @@ pattern_of(qdot_scene *s, qdot_expr e, qdot_expr *atoms)
     qdot_expr from[PATTERN_ATOMS], to[PATTERN_ATOMS];
     uint32_t n;
 
-    if (s->derived->relations.n || s->conditions.n ||
+    if (s->relations.n || s->conditions.n ||
         qdot_mech_holds(s, e) & QDOT_HAS_UFUN)
         return QDOT_NIL;
     *atoms = qdot_expr_atoms(pool, e, false);
@@ -180,7 +183,7 @@ qdot_mech_alike(qdot_scene *s, qdot_expr e)
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) < QDOT_SUM ||
         qdot_expr_kind(pool, e) > QDOT_PROD || qdot_simple_is_done(pool, e))
         return qdot_mech_tidy(s, e);
-    if (s->derived->relations.n == 0 && s->conditions.n == 0 &&
+    if (s->relations.n == 0 && s->conditions.n == 0 &&
         (seen = qdot_simple_seen(pool, e)) != QDOT_NIL)
         return seen;
     e = by_pattern(s, with_units(s, e, &u));

@@ -2,7 +2,11 @@
 #include "mech/dynamics/dalembert.h"
 
 #include "expr/calculus.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/kinematics.h"
+#include "mech/dynamics/potential.h"
+#include "mech/dynamics/recursive.h"
+#include "mech/dynamics/virtual-work.h"
+#include "mech/scene/access.h"
 
 static qdot_expr
 forces(qdot_scene *s)

@@ -1,93 +1,20 @@
-/* energy.c -- T, V, L and the Jacobi energy h = sum p q' - L.
- *
- * By Lagrange's equations
- *
- *     dh/dt = -dL/dt + sum (Q_i + R_i) q_i'
- *
- * with Q what is applied beside V and R the reactions, so h is conserved when dL/dt and
- * the power of Q vanish and every constraint works at no power: f (q, t) = 0 at -lambda
- * df/dt, f(q, q', t) = 0 at lambda sum df/dq' q', f(q'') at lambda sum df/dq'' q'.
- */
+/* energy.c -- T, L, the Jacobi energy h = sum p q' - L, slopes of L. */
+#include "mech/dynamics/energy.h"
+
+#include "mech/dynamics/kinematics.h"
+
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
+#include "mech/dynamics/mass-matrix.h"
+#include "mech/dynamics/potential.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/dynamics/squares.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
+#include "mech/scene/cache.h"
 #include "normal/form/common.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
-
-qdot_expr
-qdot_link_square(qdot_scene *s, bool damper, size_t k)
-{
-    qdot_derived *d = qdot_derived_get(s);
-    qdot_expr **cache = damper ? &d->square_damper : &d->square_spring;
-    const qdot_link *link = damper ? &s->dampers.at[k] : &s->springs.at[k];
-    qdot_expr u;
-
-    if (!qdot_derived_array(s, cache, damper ? s->dampers.n : s->springs.n))
-        return QDOT_NIL;
-    if ((*cache)[k] == QDOT_NIL) {
-        u = qdot_value_sub(s->pool, link->at[0], link->at[1]);
-        (*cache)[k] = qdot_mech_tidy(s, qdot_mech_dot(s->pool, u, u));
-    }
-    return (*cache)[k];
-}
-
-/* k/2 (d - rest)^2, without a root where rest = 0. */
-qdot_expr
-qdot_spring_potential(qdot_scene *s, size_t k)
-{
-    qdot_pool *pool = s->pool;
-    const qdot_link *spring = &s->springs.at[k];
-    qdot_expr square = qdot_link_square(s, false, k);
-
-    if (spring->rest != QDOT_ZERO)
-        square =
-            qdot_pow_int(pool, qdot_sub(pool, qdot_sqrt(pool, square), spring->rest), 2);
-    return qdot_mul(pool, QDOT_HALF, qdot_mul(pool, spring->stiffness, square));
-}
-
-qdot_expr
-qdot_potential_with_velocities(qdot_scene *s)
-{
-    qdot_expr V = QDOT_ZERO;
-
-    for (size_t i = 0; i < s->potentials.n; i++)
-        if (qdot_mech_holds(s, s->potentials.at[i].e) & QDOT_HAS_VELOCITY)
-            V = qdot_add(s->pool, V, s->potentials.at[i].e);
-    return V;
-}
-
-qdot_expr
-qdot_potential_but_gravity(qdot_scene *s)
-{
-    qdot_expr V = QDOT_ZERO;
-
-    for (size_t i = 0; i < s->potentials.n; i++)
-        V = qdot_add(s->pool, V, s->potentials.at[i].e);
-    for (size_t i = 0; i < s->springs.n; i++)
-        V = qdot_add(s->pool, V, qdot_spring_potential(s, i));
-    return V;
-}
-
-/* V before simplification. */
-static qdot_expr
-raw_potential(qdot_scene *s)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr V = QDOT_ZERO;
-
-    if (s->gravities.n) {
-        qdot_kinematics *k = qdot_kinematics_get(s);
-        const qdot_groups *place = k ? qdot_kinematics_place(s, k) : NULL;
-
-        if (!place)
-            return QDOT_NIL;
-        V = qdot_neg(pool, qdot_kinematics_gravity(s, k, place));
-    }
-    return qdot_add(pool, V, qdot_potential_but_gravity(s));
-}
 
 /* 1/2 sum M_ij q_i' q_j', scaled terms in order. */
 static qdot_expr
@@ -220,20 +147,6 @@ qdot_mech_kinetic(qdot_scene *s)
 }
 
 qdot_expr
-qdot_mech_potential(qdot_scene *s)
-{
-    qdot_derived *d = qdot_derived_get(s);
-    qdot_expr V;
-
-    if (d->potential != QDOT_NIL)
-        return d->potential;
-    if (!qdot_mech_needs_particles(s, "V"))
-        return QDOT_NIL;
-    V = qdot_mech_tidy(s, raw_potential(s));
-    return d->potential = V;
-}
-
-qdot_expr
 qdot_mech_lagrangian(qdot_scene *s)
 {
     qdot_expr T, V;
@@ -266,7 +179,7 @@ energy_by_parts(qdot_scene *s)
 {
     qdot_pool *pool = s->pool;
     qdot_expr T = qdot_common_out(pool, qdot_mech_tidy_whole(s, quadratic_part(s)));
-    qdot_expr V = raw_potential(s), c = qdot_derived_get(s)->c;
+    qdot_expr V = qdot_potential_raw(s), c = qdot_derived_get(s)->c;
 
     if (V == QDOT_NIL || (qdot_mech_holds(s, V) & QDOT_HAS_VELOCITY))
         return QDOT_NIL;
@@ -289,7 +202,7 @@ qdot_mech_energy(qdot_scene *s)
     if (d->energy != QDOT_NIL)
         return d->energy;
     /* Of F = L or -V: sum q' dF/dq' - F; of T: its quadratic part less c. */
-    F = qdot_mech_stated(s) ? s->lagrangian : qdot_neg(pool, raw_potential(s));
+    F = qdot_mech_stated(s) ? s->lagrangian : qdot_neg(pool, qdot_potential_raw(s));
     h = qdot_neg(pool, F);
     if (qdot_mech_holds(s, F) & QDOT_HAS_VELOCITY)
         for (size_t i = 0; i < s->coordinates.n; i++) {
@@ -347,7 +260,7 @@ qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
         if (symbol->class == QDOT_COORD && symbol->order == 1) {
             size_t j;
 
-            if (!qdot_derived_index(s, symbol->base, &j))
+            if (!qdot_mech_index(s, symbol->base, &j))
                 return false;
             *has |=
                 qdot_mass_entry(s, i, j) != QDOT_ZERO || s->derived->b[j] != QDOT_ZERO;
@@ -359,7 +272,7 @@ qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
     }
     if (*has)
         return !qdot_pool_failed(s->pool);
-    V = raw_potential(s);
+    V = qdot_potential_raw(s);
     if (V == QDOT_NIL)
         return false;
     *has = qdot_expr_contains(s->pool, s->derived->c, x) ||
@@ -379,7 +292,7 @@ qdot_lagrangian_slope(qdot_scene *s, qdot_expr x)
         return QDOT_NIL;
     T = qdot_add(pool, quadratic_part(s),
                  qdot_add(pool, linear_part(s), qdot_derived_get(s)->c));
-    return qdot_sub(pool, qdot_diff(pool, T, x), qdot_diff(pool, raw_potential(s), x));
+    return qdot_sub(pool, qdot_diff(pool, T, x), qdot_diff(pool, qdot_potential_raw(s), x));
 }
 
 static bool
@@ -410,153 +323,6 @@ qdot_lagrangian_is_still(qdot_scene *s, qdot_expr x)
     for (size_t i = 0; i < s->coordinates.n; i++)
         if (!is_still(s, qdot_derived_get(s)->b[i], x, &facts))
             return false;
-    return is_still(s, qdot_sub(s->pool, qdot_derived_get(s)->c, raw_potential(s)), x,
+    return is_still(s, qdot_sub(s->pool, qdot_derived_get(s)->c, qdot_potential_raw(s)), x,
                     &facts);
-}
-
-/* --- conservation ---------------------------------------------------------------------
- * */
-
-/* -dL/dt + sum Q q', Q what is applied beside V. */
-static qdot_expr
-applied_power(qdot_scene *s)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr power = QDOT_ZERO;
-    bool has;
-
-    if (!qdot_lagrangian_has(s, QDOT_T, &has))
-        return QDOT_NIL;
-    if (has)
-        power = qdot_neg(pool, qdot_lagrangian_slope(s, QDOT_T));
-    for (size_t i = 0; i < s->coordinates.n; i++) {
-        qdot_expr Q = qdot_force_total(s, i, false, true);
-
-        power = qdot_add(pool, power, qdot_mul(pool, Q, qdot_mech_jet(s, i, 1)));
-    }
-    return power;
-}
-
-static qdot_expr
-constraint_power(qdot_scene *s, size_t k)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr power = QDOT_ZERO;
-
-    if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
-        return qdot_diff(pool, s->constraints.at[k].f, QDOT_T);
-    for (size_t i = 0; i < s->coordinates.n; i++)
-        power = qdot_add(
-            pool, power,
-            qdot_mul(pool, qdot_constraint_slope(s, k, i), qdot_mech_jet(s, i, 1)));
-    return power;
-}
-
-/* dh/dt, with the multipliers' symbols. */
-static qdot_expr
-energy_rate(qdot_scene *s)
-{
-    qdot_expr rate = applied_power(s);
-
-    for (size_t k = 0; k < s->constraints.n; k++) {
-        qdot_expr power = constraint_power(s, k);
-
-        if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
-            power = qdot_neg(s->pool, power); /* q' df/dq = -df/dt */
-        rate = qdot_add(s->pool, rate,
-                        qdot_mul(s->pool, s->constraints.at[k].multiplier, power));
-    }
-    return rate;
-}
-
-/* dp/dt of coordinate i, likewise. */
-static qdot_expr
-momentum_rate(qdot_scene *s, size_t i)
-{
-    qdot_pool *pool = s->pool;
-
-    return qdot_sum(pool, 3,
-                    (qdot_expr[]){qdot_lagrangian_slope(s, s->coordinates.at[i]),
-                                  qdot_force_total(s, i, false, true),
-                                  qdot_constraint_reaction(s, i)});
-}
-
-static bool
-is_free_of_velocities(qdot_scene *s, qdot_expr e)
-{
-    return e != QDOT_NIL && (qdot_mech_holds(s, e) & (QDOT_HAS_VELOCITY |
-                                                      QDOT_HAS_ACCELERATION)) == 0;
-}
-
-/* E less a quantity whose rate needs no accelerations: what is left, free of velocities; else
- * nil. */
-static qdot_expr
-rest_beside(qdot_scene *s, qdot_expr E, qdot_expr known)
-{
-    const qdot_facts facts = qdot_scene_facts(s);
-    qdot_expr rest = E == known ? QDOT_ZERO : qdot_sub(s->pool, E, known);
-
-    if (is_free_of_velocities(s, rest))
-        return rest;
-    rest = qdot_simplify(s->pool, rest, &facts);
-    return is_free_of_velocities(s, rest) ? rest : QDOT_NIL;
-}
-
-qdot_expr
-qdot_mech_rate(qdot_scene *s, qdot_expr E)
-{
-    qdot_expr rest;
-
-    if (is_free_of_velocities(s, E))
-        return qdot_ddt(s->pool, E);
-    rest = rest_beside(s, E, qdot_mech_energy(s));
-    if (rest != QDOT_NIL)
-        return qdot_add(s->pool, energy_rate(s), qdot_ddt(s->pool, rest));
-    for (size_t i = 0; i < s->coordinates.n && !qdot_pool_failed(s->pool); i++) {
-        rest = rest_beside(s, E, qdot_mech_momentum(s, s->coordinates.at[i]));
-        if (rest != QDOT_NIL)
-            return qdot_add(s->pool, momentum_rate(s, i), qdot_ddt(s->pool, rest));
-    }
-    return QDOT_NIL;
-}
-
-qdot_status
-qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
-{
-    qdot_pool *pool = s->pool;
-    qdot_derived *d = qdot_derived_get(s);
-    qdot_facts facts = qdot_scene_facts(s), on_manifold = facts;
-    qdot_expr *relations = NULL, power;
-    qdot_status status = qdot_pool_check(pool);
-
-    QDOT_TRY(status);
-    *conserved = d->conserved;
-    if (d->conserved_known)
-        return QDOT_OK;
-    if (s->constraints.n)
-        status = qdot_constraint_facts(s, &relations, &on_manifold);
-    if (status == QDOT_OK) {
-        power = applied_power(s);
-        *conserved = power != QDOT_NIL &&
-                     (qdot_is_zero(pool, power, &facts) ||
-                      (s->constraints.n && qdot_is_zero(pool, power, &on_manifold)));
-        for (size_t k = 0; k < s->constraints.n && *conserved; k++) {
-            qdot_expr f = s->constraints.at[k].f;
-
-            /* Linear and homogeneous in q', its power is f itself. */
-            power = constraint_power(s, k);
-            *conserved = power != QDOT_NIL &&
-                         (qdot_is_zero(pool, power, &facts) ||
-                          qdot_is_zero(pool, qdot_sub(pool, power, f), &facts) ||
-                          qdot_is_zero(pool, power, &on_manifold));
-        }
-        status = qdot_pool_check(pool);
-    }
-    qdot_free(relations);
-    if (status == QDOT_OK) {
-        d = qdot_derived_get(s);
-        d->conserved_known = true;
-        d->conserved = *conserved;
-    }
-    return status;
 }

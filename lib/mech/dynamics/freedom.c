@@ -15,13 +15,19 @@
  *
  *     rank d(F,W)/d(q,q') - rank dF/dq - rank dW/dq',   likewise F, W, G with q''.
  */
+#include "mech/dynamics/freedom.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/generic.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+#include "mech/scene/cache.h"
+#include "mech/scene/constraint.h"
 #include "normal/prove/decide.h"
 
 /* Constraints that seem redundant may only be so on one branch of their configurations: more
@@ -397,7 +403,7 @@ find_hidden(const problem *p, const bool *independent, bool *hidden)
 static bool
 can_sample(qdot_scene *s, const problem *p)
 {
-    if (s->derived->relations.n)
+    if (s->relations.n)
         return false;
     for (size_t k = 0; k < p->c; k++) {
         qdot_expr atoms;

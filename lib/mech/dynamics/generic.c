@@ -1,10 +1,12 @@
 /* generic.c -- expressions in double at a point: for ranks at generic configurations
  * only. */
+#include "mech/dynamics/generic.h"
+
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
 
 #define ONE(name, value)                                                                 \
     static double f_##name(const double *x, uint32_t n)                                  \

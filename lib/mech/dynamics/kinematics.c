@@ -1,33 +1,15 @@
 /* kinematics.c -- r(q, t): velocities' coefficients dr/dq, grouped before anything
  * expands. */
+#include "mech/dynamics/kinematics.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
-
-void
-qdot_kinematics_clear(qdot_kinematics *k)
-{
-    if (k->dy != k->dx && k->dy)
-        for (size_t i = 0; i <= k->n; i++)
-            qdot_free(k->dy[i].at);
-    if (k->dx)
-        for (size_t i = 0; i <= k->n; i++)
-            qdot_free(k->dx[i].at);
-    if (k->dy != k->dx)
-        qdot_free(k->dy);
-    qdot_free(k->dx);
-    qdot_free(k->rest.at);
-    qdot_free(k->place.at);
-    qdot_free(k->terms.at);
-    qdot_free(k->bits.at);
-    qdot_free(k->weight.at);
-    qdot_free(k->slots.at);
-    *k = (qdot_kinematics){0};
-}
+#include "mech/dynamics/alike.h"
+#include "mech/scene/access.h"
 
 /* --- inertial terms -------------------------------------------------------------------
  * */

@@ -4,10 +4,17 @@
  *         + sum_jk (dM_ij/dq_k - 1/2 dM_jk/dq_i) q_j' q_k'
  *         + sum_j (dM_ij/dt + db_i/dq_j - db_j/dq_i) q_j' + db_i/dt - dc/dq_i
  */
+#include "mech/dynamics/lagrange.h"
+
 #include <stdlib.h>
 
 #include "expr/calculus.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/alike.h"
+#include "mech/dynamics/mass-matrix.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+#include "mech/scene/cache.h"
+#include "mech/scene/constraint.h"
 #include "normal/form/common.h"
 #include "normal/form/simple.h"
 
@@ -223,7 +230,7 @@ qdot_mech_equation(qdot_scene *s, qdot_expr q)
     qdot_expr right;
     size_t i;
 
-    if (!qdot_derived_index(s, q, &i))
+    if (!qdot_mech_index(s, q, &i))
         return QDOT_NIL;
     d = qdot_derived_get(s);
     if (!qdot_derived_array(s, &d->equation, d->n))

@@ -6,10 +6,15 @@
  *
  * from the groups of kinematics.c; each entry simplified by itself, T never expanded.
  */
+#include "mech/dynamics/mass-matrix.h"
+
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/kinematics.h"
+#include "mech/dynamics/potential.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
 
 bool
 qdot_mass_get(qdot_scene *s)

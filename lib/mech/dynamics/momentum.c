@@ -5,7 +5,14 @@
  */
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/energy.h"
+#include "mech/dynamics/mass-matrix.h"
+#include "mech/dynamics/potential.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/dynamics/virtual-work.h"
+#include "mech/scene/access.h"
+#include "mech/scene/cache.h"
+#include "mech/scene/constraint.h"
 #include "normal/prove/decide.h"
 
 qdot_expr
@@ -16,7 +23,7 @@ qdot_mech_momentum(qdot_scene *s, qdot_expr q)
     qdot_expr p, V;
     size_t i;
 
-    if (!qdot_derived_index(s, q, &i))
+    if (!qdot_mech_index(s, q, &i))
         return QDOT_NIL;
     d = qdot_derived_get(s);
     if (!qdot_derived_array(s, &d->momentum, d->n))

@@ -7,12 +7,13 @@
  * added up from the root outward, forces from the tip inward, as in the recursions of
  * Newton and Euler, without any notion of a joint.
  */
+#include "mech/dynamics/nested.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
-#include "mech/scene/derived.h"
 
 typedef struct {
     uint32_t set;

@@ -12,7 +12,14 @@
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/kinematics.h"
+#include "mech/dynamics/lagrange.h"
+#include "mech/dynamics/mass-matrix.h"
+#include "mech/dynamics/potential.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/dynamics/recursive.h"
+#include "mech/dynamics/virtual-work.h"
+#include "mech/scene/access.h"
 
 /* Both forms are made while the raw one has so few coordinates and operations that simplifying
  * takes milliseconds; a rotation in space is long but simplifies well. */

@@ -84,8 +84,6 @@ typedef struct {
     size_t particles, dimension;
 } qdot_dof;
 QDOT_MUST_CHECK qdot_status qdot_mech_dof(qdot_scene *s, qdot_dof *dof);
-/* f, df/dt, d2f/dt2 (as many as the kind asks) of constraint i, for `when LABEL` and checks. */
-qdot_expr qdot_mech_constraint_derivative(qdot_scene *s, size_t i, unsigned order);
 
 /* --- for numbers (sim/): unsimplified for people, cheap to evaluate ---
  * M(q, t) q'' = f(q, q', t): M as MAT, f as VEC (LIST when n = 1); n coordinates in declared

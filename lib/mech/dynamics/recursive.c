@@ -11,8 +11,13 @@
  * Source  Featherstone, Rigid Body Dynamics Algorithms (2008), chapters 5 and 6, for the
  *         recursions; here they follow from the sets of terms alone.
  */
+#include "mech/dynamics/recursive.h"
+
 #include "expr/calculus.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/kinematics.h"
+#include "mech/dynamics/nested.h"
+#include "mech/dynamics/virtual-work.h"
+#include "mech/scene/access.h"
 
 bool
 qdot_recursive_applies(const qdot_scene *s, const qdot_kinematics *k)

@@ -1,10 +1,11 @@
 /* squares.c -- a quadratic form as a sum of squares: pivots in every order, the shortest kept. */
+
 #include "mech/dynamics/squares.h"
 
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"
 
 enum { MOST = 3 };

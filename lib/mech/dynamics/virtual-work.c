@@ -10,10 +10,17 @@
  * d' along its line: Q_j = -c d' dd/dq_j = -c (u.u') (u.du/dq_j) / u.u, u between the
  * ends.
  */
+#include "mech/dynamics/virtual-work.h"
+
 #include "expr/calculus.h"
 #include "expr/print.h"
 #include "expr/tensor.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/alike.h"
+#include "mech/dynamics/kinematics.h"
+#include "mech/dynamics/potential.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+#include "mech/scene/body.h"
 
 /* dr/dq_i or, in Kane's form, dv/dq_i', of a place. */
 static qdot_expr
@@ -365,7 +372,7 @@ qdot_mech_force(qdot_scene *s, qdot_expr q)
     qdot_derived *d;
     size_t i;
 
-    if (!qdot_derived_index(s, q, &i))
+    if (!qdot_mech_index(s, q, &i))
         return QDOT_NIL;
     d = qdot_derived_get(s);
     if (!qdot_derived_array(s, &d->force, d->n))
@@ -380,7 +387,7 @@ qdot_mech_force_kane(qdot_scene *s, qdot_expr q)
 {
     size_t i;
 
-    if (!qdot_derived_index(s, q, &i))
+    if (!qdot_mech_index(s, q, &i))
         return QDOT_NIL;
     return total(s, i, true, false, true);
 }

@@ -2,12 +2,14 @@
  *
  *     r(P) = r + R P,    omega x = R' R^T,    v(X) = r' + omega x (X - r)
  */
+#include "mech/scene/body.h"
+
 #include <string.h>
 
 #include "expr/calculus.h"
 #include "expr/tensor.h"
-#include "mech/scene/derived.h"
-#include "mech/scene/scene.h"
+#include "mech/scene/access.h"
+#include "mech/scene/constraint.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "expr/print.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
 const qdot_event *

@@ -1,7 +1,7 @@
 /* kind.c -- what may stand in a scene without a label: counted, compared, taken out by number. */
 #include <string.h>
 
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
 /* The k-th torque that was declared with `force`, or with `torque`; the number of torques where

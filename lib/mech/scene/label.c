@@ -1,7 +1,7 @@
 /* label.c -- things of the scene by their labels. */
 #include <string.h>
 
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
 const qdot_particle *

@@ -1,5 +1,4 @@
 /* scene-parts.c -- the arrays of a scene, one like the other, for who keeps its states. */
-#include "mech/scene/derived.h"
 #include "mech/scene/scene.h"
 
 enum { EVENTS = 0 };
@@ -13,7 +12,7 @@ qdot_scene_part_at(qdot_scene *s, size_t k)
         PART(s->bodies),            PART(s->gravities),   PART(s->potentials),
         PART(s->springs),           PART(s->dampers),     PART(s->dissipations),
         PART(s->forces),            PART(s->torques),     PART(s->constraints),
-        PART(s->assumed),           PART(s->conditions),  PART(s->derived->relations),
+        PART(s->assumed),           PART(s->conditions),  PART(s->relations),
     };
 #undef PART
 

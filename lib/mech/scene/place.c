@@ -5,7 +5,8 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
+#include "mech/scene/scene.h"
 #include "normal/prove/decide.h"
 
 /* Whether the body's position and rotation hold every coordinate of the place. */

@@ -1,7 +1,7 @@
 /* remove.c -- things taken out of the scene by their labels, with what acted on them. */
 #include <string.h>
 
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
 qdot_status

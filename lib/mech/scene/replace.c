@@ -3,7 +3,7 @@
  * A function may be declared, and used, before the coordinate that is its argument.
  */
 #include "expr/calculus.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/scene.h"
 
 typedef struct {
     qdot_pool *pool;
@@ -90,7 +90,7 @@ qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to)
     for (size_t i = 0; i < s->assumed.n; i++)
         replace(&r, &s->assumed.at[i].relation);
     replace_all(&r, s->conditions.n, s->conditions.at);
-    replace_all(&r, s->derived->relations.n, s->derived->relations.at);
+    replace_all(&r, s->relations.n, s->relations.at);
     replace(&r, &s->lagrangian);
     s->version++;
     return qdot_pool_check(s->pool);

@@ -1,4 +1,5 @@
 /* scene.c -- declaring: every adder checks first and then adds. */
+
 #include "mech/scene/scene.h"
 
 #include <string.h>
@@ -6,7 +7,8 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
+#include "mech/scene/cache.h"
 
 /* What may not stand in a declaration, with its words. */
 enum {
@@ -74,6 +76,7 @@ qdot_scene_free(qdot_scene *s)
     qdot_free(s->constraints.at);
     qdot_free(s->assumed.at);
     qdot_free(s->conditions.at);
+    qdot_free(s->relations.at);
     if (s->derived)
         qdot_derived_free(s->derived);
     if (s->texts)
@@ -357,7 +360,7 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
         size_t i;
 
         QDOT_TRY(need_scalar(s, torque->torque, "a generalized force", NO_ACCELERATION));
-        if (!qdot_derived_index(s, torque->coordinate, &i))
+        if (!qdot_mech_index(s, torque->coordinate, &i))
             return qdot_pool_check(s->pool);
     } else {
         uint32_t n = qdot_mech_dimension(s->pool, torque->torque), wanted;
@@ -400,15 +403,13 @@ qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
 static qdot_status
 add_relation(qdot_scene *s, qdot_expr e)
 {
-    qdot_derived *d = s->derived;
-
     QDOT_TRY(qdot_pool_check(s->pool));
     if (e == QDOT_ZERO)
         return QDOT_OK;
-    for (size_t i = 0; i < d->relations.n; i++)
-        if (d->relations.at[i] == e)
+    for (size_t i = 0; i < s->relations.n; i++)
+        if (s->relations.at[i] == e)
             return QDOT_OK;
-    return qdot_vec_push(&d->relations, e);
+    return qdot_vec_push(&s->relations, e);
 }
 
 /* A relation between undefined functions holds for all values of their arguments, so its
@@ -457,7 +458,7 @@ qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned)
 {
     const qdot_assumption said = {relation, turned};
     qdot_pool *pool = s->pool;
-    size_t before = s->derived->relations.n;
+    size_t before = s->relations.n;
     qdot_expr f;
     qdot_status status;
 
@@ -487,20 +488,9 @@ qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned)
             status = add_slopes(s, f);
         if (status != QDOT_OK) {
             s->assumed.n--;
-            s->derived->relations.n = before;
+            s->relations.n = before;
             return status;
         }
     }
     return status == QDOT_OK ? changed(s) : status;
-}
-
-qdot_facts
-qdot_scene_facts(const qdot_scene *s)
-{
-    const qdot_derived *d = s->derived;
-
-    return (qdot_facts){.n_relations = d->relations.n,
-                        .relations = d->relations.at,
-                        .n_conditions = s->conditions.n,
-                        .conditions = s->conditions.at};
 }

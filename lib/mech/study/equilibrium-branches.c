@@ -3,7 +3,9 @@
 #include <math.h>
 
 #include "base/interrupt.h"
-#include "mech/study/equilibrium-rest.h"
+#include "mech/dynamics/generic.h"
+#include "mech/scene/access.h"
+#include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"

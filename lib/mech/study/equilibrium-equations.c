@@ -6,7 +6,8 @@
  * solves them solves G for all t is looked at afterwards. Multipliers may depend on t: of an
  * equation that holds some, its value at that time alone is taken. */
 #include "mech/dynamics/quantity.h"
-#include "mech/study/equilibrium-rest.h"
+#include "mech/scene/access.h"
+#include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"

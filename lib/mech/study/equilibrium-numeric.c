@@ -10,7 +10,8 @@
 #include <gsl/gsl_linalg.h>
 
 #include "base/interrupt.h"
-#include "mech/study/equilibrium-rest.h"
+#include "mech/dynamics/generic.h"
+#include "mech/study/equilibrium-search.h"
 #include "normal/solve/isolate.h"
 
 enum { STARTS = 240, STEPS = 60, MOST = 100, NEWTON = 6 };

@@ -1,6 +1,7 @@
 /* equilibrium-twice.c -- equilibria that are listed in another one's family. */
 #include "expr/calculus.h"
-#include "mech/study/equilibrium-rest.h"
+#include "mech/scene/access.h"
+#include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 

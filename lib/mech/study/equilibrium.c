@@ -3,7 +3,10 @@
 
 #include <math.h>
 
-#include "mech/study/equilibrium-rest.h"
+#include "mech/dynamics/generic.h"
+#include "mech/scene/access.h"
+#include "mech/study/equilibrium-search.h"
+#include "mech/study/stability.h"
 
 /* What exact solution may take before it gives way to numbers: scenes of books take some
  * units, a chain of four links between two supports would take minutes. */

@@ -33,26 +33,8 @@
 #ifndef QDOT_MECH_EQUILIBRIUM_H
 #define QDOT_MECH_EQUILIBRIUM_H
 
-#include "mech/scene/scene.h"
-
-typedef enum {
-    QDOT_STABLE,
-    QDOT_UNSTABLE,
-    QDOT_STABLE_TO_FIRST_ORDER,
-    QDOT_STABILITY_UNDECIDED
-} qdot_stability;
-
-typedef struct {
-    qdot_expr
-        equations;    /* a LIST: coordinate = value ..., then lambda[...] = value ... */
-    qdot_expr exists; /* a LIST of RELs under which it is real; nil: always */
-    qdot_stability stability;
-    qdot_expr stable_when; /* STABLE, TO_FIRST_ORDER: a LIST of RELs; nil: always */
-    bool numeric;
-} qdot_equilibrium;
-
-/* Values of parameters for numbers: e bound as far as they are known. */
-typedef qdot_expr (*qdot_binder)(void *user, qdot_expr e);
+#include "mech/scene/things.h"
+#include "mech/study/rest.h"
 
 typedef struct {
     qdot_equilibrium *at; /* [n], owned */
@@ -72,34 +54,5 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bin
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_first(qdot_scene *s, qdot_binder bind,
                                                    void *user, qdot_equilibria *out);
 void qdot_equilibria_clear(qdot_equilibria *e);
-
-/* --- stability (stability.c) ----
- * What holds of all places of a scene, whose equations at rest are a LIST; then each: e->stability
- * and e->stable_when are set. */
-typedef struct qdot_judge qdot_judge;
-QDOT_MUST_CHECK qdot_status qdot_judge_new(qdot_scene *s, qdot_expr at_rest,
-                                           qdot_binder bind, void *user,
-                                           qdot_judge **out);
-QDOT_MUST_CHECK qdot_status qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e);
-void qdot_judge_free(qdot_judge *judge);
-
-/* --- normal modes (modes.c) --------------------------------------------------------------- */
-
-/* (H - w^2 M) a = 0 about `equations`: frequencies w [n]
- * ascending (unordered: pairs of them have no order that is proved, they stand as at one place
- * of the parameters), amplitudes a [n * coordinates], a row each, the first component that is
- * not 0 is 1. Exact where the characteristic polynomial factors into linear and quadratic ones
- * in w^2, else (or at once, if `numbers`) numbers, which need every parameter's value.
- * QDOT_ETYPE with damping or gyroscopic terms, QDOT_EDOMAIN where H is not positive
- * semidefinite. */
-typedef struct {
-    size_t n;
-    qdot_expr *frequency, *amplitude;
-    bool numeric, unordered;
-} qdot_modes;
-QDOT_MUST_CHECK qdot_status qdot_modes_about(qdot_scene *s, qdot_expr equations,
-                                             bool numbers, qdot_binder bind, void *user,
-                                             qdot_modes *out);
-void qdot_modes_clear(qdot_modes *m);
 
 #endif

@@ -3,7 +3,8 @@
 
 #include "expr/calculus.h"
 #include "expr/tensor.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"
 
 /* The metric of R, taken apart. */

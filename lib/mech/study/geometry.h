@@ -13,7 +13,7 @@
 #ifndef QDOT_MECH_GEOMETRY_H
 #define QDOT_MECH_GEOMETRY_H
 
-#include "mech/scene/scene.h"
+#include "mech/scene/things.h"
 
 /* G^i_jk = 1/2 g^il (d_j g_lk + d_k g_lj - d_l g_jk): a LIST over i of MATs in j, k. */
 qdot_expr qdot_geometry_christoffel(qdot_scene *s, qdot_expr R);

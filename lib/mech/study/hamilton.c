@@ -5,7 +5,7 @@
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/squares.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
 #include "normal/form/common.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/linear.h"

@@ -13,7 +13,7 @@
 #ifndef QDOT_MECH_HAMILTON_H
 #define QDOT_MECH_HAMILTON_H
 
-#include "mech/scene/scene.h"
+#include "mech/scene/things.h"
 
 qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
 qdot_expr qdot_hamilton_routhian(qdot_scene *s);

@@ -5,7 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/antiderivative.h"
 

@@ -21,7 +21,7 @@
 #ifndef QDOT_MECH_INTEGRABLE_H
 #define QDOT_MECH_INTEGRABLE_H
 
-#include "mech/dynamics/quantity.h"
+#include "mech/scene/things.h"
 #include "normal/prove/decide.h"
 
 typedef struct {

@@ -4,7 +4,8 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
+#include "mech/scene/constraint.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 

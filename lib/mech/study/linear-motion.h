@@ -7,7 +7,8 @@
 #ifndef QDOT_MECH_LINEAR_MOTION_H
 #define QDOT_MECH_LINEAR_MOTION_H
 
-#include "mech/study/equilibrium.h"
+#include "mech/scene/things.h"
+#include "mech/study/rest.h"
 #include "normal/field/facts.h"
 
 typedef struct {

@@ -4,8 +4,9 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/dynamics/quantity.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/energy.h"
+#include "mech/dynamics/virtual-work.h"
+#include "mech/scene/access.h"
 #include "normal/inequality/less.h"
 #include "normal/simplify/simplify.h"
 

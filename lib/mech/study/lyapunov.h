@@ -14,7 +14,7 @@
 #ifndef QDOT_MECH_LYAPUNOV_H
 #define QDOT_MECH_LYAPUNOV_H
 
-#include "mech/scene/scene.h"
+#include "mech/scene/things.h"
 
 typedef enum { QDOT_ENERGY_UNKNOWN, QDOT_ENERGY_KEPT, QDOT_ENERGY_USED } qdot_energy_law;
 

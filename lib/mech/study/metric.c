@@ -2,7 +2,8 @@
  * again. */
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
 #include "normal/form/common.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"

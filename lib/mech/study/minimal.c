@@ -7,7 +7,8 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
+#include "mech/scene/scene.h"
 
 typedef struct {
     qdot_scene *s;

@@ -18,7 +18,7 @@
 #ifndef QDOT_MECH_MINIMAL_H
 #define QDOT_MECH_MINIMAL_H
 
-#include "mech/dynamics/quantity.h"
+#include "mech/scene/things.h"
 
 typedef struct {
     qdot_scene *scene; /* owned; NULL: there is no such form, `reason` says why */

@@ -1,5 +1,7 @@
 /* modes.c -- normal modes about an equilibrium: exact where the characteristic polynomial
  * factors, else numbers. */
+#include "mech/study/modes.h"
+
 #include <math.h>
 
 #include <gsl/gsl_eigen.h>
@@ -7,8 +9,8 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
-#include "mech/study/equilibrium.h"
+#include "mech/dynamics/generic.h"
+#include "mech/dynamics/mass-matrix.h"
 #include "mech/study/linear-motion.h"
 #include "normal/inequality/less.h"
 #include "normal/simplify/positive.h"

@@ -25,7 +25,7 @@
 #ifndef QDOT_MECH_NOETHER_H
 #define QDOT_MECH_NOETHER_H
 
-#include "mech/scene/scene.h"
+#include "mech/scene/things.h"
 
 /* A LIST: cyclic momenta that are conserved, in the order of the coordinates; the energy if it
  * is; then the other symmetries'. Linearly independent. Past 16 coordinates only the first two

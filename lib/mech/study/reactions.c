@@ -5,7 +5,9 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
+#include "mech/scene/body.h"
+#include "mech/scene/constraint.h"
 #include "normal/solve/linear.h"
 
 typedef struct {

@@ -19,7 +19,7 @@
 #ifndef QDOT_MECH_REACTIONS_H
 #define QDOT_MECH_REACTIONS_H
 
-#include "mech/dynamics/quantity.h"
+#include "mech/scene/things.h"
 
 typedef struct {
     const char *name;     /* of the particle or body, borrowed; NULL: a coordinate */

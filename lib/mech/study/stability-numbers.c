@@ -10,8 +10,10 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/generic.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/scene/derived.h"
+#include "mech/scene/access.h"
+#include "mech/scene/constraint.h"
 #include "mech/study/stability.h"
 
 /* Of the largest entry: below SMALL is 0. Roots with real parts beyond AWAY of the fastest

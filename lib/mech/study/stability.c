@@ -3,7 +3,8 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "mech/scene/derived.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
 
 bool
 qdot_stability_has_kink(uint32_t op)

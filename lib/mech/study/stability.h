@@ -1,13 +1,13 @@
-/* stability.h -- judging places of rest, as its files see it. Internal to mech/. */
+/* stability.h -- whether a scene stays near its places of rest. Internal to mech/. */
 #ifndef QDOT_MECH_STABILITY_H
 #define QDOT_MECH_STABILITY_H
 
-#include "mech/study/equilibrium.h"
 #include "mech/study/lyapunov.h"
+#include "mech/study/rest.h"
 
 typedef struct qdot_stability_numbers qdot_stability_numbers;
 
-struct qdot_judge {
+typedef struct {
     qdot_scene *s;
     qdot_binder bind;
     void *user;
@@ -17,7 +17,15 @@ struct qdot_judge {
     bool velocity_kink; /* |q'|, sign(q') ... stand in them: they have no linear part at rest */
     qdot_expr at_rest;  /* the equations at rest, a LIST */
     qdot_stability_numbers *numbers; /* for places in numbers, made when first needed */
-};
+} qdot_judge;
+
+/* What holds of all places of a scene, whose equations at rest are a LIST; then each: e->stability
+ * and e->stable_when are set. */
+QDOT_MUST_CHECK qdot_status qdot_judge_new(qdot_scene *s, qdot_expr at_rest,
+                                           qdot_binder bind, void *user,
+                                           qdot_judge **out);
+QDOT_MUST_CHECK qdot_status qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e);
+void qdot_judge_free(qdot_judge *judge);
 
 /* |u|, sign u, floor ...: no slopes everywhere. */
 bool qdot_stability_has_kink(uint32_t op);

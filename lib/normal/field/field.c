@@ -476,11 +476,3 @@ qdot_field_value(qdot_field *f, qdot_expr e)
         return NULL;
     return &f->value[i];
 }
-
-slong
-qdot_field_var(const qdot_field *f, qdot_expr e)
-{
-    uint32_t v;
-
-    return qdot_map_get(&f->vars, e, &v) ? (slong)v : -1;
-}

@@ -17,117 +17,16 @@
 #ifndef QDOT_NORMAL_FIELD_H
 #define QDOT_NORMAL_FIELD_H
 
-#include <flint/fmpz_mpoly.h>
-#include <flint/fmpz_vec.h>
-
-#include "expr/expr.h"
-#include "normal/field/lattice.h"
-#include "normal/field/map.h"
-
-typedef enum {
-    QDOT_GEN_PLAIN, /* a symbol, a function that is not looked into */
-    QDOT_GEN_ROOT,
-    QDOT_GEN_ABS,
-    QDOT_GEN_SIN,
-    QDOT_GEN_COS,
-    QDOT_GEN_SINH,
-    QDOT_GEN_COSH,
-    QDOT_GEN_EXP
-} qdot_gen_kind;
-
-typedef struct {
-    qdot_gen_kind kind;
-    bool fast; /* a velocity, acceleration, multiplier, momentum, differential, delta */
-    qdot_expr expr; /* what it stands for */
-    qdot_expr of;   /* ROOT, ABS: b; trigonometric, EXP: the base angle */
-    uint32_t order; /* ROOT: q */
-    uint32_t pair;  /* SIN <-> COS, SINH <-> COSH: the other one's variable */
-} qdot_gen;
-
-/* n/d, d not zero. */
-typedef struct {
-    fmpz_mpoly_t n, d;
-} qdot_ratio;
-
-typedef struct {
-    slong var;
-    slong power;
-    fmpz_mpoly_t poly; /* var^power - ... */
-} qdot_rule;
-
-typedef enum {
-    QDOT_FIELD_GOES,
-    QDOT_FIELD_OVER,      /* past the budget */
-    QDOT_FIELD_UNDEFINED, /* a denominator is zero everywhere */
-    QDOT_FIELD_FAILED     /* no memory, interrupted, the pool failed: see `status` */
-} qdot_field_state;
-
-typedef struct {
-    qdot_pool *pool;
-    fmpz_mpoly_ctx_t ctx;
-    bool has_ctx;
-    slong n;       /* generators */
-    qdot_gen *gen; /* [n] */
-    qdot_rule *rule;
-    size_t n_rules;
-    qdot_lattice circular, hyperbolic, exponential;
-    qdot_map vars;  /* generator expression -> variable */
-    qdot_map nodes; /* node -> index in value */
-    qdot_expr *node;
-    qdot_ratio *value;
-    size_t n_nodes;
-    int64_t work;
-    qdot_field_state state;
-    qdot_status status;
-} qdot_field;
+#include "normal/field/ratio.h"
 
 /* Set up for e[n], prepared (prepare.h), with a budget. Always to be ended; look at
  * `state`. */
 void qdot_field_begin(qdot_field *f, qdot_pool *pool, size_t n, const qdot_expr *e,
                       int64_t work);
 void qdot_field_end(qdot_field *f);
-bool qdot_field_goes(const qdot_field *f);
 
 /* The value of one of the e of qdot_field_begin; owned by the field. NULL if it
  * stopped. */
 const qdot_ratio *qdot_field_value(qdot_field *f, qdot_expr e);
-
-/* The variable of a generator expression; -1 if there is none. */
-slong qdot_field_var(const qdot_field *f, qdot_expr e);
-
-/* Charge `a` x `b` to the budget; false when it stops. */
-bool qdot_field_charge(qdot_field *f, slong a, slong b);
-
-/* p modulo the rules. */
-void qdot_field_reduce(qdot_field *f, fmpz_mpoly_t p);
-/* a = b c, reduced. */
-void qdot_field_mul(qdot_field *f, fmpz_mpoly_t a, const fmpz_mpoly_t b,
-                    const fmpz_mpoly_t c);
-/* g = gcd(a, b), 1 where that would cost too much. */
-void qdot_field_gcd(qdot_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a,
-                    const fmpz_mpoly_t b);
-
-void qdot_ratio_init(qdot_field *f, qdot_ratio *r); /* 0/1 */
-void qdot_ratio_clear(qdot_field *f, qdot_ratio *r);
-void qdot_ratio_set(qdot_field *f, qdot_ratio *r, const qdot_ratio *a);
-void qdot_ratio_add(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
-                    const qdot_ratio *b);
-void qdot_ratio_sub(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
-                    const qdot_ratio *b);
-void qdot_ratio_mul(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
-                    const qdot_ratio *b);
-/* a / b; b zero: QDOT_FIELD_UNDEFINED. */
-void qdot_ratio_div(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
-                    const qdot_ratio *b);
-void qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, slong n);
-void qdot_ratio_scale(qdot_field *f, qdot_ratio *r, const fmpq_t c);
-/* Common factors out, the denominator's leading coefficient positive. */
-void qdot_ratio_cancel(qdot_field *f, qdot_ratio *r);
-/* r = k r', both sides of r' primitive, the leading coefficient below positive; r becomes r'. */
-void qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r);
-
-/* p as an expression, expanded. */
-qdot_expr qdot_field_expr(qdot_field *f, const fmpz_mpoly_t p);
-qdot_expr qdot_field_ratio_expr(qdot_field *f, const qdot_ratio *r);
 
 #endif

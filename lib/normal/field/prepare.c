@@ -517,7 +517,7 @@ recover(qdot_pool *pool)
 
     if (status == QDOT_OK)
         return false;
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+    if (qdot_grave(status) != QDOT_OK)
         qdot_pool_fail(pool);
     return true;
 }

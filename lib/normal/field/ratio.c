@@ -1,7 +1,8 @@
 /* ratio.c -- arithmetic in a field: bounded calls of FLINT, the rules, quotients. */
+#include "normal/field/ratio.h"
+
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "normal/field/field.h"
 
 /* Past these a gcd is not asked for: the quotient stays uncancelled, which is correct. */
 #define GCD_COST 60000
@@ -333,4 +334,12 @@ qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r)
     fmpq_set_fmpz_frac(k, n, d);
     fmpz_clear(n);
     fmpz_clear(d);
+}
+
+slong
+qdot_field_var(const qdot_field *f, qdot_expr e)
+{
+    uint32_t v;
+
+    return qdot_map_get(&f->vars, e, &v) ? (slong)v : -1;
 }

@@ -2,7 +2,7 @@
 #ifndef QDOT_NORMAL_VALUE_H
 #define QDOT_NORMAL_VALUE_H
 
-#include "normal/field/field.h"
+#include "normal/field/ratio.h"
 
 /* Fill f->value and the rules of roots. Errors: QDOT_ENOMEM, the pool's; a stop of the
  * field is not an error. */

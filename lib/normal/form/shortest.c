@@ -230,9 +230,7 @@ roots_together(qdot_pool *pool, qdot_expr e, void *user)
 static void
 forgive(qdot_pool *pool)
 {
-    qdot_status status = qdot_pool_check(pool);
-
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+    if (qdot_grave(qdot_pool_check(pool)) != QDOT_OK)
         qdot_pool_fail(pool);
 }
 
@@ -295,8 +293,7 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
                 s.best = back;
         }
     }
-    if (f.state == QDOT_FIELD_FAILED &&
-        (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
+    if (f.state == QDOT_FIELD_FAILED && qdot_grave(f.status) != QDOT_OK)
         qdot_pool_fail(pool);
     request->spent |= f.state == QDOT_FIELD_OVER || s.too_long;
     qdot_field_end(&f);
@@ -458,7 +455,7 @@ qdot_shortest_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int6
             return seen;
     }
     status = qdot_flint_run(pool, simplify_value, &x);
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+    if (qdot_grave(status) != QDOT_OK)
         return qdot_pool_fail(pool);
     *spent = x.request.spent || status != QDOT_OK;
     return status == QDOT_OK ? x.result : e;

@@ -17,15 +17,6 @@ enum { MOST_CASES = 64, MOST_SLOPES = 3, MOST_MARGINS = 12, MOST_SAID = 8 };
 #define WORK 20000
 #define ALL_WORK 30000000
 
-/* A division by zero on the way is no failure. */
-static qdot_status
-only_grave(qdot_pool *pool)
-{
-    qdot_status status = qdot_pool_check(pool);
-
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
-}
-
 /* --- what is known ---------------------------------------------------------------------- */
 
 static bool
@@ -264,7 +255,7 @@ settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bool *any,
     if (!q->too_much)
         drop_unconnected(pool, q);
     if (q->too_much || qdot_pool_failed(pool))
-        return only_grave(pool);
+        return qdot_grave(qdot_pool_check(pool));
     QDOT_TRY(qdot_cells_decide(pool, q->e, q->n, q->condition, q->work, &result, &point));
     *any |= result > QDOT_CELLS_EMPTY;
     switch (result) {
@@ -286,7 +277,7 @@ settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bool *any,
         break;
     default: break;
     }
-    return only_grave(pool);
+    return qdot_grave(qdot_pool_check(pool));
 }
 
 static qdot_status
@@ -325,7 +316,7 @@ by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
     *proved &= any;
     qdot_free(q);
     if (status == QDOT_OK)
-        status = only_grave(pool);
+        status = qdot_grave(qdot_pool_check(pool));
     return status;
 }
 
@@ -392,7 +383,7 @@ known_at(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr a, bool *above)
     qdot_constant_sign sign = QDOT_CONSTANT_UNKNOWN;
 
     if (there == QDOT_NIL) {
-        if (only_grave(pool) != QDOT_OK)
+        if (qdot_grave(qdot_pool_check(pool)) != QDOT_OK)
             qdot_pool_fail(pool);
         return false;
     }
@@ -445,7 +436,7 @@ one_side(qdot_pool *pool, qdot_expr slope, qdot_expr x, qdot_expr a, bool up, in
     to = up ? qdot_add(pool, a, y) : qdot_sub(pool, a, y);
     slope = qdot_subs(pool, up ? slope : qdot_neg(pool, slope), 1, &x, &to);
     if (slope == QDOT_NIL)
-        return only_grave(pool);
+        return qdot_grave(qdot_pool_check(pool));
     return prove_somehow(pool, slope, false, slopes - 1, work, proved);
 }
 
@@ -466,7 +457,7 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
     points[2] = qdot_expr_symbol(pool, x)->lo;
     slope = qdot_shortest(pool, qdot_diff(pool, e, x), NULL);
     if (slope == QDOT_NIL)
-        return only_grave(pool);
+        return qdot_grave(qdot_pool_check(pool));
     QDOT_TRY(qdot_decide_equal(pool, slope, QDOT_ZERO, NULL, &vanishes));
     if (vanishes.verdict != QDOT_REFUTED)
         return QDOT_OK;
@@ -484,7 +475,7 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
             QDOT_TRY(one_side(pool, slope, x, a, false, slopes, work, &down));
         *proved = up && down;
     }
-    return qdot_pool_failed(pool) ? only_grave(pool) : QDOT_OK;
+    return qdot_pool_failed(pool) ? qdot_grave(qdot_pool_check(pool)) : QDOT_OK;
 }
 
 /* Bounded by MOST_SLOPES, whatever the input. */
@@ -532,7 +523,7 @@ unfolded(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
         status = by_slopes(pool, all[0], strict, MOST_SLOPES, work, proved);
     qdot_free(positive.at);
     qdot_free(all);
-    return status == QDOT_OK ? only_grave(pool) : status;
+    return status == QDOT_OK ? qdot_grave(qdot_pool_check(pool)) : status;
 }
 
 qdot_status
@@ -545,7 +536,7 @@ qdot_inequality(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *fac
     *proved = false;
     *at = QDOT_NIL;
     if (e == QDOT_NIL || qdot_pool_failed(pool))
-        return only_grave(pool);
+        return qdot_grave(qdot_pool_check(pool));
     if (facts == NULL)
         facts = &nothing;
     if (facts->n_relations == 0)

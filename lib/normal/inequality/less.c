@@ -444,7 +444,6 @@ decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
 {
     qdot_expr gap, at;
     bool holds;
-    qdot_status status;
 
     *d = (qdot_decision){.verdict = QDOT_UNDECIDED};
     if (left == QDOT_NIL || right == QDOT_NIL)
@@ -459,9 +458,8 @@ decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         d->verdict = QDOT_PROVED;
         return QDOT_OK;
     }
-    status = qdot_pool_check(pool); /* a division by zero on the way proves nothing */
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
-        return status;
+    /* a division by zero on the way proves nothing */
+    QDOT_TRY(qdot_grave(qdot_pool_check(pool)));
     QDOT_TRY(refute(pool, left, right, strict, facts, d));
     if (d->verdict != QDOT_UNDECIDED)
         return QDOT_OK;

@@ -5,7 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "normal/prove/prove.h"
+#include "normal/prove/equal.h"
 #include "normal/refute/constant.h"
 #include "normal/refute/sample.h"
 

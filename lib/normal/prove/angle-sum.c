@@ -6,7 +6,6 @@
  */
 #include "base/memory.h"
 #include "normal/field/factor.h"
-#include "normal/prove/prove.h"
 #include "normal/prove/zero.h"
 #include "normal/refute/constant.h"
 
@@ -263,14 +262,12 @@ is_zero_sum(const qdot_zero *z, const fmpz_mpoly_t p, ulong *exp, bool *zero)
     if (shared_factor(f, p, g, exp)) {
         put_together(f, &s, p, g, exp);
         if (qdot_pool_failed(pool)) { /* no value, no proof */
-            status = qdot_pool_check(pool);
-            if (status != QDOT_ENOMEM && status != QDOT_EINTR)
-                status = QDOT_OK;
+            status = qdot_grave(qdot_pool_check(pool));
         } else if (stays_within(&s, 1))
-            status = qdot_prove_given(pool, s.im, QDOT_ZERO, z->n_positive, z->positive,
+            status = z->prove(pool, s.im, QDOT_ZERO, z->n_positive, z->positive,
                                       z->sure, zero);
         else if (stays_within(&s, 2))
-            status = qdot_prove_given(pool, s.re, s.modulus, z->n_positive, z->positive,
+            status = z->prove(pool, s.re, s.modulus, z->n_positive, z->positive,
                                       z->sure, zero);
     }
     fmpz_clear(g);

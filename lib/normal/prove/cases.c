@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "normal/prove/equal.h"
 #include "normal/prove/prove.h"
 #include "normal/prove/within.h"
 #include "normal/refute/constant.h"
@@ -570,7 +571,7 @@ prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *f
         status = qdot_pool_check(c->pool);
         *equal = no_value_at_zero(c, status, sign);
         qdot_free(condition);
-        return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+        return qdot_grave(status);
     }
     relation = condition + (facts == NULL ? 0 : facts->n_conditions) + SIGNS + LEAVES;
     learn(c, order, sign, facts, &known, relation, condition);

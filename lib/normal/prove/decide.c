@@ -11,6 +11,7 @@
 #include "normal/field/flint.h"
 #include "normal/prove/cases.h"
 #include "normal/prove/nth-part.h"
+#include "normal/prove/equal.h"
 #include "normal/prove/prove.h"
 #include "normal/prove/unify.h"
 #include "normal/refute/sample.h"
@@ -260,6 +261,7 @@ static qdot_status
 look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
                 qdot_decision *d)
 {
+    static const qdot_unify_way way = {qdot_prove_harder, qdot_prove_cases, true};
     /* the arguments themselves stay as they are, except for what is inside them */
     qdot_expr e[3] = {left, right, QDOT_NIL}, both[2];
     bool any = false, changed = true;
@@ -269,7 +271,7 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
     if (e[2] == QDOT_NIL)
         return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
     for (int round = 0; round < 3 && changed; round++) { /* functions within functions */
-        QDOT_TRY(qdot_unify(pool, 3, e, facts, true, &changed));
+        QDOT_TRY(qdot_unify(pool, 3, e, facts, &way, &changed));
         any |= changed;
     }
     if (!any)

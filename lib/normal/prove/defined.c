@@ -122,8 +122,7 @@ qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak, qdot_defined_gap t
     if (f.state == QDOT_FIELD_FAILED && status == QDOT_OK)
         status = f.status;
     qdot_field_end(&f);
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
-        return status;
+    QDOT_TRY(qdot_grave(status));
     product = status == QDOT_OK && product != QDOT_NIL ? qdot_expand(pool, product) : gap;
     return one_factor(&j, product, weak);
 }

@@ -34,13 +34,6 @@ fresh(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi,
     return y;
 }
 
-/* A division by zero on the way is no failure. */
-static qdot_status
-only_grave(qdot_status status)
-{
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
-}
-
 /* x -> to, everywhere. */
 static void
 replace(job *j, qdot_expr x, qdot_expr to)
@@ -268,7 +261,7 @@ solve_relations(job *j, size_t nr)
                 break;
             }
             if (qdot_pool_failed(pool))
-                QDOT_TRY(only_grave(qdot_pool_check(pool)));
+                QDOT_TRY(qdot_grave(qdot_pool_check(pool)));
         }
     }
     return QDOT_OK;

@@ -1,7 +1,6 @@
 /* logarithm.c -- sums of logarithms that are zero. */
 #include "base/memory.h"
 #include "normal/field/factor.h"
-#include "normal/prove/prove.h"
 #include "normal/prove/zero.h"
 
 enum { MOST_GROUPS = 30, MOST_POWER = 24 };
@@ -109,7 +108,7 @@ against_rest(const qdot_zero *z, const qdot_groups *groups, bool *zero)
     rest = qdot_neg(pool, qdot_div(pool, qdot_field_expr(f, others),
                                    qdot_mul(pool, content, qdot_field_expr(f, key))));
     if (product != QDOT_NIL && rest != QDOT_NIL)
-        status = qdot_prove_given(pool, product, qdot_fun1(pool, QDOT_EXP, rest),
+        status = z->prove(pool, product, qdot_fun1(pool, QDOT_EXP, rest),
                                   z->n_positive, z->positive, z->sure, zero);
     fmpz_mpoly_clear(key, f->ctx);
     fmpz_mpoly_clear(others, f->ctx);
@@ -142,7 +141,7 @@ qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
 
             *zero = product != QDOT_NIL;
             if (*zero)
-                status = qdot_prove_given(f->pool, product, QDOT_ONE, z->n_positive,
+                status = z->prove(f->pool, product, QDOT_ONE, z->n_positive,
                                           z->positive, z->sure, zero);
         }
         if (status == QDOT_OK && !*zero && groups.n <= MOST_GROUPS && qdot_field_goes(f))

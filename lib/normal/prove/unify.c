@@ -6,8 +6,6 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/walk.h"
-#include "normal/prove/cases.h"
-#include "normal/prove/prove.h"
 #include "normal/refute/sample.h"
 
 enum {
@@ -41,7 +39,8 @@ typedef struct {
     struct seen *seen;
     size_t n_seen;
     int proofs;
-    bool only_undefined, changed;
+    const qdot_unify_way *way;
+    bool changed;
 } job;
 
 /* --- values ------------------------------------------------------------------------ */
@@ -154,10 +153,9 @@ find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
             continue;
         other = qdot_mul(j->pool, qdot_expr_fmpq(j->pool, c), s->arg);
         if (other != arg && j->proofs++ < MOST_PROOFS)
-            status = (j->only_undefined ? qdot_prove_harder : qdot_prove_equal)(
-                j->pool, arg, other, j->facts, &equal);
-        if (status == QDOT_OK && other != arg && !equal && j->only_undefined)
-            status = qdot_prove_cases(j->pool, arg, other, j->facts, &equal);
+            status = j->way->prove(j->pool, arg, other, j->facts, &equal);
+        if (status == QDOT_OK && other != arg && !equal && j->way->harder != NULL)
+            status = j->way->harder(j->pool, arg, other, j->facts, &equal);
         if (other == arg || equal) {
             *with = s->arg;
             return status;
@@ -176,7 +174,7 @@ find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
 
 static class class_of(const job *j, uint32_t op)
 {
-    if (j->only_undefined)
+    if (j->way->only_undefined)
         return NONE;
     if (op <= QDOT_COT || (op >= QDOT_SINH && op <= QDOT_TANH) || op == QDOT_EXP)
         return ANGLE;
@@ -282,7 +280,7 @@ product(job *j, qdot_expr old, qdot_expr *now)
     fmpq_t c;
     long k;
 
-    if (j->only_undefined)
+    if (j->way->only_undefined)
         return QDOT_OK;
     fmpq_init(c);
     for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
@@ -385,8 +383,8 @@ has_several(const job *j)
     for (size_t i = 0; i < j->walk.n; i++) {
         qdot_kind kind = qdot_expr_kind(j->pool, j->walk.at[i]);
 
-        count += kind == QDOT_UFUN || (!j->only_undefined && kind == QDOT_FUN);
-        for (uint32_t k = 2; !j->only_undefined && kind == QDOT_PROD &&
+        count += kind == QDOT_UFUN || (!j->way->only_undefined && kind == QDOT_FUN);
+        for (uint32_t k = 2; !j->way->only_undefined && kind == QDOT_PROD &&
                              k < qdot_expr_count(j->pool, j->walk.at[i]);
              k += 2) {
             long whole;
@@ -400,9 +398,9 @@ has_several(const job *j)
 
 qdot_status
 qdot_unify(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *facts,
-           bool only_undefined, bool *changed)
+           const qdot_unify_way *way, bool *changed)
 {
-    job j = {.pool = pool, .facts = facts, .only_undefined = only_undefined};
+    job j = {.pool = pool, .facts = facts, .way = way};
     qdot_status status;
 
     *changed = false;

@@ -11,13 +11,20 @@
 #ifndef QDOT_NORMAL_UNIFY_H
 #define QDOT_NORMAL_UNIFY_H
 
-#include "normal/field/facts.h"
+#include "normal/prove/equal.h"
+
+/* How arguments are proved equal. */
+typedef struct {
+    qdot_prover prove;   /* a bounded number of times */
+    qdot_prover harder;  /* where that has not; NULL: nothing */
+    bool only_undefined; /* undefined functions only */
+} qdot_unify_way;
 
 /* Rewrite e[n] in place; the relations of facts may be used, and are among the e if they
- * are to be rewritten. `only_undefined`: undefined functions only, but their arguments
- * with all that qdot_prove_harder knows (else: qdot_prove_equal). *changed. Errors:
- * QDOT_ENOMEM, QDOT_EINTR; the pool may keep a failure. */
+ * are to be rewritten. *changed. Errors: QDOT_ENOMEM, QDOT_EINTR; the pool may keep a
+ * failure. */
 QDOT_MUST_CHECK qdot_status qdot_unify(qdot_pool *pool, size_t n, qdot_expr *e,
-                                       const qdot_facts *facts, bool only_undefined,
+                                       const qdot_facts *facts, const qdot_unify_way *way,
                                        bool *changed);
+
 #endif

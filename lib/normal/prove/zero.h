@@ -35,6 +35,9 @@ typedef struct {
     const qdot_expr *positive; /* expressions in the field that are > 0 */
     bool sure;                 /* these are on the whole of the declared domain */
     uint8_t *sign;             /* [f->n] of generators */
+    /* Of prepared sides that are simpler than p: whether they are equal; set by the caller. */
+    qdot_status (*prove)(qdot_pool *pool, qdot_expr left, qdot_expr right, size_t n_positive,
+                         const qdot_expr *positive, bool sure, bool *equal);
 } qdot_zero;
 
 /* Look at the signs of the generators. Errors: QDOT_ENOMEM. */

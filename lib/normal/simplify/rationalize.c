@@ -75,7 +75,7 @@ without_roots(void *user)
         qdot_ratio_clear(&f, &r);
     }
     if (f.state == QDOT_FIELD_FAILED &&
-        (f.status == QDOT_ENOMEM || f.status == QDOT_EINTR))
+        qdot_grave(f.status) != QDOT_OK)
         x->result = qdot_pool_fail(x->pool);
     qdot_field_end(&f);
 }
@@ -88,7 +88,7 @@ qdot_rationalize(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     qdot_status status =
         best == QDOT_NIL ? QDOT_OK : qdot_flint_run(pool, without_roots, &x);
 
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+    if (qdot_grave(status) != QDOT_OK)
         return qdot_pool_fail(pool);
     if (status == QDOT_OK && x.result != QDOT_NIL)
         other = qdot_simplify(pool, x.result, facts);

@@ -8,7 +8,7 @@
 #include "num/real.h"
 #include "num/row-space.h"
 #include "sim/model/constraints.h"
-#include "series/precise.h
+#include "series/precise.h"
 
 #define RN MPFR_RNDN
 

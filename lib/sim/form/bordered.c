@@ -10,7 +10,7 @@
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
 #include "sim/model/power-quotient.h"
-#include "series/taylor.h
+#include "series/taylor.h"
 
 enum { most_order = 44, highest = most_order - 4, most = QDOT_BORDERED_MOST };
 

@@ -8,7 +8,7 @@
 #include "num/series.h"
 #include "sim/model/constraints.h"
 #include "sim/model/constrained.h"
-#include "series/taylor.h
+#include "series/taylor.h"
 
 enum { most_order = 44, lanes = 8 };
 

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "num/series.h"
 #include "sim/form/blocks.h"
-#include "series/taylor.h
+#include "series/taylor.h"
 
 enum { most_order = 48 };
 

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "sim/form/blocks.h"
 #include "sim/form/residual.h"
-#include "series/two.h
+#include "series/two.h"
 
 /* Corrections at most; one that is no larger than this leaves nothing for another. */
 enum { most_corrections = 4 };

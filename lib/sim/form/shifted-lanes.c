@@ -7,9 +7,9 @@
 #include "base/memory.h"
 #include "ode/taylor.h"
 #include "sim/form/blocks.h"
-#include "series/lanes-code.h
+#include "series/lanes-code.h"
 #include "tape/shake.h"
-#include "series/taylor.h
+#include "series/taylor.h"
 
 enum { L = QDOT_LANES, most_order = 44 };
 

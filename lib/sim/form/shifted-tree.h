@@ -14,7 +14,7 @@
 #define QDOT_SIM_SHIFTED_TREE_H
 
 #include "sim/form/residual-tree.h"
-#include "series/taylor.h
+#include "series/taylor.h"
 
 typedef struct qdot_shifted_tree qdot_shifted_tree;
 

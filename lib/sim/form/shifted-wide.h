@@ -14,7 +14,7 @@
 #define QDOT_SIM_SHIFTED_WIDE_H
 
 #include "sim/form/residual.h"
-#include "series/taylor.h
+#include "series/taylor.h"
 
 typedef struct qdot_shifted_wide qdot_shifted_wide;
 

@@ -5,7 +5,7 @@
 
 #include "expr/walk.h"
 #include "sim/plan/routh.h"
-#include "series/taylor.h
+#include "series/taylor.h"
 
 /* Parts have no d'Alembert's form: where that of the whole is so much shorter it stays
  * whole. */

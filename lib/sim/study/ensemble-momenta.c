@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "sim/model/momenta.h"
-#include "series/two.h
+#include "series/two.h"
 
 struct qdot_ensemble_momenta {
     const qdot_plan *plan;

@@ -1,0 +1,79 @@
+/* answer.h -- what a session says: one function for each kind of answer, as text or as
+ * JSON.
+ *
+ * Text goes to session->out in the session's style; with --json one object a line (kinds
+ * and fields as the language reference has them). Doubles are written with 17 digits in
+ * JSON, null where they are not finite; in text with the digits that their error leaves
+ * meaningful.
+ *
+ * Tests  tests/script/, tests/lang/test_session.c
+ */
+#ifndef QDOT_LANG_ANSWER_H
+#define QDOT_LANG_ANSWER_H
+
+#include "lang/session/session.h"
+#include "normal/prove/decide.h"
+
+/* {"kind":"expr"}: `name = value`, `name: left = right` for an equation; just the
+ * value where the name says the same or is NULL. */
+QDOT_MUST_CHECK qdot_status qdot_answer_expr(qdot_session *session, const char *name,
+                                             qdot_expr value);
+
+/* {"kind":"expr"} of `name`; as text `symbol = value`, what a member of momenta, accel,
+ * forces is called. */
+QDOT_MUST_CHECK qdot_status qdot_answer_solved(qdot_session *session, const char *name,
+                                               qdot_expr symbol, qdot_expr value);
+
+/* {"kind":"number"}: error 0: exact to the last digit; NaN: unknown. */
+QDOT_MUST_CHECK qdot_status qdot_answer_number(qdot_session *session, const char *name,
+                                               double value, double error);
+/* {"kind":"numbers"}: values [n], errors [n]. */
+QDOT_MUST_CHECK qdot_status qdot_answer_numbers(qdot_session *session, const char *name,
+                                                size_t n, const double *values,
+                                                const double *errors);
+
+/* {"kind":"number"}, {"kind":"numbers"} of numbers in digits: JSON values and errors with
+ * their commas; as text the values with their errors. */
+QDOT_MUST_CHECK qdot_status qdot_answer_numerals(qdot_session *session, const char *name,
+                                                 bool several, const qdot_text *values,
+                                                 const qdot_text *errors);
+
+/* {"kind":"check"}: left, right as they were compared. */
+QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr left,
+                                              qdot_expr right,
+                                              const qdot_decision *decision);
+
+/* {"kind":"text"}: text as it stands, a newline added where there is none. */
+QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *name,
+                                             const char *text);
+
+/* {"kind":"row"}: values [n]; JSON only (as text rows are a table). */
+QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, size_t n,
+                                            const double *values);
+
+/* {"kind":"row"} of JSON values with their commas; JSON only. */
+QDOT_MUST_CHECK qdot_status qdot_answer_cells(qdot_session *session,
+                                              const qdot_text *values);
+
+/* {"kind":"file"}: `wrote PATH`. */
+QDOT_MUST_CHECK qdot_status qdot_answer_file(qdot_session *session, const char *path);
+
+/* The text becomes that file, then as qdot_answer_file. Errors: those of the text and of
+ * qdot_sink_write. */
+QDOT_MUST_CHECK qdot_status qdot_answer_in_file(qdot_session *session, const char *path,
+                                                const qdot_text *text);
+
+/* {"kind":"notice"}: `notice: MESSAGE` (printf). */
+QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char *format,
+                                               ...) QDOT_PRINTF(2, 3);
+/* The same, unless these very words were said in this session. */
+QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
+                                                    const char *format, ...)
+    QDOT_PRINTF(2, 3);
+
+/* The last failure: reported with line, caret and hint on session->err and, with
+ * --json, as {"kind":"error"} on session->out. `at`: the byte of the source. source
+ * NULL: no place. */
+void qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at);
+
+#endif

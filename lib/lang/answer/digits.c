@@ -1,0 +1,215 @@
+/* digits.c -- many digits told, and no more than are known. */
+#include "lang/answer/digits.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/number-text.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "tape/constant.h"
+
+int
+qdot_digits_of(qdot_session *session, qdot_expr e)
+{
+    int fewest = 0;
+
+    if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
+        return 0;
+    for (size_t i = 0; i < session->measured.n; i++) {
+        const qdot_measured *m = &session->measured.at[i];
+
+        if (!qdot_expr_contains(session->pool, e, m->symbol))
+            continue;
+        if (m->digits == 0)
+            return 0;
+        if (fewest == 0 || m->digits < fewest)
+            fewest = m->digits;
+    }
+    return fewest;
+}
+
+/* --- a number in digits -------------------------------------------------------------- */
+
+/* How many of them mean something. */
+static int
+meaningful(mpfr_srcptr x, int digits, double error)
+{
+    double known;
+
+    if (isnan(error)) /* no more than a double would show */
+        return digits < 16 ? digits : 16;
+    if (error == 0 || mpfr_zero_p(x))
+        return digits;
+    known = floor((double)(mpfr_get_exp(x) - 1) * log10(2)) - floor(log10(error)) + 1;
+    return known < 1 ? 1 : known < digits ? (int)known : digits;
+}
+
+/* x from its digits 0.d1 d2 ... 10^exponent. */
+static void
+write_number(const char *d, long exponent, qdot_text *out)
+{
+    long n;
+
+    if (*d == '-')
+        qdot_text_char(out, *d++);
+    n = (long)strlen(d);
+    if (exponent > n || exponent < -4) {
+        qdot_text_add_n(out, d, 1);
+        if (n > 1) {
+            qdot_text_char(out, '.');
+            qdot_text_add(out, d + 1);
+        }
+        qdot_text_format(out, "e%ld", exponent - 1);
+    } else if (exponent > 0) {
+        qdot_text_add_n(out, d, (size_t)exponent);
+        if (exponent < n)
+            qdot_text_char(out, '.');
+        qdot_text_add(out, d + exponent);
+    } else {
+        qdot_text_add(out, "0.");
+        for (long i = exponent; i < 0; i++)
+            qdot_text_char(out, '0');
+        qdot_text_add(out, d);
+    }
+}
+
+/* An exact number's digits end where 0s alone follow behind the point. */
+static void
+drop_zeros(char *d, long exponent)
+{
+    size_t sign = *d == '-', n = strlen(d), least = sign + 1;
+
+    if (exponent > 1 && sign + (size_t)exponent <= n)
+        least = sign + (size_t)exponent;
+    while (n > least && d[n - 1] == '0')
+        d[--n] = '\0';
+}
+
+static qdot_status
+write_real(mpfr_srcptr x, int digits, double error, bool shortly, qdot_text *out)
+{
+    mpfr_exp_t exponent;
+    char *d;
+
+    if (mpfr_zero_p(x)) {
+        qdot_text_char(out, '0');
+        return QDOT_OK;
+    }
+    d = mpfr_get_str(NULL, &exponent, 10, (size_t)meaningful(x, digits, error), x,
+                     MPFR_RNDN);
+    if (d == NULL)
+        return QDOT_ENOMEM;
+    if (shortly)
+        drop_zeros(d, (long)exponent);
+    write_number(d, (long)exponent, out);
+    mpfr_free_str(d);
+    return QDOT_OK;
+}
+
+/* Whether the numbers in e, one at least, are of `numeric` without digits said. */
+static bool
+is_plain(qdot_session *session, qdot_expr e)
+{
+    bool any = false;
+
+    for (size_t i = 0; i < session->measured.n; i++) {
+        const qdot_measured *m = &session->measured.at[i];
+
+        if (!qdot_expr_contains(session->pool, e, m->symbol))
+            continue;
+        if (!m->plain)
+            return false;
+        any = true;
+    }
+    return any;
+}
+
+/* e as it is, its numbers of runs as the rationals that they are. */
+static qdot_status
+value_of(qdot_session *session, qdot_expr e, mpfr_ptr x)
+{
+    e = qdot_measured_as_rationals(session, qdot_session_bind(session, e));
+    QDOT_TRY(qdot_pool_check(session->pool));
+    return qdot_constant_real(session->pool, e, x);
+}
+
+qdot_status
+qdot_digits_text(qdot_session *session, qdot_expr e, int digits, double error,
+                 qdot_text *out)
+{
+    mpfr_t x;
+    qdot_status status;
+
+    mpfr_init2(x, (mpfr_prec_t)(3.33 * digits) + 64);
+    status = value_of(session, e, x);
+    if (status == QDOT_OK)
+        status = write_real(x, digits, error, error == 0 && is_plain(session, e), out);
+    mpfr_clear(x);
+    return status;
+}
+
+qdot_status
+qdot_digits_difference(qdot_session *session, qdot_expr left, qdot_expr right,
+                       double *difference)
+{
+    mpfr_t x;
+    qdot_status status;
+
+    mpfr_init2(x, 64);
+    status = value_of(session, qdot_sub(session->pool, left, right), x);
+    *difference = mpfr_get_d(x, MPFR_RNDN);
+    mpfr_clear(x);
+    return status;
+}
+
+/* --- answers ------------------------------------------------------------------------- */
+
+static qdot_status
+add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
+           qdot_text *errors)
+{
+    double x, error;
+    const char *quote;
+
+    QDOT_TRY(qdot_session_number(session, e, &x, &error));
+    if (session->json) {
+        quote = is_plain(session, e) ? "" : "\"";
+        qdot_text_add(values, values->n > 0 ? "," : "");
+        qdot_text_add(values, quote);
+        QDOT_TRY(qdot_digits_text(session, e, digits, error, values));
+        qdot_text_add(values, quote);
+        qdot_text_add(errors, errors->n > 0 ? "," : "");
+        qdot_number_text_json(errors, error);
+        return QDOT_OK;
+    }
+    qdot_text_add(values, values->n > 0 ? ", " : "");
+    QDOT_TRY(qdot_digits_text(session, e, digits, error, values));
+    if (isnan(error)) {
+        qdot_text_add(values, " (error unknown)");
+    } else if (error > 0) {
+        qdot_text_add(values, " ± ");
+        qdot_number_text_bound(values, error);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_digits_answer(qdot_session *session, const char *name, qdot_expr e, int digits)
+{
+    const bool several = !qdot_expr_is_scalar(session->pool, e);
+    const uint32_t n = several ? qdot_expr_count(session->pool, e) : 1;
+    qdot_text values = {0}, errors = {0};
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        status = add_member(session, several ? qdot_expr_arg(session->pool, e, i) : e,
+                            digits, &values, &errors);
+    if (status == QDOT_OK)
+        status = qdot_answer_numerals(session, name, several, &values, &errors);
+    qdot_text_clear(&values);
+    qdot_text_clear(&errors);
+    return status;
+}

@@ -1,0 +1,28 @@
+/* digits.h -- numbers of runs with `digits N`: exact inside, N digits where they are told.
+ *
+ * Tests  tests/script/digits.lag
+ */
+#ifndef QDOT_LANG_DIGITS_H
+#define QDOT_LANG_DIGITS_H
+
+#include "lang/session/session.h"
+
+/* The fewest digits among the runs whose numbers stand in e, where all of them have
+ * `digits`; else 0. */
+int qdot_digits_of(qdot_session *session, qdot_expr e);
+
+/* A number e in digits: as many of `digits` as the error (absolute; NaN unknown) leaves
+ * meaningful, at least one. Numbers of runs in e are put in. */
+QDOT_MUST_CHECK qdot_status qdot_digits_text(qdot_session *session, qdot_expr e,
+                                             int digits, double error, qdot_text *out);
+
+/* {"kind":"number"}, {"kind":"numbers"}: e a number or a list of them, its numbers of runs
+ * with so many digits. */
+QDOT_MUST_CHECK qdot_status qdot_digits_answer(qdot_session *session, const char *name,
+                                               qdot_expr e, int digits);
+
+/* left - right in double, without the rounding of either; both measured. */
+QDOT_MUST_CHECK qdot_status qdot_digits_difference(qdot_session *session, qdot_expr left,
+                                                   qdot_expr right, double *difference);
+
+#endif

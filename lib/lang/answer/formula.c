@@ -1,0 +1,339 @@
+/* formula.c -- expressions and the names of answers in the style of the session.
+ *
+ * A name goes word by word: `eom[theta1]` is eom[θ₁], `diff(T, theta')` is diff(T, θ̇): what is declared is written as in
+ * formulas, words of the language stay. It is what was typed, not an expression any more.
+ */
+#include "lang/answer/formula.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <string.h>
+
+#include "expr/walk.h"
+
+typedef struct {
+    qdot_session *session;
+    qdot_style style;
+    const char *at, *start;
+    qdot_text *out;
+    char closing[32]; /* what closes the brackets that are open */
+    size_t depth;
+} writer;
+
+static bool
+is_letter(char c)
+{
+    return isalpha((unsigned char)c) || c == '_';
+}
+
+static const char *
+by_style(const writer *w, const char *unicode, const char *latex)
+{
+    return w->style == QDOT_UNICODE ? unicode : latex;
+}
+
+/* A word that is not declared: of the language. */
+static void
+plain_word(writer *w, const char *word, bool called)
+{
+    static const char *const known[] = {"sin", "cos",  "tan",  "sec",  "csc",
+                                        "cot", "sinh", "cosh", "tanh", "exp",
+                                        "log", "min",  "max",  "pi"};
+    static const struct {
+        const char *word, *sign;
+    } joining[] = {{"and", "\\wedge"}, {"or", "\\vee"}, {"not", "\\neg"}};
+
+    if (w->style == QDOT_UNICODE || strlen(word) == 1) {
+        qdot_text_add(w->out, word);
+        return;
+    }
+    for (size_t i = 0; i < sizeof joining / sizeof *joining; i++)
+        if (strcmp(word, joining[i].word) == 0) {
+            qdot_text_add(w->out, joining[i].sign);
+            return;
+        }
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(word, known[i]) == 0) {
+            qdot_text_format(w->out, "\\%s", word);
+            return;
+        }
+    qdot_text_add(w->out, called ? "\\operatorname{" : "\\mathrm{");
+    for (; *word != '\0'; word++) {
+        qdot_text_add(w->out, *word == '_' ? "\\" : "");
+        qdot_text_char(w->out, *word);
+    }
+    qdot_text_char(w->out, '}');
+}
+
+/* The length of `[1,2]` at `at`, an index that may be a member's; 0: it is none. */
+static size_t
+index_length(const char *at)
+{
+    size_t n = *at == '[' ? 1 + strspn(at + 1, "0123456789, ") : 0;
+
+    return n > 1 && at[n] == ']' ? n + 1 : 0;
+}
+
+/* The declared name that begins with `word` at w->at, its index with it. */
+static const qdot_name *
+declared(const writer *w, const char *word, size_t *index)
+{
+    qdot_text spelled = {0};
+    const qdot_name *name = NULL;
+    size_t n = index_length(w->at);
+
+    *index = 0;
+    if (n > 0) {
+        qdot_text_add(&spelled, word);
+        for (size_t i = 0; i < n; i++)
+            if (w->at[i] != ' ')
+                qdot_text_char(&spelled, w->at[i]);
+        if (qdot_text_status(&spelled) == QDOT_OK)
+            name = qdot_names_find(w->session->names, qdot_text_str(&spelled));
+        qdot_text_clear(&spelled);
+        if (name != NULL) {
+            *index = n;
+            return name;
+        }
+    }
+    return qdot_names_find(w->session->names, word);
+}
+
+static qdot_status
+word(writer *w)
+{
+    qdot_pool *pool = w->session->pool;
+    size_t n = 0, index, primes;
+    const qdot_name *name;
+    qdot_status status = QDOT_OK;
+    char *text;
+
+    while (is_letter(w->at[n]) || isdigit((unsigned char)w->at[n]))
+        n++;
+    text = qdot_strndup(w->at, n);
+    if (text == NULL)
+        return QDOT_ENOMEM;
+    w->at += n;
+    name = declared(w, text, &index);
+    primes = strspn(w->at + index, "'");
+    if (name == NULL && text[0] == 'd') { /* dT/dtheta' */
+        const qdot_name *q = declared(w, text + 1, &index);
+
+        if (q != NULL && q->kind == QDOT_NAME_COORD) {
+            qdot_text_char(w->out, 'd');
+            name = q;
+            primes = strspn(w->at + index, "'");
+        }
+    }
+    if (name == NULL) {
+        plain_word(w, text, *w->at == '(');
+    } else if (name->kind == QDOT_NAME_COORD) {
+        qdot_expr jet = qdot_symbol_jet(pool, name->value, (uint32_t)primes);
+
+        status = jet == QDOT_NIL ? qdot_pool_check(pool)
+                                 : qdot_print(pool, jet, w->style, w->out);
+        w->at += index + primes;
+    } else {
+        qdot_print_name(w->session->pool, name->name, w->style, w->out);
+        w->at += index;
+    }
+    qdot_free(text);
+    return status;
+}
+
+/* `[` behind a word or a bracket begins an index: below the line in LaTeX. */
+static void
+bracket(writer *w)
+{
+    bool index =
+        w->at > w->start && (is_letter(w->at[-1]) || isdigit((unsigned char)w->at[-1]) ||
+                             w->at[-1] == ')' || w->at[-1] == ']');
+    bool below = *w->at == '[' && index && w->style == QDOT_LATEX;
+
+    if (w->depth < sizeof w->closing)
+        w->closing[w->depth++] = below ? '}' : *w->at == '[' ? ']' : ')';
+    if (below)
+        qdot_text_add(w->out, "_{");
+    else if (w->style == QDOT_LATEX)
+        qdot_text_format(w->out, "\\left%c", *w->at);
+    else
+        qdot_text_char(w->out, *w->at);
+    w->at++;
+}
+
+static void
+end_bracket(writer *w)
+{
+    char closing = w->depth > 0 ? w->closing[--w->depth] : *w->at;
+
+    if (w->style == QDOT_LATEX && closing != '}')
+        qdot_text_add(w->out, "\\right");
+    qdot_text_char(w->out, closing);
+    w->at++;
+}
+
+/* ^2 as ², ^{2}; another exponent after its sign. */
+static void
+power(writer *w)
+{
+    static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴",
+                                              "⁵", "⁶", "⁷", "⁸", "⁹"};
+    size_t n = strspn(w->at + 1, "0123456789");
+
+    w->at++;
+    if (w->style == QDOT_LATEX && *w->at == '(' && w->depth < sizeof w->closing) {
+        w->closing[w->depth++] = '}'; /* x^(1/3): the brackets are the group's */
+        qdot_text_add(w->out, "^{");
+        w->at++;
+        return;
+    }
+    if (n == 0 || w->at[n] == '.') {
+        qdot_text_char(w->out, '^');
+        return;
+    }
+    qdot_text_add(w->out, by_style(w, "", "^{"));
+    for (; n > 0; n--, w->at++)
+        if (w->style == QDOT_UNICODE)
+            qdot_text_add(w->out, superscript[*w->at - '0']);
+        else
+            qdot_text_char(w->out, *w->at);
+    qdot_text_add(w->out, by_style(w, "", "}"));
+}
+
+static qdot_status
+next(writer *w)
+{
+    static const struct {
+        const char *plain, *unicode, *latex;
+    } words[] = {{"<=", "≤", "\\le "}, {">=", "≥", "\\ge "}, {"*", "\u202F", " "}, {"==", "=", "="},
+                 {"-", "−", "-"},      {"'", "′", "'"},      {"%", "%", "\\%"}};
+
+    if (is_letter(*w->at))
+        return word(w);
+    if (*w->at == '^') {
+        power(w);
+        return QDOT_OK;
+    }
+    if (*w->at == '(' || *w->at == '[') {
+        bracket(w);
+        return QDOT_OK;
+    }
+    if (*w->at == ')' || *w->at == ']') {
+        end_bracket(w);
+        return QDOT_OK;
+    }
+    if (*w->at == '*' && strchr("0123456789.", w->at[1]) != NULL) {
+        qdot_text_add(w->out, by_style(w, "·", " \\cdot "));
+        w->at++;
+        return QDOT_OK;
+    }
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        size_t n = strlen(words[i].plain);
+
+        if (strncmp(w->at, words[i].plain, n) == 0) {
+            qdot_text_add(w->out, by_style(w, words[i].unicode, words[i].latex));
+            w->at += n;
+            return QDOT_OK;
+        }
+    }
+    qdot_text_char(w->out, *w->at++);
+    return QDOT_OK;
+}
+
+/* A text between tags. */
+static void
+escaped(const char *text, qdot_text *out)
+{
+    for (; *text != '\0'; text++)
+        if (*text == '&' || *text == '<')
+            qdot_text_add(out, *text == '&' ? "&amp;" : "&lt;");
+        else
+            qdot_text_char(out, *text);
+}
+
+qdot_status
+qdot_formula_name(qdot_session *session, const char *name, qdot_text *out)
+{
+    writer w = {.session = session,
+                .style = session->style,
+                .at = name,
+                .start = name,
+                .out = out};
+    qdot_text typed = {0};
+    qdot_status status = QDOT_OK;
+
+    if (session->style == QDOT_PLAIN || strchr(name, '"') != NULL) {
+        qdot_text_add(out, name);
+        return QDOT_OK;
+    }
+    if (session->style == QDOT_MATHML) { /* as a text; its letters as in the formulas */
+        w.style = QDOT_UNICODE;
+        w.out = &typed;
+    }
+    while (*w.at != '\0' && status == QDOT_OK)
+        status = next(&w);
+    if (session->style == QDOT_MATHML) {
+        qdot_text_add(out, "<mtext>");
+        escaped(qdot_text_str(&typed), out);
+        qdot_text_add(out, "</mtext>");
+        out->failed = out->failed || typed.failed;
+    }
+    qdot_text_clear(&typed);
+    return status;
+}
+
+void
+qdot_formula_bracket(const qdot_session *session, bool open, qdot_text *out)
+{
+    if (session->style == QDOT_MATHML)
+        qdot_text_add(out, open ? "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
+                                : "</math>");
+}
+
+qdot_status
+qdot_formula(qdot_session *session, qdot_expr e, qdot_text *out)
+{
+    qdot_formula_bracket(session, true, out);
+    QDOT_TRY(qdot_formula_print(session, e, session->style, out));
+    qdot_formula_bracket(session, false, out);
+    return QDOT_OK;
+}
+
+const char *
+qdot_formula_equals(const qdot_session *session)
+{
+    return session->style == QDOT_MATHML ? "<mo>=</mo>" : " = ";
+}
+
+/* --- expressions -------------------------------------------------------------------- */
+
+/* Whether e is the latest series, or one of a list of them. */
+static bool
+is_series(const qdot_session *session, qdot_expr e)
+{
+    qdot_expr all = session->series;
+
+    if (all == QDOT_NIL || e == all)
+        return e == all && all != QDOT_NIL;
+    for (uint32_t i = 0; qdot_expr_kind(session->pool, all) == QDOT_LIST &&
+                         i < qdot_expr_count(session->pool, all);
+         i++)
+        if (qdot_expr_arg(session->pool, all, i) == e)
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_formula_print(qdot_session *session, qdot_expr e, qdot_style style, qdot_text *out)
+{
+    uint64_t size = qdot_expr_size(session->pool, e);
+
+    if (size <= QDOT_FORMULA_OPERATIONS)
+        return is_series(session, e)
+                   ? qdot_print_series(session->pool, e, session->series_in, style, out)
+                   : qdot_print(session->pool, e, style, out);
+    (void)qdot_fail(QDOT_ELIMIT,
+                    "%s%" PRIu64 " operations are too many to print: more than %u",
+                    size == UINT64_MAX ? "more than " : "", size, QDOT_FORMULA_OPERATIONS);
+    return qdot_hint("size(...) tells it; what it is used in goes on");
+}

@@ -1,0 +1,24 @@
+/* formula.h -- expressions and the names of answers in the style of the session. */
+#ifndef QDOT_LANG_FORMULA_H
+#define QDOT_LANG_FORMULA_H
+
+#include "lang/session/session.h"
+
+#define QDOT_FORMULA_OPERATIONS 10000000u /* what is printed of one expression */
+
+/* Append e. QDOT_ELIMIT, before any work: more than QDOT_FORMULA_OPERATIONS. */
+QDOT_MUST_CHECK qdot_status qdot_formula_print(qdot_session *session, qdot_expr e,
+                                               qdot_style style, qdot_text *out);
+
+/* Append what an answer is called, in the style of the session: eom[θ₁], \mathrm{eom}_{\theta}. */
+QDOT_MUST_CHECK qdot_status qdot_formula_name(qdot_session *session, const char *name,
+                                              qdot_text *out);
+/* Append e in the style of the session, as a formula that stands in a text: MathML within its
+ * <math>. */
+QDOT_MUST_CHECK qdot_status qdot_formula(qdot_session *session, qdot_expr e,
+                                         qdot_text *out);
+/* The same by parts: what begins and ends a formula, and the sign = between two. */
+void qdot_formula_bracket(const qdot_session *session, bool open, qdot_text *out);
+const char *qdot_formula_equals(const qdot_session *session);
+
+#endif

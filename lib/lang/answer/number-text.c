@@ -1,0 +1,76 @@
+/* number-text.c -- doubles as people read them, and for JSON. */
+#include "lang/answer/number-text.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* 1e-9, not 1e-09. */
+static void
+tidy_exponent(qdot_text *text, size_t from)
+{
+    char *e = strchr(text->at + from, 'e');
+
+    if (e == NULL || (e[1] != '-' && e[1] != '+') || e[2] != '0')
+        return;
+    memmove(e + 2, e + 3, strlen(e + 3) + 1);
+    qdot_text_truncate(text, text->n - 1);
+}
+
+void
+qdot_number_text(qdot_text *text, double value, double error)
+{
+    int digits = 10;
+    size_t before;
+
+    value += 0.0;     /* -0 is 0 */
+    if (error == 0) { /* the shortest that reads back as the same double */
+        for (digits = 1; digits < 17; digits++) {
+            char buffer[40];
+
+            snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+            if (strtod(buffer, NULL) == value)
+                break;
+        }
+        if (fabs(value) >= 1 && fabs(value) < 1e15) /* 10, not 1e+01 */
+            digits = (int)fmax(digits, floor(log10(fabs(value))) + 1);
+    } else if (isfinite(error) && isfinite(value) && value != 0) {
+        digits = (int)floor(log10(fabs(value))) - (int)floor(log10(error)) + 1;
+        digits = digits < 1 ? 1 : digits > 16 ? 16 : digits;
+    }
+    before = text->n;
+    qdot_text_double(text, value, digits);
+    if (!text->failed)
+        tidy_exponent(text, before);
+}
+
+void
+qdot_number_text_bound(qdot_text *text, double error)
+{
+    double power, lead;
+
+    if (!isfinite(error) || error <= 0) {
+        qdot_text_double(text, error, 1);
+        return;
+    }
+    power = floor(log10(error));
+    lead = ceil(error / pow(10, power) - 1e-9);
+    if (lead > 9) {
+        lead = 1;
+        power++;
+    }
+    if (power >= -3 && power <= 3)
+        qdot_text_double(text, lead * pow(10, power), 1);
+    else
+        qdot_text_format(text, "%de%d", (int)lead, (int)power);
+}
+
+void
+qdot_number_text_json(qdot_text *text, double value)
+{
+    if (isfinite(value))
+        qdot_text_double(text, value, 17);
+    else
+        qdot_text_add(text, "null");
+}

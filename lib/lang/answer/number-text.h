@@ -1,0 +1,14 @@
+/* number-text.h -- doubles as people read them, and for JSON. */
+#ifndef QDOT_LANG_NUMBER_TEXT_H
+#define QDOT_LANG_NUMBER_TEXT_H
+
+#include "base/text.h"
+
+/* Append a double as people read it: as many digits as the error leaves meaningful. */
+void qdot_number_text(qdot_text *text, double value, double error);
+/* Append an error bound, one digit, rounded up: 3e-13. */
+void qdot_number_text_bound(qdot_text *text, double error);
+/* Append a double for JSON: 17 digits, null where it is not finite. */
+void qdot_number_text_json(qdot_text *text, double value);
+
+#endif

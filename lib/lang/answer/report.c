@@ -1,0 +1,386 @@
+/* report.c -- a run told: what a person needs to know, and the same as JSON. */
+#include "lang/answer/report.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lang/answer/digits.h"
+#include "lang/answer/number-text.h"
+
+static const char *
+status_word(qdot_run_status status)
+{
+    static const char *const words[] = {[QDOT_RUN_DONE] = "done",
+                                        [QDOT_RUN_STOPPED] = "stopped",
+                                        [QDOT_RUN_FAILED] = "failed"};
+
+    return words[status];
+}
+
+/* Number i of the end state in digits, for JSON in quotes; its error is absolute. */
+static qdot_status
+exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double error,
+             qdot_text *number)
+{
+    qdot_status status;
+
+    qdot_text_add(number, session->json ? "\"" : "");
+    status = qdot_digits_text(session, r->exact[i], r->digits, error, number);
+    qdot_text_add(number, session->json ? "\"" : "");
+    return status;
+}
+
+static void
+double_number(qdot_session *session, double value, double error, qdot_text *number)
+{
+    if (session->json)
+        qdot_number_text_json(number, value);
+    else if (!isfinite(value))
+        qdot_text_add(number, "unknown"); /* a multiplier where a constraint has no direction */
+    else
+        qdot_number_text(number, value,
+                         isfinite(error) ? fmax(error, 2e-16) * fmax(1, fabs(value))
+                                         : NAN);
+}
+
+/* What is at the end: jets, parameters that events set, multipliers. */
+typedef struct {
+    qdot_expr symbol;
+    double value, error; /* relative to max(1, |value|) */
+    size_t exact;        /* its place in report->exact */
+    bool first;          /* of a line */
+} end_number;
+
+/* Number k: q_0, q_0', q_1 ..., then the parameters, then the multipliers. */
+static end_number
+number_at(qdot_session *session, const qdot_run_report *r, size_t k)
+{
+    const size_t n = r->n - r->n_states;
+
+    if (k >= 2 * n + r->n_states) {
+        const size_t i = k - 2 * n - r->n_states;
+
+        return (end_number){r->multipliers[i], r->lambda[i],
+                            r->lambda_error[i] / fmax(1, fabs(r->lambda[i])), 2 * r->n + i,
+                            i % 2 == 0};
+    }
+    if (k >= 2 * n)
+        return (end_number){r->coordinates[k - n], r->q[k - n], r->error, k - n, true};
+    if (k % 2 == 0)
+        return (end_number){r->coordinates[k / 2], r->q[k / 2], r->error, k / 2, true};
+    return (end_number){qdot_symbol_jet(session->pool, r->coordinates[k / 2], 1), r->v[k / 2],
+                        r->error, r->n + k / 2, false};
+}
+
+/* All of them, with their values at the end, to `each`. */
+static qdot_status
+each_state(qdot_session *session, const qdot_run_report *report, qdot_style style,
+           void (*each)(qdot_text *line, size_t k, bool first, const char *name,
+                        const char *number),
+           qdot_text *line)
+{
+    const size_t numbers = 2 * report->n - report->n_states + report->m;
+
+    for (size_t k = 0; k < numbers; k++) {
+        const end_number x = number_at(session, report, k);
+        const bool exact = report->exact != NULL && report->exact[x.exact] != QDOT_NIL;
+        qdot_text name = {0}, number = {0};
+        qdot_status status = qdot_pool_check(session->pool);
+
+        if (status == QDOT_OK)
+            status = qdot_print(session->pool, x.symbol, style, &name);
+        if (status == QDOT_OK && exact)
+            status = exact_number(session, report, x.exact, x.error * fmax(1, fabs(x.value)),
+                                  &number);
+        else if (status == QDOT_OK)
+            double_number(session, x.value, x.error, &number);
+        if (status == QDOT_OK)
+            each(line, k, x.first, qdot_text_str(&name), qdot_text_str(&number));
+        qdot_text_clear(&name);
+        qdot_text_clear(&number);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
+static void
+state_json(qdot_text *line, size_t k, bool first, const char *name, const char *number)
+{
+    (void)first;
+    if (k > 0)
+        qdot_text_char(line, ',');
+    qdot_text_json(line, name);
+    qdot_text_char(line, ':');
+    qdot_text_add(line, number);
+}
+
+static void
+state_text(qdot_text *line, size_t k, bool first, const char *name, const char *number)
+{
+    (void)k;
+    qdot_text_add(line, first ? "\n    " : ", ");
+    qdot_text_add(line, name);
+    qdot_text_add(line, " = ");
+    qdot_text_add(line, number);
+}
+
+static void
+field(qdot_text *line, const char *name, double value)
+{
+    qdot_text_format(line, ",\"%s\":", name);
+    qdot_number_text_json(line, value);
+}
+
+/* All that should have been kept, by name. */
+static void
+drifts_json(qdot_text *line, const qdot_run_report *r)
+{
+    qdot_text_add(line, ",\"drifts\":{");
+    for (size_t i = 0; i < r->n_drifts; i++) {
+        if (i > 0)
+            qdot_text_char(line, ',');
+        qdot_text_json(line, r->drifts[i].name);
+        qdot_text_char(line, ':');
+        qdot_number_text_json(line, r->drifts[i].drift);
+    }
+    qdot_text_char(line, '}');
+}
+
+/* The parts that were integrated apart. */
+static void
+parts_json(qdot_text *line, const qdot_run_report *r)
+{
+    qdot_text_add(line, ",\"parts\":[");
+    for (size_t i = 0; i < r->n_parts; i++) {
+        qdot_text_add(line, i > 0 ? ",{\"coordinates\":" : "{\"coordinates\":");
+        qdot_text_json(line, r->parts[i].coordinates);
+        qdot_text_format(line, ",\"steps\":%zu,\"rejected\":%zu}", r->parts[i].steps,
+                         r->parts[i].rejected);
+    }
+    qdot_text_char(line, ']');
+}
+
+/* How the constraints were kept, and how sure the multipliers of "state" are. */
+static qdot_status
+constraints_json(qdot_session *session, const qdot_run_report *r, qdot_text *line)
+{
+    static const char *const treatments[] = {[QDOT_RUN_PROJECT] = "project",
+                                             [QDOT_RUN_BAUMGARTE] = "baumgarte",
+                                             [QDOT_RUN_NONE] = "none"};
+
+    qdot_text_format(line,
+                     ",\"constraints\":{\"count\":%zu,\"independent\":%zu,"
+                     "\"treatment\":\"%s\",\"projections\":%zu",
+                     r->m, r->independent,
+                     r->digits > 0 ? "digits" : treatments[r->treatment], r->projections);
+    field(line, "velocity_drift", r->velocity_drift);
+    qdot_text_add(line, ",\"errors\":{");
+    for (size_t k = 0; k < r->m; k++) {
+        qdot_text name = {0};
+        qdot_status status = qdot_print(session->pool, r->multipliers[k], QDOT_PLAIN, &name);
+
+        qdot_text_add(line, k > 0 ? "," : "");
+        qdot_text_json(line, qdot_text_str(&name));
+        qdot_text_char(line, ':');
+        qdot_number_text_json(line, r->lambda_error[k]);
+        qdot_text_clear(&name);
+        QDOT_TRY(status);
+    }
+    qdot_text_add(line, "}}");
+    return QDOT_OK;
+}
+
+static qdot_status
+run_json(qdot_session *session, const char *name, const qdot_run_report *r,
+         qdot_text *line)
+{
+    qdot_text_add(line, "{\"kind\":\"run\",\"name\":");
+    qdot_text_json(line, name);
+    qdot_text_add(line, ",\"method\":");
+    qdot_text_json(line, r->method);
+    qdot_text_add(line, ",\"t\":[");
+    qdot_number_text_json(line, r->t0);
+    qdot_text_char(line, ',');
+    qdot_number_text_json(line, r->t1);
+    qdot_text_char(line, ']');
+    field(line, "tol", r->tol);
+    qdot_text_format(line,
+                     ",\"steps\":%zu,\"rejected\":%zu,\"evals\":%zu,\"jacobians\":%zu,"
+                     "\"factorizations\":%zu",
+                     r->steps, r->rejected, r->evals, r->jacobians, r->factorizations);
+    field(line, "cpu", r->cpu);
+    field(line, "cpu_total", r->cpu_total);
+    field(line, "error", r->error);
+    field(line, "horizon", r->horizon);
+    field(line, "energy_drift", r->energy_drift);
+    drifts_json(line, r);
+    field(line, "constraint_drift", r->m > 0 ? r->constraint_drift : NAN);
+    qdot_text_add(line, ",\"state\":{");
+    QDOT_TRY(each_state(session, r, QDOT_PLAIN, state_json, line));
+    qdot_text_format(line, "},\"status\":\"%s\",\"reason\":", status_word(r->status));
+    if (r->reason != NULL)
+        qdot_text_json(line, r->reason);
+    else
+        qdot_text_add(line, "null");
+    if (r->n_parts > 0)
+        parts_json(line, r);
+    if (r->m > 0)
+        QDOT_TRY(constraints_json(session, r, line));
+    qdot_text_add(line, "}\n");
+    return QDOT_OK;
+}
+
+/* A count with its noun: 1 step, 12 steps. */
+static void
+counted(qdot_text *line, size_t n, const char *noun)
+{
+    qdot_text_format(line, "%zu %s%s", n, noun, n == 1 ? "" : "s");
+}
+
+static void
+seconds(qdot_text *line, double s)
+{
+    qdot_text_double(line, s < 1 ? s * 1e3 : s, 3);
+    qdot_text_add(line, s < 1 ? " ms" : " s");
+}
+
+/* How far the constraints were left, and what was done about it. */
+static void
+constraints_text(qdot_text *line, const qdot_run_report *r)
+{
+    static const char *const done[] = {
+        [QDOT_RUN_PROJECT] = "projected after",
+        [QDOT_RUN_BAUMGARTE] = "damped (Baumgarte)",
+        [QDOT_RUN_NONE] = "drift left alone",
+    };
+
+    if (r->m == 0)
+        return;
+    qdot_text_add(line, "\n  constraints: ");
+    if (isfinite(r->constraint_drift)) {
+        qdot_text_add(line, "error ");
+        qdot_number_text_bound(line, r->constraint_drift);
+        if (isfinite(r->velocity_drift) && r->velocity_drift != r->constraint_drift) {
+            qdot_text_add(line, ", of velocities ");
+            qdot_number_text_bound(line, r->velocity_drift);
+        }
+        qdot_text_add(line, "; ");
+    }
+    qdot_text_add(line, r->digits > 0 ? "covered by guard digits" : done[r->treatment]);
+    if (r->treatment == QDOT_RUN_PROJECT && r->digits == 0) {
+        qdot_text_char(line, ' ');
+        counted(line, r->projections, "step");
+    }
+    if (r->independent < r->m)
+        qdot_text_format(line,
+                         "\n  %zu of the %zu constraints are independent: the motion is "
+                         "unique, the multipliers are those of least norm",
+                         r->independent, r->m);
+}
+
+/* Under larger tolerances a smaller one goes further. */
+static const double of_method = 1e-11;
+
+/* The end state, or from where on it is noise. */
+static qdot_status
+end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
+{
+    if (isnan(r->horizon)) {
+        qdot_text_add(line, "\n  end state:");
+        QDOT_TRY(each_state(session, r, session->style, state_text, line));
+    } else {
+        qdot_text_add(line, "\n  horizon: t = ");
+        qdot_number_text(line, r->horizon, 0.005 * fabs(r->horizon));
+        qdot_text_add(line, r->tol > of_method
+                                ? "; no digit of the state beyond it is right under this tol"
+                                : ", where doubles are exhausted: no digit of the state "
+                                  "beyond it is right; `digits 6` goes on");
+    }
+    qdot_text_char(line, '\n');
+    return QDOT_OK;
+}
+
+static qdot_status
+run_text(qdot_session *session, const char *name, const qdot_run_report *r,
+         qdot_text *line)
+{
+    qdot_text_format(line, "%s: t = ", name);
+    qdot_number_text(line, r->t0, 0);
+    qdot_text_add(line, "..");
+    qdot_number_text(line, r->t1, 0);
+    qdot_text_format(line, ", method %s, ", r->method);
+    if (r->digits > 0) {
+        qdot_text_format(line, "digits %d, tol ", r->digits);
+        qdot_number_text_bound(line, r->tol);
+    } else {
+        qdot_text_add(line, "tol ");
+        qdot_number_text(line, r->tol, 0);
+    }
+    qdot_text_format(line, ", %s", status_word(r->status));
+    if (r->reason != NULL)
+        qdot_text_format(line, ": %s", r->reason);
+    qdot_text_add(line, "\n  ");
+    counted(line, r->steps, "step");
+    qdot_text_format(line, ", %zu rejected; ", r->rejected);
+    counted(line, r->evals, "evaluation");
+    qdot_text_add(line, " of ");
+    counted(line, r->operations, "operation");
+    if (r->jacobians > 0) {
+        qdot_text_add(line, "; ");
+        counted(line, r->jacobians, "Jacobian");
+    }
+    for (size_t i = 0; i < r->n_parts; i++) {
+        qdot_text_format(line, "%s%s ", i == 0 ? "\n  apart: " : "; ",
+                         r->parts[i].coordinates);
+        counted(line, r->parts[i].steps, "step");
+    }
+    qdot_text_add(line, "\n  cpu ");
+    seconds(line, r->cpu);
+    qdot_text_add(line, ", in all cpu ");
+    seconds(line, r->cpu_total);
+    for (size_t i = 0; i < r->n_drifts; i++) {
+        const qdot_drift *d = &r->drifts[i];
+
+        qdot_text_add(line, i == 0 ? "\n  drift: " : ", ");
+        if (strcmp(d->name, "energy") == 0)
+            qdot_text_add(line, d->name);
+        else
+            qdot_print_name(session->pool, d->name, session->style, line);
+        qdot_text_char(line, ' ');
+        if (d->kept)
+            qdot_text_add(line, "kept");
+        else if (isfinite(d->drift))
+            qdot_number_text_bound(line, d->drift);
+        else
+            qdot_text_add(line, "unknown");
+    }
+    if (r->n_drifts == 0)
+        qdot_text_add(line, r->interrupted ? "\n  drift: not measured"
+                                           : "\n  drift: no conserved quantity is known");
+    constraints_text(line, r);
+    qdot_text_add(line, "\n  error of the end state: ");
+    if (isfinite(r->error)) {
+        qdot_text_add(line, "at most ");
+        qdot_number_text_bound(line, r->error);
+    } else {
+        qdot_text_add(line, "unknown");
+    }
+    return end_text(session, r, line);
+}
+
+qdot_status
+qdot_report_run(qdot_session *session, const char *name, const qdot_run_report *report)
+{
+    qdot_text line = {0};
+    qdot_status status = session->json ? run_json(session, name, report, &line)
+                                       : run_text(session, name, report, &line);
+
+    if (status == QDOT_OK)
+        status = qdot_text_status(&line);
+    if (status == QDOT_OK &&
+        (fwrite(qdot_text_str(&line), 1, line.n, session->out) != line.n ||
+         fflush(session->out) != 0))
+        status = qdot_fail(QDOT_EIO, "standard output cannot be written");
+    qdot_text_clear(&line);
+    return status;
+}

@@ -1,0 +1,11 @@
+/* report.h -- a run told: what a person needs to know, and the same as JSON. */
+#ifndef QDOT_LANG_REPORT_H
+#define QDOT_LANG_REPORT_H
+
+#include "lang/session/session.h"
+
+/* {"kind":"run"} */
+QDOT_MUST_CHECK qdot_status qdot_report_run(qdot_session *session, const char *name,
+                                            const qdot_run_report *report);
+
+#endif

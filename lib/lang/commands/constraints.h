@@ -1,0 +1,22 @@
+/* constraints.h -- what is said of constraints when they are declared and checked.
+ *
+ * Tests  tests/script/reactions.lag, tests/script/integrable.lag
+ */
+#ifndef QDOT_LANG_CONSTRAINTS_H
+#define QDOT_LANG_CONSTRAINTS_H
+
+#include "lang/language/cursor.h"
+
+/* `check [not] integrable LABEL`, behind these words: a verdict for each component of the
+ * constraint. */
+QDOT_MUST_CHECK qdot_status qdot_constraints_check_integrable(qdot_cursor *c, bool not);
+
+/* Append a line that names the redundant constraints, and one where nothing can move. */
+void qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
+                                      qdot_text *out);
+
+/* A notice for each velocity constraint from `before` on that is integrable by itself. */
+QDOT_MUST_CHECK qdot_status qdot_constraints_tell_disguise(qdot_session *session,
+                                                           size_t before);
+
+#endif

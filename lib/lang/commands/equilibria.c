@@ -1,0 +1,277 @@
+/* equilibria.c -- `equilibria` and `modes` as statements: with stability, with amplitudes. */
+#include <math.h>
+#include <stdio.h>
+
+#include "expr/calculus.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/formula.h"
+#include "lang/answer/number-text.h"
+#include "lang/commands/statement.h"
+#include "lang/functions/equilibria.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+
+/* --- equilibria ------------------------------------------------------------------------- */
+
+/* a > |b| for a > b and a + b > 0, a positive; else nil. */
+static qdot_expr
+as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
+{
+    qdot_expr sum, b;
+
+    if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_kind(pool, other) != QDOT_REL ||
+        qdot_expr_node(pool, one)->op != QDOT_LT ||
+        qdot_expr_node(pool, other)->op != QDOT_LT)
+        return QDOT_NIL;
+    one = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
+    other = qdot_sub(pool, qdot_expr_arg(pool, other, 1), qdot_expr_arg(pool, other, 0));
+    sum = qdot_expand(pool, qdot_mul(pool, QDOT_HALF, qdot_add(pool, one, other)));
+    b = qdot_expand(pool, qdot_mul(pool, QDOT_HALF, qdot_sub(pool, one, other)));
+    if (sum == QDOT_NIL || b == QDOT_NIL || qdot_expr_kind(pool, b) == QDOT_SUM ||
+        (qdot_expr_node(pool, sum)->sign & QDOT_POS) != QDOT_POS ||
+        (qdot_expr_node(pool, b)->sign & (QDOT_GE0 | QDOT_LE0)) != 0)
+        return QDOT_NIL;
+    return qdot_rel(pool, QDOT_LT, qdot_fun1(pool, QDOT_ABS, b), sum);
+}
+
+/* `a > b and c > d`; a relation reads with > as people say it, and `g < 0`. */
+static qdot_status
+print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
+{
+    qdot_pool *pool = session->pool;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++) {
+        qdot_expr one = qdot_expr_arg(pool, list, i);
+        bool first = i == 0;
+
+        if (i + 1 < qdot_expr_count(pool, list)) {
+            qdot_expr both = as_magnitude(pool, one, qdot_expr_arg(pool, list, i + 1));
+
+            i += both != QDOT_NIL;
+            one = both != QDOT_NIL ? both : one;
+        }
+        qdot_text_add(out, first ? "" : " and ");
+        if (qdot_expr_kind(pool, one) != QDOT_REL ||
+            qdot_expr_node(pool, one)->op != QDOT_LT ||
+            qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {
+            QDOT_TRY(qdot_formula(session, one, out));
+            continue;
+        }
+        qdot_formula_bracket(session, true, out);
+        QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 1), session->style, out));
+        qdot_text_add(out, session->style == QDOT_MATHML ? "<mo>&gt;</mo>" : " > ");
+        QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 0), session->style, out));
+        qdot_formula_bracket(session, false, out);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+print_stability(qdot_session *session, const qdot_equilibrium *e, qdot_text *out)
+{
+    static const char *const words[] = {
+        [QDOT_STABLE] = "stable",
+        [QDOT_UNSTABLE] = "unstable",
+        [QDOT_STABLE_TO_FIRST_ORDER] = "stable to first order",
+        [QDOT_STABILITY_UNDECIDED] = "stability undecided",
+    };
+
+    if (e->numeric)
+        qdot_text_add(out, "numeric, ");
+    if (e->exists != QDOT_NIL) {
+        qdot_text_add(out, "exists when ");
+        QDOT_TRY(print_conditions(session, e->exists, out));
+        qdot_text_add(out, ", ");
+    }
+    qdot_text_add(out, words[e->stability]);
+    if (e->stable_when != QDOT_NIL) {
+        qdot_text_add(out, " when ");
+        QDOT_TRY(print_conditions(session, e->stable_when, out));
+    }
+    return qdot_text_status(out);
+}
+
+/* `theta = 0`; a number that was found as a decimal one. */
+static qdot_status
+print_equation(qdot_session *session, const qdot_equilibrium *e, uint32_t k,
+               qdot_text *out)
+{
+    qdot_expr one = qdot_expr_arg(session->pool, e->equations, k);
+    double value;
+
+    if (!e->numeric)
+        return qdot_formula(session, one, out);
+    QDOT_TRY(
+        qdot_session_number(session, qdot_expr_arg(session->pool, one, 1), &value, NULL));
+    QDOT_TRY(qdot_formula(session, qdot_expr_arg(session->pool, one, 0), out));
+    qdot_text_add(out, " = ");
+    qdot_number_text(out, value, 0);
+    return qdot_text_status(out);
+}
+
+/* `equilibria[1]: theta = 0, stable when ...`; as JSON the equations, then a text. */
+static qdot_status
+answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
+{
+    char name[40];
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+    uint32_t n = qdot_expr_count(session->pool, e->equations);
+
+    snprintf(name, sizeof name, "equilibria[%zu]", i + 1);
+    if (session->json)
+        QDOT_TRY(qdot_answer_expr(session, name, e->equations));
+    else
+        qdot_text_format(&text, "%s: ", name);
+    for (uint32_t k = 0; k < n && !session->json && status == QDOT_OK; k++) {
+        status = print_equation(session, e, k, &text);
+        qdot_text_add(&text, ", ");
+    }
+    if (n == 0 && !session->json)
+        qdot_text_add(&text, "everywhere, ");
+    if (status == QDOT_OK)
+        status = print_stability(session, e, &text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* What is not there, or may be there beside: how much is known of that. */
+static qdot_status
+answer_rest(qdot_session *session, const qdot_equilibria *all)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (all->complete && all->n > 0)
+        return QDOT_OK;
+    if (all->complete) {
+        qdot_text_add(&text, "there is no equilibrium");
+    } else if (all->starts == 0) {
+        qdot_text_add(&text, all->n == 0 ? "no equilibrium was found; there may be some"
+                                         : "there may be others");
+    } else {
+        qdot_text_format(&text, "%s: %zu starts in numbers, within -%g..%g where no domain "
+                                "is declared",
+                         all->n == 0 ? "no equilibrium was found; there may be some"
+                                     : "there may be others",
+                         all->starts, all->reach, all->reach);
+    }
+    if (all->unproved > 0)
+        qdot_text_format(&text, "; %zu of them ended where the equations hold to rounding, "
+                                "but no rest is proved", all->unproved);
+    status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, "equilibria", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
+qdot_equilibria_all(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at - 1; /* the word */
+    qdot_equilibria all;
+    qdot_expr value;
+    qdot_status status;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_equilibria_find(session, &all));
+    status = qdot_equilibria_list(session, &all, &value);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&session->history, value);
+    for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
+        status = answer_one(session, i, &all.at[i]);
+    if (status == QDOT_OK)
+        status = answer_rest(session, &all);
+    qdot_equilibria_clear(&all);
+    return status;
+}
+
+/* --- modes ----------------------------------------------------------------------------- */
+
+/* Exact, or a number: as JSON without a statement of its error. */
+static qdot_status
+answer_part(qdot_session *session, bool numeric, const char *name, qdot_expr value)
+{
+    qdot_text line = {0};
+    qdot_status status;
+    double x;
+
+    if (!numeric)
+        return qdot_answer_expr(session, name, value);
+    QDOT_TRY(qdot_session_number(session, value, &x, NULL));
+    if (session->json)
+        return qdot_answer_number(session, name, x, NAN);
+    qdot_text_format(&line, "%s = ", name);
+    qdot_number_text(&line, x, 1e-13 * fabs(x));
+    status = qdot_text_status(&line);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(&line));
+    qdot_text_clear(&line);
+    return status;
+}
+
+static qdot_status
+answer_modes(qdot_session *session, const qdot_modes *modes)
+{
+    size_t n = session->scene->coordinates.n;
+
+    for (size_t k = 0; k < modes->n; k++) {
+        char name[400];
+
+        snprintf(name, sizeof name, "modes[%zu]", k + 1);
+        QDOT_TRY(answer_part(session, modes->numeric, name, modes->frequency[k]));
+        for (size_t i = 0; i < n; i++) {
+            snprintf(
+                name, sizeof name, "modes[%zu, %.300s]", k + 1,
+                qdot_expr_symbol(session->pool, session->scene->coordinates.at[i])->name);
+            QDOT_TRY(
+                answer_part(session, modes->numeric, name, modes->amplitude[k * n + i]));
+        }
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_equilibria_modes(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at - 1; /* the word */
+    qdot_expr at = QDOT_NIL, value;
+    qdot_modes modes;
+    qdot_status status;
+
+    if (qdot_cursor_accept_word(c, "at")) {
+        const qdot_token *place = c->at;
+
+        QDOT_TRY(qdot_read_value(c, &at));
+        if (qdot_expr_kind(session->pool, at) == QDOT_REL)
+            at = qdot_list(session->pool, 1, &at);
+        QDOT_TRY(qdot_pool_check(session->pool));
+        for (uint32_t i = 0; i < qdot_expr_count(session->pool, at) ||
+                             qdot_expr_kind(session->pool, at) != QDOT_LIST;
+             i++)
+            if (qdot_expr_kind(session->pool, at) != QDOT_LIST ||
+                qdot_expr_kind(session->pool, qdot_expr_arg(session->pool, at, i)) !=
+                    QDOT_REL) {
+                c->error_at = place->start;
+                (void)qdot_fail(QDOT_ETYPE, "modes are asked at a list of equations");
+                return qdot_hint("modes at equilibria[1]");
+            }
+    }
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_equilibria_modes_at(session, at, &modes));
+    value = qdot_list(session->pool, (uint32_t)modes.n, modes.frequency);
+    status = qdot_pool_check(session->pool);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&session->history, value);
+    if (status == QDOT_OK)
+        status = answer_modes(session, &modes);
+    qdot_modes_clear(&modes);
+    return status;
+}

@@ -1,0 +1,37 @@
+/* loop.h -- loops: `for k = a..b, j = [1, 2, 5]`. */
+#ifndef QDOT_LANG_LOOP_H
+#define QDOT_LANG_LOOP_H
+
+#include "lang/language/cursor.h"
+
+typedef struct {
+    char *name;
+    const qdot_token *behind; /* the token behind its range */
+    bool listed;              /* values from a list, else at..last */
+    long at, last;
+    qdot_vec(qdot_expr) values;
+    size_t next;
+} qdot_loop_index;
+
+typedef struct {
+    qdot_session *session;
+    const qdot_source *source;
+    const qdot_token *clause; /* the first token behind `for` */
+    qdot_vec(
+        qdot_loop_index) indices; /* outermost first; each is bound in session->names */
+    size_t error_at;
+    bool open; /* counted in session->loops */
+} qdot_loop;
+
+enum { QDOT_LOOP_PASSES = 10000000 }; /* the most of one index */
+
+/* Bind the indices to the first pass, then to the next; *more: there is such a pass. A
+ * range may depend on the indices before it. After an error or the last pass nothing
+ * is bound. */
+QDOT_MUST_CHECK qdot_status qdot_loop_begin(qdot_loop *loop, const qdot_cursor *c,
+                                            bool *more);
+QDOT_MUST_CHECK qdot_status qdot_loop_next(qdot_loop *loop, bool *more);
+/* Unbind what is bound and free. */
+void qdot_loop_end(qdot_loop *loop);
+
+#endif

@@ -1,0 +1,118 @@
+/* operands.c -- expressions along runs, for tables and curves. */
+#include "lang/commands/operands.h"
+
+#include "expr/walk.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/member.h"
+
+void
+qdot_operand_clear(qdot_operand *o)
+{
+    qdot_free(o->label);
+    qdot_free(o->columns.at);
+}
+
+void
+qdot_operands_free(qdot_operands *list)
+{
+    for (size_t i = 0; i < list->n; i++)
+        qdot_operand_clear(&list->at[i]);
+    qdot_free(list->at);
+}
+
+/* Of runs named inside: the one, or the first of several. */
+static qdot_status
+resolve_members(qdot_operand *o, const char **run, qdot_expr *e)
+{
+    if (!qdot_expr_is_scalar(o->session->pool, *e))
+        return QDOT_OK;
+    QDOT_TRY(qdot_member_resolve(o->session, run, e, &o->mixed));
+    for (size_t i = 0; o->mixed && *run == NULL && i < o->session->members.n; i++)
+        if (qdot_expr_contains(o->session->pool, *e, o->session->members.at[i].symbol))
+            *run = o->session->members.at[i].run;
+    return QDOT_OK;
+}
+
+/* [RUN .] EXPR */
+static qdot_status
+read_operand(qdot_cursor *c, qdot_operand *o)
+{
+    const qdot_token *start = c->at;
+    qdot_named_run *named = NULL;
+    qdot_text label = {0};
+    qdot_status status;
+    const char *run;
+    qdot_expr e;
+
+    QDOT_TRY(qdot_read_member(c, &e, &run));
+    c->error_at = start->start;
+    o->session = c->session;
+    QDOT_TRY(resolve_members(o, &run, &e));
+    if (run != NULL)
+        QDOT_TRY(qdot_runs_find(c->session, run, &named));
+    o->run = named != NULL ? named->run : NULL;
+    o->vector = qdot_expr_kind(c->session->pool, e) == QDOT_VEC;
+    QDOT_TRY(qdot_runs_flatten(c->session, e, &o->columns));
+    qdot_token_text(c->session, start, c->at, &label);
+    status = qdot_text_status(&label);
+    if (status == QDOT_OK)
+        o->label = label.at;
+    else
+        qdot_text_clear(&label);
+    return status;
+}
+
+qdot_status
+qdot_operands_read(qdot_cursor *c, qdot_operands *list)
+{
+    do {
+        qdot_operand o = {0};
+        qdot_status status = read_operand(c, &o);
+
+        if (status == QDOT_OK)
+            status = qdot_vec_push(list, o);
+        if (status != QDOT_OK) {
+            qdot_operand_clear(&o);
+            return status;
+        }
+    } while (qdot_cursor_accept_op(c, ","));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_operands_find_runs(qdot_session *session, qdot_operands *list)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        qdot_named_run *latest;
+
+        if (list->at[i].run != NULL)
+            continue;
+        QDOT_TRY(qdot_runs_find(session, NULL, &latest));
+        list->at[i].run = latest->run;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_operands_values(const qdot_operand *o, size_t rows, const double *times,
+                     double *values)
+{
+    size_t m = o->columns.n;
+
+    if (o->mixed)
+        return qdot_member_values(o->session, NULL, o->columns.at[0], rows, times, NULL, values,
+                                  NULL);
+
+    double *by_row = qdot_calloc(rows * m, sizeof *by_row);
+    qdot_status status;
+
+    if (by_row == NULL)
+        return QDOT_ENOMEM;
+    status = qdot_run_values(o->run, m, o->columns.at, rows, times, by_row, NULL);
+    for (size_t k = 0; k < rows && status == QDOT_OK; k++)
+        for (size_t i = 0; i < m; i++)
+            values[i * rows + k] = by_row[k * m + i];
+    qdot_free(by_row);
+    return status;
+}

@@ -1,0 +1,31 @@
+/* operands.h -- expressions along runs, for tables and curves. */
+#ifndef QDOT_LANG_OPERANDS_H
+#define QDOT_LANG_OPERANDS_H
+
+#include "lang/language/cursor.h"
+#include "lang/session/runs.h"
+#include "show/show.h"
+
+typedef struct {
+    char *label;               /* the source text; owned */
+    qdot_session *session;
+    qdot_run *run;             /* NULL: the latest */
+    bool mixed;                /* of several runs: `run` is the first of them */
+    bool vector;               /* a path */
+    qdot_runs_columns columns; /* its components */
+} qdot_operand;
+
+typedef qdot_vec(qdot_operand) qdot_operands;
+
+void qdot_operand_clear(qdot_operand *o);
+void qdot_operands_free(qdot_operands *list);
+/* `E1, a.E2, ...` */
+QDOT_MUST_CHECK qdot_status qdot_operands_read(qdot_cursor *c, qdot_operands *list);
+/* The latest run for those that name none; QDOT_EINVAL where there is none. */
+QDOT_MUST_CHECK qdot_status qdot_operands_find_runs(qdot_session *session,
+                                                    qdot_operands *list);
+/* Along its run at times [rows]: values [components * rows], component by component. */
+QDOT_MUST_CHECK qdot_status qdot_operands_values(const qdot_operand *o, size_t rows,
+                                                 const double *times, double *values);
+
+#endif

@@ -1,0 +1,212 @@
+/* race.c -- the statement `race`: a table, and a figure of error against time. */
+#include <math.h>
+
+#include "lang/answer/answer.h"
+#include "lang/answer/number-text.h"
+#include "lang/commands/figure-file.h"
+#include "lang/commands/request.h"
+#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "show/show.h"
+#include "sim/study/race.h"
+
+/* "1e-12", "-" where there is none */
+static void
+print_bound(double value, int width, qdot_text *out)
+{
+    qdot_text one = {0};
+
+    if (isnan(value))
+        qdot_text_add(&one, "-");
+    else
+        qdot_text_format(&one, value == 0 ? "0" : "%.1e", value);
+    qdot_text_format(out, "%*s", width, qdot_text_str(&one));
+    qdot_text_clear(&one);
+}
+
+static void
+print_lane(const qdot_race_lane *lane, qdot_text *out)
+{
+    for (int k = 0; k < QDOT_RACE_TOLERANCES; k++) {
+        const qdot_race_entry *e = &lane->entry[k];
+
+        qdot_text_format(out, "\n%-20s  %-7s  %5.0e", lane->name, e->method, e->tol);
+        print_bound(e->error, 9, out);
+        print_bound(e->energy, 9, out);
+        print_bound(e->constraint, 12, out);
+        qdot_text_format(out, "  %10.3g", 1e3 * e->cpu);
+    }
+}
+
+static qdot_status
+print_race(const qdot_race *race, qdot_text *out)
+{
+    qdot_text_format(out,
+                     "race: end errors against the scene as given, projected, at tol %.0e, "
+                     "its own error about ",
+                     race->reference_tol);
+    qdot_number_text_bound(out, race->reference_error);
+    if (race->minimal > 0)
+        qdot_text_format(out, "\n%zu coordinates as given, %zu in minimal coordinates",
+                         race->coordinates, race->minimal);
+    qdot_text_format(out, "\n%-20s  %-7s  %5s%9s%9s%12s  %10s", "formulation", "method",
+                     "tol", "error", "energy", "constraints", "cpu ms");
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        if (race->lane[i].name != NULL)
+            print_lane(&race->lane[i], out);
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        if (race->lane[i].reason != NULL)
+            qdot_text_format(out, "\nnot in %s: %s",
+                             i + 1 < QDOT_RACE_FORMULATIONS ? "this treatment"
+                                                            : "minimal coordinates",
+                             race->lane[i].reason);
+    return qdot_text_status(out);
+}
+
+/* Formulation, method, tolerance, error, energy drift, constraint drift, CPU seconds. */
+static qdot_status
+answer_rows(qdot_session *session, const qdot_race *race)
+{
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        for (int k = 0; race->lane[i].name != NULL && k < QDOT_RACE_TOLERANCES; k++) {
+            const qdot_race_entry *e = &race->lane[i].entry[k];
+            double row[] = {e->tol, e->error, e->energy, e->constraint, e->cpu};
+            qdot_text cells = {0};
+            qdot_status status;
+
+            qdot_text_json(&cells, race->lane[i].name);
+            qdot_text_char(&cells, ',');
+            qdot_text_json(&cells, e->method != NULL ? e->method : "");
+            for (size_t j = 0; j < sizeof row / sizeof *row; j++) {
+                qdot_text_char(&cells, ',');
+                qdot_number_text_json(&cells, row[j]);
+            }
+            status = qdot_answer_cells(session, &cells);
+            qdot_text_clear(&cells);
+            QDOT_TRY(status);
+        }
+    return QDOT_OK;
+}
+
+/* Error to the right, CPU time up, both in powers of ten. */
+static qdot_status
+draw(qdot_session *session, const qdot_race *race, const char *path)
+{
+    enum { N = QDOT_RACE_FORMULATIONS, K = QDOT_RACE_TOLERANCES };
+    double x[N][K], y[N][K];
+    qdot_column columns_x[N], columns_y[N];
+    size_t rows[N], n = 0;
+    qdot_figure figure = {.title = "a race: work and precision",
+                          .x_label = "error at the end, relative to max(1, |value|)",
+                          .y_label = "CPU time in s",
+                          .x = columns_x,
+                          .y = columns_y,
+                          .rows = rows,
+                          .log_x = true,
+                          .log_y = true,
+                          .marks = true};
+
+    for (int i = 0; i < N; i++) {
+        size_t points = 0;
+
+        for (int k = 0; race->lane[i].name != NULL && k < K; k++) {
+            const qdot_race_entry *e = &race->lane[i].entry[k];
+
+            if (!isfinite(e->error) || !(e->cpu > 0))
+                continue;
+            x[n][points] = fmax(e->error, 1e-17); /* 0 has no logarithm */
+            y[n][points++] = e->cpu;
+        }
+        if (points == 0)
+            continue;
+        columns_x[n] = (qdot_column){figure.x_label, x[n]};
+        columns_y[n] = (qdot_column){race->lane[i].name, y[n]};
+        rows[n++] = points;
+    }
+    figure.curves = n;
+    if (n == 0)
+        return qdot_fail(QDOT_EFAILED, "no lane of the race got to the end");
+    return qdot_figure_file_show(session, &figure, path);
+}
+
+static qdot_status
+answer(qdot_session *session, const qdot_race *race, const char *path)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    if (race->notice != NULL)
+        status = qdot_answer_notice(session, "%s", race->notice);
+    if (status == QDOT_OK)
+        status = print_race(race, &text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, "race", qdot_text_str(&text));
+    if (status == QDOT_OK && session->json)
+        status = answer_rows(session, race);
+    qdot_text_clear(&text);
+    if (status == QDOT_OK)
+        status = draw(session, race, path);
+    return status;
+}
+
+/* What a run takes and a race has of its own. */
+static qdot_status
+refuse_option(qdot_cursor *c)
+{
+    static const char *const options[] = {"tol", "digits", "method", "constraints", "with",
+                                          "as"};
+
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (qdot_cursor_is_word(c, options[i])) {
+            c->error_at = c->at->start;
+            qdot_fail(QDOT_ESYNTAX, "a race takes no `%s`: it compares tolerances and "
+                                    "formulations by itself",
+                      options[i]);
+            return qdot_hint("race T0..T1 [to \"FILE\"]");
+        }
+    (void)qdot_cursor_expected(c, "`to` or the end of the statement");
+    return qdot_hint("race T0..T1 [to \"FILE\"] compares formulations; `workprecision` "
+                     "compares methods");
+}
+
+qdot_status
+qdot_race_statement(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_request order = {0};
+    qdot_expr from, to;
+    const char *path = NULL;
+    qdot_race race;
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_range(c, &from, &to));
+    while (!qdot_cursor_is_end(c)) {
+        if (!qdot_cursor_accept_word(c, "to"))
+            return refuse_option(c);
+        QDOT_TRY(qdot_figure_file_read(c, &path));
+    }
+    c->error_at = start->start;
+    status = qdot_request_fill(c->session, &order);
+    if (status == QDOT_OK) {
+        qdot_session *session = c->session;
+
+        order.request.t0 =
+            qdot_session_bind(session, qdot_measured_as_rationals(session, from));
+        order.request.t1 =
+            qdot_session_bind(session, qdot_measured_as_rationals(session, to));
+        order.request.method = "auto";
+        order.request.tol = 1e-12;
+        status = qdot_pool_check(session->pool);
+    }
+    if (status == QDOT_OK) {
+        status = qdot_race_hold(c->session->scene, &order.request, &race);
+        if (status == QDOT_OK) {
+            status = answer(c->session, &race, path);
+            qdot_race_clear(&race);
+        }
+    }
+    qdot_request_free(&order);
+    return status;
+}

@@ -1,0 +1,113 @@
+/* remove.c -- things taken out of the scene again, by label or by kind and number. */
+#include <string.h>
+
+#include "lang/answer/answer.h"
+#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+
+/* What acted on a removed thing went with it: say so. */
+static qdot_status
+tell_removed(qdot_session *session, const char *label)
+{
+    const qdot_scene *scene = session->scene;
+    qdot_text list = {0};
+    qdot_status status;
+
+    if (scene->dropped.n == 0)
+        return QDOT_OK;
+    for (size_t i = 0; i < scene->dropped.n; i++)
+        qdot_text_format(&list, "%s%s", i > 0 ? ", " : "", scene->dropped.at[i]);
+    status = qdot_text_status(&list);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "with %s went what acted on it: %s", label,
+                                    qdot_text_str(&list));
+    qdot_text_clear(&list);
+    return status;
+}
+
+/* Kinds of things that need no label. */
+static const struct {
+    const char *word, *singular, *plural;
+    qdot_scene_kind kind;
+} kinds[] = {{"gravity", "field of gravity", "fields of gravity", QDOT_GRAVITY},
+             {"potential", "potential", "potentials", QDOT_POTENTIAL},
+             {"spring", "spring", "springs", QDOT_SPRING},
+             {"damper", "damper", "dampers", QDOT_DAMPER},
+             {"dissipation", "dissipation", "dissipations", QDOT_DISSIPATION},
+             {"force", "force", "forces", QDOT_FORCE},
+             {"torque", "torque", "torques", QDOT_TORQUE}};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+/* "there are 2 potentials: 1: `potential x^2`, 2: ..." */
+static qdot_status
+which(const qdot_scene *scene, size_t row)
+{
+    enum { LONGEST = 80, MOST = 380 };
+    size_t n = qdot_scene_count(scene, kinds[row].kind);
+    qdot_text list = {0}, line = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t k = 0; k < n && status == QDOT_OK; k++) {
+        qdot_text_clear(&line);
+        status = qdot_scene_print_at(scene, kinds[row].kind, k, &line);
+        if (status != QDOT_OK)
+            break;
+        if (list.n > MOST) {
+            qdot_text_add(&list, ", ...");
+            break;
+        }
+        qdot_text_format(&list, "%s%zu: `%.*s%s`", k > 0 ? ", " : "", k + 1,
+                         line.n - 1 > LONGEST ? LONGEST : (int)line.n - 1,
+                         qdot_text_str(&line), line.n - 1 > LONGEST ? "..." : "");
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&list);
+    if (status == QDOT_OK) {
+        (void)qdot_fail(QDOT_EINVAL, "there %s %zu %s: %s", n == 1 ? "is" : "are", n,
+                        n == 1 ? kinds[row].singular : kinds[row].plural,
+                        qdot_text_str(&list));
+        status = qdot_hint("remove %s %zu", kinds[row].word, n);
+    }
+    qdot_text_clear(&list);
+    qdot_text_clear(&line);
+    return status;
+}
+
+/* `remove potential`: the only one; `remove potential 2`. */
+static qdot_status
+remove_kind(qdot_cursor *c, const qdot_token *start, size_t row)
+{
+    qdot_scene *scene = c->session->scene;
+    size_t n = qdot_scene_count(scene, kinds[row].kind);
+    bool numbered = !qdot_cursor_is_end(c);
+    long k = 1;
+
+    if (numbered) {
+        start = c->at;
+        QDOT_TRY(qdot_read_integer(c, &k));
+    }
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    if (n == 0)
+        return qdot_fail(QDOT_EINVAL, "the scene has no %s", kinds[row].plural);
+    if (k < 1 || (size_t)k > n || (n > 1 && !numbered))
+        return which(scene, row);
+    return qdot_scene_remove_at(scene, kinds[row].kind, (size_t)k - 1);
+}
+
+qdot_status
+qdot_remove(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    const char *label;
+
+    QDOT_TRY(qdot_read_name(c, &label));
+    for (size_t i = 0; i < KINDS; i++)
+        if (strcmp(kinds[i].word, label) == 0 &&
+            (!qdot_cursor_is_end(c) || !qdot_scene_has_label(c->session->scene, label)))
+            return remove_kind(c, start, i);
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_scene_remove(c->session->scene, label));
+    return tell_removed(c->session, label);
+}

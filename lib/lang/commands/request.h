@@ -1,0 +1,21 @@
+/* request.h -- what is asked of a run: the values and the start of the moment. */
+#ifndef QDOT_LANG_REQUEST_H
+#define QDOT_LANG_REQUEST_H
+
+#include "lang/commands/pairs.h"
+#include "lang/session/session.h"
+
+/* A request and what it borrows. */
+typedef struct {
+    qdot_pairs values;
+    qdot_vec(qdot_expr) q0, v0;
+    qdot_vec(bool) q_named, v_named;
+    qdot_run_request request;
+} qdot_request;
+
+/* Fill in the values and the start of the moment. */
+QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session,
+                                              qdot_request *o);
+void qdot_request_free(qdot_request *o);
+
+#endif

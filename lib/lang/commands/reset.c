@@ -1,0 +1,129 @@
+/* reset.c -- the statement `reset`: what is declared is forgotten, with or without names and values. */
+#include "lang/commands/statement.h"
+#include "lang/language/function.h"
+#include "lang/session/transfer.h"
+#include "lang/session/undo.h"
+
+/* What goes with the scene. */
+enum {
+    SCENE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |
+            QDOT_HAS_MULTIPLIER | QDOT_HAS_DELTA | QDOT_HAS_DIFFERENTIAL
+};
+
+/* Whether a name outlives `reset scene`: parameters, and what holds no coordinate. */
+static bool
+is_kept(const qdot_pool *pool, const qdot_name *name)
+{
+    return name->kind != QDOT_NAME_COORD &&
+           (qdot_expr_node(pool, name->value)->holds & SCENE) == 0;
+}
+
+/* A function goes with the names that its body mentions. */
+static bool
+is_function_kept(const qdot_session *session, const qdot_name *function)
+{
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++)
+        if (!is_kept(session->pool, name) &&
+            qdot_function_mentions(session->pool, function, name->name))
+            return false;
+    return true;
+}
+
+/* Carry what is kept of `old` over into `fresh`, which has a pool and names of its
+ * own. */
+static qdot_status
+keep(const qdot_session *old, qdot_session *fresh)
+{
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(old->names, i)) != NULL; i++) {
+        qdot_name copy = *name;
+
+        if (!is_kept(old->pool, name) ||
+            (name->kind == QDOT_NAME_FUNCTION && !is_function_kept(old, name)))
+            continue;
+        copy.value = qdot_transfer(old->pool, fresh->pool, name->value);
+        copy.formals = qdot_transfer(old->pool, fresh->pool, name->formals);
+        copy.over = QDOT_NIL; /* coordinates go with the scene */
+        QDOT_TRY(qdot_pool_check(fresh->pool));
+        if (name->kind == QDOT_NAME_UFUN)
+            copy.ufun = qdot_expr_node(fresh->pool, copy.value)->op;
+        QDOT_TRY(qdot_names_declare(fresh->names, &copy));
+    }
+    for (size_t i = 0; i < old->set_symbols.n; i++) {
+        const qdot_node *symbol = qdot_expr_node(old->pool, old->set_symbols.at[i]);
+
+        if (symbol->holds & QDOT_HAS_MOMENTUM)
+            continue;
+        if (symbol->kind == QDOT_UFUN &&
+            qdot_names_find(fresh->names, qdot_ufun_get(old->pool, symbol->op)->name) ==
+                NULL)
+            continue;
+        QDOT_TRY(qdot_vec_push(&fresh->set_symbols, qdot_transfer(old->pool, fresh->pool,
+                                                                  old->set_symbols.at[i])));
+        QDOT_TRY(qdot_vec_push(&fresh->set_values, qdot_transfer(old->pool, fresh->pool,
+                                                                 old->set_values.at[i])));
+    }
+    for (size_t i = 0; i < old->scene->assumed.n; i++) {
+        const qdot_assumption *said = &old->scene->assumed.at[i];
+
+        if (!(qdot_expr_node(old->pool, said->relation)->holds & SCENE))
+            QDOT_TRY(qdot_scene_assume(fresh->scene,
+                                       qdot_transfer(old->pool, fresh->pool, said->relation),
+                                       said->turned));
+    }
+    for (size_t i = 0; i < old->measured.n; i++) {
+        qdot_measured m = old->measured.at[i];
+
+        m.symbol = qdot_transfer(old->pool, fresh->pool, m.symbol);
+        if (m.digits > 0)
+            m.exact = qdot_transfer(old->pool, fresh->pool, m.exact);
+        QDOT_TRY(qdot_vec_push(&fresh->measured, m));
+    }
+    return qdot_pool_check(fresh->pool);
+}
+
+/* Forget the scene, or everything. */
+static qdot_status
+reset(qdot_session *session, bool everything)
+{
+    qdot_session *fresh;
+    qdot_status status = QDOT_OK;
+
+    if (session->loops > 0)
+        return qdot_fail(QDOT_EINVAL, "`reset` has no place inside a loop");
+    fresh = qdot_session_new(session->out, session->err);
+    if (fresh == NULL)
+        return QDOT_ENOMEM;
+    if (!everything)
+        status = keep(session, fresh);
+    if (status != QDOT_OK) {
+        qdot_session_free(fresh);
+        return status;
+    }
+    qdot_session_exchange(session, fresh);
+    qdot_undo_reset(session, fresh);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_reset(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    bool scene = qdot_cursor_accept_word(c, "scene");
+    bool initial = !scene && qdot_cursor_accept_word(c, "start");
+
+    if (!scene && !initial && !qdot_cursor_is_end(c))
+        return qdot_cursor_expected(c, "`scene`, `start` or the end of the statement");
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    if (initial) {
+        c->session->start_symbols.n = 0;
+        c->session->start_exactly = false;
+        c->session->start_values.n = 0;
+        return QDOT_OK;
+    }
+    return reset(c->session, !scene);
+}

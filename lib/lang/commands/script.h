@@ -1,0 +1,33 @@
+/* script.h -- texts and files of statements, carried out.
+ *
+ * Tests  tests/script/, tests/bad/, tests/lang/test_session.c
+ */
+#ifndef QDOT_LANG_SCRIPT_H
+#define QDOT_LANG_SCRIPT_H
+
+#include "lang/session/session.h"
+
+/* Carry out a text. `name` is what errors call it ("a.lag", "-e", "prompt"). Stops at the
+ * first error, which is reported on err (and as JSON on out). Returns the exit status so far: 0, 1 a
+ * statement failed or a check was refuted, 2 a syntax error. */
+int qdot_script_run_text(qdot_session *session, const char *name, const char *text,
+                         size_t length);
+/* The same from a file ("-": standard input); unreadable, a directory, not UTF-8: an error. */
+int qdot_script_run_file(qdot_session *session, const char *path);
+
+/* For the prompt: whether the text so far is incomplete (an open bracket, a trailing \). */
+bool qdot_script_is_incomplete(const char *text, size_t length);
+
+/* An error that has been reported already (by an included file) has this place. */
+#define QDOT_SCRIPT_REPORTED SIZE_MAX
+
+/* Lex and carry out a text, reporting the first error. */
+QDOT_MUST_CHECK qdot_status qdot_script_carry_out(qdot_session *session,
+                                                  const char *name, const char *text,
+                                                  size_t length);
+/* The same from a file; *opened: whether its text could be read (errors before that
+ * are not reported yet). */
+QDOT_MUST_CHECK qdot_status qdot_script_carry_out_file(qdot_session *session,
+                                                       const char *path, bool *opened);
+
+#endif

@@ -1,0 +1,333 @@
+/* set.c -- `set` and `start`: the values and the initial state. */
+#include "lang/commands/set.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/commands/statement.h"
+#include "lang/commands/value-check.h"
+#include "lang/language/formals.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
+
+qdot_status
+qdot_set_unknown(const qdot_session *session, const char *what, const char *name)
+{
+    const char *near = qdot_names_nearest(session->names, name, 0, NULL);
+
+    (void)qdot_fail(QDOT_ENAME, "there is no %s `%s`", what, name);
+    return near != NULL ? qdot_hint("did you mean `%s`?", near)
+                        : qdot_hint("param %s declares it", name);
+}
+
+/* --- set ---------------------------------------------------------------------------- */
+
+/* p[NAME] with NAME a coordinate: the independent momentum. */
+static qdot_status
+read_momentum(qdot_cursor *c, qdot_expr *symbol)
+{
+    qdot_expr q;
+
+    c->at++;
+    QDOT_TRY(qdot_cursor_expect_op(c, "["));
+    QDOT_TRY(qdot_read_coordinate(c, &q));
+    QDOT_TRY(qdot_cursor_expect_op(c, "]"));
+    *symbol = qdot_symbol_of(c->session->pool, QDOT_MOMENTUM, q);
+    return qdot_pool_check(c->session->pool);
+}
+
+/* The left side of `NAME = VALUE`: a parameter or a momentum. */
+qdot_status
+qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol)
+{
+    const qdot_token *start = c->at;
+    const qdot_name *known;
+    const char *name;
+
+    if (qdot_cursor_is_word(c, "p") && c->at[1].glued &&
+        c->at[1].kind == QDOT_TOKEN_OPERATOR && strcmp(c->at[1].text, "[") == 0 &&
+        !qdot_names_is_family(c->session->names, "p"))
+        return read_momentum(c, symbol);
+    QDOT_TRY(qdot_read_name(c, &name));
+    known = qdot_names_find(c->session->names, name);
+    if (known != NULL && known->kind == QDOT_NAME_PARAM) {
+        *symbol = known->value;
+        return QDOT_OK;
+    }
+    c->error_at = start->start;
+    if (known == NULL)
+        return qdot_set_unknown(c->session, "parameter", name);
+    (void)qdot_fail(QDOT_ENAME, "`%s` is not a parameter", name);
+    return known->kind == QDOT_NAME_COORD  ? qdot_hint("start %s = ...", name)
+           : known->kind == QDOT_NAME_UFUN ? qdot_hint("set %s(...) = ...", name)
+                                           : qdot_hint("%s = ... names it anew", name);
+}
+
+static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
+                               QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |
+                               QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
+
+/* A value that depended on the motion behind the back of its arguments would be missing
+ * from every derivative. */
+static qdot_status
+check_body(qdot_pool *pool, qdot_expr formals, qdot_expr body)
+{
+    uint32_t own = 0;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, formals); i++)
+        own |= qdot_expr_node(pool, qdot_expr_arg(pool, formals, i))->holds;
+    if (!(qdot_expr_node(pool, body)->holds & (motion | QDOT_HAS_TIME) & ~own))
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ETYPE,
+                    "the value of a function holds its arguments and parameters only");
+    return qdot_hint("declare it with what it depends on, as in function f(x, t)");
+}
+
+/* x(s, t) as the symbol; the body with s, t in place of the names it was given with. */
+static qdot_status
+in_declared_arguments(qdot_pool *pool, uint32_t id, qdot_expr formals, qdot_expr *symbol,
+                      qdot_expr *body)
+{
+    uint32_t n = qdot_ufun_get(pool, id)->arity;
+    qdot_expr *from = qdot_calloc(2 * (size_t)n, sizeof *from), *to;
+
+    if (from == NULL)
+        return QDOT_ENOMEM;
+    to = from + n;
+    for (uint32_t i = 0; i < n; i++) {
+        from[i] = qdot_expr_arg(pool, formals, i);
+        to[i] = qdot_expr_arg(pool, qdot_ufun_get(pool, id)->formals, i);
+    }
+    *symbol = qdot_ufun_apply(pool, id, to, NULL);
+    *body = qdot_subs(pool, *body, n, from, to);
+    qdot_free(from);
+    return qdot_pool_check(pool);
+}
+
+/* NAME(u, v) = BODY of a declared function. */
+static qdot_status
+read_function(qdot_cursor *c, qdot_expr *symbol, qdot_expr *body)
+{
+    qdot_pool *pool = c->session->pool;
+    const qdot_token *start = c->at, **names = NULL;
+    const qdot_name *known = qdot_names_find(c->session->names, start->text);
+    qdot_expr formals = QDOT_NIL;
+    qdot_status status;
+    uint32_t id;
+    size_t n = 0;
+
+    c->error_at = start->start;
+    if (known == NULL || known->kind != QDOT_NAME_UFUN) {
+        (void)qdot_fail(QDOT_ENAME, "`%s` is not an undefined function", start->text);
+        return qdot_hint(
+            "%s(...) = ... defines a function; `function` declares an undefined one",
+            start->text);
+    }
+    id = known->ufun;
+    c->at++;
+    status = qdot_formals_read(c, &formals, &names, &n);
+    if (status == QDOT_OK && n != qdot_ufun_get(pool, id)->arity) {
+        c->error_at = start->start;
+        status = qdot_fail(QDOT_ETYPE, "`%s` has %u arguments, not %zu", start->text,
+                           qdot_ufun_get(pool, id)->arity, n);
+    }
+    if (status == QDOT_OK)
+        status = qdot_cursor_expect_op(c, "=");
+    if (status == QDOT_OK)
+        status = qdot_formals_read_body(c, formals, n, names, body);
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = check_body(pool, formals, *body);
+    }
+    if (status == QDOT_OK) /* said in the arguments of its declaration */
+        status = in_declared_arguments(pool, id, formals, symbol, body);
+    qdot_free(names);
+    return status;
+}
+
+/* `= VALUE`, an expression of parameters. */
+qdot_status
+qdot_set_read_constant(qdot_cursor *c, qdot_expr *value)
+{
+    const qdot_token *start;
+
+    QDOT_TRY(qdot_cursor_expect_op(c, "="));
+    start = c->at;
+    QDOT_TRY(qdot_read_scalar(c, value));
+    *value = qdot_measured_as_rationals(c->session, *value);
+    QDOT_TRY(qdot_pool_check(c->session->pool));
+    if (qdot_expr_node(c->session->pool, *value)->holds & (motion | QDOT_HAS_TIME)) {
+        c->error_at = start->start;
+        return qdot_fail(QDOT_ETYPE,
+                         "a value holds parameters only: no coordinate, no time");
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_set_values(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_status status = QDOT_OK;
+    qdot_pairs list = {0};
+
+    do {
+        const qdot_token *start = c->at;
+        bool function = c->at->kind == QDOT_TOKEN_NAME &&
+                        c->at[1].kind == QDOT_TOKEN_OPERATOR &&
+                        strcmp(c->at[1].text, "(") == 0;
+        qdot_expr symbol = QDOT_NIL, value = QDOT_NIL;
+
+        status = function ? read_function(c, &symbol, &value)
+                          : qdot_set_read_parameter(c, &symbol);
+        if (status == QDOT_OK && !function)
+            status = qdot_set_read_constant(c, &value);
+        if (status == QDOT_OK)
+            status = qdot_pairs_push(&list, start, symbol, value);
+    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+    if (status == QDOT_OK)
+        status = qdot_cursor_expect_end(c);
+    for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++) {
+        if (!qdot_expr_is_class(session->pool, list.symbols.at[i], QDOT_PARAM))
+            continue;
+        c->error_at = list.places.at[i]->start;
+        status = qdot_session_in_domain(session, list.symbols.at[i], list.values.at[i]);
+    }
+    if (status == QDOT_OK)
+        status = qdot_value_check(c, &list);
+    for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
+        qdot_session_set(session, list.symbols.at[i], list.values.at[i], &status);
+    qdot_pairs_free(&list);
+    return status;
+}
+
+/* --- start -------------------------------------------------------------------------- */
+
+/* What events set is for the rest of their run: told where a run goes on from its end. */
+static qdot_status
+tell_parameters(qdot_session *session, const char *name, const qdot_run_report *report)
+{
+    for (size_t i = report->n - report->n_states; i < report->n; i++) {
+        const char *parameter =
+            qdot_expr_symbol(session->pool, report->coordinates[i])->name;
+        const qdot_name *known = qdot_names_find(session->names, parameter);
+        double value;
+
+        if (known == NULL || known->kind != QDOT_NAME_PARAM ||
+            qdot_session_number(session, qdot_session_bind(session, known->value), &value,
+                                NULL) != QDOT_OK ||
+            fabs(value - report->q[i]) <= 1e-9 * fmax(1, fabs(value)))
+            continue;
+        QDOT_TRY(qdot_answer_notice(session,
+                                    "%.100s ended with %.100s = %.12g, which an event set for "
+                                    "that run; the next begins with %.12g again: set %.100s = "
+                                    "... changes that",
+                                    name, parameter, report->q[i], value, parameter));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+start_from_run(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at;
+    const qdot_run_report *report;
+    qdot_named_run *run;
+    const char *name;
+    bool exactly;
+
+    QDOT_TRY(qdot_read_name(c, &name));
+    exactly = qdot_cursor_accept_word(c, "exactly");
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_runs_find(session, name, &run));
+    report = qdot_run_get_report(run->run);
+    for (size_t i = 0; i < report->n - report->n_states; i++) {
+        qdot_expr q = report->coordinates[i], v = qdot_symbol_jet(session->pool, q, 1);
+        qdot_expr q0, v0;
+
+        if (report->exact != NULL) {
+            q0 = report->exact[i];
+            v0 = report->exact[report->n + i];
+        } else {
+            q0 = qdot_measured_rational(session->pool, report->q[i]);
+            v0 = qdot_measured_rational(session->pool, report->v[i]);
+        }
+        QDOT_TRY(qdot_pool_check(session->pool));
+        QDOT_TRY(qdot_session_start(session, q, q0));
+        QDOT_TRY(qdot_session_start(session, v, v0));
+    }
+    session->start_exactly = exactly;
+    return tell_parameters(session, run->name, report);
+}
+
+/* q or q' on the left of `start` */
+qdot_status
+qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet)
+{
+    const qdot_token *start = c->at;
+
+    QDOT_TRY(qdot_read_coordinate(c, jet));
+    if (qdot_expr_symbol(c->session->pool, *jet)->order > 1) {
+        c->error_at = start->start;
+        return qdot_fail(QDOT_EINVAL, "a start names coordinates and velocities");
+    }
+    return QDOT_OK;
+}
+
+static bool
+is_run_name(const qdot_cursor *c)
+{
+    const qdot_token *next = c->at + 1;
+
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return false;
+    if (next->kind == QDOT_TOKEN_NAME && strcmp(next->text, "exactly") == 0)
+        next++;
+    return next->kind == QDOT_TOKEN_END;
+}
+
+qdot_status
+qdot_set_start(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_status status = QDOT_OK;
+    qdot_pairs list = {0};
+    bool exactly = false;
+
+    if (is_run_name(c))
+        return start_from_run(c);
+    do {
+        const qdot_token *start = c->at;
+        qdot_expr jet = QDOT_NIL, value = QDOT_NIL;
+
+        status = qdot_set_read_jet(c, &jet);
+        if (status == QDOT_OK)
+            status = qdot_set_read_constant(c, &value);
+        if (status == QDOT_OK)
+            status = qdot_pairs_push(&list, start, jet, value);
+    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+    if (status == QDOT_OK)
+        exactly = qdot_cursor_accept_word(c, "exactly");
+    if (status == QDOT_OK)
+        status = qdot_cursor_expect_end(c);
+    for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++) {
+        if (!qdot_expr_is_coordinate(session->pool, list.symbols.at[i]))
+            continue;
+        c->error_at = list.places.at[i]->start;
+        status = qdot_session_in_domain(session, list.symbols.at[i], list.values.at[i]);
+    }
+    for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
+        status = qdot_session_start(session, list.symbols.at[i], list.values.at[i]);
+    if (status == QDOT_OK)
+        session->start_exactly = exactly;
+    qdot_pairs_free(&list);
+    return status;
+}

@@ -1,0 +1,16 @@
+/* set.h -- `NAME = VALUE` read, of parameters, coordinates and velocities. */
+#ifndef QDOT_LANG_SET_H
+#define QDOT_LANG_SET_H
+
+#include "lang/language/cursor.h"
+
+/* The left side of `NAME = VALUE`: a parameter, or p[NAME]; q or q' of `start`; `=
+ * VALUE`, an expression of parameters. */
+QDOT_MUST_CHECK qdot_status qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol);
+QDOT_MUST_CHECK qdot_status qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet);
+QDOT_MUST_CHECK qdot_status qdot_set_read_constant(qdot_cursor *c, qdot_expr *value);
+/* QDOT_ENAME: there is no `what` of this name; a hint at the one that may have been meant. */
+QDOT_MUST_CHECK qdot_status qdot_set_unknown(const qdot_session *session, const char *what,
+                                             const char *name);
+
+#endif

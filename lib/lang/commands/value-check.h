@@ -1,0 +1,26 @@
+/* value-check.h -- values of parameters and functions that cannot be: a negative rest length, what an
+ * assumption excludes. What still holds parameters without a value is not decided. */
+#ifndef QDOT_LANG_VALUE_CHECK_H
+#define QDOT_LANG_VALUE_CHECK_H
+
+#include "lang/commands/pairs.h"
+#include "lang/language/cursor.h"
+
+/* QDOT_EINVAL where a rest length, with the values of `set` put in, is a negative number; names the
+ * spring (NULL: one without a name). Tests: tests/bad/rest-negative*.lag. */
+QDOT_MUST_CHECK qdot_status qdot_value_check_rest(qdot_session *session, const char *spring,
+                                                  qdot_expr rest);
+
+/* QDOT_EINVAL where what is assumed is false with the values of `set` put in. Tests:
+ * tests/bad/assumed-*.lag. */
+QDOT_MUST_CHECK qdot_status qdot_value_check_assumption(qdot_session *session,
+                                                        const qdot_assumption *said);
+
+/* All rest lengths and assumptions of the scene, as they would be if these values were set too;
+ * c->error_at is then the place of the value that is to blame. */
+QDOT_MUST_CHECK qdot_status qdot_value_check(qdot_cursor *c, const qdot_pairs *values);
+
+/* All assumptions with the values of the moment: where numbers begin. */
+QDOT_MUST_CHECK qdot_status qdot_value_check_assumed(qdot_session *session);
+
+#endif

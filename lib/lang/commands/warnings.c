@@ -1,0 +1,184 @@
+/* warnings.c -- notices for what is allowed and often not what was meant. */
+#include "lang/commands/warnings.h"
+
+#include <string.h>
+
+#include "lang/answer/answer.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/short-names.h"
+#include "lang/language/token-text.h"
+
+static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
+
+/* --- definitions ---------------------------------------------------------------------- */
+
+/* Names that a definition is given in place of a statement. */
+static const struct {
+    const char *name;
+    const char *statement; /* its word; NULL: none takes this value, which follows from masses */
+    const char *behind;    /* what stands behind the expression */
+    bool any;              /* whatever the value is; else one that holds coordinates or velocities */
+} names[] = {
+    {"V", "potential", "", false},
+    {"potential_energy", "potential", "", false},
+    {"potential", "potential", "", true},
+    {"L", "lagrangian", "", false},
+    {"lagrange_function", "lagrangian", "", false},
+    {"lagrangian", "lagrangian", "", true},
+    {"gravity", "gravity", "", true},
+    {"dissipation", "dissipation", "", true},
+    {"force", "force", " on NAME", true},
+    {"torque", "torque", " on NAME", true},
+    {"T", NULL, "", false},
+    {"kinetic", NULL, "", false},
+    {"H", NULL, "", false},
+    {"hamiltonian", NULL, "", false},
+    {"energy", NULL, "", false},
+};
+
+/* Whether the scene has masses or a Lagrangian: its equations follow from what is declared. */
+static bool
+is_furnished(const qdot_scene *s)
+{
+    return s->particles.n > 0 || s->bodies.n > 0 || s->lagrangian != QDOT_NIL;
+}
+
+/* "; `potential k*x^2` does" */
+static void
+add_statement(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, size_t row,
+              qdot_text *text)
+{
+    const qdot_scene *s = c->session->scene;
+    const char *word = names[row].statement;
+    const qdot_token *equals = start;
+    bool stated = s->lagrangian != QDOT_NIL;
+
+    if (word == NULL) {
+        qdot_text_add(text, "; masses do, `particle NAME mass M at R`, or all of L, "
+                            "`lagrangian L`");
+        return;
+    }
+    if ((strcmp(word, "lagrangian") == 0 && is_furnished(s)) ||
+        (stated && (strcmp(word, "potential") == 0 || strcmp(word, "gravity") == 0))) {
+        qdot_text_add(text, ": these follow from what is declared");
+        return;
+    }
+    while (!(equals->kind == QDOT_TOKEN_OPERATOR && strcmp(equals->text, "=") == 0))
+        equals++;
+    qdot_text_format(text, "; `%s ", word);
+    if (entry->kind == QDOT_NAME_FUNCTION)
+        qdot_token_text(c->session, start, equals, text);
+    else
+        qdot_token_text(c->session, equals + 1, c->at, text);
+    qdot_text_format(text, "%s` does", names[row].behind);
+}
+
+static qdot_status
+tell(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, size_t row,
+     const char *hidden)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    qdot_text_format(&text, "`%s` names %s and enters no equation of motion", entry->name,
+                     entry->kind == QDOT_NAME_FUNCTION ? "a function" : "an expression");
+    add_statement(c, start, entry, row, &text);
+    status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(c->session, "%.600s%s", qdot_text_str(&text), hidden);
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
+qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
+{
+    qdot_session *session = c->session;
+    const qdot_quantity *hidden = qdot_quantity_find(entry->name);
+    bool function = entry->kind == QDOT_NAME_FUNCTION;
+    const char *longer;
+    char words[120] = "";
+
+    if (hidden != NULL && hidden->least > 0) /* only name[...] is the language's */
+        hidden = NULL;
+    longer = hidden != NULL ? qdot_short_names_long(hidden) : NULL;
+    if (longer != NULL)
+        snprintf(words, sizeof words, "; the language's is `%s`", longer);
+    else if (hidden != NULL)
+        snprintf(words, sizeof words, "; it hides the language's");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i].name, entry->name) == 0 &&
+            (function || entry->kind == QDOT_NAME_VALUE) &&
+            (function || names[i].any ||
+             (qdot_expr_node(session->pool, entry->value)->holds & motion)) &&
+            (names[i].statement != NULL || !is_furnished(session->scene)))
+            return tell(c, start, entry, i, words);
+    if (hidden == NULL && (qdot_builtin_find(entry->name) == NULL ||
+                           (!function && entry->kind != QDOT_NAME_UFUN)))
+        return QDOT_OK;
+    return qdot_answer_notice(session, "`%s` is now your own%s", entry->name,
+                              hidden != NULL ? words : "; it hides the language's");
+}
+
+/* --- the scene ------------------------------------------------------------------------ */
+
+qdot_status
+qdot_warnings_twice(qdot_session *session, qdot_scene_kind kind)
+{
+    static const char *const words[] = {
+        [QDOT_GRAVITY] = "gravity",         [QDOT_POTENTIAL] = "potential",
+        [QDOT_SPRING] = "spring",           [QDOT_DAMPER] = "damper",
+        [QDOT_DISSIPATION] = "dissipation", [QDOT_FORCE] = "force",
+        [QDOT_TORQUE] = "torque"};
+    const qdot_scene *s = session->scene;
+    bool on_coordinate = kind == QDOT_TORQUE && s->torques.at[s->torques.n - 1].force;
+    const char *word = words[on_coordinate ? QDOT_FORCE : kind];
+    size_t number = on_coordinate        ? qdot_scene_count(s, QDOT_FORCE)
+                    : kind == QDOT_FORCE ? s->forces.n
+                                         : qdot_scene_count(s, kind);
+
+    if (!qdot_scene_said_twice(s, kind))
+        return QDOT_OK;
+    return qdot_answer_notice(session,
+                              "the scene has this %s already: it counts as often as it is said; "
+                              "`remove %s %zu` takes one away",
+                              word, word, number);
+}
+
+qdot_status
+qdot_warnings_place(qdot_cursor *c, qdot_expr place, const char *body,
+                    const qdot_token *action, const qdot_token *at)
+{
+    qdot_session *session = c->session;
+    qdot_text within = {0}, text = {0};
+    qdot_status status = qdot_scene_moves_within(session->scene, place, body, &within);
+
+    if (status == QDOT_OK && within.n > 0) {
+        const char *bodies = qdot_text_str(&within);
+
+        qdot_token_text(session, action, at, &text);
+        qdot_text_format(&text, " on %.*s at material ", (int)strcspn(bodies, ","), bodies);
+        qdot_token_text(session, at + 1, c->at, &text);
+        status = qdot_text_status(&text);
+        if (status == QDOT_OK)
+            status = qdot_answer_notice(
+                session,
+                "this place moves within %.200s, and the force follows it; on the material that "
+                "is there (friction at a contact): `force %.600s`",
+                bodies, qdot_text_str(&text));
+    }
+    qdot_text_clear(&within);
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
+qdot_warnings_start(qdot_session *session)
+{
+    if (session->start_symbols.n > 0)
+        return QDOT_OK;
+    return qdot_answer_notice_once(
+        session, session->scene->constraints.n > 0
+                     ? "no `start` was said: what the constraints leave open begins at 0"
+                     : "no `start` was said: all coordinates and velocities begin at 0");
+}

@@ -1,0 +1,348 @@
+/* algebra.c -- derivatives, sides, forms, replacements, solutions, factors, eigenvalues. */
+#include "lang/functions/algebra.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/calculus.h"
+#include "expr/tensor.h"
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/session/bind.h"
+#include "lang/session/value-kind.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/solve.h"
+
+enum { READ_SIZE = 300 }; /* operations */
+
+qdot_status
+qdot_algebra_give_short(qdot_session *s, qdot_expr result, qdot_expr *value)
+{
+    qdot_facts facts = qdot_scene_facts(s->scene);
+
+    if (result != QDOT_NIL && qdot_expr_size(s->pool, result) <= READ_SIZE)
+        result = qdot_simplify(s->pool, result, &facts);
+    return qdot_value_kind_give(s->pool, result, value);
+}
+
+/* --- derivatives --------------------------------------------------------------------- */
+
+/* Whether e changes as coordinates move and with nothing else. */
+static bool
+is_carried(const qdot_pool *pool, qdot_expr e)
+{
+    uint32_t holds = qdot_expr_node(pool, e)->holds;
+
+    if (qdot_expr_kind(pool, e) == QDOT_SYM)
+        return holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION);
+    return (holds & QDOT_HAS_COORD) &&
+           !(holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |
+                      QDOT_HAS_TIME));
+}
+
+/* A notice of diff(e, t) of what moves with the coordinates only: 0, ddt was meant. */
+static qdot_status
+tell_partial(qdot_session *session, qdot_expr e)
+{
+    enum { LONGEST = 60 };
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (!is_carried(session->pool, e))
+        return QDOT_OK;
+    status = qdot_print(session->pool, e, QDOT_PLAIN, &text);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK) {
+        const char *shown = text.n <= LONGEST ? qdot_text_str(&text) : "...";
+
+        status = qdot_answer_notice_once(
+            session,
+            "diff(%s, t) is partial, coordinates held, and so 0; along a motion: ddt(%s)",
+            shown, shown);
+    }
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
+qdot_algebra_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_expr e = args[0];
+    long times = 1;
+
+    if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] == QDOT_PI ||
+        args[1] == QDOT_TRUE || args[1] == QDOT_FALSE) {
+        qdot_fail(QDOT_ETYPE,
+                  "diff(e, x) takes a symbol for x: a parameter, a coordinate, "
+                  "a velocity or t");
+        if (qdot_expr_kind(s->pool, args[1]) == QDOT_UFUN)
+            return qdot_hint("as in diff(x(s), s)");
+        return QDOT_ETYPE;
+    }
+    if (n == 3)
+        QDOT_TRY(qdot_session_integer(s, args[2], &times));
+    if (times < 0)
+        return qdot_fail(QDOT_EDOMAIN, "a derivative is taken 0, 1, 2 ... times, not %ld",
+                         times);
+    if (args[1] == QDOT_T && times > 0)
+        QDOT_TRY(tell_partial(s, e));
+    for (; times > 0 && e != QDOT_NIL && e != QDOT_ZERO; times--)
+        e = qdot_diff(s->pool, e, args[1]);
+    return e == args[0] ? qdot_value_kind_give(s->pool, e, value) : qdot_algebra_give_short(s, e, value);
+}
+
+qdot_status
+qdot_algebra_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return qdot_algebra_give_short(s, qdot_ddt(s->pool, args[0]), value);
+}
+
+/* --- sides of equations, forms ------------------------------------------------------- */
+
+typedef enum { LEFT, RIGHT, DIFFERENCE } side;
+
+static qdot_expr
+side_of(qdot_pool *pool, qdot_expr equation, side which)
+{
+    qdot_expr left = qdot_expr_arg(pool, equation, 0);
+    qdot_expr right = qdot_expr_arg(pool, equation, 1);
+
+    return which == LEFT ? left : which == RIGHT ? right : qdot_sub(pool, left, right);
+}
+
+/* A side of an equation, or of each in a list or vector of them. */
+static qdot_status
+sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *value)
+{
+    qdot_pool *pool = s->pool;
+    qdot_kind kind = qdot_expr_kind(pool, e);
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr *members, odd = e;
+    bool sound = kind == QDOT_LIST || kind == QDOT_VEC;
+
+    if (qdot_value_kind_is_equation(pool, e))
+        return qdot_value_kind_give(s->pool, side_of(pool, e, which), value);
+    for (uint32_t i = 0; sound && i < n; i++)
+        if (!qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i))) {
+            odd = qdot_expr_arg(pool, e, i);
+            sound = false;
+        }
+    if (!sound)
+        return qdot_fail(QDOT_ETYPE, "%s takes an equation, not %s", name,
+                         qdot_value_kind_words(pool, odd));
+    members = qdot_malloc(n * sizeof *members);
+    if (members == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++)
+        members[i] = side_of(pool, qdot_expr_arg(pool, e, i), which);
+    e = kind == QDOT_LIST ? qdot_list(pool, n, members) : qdot_vector(pool, n, members);
+    qdot_free(members);
+    return qdot_value_kind_give(s->pool, e, value);
+}
+
+qdot_status
+qdot_algebra_lhs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return sides(s, "lhs", args[0], LEFT, value);
+}
+
+qdot_status
+qdot_algebra_rhs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return sides(s, "rhs", args[0], RIGHT, value);
+}
+
+qdot_status
+qdot_algebra_residual(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return sides(s, "residual", args[0], DIFFERENCE, value);
+}
+
+qdot_status
+qdot_algebra_expand(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return qdot_value_kind_give(s->pool, qdot_expand(s->pool, args[0]), value);
+}
+
+qdot_status
+qdot_algebra_collect(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    if (!qdot_expr_is_scalar(s->pool, args[1]) ||
+        qdot_expr_kind(s->pool, args[1]) == QDOT_NUM)
+        return qdot_fail(QDOT_ETYPE,
+                         "collect(e, x) takes a symbol or an expression for x");
+    return qdot_value_kind_give(s->pool, qdot_collect(s->pool, args[0], args[1]), value);
+}
+
+qdot_status
+qdot_algebra_simplify(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_facts facts = qdot_scene_facts(s->scene);
+
+    (void)n;
+    return qdot_value_kind_give(s->pool, qdot_simplify(s->pool, args[0], &facts), value);
+}
+
+/* --- subs --------------------------------------------------------------------------- */
+
+qdot_status
+qdot_algebra_gather(qdot_session *s, const char *name, const char *usage, qdot_expr e,
+                    qdot_replacements *r)
+{
+    qdot_kind kind = qdot_expr_kind(s->pool, e);
+    bool many = kind == QDOT_LIST || kind == QDOT_VEC;
+    uint32_t n = many ? qdot_expr_count(s->pool, e) : 1;
+
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = many ? qdot_expr_arg(s->pool, e, i) : e, left;
+
+        if (!qdot_value_kind_is_equation(s->pool, one)) {
+            qdot_fail(QDOT_ETYPE, "%s takes equations, not %s", name,
+                      qdot_value_kind_words(s->pool, one));
+            return qdot_hint("as in %s", usage);
+        }
+        left = qdot_expr_arg(s->pool, one, 0);
+        if (qdot_expr_kind(s->pool, left) == QDOT_NUM)
+            return qdot_fail(QDOT_ETYPE, "%s cannot replace a number", name);
+        QDOT_TRY(qdot_vec_push(&r->from, left));
+        QDOT_TRY(qdot_vec_push(&r->to, qdot_expr_arg(s->pool, one, 1)));
+    }
+    return QDOT_OK;
+}
+
+void
+qdot_algebra_drop(qdot_replacements *r)
+{
+    qdot_free(r->from.at);
+    qdot_free(r->to.at);
+}
+
+qdot_status
+qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_replacements r = {0};
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i++)
+        status = qdot_algebra_gather(s, "subs", QDOT_ALGEBRA_SUBS, args[i], &r);
+    if (status == QDOT_OK)
+        status =
+            qdot_value_kind_give(s->pool, qdot_subs(s->pool, args[0], r.from.n, r.from.at, r.to.at), value);
+    qdot_algebra_drop(&r);
+    return status;
+}
+
+/* --- factor, solve, eigenvalues ----------------------------------------------------- */
+
+qdot_status
+qdot_algebra_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    (void)n;
+    return qdot_value_kind_give(s->pool, qdot_solve_product(s->pool, args[0]), value);
+}
+
+/* solve(a = b, x), solve(e, x) of e = 0: the values of x, a list. */
+qdot_status
+qdot_algebra_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    qdot_facts facts = qdot_scene_facts(s->scene);
+    qdot_expr f = qdot_value_kind_is_equation(s->pool, args[0])
+                      ? qdot_sub(s->pool, qdot_expr_arg(s->pool, args[0], 0),
+                                 qdot_expr_arg(s->pool, args[0], 1))
+                      : args[0];
+    qdot_root *roots = NULL;
+    qdot_expr *values;
+    size_t count = 0;
+    bool complete;
+
+    (void)n;
+    if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] <= QDOT_FALSE)
+        return qdot_fail(QDOT_ETYPE, "solve(a = b, x) takes a symbol for x");
+    if (!qdot_expr_is_scalar(s->pool, f))
+        return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
+                         qdot_value_kind_words(s->pool, args[0]));
+    QDOT_TRY(qdot_solve(s->pool, f, args[1], &facts, &roots, &count, &complete));
+    if (!complete) {
+        qdot_free(roots);
+        qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
+                  count > 0 ? " for every x" : "");
+        return qdot_hint("linear, quadratic, factorable and trigonometric equations can");
+    }
+    values = qdot_malloc((count + 1) * sizeof *values);
+    for (size_t i = 0; values != NULL && i < count; i++)
+        values[i] = roots[i].value;
+    *value = values == NULL ? qdot_pool_fail(s->pool)
+                            : qdot_list(s->pool, (uint32_t)count, values);
+    qdot_free(values);
+    qdot_free(roots);
+    return qdot_value_kind_check(s->pool, *value);
+}
+
+/* Every root of det(M - x 1), as often as it is one. */
+static qdot_status
+roots_of(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, qdot_expr *value)
+{
+    qdot_pool *pool = s->pool;
+    qdot_facts facts = qdot_scene_facts(s->scene);
+    qdot_expr *values = qdot_malloc((n + 1) * sizeof *values);
+    qdot_root *roots = NULL;
+    uint32_t found = 0;
+    size_t count = 0;
+    bool complete = false;
+    qdot_status status = QDOT_ENOMEM;
+
+    if (values != NULL)
+        status = qdot_solve(pool, det, x, &facts, &roots, &count, &complete);
+    for (size_t i = 0; i < count && status == QDOT_OK; i++)
+        for (qdot_expr p = det; found < n; p = qdot_diff(pool, p, x)) {
+            if (p == QDOT_NIL ||
+                !qdot_is_zero(pool, qdot_subs(pool, p, 1, &x, &roots[i].value), &facts))
+                break;
+            values[found++] = roots[i].value;
+        }
+    if (status == QDOT_OK && !complete)
+        status = qdot_fail(QDOT_EFAILED, "the characteristic polynomial cannot be solved "
+                                         "exactly");
+    else if (status == QDOT_OK && found < n)
+        status = qdot_fail(QDOT_EDOMAIN, "only %u of %u eigenvalues are real", found, n);
+    if (status == QDOT_OK)
+        status = qdot_value_kind_give(s->pool, qdot_list(pool, n, values), value);
+    qdot_free(roots);
+    qdot_free(values);
+    return status;
+}
+
+qdot_status
+qdot_algebra_eigenvalues(qdot_session *s, uint32_t n, const qdot_expr *args,
+                         qdot_expr *value)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr x = qdot_symbol_get(pool, QDOT_FORMAL, "eigenvalue"), *entries, det;
+    uint32_t size;
+
+    (void)n;
+    if (qdot_expr_kind(pool, args[0]) != QDOT_MAT)
+        return qdot_fail(QDOT_ETYPE, "eigenvalues takes a matrix, not %s",
+                         qdot_value_kind_words(pool, args[0]));
+    size = qdot_expr_node(pool, args[0])->op;
+    if (size * size != qdot_expr_count(pool, args[0]))
+        return qdot_fail(QDOT_ETYPE, "eigenvalues takes a square matrix");
+    entries = qdot_malloc((size_t)size * size * sizeof *entries);
+    if (entries == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < size * size; i++) {
+        entries[i] = qdot_expr_arg(pool, args[0], i);
+        if (i % (size + 1) == 0)
+            entries[i] = qdot_sub(pool, entries[i], x);
+    }
+    det = qdot_det(pool, qdot_matrix(pool, size, size, entries));
+    qdot_free(entries);
+    QDOT_TRY(qdot_value_kind_check(pool, det));
+    return roots_of(s, det, x, size, value);
+}

@@ -1,0 +1,28 @@
+/* builtin.h -- the functions of the language, a row each. */
+#ifndef QDOT_LANG_BUILTIN_H
+#define QDOT_LANG_BUILTIN_H
+
+#include "lang/session/session.h"
+
+/* A function of values, `diff`, `ds2`, `expand` ...; rows in lang/functions/builtin.c. */
+typedef struct {
+    const char *name;
+    int least, most; /* arguments; most < 0: any number */
+    qdot_status (*call)(qdot_session *session, uint32_t n, const qdot_expr *args,
+                        qdot_expr *value);
+    const char *usage, *summary, *example; /* for help */
+    unsigned flags;                        /* QDOT_BUILTIN_... */
+    /* the coordinates (a LIST) that the entries of its value go by, `metric(R)[r, phi]`; NULL */
+    qdot_expr (*over)(qdot_session *session, uint32_t n, const qdot_expr *args);
+} qdot_builtin;
+enum {
+    QDOT_BUILTIN_UNBUILT = 1, /* a word of the language that this version does not have */
+    QDOT_BUILTIN_LABEL = 2,   /* the first argument is a label: its carrier symbol */
+    QDOT_BUILTIN_RUN = 4,     /* arguments may name a run, value(a.theta, 20) */
+    QDOT_BUILTIN_FORM = 8,    /* a form of its own: sum, if */
+    QDOT_BUILTIN_SHORT = 16   /* gives way to whatever else is called so */
+};
+const qdot_builtin *qdot_builtin_find(const char *name);
+const qdot_builtin *qdot_builtin_at(size_t i); /* NULL past the end */
+
+#endif

@@ -1,0 +1,18 @@
+/* numeric.h -- numeric(E), numeric(E, digits): the number of an expression.
+ *
+ * A number is one of a run's kind from then on: with its error, which all that is made of it carries.
+ * Where symbols stay, what is known beside them is written as decimals, of 16 digits unless said.
+ *
+ * Tests  tests/script/numeric.lag, tests/bad/numeric-*.lag
+ */
+#ifndef QDOT_LANG_NUMERIC_H
+#define QDOT_LANG_NUMERIC_H
+
+#include "lang/session/session.h"
+
+/* args [n]: E, perhaps how many digits. E is taken with the values of `set`.
+ * QDOT_EDOMAIN: a part of it is undefined, not real, or not told from 0. */
+QDOT_MUST_CHECK qdot_status qdot_numeric(qdot_session *session, uint32_t n,
+                                         const qdot_expr *args, qdot_expr *value);
+
+#endif

@@ -1,0 +1,514 @@
+/* quantity.c -- the values of a scene, a row each: T, V, L, eom, p[theta] ... */
+#include "lang/functions/quantity.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "lang/functions/entry.h"
+#include "lang/functions/equilibria.h"
+#include "lang/session/bind.h"
+#include "lang/session/labels.h"
+#include "lang/session/value-kind.h"
+#include "mech/study/hamilton.h"
+#include "mech/study/noether.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/study/reactions.h"
+
+static qdot_status
+give(qdot_session *s, qdot_expr result, qdot_expr *value)
+{
+    *value = result;
+    return qdot_value_kind_check(s->pool, result);
+}
+
+/* --- what a quantity asks of the scene ---------------------------------------------- */
+
+static qdot_status
+need_motion(const qdot_session *s)
+{
+    const qdot_scene *scene = s->scene;
+
+    if (scene->particles.n > 0 || scene->bodies.n > 0 || scene->lagrangian != QDOT_NIL)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "the scene has nothing that moves");
+    return qdot_hint("declare a `particle`, a `body` or a `lagrangian`");
+}
+
+static qdot_status
+need_coordinates(const qdot_session *s)
+{
+    QDOT_TRY(need_motion(s));
+    if (s->scene->coordinates.n > 0)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
+    return qdot_hint("declare them: coord theta");
+}
+
+/* The index of name[theta]. */
+static qdot_status
+coordinate(qdot_session *s, const char *name, qdot_expr index)
+{
+    QDOT_TRY(need_coordinates(s));
+    if (qdot_expr_is_coordinate(s->pool, index))
+        return QDOT_OK;
+    return qdot_fail(QDOT_ETYPE, "%s[ ] takes a coordinate", name);
+}
+
+/* --- energies ----------------------------------------------------------------------- */
+
+static qdot_status
+get_T(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_motion(s));
+    return give(s, qdot_mech_kinetic(s->scene), value);
+}
+
+static qdot_status
+get_V(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    if (s->scene->potentials.n == 0 && s->scene->springs.n == 0)
+        QDOT_TRY(need_motion(s));
+    return give(s, qdot_mech_potential(s->scene), value);
+}
+
+static qdot_status
+get_L(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_motion(s));
+    return give(s, qdot_mech_lagrangian(s->scene), value);
+}
+
+static qdot_status
+get_energy(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_motion(s));
+    return give(s, qdot_mech_energy(s->scene), value);
+}
+
+static qdot_status
+get_hamiltonian(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    return give(s, qdot_hamilton_hamiltonian(s->scene), value);
+}
+
+static qdot_status
+get_routhian(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    return give(s, qdot_hamilton_routhian(s->scene), value);
+}
+
+/* --- geometry: one value a particle, or body where there is no particle ------------- */
+
+static qdot_status
+each_position(qdot_session *s, qdot_expr (*of)(qdot_scene *, qdot_expr), qdot_expr *value)
+{
+    qdot_scene *scene = s->scene;
+    bool bodies = scene->particles.n == 0;
+    uint32_t n = (uint32_t)(bodies ? scene->bodies.n : scene->particles.n);
+    qdot_expr *list;
+
+    if (n == 0) {
+        qdot_fail(QDOT_EINVAL, "the scene has no particle");
+        return qdot_hint("of a vector R it is ds2(R), speed2(R)");
+    }
+    list = qdot_malloc(n * sizeof *list);
+    if (list == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n; i++)
+        list[i] = of(scene, bodies ? scene->bodies.at[i].position
+                                   : scene->particles.at[i].position);
+    *value = n == 1 ? list[0] : qdot_list(s->pool, n, list);
+    qdot_free(list);
+    return qdot_value_kind_check(s->pool, *value);
+}
+
+static qdot_status
+get_ds2(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    return each_position(s, qdot_mech_ds2, value);
+}
+
+static qdot_status
+get_speed2(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    return each_position(s, qdot_mech_speed2, value);
+}
+
+static qdot_status
+get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    qdot_expr M, coordinates;
+
+    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(give(s, qdot_mech_mass_matrix(s->scene), &M));
+    if (n == 0)
+        return give(s, M, value);
+    for (uint32_t i = 0; i < n; i++)
+        QDOT_TRY(coordinate(s, "mass_matrix", index[i]));
+    coordinates =
+        qdot_list(s->pool, (uint32_t)s->scene->coordinates.n, s->scene->coordinates.at);
+    QDOT_TRY(qdot_value_kind_check(s->pool, coordinates));
+    return qdot_entry_of(s, M, coordinates, n, index, value);
+}
+
+/* --- momenta, forces, equations ----------------------------------------------------- */
+
+/* name: the LIST of all; name[q]: that of one. */
+#define BY_COORDINATE(word, all, one)                                                    \
+    static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
+                                  qdot_expr *value)                                      \
+    {                                                                                    \
+        QDOT_TRY(need_coordinates(s));                                                   \
+        if (n == 0)                                                                      \
+            return give(s, all(s->scene), value);                                        \
+        QDOT_TRY(coordinate(s, #word, index[0]));                                        \
+        return give(s, one(s->scene, index[0]), value);                                  \
+    }
+BY_COORDINATE(momenta, qdot_mech_momenta, qdot_mech_momentum)
+BY_COORDINATE(eom, qdot_mech_equations, qdot_mech_equation)
+BY_COORDINATE(accel, qdot_mech_accels, qdot_mech_accel)
+BY_COORDINATE(forces, qdot_mech_forces, qdot_mech_force)
+#undef BY_COORDINATE
+
+static qdot_status
+get_p(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n;
+    QDOT_TRY(coordinate(s, "p", index[0]));
+    return give(s, qdot_mech_momentum(s->scene, index[0]), value);
+}
+
+static qdot_status
+get_Q(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n;
+    QDOT_TRY(coordinate(s, "Q", index[0]));
+    return give(s, qdot_mech_force(s->scene, index[0]), value);
+}
+
+static qdot_status
+get_virtual_work(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    return give(s, qdot_mech_virtual_work(s->scene), value);
+}
+
+static qdot_status
+get_delta(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n;
+    if (!qdot_expr_is_coordinate(s->pool, index[0]))
+        return qdot_fail(QDOT_ETYPE, "delta[ ] takes a coordinate");
+    return give(s, qdot_symbol_of(s->pool, QDOT_DELTA, index[0]), value);
+}
+
+/* --- multipliers -------------------------------------------------------------------- */
+
+/* Nothing is called `name`, "rod, 2": the constraint before the comma, if there is one, has
+ * fewer components. */
+static qdot_status
+no_component(qdot_session *s, const char *name)
+{
+    const size_t length = strcspn(name, ",");
+    size_t components = 0;
+
+    for (size_t i = 0; name[length] != '\0' && i < s->scene->constraints.n; i++) {
+        const qdot_constraint *c = &s->scene->constraints.at[i];
+
+        if (strlen(c->name) == length && strncmp(c->name, name, length) == 0) {
+            qdot_fail(QDOT_ENAME, "constraint `%s` has one component only", c->name);
+            return qdot_hint("write lambda[%.80s]", c->name);
+        }
+        components += c->label != NULL && strlen(c->label) == length &&
+                      strncmp(c->label, name, length) == 0;
+    }
+    if (components == 0)
+        return qdot_labels_unknown(s->scene, "constraint", name);
+    return qdot_fail(QDOT_ENAME, "constraint `%.*s` has %zu components, and no `%.200s`",
+                     (int)length, name, components, name);
+}
+
+/* lambda[rod], lambda[pin, 1], lambda[2] of a constraint without label. */
+static qdot_status
+get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    const qdot_symbol *label = qdot_expr_symbol(s->pool, index[0]);
+    qdot_text name = {0};
+    const qdot_constraint *found = NULL, *first = NULL;
+    qdot_status status = QDOT_OK;
+    long k;
+
+    if (label != NULL && label->class == QDOT_FORMAL)
+        qdot_text_add(&name, label->name);
+    else if ((status = qdot_session_integer(s, index[0], &k)) == QDOT_OK)
+        qdot_text_format(&name, "%ld", k);
+    if (status == QDOT_OK && n == 2 &&
+        (status = qdot_session_integer(s, index[1], &k)) == QDOT_OK)
+        qdot_text_format(&name, ", %ld", k);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&name);
+    for (size_t i = 0; status == QDOT_OK && i < s->scene->constraints.n; i++) {
+        const qdot_constraint *c = &s->scene->constraints.at[i];
+
+        if (strcmp(c->name, name.at) == 0)
+            found = c;
+        if (n == 1 && c->label != NULL && strcmp(c->label, name.at) == 0 && first == NULL)
+            first = c;
+    }
+    if (found != NULL) {
+        *value = found->multiplier;
+    } else if (status == QDOT_OK && first != NULL) {
+        status = qdot_fail(QDOT_ENAME, "`%.200s` has a multiplier for each component",
+                           name.at);
+        qdot_hint("write lambda[%.80s, 1]", name.at);
+    } else if (status == QDOT_OK) {
+        status = no_component(s, name.at);
+    }
+    qdot_text_clear(&name);
+    return status;
+}
+
+/* --- counting ----------------------------------------------------------------------- */
+
+/* Each cyclic coordinate with its momentum, p[phi] = dL/dphi'. */
+static qdot_status
+get_cyclic(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    qdot_cyclic *list = NULL;
+    qdot_expr *equations;
+    size_t count = 0;
+
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(qdot_mech_cyclic(s->scene, &list, &count));
+    equations = qdot_malloc(count * sizeof *equations);
+    if (equations == NULL) {
+        qdot_free(list);
+        return QDOT_ENOMEM;
+    }
+    for (size_t i = 0; i < count; i++)
+        equations[i] = qdot_rel(
+            s->pool, QDOT_EQ, qdot_symbol_of(s->pool, QDOT_MOMENTUM, list[i].coordinate),
+            list[i].momentum);
+    *value = qdot_list(s->pool, (uint32_t)count, equations);
+    qdot_free(equations);
+    qdot_free(list);
+    return qdot_value_kind_check(s->pool, *value);
+}
+
+/* The number of degrees of freedom. */
+static qdot_status
+get_dof(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    qdot_dof dof;
+
+    (void)n, (void)index;
+    QDOT_TRY(qdot_mech_dof(s->scene, &dof));
+    return give(s, qdot_expr_int(s->pool, (long)dof.freedom), value);
+}
+
+static qdot_status
+get_conserved(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    return give(s, qdot_noether_conserved(s->scene), value);
+}
+
+/* --- rest and what is near it ------------------------------------------------------- */
+
+static qdot_status
+get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    qdot_equilibria all;
+    qdot_status status;
+
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    QDOT_TRY(qdot_equilibria_find(s, &all));
+    status = qdot_equilibria_list(s, &all, value);
+    qdot_equilibria_clear(&all);
+    return status;
+}
+
+#define VERDICT(name, verdict)                                                           \
+    static qdot_status get_##name(qdot_session *s, uint32_t n, const qdot_expr *index,   \
+                                  qdot_expr *value)                                      \
+    {                                                                                    \
+        (void)n, (void)index;                                                            \
+        return give(s, qdot_equilibria_word(s->pool, verdict), value);                   \
+    }
+VERDICT(stable, QDOT_STABLE)
+VERDICT(unstable, QDOT_UNSTABLE)
+VERDICT(to_first_order, QDOT_STABLE_TO_FIRST_ORDER)
+VERDICT(undecided, QDOT_STABILITY_UNDECIDED)
+#undef VERDICT
+
+/* The frequencies; modes[k, x]: an amplitude. */
+static qdot_status
+get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    const qdot_scene *scene = s->scene;
+    qdot_modes modes;
+    qdot_status status = QDOT_OK;
+    long k = 1;
+
+    QDOT_TRY(need_coordinates(s));
+    if (n > 0)
+        QDOT_TRY(qdot_session_integer(s, index[0], &k));
+    if (n == 2)
+        QDOT_TRY(coordinate(s, "modes[k, q]: q", index[1]));
+    QDOT_TRY(qdot_equilibria_modes_at(s, QDOT_NIL, &modes));
+    if (n > 0 && (k < 1 || (size_t)k > modes.n))
+        status = qdot_fail(QDOT_EDOMAIN, "there are %zu modes, counted from 1", modes.n);
+    else if (n == 0)
+        *value = qdot_list(s->pool, (uint32_t)modes.n, modes.frequency);
+    else if (n == 1)
+        *value = modes.frequency[k - 1];
+    for (size_t i = 0; i < scene->coordinates.n && n == 2 && status == QDOT_OK; i++)
+        if (scene->coordinates.at[i] == index[1])
+            *value = modes.amplitude[(size_t)(k - 1) * scene->coordinates.n + i];
+    qdot_modes_clear(&modes);
+    return status == QDOT_OK ? qdot_value_kind_check(s->pool, *value) : status;
+}
+
+/* --- constraints -------------------------------------------------------------------- */
+
+static qdot_status
+get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
+{
+    (void)n, (void)index;
+    QDOT_TRY(need_coordinates(s));
+    if (s->scene->constraints.n > 0)
+        return give(s, qdot_mech_reaction_list(s->scene), value);
+    qdot_fail(QDOT_EINVAL, "the scene has no constraints");
+    return qdot_hint("constraint rod: x^2 + y^2 = L^2");
+}
+
+/* --- what members of a list are called ---------------------------------------------- */
+
+static qdot_expr
+momentum_symbol(qdot_pool *pool, qdot_expr q)
+{
+    return qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+}
+
+static qdot_expr
+accel_symbol(qdot_pool *pool, qdot_expr q)
+{
+    return qdot_symbol_jet(pool, q, 2);
+}
+
+static qdot_expr
+force_symbol(qdot_pool *pool, qdot_expr q)
+{
+    qdot_text name = {0};
+    qdot_expr symbol;
+
+    qdot_text_format(&name, "Q[%s]", qdot_expr_symbol(pool, q)->name);
+    symbol = qdot_text_status(&name) == QDOT_OK
+                 ? qdot_symbol_get(pool, QDOT_FORMAL, qdot_text_str(&name))
+                 : qdot_pool_fail(pool);
+    qdot_text_clear(&name);
+    return symbol;
+}
+
+/* --- the table ---------------------------------------------------------------------- */
+
+static const qdot_quantity rows[] = {
+    {"T", 0, 0, get_T, "T", "kinetic energy (also `kinetic`)", "T", false, NULL},
+    {"kinetic", 0, 0, get_T, "kinetic", "kinetic energy T", "kinetic", false, NULL},
+    {"V", 0, 0, get_V, "V", "potential energy (also `potential_energy`)", "V", false,
+     NULL},
+    {"potential_energy", 0, 0, get_V, "potential_energy", "potential energy V",
+     "potential_energy", false, NULL},
+    {"L", 0, 0, get_L, "L", "Lagrange function T - V (also `lagrange_function`)", "L",
+     false, NULL},
+    {"lagrange_function", 0, 0, get_L, "lagrange_function", "Lagrange function T - V",
+     "lagrange_function", false, NULL},
+    {"energy", 0, 0, get_energy, "energy", "Jacobi energy function h = sum p q' - L",
+     "energy", false, NULL},
+    {"ds2", 0, 0, get_ds2, "ds2",
+     "line element, one for each particle; ds2(R) of a vector", "ds2", false, NULL},
+    {"speed2", 0, 0, get_speed2, "speed2", "(ds/dt)^2, one for each particle", "speed2",
+     false, NULL},
+    {"mass_matrix", 0, 2, get_mass_matrix, "mass_matrix or mass_matrix[q1, q2]",
+     "mass matrix M(q, t)", "mass_matrix", true, NULL},
+    {"momenta", 0, 1, get_momenta, "momenta or momenta[theta]",
+     "generalized momenta dL/dq'", "momenta", true, momentum_symbol},
+    {"p", 1, 1, get_p, "p[theta]", "generalized momentum dL/dtheta'", "p[theta]", false,
+     NULL},
+    {"forces", 0, 1, get_forces, "forces", "generalized forces, with their parts",
+     "forces", true, force_symbol},
+    {"Q", 1, 1, get_Q, "Q[theta]", "generalized force: all that is applied", "Q[theta]",
+     false, NULL},
+    {"virtual_work", 0, 0, get_virtual_work, "virtual_work",
+     "virtual work, the sum of Q[q]*delta[q]", "virtual_work", false, NULL},
+    {"delta", 1, 1, get_delta, "delta[theta]", "virtual displacement of a coordinate",
+     "delta[theta]", false, NULL},
+    {"eom", 0, 1, get_eom, "eom or eom[theta]", "Lagrange's equations", "eom", true,
+     NULL},
+    {"accel", 0, 1, get_accel, "accel or accel[theta]", "accelerations, solved for",
+     "accel[theta]", true, accel_symbol},
+    {"lambda", 1, 2, get_lambda, "lambda[rod] or lambda[pin, 1]",
+     "multiplier of a constraint", "lambda[rod]", false, NULL},
+    {"cyclic", 0, 0, get_cyclic, "cyclic",
+     "coordinates absent from L, with their momenta", "cyclic", false, NULL},
+    {"dof", 0, 0, get_dof, "dof", "degrees of freedom", "dof", false, NULL},
+    {"hamiltonian", 0, 0, get_hamiltonian, "hamiltonian",
+     "Hamilton's function H(q, p, t); beside it p[theta] is the independent momentum",
+     "diff(hamiltonian, p[theta])", false, NULL},
+    {"routhian", 0, 0, get_routhian, "routhian",
+     "Routh's function L - sum p q', the cyclic velocities replaced by their momenta",
+     "routhian", false, NULL},
+    {"reactions", 0, 0, get_reactions, "reactions",
+     "forces of the constraints on each particle and body, by their multipliers",
+     "reactions",
+     false, NULL},
+    {"conserved", 0, 0, get_conserved, "conserved or conserved[2]",
+     "every conserved quantity found: cyclic momenta, the energy, those of translations, "
+     "rotations and boosts; each is proved",
+     "conserved", false, NULL},
+    {"equilibria", 0, 0, get_equilibria, "equilibria or equilibria[2]",
+     "where the scene can rest, a list of equations each; alone, with their stability",
+     "equilibria", false, NULL},
+    {"stable", 0, 0, get_stable, "stable", "a verdict of stability(equilibria[1])",
+     "check stability(equilibria[1]) == stable", false, NULL},
+    {"unstable", 0, 0, get_unstable, "unstable", "a verdict of stability(equilibria[1])",
+     "check stability(equilibria[1]) == unstable", false, NULL},
+    {"stable_to_first_order", 0, 0, get_to_first_order, "stable_to_first_order",
+     "a verdict of stability(equilibria[1]): the linear motion stays near",
+     "check stability(equilibria[1]) == stable_to_first_order", false, NULL},
+    {"undecided", 0, 0, get_undecided, "undecided", "a verdict of stability(equilibria[1])",
+     "check stability(equilibria[1]) == undecided", false, NULL},
+    {"modes", 0, 2, get_modes, "modes, modes[k] or modes[k, theta]",
+     "angular frequencies of the normal modes about the first equilibrium that is not "
+     "unstable, ascending; modes[k, theta] is an amplitude, the first of a mode being 1",
+     "modes", false, NULL},
+};
+
+const qdot_quantity *
+qdot_quantity_at(size_t i)
+{
+    return i < sizeof rows / sizeof *rows ? &rows[i] : NULL;
+}
+
+const qdot_quantity *
+qdot_quantity_find(const char *name)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].name[0] == name[0] && strcmp(rows[i].name, name) == 0)
+            return &rows[i];
+    return NULL;
+}

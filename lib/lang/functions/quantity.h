@@ -1,0 +1,23 @@
+/* quantity.h -- the values of a scene, a row each. */
+#ifndef QDOT_LANG_QUANTITY_H
+#define QDOT_LANG_QUANTITY_H
+
+#include "lang/session/session.h"
+
+/* A value of the scene, `T`, `eom`, `mass_matrix` ...; `index`: for
+ * eom[theta], p[theta], mass_matrix[a, b]; n = 0 for the bare name. */
+typedef struct {
+    const char *name;
+    int least, most; /* indices allowed */
+    qdot_status (*get)(qdot_session *session, uint32_t n, const qdot_expr *index,
+                       qdot_expr *value);
+    const char *usage, *summary, *example;
+    bool over_coordinates; /* a list or matrix whose entries go by the coordinates too */
+    /* what a member of the list is called where the whole is asked, `p[theta] = ...`: a
+     * symbol by its coordinate; NULL: `eom[theta]` */
+    qdot_expr (*symbol)(qdot_pool *pool, qdot_expr coordinate);
+} qdot_quantity;
+const qdot_quantity *qdot_quantity_find(const char *name);
+const qdot_quantity *qdot_quantity_at(size_t i);
+
+#endif

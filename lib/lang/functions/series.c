@@ -1,0 +1,700 @@
+/* series.c -- Taylor series in several symbols, also where a quotient is 0/0 at the point.
+ *
+ * In x = a + ray u, y = b + ray v ... a series in x, y is one in `ray`, whose coefficients are polynomials
+ * in u, v. Where all derivatives exist at ray = 0 they are the coefficients. Where one does not, sums,
+ * products, powers and functions are taken apart into Laurent series: sin(x)/x is (x - ...)/x. What then
+ * has a negative power or a coefficient that is no polynomial has no Taylor series, nor has
+ * what switches at the point: abs(x), floor(x), if(x > 0, ...).
+ *
+ * Source  powers by Miller's recurrence: Knuth, TAOCP 2, 4.7.
+ * Tests   tests/script/series-removable.lag, tests/bad/series-none.sh
+ */
+#include "lang/functions/series.h"
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/calculus.h"
+#include "expr/tensor.h"
+#include "expr/walk.h"
+#include "lang/functions/algebra.h"
+#include "lang/session/bind.h"
+#include "lang/session/value-kind.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+
+/* Orders up to which a leading coefficient is looked for; nested parts that are taken apart. */
+enum { MOST_LEADING = 64, MOST_DEPTH = 100 };
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_facts facts;
+    qdot_expr ray;
+    qdot_replacements r;              /* x by a + ray u */
+    qdot_vec(qdot_expr) steps, moves; /* u; x - a */
+    int depth;
+} course;
+
+/* sum c[i] ray^(least + i) */
+typedef struct {
+    long least;
+    qdot_vec(qdot_expr) c;
+} laurent;
+
+static qdot_status laurent_of(course *x, qdot_expr e, long most, laurent *s);
+
+/* --- answers ------------------------------------------------------------------------ */
+
+/* Whether the term is a product in which a sum holds one of the steps. */
+static bool
+is_nested(const course *x, qdot_expr term)
+{
+    for (uint32_t i = 1; qdot_expr_kind(x->pool, term) == QDOT_PROD &&
+                         i < qdot_expr_count(x->pool, term);
+         i += 2) {
+        qdot_expr base = qdot_expr_arg(x->pool, term, i);
+
+        for (size_t k = 0; qdot_expr_kind(x->pool, base) == QDOT_SUM && k < x->steps.n; k++)
+            if (qdot_expr_contains(x->pool, base, x->steps.at[k]))
+                return true;
+    }
+    return false;
+}
+
+/* Of one degree, its products of sums in u multiplied out. */
+static qdot_expr
+multiplied_out(const course *x, qdot_expr scalar)
+{
+    bool nested;
+
+    if (scalar == QDOT_NIL)
+        return scalar;
+    nested = is_nested(x, scalar);
+    for (uint32_t i = 1; qdot_expr_kind(x->pool, scalar) == QDOT_SUM && !nested &&
+                         i < qdot_expr_count(x->pool, scalar);
+         i += 2)
+        nested = is_nested(x, qdot_expr_arg(x->pool, scalar, i));
+    return nested ? qdot_expand(x->pool, scalar) : scalar;
+}
+
+/* e in the symbols of the series again. */
+static qdot_expr
+in_symbols(const course *x, qdot_expr e)
+{
+    const qdot_expr one = QDOT_ONE;
+
+    e = qdot_subs(x->pool, e, 1, &x->ray, &one);
+    return qdot_subs(x->pool, e, x->steps.n, x->steps.at, x->moves.at);
+}
+
+static qdot_status
+no_series(course *x, qdot_expr e, const char *why)
+{
+    qdot_text text = {0};
+    qdot_expr shown = in_symbols(x, e);
+    qdot_status status = qdot_pool_check(x->pool);
+
+    if (status == QDOT_OK)
+        status = qdot_print(x->pool, shown, QDOT_PLAIN, &text);
+    if (status == QDOT_OK || status == QDOT_EDOMAIN)
+        status = text.n > 0 && text.n < 100
+                     ? qdot_fail(QDOT_EDOMAIN, "`%s` has no Taylor series there: %s",
+                                 qdot_text_str(&text), why)
+                     : qdot_fail(QDOT_EDOMAIN, "there is no Taylor series there: %s", why);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* --- what switches at the point ----------------------------------------------------- */
+
+static bool
+vanishes(course *x, qdot_expr e)
+{
+    const qdot_expr zero = QDOT_ZERO;
+    qdot_expr there = qdot_subs(x->pool, e, 1, &x->ray, &zero);
+
+    if (there == QDOT_NIL) { /* not defined there: for laurent_of */
+        (void)!qdot_pool_check(x->pool);
+        return false;
+    }
+    return qdot_is_zero(x->pool, there, &x->facts);
+}
+
+/* Whether two of the arguments, that depend on ray, are equal at the point. */
+static bool
+meet(course *x, qdot_expr e)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(x->pool, e); i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (vanishes(x, qdot_sub(x->pool, qdot_expr_arg(x->pool, e, i),
+                                     qdot_expr_arg(x->pool, e, k))))
+                return true;
+    return false;
+}
+
+/* Whether e, a whole number at the point, jumps there. */
+static bool
+is_whole(course *x, qdot_expr e)
+{
+    const qdot_expr zero = QDOT_ZERO;
+    qdot_expr there = qdot_subs(x->pool, e, 1, &x->ray, &zero);
+    bool whole = there != QDOT_NIL && qdot_expr_kind(x->pool, there) == QDOT_NUM &&
+                 qdot_fun1(x->pool, QDOT_FLOOR, there) == there;
+
+    (void)!qdot_pool_check(x->pool);
+    return whole;
+}
+
+static bool
+switches(course *x, qdot_expr e)
+{
+    qdot_pool *pool = x->pool;
+    const qdot_node *node = qdot_expr_node(pool, e);
+
+    if (node->kind == QDOT_REL)
+        return meet(x, e);
+    if (node->kind != QDOT_FUN)
+        return false;
+    switch ((qdot_fun_id)node->op) {
+    case QDOT_ABS:
+    case QDOT_SIGN: return vanishes(x, qdot_expr_arg(pool, e, 0));
+    case QDOT_MIN:
+    case QDOT_MAX: return meet(x, e);
+    case QDOT_FLOOR: return is_whole(x, qdot_expr_arg(pool, e, 0));
+    case QDOT_MOD:
+        return is_whole(x, qdot_div(pool, qdot_expr_arg(pool, e, 0),
+                                    qdot_expr_arg(pool, e, 1)));
+    default: return false;
+    }
+}
+
+static qdot_status
+check_switches(course *x, qdot_expr e)
+{
+    qdot_vec(qdot_expr) parts = {0};
+    qdot_status status;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(x->pool, e, &w));
+    status = QDOT_OK;
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
+        if (qdot_expr_contains(x->pool, w.at[i], x->ray))
+            status = qdot_vec_push(&parts, w.at[i]);
+    qdot_walk_end(&w);
+    for (size_t i = 0; i < parts.n && status == QDOT_OK; i++)
+        if (switches(x, parts.at[i]))
+            status = no_series(
+                x, qdot_expr_is_scalar(x->pool, parts.at[i]) ? parts.at[i] : e,
+                "it switches at the point");
+    qdot_free(parts.at);
+    return status;
+}
+
+/* --- arithmetic of series ----------------------------------------------------------- */
+
+static qdot_expr
+coefficient(const laurent *s, long k)
+{
+    return k < s->least || k - s->least >= (long)s->c.n ? QDOT_ZERO : s->c.at[k - s->least];
+}
+
+static void
+drop(laurent *s)
+{
+    qdot_free(s->c.at);
+    *s = (laurent){0};
+}
+
+static qdot_status
+shorten(course *x, qdot_expr *e)
+{
+    *e = qdot_simplify(x->pool, *e, &x->facts);
+    return qdot_value_kind_check(x->pool, *e);
+}
+
+/* Leave out what vanishes at the front. */
+static void
+trim(course *x, laurent *s)
+{
+    size_t zeros = 0;
+
+    while (zeros < s->c.n && qdot_is_zero(x->pool, s->c.at[zeros], &x->facts))
+        zeros++;
+    for (size_t i = zeros; i < s->c.n; i++)
+        s->c.at[i - zeros] = s->c.at[i];
+    s->c.n -= zeros;
+    s->least += (long)zeros;
+}
+
+/* s <- s b up to ray^most. */
+static qdot_status
+multiply(course *x, laurent *s, const laurent *b, long most)
+{
+    laurent made = {.least = s->least + b->least};
+    qdot_status status = QDOT_OK;
+
+    for (long k = made.least; k <= most && status == QDOT_OK; k++) {
+        qdot_expr sum = QDOT_ZERO;
+
+        for (long i = s->least; i <= k - b->least; i++)
+            sum = qdot_add(x->pool, sum,
+                           qdot_mul(x->pool, coefficient(s, i), coefficient(b, k - i)));
+        status = qdot_value_kind_check(x->pool, sum);
+        if (status == QDOT_OK)
+            status = shorten(x, &sum);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&made.c, sum);
+    }
+    drop(s);
+    *s = made;
+    return status;
+}
+
+/* b^q, b begins with what does not vanish; Miller: k b_0 a_k = sum_j (q j - k + j) b_j a_{k-j}. */
+static qdot_status
+power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *s)
+{
+    qdot_pool *pool = x->pool;
+    qdot_expr a = qdot_pow(pool, b->c.at[0], q);
+
+    s->least = least;
+    for (long k = 0; k <= most - least; k++) {
+        if (k > 0) {
+            a = QDOT_ZERO;
+            for (long j = 1; j <= k; j++) {
+                qdot_expr weight = qdot_add(pool, qdot_mul(pool, q, qdot_expr_int(pool, j)),
+                                            qdot_expr_int(pool, j - k));
+
+                weight = qdot_mul(pool, weight, coefficient(b, b->least + j));
+                a = qdot_add(pool, a, qdot_mul(pool, weight, s->c.at[k - j]));
+            }
+            a = qdot_div(pool, a, qdot_mul(pool, qdot_expr_int(pool, k), b->c.at[0]));
+        }
+        QDOT_TRY(qdot_value_kind_check(pool, a));
+        QDOT_TRY(shorten(x, &a));
+        QDOT_TRY(qdot_vec_push(&s->c, a));
+        QDOT_TRY(qdot_interrupt_check());
+    }
+    return QDOT_OK;
+}
+
+/* --- taken apart -------------------------------------------------------------------- */
+
+/* Whether 0^a stands in e, whose value depends on a. */
+static bool
+holds_power_of_zero(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_walk w;
+    bool found = false;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && !found; i++)
+        for (uint32_t k = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD &&
+                             k < qdot_expr_count(pool, w.at[i]);
+             k += 2)
+            found = found || qdot_expr_arg(pool, w.at[i], k) == QDOT_ZERO;
+    qdot_walk_end(&w);
+    return found;
+}
+
+/* Coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN: one of them does not exist. */
+static qdot_status
+derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, laurent *s)
+{
+    s->least = 0;
+    for (long k = 0; k <= most; k++) {
+        qdot_expr c;
+
+        if (k > 0 && e != QDOT_ZERO)
+            e = qdot_div(x->pool, qdot_diff(x->pool, e, symbol), qdot_expr_int(x->pool, k));
+        QDOT_TRY(qdot_value_kind_check(x->pool, e));
+        c = multiplied_out(x, qdot_subs(x->pool, e, 1, &symbol, &at));
+        QDOT_TRY(qdot_value_kind_check(x->pool, c));
+        if (holds_power_of_zero(x->pool, c))
+            return QDOT_EDOMAIN;
+        QDOT_TRY(qdot_vec_push(&s->c, c));
+        QDOT_TRY(qdot_interrupt_check());
+    }
+    return QDOT_OK;
+}
+
+/* The order at which e begins. */
+static qdot_status
+find_leading(course *x, qdot_expr e, long *least)
+{
+    for (long most = 4; most <= MOST_LEADING; most *= 2) {
+        laurent s = {0};
+        qdot_status status = laurent_of(x, e, most, &s);
+        bool found;
+
+        if (status == QDOT_OK)
+            trim(x, &s);
+        found = s.c.n > 0;
+        *least = s.least;
+        drop(&s);
+        QDOT_TRY(status);
+        if (found)
+            return QDOT_OK;
+    }
+    return no_series(x, e, "no term of it is known to differ from 0");
+}
+
+static qdot_status
+sum_of(course *x, qdot_expr e, long most, laurent *s)
+{
+    const uint32_t n = qdot_expr_count(x->pool, e);
+    laurent *parts = qdot_calloc(n + 1, sizeof *parts);
+    long least = 0;
+    qdot_status status = parts == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        status = laurent_of(x, qdot_expr_arg(x->pool, e, i), most, &parts[i]);
+        least = parts[i].least < least ? parts[i].least : least;
+    }
+    s->least = least;
+    for (long k = least; k <= most && status == QDOT_OK; k++) {
+        qdot_expr sum = k == 0 ? qdot_expr_arg(x->pool, e, 0) : QDOT_ZERO;
+
+        for (uint32_t i = 1; i < n; i += 2)
+            sum = qdot_add(x->pool, sum,
+                           qdot_mul(x->pool, coefficient(&parts[i], k),
+                                    qdot_expr_arg(x->pool, e, i + 1)));
+        status = qdot_value_kind_check(x->pool, sum);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&s->c, sum);
+    }
+    for (uint32_t i = 0; parts != NULL && i < n; i++)
+        drop(&parts[i]);
+    qdot_free(parts);
+    return status;
+}
+
+/* base^q up to ray^most; base begins at ray^first. */
+static qdot_status
+power_of(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent *s)
+{
+    laurent b = {0};
+    long times = 0;
+    qdot_status status;
+
+    if (qdot_expr_contains(x->pool, q, x->ray) ||
+        (first != 0 && !qdot_expr_to_int(x->pool, q, &times)))
+        return no_series(x, qdot_pow(x->pool, base, q), "it is no power series in the symbols");
+    if (times * first > most) {
+        s->least = most + 1;
+        return QDOT_OK;
+    }
+    status = laurent_of(x, base, first + most - times * first, &b);
+    if (status == QDOT_OK)
+        trim(x, &b);
+    if (status == QDOT_OK)
+        status = power(x, &b, q, times * first, most, s);
+    drop(&b);
+    return status;
+}
+
+static qdot_status
+product_of(course *x, qdot_expr e, long most, laurent *s)
+{
+    qdot_pool *pool = x->pool;
+    const uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr outside = qdot_expr_arg(pool, e, 0);
+    long *first = qdot_calloc(n + 1, sizeof *first), total = 0, times;
+    qdot_status status = first == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, e, i), q = qdot_expr_arg(pool, e, i + 1);
+
+        if (!qdot_expr_contains(pool, base, x->ray))
+            continue;
+        status = find_leading(x, base, &first[i]);
+        if (status == QDOT_OK && first[i] != 0 && qdot_expr_to_int(pool, q, &times))
+            total += times * first[i];
+    }
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, e, i), q = qdot_expr_arg(pool, e, i + 1);
+
+        if (!qdot_expr_contains(pool, base, x->ray) && !qdot_expr_contains(pool, q, x->ray))
+            outside = qdot_mul(pool, outside, qdot_pow(pool, base, q));
+    }
+    if (status == QDOT_OK)
+        status = qdot_value_kind_check(pool, outside);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&s->c, outside);
+    s->least = 0;
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, e, i), q = qdot_expr_arg(pool, e, i + 1);
+        laurent part = {0};
+        long own = 0;
+
+        if (!qdot_expr_contains(pool, base, x->ray) && !qdot_expr_contains(pool, q, x->ray))
+            continue;
+        if (first[i] != 0 && qdot_expr_to_int(pool, q, &times))
+            own = times * first[i];
+        /* to the order that the others leave for it */
+        status = power_of(x, base, q, first[i], most - (total - own), &part);
+        if (status == QDOT_OK)
+            status = multiply(x, s, &part, most - total + s->least + own);
+        drop(&part);
+    }
+    qdot_free(first);
+    return status;
+}
+
+/* tan, cot, sec, csc as quotients of sine and cosine; e itself if it is none. */
+static qdot_expr
+as_quotient(qdot_pool *pool, qdot_expr e)
+{
+    const qdot_expr u = qdot_expr_arg(pool, e, 0);
+
+    switch ((qdot_fun_id)qdot_expr_node(pool, e)->op) {
+    case QDOT_TAN:
+        return qdot_div(pool, qdot_fun1(pool, QDOT_SIN, u), qdot_fun1(pool, QDOT_COS, u));
+    case QDOT_COT:
+        return qdot_div(pool, qdot_fun1(pool, QDOT_COS, u), qdot_fun1(pool, QDOT_SIN, u));
+    case QDOT_SEC: return qdot_div(pool, QDOT_ONE, qdot_fun1(pool, QDOT_COS, u));
+    case QDOT_CSC: return qdot_div(pool, QDOT_ONE, qdot_fun1(pool, QDOT_SIN, u));
+    default: return e;
+    }
+}
+
+/* Whether a function of one argument switches where that is `there`. */
+static bool
+switches_at(course *x, qdot_fun_id id, qdot_expr there)
+{
+    if (id == QDOT_ABS || id == QDOT_SIGN)
+        return qdot_is_zero(x->pool, there, &x->facts);
+    return id == QDOT_FLOOR && is_whole(x, there);
+}
+
+/* f(a + h), h without a term of order 0. */
+static qdot_status
+function_of(course *x, qdot_expr e, long most, laurent *s)
+{
+    qdot_pool *pool = x->pool;
+    const qdot_expr z = qdot_symbol_get(pool, QDOT_FORMAL, "a place");
+    const qdot_node *node = qdot_expr_node(pool, e);
+    laurent inner = {0}, outer = {0};
+    qdot_status status;
+
+    if (node->n != 1)
+        return no_series(x, e, "a derivative does not exist at the point");
+    const qdot_fun_id id = (qdot_fun_id)node->op;
+    if (as_quotient(pool, e) != e)
+        return laurent_of(x, as_quotient(pool, e), most, s);
+    status = laurent_of(x, qdot_expr_arg(pool, e, 0), most, &inner);
+    if (status == QDOT_OK)
+        trim(x, &inner);
+    if (status == QDOT_OK && inner.least < 0)
+        status = no_series(x, e, "its argument grows without bound at the point");
+    if (status == QDOT_OK && switches_at(x, id, coefficient(&inner, 0)))
+        status = no_series(x, e, "it switches at the point");
+    if (status == QDOT_OK) {
+        status = derivatives(x, qdot_fun1(pool, id, z), z, coefficient(&inner, 0), most, &outer);
+        if (status == QDOT_EDOMAIN)
+            status = no_series(x, e, "a derivative does not exist at the point");
+    }
+    if (status == QDOT_OK && inner.c.n > 0 && inner.least == 0) {
+        inner.c.at[0] = QDOT_ZERO;
+    }
+    s->least = 0;
+    for (long k = most; k >= 0 && status == QDOT_OK; k--) { /* Horner */
+        if (s->c.n > 0)
+            status = multiply(x, s, &inner, most);
+        while (status == QDOT_OK && s->least > 0) { /* from order 0 on */
+            laurent whole = {0};
+
+            for (long i = 0; i < s->least + (long)s->c.n && status == QDOT_OK; i++)
+                status = qdot_vec_push(&whole.c, coefficient(s, i));
+            drop(s);
+            *s = whole;
+        }
+        if (status == QDOT_OK && s->c.n == 0)
+            status = qdot_vec_push(&s->c, QDOT_ZERO);
+        if (status == QDOT_OK)
+            s->c.at[0] = qdot_add(pool, s->c.at[0], coefficient(&outer, k));
+    }
+    drop(&inner);
+    drop(&outer);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+/* e up to ray^most. */
+static qdot_status
+laurent_of(course *x, qdot_expr e, long most, laurent *s)
+{
+    qdot_status status;
+
+    *s = (laurent){0};
+    QDOT_TRY(qdot_interrupt_check());
+    if (!qdot_expr_contains(x->pool, e, x->ray))
+        return qdot_vec_push(&s->c, e);
+    status = derivatives(x, e, x->ray, QDOT_ZERO, most > 0 ? most : 0, s);
+    if (status != QDOT_EDOMAIN)
+        return status;
+    drop(s);
+    if (x->depth >= MOST_DEPTH)
+        return no_series(x, e, "it is nested too deep");
+    x->depth++;
+    switch (qdot_expr_kind(x->pool, e)) {
+    case QDOT_SUM: status = sum_of(x, e, most, s); break;
+    case QDOT_PROD: status = product_of(x, e, most, s); break;
+    case QDOT_FUN: status = function_of(x, e, most, s); break;
+    default: status = no_series(x, e, "it is not defined at the point");
+    }
+    x->depth--;
+    return status;
+}
+
+/* --- the sum ------------------------------------------------------------------------ */
+
+static bool
+is_polynomial(const course *x, qdot_expr e)
+{
+    qdot_walk w;
+    bool sound = qdot_walk_begin(x->pool, e, &w) == QDOT_OK;
+
+    for (size_t i = 0; i < w.n && sound; i++) {
+        const qdot_node *node = qdot_expr_node(x->pool, w.at[i]);
+
+        for (size_t k = 0; k < x->steps.n && sound; k++) {
+            if ((node->kind == QDOT_FUN || node->kind == QDOT_UFUN))
+                sound = !qdot_expr_contains(x->pool, w.at[i], x->steps.at[k]);
+            for (uint32_t j = 1; node->kind == QDOT_PROD && j < node->n; j += 2) {
+                long times;
+
+                if (qdot_expr_contains(x->pool, qdot_expr_arg(x->pool, w.at[i], j),
+                                       x->steps.at[k]))
+                    sound = sound &&
+                            qdot_expr_to_int(x->pool, qdot_expr_arg(x->pool, w.at[i], j + 1),
+                                             &times) &&
+                            times > 0;
+            }
+        }
+    }
+    qdot_walk_end(&w);
+    return sound;
+}
+
+typedef struct {
+    course *x;
+    long most;
+} degree;
+
+/* A scalar's series, in u. */
+static qdot_expr
+sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
+{
+    const degree *d = user;
+    course *x = d->x;
+    laurent s = {0};
+    qdot_expr f = qdot_subs(pool, scalar, x->r.from.n, x->r.from.at, x->r.to.at), sum = QDOT_ZERO;
+    qdot_status status = qdot_value_kind_check(pool, f);
+
+    if (status == QDOT_OK)
+        status = check_switches(x, f);
+    if (status == QDOT_OK)
+        status = laurent_of(x, f, d->most, &s);
+    if (status == QDOT_OK)
+        for (long k = s.least; k < 0 && status == QDOT_OK; k++)
+            if (!qdot_is_zero(pool, coefficient(&s, k), &x->facts))
+                status = no_series(x, f, "it grows without bound at the point");
+    for (long k = 0; k <= d->most && status == QDOT_OK; k++) {
+        qdot_expr c = coefficient(&s, k);
+
+        if (!is_polynomial(x, c)) {
+            status = shorten(x, &c);
+            if (status == QDOT_OK && !is_polynomial(x, c))
+                status = no_series(x, f, "its value depends on the way to the point");
+        }
+        sum = qdot_add(pool, sum, multiplied_out(x, c));
+    }
+    drop(&s);
+    return status == QDOT_OK ? sum : qdot_pool_fail(pool);
+}
+
+/* Fill x of the equations x = a. */
+static qdot_status
+directions(qdot_session *s, uint32_t n, const qdot_expr *args, course *x)
+{
+    qdot_pool *pool = s->pool;
+
+    for (uint32_t i = 0; i < n; i++)
+        QDOT_TRY(qdot_algebra_gather(s, "series", QDOT_SERIES, args[i], &x->r));
+    for (size_t i = 0; i < x->r.from.n; i++) {
+        qdot_text name = {0};
+        qdot_status status;
+
+        if (qdot_expr_kind(pool, x->r.from.at[i]) != QDOT_SYM)
+            return qdot_fail(QDOT_ETYPE, "a series is in symbols: series(e, x = a, n)");
+        qdot_text_format(&name, "ray %zu", i);
+        status = qdot_text_status(&name);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&x->steps, qdot_symbol_get(pool, QDOT_FORMAL, name.at));
+        qdot_text_clear(&name);
+        QDOT_TRY(status);
+        QDOT_TRY(qdot_vec_push(&x->moves,
+                               qdot_sub(pool, x->r.from.at[i], x->r.to.at[i])));
+        x->r.to.at[i] =
+            qdot_add(pool, x->r.to.at[i], qdot_mul(pool, x->ray, x->steps.at[i]));
+    }
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long most,
+          qdot_expr *value)
+{
+    qdot_pool *pool = s->pool;
+    course x = {.pool = pool,
+                .facts = qdot_scene_facts(s->scene),
+                .ray = qdot_symbol_get(pool, QDOT_FORMAL, "ray")};
+    degree d = {&x, most};
+    qdot_status status = directions(s, n, args, &x);
+
+    if (status == QDOT_OK) {
+        qdot_expr sum = qdot_value_map(pool, e, sum_along, &d);
+
+        status = qdot_value_kind_check(pool, sum);
+        if (status == QDOT_OK) {
+            *value = in_symbols(&x, sum);
+            status = qdot_value_kind_check(pool, *value);
+        }
+        s->series_in = qdot_list(pool, (uint32_t)x.r.from.n, x.r.from.at);
+    }
+    qdot_algebra_drop(&x.r);
+    qdot_free(x.steps.at);
+    qdot_free(x.moves.at);
+    return status;
+}
+
+/* series(e, x = a, y = b, n), of a list member by member. */
+qdot_status
+qdot_algebra_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    bool list = qdot_expr_kind(s->pool, args[0]) == QDOT_LIST;
+    uint32_t count = list ? qdot_expr_count(s->pool, args[0]) : 1;
+    qdot_expr *members;
+    qdot_status status = QDOT_OK;
+    long most;
+
+    QDOT_TRY(qdot_session_integer(s, args[n - 1], &most));
+    if (most < 0 || most > 1000)
+        return qdot_fail(QDOT_EDOMAIN, "a series goes up to degree 0 ... 1000, not %ld",
+                         most);
+    members = qdot_malloc((count + 1) * sizeof *members);
+    if (members == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < count && status == QDOT_OK; i++)
+        status = series_of(s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0], n - 2,
+                           args + 1, most, &members[i]);
+    if (status == QDOT_OK)
+        *value = list ? qdot_list(s->pool, count, members) : members[0];
+    if (status == QDOT_OK)
+        status = qdot_value_kind_check(s->pool, *value);
+    if (status == QDOT_OK)
+        s->series = *value;
+    qdot_free(members);
+    return status;
+}

@@ -1,0 +1,68 @@
+/* short-names.c -- L, T, V in a declaration are the scene's values: said, as few mean them. */
+#include "lang/functions/short-names.h"
+
+#include <string.h>
+
+#include "lang/answer/answer.h"
+
+const char *
+qdot_short_names_long(const qdot_quantity *row)
+{
+    const qdot_quantity *other;
+
+    for (size_t i = 0; (other = qdot_quantity_at(i)) != NULL; i++)
+        if (other != row && other->get == row->get &&
+            strlen(other->name) > strlen(row->name))
+            return other->name;
+    return NULL;
+}
+
+static qdot_status
+hint(const qdot_quantity *row)
+{
+    return qdot_hint("`%s` is the language's %s; `param %s` before it declares your own",
+                     row->name, qdot_short_names_long(row), row->name);
+}
+
+qdot_status
+qdot_short_names_note(qdot_session *session, const qdot_quantity *row, qdot_status status)
+{
+    if (qdot_short_names_long(row) == NULL)
+        return status;
+    if (status == QDOT_OK)
+        session->taken = row->name;
+    else if (session->declares)
+        return hint(row);
+    return status;
+}
+
+void
+qdot_short_names_forget(qdot_session *session)
+{
+    session->taken = NULL;
+}
+
+/* What went wrong in a declaration may be that it took a value that nobody meant. */
+static qdot_status
+explain(const qdot_session *session, qdot_status status)
+{
+    if (session->taken == NULL || qdot_last_error()->status != status ||
+        qdot_last_error()->hint[0] != '\0')
+        return status;
+    return hint(qdot_quantity_find(session->taken));
+}
+
+qdot_status
+qdot_short_names_tell(qdot_session *session, qdot_status status)
+{
+    const char *name = session->taken;
+
+    if (status != QDOT_OK)
+        return explain(session, status);
+    if (name == NULL)
+        return QDOT_OK;
+    return qdot_answer_notice_once(session,
+                                   "`%s` is here the language's %s as it was until now; "
+                                   "`param %s` before it declares your own",
+                                   name, qdot_short_names_long(qdot_quantity_find(name)), name);
+}

@@ -1,0 +1,116 @@
+/* call.c -- what name(...) means. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/entry.h"
+#include "lang/functions/quantity.h"
+#include "lang/language/evaluator.h"
+#include "lang/language/function.h"
+#include "lang/language/hints.h"
+#include "lang/session/along.h"
+#include "lang/session/range.h"
+#include "lang/session/value-kind.h"
+
+static qdot_status
+call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_expr *args,
+             const char *run, qdot_expr *value, qdot_expr *over)
+{
+    if ((int)n < row->least || (row->most >= 0 && (int)n > row->most)) {
+        if (row->least == row->most)
+            qdot_fail(QDOT_ETYPE, "%s takes %d argument%s, not %u", row->name, row->least,
+                      row->least == 1 ? "" : "s", n);
+        else if (row->most < 0)
+            qdot_fail(QDOT_ETYPE, "%s takes %d arguments or more, not %u", row->name,
+                      row->least, n);
+        else
+            qdot_fail(QDOT_ETYPE, "%s takes %d %s %d arguments, not %u", row->name,
+                      row->least, row->most == row->least + 1 ? "or" : "to",
+                      row->most, n);
+        return qdot_hint("as in %s", row->usage);
+    }
+    if (run != NULL && qdot_range_is_word(row->name))
+        QDOT_TRY(qdot_range_value(s, run, row->name, n, args, NULL, value));
+    else if (run != NULL)
+        QDOT_TRY(qdot_along_value(s, run, n, args, value));
+    else
+        QDOT_TRY(row->call(s, n, args, value));
+    QDOT_TRY(qdot_value_kind_check(s->pool, *value));
+    if (row->over != NULL) {
+        *over = row->over(s, n, args);
+        return qdot_value_kind_check(s->pool, *over);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+call_function(qdot_session *s, const qdot_name *entry, unsigned primes, uint32_t n,
+              const qdot_expr *values, const char *const *labels, qdot_expr *value,
+              qdot_expr *over)
+{
+    qdot_argument *args = qdot_calloc(n + 1, sizeof *args);
+    qdot_status status = args == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        args[i] = (qdot_argument){.value = values[i], .label = labels[i]};
+    if (status == QDOT_OK)
+        status = qdot_function_call(s, entry, primes, n, args, value, over);
+    qdot_free(args);
+    return status;
+}
+
+static qdot_status
+not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_expr *args)
+{
+    qdot_fail(QDOT_ESYNTAX, "`%.200s` is not a function", name);
+    if (entry != NULL && entry->kind == QDOT_NAME_COORD && n == 1 && args[0] == QDOT_T)
+        return qdot_hint("a coordinate depends on the time by itself: write %.80s", name);
+    return qdot_hint("a product is written %.80s*(...)", name);
+}
+
+/* Whether something that is no function goes by the name. */
+static bool
+is_value(const qdot_session *s, const qdot_name *entry, const char *name, const char *spelled)
+{
+    return entry != NULL || qdot_quantity_find(name) != NULL ||
+           qdot_scene_has_label(s->scene, spelled) || strcmp(name, "pi") == 0 ||
+           strcmp(name, "t") == 0 || qdot_names_is_family(s->names, name);
+}
+
+qdot_status
+qdot_resolve_call(qdot_cursor *c, const qdot_token *token, unsigned primes,
+                  uint32_t indices, uint32_t n, const qdot_expr *values,
+                  const char *const *labels, const char *run, qdot_expr *value,
+                  qdot_expr *over)
+{
+    qdot_session *s = c->session;
+    const qdot_expr *args = values + indices;
+    const qdot_builtin *row = indices == 0 ? qdot_builtin_find(token->text) : NULL;
+    const qdot_name *entry;
+    qdot_text spelled = {0};
+    qdot_status status;
+
+    *over = QDOT_NIL;
+    status = qdot_entry_name(s, token->text, indices, values, &spelled);
+    entry = status == QDOT_OK ? qdot_names_find(s->names, spelled.at) : NULL;
+    if (status == QDOT_OK && row != NULL && (row->flags & QDOT_BUILTIN_SHORT) &&
+        is_value(s, entry, token->text, spelled.at))
+        row = NULL;
+    if (status != QDOT_OK)
+        ;
+    else if (entry != NULL && entry->kind == QDOT_NAME_FUNCTION)
+        status = call_function(s, entry, primes, n, args, labels + indices, value, over);
+    else if (entry != NULL && entry->kind == QDOT_NAME_UFUN)
+        status = qdot_resolve_undefined(s, entry, primes, n, args, value);
+    else if (row != NULL && primes == 0)
+        status = call_builtin(s, row, n, args, run, value, over);
+    else if (row != NULL)
+        status = qdot_resolve_no_prime(token->text, "takes no prime: write diff(...)");
+    else if (is_value(s, entry, token->text, spelled.at))
+        status = not_a_function(entry, spelled.at, n, args);
+    else
+        status = qdot_hints_unknown_function(c, token);
+    qdot_text_clear(&spelled);
+    return status;
+}

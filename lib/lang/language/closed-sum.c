@@ -1,0 +1,157 @@
+/* closed-sum.c -- sums of very many terms by formula. */
+#include "lang/language/closed-sum.h"
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+
+enum { MOST_POWER = 200 };
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr k;
+    long first, last;
+} range;
+
+static qdot_status
+no_formula(void)
+{
+    return qdot_fail(QDOT_EFAILED, "no formula is known");
+}
+
+/* Sums of k^0 ... k^p over 0..n, for negative n too: with them
+ * (n+1)^(p+1) = sum_j binomial(p+1, j) S_j(n). */
+static qdot_status
+powers_up_to(range *r, long n, long p, qdot_expr *S)
+{
+    qdot_pool *pool = r->pool;
+    const qdot_expr next = qdot_add(pool, qdot_expr_int(pool, n), QDOT_ONE);
+
+    for (long i = 0; i <= p; i++) {
+        qdot_expr sum = qdot_pow(pool, next, qdot_expr_int(pool, i + 1)),
+                  binomial = QDOT_ONE; /* (i+1, j) */
+
+        for (long j = 0; j < i; j++) {
+            sum = qdot_sub(pool, sum, qdot_mul(pool, binomial, S[j]));
+            binomial = qdot_div(pool, qdot_mul(pool, binomial, qdot_expr_int(pool, i + 1 - j)),
+                                qdot_expr_int(pool, j + 1));
+        }
+        S[i] = qdot_div(pool, sum, qdot_expr_int(pool, i + 1));
+    }
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+sum_of_power(range *r, long p, qdot_expr *value)
+{
+    qdot_expr *S;
+    qdot_status status;
+
+    if (p < 0 || p > MOST_POWER)
+        return no_formula();
+    S = qdot_malloc(2 * ((size_t)p + 1) * sizeof *S);
+    if (S == NULL)
+        return QDOT_ENOMEM;
+    status = powers_up_to(r, r->last, p, S);
+    if (status == QDOT_OK)
+        status = powers_up_to(r, r->first - 1, p, S + p + 1);
+    if (status == QDOT_OK)
+        *value = qdot_sub(r->pool, S[p], S[2 * p + 1]);
+    qdot_free(S);
+    return status;
+}
+
+/* The sum of base^exponent, base free of k and the exponent linear in it. */
+static qdot_status
+sum_of_geometric(range *r, qdot_expr base, qdot_expr exponent, qdot_expr *value)
+{
+    qdot_pool *pool = r->pool;
+    const qdot_expr zero = QDOT_ZERO, alpha = qdot_diff(pool, exponent, r->k),
+                    beta = qdot_subs(pool, exponent, 1, &r->k, &zero);
+    qdot_expr rho, sum;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_contains(pool, alpha, r->k))
+        return no_formula();
+    rho = qdot_pow(pool, base, alpha);
+    if (rho == QDOT_ONE)
+        return no_formula();
+    sum = qdot_sub(pool, qdot_pow(pool, rho, qdot_expr_int(pool, r->first)),
+                   qdot_pow(pool, rho, qdot_expr_int(pool, r->last + 1)));
+    sum = qdot_div(pool, sum, qdot_sub(pool, QDOT_ONE, rho));
+    *value = qdot_mul(pool, qdot_pow(pool, base, beta), sum);
+    return qdot_pool_check(pool);
+}
+
+/* One term, a product: what is free of k, times a power of k or a power with k above. */
+static qdot_status
+sum_of_product(range *r, qdot_expr e, qdot_expr *value)
+{
+    qdot_pool *pool = r->pool;
+    const bool product = qdot_expr_kind(pool, e) == QDOT_PROD;
+    const uint32_t n = product ? qdot_expr_count(pool, e) : 3;
+    qdot_expr outside = product ? qdot_expr_arg(pool, e, 0) : QDOT_ONE, base = QDOT_NIL,
+              exponent = QDOT_ZERO, sum = QDOT_NIL;
+    long p = 0;
+
+    for (uint32_t i = 1; i < n; i += 2) {
+        const qdot_expr b = product ? qdot_expr_arg(pool, e, i) : e,
+                        q = product ? qdot_expr_arg(pool, e, i + 1) : QDOT_ONE;
+
+        if (!qdot_expr_contains(pool, b, r->k) && !qdot_expr_contains(pool, q, r->k)) {
+            outside = qdot_mul(pool, outside, qdot_pow(pool, b, q));
+        } else if (b == r->k && qdot_expr_to_int(pool, q, &p) && p > 0) {
+            ;
+        } else if (qdot_expr_kind(pool, b) == QDOT_FUN &&
+                   qdot_expr_node(pool, b)->op == QDOT_EXP && base == QDOT_NIL) {
+            base = qdot_fun1(pool, QDOT_EXP, QDOT_ONE);
+            exponent = qdot_mul(pool, qdot_expr_arg(pool, b, 0), q);
+        } else if (!qdot_expr_contains(pool, b, r->k) && base == QDOT_NIL) {
+            base = b;
+            exponent = q;
+        } else {
+            return no_formula();
+        }
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    if (base != QDOT_NIL && p > 0)
+        return no_formula();
+    if (base != QDOT_NIL)
+        QDOT_TRY(sum_of_geometric(r, base, exponent, &sum));
+    else
+        QDOT_TRY(sum_of_power(r, p, &sum));
+    *value = qdot_mul(pool, outside, sum);
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first, long last,
+                qdot_expr *value)
+{
+    range r = {.pool = pool, .k = k, .first = first, .last = last};
+
+    e = qdot_expand(pool, e);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_kind(pool, e) != QDOT_SUM)
+        return sum_of_product(&r, e, value);
+    QDOT_TRY(sum_of_product(&r, qdot_expr_arg(pool, e, 0), value));
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr one;
+
+        QDOT_TRY(sum_of_product(&r, qdot_expr_arg(pool, e, i), &one));
+        *value = qdot_add(pool, *value,
+                          qdot_mul(pool, qdot_expr_arg(pool, e, i + 1), one));
+    }
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_closed_sum_unknown(qdot_status status, const char *index, long first, long last)
+{
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return status;
+    (void)qdot_fail(QDOT_ELIMIT, "a sum of %lu terms, and none is known by a formula",
+                    (unsigned long)last - (unsigned long)first + 1);
+    return qdot_hint("more than %d terms must be polynomials in %.40s or powers r^%.40s",
+                     QDOT_SUM_TERMS, index, index);
+}

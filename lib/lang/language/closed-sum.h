@@ -1,0 +1,26 @@
+/* closed-sum.h -- sums of very many terms by formula.
+ *
+ *     sum k^p, p = 0, 1 ... 200          Faulhaber's formula
+ *     sum r^(alpha k + beta)             (rho^a - rho^(b+1))/(1 - rho) r^beta, rho = r^alpha
+ *
+ * and what is linear in such terms, with coefficients free of k. A symbolic rho counts as generic: not 1.
+ * Tests: tests/script/long-sums.lag, tests/bad/sum-too-long.lag
+ */
+#ifndef QDOT_LANG_CLOSED_SUM_H
+#define QDOT_LANG_CLOSED_SUM_H
+
+#include "expr/expr.h"
+
+/* More terms than this are summed by formula or not at all. */
+enum { QDOT_SUM_TERMS = 1000000 };
+
+/* The sum of the scalar e over the symbol k = first..last. QDOT_EFAILED: no formula is known. */
+QDOT_MUST_CHECK qdot_status qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first,
+                                            long last, qdot_expr *value);
+
+/* Evaluation failed within a sum that only a formula could give: QDOT_ELIMIT says so, unless the
+ * failure is of memory or an interrupt. */
+qdot_status qdot_closed_sum_unknown(qdot_status status, const char *index, long first,
+                                    long last);
+
+#endif

@@ -1,0 +1,262 @@
+/* cursor.c -- steps over the tokens of a statement, and what to say where none fits. */
+#include "lang/language/cursor.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/session/spelling.h"
+
+bool
+qdot_cursor_is_op(const qdot_cursor *c, const char *op)
+{
+    return qdot_token_is(c->at, op);
+}
+
+bool
+qdot_cursor_is_word(const qdot_cursor *c, const char *word)
+{
+    return qdot_token_is_word(c->at, word);
+}
+
+bool
+qdot_cursor_accept_op(qdot_cursor *c, const char *op)
+{
+    bool is = qdot_cursor_is_op(c, op);
+
+    c->at += is;
+    return is;
+}
+
+bool
+qdot_cursor_accept_word(qdot_cursor *c, const char *word)
+{
+    bool is = qdot_cursor_is_word(c, word);
+
+    c->at += is;
+    return is;
+}
+
+bool
+qdot_cursor_is_end(const qdot_cursor *c)
+{
+    return c->at->kind == QDOT_TOKEN_END;
+}
+
+const qdot_token *
+qdot_cursor_find_word(const qdot_cursor *c, const char *word)
+{
+    const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1;
+    size_t depth = 0;
+
+    for (const qdot_token *t = c->at;; t++) {
+        if (t->kind == QDOT_TOKEN_END && (depth == 0 || t == last))
+            return t;
+        if (t->kind == QDOT_TOKEN_OPERATOR && t->text[1] == '\0') {
+            if (strchr("([{", t->text[0]) != NULL)
+                depth++;
+            else if (strchr(")]}", t->text[0]) != NULL) {
+                if (depth == 0)
+                    return t;
+                depth--;
+            }
+        } else if (depth == 0 && word != NULL && t->kind == QDOT_TOKEN_NAME &&
+                   strcmp(t->text, word) == 0) {
+            return t;
+        }
+    }
+}
+
+/* --- errors ------------------------------------------------------------------------- */
+
+static bool
+is_one_of(const qdot_token *t, const char *const *list)
+{
+    for (; *list != NULL; list++)
+        if (strcmp(t->text, *list) == 0)
+            return true;
+    return false;
+}
+
+static bool
+ends_operand(const qdot_token *t)
+{
+    static const char *const closers[] = {")", "]", "'", NULL};
+    static const char *const words[] = {"and", "or", "not", NULL};
+
+    return t->kind == QDOT_TOKEN_NUMBER ||
+           (t->kind == QDOT_TOKEN_NAME && !is_one_of(t, words)) ||
+           (t->kind == QDOT_TOKEN_OPERATOR && is_one_of(t, closers));
+}
+
+static bool
+begins_operand(const qdot_token *t)
+{
+    return t->kind == QDOT_TOKEN_NUMBER || t->kind == QDOT_TOKEN_NAME ||
+           (t->kind == QDOT_TOKEN_OPERATOR &&
+            (strcmp(t->text, "(") == 0 || strcmp(t->text, "sqrt") == 0));
+}
+
+static bool
+is_known(qdot_session *s, const char *name)
+{
+    return qdot_names_find(s->names, name) != NULL ||
+           qdot_names_is_family(s->names, name) || qdot_builtin_find(name) != NULL ||
+           qdot_quantity_find(name) != NULL || qdot_scene_has_label(s->scene, name) ||
+           strcmp(name, "pi") == 0 || strcmp(name, "t") == 0;
+}
+
+/* What other systems write here. */
+static qdot_status
+hint_foreign(const qdot_token *t)
+{
+    static const struct {
+        const char *text, *hint;
+    } foreign[] = {
+        {"&&", "write `and`"},
+        {"&", "write `and`"},
+        {"||", "write `or`"},
+        {"|", "the absolute value is abs(x), or is written `or`"},
+        {"!=", "write not (a = b), or `check not a == b`"},
+        {"!", "write `not`"},
+        {"%", "the remainder is mod(a, b)"},
+    };
+
+    if (qdot_token_is(t, ":") && qdot_token_is(t + 1, "=") && t[1].glued)
+        return qdot_hint("write =");
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
+        if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, foreign[i].text) == 0)
+            return qdot_hint("%s", foreign[i].hint);
+    return QDOT_ESYNTAX;
+}
+
+/* A product without its sign, between `before` and the next token. */
+static qdot_status
+missing_times(qdot_cursor *c, const qdot_token *before)
+{
+    const qdot_token *t = c->at;
+
+    c->error_at = t->glued ? t->start : before->start + before->length;
+    qdot_fail(QDOT_ESYNTAX, "a `*` is missing");
+    if (before->kind == QDOT_TOKEN_OPERATOR ||
+        strlen(before->text) + strlen(t->text) > 80)
+        return qdot_hint("a product is written with `*`");
+    return qdot_hint("write %s*%s%s", before->text, t->text,
+                     t->kind != QDOT_TOKEN_OPERATOR ? ""
+                     : t->text[0] == '('            ? "...)"
+                                                    : "(...)");
+}
+
+static qdot_status
+found(const char *what, const qdot_token *t)
+{
+    if (t->kind == QDOT_TOKEN_END)
+        return qdot_fail(QDOT_ESYNTAX, "expected %s, found the end of the statement",
+                         what);
+    if (t->kind == QDOT_TOKEN_STRING)
+        return qdot_fail(QDOT_ESYNTAX, "expected %s, found a text in quotes", what);
+    return qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.*s`", what, 100, t->text);
+}
+
+/* The nearest of the words in backquotes that `what` names. */
+static qdot_status
+hint_word(const char *what, const char *name)
+{
+    enum { WORDS = 16, LENGTH = 24 };
+    char words[WORDS][LENGTH];
+    const char *list[WORDS], *nearest;
+    size_t n = 0;
+
+    for (const char *c = strchr(what, '`'); c != NULL && n < WORDS; c = strchr(c, '`')) {
+        size_t length = strcspn(c + 1, "`");
+
+        if (c[1 + length] == '\0')
+            break;
+        if (length < LENGTH) {
+            snprintf(words[n], LENGTH, "%.*s", (int)length, c + 1);
+            list[n] = words[n];
+            n++;
+        }
+        c += length + 2;
+    }
+    nearest = qdot_spelling_nearest(name, n, list);
+    if (nearest != NULL)
+        qdot_hint("did you mean `%s`?", nearest);
+    return QDOT_ESYNTAX;
+}
+
+qdot_status
+qdot_cursor_expected(qdot_cursor *c, const char *what)
+{
+    const qdot_token *t = c->at;
+    const qdot_token *before = t > c->source->tokens.at ? t - 1 : NULL;
+    bool word = what[0] == '`' && what[1] >= 'a' && what[1] <= 'z';
+
+    c->error_at = t->start;
+    if (qdot_cursor_is_word(c, "for") && t[1].kind == QDOT_TOKEN_NAME) {
+        found(what, t);
+        return qdot_hint("one `for` ends a statement: for k = 1..3, j = 1..2");
+    }
+    if (qdot_cursor_is_word(c, "to") && t[1].kind == QDOT_TOKEN_END && before != NULL &&
+        ends_operand(before)) {
+        found(what, t);
+        return qdot_hint("behind `to` stands the name of a file in quotes: to \"a.txt\"");
+    }
+    if (before == NULL || before->kind == QDOT_TOKEN_END) {
+        found(what, t);
+        return hint_foreign(t);
+    }
+    if (t->kind == QDOT_TOKEN_END)
+        c->error_at = before->start + before->length;
+    if (before->kind == QDOT_TOKEN_NUMBER && t->glued && strcmp(t->text, ".") == 0) {
+        qdot_fail(QDOT_ESYNTAX, "a decimal point needs a digit after it");
+        return qdot_hint("write %.80s or %.80s.0", before->text, before->text);
+    }
+    if (!ends_operand(before) || !begins_operand(t)) {
+        found(what, t);
+        return hint_foreign(t);
+    }
+    if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0)
+        return found(what, t); /* behind an option word, not an operand */
+    if (word && t->kind == QDOT_TOKEN_NAME && !t->glued && !is_known(c->session, t->text)) {
+        found(what, t); /* `2 tol` among words is no product */
+        return hint_word(what, t->text);
+    }
+    if (t->glued || before->kind == QDOT_TOKEN_NUMBER ||
+        (!word && (t->kind != QDOT_TOKEN_NAME || is_known(c->session, t->text))))
+        return missing_times(c, before);
+    found(what, t);
+    if (word)
+        return hint_word(what, t->text);
+    return what[0] == '`' ? QDOT_ESYNTAX : qdot_hint("a product is written with `*`");
+}
+
+qdot_status
+qdot_cursor_expect_op(qdot_cursor *c, const char *op)
+{
+    char what[16];
+
+    if (qdot_cursor_accept_op(c, op))
+        return QDOT_OK;
+    snprintf(what, sizeof what, "`%s`", op);
+    return qdot_cursor_expected(c, what);
+}
+
+qdot_status
+qdot_cursor_expect_end(qdot_cursor *c)
+{
+    if (qdot_cursor_is_end(c))
+        return QDOT_OK;
+    return qdot_cursor_expected(c, "the end of the statement");
+}
+
+qdot_status
+qdot_cursor_once(qdot_cursor *c, const char *word, bool given)
+{
+    if (!given)
+        return QDOT_OK;
+    c->error_at = c->at > c->source->tokens.at ? c->at[-1].start : c->at->start;
+    return qdot_fail(QDOT_EINVAL, "`%s` is given twice", word);
+}

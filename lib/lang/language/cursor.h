@@ -1,0 +1,31 @@
+/* cursor.h -- a cursor over a statement's tokens. */
+#ifndef QDOT_LANG_CURSOR_H
+#define QDOT_LANG_CURSOR_H
+
+#include "lang/session/session.h"
+
+typedef struct {
+    qdot_session *session;
+    const qdot_source *source;
+    const qdot_token
+        *at;         /* the next token; tokens[i] with kind END ends every statement */
+    size_t error_at; /* byte where the last error is; set by every reader that fails */
+} qdot_cursor;
+
+bool qdot_cursor_is_op(const qdot_cursor *c, const char *op);
+bool qdot_cursor_is_word(const qdot_cursor *c, const char *word);
+bool qdot_cursor_accept_op(qdot_cursor *c, const char *op); /* and step over it */
+bool qdot_cursor_accept_word(qdot_cursor *c, const char *word);
+bool qdot_cursor_is_end(const qdot_cursor *c);
+/* Fail at the next token: "expected WHAT, found `...`". With hint for a missing `*`, other systems'
+ * forms where they can be known. QDOT_ESYNTAX. */
+qdot_status qdot_cursor_expected(qdot_cursor *c, const char *what);
+QDOT_MUST_CHECK qdot_status qdot_cursor_expect_op(qdot_cursor *c, const char *op);
+QDOT_MUST_CHECK qdot_status qdot_cursor_expect_end(qdot_cursor *c);
+/* Step over tokens up to (not over) the next top-level `word` or the end; NULL word: the end. */
+const qdot_token *qdot_cursor_find_word(const qdot_cursor *c, const char *word);
+/* An option that may be given once: QDOT_EINVAL if `given`, at the option's word. */
+QDOT_MUST_CHECK qdot_status qdot_cursor_once(qdot_cursor *c, const char *word,
+                                             bool given);
+
+#endif

@@ -1,0 +1,110 @@
+/* evaluator.h -- inside the evaluator: from tokens to postfix code to values.
+ *
+ * What parse.c, evaluate.c, resolve.c, call.c and read.c ask of each other: an index or the body of
+ * a function is read and evaluated while an expression is. Statements read through read.h.
+ */
+#ifndef QDOT_LANG_EVALUATOR_H
+#define QDOT_LANG_EVALUATOR_H
+
+#include "lang/language/cursor.h"
+
+/* --- postfix code ------------------------------------------------------------------- */
+
+typedef enum {
+    QDOT_CODE_NUMBER,     /* push the number of `token` */
+    QDOT_CODE_NAME,       /* push what `token` means, with `primes` */
+    QDOT_CODE_LABEL,      /* n indices popped; push the label as a carrier symbol */
+    QDOT_CODE_HISTORY,    /* push %n, n = 0: the last */
+    QDOT_CODE_INDEX_NAME, /* n indices popped; push token[...] with `primes` */
+    QDOT_CODE_INDEX,      /* n indices and a value popped; push its entry */
+    QDOT_CODE_CALL,       /* `to` indices and n arguments popped; push token(...) */
+    QDOT_CODE_RANGE,      /* n popped, the last two the ends of a range of token(...) */
+    QDOT_CODE_TERM,    /* the top is the right operand of `token` in a sum or product */
+    QDOT_CODE_SUM,     /* n terms popped */
+    QDOT_CODE_PRODUCT, /* n factors popped */
+    QDOT_CODE_NEGATE,
+    QDOT_CODE_POWER,
+    QDOT_CODE_RELATION, /* a b -> (a op b) */
+    QDOT_CODE_CHAIN,    /* a b -> (a op b) b: the first part of a < b < c */
+    QDOT_CODE_AND,      /* n popped */
+    QDOT_CODE_OR,
+    QDOT_CODE_NOT,
+    QDOT_CODE_VECTOR,    /* n popped */
+    QDOT_CODE_LIST,      /* n popped */
+    QDOT_CODE_MATRIX,    /* n entries popped, `to` columns */
+    QDOT_CODE_MEMBER,    /* the top is meant along the run `token` */
+    QDOT_CODE_JUMP,      /* to `to` */
+    QDOT_CODE_SUM_BEGIN, /* a b popped; the loop over source token n, body at `to` */
+    QDOT_CODE_SUM_NEXT,  /* the body's value popped; round again or go on */
+    QDOT_CODE_IF_TEST,   /* the condition stays; false: nil pushed, go to `to` */
+    QDOT_CODE_IF_ELSE,   /* condition true: both popped, value pushed, go to `to` */
+    QDOT_CODE_IF_END     /* condition, a, b popped; push if(...) */
+} qdot_code_op;
+
+typedef struct {
+    uint8_t op; /* qdot_code_op */
+    uint8_t primes;
+    uint32_t n, to;
+    const qdot_token *token; /* answerable for it: where the caret goes */
+} qdot_code;
+
+typedef struct {
+    qdot_vec(qdot_code) list;
+} qdot_program;
+
+/* How far an expression goes. */
+typedef enum {
+    QDOT_PARSE_VALUE, /* relations and logic too */
+    QDOT_PARSE_SIDE   /* up to a relation, `and`, `or` */
+} qdot_parse_extent;
+
+/* Parse one expression at the cursor and step over it. Append to *program. */
+QDOT_MUST_CHECK qdot_status qdot_parse(qdot_cursor *c, qdot_parse_extent extent,
+                                       qdot_program *program);
+
+/* Run the program; *run (may be NULL: not allowed) the run that the whole is meant along,
+ * or NULL. *over (may be NULL): the coordinates its entries go by, or nil. */
+QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_program *program,
+                                          qdot_expr *value, qdot_expr *over,
+                                          const char **run);
+
+/* Step over `NAME[k].`, a run of a family before an operand; *run: a token that spells the
+ * run, "NAME[2]"; NULL: it is none, the cursor stays. */
+QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
+                                                   const qdot_token **run);
+
+/* --- meaning ------------------------------------------------------------------------ */
+
+/* What `x₁` may be, where nothing is called x1: form 0 "x[1]", form 1 "x_1". False: there is none. */
+bool qdot_resolve_small(const char *name, unsigned form, qdot_text *spelled);
+/* A bare name with `primes`. *over: the coordinates its entries go by, or nil. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_name(qdot_cursor *c, const qdot_token *token,
+                                              unsigned primes, qdot_expr *value,
+                                              qdot_expr *over);
+/* name[index ...] with `primes`. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_index(qdot_cursor *c, const qdot_token *token,
+                                               unsigned primes, uint32_t n,
+                                               const qdot_expr *index, qdot_expr *value);
+/* The failure that a prime cannot stand at `name`. QDOT_ETYPE. */
+qdot_status qdot_resolve_no_prime(const char *name, const char *why);
+/* x(args), x'(args) of an undefined function; a prime only where it has one argument. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_undefined(qdot_session *session,
+                                                   const qdot_name *entry, unsigned primes,
+                                                   uint32_t n, const qdot_expr *args,
+                                                   qdot_expr *value);
+/* name(args), name[index](args), name'(args); labels [indices + n]: of the values that are
+ * positions of particles and bodies, else NULL. *over: as above. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_token *token,
+                                              unsigned primes, uint32_t indices,
+                                              uint32_t n, const qdot_expr *values,
+                                              const char *const *labels, const char *run,
+                                              qdot_expr *value, qdot_expr *over);
+/* *label: of the particle or body that name or name[index ...] is, itself or as the argument
+ * of a function; NULL: it is none. Borrowed from the scene. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_label(qdot_session *session, const char *name,
+                                               uint32_t n, const qdot_expr *index,
+                                               const char **label);
+/* Whether a name is declared as a function of either kind. */
+bool qdot_resolve_is_function(const qdot_session *session, const char *name);
+
+#endif

@@ -1,0 +1,95 @@
+/* formals.c -- formal arguments of functions. */
+#include "lang/language/formals.h"
+
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "lang/language/read.h"
+
+qdot_status
+qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names, size_t *n)
+{
+    qdot_vec(const qdot_token *) list = {0};
+    qdot_status status;
+
+    status = qdot_cursor_expect_op(c, "(");
+    if (status != QDOT_OK)
+        status = qdot_hint("its arguments stand in ( ): as in function x(s), y(s, t)");
+
+    while (status == QDOT_OK) {
+        if (c->at->kind != QDOT_TOKEN_NAME) {
+            status = qdot_cursor_expected(c, "the name of an argument");
+            break;
+        }
+        for (size_t i = 0; i < list.n && status == QDOT_OK; i++)
+            if (strcmp(list.at[i]->text, c->at->text) == 0) {
+                c->error_at = c->at->start;
+                status = qdot_fail(QDOT_ENAME, "the argument `%s` stands here twice",
+                                   c->at->text);
+            }
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&list, c->at);
+        if (status != QDOT_OK)
+            break;
+        c->at++;
+        if (!qdot_cursor_accept_op(c, ",")) {
+            status = qdot_cursor_expect_op(c, ")");
+            break;
+        }
+    }
+    if (status != QDOT_OK) {
+        qdot_free(list.at);
+        list.at = NULL;
+        list.n = 0;
+    }
+    *names = list.at;
+    *n = list.n;
+    return status;
+}
+
+/* An argument t is the time itself: that name is reserved. */
+static qdot_expr
+formal_symbol(qdot_pool *pool, const qdot_token *name)
+{
+    return strcmp(name->text, "t") == 0 ? QDOT_T
+                                        : qdot_symbol_get(pool, QDOT_FORMAL, name->text);
+}
+
+qdot_status
+qdot_formals_read(qdot_cursor *c, qdot_expr *formals, const qdot_token ***names,
+                  size_t *n)
+{
+    qdot_vec(qdot_expr) symbols = {0};
+    qdot_status status = qdot_formals_read_names(c, names, n);
+
+    for (size_t i = 0; i < *n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&symbols, formal_symbol(c->session->pool, (*names)[i]));
+    if (status == QDOT_OK) {
+        *formals = qdot_list(c->session->pool, (uint32_t)symbols.n, symbols.at);
+        status = qdot_pool_check(c->session->pool);
+    }
+    qdot_free(symbols.at);
+    return status;
+}
+
+qdot_status
+qdot_formals_read_body(qdot_cursor *c, qdot_expr formals, size_t n,
+                       const qdot_token *const *names, qdot_expr *body)
+{
+    qdot_status status = QDOT_OK;
+    size_t pushed = 0;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_expr formal = qdot_expr_arg(c->session->pool, formals, (uint32_t)i);
+
+        if (formal == QDOT_T)
+            continue;
+        status = qdot_names_push(c->session->names, names[i]->text, formal);
+        pushed += status == QDOT_OK;
+    }
+    if (status == QDOT_OK)
+        status = qdot_read_value(c, body);
+    while (pushed-- > 0)
+        qdot_names_pop(c->session->names);
+    return status;
+}

@@ -1,0 +1,20 @@
+/* hints.h -- what a person may have meant: the nearest name, our form of another. */
+#ifndef QDOT_LANG_HINTS_H
+#define QDOT_LANG_HINTS_H
+
+#include "lang/language/cursor.h"
+
+/* Whether a name without a meaning is another system's for one of our functions: `Sin`. */
+bool qdot_hints_is_foreign(const qdot_session *session, const char *name);
+/* "unknown name `thta`", with the hint that fits: the nearest name, our form of another
+ * system's. member: the whole, "thta[2]", or NULL. QDOT_ENAME. */
+qdot_status qdot_hints_unknown(qdot_cursor *c, const qdot_token *token,
+                               const char *member);
+/* The same for a call. */
+qdot_status qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token);
+/* A function's name without its brackets: `sqrt x`, `sin^2(x)`. QDOT_ESYNTAX. */
+qdot_status qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token);
+/* The nearest of everything known; NULL if none is near. Valid until the next change. */
+const char *qdot_hints_nearest(qdot_session *session, const char *name);
+
+#endif

@@ -1,0 +1,663 @@
+/* parse.c -- an expression to postfix code: precedence with an explicit stack.
+ *
+ * Sums and products are gathered whole (a + b - c is three terms and one SUM), so that a
+ * long one is built once and not again for every term.
+ */
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "lang/functions/builtin.h"
+#include "lang/language/evaluator.h"
+#include "lang/language/hints.h"
+#include "lang/session/range.h"
+#include "lang/session/runs.h"
+#include "lang/source/lex.h"
+
+/* What waits on the stack: operators by how they are read, and open brackets. */
+typedef enum {
+    OP_OR,
+    OP_AND,
+    OP_NOT,
+    OP_RELATION,
+    OP_SUM,
+    OP_PRODUCT,
+    OP_NEGATE,
+    OP_POWER,
+    OP_ROOT, /* √ before an operand */
+    OP_MEMBER, /* `a.` before an operand */
+    IN_GROUP,  /* ( ) of an operand: a vector if it holds a comma */
+    IN_LIST,   /* [ ]: a list or, with `;`, a matrix */
+    IN_INDEX_NAME,
+    IN_INDEX,
+    IN_LABEL,
+    IN_CALL,
+    IN_SUM,
+    IN_IF
+} waiting_kind;
+
+typedef struct {
+    uint8_t kind; /* waiting_kind */
+    uint8_t primes;
+    bool ranged; /* of IN_CALL: its last argument is a range */
+    const qdot_token *token; /* the operator's last sign; what opened the bracket */
+    const qdot_token *name;  /* of IN_SUM: its index */
+    const qdot_token *power; /* of IN_CALL: sin²(x) is sin(x)^2; NULL */
+    uint32_t count;          /* operands or arguments complete so far */
+    uint32_t columns, indices, at;
+} waiting;
+
+typedef struct {
+    qdot_cursor *c;
+    qdot_program *program;
+    qdot_parse_extent extent;
+    qdot_vec(waiting) stack;
+    size_t depth; /* open brackets */
+    bool operand; /* an operand comes next */
+    bool done;
+} parser;
+
+static const struct {
+    const char *text;
+    uint8_t kind;
+} binaries[] = {
+    {"+", OP_SUM},       {"-", OP_SUM},      {"*", OP_PRODUCT},   {"/", OP_PRODUCT},
+    {"^", OP_POWER},     {"=", OP_RELATION}, {"==", OP_RELATION}, {"<", OP_RELATION},
+    {"<=", OP_RELATION}, {">", OP_RELATION}, {">=", OP_RELATION}, {"and", OP_AND},
+    {"or", OP_OR},
+};
+
+static bool
+is_op(const qdot_token *token, const char *text)
+{
+    return token->kind == QDOT_TOKEN_OPERATOR && strcmp(token->text, text) == 0;
+}
+
+static qdot_status
+fail_at(parser *p, const qdot_token *token, qdot_status status)
+{
+    p->c->error_at = token->start;
+    return status;
+}
+
+static qdot_status
+emit(parser *p, qdot_code_op op, const qdot_token *token, uint32_t n, uint32_t to,
+     unsigned primes)
+{
+    qdot_code code = {(uint8_t)op, (uint8_t)primes, n, to, token};
+
+    return qdot_vec_push(&p->program->list, code);
+}
+
+static waiting *
+top(parser *p)
+{
+    return p->stack.n > 0 ? &p->stack.at[p->stack.n - 1] : NULL;
+}
+
+static qdot_status
+push(parser *p, waiting_kind kind, const qdot_token *token)
+{
+    waiting w = {.kind = (uint8_t)kind, .token = token};
+
+    if (kind >= IN_GROUP) {
+        p->depth++;
+        p->operand = true;
+    }
+    return qdot_vec_push(&p->stack, w);
+}
+
+/* --- operators ---------------------------------------------------------------------- */
+
+/* The operator on top has its last operand: emit it. */
+static qdot_status
+reduce(parser *p)
+{
+    waiting w = p->stack.at[--p->stack.n];
+
+    switch ((waiting_kind)w.kind) {
+    case OP_OR: return emit(p, QDOT_CODE_OR, w.token, w.count + 1, 0, 0);
+    case OP_AND: return emit(p, QDOT_CODE_AND, w.token, w.count + 1, 0, 0);
+    case OP_NOT: return emit(p, QDOT_CODE_NOT, w.token, 1, 0, 0);
+    case OP_RELATION:
+        QDOT_TRY(emit(p, QDOT_CODE_RELATION, w.token, 2, 0, 0));
+        return w.count > 1 ? emit(p, QDOT_CODE_AND, w.token, w.count, 0, 0) : QDOT_OK;
+    case OP_SUM:
+        QDOT_TRY(emit(p, QDOT_CODE_TERM, w.token, 1, 0, 0));
+        return emit(p, QDOT_CODE_SUM, w.token, w.count + 1, 0, 0);
+    case OP_PRODUCT:
+        QDOT_TRY(emit(p, QDOT_CODE_TERM, w.token, 1, 0, 0));
+        return emit(p, QDOT_CODE_PRODUCT, w.token, w.count + 1, 0, 0);
+    case OP_NEGATE: return emit(p, QDOT_CODE_NEGATE, w.token, 1, 0, 0);
+    case OP_POWER: return emit(p, QDOT_CODE_POWER, w.token, 2, 0, 0);
+    case OP_ROOT: return emit(p, QDOT_CODE_CALL, w.token, 1, 0, 0);
+    default: return emit(p, QDOT_CODE_MEMBER, w.token, 1, 0, 0);
+    }
+}
+
+/* Emit all operators on top that bind tighter than `kind`. */
+static qdot_status
+reduce_above(parser *p, waiting_kind kind)
+{
+    while (top(p) != NULL && top(p)->kind < IN_GROUP && top(p)->kind > kind)
+        QDOT_TRY(reduce(p));
+    return QDOT_OK;
+}
+
+/* All operators down to the bracket. */
+static qdot_status
+reduce_all(parser *p)
+{
+    while (top(p) != NULL && top(p)->kind < IN_GROUP)
+        QDOT_TRY(reduce(p));
+    return QDOT_OK;
+}
+
+static qdot_status
+chain_relation(parser *p, waiting *w, const qdot_token *token)
+{
+    if (token->text[0] == '=' || w->token->text[0] == '=') {
+        qdot_fail(QDOT_ESYNTAX, "two relations in one: `%s` after `%s`", token->text,
+                  w->token->text);
+        qdot_hint("write (a = b) = c with brackets, or two statements");
+        return fail_at(p, token, QDOT_ESYNTAX);
+    }
+    w->count++;
+    const qdot_token *first = w->token;
+
+    w->token = token;
+    return emit(p, QDOT_CODE_CHAIN, first, 2, 0, 0);
+}
+
+static qdot_status
+binary(parser *p, waiting_kind kind, const qdot_token *token)
+{
+    waiting *w;
+
+    QDOT_TRY(reduce_above(p, kind));
+    p->operand = true;
+    w = top(p);
+    if (w != NULL && w->kind == kind && kind != OP_POWER) {
+        if (kind == OP_RELATION)
+            return chain_relation(p, w, token);
+        if (kind == OP_SUM || kind == OP_PRODUCT)
+            QDOT_TRY(emit(p, QDOT_CODE_TERM, w->token, 1, 0, 0));
+        w->count++;
+        w->token = token;
+        return QDOT_OK;
+    }
+    QDOT_TRY(push(p, kind, token));
+    top(p)->count = 1;
+    return QDOT_OK;
+}
+
+/* --- operands ----------------------------------------------------------------------- */
+
+/* Step over the primes glued to what was just read. */
+static unsigned
+primes(parser *p)
+{
+    unsigned n = 0;
+
+    while (n < QDOT_LEX_PRIMES && p->c->at->glued && is_op(p->c->at, "'")) {
+        p->c->at++;
+        n++;
+    }
+    return n;
+}
+
+/* A label, as an argument: NAME or NAME[...]. */
+static qdot_status
+label(parser *p, const char *what)
+{
+    const qdot_token *name = p->c->at;
+
+    if (name->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(p->c, what);
+    p->c->at++;
+    if (p->c->at->glued && is_op(p->c->at, "[")) {
+        p->c->at++;
+        return push(p, IN_LABEL, name);
+    }
+    p->operand = false;
+    return emit(p, QDOT_CODE_LABEL, name, 0, 0, 0);
+}
+
+/* The cursor is past `name` (and [indices] and primes), at its `(`. */
+static qdot_status
+call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
+{
+    qdot_session *s = p->c->session;
+    const qdot_builtin *row = indices > 0 || qdot_resolve_is_function(s, name->text)
+                                  ? NULL
+                                  : qdot_builtin_find(name->text);
+    unsigned flags = row != NULL ? row->flags : 0;
+
+    if (flags & QDOT_BUILTIN_UNBUILT) {
+        qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name->text);
+        return fail_at(p, name, QDOT_ENOTBUILT);
+    }
+    if (indices == 0 && qdot_hints_is_foreign(s, name->text)) {
+        (void)qdot_hints_unknown_function(p->c, name);
+        return fail_at(p, name, QDOT_ENAME);
+    }
+    p->c->at++;
+    if (flags & QDOT_BUILTIN_FORM) {
+        bool sum = strcmp(name->text, "sum") == 0;
+
+        QDOT_TRY(push(p, sum ? IN_SUM : IN_IF, name));
+        if (sum) {
+            top(p)->at = (uint32_t)p->program->list.n;
+            return emit(p, QDOT_CODE_JUMP, name, 0, 0, 0);
+        }
+        return QDOT_OK;
+    }
+    QDOT_TRY(push(p, IN_CALL, name));
+    top(p)->primes = (uint8_t)n_primes;
+    top(p)->indices = indices;
+    if (is_op(p->c->at, ")")) { /* no arguments */
+        p->c->at++;
+        p->stack.n--;
+        p->depth--;
+        p->operand = false;
+        return emit(p, QDOT_CODE_CALL, name, 0, indices, n_primes);
+    }
+    return flags & QDOT_BUILTIN_LABEL ? label(p, "the name of a body or particle")
+                                      : QDOT_OK;
+}
+
+/* Whether a raised number follows, x², glued to what stands before it. */
+static bool
+is_raised(const parser *p, const qdot_token *t)
+{
+    return is_op(t, "^") && t->glued && (p->c->source->text[t->start] & 0x80) != 0;
+}
+
+/* sin²(x), the cursor past `sin`. */
+static qdot_status
+raised_call(parser *p, const qdot_token *name)
+{
+    const qdot_token *power = p->c->at + 1;
+
+    if (is_op(power, "-")) {
+        qdot_fail(QDOT_ESYNTAX, "`%s` with a negative power: its inverse, or 1 over it?",
+                  name->text);
+        qdot_hint("write a%s(x), or 1/%s(x)", name->text, name->text);
+        return fail_at(p, power, QDOT_ESYNTAX);
+    }
+    p->c->at += 2;
+    QDOT_TRY(call(p, name, 0, 0));
+    if (top(p) != NULL && top(p)->token == name)
+        top(p)->power = power;
+    return QDOT_OK;
+}
+
+static bool
+is_function(const parser *p, const char *name)
+{
+    const qdot_session *s = p->c->session;
+
+    return qdot_names_find(s->names, name) == NULL
+               ? qdot_builtin_find(name) != NULL &&
+                     !(qdot_builtin_find(name)->flags & QDOT_BUILTIN_FORM)
+               : qdot_resolve_is_function(s, name);
+}
+
+static qdot_status
+name(parser *p)
+{
+    const qdot_token *t = p->c->at++;
+    const qdot_token *next = p->c->at;
+    unsigned n;
+
+    if (is_op(next, ".") && next->glued && next[1].glued &&
+        (next[1].kind == QDOT_TOKEN_NAME || is_op(next + 1, "("))) {
+        p->c->at++;
+        return push(p, OP_MEMBER, t);
+    }
+    if (is_op(next, "[") && next->glued && qdot_runs_is_family(p->c->session, t->text)) {
+        const qdot_token *run;
+
+        p->c->at = t;
+        QDOT_TRY(qdot_cursor_accept_run(p->c, &run));
+        if (run != NULL)
+            return push(p, OP_MEMBER, run);
+        p->c->at = t + 1;
+    }
+    n = primes(p);
+    next = p->c->at;
+    if (is_op(next, "(") && (n == 0 || next->glued) &&
+        (next->glued || qdot_names_find(p->c->session->names, t->text) == NULL ||
+         qdot_resolve_is_function(p->c->session, t->text)))
+        return call(p, t, n, 0);
+    if (n == 0 && is_raised(p, next) && is_function(p, t->text) &&
+        (is_op(next + 1, "-") || is_op(next + 2, "(")))
+        return raised_call(p, t);
+    if (is_op(next, "[") && next->glued && n == 0) {
+        bool multiplier = strcmp(t->text, "lambda") == 0;
+
+        if (qdot_hints_is_foreign(p->c->session, t->text)) {
+            (void)qdot_hints_unknown(p->c, t, NULL);
+            return fail_at(p, t, QDOT_ENAME);
+        }
+        p->c->at++;
+        QDOT_TRY(push(p, IN_INDEX_NAME, t));
+        return multiplier && p->c->at->kind == QDOT_TOKEN_NAME
+                   ? label(p, "the label of a constraint")
+                   : QDOT_OK;
+    }
+    p->operand = false;
+    return emit(p, QDOT_CODE_NAME, t, 0, 0, n);
+}
+
+/* `%` or `%3`. */
+static qdot_status
+history(parser *p)
+{
+    const qdot_token *t = p->c->at++;
+    uint32_t n = 0;
+
+    p->operand = false;
+    if (p->c->at->kind == QDOT_TOKEN_NUMBER && p->c->at->glued) {
+        const char *digits = p->c->at->text;
+
+        if (strlen(digits) > 9 || strspn(digits, "0123456789") != strlen(digits))
+            return qdot_cursor_expected(p->c, "a whole number after `%`");
+        for (; *digits != '\0'; digits++)
+            n = 10 * n + (uint32_t)(*digits - '0');
+        if (n == 0)
+            return qdot_cursor_expected(p->c, "a number from 1 after `%`");
+        p->c->at++;
+    }
+    return emit(p, QDOT_CODE_HISTORY, t, n, 0, 0);
+}
+
+static qdot_status
+operand(parser *p)
+{
+    const qdot_token *t = p->c->at;
+
+    if (t->kind == QDOT_TOKEN_NUMBER) {
+        p->c->at++;
+        p->operand = false;
+        return emit(p, QDOT_CODE_NUMBER, t, 0, 0, 0);
+    }
+    if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "not") == 0) {
+        p->c->at++;
+        return push(p, OP_NOT, t);
+    }
+    if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "and") != 0 &&
+        strcmp(t->text, "or") != 0)
+        return name(p);
+    if (is_op(t, "%"))
+        return history(p);
+    if (is_op(t, "sqrt")) {
+        p->c->at++;
+        return push(p, OP_ROOT, t);
+    }
+    if (is_op(t, "-") || is_op(t, "+")) {
+        p->c->at++;
+        return t->text[0] == '-' ? push(p, OP_NEGATE, t) : QDOT_OK;
+    }
+    if (is_op(t, "(")) {
+        p->c->at++;
+        return push(p, IN_GROUP, t);
+    }
+    if (is_op(t, "[")) {
+        p->c->at++;
+        if (is_op(p->c->at, "]")) {
+            p->c->at++;
+            p->operand = false;
+            return emit(p, QDOT_CODE_LIST, t, 0, 0, 0);
+        }
+        return push(p, IN_LIST, t);
+    }
+    return qdot_cursor_expected(p->c, "an expression");
+}
+
+/* --- brackets ----------------------------------------------------------------------- */
+
+static qdot_status
+usage(parser *p, const waiting *w)
+{
+    qdot_fail(QDOT_ESYNTAX, w->kind == IN_SUM ? "a sum is sum(EXPR, k, a, b)"
+                                              : "a choice is if(CONDITION, A, B)");
+    qdot_hint(w->kind == IN_SUM ? "as in sum(k^2, k, 1, 3); a plain sum is a + b"
+                                : "as in if(x > 0, x, -x)");
+    return fail_at(p, w->token, QDOT_ESYNTAX);
+}
+
+/* After the first comma of sum(EXPR, k, a, b): the index. */
+static qdot_status
+sum_index(parser *p, waiting *w)
+{
+    w->name = p->c->at;
+    if (w->name->kind != QDOT_TOKEN_NAME || !is_op(w->name + 1, ","))
+        return usage(p, w);
+    p->c->at += 2;
+    QDOT_TRY(emit(p, QDOT_CODE_SUM_NEXT, w->token, 0, 0, 0));
+    p->program->list.at[w->at].to = (uint32_t)p->program->list.n;
+    return QDOT_OK;
+}
+
+static qdot_status
+comma(parser *p)
+{
+    waiting *w;
+
+    QDOT_TRY(reduce_all(p));
+    w = top(p);
+    if (w->kind == IN_CALL && w->ranged)
+        return qdot_cursor_expected(p->c, "`)`: a range stands last");
+    p->c->at++;
+    p->operand = true;
+    w->count++;
+    if (w->kind == IN_SUM) {
+        if (w->count == 1)
+            return sum_index(p, w);
+        return w->count > 2 ? usage(p, w) : QDOT_OK;
+    }
+    if (w->kind == IN_IF) {
+        uint32_t here = (uint32_t)p->program->list.n;
+
+        if (w->count > 2)
+            return usage(p, w);
+        QDOT_TRY(emit(p, w->count == 1 ? QDOT_CODE_IF_TEST : QDOT_CODE_IF_ELSE, w->token,
+                      0, 0, 0));
+        if (w->count == 2)
+            p->program->list.at[w->at].to = here + 1;
+        w->at = here;
+    }
+    return QDOT_OK;
+}
+
+/* `;` in [a, b; c, d]. */
+static qdot_status
+row(parser *p)
+{
+    waiting *w;
+
+    QDOT_TRY(reduce_all(p));
+    w = top(p);
+    if (w->kind != IN_LIST)
+        return qdot_cursor_expected(
+            p->c, w->kind == IN_INDEX || w->kind == IN_INDEX_NAME || w->kind == IN_LABEL
+                      ? "`]`"
+                      : "`)`");
+    w->count++;
+    if (w->columns == 0)
+        w->columns = w->count;
+    if (w->count % w->columns != 0) {
+        qdot_fail(QDOT_ETYPE, "the rows of a matrix are of one length");
+        return fail_at(p, p->c->at, QDOT_ETYPE);
+    }
+    p->c->at++;
+    if (is_op(p->c->at, "]")) { /* [a, b;], a matrix of one row */
+        waiting whole = *w;
+
+        p->c->at++;
+        p->stack.n--;
+        p->depth--;
+        return emit(p, QDOT_CODE_MATRIX, whole.token, whole.count, whole.columns, 0);
+    }
+    p->operand = true;
+    return QDOT_OK;
+}
+
+static qdot_status
+close_list(parser *p, const waiting *w)
+{
+    if (w->columns == 0)
+        return emit(p, QDOT_CODE_LIST, w->token, w->count + 1, 0, 0);
+    if ((w->count + 1) % w->columns != 0) {
+        qdot_fail(QDOT_ETYPE, "the rows of a matrix are of one length");
+        return fail_at(p, p->c->at - 1, QDOT_ETYPE);
+    }
+    return emit(p, QDOT_CODE_MATRIX, w->token, w->count + 1, w->columns, 0);
+}
+
+static qdot_status
+close_bracket(parser *p)
+{
+    waiting w;
+    unsigned n;
+
+    QDOT_TRY(reduce_all(p));
+    w = *top(p);
+    p->c->at++;
+    p->stack.n--;
+    p->depth--;
+    switch ((waiting_kind)w.kind) {
+    case IN_GROUP:
+        return w.count > 0 ? emit(p, QDOT_CODE_VECTOR, w.token, w.count + 1, 0, 0)
+                           : QDOT_OK;
+    case IN_LIST: return close_list(p, &w);
+    case IN_LABEL: return emit(p, QDOT_CODE_LABEL, w.token, w.count + 1, 0, 0);
+    case IN_INDEX_NAME:
+        n = primes(p);
+        if (is_op(p->c->at, "(") && p->c->at->glued)
+            return call(p, w.token, n, w.count + 1);
+        return emit(p, QDOT_CODE_INDEX_NAME, w.token, w.count + 1, 0, n);
+    case IN_INDEX: return emit(p, QDOT_CODE_INDEX, w.token, w.count + 1, 0, 0);
+    case IN_SUM:
+        if (w.count != 2)
+            return usage(p, &w);
+        return emit(p, QDOT_CODE_SUM_BEGIN, w.token,
+                    (uint32_t)(w.name - p->c->source->tokens.at), w.at + 1, 0);
+    case IN_IF:
+        if (w.count != 2)
+            return usage(p, &w);
+        QDOT_TRY(emit(p, QDOT_CODE_IF_END, w.token, 0, 0, 0));
+        p->program->list.at[w.at].to = (uint32_t)p->program->list.n;
+        return QDOT_OK;
+    default:
+        if (w.ranged)
+            return emit(p, QDOT_CODE_RANGE, w.token, w.count + 1, 0, 0);
+        QDOT_TRY(emit(p, QDOT_CODE_CALL, w.token, w.count + 1, w.indices, w.primes));
+        if (w.power == NULL)
+            return QDOT_OK;
+        QDOT_TRY(emit(p, QDOT_CODE_NUMBER, w.power, 0, 0, 0));
+        return emit(p, QDOT_CODE_POWER, w.power, 2, 0, 0);
+    }
+}
+
+/* `a..b` among arguments: numbers over a range of a run. */
+static qdot_status
+argument_range(parser *p)
+{
+    waiting *w;
+
+    QDOT_TRY(reduce_all(p));
+    w = top(p);
+    if (w->kind != IN_CALL || w->ranged || w->count == 0 || w->indices > 0 ||
+        w->primes > 0 || !qdot_range_is_word(w->token->text) ||
+        qdot_resolve_is_function(p->c->session, w->token->text))
+        return qdot_cursor_expected(p->c, w->kind == IN_CALL ? "`,` or `)`" : "`)`");
+    w->ranged = true;
+    w->count++;
+    p->c->at++;
+    p->operand = true;
+    return QDOT_OK;
+}
+
+/* --- after an operand --------------------------------------------------------------- */
+
+static qdot_status
+stray_prime(parser *p)
+{
+    qdot_fail(QDOT_ESYNTAX, "a prime goes directly after a name");
+    qdot_hint("the time derivative of an expression is ddt(...)");
+    return fail_at(p, p->c->at, QDOT_ESYNTAX);
+}
+
+static qdot_status
+after(parser *p)
+{
+    const qdot_token *t = p->c->at;
+
+    if (t->glued && is_op(t, "'"))
+        return stray_prime(p);
+    if (t->glued && is_op(t, "[")) {
+        p->c->at++;
+        return push(p, IN_INDEX, t);
+    }
+    if (top(p) != NULL && top(p)->kind == OP_ROOT && is_op(t, "^") && !is_op(t - 1, ")")) {
+        qdot_fail(QDOT_ESYNTAX, "a root and a power: which comes first?");
+        qdot_hint("write √(x^2) or √(x)^2");
+        return fail_at(p, t, QDOT_ESYNTAX);
+    }
+    while (top(p) != NULL && (top(p)->kind == OP_MEMBER || top(p)->kind == OP_ROOT))
+        QDOT_TRY(reduce(p));
+
+    if (t->kind == QDOT_TOKEN_OPERATOR || t->kind == QDOT_TOKEN_NAME)
+        for (size_t i = 0; i < sizeof binaries / sizeof *binaries; i++) {
+            waiting_kind kind = binaries[i].kind;
+
+            if (strcmp(t->text, binaries[i].text) != 0)
+                continue;
+            if (p->depth == 0 && p->extent == QDOT_PARSE_SIDE && kind <= OP_RELATION)
+                break;
+            p->c->at++;
+            return binary(p, kind, t);
+        }
+    if (p->depth == 0) {
+        p->done = true;
+        return reduce_all(p);
+    }
+    if (is_op(t, ","))
+        return comma(p);
+    if (is_op(t, ";"))
+        return row(p);
+    if (is_op(t, ")") || is_op(t, "]"))
+        return close_bracket(p);
+    if (is_op(t, ".."))
+        return argument_range(p);
+    QDOT_TRY(reduce_all(p));
+    return qdot_cursor_expected(
+        p->c, top(p)->kind == IN_LIST || top(p)->kind == IN_INDEX ||
+                      top(p)->kind == IN_INDEX_NAME || top(p)->kind == IN_LABEL
+                  ? "`]`"
+                  : "`)`");
+}
+
+static qdot_status
+parse(parser *p)
+{
+    for (size_t i = 0; !p->done; i++) {
+        if ((i & 0xFFFF) == 0xFFFF)
+            QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(p->operand ? operand(p) : after(p));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_parse(qdot_cursor *c, qdot_parse_extent extent, qdot_program *program)
+{
+    parser p = {.c = c, .program = program, .extent = extent, .operand = true};
+    qdot_status status;
+
+    c->error_at = c->at->start;
+    status = parse(&p);
+    qdot_free(p.stack.at);
+    return status;
+}

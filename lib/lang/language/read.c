@@ -1,0 +1,242 @@
+/* read.c -- the readers of statements: an operand of a kind, parsed and evaluated. */
+#include "lang/language/read.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "lang/language/evaluator.h"
+#include "lang/language/hints.h"
+#include "lang/session/bind.h"
+#include "lang/session/value-kind.h"
+
+static qdot_status
+read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
+                qdot_expr *over, const char **run)
+{
+    qdot_program program = {0};
+    qdot_status status = qdot_parse(c, extent, &program);
+
+    if (status == QDOT_OK)
+        status = qdot_evaluate(c, &program, value, over, run);
+    qdot_free(program.list.at);
+    return status;
+}
+
+qdot_status
+qdot_read_value(qdot_cursor *c, qdot_expr *value)
+{
+    return read_expression(c, QDOT_PARSE_VALUE, value, NULL, NULL);
+}
+
+qdot_status
+qdot_read_named(qdot_cursor *c, qdot_expr *value, qdot_expr *over)
+{
+    return read_expression(c, QDOT_PARSE_VALUE, value, over, NULL);
+}
+
+qdot_status
+qdot_read_side(qdot_cursor *c, qdot_expr *value)
+{
+    return read_expression(c, QDOT_PARSE_SIDE, value, NULL, NULL);
+}
+
+qdot_status
+qdot_read_member(qdot_cursor *c, qdot_expr *value, const char **run)
+{
+    *run = NULL;
+    return read_expression(c, QDOT_PARSE_SIDE, value, NULL, run);
+}
+
+/* Fail at `at`: a value of the wrong kind. */
+static qdot_status
+wrong_kind(qdot_cursor *c, const qdot_token *at, const char *wanted, qdot_expr value)
+{
+    c->error_at = at->start;
+    return qdot_fail(QDOT_ETYPE, "%s belongs here, not %s", wanted,
+                     qdot_value_kind_words(c->session->pool, value));
+}
+
+static bool
+is_number(const qdot_pool *pool, qdot_expr value)
+{
+    return qdot_expr_is_scalar(pool, value) && value != QDOT_TRUE && value != QDOT_FALSE;
+}
+
+qdot_status
+qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
+{
+    const qdot_token *start = c->at;
+
+    QDOT_TRY(qdot_read_side(c, value));
+    if (!is_number(c->session->pool, *value))
+        return wrong_kind(c, start, "a number", *value);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_read_point(qdot_cursor *c, qdot_expr *value)
+{
+    const qdot_token *start = c->at;
+    const qdot_pool *pool = c->session->pool;
+
+    QDOT_TRY(qdot_read_side(c, value));
+    if (qdot_expr_kind(pool, *value) == QDOT_VEC) {
+        if (qdot_expr_count(pool, *value) <= 3)
+            return QDOT_OK;
+        c->error_at = start->start;
+        return qdot_fail(QDOT_ETYPE, "a place has 1, 2 or 3 components, not %u",
+                         qdot_expr_count(pool, *value));
+    }
+    if (!is_number(pool, *value))
+        return wrong_kind(c, start, "a place or a vector", *value);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_read_number(qdot_cursor *c, double *value)
+{
+    const qdot_token *start = c->at;
+    qdot_expr e;
+
+    QDOT_TRY(qdot_read_scalar(c, &e));
+    c->error_at = start->start;
+    return qdot_session_number(c->session, e, value, NULL);
+}
+
+qdot_status
+qdot_read_integer(qdot_cursor *c, long *value)
+{
+    const qdot_token *start = c->at;
+    qdot_expr e;
+
+    QDOT_TRY(qdot_read_scalar(c, &e));
+    c->error_at = start->start;
+    return qdot_session_integer(c->session, e, value);
+}
+
+qdot_status
+qdot_read_range(qdot_cursor *c, qdot_expr *from, qdot_expr *to)
+{
+    QDOT_TRY(qdot_read_scalar(c, from));
+    if (!qdot_cursor_accept_op(c, ".."))
+        return qdot_cursor_expected(c, "a range `a..b`");
+    return qdot_read_scalar(c, to);
+}
+
+/* --- names -------------------------------------------------------------------------- */
+
+/* The indices after a name, [i, j]; the cursor is past `[`. */
+static qdot_status
+read_indices(qdot_cursor *c, qdot_text *name)
+{
+    char separator = '[';
+
+    do {
+        long k;
+
+        QDOT_TRY(qdot_read_integer(c, &k));
+        qdot_text_format(name, "%c%ld", separator, k);
+        separator = ',';
+    } while (qdot_cursor_accept_op(c, ","));
+    qdot_text_char(name, ']');
+    return qdot_cursor_expect_op(c, "]");
+}
+
+qdot_status
+qdot_read_name(qdot_cursor *c, const char **name)
+{
+    qdot_text spelled = {0};
+    qdot_status status;
+
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(c, "a name");
+    *name = c->at->text;
+    c->at++;
+    if (!c->at->glued || !qdot_cursor_accept_op(c, "["))
+        return QDOT_OK;
+    qdot_text_add(&spelled, *name);
+    status = read_indices(c, &spelled);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&spelled);
+    if (status == QDOT_OK) {
+        *name = qdot_arena_strndup(c->source->arena, spelled.at, spelled.n);
+        status = *name != NULL ? QDOT_OK : QDOT_ENOMEM;
+    }
+    qdot_text_clear(&spelled);
+    return status;
+}
+
+qdot_status
+qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet)
+{
+    const qdot_token *start = c->at;
+    qdot_pool *pool = c->session->pool;
+    const qdot_name *entry;
+    const char *name;
+    uint32_t order = 0;
+
+    if (start->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(c, "a coordinate");
+    QDOT_TRY(qdot_read_name(c, &name));
+    entry = qdot_names_find(c->session->names, name);
+    if (entry == NULL || !qdot_expr_is_coordinate(pool, entry->value)) {
+        const char *near = entry == NULL ? qdot_hints_nearest(c->session, name) : name;
+
+        c->error_at = start->start;
+        if (near == NULL || strcmp(near, name) != 0)
+            return qdot_hints_unknown(c, start, name);
+        (void)qdot_fail(QDOT_ENAME, "`%.200s` is not a coordinate", name);
+        return entry != NULL && entry->kind == QDOT_NAME_PARAM
+                   ? qdot_hint("set %.200s = ...", name)
+                   : QDOT_ENAME;
+    }
+    *jet = entry->value;
+    while (c->at->glued && qdot_cursor_accept_op(c, "'"))
+        order++;
+    if (order > 0)
+        *jet = qdot_symbol_jet(pool, *jet, order);
+    c->error_at = start->start;
+    return qdot_value_kind_check(pool, *jet);
+}
+
+qdot_status
+qdot_read_string(qdot_cursor *c, const char **text)
+{
+    if (c->at->kind != QDOT_TOKEN_STRING)
+        return qdot_cursor_expected(c, "a text in quotes");
+    *text = c->at->text;
+    c->at++;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_cursor_accept_run(qdot_cursor *c, const qdot_token **run)
+{
+    qdot_cursor look = *c;
+    const qdot_token *behind = c->at + 1;
+    qdot_token *spelled;
+    const char *name;
+    long depth = 0;
+
+    *run = NULL;
+    for (;; behind++) {
+        if (behind->kind == QDOT_TOKEN_END)
+            return QDOT_OK;
+        depth += qdot_token_is(behind, "[");
+        depth -= qdot_token_is(behind, "]");
+        if (depth == 0)
+            break;
+    }
+    if (!qdot_token_is(behind + 1, ".") || !behind[1].glued || !behind[2].glued ||
+        (behind[2].kind != QDOT_TOKEN_NAME && !qdot_token_is(behind + 2, "(")))
+        return QDOT_OK;
+    QDOT_TRY(qdot_read_name(&look, &name));
+    spelled = qdot_arena_take(c->source->arena, sizeof *spelled);
+    if (spelled == NULL)
+        return QDOT_ENOMEM;
+    *spelled = *c->at;
+    spelled->text = name;
+    *run = spelled;
+    c->at = behind + 2;
+    return QDOT_OK;
+}

@@ -1,0 +1,41 @@
+/* read.h -- the readers of statements: an operand of a kind, parsed and evaluated.
+ *
+ * A statement is a range of a source's tokens, which it reads through a cursor. An expression is parsed to postfix code by precedence with an explicit stack
+ * and evaluated by a loop over that code: no recursion, so no depth of brackets breaks it.
+ */
+#ifndef QDOT_LANG_READ_H
+#define QDOT_LANG_READ_H
+
+#include "lang/language/cursor.h"
+
+/* A whole expression, equations and logic included; stops before the first token that cannot go on (an
+ * option word, `,`, `:`, `..`, a closing bracket, the end). */
+QDOT_MUST_CHECK qdot_status qdot_read_value(qdot_cursor *c, qdot_expr *value);
+/* The same, to be named: *over: the coordinates its entries go by, `G = metric(R)` and
+ * G[r, phi]; nil: by numbers only. */
+QDOT_MUST_CHECK qdot_status qdot_read_named(qdot_cursor *c, qdot_expr *value,
+                                            qdot_expr *over);
+/* As a side of `==`, a relation, a bound: stops before = == < <= > >= and or. */
+QDOT_MUST_CHECK qdot_status qdot_read_side(qdot_cursor *c, qdot_expr *value);
+/* A sum without relations that must be a scalar: QDOT_ETYPE otherwise. */
+QDOT_MUST_CHECK qdot_status qdot_read_scalar(qdot_cursor *c, qdot_expr *value);
+/* A scalar or a vector of 2 or 3: a place or a force. */
+QDOT_MUST_CHECK qdot_status qdot_read_point(qdot_cursor *c, qdot_expr *value);
+/* As numbers of the moment, parameters with their values. */
+QDOT_MUST_CHECK qdot_status qdot_read_number(qdot_cursor *c, double *value);
+QDOT_MUST_CHECK qdot_status qdot_read_integer(qdot_cursor *c, long *value);
+/* a..b, exact. */
+QDOT_MUST_CHECK qdot_status qdot_read_range(qdot_cursor *c, qdot_expr *from,
+                                            qdot_expr *to);
+/* A name to be declared or a label, with its indices evaluated: "theta[1]", "A[1,2]". The string is in
+ * the source's arena. */
+QDOT_MUST_CHECK qdot_status qdot_read_name(qdot_cursor *c, const char **name);
+/* name or name[...] followed by primes, of a declared coordinate: the jet symbol. */
+QDOT_MUST_CHECK qdot_status qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet);
+/* As qdot_read_side, perhaps along a run, `a.theta` or `a.(expr)`: *run its label, else NULL. */
+QDOT_MUST_CHECK qdot_status qdot_read_member(qdot_cursor *c, qdot_expr *value,
+                                             const char **run);
+/* A quoted string. */
+QDOT_MUST_CHECK qdot_status qdot_read_string(qdot_cursor *c, const char **text);
+
+#endif

@@ -1,0 +1,570 @@
+/* resolve.c -- what a name and name[...] mean, and primes.
+ *
+ * In order: what a loop or sum binds, declared names, reserved ones (pi, t, dtheta),
+ * the values of the scene, labels.
+ */
+#include <string.h>
+
+#include "base/text.h"
+#include "base/utf8.h"
+#include "expr/calculus.h"
+#include "expr/tensor.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/entry.h"
+#include "lang/functions/short-names.h"
+#include "lang/language/evaluator.h"
+#include "lang/language/hints.h"
+#include "lang/session/value-kind.h"
+#include "lang/source/letters.h"
+
+bool
+qdot_resolve_is_function(const qdot_session *session, const char *name)
+{
+    const qdot_name *n = qdot_names_find(session->names, name);
+
+    return n != NULL && (n->kind == QDOT_NAME_FUNCTION || n->kind == QDOT_NAME_UFUN);
+}
+
+qdot_status
+qdot_resolve_label(qdot_session *s, const char *name, uint32_t n, const qdot_expr *index,
+                   const char **label)
+{
+    const qdot_name *known;
+    const qdot_particle *particle;
+    const qdot_body *body;
+    qdot_text spelled = {0};
+
+    *label = NULL;
+    if (s->scene->particles.n + s->scene->bodies.n == 0)
+        return QDOT_OK;
+    known = qdot_names_find(s->names, name);
+    if (known != NULL) {
+        *label = n == 0 ? known->label : NULL;
+        return QDOT_OK;
+    }
+    for (uint32_t i = 0; i < n; i++)
+        if (qdot_expr_kind(s->pool, index[i]) != QDOT_NUM)
+            return QDOT_OK;
+    QDOT_TRY(qdot_entry_name(s, name, n, index, &spelled));
+    particle = qdot_scene_find_particle(s->scene, spelled.at);
+    body = qdot_scene_find_body(s->scene, spelled.at);
+    qdot_text_clear(&spelled);
+    *label = particle != NULL ? particle->name : body != NULL ? body->name : NULL;
+    return QDOT_OK;
+}
+
+/* --- primes ------------------------------------------------------------------------- */
+
+qdot_status
+qdot_resolve_no_prime(const char *name, const char *why)
+{
+    qdot_fail(QDOT_ETYPE, "`%.200s` %s", name, why);
+    return qdot_hint("the time derivative of an expression is ddt(...)");
+}
+
+static qdot_status
+ddt_times(qdot_session *s, unsigned primes, qdot_expr *value)
+{
+    for (; primes > 0; primes--) {
+        *value = qdot_ddt(s->pool, *value);
+        QDOT_TRY(qdot_value_kind_check(s->pool, *value));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_resolve_undefined(qdot_session *s, const qdot_name *entry, unsigned primes, uint32_t n,
+                       const qdot_expr *args, qdot_expr *value)
+{
+    const qdot_ufun *f = qdot_ufun_get(s->pool, entry->ufun);
+
+    if (n != f->arity)
+        return qdot_fail(QDOT_ETYPE, "`%.200s` takes %u argument%s, not %u", entry->name,
+                         f->arity, f->arity == 1 ? "" : "s", n);
+    if (primes > 0 && n != 1) {
+        qdot_fail(QDOT_ETYPE, "`%.200s` has %u arguments: a prime does not say which",
+                  entry->name, n);
+        return qdot_hint("write diff(%.40s(...), s)", entry->name);
+    }
+    for (uint32_t i = 0; i < n; i++)
+        if (!qdot_expr_is_scalar(s->pool, args[i]))
+            return qdot_fail(QDOT_ETYPE, "`%.200s` is a function of numbers, not of %s",
+                             entry->name, qdot_value_kind_words(s->pool, args[i]));
+    *value = qdot_ufun_apply(s->pool, entry->ufun, args, primes > 0 ? &primes : NULL);
+    return qdot_value_kind_check(s->pool, *value);
+}
+
+/* A declared or bound name with its primes. */
+static qdot_status
+named(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value)
+{
+    *value = entry->value;
+    if (entry->kind == QDOT_NAME_FUNCTION) {
+        qdot_fail(QDOT_ETYPE, "`%.200s` is a function: its argument goes in ( )",
+                  entry->name);
+        return qdot_hint("write %.80s(...)", entry->name);
+    }
+    if (primes == 0)
+        return QDOT_OK;
+    if (qdot_expr_is_class(s->pool, *value, QDOT_COORD) &&
+        entry->kind != QDOT_NAME_VALUE && entry->kind != QDOT_NAME_ARGUMENT) {
+        *value = qdot_symbol_jet(s->pool, *value, primes);
+        return qdot_value_kind_check(s->pool, *value);
+    }
+    if (entry->kind == QDOT_NAME_VALUE || entry->kind == QDOT_NAME_ARGUMENT)
+        return ddt_times(s, primes, value);
+    if (entry->kind == QDOT_NAME_UFUN) {
+        const qdot_ufun *f = qdot_ufun_get(s->pool, entry->ufun);
+        qdot_expr first = f->arity > 0 ? qdot_expr_arg(s->pool, f->formals, 0) : QDOT_NIL;
+
+        if (f->arity != 1) {
+            qdot_resolve_no_prime(entry->name, "has several arguments: a prime does not say which");
+            return qdot_hint("write diff(%.40s, s) or ddt(%.40s)", entry->name,
+                             entry->name);
+        }
+        return qdot_resolve_undefined(s, entry, primes, 1, &first, value);
+    }
+    return qdot_resolve_no_prime(entry->name,
+                    entry->kind == QDOT_NAME_PARAM
+                        ? "is a parameter: a prime goes after a coordinate"
+                        : "is no coordinate: a prime goes after a coordinate");
+}
+
+/* --- bare names --------------------------------------------------------------------- */
+
+static qdot_status
+reserved(const char *name, unsigned primes, bool *found, qdot_expr *value)
+{
+    static const struct {
+        const char *name;
+        qdot_expr value;
+    } fixed[] = {
+        {"pi", QDOT_PI}, {"t", QDOT_T}, {"true", QDOT_TRUE}, {"false", QDOT_FALSE}};
+
+    *found = true;
+    for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)
+        if (strcmp(name, fixed[i].name) == 0) {
+            *value = fixed[i].value;
+            return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
+        }
+    *found = false;
+    return QDOT_OK;
+}
+
+/* dtheta, dtheta[1], dt; deltatheta, deltatheta[1]. */
+static qdot_status
+differential(qdot_session *s, const char *name, bool *found, qdot_expr *value)
+{
+    static const struct {
+        const char *prefix;
+        qdot_class class;
+    } kinds[] = {{"d", QDOT_DIFFERENTIAL}, {"delta", QDOT_DELTA}};
+
+    *found = false;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        size_t n = strlen(kinds[i].prefix);
+        const qdot_name *q;
+
+        if (strncmp(name, kinds[i].prefix, n) != 0 || name[n] == '\0')
+            continue;
+        if (kinds[i].class == QDOT_DIFFERENTIAL && strcmp(name + n, "t") == 0) {
+            *value = qdot_symbol_of(s->pool, QDOT_DIFFERENTIAL, QDOT_T);
+        } else {
+            q = qdot_names_find(s->names, name + n);
+            if (q == NULL || !qdot_expr_is_coordinate(s->pool, q->value) ||
+                q->kind != QDOT_NAME_COORD)
+                continue;
+            *value = qdot_symbol_of(s->pool, kinds[i].class, q->value);
+        }
+        *found = true;
+        return qdot_value_kind_check(s->pool, *value);
+    }
+    return QDOT_OK;
+}
+
+/* The position of a particle or body. */
+static qdot_status
+labelled(qdot_session *s, const char *name, unsigned primes, bool *found,
+         qdot_expr *value)
+{
+    *found = qdot_scene_has_label(s->scene, name);
+    if (!*found)
+        return QDOT_OK;
+    if (qdot_scene_find_particle(s->scene, name) == NULL &&
+        qdot_scene_find_body(s->scene, name) == NULL) {
+        qdot_fail(QDOT_ENAME, "`%.200s` is a label without a value", name);
+        return qdot_hint("only particles and bodies have a position");
+    }
+    *value = qdot_scene_position(s->scene, name);
+    QDOT_TRY(qdot_value_kind_check(s->pool, *value));
+    return ddt_times(s, primes, value);
+}
+
+static qdot_status
+quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
+         const qdot_expr *index, qdot_expr *value)
+{
+    QDOT_TRY(qdot_short_names_note(s, row, row->get(s, n, index, value)));
+    QDOT_TRY(qdot_value_kind_check(s->pool, *value));
+    if (primes == 0)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ETYPE, "`%s` is a value of the scene, no coordinate", row->name);
+    return qdot_hint("write ddt(%s%s)", row->name, n > 0 ? "[...]" : "");
+}
+
+/* The coordinates that the entries of a value of the scene go by; nil: numbers alone. */
+static qdot_status
+coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
+{
+    *over = QDOT_NIL;
+    if (!row->over_coordinates)
+        return QDOT_OK;
+    *over =
+        qdot_list(s->pool, (uint32_t)s->scene->coordinates.n, s->scene->coordinates.at);
+    return qdot_value_kind_check(s->pool, *over);
+}
+
+/* The argument that an undefined function was declared with, where nothing else is called so:
+ * function x(s), then diff(x(s), s). Nil if there is none. */
+static qdot_expr
+argument_of(const qdot_session *s, const char *name)
+{
+    const qdot_name *one;
+
+    for (size_t i = 0; (one = qdot_names_at(s->names, i)) != NULL; i++)
+        for (uint32_t k = 0;
+             one->kind == QDOT_NAME_UFUN && k < qdot_expr_count(s->pool, one->formals); k++) {
+            qdot_expr formal = qdot_expr_arg(s->pool, one->formals, k);
+
+            if (qdot_expr_is_class(s->pool, formal, QDOT_FORMAL) &&
+                strcmp(qdot_expr_symbol(s->pool, formal)->name, name) == 0)
+                return formal;
+        }
+    return QDOT_NIL;
+}
+
+/* `theta[2]`, bob[2], dtheta[2] by the spelling of the member. */
+static qdot_status
+member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
+       qdot_expr *value)
+{
+    const qdot_name *entry = qdot_names_find(s->names, spelled);
+
+    *found = entry != NULL;
+    if (entry != NULL)
+        return named(s, entry, primes, value);
+    QDOT_TRY(labelled(s, spelled, primes, found, value));
+    if (*found)
+        return QDOT_OK;
+    return differential(s, spelled, found, value);
+}
+
+bool
+qdot_resolve_small(const char *name, unsigned form, qdot_text *spelled)
+{
+    static const char *const forms[] = {"[%s]", "_%s"};
+    size_t n = strlen(name), digits = 0;
+
+    while (digits < n && strchr("0123456789", name[n - digits - 1]) != NULL)
+        digits++;
+    if (digits == 0 || digits == n || form >= sizeof forms / sizeof *forms)
+        return false;
+    qdot_text_truncate(spelled, 0);
+    qdot_text_add_n(spelled, name, n - digits);
+    qdot_text_format(spelled, forms[form], name + n - digits);
+    return true;
+}
+
+/* Whether a token is written with subscripts: x₁. */
+static bool
+is_small(const qdot_source *source, const qdot_token *token)
+{
+    const char *text = source->text + token->start;
+
+    for (size_t i = 0; i < token->length; i += qdot_utf8_length(text + i)) {
+        size_t length;
+
+        if (qdot_letters_subscript(qdot_utf8_decode(text + i, &length)) >= 0)
+            return true;
+    }
+    return false;
+}
+
+/* x₁, which is x1 or, where nothing is called so, x[1] or x_1. */
+static qdot_status
+small(qdot_cursor *c, const qdot_token *token, unsigned primes, bool *found, qdot_expr *value)
+{
+    qdot_text spelled = {0};
+    qdot_status status = QDOT_OK;
+
+    *found = false;
+    if (!is_small(c->source, token))
+        return QDOT_OK;
+    for (unsigned form = 0; status == QDOT_OK && !*found &&
+                            qdot_resolve_small(token->text, form, &spelled); form++) {
+        const char *name = qdot_text_str(&spelled);
+
+        status = qdot_text_status(&spelled);
+        if (status == QDOT_OK)
+            status = member(c->session, name, primes, found, value);
+        if (status == QDOT_OK && !*found && primes == 0) {
+            *value = argument_of(c->session, name);
+            *found = *value != QDOT_NIL;
+        }
+    }
+    qdot_text_clear(&spelled);
+    return status;
+}
+
+qdot_status
+qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
+                  qdot_expr *value, qdot_expr *over)
+{
+    qdot_session *s = c->session;
+    const char *name = token->text;
+    const qdot_name *entry = qdot_names_find(s->names, name);
+    const qdot_quantity *row;
+    bool found;
+
+    *over = QDOT_NIL;
+    if (entry != NULL) {
+        if (entry->kind == QDOT_NAME_VALUE) {
+            QDOT_TRY(small(c, token, primes, &found, value));
+            if (found)
+                return qdot_fail(QDOT_ENAME, "`%.200s`, or what is "
+                                             "printed so?", name);
+        }
+        *over = entry->over;
+        return named(s, entry, primes, value);
+    }
+    QDOT_TRY(reserved(name, primes, &found, value));
+    if (found)
+        return QDOT_OK;
+    QDOT_TRY(differential(s, name, &found, value));
+    if (found)
+        return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
+    row = qdot_quantity_find(name);
+    if (row != NULL && row->least == 0) {
+        QDOT_TRY(quantity(s, row, primes, 0, NULL, value));
+        return coordinates_of(s, row, over);
+    }
+    QDOT_TRY(labelled(s, name, primes, &found, value));
+    if (found)
+        return QDOT_OK;
+    *value = argument_of(s, name);
+    if (*value != QDOT_NIL)
+        return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
+    QDOT_TRY(small(c, token, primes, &found, value));
+    if (found)
+        return QDOT_OK;
+    if (qdot_names_is_family(s->names, name)) {
+        qdot_fail(QDOT_ENAME, "`%.200s` is a family", name);
+        return qdot_hint("write a member, %.80s[1]", name);
+    }
+    if (qdot_builtin_find(name) != NULL &&
+        !(qdot_builtin_find(name)->flags & QDOT_BUILTIN_SHORT)) {
+        if (qdot_builtin_find(name)->flags & QDOT_BUILTIN_UNBUILT)
+            return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name);
+        return qdot_hints_bare_function(c, token);
+    }
+    return qdot_hints_unknown(c, token, NULL);
+}
+
+/* --- name[...] ---------------------------------------------------------------------- */
+
+/* Whether all are numbers, of parameters perhaps: no coordinates, no labels. */
+static bool
+all_integers(qdot_session *s, uint32_t n, const qdot_expr *index)
+{
+    const uint32_t constant = QDOT_HAS_PARAM | QDOT_HAS_FUN;
+
+    for (uint32_t i = 0; i < n; i++)
+        if (!qdot_expr_is_scalar(s->pool, index[i]) ||
+            (qdot_expr_node(s->pool, index[i])->holds & ~constant) != 0)
+            return false;
+    return true;
+}
+
+/* Whether `t` is written in momenta: hamiltonian, routhian, poisson(...), or a name, or a value
+ * of before, in which momenta stand. */
+static bool
+is_canonical(const qdot_session *s, const qdot_token *t)
+{
+    const qdot_name *entry;
+    qdot_expr e = QDOT_NIL;
+
+    if (t->kind == QDOT_TOKEN_NAME) {
+        entry = qdot_names_find(s->names, t->text);
+        if (entry == NULL)
+            return strcmp(t->text, "hamiltonian") == 0 ||
+                   strcmp(t->text, "routhian") == 0 || strcmp(t->text, "poisson") == 0;
+        e = entry->value;
+    } else if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "%") == 0) {
+        e = s->history.n > 0 ? s->history.at[s->history.n - 1] : QDOT_NIL;
+    }
+    return e != QDOT_NIL && (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_MOMENTUM);
+}
+
+/* Whether something canonical stands in the statement of `token`: then p[q] beside it is
+ * the independent momentum. */
+static bool
+beside_momenta(const qdot_cursor *c, const qdot_token *token)
+{
+    const qdot_token *first = c->source->tokens.at;
+    const qdot_token *last = first + c->source->tokens.n - 1;
+
+    while (token > first && token[-1].kind != QDOT_TOKEN_END)
+        token--;
+    for (; token <= last && token->kind != QDOT_TOKEN_END; token++)
+        if (is_canonical(c->session, token))
+            return true;
+    return false;
+}
+
+/* p[theta] as the independent variable of Hamilton's function. */
+static qdot_status
+independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
+{
+    if (!qdot_expr_is_coordinate(s->pool, q))
+        return qdot_fail(QDOT_ETYPE, "p[ ] takes a coordinate");
+    *value = qdot_symbol_of(s->pool, QDOT_MOMENTUM, q);
+    return qdot_value_kind_check(s->pool, *value);
+}
+
+/* eom[theta], mass_matrix[a, b]; eom[1] is the first of the list. */
+static qdot_status
+quantity_index(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
+               const qdot_expr *index, qdot_expr *value)
+{
+    if (row->least == 0 && (row->most == 0 || all_integers(s, n, index))) {
+        QDOT_TRY(quantity(s, row, primes, 0, NULL, value));
+        return qdot_entry_of(s, *value, QDOT_NIL, n, index, value);
+    }
+    if ((int)n < row->least || (int)n > row->most)
+        return qdot_fail(QDOT_ETYPE, "`%s[ ]` takes %d ind%s, not %u", row->name,
+                         row->most, row->most == 1 ? "ex" : "ices", n);
+    return quantity(s, row, primes, n, index, value);
+}
+
+/* Whether some label is a member of the family `name`. */
+static bool
+is_label_family(const qdot_scene *scene, const char *name)
+{
+    size_t n = strlen(name);
+
+    for (size_t i = 0; i < scene->particles.n; i++)
+        if (strncmp(scene->particles.at[i].name, name, n) == 0 &&
+            scene->particles.at[i].name[n] == '[')
+            return true;
+    for (size_t i = 0; i < scene->bodies.n; i++)
+        if (strncmp(scene->bodies.at[i].name, name, n) == 0 &&
+            scene->bodies.at[i].name[n] == '[')
+            return true;
+    return false;
+}
+
+/* Whether name[...] could be a member: theta[1], bob[1], dtheta[1], deltatheta[1]. */
+static bool
+may_be_family(const qdot_session *s, const char *name)
+{
+    const qdot_name *entry = qdot_names_find(s->names, name);
+
+    if (entry != NULL &&
+        (entry->kind == QDOT_NAME_INDEX || entry->kind == QDOT_NAME_ARGUMENT))
+        return false; /* an argument hides the family */
+    if (qdot_names_is_family(s->names, name))
+        return true;
+    if (entry != NULL)
+        return false;
+    return is_label_family(s->scene, name) ||
+           (name[0] == 'd' && qdot_names_is_family(s->names, name + 1)) ||
+           (strncmp(name, "delta", 5) == 0 && qdot_names_is_family(s->names, name + 5));
+}
+
+static qdot_status
+unknown_member(qdot_cursor *c, const qdot_token *token, const char *spelled)
+{
+    if (!qdot_names_is_family(c->session->names, token->text))
+        return qdot_hints_unknown(c, token, spelled);
+    qdot_fail(QDOT_ENAME,
+              "`%.200s` is not declared, though other members of its family are",
+              spelled);
+    return QDOT_ENAME;
+}
+
+/* Members first: theta[1], bob[1], dtheta[1]. */
+static qdot_status
+resolve_member(qdot_cursor *c, const qdot_token *token, unsigned primes, uint32_t n,
+               const qdot_expr *index, bool *found, qdot_expr *value)
+{
+    qdot_session *s = c->session;
+    qdot_text spelled = {0};
+    qdot_status status;
+
+    *found = false;
+    if (!may_be_family(s, token->text))
+        return QDOT_OK;
+    status = qdot_entry_name(s, token->text, n, index, &spelled);
+    if (status == QDOT_OK)
+        status = member(s, spelled.at, primes, found, value);
+    if (status == QDOT_OK && !*found && qdot_names_is_family(s->names, token->text))
+        status = unknown_member(c, token, spelled.at);
+    qdot_text_clear(&spelled);
+    return status;
+}
+
+/* Nothing is called so. */
+static qdot_status
+unknown_index(qdot_cursor *c, const qdot_token *token, uint32_t n, const qdot_expr *index)
+{
+    qdot_text spelled = {0};
+    qdot_status status;
+
+    for (uint32_t i = 0; i < n; i++)
+        if (qdot_expr_kind(c->session->pool, index[i]) != QDOT_NUM)
+            return qdot_hints_unknown(c, token, NULL);
+    status = qdot_entry_name(c->session, token->text, n, index, &spelled);
+    if (status == QDOT_OK)
+        status = qdot_hints_unknown(c, token, spelled.at);
+    qdot_text_clear(&spelled);
+    return status;
+}
+
+qdot_status
+qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uint32_t n,
+                   const qdot_expr *index, qdot_expr *value)
+{
+    qdot_session *s = c->session;
+    const char *name = token->text;
+    const qdot_quantity *row = qdot_quantity_find(name);
+    const qdot_name *entry = qdot_names_find(s->names, name);
+    qdot_expr whole, over;
+    bool found;
+
+    /* p[theta] is the momentum even beside a plain p */
+    if (row != NULL && strcmp(name, "p") == 0 && n == 1 && primes == 0 &&
+        (entry == NULL || !all_integers(s, n, index)) && beside_momenta(c, token))
+        return independent_momentum(s, index[0], value);
+    if (row != NULL && row->least > 0 && !(entry || is_label_family(s->scene, name)))
+        return quantity_index(s, row, primes, n, index, value);
+    if (row != NULL && row->least > 0 && !all_integers(s, n, index))
+        return quantity_index(s, row, primes, n, index, value);
+    QDOT_TRY(resolve_member(c, token, primes, n, index, &found, value));
+    if (found)
+        return QDOT_OK;
+    if (entry != NULL || row == NULL) {
+        if (entry == NULL && !qdot_scene_has_label(s->scene, name)) {
+            if (qdot_builtin_find(name) != NULL)
+                return qdot_builtin_find(name)->flags & QDOT_BUILTIN_UNBUILT
+                           ? qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", name)
+                           : qdot_hints_bare_function(c, token);
+            return unknown_index(c, token, n, index);
+        }
+        QDOT_TRY(qdot_resolve_name(c, token, 0, &whole, &over));
+        if (qdot_expr_is_scalar(s->pool, whole))
+            return qdot_fail(QDOT_ETYPE, "`%.200s` is a number: it has no entries", name);
+        QDOT_TRY(qdot_entry_of(s, whole, over, n, index, value));
+        return ddt_times(s, primes, value);
+    }
+    return quantity_index(s, row, primes, n, index, value);
+}

@@ -1,0 +1,125 @@
+/* token-text.c -- tokens as a person would write them. */
+#include "lang/language/token-text.h"
+
+#include <string.h>
+
+#include "lang/language/evaluator.h"
+
+/* Whether a sign behind this token is one between two operands. */
+static bool
+ends_operand(const qdot_token *token)
+{
+    if (token->kind == QDOT_TOKEN_NAME)
+        return !qdot_token_is_word(token, "and") && !qdot_token_is_word(token, "or") && !qdot_token_is_word(token, "not");
+    return token->kind == QDOT_TOKEN_NUMBER || token->kind == QDOT_TOKEN_STRING ||
+           qdot_token_is(token, ")") || qdot_token_is(token, "]") || qdot_token_is(token, "'") ||
+           qdot_token_is(token, "%");
+}
+
+static bool
+is_spaced(const qdot_token *token)
+{
+    static const char *const spaced[] = {"+", "-", "=", "==", "<", ">", "<=", ">=", "!="};
+
+    for (size_t i = 0; i < sizeof spaced / sizeof *spaced; i++)
+        if (qdot_token_is(token, spaced[i]))
+            return true;
+    return false;
+}
+
+/* The value of a loop's index in place of its name; false: the name is none. */
+static bool
+add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
+{
+    const qdot_name *name = token->kind == QDOT_TOKEN_NAME
+                                ? qdot_names_find(session->names, token->text)
+                                : NULL;
+    qdot_text value = {0};
+    bool printed, whole;
+
+    if (name == NULL || name->kind != QDOT_NAME_INDEX)
+        return false;
+    printed = qdot_print(session->pool, name->value, QDOT_PLAIN, &value) == QDOT_OK;
+    whole = strspn(qdot_text_str(&value), "0123456789") == value.n;
+    if (printed)
+        qdot_text_format(out, whole ? "%s" : "(%s)", qdot_text_str(&value));
+    qdot_text_clear(&value);
+    return printed;
+}
+
+/* x₁ that is x[1] or x_1, as that; false: it is neither. */
+static bool
+add_small(const qdot_session *session, const qdot_token *token, qdot_text *out)
+{
+    qdot_text spelled = {0};
+    bool is = false;
+
+    if (token->kind == QDOT_TOKEN_NAME && token->length != strlen(token->text) &&
+        qdot_names_find(session->names, token->text) == NULL)
+        for (unsigned form = 0;
+             !is && qdot_resolve_small(token->text, form, &spelled); form++)
+            is = qdot_names_find(session->names, qdot_text_str(&spelled)) != NULL;
+    qdot_text_add(out, is ? qdot_text_str(&spelled) : "");
+    qdot_text_clear(&spelled);
+    return is;
+}
+
+/* Signs that the letters at hand cannot say: ½, √2, sin²(x). False: there are none here; *used: how
+ * many tokens they are. */
+static bool
+add_sign(const qdot_token *k, const qdot_token *to, qdot_text *out, size_t *used)
+{
+    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+
+    *used = 1;
+    if (k->kind == QDOT_TOKEN_NUMBER && strchr(k->text, '/') != NULL) {
+        qdot_text_format(out, "(%s)", k->text);
+        return true;
+    }
+    if (qdot_token_is(k, "sqrt")) {
+        qdot_text_add(out, k + 1 < to && qdot_token_is(k + 1, "(") ? "sqrt" : "√");
+        return true;
+    }
+    if (!qdot_token_is(k, "^") || k + 2 >= to || k[1].start != k->start || !qdot_token_is(k + 2, "("))
+        return false;
+    for (const char *digit = k[1].text; *digit != '\0'; digit++)
+        qdot_text_add(out, raised[*digit - '0']);
+    *used = 2;
+    return true;
+}
+
+void
+qdot_token_text(qdot_session *session, const qdot_token *from, const qdot_token *to,
+                qdot_text *out)
+{
+    int depth = 0, member = 0; /* brackets; those of x[1,2], or 0 */
+
+    for (const qdot_token *k = from; k < to; k++) {
+        bool binary = k > from && ends_operand(k - 1) && is_spaced(k);
+        bool words = k > from && k->kind != QDOT_TOKEN_OPERATOR &&
+                     (k[-1].kind != QDOT_TOKEN_OPERATOR || ends_operand(k - 1));
+        size_t used;
+
+        if (words && qdot_token_is(k - 1, "%"))
+            words = false;
+        qdot_text_add(out, binary || words ? " " : "");
+        if (k->kind == QDOT_TOKEN_STRING)
+            qdot_text_format(out, "\"%s\"", k->text);
+        else if (add_sign(k, to, out, &used))
+            k += used - 1;
+        else if (!add_index(session, k, out) && !add_small(session, k, out))
+            qdot_text_add(out, k->text);
+        if (qdot_token_is(k, "[") || qdot_token_is(k, "(")) {
+            depth++;
+            if (member == 0 && k > from && k[-1].kind == QDOT_TOKEN_NAME &&
+                qdot_names_is_family(session->names, k[-1].text))
+                member = depth;
+        } else if (qdot_token_is(k, "]") || qdot_token_is(k, ")")) {
+            if (member == depth--)
+                member = 0;
+        }
+        if (binary || (qdot_token_is(k, ",") && member == 0 && k + 1 < to) ||
+            (qdot_token_is(k, ";") && k + 1 < to))
+            qdot_text_char(out, ' ');
+    }
+}

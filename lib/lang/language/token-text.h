@@ -1,0 +1,12 @@
+/* token-text.h -- tokens as a person would write them. */
+#ifndef QDOT_LANG_TOKEN_TEXT_H
+#define QDOT_LANG_TOKEN_TEXT_H
+
+#include "lang/session/session.h"
+
+/* The source text of the tokens [from, to), spaces as a person would set them; an index
+ * of a loop under way is replaced by its value. */
+void qdot_token_text(qdot_session *session, const qdot_token *from,
+                     const qdot_token *to, qdot_text *out);
+
+#endif

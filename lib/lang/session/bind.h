@@ -1,0 +1,24 @@
+/* bind.h -- from expressions to numbers: the values of `set`, then those that runs gave. */
+#ifndef QDOT_LANG_BIND_H
+#define QDOT_LANG_BIND_H
+
+#include "lang/session/session.h"
+
+/* e with the values of parameters (`set`, `param x = v`) put in; exact. Repeated, as values may
+ * hold other parameters; a cycle is QDOT_EINVAL. */
+qdot_expr qdot_session_bind(qdot_session *session, qdot_expr e);
+/* As a double: bound, measured symbols put in; error (may be NULL) propagated from measured ones. */
+QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr e,
+                                                double *value, double *error);
+/* The same, and what an exact number is beyond the double; 0 of a measured one. */
+QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr e,
+                                               double *value, double *low);
+/* As an integer: QDOT_ETYPE with the value otherwise. */
+QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_expr e,
+                                                 long *value);
+/* QDOT_EDOMAIN where the value is a number already and lies outside the symbol's
+ * domain. */
+QDOT_MUST_CHECK qdot_status qdot_session_in_domain(qdot_session *session,
+                                                   qdot_expr symbol, qdot_expr value);
+
+#endif

@@ -1,0 +1,66 @@
+/* event-time.c -- when the events of a run occurred. */
+#include "lang/session/event-time.h"
+
+#include <string.h>
+
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
+
+bool
+qdot_event_is(const qdot_session *session, const char *run, const char *name)
+{
+    if (qdot_scene_find_event(session->scene, name) != NULL)
+        return true;
+    for (size_t i = session->runs.n; i-- > 0;)
+        if (run == NULL || strcmp(session->runs.at[i].name, run) == 0)
+            return session->runs.at[i].run != NULL &&
+                   qdot_run_has_event(session->runs.at[i].run, name);
+    return false;
+}
+
+int
+qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o)
+{
+    return o->exact == QDOT_NIL ? 0 : qdot_run_get_report(run)->digits;
+}
+
+qdot_status
+qdot_event_time(qdot_session *session, const char *run, const char *name, long k,
+                qdot_expr *value)
+{
+    const qdot_run_occurrence *list;
+    qdot_vec(qdot_expr) all = {0};
+    qdot_named_run *named;
+    qdot_status status;
+    size_t n;
+
+    QDOT_TRY(qdot_runs_find(session, run, &named));
+    if (!qdot_run_has_event(named->run, name)) {
+        (void)qdot_fail(QDOT_ENAME, "the run %.100s knows no event `%.100s`", named->name,
+                        name);
+        return qdot_hint("an event is declared before the run");
+    }
+    status = qdot_run_occurrences(named->run, &list, &n);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        if (strcmp(list[i].event, name) != 0)
+            continue;
+        status = qdot_vec_push(
+            &all, qdot_measured_add(session,
+                                    (qdot_measured){.value = list[i].t,
+                                                    .error = list[i].error,
+                                                    .digits = qdot_event_digits(named->run,
+                                                                                &list[i]),
+                                                    .exact = list[i].exact}));
+    }
+    if (status == QDOT_OK && k == 0) {
+        *value = qdot_list(session->pool, (uint32_t)all.n, all.at);
+    } else if (status == QDOT_OK && (k < 1 || (size_t)k > all.n)) {
+        (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: the event occurred %zu time%s in %s", name,
+                        k, all.n, all.n == 1 ? "" : "s", named->name);
+        status = qdot_hint("`events` lists them");
+    } else if (status == QDOT_OK) {
+        *value = all.at[k - 1];
+    }
+    qdot_free(all.at);
+    return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
+}

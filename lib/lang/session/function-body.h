@@ -1,0 +1,21 @@
+/* function-body.h -- the text of a function's body, or of the right side of a definition, shared by
+ * what uses it. */
+#ifndef QDOT_LANG_FUNCTION_BODY_H
+#define QDOT_LANG_FUNCTION_BODY_H
+
+#include "lang/source/token.h"
+
+typedef struct qdot_function_body {
+    unsigned uses;
+    qdot_source *source;             /* kept alive */
+    const qdot_token *from, *to;     /* its tokens, `to` behind the last */
+    qdot_vec(const char *) captured; /* indices of loops round the definition */
+} qdot_function_body;
+
+/* The tokens [from, to) of a source, with one use; NULL: no memory. */
+qdot_function_body *qdot_function_body_new(const qdot_source *source, const qdot_token *from,
+                                           const qdot_token *to);
+qdot_function_body *qdot_function_body_keep(qdot_function_body *body); /* one use more; NULL: NULL */
+void qdot_function_body_release(qdot_function_body *body);    /* one use less; the last frees it */
+
+#endif

@@ -1,0 +1,16 @@
+/* labels.h -- the labels of a scene. */
+#ifndef QDOT_LANG_LABELS_H
+#define QDOT_LANG_LABELS_H
+
+#include "base/memory.h"
+#include "mech/scene/scene.h"
+
+typedef qdot_vec(const char *) qdot_words;
+
+/* Append the labels, borrowed from the scene; fewer where there is no memory. */
+void qdot_labels_add(const qdot_scene *scene, qdot_words *list);
+
+/* "there is no particle or body `bod`", with the nearest label. QDOT_ENAME. */
+qdot_status qdot_labels_unknown(const qdot_scene *scene, const char *what, const char *label);
+
+#endif

@@ -1,0 +1,74 @@
+/* measured.c -- numbers that runs gave, as symbols. */
+#include "lang/session/measured.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+
+qdot_expr
+qdot_measured_rational(qdot_pool *pool, double x)
+{
+    int exponent;
+    long mantissa;
+
+    if (!isfinite(x)) {
+        (void)qdot_fail(QDOT_EDOMAIN, "a number of the run is not finite");
+        return qdot_pool_fail(pool);
+    }
+    mantissa = (long)ldexp(frexp(x, &exponent), 53);
+    if (mantissa == 0)
+        return QDOT_ZERO;
+    return qdot_mul(pool, qdot_expr_int(pool, mantissa),
+                    qdot_pow_int(pool, qdot_expr_int(pool, 2), exponent - 53));
+}
+
+qdot_expr
+qdot_measured_add(qdot_session *session, qdot_measured m)
+{
+    char name[40];
+
+    snprintf(name, sizeof name, "value#%zu", session->measured.n + 1);
+    m.symbol = qdot_symbol_get(session->pool, QDOT_FORMAL, name);
+    if (m.symbol == QDOT_NIL)
+        return QDOT_NIL;
+    return qdot_vec_push(&session->measured, m) == QDOT_OK
+               ? m.symbol
+               : qdot_pool_fail(session->pool);
+}
+
+qdot_expr
+qdot_measured_new(qdot_session *session, double value, double error)
+{
+    return qdot_measured_add(session, (qdot_measured){.value = value, .error = error});
+}
+
+bool
+qdot_measured_occurs(qdot_session *session, qdot_expr e)
+{
+    if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
+        return false;
+    for (size_t i = 0; i < session->measured.n; i++)
+        if (qdot_expr_contains(session->pool, e, session->measured.at[i].symbol))
+            return true;
+    return false;
+}
+
+qdot_expr
+qdot_measured_as_rationals(qdot_session *session, qdot_expr e)
+{
+    for (size_t i = 0; i < session->measured.n && e != QDOT_NIL; i++) {
+        qdot_expr from = session->measured.at[i].symbol, to;
+
+        if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
+            return e;
+        if (!qdot_expr_contains(session->pool, e, from))
+            continue;
+        to = session->measured.at[i].digits > 0
+                 ? session->measured.at[i].exact
+                 : qdot_measured_rational(session->pool, session->measured.at[i].value);
+        e = qdot_subs(session->pool, e, 1, &from, &to);
+    }
+    return e;
+}

@@ -1,0 +1,32 @@
+/* member.h -- `a.x` inside a larger expression: values along several runs at once. */
+#ifndef QDOT_LANG_MEMBER_H
+#define QDOT_LANG_MEMBER_H
+
+#include "lang/session/session.h"
+
+/* e along the run, as a symbol (of a vector or list: of its members) "a.x". */
+qdot_expr qdot_member_of(qdot_session *session, const char *run, qdot_expr e);
+/* Whether such symbols occur. */
+bool qdot_member_any(const qdot_session *session, qdot_expr e);
+/* Of an expression along one run only: the symbols replaced again and *run that run;
+ * else *mixed. */
+QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const char **run,
+                                                qdot_expr *e, bool *mixed);
+/* A mixed one at such times [k]: values [k], errors [k] (NULL: not wanted). What is along no
+ * run named is along `run` (NULL: the latest). */
+QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,
+                                               qdot_expr e, size_t k, const double *times,
+                                               const double *lows, double *values,
+                                               double *errors);
+/* A mixed one whose runs all have digits, at a time: *value has its symbols replaced by numbers of
+ * their runs. Nil where a run has no digits. */
+QDOT_MUST_CHECK qdot_status qdot_member_exactly(qdot_session *session, const char *run,
+                                                qdot_expr e, qdot_expr time,
+                                                qdot_expr *value);
+/* from and to narrowed to what all its runs cover. */
+QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
+                                             double *from, double *to);
+/* QDOT_ENAME where there is no run of that name. */
+qdot_status qdot_member_check(const qdot_session *session, const char *run);
+
+#endif

@@ -1,0 +1,80 @@
+/* names.h -- what the names of a session mean.
+ *
+ * A name is its canonical text: "theta", "theta[1]", "A[1,2]". Labels are not here (mech/scene/scene.h).
+ */
+#ifndef QDOT_LANG_NAMES_H
+#define QDOT_LANG_NAMES_H
+
+#include "base/memory.h"
+#include "expr/expr.h"
+#include "lang/session/function-body.h"
+
+typedef enum {
+    QDOT_NAME_PARAM,    /* value: the symbol */
+    QDOT_NAME_COORD,    /* value: the symbol */
+    QDOT_NAME_UFUN,     /* ufun: its id; value: it at its declared arguments */
+    QDOT_NAME_VALUE,    /* value: any value */
+    QDOT_NAME_FUNCTION, /* formals: a LIST of symbols; body: its text; value: a LIST of the
+                         * values of body->captured */
+    QDOT_NAME_INDEX,    /* value: what a loop or sum binds just now; hides outer names */
+    QDOT_NAME_ARGUMENT  /* value: what a call gives a formal argument; hides outer names */
+} qdot_name_kind;
+
+typedef struct {
+    char *name;
+    qdot_name_kind kind;
+    qdot_expr value, formals;
+    qdot_expr over; /* of a VALUE: the coordinates (a LIST) its entries go by, or nil */
+    uint32_t ufun;
+    qdot_function_body *body;   /* of a FUNCTION, a VALUE */
+    const char *label; /* of an ARGUMENT: the particle or body whose position it is, or NULL */
+    char *file; /* where it was declared */
+    uint32_t line;
+} qdot_name;
+
+typedef struct qdot_names qdot_names;
+
+qdot_names *qdot_names_new(void);
+void qdot_names_free(qdot_names *names);
+
+/* The innermost meaning; NULL if there is none. Valid until the next change. */
+const qdot_name *qdot_names_find(const qdot_names *names, const char *name);
+/* Whether any NAME[...] is declared. */
+bool qdot_names_is_family(const qdot_names *names, const char *name);
+/* Declare. A VALUE or FUNCTION replaces a VALUE or FUNCTION; the very same PARAM again is
+ * allowed (its value changes); any other clash, a family and a plain name of one spelling ("a name is
+ * never both" vector and family), reserved names (pi, t, p[..] Q[..] lambda[..] delta[..], dNAME of a coordinate):
+ * QDOT_ENAME with where it was declared. `entry` is copied, with one more use of
+ * its body. */
+QDOT_MUST_CHECK qdot_status qdot_names_declare(qdot_names *names, const qdot_name *entry);
+/* Other expressions for a declared name of the same meaning. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_names_update(qdot_names *names, const char *name,
+                                              qdot_expr value, qdot_expr formals);
+void qdot_names_remove(qdot_names *names, const char *name);
+/* Bind and unbind an index or formal, innermost first. */
+QDOT_MUST_CHECK qdot_status qdot_names_push(qdot_names *names, const char *name,
+                                            qdot_expr value);
+void qdot_names_pop(qdot_names *names);
+/* Bind a formal argument; `label` is borrowed and outlives it. */
+QDOT_MUST_CHECK qdot_status qdot_names_push_argument(qdot_names *names, const char *name,
+                                                     qdot_expr value, const char *label);
+/* Hide what is bound so far, as the body of a function does; returns what makes it seen again.
+ * disclose() also unbinds what was bound since. */
+size_t qdot_names_enclose(qdot_names *names);
+void qdot_names_disclose(qdot_names *names, size_t outer);
+/* A declared name is never changed: another one takes its place. So a list of names is a state that
+ * can be kept: one use more of each, then back to exactly this list, in this order; release gives
+ * one use back. restore() cannot fail for names that were declared here. */
+const qdot_name *qdot_names_keep(const qdot_name *declared);
+void qdot_names_release(const qdot_name *declared);
+void qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list);
+/* The names before this one, in order, are those of the last call of settle or restore. */
+size_t qdot_names_settled(const qdot_names *names);
+void qdot_names_settle(qdot_names *names);
+/* i-th in order of declaration (indices left out); NULL past the end. */
+const qdot_name *qdot_names_at(const qdot_names *names, size_t i);
+/* The declared or known name nearest in spelling (edit distance), NULL if none is near. `extra` [n]:
+ * further candidates. */
+const char *qdot_names_nearest(const qdot_names *names, const char *name, size_t n,
+                               const char *const *extra);
+#endif

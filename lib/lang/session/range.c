@@ -1,0 +1,86 @@
+/* range.c -- max, min, mean, drift over a range of a run. */
+#include "lang/session/range.h"
+
+#include <string.h>
+
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/member.h"
+#include "lang/session/runs.h"
+
+static const struct {
+    const char *word;
+    qdot_range_kind kind;
+} words[] = {{"max", QDOT_RANGE_MAX},
+             {"min", QDOT_RANGE_MIN},
+             {"mean", QDOT_RANGE_MEAN},
+             {"drift", QDOT_RANGE_DRIFT}};
+
+bool
+qdot_range_is_word(const char *word)
+{
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(words[i].word, word) == 0)
+            return true;
+    return false;
+}
+
+/* Of one expression. */
+static qdot_status
+measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
+        const double *range, qdot_expr *value)
+{
+    const qdot_run_report *report;
+    qdot_named_run *named;
+    double x, error;
+    bool mixed;
+
+    QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
+    if (mixed)
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: a range of several runs in one expression");
+    QDOT_TRY(qdot_runs_find(session, run, &named));
+    report = qdot_run_get_report(named->run);
+    QDOT_TRY(qdot_run_range(named->run, kind, e, range != NULL ? range[0] : report->t0,
+                            range != NULL ? range[1] : report->t1, &x, &error));
+    *value = qdot_measured_new(session, x, error);
+    return qdot_pool_check(session->pool);
+}
+
+qdot_status
+qdot_range_value(qdot_session *session, const char *run, const char *word, uint32_t n,
+                 const qdot_expr *args, const qdot_expr *range, qdot_expr *value)
+{
+    qdot_runs_columns columns = {0};
+    qdot_vec(qdot_expr) results = {0};
+    qdot_range_kind kind = QDOT_RANGE_MAX;
+    double ends[2];
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(words[i].word, word) == 0)
+            kind = words[i].kind;
+    if (n == 0)
+        return qdot_fail(QDOT_ETYPE, "`%s` needs an expression", word);
+    for (int k = 0; k < 2 && range != NULL; k++)
+        QDOT_TRY(qdot_session_number(session, range[k], &ends[k], NULL));
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        status = qdot_runs_flatten(session, args[i], &columns);
+    for (size_t i = 0; i < columns.n && status == QDOT_OK; i++) {
+        qdot_expr one = QDOT_NIL;
+
+        status = measure(session, run, kind, columns.at[i], range != NULL ? ends : NULL,
+                         &one);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&results, one);
+    }
+    if (status == QDOT_OK) {
+        *value = results.n == 1
+                     ? results.at[0]
+                     : qdot_list(session->pool, (uint32_t)results.n, results.at);
+        status = qdot_pool_check(session->pool);
+    }
+    qdot_free(columns.at);
+    qdot_free(results.at);
+    return status;
+}

@@ -1,0 +1,174 @@
+/* runs.c -- the runs of a session by name, and values at a time of one of them. */
+#include "lang/session/runs.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "tape/tape.h"
+
+qdot_status
+qdot_runs_keep(qdot_session *session, const char *name, const char *text, qdot_run *run)
+{
+    qdot_named_run named = {.name = qdot_strdup(name),
+                            .text = qdot_strdup(text),
+                            .run = run,
+                            .uses = qdot_malloc(sizeof *named.uses)};
+    qdot_status status = QDOT_OK;
+
+    if (named.name == NULL || named.text == NULL || named.uses == NULL) {
+        qdot_free(named.name);
+        qdot_free(named.text);
+        qdot_free(named.uses);
+        qdot_run_free(run);
+        return QDOT_ENOMEM;
+    }
+    *named.uses = 1;
+
+    for (size_t i = 0; i < session->runs.n; i++) {
+        if (strcmp(session->runs.at[i].name, name) != 0)
+            continue;
+        qdot_named_run_release(&session->runs.at[i]);
+        memmove(&session->runs.at[i], &session->runs.at[i + 1],
+                (session->runs.n - i - 1) * sizeof named);
+        session->runs.n--;
+        break;
+    }
+    status = qdot_vec_push(&session->runs, named);
+    if (status != QDOT_OK)
+        qdot_named_run_release(&named);
+    return status;
+}
+
+void
+qdot_runs_next_name(const qdot_session *session, char *name, size_t size)
+{
+    for (size_t k = session->runs.n + 1;; k++) {
+        bool taken = false;
+
+        snprintf(name, size, "run%zu", k);
+        for (size_t i = 0; i < session->runs.n; i++)
+            taken = taken || strcmp(session->runs.at[i].name, name) == 0;
+        if (!taken)
+            return;
+    }
+}
+
+qdot_status
+qdot_runs_find(qdot_session *session, const char *name, qdot_named_run **run)
+{
+    if (session->runs.n == 0) {
+        (void)qdot_fail(QDOT_EINVAL, "there is no run yet");
+        return qdot_hint("run 0..20");
+    }
+    *run = &session->runs.at[session->runs.n - 1];
+    if (name == NULL)
+        return QDOT_OK;
+    for (size_t i = 0; i < session->runs.n; i++)
+        if (strcmp(session->runs.at[i].name, name) == 0) {
+            *run = &session->runs.at[i];
+            return QDOT_OK;
+        }
+    return qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
+}
+
+qdot_status
+qdot_runs_flatten(qdot_session *session, qdot_expr e, qdot_runs_columns *columns)
+{
+    qdot_pool *pool = session->pool;
+    qdot_kind kind = qdot_expr_kind(pool, e);
+
+    e = qdot_measured_as_rationals(session, e);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_is_scalar(pool, e))
+        return qdot_vec_push(columns, e);
+    if (kind != QDOT_VEC && kind != QDOT_LIST)
+        return qdot_fail(QDOT_ETYPE, "only numbers and vectors have values along a run");
+    for (uint32_t i = 0; i < qdot_expr_count(pool, e); i++) {
+        qdot_expr part = qdot_expr_arg(pool, e, i);
+
+        if (!qdot_expr_is_scalar(pool, part))
+            return qdot_fail(QDOT_ETYPE,
+                             "only numbers and vectors have values along a run");
+        QDOT_TRY(qdot_vec_push(columns, part));
+    }
+    return QDOT_OK;
+}
+
+/* The columns at a time as numbers m [columns]. */
+static qdot_status
+measure(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
+        qdot_expr time, qdot_measured *m)
+{
+    const size_t n = columns->n;
+    double t, low, *values = qdot_calloc(2 * n, sizeof *values);
+    qdot_status status = values == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    if (status == QDOT_OK)
+        status = qdot_session_split(session, time, &t, &low);
+    if (status == QDOT_OK)
+        status = qdot_run_values_beyond(run, n, columns->at, 1, &t, &low, values, values + n);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        m[i] = (qdot_measured){.value = values[i], .error = values[n + i]};
+    qdot_free(values);
+    return status;
+}
+
+/* The same of a run with `digits`, whose time is exact too. */
+static qdot_status
+measure_exactly(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
+                qdot_expr time, qdot_measured *m)
+{
+    const size_t n = columns->n;
+    const int digits = qdot_run_get_report(run)->digits;
+    double *errors = qdot_calloc(n, sizeof *errors);
+    qdot_expr *exact = qdot_calloc(n, sizeof *exact);
+    qdot_status status = errors == NULL || exact == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    time = qdot_measured_as_rationals(session, qdot_session_bind(session, time));
+    if (status == QDOT_OK)
+        status = qdot_pool_check(session->pool);
+    if (status == QDOT_OK)
+        status = qdot_run_exact_values(run, n, columns->at, time, exact, errors);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        m[i] = (qdot_measured){.error = errors[i], .digits = digits, .exact = exact[i]};
+        status = qdot_tape_constant(session->pool, exact[i], &m[i].value);
+    }
+    qdot_free(errors);
+    qdot_free(exact);
+    return status;
+}
+
+qdot_status
+qdot_runs_measure(qdot_session *session, const char *run, const qdot_runs_columns *columns,
+              qdot_expr time, qdot_measured *m)
+{
+    qdot_named_run *named = NULL;
+
+    QDOT_TRY(qdot_runs_find(session, run, &named));
+    return qdot_run_get_report(named->run)->digits > 0
+               ? measure_exactly(session, named->run, columns, time, m)
+               : measure(session, named->run, columns, time, m);
+}
+
+qdot_status
+qdot_runs_measure_one(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+                      qdot_measured *m)
+{
+    return qdot_runs_measure(session, run, &(qdot_runs_columns){.at = &e, .n = 1}, time, m);
+}
+
+bool
+qdot_runs_is_family(const qdot_session *session, const char *name)
+{
+    size_t n = strlen(name);
+
+    for (size_t i = 0; i < session->runs.n; i++) {
+        const char *run = session->runs.at[i].name;
+
+        if (strncmp(run, name, n) == 0 && run[n] == '[')
+            return true;
+    }
+    return false;
+}

@@ -1,0 +1,104 @@
+/* session.h -- one conversation: everything declared, asked and answered.
+ *
+ * A session reads statements from sources (scripts, -e texts, prompt lines) and writes answers to
+ * `out`, errors to `err`. Text goes through lang/answer/answer.h, so that --json and styles are one matter.
+ */
+#ifndef QDOT_LANG_SESSION_H
+#define QDOT_LANG_SESSION_H
+
+#include <stdio.h>
+
+#include "expr/print.h"
+#include "lang/session/names.h"
+#include "mech/dynamics/quantity.h"
+#include "sim/run/run.h"
+
+/* A number that a run gave: stands in expressions as a FORMAL symbol. */
+typedef struct {
+    qdot_expr symbol;
+    double value, error; /* error NaN: unknown */
+    int digits;          /* > 0: of a run with `digits`, whose number is */
+    qdot_expr exact;     /* ... this rational */
+    bool plain;          /* no digits were asked for: with --json a number, no string */
+} qdot_measured;
+
+/* a.EXPR within an expression: stands there as a FORMAL symbol. */
+typedef struct {
+    qdot_expr symbol, value;
+    char *run;
+} qdot_member;
+
+/* Shared by the session and the states that `undo` keeps. */
+typedef struct {
+    char *name; /* "a", "run1" */
+    char *text; /* the statement without its name: "run 0..20 tol 1e-9" */
+    qdot_run *run;
+    unsigned *uses;
+} qdot_named_run;
+void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
+
+/* What the sides of a check are made through: each must have a value where they are compared. */
+typedef struct {
+    qdot_vec(qdot_expr) value;
+    bool spoiled;      /* by a function that may take it apart (subs) */
+    unsigned branches; /* of ifs under way: what stands there need not exist */
+} qdot_passed;
+
+struct qdot_partial_sum;
+
+typedef struct qdot_session {
+    qdot_pool *pool;
+    qdot_scene *scene;
+    qdot_names *names;
+    FILE *out, *err;
+    qdot_style style;
+    bool json, timing, interactive;
+    FILE *console; /* while answers go to a file: where notices go; else NULL */
+    bool console_json;
+    bool failed;                 /* the latest text or file stopped at an error */
+    bool refuted;                /* a check was refuted: exit 1 at the end */
+    qdot_vec(qdot_expr) history; /* %1 is history.at[0] */
+    qdot_vec(qdot_expr) history_over; /* coordinates its entries go by; nil, or shorter: none */
+    qdot_expr series, series_in; /* the latest series(...) and the LIST of what it is in, or nil */
+    qdot_vec(qdot_measured) measured;
+    qdot_vec(qdot_member) members;
+    qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
+    qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
+    bool start_exactly; /* the latest `start` said so */
+    qdot_vec(qdot_named_run) runs;
+    qdot_vec(
+        char *) including; /* files being read, for include cycles and relative paths */
+    size_t figures;        /* NAME-1.svg ... */
+    bool quit;             /* `quit` was said */
+    bool declares;         /* the statement under way declares what stands in a scene */
+    const char *taken;     /* the short name of a value that it read (lang/functions/short-names); NULL */
+    qdot_vec(char *) told; /* notices that are given once */
+    unsigned calls;        /* of functions under way, within one another */
+    bool placed;           /* the error under way names its place in a body */
+    size_t loops;          /* loops under way: what they hold must outlive them */
+    qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (lang/language/partial-sum) */
+    struct qdot_undo *undo; /* NULL: no statement yet */
+    void (*undo_free)(struct qdot_undo *undo); /* set with it */
+    qdot_passed *passed;   /* while the sides of a check are read; else NULL */
+} qdot_session;
+
+qdot_session *qdot_session_new(FILE *out, FILE *err); /* NULL: no memory */
+void qdot_session_free(qdot_session *session);
+
+/* Add a value to the history: `%` from now on. over: the LIST of coordinates its entries go by, or
+ * nil. */
+QDOT_MUST_CHECK qdot_status qdot_session_remember(qdot_session *session, qdot_expr value,
+                                                  qdot_expr over);
+/* %n, n = 0: the latest. QDOT_EINVAL: there are not so many. */
+QDOT_MUST_CHECK qdot_status qdot_session_recall(const qdot_session *session, size_t n,
+                                                qdot_expr *value, qdot_expr *over);
+/* From now on the symbol (a parameter, a momentum) or undefined function (applied to formal symbols
+ * that stand in `value`) has this value for numbers. *status: QDOT_ENOMEM; unchanged if all is well. */
+void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
+                      qdot_status *status);
+/* From now on a run starts with this value of q or q'. */
+QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value);
+/* All that `reset` forgets changes places; what is no part of a scene stays: style, files ... */
+void qdot_session_exchange(qdot_session *session, qdot_session *other);
+
+#endif

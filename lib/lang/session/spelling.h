@@ -1,0 +1,24 @@
+/* spelling.h -- the word nearest in spelling: the fewest letters put in, left out, changed or swapped.
+ *
+ * Tests  tests/lang/test_names.c
+ */
+#ifndef QDOT_LANG_SPELLING_H
+#define QDOT_LANG_SPELLING_H
+
+#include <stddef.h>
+
+/* A search: begin, offer one word after another; `best` is then the nearest, borrowed, or NULL where
+ * none is near. */
+typedef struct {
+    const char *name, *best;
+    size_t length;
+    int least;
+} qdot_spelling;
+
+void qdot_spelling_begin(qdot_spelling *s, const char *name);
+void qdot_spelling_offer(qdot_spelling *s, const char *candidate);
+
+/* The nearest of list [n]; NULL if none is near. */
+const char *qdot_spelling_nearest(const char *name, size_t n, const char *const *list);
+
+#endif

@@ -1,0 +1,61 @@
+/* undo-state.h -- the state of a session as arrays of items that are copied as they are.
+ *
+ * Inside of lang/session/undo. A qdot_scene_part says where an array is, in the session or in a copy; runs and
+ * names count who uses them. */
+#ifndef QDOT_LANG_UNDO_STATE_H
+#define QDOT_LANG_UNDO_STATE_H
+
+#include "lang/session/session.h"
+
+enum { /* behind those of the scene */
+    QDOT_UNDO_SET_SYMBOLS = QDOT_SCENE_PARTS,
+    QDOT_UNDO_SET_VALUES,
+    QDOT_UNDO_START_SYMBOLS,
+    QDOT_UNDO_START_VALUES,
+    QDOT_UNDO_HISTORY,
+    QDOT_UNDO_HISTORY_OVER,
+    QDOT_UNDO_RUNS,
+    QDOT_UNDO_NAMES,
+    QDOT_UNDO_PARTS
+};
+
+/* What is no array. */
+typedef struct {
+    qdot_expr lagrangian, series, series_in;
+    qdot_style style;
+    bool timing, start_exactly;
+} qdot_undo_single;
+
+typedef struct {
+    unsigned char *at;
+    size_t n, capacity;
+} qdot_undo_array;
+
+/* A copy of a session's state. */
+typedef struct {
+    qdot_undo_array part[QDOT_UNDO_PARTS];
+    qdot_undo_single single;
+    qdot_vec(const qdot_name *) names; /* no copy: those of the session, in order */
+} qdot_undo_state;
+
+/* Where part k of the session is; of the names: the list in *state. Its items. */
+qdot_scene_part qdot_undo_part(qdot_session *s, qdot_undo_state *state, int k);
+unsigned char *qdot_undo_items(const qdot_scene_part *part);
+qdot_undo_single qdot_undo_single_of(const qdot_session *s);
+
+/* One use more, or less, of what the items of a part are. */
+void qdot_undo_count(int part, const unsigned char *at, size_t n, bool more);
+/* *to becomes a copy, the caller's, with uses of its own. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_undo_copy(int part, const unsigned char *from, size_t n,
+                                           size_t size, unsigned char **to);
+/* Room for n items. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_undo_make_room(qdot_scene_part *part, size_t n);
+/* The items [at, at + gone) give way to `come` of `in`, for which there is room. */
+void qdot_undo_splice(const qdot_scene_part *part, size_t at, size_t gone,
+                      const unsigned char *in, size_t come);
+/* The same in a copy of the state, which has uses of its own. */
+void qdot_undo_splice_kept(qdot_undo_state *kept, int k, size_t size, size_t at,
+                           size_t gone, const unsigned char *in, size_t come);
+void qdot_undo_clear(qdot_undo_state *state);
+
+#endif

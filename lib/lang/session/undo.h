@@ -1,0 +1,46 @@
+/* undo.h -- statements taken back, and done again.
+ *
+ * The session's state is a number of arrays: the scene's, the values of `set` and `start`, the runs,
+ * the declared names. A copy of each, as the latest statement left it, is kept; after the next one
+ * both are compared, and what differs is the record of that statement. To undo is to put the old
+ * items in the place of the new ones. A record is as long as what the statement changed, so any
+ * number of them can be kept; no statement is ever carried out again.
+ *
+ * What a name meant must not come back with it: a parameter declared anew after `undo` has no old
+ * sign. So the symbols of names that go are hidden in the pool, and shown again by `redo`.
+ * `reset` starts a new pool; its record is the session before it.
+ *
+ * Tests  tests/lang/test_undo.c, tests/script/undo.lag, tests/script/undo-all.sh
+ */
+#ifndef QDOT_LANG_UNDO_H
+#define QDOT_LANG_UNDO_H
+
+#include "lang/session/session.h"
+
+typedef struct qdot_undo qdot_undo;
+
+void qdot_undo_free(qdot_undo *undo);
+
+/* A text begins: within an `include` `undo` goes back to its beginning. Returns what _text_end
+ * takes. */
+size_t qdot_undo_text_begin(qdot_session *session);
+void qdot_undo_text_end(qdot_session *session, size_t outer);
+
+/* A statement of a text begins and ends, well or not. If it changed the session, there is one thing
+ * more to undo, all that went on within it (`include`) with it; text [length]: what it says. Without
+ * memory for that everything before it can no longer be undone. */
+size_t qdot_undo_begin(qdot_session *session);
+void qdot_undo_end(qdot_session *session, size_t begun, const char *text, size_t length);
+
+/* How many statements can be taken back, or done again. */
+size_t qdot_undo_statements(const qdot_session *session, bool again);
+/* Whether that ends at the beginning of an included script under way. */
+bool qdot_undo_is_at_floor(const qdot_session *session);
+/* Take back the latest statement, or do it again: there must be one. *text: what it says, borrowed.
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_undo_step(qdot_session *session, bool again, const char **text);
+
+/* `other` is the session as it was until this `reset`; it is taken over. */
+void qdot_undo_reset(qdot_session *session, qdot_session *other);
+
+#endif

@@ -1,0 +1,42 @@
+/* value-kind.c -- what a constructor made, and what that is called. */
+#include "lang/session/value-kind.h"
+
+qdot_status
+qdot_value_kind_check(qdot_pool *pool, qdot_expr value)
+{
+    if (value != QDOT_NIL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_pool_check(pool));
+    return qdot_fail(QDOT_EFAILED, "no value came out, and no reason");
+}
+
+const char *
+qdot_value_kind_words(const qdot_pool *pool, qdot_expr e)
+{
+    switch (qdot_expr_kind(pool, e)) {
+    case QDOT_VEC: return "a vector";
+    case QDOT_MAT: return "a matrix";
+    case QDOT_LIST: return "a list";
+    case QDOT_REL:
+        return qdot_expr_node(pool, e)->op == QDOT_EQ ? "an equation" : "an inequality";
+    case QDOT_LOGIC: return "a condition";
+    case QDOT_SYM:
+        if (qdot_expr_is_class(pool, e, QDOT_WORDS))
+            return "a text";
+        /* fall through */
+    default: return e == QDOT_TRUE || e == QDOT_FALSE ? "a condition" : "a number";
+    }
+}
+
+qdot_status
+qdot_value_kind_give(qdot_pool *pool, qdot_expr made, qdot_expr *value)
+{
+    *value = made;
+    return qdot_value_kind_check(pool, made);
+}
+
+bool
+qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_REL && qdot_expr_node(pool, e)->op == QDOT_EQ;
+}

@@ -1,0 +1,15 @@
+/* value-kind.h -- what a constructor made, and what that is called. */
+#ifndef QDOT_LANG_VALUE_KIND_H
+#define QDOT_LANG_VALUE_KIND_H
+
+#include "expr/expr.h"
+
+/* After a constructor: QDOT_OK, or the pool's failure if value is nil. */
+QDOT_MUST_CHECK qdot_status qdot_value_kind_check(qdot_pool *pool, qdot_expr value);
+/* "a vector", "an equation" ... in a user's words. */
+const char *qdot_value_kind_words(const qdot_pool *pool, qdot_expr e);
+/* *value = made, checked so. */
+QDOT_MUST_CHECK qdot_status qdot_value_kind_give(qdot_pool *pool, qdot_expr made, qdot_expr *value);
+bool qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e);
+
+#endif

@@ -1,0 +1,19 @@
+/* letters.h -- the letters a name may hold, and how Greek ones are spelled. */
+#ifndef QDOT_LANG_LETTERS_H
+#define QDOT_LANG_LETTERS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The spelled name of a Greek letter ("theta"), NULL if c is none. */
+const char *qdot_letters_greek(uint32_t c);
+/* Whether c is a Latin letter. */
+bool qdot_letters_latin(uint32_t c);
+/* The digit 0-9 that a subscript or superscript stands for, -1 if c is none. */
+int qdot_letters_subscript(uint32_t c);
+int qdot_letters_superscript(uint32_t c);
+/* How many dots the letter that text begins with carries, ẋ 1, ẍ 2; *letter the one below them. ä, ë,
+ * ï, ö, ü, ÿ are letters of names, and have none. */
+unsigned qdot_letters_dotted(const char *text, const char **letter);
+
+#endif

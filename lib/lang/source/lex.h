@@ -1,0 +1,17 @@
+/* lex.h -- from bytes to tokens. */
+#ifndef QDOT_LANG_LEX_H
+#define QDOT_LANG_LEX_H
+
+#include "expr/expr.h"
+#include "lang/source/token.h"
+
+#define QDOT_LEX_TOKENS 10000000u  /* tokens of one source */
+#define QDOT_LEX_PRIMES 200u       /* primes behind one name */
+#define QDOT_LEX_BRACKETS 1000000u /* open brackets */
+
+/* Fill source->tokens from source->text. On failure the place is in *at. */
+QDOT_MUST_CHECK qdot_status qdot_lex(qdot_source *source, size_t *at);
+/* The exact number of a QDOT_TOKEN_NUMBER: "9.81", or of a fraction of one sign "1/2". */
+qdot_expr qdot_lex_number(qdot_pool *pool, const char *text);
+
+#endif

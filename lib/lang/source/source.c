@@ -1,0 +1,188 @@
+/* source.c -- a text with its tokens, and errors that show the place. */
+#include "lang/source/source.h"
+
+#include <string.h>
+
+#include "base/utf8.h"
+#include "lang/source/lex.h"
+
+/* Columns of a line that an error shows. */
+enum { SHOWN = 90 };
+
+qdot_status
+qdot_source_new(const char *name, const char *text, size_t length, qdot_source **source,
+                size_t *at)
+{
+    qdot_source *s;
+    qdot_status status;
+
+    *source = NULL;
+    *at = 0;
+    if (length >= UINT32_MAX)
+        return qdot_fail(QDOT_ELIMIT, "a script may hold at most 4 GB");
+    s = qdot_calloc(1, sizeof *s);
+    if (s == NULL)
+        return QDOT_ENOMEM;
+    s->uses = 1;
+    s->name = qdot_strdup(name);
+    s->text = qdot_malloc(length + 1);
+    s->arena = qdot_arena_new();
+    s->length = length;
+    if (s->name == NULL || s->text == NULL || s->arena == NULL) {
+        qdot_source_free(s);
+        return QDOT_ENOMEM;
+    }
+    memcpy(s->text, text, length);
+    s->text[length] = '\0';
+
+    status = qdot_lex(s, at);
+    if (status == QDOT_ENOMEM) {
+        qdot_source_free(s);
+        return status;
+    }
+    *source = s;
+    return status;
+}
+
+qdot_source *
+qdot_source_keep(const qdot_source *source)
+{
+    qdot_source *own = (qdot_source *)source;
+
+    own->uses++;
+    return own;
+}
+
+void
+qdot_source_free(qdot_source *source)
+{
+    if (source == NULL || --source->uses > 0)
+        return;
+    qdot_free(source->name);
+    qdot_free(source->text);
+    qdot_free(source->tokens.at);
+    qdot_arena_free(source->arena);
+    qdot_free(source);
+}
+
+/* First byte of the line that holds byte `at`; a byte-order mark belongs to no line. */
+static size_t
+line_start(const qdot_source *source, size_t at)
+{
+    size_t start = at;
+
+    while (start > 0 && source->text[start - 1] != '\n')
+        start--;
+    if (start == 0 && at >= 3 && strncmp(source->text, "\xEF\xBB\xBF", 3) == 0)
+        start = 3;
+    return start;
+}
+
+void
+qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line, uint32_t *column)
+{
+    size_t start;
+
+    if (at > source->length)
+        at = source->length;
+    start = line_start(source, at);
+    *line = 1;
+    for (const char *c = source->text; c < source->text + start;) {
+        const char *end = memchr(c, '\n', (size_t)(source->text + start - c));
+
+        if (end == NULL)
+            break;
+        ++*line;
+        c = end + 1;
+    }
+    *column = 1 + (uint32_t)qdot_utf8_columns(source->text + start, at - start);
+}
+
+/* One byte back or on, by whole characters. */
+static size_t
+step_back(const char *text, size_t at, size_t start)
+{
+    do
+        at--;
+    while (at > start && ((unsigned char)text[at] & 0xC0) == 0x80);
+    return at;
+}
+
+static size_t
+step_on(const char *text, size_t at, size_t end)
+{
+    do
+        at++;
+    while (at < end && ((unsigned char)text[at] & 0xC0) == 0x80);
+    return at;
+}
+
+/* Bytes [from, to) as printable text: what is not becomes `?`, a tab a blank. */
+static void
+add_clean(qdot_text *out, const char *text, size_t from, size_t to)
+{
+    while (from < to) {
+        size_t length = qdot_utf8_length(text + from);
+        unsigned char c = (unsigned char)text[from];
+
+        if (c == '\t') {
+            qdot_text_char(out, ' ');
+            from++;
+        } else if (length == 0 || c < 0x20 || c == 0x7F || from + length > to) {
+            qdot_text_char(out, '?');
+            from = step_on(text, from, to);
+        } else {
+            qdot_text_add_n(out, text + from, length);
+            from += length;
+        }
+    }
+}
+
+/* The line with its caret, cut on both sides to SHOWN columns. */
+static void
+add_line(const qdot_source *source, size_t at, qdot_text *out)
+{
+    size_t start = line_start(source, at), end = at, from = at, to = at;
+    int columns = 0, before = 0;
+
+    while (end < source->length && source->text[end] != '\n')
+        end++;
+    if (end > at && source->text[end - 1] == '\r')
+        end--;
+    while (from > start && before < SHOWN * 2 / 3) {
+        from = step_back(source->text, from, start);
+        before++;
+    }
+    for (columns = before; to < end && columns < SHOWN; columns++)
+        to = step_on(source->text, to, end);
+    while (from > start && columns < SHOWN) {
+        from = step_back(source->text, from, start);
+        before++;
+        columns++;
+    }
+    qdot_text_add(out, from > start ? "  ..." : "  ");
+    add_clean(out, source->text, from, to);
+    qdot_text_add(out, to < end ? "...\n" : "\n");
+    qdot_text_format(out, "%*s^\n", before + (from > start ? 5 : 2), "");
+}
+
+void
+qdot_source_report(const qdot_source *source, size_t at, const qdot_error *error,
+                   qdot_text *out)
+{
+    uint32_t line, column;
+
+    if (at > source->length)
+        at = source->length;
+    qdot_source_locate(source, at, &line, &column);
+    qdot_text_add(out, source->name);
+    qdot_text_format(out, ":%u:%u: error: ", line, column);
+    qdot_text_add(out, error->message);
+    qdot_text_char(out, '\n');
+    add_line(source, at, out);
+    if (error->hint[0] != '\0') {
+        qdot_text_add(out, "  hint: ");
+        qdot_text_add(out, error->hint);
+        qdot_text_char(out, '\n');
+    }
+}

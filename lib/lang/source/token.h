@@ -1,0 +1,47 @@
+/* token.h -- a text and the tokens it is lexed to. */
+#ifndef QDOT_LANG_TOKEN_H
+#define QDOT_LANG_TOKEN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+typedef enum {
+    QDOT_TOKEN_END,     /* end of the statement: newline, `;`, end of the source */
+    QDOT_TOKEN_NUMBER,  /* "9.81" */
+    QDOT_TOKEN_NAME,    /* Greek letters spelled: "theta1" */
+    QDOT_TOKEN_STRING,  /* text without its quotes */
+    QDOT_TOKEN_OPERATOR /* ( ) [ ] { } , ; : . .. ' + - * / ^ = == < <= > >= % ... */
+} qdot_token_kind;
+
+typedef struct qdot_token {
+    uint8_t kind;
+    bool glued;             /* no blank before it */
+    const char *text;       /* NUL-terminated, in the source's arena */
+    uint32_t start, length; /* bytes in the source */
+} qdot_token;
+
+typedef struct qdot_source {
+    unsigned uses; /* freed with the last */
+    char *name;
+    char *text; /* NUL-terminated copy */
+    size_t length;
+    qdot_arena *arena;
+    qdot_vec(qdot_token) tokens; /* the last is END */
+} qdot_source;
+
+static inline bool
+qdot_token_is(const qdot_token *token, const char *op)
+{
+    return token->kind == QDOT_TOKEN_OPERATOR && strcmp(token->text, op) == 0;
+}
+
+static inline bool
+qdot_token_is_word(const qdot_token *token, const char *word)
+{
+    return token->kind == QDOT_TOKEN_NAME && strcmp(token->text, word) == 0;
+}
+
+#endif

@@ -1,0 +1,163 @@
+/* conservation.c -- how energy and momenta change.
+ *
+ * By Lagrange's equations
+ *
+ *     dh/dt = -dL/dt + sum (Q_i + R_i) q_i'
+ *
+ * with Q what is applied beside V and R the reactions, so h is conserved when dL/dt and
+ * the power of Q vanish and every constraint works at no power: f (q, t) = 0 at -lambda
+ * df/dt, f(q, q', t) = 0 at lambda sum df/dq' q', f(q'') at lambda sum df/dq'' q'.
+ */
+#include "expr/calculus.h"
+#include "mech/dynamics/energy.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/dynamics/virtual-work.h"
+#include "mech/scene/access.h"
+#include "mech/scene/cache.h"
+#include "mech/scene/constraint.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+
+/* -dL/dt + sum Q q', Q what is applied beside V. */
+static qdot_expr
+applied_power(qdot_scene *s)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr power = QDOT_ZERO;
+    bool has;
+
+    if (!qdot_lagrangian_has(s, QDOT_T, &has))
+        return QDOT_NIL;
+    if (has)
+        power = qdot_neg(pool, qdot_lagrangian_slope(s, QDOT_T));
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr Q = qdot_force_total(s, i, false, true);
+
+        power = qdot_add(pool, power, qdot_mul(pool, Q, qdot_mech_jet(s, i, 1)));
+    }
+    return power;
+}
+
+static qdot_expr
+constraint_power(qdot_scene *s, size_t k)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr power = QDOT_ZERO;
+
+    if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
+        return qdot_diff(pool, s->constraints.at[k].f, QDOT_T);
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        power = qdot_add(
+            pool, power,
+            qdot_mul(pool, qdot_constraint_slope(s, k, i), qdot_mech_jet(s, i, 1)));
+    return power;
+}
+
+/* dh/dt, with the multipliers' symbols. */
+static qdot_expr
+energy_rate(qdot_scene *s)
+{
+    qdot_expr rate = applied_power(s);
+
+    for (size_t k = 0; k < s->constraints.n; k++) {
+        qdot_expr power = constraint_power(s, k);
+
+        if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
+            power = qdot_neg(s->pool, power); /* q' df/dq = -df/dt */
+        rate = qdot_add(s->pool, rate,
+                        qdot_mul(s->pool, s->constraints.at[k].multiplier, power));
+    }
+    return rate;
+}
+
+/* dp/dt of coordinate i, likewise. */
+static qdot_expr
+momentum_rate(qdot_scene *s, size_t i)
+{
+    qdot_pool *pool = s->pool;
+
+    return qdot_sum(pool, 3,
+                    (qdot_expr[]){qdot_lagrangian_slope(s, s->coordinates.at[i]),
+                                  qdot_force_total(s, i, false, true),
+                                  qdot_constraint_reaction(s, i)});
+}
+
+static bool
+is_free_of_velocities(qdot_scene *s, qdot_expr e)
+{
+    return e != QDOT_NIL && (qdot_mech_holds(s, e) & (QDOT_HAS_VELOCITY |
+                                                      QDOT_HAS_ACCELERATION)) == 0;
+}
+
+/* E less a quantity whose rate needs no accelerations: what is left, free of velocities; else
+ * nil. */
+static qdot_expr
+rest_beside(qdot_scene *s, qdot_expr E, qdot_expr known)
+{
+    const qdot_facts facts = qdot_scene_facts(s);
+    qdot_expr rest = E == known ? QDOT_ZERO : qdot_sub(s->pool, E, known);
+
+    if (is_free_of_velocities(s, rest))
+        return rest;
+    rest = qdot_simplify(s->pool, rest, &facts);
+    return is_free_of_velocities(s, rest) ? rest : QDOT_NIL;
+}
+
+qdot_expr
+qdot_mech_rate(qdot_scene *s, qdot_expr E)
+{
+    qdot_expr rest;
+
+    if (is_free_of_velocities(s, E))
+        return qdot_ddt(s->pool, E);
+    rest = rest_beside(s, E, qdot_mech_energy(s));
+    if (rest != QDOT_NIL)
+        return qdot_add(s->pool, energy_rate(s), qdot_ddt(s->pool, rest));
+    for (size_t i = 0; i < s->coordinates.n && !qdot_pool_failed(s->pool); i++) {
+        rest = rest_beside(s, E, qdot_mech_momentum(s, s->coordinates.at[i]));
+        if (rest != QDOT_NIL)
+            return qdot_add(s->pool, momentum_rate(s, i), qdot_ddt(s->pool, rest));
+    }
+    return QDOT_NIL;
+}
+
+qdot_status
+qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
+{
+    qdot_pool *pool = s->pool;
+    qdot_derived *d = qdot_derived_get(s);
+    qdot_facts facts = qdot_scene_facts(s), on_manifold = facts;
+    qdot_expr *relations = NULL, power;
+    qdot_status status = qdot_pool_check(pool);
+
+    QDOT_TRY(status);
+    *conserved = d->conserved;
+    if (d->conserved_known)
+        return QDOT_OK;
+    if (s->constraints.n)
+        status = qdot_constraint_facts(s, &relations, &on_manifold);
+    if (status == QDOT_OK) {
+        power = applied_power(s);
+        *conserved = power != QDOT_NIL &&
+                     (qdot_is_zero(pool, power, &facts) ||
+                      (s->constraints.n && qdot_is_zero(pool, power, &on_manifold)));
+        for (size_t k = 0; k < s->constraints.n && *conserved; k++) {
+            qdot_expr f = s->constraints.at[k].f;
+
+            /* Linear and homogeneous in q', its power is f itself. */
+            power = constraint_power(s, k);
+            *conserved = power != QDOT_NIL &&
+                         (qdot_is_zero(pool, power, &facts) ||
+                          qdot_is_zero(pool, qdot_sub(pool, power, f), &facts) ||
+                          qdot_is_zero(pool, power, &on_manifold));
+        }
+        status = qdot_pool_check(pool);
+    }
+    qdot_free(relations);
+    if (status == QDOT_OK) {
+        d = qdot_derived_get(s);
+        d->conserved_known = true;
+        d->conserved = *conserved;
+    }
+    return status;
+}

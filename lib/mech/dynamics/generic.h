@@ -1,0 +1,17 @@
+/* generic.h -- expressions in double at a point, for ranks. Internal to mech/. */
+#ifndef QDOT_MECH_GENERIC_H
+#define QDOT_MECH_GENERIC_H
+
+#include "expr/expr.h"
+
+/* Values of e [n] in double at a point: symbols [m] have values; any other symbol or
+ * undefined function gets one of its own from `seed`. NaN where undefined. */
+QDOT_MUST_CHECK qdot_status qdot_generic_evaluate(const qdot_pool *pool, size_t n,
+                                                  const qdot_expr *e, size_t m,
+                                                  const qdot_expr *symbols,
+                                                  const double *values, uint64_t seed,
+                                                  double *out);
+/* A number of its own for a symbol: inside its domain, of about size 1. */
+double qdot_generic_value(const qdot_pool *pool, qdot_expr symbol, uint64_t seed);
+
+#endif

@@ -1,0 +1,15 @@
+/* lagrange.h -- velocity terms of Lagrange's equations. Internal to mech/. */
+#ifndef QDOT_MECH_LAGRANGE_H
+#define QDOT_MECH_LAGRANGE_H
+
+#include "mech/scene/scene.h"
+
+/* -(d/dt dF/dq' - dF/dq) at q'' = 0 for any F(q, q', t). */
+qdot_expr qdot_lagrange_forcing(qdot_scene *s, qdot_expr F, size_t i);
+/* d/dt dT/dq' - dT/dq at q'' = 0, simplified. */
+qdot_expr qdot_lagrange_rest(qdot_scene *s, size_t i);
+
+/* f_i of M q'' = f, from simplified parts. */
+qdot_expr qdot_lagrange_people_forcing(qdot_scene *s, size_t i);
+
+#endif

@@ -1,0 +1,18 @@
+/* nested.h -- sums over many sets of the same items. Internal to mech/. */
+#ifndef QDOT_MECH_NESTED_H
+#define QDOT_MECH_NESTED_H
+
+#include "mech/scene/scene.h"
+
+/* Sets of items that have values; bits of items >= `items` are 0. */
+typedef struct {
+    size_t items, sets, words; /* words of 64 bits a set */
+    const qdot_expr *value;    /* [items] */
+    const uint64_t *bits;      /* [sets * words] */
+} qdot_family;
+
+/* sum [sets]: of the values of each set, held (qdot_hold), made of the sums of sets within
+ * it. Work sets^2 words. False on failure. */
+bool qdot_nested_sums(qdot_scene *s, const qdot_family *family, qdot_expr *sum);
+
+#endif

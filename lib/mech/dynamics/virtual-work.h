@@ -1,0 +1,14 @@
+/* virtual-work.h -- generalized forces. Internal to mech/. */
+#ifndef QDOT_MECH_VIRTUAL_WORK_H
+#define QDOT_MECH_VIRTUAL_WORK_H
+
+#include "mech/scene/scene.h"
+
+/* Generalized force on coordinate i. people: simplified. applied: without -dV/dq. */
+qdot_expr qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied);
+/* The same without gravity, not simplified. */
+qdot_expr qdot_force_but_gravity(qdot_scene *s, size_t i);
+/* What `force` and `torque` declare alone. */
+qdot_expr qdot_force_declared(qdot_scene *s, size_t i);
+
+#endif

@@ -1,0 +1,50 @@
+/* access.h -- what every chapter asks of a scene. Internal to mech/. */
+#ifndef QDOT_MECH_ACCESS_H
+#define QDOT_MECH_ACCESS_H
+
+#include <string.h>
+
+#include "base/text.h"
+#include "mech/scene/things.h"
+
+/* Whether two labels are the same; NULL is none. */
+static inline bool
+qdot_label_is(const char *a, const char *b)
+{
+    return a && b && strcmp(a, b) == 0;
+}
+
+/* Record the failure just raised in the pool; nil. */
+#define qdot_mech_fail(s, ...) (qdot_fail(__VA_ARGS__), qdot_pool_fail((s)->pool))
+uint32_t qdot_mech_holds(const qdot_scene *s, qdot_expr e);
+/* 1 for a scalar, the size of a VEC, 0 for anything else. */
+uint32_t qdot_mech_dimension(const qdot_pool *pool, qdot_expr r);
+qdot_expr qdot_mech_component(const qdot_pool *pool, qdot_expr r, uint32_t d);
+qdot_expr qdot_mech_dot(qdot_pool *pool, qdot_expr a, qdot_expr b); /* scalars too */
+/* Simplified with the scene's facts; above a size only what its parts already are. */
+qdot_expr qdot_mech_tidy(qdot_scene *s, qdot_expr e);
+/* The same for a sum of parts that are simplified: tried while it is short. */
+qdot_expr qdot_mech_tidy_whole(qdot_scene *s, qdot_expr e);
+/* Coordinate, velocity, acceleration i. */
+qdot_expr qdot_mech_jet(qdot_scene *s, size_t i, uint32_t order);
+/* The index of a coordinate in the scene; fails (pool) with QDOT_ENAME and returns false.
+ * */
+bool qdot_mech_index(qdot_scene *s, qdot_expr q, size_t *i);
+/* e with every acceleration 0. */
+qdot_expr qdot_mech_at_rest(qdot_scene *s, qdot_expr e);
+bool qdot_mech_stated(const qdot_scene *s);
+/* QDOT_EINVAL in the pool unless the scene has T and V. */
+bool qdot_mech_needs_particles(qdot_scene *s, const char *what);
+/* Size of the scene's space: 1, 2, 3; 0 while nothing tells. */
+uint32_t qdot_scene_dimension(const qdot_scene *s);
+void qdot_scene_forget_dropped(qdot_scene *s);
+QDOT_MUST_CHECK qdot_status qdot_scene_drop(qdot_scene *s, const char *kind,
+                                            const char *name);
+/* A copy that lasts as long as the scene; *copy NULL for NULL. */
+QDOT_MUST_CHECK qdot_status qdot_scene_copy_text(qdot_scene *s, const char *text, char **copy);
+/* Where among the torques the k-th of a kind (QDOT_FORCE beyond the forces, QDOT_TORQUE) is. */
+size_t qdot_scene_torque_at(const qdot_scene *s, qdot_scene_kind kind, size_t k);
+QDOT_MUST_CHECK qdot_status qdot_event_print(const qdot_scene *s, const qdot_event *e,
+                                             qdot_text *out);
+
+#endif

@@ -1,0 +1,14 @@
+/* body.h -- rigid bodies: what acts on them. Internal to mech/. */
+#ifndef QDOT_MECH_BODY_H
+#define QDOT_MECH_BODY_H
+
+#include "mech/scene/scene.h"
+
+/* Angular velocity as a linear form: its coefficient of q_i', from R or the angle. */
+qdot_expr qdot_body_spin(qdot_scene *s, const qdot_body *body);
+qdot_expr qdot_body_partial_spin(qdot_scene *s, const qdot_body *body, qdot_expr q);
+/* d velocity(body, place) / dq'. */
+qdot_expr qdot_body_partial_velocity(qdot_scene *s, const qdot_body *body, qdot_expr place,
+                                     qdot_expr q);
+
+#endif

@@ -1,0 +1,89 @@
+/* cache.h -- what was derived of a scene, kept until it changes. Internal to mech/.
+ *
+ * Kinetic energy of everything, particles and bodies alike, is a sum over inertial terms
+ *
+ *     T = 1/2 sum_p w_p x_p' y_p'
+ *
+ * of scalar functions x, y of (q, t): a particle gives m r_d' r_d' for each axis d; a
+ * body its centre and, from the second moments J = 1/2 tr(I) 1 - I, J_ab (R e_a)_d' (R
+ * e_b)_d'.
+ *
+ * Terms that share a Jacobian entry are grouped before anything is expanded: a group is
+ * an expression e and the set of terms p at which it stands, sets are interned, and the
+ * weights of an intersection are added once. A chain of N links has N sets.
+ */
+#ifndef QDOT_MECH_CACHE_H
+#define QDOT_MECH_CACHE_H
+
+#include "mech/scene/things.h"
+
+/* w x' y'; axis: the component of a centre's or particle's position, -1 for a body's
+ * axes. */
+typedef struct {
+    qdot_expr w, x, y;
+    int axis;
+} qdot_inertial;
+
+typedef struct {
+    qdot_expr e;
+    uint32_t set; /* of terms p */
+} qdot_group;
+
+typedef qdot_vec(qdot_group) qdot_groups;
+
+typedef struct {
+    size_t n;     /* coordinates; index n stands for t */
+    size_t words; /* of a set */
+    qdot_vec(qdot_inertial) terms;
+    qdot_vec(uint64_t) bits;    /* [sets * words]; set 0 is empty */
+    qdot_vec(qdot_expr) weight; /* [sets]: sum of w, nil until asked */
+    qdot_vec(uint32_t) slots;   /* open hash table of sets, + 1 */
+    uint32_t axis_set[3];       /* terms of positions along an axis */
+    qdot_groups *dx, *dy;       /* [n + 1]: dx/dq_i, dx/dt; dy == dx where all y = x */
+    bool rest_ready, place_ready;
+    qdot_groups rest;  /* x'' at q'' = 0; ask qdot_kinematics_rest */
+    qdot_groups place; /* x itself, by its terms; ask qdot_kinematics_place */
+} qdot_kinematics;
+
+typedef struct {
+    uint32_t j, k; /* entry j <= k of M */
+    uint32_t i;    /* by this coordinate; n: by t */
+    qdot_expr value;
+} qdot_mass_slope;
+
+/* A sum simplified once for all that are alike but for their symbols (qdot_mech_alike). */
+typedef struct {
+    qdot_expr pattern, atoms, simple;
+} qdot_pattern;
+
+struct qdot_derived {
+    uint64_t version; /* of the scene all below belongs to */
+    size_t n;
+    bool kinematics_ready;
+    qdot_kinematics kinematics;
+    qdot_expr *square_spring,
+        *square_damper;  /* u.u of a link, simplified, nil until asked */
+    qdot_expr *M, *b, c; /* of T: [n*n], [n], scalar; simplified; M NULL until asked */
+    bool slopes_ready;
+    qdot_vec(qdot_mass_slope) slopes; /* of M, nonzero ones */
+    qdot_vec(qdot_pattern) patterns;
+    qdot_expr kinetic, potential, lagrangian, energy, mass_matrix;
+    qdot_expr *momentum, *force, *rest, *left, *equation; /* [n] each */
+    qdot_expr *accel;                                     /* [n], all at once */
+    qdot_expr *lambda; /* [constraints], with accel; nil where they are not unique */
+    qdot_expr numeric_mass, numeric_forcing;
+    bool *independent; /* [constraints] */
+    bool *hidden;      /* [constraints] behind those: leaves a condition (qdot_dof.is_hidden) */
+    bool unmet;        /* no point was found where they all hold */
+    bool conserved_known, conserved;
+};
+
+/* The cache, emptied if the scene has changed. */
+qdot_derived *qdot_derived_get(qdot_scene *s);
+void qdot_derived_free(qdot_derived *d);
+/* Put [n] nil expressions in *array unless it is there. */
+bool qdot_derived_array(qdot_scene *s, qdot_expr **array, size_t n);
+/* Empty, to be made anew. */
+void qdot_kinematics_clear(qdot_kinematics *k);
+
+#endif

@@ -1,0 +1,16 @@
+/* constraint.h -- constraints and what follows of them. Internal to mech/. */
+#ifndef QDOT_MECH_CONSTRAINT_H
+#define QDOT_MECH_CONSTRAINT_H
+
+#include "mech/scene/scene.h"
+
+/* df/dq, df/dq', df/dq'' by the constraint's kind. */
+qdot_expr qdot_constraint_slope(qdot_scene *s, size_t constraint, size_t i);
+/* The constraints' terms on the right of equation i. */
+qdot_expr qdot_constraint_reaction(qdot_scene *s, size_t i);
+/* The scene's relations and its constraints with their derivatives, for proofs on the
+ * constraints' manifold. *relations owned by the caller. */
+QDOT_MUST_CHECK qdot_status qdot_constraint_facts(qdot_scene *s, qdot_expr **relations,
+                                                  qdot_facts *facts);
+
+#endif

@@ -1,0 +1,26 @@
+/* rest.h -- a place where a scene can rest. */
+#ifndef QDOT_MECH_REST_H
+#define QDOT_MECH_REST_H
+
+#include "expr/expr.h"
+
+typedef enum {
+    QDOT_STABLE,
+    QDOT_UNSTABLE,
+    QDOT_STABLE_TO_FIRST_ORDER,
+    QDOT_STABILITY_UNDECIDED
+} qdot_stability;
+
+typedef struct {
+    qdot_expr
+        equations;    /* a LIST: coordinate = value ..., then lambda[...] = value ... */
+    qdot_expr exists; /* a LIST of RELs under which it is real; nil: always */
+    qdot_stability stability;
+    qdot_expr stable_when; /* STABLE, TO_FIRST_ORDER: a LIST of RELs; nil: always */
+    bool numeric;
+} qdot_equilibrium;
+
+/* Values of parameters for numbers: e bound as far as they are known. */
+typedef qdot_expr (*qdot_binder)(void *user, qdot_expr e);
+
+#endif

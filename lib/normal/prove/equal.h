@@ -1,0 +1,57 @@
+/* equal.h -- proofs that two scalars are equal by the normal form, constants and norms of roots
+ * (zero.h). Tests: tests/normal/test_decide.c */
+#ifndef QDOT_NORMAL_EQUAL_H
+#define QDOT_NORMAL_EQUAL_H
+
+#include "base/memory.h"
+#include "normal/field/facts.h"
+
+/* A way to prove left = right: *equal. Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
+typedef qdot_status (*qdot_prover)(qdot_pool *pool, qdot_expr left, qdot_expr right,
+                                   const qdot_facts *facts, bool *equal);
+
+/* Whether left - right is zero by the normal form, constants and norms of roots, modulo the
+ * relations of facts (may be NULL). Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
+QDOT_MUST_CHECK qdot_status qdot_prove_equal(qdot_pool *pool, qdot_expr left,
+                                             qdot_expr right, const qdot_facts *facts,
+                                             bool *equal);
+
+/* The same of prepared sides, with expressions that are known to be > 0; `sure`: on the whole of the
+ * declared domain. */
+QDOT_MUST_CHECK qdot_status qdot_prove_given(qdot_pool *pool, qdot_expr left,
+                                             qdot_expr right, size_t n_positive,
+                                             const qdot_expr *positive, bool sure,
+                                             bool *equal);
+
+/* --- the steps of a proof, for prove.c --------------------------------------------------- */
+
+/* e: left, right, nr relations, np that are positive; `conditional`: some of these by conditions. */
+typedef struct {
+    qdot_pool *pool;
+    size_t nr, np;
+    bool conditional;
+    qdot_expr *e;
+} qdot_problem;
+
+static inline size_t
+qdot_problem_count(const qdot_problem *p)
+{
+    return 2 + p->nr + p->np;
+}
+
+/* Begun, always to be finished: what finish returns is the status of the proof. */
+QDOT_MUST_CHECK qdot_status qdot_problem_begin(qdot_problem *p, qdot_pool *pool, qdot_expr left,
+                                               qdot_expr right, const qdot_facts *facts);
+QDOT_MUST_CHECK qdot_status qdot_problem_finish(qdot_problem *p, qdot_status status);
+
+/* Bases of roots that are positive as they stand; once multiplied out that is hard to see. */
+QDOT_MUST_CHECK qdot_status qdot_problem_note_positive(qdot_problem *p);
+
+/* All of them prepared; QDOT_EFAILED after a wrong turn. */
+QDOT_MUST_CHECK qdot_status qdot_problem_prepare(qdot_problem *p);
+
+/* Whether the difference is zero in a field of all of them. `signs`: with roots and
+ * constants. */
+QDOT_MUST_CHECK qdot_status qdot_problem_in_field(qdot_problem *p, bool signs, bool *zero);
+
+#endif
