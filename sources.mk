@@ -76,14 +76,17 @@ library_sources = \
 	lib/lang/functions/quantity.c \
 	lib/lang/functions/series.c \
 	lib/lang/functions/short-names.c \
+	lib/lang/functions/switch.c \
 	lib/lang/language/call.c \
 	lib/lang/language/closed-sum.c \
 	lib/lang/language/condition.c \
 	lib/lang/language/cursor.c \
 	lib/lang/language/evaluate.c \
 	lib/lang/language/formals.c \
+	lib/lang/language/forms.c \
 	lib/lang/language/function.c \
 	lib/lang/language/hints.c \
+	lib/lang/language/machine.c \
 	lib/lang/language/parse.c \
 	lib/lang/language/partial-sum.c \
 	lib/lang/language/read.c \
@@ -283,9 +286,12 @@ library_sources = \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-end.c \
+	lib/sim/course/piece-enter.c \
+	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
 	lib/sim/course/reader.c \
+	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
@@ -296,6 +302,7 @@ library_sources = \
 	lib/sim/digits/digits.c \
 	lib/sim/digits/precise-course.c \
 	lib/sim/digits/precise-distance.c \
+	lib/sim/digits/precise-pair.c \
 	lib/sim/digits/precise-start.c \
 	lib/sim/digits/precise-value.c \
 	lib/sim/digits/precise.c \
@@ -309,6 +316,7 @@ library_sources = \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
 	lib/sim/form/constrained-series.c \
+	lib/sim/form/derived.c \
 	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/leading-residual.c \
@@ -323,6 +331,7 @@ library_sources = \
 	lib/sim/form/shifted-wide.c \
 	lib/sim/form/shifted.c \
 	lib/sim/model/constrained-jacobian.c \
+	lib/sim/model/constrained-names.c \
 	lib/sim/model/constrained-near.c \
 	lib/sim/model/constrained-project.c \
 	lib/sim/model/constrained-put.c \
@@ -330,6 +339,7 @@ library_sources = \
 	lib/sim/model/constrained.c \
 	lib/sim/model/constraints.c \
 	lib/sim/model/domain.c \
+	lib/sim/model/equations.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -342,6 +352,7 @@ library_sources = \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
 	lib/sim/plan/tree-alone.c \
+	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range.c \
@@ -414,13 +425,16 @@ library_headers = \
 	lib/lang/functions/quantity.h \
 	lib/lang/functions/series.h \
 	lib/lang/functions/short-names.h \
+	lib/lang/functions/switch.h \
 	lib/lang/language/closed-sum.h \
 	lib/lang/language/condition.h \
 	lib/lang/language/cursor.h \
 	lib/lang/language/evaluator.h \
 	lib/lang/language/formals.h \
+	lib/lang/language/forms.h \
 	lib/lang/language/function.h \
 	lib/lang/language/hints.h \
+	lib/lang/language/machine.h \
 	lib/lang/language/partial-sum.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
@@ -598,12 +612,15 @@ library_headers = \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/sim/course/bind.h \
+	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/drift.h \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
 	lib/sim/course/polynomial-bounds.h \
 	lib/sim/course/reader.h \
+	lib/sim/course/report.h \
+	lib/sim/course/root.h \
 	lib/sim/course/run-state.h \
 	lib/sim/course/stage.h \
 	lib/sim/course/watch-parts.h \
@@ -613,6 +630,7 @@ library_headers = \
 	lib/sim/digits/precise-pair.h \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
+	lib/sim/error/companion.h \
 	lib/sim/error/distance.h \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
@@ -622,6 +640,7 @@ library_headers = \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
 	lib/sim/form/constrained-series.h \
+	lib/sim/form/derived.h \
 	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/leading-residual.h \
@@ -641,11 +660,13 @@ library_headers = \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \
 	lib/sim/model/domain.h \
+	lib/sim/model/equations.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
+	lib/sim/model/request.h \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \

@@ -20,6 +20,7 @@
 #include "num/kinds.h"
 #include "ode/integrate.h"
 #include "sim/course/bind.h"
+#include "sim/plan/plan.h"
 #include "sim/study/ensemble.h"
 
 enum { MOST = 16, MOST_ROUNDS = 99 };

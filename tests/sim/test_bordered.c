@@ -8,6 +8,7 @@
 #include "sim/form/constrained-series.h"
 #include "sim/model/power-quotient.h"
 #include "sim/model/rates.h"
+#include "sim/plan/plan.h"
 #include "tape/tape.h"
 #include "series/taylor.h"
 

@@ -5,6 +5,7 @@
 #include "sim/course/bind.h"
 #include "sim/form/constrained-series.h"
 #include "sim/model/constraints.h"
+#include "sim/plan/plan.h"
 
 #include <math.h>
 

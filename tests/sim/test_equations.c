@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "sim/course/bind.h"
+#include "sim/plan/plan.h"
 #include "tape/reference.h"
 
 enum { N = 3, PARTICLES = 3 };

@@ -5,6 +5,7 @@
 
 #include "sim/course/bind.h"
 #include "sim/plan/parts.h"
+#include "sim/plan/plan.h"
 
 /* A mass on a spring along each coordinate of `names`; k as many decimals. */
 static void

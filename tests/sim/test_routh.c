@@ -7,6 +7,7 @@
 #include "sim/course/bind.h"
 #include "sim/form/direct.h"
 #include "sim/model/momenta.h"
+#include "sim/plan/plan.h"
 #include "sim/plan/routh.h"
 
 /* --- scenes ---------------------------------------------------------------------------- */

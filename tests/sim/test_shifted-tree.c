@@ -6,6 +6,7 @@
 
 #include "sim/form/direct.h"
 #include "sim/form/shifted-tree.h"
+#include "sim/plan/plan.h"
 
 /* A scene's plan, residual and tree. */
 typedef struct {

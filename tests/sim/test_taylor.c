@@ -7,6 +7,7 @@
 #include "sim/form/direct.h"
 #include "sim/form/residual.h"
 #include "sim/form/shifted.h"
+#include "sim/plan/plan.h"
 
 /* A run of the scene by a method under a tolerance; the caller frees it. */
 static qdot_run *

@@ -48,6 +48,14 @@ end_formula(qdot_session *session, qdot_status status, qdot_text *line)
     return end_line(session, status, line);
 }
 
+/* Append `before`, then the text as a JSON string. */
+static void
+field(qdot_text *line, const char *before, const char *text)
+{
+    qdot_text_add(line, before);
+    qdot_text_json(line, text);
+}
+
 /* --- expressions -------------------------------------------------------------------- */
 
 /* A condition, or a vector of equations. */
@@ -57,7 +65,8 @@ holds_relations(const qdot_pool *pool, qdot_expr e)
     qdot_kind kind = qdot_expr_kind(pool, e);
 
     return kind == QDOT_LOGIC ||
-           (kind == QDOT_VEC && qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, 0)));
+           (kind == QDOT_VEC &&
+            qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, 0)));
 }
 
 /* As typed it may stand with other spaces: A[1, 2] and A[1,2]. */
@@ -78,8 +87,8 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
     qdot_text line = {0}, plain = {0}, shown = {0};
     qdot_status status = qdot_formula_print(session, value, session->style, &shown);
     bool bare = name == NULL || strlen(name) > 200;
-    bool relation =
-        qdot_value_kind_is_equation(session->pool, value) || holds_relations(session->pool, value);
+    bool relation = qdot_value_kind_is_equation(session->pool, value) ||
+                    holds_relations(session->pool, value);
 
     if (status == QDOT_OK && !bare)
         status = qdot_formula_print(session, value, QDOT_PLAIN, &plain);
@@ -107,16 +116,13 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
     qdot_text line = {0}, part = {0};
     qdot_status status;
 
-    qdot_text_add(&line, "{\"kind\":\"expr\",\"name\":");
-    qdot_text_json(&line, name == NULL ? "" : name);
+    field(&line, "{\"kind\":\"expr\",\"name\":", name == NULL ? "" : name);
     status = qdot_formula_print(session, value, QDOT_PLAIN, &part);
-    qdot_text_add(&line, ",\"plain\":");
-    qdot_text_json(&line, qdot_text_str(&part));
+    field(&line, ",\"plain\":", qdot_text_str(&part));
     qdot_text_truncate(&part, 0);
     if (status == QDOT_OK)
         status = qdot_formula_print(session, value, QDOT_LATEX, &part);
-    qdot_text_add(&line, ",\"latex\":");
-    qdot_text_json(&line, qdot_text_str(&part));
+    field(&line, ",\"latex\":", qdot_text_str(&part));
     qdot_text_format(&line, ",\"ops\":%" PRIu64 "}\n",
                      qdot_expr_size(session->pool, value));
     line.failed = line.failed || part.failed;
@@ -188,45 +194,54 @@ numbers_text(qdot_session *session, const char *name, size_t n, const double *va
     return end_formula(session, status, &line);
 }
 
-qdot_status
-qdot_answer_number(qdot_session *session, const char *name, double value, double error)
+/* {"kind":"number"}, {"kind":"numbers"} of JSON values and errors with their commas. */
+static qdot_status
+numbers_json(qdot_session *session, const char *name, bool several,
+             const qdot_text *values, const qdot_text *errors)
 {
     qdot_text line = {0};
 
-    if (session->json) {
-        qdot_text_add(&line, "{\"kind\":\"number\",\"name\":");
-        qdot_text_json(&line, name);
-        qdot_text_add(&line, ",\"value\":");
-        qdot_number_text_json(&line, value);
-        qdot_text_add(&line, ",\"error\":");
-        qdot_number_text_json(&line, error);
-        qdot_text_add(&line, "}\n");
-        return put(session->out, &line);
+    qdot_text_format(&line, "{\"kind\":\"number%s\"", several ? "s" : "");
+    field(&line, ",\"name\":", name);
+    qdot_text_add(&line, several ? ",\"values\":[" : ",\"value\":");
+    qdot_text_add(&line, qdot_text_str(values));
+    qdot_text_add(&line, several ? "],\"errors\":[" : ",\"error\":");
+    qdot_text_add(&line, qdot_text_str(errors));
+    qdot_text_add(&line, several ? "]}\n" : "}\n");
+    line.failed = line.failed || values->failed || errors->failed;
+    return put(session->out, &line);
+}
+
+static qdot_status
+numbers(qdot_session *session, const char *name, bool several, size_t n,
+        const double *values, const double *errors)
+{
+    qdot_text list[2] = {{0}};
+    qdot_status status;
+
+    if (!session->json)
+        return numbers_text(session, name, n, values, errors);
+    for (size_t i = 0; i < 2 * n; i++) {
+        qdot_text_add(&list[i % 2], i > 1 ? "," : "");
+        qdot_number_text_json(&list[i % 2], i % 2 == 0 ? values[i / 2] : errors[i / 2]);
     }
-    return numbers_text(session, name, 1, &value, &error);
+    status = numbers_json(session, name, several, &list[0], &list[1]);
+    qdot_text_clear(&list[0]);
+    qdot_text_clear(&list[1]);
+    return status;
+}
+
+qdot_status
+qdot_answer_number(qdot_session *session, const char *name, double value, double error)
+{
+    return numbers(session, name, false, 1, &value, &error);
 }
 
 qdot_status
 qdot_answer_numbers(qdot_session *session, const char *name, size_t n,
                     const double *values, const double *errors)
 {
-    qdot_text line = {0};
-
-    if (session->json) {
-        qdot_text_add(&line, "{\"kind\":\"numbers\",\"name\":");
-        qdot_text_json(&line, name);
-        for (int pass = 0; pass < 2; pass++) {
-            qdot_text_add(&line, pass == 0 ? ",\"values\":[" : "],\"errors\":[");
-            for (size_t i = 0; i < n; i++) {
-                if (i > 0)
-                    qdot_text_char(&line, ',');
-                qdot_number_text_json(&line, pass == 0 ? values[i] : errors[i]);
-            }
-        }
-        qdot_text_add(&line, "]}\n");
-        return put(session->out, &line);
-    }
-    return numbers_text(session, name, n, values, errors);
+    return numbers(session, name, true, n, values, errors);
 }
 
 qdot_status
@@ -236,16 +251,8 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
     qdot_text line = {0};
     qdot_status status;
 
-    if (session->json) {
-        qdot_text_format(&line, "{\"kind\":\"number%s\",\"name\":", several ? "s" : "");
-        qdot_text_json(&line, name);
-        qdot_text_add(&line, several ? ",\"values\":[" : ",\"value\":");
-        qdot_text_add(&line, qdot_text_str(values));
-        qdot_text_add(&line, several ? "],\"errors\":[" : ",\"error\":");
-        qdot_text_add(&line, qdot_text_str(errors));
-        qdot_text_add(&line, several ? "]}\n" : "}\n");
-        return put(session->out, &line);
-    }
+    if (session->json)
+        return numbers_json(session, name, several, values, errors);
     qdot_formula_bracket(session, true, &line);
     status = qdot_formula_name(session, name, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
@@ -318,8 +325,7 @@ point_json(qdot_session *session, qdot_expr at, qdot_text *line)
         if (status == QDOT_OK)
             status = qdot_session_number(session, qdot_expr_arg(pool, equation, 1),
                                          &value, NULL);
-        if (i > 0)
-            qdot_text_char(line, ',');
+        qdot_text_add(line, i > 0 ? "," : "");
         qdot_text_json(line, qdot_text_str(&name));
         qdot_text_char(line, ':');
         qdot_number_text_json(line, value);
@@ -362,8 +368,7 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_text_truncate(&part, 0);
     if (status == QDOT_OK)
         status = print_side(session, right, &part);
-    qdot_text_add(&line, ",\"right\":");
-    qdot_text_json(&line, qdot_text_str(&part));
+    field(&line, ",\"right\":", qdot_text_str(&part));
     if (decision->verdict == QDOT_REFUTED) {
         qdot_text_add(&line, ",\"at\":");
         if (status == QDOT_OK)
@@ -399,31 +404,14 @@ qdot_answer_text(qdot_session *session, const char *name, const char *text)
     size_t n = strlen(text);
 
     if (session->json) {
-        qdot_text_add(&line, "{\"kind\":\"text\",\"name\":");
-        qdot_text_json(&line, name);
-        qdot_text_add(&line, ",\"text\":");
-        qdot_text_json(&line, text);
+        field(&line, "{\"kind\":\"text\",\"name\":", name);
+        field(&line, ",\"text\":", text);
         qdot_text_add(&line, "}\n");
     } else {
         qdot_text_add_n(&line, text, n);
         if (n == 0 || text[n - 1] != '\n')
             qdot_text_char(&line, '\n');
     }
-    return put(session->out, &line);
-}
-
-qdot_status
-qdot_answer_row(qdot_session *session, size_t n, const double *values)
-{
-    qdot_text line = {0};
-
-    qdot_text_add(&line, "{\"kind\":\"row\",\"values\":[");
-    for (size_t i = 0; i < n; i++) {
-        if (i > 0)
-            qdot_text_char(&line, ',');
-        qdot_number_text_json(&line, values[i]);
-    }
-    qdot_text_add(&line, "]}\n");
     return put(session->out, &line);
 }
 
@@ -439,13 +427,29 @@ qdot_answer_cells(qdot_session *session, const qdot_text *values)
 }
 
 qdot_status
+qdot_answer_row(qdot_session *session, size_t n, const double *values)
+{
+    qdot_text cells = {0};
+    qdot_status status;
+
+    for (size_t i = 0; i < n; i++) {
+        qdot_text_add(&cells, i > 0 ? "," : "");
+        qdot_number_text_json(&cells, values[i]);
+    }
+    status = qdot_text_status(&cells);
+    if (status == QDOT_OK)
+        status = qdot_answer_cells(session, &cells);
+    qdot_text_clear(&cells);
+    return status;
+}
+
+qdot_status
 qdot_answer_file(qdot_session *session, const char *path)
 {
     qdot_text line = {0};
 
     if (session->json) {
-        qdot_text_add(&line, "{\"kind\":\"file\",\"path\":");
-        qdot_text_json(&line, path);
+        field(&line, "{\"kind\":\"file\",\"path\":", path);
         qdot_text_add(&line, "}\n");
     } else {
         qdot_text_add(&line, "wrote ");
@@ -471,8 +475,7 @@ put_notice(qdot_session *session, const char *message)
     qdot_text line = {0};
 
     if (session->console != NULL ? session->console_json : session->json) {
-        qdot_text_add(&line, "{\"kind\":\"notice\",\"message\":");
-        qdot_text_json(&line, message);
+        field(&line, "{\"kind\":\"notice\",\"message\":", message);
         qdot_text_add(&line, "}\n");
     } else {
         qdot_text_format(&line, "notice: %s\n", message);
@@ -529,8 +532,7 @@ error_json(qdot_session *session, const qdot_source *source, size_t at,
     } else {
         qdot_text_add(&line, "null,\"line\":null,\"column\":null");
     }
-    qdot_text_add(&line, ",\"message\":");
-    qdot_text_json(&line, error->message);
+    field(&line, ",\"message\":", error->message);
     qdot_text_add(&line, ",\"hint\":");
     if (error->hint[0] != '\0')
         qdot_text_json(&line, error->hint);

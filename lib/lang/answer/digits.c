@@ -33,7 +33,7 @@ qdot_digits_of(qdot_session *session, qdot_expr e)
 
 /* --- a number in digits -------------------------------------------------------------- */
 
-/* How many of them mean something. */
+/* How many of the digits the error leaves meaningful. */
 static int
 meaningful(mpfr_srcptr x, int digits, double error)
 {

@@ -72,7 +72,7 @@ number_at(qdot_session *session, const qdot_run_report *r, size_t k)
                         r->error, r->n + k / 2, false};
 }
 
-/* All of them, with their values at the end, to `each`. */
+/* Call `each` for every number of the end state. */
 static qdot_status
 each_state(qdot_session *session, const qdot_run_report *report, qdot_style style,
            void (*each)(qdot_text *line, size_t k, bool first, const char *name,
@@ -131,14 +131,13 @@ field(qdot_text *line, const char *name, double value)
     qdot_number_text_json(line, value);
 }
 
-/* All that should have been kept, by name. */
+/* The drift of each quantity that should be constant, by name. */
 static void
 drifts_json(qdot_text *line, const qdot_run_report *r)
 {
     qdot_text_add(line, ",\"drifts\":{");
     for (size_t i = 0; i < r->n_drifts; i++) {
-        if (i > 0)
-            qdot_text_char(line, ',');
+        qdot_text_add(line, i > 0 ? "," : "");
         qdot_text_json(line, r->drifts[i].name);
         qdot_text_char(line, ':');
         qdot_number_text_json(line, r->drifts[i].drift);
@@ -278,10 +277,10 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
                          r->independent, r->m);
 }
 
-/* Under larger tolerances a smaller one goes further. */
+/* Tolerances above this are worth a hint that a smaller one reaches further. */
 static const double of_method = 1e-11;
 
-/* The end state, or from where on it is noise. */
+/* The end state, or since when it is nothing but error. */
 static qdot_status
 end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {

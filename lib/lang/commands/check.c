@@ -325,11 +325,9 @@ decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
         } else if (kind == QDOT_REL) {
             status = decide_equations(session, a, b, known, &one);
         } else {
-            for (uint32_t i = qdot_expr_count(pool, a); i-- > 0 && status == QDOT_OK;) {
-                status = qdot_vec_push(&todo, qdot_expr_arg(pool, a, i));
-                if (status == QDOT_OK)
-                    status = qdot_vec_push(&todo, qdot_expr_arg(pool, b, i));
-            }
+            for (uint32_t i = 2 * qdot_expr_count(pool, a); i-- > 0 && status == QDOT_OK;)
+                status =
+                    qdot_vec_push(&todo, qdot_expr_arg(pool, i % 2 != 0 ? a : b, i / 2));
             continue;
         }
         if (status == QDOT_OK && one.verdict != QDOT_PROVED)
@@ -514,7 +512,7 @@ turn(qdot_decision *decision)
     decision->right = left;
 }
 
-/* What was passed, what `when` replaces put in; nil on failure. */
+/* The LIST of values that must exist, with the replacements of `when`; nil on failure. */
 static qdot_expr
 passed_list(qdot_session *session, const facts *f, const question *q)
 {
@@ -524,7 +522,7 @@ passed_list(qdot_session *session, const facts *f, const question *q)
     return list == QDOT_NIL ? list : replace(session, f, list);
 }
 
-/* Beside what no refutation answers: whether there is anything to compare at all. */
+/* Where nothing was refuted: a notice if the conditions contradict each other. */
 static qdot_status
 look_for_contradiction(qdot_session *session, const facts *f, const qdot_facts *known)
 {
@@ -559,7 +557,7 @@ look_for_contradiction(qdot_session *session, const facts *f, const qdot_facts *
     return status;
 }
 
-/* The facts as a decision takes them, of the sides of q. */
+/* The facts in the form that qdot_decide_... takes. */
 static qdot_facts
 all_known(qdot_session *session, const facts *f, const question *q)
 {

@@ -7,6 +7,7 @@
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/session/labels.h"
 
 typedef struct {
     const char *prefix;
@@ -34,19 +35,12 @@ by_spelling(const void *a, const void *b)
 static void
 offer_labels(completion *c, const qdot_scene *scene)
 {
-    for (size_t i = 0; i < scene->particles.n; i++)
-        offer(c, scene->particles.at[i].name);
-    for (size_t i = 0; i < scene->bodies.n; i++)
-        offer(c, scene->bodies.at[i].name);
-    for (size_t i = 0; i < scene->springs.n; i++)
-        if (scene->springs.at[i].name != NULL)
-            offer(c, scene->springs.at[i].name);
-    for (size_t i = 0; i < scene->dampers.n; i++)
-        if (scene->dampers.at[i].name != NULL)
-            offer(c, scene->dampers.at[i].name);
-    for (size_t i = 0; i < scene->constraints.n; i++)
-        if (scene->constraints.at[i].label != NULL)
-            offer(c, scene->constraints.at[i].label);
+    qdot_words labels = {0};
+
+    qdot_labels_add(scene, &labels);
+    for (size_t i = 0; i < labels.n; i++)
+        offer(c, labels.at[i]);
+    qdot_free(labels.at);
 #define OFFER(list)                                                                      \
     for (size_t i = 0; i < scene->list.n; i++)                                           \
         if (scene->list.at[i].name != NULL)                                              \

@@ -259,7 +259,7 @@ qdot_constraints_check_integrable(qdot_cursor *c, bool not)
 
 /* --- at a declaration --------------------------------------------------------------- */
 
-/* Longer constraints are looked at when they are asked for. */
+/* Larger constraints are tested by `check integrable` only. */
 enum { MOST_OPERATIONS = 400 };
 
 qdot_status

@@ -30,7 +30,7 @@ typedef struct {
 
 typedef qdot_vec(item) items;
 
-/* What no bound may hold. */
+/* What a bound of a domain may not depend on. */
 #define MOVING                                                                           \
     (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |    \
      QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA | QDOT_HAS_TIME)
@@ -80,7 +80,7 @@ set_bound(qdot_cursor *c, const qdot_token *at, item *x, qdot_expr bound, bool u
     return QDOT_OK;
 }
 
-/* Whether the item goes on. */
+/* Whether more of the item follows. */
 static bool
 is_more(const qdot_cursor *c)
 {
@@ -158,7 +158,7 @@ read_item(qdot_cursor *c, bool valued, item *x)
     return QDOT_OK;
 }
 
-/* A sign spreads back over the bare names before it. */
+/* A sign also applies to the bare names before it: `param m, L > 0`. */
 static void
 spread(items *list)
 {
@@ -416,11 +416,8 @@ static bool
 says_greater(const qdot_token *from, const qdot_token *to)
 {
     for (long depth = 0; from < to; from++) {
-        if (from->kind != QDOT_TOKEN_OPERATOR)
-            continue;
-        depth += strchr("([", from->text[0]) != NULL;
-        depth -= strchr(")]", from->text[0]) != NULL;
-        if (depth == 0 && from->text[0] == '>')
+        depth += qdot_token_bracket(from);
+        if (depth == 0 && from->kind == QDOT_TOKEN_OPERATOR && from->text[0] == '>')
             return true;
     }
     return false;

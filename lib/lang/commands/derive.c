@@ -24,6 +24,17 @@ heading(derivation *d, const char *title)
     d->step++;
 }
 
+/* ` = value`, the end of a formula and of its line. */
+static qdot_status
+equals(derivation *d, qdot_expr value)
+{
+    qdot_text_add(&d->text, qdot_formula_equals(d->session));
+    QDOT_TRY(qdot_formula_print(d->session, value, d->session->style, &d->text));
+    qdot_formula_bracket(d->session, false, &d->text);
+    qdot_text_char(&d->text, '\n');
+    return QDOT_OK;
+}
+
 /* `    name = value`, the name `before[of]behind` in the style of the session. */
 static qdot_status
 named(derivation *d, const char *before, const char *of, const char *behind,
@@ -44,11 +55,7 @@ named(derivation *d, const char *before, const char *of, const char *behind,
         status = qdot_formula_name(s, qdot_text_str(&name), &d->text);
     qdot_text_clear(&name);
     QDOT_TRY(status);
-    qdot_text_add(&d->text, qdot_formula_equals(s));
-    QDOT_TRY(qdot_formula_print(s, value, s->style, &d->text));
-    qdot_formula_bracket(s, false, &d->text);
-    qdot_text_char(&d->text, '\n');
-    return QDOT_OK;
+    return equals(d, value);
 }
 
 /* `    d/dt dF/dq' = value` (total), `dF/dq' = value` or, not `fast`, `dF/dq = value`; drawn as a fraction
@@ -80,11 +87,7 @@ slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value
                      F);
     QDOT_TRY(qdot_print(s->pool, q, s->style, &d->text));
     qdot_text_add(&d->text, latex ? "}" : "</mrow></mfrac>");
-    qdot_text_add(&d->text, qdot_formula_equals(s));
-    QDOT_TRY(qdot_formula_print(s, value, s->style, &d->text));
-    qdot_formula_bracket(s, false, &d->text);
-    qdot_text_char(&d->text, '\n');
-    return QDOT_OK;
+    return equals(d, value);
 }
 
 /* The relation as it stands, behind its label: in LaTeX as text. */

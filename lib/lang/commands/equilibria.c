@@ -137,7 +137,7 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
     return status;
 }
 
-/* What is not there, or may be there beside: how much is known of that. */
+/* Tell that there is no equilibrium, or that the list may be incomplete. */
 static qdot_status
 answer_rest(qdot_session *session, const qdot_equilibria *all)
 {

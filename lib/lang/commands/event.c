@@ -248,7 +248,8 @@ qdot_event_list(qdot_cursor *c)
 
         for (size_t j = 0; j < i; j++)
             k += strcmp(list[j].event, list[i].event) == 0;
-        status = add_line(session, qdot_event_digits(run->run, &list[i]), &text, &list[i], k);
+        status =
+            add_line(session, qdot_event_digits(run->run, &list[i]), &text, &list[i], k);
     }
     if (n == 0)
         qdot_text_format(&text, "no event occurred in %s", run->name);

@@ -29,7 +29,7 @@ flow(qdot_text *text, const char *word, size_t *column)
     *column += n;
 }
 
-/* A value that is not built yet has no example. */
+/* What is not built yet has no example. */
 static bool
 is_built(const qdot_quantity *row)
 {
@@ -124,7 +124,7 @@ look_up_option(qdot_text *text, const char *word)
         }
 }
 
-/* Everything that a word is; false: nothing. */
+/* Append what the word is: statement, function, value; false: none of these. */
 static bool
 look_up(qdot_text *text, const char *word)
 {

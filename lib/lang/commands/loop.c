@@ -74,7 +74,7 @@ read_index(qdot_loop *loop, qdot_cursor *c, qdot_loop_index *index, bool *empty)
     return QDOT_OK;
 }
 
-/* From the innermost bound index outwards find one with a value left and go on to it. */
+/* Advance the innermost bound index that has a value left. */
 static qdot_status
 advance(qdot_loop *loop, bool *more)
 {
@@ -103,7 +103,7 @@ advance(qdot_loop *loop, bool *more)
     return QDOT_OK;
 }
 
-/* Open the indices behind those that are bound, at their first values. */
+/* Bind the remaining indices to their first values. */
 static qdot_status
 descend(qdot_loop *loop, qdot_cursor *c, bool *more)
 {

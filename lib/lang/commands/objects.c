@@ -279,8 +279,7 @@ read_link(qdot_cursor *c, const char *what, const char *first, const char *secon
 
                 QDOT_TRY(qdot_read_point(c, &link->at[i]));
                 link->end[i] = (char *)sole_label(c, from, c->at);
-                if (i == 0)
-                    QDOT_TRY(qdot_cursor_expect_op(c, ","));
+                QDOT_TRY(i == 0 ? qdot_cursor_expect_op(c, ",") : QDOT_OK);
             }
         } else if (qdot_cursor_accept_word(c, first)) {
             QDOT_TRY(qdot_cursor_once(c, first, link->stiffness != QDOT_NIL));

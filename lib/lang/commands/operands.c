@@ -101,8 +101,8 @@ qdot_operands_values(const qdot_operand *o, size_t rows, const double *times,
     size_t m = o->columns.n;
 
     if (o->mixed)
-        return qdot_member_values(o->session, NULL, o->columns.at[0], rows, times, NULL, values,
-                                  NULL);
+        return qdot_member_values(o->session, NULL, o->columns.at[0],
+                                  &(qdot_samples){rows, times, NULL, values, NULL});
 
     double *by_row = qdot_calloc(rows * m, sizeof *by_row);
     qdot_status status;

@@ -10,8 +10,7 @@ qdot_pairs_free(qdot_pairs *p)
 }
 
 qdot_status
-qdot_pairs_push(qdot_pairs *p, const qdot_token *place, qdot_expr symbol,
-                qdot_expr value)
+qdot_pairs_push(qdot_pairs *p, const qdot_token *place, qdot_expr symbol, qdot_expr value)
 {
     QDOT_TRY(qdot_vec_push(&p->symbols, symbol));
     QDOT_TRY(qdot_vec_push(&p->values, value));

@@ -11,8 +11,7 @@ typedef struct {
 } qdot_pairs;
 
 void qdot_pairs_free(qdot_pairs *p);
-QDOT_MUST_CHECK qdot_status qdot_pairs_push(qdot_pairs *p,
-                                            const qdot_token *place,
+QDOT_MUST_CHECK qdot_status qdot_pairs_push(qdot_pairs *p, const qdot_token *place,
                                             qdot_expr symbol, qdot_expr value);
 
 #endif

@@ -151,7 +151,7 @@ answer(qdot_session *session, const qdot_race *race, const char *path)
     return status;
 }
 
-/* What a run takes and a race has of its own. */
+/* Refuse options of `run` that a race chooses itself. */
 static qdot_status
 refuse_option(qdot_cursor *c)
 {

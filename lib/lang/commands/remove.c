@@ -5,7 +5,7 @@
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
 
-/* What acted on a removed thing went with it: say so. */
+/* A notice of what was removed because it acted on a removed thing. */
 static qdot_status
 tell_removed(qdot_session *session, const char *label)
 {

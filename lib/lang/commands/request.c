@@ -40,7 +40,7 @@ order_start(qdot_session *session, qdot_request *o)
         qdot_status status;
 
         QDOT_TRY(qdot_pool_check(session->pool));
-        /* what constraints may solve for is looked at when they have */
+        /* values that constraints solve for are checked after that */
         status = named || scene->constraints.n == 0
                      ? qdot_session_in_domain(session, q, q0)
                      : QDOT_OK;
@@ -67,7 +67,7 @@ is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
     return false;
 }
 
-/* Values that hold parameters which events set, with these in them: they follow. */
+/* Values made of parameters that events set keep these symbols, so that they change with them. */
 static qdot_status
 follow_events(qdot_session *session, qdot_request *o)
 {

@@ -14,8 +14,7 @@ typedef struct {
 } qdot_request;
 
 /* Fill in the values and the start of the moment. */
-QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session,
-                                              qdot_request *o);
+QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session, qdot_request *o);
 void qdot_request_free(qdot_request *o);
 
 #endif

@@ -1,10 +1,10 @@
-/* reset.c -- the statement `reset`: what is declared is forgotten, with or without names and values. */
+/* reset.c -- the statement `reset`. */
 #include "lang/commands/statement.h"
 #include "lang/language/function.h"
 #include "lang/session/transfer.h"
 #include "lang/session/undo.h"
 
-/* What goes with the scene. */
+/* What `reset scene` forgets. */
 enum {
     SCENE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |
             QDOT_HAS_MULTIPLIER | QDOT_HAS_DELTA | QDOT_HAS_DIFFERENTIAL
@@ -61,8 +61,9 @@ keep(const qdot_session *old, qdot_session *fresh)
             qdot_names_find(fresh->names, qdot_ufun_get(old->pool, symbol->op)->name) ==
                 NULL)
             continue;
-        QDOT_TRY(qdot_vec_push(&fresh->set_symbols, qdot_transfer(old->pool, fresh->pool,
-                                                                  old->set_symbols.at[i])));
+        QDOT_TRY(
+            qdot_vec_push(&fresh->set_symbols,
+                          qdot_transfer(old->pool, fresh->pool, old->set_symbols.at[i])));
         QDOT_TRY(qdot_vec_push(&fresh->set_values, qdot_transfer(old->pool, fresh->pool,
                                                                  old->set_values.at[i])));
     }
@@ -70,9 +71,9 @@ keep(const qdot_session *old, qdot_session *fresh)
         const qdot_assumption *said = &old->scene->assumed.at[i];
 
         if (!(qdot_expr_node(old->pool, said->relation)->holds & SCENE))
-            QDOT_TRY(qdot_scene_assume(fresh->scene,
-                                       qdot_transfer(old->pool, fresh->pool, said->relation),
-                                       said->turned));
+            QDOT_TRY(qdot_scene_assume(
+                fresh->scene, qdot_transfer(old->pool, fresh->pool, said->relation),
+                said->turned));
     }
     for (size_t i = 0; i < old->measured.n; i++) {
         qdot_measured m = old->measured.at[i];

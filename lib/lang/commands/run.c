@@ -226,7 +226,8 @@ carry_out(qdot_cursor *c, const options *o, qdot_request *request)
         qdot_interrupt_clear(); /* heard: the run so far is kept and told */
     if (o->name == NULL)
         qdot_runs_next_name(session, name, sizeof name);
-    QDOT_TRY(qdot_runs_keep(session, o->name != NULL ? o->name : name, qdot_text_str(&o->text), run));
+    QDOT_TRY(qdot_runs_keep(session, o->name != NULL ? o->name : name,
+                            qdot_text_str(&o->text), run));
     report = qdot_run_get_report(run);
     if (!names_start(session, &o->with))
         QDOT_TRY(qdot_warnings_start(session));
@@ -283,7 +284,7 @@ qdot_run_statement(qdot_cursor *c)
     return status;
 }
 
-/* As options of a run that would be taken; those that no plan depends on are refused. */
+/* The options of `run`; those that a plan does not depend on are refused. */
 static qdot_status
 read_plan_options(qdot_cursor *c, options *o)
 {

@@ -171,7 +171,7 @@ put_values(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols
 
 /* --- what is no scene ----------------------------------------------------------------- */
 
-/* The runs as comments: to read a file is not to integrate. */
+/* The runs as comments: reading the file shall not integrate. */
 static void
 put_runs(const qdot_session *s, qdot_text *out)
 {
@@ -211,7 +211,7 @@ qdot_scene_file_text(qdot_session *s, bool whole, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* What somebody wrote stays. */
+/* Refuse to overwrite a file that does not begin as these files do. */
 static qdot_status
 may_overwrite(const char *path)
 {

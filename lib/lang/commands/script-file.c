@@ -1,4 +1,4 @@
-/* script-file.c -- scripts carried out from files, and what a session says of them by its exit status. */
+/* script-file.c -- scripts from files, and the exit status that they leave. */
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -13,7 +13,6 @@
 #include "lang/answer/answer.h"
 #include "lang/commands/loop.h"
 #include "lang/commands/redirect.h"
-#include "lang/functions/builtin.h"
 #include "lang/functions/short-names.h"
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
@@ -43,11 +42,10 @@ behind_bracket(const qdot_token *open)
     long depth = 0;
 
     for (const qdot_token *k = open; k->kind != QDOT_TOKEN_END; k++) {
-        if (k->kind != QDOT_TOKEN_OPERATOR || k->text[1] != '\0')
-            continue;
-        depth += strchr("([{", k->text[0]) != NULL;
-        depth -= strchr(")]}", k->text[0]) != NULL;
-        if (depth == 0)
+        const int step = qdot_token_bracket(k);
+
+        depth += step;
+        if (step != 0 && depth == 0)
             return k + 1;
     }
     return open; /* a statement cut by a `for` inside: not a bracket that closes */
@@ -120,15 +118,9 @@ unknown_word(qdot_cursor *c)
 static bool
 is_unknown_word(const qdot_session *session, const qdot_token *name)
 {
-    const char *text = name->text;
-
     return name->kind == QDOT_TOKEN_NAME && name[1].kind == QDOT_TOKEN_NAME &&
            !qdot_token_is_word(name + 1, "and") && !qdot_token_is_word(name + 1, "or") &&
-           !qdot_token_is_word(name, "not") && qdot_names_find(session->names, text) == NULL &&
-           !qdot_names_is_family(session->names, text) &&
-           qdot_quantity_find(text) == NULL && qdot_builtin_find(text) == NULL &&
-           !qdot_scene_has_label(session->scene, text) && strcmp(text, "t") != 0 &&
-           strcmp(text, "pi") != 0;
+           !qdot_token_is_word(name, "not") && !qdot_cursor_knows(session, name->text);
 }
 
 static qdot_status
@@ -256,10 +248,7 @@ statement_end(const engine *x, size_t i)
 
         if (token->kind == QDOT_TOKEN_END)
             return k;
-        if (token->kind == QDOT_TOKEN_OPERATOR && token->text[1] == '\0') {
-            depth += strchr("([{", token->text[0]) != NULL;
-            depth -= strchr(")]}", token->text[0]) != NULL;
-        }
+        depth += qdot_token_bracket(token);
         if (depth != 0 || k == i)
             continue;
         if (qdot_token_is_word(token, "vs") && token[1].kind == QDOT_TOKEN_NAME &&
@@ -372,13 +361,9 @@ match_blocks(engine *x)
 
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
         if (qdot_token_is(&x->tokens[i], "{")) {
-            if (x->match == NULL) {
+            if (x->match == NULL)
                 x->match = qdot_calloc(x->n, sizeof *x->match);
-                if (x->match == NULL)
-                    status = QDOT_ENOMEM;
-            }
-            if (status == QDOT_OK)
-                status = qdot_vec_push(&open, (uint32_t)i);
+            status = x->match != NULL ? qdot_vec_push(&open, (uint32_t)i) : QDOT_ENOMEM;
         } else if (qdot_token_is(&x->tokens[i], "}") && open.n > 0) {
             x->match[open.at[--open.n]] = (uint32_t)i;
         }

@@ -22,9 +22,8 @@ bool qdot_script_is_incomplete(const char *text, size_t length);
 #define QDOT_SCRIPT_REPORTED SIZE_MAX
 
 /* Lex and carry out a text, reporting the first error. */
-QDOT_MUST_CHECK qdot_status qdot_script_carry_out(qdot_session *session,
-                                                  const char *name, const char *text,
-                                                  size_t length);
+QDOT_MUST_CHECK qdot_status qdot_script_carry_out(qdot_session *session, const char *name,
+                                                  const char *text, size_t length);
 /* The same from a file; *opened: whether its text could be read (errors before that
  * are not reported yet). */
 QDOT_MUST_CHECK qdot_status qdot_script_carry_out_file(qdot_session *session,

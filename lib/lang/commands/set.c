@@ -209,7 +209,7 @@ qdot_set_values(qdot_cursor *c)
 
 /* --- start -------------------------------------------------------------------------- */
 
-/* What events set is for the rest of their run: told where a run goes on from its end. */
+/* A notice where a run is continued in which events set parameters: the next has the old values. */
 static qdot_status
 tell_parameters(qdot_session *session, const char *name, const qdot_run_report *report)
 {

@@ -10,7 +10,7 @@ QDOT_MUST_CHECK qdot_status qdot_set_read_parameter(qdot_cursor *c, qdot_expr *s
 QDOT_MUST_CHECK qdot_status qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_read_constant(qdot_cursor *c, qdot_expr *value);
 /* QDOT_ENAME: there is no `what` of this name; a hint at the one that may have been meant. */
-QDOT_MUST_CHECK qdot_status qdot_set_unknown(const qdot_session *session, const char *what,
-                                             const char *name);
+QDOT_MUST_CHECK qdot_status qdot_set_unknown(const qdot_session *session,
+                                             const char *what, const char *name);
 
 #endif

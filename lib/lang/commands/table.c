@@ -331,7 +331,8 @@ qdot_table_save(qdot_cursor *c)
     if (!qdot_cursor_accept_word(c, "to"))
         return qdot_cursor_expected(c, "`to` and the name of a file");
     if (name != NULL && strcmp(name, "session") == 0 &&
-        (qdot_scene_file_is(c->at) || qdot_runs_find(c->session, name, &named) != QDOT_OK))
+        (qdot_scene_file_is(c->at) ||
+         qdot_runs_find(c->session, name, &named) != QDOT_OK))
         return qdot_scene_file_write(c, true);
     QDOT_TRY(qdot_figure_file_read(c, &path));
     QDOT_TRY(qdot_cursor_expect_end(c));

@@ -170,7 +170,8 @@ qdot_value_check(qdot_cursor *c, const qdot_pairs *values)
     saved = status == QDOT_OK;
     for (size_t i = 0; i < values->symbols.n && status == QDOT_OK; i++)
         if (qdot_expr_node(session->pool, values->symbols.at[i])->holds & unknown)
-            qdot_session_set(session, values->symbols.at[i], values->values.at[i], &status);
+            qdot_session_set(session, values->symbols.at[i], values->values.at[i],
+                             &status);
     if (status == QDOT_OK)
         status = check_all(c, values);
     if (saved) {

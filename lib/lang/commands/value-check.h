@@ -8,8 +8,8 @@
 
 /* QDOT_EINVAL where a rest length, with the values of `set` put in, is a negative number; names the
  * spring (NULL: one without a name). Tests: tests/bad/rest-negative*.lag. */
-QDOT_MUST_CHECK qdot_status qdot_value_check_rest(qdot_session *session, const char *spring,
-                                                  qdot_expr rest);
+QDOT_MUST_CHECK qdot_status qdot_value_check_rest(qdot_session *session,
+                                                  const char *spring, qdot_expr rest);
 
 /* QDOT_EINVAL where what is assumed is false with the values of `set` put in. Tests:
  * tests/bad/assumed-*.lag. */

@@ -16,7 +16,8 @@ QDOT_MUST_CHECK qdot_status qdot_warnings_twice(qdot_session *session,
 /* A force at a place that moves within a body. body: it was written point(body, ...); NULL. The
  * tokens [action, at) are the force, those behind `at` up to c->at the place. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_place(qdot_cursor *c, qdot_expr place,
-                                                const char *body, const qdot_token *action,
+                                                const char *body,
+                                                const qdot_token *action,
                                                 const qdot_token *at);
 /* A run for which no `start` was ever said. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_start(qdot_session *session);

@@ -21,7 +21,7 @@ static const char *const names[COLUMNS] = {
     "method", "tol",      "err",        "scd",            "time_min", "time_median", "evals",
     "steps",  "rejected", "energy_err", "constraint_err", "ref_err",  "status"};
 
-/* That of the constraints' error only where there are some. */
+/* The column of constraint errors stands only where there are constraints. */
 static bool
 has_column(const qdot_workprecision *w, size_t i)
 {

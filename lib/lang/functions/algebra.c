@@ -88,7 +88,8 @@ qdot_algebra_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
         QDOT_TRY(tell_partial(s, e));
     for (; times > 0 && e != QDOT_NIL && e != QDOT_ZERO; times--)
         e = qdot_diff(s->pool, e, args[1]);
-    return e == args[0] ? qdot_value_kind_give(s->pool, e, value) : qdot_algebra_give_short(s, e, value);
+    return e == args[0] ? qdot_value_kind_give(s->pool, e, value)
+                        : qdot_algebra_give_short(s, e, value);
 }
 
 qdot_status
@@ -141,26 +142,17 @@ sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *val
     return qdot_value_kind_give(s->pool, e, value);
 }
 
-qdot_status
-qdot_algebra_lhs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return sides(s, "lhs", args[0], LEFT, value);
-}
-
-qdot_status
-qdot_algebra_rhs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return sides(s, "rhs", args[0], RIGHT, value);
-}
-
-qdot_status
-qdot_algebra_residual(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    return sides(s, "residual", args[0], DIFFERENCE, value);
-}
+#define SIDE(word, which)                                                                \
+    qdot_status qdot_algebra_##word(qdot_session *s, uint32_t n, const qdot_expr *args,  \
+                                    qdot_expr *value)                                    \
+    {                                                                                    \
+        (void)n;                                                                         \
+        return sides(s, #word, args[0], which, value);                                   \
+    }
+SIDE(lhs, LEFT)
+SIDE(rhs, RIGHT)
+SIDE(residual, DIFFERENCE)
+#undef SIDE
 
 qdot_status
 qdot_algebra_expand(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
@@ -181,7 +173,8 @@ qdot_algebra_collect(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_ex
 }
 
 qdot_status
-qdot_algebra_simplify(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_algebra_simplify(qdot_session *s, uint32_t n, const qdot_expr *args,
+                      qdot_expr *value)
 {
     qdot_facts facts = qdot_scene_facts(s->scene);
 
@@ -232,8 +225,8 @@ qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
     for (uint32_t i = 1; i < n && status == QDOT_OK; i++)
         status = qdot_algebra_gather(s, "subs", QDOT_ALGEBRA_SUBS, args[i], &r);
     if (status == QDOT_OK)
-        status =
-            qdot_value_kind_give(s->pool, qdot_subs(s->pool, args[0], r.from.n, r.from.at, r.to.at), value);
+        status = qdot_value_kind_give(
+            s->pool, qdot_subs(s->pool, args[0], r.from.n, r.from.at, r.to.at), value);
     qdot_algebra_drop(&r);
     return status;
 }

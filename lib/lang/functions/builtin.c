@@ -39,7 +39,8 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
     uint32_t count;
 
     if (n == 1 && id != QDOT_MIN && id != QDOT_MAX)
-        return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], elementary_of, &id), value);
+        return qdot_value_kind_give(
+            s->pool, qdot_value_map(s->pool, args[0], elementary_of, &id), value);
     if (n == 1 && qdot_expr_is_scalar(s->pool, args[0]) &&
         (qdot_expr_node(s->pool, args[0])->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
         return qdot_range_value(s, NULL, qdot_fun_name(id), 1, args, NULL, value);
@@ -48,7 +49,8 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
         for (uint32_t i = 0; i < n; i++)
             if (!qdot_expr_is_scalar(s->pool, args[i]))
                 return qdot_fail(QDOT_ETYPE, "%s takes numbers, not %s",
-                                 qdot_fun_name(id), qdot_value_kind_words(s->pool, args[i]));
+                                 qdot_fun_name(id),
+                                 qdot_value_kind_words(s->pool, args[i]));
         return qdot_value_kind_give(s->pool, qdot_fun(s->pool, id, n, args), value);
     }
     count = qdot_expr_count(s->pool, args[0]);
@@ -83,7 +85,8 @@ static qdot_status
 call_sqrt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
-    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], sqrt_of, NULL), value);
+    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], sqrt_of, NULL),
+                                value);
 }
 
 /* --- forms -------------------------------------------------------------------------- */
@@ -94,8 +97,8 @@ call_size(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     uint64_t size = qdot_expr_size(s->pool, args[0]);
 
     (void)n;
-    return qdot_value_kind_give(s->pool, qdot_expr_int(s->pool, size > LONG_MAX ? LONG_MAX : (long)size),
-                value);
+    return qdot_value_kind_give(
+        s->pool, qdot_expr_int(s->pool, size > LONG_MAX ? LONG_MAX : (long)size), value);
 }
 
 /* The text of an expression; of a list a list of them. */
@@ -111,14 +114,15 @@ call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     for (uint32_t i = 0; i < count && status == QDOT_OK; i++) {
         qdot_text text = {0};
 
-        status = qdot_formula_print(s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0],
-                                    QDOT_LATEX, &text);
+        status = qdot_formula_print(
+            s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0], QDOT_LATEX, &text);
         if (status == QDOT_OK)
             members[i] = qdot_symbol_get(s->pool, QDOT_WORDS, qdot_text_str(&text));
         qdot_text_clear(&text);
     }
     if (status == QDOT_OK)
-        status = qdot_value_kind_give(s->pool, list ? qdot_list(s->pool, count, members) : members[0], value);
+        status = qdot_value_kind_give(
+            s->pool, list ? qdot_list(s->pool, count, members) : members[0], value);
     qdot_free(members);
     return status;
 }
@@ -130,14 +134,14 @@ call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
-        return qdot_algebra_give_short(s, function(s->pool, args[0]), value);                         \
+        return qdot_algebra_give_short(s, function(s->pool, args[0]), value);            \
     }
 #define TWO(word, function)                                                              \
     static qdot_status call_##word(qdot_session *s, uint32_t n, const qdot_expr *args,   \
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
-        return qdot_algebra_give_short(s, function(s->pool, args[0], args[1]), value);                \
+        return qdot_algebra_give_short(s, function(s->pool, args[0], args[1]), value);   \
     }
 TWO(dot, qdot_dot)
 TWO(cross, qdot_cross)
@@ -160,30 +164,6 @@ check_place(qdot_session *s, const char *name, qdot_expr R)
                      qdot_value_kind_words(s->pool, R));
 }
 
-static qdot_status
-call_ds2(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    QDOT_TRY(check_place(s, "ds2", args[0]));
-    return qdot_value_kind_give(s->pool, qdot_mech_ds2(s->scene, args[0]), value);
-}
-
-static qdot_status
-call_speed2(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    QDOT_TRY(check_place(s, "speed2", args[0]));
-    return qdot_value_kind_give(s->pool, qdot_mech_speed2(s->scene, args[0]), value);
-}
-
-static qdot_status
-call_metric(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    (void)n;
-    QDOT_TRY(check_place(s, "metric", args[0]));
-    return qdot_value_kind_give(s->pool, qdot_mech_metric(s->scene, args[0]), value);
-}
-
 /* --- rest ------------------------------------------------------------------------------ */
 
 static qdot_status
@@ -196,13 +176,13 @@ call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
 /* --- geometry of r(q), or of a line element ----------------------------------------- */
 
 /* Of the place R alone. */
-#define OF_PLACE(word)                                                                   \
+#define OF_PLACE(word, module)                                                           \
     static qdot_status call_##word(qdot_session *s, uint32_t n, const qdot_expr *args,   \
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
         QDOT_TRY(check_place(s, #word, args[0]));                                        \
-        return qdot_value_kind_give(s->pool, qdot_geometry_##word(s->scene, args[0]), value);                  \
+        return qdot_value_kind_give(s->pool, module##_##word(s->scene, args[0]), value); \
     }
 /* Of a field and the place R whose frame it is in. */
 #define OF_FIELD(word)                                                                   \
@@ -211,15 +191,19 @@ call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
     {                                                                                    \
         (void)n;                                                                         \
         QDOT_TRY(check_place(s, #word, args[1]));                                        \
-        return qdot_value_kind_give(s->pool, qdot_geometry_##word(s->scene, args[0], args[1]), value);         \
+        return qdot_value_kind_give(                                                     \
+            s->pool, qdot_geometry_##word(s->scene, args[0], args[1]), value);           \
     }
-OF_PLACE(christoffel)
-OF_PLACE(riemann)
-OF_PLACE(ricci)
-OF_PLACE(scalar_curvature)
-OF_PLACE(geodesic)
-OF_PLACE(volume_element)
-OF_PLACE(scale_factors)
+OF_PLACE(ds2, qdot_mech)
+OF_PLACE(speed2, qdot_mech)
+OF_PLACE(metric, qdot_mech)
+OF_PLACE(christoffel, qdot_geometry)
+OF_PLACE(riemann, qdot_geometry)
+OF_PLACE(ricci, qdot_geometry)
+OF_PLACE(scalar_curvature, qdot_geometry)
+OF_PLACE(geodesic, qdot_geometry)
+OF_PLACE(volume_element, qdot_geometry)
+OF_PLACE(scale_factors, qdot_geometry)
 OF_FIELD(gradient)
 OF_FIELD(divergence)
 OF_FIELD(curl)
@@ -249,7 +233,8 @@ call_poisson(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *valu
     (void)n;
     if (!qdot_expr_is_scalar(s->pool, args[0]) && !qdot_expr_is_scalar(s->pool, args[1]))
         return qdot_fail(QDOT_ETYPE, "one of the two in poisson(f, g) is a number");
-    return qdot_value_kind_give(s->pool, qdot_value_map(s->pool, args[0], bracket_with, &b), value);
+    return qdot_value_kind_give(
+        s->pool, qdot_value_map(s->pool, args[0], bracket_with, &b), value);
 }
 #undef OF_PLACE
 #undef OF_FIELD
@@ -286,7 +271,8 @@ call_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     const char *label = NULL;
 
     QDOT_TRY(label_of(s, args[0], n == 1, &label));
-    return qdot_value_kind_give(s->pool, qdot_scene_point(s->scene, label, n == 2 ? args[1] : QDOT_NIL), value);
+    return qdot_value_kind_give(
+        s->pool, qdot_scene_point(s->scene, label, n == 2 ? args[1] : QDOT_NIL), value);
 }
 
 static qdot_status
@@ -306,22 +292,21 @@ call_velocity(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
 
     (void)n;
     QDOT_TRY(label_of(s, args[0], false, &label));
-    return qdot_value_kind_give(s->pool, qdot_scene_velocity(s->scene, label, args[1]), value);
+    return qdot_value_kind_give(s->pool, qdot_scene_velocity(s->scene, label, args[1]),
+                                value);
 }
 
 /* --- numbers of a run --------------------------------------------------------------- */
 
-static qdot_status
-call_mean(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    return qdot_range_value(s, NULL, "mean", n, args, NULL, value);
-}
-
-static qdot_status
-call_drift(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    return qdot_range_value(s, NULL, "drift", n, args, NULL, value);
-}
+#define OF_RANGE(word)                                                                   \
+    static qdot_status call_##word(qdot_session *s, uint32_t n, const qdot_expr *args,   \
+                                   qdot_expr *value)                                     \
+    {                                                                                    \
+        return qdot_range_value(s, NULL, #word, n, args, NULL, value);                   \
+    }
+OF_RANGE(mean)
+OF_RANGE(drift)
+#undef OF_RANGE
 
 static qdot_status
 call_value(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)

@@ -16,7 +16,7 @@
 
 enum { MOST_DIGITS = 100000, LEAST_EXPONENT = -100000, DIGITS = 16, PASSES = 4 };
 
-/* What is asked for. */
+/* The arguments of the call. */
 typedef struct {
     qdot_session *session;
     int digits;
@@ -48,7 +48,7 @@ real_of(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
     return status;
 }
 
-/* What text says is off x by at most, where x is known to its last bit but for two. */
+/* A bound of |x - text|; x itself may be off by |x| 2^(3 - its precision). */
 static double
 distance(mpfr_srcptr x, const char *text)
 {

@@ -14,13 +14,6 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/study/reactions.h"
 
-static qdot_status
-give(qdot_session *s, qdot_expr result, qdot_expr *value)
-{
-    *value = result;
-    return qdot_value_kind_check(s->pool, result);
-}
-
 /* --- what a quantity asks of the scene ---------------------------------------------- */
 
 static qdot_status
@@ -54,15 +47,25 @@ coordinate(qdot_session *s, const char *name, qdot_expr index)
     return qdot_fail(QDOT_ETYPE, "%s[ ] takes a coordinate", name);
 }
 
-/* --- energies ----------------------------------------------------------------------- */
+/* --- energies, and what else is one expression of the scene --------------------------- */
 
-static qdot_status
-get_T(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    QDOT_TRY(need_motion(s));
-    return give(s, qdot_mech_kinetic(s->scene), value);
-}
+/* The value of `call`, of a scene that has what `need` says. */
+#define OF_SCENE(word, need, call)                                                       \
+    static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
+                                  qdot_expr *value)                                      \
+    {                                                                                    \
+        (void)n, (void)index;                                                            \
+        QDOT_TRY(need(s));                                                               \
+        return qdot_value_kind_give(s->pool, call(s->scene), value);                     \
+    }
+OF_SCENE(T, need_motion, qdot_mech_kinetic)
+OF_SCENE(L, need_motion, qdot_mech_lagrangian)
+OF_SCENE(energy, need_motion, qdot_mech_energy)
+OF_SCENE(hamiltonian, need_coordinates, qdot_hamilton_hamiltonian)
+OF_SCENE(routhian, need_coordinates, qdot_hamilton_routhian)
+OF_SCENE(virtual_work, need_coordinates, qdot_mech_virtual_work)
+OF_SCENE(conserved, need_coordinates, qdot_noether_conserved)
+#undef OF_SCENE
 
 static qdot_status
 get_V(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
@@ -70,39 +73,7 @@ get_V(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
     (void)n, (void)index;
     if (s->scene->potentials.n == 0 && s->scene->springs.n == 0)
         QDOT_TRY(need_motion(s));
-    return give(s, qdot_mech_potential(s->scene), value);
-}
-
-static qdot_status
-get_L(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    QDOT_TRY(need_motion(s));
-    return give(s, qdot_mech_lagrangian(s->scene), value);
-}
-
-static qdot_status
-get_energy(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    QDOT_TRY(need_motion(s));
-    return give(s, qdot_mech_energy(s->scene), value);
-}
-
-static qdot_status
-get_hamiltonian(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    QDOT_TRY(need_coordinates(s));
-    return give(s, qdot_hamilton_hamiltonian(s->scene), value);
-}
-
-static qdot_status
-get_routhian(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    QDOT_TRY(need_coordinates(s));
-    return give(s, qdot_hamilton_routhian(s->scene), value);
+    return qdot_value_kind_give(s->pool, qdot_mech_potential(s->scene), value);
 }
 
 /* --- geometry: one value a particle, or body where there is no particle ------------- */
@@ -130,19 +101,16 @@ each_position(qdot_session *s, qdot_expr (*of)(qdot_scene *, qdot_expr), qdot_ex
     return qdot_value_kind_check(s->pool, *value);
 }
 
-static qdot_status
-get_ds2(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    return each_position(s, qdot_mech_ds2, value);
-}
-
-static qdot_status
-get_speed2(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    return each_position(s, qdot_mech_speed2, value);
-}
+#define OF_POSITION(word)                                                                \
+    static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
+                                  qdot_expr *value)                                      \
+    {                                                                                    \
+        (void)n, (void)index;                                                            \
+        return each_position(s, qdot_mech_##word, value);                                \
+    }
+OF_POSITION(ds2)
+OF_POSITION(speed2)
+#undef OF_POSITION
 
 static qdot_status
 get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
@@ -150,9 +118,9 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
     qdot_expr M, coordinates;
 
     QDOT_TRY(need_coordinates(s));
-    QDOT_TRY(give(s, qdot_mech_mass_matrix(s->scene), &M));
+    QDOT_TRY(qdot_value_kind_give(s->pool, qdot_mech_mass_matrix(s->scene), &M));
     if (n == 0)
-        return give(s, M, value);
+        return qdot_value_kind_give(s->pool, M, value);
     for (uint32_t i = 0; i < n; i++)
         QDOT_TRY(coordinate(s, "mass_matrix", index[i]));
     coordinates =
@@ -170,39 +138,26 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
     {                                                                                    \
         QDOT_TRY(need_coordinates(s));                                                   \
         if (n == 0)                                                                      \
-            return give(s, all(s->scene), value);                                        \
+            return qdot_value_kind_give(s->pool, all(s->scene), value);                  \
         QDOT_TRY(coordinate(s, #word, index[0]));                                        \
-        return give(s, one(s->scene, index[0]), value);                                  \
+        return qdot_value_kind_give(s->pool, one(s->scene, index[0]), value);            \
     }
 BY_COORDINATE(momenta, qdot_mech_momenta, qdot_mech_momentum)
 BY_COORDINATE(eom, qdot_mech_equations, qdot_mech_equation)
 BY_COORDINATE(accel, qdot_mech_accels, qdot_mech_accel)
 BY_COORDINATE(forces, qdot_mech_forces, qdot_mech_force)
 #undef BY_COORDINATE
-
-static qdot_status
-get_p(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n;
-    QDOT_TRY(coordinate(s, "p", index[0]));
-    return give(s, qdot_mech_momentum(s->scene, index[0]), value);
-}
-
-static qdot_status
-get_Q(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n;
-    QDOT_TRY(coordinate(s, "Q", index[0]));
-    return give(s, qdot_mech_force(s->scene, index[0]), value);
-}
-
-static qdot_status
-get_virtual_work(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    QDOT_TRY(need_coordinates(s));
-    return give(s, qdot_mech_virtual_work(s->scene), value);
-}
+#define OF_COORDINATE(word, one)                                                         \
+    static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
+                                  qdot_expr *value)                                      \
+    {                                                                                    \
+        (void)n;                                                                         \
+        QDOT_TRY(coordinate(s, #word, index[0]));                                        \
+        return qdot_value_kind_give(s->pool, one(s->scene, index[0]), value);            \
+    }
+OF_COORDINATE(p, qdot_mech_momentum)
+OF_COORDINATE(Q, qdot_mech_force)
+#undef OF_COORDINATE
 
 static qdot_status
 get_delta(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
@@ -210,7 +165,8 @@ get_delta(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
     (void)n;
     if (!qdot_expr_is_coordinate(s->pool, index[0]))
         return qdot_fail(QDOT_ETYPE, "delta[ ] takes a coordinate");
-    return give(s, qdot_symbol_of(s->pool, QDOT_DELTA, index[0]), value);
+    return qdot_value_kind_give(s->pool, qdot_symbol_of(s->pool, QDOT_DELTA, index[0]),
+                                value);
 }
 
 /* --- multipliers -------------------------------------------------------------------- */
@@ -315,15 +271,8 @@ get_dof(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 
     (void)n, (void)index;
     QDOT_TRY(qdot_mech_dof(s->scene, &dof));
-    return give(s, qdot_expr_int(s->pool, (long)dof.freedom), value);
-}
-
-static qdot_status
-get_conserved(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
-{
-    (void)n, (void)index;
-    QDOT_TRY(need_coordinates(s));
-    return give(s, qdot_noether_conserved(s->scene), value);
+    return qdot_value_kind_give(s->pool, qdot_expr_int(s->pool, (long)dof.freedom),
+                                value);
 }
 
 /* --- rest and what is near it ------------------------------------------------------- */
@@ -347,7 +296,7 @@ get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *v
                                   qdot_expr *value)                                      \
     {                                                                                    \
         (void)n, (void)index;                                                            \
-        return give(s, qdot_equilibria_word(s->pool, verdict), value);                   \
+        return qdot_value_kind_give(s->pool, qdot_equilibria_word(s->pool, verdict), value); \
     }
 VERDICT(stable, QDOT_STABLE)
 VERDICT(unstable, QDOT_UNSTABLE)
@@ -391,7 +340,7 @@ get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *va
     (void)n, (void)index;
     QDOT_TRY(need_coordinates(s));
     if (s->scene->constraints.n > 0)
-        return give(s, qdot_mech_reaction_list(s->scene), value);
+        return qdot_value_kind_give(s->pool, qdot_mech_reaction_list(s->scene), value);
     qdot_fail(QDOT_EINVAL, "the scene has no constraints");
     return qdot_hint("constraint rod: x^2 + y^2 = L^2");
 }

@@ -18,6 +18,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/functions/algebra.h"
+#include "lang/functions/switch.h"
 #include "lang/session/bind.h"
 #include "lang/session/value-kind.h"
 #include "normal/prove/decide.h"
@@ -105,89 +106,15 @@ no_series(course *x, qdot_expr e, const char *why)
     return status;
 }
 
-/* --- what switches at the point ----------------------------------------------------- */
-
-static bool
-vanishes(course *x, qdot_expr e)
-{
-    const qdot_expr zero = QDOT_ZERO;
-    qdot_expr there = qdot_subs(x->pool, e, 1, &x->ray, &zero);
-
-    if (there == QDOT_NIL) { /* not defined there: for laurent_of */
-        (void)!qdot_pool_check(x->pool);
-        return false;
-    }
-    return qdot_is_zero(x->pool, there, &x->facts);
-}
-
-/* Whether two of the arguments, that depend on ray, are equal at the point. */
-static bool
-meet(course *x, qdot_expr e)
-{
-    for (uint32_t i = 0; i < qdot_expr_count(x->pool, e); i++)
-        for (uint32_t k = 0; k < i; k++)
-            if (vanishes(x, qdot_sub(x->pool, qdot_expr_arg(x->pool, e, i),
-                                     qdot_expr_arg(x->pool, e, k))))
-                return true;
-    return false;
-}
-
-/* Whether e, a whole number at the point, jumps there. */
-static bool
-is_whole(course *x, qdot_expr e)
-{
-    const qdot_expr zero = QDOT_ZERO;
-    qdot_expr there = qdot_subs(x->pool, e, 1, &x->ray, &zero);
-    bool whole = there != QDOT_NIL && qdot_expr_kind(x->pool, there) == QDOT_NUM &&
-                 qdot_fun1(x->pool, QDOT_FLOOR, there) == there;
-
-    (void)!qdot_pool_check(x->pool);
-    return whole;
-}
-
-static bool
-switches(course *x, qdot_expr e)
-{
-    qdot_pool *pool = x->pool;
-    const qdot_node *node = qdot_expr_node(pool, e);
-
-    if (node->kind == QDOT_REL)
-        return meet(x, e);
-    if (node->kind != QDOT_FUN)
-        return false;
-    switch ((qdot_fun_id)node->op) {
-    case QDOT_ABS:
-    case QDOT_SIGN: return vanishes(x, qdot_expr_arg(pool, e, 0));
-    case QDOT_MIN:
-    case QDOT_MAX: return meet(x, e);
-    case QDOT_FLOOR: return is_whole(x, qdot_expr_arg(pool, e, 0));
-    case QDOT_MOD:
-        return is_whole(x, qdot_div(pool, qdot_expr_arg(pool, e, 0),
-                                    qdot_expr_arg(pool, e, 1)));
-    default: return false;
-    }
-}
-
 static qdot_status
 check_switches(course *x, qdot_expr e)
 {
-    qdot_vec(qdot_expr) parts = {0};
-    qdot_status status;
-    qdot_walk w;
+    qdot_expr part;
 
-    QDOT_TRY(qdot_walk_begin(x->pool, e, &w));
-    status = QDOT_OK;
-    for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
-        if (qdot_expr_contains(x->pool, w.at[i], x->ray))
-            status = qdot_vec_push(&parts, w.at[i]);
-    qdot_walk_end(&w);
-    for (size_t i = 0; i < parts.n && status == QDOT_OK; i++)
-        if (switches(x, parts.at[i]))
-            status = no_series(
-                x, qdot_expr_is_scalar(x->pool, parts.at[i]) ? parts.at[i] : e,
-                "it switches at the point");
-    qdot_free(parts.at);
-    return status;
+    QDOT_TRY(qdot_switch_find(x->pool, e, x->ray, &x->facts, &part));
+    return part == QDOT_NIL ? QDOT_OK
+                            : no_series(x, qdot_expr_is_scalar(x->pool, part) ? part : e,
+                                        "it switches at the point");
 }
 
 /* --- arithmetic of series ----------------------------------------------------------- */
@@ -212,7 +139,7 @@ shorten(course *x, qdot_expr *e)
     return qdot_value_kind_check(x->pool, *e);
 }
 
-/* Leave out what vanishes at the front. */
+/* Drop leading coefficients that are 0. */
 static void
 trim(course *x, laurent *s)
 {
@@ -319,7 +246,7 @@ derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, l
     return QDOT_OK;
 }
 
-/* The order at which e begins. */
+/* The order of the first term of e. */
 static qdot_status
 find_leading(course *x, qdot_expr e, long *least)
 {
@@ -459,15 +386,6 @@ as_quotient(qdot_pool *pool, qdot_expr e)
     }
 }
 
-/* Whether a function of one argument switches where that is `there`. */
-static bool
-switches_at(course *x, qdot_fun_id id, qdot_expr there)
-{
-    if (id == QDOT_ABS || id == QDOT_SIGN)
-        return qdot_is_zero(x->pool, there, &x->facts);
-    return id == QDOT_FLOOR && is_whole(x, there);
-}
-
 /* f(a + h), h without a term of order 0. */
 static qdot_status
 function_of(course *x, qdot_expr e, long most, laurent *s)
@@ -488,7 +406,8 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
         trim(x, &inner);
     if (status == QDOT_OK && inner.least < 0)
         status = no_series(x, e, "its argument grows without bound at the point");
-    if (status == QDOT_OK && switches_at(x, id, coefficient(&inner, 0)))
+    if (status == QDOT_OK &&
+        qdot_switch_at(x->pool, id, coefficient(&inner, 0), &x->facts))
         status = no_series(x, e, "it switches at the point");
     if (status == QDOT_OK) {
         status = derivatives(x, qdot_fun1(pool, id, z), z, coefficient(&inner, 0), most, &outer);
@@ -549,6 +468,21 @@ laurent_of(course *x, qdot_expr e, long most, laurent *s)
 
 /* --- the sum ------------------------------------------------------------------------ */
 
+/* Whether the bases that hold `step` have powers 1, 2, ... */
+static bool
+has_whole_powers(qdot_pool *pool, qdot_expr product, qdot_expr step)
+{
+    for (uint32_t j = 1; j < qdot_expr_node(pool, product)->n; j += 2) {
+        long times;
+
+        if (qdot_expr_contains(pool, qdot_expr_arg(pool, product, j), step) &&
+            (!qdot_expr_to_int(pool, qdot_expr_arg(pool, product, j + 1), &times) ||
+             times <= 0))
+            return false;
+    }
+    return true;
+}
+
 static bool
 is_polynomial(const course *x, qdot_expr e)
 {
@@ -558,20 +492,11 @@ is_polynomial(const course *x, qdot_expr e)
     for (size_t i = 0; i < w.n && sound; i++) {
         const qdot_node *node = qdot_expr_node(x->pool, w.at[i]);
 
-        for (size_t k = 0; k < x->steps.n && sound; k++) {
-            if ((node->kind == QDOT_FUN || node->kind == QDOT_UFUN))
-                sound = !qdot_expr_contains(x->pool, w.at[i], x->steps.at[k]);
-            for (uint32_t j = 1; node->kind == QDOT_PROD && j < node->n; j += 2) {
-                long times;
-
-                if (qdot_expr_contains(x->pool, qdot_expr_arg(x->pool, w.at[i], j),
-                                       x->steps.at[k]))
-                    sound = sound &&
-                            qdot_expr_to_int(x->pool, qdot_expr_arg(x->pool, w.at[i], j + 1),
-                                             &times) &&
-                            times > 0;
-            }
-        }
+        for (size_t k = 0; k < x->steps.n && sound; k++)
+            sound = node->kind == QDOT_FUN || node->kind == QDOT_UFUN
+                        ? !qdot_expr_contains(x->pool, w.at[i], x->steps.at[k])
+                        : node->kind != QDOT_PROD ||
+                              has_whole_powers(x->pool, w.at[i], x->steps.at[k]);
     }
     qdot_walk_end(&w);
     return sound;

@@ -42,7 +42,7 @@ qdot_short_names_forget(qdot_session *session)
     session->taken = NULL;
 }
 
-/* What went wrong in a declaration may be that it took a value that nobody meant. */
+/* A declaration that failed may have taken a value of the language for a name of the user's. */
 static qdot_status
 explain(const qdot_session *session, qdot_status status)
 {
@@ -64,5 +64,6 @@ qdot_short_names_tell(qdot_session *session, qdot_status status)
     return qdot_answer_notice_once(session,
                                    "`%s` is here the language's %s as it was until now; "
                                    "`param %s` before it declares your own",
-                                   name, qdot_short_names_long(qdot_quantity_find(name)), name);
+                                   name, qdot_short_names_long(qdot_quantity_find(name)),
+                                   name);
 }

@@ -14,12 +14,14 @@ const char *qdot_short_names_long(const qdot_quantity *row);
 /* The bare name of a value was read: kept if it has a longer one. status: what making the value
  * gave; where that is an error its hint tells how the name becomes one's own. Returns status. */
 QDOT_MUST_CHECK qdot_status qdot_short_names_note(qdot_session *session,
-                                                  const qdot_quantity *row, qdot_status status);
+                                                  const qdot_quantity *row,
+                                                  qdot_status status);
 
 /* A notice of what was kept since it was last forgotten, once for each name; where the statement
  * failed (status) and its error has no hint, the hint says it. Returns status, or why no notice
  * could be given. */
 void qdot_short_names_forget(qdot_session *session);
-QDOT_MUST_CHECK qdot_status qdot_short_names_tell(qdot_session *session, qdot_status status);
+QDOT_MUST_CHECK qdot_status qdot_short_names_tell(qdot_session *session,
+                                                  qdot_status status);
 
 #endif

@@ -45,17 +45,17 @@ call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_ex
 }
 
 static qdot_status
-call_function(qdot_session *s, const qdot_name *entry, unsigned primes, uint32_t n,
-              const qdot_expr *values, const char *const *labels, qdot_expr *value,
-              qdot_expr *over)
+call_function(qdot_session *s, const qdot_name *entry, const qdot_call *call,
+              qdot_expr *value, qdot_expr *over)
 {
-    qdot_argument *args = qdot_calloc(n + 1, sizeof *args);
+    qdot_argument *args = qdot_calloc(call->n + 1, sizeof *args);
     qdot_status status = args == NULL ? QDOT_ENOMEM : QDOT_OK;
 
-    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
-        args[i] = (qdot_argument){.value = values[i], .label = labels[i]};
+    for (uint32_t i = 0; i < call->n && status == QDOT_OK; i++)
+        args[i] = (qdot_argument){.value = call->values[call->indices + i],
+                                  .label = call->labels[call->indices + i]};
     if (status == QDOT_OK)
-        status = qdot_function_call(s, entry, primes, n, args, value, over);
+        status = qdot_function_call(s, entry, call->primes, call->n, args, value, over);
     qdot_free(args);
     return status;
 }
@@ -79,38 +79,37 @@ is_value(const qdot_session *s, const qdot_name *entry, const char *name, const 
 }
 
 qdot_status
-qdot_resolve_call(qdot_cursor *c, const qdot_token *token, unsigned primes,
-                  uint32_t indices, uint32_t n, const qdot_expr *values,
-                  const char *const *labels, const char *run, qdot_expr *value,
+qdot_resolve_call(qdot_cursor *c, const qdot_call *call, qdot_expr *value,
                   qdot_expr *over)
 {
     qdot_session *s = c->session;
-    const qdot_expr *args = values + indices;
-    const qdot_builtin *row = indices == 0 ? qdot_builtin_find(token->text) : NULL;
+    const char *name = call->token->text;
+    const qdot_expr *args = call->values + call->indices;
+    const qdot_builtin *row = call->indices == 0 ? qdot_builtin_find(name) : NULL;
     const qdot_name *entry;
     qdot_text spelled = {0};
     qdot_status status;
 
     *over = QDOT_NIL;
-    status = qdot_entry_name(s, token->text, indices, values, &spelled);
+    status = qdot_entry_name(s, name, call->indices, call->values, &spelled);
     entry = status == QDOT_OK ? qdot_names_find(s->names, spelled.at) : NULL;
     if (status == QDOT_OK && row != NULL && (row->flags & QDOT_BUILTIN_SHORT) &&
-        is_value(s, entry, token->text, spelled.at))
+        is_value(s, entry, name, spelled.at))
         row = NULL;
     if (status != QDOT_OK)
         ;
     else if (entry != NULL && entry->kind == QDOT_NAME_FUNCTION)
-        status = call_function(s, entry, primes, n, args, labels + indices, value, over);
+        status = call_function(s, entry, call, value, over);
     else if (entry != NULL && entry->kind == QDOT_NAME_UFUN)
-        status = qdot_resolve_undefined(s, entry, primes, n, args, value);
-    else if (row != NULL && primes == 0)
-        status = call_builtin(s, row, n, args, run, value, over);
+        status = qdot_resolve_undefined(s, entry, call->primes, call->n, args, value);
+    else if (row != NULL && call->primes == 0)
+        status = call_builtin(s, row, call->n, args, call->run, value, over);
     else if (row != NULL)
-        status = qdot_resolve_no_prime(token->text, "takes no prime: write diff(...)");
-    else if (is_value(s, entry, token->text, spelled.at))
-        status = not_a_function(entry, spelled.at, n, args);
+        status = qdot_resolve_no_prime(name, "takes no prime: write diff(...)");
+    else if (is_value(s, entry, name, spelled.at))
+        status = not_a_function(entry, spelled.at, call->n, args);
     else
-        status = qdot_hints_unknown_function(c, token);
+        status = qdot_hints_unknown_function(c, call->token);
     qdot_text_clear(&spelled);
     return status;
 }

@@ -144,14 +144,3 @@ qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first, long last
     }
     return qdot_pool_check(pool);
 }
-
-qdot_status
-qdot_closed_sum_unknown(qdot_status status, const char *index, long first, long last)
-{
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
-        return status;
-    (void)qdot_fail(QDOT_ELIMIT, "a sum of %lu terms, and none is known by a formula",
-                    (unsigned long)last - (unsigned long)first + 1);
-    return qdot_hint("more than %d terms must be polynomials in %.40s or powers r^%.40s",
-                     QDOT_SUM_TERMS, index, index);
-}

@@ -18,9 +18,4 @@ enum { QDOT_SUM_TERMS = 1000000 };
 QDOT_MUST_CHECK qdot_status qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first,
                                             long last, qdot_expr *value);
 
-/* Evaluation failed within a sum that only a formula could give: QDOT_ELIMIT says so, unless the
- * failure is of memory or an interrupt. */
-qdot_status qdot_closed_sum_unknown(qdot_status status, const char *index, long first,
-                                    long last);
-
 #endif

@@ -16,8 +16,9 @@ qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a, qdot_expr 
         return qdot_value_kind_check(pool, *value);
     }
     if (!qdot_expr_is_scalar(pool, a) || !qdot_expr_is_scalar(pool, b))
-        return qdot_fail(QDOT_ETYPE, "`%s` compares numbers, not %s", op,
-                         qdot_value_kind_words(pool, qdot_expr_is_scalar(pool, a) ? b : a));
+        return qdot_fail(
+            QDOT_ETYPE, "`%s` compares numbers, not %s", op,
+            qdot_value_kind_words(pool, qdot_expr_is_scalar(pool, a) ? b : a));
     *value = op[0] == '<' ? qdot_rel(pool, kind, a, b) : qdot_rel(pool, kind, b, a);
     return qdot_value_kind_check(pool, *value);
 }
@@ -51,29 +52,4 @@ qdot_expr
 qdot_condition_decide(qdot_pool *pool, qdot_expr e)
 {
     return qdot_walk_map(pool, e, decide, NULL);
-}
-
-qdot_status
-qdot_condition_choose(qdot_pool *pool, qdot_expr c, qdot_expr a, qdot_expr b, qdot_expr *value)
-{
-    const uint32_t n = qdot_expr_count(pool, a);
-    qdot_expr *parts;
-
-    *value = QDOT_NIL;
-    if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b)) {
-        *value = qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){c, a, b});
-        return QDOT_OK;
-    }
-    if (qdot_expr_kind(pool, a) != QDOT_VEC || qdot_expr_kind(pool, b) != QDOT_VEC
-        || qdot_expr_count(pool, b) != n)
-        return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) takes A and B of one kind");
-    parts = qdot_calloc(n, sizeof *parts);
-    if (parts == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < n; i++)
-        parts[i] = qdot_fun(pool, QDOT_IF, 3,
-                            (qdot_expr[]){c, qdot_expr_arg(pool, a, i), qdot_expr_arg(pool, b, i)});
-    *value = qdot_vector(pool, n, parts);
-    qdot_free(parts);
-    return QDOT_OK;
 }

@@ -14,8 +14,5 @@ QDOT_MUST_CHECK qdot_status qdot_condition_relation(qdot_pool *pool, const char 
 bool qdot_condition_is(const qdot_pool *pool, qdot_expr e);
 /* An equation between numbers is a value; as a condition it is true or false. */
 qdot_expr qdot_condition_decide(qdot_pool *pool, qdot_expr e);
-/* if(c, a, b) with c open: of vectors of one size component by component. QDOT_ETYPE. */
-QDOT_MUST_CHECK qdot_status qdot_condition_choose(qdot_pool *pool, qdot_expr c, qdot_expr a,
-                                                  qdot_expr b, qdot_expr *value);
 
 #endif

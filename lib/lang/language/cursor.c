@@ -49,23 +49,14 @@ const qdot_token *
 qdot_cursor_find_word(const qdot_cursor *c, const char *word)
 {
     const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1;
-    size_t depth = 0;
+    long depth = 0;
 
     for (const qdot_token *t = c->at;; t++) {
         if (t->kind == QDOT_TOKEN_END && (depth == 0 || t == last))
             return t;
-        if (t->kind == QDOT_TOKEN_OPERATOR && t->text[1] == '\0') {
-            if (strchr("([{", t->text[0]) != NULL)
-                depth++;
-            else if (strchr(")]}", t->text[0]) != NULL) {
-                if (depth == 0)
-                    return t;
-                depth--;
-            }
-        } else if (depth == 0 && word != NULL && t->kind == QDOT_TOKEN_NAME &&
-                   strcmp(t->text, word) == 0) {
+        depth += qdot_token_bracket(t);
+        if (depth < 0 || (depth == 0 && word != NULL && qdot_token_is_word(t, word)))
             return t;
-        }
     }
 }
 
@@ -99,8 +90,8 @@ begins_operand(const qdot_token *t)
             (strcmp(t->text, "(") == 0 || strcmp(t->text, "sqrt") == 0));
 }
 
-static bool
-is_known(qdot_session *s, const char *name)
+bool
+qdot_cursor_knows(const qdot_session *s, const char *name)
 {
     return qdot_names_find(s->names, name) != NULL ||
            qdot_names_is_family(s->names, name) || qdot_builtin_find(name) != NULL ||
@@ -220,12 +211,13 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
     }
     if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0)
         return found(what, t); /* behind an option word, not an operand */
-    if (word && t->kind == QDOT_TOKEN_NAME && !t->glued && !is_known(c->session, t->text)) {
+    if (word && t->kind == QDOT_TOKEN_NAME && !t->glued &&
+        !qdot_cursor_knows(c->session, t->text)) {
         found(what, t); /* `2 tol` among words is no product */
         return hint_word(what, t->text);
     }
     if (t->glued || before->kind == QDOT_TOKEN_NUMBER ||
-        (!word && (t->kind != QDOT_TOKEN_NAME || is_known(c->session, t->text))))
+        (!word && (t->kind != QDOT_TOKEN_NAME || qdot_cursor_knows(c->session, t->text))))
         return missing_times(c, before);
     found(what, t);
     if (word)

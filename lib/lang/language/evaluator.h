@@ -92,12 +92,17 @@ QDOT_MUST_CHECK qdot_status qdot_resolve_undefined(qdot_session *session,
                                                    const qdot_name *entry, unsigned primes,
                                                    uint32_t n, const qdot_expr *args,
                                                    qdot_expr *value);
-/* name(args), name[index](args), name'(args); labels [indices + n]: of the values that are
- * positions of particles and bodies, else NULL. *over: as above. */
-QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_token *token,
-                                              unsigned primes, uint32_t indices,
-                                              uint32_t n, const qdot_expr *values,
-                                              const char *const *labels, const char *run,
+/* name(args), name[index](args), name'(args) */
+typedef struct {
+    const qdot_token *token;
+    unsigned primes;
+    uint32_t indices, n;       /* how many indices, then arguments */
+    const qdot_expr *values;   /* [indices + n] */
+    const char *const *labels; /* [indices + n]: of positions of particles and bodies, else NULL */
+    const char *run;           /* that the arguments name; NULL: none */
+} qdot_call;
+/* *over: as above. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_call *call,
                                               qdot_expr *value, qdot_expr *over);
 /* *label: of the particle or body that name or name[index ...] is, itself or as the argument
  * of a function; NULL: it is none. Borrowed from the scene. */

@@ -61,7 +61,7 @@ capture(qdot_session *s, qdot_function_body *body, qdot_expr formals, qdot_expr 
     return status;
 }
 
-/* Bind what the body sees of names; those bound round it are hidden. *outer: what
+/* Bind the names that the body may see; hide what is bound around the call. *outer: what
  * disclose() takes. args NULL: the formals stand for themselves. */
 static qdot_status
 enclose(qdot_session *s, const qdot_name *entry, const qdot_argument *args, size_t *outer)
@@ -232,7 +232,7 @@ apply_to_members(mapping *m, qdot_expr list, qdot_expr *value)
     return status;
 }
 
-/* The body has no meaning for the whole, as the last error says: member by member. */
+/* The body cannot take the whole argument, as the last error says: apply it member by member. */
 static qdot_status
 apply_inside(mapping *m, qdot_expr arg, qdot_expr *value)
 {
@@ -271,7 +271,7 @@ derivative_at(mapping *m, qdot_expr arg, qdot_expr *value)
 {
     qdot_pool *pool = m->s->pool;
     const qdot_facts facts = qdot_scene_facts(m->s->scene);
-    /* a name with a blank is nobody else's */
+    /* a name with a blank cannot be declared */
     const qdot_argument at = {.value = arg},
                         symbol = {.value = qdot_symbol_get(pool, QDOT_FORMAL, "an argument")};
     qdot_expr direct, body, put, over;

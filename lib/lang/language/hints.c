@@ -86,10 +86,7 @@ our_function(const char *name)
 bool
 qdot_hints_is_foreign(const qdot_session *session, const char *name)
 {
-    return qdot_names_find(session->names, name) == NULL && /* as a rule it is ours: this first */
-           !qdot_names_is_family(session->names, name) && qdot_builtin_find(name) == NULL &&
-           qdot_quantity_find(name) == NULL && our_function(name) != NULL &&
-           !qdot_scene_has_label(session->scene, name);
+    return !qdot_cursor_knows(session, name) && our_function(name) != NULL;
 }
 
 /* The text inside the bracket that `open` opens, "..." where it is long. */
@@ -97,14 +94,14 @@ static void
 bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t size)
 {
     const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1, *t = open;
-    size_t depth = 0, from = open->start + open->length;
+    size_t from = open->start + open->length;
+    long depth = 0;
 
     for (; t < last && t < open + 64; t++) {
-        if (t->kind != QDOT_TOKEN_OPERATOR || t->text[1] != '\0')
-            continue;
-        if (strchr("([{", t->text[0]) != NULL)
-            depth++;
-        else if (strchr(")]}", t->text[0]) != NULL && --depth == 0)
+        const int step = qdot_token_bracket(t);
+
+        depth += step;
+        if (step < 0 && depth == 0)
             break;
     }
     if (depth > 0 || t == last || t->start - from >= size ||
@@ -200,7 +197,8 @@ qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token)
     char text[100];
 
     qdot_fail(QDOT_ESYNTAX, "`%s` is a function: its argument goes in ( )", name);
-    if (qdot_token_is(next, "^") && next[1].kind != QDOT_TOKEN_END && qdot_token_is(next + 2, "(")) {
+    if (qdot_token_is(next, "^") && next[1].kind != QDOT_TOKEN_END &&
+        qdot_token_is(next + 2, "(")) {
         bracket_text(c, next + 2, text, sizeof text);
         return qdot_hint("write %s(%s)^%.40s", name, text, next[1].text);
     }

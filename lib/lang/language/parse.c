@@ -66,12 +66,6 @@ static const struct {
     {"or", OP_OR},
 };
 
-static bool
-is_op(const qdot_token *token, const char *text)
-{
-    return token->kind == QDOT_TOKEN_OPERATOR && strcmp(token->text, text) == 0;
-}
-
 static qdot_status
 fail_at(parser *p, const qdot_token *token, qdot_status status)
 {
@@ -198,7 +192,7 @@ primes(parser *p)
 {
     unsigned n = 0;
 
-    while (n < QDOT_LEX_PRIMES && p->c->at->glued && is_op(p->c->at, "'")) {
+    while (n < QDOT_LEX_PRIMES && p->c->at->glued && qdot_token_is(p->c->at, "'")) {
         p->c->at++;
         n++;
     }
@@ -214,7 +208,7 @@ label(parser *p, const char *what)
     if (name->kind != QDOT_TOKEN_NAME)
         return qdot_cursor_expected(p->c, what);
     p->c->at++;
-    if (p->c->at->glued && is_op(p->c->at, "[")) {
+    if (p->c->at->glued && qdot_token_is(p->c->at, "[")) {
         p->c->at++;
         return push(p, IN_LABEL, name);
     }
@@ -254,7 +248,7 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
     QDOT_TRY(push(p, IN_CALL, name));
     top(p)->primes = (uint8_t)n_primes;
     top(p)->indices = indices;
-    if (is_op(p->c->at, ")")) { /* no arguments */
+    if (qdot_token_is(p->c->at, ")")) { /* no arguments */
         p->c->at++;
         p->stack.n--;
         p->depth--;
@@ -269,7 +263,7 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
 static bool
 is_raised(const parser *p, const qdot_token *t)
 {
-    return is_op(t, "^") && t->glued && (p->c->source->text[t->start] & 0x80) != 0;
+    return qdot_token_is(t, "^") && t->glued && (p->c->source->text[t->start] & 0x80) != 0;
 }
 
 /* sin²(x), the cursor past `sin`. */
@@ -278,7 +272,7 @@ raised_call(parser *p, const qdot_token *name)
 {
     const qdot_token *power = p->c->at + 1;
 
-    if (is_op(power, "-")) {
+    if (qdot_token_is(power, "-")) {
         qdot_fail(QDOT_ESYNTAX, "`%s` with a negative power: its inverse, or 1 over it?",
                   name->text);
         qdot_hint("write a%s(x), or 1/%s(x)", name->text, name->text);
@@ -309,12 +303,12 @@ name(parser *p)
     const qdot_token *next = p->c->at;
     unsigned n;
 
-    if (is_op(next, ".") && next->glued && next[1].glued &&
-        (next[1].kind == QDOT_TOKEN_NAME || is_op(next + 1, "("))) {
+    if (qdot_token_is(next, ".") && next->glued && next[1].glued &&
+        (next[1].kind == QDOT_TOKEN_NAME || qdot_token_is(next + 1, "("))) {
         p->c->at++;
         return push(p, OP_MEMBER, t);
     }
-    if (is_op(next, "[") && next->glued && qdot_runs_is_family(p->c->session, t->text)) {
+    if (qdot_token_is(next, "[") && next->glued && qdot_runs_is_family(p->c->session, t->text)) {
         const qdot_token *run;
 
         p->c->at = t;
@@ -325,14 +319,14 @@ name(parser *p)
     }
     n = primes(p);
     next = p->c->at;
-    if (is_op(next, "(") && (n == 0 || next->glued) &&
+    if (qdot_token_is(next, "(") && (n == 0 || next->glued) &&
         (next->glued || qdot_names_find(p->c->session->names, t->text) == NULL ||
          qdot_resolve_is_function(p->c->session, t->text)))
         return call(p, t, n, 0);
     if (n == 0 && is_raised(p, next) && is_function(p, t->text) &&
-        (is_op(next + 1, "-") || is_op(next + 2, "(")))
+        (qdot_token_is(next + 1, "-") || qdot_token_is(next + 2, "(")))
         return raised_call(p, t);
-    if (is_op(next, "[") && next->glued && n == 0) {
+    if (qdot_token_is(next, "[") && next->glued && n == 0) {
         bool multiplier = strcmp(t->text, "lambda") == 0;
 
         if (qdot_hints_is_foreign(p->c->session, t->text)) {
@@ -388,23 +382,23 @@ operand(parser *p)
     if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "and") != 0 &&
         strcmp(t->text, "or") != 0)
         return name(p);
-    if (is_op(t, "%"))
+    if (qdot_token_is(t, "%"))
         return history(p);
-    if (is_op(t, "sqrt")) {
+    if (qdot_token_is(t, "sqrt")) {
         p->c->at++;
         return push(p, OP_ROOT, t);
     }
-    if (is_op(t, "-") || is_op(t, "+")) {
+    if (qdot_token_is(t, "-") || qdot_token_is(t, "+")) {
         p->c->at++;
         return t->text[0] == '-' ? push(p, OP_NEGATE, t) : QDOT_OK;
     }
-    if (is_op(t, "(")) {
+    if (qdot_token_is(t, "(")) {
         p->c->at++;
         return push(p, IN_GROUP, t);
     }
-    if (is_op(t, "[")) {
+    if (qdot_token_is(t, "[")) {
         p->c->at++;
-        if (is_op(p->c->at, "]")) {
+        if (qdot_token_is(p->c->at, "]")) {
             p->c->at++;
             p->operand = false;
             return emit(p, QDOT_CODE_LIST, t, 0, 0, 0);
@@ -431,7 +425,7 @@ static qdot_status
 sum_index(parser *p, waiting *w)
 {
     w->name = p->c->at;
-    if (w->name->kind != QDOT_TOKEN_NAME || !is_op(w->name + 1, ","))
+    if (w->name->kind != QDOT_TOKEN_NAME || !qdot_token_is(w->name + 1, ","))
         return usage(p, w);
     p->c->at += 2;
     QDOT_TRY(emit(p, QDOT_CODE_SUM_NEXT, w->token, 0, 0, 0));
@@ -491,7 +485,7 @@ row(parser *p)
         return fail_at(p, p->c->at, QDOT_ETYPE);
     }
     p->c->at++;
-    if (is_op(p->c->at, "]")) { /* [a, b;], a matrix of one row */
+    if (qdot_token_is(p->c->at, "]")) { /* [a, b;], a matrix of one row */
         waiting whole = *w;
 
         p->c->at++;
@@ -534,7 +528,7 @@ close_bracket(parser *p)
     case IN_LABEL: return emit(p, QDOT_CODE_LABEL, w.token, w.count + 1, 0, 0);
     case IN_INDEX_NAME:
         n = primes(p);
-        if (is_op(p->c->at, "(") && p->c->at->glued)
+        if (qdot_token_is(p->c->at, "(") && p->c->at->glued)
             return call(p, w.token, n, w.count + 1);
         return emit(p, QDOT_CODE_INDEX_NAME, w.token, w.count + 1, 0, n);
     case IN_INDEX: return emit(p, QDOT_CODE_INDEX, w.token, w.count + 1, 0, 0);
@@ -594,13 +588,14 @@ after(parser *p)
 {
     const qdot_token *t = p->c->at;
 
-    if (t->glued && is_op(t, "'"))
+    if (t->glued && qdot_token_is(t, "'"))
         return stray_prime(p);
-    if (t->glued && is_op(t, "[")) {
+    if (t->glued && qdot_token_is(t, "[")) {
         p->c->at++;
         return push(p, IN_INDEX, t);
     }
-    if (top(p) != NULL && top(p)->kind == OP_ROOT && is_op(t, "^") && !is_op(t - 1, ")")) {
+    if (top(p) != NULL && top(p)->kind == OP_ROOT && qdot_token_is(t, "^") &&
+        !qdot_token_is(t - 1, ")")) {
         qdot_fail(QDOT_ESYNTAX, "a root and a power: which comes first?");
         qdot_hint("write √(x^2) or √(x)^2");
         return fail_at(p, t, QDOT_ESYNTAX);
@@ -623,13 +618,13 @@ after(parser *p)
         p->done = true;
         return reduce_all(p);
     }
-    if (is_op(t, ","))
+    if (qdot_token_is(t, ","))
         return comma(p);
-    if (is_op(t, ";"))
+    if (qdot_token_is(t, ";"))
         return row(p);
-    if (is_op(t, ")") || is_op(t, "]"))
+    if (qdot_token_is(t, ")") || qdot_token_is(t, "]"))
         return close_bracket(p);
-    if (is_op(t, ".."))
+    if (qdot_token_is(t, ".."))
         return argument_range(p);
     QDOT_TRY(reduce_all(p));
     return qdot_cursor_expected(

@@ -11,7 +11,7 @@
 #ifndef QDOT_LANG_PARTIAL_SUM_H
 #define QDOT_LANG_PARTIAL_SUM_H
 
-#include "lang/language/evaluator.h"
+#include "lang/language/machine.h"
 
 typedef struct qdot_partial_sum {
     const qdot_token *place; /* its index, where it stands in the text */
@@ -26,9 +26,8 @@ const qdot_partial_sum *qdot_partial_sum_find(const qdot_session *session,
 /* Keep it, in place of a shorter one; outside of loops nothing is kept. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum);
 
-/* Whether the value of an instruction that names something is the same whenever it is carried out
- * with the same operands in this loop. */
-bool qdot_partial_sum_may_hold(const qdot_session *session, const qdot_code *code,
-                               qdot_expr value);
+/* An instruction was carried out, its value on top: what the terms of the sums under way depend on
+ * by it. */
+void qdot_partial_sum_note(qdot_machine *m, const qdot_code *code);
 
 #endif

@@ -513,7 +513,7 @@ resolve_member(qdot_cursor *c, const qdot_token *token, unsigned primes, uint32_
     return status;
 }
 
-/* Nothing is called so. */
+/* QDOT_ENAME: neither the member nor the family is known. */
 static qdot_status
 unknown_index(qdot_cursor *c, const qdot_token *token, uint32_t n, const qdot_expr *index)
 {

@@ -10,7 +10,8 @@ static bool
 ends_operand(const qdot_token *token)
 {
     if (token->kind == QDOT_TOKEN_NAME)
-        return !qdot_token_is_word(token, "and") && !qdot_token_is_word(token, "or") && !qdot_token_is_word(token, "not");
+        return !qdot_token_is_word(token, "and") && !qdot_token_is_word(token, "or") &&
+               !qdot_token_is_word(token, "not");
     return token->kind == QDOT_TOKEN_NUMBER || token->kind == QDOT_TOKEN_STRING ||
            qdot_token_is(token, ")") || qdot_token_is(token, "]") || qdot_token_is(token, "'") ||
            qdot_token_is(token, "%");
@@ -80,7 +81,8 @@ add_sign(const qdot_token *k, const qdot_token *to, qdot_text *out, size_t *used
         qdot_text_add(out, k + 1 < to && qdot_token_is(k + 1, "(") ? "sqrt" : "√");
         return true;
     }
-    if (!qdot_token_is(k, "^") || k + 2 >= to || k[1].start != k->start || !qdot_token_is(k + 2, "("))
+    if (!qdot_token_is(k, "^") || k + 2 >= to || k[1].start != k->start ||
+        !qdot_token_is(k + 2, "("))
         return false;
     for (const char *digit = k[1].text; *digit != '\0'; digit++)
         qdot_text_add(out, raised[*digit - '0']);

@@ -27,7 +27,8 @@ measure_members(qdot_session *session, const char *run, qdot_expr e, qdot_expr t
     if (*value != QDOT_NIL)
         return QDOT_OK;
     QDOT_TRY(qdot_session_split(session, time, &t, &low));
-    return qdot_member_values(session, run, e, 1, &t, &low, &m->value, &m->error);
+    return qdot_member_values(session, run, e,
+                              &(qdot_samples){1, &t, &low, &m->value, &m->error});
 }
 
 static bool
@@ -51,19 +52,20 @@ measure_columns(qdot_session *session, const char *run, const qdot_runs_columns 
     return QDOT_OK;
 }
 
-qdot_status
-qdot_along_values(qdot_session *session, const char *run, qdot_expr e, size_t k,
-                  const double *times, const double *lows, double *values,
-                  double *errors)
+/* e at a double t, along whatever runs it names, else along `run`. */
+static qdot_status
+value_at(qdot_session *session, const char *run, qdot_expr e, double t, double *value)
 {
     qdot_named_run *named = NULL;
+    double error;
     bool mixed;
 
     QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
     if (mixed)
-        return qdot_member_values(session, run, e, k, times, lows, values, errors);
+        return qdot_member_values(session, run, e,
+                                  &(qdot_samples){1, &t, NULL, value, &error});
     QDOT_TRY(qdot_runs_find(session, run, &named));
-    return qdot_run_values_beyond(named->run, 1, &e, k, times, lows, values, errors);
+    return qdot_run_values_beyond(named->run, 1, &e, 1, &t, NULL, value, &error);
 }
 
 /* What the numbers of runs that stand in e are off by, as it makes e at t: sum |de/dm| error
@@ -75,15 +77,14 @@ add_error_within(qdot_session *session, const char *run, qdot_expr e, double t, 
 
     for (size_t i = 0; i < n; i++) {
         const qdot_measured m = session->measured.at[i];
-        double slope = 0, off, low = 0;
+        double slope = 0;
         qdot_expr d;
 
         if (!qdot_expr_contains(session->pool, e, m.symbol))
             continue;
-        d = qdot_measured_as_rationals(session,
-                                       qdot_diff(session->pool, e, m.symbol));
+        d = qdot_measured_as_rationals(session, qdot_diff(session->pool, e, m.symbol));
         QDOT_TRY(qdot_pool_check(session->pool));
-        QDOT_TRY(qdot_along_values(session, run, d, 1, &t, &low, &slope, &off));
+        QDOT_TRY(value_at(session, run, d, t, &slope));
         *error += slope == 0 ? 0 : fabs(slope) * m.error;
     }
     return QDOT_OK;

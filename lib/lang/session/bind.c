@@ -182,7 +182,7 @@ evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *cons
     return status;
 }
 
-/* What no number can be made of, said in a user's words. */
+/* QDOT_ETYPE where e is no scalar. */
 static qdot_status
 not_a_number(qdot_session *session, qdot_expr e)
 {

@@ -45,12 +45,11 @@ qdot_event_time(qdot_session *session, const char *run, const char *name, long k
         if (strcmp(list[i].event, name) != 0)
             continue;
         status = qdot_vec_push(
-            &all, qdot_measured_add(session,
-                                    (qdot_measured){.value = list[i].t,
-                                                    .error = list[i].error,
-                                                    .digits = qdot_event_digits(named->run,
-                                                                                &list[i]),
-                                                    .exact = list[i].exact}));
+            &all, qdot_measured_add(session, (qdot_measured){.value = list[i].t,
+                                                             .error = list[i].error,
+                                                             .digits = qdot_event_digits(
+                                                                 named->run, &list[i]),
+                                                             .exact = list[i].exact}));
     }
     if (status == QDOT_OK && k == 0) {
         *value = qdot_list(session->pool, (uint32_t)all.n, all.at);

@@ -11,6 +11,7 @@ typedef qdot_vec(const char *) qdot_words;
 void qdot_labels_add(const qdot_scene *scene, qdot_words *list);
 
 /* "there is no particle or body `bod`", with the nearest label. QDOT_ENAME. */
-qdot_status qdot_labels_unknown(const qdot_scene *scene, const char *what, const char *label);
+qdot_status qdot_labels_unknown(const qdot_scene *scene, const char *what,
+                                const char *label);
 
 #endif

@@ -30,7 +30,7 @@ find(const qdot_session *session, qdot_expr symbol)
     return NULL;
 }
 
-/* One scalar. */
+/* The symbol of the scalar e along the run. */
 static qdot_expr
 make(qdot_session *session, const char *run, qdot_expr e)
 {
@@ -181,9 +181,10 @@ find_symbols(qdot_session *session, qdot_expr e, mixture *x)
 
 /* Every symbol along its run. */
 static qdot_status
-read_symbols(qdot_session *session, const char *run, size_t k, const double *times,
-             const double *lows, mixture *x)
+read_symbols(qdot_session *session, const char *run, const qdot_samples *at, mixture *x)
 {
+    const size_t k = at->n;
+
     x->values = qdot_calloc(x->symbols.n * k + 1, sizeof *x->values);
     x->errors = qdot_calloc(x->symbols.n * k + 1, sizeof *x->errors);
     if (x->values == NULL || x->errors == NULL)
@@ -194,18 +195,18 @@ read_symbols(qdot_session *session, const char *run, size_t k, const double *tim
         qdot_named_run *named;
 
         QDOT_TRY(qdot_runs_find(session, m != NULL ? m->run : run, &named));
-        QDOT_TRY(qdot_run_values_beyond(named->run, 1, &e, k, times, lows,
+        QDOT_TRY(qdot_run_values_beyond(named->run, 1, &e, k, at->times, at->lows,
                                         x->values + i * k, x->errors + i * k));
     }
     return QDOT_OK;
 }
 
-/* The value at one time and its error, by moving each symbol by its own. */
+/* The value at time j and its error, by moving each symbol by its own. */
 static void
-combine(const mixture *x, size_t k, size_t j, double *in, double *work, double *value,
-        double *error)
+combine(const mixture *x, const qdot_samples *at, size_t j, double *in, double *work)
 {
-    double sum, moved;
+    const size_t k = at->n;
+    double sum, moved, *value = at->values + j;
 
     for (size_t i = 0; i < x->symbols.n; i++)
         in[i] = x->values[i * k + j];
@@ -217,21 +218,20 @@ combine(const mixture *x, size_t k, size_t j, double *in, double *work, double *
         sum += fabs(moved - *value);
         in[i] = x->values[i * k + j];
     }
-    if (error != NULL)
-        *error = sum;
+    if (at->errors != NULL)
+        at->errors[j] = sum;
 }
 
 qdot_status
-qdot_member_values(qdot_session *session, const char *run, qdot_expr e, size_t k,
-                   const double *times, const double *lows, double *values,
-                   double *errors)
+qdot_member_values(qdot_session *session, const char *run, qdot_expr e,
+                   const qdot_samples *at)
 {
     mixture x = {0};
     double *in = NULL;
     qdot_status status = find_symbols(session, e, &x);
 
     if (status == QDOT_OK)
-        status = read_symbols(session, run, k, times, lows, &x);
+        status = read_symbols(session, run, at, &x);
     if (status == QDOT_OK) {
         e = qdot_session_bind(session, e);
         status = qdot_pool_check(session->pool);
@@ -242,9 +242,8 @@ qdot_member_values(qdot_session *session, const char *run, qdot_expr e, size_t k
         in = qdot_calloc(x.symbols.n + qdot_tape_work(x.tape) + 1, sizeof *in);
         status = in == NULL ? QDOT_ENOMEM : QDOT_OK;
     }
-    for (size_t j = 0; j < k && status == QDOT_OK; j++)
-        combine(&x, k, j, in, in + x.symbols.n, &values[j],
-                errors != NULL ? &errors[j] : NULL);
+    for (size_t j = 0; j < at->n && status == QDOT_OK; j++)
+        combine(&x, at, j, in, in + x.symbols.n);
     qdot_free(in);
     clear(&x);
     return status;
@@ -271,9 +270,10 @@ qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_ex
         qdot_measured number;
         qdot_expr by;
 
-        status = m != NULL
-                     ? qdot_runs_measure_one(session, m->run, m->value, time, &number)
-                     : qdot_runs_measure_one(session, run, x.symbols.at[i], time, &number);
+        status =
+            m != NULL
+                ? qdot_runs_measure_one(session, m->run, m->value, time, &number)
+                : qdot_runs_measure_one(session, run, x.symbols.at[i], time, &number);
         if (status != QDOT_OK)
             break;
         by = qdot_measured_add(session, number);
@@ -302,14 +302,4 @@ qdot_member_span(qdot_session *session, qdot_expr e, double *from, double *to)
         *to = fmin(*to, fmax(report->t0, report->t1));
     }
     return QDOT_OK;
-}
-
-qdot_status
-qdot_member_check(const qdot_session *session, const char *run)
-{
-    for (size_t i = 0; i < session->runs.n; i++)
-        if (strcmp(session->runs.at[i].name, run) == 0)
-            return QDOT_OK;
-    qdot_fail(QDOT_ENAME, "there is no run `%s`", run);
-    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
 }

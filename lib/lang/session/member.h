@@ -12,12 +12,15 @@ bool qdot_member_any(const qdot_session *session, qdot_expr e);
  * else *mixed. */
 QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const char **run,
                                                 qdot_expr *e, bool *mixed);
-/* A mixed one at such times [k]: values [k], errors [k] (NULL: not wanted). What is along no
- * run named is along `run` (NULL: the latest). */
+/* Times along a run, what is wanted there, and where it goes. */
+typedef struct {
+    size_t n;
+    const double *times, *lows; /* [n]; lows: what the exact times are beyond these, NULL: 0 */
+    double *values, *errors;    /* [n]; errors NULL: not wanted */
+} qdot_samples;
+/* A mixed one at such times. What is along no run named is along `run` (NULL: the latest). */
 QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,
-                                               qdot_expr e, size_t k, const double *times,
-                                               const double *lows, double *values,
-                                               double *errors);
+                                               qdot_expr e, const qdot_samples *at);
 /* A mixed one whose runs all have digits, at a time: *value has its symbols replaced by numbers of
  * their runs. Nil where a run has no digits. */
 QDOT_MUST_CHECK qdot_status qdot_member_exactly(qdot_session *session, const char *run,
@@ -26,7 +29,5 @@ QDOT_MUST_CHECK qdot_status qdot_member_exactly(qdot_session *session, const cha
 /* from and to narrowed to what all its runs cover. */
 QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
                                              double *from, double *to);
-/* QDOT_ENAME where there is no run of that name. */
-qdot_status qdot_member_check(const qdot_session *session, const char *run);
 
 #endif

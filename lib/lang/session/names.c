@@ -237,7 +237,7 @@ is_replaceable(qdot_name_kind kind)
     return kind == QDOT_NAME_VALUE || kind == QDOT_NAME_FUNCTION;
 }
 
-/* Whether `new` may stand where `old` does. */
+/* Whether the declaration `new` may replace `old`. */
 static bool
 may_replace(const qdot_name *old, const qdot_name *new)
 {
@@ -251,7 +251,7 @@ may_replace(const qdot_name *old, const qdot_name *new)
            old->value == new->value;
 }
 
-/* A family and a plain name of one spelling cannot both be. */
+/* x and x[1] cannot both be declared. */
 static qdot_status
 check_family(const qdot_names *names, const char *name)
 {
@@ -432,7 +432,7 @@ insert(qdot_names *names, const qdot_name *name)
     return QDOT_OK;
 }
 
-/* Another entry in the place of `old`, which goes. */
+/* A new entry takes the place of `old`, which is released. */
 static qdot_status
 replace(qdot_names *names, entry *old, const qdot_name *name)
 {

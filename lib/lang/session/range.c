@@ -25,7 +25,7 @@ qdot_range_is_word(const char *word)
     return false;
 }
 
-/* Of one expression. */
+/* The value of one expression, a new symbol. */
 static qdot_status
 measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
         const double *range, qdot_expr *value)

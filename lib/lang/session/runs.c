@@ -141,8 +141,8 @@ measure_exactly(qdot_session *session, qdot_run *run, const qdot_runs_columns *c
 }
 
 qdot_status
-qdot_runs_measure(qdot_session *session, const char *run, const qdot_runs_columns *columns,
-              qdot_expr time, qdot_measured *m)
+qdot_runs_measure(qdot_session *session, const char *run,
+                  const qdot_runs_columns *columns, qdot_expr time, qdot_measured *m)
 {
     qdot_named_run *named = NULL;
 
@@ -156,7 +156,8 @@ qdot_status
 qdot_runs_measure_one(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
                       qdot_measured *m)
 {
-    return qdot_runs_measure(session, run, &(qdot_runs_columns){.at = &e, .n = 1}, time, m);
+    return qdot_runs_measure(session, run, &(qdot_runs_columns){.at = &e, .n = 1}, time,
+                             m);
 }
 
 bool

@@ -23,8 +23,8 @@ QDOT_MUST_CHECK qdot_status qdot_runs_flatten(qdot_session *session, qdot_expr e
 /* Columns that name no run inside at a time, as numbers m [columns], in doubles or with the digits
  * of the run. */
 QDOT_MUST_CHECK qdot_status qdot_runs_measure(qdot_session *session, const char *run,
-                                              const qdot_runs_columns *columns, qdot_expr time,
-                                              qdot_measured *m);
+                                              const qdot_runs_columns *columns,
+                                              qdot_expr time, qdot_measured *m);
 /* One expression, of one run alone, at a time, in doubles or with the digits of the run. */
 QDOT_MUST_CHECK qdot_status qdot_runs_measure_one(qdot_session *session, const char *run,
                                                   qdot_expr e, qdot_expr time,

@@ -149,17 +149,3 @@ qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value)
     }
     return QDOT_OK;
 }
-
-qdot_status
-qdot_session_recall(const qdot_session *session, size_t n, qdot_expr *value, qdot_expr *over)
-{
-    const size_t count = session->history.n, at = n == 0 ? count : n;
-
-    if (count == 0)
-        return qdot_fail(QDOT_EINVAL, "there is no value yet for `%%`");
-    if (n > count)
-        return qdot_fail(QDOT_EINVAL, "there are only %zu values so far", count);
-    *value = session->history.at[at - 1];
-    *over = at <= session->history_over.n ? session->history_over.at[at - 1] : QDOT_NIL;
-    return QDOT_OK;
-}

@@ -44,8 +44,6 @@ typedef struct {
     unsigned branches; /* of ifs under way: what stands there need not exist */
 } qdot_passed;
 
-struct qdot_partial_sum;
-
 typedef struct qdot_session {
     qdot_pool *pool;
     qdot_scene *scene;
@@ -76,7 +74,7 @@ typedef struct qdot_session {
     unsigned calls;        /* of functions under way, within one another */
     bool placed;           /* the error under way names its place in a body */
     size_t loops;          /* loops under way: what they hold must outlive them */
-    qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (lang/language/partial-sum) */
+    qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (language/partial-sum) */
     struct qdot_undo *undo; /* NULL: no statement yet */
     void (*undo_free)(struct qdot_undo *undo); /* set with it */
     qdot_passed *passed;   /* while the sides of a check are read; else NULL */
@@ -89,15 +87,13 @@ void qdot_session_free(qdot_session *session);
  * nil. */
 QDOT_MUST_CHECK qdot_status qdot_session_remember(qdot_session *session, qdot_expr value,
                                                   qdot_expr over);
-/* %n, n = 0: the latest. QDOT_EINVAL: there are not so many. */
-QDOT_MUST_CHECK qdot_status qdot_session_recall(const qdot_session *session, size_t n,
-                                                qdot_expr *value, qdot_expr *over);
 /* From now on the symbol (a parameter, a momentum) or undefined function (applied to formal symbols
  * that stand in `value`) has this value for numbers. *status: QDOT_ENOMEM; unchanged if all is well. */
 void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
                       qdot_status *status);
 /* From now on a run starts with this value of q or q'. */
-QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value);
+QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
+                                               qdot_expr value);
 /* All that `reset` forgets changes places; what is no part of a scene stays: style, files ... */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 

@@ -59,7 +59,8 @@ qdot_spelling_offer(qdot_spelling *s, const char *candidate)
     size_t m = strlen(candidate);
     int d;
 
-    if (s->length == 0 || s->length > LONGEST || m > LONGEST || m > s->length + 3 || s->length > m + 3)
+    if (s->length == 0 || s->length > LONGEST || m > LONGEST || m > s->length + 3 ||
+        s->length > m + 3)
         return;
     d = distance(s->name, s->length, candidate, m);
     /* a one-letter name is never a slip of another one, only of its other case */

@@ -1,4 +1,4 @@
-/* spelling.h -- the word nearest in spelling: the fewest letters put in, left out, changed or swapped.
+/* spelling.h -- the word nearest in spelling: the fewest letters put in, left out, changed, swapped.
  *
  * Tests  tests/lang/test_names.c
  */

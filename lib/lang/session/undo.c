@@ -94,8 +94,8 @@ forget(qdot_undo *u)
     u->floor = 0;
 }
 
-void
-qdot_undo_free(qdot_undo *u)
+static void
+undo_free(qdot_undo *u)
 {
     if (u == NULL)
         return;
@@ -123,7 +123,7 @@ list_names(qdot_session *s)
     return QDOT_OK;
 }
 
-/* What differs in one part goes to r and into the copy that is kept. */
+/* Compare one part with its copy: the difference goes into r, the copy is brought up to date. */
 static qdot_status
 compare_part(qdot_session *s, int k, record *r)
 {
@@ -165,7 +165,7 @@ compare_part(qdot_session *s, int k, record *r)
     return QDOT_OK;
 }
 
-/* The qdot_undo_state that is kept becomes that of the session; r: the difference. */
+/* Bring the copy of the session up to date; r: the difference. */
 static qdot_status
 compare(qdot_session *s, record *r)
 {
@@ -182,7 +182,7 @@ compare(qdot_session *s, record *r)
     return QDOT_OK;
 }
 
-/* Whether a statement that only asks could leave this. */
+/* Whether the record holds nothing but answers. */
 static bool
 is_nothing(const record *r)
 {
@@ -211,7 +211,7 @@ qdot_undo_text_end(qdot_session *s, size_t outer)
         s->undo->floor = outer < s->undo->done.n ? outer : s->undo->done.n;
 }
 
-/* Nothing here is a failure of the statement under way: its error stays. */
+/* Forget all records; the error of the statement under way stays the last one. */
 static void
 let_go(qdot_session *s, const qdot_error *error)
 {
@@ -227,7 +227,7 @@ qdot_undo_begin(qdot_session *s)
 
     if (s->undo == NULL)
         s->undo = qdot_calloc(1, sizeof *s->undo);
-    s->undo_free = qdot_undo_free;
+    s->undo_free = undo_free;
     if (s->undo == NULL) {
         (void)qdot_fail_again(&error);
         return 0;
@@ -276,7 +276,7 @@ one_line(const char *text, size_t length)
     return copy;
 }
 
-/* What is new since `begun` is one thing to undo, called `text`. */
+/* Records since `begun` become one step to undo, described by `text`. */
 static qdot_status
 join(qdot_undo *u, size_t begun, const char *text, size_t length)
 {
@@ -339,7 +339,7 @@ push(qdot_session *s, record *r)
     return QDOT_OK;
 }
 
-/* The oldest records go while all take too much. */
+/* Drop the oldest records until the rest fits into most_bytes. */
 static void
 trim(qdot_undo *u)
 {
@@ -369,7 +369,7 @@ qdot_undo_end(qdot_session *s, size_t begun, const char *text, size_t length)
     if (!u->known)
         return;
     status = compare(s, &r);
-    /* what is declared once more takes the place of itself: a change, which nothing shows */
+    /* declaring the same thing again is a change of which no array shows anything */
     if (status == QDOT_OK &&
         (!is_nothing(&r) || (!u->moved && s->scene->version != u->version)))
         status = push(s, &r);
@@ -415,7 +415,7 @@ qdot_undo_reset(qdot_session *s, qdot_session *other)
 
 /* --- back and forth ------------------------------------------------------------------- */
 
-/* Symbols follow the names that mean them. */
+/* Hide the symbols of names that go, show those of names that come. */
 static void
 move_symbols(qdot_session *s, const change *c, int to)
 {
@@ -438,7 +438,7 @@ move_symbols(qdot_session *s, const change *c, int to)
     }
 }
 
-/* Answers beyond the first n are forgotten. */
+/* Forget the answers beyond the first n. */
 static void
 cut_history(qdot_session *s, size_t n)
 {
@@ -453,7 +453,7 @@ cut_history(qdot_session *s, size_t n)
             kept[k].n = n;
 }
 
-/* The session on the other side of a `reset`. */
+/* Exchange the session with the one before, or after, a `reset`. */
 static void
 cross(qdot_session *s, record *r)
 {
@@ -481,7 +481,7 @@ prepare(qdot_session *s, const record *r, int to)
     return QDOT_OK;
 }
 
-/* Go to one side of the record: 0 before the statement, 1 behind it. */
+/* Put the session into the state before (to = 0) or after (to = 1) the statement. */
 static qdot_status
 apply(qdot_session *s, record *r, int to)
 {
@@ -522,7 +522,7 @@ apply(qdot_session *s, record *r, int to)
     return QDOT_OK;
 }
 
-/* The latest record of one list, to its other side, becomes the latest of the other. */
+/* Apply the latest record of `from` and move it to `into`. */
 static qdot_status
 move(qdot_session *s, records *from, records *into, int to)
 {

@@ -19,8 +19,6 @@
 
 typedef struct qdot_undo qdot_undo;
 
-void qdot_undo_free(qdot_undo *undo);
-
 /* A text begins: within an `include` `undo` goes back to its beginning. Returns what _text_end
  * takes. */
 size_t qdot_undo_text_begin(qdot_session *session);
@@ -38,7 +36,8 @@ size_t qdot_undo_statements(const qdot_session *session, bool again);
 bool qdot_undo_is_at_floor(const qdot_session *session);
 /* Take back the latest statement, or do it again: there must be one. *text: what it says, borrowed.
  * QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_undo_step(qdot_session *session, bool again, const char **text);
+QDOT_MUST_CHECK qdot_status qdot_undo_step(qdot_session *session, bool again,
+                                           const char **text);
 
 /* `other` is the session as it was until this `reset`; it is taken over. */
 void qdot_undo_reset(qdot_session *session, qdot_session *other);

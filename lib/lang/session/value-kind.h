@@ -9,7 +9,8 @@ QDOT_MUST_CHECK qdot_status qdot_value_kind_check(qdot_pool *pool, qdot_expr val
 /* "a vector", "an equation" ... in a user's words. */
 const char *qdot_value_kind_words(const qdot_pool *pool, qdot_expr e);
 /* *value = made, checked so. */
-QDOT_MUST_CHECK qdot_status qdot_value_kind_give(qdot_pool *pool, qdot_expr made, qdot_expr *value);
+QDOT_MUST_CHECK qdot_status qdot_value_kind_give(qdot_pool *pool, qdot_expr made,
+                                                 qdot_expr *value);
 bool qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e);
 
 #endif

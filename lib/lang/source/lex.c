@@ -255,7 +255,7 @@ lex_dots(lexer *x)
     return dots;
 }
 
-/* n primes, written as what stands from start on. */
+/* n tokens `'`, all of them at the bytes [start, end). */
 static qdot_status
 push_primes(lexer *x, unsigned n, size_t start, size_t end)
 {

@@ -38,6 +38,15 @@ qdot_token_is(const qdot_token *token, const char *op)
     return token->kind == QDOT_TOKEN_OPERATOR && strcmp(token->text, op) == 0;
 }
 
+/* 1 for an opening bracket, -1 for a closing one, else 0. */
+static inline int
+qdot_token_bracket(const qdot_token *token)
+{
+    if (token->kind != QDOT_TOKEN_OPERATOR || token->text[1] != '\0')
+        return 0;
+    return (strchr("([{", token->text[0]) != NULL) - (strchr(")]}", token->text[0]) != NULL);
+}
+
 static inline bool
 qdot_token_is_word(const qdot_token *token, const char *word)
 {

@@ -5,15 +5,15 @@
 #include <string.h>
 
 #include "sim/form/blocks.h"
-#include "sim/form/direct.h"
 #include "sim/form/bordered.h"
+#include "sim/form/constrained-series.h"
+#include "sim/form/direct.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/leading-residual.h"
 #include "sim/form/leading.h"
+#include "sim/form/shifted.h"
 #include "sim/model/constrained.h"
 #include "sim/model/momenta.h"
-#include "sim/form/shifted.h"
-#include "sim/form/constrained-series.h"
 #include "tape/derivative.h"
 #include "tape/shake.h"
 

@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "ode/system.h"
 #include "sim/model/constrained.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_bind qdot_bind;
 

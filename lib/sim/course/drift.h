@@ -4,7 +4,8 @@
 #define QDOT_SIM_DRIFT_H
 
 #include "ode/trajectory.h"
-#include "sim/plan/plan.h"
+#include "sim/course/report.h"
+#include "sim/model/equations.h"
 
 /* Start from {0}. */
 typedef struct {

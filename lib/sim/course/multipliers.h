@@ -8,6 +8,7 @@
 
 #include "ode/trajectory.h"
 #include "sim/course/bind.h"
+#include "sim/course/report.h"
 
 typedef struct {
     double position, velocity; /* the largest residuals at stored points; NaN: none */

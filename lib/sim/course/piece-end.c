@@ -144,15 +144,13 @@ lateness(const qdot_root *root, double t)
     return fabs(t - root->t) + (root->exact ? 0 : 0x1p-53 * fabs(t));
 }
 
-/* All that occurs at t_act, in order; y is the state there, and then the one behind.
- * *over: the run ends. */
 qdot_status
-qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
+qdot_piece_act(qdot_piece *x, bool *over)
 {
     double *old = qdot_malloc(x->n * sizeof *old);
     qdot_status status = old ? QDOT_OK : QDOT_ENOMEM;
     const qdot_mode *m = qdot_piece_mode(x);
-    double t = x->t_act;
+    double t = x->t_act, *y = x->start.y;
 
     if (old)
         memcpy(old, y, x->n * sizeof *y);
@@ -161,7 +159,7 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&x->fired, x->roots.at[i]);
     if (status == QDOT_OK)
-        status = qdot_watch_look(qdot_piece_watch(x), &x->reader, t, y, x->signs);
+        status = qdot_watch_look(qdot_piece_watch(x), t, y, x->signs);
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++) {
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
@@ -191,7 +189,7 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
 
             if (e->then) {
                 status = change(x, e, t, old, y);
-                *jumped = true;
+                x->start.jumped = true;
             }
             if (e->stop && status == QDOT_OK) {
                 x->c->stopped_by = w->index;
@@ -209,7 +207,7 @@ qdot_piece_act(qdot_piece *x, double *y, bool *over, bool *jumped)
             qdot_piece_stop(x, true);
         }
     }
-    if (*jumped)
+    if (x->start.jumped)
         x->crossed.n = 0;
     qdot_free(old);
     return status;

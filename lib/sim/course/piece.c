@@ -254,8 +254,7 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
     size_t n;
 
     x->far = !x->first_step &&
-             qdot_watch_is_far(qdot_piece_watch(x), step->t_end, x->reader.system->series,
-                               step->order, step->unit);
+             qdot_watch_is_far(qdot_piece_watch(x), step);
     if (x->far) {
         x->intent = QDOT_PIECE_GOES_ON; /* of a longer step that was not taken */
         x->c->occurrences.n = x->noted;
@@ -263,9 +262,8 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
     }
     x->expanded = step;
     QDOT_TRY(read_series(step->t_end, x->y, x));
-    QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), &x->reader, step->t_end, x->y,
-                             step->t_end == x->t1, x->reader.system->series, step->order,
-                             step->unit, &roots, &n));
+    QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), step->t_end, x->y, step->t_end == x->t1,
+                             step, &roots, &n));
     QDOT_TRY(take_roots(x, step->t, roots, n));
     if (x->intent == QDOT_PIECE_ENDS)
         stay_inside(x, step->t);
@@ -287,8 +285,7 @@ look_at_step(qdot_piece *x, double t, const double *y)
     x->step.t[1] = t;
     memcpy(x->step.y + x->n, y, x->n * sizeof *y);
     qdot_trajectory_renew(x->cursor);
-    QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), &x->reader, t, y, t == x->t1, NULL, 0,
-                             0, &roots, &n));
+    QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), t, y, t == x->t1, NULL, &roots, &n));
     QDOT_TRY(take_roots(x, x->step.t[0], roots, n));
     if (x->intent == QDOT_PIECE_RETRIED)
         return break_off(x);
@@ -343,8 +340,9 @@ accepted(double t, const double *y, bool *stop, void *user)
 
 /* The watch at the start of a piece. */
 qdot_status
-qdot_piece_begin(qdot_piece *x, double t, const double *y)
+qdot_piece_begin(qdot_piece *x)
 {
+    const double t = x->start.t, *y = x->start.y;
     const qdot_ode_following *following = x->c->systems.at[x->mode].following;
 
     qdot_trajectory_close(x->cursor);
@@ -361,14 +359,15 @@ qdot_piece_begin(qdot_piece *x, double t, const double *y)
         memcpy(x->step.y, y, x->n * sizeof *y);
         QDOT_TRY(qdot_trajectory_open(&x->step, x->reader.system, &x->cursor));
     }
-    return qdot_watch_begin(qdot_piece_watch(x), &x->reader, t, y,
-                            x->c->shaken && x->c->tr.count == 1, x->before, x->residual,
-                            x->functions_on);
+    return qdot_watch_begin(
+        qdot_piece_watch(x), &x->reader, t, y,
+        &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1, x->before, x->residual},
+        x->functions_on);
 }
 
-/* Integrate a piece from y at t; the first one begins the trajectory. */
+/* The first one begins the trajectory. */
 qdot_status
-qdot_piece_integrate(qdot_piece *x, double t, const double *y, bool jumped)
+qdot_piece_integrate(qdot_piece *x)
 {
     qdot_course *c = x->c;
     qdot_ode_options options = *x->options;
@@ -380,14 +379,15 @@ qdot_piece_integrate(qdot_piece *x, double t, const double *y, bool jumped)
         qdot_piece_mode(x)->m > 0 && x->method->series ? look_at_expanded : NULL;
     options.user = x;
     options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted;
-    if (c->tr.count > 1 || t != c->tr.t[0])
+    if (c->tr.count > 1 || x->start.t != c->tr.t[0])
         options.carry = NULL;
     x->intent = QDOT_PIECE_GOES_ON;
     x->broken_off = false;
     x->first_step = true;
     x->far = false;
     x->noted = c->occurrences.n;
-    status = qdot_trajectory_resume(&c->tr, system, x->mode, jumped, &options, x->t1, y);
+    status = qdot_trajectory_resume(&c->tr, system, x->mode, x->start.jumped, &options, x->t1,
+                                    x->start.y);
     if (x->broken_off) {
         c->tr.result.outcome = QDOT_ODE_STOPPED;
         c->tr.result.reason[0] = '\0';

@@ -1,15 +1,16 @@
 /* piece.h -- a piece of a course: what is known while it is integrated and where it ends.
  *
  * For course.c only. The loop over pieces is there; here the sides that a piece goes by are
- * found (side-search.c), it is integrated from its start with every step looked at (piece.c),
- * and what happens where it ends is done (piece-end.c).
+ * found (side-search.c, piece-sides.c), their mode is entered (piece-enter.c), the piece is
+ * integrated from its start with every step looked at (piece.c), and what happens where it ends
+ * is done (piece-end.c).
  *
  * Tests  as course.h
  */
 #ifndef QDOT_SIM_PIECE_H
 #define QDOT_SIM_PIECE_H
 
-#include "sim/course/course.h"
+#include "sim/course/course-state.h"
 
 typedef enum {
     QDOT_PIECE_GOES_ON,
@@ -41,6 +42,11 @@ typedef struct {
     double t1, direction;
     size_t n;           /* of y */
     size_t mode;        /* of the piece */
+    struct {
+        double t, *y; /* [n] */
+        size_t from;  /* the mode before */
+        bool jumped;  /* an event has changed the state */
+    } start;
     long *side;         /* [surfaces] */
     bool *functions_on; /* [functions] likewise */
     int *before;        /* [functions] */
@@ -89,45 +95,49 @@ qdot_piece_watch(const qdot_piece *x)
     return x->c->watches.at[x->mode];
 }
 
+/* The sides of a piece from its start, decided from x->side; old [surfaces]: those that held
+ * before, NULL: all are decided anew. Errors as qdot_stage_sides. */
+QDOT_MUST_CHECK static inline qdot_status
+qdot_piece_sides(qdot_piece *x, const long *old)
+{
+    return qdot_stage_sides(x->c->stage, x->start.t, x->start.y, old, x->side);
+}
+
 /* Everything of the mode with the sides x->side, which becomes x->mode. */
 QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 
-/* The sides of a piece from y [n] at t, decided from x->side; old [surfaces]: those that held
- * before, NULL: all are decided anew. Errors as qdot_stage_sides. */
-QDOT_MUST_CHECK qdot_status qdot_piece_sides(qdot_piece *x, double t, const double *y,
-                                             const long *old);
-
-/* One piece from y [n] at t, the last point, by the sides that it leaves well; x->side are
- * what is tried first. `jumped`, `from` (the mode before) as course.c has them. c->reason
- * where there are none, or more than one way to go on. */
-QDOT_MUST_CHECK qdot_status qdot_piece_search(qdot_piece *x, size_t from, double t, double *y,
-                                              bool jumped);
+/* One piece from its start, the last point, by the sides that it leaves well; x->side are what
+ * is tried first. c->reason where there are none, or more than one way to go on. */
+QDOT_MUST_CHECK qdot_status qdot_piece_search(qdot_piece *x);
 
 /* What is known of the functions where the piece before ended, by those of the mode at hand. */
-void qdot_piece_carry(qdot_piece *x, size_t from, bool jumped);
+void qdot_piece_carry(qdot_piece *x);
 
 /* What is asked of a mode that is tried before it is integrated, with what is known of its
  * functions: c->reason where it cannot be entered. */
-QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x, size_t from, double t, double *y,
-                                             bool jumped, bool first);
+QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x, bool first);
 
-/* The watch of x->mode, at the start (t, y [n]) of a piece: x->before and x->residual say
- * what is known of its functions there, x->functions_on is made. Errors as
- * qdot_watch_begin. */
-QDOT_MUST_CHECK qdot_status qdot_piece_begin(qdot_piece *x, double t, const double *y);
+/* A piece ends at the first double behind the root that ends it, in all courses alike: that is
+ * late, and never early, which adds up. A companion goes on as if it had left before the root,
+ * the other one as if later still: by half the time between doubles. In this time it goes by
+ * one mode, and takes back what it went by the other; SIZE_MAX is none. */
+QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of);
+/* Whether a companion's state may be moved so: not along constraints. */
+bool qdot_piece_makes_up(const qdot_piece *x);
 
-/* Integrate from y at t, the last point of the trajectory, to x->t1 or to what ends the
+/* The watch of x->mode, at the start of a piece: x->before and x->residual say what is known
+ * of its functions there, x->functions_on is made. Errors as qdot_watch_begin. */
+QDOT_MUST_CHECK qdot_status qdot_piece_begin(qdot_piece *x);
+
+/* Integrate from the start, the last point of the trajectory, to x->t1 or to what ends the
  * piece: then x->intent, x->t_act and x->roots say where and what; c->reason, if it is a
- * contact that lasts. `jumped`: an event has changed the state since that point. Errors as
- * qdot_trajectory_resume. */
-QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x, double t, const double *y,
-                                                 bool jumped);
+ * contact that lasts. Errors as qdot_trajectory_resume. */
+QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x);
 
-/* All that occurs at x->t_act, in order; y [n] is the state there, and then the one
- * behind. *over: the run ends, for c->reason or for the event c->stopped_by; *jumped: y
- * has been changed. QDOT_EDOMAIN where an event gives a value that is none. */
-QDOT_MUST_CHECK qdot_status qdot_piece_act(qdot_piece *x, double *y, bool *over,
-                                           bool *jumped);
+/* All that occurs at x->t_act, in order; x->start.y is the state there, and then the one
+ * behind. *over: the run ends, for c->reason or for the event c->stopped_by; x->start.jumped:
+ * the state has been changed. QDOT_EDOMAIN where an event gives a value that is none. */
+QDOT_MUST_CHECK qdot_status qdot_piece_act(qdot_piece *x, bool *over);
 
 /* The run ends here, for a reason that is a failure or not. */
 void qdot_piece_stop(qdot_piece *x, bool failed);
@@ -138,5 +148,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_leaves_well(qdot_piece *x, bool *well);
 
 /* Where it does: whether other sides might do as well. */
 bool qdot_piece_is_open(const qdot_piece *x);
+/* x->doubts become the surfaces of which that is so. */
+QDOT_MUST_CHECK qdot_status qdot_piece_doubt_open(qdot_piece *x);
 
 #endif

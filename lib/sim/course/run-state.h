@@ -2,9 +2,9 @@
 #ifndef QDOT_SIM_RUN_STATE_H
 #define QDOT_SIM_RUN_STATE_H
 
-#include "sim/course/multipliers.h"
 #include "sim/course/course.h"
 #include "sim/course/drift.h"
+#include "sim/course/multipliers.h"
 
 struct qdot_run {
     qdot_stage stage;
@@ -46,24 +46,5 @@ QDOT_MUST_CHECK qdot_status qdot_run_say_why(struct qdot_run *run, const char *r
 
 /* The same, of a run that what happened in it ended; else nothing. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_course(struct qdot_run *run);
-
-/* The companion's trajectory over all that the run covers; where it ends early errors
- * are unknown. QDOT_OK without one, too: has_companion tells. */
-QDOT_MUST_CHECK qdot_status qdot_run_companion(struct qdot_run *run);
-
-/* The same, and a second one, moved to the other side. */
-QDOT_MUST_CHECK qdot_status qdot_run_twin(struct qdot_run *run);
-
-/* The error of the end state of a run that has pieces; NaN with run->doubt where the two
- * runs met different events. difference [2n], from zeros: that of each component. */
-QDOT_MUST_CHECK qdot_status qdot_run_end_error(struct qdot_run *run, double *error,
-                                               double *difference);
-
-/* Whether both runs went through the same pieces and saw what is in them, so that states
- * compare. */
-bool qdot_run_comparable(const struct qdot_run *run);
-
-/* Whether the companions come as far as t, or ended as the run did. */
-bool qdot_run_covered(const struct qdot_run *run, double t);
 
 #endif

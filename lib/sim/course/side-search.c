@@ -19,102 +19,6 @@
 /* Surfaces in doubt at one time: 3^4 combinations at most. */
 enum { MOST_DOUBTS = 4 };
 
-qdot_status
-qdot_piece_sides(qdot_piece *x, double t, const double *y, const long *old)
-{
-    return qdot_stage_sides(x->c->stage, t, y, old, x->side);
-}
-
-/* --- what a first step shows --------------------------------------------------------- */
-
-static bool
-is_step(const qdot_piece *x, size_t surface)
-{
-    return x->c->stage->switches.surfaces.at[surface].steps;
-}
-
-/* Whether a function of a surface keeps to its side, by the sign behind the start. */
-static bool
-keeps(const qdot_piece *x, const qdot_watched *w, int first)
-{
-    return first == w->inside || (first == 0 && w->inside == 1 && is_step(x, w->index));
-}
-
-/* The side that a motion is on that does not keep to that at hand. */
-static long
-went_to(const qdot_piece *x, const qdot_watched *w, int first)
-{
-    return is_step(x, w->index) ? w->beyond : first;
-}
-
-static qdot_status
-doubt(qdot_piece *x, const qdot_watched *w, int first)
-{
-    const long now = qdot_piece_mode(x)->side[w->index];
-    qdot_piece_doubt d = {.surface = w->index, .n = 2, .sides = {now}};
-
-    for (size_t i = 0; i < x->doubts.n; i++)
-        if (x->doubts.at[i].surface == w->index)
-            return QDOT_OK;
-    if (is_step(x, w->index)) {
-        d.sides[1] = went_to(x, w, first);
-    } else {
-        d.n = 3;
-        d.sides[1] = now != 0 ? -now : 1;
-        d.sides[2] = now != 0 ? 0 : -1;
-    }
-    return qdot_vec_push(&x->doubts, d);
-}
-
-qdot_status
-qdot_piece_leaves_well(qdot_piece *x, bool *well)
-{
-    const int *first = qdot_watch_first(qdot_piece_watch(x));
-    const qdot_mode *m = qdot_piece_mode(x);
-
-    *well = true;
-    for (size_t i = 0; i < m->m; i++) {
-        const qdot_watched *w = &m->watched[i];
-
-        if (w->kind != QDOT_WATCH_SURFACE || keeps(x, w, first[i]))
-            continue;
-        *well = false;
-        x->side[w->index] = went_to(x, w, first[i]);
-        QDOT_TRY(doubt(x, w, first[i]));
-    }
-    return QDOT_OK;
-}
-
-static bool
-was_crossed(const qdot_piece *x, size_t surface)
-{
-    for (size_t k = 0; k < x->crossed.n; k++)
-        if (x->crossed.at[k] == surface)
-            return true;
-    return false;
-}
-
-/* Whether other sides than this of the mode at hand might hold, by function i. */
-static bool
-is_open(const qdot_piece *x, size_t i)
-{
-    const qdot_watched *w = &qdot_piece_mode(x)->watched[i];
-
-    return w->kind == QDOT_WATCH_SURFACE && x->functions_on[i]
-           && !was_crossed(x, w->index)
-           && (w->velocity || qdot_watch_slow(qdot_piece_watch(x))[i]
-               || qdot_watch_first(qdot_piece_watch(x))[i] == 0);
-}
-
-bool
-qdot_piece_is_open(const qdot_piece *x)
-{
-    for (size_t i = 0; i < qdot_piece_mode(x)->m; i++)
-        if (is_open(x, i))
-            return true;
-    return false;
-}
-
 /* --- words --------------------------------------------------------------------------- */
 
 static qdot_status
@@ -133,30 +37,30 @@ describe(const qdot_piece *x, size_t surface, qdot_text *out)
 
 /* c->reason, about a surface. */
 static void
-say(qdot_piece *x, double t, size_t surface, const char *before, const char *behind)
+say(qdot_piece *x, size_t surface, const char *before, const char *behind)
 {
     qdot_text text = {0};
 
     if (describe(x, surface, &text) != QDOT_OK)
         qdot_text_truncate(&text, 0);
-    snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: %s %.200s, %s", t,
-             before, text.n > 0 ? qdot_text_str(&text) : "a surface", behind);
+    snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: %s %.200s, %s",
+             x->start.t, before, text.n > 0 ? qdot_text_str(&text) : "a surface", behind);
     qdot_text_clear(&text);
     qdot_piece_stop(x, true);
 }
 
 static void
-say_slides(qdot_piece *x, double t)
+say_slides(qdot_piece *x)
 {
-    say(x, t, x->doubts.n > 0 ? x->doubts.at[0].surface : 0,
+    say(x, x->doubts.n > 0 ? x->doubts.at[0].surface : 0,
         "the motion would slide along",
         "where the equations switch: both sides lead back to it");
 }
 
 static void
-say_open(qdot_piece *x, double t, size_t surface)
+say_open(qdot_piece *x, size_t surface)
 {
-    say(x, t, surface, "on",
+    say(x, surface, "on",
         "where the equations switch, the motion may go on in more than one way: which one "
         "they do not say");
 }
@@ -181,7 +85,7 @@ was_tried(qdot_piece *x, bool *again)
 /* x->side becomes the k-th combination of what is in doubt, from the sides tried first;
  * *over: there is none. */
 static qdot_status
-combine(qdot_piece *x, size_t k, double t, const double *y, bool *over)
+combine(qdot_piece *x, size_t k, bool *over)
 {
     size_t surfaces = x->c->stage->switches.surfaces.n;
 
@@ -196,12 +100,12 @@ combine(qdot_piece *x, size_t k, double t, const double *y, bool *over)
         k /= d->n;
     }
     *over = k > 0;
-    return qdot_piece_sides(x, t, y, x->tried.at);
+    return qdot_piece_sides(x, x->tried.at);
 }
 
 /* The next sides that were not tried from here; *over: there are none. */
 static qdot_status
-next_sides(qdot_piece *x, size_t *k, double t, const double *y, bool *over)
+next_sides(qdot_piece *x, size_t *k, bool *over)
 {
     bool again;
 
@@ -209,26 +113,25 @@ next_sides(qdot_piece *x, size_t *k, double t, const double *y, bool *over)
     QDOT_TRY(was_tried(x, &again));
     while (again && !*over) {
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(combine(x, (*k)++, t, y, over));
+        QDOT_TRY(combine(x, (*k)++, over));
         if (!*over)
             QDOT_TRY(was_tried(x, &again));
     }
     return QDOT_OK;
 }
 
-/* By x->side from y at t: the whole piece, or its first step. */
+/* By x->side: the whole piece, or its first step. */
 static qdot_status
-go(qdot_piece *x, double t, const double *y, bool jumped)
+go(qdot_piece *x)
 {
-    QDOT_TRY(qdot_piece_begin(x, t, y));
-    return qdot_piece_integrate(x, t, y, jumped);
+    QDOT_TRY(qdot_piece_begin(x));
+    return qdot_piece_integrate(x);
 }
 
 /* Whether the motion leaves to `side` of a surface, beside the sides that hold; a mode that
  * cannot be gone by is no answer. */
 static qdot_status
-holds_too(qdot_piece *x, const long *held, size_t surface, long side, size_t from, double t,
-          const double *y, bool jumped, bool *too)
+holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     qdot_status status;
@@ -236,11 +139,11 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, size_t fro
     *too = false;
     memcpy(x->side, held, surfaces * sizeof *x->side);
     x->side[surface] = side;
-    QDOT_TRY(qdot_piece_sides(x, t, y, held));
+    QDOT_TRY(qdot_piece_sides(x, held));
     status = qdot_piece_enter(x);
     if (status == QDOT_OK) {
-        qdot_piece_carry(x, from, jumped);
-        status = go(x, t, y, jumped);
+        qdot_piece_carry(x);
+        status = go(x);
         *too = status == QDOT_OK && x->intent == QDOT_PIECE_RETRIED && x->well
                && x->side[surface] == side;
     }
@@ -249,16 +152,11 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, size_t fro
 
 /* Whether the sides at hand, held [surfaces], are the only ones; c->reason where not. */
 static qdot_status
-compare(qdot_piece *x, const long *held, size_t from, double t, const double *y, bool jumped)
+compare(qdot_piece *x, const long *held)
 {
-    const qdot_mode *m = qdot_piece_mode(x);
     qdot_vec(qdot_piece_doubt) others = {0};
-    qdot_status status = QDOT_OK;
+    qdot_status status = qdot_piece_doubt_open(x);
 
-    x->doubts.n = 0;
-    for (size_t i = 0; i < m->m && status == QDOT_OK; i++)
-        if (is_open(x, i))
-            status = doubt(x, &m->watched[i], -m->watched[i].inside);
     for (size_t i = 0; i < x->doubts.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&others, x->doubts.at[i]);
     x->search = QDOT_SIDES_COMPARED;
@@ -267,10 +165,9 @@ compare(qdot_piece *x, const long *held, size_t from, double t, const double *y,
             const size_t surface = others.at[i].surface;
             bool too;
 
-            status = holds_too(x, held, surface, others.at[i].sides[k], from, t, y, jumped,
-                               &too);
+            status = holds_too(x, held, surface, others.at[i].sides[k], &too);
             if (status == QDOT_OK && too && x->c->reason[0] == '\0')
-                say_open(x, t, surface);
+                say_open(x, surface);
         }
     qdot_free(others.at);
     return status;
@@ -278,7 +175,7 @@ compare(qdot_piece *x, const long *held, size_t from, double t, const double *y,
 
 /* By the sides that hold, when they have been compared. */
 static qdot_status
-go_by(qdot_piece *x, size_t from, double t, const double *y, bool jumped)
+go_by(qdot_piece *x)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     long *held = qdot_malloc((surfaces + 1) * sizeof *held);
@@ -286,7 +183,7 @@ go_by(qdot_piece *x, size_t from, double t, const double *y, bool jumped)
 
     if (status == QDOT_OK) {
         memcpy(held, x->side, surfaces * sizeof *held);
-        status = compare(x, held, from, t, y, jumped);
+        status = compare(x, held);
         memcpy(x->side, held, surfaces * sizeof *held);
     }
     qdot_free(held);
@@ -294,12 +191,12 @@ go_by(qdot_piece *x, size_t from, double t, const double *y, bool jumped)
         return status;
     x->search = QDOT_SIDES_KNOWN;
     QDOT_TRY(qdot_piece_enter(x));
-    qdot_piece_carry(x, from, jumped);
-    return go(x, t, y, jumped);
+    qdot_piece_carry(x);
+    return go(x);
 }
 
 qdot_status
-qdot_piece_search(qdot_piece *x, size_t from, double t, double *y, bool jumped)
+qdot_piece_search(qdot_piece *x)
 {
     size_t combinations = 0;
 
@@ -310,20 +207,20 @@ qdot_piece_search(qdot_piece *x, size_t from, double t, double *y, bool jumped)
         bool over;
 
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(next_sides(x, &combinations, t, y, &over));
+        QDOT_TRY(next_sides(x, &combinations, &over));
         if (over) {
-            say_slides(x, t);
+            say_slides(x);
             return QDOT_OK;
         }
         QDOT_TRY(qdot_piece_enter(x));
-        QDOT_TRY(qdot_piece_cross(x, from, t, y, jumped, first));
+        QDOT_TRY(qdot_piece_cross(x, first));
         if (x->c->reason[0] != '\0')
             return QDOT_OK;
-        QDOT_TRY(go(x, t, y, jumped));
+        QDOT_TRY(go(x));
         if (x->intent != QDOT_PIECE_RETRIED)
             return QDOT_OK;
         if (x->well)
-            return go_by(x, from, t, y, jumped);
-        QDOT_TRY(qdot_piece_sides(x, t, y, qdot_piece_mode(x)->side));
+            return go_by(x);
+        QDOT_TRY(qdot_piece_sides(x, qdot_piece_mode(x)->side));
     }
 }

@@ -5,6 +5,7 @@
 
 #include "expr/walk.h"
 #include "sim/model/substitute.h"
+#include "sim/plan/plan.h"
 #include "tape/constant.h"
 
 static void

@@ -8,9 +8,9 @@
 #define QDOT_SIM_STAGE_H
 
 #include "sim/model/domain.h"
+#include "sim/model/equations.h"
 #include "sim/model/parameter-states.h"
 #include "sim/model/switch.h"
-#include "sim/plan/plan.h"
 
 typedef struct {
     char *name;

@@ -41,20 +41,20 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
 
 /* Each term of a series goes from 0 to what it is at the end of the step. */
 void
-qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int order,
-                 double unit)
+qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step)
 {
-    const double s = (t - w->t) / unit;
+    const qdot_ode_series *series = w->reader.system->series;
+    const double s = step ? (step->t_end - w->t) / step->unit : 0;
     qdot_polynomial_bounds *h = &w->bounds;
 
-    w->hull_at_step = false;
-    if (!series || w->accelerations)
+    w->bound_at_step = false;
+    if (!step || w->accelerations)
         return;
     for (size_t k = 0; k < h->n_used; k++) {
         const double *x = series->x + h->used[k] * series->stride;
         double power = 1, centre = x[0], radius = 0;
 
-        for (int j = 1; j <= order; j++) {
+        for (int j = 1; j <= step->order; j++) {
             power *= s;
             centre += 0.5 * x[j] * power;
             radius += 0.5 * fabs(x[j] * power);
@@ -62,14 +62,14 @@ qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int ord
         h->centre[h->used[k]] = centre;
         h->radius[h->used[k]] = radius + 4 * DBL_EPSILON * fabs(centre);
     }
-    qdot_polynomial_bounds_span(h, w->t, t);
-    w->hull_at_step = true;
+    qdot_polynomial_bounds_span(h, w->t, step->t_end);
+    w->bound_at_step = true;
 }
 
 bool
 qdot_watch_excludes(const qdot_watch *w, size_t i)
 {
-    return w->hull_at_step &&
+    return w->bound_at_step &&
            fabs(w->bounds.out[i]) > (1 + 0x1p-20) * w->bounds.out_radius[i] &&
            qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
 }

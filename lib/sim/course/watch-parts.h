@@ -12,7 +12,8 @@
 #include "num/chebyshev.h"
 #include "num/series.h"
 #include "sim/course/polynomial-bounds.h"
-#include "sim/course/watch.h"
+#include "sim/course/root.h"
+#include "sim/model/equations.h"
 
 enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
 
@@ -23,9 +24,11 @@ struct qdot_watch_state {
     double *g0; /* [m] g here */
 };
 
+typedef struct qdot_watch qdot_watch;
 struct qdot_watch {
     const qdot_plan *plan;
     const qdot_series_kernels *kernels;
+    qdot_watch_reader reader; /* of the piece */
     qdot_tape *tape, *sizes; /* g; the sums of the sizes of their terms */
     size_t m, n;             /* functions; coordinates */
     bool accelerations;
@@ -40,10 +43,11 @@ struct qdot_watch {
     double *size;       /* [m] of the polynomial fitted last, */
     double *clear;      /* [m] and how far its bound keeps it from 0, if positive */
     qdot_polynomial_bounds bounds; /* what lies between the nodes, */
-    bool hull_at_step;  /* or on the whole step: it is there */
+    bool bound_at_step;  /* or on the whole step: it is there */
     bool all_bounds;
     double *final;      /* [m] g at its end */
     double length;      /* of the step */
+    double direction;   /* of time in it */
 
     /* The step's start, and how far it has been looked at. */
     double t, *y; /* [2n] */
@@ -58,12 +62,6 @@ struct qdot_watch {
     double *ends;    /* [(DEEPEST + 2) x m] g at the ends of the parts that wait */
     qdot_vec(qdot_root) roots;
 };
-
-/* Through a step. */
-typedef struct {
-    const qdot_watch_reader *reader;
-    double direction;
-} qdot_watch_walk;
 
 /* A part of a step, and a function on it. */
 typedef struct {
@@ -102,32 +100,26 @@ QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
                                              bool shaken);
 
 /* g [m] at the state in w->in. QDOT_EDOMAIN where one is not finite. */
-QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w,
-                                             const qdot_watch_reader *reader, double t,
-                                             double *g);
+QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w, double t, double *g);
 
 /* g [m] at t within the step; w->in is the state there. */
-QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w,
-                                                const qdot_watch_reader *reader, double t,
-                                                double *g);
+QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double *g);
 
 /* How far g_i moves where t and every number of the state y [2n] does by the part `by` of
  * itself, of at least `least`: the sum over the numbers. What is undefined there counts
  * nothing. */
-QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w,
-                                             const qdot_watch_reader *reader, double t,
-                                             const double *y, double by, double least,
-                                             size_t i, double *noise);
+QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const double *y,
+                                             double by, double least, size_t i,
+                                             double *noise);
 
 /* --- what is sure (watch-exclusion.c) ------------------------------------------------ */
 
 /* Of polynomials that fit all values at `nodes`: whether no root hides between these. */
 qdot_watch_verdict qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes);
 
-/* Whether functions on the step to t, by its series, are bounded: then g_i keeps its sign where
- * _excludes says so. */
-void qdot_watch_bound(qdot_watch *w, double t, const qdot_ode_series *series, int order,
-                      double unit);
+/* Whether functions on the step, by its series (NULL: none), are bounded: then g_i keeps its sign
+ * where _excludes says so. */
+void qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step);
 bool qdot_watch_excludes(const qdot_watch *w, size_t i);
 
 /* --- roots (watch-roots.c) ----------------------------------------------------------- */
@@ -142,7 +134,7 @@ qdot_watch_verdict qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, i
 double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
 /* Its roots on the part, added to w->roots; w->now goes on to the part's end. */
-QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k,
-                                             const qdot_watch_part *p, size_t i);
+QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p,
+                                             size_t i);
 
 #endif

@@ -86,83 +86,56 @@ qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
 
 /* --- locating a root in doubles of t ------------------------------------------------- */
 
-/* Whether g_i has gone over to `way` at t. */
+/* g at t: before the root, or at it and behind. */
+typedef struct {
+    double t, g;
+} end;
+
+/* g_i at t, which becomes the end ends[*over]: whether it has gone over to `way` there. */
 static qdot_status
-gone_over(qdot_watch *w, const qdot_watch_walk *k, size_t i, int way, double t,
-          bool *over, double *value)
+narrow(qdot_watch *w, size_t i, int way, double t, end *ends, bool *over)
 {
-    QDOT_TRY(qdot_watch_value_at(w, k->reader, t, w->g));
-    *value = w->g[i];
+    QDOT_TRY(qdot_watch_value_at(w, t, w->g));
     *over = w->g[i] == 0 || qdot_watch_sign(w->g[i]) == way;
+    ends[*over] = (end){t, w->g[i]};
     return QDOT_OK;
 }
 
-/* Within lo .. hi, which differ in sign, near guess; *found false where they do not: a polynomial
+/* Between ends [2] that differ in sign, near guess; *found false where they do not: a polynomial
  * beside a jump overshoots. */
 static qdot_status
-locate(qdot_watch *w, const qdot_watch_walk *k, size_t i, int way, double lo, double hi,
-       double guess, qdot_root *root, bool *found)
+locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
 {
-    const double end = hi;
-    double step = 4 * (nextafter(fabs(guess), INFINITY) - fabs(guess)), value;
-    double at_lo = 0, at_hi = 0;
+    const double lo = ends[0].t, hi = ends[1].t;
+    double step = 4 * (nextafter(fabs(guess), INFINITY) - fabs(guess));
     bool over;
 
-    guess = k->direction > 0 ? fmin(fmax(guess, lo), hi) : fmax(fmin(guess, lo), hi);
-    QDOT_TRY(gone_over(w, k, i, way, guess, &over, &value));
-    for (bool back = over;; step *= 8) { /* outward from the guess */
-        double t = guess + (back ? -1 : 1) * k->direction * step;
+    guess = w->direction > 0 ? fmin(fmax(guess, lo), hi) : fmax(fmin(guess, lo), hi);
+    QDOT_TRY(narrow(w, i, way, guess, ends, &over));
+    for (const bool back = over; over == back; step *= 8) { /* outward from the guess */
+        const double t = guess + (back ? -1 : 1) * w->direction * step;
 
-        if (back) {
-            hi = guess;
-            at_hi = value;
-        } else {
-            lo = guess;
-            at_lo = value;
-        }
-        if (back ? k->direction * (t - lo) <= 0 : k->direction * (hi - t) <= 0)
+        if (w->direction * (back ? t - ends[0].t : ends[1].t - t) <= 0)
             break;
         guess = t;
-        QDOT_TRY(gone_over(w, k, i, way, guess, &over, &value));
-        if (over != back) {
-            if (over) {
-                hi = guess;
-                at_hi = value;
-            } else {
-                lo = guess;
-                at_lo = value;
-            }
-            break;
-        }
+        QDOT_TRY(narrow(w, i, way, guess, ends, &over));
     }
     for (;;) {
-        double middle = lo + 0.5 * (hi - lo);
+        const double middle = ends[0].t + 0.5 * (ends[1].t - ends[0].t);
 
-        if (middle == lo || middle == hi)
+        if (middle == ends[0].t || middle == ends[1].t)
             break;
-        QDOT_TRY(gone_over(w, k, i, way, middle, &over, &value));
-        if (over) {
-            hi = middle;
-            at_hi = value;
-        } else {
-            lo = middle;
-            at_lo = value;
-        }
+        QDOT_TRY(narrow(w, i, way, middle, ends, &over));
     }
-    over = true;
-    if (hi == end)
-        QDOT_TRY(gone_over(w, k, i, way, hi, &over, &at_hi));
-    *found = over;
-    *root = (qdot_root){i, hi, way, fmax(fabs(at_lo), fabs(at_hi)), at_hi == 0};
-    return QDOT_OK;
+    *found = true;
+    return ends[1].t == hi ? narrow(w, i, way, hi, ends, found) : QDOT_OK;
 }
 
 /* --- its roots ----------------------------------------------------------------------- */
 
 /* Whether an extremum of value v at x is a root. */
 static qdot_status
-is_touch(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p, size_t i,
-         double x, double v, bool *touch)
+is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, bool *touch)
 {
     double size = qdot_chebyshev_size(p->n, p->c), noise = 0;
     double t = qdot_watch_time(p, x);
@@ -170,9 +143,8 @@ is_touch(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p, size
     *touch = fabs(v) <= 0x1p-48 * size;
     if (*touch || p->from_zero || fabs(v) > 1e-3 * size)
         return QDOT_OK;
-    QDOT_TRY(k->reader->read(t, w->z, k->reader->user));
-    QDOT_TRY(
-        qdot_watch_noise(w, k->reader, t, w->z, fmax(w->tol, 0x1p-50), 0, i, &noise));
+    QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
+    QDOT_TRY(qdot_watch_noise(w, t, w->z, fmax(w->tol, 0x1p-50), 0, i, &noise));
     *touch = fabs(v) <= noise;
     return QDOT_OK;
 }
@@ -246,8 +218,7 @@ forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
 }
 
 qdot_status
-qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p,
-                 size_t i)
+qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     double d[QDOT_WATCH_NODES], x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
     int n = 0, sign = w->now.sign[i];
@@ -273,10 +244,9 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
         int there = e + 1 < n ? qdot_watch_sign(v) : grazes ? 0 : qdot_watch_sign(p->at_end);
         double to = e + 1 < n ? qdot_watch_time(p, x[e]) : p->b;
         bool touch = false, found;
-        qdot_root root;
 
         if (e + 1 < n && there != 0)
-            QDOT_TRY(is_touch(w, k, p, i, x[e], v, &touch));
+            QDOT_TRY(is_touch(w, p, i, x[e], v, &touch));
         if (touch || (e + 1 < n && there == 0)) {
             if (sign != 0 && !is_start_again(p, to))
                 QDOT_TRY(qdot_watch_push(w, (qdot_root){i, to, 0, fabs(v), false}));
@@ -284,10 +254,13 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part 
         }
         if (there != 0 && sign != 0 && there != sign) {
             double guess = qdot_watch_time(p, between(p, x_from, x[e], there));
+            end ends[2] = {{from, 0}, {to, 0}};
 
-            QDOT_TRY(locate(w, k, i, there, from, to, guess, &root, &found));
-            if (found && !is_start_again(p, root.t))
-                QDOT_TRY(qdot_watch_push(w, root));
+            QDOT_TRY(locate(w, i, there, ends, guess, &found));
+            if (found && !is_start_again(p, ends[1].t))
+                QDOT_TRY(qdot_watch_push(
+                    w, (qdot_root){i, ends[1].t, there, fmax(fabs(ends[0].g), fabs(ends[1].g)),
+                                   ends[1].g == 0}));
             there = found ? there : sign;
         }
         sign = there != 0 ? there : sign;

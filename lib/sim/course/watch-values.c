@@ -49,12 +49,12 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
 /* --- values -------------------------------------------------------------------------- */
 
 qdot_status
-qdot_watch_value(qdot_watch *w, const qdot_watch_reader *reader, double t, double *g)
+qdot_watch_value(qdot_watch *w, double t, double *g)
 {
     w->in[2 * w->n] = t;
     if (w->accelerations)
         QDOT_TRY(
-            qdot_bind_accelerations(reader->system, t, w->in, w->in + 2 * w->n + 1));
+            qdot_bind_accelerations(w->reader.system, t, w->in, w->in + 2 * w->n + 1));
     qdot_tape_eval(w->tape, w->in, g, w->work);
     for (size_t i = 0; i < w->m; i++)
         if (!isfinite(g[i]))
@@ -63,21 +63,21 @@ qdot_watch_value(qdot_watch *w, const qdot_watch_reader *reader, double t, doubl
 }
 
 qdot_status
-qdot_watch_value_at(qdot_watch *w, const qdot_watch_reader *reader, double t, double *g)
+qdot_watch_value_at(qdot_watch *w, double t, double *g)
 {
-    QDOT_TRY(reader->read(t, w->in, reader->user));
-    return qdot_watch_value(w, reader, t, g);
+    QDOT_TRY(w->reader.read(t, w->in, w->reader.user));
+    return qdot_watch_value(w, t, g);
 }
 
 qdot_status
-qdot_watch_noise(qdot_watch *w, const qdot_watch_reader *reader, double t,
-                 const double *y, double by, double least, size_t i, double *noise)
+qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double least, size_t i,
+                 double *noise)
 {
     double g;
 
     *noise = 0;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, reader, t, w->moved));
+    QDOT_TRY(qdot_watch_value(w, t, w->moved));
     g = w->moved[i];
     for (size_t k = 0; k <= 2 * w->n; k++) {
         double at = k < 2 * w->n ? y[k] : t,
@@ -89,7 +89,7 @@ qdot_watch_noise(qdot_watch *w, const qdot_watch_reader *reader, double t,
         memcpy(w->in, y, 2 * w->n * sizeof *y);
         if (k < 2 * w->n)
             w->in[k] = to;
-        status = qdot_watch_value(w, reader, k < 2 * w->n ? t : to, w->moved);
+        status = qdot_watch_value(w, k < 2 * w->n ? t : to, w->moved);
         if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR)
             continue;
         QDOT_TRY(status);

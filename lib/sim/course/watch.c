@@ -13,11 +13,11 @@ enum { LEAST = 16, DEEPEST = 60, MOST_PARTS = 4000 };
 /* --- parts of a step ----------------------------------------------------------------- */
 
 static qdot_status
-sample(qdot_watch *w, const qdot_watch_walk *k, const qdot_watch_part *p, int nodes)
+sample(qdot_watch *w, const qdot_watch_part *p, int nodes)
 {
     for (int j = 0; j < nodes; j++) {
         QDOT_TRY(qdot_watch_value_at(
-            w, k->reader, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), w->g));
+            w, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), w->g));
         qdot_polynomial_bounds_sample(&w->bounds, j, w->in);
         for (size_t i = 0; i < w->m; i++)
             w->samples[i * QDOT_WATCH_NODES + (size_t)j] = w->g[i];
@@ -53,15 +53,15 @@ is_short(const qdot_watch *w, const qdot_watch_part *p)
 
 /* Where 64 nodes are not enough: rounding may be all there is. */
 static qdot_status
-find_noise(qdot_watch *w, const qdot_watch_walk *k)
+find_noise(qdot_watch *w)
 {
     memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
     for (size_t i = 0; i < w->m; i++)
         if (w->live[i] && isnan(w->noise[i])) {
-            QDOT_TRY(qdot_watch_noise(w, k->reader, w->t, w->z, 4 * DBL_EPSILON, 0, i,
+            QDOT_TRY(qdot_watch_noise(w, w->t, w->z, 4 * DBL_EPSILON, 0, i,
                                       &w->noise[i]));
             memcpy(w->in, w->z, 2 * w->n * sizeof *w->in);
-            QDOT_TRY(qdot_watch_value(w, k->reader, w->t, w->g)); /* q'' too */
+            QDOT_TRY(qdot_watch_value(w, w->t, w->g)); /* q'' too */
             qdot_tape_eval(w->sizes, w->in, w->moved, w->work);
             w->noise[i] += 4 * DBL_EPSILON * (w->moved[i] + fabs(w->final[i]));
         }
@@ -69,16 +69,16 @@ find_noise(qdot_watch *w, const qdot_watch_walk *k)
 }
 
 static qdot_status
-look_at_part(qdot_watch *w, const qdot_watch_walk *k, qdot_watch_part *p,
+look_at_part(qdot_watch *w, qdot_watch_part *p,
              const double *at_end, qdot_watch_verdict *v)
 {
     int nodes = w->nodes;
 
     for (;; nodes *= 2) {
-        QDOT_TRY(sample(w, k, p, nodes));
+        QDOT_TRY(sample(w, p, nodes));
         *v = judge(w, p, nodes);
         if (*v == QDOT_PART_HALVED) {
-            QDOT_TRY(find_noise(w, k));
+            QDOT_TRY(find_noise(w));
             *v = judge(w, p, nodes);
         }
         if (*v != QDOT_PART_MORE_NODES || nodes == QDOT_WATCH_NODES)
@@ -87,7 +87,7 @@ look_at_part(qdot_watch *w, const qdot_watch_walk *k, qdot_watch_part *p,
     if (*v == QDOT_PART_GOOD) {
         *v = qdot_watch_judge(w, p, nodes);
         if (*v == QDOT_PART_HALVED) {
-            QDOT_TRY(find_noise(w, k));
+            QDOT_TRY(find_noise(w));
             *v = qdot_watch_judge(w, p, nodes);
         }
     }
@@ -100,14 +100,14 @@ look_at_part(qdot_watch *w, const qdot_watch_walk *k, qdot_watch_part *p,
             continue;
         (void)qdot_watch_fit(w, p, i, nodes);
         p->at_end = at_end[i];
-        QDOT_TRY(qdot_watch_roots(w, k, p, i));
+        QDOT_TRY(qdot_watch_roots(w, p, i));
     }
     return QDOT_OK;
 }
 
 /* The whole step, left to right; parts that wait stand on a stack of their ends. */
 static qdot_status
-look_at_step(qdot_watch *w, const qdot_watch_walk *k, double t)
+look_at_step(qdot_watch *w, double t)
 {
     double ends[DEEPEST + 2], from = w->t;
     int depth = 0, parts = 0;
@@ -121,7 +121,7 @@ look_at_step(qdot_watch *w, const qdot_watch_walk *k, double t)
         qdot_watch_verdict v;
 
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(look_at_part(w, k, &p, at_end, &v));
+        QDOT_TRY(look_at_part(w, &p, at_end, &v));
         if (v == QDOT_PART_GOOD) {
             from = p.b;
             depth--;
@@ -134,7 +134,7 @@ look_at_step(qdot_watch *w, const qdot_watch_walk *k, double t)
         if (depth == DEEPEST || ++parts > MOST_PARTS)
             return qdot_fail(QDOT_EFAILED, "an event cannot be resolved at t = %.15g",
                              p.a);
-        QDOT_TRY(qdot_watch_value_at(w, k->reader, middle, w->g));
+        QDOT_TRY(qdot_watch_value_at(w, middle, w->g));
         ends[depth] = middle;
         memcpy(w->ends + (size_t)depth * w->m, w->g, w->m * sizeof *w->g);
         depth++;
@@ -146,20 +146,20 @@ look_at_step(qdot_watch *w, const qdot_watch_walk *k, double t)
 
 /* Whether a zero is far from the step. */
 static bool
-is_far(const qdot_watch *w, size_t i, double t, const double *y,
-       const qdot_ode_series *series, int order, double unit)
+is_far(const qdot_watch *w, size_t i, double t, const double *y, const qdot_ode_expanded *step)
 {
+    const qdot_ode_series *series = w->reader.system->series;
     size_t c = w->coordinate[i];
     double distance;
 
     if (c == SIZE_MAX)
         return qdot_watch_excludes(w, i);
     distance = fabs(w->y[c] - w->bound[i]);
-    if (!series)
+    if (!step)
         return fmin(distance, fabs(y[c] - w->bound[i])) >
                fabs(t - w->t) * fmax(fabs(w->y[w->n + c]), fabs(y[w->n + c]));
-    return distance
-           > w->kernels->span(series->x + c * series->stride, order, (t - w->t) / unit);
+    return distance > w->kernels->span(series->x + c * series->stride, step->order,
+                                       (t - w->t) / step->unit);
 }
 
 static int
@@ -170,13 +170,13 @@ by_time(const qdot_root *a, const qdot_root *b, double direction)
 }
 
 static void
-sort_roots(qdot_watch *w, double direction)
+sort_roots(qdot_watch *w)
 {
     for (size_t i = 1; i < w->roots.n; i++) {
         qdot_root root = w->roots.at[i];
         size_t k = i;
 
-        for (; k > 0 && by_time(&w->roots.at[k - 1], &root, direction) > 0; k--)
+        for (; k > 0 && by_time(&w->roots.at[k - 1], &root, w->direction) > 0; k--)
             w->roots.at[k] = w->roots.at[k - 1];
         w->roots.at[k] = root;
     }
@@ -204,27 +204,26 @@ end_on_zero(qdot_watch *w, double t)
 }
 
 qdot_status
-qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
-                bool last, const qdot_ode_series *series, int order, double unit,
-                const qdot_root **roots, size_t *n)
+qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
+                const qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
 {
-    qdot_watch_walk k = {reader, t < w->t ? -1 : 1};
     bool any = false;
 
+    w->direction = t < w->t ? -1 : 1;
     copy_state(w, &w->now, &w->start);
     w->roots.n = 0;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, reader, t, w->final));
+    QDOT_TRY(qdot_watch_value(w, t, w->final));
     w->length = fabs(t - w->t);
     if (w->all_bounds)
-        w->hull_at_step = false;
+        w->bound_at_step = false;
     else
-        qdot_watch_bound(w, t, series, order, unit);
+        qdot_watch_bound(w, step);
     qdot_polynomial_bounds_begin(&w->bounds);
     for (size_t i = 0; i < w->m; i++) {
         w->live[i] = w->start.on[i] ||
                      qdot_watch_sign(w->final[i]) != w->start.sign[i] ||
-                     !is_far(w, i, t, y, series, order, unit);
+                     !is_far(w, i, t, y, step);
         any |= w->live[i];
         w->noise[i] = NAN;
         w->fresh[i] = true;
@@ -232,7 +231,7 @@ qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t, const 
         w->slow[i] = w->grazed[i] = false;
     }
     if (any)
-        QDOT_TRY(look_at_step(w, &k, t));
+        QDOT_TRY(look_at_step(w, t));
     if (last)
         QDOT_TRY(end_on_zero(w, t));
     for (size_t i = 0; i < w->m; i++)
@@ -240,7 +239,7 @@ qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t, const 
             w->now.g0[i] = w->final[i];
             w->now.on[i] = false;
         }
-    sort_roots(w, k.direction);
+    sort_roots(w);
     *roots = w->roots.at;
     *n = w->roots.n;
     w->in[2 * w->n] = t;
@@ -249,12 +248,11 @@ qdot_watch_step(qdot_watch *w, const qdot_watch_reader *reader, double t, const 
 }
 
 bool
-qdot_watch_is_far(const qdot_watch *w, double t, const qdot_ode_series *series, int order,
-                  double unit)
+qdot_watch_is_far(const qdot_watch *w, const qdot_ode_expanded *step)
 {
     for (size_t i = 0; i < w->m; i++)
         if (w->coordinate[i] == SIZE_MAX || w->start.on[i] ||
-            !is_far(w, i, t, NULL, series, order, unit))
+            !is_far(w, i, step->t_end, NULL, step))
             return false;
     return true;
 }
@@ -277,22 +275,22 @@ qdot_watch_take(qdot_watch *w)
 }
 
 qdot_status
-qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t,
-                 const double *y, double least, const int *before, const double *residual,
-                 bool *on)
+qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
+                 const qdot_watch_known *known, bool *on)
 {
+    w->reader = *reader;
     memcpy(w->y, y, 2 * w->n * sizeof *y);
     w->t = t;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, reader, t, w->start.g0));
+    QDOT_TRY(qdot_watch_value(w, t, w->start.g0));
     for (size_t i = 0; i < w->m; i++) {
         double g = w->start.g0[i], noise;
 
-        QDOT_TRY(qdot_watch_noise(w, reader, t, y, DBL_EPSILON, least, i, &noise));
+        QDOT_TRY(qdot_watch_noise(w, t, y, DBL_EPSILON, known->least, i, &noise));
         w->start.on[i] = fabs(g) <= 2 * noise;
-        if (residual && residual[i] >= 0)
-            w->start.on[i] = w->start.on[i] || fabs(g) <= 4 * residual[i];
-        w->start.sign[i] = w->start.on[i] ? before[i] : qdot_watch_sign(g);
+        if (known->residual && known->residual[i] >= 0)
+            w->start.on[i] = w->start.on[i] || fabs(g) <= 4 * known->residual[i];
+        w->start.sign[i] = w->start.on[i] ? known->before[i] : qdot_watch_sign(g);
         on[i] = w->start.on[i];
     }
     return QDOT_OK;
@@ -311,11 +309,10 @@ qdot_watch_slow(const qdot_watch *w)
 }
 
 qdot_status
-qdot_watch_look(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
-                int *signs)
+qdot_watch_look(qdot_watch *w, double t, const double *y, int *signs)
 {
     memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, reader, t, w->g));
+    QDOT_TRY(qdot_watch_value(w, t, w->g));
     for (size_t i = 0; i < w->m; i++)
         signs[i] = qdot_watch_sign(w->g[i]);
     return QDOT_OK;

@@ -25,23 +25,8 @@
 #define QDOT_SIM_WATCH_H
 
 #include "ode/system.h"
-#include "sim/model/constrained.h"
-#include "sim/plan/plan.h"
-
-typedef struct {
-    size_t function;
-    double t;
-    int way;         /* the sign it goes over to in the direction of the run; 0: none */
-    double residual; /* |g| at the doubles on both sides of it, the larger */
-    bool exact;      /* g is 0 at t */
-} qdot_root;
-
-/* How states within a step are had. */
-typedef struct {
-    qdot_status (*read)(double t, double *y, void *user);
-    void *user;
-    const qdot_ode_system *system; /* for accelerations and multipliers */
-} qdot_watch_reader;
+#include "sim/course/root.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_watch qdot_watch;
 
@@ -55,34 +40,34 @@ void qdot_watch_free(qdot_watch *w);
 /* g_i is coordinate - bound: then a step far from it needs no look. */
 void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound);
 
-/* A piece of the run begins at (t, y).
- *   before    [m] the signs just before, 0: none, as at the start of a run
- *   least     what |numbers| count as at least where rounding is judged: 0, or 1 for a
- *             start that has been moved by a rounding of 1
- *   residual  [m] NULL, or |g| up to which it is 0: where it has been located there
- * on [m] out: whether g is 0 here. */
+/* What is known where a piece begins. */
+typedef struct {
+    double least;           /* what |numbers| count as at least where rounding is judged: 0, or 1
+                               for a start that has been moved by a rounding of 1 */
+    const int *before;      /* [m] the signs just before, 0: none, as at the start of a run */
+    const double *residual; /* [m] NULL, or |g| up to which it is 0: where it has been located
+                               there */
+} qdot_watch_known;
+
+/* A piece of the run begins at (t, y), whose states `reader` has from now on, copied. on [m]
+ * out: whether g is 0 here. */
 QDOT_MUST_CHECK qdot_status qdot_watch_begin(qdot_watch *w,
                                              const qdot_watch_reader *reader, double t,
-                                             const double *y, double least,
-                                             const int *before, const double *residual,
+                                             const double *y, const qdot_watch_known *known,
                                              bool *on);
 
 /* All roots of the step to (t, y), ascending in the direction of the run; borrowed until
  * the next call. `last`: the step ends the run, whose end counts. Repeating it tries
  * another step from the same start. The step is taken by _take.
- *   series  NULL, or that of the step: the state at start + unit s */
-QDOT_MUST_CHECK qdot_status qdot_watch_step(qdot_watch *w,
-                                            const qdot_watch_reader *reader, double t,
-                                            const double *y, bool last,
-                                            const qdot_ode_series *series, int order,
-                                            double unit, const qdot_root **roots,
-                                            size_t *n);
+ *   step  NULL, or that of the system's series, to t */
+QDOT_MUST_CHECK qdot_status qdot_watch_step(qdot_watch *w, double t, const double *y,
+                                            bool last, const qdot_ode_expanded *step,
+                                            const qdot_root **roots, size_t *n);
 void qdot_watch_take(qdot_watch *w);
 
-/* Whether the step to t, by its series, stays far from everything that is watched, which
- * are bounds: then no look is needed, and it is taken by _pass. */
-bool qdot_watch_is_far(const qdot_watch *w, double t, const qdot_ode_series *series,
-                       int order, double unit);
+/* Whether the step, by its series, stays far from everything that is watched, which are
+ * bounds: then no look is needed, and it is taken by _pass. */
+bool qdot_watch_is_far(const qdot_watch *w, const qdot_ode_expanded *step);
 void qdot_watch_pass(qdot_watch *w, double t, const double *y);
 
 /* Of the step last looked at: [m] the sign right behind its start, 0 where g vanishes
@@ -92,8 +77,7 @@ const int *qdot_watch_first(const qdot_watch *w);
 const bool *qdot_watch_slow(const qdot_watch *w);
 
 /* The signs of all g at a state. */
-QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w,
-                                            const qdot_watch_reader *reader, double t,
-                                            const double *y, int *signs);
+QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w, double t, const double *y,
+                                            int *signs);
 
 #endif

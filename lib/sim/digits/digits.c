@@ -196,15 +196,6 @@ qdot_digits_fill_report(qdot_run *run)
 }
 
 qdot_status
-qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs, qdot_expr time,
-                      qdot_expr *values, double *errors)
-{
-    if (!run->precise)
-        return qdot_fail(QDOT_EINVAL, "the run was made in doubles");
-    return qdot_precise_pair_values(run->precise, m, exprs, time, values, errors);
-}
-
-qdot_status
 qdot_digits_occurrences(qdot_run *run)
 {
     const qdot_course *c = &run->course;

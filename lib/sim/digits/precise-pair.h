@@ -2,8 +2,7 @@
 #ifndef QDOT_SIM_PRECISE_PAIR_H
 #define QDOT_SIM_PRECISE_PAIR_H
 
-#include "sim/course/course.h"
-#include "sim/digits/precise.h"
+#include "sim/course/course-state.h"
 #include "sim/form/precise-bind.h"
 
 #define QDOT_LOG2_10 3.3219280948873626
@@ -33,6 +32,7 @@ typedef struct {
     double *y;             /* [2n] for them */
 } qdot_precise_side;
 
+typedef struct qdot_precise_pair qdot_precise_pair;
 struct qdot_precise_pair {
     const qdot_plan *plan;
     const qdot_run_request *request; /* while it is made */

@@ -15,7 +15,7 @@
 
 #include <mpfr.h>
 
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 /* start: t0, then q and q' behind one number that is not looked at, [2 + 2n], as given; y [2n]: in
  * doubles, on the constraints. What breaks them by less than 2^enough stays as it is, and so does

@@ -6,6 +6,7 @@
 #include "expr/print.h"
 #include "sim/course/reader.h"
 #include "sim/digits/precise-pair.h"
+#include "sim/digits/precise.h"
 #include "sim/model/constraints.h"
 #include "tape/constant.h"
 #include "series/precise.h"

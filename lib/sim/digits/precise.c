@@ -1,7 +1,6 @@
 /* precise.c -- two runs in MPFR, and how many digits they need. */
 #include "sim/digits/precise.h"
 
-#include <float.h>
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
@@ -74,14 +73,6 @@ side_clear(qdot_precise_side *s)
     qdot_reals_clear(&s->start);
     qdot_free(s->y);
     *s = (qdot_precise_side){.near = SIZE_MAX};
-}
-
-qdot_status
-qdot_precise_constant(const qdot_plan *plan, qdot_expr e, mpfr_ptr x)
-{
-    e = qdot_plan_substitute(plan, e);
-    QDOT_TRY(qdot_pool_check(plan->pool));
-    return qdot_constant_real(plan->pool, e, x);
 }
 
 /* What the start breaks in all of its digits: log2 of the largest residual of a tape. */
@@ -217,60 +208,11 @@ is_kept(qdot_status status)
            || status == QDOT_ESINGULAR;
 }
 
-mpfr_t *
-qdot_precise_first(const qdot_precise_side *s)
-{
-    return qdot_precise_point(&s->segments.at[0].run, 0);
-}
-
-mpfr_t *
-qdot_precise_last(const qdot_precise_side *s)
-{
-    const qdot_precise_run *run = &s->segments.at[s->segments.n - 1].run;
-
-    return qdot_precise_point(run, run->count - 1);
-}
-
 /* Whether it has points at all. */
 static bool
 is_there(const qdot_precise_side *s)
 {
     return s->segments.n > 0 && s->segments.at[s->segments.n - 1].run.count > 0;
-}
-
-size_t
-qdot_precise_segment_at(const qdot_precise_side *s, mpfr_srcptr t)
-{
-    size_t low = 0, high = s->segments.n;
-    int way = mpfr_less_p(qdot_precise_last(s)[0], qdot_precise_first(s)[0]) ? -1 : 1;
-
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-
-        if (way * mpfr_cmp(t, qdot_precise_point(&s->segments.at[middle].run, 0)[0]) >= 0)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-qdot_status
-qdot_precise_state_in(qdot_precise_side *s, size_t segment, mpfr_srcptr t, mpfr_t *y)
-{
-    const qdot_precise_segment *at = &s->segments.at[segment];
-
-    if (segment != s->near_segment)
-        s->near = SIZE_MAX;
-    s->near_segment = segment;
-    return qdot_precise_at(&at->run, qdot_precise_bind_system(s->binds[at->mode]), t,
-                           &s->near, y);
-}
-
-qdot_status
-qdot_precise_state(qdot_precise_side *s, mpfr_srcptr t, mpfr_t *y)
-{
-    return qdot_precise_state_in(s, qdot_precise_segment_at(s, t), t, y);
 }
 
 /* The last step ended outside a domain: back to the last time inside it, to the bits that
@@ -425,22 +367,6 @@ const qdot_ode_result *
 qdot_precise_pair_result(const qdot_precise_pair *pair)
 {
     return &pair->run.result;
-}
-
-double
-qdot_precise_power(double x)
-{
-    mpfr_t power; /* rounded alike by every C library */
-    double r;
-
-    if (isnan(x))
-        return NAN;
-    mpfr_init2(power, DBL_MANT_DIG);
-    mpfr_set_d(power, x, MPFR_RNDN);
-    mpfr_exp10(power, power, MPFR_RNDN);
-    r = mpfr_get_d(power, MPFR_RNDN);
-    mpfr_clear(power);
-    return fmax(r, DBL_MIN);
 }
 
 double

@@ -30,8 +30,7 @@
 #include "sim/course/course.h"
 #include "sim/course/drift.h"
 #include "sim/model/domain.h"
-#include "sim/plan/plan.h"
-#include "sim/run/run.h"
+#include "sim/model/equations.h"
 
 /* Digits that may be asked for. */
 enum { QDOT_PRECISE_MOST_DIGITS = 10000 };

@@ -6,7 +6,7 @@
 
 #include "base/interrupt.h"
 #include "ode/companion.h"
-#include "sim/course/run-state.h"
+#include "sim/error/companion.h"
 
 /* Radians on either side. */
 static const double least_turn = 0.5;

@@ -23,7 +23,7 @@
 #define QDOT_SIM_DISTANCE_H
 
 #include "sim/course/reader.h"
-#include "sim/run/run.h"
+#include "sim/course/report.h"
 
 enum { QDOT_DISTANCE_POINTS = 24 };
 

@@ -12,7 +12,7 @@
 
 #include "base/text.h"
 #include "ode/system.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 /* Append to `reason` what the equations of `system` show at t and y [2n], a run of that
  * length having failed there. Nothing where they show nothing. Errors: QDOT_ENOMEM. */

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/interrupt.h"
-#include "sim/course/run-state.h"
+#include "sim/error/companion.h"
 
 /* Of the variation: what the end of a run shows where it is worth looking. */
 static const double worth_looking = 0.02;

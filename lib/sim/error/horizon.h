@@ -23,7 +23,7 @@
 #define QDOT_SIM_HORIZON_H
 
 #include "sim/course/reader.h"
-#include "sim/run/run.h"
+#include "sim/course/report.h"
 
 /* Of a run that has its error: report.horizon, and report.error where there is one.
  * QDOT_OK without a horizon too. Errors: QDOT_ENOMEM, QDOT_EINTR. */

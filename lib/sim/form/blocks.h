@@ -3,7 +3,7 @@
 #define QDOT_SIM_BLOCKS_H
 
 #include "num/ldlt.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct {
     double *a;      /* [n x n] M, then its factors */

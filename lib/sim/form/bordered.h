@@ -20,7 +20,7 @@
 #define QDOT_SIM_BORDERED_H
 
 #include "ode/system.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_bordered qdot_bordered;
 

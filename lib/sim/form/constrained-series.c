@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "num/series.h"
-#include "sim/model/constraints.h"
 #include "sim/model/constrained.h"
+#include "sim/model/constraints.h"
 #include "series/taylor.h"
 
 enum { most_order = 44, lanes = 8 };

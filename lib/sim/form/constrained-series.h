@@ -23,7 +23,7 @@
 #define QDOT_SIM_CONSTRAINED_SERIES_H
 
 #include "ode/system.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_constrained_series qdot_constrained_series;
 

@@ -7,10 +7,11 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "ode/taylor.h"
-#include "sim/model/constrained.h"
 #include "sim/form/constrained-series.h"
-#include "sim/model/constraints.h"
+#include "sim/form/derived.h"
 #include "sim/form/direct.h"
+#include "sim/model/constrained.h"
+#include "sim/model/constraints.h"
 #include "sim/model/quotient.h"
 
 /* Beyond it an elimination in symbols takes more than one in numbers. */

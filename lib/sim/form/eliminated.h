@@ -23,7 +23,7 @@
 #define QDOT_SIM_ELIMINATED_H
 
 #include "ode/system.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 #define QDOT_ELIMINATED_TOL 1e-9
 

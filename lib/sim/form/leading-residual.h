@@ -11,7 +11,7 @@
 #define QDOT_SIM_LEADING_RESIDUAL_H
 
 #include "ode/system.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_leading_residual qdot_leading_residual; /* one a thread */
 

@@ -16,7 +16,7 @@
 #define QDOT_SIM_LEADING_H
 
 #include "ode/system.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_leading qdot_leading; /* one a thread */
 

@@ -12,7 +12,7 @@
 #define QDOT_SIM_PRECISE_BIND_H
 
 #include "ode/precise.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_precise_bind qdot_precise_bind;
 

@@ -369,3 +369,35 @@ qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **resi
     *residual = b.r;
     return QDOT_OK;
 }
+
+/* --- in numbers ------------------------------------------------------------------------ */
+
+void
+qdot_residual_forces(const qdot_residual *r, const double *weight, double *x, double *F)
+{
+    for (size_t f = 0; f < r->functions; f++) {
+        if (r->parent[f] != UINT32_MAX)
+            x[f] += x[r->parent[f]];
+        F[f] = 0;
+    }
+    for (size_t w = 0; w < r->n_weights; w++)
+        F[r->weights[w].to] += weight[w] * x[r->weights[w].from];
+    for (size_t f = r->functions; f-- > 0;)
+        if (r->parent[f] != UINT32_MAX)
+            F[r->parent[f]] += F[f];
+}
+
+void
+qdot_residual_masses(const qdot_residual *r, size_t n, const double *weight,
+                     const double *const *slope, double *x, double *F, double *M)
+{
+    for (size_t i = 0; i < n; i++) {
+        memset(x, 0, r->functions * sizeof *x);
+        for (size_t j = 0; j < r->n_slopes; j++)
+            if (r->slopes[j].coordinate == i)
+                x[r->slopes[j].function] = slope[j][0];
+        qdot_residual_forces(r, weight, x, F);
+        for (size_t j = 0; j < r->n_slopes; j++)
+            M[r->slopes[j].coordinate * n + i] += slope[j][0] * F[r->slopes[j].function];
+    }
+}

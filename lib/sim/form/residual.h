@@ -22,7 +22,7 @@
 #define QDOT_SIM_RESIDUAL_H
 
 #include "mech/scene/scene.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct {
     uint32_t to, from; /* F_to += w x''_from */
@@ -65,5 +65,13 @@ struct qdot_residual {
 QDOT_MUST_CHECK qdot_status qdot_residual_new(qdot_scene *scene, const qdot_plan *plan,
                                               qdot_residual **residual);
 void qdot_residual_free(qdot_residual *residual);
+
+/* F [functions] from the second derivatives of the differences, in x [functions], which become
+ * those of the functions: down the tree and up again. w [n_weights]. */
+void qdot_residual_forces(const qdot_residual *residual, const double *w, double *x, double *F);
+/* M [n x n], zeros before, column by column: the forces that q_i'' = 1 alone takes. The value of
+ * slope j is slope[j][0]; x, F [functions] are work space. */
+void qdot_residual_masses(const qdot_residual *residual, size_t n, const double *w,
+                          const double *const *slope, double *x, double *F, double *M);
 
 #endif

@@ -9,6 +9,7 @@
 #include "num/cholesky.h"
 #include "num/series.h"
 #include "sim/form/blocks.h"
+#include "sim/form/derived.h"
 #include "sim/form/shifted-tree.h"
 #include "sim/form/shifted-wide.h"
 #include "tape/shake.h"
@@ -58,24 +59,6 @@ struct qdot_shifted {
 
 /* --- one order ---------------------------------------------------------------------- */
 
-/* F from the second derivatives of the differences, in x: down the tree and up again. */
-static void
-gather_forces(const qdot_shifted *s, double *F)
-{
-    const qdot_residual *r = s->residual;
-
-    for (size_t f = 0; f < r->functions; f++) {
-        if (r->parent[f] != UINT32_MAX)
-            s->x[f] += s->x[r->parent[f]];
-        F[f] = 0;
-    }
-    for (size_t w = 0; w < r->n_weights; w++)
-        F[r->weights[w].to] += s->weight[w] * s->x[r->weights[w].from];
-    for (size_t f = r->functions; f-- > 0;)
-        if (r->parent[f] != UINT32_MAX)
-            F[r->parent[f]] += F[f];
-}
-
 /* F of order k from coefficients k + 2 of the differences. */
 static void
 accelerate(const qdot_shifted *s, int k)
@@ -89,7 +72,7 @@ accelerate(const qdot_shifted *s, int k)
     if (s->W)
         s->kernels->multiply(s->rows, r->functions, s->W, s->x, F);
     else
-        gather_forces(s, F);
+        qdot_residual_forces(r, s->weight, s->x, F);
     for (size_t j = 0; j < r->n_slopes && !s->one_each; j++)
         Fs[j] = F[r->slopes[j].function];
 }
@@ -262,12 +245,10 @@ factor(qdot_shifted *s, double t, const double *y)
     return QDOT_OK;
 }
 
-/* The same of an M without a tape, column by column: what accelerates with q_i'' alone, and the
- * forces that takes. */
+/* The same of an M without a tape. */
 static qdot_status
 factor_unformed(qdot_shifted *s)
 {
-    const qdot_residual *r = s->residual;
     const size_t n = s->plan->n;
     double *M = qdot_calloc(n * n, sizeof *M);
     size_t row;
@@ -275,15 +256,7 @@ factor_unformed(qdot_shifted *s)
 
     if (!M)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++) {
-        memset(s->x, 0, s->rows * sizeof *s->x);
-        for (size_t j = 0; j < r->n_slopes; j++)
-            if (r->slopes[j].coordinate == i)
-                s->x[r->slopes[j].function] = s->slope[j][0];
-        gather_forces(s, s->F);
-        for (size_t j = 0; j < r->n_slopes; j++)
-            M[r->slopes[j].coordinate * n + i] += s->slope[j][0] * s->F[r->slopes[j].function];
-    }
+    qdot_residual_masses(s->residual, n, s->weight, s->slope, s->x, s->F, M);
     status = qdot_cholesky_factor(M, n, NULL, &row);
     qdot_free(M);
     return status == QDOT_ESINGULAR ? qdot_blocks_singular(s->plan, s->plan->blocks, row) : status;
@@ -515,7 +488,7 @@ multiply_out(qdot_shifted *s)
     for (size_t f = 0; f < n; f++) {
         memset(s->x, 0, n * sizeof *s->x);
         s->x[f] = 1;
-        gather_forces(s, s->F);
+        qdot_residual_forces(s->residual, s->weight, s->x, s->F);
         memcpy(s->W + f * s->rows, s->F, n * sizeof *s->F);
     }
     return QDOT_OK;

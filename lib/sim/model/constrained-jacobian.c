@@ -2,25 +2,8 @@
 #include <string.h>
 
 #include "sim/model/constrained-parts.h"
+#include "sim/model/constrained.h"
 #include "tape/derivative.h"
-
-qdot_status
-qdot_constrained_make_slopes(qdot_constrained *h, size_t outputs)
-{
-    const qdot_tape *tapes[] = {h->plan->tape, h->c->positions, h->c->velocities};
-    const size_t columns = 2 * h->plan->n + 1;
-    size_t work = 0;
-
-    for (size_t i = 0; i < sizeof tapes / sizeof *tapes; i++) {
-        size_t w = qdot_derivative_work(tapes[i]);
-
-        work = w > work ? w : work;
-    }
-    h->slopes = qdot_calloc(outputs * columns + 1, sizeof *h->slopes);
-    h->gains = qdot_calloc((h->plan->n + h->c->m) * columns, sizeof *h->gains);
-    h->slopes_work = qdot_calloc(work + 1, sizeof *h->slopes_work);
-    return h->slopes && h->gains && h->slopes_work ? QDOT_OK : QDOT_ENOMEM;
-}
 
 /* Row `row` of the gains += c of row `from` of the slopes. */
 static void

@@ -1,10 +1,11 @@
-/* constrained-parts.h -- a plan with constraints from inside. Internal to sim/constrained*.c.
+/* constrained-parts.h -- a plan with constraints from inside. For sim/model/constrained*.c
+ * only.
  */
 #ifndef QDOT_SIM_CONSTRAINED_PARTS_H
 #define QDOT_SIM_CONSTRAINED_PARTS_H
 
 #include "num/least-move.h"
-#include "sim/model/constrained.h"
+#include "sim/model/constraints.h"
 
 /* The rows that restrict positions, velocities, accelerations: kinds up to it. */
 typedef struct {
@@ -18,6 +19,7 @@ typedef struct {
     qdot_least_move move;
 } qdot_constrained_level;
 
+typedef struct qdot_constrained qdot_constrained;
 struct qdot_constrained {
     const qdot_plan *plan;
     const qdot_constraints *c;
@@ -52,13 +54,8 @@ void qdot_constrained_raise_bounds(const qdot_constrained_level *level, const do
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor_metric(qdot_constrained *h,
                                                            qdot_constrained_level *level);
 /* At what is loaded, if the level was never factored: qdot_constrained_look_beside. */
-static inline qdot_status
-qdot_constrained_look_first(const qdot_constrained *h, qdot_constrained_level *level)
-{
-    return level->m > 1 && level->saddle.rank == QDOT_SADDLE_UNKNOWN
-               ? qdot_constrained_look_beside(h->plan, &level->saddle, level->row, h->in)
-               : QDOT_OK;
-}
+QDOT_MUST_CHECK qdot_status qdot_constrained_look_first(const qdot_constrained *h,
+                                                        qdot_constrained_level *level);
 /* Factor a system of the rows that `row` [s->m] says (NULL: all); its failures named. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor_rows(const qdot_plan *plan,
                                                          qdot_saddle *s,
@@ -77,10 +74,6 @@ void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level)
  * row [s->m] of the constraints, NULL: all. */
 size_t qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s,
                                   const size_t *row, double below, qdot_text *names);
-
-/* Room for a Jacobian; outputs: the most of a tape. */
-QDOT_MUST_CHECK qdot_status qdot_constrained_make_slopes(qdot_constrained *h,
-                                                         size_t outputs);
 
 static inline const qdot_tape *
 qdot_constrained_tape(const qdot_tape *own, const qdot_tape *plans)

@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "sim/model/constrained-parts.h"
+#include "sim/model/constrained.h"
 
 enum { most_iterations = 30 };
 

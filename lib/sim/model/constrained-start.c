@@ -4,6 +4,7 @@
 
 #include "num/row-space.h"
 #include "sim/model/constrained-parts.h"
+#include "sim/model/constrained.h"
 
 /* A start may break a constraint by the rounding of decimals as people type them. */
 static const double start_tolerance = 1e-9;

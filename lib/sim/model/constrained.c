@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "sim/model/constrained-parts.h"
+#include "tape/derivative.h"
 #include "tape/shake.h"
 
 typedef qdot_constrained_level level;
@@ -105,6 +106,44 @@ qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *l)
 {
     qdot_tape_eval(qdot_constrained_tape(h->metric, h->c->metric), h->in, h->out, h->work);
     unpack(h, l, h->out);
+}
+
+qdot_status
+qdot_constrained_look_beside(const qdot_plan *plan, qdot_saddle *s, const size_t *row,
+                             const double *in)
+{
+    static const double beside = 1e-3;
+    const qdot_constraints *c = plan->constraints;
+    const size_t inputs = 2 * plan->n + 1, outputs = qdot_tape_outputs(c->metric);
+    double *room = qdot_calloc(inputs + outputs + qdot_tape_work(c->metric) + 1, sizeof *room);
+    double *out = room + inputs;
+    unsigned long seed = 12345;
+
+    if (!room)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < inputs; i++) {
+        seed = seed * 1103515245 + 12345;
+        room[i] = in[i] * (1 + beside * (1 + (double)(seed >> 16 & 0x7fff) / 0x8000));
+    }
+    qdot_tape_eval(c->metric, room, out, out + outputs);
+    for (size_t k = 0, at = 0; k < c->n_slopes; k++) {
+        const double slope = out[c->n_masses + k];
+
+        while (at < s->m && (row ? row[at] : at) < c->slopes[k].row)
+            at++;
+        if (at < s->m && (row ? row[at] : at) == c->slopes[k].row && isfinite(slope))
+            s->widest[at] += slope * slope;
+    }
+    qdot_free(room);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_constrained_look_first(const qdot_constrained *h, qdot_constrained_level *level)
+{
+    return level->m > 1 && level->saddle.rank == QDOT_SADDLE_UNKNOWN
+               ? qdot_constrained_look_beside(h->plan, &level->saddle, level->row, h->in)
+               : QDOT_OK;
 }
 
 static qdot_status
@@ -379,6 +418,25 @@ shake(qdot_constrained *h)
     return qdot_tape_shake(h->plan->tape, &h->equations);
 }
 
+/* Room for a Jacobian; outputs: the most of a tape. */
+static qdot_status
+make_slopes(qdot_constrained *h, size_t outputs)
+{
+    const qdot_tape *tapes[] = {h->plan->tape, h->c->positions, h->c->velocities};
+    const size_t columns = 2 * h->plan->n + 1;
+    size_t work = 0;
+
+    for (size_t i = 0; i < sizeof tapes / sizeof *tapes; i++) {
+        size_t w = qdot_derivative_work(tapes[i]);
+
+        work = w > work ? w : work;
+    }
+    h->slopes = qdot_calloc(outputs * columns + 1, sizeof *h->slopes);
+    h->gains = qdot_calloc((h->plan->n + h->c->m) * columns, sizeof *h->gains);
+    h->slopes_work = qdot_calloc(work + 1, sizeof *h->slopes_work);
+    return h->slopes && h->gains && h->slopes_work ? QDOT_OK : QDOT_ENOMEM;
+}
+
 static qdot_status
 make(qdot_constrained *h, bool shaken)
 {
@@ -406,7 +464,7 @@ make(qdot_constrained *h, bool shaken)
     for (int kind = 0; kind < 3; kind++)
         QDOT_TRY(make_level(h, (qdot_constraint_kind)kind));
     if (qdot_plan_needs_jacobian(h->plan))
-        QDOT_TRY(qdot_constrained_make_slopes(h, out));
+        QDOT_TRY(make_slopes(h, out));
     return shaken ? shake(h) : QDOT_OK;
 }
 

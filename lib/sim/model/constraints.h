@@ -19,7 +19,7 @@
 
 #include "mech/scene/scene.h"
 #include "num/saddle.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct {
     char *name;           /* "rod", "pin, 1"; owned */

@@ -3,7 +3,7 @@
 #define QDOT_SIM_DOMAIN_H
 
 #include "ode/trajectory.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct {
     size_t coordinate; /* its index */

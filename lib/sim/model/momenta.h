@@ -7,7 +7,7 @@
 #define QDOT_SIM_MOMENTA_H
 
 #include "ode/system.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_momenta qdot_momenta; /* one a thread */
 

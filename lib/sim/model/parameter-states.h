@@ -14,7 +14,7 @@
 #define QDOT_SIM_PARAMETER_STATES_H
 
 #include "mech/scene/scene.h"
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 /* A request with these coordinates in it. Start from {0}. */
 typedef struct {

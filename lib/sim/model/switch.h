@@ -24,7 +24,7 @@
 #ifndef QDOT_SIM_SWITCH_H
 #define QDOT_SIM_SWITCH_H
 
-#include "sim/run/run.h"
+#include "sim/model/request.h"
 
 typedef struct {
     qdot_expr u;  /* as it stands in the equations, the values put in */

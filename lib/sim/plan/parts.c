@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/walk.h"
+#include "sim/form/derived.h"
 #include "sim/plan/routh.h"
 #include "series/taylor.h"
 

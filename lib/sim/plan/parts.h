@@ -11,7 +11,7 @@
 #ifndef QDOT_SIM_PARTS_H
 #define QDOT_SIM_PARTS_H
 
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 /* Into plan->parts; none where all hangs together. The plan is made but for this, without
  * constraints and for a method without a Jacobian. */

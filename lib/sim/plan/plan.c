@@ -1,26 +1,21 @@
-/* plan.c -- M and f with numbers in place, their structure, their tapes. */
+/* plan.c -- M and f with numbers in place, and which method and form integrate them. */
 #include "sim/plan/plan.h"
 
 #include <string.h>
 
-#include "expr/calculus.h"
-#include "expr/walk.h"
 #include "ode/leading.h"
 #include "sim/form/bordered.h"
-#include "sim/model/constraints.h"
+#include "sim/form/constrained-series.h"
 #include "sim/form/direct.h"
 #include "sim/form/eliminated.h"
-#include "sim/model/parameter-states.h"
-#include "sim/plan/parts.h"
-#include "sim/model/quotient.h"
 #include "sim/form/residual.h"
-#include "sim/plan/routh.h"
 #include "sim/form/shifted.h"
-#include "sim/model/substitute.h"
+#include "sim/model/constraints.h"
+#include "sim/model/parameter-states.h"
 #include "sim/model/switch.h"
+#include "sim/plan/parts.h"
+#include "sim/plan/routh.h"
 #include "sim/plan/tree-alone.h"
-#include "sim/form/constrained-series.h"
-#include "tape/constant.h"
 #include "series/program.h"
 #include "series/taylor.h"
 
@@ -30,79 +25,6 @@ static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
 static const char *const later_methods[] = {"radau", "gauss"};
-
-void
-qdot_plan_free(qdot_plan *p)
-{
-    if (!p)
-        return;
-    for (size_t b = 0; p->blocks && b < p->structure.blocks; b++) {
-        qdot_free(p->blocks[b].M);
-        qdot_free(p->blocks[b].side);
-    }
-    for (size_t i = 0; p->names && i < p->n; i++)
-        qdot_free(p->names[i]);
-    qdot_free(p->blocks);
-    qdot_structure_clear(&p->structure);
-    qdot_free(p->names);
-    qdot_free(p->inputs);
-    qdot_free(p->M);
-    qdot_free(p->f);
-    qdot_free(p->symbols);
-    qdot_free(p->values);
-    qdot_tape_free(p->tape);
-    qdot_residual_free(p->residual);
-    qdot_constraints_free(p->constraints);
-    for (size_t k = 0; k < p->n_parts; k++)
-        qdot_plan_free(p->parts[k]);
-    qdot_free(p->parts);
-    qdot_free(p->place);
-    qdot_plan_free(p->reduced);
-    qdot_plan_free(p->eliminated);
-    qdot_free(p->kept);
-    qdot_tape_free(p->momenta);
-    qdot_tape_free(p->bordered);
-    qdot_free(p);
-}
-
-size_t
-qdot_plan_inputs(const qdot_plan *p)
-{
-    return 3 * p->n + 1 + (p->constraints ? p->constraints->m : 0);
-}
-
-size_t
-qdot_plan_operations(const qdot_plan *p, size_t *calls)
-{
-    const qdot_plan *moving = p->reduced ? p->reduced : p;
-    const qdot_tape *tapes[] = {moving->tape, NULL};
-    size_t operations = 0, of_calls = 0;
-
-    if (!moving->tape) {
-        tapes[0] = moving->residual->places;
-        tapes[1] = moving->residual->forces;
-    }
-    for (int i = 0; i < 2 && tapes[i]; i++) {
-        operations += qdot_tape_operations(tapes[i]);
-        of_calls += qdot_tape_calls(tapes[i]);
-    }
-    if (calls)
-        *calls = of_calls;
-    return operations;
-}
-
-bool
-qdot_plan_needs_jacobian(const qdot_plan *p)
-{
-    return p->method->needs_jacobian
-           || qdot_ode_method_find(p->method->partner)->needs_jacobian;
-}
-
-qdot_expr
-qdot_plan_substitute(const qdot_plan *p, qdot_expr e)
-{
-    return qdot_substitute(p->pool, e, p->n_values, p->symbols, p->values);
-}
 
 /* --- the scene ---------------------------------------------------------------------- */
 
@@ -218,157 +140,7 @@ derive(qdot_plan *p, qdot_scene *scene)
     return QDOT_OK;
 }
 
-/* --- structure ---------------------------------------------------------------------- */
-
-/* The blocks among the coordinates index [n]. */
-static qdot_status
-find_blocks(qdot_plan *p, size_t n, const size_t *index)
-{
-    bool *pattern = qdot_calloc(n * n + 1, sizeof *pattern);
-    qdot_status status;
-
-    if (!pattern)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n * n; i++)
-        pattern[i] = p->M[index[i / n] * p->n + index[i % n]] != QDOT_ZERO;
-    status = qdot_structure_find(pattern, n, &p->structure);
-    for (size_t i = 0; status == QDOT_OK && i < n; i++) {
-        bool some = false;
-
-        for (size_t j = 0; j < n; j++)
-            some |= pattern[i * n + j];
-        if (!some)
-            status = qdot_fail(QDOT_ESINGULAR,
-                               "the mass matrix is singular: no mass moves with %s",
-                               p->names[index[i]]);
-    }
-    qdot_free(pattern);
-    for (size_t i = 0; status == QDOT_OK && i < n; i++)
-        p->structure.index[i] = index[p->structure.index[i]];
-    return status;
-}
-
-static qdot_expr
-entry(const qdot_plan *p, const qdot_plan_block *b, size_t i, size_t j)
-{
-    return p->M[b->index[i] * p->n + b->index[j]];
-}
-
-static qdot_status
-fill_block(qdot_plan *p, qdot_plan_block *b)
-{
-    size_t n = b->n;
-
-    b->constant = n > 1;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++)
-            b->constant = b->constant && qdot_constant_is(p->pool, entry(p, b, i, j));
-    if (!b->constant)
-        return QDOT_OK;
-    b->M = qdot_calloc(n * n, sizeof *b->M);
-    b->side = qdot_calloc(n * n, sizeof *b->side);
-    if (!b->M || !b->side)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++) {
-            int side;
-
-            QDOT_TRY(qdot_constant_round(p->pool, entry(p, b, i, j), &b->M[i * n + j],
-                                         &side));
-            b->side[i * n + j] = (signed char)side;
-        }
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_plan_structure(qdot_plan *p, const bool *in)
-{
-    size_t *index = qdot_calloc(p->n, sizeof *index), n = 0;
-    qdot_status status = index ? QDOT_OK : QDOT_ENOMEM;
-
-    for (size_t i = 0; index && i < p->n; i++)
-        if (!in || in[i])
-            index[n++] = i;
-    if (status == QDOT_OK)
-        status = find_blocks(p, n, index);
-    qdot_free(index);
-    QDOT_TRY(status);
-    p->blocks = qdot_calloc(p->structure.blocks + 1, sizeof *p->blocks);
-    if (!p->blocks)
-        return QDOT_ENOMEM;
-    for (size_t k = 0; k < p->structure.blocks; k++) {
-        qdot_plan_block *b = p->blocks + k;
-
-        b->index = p->structure.index + p->structure.start[k];
-        b->n = p->structure.start[k + 1] - p->structure.start[k];
-        QDOT_TRY(fill_block(p, b));
-    }
-    return QDOT_OK;
-}
-
-/* --- tapes -------------------------------------------------------------------------- */
-
-typedef qdot_vec(qdot_expr) expressions;
-
-static qdot_status
-push_mass(const qdot_plan *p, const qdot_plan_block *b, expressions *out)
-{
-    for (size_t i = 0; i < b->n; i++)
-        for (size_t j = 0; j <= i; j++)
-            QDOT_TRY(qdot_vec_push(out, entry(p, b, i, j)));
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_plan_lower(qdot_plan *p, size_t inputs, size_t more, const qdot_expr *others)
-{
-    expressions out = {0};
-    qdot_status status = QDOT_OK;
-
-    for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
-        const qdot_plan_block *b = p->blocks + k;
-
-        if (b->n == 1) {
-            status = qdot_vec_push(
-                &out, qdot_quotient(p->pool, p->f[b->index[0]], entry(p, b, 0, 0)));
-            continue;
-        }
-        for (size_t i = 0; i < b->n && status == QDOT_OK; i++)
-            status = qdot_vec_push(&out, p->f[b->index[i]]);
-        if (!b->constant && status == QDOT_OK)
-            status = push_mass(p, b, &out);
-    }
-    for (size_t i = 0; i < more && status == QDOT_OK; i++)
-        status = qdot_vec_push(&out, others[i]);
-    if (status == QDOT_OK)
-        status = qdot_pool_check(p->pool);
-    if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, inputs, p->inputs, out.n, out.at, &p->tape);
-    qdot_free(out.at);
-    return status;
-}
-
 /* --- Taylor series ------------------------------------------------------------------ */
-
-double
-qdot_plan_cost(const qdot_ode_series *series)
-{
-    const double p = 20, *c = series->cost;
-
-    return c[0] + c[1] * p + c[2] * p * p;
-}
-
-qdot_status
-qdot_plan_measure(qdot_plan *plan)
-{
-    qdot_direct *direct;
-
-    QDOT_TRY(qdot_direct_new(plan, false, &direct));
-    plan->convolutions_derived = qdot_direct_convolutions(direct);
-    plan->cost = qdot_plan_cost(qdot_direct_series(direct));
-    qdot_direct_free(direct);
-    return QDOT_OK;
-}
 
 /* The shorter of the two forms of the equations. Where M is diagonal or constant nothing
  * is shorter than the derived one. */
@@ -438,6 +210,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     const char *hindrance;
 
     QDOT_TRY(qdot_constraints_new(scene, p, &p->constraints));
+    p->m = p->constraints->m;
     p->tape = p->constraints->equations;
     p->constraints->equations = NULL;
     p->treatment = request->treatment;
@@ -485,28 +258,6 @@ qdot_status
 qdot_plan_new(qdot_scene *scene, const qdot_run_request *request, qdot_plan **plan)
 {
     return qdot_plan_in_mode(scene, request, NULL, NULL, plan);
-}
-
-qdot_status
-qdot_plan_of_part(const qdot_plan *of, size_t n, size_t more, qdot_plan **plan)
-{
-    qdot_plan *r = qdot_calloc(1, sizeof *r);
-
-    *plan = r;
-    if (!r)
-        return QDOT_ENOMEM;
-    r->pool = of->pool;
-    r->n = n;
-    r->method = of->method;
-    r->chosen = of->chosen;
-    r->indefinite = of->indefinite;
-    r->smooth = of->smooth;
-    r->leading = of->leading;
-    r->inputs = qdot_calloc(3 * n + 1 + more, sizeof *r->inputs);
-    r->names = qdot_calloc(n, sizeof *r->names);
-    r->M = qdot_calloc(n * n, sizeof *r->M);
-    r->f = qdot_calloc(n, sizeof *r->f);
-    return r->inputs && r->names && r->M && r->f ? QDOT_OK : QDOT_ENOMEM;
 }
 
 qdot_status

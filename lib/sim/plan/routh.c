@@ -8,6 +8,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/simplify/simplify.h"
+#include "sim/form/derived.h"
 #include "series/program.h"
 #include "series/taylor.h"
 

@@ -23,7 +23,7 @@
 #ifndef QDOT_SIM_ROUTH_H
 #define QDOT_SIM_ROUTH_H
 
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 /* Coordinates that are eliminated are coupled with fewer others in M, which elimination fills. */
 enum { QDOT_ROUTH_COUPLED = 6 };

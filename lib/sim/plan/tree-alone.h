@@ -17,7 +17,7 @@
 #ifndef QDOT_SIM_TREE_ALONE_H
 #define QDOT_SIM_TREE_ALONE_H
 
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 /* The plan, complete but for its equations, becomes one: p->residual is there then, else it is as
  * it was. Errors: those of deriving. */

@@ -15,6 +15,7 @@
 #include "sim/course/polynomial-bounds.h"
 #include "sim/course/reader.h"
 #include "sim/course/run-state.h"
+#include "sim/run/run.h"
 
 /* Of the noise of evaluating: coefficients below it are nothing else. */
 #define QDOT_RANGE_NOISES 8

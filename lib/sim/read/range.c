@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "expr/print.h"
 #include "ode/companion.h"
+#include "sim/error/companion.h"
 #include "sim/error/horizon.h"
 #include "sim/error/noise.h"
 #include "sim/read/range-parts.h"

@@ -6,11 +6,12 @@
 #include "base/interrupt.h"
 #include "expr/print.h"
 #include "sim/course/reader.h"
-#include "sim/course/run-state.h"
 #include "sim/digits/precise.h"
+#include "sim/error/companion.h"
 #include "sim/error/distance.h"
 #include "sim/error/horizon.h"
 #include "sim/error/noise.h"
+#include "sim/run/run.h"
 
 /* Of t, for slopes. */
 static const double slope_over = 0x1p-28;
@@ -169,4 +170,13 @@ qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k
         status = add_lows(run, tape, accelerations, k, times, lows, values);
     qdot_tape_free(tape);
     return status;
+}
+
+qdot_status
+qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs, qdot_expr time,
+                      qdot_expr *values, double *errors)
+{
+    if (!run->precise)
+        return qdot_fail(QDOT_EINVAL, "the run was made in doubles");
+    return qdot_precise_pair_values(run->precise, m, exprs, time, values, errors);
 }

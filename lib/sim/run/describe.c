@@ -7,6 +7,7 @@
 #include "sim/form/eliminated.h"
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"
+#include "sim/run/run.h"
 
 /* What is integrated. */
 static const qdot_plan *

@@ -8,14 +8,14 @@
 #include "ode/companion.h"
 #include "ode/leading.h"
 #include "sim/course/multipliers.h"
-#include "sim/error/singular-places.h"
 #include "sim/digits/digits.h"
-#include "sim/error/failure.h"
-#include "sim/error/unresolved-forces.h"
-#include "sim/error/horizon.h"
-#include "sim/course/run-state.h"
-#include "sim/model/parameter-states.h"
 #include "sim/digits/precise.h"
+#include "sim/error/companion.h"
+#include "sim/error/failure.h"
+#include "sim/error/horizon.h"
+#include "sim/error/singular-places.h"
+#include "sim/error/unresolved-forces.h"
+#include "sim/model/parameter-states.h"
 #include "sim/start/start.h"
 #include "tape/constant.h"
 #include "tape/shake.h"
@@ -226,33 +226,6 @@ is_kept(qdot_status status)
 {
     return status == QDOT_OK || status == QDOT_EFAILED || status == QDOT_ELIMIT
            || status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EINTR;
-}
-
-qdot_status
-qdot_run_say_why(qdot_run *run, const char *reason)
-{
-    run->report.status = QDOT_RUN_FAILED;
-    run->reason = qdot_strdup(reason);
-    run->report.reason = run->reason;
-    return run->reason ? QDOT_OK : QDOT_ENOMEM;
-}
-
-/* The reason of a run that ended early by what happened in it. */
-qdot_status
-qdot_run_say_course(qdot_run *run)
-{
-    const qdot_course *c = &run->course;
-
-    if (c->stopped_by != SIZE_MAX) {
-        char reason[200];
-
-        snprintf(reason, sizeof reason, "the event %.150s",
-                 run->stage.events.at[c->stopped_by].name);
-        QDOT_TRY(qdot_run_say_why(run, reason));
-        run->report.status = QDOT_RUN_STOPPED;
-        return QDOT_OK;
-    }
-    return c->reason[0] != '\0' ? qdot_run_say_why(run, c->reason) : QDOT_OK;
 }
 
 /* Where constraints stop being independent: what the run went over, into the notice. That it

@@ -8,7 +8,7 @@
 #ifndef QDOT_SIM_ENSEMBLE_MOMENTA_H
 #define QDOT_SIM_ENSEMBLE_MOMENTA_H
 
-#include "sim/plan/plan.h"
+#include "sim/model/equations.h"
 
 typedef struct qdot_ensemble_momenta qdot_ensemble_momenta; /* one a thread */
 

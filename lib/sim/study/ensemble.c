@@ -11,6 +11,7 @@
 #include "sim/form/shifted-lanes.h"
 #include "sim/model/quotient.h"
 #include "sim/model/substitute.h"
+#include "sim/plan/plan.h"
 #include "sim/study/ensemble-momenta.h"
 #include "tape/constant.h"
 #include "tape/shake.h"

@@ -1,0 +1,108 @@
+/* switch.c -- what switches at a point. */
+#include "lang/functions/switch.h"
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr ray; /* 0 at the point */
+    const qdot_facts *facts;
+} place;
+
+static bool
+vanishes(const place *x, qdot_expr e)
+{
+    const qdot_expr zero = QDOT_ZERO;
+    qdot_expr there = qdot_subs(x->pool, e, 1, &x->ray, &zero);
+
+    if (there == QDOT_NIL) { /* not defined there */
+        (void)!qdot_pool_check(x->pool);
+        return false;
+    }
+    return qdot_is_zero(x->pool, there, x->facts);
+}
+
+/* Whether two of the arguments, that depend on ray, are equal at the point. */
+static bool
+meet(const place *x, qdot_expr e)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(x->pool, e); i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (vanishes(x, qdot_sub(x->pool, qdot_expr_arg(x->pool, e, i),
+                                     qdot_expr_arg(x->pool, e, k))))
+                return true;
+    return false;
+}
+
+static bool
+is_whole(qdot_pool *pool, qdot_expr there)
+{
+    return there != QDOT_NIL && qdot_expr_kind(pool, there) == QDOT_NUM &&
+           qdot_fun1(pool, QDOT_FLOOR, there) == there;
+}
+
+bool
+qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there, const qdot_facts *facts)
+{
+    if (id == QDOT_ABS || id == QDOT_SIGN)
+        return qdot_is_zero(pool, there, facts);
+    return id == QDOT_FLOOR && is_whole(pool, there);
+}
+
+/* Whether e, a whole number at the point, jumps there. */
+static bool
+jumps(const place *x, qdot_expr e)
+{
+    const qdot_expr zero = QDOT_ZERO;
+    bool whole = is_whole(x->pool, qdot_subs(x->pool, e, 1, &x->ray, &zero));
+
+    (void)!qdot_pool_check(x->pool);
+    return whole;
+}
+
+static bool
+switches(const place *x, qdot_expr e)
+{
+    qdot_pool *pool = x->pool;
+    const qdot_node *node = qdot_expr_node(pool, e);
+
+    if (node->kind == QDOT_REL)
+        return meet(x, e);
+    if (node->kind != QDOT_FUN)
+        return false;
+    switch ((qdot_fun_id)node->op) {
+    case QDOT_ABS:
+    case QDOT_SIGN: return vanishes(x, qdot_expr_arg(pool, e, 0));
+    case QDOT_MIN:
+    case QDOT_MAX: return meet(x, e);
+    case QDOT_FLOOR: return jumps(x, qdot_expr_arg(pool, e, 0));
+    case QDOT_MOD:
+        return jumps(
+            x, qdot_div(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1)));
+    default: return false;
+    }
+}
+
+qdot_status
+qdot_switch_find(qdot_pool *pool, qdot_expr e, qdot_expr ray, const qdot_facts *facts,
+                 qdot_expr *part)
+{
+    const place x = {pool, ray, facts};
+    qdot_vec(qdot_expr) parts = {0};
+    qdot_status status = QDOT_OK;
+    qdot_walk w;
+
+    *part = QDOT_NIL;
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
+        if (qdot_expr_contains(pool, w.at[i], ray))
+            status = qdot_vec_push(&parts, w.at[i]);
+    qdot_walk_end(&w);
+    for (size_t i = 0; i < parts.n && status == QDOT_OK && *part == QDOT_NIL; i++)
+        if (switches(&x, parts.at[i]))
+            *part = parts.at[i];
+    qdot_free(parts.at);
+    return status;
+}

@@ -1,0 +1,14 @@
+/* switch.h -- what switches at a point: abs(x) at 0, floor(x) at 1, if(x > 0, ...) at 0. */
+#ifndef QDOT_LANG_SWITCH_H
+#define QDOT_LANG_SWITCH_H
+
+#include "normal/decide.h"
+
+/* *part: the first part of e that switches where the symbol `ray` is 0; nil: none. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_switch_find(qdot_pool *pool, qdot_expr e, qdot_expr ray,
+                                             const qdot_facts *facts, qdot_expr *part);
+/* Whether a function of one argument switches where that is `there`. */
+bool qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there,
+                    const qdot_facts *facts);
+
+#endif

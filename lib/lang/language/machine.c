@@ -1,0 +1,93 @@
+/* machine.c -- the stack of an evaluation. */
+#include "lang/language/machine.h"
+
+#include <string.h>
+
+#include "lang/session/member.h"
+#include "lang/session/value-kind.h"
+
+qdot_status
+qdot_machine_push(qdot_machine *m, qdot_expr value)
+{
+    qdot_slot s = {.value = value};
+
+    QDOT_TRY(qdot_value_kind_check(m->pool, value));
+    return qdot_vec_push(&m->stack, s);
+}
+
+qdot_status
+qdot_machine_pass(qdot_machine *m, qdot_expr value)
+{
+    qdot_passed *p = m->session->passed;
+
+    if (p == NULL || p->spoiled || p->branches > 0 || value == QDOT_NIL ||
+        !qdot_expr_is_scalar(m->pool, value) ||
+        qdot_expr_kind(m->pool, value) == QDOT_NUM)
+        return QDOT_OK;
+    return qdot_vec_push(&p->value, value);
+}
+
+/* Functions of numbers only: what else is called may take its arguments apart. The body of a
+ * user's own function is read in its turn. */
+void
+qdot_machine_spoil(qdot_machine *m, const char *name)
+{
+    qdot_fun_id id;
+
+    if (m->session->passed != NULL && !qdot_fun_find(name, &id) && strcmp(name, "sqrt") != 0 &&
+        qdot_names_find(m->session->names, name) == NULL)
+        m->session->passed->spoiled = true;
+}
+
+qdot_status
+qdot_machine_along_runs(void)
+{
+    qdot_fail(QDOT_ENOTBUILT, "not built yet: comparing runs");
+    return qdot_hint("the value along a run is value(a.theta, 20)");
+}
+
+qdot_status
+qdot_machine_enter(qdot_machine *m, qdot_slot *s)
+{
+    if (s->run == NULL)
+        return QDOT_OK;
+    s->value = qdot_member_of(m->session, s->run, s->value);
+    s->run = NULL;
+    return qdot_value_kind_check(m->pool, s->value);
+}
+
+qdot_status
+qdot_machine_take_any(qdot_machine *m, size_t n)
+{
+    QDOT_TRY(qdot_grow(&m->args.at, &m->args.capacity, n, sizeof *m->args.at));
+    for (size_t i = 0; i < n; i++) {
+        QDOT_TRY(qdot_machine_enter(m, qdot_machine_top(m, n - i)));
+        m->args.at[i] = qdot_machine_top(m, n - i)->value;
+    }
+    m->args.n = n;
+    m->stack.n -= n;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_machine_take(qdot_machine *m, size_t n)
+{
+    QDOT_TRY(qdot_machine_take_any(m, n));
+    for (size_t i = 0; i < n; i++) {
+        if (m->args.at[i] == QDOT_NIL ||
+            !(qdot_expr_node(m->pool, m->args.at[i])->holds & QDOT_HAS_WORDS))
+            continue;
+        (void)qdot_fail(QDOT_ETYPE, "a text is no number");
+        return qdot_hint("latex(...) stands alone, behind `print`, in a list, by a name");
+    }
+    return QDOT_OK;
+}
+
+bool
+qdot_machine_all_scalars(const qdot_machine *m)
+{
+    for (size_t i = 0; i < m->args.n; i++)
+        if (!qdot_expr_is_scalar(m->pool, m->args.at[i]))
+            return false;
+    return true;
+}

@@ -1,0 +1,63 @@
+/* machine.h -- the state of an evaluation: its stack, its sums under way. */
+#ifndef QDOT_LANG_MACHINE_H
+#define QDOT_LANG_MACHINE_H
+
+#include "lang/language/evaluator.h"
+
+/* A value on the stack. */
+typedef struct {
+    qdot_expr value;
+    qdot_expr over;         /* coordinates its entries go by, or nil */
+    const char *run;        /* meant along this run, or NULL */
+    const char *label;      /* it is the position of this particle or body, or NULL */
+    const qdot_token *sign; /* the + - * / before it, or NULL for the first */
+} qdot_slot;
+
+/* A sum(...) under way. */
+typedef struct {
+    const char *index;
+    const qdot_token *place; /* where it stands */
+    bool varies;             /* terms depend on more than the index (language/partial-sum) */
+    long first, k, last;
+    uint32_t resume; /* code after it */
+    size_t terms;    /* where its terms begin */
+    bool bound;      /* the index is bound just now */
+    qdot_expr symbol; /* what it is bound to for a formula of many terms; nil: to numbers */
+} qdot_sum_frame;
+
+typedef struct {
+    qdot_cursor *c;
+    qdot_session *session;
+    qdot_pool *pool;
+    const qdot_program *program;
+    qdot_vec(qdot_slot) stack;
+    qdot_vec(qdot_sum_frame) frames;
+    qdot_vec(qdot_expr) terms; /* of all sums under way */
+    qdot_vec(qdot_expr) args;  /* scratch */
+    qdot_vec(const char *) labels; /* of the arguments of the call under way */
+    const qdot_token *blame;   /* where the caret goes if this fails */
+    bool belongs;              /* the run that follows as MEMBER has been taken */
+} qdot_machine;
+
+static inline qdot_slot *
+qdot_machine_top(qdot_machine *m, size_t n)
+{
+    return &m->stack.at[m->stack.n - n];
+}
+
+QDOT_MUST_CHECK qdot_status qdot_machine_push(qdot_machine *m, qdot_expr value);
+/* Keep a value that must exist, of a scalar with symbols. */
+QDOT_MUST_CHECK qdot_status qdot_machine_pass(qdot_machine *m, qdot_expr value);
+/* A call of `name`: unless it is a function of numbers only, it may take its arguments apart. */
+void qdot_machine_spoil(qdot_machine *m, const char *name);
+/* What is meant along a run and enters an expression: a symbol from now on. */
+QDOT_MUST_CHECK qdot_status qdot_machine_enter(qdot_machine *m, qdot_slot *s);
+/* The failure that runs are not compared yet. */
+qdot_status qdot_machine_along_runs(void);
+/* The top n values, popped into m->args; take: where a text, latex(e), has no place. */
+QDOT_MUST_CHECK qdot_status qdot_machine_take_any(qdot_machine *m, size_t n);
+QDOT_MUST_CHECK qdot_status qdot_machine_take(qdot_machine *m, size_t n);
+/* Whether those of m->args are scalars. */
+bool qdot_machine_all_scalars(const qdot_machine *m);
+
+#endif

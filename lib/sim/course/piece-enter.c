@@ -1,0 +1,249 @@
+/* piece-enter.c -- a mode that a piece enters: what it needs, and what crossing into it asks. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "sim/course/piece.h"
+#include "sim/model/constraints.h"
+
+qdot_status
+qdot_piece_enter(qdot_piece *x)
+{
+    qdot_course *c = x->c;
+    const qdot_mode *m;
+
+    QDOT_TRY(qdot_stage_mode(c->stage, x->side, &x->mode));
+    while (c->binds.n <= x->mode) {
+        QDOT_TRY(qdot_vec_push(&c->binds, NULL));
+        QDOT_TRY(qdot_vec_push(&c->systems, (qdot_ode_system){0}));
+        QDOT_TRY(qdot_vec_push(&c->watches, NULL));
+    }
+    m = qdot_piece_mode(x);
+    if (!c->binds.at[x->mode])
+        QDOT_TRY(qdot_bind_new(m->plan, c->shaken, &c->binds.at[x->mode]));
+    c->systems.at[x->mode] = qdot_bind_system(c->binds.at[x->mode]);
+    if (c->no_series)
+        c->systems.at[x->mode].series = NULL;
+    if (m->m == 0 || c->watches.at[x->mode])
+        return QDOT_OK;
+    QDOT_TRY(qdot_watch_new(m->plan, m->m, m->functions, c->shaken, c->touch_tol,
+                            &c->watches.at[x->mode]));
+    for (size_t i = 0; i < m->m; i++)
+        if (m->watched[i].kind == QDOT_WATCH_DOMAIN)
+            qdot_watch_is_bound(c->watches.at[x->mode], i, m->watched[i].coordinate,
+                                m->watched[i].bound);
+    return QDOT_OK;
+}
+
+/* --- what is known where a piece starts ---------------------------------------------- */
+
+/* Whether an event has been counted a double or so before the piece ended. */
+static bool
+just_noted(const qdot_piece *x, size_t event)
+{
+    for (size_t i = x->c->occurrences.n; i-- > 0;) {
+        const qdot_occurrence *o = &x->c->occurrences.at[i];
+
+        if (fabs(o->t - x->t_act) > 16 * DBL_EPSILON * fabs(x->t_act))
+            return false;
+        if (o->event == event)
+            return true;
+    }
+    return false;
+}
+
+/* Events and domains keep their places; a surface's functions are of the one that is on the
+ * same place. */
+void
+qdot_piece_carry(qdot_piece *x)
+{
+    const qdot_mode *old = x->c->stage->modes.at[x->start.from], *next = qdot_piece_mode(x);
+    size_t events = x->c->stage->events.n;
+
+    for (size_t i = 0; i < next->m; i++) {
+        x->before[i] = x->start.jumped || i >= events || just_noted(x, i) ? 0 : x->signs[i];
+        x->residual[i] = -1;
+    }
+    for (size_t k = 0; k < x->fired.n; k++) {
+        const qdot_root *root = &x->fired.at[k];
+        const qdot_watched *w = &old->watched[root->function];
+
+        if (w->kind != QDOT_WATCH_SURFACE) { /* it has been counted */
+            x->before[root->function] = 0;
+            x->residual[root->function] = root->residual;
+            continue;
+        }
+        for (size_t i = 0; i < next->m; i++)
+            if (next->watched[i].kind == QDOT_WATCH_SURFACE &&
+                next->watched[i].index == w->index &&
+                (next->watched[i].beyond == old->side[w->index] ||
+                 old->side[w->index] == next->side[w->index]))
+                x->residual[i] = root->residual;
+    }
+}
+
+/* --- corners of constraints ---------------------------------------------------------- */
+
+/* Beyond it the constraints of two sides are not the same to a state. */
+static const double corner = 1e-6;
+
+/* Where constraints switch, the state that the last piece left must fulfil those of the new
+ * side: on a corner the velocity does not, and nothing says what becomes of it. */
+static qdot_status
+turns_a_corner(qdot_piece *x, bool *corners)
+{
+    qdot_constrained *held = qdot_bind_held(x->c->binds.at[x->mode]);
+    const qdot_mode *old = x->c->stage->modes.at[x->start.from], *now = qdot_piece_mode(x);
+    const double enough = corner + 100 * x->options->tol;
+    const qdot_constraints_row *row;
+    qdot_constrained_residual r;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    *corners = false;
+    if (x->start.from == x->mode || !held)
+        return QDOT_OK;
+    r = qdot_constrained_measure(held, x->start.t, x->start.y);
+    *corners = r.position > enough || r.velocity > enough;
+    if (!*corners)
+        return QDOT_OK;
+    for (size_t i = 0; i < x->c->stage->switches.surfaces.n && text.n == 0; i++)
+        if (old->side[i] != now->side[i])
+            status = qdot_stage_describe(x->c->stage, i, now->side[i], &text);
+    row = now->plan->constraints->rows +
+          (r.position > enough ? r.worst_position : r.worst_velocity);
+    snprintf(x->c->reason, sizeof x->c->reason,
+             "stopped at t = %.15g: constraint %.60s %s where %.100s, and nothing says how the "
+             "motion goes on",
+             x->start.t, row->name,
+             r.position > enough || row->kind != QDOT_HOLONOMIC ? "jumps" : "has a corner",
+             qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* --- jumps of T - V ------------------------------------------------------------------ */
+
+/* The level of a mode at a state moved by a part of component k. */
+static double
+level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, double *in,
+         double *work)
+{
+    double level;
+
+    memcpy(in, y, n * sizeof *in);
+    in[n] = t;
+    if (k != SIZE_MAX)
+        in[k] += 0x1p-26 * fmax(1, fabs(in[k]));
+    qdot_tape_eval(m->level, in, &level, work);
+    return level;
+}
+
+/* Whether a surface lies between two modes that moves with the state: across time alone
+ * T - V may jump. */
+static bool
+is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
+{
+    const qdot_switches *s = &x->c->stage->switches;
+
+    for (size_t i = 0; i < s->surfaces.n; i++)
+        if (a->side[i] != b->side[i]
+            && (qdot_expr_node(s->pool, s->surfaces.at[i].u)->holds
+                & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
+            return true;
+    return false;
+}
+
+/* c->reason, where T - V is not the same on both sides of a surface, at (t, y): more than
+ * moving the state a little makes of it. */
+static qdot_status
+check_level(qdot_piece *x)
+{
+    const qdot_mode *a = x->c->stage->modes.at[x->start.from], *b = qdot_piece_mode(x);
+    const size_t n = x->n;
+    const double t = x->start.t, *y = x->start.y;
+    size_t work = 1;
+    double *in, jump, least = 0;
+
+    if (x->start.from == x->mode || !a->level || !b->level || !is_wall(x, a, b))
+        return QDOT_OK;
+    work += qdot_tape_work(a->level) + qdot_tape_work(b->level);
+    in = qdot_calloc(n + 1 + work, sizeof *in);
+    if (!in)
+        return QDOT_ENOMEM;
+    jump = level_at(b, t, y, n, SIZE_MAX, in, in + n + 1)
+           - level_at(a, t, y, n, SIZE_MAX, in, in + n + 1);
+    for (size_t k = 0; k <= n; k++)
+        for (int side = 0; side < 2; side++) {
+            const qdot_mode *m = side ? b : a;
+
+            least += fabs(level_at(m, t, y, n, k, in, in + n + 1)
+                          - level_at(m, t, y, n, SIZE_MAX, in, in + n + 1));
+        }
+    qdot_free(in);
+    if (fabs(jump) > least)
+        snprintf(x->c->reason, sizeof x->c->reason,
+                 "stopped at t = %.15g: T - V jumps there by %.6g, which is an infinite "
+                 "force: an event says what it does, as `event NAME: x = 0 then x' = ...`",
+                 t, jump);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of)
+{
+    const size_t modes[] = {by, instead_of};
+    const size_t surfaces = x->c->stage->switches.surfaces.n;
+    const double t = x->start.t, late = x->direction * x->c->early * 0x1p-53 * fabs(t);
+    double *y = x->start.y;
+    double *moved = qdot_malloc(2 * x->n * sizeof *moved), *rate = moved + x->n;
+    long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
+    qdot_status status = moved && sides ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        memcpy(moved, y, x->n * sizeof *y);
+    for (size_t k = 0; k < 2 && status == QDOT_OK; k++) {
+        const qdot_ode_system *system = x->c->systems.at + modes[k];
+
+        if (modes[k] == SIZE_MAX)
+            continue;
+        status = system->rhs(t, y, rate, system->user);
+        for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
+            moved[i] += (k == 0 ? late : -late) * rate[i];
+    }
+    if (status == QDOT_OK)
+        status = qdot_stage_sides(x->c->stage, t, y, NULL, sides);
+    if (status == QDOT_OK)
+        status = qdot_stage_sides(x->c->stage, t, moved, NULL, sides + surfaces);
+    if (status == QDOT_OK && memcmp(sides, sides + surfaces, surfaces * sizeof *sides) == 0)
+        memcpy(y, moved, x->n * sizeof *y);
+    qdot_free(moved);
+    qdot_free(sides);
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+bool
+qdot_piece_makes_up(const qdot_piece *x)
+{
+    return x->c->early != 0 && !x->c->systems.at[x->mode].project;
+}
+
+/* --- the whole ----------------------------------------------------------------------- */
+
+qdot_status
+qdot_piece_cross(qdot_piece *x, bool first)
+{
+    bool corners;
+
+    QDOT_TRY(turns_a_corner(x, &corners));
+    if (corners)
+        return QDOT_OK;
+    if (!x->start.jumped)
+        QDOT_TRY(check_level(x));
+    if (x->c->reason[0] != '\0')
+        return QDOT_OK;
+    qdot_piece_carry(x);
+    if (first && (x->start.jumped || x->start.from != x->mode) && qdot_piece_makes_up(x))
+        QDOT_TRY(qdot_piece_make_up(x, x->start.jumped ? SIZE_MAX : x->start.from, x->mode));
+    return QDOT_OK;
+}

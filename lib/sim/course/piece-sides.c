@@ -1,0 +1,102 @@
+/* piece-sides.c -- what the first step of a piece shows of the sides that it goes by. */
+#include "sim/course/piece.h"
+
+static bool
+is_step(const qdot_piece *x, size_t surface)
+{
+    return x->c->stage->switches.surfaces.at[surface].steps;
+}
+
+/* Whether a function of a surface keeps to its side, by the sign behind the start. */
+static bool
+keeps(const qdot_piece *x, const qdot_watched *w, int first)
+{
+    return first == w->inside || (first == 0 && w->inside == 1 && is_step(x, w->index));
+}
+
+/* The side that a motion is on that does not keep to that at hand. */
+static long
+went_to(const qdot_piece *x, const qdot_watched *w, int first)
+{
+    return is_step(x, w->index) ? w->beyond : first;
+}
+
+static qdot_status
+doubt(qdot_piece *x, const qdot_watched *w, int first)
+{
+    const long now = qdot_piece_mode(x)->side[w->index];
+    qdot_piece_doubt d = {.surface = w->index, .n = 2, .sides = {now}};
+
+    for (size_t i = 0; i < x->doubts.n; i++)
+        if (x->doubts.at[i].surface == w->index)
+            return QDOT_OK;
+    if (is_step(x, w->index)) {
+        d.sides[1] = went_to(x, w, first);
+    } else {
+        d.n = 3;
+        d.sides[1] = now != 0 ? -now : 1;
+        d.sides[2] = now != 0 ? 0 : -1;
+    }
+    return qdot_vec_push(&x->doubts, d);
+}
+
+qdot_status
+qdot_piece_leaves_well(qdot_piece *x, bool *well)
+{
+    const int *first = qdot_watch_first(qdot_piece_watch(x));
+    const qdot_mode *m = qdot_piece_mode(x);
+
+    *well = true;
+    for (size_t i = 0; i < m->m; i++) {
+        const qdot_watched *w = &m->watched[i];
+
+        if (w->kind != QDOT_WATCH_SURFACE || keeps(x, w, first[i]))
+            continue;
+        *well = false;
+        x->side[w->index] = went_to(x, w, first[i]);
+        QDOT_TRY(doubt(x, w, first[i]));
+    }
+    return QDOT_OK;
+}
+
+static bool
+was_crossed(const qdot_piece *x, size_t surface)
+{
+    for (size_t k = 0; k < x->crossed.n; k++)
+        if (x->crossed.at[k] == surface)
+            return true;
+    return false;
+}
+
+/* Whether other sides than this of the mode at hand might hold, by function i. */
+static bool
+is_open(const qdot_piece *x, size_t i)
+{
+    const qdot_watched *w = &qdot_piece_mode(x)->watched[i];
+
+    return w->kind == QDOT_WATCH_SURFACE && x->functions_on[i]
+           && !was_crossed(x, w->index)
+           && (w->velocity || qdot_watch_slow(qdot_piece_watch(x))[i]
+               || qdot_watch_first(qdot_piece_watch(x))[i] == 0);
+}
+
+bool
+qdot_piece_is_open(const qdot_piece *x)
+{
+    for (size_t i = 0; i < qdot_piece_mode(x)->m; i++)
+        if (is_open(x, i))
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_piece_doubt_open(qdot_piece *x)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+
+    x->doubts.n = 0;
+    for (size_t i = 0; i < m->m; i++)
+        if (is_open(x, i))
+            QDOT_TRY(doubt(x, &m->watched[i], -m->watched[i].inside));
+    return QDOT_OK;
+}

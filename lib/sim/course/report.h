@@ -1,0 +1,73 @@
+/* report.h -- what is said of a run. */
+#ifndef QDOT_SIM_REPORT_H
+#define QDOT_SIM_REPORT_H
+
+#include "sim/model/request.h"
+
+typedef enum { QDOT_RUN_DONE, QDOT_RUN_STOPPED, QDOT_RUN_FAILED } qdot_run_status;
+
+typedef struct {
+    qdot_expr quantity;  /* what should stay (energy, a cyclic momentum) */
+    const char *name;    /* "energy", "p[phi]" */
+    double start, drift; /* drift = max |c - c0| / max(1, |c0|) over the run */
+    bool kept;           /* it is a constant of the integration (sim/plan/routh.h): drift is 0 */
+} qdot_drift;
+
+/* Coordinates that were integrated apart from the others. */
+typedef struct {
+    const char *coordinates; /* "x, y" */
+    size_t steps, rejected;
+} qdot_run_part;
+
+typedef struct qdot_run qdot_run;
+
+typedef struct {
+    const char *method;
+    double tol, t0, t1;            /* t1 where it ended */
+    size_t steps, rejected, evals, jacobians, factorizations;
+    double cpu;                    /* s, the integration itself */
+    double cpu_total;              /* s, with derivation, lowering, error estimate */
+    double error;                  /* estimate of the end state's error, max over components relative
+                                      to max(1, |value|); NaN: unknown */
+    double horizon;                /* time beyond which no digit is left (sim/error/horizon.h); NaN: none */
+    double energy_drift;           /* NaN unless h is proved conserved */
+    size_t n_drifts;
+    const qdot_drift *drifts;      /* every conserved quantity known, energy first */
+    qdot_run_status status;
+    const char *reason;            /* NULL when done */
+    bool interrupted;              /* by Ctrl-C: only the states are known */
+    size_t n;                      /* coordinates, and behind them */
+    size_t n_states;               /* parameters that events set, whose v is 0 */
+    const qdot_expr *coordinates;  /* [n] symbols */
+    const double *q, *v;           /* [n] state at t1 */
+    size_t operations;             /* of the tape, one evaluation of M and f */
+    int digits;                    /* as asked for; 0: a run in doubles */
+    const qdot_expr *exact;        /* [2n + m] q, v, multipliers (nil: unknown) at t1 as the rational numbers they are, of a run
+                                      with `digits`; else NULL */
+    const char *notice;            /* what a person must know of the start, a line each; NULL: nothing */
+    /* Of a scene with constraints: */
+    size_t m;                      /* multipliers; 0: no constraints */
+    const qdot_expr *multipliers;  /* [m] symbols */
+    const double *lambda;          /* [m] at t1; NaN where there are none */
+    const double *lambda_error;    /* [m] estimates of their errors, absolute; NaN: unknown */
+    double constraint_drift;       /* the largest |f| of holonomic constraints met, of velocity
+                                      constraints where there are no others; NaN: neither */
+    double velocity_drift;         /* the largest |df/dt|, |f| of velocity constraints; NaN */
+    size_t independent;            /* of the constraints */
+    size_t projections;            /* steps after which the state was moved */
+    qdot_run_treatment treatment;
+    size_t pieces, modes;          /* of a run that events or switches divide; else 1 */
+    size_t n_parts;                /* 0: all went together */
+    const qdot_run_part *parts;
+    const char *doubt;             /* why the error is unknown, where that is known; NULL */
+} qdot_run_report;
+
+/* An event that occurred. */
+typedef struct {
+    const char *event;
+    double t, error; /* NaN: unknown */
+    int way;         /* 1: rising, -1: falling, 0: it touched */
+    qdot_expr exact; /* of a run with `digits` the time as a rational; else nil */
+} qdot_run_occurrence;
+
+#endif

@@ -1,0 +1,22 @@
+/* root.h -- a root of a function of the motion within a step, and how states there are had. */
+#ifndef QDOT_SIM_ROOT_H
+#define QDOT_SIM_ROOT_H
+
+#include "ode/integrate.h"
+
+typedef struct {
+    size_t function;
+    double t;
+    int way;         /* the sign it goes over to in the direction of the run; 0: none */
+    double residual; /* |g| at the doubles on both sides of it, the larger */
+    bool exact;      /* g is 0 at t */
+} qdot_root;
+
+/* How states within a step are had. */
+typedef struct {
+    qdot_status (*read)(double t, double *y, void *user);
+    void *user;
+    const qdot_ode_system *system; /* for accelerations and multipliers */
+} qdot_watch_reader;
+
+#endif

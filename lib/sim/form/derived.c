@@ -1,0 +1,80 @@
+/* derived.c -- a plan's derived form, measured; plans freed. */
+#include "sim/form/derived.h"
+
+#include "sim/form/direct.h"
+#include "sim/form/residual.h"
+#include "sim/model/constraints.h"
+
+double
+qdot_plan_cost(const qdot_ode_series *series)
+{
+    const double p = 20, *c = series->cost;
+
+    return c[0] + c[1] * p + c[2] * p * p;
+}
+
+qdot_status
+qdot_plan_measure(qdot_plan *plan)
+{
+    qdot_direct *direct;
+
+    QDOT_TRY(qdot_direct_new(plan, false, &direct));
+    plan->convolutions_derived = qdot_direct_convolutions(direct);
+    plan->cost = qdot_plan_cost(qdot_direct_series(direct));
+    qdot_direct_free(direct);
+    return QDOT_OK;
+}
+
+void
+qdot_plan_free(qdot_plan *p)
+{
+    if (!p)
+        return;
+    for (size_t b = 0; p->blocks && b < p->structure.blocks; b++) {
+        qdot_free(p->blocks[b].M);
+        qdot_free(p->blocks[b].side);
+    }
+    for (size_t i = 0; p->names && i < p->n; i++)
+        qdot_free(p->names[i]);
+    qdot_free(p->blocks);
+    qdot_structure_clear(&p->structure);
+    qdot_free(p->names);
+    qdot_free(p->inputs);
+    qdot_free(p->M);
+    qdot_free(p->f);
+    qdot_free(p->symbols);
+    qdot_free(p->values);
+    qdot_tape_free(p->tape);
+    qdot_residual_free(p->residual);
+    qdot_constraints_free(p->constraints);
+    for (size_t k = 0; k < p->n_parts; k++)
+        qdot_plan_free(p->parts[k]);
+    qdot_free(p->parts);
+    qdot_free(p->place);
+    qdot_plan_free(p->reduced);
+    qdot_plan_free(p->eliminated);
+    qdot_free(p->kept);
+    qdot_tape_free(p->momenta);
+    qdot_tape_free(p->bordered);
+    qdot_free(p);
+}
+
+size_t
+qdot_plan_operations(const qdot_plan *p, size_t *calls)
+{
+    const qdot_plan *moving = p->reduced ? p->reduced : p;
+    const qdot_tape *tapes[] = {moving->tape, NULL};
+    size_t operations = 0, of_calls = 0;
+
+    if (!moving->tape) {
+        tapes[0] = moving->residual->places;
+        tapes[1] = moving->residual->forces;
+    }
+    for (int i = 0; i < 2 && tapes[i]; i++) {
+        operations += qdot_tape_operations(tapes[i]);
+        of_calls += qdot_tape_calls(tapes[i]);
+    }
+    if (calls)
+        *calls = of_calls;
+    return operations;
+}

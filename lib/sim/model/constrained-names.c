@@ -1,0 +1,92 @@
+/* constrained-names.c -- constraints in words: those that depend on each other. */
+#include <string.h>
+
+#include "sim/model/constrained-parts.h"
+#include "sim/model/constrained.h"
+
+/* The length of a name, without its component if `label`. */
+static size_t
+length_of_name(const char *name, bool label)
+{
+    const char *comma = label ? strrchr(name, ',') : NULL;
+
+    return comma ? (size_t)(comma - name) : strlen(name);
+}
+
+/* "rod", and of a vector constraint's component "pin, 1": pin[1]. Without it if `label`. */
+static void
+add_name(qdot_text *to, const char *name, size_t length, bool label)
+{
+    const char *comma = strrchr(name, ',');
+
+    if (label || !comma)
+        qdot_text_format(to, "%.*s", (int)length, name);
+    else
+        qdot_text_format(to, "%.*s[%s]", (int)(comma - name), name,
+                         comma + 1 + strspn(comma + 1, " "));
+}
+
+void
+qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to)
+{
+    enum { many = 4 };
+    size_t count = 0, names = 0;
+
+    for (size_t k = 0; k < c->m; k++)
+        count += rows[k];
+    for (int pass = 0; pass < 2; pass++) {
+        const char *before = NULL;
+        size_t said = 0;
+
+        if (pass == 1)
+            qdot_text_add(to, names == 1 ? "constraint " : "constraints ");
+        for (size_t k = 0; k < c->m; k++) {
+            const char *name = c->rows[k].name;
+            const size_t n = length_of_name(name, count > many);
+
+            if (!rows[k] || (before && strncmp(before, name, n + 1) == 0 && count > many))
+                continue;
+            before = name;
+            names += pass == 0;
+            if (pass == 1) {
+                qdot_text_add(to, said == 0 ? "" : said + 1 == names ? " and " : ", ");
+                add_name(to, name, n, count > many);
+            }
+            said++;
+        }
+    }
+}
+
+qdot_status
+qdot_constrained_without_direction(const qdot_constraints *c, size_t row)
+{
+    qdot_text name = {0};
+
+    add_name(&name, c->rows[row].name, strlen(c->rows[row].name), false);
+    if (qdot_text_status(&name) == QDOT_OK)
+        qdot_fail(QDOT_ESINGULAR, "constraint %.300s has no direction here",
+                  qdot_text_str(&name));
+    qdot_text_clear(&name);
+    return QDOT_ESINGULAR;
+}
+
+size_t
+qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row,
+                           double below, qdot_text *names)
+{
+    double *part = s->w; /* scratch of n + m */
+    bool *in = qdot_calloc(c->m + 1, sizeof *in);
+    size_t count = 0;
+
+    if (!in)
+        return 0;
+    qdot_saddle_parts(s, below, part);
+    for (size_t k = 0; k < s->m; k++)
+        if (part[k] > QDOT_CONSTRAINED_PART) {
+            in[row ? row[k] : k] = true;
+            count++;
+        }
+    qdot_constrained_name(c, in, names);
+    qdot_free(in);
+    return count;
+}

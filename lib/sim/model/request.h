@@ -1,0 +1,32 @@
+/* request.h -- what is asked of a run: values, start, limits, tolerance, method.
+ *
+ * Tests  tests/sim/
+ */
+#ifndef QDOT_SIM_REQUEST_H
+#define QDOT_SIM_REQUEST_H
+
+#include "mech/dynamics/quantity.h"
+
+/* What is done about drift off the constraints (sim/model/constrained.h). */
+typedef enum { QDOT_RUN_PROJECT, QDOT_RUN_BAUMGARTE, QDOT_RUN_NONE } qdot_run_treatment;
+
+typedef struct {
+    size_t n_values;              /* values of parameters: symbol -> exact constant */
+    const qdot_expr *symbols, *values;
+    const qdot_expr *q0, *v0;     /* [n] start: exact constants, in order of the coordinates */
+    const bool *q_named, *v_named; /* [n] which of them were named: the others may be solved for
+                                     where constraints ask it; NULL: all */
+    bool exactly;                 /* a start that breaks a constraint is refused */
+    qdot_expr t0, t1;             /* limits: exact constants; t1 < t0 runs back */
+    double tol;                   /* local error of each component in each step, relative to
+                                     max(1, |value|) */
+    const char *method;           /* "auto" or a name of ode/method.h */
+    qdot_run_treatment treatment; /* of a scene with constraints */
+    size_t n_states;              /* made by the run itself, leave it 0: parameters that events
+                                     set, as further coordinates (sim/model/parameter-states.h); */
+    const qdot_expr *states;      /* [n_states] their symbols; symbols, values, q0 ... know them */
+    int digits;                   /* > 0: so many correct digits at the end (sim/digits/precise.h);
+                                     tol is not looked at */
+} qdot_run_request;
+
+#endif

@@ -1,0 +1,158 @@
+/* occurrences.c -- the events of a run, and how far their times are off by its companions. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "ode/companion.h"
+#include "sim/digits/digits.h"
+#include "sim/error/companion.h"
+#include "sim/run/run.h"
+
+bool
+qdot_run_has_event(const qdot_run *run, const char *name)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++)
+        if (strcmp(run->stage.events.at[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* The occurrences of a course event by event: those of event e are at[first[e]] to
+ * at[first[e + 1] - 1], in their order. */
+typedef struct {
+    size_t *first;             /* [events + 1] */
+    const qdot_occurrence **at;
+} by_event;
+
+static qdot_status
+sort_by_event(const qdot_course *c, size_t events, by_event *out)
+{
+    size_t n = c->occurrences.n, *next;
+
+    out->first = qdot_calloc(2 * events + 2, sizeof *out->first);
+    out->at = qdot_calloc(n + 1, sizeof *out->at);
+    if (!out->first || !out->at)
+        return QDOT_ENOMEM;
+    next = out->first + events + 1;
+    for (size_t i = 0; i < n; i++)
+        out->first[c->occurrences.at[i].event + 1]++;
+    for (size_t e = 0; e < events; e++) {
+        out->first[e + 1] += out->first[e];
+        next[e] = out->first[e];
+    }
+    for (size_t i = 0; i < n; i++)
+        out->at[next[c->occurrences.at[i].event]++] = &c->occurrences.at[i];
+    return QDOT_OK;
+}
+
+/* The nearest in time to t of at [n], which ascend or descend; NULL of none. */
+static const qdot_occurrence *
+nearest(const qdot_occurrence *const *at, size_t n, double t)
+{
+    size_t low = 0, high = n;
+    bool down = n > 1 && at[n - 1]->t < at[0]->t;
+
+    if (n == 0)
+        return NULL;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (down ? at[middle]->t >= t : at[middle]->t <= t)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high < n && fabs(at[high]->t - t) < fabs(at[low]->t - t) ? at[high] : at[low];
+}
+
+/* The occurrence of the companion that is the k-th one of the run's event: the k-th too,
+ * or, where one of them has more (at the very end of the run), the nearest, if it is much
+ * nearer than the next one of the run. */
+static const qdot_occurrence *
+partner(const by_event *own, const by_event *other, size_t event, size_t k)
+{
+    const qdot_occurrence *const *of = own->at + own->first[event];
+    size_t n = own->first[event + 1] - own->first[event];
+    size_t m = other->first[event + 1] - other->first[event];
+    const qdot_occurrence *best;
+
+    if (n == m)
+        return other->at[other->first[event] + k];
+    best = nearest(other->at + other->first[event], m, of[k]->t);
+    if (!best || (k > 0 && fabs(best->t - of[k]->t) > 0.1 * fabs(of[k - 1]->t - of[k]->t))
+        || (k + 1 < n && fabs(best->t - of[k]->t) > 0.1 * fabs(of[k + 1]->t - of[k]->t)))
+        return NULL;
+    return best;
+}
+
+/* t*; NaN without a partner. */
+static double
+time_of_partner(const by_event *own, const by_event *other, size_t event, size_t k)
+{
+    const qdot_occurrence *p = partner(own, other, event, k);
+
+    return p ? p->t : NAN;
+}
+
+static qdot_status
+compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
+{
+    size_t events = run->stage.events.n, n = run->course.occurrences.n;
+    size_t companions = !run->has_companion ? 0 : run->has_twin ? 2 : 1;
+    size_t *seen = qdot_calloc(events + 1, sizeof *seen);
+    qdot_status status = seen ? QDOT_OK : QDOT_ENOMEM;
+
+    run->occurrences.n = 0;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        const qdot_occurrence *o = &run->course.occurrences.at[i];
+        size_t k = seen[o->event]++;
+        double by = NAN, theirs[2];
+
+        for (size_t j = 0; j < companions; j++)
+            theirs[j] = time_of_partner(own, others + j, o->event, k);
+        if (companions > 0)
+            by = qdot_companion_bound_of(o->t, companions, theirs, 1);
+        status = qdot_vec_push(
+            &run->occurrences,
+            ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,
+                                   by + DBL_EPSILON * fabs(o->t), o->way,
+                                   QDOT_NIL}));
+    }
+    qdot_free(seen);
+    return status;
+}
+
+qdot_status
+qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
+{
+    if (!run->occurrence_errors && run->precise) {
+        QDOT_TRY(qdot_digits_occurrences(run));
+        run->occurrence_errors = true;
+    }
+    if (!run->occurrence_errors) {
+        by_event own = {0}, others[2] = {{0}};
+        size_t events = run->stage.events.n;
+        qdot_status status = QDOT_OK;
+
+        if (run->course.occurrences.n > 0)
+            QDOT_TRY(qdot_run_twin(run));
+        status = sort_by_event(&run->course, events, &own);
+        if (status == QDOT_OK)
+            status = sort_by_event(&run->companion, events, others);
+        if (status == QDOT_OK)
+            status = sort_by_event(&run->twin, events, others + 1);
+        if (status == QDOT_OK)
+            status = compare_occurrences(run, &own, others);
+        qdot_free(own.first);
+        qdot_free(own.at);
+        for (size_t i = 0; i < 2; i++) {
+            qdot_free(others[i].first);
+            qdot_free(others[i].at);
+        }
+        QDOT_TRY(status);
+        run->occurrence_errors = true;
+    }
+    *list = run->occurrences.at;
+    *n = run->occurrences.n;
+    return QDOT_OK;
+}
