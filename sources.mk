@@ -10,8 +10,8 @@ library_sources = \
 	lib/expr/bounds.c \
 	lib/expr/calculus.c \
 	lib/expr/construct.c \
+	lib/expr/elementary.c \
 	lib/expr/expand.c \
-	lib/expr/function.c \
 	lib/expr/number.c \
 	lib/expr/order.c \
 	lib/expr/pool.c \
@@ -247,14 +247,17 @@ library_sources = \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
-	lib/ode/method.c \
+	lib/ode/method-table.c \
 	lib/ode/precise.c \
+	lib/ode/run.c \
 	lib/ode/stepper.c \
 	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
+	lib/ode/trajectory-apart.c \
 	lib/ode/trajectory.c \
+	lib/ode/whole.c \
 	lib/ode/written.c \
-	lib/series/lanes-code.c \
+	lib/series/lanes-code-run.c \
 	lib/series/lanes-steps.c \
 	lib/series/lanes-sums.c \
 	lib/series/lanes-writer.c \
@@ -375,6 +378,7 @@ library_sources = \
 	lib/tape/interval.c \
 	lib/tape/keymap.c \
 	lib/tape/lower.c \
+	lib/tape/shake.c \
 	lib/tape/tape.c
 
 library_headers = \
@@ -581,11 +585,13 @@ library_headers = \
 	lib/ode/leading.h \
 	lib/ode/method.h \
 	lib/ode/precise.h \
+	lib/ode/run.h \
 	lib/ode/stepper.h \
 	lib/ode/system.h \
 	lib/ode/taylor-numbers.h \
 	lib/ode/taylor.h \
 	lib/ode/trajectory.h \
+	lib/ode/whole.h \
 	lib/ode/written.h \
 	lib/series/lanes-code.h \
 	lib/series/lanes-program.h \
@@ -689,6 +695,7 @@ library_headers = \
 	lib/tape/derivative.h \
 	lib/tape/disc.def \
 	lib/tape/disc.h \
+	lib/tape/instruction.h \
 	lib/tape/interval.def \
 	lib/tape/interval.h \
 	lib/tape/keymap.h \

@@ -2,7 +2,14 @@
 #ifndef QDOT_EXPR_PRINT_NAME_H
 #define QDOT_EXPR_PRINT_NAME_H
 
-#include "expr/print.h"
+#include "base/text.h"
+#include "expr/expr.h"
+
+/* print.h says what they are. */
+typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX, QDOT_MATHML } qdot_style;
+
+/* A name alone (a label, a family member) in that style: theta1 is θ₁. */
+void qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_text *out);
 
 /* theta1' as theta1', θ̇₁, \dot{\theta}_{1}. */
 void qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out);

@@ -425,10 +425,10 @@ write_node(printer *p, struct piece x)
                   (kind == QDOT_SYM && p->style != QDOT_PLAIN));
 
     if (x.ends) {
-        p->status = qdot_printed_keep(p->pool, x.e, how(p, &x), p->out, x.from);
+        p->status = qdot_printed_keep(p->pool->printed, x.e, how(p, &x), p->out, x.from);
     } else if (!again) {
         open_node(p, &x);
-    } else if (!qdot_printed_copy(p->pool, x.e, how(p, &x), p->out)) {
+    } else if (!qdot_printed_copy(p->pool->printed, x.e, how(p, &x), p->out)) {
         x.from = p->out->n;
         open_node(p, &x);
         x.ends = true;

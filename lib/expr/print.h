@@ -8,10 +8,7 @@
 #ifndef QDOT_EXPR_PRINT_H
 #define QDOT_EXPR_PRINT_H
 
-#include "base/text.h"
-#include "expr/expr.h"
-
-typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX, QDOT_MATHML } qdot_style;
+#include "expr/print-name.h"
 
 /* Append e. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style,
@@ -25,8 +22,5 @@ QDOT_MUST_CHECK qdot_status qdot_print_series(const qdot_pool *pool, qdot_expr e
 QDOT_MUST_CHECK qdot_status qdot_print_formula(const qdot_pool *pool, qdot_expr e,
                                                qdot_style style, qdot_text *out);
 #define QDOT_PRINT_MATH "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
-
-/* A name alone (a label, a family member) in that style: theta1 is θ₁. */
-void qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_text *out);
 
 #endif

@@ -1,7 +1,7 @@
 /* printed.c -- texts of subexpressions that were printed. */
 #include "expr/printed.h"
 
-#include "expr/pool.h"
+#include "base/memory.h"
 
 enum { SLOTS = 4096, SHORTEST = 4, LONGEST = 4096, MOST = 1 << 20 };
 
@@ -38,28 +38,26 @@ qdot_printed_forget(qdot_printed *printed)
         printed->slot[i].e = QDOT_NIL;
 }
 
-static struct slot *
-place(const qdot_pool *pool, qdot_expr e, uint32_t how)
+static size_t
+place(qdot_expr e, uint32_t how)
 {
-    return &pool->printed->slot[(e * 2654435761u ^ how * 40503u) >> 7 & (SLOTS - 1)];
+    return (e * 2654435761u ^ how * 40503u) >> 7 & (SLOTS - 1);
 }
 
 bool
-qdot_printed_copy(const qdot_pool *pool, qdot_expr e, uint32_t how, qdot_text *out)
+qdot_printed_copy(const qdot_printed *printed, qdot_expr e, uint32_t how, qdot_text *out)
 {
-    const struct slot *s = place(pool, e, how);
+    const struct slot *s = &printed->slot[place(e, how)];
 
     if (s->e != e || s->how != how)
         return false;
-    qdot_text_add_n(out, pool->printed->text.at + s->at, s->n);
+    qdot_text_add_n(out, printed->text.at + s->at, s->n);
     return true;
 }
 
 qdot_status
-qdot_printed_keep(const qdot_pool *pool, qdot_expr e, uint32_t how, const qdot_text *out,
-                  size_t from)
+qdot_printed_keep(qdot_printed *p, qdot_expr e, uint32_t how, const qdot_text *out, size_t from)
 {
-    qdot_printed *p = pool->printed;
     size_t n = out->n - from;
 
     QDOT_TRY(qdot_text_status(out));
@@ -72,6 +70,6 @@ qdot_printed_keep(const qdot_pool *pool, qdot_expr e, uint32_t how, const qdot_t
         p->text.failed = false; /* what it holds is as it was */
         return QDOT_ENOMEM;
     }
-    *place(pool, e, how) = (struct slot){e, how, (uint32_t)(p->text.n - n), (uint32_t)n};
+    p->slot[place(e, how)] = (struct slot){e, how, (uint32_t)(p->text.n - n), (uint32_t)n};
     return QDOT_OK;
 }

@@ -18,11 +18,11 @@ void qdot_printed_free(qdot_printed *printed);
 void qdot_printed_forget(qdot_printed *printed);
 
 /* Append the text of e if it is kept. */
-bool qdot_printed_copy(const qdot_pool *pool, qdot_expr e, uint32_t how, qdot_text *out);
+bool qdot_printed_copy(const qdot_printed *printed, qdot_expr e, uint32_t how, qdot_text *out);
 
 /* Keep what stands in `out` from `from` on, unless it is too short or too long to gain by it.
  * Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_printed_keep(const qdot_pool *pool, qdot_expr e, uint32_t how,
+QDOT_MUST_CHECK qdot_status qdot_printed_keep(qdot_printed *printed, qdot_expr e, uint32_t how,
                                               const qdot_text *out, size_t from);
 
 #endif

@@ -21,7 +21,7 @@
 
 #include <stdbool.h>
 
-#include "ode/integrate.h"
+#include "ode/run.h"
 
 /* For tolerances up to this one: what a double holds is no longer enough. */
 #define QDOT_ODE_LEADING_TOL 1.0001e-14

@@ -19,7 +19,7 @@
 #define QDOT_ODE_PRECISE_H
 
 #include "num/real.h"
-#include "ode/integrate.h"
+#include "ode/run.h"
 
 /* y' = f(t, y) by its Taylor coefficients: y_i(t + h) = sum_k x_ik h^k. Failures are those
  * of qdot_ode_system. */

@@ -50,7 +50,7 @@
 #ifndef QDOT_ODE_TAYLOR_H
 #define QDOT_ODE_TAYLOR_H
 
-#include "ode/integrate.h"
+#include "ode/run.h"
 
 /* As qdot_ode_integrate, which calls it: system->series is there. */
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *system,

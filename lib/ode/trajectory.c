@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "ode/apart.h"
+#include "ode/integrate.h"
 #include "ode/leading.h"
 #include "ode/stepper.h"
 #include "ode/taylor.h"
@@ -200,7 +201,7 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     if (status == QDOT_OK)
         status = store_first(tr, &own, t0, y);
     if (status == QDOT_OK && qdot_ode_is_apart(system, &theirs))
-        status = qdot_ode_apart_record(tr, system, &theirs, t1, y);
+        status = qdot_trajectory_record_apart(tr, system, &theirs, t1, y);
     else if (status == QDOT_OK)
         status = qdot_ode_integrate(system, method, &own, t0, t1, y, &tr->result);
     else
@@ -251,7 +252,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
         status = store_first(tr, &own, t0, y);
     clear_tracks(tr);
     if (status == QDOT_OK && piece.first == 0 && qdot_ode_is_apart(system, options))
-        status = qdot_ode_apart_record(tr, system, options, t1, y);
+        status = qdot_trajectory_record_apart(tr, system, options, t1, y);
     else if (status == QDOT_OK)
         status = qdot_ode_integrate(system, tr->method, &own, t0, t1, y, &tr->result);
     else

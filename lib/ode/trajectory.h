@@ -25,7 +25,7 @@
 
 #include "base/memory.h"
 #include "base/status.h"
-#include "ode/integrate.h"
+#include "ode/run.h"
 
 typedef struct {
     size_t first; /* its first point */
@@ -117,7 +117,14 @@ size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c,
                                                        size_t piece, double t, double *y);
 
-/* For ode/apart.c: a point more; the state from the tracks alone. */
+/* --- inside: a run in parts (trajectory-apart.c) ---- */
+/* A trajectory, of one point so far, gone on with from y0 [n] to t1 as a track for each
+ * part; the points of the whole become those of the part that took most steps. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_record_apart(qdot_trajectory *tr,
+                                                         const qdot_ode_system *system,
+                                                         const qdot_ode_options *options,
+                                                         double t1, const double *y0);
+/* A point more; the state from the tracks alone. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_store(qdot_trajectory *tr, double t,
                                                   const double *y);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_tracks(qdot_trajectory_cursor *c,

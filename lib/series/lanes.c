@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "series/lanes-program.h"
+#include "series/taylor.h"
 
 /* As qdot_taylor_step. */
 typedef struct {

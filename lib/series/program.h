@@ -12,6 +12,13 @@
 
 #include "base/memory.h"
 #include "tape/code.h"
+#include "tape/tape.h"
+
+/* Up to this order of q'' an integral divides by k + 1 and k + 2, exactly but for the last
+ * bit; beyond it multiplies by inverses. The rounding of an inverse is the same in every
+ * step, and made the energy of an oscillator drift as t. Series up to less than so many
+ * orders err by more than that. */
+enum { QDOT_TAYLOR_EXACT = 6, QDOT_TAYLOR_EXACT_FROM = 26 };
 
 /* Recurrences, by the names that recurrence.def has. */
 typedef enum {

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "series/taylor-steps.h"
+#include "series/taylor.h"
 
 /* A change of row `to` by a note[x] + b note[y] + c note[z]; factors from order 0. */
 struct qdot_taylor_change {

@@ -4,6 +4,7 @@
 
 #include "series/near.h"
 #include "series/taylor-steps.h"
+#include "series/taylor.h"
 
 static const double digits = DBL_MANT_DIG * 0.6931471805599453;
 

@@ -4,6 +4,7 @@
 
 #include "num/kinds.h"
 #include "series/taylor-code.h"
+#include "series/taylor.h"
 #include "series/taylor-steps.h"
 
 /* Bits without a pattern: the finalizer of MurmurHash3. */

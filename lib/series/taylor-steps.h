@@ -5,7 +5,8 @@
 
 #include "num/series.h"
 #include "series/program.h"
-#include "series/taylor.h"
+
+typedef struct qdot_taylor qdot_taylor; /* taylor.h */
 
 /* Rows of coefficients, by order. */
 typedef struct {

@@ -1,6 +1,7 @@
 /* taylor-unknowns.c -- rows that a program solves for at every order. */
 #include "base/memory.h"
 #include "series/taylor-steps.h"
+#include "series/taylor.h"
 
 static double *
 spare_row(qdot_taylor *t)

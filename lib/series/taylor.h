@@ -14,13 +14,7 @@
 #ifndef QDOT_SERIES_TAYLOR_H
 #define QDOT_SERIES_TAYLOR_H
 
-#include "tape/tape.h"
-
-/* Up to this order of q'' an integral divides by k + 1 and k + 2, exactly but for the last
- * bit; beyond it multiplies by inverses. The rounding of an inverse is the same in every
- * step, and made the energy of an oscillator drift as t. Series up to less than so many
- * orders err by more than that. */
-enum { QDOT_TAYLOR_EXACT = 6, QDOT_TAYLOR_EXACT_FROM = 26 };
+#include "series/program.h"
 
 /* The program with its coefficients: one a thread. */
 typedef struct qdot_taylor qdot_taylor;

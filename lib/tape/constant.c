@@ -11,7 +11,6 @@
 #include "expr/print.h"
 #include "expr/walk.h"
 #include "num/arb.h"
-#include "tape/tape.h"
 
 enum { FIRST_BITS = 256, MOST_BITS = 4096 };
 

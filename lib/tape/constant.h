@@ -12,7 +12,11 @@
 /* Whether e holds no symbol but pi, true and false, and no undefined function. */
 bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);
 
-/* As qdot_tape_constant, and on which side of *value the exact value lies: -1, 0 (it
+/* One constant expression (no symbols) as a double, correctly rounded where 256 bits decide.
+ * QDOT_EUNSET names a symbol without a value; QDOT_EDOMAIN: not real or undefined. */
+QDOT_MUST_CHECK qdot_status qdot_tape_constant(qdot_pool *pool, qdot_expr e, double *value);
+
+/* The same, and on which side of *value the exact value lies: -1, 0 (it
  * is *value), 1. */
 QDOT_MUST_CHECK qdot_status qdot_constant_round(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "num/batch.h"
-#include "tape/code.h"
+#include "tape/instruction.h"
 
 #define BATCH_BODY "tape/derivative.def"
 #include "num/batch-kinds.def"

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "tape/code.h"
+#include "base/memory.h"
+#include "tape/instruction.h"
 
 /* --- bounds -------------------------------------------------------------------------- */
 

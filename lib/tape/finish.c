@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "tape/code.h"
+#include "tape/tape.h"
 
 typedef struct {
     qdot_code *code;

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tape/code.h"
+#include "tape/instruction.h"
 
 /* --- bounds -------------------------------------------------------------------------- */
 

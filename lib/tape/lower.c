@@ -4,6 +4,7 @@
 #include "tape/angle.h"
 #include "tape/code.h"
 #include "tape/constant.h"
+#include "tape/tape.h"
 
 /* Terms of a sum that share a coefficient but for its sign. */
 typedef struct {

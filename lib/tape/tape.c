@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "tape/code.h"
-#include "tape/shake.h"
+#include "base/memory.h"
+#include "tape/instruction.h"
 
 void
 qdot_tape_free(qdot_tape *tape)
@@ -89,44 +89,4 @@ qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *wor
 done:
     for (size_t k = 0; k < tape->outputs; k++)
         out[k] = work[tape->output[k]];
-}
-
-static void *
-copy(const void *from, size_t size)
-{
-    void *to = qdot_malloc(size);
-
-    if (to && size)
-        memcpy(to, from, size);
-    return to;
-}
-
-qdot_status
-qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken)
-{
-    qdot_tape *t = copy(tape, sizeof *t);
-
-    *shaken = NULL;
-    if (!t)
-        return QDOT_ENOMEM;
-    t->constant = copy(tape->constant, t->constants * sizeof *t->constant);
-    t->side = copy(tape->side, t->constants * sizeof *t->side);
-    t->low = qdot_calloc(t->constants, sizeof *t->low);
-    t->exact = copy(tape->exact, t->constants * sizeof *t->exact);
-    t->output = copy(tape->output, t->outputs * sizeof *t->output);
-    t->code = copy(tape->code, t->length * sizeof *t->code);
-    if (!t->constant || !t->side || !t->low || !t->exact || !t->output || !t->code) {
-        qdot_tape_free(t);
-        return QDOT_ENOMEM;
-    }
-    for (size_t i = 0; i < t->constants; i++)
-        t->constant[i] = qdot_shake_double(t->constant[i], t->side[i]);
-    *shaken = t;
-    return QDOT_OK;
-}
-
-double
-qdot_shake_double(double x, int side)
-{
-    return side ? nextafter(x, side * INFINITY) : x;
 }

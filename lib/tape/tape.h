@@ -38,8 +38,4 @@ size_t qdot_tape_calls(const qdot_tape *tape);
  * them. */
 void qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *work);
 
-/* One constant expression (no symbols) as a double, correctly rounded where 256 bits decide.
- * QDOT_EUNSET names a symbol without a value; QDOT_EDOMAIN: not real or undefined. */
-QDOT_MUST_CHECK qdot_status qdot_tape_constant(qdot_pool *pool, qdot_expr e, double *value);
-
 #endif

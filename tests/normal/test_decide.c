@@ -10,6 +10,7 @@
 #include "expr/calculus.h"
 #include "normal/refute/constant.h"
 
+#include "normal/prove/equal.h"
 #include "normal/prove/prove.h"
 
 #include "normal/inequality/less.h"

@@ -10,6 +10,7 @@
 
 #include <mpfr.h>
 
+#include "tape/constant.h"
 #include "tape/tape.h"
 
 static double

@@ -416,6 +416,18 @@ qdot_answer_text(qdot_session *session, const char *name, const char *text)
 }
 
 qdot_status
+qdot_answer_written(qdot_session *session, const char *name, qdot_status status,
+                    qdot_text *text)
+{
+    if (status == QDOT_OK)
+        status = qdot_text_status(text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, name, qdot_text_str(text));
+    qdot_text_clear(text);
+    return status;
+}
+
+qdot_status
 qdot_answer_cells(qdot_session *session, const qdot_text *values)
 {
     qdot_text line = {0};

@@ -46,6 +46,10 @@ QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr l
 /* {"kind":"text"}: text as it stands, a newline added where there is none. */
 QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *name,
                                              const char *text);
+/* The same of a text that was written with that status, which is returned if it is none; the text
+ * is cleared. */
+QDOT_MUST_CHECK qdot_status qdot_answer_written(qdot_session *session, const char *name,
+                                                qdot_status status, qdot_text *text);
 
 /* {"kind":"row"}: values [n]; JSON only (as text rows are a table). */
 QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, size_t n,

@@ -64,18 +64,6 @@ member_name(qdot_session *session, const char *name, bool by_coordinate, uint32_
         qdot_text_format(out, "[%u]", i + 1);
 }
 
-/* Answer with what was written, and let go of it. */
-static qdot_status
-answer_text(qdot_session *session, const char *name, qdot_status status, qdot_text *text)
-{
-    if (status == QDOT_OK)
-        status = qdot_text_status(text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, name, qdot_text_str(text));
-    qdot_text_clear(text);
-    return status;
-}
-
 /* `equilibria[1]`, whose equations belong together. */
 static bool
 is_one_equilibrium(const char *name)
@@ -95,7 +83,7 @@ answer_joined(qdot_session *session, const char *name, qdot_expr list)
         qdot_text_add(&text, i > 0 ? ", " : "");
         status = qdot_formula(session, qdot_expr_arg(session->pool, list, i), &text);
     }
-    return answer_text(session, name, status, &text);
+    return qdot_answer_written(session, name, status, &text);
 }
 
 static qdot_status
@@ -239,7 +227,7 @@ qdot_ask_print(qdot_cursor *c)
         if (status == QDOT_OK)
             status = qdot_cursor_expect_end(c);
     }
-    return answer_text(c->session, "print", status, &line);
+    return qdot_answer_written(c->session, "print", status, &line);
 }
 
 /* --- names -------------------------------------------------------------------------- */
@@ -308,7 +296,7 @@ qdot_ask_vars(qdot_cursor *c)
     }
     if (status == QDOT_OK && text.n == 0)
         qdot_text_add(&text, "nothing is declared");
-    return answer_text(session, "vars", status, &text);
+    return qdot_answer_written(session, "vars", status, &text);
 }
 
 /* The line of the scene that declares a label. */
@@ -372,7 +360,7 @@ qdot_ask_show(qdot_cursor *c)
         (void)qdot_fail(QDOT_ENAME, "`%s` is not declared", name);
         return near != NULL ? qdot_hint("did you mean `%s`?", near) : QDOT_ENAME;
     }
-    return answer_text(session, name, status, &text);
+    return qdot_answer_written(session, name, status, &text);
 }
 
 /* --- the scene ---------------------------------------------------------------------- */
@@ -389,7 +377,7 @@ qdot_ask_scene(qdot_cursor *c)
     status = qdot_scene_print(c->session->scene, &text);
     if (status == QDOT_OK && text.n == 0)
         qdot_text_add(&text, "the scene is empty");
-    return answer_text(c->session, "scene", status, &text);
+    return qdot_answer_written(c->session, "scene", status, &text);
 }
 
 qdot_status
@@ -411,7 +399,7 @@ qdot_ask_forces(qdot_cursor *c)
     status = qdot_mech_forces_parts(session->scene, session->style, &text);
     if (status == QDOT_OK && text.n == 0)
         qdot_text_add(&text, "nothing is applied");
-    return answer_text(session, "forces", status, &text);
+    return qdot_answer_written(session, "forces", status, &text);
 }
 
 qdot_status
@@ -437,7 +425,7 @@ qdot_ask_dof(qdot_cursor *c)
         qdot_text_format(&text, "\nn = N*D - C = %zu*%zu - %zu = %zu", dof.particles,
                          dof.dimension, dof.independent, dof.freedom);
     qdot_constraints_print_redundant(session->scene, &dof, &text);
-    return answer_text(session, "dof", QDOT_OK, &text);
+    return qdot_answer_written(session, "dof", QDOT_OK, &text);
 }
 
 /* `theta: p[theta] = ... is conserved`, or with its rate. */
@@ -504,5 +492,5 @@ qdot_ask_cyclic(qdot_cursor *c)
     if (n == 0)
         qdot_text_add(&text, "no coordinate is cyclic");
     qdot_free(list);
-    return answer_text(session, "cyclic", status, &text);
+    return qdot_answer_written(session, "cyclic", status, &text);
 }

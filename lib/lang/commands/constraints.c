@@ -99,11 +99,7 @@ qdot_ask_reactions(qdot_cursor *c)
     }
     if (n == 0)
         qdot_text_add(&text, "the constraints act on nothing");
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, "reactions", qdot_text_str(&text));
-    qdot_text_clear(&text);
+    status = qdot_answer_written(session, "reactions", status, &text);
     qdot_free(list);
     return status;
 }
@@ -198,12 +194,7 @@ answer_text(qdot_session *session, const qdot_constraint *c, const qdot_integrab
         if (i->integral != QDOT_NIL)
             status = print_integral(session, i->integral, &text);
     }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, "check", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_written(session, "check", status, &text);
 }
 
 /* As JSON the sides are mu f and dF/dt where an integral proves it, else the worst

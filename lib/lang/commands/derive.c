@@ -7,8 +7,8 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/commands/statement.h"
-#include "normal/form/common.h"
 #include "mech/dynamics/quantity.h"
+#include "normal/form/common.h"
 #include "normal/simplify/simplify.h"
 
 typedef struct {
@@ -427,10 +427,5 @@ qdot_derive_all(qdot_cursor *c)
         status = equations(&d);
     if (status == QDOT_OK)
         status = conserved_momenta(&d);
-    if (status == QDOT_OK)
-        status = qdot_text_status(&d.text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(c->session, "derive", qdot_text_str(&d.text));
-    qdot_text_clear(&d.text);
-    return status;
+    return qdot_answer_written(c->session, "derive", status, &d.text);
 }

@@ -131,10 +131,7 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
         qdot_text_add(&text, "everywhere, ");
     if (status == QDOT_OK)
         status = print_stability(session, e, &text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, name, qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_written(session, name, status, &text);
 }
 
 /* Tell that there is no equilibrium, or that the list may be incomplete. */
@@ -142,7 +139,6 @@ static qdot_status
 answer_rest(qdot_session *session, const qdot_equilibria *all)
 {
     qdot_text text = {0};
-    qdot_status status;
 
     if (all->complete && all->n > 0)
         return QDOT_OK;
@@ -161,11 +157,7 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
     if (all->unproved > 0)
         qdot_text_format(&text, "; %zu of them ended where the equations hold to rounding, "
                                 "but no rest is proved", all->unproved);
-    status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, "equilibria", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_written(session, "equilibria", QDOT_OK, &text);
 }
 
 qdot_status
@@ -198,7 +190,6 @@ static qdot_status
 answer_part(qdot_session *session, bool numeric, const char *name, qdot_expr value)
 {
     qdot_text line = {0};
-    qdot_status status;
     double x;
 
     if (!numeric)
@@ -208,11 +199,7 @@ answer_part(qdot_session *session, bool numeric, const char *name, qdot_expr val
         return qdot_answer_number(session, name, x, NAN);
     qdot_text_format(&line, "%s = ", name);
     qdot_number_text(&line, x, 1e-13 * fabs(x));
-    status = qdot_text_status(&line);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, name, qdot_text_str(&line));
-    qdot_text_clear(&line);
-    return status;
+    return qdot_answer_written(session, name, QDOT_OK, &line);
 }
 
 static qdot_status

@@ -253,10 +253,5 @@ qdot_event_list(qdot_cursor *c)
     }
     if (n == 0)
         qdot_text_format(&text, "no event occurred in %s", run->name);
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, "events", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_written(session, "events", status, &text);
 }

@@ -168,7 +168,6 @@ qdot_help(qdot_cursor *c)
     const qdot_token *start = c->at;
     const char *word = "help";
     qdot_text text = {0};
-    qdot_status status;
 
     if (c->at->kind == QDOT_TOKEN_NAME)
         word = c->at++->text;
@@ -184,9 +183,5 @@ qdot_help(qdot_cursor *c)
         (void)qdot_fail(QDOT_ENAME, "there is no help on `%.100s`", word);
         return qdot_hint("`help` lists every word; `show NAME` tells of your own names");
     }
-    status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(c->session, "help", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_written(c->session, "help", QDOT_OK, &text);
 }

@@ -163,20 +163,10 @@ read_options(qdot_cursor *c, const qdot_token *start, options *o)
 static qdot_status
 fill_with(qdot_session *session, const qdot_pairs *with, qdot_request *o)
 {
-    qdot_vec(qdot_expr) set_symbols = {0}, set_values = {0}, start_symbols = {0},
-                        start_values = {0};
+    qdot_kept_values kept;
     qdot_status status = QDOT_OK;
 
-#define SAVE(v)                                                                          \
-    for (size_t i = 0; i < session->v.n && status == QDOT_OK; i++)                       \
-        status = qdot_vec_push(&v, session->v.at[i]);
-#define RESTORE(v)                                                                       \
-    qdot_free(session->v.at);                                                            \
-    memcpy(&session->v, &v, sizeof v);
-    SAVE(set_symbols)
-    SAVE(set_values)
-    SAVE(start_symbols)
-    SAVE(start_values)
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
     for (size_t i = 0; i < with->symbols.n && status == QDOT_OK; i++) {
         if (qdot_expr_is_class(session->pool, with->symbols.at[i], QDOT_COORD))
             status =
@@ -186,12 +176,7 @@ fill_with(qdot_session *session, const qdot_pairs *with, qdot_request *o)
     }
     if (status == QDOT_OK)
         status = qdot_request_fill(session, o);
-    RESTORE(set_symbols)
-    RESTORE(set_values)
-    RESTORE(start_symbols)
-    RESTORE(start_values)
-#undef SAVE
-#undef RESTORE
+    qdot_session_restore_values(session, &kept);
     return status;
 }
 
@@ -318,11 +303,7 @@ qdot_run_plan_statement(qdot_cursor *c)
     request.request.treatment = o.treatment;
     if (status == QDOT_OK)
         status = qdot_run_plan(c->session->scene, &request.request, &text);
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(c->session, "plan", qdot_text_str(&text));
-    qdot_text_clear(&text);
+    status = qdot_answer_written(c->session, "plan", status, &text);
     qdot_request_free(&request);
     qdot_text_clear(&o.text);
     qdot_pairs_free(&o.with);

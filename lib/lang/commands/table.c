@@ -138,12 +138,7 @@ write_grid(qdot_session *session, const grid *g, const char *path)
     }
     if (!session->json) {
         status = qdot_table_text(g->n, g->columns, g->rows, 10, &text);
-        if (status == QDOT_OK)
-            status = qdot_text_status(&text);
-        if (status == QDOT_OK)
-            status = qdot_answer_text(session, "table", qdot_text_str(&text));
-        qdot_text_clear(&text);
-        return status;
+        return qdot_answer_written(session, "table", status, &text);
     }
     for (size_t k = 0; k < g->rows && status == QDOT_OK; k++) {
         double *row = qdot_calloc(g->n, sizeof *row);

@@ -50,10 +50,7 @@ step(qdot_cursor *c, const char *name, const char *word, bool again)
 
         QDOT_TRY(qdot_undo_step(s, again, &text));
         qdot_text_format(&line, "%s: %s", word, text);
-        status = qdot_text_status(&line);
-        if (status == QDOT_OK)
-            status = qdot_answer_text(s, name, qdot_text_str(&line));
-        qdot_text_clear(&line);
+        status = qdot_answer_written(s, name, QDOT_OK, &line);
         QDOT_TRY(status);
     }
     return QDOT_OK;

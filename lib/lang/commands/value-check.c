@@ -156,32 +156,18 @@ qdot_status
 qdot_value_check(qdot_cursor *c, const qdot_pairs *values)
 {
     qdot_session *session = c->session;
-    qdot_vec(qdot_expr) symbols = {0}, numbers = {0};
+    qdot_kept_values kept;
     qdot_status status = QDOT_OK;
-    bool saved;
 
     if (values->symbols.n == 0 || session->scene->springs.n + session->scene->assumed.n == 0)
         return QDOT_OK;
-    for (size_t i = 0; i < session->set_symbols.n && status == QDOT_OK; i++) {
-        status = qdot_vec_push(&symbols, session->set_symbols.at[i]);
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&numbers, session->set_values.at[i]);
-    }
-    saved = status == QDOT_OK;
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
     for (size_t i = 0; i < values->symbols.n && status == QDOT_OK; i++)
         if (qdot_expr_node(session->pool, values->symbols.at[i])->holds & unknown)
             qdot_session_set(session, values->symbols.at[i], values->values.at[i],
                              &status);
     if (status == QDOT_OK)
         status = check_all(c, values);
-    if (saved) {
-        qdot_free(session->set_symbols.at);
-        qdot_free(session->set_values.at);
-        memcpy(&session->set_symbols, &symbols, sizeof symbols);
-        memcpy(&session->set_values, &numbers, sizeof numbers);
-    } else {
-        qdot_free(symbols.at);
-        qdot_free(numbers.at);
-    }
+    qdot_session_restore_values(session, &kept);
     return status;
 }

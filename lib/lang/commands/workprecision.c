@@ -159,16 +159,11 @@ static qdot_status
 answer_table(qdot_session *session, const qdot_workprecision *w)
 {
     qdot_text text = {0};
-    qdot_status status;
 
     if (session->json)
         return rows_json(session, w);
     table(w, &text);
-    status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, "workprecision", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_written(session, "workprecision", QDOT_OK, &text);
 }
 
 /* --- a figure ------------------------------------------------------------------------ */

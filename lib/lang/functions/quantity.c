@@ -9,9 +9,9 @@
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "lang/session/value-kind.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
 #include "mech/study/noether.h"
-#include "mech/dynamics/quantity.h"
 #include "mech/study/reactions.h"
 
 /* --- what a quantity asks of the scene ---------------------------------------------- */

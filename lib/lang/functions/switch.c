@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "normal/prove/decide.h"
 
 typedef struct {
     qdot_pool *pool;

@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_SWITCH_H
 #define QDOT_LANG_SWITCH_H
 
-#include "normal/decide.h"
+#include "normal/field/facts.h"
 
 /* *part: the first part of e that switches where the symbol `ray` is 0; nil: none. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_switch_find(qdot_pool *pool, qdot_expr e, qdot_expr ray,

@@ -119,7 +119,7 @@ common_run(qdot_machine *m, size_t n)
 
 /* value(...) and its kin look at the run of their arguments. */
 static bool
-takes_run(const qdot_machine *m, const qdot_code *code)
+takes_run(const qdot_machine *m, const qdot_postfix *code)
 {
     const qdot_builtin *row = qdot_builtin_find(code->token->text);
 
@@ -129,7 +129,7 @@ takes_run(const qdot_machine *m, const qdot_code *code)
 
 /* max(e, a..b): the ends of the range stand last. */
 static qdot_status
-range(qdot_machine *m, const qdot_code *code)
+range(qdot_machine *m, const qdot_postfix *code)
 {
     const char *run = common_run(m, code->n);
     qdot_expr value;
@@ -141,7 +141,7 @@ range(qdot_machine *m, const qdot_code *code)
 }
 
 static qdot_status
-call(qdot_machine *m, const qdot_code *code)
+call(qdot_machine *m, const qdot_postfix *code)
 {
     size_t n = code->n + code->to;
     const char *run = NULL;
@@ -165,7 +165,7 @@ call(qdot_machine *m, const qdot_code *code)
 }
 
 static qdot_status
-entry(qdot_machine *m, const qdot_code *code)
+entry(qdot_machine *m, const qdot_postfix *code)
 {
     qdot_expr over = qdot_machine_top(m, code->n + 1)->over, value;
 
@@ -177,13 +177,13 @@ entry(qdot_machine *m, const qdot_code *code)
 
 /* `cross[2]`, `cross`, a.cross[2]: times of an event, where no other name is. */
 static qdot_status
-event(qdot_machine *m, const qdot_code *code, bool *found)
+event(qdot_machine *m, const qdot_postfix *code, bool *found)
 {
-    const qdot_code *next = code + 1;
+    const qdot_postfix *next = code + 1;
     bool member = next < m->program->list.at + m->program->list.n &&
-                  next->op == QDOT_CODE_MEMBER;
+                  next->op == QDOT_POSTFIX_MEMBER;
     const char *run = member ? next->token->text : NULL, *text = code->token->text;
-    bool indexed = code->op == QDOT_CODE_INDEX_NAME;
+    bool indexed = code->op == QDOT_POSTFIX_INDEX_NAME;
     qdot_text spelled = {0};
     qdot_status status = QDOT_OK;
     qdot_expr value;
@@ -214,7 +214,7 @@ event(qdot_machine *m, const qdot_code *code, bool *found)
 }
 
 static qdot_status
-name(qdot_machine *m, const qdot_code *code)
+name(qdot_machine *m, const qdot_postfix *code)
 {
     qdot_expr value, over;
     bool found;
@@ -222,7 +222,7 @@ name(qdot_machine *m, const qdot_code *code)
     QDOT_TRY(event(m, code, &found));
     if (found)
         return QDOT_OK;
-    if (code->op == QDOT_CODE_NAME) {
+    if (code->op == QDOT_POSTFIX_NAME) {
         QDOT_TRY(qdot_resolve_name(m->c, code->token, code->primes, &value, &over));
         QDOT_TRY(qdot_machine_push(m, value));
         qdot_machine_top(m, 1)->over = over;
@@ -240,7 +240,7 @@ name(qdot_machine *m, const qdot_code *code)
 
 /* A label is pushed as a symbol of that name; a loop's index is replaced by its value. */
 static qdot_status
-label(qdot_machine *m, const qdot_code *code)
+label(qdot_machine *m, const qdot_postfix *code)
 {
     const qdot_name *bound = qdot_names_find(m->session->names, code->token->text);
     qdot_text text = {0};
@@ -298,62 +298,62 @@ member(qdot_machine *m, const char *run)
 /* --- the loop ----------------------------------------------------------------------- */
 
 static qdot_status
-step(qdot_machine *m, const qdot_code *code, uint32_t *pc)
+step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 {
     qdot_expr value;
 
-    switch ((qdot_code_op)code->op) {
-    case QDOT_CODE_NUMBER:
+    switch ((qdot_postfix_kind)code->op) {
+    case QDOT_POSTFIX_NUMBER:
         return qdot_machine_push(m, qdot_lex_number(m->pool, code->token->text));
-    case QDOT_CODE_NAME:
-    case QDOT_CODE_INDEX_NAME: return name(m, code);
-    case QDOT_CODE_LABEL: return label(m, code);
-    case QDOT_CODE_HISTORY: return history(m, code->n);
-    case QDOT_CODE_INDEX: return entry(m, code);
-    case QDOT_CODE_CALL: return call(m, code);
-    case QDOT_CODE_RANGE: return range(m, code);
-    case QDOT_CODE_TERM: return term(m, code->token);
-    case QDOT_CODE_SUM: return sum(m, code->n);
-    case QDOT_CODE_PRODUCT: return product(m, code->n);
-    case QDOT_CODE_NEGATE:
+    case QDOT_POSTFIX_NAME:
+    case QDOT_POSTFIX_INDEX_NAME: return name(m, code);
+    case QDOT_POSTFIX_LABEL: return label(m, code);
+    case QDOT_POSTFIX_HISTORY: return history(m, code->n);
+    case QDOT_POSTFIX_INDEX: return entry(m, code);
+    case QDOT_POSTFIX_CALL: return call(m, code);
+    case QDOT_POSTFIX_RANGE: return range(m, code);
+    case QDOT_POSTFIX_TERM: return term(m, code->token);
+    case QDOT_POSTFIX_SUM: return sum(m, code->n);
+    case QDOT_POSTFIX_PRODUCT: return product(m, code->n);
+    case QDOT_POSTFIX_NEGATE:
         QDOT_TRY(qdot_machine_take(m, 1));
         return qdot_machine_push(m, qdot_value_neg(m->pool, m->args.at[0]));
-    case QDOT_CODE_POWER:
+    case QDOT_POSTFIX_POWER:
         QDOT_TRY(qdot_machine_take(m, 2));
         QDOT_TRY(
             qdot_machine_push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1])));
         return qdot_machine_pass(m, qdot_machine_top(m, 1)->value);
-    case QDOT_CODE_RELATION:
+    case QDOT_POSTFIX_RELATION:
         QDOT_TRY(qdot_machine_take(m, 2));
         QDOT_TRY(qdot_condition_relation(m->pool, code->token->text, m->args.at[0],
                                          m->args.at[1], &value));
         return qdot_machine_push(m, value);
-    case QDOT_CODE_CHAIN:
+    case QDOT_POSTFIX_CHAIN:
         QDOT_TRY(qdot_machine_take(m, 2));
         QDOT_TRY(qdot_condition_relation(m->pool, code->token->text, m->args.at[0],
                                          m->args.at[1], &value));
         QDOT_TRY(qdot_machine_push(m, value));
         return qdot_machine_push(m, m->args.at[1]);
-    case QDOT_CODE_AND: return logic(m, QDOT_AND, code->n);
-    case QDOT_CODE_OR: return logic(m, QDOT_OR, code->n);
-    case QDOT_CODE_NOT: return logic(m, QDOT_NOT, 1);
-    case QDOT_CODE_VECTOR:
+    case QDOT_POSTFIX_AND: return logic(m, QDOT_AND, code->n);
+    case QDOT_POSTFIX_OR: return logic(m, QDOT_OR, code->n);
+    case QDOT_POSTFIX_NOT: return logic(m, QDOT_NOT, 1);
+    case QDOT_POSTFIX_VECTOR:
         QDOT_TRY(qdot_machine_take(m, code->n));
         return qdot_machine_push(m, qdot_vector(m->pool, code->n, m->args.at));
-    case QDOT_CODE_LIST:
+    case QDOT_POSTFIX_LIST:
         QDOT_TRY(qdot_machine_take_any(m, code->n));
         return qdot_machine_push(m, qdot_list(m->pool, code->n, m->args.at));
-    case QDOT_CODE_MATRIX:
+    case QDOT_POSTFIX_MATRIX:
         QDOT_TRY(qdot_machine_take(m, code->n));
         return qdot_machine_push(
             m, qdot_matrix(m->pool, code->n / code->to, code->to, m->args.at));
-    case QDOT_CODE_MEMBER: return member(m, code->token->text);
-    case QDOT_CODE_JUMP: *pc = code->to; return QDOT_OK;
-    case QDOT_CODE_SUM_BEGIN: return qdot_forms_sum(m, code, pc);
-    case QDOT_CODE_SUM_NEXT: return qdot_forms_sum_next(m, pc);
-    case QDOT_CODE_IF_TEST: return qdot_forms_if(m, code, pc);
-    case QDOT_CODE_IF_ELSE: qdot_forms_else(m, code, pc); return QDOT_OK;
-    case QDOT_CODE_IF_END: return qdot_forms_end(m);
+    case QDOT_POSTFIX_MEMBER: return member(m, code->token->text);
+    case QDOT_POSTFIX_JUMP: *pc = code->to; return QDOT_OK;
+    case QDOT_POSTFIX_SUM_BEGIN: return qdot_forms_sum(m, code, pc);
+    case QDOT_POSTFIX_SUM_NEXT: return qdot_forms_sum_next(m, pc);
+    case QDOT_POSTFIX_IF_TEST: return qdot_forms_if(m, code, pc);
+    case QDOT_POSTFIX_IF_ELSE: qdot_forms_else(m, code, pc); return QDOT_OK;
+    case QDOT_POSTFIX_IF_END: return qdot_forms_end(m);
     }
     return qdot_fail(QDOT_EFAILED, "the reader lost its way");
 }
@@ -362,7 +362,7 @@ static qdot_status
 run_program(qdot_machine *m)
 {
     for (uint32_t pc = 0; pc < m->program->list.n;) {
-        const qdot_code *code = &m->program->list.at[pc++];
+        const qdot_postfix *code = &m->program->list.at[pc++];
 
         m->blame = code->token;
         if ((pc & 0x3FFF) == 0)
@@ -375,7 +375,7 @@ run_program(qdot_machine *m)
 }
 
 qdot_status
-qdot_evaluate(qdot_cursor *c, const qdot_program *program, qdot_expr *value,
+qdot_evaluate(qdot_cursor *c, const qdot_postfix_list *program, qdot_expr *value,
               qdot_expr *over, const char **run)
 {
     qdot_machine m = {

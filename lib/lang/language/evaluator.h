@@ -11,46 +11,46 @@
 /* --- postfix code ------------------------------------------------------------------- */
 
 typedef enum {
-    QDOT_CODE_NUMBER,     /* push the number of `token` */
-    QDOT_CODE_NAME,       /* push what `token` means, with `primes` */
-    QDOT_CODE_LABEL,      /* n indices popped; push the label as a carrier symbol */
-    QDOT_CODE_HISTORY,    /* push %n, n = 0: the last */
-    QDOT_CODE_INDEX_NAME, /* n indices popped; push token[...] with `primes` */
-    QDOT_CODE_INDEX,      /* n indices and a value popped; push its entry */
-    QDOT_CODE_CALL,       /* `to` indices and n arguments popped; push token(...) */
-    QDOT_CODE_RANGE,      /* n popped, the last two the ends of a range of token(...) */
-    QDOT_CODE_TERM,    /* the top is the right operand of `token` in a sum or product */
-    QDOT_CODE_SUM,     /* n terms popped */
-    QDOT_CODE_PRODUCT, /* n factors popped */
-    QDOT_CODE_NEGATE,
-    QDOT_CODE_POWER,
-    QDOT_CODE_RELATION, /* a b -> (a op b) */
-    QDOT_CODE_CHAIN,    /* a b -> (a op b) b: the first part of a < b < c */
-    QDOT_CODE_AND,      /* n popped */
-    QDOT_CODE_OR,
-    QDOT_CODE_NOT,
-    QDOT_CODE_VECTOR,    /* n popped */
-    QDOT_CODE_LIST,      /* n popped */
-    QDOT_CODE_MATRIX,    /* n entries popped, `to` columns */
-    QDOT_CODE_MEMBER,    /* the top is meant along the run `token` */
-    QDOT_CODE_JUMP,      /* to `to` */
-    QDOT_CODE_SUM_BEGIN, /* a b popped; the loop over source token n, body at `to` */
-    QDOT_CODE_SUM_NEXT,  /* the body's value popped; round again or go on */
-    QDOT_CODE_IF_TEST,   /* the condition stays; false: nil pushed, go to `to` */
-    QDOT_CODE_IF_ELSE,   /* condition true: both popped, value pushed, go to `to` */
-    QDOT_CODE_IF_END     /* condition, a, b popped; push if(...) */
-} qdot_code_op;
+    QDOT_POSTFIX_NUMBER,     /* push the number of `token` */
+    QDOT_POSTFIX_NAME,       /* push what `token` means, with `primes` */
+    QDOT_POSTFIX_LABEL,      /* n indices popped; push the label as a carrier symbol */
+    QDOT_POSTFIX_HISTORY,    /* push %n, n = 0: the last */
+    QDOT_POSTFIX_INDEX_NAME, /* n indices popped; push token[...] with `primes` */
+    QDOT_POSTFIX_INDEX,      /* n indices and a value popped; push its entry */
+    QDOT_POSTFIX_CALL,       /* `to` indices and n arguments popped; push token(...) */
+    QDOT_POSTFIX_RANGE,      /* n popped, the last two the ends of a range of token(...) */
+    QDOT_POSTFIX_TERM,    /* the top is the right operand of `token` in a sum or product */
+    QDOT_POSTFIX_SUM,     /* n terms popped */
+    QDOT_POSTFIX_PRODUCT, /* n factors popped */
+    QDOT_POSTFIX_NEGATE,
+    QDOT_POSTFIX_POWER,
+    QDOT_POSTFIX_RELATION, /* a b -> (a op b) */
+    QDOT_POSTFIX_CHAIN,    /* a b -> (a op b) b: the first part of a < b < c */
+    QDOT_POSTFIX_AND,      /* n popped */
+    QDOT_POSTFIX_OR,
+    QDOT_POSTFIX_NOT,
+    QDOT_POSTFIX_VECTOR,    /* n popped */
+    QDOT_POSTFIX_LIST,      /* n popped */
+    QDOT_POSTFIX_MATRIX,    /* n entries popped, `to` columns */
+    QDOT_POSTFIX_MEMBER,    /* the top is meant along the run `token` */
+    QDOT_POSTFIX_JUMP,      /* to `to` */
+    QDOT_POSTFIX_SUM_BEGIN, /* a b popped; the loop over source token n, body at `to` */
+    QDOT_POSTFIX_SUM_NEXT,  /* the body's value popped; round again or go on */
+    QDOT_POSTFIX_IF_TEST,   /* the condition stays; false: nil pushed, go to `to` */
+    QDOT_POSTFIX_IF_ELSE,   /* condition true: both popped, value pushed, go to `to` */
+    QDOT_POSTFIX_IF_END     /* condition, a, b popped; push if(...) */
+} qdot_postfix_kind;
 
 typedef struct {
-    uint8_t op; /* qdot_code_op */
+    uint8_t op; /* qdot_postfix_kind */
     uint8_t primes;
     uint32_t n, to;
     const qdot_token *token; /* answerable for it: where the caret goes */
-} qdot_code;
+} qdot_postfix;
 
 typedef struct {
-    qdot_vec(qdot_code) list;
-} qdot_program;
+    qdot_vec(qdot_postfix) list;
+} qdot_postfix_list;
 
 /* How far an expression goes. */
 typedef enum {
@@ -60,11 +60,11 @@ typedef enum {
 
 /* Parse one expression at the cursor and step over it. Append to *program. */
 QDOT_MUST_CHECK qdot_status qdot_parse(qdot_cursor *c, qdot_parse_extent extent,
-                                       qdot_program *program);
+                                       qdot_postfix_list *program);
 
 /* Run the program; *run (may be NULL: not allowed) the run that the whole is meant along,
  * or NULL. *over (may be NULL): the coordinates its entries go by, or nil. */
-QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_program *program,
+QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_postfix_list *program,
                                           qdot_expr *value, qdot_expr *over,
                                           const char **run);
 

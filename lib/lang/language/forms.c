@@ -49,7 +49,7 @@ sum_round(qdot_machine *m, uint32_t *pc, uint32_t body)
 }
 
 qdot_status
-qdot_forms_sum(qdot_machine *m, const qdot_code *code, uint32_t *pc)
+qdot_forms_sum(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 {
     const qdot_token *place = &m->c->source->tokens.at[code->n];
     const qdot_partial_sum *known;
@@ -127,7 +127,7 @@ qdot_forms_sum_next(qdot_machine *m, uint32_t *pc)
 }
 
 qdot_status
-qdot_forms_if(qdot_machine *m, const qdot_code *code, uint32_t *pc)
+qdot_forms_if(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 {
     qdot_slot *s = qdot_machine_top(m, 1);
     qdot_slot none = {0};
@@ -148,7 +148,7 @@ qdot_forms_if(qdot_machine *m, const qdot_code *code, uint32_t *pc)
 }
 
 void
-qdot_forms_else(qdot_machine *m, const qdot_code *code, uint32_t *pc)
+qdot_forms_else(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 {
     if (qdot_machine_top(m, 2)->value != QDOT_TRUE)
         return;

@@ -4,15 +4,15 @@
 
 #include "lang/language/machine.h"
 
-QDOT_MUST_CHECK qdot_status qdot_forms_sum(qdot_machine *m, const qdot_code *code,
+QDOT_MUST_CHECK qdot_status qdot_forms_sum(qdot_machine *m, const qdot_postfix *code,
                                            uint32_t *pc);
 /* The body's value is there. The SUM_BEGIN that began it stands before frame.resume. */
 QDOT_MUST_CHECK qdot_status qdot_forms_sum_next(qdot_machine *m, uint32_t *pc);
 /* Evaluation failed in a sum that only a formula could give. */
 qdot_status qdot_forms_too_many_terms(const qdot_sum_frame *f, qdot_status status);
-QDOT_MUST_CHECK qdot_status qdot_forms_if(qdot_machine *m, const qdot_code *code,
+QDOT_MUST_CHECK qdot_status qdot_forms_if(qdot_machine *m, const qdot_postfix *code,
                                           uint32_t *pc);
-void qdot_forms_else(qdot_machine *m, const qdot_code *code, uint32_t *pc);
+void qdot_forms_else(qdot_machine *m, const qdot_postfix *code, uint32_t *pc);
 QDOT_MUST_CHECK qdot_status qdot_forms_end(qdot_machine *m);
 
 #endif

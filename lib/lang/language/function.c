@@ -91,7 +91,7 @@ static qdot_status
 read_body(qdot_cursor *c, qdot_name *entry)
 {
     qdot_function_body *body = entry->body;
-    qdot_program program = {0};
+    qdot_postfix_list program = {0};
     qdot_status status;
     size_t outer;
 
@@ -145,7 +145,7 @@ tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status statu
 static qdot_status
 evaluate(qdot_cursor *c, const qdot_function_body *body, qdot_expr *value, qdot_expr *over)
 {
-    qdot_program program = {0};
+    qdot_postfix_list program = {0};
     const char *run = NULL;
     qdot_status status = qdot_parse(c, QDOT_PARSE_VALUE, &program);
 

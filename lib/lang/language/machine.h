@@ -29,7 +29,7 @@ typedef struct {
     qdot_cursor *c;
     qdot_session *session;
     qdot_pool *pool;
-    const qdot_program *program;
+    const qdot_postfix_list *program;
     qdot_vec(qdot_slot) stack;
     qdot_vec(qdot_sum_frame) frames;
     qdot_vec(qdot_expr) terms; /* of all sums under way */

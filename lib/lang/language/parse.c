@@ -48,7 +48,7 @@ typedef struct {
 
 typedef struct {
     qdot_cursor *c;
-    qdot_program *program;
+    qdot_postfix_list *program;
     qdot_parse_extent extent;
     qdot_vec(waiting) stack;
     size_t depth; /* open brackets */
@@ -74,10 +74,10 @@ fail_at(parser *p, const qdot_token *token, qdot_status status)
 }
 
 static qdot_status
-emit(parser *p, qdot_code_op op, const qdot_token *token, uint32_t n, uint32_t to,
+emit(parser *p, qdot_postfix_kind op, const qdot_token *token, uint32_t n, uint32_t to,
      unsigned primes)
 {
-    qdot_code code = {(uint8_t)op, (uint8_t)primes, n, to, token};
+    qdot_postfix code = {(uint8_t)op, (uint8_t)primes, n, to, token};
 
     return qdot_vec_push(&p->program->list, code);
 }
@@ -109,22 +109,22 @@ reduce(parser *p)
     waiting w = p->stack.at[--p->stack.n];
 
     switch ((waiting_kind)w.kind) {
-    case OP_OR: return emit(p, QDOT_CODE_OR, w.token, w.count + 1, 0, 0);
-    case OP_AND: return emit(p, QDOT_CODE_AND, w.token, w.count + 1, 0, 0);
-    case OP_NOT: return emit(p, QDOT_CODE_NOT, w.token, 1, 0, 0);
+    case OP_OR: return emit(p, QDOT_POSTFIX_OR, w.token, w.count + 1, 0, 0);
+    case OP_AND: return emit(p, QDOT_POSTFIX_AND, w.token, w.count + 1, 0, 0);
+    case OP_NOT: return emit(p, QDOT_POSTFIX_NOT, w.token, 1, 0, 0);
     case OP_RELATION:
-        QDOT_TRY(emit(p, QDOT_CODE_RELATION, w.token, 2, 0, 0));
-        return w.count > 1 ? emit(p, QDOT_CODE_AND, w.token, w.count, 0, 0) : QDOT_OK;
+        QDOT_TRY(emit(p, QDOT_POSTFIX_RELATION, w.token, 2, 0, 0));
+        return w.count > 1 ? emit(p, QDOT_POSTFIX_AND, w.token, w.count, 0, 0) : QDOT_OK;
     case OP_SUM:
-        QDOT_TRY(emit(p, QDOT_CODE_TERM, w.token, 1, 0, 0));
-        return emit(p, QDOT_CODE_SUM, w.token, w.count + 1, 0, 0);
+        QDOT_TRY(emit(p, QDOT_POSTFIX_TERM, w.token, 1, 0, 0));
+        return emit(p, QDOT_POSTFIX_SUM, w.token, w.count + 1, 0, 0);
     case OP_PRODUCT:
-        QDOT_TRY(emit(p, QDOT_CODE_TERM, w.token, 1, 0, 0));
-        return emit(p, QDOT_CODE_PRODUCT, w.token, w.count + 1, 0, 0);
-    case OP_NEGATE: return emit(p, QDOT_CODE_NEGATE, w.token, 1, 0, 0);
-    case OP_POWER: return emit(p, QDOT_CODE_POWER, w.token, 2, 0, 0);
-    case OP_ROOT: return emit(p, QDOT_CODE_CALL, w.token, 1, 0, 0);
-    default: return emit(p, QDOT_CODE_MEMBER, w.token, 1, 0, 0);
+        QDOT_TRY(emit(p, QDOT_POSTFIX_TERM, w.token, 1, 0, 0));
+        return emit(p, QDOT_POSTFIX_PRODUCT, w.token, w.count + 1, 0, 0);
+    case OP_NEGATE: return emit(p, QDOT_POSTFIX_NEGATE, w.token, 1, 0, 0);
+    case OP_POWER: return emit(p, QDOT_POSTFIX_POWER, w.token, 2, 0, 0);
+    case OP_ROOT: return emit(p, QDOT_POSTFIX_CALL, w.token, 1, 0, 0);
+    default: return emit(p, QDOT_POSTFIX_MEMBER, w.token, 1, 0, 0);
     }
 }
 
@@ -159,7 +159,7 @@ chain_relation(parser *p, waiting *w, const qdot_token *token)
     const qdot_token *first = w->token;
 
     w->token = token;
-    return emit(p, QDOT_CODE_CHAIN, first, 2, 0, 0);
+    return emit(p, QDOT_POSTFIX_CHAIN, first, 2, 0, 0);
 }
 
 static qdot_status
@@ -174,7 +174,7 @@ binary(parser *p, waiting_kind kind, const qdot_token *token)
         if (kind == OP_RELATION)
             return chain_relation(p, w, token);
         if (kind == OP_SUM || kind == OP_PRODUCT)
-            QDOT_TRY(emit(p, QDOT_CODE_TERM, w->token, 1, 0, 0));
+            QDOT_TRY(emit(p, QDOT_POSTFIX_TERM, w->token, 1, 0, 0));
         w->count++;
         w->token = token;
         return QDOT_OK;
@@ -213,7 +213,7 @@ label(parser *p, const char *what)
         return push(p, IN_LABEL, name);
     }
     p->operand = false;
-    return emit(p, QDOT_CODE_LABEL, name, 0, 0, 0);
+    return emit(p, QDOT_POSTFIX_LABEL, name, 0, 0, 0);
 }
 
 /* The cursor is past `name` (and [indices] and primes), at its `(`. */
@@ -241,7 +241,7 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
         QDOT_TRY(push(p, sum ? IN_SUM : IN_IF, name));
         if (sum) {
             top(p)->at = (uint32_t)p->program->list.n;
-            return emit(p, QDOT_CODE_JUMP, name, 0, 0, 0);
+            return emit(p, QDOT_POSTFIX_JUMP, name, 0, 0, 0);
         }
         return QDOT_OK;
     }
@@ -253,7 +253,7 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
         p->stack.n--;
         p->depth--;
         p->operand = false;
-        return emit(p, QDOT_CODE_CALL, name, 0, indices, n_primes);
+        return emit(p, QDOT_POSTFIX_CALL, name, 0, indices, n_primes);
     }
     return flags & QDOT_BUILTIN_LABEL ? label(p, "the name of a body or particle")
                                       : QDOT_OK;
@@ -340,7 +340,7 @@ name(parser *p)
                    : QDOT_OK;
     }
     p->operand = false;
-    return emit(p, QDOT_CODE_NAME, t, 0, 0, n);
+    return emit(p, QDOT_POSTFIX_NAME, t, 0, 0, n);
 }
 
 /* `%` or `%3`. */
@@ -362,7 +362,7 @@ history(parser *p)
             return qdot_cursor_expected(p->c, "a number from 1 after `%`");
         p->c->at++;
     }
-    return emit(p, QDOT_CODE_HISTORY, t, n, 0, 0);
+    return emit(p, QDOT_POSTFIX_HISTORY, t, n, 0, 0);
 }
 
 static qdot_status
@@ -373,7 +373,7 @@ operand(parser *p)
     if (t->kind == QDOT_TOKEN_NUMBER) {
         p->c->at++;
         p->operand = false;
-        return emit(p, QDOT_CODE_NUMBER, t, 0, 0, 0);
+        return emit(p, QDOT_POSTFIX_NUMBER, t, 0, 0, 0);
     }
     if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "not") == 0) {
         p->c->at++;
@@ -401,7 +401,7 @@ operand(parser *p)
         if (qdot_token_is(p->c->at, "]")) {
             p->c->at++;
             p->operand = false;
-            return emit(p, QDOT_CODE_LIST, t, 0, 0, 0);
+            return emit(p, QDOT_POSTFIX_LIST, t, 0, 0, 0);
         }
         return push(p, IN_LIST, t);
     }
@@ -428,7 +428,7 @@ sum_index(parser *p, waiting *w)
     if (w->name->kind != QDOT_TOKEN_NAME || !qdot_token_is(w->name + 1, ","))
         return usage(p, w);
     p->c->at += 2;
-    QDOT_TRY(emit(p, QDOT_CODE_SUM_NEXT, w->token, 0, 0, 0));
+    QDOT_TRY(emit(p, QDOT_POSTFIX_SUM_NEXT, w->token, 0, 0, 0));
     p->program->list.at[w->at].to = (uint32_t)p->program->list.n;
     return QDOT_OK;
 }
@@ -455,7 +455,7 @@ comma(parser *p)
 
         if (w->count > 2)
             return usage(p, w);
-        QDOT_TRY(emit(p, w->count == 1 ? QDOT_CODE_IF_TEST : QDOT_CODE_IF_ELSE, w->token,
+        QDOT_TRY(emit(p, w->count == 1 ? QDOT_POSTFIX_IF_TEST : QDOT_POSTFIX_IF_ELSE, w->token,
                       0, 0, 0));
         if (w->count == 2)
             p->program->list.at[w->at].to = here + 1;
@@ -491,7 +491,7 @@ row(parser *p)
         p->c->at++;
         p->stack.n--;
         p->depth--;
-        return emit(p, QDOT_CODE_MATRIX, whole.token, whole.count, whole.columns, 0);
+        return emit(p, QDOT_POSTFIX_MATRIX, whole.token, whole.count, whole.columns, 0);
     }
     p->operand = true;
     return QDOT_OK;
@@ -501,12 +501,12 @@ static qdot_status
 close_list(parser *p, const waiting *w)
 {
     if (w->columns == 0)
-        return emit(p, QDOT_CODE_LIST, w->token, w->count + 1, 0, 0);
+        return emit(p, QDOT_POSTFIX_LIST, w->token, w->count + 1, 0, 0);
     if ((w->count + 1) % w->columns != 0) {
         qdot_fail(QDOT_ETYPE, "the rows of a matrix are of one length");
         return fail_at(p, p->c->at - 1, QDOT_ETYPE);
     }
-    return emit(p, QDOT_CODE_MATRIX, w->token, w->count + 1, w->columns, 0);
+    return emit(p, QDOT_POSTFIX_MATRIX, w->token, w->count + 1, w->columns, 0);
 }
 
 static qdot_status
@@ -522,35 +522,35 @@ close_bracket(parser *p)
     p->depth--;
     switch ((waiting_kind)w.kind) {
     case IN_GROUP:
-        return w.count > 0 ? emit(p, QDOT_CODE_VECTOR, w.token, w.count + 1, 0, 0)
+        return w.count > 0 ? emit(p, QDOT_POSTFIX_VECTOR, w.token, w.count + 1, 0, 0)
                            : QDOT_OK;
     case IN_LIST: return close_list(p, &w);
-    case IN_LABEL: return emit(p, QDOT_CODE_LABEL, w.token, w.count + 1, 0, 0);
+    case IN_LABEL: return emit(p, QDOT_POSTFIX_LABEL, w.token, w.count + 1, 0, 0);
     case IN_INDEX_NAME:
         n = primes(p);
         if (qdot_token_is(p->c->at, "(") && p->c->at->glued)
             return call(p, w.token, n, w.count + 1);
-        return emit(p, QDOT_CODE_INDEX_NAME, w.token, w.count + 1, 0, n);
-    case IN_INDEX: return emit(p, QDOT_CODE_INDEX, w.token, w.count + 1, 0, 0);
+        return emit(p, QDOT_POSTFIX_INDEX_NAME, w.token, w.count + 1, 0, n);
+    case IN_INDEX: return emit(p, QDOT_POSTFIX_INDEX, w.token, w.count + 1, 0, 0);
     case IN_SUM:
         if (w.count != 2)
             return usage(p, &w);
-        return emit(p, QDOT_CODE_SUM_BEGIN, w.token,
+        return emit(p, QDOT_POSTFIX_SUM_BEGIN, w.token,
                     (uint32_t)(w.name - p->c->source->tokens.at), w.at + 1, 0);
     case IN_IF:
         if (w.count != 2)
             return usage(p, &w);
-        QDOT_TRY(emit(p, QDOT_CODE_IF_END, w.token, 0, 0, 0));
+        QDOT_TRY(emit(p, QDOT_POSTFIX_IF_END, w.token, 0, 0, 0));
         p->program->list.at[w.at].to = (uint32_t)p->program->list.n;
         return QDOT_OK;
     default:
         if (w.ranged)
-            return emit(p, QDOT_CODE_RANGE, w.token, w.count + 1, 0, 0);
-        QDOT_TRY(emit(p, QDOT_CODE_CALL, w.token, w.count + 1, w.indices, w.primes));
+            return emit(p, QDOT_POSTFIX_RANGE, w.token, w.count + 1, 0, 0);
+        QDOT_TRY(emit(p, QDOT_POSTFIX_CALL, w.token, w.count + 1, w.indices, w.primes));
         if (w.power == NULL)
             return QDOT_OK;
-        QDOT_TRY(emit(p, QDOT_CODE_NUMBER, w.power, 0, 0, 0));
-        return emit(p, QDOT_CODE_POWER, w.power, 2, 0, 0);
+        QDOT_TRY(emit(p, QDOT_POSTFIX_NUMBER, w.power, 0, 0, 0));
+        return emit(p, QDOT_POSTFIX_POWER, w.power, 2, 0, 0);
     }
 }
 
@@ -646,7 +646,7 @@ parse(parser *p)
 }
 
 qdot_status
-qdot_parse(qdot_cursor *c, qdot_parse_extent extent, qdot_program *program)
+qdot_parse(qdot_cursor *c, qdot_parse_extent extent, qdot_postfix_list *program)
 {
     parser p = {.c = c, .program = program, .extent = extent, .operand = true};
     qdot_status status;

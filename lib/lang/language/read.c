@@ -13,7 +13,7 @@ static qdot_status
 read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
                 qdot_expr *over, const char **run)
 {
-    qdot_program program = {0};
+    qdot_postfix_list program = {0};
     qdot_status status = qdot_parse(c, extent, &program);
 
     if (status == QDOT_OK)

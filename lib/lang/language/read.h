@@ -1,7 +1,8 @@
 /* read.h -- the readers of statements: an operand of a kind, parsed and evaluated.
  *
- * A statement is a range of a source's tokens, which it reads through a cursor. An expression is parsed to postfix code by precedence with an explicit stack
- * and evaluated by a loop over that code: no recursion, so no depth of brackets breaks it.
+ * A statement is a range of a source's tokens, which it reads through a cursor. An expression is
+ * parsed to postfix code by precedence with an explicit stack and evaluated by a loop over that
+ * code: no recursion, so no depth of brackets breaks it.
  */
 #ifndef QDOT_LANG_READ_H
 #define QDOT_LANG_READ_H

@@ -6,6 +6,7 @@
 
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "tape/constant.h"
 #include "tape/tape.h"
 
 qdot_status

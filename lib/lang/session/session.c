@@ -149,3 +149,34 @@ qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value)
     }
     return QDOT_OK;
 }
+
+#define EACH_LIST(X) X(set_symbols) X(set_values) X(start_symbols) X(start_values)
+
+qdot_status
+qdot_session_keep_values(const qdot_session *session, qdot_kept_values *kept)
+{
+    qdot_status status = QDOT_OK;
+
+    *kept = (qdot_kept_values){0};
+#define X(list)                                                                          \
+    for (size_t i = 0; i < session->list.n && status == QDOT_OK; i++)                    \
+        status = qdot_vec_push(&kept->list, session->list.at[i]);
+    EACH_LIST(X)
+#undef X
+#define X(list) qdot_free(kept->list.at);
+    if (status != QDOT_OK) {
+        EACH_LIST(X)
+    }
+#undef X
+    return status;
+}
+
+void
+qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept)
+{
+#define X(list)                                                                          \
+    qdot_free(session->list.at);                                                         \
+    memcpy(&session->list, &kept->list, sizeof kept->list);
+    EACH_LIST(X)
+#undef X
+}

@@ -94,6 +94,14 @@ void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
 /* From now on a run starts with this value of q or q'. */
 QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
                                                qdot_expr value);
+/* The values of `set` and `start`, kept while others are tried. */
+typedef struct {
+    qdot_vec(qdot_expr) set_symbols, set_values, start_symbols, start_values;
+} qdot_kept_values;
+/* Copy them; QDOT_ENOMEM: nothing is kept. restore: put them back and let go of the copy. */
+QDOT_MUST_CHECK qdot_status qdot_session_keep_values(const qdot_session *session,
+                                                     qdot_kept_values *kept);
+void qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept);
 /* All that `reset` forgets changes places; what is no part of a scene stays: style, files ... */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 

@@ -4,28 +4,32 @@
 
 #include "sim/course/course.h"
 
+/* Expressions of a plan, lowered. */
 typedef struct {
-    const qdot_plan *plan;
-    const qdot_tape *tape; /* borrowed */
+    const qdot_plan *plan; /* borrowed, as all but the tape */
+    size_t m;
+    const qdot_expr *exprs; /* [m] as they were given */
+    qdot_tape *tape;        /* of them with the values of the plan in place */
+    bool accelerations;     /* it reads q'' or multipliers */
+} qdot_reading;
+
+/* These along a course. */
+typedef struct {
+    qdot_reading of;
     qdot_trajectory_cursor *cursor;
     const qdot_course *course;
-    bool accelerations; /* the tape reads q'' or lambda */
-    int moved;          /* 0; else states are read moved to that side, by a double: 1, 2 */
-    double *in;         /* [3n + 1 + m] */
+    int moved;  /* 0; else states are read moved to that side, by a double: 1, 2 */
+    double *in; /* [3n + 1 + m] */
     double *work;
 } qdot_reader;
 
-/* A tape of expressions [m] with the values of the plan in place; whether it reads
- * accelerations or multipliers. */
+/* Lower exprs [m]; the tape is the caller's to free, NULL on errors. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower(const qdot_plan *plan, size_t m,
-                                              const qdot_expr *exprs, qdot_tape **tape,
-                                              bool *accelerations);
+                                              const qdot_expr *exprs, qdot_reading *of);
 
-/* For that tape along that course, both borrowed; clear it in any case. */
-QDOT_MUST_CHECK qdot_status qdot_reader_init(qdot_reader *r, const qdot_plan *plan,
-                                             const qdot_tape *tape,
-                                             const qdot_course *course,
-                                             bool accelerations);
+/* The tape and the course are borrowed; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_reader_init(qdot_reader *r, const qdot_reading *of,
+                                             const qdot_course *course);
 void qdot_reader_clear(qdot_reader *r);
 
 /* out [outputs of the tape] at t; within that piece of the run, unless it is SIZE_MAX. */

@@ -15,11 +15,9 @@
 
 /* Expressions, read at the states of one of the two runs. */
 typedef struct {
-    const qdot_plan *plan;
+    const qdot_reading *of;
     qdot_precise_side *side;
     qdot_precise *program;
-    size_t m;
-    bool accelerations; /* the program reads q'' */
     size_t segment;     /* of the side, that is read */
     qdot_reals numbers; /* t, y [2n] */
 } reader;
@@ -32,15 +30,11 @@ reader_clear(reader *r)
 }
 
 static qdot_status
-reader_init(reader *r, const qdot_plan *plan, qdot_precise_side *side,
-            const qdot_tape *tape, bool accelerations)
+reader_init(reader *r, const qdot_reading *of, qdot_precise_side *side)
 {
-    *r = (reader){.plan = plan,
-                  .side = side,
-                  .m = qdot_tape_outputs(tape),
-                  .accelerations = accelerations};
-    QDOT_TRY(qdot_reals_init(&r->numbers, 1 + 2 * plan->n, side->start.bits));
-    return qdot_precise_new(plan->pool, tape, 0, side->start.bits, &r->program);
+    *r = (reader){.of = of, .side = side};
+    QDOT_TRY(qdot_reals_init(&r->numbers, 1 + 2 * of->plan->n, side->start.bits));
+    return qdot_precise_new(of->plan->pool, of->tape, 0, side->start.bits, &r->program);
 }
 
 /* The program at the state y of t. */
@@ -49,20 +43,19 @@ evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
 {
     qdot_precise_bind *bind = r->side->binds[r->side->segments.at[r->segment].mode];
     const qdot_precise_system *system = qdot_precise_bind_system(bind);
-    const size_t n = r->plan->n;
+    const size_t n = r->of->plan->n;
 
     for (size_t i = 0; i < 2 * n; i++)
         mpfr_set(qdot_precise_input(r->program, i)[0], y[i], RN);
     mpfr_set(qdot_precise_input(r->program, 2 * n)[0], t, RN);
-    if (r->accelerations) {
+    if (r->of->accelerations) {
         r->side->near = SIZE_MAX;
         QDOT_TRY(system->begin(t, y, system->user));
     }
-    for (size_t i = 0; r->accelerations && i < n; i++)
+    for (size_t i = 0; r->of->accelerations && i < n; i++)
         mpfr_set(qdot_precise_input(r->program, 2 * n + 1 + i)[0],
                  qdot_precise_bind_acceleration(bind, i), RN);
-    for (size_t k = 0; r->accelerations && r->plan->constraints
-                       && k < r->plan->constraints->m; k++)
+    for (size_t k = 0; r->of->accelerations && k < r->of->plan->m; k++)
         qdot_precise_bind_multiplier(bind, k,
                                      qdot_precise_input(r->program, 3 * n + 1 + k)[0]);
     qdot_precise_order(r->program, 0);
@@ -98,9 +91,8 @@ read_at(reader *r)
 /* The same expressions along both runs. */
 typedef struct {
     qdot_precise_pair *pair;
-    qdot_tape *tape;
+    qdot_reading of;
     reader run, companion;
-    const qdot_expr *exprs;
 } readers;
 
 static void
@@ -108,26 +100,23 @@ readers_clear(readers *r)
 {
     reader_clear(&r->run);
     reader_clear(&r->companion);
-    qdot_tape_free(r->tape);
+    qdot_tape_free(r->of.tape);
 }
 
 static qdot_status
 readers_init(readers *r, qdot_precise_pair *pair, size_t m, const qdot_expr *exprs)
 {
-    bool accelerations;
-
-    *r = (readers){.pair = pair, .exprs = exprs};
-    QDOT_TRY(qdot_reader_lower(pair->plan, m, exprs, &r->tape, &accelerations));
-    QDOT_TRY(reader_init(&r->run, pair->plan, &pair->run, r->tape, accelerations));
-    return reader_init(&r->companion, pair->plan, &pair->companion, r->tape,
-                       accelerations);
+    *r = (readers){.pair = pair};
+    QDOT_TRY(qdot_reader_lower(pair->plan, m, exprs, &r->of));
+    QDOT_TRY(reader_init(&r->run, &r->of, &pair->run));
+    return reader_init(&r->companion, &r->of, &pair->companion);
 }
 
 static qdot_status
 undefined(const readers *r, size_t j)
 {
     qdot_text text = {0};
-    qdot_status status = qdot_print(r->pair->plan->pool, r->exprs[j], QDOT_PLAIN, &text);
+    qdot_status status = qdot_print(r->pair->plan->pool, r->of.exprs[j], QDOT_PLAIN, &text);
 
     if (status == QDOT_OK)
         status = qdot_fail(QDOT_EDOMAIN, "%.200s is undefined at t = %.15g",
@@ -146,7 +135,7 @@ read_both(readers *r, double *errors)
     qdot_status status;
 
     QDOT_TRY(read_at(&r->run));
-    for (size_t j = 0; j < r->run.m; j++)
+    for (size_t j = 0; j < r->of.m; j++)
         if (!mpfr_number_p(qdot_precise_output(r->run.program, j)[0]))
             return undefined(r, j);
     if (!errors)
@@ -154,7 +143,7 @@ read_both(readers *r, double *errors)
     status = isnan(pair->log10_error) ? QDOT_EDOMAIN : read_at(&r->companion);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR)
         return status;
-    for (size_t j = 0; j < r->run.m; j++) {
+    for (size_t j = 0; j < r->of.m; j++) {
         mpfr_srcptr x = qdot_precise_output(r->run.program, j)[0];
         mpfr_ptr w = r->companion.numbers.at[0]; /* read already */
         double size = fmax(0, qdot_real_log2(x));
@@ -280,17 +269,16 @@ qdot_precise_pair_drifts(qdot_precise_pair *pair, qdot_drifts *drifts)
 {
     for (size_t i = 0; i < drifts->n; i++) {
         reader r = {0};
-        qdot_tape *tape = NULL;
-        bool accelerations;
+        qdot_reading of;
         qdot_status status =
-            qdot_reader_lower(pair->plan, 1, &drifts->at[i].quantity, &tape, &accelerations);
+            qdot_reader_lower(pair->plan, 1, &drifts->at[i].quantity, &of);
 
         if (status == QDOT_OK)
-            status = reader_init(&r, pair->plan, &pair->run, tape, accelerations);
+            status = reader_init(&r, &of, &pair->run);
         if (status == QDOT_OK)
             status = follow(&r, drifts->at + i);
         reader_clear(&r);
-        qdot_tape_free(tape);
+        qdot_tape_free(of.tape);
         QDOT_TRY(status);
     }
     return QDOT_OK;

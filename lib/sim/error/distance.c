@@ -65,13 +65,12 @@ find_units(qdot_distance *d)
 }
 
 qdot_status
-qdot_distance_new(qdot_run *run, const qdot_tape *tape, bool accelerations,
-                  qdot_distance **out)
+qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
 {
     const qdot_course *courses[] = {&run->companion, &run->twin};
     const qdot_trajectory *tr = &run->course.tr;
     qdot_distance *d = qdot_calloc(1, sizeof *d);
-    const size_t m = qdot_tape_outputs(tape);
+    const size_t m = of->m;
     qdot_status status;
 
     if (!(*out = d))
@@ -86,11 +85,10 @@ qdot_distance_new(qdot_run *run, const qdot_tape *tape, bool accelerations,
     d->aside = qdot_calloc(2 * m + 1, sizeof *d->aside);
     status = d->at && d->known && d->unit && d->work && d->aside ? QDOT_OK : QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = qdot_reader_init(&d->own, run->plan, tape, &run->course, accelerations);
+        status = qdot_reader_init(&d->own, of, &run->course);
     for (size_t k = 0; k < (run->has_twin ? 2 : 1) && status == QDOT_OK; k++) {
         d->n_others = k + 1;
-        status = qdot_reader_init(d->others + k, run->plan, tape, courses[k],
-                                  accelerations);
+        status = qdot_reader_init(d->others + k, of, courses[k]);
         /* those of a run in two doubles share the rounding of a state that is read */
         d->others[k].moved = run->leading ? (int)k + 1 : 0;
     }

@@ -29,10 +29,10 @@ enum { QDOT_DISTANCE_POINTS = 24 };
 
 typedef struct qdot_distance qdot_distance;
 
-/* Of the outputs [m] of a tape (sim/course/reader.h), borrowed like the run, which must have its
- * companion. Errors: QDOT_ENOMEM, QDOT_EDOMAIN. */
-QDOT_MUST_CHECK qdot_status qdot_distance_new(qdot_run *run, const qdot_tape *tape,
-                                              bool accelerations, qdot_distance **out);
+/* Of expressions [m], borrowed like the run, which must have its companion. Errors:
+ * QDOT_ENOMEM, QDOT_EDOMAIN. */
+QDOT_MUST_CHECK qdot_status qdot_distance_new(qdot_run *run, const qdot_reading *of,
+                                              qdot_distance **out);
 void qdot_distance_free(qdot_distance *d);
 
 /* The error at t into out [m], values [m] being g there; NaN where a companion has none at t. */

@@ -317,10 +317,9 @@ compare(qdot_reader *readers, double t, size_t m, double *values, double *spread
 }
 
 qdot_status
-qdot_horizon_spread(const qdot_run *run, const qdot_tape *tape, bool accelerations,
-                    double *spread)
+qdot_horizon_spread(const qdot_run *run, const qdot_reading *of, double *spread)
 {
-    const size_t m = qdot_tape_outputs(tape);
+    const size_t m = of->m;
     const qdot_course *courses[] = {&run->course, &run->companion};
     const double from = run->report.horizon;
     const double end = run->course.tr.t[run->course.tr.count - 1];
@@ -337,8 +336,7 @@ qdot_horizon_spread(const qdot_run *run, const qdot_tape *tape, bool acceleratio
     if (!values)
         return QDOT_ENOMEM;
     for (int which = 0; which < 2 && status == QDOT_OK; which++)
-        status = qdot_reader_init(readers + which, run->plan, tape, courses[which],
-                                  accelerations);
+        status = qdot_reader_init(readers + which, of, courses[which]);
     for (int k = 0; k < LOOKS && status == QDOT_OK; k++) {
         status =
             compare(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);

@@ -36,9 +36,9 @@ double qdot_horizon_variation(const qdot_trajectory *tr);
 /* Whether t lies beyond it. */
 bool qdot_horizon_passed(const qdot_run *run, double t);
 
-/* The outputs [m] of a tape: the mean distance of the two runs beyond the horizon into
- * spread [m]; 0 where there is no horizon. */
-QDOT_MUST_CHECK qdot_status qdot_horizon_spread(const qdot_run *run, const qdot_tape *tape,
-                                                bool accelerations, double *spread);
+/* Of expressions [m] the mean distance of the two runs beyond the horizon into spread [m];
+ * 0 where there is no horizon. */
+QDOT_MUST_CHECK qdot_status qdot_horizon_spread(const qdot_run *run, const qdot_reading *of,
+                                                double *spread);
 
 #endif

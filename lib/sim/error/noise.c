@@ -43,7 +43,7 @@ level(const double *g, size_t m)
 qdot_status
 qdot_noise_at(qdot_reader *r, size_t piece, double t, double *noise)
 {
-    const size_t n = 2 * r->plan->n, m = qdot_tape_outputs(r->tape);
+    const size_t n = 2 * r->of.plan->n, m = r->of.m;
     double *y = qdot_malloc((n + POINTS * m + 1) * sizeof *y), *g = y + n;
     qdot_status status = y ? qdot_reader_at(r, piece, t, g) : QDOT_ENOMEM;
 
@@ -60,34 +60,33 @@ qdot_noise_at(qdot_reader *r, size_t piece, double t, double *noise)
     return status;
 }
 
-/* The magnitudes [k x m] of the terms of exprs [m] at times [k], row by row; NaN where one has
- * none. */
+/* The magnitudes [k x m] of the terms of expressions at times [k], row by row; NaN where one
+ * has none. */
 static qdot_status
-magnitudes_along(const qdot_plan *plan, const qdot_course *course, size_t m,
-                 const qdot_expr *exprs, size_t k, const double *times,
-                 double *magnitudes)
+magnitudes_along(const qdot_reading *of, const qdot_course *course, size_t k,
+                 const double *times, double *magnitudes)
 {
-    qdot_expr *e = qdot_malloc((m + 1) * sizeof *e);
+    qdot_pool *pool = of->plan->pool;
+    qdot_expr *e = qdot_malloc((of->m + 1) * sizeof *e);
     qdot_reader r = {0};
-    qdot_tape *tape = NULL;
-    bool accelerations;
+    qdot_reading sums = {0};
     qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t j = 0; j < m && status == QDOT_OK; j++)
-        e[j] = qdot_term_magnitude(plan->pool, exprs[j]);
+    for (size_t j = 0; j < of->m && status == QDOT_OK; j++)
+        e[j] = qdot_term_magnitude(pool, of->exprs[j]);
     if (status == QDOT_OK)
-        status = qdot_pool_check(plan->pool);
+        status = qdot_pool_check(pool);
     if (status == QDOT_OK)
-        status = qdot_reader_lower(plan, m, e, &tape, &accelerations);
+        status = qdot_reader_lower(of->plan, of->m, e, &sums);
     if (status == QDOT_OK)
-        status = qdot_reader_init(&r, plan, tape, course, accelerations);
+        status = qdot_reader_init(&r, &sums, course);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = qdot_reader_at(&r, SIZE_MAX, times[i], magnitudes + i * m);
+            status = qdot_reader_at(&r, SIZE_MAX, times[i], magnitudes + i * of->m);
     }
     qdot_reader_clear(&r);
-    qdot_tape_free(tape);
+    qdot_tape_free(sums.tape);
     qdot_free(e);
     return status;
 }
@@ -98,7 +97,7 @@ add(qdot_reader *r, double t, const double *values, double *noise, double *round
 {
     qdot_status status = qdot_noise_at(r, SIZE_MAX, t, noise);
 
-    for (size_t j = 0; j < qdot_tape_outputs(r->tape); j++) {
+    for (size_t j = 0; j < r->of.m; j++) {
         roundings[j] = DBL_EPSILON * fmax(roundings[j], fabs(values[j]));
         if (status == QDOT_OK && isfinite(noise[j]))
             roundings[j] = fmax(roundings[j], levels * noise[j]);
@@ -107,20 +106,18 @@ add(qdot_reader *r, double t, const double *values, double *noise, double *round
 }
 
 qdot_status
-qdot_noise_roundings(const qdot_plan *plan, const qdot_course *course,
-                     const qdot_tape *tape, bool accelerations, const qdot_expr *exprs,
-                     size_t k, const double *times, const double *values,
-                     double *roundings)
+qdot_noise_roundings(const qdot_reading *of, const qdot_course *course, size_t k,
+                     const double *times, const double *values, double *roundings)
 {
-    size_t m = qdot_tape_outputs(tape);
+    size_t m = of->m;
     double *noise = qdot_malloc((m + 1) * sizeof *noise);
     qdot_reader r = {0};
     qdot_status status = noise ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = magnitudes_along(plan, course, m, exprs, k, times, roundings);
+        status = magnitudes_along(of, course, k, times, roundings);
     if (status == QDOT_OK)
-        status = qdot_reader_init(&r, plan, tape, course, accelerations);
+        status = qdot_reader_init(&r, of, course);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
         status = add(&r, times[i], values + i * m, noise, roundings + i * m);
     qdot_reader_clear(&r);

@@ -15,22 +15,19 @@
 
 #include "sim/course/reader.h"
 
-/* Of the outputs [m] of the reader's tape at t, in a piece (sim/course/reader.h), into noise [m].
- * Errors: as qdot_reader_at. */
+/* Of expressions [m] at t, in a piece (sim/course/reader.h), into noise [m]. Errors: as
+ * qdot_reader_at. */
 QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, size_t piece, double t,
                                           double *noise);
 
-/* What evaluating exprs [m] along a course at times [k] may be off by: roundings [k x m],
+/* What evaluating expressions [m] along a course at times [k] may be off by: roundings [k x m],
  *
  *     max(4 noise, DBL_EPSILON max(magnitude, |g|))
  *
- * where magnitude is that of its terms (sim/model/term-magnitude.h) and values [k x m] are g;
- * `tape` holds the exprs (sim/course/reader.h). Errors: as qdot_reader_at. */
-QDOT_MUST_CHECK qdot_status qdot_noise_roundings(const qdot_plan *plan,
-                                                 const qdot_course *course,
-                                                 const qdot_tape *tape,
-                                                 bool accelerations,
-                                                 const qdot_expr *exprs, size_t k,
+ * where magnitude is that of its terms (sim/model/term-magnitude.h) and values [k x m] are g.
+ * Errors: as qdot_reader_at. */
+QDOT_MUST_CHECK qdot_status qdot_noise_roundings(const qdot_reading *of,
+                                                 const qdot_course *course, size_t k,
                                                  const double *times,
                                                  const double *values,
                                                  double *roundings);

@@ -50,7 +50,8 @@ take_plan(search *s, const qdot_course *course, const qdot_plan *plan)
     leave_plan(s);
     s->plan = plan;
     s->m = m;
-    QDOT_TRY(qdot_reader_init(&s->reader, plan, plan->tape, course, false));
+    QDOT_TRY(qdot_reader_init(
+        &s->reader, &(qdot_reading){.plan = plan, .m = m, .tape = plan->tape}, course));
     QDOT_TRY(qdot_polynomial_bounds_init(&s->bounds, plan->tape, 2 * plan->n));
     s->out = qdot_calloc((2 * MANY + 3) * m + 1, sizeof *s->out);
     if (!s->out)

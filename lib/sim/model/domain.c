@@ -6,6 +6,7 @@
 
 #include "expr/print.h"
 #include "sim/model/parameter-states.h"
+#include "tape/constant.h"
 
 void
 qdot_domains_clear(qdot_domains *d)

@@ -11,6 +11,7 @@
 #include "sim/form/derived.h"
 #include "series/program.h"
 #include "series/taylor.h"
+#include "tape/constant.h"
 
 /* Forms are simplified up to so many operations. */
 enum { SHORT = 120, SHORT_ENTRY = 60 };

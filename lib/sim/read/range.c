@@ -216,7 +216,7 @@ find_blur(scan *s, double t)
     double value, other;
 
     QDOT_TRY(value_at(s, t, &value));
-    for (size_t i = 0; i < 2 * r->plan->n; i++)
+    for (size_t i = 0; i < 2 * r->of.plan->n; i++)
         r->in[i] += (i % 2 ? -0x1p-53 : 0x1p-53) * fmax(1, fabs(r->in[i]));
     QDOT_TRY(qdot_reader_evaluate(r, t, &other));
     s->blur = fabs(other - value);
@@ -410,26 +410,31 @@ check_bounds(const scan *s, qdot_range_kind kind)
                      s->pole);
 }
 
+/* What is asked. */
+typedef struct {
+    qdot_run *run;
+    qdot_range_kind kind;
+    double from, to;
+    qdot_reading of; /* one expression */
+} question;
+
 static qdot_status
-over_course(const qdot_run *run, const qdot_course *course, const qdot_tape *tape,
-            bool accelerations, qdot_range_kind kind, double from, double to,
-            double *value, double *rough)
+over_course(const question *q, const qdot_course *course, double *value, double *rough)
 {
-    scan s = {.kind = kind, .most_parts = MOST_PARTS};
-    qdot_status status =
-        qdot_reader_init(&s.reader, run->plan, tape, course, accelerations);
+    scan s = {.kind = q->kind, .most_parts = MOST_PARTS};
+    qdot_status status = qdot_reader_init(&s.reader, &q->of, course);
 
     if (status == QDOT_OK)
-        status = qdot_polynomial_bounds_init(&s.bounds, tape, 2 * run->plan->n);
+        status = qdot_polynomial_bounds_init(&s.bounds, q->of.tape, 2 * q->of.plan->n);
     if (status == QDOT_OK)
-        status = scan_course(&s, from, to);
+        status = scan_course(&s, q->from, q->to);
     if (status == QDOT_OK && !s.begun)
         status = qdot_fail(QDOT_EDOMAIN, "the range holds nothing of the run");
     if (status == QDOT_OK)
-        status = check_bounds(&s, kind);
+        status = check_bounds(&s, q->kind);
     if (status == QDOT_OK) {
-        *value = result(&s, kind, from, to);
-        *rough = s.rough + open_of(&s, kind, from, to);
+        *value = result(&s, q->kind, q->from, q->to);
+        *rough = s.rough + open_of(&s, q->kind, q->from, q->to);
     }
     qdot_polynomial_bounds_clear(&s.bounds);
     qdot_reader_clear(&s.reader);
@@ -453,15 +458,13 @@ check_range(const qdot_run *run, double from, double to)
 
 /* What evaluating e may be off by: as at the ends of the range. */
 static qdot_status
-rounding(qdot_run *run, qdot_range_kind kind, qdot_expr e, const qdot_tape *tape,
-         bool accelerations, double from, double to, double *error)
+rounding(const question *q, double *error)
 {
-    double ends[] = {from, to}, values[2], errors[2];
-    bool drift = kind == QDOT_RANGE_DRIFT;
+    double ends[] = {q->from, q->to}, values[2], errors[2];
+    bool drift = q->kind == QDOT_RANGE_DRIFT;
 
-    QDOT_TRY(qdot_run_values(run, 1, &e, 2, ends, values, NULL));
-    QDOT_TRY(qdot_noise_roundings(run->plan, &run->course, tape, accelerations, &e, 2, ends,
-                                  values, errors));
+    QDOT_TRY(qdot_run_values(q->run, 1, q->of.exprs, 2, ends, values, NULL));
+    QDOT_TRY(qdot_noise_roundings(&q->of, &q->run->course, 2, ends, values, errors));
     *error = (drift ? 2 : 1) * fmax(errors[0], errors[1])
              / (drift ? fmax(1, fabs(values[0])) : 1);
     return QDOT_OK;
@@ -469,18 +472,16 @@ rounding(qdot_run *run, qdot_range_kind kind, qdot_expr e, const qdot_tape *tape
 
 /* What is stated of x, the value of the run itself, by those of the companions. */
 static qdot_status
-compare(const qdot_run *run, const qdot_tape *tape, bool accelerations,
-        qdot_range_kind kind, double from, double to, double x, double *distance)
+compare(const question *q, double x, double *distance)
 {
-    const qdot_course *courses[] = {&run->companion, &run->twin};
-    const size_t companions = run->has_twin ? 2 : 1;
+    const qdot_course *courses[] = {&q->run->companion, &q->run->twin};
+    const size_t companions = q->run->has_twin ? 2 : 1;
     double theirs[2], rough;
 
-    if (!qdot_run_covered(run, to))
+    if (!qdot_run_covered(q->run, q->to))
         return qdot_fail(QDOT_EDOMAIN, "a second run does not come so far");
     for (size_t k = 0; k < companions; k++)
-        QDOT_TRY(over_course(run, courses[k], tape, accelerations, kind, from, to,
-                             &theirs[k], &rough));
+        QDOT_TRY(over_course(q, courses[k], &theirs[k], &rough));
     *distance = qdot_companion_bound_of(x, companions, theirs, 1);
     return QDOT_OK;
 }
@@ -490,36 +491,32 @@ qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, do
                double *value, double *error)
 {
     const qdot_trajectory *tr = &run->course.tr;
-    bool accelerations, back = tr->t[tr->count - 1] < tr->t[0];
+    const bool swap = tr->t[tr->count - 1] < tr->t[0] ? from < to : from > to;
+    question q = {.run = run,
+                  .kind = kind,
+                  .from = swap ? to : from, /* in the direction of the run */
+                  .to = swap ? from : to};
     double rough, distance = 0, spread = 0;
-    qdot_tape *tape;
     qdot_status status;
 
     *error = NAN;
     QDOT_TRY(check_range(run, from, to));
-    if (back ? from < to : from > to) { /* in the direction of the run */
-        double swap = from;
-
-        from = to;
-        to = swap;
-    }
-    QDOT_TRY(qdot_reader_lower(run->plan, 1, &e, &tape, &accelerations));
-    status = over_course(run, &run->course, tape, accelerations, kind, from, to, value,
-                         &rough);
+    QDOT_TRY(qdot_reader_lower(run->plan, 1, &e, &q.of));
+    status = over_course(&q, &run->course, value, &rough);
     if (status == QDOT_OK)
         status = qdot_run_twin(run);
     if (status == QDOT_OK && qdot_run_comparable(run)) {
-        status = compare(run, tape, accelerations, kind, from, to, *value, &distance);
-        if (status == QDOT_OK && qdot_horizon_passed(run, to))
-            status = qdot_horizon_spread(run, tape, accelerations, &spread);
+        status = compare(&q, *value, &distance);
+        if (status == QDOT_OK && qdot_horizon_passed(run, q.to))
+            status = qdot_horizon_spread(run, &q.of, &spread);
         if (status == QDOT_OK)
-            status = rounding(run, kind, e, tape, accelerations, from, to, error);
+            status = rounding(&q, error);
         if (status == QDOT_OK)
             *error += fmax(distance, spread) + rough + DBL_EPSILON * fabs(*value);
         if (status == QDOT_EDOMAIN || status == QDOT_EFAILED
             || status == QDOT_ESINGULAR)
             status = QDOT_OK;
     }
-    qdot_tape_free(tape);
+    qdot_tape_free(q.of.tape);
     return status;
 }

@@ -32,11 +32,10 @@ undefined(const qdot_run *run, qdot_expr e, double t)
 }
 
 static qdot_status
-read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations,
-            const qdot_expr *exprs, size_t k, const double *times, const double *values,
-            double *errors)
+read_errors(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
+            const double *values, double *errors)
 {
-    size_t m = qdot_tape_outputs(tape);
+    size_t m = of->m;
     bool whole;
     qdot_distance *distance = NULL;
     double *spread, *roundings;
@@ -52,12 +51,11 @@ read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations,
     if (!spread)
         return QDOT_ENOMEM;
     roundings = spread + m;
-    status = qdot_horizon_spread(run, tape, accelerations, spread);
+    status = qdot_horizon_spread(run, of, spread);
     if (status == QDOT_OK)
-        status = qdot_noise_roundings(run->plan, &run->course, tape, accelerations, exprs, k,
-                                      times, values, roundings);
+        status = qdot_noise_roundings(of, &run->course, k, times, values, roundings);
     if (status == QDOT_OK)
-        status = qdot_distance_new(run, tape, accelerations, &distance);
+        status = qdot_distance_new(run, of, &distance);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         bool beyond = qdot_horizon_passed(run, times[i]);
         double *e = errors + i * m;
@@ -75,13 +73,12 @@ read_errors(qdot_run *run, const qdot_tape *tape, bool accelerations,
 }
 
 static qdot_status
-read_values(qdot_run *run, const qdot_tape *tape, bool accelerations,
-            const qdot_expr *exprs, size_t k, const double *times, double *values)
+read_values(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
+            double *values)
 {
-    size_t m = qdot_tape_outputs(tape);
+    size_t m = of->m;
     qdot_reader r = {0};
-    qdot_status status =
-        qdot_reader_init(&r, run->plan, tape, &run->course, accelerations);
+    qdot_status status = qdot_reader_init(&r, of, &run->course);
 
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         status = qdot_interrupt_check();
@@ -89,7 +86,7 @@ read_values(qdot_run *run, const qdot_tape *tape, bool accelerations,
             status = qdot_reader_at(&r, SIZE_MAX, times[i], values + i * m);
         for (size_t j = 0; j < m && status == QDOT_OK; j++)
             if (!isfinite(values[i * m + j]))
-                status = undefined(run, exprs[j], times[i]);
+                status = undefined(run, of->exprs[j], times[i]);
     }
     qdot_reader_clear(&r);
     return status;
@@ -126,16 +123,16 @@ go_beyond(const qdot_run *run, qdot_reader *r, double t, double low, size_t m,
 }
 
 static qdot_status
-add_lows(qdot_run *run, const qdot_tape *tape, bool accelerations, size_t k,
-         const double *times, const double *lows, double *values)
+add_lows(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
+         const double *lows, double *values)
 {
-    size_t m = qdot_tape_outputs(tape);
+    size_t m = of->m;
     double *moved = qdot_malloc((m + 1) * sizeof *moved);
     qdot_reader r = {0};
     qdot_status status = moved ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = qdot_reader_init(&r, run->plan, tape, &run->course, accelerations);
+        status = qdot_reader_init(&r, of, &run->course);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
         status = go_beyond(run, &r, times[i], lows[i], m, moved, values + i * m);
     qdot_reader_clear(&r);
@@ -155,20 +152,19 @@ qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k
                        const double *times, const double *lows, double *values,
                        double *errors)
 {
-    bool accelerations;
-    qdot_tape *tape;
+    qdot_reading of;
     qdot_status status;
 
     if (run->precise)
         return qdot_precise_pair_sample_values(run->precise, m, exprs, k, times, values,
                                                errors);
-    QDOT_TRY(qdot_reader_lower(run->plan, m, exprs, &tape, &accelerations));
-    status = read_values(run, tape, accelerations, exprs, k, times, values);
+    QDOT_TRY(qdot_reader_lower(run->plan, m, exprs, &of));
+    status = read_values(run, &of, k, times, values);
     if (status == QDOT_OK && errors)
-        status = read_errors(run, tape, accelerations, exprs, k, times, values, errors);
+        status = read_errors(run, &of, k, times, values, errors);
     if (status == QDOT_OK && lows)
-        status = add_lows(run, tape, accelerations, k, times, lows, values);
-    qdot_tape_free(tape);
+        status = add_lows(run, &of, k, times, lows, values);
+    qdot_tape_free(of.tape);
     return status;
 }
 

@@ -1,4 +1,4 @@
-/* method.c -- the table. */
+/* method-table.c -- the rows of method.h. */
 #include "ode/method.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* function.c -- elementary functions: special values, parity, inverse pairs, derivatives. */
+/* elementary.c -- elementary functions: special values, parity, inverse pairs, derivatives. */
 #include "expr/calculus.h"
 #include "expr/pool.h"
 

@@ -1,4 +1,4 @@
-/* lanes-code.c -- the writer: places, registers, sums; and what it wrote, to be run. */
+/* lanes-code-run.c -- the writer: places, registers, sums; and what it wrote, to be run. */
 #include "series/lanes-code.h"
 
 #include <string.h>

@@ -1,0 +1,365 @@
+/* whole.c -- the loop: try, judge, take, choose the next step. */
+#include "ode/whole.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/interrupt.h"
+#include "num/sum.h"
+#include "ode/stepper.h"
+#include "ode/taylor.h"
+
+/* The error a step aims at, as a part of what it is allowed: few are then rejected, and
+ * for an order of 8 the whole run costs a quarter more and errs eight times less. */
+static const double aim = 0.1;
+
+static const double tol_default = 1e-12;
+static const uint64_t max_steps_default = 50000000;
+
+/* Tries at one place that fail because f is undefined: each divides the step by 4, so
+ * this many reach the spacing of doubles from any step. */
+static const int max_undefined = 60;
+
+typedef struct {
+    qdot_ode_stepper *s;
+    const qdot_ode_options *options;
+    qdot_ode_result *result;
+    double t, t_carry; /* now, as a sum */
+    double t1;
+    double direction; /* +1 or -1 */
+    double h;         /* the step to try next, positive */
+    uint64_t max_steps;
+    int undefined;      /* tries in a row from this t that met no f */
+    bool just_rejected; /* then the step that follows may not grow */
+    qdot_error last_undefined; /* what f said */
+    double undefined_at;       /* the end of that step; NaN before any */
+    double margin, margin_at;  /* system->margin where a step was taken back, and that t */
+    double best;               /* the largest margin met */
+    double longest;            /* step taken */
+    int crawled;               /* how often in a row steps were nothing beside what is ahead */
+} run;
+
+/* Steps below this part of the way to a place where nothing is determined, and of the longest, so
+ * many times one after another, where rounding over what is left of the margin squared is above the
+ * tolerance: it makes their error, and the place is never reached. */
+static const double crawl = 0x1p-8, shrunk = 0x1p-4;
+enum { most_crawled = 4, seldom = 32 };
+
+/* The distance from |t| to the next double. */
+static double
+spacing(double t)
+{
+    t = fabs(t);
+    return nextafter(t, INFINITY) - t;
+}
+
+static double
+floor_of_step(const run *r)
+{
+    return fmax(16 * spacing(r->t), 16 * DBL_MIN);
+}
+
+/* max_i |x_i| / (tol max(1, |y_i|)) */
+static double
+norm(const run *r, const double *x, const double *y)
+{
+    double largest = 0;
+
+    for (size_t i = 0; i < r->s->system->n; i++)
+        largest = fmax(largest, fabs(x[i]) / (r->s->tol * fmax(1, fabs(y[i]))));
+    return largest;
+}
+
+/* Hairer's starting step: from the size of y and y', then of y'' by an Euler step. */
+static qdot_status
+first_step(run *r, double distance)
+{
+    qdot_ode_stepper *s = r->s;
+    const size_t n = s->system->n;
+    double p = s->method->multistep ? 1 : qdot_ode_stepper_error_power(s);
+    double d0, d1, d2, h0;
+
+    QDOT_TRY(qdot_ode_stepper_rhs(s, r->t, s->y, s->dydt));
+    s->dydt_known = true;
+    d0 = norm(r, s->y, s->y);
+    d1 = norm(r, s->dydt, s->y);
+    h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
+    h0 = fmin(h0, distance);
+    r->h = h0;
+    for (size_t i = 0; i < n; i++)
+        s->trial[i] = s->y[i] + r->direction * h0 * s->dydt[i];
+    if (qdot_ode_stepper_rhs(s, r->t + r->direction * h0, s->trial, s->trial_dydt) !=
+        QDOT_OK) {
+        /* nothing is known beyond t: begin with h0, and let the steps find out */
+        return QDOT_OK;
+    }
+    for (size_t i = 0; i < n; i++)
+        s->trial_dydt[i] -= s->dydt[i];
+    d2 = norm(r, s->trial_dydt, s->y) / h0;
+    if (fmax(d1, d2) <= 1e-15)
+        r->h = fmax(1e-6, h0 * 1e-3);
+    else
+        r->h = pow(0.01 / fmax(d1, d2), 1 / (p + 1));
+    r->h = fmin(fmin(100 * h0, r->h), distance);
+    return QDOT_OK;
+}
+
+/* How far it is to t1: exact near the end, where it matters. */
+static double
+remaining(const run *r)
+{
+    return r->direction * ((r->t1 - r->t) - r->t_carry);
+}
+
+/* The step to try now. One that would leave a rest too short to be worth a step takes it
+ * along or shares it. */
+static double
+choose(const run *r, bool *last)
+{
+    double rest = remaining(r);
+
+    *last = r->h >= rest * (1 - 1e-12);
+    if (*last)
+        return rest;
+    if (!r->s->method->multistep && !(r->options->h_fixed > 0) && r->h > 0.5 * rest)
+        return 0.5 * rest;
+    return r->h;
+}
+
+static void
+control(run *r, double h, double ratio, bool accepted)
+{
+    double power = qdot_ode_stepper_error_power(r->s), factor;
+
+    if (r->options->h_fixed > 0)
+        return;
+    factor = ratio > 0 ? 0.9 * pow(ratio / aim, -1 / power) : 5;
+    factor = fmin(5, fmax(0.2, factor));
+    if (accepted && (r->just_rejected || (r->s->method->multistep && factor < 1.5)))
+        factor = fmin(1, factor);
+    if (accepted && r->s->method->multistep)
+        factor = fmax(1, factor);
+    /* a step cut short to land on t1 says nothing against the larger one */
+    r->h = accepted ? fmax(h * factor, h < r->h ? fmin(r->h, 5 * h) : 0) : h * factor;
+}
+
+/* f is undefined somewhere within the step tried. */
+static qdot_status
+undefined(run *r, double h, qdot_status status)
+{
+    if (!qdot_ode_may_be_undefined(status))
+        return status;
+    r->last_undefined = *qdot_last_error();
+    r->undefined_at = r->t + r->direction * h;
+    r->result->stats.rejected++;
+    r->just_rejected = true;
+    r->h = 0.25 * h;
+    if (++r->undefined > max_undefined || r->h < floor_of_step(r) ||
+        r->options->h_fixed > 0) {
+        qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
+                  r->last_undefined.message);
+        return r->last_undefined.hint[0] ? qdot_hint("%s", r->last_undefined.hint)
+                                         : QDOT_EFAILED;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+too_small(run *r)
+{
+    /* a place where f is undefined, and not passed yet, is the cause */
+    if (r->direction * (r->undefined_at - r->t) >= 0)
+        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
+                         r->last_undefined.message);
+    if (r->crawled >= most_crawled)
+        return qdot_fail(QDOT_EFAILED,
+                         "stopped at t = %.17g: steps came down to %.2g, their error being of "
+                         "rounding", r->t, r->h);
+    qdot_fail(QDOT_EFAILED,
+              "stopped at t = %.17g: no step down to %.2g keeps the error below %.2g",
+              r->t, floor_of_step(r), r->s->tol);
+    return qdot_hint("the solution has a singularity there, or the tolerance is below "
+                     "what double precision can hold");
+}
+
+/* Asked where a step was taken back, and now and then. Ahead lies where the margin, straight on, would be 0. */
+static bool
+crawls(run *r)
+{
+    const qdot_ode_system *system = r->s->system;
+    double now, ahead;
+
+    if (!system->margin || r->t == r->margin_at)
+        return false;
+    now = system->margin(r->t, r->s->y, system->user);
+    ahead = now * fabs(r->t - r->margin_at) / (r->margin - now);
+    r->best = fmax(r->best, now);
+    r->crawled = r->margin > now && r->h < crawl * ahead && r->h < shrunk * r->longest
+                         && r->s->tol * now * now < DBL_EPSILON * r->best * r->best
+                     ? r->crawled + 1
+                     : 0;
+    r->margin = now;
+    r->margin_at = r->t;
+    return r->crawled >= most_crawled;
+}
+
+/* The step tried has the error asked for: take it, unless the caller objects. */
+static qdot_status
+take(run *r, double h, double ratio, bool last, bool *stop)
+{
+    qdot_ode_result *result = r->result;
+    double t = r->t, t_carry = r->t_carry;
+
+    if (last) {
+        t = r->t1;
+        t_carry = 0;
+    } else {
+        qdot_sum_advance(&t, &t_carry, r->direction * h);
+    }
+    if (r->options->accepted) {
+        qdot_status status = r->options->accepted(t, r->s->trial, stop, r->options->user);
+
+        if (status == QDOT_EDOMAIN)
+            return undefined(r, h, status);
+        QDOT_TRY(status);
+    }
+    r->longest = fmax(r->longest, h);
+    control(r, h, ratio, true);
+    result->stats.projections += r->s->projected;
+    qdot_ode_stepper_accept(r->s);
+    r->t = t;
+    r->t_carry = t_carry;
+    r->undefined = 0;
+    r->just_rejected = false;
+    result->stats.steps++;
+    return QDOT_OK;
+}
+
+static qdot_status
+advance(run *r, bool *stop)
+{
+    bool last;
+    double h = choose(r, &last), ratio;
+    qdot_status status;
+
+    QDOT_TRY(qdot_interrupt_check());
+    if (r->result->stats.steps + r->result->stats.rejected >= r->max_steps)
+        return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
+                         (unsigned long long)r->max_steps);
+    if (!last && h < floor_of_step(r))
+        return too_small(r);
+    status = qdot_ode_stepper_try(r->s, r->t, r->direction * h, &ratio);
+    if (status != QDOT_OK)
+        return undefined(r, h, status);
+    if (ratio <= 1)
+        status = qdot_ode_stepper_project(
+            r->s, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &ratio);
+    if (status != QDOT_OK)
+        return undefined(r, h, status);
+    if (r->options->h_fixed > 0 && ratio < INFINITY)
+        ratio = fmin(ratio, 1);
+    if (ratio <= 1) {
+        QDOT_TRY(take(r, h, ratio, last, stop));
+        return r->result->stats.steps % seldom == 0 && crawls(r) ? too_small(r) : QDOT_OK;
+    }
+    r->result->stats.rejected++;
+    r->just_rejected = true;
+    control(r, h, ratio, false);
+    if (r->options->h_fixed > 0)
+        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: the step overflows", r->t);
+    return r->h < floor_of_step(r) || crawls(r) ? too_small(r) : QDOT_OK;
+}
+
+static qdot_status
+loop(run *r)
+{
+    double distance = fabs(r->t1 - r->t);
+    bool stop = false;
+
+    if (distance == 0)
+        return QDOT_OK;
+    if (r->options->h_fixed > 0) {
+        r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
+    } else if (r->options->h_first > 0) {
+        r->h = fmin(r->options->h_first, distance);
+    } else {
+        qdot_status status = first_step(r, distance);
+
+        if (qdot_ode_may_be_undefined(status)) {
+            r->last_undefined = *qdot_last_error();
+            return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
+                             r->last_undefined.message);
+        }
+        QDOT_TRY(status);
+    }
+    while (r->t != r->t1) {
+        QDOT_TRY(advance(r, &stop));
+        if (stop) {
+            r->result->outcome = QDOT_ODE_STOPPED;
+            return QDOT_OK;
+        }
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+check_arguments(const qdot_ode_system *system, double t0, double t1, const double *y)
+{
+    if (!isfinite(t0) || !isfinite(t1) || !isfinite(t1 - t0))
+        return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
+    for (size_t i = 0; i < system->n; i++)
+        if (!isfinite(y[i]))
+            return qdot_fail(QDOT_EINVAL, "initial value %zu is not finite", i + 1);
+    return QDOT_OK;
+}
+
+static void
+collect(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
+{
+    result->stats.evaluations = s->evaluations;
+    result->stats.jacobians = s->jacobians;
+    result->stats.factorisations = s->factorisations;
+    result->stats.cpu = qdot_cpu_now() - cpu_start;
+}
+
+qdot_status
+qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
+                         const qdot_ode_options *options, double t0, double t1, double *y,
+                         qdot_ode_result *result)
+{
+    double cpu_start = qdot_cpu_now();
+    run r = {.options = options,
+             .result = result,
+             .t = t0,
+             .t1 = t1,
+             .undefined_at = NAN,
+             .margin_at = NAN};
+    double tol = options->tol != 0 ? options->tol : tol_default;
+    qdot_status status;
+
+    if (method->series)
+        return qdot_ode_taylor_integrate(system, options, t0, t1, y, result);
+    status = check_arguments(system, t0, t1, y);
+    if (status == QDOT_OK)
+        status = qdot_ode_enter(system, options, t0, y);
+    *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
+    r.direction = t1 < t0 ? -1 : 1;
+    r.max_steps = options->max_steps ? options->max_steps : max_steps_default;
+    if (status == QDOT_OK)
+        status = qdot_ode_stepper_new(system, method, tol, &r.s);
+    if (status == QDOT_OK) {
+        qdot_ode_stepper_start(r.s, y);
+        status = loop(&r);
+        memcpy(y, r.s->y, system->n * sizeof *y);
+        collect(result, r.s, cpu_start);
+        qdot_ode_stepper_free(r.s);
+    }
+    result->t = r.t;
+    if (status != QDOT_OK) {
+        result->outcome = QDOT_ODE_FAILED;
+        memcpy(result->reason, qdot_last_error()->message, sizeof result->reason);
+    }
+    return status;
+}

@@ -1,0 +1,43 @@
+/* instruction.h -- a finished tape as it is evaluated.
+ *
+ * Its places: the inputs, the constants, then what is computed.
+ */
+#ifndef QDOT_TAPE_INSTRUCTION_H
+#define QDOT_TAPE_INSTRUCTION_H
+
+#include "expr/expr.h"
+
+typedef enum {
+#define X(ID, name, operands, operations, calls, statement, slopes) QDOT_OP_##ID,
+#include "tape/operation.def"
+#undef X
+    QDOT_OP_COUNT,
+    /* Only while written: */
+    QDOT_OP_INPUT = QDOT_OP_COUNT, /* a: which */
+    QDOT_OP_CONSTANT,              /* a: which */
+    QDOT_OP_SECOND                 /* a: the SINCOS whose second result this is */
+} qdot_op;
+
+typedef struct {
+    const char *name;
+    int operands, operations, calls;
+} qdot_operation;
+
+extern const qdot_operation qdot_operations[QDOT_OP_COUNT];
+
+/* An instruction of the finished tape: places. For SINCOS y is the second result. */
+typedef struct {
+    uint32_t op, to, x, y, z;
+} qdot_instruction;
+
+struct qdot_tape {
+    size_t inputs, constants, outputs, length, places, operations, calls;
+    double *constant;       /* [constants] */
+    signed char *side;      /* [constants] where the exact value lies beside it */
+    double *low;            /* [constants] how far; 0 once shaken */
+    qdot_expr *exact;       /* [constants] what is evaluated to any precision */
+    uint32_t *output;       /* [outputs] places */
+    qdot_instruction *code; /* [length] */
+};
+
+#endif
