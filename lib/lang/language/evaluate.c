@@ -368,7 +368,7 @@ run_program(qdot_machine *m)
         if ((pc & 0x3FFF) == 0)
             QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(step(m, code, &pc));
-        if (m->frames.n > 0 && code->op >= QDOT_CODE_NAME && code->op <= QDOT_CODE_MEMBER)
+        if (m->frames.n > 0 && code->op >= QDOT_POSTFIX_NAME && code->op <= QDOT_POSTFIX_MEMBER)
             qdot_partial_sum_note(m, code);
     }
     return QDOT_OK;

@@ -49,40 +49,40 @@ is_called(const qdot_session *session, const char *name, qdot_expr value)
 /* Whether the value is the same whenever the instruction is carried out with the same operands in
  * this loop. */
 static bool
-is_lasting(const qdot_session *session, const qdot_code *code, qdot_expr value)
+is_lasting(const qdot_session *session, const qdot_postfix *code, qdot_expr value)
 {
     const char *name = code->token->text;
     const qdot_name *known;
     qdot_fun_id id;
 
-    switch ((qdot_code_op)code->op) {
-    case QDOT_CODE_NAME:
+    switch ((qdot_postfix_kind)code->op) {
+    case QDOT_POSTFIX_NAME:
         known = qdot_names_find(session->names, name);
         return known && (known->kind == QDOT_NAME_PARAM || known->kind == QDOT_NAME_COORD);
-    case QDOT_CODE_INDEX_NAME:
+    case QDOT_POSTFIX_INDEX_NAME:
         return !qdot_names_find(session->names, name)
                && qdot_names_is_family(session->names, name) && is_called(session, name, value);
-    case QDOT_CODE_CALL:
+    case QDOT_POSTFIX_CALL:
         return !qdot_names_find(session->names, name) && code->to == 0 && code->primes == 0
                && (qdot_fun_find(name, &id) || strcmp(name, "sqrt") == 0);
-    case QDOT_CODE_LABEL:
-    case QDOT_CODE_HISTORY:
-    case QDOT_CODE_INDEX:
-    case QDOT_CODE_RANGE:
-    case QDOT_CODE_MEMBER: return false;
+    case QDOT_POSTFIX_LABEL:
+    case QDOT_POSTFIX_HISTORY:
+    case QDOT_POSTFIX_INDEX:
+    case QDOT_POSTFIX_RANGE:
+    case QDOT_POSTFIX_MEMBER: return false;
     default: return true; /* made of the operands */
     }
 }
 
 void
-qdot_partial_sum_note(qdot_machine *m, const qdot_code *code)
+qdot_partial_sum_note(qdot_machine *m, const qdot_postfix *code)
 {
     const qdot_name *known;
     size_t i = m->frames.n;
 
     if (is_lasting(m->session, code, qdot_machine_top(m, 1)->value))
         return;
-    known = code->op == QDOT_CODE_NAME ? qdot_names_find(m->session->names, code->token->text)
+    known = code->op == QDOT_POSTFIX_NAME ? qdot_names_find(m->session->names, code->token->text)
                                        : NULL;
     /* of the sums up to the one whose index it is */
     for (; i > 0 && !(known && known->kind == QDOT_NAME_INDEX

@@ -28,6 +28,6 @@ QDOT_MUST_CHECK qdot_status qdot_partial_sum_keep(qdot_session *session, qdot_pa
 
 /* An instruction was carried out, its value on top: what the terms of the sums under way depend on
  * by it. */
-void qdot_partial_sum_note(qdot_machine *m, const qdot_code *code);
+void qdot_partial_sum_note(qdot_machine *m, const qdot_postfix *code);
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "ode/leading.h"
+#include "sim/form/derived.h"
 #include "sim/form/residual-energy.h"
 #include "sim/form/residual-tree.h"
 #include "sim/plan/routh.h"

@@ -4,6 +4,7 @@
 #include "ode/taylor.h"
 #include "sim/course/bind.h"
 #include "sim/course/stage.h"
+#include "sim/form/derived.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"

@@ -1,4 +1,5 @@
 /* run.c -- from a request to a run with its report. */
+#include "sim/form/derived.h"
 #include "sim/run/run.h"
 
 #include <math.h>
