@@ -333,6 +333,7 @@ library_sources = \
 	lib/sim/form/shifted-tree.c \
 	lib/sim/form/shifted-wide.c \
 	lib/sim/form/shifted.c \
+	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-names.c \
 	lib/sim/model/constrained-near.c \
@@ -662,6 +663,7 @@ library_headers = \
 	lib/sim/form/shifted-tree.h \
 	lib/sim/form/shifted-wide.h \
 	lib/sim/form/shifted.h \
+	lib/sim/model/absent.h \
 	lib/sim/model/constrained-parts.h \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \

@@ -1,14 +1,9 @@
 /* residual-energy.c -- energy along the residual's tree, and what does not stand in it. */
 #include "sim/form/residual-energy.h"
 
-#include <math.h>
-
 #include "expr/calculus.h"
 #include "mech/dynamics/dalembert.h"
-#include "series/lanes.h"
-
-/* Of |h|: what a change by a coordinate that stands in it is beyond. */
-static const double noise = 1e-11;
+#include "sim/model/absent.h"
 
 /* Each function, or its rate, by that of its parent. */
 static void
@@ -42,55 +37,6 @@ add_up(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalembert
     return qdot_add(pool, qdot_mul(pool, QDOT_HALF, qdot_sum(pool, n, kinetic)), V);
 }
 
-/* Numbers without a pattern in (0.3, 1.7), where most domains are. */
-static double
-place(size_t i)
-{
-    return 0.3 + 1.4 * fmod(0.5545497 * (double)(i + 1), 1);
-}
-
-/* h with coordinate i moved, and with none for i = n, in lanes of eight i; h [n + 1]. */
-static void
-move_each(const qdot_residual *r, size_t n, size_t round, double *h, double *in, double *work)
-{
-    double out[QDOT_LANES];
-
-    for (size_t j = 0; j < (2 * n + 1) * QDOT_LANES; j++)
-        in[j] = place(j / QDOT_LANES + 7 * round);
-    for (size_t i = 0; i <= n; i += QDOT_LANES) {
-        for (size_t l = 0; l < QDOT_LANES && i + l < n; l++)
-            in[(i + l) * QDOT_LANES + l] = place(i + l + 7 * round + 3);
-        qdot_lanes_eval(r->energy, in, out, work);
-        for (size_t l = 0; l < QDOT_LANES && i + l <= n; l++) {
-            h[i + l] = out[l];
-            in[(i + l) * QDOT_LANES + l] = place(i + l + 7 * round);
-        }
-    }
-}
-
-/* Into r->absent. */
-static qdot_status
-find_absent(qdot_residual *r, size_t n)
-{
-    bool *absent = r->absent = qdot_malloc(n * sizeof *r->absent);
-    double *in = qdot_malloc(QDOT_LANES * (2 * n + 1) * sizeof *in);
-    double *work = qdot_malloc(QDOT_LANES * (qdot_tape_work(r->energy) + 1) * sizeof *work);
-    double *h = qdot_malloc((n + 1) * sizeof *h);
-    qdot_status status = absent && in && work && h ? QDOT_OK : QDOT_ENOMEM;
-
-    for (size_t i = 0; i < n && absent; i++)
-        absent[i] = true;
-    for (size_t round = 0; round < 2 && status == QDOT_OK; round++) {
-        move_each(r, n, round, h, in, work);
-        for (size_t i = 0; i < n; i++)
-            absent[i] = absent[i] && !(fabs(h[i] - h[n]) > noise * (1 + fabs(h[n])));
-    }
-    qdot_free(in);
-    qdot_free(work);
-    qdot_free(h);
-    return status;
-}
-
 qdot_status
 qdot_residual_add_energy(qdot_scene *scene, const qdot_plan *p, qdot_residual *r)
 {
@@ -110,5 +56,6 @@ qdot_residual_add_energy(qdot_scene *scene, const qdot_plan *p, qdot_residual *r
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_pool_check(p->pool));
     QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &r->h, &r->energy));
-    return find_absent(r, p->n);
+    r->absent = qdot_malloc(p->n * sizeof *r->absent);
+    return r->absent ? qdot_absent_find(r->energy, p->n, r->absent) : QDOT_ENOMEM;
 }
