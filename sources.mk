@@ -352,6 +352,7 @@ library_sources = \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
+	lib/sim/plan/kept.c \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
@@ -678,6 +679,7 @@ library_headers = \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
+	lib/sim/plan/kept.h \
 	lib/sim/plan/parts.h \
 	lib/sim/plan/plan.h \
 	lib/sim/plan/routh.h \

@@ -383,8 +383,8 @@ qdot_mech_numeric_forcing(qdot_scene *s)
     return numeric_get(s) ? s->derived->numeric_forcing : QDOT_NIL;
 }
 
-qdot_expr
-qdot_mech_numeric_energy(qdot_scene *s)
+static qdot_expr
+numeric_energy(qdot_scene *s)
 {
     const size_t n = s->coordinates.n;
     qdot_pool *pool = s->pool;
@@ -411,4 +411,14 @@ qdot_mech_numeric_energy(qdot_scene *s)
         T = qdot_add(pool, T, qdot_mul(pool, qdot_mech_jet(s, i, 1), p));
     }
     return qdot_add(pool, qdot_mul(pool, QDOT_HALF, T), qdot_potential_raw(s));
+}
+
+qdot_expr
+qdot_mech_numeric_energy(qdot_scene *s)
+{
+    qdot_derived *d = qdot_derived_get(s);
+
+    if (d->numeric_energy == QDOT_NIL)
+        d->numeric_energy = numeric_energy(s);
+    return d->numeric_energy;
 }

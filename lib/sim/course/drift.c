@@ -143,8 +143,10 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
         return fatal(status);
     status = note(tape, tr, h, "energy", d);
     d->energy = d->n == 1;
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && p->M)
         status = qdot_absent_find(tape, p->n, absent);
+    else if (status == QDOT_OK)
+        memcpy(absent, p->residual->absent, p->n * sizeof *absent);
     qdot_tape_free(made);
     return status;
 }

@@ -28,7 +28,7 @@ qdot_plan_measure(qdot_plan *plan)
 void
 qdot_plan_free(qdot_plan *p)
 {
-    if (!p)
+    if (!p || p->uses-- > 0)
         return;
     for (size_t b = 0; p->blocks && b < p->structure.blocks; b++) {
         qdot_free(p->blocks[b].M);

@@ -35,6 +35,7 @@ struct qdot_switches;                       /* sim/model/switch.h */
 
 typedef struct qdot_plan qdot_plan;
 struct qdot_plan {
+    unsigned uses;   /* beside the first (sim/plan/kept.h) */
     qdot_pool *pool; /* borrowed */
     size_t n;        /* coordinates */
     size_t m;        /* constraints, one a component */
@@ -92,6 +93,7 @@ struct qdot_plan {
     size_t n_kept;
     size_t *kept;      /* [n_kept] */
     bool subtracts;    /* velocities of these are sums, whose terms may cancel */
+    bool by_start;     /* whether there is a reduced one depends on the start and the tolerance */
     qdot_tape *momenta; /* from q, q', t: [n_kept] */
 
     /* While it is made: the mode that its equations are frozen to; else NULL. */

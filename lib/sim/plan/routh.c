@@ -553,8 +553,10 @@ reduce(routh *e)
     QDOT_TRY(qdot_pool_check(e->pool));
     if (e->h > 0)
         QDOT_TRY(choose(e));
-    if (e->p->reduced && has_sum(e) && e->request->q0 && e->request->v0)
+    if (e->p->reduced && has_sum(e) && e->request->q0 && e->request->v0) {
+        e->p->by_start = true;
         QDOT_TRY(find_cancellation(e, &too_far));
+    }
     if (too_far) {
         qdot_plan_free(e->p->reduced);
         e->p->reduced = NULL;
