@@ -202,6 +202,7 @@ errors_name_the_place(void **state)
     assert_int_equal(qdot_system_number(s, "g/l", &x, NULL), QDOT_RESULT_OK);
     assert_string_equal(qdot_system_error(s), "");
     assert_true(x == 9.81);
+    expect_error(s, qdot_system_declare(s, "undo"), QDOT_RESULT_INVALID, "declare:1:1: error: ");
 }
 
 static void
