@@ -783,6 +783,7 @@ unit_tests = \
 	tests/series/test_lanes \
 	tests/series/test_near \
 	tests/series/test_precise \
+	tests/series/test_program \
 	tests/series/test_taylor-code \
 	tests/series/test_taylor-wide \
 	tests/series/test_taylor \
