@@ -89,6 +89,7 @@ library_sources = \
 	lib/lang/language/hints.c \
 	lib/lang/language/machine.c \
 	lib/lang/language/parse.c \
+	lib/lang/language/partial-sum.c \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
@@ -326,12 +327,14 @@ library_sources = \
 	lib/sim/form/leading.c \
 	lib/sim/form/members.c \
 	lib/sim/form/precise-bind.c \
+	lib/sim/form/residual-energy.c \
 	lib/sim/form/residual-tree.c \
 	lib/sim/form/residual.c \
 	lib/sim/form/shifted-lanes.c \
 	lib/sim/form/shifted-tree.c \
 	lib/sim/form/shifted-wide.c \
 	lib/sim/form/shifted.c \
+	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-names.c \
 	lib/sim/model/constrained-near.c \
@@ -350,9 +353,11 @@ library_sources = \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
+	lib/sim/plan/kept.c \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
+	lib/sim/plan/tree-alone.c \
 	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
@@ -439,6 +444,7 @@ library_headers = \
 	lib/lang/language/function.h \
 	lib/lang/language/hints.h \
 	lib/lang/language/machine.h \
+	lib/lang/language/partial-sum.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
 	lib/lang/session/along.h \
@@ -653,6 +659,7 @@ library_headers = \
 	lib/sim/form/members.def \
 	lib/sim/form/members.h \
 	lib/sim/form/precise-bind.h \
+	lib/sim/form/residual-energy.h \
 	lib/sim/form/residual-tree.h \
 	lib/sim/form/residual.h \
 	lib/sim/form/shifted-lanes.def \
@@ -660,6 +667,7 @@ library_headers = \
 	lib/sim/form/shifted-tree.h \
 	lib/sim/form/shifted-wide.h \
 	lib/sim/form/shifted.h \
+	lib/sim/model/absent.h \
 	lib/sim/model/constrained-parts.h \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \
@@ -674,9 +682,11 @@ library_headers = \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
+	lib/sim/plan/kept.h \
 	lib/sim/plan/parts.h \
 	lib/sim/plan/plan.h \
 	lib/sim/plan/routh.h \
+	lib/sim/plan/tree-alone.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \

@@ -1,8 +1,8 @@
 /* rational.h -- rationals in place where they are small, as almost all are; FLINT elsewhere.
  *
- *     y = x,   y = a b,   y = a + b,   y = y + a b,   sign x,   a <=> b
+ *     y = x,   y = a b,   y = a + b,   y = y + a b,   gcd(a, b),   sign x,   a <=> b
  *
- * as fmpq_set, fmpq_mul, fmpq_add, fmpq_addmul, fmpq_sgn, fmpq_cmp, fmpq_equal: canonical in,
+ * as fmpq_set, fmpq_mul, fmpq_add, fmpq_addmul, fmpq_gcd, fmpq_sgn, fmpq_cmp, fmpq_equal: canonical in,
  * canonical out; y may be a or b. Constructors ask for little else than products with 1 and
  * signs, and a call into a library for each is most of their time.
  *
@@ -87,6 +87,27 @@ qdot_rational_addmul(fmpq *y, const fmpq *a, const fmpq *b)
     qdot_rational_add(y, y, &product);
     _fmpz_demote(&product.num);
     _fmpz_demote(&product.den);
+}
+
+/* The largest number that both are whole multiples of; 0 for two zeros. */
+static inline void
+qdot_rational_gcd(fmpq *y, const fmpq *a, const fmpq *b)
+{
+    int64_t u, v;
+
+    if (!qdot_rational_is_small(a) || !qdot_rational_is_small(b)) {
+        fmpq_gcd(y, a, b);
+        return;
+    }
+    u = (a->num < 0 ? -a->num : a->num) * b->den;
+    v = (b->num < 0 ? -b->num : b->num) * a->den;
+    while (v != 0) {
+        int64_t rest = u % v;
+
+        u = v;
+        v = rest;
+    }
+    qdot_rational_make(y, u, a->den * b->den);
 }
 
 static inline int

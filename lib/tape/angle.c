@@ -1,6 +1,7 @@
 /* angle.c -- base angles, chosen by counted cost. */
 #include "tape/angle.h"
 
+#include "expr/rational.h"
 #include "tape/constant.h"
 
 enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
@@ -180,7 +181,7 @@ common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
     fmpq_t g;
 
     fmpq_init(g);
-    fmpq_gcd(g, qdot_expr_rational(pool, x), qdot_expr_rational(pool, y));
+    qdot_rational_gcd(g, qdot_expr_rational(pool, x), qdot_expr_rational(pool, y));
     e = qdot_expr_fmpq(pool, g);
     fmpq_clear(g);
     return e;

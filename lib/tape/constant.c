@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "expr/print.h"
+#include "expr/rational.h"
 #include "expr/walk.h"
 #include "num/arb.h"
 
@@ -399,6 +400,16 @@ release(evaluation *v)
     qdot_walk_end(&v->walk);
 }
 
+/* n/d of small integers, as most numbers of a scene are: the remainder n - value d is a double. */
+static void
+split_small(double n, double d, double *value, int *side, double *low)
+{
+    const double left = fma(-(*value = n / d), d, n);
+
+    *side = (left > 0) - (left < 0);
+    *low = left / d;
+}
+
 qdot_status
 qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, double *low)
 {
@@ -409,6 +420,10 @@ qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, doub
     *value = NAN;
     *side = 0;
     *low = 0;
+    if (rational && qdot_rational_is_small(rational)) {
+        split_small((double)rational->num, (double)rational->den, value, side, low);
+        return QDOT_OK;
+    }
     if (rational && fmpz_is_one(fmpq_denref(rational))
         && fmpz_bits(fmpq_numref(rational)) <= 53) {
         *value = fmpz_get_d(fmpq_numref(rational));

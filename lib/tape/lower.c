@@ -1,5 +1,6 @@
 /* lower.c -- from the DAG to the straight line: sums, products, functions, node by
  * node. */
+#include "expr/rational.h"
 #include "expr/walk.h"
 #include "tape/angle.h"
 #include "tape/code.h"
@@ -198,14 +199,10 @@ static long
 twice(const qdot_pool *pool, qdot_expr exponent)
 {
     const fmpq *x = qdot_expr_rational(pool, exponent);
-    long n;
 
-    if (!x || !fmpz_fits_si(fmpq_numref(x)) || fmpz_cmp_ui(fmpq_denref(x), 2) > 0)
+    if (!x || !qdot_rational_is_small(x) || x->den > 2 || x->num > 1000000 || x->num < -1000000)
         return 0;
-    n = fmpz_get_si(fmpq_numref(x));
-    if (n > 1000000 || n < -1000000)
-        return 0;
-    return fmpz_is_one(fmpq_denref(x)) ? 2 * n : n;
+    return x->den == 1 ? 2 * x->num : x->num;
 }
 
 /* Multiply numerator or denominator by v^(half/2). */

@@ -150,7 +150,8 @@ qdot_loop_begin(qdot_loop *loop, const qdot_cursor *c, bool *more)
 {
     qdot_cursor own = *c;
 
-    c->session->loops++;
+    if (c->session->loops++ == 0)
+        c->session->partial_sums.n = 0;
     *loop = (qdot_loop){
         .session = c->session, .source = c->source, .clause = c->at, .open = true};
     own.error_at = c->at->start;

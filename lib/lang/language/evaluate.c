@@ -8,6 +8,7 @@
 #include "lang/functions/quantity.h"
 #include "lang/language/condition.h"
 #include "lang/language/forms.h"
+#include "lang/language/partial-sum.h"
 #include "lang/session/bind.h"
 #include "lang/session/event-time.h"
 #include "lang/session/range.h"
@@ -367,6 +368,8 @@ run_program(qdot_machine *m)
         if ((pc & 0x3FFF) == 0)
             QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(step(m, code, &pc));
+        if (m->frames.n > 0 && code->op >= QDOT_POSTFIX_NAME && code->op <= QDOT_POSTFIX_MEMBER)
+            qdot_partial_sum_note(m, code);
     }
     return QDOT_OK;
 }

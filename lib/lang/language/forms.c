@@ -5,6 +5,7 @@
 #include "expr/tensor.h"
 #include "lang/language/closed-sum.h"
 #include "lang/language/condition.h"
+#include "lang/language/partial-sum.h"
 #include "lang/session/bind.h"
 #include "lang/session/value-kind.h"
 
@@ -32,8 +33,13 @@ sum_round(qdot_machine *m, uint32_t *pc, uint32_t body)
     m->terms.n = f->terms;
     *pc = f->resume;
     m->frames.n--;
-    if (qdot_machine_all_scalars(m))
-        return qdot_machine_push(m, qdot_sum(m->pool, m->args.n, m->args.at));
+    if (qdot_machine_all_scalars(m)) {
+        const qdot_partial_sum sum = {f->place, f->first, f->last,
+                                      qdot_sum(m->pool, m->args.n, m->args.at)};
+
+        QDOT_TRY(qdot_machine_push(m, sum.value));
+        return f->varies || m->args.n == 0 ? QDOT_OK : qdot_partial_sum_keep(m->session, sum);
+    }
     value = m->args.at[0];
     for (size_t i = 1; i < m->args.n; i++) {
         value = qdot_value_add(m->pool, value, m->args.at[i]);
@@ -45,13 +51,23 @@ sum_round(qdot_machine *m, uint32_t *pc, uint32_t body)
 qdot_status
 qdot_forms_sum(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 {
-    qdot_sum_frame f = {.index = m->c->source->tokens.at[code->n].text,
-               .resume = *pc,
-               .terms = m->terms.n};
+    const qdot_token *place = &m->c->source->tokens.at[code->n];
+    const qdot_partial_sum *known;
+    qdot_sum_frame f = {.index = place->text,
+                        .place = place,
+                        .varies = m->session->passed != NULL,
+                        .resume = *pc,
+                        .terms = m->terms.n};
 
     QDOT_TRY(qdot_machine_take(m, 2));
-    QDOT_TRY(qdot_session_integer(m->session, m->args.at[0], &f.k));
+    QDOT_TRY(qdot_session_integer(m->session, m->args.at[0], &f.first));
     QDOT_TRY(qdot_session_integer(m->session, m->args.at[1], &f.last));
+    f.k = f.first;
+    known = f.varies ? NULL : qdot_partial_sum_find(m->session, place, f.first, f.last);
+    if (known != NULL) {
+        f.k = known->last + 1;
+        QDOT_TRY(qdot_vec_push(&m->terms, known->value));
+    }
     if (f.last > f.k && (unsigned long)f.last - (unsigned long)f.k >= QDOT_SUM_TERMS) {
         f.symbol = qdot_symbol_get(m->pool, QDOT_FORMAL, "a summation index");
         QDOT_TRY(qdot_value_kind_check(m->pool, f.symbol));

@@ -16,7 +16,9 @@ typedef struct {
 /* A sum(...) under way. */
 typedef struct {
     const char *index;
-    long k, last;
+    const qdot_token *place; /* where it stands */
+    bool varies;             /* terms depend on more than the index (language/partial-sum) */
+    long first, k, last;
     uint32_t resume; /* code after it */
     size_t terms;    /* where its terms begin */
     bool bound;      /* the index is bound just now */

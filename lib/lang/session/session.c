@@ -46,6 +46,7 @@ qdot_session_free(qdot_session *session)
     for (size_t i = 0; i < session->runs.n; i++)
         qdot_named_run_release(&session->runs.at[i]);
     qdot_free(session->runs.at);
+    qdot_free(session->partial_sums.at);
     qdot_free(session->history.at);
     qdot_free(session->history_over.at);
     qdot_free(session->measured.at);

@@ -74,6 +74,7 @@ typedef struct qdot_session {
     unsigned calls;        /* of functions under way, within one another */
     bool placed;           /* the error under way names its place in a body */
     size_t loops;          /* loops under way: what they hold must outlive them */
+    qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (language/partial-sum) */
     struct qdot_undo *undo; /* NULL: no statement yet */
     void (*undo_free)(struct qdot_undo *undo); /* set with it */
     qdot_passed *passed;   /* while the sides of a check are read; else NULL */

@@ -1,6 +1,7 @@
 /* dalembert.c -- inertial terms and generalized forces, not differentiated. */
 #include "mech/dynamics/dalembert.h"
 
+#include "expr/calculus.h"
 #include "mech/dynamics/kinematics.h"
 #include "mech/dynamics/potential.h"
 #include "mech/dynamics/recursive.h"
@@ -46,6 +47,32 @@ qdot_mech_dalembert(qdot_scene *s, qdot_dalembert_term **terms, size_t *n, qdot_
         return QDOT_ENOMEM;
     for (size_t p = 0; p < k->terms.n; p++)
         (*terms)[(*n)++] =
-            (qdot_dalembert_term){k->terms.at[p].w, k->terms.at[p].x, k->terms.at[p].y};
+            (qdot_dalembert_term){k->terms.at[p].w, k->terms.at[p].x, k->terms.at[p].y,
+                                  k->terms.at[p].axis};
     return QDOT_OK;
+}
+
+qdot_expr
+qdot_mech_dalembert_potential(qdot_scene *s, size_t n, const qdot_dalembert_term *terms,
+                              const qdot_expr *places)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr *sum = qdot_calloc(n + 1, sizeof *sum), V;
+
+    if (!sum)
+        return qdot_pool_fail(pool);
+    for (size_t p = 0; p < n; p++) {
+        qdot_expr field = QDOT_ZERO;
+
+        for (size_t i = 0; i < s->gravities.n && terms[p].axis >= 0; i++)
+            if ((uint32_t)terms[p].axis < qdot_mech_dimension(pool, s->gravities.at[i].e))
+                field = qdot_add(pool, field,
+                                 qdot_mech_component(pool, s->gravities.at[i].e,
+                                                     (uint32_t)terms[p].axis));
+        sum[p] = qdot_neg(pool, qdot_mul(pool, qdot_mul(pool, terms[p].w, field), places[p]));
+    }
+    sum[n] = qdot_potential_but_gravity(s);
+    V = qdot_sum(pool, n + 1, sum);
+    qdot_free(sum);
+    return V;
 }

@@ -17,6 +17,7 @@
 
 typedef struct {
     qdot_expr w, x, y;
+    int axis; /* x = y is this component of the place of a mass w; -1: neither is one */
 } qdot_dalembert_term;
 
 /* The terms [*n], owned by the caller, and Q_i, a VEC (a LIST for one coordinate), which
@@ -26,5 +27,12 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_mech_dalembert(qdot_scene *s,
                                                 qdot_dalembert_term **terms, size_t *n,
                                                 qdot_expr *Q);
+
+/* V of this scene over places that are already there: sum -w g x of the terms with an axis, their
+ * x replaced by places [n], and what else has a potential, as it was declared. Nil: the pool keeps
+ * the failure. */
+qdot_expr qdot_mech_dalembert_potential(qdot_scene *s, size_t n,
+                                        const qdot_dalembert_term *terms,
+                                        const qdot_expr *places);
 
 #endif

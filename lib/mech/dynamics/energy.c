@@ -1,6 +1,8 @@
 /* energy.c -- T, L, the Jacobi energy h = sum p q' - L, slopes of L. */
 #include "mech/dynamics/energy.h"
 
+#include "mech/dynamics/kinematics.h"
+
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
@@ -222,6 +224,21 @@ qdot_mech_energy(qdot_scene *s)
 
 /* --- slopes of L ---------------------------------------------------------------------- */
 
+/* Whether t stands in anything that L is made of: seen before M is derived. */
+static bool
+time_stands(qdot_scene *s)
+{
+    const qdot_kinematics *k = qdot_kinematics_get(s);
+    uint32_t holds = qdot_mech_holds(s, qdot_potential_but_gravity(s));
+
+    for (size_t p = 0; k && p < k->terms.n; p++)
+        holds |= qdot_mech_holds(s, k->terms.at[p].w) | qdot_mech_holds(s, k->terms.at[p].x)
+                 | qdot_mech_holds(s, k->terms.at[p].y);
+    for (size_t i = 0; i < s->gravities.n; i++)
+        holds |= qdot_mech_holds(s, s->gravities.at[i].e);
+    return (holds & QDOT_HAS_TIME) != 0;
+}
+
 bool
 qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
 {
@@ -232,6 +249,8 @@ qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has)
         return !qdot_pool_failed(s->pool);
     }
     *has = false;
+    if (x == QDOT_T && !time_stands(s))
+        return !qdot_pool_failed(s->pool);
     if (!qdot_mass_get(s))
         return false;
     for (size_t i = 0; i < s->coordinates.n && !*has; i++) {

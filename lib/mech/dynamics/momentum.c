@@ -50,24 +50,44 @@ qdot_mech_momenta(qdot_scene *s)
     return qdot_mech_each(s, qdot_mech_momentum);
 }
 
+/* Coordinate i, proved or not. */
+static qdot_cyclic_known
+find_cyclic(qdot_scene *s, size_t i)
+{
+    const qdot_facts facts = qdot_scene_facts(s);
+    qdot_cyclic_known c = {.known = true};
+
+    if (!qdot_lagrangian_is_still(s, s->coordinates.at[i]))
+        return c;
+    c.momentum = qdot_mech_momentum(s, s->coordinates.at[i]);
+    c.rate = qdot_add(s->pool, qdot_force_total(s, i, true, true), qdot_constraint_reaction(s, i));
+    if (c.momentum != QDOT_NIL && !qdot_is_zero(s->pool, c.momentum, &facts)) {
+        if (qdot_is_zero(s->pool, c.rate, &facts))
+            c.rate = QDOT_NIL;
+        c.is = true;
+    }
+    return c;
+}
+
 qdot_status
 qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *c, bool *is)
 {
-    qdot_facts facts = qdot_scene_facts(s);
+    qdot_derived *d = qdot_derived_get(s);
+    qdot_cyclic_known found;
 
-    *c = (qdot_cyclic){.coordinate = s->coordinates.at[i]};
-    *is = false;
-    if (qdot_lagrangian_is_still(s, c->coordinate)) {
-        c->momentum = qdot_mech_momentum(s, c->coordinate);
-        c->rate = qdot_add(s->pool, qdot_force_total(s, i, true, true),
-                           qdot_constraint_reaction(s, i));
-        if (c->momentum != QDOT_NIL && !qdot_is_zero(s->pool, c->momentum, &facts)) {
-            if (qdot_is_zero(s->pool, c->rate, &facts))
-                c->rate = QDOT_NIL;
-            *is = true;
-        }
+    if (!d->cyclic)
+        d->cyclic = qdot_calloc(d->n + 1, sizeof *d->cyclic);
+    if (!d->cyclic)
+        return QDOT_ENOMEM;
+    found = d->cyclic[i];
+    if (!found.known) {
+        found = find_cyclic(s, i);
+        QDOT_TRY(qdot_pool_check(s->pool));
+        qdot_derived_get(s)->cyclic[i] = found;
     }
-    return qdot_pool_check(s->pool);
+    *c = (qdot_cyclic){s->coordinates.at[i], found.momentum, found.rate};
+    *is = found.is;
+    return QDOT_OK;
 }
 
 qdot_status

@@ -382,3 +382,43 @@ qdot_mech_numeric_forcing(qdot_scene *s)
 {
     return numeric_get(s) ? s->derived->numeric_forcing : QDOT_NIL;
 }
+
+static qdot_expr
+numeric_energy(qdot_scene *s)
+{
+    const size_t n = s->coordinates.n;
+    qdot_pool *pool = s->pool;
+    qdot_kinematics *k;
+    qdot_expr M, T = QDOT_ZERO;
+
+    if (qdot_mech_stated(s) || qdot_potential_with_velocities(s) != QDOT_ZERO)
+        return qdot_mech_energy(s);
+    k = qdot_kinematics_get(s);
+    M = k ? qdot_mech_numeric_mass(s) : QDOT_NIL;
+    if (M == QDOT_NIL)
+        return QDOT_NIL;
+    for (size_t p = 0; p < k->terms.n; p++)
+        if ((qdot_mech_holds(s, k->terms.at[p].w) & QDOT_HAS_VELOCITY)
+            || (qdot_mech_holds(s, k->terms.at[p].w) | qdot_mech_holds(s, k->terms.at[p].x)
+                | qdot_mech_holds(s, k->terms.at[p].y)) & QDOT_HAS_TIME)
+            return qdot_mech_energy(s);
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr p = QDOT_ZERO;
+
+        for (size_t j = 0; j < n; j++)
+            p = qdot_add(pool, p, qdot_mul(pool, qdot_expr_arg(pool, M, (uint32_t)(i * n + j)),
+                                           qdot_mech_jet(s, j, 1)));
+        T = qdot_add(pool, T, qdot_mul(pool, qdot_mech_jet(s, i, 1), p));
+    }
+    return qdot_add(pool, qdot_mul(pool, QDOT_HALF, T), qdot_potential_raw(s));
+}
+
+qdot_expr
+qdot_mech_numeric_energy(qdot_scene *s)
+{
+    qdot_derived *d = qdot_derived_get(s);
+
+    if (d->numeric_energy == QDOT_NIL)
+        d->numeric_energy = numeric_energy(s);
+    return d->numeric_energy;
+}

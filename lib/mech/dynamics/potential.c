@@ -51,6 +51,18 @@ qdot_potential_with_velocities(qdot_scene *s)
 }
 
 qdot_expr
+qdot_potential_but_gravity(qdot_scene *s)
+{
+    qdot_expr V = QDOT_ZERO;
+
+    for (size_t i = 0; i < s->potentials.n; i++)
+        V = qdot_add(s->pool, V, s->potentials.at[i].e);
+    for (size_t i = 0; i < s->springs.n; i++)
+        V = qdot_add(s->pool, V, qdot_spring_potential(s, i));
+    return V;
+}
+
+qdot_expr
 qdot_potential_raw(qdot_scene *s)
 {
     qdot_pool *pool = s->pool;
@@ -64,11 +76,7 @@ qdot_potential_raw(qdot_scene *s)
             return QDOT_NIL;
         V = qdot_neg(pool, qdot_kinematics_gravity(s, k, place));
     }
-    for (size_t i = 0; i < s->potentials.n; i++)
-        V = qdot_add(pool, V, s->potentials.at[i].e);
-    for (size_t i = 0; i < s->springs.n; i++)
-        V = qdot_add(pool, V, qdot_spring_potential(s, i));
-    return V;
+    return qdot_add(pool, V, qdot_potential_but_gravity(s));
 }
 
 qdot_expr

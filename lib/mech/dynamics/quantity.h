@@ -91,5 +91,8 @@ QDOT_MUST_CHECK qdot_status qdot_mech_dof(qdot_scene *s, qdot_dof *dof);
  * constraints' multipliers. */
 qdot_expr qdot_mech_numeric_mass(qdot_scene *s);
 qdot_expr qdot_mech_numeric_forcing(qdot_scene *s);
+/* h with that M, simplified only where it cannot be had so: of a stated Lagrangian, masses or places
+ * that vary with t, potentials with velocities. */
+qdot_expr qdot_mech_numeric_energy(qdot_scene *s);
 
 #endif

@@ -40,6 +40,7 @@ derived_clear(qdot_derived *d)
     qdot_free(d->lambda);
     qdot_free(d->independent);
     qdot_free(d->patterns.at);
+    qdot_free(d->cyclic);
 }
 
 void

@@ -56,6 +56,12 @@ typedef struct {
     qdot_expr pattern, atoms, simple;
 } qdot_pattern;
 
+/* Whether a coordinate is cyclic, and if it is, as qdot_cyclic has it. */
+typedef struct {
+    bool known, is;
+    qdot_expr momentum, rate;
+} qdot_cyclic_known;
+
 struct qdot_derived {
     uint64_t version; /* of the scene all below belongs to */
     size_t n;
@@ -71,11 +77,12 @@ struct qdot_derived {
     qdot_expr *momentum, *force, *rest, *left, *equation; /* [n] each */
     qdot_expr *accel;                                     /* [n], all at once */
     qdot_expr *lambda; /* [constraints], with accel; nil where they are not unique */
-    qdot_expr numeric_mass, numeric_forcing;
+    qdot_expr numeric_mass, numeric_forcing, numeric_energy;
     bool *independent; /* [constraints] */
     bool *hidden;      /* [constraints] behind those: leaves a condition (qdot_dof.is_hidden) */
     bool unmet;        /* no point was found where they all hold */
     bool conserved_known, conserved;
+    qdot_cyclic_known *cyclic; /* [n] NULL until one is asked for */
 };
 
 /* The cache, emptied if the scene has changed. */

@@ -77,6 +77,8 @@ qdot_scene_free(qdot_scene *s)
     qdot_free(s->assumed.at);
     qdot_free(s->conditions.at);
     qdot_free(s->relations.at);
+    if (s->kept)
+        s->kept_free(s->kept);
     if (s->derived)
         qdot_derived_free(s->derived);
     if (s->texts)

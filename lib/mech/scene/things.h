@@ -104,6 +104,8 @@ typedef struct {
                                        a constraint that hold identically ("pin, 2"); what acted
                                        on a removed thing ("spring s1", "a force") */
     qdot_derived *derived;          /* owned; what was derived for `version` */
+    void *kept;                     /* what a floor above keeps with the scene; NULL: nothing */
+    void (*kept_free)(void *kept);
 } qdot_scene;
 
 /* What may be declared without a label, in the order of `scene`. */

@@ -31,6 +31,10 @@ struct qdot_bind {
     qdot_leading *leading;         /* its first orders in two doubles, if they are wanted: */
     qdot_leading_residual *leading_residual; /* one of the two, */
     const qdot_ode_leading *first; /* its callbacks */
+    /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
+     * when that is first asked for. */
+    qdot_shifted *elsewhere;
+    bool shaken;
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of the tape */
     double *slopes;             /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
@@ -69,6 +73,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_constrained_free(b->held);
     qdot_direct_free(b->direct);
     qdot_shifted_free(b->shifted);
+    qdot_shifted_free(b->elsewhere);
     qdot_eliminated_free(b->eliminated);
     qdot_bordered_free(b->bordered);
     qdot_leading_free(b->leading);
@@ -131,6 +136,22 @@ solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
     return QDOT_OK;
 }
 
+/* The same where only the tree is there: by the beginning of a series. */
+static qdot_status
+begin_elsewhere(qdot_bind *b, double *a)
+{
+    const qdot_plan *p = b->plan;
+    const qdot_ode_series *series;
+
+    if (!b->elsewhere)
+        QDOT_TRY(qdot_shifted_new(p, p->residual, b->shaken, &b->elsewhere));
+    series = qdot_shifted_series(b->elsewhere);
+    QDOT_TRY(series->begin(b->in[2 * p->n], b->in, 1, series->user));
+    for (size_t i = 0; i < p->n; i++)
+        a[i] = series->x[(p->n + i) * series->stride + 1];
+    return QDOT_OK;
+}
+
 /* q'' at what is loaded, into a [n]. */
 static qdot_status
 accelerations(qdot_bind *b, double *a)
@@ -140,6 +161,8 @@ accelerations(qdot_bind *b, double *a)
 
     if (b->held)
         return qdot_constrained_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
+    if (!p->tape)
+        return begin_elsewhere(b, a);
     qdot_tape_eval(equations(b), b->in, b->out, b->work);
     QDOT_TRY(solve(&b->blocks, b->out, a, &end));
     for (size_t i = 0; i < p->n; i++)
@@ -471,6 +494,17 @@ make_reduced(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
+/* M q'' = f: for all but a plan of which only the tree is there. */
+static qdot_status
+make_equations(qdot_bind *b, bool shaken)
+{
+    if (shaken)
+        QDOT_TRY(qdot_tape_shake(b->plan->tape, &b->tape));
+    QDOT_TRY(make_slopes(b));
+    QDOT_TRY(make_parts(b, shaken));
+    return qdot_blocks_init(&b->blocks, b->plan, shaken);
+}
+
 static qdot_status
 make(qdot_bind *b, bool shaken)
 {
@@ -490,11 +524,8 @@ make(qdot_bind *b, bool shaken)
         return QDOT_ENOMEM;
     if (p->constraints)
         return make_held(b, shaken);
-    if (shaken)
-        QDOT_TRY(qdot_tape_shake(p->tape, &b->tape));
-    QDOT_TRY(make_slopes(b));
-    QDOT_TRY(make_parts(b, shaken));
-    QDOT_TRY(qdot_blocks_init(&b->blocks, p, shaken));
+    if (p->tape)
+        QDOT_TRY(make_equations(b, shaken));
     if (p->reduced)
         return make_reduced(b, shaken);
     if (!p->smooth)
@@ -519,6 +550,7 @@ qdot_bind_new(const qdot_plan *plan, bool shaken, qdot_bind **bind)
     if (!b)
         return QDOT_ENOMEM;
     b->plan = plan;
+    b->shaken = shaken;
     status = make(b, shaken);
     if (status != QDOT_OK) {
         qdot_bind_free(b);

@@ -6,6 +6,8 @@
 
 #include "base/interrupt.h"
 #include "series/lanes.h"
+#include "sim/form/residual.h"
+#include "sim/model/absent.h"
 
 void
 qdot_drifts_clear(qdot_drifts *d)
@@ -92,22 +94,14 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
     return status;
 }
 
+/* What a tape says of a quantity, into the list. */
 static qdot_status
-measure(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
-        const char *name, qdot_drifts *d)
+note(const qdot_tape *tape, const qdot_trajectory *tr, qdot_expr quantity, const char *name,
+     qdot_drifts *d)
 {
     qdot_drift x = {.quantity = quantity};
-    qdot_expr e = qdot_plan_substitute(p, quantity);
-    qdot_status status = qdot_pool_check(p->pool);
-    qdot_tape *tape = NULL;
 
-    if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &e, &tape);
-    if (status != QDOT_OK)
-        return fatal(status);
-    status = follow(tape, tr, &x);
-    qdot_tape_free(tape);
-    QDOT_TRY(status);
+    QDOT_TRY(follow(tape, tr, &x));
     if (!isfinite(x.start)) /* beyond a double, or undefined: there is nothing to follow */
         return QDOT_OK;
     if (!(x.name = qdot_strdup(name)))
@@ -117,22 +111,44 @@ measure(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
 }
 
 static qdot_status
+lower(const qdot_plan *p, qdot_expr quantity, qdot_tape **tape)
+{
+    const qdot_expr e = qdot_plan_substitute(p, quantity);
+
+    *tape = NULL;
+    QDOT_TRY(qdot_pool_check(p->pool));
+    return qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &e, tape);
+}
+
+/* absent [n]: coordinates that the energy, if it is conserved, was not seen to depend on, and so the
+ * only ones that can be cyclic. */
+static qdot_status
 measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
-               qdot_drifts *d)
+               qdot_drifts *d, bool *absent)
 {
     bool conserved = false;
+    qdot_tape *made = NULL;
+    const qdot_tape *tape;
     qdot_expr h;
     qdot_status status = qdot_mech_energy_conserved(scene, &conserved);
 
     if (status != QDOT_OK || !conserved)
         return fatal(status);
-    h = qdot_mech_energy(scene);
+    h = p->M ? qdot_mech_numeric_energy(scene) : p->residual->h;
     status = qdot_pool_check(p->pool);
+    if (status == QDOT_OK && h != QDOT_NIL && p->M)
+        status = lower(p, h, &made);
+    tape = p->M ? made : p->residual->energy;
     if (status != QDOT_OK || h == QDOT_NIL)
         return fatal(status);
-    QDOT_TRY(measure(p, tr, h, "energy", d));
+    status = note(tape, tr, h, "energy", d);
     d->energy = d->n == 1;
-    return QDOT_OK;
+    if (status == QDOT_OK && p->M)
+        status = qdot_absent_find(tape, p->n, absent);
+    else if (status == QDOT_OK)
+        memcpy(absent, p->residual->absent, p->n * sizeof *absent);
+    qdot_tape_free(made);
+    return status;
 }
 
 /* Whether the run, in parts or whole, kept its momentum. */
@@ -149,40 +165,56 @@ is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
     return false;
 }
 
+/* The momentum of coordinate i, if it should stay. */
+static qdot_status
+measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr, size_t i,
+                 qdot_drifts *d)
+{
+    qdot_cyclic cyclic;
+    qdot_expr symbol;
+    qdot_tape *tape;
+    qdot_status status;
+    char *name;
+    bool is;
+
+    QDOT_TRY(qdot_mech_cyclic_at(scene, i, &cyclic, &is));
+    if (!is || cyclic.rate != QDOT_NIL)
+        return QDOT_OK;
+    symbol = qdot_symbol_of(p->pool, QDOT_MOMENTUM, cyclic.coordinate);
+    QDOT_TRY(qdot_pool_check(p->pool));
+    name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
+    if (!name)
+        return QDOT_ENOMEM;
+    status = fatal(lower(p, cyclic.momentum, &tape));
+    if (tape)
+        status = note(tape, tr, cyclic.momentum, name, d);
+    qdot_tape_free(tape);
+    qdot_free(name);
+    if (status == QDOT_OK && d->n > 0 && is_kept(p, tr, cyclic.coordinate)
+        && d->at[d->n - 1].quantity == cyclic.momentum) {
+        d->at[d->n - 1].kept = true;
+        d->at[d->n - 1].drift = 0;
+    }
+    return status;
+}
+
 qdot_status
 qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
                     qdot_drifts *d)
 {
-    qdot_cyclic *cyclic = NULL;
-    size_t n = 0;
-    qdot_status status;
+    bool *asked = qdot_malloc((p->n + 1) * sizeof *asked); /* it may be cyclic */
+    qdot_status status = asked ? QDOT_OK : QDOT_ENOMEM;
 
     d->at = qdot_calloc(p->n + 1, sizeof *d->at);
     if (!d->at)
-        return QDOT_ENOMEM;
-    QDOT_TRY(measure_energy(scene, p, tr, d));
-    status = qdot_mech_cyclic(scene, &cyclic, &n);
-    if (status != QDOT_OK)
-        return fatal(status);
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_expr symbol;
-
-        if (cyclic[i].rate != QDOT_NIL)
-            continue;
-        symbol = qdot_symbol_of(p->pool, QDOT_MOMENTUM, cyclic[i].coordinate);
-        status = qdot_pool_check(p->pool);
-        if (status == QDOT_OK) {
-            char *name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
-
-            status = name ? measure(p, tr, cyclic[i].momentum, name, d) : QDOT_ENOMEM;
-            if (status == QDOT_OK && d->n > 0 && is_kept(p, tr, cyclic[i].coordinate)
-                && d->at[d->n - 1].quantity == cyclic[i].momentum) {
-                d->at[d->n - 1].kept = true;
-                d->at[d->n - 1].drift = 0;
-            }
-            qdot_free(name);
-        }
-    }
-    qdot_free(cyclic);
-    return status;
+        status = QDOT_ENOMEM;
+    for (size_t i = 0; i < p->n && asked; i++)
+        asked[i] = true;
+    if (status == QDOT_OK)
+        status = measure_energy(scene, p, tr, d, asked);
+    for (size_t i = 0; i < scene->coordinates.n && status == QDOT_OK; i++)
+        if (asked[i])
+            status = measure_momentum(scene, p, tr, i, d);
+    qdot_free(asked);
+    return fatal(status);
 }

@@ -5,6 +5,7 @@
 
 #include "expr/walk.h"
 #include "sim/model/substitute.h"
+#include "sim/plan/kept.h"
 #include "sim/plan/plan.h"
 #include "tape/constant.h"
 
@@ -31,6 +32,7 @@ qdot_stage_clear(qdot_stage *s)
         qdot_free(s->modes.at[i]);
     }
     qdot_free(s->modes.at);
+    qdot_plan_free(s->kept);
     qdot_switches_clear(&s->switches);
     qdot_domains_clear(&s->domains);
     qdot_parameter_conditions_clear(&s->conditions);
@@ -234,7 +236,13 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
         return QDOT_ENOMEM;
     if (surfaces > 0)
         memcpy(m->side, side, surfaces * sizeof *side);
-    QDOT_TRY(qdot_plan_in_mode(s->scene, s->request, &s->switches, m->side, &m->plan));
+    m->plan = s->kept;
+    s->kept = NULL;
+    if (!m->plan) {
+        QDOT_TRY(qdot_plan_in_mode(s->scene, s->request, &s->switches, m->side, &m->plan));
+        if (s->switches.atoms.n == 0 && s->switches.level == QDOT_NIL)
+            qdot_kept_add(s->scene, s->request, m->plan);
+    }
     if (s->modes.n == 0) {
         QDOT_TRY(qdot_domains_find(m->plan, &s->domains));
         QDOT_TRY(stage_events(s, m->plan));
@@ -332,7 +340,11 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
     s->n = qdot_parameter_states_coordinates(scene, request);
     s->n_states = request->n_states;
     QDOT_TRY(qdot_plan_check(scene));
-    QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
+    s->kept = qdot_kept_find(scene, request);
+    if (s->kept) /* nothing switches, then */
+        s->switches.pool = scene->pool;
+    else
+        QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
     side = qdot_calloc(s->switches.surfaces.n + 1, sizeof *side);
     if (!side)
         return QDOT_ENOMEM;

@@ -50,6 +50,7 @@ typedef struct {
 typedef struct {
     qdot_scene *scene;               /* borrowed while modes are made */
     const qdot_run_request *request; /* likewise */
+    qdot_plan *kept; /* of a run before, on its way into the first mode; else NULL */
     qdot_switches switches;
     qdot_domains domains;
     qdot_parameter_conditions conditions;

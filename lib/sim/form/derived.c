@@ -28,7 +28,7 @@ qdot_plan_measure(qdot_plan *plan)
 void
 qdot_plan_free(qdot_plan *p)
 {
-    if (!p)
+    if (!p || p->uses-- > 0)
         return;
     for (size_t b = 0; p->blocks && b < p->structure.blocks; b++) {
         qdot_free(p->blocks[b].M);
@@ -57,4 +57,24 @@ qdot_plan_free(qdot_plan *p)
     qdot_tape_free(p->momenta);
     qdot_tape_free(p->bordered);
     qdot_free(p);
+}
+
+size_t
+qdot_plan_operations(const qdot_plan *p, size_t *calls)
+{
+    const qdot_plan *moving = p->reduced ? p->reduced : p;
+    const qdot_tape *tapes[] = {moving->tape, NULL};
+    size_t operations = 0, of_calls = 0;
+
+    if (!moving->tape) {
+        tapes[0] = moving->residual->places;
+        tapes[1] = moving->residual->forces;
+    }
+    for (int i = 0; i < 2 && tapes[i]; i++) {
+        operations += qdot_tape_operations(tapes[i]);
+        of_calls += qdot_tape_calls(tapes[i]);
+    }
+    if (calls)
+        *calls = of_calls;
+    return operations;
 }

@@ -13,7 +13,11 @@ double qdot_plan_cost(const qdot_ode_series *series);
 /* The convolutions and that cost of the derived form of a plan with a tape, put into it. */
 QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
 
-/* Free a plan with all the forms that it holds. */
+/* Operations of the equations it integrates, evaluated once: of M and f, or of what the tree
+ * reads; *calls (NULL: not wanted) of them of elementary functions. */
+size_t qdot_plan_operations(const qdot_plan *plan, size_t *calls);
+
+/* One use of it less; with the last, with all forms that it holds. */
 void qdot_plan_free(qdot_plan *plan);
 
 #endif

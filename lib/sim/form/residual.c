@@ -10,6 +10,7 @@
 #include "tape/constant.h"
 #include "series/program.h"
 #include "series/taylor.h"
+#include "tape/keymap.h"
 
 /* Parents are looked for among so many functions before. */
 enum { near = 8, looked_at = 64 };
@@ -17,7 +18,9 @@ enum { near = 8, looked_at = 64 };
 typedef struct {
     const qdot_plan *plan;
     qdot_residual *r;
-    qdot_vec(qdot_expr) functions, differences, outputs, forces;
+    qdot_vec(qdot_expr) functions, outputs, forces;
+    qdot_keymap place; /* (term, function + 1) -> its place in the sum that the function is */
+    qdot_vec(qdot_expr) terms; /* of a difference */
 } builder;
 
 void
@@ -25,6 +28,8 @@ qdot_residual_free(qdot_residual *r)
 {
     if (!r)
         return;
+    qdot_free(r->difference);
+    qdot_free(r->applied);
     qdot_free(r->parent);
     qdot_free(r->weights);
     qdot_free(r->slopes);
@@ -32,6 +37,8 @@ qdot_residual_free(qdot_residual *r)
     qdot_tape_free(r->places);
     qdot_tape_free(r->forces);
     qdot_tape_free(r->masses);
+    qdot_tape_free(r->energy);
+    qdot_free(r->absent);
     qdot_free(r);
 }
 
@@ -87,35 +94,99 @@ add_terms(builder *b, const qdot_dalembert_term *terms, size_t n)
     return status;
 }
 
-static size_t
+static uint32_t
 terms_of(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_kind(pool, e) == QDOT_SUM ? qdot_expr_count(pool, e) / 2 : 1;
 }
 
-/* Terms that the difference of two sums has at least, but for those that differ by a factor.
- * Both have their terms in one order. */
-static size_t
-terms_apart(const qdot_pool *pool, qdot_expr e, qdot_expr g)
+static qdot_expr
+term_at(const qdot_pool *pool, qdot_expr e, uint32_t i)
 {
-    const size_t n = terms_of(pool, e), m = terms_of(pool, g);
-    size_t common = 0;
+    return qdot_expr_arg(pool, e, 2 * i + 1);
+}
+
+static qdot_expr
+factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i)
+{
+    return qdot_expr_arg(pool, e, 2 * i + 2);
+}
+
+/* Where the terms of a sum are in it. */
+static qdot_status
+note_places(builder *b, qdot_expr e)
+{
+    const uint32_t n = terms_of(b->plan->pool, e);
+
+    qdot_keymap_clear(&b->place);
+    for (uint32_t i = 0; i < n; i++)
+        QDOT_TRY(qdot_keymap_set(&b->place, term_at(b->plan->pool, e, i), 0, 0, 0, i));
+    return QDOT_OK;
+}
+
+static uint32_t
+place_of(const builder *b, qdot_expr term)
+{
+    return qdot_keymap_get(&b->place, term, 0, 0, 0);
+}
+
+/* Terms that the difference of two sums has at least, but for those that differ by a factor; the
+ * places of those of e are noted. More than `most`: some number beyond it. */
+static size_t
+terms_apart(const builder *b, qdot_expr e, qdot_expr g, size_t most)
+{
+    const qdot_pool *pool = b->plan->pool;
+    const uint32_t n = terms_of(pool, e), m = terms_of(pool, g);
+    size_t apart = n > m ? n - m : 0; /* if all others of g are common */
 
     if (qdot_expr_kind(pool, g) != QDOT_SUM)
         return n - 1;
-    for (size_t k = 0, at = 0; k < m; k++) {
-        const qdot_expr term = qdot_expr_arg(pool, g, (uint32_t)(2 * k + 1));
-        size_t i = at;
+    for (uint32_t k = 0, common = 0; k < m && apart <= most; k++) {
+        const uint32_t i = place_of(b, term_at(pool, g, k));
 
-        while (i < n && qdot_expr_arg(pool, e, (uint32_t)(2 * i + 1)) != term)
-            i++;
-        if (i == n)
-            continue;
-        common += qdot_expr_arg(pool, e, (uint32_t)(2 * i + 2)) ==
-                  qdot_expr_arg(pool, g, (uint32_t)(2 * k + 2));
-        at = i + 1;
+        common += i != QDOT_KEYMAP_NONE && factor_at(pool, e, i) == factor_at(pool, g, k);
+        apart = n + m > 2 * (common + (m - 1 - k)) ? n + m - 2 * (common + (m - 1 - k)) : 0;
     }
-    return n + m - 2 * common;
+    return apart;
+}
+
+static qdot_status
+push_term(builder *b, qdot_expr term, qdot_expr factor)
+{
+    return qdot_vec_push(&b->terms, qdot_mul(b->plan->pool, factor, term));
+}
+
+/* e - g of two sums, whose terms are in one order: *d of what they do not share. */
+static qdot_status
+difference_of(builder *b, qdot_expr e, qdot_expr g, qdot_expr *d)
+{
+    qdot_pool *pool = b->plan->pool;
+    const uint32_t n = terms_of(pool, e), m = terms_of(pool, g);
+    uint32_t i = 0;
+
+    if (qdot_expr_kind(pool, g) != QDOT_SUM) {
+        *d = qdot_sub(pool, e, g);
+        return qdot_pool_check(pool);
+    }
+    b->terms.n = 0;
+    QDOT_TRY(push_term(b, qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, g, 0)),
+                       QDOT_ONE));
+    for (uint32_t k = 0; k < m; k++) {
+        const qdot_expr term = term_at(pool, g, k);
+        qdot_expr factor = qdot_neg(pool, factor_at(pool, g, k));
+        const uint32_t at = place_of(b, term);
+
+        for (; at != QDOT_KEYMAP_NONE && i < at; i++)
+            QDOT_TRY(push_term(b, term_at(pool, e, i), factor_at(pool, e, i)));
+        if (at != QDOT_KEYMAP_NONE)
+            factor = qdot_add(pool, factor_at(pool, e, i++), factor);
+        if (factor != QDOT_ZERO)
+            QDOT_TRY(push_term(b, term, factor));
+    }
+    for (; i < n; i++)
+        QDOT_TRY(push_term(b, term_at(pool, e, i), factor_at(pool, e, i)));
+    *d = qdot_sum(pool, b->terms.n, b->terms.at);
+    return qdot_pool_check(pool);
 }
 
 /* The parent that leaves the fewest terms, of those the shortest; far ones are looked at where
@@ -130,16 +201,17 @@ find_parent(builder *b, size_t f)
     const size_t first = f > looked_at ? f - looked_at : 0;
 
     b->r->parent[f] = UINT32_MAX;
+    if (qdot_expr_kind(pool, e) == QDOT_SUM)
+        QDOT_TRY(note_places(b, e));
     for (size_t i = f; i-- > first && qdot_expr_kind(pool, e) == QDOT_SUM;) {
         qdot_expr d;
         size_t terms;
 
         if (i + near < f && fewest == 1)
             break;
-        if (terms_apart(pool, e, b->functions.at[i]) > fewest)
+        if (terms_apart(b, e, b->functions.at[i], fewest) > fewest)
             continue;
-        d = qdot_sub(pool, e, b->functions.at[i]);
-        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(difference_of(b, e, b->functions.at[i], &d));
         terms = terms_of(pool, d);
         if (terms > fewest || (terms == fewest && qdot_expr_size(pool, d) >= shortest))
             continue;
@@ -148,7 +220,8 @@ find_parent(builder *b, size_t f)
         best = d;
         b->r->parent[f] = (uint32_t)i;
     }
-    return qdot_vec_push(&b->differences, best);
+    b->r->difference[f] = best;
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -156,7 +229,7 @@ add_slopes(builder *b, size_t f)
 {
     const qdot_plan *p = b->plan;
     size_t capacity = b->r->n_slopes;
-    qdot_expr atoms = qdot_expr_atoms(p->pool, b->differences.at[f], false);
+    qdot_expr atoms = qdot_expr_atoms(p->pool, b->r->difference[f], false);
 
     QDOT_TRY(qdot_pool_check(p->pool));
     for (size_t i = 0; i < p->n; i++) {
@@ -167,7 +240,7 @@ add_slopes(builder *b, size_t f)
             there = qdot_expr_arg(p->pool, atoms, k) == p->inputs[i];
         if (!there)
             continue;
-        slope = qdot_diff(p->pool, b->differences.at[f], p->inputs[i]);
+        slope = qdot_diff(p->pool, b->r->difference[f], p->inputs[i]);
         QDOT_TRY(qdot_pool_check(p->pool));
         if (slope == QDOT_ZERO)
             continue;
@@ -185,10 +258,11 @@ add_forces(builder *b, qdot_expr Q)
 {
     const qdot_plan *p = b->plan;
 
+    Q = qdot_plan_substitute(p, Q);
+    QDOT_TRY(qdot_pool_check(p->pool));
     for (size_t i = 0; i < p->n; i++) {
-        qdot_expr e = qdot_plan_substitute(p, qdot_expr_arg(p->pool, Q, (uint32_t)i));
+        qdot_expr e = b->r->applied[i] = qdot_expr_arg(p->pool, Q, (uint32_t)i);
 
-        QDOT_TRY(qdot_pool_check(p->pool));
         if (e == QDOT_ZERO) {
             b->r->force[i] = UINT32_MAX;
         } else if (qdot_expr_node(p->pool, e)->holds & QDOT_HAS_VELOCITY) {
@@ -209,6 +283,8 @@ lower_masses(builder *b)
     qdot_vec(qdot_expr) out = {0};
     qdot_status status = QDOT_OK;
 
+    if (!p->M)
+        return QDOT_OK;
     for (size_t k = 0; k < p->structure.blocks; k++) {
         const qdot_plan_block *block = p->blocks + k;
 
@@ -233,18 +309,20 @@ build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr Q)
     qdot_residual *r = b->r;
 
     r->weights = qdot_calloc(n, sizeof *r->weights);
+    r->applied = qdot_calloc(p->n, sizeof *r->applied);
     r->force = qdot_calloc(p->n, sizeof *r->force);
-    if (!r->weights || !r->force)
+    if (!r->weights || !r->applied || !r->force)
         return QDOT_ENOMEM;
     QDOT_TRY(add_terms(b, terms, n));
     r->functions = b->functions.n;
     r->parent = qdot_calloc(r->functions, sizeof *r->parent);
-    if (!r->parent)
+    r->difference = qdot_calloc(r->functions, sizeof *r->difference);
+    if (!r->parent || !r->difference)
         return QDOT_ENOMEM;
     for (size_t f = 0; f < r->functions; f++)
         QDOT_TRY(find_parent(b, f));
     for (size_t f = 0; f < r->functions; f++)
-        QDOT_TRY(qdot_vec_push(&b->outputs, b->differences.at[f]));
+        QDOT_TRY(qdot_vec_push(&b->outputs, b->r->difference[f]));
     for (size_t f = 0; f < r->functions; f++)
         QDOT_TRY(add_slopes(b, f));
     QDOT_TRY(add_forces(b, Q));
@@ -275,7 +353,8 @@ qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **resi
     status = b.r ? build(&b, terms, n, Q) : QDOT_ENOMEM;
     qdot_free(terms);
     qdot_free(b.functions.at);
-    qdot_free(b.differences.at);
+    qdot_keymap_clear(&b.place);
+    qdot_free(b.terms.at);
     qdot_free(b.outputs.at);
     qdot_free(b.forces.at);
     if (status == QDOT_OK && (qdot_program_hindrance(b.r->places) ||
@@ -289,4 +368,36 @@ qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **resi
     }
     *residual = b.r;
     return QDOT_OK;
+}
+
+/* --- in numbers ------------------------------------------------------------------------ */
+
+void
+qdot_residual_forces(const qdot_residual *r, const double *weight, double *x, double *F)
+{
+    for (size_t f = 0; f < r->functions; f++) {
+        if (r->parent[f] != UINT32_MAX)
+            x[f] += x[r->parent[f]];
+        F[f] = 0;
+    }
+    for (size_t w = 0; w < r->n_weights; w++)
+        F[r->weights[w].to] += weight[w] * x[r->weights[w].from];
+    for (size_t f = r->functions; f-- > 0;)
+        if (r->parent[f] != UINT32_MAX)
+            F[r->parent[f]] += F[f];
+}
+
+void
+qdot_residual_masses(const qdot_residual *r, size_t n, const double *weight,
+                     const double *const *slope, double *x, double *F, double *M)
+{
+    for (size_t i = 0; i < n; i++) {
+        memset(x, 0, r->functions * sizeof *x);
+        for (size_t j = 0; j < r->n_slopes; j++)
+            if (r->slopes[j].coordinate == i)
+                x[r->slopes[j].function] = slope[j][0];
+        qdot_residual_forces(r, weight, x, F);
+        for (size_t j = 0; j < r->n_slopes; j++)
+            M[r->slopes[j].coordinate * n + i] += slope[j][0] * F[r->slopes[j].function];
+    }
 }

@@ -37,25 +37,41 @@ typedef struct {
 
 struct qdot_residual {
     size_t functions;
-    uint32_t *parent; /* [functions] UINT32_MAX: none; before its children */
+    qdot_expr *difference; /* [functions] d_f, the values put in */
+    uint32_t *parent;      /* [functions] UINT32_MAX: none; before its children */
     qdot_residual_weight *weights;
     size_t n_weights;
     qdot_residual_slope *slopes; /* dd_f/dq_i that are not zero */
     size_t n_slopes;
+    qdot_expr *applied; /* [n] Q_i, the values put in */
     uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
                         UINT32_MAX: zero */
     /* From q, q', t: */
     qdot_tape *places; /* d_f in their order, slopes, Q_i without velocities */
     qdot_tape *forces; /* Q_i with velocities; NULL: none */
-    qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows */
+    qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
+                          plan without M (sim/plan/tree-alone.h) */
+
+    /* Once asked for: h as one expression, and from q, q', t (sim/form/residual-energy.h). */
+    qdot_expr h;
+    qdot_tape *energy;
+    bool *absent; /* [n] coordinates that h may be the same at any value of: so a few places say */
 };
 
 #define QDOT_RESIDUAL_FORCES (UINT32_C(1) << 31)
 
-/* Of a scene whose plan has its structure. *residual is NULL where the form does not
- * apply. */
+/* Of a scene whose plan has its structure, or has no M. *residual is NULL where the form does
+ * not apply. */
 QDOT_MUST_CHECK qdot_status qdot_residual_new(qdot_scene *scene, const qdot_plan *plan,
                                               qdot_residual **residual);
 void qdot_residual_free(qdot_residual *residual);
+
+/* F [functions] from the second derivatives of the differences, in x [functions], which become
+ * those of the functions: down the tree and up again. w [n_weights]. */
+void qdot_residual_forces(const qdot_residual *residual, const double *w, double *x, double *F);
+/* M [n x n], zeros before, column by column: the forces that q_i'' = 1 alone takes. The value of
+ * slope j is slope[j][0]; x, F [functions] are work space. */
+void qdot_residual_masses(const qdot_residual *residual, size_t n, const double *w,
+                          const double *const *slope, double *x, double *F, double *M);
 
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "num/cholesky.h"
 #include "num/series.h"
 #include "sim/form/blocks.h"
 #include "sim/form/derived.h"
@@ -58,24 +59,6 @@ struct qdot_shifted {
 
 /* --- one order ---------------------------------------------------------------------- */
 
-/* F from the second derivatives of the differences, in x: down the tree and up again. */
-static void
-gather_forces(const qdot_shifted *s, double *F)
-{
-    const qdot_residual *r = s->residual;
-
-    for (size_t f = 0; f < r->functions; f++) {
-        if (r->parent[f] != UINT32_MAX)
-            s->x[f] += s->x[r->parent[f]];
-        F[f] = 0;
-    }
-    for (size_t w = 0; w < r->n_weights; w++)
-        F[r->weights[w].to] += s->weight[w] * s->x[r->weights[w].from];
-    for (size_t f = r->functions; f-- > 0;)
-        if (r->parent[f] != UINT32_MAX)
-            F[r->parent[f]] += F[f];
-}
-
 /* F of order k from coefficients k + 2 of the differences. */
 static void
 accelerate(const qdot_shifted *s, int k)
@@ -89,7 +72,7 @@ accelerate(const qdot_shifted *s, int k)
     if (s->W)
         s->kernels->multiply(s->rows, r->functions, s->W, s->x, F);
     else
-        gather_forces(s, F);
+        qdot_residual_forces(r, s->weight, s->x, F);
     for (size_t j = 0; j < r->n_slopes && !s->one_each; j++)
         Fs[j] = F[r->slopes[j].function];
 }
@@ -262,6 +245,23 @@ factor(qdot_shifted *s, double t, const double *y)
     return QDOT_OK;
 }
 
+/* The same of an M without a tape. */
+static qdot_status
+factor_unformed(qdot_shifted *s)
+{
+    const size_t n = s->plan->n;
+    double *M = qdot_calloc(n * n, sizeof *M);
+    size_t row;
+    qdot_status status;
+
+    if (!M)
+        return QDOT_ENOMEM;
+    qdot_residual_masses(s->residual, n, s->weight, s->slope, s->x, s->F, M);
+    status = qdot_cholesky_factor(M, n, NULL, &row);
+    qdot_free(M);
+    return status == QDOT_ESINGULAR ? qdot_blocks_singular(s->plan, s->plan->blocks, row) : status;
+}
+
 /* Orders 0 and 1, and M eliminated along its tree. Where a pivot is small against its mass
  * Cholesky's method says whether M is singular. */
 static qdot_status
@@ -277,7 +277,7 @@ begin_tree(qdot_shifted *s, double t, const double *y)
     s->eliminated++;
     if (good && lost >= least_pivot)
         return QDOT_OK;
-    QDOT_TRY(factor(s, t, y));
+    QDOT_TRY(s->residual->masses ? factor(s, t, y) : factor_unformed(s));
     return good ? QDOT_OK
                 : qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular within rounding");
 }
@@ -368,7 +368,7 @@ make_tapes(qdot_shifted *s, bool shaken)
         s->fv = qdot_taylor_input(s->forces, n);
         s->ft = qdot_taylor_input(s->forces, 2 * n);
     }
-    return shaken ? qdot_tape_shake(r->masses, &s->masses) : QDOT_OK;
+    return shaken && r->masses ? qdot_tape_shake(r->masses, &s->masses) : QDOT_OK;
 }
 
 /* Applied forces with velocities have a program of their own. */
@@ -474,13 +474,13 @@ applied(const qdot_shifted *s, uint32_t at)
     return qdot_taylor_output(s->places, at);
 }
 
-/* W by its columns: what the tree makes of unit vectors. */
+/* W by its columns: what the tree makes of unit vectors. Beside a factored M only. */
 static qdot_status
 multiply_out(qdot_shifted *s)
 {
     size_t n = s->residual->functions;
 
-    if (n > most_dense)
+    if (n > most_dense || !s->residual->masses)
         return QDOT_OK;
     s->W = qdot_calloc(s->rows * n + 1, sizeof *s->W);
     if (!s->W)
@@ -488,7 +488,7 @@ multiply_out(qdot_shifted *s)
     for (size_t f = 0; f < n; f++) {
         memset(s->x, 0, n * sizeof *s->x);
         s->x[f] = 1;
-        gather_forces(s, s->F);
+        qdot_residual_forces(s->residual, s->weight, s->x, s->F);
         memcpy(s->W + f * s->rows, s->F, n * sizeof *s->F);
     }
     return QDOT_OK;
@@ -518,6 +518,30 @@ choose_vectors(qdot_shifted *s)
     return QDOT_OK;
 }
 
+/* Where M is factored. */
+static qdot_status
+make_solvers(qdot_shifted *s, bool shaken)
+{
+    const qdot_plan *p = s->plan;
+    const qdot_tape *masses = s->residual->masses;
+
+    s->out = qdot_calloc(qdot_tape_outputs(masses) + 1, sizeof *s->out);
+    s->work = qdot_calloc(qdot_tape_work(masses) + 1, sizeof *s->work);
+    if (!s->out || !s->work)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_blocks_init(&s->solvers, p, shaken));
+    for (size_t b = 0; b < p->structure.blocks; b++)
+        if (p->blocks[b].n > 1) {
+            QDOT_TRY(qdot_blocks_prepare(&s->solvers, b));
+            if (p->blocks[b].constant)
+                qdot_blocks_invert(&s->solvers, b);
+        }
+    s->whole = p->structure.blocks == 1 && s->solvers.at->inverse;
+    for (size_t i = 0; i < p->n; i++)
+        s->whole = s->whole && p->blocks->index[i] == i;
+    return QDOT_OK;
+}
+
 static qdot_status
 make(qdot_shifted *s, bool shaken)
 {
@@ -526,13 +550,8 @@ make(qdot_shifted *s, bool shaken)
     size_t orders = most_order + 1;
 
     QDOT_TRY(make_tapes(s, shaken));
-    QDOT_TRY(qdot_blocks_init(&s->solvers, p, shaken));
-    for (size_t b = 0; b < p->structure.blocks; b++)
-        if (p->blocks[b].n > 1) {
-            QDOT_TRY(qdot_blocks_prepare(&s->solvers, b));
-            if (p->blocks[b].constant)
-                qdot_blocks_invert(&s->solvers, b);
-        }
+    if (r->masses)
+        QDOT_TRY(make_solvers(s, shaken));
     s->members = (r->n_slopes + lanes - 1) / lanes * lanes;
     s->weight = qdot_calloc(r->n_weights, sizeof *s->weight);
     s->d = qdot_calloc(r->functions, sizeof *s->d);
@@ -546,10 +565,8 @@ make(qdot_shifted *s, bool shaken)
     s->R = qdot_calloc(p->n + lanes, sizeof *s->R);
     s->applied = qdot_calloc(p->n, sizeof *s->applied);
     s->in = qdot_calloc(2 * p->n + 1, sizeof *s->in);
-    s->out = qdot_calloc(qdot_tape_outputs(r->masses) + 1, sizeof *s->out);
-    s->work = qdot_calloc(qdot_tape_work(r->masses) + 1, sizeof *s->work);
     if (!s->weight || !s->d || !s->x || !s->F || !s->slope || !s->J || !s->Fs ||
-        !s->products || !s->R || !s->applied || !s->in || !s->out || !s->work)
+        !s->products || !s->R || !s->applied || !s->in)
         return QDOT_ENOMEM;
     for (size_t w = 0; w < r->n_weights; w++)
         s->weight[w] = shaken ? qdot_shake_double(r->weights[w].w, r->weights[w].side)
@@ -563,9 +580,6 @@ make(qdot_shifted *s, bool shaken)
     s->one_each = r->n_slopes == r->functions;
     for (size_t j = 0; j < r->n_slopes; j++)
         s->one_each = s->one_each && r->slopes[j].function == j;
-    s->whole = p->structure.blocks == 1 && s->solvers.at->inverse;
-    for (size_t i = 0; i < p->n; i++)
-        s->whole = s->whole && p->blocks->index[i] == i;
     QDOT_TRY(multiply_out(s));
     QDOT_TRY(choose_vectors(s));
     s->series = (qdot_ode_series){.most = most_order - 4,

@@ -35,14 +35,15 @@ struct qdot_switches;                       /* sim/model/switch.h */
 
 typedef struct qdot_plan qdot_plan;
 struct qdot_plan {
+    unsigned uses;   /* beside the first (sim/plan/kept.h) */
     qdot_pool *pool; /* borrowed */
     size_t n;        /* coordinates */
     size_t m;        /* constraints, one a component */
     size_t n_states; /* the last of them: parameters that events set (sim/model/parameter-states.h) */
     qdot_expr *inputs; /* [3n + 1 + m] q, q', t, q'', lambda of m constraints */
     char **names;      /* [n] of the coordinates; owned */
-    qdot_expr *M;      /* [n x n] */
-    qdot_expr *f;      /* [n] */
+    qdot_expr *M;      /* [n x n] NULL, as f and tape, where only the tree is read */
+    qdot_expr *f;      /* [n]                                   (sim/plan/tree-alone.h) */
     bool indefinite;   /* a stated Lagrangian, a potential with velocities: LDL^T */
     qdot_structure structure;
     qdot_plan_block *blocks; /* [structure.blocks] */
@@ -92,6 +93,7 @@ struct qdot_plan {
     size_t n_kept;
     size_t *kept;      /* [n_kept] */
     bool subtracts;    /* velocities of these are sums, whose terms may cancel */
+    bool by_start;     /* whether there is a reduced one depends on the start and the tolerance */
     qdot_tape *momenta; /* from q, q', t: [n_kept] */
 
     /* While it is made: the mode that its equations are frozen to; else NULL. */

@@ -60,11 +60,14 @@ qdot_expr
 qdot_substitute(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *symbols,
                 const qdot_expr *values)
 {
+    const uint32_t constant = 1u << QDOT_CONST | QDOT_HAS_FUN;
     table t = {n, symbols, values};
     bool functions = false;
     qdot_expr *from, before;
     size_t count = 0;
 
+    if (e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & ~constant) == 0)
+        return e; /* as starts are, one for each coordinate */
     for (size_t i = 0; i < n; i++)
         functions |= qdot_expr_kind(pool, symbols[i]) == QDOT_UFUN;
     for (int round = 0; functions && e != QDOT_NIL; round++) {

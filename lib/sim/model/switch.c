@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "expr/walk.h"
+#include "mech/dynamics/dalembert.h"
 #include "sim/model/substitute.h"
 
 void
@@ -187,13 +189,87 @@ find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
+/* Whether a node may be, or become by its slopes or by the values put in, what switches: also a
+ * function whose value is set, and a root, which of a square is an absolute value. */
+static bool
+may_switch(const qdot_pool *pool, qdot_expr e)
+{
+    if (qdot_expr_kind(pool, e) == QDOT_UFUN || is_atom(pool, e))
+        return true;
+    for (uint32_t i = 2; qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e);
+         i += 2) {
+        long power;
+
+        if (!qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i), &power))
+            return true;
+    }
+    return false;
+}
+
+static qdot_status
+look_at(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smooth)
+{
+    qdot_walk walk;
+    qdot_status status = qdot_walk_begin_n(pool, n, e, &walk);
+
+    for (size_t i = 0; status == QDOT_OK && i < walk.n && *smooth; i++)
+        *smooth = !may_switch(pool, walk.at[i]);
+    qdot_walk_end(&walk);
+    return status;
+}
+
+/* Whether nothing switches, by what the equations are made of: places, and what is applied. M and
+ * f need not be derived for that, which of many coordinates takes long. */
+static qdot_status
+see_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
+{
+    qdot_pool *pool = scene->pool;
+    qdot_dalembert_term *terms;
+    qdot_expr *e, Q;
+    size_t n;
+    qdot_status status;
+
+    *smooth = false;
+    QDOT_TRY(qdot_mech_dalembert(scene, &terms, &n, &Q));
+    if (n > 0 && scene->constraints.n == 0)
+        Q = qdot_substitute(pool, Q, request->n_values, request->symbols, request->values);
+    else
+        Q = QDOT_NIL;
+    e = qdot_calloc(3 * n + scene->potentials.n + 1, sizeof *e);
+    status = e ? qdot_pool_check(pool) : QDOT_ENOMEM;
+    if (status == QDOT_OK && Q != QDOT_NIL) {
+        size_t count = 0;
+
+        for (size_t i = 0; i < n; i++) {
+            e[count++] = terms[i].w;
+            e[count++] = terms[i].x;
+            e[count++] = terms[i].y;
+        }
+        for (size_t i = 0; i < scene->potentials.n; i++)
+            e[count++] = scene->potentials.at[i].e;
+        e[count++] = Q;
+        *smooth = true;
+        status = look_at(pool, count, e, smooth);
+    }
+    qdot_free(e);
+    qdot_free(terms);
+    return status;
+}
+
 qdot_status
 qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_switches *s)
 {
     qdot_pool *pool = scene->pool;
-    qdot_expr e[] = {qdot_mech_numeric_mass(scene), qdot_mech_numeric_forcing(scene)};
+    bool smooth = false;
+    qdot_expr e[2];
 
     s->pool = pool;
+    if (scene->coordinates.n >= QDOT_MANY_COORDINATES)
+        QDOT_TRY(see_smooth(scene, request, &smooth));
+    if (smooth)
+        return QDOT_OK;
+    e[0] = qdot_mech_numeric_mass(scene);
+    e[1] = qdot_mech_numeric_forcing(scene);
     for (size_t i = 0; i < 2; i++) {
         if (e[i] != QDOT_NIL)
             e[i] = qdot_substitute(pool, e[i], request->n_values, request->symbols,

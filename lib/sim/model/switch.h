@@ -40,6 +40,11 @@ typedef struct qdot_switches {
                         NIL: none */
 } qdot_switches;
 
+/* Fewer coordinates are derived in milliseconds. Of so many M and f are left underived where
+ * nothing reads them (sim/plan/tree-alone.h), and switches are looked for in what they would be
+ * made of. */
+enum { QDOT_MANY_COORDINATES = 32 };
+
 /* Those of the equations of motion and of the constraints; start from {0}. Errors: as qdot_plan_new has them. */
 QDOT_MUST_CHECK qdot_status qdot_switches_find(qdot_scene *scene,
                                                const qdot_run_request *request,

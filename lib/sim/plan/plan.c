@@ -15,6 +15,7 @@
 #include "sim/model/switch.h"
 #include "sim/plan/parts.h"
 #include "sim/plan/routh.h"
+#include "sim/plan/tree-alone.h"
 #include "series/program.h"
 #include "series/taylor.h"
 
@@ -234,6 +235,9 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(find_method(p, request->method));
     QDOT_TRY(copy_values(p, request));
     QDOT_TRY(name_coordinates(p, scene, request));
+    QDOT_TRY(qdot_tree_alone_find(p, scene, request));
+    if (p->residual)
+        return QDOT_OK;
     QDOT_TRY(derive(p, scene));
     if (scene->constraints.n > 0)
         return constrain(p, scene, request);

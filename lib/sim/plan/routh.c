@@ -13,9 +13,8 @@
 #include "series/taylor.h"
 #include "tape/constant.h"
 
-/* Coordinates that couple with one that is eliminated fill M: beyond so many no more is
- * tried than what does not couple. Forms are simplified up to so many operations. */
-enum { MOST_COUPLED = 6, SHORT = 120, SHORT_ENTRY = 60 };
+/* Forms are simplified up to so many operations. */
+enum { SHORT = 120, SHORT_ENTRY = 60 };
 
 /* Terms of a velocity that add up to so much of it do no harm at any tolerance; and what
  * the rounding of one counts for, over the steps of a run. */
@@ -117,7 +116,7 @@ find_cyclic(routh *e, bool *some)
         bool is, applied;
 
         if (is_state(e, i) || !may_be_absent(e, i) || !is_linear(e, i) ||
-            coupled(e, i) >= MOST_COUPLED)
+            coupled(e, i) >= QDOT_ROUTH_COUPLED)
             continue;
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(qdot_mech_cyclic_at(e->scene, in_scene(e, i), &c, &is));
@@ -554,8 +553,10 @@ reduce(routh *e)
     QDOT_TRY(qdot_pool_check(e->pool));
     if (e->h > 0)
         QDOT_TRY(choose(e));
-    if (e->p->reduced && has_sum(e) && e->request->q0 && e->request->v0)
+    if (e->p->reduced && has_sum(e) && e->request->q0 && e->request->v0) {
+        e->p->by_start = true;
         QDOT_TRY(find_cancellation(e, &too_far));
+    }
     if (too_far) {
         qdot_plan_free(e->p->reduced);
         e->p->reduced = NULL;

@@ -4,7 +4,9 @@
 #include "ode/taylor.h"
 #include "sim/course/bind.h"
 #include "sim/course/stage.h"
+#include "sim/form/derived.h"
 #include "sim/form/eliminated.h"
+#include "sim/form/residual.h"
 #include "sim/model/constraints.h"
 #include "sim/run/run.h"
 
@@ -91,7 +93,9 @@ say_time(const qdot_plan *p, qdot_text *out)
 {
     bool time = false;
 
-    for (size_t i = 0; i < p->n; i++) {
+    for (size_t i = 0; i < p->n && !p->M; i++)
+        time |= holds_time(p, p->residual->applied[i]); /* places do not */
+    for (size_t i = 0; i < p->n && p->M; i++) {
         time |= holds_time(p, p->f[i]);
         for (size_t j = 0; j < p->n; j++)
             time |= holds_time(p, p->M[i * p->n + j]);
@@ -210,6 +214,11 @@ say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
             "coordinates it would take %g\n",
             p->reduced->convolutions_derived,
             p->residual ? p->convolutions_residual : p->convolutions_derived);
+    else if (p->residual && !p->M)
+        qdot_text_format(out,
+                         "form: d'Alembert's residual, %g convolutions an order; M and f, of "
+                         "which every pair of coordinates is an entry, are not derived\n",
+                         p->convolutions_residual);
     else if (p->residual)
         qdot_text_format(
             out,
@@ -339,6 +348,7 @@ describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
     qdot_stage stage = {0};
     qdot_status status = qdot_stage_begin(&stage, scene, request);
     const qdot_plan *p = status == QDOT_OK ? stage.modes.at[0]->plan : NULL;
+    size_t operations, calls;
 
     if (!p) {
         qdot_stage_clear(&stage);
@@ -356,12 +366,12 @@ describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
         say_blocks(moving(p), out);
     }
     say_time(p, out);
+    operations = qdot_plan_operations(p, &calls);
     qdot_text_format(out,
-                     "tape: %zu operations for M and f, of them %zu call%s of elementary "
+                     "tape: %zu operations for %s, of them %zu call%s of elementary "
                      "functions\n",
-                     qdot_tape_operations(moving(p)->tape),
-                     qdot_tape_calls(moving(p)->tape),
-                     qdot_tape_calls(moving(p)->tape) == 1 ? "" : "s");
+                     operations, p->M ? "M and f" : "places, their slopes and forces", calls,
+                     calls == 1 ? "" : "s");
     if (p->method->needs_jacobian)
         qdot_text_add(out, "jacobian: exact, by forward derivatives of the tape\n");
     qdot_text_format(out, "method: %s, %s: %s\n", p->method->name,

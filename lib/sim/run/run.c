@@ -1,4 +1,5 @@
 /* run.c -- from a request to a run with its report. */
+#include "sim/form/derived.h"
 #include "sim/run/run.h"
 
 #include <math.h>
@@ -370,7 +371,7 @@ fill_report(qdot_run *run, double tol)
     r->coordinates = p->inputs;
     r->q = last_state(run);
     r->v = r->q + p->n;
-    r->operations = qdot_tape_operations(p->reduced ? p->reduced->tape : p->tape);
+    r->operations = qdot_plan_operations(p, NULL);
     r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
     r->n_drifts = run->drifts.n;
     r->drifts = run->drifts.at;

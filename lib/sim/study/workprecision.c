@@ -333,7 +333,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     w->system.margin = w->inner.margin ? margin : NULL;
     w->system.user = w;
     n = (double)(w->plan->n + w->plan->m);
-    operations = (double)qdot_tape_operations(w->plan->tape) + n * n * n / 3 + 100;
+    operations = (double)qdot_plan_operations(w->plan, NULL) + n * n * n / 3 + 100;
     if (w->plan->method->series) /* an expansion is worth a few hundred evaluations */
         operations *= 200;
     w->most_evaluations = (uint64_t)fmax(100, budget / operations);

@@ -1,0 +1,92 @@
+/* partial-sum.c -- sums kept by where they stand. */
+#include "lang/language/partial-sum.h"
+
+#include <string.h>
+
+const qdot_partial_sum *
+qdot_partial_sum_find(const qdot_session *session, const qdot_token *place, long first,
+                      long last)
+{
+    for (size_t i = 0; i < session->partial_sums.n; i++) {
+        const qdot_partial_sum *sum = session->partial_sums.at + i;
+
+        if (sum->place == place && sum->first == first && sum->last <= last)
+            return sum;
+    }
+    return NULL;
+}
+
+qdot_status
+qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum)
+{
+    if (session->loops == 0)
+        return QDOT_OK;
+    for (size_t i = 0; i < session->partial_sums.n; i++) {
+        qdot_partial_sum *other = session->partial_sums.at + i;
+
+        if (other->place == sum.place && other->first == sum.first) {
+            *other = sum;
+            return QDOT_OK;
+        }
+    }
+    return qdot_vec_push(&session->partial_sums, sum);
+}
+
+/* A parameter or coordinate that is called so, or a member of the family. */
+static bool
+is_called(const qdot_session *session, const char *name, qdot_expr value)
+{
+    const qdot_symbol *symbol =
+        value != QDOT_NIL && qdot_expr_kind(session->pool, value) == QDOT_SYM
+            ? qdot_expr_symbol(session->pool, value)
+            : NULL;
+    const size_t n = strlen(name);
+
+    return symbol && (symbol->class == QDOT_PARAM || symbol->class == QDOT_COORD)
+           && strncmp(symbol->name, name, n) == 0 && strchr("['", symbol->name[n]);
+}
+
+/* Whether the value is the same whenever the instruction is carried out with the same operands in
+ * this loop. */
+static bool
+is_lasting(const qdot_session *session, const qdot_postfix *code, qdot_expr value)
+{
+    const char *name = code->token->text;
+    const qdot_name *known;
+    qdot_fun_id id;
+
+    switch ((qdot_postfix_kind)code->op) {
+    case QDOT_POSTFIX_NAME:
+        known = qdot_names_find(session->names, name);
+        return known && (known->kind == QDOT_NAME_PARAM || known->kind == QDOT_NAME_COORD);
+    case QDOT_POSTFIX_INDEX_NAME:
+        return !qdot_names_find(session->names, name)
+               && qdot_names_is_family(session->names, name) && is_called(session, name, value);
+    case QDOT_POSTFIX_CALL:
+        return !qdot_names_find(session->names, name) && code->to == 0 && code->primes == 0
+               && (qdot_fun_find(name, &id) || strcmp(name, "sqrt") == 0);
+    case QDOT_POSTFIX_LABEL:
+    case QDOT_POSTFIX_HISTORY:
+    case QDOT_POSTFIX_INDEX:
+    case QDOT_POSTFIX_RANGE:
+    case QDOT_POSTFIX_MEMBER: return false;
+    default: return true; /* made of the operands */
+    }
+}
+
+void
+qdot_partial_sum_note(qdot_machine *m, const qdot_postfix *code)
+{
+    const qdot_name *known;
+    size_t i = m->frames.n;
+
+    if (is_lasting(m->session, code, qdot_machine_top(m, 1)->value))
+        return;
+    known = code->op == QDOT_POSTFIX_NAME ? qdot_names_find(m->session->names, code->token->text)
+                                       : NULL;
+    /* of the sums up to the one whose index it is */
+    for (; i > 0 && !(known && known->kind == QDOT_NAME_INDEX
+                      && strcmp(m->frames.at[i - 1].index, known->name) == 0);
+         i--)
+        m->frames.at[i - 1].varies = true;
+}

@@ -1,0 +1,33 @@
+/* partial-sum.h -- sums that a loop asks for again with one term more.
+ *
+ *     particle bob[k] ... at (sum(l[j]*sin(theta[j]), j, 1, k), ...) for k = 1..N
+ *
+ * writes N^2/2 terms, of which N differ. A sum is kept while the outermost loop goes on if its terms
+ * depend on nothing but its own index: numbers, parameters and coordinates by their names, elementary
+ * functions. One that begins where it began and goes at least as far goes on from it.
+ *
+ * Tests  tests/lang/test_partial-sum.c, tests/script/partial-sums.lag
+ */
+#ifndef QDOT_LANG_PARTIAL_SUM_H
+#define QDOT_LANG_PARTIAL_SUM_H
+
+#include "lang/language/machine.h"
+
+typedef struct qdot_partial_sum {
+    const qdot_token *place; /* its index, where it stands in the text */
+    long first, last;
+    qdot_expr value;
+} qdot_partial_sum;
+
+/* The sum at this place from `first` as far as it is known, not beyond `last`; NULL: none. Valid
+ * until the next is kept. */
+const qdot_partial_sum *qdot_partial_sum_find(const qdot_session *session,
+                                              const qdot_token *place, long first, long last);
+/* Keep it, in place of a shorter one; outside of loops nothing is kept. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum);
+
+/* An instruction was carried out, its value on top: what the terms of the sums under way depend on
+ * by it. */
+void qdot_partial_sum_note(qdot_machine *m, const qdot_postfix *code);
+
+#endif

@@ -1,0 +1,174 @@
+/* tree-alone.c -- whether the tree alone is enough, and by how much it is cheaper. */
+#include "sim/plan/tree-alone.h"
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "ode/leading.h"
+#include "sim/form/derived.h"
+#include "sim/form/residual-energy.h"
+#include "sim/form/residual-tree.h"
+#include "sim/plan/routh.h"
+#include "sim/form/shifted.h"
+#include "sim/model/switch.h"
+#include "tape/disc.h"
+
+static bool
+may_be(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
+{
+    return p->mode && p->mode->atoms.n == 0 && p->n >= QDOT_MANY_COORDINATES && p->n_states == 0
+           && scene->constraints.n == 0 && request->digits == 0 && p->method->series
+           && !qdot_plan_needs_jacobian(p) && request->tol > QDOT_ODE_LEADING_TOL;
+}
+
+/* Pairs of coordinates whose nodes are one or hang on each other, into pattern [n x n]. */
+static void
+find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
+{
+    for (size_t node = 0; node < t->nodes; node++)
+        for (size_t above = node;;) {
+            size_t next = SIZE_MAX;
+
+            for (size_t a = 0; a < t->unknowns[node]; a++)
+                for (size_t b = 0; b < t->unknowns[above]; b++) {
+                    const size_t i = t->coordinate[node * t->c + a];
+                    const size_t j = t->coordinate[above * t->c + b];
+
+                    pattern[i * n + j] = pattern[j * n + i] = true;
+                }
+            for (size_t e = above * t->m; e < (above + 1) * t->m; e++)
+                if (t->parent[e] != UINT32_MAX)
+                    next = t->parent[e] / t->m;
+            if (next == SIZE_MAX)
+                break;
+            above = next;
+        }
+}
+
+/* What orders of M q'' = f cost at least, whose M has so many entries beside the diagonal: as
+ * estimate_cost of sim/form/direct.c, without a tape. */
+static double
+least_cost(size_t n, size_t entries)
+{
+    const double m = (double)n, convolutions = (double)entries;
+    const qdot_ode_series series = {.cost = {0.2 * m * m * m,
+                                             0.5 * m * m + 3.5 * convolutions,
+                                             0.12 * convolutions}};
+
+    return qdot_plan_cost(&series);
+}
+
+/* Whether M is of numbers: no slope of a place moves. */
+static bool
+is_constant(const qdot_plan *p)
+{
+    const qdot_residual *r = p->residual;
+
+    for (size_t k = 0; k < r->n_slopes; k++) {
+        const qdot_expr slope = qdot_diff(p->pool, r->difference[r->slopes[k].function],
+                                          p->inputs[r->slopes[k].coordinate]);
+
+        if (slope == QDOT_NIL || qdot_expr_node(p->pool, slope)->holds & QDOT_HAS_COORD)
+            return false;
+    }
+    return true;
+}
+
+/* Into *suits: one block that M couples, none of whose coordinates is to be eliminated
+ * beforehand, as one is that few are coupled with and that does not stand in h. */
+static qdot_status
+judge(qdot_plan *p, const bool *pattern, bool *suits, double *least)
+{
+    const size_t n = p->n;
+    size_t entries = 0;
+
+    QDOT_TRY(qdot_structure_find(pattern, n, &p->structure));
+    *suits = p->structure.blocks == 1 && !is_constant(p);
+    for (size_t i = 0; i < n; i++) {
+        size_t coupled = 0;
+
+        for (size_t j = 0; j < n; j++)
+            coupled += j != i && pattern[i * n + j];
+        entries += coupled;
+        *suits = *suits && (coupled >= QDOT_ROUTH_COUPLED || !p->residual->absent[i]);
+    }
+    *least = least_cost(n, entries);
+    return QDOT_OK;
+}
+
+static qdot_status
+find_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double *least)
+{
+    bool *pattern = qdot_calloc(p->n * p->n, sizeof *pattern);
+    qdot_status status;
+
+    *suits = false;
+    if (!pattern)
+        return QDOT_ENOMEM;
+    find_pattern(tree, p->n, pattern);
+    status = judge(p, pattern, suits, least);
+    qdot_free(pattern);
+    if (status != QDOT_OK || !*suits)
+        return status;
+    p->blocks = qdot_calloc(1, sizeof *p->blocks);
+    if (!p->blocks)
+        return QDOT_ENOMEM;
+    *p->blocks = (qdot_plan_block){.n = p->n, .index = p->structure.index};
+    return QDOT_OK;
+}
+
+static bool
+may_hide(const qdot_residual *r)
+{
+    return qdot_disc_may_hide(r->places) || (r->forces && qdot_disc_may_hide(r->forces));
+}
+
+static qdot_status
+decide(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
+{
+    qdot_shifted *shifted;
+    double least;
+
+    *taken = false;
+    QDOT_TRY(find_structure(p, tree, taken, &least));
+    if (!*taken)
+        return QDOT_OK;
+    QDOT_TRY(qdot_shifted_new(p, p->residual, false, &shifted));
+    p->tree_nodes = qdot_shifted_tree_size(shifted, &p->tree_is_path);
+    p->convolutions_residual = qdot_shifted_convolutions(shifted);
+    p->cost = qdot_plan_cost(qdot_shifted_series(shifted));
+    *taken = p->tree_nodes > 0 && p->cost < least;
+    qdot_shifted_free(shifted);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_tree_alone_find(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+{
+    qdot_residual_tree *tree = NULL;
+    bool taken = false;
+    qdot_status status;
+
+    if (!may_be(p, scene, request))
+        return QDOT_OK;
+    QDOT_TRY(qdot_residual_new(scene, p, &p->residual));
+    if (!p->residual)
+        return QDOT_OK;
+    status = may_hide(p->residual) ? QDOT_OK : qdot_residual_tree_new(p->residual, p->n, &tree);
+    if (tree)
+        status = qdot_residual_add_energy(scene, p, p->residual);
+    if (tree && status == QDOT_OK && p->residual->energy)
+        status = decide(p, tree, &taken);
+    qdot_residual_tree_free(tree);
+    if (status == QDOT_OK && taken) {
+        p->smooth = true;
+        return QDOT_OK;
+    }
+    qdot_residual_free(p->residual);
+    p->residual = NULL;
+    qdot_structure_clear(&p->structure);
+    qdot_free(p->blocks);
+    p->blocks = NULL;
+    p->tree_nodes = 0;
+    p->convolutions_residual = 0;
+    return status;
+}
