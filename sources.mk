@@ -1170,7 +1170,6 @@ script_tests = \
 	examples/bowling-ball.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
-	examples/cart.lag \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
 	examples/conserved.lag \
@@ -1699,7 +1698,6 @@ test_files = \
 	tests/script/routh.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
-	tests/script/saved.csv \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
 	tests/script/several.out \
