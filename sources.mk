@@ -35,6 +35,7 @@ library_sources = \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
 	lib/lang/commands/ask.c \
+	lib/lang/commands/assumed.c \
 	lib/lang/commands/check.c \
 	lib/lang/commands/complete.c \
 	lib/lang/commands/constraints.c \
@@ -407,6 +408,7 @@ library_headers = \
 	lib/lang/answer/formula.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/commands/assumed.h \
 	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
 	lib/lang/commands/declare.h \
@@ -420,6 +422,7 @@ library_headers = \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
 	lib/lang/commands/set.h \
+	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
 	lib/lang/commands/value-check.h \
 	lib/lang/commands/warnings.h \
@@ -1169,6 +1172,7 @@ script_tests = \
 	examples/bowling-ball.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
+	examples/cart.lag \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
 	examples/conserved.lag \
@@ -1698,6 +1702,7 @@ test_files = \
 	tests/script/routh.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
+	tests/script/saved.csv \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
 	tests/script/several.out \

@@ -449,11 +449,25 @@ qdot_det(qdot_pool *pool, qdot_expr a)
     return determinant(pool, n, entry);
 }
 
+/* (-1)^(i + j) times the minor without row i and column j. */
+static qdot_expr
+cofactor(qdot_pool *pool, uint32_t n, const qdot_expr *entry, uint32_t i, uint32_t j)
+{
+    qdot_expr minor[LARGEST * LARGEST], det;
+    uint32_t k = 0;
+
+    for (uint32_t r = 0; r < n; r++)
+        for (uint32_t c = 0; c < n; c++)
+            if (r != i && c != j)
+                minor[k++] = entry[r * n + c];
+    det = determinant(pool, n - 1, minor);
+    return (i + j) % 2 ? qdot_neg(pool, det) : det;
+}
+
 qdot_expr
 qdot_inverse(qdot_pool *pool, qdot_expr a)
 {
-    qdot_expr entry[LARGEST * LARGEST], minor[LARGEST * LARGEST],
-        inverse[LARGEST * LARGEST], det;
+    qdot_expr entry[LARGEST * LARGEST], inverse[LARGEST * LARGEST], det;
     uint32_t n;
 
     if (!matrix(pool, "inverse", a, true))
@@ -467,19 +481,8 @@ qdot_inverse(qdot_pool *pool, qdot_expr a)
         return qdot_pool_refuse(pool, QDOT_ESINGULAR,
                                 "the matrix has no inverse: its determinant is 0");
     for (uint32_t i = 0; i < n; i++)
-        for (uint32_t j = 0; j < n; j++) {
-            qdot_expr cofactor;
-            uint32_t k = 0;
-
-            for (uint32_t r = 0; r < n; r++)
-                for (uint32_t c = 0; c < n; c++)
-                    if (r != i && c != j)
-                        minor[k++] = entry[r * n + c];
-            cofactor = determinant(pool, n - 1, minor);
-            if ((i + j) % 2)
-                cofactor = qdot_neg(pool, cofactor);
-            inverse[j * n + i] = qdot_div(pool, cofactor, det);
-        }
+        for (uint32_t j = 0; j < n; j++)
+            inverse[j * n + i] = qdot_div(pool, cofactor(pool, n, entry, i, j), det);
     return qdot_matrix(pool, n, n, inverse);
 }
 

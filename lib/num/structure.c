@@ -1,5 +1,4 @@
-/* structure.c -- connected blocks by union-find, numbered in order of first appearance.
- * */
+/* structure.c -- connected blocks by union-find, numbered in order of first appearance. */
 #include "num/structure.h"
 
 #include "base/memory.h"

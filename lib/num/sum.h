@@ -19,8 +19,7 @@ qdot_two_sum(double a, double b, double *e)
     return s;
 }
 
-/* A running sum; start from {0}. sum + carry is the total to about twice the precision.
- * */
+/* A running sum; start from {0}. sum + carry is the total to about twice the precision. */
 typedef struct {
     double sum, carry;
 } qdot_sum;

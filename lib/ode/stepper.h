@@ -82,8 +82,7 @@ struct qdot_ode_stepper {
     gsl_odeiv2_system inner;
 };
 
-/* Errors: QDOT_EINVAL (n = 0, a tolerance outside 1e-16 .. 1, no Jacobian); QDOT_ENOMEM.
- * */
+/* Errors: QDOT_EINVAL (n = 0, a tolerance outside 1e-16 .. 1, no Jacobian); QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_new(const qdot_ode_system *system,
                                                  const qdot_ode_method *method,
                                                  double tol, qdot_ode_stepper **out);

@@ -46,18 +46,25 @@ last(builder *b)
     return b->status == QDOT_OK ? b->program->steps.at + b->program->steps.n - 1 : &b->nothing;
 }
 
-static row
-emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
+double
+qdot_recurrence_cost(int op)
 {
     static const double cost[QDOT_T_COUNT] = {
 #define RECURRENCE(ID, cost, body) [QDOT_T_##ID] = cost,
 #include "series/recurrence.def"
 #undef RECURRENCE
     };
+
+    return cost[op];
+}
+
+static row
+emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
+{
     const bool still = is_constant(b, x) && is_constant(b, y) && is_constant(b, z);
     const row to = new_row(b, QDOT_ROW_COMPUTED, 0, still);
 
-    b->program->convolutions += still ? 0 : cost[op];
+    b->program->convolutions += still ? 0 : qdot_recurrence_cost(op);
     add(b, (qdot_program_step){.op = (uint16_t)op,
                               .zero = (uint16_t)zero,
                               .sign = 1,

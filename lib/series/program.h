@@ -92,6 +92,9 @@ qdot_recurrence_looks_back(int op)
     return op >= QDOT_T_MUL && op < QDOT_T_LINK;
 }
 
+/* Convolutions an order; a square counts half. */
+double qdot_recurrence_cost(int op);
+
 /* How many times its argument a recurrence's result is the exponential of; 0: it is none. */
 static inline double
 qdot_recurrence_exponential(int op)

@@ -183,40 +183,37 @@ qdot_taylor_affine(qdot_taylor *t, size_t n, const bool *kept)
 
 /* --- numbers ------------------------------------------------------------------------ */
 
-/* Derivatives of a step's row by its operands, at order 0. */
+/* Slopes of a number by x, y and z of its step; the fourth is 0. */
+typedef double slopes __attribute__((vector_size(32)));
+
+/* Derivatives of a step's row by its operands, at order 0: what is linear in coefficients of order
+ * k holds at order 1. */
 static void
 differentiate(struct qdot_taylor_change *change)
 {
     const qdot_taylor_step *i = change->step;
-    double a = 0, b = 0, c = 0;
+    const slopes NEWEST_x = {1, 0, 0, 0}, NEWEST_y = {0, 1, 0, 0}, NEWEST_z = {0, 0, 1, 0};
+    slopes NEWEST_to = {0}, NEWEST_second = {0}, NEWEST_third = {0}, NEWEST_d = {0};
+    slopes U1, U2, by;
+    const int k = 1;
 
-    switch (i->op) {
-    case QDOT_T_NEG: a = -1; break;
-    case QDOT_T_ADD: a = b = 1; break;
-    case QDOT_T_SUB: a = 1, b = -1; break;
-    case QDOT_T_SCALE: b = i->x[0]; break;
-    case QDOT_T_SCALEADD: b = i->x[0], c = 1; break;
-    case QDOT_T_SCALESUB: b = i->x[0], c = -1; break;
-    case QDOT_T_SCALEOFF: b = -i->x[0], c = 1; break;
-    case QDOT_T_MUL: a = i->y[0], b = i->x[0]; break;
-    case QDOT_T_SQUARE: a = 2 * i->x[0]; break;
-    case QDOT_T_MADD: a = i->y[0], b = i->x[0], c = 1; break;
-    case QDOT_T_MSUB: a = i->y[0], b = i->x[0], c = -1; break;
-    case QDOT_T_NMADD: a = -i->y[0], b = -i->x[0], c = 1; break;
-    case QDOT_T_DIV: a = i->c, b = -i->to[0] * i->c; break;
-    case QDOT_T_SQRT: a = i->c; break;
-    case QDOT_T_SINCOS: a = change->second ? -i->to[0] : i->second[0]; break;
-    case QDOT_T_SINHCOSH: a = change->second ? i->to[0] : i->second[0]; break;
-    case QDOT_T_EXP: a = i->to[0]; break;
-    case QDOT_T_ALONG: a = i->y[0]; break;
-    case QDOT_T_POW: a = i->z[0] * i->to[0] * i->c; break;
-    case QDOT_T_RATIO: a = i->sign * i->c; break;
-    case QDOT_T_TANH: a = i->second[0] * (change->second ? -2 * i->to[0] : 1); break;
-    case QDOT_T_ATAN2: a = i->y[0] * i->c, b = -i->x[0] * i->c; break;
-    }
-    change->a = a;
-    change->b = b;
-    change->c = c;
+#define NOTE(row) NEWEST_##row
+#define ZERO(row) i->row[0]
+#define OVER_ZERO(p, row) (p) * i->c
+#define OVER_TWICE_ZERO(p, row) OVER_ZERO(p, row)
+#define FUSED(a, b, c) (a) * (b) + (c)
+#define NOTHING (slopes){0}
+#include "series/linear.def"
+#undef NOTE
+#undef ZERO
+#undef OVER_ZERO
+#undef OVER_TWICE_ZERO
+#undef FUSED
+#undef NOTHING
+    by = change->second ? NEWEST_second : NEWEST_to;
+    change->a = by[0];
+    change->b = by[1];
+    change->c = by[2];
 }
 
 void

@@ -17,9 +17,9 @@ static const double least_alike = 2.5;
 enum { COPIED = QDOT_T_COUNT, COPIED_ONCE };
 
 typedef struct {
-    int op;
+    int op, sign;
     size_t lanes;                  /* filled up to full vectors */
-    size_t to, second, d, x, y, z; /* its first lanes */
+    size_t to, second, third, d, x, y, z; /* its first lanes; of rows that it has not: to */
     size_t count;                  /* copied: of `from` */
     size_t *from;
 } group;
@@ -126,27 +126,6 @@ typedef struct {
     size_t *lanes; /* scratch */
 } builder;
 
-static bool
-is_built(int op)
-{
-    switch (op) {
-    case QDOT_T_NEG:
-    case QDOT_T_ADD:
-    case QDOT_T_SUB:
-    case QDOT_T_SCALE:
-    case QDOT_T_SCALEADD:
-    case QDOT_T_SCALESUB:
-    case QDOT_T_SCALEOFF:
-    case QDOT_T_MUL:
-    case QDOT_T_SQUARE:
-    case QDOT_T_MADD:
-    case QDOT_T_MSUB:
-    case QDOT_T_NMADD:
-    case QDOT_T_SINCOS: return true;
-    default: return false;
-    }
-}
-
 static size_t
 row_of(const qdot_taylor_wide *w, const double *row)
 {
@@ -229,6 +208,8 @@ first_lanes(builder *b)
         w->lane[row_of(w, s->to)] = 0; /* to come */
         if (s->second)
             w->lane[row_of(w, s->second)] = 0;
+        if (s->third)
+            w->lane[row_of(w, s->third)] = 0;
         if (s->d)
             w->lane[row_of(w, s->d)] = 0;
     }
@@ -239,8 +220,8 @@ first_lanes(builder *b)
     w->width = w->changing = full(at);
 }
 
-/* The steps that move with their levels; false: one is not built. */
-static bool
+/* The steps that move with their levels. */
+static void
 find_members(builder *b)
 {
     const qdot_taylor *t = b->t;
@@ -251,15 +232,14 @@ find_members(builder *b)
         const size_t z = b->level[row_of(b->w, s->z)];
         size_t level = (x > y ? x : y) > z ? (x > y ? x : y) : z;
 
-        if (!is_built(s->op))
-            return false;
         b->members[b->n_members++] = (member){.step = s, .level = ++level};
         b->level[row_of(b->w, s->to)] = level;
         if (s->second)
             b->level[row_of(b->w, s->second)] = level;
+        if (s->third)
+            b->level[row_of(b->w, s->third)] = level;
         b->deepest = level > b->deepest ? level : b->deepest;
     }
-    return true;
 }
 
 static int
@@ -289,7 +269,7 @@ static qdot_status
 add_group(builder *b, member *m, size_t n)
 {
     qdot_taylor_wide *w = b->w;
-    group g = {.op = m->step->op, .lanes = full(n)};
+    group g = {.op = m->step->op, .sign = m->step->sign, .lanes = full(n)};
     const double vectors = (double)(g.lanes / QDOT_WIDE_LANES);
 
     for (size_t i = 0; i < n; i++) {
@@ -304,16 +284,18 @@ add_group(builder *b, member *m, size_t n)
     QDOT_TRY(align(b, m, n, offsetof(member, z), &g.z));
     g.to = take_lanes(w, n);
     g.second = m->step->second ? take_lanes(w, n) : g.to;
+    g.third = m->step->third ? take_lanes(w, n) : g.to;
     g.d = m->step->d ? take_lanes(w, n) : g.to;
     for (size_t i = 0; i < n; i++) {
         w->lane[row_of(w, m[i].step->to)] = g.to + i;
         if (m->step->second)
             w->lane[row_of(w, m[i].step->second)] = g.second + i;
+        if (m->step->third)
+            w->lane[row_of(w, m[i].step->third)] = g.third + i;
         if (m->step->d)
             w->lane[row_of(w, m[i].step->d)] = g.d + i;
     }
-    if (g.op >= QDOT_T_MUL)
-        w->convolutions += g.op == QDOT_T_SINCOS ? 2 * vectors : vectors;
+    w->convolutions += ceil(qdot_recurrence_cost(g.op)) * vectors; /* squares as products */
     return qdot_vec_push(&w->groups, g);
 }
 
@@ -324,12 +306,16 @@ add_groups(builder *b)
     qdot_status status = now ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t level = 1; level <= b->deepest && status == QDOT_OK; level++)
-        for (int op = 0; op < QDOT_T_COUNT && status == QDOT_OK; op++) {
+        for (int kind = 0; kind < 2 * QDOT_T_COUNT && status == QDOT_OK; kind++) {
+            const int op = kind / 2, sign = kind % 2 ? -1 : 1;
             size_t n = 0;
 
-            for (size_t i = 0; i < b->n_members; i++)
-                if (b->members[i].level == level && b->members[i].step->op == op)
+            for (size_t i = 0; i < b->n_members; i++) {
+                const qdot_taylor_step *s = b->members[i].step;
+
+                if (b->members[i].level == level && s->op == op && s->sign == sign)
                     now[n++] = b->members[i];
+            }
             if (n > 0)
                 status = add_group(b, now, n);
         }
@@ -350,10 +336,9 @@ build(builder *b, bool *built)
     if (!b->level || !b->lanes || !b->members || !b->w->lane || !b->w->input)
         return QDOT_ENOMEM;
     first_lanes(b);
-    *built = find_members(b);
-    if (*built)
-        QDOT_TRY(add_groups(b));
-    *built = *built && (double)b->n_members >= least_alike * (double)b->w->groups.n;
+    find_members(b);
+    QDOT_TRY(add_groups(b));
+    *built = (double)b->n_members >= least_alike * (double)b->w->groups.n;
     return QDOT_OK;
 }
 

@@ -35,8 +35,7 @@ typedef struct {
 
 /* Of a program, borrowed, whose inputs from n on have no coefficients beyond order 1 and are
  * not corrected. lane [n]: which of `lanes` lanes those before are, in what order steps alike
- * follow; NULL: the first n, in their order. *wide NULL: it has recurrences that are not
- * built as vectors, or too few steps alike. Errors: QDOT_ENOMEM. */
+ * follow; NULL: the first n, in their order. *wide NULL: too few steps are alike. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_new(const qdot_taylor *t, size_t n,
                                                  const size_t *lane, size_t lanes,
                                                  qdot_taylor_wide **wide);

@@ -198,12 +198,14 @@ qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by)
 #define NOTE(row) note[i->row]
 #define OVER_ZERO(p, row) (p) / ZERO(row)
 #define OVER_TWICE_ZERO(p, row) 0.5 * (p) / ZERO(row)
+#define FUSED(a, b, c) (a) * (b) + (c)
 #define NOTHING 0
 #include "series/linear.def"
 #undef ZERO
 #undef NOTE
 #undef OVER_ZERO
 #undef OVER_TWICE_ZERO
+#undef FUSED
 #undef NOTHING
         change(t, i->to, k);
         change(t, i->second, k);

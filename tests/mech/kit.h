@@ -60,6 +60,20 @@ kit_close(kit *k)
     qdot_pool_free(k->pool);
 }
 
+/* angle nil in space, rotation nil in the plane */
+static inline qdot_status
+declare_body(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr inertia, qdot_expr about,
+         qdot_expr position, qdot_expr angle, qdot_expr rotation)
+{
+    const qdot_body body = {.mass = mass,
+                            .inertia = inertia,
+                            .position = position,
+                            .angle = angle,
+                            .rotation = rotation};
+
+    return qdot_scene_body(s, name, &body, about);
+}
+
 static qdot_expr kit_sum(kit *k);
 
 static inline void

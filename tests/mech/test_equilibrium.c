@@ -176,8 +176,7 @@ what_no_formula_gives_is_found_in_numbers_body(kit *k)
     find(k, &r, 1);
     assert_true(r.at[0].numeric);
     must(qdot_generic_evaluate(
-        k->pool, 1, (qdot_expr[]){rhs(k, qdot_expr_arg(k->pool, r.at[0].equations, 0))},
-        0, NULL, NULL, 1, &x));
+        k->pool, 1, (qdot_expr[]){rhs(k, qdot_expr_arg(k->pool, r.at[0].equations, 0))}, NULL, &x));
     assert_true(fabs(x / 2 + cos(x)) < 1e-13);
     assert_int_equal(r.at[0].stability, QDOT_STABLE);
     qdot_equilibria_clear(&r);
@@ -282,9 +281,9 @@ modes_in_numbers_body(kit *k)
     must(qdot_modes_about(k->scene, r.at[0].equations, true, NULL, NULL, &m));
     assert_true(m.numeric);
     for (size_t i = 0; i < 5; i++) {
-        must(qdot_generic_evaluate(k->pool, 1, &m.frequency[i], 0, NULL, NULL, 1, &w));
+        must(qdot_generic_evaluate(k->pool, 1, &m.frequency[i], NULL, &w));
         assert_true(fabs(w - 2 * sin((double)(i + 1) * M_PI / 12)) < 1e-13);
-        must(qdot_generic_evaluate(k->pool, 5, m.amplitude + 5 * i, 0, NULL, NULL, 1, a));
+        must(qdot_generic_evaluate(k->pool, 5, m.amplitude + 5 * i, NULL, a));
         for (size_t j = 0; j < 5; j++) {
             want = sin((double)(i + 1) * (double)(j + 1) * M_PI / 6) /
                    sin((double)(i + 1) * M_PI / 6);

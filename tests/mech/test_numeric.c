@@ -237,7 +237,7 @@ add_body(world *w, int dim)
     if (dim == 2) {
         qdot_expr angle = random_scalar(w), spin = qdot_ddt(p, angle);
 
-        must(qdot_scene_body(k->scene, "plate", m, E(k, "I"), QDOT_NIL, r, angle,
+        must(declare_body(k->scene, "plate", m, E(k, "I"), QDOT_NIL, r, angle,
                              QDOT_NIL));
         w->L = qdot_add(p, w->L, qdot_mul(p, E(k, "I/2"), qdot_pow_int(p, spin, 2)));
     } else {
@@ -254,7 +254,7 @@ add_body(world *w, int dim)
         wb[2] = qdot_expr_arg(p, W, 3);
         e[0] = qdot_matrix(p, 3, 3, e);
         W = qdot_vector(p, 3, wb);
-        must(qdot_scene_body(k->scene, "rigid", m, e[0], QDOT_NIL, r, QDOT_NIL, R));
+        must(declare_body(k->scene, "rigid", m, e[0], QDOT_NIL, r, QDOT_NIL, R));
         w->L = qdot_add(
             p, w->L, qdot_mul(p, QDOT_HALF, qdot_dot(p, W, qdot_value_mul(p, e[0], W))));
     }

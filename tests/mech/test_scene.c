@@ -170,7 +170,7 @@ scene_prints_as_statements(void **state)
     kit_open(k);
     coords(k, "r>0 phi");
     particle(k, "bob", "m", "(r*cos(phi), r*sin(phi))");
-    must(qdot_scene_body(k->scene, "plate", E(k, "M"), E(k, "I"), QDOT_NIL,
+    must(declare_body(k->scene, "plate", E(k, "M"), E(k, "I"), QDOT_NIL,
                          E(k, "(r, 0)"), E(k, "phi"), QDOT_NIL));
     gravity(k, "(0, -g)");
     s = (qdot_link){
@@ -208,7 +208,7 @@ a_matrix_that_is_no_rotation_is_refused(void **state)
     e[0] = E(k, "cos(phi)");
     R = qdot_matrix(k->pool, 3, 3, e);
     refused(k,
-            qdot_scene_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL,
+            declare_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL,
                             E(k, "(0, 0, 0)"), QDOT_NIL, R),
             QDOT_EDOMAIN, "not a rotation");
     kit_close(k);
@@ -292,7 +292,7 @@ everything(qdot_pool *pool, qdot_scene *s, const qdot_expr *e)
     QDOT_TRY(qdot_scene_coordinate(s, e[0]));
     QDOT_TRY(qdot_scene_coordinate(s, e[1]));
     QDOT_TRY(qdot_scene_particle(s, "bob", e[2], e[3]));
-    QDOT_TRY(qdot_scene_body(s, "plate", e[2], e[2], QDOT_NIL, e[3], e[1], QDOT_NIL));
+    QDOT_TRY(declare_body(s, "plate", e[2], e[2], QDOT_NIL, e[3], e[1], QDOT_NIL));
     QDOT_TRY(qdot_scene_gravity(s, e[4]));
     QDOT_TRY(qdot_scene_spring(s, &link));
     link.name = (char *)"d1";

@@ -274,7 +274,7 @@ knife_edge_body(kit *k)
     bool conserved;
 
     coords(k, "x y phi");
-    must(qdot_scene_body(k->scene, "skate", E(k, "m"), E(k, "I"), QDOT_NIL,
+    must(declare_body(k->scene, "skate", E(k, "m"), E(k, "I"), QDOT_NIL,
                          E(k, "(x, y)"), E(k, "phi"), QDOT_NIL));
     constraint(k, "blade", "x'*sin(phi) - y'*cos(phi)", "0");
     assert_int_equal(k->scene->constraints.at[0].kind, QDOT_VELOCITY);
@@ -339,7 +339,7 @@ heavy_top_body(kit *k)
 
     coords(k, "phi theta psi");
     R = qdot_scene_euler(k->pool, E(k, "phi"), E(k, "theta"), E(k, "psi"));
-    must(qdot_scene_body(
+    must(declare_body(
         k->scene, "top", E(k, "m"), E(k, "(A, A, C)"), QDOT_NIL,
         E(k, "(l*sin(theta)*sin(phi), -l*sin(theta)*cos(phi), l*cos(theta))"), QDOT_NIL,
         R));
@@ -362,7 +362,7 @@ body_about_its_tip_is_the_same_body_body(kit *k)
 
     coords(k, "phi theta psi");
     R = qdot_scene_euler(k->pool, E(k, "phi"), E(k, "theta"), E(k, "psi"));
-    must(qdot_scene_body(
+    must(declare_body(
         k->scene, "top", E(k, "m"), E(k, "(A + m*l^2, A + m*l^2, C)"), E(k, "(0, 0, -l)"),
         E(k, "(l*sin(theta)*sin(phi), -l*sin(theta)*cos(phi), l*cos(theta))"), QDOT_NIL,
         R));
@@ -384,7 +384,7 @@ spatial_body_has_the_textbooks_energy_body(kit *k)
     for (int i = 0; i < 9; i++)
         e[i] = E(k, "%s", names[i]);
     I = qdot_matrix(k->pool, 3, 3, e);
-    must(qdot_scene_body(k->scene, "b", E(k, "m"), I, QDOT_NIL, E(k, "(x, y, z)"),
+    must(declare_body(k->scene, "b", E(k, "m"), I, QDOT_NIL, E(k, "(x, y, z)"),
                          QDOT_NIL, R));
     w = qdot_scene_spin(k->scene, "b");
     wb = qdot_value_mul(k->pool, qdot_transpose(k->pool, R), w);
@@ -399,7 +399,7 @@ static void
 plane_body_and_its_points_body(kit *k)
 {
     coords(k, "x y phi");
-    must(qdot_scene_body(k->scene, "plate", E(k, "m"), E(k, "I"), QDOT_NIL,
+    must(declare_body(k->scene, "plate", E(k, "m"), E(k, "I"), QDOT_NIL,
                          E(k, "(x, y)"), E(k, "phi"), QDOT_NIL));
     SAME(k, qdot_mech_kinetic(k->scene), "m/2*(x'^2 + y'^2) + I/2*phi'^2");
     SAME(k, qdot_scene_spin(k->scene, "plate"), "phi'");
@@ -424,7 +424,7 @@ torque_on_a_spatial_body_works_through_its_spin_body(kit *k)
     coords(k, "phi theta psi");
     tau = E(k, "(t1, t2, t3)");
     R = qdot_scene_euler(k->pool, E(k, "phi"), E(k, "theta"), E(k, "psi"));
-    must(qdot_scene_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL,
+    must(declare_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL,
                          E(k, "(0, 0, 0)"), QDOT_NIL, R));
     must(qdot_scene_torque(k->scene, &(qdot_torque){.torque = tau, .body = 0}));
     w = qdot_scene_spin(k->scene, "b");
@@ -449,7 +449,7 @@ force_on_material_works_through_its_velocity_body(kit *k)
     P = E(k, "(X + 2*theta, Y*X, 3/4)");
     F = E(k, "(F1, F2*X', F3)");
     R = qdot_scene_euler(k->pool, E(k, "phi"), E(k, "theta"), E(k, "psi"));
-    must(qdot_scene_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL,
+    must(declare_body(k->scene, "b", E(k, "m"), E(k, "(A, B, C)"), QDOT_NIL,
                          E(k, "(X, Y, a*sin(theta))"), QDOT_NIL, R));
     must(qdot_scene_force(k->scene, &(qdot_force){.force = F,
                                                   .point = P,

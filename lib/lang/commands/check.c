@@ -8,6 +8,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/formula.h"
+#include "lang/commands/assumed.h"
 #include "lang/commands/constraints.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/equilibria.h"
@@ -19,206 +20,6 @@
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/proportion.h"
-
-/* Everything that may be used: the scene's facts and what stands behind `when`. */
-typedef struct {
-    qdot_vec(qdot_expr) relations, conditions; /* scalars that are 0; inequalities */
-    qdot_vec(qdot_expr) from, to; /* replacements, made before anything else */
-    bool motion, stated; /* `eom` was said; an equation was that is no constraint */
-} facts;
-
-static void
-free_facts(facts *f)
-{
-    qdot_free(f->relations.at);
-    qdot_free(f->conditions.at);
-    qdot_free(f->from.at);
-    qdot_free(f->to.at);
-}
-
-static qdot_status
-begin_facts(qdot_session *session, facts *f)
-{
-    qdot_facts own = qdot_scene_facts(session->scene);
-
-    f->stated = own.n_relations > 0;
-    for (size_t i = 0; i < own.n_relations; i++)
-        QDOT_TRY(qdot_vec_push(&f->relations, own.relations[i]));
-    for (size_t i = 0; i < own.n_conditions; i++)
-        QDOT_TRY(qdot_vec_push(&f->conditions, own.conditions[i]));
-    return QDOT_OK;
-}
-
-static qdot_expr
-replace(qdot_session *session, const facts *f, qdot_expr e)
-{
-    return f->from.n == 0 ? e
-                          : qdot_subs(session->pool, e, f->from.n, f->from.at, f->to.at);
-}
-
-/* symbol = expression: put in at once, here and in what was there before. */
-static qdot_status
-add_replacement(qdot_session *session, facts *f, qdot_expr symbol, qdot_expr value)
-{
-    value = replace(session, f, value);
-    for (size_t i = 0; i < f->to.n; i++)
-        f->to.at[i] = qdot_subs(session->pool, f->to.at[i], 1, &symbol, &value);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_vec_push(&f->from, symbol));
-    return qdot_vec_push(&f->to, value);
-}
-
-static bool
-is_replaceable(const qdot_pool *pool, qdot_expr symbol, qdot_expr value)
-{
-    return qdot_expr_kind(pool, symbol) == QDOT_SYM &&
-           !qdot_expr_is_class(pool, symbol, QDOT_CONST) &&
-           !qdot_expr_contains(pool, value, symbol);
-}
-
-static qdot_status
-add_equation(qdot_session *session, facts *f, qdot_expr left, qdot_expr right)
-{
-    f->stated = true;
-    left = replace(session, f, left);
-    right = replace(session, f, right);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    if (is_replaceable(session->pool, left, right))
-        return add_replacement(session, f, left, right);
-    if (is_replaceable(session->pool, right, left))
-        return add_replacement(session, f, right, left);
-    left = qdot_sub(session->pool, left, right);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    return qdot_vec_push(&f->relations, left);
-}
-
-/* A condition: an equation, an inequality, several of them. */
-static qdot_status
-add_condition(qdot_session *session, facts *f, qdot_expr e)
-{
-    qdot_pool *pool = session->pool;
-    qdot_kind kind = qdot_expr_kind(pool, e);
-
-    if (kind == QDOT_VEC || kind == QDOT_LIST ||
-        (kind == QDOT_LOGIC && qdot_expr_node(pool, e)->op == QDOT_AND)) {
-        for (uint32_t i = 0; i < qdot_expr_count(pool, e); i++) {
-            qdot_expr part = qdot_expr_arg(pool, e, i);
-
-            if (qdot_expr_kind(pool, part) != QDOT_REL)
-                return qdot_fail(QDOT_ETYPE,
-                                 "a condition is an equation or an inequality");
-            QDOT_TRY(add_condition(session, f, part));
-        }
-        return QDOT_OK;
-    }
-    if (e == QDOT_TRUE)
-        return QDOT_OK;
-    if (e == QDOT_FALSE)
-        return qdot_fail(QDOT_EINVAL, "this condition is never true");
-    if (kind != QDOT_REL)
-        return qdot_fail(QDOT_ETYPE, "a condition is an equation or an inequality");
-    if (qdot_expr_node(pool, e)->op == QDOT_EQ)
-        return add_equation(session, f, qdot_expr_arg(pool, e, 0),
-                            qdot_expr_arg(pool, e, 1));
-    return qdot_vec_push(&f->conditions, e);
-}
-
-/* A constraint and its time derivatives. */
-static qdot_status
-add_constraint(qdot_session *session, facts *f, size_t i, bool accelerations)
-{
-    static const unsigned orders[] = {
-        [QDOT_HOLONOMIC] = 2, [QDOT_VELOCITY] = 1, [QDOT_ACCELERATION] = 0};
-    unsigned most = orders[session->scene->constraints.at[i].kind];
-
-    for (unsigned order = 0; order <= most; order++) {
-        qdot_expr relation;
-
-        if (order == most && !accelerations)
-            return QDOT_OK;
-        relation = qdot_mech_constraint_derivative(session->scene, i, order);
-        relation = replace(session, f, relation);
-        QDOT_TRY(qdot_pool_check(session->pool));
-        QDOT_TRY(qdot_vec_push(&f->relations, relation));
-    }
-    return QDOT_OK;
-}
-
-/* `eom`: accelerations and multipliers by their solution; what constraints say of q and q' holds
- * beside it. */
-static qdot_status
-add_motion(qdot_session *session, facts *f)
-{
-    qdot_pool *pool = session->pool;
-    qdot_expr accels = qdot_mech_accels(session->scene);
-    bool unique = true; /* the multipliers; else their equations stand */
-
-    f->motion = true;
-    QDOT_TRY(qdot_pool_check(pool));
-    for (uint32_t i = 0; i < qdot_expr_count(pool, accels); i++) {
-        qdot_expr q = session->scene->coordinates.at[i];
-
-        QDOT_TRY(add_replacement(session, f, qdot_symbol_jet(pool, q, 2),
-                                 qdot_expr_arg(pool, accels, i)));
-    }
-    for (size_t i = 0; i < session->scene->constraints.n; i++) {
-        qdot_expr value = qdot_mech_multiplier(session->scene, i);
-
-        unique &= value != QDOT_NIL;
-        if (value != QDOT_NIL)
-            QDOT_TRY(add_replacement(
-                session, f, session->scene->constraints.at[i].multiplier, value));
-        QDOT_TRY(add_constraint(session, f, i, false));
-    }
-    for (size_t i = 0; i < session->scene->coordinates.n && !unique; i++) {
-        qdot_expr equation =
-            qdot_mech_equation(session->scene, session->scene->coordinates.at[i]);
-
-        QDOT_TRY(qdot_pool_check(pool));
-        equation = replace(session, f, qdot_sub(pool, qdot_expr_arg(pool, equation, 0),
-                                                qdot_expr_arg(pool, equation, 1)));
-        QDOT_TRY(qdot_pool_check(pool));
-        if (equation != QDOT_ZERO)
-            QDOT_TRY(qdot_vec_push(&f->relations, equation));
-    }
-    return QDOT_OK;
-}
-
-/* One condition behind `when`. */
-static qdot_status
-read_condition(qdot_cursor *c, facts *f)
-{
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at;
-    qdot_cursor look = *c;
-    const char *label;
-    qdot_expr e;
-
-    if (c->at->kind == QDOT_TOKEN_NAME && qdot_read_name(&look, &label) == QDOT_OK &&
-        (qdot_cursor_is_op(&look, ",") || qdot_cursor_is_end(&look)) &&
-        qdot_names_find(session->names, label) == NULL) {
-        bool found = strcmp(label, "eom") == 0;
-
-        c->error_at = start->start;
-        if (found)
-            QDOT_TRY(add_motion(session, f));
-        for (size_t i = 0; i < session->scene->constraints.n; i++) {
-            const qdot_constraint *one = &session->scene->constraints.at[i];
-
-            if (one->label == NULL || strcmp(one->label, label) != 0)
-                continue;
-            found = true;
-            QDOT_TRY(add_constraint(session, f, i, true));
-        }
-        if (found) {
-            c->at = look.at;
-            return QDOT_OK;
-        }
-    }
-    QDOT_TRY(qdot_read_value(c, &e));
-    c->error_at = start->start;
-    return add_condition(session, f, e);
-}
 
 /* --- deciding ----------------------------------------------------------------------- */
 
@@ -451,7 +252,7 @@ read_comparison(qdot_cursor *c, question *q)
 }
 
 static qdot_status
-read_question(qdot_cursor *c, question *q, facts *f)
+read_question(qdot_cursor *c, question *q, qdot_assumed *f)
 {
     if (qdot_cursor_accept_word(c, "not"))
         q->not = true;
@@ -475,7 +276,7 @@ read_question(qdot_cursor *c, question *q, facts *f)
     while (!qdot_cursor_is_end(c)) {
         if (qdot_cursor_accept_word(c, "when")) {
             do
-                QDOT_TRY(read_condition(c, f));
+                QDOT_TRY(qdot_assumed_read(c, f));
             while (qdot_cursor_accept_op(c, ","));
         } else if (qdot_cursor_accept_word(c, "within")) {
             QDOT_TRY(qdot_cursor_once(c, "within", q->within));
@@ -514,17 +315,17 @@ turn(qdot_decision *decision)
 
 /* The LIST of values that must exist, with the replacements of `when`; nil on failure. */
 static qdot_expr
-passed_list(qdot_session *session, const facts *f, const question *q)
+passed_list(qdot_session *session, const qdot_assumed *f, const question *q)
 {
     qdot_expr list =
         qdot_list(session->pool, (uint32_t)q->passed.value.n, q->passed.value.at);
 
-    return list == QDOT_NIL ? list : replace(session, f, list);
+    return list == QDOT_NIL ? list : qdot_assumed_replace(session, f, list);
 }
 
 /* Where nothing was refuted: a notice if the conditions contradict each other. */
 static qdot_status
-look_for_contradiction(qdot_session *session, const facts *f, const qdot_facts *known)
+look_for_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_facts *known)
 {
     qdot_pool *pool = session->pool;
     qdot_vec(qdot_expr) conditions = {0};
@@ -533,7 +334,8 @@ look_for_contradiction(qdot_session *session, const facts *f, const qdot_facts *
     bool found = false;
 
     for (size_t i = 0; i < known->n_conditions && status == QDOT_OK; i++)
-        status = qdot_vec_push(&conditions, replace(session, f, known->conditions[i]));
+        status = qdot_vec_push(&conditions,
+                               qdot_assumed_replace(session, f, known->conditions[i]));
     for (size_t i = 0; i < f->from.n && status == QDOT_OK; i++) { /* bounds of what is replaced */
         qdot_symbol s = *qdot_expr_symbol(pool, f->from.at[i]);
 
@@ -559,7 +361,7 @@ look_for_contradiction(qdot_session *session, const facts *f, const qdot_facts *
 
 /* The facts in the form that qdot_decide_... takes. */
 static qdot_facts
-all_known(qdot_session *session, const facts *f, const question *q)
+all_known(qdot_session *session, const qdot_assumed *f, const question *q)
 {
     /* accelerations follow a function of time whatever its second derivative is */
     return (qdot_facts){f->relations.n, f->relations.at,
@@ -569,7 +371,7 @@ all_known(qdot_session *session, const facts *f, const question *q)
 }
 
 static qdot_status
-answer(qdot_cursor *c, question *q, facts *f)
+answer(qdot_cursor *c, question *q, qdot_assumed *f)
 {
     qdot_session *session = c->session;
     qdot_pool *pool = session->pool;
@@ -592,8 +394,8 @@ answer(qdot_cursor *c, question *q, facts *f)
         if (q->turned)
             turn(&decision);
     } else {
-        left = replace(session, f, q->left);
-        right = replace(session, f, q->right);
+        left = qdot_assumed_replace(session, f, q->left);
+        right = qdot_assumed_replace(session, f, q->right);
         QDOT_TRY(qdot_pool_check(pool));
         known = all_known(session, f, q);
         QDOT_TRY(qdot_pool_check(pool));
@@ -615,7 +417,7 @@ answer(qdot_cursor *c, question *q, facts *f)
 /* dE/dt = 0 along the motion, where that needs no accelerations; *done: it was decided so.
  * Where multipliers are left, which the state tells, only a proof counts. */
 static qdot_status
-answer_by_rate(qdot_session *session, question *q, facts *f, bool *done)
+answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
 {
     qdot_pool *pool = session->pool;
     qdot_decision decision;
@@ -632,7 +434,7 @@ answer_by_rate(qdot_session *session, question *q, facts *f, bool *done)
         return QDOT_OK;
     f->motion = true;
     for (size_t i = 0; i < session->scene->constraints.n; i++)
-        QDOT_TRY(add_constraint(session, f, i, false));
+        QDOT_TRY(qdot_assumed_constraint(session, f, i, false));
     known = all_known(session, f, q);
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(decide_scalars(session, rate, QDOT_ZERO, EQUAL, &known, &decision));
@@ -650,7 +452,7 @@ answer_by_rate(qdot_session *session, question *q, facts *f, bool *done)
 /* `conserved E`: by its rate, else with accelerations put in; past the work budget that is
  * undecided. */
 static qdot_status
-answer_conserved(qdot_cursor *c, question *q, facts *f)
+answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
 {
     qdot_session *session = c->session;
     bool done;
@@ -662,7 +464,7 @@ answer_conserved(qdot_cursor *c, question *q, facts *f)
     q->left = qdot_ddt(session->pool, q->left);
     q->right = QDOT_ZERO;
     QDOT_TRY(qdot_pool_check(session->pool));
-    status = add_motion(session, f);
+    status = qdot_assumed_motion(session, f);
     if (status == QDOT_ELIMIT) {
         qdot_decision decision = {.verdict = QDOT_UNDECIDED};
 
@@ -678,8 +480,8 @@ qdot_check(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
     question q = {.right = QDOT_ZERO};
-    facts f = {0};
-    qdot_status status = begin_facts(c->session, &f);
+    qdot_assumed f = {0};
+    qdot_status status = qdot_assumed_begin(c->session, &f);
 
     if (status == QDOT_OK)
         status = read_question(c, &q, &f);
@@ -690,6 +492,6 @@ qdot_check(qdot_cursor *c)
         status = q.conserved ? answer_conserved(c, &q, &f) : answer(c, &q, &f);
     }
     qdot_free(q.passed.value.at);
-    free_facts(&f);
+    qdot_assumed_free(&f);
     return status;
 }

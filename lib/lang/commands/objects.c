@@ -171,8 +171,13 @@ qdot_object_body(qdot_cursor *c)
     if (b.angle != QDOT_NIL && b.rotation != QDOT_NIL)
         return qdot_fail(QDOT_EINVAL,
                          "a body has an `angle` (plane) or a rotation (space), not both");
-    return qdot_scene_body(c->session->scene, name, b.mass, b.inertia, b.about,
-                           b.position, b.angle, b.rotation);
+    return qdot_scene_body(c->session->scene, name,
+                           &(qdot_body){.mass = b.mass,
+                                        .inertia = b.inertia,
+                                        .position = b.position,
+                                        .angle = b.angle,
+                                        .rotation = b.rotation},
+                           b.about);
 }
 
 /* --- fields and energies ------------------------------------------------------------ */

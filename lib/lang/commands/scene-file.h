@@ -25,7 +25,7 @@ bool qdot_scene_file_is(const qdot_token *token);
 QDOT_MUST_CHECK qdot_status qdot_scene_file_text(qdot_session *session, bool whole,
                                                  qdot_text *out);
 /* Behind `to`; whole: with the style and the runs of the session. Errors: QDOT_EIO; QDOT_EINVAL for
- * a script of somebody's. */
+ * a file that does not begin as these do. */
 QDOT_MUST_CHECK qdot_status qdot_scene_file_write(qdot_cursor *c, bool whole);
 
 #endif

@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_value_check_assumption(qdot_session *session,
  * c->error_at is then the place of the value that is to blame. */
 QDOT_MUST_CHECK qdot_status qdot_value_check(qdot_cursor *c, const qdot_pairs *values);
 
-/* All assumptions with the values of the moment: where numbers begin. */
+/* Every assumption with the values of `set`, before a run. */
 QDOT_MUST_CHECK qdot_status qdot_value_check_assumed(qdot_session *session);
 
 #endif

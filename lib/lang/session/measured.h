@@ -4,7 +4,7 @@
 
 #include "lang/session/session.h"
 
-/* A number of a run, from now on a symbol. */
+/* A new symbol for a number of a run; nil on failure, which the pool keeps. */
 qdot_expr qdot_measured_new(qdot_session *session, double value, double error);
 qdot_expr qdot_measured_add(qdot_session *session, qdot_measured m);
 /* Whether a number that a run gave stands in e. */

@@ -8,8 +8,8 @@
 qdot_expr qdot_member_of(qdot_session *session, const char *run, qdot_expr e);
 /* Whether such symbols occur. */
 bool qdot_member_any(const qdot_session *session, qdot_expr e);
-/* Of an expression along one run only: the symbols replaced again and *run that run;
- * else *mixed. */
+/* Where all such symbols of *e are along one run: *run is that run, *e has what they stand for in
+ * their place. Else *mixed. */
 QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const char **run,
                                                 qdot_expr *e, bool *mixed);
 /* Times along a run, what is wanted there, and where it goes. */
@@ -18,15 +18,15 @@ typedef struct {
     const double *times, *lows; /* [n]; lows: what the exact times are beyond these, NULL: 0 */
     double *values, *errors;    /* [n]; errors NULL: not wanted */
 } qdot_samples;
-/* A mixed one at such times. What is along no run named is along `run` (NULL: the latest). */
+/* Values of an expression of several runs; what names none is along `run` (NULL: the latest). */
 QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,
                                                qdot_expr e, const qdot_samples *at);
-/* A mixed one whose runs all have digits, at a time: *value has its symbols replaced by numbers of
- * their runs. Nil where a run has no digits. */
+/* An expression of several runs at a time: *value has numbers of these runs in the place of its
+ * symbols; nil where a run has no digits. */
 QDOT_MUST_CHECK qdot_status qdot_member_exactly(qdot_session *session, const char *run,
                                                 qdot_expr e, qdot_expr time,
                                                 qdot_expr *value);
-/* from and to narrowed to what all its runs cover. */
+/* Narrow [from, to] to the times that all runs in e cover. */
 QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
                                              double *from, double *to);
 

@@ -58,8 +58,8 @@ void qdot_names_pop(qdot_names *names);
 /* Bind a formal argument; `label` is borrowed and outlives it. */
 QDOT_MUST_CHECK qdot_status qdot_names_push_argument(qdot_names *names, const char *name,
                                                      qdot_expr value, const char *label);
-/* Hide what is bound so far, as the body of a function does; returns what makes it seen again.
- * disclose() also unbinds what was bound since. */
+/* Hide what is bound so far, for the body of a function; returns what disclose() takes, which
+ * shows it again and unbinds what was bound since. */
 size_t qdot_names_enclose(qdot_names *names);
 void qdot_names_disclose(qdot_names *names, size_t outer);
 /* A declared name is never changed: another one takes its place. So a list of names is a state that

@@ -37,7 +37,7 @@ typedef struct {
 } qdot_named_run;
 void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
 
-/* What the sides of a check are made through: each must have a value where they are compared. */
+/* Values met while the sides of a check are made: each must exist where these are compared. */
 typedef struct {
     qdot_vec(qdot_expr) value;
     bool spoiled;      /* by a function that may take it apart (subs) */
@@ -102,7 +102,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_session_keep_values(const qdot_session *session,
                                                      qdot_kept_values *kept);
 void qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept);
-/* All that `reset` forgets changes places; what is no part of a scene stays: style, files ... */
+/* Exchange all that `reset` forgets; what is no part of a scene stays: style, files ... */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 
 #endif

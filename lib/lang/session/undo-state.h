@@ -19,7 +19,7 @@ enum { /* behind those of the scene */
     QDOT_UNDO_PARTS
 };
 
-/* What is no array. */
+/* The state that is not in arrays. */
 typedef struct {
     qdot_expr lagrangian, series, series_in;
     qdot_style style;
@@ -43,14 +43,14 @@ qdot_scene_part qdot_undo_part(qdot_session *s, qdot_undo_state *state, int k);
 unsigned char *qdot_undo_items(const qdot_scene_part *part);
 qdot_undo_single qdot_undo_single_of(const qdot_session *s);
 
-/* One use more, or less, of what the items of a part are. */
+/* Count one use more, or less, of each item of a part. */
 void qdot_undo_count(int part, const unsigned char *at, size_t n, bool more);
 /* *to becomes a copy, the caller's, with uses of its own. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_undo_copy(int part, const unsigned char *from, size_t n,
                                            size_t size, unsigned char **to);
 /* Room for n items. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_undo_make_room(qdot_scene_part *part, size_t n);
-/* The items [at, at + gone) give way to `come` of `in`, for which there is room. */
+/* Replace the items [at, at + gone) by `come` items of `in`; there must be room. */
 void qdot_undo_splice(const qdot_scene_part *part, size_t at, size_t gone,
                       const unsigned char *in, size_t come);
 /* The same in a copy of the state, which has uses of its own. */

@@ -8,7 +8,7 @@
 QDOT_MUST_CHECK qdot_status qdot_value_kind_check(qdot_pool *pool, qdot_expr value);
 /* "a vector", "an equation" ... in a user's words. */
 const char *qdot_value_kind_words(const qdot_pool *pool, qdot_expr e);
-/* *value = made, checked so. */
+/* *value = made, with the same check. */
 QDOT_MUST_CHECK qdot_status qdot_value_kind_give(qdot_pool *pool, qdot_expr made,
                                                  qdot_expr *value);
 bool qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e);

@@ -1,4 +1,4 @@
-/* dalembert.c -- inertial terms and generalized forces, as they are. */
+/* dalembert.c -- inertial terms and generalized forces, not differentiated. */
 #include "mech/dynamics/dalembert.h"
 
 #include "expr/calculus.h"

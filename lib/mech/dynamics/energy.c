@@ -222,8 +222,7 @@ qdot_mech_energy(qdot_scene *s)
     return d->energy = h;
 }
 
-/* --- slopes of L ----------------------------------------------------------------------
- * */
+/* --- slopes of L ---------------------------------------------------------------------- */
 
 /* Whether t stands in anything that L is made of: seen before M is derived. */
 static bool

@@ -167,8 +167,8 @@ static qdot_status
 evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
 {
     *size = 0;
-    QDOT_TRY(qdot_generic_evaluate(s->pool, p->c + p->slopes, p->e, p->m, p->z, p->at,
-                                   seed, p->value));
+    QDOT_TRY(qdot_generic_evaluate(s->pool, p->c + p->slopes, p->e,
+                                   &(qdot_generic_point){p->m, p->z, p->at, seed}, p->value));
     for (size_t k = 0; k < p->c; k++)
         *size = isfinite(p->value[k]) ? fmax(*size, fabs(p->value[k])) : INFINITY;
     for (size_t k = p->c; k < p->c + p->slopes; k++)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "expr/walk.h"
 
 #define ONE(name, value)                                                                 \
@@ -209,14 +210,16 @@ set(qdot_walk *w, qdot_expr e, double v)
 }
 
 qdot_status
-qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e, size_t m,
-                     const qdot_expr *symbols, const double *values, uint64_t seed,
-                     double *out)
+qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e,
+                      const qdot_generic_point *at, double *out)
 {
+    static const qdot_generic_point nothing = {.seed = 1};
     qdot_walk w;
     qdot_vec(double) x = {0};
     qdot_status status = QDOT_OK;
 
+    if (at == NULL)
+        at = &nothing;
     QDOT_TRY(qdot_walk_begin_n(pool, n, e, &w));
     for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
         const qdot_node *node = qdot_expr_node(pool, w.at[i]);
@@ -227,11 +230,11 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e, size_
             continue;
         }
         if (node->kind == QDOT_SYM) {
-            double v = qdot_generic_value(pool, w.at[i], seed);
+            double v = qdot_generic_value(pool, w.at[i], at->seed);
 
-            for (size_t k = 0; k < m; k++)
-                if (symbols[k] == w.at[i])
-                    v = values[k];
+            for (size_t k = 0; k < at->m; k++)
+                if (at->symbols[k] == w.at[i])
+                    v = at->values[k];
             set(&w, w.at[i], v);
             continue;
         }
@@ -240,7 +243,7 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e, size_
             for (int k = 0; k < 8; k++)
                 name[k + 1] = (char)('a' + (w.at[i] >> 4 * k & 15));
             name[9] = '\0';
-            set(&w, w.at[i], 0.5 + scatter(name, seed));
+            set(&w, w.at[i], 0.5 + scatter(name, at->seed));
             continue;
         }
         status = qdot_grow(&x.at, &x.capacity, node->n + 1u, sizeof *x.at);
@@ -255,4 +258,19 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e, size_
         out[i] = get(&w, e[i]);
     qdot_walk_end(&w);
     return status;
+}
+
+qdot_expr
+qdot_generic_decimal(qdot_pool *pool, double x)
+{
+    qdot_text text = {0};
+    qdot_expr e;
+
+    qdot_text_double(&text, x, 15);
+    e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
+        : text.at[0] == '-'
+            ? qdot_neg(pool, qdot_expr_decimal(pool, text.at + 1, text.n - 1))
+            : qdot_expr_decimal(pool, text.at, text.n);
+    qdot_text_clear(&text);
+    return e;
 }

@@ -4,13 +4,22 @@
 
 #include "expr/expr.h"
 
-/* Values of e [n] in double at a point: symbols [m] have values; any other symbol or
- * undefined function gets one of its own from `seed`. NaN where undefined. */
+/* A point: symbols [m] have values; any other symbol or undefined function gets one of its own
+ * from `seed`. */
+typedef struct {
+    size_t m;
+    const qdot_expr *symbols;
+    const double *values;
+    uint64_t seed;
+} qdot_generic_point;
+
+/* Values of e [n] in double at a point (NULL: with seed 1 alone). NaN where undefined. */
 QDOT_MUST_CHECK qdot_status qdot_generic_evaluate(const qdot_pool *pool, size_t n,
-                                                  const qdot_expr *e, size_t m,
-                                                  const qdot_expr *symbols,
-                                                  const double *values, uint64_t seed,
+                                                  const qdot_expr *e,
+                                                  const qdot_generic_point *at,
                                                   double *out);
+/* x to 15 digits, exactly; nil: the pool failed. */
+qdot_expr qdot_generic_decimal(qdot_pool *pool, double x);
 /* A number of its own for a symbol: inside its domain, of about size 1. */
 double qdot_generic_value(const qdot_pool *pool, qdot_expr symbol, uint64_t seed);
 

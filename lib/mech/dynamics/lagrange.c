@@ -244,14 +244,5 @@ qdot_mech_equation(qdot_scene *s, qdot_expr q)
 qdot_expr
 qdot_mech_equations(qdot_scene *s)
 {
-    size_t n = s->coordinates.n;
-    qdot_expr *members = qdot_calloc(n + 1, sizeof *members), list;
-
-    if (!members)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++)
-        members[i] = qdot_mech_equation(s, s->coordinates.at[i]);
-    list = qdot_list(s->pool, (uint32_t)n, members);
-    qdot_free(members);
-    return list;
+    return qdot_mech_each(s, qdot_mech_equation);
 }

@@ -205,8 +205,7 @@ torque_force(qdot_scene *s, size_t k, size_t i, bool kane)
     return qdot_mech_dot(s->pool, torque->torque, slope);
 }
 
-/* --- the sources ----------------------------------------------------------------------
- * */
+/* --- the sources ---------------------------------------------------------------------- */
 
 static size_t
 count_gravity(const qdot_scene *s)
@@ -226,35 +225,21 @@ COUNT(dissipations)
 COUNT(forces)
 COUNT(torques)
 
+#define NAME(what)                                                                       \
+    static const char *what##_name(const qdot_scene *s, size_t k)                        \
+    {                                                                                    \
+        return s->what##s.at[k].name;                                                    \
+    }
+NAME(potential)
+NAME(dissipation)
+NAME(spring)
+NAME(damper)
+
 /* Fields act together: where there is one, its label. */
 static const char *
 gravity_name(const qdot_scene *s, size_t k)
 {
     return s->gravities.n == 1 ? s->gravities.at[k].name : NULL;
-}
-
-static const char *
-potential_name(const qdot_scene *s, size_t k)
-{
-    return s->potentials.at[k].name;
-}
-
-static const char *
-dissipation_name(const qdot_scene *s, size_t k)
-{
-    return s->dissipations.at[k].name;
-}
-
-static const char *
-spring_name(const qdot_scene *s, size_t k)
-{
-    return s->springs.at[k].name;
-}
-
-static const char *
-damper_name(const qdot_scene *s, size_t k)
-{
-    return s->dampers.at[k].name;
 }
 
 static const char *
@@ -363,8 +348,7 @@ qdot_force_declared(qdot_scene *s, size_t i)
     return Q;
 }
 
-/* --- asked ----------------------------------------------------------------------------
- * */
+/* --- asked ---------------------------------------------------------------------------- */
 
 qdot_expr
 qdot_mech_force(qdot_scene *s, qdot_expr q)
@@ -395,16 +379,7 @@ qdot_mech_force_kane(qdot_scene *s, qdot_expr q)
 qdot_expr
 qdot_mech_forces(qdot_scene *s)
 {
-    size_t n = s->coordinates.n;
-    qdot_expr *members = qdot_calloc(n + 1, sizeof *members), list;
-
-    if (!members)
-        return qdot_pool_fail(s->pool);
-    for (size_t i = 0; i < n; i++)
-        members[i] = qdot_mech_force(s, s->coordinates.at[i]);
-    list = qdot_list(s->pool, (uint32_t)n, members);
-    qdot_free(members);
-    return list;
+    return qdot_mech_each(s, qdot_mech_force);
 }
 
 qdot_status

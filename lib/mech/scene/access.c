@@ -87,6 +87,21 @@ qdot_mech_jet(qdot_scene *s, size_t i, uint32_t order)
 }
 
 qdot_expr
+qdot_mech_each(qdot_scene *s, qdot_expr (*of)(qdot_scene *s, qdot_expr q))
+{
+    size_t n = s->coordinates.n;
+    qdot_expr *members = qdot_calloc(n + 1, sizeof *members), list;
+
+    if (!members)
+        return qdot_pool_fail(s->pool);
+    for (size_t i = 0; i < n; i++)
+        members[i] = of(s, s->coordinates.at[i]);
+    list = qdot_list(s->pool, (uint32_t)n, members);
+    qdot_free(members);
+    return list;
+}
+
+qdot_expr
 qdot_mech_at_rest(qdot_scene *s, qdot_expr e)
 {
     size_t n = s->coordinates.n;

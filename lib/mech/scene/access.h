@@ -27,9 +27,10 @@ qdot_expr qdot_mech_tidy(qdot_scene *s, qdot_expr e);
 qdot_expr qdot_mech_tidy_whole(qdot_scene *s, qdot_expr e);
 /* Coordinate, velocity, acceleration i. */
 qdot_expr qdot_mech_jet(qdot_scene *s, size_t i, uint32_t order);
-/* The index of a coordinate in the scene; fails (pool) with QDOT_ENAME and returns false.
- * */
+/* The index of a coordinate in the scene; fails (pool) with QDOT_ENAME and returns false. */
 bool qdot_mech_index(qdot_scene *s, qdot_expr q, size_t *i);
+/* A LIST of what `of` gives for each coordinate. */
+qdot_expr qdot_mech_each(qdot_scene *s, qdot_expr (*of)(qdot_scene *s, qdot_expr q));
 /* e with every acceleration 0. */
 qdot_expr qdot_mech_at_rest(qdot_scene *s, qdot_expr e);
 bool qdot_mech_stated(const qdot_scene *s);

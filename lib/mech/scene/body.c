@@ -158,11 +158,12 @@ need_moments(qdot_scene *s, qdot_expr inertia, bool moved)
 }
 
 qdot_status
-qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr inertia,
-                qdot_expr about, qdot_expr position, qdot_expr angle, qdot_expr rotation)
+qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_expr about)
 {
+    const qdot_expr mass = body->mass, inertia = body->inertia, position = body->position;
+    const qdot_expr angle = body->angle, rotation = body->rotation;
     qdot_pool *pool = s->pool;
-    bool plane = rotation == QDOT_NIL;
+    bool plane = rotation == QDOT_NIL || angle != QDOT_NIL;
     uint32_t space = qdot_scene_dimension(s), dim = qdot_mech_dimension(pool, position);
     uint32_t moves = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |
                      QDOT_HAS_MOMENTUM | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;

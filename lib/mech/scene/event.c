@@ -1,4 +1,4 @@
-/* event.c -- events of a scene: declared, found, printed. */
+/* event.c -- declares, finds and prints the events of a scene. */
 #include <string.h>
 
 #include "expr/print.h"

@@ -1,4 +1,4 @@
-/* kind.c -- what may stand in a scene without a label: counted, compared, taken out by number. */
+/* kind.c -- items of a scene without a label: counted, compared, removed by number. */
 #include <string.h>
 
 #include "mech/scene/access.h"

@@ -1,5 +1,5 @@
-/* label.c -- things of the scene by their labels. */
-#include <string.h>
+/* label.c -- finds the items of a scene by their labels. */
+#include <stddef.h>
 
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
@@ -22,39 +22,28 @@ qdot_scene_find_body(const qdot_scene *s, const char *label)
     return NULL;
 }
 
+/* Whether an item of s->list has that label in its field. */
+#define HAS(list, field)                                                                 \
+    has(s->list.at, s->list.n, sizeof *s->list.at,                                       \
+        offsetof(__typeof__(*s->list.at), field), label)
+
+static bool
+has(const void *at, size_t n, size_t size, size_t offset, const char *label)
+{
+    for (size_t i = 0; i < n; i++)
+        if (qdot_label_is(*(char *const *)((const char *)at + i * size + offset), label))
+            return true;
+    return false;
+}
+
 bool
 qdot_scene_has_label(const qdot_scene *s, const char *label)
 {
     if (qdot_scene_find_particle(s, label) || qdot_scene_find_body(s, label))
         return true;
-    for (size_t i = 0; i < s->gravities.n; i++)
-        if (qdot_label_is(s->gravities.at[i].name, label))
-            return true;
-    for (size_t i = 0; i < s->potentials.n; i++)
-        if (qdot_label_is(s->potentials.at[i].name, label))
-            return true;
-    for (size_t i = 0; i < s->dissipations.n; i++)
-        if (qdot_label_is(s->dissipations.at[i].name, label))
-            return true;
-    for (size_t i = 0; i < s->springs.n; i++)
-        if (qdot_label_is(s->springs.at[i].name, label))
-            return true;
-    for (size_t i = 0; i < s->dampers.n; i++)
-        if (qdot_label_is(s->dampers.at[i].name, label))
-            return true;
-    for (size_t i = 0; i < s->forces.n; i++)
-        if (qdot_label_is(s->forces.at[i].name, label))
-            return true;
-    for (size_t i = 0; i < s->torques.n; i++)
-        if (qdot_label_is(s->torques.at[i].name, label))
-            return true;
-    for (size_t i = 0; i < s->constraints.n; i++)
-        if (qdot_label_is(s->constraints.at[i].label, label))
-            return true;
-    for (size_t i = 0; i < s->events.n; i++)
-        if (qdot_label_is(s->events.at[i].name, label))
-            return true;
-    return false;
+    return HAS(gravities, name) || HAS(potentials, name) || HAS(dissipations, name) ||
+           HAS(springs, name) || HAS(dampers, name) || HAS(forces, name) ||
+           HAS(torques, name) || HAS(constraints, label) || HAS(events, name);
 }
 
 uint32_t

@@ -1,4 +1,4 @@
-/* scene-parts.c -- the arrays of a scene, one like the other, for who keeps its states. */
+/* parts.c -- the arrays of a scene in one form, for saving and restoring its state. */
 #include "mech/scene/scene.h"
 
 enum { EVENTS = 0 };

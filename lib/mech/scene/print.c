@@ -1,4 +1,4 @@
-/* scene-print.c -- the scene as the statements that declare it. */
+/* print.c -- prints a scene as the statements that declare it. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* remove.c -- things taken out of the scene by their labels, with what acted on them. */
+/* remove.c -- removes items of a scene by their labels, with the forces that act on them. */
 #include <string.h>
 
 #include "mech/scene/access.h"
@@ -24,6 +24,19 @@ qdot_scene_drop(qdot_scene *s, const char *kind, const char *name)
     return QDOT_ENOMEM;
 }
 
+static bool
+is_end(const qdot_link *link, const char *label)
+{
+    return qdot_label_is(link->end[0], label) || qdot_label_is(link->end[1], label);
+}
+
+/* Whether a torque acts on the body of that number (-1: none). */
+static bool
+is_on(const qdot_torque *torque, int body)
+{
+    return body >= 0 && torque->coordinate == QDOT_NIL && torque->body == body;
+}
+
 /* Keep the members for which `gone` is false. */
 #define FILTER(list, item, gone)                                                         \
     do {                                                                                 \
@@ -39,34 +52,25 @@ qdot_scene_drop(qdot_scene *s, const char *kind, const char *name)
         (list).n = kept_;                                                                \
     } while (0)
 
-/* Name, for the notice, what acts on the thing that goes. Before anything is taken out.
- * */
+/* Name, for the notice, the members for which `goes`: "spring s1", "a spring". */
+#define DROP(list, what, item, goes)                                                     \
+    do {                                                                                 \
+        for (size_t i_ = 0; i_ < (list).n; i_++) {                                       \
+            __typeof__((list).at) item = &(list).at[i_];                                 \
+            if (goes)                                                                    \
+                QDOT_TRY(item->name ? qdot_scene_drop(s, what " ", item->name)           \
+                                    : qdot_scene_drop(s, "a " what, NULL));              \
+        }                                                                                \
+    } while (0)
+
+/* What acts on the thing that goes. Before anything is taken out. */
 static qdot_status
 name_dependents(qdot_scene *s, const char *label, int body)
 {
-    for (size_t i = 0; i < s->springs.n; i++)
-        if (qdot_label_is(s->springs.at[i].end[0], label) ||
-            qdot_label_is(s->springs.at[i].end[1], label))
-            QDOT_TRY(s->springs.at[i].name
-                         ? qdot_scene_drop(s, "spring ", s->springs.at[i].name)
-                         : qdot_scene_drop(s, "a spring", NULL));
-    for (size_t i = 0; i < s->dampers.n; i++)
-        if (qdot_label_is(s->dampers.at[i].end[0], label) ||
-            qdot_label_is(s->dampers.at[i].end[1], label))
-            QDOT_TRY(s->dampers.at[i].name
-                         ? qdot_scene_drop(s, "damper ", s->dampers.at[i].name)
-                         : qdot_scene_drop(s, "a damper", NULL));
-    for (size_t i = 0; i < s->forces.n; i++)
-        if (qdot_label_is(s->forces.at[i].on, label))
-            QDOT_TRY(s->forces.at[i].name
-                         ? qdot_scene_drop(s, "force ", s->forces.at[i].name)
-                         : qdot_scene_drop(s, "a force", NULL));
-    for (size_t i = 0; i < s->torques.n; i++)
-        if (body >= 0 && s->torques.at[i].coordinate == QDOT_NIL &&
-            s->torques.at[i].body == body)
-            QDOT_TRY(s->torques.at[i].name
-                         ? qdot_scene_drop(s, "torque ", s->torques.at[i].name)
-                         : qdot_scene_drop(s, "a torque", NULL));
+    DROP(s->springs, "spring", p, is_end(p, label));
+    DROP(s->dampers, "damper", p, is_end(p, label));
+    DROP(s->forces, "force", p, qdot_label_is(p->on, label));
+    DROP(s->torques, "torque", p, is_on(p, body));
     return QDOT_OK;
 }
 
@@ -88,16 +92,10 @@ qdot_scene_remove(qdot_scene *s, const char *label)
         QDOT_TRY(name_dependents(s, label, body));
     FILTER(s->particles, p, qdot_label_is(p->name, label));
     FILTER(s->bodies, p, qdot_label_is(p->name, label));
-    FILTER(s->springs, p,
-           qdot_label_is(p->name, label) ||
-               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))));
-    FILTER(s->dampers, p,
-           qdot_label_is(p->name, label) ||
-               (on_thing && (qdot_label_is(p->end[0], label) || qdot_label_is(p->end[1], label))));
+    FILTER(s->springs, p, qdot_label_is(p->name, label) || (on_thing && is_end(p, label)));
+    FILTER(s->dampers, p, qdot_label_is(p->name, label) || (on_thing && is_end(p, label)));
     FILTER(s->forces, p, qdot_label_is(p->name, label) || (on_thing && qdot_label_is(p->on, label)));
-    FILTER(s->torques, p,
-           qdot_label_is(p->name, label) ||
-               (body >= 0 && p->coordinate == QDOT_NIL && p->body == body));
+    FILTER(s->torques, p, qdot_label_is(p->name, label) || is_on(p, body));
     for (size_t i = 0; body >= 0 && i < s->torques.n; i++)
         s->torques.at[i].body -= s->torques.at[i].body > body;
     FILTER(s->gravities, p, qdot_label_is(p->name, label));

@@ -1,4 +1,4 @@
-/* scene.c -- declaring: every adder checks first and then adds. */
+/* scene.c -- declarations: each function checks its arguments, then adds the item. */
 
 #include "mech/scene/scene.h"
 
@@ -86,8 +86,7 @@ qdot_scene_free(qdot_scene *s)
     qdot_free(s);
 }
 
-/* --- checks ---------------------------------------------------------------------------
- * */
+/* --- checks --------------------------------------------------------------------------- */
 
 static qdot_status
 need_free_of(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
@@ -111,8 +110,7 @@ need_scalar(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
     return need_free_of(s, e, what, forbidden);
 }
 
-/* A position, field or force: of the scene's dimension, which is what is declared first.
- * */
+/* A position, field or force: of the scene's dimension, which is what is declared first. */
 static qdot_status
 need_vector(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
 {
@@ -167,8 +165,7 @@ changed(qdot_scene *s)
     return QDOT_OK;
 }
 
-/* --- adders ---------------------------------------------------------------------------
- * */
+/* --- adders --------------------------------------------------------------------------- */
 
 qdot_status
 qdot_scene_coordinate(qdot_scene *s, qdot_expr q)
@@ -399,8 +396,7 @@ qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
     return changed(s);
 }
 
-/* --- assume ---------------------------------------------------------------------------
- * */
+/* --- assume --------------------------------------------------------------------------- */
 
 static qdot_status
 add_relation(qdot_scene *s, qdot_expr e)

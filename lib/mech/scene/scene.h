@@ -20,13 +20,12 @@ void qdot_scene_free(qdot_scene *scene);
 QDOT_MUST_CHECK qdot_status qdot_scene_coordinate(qdot_scene *s, qdot_expr q);
 QDOT_MUST_CHECK qdot_status qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass,
                                                 qdot_expr position);
-/* Plane: rotation nil and angle given; inertia a scalar. Space: rotation a 3x3 MAT; inertia a VEC of
- * three moments or a symmetric MAT; about (nil: the centre of mass) body-fixed: the parallel axis
- * theorem is taken off. */
-QDOT_MUST_CHECK qdot_status qdot_scene_body(qdot_scene *s, const char *name, qdot_expr mass,
-                                            qdot_expr inertia, qdot_expr about,
-                                            qdot_expr position, qdot_expr angle,
-                                            qdot_expr rotation);
+/* Plane: angle given, its rotation is made of it; inertia a scalar. Space: no angle, rotation a 3x3
+ * MAT; inertia a VEC of three moments or a symmetric MAT; about (nil: the centre of mass) body-fixed:
+ * the parallel axis theorem is taken off. Its name is not looked at. */
+QDOT_MUST_CHECK qdot_status qdot_scene_body(qdot_scene *s, const char *name,
+                                            const qdot_body *body, qdot_expr about);
+
 /* A gravity, potential or dissipation with its label (NULL: none). A gravity without label takes
  * the place of the one without label before. */
 QDOT_MUST_CHECK qdot_status qdot_scene_term(qdot_scene *s, qdot_scene_kind kind,

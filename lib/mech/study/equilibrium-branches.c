@@ -201,7 +201,7 @@ turned(const qdot_rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
     if (x->class != QDOT_COORD || x->lo != QDOT_NIL || x->hi != QDOT_NIL ||
         qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_FUN ||
         !qdot_expr_contains(pool, value, QDOT_PI) ||
-        qdot_generic_evaluate(pool, 1, &value, 0, NULL, NULL, 1, &v) != QDOT_OK ||
+        qdot_generic_evaluate(pool, 1, &value, NULL, &v) != QDOT_OK ||
         !isfinite(v) || !qdot_rest_is_angle(r, u, equations))
         return value;
     for (; v > M_PI + 1e-9; v -= 2 * M_PI)

@@ -44,7 +44,7 @@ bound(const qdot_pool *pool, qdot_expr e, double otherwise)
     double v;
 
     if (e == QDOT_NIL ||
-        qdot_generic_evaluate(pool, 1, &e, 0, NULL, NULL, 1, &v) != QDOT_OK ||
+        qdot_generic_evaluate(pool, 1, &e, NULL, &v) != QDOT_OK ||
         qdot_expr_node(pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN)
         return otherwise;
     return v;
@@ -112,7 +112,8 @@ evaluate(problem *p, const double *x, bool slopes, double *most)
 {
     size_t m = p->n + (slopes ? p->slopes : 0);
 
-    QDOT_TRY(qdot_generic_evaluate(p->pool, m, p->e, p->n, p->u, x, 1, p->value));
+    QDOT_TRY(qdot_generic_evaluate(p->pool, m, p->e,
+                                   &(qdot_generic_point){p->n, p->u, x, 1}, p->value));
     *most = 0;
     for (size_t i = 0; i < m; i++)
         *most = !isfinite(p->value[i]) ? INFINITY

@@ -1,4 +1,4 @@
-/* equilibrium-twice.c -- equilibria that are listed in another one's family. */
+/* equilibrium-twice.c -- removes equilibria that belong to a family listed elsewhere. */
 #include "expr/calculus.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"

@@ -99,21 +99,6 @@ keep_lasting(qdot_rest *r)
 
 /* --- numbers ---------------------------------------------------------------------------------- */
 
-static qdot_expr
-decimal(qdot_pool *pool, double x)
-{
-    qdot_text text = {0};
-    qdot_expr e;
-
-    qdot_text_double(&text, x, 15);
-    e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
-        : text.at[0] == '-'
-            ? qdot_neg(pool, qdot_expr_decimal(pool, text.at + 1, text.n - 1))
-            : qdot_expr_decimal(pool, text.at, text.n);
-    qdot_text_clear(&text);
-    return e;
-}
-
 /* The name of a symbol in e that is no unknown. */
 static const char *
 unset(const qdot_rest *r, qdot_expr e)
@@ -151,8 +136,10 @@ is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
                          qdot_expr_arg(r->pool, one, 1));
             e = e == QDOT_NIL || bind == NULL ? e : bind(user, e);
             same = e != QDOT_NIL &&
-                   qdot_generic_evaluate(r->pool, 1, &e, r->unknowns.n, r->unknowns.at, x,
-                                         1, &off) == QDOT_OK &&
+                   qdot_generic_evaluate(
+                       r->pool, 1, &e,
+                       &(qdot_generic_point){r->unknowns.n, r->unknowns.at, x, 1},
+                       &off) == QDOT_OK &&
                    fabs(off) < 1e-7;
         }
         if (same)
@@ -175,7 +162,7 @@ add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user
             continue;
         for (size_t i = 0; i < n; i++)
             list[i] = qdot_rel(r->pool, QDOT_EQ, r->unknowns.at[i],
-                               decimal(r->pool, places->at[k * n + i]));
+                               qdot_generic_decimal(r->pool, places->at[k * n + i]));
         one.equations = qdot_list(r->pool, (uint32_t)n, list);
         status = qdot_pool_check(r->pool);
         if (status == QDOT_OK)

@@ -1,4 +1,4 @@
-/* hamilton.c -- velocities for momenta, all of them or those of the cyclic coordinates. */
+/* hamilton.c -- replaces velocities by momenta, all of them or those of the cyclic coordinates. */
 #include "mech/study/hamilton.h"
 
 #include "expr/calculus.h"

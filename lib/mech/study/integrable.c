@@ -1,4 +1,5 @@
-/* integrable.c -- dw on what the constraints leave; integrating factors. */
+/* integrable.c -- evaluates dw on the directions that the constraints leave; finds integrating
+ * factors. */
 #include "mech/study/integrable.h"
 
 #include <string.h>

@@ -156,29 +156,55 @@ tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
     return status;
 }
 
+/* v.X w, X [n*n], v and w columns of N [n*m]. */
+static qdot_expr
+form(const place *p, const qdot_expr *X, const qdot_expr *v, const qdot_expr *w, size_t m)
+{
+    size_t n = p->s->coordinates.n;
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            if (v[i * m] != QDOT_ZERO && w[j * m] != QDOT_ZERO && X[i * n + j] != QDOT_ZERO)
+                sum = qdot_add(
+                    p->s->pool, sum,
+                    qdot_product(p->s->pool, 3,
+                                 (qdot_expr[]){v[i * m], X[i * n + j], w[j * m]}));
+    return qdot_simplify(p->s->pool, sum, &p->facts);
+}
+
 /* N^T X N, X [n*n], N [n*m]. */
 static qdot_status
 reduce(const place *p, const qdot_expr *X, const qdot_expr *N, size_t m, qdot_expr *out)
 {
-    qdot_pool *pool = p->s->pool;
-    size_t n = p->s->coordinates.n;
-
     for (size_t a = 0; a < m; a++)
-        for (size_t b = 0; b < m; b++) {
-            qdot_expr sum = QDOT_ZERO;
+        for (size_t b = 0; b < m; b++)
+            out[a * m + b] = form(p, X, N + a, N + b, m);
+    return qdot_pool_check(p->s->pool);
+}
 
-            for (size_t i = 0; i < n; i++)
-                for (size_t j = 0; j < n; j++)
-                    if (N[i * m + a] != QDOT_ZERO && N[j * m + b] != QDOT_ZERO &&
-                        X[i * n + j] != QDOT_ZERO)
-                        sum = qdot_add(
-                            pool, sum,
-                            qdot_product(
-                                pool, 3,
-                                (qdot_expr[]){N[i * m + a], X[i * n + j], N[j * m + b]}));
-            out[a * m + b] = qdot_simplify(pool, sum, &p->facts);
-        }
-    return qdot_pool_check(pool);
+/* *slope = d(left)/dx at the place, x the derivative of that order of coordinate j; out->exact,
+ * out->damped. */
+static qdot_status
+slope_at(const place *p, qdot_expr left, size_t j, uint32_t order, qdot_expr *slope,
+         qdot_linear_motion *out)
+{
+    const uint32_t motion =
+        QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME;
+    qdot_scene *s = p->s;
+    qdot_expr e = qdot_diff(s->pool, left, qdot_mech_jet(s, j, order));
+    qdot_status status;
+
+    out->exact = out->exact && e != QDOT_NIL && (qdot_mech_holds(s, e) & motion) == 0;
+    *slope = at(p, e);
+    if (order != 1 || *slope != QDOT_NIL)
+        return QDOT_OK;
+    status = qdot_pool_check(s->pool);
+    if (status != QDOT_EDOMAIN) /* else a root of velocities */
+        return status;
+    out->damped = false;
+    *slope = QDOT_ZERO;
+    return QDOT_OK;
 }
 
 /* M, Gamma, H of all coordinates, [n*n] each, and out->exact, out->damped. */
@@ -187,8 +213,6 @@ linearise(const place *p, qdot_expr *X, qdot_linear_motion *out)
 {
     qdot_scene *s = p->s;
     size_t n = s->coordinates.n;
-    const uint32_t motion =
-        QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME;
 
     out->exact = s->constraints.n == 0;
     out->damped = true;
@@ -199,22 +223,8 @@ linearise(const place *p, qdot_expr *X, qdot_linear_motion *out)
         left = qdot_sub(s->pool, qdot_expr_arg(s->pool, equation, 0),
                         qdot_expr_arg(s->pool, equation, 1));
         for (uint32_t order = 0; order < 3; order++)
-            for (size_t j = 0; j < n; j++) {
-                qdot_expr slope = qdot_diff(s->pool, left, qdot_mech_jet(s, j, order));
-
-                out->exact = out->exact && slope != QDOT_NIL &&
-                             (qdot_mech_holds(s, slope) & motion) == 0;
-                slope = at(p, slope);
-                if (order == 1 && slope == QDOT_NIL) { /* a root of velocities */
-                    qdot_status status = qdot_pool_check(s->pool);
-
-                    if (status != QDOT_EDOMAIN)
-                        return status;
-                    out->damped = false;
-                    slope = QDOT_ZERO;
-                }
-                X[(2 - order) * n * n + i * n + j] = slope;
-            }
+            for (size_t j = 0; j < n; j++)
+                QDOT_TRY(slope_at(p, left, j, order, &X[(2 - order) * n * n + i * n + j], out));
     }
     return qdot_pool_check(s->pool);
 }

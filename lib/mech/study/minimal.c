@@ -1,4 +1,5 @@
-/* minimal.c -- constraints solved one after another, and the scene written anew. */
+/* minimal.c -- solves constraints one after another and rewrites the scene in the remaining
+ * coordinates. */
 #include "mech/study/minimal.h"
 
 #include <math.h>
@@ -295,12 +296,8 @@ copy_scene(const qdot_scene *s, qdot_scene *to)
     for (size_t i = 0; i < s->particles.n; i++)
         QDOT_TRY(qdot_scene_particle(to, s->particles.at[i].name, s->particles.at[i].mass,
                                      s->particles.at[i].position));
-    for (size_t i = 0; i < s->bodies.n; i++) {
-        const qdot_body *b = &s->bodies.at[i];
-
-        QDOT_TRY(qdot_scene_body(to, b->name, b->mass, b->inertia, QDOT_NIL, b->position,
-                                 b->angle, b->angle == QDOT_NIL ? b->rotation : QDOT_NIL));
-    }
+    for (size_t i = 0; i < s->bodies.n; i++)
+        QDOT_TRY(qdot_scene_body(to, s->bodies.at[i].name, &s->bodies.at[i], QDOT_NIL));
     for (size_t i = 0; i < s->gravities.n; i++)
         QDOT_TRY(copy_term(to, QDOT_GRAVITY, &s->gravities.at[i]));
     for (size_t i = 0; i < s->potentials.n; i++)

@@ -232,7 +232,7 @@ order_in_numbers(const job *j, qdot_expr a, qdot_expr b)
         if (j->bind != NULL)
             pair[k] = j->bind(j->user, pair[k]);
     if (pair[0] == QDOT_NIL || pair[1] == QDOT_NIL ||
-        qdot_generic_evaluate(j->pool, 2, pair, 0, NULL, NULL, 1, v) != QDOT_OK)
+        qdot_generic_evaluate(j->pool, 2, pair, NULL, v) != QDOT_OK)
         return 1;
     return v[0] > v[1] ? -1 : 1;
 }
@@ -351,19 +351,6 @@ exact(job *j, bool *done)
 
 /* --- numbers ------------------------------------------------------------------------------ */
 
-static qdot_expr
-decimal(qdot_pool *pool, double x)
-{
-    qdot_text text = {0};
-    qdot_expr e;
-
-    qdot_text_double(&text, fabs(x), 15);
-    e = qdot_text_status(&text) != QDOT_OK ? qdot_pool_fail(pool)
-                                           : qdot_expr_decimal(pool, text.at, text.n);
-    qdot_text_clear(&text);
-    return x < 0 ? qdot_neg(pool, e) : e;
-}
-
 /* Values of e [n], bound; QDOT_EUNSET names what has none. */
 static qdot_status
 values(const job *j, size_t n, const qdot_expr *e, double *out)
@@ -397,7 +384,7 @@ values(const job *j, size_t n, const qdot_expr *e, double *out)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
         bound[i] = qdot_expr_arg(pool, list, (uint32_t)i);
-    status = qdot_generic_evaluate(pool, n, bound, 0, NULL, NULL, 1, out);
+    status = qdot_generic_evaluate(pool, n, bound, NULL, out);
     qdot_free(bound);
     return status;
 }
@@ -416,14 +403,14 @@ add_numeric(job *j, double w, const double *N, const gsl_matrix *Y, size_t k)
         most = fmax(most, fabs(x[i]));
     }
     if (status == QDOT_OK)
-        status = qdot_vec_push(&j->frequency, decimal(j->pool, w));
+        status = qdot_vec_push(&j->frequency, qdot_generic_decimal(j->pool, w));
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         double v;
 
         if (first == 0 && fabs(x[i]) > 1e-9 * most)
             first = x[i];
         v = fabs(x[i]) > 1e-12 * most && first != 0 ? x[i] / first : 0;
-        status = qdot_vec_push(&j->amplitude, decimal(j->pool, v));
+        status = qdot_vec_push(&j->amplitude, qdot_generic_decimal(j->pool, v));
     }
     qdot_free(x);
     return status == QDOT_OK ? qdot_pool_check(j->pool) : status;

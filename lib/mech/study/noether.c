@@ -176,8 +176,9 @@ sample(const search *f, const qdot_expr *e, size_t columns, double *A, size_t he
          seed++) {
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = qdot_generic_evaluate(pool, m, e, parameters.n, parameters.at,
-                                           values.at, seed, out);
+            status = qdot_generic_evaluate(
+                pool, m, e,
+                &(qdot_generic_point){parameters.n, parameters.at, values.at, seed}, out);
         for (size_t i = 0; status == QDOT_OK && i < rows(f) && at < height; i++) {
             double length = 0;
 

@@ -390,7 +390,7 @@ by_falling(judgement *j, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* All coordinates' places are told: by the roots of the linear motion. */
+/* Where the equilibrium fixes all coordinates: by the roots of the linear motion. */
 static qdot_status
 by_roots(judgement *j, qdot_equilibrium *e)
 {
@@ -427,7 +427,7 @@ by_roots(judgement *j, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* What is left: the linear motion stays near. */
+/* Otherwise: whether the linear motion is bounded. */
 static qdot_status
 to_first_order(judgement *j, qdot_equilibrium *e)
 {

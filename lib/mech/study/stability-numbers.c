@@ -119,10 +119,11 @@ evaluate(qdot_stability_numbers *x, const qdot_equilibrium *e, bool *finite)
 
             if (qdot_expr_arg(pool, one, 0) == x->symbol[i])
                 QDOT_TRY(
-                    qdot_generic_evaluate(pool, 1, &value, 0, NULL, NULL, 1, &x->at[i]));
+                    qdot_generic_evaluate(pool, 1, &value, NULL, &x->at[i]));
         }
     }
-    QDOT_TRY(qdot_generic_evaluate(pool, count, x->e, x->m, x->symbol, x->at, 1, x->value));
+    QDOT_TRY(qdot_generic_evaluate(
+        pool, count, x->e, &(qdot_generic_point){x->m, x->symbol, x->at, 1}, x->value));
     *finite = x->damped = true;
     for (size_t i = 0; i < count; i++) {
         bool gamma = i >= n * n && i < 2 * n * n;

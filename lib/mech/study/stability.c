@@ -1,17 +1,10 @@
-/* stability.c -- whether a scene stays near its places of rest: what holds of all of them. */
+/* stability.c -- judges the stability of equilibria: the facts that all of them share. */
 #include "mech/study/stability.h"
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
-
-bool
-qdot_stability_has_kink(uint32_t op)
-{
-    return op == QDOT_ABS || op == QDOT_SIGN || op == QDOT_FLOOR || op == QDOT_MOD ||
-           op == QDOT_MIN || op == QDOT_MAX || op == QDOT_IF;
-}
 
 static bool
 velocities_have_kinks(qdot_scene *s)

@@ -27,8 +27,13 @@ QDOT_MUST_CHECK qdot_status qdot_judge_new(qdot_scene *s, qdot_expr at_rest,
 QDOT_MUST_CHECK qdot_status qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e);
 void qdot_judge_free(qdot_judge *judge);
 
-/* |u|, sign u, floor ...: no slopes everywhere. */
-bool qdot_stability_has_kink(uint32_t op);
+/* Whether the function is not differentiable everywhere: |u|, sign u, floor ... */
+static inline bool
+qdot_stability_has_kink(uint32_t op)
+{
+    return op == QDOT_ABS || op == QDOT_SIGN || op == QDOT_FLOOR || op == QDOT_MOD ||
+           op == QDOT_MIN || op == QDOT_MAX || op == QDOT_IF;
+}
 
 /* A place known exactly, holonomic constraints (stability-exact.c). */
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_exact(qdot_judge *judge,

@@ -1,4 +1,5 @@
-/* factor.c -- FLINT's factorisation within bounds; groups; flips. */
+/* factor.c -- FLINT's factorisation within a budget; terms grouped by some variables; c^2
+ * written as 1 - s^2. */
 #include "normal/field/factor.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* field.c -- the generators of some expressions, and the field over them. */
+/* field.c -- finds the generators of some expressions and sets up the field over them. */
 #include "normal/field/field.h"
 
 #include <stdlib.h>
@@ -475,4 +475,12 @@ qdot_field_value(qdot_field *f, qdot_expr e)
     if (f->state != QDOT_FIELD_GOES || !qdot_map_get(&f->nodes, e, &i))
         return NULL;
     return &f->value[i];
+}
+
+void
+qdot_field_cancelled(qdot_field *f, qdot_ratio *r, qdot_expr e)
+{
+    qdot_ratio_init(f, r);
+    qdot_ratio_set(f, r, qdot_field_value(f, e));
+    qdot_ratio_cancel(f, r);
 }

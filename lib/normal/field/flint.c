@@ -38,7 +38,7 @@ leave(qdot_status why)
     longjmp(guard.out, 1);
 }
 
-/* Before anything of `size` bytes is asked for: a reason to leave. */
+/* Leave the computation if it was interrupted or `size` bytes more exceed its bound. */
 static void
 look(size_t size)
 {
@@ -52,7 +52,7 @@ look(size_t size)
                         QDOT_FLINT_MEMORY >> 20));
 }
 
-/* What was asked for; none: away. In other threads there is nowhere to go. */
+/* The allocated block. NULL: leave the computation; a thread without one aborts. */
 static void *
 given(void *block)
 {
@@ -140,7 +140,7 @@ gave_up(void)
 
 #if __FLINT_RELEASE >= 30000
 
-/* Before the block stands where it begins. */
+/* The word before the aligned block holds the address of the block that was allocated. */
 static void *
 take_aligned(size_t alignment, size_t size)
 {

@@ -1,4 +1,4 @@
-/* ideal.c -- Buchberger's algorithm, bounded. */
+/* ideal.c -- Buchberger's algorithm within a budget. */
 #include "normal/field/ideal.h"
 
 #include <string.h>

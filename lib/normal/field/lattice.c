@@ -1,4 +1,4 @@
-/* lattice.c -- directions of the arguments, their rank, the bases. */
+/* lattice.c -- the directions of arguments, their rank, a basis of each. */
 #include "normal/field/lattice.h"
 
 #include <flint/fmpq_mat.h>

@@ -1,4 +1,4 @@
-/* map.c -- open addressing, doubled at half full. */
+/* map.c -- an open-addressing hash table, doubled when half full. */
 #include "normal/field/map.h"
 
 #include "base/memory.h"

@@ -26,9 +26,7 @@ normal_scalar(qdot_pool *pool, qdot_expr e, void *user)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, all[0]);
         if (nr > 0)
             qdot_ideal_reduce_ratio(&f, &r, nr, all + 1);
         if (qdot_field_goes(&f))

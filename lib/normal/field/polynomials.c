@@ -1,4 +1,4 @@
-/* polynomials.c -- polynomials found by value: open addressing. */
+/* polynomials.c -- polynomials found by value, in an open-addressing hash table. */
 #include "normal/field/polynomials.h"
 
 #include "base/memory.h"

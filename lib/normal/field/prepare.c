@@ -1,4 +1,4 @@
-/* prepare.c -- one pass, children first: normal arguments, inverse functions resolved. */
+/* prepare.c -- one pass, children first: arguments made normal, inverse functions resolved. */
 #include "normal/field/prepare.h"
 
 #include "base/memory.h"
@@ -65,9 +65,7 @@ qdot_prepare_flat(qdot_pool *pool, qdot_expr e, int64_t work)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, e));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, e);
         if (qdot_field_goes(&f))
             flat = qdot_field_ratio_expr(&f, &r);
         qdot_ratio_clear(&f, &r);
@@ -104,8 +102,7 @@ whole_and_rest(qdot_field *f, const qdot_ratio *x)
     fmpz_mpoly_init(q, f->ctx);
     fmpz_mpoly_init(r, f->ctx);
     fmpz_mpoly_init(d, f->ctx);
-    _fmpz_vec_content(fmpq_denref(c), x->d->coeffs, fmpz_mpoly_length(x->d, f->ctx));
-    fmpz_mpoly_scalar_divexact_fmpz(d, x->d, fmpq_denref(c), f->ctx);
+    qdot_field_primitive(f, fmpq_denref(c), d, x->d, false);
     if (qdot_field_charge(f, 4 * fmpz_mpoly_length(x->n, f->ctx),
                           fmpz_mpoly_length(d, f->ctx))) {
         fmpz_mpoly_quasidivrem(fmpq_numref(c), q, r, x->n, d, f->ctx);
@@ -137,9 +134,7 @@ flat_angle(qdot_pool *pool, qdot_expr e, int64_t work)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, e));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, e);
         if (qdot_field_goes(&f))
             sum = whole_and_rest(&f, &r);
         if (!qdot_field_goes(&f))
@@ -406,7 +401,7 @@ function(qdot_pool *pool, qdot_expr e, int64_t work)
     }
 }
 
-/* Remember that `now` stands where `before` stood; what cannot be remembered is only
+/* Remember that `now` stands where `before` stood; what cannot be kept is only
  * longer. */
 static void
 remember(qdot_pool *pool, qdot_map *origins, qdot_expr now, qdot_expr before)

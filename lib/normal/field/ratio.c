@@ -1,4 +1,4 @@
-/* ratio.c -- arithmetic in a field: bounded calls of FLINT, the rules, quotients. */
+/* ratio.c -- arithmetic in a field: FLINT called within the budget, reduction by the rules, quotients. */
 #include "normal/field/ratio.h"
 
 #include "base/interrupt.h"
@@ -325,12 +325,8 @@ qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r)
 
     fmpz_init(n);
     fmpz_init(d);
-    _fmpz_vec_content(n, r->n->coeffs, fmpz_mpoly_length(r->n, f->ctx));
-    _fmpz_vec_content(d, r->d->coeffs, fmpz_mpoly_length(r->d, f->ctx));
-    if (fmpz_sgn(fmpz_mpoly_leadcoeff(r->d)) < 0)
-        fmpz_neg(d, d);
-    fmpz_mpoly_scalar_divexact_fmpz(r->n, r->n, n, f->ctx);
-    fmpz_mpoly_scalar_divexact_fmpz(r->d, r->d, d, f->ctx);
+    qdot_field_primitive(f, n, r->n, r->n, false);
+    qdot_field_primitive(f, d, r->d, r->d, true);
     fmpq_set_fmpz_frac(k, n, d);
     fmpz_clear(n);
     fmpz_clear(d);
@@ -342,4 +338,23 @@ qdot_field_var(const qdot_field *f, qdot_expr e)
     uint32_t v;
 
     return qdot_map_get(&f->vars, e, &v) ? (slong)v : -1;
+}
+
+qdot_rule *
+qdot_field_rule(const qdot_field *f, slong v)
+{
+    for (size_t i = 0; i < f->n_rules; i++)
+        if (f->rule[i].var == v && f->rule[i].power > 0)
+            return &f->rule[i];
+    return NULL;
+}
+
+void
+qdot_field_primitive(qdot_field *f, fmpz_t c, fmpz_mpoly_t primitive, const fmpz_mpoly_t p,
+                     bool positive)
+{
+    _fmpz_vec_content(c, p->coeffs, fmpz_mpoly_length(p, f->ctx));
+    if (positive && fmpz_sgn(fmpz_mpoly_leadcoeff(p)) < 0)
+        fmpz_neg(c, c);
+    fmpz_mpoly_scalar_divexact_fmpz(primitive, p, c, f->ctx);
 }

@@ -73,6 +73,13 @@ bool qdot_field_goes(const qdot_field *f);
 /* The variable of a generator expression; -1 if there is none. */
 slong qdot_field_var(const qdot_field *f, qdot_expr e);
 
+/* The rule that has a power of that variable; NULL if there is none. */
+qdot_rule *qdot_field_rule(const qdot_field *f, slong v);
+
+/* p = c primitive, p not 0; positive: the leading coefficient of `primitive`, which may be p, is. */
+void qdot_field_primitive(qdot_field *f, fmpz_t c, fmpz_mpoly_t primitive, const fmpz_mpoly_t p,
+                          bool positive);
+
 /* Charge `a` x `b` to the budget; false when it stops. */
 bool qdot_field_charge(qdot_field *f, slong a, slong b);
 

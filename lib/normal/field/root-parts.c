@@ -1,4 +1,4 @@
-/* root-parts.c -- terms gathered by their roots. */
+/* root-parts.c -- gathers the terms of an expression by the product of roots they hold. */
 #include "normal/field/root-parts.h"
 
 #include <stdlib.h>

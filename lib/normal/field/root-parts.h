@@ -21,10 +21,10 @@ typedef struct {
     qdot_vec(qdot_expr) entries, roots;
 } qdot_root_parts;
 
-/* So many roots of different sums are worth it. */
+/* Expressions with so many roots of different sums are worth taking apart. */
 enum { QDOT_ROOTS_MANY = 3 };
 
-/* Whether so many stand in e. */
+/* Whether e holds that many. */
 bool qdot_root_parts_many(qdot_pool *pool, qdot_expr e);
 
 /* Add the rows that E [n] falls into: itself where it has one part. A base that stands in two

@@ -1,4 +1,4 @@
-/* split.c -- b = c prod f^m: positive factors, squares, and what must stay together. */
+/* split.c -- splits b = c prod f^m into positive factors, squares and a rest that stays together. */
 #include "normal/field/split.h"
 
 #include <flint/fmpz_factor.h>
@@ -131,9 +131,7 @@ split(qdot_pool *pool, qdot_expr b, bool whole, struct parts *p)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, b));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, b);
         if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.n, f.ctx)) {
             status = take_factors(&f, p, &u, r.n, 1);
             if (status == QDOT_OK)

@@ -1,4 +1,4 @@
-/* together.c -- one field for the arguments of functions; inner ones with their outer ones. */
+/* together.c -- writes the arguments of all functions in one field, inner functions first. */
 #include "normal/field/together.h"
 
 #include "base/memory.h"
@@ -58,9 +58,7 @@ flatten(struct arguments *a, qdot_pool *pool)
     for (size_t i = 0; i < a->n && qdot_field_goes(&f); i++) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, a->at[i]));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, a->at[i]);
         a->flat[i] = qdot_field_ratio_expr(&f, &r);
         if (a->flat[i] != QDOT_NIL && qdot_field_goes(&f))
             a->flat[i] = qdot_expand(pool, a->flat[i]);

@@ -126,22 +126,13 @@ sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
 
 /* --- products ---------------------------------------------------------------------- */
 
-static qdot_rule *
-rule_of(qdot_field *f, slong v)
-{
-    for (size_t i = 0; i < f->n_rules; i++)
-        if (f->rule[i].var == v && f->rule[i].power > 0)
-            return &f->rule[i];
-    return NULL;
-}
-
 /* r = g^k, g the root at v; a negative power is made free of roots below the line by
  * the rule. */
 static void
 power_of_root(qdot_field *f, qdot_ratio *r, slong v, slong k)
 {
     qdot_ratio base, lift;
-    qdot_rule *rule = rule_of(f, v);
+    qdot_rule *rule = qdot_field_rule(f, v);
     slong q = (slong)f->gen[v].order, up = k < 0 ? (-k + q - 1) / q : 0;
 
     qdot_ratio_init(f, &base);
@@ -278,20 +269,16 @@ multiple(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong vc, slon
     fmpz_mpoly_clear(next, f->ctx);
 }
 
-/* (s, c) of an angle <- those of the angle + n base; `sign` is -1 for circular, 1 for
- * hyperbolic. */
+/* (s, c) <- (s c1 + c s1, c c1 + sign s s1): of the sum of two angles, sign -1 for circular, 1 for
+ * hyperbolic ones. */
 static void
-turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int sign)
+add_angles(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpz_mpoly_t s1,
+           const fmpz_mpoly_t c1, int sign)
 {
-    fmpz_mpoly_t s1, c1, a, b;
+    fmpz_mpoly_t a, b;
 
-    fmpz_mpoly_init(s1, f->ctx);
-    fmpz_mpoly_init(c1, f->ctx);
     fmpz_mpoly_init(a, f->ctx);
     fmpz_mpoly_init(b, f->ctx);
-    multiple(f, s1, c1, vs, (slong)f->gen[vs].pair, labs(n));
-    if (n < 0)
-        fmpz_mpoly_neg(s1, s1, f->ctx);
     qdot_field_mul(f, a, s, c1);
     qdot_field_mul(f, b, c, s1);
     fmpz_mpoly_add(a, a, b, f->ctx);
@@ -302,10 +289,25 @@ turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int sign)
     else
         fmpz_mpoly_add(c, c, b, f->ctx);
     fmpz_mpoly_swap(s, a, f->ctx);
-    fmpz_mpoly_clear(s1, f->ctx);
-    fmpz_mpoly_clear(c1, f->ctx);
     fmpz_mpoly_clear(a, f->ctx);
     fmpz_mpoly_clear(b, f->ctx);
+}
+
+/* (s, c) of an angle <- those of the angle + n base; `sign` is -1 for circular, 1 for
+ * hyperbolic. */
+static void
+turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int sign)
+{
+    fmpz_mpoly_t s1, c1;
+
+    fmpz_mpoly_init(s1, f->ctx);
+    fmpz_mpoly_init(c1, f->ctx);
+    multiple(f, s1, c1, vs, (slong)f->gen[vs].pair, labs(n));
+    if (n < 0)
+        fmpz_mpoly_neg(s1, s1, f->ctx);
+    add_angles(f, s, c, s1, c1, sign);
+    fmpz_mpoly_clear(s1, f->ctx);
+    fmpz_mpoly_clear(c1, f->ctx);
 }
 
 /* 4 cos(k pi/12) = a + b sqrt 2 + c sqrt 3 + d sqrt 6, k = 0 .. 6. */
@@ -354,7 +356,7 @@ four_cos(qdot_field *f, fmpz_mpoly_t p, slong k)
 static void
 offset(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpq_t pi)
 {
-    fmpz_mpoly_t s1, c1, a, b;
+    fmpz_mpoly_t s1, c1;
     slong k;
     fmpz_t n;
 
@@ -364,21 +366,11 @@ offset(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpq_t pi)
     fmpz_clear(n);
     fmpz_mpoly_init(s1, f->ctx);
     fmpz_mpoly_init(c1, f->ctx);
-    fmpz_mpoly_init(a, f->ctx);
-    fmpz_mpoly_init(b, f->ctx);
     four_cos(f, c1, k);
     four_cos(f, s1, 6 - k);
-    qdot_field_mul(f, a, s, c1);
-    qdot_field_mul(f, b, c, s1);
-    fmpz_mpoly_add(a, a, b, f->ctx);
-    qdot_field_mul(f, b, s, s1);
-    qdot_field_mul(f, c, c, c1);
-    fmpz_mpoly_sub(c, c, b, f->ctx);
-    fmpz_mpoly_swap(s, a, f->ctx);
+    add_angles(f, s, c, s1, c1, -1);
     fmpz_mpoly_clear(s1, f->ctx);
     fmpz_mpoly_clear(c1, f->ctx);
-    fmpz_mpoly_clear(a, f->ctx);
-    fmpz_mpoly_clear(b, f->ctx);
 }
 
 static const qdot_lattice_row *

@@ -37,8 +37,7 @@ say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
     fmpz_init(content);
     fmpq_init(k);
     fmpz_mpoly_init(whole, f->ctx);
-    _fmpz_vec_content(content, p->coeffs, fmpz_mpoly_length(p, f->ctx));
-    fmpz_mpoly_scalar_divexact_fmpz(whole, p, content, f->ctx);
+    qdot_field_primitive(f, content, whole, p, false);
     fmpq_mul_fmpz(k, c, content);
     out = fmpz_is_pm1(fmpq_numref(k))
               ? QDOT_NIL
@@ -69,10 +68,7 @@ say_merged(qdot_form *form, const qdot_item *item, const fmpq_t c)
     fmpz_init(content);
     fmpq_init(k);
     fmpz_mpoly_init(primitive, f->ctx);
-    _fmpz_vec_content(content, item->sum->coeffs, fmpz_mpoly_length(item->sum, f->ctx));
-    if (fmpz_sgn(fmpz_mpoly_leadcoeff(item->sum)) < 0)
-        fmpz_neg(content, content);
-    fmpz_mpoly_scalar_divexact_fmpz(primitive, item->sum, content, f->ctx);
+    qdot_field_primitive(f, content, primitive, item->sum, true);
     fmpq_mul_fmpz(k, c, content);
     e = qdot_mul(f->pool, say_scaled(form, k, item->key),
                  fmpz_mpoly_length(primitive, f->ctx) == 1

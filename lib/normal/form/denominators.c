@@ -183,8 +183,7 @@ say_group(struct parts *p, slong i)
         fmpz_mpoly_scalar_mul_fmpz(term, term, k, f->ctx);
         fmpz_mpoly_add(sum, sum, term, f->ctx);
     }
-    _fmpz_vec_content(k, sum->coeffs, fmpz_mpoly_length(sum, f->ctx));
-    fmpz_mpoly_scalar_divexact_fmpz(sum, sum, k, f->ctx);
+    qdot_field_primitive(f, k, sum, sum, false);
     fmpq_set_fmpz_frac(front, k, lcm);
     p->form->quotient = !fmpz_mpoly_is_one(first->r.d, f->ctx);
     e = qdot_div(f->pool, qdot_form_say(p->form, sum, front), say_below(p, first->r.d));

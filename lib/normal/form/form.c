@@ -367,10 +367,7 @@ say_item(qdot_form *form, const fmpz_mpoly_t coefficient, const fmpz_mpoly_t tri
     fmpz_init(c);
     fmpz_mpoly_init(primitive, f->ctx);
     fmpz_mpoly_init(scaled, f->ctx);
-    _fmpz_vec_content(c, coefficient->coeffs, fmpz_mpoly_length(coefficient, f->ctx));
-    if (fmpz_sgn(fmpz_mpoly_leadcoeff(coefficient)) < 0)
-        fmpz_neg(c, c);
-    fmpz_mpoly_scalar_divexact_fmpz(primitive, coefficient, c, f->ctx);
+    qdot_field_primitive(f, c, primitive, coefficient, true);
     fmpz_mpoly_scalar_mul_fmpz(scaled, trig, c, f->ctx);
     e = qdot_form_plain(form, primitive);
     qdot_form_keep(f->pool, &best, qdot_mul(f->pool, e, qdot_form_trig(form, scaled)));

@@ -1,4 +1,4 @@
-/* items.c -- equal keys found, their values added. */
+/* items.c -- adds the values of equal keys. */
 #include "normal/form/items.h"
 
 #include "base/memory.h"
@@ -16,10 +16,7 @@ qdot_items_add(qdot_field *f, qdot_items *items, const fmpz_mpoly_t key,
     fmpz_init(c);
     fmpz_mpoly_init(primitive, f->ctx);
     fmpz_mpoly_init(scaled, f->ctx);
-    _fmpz_vec_content(c, key->coeffs, fmpz_mpoly_length(key, f->ctx));
-    if (fmpz_sgn(fmpz_mpoly_leadcoeff(key)) < 0)
-        fmpz_neg(c, c);
-    fmpz_mpoly_scalar_divexact_fmpz(primitive, key, c, f->ctx);
+    qdot_field_primitive(f, c, primitive, key, true);
     fmpz_mpoly_scalar_mul_fmpz(scaled, value, c, f->ctx);
     while (i < items->n && !fmpz_mpoly_equal(items->at[i].key, primitive, f->ctx))
         i++;

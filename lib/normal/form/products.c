@@ -1,4 +1,4 @@
-/* products.c -- every product of an expression rewritten: quotients as tan and cot, signs in front. */
+/* products.c -- rewrites every product in an expression: quotients as tan and cot, signs in front. */
 #include "normal/form/products.h"
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* quotient.c -- all that can be said of one quotient: over its denominator, or taken apart. */
+/* quotient.c -- the forms of one quotient: over its denominator, or as a sum of quotients. */
 #include "base/memory.h"
 #include "normal/field/factor.h"
 #include "normal/form/form.h"
@@ -73,9 +73,7 @@ spread_alike(struct saying *s, const qdot_ratio *r, const fmpq_t c)
 
         fmpz_init(k);
         fmpq_init(front);
-        _fmpz_vec_content(k, items.at[i].sum->coeffs,
-                          fmpz_mpoly_length(items.at[i].sum, f->ctx));
-        fmpz_mpoly_scalar_divexact_fmpz(items.at[i].sum, items.at[i].sum, k, f->ctx);
+        qdot_field_primitive(f, k, items.at[i].sum, items.at[i].sum, false);
         fmpq_mul_fmpz(front, over, k);
         e = qdot_form_say(s->form, items.at[i].sum, front);
         e = qdot_div(s->pool, e, qdot_field_expr(f, items.at[i].key));

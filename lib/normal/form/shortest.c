@@ -1,4 +1,4 @@
-/* shortest.c -- candidates of equal value, the one with the fewest operations. */
+/* shortest.c -- makes forms of equal value and keeps the one with the fewest operations. */
 #include "normal/form/shortest.h"
 
 #include "base/memory.h"
@@ -23,7 +23,7 @@ struct simplifier {
     qdot_field *f;
     qdot_form form;
     qdot_expr best;
-    bool too_long; /* the quotient was: no form was tried */
+    bool too_long; /* for any form of the quotient to be tried */
 };
 
 static void
@@ -266,9 +266,7 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
     if (qdot_field_goes(&f) && qdot_form_begin(&s.form, &f) == QDOT_OK) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, all[0]);
         if (qdot_field_goes(&f))
             all_candidates(&s, &r);
         if (nr > 0 && qdot_field_goes(&f) &&
@@ -393,10 +391,10 @@ by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *whole)
                            *whole ? parts.entries.at[k]
                                   : inner(pool, outer(pool, parts.entries.at[k], request),
                                           request));
-        if (request->spent) /* one part past the budget: its like would be, too */
+        if (request->spent) /* one part is past the budget: similar ones would be, too */
             sum = e;
         request->spent |= spent;
-        /* of what falls away when it is expanded the rest; else it is as well as before */
+        /* the expanded sum counts only if roots are left in it or it was simplified part by part */
         if (sum != QDOT_NIL && (!*whole || qdot_root_parts_many(pool, sum)))
             qdot_form_keep(pool, &sum, e);
     }

@@ -1,4 +1,4 @@
-/* cells.c -- projection down, rational points up. */
+/* cells.c -- projects polynomials symbol by symbol, then lifts rational sample points. */
 #include "normal/inequality/cells.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* contradiction.c -- each against those before it. */
+/* contradiction.c -- tests each condition against those before it. */
 #include "normal/inequality/contradiction.h"
 
 #include "expr/walk.h"
@@ -20,7 +20,7 @@ is_small(const qdot_pool *pool, const qdot_facts *facts)
     return true;
 }
 
-/* left < right (or <=) is proved by no more than it should be: with no facts a sign is enough. */
+/* *found: left < right (or <=) is proved under `facts`. */
 static qdot_status
 holds(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
       const qdot_facts *facts, bool *found)

@@ -1,4 +1,5 @@
-/* inequality.c -- cases first, then functions by symbols, then the cells; slopes where that fails. */
+/* inequality.c -- tries cases, then symbols in place of functions, then cells; last, the sign
+ * of the slope. */
 #include "normal/inequality/inequality.h"
 
 #include <stdio.h>
@@ -414,30 +415,38 @@ reaches(qdot_pool *pool, qdot_expr bound, qdot_expr a, bool up, qdot_expr *end,
     return *nothing || sign == QDOT_CONSTANT_POSITIVE;
 }
 
+/* e with one symbol, its slope, and how many slopes of slopes may be asked. */
+struct line {
+    qdot_pool *pool;
+    qdot_expr x, slope;
+    int slopes;
+    int64_t *work;
+};
+
 /* On one side of a, where e(a) >= 0: the slope of e leads away from 0. As it does not vanish along a
  * stretch, e > e(a) there. */
 static qdot_status
-one_side(qdot_pool *pool, qdot_expr slope, qdot_expr x, qdot_expr a, bool up, int slopes,
-         int64_t *work, bool *proved)
+one_side(const struct line *e, qdot_expr a, bool up, bool *proved)
 {
-    qdot_symbol s = *qdot_expr_symbol(pool, x);
-    qdot_expr end, y, to;
+    qdot_pool *pool = e->pool;
+    qdot_symbol s = *qdot_expr_symbol(pool, e->x);
+    qdot_expr end, y, to, slope;
     char name[80];
 
     *proved = false;
     if (!reaches(pool, up ? s.hi : s.lo, a, up, &end, proved) || *proved)
         return QDOT_OK;
-    snprintf(name, sizeof name, "(%u from %u to %u%d)", x, a, end,
+    snprintf(name, sizeof name, "(%u from %u to %u%d)", e->x, a, end,
              up ? s.hi_open : s.lo_open);
     y = qdot_symbol_get(pool, QDOT_FORMAL, name);
     if (y == QDOT_NIL)
         return qdot_pool_check(pool);
     qdot_symbol_domain(pool, y, QDOT_ZERO, true, end, up ? s.hi_open : s.lo_open);
     to = up ? qdot_add(pool, a, y) : qdot_sub(pool, a, y);
-    slope = qdot_subs(pool, up ? slope : qdot_neg(pool, slope), 1, &x, &to);
+    slope = qdot_subs(pool, up ? e->slope : qdot_neg(pool, e->slope), 1, &e->x, &to);
     if (slope == QDOT_NIL)
         return qdot_grave(qdot_pool_check(pool));
-    return prove_somehow(pool, slope, false, slopes - 1, work, proved);
+    return prove_somehow(pool, slope, false, e->slopes - 1, e->work, proved);
 }
 
 static qdot_status
@@ -445,7 +454,8 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
           bool *proved)
 {
     qdot_expr atoms = qdot_expr_atoms(pool, e, true), points[3] = {QDOT_ZERO, QDOT_ONE},
-              x, slope;
+              x;
+    struct line line = {.pool = pool, .slopes = slopes, .work = work};
     qdot_decision vanishes;
 
     *proved = false;
@@ -453,12 +463,12 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
         qdot_expr_kind(pool, qdot_expr_arg(pool, atoms, 0)) != QDOT_SYM ||
         !is_smooth(pool, e))
         return QDOT_OK;
-    x = qdot_expr_arg(pool, atoms, 0);
+    line.x = x = qdot_expr_arg(pool, atoms, 0);
     points[2] = qdot_expr_symbol(pool, x)->lo;
-    slope = qdot_shortest(pool, qdot_diff(pool, e, x), NULL);
-    if (slope == QDOT_NIL)
+    line.slope = qdot_shortest(pool, qdot_diff(pool, e, x), NULL);
+    if (line.slope == QDOT_NIL)
         return qdot_grave(qdot_pool_check(pool));
-    QDOT_TRY(qdot_decide_equal(pool, slope, QDOT_ZERO, NULL, &vanishes));
+    QDOT_TRY(qdot_decide_equal(pool, line.slope, QDOT_ZERO, NULL, &vanishes));
     if (vanishes.verdict != QDOT_REFUTED)
         return QDOT_OK;
     for (int i = 0; i < 3 && !*proved; i++) {
@@ -470,9 +480,9 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
             continue;
         if (strict && !above && !(a == s.lo && s.lo_open) && !(a == s.hi && s.hi_open))
             continue;
-        QDOT_TRY(one_side(pool, slope, x, a, true, slopes, work, &up));
+        QDOT_TRY(one_side(&line, a, true, &up));
         if (up)
-            QDOT_TRY(one_side(pool, slope, x, a, false, slopes, work, &down));
+            QDOT_TRY(one_side(&line, a, false, &down));
         *proved = up && down;
     }
     return qdot_pool_failed(pool) ? qdot_grave(qdot_pool_check(pool)) : QDOT_OK;
@@ -501,9 +511,8 @@ unfolded(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
 {
     size_t nr = facts->n_relations;
     qdot_expr *all = qdot_malloc((nr + 1) * sizeof *all), at = QDOT_NIL;
-    qdot_exprs positive = {0};
+    qdot_domain_rest rest;
     qdot_facts known = {0};
-    bool changed, empty;
     qdot_status status;
 
     if (all == NULL)
@@ -511,17 +520,16 @@ unfolded(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
     all[0] = e;
     for (size_t i = 0; i < nr; i++)
         all[1 + i] = facts->relations[i];
-    status = qdot_domain_unfold(pool, facts, 1 + nr, all, nr, false, &positive, &changed,
-                                &empty);
-    for (size_t i = 0; i < positive.n && !qdot_pool_failed(pool); i++)
-        positive.at[i] = qdot_rel(pool, QDOT_LT, QDOT_ZERO, positive.at[i]);
-    known.n_conditions = positive.n;
-    known.conditions = positive.at;
-    if (status == QDOT_OK && !qdot_pool_failed(pool) && !empty && nr > 0)
+    status = qdot_domain_unfold(pool, facts, 1 + nr, all, nr, false, &rest);
+    for (size_t i = 0; i < rest.positive.n && !qdot_pool_failed(pool); i++)
+        rest.positive.at[i] = qdot_rel(pool, QDOT_LT, QDOT_ZERO, rest.positive.at[i]);
+    known.n_conditions = rest.positive.n;
+    known.conditions = rest.positive.at;
+    if (status == QDOT_OK && !qdot_pool_failed(pool) && !rest.empty && nr > 0)
         status = by_cases(pool, all[0], strict, &known, work, proved, &at);
-    if (status == QDOT_OK && !qdot_pool_failed(pool) && !empty && !*proved)
+    if (status == QDOT_OK && !qdot_pool_failed(pool) && !rest.empty && !*proved)
         status = by_slopes(pool, all[0], strict, MOST_SLOPES, work, proved);
-    qdot_free(positive.at);
+    qdot_free(rest.positive.at);
     qdot_free(all);
     return status == QDOT_OK ? qdot_grave(qdot_pool_check(pool)) : status;
 }

@@ -1,4 +1,4 @@
-/* question.c -- functions by symbols with bounds. */
+/* question.c -- replaces functions by symbols with bounds. */
 #include "normal/inequality/question.h"
 
 #include <stdio.h>

@@ -21,10 +21,10 @@ typedef struct {
 
 void qdot_question_demand(qdot_question *q, qdot_expr gap, bool weak);
 
-/* floor, mod, max and min out of e, and e prepared. */
+/* Replace floor, mod, max and min in e, and prepare e. */
 void qdot_question_whole_parts(qdot_pool *pool, qdot_question *q);
 
-/* All functions out, but roots. Neither absolute values nor if may be in it. */
+/* Replace all functions except roots. q->e holds neither absolute values nor if. */
 void qdot_question_reduce(qdot_pool *pool, qdot_question *q);
 
 #endif

@@ -1,4 +1,4 @@
-/* real-zeros.c -- all complex zeros in balls; those that are real. */
+/* real-zeros.c -- encloses all complex zeros in balls and keeps the real ones. */
 #include "normal/inequality/real-zeros.h"
 
 #include <stdbool.h>

@@ -1,4 +1,5 @@
-/* angle-basis.c -- columns of values, one after another; what depends on those before. */
+/* angle-basis.c -- each angle's values at sample points make a column; finds columns that
+ * depend on earlier ones. */
 #include "normal/prove/angle-basis.h"
 
 #include <math.h>
@@ -106,7 +107,7 @@ dot(const struct basis *b, const double *x, const double *y)
     return sum;
 }
 
-/* What of column j the ones before do not hold; twice, for the rounding. */
+/* The part of column j orthogonal to the columns before; taken twice because of rounding. */
 static void
 project(struct basis *b, size_t j)
 {
@@ -143,7 +144,7 @@ small_fraction(double x, long *n, long *d)
     return false;
 }
 
-/* Column j, dependent, by those before; nil: not by small fractions. */
+/* The dependent column j by those before; nil: its coefficients are no small fractions. */
 static qdot_expr
 guess(struct basis *b, size_t j)
 {

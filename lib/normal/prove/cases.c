@@ -1,4 +1,4 @@
-/* cases.c -- orders times signs, each a substitution. */
+/* cases.c -- goes through all orders and signs, each of which is a substitution. */
 #include "normal/prove/cases.h"
 
 #include "base/memory.h"

@@ -16,8 +16,8 @@
 #include "normal/prove/unify.h"
 #include "normal/refute/sample.h"
 
-#define LARGE 2000 /* nodes: fewer points are looked at */
-#define SMALL 400  /* edges are looked at too */
+#define LARGE 2000 /* nodes; larger expressions are compared at fewer points */
+#define SMALL 400  /* nodes; smaller ones are compared at edges too */
 #define MOST_EDGES 160
 
 /* --- refutation -------------------------------------------------------------------- */
@@ -32,9 +32,9 @@ struct look {
 static const struct look quick = {2, 24, {96, 0}, false};
 static const struct look closer = {2, 24, {512, 0}, false};
 static const struct look thorough = {16, 240, {128, 512, 2048, 0}, false};
-/* under conditions, which may leave little room */
+/* under conditions, which may hold in a small region only */
 static const struct look patient = {60, 720, {128, 0}, false};
-/* where a value of a symbol is a matter of its own */
+/* at special values of one symbol */
 static const struct look edges = {MOST_EDGES, MOST_EDGES, {128, 512, 0}, true};
 
 static double
@@ -344,7 +344,7 @@ decide(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts
         qdot_decision more = {.verdict = QDOT_UNDECIDED};
 
         QDOT_TRY(look_at_points(pool, left, right, facts, &edges, &more));
-        if (more.verdict == QDOT_REFUTED) { /* a proof says nothing of what it divided by */
+        if (more.verdict == QDOT_REFUTED) { /* the proof does not hold where a divisor is 0 */
             *d = more;
             equal = false;
         }

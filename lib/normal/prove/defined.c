@@ -1,4 +1,4 @@
-/* defined.c -- nodes that are surely evaluated, and what each asks of its argument. */
+/* defined.c -- finds the nodes that are always evaluated and the conditions on their arguments. */
 #include "normal/prove/defined.h"
 
 #include "expr/calculus.h"
@@ -108,9 +108,7 @@ qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak, qdot_defined_gap t
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, gap));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, gap);
         if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.n, f.ctx)) {
             product = QDOT_ONE;
             status = unknown_factors(&f, r.n, weak, &product);

@@ -1,4 +1,4 @@
-/* domain.c -- conditions and bounds, one after another. */
+/* domain.c -- puts conditions and bounds into the symbols, one after another. */
 #include "normal/prove/domain.h"
 
 #include <stdio.h>
@@ -57,7 +57,7 @@ add_gap(job *j, qdot_expr gap, bool weak)
 
 /* --- bounds of a symbol -------------------------------------------------------- */
 
-/* Whether a < b for constants, surely. */
+/* Whether a < b is proved, a and b constants. */
 static bool
 surely_less(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -337,13 +337,14 @@ move_declared(job *j, qdot_expr atoms)
 
 qdot_status
 qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr *e,
-                   size_t nr, bool implied, qdot_exprs *positive, bool *changed, bool *empty)
+                   size_t nr, bool implied, qdot_domain_rest *rest)
 {
     job j = {.pool = pool, .n = n, .e = e};
     qdot_expr list = qdot_list(pool, (uint32_t)n, e);
     qdot_expr atoms = qdot_expr_atoms(pool, list, false);
     qdot_status status = atoms == QDOT_NIL ? qdot_pool_check(pool) : QDOT_OK;
 
+    *rest = (qdot_domain_rest){0};
     if (status == QDOT_OK && atoms != QDOT_NIL)
         status = gather(&j, facts, atoms);
     if (status == QDOT_OK && implied)
@@ -370,9 +371,8 @@ qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr
     }
     for (size_t i = 0; i < j.gap.n && status == QDOT_OK; i++)
         if (j.gap.at[i] != QDOT_NIL)
-            status = qdot_vec_push(positive, j.gap.at[i]);
-    *changed = j.changed || positive->n > 0;
-    *empty = j.empty;
+            status = qdot_vec_push(&rest->positive, j.gap.at[i]);
+    rest->empty = j.empty;
     qdot_free(j.gap.at);
     qdot_free(j.weak.at);
     return status;

@@ -18,12 +18,14 @@
 
 typedef qdot_vec(qdot_expr) qdot_exprs;
 
-/* Rewrite e[n] in place; the last nr of them are relations, 0 once solved. *positive gets
- * what conditions say to be > 0 and was not solved; *changed: whether anything was
- * rewritten or is in *positive. *empty: conditions and declared signs contradict each other, no
- * point is left. */
+/* What is left of conditions. */
+typedef struct {
+    qdot_exprs positive; /* what they say to be > 0 and was not solved; owned by the caller */
+    bool empty; /* conditions and declared signs contradict each other, no point is left */
+} qdot_domain_rest;
+
+/* Rewrite e[n] in place; the last nr of them are relations, 0 once solved. */
 QDOT_MUST_CHECK qdot_status qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts,
                                                size_t n, qdot_expr *e, size_t nr,
-                                               bool implied, qdot_exprs *positive,
-                                               bool *changed, bool *empty);
+                                               bool implied, qdot_domain_rest *rest);
 #endif

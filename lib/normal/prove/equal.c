@@ -1,4 +1,4 @@
-/* equal.c -- the difference of two sides in one field; what stands with each product of roots. */
+/* equal.c -- proves a difference zero in one field, or root by root where there are many roots. */
 #include "normal/prove/equal.h"
 
 #include "expr/walk.h"

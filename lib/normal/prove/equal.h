@@ -47,7 +47,7 @@ QDOT_MUST_CHECK qdot_status qdot_problem_finish(qdot_problem *p, qdot_status sta
 /* Bases of roots that are positive as they stand; once multiplied out that is hard to see. */
 QDOT_MUST_CHECK qdot_status qdot_problem_note_positive(qdot_problem *p);
 
-/* All of them prepared; QDOT_EFAILED after a wrong turn. */
+/* All of them prepared; QDOT_EFAILED if one has no value (a zero denominator). */
 QDOT_MUST_CHECK qdot_status qdot_problem_prepare(qdot_problem *p);
 
 /* Whether the difference is zero in a field of all of them. `signs`: with roots and

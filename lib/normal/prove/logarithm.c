@@ -1,4 +1,4 @@
-/* logarithm.c -- sums of logarithms that are zero. */
+/* logarithm.c -- proves sums of logarithms zero. */
 #include "base/memory.h"
 #include "normal/field/factor.h"
 #include "normal/prove/zero.h"

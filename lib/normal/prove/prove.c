@@ -1,4 +1,5 @@
-/* prove.c -- what is known is put in; then one proof after another, of what has become easier. */
+/* prove.c -- puts in what is known of signs and domains, then repeats the proof of equal.c on
+ * easier forms. */
 #include "normal/prove/prove.h"
 
 #include "normal/field/together.h"
@@ -14,22 +15,23 @@
 static qdot_status
 unfold(qdot_problem *p, const qdot_facts *facts, bool implied, bool *empty)
 {
-    qdot_exprs positive = {0};
-    bool changed;
-    qdot_status status = qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, p->nr,
-                                            implied, &positive, &changed, empty);
+    qdot_domain_rest rest;
+    qdot_status status =
+        qdot_domain_unfold(p->pool, facts, 2 + p->nr, p->e, p->nr, implied, &rest);
+    const size_t n = rest.positive.n;
     qdot_expr *all = status == QDOT_OK
-                         ? qdot_realloc(p->e, (2 + p->nr + positive.n + 1) * sizeof *all)
+                         ? qdot_realloc(p->e, (2 + p->nr + n + 1) * sizeof *all)
                          : NULL;
 
     if (all != NULL) {
         p->e = all;
-        p->np = positive.n;
-        p->conditional = positive.n > 0;
-        for (size_t i = 0; i < positive.n; i++)
-            p->e[2 + p->nr + i] = positive.at[i];
+        p->np = n;
+        p->conditional = n > 0;
+        for (size_t i = 0; i < n; i++)
+            p->e[2 + p->nr + i] = rest.positive.at[i];
     }
-    qdot_free(positive.at);
+    qdot_free(rest.positive.at);
+    *empty = rest.empty;
     return status != QDOT_OK ? status : all == NULL ? QDOT_ENOMEM : QDOT_OK;
 }
 
@@ -106,6 +108,6 @@ qdot_prove_defined(qdot_pool *pool, qdot_expr left, qdot_expr right,
     if (empty != NULL)
         *empty = none;
     else
-        *equal &= !none; /* nothing is claimed of no points */
+        *equal &= !none; /* equality is not claimed where no point is left */
     return status;
 }

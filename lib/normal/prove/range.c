@@ -79,22 +79,6 @@ range_of(qdot_pool *pool, qdot_expr e, struct range *r)
     }
 }
 
-static bool
-to_double(qdot_pool *pool, qdot_expr e, double *x)
-{
-    qdot_ball ball;
-    arb_srcptr value;
-
-    if (e == QDOT_NIL || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
-        return false;
-    qdot_ball_eval(&ball, 64, NULL, NULL);
-    value = qdot_ball_get(&ball, e);
-    if (value != NULL)
-        *x = arf_get_d(arb_midref(value), ARF_RND_NEAR);
-    qdot_ball_end(&ball);
-    return value != NULL;
-}
-
 /* 0 <= e, proved; *open gets whether 0 < e. */
 static bool
 not_negative(qdot_pool *pool, qdot_expr e, bool *open)
@@ -115,7 +99,7 @@ sign_of_sine(qdot_pool *pool, struct range r)
     double lo, n;
     bool open;
 
-    if (!to_double(pool, r.lo, &lo) || fabs(lo) > 1e6)
+    if (!qdot_ball_double(pool, r.lo, NULL, NULL, &lo) || fabs(lo) > 1e6)
         return 0;
     n = floor(lo / M_PI + 1e-9);
     k = qdot_expr_int(pool, (long)n);

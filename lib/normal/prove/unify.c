@@ -1,4 +1,4 @@
-/* unify.c -- one pass, children first; candidates by their values at a few points. */
+/* unify.c -- one pass, children first; candidates are found by their values at a few points. */
 #include "normal/prove/unify.h"
 
 #include <math.h>
@@ -20,11 +20,16 @@ enum {
 /* Arguments of one class are compared with one another. */
 typedef enum { NONE, ANGLE, ABSOLUTE, BASE, LOGARITHM, OTHER } class;
 
+/* Where an argument stands. */
+struct place {
+    class class;
+    uint32_t op; /* OTHER: in this function */
+    qdot_kind kind;
+};
+
 /* An argument that stands for all that are multiples of it. */
 struct seen {
-    class class;
-    uint32_t op; /* OTHER: of this function */
-    qdot_kind kind;
+    struct place place;
     qdot_expr arg; /* as it is now */
     arb_struct at[POINTS];
 };
@@ -131,8 +136,7 @@ worth_a_look(const qdot_pool *pool, qdot_expr arg)
 
 /* *with: what stands for `arg` (whose old node has the index `at`), times *c. */
 static qdot_status
-find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
-     qdot_expr *with, fmpq_t c)
+find(job *j, struct place p, qdot_expr arg, size_t at, qdot_expr *with, fmpq_t c)
 {
     qdot_status status = QDOT_OK;
     struct seen *new;
@@ -145,11 +149,12 @@ find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
         bool equal = false;
         qdot_expr other;
 
-        if (s->class != class || (class == OTHER && (s->op != op || s->kind != kind)) ||
+        if (s->place.class != p.class ||
+            (p.class == OTHER && (s->place.op != p.op || s->place.kind != p.kind)) ||
             !proportional(j, at, s, c))
             continue;
-        if ((class == OTHER && !fmpq_is_one(c)) ||
-            ((class == BASE || class == LOGARITHM) && fmpq_sgn(c) < 0))
+        if ((p.class == OTHER && !fmpq_is_one(c)) ||
+            ((p.class == BASE || p.class == LOGARITHM) && fmpq_sgn(c) < 0))
             continue;
         other = qdot_mul(j->pool, qdot_expr_fmpq(j->pool, c), s->arg);
         if (other != arg && j->proofs++ < MOST_PROOFS)
@@ -164,7 +169,7 @@ find(job *j, class class, uint32_t op, qdot_kind kind, qdot_expr arg, size_t at,
     if (status != QDOT_OK || j->n_seen >= MOST_SEEN)
         return status;
     new = &j->seen[j->n_seen++];
-    *new = (struct seen){.class = class, .op = op, .kind = kind, .arg = arg};
+    *new = (struct seen){.place = p, .arg = arg};
     for (int k = 0; k < POINTS; k++) {
         arb_init(new->at + k);
         arb_set(new->at + k, j->value[k] + at);
@@ -206,8 +211,8 @@ function(job *j, qdot_expr old, qdot_expr *now)
         args[i] = qdot_expr_arg(pool, *now, i);
         if (!worth_a_look(pool, args[i]))
             continue;
-        if (find(j, class, op, QDOT_FUN, args[i], index_of(j, old, i), &with, c) !=
-            QDOT_OK)
+        if (find(j, (struct place){class, op, QDOT_FUN}, args[i], index_of(j, old, i), &with,
+                 c) != QDOT_OK)
             break;
         if (with == QDOT_NIL)
             continue;
@@ -252,8 +257,8 @@ undefined(job *j, qdot_expr old, qdot_expr *now)
         args[i] = qdot_expr_arg(pool, *now, i);
         if (2 * i >= n) /* orders of derivatives */
             continue;
-        status = find(j, OTHER, qdot_expr_node(pool, *now)->op, QDOT_UFUN, args[i],
-                      index_of(j, old, i), &with, c);
+        status = find(j, (struct place){OTHER, qdot_expr_node(pool, *now)->op, QDOT_UFUN},
+                      args[i], index_of(j, old, i), &with, c);
         if (with != QDOT_NIL) {
             any |= with != args[i];
             args[i] = with;
@@ -292,7 +297,8 @@ product(job *j, qdot_expr old, qdot_expr *now)
             break;
         power = qdot_pow(pool, b, x);
         if (!qdot_expr_to_int(pool, x, &k) && worth_a_look(pool, b)) {
-            status = find(j, BASE, 0, QDOT_PROD, b, index_of(j, old, i), &with, c);
+            status = find(j, (struct place){BASE, 0, QDOT_PROD}, b, index_of(j, old, i),
+                          &with, c);
             if (with != QDOT_NIL && with != b) {
                 any = true;
                 power = qdot_mul(pool, qdot_pow(pool, qdot_expr_fmpq(pool, c), x),

@@ -1,4 +1,4 @@
-/* within.c -- bounds of a symbol against the values of an inverse function. */
+/* within.c -- compares bounds of a symbol with the range of an inverse function. */
 #include "normal/prove/within.h"
 
 #include "expr/calculus.h"

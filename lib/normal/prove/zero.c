@@ -1,4 +1,4 @@
-/* zero.c -- constants by their bounds, roots by norms and signs. */
+/* zero.c -- constants by their root bounds, roots by norms and signs. */
 #include "normal/prove/zero.h"
 
 #include "base/memory.h"
@@ -156,21 +156,12 @@ next_root(const qdot_zero *z, const fmpz_mpoly_t p, slong after)
     return z->ideal == NULL || after >= 0 ? -1 : constant;
 }
 
-static qdot_rule *
-rule_of(const qdot_field *f, slong v)
-{
-    for (size_t i = 0; i < f->n_rules; i++)
-        if (f->rule[i].var == v && f->rule[i].power > 0)
-            return &f->rule[i];
-    return NULL;
-}
-
 /* False where p is not of this form. */
 static bool
 split_at(qdot_field *f, struct split *s, const fmpz_mpoly_t p, slong v)
 {
     bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by), fits = by != NULL;
-    qdot_rule *rule = rule_of(f, v);
+    qdot_rule *rule = qdot_field_rule(f, v);
     qdot_groups groups;
     slong power = 0, shared;
 

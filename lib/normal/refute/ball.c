@@ -1,4 +1,4 @@
-/* ball.c -- the table of functions in balls, and the pass. */
+/* ball.c -- the table of functions in ball arithmetic, and one pass over the nodes. */
 #include "normal/refute/ball.h"
 
 #include "base/memory.h"
@@ -282,4 +282,22 @@ qdot_ball_truth(const qdot_ball *b, qdot_expr e)
     size_t i = qdot_walk_index(&b->walk, e);
 
     return i == SIZE_MAX ? 0 : b->known[i];
+}
+
+bool
+qdot_ball_double(qdot_pool *pool, qdot_expr e,
+                 bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
+                 void *user, double *x)
+{
+    qdot_ball ball;
+    arb_srcptr value;
+
+    if (e == QDOT_NIL || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
+        return false;
+    qdot_ball_eval(&ball, 64, of, user);
+    value = qdot_ball_get(&ball, e);
+    if (value != NULL)
+        *x = arf_get_d(arb_midref(value), ARF_RND_NEAR);
+    qdot_ball_end(&ball);
+    return value != NULL;
 }

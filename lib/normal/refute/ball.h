@@ -29,6 +29,11 @@ void qdot_ball_eval(qdot_ball *b, slong prec,
 
 /* The value of one of the e, NULL where it is undefined or not known so far. */
 arb_srcptr qdot_ball_get(const qdot_ball *b, qdot_expr e);
+/* The middle of the value of e alone; false: it has none. `of` as in qdot_ball_eval. */
+bool qdot_ball_double(qdot_pool *pool, qdot_expr e,
+                      bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
+                      void *user, double *x);
+
 /* Of a relation or a logical expression: 1 true, 2 false, 0 not known. */
 int qdot_ball_truth(const qdot_ball *b, qdot_expr e);
 

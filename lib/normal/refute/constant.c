@@ -1,4 +1,5 @@
-/* constant.c -- the bound, node for node; enclosures until they are smaller. */
+/* constant.c -- the root bound, node by node; enclosures with growing precision until they
+ * fall below it. */
 #include "normal/refute/constant.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* sample-edge.c -- points at which sides may differ though they agree all about them. */
+/* sample-edge.c -- sample points at which two sides may differ although they agree nearby. */
 #include "normal/refute/sample.h"
 
 /* x = c or c pi of a constant that is one of these. */

@@ -36,7 +36,7 @@ qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e)
     return s != NULL && strncmp(s->name, "(sign ", 6) == 0;
 }
 
-/* How gladly a relation is solved for this atom; 0: never. */
+/* The preference for solving a relation for this atom; 0: never. */
 static int
 fitness(const qdot_pool *pool, const qdot_gen *gen)
 {
@@ -111,15 +111,6 @@ solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree, qdot_expr 
     return x;
 }
 
-static bool
-is_taken(size_t n, const qdot_expr *taken, qdot_expr atom)
-{
-    for (size_t i = 0; i < n; i++)
-        if (taken[i] == atom)
-            return true;
-    return false;
-}
-
 /* Whether a function in e may jump where all its arguments have values. */
 static bool
 may_jump(const qdot_pool *pool, qdot_expr e)
@@ -142,7 +133,8 @@ may_jump(const qdot_pool *pool, qdot_expr e)
 
 /* The atom for which a relation is solved at each point: a symbol, which may stand inside functions. */
 static qdot_expr
-implicit_atom(qdot_pool *pool, qdot_expr relation, size_t n, const qdot_expr *taken)
+implicit_atom(qdot_pool *pool, qdot_expr relation, size_t n,
+              const qdot_sample_solution *solved)
 {
     qdot_expr atoms, best = QDOT_NIL;
     int fit = 0;
@@ -153,7 +145,7 @@ implicit_atom(qdot_pool *pool, qdot_expr relation, size_t n, const qdot_expr *ta
     for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms); i++) {
         qdot_gen gen = {.kind = QDOT_GEN_PLAIN, .expr = qdot_expr_arg(pool, atoms, i)};
         int here = qdot_expr_kind(pool, gen.expr) == QDOT_SYM &&
-                           !is_taken(n, taken, gen.expr)
+                           !qdot_sample_is_solved(n, solved, gen.expr)
                        ? fitness(pool, &gen)
                        : 0;
 
@@ -166,9 +158,8 @@ implicit_atom(qdot_pool *pool, qdot_expr relation, size_t n, const qdot_expr *ta
 }
 
 bool
-qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n_taken,
-                  const qdot_expr *taken, qdot_expr *atom, qdot_expr *solution,
-                  bool *implicit)
+qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
+                  const qdot_sample_solution *solved, qdot_sample_solution *out)
 {
     qdot_expr e = qdot_prepare(pool, relation);
     slong best = -1, best_degree = 0;
@@ -176,8 +167,7 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n_t
     const qdot_ratio *r;
     qdot_field f;
 
-    *atom = QDOT_NIL;
-    *implicit = false;
+    *out = (qdot_sample_solution){0};
     qdot_field_begin(&f, pool, 1, &e, WORK);
     r = qdot_field_value(&f, e);
     if (r == NULL || fmpz_mpoly_is_zero(r->n, f.ctx)) {
@@ -192,7 +182,7 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n_t
                        ? 0
                        : fitness(pool, &f.gen[v]) * (degree == 1 ? 2 : 1);
 
-        if (here > fit && !is_taken(n_taken, taken, f.gen[v].expr) &&
+        if (here > fit && !qdot_sample_is_solved(n, solved, f.gen[v].expr) &&
             !inside_another(&f, r->n, v)) {
             fit = here;
             best = v;
@@ -200,18 +190,16 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n_t
         }
     }
     if (best >= 0) {
-        *atom = f.gen[best].expr;
-        *solution = solve_for(&f, r->n, best, best_degree, either_sign(pool, number));
+        out->atom = f.gen[best].expr;
+        out->solution = solve_for(&f, r->n, best, best_degree, either_sign(pool, number));
     }
     qdot_field_end(&f);
-    if (best >= 0 && *solution == QDOT_NIL && qdot_pool_check(pool) != QDOT_OK)
+    if (best >= 0 && out->solution == QDOT_NIL && qdot_pool_check(pool) != QDOT_OK)
         return false;
     if (best >= 0)
-        return *solution != QDOT_NIL;
-    *implicit = true;
-    *solution = relation;
-    *atom = implicit_atom(pool, relation, n_taken, taken);
-    return *atom != QDOT_NIL;
+        return out->solution != QDOT_NIL;
+    *out = (qdot_sample_solution){implicit_atom(pool, relation, n, solved), relation, true};
+    return out->atom != QDOT_NIL;
 }
 
 /* --- at a point -------------------------------------------------------------------- */

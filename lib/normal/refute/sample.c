@@ -1,4 +1,4 @@
-/* sample.c -- relations solved one after another; points; their checks. */
+/* sample.c -- solves relations one after another, chooses points and checks them. */
 #include "normal/refute/sample.h"
 
 #include <math.h>
@@ -68,26 +68,25 @@ add_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution, bool implicit)
 /* The solved atoms, each after those that its solution holds; where two are solved for each other
  * there are no points. */
 static void
-add_solved(qdot_sample *s, size_t n, qdot_expr *atom, const qdot_expr *solution,
-           const bool *implicit)
+add_solved(qdot_sample *s, size_t n, qdot_sample_solution *solved)
 {
     for (size_t left = n, before = n + 1; left > 0 && left < before;) {
         before = left;
         for (size_t k = n; k-- > 0;) {
-            bool waits = atom[k] == QDOT_NIL;
+            bool waits = solved[k].atom == QDOT_NIL;
 
             for (size_t j = 0; j < n && !waits; j++)
-                waits = j != k && atom[j] != QDOT_NIL &&
-                        qdot_expr_contains(s->pool, solution[k], atom[j]);
+                waits = j != k && solved[j].atom != QDOT_NIL &&
+                        qdot_expr_contains(s->pool, solved[k].solution, solved[j].atom);
             if (waits)
                 continue;
-            add_atom(s, atom[k], solution[k], implicit[k]);
-            atom[k] = QDOT_NIL;
+            add_atom(s, solved[k].atom, solved[k].solution, solved[k].implicit);
+            solved[k].atom = QDOT_NIL;
             left--;
         }
     }
     for (size_t k = 0; k < n; k++)
-        s->possible &= atom[k] == QDOT_NIL;
+        s->possible &= solved[k].atom == QDOT_NIL;
 }
 
 static qdot_expr
@@ -157,36 +156,64 @@ bounds_by_condition(qdot_sample *s, qdot_expr condition)
     return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
 }
 
+/* Each relation solved with what those before it have been solved for put in; `put` [nr] becomes the
+ * solutions, *n of them. */
+static void
+solve_relations(qdot_sample *s, qdot_sample_solution *solved, qdot_expr *put, size_t *n)
+{
+    const size_t nr = s->facts->n_relations;
+
+    *n = 0;
+    for (size_t k = 0; k < nr; k++)
+        put[k] = s->facts->relations[k];
+    for (size_t k = 0; k < nr && s->possible; k++) {
+        qdot_sample_solution *x = &solved[*n];
+
+        s->possible = qdot_sample_solve(s->pool, put[k], k, *n, solved, x);
+        if (!s->possible || x->atom == QDOT_NIL)
+            continue;
+        for (size_t j = k + 1; j < nr && !x->implicit; j++)
+            put[j] = qdot_subs(s->pool, put[j], 1, &x->atom, &x->solution);
+        ++*n;
+    }
+    for (size_t k = 0; k < *n; k++)
+        put[k] = solved[k].solution;
+}
+
+/* The free atoms, those with bounds that hold others last, then the solved ones. */
+static void
+add_atoms(qdot_sample *s, qdot_expr atoms, size_t n, qdot_sample_solution *solved)
+{
+    for (int rank = 0; rank < 2; rank++)
+        for (uint32_t i = 0; i < qdot_expr_count(s->pool, atoms); i++) {
+            qdot_expr a = qdot_expr_arg(s->pool, atoms, i);
+
+            if (!qdot_sample_is_solved(n, solved, a) && bound_rank(s->pool, a) == rank)
+                add_atom(s, a, QDOT_NIL, false);
+        }
+    add_solved(s, n, solved);
+}
+
 static qdot_status
 gather(qdot_sample *s, size_t n, const qdot_expr *e)
 {
     static const qdot_facts nothing = {0};
     const qdot_facts *facts = s->facts == NULL ? &nothing : s->facts;
-    size_t nr = facts->n_relations, solved = 0;
-    qdot_expr *r = qdot_calloc(4 * nr + 1, sizeof *r), *atom = r + nr,
-              *solution = atom + nr;
-    bool *implicit = (bool *)(solution + nr);
-    qdot_expr parts[6], atoms, of_relations;
+    size_t nr = facts->n_relations, n_solved;
+    qdot_sample_solution *solved =
+        qdot_calloc(nr + 1, sizeof *solved + sizeof(qdot_expr));
+    qdot_expr *put = (qdot_expr *)(solved + nr + 1), parts[6], atoms, of_relations;
     qdot_pool *pool = s->pool;
+    qdot_status status = QDOT_OK;
 
-    if (r == NULL)
+    if (solved == NULL)
         return QDOT_ENOMEM;
     s->facts = facts;
-    for (size_t k = 0; k < nr; k++)
-        r[k] = facts->relations[k];
-    for (size_t k = 0; k < nr && s->possible; k++) {
-        s->possible = qdot_sample_solve(pool, r[k], k, solved, atom, &atom[solved],
-                                        &solution[solved], &implicit[solved]);
-        if (!s->possible || atom[solved] == QDOT_NIL)
-            continue;
-        for (size_t j = k + 1; j < nr && !implicit[solved]; j++)
-            r[j] = qdot_subs(pool, r[j], 1, &atom[solved], &solution[solved]);
-        solved++;
-    }
+    solve_relations(s, solved, put, &n_solved);
     parts[0] = qdot_list(pool, (uint32_t)n, e);
     parts[1] = qdot_list(pool, (uint32_t)nr, facts->relations);
     parts[2] = qdot_list(pool, (uint32_t)facts->n_conditions, facts->conditions);
-    parts[3] = qdot_list(pool, (uint32_t)solved, solution);
+    parts[3] = qdot_list(pool, (uint32_t)n_solved, put);
     of_relations = qdot_expr_atoms(pool, parts[1], true);
     s->list = qdot_list(pool, 4, parts);
     for (int round = 0; round < 3; round++) { /* bounds may hold symbols with bounds */
@@ -198,29 +225,18 @@ gather(qdot_sample *s, size_t n, const qdot_expr *e)
     }
     atoms = qdot_expr_atoms(pool, s->list, true);
     if (atoms == QDOT_NIL) {
-        qdot_free(r);
-        return qdot_pool_check(pool);
+        status = qdot_pool_check(pool);
+    } else {
+        if (higher_derivatives(pool, atoms, of_relations, facts->free_derivatives))
+            s->possible = false;
+        s->atom = qdot_malloc((qdot_expr_count(pool, atoms) + 1) * sizeof *s->atom);
+        if (s->atom == NULL)
+            status = QDOT_ENOMEM;
+        else
+            add_atoms(s, atoms, n_solved, solved);
     }
-    if (higher_derivatives(pool, atoms, of_relations, facts->free_derivatives))
-        s->possible = false;
-    s->atom = qdot_malloc((qdot_expr_count(pool, atoms) + 1) * sizeof *s->atom);
-    if (s->atom == NULL) {
-        qdot_free(r);
-        return QDOT_ENOMEM;
-    }
-    for (int rank = 0; rank < 2; rank++)
-        for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
-            qdot_expr a = qdot_expr_arg(pool, atoms, i);
-            bool free_atom = true;
-
-            for (size_t k = 0; k < solved; k++)
-                free_atom &= atom[k] != a;
-            if (free_atom && bound_rank(pool, a) == rank)
-                add_atom(s, a, QDOT_NIL, false);
-        }
-    add_solved(s, solved, atom, solution, implicit);
-    qdot_free(r);
-    return QDOT_OK;
+    qdot_free(solved);
+    return status;
 }
 
 qdot_status
@@ -285,25 +301,6 @@ qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* A bound as a double, given the atoms chosen so far. */
-static bool
-bound(qdot_sample *s, qdot_expr e, double *x)
-{
-    qdot_ball ball;
-    arb_srcptr value;
-
-    if (e == QDOT_NIL)
-        return false;
-    if (qdot_ball_begin(&ball, s->pool, 1, &e) != QDOT_OK)
-        return false;
-    qdot_ball_eval(&ball, 64, qdot_sample_value, s);
-    value = qdot_ball_get(&ball, e);
-    if (value != NULL)
-        *x = arf_get_d(arb_midref(value), ARF_RND_NEAR);
-    qdot_ball_end(&ball);
-    return value != NULL;
-}
-
 /* A rational with a small denominator strictly between lo and hi, about so far from the
  * one to the other. */
 static void
@@ -338,7 +335,8 @@ narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
     double above = -HUGE_VAL, below = HUGE_VAL, x;
 
     for (size_t i = 0; i < s->n_bounds; i++) {
-        if (s->bound[i].atom != atom || !bound(s, s->bound[i].bound, &x))
+        if (s->bound[i].atom != atom ||
+            !qdot_ball_double(s->pool, s->bound[i].bound, qdot_sample_value, s, &x))
             continue;
         if (s->bound[i].below)
             below = fmin(below, x);
@@ -387,11 +385,11 @@ qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
     }
     if (symbol != NULL) {
         qdot_expr elo = symbol->lo, ehi = symbol->hi;
-        bool has_lo = bound(s, elo, &x);
+        bool has_lo = qdot_ball_double(s->pool, elo, qdot_sample_value, s, &x);
 
         if (has_lo)
             lo = x;
-        if (bound(s, ehi, &x)) {
+        if (qdot_ball_double(s->pool, ehi, qdot_sample_value, s, &x)) {
             hi = x;
             if (!has_lo)
                 lo = hi - 2 * size;
@@ -558,7 +556,7 @@ qdot_sample_list(qdot_sample *s)
             x = qdot_expr_fmpq(s->pool, &s->atom[i].x);
             if (s->atom[i].turn)
                 x = qdot_mul(s->pool, x, QDOT_PI);
-        } else { /* its value, rounded for the eye */
+        } else { /* its value, rounded for printing */
             fmpq_t rounded;
 
             fmpq_init(rounded);

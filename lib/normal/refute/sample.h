@@ -76,11 +76,25 @@ void qdot_sample_set(qdot_sample_atom *a, slong prec);
 void qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to);
 /* For qdot_ball_eval. */
 bool qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec);
-/* Solve relation = 0, the number-th, for an atom that is not taken: *atom = *solution, or (*implicit)
- * *solution, the relation, is 0 at its value. *atom nil: it holds anyway. False: it cannot be solved. */
-bool qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n_taken,
-                       const qdot_expr *taken, qdot_expr *atom, qdot_expr *solution,
-                       bool *implicit);
+/* atom = solution, or (implicit) the solution is a relation that is 0 at the atom's value. */
+typedef struct {
+    qdot_expr atom, solution;
+    bool implicit;
+} qdot_sample_solution;
+
+static inline bool
+qdot_sample_is_solved(size_t n, const qdot_sample_solution *solved, qdot_expr atom)
+{
+    for (size_t k = 0; k < n; k++)
+        if (solved[k].atom == atom)
+            return true;
+    return false;
+}
+
+/* Solve relation = 0, the number-th, for an atom for which none of `solved` [n] is. atom nil: it holds
+ * anyway. False: it cannot be solved. */
+bool qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
+                       const qdot_sample_solution *solved, qdot_sample_solution *out);
 /* Find the value of an implicit atom, those it depends on being known. Whether there is one. */
 bool qdot_sample_root(qdot_sample *s, qdot_sample_atom *a, slong prec);
 bool qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e);

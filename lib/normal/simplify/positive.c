@@ -1,4 +1,4 @@
-/* positive.c -- factors of known sign left out. */
+/* positive.c -- drops the factors of known sign. */
 #include "normal/simplify/positive.h"
 
 #include "base/memory.h"
@@ -38,8 +38,7 @@ known_sign(job *j, const fmpz_mpoly_t p)
         fmpz_init(c);
         if (r != NULL && fmpz_mpoly_is_one(r->d, f->ctx) &&
             fmpz_mpoly_length(r->n, f->ctx) > 0) {
-            _fmpz_vec_content(c, r->n->coeffs, fmpz_mpoly_length(r->n, f->ctx));
-            fmpz_mpoly_scalar_divexact_fmpz(q, r->n, c, f->ctx);
+            qdot_field_primitive(f, c, q, r->n, false);
             if (fmpz_mpoly_equal(q, p, f->ctx))
                 sign = 1;
             fmpz_mpoly_neg(q, q, f->ctx);
@@ -259,9 +258,7 @@ reduce_condition(void *user)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, all[0]));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, all[0]);
         if (fmpz_mpoly_is_zero(r.n, f.ctx)) {
             x->result = QDOT_FALSE;
         } else {

@@ -66,9 +66,7 @@ without_roots(void *user)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, prepared));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, prepared);
         clear_roots(&f, &r);
         if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.d, f.ctx))
             x->result = qdot_field_ratio_expr(&f, &r);

@@ -1,4 +1,4 @@
-/* null-space.c -- monomials taken apart, parameters eliminated. */
+/* null-space.c -- splits the entries by monomials and eliminates the parameters. */
 #include "normal/solve/null-space.h"
 
 #include <stdlib.h>

@@ -278,13 +278,9 @@ decide(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
     if (qdot_field_goes(&f)) {
         qdot_ratio x, y, k;
 
-        qdot_ratio_init(&f, &x);
-        qdot_ratio_init(&f, &y);
+        qdot_field_cancelled(&f, &x, e[0]);
+        qdot_field_cancelled(&f, &y, e[1]);
         qdot_ratio_init(&f, &k);
-        qdot_ratio_set(&f, &x, qdot_field_value(&f, e[0]));
-        qdot_ratio_set(&f, &y, qdot_field_value(&f, e[1]));
-        qdot_ratio_cancel(&f, &x);
-        qdot_ratio_cancel(&f, &y);
         status = divide(&f, &x, &y, &k, &proved, &moving);
         if (status == QDOT_OK && proved) {
             *may_vanish = !nonzero_factors(&f, k.n) || !nonzero_factors(&f, k.d);

@@ -1,4 +1,4 @@
-/* solve-factors.c -- an expression as a product. */
+/* solve-factors.c -- writes an expression as a product. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -61,9 +61,7 @@ factors_of(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, s
         qdot_expr result = QDOT_ONE;
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, prepared));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, prepared);
         if (fmpz_mpoly_is_zero(r.n, f.ctx)) {
             result = QDOT_ZERO;
         } else if (qdot_field_goes(&f)) {

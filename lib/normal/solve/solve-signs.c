@@ -108,10 +108,11 @@ between(by_sign *s, bool *complete)
 }
 
 qdot_status
-qdot_solve_by_sign(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr u,
-                   const qdot_facts *facts, qdot_root **roots, size_t *n, bool *complete)
+qdot_solve_by_sign(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
+                   qdot_root **roots, size_t *n, bool *complete)
 {
-    by_sign s = {.pool = pool, .f = f, .x = x, .u = u, .facts = facts};
+    by_sign s = {
+        .pool = pool, .f = f, .x = x, .u = qdot_solve_sign(pool, f, x), .facts = facts};
     qdot_status status;
 
     *complete = true;

@@ -1,4 +1,4 @@
-/* solve-sort.c -- solutions in the order of their values. */
+/* solve-sort.c -- sorts solutions by their values. */
 #include "base/memory.h"
 #include "normal/refute/sample.h"
 #include "normal/solve/solve.h"

@@ -1,4 +1,4 @@
-/* solve.c -- equations taken apart: factors, then the functions of x from outside in. */
+/* solve.c -- factors an equation, then inverts the functions of x from the outermost inwards. */
 #include "normal/solve/solve.h"
 
 #include <math.h>
@@ -632,9 +632,7 @@ solve_all(solver *s, qdot_expr e, qdot_expr condition)
     if (qdot_field_goes(&f)) {
         qdot_ratio r;
 
-        qdot_ratio_init(&f, &r);
-        qdot_ratio_set(&f, &r, qdot_field_value(&f, prepared));
-        qdot_ratio_cancel(&f, &r);
+        qdot_field_cancelled(&f, &r, prepared);
         if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.n, f.ctx)) {
             status = qdot_factor(&f, &factors, r.n);
             for (slong i = 0; i < factors.n && status == QDOT_OK; i++)
@@ -668,16 +666,14 @@ qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
 {
     solver s = {.pool = pool, .f = f, .x = x, .facts = facts, .complete = true};
     qdot_status status;
-    qdot_expr u;
 
     *roots = NULL;
     *n = 0;
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
-    u = qdot_solve_sign(pool, f, x);
-    if (u != QDOT_NIL)
-        return qdot_solve_by_sign(pool, f, x, u, facts, roots, n, complete);
+    if (qdot_solve_sign(pool, f, x) != QDOT_NIL)
+        return qdot_solve_by_sign(pool, f, x, facts, roots, n, complete);
     status = qdot_flint_run(pool, solve_guarded, &s);
     if (status != QDOT_OK) { /* nothing is there any more */
         *complete = false;

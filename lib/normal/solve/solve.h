@@ -36,9 +36,8 @@ QDOT_MUST_CHECK qdot_status qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x
  * one: a case for u > 0 and one for u < 0, their roots with that as a condition. */
 qdot_expr qdot_solve_sign(qdot_pool *pool, qdot_expr f, qdot_expr x);
 QDOT_MUST_CHECK qdot_status qdot_solve_by_sign(qdot_pool *pool, qdot_expr f, qdot_expr x,
-                                               qdot_expr u, const qdot_facts *facts,
-                                               qdot_root **roots, size_t *n,
-                                               bool *complete);
+                                               const qdot_facts *facts, qdot_root **roots,
+                                               size_t *n, bool *complete);
 
 /* A list of conditions (nil: none) and one more; QDOT_FALSE if one is. */
 qdot_expr qdot_solve_both(qdot_pool *pool, qdot_expr conditions, qdot_expr relation);

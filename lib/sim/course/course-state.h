@@ -1,4 +1,4 @@
-/* course-state.h -- what a course holds: its pieces, and what each mode of them needs. */
+/* course-state.h -- the data of a course: trajectory, systems by mode, occurrences, ends. */
 #ifndef QDOT_SIM_COURSE_STATE_H
 #define QDOT_SIM_COURSE_STATE_H
 

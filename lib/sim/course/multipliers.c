@@ -148,7 +148,7 @@ qdot_multipliers_report(const qdot_multipliers *b, const qdot_plan *p, qdot_run_
     r->constraint_drift = r->velocity_drift = NAN;
     if (!p->constraints)
         return;
-    r->m = p->constraints->m;
+    r->m = p->m;
     r->multipliers = p->inputs + 3 * p->n + 1;
     r->lambda = b->lambda;
     r->lambda_error = b->error;

@@ -36,6 +36,13 @@ void qdot_reader_clear(qdot_reader *r);
 QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
                                            double *out);
 
+/* Whether a failure of reading says that the expression is undefined there, or a course ended. */
+static inline bool
+qdot_reader_has_nothing(qdot_status status)
+{
+    return status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR;
+}
+
 /* out for the state that stands in r->in [2n], by the piece that was read last. */
 QDOT_MUST_CHECK qdot_status qdot_reader_evaluate(qdot_reader *r, double t, double *out);
 

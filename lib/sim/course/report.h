@@ -1,4 +1,4 @@
-/* report.h -- what is said of a run. */
+/* report.h -- the report of a run: status, costs, error, end state, drifts; what occurred. */
 #ifndef QDOT_SIM_REPORT_H
 #define QDOT_SIM_REPORT_H
 

@@ -1,4 +1,4 @@
-/* root.h -- a root of a function of the motion within a step, and how states there are had. */
+/* root.h -- a root of a function within a step; how the states within a step are read. */
 #ifndef QDOT_SIM_ROOT_H
 #define QDOT_SIM_ROOT_H
 
@@ -12,7 +12,6 @@ typedef struct {
     bool exact;      /* g is 0 at t */
 } qdot_root;
 
-/* How states within a step are had. */
 typedef struct {
     qdot_status (*read)(double t, double *y, void *user);
     void *user;

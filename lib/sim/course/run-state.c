@@ -11,6 +11,14 @@ qdot_run_say_why(qdot_run *run, const char *reason)
 }
 
 qdot_status
+qdot_run_say_doubt(qdot_run *run, const char *doubt)
+{
+    qdot_free(run->doubt);
+    run->doubt = qdot_strdup(doubt);
+    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+}
+
+qdot_status
 qdot_run_say_course(qdot_run *run)
 {
     const qdot_course *c = &run->course;

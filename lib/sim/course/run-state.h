@@ -44,7 +44,10 @@ struct qdot_run {
 /* The run has failed, and why; the text is copied. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_why(struct qdot_run *run, const char *reason);
 
-/* The same, of a run that what happened in it ended; else nothing. */
+/* Why the error is unknown; the text is copied. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_run_say_doubt(struct qdot_run *run, const char *doubt);
+
+/* The same where an event, a bound or a switch ended the run; else nothing. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_course(struct qdot_run *run);
 
 #endif

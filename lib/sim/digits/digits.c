@@ -6,7 +6,6 @@
 
 #include "sim/digits/precise.h"
 #include "sim/error/failure.h"
-#include "sim/model/constraints.h"
 
 /* As in doubles, with the end state rounded to them. */
 static qdot_status
@@ -94,7 +93,7 @@ static qdot_status
 keep_end(qdot_run *run)
 {
     const qdot_plan *p = run->plan;
-    const size_t n = 2 * p->n, m = p->constraints ? p->constraints->m : 0;
+    const size_t n = 2 * p->n, m = p->m;
     qdot_status status;
 
     run->exact = qdot_calloc(n + m, sizeof *run->exact);

@@ -6,7 +6,6 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "series/precise.h"
 
 #define RN MPFR_RNDN
 
@@ -141,28 +140,10 @@ qdot_precise_course_init(qdot_precise_side *s)
 
 /* f at the state y of t. */
 static qdot_status
-evaluate(qdot_precise_side *s, const formula *f, size_t mode, mpfr_srcptr t,
-         const mpfr_t *y)
+evaluate(qdot_precise_side *s, const formula *f, size_t mode, mpfr_srcptr t, const mpfr_t *y)
 {
-    const qdot_plan *p = mode_of(s, mode)->plan;
-    qdot_precise_bind *bind = s->binds[mode];
-
-    for (size_t i = 0; i < 2 * p->n; i++)
-        mpfr_set(qdot_precise_input(f->program, i)[0], y[i], RN);
-    mpfr_set(qdot_precise_input(f->program, 2 * p->n)[0], t, RN);
-    if (f->accelerations) {
-        s->near = SIZE_MAX;
-        QDOT_TRY(qdot_precise_bind_system(bind)->begin(
-            t, y, qdot_precise_bind_system(bind)->user));
-        for (size_t i = 0; i < p->n; i++)
-            mpfr_set(qdot_precise_input(f->program, 2 * p->n + 1 + i)[0],
-                     qdot_precise_bind_acceleration(bind, i), RN);
-        for (size_t k = 0; p->constraints && k < p->constraints->m; k++)
-            qdot_precise_bind_multiplier(
-                bind, k, qdot_precise_input(f->program, 3 * p->n + 1 + k)[0]);
-    }
-    qdot_precise_order(f->program, 0);
-    return QDOT_OK;
+    return qdot_precise_evaluate(s, mode, mode_of(s, mode)->plan, f->program, f->accelerations,
+                                 t, y);
 }
 
 /* f at t of a segment into out, the state into s->course->y. */

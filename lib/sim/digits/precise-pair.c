@@ -63,6 +63,32 @@ qdot_precise_state(qdot_precise_side *s, mpfr_srcptr t, mpfr_t *y)
     return qdot_precise_state_in(s, qdot_precise_segment_at(s, t), t, y);
 }
 
+qdot_status
+qdot_precise_evaluate(qdot_precise_side *s, size_t mode, const qdot_plan *plan,
+                      qdot_precise *program, bool accelerations, mpfr_srcptr t,
+                      const mpfr_t *y)
+{
+    qdot_precise_bind *bind = s->binds[mode];
+    const qdot_precise_system *system = qdot_precise_bind_system(bind);
+    const size_t n = plan->n;
+
+    for (size_t i = 0; i < 2 * n; i++)
+        mpfr_set(qdot_precise_input(program, i)[0], y[i], MPFR_RNDN);
+    mpfr_set(qdot_precise_input(program, 2 * n)[0], t, MPFR_RNDN);
+    if (accelerations) {
+        s->near = SIZE_MAX;
+        QDOT_TRY(system->begin(t, y, system->user));
+        for (size_t i = 0; i < n; i++)
+            mpfr_set(qdot_precise_input(program, 2 * n + 1 + i)[0],
+                     qdot_precise_bind_acceleration(bind, i), MPFR_RNDN);
+        for (size_t k = 0; k < plan->m; k++)
+            qdot_precise_bind_multiplier(bind, k,
+                                         qdot_precise_input(program, 3 * n + 1 + k)[0]);
+    }
+    qdot_precise_order(program, 0);
+    return QDOT_OK;
+}
+
 double
 qdot_precise_power(double x)
 {

@@ -2,6 +2,7 @@
 #ifndef QDOT_SIM_PRECISE_PAIR_H
 #define QDOT_SIM_PRECISE_PAIR_H
 
+#include "series/precise.h"
 #include "sim/course/course-state.h"
 #include "sim/form/precise-bind.h"
 
@@ -80,6 +81,13 @@ QDOT_MUST_CHECK qdot_status qdot_precise_state_in(qdot_precise_side *side, size_
 /* The state y [2n] of one of them at t, which must lie within it. */
 QDOT_MUST_CHECK qdot_status qdot_precise_state(qdot_precise_side *side, mpfr_srcptr t,
                                                mpfr_t *y);
+
+/* A program whose inputs are those of the plan at the state y [2n] of t, by a mode; `accelerations`:
+ * it reads q'' or multipliers. Errors: as the mode's system has. */
+QDOT_MUST_CHECK qdot_status qdot_precise_evaluate(qdot_precise_side *side, size_t mode,
+                                                  const qdot_plan *plan, qdot_precise *program,
+                                                  bool accelerations, mpfr_srcptr t,
+                                                  const mpfr_t *y);
 
 /* An exact constant, the values of the plan in place. */
 QDOT_MUST_CHECK qdot_status qdot_precise_constant(const qdot_plan *plan, qdot_expr e,

@@ -7,9 +7,7 @@
 #include "sim/course/reader.h"
 #include "sim/digits/precise-pair.h"
 #include "sim/digits/precise.h"
-#include "sim/model/constraints.h"
 #include "tape/constant.h"
-#include "series/precise.h"
 
 #define RN MPFR_RNDN
 
@@ -41,25 +39,8 @@ reader_init(reader *r, const qdot_reading *of, qdot_precise_side *side)
 static qdot_status
 evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
 {
-    qdot_precise_bind *bind = r->side->binds[r->side->segments.at[r->segment].mode];
-    const qdot_precise_system *system = qdot_precise_bind_system(bind);
-    const size_t n = r->of->plan->n;
-
-    for (size_t i = 0; i < 2 * n; i++)
-        mpfr_set(qdot_precise_input(r->program, i)[0], y[i], RN);
-    mpfr_set(qdot_precise_input(r->program, 2 * n)[0], t, RN);
-    if (r->of->accelerations) {
-        r->side->near = SIZE_MAX;
-        QDOT_TRY(system->begin(t, y, system->user));
-    }
-    for (size_t i = 0; r->of->accelerations && i < n; i++)
-        mpfr_set(qdot_precise_input(r->program, 2 * n + 1 + i)[0],
-                 qdot_precise_bind_acceleration(bind, i), RN);
-    for (size_t k = 0; r->of->accelerations && k < r->of->plan->m; k++)
-        qdot_precise_bind_multiplier(bind, k,
-                                     qdot_precise_input(r->program, 3 * n + 1 + k)[0]);
-    qdot_precise_order(r->program, 0);
-    return QDOT_OK;
+    return qdot_precise_evaluate(r->side, r->side->segments.at[r->segment].mode, r->of->plan,
+                                 r->program, r->of->accelerations, t, y);
 }
 
 /* At the time in numbers.at[0], which may be an end of the run but for its last bits. */

@@ -11,7 +11,6 @@
 #include "sim/digits/precise-start.h"
 #include "sim/model/constraints.h"
 #include "tape/constant.h"
-#include "series/precise.h"
 
 #define RN MPFR_RNDN
 

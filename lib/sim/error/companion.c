@@ -208,8 +208,9 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     return follow_so(run, number, c, has);
 }
 
-qdot_status
-qdot_run_companion(qdot_run *run)
+/* The companion's trajectory over all that the run covers. */
+static qdot_status
+make_companion(qdot_run *run)
 {
     if (run->has_companion || run->course.tr.count == 0)
         return QDOT_OK;
@@ -219,21 +220,13 @@ qdot_run_companion(qdot_run *run)
 qdot_status
 qdot_run_twin(qdot_run *run)
 {
-    QDOT_TRY(qdot_run_companion(run));
+    QDOT_TRY(make_companion(run));
     if (!run->has_companion || run->has_twin)
         return QDOT_OK;
     return follow(run, 1, &run->twin, &run->has_twin);
 }
 
 /* --- the error ----------------------------------------------------------------------- */
-
-static qdot_status
-say_doubt(qdot_run *run, const char *text)
-{
-    qdot_free(run->doubt);
-    run->doubt = qdot_strdup(text);
-    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
-}
 
 /* What it differs in from the run. */
 static qdot_status
@@ -249,9 +242,9 @@ find_doubt(qdot_run *run, const qdot_course *c)
         snprintf(text, sizeof text,
                  "the second run met the event %.100s %zu times, this one %zu times",
                  run->stage.events.at[i].name, b, a);
-        return say_doubt(run, text);
+        return qdot_run_say_doubt(run, text);
     }
-    return say_doubt(run, "the second run went through other events or switches");
+    return qdot_run_say_doubt(run, "the second run went through other events or switches");
 }
 
 /* A piece ends behind the root that ends it, in all runs alike: what the other system would

@@ -8,11 +8,8 @@
 
 #include "sim/course/run-state.h"
 
-/* The companion's trajectory over all that the run covers; where it ends early errors
- * are unknown. QDOT_OK without one, too: has_companion tells. */
-QDOT_MUST_CHECK qdot_status qdot_run_companion(qdot_run *run);
-
-/* The same, and a second one, moved to the other side. */
+/* The trajectories of two companions, moved to opposite sides, over all that the run covers;
+ * where they end early errors are unknown. QDOT_OK without them, too: has_companion tells. */
 QDOT_MUST_CHECK qdot_status qdot_run_twin(qdot_run *run);
 
 /* The error of the end state of a run that has pieces; NaN with run->doubt where the two

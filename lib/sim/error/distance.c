@@ -103,13 +103,6 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
 
 /* --- differences --------------------------------------------------------------------- */
 
-/* Where one of them is undefined, or has ended, there is nothing to compare. */
-static bool
-is_nothing(qdot_status status)
-{
-    return status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR;
-}
-
 /* At t in a piece: the larger of the differences from `values` into out [m], what the
  * companions may be off by themselves into own [m]. NaN where one has no values. */
 static qdot_status
@@ -126,7 +119,7 @@ compare(qdot_distance *d, size_t piece, double t, const double *values, double *
         const size_t same = piece < pieces ? piece : pieces - 1; /* one without length */
         qdot_status status = qdot_reader_at(d->others + k, same, t, theirs);
 
-        if (status != QDOT_OK && !is_nothing(status))
+        if (status != QDOT_OK && !qdot_reader_has_nothing(status))
             return status;
         there = status == QDOT_OK;
         for (size_t j = 0; j < d->m && there; j++) {
@@ -159,7 +152,7 @@ at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
     status = qdot_reader_at(&d->own, piece, tr->t[k], values);
     if (status == QDOT_OK)
         status = compare(d, piece, tr->t[k], values, by, at);
-    if (status != QDOT_OK && !is_nothing(status))
+    if (status != QDOT_OK && !qdot_reader_has_nothing(status))
         return status;
     for (size_t j = 0; j < d->m; j++)
         if (status != QDOT_OK || !isfinite(at[j]))

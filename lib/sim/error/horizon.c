@@ -343,7 +343,7 @@ qdot_horizon_spread(const qdot_run *run, const qdot_reading *of, double *spread)
         if (status == QDOT_OK)
             count++;
         /* where one of them is undefined, or has ended, there is nothing to compare */
-        if (status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR)
+        if (qdot_reader_has_nothing(status))
             status = QDOT_OK;
     }
     for (size_t j = 0; j < m && count > 0; j++)

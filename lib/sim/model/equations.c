@@ -25,6 +25,14 @@ qdot_plan_substitute(const qdot_plan *p, qdot_expr e)
 }
 
 qdot_status
+qdot_plan_number(const qdot_plan *p, qdot_expr e, double *value, int *side, double *low)
+{
+    e = qdot_plan_substitute(p, e);
+    QDOT_TRY(qdot_pool_check(p->pool));
+    return qdot_constant_split(p->pool, e, value, side, low);
+}
+
+qdot_status
 qdot_plan_of_part(const qdot_plan *of, size_t n, size_t more, qdot_plan **plan)
 {
     qdot_plan *r = qdot_calloc(1, sizeof *r);

@@ -120,6 +120,11 @@ QDOT_MUST_CHECK qdot_status qdot_plan_lower(qdot_plan *plan, size_t inputs, size
 /* How many inputs there are: 3n + 1 + m. */
 size_t qdot_plan_inputs(const qdot_plan *plan);
 
+/* The number that e is with the values in place (tape/constant.h): the double, the side on which
+ * it lies beside it, what it is beyond. */
+QDOT_MUST_CHECK qdot_status qdot_plan_number(const qdot_plan *plan, qdot_expr e,
+                                             double *value, int *side, double *low);
+
 /* e with the values in place. Nil: the pool keeps the failure. */
 qdot_expr qdot_plan_substitute(const qdot_plan *plan, qdot_expr e);
 

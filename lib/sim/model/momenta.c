@@ -13,14 +13,13 @@ enum { bits = 256 };
 
 struct qdot_momenta {
     const qdot_plan *plan;
-    const qdot_tape *tape;
+    qdot_momenta_tape equations;
     qdot_precise *precise;
     qdot_ode_following following;
     size_t *index;   /* [n_kept] of the velocities in a state */
     double *hi, *lo; /* [n_kept] */
     bool entered;
-    double t, *y;            /* [2n] where the solution begins */
-    double *in, *out, *work; /* of the tape */
+    double t, *y; /* [2n] where the solution begins */
 };
 
 static qdot_status
@@ -65,17 +64,34 @@ enter(double t, const double *y, const double *carry, void *user)
     return QDOT_OK;
 }
 
-const double *
-qdot_momenta_rates(const qdot_plan *reduced, const qdot_tape *tape, double t, const double *y,
-                   const double *p, double *in, double *out, double *work)
+qdot_status
+qdot_momenta_tape_init(qdot_momenta_tape *e, const qdot_plan *reduced, const qdot_tape *tape)
 {
-    const size_t n = 2 * reduced->n;
+    *e = (qdot_momenta_tape){.plan = reduced, .tape = tape};
+    e->in = qdot_calloc(qdot_tape_inputs(tape) + 1, sizeof *e->in);
+    e->out = qdot_calloc(qdot_tape_outputs(tape) + 1, sizeof *e->out);
+    e->work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *e->work);
+    return e->in && e->out && e->work ? QDOT_OK : QDOT_ENOMEM;
+}
 
-    memcpy(in, y, n * sizeof *y);
-    in[n] = t;
-    memcpy(in + n + 1, p, reduced->n_kept * sizeof *p);
-    qdot_tape_eval(tape, in, out, work);
-    return out + qdot_tape_outputs(tape) - reduced->n_kept;
+void
+qdot_momenta_tape_clear(qdot_momenta_tape *e)
+{
+    qdot_free(e->in);
+    qdot_free(e->out);
+    qdot_free(e->work);
+}
+
+const double *
+qdot_momenta_rates(qdot_momenta_tape *e, double t, const double *y, const double *p)
+{
+    const size_t n = 2 * e->plan->n;
+
+    memcpy(e->in, y, n * sizeof *y);
+    e->in[n] = t;
+    memcpy(e->in + n + 1, p, e->plan->n_kept * sizeof *p);
+    qdot_tape_eval(e->tape, e->in, e->out, e->work);
+    return e->out + qdot_tape_outputs(e->tape) - e->plan->n_kept;
 }
 
 static qdot_status
@@ -83,8 +99,7 @@ derive(double t, double *y, void *user)
 {
     qdot_momenta *m = user;
     const qdot_plan *p = m->plan;
-    const double *rates =
-        qdot_momenta_rates(p, m->tape, t, y, m->hi, m->in, m->out, m->work);
+    const double *rates = qdot_momenta_rates(&m->equations, t, y, m->hi);
 
     for (size_t k = 0; k < p->n_kept; k++) {
         if (!isfinite(rates[k]))
@@ -96,18 +111,16 @@ derive(double t, double *y, void *user)
 }
 
 static qdot_status
-make(qdot_momenta *m)
+make(qdot_momenta *m, const qdot_tape *tape)
 {
     const qdot_plan *p = m->plan;
 
+    QDOT_TRY(qdot_momenta_tape_init(&m->equations, p, tape));
     QDOT_TRY(qdot_precise_new(p->pool, p->momenta, 0, bits, &m->precise));
     m->index = qdot_calloc(p->n_kept, sizeof *m->index);
     m->hi = qdot_calloc(2 * p->n_kept, sizeof *m->hi);
     m->y = qdot_calloc(2 * p->n, sizeof *m->y);
-    m->in = qdot_calloc(qdot_tape_inputs(m->tape) + 1, sizeof *m->in);
-    m->out = qdot_calloc(qdot_tape_outputs(m->tape) + 1, sizeof *m->out);
-    m->work = qdot_calloc(qdot_tape_work(m->tape) + 1, sizeof *m->work);
-    if (!m->index || !m->hi || !m->y || !m->in || !m->out || !m->work)
+    if (!m->index || !m->hi || !m->y)
         return QDOT_ENOMEM;
     m->lo = m->hi + p->n_kept;
     for (size_t k = 0; k < p->n_kept; k++)
@@ -130,8 +143,7 @@ qdot_momenta_new(const qdot_plan *reduced, const qdot_tape *tape, qdot_momenta *
     if (!m)
         return QDOT_ENOMEM;
     m->plan = reduced;
-    m->tape = tape;
-    status = make(m);
+    status = make(m, tape);
     if (status != QDOT_OK) {
         qdot_momenta_free(m);
         return status;
@@ -149,9 +161,7 @@ qdot_momenta_free(qdot_momenta *m)
     qdot_free(m->index);
     qdot_free(m->hi);
     qdot_free(m->y);
-    qdot_free(m->in);
-    qdot_free(m->out);
-    qdot_free(m->work);
+    qdot_momenta_tape_clear(&m->equations);
     qdot_free(m);
 }
 

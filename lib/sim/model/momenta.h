@@ -16,11 +16,21 @@ QDOT_MUST_CHECK qdot_status qdot_momenta_new(const qdot_plan *reduced,
                                              const qdot_tape *tape, qdot_momenta **momenta);
 void qdot_momenta_free(qdot_momenta *m);
 
-/* The velocities [n_kept], in out, that follow from momenta p [n_kept] at (t, y [2n]), by `tape`, the
- * reduced plan's or a shaken one; in, out and work are its inputs, outputs and work space. */
-const double *qdot_momenta_rates(const qdot_plan *reduced, const qdot_tape *tape, double t,
-                                 const double *y, const double *p, double *in, double *out,
-                                 double *work);
+/* The tape of a reduced plan, its own or a shaken one, and room to evaluate it. */
+typedef struct {
+    const qdot_plan *plan;
+    const qdot_tape *tape;
+    double *in, *out, *work;
+} qdot_momenta_tape;
+
+QDOT_MUST_CHECK qdot_status qdot_momenta_tape_init(qdot_momenta_tape *e,
+                                                   const qdot_plan *reduced,
+                                                   const qdot_tape *tape);
+void qdot_momenta_tape_clear(qdot_momenta_tape *e);
+
+/* The velocities [n_kept], borrowed, that follow from momenta p [n_kept] at (t, y [2n]). */
+const double *qdot_momenta_rates(qdot_momenta_tape *e, double t, const double *y,
+                                 const double *p);
 
 /* The callbacks by which they are entered and velocities derived; borrowed. */
 const qdot_ode_following *qdot_momenta_following(const qdot_momenta *m);

@@ -1,4 +1,4 @@
-/* request.h -- what is asked of a run: values, start, limits, tolerance, method.
+/* request.h -- the request of a run: parameter values, start, limits, tolerance, method.
  *
  * Tests  tests/sim/
  */

@@ -122,36 +122,33 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
     return status;
 }
 
+/* run->occurrences, by the companions. */
+static qdot_status
+find_errors(qdot_run *run)
+{
+    const qdot_course *courses[] = {&run->course, &run->companion, &run->twin};
+    by_event sorted[3] = {{0}};
+    qdot_status status = QDOT_OK;
+
+    if (run->course.occurrences.n > 0)
+        QDOT_TRY(qdot_run_twin(run));
+    for (size_t i = 0; i < 3 && status == QDOT_OK; i++)
+        status = sort_by_event(courses[i], run->stage.events.n, sorted + i);
+    if (status == QDOT_OK)
+        status = compare_occurrences(run, sorted, sorted + 1);
+    for (size_t i = 0; i < 3; i++) {
+        qdot_free(sorted[i].first);
+        qdot_free(sorted[i].at);
+    }
+    return status;
+}
+
 qdot_status
 qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
 {
-    if (!run->occurrence_errors && run->precise) {
-        QDOT_TRY(qdot_digits_occurrences(run));
-        run->occurrence_errors = true;
-    }
-    if (!run->occurrence_errors) {
-        by_event own = {0}, others[2] = {{0}};
-        size_t events = run->stage.events.n;
-        qdot_status status = QDOT_OK;
-
-        if (run->course.occurrences.n > 0)
-            QDOT_TRY(qdot_run_twin(run));
-        status = sort_by_event(&run->course, events, &own);
-        if (status == QDOT_OK)
-            status = sort_by_event(&run->companion, events, others);
-        if (status == QDOT_OK)
-            status = sort_by_event(&run->twin, events, others + 1);
-        if (status == QDOT_OK)
-            status = compare_occurrences(run, &own, others);
-        qdot_free(own.first);
-        qdot_free(own.at);
-        for (size_t i = 0; i < 2; i++) {
-            qdot_free(others[i].first);
-            qdot_free(others[i].at);
-        }
-        QDOT_TRY(status);
-        run->occurrence_errors = true;
-    }
+    if (!run->occurrence_errors)
+        QDOT_TRY(run->precise ? qdot_digits_occurrences(run) : find_errors(run));
+    run->occurrence_errors = true;
     *list = run->occurrences.at;
     *n = run->occurrences.n;
     return QDOT_OK;

@@ -513,8 +513,7 @@ qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e, double from, do
             status = rounding(&q, error);
         if (status == QDOT_OK)
             *error += fmax(distance, spread) + rough + DBL_EPSILON * fabs(*value);
-        if (status == QDOT_EDOMAIN || status == QDOT_EFAILED
-            || status == QDOT_ESINGULAR)
+        if (qdot_reader_has_nothing(status))
             status = QDOT_OK;
     }
     qdot_tape_free(q.of.tape);

@@ -114,7 +114,7 @@ go_beyond(const qdot_run *run, qdot_reader *r, double t, double low, size_t m,
         || piece_at(tr, t) != piece_at(tr, t + h))
         return QDOT_OK;
     status = qdot_reader_at(r, SIZE_MAX, t + h, moved);
-    if (status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR)
+    if (qdot_reader_has_nothing(status))
         return QDOT_OK;
     for (size_t j = 0; j < m && status == QDOT_OK; j++)
         if (isfinite(moved[j]))

@@ -18,7 +18,6 @@
 #include "sim/error/unresolved-forces.h"
 #include "sim/model/parameter-states.h"
 #include "sim/start/start.h"
-#include "tape/constant.h"
 #include "tape/shake.h"
 
 /* The spacing of doubles is 2.2e-16 of their size: no step can be held to less. */
@@ -107,14 +106,6 @@ check_tolerance(double tol)
 
 /* --- the start ---------------------------------------------------------------------- */
 
-static qdot_status
-constant(const qdot_run *run, qdot_expr e, double *value, int *side, double *low)
-{
-    e = qdot_plan_substitute(run->plan, e);
-    QDOT_TRY(qdot_pool_check(run->plan->pool));
-    return qdot_constant_split(run->plan->pool, e, value, side, low);
-}
-
 /* Limits that are one double but not one number: the run would end where it begins. */
 static qdot_status
 check_length(qdot_run *run, const qdot_run_request *request)
@@ -123,7 +114,7 @@ check_length(qdot_run *run, const qdot_run_request *request)
     double length, low;
     int side;
 
-    QDOT_TRY(constant(run, qdot_sub(pool, request->t1, request->t0), &length, &side, &low));
+    QDOT_TRY(qdot_plan_number(run->plan, qdot_sub(pool, request->t1, request->t0), &length, &side, &low));
     if (length == 0)
         return QDOT_OK;
     qdot_fail(QDOT_EINVAL, "the limits are %.3g apart, but one and the same double",
@@ -141,14 +132,14 @@ read_start(qdot_run *run, const qdot_run_request *request)
     run->start = qdot_calloc(2 * n, sizeof *run->start);
     if (!run->start || !run->start_low)
         return QDOT_ENOMEM;
-    QDOT_TRY(constant(run, request->t0, &run->t0, &run->t0_side, &run->t0_low));
-    QDOT_TRY(constant(run, request->t1, &run->t1, &run->t1_side, &run->t1_low));
+    QDOT_TRY(qdot_plan_number(run->plan, request->t0, &run->t0, &run->t0_side, &run->t0_low));
+    QDOT_TRY(qdot_plan_number(run->plan, request->t1, &run->t1, &run->t1_side, &run->t1_low));
     if (run->t0 == run->t1 && request->t0 != request->t1)
         QDOT_TRY(check_length(run, request));
     for (size_t i = 0; i < n; i++) {
-        QDOT_TRY(constant(run, request->q0[i], &run->start[i], &side,
+        QDOT_TRY(qdot_plan_number(run->plan, request->q0[i], &run->start[i], &side,
                           &run->start_low[i]));
-        QDOT_TRY(constant(run, request->v0[i], &run->start[n + i], &side,
+        QDOT_TRY(qdot_plan_number(run->plan, request->v0[i], &run->start[n + i], &side,
                           &run->start_low[n + i]));
     }
     return QDOT_OK;
@@ -474,9 +465,7 @@ say_lost(qdot_run *run, const char *reason)
     snprintf(text, sizeof text,
              "a second run, from a start moved by a rounding, did not arrive%s%.300s",
              reason[0] ? ": " : "", reason);
-    qdot_free(run->doubt);
-    run->doubt = qdot_strdup(text);
-    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+    return qdot_run_say_doubt(run, text);
 }
 
 /* The error by two companions beside the run, on threads of their own. */
@@ -568,9 +557,7 @@ find_hidden(qdot_run *run)
              "a force acts about t = %.6g for less than a step, which went over it: end a run "
              "just before, and go on from there",
              t);
-    qdot_free(run->doubt);
-    run->doubt = qdot_strdup(text);
-    return run->doubt ? QDOT_OK : QDOT_ENOMEM;
+    return qdot_run_say_doubt(run, text);
 }
 
 /* The run, its error, and what should have been kept. */

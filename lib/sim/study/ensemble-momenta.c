@@ -10,7 +10,7 @@
 struct qdot_ensemble_momenta {
     const qdot_plan *plan;
     qdot_tape_two *momenta;
-    double *in, *out, *work; /* of the plan's tape */
+    qdot_momenta_tape equations;
 };
 
 static qdot_status
@@ -19,10 +19,7 @@ make(qdot_ensemble_momenta *x)
     const qdot_plan *p = x->plan;
 
     QDOT_TRY(qdot_tape_two_new(p->momenta, 0, 2 * p->n + 1, &x->momenta));
-    x->in = qdot_calloc(qdot_tape_inputs(p->tape) + 1, sizeof *x->in);
-    x->out = qdot_calloc(qdot_tape_outputs(p->tape) + 1, sizeof *x->out);
-    x->work = qdot_calloc(qdot_tape_work(p->tape) + 1, sizeof *x->work);
-    return x->in && x->out && x->work ? QDOT_OK : QDOT_ENOMEM;
+    return qdot_momenta_tape_init(&x->equations, p, p->tape);
 }
 
 qdot_status
@@ -50,9 +47,7 @@ qdot_ensemble_momenta_free(qdot_ensemble_momenta *x)
     if (!x)
         return;
     qdot_tape_two_free(x->momenta);
-    qdot_free(x->in);
-    qdot_free(x->out);
-    qdot_free(x->work);
+    qdot_momenta_tape_clear(&x->equations);
     qdot_free(x);
 }
 
@@ -78,8 +73,7 @@ qdot_ensemble_momenta_derive(qdot_ensemble_momenta *x, double t, const double *p
                              double *y)
 {
     const qdot_plan *r = x->plan;
-    const double *rates =
-        qdot_momenta_rates(r, r->tape, t, y, p, x->in, x->out, x->work);
+    const double *rates = qdot_momenta_rates(&x->equations, t, y, p);
 
     for (size_t k = 0; k < r->n_kept; k++)
         y[r->n + r->kept[k]] = rates[k];

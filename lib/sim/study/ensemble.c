@@ -335,9 +335,10 @@ pass_clear(pass *p)
     qdot_free(p->run.results);
 }
 
+/* From {.run.order, .run.tol}. */
 static qdot_status
-pass_init(pass *p, const qdot_ensemble *e, size_t members, double tol, int order,
-          double t1, const double *y, const double *parameters)
+pass_init(pass *p, const qdot_ensemble *e, size_t members, double t1, const double *y,
+          const double *parameters)
 {
     size_t ys = members * 2 * e->model.n, ps = members * e->model.varied;
     size_t kept = (members + 1) * e->model.n_kept;
@@ -362,8 +363,6 @@ pass_init(pass *p, const qdot_ensemble *e, size_t members, double tol, int order
     if (ps)
         memcpy(p->parameters, parameters, ps * sizeof *parameters);
     p->run.members = members;
-    p->run.order = order;
-    p->run.tol = tol;
     p->run.t0 = t0;
     p->run.t1 = t1s;
     return QDOT_OK;
@@ -505,17 +504,18 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
 {
     const qdot_ode_method *taylor = qdot_ode_method_find("taylor");
     int more = e->order + QDOT_COMPANION_ORDERS;
-    pass runs = {.system = e->members}, companions = {0};
-    qdot_status status =
-        pass_init(&runs, e, members, e->tol, e->order, e->t1, y, parameters);
+    pass runs = {.system = e->members, .run = {.order = e->order, .tol = e->tol}};
+    pass companions = {
+        .run = {.order = more,
+                .tol = fmax(taylor->companion_ratio * e->tol, taylor->companion_tol)}};
+    qdot_status status = pass_init(&runs, e, members, e->t1, y, parameters);
 
     runs.run.t1_low = e->t1_low;
     if (status == QDOT_OK && errors)
         status = make_companions(e, more);
     if (status == QDOT_OK && errors)
-        status = pass_init(&companions, e, members,
-                           fmax(taylor->companion_ratio * e->tol, taylor->companion_tol),
-                           more, qdot_shake_double(e->t1, e->t1_side), y, parameters);
+        status = pass_init(&companions, e, members, qdot_shake_double(e->t1, e->t1_side), y,
+                           parameters);
     if (status == QDOT_OK && errors) {
         companions.system = e->companions;
         move(companions.run.y, members * 2 * e->model.n);

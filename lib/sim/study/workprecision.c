@@ -223,31 +223,22 @@ worker_clear(worker *w)
 }
 
 static qdot_status
-constant(const worker *w, qdot_expr e, double *value, double *low)
-{
-    int side;
-
-    e = qdot_plan_substitute(w->plan, e);
-    QDOT_TRY(qdot_pool_check(w->plan->pool));
-    return qdot_constant_split(w->plan->pool, e, value, &side, low);
-}
-
-static qdot_status
 read_start(worker *w, const qdot_run_request *request)
 {
     const size_t n = w->plan->n;
     double low;
+    int side;
 
     w->start = qdot_calloc(6 * n, sizeof *w->start);
     if (!w->start)
         return QDOT_ENOMEM;
     w->low = w->start + 2 * n;
     w->y = w->low + 2 * n;
-    QDOT_TRY(constant(w, request->t0, &w->t0, &low));
-    QDOT_TRY(constant(w, request->t1, &w->t1, &w->t1_low));
+    QDOT_TRY(qdot_plan_number(w->plan, request->t0, &w->t0, &side, &low));
+    QDOT_TRY(qdot_plan_number(w->plan, request->t1, &w->t1, &side, &w->t1_low));
     for (size_t i = 0; i < n; i++) {
-        QDOT_TRY(constant(w, request->q0[i], &w->start[i], &w->low[i]));
-        QDOT_TRY(constant(w, request->v0[i], &w->start[n + i], &w->low[n + i]));
+        QDOT_TRY(qdot_plan_number(w->plan, request->q0[i], &w->start[i], &side, &w->low[i]));
+        QDOT_TRY(qdot_plan_number(w->plan, request->v0[i], &w->start[n + i], &side, &w->low[n + i]));
     }
     return QDOT_OK;
 }
@@ -341,7 +332,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     w->system.project = w->inner.project ? project : NULL;
     w->system.margin = w->inner.margin ? margin : NULL;
     w->system.user = w;
-    n = (double)(w->plan->n + (w->held ? w->plan->constraints->m : 0));
+    n = (double)(w->plan->n + w->plan->m);
     operations = (double)qdot_plan_operations(w->plan, NULL) + n * n * n / 3 + 100;
     if (w->plan->method->series) /* an expansion is worth a few hundred evaluations */
         operations *= 200;

@@ -1,0 +1,27 @@
+/* assumed.h -- what a check may use: the facts of the scene and what stands behind `when`. */
+#ifndef QDOT_LANG_ASSUMED_H
+#define QDOT_LANG_ASSUMED_H
+
+#include "lang/language/cursor.h"
+
+typedef struct {
+    qdot_vec(qdot_expr) relations, conditions; /* scalars that are 0; inequalities */
+    qdot_vec(qdot_expr) from, to; /* replacements, made before anything else */
+    bool motion, stated; /* `eom` was said; an equation was that is no constraint */
+} qdot_assumed;
+
+/* Add the facts of the scene to an empty one. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_assumed_begin(qdot_session *session, qdot_assumed *f);
+void qdot_assumed_free(qdot_assumed *f);
+/* Read one condition behind `when`: `eom`, the label of a constraint, or a relation. */
+QDOT_MUST_CHECK qdot_status qdot_assumed_read(qdot_cursor *c, qdot_assumed *f);
+/* `eom`: accelerations and multipliers by their solution; what constraints say of q and q' holds
+ * beside it. */
+QDOT_MUST_CHECK qdot_status qdot_assumed_motion(qdot_session *session, qdot_assumed *f);
+/* Constraint i and its time derivatives, with or without the one that holds accelerations. */
+QDOT_MUST_CHECK qdot_status qdot_assumed_constraint(qdot_session *session, qdot_assumed *f,
+                                                    size_t i, bool accelerations);
+/* e with the replacements made. */
+qdot_expr qdot_assumed_replace(qdot_session *session, const qdot_assumed *f, qdot_expr e);
+
+#endif
