@@ -736,6 +736,7 @@ unit_tests = \
 	tests/lang/test_lex \
 	tests/lang/test_names \
 	tests/lang/test_numeric \
+	tests/lang/test_partial-sum \
 	tests/lang/test_read \
 	tests/lang/test_session \
 	tests/lang/test_styles \
@@ -806,6 +807,7 @@ unit_tests = \
 	tests/sim/test_start \
 	tests/sim/test_switch \
 	tests/sim/test_taylor \
+	tests/sim/test_tree-alone \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
@@ -915,6 +917,7 @@ script_tests = \
 	tests/script/numeric.lag \
 	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
+	tests/script/partial-sums.lag \
 	tests/script/parts.lag \
 	tests/script/pasted.lag \
 	tests/script/pendulum.lag \
@@ -1678,6 +1681,7 @@ test_files = \
 	tests/script/numeric.out \
 	tests/script/on-surfaces.out \
 	tests/script/order.out \
+	tests/script/partial-sums.out \
 	tests/script/parts.out \
 	tests/script/pasted.out \
 	tests/script/pendulum.out \
