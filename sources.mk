@@ -1,6 +1,10 @@
 # sources.mk -- which files make qdot. Written by ./bootstrap sources; do not edit.
 
 library_sources = \
+	lib/api/ask.c \
+	lib/api/motion.c \
+	lib/api/system.c \
+	lib/api/values.c \
 	lib/base/interrupt.c \
 	lib/base/memory.c \
 	lib/base/scope.c \
@@ -385,6 +389,8 @@ library_sources = \
 	lib/tape/tape.c
 
 library_headers = \
+	lib/api/motion.h \
+	lib/api/system.h \
 	lib/base/clock.h \
 	lib/base/interrupt.h \
 	lib/base/memory.h \
@@ -718,6 +724,7 @@ program_sources = \
 	src/signals.h
 
 unit_tests = \
+	tests/api/test_api \
 	tests/base/test_memory \
 	tests/base/test_text \
 	tests/base/test_utf8 \
@@ -1232,6 +1239,7 @@ script_tests = \
 meta_tests = \
 	tests/meta/bootstrap.test \
 	tests/meta/circles.test \
+	tests/meta/embed.test \
 	tests/meta/floors.test \
 	tests/meta/late.test \
 	tests/meta/manual.test \
@@ -1554,6 +1562,7 @@ test_files = \
 	tests/lang/reading.h \
 	tests/lang/talk.h \
 	tests/mech/kit.h \
+	tests/meta/embed.out \
 	tests/normal/kit.h \
 	tests/normal/number.h \
 	tests/normal/pairs.h \
@@ -1780,6 +1789,8 @@ other_files = \
 	doc/design.md \
 	doc/double-pendulum.png \
 	doc/methods.md \
+	examples/embed.c \
+	examples/embed.py \
 	README.md
 
 info_TEXINFOS = \

@@ -391,6 +391,7 @@ qdot_status
 qdot_answer_check(qdot_session *session, qdot_expr left, qdot_expr right,
                   const qdot_decision *decision)
 {
+    session->verdicts[decision->verdict]++;
     return session->json ? check_json(session, left, right, decision)
                          : check_text(session, decision);
 }

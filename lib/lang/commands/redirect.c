@@ -76,8 +76,11 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
             return qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", path);
         r->out = session->out;
         r->json = session->json;
-        session->console = r->out;
-        session->console_json = r->json;
+        r->console = session->console;
+        if (r->console == NULL) {
+            session->console = r->out;
+            session->console_json = r->json;
+        }
         session->out = r->file;
         session->json = endings[i].json;
         return QDOT_OK;
@@ -101,7 +104,7 @@ qdot_redirect_end(qdot_redirect *r, qdot_status status)
 
     session->out = r->out;
     session->json = r->json;
-    session->console = NULL;
+    session->console = r->console;
     if (status == QDOT_OK && !complete)
         status = qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", r->path);
     if (status == QDOT_OK)

@@ -13,7 +13,7 @@
 typedef struct {
     qdot_session *session;
     const char *path; /* borrowed */
-    FILE *file, *out; /* what is kept; where answers go otherwise */
+    FILE *file, *out, *console; /* what is kept; where answers and notices go otherwise */
     bool json;
     char *text;
     size_t length;

@@ -97,6 +97,7 @@ qdot_session_exchange(qdot_session *session, qdot_session *other)
     STAYS(undo)
     STAYS(undo_free)
 #undef STAYS
+    memcpy(session->verdicts, swap.verdicts, sizeof swap.verdicts);
     memcpy(&other->including, &session->including, sizeof session->including);
     memcpy(&session->including, &swap.including, sizeof session->including);
 }

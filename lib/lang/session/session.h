@@ -51,10 +51,11 @@ typedef struct qdot_session {
     FILE *out, *err;
     qdot_style style;
     bool json, timing, interactive;
-    FILE *console; /* while answers go to a file: where notices go; else NULL */
+    FILE *console; /* where notices go; NULL: with the answers */
     bool console_json;
     bool failed;                 /* the latest text or file stopped at an error */
     bool refuted;                /* a check was refuted: exit 1 at the end */
+    size_t verdicts[3];          /* how many checks were so, by qdot_verdict */
     qdot_vec(qdot_expr) history; /* %1 is history.at[0] */
     qdot_vec(qdot_expr) history_over; /* coordinates its entries go by; nil, or shorter: none */
     qdot_expr series, series_in; /* the latest series(...) and the LIST of what it is in, or nil */

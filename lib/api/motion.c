@@ -1,0 +1,252 @@
+/* motion.c -- runs, and what is known of a run as a whole. */
+#include "api/motion.h"
+
+#include <string.h>
+
+#include "lang/commands/statement.h"
+#include "lang/session/runs.h"
+
+/* --- begin and end -------------------------------------------------------------------- */
+
+size_t
+qdot_api_place(const qdot_motion *motion)
+{
+    const qdot_session *session = motion->system->session;
+    size_t i = 0;
+
+    while (i < session->runs.n && session->runs.at[i].run != motion->run.run)
+        i++;
+    return i;
+}
+
+static void
+forget_run(qdot_session *session, size_t i)
+{
+    qdot_named_run gone = session->runs.at[i];
+
+    memmove(&session->runs.at[i], &session->runs.at[i + 1],
+            (session->runs.n - i - 1) * sizeof gone);
+    session->runs.n--;
+    qdot_named_run_release(&gone);
+}
+
+void
+qdot_motion_free(qdot_motion *motion)
+{
+    if (motion == NULL)
+        return;
+    if (!motion->named) {
+        const size_t i = qdot_api_place(motion);
+
+        if (i < motion->system->session->runs.n)
+            forget_run(motion->system->session, i);
+    }
+    qdot_named_run_release(&motion->run);
+    qdot_api_release(motion->system);
+    qdot_arena_free(motion->arena);
+    qdot_free(motion);
+}
+
+/* The names of the coordinates, while the pool of the run is there for certain. */
+static qdot_status
+copy_names(qdot_motion *m)
+{
+    const qdot_run_report *r = qdot_run_get_report(m->run.run);
+
+    m->arena = qdot_arena_new();
+    if (m->arena == NULL)
+        return QDOT_ENOMEM;
+    m->coordinates = qdot_arena_take(m->arena, r->n * sizeof *m->coordinates);
+    if (m->coordinates == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < r->n; i++) {
+        const char *name = qdot_expr_symbol(m->system->session->pool, r->coordinates[i])->name;
+
+        m->coordinates[i] = qdot_arena_strndup(m->arena, name, strlen(name));
+        if (m->coordinates[i] == NULL)
+            return QDOT_ENOMEM;
+    }
+    return QDOT_OK;
+}
+
+/* m becomes a motion of a run of the session. */
+static qdot_status
+hold(qdot_motion *m, qdot_system *system, const qdot_named_run *run, bool named)
+{
+    *m = (qdot_motion){.system = system, .run = *run, .named = named};
+    ++*m->run.uses;
+    system->uses++;
+    return copy_names(m);
+}
+
+static qdot_status
+read_run(qdot_cursor *c, void *data)
+{
+    (void)data;
+    return qdot_run_statement(c);
+}
+
+/* The run that the call added, behind those of before; NULL: it added none. `last`: the latest of
+ * before, held so that no new run can have its place in memory. */
+static const qdot_named_run *
+added_run(const qdot_session *session, const qdot_named_run *last)
+{
+    const qdot_named_run *now =
+        session->runs.n > 0 ? &session->runs.at[session->runs.n - 1] : NULL;
+
+    return now != NULL && now->run != last->run ? now : NULL;
+}
+
+qdot_result
+qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion)
+{
+    const qdot_named_run *added = NULL;
+    qdot_named_run last = {0};
+    qdot_session *session;
+    qdot_motion *m;
+    qdot_status status;
+    char name[32];
+
+    if (motion != NULL)
+        *motion = NULL;
+    if (system == NULL)
+        return QDOT_RESULT_INVALID;
+    if (text == NULL || motion == NULL)
+        return qdot_api_refuse(system, "run: the %s is NULL", text == NULL ? "text" : "motion");
+    session = system->session;
+    status = qdot_api_begin(system);
+    m = status == QDOT_OK ? qdot_calloc(1, sizeof *m) : NULL;
+    if (m == NULL)
+        return qdot_api_end(system, QDOT_ENOMEM);
+    if (session->runs.n > 0) {
+        last = session->runs.at[session->runs.n - 1];
+        ++*last.uses;
+    }
+    qdot_runs_next_name(session, name, sizeof name);
+    status = qdot_api_read(system, "run", text, read_run, NULL);
+    added = added_run(session, &last);
+    if (added == NULL) {
+        qdot_free(m);
+    } else if (hold(m, system, added, strcmp(added->name, name) != 0) == QDOT_OK) {
+        *motion = m;
+    } else {
+        qdot_motion_free(m);
+        status = QDOT_ENOMEM;
+    }
+    if (last.run != NULL)
+        qdot_named_run_release(&last);
+    return qdot_api_end(system, status);
+}
+
+/* --- of the whole --------------------------------------------------------------------- */
+
+const qdot_system *
+qdot_motion_system(const qdot_motion *motion)
+{
+    return motion != NULL ? motion->system : NULL;
+}
+
+static const qdot_run_report *
+report_of(const qdot_motion *motion)
+{
+    return qdot_run_get_report(motion->run.run);
+}
+
+qdot_result
+qdot_motion_summarize(const qdot_motion *motion, qdot_motion_summary *summary, size_t size)
+{
+    const qdot_run_report *r;
+    qdot_motion_summary all;
+
+    if (motion == NULL)
+        return QDOT_RESULT_INVALID;
+    if (summary == NULL || size == 0)
+        return qdot_api_refuse(motion->system, "summarize: there is no summary");
+    r = report_of(motion);
+    all = (qdot_motion_summary){
+        .start = r->t0,
+        .end = r->t1,
+        .tolerance = r->tol,
+        .error = r->error,
+        .horizon = r->horizon,
+        .energy_drift = r->energy_drift,
+        .constraint_drift = r->constraint_drift,
+        .cpu = r->cpu,
+        .steps = r->steps,
+        .rejected = r->rejected,
+        .evaluations = r->evals,
+        .method = r->method,
+        .reason = r->reason,
+        .doubt = r->doubt,
+    };
+    memcpy(summary, &all, size < sizeof all ? size : sizeof all);
+    return qdot_api_accept(motion->system);
+}
+
+size_t
+qdot_motion_coordinates(const qdot_motion *motion)
+{
+    return motion != NULL ? report_of(motion)->n : 0;
+}
+
+const char *
+qdot_motion_coordinate(const qdot_motion *motion, size_t i)
+{
+    return i < qdot_motion_coordinates(motion) ? motion->coordinates[i] : NULL;
+}
+
+qdot_result
+qdot_motion_end(const qdot_motion *motion, size_t n, double *q, double *v)
+{
+    const qdot_run_report *r;
+
+    if (motion == NULL)
+        return QDOT_RESULT_INVALID;
+    r = report_of(motion);
+    if (n != r->n)
+        return qdot_api_refuse(motion->system, "end: there are %zu coordinates, not %zu", r->n, n);
+    if (q != NULL)
+        memcpy(q, r->q, n * sizeof *q);
+    if (v != NULL)
+        memcpy(v, r->v, n * sizeof *v);
+    return qdot_api_accept(motion->system);
+}
+
+const double *
+qdot_motion_steps(const qdot_motion *motion, size_t *n)
+{
+    size_t none;
+
+    if (motion == NULL) {
+        if (n != NULL)
+            *n = 0;
+        return NULL;
+    }
+    return qdot_run_times(motion->run.run, n != NULL ? n : &none);
+}
+
+size_t
+qdot_motion_conserved(const qdot_motion *motion)
+{
+    return motion != NULL ? report_of(motion)->n_drifts : 0;
+}
+
+qdot_result
+qdot_motion_drift(const qdot_motion *motion, size_t i, const char **name, double *start,
+                  double *drift)
+{
+    const qdot_drift *d;
+
+    if (motion == NULL)
+        return QDOT_RESULT_INVALID;
+    if (i >= report_of(motion)->n_drifts)
+        return qdot_api_refuse(motion->system, "drift: there is no conserved quantity %zu", i);
+    d = &report_of(motion)->drifts[i];
+    if (name != NULL)
+        *name = d->name;
+    if (start != NULL)
+        *start = d->start;
+    if (drift != NULL)
+        *drift = d->drift;
+    return qdot_api_accept(motion->system);
+}

@@ -1,0 +1,19 @@
+/* motion.h -- inside of lib/api: a run held by the caller. */
+#ifndef QDOT_API_MOTION_H
+#define QDOT_API_MOTION_H
+
+#include "api/system.h"
+#include "base/memory.h"
+
+struct qdot_motion {
+    qdot_system *system; /* a use of it */
+    qdot_named_run run;  /* a use of it: kept though the session may forget it */
+    bool named;          /* by `as NAME`: the session keeps it */
+    qdot_arena *arena;
+    const char **coordinates; /* [qdot_motion_coordinates], in the arena */
+};
+
+/* Where the run is in the session, whose expressions it is read with; runs.n: it is not there. */
+size_t qdot_api_place(const qdot_motion *motion);
+
+#endif

@@ -1,0 +1,252 @@
+/* system.c -- a system begun and ended; calls, what they say and what goes wrong in them. */
+#include "api/system.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "lang/answer/answer.h"
+#include "lang/source/source.h"
+
+/* --- results -------------------------------------------------------------------------- */
+
+/* The public results are the statuses of base/status.h under names of their own. */
+#define SAME(result, status)                                                             \
+    _Static_assert((int)QDOT_RESULT_##result == (int)QDOT_##status, #result)
+SAME(OK, OK);
+SAME(INVALID, EINVAL);
+SAME(SYNTAX, ESYNTAX);
+SAME(NAME, ENAME);
+SAME(TYPE, ETYPE);
+SAME(DOMAIN, EDOMAIN);
+SAME(UNSET, EUNSET);
+SAME(SINGULAR, ESINGULAR);
+SAME(LIMIT, ELIMIT);
+SAME(FAILED, EFAILED);
+SAME(NOT_BUILT, ENOTBUILT);
+SAME(IO, EIO);
+SAME(NO_MEMORY, ENOMEM);
+SAME(INTERRUPTED, EINTR);
+
+const char *
+qdot_result_text(qdot_result result)
+{
+    static const char *const text[] = {
+        [QDOT_RESULT_OK] = "success",
+        [QDOT_RESULT_INVALID] = "an argument that makes no sense",
+        [QDOT_RESULT_SYNTAX] = "syntax error",
+        [QDOT_RESULT_NAME] = "unknown or taken name",
+        [QDOT_RESULT_TYPE] = "wrong kind of value",
+        [QDOT_RESULT_DOMAIN] = "undefined",
+        [QDOT_RESULT_UNSET] = "a parameter without a value",
+        [QDOT_RESULT_SINGULAR] = "singular matrix",
+        [QDOT_RESULT_LIMIT] = "larger than a stated limit",
+        [QDOT_RESULT_FAILED] = "a numerical method failed",
+        [QDOT_RESULT_NOT_BUILT] = "not built yet",
+        [QDOT_RESULT_IO] = "input or output failed",
+        [QDOT_RESULT_NO_MEMORY] = "out of memory",
+        [QDOT_RESULT_INTERRUPTED] = "interrupted",
+    };
+    const size_t i = (size_t)result;
+
+    return i < sizeof text / sizeof *text ? text[i] : "unknown result";
+}
+
+const char *
+qdot_version(void)
+{
+    return PACKAGE_VERSION;
+}
+
+void
+qdot_string_free(char *text)
+{
+    qdot_free(text);
+}
+
+/* --- a system ------------------------------------------------------------------------- */
+
+qdot_result
+qdot_system_new(qdot_system **system)
+{
+    qdot_system *s;
+
+    if (system == NULL)
+        return QDOT_RESULT_INVALID;
+    *system = NULL;
+    s = qdot_calloc(1, sizeof *s);
+    if (s == NULL)
+        return QDOT_RESULT_NO_MEMORY;
+    s->uses = 1;
+    s->session = qdot_session_new(NULL, NULL);
+    if (s->session == NULL) {
+        qdot_free(s);
+        return QDOT_RESULT_NO_MEMORY;
+    }
+    *system = s;
+    return QDOT_RESULT_OK;
+}
+
+void
+qdot_api_release(qdot_system *system)
+{
+    if (--system->uses > 0)
+        return;
+    qdot_session_free(system->session);
+    for (int i = 0; i < QDOT_API_STREAMS; i++)
+        free(system->stream[i].text);
+    qdot_free(system);
+}
+
+void
+qdot_system_free(qdot_system *system)
+{
+    if (system != NULL)
+        qdot_api_release(system);
+}
+
+const char *
+qdot_system_error(const qdot_system *system)
+{
+    if (system == NULL || system->error.status == QDOT_OK)
+        return "";
+    if (system->stream[QDOT_API_ERRORS].length > 0)
+        return system->stream[QDOT_API_ERRORS].text;
+    return system->error.message;
+}
+
+const char *
+qdot_system_notices(const qdot_system *system)
+{
+    if (system == NULL || system->stream[QDOT_API_NOTICES].text == NULL)
+        return "";
+    return system->stream[QDOT_API_NOTICES].text;
+}
+
+/* --- calls ---------------------------------------------------------------------------- */
+
+qdot_status
+qdot_api_begin(qdot_system *system)
+{
+    qdot_session *session = system->session;
+
+    system->error = (qdot_error){0};
+    for (int i = 0; i < QDOT_API_STREAMS; i++) {
+        free(system->stream[i].text);
+        system->stream[i].text = NULL;
+        system->stream[i].length = 0;
+    }
+    for (int i = 0; i < QDOT_API_STREAMS; i++) {
+        system->stream[i].file =
+            open_memstream(&system->stream[i].text, &system->stream[i].length);
+        if (system->stream[i].file == NULL)
+            return qdot_fail(QDOT_ENOMEM, "no memory for answers");
+    }
+    session->out = system->stream[QDOT_API_ANSWERS].file;
+    session->err = system->stream[QDOT_API_ERRORS].file;
+    session->console = system->stream[QDOT_API_NOTICES].file;
+    memset(session->verdicts, 0, sizeof session->verdicts);
+    return QDOT_OK;
+}
+
+/* Without the records of `undo`, which would keep every run of the past. */
+static void
+forget_call(qdot_session *session)
+{
+    if (session->undo != NULL)
+        session->undo_free(session->undo);
+    session->undo = NULL;
+    session->out = session->err = session->console = NULL;
+    session->quit = session->refuted = session->failed = false;
+}
+
+qdot_result
+qdot_api_end(qdot_system *system, qdot_status status)
+{
+    if (status != QDOT_OK)
+        system->error = *qdot_last_error();
+    forget_call(system->session);
+    for (int i = 0; i < QDOT_API_STREAMS; i++) {
+        FILE *file = system->stream[i].file;
+
+        system->stream[i].file = NULL;
+        if (file != NULL && fclose(file) != 0 && status == QDOT_OK) {
+            status = qdot_fail(QDOT_ENOMEM, "no memory for answers");
+            system->error = *qdot_last_error();
+        }
+    }
+    return (qdot_result)status;
+}
+
+qdot_result
+qdot_api_accept(qdot_system *system)
+{
+    system->error = (qdot_error){0};
+    return QDOT_RESULT_OK;
+}
+
+qdot_result
+qdot_api_refuse(qdot_system *system, const char *format, ...)
+{
+    qdot_status status = qdot_api_begin(system);
+
+    if (status == QDOT_OK) {
+        char message[256];
+        va_list ap;
+
+        va_start(ap, format);
+        vsnprintf(message, sizeof message, format, ap);
+        va_end(ap);
+        status = qdot_fail(QDOT_EINVAL, "%s", message);
+    }
+    return qdot_api_end(system, status);
+}
+
+/* The statement's own failure is the one to tell, not what the pool made of it. */
+static void
+settle_pool(qdot_pool *pool)
+{
+    qdot_error error = *qdot_last_error();
+
+    if (!qdot_pool_failed(pool))
+        return;
+    (void)!qdot_pool_check(pool);
+    (void)qdot_fail_again(&error);
+}
+
+qdot_status
+qdot_api_read(qdot_system *system, const char *call, const char *text, qdot_api_reader reader,
+              void *data)
+{
+    qdot_session *session = system->session;
+    qdot_cursor c = {.session = session};
+    qdot_source *source;
+    qdot_status status = qdot_source_new(call, text, strlen(text), &source, &c.error_at);
+
+    if (status == QDOT_OK) {
+        c.source = source;
+        c.at = source->tokens.at;
+        c.error_at = c.at->start;
+        status = qdot_interrupt_check();
+    }
+    if (status == QDOT_OK)
+        status = reader(&c, data);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(session->pool);
+    if (status == QDOT_OK)
+        status = qdot_cursor_expect_end(&c);
+    if (status == QDOT_OK && c.at != &source->tokens.at[source->tokens.n - 1]) {
+        c.error_at = c.at[1].start;
+        status = qdot_fail(QDOT_ESYNTAX, "only one is read here");
+    }
+    if (status != QDOT_OK) {
+        settle_pool(session->pool);
+        qdot_answer_error(session, source, c.error_at);
+    }
+    if (status == QDOT_EINTR)
+        qdot_interrupt_clear();
+    qdot_source_free(source);
+    return status;
+}

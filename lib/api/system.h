@@ -1,0 +1,47 @@
+/* system.h -- inside of lib/api: a session that answers calls instead of a person.
+ *
+ * A call begins with qdot_api_begin, which gives the session three streams in memory, and ends with
+ * qdot_api_end, which keeps what was said. In between qdot_api_read carries out one text that is no
+ * statement.
+ *
+ * Tests  tests/api/test_api.c, tests/meta/embed.test
+ */
+#ifndef QDOT_API_SYSTEM_H
+#define QDOT_API_SYSTEM_H
+
+#include "lang/language/cursor.h"
+#include "qdot.h"
+
+enum { QDOT_API_ANSWERS, QDOT_API_ERRORS, QDOT_API_NOTICES, QDOT_API_STREAMS };
+
+struct qdot_system {
+    qdot_session *session;
+    size_t uses; /* the caller's, and one for each motion */
+    struct {
+        FILE *file; /* open during a call */
+        char *text; /* of the latest call, from open_memstream; NULL: none */
+        size_t length;
+    } stream[QDOT_API_STREAMS];
+    qdot_error error; /* of the latest call; QDOT_OK: none */
+};
+
+/* Begin a call. QDOT_ENOMEM: qdot_api_end must still be called. */
+QDOT_MUST_CHECK qdot_status qdot_api_begin(qdot_system *system);
+/* End it with this status; returns it, or that there was no memory for what was said. */
+qdot_result qdot_api_end(qdot_system *system, qdot_status status);
+
+/* A call that needs neither: it succeeded. */
+qdot_result qdot_api_accept(qdot_system *system);
+/* End a call at once, because of an argument: "CALL: what is wrong" (printf). */
+qdot_result qdot_api_refuse(qdot_system *system, const char *format, ...) QDOT_PRINTF(2, 3);
+
+/* Reads a text from its first token to its end. */
+typedef qdot_status (*qdot_api_reader)(qdot_cursor *c, void *data);
+/* Have the reader read the whole text; an error is reported as one of `call`. */
+QDOT_MUST_CHECK qdot_status qdot_api_read(qdot_system *system, const char *call, const char *text,
+                                          qdot_api_reader reader, void *data);
+
+/* One use less; the last frees the system. */
+void qdot_api_release(qdot_system *system);
+
+#endif

@@ -1,0 +1,184 @@
+/* values.c -- numbers along a run: values, extrema and means, events. */
+#include "api/motion.h"
+#include "lang/language/read.h"
+#include "lang/session/member.h"
+#include "lang/session/runs.h"
+
+_Static_assert((int)QDOT_OVER_MAX == (int)QDOT_RANGE_MAX, "range");
+_Static_assert((int)QDOT_OVER_MIN == (int)QDOT_RANGE_MIN, "range");
+_Static_assert((int)QDOT_OVER_MEAN == (int)QDOT_RANGE_MEAN, "range");
+_Static_assert((int)QDOT_OVER_DRIFT == (int)QDOT_RANGE_DRIFT, "range");
+
+/* Expressions are read in the session, so the run must be one of its runs still. */
+static qdot_status
+check_place(const qdot_motion *motion)
+{
+    if (qdot_api_place(motion) < motion->system->session->runs.n)
+        return QDOT_OK;
+    return qdot_fail(QDOT_ENAME, "the run `%s` is no longer in the system", motion->run.name);
+}
+
+/* The components [k] of the expression that the text holds. */
+static qdot_status
+read_columns(qdot_cursor *c, size_t k, qdot_runs_columns *columns)
+{
+    const size_t start = c->at->start;
+    qdot_expr value;
+
+    QDOT_TRY(qdot_read_value(c, &value));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start;
+    QDOT_TRY(qdot_runs_flatten(c->session, value, columns));
+    for (size_t i = 0; i < columns->n; i++)
+        if (qdot_member_any(c->session, columns->at[i]))
+            return qdot_fail(QDOT_EINVAL, "an expression along this run names no run");
+    if (columns->n != k)
+        return qdot_fail(QDOT_ETYPE, "the expression has %zu components, not %zu", columns->n, k);
+    return QDOT_OK;
+}
+
+/* --- at times ------------------------------------------------------------------------- */
+
+typedef struct {
+    qdot_motion *motion;
+    size_t n, k;
+    const double *times;
+    double *values, *errors;
+} samples;
+
+static qdot_status
+read_values(qdot_cursor *c, void *data)
+{
+    const samples *s = data;
+    qdot_runs_columns columns = {0};
+    qdot_status status = read_columns(c, s->k, &columns);
+
+    if (status == QDOT_OK && s->n > 0)
+        status = qdot_run_values(s->motion->run.run, s->k, columns.at, s->n, s->times, s->values,
+                                 s->errors);
+    qdot_free(columns.at);
+    return status;
+}
+
+qdot_result
+qdot_motion_values(qdot_motion *motion, const char *expression, size_t n, const double *times,
+                   size_t k, double *values, double *errors)
+{
+    samples s = {motion, n, k, times, values, errors};
+    qdot_status status;
+
+    if (motion == NULL)
+        return QDOT_RESULT_INVALID;
+    if (expression == NULL || (n > 0 && (times == NULL || values == NULL)))
+        return qdot_api_refuse(motion->system, "values: the %s NULL",
+                               expression == NULL ? "expression is"
+                               : times == NULL    ? "times are"
+                                                  : "values are");
+    status = qdot_api_begin(motion->system);
+    if (status == QDOT_OK)
+        status = check_place(motion);
+    if (status == QDOT_OK)
+        status = qdot_api_read(motion->system, "values", expression, read_values, &s);
+    return qdot_api_end(motion->system, status);
+}
+
+/* --- over a range --------------------------------------------------------------------- */
+
+typedef struct {
+    qdot_motion *motion;
+    qdot_range_kind kind;
+    double from, to, value, error;
+} stretch;
+
+static qdot_status
+read_over(qdot_cursor *c, void *data)
+{
+    stretch *s = data;
+    qdot_runs_columns columns = {0};
+    qdot_status status = read_columns(c, 1, &columns);
+
+    if (status == QDOT_OK)
+        status = qdot_run_range(s->motion->run.run, s->kind, columns.at[0], s->from, s->to,
+                                &s->value, &s->error);
+    qdot_free(columns.at);
+    return status;
+}
+
+qdot_result
+qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, double from,
+                 double to, double *value, double *error)
+{
+    stretch s = {.motion = motion, .kind = (qdot_range_kind)what, .from = from, .to = to};
+    qdot_status status;
+
+    if (motion == NULL)
+        return QDOT_RESULT_INVALID;
+    if (expression == NULL || value == NULL || (unsigned)what > QDOT_OVER_DRIFT)
+        return qdot_api_refuse(motion->system, "over: %s",
+                               expression == NULL ? "the expression is NULL"
+                               : value == NULL    ? "the value is NULL"
+                                                  : "there is no such quantity");
+    status = qdot_api_begin(motion->system);
+    if (status == QDOT_OK)
+        status = check_place(motion);
+    if (status == QDOT_OK)
+        status = qdot_api_read(motion->system, "over", expression, read_over, &s);
+    *value = s.value;
+    if (error != NULL)
+        *error = s.error;
+    return qdot_api_end(motion->system, status);
+}
+
+/* --- events --------------------------------------------------------------------------- */
+
+/* Begin a call; the list [*n] of what occurred. */
+static const qdot_run_occurrence *
+occurrences(qdot_motion *motion, size_t *n, qdot_status *status)
+{
+    const qdot_run_occurrence *list = NULL;
+
+    *n = 0;
+    *status = qdot_api_begin(motion->system);
+    if (*status == QDOT_OK)
+        *status = check_place(motion);
+    if (*status == QDOT_OK)
+        *status = qdot_run_occurrences(motion->run.run, &list, n);
+    return list;
+}
+
+qdot_result
+qdot_motion_events(qdot_motion *motion, size_t *n)
+{
+    qdot_status status;
+
+    if (motion == NULL)
+        return QDOT_RESULT_INVALID;
+    if (n == NULL)
+        return qdot_api_refuse(motion->system, "events: the number is NULL");
+    (void)occurrences(motion, n, &status);
+    return qdot_api_end(motion->system, status);
+}
+
+qdot_result
+qdot_motion_event(qdot_motion *motion, size_t i, const char **name, double *t, double *error,
+                  int *way)
+{
+    const qdot_run_occurrence *list;
+    qdot_status status;
+    size_t n;
+
+    if (motion == NULL)
+        return QDOT_RESULT_INVALID;
+    list = occurrences(motion, &n, &status);
+    if (status == QDOT_OK && i >= n)
+        status = qdot_fail(QDOT_EINVAL, "event: there is no event %zu", i);
+    if (status == QDOT_OK && name != NULL)
+        *name = list[i].event;
+    if (status == QDOT_OK && t != NULL)
+        *t = list[i].t;
+    if (status == QDOT_OK && error != NULL)
+        *error = list[i].error;
+    if (status == QDOT_OK && way != NULL)
+        *way = list[i].way;
+    return qdot_api_end(motion->system, status);
+}

@@ -1,0 +1,219 @@
+/* qdot.h -- the public interface of libqdot: Lagrangian mechanics for C, C++ and others.
+ *
+ *     qdot_system *s;
+ *     qdot_motion *m;
+ *     double t[2] = {1, 2}, theta[2], error[2];
+ *
+ *     qdot_system_new(&s);
+ *     qdot_system_declare(s, "coord theta\n"
+ *                            "particle bob mass 1 at (sin(theta), -cos(theta))\n"
+ *                            "gravity 9.81\n"
+ *                            "start theta = 2");
+ *     qdot_system_run(s, "0..10 tol 1e-12", &m);
+ *     qdot_motion_values(m, "theta", 2, t, 1, theta, error);
+ *
+ * A system holds what has been declared; a motion is one run of it. Scenes, expressions and options are
+ * text in the language of the program `qdot`, which its manual describes: `info qdot`.
+ *
+ * Results   Every function that can fail returns a qdot_result; 0 is success. On failure outputs are
+ *           unspecified unless stated otherwise, and qdot_system_error() says what went wrong.
+ * Units     Numbers have the units that the scene is written in; angles are in radians.
+ * Text      UTF-8, ended by a NUL. A `const char *` that a function returns is borrowed: do not free
+ *           it. A `char **` receives a string of the caller's: free it with qdot_string_free().
+ * Threads   Two threads may use two systems at the same time. One system and its motions must not be
+ *           used by two threads at the same time. qdot_interrupt_set() concerns all systems.
+ * Process   The library never exits, prints or installs a signal handler. It reads and writes files only
+ *           where a statement says so (`include`, `to "FILE"`, `save`); `plot` starts gnuplot. It expects
+ *           the numeric locale to be that of C (LC_NUMERIC) and turns GSL's error handler off. Exact
+ *           computations run on a thread of the library's, and while they do GMP's and FLINT's memory
+ *           functions are the library's: other threads must not use GMP with memory functions of their
+ *           own. Do not unload the library, nor use it in a child after fork().
+ */
+#ifndef QDOT_H
+#define QDOT_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- results -------------------------------------------------------------------------- */
+
+typedef enum {
+    QDOT_RESULT_OK = 0,
+    QDOT_RESULT_INVALID = 1,     /* an argument that makes no sense: NULL, a count that does not fit */
+    QDOT_RESULT_SYNTAX = 2,      /* text that is not of the language */
+    QDOT_RESULT_NAME = 3,        /* a name that is unknown, or taken */
+    QDOT_RESULT_TYPE = 4,        /* a vector where a number belongs, wrong dimensions */
+    QDOT_RESULT_DOMAIN = 5,      /* undefined: 1/0, log 0, a time outside the motion */
+    QDOT_RESULT_UNSET = 6,       /* a parameter or function without a value */
+    QDOT_RESULT_SINGULAR = 7,    /* a matrix without an inverse */
+    QDOT_RESULT_LIMIT = 8,       /* larger than a stated limit of work or size */
+    QDOT_RESULT_FAILED = 9,      /* a numerical method gave up; the message says where and why */
+    QDOT_RESULT_NOT_BUILT = 10,  /* a word of the language that this version does not carry out */
+    QDOT_RESULT_IO = 11,         /* a file or pipe */
+    QDOT_RESULT_NO_MEMORY = 12,
+    QDOT_RESULT_INTERRUPTED = 13 /* by qdot_interrupt_set() */
+} qdot_result;
+
+/* A result in a few words, "unknown or taken name"; never NULL. */
+const char *qdot_result_text(qdot_result result);
+
+/* The version of the library, "0.1.0". */
+const char *qdot_version(void);
+
+/* Free a string that a function returned through a `char **`; NULL is allowed. */
+void qdot_string_free(char *text);
+
+/* Stop the computation under way, in whatever thread: it returns QDOT_RESULT_INTERRUPTED. If there is
+ * none, the next one returns so. May be called from a signal handler. */
+void qdot_interrupt_set(void);
+
+/* --- systems -------------------------------------------------------------------------- */
+
+typedef struct qdot_system qdot_system;
+
+/* How formulas are written. MathML: what stands inside <math>. */
+typedef enum {
+    QDOT_NOTATION_PLAIN = 0, /* the language itself: 1/2*m*r'^2 */
+    QDOT_NOTATION_UNICODE = 1,
+    QDOT_NOTATION_LATEX = 2,
+    QDOT_NOTATION_MATHML = 3,
+    QDOT_NOTATION_JSON = 4 /* qdot_system_ask() only: one object a line */
+} qdot_notation;
+
+typedef enum {
+    QDOT_TRUTH_PROVED = 0,
+    QDOT_TRUTH_REFUTED = 1,
+    QDOT_TRUTH_UNDECIDED = 2
+} qdot_truth;
+
+/* *system becomes an empty system, the caller's. Errors: NO_MEMORY, INVALID; *system is then NULL. */
+qdot_result qdot_system_new(qdot_system **system);
+
+/* Free it; NULL is allowed. Its motions stay usable: what they need of it goes with the last of them. */
+void qdot_system_free(qdot_system *system);
+
+/* What went wrong in the last call on the system or one of its motions; "" if it succeeded. The first
+ * line is "CALL:LINE:COLUMN: error: ..." where a text is to blame, CALL being `declare`, `ask`,
+ * `derive`, `decide`, `number`, `run`, `values` or `over`; then come the line, a caret below the place
+ * and often a hint. Borrowed until the next such call. */
+const char *qdot_system_error(const qdot_system *system);
+
+/* What should be known of the last call although it succeeded, a line each: "notice: ...";
+ * "" if there is nothing. Borrowed until the next such call. */
+const char *qdot_system_notices(const qdot_system *system);
+
+/* Carry out statements: coordinates, particles, forces, constraints, `set`, `start`, ... Their answers
+ * are not kept. The first statement that fails ends the call; those before it stay in effect. `undo`
+ * reaches back to the beginning of the call. */
+qdot_result qdot_system_declare(qdot_system *system, const char *text);
+
+/* The same, with the answers as the program prints them. *answers: the caller's; after a failure the
+ * answers up to there, or NULL. */
+qdot_result qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation,
+                            char **answers);
+
+/* The value of one expression: "T", "eom", "H", "diff(L, theta)", "accel[x]". A list is written with a
+ * member a line. *formula: the caller's, NULL on failure. TYPE: numbers of a run stand in it. */
+qdot_result qdot_system_derive(qdot_system *system, const char *expression, qdot_notation notation,
+                               char **formula);
+
+/* Whether a claim holds: what may stand behind `check`, "T == 1/2*m*v^2", "conserved energy",
+ * "A < B when x > 0". Undecided is a success: there is neither a proof nor a counterexample. */
+qdot_result qdot_system_decide(qdot_system *system, const char *claim, qdot_truth *truth);
+
+/* The number that a scalar expression is, with the present values of parameters. *error (may be NULL):
+ * what it may be off by where numbers of a run stand in it; 0: exact but for rounding; NaN: unknown. */
+qdot_result qdot_system_number(qdot_system *system, const char *expression, double *value,
+                               double *error);
+
+/* --- motions -------------------------------------------------------------------------- */
+
+typedef struct qdot_motion qdot_motion;
+
+/* Integrate: what may stand behind `run`, "0..10", "0..10 tol 1e-9 method dop853 with m = 2". A run
+ * named by `as NAME` stays in the system under that name when its motion is freed; any other goes with
+ * it. *motion: the caller's. FAILED, INTERRUPTED: *motion is the motion so far, NULL if there is none;
+ * any other error: NULL. */
+qdot_result qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion);
+
+/* Free it; NULL is allowed. */
+void qdot_motion_free(qdot_motion *motion);
+
+/* The system that it is a motion of, for qdot_system_error(); borrowed. */
+const qdot_system *qdot_motion_system(const qdot_motion *motion);
+
+typedef struct {
+    double start, end;       /* times; it may end before what was asked for */
+    double tolerance;
+    double error;            /* of the state at the end: the largest of its components relative to
+                                max(1, |value|); estimated; NaN: unknown */
+    double horizon;          /* time beyond which no digit of the state is right; NaN: none */
+    double energy_drift;     /* max |h - h0| / max(1, |h0|) of the energy; NaN: it is not conserved */
+    double constraint_drift; /* the largest |f| of the constraints f = 0; NaN: there are none */
+    double cpu;              /* seconds of the integration alone */
+    size_t steps, rejected, evaluations;
+    const char *method;      /* "taylor"; borrowed from the motion, as are the others */
+    const char *reason;      /* why it ended early; NULL: it did not */
+    const char *doubt;       /* why the error is unknown; NULL: it is known, or no reason is */
+} qdot_motion_summary;
+
+/* *summary is filled. size: sizeof *summary, so that a later version may have more members. */
+qdot_result qdot_motion_summarize(const qdot_motion *motion, qdot_motion_summary *summary, size_t size);
+
+/* The number n of coordinates; the name of the i-th, i < n, borrowed from the motion, else NULL.
+ * Parameters that events set stand behind the coordinates. */
+size_t qdot_motion_coordinates(const qdot_motion *motion);
+const char *qdot_motion_coordinate(const qdot_motion *motion, size_t i);
+
+/* The state at the end: coordinates q [n], velocities v [n]; either may be NULL. INVALID where n is not
+ * that of the coordinates. */
+qdot_result qdot_motion_end(const qdot_motion *motion, size_t n, double *q, double *v);
+
+/* An expression in coordinates, velocities, accelerations, t and parameters at times [n], in any order.
+ *
+ *   k       components of the expression: 1 for a scalar, 3 for "[theta, theta', energy]"
+ *   values  [n][k] row by row
+ *   errors  [n][k], estimated, absolute; NaN: unknown; NULL: not wanted
+ *
+ * Parameters have the values of the run. TYPE: the expression has not k components. DOMAIN: a time
+ * outside the motion. NAME: the run is no longer in the system, because of `reset`, `remove` or a later
+ * run of its name. */
+qdot_result qdot_motion_values(qdot_motion *motion, const char *expression, size_t n,
+                               const double *times, size_t k, double *values, double *errors);
+
+typedef enum {
+    QDOT_OVER_MAX = 0,
+    QDOT_OVER_MIN = 1,
+    QDOT_OVER_MEAN = 2, /* over time */
+    QDOT_OVER_DRIFT = 3 /* max |e - e0| / max(1, |e0|), e0 at `from` */
+} qdot_over;
+
+/* The largest or least value of a scalar expression between two times, its mean or its drift, with its
+ * error; error may be NULL. Extrema between steps are found. Errors as above. */
+qdot_result qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, double from,
+                             double to, double *value, double *error);
+
+/* The times at which the steps end, [*n] in the order of the run; borrowed from the motion. */
+const double *qdot_motion_steps(const qdot_motion *motion, size_t *n);
+
+/* *n: how many events occurred; the i-th in the order of the run: its name (borrowed), time, the error of
+ * the time (NaN: unknown) and way (1 rising, -1 falling, 0 it touched). Outputs of the second may be
+ * NULL. NAME: the run is no longer in the system, as above. */
+qdot_result qdot_motion_events(qdot_motion *motion, size_t *n);
+qdot_result qdot_motion_event(qdot_motion *motion, size_t i, const char **name, double *t,
+                              double *error, int *way);
+
+/* How many quantities are known to be conserved; the i-th: its name (borrowed), its value at the start
+ * and its drift as above. Any output may be NULL. */
+size_t qdot_motion_conserved(const qdot_motion *motion);
+qdot_result qdot_motion_drift(const qdot_motion *motion, size_t i, const char **name, double *start,
+                              double *drift);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
