@@ -743,6 +743,7 @@ unit_tests = \
 	tests/lang/test_lex \
 	tests/lang/test_names \
 	tests/lang/test_numeric \
+	tests/lang/test_partial-sum \
 	tests/lang/test_read \
 	tests/lang/test_session \
 	tests/lang/test_styles \
@@ -790,6 +791,7 @@ unit_tests = \
 	tests/series/test_lanes \
 	tests/series/test_near \
 	tests/series/test_precise \
+	tests/series/test_program \
 	tests/series/test_taylor-code \
 	tests/series/test_taylor-wide \
 	tests/series/test_taylor \
@@ -812,6 +814,7 @@ unit_tests = \
 	tests/sim/test_start \
 	tests/sim/test_switch \
 	tests/sim/test_taylor \
+	tests/sim/test_tree-alone \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
@@ -921,6 +924,7 @@ script_tests = \
 	tests/script/numeric.lag \
 	tests/script/on-surfaces.lag \
 	tests/script/order.lag \
+	tests/script/partial-sums.lag \
 	tests/script/parts.lag \
 	tests/script/pasted.lag \
 	tests/script/pendulum.lag \
@@ -1176,7 +1180,6 @@ script_tests = \
 	examples/bowling-ball.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
-	examples/cart.lag \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
 	examples/conserved.lag \
@@ -1687,6 +1690,7 @@ test_files = \
 	tests/script/numeric.out \
 	tests/script/on-surfaces.out \
 	tests/script/order.out \
+	tests/script/partial-sums.out \
 	tests/script/parts.out \
 	tests/script/pasted.out \
 	tests/script/pendulum.out \
@@ -1707,7 +1711,6 @@ test_files = \
 	tests/script/routh.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
-	tests/script/saved.csv \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
 	tests/script/several.out \

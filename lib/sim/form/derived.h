@@ -17,7 +17,7 @@ QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
  * reads; *calls (NULL: not wanted) of them of elementary functions. */
 size_t qdot_plan_operations(const qdot_plan *plan, size_t *calls);
 
-/* One use of it less; with the last, with all forms that it holds. */
+/* Take a use of a plan away; with the last one free it, with all the forms that it holds. */
 void qdot_plan_free(qdot_plan *plan);
 
 #endif
