@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "qdot.h"
@@ -311,8 +312,15 @@ answers_and_notices_are_apart(void **state)
     assert_int_equal(qdot_system_declare(fresh, "coord x; particle p mass 1 at (x, 0)"),
                      QDOT_RESULT_OK);
     assert_string_equal(qdot_system_notices(fresh), "");
+    assert_int_equal(qdot_system_ask(fresh, "x to \"test_api-answer.txt\"\nrun 0..1",
+                                     QDOT_NOTATION_PLAIN, &text),
+                     QDOT_RESULT_OK);
+    (void)unlink("test_api-answer.txt");
+    assert_int_equal(strncmp(text, "wrote test_api-answer.txt\nrun1: ", 32), 0);
+    qdot_string_free(text);
+    assert_int_equal(strncmp(qdot_system_notices(fresh), "notice: ", 8), 0); /* no start */
     assert_int_equal(qdot_system_run(fresh, "0..1", &m), QDOT_RESULT_OK);
-    assert_int_equal(strncmp(qdot_system_notices(fresh), "notice: ", 8), 0);
+    assert_string_equal(qdot_system_notices(fresh), ""); /* said once */
     qdot_system_free(fresh);
     assert_int_equal(qdot_motion_coordinates(m), 1); /* the motion keeps what it needs */
     qdot_motion_free(m);
