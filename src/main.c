@@ -196,7 +196,10 @@ main(int argc, char **argv)
     int status;
 
     keep_memory();
-    setlocale(LC_CTYPE, ""); /* and no other: numbers stay as in C */
+    /* for a terminal, which asks for it; reading a locale takes as long as a short script. No other
+     * category: numbers stay as in C */
+    if (isatty(STDIN_FILENO) || isatty(STDOUT_FILENO))
+        setlocale(LC_CTYPE, "");
     if (read_options(argc, argv, &o) != QDOT_OK) {
         qdot_free(o.tasks.at);
         return MISUSED;
