@@ -28,7 +28,7 @@ make_long(long_chain *c, size_t n)
     begin(f);
     c->n = n;
     for (size_t k = 0; k < n; k++) {
-        char name[20];
+        char name[32];
 
         snprintf(name, sizeof name, "theta[%zu]", k + 1);
         c->q[k] = coordinate(f, name);
@@ -36,7 +36,7 @@ make_long(long_chain *c, size_t n)
         c->v0[k] = QDOT_ZERO;
     }
     for (size_t k = 0; k < n; k++) {
-        char name[20];
+        char name[32];
 
         x = qdot_add(f->pool, x, qdot_fun1(f->pool, QDOT_SIN, c->q[k]));
         y = qdot_sub(f->pool, y, qdot_fun1(f->pool, QDOT_COS, c->q[k]));
