@@ -9,12 +9,6 @@
 #include "series/program.h"
 #include "tape/constant.h"
 
-/* As qdot_program_step, with the places of its rows. */
-typedef struct {
-    int op, zero, sign;
-    mpfr_t *x, *y, *z, *to, *second, *third, *d;
-} step;
-
 /* The first two of the scratch are U1, U2 of recurrence.def, the last is that of sums. */
 enum { SCRATCH = 3 };
 
@@ -25,7 +19,6 @@ struct qdot_precise {
     qdot_reals scratch; /* [SCRATCH] */
     mp_limb_t *work;    /* of a dot */
     mpfr_t *w;          /* scratch.at */
-    step *steps;        /* [program.length], END behind them */
 };
 
 /* Orders that are looked at of arguments of exponentials: those beyond add little to a step that
@@ -33,6 +26,12 @@ struct qdot_precise {
 enum { QDOT_PRECISE_NEAR = 200 };
 
 #define RN MPFR_RNDN
+
+static inline mpfr_t *
+place(const qdot_precise *p, qdot_program_row row)
+{
+    return p->numbers.at + (size_t)row * p->stride;
+}
 
 /* --- sums of products --------------------------------------------------------------- */
 
@@ -87,10 +86,10 @@ hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
 }
 
 static void
-value(qdot_precise *p, const step *i)
+value(qdot_precise *p, const qdot_program_step *i)
 {
-    mpfr_srcptr a = i->x[0], b = i->y[0], c = i->z[0];
-    mpfr_ptr d = i->to[0], w = p->w[0];
+    mpfr_srcptr a = place(p, i->x)[0], b = place(p, i->y)[0], c = place(p, i->z)[0];
+    mpfr_ptr d = place(p, i->to)[0], w = p->w[0];
 
     switch (i->zero) {
     case QDOT_OP_NEG: mpfr_neg(d, a, RN); break;
@@ -104,9 +103,9 @@ value(qdot_precise *p, const step *i)
     case QDOT_OP_SQRT: mpfr_sqrt(d, a, RN); break;
     case QDOT_OP_POW: mpfr_pow(d, a, b, RN); break;
     case QDOT_ZERO_POWER: mpfr_pow(d, b, c, RN); break;
-    case QDOT_OP_SINCOS: mpfr_sin_cos(d, i->second[0], a, RN); break;
-    case QDOT_ZERO_SINHCOSH: mpfr_sinh_cosh(d, i->second[0], a, RN); break;
-    case QDOT_OP_TANH: hyperbolic_tangent(d, i->second[0], a); break;
+    case QDOT_OP_SINCOS: mpfr_sin_cos(d, place(p, i->second)[0], a, RN); break;
+    case QDOT_ZERO_SINHCOSH: mpfr_sinh_cosh(d, place(p, i->second)[0], a, RN); break;
+    case QDOT_OP_TANH: hyperbolic_tangent(d, place(p, i->second)[0], a); break;
     case QDOT_OP_ATAN2: mpfr_atan2(d, a, b, RN); break;
     case QDOT_OP_EXP: mpfr_exp(d, a, RN); break;
     case QDOT_OP_LOG: mpfr_log(d, a, RN); break;
@@ -142,55 +141,45 @@ value(qdot_precise *p, const step *i)
 
 /* --- order k ------------------------------------------------------------------------- */
 
-#define X i->x[k]
-#define Y i->y[k]
-#define Z i->z[k]
-#define TO i->to[k]
-#define SECOND i->second[k]
-#define THIRD i->third[k]
-#define D i->d[k]
+#define ROW(row) place(precise, i->row)
 #define U1 precise->w[0]
 #define U2 precise->w[1]
-#define SUM(r, a, b, from, below) convolve(precise, r, i->a, i->b, k, from, below);
+
+static void
+order(qdot_precise *precise, const qdot_program_step *i, int k)
+{
+    switch (i->op) {
+#define NEWEST(row) ROW(row)[k]
+#define SUM(r, a, b, from, below) convolve(precise, r, ROW(a), ROW(b), k, from, below);
 #define PAIR(r, s, a, b, c) SUM(r, a, b, 1, 0) SUM(s, a, c, 1, 0)
-#define SQUARED(r, a, from) square(precise, r, i->a, k, from);
+#define SQUARED(r, a, from) square(precise, r, ROW(a), k, from);
 #define ADD(r, p, q) mpfr_add(r, p, q, RN);
 #define SUB(r, p, q) mpfr_sub(r, p, q, RN);
 #define NEG(r, p) mpfr_neg(r, p, RN);
-#define TIMES(r, p, b) mpfr_mul(r, p, i->b[0], RN);
-#define PLUS_TIMES(r, q, p, b) mpfr_fma(r, p, i->b[0], q, RN);
-#define MINUS_TIMES(r, q, p, b) mpfr_fms(r, p, i->b[0], q, RN), mpfr_neg(r, r, RN);
-#define OVER(r, p, b) mpfr_div(r, p, i->b[0], RN);
-#define OVER_TWICE(r, p, b) mpfr_div(r, p, i->b[0], RN), mpfr_div_2ui(r, r, 1, RN);
+#define TIMES(r, p, b) mpfr_mul(r, p, ROW(b)[0], RN);
+#define PLUS_TIMES(r, q, p, b) mpfr_fma(r, p, ROW(b)[0], q, RN);
+#define MINUS_TIMES(r, q, p, b) mpfr_fms(r, p, ROW(b)[0], q, RN), mpfr_neg(r, r, RN);
+#define OVER(r, p, b) mpfr_div(r, p, ROW(b)[0], RN);
+#define OVER_TWICE(r, p, b) mpfr_div(r, p, ROW(b)[0], RN), mpfr_div_2ui(r, r, 1, RN);
 #define ORDERS(r, p) mpfr_mul_ui(r, p, (unsigned long)k, RN);
 #define PER_ORDER(r, p) mpfr_div_ui(r, p, (unsigned long)k, RN);
 #define SIGNED(r, p) mpfr_mul_si(r, p, i->sign, RN);
-
-static void
-order(qdot_precise *precise, const step *i, int k)
-{
-    switch (i->op) {
 #define RECURRENCE(ID, cost, body)                                                       \
     case QDOT_T_##ID: body break;
 #include "series/recurrence.def"
-#undef RECURRENCE
     }
 }
 
-#undef X
-#undef Y
-#undef Z
-#undef TO
-#undef SECOND
-#undef THIRD
-#undef D
+#undef ROW
 #undef U1
 #undef U2
 
 void
 qdot_precise_order(qdot_precise *p, int k)
 {
-    for (const step *i = p->steps + (k > 0 ? p->program.still : 0); i->op != QDOT_T_END; i++)
+    const qdot_program_step *i = p->program.steps.at + (k > 0 ? p->program.still : 0);
+
+    for (; i->op != QDOT_T_END; i++)
         if (k > 0)
             order(p, i, k);
         else
@@ -205,15 +194,16 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
 
     if (k > QDOT_PRECISE_NEAR)
         k = QDOT_PRECISE_NEAR;
-    for (const step *i = p->steps + p->program.still; i->op != QDOT_T_END; i++) {
+    for (const qdot_program_step *i = p->program.steps.at + p->program.still;
+         i->op != QDOT_T_END; i++) {
         const double times = qdot_recurrence_exponential(i->op);
 
         if (!(times > 0))
             continue;
         for (int j = 1; j <= k; j++)
-            sizes[j] = qdot_real_log2(i->x[j]);
+            sizes[j] = qdot_real_log2(place(p, i->x)[j]);
         log2_h = qdot_near_log2(
-            k, sizes, qdot_near_limit(k, times * mpfr_get_d(i->x[0], RN), digits) / times,
+            k, sizes, qdot_near_limit(k, times * mpfr_get_d(place(p, i->x)[0], RN), digits) / times,
             log2_h);
     }
     return log2_h;
@@ -221,38 +211,16 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
 
 /* --- building ------------------------------------------------------------------------ */
 
-static mpfr_t *
-place(const qdot_precise *p, qdot_program_row r)
-{
-    return r == QDOT_NO_ROW ? NULL : p->numbers.at + (size_t)r * p->stride;
-}
-
 static qdot_status
-settle(qdot_precise *p, qdot_pool *pool, const qdot_tape *tape)
+set_constants(qdot_precise *p, qdot_pool *pool, const qdot_tape *tape)
 {
-    const qdot_program *program = &p->program;
-
-    for (qdot_program_row r = 0; r < program->rows.n; r++) {
-        const qdot_program_row_info *row = program->rows.at + r;
+    for (qdot_program_row r = 0; r < p->program.rows.n; r++) {
+        const qdot_program_row_info *row = p->program.rows.at + r;
 
         if (row->source == QDOT_ROW_CONSTANT)
             QDOT_TRY(qdot_constant_real(pool, tape->exact[row->at], place(p, r)[0]));
         else if (row->source == QDOT_ROW_WHOLE)
             mpfr_set_si(place(p, r)[0], row->at, RN);
-    }
-    for (size_t i = 0; i < program->steps.n; i++) {
-        const qdot_program_step *s = program->steps.at + i;
-
-        p->steps[i] = (step){.op = s->op,
-                             .zero = s->zero,
-                             .sign = s->sign,
-                             .x = place(p, s->x),
-                             .y = place(p, s->y),
-                             .z = place(p, s->z),
-                             .to = place(p, s->to),
-                             .second = place(p, s->second),
-                             .third = place(p, s->third),
-                             .d = place(p, s->d)};
     }
     return QDOT_OK;
 }
@@ -266,10 +234,9 @@ make(qdot_precise *p, qdot_pool *pool, const qdot_tape *tape, int most, mpfr_pre
     QDOT_TRY(qdot_reals_init(&p->scratch, SCRATCH, bits));
     p->w = p->scratch.at;
     p->work = qdot_calloc(qdot_real_dot_work(bits), sizeof *p->work);
-    p->steps = qdot_calloc(p->program.steps.n, sizeof *p->steps);
-    if (!p->work || !p->steps)
+    if (!p->work)
         return QDOT_ENOMEM;
-    return settle(p, pool, tape);
+    return set_constants(p, pool, tape);
 }
 
 qdot_status
@@ -300,14 +267,13 @@ qdot_precise_free(qdot_precise *p)
     qdot_reals_clear(&p->numbers);
     qdot_reals_clear(&p->scratch);
     qdot_free(p->work);
-    qdot_free(p->steps);
     qdot_free(p);
 }
 
 mpfr_t *
 qdot_precise_input(qdot_precise *p, size_t i)
 {
-    return p->numbers.at + i * p->stride;
+    return place(p, (qdot_program_row)i);
 }
 
 size_t

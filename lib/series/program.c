@@ -52,7 +52,6 @@ qdot_recurrence_cost(int op)
     static const double cost[QDOT_T_COUNT] = {
 #define RECURRENCE(ID, cost, body) [QDOT_T_##ID] = cost,
 #include "series/recurrence.def"
-#undef RECURRENCE
     };
 
     return cost[op];

@@ -27,7 +27,6 @@ typedef enum {
     QDOT_T_VALUE, /* order 0 alone: an operation that switches */
 #define RECURRENCE(ID, cost, body) QDOT_T_##ID,
 #include "series/recurrence.def"
-#undef RECURRENCE
     QDOT_T_LINK, /* to' = unit x, second' = unit to (no row: none) */
     QDOT_T_COUNT
 } qdot_recurrence;

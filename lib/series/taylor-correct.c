@@ -204,12 +204,6 @@ differentiate(struct qdot_taylor_change *change)
 #define FUSED(a, b, c) (a) * (b) + (c)
 #define NOTHING (slopes){0}
 #include "series/linear.def"
-#undef NOTE
-#undef ZERO
-#undef OVER_ZERO
-#undef OVER_TWICE_ZERO
-#undef FUSED
-#undef NOTHING
     by = change->second ? NEWEST_second : NEWEST_to;
     change->a = by[0];
     change->b = by[1];

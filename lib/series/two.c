@@ -6,22 +6,20 @@
 #include "num/kinds.h"
 #include "series/program.h"
 
-/* As qdot_program_step, with the places of its rows. */
-typedef struct {
-    int op, zero, sign;
-    const qdot_two *x, *y, *z;
-    qdot_two *to, *second, *third, *d;
-} step;
-
 struct qdot_tape_two {
     qdot_program program;
     size_t stride;
     qdot_two *numbers; /* [rows x stride], the inputs first */
-    step *steps;       /* [program.length], END behind them */
     double *note;      /* [rows] by how much the newest coefficient changes */
     const qdot_two_functions *functions;
-    void (*order)(const step *i, int k);
+    void (*order)(const qdot_tape_two *t, const qdot_program_step *i, int k);
 };
+
+static inline qdot_two *
+place(const qdot_tape_two *t, qdot_program_row row)
+{
+    return t->numbers + (size_t)row * t->stride;
+}
 
 /* --- order 0 ------------------------------------------------------------------------ */
 
@@ -56,9 +54,10 @@ hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
 }
 
 static void
-value(const step *i, const qdot_two_functions *f)
+value(const qdot_tape_two *t, const qdot_program_step *i)
 {
-    const qdot_two a = i->x[0], b = i->y[0], c = i->z[0];
+    const qdot_two_functions *f = t->functions;
+    const qdot_two a = place(t, i->x)[0], b = place(t, i->y)[0], c = place(t, i->z)[0];
     qdot_two d;
 
     switch (i->zero) {
@@ -73,9 +72,9 @@ value(const step *i, const qdot_two_functions *f)
     case QDOT_OP_SQRT: d = qdot_two_sqrt(a); break;
     case QDOT_OP_POW: d = f->pow(a, b); break;
     case QDOT_ZERO_POWER: d = f->pow(b, c); break;
-    case QDOT_OP_SINCOS: f->sincos(a, &d, i->second); break;
-    case QDOT_ZERO_SINHCOSH: f->sinhcosh(a, &d, i->second); break;
-    case QDOT_OP_TANH: d = hyperbolic_tangent(f, a, i->second); break;
+    case QDOT_OP_SINCOS: f->sincos(a, &d, place(t, i->second)); break;
+    case QDOT_ZERO_SINHCOSH: f->sinhcosh(a, &d, place(t, i->second)); break;
+    case QDOT_OP_TANH: d = hyperbolic_tangent(f, a, place(t, i->second)); break;
     case QDOT_OP_ATAN2: d = f->atan2(a, b); break;
     case QDOT_OP_EXP: d = f->exp(a); break;
     case QDOT_OP_LOG: d = f->log(a); break;
@@ -104,29 +103,10 @@ value(const step *i, const qdot_two_functions *f)
     case QDOT_OP_SELECT: d = a.hi != 0 ? b : c; break;
     default: d = truth(NAN); /* an operation without a value here does not pass the tests */
     }
-    i->to[0] = d;
+    place(t, i->to)[0] = d;
 }
 
 /* --- order k ------------------------------------------------------------------------ */
-
-#define X i->x[k]
-#define Y i->y[k]
-#define Z i->z[k]
-#define TO i->to[k]
-#define SECOND i->second[k]
-#define THIRD i->third[k]
-#define D i->d[k]
-#define ADD(r, p, q) r = qdot_two_add(p, q);
-#define SUB(r, p, q) r = qdot_two_sub(p, q);
-#define NEG(r, p) r = qdot_two_neg(p);
-#define TIMES(r, p, b) r = qdot_two_mul(p, i->b[0]);
-#define PLUS_TIMES(r, q, p, b) r = qdot_two_add(q, qdot_two_mul(p, i->b[0]));
-#define MINUS_TIMES(r, q, p, b) r = qdot_two_sub(q, qdot_two_mul(p, i->b[0]));
-#define OVER(r, p, b) r = qdot_two_div(p, i->b[0]);
-#define OVER_TWICE(r, p, b) r = qdot_two_scale(qdot_two_div(p, i->b[0]), 0.5);
-#define ORDERS(r, p) r = qdot_two_mul_double(p, k);
-#define PER_ORDER(r, p) r = qdot_two_div_double(p, k);
-#define SIGNED(r, p) r = i->sign < 0 ? qdot_two_neg(p) : p;
 
 #define NAME(x) portable_##x
 #include "series/two.def"
@@ -143,33 +123,14 @@ QDOT_KIND_END
 void
 qdot_tape_two_order(qdot_tape_two *t, int k)
 {
-    const step *i = t->steps + (k > 0 ? t->program.still : 0);
+    const qdot_program_step *i = t->program.steps.at + (k > 0 ? t->program.still : 0);
 
     for (; i->op != QDOT_T_END; i++)
         if (k > 0)
-            t->order(i, k);
+            t->order(t, i, k);
         else
-            value(i, t->functions);
+            value(t, i);
 }
-
-#undef X
-#undef Y
-#undef Z
-#undef TO
-#undef SECOND
-#undef THIRD
-#undef D
-#undef ADD
-#undef SUB
-#undef NEG
-#undef PLUS_TIMES
-#undef MINUS_TIMES
-#undef OVER_TWICE
-#undef TIMES
-#undef OVER
-#undef ORDERS
-#undef PER_ORDER
-#undef SIGNED
 
 /* --- correction ---------------------------------------------------------------------- */
 
@@ -177,10 +138,8 @@ qdot_tape_two_order(qdot_tape_two *t, int k)
 static void
 change(qdot_tape_two *t, qdot_program_row row, int k)
 {
-    qdot_two *x = t->numbers + (size_t)row * t->stride + k;
-
     if (row != QDOT_NO_ROW)
-        *x = qdot_two_add_double(*x, t->note[row]);
+        place(t, row)[k] = qdot_two_add_double(place(t, row)[k], t->note[row]);
 }
 
 void
@@ -194,19 +153,13 @@ qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by)
         change(t, (qdot_program_row)r, k);
     }
     for (; i->op != QDOT_T_END; i++) {
-#define ZERO(row) t->numbers[(size_t)i->row * t->stride].hi
+#define ZERO(row) place(t, i->row)[0].hi
 #define NOTE(row) note[i->row]
 #define OVER_ZERO(p, row) (p) / ZERO(row)
 #define OVER_TWICE_ZERO(p, row) 0.5 * (p) / ZERO(row)
 #define FUSED(a, b, c) (a) * (b) + (c)
 #define NOTHING 0
 #include "series/linear.def"
-#undef ZERO
-#undef NOTE
-#undef OVER_ZERO
-#undef OVER_TWICE_ZERO
-#undef FUSED
-#undef NOTHING
         change(t, i->to, k);
         change(t, i->second, k);
         change(t, i->third, k);
@@ -216,39 +169,16 @@ qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by)
 
 /* --- building ------------------------------------------------------------------------ */
 
-static qdot_two *
-place(const qdot_tape_two *t, qdot_program_row r)
-{
-    return r == QDOT_NO_ROW ? NULL : t->numbers + (size_t)r * t->stride;
-}
-
 static void
-settle(qdot_tape_two *t, const qdot_tape *tape)
+set_constants(qdot_tape_two *t, const qdot_tape *tape)
 {
-    const qdot_program *p = &t->program;
-
-    for (size_t r = 0; r < p->rows.n; r++) {
-        const qdot_program_row_info *row = p->rows.at + r;
+    for (qdot_program_row r = 0; r < t->program.rows.n; r++) {
+        const qdot_program_row_info *row = t->program.rows.at + r;
 
         if (row->source == QDOT_ROW_CONSTANT)
-            t->numbers[r * t->stride] =
-                (qdot_two){tape->constant[row->at], tape->low[row->at]};
+            place(t, r)[0] = (qdot_two){tape->constant[row->at], tape->low[row->at]};
         else if (row->source == QDOT_ROW_WHOLE)
-            t->numbers[r * t->stride] = (qdot_two){row->at, 0};
-    }
-    for (size_t i = 0; i < p->steps.n; i++) {
-        const qdot_program_step *s = p->steps.at + i;
-
-        t->steps[i] = (step){.op = s->op,
-                             .zero = s->zero,
-                             .sign = s->sign,
-                             .x = place(t, s->x),
-                             .y = place(t, s->y),
-                             .z = place(t, s->z),
-                             .to = place(t, s->to),
-                             .second = place(t, s->second),
-                             .third = place(t, s->third),
-                             .d = place(t, s->d)};
+            place(t, r)[0] = (qdot_two){row->at, 0};
     }
 }
 
@@ -266,11 +196,10 @@ make(qdot_tape_two *t, const qdot_tape *tape, int most, size_t moving)
         t->order = fma_order;
 #endif
     t->numbers = qdot_calloc(p->rows.n * t->stride + 1, sizeof *t->numbers);
-    t->steps = qdot_calloc(p->steps.n, sizeof *t->steps);
     t->note = qdot_calloc(p->rows.n + 1, sizeof *t->note);
-    if (!t->numbers || !t->steps || !t->note)
+    if (!t->numbers || !t->note)
         return QDOT_ENOMEM;
-    settle(t, tape);
+    set_constants(t, tape);
     return QDOT_OK;
 }
 
@@ -300,14 +229,13 @@ qdot_tape_two_free(qdot_tape_two *t)
     qdot_program_clear(&t->program);
     qdot_free(t->numbers);
     qdot_free(t->note);
-    qdot_free(t->steps);
     qdot_free(t);
 }
 
 qdot_two *
 qdot_tape_two_input(qdot_tape_two *t, size_t i)
 {
-    return t->numbers + i * t->stride;
+    return place(t, (qdot_program_row)i);
 }
 
 size_t

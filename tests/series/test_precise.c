@@ -70,29 +70,8 @@ series_is_right(fixture *f, qdot_expr e, const char *what)
 static void
 every_function_has_its_series(void **state)
 {
-    static const struct {
-        qdot_fun_id f;
-        bool above; /* of u > 1, else of 0 < x < 1 */
-        const char *name;
-    } rows[] = {
-        {QDOT_SIN, false, "sin"},     {QDOT_COS, false, "cos"},
-        {QDOT_TAN, false, "tan"},     {QDOT_COT, false, "cot"},
-        {QDOT_ASIN, false, "asin"},   {QDOT_ACOS, false, "acos"},
-        {QDOT_ATAN, false, "atan"},   {QDOT_SINH, false, "sinh"},
-        {QDOT_COSH, false, "cosh"},   {QDOT_TANH, false, "tanh"},
-        {QDOT_ASINH, false, "asinh"}, {QDOT_ACOSH, true, "acosh"},
-        {QDOT_ATANH, false, "atanh"}, {QDOT_EXP, false, "exp"},
-        {QDOT_LOG, true, "log"},      {QDOT_ERF, false, "erf"},
-        {QDOT_ERFC, true, "erfc"},
-    };
-    fixture f;
-
     (void)state;
-    begin(&f);
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        series_is_right(&f, qdot_fun1(f.pool, rows[i].f, rows[i].above ? f.u : f.x),
-                        rows[i].name);
-    qdot_pool_free(f.pool);
+    check_functions(series_is_right);
 }
 
 static void

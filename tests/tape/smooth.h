@@ -1,4 +1,5 @@
-/* smooth.h -- two functions of t to build expressions of, for tests of series. */
+/* smooth.h -- two functions of t to build expressions of, and all functions of these, for tests of
+ * series. */
 #ifndef QDOT_TESTS_TAPE_SMOOTH_H
 #define QDOT_TESTS_TAPE_SMOOTH_H
 
@@ -29,6 +30,34 @@ begin(fixture *f)
     f->u = qdot_add(f->pool, decimal(f, "1.3"),
                     qdot_mul(f->pool, decimal(f, "0.2"), QDOT_T));
     f->u = qdot_add(f->pool, f->u, qdot_mul(f->pool, decimal(f, "0.1"), t2));
+}
+
+/* Every function of one argument, by name, checked. */
+static inline void
+check_functions(void (*check)(fixture *f, qdot_expr e, const char *what))
+{
+    static const struct {
+        qdot_fun_id f;
+        bool above; /* of u > 1, else of 0 < x < 1 */
+        const char *name;
+    } rows[] = {
+        {QDOT_SIN, false, "sin"},     {QDOT_COS, false, "cos"},
+        {QDOT_TAN, false, "tan"},     {QDOT_SEC, false, "sec"},
+        {QDOT_CSC, false, "csc"},     {QDOT_COT, false, "cot"},
+        {QDOT_ASIN, false, "asin"},   {QDOT_ACOS, false, "acos"},
+        {QDOT_ATAN, false, "atan"},   {QDOT_SINH, false, "sinh"},
+        {QDOT_COSH, false, "cosh"},   {QDOT_TANH, false, "tanh"},
+        {QDOT_ASINH, false, "asinh"}, {QDOT_ACOSH, true, "acosh"},
+        {QDOT_ATANH, false, "atanh"}, {QDOT_EXP, false, "exp"},
+        {QDOT_LOG, true, "log"},      {QDOT_ERF, false, "erf"},
+        {QDOT_ERFC, true, "erfc"},
+    };
+    fixture f;
+
+    begin(&f);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        check(&f, qdot_fun1(f.pool, rows[i].f, rows[i].above ? f.u : f.x), rows[i].name);
+    qdot_pool_free(f.pool);
 }
 
 #endif
