@@ -298,12 +298,6 @@ qdot_lanes_code_run(const qdot_lanes_code *c)
         code(c->coefficients + QDOT_LANES / 2, c->scalars, c->work + QDOT_LANES / 2);
 }
 
-size_t
-qdot_lanes_code_bytes(const qdot_lanes_code *c)
-{
-    return c->text->used;
-}
-
 double *
 qdot_lanes_code_number(const qdot_lanes_code *c, size_t i)
 {

@@ -69,7 +69,6 @@ QDOT_MUST_CHECK qdot_status qdot_lanes_code_new(qdot_lanes *lanes, size_t rows,
 bool qdot_lanes_may_be_code(void);
 void qdot_lanes_code_free(qdot_lanes_code *code);
 void qdot_lanes_code_run(const qdot_lanes_code *code);
-size_t qdot_lanes_code_bytes(const qdot_lanes_code *code);
 
 /* Their places, for the caller to fill before and read after: [a group]. */
 double *qdot_lanes_code_number(const qdot_lanes_code *code, size_t i);

@@ -10,7 +10,4 @@ typedef struct qdot_lanes qdot_lanes; /* lanes.h */
  * qdot_lanes_input(lanes, 0) + r qdot_lanes_stride(lanes) groups. */
 const qdot_taylor *qdot_lanes_program(const qdot_lanes *lanes);
 
-/* [a group] what step i divides by, inverse; from order 0. Steps' follow each other. */
-double *qdot_lanes_inverse(qdot_lanes *lanes, size_t i);
-
 #endif

@@ -217,12 +217,6 @@ qdot_lanes_program(const qdot_lanes *t)
 }
 
 double *
-qdot_lanes_inverse(qdot_lanes *t, size_t i)
-{
-    return t->inverses + i * QDOT_LANES;
-}
-
-double *
 qdot_lanes_input(qdot_lanes *t, size_t i)
 {
     return t->coefficients + i * t->stride * QDOT_LANES;
