@@ -116,6 +116,7 @@ library_sources = \
 	lib/lang/source/letters.c \
 	lib/lang/source/lex.c \
 	lib/lang/source/source.c \
+	lib/machine/vector.c \
 	lib/machine/x86.c \
 	lib/mech/dynamics/accel.c \
 	lib/mech/dynamics/alike.c \
@@ -267,6 +268,7 @@ library_sources = \
 	lib/series/lanes-sums.c \
 	lib/series/lanes-writer.c \
 	lib/series/lanes.c \
+	lib/series/motion.c \
 	lib/series/near.c \
 	lib/series/precise.c \
 	lib/series/program.c \
@@ -278,6 +280,7 @@ library_sources = \
 	lib/series/taylor-code.c \
 	lib/series/taylor-correct.c \
 	lib/series/taylor-near.c \
+	lib/series/taylor-order-fma.c \
 	lib/series/taylor-order.c \
 	lib/series/taylor-text.c \
 	lib/series/taylor-unknowns.c \
@@ -323,23 +326,26 @@ library_sources = \
 	lib/sim/error/unresolved-forces.c \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
+	lib/sim/form/canonical.c \
 	lib/sim/form/constrained-series.c \
 	lib/sim/form/derived.c \
 	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
-	lib/sim/form/leading-residual.c \
+	lib/sim/form/ensemble-series.c \
 	lib/sim/form/leading.c \
-	lib/sim/form/members.c \
+	lib/sim/form/motion-of-equations.c \
+	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/precise-bind.c \
 	lib/sim/form/residual-energy.c \
+	lib/sim/form/residual-series.c \
+	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
+	lib/sim/form/residual-vectors.c \
 	lib/sim/form/residual.c \
 	lib/sim/form/shifted-lanes.c \
-	lib/sim/form/shifted-tree.c \
-	lib/sim/form/shifted-wide.c \
-	lib/sim/form/shifted.c \
 	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
+	lib/sim/model/constrained-lanes.c \
 	lib/sim/model/constrained-names.c \
 	lib/sim/model/constrained-near.c \
 	lib/sim/model/constrained-project.c \
@@ -473,6 +479,7 @@ library_headers = \
 	lib/lang/source/lex.h \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
+	lib/machine/vector.h \
 	lib/machine/x86.h \
 	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
@@ -605,12 +612,13 @@ library_headers = \
 	lib/ode/whole.h \
 	lib/ode/written.h \
 	lib/series/lanes-code.h \
-	lib/series/lanes-program.h \
 	lib/series/lanes-writer.h \
 	lib/series/lanes.def \
 	lib/series/lanes.h \
 	lib/series/linear.def \
+	lib/series/motion.h \
 	lib/series/near.h \
+	lib/series/precise.def \
 	lib/series/precise.h \
 	lib/series/program.h \
 	lib/series/recurrence.def \
@@ -618,6 +626,7 @@ library_headers = \
 	lib/series/taylor-code.h \
 	lib/series/taylor-generator.h \
 	lib/series/taylor-order.def \
+	lib/series/taylor-order.h \
 	lib/series/taylor-steps.h \
 	lib/series/taylor-text.h \
 	lib/series/taylor-wide.def \
@@ -656,24 +665,26 @@ library_headers = \
 	lib/sim/error/unresolved-forces.h \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
+	lib/sim/form/canonical.h \
 	lib/sim/form/constrained-series.h \
 	lib/sim/form/derived.h \
 	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
-	lib/sim/form/leading-residual.h \
+	lib/sim/form/ensemble-series.h \
 	lib/sim/form/leading.h \
-	lib/sim/form/members.def \
-	lib/sim/form/members.h \
+	lib/sim/form/motion-of-equations.h \
+	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/precise-bind.h \
 	lib/sim/form/residual-energy.h \
+	lib/sim/form/residual-series.h \
+	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
+	lib/sim/form/residual-vectors.h \
 	lib/sim/form/residual.h \
 	lib/sim/form/shifted-lanes.def \
 	lib/sim/form/shifted-lanes.h \
-	lib/sim/form/shifted-tree.h \
-	lib/sim/form/shifted-wide.h \
-	lib/sim/form/shifted.h \
 	lib/sim/model/absent.h \
+	lib/sim/model/constrained-lanes.h \
 	lib/sim/model/constrained-parts.h \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \
@@ -748,6 +759,7 @@ unit_tests = \
 	tests/lang/test_session \
 	tests/lang/test_styles \
 	tests/lang/test_undo \
+	tests/machine/test_vector \
 	tests/machine/test_x86 \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
@@ -789,6 +801,7 @@ unit_tests = \
 	tests/ode/test_written \
 	tests/series/test_lanes-code \
 	tests/series/test_lanes \
+	tests/series/test_motion \
 	tests/series/test_near \
 	tests/series/test_precise \
 	tests/series/test_program \
@@ -801,16 +814,18 @@ unit_tests = \
 	tests/show/test_table \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
+	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_horizon \
+	tests/sim/test_motion \
 	tests/sim/test_operations \
 	tests/sim/test_parameter_states \
 	tests/sim/test_parts \
 	tests/sim/test_precise \
+	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
 	tests/sim/test_run \
-	tests/sim/test_shifted-tree \
 	tests/sim/test_start \
 	tests/sim/test_switch \
 	tests/sim/test_taylor \
@@ -1733,6 +1748,7 @@ test_files = \
 	tests/script/values.out \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
+	tests/sim/ensembles.h \
 	tests/sim/scenes.h \
 	tests/tape/lone.h \
 	tests/tape/reference.h \

@@ -141,6 +141,31 @@ spring(qdot_pool *pool)
     return scene;
 }
 
+/* Two bobs on rods of length 1, in Cartesian coordinates with constraints. */
+static qdot_scene *
+rods(qdot_pool *pool)
+{
+    static const char *const names[] = {"x[1]", "y[1]", "x[2]", "y[2]"};
+    qdot_scene *scene = qdot_scene_new(pool);
+    qdot_expr from[2] = {QDOT_ZERO, QDOT_ZERO};
+    qdot_expr g[] = {QDOT_ZERO, qdot_expr_ratio(pool, -981, 100)};
+
+    for (int i = 0; i < 2; i++) {
+        qdot_expr r[2], length = QDOT_ZERO;
+
+        for (int k = 0; k < 2; k++) {
+            r[k] = coordinate(pool, scene, names[2 * i + k]);
+            length = qdot_add(pool, length,
+                              qdot_pow_int(pool, qdot_sub(pool, r[k], from[k]), 2));
+            from[k] = r[k];
+        }
+        must(qdot_scene_particle(scene, i ? "b" : "a", QDOT_ONE, qdot_vector(pool, 2, r)));
+        must(qdot_scene_constraint(scene, i ? "lower" : "upper", length, QDOT_ONE));
+    }
+    must(qdot_scene_gravity(scene, qdot_vector(pool, 2, g)));
+    return scene;
+}
+
 /* q and q' of a member, u and w between 0 and 1: angles 1 ... 1.5 of a chain at rest; orbits of
  * e = 0.9 from their pericentres. */
 static void
@@ -169,6 +194,19 @@ start_spring(double u, double w, double *y)
     y[2] = y[3] = 0;
 }
 
+static void
+start_rods(double u, double w, double *y)
+{
+    const double a = 1 + 0.5 * u, b = 1 + 0.5 * w;
+
+    y[0] = sin(a);
+    y[1] = -cos(a);
+    y[2] = y[0] + sin(b);
+    y[3] = y[1] - cos(b);
+    for (int i = 4; i < 8; i++)
+        y[i] = 0;
+}
+
 static const struct {
     const char *name;
     qdot_scene *(*make)(qdot_pool *pool);
@@ -178,6 +216,7 @@ static const struct {
     {"kepler", kepler, start_kepler},
     {"spherical", spherical, start_spherical},
     {"spring", spring, start_spring},
+    {"rods", rods, start_rods},
 };
 
 enum { SCENES = sizeof scenes / sizeof *scenes };
@@ -247,7 +286,7 @@ main(int argc, char **argv)
     qdot_plan *plan;
 
     if (argc != 7 || !pool) {
-        fprintf(stderr, "usage: lanes chain|henon|kepler|spherical|spring LINKS MEMBERS TOL "
+        fprintf(stderr, "usage: lanes chain|henon|kepler|spherical|spring|rods LINKS MEMBERS TOL "
                         "ROUNDS KIND\n");
         return 2;
     }

@@ -66,16 +66,17 @@ prefix(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int fi
     return at;
 }
 
-/* Of vectors of four; a broadcast alone is of the other width there. */
+/* VEX, by which no lane is masked; a broadcast alone is of the other width there. */
 static unsigned char *
 narrow_prefix(unsigned char *at, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
 {
-    const unsigned wide = name != QDOT_X86_SPREAD;
+    const unsigned doubles = name != QDOT_X86_SPREAD && name != QDOT_X86_HALVES;
+    const unsigned length = instructions[name].wide;
 
     *at++ = 0xc4;
     *at++ = (unsigned char)(inverted(reg, 3, 7) | 1u << 6 | inverted(rm.reg, 3, 5)
                             | instructions[name].map);
-    *at++ = (unsigned char)(wide << 7 | (unsigned)(~first & 15) << 3 | 1u << 2
+    *at++ = (unsigned char)(doubles << 7 | (unsigned)(~first & 15) << 3 | length << 2
                             | instructions[name].prefix);
     return at;
 }
@@ -105,7 +106,7 @@ encode(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int fi
 {
     const bool whole = instructions[name].wide && name != QDOT_X86_SPREAD && !rm.spread;
 
-    if (x->narrow && instructions[name].wide) {
+    if (x->narrow) {
         at = narrow_prefix(at, name, reg, first, rm);
         *at++ = instructions[name].opcode;
         return operands(x, at, reg, rm, 1);
@@ -124,12 +125,13 @@ qdot_x86_emit(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm r
 }
 
 void
-qdot_x86_align(qdot_x86 *x, int reg, int high, qdot_x86_rm low, int from)
+qdot_x86_move_lanes(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm,
+                    int how)
 {
     unsigned char *start = room(x);
-    unsigned char *at = encode(x, start, QDOT_X86_ALIGN, reg, high, low);
+    unsigned char *at = encode(x, start, name, reg, first, rm);
 
-    *at++ = (unsigned char)from;
+    *at++ = (unsigned char)how;
     written(x, start, at);
 }
 
@@ -313,12 +315,12 @@ qdot_x86_unframe(qdot_x86 *x)
     write_bytes(x, sizeof bytes, bytes);
 }
 
-bool
-qdot_x86_is_here(void)
+size_t
+qdot_x86_kind(void)
 {
 #if defined __x86_64__ && defined __GNUC__ && defined __LP64__
-    return qdot_kind_is_here(2);
+    return qdot_kind_is_here(2) ? 2 : qdot_kind_is_here(1);
 #else
-    return false;
+    return 0;
 #endif
 }

@@ -1,12 +1,15 @@
-/* x86.h -- instructions of x86-64 with AVX-512, as bytes: the few that sums of products need.
+/* x86.h -- instructions of x86-64 with AVX-512 or with AVX2 and FMA, as bytes: the few that sums
+ * of products need.
  *
  * Every instruction is of the form
  *
  *     reg <- f(reg, first, rm),   rm a register or a place in memory
  *
- * with vector registers 0 ... 31, whose lowest double a scalar instruction means. A store
- * has what it stores in `reg` and its place in `rm`. Writing never fails at once: a buffer
- * that could not grow says so at the end.
+ * with vector registers 0 ... 31 (AVX2: 0 ... 15), whose lowest double a scalar instruction
+ * means. A store has what it stores in `reg` and its place in `rm`. The two kinds differ in the
+ * number and the width of registers, and in how lanes are masked; what is written for either by
+ * the same calls does the same. Writing never fails at once: a buffer that could not grow says so
+ * at the end.
  *
  * Source  Intel 64 and IA-32 Architectures Software Developer's Manual 2, 2.3 (VEX), 2.7 (EVEX).
  * Tests   tests/machine/test_x86.c
@@ -45,8 +48,12 @@
     X(NMADD_ALL, 2, 1, 0xbc, true)    /* reg = reg - first rm */                         \
     X(SPREAD, 2, 1, 0x19, true)       /* reg = the double rm in every lane */            \
     X(XOR_ALL, 1, 1, 0xef, true)      /* reg = first xor rm: 0 of one with itself */       \
-    X(ALIGN, 3, 1, 0x03, true)        /* reg = the lanes of rm, then first, from the one  \
-                                         that is said on */
+    X(AND_ALL, 1, 1, 0xdb, true)      /* reg = first and rm */                           \
+    X(ALIGN, 3, 1, 0x03, true)        /* AVX-512: reg = the lanes of rm, then first, from  \
+                                         the one that is said on */                      \
+    X(PERMUTE, 3, 1, 0x01, true)      /* reg = the lanes of rm that two bits each name */  \
+    X(HALVES, 3, 1, 0x06, true)       /* AVX2: reg = halves of first and rm, of 0 */      \
+    X(PAIRS, 1, 1, 0xc6, true)        /* reg = of each pair of lanes one of first, then rm */
 
 typedef enum {
 #define X(ID, map, prefix, opcode, wide) QDOT_X86_##ID,
@@ -88,8 +95,30 @@ typedef struct {
     int mask; /* of the instructions that follow; 0: none */
     bool zeroing; /* what it leaves out becomes 0, else stays */
     bool far;     /* every offset takes four bytes: like instructions are equally long */
-    bool narrow;  /* whole vectors are of 4 doubles, registers 0 ... 15: AVX2 is enough */
+    bool narrow;  /* by AVX2 and FMA: whole vectors are of 4 doubles, no masks */
 } qdot_x86;
+
+/* What the code of this processor has (num/kinds.h): 2 AVX-512, 1 AVX2 and FMA, 0 nothing that is
+ * written here. */
+size_t qdot_x86_kind(void);
+/* Nothing is written yet, for a kind. Its vectors, in doubles, and their registers. */
+static inline qdot_x86
+qdot_x86_of(size_t kind)
+{
+    return (qdot_x86){.narrow = kind < 2};
+}
+
+static inline int
+qdot_x86_lanes(const qdot_x86 *x)
+{
+    return x->narrow ? 4 : 8;
+}
+
+static inline int
+qdot_x86_registers(const qdot_x86 *x)
+{
+    return x->narrow ? 16 : 32;
+}
 
 static inline qdot_x86_rm
 qdot_x86_reg(int reg)
@@ -104,8 +133,9 @@ qdot_x86_at(qdot_x86_base base, int32_t offset)
 }
 
 void qdot_x86_emit(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm);
-/* The lanes of low, then high, from lane `from` on. */
-void qdot_x86_align(qdot_x86 *x, int reg, int high, qdot_x86_rm low, int from);
+/* One that is told by a byte more how lanes go. */
+void qdot_x86_move_lanes(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm,
+                         int how);
 /* Mask register m (1 ... 7) = lanes, a bit each. */
 void qdot_x86_set_mask(qdot_x86 *x, int m, unsigned lanes);
 /* Mask register m takes on the lanes of `more`; it moves up by a lane. */
@@ -132,8 +162,5 @@ void qdot_x86_return(qdot_x86 *x);
 void qdot_x86_frame(qdot_x86 *x);
 void qdot_x86_call(qdot_x86 *x, void (*function)(void));
 void qdot_x86_unframe(qdot_x86 *x);
-
-/* Whether this processor and its system have all that (and num/kinds.h is not limited). */
-bool qdot_x86_is_here(void);
 
 #endif

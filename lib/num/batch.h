@@ -79,13 +79,16 @@ typedef struct {
     /* to [n] = from in the lanes that are set. */
     void (*blend)(size_t n, const int64_t *set, const double *from, double *to);
 
-    /* A [n x n] -> its Cholesky factor L below and on the diagonal, where 1/L_ii stands
-     * for L_ii. A lane that is not positive definite gets NaN or infinities. */
-    void (*factor)(size_t n, double *A);
-    /* x [n] <- (L L^T)^-1 x */
-    void (*solve)(size_t n, const double *L, double *x);
-    /* inverse [n x n] of L L^T */
-    void (*invert)(size_t n, const double *L, double *inverse);
+    /* A [n x n], of which the first `positive` rows are positive definite and what these leave of
+     * the others negative -> L below and on the diagonal, where 1/L_ii stands for L_ii:
+     * A = L S L^T, S = 1 in those rows and -1 in the others. A lane of which that is not so, or to
+     * less than 2^-40 of what the first rows take from a diagonal entry of the others, gets NaN
+     * or infinities. */
+    void (*factor)(size_t n, size_t positive, double *A);
+    /* x [n] <- (L S L^T)^-1 x */
+    void (*solve)(size_t n, size_t positive, const double *L, double *x);
+    /* inverse [n x n] of L S L^T */
+    void (*invert)(size_t n, size_t positive, const double *L, double *inverse);
     /* inverse of A [2 x 2], of which the upper corner is not read, by its cofactors; NaN in a
      * lane that is not positive definite. */
     void (*invert_two)(const double *A, double *inverse);

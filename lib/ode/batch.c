@@ -17,6 +17,9 @@ enum { L = QDOT_LANES, most_rescales = 8, most_tries = 60, line = 64 };
 
 static const int64_t max_steps = 50000000;
 
+/* A projection moves by its own rounding, whatever the tolerance. */
+static const double rounding_of_projection = 1e-13;
+
 /* The part of the way that a step goes whose series ends. */
 static const double part_of_way = 0.31830988618379067;
 
@@ -26,6 +29,7 @@ typedef struct {
     _Alignas(64) double t[L], t1[L];
     double direction[L], unit[L], old_unit[L];
     double end[L], h[L], most[L];     /* of the step tried; no longer ones for now */
+    double moved[L];                  /* by a projection of its end */
     double s[L], way[L], now[L];      /* what it goes; h by the units before and behind it */
     int64_t active[L], tried[L];      /* a step is to be confirmed */
     int64_t good[L], defined[L];      /* it is; f is, where it ends */
@@ -147,6 +151,9 @@ confirm(batch *b)
     b->kernels->confirm(b->moving, system->checked, system->x, system->stride, b->slope, b->first,
                         b->next, a->way, a->now, 10 * (b->run->order + 1) * b->run->tol,
                         64 * DBL_EPSILON, a->good, a->defined);
+    for (size_t l = 0; system->project && l < L; l++)
+        if (!(a->moved[l] <= 100 * b->run->tol + rounding_of_projection))
+            a->good[l] = 0;
 }
 
 /* Back to where the step began, which then is to be a quarter of it. */
@@ -288,6 +295,14 @@ go(batch *b)
                         b->at.old_unit, b->value, b->y, b->carry, b->next, b->next_carry);
     for (size_t i = system->checked; i < b->moving; i++)
         memcpy(b->first + i * L, coefficient(b, i, 1), L * sizeof *b->first);
+    if (system->project) {
+        double t[L];
+
+        memcpy(t, b->at.t, sizeof t);
+        b->kernels->blend(1, b->at.tried, b->at.end, t);
+        memcpy(b->next + b->moving * L, b->y + b->moving * L, system->still * L * sizeof *b->y);
+        system->project(t, b->next, b->next_carry, b->at.moved, system->user);
+    }
 }
 
 static bool

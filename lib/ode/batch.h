@@ -36,6 +36,10 @@ typedef struct {
     void (*begin)(const double *t, const double *y, const double *unit, void *user);
     /* Then orders 2 ... p. */
     void (*extend)(int p, void *user);
+    /* Bring y + carry [n groups] back to where solutions are, each lane at its t [a group], as
+     * qdot_ode_system.project does; moved [a group] as there, NaN in a lane where that fails.
+     * NULL if there is nothing to do. */
+    void (*project)(const double *t, double *y, double *carry, double *moved, void *user);
     void *user; /* borrowed */
 } qdot_ode_batch;
 

@@ -1,4 +1,4 @@
-/* companion.c -- the second run, or the second and third, beside the first. */
+/* companion.c -- one or two further runs from which the error of a run is estimated. */
 #include "ode/companion.h"
 
 #include <math.h>
@@ -13,23 +13,25 @@
 
 static const double unit = 0x1p-53;
 
-/* Of roundings, for the floor. */
+/* The smallest error stated is 2u sqrt(steps), u = 2^-53; the root counts at most this. */
 static const double most_floor = 32;
 
-/* What a velocity that follows from a momentum may be off by, in doubles. */
+/* Rounding error of a velocity that is computed from a conserved momentum, in units of 2^-53. */
 static const double derived = 4;
 
-/* What a companion errs by beside its run, where the companions agree. */
+/* A companion's own error, as a part of its distance from the run, where the companions agree. */
 static const double most_share = 0.25;
 
-/* Times the steps of the run; what a companion may take beyond that, in steps and nanoseconds. */
+/* A companion gives up after this many times the steps of the run (the second: if the run is by a
+ * method for stiff equations), and this much more, in steps and in nanoseconds. */
 static const uint64_t patience = 20, patience_stiff = 100, most_beyond = 200000;
 static const double most_time = 2e9;
 
-/* What the times between may add, in differences at the end. */
+/* Differences before the end raise the error to at most this many times the one at the end. */
 static const double most_between = 30;
 
-/* Where in a run the times between lie; without a pattern that a period could share. */
+/* Times at which states are compared before the end, as parts of the run. They are irregular, so
+ * that no period of the motion hits all of them at the same phase. */
 static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
                                 0.7853, 0.8311, 0.8929, 0.9467};
 enum { PLACES = sizeof places / sizeof places[0] };
@@ -41,11 +43,11 @@ typedef struct {
     size_t number; /* 0, 1 */
     double t0;
     double *start; /* [n] the moved y0 */
-    double *low;   /* [n] what it is beyond that */
-    double *now;   /* [n] the same of y, where that is known */
-    double *y;     /* [n] where it is */
-    double *own;   /* [PLACES x n] its states there */
-    size_t reached; /* how many of them, from the first */
+    double *low;   /* [n] low-order part: the start is start + low */
+    double *now;   /* [n] low-order part of y, where that is known */
+    double *y;     /* [n] the state it has reached */
+    double *own;   /* [PLACES x n] its states at the times between */
+    size_t reached; /* the first `reached` of these times are done */
     qdot_ode_result result;
     uint64_t steps; /* so far */
     bool running;  /* on `thread` */
@@ -55,18 +57,18 @@ typedef struct {
 
 struct qdot_companion {
     size_t n;
-    const qdot_ode_method *run, *method; /* of the run, of the companions */
+    const qdot_ode_method *run, *method; /* the run's method, the companions' method */
     double tol, t1, t1_low, t0_low;
     bool leading;
     size_t samples; /* 0 or PLACES */
     double times[PLACES];
-    double *shown; /* [PLACES x n] the states of the run there */
+    double *shown; /* [PLACES x n] states of the run at `times` */
     size_t n_shown;
-    atomic_bool leave; /* the run ended elsewhere */
+    atomic_bool leave; /* companions are to stop: the run ended at another time */
     atomic_uint_fast64_t most_steps;
-    uint64_t run_steps; /* of the run, where most_steps is known */
-    double share; /* of the second one's distance that counts */
-    double floor; /* of the error */
+    uint64_t run_steps; /* steps of the run, set together with most_steps */
+    double share; /* factor by which the second companion's distance counts */
+    double floor; /* the smallest error that is stated */
     follower at[2];
     size_t count;
 };
@@ -229,7 +231,7 @@ release(qdot_companion *c)
     qdot_free(c);
 }
 
-/* None where the run is too short for them to differ. */
+/* No times between are used if the run is so short that two of them would be the same double. */
 static void
 choose_times(qdot_companion *c, double t0)
 {
@@ -273,8 +275,8 @@ qdot_companion_bound(double apart, double own)
     return (1 + most_share) * apart + own;
 }
 
-/* The bound of the run's state y by the companions' k-th states of n, SIZE_MAX: their ends. What
- * the second companion is away counts by its share. */
+/* Error bound of the run's state y from the companions' states at time k (SIZE_MAX: at the end).
+ * The distance of the second companion counts by the factor `share`. */
 static double
 bound_at(const qdot_companion *c, const double *y, size_t k)
 {
@@ -299,7 +301,7 @@ qdot_companion_bound_of(double x, size_t count, const double *theirs, double sha
                       : qdot_companion_bound(apart, 0);
 }
 
-/* The median over the times between. */
+/* The median of the error bounds at the times between. */
 static double
 median_between(const qdot_companion *c)
 {

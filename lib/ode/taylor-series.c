@@ -36,8 +36,9 @@ cost_of(const qdot_ode_series *s, int p)
            s->wider * ((more + orders_of_vector - 1) / orders_of_vector);
 }
 
-int
-qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, int more)
+/* The order that costs least for a way as long as the radius of convergence. */
+static int
+best_order(const qdot_ode_series *series, double tol, bool leading)
 {
     double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
     const bool more_digits = series->written[0] > 0 && L < series->digits;
@@ -56,8 +57,23 @@ qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, i
             best = p;
         }
     }
-    best += more;
+    return best;
+}
+
+int
+qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, int more)
+{
+    const int best = best_order(series, tol, leading) + more;
+
     return best < series->most ? best : series->most;
+}
+
+double
+qdot_ode_taylor_cost(const qdot_ode_series *series, double tol)
+{
+    const int p = best_order(series, tol, false);
+
+    return cost_of(series, p) * exp(-log(qdot_step_aim(tol, false)) / p);
 }
 
 double

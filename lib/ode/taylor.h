@@ -58,6 +58,10 @@ QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *sys
                                                       double t0, double t1, double *y,
                                                       qdot_ode_result *result);
 
+/* What steps take under tol by that order, as machine code where there is to be some: nanoseconds
+ * for a way as long as the radius of convergence. */
+double qdot_ode_taylor_cost(const qdot_ode_series *series, double tol);
+
 /* The order of a run under tol, its first orders in two doubles or not; `more` orders on
  * top. */
 int qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading,

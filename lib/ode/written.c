@@ -1,12 +1,14 @@
-/* written.c -- a guess of the steps to come against what writing takes. */
+/* written.c -- compare the estimated number of steps to come with the cost of generating code. */
 #include "ode/written.h"
 
 #include <math.h>
 
-/* Steps by which the number of those to come is known; before, it has to be as much larger. */
+/* After this many steps the estimate of those to come is trusted. Before, more of them are required
+ * in proportion. */
 static const double few_steps = 4;
 
-/* What the first step says: many starts are at rest, where steps are the longest. */
+/* Weight of the estimate from the first step. Many motions start at rest, where steps are the
+ * longest, so more steps follow than that step says. */
 static const double by_first = 1.5;
 
 static bool

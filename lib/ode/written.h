@@ -1,11 +1,12 @@
-/* written.h -- when the expansions of a run become machine code.
+/* written.h -- decides when machine code is generated for the Taylor expansions of a run.
  *
- * To write it takes as long as worth/p expansions save by it (ode/system.h). How many steps
- * follow is guessed by those there are, of which the length of the first is enough where
- * twice as many follow: it is then written before the first is taken, and what was expanded
- * by then is so again. Code that lies there from before is tried at once, and the first
- * step's length says in the same way whether it stays. So a run has the same last bits
- * whether or not another one came before it.
+ * Generating the code takes as long as is saved by worth/p expansions of order p (ode/system.h), so
+ * it pays if more steps than that will follow. Their number is estimated from the steps so far. If
+ * the length of the first step alone promises two thirds of the steps that are needed, the code is
+ * generated before that step is taken, and its expansion is repeated by the code. If an earlier run
+ * left code that fits, the first step is expanded by it, and the length of that step decides by the
+ * same rule whether the code stays in use. So the last bits of a run do not depend on whether
+ * another run came before it.
  *
  * Tests  tests/ode/test_written.c
  */
@@ -17,20 +18,20 @@
 typedef struct {
     const qdot_ode_series *series; /* borrowed */
     int p;
-    bool done;     /* nothing is to be asked any more */
-    bool on_trial; /* code from before is at work */
-    bool first;    /* the first step has not been judged */
+    bool done;     /* the decision is made */
+    bool on_trial; /* code of an earlier run is used until the first step is known */
+    bool first;    /* no decision by the first step has been made yet */
 } qdot_ode_written;
 
-/* Of a run by expansions to order p. */
+/* Begin a run whose expansions have order p. */
 qdot_ode_written qdot_ode_written_begin(const qdot_ode_series *series, int p);
 
-/* The first step is going to be a part of 1/(1 + left) of what is to be gone. *again: it is to be
- * expanded once more, from the unit that the run began with. */
+/* Decide by the first step, which will be 1/(1 + left) of the span. *again: expand it once more,
+ * from the unit of time that the run began with. */
 QDOT_MUST_CHECK qdot_status qdot_ode_written_first(qdot_ode_written *written, double left,
                                                    bool *again);
 
-/* So many steps are there, and about so many will follow; before a `begin`. */
+/* Decide after `steps` steps, with about `left` to follow; before the next expansion begins. */
 QDOT_MUST_CHECK qdot_status qdot_ode_written_next(qdot_ode_written *written, double steps,
                                                   double left);
 

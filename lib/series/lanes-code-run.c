@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-#include "num/kinds.h"
 #include "series/lanes-writer.h"
 #include "series/taylor-text.h"
 
@@ -79,7 +78,7 @@ static int
 least_of_loop(const qdot_lanes_writer *w, int late)
 {
     for (size_t i = w->t->still; i < w->t->length; i++) {
-        const int op = w->t->steps[i].op;
+        const int op = w->t->steps.at[i].op;
 
         if (op == QDOT_T_SQUARE || op == QDOT_T_SQRT || op == QDOT_T_TANH)
             return 2 * w->block + late;
@@ -120,19 +119,20 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
 static void
 find_moving(qdot_lanes_writer *w)
 {
-    const qdot_taylor *t = w->t;
+    const qdot_program *t = w->t;
 
     for (size_t i = 0; i < qdot_writer_rows(w); i++)
-        w->moving[i] = i < t->moving || i >= t->rows;
+        w->moving[i] = i < t->moving || i >= t->rows.n ||
+                       t->rows.at[i].source == QDOT_ROW_UNKNOWN;
     for (size_t i = 0; i < t->moving; i++)
         w->kept[i] = true;
     for (size_t i = t->still; i < t->length; i++) {
-        const double *const rows[] = {t->steps[i].to, t->steps[i].second,
-                                      t->steps[i].third, t->steps[i].d};
+        const qdot_program_step *s = t->steps.at + i;
+        const qdot_program_row rows[] = {s->to, s->second, s->third, s->d};
 
         for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
-            if (rows[r])
-                w->moving[qdot_writer_row(w, rows[r])] = true;
+            if (rows[r] != QDOT_NO_ROW)
+                w->moving[rows[r]] = true;
     }
 }
 
@@ -235,26 +235,26 @@ make(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code 
 bool
 qdot_lanes_may_be_code(void)
 {
-    return qdot_batch_kind() > 0;
+    return qdot_x86_kind() > 0;
 }
 
 qdot_status
 qdot_lanes_code_new(qdot_lanes *lanes, size_t rows, size_t numbers,
                     qdot_lanes_write *write, void *user, qdot_lanes_code **code)
 {
-    const size_t kind = qdot_batch_kind();
-    qdot_lanes_writer w = {.lanes = lanes,
+    const size_t kind = qdot_x86_kind();
+    qdot_lanes_writer w = {.x = qdot_x86_of(kind),
+                           .lanes = lanes,
                            .t = qdot_lanes_program(lanes),
                            .stride = qdot_lanes_stride(lanes),
                            .further = rows,
-                           .numbers = numbers,
-                           .registers = kind > 1 ? QDOT_WRITER_REGISTERS : 16};
+                           .numbers = numbers};
     qdot_status status;
 
     *code = NULL;
     if (kind == 0)
         return QDOT_OK;
-    w.x.narrow = kind == 1;
+    w.registers = qdot_x86_registers(&w.x);
     w.block = block;
     w.chains = chains;
     w.moment = w.chains;

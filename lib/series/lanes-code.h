@@ -95,6 +95,10 @@ void qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int t
 
 /* Order k = 1, 2, ... of all steps, orders below being there and k of the inputs. */
 void qdot_lanes_steps(qdot_lanes_writer *w, int k);
+/* The same of a motion, coefficients k of unknowns [n] being left out; of what is `newest` rows of
+ * equations [n] alone are there then. */
+void qdot_lanes_steps_but(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *unknown,
+                          const qdot_lanes_row *equations);
 /* The same, coefficients k of some inputs being 0, whatever they have, of `wanted` rows alone;
  * and once more, of all, with those that they have by then. */
 void qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n,

@@ -6,15 +6,15 @@
 /* What a step is made of, by rows. */
 typedef struct {
     qdot_lanes_writer *w;
-    const qdot_taylor_step *s;
+    const qdot_program_step *s;
     size_t i; /* its number */
     int k;
 } step;
 
 static qdot_lanes_at
-at(const step *s, const double *row, int order)
+at(qdot_program_row row, int order)
 {
-    return (qdot_lanes_at){qdot_writer_row(s->w, row), order};
+    return (qdot_lanes_at){row, order};
 }
 
 static double
@@ -43,53 +43,53 @@ inverse_of_order(const step *s)
 
 /* While inputs are left out a coefficient may be absent for it. */
 static void
-store(const step *s, qdot_lanes_sum sum, const double *to)
+store(const step *s, qdot_lanes_sum sum, qdot_program_row to)
 {
     qdot_lanes_writer *w = s->w;
 
     if (w->without && sum == QDOT_LANES_NOTHING)
-        w->absent[qdot_writer_row(w, to)] = true;
+        w->absent[to] = true;
     else
-        qdot_lanes_store(w, sum, at(s, to, s->k));
+        qdot_lanes_store(w, sum, at(to, s->k));
 }
 
 /* sum + +-x_0 y_k */
 static void
-with_newest(const step *s, qdot_lanes_sum *sum, bool minus, const double *x,
-            const double *y)
+with_newest(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row x,
+            qdot_program_row y)
 {
-    qdot_lanes_add_product(s->w, sum, minus, at(s, x, 0), at(s, y, s->k));
+    qdot_lanes_add_product(s->w, sum, minus, at(x, 0), at(y, s->k));
 }
 
 /* --- what needs no coefficient k ---------------------------------------------------- */
 
 static qdot_lanes_sum
-dot(const step *s, const double *x, const double *y)
+dot(const step *s, qdot_program_row x, qdot_program_row y)
 {
-    const qdot_lanes_pair pair = {qdot_writer_row(s->w, x), qdot_writer_row(s->w, y)};
+    const qdot_lanes_pair pair = {x, y};
 
     return qdot_lanes_dots(s->w, 1, &pair, s->k);
 }
 
 static qdot_lanes_sum
-square(const step *s, const double *x)
+square(const step *s, qdot_program_row x)
 {
-    return qdot_writer_square(s->w, qdot_writer_row(s->w, x), s->k);
+    return qdot_writer_square(s->w, x, s->k);
 }
 
 /* sums[0] of x and y, [1] of x and z */
 static void
-pair(const step *s, const double *x, const double *y, const double *z,
+pair(const step *s, qdot_program_row x, qdot_program_row y, qdot_program_row z,
      qdot_lanes_sum *sums)
 {
-    qdot_writer_pair(s->w, qdot_writer_row(s->w, x), qdot_writer_row(s->w, y),
-                     qdot_writer_row(s->w, z), s->k, sums);
+    qdot_writer_pair(s->w, x, y,
+                     z, s->k, sums);
 }
 
 static void
 before(const step *s, qdot_lanes_sum *sums)
 {
-    const qdot_taylor_step *i = s->s;
+    const qdot_program_step *i = s->s;
 
     sums[0] = sums[1] = QDOT_LANES_NOTHING;
     switch (i->op) {
@@ -112,8 +112,8 @@ before(const step *s, qdot_lanes_sum *sums)
         break;
     case QDOT_T_ATAN2: {
         const qdot_lanes_pair less[] = {
-            {qdot_writer_row(s->w, i->third), qdot_writer_row(s->w, i->x)},
-            {qdot_writer_row(s->w, i->d), qdot_writer_row(s->w, i->z)}};
+            {i->third, i->x},
+            {i->d, i->z}};
 
         sums[0] = dot(s, i->second, i->y);
         sums[1] = qdot_lanes_dots(s->w, 2, less, s->k);
@@ -125,22 +125,51 @@ before(const step *s, qdot_lanes_sum *sums)
 
 /* --- with coefficient k of the operands --------------------------------------------- */
 
+/* What an order makes of a row only while unknowns are left out. */
+static bool
+is_passing(const qdot_lanes_writer *w, const qdot_program_step *s)
+{
+    if (!s->newest || s->kept)
+        return false;
+    for (size_t i = 0; i < w->equations.n; i++)
+        if (w->equations.rows[i] == s->to)
+            return false;
+    return true;
+}
+
+/* Nothing reads the row, of a step before this one, any more. */
+static bool
+is_last_reader(const step *s, qdot_program_row row)
+{
+    const qdot_program_step *const steps = s->w->t->steps.at;
+    bool passes = false;
+
+    for (size_t i = s->w->t->still; i < s->i && !passes; i++)
+        passes = steps[i].to == row && is_passing(s->w, steps + i);
+    for (size_t i = s->i + 1; i < s->w->t->length && passes; i++)
+        passes = steps[i].x != row && steps[i].y != row && steps[i].z != row;
+    return passes;
+}
+
 static void
 linear(const step *s)
 {
-    const qdot_taylor_step *i = s->s;
+    const qdot_program_step *i = s->s;
+    qdot_lanes_writer *w = s->w;
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
     switch (i->op) {
-    case QDOT_T_NEG: qdot_lanes_add(s->w, &sum, true, at(s, i->x, s->k)); break;
+    case QDOT_T_NEG: qdot_lanes_add(s->w, &sum, true, at(i->x, s->k)); break;
     case QDOT_T_ADD:
     case QDOT_T_SUB:
-        qdot_lanes_add(s->w, &sum, false, at(s, i->x, s->k));
-        qdot_lanes_add(s->w, &sum, i->op == QDOT_T_SUB, at(s, i->y, s->k));
+        qdot_lanes_add(s->w, &sum, false, at(i->x, s->k));
+        qdot_lanes_add(s->w, &sum, i->op == QDOT_T_SUB, at(i->y, s->k));
         break;
     default:
-        if (i->op != QDOT_T_SCALE)
-            qdot_lanes_add(s->w, &sum, i->op == QDOT_T_SCALESUB, at(s, i->z, s->k));
+        if (i->op == QDOT_T_SCALEADD && w->absent[i->y] && is_last_reader(s, i->z))
+            sum = qdot_lanes_continue_last(w, at(i->z, s->k));
+        else if (i->op != QDOT_T_SCALE)
+            qdot_lanes_add(s->w, &sum, i->op == QDOT_T_SCALESUB, at(i->z, s->k));
         with_newest(s, &sum, i->op == QDOT_T_SCALEOFF, i->x, i->y);
     }
     store(s, sum, i->to);
@@ -150,13 +179,13 @@ linear(const step *s)
 static void
 product(const step *s, qdot_lanes_sum sum)
 {
-    const qdot_taylor_step *i = s->s;
+    const qdot_program_step *i = s->s;
     const bool minus = i->op == QDOT_T_NMADD;
 
     if (minus)
-        qdot_lanes_take_from(s->w, &sum, at(s, i->z, s->k));
+        qdot_lanes_take_from(s->w, &sum, at(i->z, s->k));
     else if (i->op != QDOT_T_MUL)
-        qdot_lanes_add(s->w, &sum, i->op == QDOT_T_MSUB, at(s, i->z, s->k));
+        qdot_lanes_add(s->w, &sum, i->op == QDOT_T_MSUB, at(i->z, s->k));
     with_newest(s, &sum, minus, i->x, i->y);
     with_newest(s, &sum, minus, i->y, i->x);
     store(s, sum, i->to);
@@ -164,8 +193,8 @@ product(const step *s, qdot_lanes_sum sum)
 
 /* +-(sum + 2 x_0 x_k) */
 static void
-finish_square(const step *s, qdot_lanes_sum sum, bool minus, const double *x,
-              const double *to)
+finish_square(const step *s, qdot_lanes_sum sum, bool minus, qdot_program_row x,
+              qdot_program_row to)
 {
     if (minus)
         qdot_lanes_negate(s->w, &sum);
@@ -178,9 +207,9 @@ finish_square(const step *s, qdot_lanes_sum sum, bool minus, const double *x,
 static void
 quotient(const step *s, qdot_lanes_sum sum)
 {
-    const qdot_taylor_step *i = s->s;
+    const qdot_program_step *i = s->s;
 
-    qdot_lanes_take_from(s->w, &sum, at(s, i->x, s->k));
+    qdot_lanes_take_from(s->w, &sum, at(i->x, s->k));
     if (i->op == QDOT_T_DIV)
         with_newest(s, &sum, true, i->to, i->y);
     qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
@@ -189,19 +218,19 @@ quotient(const step *s, qdot_lanes_sum sum)
 
 /* to_k = k x_k */
 static void
-weighted(const step *s, const double *x, const double *to)
+weighted(const step *s, qdot_program_row x, qdot_program_row to)
 {
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
     qdot_lanes_add_product(s->w, &sum, false, qdot_lanes_scalar_of(s->w, itself, s->k),
-                           at(s, x, s->k));
+                           at(x, s->k));
     store(s, sum, to);
 }
 
 /* y of y' = +-x' u */
 static void
-integrated(const step *s, qdot_lanes_sum sum, bool minus, const double *u,
-           const double *to)
+integrated(const step *s, qdot_lanes_sum sum, bool minus, qdot_program_row u,
+           qdot_program_row to)
 {
     qdot_lanes_scale(s->w, &sum,
                      qdot_lanes_scalar_of(s->w, minus ? minus_inverse : inverse, s->k));
@@ -213,17 +242,17 @@ integrated(const step *s, qdot_lanes_sum sum, bool minus, const double *u,
 static void
 power(const step *s, qdot_lanes_sum *sums)
 {
-    const qdot_taylor_step *i = s->s;
+    const qdot_program_step *i = s->s;
     qdot_lanes_sum sum = sums[0], more = QDOT_LANES_NOTHING, end = QDOT_LANES_NOTHING;
 
     weighted(s, i->x, i->d);
     qdot_lanes_scale(s->w, &sum, inverse_of_order(s));
-    qdot_lanes_add(s->w, &more, false, at(s, i->z, 0));
+    qdot_lanes_add(s->w, &more, false, at(i->z, 0));
     qdot_lanes_add(s->w, &more, false, qdot_lanes_scalar(s->w, 1));
     qdot_writer_join(s->w, QDOT_X86_MUL_ALL, &sum, more);
     qdot_writer_join(s->w, QDOT_X86_SUB_ALL, &sum, sums[1]);
-    qdot_lanes_add_product(s->w, &end, false, at(s, i->z, 0), at(s, i->to, 0));
-    qdot_lanes_scale(s->w, &end, at(s, i->x, s->k));
+    qdot_lanes_add_product(s->w, &end, false, at(i->z, 0), at(i->to, 0));
+    qdot_lanes_scale(s->w, &end, at(i->x, s->k));
     qdot_writer_join(s->w, QDOT_X86_ADD_ALL, &sum, end);
     qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
     store(s, sum, i->to);
@@ -237,7 +266,7 @@ finish_weighted(const step *s, qdot_lanes_sum sum)
 
     qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
     store(s, sum, s->s->d);
-    qdot_lanes_add_product(s->w, &to, false, inverse_of_order(s), at(s, s->s->d, s->k));
+    qdot_lanes_add_product(s->w, &to, false, inverse_of_order(s), at(s->s->d, s->k));
     store(s, to, s->s->to);
 }
 
@@ -247,14 +276,14 @@ ratio(const step *s, qdot_lanes_sum sum)
     qdot_lanes_negate(s->w, &sum);
     qdot_lanes_add_product(s->w, &sum, s->s->sign < 0,
                            qdot_lanes_scalar_of(s->w, itself, s->k),
-                           at(s, s->s->x, s->k));
+                           at(s->s->x, s->k));
     finish_weighted(s, sum);
 }
 
 static void
 arctangent(const step *s, qdot_lanes_sum *sums)
 {
-    const qdot_taylor_step *i = s->s;
+    const qdot_program_step *i = s->s;
     qdot_lanes_sum sum = sums[0];
 
     qdot_writer_join(s->w, QDOT_X86_SUB_ALL, &sum, sums[1]);
@@ -268,7 +297,7 @@ arctangent(const step *s, qdot_lanes_sum *sums)
 static void
 after(const step *s, qdot_lanes_sum *sums)
 {
-    const qdot_taylor_step *i = s->s;
+    const qdot_program_step *i = s->s;
 
     switch (i->op) {
     case QDOT_T_MUL:
@@ -311,12 +340,30 @@ qdot_lanes_steps(qdot_lanes_writer *w, int k)
 {
     qdot_writer_begin(w, k);
     for (size_t i = w->t->still; i < w->t->length; i++) {
-        const step s = {w, w->t->steps + i, i, k};
+        const step s = {w, w->t->steps.at + i, i, k};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];
 
         before(&s, sums);
         after(&s, sums);
     }
+}
+
+void
+qdot_lanes_steps_but(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *unknown,
+                     const qdot_lanes_row *equations)
+{
+    memset(w->absent, 0, qdot_writer_rows(w) * sizeof *w->absent);
+    for (size_t i = 0; i < n; i++)
+        w->absent[unknown[i]] = true;
+    w->without = true;
+    w->equations.n = n;
+    w->equations.rows = equations;
+    qdot_lanes_steps(w, k);
+    for (size_t i = w->t->still; i < w->t->length; i++)
+        if (is_passing(w, w->t->steps.at + i))
+            qdot_lanes_unread(w, at(w->t->steps.at[i].to, k));
+    w->without = false;
+    w->equations.n = 0;
 }
 
 /* Marks the rows that those wanted are made of, and the steps that make any. */
@@ -327,17 +374,16 @@ find_wanted(qdot_lanes_writer *w, size_t n, const qdot_lanes_row *rows)
     for (size_t i = 0; i < n; i++)
         w->wanted[rows[i]] = true;
     for (size_t i = w->t->length; i-- > w->t->still;) {
-        const qdot_taylor_step *s = w->t->steps + i;
-        const double *const made[] = {s->to, s->second, s->third, s->d};
-        const double *const of[] = {s->x, s->y, s->z};
+        const qdot_program_step *s = w->t->steps.at + i;
+        const qdot_program_row made[] = {s->to, s->second, s->third, s->d};
+        const qdot_program_row of[] = {s->x, s->y, s->z};
 
         w->idle[i] = true;
         for (size_t r = 0; r < sizeof made / sizeof *made; r++)
-            if (made[r] && w->wanted[qdot_writer_row(w, made[r])])
+            if (made[r] != QDOT_NO_ROW && w->wanted[made[r]])
                 w->idle[i] = false;
         for (size_t r = 0; r < sizeof of / sizeof *of && !w->idle[i]; r++)
-            if (of[r])
-                w->wanted[qdot_writer_row(w, of[r])] = true;
+            w->wanted[of[r]] = true;
     }
 }
 
@@ -346,20 +392,20 @@ static bool
 lacks_argument(const step *s)
 {
     return (s->s->op == QDOT_T_SINCOS || s->s->op == QDOT_T_SINHCOSH) &&
-           !s->w->idle[s->i] && s->w->absent[qdot_writer_row(s->w, s->s->x)];
+           !s->w->idle[s->i] && s->w->absent[s->s->x];
 }
 
 static void
 add_argument(const step *s)
 {
-    const double *const to[] = {s->s->to, s->s->second};
+    const qdot_program_row to[] = {s->s->to, s->s->second};
 
     weighted(s, s->s->x, s->s->d);
     for (int i = 0; i < 2; i++) {
         qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
         if (qdot_writer_is_kept(s->w, s->i, i))
-            sum = qdot_lanes_continue(s->w, at(s, to[i], s->k));
+            sum = qdot_lanes_continue(s->w, at(to[i], s->k));
         with_newest(s, &sum, i == 1 && s->s->op == QDOT_T_SINCOS, to[1 - i], s->s->x);
         store(s, sum, to[i]);
     }
@@ -375,7 +421,7 @@ qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes
         w->absent[inputs[i]] = true;
     find_wanted(w, n_wanted, wanted);
     for (size_t i = w->t->still; i < w->t->length; i++) {
-        const step s = {w, w->t->steps + i, i, k};
+        const step s = {w, w->t->steps.at + i, i, k};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];
 
         before(&s, sums);
@@ -397,7 +443,7 @@ qdot_lanes_steps_with(qdot_lanes_writer *w, int k)
     for (size_t i = 0; i < qdot_writer_rows(w); i++)
         w->absent[i] = false;
     for (size_t i = w->t->still; i < w->t->length; i++) {
-        const step s = {w, w->t->steps + i, i, k};
+        const step s = {w, w->t->steps.at + i, i, k};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];
 
         if (w->lacks[i]) {

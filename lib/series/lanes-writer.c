@@ -8,7 +8,7 @@
 size_t
 qdot_writer_rows(const qdot_lanes_writer *w)
 {
-    return w->t->rows + w->further;
+    return w->t->rows.n + w->further;
 }
 
 static bool
@@ -80,16 +80,16 @@ qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a)
                                 (int32_t)(a.row - QDOT_WRITER_SCALARS)));
     if (a.row >= QDOT_WRITER_INVERSES)
         return groups_from(QDOT_X86_RDI,
-                           w->t->rows * w->stride + a.row - QDOT_WRITER_INVERSES);
+                           w->t->rows.n * w->stride + a.row - QDOT_WRITER_INVERSES);
     if (a.row >= QDOT_WRITER_NUMBERS)
         return groups_from(QDOT_X86_RDX, a.row - QDOT_WRITER_NUMBERS);
     if (a.order > 0 && a.order != w->k)
         w->kept[a.row] = true;
     order = a.order > 0 && !w->kept[a.row] ? 1 : a.order;
-    if (a.row < w->t->rows)
+    if (a.row < w->t->rows.n)
         return of_order(w, true, a.row * w->stride, order);
     return of_order(w, false,
-                    qdot_writer_groups(w) + (a.row - w->t->rows) * w->stride, order);
+                    qdot_writer_groups(w) + (a.row - w->t->rows.n) * w->stride, order);
 }
 
 qdot_lanes_row
@@ -103,7 +103,7 @@ qdot_lanes_row_of(const qdot_lanes_writer *w, const double *output)
 qdot_lanes_row
 qdot_lanes_further_row(const qdot_lanes_writer *w, size_t i)
 {
-    return (qdot_lanes_row)(w->t->rows + i);
+    return (qdot_lanes_row)(w->t->rows.n + i);
 }
 
 qdot_lanes_at

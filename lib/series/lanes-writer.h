@@ -12,7 +12,6 @@
 
 #include "num/series.h"
 #include "series/lanes-code.h"
-#include "series/lanes-program.h"
 #include "machine/x86.h"
 
 enum {
@@ -45,13 +44,17 @@ typedef struct {
 struct qdot_lanes_writer {
     qdot_x86 x;
     qdot_lanes *lanes;
-    const qdot_taylor *t;
+    const qdot_program *t;
     size_t stride, further, numbers;
     bool counting; /* the first time: nothing is written */
     bool *moving;  /* [rows + further] it has more than order 0 */
     bool *kept;    /* likewise: it is wanted to all orders */
     bool *absent;  /* likewise: its coefficient of the order at hand is left out, or 0 for it */
     bool without;  /* some may be */
+    struct {
+        size_t n;
+        const qdot_lanes_row *rows;
+    } equations; /* what is read of an order while unknowns are left out; borrowed */
     bool *wanted;  /* likewise: something that is wanted then is made of it */
     bool *idle;    /* [length] the step makes none of that */
     bool *lacks;   /* [length] it lacked its argument, and nothing else */
@@ -75,12 +78,6 @@ struct qdot_lanes_writer {
     qdot_vec(int) ahead;
     qdot_status status;
 };
-
-static inline qdot_lanes_row
-qdot_writer_row(const qdot_lanes_writer *w, const double *row)
-{
-    return (qdot_lanes_row)((size_t)(row - w->t->coefficients) / w->t->stride);
-}
 
 static inline qdot_lanes_at
 qdot_writer_inverse(size_t step)

@@ -1,16 +1,19 @@
-/* lanes.c -- the series program of taylor.c with groups for numbers. */
+/* lanes.c -- a series program with groups for numbers. */
 #include "series/lanes.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
-#include "series/lanes-program.h"
-#include "series/taylor.h"
+#include "tape/code.h"
+#include "tape/shake.h"
 
-/* As qdot_taylor_step. */
+/* As qdot_program_step; c: the inverse of what every order divides by, of RATE that of the unit. */
 typedef struct {
     uint16_t op, zero;
-    int sign;
+    int sign, lead;
+    unsigned char newest;
+    bool still, kept;
     double *to, *second, *third, *d, *c;
     const double *x, *y, *z;
 } lanes_step;
@@ -25,10 +28,11 @@ typedef struct {
     void (*eval)(const qdot_tape *tape, const qdot_batch_kernels *kernels, double *work);
     void (*draw)(const drawn *constants, size_t n, const double *time);
     void (*value_of_zero)(const qdot_batch_kernels *kernels, const lanes_step *step);
-    void (*order)(const qdot_batch_kernels *kernels, const lanes_step *steps, int k,
-                  double inverse);
+    void (*order)(const qdot_batch_kernels *kernels, const lanes_step *steps, size_t n, int k,
+                  const double *inverse);
     void (*correct)(const lanes_step *steps, int k, size_t note);
     void (*renew)(double *row, int k, size_t note, const double *newest);
+    void (*integrate)(const double *unit, double inverse, const double *x, double *to);
 } lanes_kernels;
 
 #define BATCH_BODY "series/lanes.def"
@@ -45,14 +49,16 @@ static const lanes_kernels *const kinds[] = {
 struct qdot_lanes {
     const qdot_batch_kernels *kernels;
     const lanes_kernels *kind;
-    qdot_taylor *program; /* of one lane: rows and steps by numbers */
-    size_t stride, inputs, outputs, length, still;
+    const qdot_motion *motion; /* it is of; NULL: of a tape, whose program is */
+    qdot_program own;
+    const qdot_program *program;
+    double unit[QDOT_LANES], per_unit[QDOT_LANES]; /* of a motion */
+    bool has_rates, has_kept; /* steps of these kinds */
+    size_t stride;
     void *memory;          /* what the coefficients stand in */
     double *coefficients;  /* [rows x stride groups], from a cache line on */
     double *inverses;      /* [length groups] behind them */
     lanes_step *steps;     /* [length], QDOT_T_END behind them */
-    const double **output; /* [outputs] */
-    bool *constant;        /* [outputs] */
     drawn *drawn;          /* [n_drawn] */
     size_t n_drawn;
     double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
@@ -92,85 +98,103 @@ qdot_lanes_free(qdot_lanes *t)
 {
     if (!t)
         return;
-    qdot_taylor_free(t->program);
+    qdot_program_clear(&t->own);
     qdot_free(t->memory);
     qdot_free(t->steps);
-    qdot_free(t->output);
-    qdot_free(t->constant);
     qdot_free(t->drawn);
     qdot_free(t);
 }
 
-/* The place of a row of the single program. */
 static double *
-place(const qdot_lanes *t, const qdot_taylor *from, const double *row)
+place(const qdot_lanes *t, qdot_program_row row)
 {
-    return row ? t->coefficients +
-                     (size_t)(row - from->coefficients) / from->stride * t->stride * QDOT_LANES
-               : NULL;
+    return row == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)row * t->stride * QDOT_LANES;
 }
 
+/* Rows have orders up to `most`. */
 static qdot_status
-allocate(qdot_lanes *t, const qdot_taylor *from, int most)
+allocate(qdot_lanes *t, int most)
 {
+    const qdot_program *p = t->program;
     const size_t line = 64;
 
     /* and a note (correct); rows are to share no few sets of a cache */
     t->stride = ((size_t)most + 2) | 1;
-    t->inputs = from->inputs;
-    t->outputs = from->outputs;
-    t->length = from->length;
-    t->still = from->still;
-    t->n_drawn = from->n_drawn;
-    t->memory = qdot_calloc((from->rows * t->stride + t->length) * QDOT_LANES +
+    t->memory = qdot_calloc((p->rows.n * t->stride + p->length) * QDOT_LANES +
                                 line / sizeof(double),
                             sizeof(double));
-    t->steps = qdot_calloc(t->length + 1, sizeof *t->steps);
-    t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
-    t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
-    t->drawn = qdot_calloc(t->n_drawn + 1, sizeof *t->drawn);
-    if (!t->memory || !t->steps || !t->output || !t->constant || !t->drawn)
+    t->steps = qdot_calloc(p->steps.n, sizeof *t->steps);
+    t->drawn = qdot_calloc(p->constants.n + 1, sizeof *t->drawn);
+    if (!t->memory || !t->steps || !t->drawn)
         return QDOT_ENOMEM;
     t->coefficients =
         (double *)(((uintptr_t)t->memory + line - 1) / line * line);
-    t->inverses = t->coefficients + from->rows * t->stride * QDOT_LANES;
+    t->inverses = t->coefficients + p->rows.n * t->stride * QDOT_LANES;
     return QDOT_OK;
 }
 
-static qdot_status
-fill(qdot_lanes *t, const qdot_taylor *from, int most)
+/* A number in all lanes; shaken, it is its other neighbour, else drawn of both. */
+static void
+set_constant(qdot_lanes *t, double *row, const qdot_program_constant *c, bool shaken)
 {
-    QDOT_TRY(allocate(t, from, most));
-    for (size_t r = from->inputs; r < from->rows; r++)
-        for (size_t l = 0; l < QDOT_LANES; l++)
-            t->coefficients[r * t->stride * QDOT_LANES + l] =
-                from->coefficients[r * from->stride];
-    for (size_t i = 0; i < t->length; i++) {
-        const qdot_taylor_step *s = from->steps + i;
+    const double far = qdot_shake_double(c->value, c->side);
 
-        t->steps[i] = (lanes_step){.op = s->op,
-                                   .zero = s->zero,
-                                   .sign = s->sign,
-                                   .to = place(t, from, s->to),
-                                   .second = place(t, from, s->second),
-                                   .third = place(t, from, s->third),
-                                   .d = place(t, from, s->d),
-                                   .c = t->inverses + i * QDOT_LANES,
-                                   .x = place(t, from, s->x),
-                                   .y = place(t, from, s->y),
-                                   .z = place(t, from, s->z)};
-    }
-    t->steps[t->length].op = QDOT_T_END;
-    for (size_t i = 0; i < t->outputs; i++) {
-        t->output[i] = place(t, from, from->output[i]);
-        t->constant[i] = from->constant[i];
-    }
-    for (size_t i = 0; i < t->n_drawn; i++) {
-        const struct qdot_taylor_drawn *d = from->drawn + i;
+    for (size_t l = 0; l < QDOT_LANES; l++)
+        row[l] = shaken ? far : c->value;
+    if (c->low != 0 && !shaken)
+        t->drawn[t->n_drawn++] = (drawn){row, c->value, far,
+                                         (int64_t)ceil(ldexp(c->low / (far - c->value), 53))};
+}
 
-        t->drawn[i] = (drawn){place(t, from, d->row), d->near, d->far,
-                              (int64_t)ceil(ldexp(d->chance, 53))};
+static void
+set_constants(qdot_lanes *t, bool shaken)
+{
+    const qdot_program *p = t->program;
+
+    for (qdot_program_row r = 0; r < p->rows.n; r++) {
+        const qdot_program_row_info *row = p->rows.at + r;
+
+        if (row->source == QDOT_ROW_CONSTANT)
+            set_constant(t, place(t, r), p->constants.at + row->at, shaken);
+        for (size_t l = 0; l < QDOT_LANES && row->source == QDOT_ROW_WHOLE; l++)
+            place(t, r)[l] = row->at;
     }
+}
+
+static void
+set_steps(qdot_lanes *t)
+{
+    for (size_t i = 0; i < t->program->steps.n; i++) {
+        const qdot_program_step *s = t->program->steps.at + i;
+
+        t->has_rates |= s->op == QDOT_T_RATE;
+        t->has_kept |= s->kept;
+        t->steps[i] = (lanes_step){
+            .op = s->op,
+            .zero = s->zero,
+            .sign = s->sign,
+            .lead = s->lead,
+            .newest = t->motion ? s->newest : UCHAR_MAX,
+            .still = s->still,
+            .kept = s->kept || !t->motion,
+            .to = place(t, s->to),
+            .second = place(t, s->second),
+            .third = place(t, s->third),
+            .d = place(t, s->d),
+            .c = s->op == QDOT_T_RATE ? t->per_unit : t->inverses + i * QDOT_LANES,
+            .x = place(t, s->x),
+            .y = place(t, s->y),
+            .z = place(t, s->z)};
+    }
+}
+
+/* Once it has its program. */
+static qdot_status
+fill(qdot_lanes *t, bool shaken, int most)
+{
+    QDOT_TRY(allocate(t, most));
+    set_constants(t, shaken);
+    set_steps(t);
     for (int k = 1; k <= QDOT_SERIES_MOST; k++)
         t->inverse[k] = 1.0 / k;
     t->kernels = qdot_batch_kernels_get();
@@ -178,24 +202,29 @@ fill(qdot_lanes *t, const qdot_taylor *from, int most)
     return QDOT_OK;
 }
 
+static qdot_status
+check_order(int most)
+{
+    if (most < 0 || most > QDOT_SERIES_MOST)
+        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_lanes_new_moving(const qdot_tape *tape, int most, size_t moving, qdot_lanes **lanes)
 {
-    qdot_taylor *single;
     qdot_lanes *t;
     qdot_status status;
 
     *lanes = NULL;
-    if (most < 0 || most > QDOT_SERIES_MOST)
-        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
-    QDOT_TRY(qdot_taylor_new_moving(tape, false, 0, moving, 0, &single));
+    QDOT_TRY(check_order(most));
     t = qdot_calloc(1, sizeof *t);
-    if (!t) {
-        qdot_taylor_free(single);
+    if (!t)
         return QDOT_ENOMEM;
-    }
-    t->program = single;
-    status = fill(t, single, most);
+    t->program = &t->own;
+    status = qdot_program_init(tape, moving, false, &t->own);
+    if (status == QDOT_OK)
+        status = fill(t, false, most);
     if (status != QDOT_OK) {
         qdot_lanes_free(t);
         return status;
@@ -210,7 +239,29 @@ qdot_lanes_new(const qdot_tape *tape, int most, qdot_lanes **lanes)
     return qdot_lanes_new_moving(tape, most, tape->inputs, lanes);
 }
 
-const qdot_taylor *
+qdot_status
+qdot_lanes_of_motion(const qdot_motion *motion, bool shaken, int most, qdot_lanes **lanes)
+{
+    qdot_lanes *t;
+    qdot_status status;
+
+    *lanes = NULL;
+    QDOT_TRY(check_order(most + 1));
+    t = qdot_calloc(1, sizeof *t);
+    if (!t)
+        return QDOT_ENOMEM;
+    t->motion = motion;
+    t->program = &motion->program;
+    status = fill(t, shaken, most + 1);
+    if (status != QDOT_OK) {
+        qdot_lanes_free(t);
+        return status;
+    }
+    *lanes = t;
+    return QDOT_OK;
+}
+
+const qdot_program *
 qdot_lanes_program(const qdot_lanes *t)
 {
     return t->program;
@@ -231,13 +282,19 @@ qdot_lanes_stride(const qdot_lanes *t)
 const double *
 qdot_lanes_output(const qdot_lanes *t, size_t i)
 {
-    return t->output[i];
+    return place(t, t->program->outputs.at[i]);
+}
+
+const double *
+qdot_lanes_series(const qdot_lanes *t, qdot_program_row row)
+{
+    return place(t, row);
 }
 
 bool
 qdot_lanes_is_constant(const qdot_lanes *t, size_t i)
 {
-    return t->constant[i];
+    return t->program->rows.at[t->program->outputs.at[i]].still;
 }
 
 void
@@ -246,14 +303,29 @@ qdot_lanes_draw(qdot_lanes *t, const double *time)
     t->kind->draw(t->drawn, t->n_drawn, time);
 }
 
+/* Steps from `from` on, those that lead by so much being at order k + lead. */
+static void
+begin(qdot_lanes *t, int k, size_t from)
+{
+    for (size_t i = from; i < t->program->length; i++) {
+        const lanes_step *s = t->steps + i;
+
+        if (k + s->lead > 0)
+            t->kind->order(t->kernels, s, 1, k, t->inverse);
+        else if (k + s->lead == 0 || s->still)
+            t->kind->value_of_zero(t->kernels, s);
+    }
+}
+
 void
 qdot_lanes_order(qdot_lanes *t, int k)
 {
-    if (k == 0)
-        for (const lanes_step *s = t->steps; s->op != QDOT_T_END; s++)
-            t->kind->value_of_zero(t->kernels, s);
+    const qdot_program *p = t->program;
+
+    if (k <= 0)
+        begin(t, k, k > -p->lead ? p->still : 0);
     else
-        t->kind->order(t->kernels, t->steps + t->still, k, t->inverse[k]);
+        t->kind->order(t->kernels, t->steps + p->still, p->length - p->still, k, t->inverse);
 }
 
 void
@@ -261,5 +333,88 @@ qdot_lanes_correct(qdot_lanes *t, int k, size_t n, const double *newest)
 {
     for (size_t i = 0; i < n; i++)
         t->kind->renew(qdot_lanes_input(t, i), k, t->stride - 1, newest + i * QDOT_LANES);
-    t->kind->correct(t->steps + t->still, k, t->stride - 1);
+    t->kind->correct(t->steps + t->program->still, k, t->stride - 1);
+}
+
+/* --- unknowns ----------------------------------------------------------------------- */
+
+void
+qdot_lanes_set_unit(qdot_lanes *t, const double *unit)
+{
+    memcpy(t->unit, unit, sizeof t->unit);
+    for (size_t l = 0; l < QDOT_LANES && t->has_rates; l++)
+        t->per_unit[l] = 1 / unit[l];
+}
+
+/* Order k of an unknown, and what that makes of its integrals. */
+static void
+put(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
+{
+    double *row = place(t, u->row), *once = place(t, u->once), *twice = place(t, u->twice);
+
+    if (row)
+        memcpy(row + k * QDOT_LANES, a, QDOT_LANES * sizeof *a);
+    if (once)
+        t->kind->integrate(t->unit, t->inverse[k + 1], a, once + (k + 1) * QDOT_LANES);
+    if (twice)
+        t->kind->integrate(t->unit, t->inverse[k + 2], once + (k + 1) * QDOT_LANES,
+                           twice + (k + 2) * QDOT_LANES);
+}
+
+static void
+clear(const qdot_lanes *t, qdot_program_row row, int k)
+{
+    if (row != QDOT_NO_ROW)
+        memset(place(t, row) + k * QDOT_LANES, 0, QDOT_LANES * sizeof(double));
+}
+
+void
+qdot_lanes_stage(qdot_lanes *t, int k)
+{
+    const qdot_motion *m = t->motion;
+
+    for (size_t i = 0; i < m->solved.n && k >= 0; i++) {
+        const qdot_motion_unknown *u = m->unknowns.at + m->solved.at[i];
+
+        clear(t, u->row, k);
+        clear(t, u->once, k + 1);
+        clear(t, u->twice, k + 2);
+    }
+    qdot_lanes_order(t, k);
+    for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
+        const qdot_motion_unknown *u = m->unknowns.at + i;
+
+        if (u->value != QDOT_NO_ROW)
+            put(t, u, place(t, u->value) + k * QDOT_LANES, k);
+    }
+}
+
+static void
+change_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *by, int k)
+{
+    double *row = place(t, u->row), *once = place(t, u->once), *twice = place(t, u->twice);
+    double by_once[QDOT_LANES], by_twice[QDOT_LANES];
+    const size_t note = t->stride - 1;
+
+    if (row)
+        t->kind->renew(row, k, note, by);
+    if (!once)
+        return;
+    t->kind->integrate(t->unit, t->inverse[k + 1], by, by_once);
+    t->kind->renew(once, k + 1, note, by_once);
+    if (!twice)
+        return;
+    t->kind->integrate(t->unit, t->inverse[k + 2], by_once, by_twice);
+    t->kind->renew(twice, k + 2, note, by_twice);
+}
+
+void
+qdot_lanes_change(qdot_lanes *t, int k, const double *by)
+{
+    const qdot_motion *m = t->motion;
+
+    for (size_t i = 0; i < m->solved.n; i++)
+        change_unknown(t, m->unknowns.at + m->solved.at[i], by + i * QDOT_LANES, k);
+    if (t->has_kept)
+        t->kind->correct(t->steps + t->program->still, k, t->stride - 1);
 }

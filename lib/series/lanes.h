@@ -5,13 +5,13 @@
  * lane, so that a lane's value is the single one's; but for sines and cosines of series, which
  * all lanes have at once (num/batch.h).
  *
- * Tests  tests/series/test_lanes.c
+ * Tests  tests/series/test_lanes.c, test_motion.c
  */
 #ifndef QDOT_SERIES_LANES_H
 #define QDOT_SERIES_LANES_H
 
 #include "num/batch.h"
-#include "tape/tape.h"
+#include "series/motion.h"
 
 /* out [m groups] = outputs at in [n groups]; work [qdot_tape_work groups]. */
 void qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work);
@@ -42,5 +42,23 @@ void qdot_lanes_draw(qdot_lanes *lanes, const double *t);
 /* As qdot_taylor_order, qdot_taylor_correct; newest [n groups]. */
 void qdot_lanes_order(qdot_lanes *lanes, int k);
 void qdot_lanes_correct(qdot_lanes *lanes, int k, size_t n, const double *newest);
+
+/* What it carries out: row r stands r strides behind the first input. */
+const qdot_program *qdot_lanes_program(const qdot_lanes *lanes);
+
+/* --- motions ------------------------------------------------------------------------- */
+
+/* Of a motion, borrowed, for stages below `most`; `shaken`: with the other neighbours of its constants
+ * (tape/shake.h). The unit of time is set before the first stage. Errors: QDOT_EINVAL (most),
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_lanes_of_motion(const qdot_motion *motion, bool shaken,
+                                                 int most, qdot_lanes **lanes);
+void qdot_lanes_set_unit(qdot_lanes *lanes, const double *unit);
+const double *qdot_lanes_series(const qdot_lanes *lanes, qdot_program_row row);
+
+/* Stage k of the expansion, from qdot_motion_first on, what is solved for being 0. Then that changes
+ * by `by` [solved groups], and with it what later orders read: E stays what it was. */
+void qdot_lanes_stage(qdot_lanes *lanes, int k);
+void qdot_lanes_change(qdot_lanes *lanes, int k, const double *by);
 
 #endif

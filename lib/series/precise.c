@@ -6,19 +6,21 @@
 
 #include "num/real.h"
 #include "series/near.h"
-#include "series/program.h"
 #include "tape/constant.h"
 
 /* The first two of the scratch are U1, U2 of recurrence.def, the last is that of sums. */
 enum { SCRATCH = 3 };
 
 struct qdot_precise {
-    qdot_program program;
+    const qdot_program *program;
+    const qdot_motion *motion; /* it is of; NULL: of a tape, whose program is */
+    qdot_program own;
     size_t stride;
     qdot_reals numbers; /* [rows x stride], the inputs first */
     qdot_reals scratch; /* [SCRATCH] */
     mp_limb_t *work;    /* of a dot */
     mpfr_t *w;          /* scratch.at */
+    qdot_reals notes;   /* [rows] of a motion: by how much the newest coefficient changes; then 0 */
 };
 
 /* Orders that are looked at of arguments of exponentials: those beyond add little to a step that
@@ -135,6 +137,7 @@ value(qdot_precise *p, const qdot_program_step *i)
     case QDOT_OP_OR: mpfr_set_ui(d, !mpfr_zero_p(a) || !mpfr_zero_p(b), RN); break;
     case QDOT_OP_NOT: mpfr_set_ui(d, mpfr_zero_p(a) != 0, RN); break;
     case QDOT_OP_SELECT: mpfr_set(d, !mpfr_zero_p(a) ? b : c, RN); break;
+    case QDOT_ZERO_RATE: mpfr_set(d, place(p, i->x)[1], RN); break;
     default: mpfr_set_nan(d); /* an operation without a value here does not pass the tests */
     }
 }
@@ -153,20 +156,104 @@ order(qdot_precise *precise, const qdot_program_step *i, int k)
 #define SUM(r, a, b, from, below) convolve(precise, r, ROW(a), ROW(b), k, from, below);
 #define PAIR(r, s, a, b, c) SUM(r, a, b, 1, 0) SUM(s, a, c, 1, 0)
 #define SQUARED(r, a, from) square(precise, r, ROW(a), k, from);
-#define ADD(r, p, q) mpfr_add(r, p, q, RN);
-#define SUB(r, p, q) mpfr_sub(r, p, q, RN);
-#define NEG(r, p) mpfr_neg(r, p, RN);
-#define TIMES(r, p, b) mpfr_mul(r, p, ROW(b)[0], RN);
-#define PLUS_TIMES(r, q, p, b) mpfr_fma(r, p, ROW(b)[0], q, RN);
-#define MINUS_TIMES(r, q, p, b) mpfr_fms(r, p, ROW(b)[0], q, RN), mpfr_neg(r, r, RN);
-#define OVER(r, p, b) mpfr_div(r, p, ROW(b)[0], RN);
-#define OVER_TWICE(r, p, b) mpfr_div(r, p, ROW(b)[0], RN), mpfr_div_2ui(r, r, 1, RN);
-#define ORDERS(r, p) mpfr_mul_ui(r, p, (unsigned long)k, RN);
-#define PER_ORDER(r, p) mpfr_div_ui(r, p, (unsigned long)k, RN);
-#define SIGNED(r, p) mpfr_mul_si(r, p, i->sign, RN);
-#define RECURRENCE(ID, cost, body)                                                       \
-    case QDOT_T_##ID: body break;
-#include "series/recurrence.def"
+#include "series/precise.def"
+    case QDOT_T_RATE: mpfr_mul_ui(ROW(to)[k], ROW(x)[k + 1], (unsigned long)k + 1, RN);
+    }
+}
+
+/* Order k of all steps, ahead as far as they lead. */
+void
+qdot_precise_order(qdot_precise *p, int k)
+{
+    const qdot_program_step *i = p->program->steps.at + (k > -p->program->lead ? p->program->still : 0);
+
+    for (; i->op != QDOT_T_END; i++)
+        if (k + i->lead > 0)
+            order(p, i, k + i->lead);
+        else if (k + i->lead == 0 || i->still)
+            value(p, i);
+}
+
+/* --- unknowns ------------------------------------------------------------------------ */
+
+/* Coefficient k of a row, where there is one. */
+static mpfr_ptr
+at(const qdot_precise *p, qdot_program_row row, int k)
+{
+    return row != QDOT_NO_ROW && (size_t)k < p->stride ? place(p, row)[k] : NULL;
+}
+
+/* What order k of an unknown makes of its integrals. */
+static void
+integrate(const qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr a, int k)
+{
+    mpfr_ptr once = at(p, u->once, k + 1), twice = at(p, u->twice, k + 2);
+
+    if (once)
+        mpfr_div_ui(once, a, (unsigned long)k + 1, RN);
+    if (once && twice)
+        mpfr_div_ui(twice, once, (unsigned long)k + 2, RN);
+}
+
+static void
+clear(const qdot_precise *p, const qdot_motion_unknown *u, int k)
+{
+    const mpfr_ptr newest[] = {at(p, u->row, k), at(p, u->once, k + 1), at(p, u->twice, k + 2)};
+
+    for (size_t i = 0; i < sizeof newest / sizeof *newest; i++)
+        if (newest[i])
+            mpfr_set_zero(newest[i], 1);
+}
+
+void
+qdot_precise_stage(qdot_precise *p, int k)
+{
+    const qdot_motion *m = p->motion;
+
+    for (size_t i = 0; i < m->solved.n && k >= 0; i++)
+        clear(p, m->unknowns.at + m->solved.at[i], k);
+    qdot_precise_order(p, k);
+    for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
+        const qdot_motion_unknown *u = m->unknowns.at + i;
+
+        if (u->value == QDOT_NO_ROW)
+            continue;
+        if (u->row != QDOT_NO_ROW)
+            mpfr_set(place(p, u->row)[k], place(p, u->value)[k], RN);
+        integrate(p, u, place(p, u->value)[k], k);
+    }
+}
+
+/* The notes of a step's rows from those of what it reads, which are 0 where that is known already. */
+static void
+note_step(qdot_precise *precise, const qdot_program_step *i, int k)
+{
+    mpfr_t *note = precise->notes.at, *zero = note + precise->program->rows.n;
+    mpfr_ptr note_x = i->newest & QDOT_X_NEWEST ? note[i->x] : *zero;
+    mpfr_ptr note_y = i->newest & QDOT_Y_NEWEST ? note[i->y] : *zero;
+    mpfr_ptr note_z = i->newest & QDOT_Z_NEWEST ? note[i->z] : *zero;
+
+    switch (i->op) {
+#define note_to note[i->to]
+#define note_second note[i->second]
+#define note_third note[i->third]
+#define note_d note[i->d]
+#define NEWEST(row) note_##row
+#define SUM(r, a, b, from, below)                                                        \
+    if ((below) > 0) {                                                                   \
+        mpfr_set_zero(r, 1);                                                             \
+    } else {                                                                             \
+        mpfr_mul(precise->w[2], note_##a, ROW(b)[0], RN);                                \
+        if ((from) == 0)                                                                 \
+            mpfr_fma(precise->w[2], ROW(a)[0], note_##b, precise->w[2], RN);             \
+        mpfr_set(r, precise->w[2], RN);                                                  \
+    }
+#define PAIR(r, s, a, b, c) SUM(r, a, b, 1, 0) SUM(s, a, c, 1, 0)
+#define SQUARED(r, a, from)                                                              \
+    mpfr_mul(r, ROW(a)[0], note_##a, RN);                                                \
+    mpfr_mul_ui(r, r, (from) > 0 ? 0 : 2, RN);
+#include "series/precise.def"
+    case QDOT_T_RATE: mpfr_mul_ui(note_to, note_x, (unsigned long)k + 1, RN);
     }
 }
 
@@ -174,16 +261,77 @@ order(qdot_precise *precise, const qdot_program_step *i, int k)
 #undef U1
 #undef U2
 
-void
-qdot_precise_order(qdot_precise *p, int k)
+/* Row `at` has changed by its note. */
+static void
+change(qdot_precise *p, qdot_program_row row, int k)
 {
-    const qdot_program_step *i = p->program.steps.at + (k > 0 ? p->program.still : 0);
+    mpfr_ptr x = at(p, row, k);
+
+    if (x)
+        mpfr_add(x, x, p->notes.at[row], RN);
+}
+
+/* The notes of an unknown that changes by d at stage k. */
+static void
+note_unknown(qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr d, int k)
+{
+    mpfr_t *note = p->notes.at;
+
+    if (u->row != QDOT_NO_ROW)
+        mpfr_set(note[u->row], d, RN);
+    if (u->once != QDOT_NO_ROW)
+        mpfr_div_ui(note[u->once], d, (unsigned long)k + 1, RN);
+    if (u->twice != QDOT_NO_ROW)
+        mpfr_div_ui(note[u->twice], note[u->once], (unsigned long)k + 2, RN);
+}
+
+/* Of all steps, or of those alone that later orders read. */
+static void
+note_steps(qdot_precise *p, int k, bool all)
+{
+    const qdot_program_step *i = p->program->steps.at + p->program->still;
 
     for (; i->op != QDOT_T_END; i++)
-        if (k > 0)
-            order(p, i, k);
-        else
-            value(p, i);
+        if (i->kept || (all && i->newest))
+            note_step(p, i, k + i->lead);
+}
+
+void
+qdot_precise_change(qdot_precise *p, int k, const mpfr_t *by)
+{
+    const qdot_motion *m = p->motion;
+    const qdot_program_step *i = p->program->steps.at + p->program->still;
+
+    for (size_t j = 0; j < m->solved.n; j++) {
+        const qdot_motion_unknown *u = m->unknowns.at + m->solved.at[j];
+
+        note_unknown(p, u, by[j], k);
+        change(p, u->row, k);
+        change(p, u->once, k + 1);
+        change(p, u->twice, k + 2);
+    }
+    note_steps(p, k, false);
+    for (; i->op != QDOT_T_END; i++)
+        if (i->kept) {
+            change(p, i->to, k + i->lead);
+            change(p, i->second, k + i->lead);
+            change(p, i->third, k + i->lead);
+            change(p, i->d, k + i->lead);
+        }
+}
+
+void
+qdot_precise_column(qdot_precise *p, size_t first, size_t n, size_t j, mpfr_t *column)
+{
+    const qdot_motion *m = p->motion;
+
+    for (size_t i = 0; i < m->solved.n; i++) {
+        mpfr_set_ui(p->w[0], i == first + j, RN);
+        note_unknown(p, m->unknowns.at + m->solved.at[i], p->w[0], 0);
+    }
+    note_steps(p, 0, true);
+    for (size_t i = 0; i < n; i++)
+        mpfr_set(column[i * n], p->notes.at[m->equations.at[first + i]], RN);
 }
 
 double
@@ -194,7 +342,7 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
 
     if (k > QDOT_PRECISE_NEAR)
         k = QDOT_PRECISE_NEAR;
-    for (const qdot_program_step *i = p->program.steps.at + p->program.still;
+    for (const qdot_program_step *i = p->program->steps.at + p->program->still;
          i->op != QDOT_T_END; i++) {
         const double times = qdot_recurrence_exponential(i->op);
 
@@ -212,44 +360,52 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
 /* --- building ------------------------------------------------------------------------ */
 
 static qdot_status
-set_constants(qdot_precise *p, qdot_pool *pool, const qdot_tape *tape)
+set_constants(qdot_precise *p, qdot_pool *pool)
 {
-    for (qdot_program_row r = 0; r < p->program.rows.n; r++) {
-        const qdot_program_row_info *row = p->program.rows.at + r;
+    for (qdot_program_row r = 0; r < p->program->rows.n; r++) {
+        const qdot_program_row_info *row = p->program->rows.at + r;
 
         if (row->source == QDOT_ROW_CONSTANT)
-            QDOT_TRY(qdot_constant_real(pool, tape->exact[row->at], place(p, r)[0]));
+            QDOT_TRY(qdot_constant_real(pool, p->program->constants.at[row->at].exact,
+                                        place(p, r)[0]));
         else if (row->source == QDOT_ROW_WHOLE)
             mpfr_set_si(place(p, r)[0], row->at, RN);
     }
     return QDOT_OK;
 }
 
+/* Its rows, once it has its program. */
 static qdot_status
-make(qdot_precise *p, qdot_pool *pool, const qdot_tape *tape, int most, mpfr_prec_t bits)
+make(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
 {
-    QDOT_TRY(qdot_program_init(tape, tape->inputs, most == 0, &p->program));
-    p->stride = (size_t)most + 1;
-    QDOT_TRY(qdot_reals_init(&p->numbers, p->program.rows.n * p->stride, bits));
+    p->stride = (size_t)(most + p->program->lead) + 1;
+    QDOT_TRY(qdot_reals_init(&p->numbers, p->program->rows.n * p->stride, bits));
     QDOT_TRY(qdot_reals_init(&p->scratch, SCRATCH, bits));
+    if (p->motion)
+        QDOT_TRY(qdot_reals_init(&p->notes, p->program->rows.n + 1, bits));
     p->w = p->scratch.at;
     p->work = qdot_calloc(qdot_real_dot_work(bits), sizeof *p->work);
     if (!p->work)
         return QDOT_ENOMEM;
-    return set_constants(p, pool, tape);
+    return set_constants(p, pool);
 }
 
-qdot_status
-qdot_precise_new(qdot_pool *pool, const qdot_tape *tape, int most, mpfr_prec_t bits,
-                 qdot_precise **precise)
+static qdot_status
+make_new(qdot_pool *pool, const qdot_tape *tape, const qdot_motion *motion, int most,
+         mpfr_prec_t bits, qdot_precise **precise)
 {
     qdot_precise *p = qdot_calloc(1, sizeof *p);
-    qdot_status status;
+    qdot_status status = QDOT_OK;
 
     *precise = NULL;
     if (!p)
         return QDOT_ENOMEM;
-    status = make(p, pool, tape, most, bits);
+    p->motion = motion;
+    p->program = motion ? &motion->program : &p->own;
+    if (!motion)
+        status = qdot_program_init(tape, qdot_tape_inputs(tape), most == 0, &p->own);
+    if (status == QDOT_OK)
+        status = make(p, pool, most, bits);
     if (status != QDOT_OK) {
         qdot_precise_free(p);
         return status;
@@ -258,14 +414,29 @@ qdot_precise_new(qdot_pool *pool, const qdot_tape *tape, int most, mpfr_prec_t b
     return QDOT_OK;
 }
 
+qdot_status
+qdot_precise_new(qdot_pool *pool, const qdot_tape *tape, int most, mpfr_prec_t bits,
+                 qdot_precise **precise)
+{
+    return make_new(pool, tape, NULL, most, bits, precise);
+}
+
+qdot_status
+qdot_precise_of_motion(qdot_pool *pool, const qdot_motion *motion, int most,
+                       mpfr_prec_t bits, qdot_precise **precise)
+{
+    return make_new(pool, NULL, motion, most, bits, precise);
+}
+
 void
 qdot_precise_free(qdot_precise *p)
 {
     if (!p)
         return;
-    qdot_program_clear(&p->program);
+    qdot_program_clear(&p->own);
     qdot_reals_clear(&p->numbers);
     qdot_reals_clear(&p->scratch);
+    qdot_reals_clear(&p->notes);
     qdot_free(p->work);
     qdot_free(p);
 }
@@ -283,13 +454,13 @@ qdot_precise_stride(const qdot_precise *p)
 }
 
 const mpfr_t *
-qdot_precise_output(const qdot_precise *p, size_t i)
+qdot_precise_row(const qdot_precise *p, qdot_program_row row)
 {
-    return (const mpfr_t *)place(p, p->program.outputs.at[i]);
+    return (const mpfr_t *)place(p, row);
 }
 
-bool
-qdot_precise_is_constant(const qdot_precise *p, size_t i)
+const mpfr_t *
+qdot_precise_output(const qdot_precise *p, size_t i)
 {
-    return p->program.rows.at[p->program.outputs.at[i]].still;
+    return qdot_precise_row(p, p->program->outputs.at[i]);
 }

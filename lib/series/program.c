@@ -1,16 +1,20 @@
 /* program.c -- from a tape to the steps of a series program. */
 #include "series/program.h"
 
+#include <string.h>
+
 typedef qdot_program_row row;
 
-typedef struct {
+typedef struct qdot_program_builder builder;
+
+struct qdot_program_builder {
     qdot_program *program;
-    const qdot_tape *tape;
-    row *at;                        /* [tape->places] the row that a place has now */
+    bool values_only;
+    row *at;                        /* the row that a place of the tape at hand has now */
     qdot_vec(row) sincos, sinhcosh; /* [rows] sine of the pair made of a row; QDOT_NO_ROW */
     qdot_program_step nothing;       /* written to after a failure */
     qdot_status status;
-} builder;
+};
 
 static row
 new_row(builder *b, qdot_program_source source, int at, bool still)
@@ -243,13 +247,13 @@ build_one(builder *b, const qdot_instruction *i, row *second)
     row z = qdot_operations[op].operands > 2 ? b->at[i->z] : y;
 
     switch (op) {
-    case QDOT_OP_NEG: return emit(b, QDOT_T_NEG, op, x, x, x);
+    case QDOT_OP_NEG:
     case QDOT_OP_ADD:
-    case QDOT_OP_SUB: return sum(b, op, x, y);
+    case QDOT_OP_SUB:
     case QDOT_OP_MUL:
     case QDOT_OP_MADD:
     case QDOT_OP_MSUB:
-    case QDOT_OP_NMADD: return product(b, op, x, y, z);
+    case QDOT_OP_NMADD: return qdot_program_operation(b, op, x, y, z);
     case QDOT_OP_DIV: return emit(b, QDOT_T_DIV, op, x, y, y);
     case QDOT_OP_SQRT: return emit(b, QDOT_T_SQRT, op, x, x, x);
     case QDOT_OP_POW: return power(b, x, y);
@@ -309,59 +313,142 @@ still_ones_first(qdot_program *p)
     return QDOT_OK;
 }
 
-static qdot_status
-build(builder *b)
+qdot_status
+qdot_program_begin(size_t inputs, size_t moving, bool values_only, qdot_program *program,
+                   qdot_program_builder **out)
 {
-    const qdot_tape *tape = b->tape;
-    qdot_program *p = b->program;
+    builder *b = qdot_calloc(1, sizeof *b);
 
-    for (size_t i = 0; i < tape->inputs; i++)
-        b->at[i] = new_row(b, QDOT_ROW_INPUT, (int)i, i >= p->moving);
-    for (size_t i = 0; i < tape->constants; i++)
-        b->at[tape->inputs + i] = new_row(b, QDOT_ROW_CONSTANT, (int)i, true);
-    for (size_t i = 0; i < tape->length && b->status == QDOT_OK; i++) {
-        const qdot_instruction *in = tape->code + i;
-        row second = QDOT_NO_ROW, to = build_one(b, in, &second);
+    *program = (qdot_program){.inputs = inputs, .moving = moving};
+    *out = b;
+    if (!b)
+        return QDOT_ENOMEM;
+    b->program = program;
+    b->values_only = values_only;
+    for (size_t i = 0; i < inputs; i++)
+        new_row(b, QDOT_ROW_INPUT, (int)i, i >= moving);
+    return QDOT_OK;
+}
 
-        b->at[in->to] = to;
-        if (in->op == QDOT_OP_SINCOS)
-            b->at[in->y] = second;
+row
+qdot_program_number(builder *b, qdot_program_constant number)
+{
+    if (b->status == QDOT_OK)
+        b->status = qdot_vec_push(&b->program->constants, number);
+    return new_row(b, QDOT_ROW_CONSTANT, (int)b->program->constants.n - 1, true);
+}
+
+row
+qdot_program_unknown(builder *b)
+{
+    return new_row(b, QDOT_ROW_UNKNOWN, 0, false);
+}
+
+row
+qdot_program_operation(builder *b, qdot_op op, row x, row y, row z)
+{
+    switch (op) {
+    case QDOT_OP_NEG: return emit(b, QDOT_T_NEG, op, x, x, x);
+    case QDOT_OP_ADD:
+    case QDOT_OP_SUB: return sum(b, op, x, y);
+    default: return product(b, op, x, y, z);
     }
-    for (size_t i = 0; i < tape->outputs && b->status == QDOT_OK; i++)
-        b->status = qdot_vec_push(&p->outputs, b->at[tape->output[i]]);
-    QDOT_TRY(b->status);
-    QDOT_TRY(still_ones_first(p));
-    add(b, (qdot_program_step){.op = QDOT_T_END});
-    return b->status;
+}
+
+row
+qdot_program_rate(builder *b, row x)
+{
+    return emit(b, QDOT_T_RATE, QDOT_ZERO_RATE, x, x, x);
+}
+
+static void
+append(builder *b, const qdot_tape *tape, const row *in, row *out)
+{
+    for (size_t i = 0; i < tape->inputs; i++)
+        b->at[i] = in[i];
+    for (size_t i = 0; i < tape->constants; i++)
+        b->at[tape->inputs + i] = qdot_program_number(
+            b, (qdot_program_constant){tape->constant[i], tape->low[i], tape->side[i],
+                                       tape->exact[i]});
+    for (size_t i = 0; i < tape->length && b->status == QDOT_OK; i++) {
+        const qdot_instruction *instruction = tape->code + i;
+        row second = QDOT_NO_ROW, to = build_one(b, instruction, &second);
+
+        b->at[instruction->to] = to;
+        if (instruction->op == QDOT_OP_SINCOS)
+            b->at[instruction->y] = second;
+    }
+    for (size_t i = 0; i < tape->outputs; i++)
+        out[i] = b->at[tape->output[i]];
+}
+
+void
+qdot_program_append(builder *b, const qdot_tape *tape, const row *in, row *out)
+{
+    const char *hindrance = b->values_only ? NULL : qdot_program_hindrance(tape);
+
+    if (b->status == QDOT_OK && hindrance)
+        b->status = qdot_fail(QDOT_ENOTBUILT,
+                              "not built yet: Taylor series of equations that switch (%s)",
+                              hindrance);
+    b->at = qdot_calloc(tape->places + 1, sizeof *b->at);
+    if (b->status == QDOT_OK && !b->at)
+        b->status = QDOT_ENOMEM;
+    if (b->status == QDOT_OK)
+        append(b, tape, in, out);
+    else
+        memset(out, 0, tape->outputs * sizeof *out);
+    qdot_free(b->at);
+}
+
+qdot_status
+qdot_program_end(builder *b)
+{
+    qdot_status status = b->status;
+
+    if (status == QDOT_OK)
+        status = still_ones_first(b->program);
+    if (status == QDOT_OK) {
+        add(b, (qdot_program_step){.op = QDOT_T_END});
+        status = b->status;
+    }
+    if (status != QDOT_OK)
+        qdot_program_clear(b->program);
+    qdot_free(b->sincos.at);
+    qdot_free(b->sinhcosh.at);
+    qdot_free(b);
+    return status;
 }
 
 qdot_status
 qdot_program_init(const qdot_tape *tape, size_t moving, bool values_only,
-                         qdot_program *program)
+                  qdot_program *program)
 {
-    const char *hindrance = values_only ? NULL : qdot_program_hindrance(tape);
-    builder b = {.program = program, .tape = tape};
+    const size_t most = tape->inputs > tape->outputs ? tape->inputs : tape->outputs;
+    row *rows = qdot_calloc(most + 1, sizeof *rows);
+    builder *b = NULL;
 
-    *program = (qdot_program){
-        .inputs = tape->inputs, .moving = moving, .constants = tape->constants};
-    if (hindrance)
-        return qdot_fail(QDOT_ENOTBUILT,
-                         "not built yet: Taylor series of equations that switch (%s)",
-                         hindrance);
-    b.at = qdot_calloc(tape->places + 1, sizeof *b.at);
-    b.status = b.at ? build(&b) : QDOT_ENOMEM;
-    qdot_free(b.at);
-    qdot_free(b.sincos.at);
-    qdot_free(b.sinhcosh.at);
-    if (b.status != QDOT_OK)
-        qdot_program_clear(program);
-    return b.status;
+    *program = (qdot_program){0};
+    if (!rows)
+        return QDOT_ENOMEM;
+    if (qdot_program_begin(tape->inputs, moving, values_only, program, &b) != QDOT_OK) {
+        qdot_free(rows);
+        return QDOT_ENOMEM;
+    }
+    for (row i = 0; i < tape->inputs; i++)
+        rows[i] = i;
+    qdot_program_append(b, tape, rows, rows);
+    for (size_t i = 0; i < tape->outputs && b->status == QDOT_OK; i++)
+        b->status = qdot_vec_push(&program->outputs, rows[i]);
+    qdot_free(rows);
+    return qdot_program_end(b);
 }
 
 void
 qdot_program_clear(qdot_program *program)
 {
     qdot_free(program->rows.at);
+    qdot_free(program->constants.at);
     qdot_free(program->steps.at);
     qdot_free(program->outputs.at);
     *program = (qdot_program){0};

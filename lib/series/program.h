@@ -28,6 +28,7 @@ typedef enum {
 #define RECURRENCE(ID, cost, body) QDOT_T_##ID,
 #include "series/recurrence.def"
     QDOT_T_LINK, /* to' = unit x, second' = unit to (no row: none) */
+    QDOT_T_RATE, /* to = x'/unit: order k from order k + 1 (motion.h) */
     QDOT_T_COUNT
 } qdot_recurrence;
 
@@ -35,6 +36,7 @@ typedef enum {
 enum {
     QDOT_ZERO_SINHCOSH = QDOT_OP_COUNT, /* to, second of x */
     QDOT_ZERO_POWER,                    /* y^z; x is the logarithm of it */
+    QDOT_ZERO_RATE,
     QDOT_ZERO_COUNT
 };
 
@@ -45,33 +47,49 @@ typedef uint32_t qdot_program_row; /* a row by its number */
 /* Where order 0 of a row comes from. */
 typedef enum {
     QDOT_ROW_INPUT,    /* the caller; number `at` of the inputs */
-    QDOT_ROW_CONSTANT, /* constant `at` of the tape */
+    QDOT_ROW_CONSTANT, /* constant `at` of the program */
     QDOT_ROW_WHOLE,    /* the whole number `at` */
-    QDOT_ROW_COMPUTED  /* a step */
+    QDOT_ROW_COMPUTED, /* a step */
+    QDOT_ROW_UNKNOWN   /* what is solved for (motion.h) */
 } qdot_program_source;
 
 typedef struct {
     qdot_program_source source;
     bool still; /* it has order 0 only */
     int at;
+    int lead; /* it is known so many orders before those that it is there for (motion.h) */
 } qdot_program_row_info;
+
+/* A number, as a tape has it (tape/constant.h). */
+typedef struct {
+    double value, low; /* the double, what it is beyond */
+    signed char side;
+    qdot_expr exact;
+} qdot_program_constant;
+
+/* Of `newest`. */
+enum { QDOT_X_NEWEST = 1, QDOT_Y_NEWEST = 2, QDOT_Z_NEWEST = 4 };
 
 /* Rows that a step does not have are QDOT_NO_ROW, operands that it does not have are x. */
 typedef struct {
     uint16_t op, zero; /* recurrence; how order 0 is computed: an operation of a tape, or above */
     int sign;          /* of RATIO */
     bool still;        /* it has order 0 only */
+    unsigned char newest; /* which of x, y, z hold newest coefficients of unknowns (motion.h); */
+    bool kept;            /* and later orders read what the step makes of them */
+    signed char lead;  /* of its rows */
     qdot_program_row to, second, third, d, x, y, z;
 } qdot_program_step;
 
 typedef struct {
     size_t inputs, moving; /* inputs; the first of them, which have more than order 0 */
-    size_t constants;      /* of the tape: the rows behind the inputs, in its order */
-    qdot_vec(qdot_program_row_info) rows; /* the inputs first */
+    qdot_vec(qdot_program_constant) constants;
+    qdot_vec(qdot_program_row_info) rows; /* the inputs first; those of the first tape's constants */
     qdot_vec(qdot_program_step) steps;    /* those that are still first; END behind them */
     size_t length, still;                /* of steps */
     qdot_vec(qdot_program_row) outputs;
     double convolutions; /* an order; a square counts half */
+    int lead;            /* of the step that leads most */
 } qdot_program;
 
 /* The program of a tape, which is not kept, whose inputs from `moving` on are numbers. With
@@ -81,6 +99,31 @@ QDOT_MUST_CHECK qdot_status qdot_program_init(const qdot_tape *tape, size_t movi
                                                      bool values_only,
                                                      qdot_program *program);
 void qdot_program_clear(qdot_program *program);
+
+/* --- one program of several tapes ----------------------------------------------------- */
+
+typedef struct qdot_program_builder qdot_program_builder;
+
+/* An empty program with `inputs`, the first `moving` of which have more than order 0. What is
+ * added to it fails at _end. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_program_begin(size_t inputs, size_t moving, bool values_only,
+                                               qdot_program *program,
+                                               qdot_program_builder **builder);
+/* Steps of the tape behind those that are there, its inputs being rows `in`; the rows of its outputs
+ * go to `out`. */
+void qdot_program_append(qdot_program_builder *b, const qdot_tape *tape,
+                         const qdot_program_row *in, qdot_program_row *out);
+/* A number; a row that nobody computes; op (NEG, ADD, SUB, MUL, MADD, MSUB, NMADD) of rows; the rate
+ * of a row. */
+qdot_program_row qdot_program_number(qdot_program_builder *b, qdot_program_constant number);
+qdot_program_row qdot_program_unknown(qdot_program_builder *b);
+qdot_program_row qdot_program_operation(qdot_program_builder *b, qdot_op op,
+                                        qdot_program_row x, qdot_program_row y,
+                                        qdot_program_row z);
+qdot_program_row qdot_program_rate(qdot_program_builder *b, qdot_program_row x);
+/* The builder is freed. Errors: QDOT_ENOTBUILT (an operation that switches), QDOT_ENOMEM; the
+ * program is then empty. */
+QDOT_MUST_CHECK qdot_status qdot_program_end(qdot_program_builder *b);
 
 /* Whether a tape has a series: the operation that has none, or NULL. */
 const char *qdot_program_hindrance(const qdot_tape *tape);

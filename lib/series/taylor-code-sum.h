@@ -12,7 +12,6 @@
 
 enum {
     QDOT_CODE_TERMS = 24,
-    behind_scalars = QDOT_CODE_FIRST_SCALAR + QDOT_CODE_SCALARS,
     latency = 4,
     latency_of_vectors = 12, /* from the newest coefficient to the next sum */
     latency_of_division = 14
@@ -25,7 +24,7 @@ touch(qdot_generator *g, int reg)
 {
     const int first = g->behind[g->latest];
 
-    if (reg == g->latest || reg < QDOT_CODE_FIRST_SCALAR || reg >= behind_scalars)
+    if (reg == g->latest || reg < g->first_scalar || reg >= g->behind_scalars)
         return reg;
     if (reg != first) { /* the ring is opened for it */
         g->behind[g->ahead[reg]] = g->behind[reg];

@@ -5,30 +5,28 @@ enum {
     /* So many do not fit into registers by far. */
     many_vectors = 40,
     temporary = 0,
-    spread_first = 2,
-    newest_lane = 1, /* masks */
-    older_lanes = 2,
-    all_but_last = 3,
-    known_lanes = 4 /* older and newest */
+    spare = 1,
+    spread_first = 2
 };
 
 /* Parts of adding an order: what is there before rows have it, and after. */
 typedef enum { BEFORE, AFTER } part;
 
-/* With a lag of 1 the coefficients of a row are its vector, from order 1 on, as they stand: in
- * long programs, for a vector read soon after one of its numbers was written waits for that to
- * leave the processor (8 to 30 % of shorter ones). */
+/* The coefficients of a row, from order `lag` on, are its vector as they stand: by AVX2, whose
+ * registers are few, and in long programs with a lag of 1. A vector read soon after one of its
+ * numbers was written waits for that to leave the processor (8 to 30 % of shorter programs with
+ * AVX-512). */
 bool
 qdot_code_rows_as_they_stand(const qdot_generator *g)
 {
-    return g->lag == 1 && g->sums.n + g->rows.n > many_vectors;
+    return g->x.narrow || (g->lag == 1 && g->sums.n + g->rows.n > many_vectors);
 }
 
 static qdot_x86_rm
-block_at(const qdot_code_vector *v, int b)
+block_at(const qdot_generator *g, const qdot_code_vector *v, int b)
 {
     return v->reg[b] >= 0 ? qdot_x86_reg(v->reg[b])
-                          : qdot_code_work(v->at + (size_t)(QDOT_CODE_LANES * b));
+                          : qdot_code_work(v->at + (size_t)(g->lanes * b));
 }
 
 /* Coefficient m of a row beside those below it. */
@@ -38,19 +36,16 @@ insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
     const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
     if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, reg, 0, block_at(v, b));
-    g->x.mask = newest_lane;
-    qdot_x86_emit(&g->x, QDOT_X86_SPREAD, reg, 0, qdot_code_coefficient(g, row, m));
-    g->x.mask = 0;
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, reg, 0, block_at(g, v, b));
+    qdot_vector_insert(&g->x, reg, qdot_code_coefficient(g, row, m));
     if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(v, b));
+        qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(g, v, b));
 }
 
 /* The register with coefficient m of a row in every lane. */
 static int
 spread(qdot_generator *g, uint32_t row, int m)
 {
-    const int mask = g->x.mask;
     int i;
 
     for (i = 0; i < 2; i++)
@@ -59,29 +54,31 @@ spread(qdot_generator *g, uint32_t row, int m)
     i = g->next_spread;
     g->next_spread = 1 - i;
     g->spread[i] = row;
-    g->x.mask = 0;
     qdot_x86_emit(&g->x, QDOT_X86_SPREAD, spread_first + i, 0,
                   qdot_code_coefficient(g, row, m));
-    g->x.mask = mask;
     return spread_first + i;
 }
 
-/* to += coefficient m of a row times block b of another. */
+/* to += coefficient m of a row times block b of another, in these lanes. */
 static void
-multiply(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b)
+multiply(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
+         qdot_vector_lanes lanes)
 {
     const qdot_code_vector *v = &g->rows.at[g->row_vector[other]];
 
-    if (qdot_code_rows_as_they_stand(g)) {
-        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, spread(g, row, m),
-                      qdot_code_coefficient(g, other, 1 + QDOT_CODE_LANES * b));
-    } else if (v->reg[b] >= 0) {
+    if (v->reg[b] >= 0) {
         qdot_x86_rm one = qdot_code_coefficient(g, row, m);
 
         one.spread = true;
         qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, v->reg[b], one);
     } else {
-        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, spread(g, row, m), block_at(v, b));
+        const int one = spread(g, row, m);
+
+        qdot_vector_add_product(&g->x, to, one,
+                                g->as_they_stand
+                                    ? qdot_code_coefficient(g, other, g->lag + g->lanes * b)
+                                    : block_at(g, v, b),
+                                lanes, spare);
     }
 }
 
@@ -89,29 +86,21 @@ multiply(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b)
 static void
 move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
 {
-    if (b + 1 < blocks) {
-        int high = v->reg[b + 1];
+    const bool last = b + 1 == blocks;
+    const qdot_x86_rm high = last ? (qdot_x86_rm){0} : block_at(g, v, b + 1);
 
-        if (high < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, high = temporary + 1, 0,
-                          block_at(v, b + 1));
-        qdot_x86_align(&g->x, to, high, block_at(v, b), 1);
-        return;
-    }
-    if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(v, b));
-    g->x.mask = all_but_last;
-    g->x.zeroing = true;
-    qdot_x86_align(&g->x, to, to, qdot_x86_reg(to), 1);
-    g->x.mask = 0;
-    g->x.zeroing = false;
+    if (g->reread)
+        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0,
+                      qdot_code_work(v->at + (size_t)(g->lanes * b + 1)));
+    else
+        qdot_vector_slide(&g->x, to, block_at(g, v, b), last ? NULL : &high, spare);
 }
 
 /* Whether rows have order m by the time that block b of a sum is added to at all. */
 static bool
 all_after(const qdot_generator *g, const qdot_code_vector *v, int b)
 {
-    return v->reg[b] < 0 || qdot_code_rows_as_they_stand(g);
+    return v->reg[b] < 0 || g->as_they_stand;
 }
 
 /* What is made of order m and those from `lag` up to it, in a phase. What is known last is
@@ -133,21 +122,15 @@ add_order(qdot_generator *g, const qdot_code_phase *p, const qdot_code_sum *s, i
         if (!s->further && (whole || now == BEFORE))
             move_on(g, v, b, p->blocks, to);
         else if (v->reg[b] < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(v, b));
-        if (whole || now == BEFORE) {
-            if (entered && whole)
-                g->x.mask = older_lanes;
-            multiply(g, to, other, m, last, b);
-            g->x.mask = 0;
-        }
-        if (whole || now == AFTER) {
-            if (entered && qdot_code_rows_as_they_stand(g))
-                g->x.mask = known_lanes;
-            multiply(g, to, last, m, other, b);
-            g->x.mask = 0;
-        }
+            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(g, v, b));
+        if (whole || now == BEFORE)
+            multiply(g, to, other, m, last, b,
+                     entered && whole ? QDOT_VECTOR_OLDER : QDOT_VECTOR_ALL);
+        if (whole || now == AFTER)
+            multiply(g, to, last, m, other, b,
+                     entered && g->as_they_stand ? QDOT_VECTOR_KNOWN : QDOT_VECTOR_ALL);
         if (v->reg[b] < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, to, 0, block_at(v, b));
+            qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, to, 0, block_at(g, v, b));
     }
 }
 
@@ -157,51 +140,46 @@ qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m)
     g->spread[0] = g->spread[1] = QDOT_CODE_NONE;
     for (size_t i = 0; i < g->sums.n; i++)
         add_order(g, p, g->sums.at + i, m, BEFORE);
-    for (size_t i = 0; p->inserted >= 0 && !qdot_code_rows_as_they_stand(g) && i < g->rows.n;
-         i++)
+    for (size_t i = 0; p->inserted >= 0 && !g->as_they_stand && i < g->rows.n; i++)
         insert(g, g->rows.at + i, g->row_of.at[i], m, p->inserted);
     for (size_t i = 0; p->inserted >= 0 && i < g->sums.n; i++)
         add_order(g, p, g->sums.at + i, m, AFTER);
 }
 
-/* Block b of a vector becomes 0. */
+/* A vector becomes 0. */
 static void
-clear(qdot_generator *g, const qdot_code_vector *v, int b)
+clear(qdot_generator *g, const qdot_code_vector *v)
 {
-    const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
+    for (int b = 0; b < g->blocks; b++) {
+        const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
-    qdot_x86_emit(&g->x, QDOT_X86_XOR_ALL, reg, reg, qdot_x86_reg(reg));
-    if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(v, b));
+        qdot_x86_emit(&g->x, QDOT_X86_XOR_ALL, reg, reg, qdot_x86_reg(reg));
+        if (v->reg[b] < 0)
+            qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(g, v, b));
+    }
 }
 
 void
 qdot_code_begin_vectors(qdot_generator *g)
 {
-    qdot_x86_set_mask(&g->x, all_but_last, 0x7f);
+    for (size_t i = 0; i < g->sums.n; i++)
+        if (!g->sums.at[i].further)
+            clear(g, &g->sums.at[i].v);
+    for (size_t i = 0; !g->as_they_stand && i < g->rows.n; i++)
+        clear(g, g->rows.at + i);
+    qdot_vector_begin(&g->x);
 }
 
 void
-qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *before)
+qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p)
 {
-    if (p->blocks > before->blocks)
-        for (size_t i = 0; i < g->sums.n; i++)
-            clear(g, &g->sums.at[i].v, p->blocks - 1);
-    if (p->inserted < 0)
-        return;
-    for (size_t i = 0; !qdot_code_rows_as_they_stand(g) && i < g->rows.n; i++)
-        clear(g, g->rows.at + i, p->inserted);
-    qdot_x86_set_mask(&g->x, newest_lane, 1);
-    qdot_x86_set_mask(&g->x, older_lanes, 0);
-    qdot_x86_set_mask(&g->x, known_lanes, 1);
+    if (p->inserted >= 0)
+        qdot_vector_first_lane(&g->x, qdot_code_work(QDOT_CODE_ONES));
 }
 
 void
 qdot_code_next_lane(qdot_generator *g, const qdot_code_phase *p)
 {
-    if (p->inserted < 0)
-        return;
-    qdot_x86_join_masks(&g->x, older_lanes, newest_lane);
-    qdot_x86_raise_mask(&g->x, newest_lane);
-    qdot_x86_join_masks(&g->x, known_lanes, newest_lane);
+    if (p->inserted >= 0)
+        qdot_vector_next_lane(&g->x);
 }

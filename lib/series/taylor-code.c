@@ -13,7 +13,10 @@ enum {
     /* With fewer sums an order takes as long as its newest coefficient to be ready, and the
      * way through the vectors is the longer one. With more it takes as long as its
      * instructions, which are a third fewer where the vectors have all but order 0. */
-    few_sums = 5
+    few_sums = 5,
+    /* Registers of single numbers; of few sums by AVX2, which then has some for their vectors. */
+    scalars = 10,
+    few_scalars = 5
 };
 
 typedef void kernel(double *coefficients, qdot_taylor_step *steps, double *work);
@@ -39,9 +42,9 @@ most(int a, int b)
 }
 
 static int
-blocks_of(int n)
+blocks_of(const qdot_generator *g, int n)
 {
-    return (n + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES;
+    return (n + g->lanes - 1) / g->lanes;
 }
 
 /* --- what there is ------------------------------------------------------------------ */
@@ -77,7 +80,7 @@ find_moving_unknowns(qdot_generator *g)
 
 _Static_assert((int)QDOT_CODE_EXACT >= (int)QDOT_TAYLOR_EXACT, "the first loop is exact");
 
-static const qdot_code_vector in_memory = {.reg = {-1, -1, -1}};
+static const qdot_code_vector in_memory = {.reg = {-1, -1, -1, -1, -1, -1}};
 
 static qdot_status
 vector_for(qdot_generator *g, uint32_t row)
@@ -146,21 +149,37 @@ find_unknown_sums(qdot_generator *g)
     return QDOT_OK;
 }
 
+/* What suits the kind of processor and the number of sums. AVX2 has few registers and slides lanes
+ * by two instructions: many sums stay in memory, where they are read one number further instead,
+ * which takes as long as a number just written takes to leave the processor. */
+static void
+choose_layout(qdot_generator *g)
+{
+    const bool narrow = g->x.narrow, few = g->sums.n < few_sums;
+
+    g->lanes = qdot_x86_lanes(&g->x);
+    g->lag = few && !narrow ? 2 : 1;
+    g->reread = narrow && !few;
+    g->first_scalar = narrow ? QDOT_VECTOR_FREE_NARROW : QDOT_VECTOR_FREE;
+    g->behind_scalars = g->first_scalar + (narrow && few ? few_scalars : scalars);
+    g->blocks = blocks_of(g, most(g->n / 2 + 1 - g->lag, 1));
+    g->as_they_stand = qdot_code_rows_as_they_stand(g);
+}
+
 /* Registers from the last one down, first for what every order needs; places in memory for
  * all. Doubles of work space. */
 static size_t
 give_places(qdot_generator *g)
 {
-    const int blocks = blocks_of(most(g->n / 2 + 1 - g->lag, 1));
-    const int lowest = QDOT_CODE_FIRST_SCALAR + QDOT_CODE_SCALARS;
+    const int lowest = g->behind_scalars;
     size_t at = QDOT_CODE_SLOTS + (g->n_slots + 7) / 8 * 8;
-    int reg = QDOT_CODE_REGISTERS;
+    int reg = qdot_x86_registers(&g->x);
 
-    for (int b = 0; b < blocks; b++) {
+    for (int b = 0; b < g->blocks; b++) {
         for (size_t i = 0; i < g->sums.n && reg > lowest; i++)
             if (!g->sums.at[i].further)
                 g->sums.at[i].v.reg[b] = --reg;
-        for (size_t i = 0; !qdot_code_rows_as_they_stand(g) && i < g->rows.n && reg > lowest; i++)
+        for (size_t i = 0; !g->as_they_stand && i < g->rows.n && reg > lowest; i++)
             g->rows.at[i].reg[b] = --reg;
     }
     for (size_t i = 0; i < g->sums.n; i++) {
@@ -169,11 +188,11 @@ give_places(qdot_generator *g)
             continue;
         }
         g->sums.at[i].v.at = at;
-        at += (size_t)(QDOT_CODE_LANES * blocks);
+        at += (size_t)(g->lanes * g->blocks + QDOT_CODE_LANES); /* 0 behind the last */
     }
-    for (size_t i = 0; !qdot_code_rows_as_they_stand(g) && i < g->rows.n; i++) {
+    for (size_t i = 0; !g->as_they_stand && i < g->rows.n; i++) {
         g->rows.at[i].at = at;
-        at += (size_t)(QDOT_CODE_LANES * blocks);
+        at += (size_t)(g->lanes * g->blocks);
     }
     return at;
 }
@@ -212,7 +231,7 @@ emit_order(qdot_generator *g)
 static void
 begin_registers(qdot_generator *g)
 {
-    const int first = QDOT_CODE_FIRST_SCALAR, last = first + QDOT_CODE_SCALARS - 1;
+    const int first = g->first_scalar, last = g->behind_scalars - 1;
 
     for (int i = 0; i < QDOT_CODE_REGISTERS; i++) {
         g->held[i] = QDOT_CODE_NONE;
@@ -257,10 +276,11 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *b
 {
     size_t from;
 
-    qdot_code_begin_phase(g, p, before);
+    qdot_code_begin_phase(g, p);
     look_back(g, before->orders > 0 ? 1 : 2 * g->lag);
     g->k = QDOT_CODE_ANY;
-    g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted == 0;
+    g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted >= 0 &&
+               p->inserted * g->lanes < QDOT_CODE_LANES;
     for (int i = 0; i < 2; i++) {
         from = g->x.bytes.n;
         forget(g);
@@ -282,15 +302,15 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *b
 static qdot_code_phase
 phase_of(const qdot_generator *g, int m)
 {
-    const int half = g->n / 2, all = blocks_of(most(half + 1 - g->lag, 1));
     int blocks;
 
-    if (m <= half)
-        return (qdot_code_phase){.blocks = blocks_of(m + 1 - g->lag),
-                       .inserted = (m - g->lag) / QDOT_CODE_LANES};
-    blocks = least(all, blocks_of(g->n - m + 2 - g->lag));
+    if (m <= g->n / 2)
+        return (qdot_code_phase){.blocks = blocks_of(g, m + 1 - g->lag),
+                                 .inserted = (m - g->lag) / g->lanes};
+    blocks = least(g->blocks, blocks_of(g, g->n - m + 2 - g->lag));
     return (qdot_code_phase){.blocks = blocks,
-                   .inserted = qdot_code_rows_as_they_stand(g) && blocks == all ? all - 1 : -1};
+                             .inserted = g->as_they_stand && blocks == g->blocks ? blocks - 1
+                                                                                 : -1};
 }
 
 static void
@@ -355,6 +375,7 @@ make_work(qdot_taylor_code *c, size_t doubles)
         c->twice_low[k] = beyond((k + 1) * (k + 2));
     }
     c->work[QDOT_CODE_INVERSES] = -1;
+    memset(c->work + QDOT_CODE_ONES, 0xff, sizeof *c->work);
     return QDOT_OK;
 }
 
@@ -399,7 +420,7 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     find_moving_unknowns(g);
     QDOT_TRY(find_sums(g));
     QDOT_TRY(find_unknown_sums(g));
-    g->lag = g->sums.n < few_sums ? 2 : 1;
+    choose_layout(g);
     QDOT_TRY(qdot_code_fold(g));
     text->doubles = give_places(g);
     QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
@@ -417,7 +438,7 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
 static qdot_status
 write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **why)
 {
-    qdot_generator g = {.t = t, .n = to};
+    qdot_generator g = {.x = qdot_x86_of(qdot_x86_kind()), .t = t, .n = to};
     qdot_status status = generate(&g, text, why);
 
     text->blocks = g.block_slots;
@@ -447,8 +468,8 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code *
 
     *code = NULL;
     *why = NULL;
-    if (!qdot_x86_is_here()) {
-        *why = "machine code needs AVX-512";
+    if (qdot_x86_kind() == 0) {
+        *why = "machine code needs AVX2";
         return QDOT_OK;
     }
     if (!reaches_all(t)) {

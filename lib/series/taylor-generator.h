@@ -12,17 +12,17 @@
 #include <stddef.h>
 
 #include "series/taylor-steps.h"
-#include "machine/x86.h"
+#include "machine/vector.h"
 
 enum {
+    /* Of any kind of processor: the widest vectors; vectors of a row, or of the sums that one
+     * product has still to come; registers. */
     QDOT_CODE_LANES = 8,
-    /* Vectors of a row, or of the sums that one product has still to come. */
-    QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + QDOT_CODE_LANES - 1) / QDOT_CODE_LANES,
+    QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + 3) / 4,
     QDOT_CODE_REGISTERS = 32,
-    QDOT_CODE_FIRST_SCALAR = 4, /* those below are for a moment */
-    QDOT_CODE_SCALARS = 10,
     /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, the two factors of
-     * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); then slots. */
+     * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); a lane whose bits are
+     * all 1; then slots. */
     QDOT_CODE_TABLE = QDOT_SERIES_MOST + 8,
     QDOT_CODE_INVERSES = 0,
     QDOT_CODE_ORDERS = QDOT_CODE_TABLE,
@@ -31,7 +31,8 @@ enum {
     QDOT_CODE_ONCE_LOW = 4 * QDOT_CODE_TABLE,
     QDOT_CODE_TWICE_LOW = 5 * QDOT_CODE_TABLE,
     QDOT_CODE_PAIRS = 6 * QDOT_CODE_TABLE,
-    QDOT_CODE_SLOTS = 7 * QDOT_CODE_TABLE,
+    QDOT_CODE_ONES = 7 * QDOT_CODE_TABLE,
+    QDOT_CODE_SLOTS = QDOT_CODE_ONES + QDOT_CODE_LANES,
     /* What is written for several orders is written as of this one, and those beside it; a
      * multiple of 4. */
     QDOT_CODE_ANY = 1000,
@@ -63,7 +64,12 @@ typedef struct {
 typedef struct {
     qdot_x86 x;
     const qdot_taylor *t;
+    int lanes;              /* of a vector */
+    int first_scalar, behind_scalars; /* registers of single numbers; below: for a moment */
+    bool as_they_stand;     /* rows are read where they are (taylor-code-vectors.c) */
+    bool reread;            /* sums are moved on by reading them one number further */
     int n;                  /* orders */
+    int blocks;             /* vectors of a sum at most */
     int k;                  /* the order at hand */
     int lag;                /* orders below it and their partners are added singly; 1 or 2 */
     bool exact;             /* links have factors of two doubles at it */
@@ -103,14 +109,13 @@ typedef struct {
     int orders;
 } qdot_code_phase;
 
-/* Of the vectors of products (taylor-code-vectors.c): before anything; before a phase behind
- * another; order m and all that is made of it and those from `lag` up to it; behind that. */
+/* Of the vectors of products (taylor-code-vectors.c): whether rows are read as they stand; before
+ * anything; before a phase; order m and all that is made of it and those from `lag` up to it; behind that. */
+bool qdot_code_rows_as_they_stand(const qdot_generator *g);
 void qdot_code_begin_vectors(qdot_generator *g);
-void qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p,
-                           const qdot_code_phase *before);
+void qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p);
 void qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m);
 void qdot_code_next_lane(qdot_generator *g, const qdot_code_phase *p);
-bool qdot_code_rows_as_they_stand(const qdot_generator *g);
 
 /* A recurrence as code. */
 typedef struct {

@@ -5,7 +5,7 @@
 #include "num/kinds.h"
 #include "series/taylor-code.h"
 #include "series/taylor.h"
-#include "series/taylor-steps.h"
+#include "series/taylor-order.h"
 
 /* Bits without a pattern: the finalizer of MurmurHash3. */
 static uint64_t
@@ -68,44 +68,19 @@ qdot_taylor_value(qdot_taylor_step *i)
     }
 }
 
-#define ORDERS(X)                                                                        \
-    X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)     \
-        X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28)    \
-            X(29) X(30) X(31) X(32) X(33) X(34) X(35) X(36) X(37) X(38) X(39) X(40)      \
-                X(41) X(42) X(43) X(44) X(45) X(46) X(47) X(48)
-
-#define STEPS(X, k)                                                                      \
-    X(NEG, k) X(ADD, k) X(SUB, k) X(SCALE, k) X(SCALEADD, k) X(SCALESUB, k)              \
-        X(SCALEOFF, k) X(MUL, k) X(SQUARE, k) X(MADD, k) X(MSUB, k) X(NMADD, k)          \
-            X(DIV, k) X(SQRT, k) X(SINCOS, k) X(SINHCOSH, k) X(EXP, k) X(POW, k)         \
-                X(RATIO, k) X(ALONG, k) X(TANH, k) X(ATAN2, k) X(LINK, k)
-
-/* A step of a program, its order known to the compiler. */
-typedef void step_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
-
 #define NAME(x) portable_##x
 #define MA(a, b, c) QDOT_MA(a, b, c)
 #include "series/taylor-order.def"
-#undef NAME
-#undef MA
 
-#ifdef QDOT_X86_KINDS
-QDOT_KIND_AVX2
-#define NAME(x) fma_##x
-#define MA(a, b, c) __builtin_fma(a, b, c)
-#include "series/taylor-order.def"
-#undef NAME
-#undef MA
-QDOT_KIND_END
-#endif
+static qdot_taylor_function *const portable[QDOT_SERIES_MOST + 1][QDOT_T_COUNT] = {FUNCTIONS};
 
-static step_function *const (*functions(void))[QDOT_T_COUNT]
+static qdot_taylor_function *const (*functions(void))[QDOT_T_COUNT]
 {
 #ifdef QDOT_X86_KINDS
     if (qdot_kind_is_here(1))
-        return fma_steps;
+        return qdot_taylor_order_fma;
 #endif
-    return portable_steps;
+    return portable;
 }
 
 static void
@@ -117,7 +92,7 @@ order_zero(const qdot_taylor *t)
 
 /* Order k of the first n steps but those that have none, of an order's functions. */
 static inline void
-order(const qdot_taylor *t, size_t n, step_function *const *function)
+order(const qdot_taylor *t, size_t n, qdot_taylor_function *const *function)
 {
     const qdot_series_kernels *kernels = t->kernels;
     qdot_taylor_step *s = t->steps + t->still, *const end = t->steps + n;
@@ -178,7 +153,7 @@ qdot_taylor_begin(qdot_taylor *t, double unit)
 void
 qdot_taylor_extend(qdot_taylor *t, int from, int to)
 {
-    step_function *const (*const function)[QDOT_T_COUNT] = functions();
+    qdot_taylor_function *const (*const function)[QDOT_T_COUNT] = functions();
     const size_t n = t->length + t->n_links;
 
     if (from == 1 && qdot_taylor_is_code(t, to)) {

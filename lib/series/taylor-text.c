@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "machine/x86.h"
 
 #if defined __x86_64__ && defined __LP64__ && (defined __unix__ || defined __APPLE__)
 #define CAN_RUN
@@ -30,7 +31,7 @@ static atomic_uint next_place;
 
 /* --- keys --------------------------------------------------------------------------- */
 
-enum { OF_ALL = 9, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
+enum { OF_ALL = 10, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
 
 static uint32_t
 row(const qdot_taylor *t, const double *x)
@@ -93,7 +94,7 @@ put_all(const qdot_taylor *t, int orders, uint32_t *to)
                                     (uint32_t)t->stride,  (uint32_t)t->moving,
                                     (uint32_t)t->still,   (uint32_t)t->length,
                                     (uint32_t)t->n_links, (uint32_t)t->n_blocks,
-                                    (uint32_t)t->outputs};
+                                    (uint32_t)t->outputs, (uint32_t)qdot_x86_kind()};
 
     memcpy(to, words, sizeof words);
     to += OF_ALL;

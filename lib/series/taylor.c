@@ -37,7 +37,7 @@ allocate(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns)
     t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
     t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
     t->steps = qdot_calloc(p->steps.n, sizeof *t->steps);
-    t->drawn = qdot_calloc(p->constants + 1, sizeof *t->drawn);
+    t->drawn = qdot_calloc(p->constants.n + 1, sizeof *t->drawn);
     if (!t->allocated || !t->output || !t->constant || !t->steps || !t->drawn)
         return QDOT_ENOMEM;
     t->coefficients = t->allocated;
@@ -48,34 +48,32 @@ allocate(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns)
 
 /* Numbers get to their rows; which of them are drawn. */
 static void
-set_constants(qdot_taylor *t, const qdot_program *p, const qdot_tape *tape)
+set_constants(qdot_taylor *t, const qdot_program *p)
 {
     for (size_t r = 0; r < t->spare; r++) {
         const qdot_program_row_info *row = p->rows.at + r;
         double *to = t->coefficients + r * t->stride;
 
-        if (row->source == QDOT_ROW_CONSTANT)
-            *to = tape->constant[row->at];
-        else if (row->source == QDOT_ROW_WHOLE)
+        if (row->source == QDOT_ROW_WHOLE)
             *to = row->at;
-    }
-    for (size_t i = 0; i < tape->constants; i++)
-        if (tape->low[i] != 0) {
-            double near = tape->constant[i], far = qdot_shake_double(near, tape->side[i]);
+        if (row->source == QDOT_ROW_CONSTANT) {
+            const qdot_program_constant *c = p->constants.at + row->at;
+            const double far = qdot_shake_double(c->value, c->side);
 
-            t->drawn[t->n_drawn++] =
-                (struct qdot_taylor_drawn){t->coefficients + (t->inputs + i) * t->stride,
-                                           near, far, tape->low[i] / (far - near)};
+            *to = c->value;
+            if (c->low != 0)
+                t->drawn[t->n_drawn++] = (struct qdot_taylor_drawn){
+                    to, c->value, far, c->low / (far - c->value)};
         }
+    }
 }
 
 /* Rows get their places, steps their pointers. */
 static qdot_status
-settle(qdot_taylor *t, const qdot_program *p, const qdot_tape *tape, int most,
-       size_t unknowns)
+settle(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns)
 {
     QDOT_TRY(allocate(t, p, most, unknowns));
-    set_constants(t, p, tape);
+    set_constants(t, p);
     for (size_t i = 0; i < p->steps.n; i++) {
         const qdot_program_step *s = p->steps.at + i;
 
@@ -113,7 +111,7 @@ make(const qdot_tape *tape, int most, size_t moving, size_t unknowns,
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
     QDOT_TRY(qdot_program_init(tape, moving, false, &program));
     t = qdot_calloc(1, sizeof *t);
-    status = t ? settle(t, &program, tape, most, unknowns) : QDOT_ENOMEM;
+    status = t ? settle(t, &program, most, unknowns) : QDOT_ENOMEM;
     qdot_program_clear(&program);
     if (status != QDOT_OK) {
         qdot_taylor_free(t);
@@ -196,7 +194,13 @@ qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
 bool
 qdot_taylor_may_be_code(void)
 {
-    return qdot_x86_is_here();
+    return qdot_x86_kind() > 0;
+}
+
+const char *
+qdot_taylor_code_kind(void)
+{
+    return qdot_x86_kind() > 1 ? "AVX-512" : "AVX2";
 }
 
 bool

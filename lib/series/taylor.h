@@ -113,8 +113,9 @@ bool qdot_taylor_take_kept(qdot_taylor *taylor, int to);
 void qdot_taylor_drop_code(qdot_taylor *taylor);
 /* Whether orders 1 ... to are machine code. */
 bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
-/* Whether this processor has machine code at all. */
+/* Whether this processor has machine code at all; what that needs, by name. */
 bool qdot_taylor_may_be_code(void);
+const char *qdot_taylor_code_kind(void);
 /* How long the code is; 0: there is none, and *why says so, NULL if none was asked for. */
 size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 

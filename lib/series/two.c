@@ -2,16 +2,21 @@
 #include "series/two.h"
 
 #include <stdint.h>
+#include <string.h>
 
 #include "num/kinds.h"
-#include "series/program.h"
 
 struct qdot_tape_two {
-    qdot_program program;
+    const qdot_program *program;
+    const qdot_motion *motion; /* it is of; NULL: of a tape, whose program is */
+    qdot_program own;
+    double unit;
+    qdot_two inverse[QDOT_TWO_MOST + 3]; /* 1/k */
     size_t stride;
     qdot_two *numbers; /* [rows x stride], the inputs first */
     double *note;      /* [rows] by how much the newest coefficient changes */
     const qdot_two_functions *functions;
+    const qdot_two_kernels *kernels;
     void (*order)(const qdot_tape_two *t, const qdot_program_step *i, int k);
 };
 
@@ -101,6 +106,7 @@ value(const qdot_tape_two *t, const qdot_program_step *i)
     case QDOT_OP_OR: d = truth(a.hi != 0 || b.hi != 0); break;
     case QDOT_OP_NOT: d = truth(a.hi == 0); break;
     case QDOT_OP_SELECT: d = a.hi != 0 ? b : c; break;
+    case QDOT_ZERO_RATE: d = qdot_two_scale(place(t, i->x)[1], 1 / t->unit); break;
     default: d = truth(NAN); /* an operation without a value here does not pass the tests */
     }
     place(t, i->to)[0] = d;
@@ -123,96 +129,176 @@ QDOT_KIND_END
 void
 qdot_tape_two_order(qdot_tape_two *t, int k)
 {
-    const qdot_program_step *i = t->program.steps.at + (k > 0 ? t->program.still : 0);
+    const qdot_program_step *first = t->program->steps.at;
+    const qdot_program_step *i = first + (k > -t->program->lead ? t->program->still : 0);
 
     for (; i->op != QDOT_T_END; i++)
-        if (k > 0)
-            t->order(t, i, k);
-        else
+        if (k + i->lead > 0)
+            t->order(t, i, k + i->lead);
+        else if (k + i->lead == 0 || i->still)
             value(t, i);
 }
 
-/* --- correction ---------------------------------------------------------------------- */
+/* --- unknowns ------------------------------------------------------------------------ */
 
-/* Coefficient k of a row changes by its note. */
-static void
-change(qdot_tape_two *t, qdot_program_row row, int k)
+/* Coefficient k + 1 of a row whose rate is `rate` of order k. */
+static qdot_two
+integral(const qdot_tape_two *t, qdot_two rate, int k)
 {
-    if (row != QDOT_NO_ROW)
-        place(t, row)[k] = qdot_two_add_double(place(t, row)[k], t->note[row]);
+    return t->kernels->mul(rate, qdot_two_scale(t->inverse[k + 1], t->unit));
+}
+
+/* Order k of an unknown, and what that makes of its integrals. */
+static void
+put(const qdot_tape_two *t, const qdot_motion_unknown *u, qdot_two a, int k)
+{
+    qdot_two once;
+
+    if (u->row != QDOT_NO_ROW)
+        place(t, u->row)[k] = a;
+    if (u->once == QDOT_NO_ROW)
+        return;
+    place(t, u->once)[k + 1] = once = integral(t, a, k);
+    if (u->twice != QDOT_NO_ROW && (size_t)k + 2 < t->stride)
+        place(t, u->twice)[k + 2] = integral(t, once, k + 1);
 }
 
 void
-qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by)
+qdot_tape_two_stage(qdot_tape_two *t, int k, const double *guess)
 {
-    const qdot_program_step *i = t->program.steps.at + t->program.still;
-    double *note = t->note, U1, U2;
+    const qdot_motion *m = t->motion;
 
-    for (size_t r = 0; r < n; r++) {
-        note[r] = by[r];
-        change(t, (qdot_program_row)r, k);
+    for (size_t i = 0; i < m->solved.n && k >= 0; i++)
+        put(t, m->unknowns.at + m->solved.at[i], (qdot_two){guess[i], 0}, k);
+    qdot_tape_two_order(t, k);
+    for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
+        const qdot_motion_unknown *u = m->unknowns.at + i;
+
+        if (u->value != QDOT_NO_ROW)
+            put(t, u, place(t, u->value)[k], k);
     }
-    for (; i->op != QDOT_T_END; i++) {
+}
+
+/* A row takes on its note, at the order that it has at stage k. */
+static void
+change(qdot_tape_two *t, qdot_program_row row, int order)
+{
+    if (row != QDOT_NO_ROW && (size_t)order < t->stride)
+        place(t, row)[order] = qdot_two_add_double(place(t, row)[order], t->note[row]);
+}
+
+static void
+change_unknown(qdot_tape_two *t, const qdot_motion_unknown *u, double d, int k)
+{
+    if (u->row != QDOT_NO_ROW)
+        t->note[u->row] = d;
+    if (u->once != QDOT_NO_ROW)
+        t->note[u->once] = d *= t->unit / (k + 1);
+    if (u->twice != QDOT_NO_ROW)
+        t->note[u->twice] = d * t->unit / (k + 2);
+    change(t, u->row, k);
+    change(t, u->once, k + 1);
+    change(t, u->twice, k + 2);
+}
+
+/* The notes of a step's rows from those of what it reads. */
+static void
+note_step(const qdot_tape_two *t, const qdot_program_step *i, int k)
+{
+    double *note = t->note, U1, U2;
+    const double note_x = i->newest & QDOT_X_NEWEST ? note[i->x] : 0;
+    const double note_y = i->newest & QDOT_Y_NEWEST ? note[i->y] : 0;
+    const double note_z = i->newest & QDOT_Z_NEWEST ? note[i->z] : 0;
+
+    if (i->op == QDOT_T_RATE) {
+        note[i->to] = (k + 1) / t->unit * note_x;
+        return;
+    }
+#define note_to note[i->to]
+#define note_second note[i->second]
+#define note_third note[i->third]
+#define note_d note[i->d]
+#define NOTE(row) note_##row
 #define ZERO(row) place(t, i->row)[0].hi
-#define NOTE(row) note[i->row]
 #define OVER_ZERO(p, row) (p) / ZERO(row)
 #define OVER_TWICE_ZERO(p, row) 0.5 * (p) / ZERO(row)
 #define FUSED(a, b, c) (a) * (b) + (c)
 #define NOTHING 0
 #include "series/linear.def"
-        change(t, i->to, k);
-        change(t, i->second, k);
-        change(t, i->third, k);
-        change(t, i->d, k);
-    }
+}
+
+void
+qdot_tape_two_change(qdot_tape_two *t, int k, const double *by)
+{
+    const qdot_program_step *i = t->program->steps.at + t->program->still;
+
+    for (size_t u = 0; u < t->motion->solved.n; u++)
+        change_unknown(t, t->motion->unknowns.at + t->motion->solved.at[u], by[u], k);
+    for (; i->op != QDOT_T_END; i++)
+        if (i->newest) {
+            note_step(t, i, k + i->lead);
+            change(t, i->to, k + i->lead);
+            change(t, i->second, k + i->lead);
+            change(t, i->third, k + i->lead);
+            change(t, i->d, k + i->lead);
+        }
 }
 
 /* --- building ------------------------------------------------------------------------ */
 
 static void
-set_constants(qdot_tape_two *t, const qdot_tape *tape)
+set_constants(qdot_tape_two *t)
 {
-    for (qdot_program_row r = 0; r < t->program.rows.n; r++) {
-        const qdot_program_row_info *row = t->program.rows.at + r;
+    for (qdot_program_row r = 0; r < t->program->rows.n; r++) {
+        const qdot_program_row_info *row = t->program->rows.at + r;
+        const qdot_program_constant *c = t->program->constants.at + row->at;
 
         if (row->source == QDOT_ROW_CONSTANT)
-            place(t, r)[0] = (qdot_two){tape->constant[row->at], tape->low[row->at]};
+            place(t, r)[0] = (qdot_two){c->value, c->low};
         else if (row->source == QDOT_ROW_WHOLE)
             place(t, r)[0] = (qdot_two){row->at, 0};
     }
 }
 
+/* Its rows, once it has its program. */
 static qdot_status
-make(qdot_tape_two *t, const qdot_tape *tape, int most, size_t moving)
+make(qdot_tape_two *t, int most)
 {
-    const qdot_program *p = &t->program;
-
-    QDOT_TRY(qdot_program_init(tape, moving, most == 0, &t->program));
     t->stride = (size_t)most + 1;
     t->functions = qdot_two_functions_get();
+    t->kernels = qdot_two_kernels_get();
     t->order = portable_order;
 #ifdef QDOT_X86_KINDS
     if (qdot_kind_is_here(1))
         t->order = fma_order;
 #endif
-    t->numbers = qdot_calloc(p->rows.n * t->stride + 1, sizeof *t->numbers);
-    t->note = qdot_calloc(p->rows.n + 1, sizeof *t->note);
+    for (int k = 1; k < QDOT_TWO_MOST + 3; k++)
+        t->inverse[k] = qdot_two_div_double((qdot_two){1, 0}, k);
+    t->numbers = qdot_calloc(t->program->rows.n * t->stride + 1, sizeof *t->numbers);
+    t->note = qdot_calloc(t->program->rows.n + 1, sizeof *t->note);
     if (!t->numbers || !t->note)
         return QDOT_ENOMEM;
-    set_constants(t, tape);
+    set_constants(t);
     return QDOT_OK;
 }
 
-qdot_status
-qdot_tape_two_new(const qdot_tape *tape, int most, size_t moving, qdot_tape_two **two)
+static qdot_status
+make_new(const qdot_tape *tape, const qdot_motion *motion, int most, size_t moving,
+         qdot_tape_two **two)
 {
     qdot_tape_two *t = qdot_calloc(1, sizeof *t);
-    qdot_status status;
+    qdot_status status = QDOT_OK;
 
     *two = NULL;
     if (!t)
         return QDOT_ENOMEM;
-    status = make(t, tape, most, moving);
+    t->motion = motion;
+    t->program = motion ? &motion->program : &t->own;
+    t->unit = 1;
+    if (!motion)
+        status = qdot_program_init(tape, moving, most == 0, &t->own);
+    if (status == QDOT_OK)
+        status = make(t, most);
     if (status != QDOT_OK) {
         qdot_tape_two_free(t);
         return status;
@@ -221,15 +307,33 @@ qdot_tape_two_new(const qdot_tape *tape, int most, size_t moving, qdot_tape_two 
     return QDOT_OK;
 }
 
+qdot_status
+qdot_tape_two_new(const qdot_tape *tape, int most, size_t moving, qdot_tape_two **two)
+{
+    return make_new(tape, NULL, most, moving, two);
+}
+
+qdot_status
+qdot_tape_two_of_motion(const qdot_motion *motion, qdot_tape_two **two)
+{
+    return make_new(NULL, motion, QDOT_TWO_MOST + 1, 0, two);
+}
+
 void
 qdot_tape_two_free(qdot_tape_two *t)
 {
     if (!t)
         return;
-    qdot_program_clear(&t->program);
+    qdot_program_clear(&t->own);
     qdot_free(t->numbers);
     qdot_free(t->note);
     qdot_free(t);
+}
+
+void
+qdot_tape_two_set_unit(qdot_tape_two *t, double unit)
+{
+    t->unit = unit;
 }
 
 qdot_two *
@@ -245,13 +349,13 @@ qdot_tape_two_stride(const qdot_tape_two *t)
 }
 
 const qdot_two *
-qdot_tape_two_output(const qdot_tape_two *t, size_t i)
+qdot_tape_two_row(const qdot_tape_two *t, qdot_program_row row)
 {
-    return place(t, t->program.outputs.at[i]);
+    return place(t, row);
 }
 
-bool
-qdot_tape_two_is_constant(const qdot_tape_two *t, size_t i)
+const qdot_two *
+qdot_tape_two_output(const qdot_tape_two *t, size_t i)
 {
-    return t->program.rows.at[t->program.outputs.at[i]].still;
+    return place(t, t->program->outputs.at[i]);
 }

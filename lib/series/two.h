@@ -10,7 +10,7 @@
 #define QDOT_SERIES_TWO_H
 
 #include "num/two.h"
-#include "tape/tape.h"
+#include "series/motion.h"
 
 typedef struct qdot_tape_two qdot_tape_two; /* one a thread */
 
@@ -26,17 +26,29 @@ void qdot_tape_two_free(qdot_tape_two *t);
 qdot_two *qdot_tape_two_input(qdot_tape_two *t, size_t i);
 size_t qdot_tape_two_stride(const qdot_tape_two *t);
 
-/* Coefficients by order of output i; whether it has those of order 0 only. */
+/* Coefficients by order of output i. */
 const qdot_two *qdot_tape_two_output(const qdot_tape_two *t, size_t i);
-bool qdot_tape_two_is_constant(const qdot_tape_two *t, size_t i);
 
 /* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
  * and inf as IEEE 754 has them, where one of two doubles is. */
 void qdot_tape_two_order(qdot_tape_two *t, int k);
 
-/* Order k > 0 was evaluated, and is affine in the newest coefficients of the inputs: those of
- * the first n change by `by`, numbers so small that a double of them is enough. All of order k
- * is brought up to date, inputs too, by derivatives at order 0. */
-void qdot_tape_two_correct(qdot_tape_two *t, int k, size_t n, const double *by);
+/* --- motions ------------------------------------------------------------------------- */
+
+/* Orders of accelerations at most. */
+enum { QDOT_TWO_MOST = 12 };
+
+/* Of a motion, borrowed: orders 0 ... QDOT_TWO_MOST + 1 of its rows. The unit of time, a power of
+ * two, is 1 until it is set. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_tape_two_of_motion(const qdot_motion *motion,
+                                                    qdot_tape_two **two);
+void qdot_tape_two_set_unit(qdot_tape_two *t, double unit);
+const qdot_two *qdot_tape_two_row(const qdot_tape_two *t, qdot_program_row row);
+
+/* Stage k of the expansion, from qdot_motion_first on; the unknowns that are solved for begin as
+ * guess [solved], from stage 0 on. Then these change by `by` [solved], numbers so small that a
+ * double of them is enough, and all that is `newest` with them, E too. */
+void qdot_tape_two_stage(qdot_tape_two *t, int k, const double *guess);
+void qdot_tape_two_change(qdot_tape_two *t, int k, const double *by);
 
 #endif

@@ -5,6 +5,7 @@
 #include "fuzz.h"
 
 #include "expr/walk.h"
+#include "lang/session/measured.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
@@ -81,13 +82,14 @@ compare(qdot_session *session, qdot_expr e, qdot_expr simple)
     abort();
 }
 
-/* No relation is in it: one between numbers is decided when it is read. And no text, which is not
- * read back. */
+/* No relation is in it: one between numbers is decided when it is read. No text, which is not read
+ * back, and no number with an error, as `N(2)` is: it stands as a symbol of the session's own. */
 static bool
-is_plain_value(const qdot_pool *pool, qdot_expr e)
+is_plain_value(qdot_session *session, qdot_expr e)
 {
+    const qdot_pool *pool = session->pool;
     qdot_walk w;
-    bool plain = qdot_walk_begin(pool, e, &w) == QDOT_OK;
+    bool plain = qdot_walk_begin(pool, e, &w) == QDOT_OK && !qdot_measured_occurs(session, e);
 
     for (size_t i = 0; plain && i < w.n; i++)
         plain = qdot_expr_kind(pool, w.at[i]) != QDOT_REL &&
@@ -114,7 +116,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     fuzz_begin(data, size);
     e = value_of(session, (const char *)data, size);
-    if (e != QDOT_NIL && is_plain_value(session->pool, e)) {
+    if (e != QDOT_NIL && is_plain_value(session, e)) {
         read_again(session, "not read back", e);
         simple = qdot_simplify(session->pool, e, NULL);
         if (qdot_pool_check(session->pool) == QDOT_OK && simple != QDOT_NIL &&

@@ -71,7 +71,8 @@ instructions_have_their_bytes(void **state)
         qdot_x86 x = {.mask = rows[i].mask, .zeroing = rows[i].zeroing};
 
         if (rows[i].from >= 0)
-            qdot_x86_align(&x, rows[i].reg, rows[i].first, rows[i].rm, rows[i].from);
+            qdot_x86_move_lanes(&x, rows[i].name, rows[i].reg, rows[i].first, rows[i].rm,
+                                rows[i].from);
         else
             qdot_x86_emit(&x, rows[i].name, rows[i].reg, rows[i].first, rows[i].rm);
         assert_int_equal(x.status, QDOT_OK);
@@ -165,6 +166,32 @@ vectors_of_both_widths_have_theirs(void **state)
     qdot_free(x.bytes.at);
 }
 
+/* Single numbers and lanes, by AVX2. */
+static void
+narrow_instructions_have_theirs(void **state)
+{
+    static const unsigned char bytes[] = {
+        0xc4, 0xe1, 0xfb, 0x10, 0x67, 0x18,          /* vmovsd 0x18(%rdi),%xmm4 */
+        0xc4, 0x61, 0xfb, 0x11, 0x8e, 0, 0x10, 0, 0, /* vmovsd %xmm9,0x1000(%rsi) */
+        0xc4, 0x42, 0xc1, 0xb9, 0x60, 0xf8,          /* vfmadd231sd -8(%r8),%xmm7,%xmm12 */
+        0xc4, 0xc1, 0x8b, 0x51, 0xf6,                /* vsqrtsd %xmm14,%xmm14,%xmm6 */
+        0xc4, 0xe1, 0xd5, 0xdb, 0x4f, 0x28,          /* vpand 0x28(%rdi),%ymm5,%ymm1 */
+        0xc4, 0xe3, 0xfd, 0x01, 0xed, 0x90           /* vpermpd $0x90,%ymm5,%ymm5 */
+    };
+    qdot_x86 x = qdot_x86_of(1);
+
+    (void)state;
+    qdot_x86_emit(&x, QDOT_X86_LOAD, 4, 0, qdot_x86_at(QDOT_X86_RDI, 0x18));
+    qdot_x86_emit(&x, QDOT_X86_STORE, 9, 0, qdot_x86_at(QDOT_X86_RSI, 0x1000));
+    qdot_x86_emit(&x, QDOT_X86_MADD, 12, 7, qdot_x86_at(QDOT_X86_R8, -8));
+    qdot_x86_emit(&x, QDOT_X86_ROOT, 6, 14, qdot_x86_reg(14));
+    qdot_x86_emit(&x, QDOT_X86_AND_ALL, 1, 5, qdot_x86_at(QDOT_X86_RDI, 0x28));
+    qdot_x86_move_lanes(&x, QDOT_X86_PERMUTE, 5, 0, qdot_x86_reg(5), 0x90);
+    assert_int_equal(x.bytes.n, sizeof bytes);
+    assert_memory_equal(x.bytes.at, bytes, sizeof bytes);
+    qdot_free(x.bytes.at);
+}
+
 static void
 sequences_have_theirs(void **state)
 {
@@ -232,6 +259,7 @@ main(void)
         cmocka_unit_test(masks_and_the_end_have_theirs),
         cmocka_unit_test(loops_have_theirs),
         cmocka_unit_test(vectors_of_both_widths_have_theirs),
+        cmocka_unit_test(narrow_instructions_have_theirs),
         cmocka_unit_test(sequences_have_theirs),
         cmocka_unit_test(calls_have_theirs),
     };

@@ -34,8 +34,8 @@ s/projected after [0-9][0-9]* steps\{0,1\}/projected after N steps/
 }
 
 # What Taylor series are computed by is a matter of the processor.
-s/machine code for AVX-512, [0-9.]* kB/CODE/
-s/kernels; machine code needs AVX-512/CODE/
+s/machine code for AVX\(2\|-512\), [0-9.]* kB/CODE/
+s/kernels; machine code needs AVX2/CODE/
 # So is their order.
 s/^order: [0-9][0-9]*, by what/order: P, by what/
 s/order [0-9][0-9]*, \(.* an order; CODE\)/order P, \1/

@@ -1,67 +1,11 @@
 /* test_ensemble.c -- members against runs of their own. */
-#include "scenes.h"
+#include "ensembles.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "num/kinds.h"
-#include "sim/study/ensemble.h"
-
-enum { MOST_MEMBERS = 24 };
-
-/* A run of the same scene alone: its end, and the error it states. */
-static double
-alone(fixture *f, const double *start, double *end)
-{
-    size_t n = f->scene->coordinates.n;
-    const qdot_run_report *report;
-    double error;
-    qdot_run *r;
-
-    for (size_t i = 0; i < n; i++) {
-        char text[2][64];
-
-        snprintf(text[0], sizeof text[0], "%.40f", start[i]);
-        snprintf(text[1], sizeof text[1], "%.40f", start[n + i]);
-        f->q0[i] = number(f, text[0]);
-        f->v0[i] = number(f, text[1]);
-    }
-    f->request.q0 = f->q0;
-    f->request.v0 = f->v0;
-    f->request.method = "taylor";
-    r = run(f);
-    report = qdot_run_get_report(r);
-    assert_int_equal(report->status, QDOT_RUN_DONE);
-    memcpy(end, report->q, n * sizeof *end);
-    memcpy(end + n, report->v, n * sizeof *end);
-    error = report->error;
-    qdot_run_free(r);
-    f->request.q0 = f->request.v0 = NULL;
-    return error;
-}
-
-static double
-distance(const double *a, const double *b, size_t n)
-{
-    double worst = 0;
-
-    for (size_t i = 0; i < n; i++)
-        worst = fmax(worst, fabs(a[i] - b[i]) / fmax(1, fabs(b[i])));
-    return worst;
-}
-
-static qdot_ensemble *
-prepare(fixture *f, size_t n_varied, const qdot_expr *varied)
-{
-    qdot_ensemble *e = NULL;
-
-    f->request.q0 = f->request.v0 = NULL;
-    f->request.method = "auto";
-    must(qdot_ensemble_new(f->scene, &f->request, n_varied, varied, &e));
-    return e;
-}
 
 /* More members than lanes, of ends that take different numbers of steps. */
 static void
@@ -442,6 +386,8 @@ what_cannot_be_is_refused(void **state)
     f.request.method = "dop853";
     refused(&f, 0, NULL, QDOT_EINVAL, "dop853");
     f.request.method = "taylor";
+    refused(&f, 2, (qdot_expr[]){parameter(&f, "k"), parameter(&f, "k")}, QDOT_EINVAL,
+            "k is given twice");
     f.request.n_values = 2; /* no g */
     refused(&f, 0, NULL, QDOT_EUNSET, "g has no value");
     f.request.n_values = 3;
@@ -455,7 +401,8 @@ what_cannot_be_is_refused(void **state)
     refused(&f, 0, NULL, QDOT_ENOTBUILT, "the event stopper");
     must(qdot_scene_remove(f.scene, "stopper"));
     must(qdot_scene_constraint(f.scene, "pin", f.scene->coordinates.at[0], QDOT_ZERO));
-    refused(&f, 0, NULL, QDOT_ENOTBUILT, "constraints");
+    f.request.treatment = QDOT_RUN_BAUMGARTE;
+    refused(&f, 0, NULL, QDOT_ENOTBUILT, "constraints by another treatment");
     end(&f);
 }
 

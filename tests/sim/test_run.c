@@ -605,10 +605,10 @@ the_plan_is_told(void **state)
     qdot_text text = {0};
 
     (void)state;
-    chain(&f, 3);
+    chain(&f, 7);
     must(qdot_run_plan(f.scene, &f.request, &text));
-    assert_non_null(strstr(text.at, "3 x 3, full; not formed"));
-    assert_non_null(strstr(text.at, "3 calls of elementary functions"));
+    assert_non_null(strstr(text.at, "7 x 7, full; not formed"));
+    assert_non_null(strstr(text.at, "7 calls of elementary functions"));
     assert_non_null(strstr(text.at, "method: taylor, chosen"));
     qdot_text_clear(&text);
     f.request.method = "bsimp";

@@ -6,7 +6,7 @@
 
 #include "sim/form/direct.h"
 #include "sim/form/residual.h"
-#include "sim/form/shifted.h"
+#include "sim/form/residual-series.h"
 #include "sim/plan/plan.h"
 
 /* A run of the scene by a method under a tolerance; the caller frees it. */
@@ -52,7 +52,7 @@ forms_agree(fixture *f, const double *y, double t)
     enum { P = 24 };
     qdot_residual *residual;
     qdot_direct *direct;
-    qdot_shifted *shifted;
+    qdot_residual_series *series;
     qdot_plan *plan;
     const qdot_ode_series *a, *b;
 
@@ -61,9 +61,9 @@ forms_agree(fixture *f, const double *y, double t)
     must(qdot_direct_new(plan, false, &direct));
     must(qdot_residual_new(f->scene, plan, &residual));
     assert_non_null(residual);
-    must(qdot_shifted_new(plan, residual, false, &shifted));
+    must(qdot_residual_series_new(plan, residual, false, &series));
     a = qdot_direct_series(direct);
-    b = qdot_shifted_series(shifted);
+    b = qdot_residual_series_get(series);
     must(a->begin(t, y, 0.125, a->user));
     must(a->extend(P, a->user));
     must(b->begin(t, y, 0.125, b->user));
@@ -81,7 +81,7 @@ forms_agree(fixture *f, const double *y, double t)
         }
     }
     qdot_direct_free(direct);
-    qdot_shifted_free(shifted);
+    qdot_residual_series_free(series);
     qdot_residual_free(residual);
     qdot_plan_free(plan);
 }
@@ -136,11 +136,11 @@ a_chain_takes_the_residual_and_a_pendulum_does_not(void **state)
     fixture f;
 
     (void)state;
-    chain(&f, 6);
+    chain(&f, 8);
     f.request.method = "taylor";
     must(qdot_run_plan(f.scene, &f.request, &text));
     assert_non_null(
-        strstr(qdot_text_str(&text), "d'Alembert's residual, 24 convolutions"));
+        strstr(qdot_text_str(&text), "d'Alembert's residual, 32 convolutions"));
     assert_non_null(strstr(qdot_text_str(&text), "order: "));
     qdot_text_clear(&text);
     end(&f);

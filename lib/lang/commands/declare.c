@@ -440,8 +440,9 @@ qdot_declare_assume(qdot_cursor *c)
               qdot_expr_node(pool, relation)->op == QDOT_AND; /* 0 < a < c */
     n = several ? qdot_expr_count(pool, relation) : 1;
     for (uint32_t i = 0; i < n; i++) {
-        qdot_assumption said = {several ? qdot_expr_arg(pool, relation, i) : relation,
-                                greater && !several};
+        qdot_assumption said = {
+            .relation = several ? qdot_expr_arg(pool, relation, i) : relation,
+            .turned = greater && !several};
 
         if (qdot_expr_kind(pool, said.relation) == QDOT_REL)
             QDOT_TRY(qdot_value_check_assumption(c->session, &said));

@@ -167,7 +167,11 @@ qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_exp
     uint32_t space = qdot_scene_dimension(s), dim = qdot_mech_dimension(pool, position);
     uint32_t moves = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |
                      QDOT_HAS_MOMENTUM | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
-    qdot_body b = {NULL, mass, position, rotation, QDOT_NIL, plane ? angle : QDOT_NIL};
+    qdot_body b = {.mass = mass,
+                   .position = position,
+                   .rotation = rotation,
+                   .inertia = QDOT_NIL,
+                   .angle = plane ? angle : QDOT_NIL};
 
     qdot_scene_forget_dropped(s);
     QDOT_TRY(qdot_pool_check(pool));

@@ -232,7 +232,7 @@ plain_gravity(const qdot_scene *s)
 qdot_status
 qdot_scene_term(qdot_scene *s, qdot_scene_kind kind, const char *name, qdot_expr e)
 {
-    qdot_term term = {NULL, e}, *before = NULL;
+    qdot_term term = {.e = e}, *before = NULL;
     qdot_status status;
 
     qdot_scene_forget_dropped(s);
@@ -454,7 +454,7 @@ add_slopes(qdot_scene *s, qdot_expr relation)
 qdot_status
 qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned)
 {
-    const qdot_assumption said = {relation, turned};
+    const qdot_assumption said = {.relation = relation, .turned = turned};
     qdot_pool *pool = s->pool;
     size_t before = s->relations.n;
     qdot_expr f;

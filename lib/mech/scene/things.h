@@ -8,6 +8,11 @@
 #include "base/memory.h"
 #include "normal/field/facts.h"
 
+/* `undo` compares items byte by byte, so the bytes that alignment leaves over have a name,
+ * `unused`, and initialisers make them 0. The compiler refuses such bytes without a name. */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic error "-Wpadded"
+
 typedef struct {
     char *name;
     qdot_expr mass, position;
@@ -20,6 +25,7 @@ typedef struct {
     qdot_expr inertia;        /* plane: a scalar; space: a symmetric 3x3 MAT, body axes, about the
                                  centre of mass */
     qdot_expr angle;          /* plane: the declared angle; nil in space */
+    qdot_expr unused;
 } qdot_body;
 
 typedef struct {
@@ -32,7 +38,7 @@ typedef struct {
 /* A term of V, a term of the Rayleigh function, or a uniform field. */
 typedef struct {
     char *name; /* NULL: no label */
-    qdot_expr e;
+    qdot_expr e, unused;
 } qdot_term;
 
 typedef struct {
@@ -42,6 +48,7 @@ typedef struct {
     char *on;     /* label of the particle or body, NULL for a point */
     bool material; /* on the material of body `on` that is at `point` just then:
                       Q = F . dv/dq', v = velocity(on, point); else Q = F . d(point)/dq */
+    char unused[7];
 } qdot_force;
 
 typedef struct {
@@ -49,6 +56,7 @@ typedef struct {
     qdot_expr torque; /* scalar; vector for a spatial body */
     qdot_expr coordinate; /* a generalized force on this coordinate; nil: */
     bool force;           /* it was declared with `force` */
+    char unused[3];
     int body;             /* on this body, through its spin */
 } qdot_torque;
 
@@ -61,6 +69,7 @@ typedef struct {
     qdot_expr left, right;
     qdot_constraint_kind kind; /* the highest derivative f holds */
     qdot_expr multiplier;      /* the symbol lambda[name] */
+    qdot_expr unused;
 } qdot_constraint;
 
 /* A moment of a run: left = right. It is no part of the mechanics. */
@@ -69,6 +78,7 @@ typedef struct {
     qdot_expr left, right;
     int way;   /* left - right goes 1 up, -1 down as t grows, 0 either way */
     bool stop; /* the run ends there */
+    char unused[3];
     qdot_vec(qdot_expr) targets, values; /* q, q' or a parameter becomes the value, all at
                                             once */
 } qdot_event;
@@ -77,7 +87,10 @@ typedef struct {
 typedef struct {
     qdot_expr relation;
     bool turned; /* b > a, of the relation a < b */
+    char unused[3];
 } qdot_assumption;
+
+#pragma GCC diagnostic pop
 
 typedef struct qdot_derived qdot_derived; /* mech/scene/cache.h */
 

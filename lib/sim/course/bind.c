@@ -4,14 +4,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "series/taylor.h"
 #include "sim/form/blocks.h"
 #include "sim/form/bordered.h"
 #include "sim/form/constrained-series.h"
 #include "sim/form/direct.h"
 #include "sim/form/eliminated.h"
-#include "sim/form/leading-residual.h"
 #include "sim/form/leading.h"
-#include "sim/form/shifted.h"
+#include "sim/form/residual-series.h"
 #include "sim/model/constrained.h"
 #include "sim/model/momenta.h"
 #include "tape/derivative.h"
@@ -23,17 +23,15 @@ struct qdot_bind {
     qdot_blocks blocks;
     qdot_constrained *held;            /* of a plan with constraints: in place of the blocks */
     qdot_direct *direct;        /* where the equations are smooth, one of the two: */
-    qdot_shifted *shifted;
+    qdot_residual_series *residual;
     qdot_constrained_series *tied;            /* or, of a plan with constraints: */
     qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
     qdot_bordered *bordered;       /* likewise */
     const qdot_ode_series *series; /* its callbacks; else NULL */
-    qdot_leading *leading;         /* its first orders in two doubles, if they are wanted: */
-    qdot_leading_residual *leading_residual; /* one of the two, */
-    const qdot_ode_leading *first; /* its callbacks */
+    qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
-    qdot_shifted *elsewhere;
+    qdot_residual_series *elsewhere;
     bool shaken;
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of the tape */
@@ -72,12 +70,11 @@ qdot_bind_free(qdot_bind *b)
     qdot_blocks_clear(&b->blocks);
     qdot_constrained_free(b->held);
     qdot_direct_free(b->direct);
-    qdot_shifted_free(b->shifted);
-    qdot_shifted_free(b->elsewhere);
+    qdot_residual_series_free(b->residual);
+    qdot_residual_series_free(b->elsewhere);
     qdot_eliminated_free(b->eliminated);
     qdot_bordered_free(b->bordered);
     qdot_leading_free(b->leading);
-    qdot_leading_residual_free(b->leading_residual);
     qdot_constrained_series_free(b->tied);
     qdot_tape_free(b->tape);
     if (b->reduced_blocks.plan)
@@ -144,8 +141,8 @@ begin_elsewhere(qdot_bind *b, double *a)
     const qdot_ode_series *series;
 
     if (!b->elsewhere)
-        QDOT_TRY(qdot_shifted_new(p, p->residual, b->shaken, &b->elsewhere));
-    series = qdot_shifted_series(b->elsewhere);
+        QDOT_TRY(qdot_residual_series_new(p, p->residual, b->shaken, &b->elsewhere));
+    series = qdot_residual_series_get(b->elsewhere);
     QDOT_TRY(series->begin(b->in[2 * p->n], b->in, 1, series->user));
     for (size_t i = 0; i < p->n; i++)
         a[i] = series->x[(p->n + i) * series->stride + 1];
@@ -316,7 +313,7 @@ qdot_bind_system(qdot_bind *b)
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
         .series = b->series,
-        .leading = b->first,
+        .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,
@@ -372,10 +369,11 @@ qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
                          : b->eliminated ? qdot_eliminated_code(b->eliminated, &why)
                                          : 0;
 
-    if (b->shifted && qdot_shifted_is_wide(b->shifted))
+    if (b->residual && qdot_residual_series_is_wide(b->residual))
         qdot_text_add(to, "kernels, like steps as vectors");
     else if (bytes > 0)
-        qdot_text_format(to, "machine code for AVX-512, %.1f kB", 1e-3 * (double)bytes);
+        qdot_text_format(to, "machine code for %s, %.1f kB", qdot_taylor_code_kind(),
+                         1e-3 * (double)bytes);
     else
         qdot_text_format(to, "kernels; %s", why);
 }
@@ -387,10 +385,12 @@ qdot_bind_factored(const qdot_bind *b)
 
     for (size_t k = 0; b->parts && k < b->plan->n_parts; k++)
         parts += qdot_bind_factored(b->parts[k]);
-    return parts + b->blocks.factored + (b->held ? qdot_constrained_factored(b->held) : 0)
-           + (b->tied ? qdot_constrained_series_factored(b->tied) : 0) + (b->direct ? qdot_direct_factored(b->direct) : 0)
-           + (b->shifted ? qdot_shifted_factored(b->shifted) : 0)
-           + b->reduced_blocks.factored;
+    return parts + b->blocks.factored +
+           (b->held ? qdot_constrained_factored(b->held) : 0) +
+           (b->tied ? qdot_constrained_series_factored(b->tied) : 0) +
+           (b->direct ? qdot_direct_factored(b->direct) : 0) +
+           (b->residual ? qdot_residual_series_factored(b->residual) : 0) +
+           b->reduced_blocks.factored;
 }
 
 /* With constraints. */
@@ -460,16 +460,7 @@ make_parts(qdot_bind *b, bool shaken)
 static qdot_status
 make_leading(qdot_bind *b, const qdot_plan *p)
 {
-    if (!b->plan->leading)
-        return QDOT_OK;
-    if (p->residual) {
-        QDOT_TRY(qdot_leading_residual_new(p, b->series, &b->leading_residual));
-        b->first = qdot_leading_residual_get(b->leading_residual);
-        return QDOT_OK;
-    }
-    QDOT_TRY(qdot_leading_new(p, &b->leading));
-    b->first = qdot_leading_get(b->leading);
-    return QDOT_OK;
+    return b->plan->leading ? qdot_leading_new(p, b->series, &b->leading) : QDOT_OK;
 }
 
 /* With momenta that are kept. */
@@ -531,8 +522,8 @@ make(qdot_bind *b, bool shaken)
     if (!p->smooth)
         return QDOT_OK;
     if (p->residual) {
-        QDOT_TRY(qdot_shifted_new(p, p->residual, shaken, &b->shifted));
-        b->series = qdot_shifted_series(b->shifted);
+        QDOT_TRY(qdot_residual_series_new(p, p->residual, shaken, &b->residual));
+        b->series = qdot_residual_series_get(b->residual);
     } else {
         QDOT_TRY(qdot_direct_new(p, shaken, &b->direct));
         b->series = qdot_direct_series(b->direct);

@@ -42,7 +42,7 @@ QDOT_MUST_CHECK qdot_status qdot_bind_check(qdot_bind *bind, double t, double *y
 qdot_constrained *qdot_bind_held(qdot_bind *bind);
 
 /* How its Taylor series are computed once they are prepared, added to a text: `machine code
- * for AVX-512, 10.3 kB`, or `kernels` and why. */
+ * for AVX2, 10.3 kB`, or `kernels` and why. */
 void qdot_bind_tell_code(const qdot_bind *bind, qdot_text *to);
 
 /* How often M was factored. */

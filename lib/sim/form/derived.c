@@ -1,26 +1,32 @@
 /* derived.c -- a plan's derived form, measured; plans freed. */
 #include "sim/form/derived.h"
 
+#include "sim/form/canonical.h"
 #include "sim/form/direct.h"
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"
 
+/* Forms are compared at one tolerance: a plan is kept for runs under any. */
+static const double middle_tol = 1e-9;
+
 double
 qdot_plan_cost(const qdot_ode_series *series)
 {
-    const double p = 20, *c = series->cost;
-
-    return c[0] + c[1] * p + c[2] * p * p;
+    return qdot_ode_taylor_cost(series, middle_tol);
 }
 
 qdot_status
 qdot_plan_measure(qdot_plan *plan)
 {
+    qdot_ode_series series;
     qdot_direct *direct;
 
     QDOT_TRY(qdot_direct_new(plan, false, &direct));
     plan->convolutions_derived = qdot_direct_convolutions(direct);
-    plan->cost = qdot_plan_cost(qdot_direct_series(direct));
+    series = *qdot_direct_series(direct);
+    plan->cost = qdot_plan_cost(&series);
+    series.written[0] = 0;
+    plan->cost_of_kernels = qdot_plan_cost(&series);
     qdot_direct_free(direct);
     return QDOT_OK;
 }
@@ -46,6 +52,7 @@ qdot_plan_free(qdot_plan *p)
     qdot_free(p->values);
     qdot_tape_free(p->tape);
     qdot_residual_free(p->residual);
+    qdot_canonical_free(p->canonical);
     qdot_constraints_free(p->constraints);
     for (size_t k = 0; k < p->n_parts; k++)
         qdot_plan_free(p->parts[k]);

@@ -8,9 +8,11 @@
 #include "ode/taylor.h"
 #include "sim/model/equations.h"
 
-/* What a step costs, about, at an order of middling tolerances. */
+/* What steps cost at a middling tolerance, as machine code where there is to be some
+ * (qdot_ode_taylor_cost). */
 double qdot_plan_cost(const qdot_ode_series *series);
-/* The convolutions and that cost of the derived form of a plan with a tape, put into it. */
+/* The convolutions and that cost of the derived form of a plan with a tape, as it will run and by
+ * kernels, put into it. */
 QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
 
 /* Operations of the equations it integrates, evaluated once: of M and f, or of what the tree

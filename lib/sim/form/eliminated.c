@@ -384,16 +384,6 @@ qdot_eliminated_series(const qdot_eliminated *e)
 
 /* --- which is taken ----------------------------------------------------------------- */
 
-/* A step's by a series, at the order that is best at a tolerance. */
-static double
-cost(const qdot_ode_series *series, double tol)
-{
-    const double p = qdot_ode_taylor_order(series, tol, false, 0), *c = series->cost;
-
-    /* a step is as long as tol^(1/p) makes it, at 5/4 of the digits (ode/taylor.c) */
-    return (c[0] + p * (c[1] + p * c[2])) * exp(-1.25 * log(tol) / p);
-}
-
 /* Whether p->eliminated is cheaper than the other form. */
 static qdot_status
 compare(const qdot_plan *p, double tol, bool *cheaper)
@@ -405,7 +395,7 @@ compare(const qdot_plan *p, double tol, bool *cheaper)
     if (status == QDOT_OK)
         status = qdot_eliminated_new(p, false, qdot_constrained_series_get(whole), &e);
     if (status == QDOT_OK)
-        *cheaper = cost(&e->series, tol) < cost(e->other, tol);
+        *cheaper = qdot_ode_taylor_cost(&e->series, tol) < qdot_ode_taylor_cost(e->other, tol);
     qdot_eliminated_free(e);
     qdot_constrained_series_free(whole);
     return status;

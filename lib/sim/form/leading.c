@@ -1,183 +1,178 @@
-/* leading.c -- order by order in two doubles: tape, solve, correct, integrate. */
+/* leading.c -- order by order in two doubles: what doubles found, its residual, what is missing. */
 #include "sim/form/leading.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
-#include "sim/form/blocks.h"
-#include "tape/constant.h"
 #include "series/two.h"
+#include "sim/form/blocks.h"
+#include "sim/form/motion-of-equations.h"
+#include "sim/form/motion-of-residual.h"
 
-/* Corrections of a solution at most, and what of it the next would have to be larger than. */
+/* Corrections at most; one that is no larger than this leaves nothing for another. */
 enum { most_corrections = 4 };
-static const double enough = 0x1p-80;
+static const double enough = 0x1p-36;
 
-/* An entry of M that moves: of row i of the block, times its acceleration j. */
-typedef struct {
-    size_t i, j;
-    const qdot_two *M;
-} coupling;
-
-typedef struct {
-    const qdot_two **f; /* [n] */
-    const qdot_two **M; /* [n x n] */
-    const qdot_two **a; /* [n] what is solved for, or an output */
-    qdot_two *solved;   /* [n x stride] of a block of more than one */
-    qdot_two *rest;     /* [n] */
-    qdot_two *first;    /* [n x n] M_0 */
-    qdot_two *newest;   /* [n] of the order at hand */
-    coupling *couplings;
-    size_t n_couplings;
-} leading_block;
+_Static_assert((int)QDOT_ODE_LEADING_MOST <= (int)QDOT_TWO_MOST, "orders that are asked for are there");
 
 struct qdot_leading {
     const qdot_plan *plan;
-    const qdot_two_kernels *kernels;
-    qdot_two inverse[QDOT_ODE_LEADING_MOST + 2]; /* of whole numbers */
-    qdot_tape_two *tape;
-    qdot_blocks solvers;
+    const qdot_ode_series *series;
+    qdot_motion motion;
+    qdot_tape_two *two;
     qdot_ode_leading leading;
+    qdot_blocks solvers;
     qdot_two *q, *v, *t; /* rows of the inputs, `stride` apart */
     size_t stride;
     double unit;
-    leading_block *blocks;
-    const qdot_two **a;     /* [n] q''; NULL: of a momentum that is kept */
-    const qdot_two **rates; /* [n_kept] */
-    const double *hi, *lo;  /* [n_kept]; borrowed */
+    double *newest, *by;     /* [solved] accelerations as guessed, what is missing in them */
+    double *in, *out, *work; /* of the residual's masses */
+    const double *hi, *lo;   /* [n_kept]; borrowed */
 };
 
-static inline double
-larger(double a, double b)
+/* --- M ------------------------------------------------------------------------------- */
+
+/* The block of the plan that the motion solves for as number k, from *b on. */
+static const qdot_plan_block *
+block_of(const qdot_leading *l, size_t *b)
 {
-    return a > b ? a : b;
+    while (!l->plan->residual && l->plan->blocks[*b].n == 1)
+        ++*b;
+    return l->plan->blocks + *b;
 }
 
-/* --- one order ----------------------------------------------------------------------- */
-
-static qdot_status
-factor(qdot_leading *l, size_t b)
+/* From its entries, which the program has. */
+static void
+take_entries(const qdot_leading *l, size_t k, size_t b)
 {
-    const leading_block *s = l->blocks + b;
-    const size_t n = l->plan->blocks[b].n;
+    const qdot_motion *m = &l->motion;
+    const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1], n = end - first;
     double *to = l->solvers.at[b].a;
 
-    if (l->plan->blocks[b].constant)
-        return QDOT_OK;
-    for (size_t i = 0; i < n * n; i++) {
-        s->first[i] = s->M[i][0];
-        to[i] = s->first[i].hi;
+    memset(to, 0, n * n * sizeof *to);
+    for (size_t e = 0; e < m->entries.n; e++) {
+        const qdot_motion_entry *x = m->entries.at + e;
+
+        if (x->i >= first && x->i < end)
+            to[(x->i - first) * n + x->j - first] = qdot_tape_two_row(l->two, x->at)[0].hi;
     }
-    return qdot_blocks_factor(&l->solvers, b);
 }
 
-/* a_k of a block from its right-hand side in s->rest. Each correction is smaller than the one
- * before by the same factor, about. */
-static void
-solve(qdot_leading *l, size_t b, int k)
-{
-    const leading_block *s = l->blocks + b;
-    const size_t n = l->plan->blocks[b].n;
-    double *x = l->solvers.at[b].x, last = INFINITY;
-
-    for (size_t i = 0; i < n; i++) {
-        x[i] = s->rest[i].hi;
-        s->newest[i] = (qdot_two){0, 0};
-    }
-    for (int tries = 0; tries <= most_corrections; tries++) {
-        double most = 0, size = 0;
-
-        qdot_blocks_solve(&l->solvers, b);
-        for (size_t i = 0; i < n; i++) {
-            s->newest[i] = qdot_two_add_double(s->newest[i], x[i]);
-            most = larger(most, fabs(x[i]));
-            size = larger(size, fabs(s->newest[i].hi));
-        }
-        if (tries > 0 && !(most * (most / last) > enough * size))
-            break;
-        last = most;
-        for (size_t i = 0; i < n; i++)
-            x[i] = qdot_two_sub(s->rest[i], l->kernels->dot(n, s->first + i * n, s->newest))
-                       .hi;
-    }
-    for (size_t i = 0; i < n; i++)
-        s->solved[i * l->stride + (size_t)k] = s->newest[i];
-}
-
-/* a_k of every coordinate, orders below k being there. */
 static qdot_status
-accelerations(qdot_leading *l, int k)
+factor(qdot_leading *l, const double *masses)
 {
-    qdot_tape_two_order(l->tape, k);
-    for (size_t b = 0; b < l->plan->structure.blocks; b++) {
-        const leading_block *s = l->blocks + b;
-        const size_t n = l->plan->blocks[b].n;
+    size_t b = 0;
 
-        if (n == 1)
+    for (size_t k = 0; k + 1 < l->motion.blocks.n; k++, b++) {
+        const qdot_plan_block *block = block_of(l, &b);
+
+        if (block->constant)
             continue;
-        if (k == 0)
-            QDOT_TRY(factor(l, b));
-        for (size_t i = 0; i < n; i++)
-            s->rest[i] = s->f[i][k];
-        for (size_t c = 0; c < s->n_couplings && k > 0; c++) {
-            const coupling *m = s->couplings + c;
-
-            s->rest[m->i] =
-                qdot_two_sub(s->rest[m->i],
-                             l->kernels->convolve((size_t)k, m->M + 1, s->a[m->j] + k - 1));
-        }
-        solve(l, b, k);
+        if (masses)
+            masses = qdot_blocks_unpack(&l->solvers, b, masses);
+        else
+            take_entries(l, k, b);
+        if (block->n > 1)
+            QDOT_TRY(qdot_blocks_factor(&l->solvers, b));
     }
     return QDOT_OK;
 }
 
-/* Order k + 1 of velocities and, an order before it is wanted, k + 2 of coordinates. */
-static void
-integrate(qdot_leading *l, int k)
+/* Of d'Alembert's residual, from a tape of its own, at y. */
+static qdot_status
+factor_residual(qdot_leading *l, const qdot_ode_place *at)
 {
-    const qdot_plan *p = l->plan;
-    const qdot_two once = qdot_two_scale(l->inverse[k + 1], l->unit);
-    const qdot_two twice = qdot_two_scale(l->inverse[k + 2], l->unit);
+    const size_t n = l->plan->n;
 
-    for (size_t i = 0; i < p->n; i++) {
-        qdot_two *v = l->v + i * l->stride + k + 1;
+    memcpy(l->in, at->y, 2 * n * sizeof *l->in);
+    l->in[2 * n] = at->t;
+    qdot_tape_eval(l->plan->residual->masses, l->in, l->out, l->work);
+    return factor(l, l->out);
+}
 
-        if (!l->a[i])
-            continue;
-        *v = l->kernels->mul(l->a[i][k], once);
-        if ((size_t)k + 2 < l->stride)
-            l->q[i * l->stride + (size_t)k + 2] = l->kernels->mul(*v, twice);
+/* --- one order ----------------------------------------------------------------------- */
+
+/* What is missing in accelerations; its size beside them. */
+static double
+missing(qdot_leading *l, int k)
+{
+    const qdot_motion *m = &l->motion;
+    double most = 0, size = 0;
+    size_t b = 0;
+
+    for (size_t at = 0; at + 1 < m->blocks.n; at++, b++) {
+        const uint32_t first = m->blocks.at[at];
+        const size_t n = block_of(l, &b)->n;
+        double *x = l->solvers.at[b].x;
+
+        for (size_t i = 0; i < n; i++)
+            x[i] = -qdot_tape_two_row(l->two, m->equations.at[first + i])[k].hi;
+        if (n == 1)
+            x[0] /= l->solvers.at[b].a[0];
+        else
+            qdot_blocks_solve(&l->solvers, b);
+        memcpy(l->by + first, x, n * sizeof *x);
     }
-    for (size_t c = 0; c < p->n_kept; c++)
-        l->q[p->kept[c] * l->stride + (size_t)k + 1] =
-            l->kernels->mul(l->rates[c][k], once);
+    for (size_t i = 0; i < m->solved.n; i++) {
+        most = fmax(most, fabs(l->by[i]));
+        size = fmax(size, fabs(l->newest[i]));
+    }
+    return most / size;
+}
+
+/* What doubles have of accelerations, from their velocities. */
+static void
+guess(qdot_leading *l, int k)
+{
+    const qdot_motion *m = &l->motion;
+
+    for (size_t i = 0; i < m->solved.n; i++) {
+        const size_t v = m->unknowns.at[m->solved.at[i]].once;
+
+        l->newest[i] = l->series->x[v * l->series->stride + (size_t)k + 1] * (k + 1) / l->unit;
+    }
 }
 
 static qdot_status
 begin(const qdot_ode_place *at, double unit, void *user)
 {
     qdot_leading *l = user;
-    const qdot_plan *p = l->plan;
+    const size_t n = l->plan->n;
 
     l->unit = unit;
-    for (size_t i = 0; i < 2 * p->n; i++)
+    qdot_tape_two_set_unit(l->two, unit);
+    for (size_t i = 0; i < 2 * n; i++)
         l->q[i * l->stride] = qdot_two_of(at->y[i], at->carry ? at->carry[i] : 0);
-    for (size_t i = 0; i < p->n; i++)
+    for (size_t i = 0; i < n; i++)
         l->q[i * l->stride + 1] = qdot_two_scale(l->v[i * l->stride], unit);
     l->t[0] = qdot_two_of(at->t, at->t_low);
     l->t[1] = (qdot_two){unit, 0};
-    for (size_t c = 0; c < p->n_kept; c++)
+    for (size_t c = 0; c < l->plan->n_kept; c++)
         l->t[(c + 1) * l->stride] = (qdot_two){l->hi[c], l->lo[c]};
-    return QDOT_OK;
+    for (int k = qdot_motion_first(&l->motion); k < 0; k++)
+        qdot_tape_two_stage(l->two, k, NULL);
+    return l->plan->residual ? factor_residual(l, at) : QDOT_OK;
 }
 
+/* Coefficients k of q and v, by order k - 1 of the accelerations. */
 static qdot_status
 next(int k, void *user)
 {
     qdot_leading *l = user;
     double nothing = 0; /* a sum of zeros, if all is finite */
 
-    QDOT_TRY(accelerations(l, k - 1));
-    integrate(l, k - 1);
+    guess(l, k - 1);
+    qdot_tape_two_stage(l->two, k - 1, l->newest);
+    if (k == 1 && !l->plan->residual)
+        QDOT_TRY(factor(l, NULL));
+    for (int tries = 0; tries < most_corrections && l->motion.solved.n > 0; tries++) {
+        const double share = missing(l, k - 1);
+
+        qdot_tape_two_change(l->two, k - 1, l->by);
+        if (!(share > enough))
+            break;
+    }
     for (size_t i = 0; i < 2 * l->plan->n; i++) {
         const qdot_two x = l->q[i * l->stride + (size_t)k];
 
@@ -191,101 +186,44 @@ next(int k, void *user)
 /* --- building ------------------------------------------------------------------------ */
 
 static qdot_status
-constant_block(qdot_leading *l, size_t b)
+make_masses(qdot_leading *l)
 {
-    const qdot_plan *p = l->plan;
-    const qdot_plan_block *block = p->blocks + b;
-    leading_block *s = l->blocks + b;
-    const size_t n = block->n;
+    const qdot_tape *masses = l->plan->residual->masses;
 
-    for (size_t i = 0; i < n * n; i++) {
-        const qdot_expr M = p->M[block->index[i / n] * p->n + block->index[i % n]];
-        int side;
-
-        QDOT_TRY(qdot_constant_split(p->pool, M, &s->first[i].hi, &side, &s->first[i].lo));
-    }
-    return QDOT_OK;
-}
-
-/* Its entries are the outputs from *at on. */
-static qdot_status
-moving_block(qdot_leading *l, size_t b, size_t *at)
-{
-    const size_t n = l->plan->blocks[b].n;
-    leading_block *s = l->blocks + b;
-
-    s->couplings = qdot_calloc(n * n, sizeof *s->couplings);
-    if (!s->couplings)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++, ++*at) {
-            const qdot_two *M = qdot_tape_two_output(l->tape, *at);
-
-            s->M[i * n + j] = s->M[j * n + i] = M;
-            if (qdot_tape_two_is_constant(l->tape, *at))
-                continue;
-            s->couplings[s->n_couplings++] = (coupling){i, j, M};
-            if (i != j)
-                s->couplings[s->n_couplings++] = (coupling){j, i, M};
-        }
-    return QDOT_OK;
-}
-
-static qdot_status
-make_block(qdot_leading *l, size_t b, size_t *at)
-{
-    const qdot_plan_block *block = l->plan->blocks + b;
-    leading_block *s = l->blocks + b;
-    const size_t n = block->n;
-
-    if (n == 1) {
-        l->a[block->index[0]] = qdot_tape_two_output(l->tape, (*at)++);
-        return QDOT_OK;
-    }
-    s->f = qdot_calloc(n, sizeof *s->f);
-    s->M = qdot_calloc(n * n, sizeof *s->M);
-    s->a = qdot_calloc(n, sizeof *s->a);
-    s->solved = qdot_calloc(n * l->stride, sizeof *s->solved);
-    s->rest = qdot_calloc(2 * n, sizeof *s->rest);
-    s->first = qdot_calloc(n * n, sizeof *s->first);
-    if (!s->f || !s->M || !s->a || !s->solved || !s->rest || !s->first)
-        return QDOT_ENOMEM;
-    s->newest = s->rest + n;
-    for (size_t i = 0; i < n; i++) {
-        s->f[i] = qdot_tape_two_output(l->tape, (*at)++);
-        s->a[i] = l->a[block->index[i]] = s->solved + i * l->stride;
-    }
-    return block->constant ? constant_block(l, b) : moving_block(l, b, at);
+    l->in = qdot_calloc(qdot_tape_inputs(masses) + 1, sizeof *l->in);
+    l->out = qdot_calloc(qdot_tape_outputs(masses) + 1, sizeof *l->out);
+    l->work = qdot_calloc(qdot_tape_work(masses) + 1, sizeof *l->work);
+    return l->in && l->out && l->work ? QDOT_OK : QDOT_ENOMEM;
 }
 
 static qdot_status
 make(qdot_leading *l)
 {
-    const qdot_plan *p = l->plan;
-    size_t at = 0;
+    const size_t n = l->plan->n;
 
-    QDOT_TRY(qdot_tape_two_new(p->tape, QDOT_ODE_LEADING_MOST, 2 * p->n + 1, &l->tape));
-    l->stride = qdot_tape_two_stride(l->tape);
-    l->q = qdot_tape_two_input(l->tape, 0);
-    l->v = qdot_tape_two_input(l->tape, p->n);
-    l->t = qdot_tape_two_input(l->tape, 2 * p->n);
-    l->a = qdot_calloc(p->n, sizeof *l->a);
-    l->rates = qdot_calloc(p->n_kept + 1, sizeof *l->rates);
-    l->blocks = qdot_calloc(p->structure.blocks + 1, sizeof *l->blocks);
-    if (!l->a || !l->rates || !l->blocks)
+    if (l->plan->residual) {
+        QDOT_TRY(qdot_motion_of_residual(l->plan, &l->motion));
+        QDOT_TRY(make_masses(l));
+    } else {
+        QDOT_TRY(qdot_motion_of_equations(l->plan, &l->motion));
+    }
+    QDOT_TRY(qdot_tape_two_of_motion(&l->motion, &l->two));
+    QDOT_TRY(qdot_blocks_init(&l->solvers, l->plan, false));
+    l->stride = qdot_tape_two_stride(l->two);
+    l->q = qdot_tape_two_input(l->two, 0);
+    l->v = qdot_tape_two_input(l->two, n);
+    l->t = qdot_tape_two_input(l->two, 2 * n);
+    l->newest = qdot_calloc(l->motion.solved.n + 1, sizeof *l->newest);
+    l->by = qdot_calloc(l->motion.solved.n + 1, sizeof *l->by);
+    if (!l->newest || !l->by)
         return QDOT_ENOMEM;
-    QDOT_TRY(qdot_blocks_init(&l->solvers, p, false));
-    for (size_t b = 0; b < p->structure.blocks; b++)
-        QDOT_TRY(make_block(l, b, &at));
-    for (size_t c = 0; c < p->n_kept; c++)
-        l->rates[c] = qdot_tape_two_output(l->tape, at++);
     l->leading =
         (qdot_ode_leading){.x = l->q, .stride = l->stride, .begin = begin, .next = next, .user = l};
     return QDOT_OK;
 }
 
 qdot_status
-qdot_leading_new(const qdot_plan *plan, qdot_leading **out)
+qdot_leading_new(const qdot_plan *plan, const qdot_ode_series *series, qdot_leading **out)
 {
     qdot_leading *l = qdot_calloc(1, sizeof *l);
     qdot_status status;
@@ -294,9 +232,7 @@ qdot_leading_new(const qdot_plan *plan, qdot_leading **out)
     if (!l)
         return QDOT_ENOMEM;
     l->plan = plan;
-    l->kernels = qdot_two_kernels_get();
-    for (int k = 1; k < QDOT_ODE_LEADING_MOST + 2; k++)
-        l->inverse[k] = qdot_two_div_double((qdot_two){1, 0}, k);
+    l->series = series;
     status = make(l);
     if (status != QDOT_OK) {
         qdot_leading_free(l);
@@ -311,22 +247,14 @@ qdot_leading_free(qdot_leading *l)
 {
     if (!l)
         return;
-    for (size_t b = 0; l->blocks && b < l->plan->structure.blocks; b++) {
-        leading_block *s = l->blocks + b;
-
-        qdot_free(s->f);
-        qdot_free(s->M);
-        qdot_free(s->a);
-        qdot_free(s->solved);
-        qdot_free(s->rest);
-        qdot_free(s->first);
-        qdot_free(s->couplings);
-    }
     qdot_blocks_clear(&l->solvers);
-    qdot_tape_two_free(l->tape);
-    qdot_free(l->a);
-    qdot_free(l->rates);
-    qdot_free(l->blocks);
+    qdot_tape_two_free(l->two);
+    qdot_motion_clear(&l->motion);
+    qdot_free(l->newest);
+    qdot_free(l->by);
+    qdot_free(l->in);
+    qdot_free(l->out);
+    qdot_free(l->work);
     qdot_free(l);
 }
 

@@ -1,4 +1,4 @@
-/* precise-bind.c -- order by order in MPFR: tape, solve, integrate twice. */
+/* precise-bind.c -- order by order in MPFR: the program of the motion, what is solved for in it. */
 #include "sim/form/precise-bind.h"
 
 #include <math.h>
@@ -6,45 +6,41 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "series/precise.h"
 #include "sim/form/blocks.h"
+#include "sim/form/canonical.h"
+#include "sim/form/motion-of-equations.h"
+#include "sim/form/motion-of-residual.h"
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
-#include "tape/constant.h"
-#include "series/precise.h"
-#include "series/taylor.h"
 
 static const double most_bytes = 2e9;
 
-/* An entry of M that moves: of row i, times the acceleration j. */
+/* Unknowns that K couples. */
 typedef struct {
-    size_t i, j; /* within the block */
-    const mpfr_t *M;
-} coupling;
-
-typedef struct {
-    const mpfr_t *const *f; /* [n] series of the block's f */
-    const mpfr_t *const *M; /* lower triangle by rows; NULL: constant */
-    mpfr_t *lu;             /* [n x n] */
-    mpfr_t *x, *y;          /* [n] */
-    size_t *order;          /* [n] */
-    double *scale;          /* [n] */
-    coupling *couplings;
-    size_t n_couplings;
+    size_t first, n;
+    mpfr_t *lu;    /* [n x n] */
+    mpfr_t *x, *y; /* [n] */
+    size_t *order; /* [n] */
+    double *scale; /* [n] */
 } solver;
 
 struct qdot_precise_bind {
     const qdot_plan *plan;
-    qdot_precise *tape;
+    qdot_motion own;
+    const qdot_motion *motion; /* that, or Hamilton's */
+    qdot_precise *series;
+    qdot_precise *momenta; /* of the latter, from q, q', t; */
+    int late;              /* it has order k of velocities at stage k, else k + 1 */
     qdot_precise_system system;
     mpfr_t *q, *v, *t; /* the inputs' rows, `stride` apart */
     size_t stride;
-    const mpfr_t **outputs; /* [outputs of the tape] */
-    const mpfr_t **a;       /* [n] series of q'': an output of the tape, or of solved */
-    solver *solvers;        /* [blocks]; with constraints one, of n + m unknowns */
-    qdot_reals solved;      /* [n x stride]; with constraints [n + m] */
-    qdot_reals numbers;     /* of the solvers; then 2 of scratch */
-    mpfr_t *w;
-    mp_limb_t *work;
+    solver *solvers; /* [blocks of the motion] */
+    size_t blocks;
+    bool fixed;         /* K is of numbers, and */
+    bool is_factored;   /* has been factored */
+    qdot_reals numbers; /* 2 of scratch; by [solved]; of the solvers */
+    mpfr_t *w, *by;
     double *widest; /* [constraints] the largest squared norm of each row of A so far */
     qdot_precise *held[2]; /* residuals of positions, of velocities; NULL without such rows */
     size_t factored;
@@ -55,13 +51,21 @@ qdot_precise_bind_cost(const qdot_plan *p, mpfr_prec_t bits, double cost[3])
 {
     const double limbs = ceil((double)bits / 64), term = 9 + 1.3 * limbs * limbs;
     const double operation = 40 + 1.3 * limbs * limbs;
-    double length = (double)qdot_tape_operations(p->tape);
-    double convolutions = p->constraints ? length : p->convolutions_derived;
+    const qdot_residual *r = p->residual;
+    const qdot_canonical *h = p->canonical;
+    const qdot_tape *tape = h ? h->rates : r ? r->places : p->tape;
+    double length = (double)qdot_tape_operations(tape);
+    double convolutions = p->constraints ? length
+                          : h            ? h->motion.program.convolutions
+                          : r            ? p->convolutions_residual
+                                         : p->convolutions_derived;
 
-    cost[0] = 60 * operation * (double)qdot_tape_calls(p->tape) + operation * length;
+    if (r && !h)
+        length += 8 * (double)(r->functions + r->n_weights);
+    cost[0] = 60 * operation * (double)qdot_tape_calls(tape) + operation * length;
     cost[1] = operation * (length + 4 * (double)p->n) + convolutions * 40;
     cost[2] = 0.5 * convolutions * term;
-    for (size_t b = 0; b < p->structure.blocks; b++) {
+    for (size_t b = 0; b < p->structure.blocks && !h; b++) {
         double n = (double)p->blocks[b].n;
 
         if (n > 1) {
@@ -73,30 +77,11 @@ qdot_precise_bind_cost(const qdot_plan *p, mpfr_prec_t bits, double cost[3])
 
 /* --- with constraints ---------------------------------------------------------------- */
 
-/* The unknowns are q'' and -lambda; output `at` stands in row i, column j of
- *
- *     [ M  A^T ]
- *     [ A   0  ]
- *
- * and in row j, column i. The output of entry number k; false behind the last. */
-static bool
-entry(const qdot_precise_bind *e, size_t k, size_t *i, size_t *j, size_t *at)
+/* Slope k of the constraints, as the plan's tape has it. */
+static const mpfr_t *
+slope(const qdot_precise_bind *e, size_t k)
 {
-    const size_t n = e->plan->n;
-    const qdot_constraints *c = e->plan->constraints;
-
-    *at = n + k;
-    if (k < c->n_masses) {
-        *i = c->masses[k].row;
-        *j = c->masses[k].column;
-        return true;
-    }
-    k -= c->n_masses;
-    if (k >= c->n_slopes)
-        return false;
-    *i = n + c->slopes[k].row;
-    *j = c->slopes[k].column;
-    return true;
+    return qdot_precise_output(e->series, e->plan->n + e->plan->constraints->n_masses + k);
 }
 
 /* A row that has shrunk far below the largest that it was has no direction left that the error
@@ -113,7 +98,7 @@ find_faded(qdot_precise_bind *e)
 
         for (; s < c->n_slopes && c->slopes[s].row == k; s++) {
             const double x =
-                mpfr_get_d(e->outputs[e->plan->n + c->n_masses + s][0], MPFR_RNDN);
+                mpfr_get_d(slope(e, s)[0], MPFR_RNDN);
 
             sum += x * x;
         }
@@ -122,54 +107,6 @@ find_faded(qdot_precise_bind *e)
         else if (sum < faded * e->widest[k])
             return qdot_constrained_without_direction(c, k);
     }
-    return QDOT_OK;
-}
-
-static qdot_status
-factor_tied(qdot_precise_bind *e)
-{
-    const size_t size = e->plan->n + e->plan->constraints->m;
-    solver *s = e->solvers;
-    size_t failed, i, j, at;
-
-    QDOT_TRY(find_faded(e));
-    for (i = 0; i < size * size; i++)
-        mpfr_set_zero(s->lu[i], 1);
-    for (size_t k = 0; entry(e, k, &i, &j, &at); k++) {
-        mpfr_set(s->lu[i * size + j], e->outputs[at][0], MPFR_RNDN);
-        mpfr_set(s->lu[j * size + i], e->outputs[at][0], MPFR_RNDN);
-    }
-    e->factored++;
-    if (qdot_real_lu(size, s->lu, s->order, s->scale, &failed, e->w) != QDOT_OK)
-        return qdot_fail(QDOT_ESINGULAR, "the constraints are not independent, or no mass "
-                                         "moves along them: `digits` wants that");
-    return QDOT_OK;
-}
-
-static qdot_status
-accelerations_tied(qdot_precise_bind *e, int k)
-{
-    const qdot_constraints *c = e->plan->constraints;
-    const size_t n = e->plan->n, size = n + c->m;
-    const size_t gamma = n + c->n_masses + c->n_slopes;
-    solver *s = e->solvers;
-
-    qdot_precise_order(e->tape, k);
-    if (k == 0)
-        QDOT_TRY(factor_tied(e));
-    for (size_t i = 0; i < size; i++)
-        mpfr_set(s->x[i], e->outputs[i < n ? i : gamma + i - n][k], MPFR_RNDN);
-    for (size_t at = 0; k > 0 && at < s->n_couplings; at++) {
-        const coupling *m = s->couplings + at;
-
-        qdot_real_dot(e->w[0], m->M + 1,
-                      (const mpfr_t *)e->solved.at + m->j * e->stride + k - 1, (size_t)k,
-                      e->work);
-        mpfr_sub(s->x[m->i], s->x[m->i], e->w[0], MPFR_RNDN);
-    }
-    qdot_real_solve(size, (const mpfr_t *)s->lu, s->order, s->x, s->y, e->w);
-    for (size_t i = 0; i < size; i++)
-        mpfr_set(e->solved.at[i * e->stride + (size_t)k], s->x[i], MPFR_RNDN);
     return QDOT_OK;
 }
 
@@ -183,7 +120,7 @@ log2_terms(const qdot_precise_bind *e, size_t k, const mpfr_t *u, size_t *at)
 
     for (; *at < c->n_slopes && c->slopes[*at].row == k; ++*at)
         most = fmax(most,
-                    qdot_real_log2(e->outputs[e->plan->n + c->n_masses + *at][0])
+                    qdot_real_log2(slope(e, *at)[0])
                         + qdot_real_log2(u[c->slopes[*at].column * e->stride]));
     return most;
 }
@@ -236,102 +173,100 @@ make_held(qdot_precise_bind *e)
     return QDOT_OK;
 }
 
-static qdot_status
-make_tied(qdot_precise_bind *e)
-{
-    const qdot_constraints *c = e->plan->constraints;
-    const size_t size = e->plan->n + c->m;
-    solver *s = e->solvers;
-    size_t i, j, at;
-
-    QDOT_TRY(qdot_reals_init(&e->numbers, 2 + size * (size + 2), e->system.bits));
-    e->w = e->numbers.at;
-    s->lu = e->w + 2;
-    s->x = s->lu + size * size;
-    s->y = s->x + size;
-    s->order = qdot_calloc(size, sizeof *s->order);
-    s->scale = qdot_calloc(size, sizeof *s->scale);
-    e->widest = qdot_calloc(c->m, sizeof *e->widest);
-    s->couplings = qdot_calloc(2 * (c->n_masses + c->n_slopes) + 1, sizeof *s->couplings);
-    if (!s->order || !s->scale || !e->widest || !s->couplings)
-        return QDOT_ENOMEM;
-    for (i = 0; i < e->plan->n; i++)
-        e->a[i] = (const mpfr_t *)e->solved.at + i * e->stride;
-    for (size_t k = 0; entry(e, k, &i, &j, &at); k++) {
-        if (qdot_precise_is_constant(e->tape, at))
-            continue;
-        s->couplings[s->n_couplings++] = (coupling){i, j, e->outputs[at]};
-        if (i != j)
-            s->couplings[s->n_couplings++] = (coupling){j, i, e->outputs[at]};
-    }
-    return make_held(e);
-}
-
 /* --- the accelerations --------------------------------------------------------------- */
 
+/* K of a block, from its entries or column by column. */
+static void
+take_matrix(const qdot_precise_bind *e, const solver *s)
+{
+    const qdot_motion *m = e->motion;
+
+    for (size_t j = 0; j < s->n && m->entries.n == 0; j++)
+        qdot_precise_column(e->series, s->first, s->n, j, s->lu + j);
+    for (size_t i = 0; i < s->n * s->n && m->entries.n > 0; i++)
+        mpfr_set_zero(s->lu[i], 1);
+    for (size_t k = 0; k < m->entries.n; k++) {
+        const qdot_motion_entry *x = m->entries.at + k;
+        const size_t i = x->i - s->first, j = x->j - s->first; /* below 0: beyond n */
+        const mpfr_t *value = qdot_precise_row(e->series, x->at);
+
+        if (i >= s->n || j >= s->n)
+            continue;
+        mpfr_set(s->lu[i * s->n + j], value[0], MPFR_RNDN);
+        mpfr_set(s->lu[j * s->n + i], value[0], MPFR_RNDN);
+    }
+}
+
+/* The coordinate whose row of a block is singular. */
 static qdot_status
-factor(qdot_precise_bind *e, size_t b)
+say_singular(const qdot_precise_bind *e, const solver *s, size_t failed)
 {
     const qdot_plan *p = e->plan;
-    const qdot_plan_block *block = p->blocks + b;
-    solver *s = e->solvers + b;
-    size_t failed, at = 0;
+    const size_t at = e->motion->unknowns.at[e->motion->solved.at[s->first + failed]].twice;
+    const qdot_plan_block one = {.n = 1, .index = &at};
 
-    for (size_t i = 0; s->M && i < block->n; i++)
-        for (size_t j = 0; j <= i; j++, at++) {
-            mpfr_set(s->lu[i * block->n + j], s->M[at][0], MPFR_RNDN);
-            mpfr_set(s->lu[j * block->n + i], s->M[at][0], MPFR_RNDN);
-        }
-    e->factored++;
-    if (qdot_real_lu(block->n, s->lu, s->order, s->scale, &failed, e->w) != QDOT_OK)
-        return qdot_blocks_singular(p, block, failed);
+    if (p->constraints)
+        return qdot_fail(QDOT_ESINGULAR, "the constraints are not independent, or no mass "
+                                         "moves along them: `digits` wants that");
+    return qdot_blocks_singular(p, &one, 0);
+}
+
+static qdot_status
+factor(qdot_precise_bind *e)
+{
+    if (e->fixed && e->is_factored)
+        return QDOT_OK;
+    if (e->plan->constraints)
+        QDOT_TRY(find_faded(e));
+    for (size_t b = 0; b < e->blocks; b++) {
+        solver *s = e->solvers + b;
+        size_t failed;
+
+        take_matrix(e, s);
+        e->factored++;
+        if (qdot_real_lu(s->n, s->lu, s->order, s->scale, &failed, e->w) != QDOT_OK)
+            return say_singular(e, s, failed);
+    }
+    e->is_factored = true;
     return QDOT_OK;
 }
 
-/* a_k of every coordinate, orders below k being there. */
+/* Stage k: a_k of every coordinate, orders below being there, and their integrals. */
 static qdot_status
 accelerations(qdot_precise_bind *e, int k)
 {
-    const qdot_plan *p = e->plan;
-
-    if (p->constraints)
-        return accelerations_tied(e, k);
-    qdot_precise_order(e->tape, k);
-    for (size_t b = 0; b < p->structure.blocks; b++) {
-        const qdot_plan_block *block = p->blocks + b;
+    qdot_precise_stage(e->series, k);
+    if (k < 0)
+        return QDOT_OK;
+    if (k == 0)
+        QDOT_TRY(factor(e));
+    for (size_t b = 0; b < e->blocks; b++) {
         solver *s = e->solvers + b;
 
-        if (block->n == 1)
-            continue;
-        if (k == 0 && s->M)
-            QDOT_TRY(factor(e, b));
-        for (size_t i = 0; i < block->n; i++)
-            mpfr_set(s->x[i], s->f[i][k], MPFR_RNDN);
-        for (size_t c = 0; k > 0 && c < s->n_couplings; c++) {
-            const coupling *m = s->couplings + c;
-
-            qdot_real_dot(e->w[0], m->M + 1, e->a[block->index[m->j]] + k - 1, (size_t)k,
-                          e->work);
-            mpfr_sub(s->x[m->i], s->x[m->i], e->w[0], MPFR_RNDN);
-        }
-        qdot_real_solve(block->n, (const mpfr_t *)s->lu, s->order, s->x, s->y, e->w);
-        for (size_t i = 0; i < block->n; i++)
-            mpfr_set(e->solved.at[block->index[i] * e->stride + (size_t)k], s->x[i],
+        for (size_t i = 0; i < s->n; i++)
+            mpfr_neg(s->x[i],
+                     qdot_precise_row(e->series, e->motion->equations.at[s->first + i])[k],
                      MPFR_RNDN);
+        qdot_real_solve(s->n, (const mpfr_t *)s->lu, s->order, s->x, s->y, e->w);
+        for (size_t i = 0; i < s->n; i++)
+            mpfr_set(e->by[s->first + i], s->x[i], MPFR_RNDN);
     }
+    qdot_precise_change(e->series, k, (const mpfr_t *)e->by);
     return QDOT_OK;
 }
 
-/* Orders k + 1 of velocities and coordinates. */
+/* Momenta of the state that the inputs have. */
 static void
-integrate(qdot_precise_bind *e, int k)
+find_momenta(qdot_precise_bind *e)
 {
-    for (size_t i = 0; i < e->plan->n; i++) {
-        size_t at = i * e->stride + (size_t)k;
+    const size_t n = e->plan->n;
 
-        mpfr_div_ui(e->q[at + 1], e->v[at], (unsigned long)k + 1, MPFR_RNDN);
-        mpfr_div_ui(e->v[at + 1], e->a[i][k], (unsigned long)k + 1, MPFR_RNDN);
-    }
+    for (size_t i = 0; i < 2 * n + 1; i++)
+        mpfr_set(qdot_precise_input(e->momenta, i)[0], e->q[i * e->stride], MPFR_RNDN);
+    qdot_precise_order(e->momenta, 0);
+    for (size_t i = 0; i < n; i++)
+        mpfr_set(qdot_precise_input(e->series, 2 * n + 1 + i)[0],
+                 qdot_precise_output(e->momenta, i)[0], MPFR_RNDN);
 }
 
 static qdot_status
@@ -342,16 +277,19 @@ begin(mpfr_srcptr t, const mpfr_t *y, void *user)
 
     for (size_t i = 0; i < n; i++) {
         mpfr_set(e->q[i * e->stride], y[i], MPFR_RNDN);
+        mpfr_set(e->q[i * e->stride + 1], y[n + i], MPFR_RNDN);
         mpfr_set(e->v[i * e->stride], y[n + i], MPFR_RNDN);
     }
     mpfr_set(e->t[0], t, MPFR_RNDN);
     mpfr_set_ui(e->t[1], 1, MPFR_RNDN);
-    QDOT_TRY(accelerations(e, 0));
+    if (e->momenta)
+        find_momenta(e);
+    for (int k = qdot_motion_first(e->motion); k <= e->late; k++)
+        QDOT_TRY(accelerations(e, k));
     for (size_t i = 0; i < n; i++)
-        if (!mpfr_number_p(e->a[i][0]))
+        if (!mpfr_number_p(qdot_precise_bind_acceleration(e, i)))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
                              e->plan->names[i]);
-    integrate(e, 0);
     return e->plan->constraints ? find_left(e, y) : QDOT_OK;
 }
 
@@ -360,10 +298,9 @@ extend(int p, void *user)
 {
     qdot_precise_bind *e = user;
 
-    for (int k = 1; k < p; k++) {
+    for (int k = 1 + e->late; k < p + e->late; k++) {
         QDOT_TRY(qdot_interrupt_check()); /* an order may take long */
         QDOT_TRY(accelerations(e, k));
-        integrate(e, k);
     }
     return QDOT_OK;
 }
@@ -371,77 +308,40 @@ extend(int p, void *user)
 /* --- building ------------------------------------------------------------------------ */
 
 static qdot_status
-constant_block(qdot_precise_bind *e, size_t b)
-{
-    const qdot_plan *p = e->plan;
-    const qdot_plan_block *block = p->blocks + b;
-    solver *s = e->solvers + b;
-
-    for (size_t i = 0; i < block->n; i++)
-        for (size_t j = 0; j < block->n; j++)
-            QDOT_TRY(qdot_constant_real(p->pool,
-                                        p->M[block->index[i] * p->n + block->index[j]],
-                                        s->lu[i * block->n + j]));
-    return factor(e, b);
-}
-
-/* Which entries of M move; *at: the first of its outputs. */
-static qdot_status
-find_couplings(qdot_precise_bind *e, size_t b, size_t *at)
-{
-    const size_t n = e->plan->blocks[b].n;
-    solver *s = e->solvers + b;
-
-    s->M = e->outputs + *at;
-    s->couplings = qdot_calloc(n * n, sizeof *s->couplings);
-    if (!s->couplings)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++, ++*at) {
-            if (qdot_precise_is_constant(e->tape, *at))
-                continue;
-            s->couplings[s->n_couplings++] = (coupling){i, j, e->outputs[*at]};
-            if (i != j)
-                s->couplings[s->n_couplings++] = (coupling){j, i, e->outputs[*at]};
-        }
-    return QDOT_OK;
-}
-
-static qdot_status
 make_solvers(qdot_precise_bind *e)
 {
-    const qdot_plan *p = e->plan;
-    size_t at = 0, wanted = 2;
+    const qdot_motion *m = e->motion;
+    size_t wanted = 2 + m->solved.n;
     mpfr_t *next;
 
-    for (size_t b = 0; b < p->structure.blocks; b++)
-        if (p->blocks[b].n > 1)
-            wanted += p->blocks[b].n * (p->blocks[b].n + 2);
+    e->blocks = m->blocks.n > 0 ? m->blocks.n - 1 : 0;
+    e->solvers = qdot_calloc(e->blocks + 1, sizeof *e->solvers);
+    if (!e->solvers)
+        return QDOT_ENOMEM;
+    for (size_t b = 0; b < e->blocks; b++) {
+        const size_t n = m->blocks.at[b + 1] - m->blocks.at[b];
+
+        e->solvers[b] = (solver){.first = m->blocks.at[b], .n = n};
+        wanted += n * (n + 2);
+    }
     QDOT_TRY(qdot_reals_init(&e->numbers, wanted, e->system.bits));
     e->w = e->numbers.at;
-    next = e->w + 2;
-    for (size_t b = 0; b < p->structure.blocks; b++) {
-        const qdot_plan_block *block = p->blocks + b;
+    e->by = e->w + 2;
+    next = e->by + m->solved.n;
+    e->fixed = m->entries.n > 0;
+    for (size_t k = 0; k < m->entries.n; k++)
+        e->fixed = e->fixed && m->program.rows.at[m->entries.at[k].at].still;
+    for (size_t b = 0; b < e->blocks; b++) {
         solver *s = e->solvers + b;
-        size_t n = block->n;
 
-        s->f = e->outputs + at;
-        at += n;
-        for (size_t i = 0; i < n; i++)
-            e->a[block->index[i]] =
-                n == 1 ? s->f[0]
-                       : (const mpfr_t *)e->solved.at + block->index[i] * e->stride;
-        if (n == 1)
-            continue;
         s->lu = next;
-        s->x = s->lu + n * n;
-        s->y = s->x + n;
-        next = s->y + n;
-        s->order = qdot_calloc(n, sizeof *s->order);
-        s->scale = qdot_calloc(n, sizeof *s->scale);
+        s->x = s->lu + s->n * s->n;
+        s->y = s->x + s->n;
+        next = s->y + s->n;
+        s->order = qdot_calloc(s->n, sizeof *s->order);
+        s->scale = qdot_calloc(s->n, sizeof *s->scale);
         if (!s->order || !s->scale)
             return QDOT_ENOMEM;
-        QDOT_TRY(block->constant ? constant_block(e, b) : find_couplings(e, b, &at));
     }
     return QDOT_OK;
 }
@@ -450,38 +350,31 @@ make_solvers(qdot_precise_bind *e)
 static double
 near(int p, double log2_h, void *user)
 {
-    return qdot_precise_near(((const qdot_precise_bind *)user)->tape, p - 2, log2_h);
+    return qdot_precise_near(((const qdot_precise_bind *)user)->series, p - 2, log2_h);
 }
 
 static qdot_status
 make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
 {
     const qdot_plan *p = e->plan;
-    const size_t outputs = qdot_tape_outputs(p->tape);
-    const size_t m = p->constraints ? p->constraints->m : 0;
-    const double rows = 3 * (double)qdot_tape_operations(p->tape) + 4 * (double)p->n;
 
-    if (rows * qdot_reals_size((size_t)most + 1, bits) > most_bytes)
+    QDOT_TRY(p->canonical  ? qdot_precise_new(p->pool, p->canonical->momenta, 0, bits, &e->momenta)
+             : p->residual ? qdot_motion_of_residual(p, &e->own)
+                           : qdot_motion_of_equations(p, &e->own));
+    e->late = p->canonical != NULL;
+    e->motion = p->canonical ? &p->canonical->motion : &e->own;
+    if ((double)e->motion->program.rows.n * qdot_reals_size((size_t)most + 3, bits) > most_bytes)
         return qdot_fail(QDOT_ELIMIT,
                          "Taylor series of order %d with %ld bits do not fit into %g GB",
                          most, (long)bits, most_bytes / 1e9);
-    QDOT_TRY(qdot_precise_new(p->pool, p->tape, most, bits, &e->tape));
-    e->stride = qdot_precise_stride(e->tape);
-    e->q = qdot_precise_input(e->tape, 0);
-    e->v = qdot_precise_input(e->tape, p->n);
-    e->t = qdot_precise_input(e->tape, 2 * p->n);
-    e->outputs = qdot_calloc(outputs + 1, sizeof *e->outputs);
-    e->a = qdot_calloc(p->n, sizeof *e->a);
-    e->solvers = qdot_calloc(p->structure.blocks + 1, sizeof *e->solvers);
-    e->work = qdot_calloc(qdot_real_dot_work(bits), sizeof *e->work);
-    if (!e->outputs || !e->a || !e->solvers || !e->work)
-        return QDOT_ENOMEM;
-    QDOT_TRY(qdot_reals_init(&e->solved, (p->n + m) * e->stride, bits));
-    for (size_t i = 0; i < outputs; i++)
-        e->outputs[i] = qdot_precise_output(e->tape, i);
+    QDOT_TRY(qdot_precise_of_motion(p->pool, e->motion, most, bits, &e->series));
+    e->stride = qdot_precise_stride(e->series);
+    e->q = qdot_precise_input(e->series, 0);
+    e->v = qdot_precise_input(e->series, p->n);
+    e->t = qdot_precise_input(e->series, 2 * p->n);
     e->system = (qdot_precise_system){.n = 2 * p->n,
                                       .checked = p->n,
-                                      .bits = e->solved.bits,
+                                      .bits = mpfr_get_prec(e->t[0]),
                                       .most = most,
                                       .x = (const mpfr_t *)e->q,
                                       .stride = e->stride,
@@ -489,7 +382,11 @@ make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
                                       .extend = extend,
                                       .near = near,
                                       .user = e};
-    return p->constraints ? make_tied(e) : make_solvers(e);
+    QDOT_TRY(make_solvers(e));
+    if (!p->constraints)
+        return QDOT_OK;
+    e->widest = qdot_calloc(p->constraints->m, sizeof *e->widest);
+    return e->widest ? make_held(e) : QDOT_ENOMEM;
 }
 
 qdot_status
@@ -517,20 +414,17 @@ qdot_precise_bind_free(qdot_precise_bind *e)
 {
     if (!e)
         return;
-    for (size_t b = 0; e->solvers && b <= e->plan->structure.blocks; b++) {
+    for (size_t b = 0; e->solvers && b < e->blocks; b++) {
         qdot_free(e->solvers[b].order);
         qdot_free(e->solvers[b].scale);
-        qdot_free(e->solvers[b].couplings);
     }
-    qdot_precise_free(e->tape);
+    qdot_precise_free(e->series);
     qdot_precise_free(e->held[0]);
     qdot_precise_free(e->held[1]);
-    qdot_reals_clear(&e->solved);
+    qdot_precise_free(e->momenta);
+    qdot_motion_clear(&e->own);
     qdot_reals_clear(&e->numbers);
-    qdot_free(e->outputs);
-    qdot_free(e->a);
     qdot_free(e->solvers);
-    qdot_free(e->work);
     qdot_free(e->widest);
     qdot_free(e);
 }
@@ -544,13 +438,15 @@ qdot_precise_bind_system(const qdot_precise_bind *e)
 mpfr_srcptr
 qdot_precise_bind_acceleration(const qdot_precise_bind *e, size_t i)
 {
-    return e->a[i][0];
+    return e->v[i * e->stride + 1];
 }
 
 void
 qdot_precise_bind_multiplier(const qdot_precise_bind *e, size_t k, mpfr_ptr lambda)
 {
-    mpfr_neg(lambda, e->solved.at[(e->plan->n + k) * e->stride], MPFR_RNDN);
+    const qdot_motion_unknown *u = e->motion->unknowns.at + e->plan->n + k;
+
+    mpfr_neg(lambda, qdot_precise_row(e->series, u->row)[0], MPFR_RNDN);
 }
 
 size_t

@@ -64,6 +64,7 @@ add_term(builder *b, qdot_expr x, qdot_expr y, qdot_expr w)
 
     QDOT_TRY(function_of(b, x, &weight->from));
     QDOT_TRY(function_of(b, y, &weight->to));
+    weight->exact = w;
     QDOT_TRY(qdot_constant_split(b->plan->pool, w, &weight->w, &side, &weight->low));
     weight->side = (signed char)side;
     return QDOT_OK;

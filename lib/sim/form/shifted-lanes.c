@@ -1,4 +1,4 @@
-/* shifted-lanes.c -- order by order as shifted.c, for all lanes. */
+/* shifted-lanes.c -- order by order as residual-series.c, for all lanes. */
 #include "sim/form/shifted-lanes.h"
 
 #include <math.h>
@@ -90,7 +90,7 @@ solve(qdot_shifted_lanes *s, int k)
             s->kernels->multiply(n, at->inverse, at->x, at->y);
         } else {
             memcpy(at->y, at->x, n * L * sizeof *at->y);
-            s->kernels->solve(n, at->A, at->y);
+            s->kernels->solve(n, n, at->A, at->y);
         }
         for (size_t i = 0; i < n; i++)
             memcpy(s->R + block->index[i] * L, at->y + i * L, L * sizeof *at->y);
@@ -133,7 +133,7 @@ factor(qdot_shifted_lanes *s, const double *t, const double *y)
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j <= i; j++, out += L)
                 memcpy(s->solvers[b].A + (i * n + j) * L, out, L * sizeof *out);
-        s->kernels->factor(n, s->solvers[b].A);
+        s->kernels->factor(n, n, s->solvers[b].A);
     }
 }
 
@@ -189,7 +189,7 @@ extend(int p, void *user)
 
     for (size_t b = 0; b < s->plan->structure.blocks; b++)
         if (!s->plan->blocks[b].constant)
-            s->kernels->invert(s->plan->blocks[b].n, s->solvers[b].A,
+            s->kernels->invert(s->plan->blocks[b].n, s->plan->blocks[b].n, s->solvers[b].A,
                                s->solvers[b].inverse);
     if (s->code && p + 1 == s->to) {
         run_code(s);
@@ -444,8 +444,8 @@ make_solver(qdot_shifted_lanes *s, size_t b, bool shaken)
         for (size_t l = 0; l < L; l++)
             at->A[i * L + l] =
                 shaken ? qdot_shake_double(block->M[i], block->side[i]) : block->M[i];
-    s->kernels->factor(n, at->A);
-    s->kernels->invert(n, at->A, at->inverse);
+    s->kernels->factor(n, n, at->A);
+    s->kernels->invert(n, n, at->A, at->inverse);
     return QDOT_OK;
 }
 

@@ -155,10 +155,9 @@ push_mass(const qdot_plan *p, const qdot_plan_block *b, expressions *out)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_plan_lower(qdot_plan *p, size_t inputs, size_t more, const qdot_expr *others)
+static qdot_status
+push_blocks(const qdot_plan *p, expressions *out)
 {
-    expressions out = {0};
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
@@ -166,14 +165,23 @@ qdot_plan_lower(qdot_plan *p, size_t inputs, size_t more, const qdot_expr *other
 
         if (b->n == 1) {
             status = qdot_vec_push(
-                &out, qdot_quotient(p->pool, p->f[b->index[0]], entry(p, b, 0, 0)));
+                out, qdot_quotient(p->pool, p->f[b->index[0]], entry(p, b, 0, 0)));
             continue;
         }
         for (size_t i = 0; i < b->n && status == QDOT_OK; i++)
-            status = qdot_vec_push(&out, p->f[b->index[i]]);
+            status = qdot_vec_push(out, p->f[b->index[i]]);
         if (!b->constant && status == QDOT_OK)
-            status = push_mass(p, b, &out);
+            status = push_mass(p, b, out);
     }
+    return status;
+}
+
+qdot_status
+qdot_plan_lower(qdot_plan *p, size_t inputs, size_t more, const qdot_expr *others)
+{
+    expressions out = {0};
+    qdot_status status = push_blocks(p, &out);
+
     for (size_t i = 0; i < more && status == QDOT_OK; i++)
         status = qdot_vec_push(&out, others[i]);
     if (status == QDOT_OK)
@@ -182,4 +190,23 @@ qdot_plan_lower(qdot_plan *p, size_t inputs, size_t more, const qdot_expr *other
         status = qdot_tape_new(p->pool, inputs, p->inputs, out.n, out.at, &p->tape);
     qdot_free(out.at);
     return status;
+}
+
+qdot_status
+qdot_plan_lower_for_series(qdot_plan *p)
+{
+    expressions out = {0};
+    qdot_tape *tape = NULL;
+    qdot_status status = push_blocks(p, &out);
+
+    if (status == QDOT_OK)
+        status = qdot_pool_check(p->pool);
+    if (status == QDOT_OK)
+        status = qdot_tape_new_for_series(p->pool, 2 * p->n + 1, p->inputs, out.n, out.at, &tape);
+    qdot_free(out.at);
+    if (status != QDOT_OK)
+        return status;
+    qdot_tape_free(p->tape);
+    p->tape = tape;
+    return QDOT_OK;
 }

@@ -30,6 +30,7 @@ typedef struct {
 } qdot_plan_block;
 
 typedef struct qdot_residual qdot_residual; /* sim/form/residual.h */
+typedef struct qdot_canonical qdot_canonical; /* sim/form/canonical.h */
 typedef struct qdot_constraints qdot_constraints; /* sim/model/constraints.h */
 struct qdot_switches;                       /* sim/model/switch.h */
 
@@ -72,11 +73,13 @@ struct qdot_plan {
      * looked at. */
     qdot_residual *residual;
     double convolutions_derived, convolutions_residual;
+    qdot_canonical *canonical; /* of `digits`: Hamilton's equations where these are shorter; or NULL */
     /* Of that residual: nodes of the tree that M is eliminated along, 0: it is factored;
      * whether they are one path. */
     size_t tree_nodes;
     bool tree_is_path;
-    double cost; /* of a step by the form taken: qdot_plan_cost */
+    double cost; /* of steps by the form taken: qdot_plan_cost */
+    double cost_of_kernels; /* of the derived form without machine code */
 
     /* The same by groups of coordinates that know nothing of each other, two or more, for a
      * run whose steps nobody looks at (sim/plan/parts.h). */
@@ -116,6 +119,9 @@ bool qdot_plan_needs_jacobian(const qdot_plan *plan);
 QDOT_MUST_CHECK qdot_status qdot_plan_structure(qdot_plan *plan, const bool *in);
 QDOT_MUST_CHECK qdot_status qdot_plan_lower(qdot_plan *plan, size_t inputs, size_t more,
                                             const qdot_expr *others);
+
+/* p->tape again, as series in lanes want it (qdot_tape_new_for_series). */
+QDOT_MUST_CHECK qdot_status qdot_plan_lower_for_series(qdot_plan *plan);
 
 /* How many inputs there are: 3n + 1 + m. */
 size_t qdot_plan_inputs(const qdot_plan *plan);

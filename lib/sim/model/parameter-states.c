@@ -44,10 +44,10 @@ value_of(const qdot_scene *scene, const qdot_run_request *r, qdot_expr parameter
     return qdot_constant_unset(scene->pool, parameter);
 }
 
-/* One behind the other in the memory of s. */
+/* One behind the other in the memory of s. open: they have no values. */
 static qdot_status
 fill(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *asked,
-     const expressions *found)
+     const expressions *found, bool open)
 {
     const size_t n = scene->coordinates.n, m = found->n, v = asked->n_values;
     qdot_pool *pool = scene->pool;
@@ -63,11 +63,14 @@ fill(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *
     q0 = values + v + m;
     v0 = q0 + n + m;
     for (size_t k = 0; k < m; k++) {
-        QDOT_TRY(value_of(scene, asked, found->at[k], &q0[n + k]));
+        if (!open)
+            QDOT_TRY(value_of(scene, asked, found->at[k], &q0[n + k]));
         v0[n + k] = QDOT_ZERO;
         states[k] = qdot_symbol_get(pool, QDOT_COORD,
                                     qdot_expr_symbol(pool, found->at[k])->name);
         QDOT_TRY(qdot_pool_check(pool));
+        symbols[v + k] = found->at[k];
+        values[v + k] = states[k];
     }
     for (size_t i = 0; i < v; i++) {
         symbols[i] = asked->symbols[i];
@@ -85,6 +88,7 @@ fill(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *
         s->named[n + m + i] = i >= n || !asked->v_named || asked->v_named[i];
     }
     s->request.n_states = m;
+    s->request.n_values = v + (open ? m : 0);
     s->request.states = states;
     s->request.symbols = symbols;
     s->request.values = values;
@@ -107,7 +111,25 @@ qdot_parameter_states_init(qdot_parameter_states *s, const qdot_scene *scene,
         return QDOT_OK;
     status = find(scene, &found);
     if (status == QDOT_OK && found.n > 0)
-        status = fill(s, scene, asked, &found);
+        status = fill(s, scene, asked, &found, false);
+    qdot_free(found.at);
+    if (status != QDOT_OK)
+        qdot_parameter_states_clear(s);
+    return status;
+}
+
+qdot_status
+qdot_parameter_states_open(qdot_parameter_states *s, const qdot_scene *scene,
+                           const qdot_run_request *asked, size_t n, const qdot_expr *parameters)
+{
+    expressions found = {0};
+    qdot_status status = QDOT_OK;
+
+    *s = (qdot_parameter_states){.request = *asked};
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&found, parameters[i]);
+    if (status == QDOT_OK && n > 0)
+        status = fill(s, scene, asked, &found, true);
     qdot_free(found.at);
     if (status != QDOT_OK)
         qdot_parameter_states_clear(s);

@@ -28,6 +28,11 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_parameter_states_init(qdot_parameter_states *states,
                                                        const qdot_scene *scene,
                                                        const qdot_run_request *asked);
+/* The same of parameters [n] without a value, where every run brings its own: q0 and v0 are NULL. */
+QDOT_MUST_CHECK qdot_status qdot_parameter_states_open(qdot_parameter_states *states,
+                                                       const qdot_scene *scene,
+                                                       const qdot_run_request *asked, size_t n,
+                                                       const qdot_expr *parameters);
 void qdot_parameter_states_clear(qdot_parameter_states *states);
 
 /* Coordinate i of a run, the scene's first; how many there are. */

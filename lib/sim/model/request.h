@@ -27,6 +27,7 @@ typedef struct {
     const qdot_expr *states;      /* [n_states] their symbols; symbols, values, q0 ... know them */
     int digits;                   /* > 0: so many correct digits at the end (sim/digits/precise.h);
                                      tol is not looked at */
+    bool lanes;                   /* of many members, eight at a time (sim/study/ensemble.h) */
 } qdot_run_request;
 
 #endif

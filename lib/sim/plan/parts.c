@@ -1,4 +1,4 @@
-/* parts.c -- groups of coordinates, by what stands in their rows. */
+/* parts.c -- find groups of coordinates whose equations do not share a variable. */
 #include "sim/plan/parts.h"
 
 #include <string.h>
@@ -8,11 +8,11 @@
 #include "sim/plan/routh.h"
 #include "series/taylor.h"
 
-/* Parts have no d'Alembert's form: where that of the whole is so much shorter it stays
- * whole. */
+/* Parts cannot use d'Alembert's form. If that form of the whole is cheaper than all parts by this
+ * factor, the scene is not divided. */
 static const double worth = 2;
 
-/* group [n]: the first coordinate of each one's group. */
+/* Unite the groups of i and j. group [n]: the first coordinate of the group of each. */
 static void
 join(size_t *group, size_t n, size_t i, size_t j)
 {
@@ -24,7 +24,7 @@ join(size_t *group, size_t n, size_t i, size_t j)
             group[k] = low;
 }
 
-/* Coordinates that stand in e join that of row i. */
+/* Unite the group of i with those of all coordinates that appear in e. */
 static qdot_status
 join_all(const qdot_plan *p, size_t *group, size_t i, qdot_expr e)
 {
@@ -41,7 +41,7 @@ join_all(const qdot_plan *p, size_t *group, size_t i, qdot_expr e)
     return QDOT_OK;
 }
 
-/* *groups: how many there are. */
+/* *groups: the number of groups. */
 static qdot_status
 find_groups(const qdot_plan *p, size_t *group, size_t *groups)
 {
@@ -56,7 +56,7 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
     *groups = 1;
     for (size_t i = 1; i < n; i++)
         *groups += group[i] == i;
-    /* most scenes hang together by M alone */
+    /* in most scenes M alone couples all coordinates */
     for (size_t i = 0; i < n && *groups > 1; i++) {
         QDOT_TRY(join_all(p, group, i, p->f[i]));
         for (size_t j = 0; j <= i; j++)
@@ -69,7 +69,7 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
     return QDOT_OK;
 }
 
-/* A plan of the n coordinates `index` of p, as far as its equations. */
+/* Fill r with the equations of the n coordinates `index` of p. */
 static qdot_status
 fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
 {
@@ -128,7 +128,7 @@ make_part(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request,
     return status == QDOT_OK ? finish(r, scene, request) : status;
 }
 
-/* What a step of all parts costs. */
+/* The cost of one step of every part. */
 static double
 cost(const qdot_plan *p)
 {

@@ -5,11 +5,12 @@
 
 #include "ode/leading.h"
 #include "sim/form/bordered.h"
+#include "sim/form/canonical.h"
 #include "sim/form/constrained-series.h"
 #include "sim/form/direct.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/residual.h"
-#include "sim/form/shifted.h"
+#include "sim/form/residual-series.h"
 #include "sim/model/constraints.h"
 #include "sim/model/parameter-states.h"
 #include "sim/model/switch.h"
@@ -142,14 +143,27 @@ derive(qdot_plan *p, qdot_scene *scene)
 
 /* --- Taylor series ------------------------------------------------------------------ */
 
-/* The shorter of the two forms of the equations. Where M is diagonal or constant nothing
- * is shorter than the derived one. */
+/* Whether d'Alembert's form is cheaper: numbers of many digits spend all on convolutions; eight
+ * members at once take what kernels do, also as machine code. */
+static bool
+is_cheaper(const qdot_plan *p, const qdot_residual_series *series,
+           const qdot_run_request *request)
+{
+    const double cost = qdot_plan_cost(qdot_residual_series_get(series));
+
+    if (request->digits > 0)
+        return p->convolutions_residual < p->convolutions_derived;
+    return cost < (request->lanes ? p->cost_of_kernels : p->cost);
+}
+
+/* The cheaper of the two forms of the equations. Where M is diagonal or constant nothing
+ * is cheaper than the derived one. */
 static qdot_status
-choose_form(qdot_plan *p, qdot_scene *scene)
+choose_form(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
     qdot_residual *residual = NULL;
-    qdot_shifted *shifted = NULL;
-    bool coupled = false;
+    qdot_residual_series *series = NULL;
+    bool coupled = false, cheaper = false;
     qdot_status status;
 
     QDOT_TRY(qdot_plan_measure(p));
@@ -160,19 +174,36 @@ choose_form(qdot_plan *p, qdot_scene *scene)
         coupled = false;
     status = coupled ? qdot_residual_new(scene, p, &residual) : QDOT_OK;
     if (status == QDOT_OK && residual)
-        status = qdot_shifted_new(p, residual, false, &shifted);
-    if (shifted) {
-        p->convolutions_residual = qdot_shifted_convolutions(shifted);
-        if (qdot_plan_cost(qdot_shifted_series(shifted)) < p->cost) {
-            p->cost = qdot_plan_cost(qdot_shifted_series(shifted));
-            p->residual = residual;
-            p->tree_nodes = qdot_shifted_tree_size(shifted, &p->tree_is_path);
-            residual = NULL;
-        }
+        status = qdot_residual_series_new(p, residual, false, &series);
+    if (series) {
+        p->convolutions_residual = qdot_residual_series_convolutions(series);
+        cheaper = is_cheaper(p, series, request);
     }
-    qdot_shifted_free(shifted);
+    if (cheaper) {
+        p->cost = qdot_plan_cost(qdot_residual_series_get(series));
+        p->residual = residual;
+        p->tree_nodes = qdot_residual_series_tree_size(series, &p->tree_is_path);
+        residual = NULL;
+    }
+    qdot_residual_series_free(series);
     qdot_residual_free(residual);
     return status;
+}
+
+/* Hamilton's equations save this much of the others' convolutions where they are taken. */
+static const double canonical_saves = 0.85;
+
+static qdot_status
+find_canonical(qdot_plan *p, qdot_scene *scene)
+{
+    const double others = p->residual ? p->convolutions_residual : p->convolutions_derived;
+
+    QDOT_TRY(qdot_canonical_new(scene, p, &p->canonical));
+    if (p->canonical && p->canonical->motion.program.convolutions > canonical_saves * others) {
+        qdot_canonical_free(p->canonical);
+        p->canonical = NULL;
+    }
+    return QDOT_OK;
 }
 
 /* Convolutions an order, with constraints. */
@@ -246,8 +277,10 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(check_series(p, qdot_program_hindrance(p->tape)));
     p->leading = p->smooth && p->method->series && request->tol <= QDOT_ODE_LEADING_TOL;
     if (p->smooth)
-        QDOT_TRY(choose_form(p, scene));
-    if (request->digits > 0 || qdot_plan_needs_jacobian(p))
+        QDOT_TRY(choose_form(p, scene, request));
+    if (request->digits > 0)
+        return find_canonical(p, scene);
+    if (qdot_plan_needs_jacobian(p))
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));
     /* events that set parameters look at the steps of the whole */

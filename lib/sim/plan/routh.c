@@ -1,4 +1,4 @@
-/* routh.c -- which momenta are kept, elimination, and whether it pays. */
+/* routh.c -- find cyclic coordinates, eliminate their velocities, keep that where it is cheaper. */
 #include "sim/plan/routh.h"
 
 #include <math.h>
@@ -13,14 +13,14 @@
 #include "series/taylor.h"
 #include "tape/constant.h"
 
-/* Forms are simplified up to so many operations. */
+/* Longer expressions than this many operations are not simplified. */
 enum { SHORT = 120, SHORT_ENTRY = 60 };
 
-/* Terms of a velocity that add up to so much of it do no harm at any tolerance; and what
- * the rounding of one counts for, over the steps of a run. */
+/* Cancellation in a velocity is ignored while the sum of its terms' sizes is below `harmless` times
+ * max(1, |velocity|). Above, the rounding of a term counts `roundings` times over a run. */
 static const double harmless = 4, roundings = 64;
 
-/* How velocities are put into the other equations. */
+/* Three ways to put the eliminated velocities into the other equations. */
 typedef enum { PUT_IN, HELD, SIMPLIFIED, WAYS } way;
 
 typedef struct {
@@ -31,27 +31,27 @@ typedef struct {
     qdot_facts facts;
     size_t n, h;
     bool *cyclic;         /* [n] */
-    bool *gone;           /* [n] eliminated */
-    size_t *order;        /* [h] of elimination */
-    qdot_expr *M, *f;     /* [n x n], [n] of what is left */
+    bool *gone;           /* [n] its velocity is eliminated */
+    size_t *order;        /* [h] coordinates in the order of elimination */
+    qdot_expr *M, *f;     /* [n x n], [n] after the eliminations so far */
     qdot_expr *kept;      /* [n] p_c as a symbol */
     qdot_expr *momentum;  /* [n] dL/dq_c' */
-    qdot_expr *rest;      /* [n] p_c - b_c of what is left */
-    qdot_expr *above;     /* [n] pivot q_c' by p and velocities not eliminated before */
-    qdot_expr *rate;      /* [n] q_c' likewise */
+    qdot_expr *rest;      /* [n] p_c - b_c after the eliminations so far */
+    qdot_expr *above;     /* [n] pivot q_c' in p and in velocities not eliminated before it */
+    qdot_expr *rate;      /* [n] q_c' in the same variables */
     double *in, *out, *work;
 } routh;
 
 /* --- what is cyclic ------------------------------------------------------------------ */
 
-/* Numbers without a pattern in (0.3, 1.7), where most domains are. */
+/* Irregular numbers in (0.3, 1.7), an interval that most domains contain. */
 static double
 place(size_t i)
 {
     return 0.3 + 1.4 * fmod(0.5545497 * (double)(i + 1), 1);
 }
 
-/* Whether the tape, M and f, may be the same at any q_i: what a few places say. */
+/* Whether M and f, as a tape, may be independent of q_i: they are, at a few values. */
 static bool
 may_be_absent(const routh *e, size_t i)
 {
@@ -72,7 +72,7 @@ may_be_absent(const routh *e, size_t i)
     return true;
 }
 
-/* Whether the velocities do not stand in row i of M: p_i is linear in them. */
+/* Whether row i of M is free of velocities, so that p_i is linear in them. */
 static bool
 is_linear(const routh *e, size_t i)
 {
@@ -82,21 +82,21 @@ is_linear(const routh *e, size_t i)
     return true;
 }
 
-/* Which of the scene's coordinates it is. */
+/* The index of the plan's coordinate i in the scene. */
 static size_t
 in_scene(const routh *e, size_t i)
 {
     return e->p->place ? e->p->place[i] : i;
 }
 
-/* Whether it is a parameter that events set (sim/model/parameter-states.h). */
+/* Whether coordinate i stands for a parameter that events set (sim/model/parameter-states.h). */
 static bool
 is_state(const routh *e, size_t i)
 {
     return in_scene(e, i) >= e->scene->coordinates.n;
 }
 
-/* How many coordinates one couples with in M. */
+/* The number of coordinates that M couples with coordinate i. */
 static size_t
 coupled(const routh *e, size_t i)
 {
@@ -149,8 +149,8 @@ tidy(routh *e, qdot_expr x, unsigned most)
     return qdot_simplify(e->pool, x, &e->facts);
 }
 
-/* Cyclic coordinates do not stand in what they are absent from as functions: 0 for them
- * makes that so to the eye. */
+/* M and f do not depend on a cyclic coordinate, but it may still appear in their expressions: put 0
+ * in its place. */
 static void
 take_out(routh *e)
 {
@@ -183,7 +183,7 @@ take_out(routh *e)
     }
 }
 
-/* Row c out of all that is left, q_c' in terms of it. */
+/* Solve row c for q_c' and eliminate it from the remaining rows. */
 static void
 eliminate(routh *e, size_t c)
 {
@@ -215,8 +215,8 @@ eliminate(routh *e, size_t c)
     e->rate[c] = qdot_div(pool, rate, pivot);
 }
 
-/* Whether nothing but M being singular makes the pivot of i vanish. An indefinite M may be
- * regular where its parts are not. */
+/* Whether the pivot of i vanishes only where M is singular. An indefinite M may be regular although
+ * one of its diagonal blocks is singular. */
 static bool
 may_be_pivot(const routh *e, size_t i)
 {
@@ -225,7 +225,7 @@ may_be_pivot(const routh *e, size_t i)
     return !e->p->indefinite || coupled(e, i) == 0 || (sign & (QDOT_GE0 | QDOT_LE0));
 }
 
-/* The cyclic coordinate left with the shortest pivot; SIZE_MAX: none. */
+/* Of the remaining cyclic coordinates the one with the shortest pivot; SIZE_MAX: none. */
 static size_t
 shortest(const routh *e)
 {
@@ -271,7 +271,8 @@ begin_plan(const routh *e, qdot_plan **out)
     return QDOT_OK;
 }
 
-/* Velocities out of the equations of r, one after the other; their rates [h]. */
+/* Replace the eliminated velocities in the equations of r, one after the other, by their
+ * expressions, which are left in `rates` [h]. */
 static void
 put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
 {
@@ -307,7 +308,7 @@ cost_of_evaluation(const qdot_tape *tape)
     return (double)(qdot_tape_operations(tape) + 15 * qdot_tape_calls(tape));
 }
 
-/* What a step of it costs, or an evaluation where there are no series. */
+/* The cost of a step of r, or of an evaluation where there are no series. */
 static qdot_status
 find_cost(qdot_plan *r)
 {
@@ -342,13 +343,13 @@ fill_plan(routh *e, way how, qdot_plan *r)
         status = qdot_tape_new(e->pool, 2 * n + 1, r->inputs, e->h, rates, &r->momenta);
     qdot_free(left);
     qdot_free(rates);
-    /* it may be a momentum that switches */
+    /* a momentum may contain functions that switch */
     if (status == QDOT_OK)
         r->smooth = r->smooth && !qdot_program_hindrance(r->tape);
     return status == QDOT_OK ? find_cost(r) : status;
 }
 
-/* Whether a velocity is a sum, which what it is put into may be taken apart for. */
+/* Whether an eliminated velocity is a sum: products with it may then be multiplied out. */
 static bool
 has_sum(const routh *e)
 {
@@ -372,7 +373,7 @@ cost_of_all(const qdot_plan *p)
     return p->method->series ? p->cost : cost_of_evaluation(p->tape);
 }
 
-/* The cheapest way, into the plan where it is cheaper than what is there. */
+/* Find the cheapest way; the plan takes it if it is cheaper than the full equations. */
 static qdot_status
 choose(routh *e)
 {
@@ -402,7 +403,7 @@ choose(routh *e)
 
 /* --- what cancels --------------------------------------------------------------------- */
 
-/* Terms above the pivots of kept coordinates, one after the other. */
+/* For each eliminated velocity: its pivot, then the terms above the pivot. */
 typedef qdot_vec(qdot_expr) expressions;
 
 static qdot_status
@@ -422,7 +423,7 @@ list_terms(const routh *e, expressions *out)
     return qdot_pool_check(e->pool);
 }
 
-/* The start of the run and the momenta there, into in [2n + 1 + h]. */
+/* in [2n + 1 + h]: the start of the run, and the momenta there. */
 static qdot_status
 find_start(routh *e, const qdot_plan *r, double *in)
 {
@@ -447,8 +448,8 @@ find_start(routh *e, const qdot_plan *r, double *in)
     return QDOT_OK;
 }
 
-/* What the rounding of terms above a pivot becomes in the velocity: the largest sum of their
- * sizes, by the pivot, over max(1, |q_c'|). */
+/* By how much rounding errors grow: the largest, over c, of sum |terms| / (|pivot| max(1, |q_c'|)),
+ * where q_c' = sum of terms / pivot. */
 static double
 largest_sum(const routh *e, const double *in, const double *out)
 {
@@ -469,8 +470,8 @@ largest_sum(const routh *e, const double *in, const double *out)
     return most;
 }
 
-/* Whether what velocities are made of cancels further than the tolerance can bear, as a
- * spinning top's p_phi - p_psi cos(theta) does. */
+/* *too_far: the terms of a velocity cancel so far that rounding exceeds the tolerance. A spinning
+ * top's p_phi - p_psi cos(theta) does that. */
 static qdot_status
 find_cancellation(routh *e, bool *too_far)
 {
@@ -578,7 +579,7 @@ qdot_routh_reduce(qdot_plan *plan, qdot_scene *scene, const qdot_run_request *re
     if (status == QDOT_OK)
         status = reduce(&e);
     routh_clear(&e);
-    /* where a pivot vanishes, or 0 is outside what an expression allows: as they were */
+    /* a pivot vanishes, or an expression is not defined at 0: keep the full equations */
     if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_ELIMIT) {
         qdot_plan_free(plan->reduced);
         plan->reduced = NULL;

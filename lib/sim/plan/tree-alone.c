@@ -1,4 +1,4 @@
-/* tree-alone.c -- whether the tree alone is enough, and by how much it is cheaper. */
+/* tree-alone.c -- decide whether the equations along the tree suffice, without M and f. */
 #include "sim/plan/tree-alone.h"
 
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 #include "sim/form/residual-energy.h"
 #include "sim/form/residual-tree.h"
 #include "sim/plan/routh.h"
-#include "sim/form/shifted.h"
+#include "sim/form/residual-series.h"
 #include "sim/model/switch.h"
 #include "tape/disc.h"
 
@@ -20,7 +20,7 @@ may_be(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *requ
            && !qdot_plan_needs_jacobian(p) && request->tol > QDOT_ODE_LEADING_TOL;
 }
 
-/* Pairs of coordinates whose nodes are one or hang on each other, into pattern [n x n]. */
+/* pattern [n x n]: pairs of coordinates of one node, or of a node and one that it depends on. */
 static void
 find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
 {
@@ -44,20 +44,21 @@ find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
         }
 }
 
-/* What orders of M q'' = f cost at least, whose M has so many entries beside the diagonal: as
- * estimate_cost of sim/form/direct.c, without a tape. */
+/* A lower bound of the cost of the series of M q'' = f if M has `entries` entries off the diagonal.
+ * It follows estimate_cost of sim/form/direct.c, but needs no tape. */
 static double
 least_cost(size_t n, size_t entries)
 {
     const double m = (double)n, convolutions = (double)entries;
-    const qdot_ode_series series = {.cost = {0.2 * m * m * m,
+    const qdot_ode_series series = {.most = 40,
+                                    .cost = {0.2 * m * m * m,
                                              0.5 * m * m + 3.5 * convolutions,
                                              0.12 * convolutions}};
 
     return qdot_plan_cost(&series);
 }
 
-/* Whether M is of numbers: no slope of a place moves. */
+/* Whether M is constant: no partial derivative of a position depends on the motion. */
 static bool
 is_constant(const qdot_plan *p)
 {
@@ -73,8 +74,8 @@ is_constant(const qdot_plan *p)
     return true;
 }
 
-/* Into *suits: one block that M couples, none of whose coordinates is to be eliminated
- * beforehand, as one is that few are coupled with and that does not stand in h. */
+/* *suits: M is one coupled block, and no coordinate of it should be eliminated first. A coordinate
+ * should be if it does not appear in h and is coupled with few others. */
 static qdot_status
 judge(qdot_plan *p, const bool *pattern, bool *suits, double *least)
 {
@@ -125,19 +126,19 @@ may_hide(const qdot_residual *r)
 static qdot_status
 decide(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
 {
-    qdot_shifted *shifted;
+    qdot_residual_series *series;
     double least;
 
     *taken = false;
     QDOT_TRY(find_structure(p, tree, taken, &least));
     if (!*taken)
         return QDOT_OK;
-    QDOT_TRY(qdot_shifted_new(p, p->residual, false, &shifted));
-    p->tree_nodes = qdot_shifted_tree_size(shifted, &p->tree_is_path);
-    p->convolutions_residual = qdot_shifted_convolutions(shifted);
-    p->cost = qdot_plan_cost(qdot_shifted_series(shifted));
+    QDOT_TRY(qdot_residual_series_new(p, p->residual, false, &series));
+    p->tree_nodes = qdot_residual_series_tree_size(series, &p->tree_is_path);
+    p->convolutions_residual = qdot_residual_series_convolutions(series);
+    p->cost = qdot_plan_cost(qdot_residual_series_get(series));
     *taken = p->tree_nodes > 0 && p->cost < least;
-    qdot_shifted_free(shifted);
+    qdot_residual_series_free(series);
     return QDOT_OK;
 }
 

@@ -1,7 +1,7 @@
 /* tree-alone.h -- plans of long chains and trees, for which M and f are never derived.
  *
- * Eliminated along its tree, d'Alembert's residual reads neither M nor f (sim/form/shifted-tree.h), and
- * of N links these are N^2 expressions. From some size on the residual is therefore made first,
+ * Eliminated along its tree, d'Alembert's residual reads neither M nor f
+ * (sim/form/residual-sweeps.h), and of N links these are N^2 expressions. From some size on the residual is therefore made first,
  * and M q'' = f is left underived where what its coefficients must cost at least is more than the
  * tree's do: each pair of coordinates of which one's node hangs on the other's is an entry of M,
  * two convolutions an order.

@@ -7,10 +7,10 @@
 
 #include "base/memory.h"
 #include "ode/companion.h"
-#include "sim/form/members.h"
+#include "sim/form/ensemble-series.h"
 #include "sim/form/shifted-lanes.h"
-#include "sim/model/quotient.h"
-#include "sim/model/substitute.h"
+#include "sim/model/constrained.h"
+#include "sim/model/parameter-states.h"
 #include "sim/plan/plan.h"
 #include "sim/study/ensemble-momenta.h"
 #include "tape/constant.h"
@@ -18,18 +18,18 @@
 
 /* A system in lanes: one of the two. */
 typedef struct {
-    qdot_members *direct;
+    qdot_ensemble_series *series;
     qdot_shifted_lanes *shifted;
 } form;
 
 struct qdot_ensemble {
-    qdot_members_model model;
-    qdot_tape *shaken;
-    /* Of d'Alembert's residual where that is shorter, or the one with reduced equations, whose
-     * structure and tape are the model's then. NULL: neither. */
-    qdot_plan *plan;
-    const qdot_plan *reduced;
-    qdot_ensemble_momenta *momenta; /* of these */
+    qdot_plan *plan;           /* parameters that vary are further coordinates of it */
+    const qdot_plan *reduced;  /* the one with reduced equations; NULL: as it stands */
+    bool residual;             /* or d'Alembert's residual, where that is shorter */
+    qdot_ensemble_momenta *momenta; /* of the reduced one */
+    size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
+    char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
+    size_t n_reasons;
     form members, companions; /* companions: made when first asked for */
     double t0, t1, t1_low, tol;
     int t1_side;
@@ -39,30 +39,32 @@ struct qdot_ensemble {
 static void
 form_free(form *f)
 {
-    qdot_members_free(f->direct);
+    qdot_ensemble_series_free(f->series);
     qdot_shifted_lanes_free(f->shifted);
 }
 
-static bool
-is_residual(const qdot_ensemble *e)
+static const qdot_plan *
+equations(const qdot_ensemble *e)
 {
-    return e->plan && !e->reduced;
+    return e->reduced ? e->reduced : e->plan;
 }
 
 static qdot_status
 form_new(form *f, const qdot_ensemble *e, bool shaken, int order)
 {
-    if (is_residual(e))
+    if (e->residual)
         return qdot_shifted_lanes_new(e->plan, shaken, order, &f->shifted);
-    return qdot_members_new(&e->model, shaken ? e->shaken : e->model.tape, order,
-                            &f->direct);
+    return qdot_ensemble_series_new(equations(e), shaken, order, &f->series);
 }
 
 static void
-model_clear(qdot_members_model *model)
+forget_reasons(qdot_ensemble *e)
 {
-    qdot_tape_free(model->tape);
-    qdot_structure_clear(&model->structure);
+    for (size_t m = 0; m < e->n_reasons; m++)
+        qdot_free(e->reasons[m]);
+    qdot_free(e->reasons);
+    e->reasons = NULL;
+    e->n_reasons = 0;
 }
 
 void
@@ -70,24 +72,15 @@ qdot_ensemble_free(qdot_ensemble *e)
 {
     if (!e)
         return;
+    forget_reasons(e);
     form_free(&e->members);
     form_free(&e->companions);
     qdot_ensemble_momenta_free(e->momenta);
-    if (!e->reduced)
-        model_clear(&e->model);
     qdot_plan_free(e->plan);
-    qdot_tape_free(e->shaken);
     qdot_free(e);
 }
 
 /* --- the scene ---------------------------------------------------------------------- */
-
-typedef struct {
-    qdot_scene *scene;
-    const qdot_run_request *request;
-    size_t n;
-    qdot_expr *inputs, *M, *f; /* [2n + 1 + varied], [n x n], [n] */
-} builder;
 
 static qdot_status
 check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
@@ -97,8 +90,10 @@ check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
 
     if (scene->coordinates.n == 0)
         return qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
-    if (scene->constraints.n > 0)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with constraints");
+    if (scene->constraints.n > 0 && request->treatment != QDOT_RUN_PROJECT)
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: ensembles with constraints by another treatment than "
+                         "projection");
     if (acting)
         return qdot_fail(QDOT_ENOTBUILT,
                          "not built yet: ensembles with the event %.100s, which %s",
@@ -109,183 +104,90 @@ check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
                          request->method);
     if (request->q0 || request->v0)
         return qdot_fail(QDOT_EINVAL, "the members of an ensemble bring their own starts");
-    for (size_t i = 0; i < n_varied; i++)
+    for (size_t i = 0; i < n_varied; i++) {
+        for (size_t k = 0; k < i; k++)
+            if (varied[k] == varied[i])
+                return qdot_fail(QDOT_EINVAL, "%s is given twice",
+                                 qdot_expr_symbol(scene->pool, varied[i])->name);
         for (size_t k = 0; k < request->n_values; k++)
             if (request->symbols[k] == varied[i])
                 return qdot_fail(QDOT_EINVAL, "%s is given to all members and to each",
                                  qdot_expr_symbol(scene->pool, varied[i])->name);
+    }
     return QDOT_OK;
 }
 
-static qdot_status
-derive(builder *b)
-{
-    qdot_pool *pool = b->scene->pool;
-    const qdot_run_request *r = b->request;
-    size_t n = b->n;
-    qdot_expr M = qdot_mech_numeric_mass(b->scene);
-    qdot_expr f = qdot_mech_numeric_forcing(b->scene);
-
-    if (M != QDOT_NIL && f != QDOT_NIL) {
-        M = qdot_substitute(pool, M, r->n_values, r->symbols, r->values);
-        f = qdot_substitute(pool, f, r->n_values, r->symbols, r->values);
-    }
-    QDOT_TRY(qdot_pool_check(pool));
-    for (size_t i = 0; i < n; i++) {
-        qdot_expr q = b->scene->coordinates.at[i];
-
-        b->inputs[i] = q;
-        b->inputs[n + i] = qdot_symbol_jet(pool, q, 1);
-        b->f[i] = qdot_expr_arg(pool, f, (uint32_t)i);
-        for (size_t j = 0; j < n; j++)
-            b->M[i * n + j] = qdot_expr_arg(pool, M, (uint32_t)(i * n + j));
-    }
-    b->inputs[2 * n] = QDOT_T;
-    return qdot_pool_check(pool);
-}
-
-static qdot_status
-find_structure(const builder *b, qdot_structure *structure)
-{
-    bool *pattern = qdot_calloc(b->n * b->n, sizeof *pattern);
-    qdot_status status = pattern ? QDOT_OK : QDOT_ENOMEM;
-
-    for (size_t i = 0; i < b->n && status == QDOT_OK; i++) {
-        bool some = false;
-
-        for (size_t j = 0; j < b->n; j++)
-            some |= pattern[i * b->n + j] = b->M[i * b->n + j] != QDOT_ZERO;
-        if (!some)
-            status = qdot_fail(QDOT_ESINGULAR,
-                               "the mass matrix is singular: no mass moves with %s",
-                               qdot_expr_symbol(b->scene->pool, b->inputs[i])->name);
-    }
-    if (status == QDOT_OK)
-        status = qdot_structure_find(pattern, b->n, structure);
-    qdot_free(pattern);
-    return status;
-}
-
+/* Whether coordinates couple whose M may be of any sign. */
 static bool
-is_indefinite(const qdot_scene *scene)
+is_indefinite(const qdot_plan *p)
 {
-    for (size_t i = 0; i < scene->potentials.n; i++)
-        if (qdot_expr_node(scene->pool, scene->potentials.at[i].e)->holds &
-            QDOT_HAS_VELOCITY)
+    for (size_t b = 0; b < p->structure.blocks; b++)
+        if (p->blocks[b].n > 1 && p->indefinite)
             return true;
-    return scene->lagrangian != QDOT_NIL;
+    return false;
 }
 
-static qdot_status
-lower(const builder *b, qdot_members_model *model)
-{
-    const qdot_structure *s = &model->structure;
-    qdot_pool *pool = b->scene->pool;
-    qdot_vec(qdot_expr) out = {0};
-    qdot_status status = QDOT_OK;
-
-    for (size_t k = 0; k < s->blocks && status == QDOT_OK; k++) {
-        const size_t *index = s->index + s->start[k];
-        size_t n = s->start[k + 1] - s->start[k];
-
-        if (n == 1) {
-            status = qdot_vec_push(
-                &out, qdot_quotient(pool, b->f[*index], b->M[*index * (b->n + 1)]));
-            continue;
-        }
-        if (is_indefinite(b->scene))
-            status = qdot_fail(QDOT_ENOTBUILT,
-                               "not built yet: ensembles of a stated Lagrangian whose "
-                               "coordinates couple");
-        for (size_t i = 0; i < n && status == QDOT_OK; i++)
-            status = qdot_vec_push(&out, b->f[index[i]]);
-        for (size_t i = 0; i < n; i++)
-            for (size_t j = 0; j <= i && status == QDOT_OK; j++)
-                status = qdot_vec_push(&out, b->M[index[i] * b->n + index[j]]);
-    }
-    if (status == QDOT_OK)
-        status = qdot_pool_check(pool);
-    if (status == QDOT_OK)
-        status = qdot_tape_new_for_series(pool, 2 * b->n + 1 + model->varied, b->inputs,
-                                          out.n, out.at, &model->tape);
-    qdot_free(out.at);
-    return status;
-}
-
-/* Equations with momenta kept that lanes can do: no numbers for an M, and none whose velocities
- * may cancel, of which a plan without a start does not know. */
+/* Equations with momenta kept that lanes can do: none whose velocities may cancel, of which a plan
+ * without a start does not know. */
 static bool
 may_be_reduced(const qdot_plan *r)
 {
-    if (!r || !r->smooth || r->subtracts)
-        return false;
-    for (size_t b = 0; b < r->structure.blocks; b++)
-        if (r->blocks[b].n > 1 && (r->blocks[b].constant || r->indefinite))
-            return false;
-    return true;
-}
-
-static qdot_status
-reduce(qdot_ensemble *e)
-{
-    const qdot_plan *r = e->plan->reduced;
-
-    model_clear(&e->model);
-    e->reduced = r;
-    e->model.structure = r->structure;
-    e->model.tape = r->tape;
-    e->model.n_kept = r->n_kept;
-    e->model.kept = r->kept;
-    return qdot_ensemble_momenta_new(r, &e->momenta);
+    return r && r->smooth && !r->subtracts && !is_indefinite(r);
 }
 
 /* The residual form, where a single run takes it too; likewise momenta that are kept. */
 static qdot_status
-plan_other_forms(qdot_ensemble *e, const builder *b)
+choose_form(qdot_ensemble *e)
 {
-    qdot_run_request request = *b->request;
+    qdot_plan *p = e->plan;
 
-    if (e->model.varied > 0)
+    if (p->constraints)
         return QDOT_OK;
-    request.method = "taylor";
-    QDOT_TRY(qdot_plan_new(b->scene, &request, &e->plan));
-    if (qdot_shifted_lanes_applies(e->plan))
+    e->residual = e->varied == 0 && qdot_shifted_lanes_applies(p);
+    if (e->residual)
         return QDOT_OK;
-    if (may_be_reduced(e->plan->reduced))
-        return reduce(e);
-    qdot_plan_free(e->plan);
-    e->plan = NULL;
-    return QDOT_OK;
+    if (e->varied == 0 && may_be_reduced(p->reduced)) {
+        e->reduced = p->reduced;
+        return qdot_ensemble_momenta_new(p->reduced, &e->momenta);
+    }
+    if (is_indefinite(p))
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: ensembles of a stated Lagrangian whose coordinates "
+                         "couple");
+    return qdot_plan_lower_for_series(p);
 }
 
 static qdot_status
-make(qdot_ensemble *e, builder *b, size_t n_varied, const qdot_expr *varied)
+make_plan(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
+          const qdot_expr *varied)
 {
-    const qdot_run_request *r = b->request;
-    qdot_pool *pool = b->scene->pool;
+    qdot_parameter_states states;
+    qdot_status status = qdot_parameter_states_open(&states, scene, request, e->varied, varied);
+
+    states.request.method = "taylor";
+    states.request.lanes = true;
+    if (status == QDOT_OK)
+        status = qdot_plan_new(scene, &states.request, &e->plan);
+    qdot_parameter_states_clear(&states);
+    return status;
+}
+
+static qdot_status
+make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
+     const qdot_expr *varied)
+{
+    qdot_pool *pool = scene->pool;
     double low;
     int side;
 
-    e->model.n = b->n;
-    e->model.varied = n_varied;
-    e->tol = r->tol;
-    QDOT_TRY(qdot_constant_split(pool, r->t0, &e->t0, &side, &low));
-    QDOT_TRY(qdot_constant_split(pool, r->t1, &e->t1, &e->t1_side, &e->t1_low));
-    b->inputs = qdot_calloc(2 * b->n + 1 + n_varied, sizeof *b->inputs);
-    b->M = qdot_calloc(b->n * b->n, sizeof *b->M);
-    b->f = qdot_calloc(b->n, sizeof *b->f);
-    if (!b->inputs || !b->M || !b->f)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n_varied; i++)
-        b->inputs[2 * b->n + 1 + i] = varied[i];
-    QDOT_TRY(derive(b));
-    QDOT_TRY(find_structure(b, &e->model.structure));
-    QDOT_TRY(lower(b, &e->model));
-    QDOT_TRY(plan_other_forms(e, b));
-    if (is_residual(e))
+    QDOT_TRY(qdot_constant_split(pool, request->t0, &e->t0, &side, &low));
+    QDOT_TRY(qdot_constant_split(pool, request->t1, &e->t1, &e->t1_side, &e->t1_low));
+    QDOT_TRY(make_plan(e, scene, request, varied));
+    QDOT_TRY(choose_form(e));
+    if (e->residual)
         QDOT_TRY(qdot_shifted_lanes_order(e->plan, e->tol, &e->order));
     else
-        QDOT_TRY(qdot_members_order(&e->model, e->tol, &e->order));
+        QDOT_TRY(qdot_ensemble_series_order(equations(e), e->tol, &e->order));
     return form_new(&e->members, e, false, e->order);
 }
 
@@ -293,7 +195,6 @@ qdot_status
 qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
                   const qdot_expr *varied, qdot_ensemble **ensemble)
 {
-    builder b = {.scene = scene, .request = request, .n = scene->coordinates.n};
     qdot_ensemble *e;
     qdot_status status;
 
@@ -302,10 +203,10 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
     e = qdot_calloc(1, sizeof *e);
     if (!e)
         return QDOT_ENOMEM;
-    status = make(e, &b, n_varied, varied);
-    qdot_free(b.inputs);
-    qdot_free(b.M);
-    qdot_free(b.f);
+    e->n = scene->coordinates.n;
+    e->varied = n_varied;
+    e->tol = request->tol;
+    status = make(e, scene, request, varied);
     if (status != QDOT_OK) {
         qdot_ensemble_free(e);
         return status;
@@ -319,8 +220,9 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 /* One pass over all members, the runs themselves or their companions. */
 typedef struct {
     form system;
+    bool is_companion;
     qdot_batch_run run;
-    double *memory, *parameters;
+    double *memory;
     double *t1;       /* [members] as run.t1 */
     double *momenta;  /* [n_kept] */
     double *replaced; /* [members x n_kept] velocities that momenta stand in place of */
@@ -335,33 +237,53 @@ pass_clear(pass *p)
     qdot_free(p->run.results);
 }
 
+static size_t
+width(const qdot_ensemble *e)
+{
+    return 2 * e->n + e->varied;
+}
+
+static size_t
+n_kept(const qdot_ensemble *e)
+{
+    return e->reduced ? e->reduced->n_kept : 0;
+}
+
+/* x [n], or their neighbours where they are to be moved; the first is number `at` of its kind. */
+static void
+put(size_t n, const double *x, size_t at, bool moved, double *to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] = moved ? qdot_companion_moved(x[at + i], at + i, 0, 1) : x[at + i];
+}
+
 /* From {.run.order, .run.tol}. */
 static qdot_status
 pass_init(pass *p, const qdot_ensemble *e, size_t members, double t1, const double *y,
           const double *parameters)
 {
-    size_t ys = members * 2 * e->model.n, ps = members * e->model.varied;
-    size_t kept = (members + 1) * e->model.n_kept;
+    const size_t n = 2 * e->n, kept = n_kept(e);
+    const bool moved = p->is_companion;
     double *t0, *t1s;
 
-    p->memory = qdot_calloc(2 * members + ys + ps + kept + 1, sizeof *p->memory);
+    p->memory = qdot_calloc(members * (2 + width(e)) + (members + 1) * kept + 1,
+                            sizeof *p->memory);
     p->run.results = qdot_calloc(members + 1, sizeof *p->run.results);
     if (!p->memory || !p->run.results)
         return QDOT_ENOMEM;
     t0 = p->memory;
     t1s = p->t1 = t0 + members;
     p->run.y = t1s + members;
-    p->parameters = p->run.y + ys;
-    p->momenta = p->parameters + ps;
-    p->replaced = p->momenta + e->model.n_kept;
+    p->momenta = p->run.y + members * width(e);
+    p->replaced = p->momenta + kept;
     for (size_t m = 0; m < members; m++) {
+        double *to = p->run.y + m * width(e);
+
         t0[m] = e->t0;
         t1s[m] = t1;
+        put(n, y, m * n, moved, to);
+        put(e->varied, parameters, m * e->varied, moved, to + n);
     }
-    if (ys)
-        memcpy(p->run.y, y, ys * sizeof *y);
-    if (ps)
-        memcpy(p->parameters, parameters, ps * sizeof *parameters);
     p->run.members = members;
     p->run.t0 = t0;
     p->run.t1 = t1s;
@@ -372,32 +294,20 @@ static void *
 pass_run(void *user)
 {
     pass *p = user;
-    qdot_ode_batch system = p->system.direct
-                                ? qdot_members_system(p->system.direct)
-                                : qdot_shifted_lanes_system(p->system.shifted);
+    qdot_ode_batch system = p->system.series ? qdot_ensemble_series_system(p->system.series)
+                                             : qdot_shifted_lanes_system(p->system.shifted);
 
-    if (p->system.direct)
-        qdot_members_set(p->system.direct, p->parameters);
     p->status = qdot_ode_batch_run(&system, &p->run);
     if (p->status != QDOT_OK)
         p->error = *qdot_last_error();
     return NULL;
 }
 
-static void
-move(double *x, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        x[i] = qdot_companion_moved(x[i], i, 0, 1);
-}
-
 static qdot_status
 make_companions(qdot_ensemble *e, int order)
 {
-    if (e->companions.direct || e->companions.shifted)
+    if (e->companions.series || e->companions.shifted)
         return QDOT_OK;
-    if (!is_residual(e) && !e->shaken)
-        QDOT_TRY(qdot_tape_shake(e->model.tape, &e->shaken));
     return form_new(&e->companions, e, true, order);
 }
 
@@ -406,16 +316,16 @@ make_companions(qdot_ensemble *e, int order)
 static void
 enter(const qdot_ensemble *e, pass *p)
 {
-    const size_t n = e->model.n, kept = e->model.n_kept;
+    const size_t n = e->n, kept = n_kept(e);
 
     for (size_t m = 0; e->reduced && m < p->run.members; m++) {
-        double *y = p->run.y + m * 2 * n;
+        double *y = p->run.y + m * width(e);
         const bool finite = qdot_ensemble_momenta_enter(e->momenta, e->t0, y, p->momenta);
 
         if (!finite)
             p->t1[m] = e->t0;
         for (size_t c = 0; c < kept; c++) {
-            double *v = y + n + e->model.kept[c];
+            double *v = y + n + e->reduced->kept[c];
 
             p->replaced[m * kept + c] = *v;
             if (finite)
@@ -428,14 +338,14 @@ enter(const qdot_ensemble *e, pass *p)
 static void
 come_back(const qdot_ensemble *e, pass *p)
 {
-    const size_t n = e->model.n, kept = e->model.n_kept;
+    const size_t n = e->n, kept = n_kept(e);
 
     for (size_t m = 0; e->reduced && m < p->run.members; m++) {
         qdot_batch_result *r = p->run.results + m;
-        double *y = p->run.y + m * 2 * n;
+        double *y = p->run.y + m * width(e);
 
         for (size_t c = 0; c < kept; c++) {
-            double *v = y + n + e->model.kept[c];
+            double *v = y + n + e->reduced->kept[c];
 
             p->momenta[c] = *v;
             *v = p->replaced[m * kept + c];
@@ -446,6 +356,80 @@ come_back(const qdot_ensemble *e, pass *p)
             r->outcome = QDOT_BATCH_UNDEFINED;
     }
 }
+
+/* --- constraints -------------------------------------------------------------------- */
+
+/* Whether a member may start at y, which is brought to its constraints; as of a single run, whose
+ * states are `whole` [2 (n + varied)]. */
+static qdot_status
+start(const qdot_ensemble *e, bool shaken, double *whole, double *y)
+{
+    const size_t n = e->n, all = n + e->varied, bytes = sizeof *y;
+    qdot_constrained *held;
+    qdot_status status;
+
+    QDOT_TRY(qdot_constrained_new(e->plan, shaken, &held));
+    memcpy(whole, y, n * bytes);
+    memcpy(whole + n, y + 2 * n, e->varied * bytes);
+    memcpy(whole + all, y + n, n * bytes);
+    status = qdot_constrained_start(held, e->t0, whole, NULL);
+    memcpy(y, whole, n * bytes);
+    memcpy(y + n, whole + all, n * bytes);
+    if (status == QDOT_OK && qdot_constrained_rank(held) < e->plan->m)
+        status = qdot_fail(QDOT_ENOTBUILT,
+                           "not built yet: ensembles whose constraints are not independent: "
+                           "%zu of %zu are",
+                           qdot_constrained_rank(held), e->plan->m);
+    qdot_constrained_free(held);
+    return status;
+}
+
+/* Members that cannot start go no way; `reasons` [members], NULL: nobody asks why. */
+static qdot_status
+start_all(const qdot_ensemble *e, pass *p, char **reasons, double *whole)
+{
+    for (size_t m = 0; m < p->run.members; m++) {
+        const qdot_status status = start(e, p->is_companion, whole, p->run.y + m * width(e));
+
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            return status;
+        if (status == QDOT_OK)
+            continue;
+        p->t1[m] = e->t0;
+        if (!reasons)
+            continue;
+        reasons[m] = qdot_strdup(qdot_last_error()->message);
+        if (!reasons[m])
+            return QDOT_ENOMEM;
+    }
+    return QDOT_OK;
+}
+
+/* Of the runs, then of their companions, which are not looked at where there is no run. */
+static qdot_status
+start_both(qdot_ensemble *e, pass *runs, pass *companions)
+{
+    double *whole;
+    qdot_status status;
+
+    forget_reasons(e);
+    e->reasons = qdot_calloc(runs->run.members + 1, sizeof *e->reasons);
+    if (!e->reasons)
+        return QDOT_ENOMEM;
+    e->n_reasons = runs->run.members;
+    if (!e->plan->constraints)
+        return QDOT_OK;
+    whole = qdot_calloc(2 * (e->n + e->varied), sizeof *whole);
+    if (!whole)
+        return QDOT_ENOMEM;
+    status = start_all(e, runs, e->reasons, whole);
+    if (status == QDOT_OK && companions)
+        status = start_all(e, companions, NULL, whole);
+    qdot_free(whole);
+    return status;
+}
+
+/* --- both --------------------------------------------------------------------------- */
 
 static qdot_status
 run_both(qdot_ensemble *e, pass *runs, pass *companions)
@@ -464,6 +448,14 @@ run_both(qdot_ensemble *e, pass *runs, pass *companions)
     return runs->status;
 }
 
+/* Whether a companion has gone as far as its run. */
+static bool
+arrived(const qdot_ensemble *e, const pass *companions, size_t m)
+{
+    return companions->run.results[m].outcome == QDOT_BATCH_DONE &&
+           (companions->t1[m] != e->t0 || e->t1 == e->t0);
+}
+
 static void
 report(const qdot_ensemble *e, const pass *runs, const pass *companions, double *y,
        qdot_ensemble_result *results)
@@ -474,23 +466,29 @@ report(const qdot_ensemble *e, const pass *runs, const pass *companions, double 
         [QDOT_BATCH_STUCK] = "no step is small enough: a singularity",
         [QDOT_BATCH_LIMIT] = "too many steps",
     };
-    size_t n = 2 * e->model.n;
+    static const char *const constrained =
+        "no step is small enough: the constraints cannot be held, are not independent or no mass "
+        "moves along them there, or it is a singularity";
+    size_t n = 2 * e->n;
 
     for (size_t m = 0; m < runs->run.members; m++) {
         const qdot_batch_result *r = runs->run.results + m;
-        const double *mine = runs->run.y + m * n;
-        bool known = companions && r->outcome == QDOT_BATCH_DONE &&
-                     companions->run.results[m].outcome == QDOT_BATCH_DONE;
+        const double *mine = runs->run.y + m * width(e);
+        const char *why = e->reasons[m] ? e->reasons[m] : reasons[r->outcome];
+        bool known = companions && !why && arrived(e, companions, m);
         double error = known ? 0x1p-53 : NAN;
 
+        if (r->outcome == QDOT_BATCH_STUCK && e->plan->constraints)
+            why = constrained;
         for (size_t i = 0; i < n && known; i++)
             error = fmax(error, qdot_companion_bound(
-                                    fabs(mine[i] - companions->run.y[m * n + i]), 0) /
+                                    fabs(mine[i] - companions->run.y[m * width(e) + i]), 0) /
                                     fmax(1, fabs(mine[i])));
-        memcpy(y + m * n, mine, n * sizeof *y);
+        if (!e->reasons[m])
+            memcpy(y + m * n, mine, n * sizeof *y);
         results[m] = (qdot_ensemble_result){
-            .status = r->outcome == QDOT_BATCH_DONE ? QDOT_RUN_DONE : QDOT_RUN_FAILED,
-            .reason = reasons[r->outcome],
+            .status = why ? QDOT_RUN_FAILED : QDOT_RUN_DONE,
+            .reason = why,
             .t = r->t,
             .steps = r->steps,
             .rejected = r->rejected,
@@ -506,6 +504,7 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
     int more = e->order + QDOT_COMPANION_ORDERS;
     pass runs = {.system = e->members, .run = {.order = e->order, .tol = e->tol}};
     pass companions = {
+        .is_companion = true,
         .run = {.order = more,
                 .tol = fmax(taylor->companion_ratio * e->tol, taylor->companion_tol)}};
     qdot_status status = pass_init(&runs, e, members, e->t1, y, parameters);
@@ -518,10 +517,10 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
                            parameters);
     if (status == QDOT_OK && errors) {
         companions.system = e->companions;
-        move(companions.run.y, members * 2 * e->model.n);
-        move(companions.parameters, members * e->model.varied);
         enter(e, &companions);
     }
+    if (status == QDOT_OK)
+        status = start_both(e, &runs, errors ? &companions : NULL);
     if (status == QDOT_OK)
         enter(e, &runs);
     if (status == QDOT_OK && errors) {

@@ -17,7 +17,7 @@ typedef struct qdot_ensemble qdot_ensemble;
 
 typedef struct {
     qdot_run_status status; /* QDOT_RUN_DONE or QDOT_RUN_FAILED */
-    const char *reason;     /* NULL when done */
+    const char *reason;     /* NULL when done; there until the next runs, or the ensemble goes */
     double t;               /* where it ended */
     size_t steps, rejected;
     double error; /* of the end state, over max(1, |value|); NaN: unknown or not asked */
@@ -27,9 +27,9 @@ typedef struct {
  * Where runs start is told by qdot_ensemble_run: q0 and v0 must be NULL.
  *   varied  [n_varied] parameters that each member has its own values of; they may not be
  *           among the request's values
- * Errors: as qdot_run_new before anything is integrated; QDOT_ENOTBUILT: constraints,
- * events that stop or change a run, equations that switch, coupled coordinates of a stated Lagrangian or of potentials with
- * velocities; QDOT_EINVAL: another method, starts given, a parameter given twice. The
+ * Errors: as qdot_run_new before anything is integrated; QDOT_ENOTBUILT: constraints under another
+ * treatment than projection, events that stop or change a run, equations that switch, coupled
+ * coordinates of a stated Lagrangian or of potentials with velocities without constraints; QDOT_EINVAL: another method, starts given, a parameter given twice. The
  * scene may change afterwards. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_new(qdot_scene *scene,
                                               const qdot_run_request *request,
@@ -42,7 +42,8 @@ void qdot_ensemble_free(qdot_ensemble *ensemble);
  *   parameters  [members x n_varied]
  *   results     [members]
  *   errors      whether companions are run, on a second thread, for `error`
- * A member that fails is no error: its result says so. Errors: QDOT_EINVAL (a number that
+ * A member that fails is no error, one whose start breaks the constraints neither: its result says
+ * so. Errors: QDOT_EINVAL (a number that
  * is not finite), QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_run(qdot_ensemble *ensemble, size_t members,
                                               double *y, const double *parameters,

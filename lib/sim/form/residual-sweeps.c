@@ -1,5 +1,5 @@
-/* shifted-tree.c -- a program's lanes laid out by nodes, and an order of the residual. */
-#include "sim/form/shifted-tree.h"
+/* residual-sweeps.c -- a program's lanes laid out by nodes, and an order of the residual. */
+#include "sim/form/residual-sweeps.h"
 
 #include <string.h>
 
@@ -14,7 +14,7 @@ enum {
 
 #define NONE UINT32_MAX
 
-struct qdot_shifted_tree {
+struct qdot_residual_sweeps {
     qdot_taylor_wide *places;
     qdot_articulated *system;
     size_t n, nodes, m, c, slots;
@@ -30,7 +30,7 @@ struct qdot_shifted_tree {
 /* --- building ----------------------------------------------------------------------- */
 
 typedef struct {
-    qdot_shifted_tree *s;
+    qdot_residual_sweeps *s;
     const qdot_residual *r;
     const qdot_residual_tree *tree;
     const qdot_taylor *t;
@@ -42,7 +42,7 @@ typedef struct {
 static qdot_status
 align(const builder *b, const uint32_t *from, size_t step, size_t *to)
 {
-    const qdot_shifted_tree *s = b->s;
+    const qdot_residual_sweeps *s = b->s;
     bool some = false;
 
     for (size_t k = 0; k < s->slots; k++)
@@ -87,7 +87,7 @@ align_applied(const builder *b)
 }
 
 static qdot_status
-make_room(qdot_shifted_tree *s, size_t orders)
+make_room(qdot_residual_sweeps *s, size_t orders)
 {
     const size_t eights = s->m * s->slots / lanes;
     const size_t few = s->c * s->slots;
@@ -110,7 +110,7 @@ make_room(qdot_shifted_tree *s, size_t orders)
 static qdot_status
 build(builder *b)
 {
-    qdot_shifted_tree *s = b->s;
+    qdot_residual_sweeps *s = b->s;
     const qdot_residual_tree *t = b->tree;
 
     b->at = qdot_calloc(s->slots, sizeof *b->at);
@@ -134,7 +134,7 @@ build(builder *b)
 static qdot_status
 make(builder *b, const double *w, bool *made)
 {
-    qdot_shifted_tree *s = b->s;
+    qdot_residual_sweeps *s = b->s;
     const qdot_residual_tree *t = b->tree;
 
     *made = false;
@@ -158,8 +158,8 @@ make(builder *b, const double *w, bool *made)
 }
 
 qdot_status
-qdot_shifted_tree_new(const qdot_residual *r, size_t n, const qdot_taylor *places,
-                      const double *w, qdot_shifted_tree **tree)
+qdot_residual_sweeps_new(const qdot_residual *r, size_t n, const qdot_taylor *places,
+                         const double *w, qdot_residual_sweeps **tree)
 {
     qdot_residual_tree *found;
     builder b = {.r = r, .t = places};
@@ -181,7 +181,7 @@ qdot_shifted_tree_new(const qdot_residual *r, size_t n, const qdot_taylor *place
     qdot_free(b.at);
     qdot_residual_tree_free(found);
     if (status != QDOT_OK || !made) {
-        qdot_shifted_tree_free(b.s);
+        qdot_residual_sweeps_free(b.s);
         return status;
     }
     *tree = b.s;
@@ -189,7 +189,7 @@ qdot_shifted_tree_new(const qdot_residual *r, size_t n, const qdot_taylor *place
 }
 
 void
-qdot_shifted_tree_free(qdot_shifted_tree *s)
+qdot_residual_sweeps_free(qdot_residual_sweeps *s)
 {
     if (!s)
         return;
@@ -204,7 +204,7 @@ qdot_shifted_tree_free(qdot_shifted_tree *s)
 
 /* Pointers at order k of the lanes at [count]. */
 static void
-point(const qdot_shifted_tree *s, int k, size_t count, const size_t *at,
+point(const qdot_residual_sweeps *s, int k, size_t count, const size_t *at,
       const double **to)
 {
     const double *now = qdot_taylor_wide_at(s->places, k);
@@ -214,8 +214,8 @@ point(const qdot_shifted_tree *s, int k, size_t count, const size_t *at,
 }
 
 bool
-qdot_shifted_tree_begin(qdot_shifted_tree *s, const qdot_taylor *places,
-                        const double *first, double *lost)
+qdot_residual_sweeps_begin(qdot_residual_sweeps *s, const qdot_taylor *places,
+                           const double *first, double *lost)
 {
     const double *S[unknowns * components];
     size_t node, unknown;
@@ -231,7 +231,7 @@ qdot_shifted_tree_begin(qdot_shifted_tree *s, const qdot_taylor *places,
 
 /* r = what is applied less slopes of orders 1 ... k times forces of orders k - 1 ... 0. */
 static void
-right_side(qdot_shifted_tree *s, int k, double scale, const double *more)
+right_side(qdot_residual_sweeps *s, int k, double scale, const double *more)
 {
     const size_t width = qdot_taylor_wide_width(s->places);
     const double *J = qdot_taylor_wide_at(s->places, 1);
@@ -248,8 +248,8 @@ right_side(qdot_shifted_tree *s, int k, double scale, const double *more)
             for (size_t i = 0; i < s->m; i++)
                 pair[i] =
                     (qdot_wide_pair){J + s->J[u * s->m + i] + at, F + i * s->slots + at};
-            qdot_taylor_wide_rest(s->places, s->m, pair, (size_t)k, width, s->forces, scale,
-                                  Q ? Q + at : NULL, r + at);
+            qdot_taylor_wide_rest(s->places, s->m, pair, (size_t)k, width, s->forces,
+                                  scale, Q ? Q + at : NULL, r + at);
         }
     }
     for (size_t i = 0; i < s->n && more; i++)
@@ -257,7 +257,8 @@ right_side(qdot_shifted_tree *s, int k, double scale, const double *more)
 }
 
 void
-qdot_shifted_tree_order(qdot_shifted_tree *s, int m, double scale, const double *more)
+qdot_residual_sweeps_order(qdot_residual_sweeps *s, int m, double scale,
+                           const double *more)
 {
     const int k = m - 2;
     const double factor = m * (m - 1);
@@ -279,15 +280,15 @@ qdot_shifted_tree_order(qdot_shifted_tree *s, int m, double scale, const double 
 }
 
 void
-qdot_shifted_tree_rows(const qdot_shifted_tree *s, int last, double per_unit, double *q,
-                       double *v, size_t stride)
+qdot_residual_sweeps_rows(const qdot_residual_sweeps *s, int last, double per_unit,
+                          double *q, double *v, size_t stride)
 {
     qdot_taylor_wide_rows(s->places, last, per_unit, q, v, stride);
 }
 
 void
-qdot_shifted_tree_count(const qdot_shifted_tree *s, double *convolutions,
-                        double *products, double *begun)
+qdot_residual_sweeps_count(const qdot_residual_sweeps *s, double *convolutions,
+                           double *products, double *begun)
 {
     const double m = (double)s->m, c = (double)s->c, eights = (double)s->slots / lanes;
 
@@ -299,13 +300,13 @@ qdot_shifted_tree_count(const qdot_shifted_tree *s, double *convolutions,
 }
 
 size_t
-qdot_shifted_tree_nodes(const qdot_shifted_tree *s)
+qdot_residual_sweeps_nodes(const qdot_residual_sweeps *s)
 {
     return s->nodes;
 }
 
 bool
-qdot_shifted_tree_is_path(const qdot_shifted_tree *s)
+qdot_residual_sweeps_is_path(const qdot_residual_sweeps *s)
 {
     return qdot_articulated_is_path(s->system);
 }

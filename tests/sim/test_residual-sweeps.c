@@ -1,11 +1,11 @@
-/* test_shifted-tree.c -- d'Alembert's residual as a tree, and orders by elimination along it
+/* test_residual-sweeps.c -- d'Alembert's residual as a tree, and orders by elimination along it
  * against M q'' = f. */
 #include "scenes.h"
 
 #include <math.h>
 
 #include "sim/form/direct.h"
-#include "sim/form/shifted-tree.h"
+#include "sim/form/residual-sweeps.h"
 #include "sim/plan/plan.h"
 
 /* A scene's plan, residual and tree. */
@@ -70,7 +70,7 @@ orders_agree(const found *at)
     const double unit = 0.125;
     double *y = qdot_calloc(2 * n, sizeof *y), *first = qdot_calloc(n, sizeof *first);
     double *w = qdot_calloc(at->residual->n_weights, sizeof *w), *q, lost;
-    qdot_shifted_tree *tree;
+    qdot_residual_sweeps *tree;
     qdot_direct *direct;
     qdot_taylor *places;
     const qdot_ode_series *a;
@@ -94,14 +94,14 @@ orders_agree(const found *at)
         q[i * stride + 1] = first[i];
     }
     qdot_taylor_order(places, 0);
-    must(qdot_shifted_tree_new(at->residual, n, places, w, &tree));
+    must(qdot_residual_sweeps_new(at->residual, n, places, w, &tree));
     assert_non_null(tree);
-    assert_true(qdot_shifted_tree_begin(tree, places, first, &lost));
+    assert_true(qdot_residual_sweeps_begin(tree, places, first, &lost));
     for (int m = 2; m <= P; m++)
-        qdot_shifted_tree_order(tree, m, unit * unit, NULL);
-    qdot_shifted_tree_rows(tree, P, 1 / unit, q, qdot_taylor_input(places, n), stride);
+        qdot_residual_sweeps_order(tree, m, unit * unit, NULL);
+    qdot_residual_sweeps_rows(tree, P, 1 / unit, q, qdot_taylor_input(places, n), stride);
     compare(a, n, q, stride, P);
-    qdot_shifted_tree_free(tree);
+    qdot_residual_sweeps_free(tree);
     qdot_direct_free(direct);
     qdot_taylor_free(places);
     qdot_free(w);

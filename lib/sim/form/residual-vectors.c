@@ -1,5 +1,5 @@
-/* shifted-wide.c -- slopes put into vectors, and an order of the residual by them. */
-#include "sim/form/shifted-wide.h"
+/* residual-vectors.c -- slopes put into vectors, and an order of the residual by them. */
+#include "sim/form/residual-vectors.h"
 
 #include <string.h>
 
@@ -16,7 +16,7 @@ typedef struct {
     double *weights;
 } slopes;
 
-struct qdot_shifted_wide {
+struct qdot_residual_vectors {
     qdot_taylor_wide *places;
     size_t n, blocks; /* coordinates, and eights of them */
     size_t *first;    /* [blocks + 1] of the vectors of a block */
@@ -32,7 +32,7 @@ struct qdot_shifted_wide {
 
 /* What is needed of a residual. */
 typedef struct {
-    qdot_shifted_wide *w;
+    qdot_residual_vectors *w;
     const qdot_residual *r;
     const qdot_taylor *t;
     const double *W;
@@ -79,7 +79,7 @@ fill_columns(const builder *b, const qdot_residual_slope *const *of, slopes *v)
 static qdot_status
 add_vector(const builder *b, size_t block, size_t rank, bool *some)
 {
-    qdot_shifted_wide *w = b->w;
+    qdot_residual_vectors *w = b->w;
     const qdot_residual_slope *of[lanes] = {0};
     size_t at[lanes];
     slopes *v = w->vectors + w->n_vectors;
@@ -109,7 +109,7 @@ add_vector(const builder *b, size_t block, size_t rank, bool *some)
 static qdot_status
 build(const builder *b)
 {
-    qdot_shifted_wide *w = b->w;
+    qdot_residual_vectors *w = b->w;
     const qdot_residual *r = b->r;
     size_t doubles;
 
@@ -145,10 +145,10 @@ build(const builder *b)
 }
 
 qdot_status
-qdot_shifted_wide_new(const qdot_residual *r, size_t n, const qdot_taylor *places,
-                      const double *W, size_t rows, qdot_shifted_wide **wide)
+qdot_residual_vectors_new(const qdot_residual *r, size_t n, const qdot_taylor *places,
+                          const double *W, size_t rows, qdot_residual_vectors **wide)
 {
-    qdot_shifted_wide *w = qdot_calloc(1, sizeof *w);
+    qdot_residual_vectors *w = qdot_calloc(1, sizeof *w);
     const builder b = {w, r, places, W, rows};
     qdot_status status;
 
@@ -160,7 +160,7 @@ qdot_shifted_wide_new(const qdot_residual *r, size_t n, const qdot_taylor *place
     if (status == QDOT_OK && w->places)
         status = build(&b);
     if (status != QDOT_OK || !w->places) {
-        qdot_shifted_wide_free(w);
+        qdot_residual_vectors_free(w);
         return status;
     }
     *wide = w;
@@ -168,7 +168,7 @@ qdot_shifted_wide_new(const qdot_residual *r, size_t n, const qdot_taylor *place
 }
 
 void
-qdot_shifted_wide_free(qdot_shifted_wide *w)
+qdot_residual_vectors_free(qdot_residual_vectors *w)
 {
     if (!w)
         return;
@@ -189,8 +189,8 @@ qdot_shifted_wide_free(qdot_shifted_wide *w)
 /* --- an order ----------------------------------------------------------------------- */
 
 void
-qdot_shifted_wide_begin(qdot_shifted_wide *w, const qdot_taylor *places,
-                        const double *first)
+qdot_residual_vectors_begin(qdot_residual_vectors *w, const qdot_taylor *places,
+                            const double *first)
 {
     qdot_taylor_wide_begin(w->places, places);
     qdot_taylor_wide_order(w->places, 1);
@@ -199,7 +199,7 @@ qdot_shifted_wide_begin(qdot_shifted_wide *w, const qdot_taylor *places,
 
 /* F of order m - 2 from coefficients m of the differences. */
 static void
-forces(const qdot_shifted_wide *w, int m)
+forces(const qdot_residual_vectors *w, int m)
 {
     const double *at = qdot_taylor_wide_at(w->places, m);
     double *F = w->F + (size_t)(m - 2) * w->n_vectors * lanes;
@@ -211,7 +211,7 @@ forces(const qdot_shifted_wide *w, int m)
 
 /* Slopes of order j times forces of order k - j, j from `from` on, block by block. */
 static void
-dots(const qdot_shifted_wide *w, int from, int n, int k, double *out)
+dots(const qdot_residual_vectors *w, int from, int n, int k, double *out)
 {
     const size_t width = qdot_taylor_wide_width(w->places), forces = w->n_vectors * lanes;
     const double *J = qdot_taylor_wide_at(w->places, from);
@@ -226,7 +226,7 @@ dots(const qdot_shifted_wide *w, int from, int n, int k, double *out)
 }
 
 void
-qdot_shifted_wide_residual(qdot_shifted_wide *w, int m, double scale, double *R)
+qdot_residual_vectors_residual(qdot_residual_vectors *w, int m, double scale, double *R)
 {
     const int k = m - 2;
     const double *applied = qdot_taylor_wide_at(w->places, k);
@@ -244,15 +244,15 @@ qdot_shifted_wide_residual(qdot_shifted_wide *w, int m, double scale, double *R)
 }
 
 void
-qdot_shifted_wide_correct(qdot_shifted_wide *w, int m, const double *newest)
+qdot_residual_vectors_correct(qdot_residual_vectors *w, int m, const double *newest)
 {
     qdot_taylor_wide_correct(w->places, m, newest, 1);
     forces(w, m);
 }
 
 void
-qdot_shifted_wide_count(const qdot_shifted_wide *w, double *convolutions,
-                        double *products, double *begun)
+qdot_residual_vectors_count(const qdot_residual_vectors *w, double *convolutions,
+                            double *products, double *begun)
 {
     *convolutions = qdot_taylor_wide_convolutions(w->places) + (double)w->n_vectors;
     *products = 0;

@@ -1,6 +1,6 @@
-/* shifted.c -- order by order: places with the newest coefficient 0, accelerations by
+/* residual-series.c -- order by order: places with the newest coefficient 0, accelerations by
  * shifting, forces from the leaves to the roots, solve, correct. */
-#include "sim/form/shifted.h"
+#include "sim/form/residual-series.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,8 +10,8 @@
 #include "num/series.h"
 #include "sim/form/blocks.h"
 #include "sim/form/derived.h"
-#include "sim/form/shifted-tree.h"
-#include "sim/form/shifted-wide.h"
+#include "sim/form/residual-sweeps.h"
+#include "sim/form/residual-vectors.h"
 #include "tape/shake.h"
 #include "series/taylor.h"
 
@@ -24,7 +24,7 @@ enum { most_dense = 48 };
 /* A pivot over the mass it is of from which on four digits are lost: M may be singular. */
 static const double least_pivot = 1e-4;
 
-struct qdot_shifted {
+struct qdot_residual_series {
     const qdot_plan *plan;
     const qdot_residual *residual;
     const qdot_series_kernels *kernels;
@@ -38,30 +38,30 @@ struct qdot_shifted {
     double *fq, *fv, *ft;     /* of `forces` */
     size_t stride, forces_stride;
 
-    const double **d;        /* [functions] series of the differences */
-    const double **applied;  /* [n] series of Q; NULL: zero */
-    double *x, *F;           /* [functions] unit^2 x'', unit^2 F of the order at hand */
-    size_t rows;             /* functions, filled up to full vectors */
-    double *W;               /* [rows x functions] F = W d''; NULL: by the tree */
-    size_t members;          /* slopes, filled up to full vectors */
-    const double **slope;    /* [n_slopes] series */
-    double *J;               /* [orders x members] their coefficients, by order */
-    double *Fs;              /* [orders x members] F of each slope's function */
-    bool one_each;           /* a slope a function, in their order: Fs is F */
-    double *products;        /* [members] */
-    qdot_shifted_wide *wide; /* all this by vectors; NULL: one by one */
-    qdot_shifted_tree *tree; /* and M eliminated along its tree; NULL: it has none */
-    size_t eliminated;       /* how often */
-    double *R;               /* [n] */
-    bool whole;              /* one block holds all coordinates, in their order */
-    double *in, *out, *work; /* of `masses` */
+    const double **d;       /* [functions] series of the differences */
+    const double **applied; /* [n] series of Q; NULL: zero */
+    double *x, *F;          /* [functions] unit^2 x'', unit^2 F of the order at hand */
+    size_t rows;            /* functions, filled up to full vectors */
+    double *W;              /* [rows x functions] F = W d''; NULL: by the tree */
+    size_t members;         /* slopes, filled up to full vectors */
+    const double **slope;   /* [n_slopes] series */
+    double *J;              /* [orders x members] their coefficients, by order */
+    double *Fs;             /* [orders x members] F of each slope's function */
+    bool one_each;          /* a slope a function, in their order: Fs is F */
+    double *products;       /* [members] */
+    qdot_residual_vectors *wide; /* all this by vectors; NULL: one by one */
+    qdot_residual_sweeps *tree;  /* and M eliminated along its tree; NULL: it has none */
+    size_t eliminated;           /* how often */
+    double *R;                   /* [n] */
+    bool whole;                  /* one block holds all coordinates, in their order */
+    double *in, *out, *work;     /* of `masses` */
 };
 
 /* --- one order ---------------------------------------------------------------------- */
 
 /* F of order k from coefficients k + 2 of the differences. */
 static void
-accelerate(const qdot_shifted *s, int k)
+accelerate(const qdot_residual_series *s, int k)
 {
     const qdot_residual *r = s->residual;
     const double factor = (k + 1) * (k + 2);
@@ -79,7 +79,7 @@ accelerate(const qdot_shifted *s, int k)
 
 /* Coefficient k of the slopes, by member. */
 static void
-take_slopes(const qdot_shifted *s, int k)
+take_slopes(const qdot_residual_series *s, int k)
 {
     const double *const *slope = s->slope;
     double *J = s->J + (size_t)k * s->members;
@@ -90,7 +90,7 @@ take_slopes(const qdot_shifted *s, int k)
 
 /* Order k of the forces that hold velocities. */
 static void
-evaluate_forces(qdot_shifted *s, int k)
+evaluate_forces(qdot_residual_series *s, int k)
 {
     if (!s->forces)
         return;
@@ -103,7 +103,7 @@ evaluate_forces(qdot_shifted *s, int k)
 
 /* unit^2 q'' of the blocks from -R, in its place. */
 static void
-solve_blocks(const qdot_shifted *s, int k)
+solve_blocks(const qdot_residual_series *s, int k)
 {
     const qdot_plan *p = s->plan;
 
@@ -128,7 +128,7 @@ solve_blocks(const qdot_shifted *s, int k)
 
 /* -R of order k, what q has at order k + 2 taken as 0. */
 static void
-residual_of(qdot_shifted *s, int k)
+residual_of(qdot_residual_series *s, int k)
 {
     const qdot_residual *r = s->residual;
 
@@ -143,11 +143,11 @@ residual_of(qdot_shifted *s, int k)
 
 /* The same by vectors; they have what `places` applies. */
 static void
-wide_residual(qdot_shifted *s, int m)
+wide_residual(qdot_residual_series *s, int m)
 {
     const qdot_residual *r = s->residual;
 
-    qdot_shifted_wide_residual(s->wide, m, s->force_scale, s->R);
+    qdot_residual_vectors_residual(s->wide, m, s->force_scale, s->R);
     for (size_t i = 0; i < s->plan->n && s->forces; i++)
         if (s->applied[i] && r->force[i] & QDOT_RESIDUAL_FORCES)
             s->R[i] += s->force_scale * s->applied[i][m - 2];
@@ -155,7 +155,7 @@ wide_residual(qdot_shifted *s, int m)
 
 /* unit^2 q'' of order k from -R; where it is left. */
 static const double *
-solve(const qdot_shifted *s, int k)
+solve(const qdot_residual_series *s, int k)
 {
     const qdot_solver *all = s->solvers.at;
 
@@ -169,10 +169,10 @@ solve(const qdot_shifted *s, int k)
 
 /* Coefficients m of q, in R, are known now. */
 static void
-correct(qdot_shifted *s, int m)
+correct(qdot_residual_series *s, int m)
 {
     if (s->wide) {
-        qdot_shifted_wide_correct(s->wide, m, s->R);
+        qdot_residual_vectors_correct(s->wide, m, s->R);
         for (size_t i = 0; i < s->plan->n; i++)
             s->q[i * s->stride + (size_t)m] = s->R[i];
         return;
@@ -184,21 +184,21 @@ correct(qdot_shifted *s, int m)
 
 /* Order m by the tree. */
 static void
-tree_order(qdot_shifted *s, int m)
+tree_order(qdot_residual_series *s, int m)
 {
     evaluate_forces(s, m - 2);
     for (size_t i = 0; i < s->plan->n && s->forces; i++)
         s->R[i] = s->applied[i] && s->residual->force[i] & QDOT_RESIDUAL_FORCES
                       ? s->force_scale * s->applied[i][m - 2]
                       : 0;
-    qdot_shifted_tree_order(s->tree, m, s->force_scale, s->forces ? s->R : NULL);
+    qdot_residual_sweeps_order(s->tree, m, s->force_scale, s->forces ? s->R : NULL);
     if (s->forces)
-        qdot_shifted_tree_rows(s->tree, m, 1 / s->unit, s->q, s->v, s->stride);
+        qdot_residual_sweeps_rows(s->tree, m, 1 / s->unit, s->q, s->v, s->stride);
 }
 
 /* Coefficients m >= 2 of q and m - 1 of v. */
 static void
-order(qdot_shifted *s, int m)
+order(qdot_residual_series *s, int m)
 {
     const size_t n = s->plan->n;
     const int k = m - 2;
@@ -227,7 +227,7 @@ order(qdot_shifted *s, int m)
 }
 
 static qdot_status
-factor(qdot_shifted *s, double t, const double *y)
+factor(qdot_residual_series *s, double t, const double *y)
 {
     const qdot_plan *p = s->plan;
     const double *out = s->out;
@@ -247,7 +247,7 @@ factor(qdot_shifted *s, double t, const double *y)
 
 /* The same of an M without a tape. */
 static qdot_status
-factor_unformed(qdot_shifted *s)
+factor_unformed(qdot_residual_series *s)
 {
     const size_t n = s->plan->n;
     double *M = qdot_calloc(n * n, sizeof *M);
@@ -259,13 +259,14 @@ factor_unformed(qdot_shifted *s)
     qdot_residual_masses(s->residual, n, s->weight, s->slope, s->x, s->F, M);
     status = qdot_cholesky_factor(M, n, NULL, &row);
     qdot_free(M);
-    return status == QDOT_ESINGULAR ? qdot_blocks_singular(s->plan, s->plan->blocks, row) : status;
+    return status == QDOT_ESINGULAR ? qdot_blocks_singular(s->plan, s->plan->blocks, row)
+                                    : status;
 }
 
 /* Orders 0 and 1, and M eliminated along its tree. Where a pivot is small against its mass
  * Cholesky's method says whether M is singular. */
 static qdot_status
-begin_tree(qdot_shifted *s, double t, const double *y)
+begin_tree(qdot_residual_series *s, double t, const double *y)
 {
     double lost;
     bool good;
@@ -273,17 +274,18 @@ begin_tree(qdot_shifted *s, double t, const double *y)
     qdot_taylor_order(s->places, 0);
     for (size_t i = 0; i < s->plan->n; i++)
         s->R[i] = s->unit * y[s->plan->n + i];
-    good = qdot_shifted_tree_begin(s->tree, s->places, s->R, &lost);
+    good = qdot_residual_sweeps_begin(s->tree, s->places, s->R, &lost);
     s->eliminated++;
     if (good && lost >= least_pivot)
         return QDOT_OK;
     QDOT_TRY(s->residual->masses ? factor(s, t, y) : factor_unformed(s));
-    return good ? QDOT_OK
-                : qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular within rounding");
+    return good
+               ? QDOT_OK
+               : qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular within rounding");
 }
 
 static qdot_status
-begin_orders(qdot_shifted *s, double t, const double *y)
+begin_orders(qdot_residual_series *s, double t, const double *y)
 {
     if (s->tree)
         return begin_tree(s, t, y);
@@ -295,7 +297,7 @@ begin_orders(qdot_shifted *s, double t, const double *y)
     if (s->wide) {
         for (size_t i = 0; i < s->plan->n; i++)
             s->R[i] = s->unit * y[s->plan->n + i];
-        qdot_shifted_wide_begin(s->wide, s->places, s->R);
+        qdot_residual_vectors_begin(s->wide, s->places, s->R);
     }
     return QDOT_OK;
 }
@@ -303,7 +305,7 @@ begin_orders(qdot_shifted *s, double t, const double *y)
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
-    qdot_shifted *s = user;
+    qdot_residual_series *s = user;
     size_t n = s->plan->n;
 
     s->unit = unit;
@@ -324,7 +326,7 @@ begin(double t, const double *y, double unit, void *user)
     QDOT_TRY(begin_orders(s, t, y));
     order(s, 2);
     if (s->tree)
-        qdot_shifted_tree_rows(s->tree, 2, 1 / unit, s->q, s->v, s->stride);
+        qdot_residual_sweeps_rows(s->tree, 2, 1 / unit, s->q, s->v, s->stride);
     for (size_t i = 0; i < n; i++)
         if (!isfinite(s->v[i * s->stride + 1]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
@@ -335,7 +337,7 @@ begin(double t, const double *y, double unit, void *user)
 static qdot_status
 extend(int p, void *user)
 {
-    qdot_shifted *s = user;
+    qdot_residual_series *s = user;
 
     for (size_t b = 0; b < s->plan->structure.blocks && !s->tree; b++)
         if (s->plan->blocks[b].n > 1 && !s->plan->blocks[b].constant)
@@ -343,14 +345,14 @@ extend(int p, void *user)
     for (int m = 3; m <= p + 1; m++)
         order(s, m);
     if (s->tree)
-        qdot_shifted_tree_rows(s->tree, p + 1, 1 / s->unit, s->q, s->v, s->stride);
+        qdot_residual_sweeps_rows(s->tree, p + 1, 1 / s->unit, s->q, s->v, s->stride);
     return QDOT_OK;
 }
 
 /* --- building ----------------------------------------------------------------------- */
 
 static qdot_status
-make_tapes(qdot_shifted *s, bool shaken)
+make_tapes(qdot_residual_series *s, bool shaken)
 {
     const qdot_residual *r = s->residual;
     size_t n = s->plan->n;
@@ -373,7 +375,7 @@ make_tapes(qdot_shifted *s, bool shaken)
 
 /* Applied forces with velocities have a program of their own. */
 static void
-estimate_forces(const qdot_shifted *s, double *c)
+estimate_forces(const qdot_residual_series *s, double *c)
 {
     if (!s->forces)
         return;
@@ -382,40 +384,52 @@ estimate_forces(const qdot_shifted *s, double *c)
     c[2] += 0.12 * qdot_taylor_convolutions(s->forces);
 }
 
+/* Vectors take so much more than counts of their work say, beside direct.c's orders. */
+static const double vectors = 1.8;
+
+static void
+scale(double *c, double factor)
+{
+    for (int k = 0; k < 3; k++)
+        c[k] *= factor;
+}
+
 /* By vectors. */
 static void
-estimate_wide(const qdot_shifted *s, double *c)
+estimate_wide(const qdot_residual_series *s, double *c)
 {
     const double n = (double)s->plan->n;
     double convolutions, products, begun;
 
-    qdot_shifted_wide_count(s->wide, &convolutions, &products, &begun);
+    qdot_residual_vectors_count(s->wide, &convolutions, &products, &begun);
     c[0] = 600 + 25.0 * (double)qdot_tape_calls(s->residual->places) +
            1.2 * (double)qdot_tape_operations(s->residual->masses) + 40 * n + 4 * n * n +
            0.25 * n * n * n;
     c[1] = 20 + 4 * begun + 0.5 * products + 3 * n + 0.3 * n * n;
     /* more than it takes: orders near 40 cost the last digits */
     c[2] = 0.3 * convolutions;
+    scale(c, vectors);
     estimate_forces(s, c);
 }
 
 /* By the tree. */
 static void
-estimate_tree(const qdot_shifted *s, double *c)
+estimate_tree(const qdot_residual_series *s, double *c)
 {
     const double n = (double)s->plan->n;
     double convolutions, products, begun;
 
-    qdot_shifted_tree_count(s->tree, &convolutions, &products, &begun);
+    qdot_residual_sweeps_count(s->tree, &convolutions, &products, &begun);
     c[0] = 400 + 20.0 * (double)qdot_tape_calls(s->residual->places) + 40 * n;
     c[1] = 20 + begun + 0.4 * products + n;
     c[2] = 0.3 * convolutions;
+    scale(c, vectors);
     estimate_forces(s, c);
 }
 
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
 static void
-estimate_cost(qdot_shifted *s)
+estimate_cost(qdot_residual_series *s)
 {
     const qdot_plan *p = s->plan;
     const qdot_residual *r = s->residual;
@@ -451,21 +465,21 @@ estimate_cost(qdot_shifted *s)
 static double
 near(int p, double step, void *user)
 {
-    const qdot_shifted *s = user;
+    const qdot_residual_series *s = user;
 
     step = qdot_taylor_near(s->places, p - 2, step);
     return s->forces ? qdot_taylor_near(s->forces, p - 2, step) : step;
 }
 
 static bool
-has_exponentials(const qdot_shifted *s)
+has_exponentials(const qdot_residual_series *s)
 {
-    return qdot_taylor_has_exponentials(s->places)
-           || (s->forces && qdot_taylor_has_exponentials(s->forces));
+    return qdot_taylor_has_exponentials(s->places) ||
+           (s->forces && qdot_taylor_has_exponentials(s->forces));
 }
 
 static const double *
-applied(const qdot_shifted *s, uint32_t at)
+applied(const qdot_residual_series *s, uint32_t at)
 {
     if (at == UINT32_MAX)
         return NULL;
@@ -476,7 +490,7 @@ applied(const qdot_shifted *s, uint32_t at)
 
 /* W by its columns: what the tree makes of unit vectors. Beside a factored M only. */
 static qdot_status
-multiply_out(qdot_shifted *s)
+multiply_out(qdot_residual_series *s)
 {
     size_t n = s->residual->functions;
 
@@ -496,23 +510,24 @@ multiply_out(qdot_shifted *s)
 
 /* Orders by vectors, along the tree or by W and M, whichever costs less. */
 static qdot_status
-choose_vectors(qdot_shifted *s)
+choose_vectors(qdot_residual_series *s)
 {
     const qdot_residual *r = s->residual;
-    qdot_ode_series tree = {0}, wide = {0};
+    qdot_ode_series tree = {.most = most_order - 4}, wide = tree;
 
-    QDOT_TRY(qdot_shifted_tree_new(r, s->plan->n, s->places, s->weight, &s->tree));
+    QDOT_TRY(qdot_residual_sweeps_new(r, s->plan->n, s->places, s->weight, &s->tree));
     if (s->W)
-        QDOT_TRY(qdot_shifted_wide_new(r, s->plan->n, s->places, s->W, s->rows, &s->wide));
+        QDOT_TRY(
+            qdot_residual_vectors_new(r, s->plan->n, s->places, s->W, s->rows, &s->wide));
     if (!s->tree || !s->wide)
         return QDOT_OK;
     estimate_tree(s, tree.cost);
     estimate_wide(s, wide.cost);
     if (qdot_plan_cost(&tree) < qdot_plan_cost(&wide)) {
-        qdot_shifted_wide_free(s->wide);
+        qdot_residual_vectors_free(s->wide);
         s->wide = NULL;
     } else {
-        qdot_shifted_tree_free(s->tree);
+        qdot_residual_sweeps_free(s->tree);
         s->tree = NULL;
     }
     return QDOT_OK;
@@ -520,7 +535,7 @@ choose_vectors(qdot_shifted *s)
 
 /* Where M is factored. */
 static qdot_status
-make_solvers(qdot_shifted *s, bool shaken)
+make_solvers(qdot_residual_series *s, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const qdot_tape *masses = s->residual->masses;
@@ -543,7 +558,7 @@ make_solvers(qdot_shifted *s, bool shaken)
 }
 
 static qdot_status
-make(qdot_shifted *s, bool shaken)
+make(qdot_residual_series *s, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const qdot_residual *r = s->residual;
@@ -595,13 +610,13 @@ make(qdot_shifted *s, bool shaken)
 }
 
 qdot_status
-qdot_shifted_new(const qdot_plan *plan, const qdot_residual *residual, bool shaken,
-                 qdot_shifted **shifted)
+qdot_residual_series_new(const qdot_plan *plan, const qdot_residual *residual,
+                         bool shaken, qdot_residual_series **series)
 {
-    qdot_shifted *s = qdot_calloc(1, sizeof *s);
+    qdot_residual_series *s = qdot_calloc(1, sizeof *s);
     qdot_status status;
 
-    *shifted = NULL;
+    *series = NULL;
     if (!s)
         return QDOT_ENOMEM;
     s->plan = plan;
@@ -609,15 +624,15 @@ qdot_shifted_new(const qdot_plan *plan, const qdot_residual *residual, bool shak
     s->kernels = qdot_series_kernels_get();
     status = make(s, shaken);
     if (status != QDOT_OK) {
-        qdot_shifted_free(s);
+        qdot_residual_series_free(s);
         return status;
     }
-    *shifted = s;
+    *series = s;
     return QDOT_OK;
 }
 
 void
-qdot_shifted_free(qdot_shifted *s)
+qdot_residual_series_free(qdot_residual_series *s)
 {
     if (!s)
         return;
@@ -626,8 +641,8 @@ qdot_shifted_free(qdot_shifted *s)
     qdot_tape_free(s->masses);
     if (s->solvers.plan)
         qdot_blocks_clear(&s->solvers);
-    qdot_shifted_wide_free(s->wide);
-    qdot_shifted_tree_free(s->tree);
+    qdot_residual_vectors_free(s->wide);
+    qdot_residual_sweeps_free(s->tree);
     qdot_free(s->weight);
     qdot_free(s->d);
     qdot_free(s->x);
@@ -646,13 +661,13 @@ qdot_shifted_free(qdot_shifted *s)
 }
 
 const qdot_ode_series *
-qdot_shifted_series(const qdot_shifted *s)
+qdot_residual_series_get(const qdot_residual_series *s)
 {
     return &s->series;
 }
 
 double
-qdot_shifted_convolutions(const qdot_shifted *s)
+qdot_residual_series_convolutions(const qdot_residual_series *s)
 {
     return qdot_taylor_convolutions(s->places) +
            (s->forces ? qdot_taylor_convolutions(s->forces) : 0) +
@@ -660,20 +675,20 @@ qdot_shifted_convolutions(const qdot_shifted *s)
 }
 
 size_t
-qdot_shifted_tree_size(const qdot_shifted *s, bool *path)
+qdot_residual_series_tree_size(const qdot_residual_series *s, bool *path)
 {
-    *path = s->tree && qdot_shifted_tree_is_path(s->tree);
-    return s->tree ? qdot_shifted_tree_nodes(s->tree) : 0;
+    *path = s->tree && qdot_residual_sweeps_is_path(s->tree);
+    return s->tree ? qdot_residual_sweeps_nodes(s->tree) : 0;
 }
 
 bool
-qdot_shifted_is_wide(const qdot_shifted *s)
+qdot_residual_series_is_wide(const qdot_residual_series *s)
 {
     return s->wide || s->tree;
 }
 
 size_t
-qdot_shifted_factored(const qdot_shifted *s)
+qdot_residual_series_factored(const qdot_residual_series *s)
 {
     return s->solvers.factored + s->eliminated;
 }

@@ -1,0 +1,217 @@
+/* motion.c -- how far the rows of a motion lead, and which hold what is not known yet. */
+#include "series/motion.h"
+
+#include <string.h>
+
+/* The rows that a step reads; the rows that it writes. */
+enum { READS = 3, WRITES = 4 };
+
+static void
+reads_of(const qdot_program_step *s, qdot_program_row rows[READS])
+{
+    rows[0] = s->x;
+    rows[1] = s->y;
+    rows[2] = s->z;
+}
+
+static void
+writes_of(const qdot_program_step *s, qdot_program_row rows[WRITES])
+{
+    rows[0] = s->to;
+    rows[1] = s->second;
+    rows[2] = s->third;
+    rows[3] = s->d;
+}
+
+/* By how much a step reads ahead of what it writes. */
+static int
+ahead(const qdot_program_step *s)
+{
+    return s->op == QDOT_T_RATE;
+}
+
+/* A step leads as far as one of its rows is asked to, and asks that of what it reads. */
+static void
+find_leads(qdot_program *p)
+{
+    qdot_program_row rows[WRITES];
+
+    for (size_t i = p->length; i-- > p->still;) {
+        qdot_program_step *s = p->steps.at + i;
+
+        s->lead = 0;
+        writes_of(s, rows);
+        for (int k = 0; k < WRITES; k++)
+            if (rows[k] != QDOT_NO_ROW && p->rows.at[rows[k]].lead > s->lead)
+                s->lead = (signed char)p->rows.at[rows[k]].lead;
+        for (int k = 0; k < WRITES; k++)
+            if (rows[k] != QDOT_NO_ROW)
+                p->rows.at[rows[k]].lead = s->lead;
+        if (s->lead > p->lead)
+            p->lead = s->lead;
+        reads_of(s, rows);
+        for (int k = 0; k < READS; k++) {
+            qdot_program_row_info *row = p->rows.at + rows[k];
+
+            if (row->lead < s->lead + ahead(s))
+                row->lead = s->lead + ahead(s);
+        }
+    }
+}
+
+/* An input is known so far ahead; newest [rows]: those that hold what is solved for. */
+static qdot_status
+settle(qdot_motion *m, qdot_program_row at, int known, bool solved, bool *newest)
+{
+    qdot_program_row_info *row;
+
+    if (at == QDOT_NO_ROW)
+        return QDOT_OK;
+    row = m->program.rows.at + at;
+    if (row->lead > known)
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: a series that is read before it is known");
+    row->lead = known;
+    newest[at] = solved;
+    return QDOT_OK;
+}
+
+static qdot_status
+settle_unknown(qdot_motion *m, const qdot_motion_unknown *u, bool *newest)
+{
+    const bool solved = u->value == QDOT_NO_ROW;
+
+    QDOT_TRY(settle(m, u->row, 0, solved, newest));
+    QDOT_TRY(settle(m, u->once, solved ? 1 : 0, solved, newest));
+    return settle(m, u->twice, solved ? 2 : 0, solved, newest);
+}
+
+/* A row is read at its newest order where it leads no further than that. */
+static void
+find_newest(qdot_program *p, bool *newest)
+{
+    qdot_program_row rows[WRITES];
+
+    for (size_t i = p->still; i < p->length; i++) {
+        qdot_program_step *s = p->steps.at + i;
+
+        s->newest = 0;
+        reads_of(s, rows);
+        for (int k = 0; k < READS; k++)
+            if (newest[rows[k]] && p->rows.at[rows[k]].lead == s->lead + ahead(s))
+                s->newest |= (unsigned char)(QDOT_X_NEWEST << k);
+        writes_of(s, rows);
+        for (int k = 0; k < WRITES; k++)
+            if (rows[k] != QDOT_NO_ROW)
+                newest[rows[k]] = s->newest != 0;
+    }
+}
+
+/* Whether lower orders stand in a step's sums: of rows that it writes; of its operand x, y or z. */
+static bool
+sums_itself(const qdot_program_step *s)
+{
+    return qdot_recurrence_looks_back(s->op) && s->op > QDOT_T_NMADD;
+}
+
+static bool
+sums_over(const qdot_program_step *s, int operand)
+{
+    return qdot_recurrence_looks_back(s->op) && (operand < 2 || s->op > QDOT_T_NMADD);
+}
+
+/* A step is kept if a row of it is read at lower orders, by a step that leads less, or by one
+ * that is kept; read [rows]. */
+static void
+find_kept(qdot_program *p, bool *read)
+{
+    qdot_program_row rows[WRITES];
+
+    for (size_t i = 0; i < p->outputs.n; i++)
+        read[p->outputs.at[i]] = true;
+    for (size_t i = p->length; i-- > p->still;) {
+        qdot_program_step *s = p->steps.at + i;
+
+        s->kept = s->newest && sums_itself(s);
+        writes_of(s, rows);
+        for (int k = 0; k < WRITES; k++)
+            s->kept = s->kept || (s->newest && rows[k] != QDOT_NO_ROW && read[rows[k]]);
+        reads_of(s, rows);
+        for (int k = 0; k < READS; k++)
+            read[rows[k]] = read[rows[k]] || s->kept || sums_over(s, k)
+                            || p->rows.at[rows[k]].lead > s->lead + ahead(s);
+    }
+}
+
+qdot_status
+qdot_motion_arrange(qdot_motion *m)
+{
+    qdot_program *p = &m->program;
+    bool *newest = qdot_calloc(p->rows.n + 1, sizeof *newest);
+    qdot_status status = QDOT_OK;
+
+    if (!newest)
+        return QDOT_ENOMEM;
+    find_leads(p);
+    for (size_t i = 0; i < m->unknowns.n && status == QDOT_OK; i++)
+        status = settle_unknown(m, m->unknowns.at + i, newest);
+    if (status == QDOT_OK) {
+        find_newest(p, newest);
+        memset(newest, 0, p->rows.n * sizeof *newest);
+        find_kept(p, newest);
+    }
+    qdot_free(newest);
+    return status;
+}
+
+qdot_status
+qdot_motion_complete(qdot_motion *m, qdot_program_builder *b, qdot_status status)
+{
+    const qdot_status ended = qdot_program_end(b);
+
+    if (status == QDOT_OK)
+        status = ended;
+    if (status == QDOT_OK)
+        status = qdot_motion_arrange(m);
+    if (status != QDOT_OK)
+        qdot_motion_clear(m);
+    return status;
+}
+
+qdot_status
+qdot_motion_give(qdot_motion *m, qdot_program_row value, qdot_program_row once,
+                 qdot_program_row twice)
+{
+    const qdot_motion_unknown u = {value, QDOT_NO_ROW, once, twice};
+
+    return qdot_vec_push(&m->unknowns, u);
+}
+
+qdot_status
+qdot_motion_solve(qdot_motion *m, qdot_motion_unknown u, qdot_program_row equation)
+{
+    u.value = QDOT_NO_ROW;
+    QDOT_TRY(qdot_vec_push(&m->solved, (uint32_t)m->unknowns.n));
+    QDOT_TRY(qdot_vec_push(&m->equations, equation));
+    return qdot_vec_push(&m->unknowns, u);
+}
+
+qdot_status
+qdot_motion_end_block(qdot_motion *m)
+{
+    if (m->blocks.n == 0)
+        QDOT_TRY(qdot_vec_push(&m->blocks, 0));
+    return qdot_vec_push(&m->blocks, (uint32_t)m->solved.n);
+}
+
+void
+qdot_motion_clear(qdot_motion *m)
+{
+    qdot_program_clear(&m->program);
+    qdot_free(m->unknowns.at);
+    qdot_free(m->solved.at);
+    qdot_free(m->equations.at);
+    qdot_free(m->blocks.at);
+    qdot_free(m->entries.at);
+    *m = (qdot_motion){0};
+}

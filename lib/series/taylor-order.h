@@ -1,0 +1,19 @@
+/* taylor-order.h -- a function for each recurrence and order, of the kinds of processors.
+ *
+ * The functions of each kind are compiled from a file of their own, side by side: there are 1,100.
+ */
+#ifndef QDOT_SERIES_TAYLOR_ORDER_H
+#define QDOT_SERIES_TAYLOR_ORDER_H
+
+#include "num/kinds.h"
+#include "series/taylor-steps.h"
+
+/* Coefficient k of a step's row, k being known to the compiler. */
+typedef void qdot_taylor_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
+
+#ifdef QDOT_X86_KINDS
+/* [k][recurrence], for processors with FMA; k from 1. */
+extern qdot_taylor_function *const qdot_taylor_order_fma[QDOT_SERIES_MOST + 1][QDOT_T_COUNT];
+#endif
+
+#endif

@@ -1,0 +1,37 @@
+/* canonical.h -- Hamilton's equations for numbers of many digits.
+ *
+ *     q_i' = dH/dp_i,   p_i' = -dH/dq_i + Q_i(q, q', t)
+ *
+ * with H(q, p, t) of mech/study/hamilton.h, the values put in, and Q what is applied beside the
+ * potentials. No matrix is solved, no product of velocities formed, and the momentum of a cyclic
+ * coordinate is a number: Kepler's problem in the plane takes 2.5 convolutions an order where
+ * M q'' = f takes 5, a spherical pendulum 5.5 and 7.5. The state stays q, q': momenta are found
+ * where an expansion begins.
+ *
+ * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1.
+ * Tests   tests/sim/test_motion.c
+ */
+#ifndef QDOT_SIM_CANONICAL_H
+#define QDOT_SIM_CANONICAL_H
+
+#include "mech/scene/scene.h"
+#include "series/motion.h"
+#include "sim/model/equations.h"
+
+struct qdot_canonical {
+    size_t n, moving;   /* coordinates; those whose momenta move */
+    size_t *place;      /* [n] of the momenta: those that move, then the others */
+    qdot_tape *momenta; /* from q, q', t: p [n], in their order */
+    qdot_tape *rates;   /* from q, t, p in their order: dH/dp [n], -dH/dq of those that move */
+    qdot_tape *forces;  /* from q, q', t: Q of these; NULL: none */
+    qdot_motion motion; /* from q, q', t, p in their order */
+};
+
+/* Of a plan with M and f and without constraints, switches or further states, where M's blocks are
+ * of one or two coordinates and not all numbers; *canonical NULL elsewhere, and where H has no
+ * form that can be had. Errors: those of the pool, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_canonical_new(qdot_scene *scene, const qdot_plan *plan,
+                                               qdot_canonical **canonical);
+void qdot_canonical_free(qdot_canonical *canonical);
+
+#endif

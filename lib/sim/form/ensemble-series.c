@@ -1,0 +1,473 @@
+/* ensemble-series.c -- stage by stage: the program, what is solved for, its integrals, in lanes. */
+#include "sim/form/ensemble-series.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "ode/taylor.h"
+#include "series/lanes-code.h"
+#include "sim/form/motion-of-equations.h"
+#include "sim/model/constrained-lanes.h"
+
+enum { L = QDOT_LANES, most_order = 44 };
+
+/* Numbers of the code: units of time, their squares, what an order of q'' is multiplied by, then
+ * the inverses, negated. A larger block than this has none. */
+enum { UNIT, UNIT_SQUARE, ONCE, TWICE, INVERSES, most_solved = 16 };
+
+/* Unknowns that K couples. */
+typedef struct {
+    size_t first, n, positive; /* of these the first are of coordinates, others of constraints */
+    double *A, *inverse;       /* [n x n groups] K, factored; its inverse */
+    double *x;                 /* [n groups] */
+    size_t number;             /* of the code's, the first of its inverse */
+} solver;
+
+struct qdot_ensemble_series {
+    const qdot_plan *plan;
+    size_t n, numbers; /* coordinates that move; parameters of members */
+    const qdot_batch_kernels *kernels;
+    qdot_motion motion;
+    qdot_lanes *lanes;
+    qdot_constrained_lanes *held; /* NULL: without constraints */
+    size_t stride;                /* groups */
+    double *q, *v, *t;            /* rows of the inputs; behind t numbers: parameters, momenta */
+    solver *solvers;              /* [blocks] */
+    size_t blocks;
+    double *by;             /* [solved groups] */
+    qdot_lanes_row *solved; /* [solved] rows of the unknowns */
+    double unit[L];
+    int to;                /* order of q'' that */
+    qdot_lanes_code *code; /* goes to; NULL: kernels run */
+};
+
+/* --- one stage ----------------------------------------------------------------------- */
+
+/* Two coordinates: the inverse is there at once. */
+static bool
+is_pair(const solver *s)
+{
+    return s->n == 2 && s->positive == 2;
+}
+
+static void
+factor(const qdot_ensemble_series *e, const solver *s)
+{
+    const qdot_motion *m = &e->motion;
+
+    memset(s->A, 0, s->n * s->n * L * sizeof *s->A);
+    for (size_t k = 0; k < m->entries.n; k++) {
+        const qdot_motion_entry *x = m->entries.at + k;
+        const size_t i = x->i - s->first, j = x->j - s->first; /* below 0: beyond n */
+
+        if (i < s->n && j < s->n)
+            memcpy(s->A + (i * s->n + j) * L, qdot_lanes_series(e->lanes, x->at),
+                   L * sizeof *s->A);
+    }
+    if (is_pair(s))
+        e->kernels->invert_two(s->A, s->inverse);
+    else
+        e->kernels->factor(s->n, s->positive, s->A);
+}
+
+/* Order k of what is solved for, by the factor of K or its inverse. */
+static void
+stage(qdot_ensemble_series *e, int k)
+{
+    const qdot_motion *m = &e->motion;
+
+    qdot_lanes_stage(e->lanes, k);
+    if (k < 0)
+        return;
+    for (size_t b = 0; b < e->blocks; b++) {
+        const solver *s = e->solvers + b;
+        const bool inverted = k > 0 || is_pair(s);
+        double *by = e->by + s->first * L, *x = inverted ? s->x : by;
+
+        for (size_t i = 0; i < s->n; i++) {
+            const double *E = qdot_lanes_series(e->lanes, m->equations.at[s->first + i]) + k * L;
+
+            for (size_t l = 0; l < L; l++)
+                x[i * L + l] = -E[l];
+        }
+        if (k == 0)
+            factor(e, s);
+        if (inverted)
+            e->kernels->multiply(s->n, s->inverse, x, by);
+        else
+            e->kernels->solve(s->n, s->positive, s->A, by);
+    }
+    qdot_lanes_change(e->lanes, k, e->by);
+}
+
+static void
+begin(const double *t, const double *y, const double *unit, void *user)
+{
+    qdot_ensemble_series *e = user;
+    const qdot_plan *p = e->plan;
+    const size_t n = e->n, row = e->stride * L;
+    double *numbers = e->t + row;
+
+    memcpy(e->unit, unit, sizeof e->unit);
+    for (size_t i = 0; i < e->numbers; i++)
+        memcpy(numbers + i * row, y + (2 * n + i) * L, L * sizeof *y);
+    for (size_t c = 0; c < p->n_kept; c++)
+        memcpy(numbers + (e->numbers + c) * row, y + (n + p->kept[c]) * L, L * sizeof *y);
+    for (size_t i = 0; i < n; i++) {
+        memcpy(e->q + i * row, y + i * L, L * sizeof *y);
+        memcpy(e->v + i * row, y + (n + i) * L, L * sizeof *y);
+        for (size_t l = 0; l < L; l++)
+            e->q[i * row + L + l] = unit[l] * y[(n + i) * L + l];
+    }
+    memcpy(e->t, t, L * sizeof *t);
+    memcpy(e->t + L, unit, L * sizeof *unit);
+    qdot_lanes_set_unit(e->lanes, unit);
+    qdot_lanes_draw(e->lanes, t);
+    for (int k = qdot_motion_first(&e->motion); k <= 0; k++)
+        stage(e, k);
+}
+
+static void
+run_code(qdot_ensemble_series *e)
+{
+    double *unit = qdot_lanes_code_number(e->code, UNIT);
+    double *square = qdot_lanes_code_number(e->code, UNIT_SQUARE);
+
+    for (size_t l = 0; l < L; l++) {
+        unit[l] = e->unit[l];
+        square[l] = e->unit[l] * e->unit[l];
+    }
+    for (size_t b = 0; b < e->blocks; b++) {
+        const solver *s = e->solvers + b;
+        double *minus = qdot_lanes_code_number(e->code, s->number);
+
+        for (size_t i = 0; i < s->n * s->n * L; i++)
+            minus[i] = -s->inverse[i];
+    }
+    qdot_lanes_code_run(e->code);
+}
+
+static void
+extend(int p, void *user)
+{
+    qdot_ensemble_series *e = user;
+
+    for (size_t b = 0; b < e->blocks; b++)
+        if (!is_pair(e->solvers + b))
+            e->kernels->invert(e->solvers[b].n, e->solvers[b].positive, e->solvers[b].A,
+                               e->solvers[b].inverse);
+    if (e->code && p == e->to + 1) {
+        run_code(e);
+        return;
+    }
+    for (int k = 1; k < p; k++)
+        stage(e, k);
+}
+
+static void
+project(const double *t, double *y, double *carry, double *moved, void *user)
+{
+    qdot_constrained_lanes_project(((qdot_ensemble_series *)user)->held, t, y, carry, moved);
+}
+
+/* --- the same as machine code ------------------------------------------------------- */
+
+/* 1/(k + 1), 1/((k + 1)(k + 2)); and in low orders what these are beyond their doubles, for
+ * which a division is exact but for the last bit (series/taylor.h). */
+static double
+once(int k)
+{
+    return 1.0 / (k + 1);
+}
+
+static double
+twice(int k)
+{
+    return 1.0 / ((k + 1) * (k + 2));
+}
+
+static double
+beyond(double inverse, int k, int divisor)
+{
+    return k <= QDOT_TAYLOR_EXACT ? fma(-inverse, divisor, 1) / divisor : 0;
+}
+
+static double
+once_beyond(int k)
+{
+    return beyond(once(k), k, k + 1);
+}
+
+static double
+twice_beyond(int k)
+{
+    return beyond(twice(k), k, (k + 1) * (k + 2));
+}
+
+/* factor = unit^n/divisor, and to = factor a */
+static void
+write_factor(qdot_lanes_writer *w, size_t unit, qdot_lanes_by_order *inverse, int k,
+             size_t factor)
+{
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
+                           qdot_lanes_scalar_of(w, inverse, k));
+    qdot_lanes_store(w, sum, qdot_lanes_number(w, factor));
+}
+
+static void
+write_integral(qdot_lanes_writer *w, const qdot_ensemble_series *e, qdot_lanes_at a, size_t unit,
+               qdot_lanes_by_order *more, size_t factor, qdot_lanes_at to)
+{
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    /* orders of the loop are beyond these */
+    if (e->to >= QDOT_TAYLOR_EXACT_FROM && a.order <= QDOT_TAYLOR_EXACT) {
+        qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
+                               qdot_lanes_scalar_of(w, more, a.order));
+        qdot_lanes_scale(w, &sum, a);
+    }
+    qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, factor), a);
+    qdot_lanes_store(w, sum, to);
+}
+
+/* A block's unknowns, -K^-1 E. */
+static void
+write_block(qdot_lanes_writer *w, const qdot_ensemble_series *e, const solver *s, int k)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        qdot_lanes_sum a = QDOT_LANES_NOTHING;
+
+        for (size_t j = 0; j < s->n; j++)
+            qdot_lanes_add_product(
+                w, &a, false, (qdot_lanes_at){e->motion.equations.at[s->first + j], k},
+                qdot_lanes_number(w, s->number + i * s->n + j));
+        qdot_lanes_store(w, a, (qdot_lanes_at){e->solved[s->first + i], k});
+    }
+}
+
+/* Order k of the unknowns, and of what they integrate to. */
+static void
+write_order(qdot_lanes_writer *w, int k, void *user)
+{
+    const qdot_ensemble_series *e = user;
+    const qdot_motion *m = &e->motion;
+
+    qdot_lanes_steps_but(w, k, m->solved.n, e->solved, m->equations.at);
+    write_factor(w, UNIT, once, k, ONCE);
+    write_factor(w, UNIT_SQUARE, twice, k, TWICE);
+    for (size_t b = 0; b < e->blocks; b++)
+        write_block(w, e, e->solvers + b, k);
+    for (size_t i = 0; i < m->equations.n; i++)
+        qdot_lanes_unread(w, (qdot_lanes_at){m->equations.at[i], k});
+    for (size_t i = 0; i < m->unknowns.n; i++) {
+        const qdot_motion_unknown *u = m->unknowns.at + i;
+        const qdot_lanes_at a = {u->value != QDOT_NO_ROW ? u->value : u->row, k};
+
+        if (u->twice != QDOT_NO_ROW)
+            write_integral(w, e, a, UNIT_SQUARE, twice_beyond, TWICE,
+                           (qdot_lanes_at){u->twice, k + 2});
+        if (u->once != QDOT_NO_ROW)
+            write_integral(w, e, a, UNIT, once_beyond, ONCE, (qdot_lanes_at){u->once, k + 1});
+    }
+}
+
+static void
+write_expansion(qdot_lanes_writer *w, void *user)
+{
+    const qdot_ensemble_series *e = user;
+
+    qdot_lanes_orders(w, 1, 0, e->to >= QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT + 1 : 1, e->to,
+                      write_order, user);
+}
+
+static qdot_status
+write_code(qdot_ensemble_series *e, int most)
+{
+    const qdot_motion *m = &e->motion;
+    size_t numbers = INVERSES;
+
+    e->to = most - 1;
+    for (size_t b = 0; b < e->blocks; b++) {
+        solver *s = e->solvers + b;
+
+        s->number = numbers;
+        numbers += s->n * s->n;
+        if (s->n > most_solved)
+            return QDOT_OK;
+    }
+    for (size_t i = 0; i < m->solved.n; i++)
+        e->solved[i] = m->unknowns.at[m->solved.at[i]].row;
+    return qdot_lanes_code_new(e->lanes, 0, numbers, write_expansion, e, &e->code);
+}
+
+/* --- building ------------------------------------------------------------------------ */
+
+static qdot_status
+make_solver(qdot_ensemble_series *e, size_t b)
+{
+    const qdot_motion *m = &e->motion;
+    solver *s = e->solvers + b;
+    const size_t first = m->blocks.at[b], n = m->blocks.at[b + 1] - first;
+
+    *s = (solver){.first = first, .n = n};
+    while (s->positive < n &&
+           m->unknowns.at[m->solved.at[first + s->positive]].once != QDOT_NO_ROW)
+        s->positive++;
+    s->A = qdot_calloc(n * n * L, sizeof *s->A);
+    s->inverse = qdot_calloc(n * n * L, sizeof *s->inverse);
+    s->x = qdot_calloc(n * L, sizeof *s->x);
+    return s->A && s->inverse && s->x ? QDOT_OK : QDOT_ENOMEM;
+}
+
+static qdot_status
+make(qdot_ensemble_series *e, bool shaken, int most)
+{
+    QDOT_TRY(qdot_motion_of_members(e->plan, &e->motion));
+    QDOT_TRY(qdot_lanes_of_motion(&e->motion, shaken, most, &e->lanes));
+    if (e->plan->constraints)
+        QDOT_TRY(qdot_constrained_lanes_new(e->plan, shaken, &e->held));
+    e->stride = qdot_lanes_stride(e->lanes);
+    e->q = qdot_lanes_input(e->lanes, 0);
+    e->v = qdot_lanes_input(e->lanes, e->n);
+    e->t = qdot_lanes_input(e->lanes, 2 * e->n);
+    e->blocks = e->motion.blocks.n > 0 ? e->motion.blocks.n - 1 : 0;
+    e->solvers = qdot_calloc(e->blocks + 1, sizeof *e->solvers);
+    e->by = qdot_calloc(e->motion.solved.n * L + 1, sizeof *e->by);
+    e->solved = qdot_calloc(e->motion.solved.n + 1, sizeof *e->solved);
+    if (!e->solvers || !e->by || !e->solved)
+        return QDOT_ENOMEM;
+    for (size_t b = 0; b < e->blocks; b++)
+        QDOT_TRY(make_solver(e, b));
+    return write_code(e, most);
+}
+
+qdot_status
+qdot_ensemble_series_new(const qdot_plan *plan, bool shaken, int most,
+                         qdot_ensemble_series **series)
+{
+    qdot_ensemble_series *e = qdot_calloc(1, sizeof *e);
+    qdot_status status;
+
+    *series = NULL;
+    if (!e)
+        return QDOT_ENOMEM;
+    e->plan = plan;
+    e->numbers = plan->n_states;
+    e->n = plan->n - e->numbers;
+    e->kernels = qdot_batch_kernels_get();
+    status = make(e, shaken, most);
+    if (status != QDOT_OK) {
+        qdot_ensemble_series_free(e);
+        return status;
+    }
+    *series = e;
+    return QDOT_OK;
+}
+
+void
+qdot_ensemble_series_free(qdot_ensemble_series *e)
+{
+    if (!e)
+        return;
+    for (size_t b = 0; e->solvers && b < e->blocks; b++) {
+        qdot_free(e->solvers[b].A);
+        qdot_free(e->solvers[b].inverse);
+        qdot_free(e->solvers[b].x);
+    }
+    qdot_lanes_code_free(e->code);
+    qdot_constrained_lanes_free(e->held);
+    qdot_lanes_free(e->lanes);
+    qdot_motion_clear(&e->motion);
+    qdot_free(e->solvers);
+    qdot_free(e->by);
+    qdot_free(e->solved);
+    qdot_free(e);
+}
+
+static bool
+is_kept(const qdot_plan *p, size_t i)
+{
+    for (size_t c = 0; c < p->n_kept; c++)
+        if (p->kept[c] == i)
+            return true;
+    return false;
+}
+
+/* Momenta and parameters at the end of a state. */
+static size_t
+still(const qdot_ensemble_series *e)
+{
+    size_t k = 0;
+
+    while (k < e->n && is_kept(e->plan, e->n - 1 - k))
+        k++;
+    return e->numbers + k;
+}
+
+qdot_ode_batch
+qdot_ensemble_series_system(qdot_ensemble_series *e)
+{
+    return (qdot_ode_batch){.n = 2 * e->n + e->numbers,
+                            .still = still(e),
+                            .checked = e->n,
+                            .x = e->q,
+                            .stride = e->stride,
+                            .begin = begin,
+                            .extend = extend,
+                            .project = e->held ? project : NULL,
+                            .user = e};
+}
+
+/* Nanoseconds for all lanes, as measured with AVX-512; only their ratios matter. */
+static void
+estimate(const qdot_plan *plan, const qdot_motion *motion, double *c)
+{
+    const double convolutions = motion->program.convolutions;
+    const double length = (double)(motion->program.length - motion->program.still);
+
+    c[0] = 300 + 100 * (double)qdot_tape_calls(plan->tape) + 5 * length + 20 * (double)plan->n;
+    c[1] = 2 * length + 3 * convolutions + 10 * (double)plan->n;
+    c[2] = 0.1 * convolutions;
+    for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
+        const double m = (double)(motion->blocks.at[b + 1] - motion->blocks.at[b]);
+
+        c[0] += m * m * m / 6;
+        c[1] += 5 * m + m * m;
+    }
+}
+
+/* The same of machine code: five scenes at orders 8 to 26, to 8 %. */
+static void
+estimate_written(const qdot_plan *plan, const qdot_motion *motion, double *c)
+{
+    const double n = (double)plan->n;
+
+    c[0] = 60 + 60 * n + 60 * (double)qdot_tape_calls(plan->tape);
+    c[1] = 10 * n;
+    c[2] = 0.123 * motion->program.convolutions;
+    for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
+        const double m = (double)(motion->blocks.at[b + 1] - motion->blocks.at[b]);
+
+        c[0] += m * m * m / 6;
+    }
+}
+
+qdot_status
+qdot_ensemble_series_order(const qdot_plan *plan, double tol, int *order)
+{
+    qdot_ode_series series = {.most = most_order - 4};
+    qdot_motion motion;
+
+    QDOT_TRY(qdot_motion_of_members(plan, &motion));
+    estimate(plan, &motion, series.cost);
+    if (qdot_lanes_may_be_code())
+        estimate_written(plan, &motion, series.written);
+    qdot_motion_clear(&motion);
+    /* A few orders beyond the least cost hardly more, and where no pole is near, as of a stiff
+     * spring, steps gain more by an order than its model has them gain. */
+    *order = qdot_ode_taylor_order(&series, pow(tol, 1.15), false, 0);
+    return QDOT_OK;
+}

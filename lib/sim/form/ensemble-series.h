@@ -1,0 +1,36 @@
+/* ensemble-series.h -- the motions of an ensemble's members: a motion (series/motion.h) in lanes,
+ * as a system of ode/batch.h.
+ *
+ * Stage by stage; K of every lane is factored at order 0,
+ *
+ *     M = L L^T,   [ M  A^T ] = L S L^T,  S = 1 for coordinates, -1 for constraints,
+ *                  [ A   0  ]
+ *
+ * without pivoting, which M > 0 and independent constraints allow; higher orders multiply by its
+ * inverse. A lane where that is not so has no accelerations. With constraints the ends of steps are
+ * brought back to them (sim/model/constrained-lanes.h).
+ *
+ * Tests  tests/sim/test_ensemble.c
+ */
+#ifndef QDOT_SIM_ENSEMBLE_SERIES_H
+#define QDOT_SIM_ENSEMBLE_SERIES_H
+
+#include "ode/batch.h"
+#include "sim/model/equations.h"
+
+typedef struct qdot_ensemble_series qdot_ensemble_series; /* one a thread */
+
+/* M q'' = f with constraints, for series to order `most`; shaken as for qdot_bind_new. Plan
+ * borrowed. Errors: QDOT_ENOTBUILT (equations that switch), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_ensemble_series_new(const qdot_plan *plan, bool shaken,
+                                                     int most, qdot_ensemble_series **series);
+void qdot_ensemble_series_free(qdot_ensemble_series *series);
+
+/* Its callbacks; `series` is their user. */
+qdot_ode_batch qdot_ensemble_series_system(qdot_ensemble_series *series);
+
+/* The order for a run under tol, by what an expansion of the lanes costs. */
+QDOT_MUST_CHECK qdot_status qdot_ensemble_series_order(const qdot_plan *plan, double tol,
+                                                       int *order);
+
+#endif

@@ -1,0 +1,239 @@
+/* motion-of-equations.c -- rows of M q'' = f and of its constraints. */
+#include "sim/form/motion-of-equations.h"
+
+#include "base/memory.h"
+#include "sim/model/constraints.h"
+#include "tape/constant.h"
+
+/* Unknowns by number: q'' of the coordinates, then those of the constraints. */
+typedef struct {
+    const qdot_plan *plan;
+    size_t n; /* coordinates that move; those of the plan behind them are numbers */
+    qdot_motion *motion;
+    qdot_program_builder *program;
+    qdot_program_row *outputs; /* of the plan's tape */
+    qdot_program_row *unknown; /* [n + m] */
+    qdot_program_row *right;   /* [n + m] f, gamma */
+    qdot_program_row *E;       /* [n + m] what there is of the equation; QDOT_NO_ROW: nothing */
+    uint32_t *place;           /* [n + m] which of the motion's it is, */
+    size_t *unknown_at;        /* [n + m] and back */
+} builder;
+
+static bool
+is_number(const builder *b, size_t i)
+{
+    return i >= b->n && i < b->plan->n;
+}
+
+static void
+add_product(builder *b, size_t i, size_t j, qdot_program_row at)
+{
+    if (b->E[i] == QDOT_NO_ROW)
+        b->E[i] = qdot_program_operation(b->program, QDOT_OP_MSUB, at, b->unknown[j], b->right[i]);
+    else
+        b->E[i] = qdot_program_operation(b->program, QDOT_OP_MADD, at, b->unknown[j], b->E[i]);
+}
+
+/* Those of the entries from number `from` on; numbers last, as there is nothing of them to add
+ * before the unknowns are known. */
+static void
+add_products(builder *b, size_t from)
+{
+    const qdot_motion *m = b->motion;
+
+    for (int number = 0; number < 2; number++)
+        for (size_t k = from; k < m->entries.n; k++) {
+            const qdot_motion_entry *x = m->entries.at + k;
+            const size_t i = b->unknown_at[x->i], j = b->unknown_at[x->j];
+
+            if (m->program.rows.at[x->at].still != number)
+                continue;
+            add_product(b, i, j, x->at);
+            if (i != j)
+                add_product(b, j, i, x->at);
+        }
+}
+
+/* K_ij = K_ji = at */
+static qdot_status
+couple(builder *b, size_t i, size_t j, qdot_program_row at)
+{
+    return qdot_vec_push(&b->motion->entries, ((qdot_motion_entry){b->place[i], b->place[j], at}));
+}
+
+/* Number k of the equations at hand, those before it being there, is for unknown i. */
+static void
+expect(builder *b, size_t i, size_t k, qdot_program_row right)
+{
+    b->unknown[i] = qdot_program_unknown(b->program);
+    b->right[i] = right;
+    b->E[i] = QDOT_NO_ROW;
+    b->place[i] = (uint32_t)(b->motion->solved.n + k);
+    b->unknown_at[b->place[i]] = i;
+}
+
+static qdot_status
+solve_for(builder *b, size_t i)
+{
+    qdot_motion_unknown u = {.row = b->unknown[i], .once = QDOT_NO_ROW, .twice = QDOT_NO_ROW};
+
+    if (i < b->n) {
+        u.once = (qdot_program_row)(b->n + i);
+        u.twice = (qdot_program_row)i;
+    }
+    if (b->E[i] == QDOT_NO_ROW)
+        b->E[i] = qdot_program_operation(b->program, QDOT_OP_NEG, b->right[i], 0, 0);
+    return qdot_motion_solve(b->motion, u, b->E[i]);
+}
+
+/* A constant entry of M; *row QDOT_NO_ROW: 0. */
+static qdot_status
+number(builder *b, qdot_expr e, qdot_program_row *row)
+{
+    qdot_program_constant c = {.exact = e};
+    int side;
+
+    QDOT_TRY(qdot_constant_split(b->plan->pool, e, &c.value, &side, &c.low));
+    c.side = (signed char)side;
+    *row = c.value != 0 ? qdot_program_number(b->program, c) : QDOT_NO_ROW;
+    return QDOT_OK;
+}
+
+/* Its outputs are those from *at on. */
+static qdot_status
+add_block(builder *b, const qdot_plan_block *block, size_t *at)
+{
+    const qdot_plan *p = b->plan;
+    const size_t n = block->n, entries = b->motion->entries.n;
+
+    for (size_t i = 0; i < n; i++)
+        expect(b, block->index[i], i, b->outputs[(*at)++]);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            const size_t row = block->index[i], column = block->index[j];
+            qdot_program_row M;
+
+            if (block->constant)
+                QDOT_TRY(number(b, p->M[row * p->n + column], &M));
+            else
+                M = b->outputs[(*at)++];
+            if (M != QDOT_NO_ROW)
+                QDOT_TRY(couple(b, row, column, M));
+        }
+    add_products(b, entries);
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(solve_for(b, block->index[i]));
+    return qdot_motion_end_block(b->motion);
+}
+
+static qdot_status
+add_blocks(builder *b)
+{
+    const qdot_plan *p = b->plan;
+    size_t at = 0;
+
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+        const qdot_program_row i = (qdot_program_row)block->index[0];
+
+        if (block->n > 1)
+            QDOT_TRY(add_block(b, block, &at));
+        else if (is_number(b, i))
+            at++;
+        else
+            QDOT_TRY(qdot_motion_give(b->motion, b->outputs[at++],
+                                      (qdot_program_row)b->n + i, i));
+    }
+    for (size_t c = 0; c < p->n_kept; c++)
+        QDOT_TRY(qdot_motion_give(b->motion, b->outputs[at++], (qdot_program_row)p->kept[c],
+                                  QDOT_NO_ROW));
+    return QDOT_OK;
+}
+
+static qdot_status
+add_constrained(builder *b)
+{
+    const qdot_constraints *c = b->plan->constraints;
+    const size_t n = b->plan->n;
+    const qdot_program_row *M = b->outputs + n, *A = M + c->n_masses, *gamma = A + c->n_slopes;
+
+    for (size_t i = 0, k = 0; i < n + c->m; i++)
+        if (!is_number(b, i))
+            expect(b, i, k++, i < n ? b->outputs[i] : gamma[i - n]);
+    for (size_t k = 0; k < c->n_masses; k++)
+        if (!is_number(b, c->masses[k].row))
+            QDOT_TRY(couple(b, c->masses[k].row, c->masses[k].column, M[k]));
+    for (size_t k = 0; k < c->n_slopes; k++)
+        QDOT_TRY(couple(b, n + c->slopes[k].row, c->slopes[k].column, A[k]));
+    add_products(b, 0);
+    for (size_t i = 0; i < n + c->m; i++)
+        if (!is_number(b, i))
+            QDOT_TRY(solve_for(b, i));
+    return qdot_motion_end_block(b->motion);
+}
+
+/* Which row input i of the plan's tape is; velocities of numbers are 0. */
+static qdot_program_row
+input(const builder *b, size_t i)
+{
+    const size_t n = b->n, all = b->plan->n, numbers = all - n;
+    const qdot_program_constant zero = {.exact = QDOT_ZERO};
+
+    if (i < all)
+        return (qdot_program_row)(i < n ? i : n + 1 + i);
+    if (i < 2 * all && i - all >= n)
+        return qdot_program_number(b->program, zero);
+    return (qdot_program_row)(i == 2 * all ? i - 2 * numbers : i - numbers); /* 2 all: t */
+}
+
+static qdot_status
+build(builder *b)
+{
+    const qdot_tape *tape = b->plan->tape;
+    const size_t outputs = qdot_tape_outputs(tape), inputs = qdot_tape_inputs(tape);
+    const size_t size = b->plan->n + (b->plan->constraints ? b->plan->constraints->m : 0);
+
+    b->outputs = qdot_calloc(inputs + outputs + 1, sizeof *b->outputs);
+    b->unknown = qdot_calloc(3 * size + 1, sizeof *b->unknown);
+    b->place = qdot_calloc(size + 1, sizeof *b->place);
+    b->unknown_at = qdot_calloc(size + 1, sizeof *b->unknown_at);
+    if (!b->outputs || !b->unknown || !b->place || !b->unknown_at)
+        return QDOT_ENOMEM;
+    b->right = b->unknown + size;
+    b->E = b->right + size;
+    for (size_t i = 0; i < inputs; i++)
+        b->outputs[outputs + i] = input(b, i);
+    qdot_program_append(b->program, tape, b->outputs + outputs, b->outputs);
+    for (size_t i = 0; i < outputs; i++)
+        QDOT_TRY(qdot_vec_push(&b->motion->program.outputs, b->outputs[i]));
+    return b->plan->constraints ? add_constrained(b) : add_blocks(b);
+}
+
+static qdot_status
+make(const qdot_plan *plan, size_t n, qdot_motion *motion)
+{
+    const size_t inputs = qdot_tape_inputs(plan->tape) - (plan->n - n);
+    builder b = {.plan = plan, .n = n, .motion = motion};
+    qdot_status status;
+
+    *motion = (qdot_motion){0};
+    QDOT_TRY(qdot_program_begin(inputs, 2 * n + 1, false, &motion->program, &b.program));
+    status = qdot_motion_complete(motion, b.program, build(&b));
+    qdot_free(b.outputs);
+    qdot_free(b.unknown);
+    qdot_free(b.place);
+    qdot_free(b.unknown_at);
+    return status;
+}
+
+qdot_status
+qdot_motion_of_equations(const qdot_plan *plan, qdot_motion *motion)
+{
+    return make(plan, plan->n, motion);
+}
+
+qdot_status
+qdot_motion_of_members(const qdot_plan *plan, qdot_motion *motion)
+{
+    return make(plan, plan->n - plan->n_states, motion);
+}

@@ -1,0 +1,306 @@
+/* constrained-lanes.c -- Newton's method on positions, then on velocities, in lanes. */
+#include "sim/model/constrained-lanes.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "series/lanes.h"
+#include "tape/shake.h"
+
+/* As in constrained-project.c. */
+static const double least_size = 0x1p-10;
+
+enum { L = QDOT_LANES, most_iterations = 6, LEVELS = 2 };
+
+/* Rows that restrict positions, or velocities. */
+typedef struct {
+    const qdot_tape *tape; /* their residuals */
+    size_t m;
+    size_t *place; /* [rows of the constraints] among these; SIZE_MAX: it is none of them */
+} level;
+
+struct qdot_constrained_lanes {
+    const qdot_constraints *c;
+    size_t n, numbers; /* coordinates; parameters behind them */
+    const qdot_batch_kernels *kernels;
+    qdot_tape *copies[3]; /* shaken; NULL: the constraints' */
+    const qdot_tape *metric;
+    level levels[LEVELS];
+    double *in;              /* q, parameters, q', their rates, t */
+    double *M, *A, *work;    /* as the metric's outputs have them */
+    double *K, *x;           /* [n + m], factored; right-hand side, solution */
+    double *residual, *size; /* [m] sum |A_ki| max(|x_i|, least) */
+};
+
+void
+qdot_constrained_lanes_free(qdot_constrained_lanes *h)
+{
+    if (!h)
+        return;
+    for (size_t i = 0; i < sizeof h->copies / sizeof *h->copies; i++)
+        qdot_tape_free(h->copies[i]);
+    for (size_t i = 0; i < LEVELS; i++)
+        qdot_free(h->levels[i].place);
+    qdot_free(h->in);
+    qdot_free(h);
+}
+
+/* --- building ------------------------------------------------------------------------ */
+
+static qdot_status
+make_level(qdot_constrained_lanes *h, level *l, const qdot_tape *tape, qdot_constraint_kind kind)
+{
+    l->tape = tape;
+    l->place = qdot_calloc(h->c->m, sizeof *l->place);
+    if (!l->place)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < h->c->m; k++)
+        l->place[k] = h->c->rows[k].kind <= kind ? l->m++ : SIZE_MAX;
+    return QDOT_OK;
+}
+
+static qdot_status
+make(qdot_constrained_lanes *h, bool shaken)
+{
+    const qdot_constraints *c = h->c;
+    const qdot_tape *tapes[] = {c->positions, c->velocities, c->metric};
+    const size_t n = h->n, size = n + c->m, inputs = 2 * (n + h->numbers) + 1;
+    size_t work = 0;
+
+    for (size_t i = 0; i < sizeof tapes / sizeof *tapes; i++) {
+        if (shaken)
+            QDOT_TRY(qdot_tape_shake(tapes[i], &h->copies[i]));
+        if (shaken)
+            tapes[i] = h->copies[i];
+        if (qdot_tape_work(tapes[i]) > work)
+            work = qdot_tape_work(tapes[i]);
+    }
+    QDOT_TRY(make_level(h, &h->levels[0], tapes[0], QDOT_HOLONOMIC));
+    QDOT_TRY(make_level(h, &h->levels[1], tapes[1], QDOT_VELOCITY));
+    h->metric = tapes[2];
+    h->in = qdot_calloc((inputs + c->n_masses + c->n_slopes + work + size * (size + 1) +
+                         2 * c->m) * L + 1, sizeof *h->in);
+    if (!h->in)
+        return QDOT_ENOMEM;
+    h->M = h->in + inputs * L;
+    h->A = h->M + c->n_masses * L;
+    h->work = h->A + c->n_slopes * L;
+    h->K = h->work + work * L;
+    h->x = h->K + size * size * L;
+    h->residual = h->x + size * L;
+    h->size = h->residual + c->m * L;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken, qdot_constrained_lanes **lanes)
+{
+    qdot_constrained_lanes *h = qdot_calloc(1, sizeof *h);
+    qdot_status status;
+
+    *lanes = NULL;
+    if (!h)
+        return QDOT_ENOMEM;
+    h->c = plan->constraints;
+    h->numbers = plan->n_states;
+    h->n = plan->n - h->numbers;
+    h->kernels = qdot_batch_kernels_get();
+    status = make(h, shaken);
+    if (status != QDOT_OK) {
+        qdot_constrained_lanes_free(h);
+        return status;
+    }
+    *lanes = h;
+    return QDOT_OK;
+}
+
+/* --- one of the levels --------------------------------------------------------------- */
+
+/* What is moved, q or q', what it carries, and where tapes read it. */
+typedef struct {
+    const level *l;
+    double *x, *carry, *loaded; /* [n] */
+    bool open[L];               /* lanes that are not done */
+    double before[L];
+} newton;
+
+static void
+factor(qdot_constrained_lanes *h, const level *l)
+{
+    const qdot_constraints *c = h->c;
+    const size_t size = h->n + l->m;
+
+    memset(h->K, 0, size * size * L * sizeof *h->K);
+    for (size_t k = 0; k < c->n_masses; k++)
+        if (c->masses[k].row < h->n)
+            memcpy(h->K + (c->masses[k].row * size + c->masses[k].column) * L, h->M + k * L,
+                   L * sizeof *h->K);
+    for (size_t k = 0; k < c->n_slopes; k++) {
+        const size_t row = l->place[c->slopes[k].row];
+
+        if (row != SIZE_MAX)
+            memcpy(h->K + ((h->n + row) * size + c->slopes[k].column) * L, h->A + k * L,
+                   L * sizeof *h->K);
+    }
+    h->kernels->factor(size, h->n, h->K);
+}
+
+/* What rounding of x makes of the rows, values below `least` counting as that. */
+static void
+find_sizes(qdot_constrained_lanes *h, const newton *p, double least)
+{
+    const qdot_constraints *c = h->c;
+
+    memset(h->size, 0, p->l->m * L * sizeof *h->size);
+    for (size_t k = 0; k < c->n_slopes; k++) {
+        const size_t row = p->l->place[c->slopes[k].row];
+        const double *x = p->x + c->slopes[k].column * L;
+
+        for (size_t l = 0; l < L && row != SIZE_MAX; l++)
+            h->size[row * L + l] +=
+                fabs(h->A[k * L + l]) * (fabs(x[l]) > least ? fabs(x[l]) : least);
+    }
+}
+
+static void
+look(qdot_constrained_lanes *h, const newton *p)
+{
+    const qdot_constraints *c = h->c;
+
+    qdot_lanes_eval_near(p->l->tape, h->in, h->residual, h->work);
+    for (size_t k = 0; k < c->n_slopes; k++) {
+        const size_t row = p->l->place[c->slopes[k].row];
+        const double *carry = p->carry + c->slopes[k].column * L;
+
+        for (size_t l = 0; l < L && row != SIZE_MAX; l++)
+            h->residual[row * L + l] += h->A[k * L + l] * carry[l];
+    }
+}
+
+/* The largest residual of a lane over what rounding makes of it; 1: none is above that. */
+static double
+excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
+{
+    double most = 1;
+
+    for (size_t k = 0; k < p->l->m; k++) {
+        const double f = fabs(h->residual[k * L + lane]);
+        const double bound = DBL_EPSILON * h->size[k * L + lane];
+
+        if (!(f < INFINITY))
+            return NAN;
+        if (f > most * bound)
+            most = f / bound;
+    }
+    return most;
+}
+
+/* Which lanes are done by what is left in iteration k, and which fail. Whether one goes on. */
+static bool
+judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
+{
+    bool some = false, failed[L] = {false}, any_failed = false;
+
+    for (size_t l = 0; l < L; l++) {
+        const double now = p->open[l] ? excess(h, p, l) : 0;
+
+        if (!p->open[l])
+            continue;
+        /* what is left is rounding when it shrinks no more */
+        if (now <= 1 || (k > 0 && !(now < 0.5 * p->before[l]) && now < 1e4))
+            p->open[l] = false;
+        else if (k == most_iterations || isnan(now) || (k > 2 && !(now < p->before[l])))
+            p->open[l] = !(failed[l] = any_failed = true);
+        p->before[l] = now;
+        some |= p->open[l];
+    }
+    if (!any_failed)
+        return some;
+    find_sizes(h, p, 1);
+    for (size_t l = 0; l < L; l++)
+        if (failed[l] && !(excess(h, p, l) <= 1))
+            moved[l] = NAN;
+    find_sizes(h, p, least_size);
+    return some;
+}
+
+/* hi + lo += x (num/sum.h) */
+static inline void
+advance(double *hi, double *lo, double x)
+{
+    const double a = *hi, b = *lo + x, s = a + b, bb = s - a;
+
+    *lo = (a - (s - bb)) + (b - bb);
+    *hi = s;
+}
+
+static void
+step(qdot_constrained_lanes *h, newton *p, double *moved)
+{
+    const size_t n = h->n, m = p->l->m;
+
+    memset(h->x, 0, n * L * sizeof *h->x);
+    for (size_t i = 0; i < m * L; i++)
+        h->x[n * L + i] = -h->residual[i];
+    h->kernels->solve(n + m, n, h->K, h->x);
+    for (size_t i = 0; i < n * L; i++) {
+        const double size = fabs(p->x[i]) > 1 ? fabs(p->x[i]) : 1;
+        const size_t l = i % L;
+
+        if (!p->open[l])
+            continue;
+        if (!(fabs(h->x[i]) <= moved[l] * size))
+            moved[l] = fabs(h->x[i]) / size;
+        advance(&p->x[i], &p->carry[i], h->x[i]);
+        p->loaded[i] = p->x[i];
+    }
+}
+
+/* factored: K is that of these rows already. */
+static void
+hold(qdot_constrained_lanes *h, newton *p, bool *factored, double *moved)
+{
+    for (size_t l = 0; l < L; l++) {
+        p->open[l] = !isnan(moved[l]);
+        p->before[l] = INFINITY;
+    }
+    find_sizes(h, p, least_size);
+    for (int k = 0; k <= most_iterations; k++) {
+        look(h, p);
+        if (!judge(h, p, k, moved))
+            return;
+        if (!*factored)
+            factor(h, p->l);
+        *factored = true;
+        step(h, p, moved);
+    }
+}
+
+void
+qdot_constrained_lanes_project(qdot_constrained_lanes *h, const double *t, double *y,
+                               double *carry, double *moved)
+{
+    const size_t n = h->n, all = n + h->numbers;
+    bool factored = false;
+
+    memcpy(h->in, y, n * L * sizeof *y);
+    memcpy(h->in + n * L, y + 2 * n * L, h->numbers * L * sizeof *y);
+    memcpy(h->in + all * L, y + n * L, n * L * sizeof *y);
+    memcpy(h->in + 2 * all * L, t, L * sizeof *t);
+    memset(moved, 0, L * sizeof *moved);
+    qdot_lanes_eval_near(h->metric, h->in, h->M, h->work);
+    for (size_t k = 0; k < LEVELS; k++) {
+        newton p = {.l = h->levels + k,
+                    .x = y + k * n * L,
+                    .carry = carry + k * n * L,
+                    .loaded = h->in + k * all * L};
+
+        if (p.l->m == 0)
+            continue;
+        if (k > 0 && p.l->m != h->levels[0].m)
+            factored = false;
+        hold(h, &p, &factored, moved);
+    }
+}
