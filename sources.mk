@@ -332,6 +332,8 @@ library_sources = \
 	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/ensemble-series.c \
+	lib/sim/form/expansion.c \
+	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
@@ -671,6 +673,8 @@ library_headers = \
 	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/ensemble-series.h \
+	lib/sim/form/expansion.h \
+	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \

@@ -31,8 +31,28 @@ typedef struct {
 
 enum { QDOT_ODE_LEADING_MOST = 12 };
 
-/* `digits` below, unless an order costs little. */
+/* `digits` of code, unless an order costs little. */
 enum { QDOT_ODE_DIGITS = 18 };
+
+/* Expansions as machine code. */
+typedef struct {
+    double cost[3]; /* as that of the series, with it; zeros: there is none */
+    double wider;   /* and of each 16 orders begun beyond `narrow` */
+    int narrow;
+    /* Natural digits that an order is chosen for at least: an oscillation that is hardly there
+     * bounds the step, and as it has no singularity a higher order is worth more than its radius
+     * says (doc/methods.md). */
+    double digits;
+    double worth; /* writing it takes as long as worth/p expansions save by it */
+    /* Write it for expansions to order p, before a `begin`; NULL: none can be. */
+    qdot_status (*write)(int p, void *user);
+    /* Take code that an earlier run left, if there is some to order p and nothing else is in use;
+     * asked for once. Whether expansions to order p are code. Go back to kernels. */
+    bool (*take)(int p, void *user);
+    bool (*there)(int p, void *user);
+    void (*drop)(void *user);
+    void *user; /* borrowed */
+} qdot_ode_code;
 
 /* A system that gives the Taylor coefficients of its solutions. With s = (t' - t)/unit,
  *
@@ -50,23 +70,7 @@ typedef struct {
     double cost[3];
     /* Expansions to order p are going to be many; before them. May be NULL. */
     qdot_status (*prepare)(int p, void *user);
-    /* The same as machine code, before a `begin`; it takes as long to write as worth/p
-     * expansions save by it. May be NULL. */
-    qdot_status (*write)(int p, void *user);
-    double worth;
-    /* Where there is `write`, these are too. Code that lies there from before becomes that of
-     * expansions to order p, where they are not code; asked for once; whether it has. Whether they
-     * are code. They are not any more. */
-    bool (*take)(int p, void *user);
-    bool (*there)(int p, void *user);
-    void (*drop)(void *user);
-    double written[3]; /* cost, then; zeros: there is none of it here */
-    double wider;      /* and of each 16 orders begun beyond `narrow` */
-    int narrow;
-    /* Natural digits that an order is chosen for at least, then: an oscillation that is hardly there
-     * bounds the step, and as it has no singularity a higher order is worth more than its radius
-     * says (doc/methods.md). */
-    double digits;
+    qdot_ode_code code;
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Then orders 2 ... p. */

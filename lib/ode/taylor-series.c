@@ -28,12 +28,13 @@ qdot_ode_taylor_stable(int p)
 static double
 cost_of(const qdot_ode_series *s, int p)
 {
-    const bool code = s->written[0] > 0;
-    const double *c = code ? s->written : s->cost;
-    const int more = code && p > s->narrow ? p - s->narrow : 0;
+    const qdot_ode_code *code = &s->code;
+    const bool written = code->cost[0] > 0;
+    const double *c = written ? code->cost : s->cost;
+    const int more = written && p > code->narrow ? p - code->narrow : 0;
 
     return c[0] + c[1] * p + c[2] * p * p +
-           s->wider * ((more + orders_of_vector - 1) / orders_of_vector);
+           code->wider * ((more + orders_of_vector - 1) / orders_of_vector);
 }
 
 /* The order that costs least for a way as long as the radius of convergence. */
@@ -41,12 +42,13 @@ static int
 best_order(const qdot_ode_series *series, double tol, bool leading)
 {
     double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
-    const bool more_digits = series->written[0] > 0 && L < series->digits;
-    const bool cheap = more_digits && series->digits > QDOT_ODE_DIGITS;
+    const qdot_ode_code *code = &series->code;
+    const bool more_digits = code->cost[0] > 0 && L < code->digits;
+    const bool cheap = more_digits && code->digits > QDOT_ODE_DIGITS;
     int best = least_order;
 
     if (more_digits)
-        L = series->digits;
+        L = code->digits;
     for (int p = least_order; p <= series->most - of_companions; p++) {
         double cost = cost_of(series, p) * exp(L / p);
 

@@ -9,8 +9,8 @@
  *     (cost_0 + cost_1 p + cost_2 p^2) e^(L/p)
  *
  * least. Where cost_2 dominates that is L/2 (Jorba & Zou); short tapes take more. Where
- * recurrences are machine code it is series.written, with series.wider for each vector of
- * orders beyond the first, and L at least series.digits.
+ * recurrences are machine code it is code.cost, with code.wider for each vector of orders beyond
+ * the first, and L at least code.digits.
  *
  * The length of a step is
  *
@@ -69,7 +69,7 @@ int qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leadin
 
 /* How long, in radians, steps of order p may be that let no oscillation grow: z to a tenth,
  * up to which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. From p to p + 1 that may halve. Where an
- * order costs little and is for an oscillation that is hardly there (series.digits) what it
+ * order costs little and is for an oscillation that is hardly there (code.digits) what it
  * costs is weighed by that too. */
 double qdot_ode_taylor_stable(int p);
 

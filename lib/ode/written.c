@@ -14,34 +14,35 @@ static const double by_first = 1.5;
 static bool
 pays(const qdot_ode_written *w, double steps, double left)
 {
-    return left * w->p * fmin(1, (steps + 1) / few_steps) > w->series->worth;
+    return left * w->p * fmin(1, (steps + 1) / few_steps) > w->code->worth;
 }
 
 qdot_ode_written
 qdot_ode_written_begin(const qdot_ode_series *series, int p)
 {
-    qdot_ode_written w = {.series = series, .p = p};
+    const qdot_ode_code *code = &series->code;
+    qdot_ode_written w = {.code = code, .p = p};
 
-    w.done = !series->write || series->there(p, series->user);
+    w.done = !code->write || code->there(p, code->user);
     w.first = !w.done;
-    w.on_trial = w.first && series->take(p, series->user);
+    w.on_trial = w.first && code->take(p, code->user);
     return w;
 }
 
 qdot_status
 qdot_ode_written_first(qdot_ode_written *w, double left, bool *again)
 {
-    const qdot_ode_series *s = w->series;
-    const bool wanted = by_first * left * w->p > s->worth, there = w->on_trial;
+    const qdot_ode_code *c = w->code;
+    const bool wanted = by_first * left * w->p > c->worth, there = w->on_trial;
 
     w->first = w->on_trial = false;
     w->done = wanted;
     *again = false;
     if (wanted && !there) {
-        QDOT_TRY(s->write(w->p, s->user));
-        *again = s->there(w->p, s->user);
+        QDOT_TRY(c->write(w->p, c->user));
+        *again = c->there(w->p, c->user);
     } else if (there && !wanted) {
-        s->drop(s->user);
+        c->drop(c->user);
         *again = true;
     }
     return QDOT_OK;
@@ -53,5 +54,5 @@ qdot_ode_written_next(qdot_ode_written *w, double steps, double left)
     if (w->done || !pays(w, steps, left))
         return QDOT_OK;
     w->done = true;
-    return w->series->write(w->p, w->series->user);
+    return w->code->write(w->p, w->code->user);
 }

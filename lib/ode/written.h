@@ -16,7 +16,7 @@
 #include "ode/system.h"
 
 typedef struct {
-    const qdot_ode_series *series; /* borrowed */
+    const qdot_ode_code *code; /* borrowed */
     int p;
     bool done;     /* the decision is made */
     bool on_trial; /* code of an earlier run is used until the first step is known */

@@ -62,6 +62,7 @@ struct qdot_taylor {
     struct qdot_taylor_code *code; /* taylor-code.c; NULL: the kernels run, */
     const char *no_code;           /* for this reason; NULL: none was asked for */
     bool asked;                    /* for code that is kept */
+    bool refused;                  /* none is to be written */
 };
 
 /* Order 0 of a step. */

@@ -214,7 +214,7 @@ qdot_taylor_prepare(qdot_taylor *t, int to)
 {
     if (to < 1 || to > QDOT_SERIES_MOST)
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", to);
-    if (qdot_taylor_is_code(t, to))
+    if (t->refused || qdot_taylor_is_code(t, to))
         return QDOT_OK;
     qdot_taylor_drop_code(t);
     return qdot_taylor_code_new(t, to, false, &t->code, &t->no_code);
@@ -225,7 +225,7 @@ qdot_taylor_take_kept(qdot_taylor *t, int to)
 {
     const char *why;
 
-    if (t->asked || t->code || to < 1 || to > QDOT_SERIES_MOST)
+    if (t->refused || t->asked || t->code || to < 1 || to > QDOT_SERIES_MOST)
         return false;
     t->asked = true;
     return qdot_taylor_code_new(t, to, true, &t->code, &why) == QDOT_OK && t->code;
@@ -236,6 +236,14 @@ qdot_taylor_drop_code(qdot_taylor *t)
 {
     qdot_taylor_code_free(t->code);
     t->code = NULL;
+}
+
+void
+qdot_taylor_refuse_code(qdot_taylor *t, const char *why)
+{
+    qdot_taylor_drop_code(t);
+    t->refused = true;
+    t->no_code = why;
 }
 
 size_t

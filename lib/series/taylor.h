@@ -111,6 +111,8 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to);
 bool qdot_taylor_take_kept(qdot_taylor *taylor, int to);
 /* All is evaluated by the kernels again. */
 void qdot_taylor_drop_code(qdot_taylor *taylor);
+/* The same, and no code is written from now on, for this reason; borrowed. */
+void qdot_taylor_refuse_code(qdot_taylor *taylor, const char *why);
 /* Whether orders 1 ... to are machine code. */
 bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
 /* Whether this processor has machine code at all; what that needs, by name. */

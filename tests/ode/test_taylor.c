@@ -386,20 +386,21 @@ static void
 orders_stay_narrow_where_wider_ones_cost(void **state)
 {
     qdot_ode_series series = {
-        .most = 40, .written = {600, 89, 1.2}, .narrow = 18, .digits = QDOT_ODE_DIGITS};
+        .most = 40,
+        .code = {.cost = {600, 89, 1.2}, .narrow = 18, .digits = QDOT_ODE_DIGITS}};
     const int smooth = qdot_ode_taylor_order(&series, 1e-3, false, 0);
 
     (void)state;
     assert_true(smooth >= 19 && smooth <= 24);
-    series.wider = 300;
+    series.code.wider = 300;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 18);
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 3), 21);
-    series.wider = 1;
+    series.code.wider = 1;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), smooth);
-    series.digits = 30; /* steps of orders beside it are by a sixth shorter, and more */
+    series.code.digits = 30; /* steps of orders beside it are by a sixth shorter, and more */
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 29);
-    series.written[0] = 0; /* no code */
-    series.wider = 1e6;
+    series.code.cost[0] = 0; /* no code */
+    series.code.wider = 1e6;
     series.cost[0] = 600;
     series.cost[1] = 89;
     series.cost[2] = 1.2;

@@ -54,12 +54,12 @@ drop_it(void *user)
 static qdot_ode_series
 series_of(counts *c)
 {
-    return (qdot_ode_series){.worth = 300,
-                             .write = write_it,
-                             .take = take_it,
-                             .there = is_there,
-                             .drop = drop_it,
-                             .user = c};
+    return (qdot_ode_series){.code = {.worth = 300,
+                                      .write = write_it,
+                                      .take = take_it,
+                                      .there = is_there,
+                                      .drop = drop_it,
+                                      .user = c}};
 }
 
 /* The first step leaves so many: whether code is there, and whether it is expanded again. */

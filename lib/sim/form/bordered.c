@@ -1,4 +1,4 @@
-/* bordered.c -- order 0 by hand, the others by the program; else by the other series. */
+/* bordered.c -- order 0 by hand, the others by the program. */
 #include "sim/form/bordered.h"
 
 #include <math.h>
@@ -7,10 +7,11 @@
 #include "base/memory.h"
 #include "num/bordered.h"
 #include "sim/form/eliminated.h"
+#include "sim/form/expansion.h"
+#include "sim/form/guarded.h"
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
 #include "sim/model/power-quotient.h"
-#include "series/taylor.h"
 
 enum { most_order = 44, highest = most_order - 4, most = QDOT_BORDERED_MOST };
 
@@ -25,18 +26,15 @@ static const double least_sine = 0.1;
 struct qdot_bordered {
     const qdot_constraints *c;
     size_t n, m;
-    qdot_taylor *taylor;
-    double *q, *v, *t; /* the inputs' rows, `stride` apart */
-    size_t stride;
+    qdot_expansion x;
     const double **outputs; /* f [n], M, A, gamma [m] */
     double *const *a;       /* [n + m] q'', -lambda */
     double *inverse;        /* [n + m x n + m] the program's */
     size_t couplings;       /* moving entries, both triangles */
     bool diagonal;          /* M */
-    int p;                  /* the order at hand */
-    bool looked, fits;      /* at the first state: whether its rows are independent */
-    const qdot_ode_series *other, *now; /* `now`: the one begun last; NULL: this one */
-    qdot_ode_series series;
+    bool looked;            /* at the first state */
+    qdot_ode_series own;
+    qdot_guarded guarded; /* that, where it fits */
 };
 
 /* --- an expansion -------------------------------------------------------------------- */
@@ -85,46 +83,22 @@ solve(const qdot_bordered *e)
     return nothing == 0;
 }
 
-/* Order 0 at (t, y); whether there is one. */
-static bool
-begin_own(qdot_bordered *e, double t, const double *y, double unit)
-{
-    const size_t n = e->n;
-    double *q = e->q, *v = e->v;
-
-    for (size_t i = 0; i < n; i++, q += e->stride, v += e->stride) {
-        q[0] = y[i];
-        q[1] = unit * y[n + i];
-        v[0] = y[n + i];
-    }
-    e->t[0] = t;
-    e->t[1] = unit;
-    qdot_taylor_draw(e->taylor, t);
-    qdot_taylor_order(e->taylor, 0);
-    return invert(e) && solve(e);
-}
-
+/* At a first state that is not for it no code is written, kept or not. */
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
     qdot_bordered *e = user;
-    const qdot_ode_series *other = e->other;
-    const bool code = qdot_taylor_is_code(e->taylor, e->p - 1);
-    const bool own = (code || !e->looked) && begin_own(e, t, y, unit);
+    bool fits;
 
-    e->now = NULL;
-    e->series.x = e->q;
-    e->series.stride = e->stride;
-    e->fits = e->looked ? e->fits : own;
+    qdot_expansion_begin(&e->x, t, y, unit);
+    qdot_taylor_order(e->x.taylor, 0);
+    fits = invert(e) && solve(e);
+    if (!fits && !e->looked)
+        qdot_taylor_refuse_code(e->x.taylor, "constraints depend on each other at the start");
     e->looked = true;
-    if (code && own) {
-        qdot_taylor_begin_links(e->taylor, unit);
-        return QDOT_OK;
-    }
-    QDOT_TRY(other->begin(t, y, unit, other->user));
-    e->now = other;
-    e->series.x = other->x;
-    e->series.stride = other->stride;
+    if (!fits)
+        return qdot_fail(QDOT_EDOMAIN, "constraints depend on each other");
+    qdot_taylor_begin_links(e->x.taylor, unit);
     return QDOT_OK;
 }
 
@@ -133,83 +107,15 @@ extend(int p, void *user)
 {
     const qdot_bordered *e = user;
 
-    if (e->now)
-        return e->now->extend(p, e->now->user);
-    qdot_taylor_extend(e->taylor, 1, p - 1);
+    qdot_taylor_extend(e->x.taylor, 1, p - 1);
     return QDOT_OK;
-}
-
-static double
-noise(void *user)
-{
-    const qdot_bordered *e = user;
-
-    return e->now && e->now->noise ? e->now->noise(e->now->user) : 0;
-}
-
-static double
-ahead(void *user)
-{
-    const qdot_bordered *e = user;
-
-    return e->now && e->now->ahead ? e->now->ahead(e->now->user) : 0;
 }
 
 /* Orders of forces end two below that of q. */
 static double
 near(int p, double s, void *user)
 {
-    const qdot_bordered *e = user;
-
-    if (e->now)
-        return e->now->near ? e->now->near(p, s, e->now->user) : s;
-    return qdot_taylor_near(e->taylor, p - 2, s);
-}
-
-static qdot_status
-prepare(int p, void *user)
-{
-    qdot_bordered *e = user;
-
-    e->p = p;
-    return e->other->prepare ? e->other->prepare(p, e->other->user) : QDOT_OK;
-}
-
-/* Where the first state is not one for it, there is none, kept or not. */
-static qdot_status
-write_code(int p, void *user)
-{
-    qdot_bordered *e = user;
-
-    e->p = p;
-    if (e->fits || !e->looked)
-        return qdot_taylor_prepare(e->taylor, p - 1);
-    qdot_taylor_drop_code(e->taylor);
-    return QDOT_OK;
-}
-
-static bool
-take_code(int p, void *user)
-{
-    const qdot_bordered *e = user;
-
-    return qdot_taylor_take_kept(e->taylor, p - 1);
-}
-
-static bool
-is_code(int p, void *user)
-{
-    const qdot_bordered *e = user;
-
-    return qdot_taylor_is_code(e->taylor, p - 1);
-}
-
-static void
-drop_code(void *user)
-{
-    const qdot_bordered *e = user;
-
-    qdot_taylor_drop_code(e->taylor);
+    return qdot_taylor_near(((const qdot_bordered *)user)->x.taylor, p - 2, s);
 }
 
 /* --- building ------------------------------------------------------------------------ */
@@ -256,8 +162,8 @@ solve_for_all(qdot_bordered *e)
         f[i] = i < n ? i : gamma + (i - n);
     count = list_entries(e, entries);
     for (size_t k = 0; k < count; k++)
-        e->couplings += !qdot_taylor_is_constant(e->taylor, entries[k].output);
-    status = qdot_taylor_solve_entries(e->taylor, n + m, f, count, entries, 0, &e->a,
+        e->couplings += !qdot_taylor_is_constant(e->x.taylor, entries[k].output);
+    status = qdot_taylor_solve_entries(e->x.taylor, n + m, f, count, entries, 0, &e->a,
                                        &matrices);
     qdot_free(entries);
     if (status == QDOT_OK)
@@ -272,19 +178,21 @@ static void
 estimate_written(qdot_bordered *e, const qdot_plan *p)
 {
     const double all = (double)(e->n + e->m), sums = qdot_bordered_convolutions(e);
-    const double length = (double)qdot_taylor_length(e->taylor);
+    const double length = (double)qdot_taylor_length(e->x.taylor);
     const double instructions = 7 * length + 12 * sums + 1.5 * all * all; /* of an order */
-    double *cost = e->series.written;
+    qdot_ode_code *code = &e->own.code;
+    double *cost = code->cost;
 
-    e->series.digits = QDOT_ODE_DIGITS;
+    code->worth = 400;
+    code->digits = QDOT_ODE_DIGITS;
     cost[0] = 160 + 20 * (double)qdot_tape_calls(p->tape) + 3 * length + 20 * all +
               0.5 * all * all * all;
     cost[1] = 3 + 0.4 * length + 0.6 * sums + all * all;
     cost[2] = 0.03 * sums;
     /* More vectors are loops of their own, read anew in every step where all of them are more
      * than a processor keeps decoded. */
-    e->series.narrow = narrow;
-    e->series.wider = loops * instructions > decoded ? 0.3 * instructions : 0;
+    code->narrow = narrow;
+    code->wider = loops * instructions > decoded ? 0.3 * instructions : 0;
 }
 
 static qdot_status
@@ -292,13 +200,11 @@ make(qdot_bordered *e, const qdot_plan *p, bool shaken, const qdot_ode_series *o
 {
     const qdot_tape *tape = p->bordered ? p->bordered : p->tape;
     const size_t n = e->n, outputs = qdot_tape_outputs(tape);
+    qdot_taylor *taylor;
 
     QDOT_TRY(qdot_taylor_new_moving(tape, shaken, most_order, 2 * n + 1, n + e->m,
-                                    &e->taylor));
-    e->stride = qdot_taylor_stride(e->taylor);
-    e->q = qdot_taylor_input(e->taylor, 0);
-    e->v = qdot_taylor_input(e->taylor, n);
-    e->t = qdot_taylor_input(e->taylor, 2 * n);
+                                    &taylor));
+    e->x = qdot_expansion_of(taylor, n);
     e->diagonal = true;
     for (size_t k = 0; k < e->c->n_masses; k++)
         e->diagonal = e->diagonal && e->c->masses[k].row == e->c->masses[k].column;
@@ -306,29 +212,22 @@ make(qdot_bordered *e, const qdot_plan *p, bool shaken, const qdot_ode_series *o
     if (!e->outputs)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < outputs; i++)
-        e->outputs[i] = qdot_taylor_output(e->taylor, i);
+        e->outputs[i] = qdot_taylor_output(e->x.taylor, i);
     QDOT_TRY(solve_for_all(e));
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(qdot_taylor_link(e->taylor, n + i, i, e->a[i]));
-    e->series = (qdot_ode_series){.most = other->most < highest ? other->most : highest,
-                                  .x = e->q,
-                                  .stride = e->stride,
-                                  .checked = n,
-                                  .cost = {other->cost[0], other->cost[1], other->cost[2]},
-                                  .prepare = prepare,
-                                  .write = write_code,
-                                  .take = take_code,
-                                  .there = is_code,
-                                  .drop = drop_code,
-                                  .worth = 400,
-                                  .begin = begin,
-                                  .extend = extend,
-                                  .noise = other->noise ? noise : NULL,
-                                  .ahead = other->ahead ? ahead : NULL,
-                                  .near = other->near || qdot_taylor_has_exponentials(e->taylor)
-                                              ? near : NULL,
-                                  .user = e};
+        QDOT_TRY(qdot_taylor_link(e->x.taylor, n + i, i, e->a[i]));
+    e->own = (qdot_ode_series){.most = highest,
+                               .x = e->x.q,
+                               .stride = e->x.stride,
+                               .checked = n,
+                               .code = qdot_expansion_code(e->x.taylor),
+                               .begin = begin,
+                               .extend = extend,
+                               .near = qdot_taylor_has_exponentials(e->x.taylor) ? near : NULL,
+                               .user = e};
     estimate_written(e, p);
+    qdot_guarded_init(&e->guarded, &e->own, other, true);
+    memcpy(e->guarded.series.cost, other->cost, sizeof other->cost);
     return QDOT_OK;
 }
 
@@ -345,7 +244,6 @@ qdot_bordered_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *oth
     e->c = plan->constraints;
     e->n = plan->n;
     e->m = e->c->m;
-    e->other = other;
     status = make(e, plan, shaken, other);
     if (status != QDOT_OK) {
         qdot_bordered_free(e);
@@ -360,7 +258,7 @@ qdot_bordered_free(qdot_bordered *e)
 {
     if (!e)
         return;
-    qdot_taylor_free(e->taylor);
+    qdot_taylor_free(e->x.taylor);
     qdot_free(e->outputs);
     qdot_free(e);
 }
@@ -368,19 +266,19 @@ qdot_bordered_free(qdot_bordered *e)
 const qdot_ode_series *
 qdot_bordered_series(const qdot_bordered *e)
 {
-    return &e->series;
+    return &e->guarded.series;
 }
 
 double
 qdot_bordered_convolutions(const qdot_bordered *e)
 {
-    return qdot_taylor_convolutions(e->taylor) + (double)e->couplings;
+    return qdot_taylor_convolutions(e->x.taylor) + (double)e->couplings;
 }
 
 size_t
 qdot_bordered_code(const qdot_bordered *e, const char **why)
 {
-    return qdot_taylor_code_bytes(e->taylor, why);
+    return qdot_taylor_code_bytes(e->x.taylor, why);
 }
 
 /* --- which is taken ------------------------------------------------------------------ */

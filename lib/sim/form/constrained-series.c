@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "num/series.h"
+#include "sim/form/expansion.h"
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
-#include "series/taylor.h"
 
 enum { most_order = 44, lanes = 8 };
 
@@ -44,15 +44,13 @@ struct qdot_constrained_series {
     const qdot_plan *plan;
     const qdot_constraints *c;
     const qdot_series_kernels *kernels;
-    qdot_taylor *motion; /* f, M */
+    qdot_expansion x; /* f, M */
     kind_series kinds[3];
     qdot_saddle saddle;
     double best;  /* its best quality so far */
     double *weak; /* [m + n] scratch */
     qdot_ode_series series;
     double unit;
-    double *q, *v, *t; /* inputs' rows of `motion`, `stride` apart */
-    size_t stride;
     double *a, *lambda;  /* [n x stride], [m x stride] series of q'', -lambda */
     double *newest;      /* [n] */
     const double **f;    /* [n] series */
@@ -101,13 +99,13 @@ look_ahead(qdot_constrained_series *e, int k)
         qdot_taylor_order(h->taylor, k + 2);
     }
     if (v->taylor) {
-        copy_order(e->q, e->stride, v->other, v->stride, n, k + 1);
+        copy_order(e->x.q, e->x.stride, v->other, v->stride, n, k + 1);
         clear_order(v->newest, v->stride, n, k + 1);
         qdot_taylor_order(v->taylor, k + 1);
     }
     if (a->taylor) {
-        copy_order(e->q, e->stride, a->other, a->stride, n, k);
-        copy_order(e->v, e->stride, a->velocity, a->stride, n, k);
+        copy_order(e->x.q, e->x.stride, a->other, a->stride, n, k);
+        copy_order(e->x.v, e->x.stride, a->velocity, a->stride, n, k);
         clear_order(a->newest, a->stride, n, k);
         qdot_taylor_order(a->taylor, k);
     }
@@ -142,26 +140,26 @@ bring_up_to_date(qdot_constrained_series *e, int k)
     kind_series *a = e->kinds + QDOT_ACCELERATION;
 
     for (size_t i = 0; i < n; i++) {
-        e->newest[i] = unit * e->a[i * e->stride + (size_t)k] / one;
-        e->v[i * e->stride + (size_t)k + 1] = e->newest[i];
+        e->newest[i] = unit * e->a[i * e->x.stride + (size_t)k] / one;
+        e->x.v[i * e->x.stride + (size_t)k + 1] = e->newest[i];
     }
     if (v->taylor)
         qdot_taylor_correct(v->taylor, k + 1, e->newest);
     for (size_t i = 0; i < n; i++) {
         e->newest[i] = unit * e->newest[i] / two;
-        e->q[i * e->stride + (size_t)k + 2] = e->newest[i];
+        e->x.q[i * e->x.stride + (size_t)k + 2] = e->newest[i];
     }
     if (h->taylor)
         qdot_taylor_correct(h->taylor, k + 2, e->newest);
     if (!a->taylor)
         return;
     if (k == 0) { /* order 0 is not affine */
-        copy_order(e->a, e->stride, a->newest, a->stride, n, 0);
+        copy_order(e->a, e->x.stride, a->newest, a->stride, n, 0);
         qdot_taylor_order(a->taylor, 0);
         return;
     }
     for (size_t i = 0; i < n; i++)
-        e->newest[i] = e->a[i * e->stride + (size_t)k];
+        e->newest[i] = e->a[i * e->x.stride + (size_t)k];
     qdot_taylor_correct(a->taylor, k, e->newest);
 }
 
@@ -208,7 +206,7 @@ order(qdot_constrained_series *e, int k, int precise)
 
     look_ahead(e, k);
     if (e->moves || k == 0)
-        qdot_taylor_order(e->motion, k);
+        qdot_taylor_order(e->x.taylor, k);
     if (k == 0)
         QDOT_TRY(factor(e));
     for (size_t i = 0; i < n; i++)
@@ -221,9 +219,9 @@ order(qdot_constrained_series *e, int k, int precise)
     else
         qdot_saddle_apply(&e->saddle);
     for (size_t i = 0; i < n; i++)
-        e->a[i * e->stride + (size_t)k] = x[i];
+        e->a[i * e->x.stride + (size_t)k] = x[i];
     for (size_t r = 0; r < m; r++)
-        e->lambda[r * e->stride + (size_t)k] = x[n + r];
+        e->lambda[r * e->x.stride + (size_t)k] = x[n + r];
     for (size_t j = 0; j < e->products; j++)
         others[j] = e->of[j][k];
     bring_up_to_date(e, k);
@@ -234,16 +232,7 @@ order(qdot_constrained_series *e, int k, int precise)
 static void
 load(qdot_constrained_series *e, double t, const double *y)
 {
-    const size_t n = e->plan->n;
-
-    for (size_t i = 0; i < n; i++) {
-        e->q[i * e->stride] = y[i];
-        e->q[i * e->stride + 1] = e->unit * y[n + i];
-        e->v[i * e->stride] = y[n + i];
-    }
-    e->t[0] = t;
-    e->t[1] = e->unit;
-    qdot_taylor_draw(e->motion, t);
+    qdot_expansion_begin(&e->x, t, y, e->unit);
     for (int kind = 0; kind < 3; kind++) {
         kind_series *s = e->kinds + kind;
 
@@ -288,17 +277,17 @@ begin(double t, const double *y, double unit, void *user)
     if (e->c->m > 1 && e->saddle.rank == QDOT_SADDLE_UNKNOWN)
         QDOT_TRY(look_beside(e, t, y));
     for (int k = 0; h->taylor && k < 2; k++) {
-        copy_order(e->q, e->stride, h->newest, h->stride, n, k);
+        copy_order(e->x.q, e->x.stride, h->newest, h->stride, n, k);
         qdot_taylor_order(h->taylor, k);
     }
     if (v->taylor) {
-        copy_order(e->q, e->stride, v->other, v->stride, n, 0);
-        copy_order(e->v, e->stride, v->newest, v->stride, n, 0);
+        copy_order(e->x.q, e->x.stride, v->other, v->stride, n, 0);
+        copy_order(e->x.v, e->x.stride, v->newest, v->stride, n, 0);
         qdot_taylor_order(v->taylor, 0);
     }
     QDOT_TRY(order(e, 0, refined));
     for (size_t i = 0; i < n; i++)
-        if (!isfinite(e->a[i * e->stride]))
+        if (!isfinite(e->a[i * e->x.stride]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
                              e->plan->names[i]);
     return QDOT_OK;
@@ -427,19 +416,19 @@ find_outputs(qdot_constrained_series *e)
     if (!e->couplings || !e->entry || !e->of)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++) {
-        e->f[i] = qdot_taylor_output(e->motion, i);
-        e->moves |= !qdot_taylor_is_constant(e->motion, i);
+        e->f[i] = qdot_taylor_output(e->x.taylor, i);
+        e->moves |= !qdot_taylor_is_constant(e->x.taylor, i);
     }
     for (size_t k = 0; k < c->n_masses; k++) {
         size_t i = c->masses[k].row, j = c->masses[k].column;
 
-        e->M[k] = qdot_taylor_output(e->motion, n + k);
-        if (qdot_taylor_is_constant(e->motion, n + k))
+        e->M[k] = qdot_taylor_output(e->x.taylor, n + k);
+        if (qdot_taylor_is_constant(e->x.taylor, n + k))
             continue;
         e->moves = true;
-        couple(e, i, 1, e->M[k], e->a + j * e->stride);
+        couple(e, i, 1, e->M[k], e->a + j * e->x.stride);
         if (i != j)
-            couple(e, j, 1, e->M[k], e->a + i * e->stride);
+            couple(e, j, 1, e->M[k], e->a + i * e->x.stride);
     }
     for (int kind = 0; kind < 3; kind++)
         at[kind] = c->count[kind];
@@ -452,7 +441,7 @@ find_outputs(qdot_constrained_series *e)
         e->A[k] = qdot_taylor_output(taylor, output);
         if (!qdot_taylor_is_constant(taylor, output))
             couple(e, c->slopes[k].column, c->sign[k], e->A[k],
-                   e->lambda + row * e->stride);
+                   e->lambda + row * e->x.stride);
     }
     for (size_t r = 0; r < c->m; r++)
         e->rows[r] =
@@ -471,7 +460,7 @@ near(int p, double s, void *user)
     const qdot_constrained_series *e = user;
 
     if (e->moves)
-        s = qdot_taylor_near(e->motion, p - 2, s);
+        s = qdot_taylor_near(e->x.taylor, p - 2, s);
     for (int kind = 0; kind < 3; kind++)
         if (e->kinds[kind].taylor)
             s = qdot_taylor_near(e->kinds[kind].taylor, p - 2, s);
@@ -481,7 +470,7 @@ near(int p, double s, void *user)
 static bool
 has_exponentials(const qdot_constrained_series *e)
 {
-    bool some = qdot_taylor_has_exponentials(e->motion);
+    bool some = qdot_taylor_has_exponentials(e->x.taylor);
 
     for (int kind = 0; kind < 3; kind++)
         some = some || (e->kinds[kind].taylor
@@ -497,7 +486,7 @@ estimate_cost(qdot_constrained_series *e)
     const double n = (double)e->plan->n, all = n + (double)e->c->m;
     const double filled = s->patterned ? (double)s->sparse.filled : all * all;
     const double solve = 30 + 6 * all + 2.5 * filled;
-    double *cost = e->series.cost, length = (double)qdot_taylor_length(e->motion);
+    double *cost = e->series.cost, length = (double)qdot_taylor_length(e->x.taylor);
 
     for (int kind = 0; kind < 3; kind++)
         if (e->kinds[kind].taylor)
@@ -514,17 +503,15 @@ make(qdot_constrained_series *e, bool shaken)
 {
     const qdot_plan *p = e->plan;
     const qdot_constraints *c = e->c;
+    qdot_taylor *motion;
 
     e->damped = p->treatment == QDOT_RUN_BAUMGARTE;
-    QDOT_TRY(qdot_taylor_new_shaken(c->motion, shaken, most_order, &e->motion));
+    QDOT_TRY(qdot_taylor_new_shaken(c->motion, shaken, most_order, &motion));
+    e->x = qdot_expansion_of(motion, p->n);
     for (int kind = 0; kind < 3; kind++)
         QDOT_TRY(make_kind(e, (qdot_constraint_kind)kind, shaken));
-    e->stride = qdot_taylor_stride(e->motion);
-    e->q = qdot_taylor_input(e->motion, 0);
-    e->v = qdot_taylor_input(e->motion, p->n);
-    e->t = qdot_taylor_input(e->motion, 2 * p->n);
-    e->a = qdot_calloc(p->n * e->stride, sizeof *e->a);
-    e->lambda = qdot_calloc(c->m * e->stride, sizeof *e->lambda);
+    e->a = qdot_calloc(p->n * e->x.stride, sizeof *e->a);
+    e->lambda = qdot_calloc(c->m * e->x.stride, sizeof *e->lambda);
     e->newest = qdot_calloc(p->n, sizeof *e->newest);
     e->weak = qdot_calloc(c->m + p->n, sizeof *e->weak);
     e->f = qdot_calloc(p->n, sizeof *e->f);
@@ -539,8 +526,8 @@ make(qdot_constrained_series *e, bool shaken)
                                  c->slopes));
     QDOT_TRY(find_outputs(e));
     e->series = (qdot_ode_series){.most = most_order - 4,
-                                  .x = e->q,
-                                  .stride = e->stride,
+                                  .x = e->x.q,
+                                  .stride = e->x.stride,
                                   .checked = p->n,
                                   .begin = begin,
                                   .extend = extend,
@@ -579,7 +566,7 @@ qdot_constrained_series_free(qdot_constrained_series *e)
 {
     if (!e)
         return;
-    qdot_taylor_free(e->motion);
+    qdot_taylor_free(e->x.taylor);
     for (int kind = 0; kind < 3; kind++)
         qdot_taylor_free(e->kinds[kind].taylor);
     qdot_saddle_clear(&e->saddle);
@@ -609,7 +596,7 @@ qdot_constrained_series_get(const qdot_constrained_series *e)
 double
 qdot_constrained_series_convolutions(const qdot_constrained_series *e)
 {
-    double sum = qdot_taylor_convolutions(e->motion) + (double)e->products;
+    double sum = qdot_taylor_convolutions(e->x.taylor) + (double)e->products;
 
     for (int kind = 0; kind < 3; kind++)
         if (e->kinds[kind].taylor)

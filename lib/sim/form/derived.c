@@ -25,7 +25,7 @@ qdot_plan_measure(qdot_plan *plan)
     plan->convolutions_derived = qdot_direct_convolutions(direct);
     series = *qdot_direct_series(direct);
     plan->cost = qdot_plan_cost(&series);
-    series.written[0] = 0;
+    series.code.cost[0] = 0;
     plan->cost_of_kernels = qdot_plan_cost(&series);
     qdot_direct_free(direct);
     return QDOT_OK;

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "num/series.h"
 #include "sim/form/blocks.h"
-#include "series/taylor.h"
+#include "sim/form/expansion.h"
 
 enum { most_order = 48 };
 
@@ -38,12 +38,10 @@ typedef struct {
 struct qdot_direct {
     const qdot_plan *plan;
     const qdot_series_kernels *kernels;
-    qdot_taylor *taylor;
+    qdot_expansion x;
     qdot_blocks solvers;
     qdot_ode_series series;
     double unit;
-    double *q, *v, *t; /* the inputs' rows, `stride` apart */
-    size_t stride;
     const double **outputs; /* [outputs of the tape] */
     block_series *blocks;   /* [blocks] */
     const double **a;       /* [n] series of q'': an output of the tape, or solved for */
@@ -100,7 +98,7 @@ accelerations(qdot_direct *e, int k)
 {
     const qdot_plan *p = e->plan;
 
-    qdot_taylor_order(e->taylor, k);
+    qdot_taylor_order(e->x.taylor, k);
     for (size_t b = 0; b < p->structure.blocks; b++) {
         const qdot_plan_block *block = p->blocks + b;
         const double *x = e->solvers.at[b].x;
@@ -134,16 +132,16 @@ integrate(qdot_direct *e, int k)
             continue;
         a = e->a[i][k];
         if (k <= e->exact) {
-            e->v[i * e->stride + (size_t)k + 1] = e->unit * a / (k + 1);
-            e->q[i * e->stride + (size_t)k + 2] =
+            e->x.v[i * e->x.stride + (size_t)k + 1] = e->unit * a / (k + 1);
+            e->x.q[i * e->x.stride + (size_t)k + 2] =
                 e->unit * (e->unit * a) / ((k + 1) * (k + 2));
             continue;
         }
-        e->v[i * e->stride + (size_t)k + 1] = once * a;
-        e->q[i * e->stride + (size_t)k + 2] = twice * a;
+        e->x.v[i * e->x.stride + (size_t)k + 1] = once * a;
+        e->x.q[i * e->x.stride + (size_t)k + 2] = twice * a;
     }
     for (size_t c = 0; c < e->plan->n_kept; c++)
-        e->q[e->plan->kept[c] * e->stride + (size_t)k + 1] =
+        e->x.q[e->plan->kept[c] * e->x.stride + (size_t)k + 1] =
             k <= e->exact ? e->unit * e->rates[c][k] / (k + 1)
                                    : once * e->rates[c][k];
 }
@@ -153,7 +151,7 @@ static void
 show_rates(qdot_direct *e, int p)
 {
     for (size_t c = 0; c < e->plan->n_kept; c++) {
-        double *v = e->v + e->plan->kept[c] * e->stride;
+        double *v = e->x.v + e->plan->kept[c] * e->x.stride;
 
         memcpy(v, e->rates[c], (size_t)p * sizeof *v);
         v[p] = 0;
@@ -168,7 +166,7 @@ draw_momenta(qdot_direct *e, double t)
 
     for (size_t c = 0; c < e->plan->n_kept; c++) {
         momentum *m = e->momenta + c;
-        double *to = e->t + (c + 1) * e->stride;
+        double *to = e->x.t + (c + 1) * e->x.stride;
 
         *to = e->hi[c];
         if (e->plain || e->lo[c] == 0)
@@ -205,25 +203,18 @@ begin(double t, const double *y, double unit, void *user)
 {
     qdot_direct *e = user;
     const size_t n = e->plan->n, kept = e->plan->n_kept;
-    double *q = e->q, *v = e->v, nothing = 0; /* a sum of zeros, if all is finite */
+    double nothing = 0; /* a sum of zeros, if all is finite */
 
     e->unit = unit;
-    for (size_t i = 0; i < n; i++, q += e->stride, v += e->stride) {
-        q[0] = y[i];
-        q[1] = unit * y[n + i];
-        v[0] = y[n + i];
-    }
-    e->t[0] = t;
-    e->t[1] = unit;
-    qdot_taylor_draw(e->taylor, t);
+    qdot_expansion_begin(&e->x, t, y, unit);
     if (e->hi)
         draw_momenta(e, t);
     if (e->diagonal) {
-        qdot_taylor_begin(e->taylor, unit);
+        qdot_taylor_begin(e->x.taylor, unit);
     } else {
         QDOT_TRY(accelerations(e, 0));
         if (e->linked)
-            qdot_taylor_begin_links(e->taylor, unit);
+            qdot_taylor_begin_links(e->x.taylor, unit);
         else
             integrate(e, 0);
     }
@@ -245,38 +236,6 @@ prepare(int p, void *user)
 
     e->exact = p > QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT : 0;
     return QDOT_OK;
-}
-
-static qdot_status
-write_code(int p, void *user)
-{
-    const qdot_direct *e = user;
-
-    return qdot_taylor_prepare(e->taylor, p - 1);
-}
-
-static bool
-take_code(int p, void *user)
-{
-    const qdot_direct *e = user;
-
-    return qdot_taylor_take_kept(e->taylor, p - 1);
-}
-
-static bool
-is_code(int p, void *user)
-{
-    const qdot_direct *e = user;
-
-    return qdot_taylor_is_code(e->taylor, p - 1);
-}
-
-static void
-drop_code(void *user)
-{
-    const qdot_direct *e = user;
-
-    qdot_taylor_drop_code(e->taylor);
 }
 
 /* The matrices of what the program solves for. */
@@ -303,16 +262,16 @@ extend(int p, void *user)
     qdot_direct *e = user;
 
     if (e->diagonal) {
-        qdot_taylor_extend(e->taylor, 1, p - 1);
+        qdot_taylor_extend(e->x.taylor, 1, p - 1);
         show_rates(e, p);
         return QDOT_OK;
     }
     for (size_t b = 0; b < e->plan->structure.blocks; b++)
         if (e->plan->blocks[b].n > 1 && !e->plan->blocks[b].constant)
             qdot_blocks_invert(&e->solvers, b);
-    if (e->linked && qdot_taylor_is_code(e->taylor, p - 1)) {
+    if (e->linked && qdot_taylor_is_code(e->x.taylor, p - 1)) {
         hand_over(e);
-        qdot_taylor_extend(e->taylor, 1, p - 1);
+        qdot_taylor_extend(e->x.taylor, 1, p - 1);
         show_rates(e, p);
         return QDOT_OK;
     }
@@ -341,7 +300,7 @@ unknowns(qdot_direct *e, size_t b, size_t from)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n + entries; i++)
         outputs[i] = from + i;
-    status = qdot_taylor_solve(e->taylor, n, outputs, entries > 0 ? outputs + n : NULL,
+    status = qdot_taylor_solve(e->x.taylor, n, outputs, entries > 0 ? outputs + n : NULL,
                                QDOT_BLOCKS_SOLVED, &s->a, &s->matrices);
     qdot_free(outputs);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
@@ -358,7 +317,7 @@ find_outputs(qdot_direct *e, size_t count)
 
     e->diagonal = p->structure.blocks == p->n - p->n_kept;
     for (size_t i = 0; i < count; i++)
-        e->outputs[i] = qdot_taylor_output(e->taylor, i);
+        e->outputs[i] = qdot_taylor_output(e->x.taylor, i);
     for (size_t b = 0; b < p->structure.blocks; b++) {
         const qdot_plan_block *block = p->blocks + b;
         block_series *s = e->blocks + b;
@@ -379,7 +338,7 @@ find_outputs(qdot_direct *e, size_t count)
             return QDOT_ENOMEM;
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j <= i; j++, at++) {
-                if (qdot_taylor_is_constant(e->taylor, at))
+                if (qdot_taylor_is_constant(e->x.taylor, at))
                     continue;
                 s->couplings[s->n_couplings++] =
                     (coupling){i, e->outputs[at], e->a[block->index[j]]};
@@ -397,7 +356,7 @@ find_outputs(qdot_direct *e, size_t count)
 static double
 near(int p, double s, void *user)
 {
-    return qdot_taylor_near(((const qdot_direct *)user)->taylor, p - 2, s);
+    return qdot_taylor_near(((const qdot_direct *)user)->x.taylor, p - 2, s);
 }
 
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
@@ -408,8 +367,8 @@ estimate_cost(qdot_direct *e)
     double *c = e->series.cost, convolutions = qdot_direct_convolutions(e);
 
     c[0] = 60 + 15.0 * (double)qdot_tape_calls(p->tape) +
-           2.0 * (double)qdot_taylor_length(e->taylor) + 10.0 * (double)p->n;
-    c[1] = 1.5 + 1.2 * (double)qdot_taylor_length(e->taylor) + 3.5 * convolutions +
+           2.0 * (double)qdot_taylor_length(e->x.taylor) + 10.0 * (double)p->n;
+    c[1] = 1.5 + 1.2 * (double)qdot_taylor_length(e->x.taylor) + 3.5 * convolutions +
            2.0 * (double)p->n;
     c[2] = 0.12 * convolutions;
     for (size_t b = 0; b < p->structure.blocks; b++) {
@@ -430,12 +389,17 @@ static void
 estimate_written(qdot_direct *e)
 {
     const qdot_plan *p = e->plan;
-    const double length = (double)qdot_taylor_length(e->taylor);
-    double *c = e->series.written, convolutions = qdot_direct_convolutions(e);
+    const double length = (double)qdot_taylor_length(e->x.taylor);
+    qdot_ode_code *code = &e->series.code;
+    double *c = code->cost, convolutions = qdot_direct_convolutions(e);
 
-    if (!e->linked || !qdot_taylor_may_be_code())
+    if (!e->linked)
         return;
-    e->series.digits = e->diagonal ? 24 : QDOT_ODE_DIGITS;
+    *code = qdot_expansion_code(e->x.taylor);
+    code->worth = 800 + 5000 / (length + 1);
+    if (!qdot_taylor_may_be_code())
+        return;
+    code->digits = e->diagonal ? 24 : QDOT_ODE_DIGITS;
     c[0] = 160 + 20 * (double)qdot_tape_calls(p->tape) + 3 * length + 10 * (double)p->n;
     c[1] = 3 + 0.4 * length + 0.6 * convolutions;
     c[2] = 0.03 * convolutions;
@@ -453,13 +417,11 @@ static qdot_status
 make(qdot_direct *e, const qdot_plan *p, bool shaken)
 {
     size_t outputs = qdot_tape_outputs(p->tape);
+    qdot_taylor *taylor;
 
     QDOT_TRY(qdot_taylor_new_moving(p->tape, shaken, most_order, 2 * p->n + 1,
-                                    p->n, &e->taylor));
-    e->stride = qdot_taylor_stride(e->taylor);
-    e->q = qdot_taylor_input(e->taylor, 0);
-    e->v = qdot_taylor_input(e->taylor, p->n);
-    e->t = qdot_taylor_input(e->taylor, 2 * p->n);
+                                    p->n, &taylor));
+    e->x = qdot_expansion_of(taylor, p->n);
     e->a = qdot_calloc(p->n, sizeof *e->a);
     e->outputs = qdot_calloc(outputs + 1, sizeof *e->outputs);
     e->blocks = qdot_calloc(p->structure.blocks + 1, sizeof *e->blocks);
@@ -480,25 +442,20 @@ make(qdot_direct *e, const qdot_plan *p, bool shaken)
         e->linked = e->linked && p->blocks[b].n <= most_linked;
     for (size_t i = 0; i < p->n && e->linked; i++)
         if (e->a[i])
-            QDOT_TRY(qdot_taylor_link(e->taylor, p->n + i, i, e->a[i]));
+            QDOT_TRY(qdot_taylor_link(e->x.taylor, p->n + i, i, e->a[i]));
     for (size_t c = 0; c < p->n_kept && e->linked; c++)
-        QDOT_TRY(qdot_taylor_link(e->taylor, p->kept[c], SIZE_MAX, e->rates[c]));
+        QDOT_TRY(qdot_taylor_link(e->x.taylor, p->kept[c], SIZE_MAX, e->rates[c]));
     e->plain = shaken;
     for (int k = 1; k < most_order + 2; k++)
         e->inverse[k] = 1.0 / k;
     e->series = (qdot_ode_series){.most = most_order - 4,
-                                  .x = e->q,
-                                  .stride = e->stride,
+                                  .x = e->x.q,
+                                  .stride = e->x.stride,
                                   .checked = p->n,
                                   .prepare = prepare,
-                                  .write = e->linked ? write_code : NULL,
-                                  .take = take_code,
-                                  .there = is_code,
-                                  .drop = drop_code,
-                                  .worth = 800 + 5000 / (double)(qdot_taylor_length(e->taylor) + 1),
                                   .begin = begin,
                                   .extend = extend,
-                                  .near = qdot_taylor_has_exponentials(e->taylor) ? near : NULL,
+                                  .near = qdot_taylor_has_exponentials(e->x.taylor) ? near : NULL,
                                   .user = e};
     estimate_cost(e);
     estimate_written(e);
@@ -532,7 +489,7 @@ qdot_direct_free(qdot_direct *e)
         return;
     for (size_t b = 0; e->blocks && b < e->plan->structure.blocks; b++)
         qdot_free(e->blocks[b].couplings);
-    qdot_taylor_free(e->taylor);
+    qdot_taylor_free(e->x.taylor);
     qdot_blocks_clear(&e->solvers);
     qdot_free(e->outputs);
     qdot_free(e->rates);
@@ -564,7 +521,7 @@ qdot_direct_series(const qdot_direct *e)
 double
 qdot_direct_convolutions(const qdot_direct *e)
 {
-    double sum = qdot_taylor_convolutions(e->taylor);
+    double sum = qdot_taylor_convolutions(e->x.taylor);
 
     for (size_t b = 0; b < e->plan->structure.blocks; b++)
         sum += (double)e->blocks[b].n_couplings;
@@ -574,7 +531,7 @@ qdot_direct_convolutions(const qdot_direct *e)
 size_t
 qdot_direct_code(const qdot_direct *e, const char **why)
 {
-    const size_t bytes = qdot_taylor_code_bytes(e->taylor, why);
+    const size_t bytes = qdot_taylor_code_bytes(e->x.taylor, why);
 
     if (bytes == 0 && !*why)
         *why = e->linked ? "machine code is not asked for"

@@ -10,6 +10,7 @@
 #include "sim/form/constrained-series.h"
 #include "sim/form/derived.h"
 #include "sim/form/direct.h"
+#include "sim/form/guarded.h"
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
 #include "sim/model/quotient.h"
@@ -211,13 +212,14 @@ fill(qdot_plan *r, const qdot_plan *p, bool *there)
 struct qdot_eliminated {
     size_t n, m;
     qdot_direct *direct;
-    const qdot_ode_series *own, *other, *now; /* `now`: the one begun last */
-    qdot_ode_series series;
+    qdot_guarded guarded;
 };
 
 static bool
-independent(const qdot_eliminated *e)
+independent(const void *user)
 {
+    const qdot_eliminated *e = user;
+
     for (size_t k = 0; k < e->m; k++) {
         const double d = qdot_direct_output(e->direct, e->n + k)[0];
         const double S = qdot_direct_output(e->direct, e->n + e->m + k)[0];
@@ -228,99 +230,12 @@ independent(const qdot_eliminated *e)
     return true;
 }
 
-static qdot_status
-begin(double t, const double *y, double unit, void *user)
-{
-    qdot_eliminated *e = user;
-    qdot_status status = e->own->begin(t, y, unit, e->own->user);
-
-    if (status != QDOT_OK && status != QDOT_EDOMAIN)
-        return status;
-    e->now = status == QDOT_OK && independent(e) ? e->own : e->other;
-    e->series.x = e->now->x;
-    e->series.stride = e->now->stride;
-    return e->now == e->own ? QDOT_OK : e->other->begin(t, y, unit, e->other->user);
-}
-
-static qdot_status
-extend(int p, void *user)
-{
-    const qdot_eliminated *e = user;
-
-    return e->now->extend(p, e->now->user);
-}
-
-static double
-noise(void *user)
-{
-    const qdot_eliminated *e = user;
-
-    return e->now == e->other ? e->other->noise(e->other->user) : 0;
-}
-
-static double
-ahead(void *user)
-{
-    const qdot_eliminated *e = user;
-
-    return e->now == e->other ? e->other->ahead(e->other->user) : 0;
-}
-
-static double
-near(int p, double s, void *user)
-{
-    const qdot_eliminated *e = user;
-
-    return e->now->near ? e->now->near(p, s, e->now->user) : s;
-}
-
-static qdot_status
-prepare(int p, void *user)
-{
-    const qdot_eliminated *e = user;
-
-    if (e->other->prepare)
-        QDOT_TRY(e->other->prepare(p, e->other->user));
-    return e->own->prepare ? e->own->prepare(p, e->own->user) : QDOT_OK;
-}
-
-static qdot_status
-write_code(int p, void *user)
-{
-    const qdot_eliminated *e = user;
-
-    return e->own->write(p, e->own->user);
-}
-
-static bool
-take_code(int p, void *user)
-{
-    const qdot_eliminated *e = user;
-
-    return e->own->take(p, e->own->user);
-}
-
-static bool
-is_code(int p, void *user)
-{
-    const qdot_eliminated *e = user;
-
-    return e->own->there(p, e->own->user);
-}
-
-static void
-drop_code(void *user)
-{
-    const qdot_eliminated *e = user;
-
-    e->own->drop(e->own->user);
-}
-
 qdot_status
 qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *other,
                     qdot_eliminated **eliminated)
 {
     qdot_eliminated *e = qdot_calloc(1, sizeof *e);
+    qdot_ode_series *series;
     qdot_status status;
 
     *eliminated = NULL;
@@ -333,30 +248,14 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
         qdot_eliminated_free(e);
         return status;
     }
-    e->own = e->now = qdot_direct_series(e->direct);
-    e->other = other;
-    e->series =
-        (qdot_ode_series){.most = e->own->most < other->most ? e->own->most : other->most,
-                          .x = e->own->x,
-                          .stride = e->own->stride,
-                          .checked = e->own->checked,
-                          .cost = {e->own->cost[0] + 200 + qdot_constrained_cost(plan),
-                                   e->own->cost[1], e->own->cost[2]},
-                          .prepare = prepare,
-                          .write = e->own->write ? write_code : NULL,
-                          .take = take_code,
-                          .there = is_code,
-                          .drop = drop_code,
-                          .worth = 500,
-                          .written = {e->own->written[0], e->own->written[1],
-                                      e->own->written[2]}, /* see sim/form/bordered.c */
-                          .digits = QDOT_ODE_DIGITS,
-                          .begin = begin,
-                          .extend = extend,
-                          .noise = noise,
-                          .ahead = ahead,
-                          .near = e->own->near || other->near ? near : NULL,
-                          .user = e};
+    series = &e->guarded.series;
+    qdot_guarded_init(&e->guarded, qdot_direct_series(e->direct), other, false);
+    e->guarded.fits = independent;
+    e->guarded.form = e;
+    memcpy(series->cost, e->guarded.own->cost, sizeof series->cost);
+    series->cost[0] += 200 + qdot_constrained_cost(plan);
+    series->code.worth = 500;
+    series->code.digits = QDOT_ODE_DIGITS;
     *eliminated = e;
     return QDOT_OK;
 }
@@ -379,7 +278,7 @@ qdot_eliminated_code(const qdot_eliminated *e, const char **why)
 const qdot_ode_series *
 qdot_eliminated_series(const qdot_eliminated *e)
 {
-    return &e->series;
+    return &e->guarded.series;
 }
 
 /* --- which is taken ----------------------------------------------------------------- */
@@ -395,7 +294,8 @@ compare(const qdot_plan *p, double tol, bool *cheaper)
     if (status == QDOT_OK)
         status = qdot_eliminated_new(p, false, qdot_constrained_series_get(whole), &e);
     if (status == QDOT_OK)
-        *cheaper = qdot_ode_taylor_cost(&e->series, tol) < qdot_ode_taylor_cost(e->other, tol);
+        *cheaper = qdot_ode_taylor_cost(&e->guarded.series, tol) <
+                   qdot_ode_taylor_cost(e->guarded.other, tol);
     qdot_eliminated_free(e);
     qdot_constrained_series_free(whole);
     return status;

@@ -464,7 +464,7 @@ qdot_ensemble_series_order(const qdot_plan *plan, double tol, int *order)
     QDOT_TRY(qdot_motion_of_members(plan, &motion));
     estimate(plan, &motion, series.cost);
     if (qdot_lanes_may_be_code())
-        estimate_written(plan, &motion, series.written);
+        estimate_written(plan, &motion, series.code.cost);
     qdot_motion_clear(&motion);
     /* A few orders beyond the least cost hardly more, and where no pole is near, as of a stiff
      * spring, steps gain more by an order than its model has them gain. */

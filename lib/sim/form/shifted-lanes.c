@@ -593,7 +593,7 @@ qdot_shifted_lanes_order(const qdot_plan *plan, double tol, int *order)
            8.0 * (double)(r->functions + r->n_weights);
     c[2] = 0.1 * convolutions;
     if (qdot_lanes_may_be_code() && n <= most_solved) {
-        double *w = series.written;
+        double *w = series.code.cost;
 
         w[0] = c[0] + 500 + 100 * n;
         w[1] = 0.2 * c[1];

@@ -158,8 +158,8 @@ say_code(const qdot_bind *bind, const qdot_ode_series *series, int p, qdot_text 
 {
     if (series->prepare)
         QDOT_TRY(series->prepare(p, series->user));
-    if (series->write)
-        QDOT_TRY(series->write(p, series->user));
+    if (series->code.write)
+        QDOT_TRY(series->code.write(p, series->code.user));
     qdot_bind_tell_code(bind, out);
     return QDOT_OK;
 }

@@ -1,0 +1,36 @@
+/* expansion.c -- callbacks for the machine code of a program; order p of a state is p - 1 of q''. */
+#include "sim/form/expansion.h"
+
+static qdot_status
+write_code(int p, void *user)
+{
+    return qdot_taylor_prepare(user, p - 1);
+}
+
+static bool
+take_code(int p, void *user)
+{
+    return qdot_taylor_take_kept(user, p - 1);
+}
+
+static bool
+is_code(int p, void *user)
+{
+    return qdot_taylor_is_code(user, p - 1);
+}
+
+static void
+drop_code(void *user)
+{
+    qdot_taylor_drop_code(user);
+}
+
+qdot_ode_code
+qdot_expansion_code(qdot_taylor *taylor)
+{
+    return (qdot_ode_code){.write = write_code,
+                           .take = take_code,
+                           .there = is_code,
+                           .drop = drop_code,
+                           .user = taylor};
+}
