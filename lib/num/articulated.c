@@ -20,17 +20,13 @@ enum {
 typedef struct {
     size_t m, c;
     void (*chain)(qdot_articulated *a);
-    void (*path)(qdot_articulated *a, const double *const *S, const double *const *d,
-                 double factor, const double *const *r, double *const *q,
-                 double *const *F);
+    void (*path)(qdot_articulated *a, const qdot_articulated_equations *e);
 } kernels;
 
 /* Of paths in a plane: what is lost, NaN or not positive where a pivot is not. */
 typedef struct {
     double (*eliminate)(qdot_articulated *a, const double *const *S);
-    void (*path)(qdot_articulated *a, const double *const *S, const double *const *d,
-                 double factor, const double *const *r, double *const *q,
-                 double *const *F);
+    void (*path)(qdot_articulated *a, const qdot_articulated_equations *e);
 } plane_kernels;
 
 struct qdot_articulated {
@@ -533,13 +529,13 @@ qdot_articulated_factor(qdot_articulated *a, const double *const *S, double *los
 /* What node n passes on to its parent: A Z + I d + B r. */
 INLINE void
 go_up(qdot_articulated *a, const size_t m, const size_t c, size_t n,
-      const double *const *d, double factor, const double *const *r)
+      const qdot_articulated_equations *e)
 {
     const size_t slots = a->slots;
     double Z[most], x[most];
 
     for (size_t i = 0; i < m; i++) {
-        x[i] = a->d[i * slots + n] = factor * d[i][n];
+        x[i] = a->d[i * slots + n] = e->factor * e->d[i][n];
         Z[i] = a->Z[i * slots + n];
     }
     for (size_t i = 0; i < m; i++) {
@@ -551,7 +547,7 @@ go_up(qdot_articulated *a, const size_t m, const size_t c, size_t n,
         for (size_t k = 0; k < m; k++)
             s += a->I[(i * m + k) * slots + n] * x[k];
         for (size_t k = 0; k < c; k++)
-            s += a->B[(i * c + k) * slots + n] * r[k][n];
+            s += a->B[(i * c + k) * slots + n] * e->r[k][n];
         for (size_t k = 0; k < m; k++)
             s += a->A[(i * m + k) * slots + n] * Z[k];
         a->Z[to % m * slots + to / m] += s;
@@ -561,14 +557,15 @@ go_up(qdot_articulated *a, const size_t m, const size_t c, size_t n,
 /* q, x and F of node n, its parent's x known. */
 INLINE void
 go_down(qdot_articulated *a, const size_t m, const size_t c, size_t n,
-        const double *const *S, const double *const *r, double *const *q,
-        double *const *F)
+        const qdot_articulated_equations *e)
 {
     const size_t slots = a->slots;
+    const double *const *S = e->S;
+    double *const *q = e->q;
     double y[most], left[most_unknowns];
 
     for (size_t k = 0; k < c; k++) {
-        left[k] = r[k][n];
+        left[k] = e->r[k][n];
         for (size_t i = 0; i < m; i++)
             left[k] -= S[k * m + i][n] * a->Z[i * slots + n];
     }
@@ -596,35 +593,32 @@ go_down(qdot_articulated *a, const size_t m, const size_t c, size_t n,
         for (size_t k = 0; k < m; k++)
             s += a->I_0[(i * m + k) * slots + n] * y[k];
         a->x[i * slots + n] = y[i];
-        F[i][n] = s;
+        e->F[i][n] = s;
     }
 }
 
 INLINE void
-solve_nodes(qdot_articulated *a, const size_t m, const size_t c, const double *const *S,
-            const double *const *d, double factor, const double *const *r,
-            double *const *q, double *const *F)
+solve_nodes(qdot_articulated *a, const size_t m, const size_t c,
+            const qdot_articulated_equations *e)
 {
     memset(a->Z, 0, m * a->slots * sizeof *a->Z);
     for (size_t n = a->nodes; n-- > 0;)
-        go_up(a, m, c, n, d, factor, r);
+        go_up(a, m, c, n, e);
     for (size_t n = 0; n < a->nodes; n++)
-        go_down(a, m, c, n, S, r, q, F);
+        go_down(a, m, c, n, e);
 }
 
 void
-qdot_articulated_solve(qdot_articulated *a, const double *const *S,
-                       const double *const *d, double factor, const double *const *r,
-                       double *const *q, double *const *F)
+qdot_articulated_solve(qdot_articulated *a, const qdot_articulated_equations *e)
 {
     if (a->plane)
-        a->plane->path(a, S, d, factor, r, q, F);
+        a->plane->path(a, e);
     else if (a->path)
-        a->kernels->path(a, S, d, factor, r, q, F);
+        a->kernels->path(a, e);
     else if (a->m == 2 && a->c == 1)
-        solve_nodes(a, 2, 1, S, d, factor, r, q, F);
+        solve_nodes(a, 2, 1, e);
     else if (a->m == 3 && a->c == 2)
-        solve_nodes(a, 3, 2, S, d, factor, r, q, F);
+        solve_nodes(a, 3, 2, e);
     else
-        solve_nodes(a, a->m, a->c, S, d, factor, r, q, F);
+        solve_nodes(a, a->m, a->c, e);
 }

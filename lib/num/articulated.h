@@ -71,10 +71,15 @@ bool qdot_articulated_is_path(const qdot_articulated *a);
 QDOT_MUST_CHECK bool qdot_articulated_factor(qdot_articulated *a, const double *const *S,
                                              double *lost, size_t *node, size_t *unknown);
 
-/* From d [m] times `factor` and r [c]: q [c] and F [m], of slots. Slots that are no node's
- * must hold numbers. S as it was when factored, still there. */
-void qdot_articulated_solve(qdot_articulated *a, const double *const *S,
-                            const double *const *d, double factor, const double *const *r,
-                            double *const *q, double *const *F);
+/* One system of equations: S as it was when factored; d times `factor` and r on its right side; q
+ * and F its solution. Arrays of slots. */
+typedef struct {
+    const double *const *S, *const *d, *const *r; /* [c m], [m], [c] */
+    double factor;
+    double *const *q, *const *F; /* [c], [m] */
+} qdot_articulated_equations;
+
+/* Slots that are no node's must hold numbers. */
+void qdot_articulated_solve(qdot_articulated *a, const qdot_articulated_equations *equations);
 
 #endif

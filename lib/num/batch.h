@@ -24,6 +24,25 @@ typedef void qdot_batch_dot(const double *a, const double *b, double *out);
 typedef void qdot_batch_pair(const double *a, const double *b, const double *c,
                              double *out_b, double *out_c);
 
+/* n series x_i, coefficient k of which is the group x[(i stride + k) QDOT_LANES]. The first
+ * `checked` of them are places, whose rates are the `checked` behind those. */
+typedef struct {
+    size_t n, checked, stride;
+    const double *x;
+} qdot_batch_series;
+
+/* y + carry, [n] groups. */
+typedef struct {
+    double *y, *carry;
+} qdot_batch_sum;
+
+/* A polynomial at the end of a step: its slopes there [n], its first coefficients [n], the state
+ * [n]; the step in the units of before and of now, one group. */
+typedef struct {
+    const double *slope, *first, *next, *steps, *now;
+    double share, rounding;
+} qdot_batch_defect;
+
 typedef struct {
     const char *name; /* "portable", "avx2", "avx512" */
 
@@ -38,25 +57,21 @@ typedef struct {
      *
      * to 0.1, inverse_k = 1/k, and not beyond 1000 inverse_p or so; INFINITY where they all hold
      * nothing, NaN where they are not finite. n > 0, weight [n], out one group. */
-    void (*log_steps)(size_t n, const double *x, size_t stride, int from, int p,
-                      const double *weight, const double *inverse, const double *most,
-                      double *out);
+    void (*log_steps)(const qdot_batch_series *series, int from, int p, const double *weight,
+                      const double *inverse, const double *most, double *out);
 
-    /* Of each of n series x [i stride + k], in groups: what is left of it from order 2 on,
+    /* Of each series what is left of it from order 2 on,
      *
      *     value[i] = sum_{k=2..p} x_k s^(k-1),   slope[i] = sum_{k=1..p} k x_k s^(k-1),
      *
-     * the latter of those from `from` on. p >= 2; s is one group. */
-    void (*tails)(size_t n, size_t from, const double *x, size_t stride, int p,
-                  const double *s, double *value, double *slope);
+     * the latter of those from `checked` on. p >= 2; s is one group. */
+    void (*tails)(const qdot_batch_series *series, int p, const double *s, double *value,
+                  double *slope);
 
-    /* The sum of such a series by twice the precision: next + next_carry =
-     * y + carry + s (x_1 + value) + s low, all [n]; low_i = unit carry_{i + checked} for
-     * i < checked, else 0; unit is one group. */
-    void (*advance)(size_t n, size_t checked, const double *x, size_t stride,
-                    const double *s, const double *unit, const double *value,
-                    const double *y, const double *carry, double *next,
-                    double *next_carry);
+    /* The sum of such a series by twice the precision: to = from + s (x_1 + value) + s low, all
+     * [n]; low_i = unit carry_{i + checked} for i < checked, else 0; unit is one group. */
+    void (*advance)(const qdot_batch_series *series, const double *s, const double *unit,
+                    const double *value, qdot_batch_sum from, qdot_batch_sum to);
 
     /* Sines and cosines of a group, each to 0.9 of a last place. A lane beyond 1e5, or not
      * finite, by the C library: the others know nothing of it. */
@@ -72,9 +87,7 @@ typedef struct {
      *
      * size = max(1, |next|), and all x_1 finite. good, finite: a group of numbers, all bits
      * set or none. */
-    void (*confirm)(size_t n, size_t checked, const double *x, size_t stride,
-                    const double *slope, const double *first, const double *next,
-                    const double *steps, const double *now, double share, double rounding,
+    void (*confirm)(const qdot_batch_series *series, const qdot_batch_defect *defect,
                     int64_t *good, int64_t *finite);
     /* to [n] = from in the lanes that are set. */
     void (*blend)(size_t n, const int64_t *set, const double *from, double *to);

@@ -135,6 +135,12 @@ begin(batch *b)
     b->system->begin(t, y, a->unit, b->system->user);
 }
 
+static qdot_batch_series
+series_of(const batch *b)
+{
+    return (qdot_batch_series){b->moving, b->system->checked, b->system->stride, b->system->x};
+}
+
 static const double *
 coefficient(const batch *b, size_t i, int k)
 {
@@ -145,13 +151,18 @@ coefficient(const batch *b, size_t i, int k)
 static void
 confirm(batch *b)
 {
-    const qdot_ode_batch *system = b->system;
     lanes *a = &b->at;
+    const qdot_batch_series series = series_of(b);
+    const qdot_batch_defect defect = {.slope = b->slope,
+                                      .first = b->first,
+                                      .next = b->next,
+                                      .steps = a->way,
+                                      .now = a->now,
+                                      .share = 10 * (b->run->order + 1) * b->run->tol,
+                                      .rounding = 64 * DBL_EPSILON};
 
-    b->kernels->confirm(b->moving, system->checked, system->x, system->stride, b->slope, b->first,
-                        b->next, a->way, a->now, 10 * (b->run->order + 1) * b->run->tol,
-                        64 * DBL_EPSILON, a->good, a->defined);
-    for (size_t l = 0; system->project && l < L; l++)
+    b->kernels->confirm(&series, &defect, a->good, a->defined);
+    for (size_t l = 0; b->system->project && l < L; l++)
         if (!(a->moved[l] <= 100 * b->run->tol + rounding_of_projection))
             a->good[l] = 0;
 }
@@ -229,13 +240,11 @@ try_step(batch *b, size_t l, double h)
 static void
 log_steps(const batch *b, const double *weight, double *upper, double *lower)
 {
-    const qdot_ode_batch *system = b->system;
+    const qdot_batch_series series = series_of(b);
     const int p = b->run->order;
 
-    b->kernels->log_steps(b->moving, system->x, system->stride, p / 2 + 1, p, weight, b->inverse,
-                          b->upper, upper);
-    b->kernels->log_steps(b->moving, system->x, system->stride, 2, p / 2, weight, b->inverse,
-                          b->lower, lower);
+    b->kernels->log_steps(&series, p / 2 + 1, p, weight, b->inverse, b->upper, upper);
+    b->kernels->log_steps(&series, 2, p / 2, weight, b->inverse, b->lower, lower);
 }
 
 /* Lane l, whose step the series does not just say: another unit for it, or what can be. */
@@ -249,10 +258,10 @@ choose_step(batch *b, size_t l, double step, const double *weight)
     if (isnan(step)) {
         far = -10 - 40 * (double)a->rescales[l];
     } else if (isinf(step)) {
+        const qdot_batch_series series = series_of(b);
         double whole[L];
 
-        b->kernels->log_steps(b->moving, b->system->x, b->system->stride, 1, p, weight,
-                              b->inverse, b->nothing, whole);
+        b->kernels->log_steps(&series, 1, p, weight, b->inverse, b->nothing, whole);
         far = fmax(0, whole[l] + b->log_aim / p);
     }
     if (fabs(far) > 8 && !isinf(far) && a->rescales[l] < most_rescales) {
@@ -288,11 +297,12 @@ static void
 go(batch *b)
 {
     const qdot_ode_batch *system = b->system;
+    const qdot_batch_series series = series_of(b);
 
-    b->kernels->tails(b->moving, system->checked, system->x, system->stride, b->run->order,
-                      b->at.s, b->value, b->slope);
-    b->kernels->advance(b->moving, system->checked, system->x, system->stride, b->at.s,
-                        b->at.old_unit, b->value, b->y, b->carry, b->next, b->next_carry);
+    b->kernels->tails(&series, b->run->order, b->at.s, b->value, b->slope);
+    b->kernels->advance(&series, b->at.s, b->at.old_unit, b->value,
+                        (qdot_batch_sum){b->y, b->carry},
+                        (qdot_batch_sum){b->next, b->next_carry});
     for (size_t i = system->checked; i < b->moving; i++)
         memcpy(b->first + i * L, coefficient(b, i, 1), L * sizeof *b->first);
     if (system->project) {

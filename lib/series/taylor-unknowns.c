@@ -10,10 +10,10 @@ spare_row(qdot_taylor *t)
 }
 
 qdot_status
-qdot_taylor_solve_entries(qdot_taylor *t, size_t n, const size_t *f, size_t count,
-                          const qdot_taylor_entry *entries, int solved, double *const **a,
-                          double **matrices)
+qdot_taylor_solve_entries(qdot_taylor *t, const qdot_taylor_equations *equations,
+                          double *const **a, double **matrices)
 {
+    const size_t n = equations->n;
     size_t capacity = t->n_blocks;
     qdot_taylor_block *b;
 
@@ -21,10 +21,10 @@ qdot_taylor_solve_entries(qdot_taylor *t, size_t n, const size_t *f, size_t coun
         return qdot_fail(QDOT_EINVAL, "there is no room for %zu unknowns", n);
     QDOT_TRY(qdot_grow(&t->blocks, &capacity, capacity + 1, sizeof *t->blocks));
     b = t->blocks + t->n_blocks++;
-    *b = (qdot_taylor_block){.n = n, .solved = solved};
+    *b = (qdot_taylor_block){.n = n, .solved = equations->solved};
     b->f = qdot_calloc(n, sizeof *b->f);
     b->a = qdot_calloc(2 * n, sizeof *b->a);
-    b->couplings = qdot_calloc(count + 1, sizeof *b->couplings);
+    b->couplings = qdot_calloc(equations->count + 1, sizeof *b->couplings);
     b->matrices = qdot_calloc(2 * n * n, sizeof *b->matrices);
     if (!b->f || !b->a || !b->couplings || !b->matrices)
         return QDOT_ENOMEM;
@@ -32,12 +32,14 @@ qdot_taylor_solve_entries(qdot_taylor *t, size_t n, const size_t *f, size_t coun
     for (size_t i = 0; i < 2 * n; i++)
         b->a[i] = spare_row(t);
     for (size_t i = 0; i < n; i++)
-        b->f[i] = t->output[f[i]];
-    for (size_t e = 0; e < count; e++)
-        if (!t->constant[entries[e].output])
+        b->f[i] = t->output[equations->f[i]];
+    for (size_t k = 0; k < equations->count; k++) {
+        const qdot_taylor_entry *e = equations->entries + k;
+
+        if (!t->constant[e->output])
             b->couplings[b->n_couplings++] =
-                (qdot_taylor_coupling){(uint32_t)entries[e].i,
-                                       t->output[entries[e].output], b->a[entries[e].j]};
+                (qdot_taylor_coupling){(uint32_t)e->i, t->output[e->output], b->a[e->j]};
+    }
     *a = b->a;
     *matrices = b->matrices;
     return QDOT_OK;
@@ -66,7 +68,8 @@ qdot_taylor_solve(qdot_taylor *t, size_t n, const size_t *f, const size_t *M, in
         return QDOT_ENOMEM;
     if (M)
         whole_matrix(n, M, entries);
-    status = qdot_taylor_solve_entries(t, n, f, M ? n * n : 0, entries, solved, a, matrices);
+    status = qdot_taylor_solve_entries(
+        t, &(qdot_taylor_equations){n, f, M ? n * n : 0, entries, solved}, a, matrices);
     qdot_free(entries);
     return status;
 }

@@ -26,13 +26,10 @@ typedef struct {
 
 /* Coefficients by order, then lane. */
 typedef struct {
-    void (*order)(const group *groups, size_t n, double *X, size_t width, int k);
-    void (*correct)(const group *groups, size_t n, double *X, double *N, size_t width,
-                    size_t inputs, int k, const double *newest, double divisor);
-    void (*dots)(size_t pairs, const qdot_wide_pair *pair, size_t n, size_t x_stride,
-                 size_t y_stride, double *out);
-    void (*rest)(size_t pairs, const qdot_wide_pair *pair, size_t n, size_t x_stride,
-                 size_t y_stride, double scale, const double *from, double *out);
+    void (*order)(const qdot_taylor_wide *w, int k);
+    void (*correct)(const qdot_taylor_wide *w, int k, const double *newest, double divisor);
+    void (*dots)(const qdot_wide_sum *sum, double *out);
+    void (*rest)(const qdot_wide_sum *sum, double scale, const double *from, double *out);
     void (*rows)(const double *X, size_t width, int last, double per_unit, double *const *q,
                  double *const *v);
     void (*multiply)(const qdot_wide_columns *columns, const double *in, double factor,
@@ -442,7 +439,7 @@ void
 qdot_taylor_wide_order(qdot_taylor_wide *w, int k)
 {
     memset(w->X + (size_t)k * w->width, 0, w->inputs * sizeof *w->X);
-    w->kernels->order(w->groups.at, w->groups.n, w->X, w->width, k);
+    w->kernels->order(w, k);
 }
 
 void
@@ -453,8 +450,7 @@ qdot_taylor_wide_correct(qdot_taylor_wide *w, int k, const double *newest, doubl
         memset(w->N + w->corrected, 0, (w->inputs - w->corrected) * sizeof *newest);
         newest = w->N;
     }
-    w->kernels->correct(w->groups.at, w->groups.n, w->X, w->N, w->width, w->inputs, k,
-                        newest, divisor);
+    w->kernels->correct(w, k, newest, divisor);
 }
 
 void
@@ -481,18 +477,16 @@ qdot_taylor_wide_rows(const qdot_taylor_wide *w, int last, double per_unit, doub
 }
 
 void
-qdot_taylor_wide_dots(const qdot_taylor_wide *w, size_t pairs, const qdot_wide_pair *pair,
-                      size_t n, size_t x_stride, size_t y_stride, double *out)
+qdot_taylor_wide_dots(const qdot_taylor_wide *w, const qdot_wide_sum *sum, double *out)
 {
-    w->kernels->dots(pairs, pair, n, x_stride, y_stride, out);
+    w->kernels->dots(sum, out);
 }
 
 void
-qdot_taylor_wide_rest(const qdot_taylor_wide *w, size_t pairs, const qdot_wide_pair *pair,
-                      size_t n, size_t x_stride, size_t y_stride, double scale,
+qdot_taylor_wide_rest(const qdot_taylor_wide *w, const qdot_wide_sum *sum, double scale,
                       const double *from, double *out)
 {
-    w->kernels->rest(pairs, pair, n, x_stride, y_stride, scale, from, out);
+    w->kernels->rest(sum, scale, from, out);
 }
 
 void

@@ -65,14 +65,17 @@ void qdot_taylor_wide_correct(qdot_taylor_wide *wide, int k, const double *newes
 void qdot_taylor_wide_rows(const qdot_taylor_wide *wide, int last, double per_unit,
                            double *q, double *v, size_t stride);
 
-/* out [8] = the sum of n orders of pairs, strides in doubles. */
-void qdot_taylor_wide_dots(const qdot_taylor_wide *wide, size_t pairs,
-                           const qdot_wide_pair *pair, size_t n, size_t x_stride,
-                           size_t y_stride, double *out);
-/* The same taken from scale times from [8]; from NULL: from 0. */
-void qdot_taylor_wide_rest(const qdot_taylor_wide *wide, size_t pairs,
-                           const qdot_wide_pair *pair, size_t n, size_t x_stride,
-                           size_t y_stride, double scale, const double *from, double *out);
+/* The sum of n orders of pairs, strides in doubles. */
+typedef struct {
+    size_t pairs;
+    const qdot_wide_pair *pair;
+    size_t n, x_stride, y_stride;
+} qdot_wide_sum;
+
+/* out [8] = the sum; and that taken from scale times from [8]; from NULL: from 0. */
+void qdot_taylor_wide_dots(const qdot_taylor_wide *wide, const qdot_wide_sum *sum, double *out);
+void qdot_taylor_wide_rest(const qdot_taylor_wide *wide, const qdot_wide_sum *sum, double scale,
+                           const double *from, double *out);
 /* out [8] = factor times the product. */
 void qdot_taylor_wide_multiply(const qdot_taylor_wide *wide,
                                const qdot_wide_columns *columns, const double *in,

@@ -85,13 +85,19 @@ typedef struct {
     size_t i, j, output;
 } qdot_taylor_entry;
 
+typedef struct {
+    size_t n;
+    const size_t *f; /* [n] outputs */
+    size_t count;
+    const qdot_taylor_entry *entries; /* [count] */
+    int solved;
+} qdot_taylor_equations;
+
 /* The same for any M: entries [count] by rows i ascending, those left out being numbers that
  * never change. By M_0^-1 alone where `solved` is 0 or less; else M is as above. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_solve_entries(qdot_taylor *taylor, size_t n,
-                                                      const size_t *f, size_t count,
-                                                      const qdot_taylor_entry *entries,
-                                                      int solved, double *const **a,
-                                                      double **matrices);
+QDOT_MUST_CHECK qdot_status qdot_taylor_solve_entries(qdot_taylor *taylor,
+                                                      const qdot_taylor_equations *equations,
+                                                      double *const **a, double **matrices);
 
 /* Order 0 of all that is computed, and what is linked. Then orders `from` to `to`, each
  * followed by what is linked to it in the order in which it was; `to` below the program's

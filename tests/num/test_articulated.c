@@ -229,8 +229,9 @@ agrees(const tree *t, bool path, double bound)
     assert_true(
         qdot_articulated_factor(a, (const double *const *)at.S, &lost, &node, &unknown));
     assert_true(lost > 0 && lost <= 1);
-    qdot_articulated_solve(a, (const double *const *)at.S, (const double *const *)at.d,
-                           factor, (const double *const *)at.r, at.q, at.F);
+    qdot_articulated_solve(
+        a, &(qdot_articulated_equations){(const double *const *)at.S, (const double *const *)at.d,
+                                         (const double *const *)at.r, factor, at.q, at.F});
     solve_full(t, factor, q, by_cholesky);
     for (size_t j = 0; j < n; j++) {
         most_q = fmax(most_q, fabs((double)q[j]));

@@ -85,8 +85,9 @@ series_are_summed_and_advanced(void **state)
     for (size_t i = 0; i < N * L; i++)
         carry[i] = uniform() * 0x1p-54;
     for (size_t kind = 0; (kernels = qdot_batch_kernels_at(kind)); kind++) {
-        kernels->tails(N, 1, x, stride, ORDERS, s, value, slope);
-        kernels->advance(N, 2, x, stride, s, unit, value, y, carry, next, next_carry);
+        kernels->tails(&(qdot_batch_series){N, 1, stride, x}, ORDERS, s, value, slope);
+        kernels->advance(&(qdot_batch_series){N, 2, stride, x}, s, unit, value,
+                         (qdot_batch_sum){y, carry}, (qdot_batch_sum){next, next_carry});
         for (size_t i = 0; i < N; i++)
             for (size_t l = 0; l < L; l++) {
                 long double v = 0, d = 0, total, low;
@@ -181,8 +182,9 @@ ends_of_steps_are_judged(void **state)
         slope[3 * L + 5] = NAN;
         x[(0 * STRIDE + 1) * L + 6] = INFINITY;
         x[(3 * STRIDE + 1) * L + 7] = NAN;
-        kernels->confirm(STATE, CHECKED, x, STRIDE, slope, first, next, steps, now, 2e-4,
-                         1e-16, good, finite);
+        kernels->confirm(&(qdot_batch_series){STATE, CHECKED, STRIDE, x},
+                         &(qdot_batch_defect){slope, first, next, steps, now, 2e-4, 1e-16}, good,
+                         finite);
         for (size_t l = 0; l < L; l++) {
             assert_int_equal(good[l], l < 2 || l == 4 ? -1 : 0);
             assert_int_equal(finite[l], l < 6 ? -1 : 0);
@@ -221,7 +223,8 @@ length_of_a_step_is_the_least(void **state)
             }
         x[(2 * stride + 15) * L + 2] = NAN;
         x[(3 * stride + 20) * L + 3] = -INFINITY;
-        kernels->log_steps(N, x, stride, 13, ORDERS, weight, inverse, most, seen);
+        kernels->log_steps(&(qdot_batch_series){N, 0, stride, x}, 13, ORDERS, weight, inverse,
+                           most, seen);
         assert_true(isinf(seen[1]) && seen[1] > 0);
         assert_true(isnan(seen[2]) && isnan(seen[3]));
         for (size_t l = 0; l < L; l++) {

@@ -203,7 +203,7 @@ sums_are_sums(void **state)
             for (size_t p = 0; p < pairs; p++)
                 pair[p] = (qdot_wide_pair){x + p * WIDTH * TERMS,
                                            y + p * WIDTH * TERMS + (n - 1) * WIDTH};
-            qdot_taylor_wide_dots(w, pairs, pair, n, WIDTH, WIDTH, out);
+            qdot_taylor_wide_dots(w, &(qdot_wide_sum){pairs, pair, n, WIDTH, WIDTH}, out);
             for (size_t l = 0; l < 8; l++) {
                 double sum = 0;
 

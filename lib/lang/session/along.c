@@ -65,7 +65,7 @@ value_at(qdot_session *session, const char *run, qdot_expr e, double t, double *
         return qdot_member_values(session, run, e,
                                   &(qdot_samples){1, &t, NULL, value, &error});
     QDOT_TRY(qdot_runs_find(session, run, &named));
-    return qdot_run_values_beyond(named->run, 1, &e, 1, &t, NULL, value, &error);
+    return qdot_run_values_beyond(named->run, 1, &e, &(qdot_exact_times){1, &t, NULL}, value, &error);
 }
 
 /* What the numbers of runs that stand in e are off by, as it makes e at t: sum |de/dm| error

@@ -195,7 +195,8 @@ read_symbols(qdot_session *session, const char *run, const qdot_samples *at, mix
         qdot_named_run *named;
 
         QDOT_TRY(qdot_runs_find(session, m != NULL ? m->run : run, &named));
-        QDOT_TRY(qdot_run_values_beyond(named->run, 1, &e, k, at->times, at->lows,
+        QDOT_TRY(qdot_run_values_beyond(named->run, 1, &e,
+                                        &(qdot_exact_times){k, at->times, at->lows},
                                         x->values + i * k, x->errors + i * k));
     }
     return QDOT_OK;

@@ -109,7 +109,8 @@ measure(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
     if (status == QDOT_OK)
         status = qdot_session_split(session, time, &t, &low);
     if (status == QDOT_OK)
-        status = qdot_run_values_beyond(run, n, columns->at, 1, &t, &low, values, values + n);
+        status = qdot_run_values_beyond(run, n, columns->at, &(qdot_exact_times){1, &t, &low}, values,
+                                        values + n);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         m[i] = (qdot_measured){.value = values[i], .error = values[n + i]};
     qdot_free(values);

@@ -163,8 +163,8 @@ solve_for_all(qdot_bordered *e)
     count = list_entries(e, entries);
     for (size_t k = 0; k < count; k++)
         e->couplings += !qdot_taylor_is_constant(e->x.taylor, entries[k].output);
-    status = qdot_taylor_solve_entries(e->x.taylor, n + m, f, count, entries, 0, &e->a,
-                                       &matrices);
+    status = qdot_taylor_solve_entries(
+        e->x.taylor, &(qdot_taylor_equations){n + m, f, count, entries, 0}, &e->a, &matrices);
     qdot_free(entries);
     if (status == QDOT_OK)
         e->inverse = matrices + (n + m) * (n + m);

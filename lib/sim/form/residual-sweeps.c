@@ -248,7 +248,8 @@ right_side(qdot_residual_sweeps *s, int k, double scale, const double *more)
             for (size_t i = 0; i < s->m; i++)
                 pair[i] =
                     (qdot_wide_pair){J + s->J[u * s->m + i] + at, F + i * s->slots + at};
-            qdot_taylor_wide_rest(s->places, s->m, pair, (size_t)k, width, s->forces,
+            qdot_taylor_wide_rest(s->places,
+                                  &(qdot_wide_sum){s->m, pair, (size_t)k, width, s->forces},
                                   scale, Q ? Q + at : NULL, r + at);
         }
     }
@@ -275,7 +276,8 @@ qdot_residual_sweeps_order(qdot_residual_sweeps *s, int m, double scale,
     }
     for (size_t i = 0; i < s->m; i++)
         F[i] = s->F + (size_t)k * s->forces + i * s->slots;
-    qdot_articulated_solve(s->system, S, d, factor, r, found, F);
+    qdot_articulated_solve(s->system,
+                           &(qdot_articulated_equations){S, d, r, factor, found, F});
     qdot_taylor_wide_correct(s->places, m, s->q, factor);
 }
 

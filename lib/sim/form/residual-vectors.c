@@ -219,10 +219,12 @@ dots(const qdot_residual_vectors *w, int from, int n, int k, double *out)
 
     for (size_t v = 0; v < w->n_vectors; v++)
         w->pairs[v] = (qdot_wide_pair){J + w->vectors[v].slope, F + v * lanes};
-    for (size_t b = 0; b < w->blocks; b++)
-        qdot_taylor_wide_dots(w->places, w->first[b + 1] - w->first[b],
-                              w->pairs + w->first[b], (size_t)n, width, forces,
-                              out + b * lanes);
+    for (size_t b = 0; b < w->blocks; b++) {
+        const qdot_wide_sum sum = {w->first[b + 1] - w->first[b], w->pairs + w->first[b],
+                                   (size_t)n, width, forces};
+
+        qdot_taylor_wide_dots(w->places, &sum, out + b * lanes);
+    }
 }
 
 void

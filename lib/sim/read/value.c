@@ -144,26 +144,28 @@ qdot_status
 qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
                 const double *times, double *values, double *errors)
 {
-    return qdot_run_values_beyond(run, m, exprs, k, times, NULL, values, errors);
+    const qdot_exact_times all = {k, times, NULL};
+
+    return qdot_run_values_beyond(run, m, exprs, &all, values, errors);
 }
 
 qdot_status
-qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
-                       const double *times, const double *lows, double *values,
-                       double *errors)
+qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
+                       const qdot_exact_times *times, double *values, double *errors)
 {
+    const size_t k = times->n;
     qdot_reading of;
     qdot_status status;
 
     if (run->precise)
-        return qdot_precise_pair_sample_values(run->precise, m, exprs, k, times, values,
+        return qdot_precise_pair_sample_values(run->precise, m, exprs, k, times->at, values,
                                                errors);
     QDOT_TRY(qdot_reader_lower(run->plan, m, exprs, &of));
-    status = read_values(run, &of, k, times, values);
+    status = read_values(run, &of, k, times->at, values);
     if (status == QDOT_OK && errors)
-        status = read_errors(run, &of, k, times, values, errors);
-    if (status == QDOT_OK && lows)
-        status = add_lows(run, &of, k, times, lows, values);
+        status = read_errors(run, &of, k, times->at, values, errors);
+    if (status == QDOT_OK && times->low)
+        status = add_lows(run, &of, k, times->at, times->low, values);
     qdot_tape_free(of.tape);
     return status;
 }

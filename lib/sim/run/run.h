@@ -38,12 +38,17 @@ QDOT_MUST_CHECK qdot_status qdot_run_values(qdot_run *run, size_t m, const qdot_
                                             size_t k, const double *times, double *values,
                                             double *errors);
 
-/* The same at times[i] + lows[i] (lows NULL: 0), which is the exact time where times[i] is
- * its double: by the slope of the expression there. */
+/* Times at[i] + low[i], i < n; low NULL: 0. */
+typedef struct {
+    size_t n;
+    const double *at, *low;
+} qdot_exact_times;
+
+/* The same at exact times, of which at[i] are the doubles: by the slope of the expression there. */
 QDOT_MUST_CHECK qdot_status qdot_run_values_beyond(qdot_run *run, size_t m,
-                                                   const qdot_expr *exprs, size_t k,
-                                                   const double *times, const double *lows,
-                                                   double *values, double *errors);
+                                                   const qdot_expr *exprs,
+                                                   const qdot_exact_times *times, double *values,
+                                                   double *errors);
 
 /* The same at one time, an exact constant, of a run with `digits`: values [m] rationals, errors [m]
  * (may be NULL) absolute, NaN unknown. */
