@@ -15,34 +15,34 @@
 
 typedef struct qdot_bind qdot_bind;
 
-/* The plan is borrowed. `shaken`: with every rounded constant on its other side
+/* The plan is borrowed. `shaken`: every rounded constant is rounded the other way
  * (tape/shake.h), for a companion run. Errors: QDOT_ESINGULAR names the coordinate of
  * a constant M; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_bind_new(const qdot_plan *plan, bool shaken,
                                           qdot_bind **bind);
 void qdot_bind_free(qdot_bind *bind);
 
-/* Its system; n = 2 plan->n. Valid while the bind lives. Both fail with QDOT_ESINGULAR or
- * QDOT_EDOMAIN where M is singular or q'' undefined, naming the coordinate. */
+/* The system of a bind; n = 2 plan->n. Valid while the bind lives. Its rhs and Jacobian fail with
+ * QDOT_ESINGULAR if M is singular, QDOT_EDOMAIN if q'' is undefined; both name the coordinate. */
 qdot_ode_system qdot_bind_system(qdot_bind *bind);
 
-/* q'' [n], and the multipliers [m] of a plan with constraints behind it, at y [2n]: of a
- * system that qdot_bind_system made, all of them from the equations as they are derived.
- * Errors as those of its rhs. */
+/* a [n + m]: q'', then the multipliers of a plan with constraints, at y [2n], all from the
+ * equations as derived (not a reduced form). `system` was made by qdot_bind_system. Errors as its
+ * rhs. */
 QDOT_MUST_CHECK qdot_status qdot_bind_accelerations(const qdot_ode_system *system,
                                                     double t, const double *y, double *a);
 
 /* Whether M is regular (and, unless a Lagrangian was stated, positive) at a state:
- * QDOT_ESINGULAR names the coordinate. With constraints y + low must also fulfil them, and
- * is brought the last bits nearer: qdot_constrained_start. */
+ * QDOT_ESINGULAR names the coordinate. With constraints y + low must also keep them, and its last
+ * bits are corrected: qdot_constrained_start. */
 QDOT_MUST_CHECK qdot_status qdot_bind_check(qdot_bind *bind, double t, double *y,
                                             double *low);
 
-/* Of a plan with constraints, else NULL: sim/model/constrained.h. Borrowed. */
+/* The evaluator of the constraints (sim/model/constrained.h); NULL without. Borrowed. */
 qdot_constrained *qdot_bind_held(qdot_bind *bind);
 
-/* How its Taylor series are computed once they are prepared, added to a text: `machine code
- * for AVX2, 10.3 kB`, or `kernels` and why. */
+/* Append how the Taylor series are computed, once they are prepared: `machine code for AVX2,
+ * 10.3 kB`, or `kernels` and why. */
 void qdot_bind_tell_code(const qdot_bind *bind, qdot_text *to);
 
 /* How often M was factored. */

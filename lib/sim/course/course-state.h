@@ -10,36 +10,36 @@
 typedef struct {
     size_t event;
     double t;
-    int way; /* left - right goes up or down as t grows; 0: it touches 0 */
+    int way; /* 1, -1: left - right rises, falls as t grows; 0: it touches 0 */
 } qdot_occurrence;
 
 /* What ended a piece. */
 typedef struct {
-    size_t piece, function; /* of the trajectory; of the mode */
+    size_t piece, function; /* index of the piece; of the function watched in its mode */
     double t;
     qdot_watched what;
-    double late; /* by how much t is behind it; 0: it lies at t */
+    double late; /* t less the true time of the root; 0: the root is at t */
 } qdot_course_end;
 
 typedef struct qdot_course {
     qdot_stage *stage; /* borrowed */
     bool shaken;
-    bool no_series;   /* of systems for a method without */
-    int early;        /* of companions, +-1: see make_up */
-    double touch_tol; /* within which an extremum touches 0: that of the run */
-    /* evaluations for the states within steps that were looked at, and how many end the run
-     * as QDOT_ELIMIT; 0: any */
+    bool no_series;   /* the method does not use Taylor series */
+    int early;        /* of companions, +-1: the sign in qdot_piece_make_up; 0: the run itself */
+    double touch_tol; /* an extremum within this tolerance, that of the run, touches 0 */
+    /* evaluations for states within steps, and the number that ends the run with QDOT_ELIMIT;
+     * 0: no limit */
     uint64_t looked, most_looked;
-    size_t most_pieces; /* after which a companion is given up; 0: any */
+    size_t most_pieces; /* a companion with more is given up; 0: no limit */
     qdot_trajectory tr;
-    qdot_vec(qdot_bind *) binds;         /* by mode, as far as they were met; NULL else */
+    qdot_vec(qdot_bind *) binds;         /* by mode; NULL for modes not yet met */
     qdot_vec(qdot_ode_system) systems;   /* by mode */
     qdot_vec(qdot_watch *) watches;      /* by mode */
     qdot_vec(qdot_occurrence) occurrences;
-    qdot_vec(qdot_course_end) ends; /* in their order; several at one time may be of one piece */
+    qdot_vec(qdot_course_end) ends; /* in order of time; one piece may have several at one time */
     size_t stopped_by; /* the event; SIZE_MAX: none */
     char reason[400];  /* why it ended early; "" */
-    bool failed;       /* that is a failure */
+    bool failed;       /* the reason is a failure, not an event's `stop` */
 } qdot_course;
 
 #endif

@@ -1,22 +1,22 @@
-/* course.h -- a run piece by piece: integrated up to what happens, changed, gone on with.
+/* course.h -- integrates a run piece by piece, through events and switches.
  *
- * Within a piece one plan holds. It ends at the first double of t at which
+ * Within a piece the equations are those of one plan. A piece ends at the first double of t at
+ * which
  *
  *     an event with `then` or `stop` occurs     the state is changed, or the run ends
  *     a coordinate leaves its domain            the run ends, on the last double inside
- *     the equations switch                      the next piece goes by the other side
+ *     the equations switch                      the next piece has those of the other side
  *
- * Where a side changes, the arguments of switches around it jump: their sides are decided
- * anew (sim/course/stage.h). Switches that are a rounding of t apart switch at one time.
+ * If a side changes, the arguments of switches around it jump, and their sides are decided anew
+ * (sim/course/stage.h). Switches within rounding of one time count as simultaneous.
  *
- * Which side a piece begins on where it starts on a surface is tried (side-search.c): the
- * motion must leave towards the side whose equations it goes by, or stay on the surface where
- * it goes by the equations of u = 0. Where no side does, the motion would slide along the
- * surface, and where more than one does, what comes is not said by the equations: either
- * ends the run.
+ * If a piece starts on a surface, side-search.c tries the sides: the motion must leave towards
+ * the side whose equations it follows, or stay on the surface with the equations of u = 0. If it
+ * does so for no side, it would slide along the surface; if for more than one, it is not unique.
+ * Either ends the run.
  *
- * Events without `then` or `stop` are only noted. More than MOST_REPEATS occurrences of
- * one thing within 1e-9 of the run's time end it too: a ball that comes to rest.
+ * Events without `then` or `stop` are only recorded. A run also ends if one event or switch
+ * occurs more than MOST_REPEATS times within 1e-9 of its time: a ball that comes to rest.
  *
  * Tests  tests/script/events.lag, switching.lag, switch-nested.lag, event-ends.sh,
  *        tests/sim/test_switch.c
@@ -30,17 +30,17 @@
 void qdot_course_clear(qdot_course *c);
 
 /* Integrate from y [2n] at t0 to t1 by `method`, under options->tol; options->accepted
- * looks on. What ends a run without an error in the equations is QDOT_OK with `reason`.
- * Else as qdot_trajectory_run, with the run so far kept. */
+ * is called as there. If an event, bound or switch ends the run, QDOT_OK with `reason`. Other
+ * errors as qdot_trajectory_run, with the run so far kept. */
 QDOT_MUST_CHECK qdot_status qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                                             const qdot_ode_options *options, double t0,
                                             double t1, const double *y);
 
-/* The bind of the mode of the start, before or without a run: a start is checked with it,
- * and a c->tr that has been filled otherwise is read with it. */
+/* Make the bind of the first mode, before or without a run: to check a start, or to read a c->tr
+ * that something else has filled. */
 QDOT_MUST_CHECK qdot_status qdot_course_prepare(qdot_course *c);
 
-/* The systems of all modes that it went by, for cursors along c->tr. */
+/* The systems of all modes of the run, for cursors along c->tr. */
 const qdot_ode_system *qdot_course_systems(const qdot_course *c);
 
 #endif

@@ -1,4 +1,4 @@
-/* drift.h -- what a run should have kept: h where it is proved conserved, cyclic
+/* drift.h -- drift of conserved quantities along a run: h if it is proved conserved, cyclic
  * momenta. */
 #ifndef QDOT_SIM_DRIFT_H
 #define QDOT_SIM_DRIFT_H
@@ -11,11 +11,11 @@
 typedef struct {
     size_t n;
     qdot_drift *at; /* energy first; names owned */
-    bool energy;    /* at[0] is it */
+    bool energy;    /* at[0] is the energy */
 } qdot_drifts;
 
-/* Every conserved quantity known, over all points of the run. A quantity that cannot
- * be evaluated is left out. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* Measure every known conserved quantity at all points of the run. A quantity that cannot be
+ * evaluated is left out. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_drifts_measure(qdot_scene *scene, const qdot_plan *plan,
                                                 const qdot_trajectory *tr,
                                                 qdot_drifts *drifts);

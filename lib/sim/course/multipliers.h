@@ -1,5 +1,4 @@
-/* multipliers.h -- what a run of a scene with constraints has to say of them: drift along it,
- * multipliers at its end.
+/* multipliers.h -- drift off the constraints along a run, and the multipliers at its end.
  *
  * Tests  tests/sim/test_constraints.c
  */
@@ -11,27 +10,28 @@
 #include "sim/course/report.h"
 
 typedef struct {
-    double position, velocity; /* the largest residuals at stored points; NaN: none */
+    double position, velocity; /* the largest residuals at stored points; NaN: no such constraints
+                                   */
     double *lambda;            /* [m] at the end */
     double *error;             /* [m] of these, absolute; NaN: unknown */
-    size_t independent;
+    size_t independent;        /* rank of the constraints */
 } qdot_multipliers;
 
-/* Of a run that is there, its binds by the modes of its pieces; nothing for plans without
- * constraints; under Ctrl-C what belongs to the end, residuals NaN. Errors: QDOT_ENOMEM. */
+/* Measure a finished run; binds by mode. Does nothing without constraints. After Ctrl-C only the
+ * values at the end are computed, residuals are NaN. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_multipliers_measure(qdot_bind *const *binds,
                                                      const qdot_trajectory *tr,
                                                      qdot_multipliers *b);
-/* The errors of the multipliers at the end, from those of the state there:
+/* The errors of the multipliers at the end, from those of the state:
  *     error_k = sum_i |dlambda_k/dy_i| difference_i,   difference [2n]
- * by central differences. Nothing for a plan without constraints. Errors: QDOT_ENOMEM. */
+ * by central differences. Does nothing without constraints. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_multipliers_errors(qdot_bind *const *binds,
                                                     const qdot_trajectory *tr,
                                                     const double *difference,
                                                     qdot_multipliers *b);
 void qdot_multipliers_clear(qdot_multipliers *b);
 
-/* Into a report. */
+/* Copy the measurements into a report. */
 void qdot_multipliers_report(const qdot_multipliers *b, const qdot_plan *plan,
                              qdot_run_report *r);
 

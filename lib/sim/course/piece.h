@@ -1,9 +1,9 @@
-/* piece.h -- a piece of a course: what is known while it is integrated and where it ends.
+/* piece.h -- one piece of a course: its data while it is integrated.
  *
- * For course.c only. The loop over pieces is there; here the sides that a piece goes by are
- * found (side-search.c, piece-sides.c), their mode is entered (piece-enter.c), the piece is
- * integrated from its start with every step looked at (piece.c), and what happens where it ends
- * is done (piece-end.c).
+ * For course.c only, which has the loop over pieces. side-search.c and piece-sides.c find the
+ * sides of the switches for a piece, piece-enter.c enters their mode, piece.c integrates from the
+ * start and looks for roots in every step, piece-end.c carries out the event or switch at the
+ * end.
  *
  * Tests  as course.h
  */
@@ -14,58 +14,58 @@
 
 typedef enum {
     QDOT_PIECE_GOES_ON,
-    QDOT_PIECE_RETRIED, /* broken off behind its first step: x->well says why */
+    QDOT_PIECE_RETRIED, /* stopped after its first step: x->well says why */
     QDOT_PIECE_ENDS     /* at t_act */
 } qdot_piece_intent;
 
-/* How often a thing happened since. */
+/* How often an event, bound or surface was met: used to detect accumulation. */
 typedef struct {
     qdot_watched_kind kind;
-    size_t index, n; /* n: how often since `since` */
+    size_t index, n; /* n: times since `since` */
     double since;
-    double last, interval, ratio; /* the last time, how long before it the one before was, and
-                                     that over the interval before */
-    size_t steady;                /* how often that ratio was the same, in a row */
+    double last, interval, ratio; /* time of the last one; the interval before it; that over the
+                                     interval before */
+    size_t steady;                /* how often in a row the ratio was the same */
 } qdot_piece_repeat;
 
-/* A surface that the motion does not leave towards the side at hand: what else there is. */
+/* A surface for which another side has to be tried. */
 typedef struct {
     size_t surface, n;
-    long sides[3]; /* [n] the first one is that at hand */
+    long sides[3]; /* [n] candidates, the present side first */
 } qdot_piece_doubt;
 
-/* The arrays and the cursor belong to course.c, which frees them. */
+/* course.c owns the arrays and the cursor. */
 typedef struct {
     qdot_course *c;
     const qdot_ode_options *options;
     const qdot_ode_method *method;
     double t1, direction;
-    size_t n;           /* of y */
-    size_t mode;        /* of the piece */
+    size_t n;           /* components of y */
+    size_t mode;        /* of this piece */
     struct {
         double t, *y; /* [n] */
         size_t from;  /* the mode before */
         bool jumped;  /* an event has changed the state */
     } start;
     long *side;         /* [surfaces] */
-    bool *functions_on; /* [functions] likewise */
-    int *before;        /* [functions] */
+    bool *functions_on; /* [functions] the piece starts on a zero of it */
+    int *before;        /* [functions] sign just before the start; 0: unknown */
     int *signs;         /* [functions] of the mode before, where its piece ended */
-    double *residual;   /* [functions] */
+    double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
     bool first_step;
-    /* The sides: tried, then other ones beside those that go well, then known. */
+    /* Search for the sides: one set is tried, then alternatives to one that fits, then known. */
     enum { QDOT_SIDES_TRIED, QDOT_SIDES_COMPARED, QDOT_SIDES_KNOWN } search;
-    bool well;          /* RETRIED: the motion leaves to its sides, others may do as well */
-    bool far; /* the step needed no look */
+    bool well;          /* RETRIED: the motion leaves to its sides, but others may fit as well */
+    bool far; /* no watched bound is near this step: no roots were looked for */
 
-    /* What the step at hand showed. */
+    /* Results of the present step. */
     qdot_piece_intent intent;
     double t_act;
-    double *y_act;             /* [n] the state there, of methods without series */
-    bool broken_off;           /* by us, so that it is no failure */
-    qdot_vec(qdot_root) roots; /* that occur at t_act */
+    double *y_act;             /* [n] the state at t_act, for methods without series */
+    bool broken_off;           /* the integration was stopped on purpose: no failure */
+    qdot_vec(qdot_root) roots; /* those at t_act */
     qdot_vec(qdot_root) fired; /* those that ended the piece before */
-    qdot_vec(size_t) crossed;  /* the surfaces among these, of a state that did not jump */
+    qdot_vec(size_t) crossed;  /* the surfaces among `fired`, if the state did not jump */
     size_t noted;              /* occurrences before this step */
 
     /* Reading within the step. */
@@ -74,12 +74,12 @@ typedef struct {
     qdot_trajectory step; /* its two ends */
     qdot_trajectory_cursor *cursor;
     double *y;      /* [n] scratch */
-    size_t resting; /* the event of a contact that lasts */
+    size_t resting; /* the event of a persistent contact */
 
-    /* Sides tried from one point: [tries x surfaces]; the surfaces in doubt. */
+    /* Sides tried from one point: [tries x surfaces]; surfaces with alternatives. */
     qdot_vec(long) tried;
     qdot_vec(qdot_piece_doubt) doubts;
-    /* Times at which things happened, by kind and index. */
+    /* Repetitions, by kind and index. */
     qdot_vec(qdot_piece_repeat) repeats;
 } qdot_piece;
 
@@ -95,60 +95,60 @@ qdot_piece_watch(const qdot_piece *x)
     return x->c->watches.at[x->mode];
 }
 
-/* The sides of a piece from its start, decided from x->side; old [surfaces]: those that held
- * before, NULL: all are decided anew. Errors as qdot_stage_sides. */
+/* Decide the sides at the start of a piece, in x->side; old [surfaces]: the sides before; NULL:
+ * all are decided anew. Errors as qdot_stage_sides. */
 QDOT_MUST_CHECK static inline qdot_status
 qdot_piece_sides(qdot_piece *x, const long *old)
 {
     return qdot_stage_sides(x->c->stage, x->start.t, x->start.y, old, x->side);
 }
 
-/* Everything of the mode with the sides x->side, which becomes x->mode. */
+/* Make the mode with the sides x->side, its bind and its watch; it becomes x->mode. */
 QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 
-/* One piece from its start, the last point, by the sides that it leaves well; x->side are what
- * is tried first. c->reason where there are none, or more than one way to go on. */
+/* Integrate one piece from its start, the last point, with sides towards which the motion leaves;
+ * x->side are tried first. c->reason if there are none, or more than one. */
 QDOT_MUST_CHECK qdot_status qdot_piece_search(qdot_piece *x);
 
-/* What is known of the functions where the piece before ended, by those of the mode at hand. */
+/* Carry the signs and residuals at the end of the piece before over to the functions of the new
+ * mode. */
 void qdot_piece_carry(qdot_piece *x);
 
-/* What is asked of a mode that is tried before it is integrated, with what is known of its
- * functions: c->reason where it cannot be entered. */
+/* Check a mode before it is integrated; c->reason if it cannot be entered. */
 QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x, bool first);
 
-/* A piece ends at the first double behind the root that ends it, in all courses alike: that is
- * late, and never early, which adds up. A companion goes on as if it had left before the root,
- * the other one as if later still: by half the time between doubles. In this time it goes by
- * one mode, and takes back what it went by the other; SIZE_MAX is none. */
+/* A piece ends at the first double after its root, in all courses alike: late and never early, so
+ * these errors add up. To show their effect one companion continues as if it had left half an ulp
+ * of t earlier, the other as if half an ulp later: over this time it moves in mode `by` and
+ * undoes the motion in mode `instead_of` (SIZE_MAX: none). */
 QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of);
-/* Whether a companion's state may be moved so: not along constraints. */
+/* Whether that is done: for companions, if the system does not project onto constraints. */
 bool qdot_piece_makes_up(const qdot_piece *x);
 
-/* The watch of x->mode, at the start of a piece: x->before and x->residual say what is known
- * of its functions there, x->functions_on is made. Errors as qdot_watch_begin. */
+/* Begin the watch of x->mode at the start of a piece, from x->before and x->residual; fills
+ * x->functions_on. Errors as qdot_watch_begin. */
 QDOT_MUST_CHECK qdot_status qdot_piece_begin(qdot_piece *x);
 
-/* Integrate from the start, the last point of the trajectory, to x->t1 or to what ends the
- * piece: then x->intent, x->t_act and x->roots say where and what; c->reason, if it is a
- * contact that lasts. Errors as qdot_trajectory_resume. */
+/* Integrate from the start, the last point of the trajectory, to x->t1 or to the end of the
+ * piece: then x->intent, x->t_act and x->roots say where and why; c->reason for a persistent
+ * contact. Errors as qdot_trajectory_resume. */
 QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x);
 
-/* All that occurs at x->t_act, in order; x->start.y is the state there, and then the one
- * behind. *over: the run ends, for c->reason or for the event c->stopped_by; x->start.jumped:
- * the state has been changed. QDOT_EDOMAIN where an event gives a value that is none. */
+/* Carry out all events at x->t_act, in order; x->start.y is the state before, then after. *over:
+ * the run ends, for c->reason or by the event c->stopped_by; x->start.jumped: the state was
+ * changed. QDOT_EDOMAIN if an event sets a value that is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_piece_act(qdot_piece *x, bool *over);
 
-/* The run ends here, for a reason that is a failure or not. */
+/* End the run here, as failed or as stopped. */
 void qdot_piece_stop(qdot_piece *x, bool failed);
 
-/* After a first step: whether the motion leaves all surfaces towards the sides that it goes
- * by. Where not, x->side has other ones and x->doubts the surfaces. */
+/* After a first step: whether the motion leaves all surfaces towards the sides of its equations.
+ * If not, x->side gets other sides and x->doubts the surfaces. */
 QDOT_MUST_CHECK qdot_status qdot_piece_leaves_well(qdot_piece *x, bool *well);
 
-/* Where it does: whether other sides might do as well. */
+/* If it does: whether other sides might fit as well. */
 bool qdot_piece_is_open(const qdot_piece *x);
-/* x->doubts become the surfaces of which that is so. */
+/* Set x->doubts to the surfaces with such other sides. */
 QDOT_MUST_CHECK qdot_status qdot_piece_doubt_open(qdot_piece *x);
 
 #endif

@@ -6,19 +6,19 @@
 
 /* Expressions of a plan, lowered. */
 typedef struct {
-    const qdot_plan *plan; /* borrowed, as all but the tape */
+    const qdot_plan *plan; /* borrowed, as everything except the tape */
     size_t m;
-    const qdot_expr *exprs; /* [m] as they were given */
-    qdot_tape *tape;        /* of them with the values of the plan in place */
+    const qdot_expr *exprs; /* [m] as given */
+    qdot_tape *tape;        /* of these with the parameter values of the plan */
     bool accelerations;     /* it reads q'' or multipliers */
 } qdot_reading;
 
-/* These along a course. */
+/* Reads such expressions along a course. */
 typedef struct {
     qdot_reading of;
     qdot_trajectory_cursor *cursor;
     const qdot_course *course;
-    int moved;  /* 0; else states are read moved to that side, by a double: 1, 2 */
+    int moved;  /* 1, 2: states are moved by one double, as the start of companion 0, 1; 0: not */
     double *in; /* [3n + 1 + m] */
     double *work;
 } qdot_reader;
@@ -32,18 +32,19 @@ QDOT_MUST_CHECK qdot_status qdot_reader_init(qdot_reader *r, const qdot_reading 
                                              const qdot_course *course);
 void qdot_reader_clear(qdot_reader *r);
 
-/* out [outputs of the tape] at t; within that piece of the run, unless it is SIZE_MAX. */
+/* out [outputs of the tape] at t in the given piece of the run; SIZE_MAX: any piece. */
 QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
                                            double *out);
 
-/* Whether a failure of reading says that the expression is undefined there, or a course ended. */
+/* Whether a failure of reading means that the expression is undefined there, or the course ended.
+ *  */
 static inline bool
 qdot_reader_has_nothing(qdot_status status)
 {
     return status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR;
 }
 
-/* out for the state that stands in r->in [2n], by the piece that was read last. */
+/* out for the state in r->in [2n], with the equations of the piece that was read last. */
 QDOT_MUST_CHECK qdot_status qdot_reader_evaluate(qdot_reader *r, double t, double *out);
 
 #endif

@@ -7,13 +7,13 @@
 typedef enum { QDOT_RUN_DONE, QDOT_RUN_STOPPED, QDOT_RUN_FAILED } qdot_run_status;
 
 typedef struct {
-    qdot_expr quantity;  /* what should stay (energy, a cyclic momentum) */
+    qdot_expr quantity;  /* the conserved quantity (energy, a cyclic momentum) */
     const char *name;    /* "energy", "p[phi]" */
     double start, drift; /* drift = max |c - c0| / max(1, |c0|) over the run */
-    bool kept;           /* it is a constant of the integration (sim/plan/routh.h): drift is 0 */
+    bool kept;           /* the integration keeps it exactly (sim/plan/routh.h): drift is 0 */
 } qdot_drift;
 
-/* Coordinates that were integrated apart from the others. */
+/* A group of coordinates that was integrated apart from the others. */
 typedef struct {
     const char *coordinates; /* "x, y" */
     size_t steps, rejected;
@@ -36,38 +36,39 @@ typedef struct {
     qdot_run_status status;
     const char *reason;            /* NULL when done */
     bool interrupted;              /* by Ctrl-C: only the states are known */
-    size_t n;                      /* coordinates, and behind them */
+    size_t n;                      /* coordinates, including at the end */
     size_t n_states;               /* parameters that events set, whose v is 0 */
     const qdot_expr *coordinates;  /* [n] symbols */
     const double *q, *v;           /* [n] state at t1 */
     size_t operations;             /* of the tape, one evaluation of M and f */
-    int digits;                    /* as asked for; 0: a run in doubles */
-    const qdot_expr *exact;        /* [2n + m] q, v, multipliers (nil: unknown) at t1 as the rational numbers they are, of a run
-                                      with `digits`; else NULL */
-    const char *notice;            /* what a person must know of the start, a line each; NULL: nothing */
+    int digits;                    /* as requested; 0: a run in doubles */
+    const qdot_expr *exact;        /* [2n + m] with `digits`: q, v, multipliers (nil: unknown) at
+                                      t1 as rational numbers; else NULL */
+    const char *notice;            /* notices about the start, a line each; NULL: none */
     /* Of a scene with constraints: */
     size_t m;                      /* multipliers; 0: no constraints */
     const qdot_expr *multipliers;  /* [m] symbols */
     const double *lambda;          /* [m] at t1; NaN where there are none */
     const double *lambda_error;    /* [m] estimates of their errors, absolute; NaN: unknown */
-    double constraint_drift;       /* the largest |f| of holonomic constraints met, of velocity
-                                      constraints where there are no others; NaN: neither */
+    double constraint_drift;       /* the largest |f| of holonomic constraints, or of velocity
+                                      constraints if there are no others; NaN: neither */
     double velocity_drift;         /* the largest |df/dt|, |f| of velocity constraints; NaN */
-    size_t independent;            /* of the constraints */
+    size_t independent;            /* rank of the constraints */
     size_t projections;            /* steps after which the state was moved */
     qdot_run_treatment treatment;
-    size_t pieces, modes;          /* of a run that events or switches divide; else 1 */
-    size_t n_parts;                /* 0: all went together */
+    size_t pieces, modes;          /* of a run divided by events or switches; else 1 */
+    size_t n_parts;                /* decoupled groups; 0: integrated together */
     const qdot_run_part *parts;
-    const char *doubt;             /* why the error is unknown, where that is known; NULL */
+    const char *doubt;             /* why the error is unknown; NULL: it is known, or no reason is
+                                       */
 } qdot_run_report;
 
 /* An event that occurred. */
 typedef struct {
     const char *event;
     double t, error; /* NaN: unknown */
-    int way;         /* 1: rising, -1: falling, 0: it touched */
-    qdot_expr exact; /* of a run with `digits` the time as a rational; else nil */
+    int way;         /* 1: rising, -1: falling, 0: it touched 0 */
+    qdot_expr exact; /* with `digits`: the time as a rational; else nil */
 } qdot_run_occurrence;
 
 #endif

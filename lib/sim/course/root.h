@@ -7,7 +7,8 @@
 typedef struct {
     size_t function;
     double t;
-    int way;         /* the sign it goes over to in the direction of the run; 0: none */
+    int way;         /* the sign of g after the root, in the direction of the run; 0: it only
+                        touches */
     double residual; /* |g| at the doubles on both sides of it, the larger */
     bool exact;      /* g is 0 at t */
 } qdot_root;

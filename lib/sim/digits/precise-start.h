@@ -1,8 +1,8 @@
-/* precise-start.h -- a start that is solved for, in all the digits of a run.
+/* precise-start.h -- solves for the start of a run with `digits`, in all its digits.
  *
- * The values that a start does not name follow from the constraints. Where these determine them,
- * the state of doubles that keeps the constraints is brought onto them by Newton's method with
- * residuals in MPFR and slopes in doubles,
+ * The values that a start does not name follow from the constraints. If these determine them, the
+ * state in doubles that keeps the constraints is improved by Newton's method with residuals in
+ * MPFR and derivatives in doubles,
  *
  *     A_free dx = -F(x),   A_free: the columns of what was not named, of full rank,
  *
@@ -17,10 +17,10 @@
 
 #include "sim/model/equations.h"
 
-/* start: t0, then q and q' behind one number that is not looked at, [2 + 2n], as given; y [2n]: in
- * doubles, on the constraints. What breaks them by less than 2^enough stays as it is, and so does
- * what they do not determine: whoever wants them kept has to look. Errors: QDOT_ENOMEM, those of a
- * constant, QDOT_EINTR. */
+/* start [2 + 2n]: t0, one unused number, q and q' as given; y [2n]: the state in doubles, on the
+ * constraints. Values stay as they are if they break the constraints by less than 2^enough or if
+ * the constraints do not determine them: the caller must check that the constraints hold. Errors:
+ * QDOT_ENOMEM, those of a constant, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_precise_start_solve(const qdot_plan *plan,
                                                      const qdot_run_request *request,
                                                      const double *y, double enough,

@@ -1,25 +1,25 @@
 /* precise.h -- `digits N`: a run whose end state has N correct digits.
  *
- * Two runs in MPFR go side by side on two threads: the run itself under a tolerance of
+ * Two runs in MPFR go in parallel on two threads: the run itself under a tolerance of
  * 10^-D with numbers of some 32 bits more, and a companion under 10^-(D+3), of another
  * order, with constants, start and limits evaluated to more bits. Their distance
  *
  *     error = max_i |y_i - y*_i| / max(1, |y*_i|)    at the end
  *
- * (or the median of the same over nine times of the latter half, if that is larger: where
- * two curves cross their distance says nothing), never below 10^-D, is the error stated;
- * the companion's own is smaller by 10^3. D comes from the scene:
+ * (or the median of the same over nine times of the latter half, if that is larger: the two may
+ * be near by chance at one time), never below 10^-D, is the error stated; the companion's own
+ * error is smaller by 10^3. D is found from the scene:
  *
  *     a pair at D = 19 measures the amplification A = error 10^D (D is doubled until
  *     the pair still agrees at its end), then D = N + log10 A + 3, and again with more
  *     until error <= 10^-N / 2.
  *
- * Constraints are not projected onto: what their drift grows to is measured with the rest. What
- * the start does not name is solved for where they determine it (sim/digits/precise-start.h); a start that
- * breaks them otherwise is QDOT_ENOTBUILT.
+ * States are not projected onto the constraints: drift is part of the error that is measured.
+ * Values that the start does not name are solved for if the constraints determine them
+ * (sim/digits/precise-start.h); any other start that breaks the constraints is QDOT_ENOTBUILT.
  *
- * Chaos costs digits and no more. What the double path refuses is refused in the same
- * words before. Along the run, values are those of the series of its steps, their error
+ * A chaotic scene only needs more digits. Requests that a run in doubles refuses are refused with
+ * the same message before. Values along the run come from the series of its steps; their error is
  * the distance from the companion's.
  *
  * Tests  tests/sim/test_precise.c: the reference states of independent programs.
@@ -32,25 +32,22 @@
 #include "sim/model/domain.h"
 #include "sim/model/equations.h"
 
-/* Digits that may be asked for. */
+/* The most digits that may be requested. */
 enum { QDOT_PRECISE_MOST_DIGITS = 10000 };
 
 typedef struct qdot_precise_pair qdot_precise_pair;
 
-/* QDOT_EINVAL where request->digits, its method or its treatment of constraints cannot
- * be. */
+/* QDOT_EINVAL if request->digits, its method or its treatment of constraints is not allowed. */
 QDOT_MUST_CHECK qdot_status qdot_precise_check(const qdot_scene *scene,
                                                const qdot_run_request *request);
 
-/* The request as the plan and qdot_precise_pair_new want it: by Taylor series. */
+/* The request for the plan and for qdot_precise_pair_new: with the method taylor. */
 qdot_run_request qdot_precise_request(const qdot_run_request *request);
 
-/* Both runs of a request, whose plan has the method taylor; plan borrowed. start [2n]: in doubles, on
- * the constraints. Where events or
- * switches divide the run, `guide` has been through them in doubles, and is borrowed; else
- * NULL (sim/digits/precise-course.h). QDOT_OK
- * whenever there is a run, kept in *pair; its result may be a failure. QDOT_EINTR with
- * *pair: the run so far. */
+/* Carry out both runs of a request, whose plan has the method taylor; plan borrowed. start [2n]:
+ * in doubles, on the constraints. guide: the run in doubles if events or switches divide it,
+ * borrowed; else NULL (sim/digits/precise-course.h). QDOT_OK whenever there is a run, kept in
+ * *pair; its result may be a failure. QDOT_EINTR with *pair: the run so far. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_new(const qdot_plan *plan,
                                                   const qdot_run_request *request,
                                                   const double *start,
@@ -59,7 +56,7 @@ QDOT_MUST_CHECK qdot_status qdot_precise_pair_new(const qdot_plan *plan,
                                                   qdot_precise_pair **pair);
 void qdot_precise_pair_free(qdot_precise_pair *pair);
 
-/* What was done: of the run itself. */
+/* The result, error, tolerance and number of factorisations of the run itself. */
 const qdot_ode_result *qdot_precise_pair_result(const qdot_precise_pair *pair);
 double qdot_precise_pair_error(const qdot_precise_pair *pair); /* NaN: unknown */
 double qdot_precise_pair_tol(const qdot_precise_pair *pair);
@@ -68,11 +65,11 @@ size_t qdot_precise_pair_factored(const qdot_precise_pair *pair);
 /* The end state, component i of (q, q'), as the rational number that was computed. */
 qdot_expr qdot_precise_pair_end(const qdot_precise_pair *pair, size_t i);
 
-/* Of the guide's occurrence i the time, nil where it is not known, and its error, NaN then. */
+/* The time of the guide's occurrence i and its error; nil and NaN if unknown. */
 qdot_expr qdot_precise_pair_time(const qdot_precise_pair *pair, size_t i, double *error);
 
-/* The points of the run as doubles, and some within each step: tr is filled with them,
- * near enough to each other for the steps of a run in doubles. */
+/* Fill tr with the points of the run as doubles and some within each step, near enough to each
+ * other for the steps of a run in doubles. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_sample(const qdot_precise_pair *pair,
                                                      qdot_trajectory *tr);
 
@@ -83,12 +80,12 @@ QDOT_MUST_CHECK qdot_status qdot_precise_pair_values(qdot_precise_pair *pair, si
                                                      qdot_expr time, qdot_expr *values,
                                                      double *errors);
 
-/* The same at times [k] that are doubles, values [k x m] rounded to doubles. */
+/* As qdot_precise_pair_values at times [k] in doubles, values [k x m] rounded to doubles. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_sample_values(
     qdot_precise_pair *pair, size_t m, const qdot_expr *exprs, size_t k,
     const double *times, double *values, double *errors);
 
-/* The drifts, known already in doubles, measured again over the points of the run. */
+/* Measure the drifts, known already in doubles, again at the points of the run. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_drifts(qdot_precise_pair *pair,
                                                      qdot_drifts *drifts);
 

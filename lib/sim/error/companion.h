@@ -1,5 +1,5 @@
-/* companion.h -- the second and third run by which errors of a run are known (ode/companion.h), each
- * a course of its own.
+/* companion.h -- the two companions (ode/companion.h) that tell the errors of a run, each
+ * integrated as a course of its own.
  *
  * Tests  tests/script/inner-times.sh, event-ends.sh
  */
@@ -8,20 +8,20 @@
 
 #include "sim/course/run-state.h"
 
-/* The trajectories of two companions, moved to opposite sides, over all that the run covers;
- * where they end early errors are unknown. QDOT_OK without them, too: has_companion tells. */
+/* Integrate two companions, started to opposite sides, over the whole run; beyond the end of one
+ * that ends early errors are unknown. QDOT_OK also if there are none: see has_companion. */
 QDOT_MUST_CHECK qdot_status qdot_run_twin(qdot_run *run);
 
-/* The error of the end state of a run that has pieces; NaN with run->doubt where the two
- * runs met different events. difference [2n], from zeros: that of each component. */
+/* The error of the end state of a run with pieces; NaN with run->doubt if run and companions met
+ * different events. difference [2n], 0 on entry: the error of each component. */
 QDOT_MUST_CHECK qdot_status qdot_run_end_error(qdot_run *run, double *error,
                                                double *difference);
 
-/* Whether both runs went through the same pieces and saw what is in them, so that states
- * compare. */
+/* Whether run and companion went through the same pieces and missed no force, so that their
+ * states can be compared. */
 bool qdot_run_comparable(const qdot_run *run);
 
-/* Whether the companions come as far as t, or ended as the run did. */
+/* Whether the companions did not fail and reach t. */
 bool qdot_run_covered(const qdot_run *run, double t);
 
 #endif

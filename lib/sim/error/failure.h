@@ -1,9 +1,9 @@
-/* failure.h -- why a run could not go on, in words for a person.
+/* failure.h -- explains why a run could not go on.
  *
- * A run that comes near a singularity ends with steps as small as doubles of t allow. Then
- * some acceleration outgrows everything: at x'' = -c (t* - t)^-k, k >= 1, what is left until
- * t* is about |x'/x''|, which is nothing beside the run. The reason then says so, with the
- * coordinate, where it is and its acceleration.
+ * A run that comes near a singularity ends with steps as small as doubles of t allow. Some
+ * acceleration then grows without bound: for x'' = -c (t* - t)^-k, k >= 1, the time left until t*
+ * is about |x'/x''|, negligible beside the length of the run. The reason then names the
+ * coordinate, its position and its acceleration.
  *
  * Tests  tests/script/bad-runs.sh
  */
@@ -14,8 +14,8 @@
 #include "ode/system.h"
 #include "sim/model/equations.h"
 
-/* Append to `reason` what the equations of `system` show at t and y [2n], a run of that
- * length having failed there. Nothing where they show nothing. Errors: QDOT_ENOMEM. */
+/* A run of that length failed at t and y [2n]: append the explanation from the equations of
+ * `system` to `reason`, or nothing if there is none. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_failure_explain(const qdot_plan *plan,
                                                  const qdot_ode_system *system, double t,
                                                  const double *y, double length,

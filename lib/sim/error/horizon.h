@@ -1,8 +1,8 @@
-/* horizon.h -- the time beyond which a run has no digit left.
+/* horizon.h -- the time beyond which no digit of a run is correct.
  *
  * In a chaotic scene the distance of two neighbouring motions grows exponentially until
- * it is as large as the motion itself; from there on the states of a run are one motion
- * of many, and what it says of the end is noise. With y the run, y* its companion
+ * it is as large as the motion itself; from then on the run is one motion of many, and its end
+ * state is arbitrary. With y the run, y* its companion
  * (ode/companion.h) and V the largest variation of a component,
  *
  *     d(t) = max_i |y_i - y*_i| / max(1, |y_i|)
@@ -25,19 +25,19 @@
 #include "sim/course/reader.h"
 #include "sim/course/report.h"
 
-/* Of a run that has its error: report.horizon, and report.error where there is one.
- * QDOT_OK without a horizon too. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* For a run whose error is known: set report.horizon, and report.error if there is a horizon.
+ * QDOT_OK without one too. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_horizon_find(qdot_run *run);
 
-/* V of one trajectory; and what of it leaves no digit, 1/10. */
+/* V of one trajectory; a distance of QDOT_HORIZON_NONE_LEFT V means that no digit is correct. */
 double qdot_horizon_variation(const qdot_trajectory *tr);
 #define QDOT_HORIZON_NONE_LEFT 0.1
 
-/* Whether t lies beyond it. */
+/* Whether t lies beyond the horizon of the run. */
 bool qdot_horizon_passed(const qdot_run *run, double t);
 
-/* Of expressions [m] the mean distance of the two runs beyond the horizon into spread [m];
- * 0 where there is no horizon. */
+/* The mean distance of expressions [m] in the two runs beyond the horizon, into spread [m]; 0
+ * without a horizon. */
 QDOT_MUST_CHECK qdot_status qdot_horizon_spread(const qdot_run *run, const qdot_reading *of,
                                                 double *spread);
 

@@ -1,8 +1,8 @@
-/* noise.h -- what evaluating an expression at a state loses to rounding.
+/* noise.h -- the rounding error of evaluating an expression at a state.
  *
- * Accelerations are solved for, and terms cancel in them and in expressions; two runs that
- * round alike do not show it. So g is evaluated at seven states along a line, near enough
- * to each other for its third differences to hold nothing but rounding:
+ * Terms cancel in accelerations, which are solved for, and in expressions; two runs that round
+ * alike do not show the error. So g is evaluated at seven states along a line, so near to each
+ * other that its third differences consist of rounding errors:
  *
  *     g_s = g(t, y + s h d),  s = 0 ... 6,   h = 2^-38,  d_i = +-y_i
  *     noise = sqrt(mean (third differences)^2 / 20)
@@ -15,16 +15,15 @@
 
 #include "sim/course/reader.h"
 
-/* Of expressions [m] at t, in a piece (sim/course/reader.h), into noise [m]. Errors: as
- * qdot_reader_at. */
+/* The noise [m] of the reader's expressions at t in a piece. Errors: as qdot_reader_at. */
 QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, size_t piece, double t,
                                           double *noise);
 
-/* What evaluating expressions [m] along a course at times [k] may be off by: roundings [k x m],
+/* Bounds for the rounding of expressions [m] along a course at times [k]: roundings [k x m],
  *
  *     max(4 noise, DBL_EPSILON max(magnitude, |g|))
  *
- * where magnitude is that of its terms (sim/model/term-magnitude.h) and values [k x m] are g.
+ * magnitude: of the terms of g (sim/model/term-magnitude.h); values [k x m]: g.
  * Errors: as qdot_reader_at. */
 QDOT_MUST_CHECK qdot_status qdot_noise_roundings(const qdot_reading *of,
                                                  const qdot_course *course, size_t k,

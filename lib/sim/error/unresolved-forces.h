@@ -1,14 +1,14 @@
-/* unresolved-forces.h -- forces that act within less than a step, which no step has seen.
+/* unresolved-forces.h -- finds forces that act for less than a step, so that the run missed them.
  *
- * A step is chosen by what its equations are where it begins. A force like
- * exp(-10^6 (t - 3)^2), or that of a wall as thin, is nothing there, and its series and differences
- * neither: the step goes over it, and so may those of a companion. Steps by series know the
- * arguments of exponentials and do not; others do. Only functions that fall off like an
- * exponential hide so; where there are any (tape/disc.h), and a step is so long that the
- * argument of one goes over 10 or more, the outputs of the plan's tape are looked at along
- * the run, between 16 or 64 points of each step by discs (sim/course/polynomial-bounds.h), part by part where
- * these leave something open. What a part shows beyond the
- * polynomial through the points of the whole step, summed up, is what the step did not see.
+ * The length of a step depends on the equations at its start. A force like exp(-10^6 (t - 3)^2),
+ * or that of a thin wall, is negligible there with all its derivatives: the step passes over it,
+ * and so may those of a companion. Steps by series check the arguments of exponentials
+ * (series/near.h); other methods do not. Only functions that fall off like an exponential can be
+ * missed in this way. If there are any (tape/disc.h), and their argument may change by 10 or more
+ * in a step, the outputs of the plan's tape are sampled at 16 or 64 points of the step, and discs
+ * (sim/course/polynomial-bounds.h) bound them between; if the bound is too large the step is
+ * split. The difference between the parts and the polynomial of the whole step, summed up, is
+ * what the step missed.
  *
  * Tests  tests/script/hidden-forces.lag
  */
@@ -17,10 +17,10 @@
 
 #include "sim/course/course.h"
 
-/* Whether a step went over a force, by more than ten tolerances of the largest force and the
- * step, and more than a hundredth of the tolerance; *t: about where. Not of stiff methods,
- * whose steps may go over what has died out.
- * Errors: QDOT_ENOMEM, QDOT_EINTR; what cannot be read shows nothing. */
+/* Whether a step missed a force, by more than ten tolerances times the largest force times the
+ * step, and more than a hundredth of the tolerance; *t: about where. Stiff methods are not
+ * checked: their steps may pass over what has died out. Errors: QDOT_ENOMEM, QDOT_EINTR; states
+ * that cannot be read are skipped. */
 QDOT_MUST_CHECK qdot_status qdot_unresolved_forces_find(const qdot_course *course,
                                                         bool *found, double *t);
 

@@ -1,10 +1,10 @@
-/* constrained-lanes.h -- states in lanes brought back onto the constraints: as
- * qdot_constrained_project does it, every number a group (num/batch.h).
+/* constrained-lanes.h -- projects states in lanes onto the constraints, as
+ * qdot_constrained_project does; every number is a group (num/batch.h).
  *
  *     [ M  A^T ] [ dq  ]   [  0 ]
- *     [ A   0  ] [ -nu ] = [ -f ]   until f = 0 but for rounding, M and A those of where it begins,
+ *     [ A   0  ] [ -nu ] = [ -f ]   until f = 0 within rounding, with M and A of the first state,
  *
- * then q' likewise. Each lane goes its own way: what one does changes no bit of another.
+ * then q' likewise. Lanes are independent: none changes a bit of another.
  *
  * Tests  tests/sim/test_ensemble.c
  */
@@ -16,14 +16,15 @@
 
 typedef struct qdot_constrained_lanes qdot_constrained_lanes; /* one a thread */
 
-/* Of a plan with constraints, borrowed; shaken as for qdot_bind_new. Errors: QDOT_ENOMEM. */
+/* For a plan with constraints, borrowed; shaken as for qdot_bind_new. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken,
                                                        qdot_constrained_lanes **lanes);
 void qdot_constrained_lanes_free(qdot_constrained_lanes *lanes);
 
-/* y + carry: q [n groups], q' [n groups], the parameters of each lane (plan->n_states), which keep
- * their values and have no carry; t [a group]; moved [a group]: the largest change of a component
- * relative to max(1, |y_i|), NaN in a lane whose constraints cannot be held or are not independent. */
+/* Project y + carry: q [n groups], q' [n groups], the parameters of each lane (plan->n_states),
+ * which keep their values and have no carry; t [a group]. moved [a group]: the largest change of
+ * a component relative to max(1, |y_i|); NaN in a lane that does not converge or whose
+ * constraints depend on each other. */
 void qdot_constrained_lanes_project(qdot_constrained_lanes *lanes, const double *t, double *y,
                                     double *carry, double *moved);
 

@@ -1,21 +1,21 @@
-/* constrained.h -- a plan with constraints, evaluated: accelerations and multipliers, and states
- * brought back onto the constraints.
+/* constrained.h -- evaluates a plan with constraints: accelerations, multipliers, and the
+ * projection of states onto the constraints.
  *
  *     [ M  A^T ] [ q''     ]   [ f     ]
  *     [ A   0  ] [ -lambda ] = [ gamma ]     (num/saddle.h, residual-corrected)
  *
- * Drift. Integration leaves the constraints by its error of a step and by rounding. Under
- * `project` a state is moved back by the shortest way in the metric of M,
+ * Drift. The errors of steps and rounding move states off the constraints. Under `project` a
+ * state is moved back by the shortest way in the metric of M,
  *
  *     q += M^-1 A^T nu until f(q, t) = 0,   then q' likewise until df/dt = 0,
  *
- * when a residual is above what rounding alone makes of it, 2^-52 sum |A_ki q_i| (q' at
- * the level of velocities; values below 2^-10 count as that), and only then. Under `baumgarte` gamma is
+ * but only if a residual exceeds its rounding error, 2^-52 sum |A_ki q_i| (q' for velocities;
+ * values below 2^-10 count as 2^-10). Under `baumgarte` gamma is
  *
  *     gamma - 2 a df/dt - a^2 f,   velocity constraints: gamma - a f,
  *
  * critical damping with the rate a = QDOT_CONSTRAINED_RATE per unit of t: drift dies out as
- * e^(-a t). Under `none` nothing is done.
+ * e^(-a t). Under `none` drift is not corrected.
  *
  * Source  Hairer & Wanner II, VII.1 (index reduction) and VII.2 (projection); Baumgarte,
  *         Comput. Meth. Appl. Mech. Eng. 1 (1972) 1.
@@ -32,7 +32,7 @@
 
 typedef struct qdot_constrained qdot_constrained;
 
-/* Of a plan with constraints, borrowed. `shaken` as for qdot_bind_new. Errors:
+/* For a plan with constraints, borrowed. `shaken` as for qdot_bind_new. Errors:
  * QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_new(const qdot_plan *plan, bool shaken,
                                                  qdot_constrained **constrained);
@@ -45,8 +45,9 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_solve(qdot_constrained *constrained
                                                    double t, const double *y, double *a,
                                                    double *lambda);
 
-/* dfdy [2n x 2n row-major] and dfdt [2n] of f = (q', q''), of a plan whose method needs them.
- * q'' and lambda take up what the equations and, with its damping, gamma gain:
+/* dfdy [2n x 2n row-major] and dfdt [2n] of f = (q', q''), for a plan whose method needs them.
+ * The changes of q'' and lambda follow from those of the equations and of gamma (with its
+ * damping):
  *
  *     [ M  A^T ] [ dq''     ]   [ df - dM q'' + dA^T lambda ]
  *     [ A   0  ] [ -dlambda ] = [ dgamma - dA q''           ]
@@ -56,31 +57,32 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_jacobian(qdot_constrained *constrai
                                                       double t, const double *y,
                                                       double *dfdy, double *dfdt);
 
-/* Of accelerations nothing drifts: a constraint on them holds because it is solved for, but not
- * where it repeats others at the start and says something else later. QDOT_EDOMAIN names one that
- * does not hold at a state of the run. Test: tests/bad/constraint-leaves.lag. */
+/* A constraint on accelerations does not drift, because it is solved for. But one that is
+ * redundant at the start may contradict the others later: QDOT_EDOMAIN names one that does not
+ * hold at a state of the run. Test: tests/bad/constraint-leaves.lag. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_check_accelerations(qdot_constrained *constrained,
                                                                  double t, const double *y);
 
-/* Move y [2n] (+ carry [2n], may be NULL) onto the constraints, as qdot_ode_system.project
- * is to: *moved is the largest change of a component relative to max(1, |y_i|), 0 where
- * nothing was done. QDOT_EDOMAIN where it does not converge. */
+/* Move y [2n] (+ carry [2n], may be NULL) onto the constraints, as qdot_ode_system.project:
+ * *moved is the largest change of a component relative to max(1, |y_i|), 0 if nothing was done.
+ * QDOT_EDOMAIN if it does not converge. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_project(double t, double *y, double *carry,
                                                      double *moved, void *constrained);
 
-/* The event `who` has set the values of y [2n] that q_set and v_set [n] say: they stay, the others
- * move least in the metric of M until the constraints hold, first of positions, then of
- * velocities, as under an impulse. NULL: nothing was set that could break these, and none of them
- * moves. QDOT_EDOMAIN names a constraint that they leave no way. Allocates. */
+/* The event `who` has set the values of y [2n] marked in q_set and v_set [n]. They stay; the
+ * others move least in the metric of M until the constraints hold, first on positions, then on
+ * velocities, as under an impulse. q_set or v_set NULL: no position or velocity was set that
+ * could break a constraint, and none moves. QDOT_EDOMAIN names a constraint that cannot be kept.
+ * Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_put(qdot_constrained *constrained, double t,
                                                  double *y, const bool *q_set,
                                                  const bool *v_set, const char *who);
 
-/* Nanoseconds that bringing a step's end back takes, about: 0 where nothing is done. */
+/* Estimated nanoseconds to project the end of a step; 0 without projection. */
 double qdot_constrained_cost(const qdot_plan *plan);
 
-/* What y breaks: the largest |f| of the holonomic rows; the largest |df/dt| or |f| of the
- * velocity rows; which rows these are (SIZE_MAX: none). */
+/* Residuals at y: the largest |f| of the holonomic rows; the largest |df/dt| or |f| of the
+ * velocity rows; the indices of these rows (SIZE_MAX: none). */
 typedef struct {
     double position, velocity;
     size_t worst_position, worst_velocity;
@@ -88,44 +90,45 @@ typedef struct {
 qdot_constrained_residual qdot_constrained_measure(qdot_constrained *constrained,
                                                    double t, const double *y);
 
-/* Whether a run may start at y: QDOT_EINVAL names a constraint that y breaks, with its
- * residual, or constraints that contradict each other; QDOT_ESINGULAR as _solve. What is
- * left (rounding of the values typed) is then projected away. */
+/* Check that a run may start at y: QDOT_EINVAL names a constraint that y breaks, with its
+ * residual, or constraints that contradict each other; QDOT_ESINGULAR as _solve. Then project
+ * away the residual that rounding of the given values leaves. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_start(qdot_constrained *constrained,
                                                    double t, double *y, double *low);
 
-/* Factor M and A of a system that holds all rows; its failures named as _solve's. */
+/* Factor M and A of a system with all rows; failures name constraints or coordinates as in
+ * _solve. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor(const qdot_plan *plan,
                                                     qdot_saddle *s);
 
-/* Before the first factorisation of a system of the rows that `row` says (NULL: all): how large
- * they are beside in [2n + 1] (q, q', t), so that what rounding leaves of one there is told from a
- * direction. Errors: QDOT_ENOMEM. */
+/* Before the first factorisation of a system of the rows `row` (NULL: all): measure how large the
+ * rows are near in [2n + 1] (q, q', t), so that a row of pure rounding there is recognised.
+ * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_look_beside(const qdot_plan *plan, qdot_saddle *s,
                                                          const size_t *row, const double *in);
 
-/* The least sine between a row of A and those before it, at y: 0 where rows that were
- * independent are no more; without a direction to be measured in, 1. */
+/* The least sine between a row of A and those before it, at y: 0 if rows that were independent
+ * are not any more; 1 if it cannot be measured. */
 double qdot_constrained_independence(qdot_constrained *constrained, double t,
                                      const double *y);
 
-/* Whether the constraints that hold accelerations are nearly dependent at y, and then which:
- * "constraints a and b". false also where that cannot be told. */
+/* Whether the constraints that hold accelerations are nearly dependent at y; if so append which:
+ * "constraints a and b". false also if that cannot be found out. */
 bool qdot_constrained_near(qdot_constrained *constrained, double t, const double *y,
                            qdot_text *names);
 
-/* A row's part (qdot_saddle_parts) from which it is named. */
+/* A row with at least this part in a dependency (qdot_saddle_parts) is named. */
 #define QDOT_CONSTRAINED_PART 1e-6
-/* "constraint a", "constraints a, b and c": the rows [m] that are set; where these are many,
- * vector constraints once for all their components. */
+/* Append the names of the rows marked in rows [m]: "constraint a", "constraints a, b and c"; if
+ * these are many, a vector constraint is named once for all its components. */
 void qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to);
 
-/* The failure that row `row` of A has become 0. QDOT_ESINGULAR. */
+/* Fail with QDOT_ESINGULAR: row `row` of A has become 0. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_without_direction(const qdot_constraints *c,
                                                                size_t row);
 
 size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
-/* Independent rows; QDOT_SADDLE_UNKNOWN before anything was solved. */
+/* Independent rows; QDOT_SADDLE_UNKNOWN before the first factorisation. */
 size_t qdot_constrained_rank(const qdot_constrained *constrained);
 /* How often a matrix was factored. */
 size_t qdot_constrained_factored(const qdot_constrained *constrained);

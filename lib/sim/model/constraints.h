@@ -1,11 +1,11 @@
-/* constraints.h -- the constraints of a plan, with values in place, as tapes.
+/* constraints.h -- the constraints of a plan, with parameter values, as tapes.
  *
  *     f(q, t) = 0          holonomic      A = df/dq
  *     f(q, q', t) = 0      velocity       A = df/dq'  (nonlinear ones: Chetaev's rule)
  *     f(q, q', q'', t) = 0 acceleration   A = df/dq'', linear in q''
  *
- * Differentiated as often as the kind asks each says A q'' = gamma(q, q', t), and with
- * the signs of mech/dynamics/quantity.h the motion is
+ * Differentiated twice, once or not at all, each gives A q'' = gamma(q, q', t), and with the
+ * signs of mech/dynamics/quantity.h the motion is
  *
  *     M q'' = f + A^T lambda,   A q'' = gamma
  *
@@ -24,9 +24,9 @@
 typedef struct {
     char *name;           /* "rod", "pin, 1"; owned */
     qdot_constraint_kind kind;
-    qdot_expr f;          /* values in place */
+    qdot_expr f;          /* with parameter values */
     qdot_expr multiplier; /* the symbol lambda[name] */
-    size_t of_kind;       /* its number among those of its kind */
+    size_t of_kind;       /* index among the rows of its kind */
 } qdot_constraints_row;
 
 /* An entry that is not zero: of M (row >= column) or of A (a constraint, a coordinate).
@@ -41,28 +41,28 @@ struct qdot_constraints {
     size_t n_masses;
     qdot_constraints_entry *slopes; /* [n_slopes] of A, row by row */
     size_t n_slopes;
-    signed char *sign; /* [n_slopes] slopes of `series` times it are those of A */
-    qdot_expr *A;      /* [n_slopes] those of A */
+    signed char *sign; /* [n_slopes] A is this sign times the derivatives in `series` */
+    qdot_expr *A;      /* [n_slopes] the entries as expressions */
     qdot_expr *gamma;  /* [m] */
 
     /* From q [n], q' [n], t, n the plan's. Residuals: */
     qdot_tape *positions;  /* f of the holonomic rows, in their order */
     qdot_tape *velocities; /* df/dt of the holonomic and f of the velocity rows, in the
-                              order of all rows, those of accelerations left out */
+                              order of all rows without those on accelerations */
     qdot_tape *metric;     /* M [n_masses], A [n_slopes] */
-    qdot_tape *equations;  /* f [n], M [n_masses], A [n_slopes], gamma [m]; given over to
-                              plan->tape, NULL after that */
+    qdot_tape *equations;  /* f [n], M [n_masses], A [n_slopes], gamma [m]; moved to plan->tape,
+                              then NULL */
 
     /* For Taylor series: f [n], M [n_masses] from q, q', t; */
     qdot_tape *motion;
-    /* and by kind, NULL without such rows: f of its rows, then their slopes but for
-     * `sign`, from first what is newest:
+    /* and by kind, NULL without such rows: f of its rows, then their derivatives up to `sign`,
+     * from inputs with the newest coefficients first:
      *     holonomic q, q', t   velocity q', q, t   acceleration q'', q, q', t */
     qdot_tape *series[3];
 };
 
-/* Of a scene whose plan has its values, M and f; NULL for a scene without. Errors:
- * those of lowering. */
+/* For a scene whose plan has its values, M and f; *constraints is NULL for a scene without.
+ * Errors: those of lowering. */
 QDOT_MUST_CHECK qdot_status qdot_constraints_new(const qdot_scene *scene,
                                                  const qdot_plan *plan,
                                                  qdot_constraints **constraints);

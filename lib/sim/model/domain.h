@@ -7,7 +7,7 @@
 
 typedef struct {
     size_t coordinate; /* its index */
-    double lo, hi;     /* -inf, inf where there is none */
+    double lo, hi;     /* -inf, inf: no bound */
     bool lo_open, hi_open;
     char *text; /* "0 < theta < pi" */
 } qdot_domain;
@@ -16,19 +16,20 @@ typedef struct {
 typedef struct {
     size_t n;
     qdot_domain *at;
-    const qdot_domain *left; /* of sim/digits/precise.h: the one that was left; else NULL */
+    const qdot_domain *left; /* the domain that a run has left, set by _watch; else NULL */
 } qdot_domains;
 
-/* Those of the plan's coordinates; bounds may hold parameters. Errors: QDOT_EUNSET ... */
+/* Find the domains of the plan's coordinates; bounds may contain parameters. Errors: QDOT_EUNSET
+ * ... */
 QDOT_MUST_CHECK qdot_status qdot_domains_find(const qdot_plan *plan,
                                               qdot_domains *domains);
 void qdot_domains_clear(qdot_domains *domains);
 
-/* The first domain that y [n ...] is outside of; NULL if there is none. */
+/* The first domain that does not contain y [n ...]; NULL if all do. */
 const qdot_domain *qdot_domains_outside(const qdot_domains *domains, const double *y);
 
-/* qdot_ode_options.accepted: stops at the first accepted step that ends outside, as a run
- * with `digits` does. user: a qdot_domains. */
+/* For qdot_ode_options.accepted: stop at the first accepted step that ends outside, in a run with
+ * `digits`. user: a qdot_domains. */
 qdot_status qdot_domains_watch(double t, const double *y, bool *stop, void *user);
 
 #endif

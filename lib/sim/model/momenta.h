@@ -11,12 +11,12 @@
 
 typedef struct qdot_momenta qdot_momenta; /* one a thread */
 
-/* Of a reduced plan, borrowed. `tape`: its tape or a shaken one, borrowed. */
+/* For a reduced plan, borrowed. `tape`: its tape or a shaken one, borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_momenta_new(const qdot_plan *reduced,
                                              const qdot_tape *tape, qdot_momenta **momenta);
 void qdot_momenta_free(qdot_momenta *m);
 
-/* The tape of a reduced plan, its own or a shaken one, and room to evaluate it. */
+/* The tape of a reduced plan, its own or a shaken one, with work space to evaluate it. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_tape *tape;
@@ -32,10 +32,10 @@ void qdot_momenta_tape_clear(qdot_momenta_tape *e);
 const double *qdot_momenta_rates(qdot_momenta_tape *e, double t, const double *y,
                                  const double *p);
 
-/* The callbacks by which they are entered and velocities derived; borrowed. */
+/* The callbacks that compute the momenta of a start and the velocities from them; borrowed. */
 const qdot_ode_following *qdot_momenta_following(const qdot_momenta *m);
 
-/* What is kept is hi + lo [n_kept] each: borrowed, changed by `enter`. */
+/* The momenta are hi + lo, [n_kept] each: borrowed, changed by the callback `enter`. */
 const double *qdot_momenta_hi(const qdot_momenta *m);
 const double *qdot_momenta_lo(const qdot_momenta *m);
 

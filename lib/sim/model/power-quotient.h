@@ -1,8 +1,8 @@
-/* power-quotient.h -- what a spring's force is divided by, once: (r - c)/r becomes 1 - c/r.
+/* power-quotient.h -- rewrites the force of a spring: (r - c)/r becomes 1 - c/r.
  *
- * A sum of a power and a number, c + k b^p, over that power, is k + c b^-p: two products less where
- * it is a factor of several forces. Its last bits are others, and it is one value (qdot_hold): for
- * series under loose tolerances.
+ * (c + k b^p)/b^p becomes k + c b^-p, which saves two products if it is a factor of several
+ * forces. It is kept as one value (qdot_hold). The last bits change: for series under loose
+ * tolerances.
  *
  * Tests   tests/sim/test_bordered.c
  */
@@ -11,7 +11,7 @@
 
 #include "expr/expr.h"
 
-/* Everywhere in e. Nil: the pool keeps the failure. */
+/* Rewrite all such quotients in e. Nil: the pool keeps the failure. */
 qdot_expr qdot_power_quotient(qdot_pool *pool, qdot_expr e);
 
 #endif

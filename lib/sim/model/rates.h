@@ -1,8 +1,8 @@
-/* rates.h -- d^2 e/dt^2 where nothing accelerates, node by node.
+/* rates.h -- d^2 e/dt^2 with accelerations 0, node by node.
  *
- * Differentiated as a whole, P = b^r leaves powers r - 1 and r - 2 of b beside each other, of
- * whose series nothing is shared. Here the rates of every node are made of the rates of its
- * parts and of itself,
+ * Symbolic differentiation of P = b^r leaves powers r - 1 and r - 2 of b, whose series share
+ * nothing. Here the rates of every node are made from those of its operands and from its own
+ * value,
  *
  *     P' = r b' P/b,   P'' = (r b'' P + (r - 1) b' P')/b;   r = 1/2: P'' = (b''/2 - P'^2)/P
  *
@@ -17,9 +17,9 @@
 
 #include "expr/expr.h"
 
-/* Of e in t and coordinates, q' being constant. Nil without a failure of the pool where there
- * is nothing to gain, e having no power but whole positive ones, and where e has functions but
- * sine and cosine. Errors: QDOT_ENOMEM. */
+/* For e in t and coordinates, with constant q'. Nil without a failure of the pool if nothing is
+ * gained (all powers in e are positive integers), or if e has functions other than sine and
+ * cosine. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_rates_second(qdot_pool *pool, qdot_expr e,
                                               qdot_expr *second);
 

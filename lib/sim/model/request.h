@@ -7,7 +7,7 @@
 
 #include "mech/dynamics/quantity.h"
 
-/* What is done about drift off the constraints (sim/model/constrained.h). */
+/* Treatment of drift off the constraints (sim/model/constrained.h). */
 typedef enum { QDOT_RUN_PROJECT, QDOT_RUN_BAUMGARTE, QDOT_RUN_NONE } qdot_run_treatment;
 
 typedef struct {
@@ -15,19 +15,21 @@ typedef struct {
     const qdot_expr *symbols, *values;
     const qdot_expr *q0, *v0;     /* [n] start: exact constants, in order of the coordinates */
     const bool *q_named, *v_named; /* [n] which of them were named: the others may be solved for
-                                     where constraints ask it; NULL: all */
+                                     from the constraints; NULL: all */
     bool exactly;                 /* a start that breaks a constraint is refused */
     qdot_expr t0, t1;             /* limits: exact constants; t1 < t0 runs back */
     double tol;                   /* local error of each component in each step, relative to
                                      max(1, |value|) */
     const char *method;           /* "auto" or a name of ode/method.h */
     qdot_run_treatment treatment; /* of a scene with constraints */
-    size_t n_states;              /* made by the run itself, leave it 0: parameters that events
+    size_t n_states;              /* set by the run itself, leave it 0: parameters that events
                                      set, as further coordinates (sim/model/parameter-states.h); */
-    const qdot_expr *states;      /* [n_states] their symbols; symbols, values, q0 ... know them */
+    const qdot_expr *states;      /* [n_states] their symbols; symbols, values, q0 ... include
+                                     them */
     int digits;                   /* > 0: so many correct digits at the end (sim/digits/precise.h);
-                                     tol is not looked at */
-    bool lanes;                   /* of many members, eight at a time (sim/study/ensemble.h) */
+                                     tol is not used */
+    bool lanes;                   /* for an ensemble, eight members at a time
+                                     (sim/study/ensemble.h) */
 } qdot_run_request;
 
 #endif

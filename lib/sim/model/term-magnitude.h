@@ -1,9 +1,9 @@
-/* term-magnitude.h -- how large the terms of an expression are, of which rounding is a part.
+/* term-magnitude.h -- the sum of the magnitudes of an expression's terms.
  *
  *     |e| <= sum |c_k t_k|   of a sum  e = sum c_k t_k;   |e| of anything else
  *
- * DBL_EPSILON times that is what evaluating e in doubles may be off by, where its terms
- * cancel: T + V of a run whose energy is 0.
+ * DBL_EPSILON times that is the error of evaluating e in doubles if its terms cancel: T + V of a
+ * run whose energy is 0.
  */
 #ifndef QDOT_SIM_TERM_MAGNITUDE_H
 #define QDOT_SIM_TERM_MAGNITUDE_H

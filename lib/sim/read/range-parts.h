@@ -1,7 +1,7 @@
-/* range-parts.h -- what a scan over a range is made of.
+/* range-parts.h -- data of a scan over a range of a run for extrema or a mean.
  *
- * For range.c only, which goes over the steps of a run part by part: where a part is too short to be
- * halved (range-poles.c), and where the largest values are, as intervals have it (range-seek.c).
+ * For range.c only, which goes over the steps part by part; range-poles.c treats parts too short
+ * to be halved, range-seek.c searches for the largest values by intervals.
  *
  * Tests  tests/script/narrow.lag
  */
@@ -17,7 +17,7 @@
 #include "sim/course/run-state.h"
 #include "sim/run/run.h"
 
-/* Of the noise of evaluating: coefficients below it are nothing else. */
+/* Coefficients below this multiple of the evaluation noise count as noise. */
 #define QDOT_RANGE_NOISES 8
 
 typedef struct {
@@ -29,35 +29,35 @@ typedef struct {
     double first;             /* the value where the range begins */
     double largest, smallest; /* so far */
     long double integral;
-    double highest, lowest;   /* limits at points that no value reaches */
-    double rough;             /* what values are off by */
-    double sure[2];           /* the largest is not below, the smallest not above */
-    double left;              /* what parts that stay rough leave open of the integral */
-    double noise;             /* of evaluating it in the step at hand */
-    double blur;              /* what a state off by 2^-53 max(1, |x|) makes of it there */
-    size_t parts;             /* of that step so far, */
-    size_t most_parts;        /* and at most: less after one that was not enough for */
-    double typical;           /* value in that step */
-    double length;            /* of that step */
-    bool above, below;        /* it has no bound there, at the time */
-    bool diverges;            /* nor has its integral */
+    double highest, lowest;   /* bounds for values that were not evaluated */
+    double rough;             /* error of the values */
+    double sure[2];           /* lower bound of the largest, upper bound of the smallest value */
+    double left;              /* error of the integral from parts without a good polynomial */
+    double noise;             /* evaluation noise in this step */
+    double blur;              /* change of e by a change 2^-53 max(1, |x|) of the state */
+    size_t parts;             /* of this step so far */
+    size_t most_parts;        /* limit of `parts`: lowered after a step that exceeded it */
+    double typical;           /* size of the values in this step */
+    double length;            /* of this step */
+    bool above, below;        /* e is unbounded above, below, at the time `pole` */
+    bool diverges;            /* its integral is too */
     double pole;
-    bool sought; /* qdot_range_seek was here in this step */
+    bool sought; /* qdot_range_seek was called in this step */
     bool begun;
-    bool open;   /* what it is somewhere is not known at all */
-    bool odd[2]; /* the step begins, ends where equations switch: sign(0) is no limit */
-    double ends[2];
+    bool open;   /* e has no bound at all somewhere */
+    bool odd[2]; /* equations switch at the step's start, end: sign(0) is not the limit */
+    double ends[2]; /* of this step */
 } qdot_range_scan;
 
 typedef struct {
     double a, b;
     int n;
-    double tail; /* the last coefficients; INFINITY before they are known */
-    bool rough;  /* taken for what it is */
+    double tail; /* size of the last coefficients; INFINITY before they are known */
+    bool rough;  /* accepted although its coefficients do not vanish */
     double values[QDOT_CHEBYSHEV_MOST], c[QDOT_CHEBYSHEV_MOST];
 } qdot_range_part;
 
-/* How far rounding moves the nodes, of the length of the part. */
+/* Rounding of the nodes, as a fraction of the length of the part. */
 static inline double
 qdot_range_blur(const qdot_range_part *p)
 {
@@ -70,7 +70,7 @@ qdot_range_time(const qdot_range_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
-/* A part so short that rounding of times is all that is in it. */
+/* Whether the part is so short that its nodes are mostly rounding. */
 static inline bool
 qdot_range_is_short(const qdot_range_scan *s, const qdot_range_part *p)
 {
@@ -78,15 +78,15 @@ qdot_range_is_short(const qdot_range_scan *s, const qdot_range_part *p)
            <= fmax(64 * DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)), 0x1p-50 * s->length);
 }
 
-/* A part that begins or ends where equations switch: what its inputs may be there, by rounding, lies
- * on both sides. */
+/* Whether the part begins or ends at a switch of the equations: within rounding its inputs are on
+ * both sides. */
 static inline bool
 qdot_range_is_beside_switch(const qdot_range_scan *s, const qdot_range_part *p)
 {
     return (s->odd[0] && p->a == s->ends[0]) || (s->odd[1] && p->b == s->ends[1]);
 }
 
-/* A value of the expression. */
+/* Count a value of the expression. */
 static inline void
 qdot_range_meet(qdot_range_scan *s, double x)
 {
@@ -98,30 +98,31 @@ qdot_range_meet(qdot_range_scan *s, double x)
 
 /* --- poles (range-poles.c) ----------------------------------------------------------- */
 
-/* Both after s->bounds.box has been found for the part: where it is finite there is none.
- * Whether there is a pole in a part that could not be shorter. */
+/* Find out whether a part that cannot be halved holds a pole; s->bounds.box of the part is known
+ * (if it is finite there is none). */
 void qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p);
 
-/* What the values tend to towards a short part from both sides. */
+/* Extrapolate the values towards a short part from both sides; s->bounds.box is known. */
 void qdot_range_look_towards(qdot_range_scan *s, const qdot_range_part *p);
 
 /* --- by intervals (range-seek.c) ----------------------------------------------------- */
 
-/* Meets values near the largest and the smallest of the step at hand: the part that may reach
- * farthest by its interval is halved first. */
+/* Find values near the largest and the smallest of this step, halving the part whose interval
+ * reaches farthest first. */
 QDOT_MUST_CHECK qdot_status qdot_range_seek(qdot_range_scan *s);
 
-/* Of a part whose nodes s->bounds has: whether it holds nothing beyond what was met, or of a mean
- * nothing that counts, as its interval shows. What that leaves open is noted. */
+/* Whether the interval of a part, whose nodes are in s->bounds, shows that it holds no value
+ * beyond those found, or, for a mean, contributes negligibly. The remaining error is added to s.
+ *  */
 bool qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p);
 
-/* Of a part low ... high so short that rounding of times is seen in its values: the error of the result
- * holds what the polynomial is off by, unless an interval says less. */
+/* Add the error of the polynomial, or of an interval if that is less, for a part with values low
+ * ... high so short that rounding of times shows in them. */
 void qdot_range_bound_blurred(qdot_range_scan *s, const qdot_range_part *p, double low,
                               double high);
 
-/* Of a part that was not looked at any closer: what its values may be at most. Of the shortest ones
- * nothing where the formula has no bound: that may be a pole, or none. */
+/* Add the bound of the values of a part that is not halved any further. Of a shortest part
+ * without bound nothing is added: it may be a pole, or none. */
 void qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortest);
 
 #endif

@@ -1,16 +1,16 @@
-/* run.h -- a scene integrated: plan, tape and ode bound together, with the error stated.
+/* run.h -- integrates a scene, with an estimate of the error.
  *
- * The one floor where mechanics, tape and ode meet. Parameters are substituted exactly before
- * anything is lowered, so terms that vanish are not computed.
+ * Parameters are substituted exactly before the equations are lowered to a tape, so terms that
+ * vanish are not computed.
  *
  *   M(q, t) q'' = f(q, q', t)      y = (q_1 ... q_n, q_1' ... q_n')
  *
- * The scene's events, the domains of its coordinates and where its equations switch are located and
- * divide it into pieces (sim/course/course.h).
+ * Events, coordinates that leave their domains and switches of the equations divide the run into
+ * pieces (sim/course/course.h).
  *
- * M is solved with numbers and its structure (Cholesky; LDL^T for a stated Lagrangian); a singular M is
- * an error that names the coordinate. With constraints q'' and the multipliers are found together and
- * states are kept on the constraints: sim/model/constrained.h.
+ * M is factored numerically (Cholesky; LDL^T for a stated Lagrangian); a singular M is an error
+ * that names the coordinate. With constraints q'' and the multipliers are solved for together and
+ * states are projected onto the constraints: sim/model/constrained.h.
  *
  * Tests  tests/sim/
  */
@@ -27,7 +27,7 @@
 QDOT_MUST_CHECK qdot_status qdot_run_new(qdot_scene *scene, const qdot_run_request *request,
                                          qdot_run **run);
 void qdot_run_free(qdot_run *run);
-size_t qdot_run_bytes(const qdot_run *run); /* what its points take, about */
+size_t qdot_run_bytes(const qdot_run *run); /* memory of the stored points, about */
 const qdot_run_report *qdot_run_get_report(const qdot_run *run);
 
 /* Any expressions [m] of the scene (coordinates, velocities, accelerations, t, parameters)
@@ -44,14 +44,15 @@ typedef struct {
     const double *at, *low;
 } qdot_exact_times;
 
-/* The same at exact times, of which at[i] are the doubles: by the slope of the expression there. */
+/* As qdot_run_values at exact times: the slope of an expression at at[i] gives its change over
+ * low[i]. */
 QDOT_MUST_CHECK qdot_status qdot_run_values_beyond(qdot_run *run, size_t m,
                                                    const qdot_expr *exprs,
                                                    const qdot_exact_times *times, double *values,
                                                    double *errors);
 
-/* The same at one time, an exact constant, of a run with `digits`: values [m] rationals, errors [m]
- * (may be NULL) absolute, NaN unknown. */
+/* As qdot_run_values for a run with `digits`, at one time, an exact constant: values [m]
+ * rationals, errors [m] (may be NULL) absolute, NaN unknown. */
 QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs,
                                                   qdot_expr time, qdot_expr *values,
                                                   double *errors);
@@ -64,8 +65,8 @@ typedef enum { QDOT_RANGE_MAX, QDOT_RANGE_MIN, QDOT_RANGE_MEAN, QDOT_RANGE_DRIFT
 QDOT_MUST_CHECK qdot_status qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e,
                                            double from, double to, double *value, double *error);
 
-/* What occurred [*n], in the order of the run, with the errors of the times from the companion;
- * borrowed. */
+/* The occurrences of events [*n], in the order of the run, with the errors of their times from
+ * the companion; borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_run_occurrences(qdot_run *run,
                                                  const qdot_run_occurrence **list, size_t *n);
 /* Whether the scene of the run had an event of that name. */
@@ -74,8 +75,8 @@ bool qdot_run_has_event(const qdot_run *run, const char *name);
 /* The times of the accepted steps [*n], borrowed. */
 const double *qdot_run_times(const qdot_run *run, size_t *n);
 
-/* `plan`: what would be done and why, in words: coordinates, structure of M, operations of the tape,
- * method chosen. Parameters need values as for a run. */
+/* `plan`: how the scene would be integrated, and why, in words: coordinates, structure of M,
+ * operations of the tape, method. Parameters need values as for a run. */
 QDOT_MUST_CHECK qdot_status qdot_run_plan(qdot_scene *scene, const qdot_run_request *request,
                                           qdot_text *out);
 #endif

@@ -4,13 +4,14 @@
  * of these and f(q, q', t0) = 0 of the velocity constraints, at these positions. Where a
  * start breaks one:
  *
- *     1. what it names is kept, what it does not name is solved for, nearest to 0;
- *     2. where that cannot do, all moves least, in the metric of M; a notice says how far;
- *     3. two answers equally near are an error that asks for one more value.
+ *     1. named values are kept, the others are solved for, nearest to 0;
+ *     2. if that has no solution, all values move, as little as possible in the metric of M; a
+ *     notice
+ *        says how far;
+ *     3. two solutions equally near are an error that asks for one more value.
  *
- * A start counts as breaking a constraint when it is further from it than 1e-14 max(1,
- * |x|). Nearer ones are refined too, so that F is 0 as far as two doubles for each value
- * go.
+ * A start breaks a constraint if it is further from it than 1e-14 max(1, |x|). Nearer ones are
+ * refined too, so that F is 0 to the precision of two doubles for each value.
  *
  * Source  least change in a metric: Hairer, Lubich & Wanner, Geometric Numerical
  *         Integration, sec. IV.4; the search: sim/start/nearest.h.
@@ -22,10 +23,10 @@
 #include "base/text.h"
 #include "sim/model/domain.h"
 
-/* Make y [2n] + low [2n], as named, keep the constraints of the scene.
- *   request  t0, q_named, v_named, exactly (NULL: all are named)
- *   domains  of the coordinates: what is solved for stays inside
- *   notice   what was moved, if anything named was; else left as it is
+/* Move y [2n] + low [2n] so that it keeps the constraints of the scene.
+ *   request  t0; q_named, v_named (NULL: all are named); exactly
+ *   domains  of the coordinates: values that are solved for stay inside
+ *   notice   gets how far named values were moved; else unchanged
  * Errors: QDOT_EINVAL: `exactly`, two answers, contradictory constraints (named);
  * QDOT_EUNSET ... */
 QDOT_MUST_CHECK qdot_status qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
@@ -33,8 +34,8 @@ QDOT_MUST_CHECK qdot_status qdot_start_settle(qdot_scene *scene, const qdot_plan
                                               const qdot_domains *domains, double *y,
                                               double *low, qdot_text *notice);
 
-/* Name in `notice` the constraints whose slopes, at the settled y [2n], depend on those of
- * the constraints before them; nothing is added where all are independent. */
+/* Append to `notice` the names of redundant constraints: their gradients at the settled y [2n]
+ * depend on those of the constraints before them. Appends nothing if all are independent. */
 QDOT_MUST_CHECK qdot_status qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
                                                  const qdot_run_request *request,
                                                  const double *y, qdot_text *notice);

@@ -1,5 +1,5 @@
-/* ensemble-momenta.h -- momenta in place of velocities, state by state: for the members of an ensemble
- * by a reduced plan (sim/plan/routh.h).
+/* ensemble-momenta.h -- converts velocities to kept momenta and back, for the members of an
+ * ensemble with a reduced plan (sim/plan/routh.h).
  *
  * A momentum is found by its tape in two doubles and rounded once.
  *
@@ -12,15 +12,15 @@
 
 typedef struct qdot_ensemble_momenta qdot_ensemble_momenta; /* one a thread */
 
-/* Of a reduced plan, borrowed. QDOT_ENOMEM. */
+/* For a reduced plan, borrowed. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_momenta_new(const qdot_plan *reduced,
                                                       qdot_ensemble_momenta **out);
 void qdot_ensemble_momenta_free(qdot_ensemble_momenta *x);
 
-/* The momenta p [n_kept] that are kept from y [2n] on; false where one is not finite. */
+/* The kept momenta p [n_kept] of the state y [2n]; false if one is not finite. */
 QDOT_MUST_CHECK bool qdot_ensemble_momenta_enter(qdot_ensemble_momenta *x, double t,
                                                  const double *y, double *p);
-/* The velocities that follow from p and y's other components, into y; not finite where they are
+/* Compute the velocities in y that follow from p and its other components; not finite if they are
  * undefined. */
 void qdot_ensemble_momenta_derive(qdot_ensemble_momenta *x, double t, const double *p,
                                   double *y);

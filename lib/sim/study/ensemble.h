@@ -1,10 +1,10 @@
 /* ensemble.h -- many runs of one scene, with their own starts and parameters, in lanes.
  *
- * The scene is derived and lowered once, the parameters that vary being inputs of its
- * tape; members then run eight at a time (ode/batch.h), each to the result it would have
- * alone, to rounding. The error of a member is that of its end state against a companion
- * under a tighter tolerance, from inputs moved to their neighbours and constants rounded the
- * other way, as of a single run (ode/companion.h).
+ * The scene is derived and lowered once; the varying parameters are inputs of its tape. Members
+ * run eight at a time (ode/batch.h), each with the result that it has alone, to rounding. The
+ * error of a member is the distance of its end state from that of a companion under a tighter
+ * tolerance, with inputs moved to their neighbours and constants rounded the other way
+ * (ode/companion.h).
  *
  * Tests  tests/sim/test_ensemble.c
  */
@@ -17,14 +17,14 @@ typedef struct qdot_ensemble qdot_ensemble;
 
 typedef struct {
     qdot_run_status status; /* QDOT_RUN_DONE or QDOT_RUN_FAILED */
-    const char *reason;     /* NULL when done; there until the next runs, or the ensemble goes */
+    const char *reason;     /* NULL when done; valid until the next _run or _free */
     double t;               /* where it ended */
     size_t steps, rejected;
-    double error; /* of the end state, over max(1, |value|); NaN: unknown or not asked */
+    double error; /* of the end state, over max(1, |value|); NaN: unknown or not requested */
 } qdot_ensemble_result;
 
 /* Prepare runs of `request`: its values, limits and tolerance; method "auto" or "taylor".
- * Where runs start is told by qdot_ensemble_run: q0 and v0 must be NULL.
+ * The starts are given to qdot_ensemble_run: q0 and v0 must be NULL.
  *   varied  [n_varied] parameters that each member has its own values of; they may not be
  *           among the request's values
  * Errors: as qdot_run_new before anything is integrated; QDOT_ENOTBUILT: constraints under another
@@ -42,9 +42,8 @@ void qdot_ensemble_free(qdot_ensemble *ensemble);
  *   parameters  [members x n_varied]
  *   results     [members]
  *   errors      whether companions are run, on a second thread, for `error`
- * A member that fails is no error, one whose start breaks the constraints neither: its result says
- * so. Errors: QDOT_EINVAL (a number that
- * is not finite), QDOT_ENOMEM, QDOT_EINTR. */
+ * If a member fails, or its start breaks the constraints, its result says so; that is no error of
+ * the call. Errors: QDOT_EINVAL (a number that is not finite), QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_run(qdot_ensemble *ensemble, size_t members,
                                               double *y, const double *parameters,
                                               bool errors, qdot_ensemble_result *results);

@@ -5,7 +5,7 @@
  *
  * The end error of a run is the largest difference of a coordinate or velocity of the scene
  * as given from those of a reference, relative to max(1, |value|). The reference is the
- * scene as given, projected, at the least tolerance; its own error is what is stated of it.
+ * scene as given, projected, at the least tolerance, with the error stated by that run.
  *
  * Tests  tests/script/race.lag
  */
@@ -36,8 +36,8 @@ typedef struct {
     char *notice; /* of the start; NULL */
 } qdot_race;
 
-/* request: its tol, method and treatment are not read. Errors: as qdot_run_new; QDOT_EFAILED
- * where the reference does not get to the end. */
+/* request: its tol, method and treatment are not used. Errors: as qdot_run_new; QDOT_EFAILED
+ * if the reference does not reach the end. */
 QDOT_MUST_CHECK qdot_status qdot_race_hold(qdot_scene *scene,
                                            const qdot_run_request *request,
                                            qdot_race *race);

@@ -1,9 +1,9 @@
-/* workprecision.h -- what accuracy costs: every method over a ladder of tolerances,
- * against a reference that is made here.
+/* workprecision.h -- cost of accuracy: every method over a ladder of tolerances, against a
+ * reference run.
  *
- * The reference is a run by Taylor series in MPFR to 20 digits with its own error
- * (precise.h); of a scene with constraints that this cannot do a run in doubles at tol 1e-15
- * with the error it states. For each method and tol = 1e-3, 1e-4, ... 1e-15, of the end state y,
+ * The reference is a run by Taylor series in MPFR to 20 digits with its own error (precise.h); if
+ * that is not possible for a scene with constraints, a run in doubles at tol 1e-15 with its
+ * stated error. For each method and tol = 1e-3, 1e-4, ... 1e-15, with the end state y,
  *
  *     err         max_i |y_i - ref_i| / max(1, |ref_i|)    (relative error)
  *     scd         -log10 err, its significant correct digits
@@ -14,13 +14,13 @@
  *     time        CPU seconds of the integration alone, this thread, no companion: the
  *                 least and the median of three to nine runs
  *
- * Events with `then` or `stop` and switches divide the runs as they do any (course.h); their
- * location is part of the time. Where an event ends them its time is compared, too; the energy
- * is followed where no event changes the state.
+ * Events with `then` or `stop` and switches divide the runs as usual (course.h); the time
+ * includes locating them. If an event ends the runs its time is compared, too; the energy is
+ * followed if no event changes the state.
  *
- * A run whose error is a tenth of the motion's variation (horizon.h) is a row that says
- * that no digit is right; one that fails, or that takes more evaluations than are worth waiting for, is a row
- * that says so. The run whose energy is followed is not one of those timed.
+ * The row of a run whose error is a tenth of the motion's variation (horizon.h) says that no
+ * digit is right; that of a run that failed or took too many evaluations says so. The run whose
+ * energy is followed is not one of those timed.
  *
  * Source  Hairer, Norsett & Wanner I, II.10; SciMLBenchmarks (the diagrams).
  * Tests   tests/sim/test_workprecision.c
@@ -41,7 +41,7 @@ typedef struct {
     char status[300];  /* "done", "done: no digit is right", or "failed: " and why */
 } qdot_workprecision_row;
 
-/* Of a method that this scene has no use for, and why. */
+/* A method that does not suit this scene, and why. */
 typedef struct {
     const char *method;
     char reason[300];
@@ -53,12 +53,12 @@ typedef struct {
     qdot_workprecision_row *rows; /* method by method, tolerances falling */
     size_t n_unfit, unfit_capacity;
     qdot_workprecision_unfit *unfit;
-    double ref_err; /* of the reference, as err */
-    bool constraints; /* the scene has some */
+    double ref_err; /* error of the reference, as err */
+    bool constraints; /* the scene has constraints */
 } qdot_workprecision;
 
-/* request: values, start and limits; its method and tolerance are not looked at. Start
- * *out from {0}, a budget set if wanted; clear it in any case. Errors: as qdot_run_new; QDOT_EFAILED where the
+/* request: values, start and limits; its method and tolerance are not used. Start *out from {0},
+ * with a budget if wanted; clear it in any case. Errors: as qdot_run_new; QDOT_EFAILED if the
  * reference does not reach its end. */
 QDOT_MUST_CHECK qdot_status qdot_workprecision_measure(qdot_scene *scene,
                                                        const qdot_run_request *request,
