@@ -1,10 +1,9 @@
-/* apart.h -- systems of parts that know nothing of each other, each integrated by steps of
- * its own.
+/* apart.h -- systems of decoupled parts, each integrated with its own steps.
  *
- *     y = parts' components by their index,   dy_k/dt = f_k(t, y_k)
+ *     y = components of all parts by their index,   dy_k/dt = f_k(t, y_k)
  *
- * A run of such a system is as long as its shortest part: where one ends early the others
- * are known to its end. For ode/ alone.
+ * A run of such a system ends with its shortest part: if one part ends early, so does the run.
+ * For ode/ alone.
  *
  * Tests  tests/sim/test_parts.c
  */
@@ -13,21 +12,21 @@
 
 #include "ode/run.h"
 
-/* Whether it is to be integrated part by part: nobody looks at its steps as a whole. */
+/* Whether the system is integrated part by part: it has parts, and nothing watches its steps. */
 bool qdot_ode_is_apart(const qdot_ode_system *system, const qdot_ode_options *options);
 
-/* The part's own components of y; its own put into y. */
+/* Copy the part's components out of y; copy them back into y. */
 void qdot_ode_part_gather(const qdot_ode_part *part, const double *y, double *own);
 void qdot_ode_part_scatter(const qdot_ode_part *part, const double *own, double *y);
 
-/* What one of them is integrated with; carry [n] is room for its own, in the end for what its
- * end state is beyond y. */
+/* The options for a part; carry [n] is space for its carry, and at the end for its end state less
+ * y. */
 qdot_ode_options qdot_ode_part_options(const qdot_ode_part *part,
                                        const qdot_ode_options *whole, double *carry);
 
-/* What the whole did, once a part has done its. */
+/* Add the counts of a part to those of the whole. */
 void qdot_ode_part_add(qdot_ode_result *whole, const qdot_ode_result *part);
-/* Where a part ends early the whole does. */
+/* If the part ended early, let the whole end there. */
 void qdot_ode_part_end(qdot_ode_result *whole, const qdot_ode_result *part);
 
 #endif

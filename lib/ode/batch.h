@@ -3,12 +3,12 @@
  * Each lane (num/batch.h) carries a member of the ensemble: its own time, step, unit and
  * end. All lanes are expanded together to one order; each then goes as far as its own
  * series allows, by the rules of ode/taylor.h, and a lane that has arrived, or cannot go
- * on, takes the next member. So a member's run is the one it would make alone, to
- * rounding, whatever its companions do.
+ * on, takes the next member. So a member's run equals that of the member alone, to rounding,
+ * whatever the other lanes do.
  *
- * Where the upper half of a series holds nothing the polynomial may be the solution: the
- * first such step goes a part of the way that no period shares, and only the next one all
- * of it.
+ * If the upper half of a series is 0 the polynomial may be the exact solution: the first such
+ * step goes an irrational part of the way, so that it cannot be a period, and only the next one
+ * all of it.
  *
  * Tests  tests/sim/test_ensemble.c
  */
@@ -24,21 +24,20 @@
  * coefficients of order 1 that are not finite. */
 typedef struct {
     size_t n;        /* components */
-    size_t checked;  /* dy_i/dt = y_{checked + i} for i below it: no check, and what the
-                        sums carry enters order 1 */
-    size_t still;    /* of the last components: they keep their values, coefficients of order
-                        1 and above are 0 */
+    size_t checked;  /* dy_i/dt = y_{checked + i} for i below it: their defect is not checked, and
+                        the carry of the others enters order 1 */
+    size_t still;    /* number of last components that are constant: their coefficients of order 1
+                        and above are 0 */
     const double *x; /* x_ik of lane l = x[(i stride + k) QDOT_LANES + l] */
     size_t stride;
-    /* Lane `lane` is to be member `member` from now on: its parameters. NULL: nothing. */
+    /* Lane `lane` is member `member` from now on: load its parameters. NULL: nothing to load. */
     void (*take)(size_t lane, size_t member, void *user);
-    /* Orders 0 and 1 through y [n groups] at t [a group], by units of time [a group]. */
+    /* Compute orders 0 and 1 through y [n groups] at t [a group], in units of time [a group]. */
     void (*begin)(const double *t, const double *y, const double *unit, void *user);
-    /* Then orders 2 ... p. */
+    /* Then compute orders 2 ... p. */
     void (*extend)(int p, void *user);
-    /* Bring y + carry [n groups] back to where solutions are, each lane at its t [a group], as
-     * qdot_ode_system.project does; moved [a group] as there, NaN in a lane where that fails.
-     * NULL if there is nothing to do. */
+    /* Project y + carry [n groups], each lane at its t [a group], as qdot_ode_system.project
+     * does; moved [a group] as there, NaN in a lane in which that fails. NULL: no projection. */
     void (*project)(const double *t, double *y, double *carry, double *moved, void *user);
     void *user; /* borrowed */
 } qdot_ode_batch;
@@ -57,15 +56,15 @@ typedef struct {
     int order;
     double tol; /* as qdot_ode_options.tol: 1e-16 to 1 */
     const double *t0, *t1; /* [members] t1 < t0 runs back */
-    double t1_low;         /* what every t1 is beyond its double */
+    double t1_low;         /* the exact t1 less its double, the same for all members */
     double *y;             /* [members x n] starts; then ends */
     qdot_batch_result *results; /* [members] */
-    size_t expansions;          /* out: of all lanes together */
+    size_t expansions;          /* out: each counts once for all lanes */
 } qdot_batch_run;
 
-/* Errors: QDOT_EINVAL (order, tol, times or starts not finite), QDOT_ENOMEM, QDOT_EINTR
- * (members that did not arrive are as they were). A member that fails is no error of the
- * batch: its result says so. */
+/* Run all members. Errors: QDOT_EINVAL (order, tol, times or starts not finite), QDOT_ENOMEM,
+ * QDOT_EINTR (members that did not arrive are unchanged). The failure of a member is no error of
+ * the batch: its result says so. */
 QDOT_MUST_CHECK qdot_status qdot_ode_batch_run(const qdot_ode_batch *system,
                                                qdot_batch_run *run);
 

@@ -1,15 +1,15 @@
-/* companion.h -- how wrong is the end of a run? A second run tells.
+/* companion.h -- estimates the error of the end of a run from further runs, its companions.
  *
- * Let y be the end state of a run under tol from y0. Its companion goes the same way
+ * Let y be the end state of a run under tol from y0. Its companion integrates the same system
  *
- *     by Taylor series where the system has them, else by the partner of the method
- *       (method.h); beside a stiff method by the partner too where series get stuck,
- *     under tol* = tol/100 (tol/10^4 for msbdf; tol/10^10 for bsimp, which at
- *       loose tolerances is better than they ask for by as much), not below the method's
- *       companion_tol. A method that is its own partner and would not get 4 times tighter
- *       takes tol* = 10 max(tol, companion_tol): then the companion errs more, on the safe
- *       side (a tighter one would share the rounding of the coefficients, which is a drift
- *       and no noise). taylor, whose coefficients
+ *     by Taylor series if the system has them, else by the partner of the method
+ *       (method.h); for a stiff method by the partner too if series get stuck,
+ *     under tol* = tol/100 (tol/10^4 for msbdf; tol/10^10 for bsimp, which at loose tolerances is
+ *       more accurate than they ask for by as much), not below the method's companion_tol. If a
+ *       method is its own partner and its tolerance cannot be 4 times tighter, tol* = 10 max(tol,
+ *       companion_tol): then the companion errs more, on the safe side (a tighter one would share
+ *       the rounding of the coefficients, which is a drift and not noise). taylor, whose
+ *       coefficients
  *       are computed and not rounded once for all, takes tol/100 down to 1e-16, and three
  *       orders more than that asks for,
  *     from the doubles next to y0, +-2^-53 for a zero, signs mixed,
@@ -24,28 +24,28 @@
  *
  * where a distance of states is max_i |a_i - b_i| / max(1, min(|a_i|, |b_i|)).
  *
- * Two companions, moved to either side, by one order more and by three: where rounding is all
- * there is the difference of two random walks may be small by chance, and near an instability
- * everything is one number; where the tolerance rules, a method may be so much better than it asks
- * for that a companion errs as much as the run.
- *     The second one is there for what chance cannot hide: the amplification of the scene. It
- * starts QDOT_COMPANION_FAR doubles away (zeros stay 2^-53 away: of their scale nothing is
- * known), and of its distances min(1, sqrt(steps)/QDOT_COMPANION_FAR) counts, what a random
- * walk of one rounding a step would have moved the start by.
+ * There are two companions, moved to either side, with three orders and one order more. One is
+ * not enough: if all is rounding, the difference of two random walks may be small by chance; near
+ * an instability it is a single number; and if the tolerance dominates, a method may be so much
+ * more accurate than requested that a companion errs as much as the run. The second companion
+ * shows the amplification of the scene reliably. It starts QDOT_COMPANION_FAR doubles away (zeros
+ * 2^-53: their scale is unknown), and its distances are weighted by min(1,
+ * sqrt(steps)/QDOT_COMPANION_FAR), the distance to which a random walk of one rounding a step
+ * would have moved the start.
  *
- *     A run whose first orders are sums of two doubles (leading.h) takes its inputs as they are
- * written and errs by far less than a rounding a step. Its companions, of the same kind, start
+ * A run whose first orders are sums of two doubles (leading.h) has exact inputs and errs by far
+ * less than a rounding a step. Its companions are of the same kind and start
  *
  *     QDOT_COMPANION_AIMS eps max(1, |y_i|)
  *
- * away, and three times that, eps being what a step of it may err by; the floor is 2^-53, by
- * which its end is rounded, four times that where velocities follow from momenta.
+ * away, and three times that, where eps is the error that its steps aim at; the floor is 2^-53,
+ * by which its end is rounded, four times that if velocities follow from momenta.
  *
  * A companion that does not arrive gives no number: known is false, the error a NaN.
  *
- * Numbers that enter f (parameters) are moved by the caller, in the companion's own
- * system; likewise, where the method cannot take it, a limit that is not a double
- * exactly: pass its neighbour as the companion's t1.
+ * The caller moves the numbers in f (parameters), in the companion's own system. If a limit is
+ * not a double exactly and the method has no t1_low, the caller passes its neighbour as the
+ * companion's t1.
  *
  * Tests  tests/ode/test_companion.c
  */
@@ -67,49 +67,49 @@ typedef struct {
 
 typedef struct qdot_companion qdot_companion;
 
-/* What is stated of a number, by its largest distance from those of the companions and by theirs
- * from each other (0: there is one companion),
+/* The error stated for a number, from its largest distance `apart` from those of the companions
+ * and the distance `own` between these (0: there is one companion),
  *
- *     bound = 5/4 apart + own
+ *     bound = 5/4 apart + own,
  *
- * a bound in 99 cases of 100: where the method's error rules, companions are off by a small part of
- * `apart`, and agree; where they are off by more, as rounding has it, `own` shows it. */
+ * which holds in 99 cases of 100: if the method's error dominates, companions are off by a small
+ * part of `apart`, and agree; if they are off by more, by rounding, `own` shows it. */
 double qdot_companion_bound(double apart, double own);
-/* The same of x, which is theirs [count] by the companions, 1 or 2: what the second one is away
- * counts by its share. NaN where one has no value. */
+/* The same for a value x of the run and theirs [count] of the companions, 1 or 2; the distance of
+ * the second is multiplied by `share`. NaN if one has no value. */
 double qdot_companion_bound_of(double x, size_t count, const double *theirs, double share);
 
 typedef struct {
     const qdot_ode_system *system;  /* for the companion alone if `threaded`; borrowed
                                        until _finish */
-    const qdot_ode_system *twin;    /* of the second companion; NULL: none; likewise */
+    const qdot_ode_system *twin;    /* for the second companion; NULL: none; likewise */
     const qdot_ode_method *method;  /* of the run */
     double tol, t0, t1;             /* of the run */
-    double t1_low;                  /* t1 beyond itself (integrate.h) */
+    double t1_low;                  /* the exact t1 less t1 (run.h) */
     const double *y0;               /* [n] borrowed during _start */
-    const double *carry;            /* [n] the start beyond y0; NULL: nothing; likewise */
+    const double *carry;            /* [n] the exact start less y0; NULL: 0; likewise */
     bool leading;                   /* of the run (integrate.h) */
     double t0_low;                  /* likewise */
-    bool threaded; /* run them on threads of their own beside the caller; where none can
-                      be had, or false, they run within _finish */
+    bool threaded; /* run them on threads of their own; if there are none, or false, they run
+                      within _finish */
 } qdot_companion_request;
 
-/* Begin. The moved start of a system that projects is projected. Errors: QDOT_ENOMEM,
- * those of projection. */
+/* Start the companions. The moved start of a system that projects is projected. Errors:
+ * QDOT_ENOMEM, those of projection. */
 QDOT_MUST_CHECK qdot_status qdot_companion_start(const qdot_companion_request *request,
                                                  qdot_companion **out);
 
-/* The difference at one time may be small by chance, too. So a companion by Taylor series
- * looks at some times of its latter half, in the order of the run, and the error becomes
+/* The times [*count], in the order of the run, at which the caller must show states of the run.
+ * The difference at one time may be small by chance, so a companion by Taylor series compares
+ * them at some times of its latter half, and the error becomes
  *
- *     max(error at the end, median of the errors at those times)
+ *     max(error at the end, median of the errors at those times),
  *
- * once the run has shown its states there, but not more than 30 times that at the end: where
- * errors die out, as in stiff scenes, the last step may leave far less than those between.
- * *count is 0 for other methods. */
+ * but not more than 30 times that at the end: if errors die out, as in stiff scenes, the last
+ * step may leave far less than those before. *count is 0 for other methods. */
 const double *qdot_companion_times(const qdot_companion *c, size_t *count);
 
-/* The state y [n] of the run at time k of those; copied. */
+/* Show the state y [n] of the run at time k of these; copied. */
 void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
 
 /* The most steps that a companion may take beside a run of so many by that method,
@@ -117,35 +117,35 @@ void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
  *     r steps + min(200000, 2 s/c),   r = 20; beside a stiff method 100, whose steps no fast motion
  *                                     bounds,
  *
- * c being what a step costs (by the series' model, else n^3 ns). One that wants more does not
- * arrive: it has met what the run has stepped over. The second term is for a scene at rest, which
- * one step may cross, while one moved by a rounding swings for all of the time. */
+ * c being the cost of a step (by the series' model, else n^3 ns). One that needs more is given
+ * up: it has met something that the run has stepped over. The second term is for a scene at rest:
+ * the run may need one step, while a companion moved by a rounding oscillates all the time. */
 uint64_t qdot_companion_patience(const qdot_ode_system *system, const qdot_ode_method *method,
                                  uint64_t steps);
 
-/* The run itself took so many steps: the companions get that much patience. */
+/* Tell the companions the number of steps of the run, which limits theirs (_patience). */
 void qdot_companion_limit(qdot_companion *c, uint64_t steps);
 
-/* By how many doubles the second companion starts away: a walk of so many steps, from 1 to
- * QDOT_COMPANION_FAR. */
+/* The distance, in doubles, at which the second companion starts: that of a random walk of so
+ * many steps, from 1 to QDOT_COMPANION_FAR. */
 double qdot_companion_far(uint64_t steps);
 #define QDOT_COMPANION_FAR 3.0
 
-/* What a run of so many steps may err by in any case. */
+/* The least error stated for a run of so many steps. */
 double qdot_companion_floor(uint64_t steps);
 
-/* The run itself has ended at t_end with y [n]: wait for the companion (that of a run
- * which ended before t1 starts again, to t_end), compare, and free it.
- *   difference  [n] out, may be NULL; NaN where unknown
- * Never fails: what goes wrong makes the error unknown, result.reason says why. */
+/* The run has ended at t_end with y [n]: wait for the companions (if it ended before t1 they
+ * start again, to t_end), compare, and free them.
+ *   difference  [n] out, may be NULL; NaN: unknown
+ * Never fails: after a failure the error is unknown and result.reason says why. */
 void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                            double *difference, qdot_companion_estimate *out);
 
-/* The most steps of a companion by Taylor series beside a stiff method, which steps over what
- * is fast: where it gets stuck there the method's partner takes over. */
+/* The most steps of a companion by Taylor series for a stiff method, which steps over fast
+ * motions: beyond that the method's partner takes over. */
 #define QDOT_COMPANION_EXPLICIT 100000
 
-/* Orders more that a companion by Taylor series takes (qdot_ode_options.order_more). */
+/* Additional orders of a companion by Taylor series (qdot_ode_options.order_more). */
 #define QDOT_COMPANION_ORDERS 3
 
 /* The method of a companion, and its tolerance tol*. */
@@ -154,13 +154,13 @@ const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
 double qdot_companion_tolerance(const qdot_ode_system *system,
                                 const qdot_ode_method *method, double tol);
 
-/* By how much a companion starts away from y in component i, where it is of a run whose first
- * orders are sums of two doubles: by so many times the least. */
+/* The distance from y in component i at which companion `number` starts, for a run whose first
+ * orders are sums of two doubles: `by` times the least one. */
 double qdot_companion_aside(double tol, double y, size_t i, size_t number, double by);
 #define QDOT_COMPANION_AIMS 0.0625
 
-/* Where companion 0 or 1 starts in component i: so many doubles beyond y, a whole number;
- * of a zero 2^-53. */
+/* The start of companion 0 or 1 in component i: `by` doubles, a whole number, to the side of y;
+ * for a zero 2^-53. */
 double qdot_companion_moved(double y, size_t i, size_t number, double by);
 
 #endif

@@ -1,9 +1,9 @@
-/* crawl.h -- steps that have come down to nothing and will not arrive.
+/* crawl.h -- detects runs whose steps have become so short that they will not arrive.
  *
- * A method may step over a place beyond which there is no solution, and then creep along it: each
- * step keeps its error, none gets anywhere. A run crawls where the last 2000 steps were, but for
- * few, below 2^-24 of the longest step taken and more of such would be left than the run has.
- * Close passages take steps as short, but a few hundred.
+ * A method may step over a place beyond which there is no solution, and then creep along it with
+ * tiny steps, each within its tolerance. A run crawls if nearly all of 2000 consecutive steps
+ * were below 2^-24 of the longest step taken, and more such steps would be needed than the run
+ * has left. Close passages take steps as short, but only a few hundred.
  *
  * Tests  tests/script/constraint-ends.sh
  */
@@ -21,7 +21,8 @@ typedef struct {
     unsigned short_steps;
 } qdot_ode_crawl;
 
-/* After a step that ended at t, of a run to t1 that has `left` steps. QDOT_EFAILED: it crawls. */
+/* Look after a step that ended at t; the run to t1 may take `left` more. QDOT_EFAILED: it crawls.
+ *  */
 static inline qdot_status
 qdot_ode_crawl_look(qdot_ode_crawl *c, double t, double t1, uint64_t left)
 {

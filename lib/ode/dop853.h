@@ -18,15 +18,15 @@
  *     F0 = y(t + h) - y,  F1 = h k_0 - F0,  F2 = 2 F0 - h (k_0 + k_12),
  *     F_p = h sum_j d_pj k_j for p = 3 .. 6
  *
- * with an error of h^8, where that of the step is h^9. Measured, a step's polynomial errs
- * up to five times the tolerance more than its ends do, so trajectory.h takes those of
- * half a step: then it is 0.15 at most (below tol 1e-6).
+ * with an error of h^8, while that of the step is h^9. Measured, a step's polynomial errs by up
+ * to five tolerances more than its ends, so trajectory.h uses the polynomials of half steps: then
+ * it is 0.15 tolerances at most (below tol 1e-6).
  *
- * Its companion (companion.h) is itself: the error estimate of rk8pd rounds too much for a
- * tight tolerance where f is large (a stiff spring, k/m = 1e6, at tol 1e-14: 2.8 million
- * steps for 63,000). Where rounding is all there is the two may agree by chance: of 1224
- * runs at tol 1e-6 .. 1e-16 fifteen, all at 1e-14 or less, erred more than three times
- * what was stated, at most twenty times.
+ * Its companion (companion.h) uses the same method: the error estimate of rk8pd has too much
+ * rounding for a tight tolerance if f is large (a stiff spring, k/m = 1e6, at tol 1e-14: 2.8
+ * million steps for 63,000). If all is rounding the two may agree by chance: of 1224 runs at tol
+ * 1e-6 .. 1e-16 fifteen, all at 1e-14 or less, erred by more than three times the stated error,
+ * at most twenty times.
  *
  * Source  Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, 2nd ed.
  *         (1993), II.5, II.6, II.10; the coefficients in dop853.def.

@@ -1,4 +1,4 @@
-/* integrate.h -- from t0 to t1 with the error of every step bounded.
+/* integrate.h -- integration from t0 to t1 with a bound for the error of every step.
  *
  *     |error of y_i in one step| <= tol max(1, |y_i|),   every component, every step
  *
@@ -6,14 +6,14 @@
  * bit; time and, for one-step methods, the state are accumulated as sums of two doubles,
  * so that rounding grows like a random walk of evaluations and not of additions.
  *
- * With ratio the largest error of a step over what it is allowed, the step is taken if
+ * With ratio the largest error of a step over its bound, the step is accepted if
  * ratio <= 1, and the next one is h 0.9 (ratio/0.1)^(-1/p), within a factor 0.2 to 5: it
  * aims at a tenth of the tolerance. p is the power of h in the method's own error
  * estimate (Hairer, Norsett & Wanner I, II.4, eq. 4.13); multistep methods keep their
  * step unless it may grow by a half. The first one is chosen by Hairer's rule (same,
  * "starting step size").
  *
- * A tolerance is a local bound. The error of the end state is companion.h's to estimate.
+ * A tolerance is a local bound; companion.h estimates the error of the end state.
  *
  * Tests  tests/ode/test_integrate.c
  */

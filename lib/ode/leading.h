@@ -5,14 +5,14 @@
  *     y' = y + sum_{k=1..m} X_k s^k + sum_{k=m+1..p} x_k s^k,
  *
  * the first sum in two doubles, the second in doubles. m is the least order, up to
- * QDOT_ODE_LEADING_MOST, behind which rounding does not count beside what a step may err,
+ * QDOT_ODE_LEADING_MOST, beyond which rounding is negligible compared with the error of a step,
  *
  *     max_i |x_ik s^k|/max(1, |y_i|) 2^-52 <= eps   for k > m,
  *     max_i |X_im - x_im| s^m/max(1, |y_i|) <= 4 eps:
  *
- * what doubles have really lost there, where terms of the equations cancel.
- * What then is left of rounding is of the size of the series' own error, which is no longer
- * held above 10^-17: eps = tol^(5/4).
+ * The second condition is the accuracy that doubles really have at order m if terms of the
+ * equations cancel. The remaining rounding is of the size of the series' own error, whose bound
+ * eps = tol^(5/4) may then be below 10^-17.
  *
  * Tests  tests/ode/test_leading.c
  */
@@ -23,15 +23,15 @@
 
 #include "ode/run.h"
 
-/* For tolerances up to this one: what a double holds is no longer enough. */
+/* Used for tolerances up to this one, for which a double is not enough. */
 #define QDOT_ODE_LEADING_TOL 1.0001e-14
 
-/* Whether `system` has it, for a run under tol by a method with series. */
+/* Whether first orders in two doubles are used, for a run under tol by a method with series. */
 bool qdot_ode_has_leading(const qdot_ode_system *system, const qdot_ode_method *method,
                           double tol);
 
-/* A step from `at` by h + h_low, order p, whose series x of system->series, in that unit, is
- * there. eps: what it may err by. */
+/* A step from `at` by h + h_low, order p; its series x of system->series, in that unit, has been
+ * computed. eps: the error that it aims at. */
 typedef struct {
     const qdot_ode_system *system;
     qdot_ode_place at;
@@ -40,14 +40,15 @@ typedef struct {
     int p;
 } qdot_ode_leading_step;
 
-/* Find the first orders, and replace next, next_carry [n], the end of the step in doubles,
- * by it in two, but for what system->following has. Failures as those of its find. */
+/* Compute the first orders, and replace next, next_carry [n], the end of the step in doubles, by
+ * that in two doubles, except components that system->following derives. Failures as those of its
+ * find. */
 QDOT_MUST_CHECK qdot_status qdot_ode_leading_advance(const qdot_ode_leading_step *step,
                                                      double *next, double *next_carry);
 
 /* The state y [n] at t in a step of h from `at`, expanded to order p under tol by
- * qdot_ode_taylor_expand. What follows is left as the series has it. Failures as above,
- * QDOT_ENOMEM. */
+ * qdot_ode_taylor_expand. Derived components (system->following) are those of the series.
+ * Failures as above, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ode_leading_read(const qdot_ode_system *system, int p,
                                                   double tol, const qdot_ode_place *at,
                                                   double h, double t, double *y);

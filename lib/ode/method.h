@@ -1,8 +1,8 @@
 /* method.h -- the table of methods of integration.
  *
- * Taylor series are ours (taylor.h), and DOP853 (dop853.h). The other steppers are GSL's
- * (gsl_odeiv2); step control, landing, rounding and failure are ours (integrate.h). A
- * method that comes later is a row.
+ * Taylor series (taylor.h) and DOP853 (dop853.h) are ours. The other steppers are GSL's
+ * (gsl_odeiv2), with our step control, last step, rounding and failures (integrate.h). A new
+ * method is a row.
  *
  * Tests  tests/ode/test_method.c: names, and the order of the one-step rows measured.
  */
@@ -17,14 +17,14 @@ typedef struct qdot_ode_method {
     int order;           /* of the result; of a variable-order method the highest */
     bool needs_jacobian; /* the system must have one */
     bool multistep;      /* keeps a history: cannot start at full order */
-    bool stiff;          /* its step is not bound by stability */
-    int error_power;     /* its error estimate goes as h to this; 0: order now + 1 */
+    bool stiff;          /* stability does not limit its step */
+    int error_power;     /* its error estimate goes as h to this power; 0: present order + 1 */
     const char *partner; /* the one-step method of its companion run (companion.h) and,
                             unless it has a kernel, of its output between steps
                             (trajectory.h) */
     double companion_ratio; /* how much tighter the companion's tolerance is */
-    double companion_tol;   /* the smallest one at which it still gains by it */
-    const char *fits;       /* one line: when to take it */
+    double companion_tol;   /* the smallest companion tolerance that still improves accuracy */
+    const char *fits;       /* one line: when to use it */
     const void *stepper;    /* const gsl_odeiv2_step_type *const *; else NULL */
     bool series;            /* the system must have Taylor series */
     const struct qdot_ode_kernel *kernel; /* of our own Runge-Kutta methods (stepper.h) */

@@ -1,16 +1,16 @@
 /* precise.h -- integration by Taylor series in numbers of any precision (MPFR).
  *
- * The method is that of taylor.h with every number of `bits` bits. The upper half of the
- * series gives the radius of convergence, and the step is that part of it which makes the
- * last term as large as the tolerance,
+ * The method is that of taylor.h with numbers of `bits` bits. The upper half of the series gives
+ * the radius of convergence, and the step is the part of it that makes the last term as large as
+ * the tolerance,
  *
  *     h = tol^(1/p) min over k = p/2 ... p, i of (max(1, |y_i|) / |x_ik|)^(1/k),
  *
- * confirmed by the defect of the polynomial at their ends, |P_i'(h) - f_i| h <= 10 (p + 1)
- * tol max(1, |y_i|), and inside where the upper half of the series is empty. The order p
+ * confirmed by the defect of the polynomial at its end, |P_i'(h) - f_i| h <= 10 (p + 1)
+ * tol max(1, |y_i|), and inside the step if the upper half of the series is 0. The order p
  * makes (cost_0 + cost_1 p + cost_2 p^2) e^(L/p) least, L = -ln tol. The tolerance is given
- * as its log2, as it may be below any double. Steps are stored with their starts; the
- * state between is the series again.
+ * as its log2, as it may be below any double. The start of every step is stored; a state within a
+ * step is found by expanding the series again.
  *
  * Source  as taylor.h
  * Tests   tests/ode/test_precise.c
@@ -25,15 +25,15 @@
  * of qdot_ode_system. */
 typedef struct {
     size_t n;
-    size_t checked;     /* dy_i/dt for i below it is another component */
+    size_t checked;     /* dy_i/dt for i below it is another component: no defect */
     mpfr_prec_t bits;   /* of all numbers */
-    int most;           /* the highest order it can */
+    int most;           /* the highest order possible */
     const mpfr_t *x;    /* x_ik = x[i stride + k], written by the callbacks */
     size_t stride;
     /* orders 0 and 1 of the solution through y [n] at t, then 2 ... p */
     qdot_status (*begin)(mpfr_srcptr t, const mpfr_t *y, void *user);
     qdot_status (*extend)(int p, void *user);
-    /* As that of qdot_ode_series, of log2 of a step; NULL: any step */
+    /* As `near` of qdot_ode_series, for log2 of a step; NULL: any step */
     double (*near)(int p, double log2_h, void *user);
     void *user; /* borrowed */
 } qdot_precise_system;
@@ -43,8 +43,8 @@ typedef struct {
     int order;          /* at most system->most */
     uint64_t max_steps; /* 0: 50 million */
     double max_bytes;   /* of stored points; 0: 2e9 */
-    /* After every accepted step, the point stored: as in qdot_ode_options; a failure
-     * ends the run, the step kept. */
+    /* Called after every accepted step, when the point is stored: as in qdot_ode_options; a
+     * failure ends the run and keeps the step. */
     qdot_status (*accepted)(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user);
     void *user;
 } qdot_precise_options;
@@ -56,8 +56,8 @@ typedef struct {
     mpfr_prec_t bits;
     qdot_reals *chunks; /* of QDOT_PRECISE_CHUNK points each */
     size_t n_chunks, capacity;
-    /* Between points k and k + 1, for what is drawn: QDOT_PRECISE_INSIDE rows of t, y [n]
-     * rounded to doubles. */
+    /* For figures: QDOT_PRECISE_INSIDE rows of t, y [n] between points k and k + 1, rounded to
+     * doubles. */
     double *inside;
     size_t inside_capacity;
     qdot_ode_result result;
@@ -91,7 +91,7 @@ QDOT_MUST_CHECK qdot_status qdot_precise_at(const qdot_precise_run *run,
                                             const qdot_precise_system *system,
                                             mpfr_srcptr t, size_t *near, mpfr_t *y);
 
-/* The last point moved back to t, in the last step, with y [n]. */
+/* Move the last point back to t, within the last step, with state y [n]. */
 void qdot_precise_cut(qdot_precise_run *run, mpfr_srcptr t, const mpfr_t *y);
 
 #endif

@@ -1,19 +1,19 @@
-/* stepper.h -- one step of a method: try it, see its error, take it or not.
+/* stepper.h -- one step of a method: try it, get its error, accept it or not.
  *
- * The floor below integrate.h; nothing above ode/ uses it.
+ * Used by integrate.h; nothing outside ode/ uses it.
  *
- * The state is kept as a sum y + carry. A one-step method is given not y but the way from
+ * The state is kept as a sum y + carry. A one-step method integrates not y but the increment from
  * the start of the step,
  *
  *     z = (Y - (y + carry)) / s,   z = 0 at the start,
  *     dz/dt = f(t, y + (carry + s z)) / s
  *
- * (s: for bsimp the power of two at or below max(1, |y|), whose safeguards look at |z|;
- * else 1). So its increment comes out rounded to 2^-53 of itself, not of y, and is added
- * by TwoSum: no addition rounds (tests/ode/test_integrate.c, additions_do_not_round).
- * What is left is the rounding of f and of the method's coefficients. On smooth scenes at
- * tol 1e-15 and 1e-16 the end error was 0.5 to 4 times smaller than without (1.2 in the
- * mean), and several times smaller than by GSL's own driver (compensation_pays).
+ * (s: for bsimp, whose safeguards depend on |z|, the power of two at or below max(1, |y|); else
+ * 1). So its increment is rounded to 2^-53 of itself, not of y, and is added by TwoSum: no
+ * addition rounds (tests/ode/test_integrate.c, additions_do_not_round). The rounding of f and of
+ * the method's coefficients remains. On smooth scenes at tol 1e-15 and 1e-16 the end error was
+ * 0.5 to 4 times smaller than without (1.2 in the mean), and several times smaller than by GSL's
+ * own driver (compensation_pays).
  * Multistep methods keep y itself in their history; there the carry stays 0.
  *
  * The error of a step is judged component by component:
@@ -39,7 +39,7 @@
 typedef struct qdot_ode_stepper qdot_ode_stepper;
 typedef struct qdot_ode_kernel qdot_ode_kernel;
 
-/* A one-step method of our own, where GSL has none: dop853.h. */
+/* A one-step method that GSL does not have: dop853.h. */
 struct qdot_ode_kernel {
     size_t stages; /* rows of s->stages */
     size_t powers; /* rows of a polynomial */
@@ -62,17 +62,17 @@ struct qdot_ode_stepper {
     double *dydt;      /* [n] f there; one-step methods */
     double *z, *error; /* [n] the step tried: increment (or new state); its error */
     double *zdot;      /* [n] dydt / scale */
-    double *scale;     /* [n] s above */
+    double *scale;     /* [n] s of the formula above */
     double *trial;     /* [n] y + carry + s z */
     double *trial_dydt; /* [n] f at the end of the step tried */
     bool dydt_known;
 
     uint64_t evaluations, jacobians, factorisations;
-    qdot_status broken; /* what a callback returned during the step tried */
+    qdot_status broken; /* failure of a callback during the step tried */
 
     double *stages; /* [stages x n] of a kernel */
 
-    /* Where the system projects: the step tried, as a sum, and whether it was moved. */
+    /* If the system projects: the end of the step tried, as a sum, and whether it was moved. */
     double *moved, *moved_carry; /* [n] */
     bool projected;
 
@@ -95,24 +95,23 @@ void qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y);
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_rhs(qdot_ode_stepper *s, double t,
                                                  const double *y, double *dydt);
 
-/* Try a step from t of size h (signed). On QDOT_OK *ratio is finite or INFINITY (too
- * large a step for the method to say), and s->trial is where it leads. Otherwise what a
- * callback returned; the state is as before in any case.
+/* Try a step from t of size h (signed). On QDOT_OK *ratio is finite, or INFINITY if the step is
+ * too large for an estimate, and s->trial is its end. Otherwise what a callback returned; the
+ * state is as before in any case.
  *   check  evaluate f at the end too, so that an accepted state is one where f exists */
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_try(qdot_ode_stepper *s, double t, double h,
                                                  double *ratio);
 
-/* Bring the step just tried, which ends at t, back to where solutions are, as the system
- * says: s->trial is then the moved state. *ratio becomes the part of 100 tolerances that
- * it was moved by, where that is more. Nothing without system->project, or of multistep
- * methods. */
+/* Project the end of the step just tried, at t, by system->project: s->trial is then the moved
+ * state. *ratio is raised to the distance moved over 100 tolerances. Does nothing without
+ * system->project, or for multistep methods. */
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_project(qdot_ode_stepper *s, double t,
                                                      double *ratio);
 
-/* Take the step just tried. */
+/* Accept the step just tried. */
 void qdot_ode_stepper_accept(qdot_ode_stepper *s);
 
-/* The power of h with which the error of the step just tried goes. */
+/* The power of h to which the error of the step just tried is proportional. */
 double qdot_ode_stepper_error_power(const qdot_ode_stepper *s);
 
 #endif

@@ -1,4 +1,4 @@
-/* taylor-numbers.h -- numbers that a step by Taylor series is made with.
+/* taylor-numbers.h -- bounds and helper functions for a step by Taylor series.
  *
  * Tests  tests/ode/test_taylor.c
  */
@@ -11,9 +11,9 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Steps aim at less than the tolerance, which the errors of thousands of them may share:
- * at tol^(5/4), down to a tenth of what the first of two doubles can hold unless the first
- * orders are sums of two (leading.h). */
+/* The error that steps aim at: less than the tolerance, which the errors of thousands of steps
+ * share, tol^(5/4), but at least 1e-17, a tenth of the rounding of a double, unless the first
+ * orders are sums of two doubles (leading.h). */
 static inline double
 qdot_step_aim(double tol, bool leading)
 {
@@ -22,8 +22,9 @@ qdot_step_aim(double tol, bool leading)
     return leading ? aim : fmax(aim, 1e-17);
 }
 
-/* log2 of what a term of the upper half may be larger, an order, than one of a steady fall to
- * the error that a step of order p aims at: where that falls by less than 2^(2/3) an order. */
+/* Terms of the upper half may exceed a geometric fall to the error that a step of order p aims
+ * at, if that fall is less than 2^(2/3) an order; the result is log2 of the allowed factor an
+ * order. */
 static inline double
 qdot_step_fall(double log_aim, int p)
 {
@@ -37,7 +38,7 @@ qdot_step_term(double log_aim)
     return fmax(-1, log_aim + 53);
 }
 
-/* No step is shorter. */
+/* The shortest step allowed at t. */
 static inline double
 qdot_step_floor(double t)
 {
@@ -45,7 +46,8 @@ qdot_step_floor(double t)
     return fmax(16 * (nextafter(t, INFINITY) - t), 16 * DBL_MIN);
 }
 
-/* The spacing is the size over a number between 2^52 and 2^53: seldom worth the look. */
+/* Whether h is shorter than that. The spacing of doubles at t is |t| over a number between 2^52
+ * and 2^53, so it is rarely needed. */
 static inline bool
 qdot_step_is_too_short(double t, double h)
 {
@@ -87,8 +89,7 @@ qdot_smaller(double a, double b)
     return a < b ? a : b;
 }
 
-/* 2^x to 0.002: the step it is for is a guess, and the libraries' takes as long as three
- * orders of a series. */
+/* 2^x to 0.002, for the estimate of a step; exp2 takes as long as three orders of a series. */
 static inline double
 qdot_rough_exp2(double x)
 {

@@ -1,16 +1,15 @@
-/* trajectory.h -- a run kept whole, and its state at any time.
+/* trajectory.h -- stores a run and gives its state at any time.
  *
  * Every accepted step is stored. GSL's steppers have no dense output, so between stored
  * points the state is found by integrating again: from the stored point t_k before t one
- * step of h = t - t_k (more where its error estimate asks) by the partner of the run's
+ * step of h = t - t_k (more if its error estimate requires) by the partner of the run's
  * method (method.h: rk8pd, or bsimp for stiff methods), under the tolerance of the run.
- * A step shorter than one that was good enough is good enough: the state at t is as
- * accurate as the run, and does not depend on what was asked before. It costs 13
- * evaluations (rk8pd), and one more for the first query within a step. DOP853 has a
- * polynomial: half the step is gone again, from t_k or back from t_k+1, which costs 16
- * evaluations for all queries in that half. Of a run by Taylor
- * series (taylor.h) it is the series of the step itself, expanded again from t_k for the
- * first query within it.
+ * A part of an accepted step is accurate too: the state at t is as accurate as the run, and does
+ * not depend on earlier queries. It costs 13 evaluations (rk8pd), and one more for the first
+ * query within a step. DOP853 has a polynomial: half the step is repeated, from t_k or back from
+ * t_k+1, which costs 16 evaluations for all queries in that half. For a run by Taylor series
+ * (taylor.h) the series of the step itself is expanded again from t_k for the first query within
+ * it.
  *
  * A run may be of several pieces: each begins where the one before ended, from another
  * state or by another system (its mode). Then two points stand at one time, and a query
@@ -43,14 +42,14 @@ typedef struct qdot_trajectory {
     int order_more;         /* of the run's options, */
     bool leading;           /* likewise, */
     double t0_low;          /* likewise */
-    double *low;            /* [count x n] what the points are beyond y, if `leading` */
+    double *low;            /* [count x n] the points less y, if `leading` */
     qdot_ode_result result; /* of the run */
-    bool entered;           /* its solution is entered already, elsewhere than at its first
-                               point: it is a part of a longer one (ode/system.h) */
+    bool entered;           /* its solution was entered before its first point: it is a part of a
+                               longer one (`following` of ode/system.h) */
     size_t t_capacity, y_capacity, low_capacity;
     qdot_vec(qdot_trajectory_piece) pieces;
-    /* Of a system that was integrated in parts (ode/apart.h): that of each, by its steps; the
-     * points above are those of the one with the most. Of one piece only. */
+    /* For a system integrated in parts (ode/apart.h): the trajectory of each part; the points
+     * above are those of the part with the most. One piece only. */
     struct qdot_trajectory *tracks; /* [n_tracks] */
     size_t n_tracks;
 } qdot_trajectory;
@@ -58,7 +57,7 @@ typedef struct qdot_trajectory {
 /* Start from {0}; release with qdot_trajectory_clear. */
 void qdot_trajectory_clear(qdot_trajectory *tr);
 
-/* Integrate as qdot_ode_integrate does and store the run (whatever was there is dropped).
+/* Integrate as qdot_ode_integrate does and store the run (earlier contents are dropped).
  *   y0  [n] initial state; borrowed during the call; may be a row of tr->y
  * Returns what qdot_ode_integrate returns, or QDOT_ELIMIT beyond 2 GB of points, always
  * with the run so far kept and tr->result filled. options->accepted is called before a
@@ -69,17 +68,17 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_run(qdot_trajectory *tr,
                                                 const qdot_ode_options *options,
                                                 double t0, double t1, const double *y0);
 
-/* Go on as a further piece: from y0 [n] at the time of the last point to t1, by `system`,
- * which is the mode-th of those that the run will be read with. The counts of tr->result
- * go on. A last piece of one point is begun anew. */
+/* Append a piece: from y0 [n] at the time of the last point to t1, by `system`, which has the
+ * index `mode` among the systems that the run will be read with. The counts of tr->result are
+ * continued. If the last piece has one point only, the new one replaces it. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_resume(qdot_trajectory *tr,
                                                    const qdot_ode_system *system,
                                                    size_t mode, bool jumped,
                                                    const qdot_ode_options *options,
                                                    double t1, const double *y0);
 
-/* The last point becomes (t, y [n]), which lies within the step that ended there. Where
- * that is the start of the step the point goes. */
+/* Replace the last point by (t, y [n]), which lies within the last step. If that is the start of
+ * the step, the last point is removed. */
 void qdot_trajectory_shorten(qdot_trajectory *tr, double t, const double *y);
 
 /* The state at t into y [n]; a stored point is given back bit by bit.
@@ -91,8 +90,8 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_at(const qdot_trajectory *tr,
                                                const qdot_ode_system *system, double t,
                                                double *y);
 
-/* For many times: keeps its work space, the place in the run and f at the stored point.
- * Any order of times is right; neighbouring ones are fast. */
+/* For many times: keeps its work space, the position in the run and f at the stored point.
+ * Times may come in any order; neighbouring ones are fast. */
 typedef struct qdot_trajectory_cursor qdot_trajectory_cursor;
 
 /* `tr` and `system` are borrowed until _close. Errors: QDOT_EDOMAIN (no run is stored),
@@ -106,31 +105,30 @@ void qdot_trajectory_close(qdot_trajectory_cursor *c);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read(qdot_trajectory_cursor *c, double t,
                                                  double *y);
 
-/* What reading has cost so far, in evaluations of f; 0 by series. */
+/* Evaluations of f by reading so far; 0 with series. */
 uint64_t qdot_trajectory_evaluations(const qdot_trajectory_cursor *c);
 
-/* The mode of the piece in which the state just read stands. */
+/* The mode of the piece that the state just read belongs to. */
 size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 
-/* The state within the piece at t, or at its nearest end; of two at one time the one of
- * this piece. */
+/* The state of the piece at t, or at its end nearest to t. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c,
                                                        size_t piece, double t, double *y);
 
 /* --- inside: a run in parts (trajectory-apart.c) ---- */
-/* A trajectory, of one point so far, gone on with from y0 [n] to t1 as a track for each
- * part; the points of the whole become those of the part that took most steps. */
+/* Continue a trajectory of one point from y0 [n] to t1 with a track for each part; the points of
+ * the whole become those of the part with the most steps. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_record_apart(qdot_trajectory *tr,
                                                          const qdot_ode_system *system,
                                                          const qdot_ode_options *options,
                                                          double t1, const double *y0);
-/* A point more; the state from the tracks alone. */
+/* Append a point; read the state from the tracks alone. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_store(qdot_trajectory *tr, double t,
                                                   const double *y);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_tracks(qdot_trajectory_cursor *c,
                                                         double t, double *y);
 
-/* The points were changed behind the cursor's back. */
+/* Tell the cursor that the points have been changed. */
 void qdot_trajectory_renew(qdot_trajectory_cursor *c);
 
 /* The piece that stored point k belongs to. */
