@@ -1,9 +1,9 @@
-/* code.h -- the straight line while it is being written.
+/* code.h -- a tape while it is being written.
  *
- * While written, every value is new and the same operation on the same values is the same
- * value (value numbering). qdot_code_finish() then keeps what the outputs need, fuses
- * multiplications into sums, lets values that are dead give their places to others, and
- * packs it all into a qdot_tape.
+ * Every operation gives a new value, except that the same operation on the same values is the
+ * same value (value numbering). qdot_code_finish() then keeps what the outputs need, fuses
+ * multiplications into sums, reuses the places of values after their last use, and packs the
+ * result into a qdot_tape.
  */
 #ifndef QDOT_TAPE_CODE_H
 #define QDOT_TAPE_CODE_H
@@ -13,7 +13,7 @@
 #include "tape/instruction.h"
 #include "tape/keymap.h"
 
-/* Powers above are left to pow(). */
+/* Higher powers use pow(). */
 #define QDOT_CODE_MOST_POWER 64
 
 typedef uint32_t qdot_value; /* a value of the code: an index */
@@ -29,9 +29,9 @@ typedef struct {
     size_t inputs;
     qdot_vec(qdot_code_value) values; /* first the inputs */
     qdot_vec(double) constants;
-    qdot_vec(signed char) sides; /* where the exact constants lie, see constant.h */
-    qdot_vec(double) lows;       /* what they are beyond the rounded ones */
-    qdot_vec(qdot_expr) exact;   /* the expressions that they are */
+    qdot_vec(signed char) sides; /* sign of the exact constant less the double, see constant.h */
+    qdot_vec(double) lows;       /* the exact constants less the doubles */
+    qdot_vec(qdot_expr) exact;   /* the constants as expressions */
     qdot_keymap seen;          /* operation -> value */
     qdot_keymap by_expr;       /* constant expression -> value */
     unsigned char chain[QDOT_CODE_MOST_POWER + 1]; /* see power_chain() */
@@ -42,8 +42,8 @@ typedef struct {
 void qdot_code_init(qdot_code *code, qdot_pool *pool, size_t inputs);
 void qdot_code_clear(qdot_code *code);
 
-/* One operation; operands it does not have are 0. ADD, MUL and their like in either
- * order of a and b are one. */
+/* One operation; operands that it does not have are 0. Commutative operations (ADD, MUL ...) on
+ * a, b and on b, a are one value. */
 qdot_value qdot_code_op(qdot_code *code, qdot_op op, qdot_value a, qdot_value b,
                         qdot_value c);
 /* A constant expression, evaluated exactly and rounded once. */
@@ -55,7 +55,7 @@ void qdot_code_sincos(qdot_code *code, qdot_value a, qdot_value *sine,
  * 1/a. */
 qdot_value qdot_code_power(qdot_code *code, qdot_value a, long n);
 
-/* The tape of code with these outputs [m]. */
+/* Make the tape of the code with these outputs [m]. */
 QDOT_MUST_CHECK qdot_status qdot_code_finish(qdot_code *code, size_t m,
                                              const qdot_value *outputs,
                                              struct qdot_tape **tape);

@@ -1,4 +1,4 @@
-/* constant.h -- expressions without symbols, as balls and as doubles.
+/* constant.h -- values of expressions without symbols, from balls, as doubles or MPFR numbers.
  *
  * Tests  tests/tape/test_constant.c
  */
@@ -9,29 +9,27 @@
 
 #include "expr/expr.h"
 
-/* Whether e holds no symbol but pi, true and false, and no undefined function. */
+/* Whether e contains no symbol except pi, true and false, and no undefined function. */
 bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);
 
-/* One constant expression (no symbols) as a double, correctly rounded where 256 bits decide.
+/* One constant expression (no symbols) as a double, correctly rounded if 256 bits decide.
  * QDOT_EUNSET names a symbol without a value; QDOT_EDOMAIN: not real or undefined. */
 QDOT_MUST_CHECK qdot_status qdot_tape_constant(qdot_pool *pool, qdot_expr e, double *value);
 
-/* The same, and on which side of *value the exact value lies: -1, 0 (it
- * is *value), 1. */
+/* The same, and *side, the sign of the exact value less *value: -1, 0 or 1. */
 QDOT_MUST_CHECK qdot_status qdot_constant_round(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side);
 
-/* The same, and what is left beyond *value: e = *value + *low to about twice the
- * precision. */
+/* The same, and *low: e = *value + *low to about twice the precision. */
 QDOT_MUST_CHECK qdot_status qdot_constant_split(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side, double *low);
 
-/* e rounded to the precision of x: right to its last bit but for a unit, found in balls of
- * growing precision. What is 0 to eight times that precision is 0. Errors: as
+/* e rounded to the precision of x, to within a unit of its last bit, found in balls of growing
+ * precision. A value that is 0 to eight times that precision is taken as 0. Errors: as
  * qdot_tape_constant. */
 QDOT_MUST_CHECK qdot_status qdot_constant_real(qdot_pool *pool, qdot_expr e, mpfr_ptr x);
 
-/* The rational number that x is, exactly; nil: not finite, or a failure of the pool. */
+/* x as an exact rational number; nil: not finite, or a failure of the pool. */
 qdot_expr qdot_constant_of_real(qdot_pool *pool, mpfr_srcptr x);
 
 /* Fail with QDOT_EUNSET for the symbol or application `e` that has no value. */

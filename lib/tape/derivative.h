@@ -1,11 +1,11 @@
-/* derivative.h -- a tape with its exact derivatives, forward.
+/* derivative.h -- exact derivatives of a tape, in forward mode.
  *
- * Every value of the tape carries its slopes along QDOT_LANES directions; the rules are a
- * column of operation.def. J_ij = d out_i / d in_j costs about 3 operations an operation
- * and column, and nothing is derived: an expression is never differentiated.
+ * Every value of the tape carries its derivatives along QDOT_LANES directions; the rules are a
+ * column of operation.def. J_ij = d out_i / d in_j costs about 3 operations for each operation
+ * and column. No expression is differentiated.
  *
- * Where an operation has no derivative (sqrt(0), the corner of an abs) a slope is that of
- * one side, or NaN or infinite as IEEE 754 has it.
+ * If an operation has no derivative (sqrt(0), the corner of an abs) the result is the derivative
+ * of one side, or NaN or infinite by IEEE 754.
  *
  * Source  A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), 3.1: the vector
  *         forward mode.
@@ -16,7 +16,7 @@
 
 #include "tape/tape.h"
 
-/* Doubles of work space wanted. */
+/* Doubles of work space needed. */
 size_t qdot_derivative_work(const qdot_tape *tape);
 
 /* out [m] = outputs at in [n], and J [m x columns] row-major, the derivatives of the

@@ -1,14 +1,13 @@
-/* disc.h -- a tape over discs of the complex plane about real centres.
+/* disc.h -- bounds of a tape over discs of the complex plane about real centres.
  *
  *     |x_j - c_j| <= r_j for every input   =>   |f_i(x) - C_i| <= R_i for every output
  *
- * for complex x as well, so that a function that is given as a tape is bounded throughout
- * an interval and around it. By Cauchy's estimate that bounds what a polynomial through its
- * values at a few points does not know (sim/course/polynomial-bounds.h). C_i is f_i(c). A radius is NaN
- * where an operation has a singularity in its disc, or switches there, and infinite where the bound
- * is too large for a double.
+ * for complex x as well, so that a function given as a tape is bounded throughout an interval and
+ * around it. By Cauchy's estimate that bounds the error of a polynomial through its values at a
+ * few points (sim/course/polynomial-bounds.h). C_i is f_i(c). A radius is NaN if an operation has
+ * a singularity in its disc, or switches there, and infinite if the bound overflows.
  *
- * Each operation has a bound of its own (disc.def): |f(c + w) - f(c)| for |w| <= r, exact
+ * Each operation has its own bound (disc.def): |f(c + w) - f(c)| for |w| <= r, exact
  * for sums, products, roots, exponentials, logarithms and those inverse functions whose
  * Taylor coefficients have one sign. Rounding is added to radii that are not 0; sums of it
  * are not rounded outward.
@@ -23,22 +22,23 @@
 
 #include "tape/tape.h"
 
-/* Doubles of work space wanted. */
+/* Doubles of work space needed. */
 size_t qdot_disc_work(const qdot_tape *tape);
 
-/* C, R [outputs] of c, r [inputs]; work [qdot_disc_work]. Never fails. */
+/* C, R [outputs] for discs c, r [inputs]; work [qdot_disc_work]. Never fails. */
 void qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *C,
                     double *R, double *work);
 
-/* Which inputs the tape reads at all, into used [inputs]; QDOT_ENOMEM. */
+/* used [inputs]: which inputs the tape reads; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
-/* Whether it has operations that fall off like an exponential, so that what is large somewhere
- * may be nothing at a distance, all derivatives included. */
+/* Whether the tape has operations that fall off like an exponential: a function large somewhere
+ * may be negligible at a distance, with all its derivatives. */
 bool qdot_disc_may_hide(const qdot_tape *tape);
 
-/* How far at most the arguments of these go over the discs c, r [inputs], that of a power by its
- * logarithm: what is large by e^reach more somewhere than in the middle. Work as above. */
+/* The largest change of the arguments of these operations over the discs c, r [inputs] (of a
+ * power: of its logarithm): their values may be e^reach times those in the centre. Work as above.
+ *  */
 double qdot_disc_reach(const qdot_tape *tape, const double *c, const double *r, double *work);
 
 #endif

@@ -1,6 +1,6 @@
-/* instruction.h -- a finished tape as it is evaluated.
+/* instruction.h -- the data of a finished tape.
  *
- * Its places: the inputs, the constants, then what is computed.
+ * Its places, in order: the inputs, the constants, computed values.
  */
 #ifndef QDOT_TAPE_INSTRUCTION_H
 #define QDOT_TAPE_INSTRUCTION_H
@@ -33,9 +33,9 @@ typedef struct {
 struct qdot_tape {
     size_t inputs, constants, outputs, length, places, operations, calls;
     double *constant;       /* [constants] */
-    signed char *side;      /* [constants] where the exact value lies beside it */
-    double *low;            /* [constants] how far; 0 once shaken */
-    qdot_expr *exact;       /* [constants] what is evaluated to any precision */
+    signed char *side;      /* [constants] sign of the exact value less the double */
+    double *low;            /* [constants] that difference; 0 in a shaken tape */
+    qdot_expr *exact;       /* [constants] as expressions, for any precision */
     uint32_t *output;       /* [outputs] places */
     qdot_instruction *code; /* [length] */
 };

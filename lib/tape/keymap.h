@@ -1,7 +1,7 @@
-/* keymap.h -- a hash table from four words to one: nothing is ever removed.
+/* keymap.h -- a hash table from four words to one, without removal.
  *
- * What the lowering remembers is found in it: operations by what they compute, constants
- * by their expression, angles by their parts.
+ * For lowering: values by operation and operands, constants by their expression, angles by their
+ * parts.
  */
 #ifndef QDOT_TAPE_KEYMAP_H
 #define QDOT_TAPE_KEYMAP_H
@@ -25,7 +25,7 @@ void qdot_keymap_clear(qdot_keymap *map);
 uint32_t qdot_keymap_get(const qdot_keymap *map, uint32_t a, uint32_t b, uint32_t c,
                          uint32_t d);
 
-/* Set it. Errors: QDOT_ENOMEM, the table unchanged. */
+/* Set the value of (a, b, c, d). Errors: QDOT_ENOMEM, the table unchanged. */
 QDOT_MUST_CHECK qdot_status qdot_keymap_set(qdot_keymap *map, uint32_t a, uint32_t b,
                                             uint32_t c, uint32_t d, uint32_t value);
 

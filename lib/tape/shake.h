@@ -1,8 +1,8 @@
-/* shake.h -- the same tape with its constants rounded the other way.
+/* shake.h -- a copy of a tape with its constants rounded the other way.
  *
- * A constant that is no double was rounded to its neighbour below or above; in the shaken
- * tape it is the other one, so that the exact value lies between the two. What differs
- * between runs on both shows what the rounding of constants may do.
+ * A constant that is not a double was rounded to its neighbour below or above; the shaken tape
+ * has the other neighbour, so that the exact value lies between the two. The difference of runs
+ * with both tapes shows the effect of rounding the constants.
  *
  * Tests  tests/tape/test_tape.c
  */
@@ -14,7 +14,7 @@
 /* A copy, owned by the caller. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken);
 
-/* The neighbour of x on that side; x itself for 0. */
+/* The neighbouring double of x on that side; x itself for side 0. */
 double qdot_shake_double(double x, int side);
 
 #endif

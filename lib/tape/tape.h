@@ -1,10 +1,10 @@
-/* tape.h -- expressions lowered to a straight line of operations.
+/* tape.h -- expressions lowered to a list of operations.
  *
- * Common parts once (the DAG is already shared), dead parts never, integer powers by squaring,
- * sine and cosine of one argument as a pair, angles of sums by base angles where that is cheaper:
- * cos(a - b) = ca cb + sa sb costs no call when sin and cos of a and b are there. Constants are
- * evaluated exactly, then rounded once. A tape is const and thread-safe; the work space is the
- * caller's.
+ * Common parts are computed once (the DAG is already shared), unused parts never, integer powers
+ * by squaring, sine and cosine of one argument as a pair, sums of angles from base angles if that
+ * is cheaper: cos(a - b) = ca cb + sa sb needs no call if sin and cos of a and b are computed
+ * anyway. Constants are evaluated exactly, then rounded once. A tape is const and thread-safe;
+ * the caller owns the work space.
  *
  * Tests  tests/tape/
  */
@@ -19,8 +19,8 @@ typedef struct qdot_tape qdot_tape;
  * input: QDOT_EUNSET with its name. Relations and if() are allowed (1.0 and 0.0). */
 QDOT_MUST_CHECK qdot_status qdot_tape_new(qdot_pool *pool, size_t n, const qdot_expr *inputs,
                                           size_t m, const qdot_expr *outputs, qdot_tape **tape);
-/* The same for a tape that series will run through (taylor.h, lanes.h), where angles cost other
- * than for numbers (tape/angle.h). */
+/* The same for a tape that is evaluated on series (taylor.h, lanes.h), where the costs of angles
+ * differ from those for numbers (tape/angle.h). */
 QDOT_MUST_CHECK qdot_status qdot_tape_new_for_series(qdot_pool *pool, size_t n,
                                                      const qdot_expr *inputs, size_t m,
                                                      const qdot_expr *outputs,
@@ -29,13 +29,12 @@ void qdot_tape_free(qdot_tape *tape);
 
 size_t qdot_tape_inputs(const qdot_tape *tape);
 size_t qdot_tape_outputs(const qdot_tape *tape);
-size_t qdot_tape_work(const qdot_tape *tape);       /* doubles of work space wanted */
+size_t qdot_tape_work(const qdot_tape *tape);       /* doubles of work space needed */
 size_t qdot_tape_operations(const qdot_tape *tape); /* operations an evaluation */
-/* Of them: calls of elementary functions (sincos counts once). */
+/* How many of these are calls of elementary functions (sincos counts once). */
 size_t qdot_tape_calls(const qdot_tape *tape);
 
-/* out [m] = outputs at in [n]; work [qdot_tape_work]. Never fails; NaN and inf as IEEE 754 has
- * them. */
+/* out [m] = outputs at in [n]; work [qdot_tape_work]. Never fails; NaN and inf by IEEE 754. */
 void qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *work);
 
 #endif
