@@ -1,5 +1,4 @@
-/* arb.h -- Arb's headers: of a library of its own beside FLINT 2, a part of FLINT since 3.
- */
+/* arb.h -- includes Arb's headers: a separate library with FLINT 2, a part of FLINT 3. */
 #ifndef QDOT_NUM_ARB_H
 #define QDOT_NUM_ARB_H
 

@@ -1,11 +1,11 @@
-/* batch.h -- eight systems at once, one a lane of a vector.
+/* batch.h -- kernels for eight systems at once, each in a lane of a vector.
  *
- * Every number of a system is a group of QDOT_LANES doubles, lane l at [l]; a series is
- * such groups by order, coefficient k of lane l at [k QDOT_LANES + l]. All lanes do the
- * same operations, so what one processor instruction does it does for all of them.
+ * Every number of a system becomes a group of QDOT_LANES doubles, lane l at [l]; a series is
+ * such groups by order, coefficient k of lane l at [k QDOT_LANES + l]. All lanes carry out the
+ * same operations, so an instruction on a vector serves all of them.
  *
- * Everything exists three times, as in series.h: portable vectors of the compiler, AVX2 and
- * AVX-512 with fused multiplications; code of another floor is made for all three in the
+ * All kernels exist three times, as in series.h: portable vectors of the compiler, AVX2 and
+ * AVX-512 with fused multiplications; code of other floors is compiled three times in the
  * same way (batch-kinds.def).
  *
  * Tests  tests/num/test_batch.c
@@ -24,8 +24,8 @@ typedef void qdot_batch_dot(const double *a, const double *b, double *out);
 typedef void qdot_batch_pair(const double *a, const double *b, const double *c,
                              double *out_b, double *out_c);
 
-/* n series x_i, coefficient k of which is the group x[(i stride + k) QDOT_LANES]. The first
- * `checked` of them are places, whose rates are the `checked` behind those. */
+/* n series x_i, with coefficient k in the group x[(i stride + k) QDOT_LANES]. The derivatives of
+ * the first `checked` are the series that follow: dx_i/dt = x_{i + checked}. */
 typedef struct {
     size_t n, checked, stride;
     const double *x;
@@ -36,8 +36,8 @@ typedef struct {
     double *y, *carry;
 } qdot_batch_sum;
 
-/* A polynomial at the end of a step: its slopes there [n], its first coefficients [n], the state
- * [n]; the step in the units of before and of now, one group. */
+/* A polynomial at the end of a step: its derivatives there [n], its coefficients of order 1 [n],
+ * the state [n]; the step in the old and in the new unit, a group each. */
 typedef struct {
     const double *slope, *first, *next, *steps, *now;
     double share, rounding;
@@ -51,37 +51,37 @@ typedef struct {
     qdot_batch_dot *dot[QDOT_SERIES_MOST + 2];
     qdot_batch_pair *pair[QDOT_SERIES_MOST + 2];
 
-    /* The length of a step by orders from ... p of n series, log2 in units of s:
+    /* log2 of the length of a step, in units of s, by orders from ... p of n series:
      *
      *     out = min_k (most_k - log2 max_i |x_ik| weight_i) inverse_k
      *
-     * to 0.1, inverse_k = 1/k, and not beyond 1000 inverse_p or so; INFINITY where they all hold
-     * nothing, NaN where they are not finite. n > 0, weight [n], out one group. */
+     * to 0.1, inverse_k = 1/k, and at most about 1000 inverse_p; INFINITY if all coefficients are
+     * 0, NaN if one is not finite. n > 0, weight [n], out one group. */
     void (*log_steps)(const qdot_batch_series *series, int from, int p, const double *weight,
                       const double *inverse, const double *most, double *out);
 
-    /* Of each series what is left of it from order 2 on,
+    /* The tail of each series from order 2 on,
      *
      *     value[i] = sum_{k=2..p} x_k s^(k-1),   slope[i] = sum_{k=1..p} k x_k s^(k-1),
      *
-     * the latter of those from `checked` on. p >= 2; s is one group. */
+     * slopes only for i >= `checked`. p >= 2; s is one group. */
     void (*tails)(const qdot_batch_series *series, int p, const double *s, double *value,
                   double *slope);
 
-    /* The sum of such a series by twice the precision: to = from + s (x_1 + value) + s low, all
-     * [n]; low_i = unit carry_{i + checked} for i < checked, else 0; unit is one group. */
+    /* Advance in twice the precision: to = from + s (x_1 + value) + s low, all [n]; low_i = unit
+     * carry_{i + checked} for i < checked, else 0; unit is one group. */
     void (*advance)(const qdot_batch_series *series, const double *s, const double *unit,
                     const double *value, qdot_batch_sum from, qdot_batch_sum to);
 
-    /* Sines and cosines of a group, each to 0.9 of a last place. A lane beyond 1e5, or not
-     * finite, by the C library: the others know nothing of it. */
+    /* Sines and cosines of a group, each to 0.9 ulp. A lane beyond 1e5, or not finite, uses the C
+     * library, which does not affect the others. */
     void (*sincos)(const double *x, double *sine, double *cosine);
 
     /* out = 1/max(1, |y|), [n] */
     void (*weights)(size_t n, const double *y, double *out);
 
-    /* Whether slopes of a polynomial are those of the equations: of the n - checked behind
-     * `checked`, P = slope steps and f = x_1 now, steps and now one group,
+    /* Whether the derivatives of a polynomial satisfy the equations: for i >= `checked`, with
+     * P = slope steps and f = x_1 now, steps and now one group,
      *
      *     |P - f| <= share size + rounding (|P| + |first steps| + size),
      *
@@ -89,33 +89,32 @@ typedef struct {
      * set or none. */
     void (*confirm)(const qdot_batch_series *series, const qdot_batch_defect *defect,
                     int64_t *good, int64_t *finite);
-    /* to [n] = from in the lanes that are set. */
+    /* to [n] = from in the lanes whose bits are set. */
     void (*blend)(size_t n, const int64_t *set, const double *from, double *to);
 
-    /* A [n x n], of which the first `positive` rows are positive definite and what these leave of
-     * the others negative -> L below and on the diagonal, where 1/L_ii stands for L_ii:
-     * A = L S L^T, S = 1 in those rows and -1 in the others. A lane of which that is not so, or to
-     * less than 2^-40 of what the first rows take from a diagonal entry of the others, gets NaN
-     * or infinities. */
+    /* A [n x n] = L S L^T, S = 1 in the first `positive` rows and -1 in the others -> L below and
+     * on the diagonal, with 1/L_ii in the place of L_ii. The first rows must be positive definite
+     * and their Schur complement negative definite, by more than 2^-40 of what elimination takes
+     * from a diagonal entry; else the lane gets NaN or infinities. */
     void (*factor)(size_t n, size_t positive, double *A);
     /* x [n] <- (L S L^T)^-1 x */
     void (*solve)(size_t n, size_t positive, const double *L, double *x);
     /* inverse [n x n] of L S L^T */
     void (*invert)(size_t n, size_t positive, const double *L, double *inverse);
-    /* inverse of A [2 x 2], of which the upper corner is not read, by its cofactors; NaN in a
-     * lane that is not positive definite. */
+    /* inverse of A [2 x 2] by its cofactors; A[0][1] is not read; NaN in a lane in which A is not
+     * positive definite. */
     void (*invert_two)(const double *A, double *inverse);
     /* y [n] = A x */
     void (*multiply)(size_t n, const double *A, const double *x, double *y);
 } qdot_batch_kernels;
 
-/* Those that fit this processor. */
+/* The best kernels that this processor can run. */
 const qdot_batch_kernels *qdot_batch_kernels_get(void);
 
 /* Kind i, portable first, of those this processor can run; NULL beyond the last. */
 const qdot_batch_kernels *qdot_batch_kernels_at(size_t i);
 
-/* The kind that _get takes: the last there is (num/kinds.h). */
+/* The kind that _get returns: the last available (num/kinds.h). */
 size_t qdot_batch_kind(void);
 
 #endif

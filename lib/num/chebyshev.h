@@ -1,11 +1,11 @@
-/* chebyshev.h -- a smooth function on an interval as a polynomial in Chebyshev's basis.
+/* chebyshev.h -- polynomials in Chebyshev's basis, fitted to a smooth function on an interval.
  *
  *     p(x) = sum_{k < n} c_k T_k(x),   -1 <= x <= 1
  *
- * Fitted at the n zeros of T_n, which hold neither end. Its bound on the interval,
- * |p - c_0| <= sum_{k > 0} |c_k|, makes roots a matter of proof: an interval on which it
- * keeps |p| > 0 holds none, one on which it keeps |p'| > 0 at most one; any other is
- * halved. (The polynomial is the one that has the coefficients as doubles.)
+ * Fitted at the n zeros of T_n, which do not include the ends. The bound on the interval,
+ * |p - c_0| <= sum_{k > 0} |c_k|, proves the number of roots: an interval on which it
+ * shows |p| > 0 holds none, one on which it shows |p'| > 0 at most one; any other is
+ * halved. (The polynomial meant has exactly these doubles as coefficients.)
  *
  * Source  Mason & Handscomb, Chebyshev Polynomials (2003), 2.4, 6.3; Clenshaw (1955).
  * Tests   tests/num/test_chebyshev.c
@@ -20,7 +20,7 @@ enum { QDOT_CHEBYSHEV_MOST = 64 };
 /* Node j of n, descending in x; n: 8, 16, 32 or 64. */
 double qdot_chebyshev_node(int n, int j);
 
-/* The point of a ... b that x is. */
+/* The point of a ... b that corresponds to x in -1 ... 1. */
 static inline double
 qdot_chebyshev_place(double a, double b, double x)
 {
@@ -38,30 +38,31 @@ void qdot_chebyshev_derivative(int n, const double *c, double *d);
 /* The integral over -1 ... 1. */
 double qdot_chebyshev_integral(int n, const double *c);
 
-/* c on -1 ... 0 and on 0 ... 1, into left [n] and right [n]; n at most QDOT_CHEBYSHEV_MOST. */
+/* The coefficients on -1 ... 0 and on 0 ... 1: left [n], right [n]; n at most
+ * QDOT_CHEBYSHEV_MOST. */
 void qdot_chebyshev_halves(int n, const double *c, double *left, double *right);
 
-/* The largest of the last coefficients that would vanish of a polynomial of lower degree,
- * and the largest of all. */
+/* The largest of the last coefficients, which vanish for a polynomial of lower degree; and the
+ * largest of all. */
 double qdot_chebyshev_tail(int n, const double *c);
 double qdot_chebyshev_size(int n, const double *c);
 
-/* sum_{k > 0} |c_k|, how far p goes from c_0 at most. */
+/* sum_{k > 0} |c_k|, a bound for |p - c_0|. */
 double qdot_chebyshev_spread(int n, const double *c);
 
 /* A bound of |p - c_0| on the ellipse with foci -1, 1 whose half axes add up to rho >= 1,
  *
  *     sum_{k > 0} |c_k| (rho^k + rho^-k)/2,
  *
- * c fitted to values that are off by `noise`: coefficients that are nothing else are left
- * out. Infinite where the last ones have not become small: p is not what was fitted. */
+ * for c fitted to values with errors `noise`: coefficients below that are left out. Infinite if
+ * the last ones are not small: then p does not represent the function. */
 double qdot_chebyshev_ellipse(int n, const double *c, double noise, double rho);
 
-/* Whether the bound shows that p has one sign throughout: it, else 0. */
+/* The sign of p if the bound shows that it is the same throughout, else 0. */
 int qdot_chebyshev_sign(int n, const double *c);
 
-/* The x at which p changes its sign, ascending, into roots [n]; how many. Of several
- * within 2^-44 of one another an odd number counts once, an even one not. */
+/* The x at which p changes its sign, ascending, into roots [n]; returns their number. Of several
+ * within 2^-44 of one another an odd number counts as one, an even number as none. */
 int qdot_chebyshev_crossings(int n, const double *c, double *roots);
 
 #endif

@@ -6,7 +6,7 @@
  * is scratch. With a structure only the entries inside the blocks are touched: a diagonal
  * matrix costs n square roots, k blocks of n/k cost 1/k^2 of the full factorisation.
  *
- * A pivot is what the eliminations before it leave of a diagonal entry:
+ * A pivot is the remainder of a diagonal entry after the eliminations before it:
  *
  *     d_k = a_kk - sum_j<k l_kj^2 = v^T A v,   v = (-A_11^-1 a_1k, 1).
  *
@@ -16,9 +16,9 @@
  *
  *     d_k <= 4 (k + 1) 2^-52 (sum_i |v_i| sqrt(a_ii))^2:
  *
- * when a change within rounding makes it so. v is formed only where a pivot so far has
+ * that is if a change within rounding makes it singular. v is formed only if a pivot so far has
  * lost four digits. The test does not depend on the units of the unknowns (D A D is
- * singular where A is, D diagonal and positive).
+ * singular if A is, D diagonal and positive).
  *
  * Source  Golub & Van Loan, Matrix Computations, 4th ed., alg. 4.2.1; Higham, Accuracy
  *         and Stability of Numerical Algorithms, 2nd ed., th. 10.5 (the size of the

@@ -12,8 +12,8 @@
 #endif
 
 /* Functions between QDOT_KIND_AVX2, or QDOT_KIND_AVX512, and QDOT_KIND_END are compiled for that
- * kind; no header is to be included there. QDOT_UNROLL(n), before a loop: n turns of it, or as
- * many as it has, are written out; 1: none. */
+ * kind; no header may be included there. QDOT_UNROLL(n) before a loop unrolls it n times, or
+ * completely if it has fewer turns; 1: not at all. */
 #define QDOT_PRAGMA(x) _Pragma(#x)
 #ifdef __clang__
 #define QDOT_KIND_FOR(target_)                                                           \
@@ -28,12 +28,12 @@
 #define QDOT_KIND_AVX2 QDOT_KIND_FOR("avx2,fma")
 #define QDOT_KIND_AVX512 QDOT_KIND_FOR("avx512f,avx2,fma")
 
-/* As if the processor were of no kind above this one, for measurements and tests; before
- * anything else is made. What it is: 2 if never said. */
+/* Limit the kind that is used, for measurements and tests; call it before anything else. The
+ * limit; 2 if it was never set. */
 void qdot_kind_limit(size_t kind);
 size_t qdot_kind_most(void);
 
-/* Whether the processor at hand is of a kind, and that is within the limit. */
+/* Whether this processor can run a kind that is within the limit. */
 static inline bool
 qdot_kind_is_here(size_t kind)
 {
@@ -49,8 +49,8 @@ qdot_kind_is_here(size_t kind)
     }
 }
 
-/* a b + c for portable kernels, of numbers and of vectors: fused where the machine that is compiled
- * for always does that in one instruction (ARM64), and two roundings elsewhere. */
+/* a b + c for portable kernels, for numbers and for vectors: fused if the target always has an
+ * instruction for it (ARM64), else with two roundings. */
 #ifdef __FP_FAST_FMA
 #define QDOT_MA(a, b, c) __builtin_fma(a, b, c)
 #define QDOT_VECTOR_MA(type, a, b, c)                                                    \

@@ -1,4 +1,5 @@
-/* least-move.h -- the shortest way onto a few planes, in a diagonal metric.
+/* least-move.h -- the shortest vector that satisfies a few linear equations, in a diagonal
+ * metric.
  *
  *     min  x^T D x / 2   where A x = c:   x = D^-1 A^T (A D^-1 A^T)^-1 c,
  *
@@ -22,8 +23,8 @@ typedef struct {
     double *W; /* [m x n] A D^-1; the caller's */
 } qdot_least_move;
 
-/* Factor A [m x n] and D, every `step`th of a row of doubles [n]. false where a row has
- * less than 1e-3 left (as a sine) beyond those before it, or D is not positive. */
+/* Factor for A [m x n] and D [n], at D[i step]. false if the sine between a row and those before
+ * it is below 1e-3, or D is not positive. */
 bool qdot_least_move_factor(qdot_least_move *s, const double *A, const double *D,
                             size_t step);
 

@@ -1,9 +1,9 @@
 /* real.h -- numbers of any precision (MPFR): many in one block, sums of products, linear
  * equations.
  *
- * MPFR rounds each operation; where many are summed its own functions spend most of the
- * time on that. qdot_real_dot adds whole products in fixed point and rounds once. A term
- * took, beside mpfr_mul and mpfr_add (beside arb_approx_dot of Arb 2.23), 16 : 37 (8) ns
+ * MPFR rounds each operation; in a long sum its functions spend most of the time on rounding.
+ * qdot_real_dot adds whole products in fixed point and rounds once. Time a term, compared with
+ * mpfr_mul and mpfr_add (with arb_approx_dot of Arb 2.23): 16 : 37 (8) ns
  * at 128 bits, 19 : 48 (26) at 192, 24 : 50 (29) at 256, 60 : 89 (62) at 512.
  *
  * Tests  tests/num/test_real.c
@@ -18,8 +18,8 @@
 
 #include "base/status.h"
 
-/* Start from {0}. All have one precision and stand in one block: no function of MPFR that
- * changes a precision may be used on them. */
+/* An array of numbers of one precision in one block of memory: functions of MPFR that change a
+ * precision must not be used on them. Start from {0}. */
 typedef struct {
     size_t n;
     mpfr_prec_t bits; /* a multiple of the bits of a limb */
@@ -31,18 +31,18 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_reals_init(qdot_reals *v, size_t n, mpfr_prec_t bits);
 void qdot_reals_clear(qdot_reals *v);
 
-/* The bytes n of them take. */
+/* Bytes of memory for n such numbers. */
 double qdot_reals_size(size_t n, mpfr_prec_t bits);
 
 /* log2 |x|; -INFINITY for 0, NaN for what is not finite. */
 double qdot_real_log2(mpfr_srcptr x);
 
-/* Limbs of scratch that a dot of `bits` wants. */
+/* Limbs of scratch that qdot_real_dot needs for `bits`. */
 size_t qdot_real_dot_work(mpfr_prec_t bits);
 
 /* sum = sum_{j=0..n-1} a[j] b[-j], to within 2^(3 - bits) of n times its largest term. All
- * of one qdot_reals precision; `sum` may not be one of them. What is not finite makes
- * the sum NaN.
+ * of one qdot_reals precision; `sum` may not be one of them. If a term is not finite, neither is
+ * the sum: NaN.
  *   work  [qdot_real_dot_work] */
 void qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n,
                    mp_limb_t *work);

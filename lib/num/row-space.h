@@ -3,10 +3,9 @@
  *     A x = b,   A m x n of any rank r:   rows taken by pivots, A_r = L (Q^T)_r,
  *     x = Q_r L^-1 b_r,                   the solution of these r rows with the least |x|
  *
- * Householder reflections from the right of the rows, each first scaled to length 1, so
- * that the rank depends neither on the units of the equations nor, beyond that of their
- * angles, on anything else. A row counts as dependent when at most `tol` of its length is
- * left outside the span of those before it.
+ * Householder reflections from the right; each row is first scaled to length 1, so that the rank
+ * depends on the angles between rows only, not on the units of the equations. A row counts as
+ * dependent if at most `tol` of its length is outside the span of those before it.
  *
  * Source  Golub & Van Loan, Matrix Computations, 4th ed., sec. 5.4 and 5.5.
  * Tests   tests/num/test_row-space.c
@@ -33,9 +32,9 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_row_space_init(qdot_row_space *f, size_t m, size_t n);
 void qdot_row_space_clear(qdot_row_space *f);
 
-/* Take apart A [m * n], row-major, unchanged. in_order: a row is compared with those
- * above it alone, so that of two equal ones the later is the dependent one; else the
- * longest remainder goes first, which is more accurate. */
+/* Factor A [m * n], row-major, unchanged. in_order: a row is compared only with those above it,
+ * so that of two equal ones the later is dependent; else the row with the longest remainder is
+ * taken first, which is more accurate. */
 void qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool in_order);
 
 /* x [n]: the shortest with A x = b [m] in the independent rows. lambda [m] (NULL: not
@@ -43,7 +42,7 @@ void qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool 
 void qdot_row_space_shortest(qdot_row_space *f, const double *b, double *x,
                              double *lambda);
 
-/* x [n] without its part in the row space, in place: what is tangent to A x = const. */
+/* Remove from x [n] its part in the row space: the rest is tangent to A x = const. */
 void qdot_row_space_tangent(qdot_row_space *f, double *x);
 
 #endif

@@ -1,4 +1,4 @@
-/* saddle.h -- what moves under constraints: saddle-point systems of any rank.
+/* saddle.h -- saddle-point systems of any rank, for motions under constraints.
  *
  *     [ M  A^T ] [ x  ]   [ b ]      M n x n symmetric, A m x n,
  *     [ A   0  ] [ mu ] = [ c ]      M regular on the null space of A (maybe only there)
@@ -9,22 +9,22 @@
  *     R_r^T y = (P^T c)_r,   (Z^T M Z) z = Z^T (b - M Y y),   x = Y y + Z z,
  *     R P^T mu = Y^T (b - M x).
  *
- * r is the rank of A. Where r < m some rows repeat others: x is the same whichever r of
- * them are held, mu is the one of least norm. The rank is found once, by the first
- * factorisation, and kept: rows that are dependent do not become independent by the
- * rounding of a later place, nor rows that nearly are.
+ * r is the rank of A. If r < m some rows are redundant: x is the same whichever r independent
+ * rows are used, and mu is the solution of least norm. The first factorisation finds the rank,
+ * which is then kept: rounding at a later state cannot make dependent, or nearly dependent, rows
+ * independent.
  *
  * Unknowns and rows are scaled by powers of two, which make the diagonal of M and the
- * rows of A about 1: neither rank nor rounding depends on units. A row that has shrunk keeps the
- * scale that it had as long as others may stand for it: its direction is one of rounding.
+ * rows of A about 1: neither rank nor rounding depends on units. A row that has shrunk, while
+ * others may replace it, keeps its earlier scale, because its direction is rounding.
  *
- * A mass that fades (a pole of the coordinates, a thin rod's turn about itself) does not
- * take its scale with it.
+ * A mass that goes to 0 (a pole of the coordinates, the rotation of a thin rod about itself)
+ * keeps its scale too.
  *
- * Where it is said which entries are ever nonzero, M is positive and the rows of A are
- * independent, the system is factored with that pattern instead (num/sparse.h), which is
- * shorter, of a chain by orders: but the null space decides the rank, and takes over where
- * the independence falls below a fifth of what it was.
+ * If the pattern of nonzero entries is given, M is positive definite and the rows of A are
+ * independent, the system is factored with that pattern instead (num/sparse.h), which is faster,
+ * for a chain by orders of magnitude. The null space decides the rank, and is used again if the
+ * independence falls below a fifth of what it was.
  *
  * Source  Golub & Van Loan, Matrix Computations, 4th ed., 5.4 (pivoted QR, complete
  *         orthogonal decomposition), 6.2 (the null-space method); Benzi, Golub & Liesen,
@@ -49,10 +49,10 @@ typedef struct {
     double *x; /* [n + m] right-hand side (b, c), then solution (x, mu) */
 
     size_t rank;      /* r; QDOT_SADDLE_UNKNOWN before the first factorisation */
-    double quality;   /* |R_rr / R_11| of the last one; 1 where r is 0 */
-    double surplus;   /* the same of the largest column left out; 0 if there is none */
-    size_t factored;  /* how often */
-    size_t last;      /* the last pivot, by its place; of a failure the one that failed */
+    double quality;   /* |R_rr / R_11| of the last factorisation; 1 if r is 0 */
+    double surplus;   /* the same for the largest column left out; 0 if there is none */
+    size_t factored;  /* number of factorisations */
+    size_t last;      /* position of the last pivot; after a failure of the one that failed */
     size_t *pivot;    /* [m] the rows of A in the order of the pivoting */
     double *widest;   /* [m] the largest squared norm of each row so far; the caller may begin it */
     double *heaviest; /* [n] the largest diagonal entry of M so far */
@@ -73,11 +73,11 @@ typedef struct {
     uint32_t *column; /* [start[m]] */
     bool patterned;   /* by the caller; else all */
     qdot_sparse sparse;
-    double record; /* the most that its factorisation has found of independence */
-    bool direct;   /* the last factorisation was its */
+    double record; /* the best independence that a sparse factorisation has found */
+    bool direct;   /* the last factorisation was the sparse one */
 } qdot_saddle;
 
-/* Row k of M or A, and column. */
+/* Position of an entry of M or A. */
 typedef struct {
     uint32_t row, column;
 } qdot_saddle_entry;
@@ -89,8 +89,8 @@ QDOT_MUST_CHECK qdot_status qdot_saddle_init(qdot_saddle *s, size_t n, size_t m,
                                              bool indefinite);
 void qdot_saddle_clear(qdot_saddle *s);
 
-/* What may be nonzero, of M one triangle [masses], of A by rows ascending [slopes]; all
- * else stays 0. Before the first factorisation. Errors: QDOT_ENOMEM. */
+/* Set the entries that may be nonzero: of M one triangle [masses], of A by rows ascending
+ * [slopes]. Call it before the first factorisation. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_pattern(qdot_saddle *s, size_t masses,
                                                 const qdot_saddle_entry *of_M,
                                                 size_t slopes,
@@ -101,44 +101,43 @@ double qdot_saddle_row(const qdot_saddle *s, size_t k, const double *x);
 double qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x,
                             double least);
 
-/* A row that has shrunk below 1e-7 of the largest that it was, and has no direction left that
- * rounding did not make; m: there is none. Once before each factorisation. */
+/* A row that has shrunk below 1e-7 of its largest size, so that its direction is rounding; m:
+ * there is none. Call it once before each factorisation. */
 size_t qdot_saddle_faded(qdot_saddle *s);
 
-/* Whether row k has, as of that call. */
+/* Whether row k had shrunk so at that call. */
 bool qdot_saddle_has_faded(const qdot_saddle *s, size_t k);
 
-/* Factor what stands in M and A, which are kept. QDOT_ESINGULAR: A has lost rank
+/* Factor for M and A, which are kept. QDOT_ESINGULAR: A has lost rank
  * (*failed is a row of it, n + k), or M is singular on its null space (*failed is an
  * unknown), or something is not finite. QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_factor(qdot_saddle *s, size_t *failed);
 
-/* The same by the null space, whatever the pattern: it knows what is near. */
+/* The same by the null space, even with a pattern: it finds nearly dependent rows. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_factor_fully(qdot_saddle *s, size_t *failed);
 
-/* How far the rows of A are from losing rank, 0 ... 1; neither counted nor to be solved
- * with. 0 where they have lost it. */
+/* How far the rows of A are from losing rank, 0 ... 1; 0 if they have lost it. Not counted as a
+ * factorisation, and not usable for solving. */
 double qdot_saddle_independence(qdot_saddle *s);
 
 /* Solve for s->x. */
 void qdot_saddle_solve(qdot_saddle *s);
 
-/* Solve for s->x, and once more for what is left over, found in twice the precision. */
+/* Solve for s->x, and correct it by the residual, computed in twice the precision. */
 void qdot_saddle_solve_refined(qdot_saddle *s);
 
-/* For many right-hand sides: _prepare, then for s->x as often as wanted _apply, whose
- * error is of the size of _solve's, not as reliably. */
+/* For many right-hand sides: call _prepare once, then _apply for each s->x. Its error is usually
+ * of the size of _solve's. */
 void qdot_saddle_prepare(qdot_saddle *s);
 void qdot_saddle_apply(qdot_saddle *s);
 
-/* The combination of rows that is nearest to nothing, and what is left of it: row [m] and
- * column [n] with row^T A about R_rr column^T, of the last factorisation, which was not
- * `direct`. r > 0. */
+/* The combination of rows nearest to 0, and its direction: row [m] and column [n] with row^T A
+ * about R_rr column^T, after a factorisation that was not `direct`. r > 0. */
 void qdot_saddle_weakest(qdot_saddle *s, double *row, double *column);
 
-/* The size of row i's part in the dependencies nearest to happening, 0 ... 1, into part [m]: of
- * the last pivot, and every one below `below` of the first, on those before them; and of rows left
- * out that share rows with these, and are no longer. */
+/* part [m]: the size of each row's part, 0 ... 1, in the nearest dependencies: those of the last
+ * pivot and of every one below `below` times the first on the rows before; and those of omitted
+ * rows that share rows with these and are no longer redundant. */
 void qdot_saddle_parts(qdot_saddle *s, double below, double *part);
 
 #endif

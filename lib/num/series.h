@@ -1,5 +1,5 @@
-/* series.h -- kernels of truncated power series: what the Taylor integrator spends its
- * time in.
+/* series.h -- kernels for truncated power series, in which Taylor integration spends most of its
+ * time.
  *
  * A series is an array of coefficients by order. The Cauchy product's coefficient
  *
@@ -10,8 +10,8 @@
  * four accumulators. The two outermost terms hold the newest coefficients and are added
  * last, so that a processor runs the others ahead of them.
  *
- * Everything exists three times: portable C, and for x86 with fused multiplications
- * (AVX2, AVX-512); which is taken is decided once, by what the processor has. The last
+ * All kernels exist three times: portable C, and for x86 with fused multiplications
+ * (AVX2, AVX-512); the best that the processor can run are chosen once. The last
  * bits of a result may differ between the three.
  *
  * Tests  tests/num/test_series.c
@@ -21,7 +21,7 @@
 
 #include <stddef.h>
 
-/* The highest order there are functions for. */
+/* The highest order that has functions. */
 #define QDOT_SERIES_MOST 48
 
 /* sum_{j=0..n-1} a[j] b[-j] for the n it was made for. */
@@ -38,9 +38,9 @@ typedef struct {
     double upper, lower;
 } qdot_series_reach;
 
-/* Of `reach`, by order: what the logarithm of a coefficient is multiplied by and taken
- * from, infinite at orders that do not count; 1/k; and between what bounds a result stands
- * for numbers that are not zero. */
+/* For `reach`, by order: the factors of the logarithms of coefficients, and the terms from which
+ * they are subtracted, infinite at orders that do not count; 1/k; and bounds of the results for
+ * coefficients that are not all zero. */
 typedef struct {
     int p;
     double term, fall;
@@ -52,9 +52,9 @@ typedef struct {
 
 void qdot_series_weights_set(qdot_series_weights *w, int p, double term, double fall);
 
-/* next + next_carry = y + carry + sum_{k=1..p} x_k s^k, sums of two doubles, to twice the
- * precision but for the terms from order 2 on. The first `linked` have the others, in
- * their order, as derivatives: what those hold beyond y enters order 1. */
+/* next + next_carry = y + carry + sum_{k=1..p} x_k s^k, sums of two doubles, in twice the
+ * precision except for the terms from order 2 on. The derivatives of the first `linked`
+ * components are the others, in their order: the carry of these enters order 1. */
 typedef struct {
     size_t n, linked;
     const double *x; /* [n x stride] */
@@ -65,8 +65,8 @@ typedef struct {
     const double *y, *carry; /* [n] */
     double *next, *next_carry;
     double *size, *scale; /* [n] max(1, |next|), and its inverse */
-    /* [n] Of those behind `linked` only: the slope at the end times the step, sum k x_k s^k,
-     * and the sizes of its terms, that of x_1 s and `size` summed. */
+    /* [n] Only for components from `linked` on: the derivative at the end times the step, sum k
+     * x_k s^k, and the sum of the sizes of its terms, of x_1 s and of `size`. */
     double *slope, *terms;
 } qdot_series_step;
 
@@ -81,7 +81,7 @@ typedef struct {
      * member: out[i] = sum_{j=0..n-1} a[j m + i] b[-j m + i]. */
     void (*dots)(size_t m, size_t n, const double *a, const double *b, double *out);
 
-    /* Of each of n series x [i stride + k]: what is left of it from order 2 on,
+    /* The tail from order 2 on of each of n series x [i stride + k],
      *
      *     value[i] = sum_{k=2..p} x_k s^(k-1),
      *
@@ -89,25 +89,25 @@ typedef struct {
     void (*tails)(size_t n, const double *x, size_t stride, int p, double s,
                   double *value, double *slope);
 
-    /* How far one series strays from its beginning: sum_{k=1..p} |x_k| |s|^k. */
+    /* A bound for the change of one series: sum_{k=1..p} |x_k| |s|^k. */
     double (*span)(const double *x, int p, double s);
 
-    /* peaks[k] = max_i scale[i] |x[i stride + k]|, k = 0 ... p, infinite or NaN where a
-     * coefficient is; both filled up to 8: stride is a multiple of it, peaks has room. */
+    /* peaks[k] = max_i scale[i] |x[i stride + k]|, k = 0 ... p, infinite or NaN if a coefficient
+     * is; orders are padded to a multiple of 8, as are stride and the size of peaks. */
     void (*peaks)(size_t n, const double *x, size_t stride, int p, const double *scale,
                   double *peaks);
 
-    /* How far a step may go: with m_k = max_i scale[i] |x[i stride + k]|, k = 0 ... p,
+    /* The length of a step: with m_k = max_i scale[i] |x[i stride + k]|, k = 0 ... p,
      *
      *     upper = min over p/2 < k <= p      of  (fall (p - k) - log2(m_k))/k
      *     lower = min over 2 <= k <= p/2     of  (term - log2(m_k))/k
      *
-     * to 0.09/k. Infinite where all these are zero; upper is -infinity where one of its
+     * to 0.09/k. Infinite if all these are zero; upper is -infinity if one of its
      * m_k is infinite or NaN. stride is a multiple of 8. */
     qdot_series_reach (*reach)(size_t n, const double *x, size_t stride,
                                const qdot_series_weights *w, const double *scale);
 
-    /* A state is advanced by its series (below). */
+    /* Advance a state by its series (qdot_series_step). */
     void (*advance)(const qdot_series_step *step);
 
     /* y [m] = sum_{j=0..n-1} A[j m + ...] x[j], m a multiple of 8: a matrix by its
@@ -117,7 +117,7 @@ typedef struct {
     void (*add)(size_t n, double c, const double *a, double *y);
 } qdot_series_kernels;
 
-/* Those that fit this processor. */
+/* The best kernels that this processor can run. */
 const qdot_series_kernels *qdot_series_kernels_get(void);
 
 /* Kind i, portable first, of those this processor can run; NULL beyond the last. */

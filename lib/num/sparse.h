@@ -1,13 +1,13 @@
-/* sparse.h -- a sparse symmetric system that is positive in some unknowns and, once those
- * are eliminated, negative in the others.
+/* sparse.h -- sparse symmetric systems that are positive definite in some unknowns and, after
+ * these are eliminated, negative definite in the others.
  *
  *     K = L D L^T,   D > 0 for unknowns below `positive`, D < 0 beyond
  *
- * as [M A^T; A 0] is with M positive and the rows of A independent. The order of the
- * elimination is found once, from the pattern: always the unknown with the fewest
- * neighbours, one beyond `positive` only when no positive one is left beside it. There is no pivoting: what
- * is left of an entry of D says how far to trust it, and a caller takes another way where
- * that is little. A chain of N links takes work N.
+ * such as [M A^T; A 0] with M positive definite and the rows of A independent. The order of
+ * elimination is found once, from the pattern: always the unknown with the fewest neighbours, one
+ * beyond `positive` only after all its positive neighbours. There is no pivoting: the ratio of an
+ * entry of D to its original diagonal entry tells how accurate it is; if that is small, a caller
+ * uses another method. A chain of N links takes work N.
  *
  * Source  Davis, Direct Methods for Sparse Linear Systems (2006), 4.8 (up-looking
  *         factorisation), ch. 7 (least degree); Vanderbei, SIAM J. Optim. 5 (1995) 100.
@@ -41,7 +41,7 @@ typedef struct {
     double *inverse; /* [n] 1/D */
     double *y, *low; /* [n] scratch; y 0 between calls */
     size_t filled;   /* entries of L */
-    bool definite;   /* by the last factorisation: the positive unknowns are, beyond rounding */
+    bool definite;   /* last factorisation: the positive unknowns are definite beyond rounding */
 } qdot_sparse;
 
 /* `entries` [count], rows and columns below n. Errors: QDOT_ENOMEM; clear it in any case. */
@@ -50,10 +50,9 @@ QDOT_MUST_CHECK qdot_status qdot_sparse_init(qdot_sparse *s, size_t n, size_t po
                                              const qdot_sparse_entry *entries);
 void qdot_sparse_clear(qdot_sparse *s);
 
-/* Factor what stands in the entries. Returns the least of |D_k| over what it was made of,
- * K_kk or what the positive unknowns gave: 0 ... 1, the square of the sine between a row
- * and those before it. 0, with the factors undefined, where a sign is not as it should be
- * or something is not finite. */
+/* Factor with the present values of the entries. Returns the least ratio of |D_k| to K_kk or to
+ * the contribution of the positive unknowns: 0 ... 1, the squared sine between a row and those
+ * before it. 0, with the factors undefined, if a sign is wrong or something is not finite. */
 double qdot_sparse_factor(qdot_sparse *s);
 
 /* Solve with a factored s; b [n] is overwritten. */

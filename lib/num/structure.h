@@ -1,6 +1,6 @@
-/* structure.h -- which unknowns of a symmetric matrix couple: its connected blocks.
+/* structure.h -- the blocks of coupled unknowns of a symmetric matrix.
  *
- * Two indices belong to one block when a chain of entries that may be nonzero joins them.
+ * Two indices belong to one block if a chain of entries that may be nonzero joins them.
  * After reordering by blocks the matrix is block-diagonal; n blocks of one: diagonal;
  * one block: full.
  *

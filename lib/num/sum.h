@@ -1,4 +1,4 @@
-/* sum.h -- compensated summation: a sum kept as (value, what rounding took away).
+/* sum.h -- compensated summation: a sum kept as (value, rounding error).
  *
  *     s + e = a + b exactly,   s = fl(a + b)
  *

@@ -2,9 +2,9 @@
  *
  *     x = hi + lo,   |lo| <= ulp(hi)/2
  *
- * Sums err by 2^-104 (|a| + |b|), products and quotients by 2^-102 of themselves; nothing is
- * said where hi overflows or lo would be below 2^-1022. Functions err by less than 2^-68 of
- * themselves, where the argument's own 2^-104 do not make more of it.
+ * Errors: sums 2^-104 (|a| + |b|), products and quotients 2^-102 relative; undefined if hi
+ * overflows or lo would be below 2^-1022. Functions have a relative error below 2^-68, or that
+ * which an error of 2^-104 in the argument causes, if larger.
  *
  * Source  Dekker, Numer. Math. 18 (1971) 224; Hida, Li & Bailey, Proc. 15th IEEE Symp.
  *         Computer Arithmetic (2001) 155; Joldes, Muller & Popescu, ACM TOMS 44 (2017) 15.
@@ -20,10 +20,10 @@ typedef struct {
     double hi, lo;
 } qdot_two;
 
-/* They become part of kernels that are compiled for several processors. */
+/* Inlined into kernels that are compiled for several processors. */
 #define QDOT_TWO_INLINE static inline __attribute__((always_inline))
 
-/* a + b rounded, and what that leaves (num/sum.h, whose other names are taken above). */
+/* a + b rounded, and the rounding error (as qdot_two_sum of num/sum.h). */
 QDOT_TWO_INLINE double
 qdot_two_rounded_sum(double a, double b, double *e)
 {
@@ -122,7 +122,7 @@ qdot_two_sqrt(qdot_two a)
     return qdot_two_of(r, (fma(-r, r, a.hi) + a.lo) / (2 * r));
 }
 
-/* A sum of products on its way: sum + rest, not brought into form before its end. */
+/* An unfinished sum of products: sum + rest, normalised only at its end. */
 typedef struct {
     double sum, rest;
 } qdot_two_dot;
@@ -160,8 +160,8 @@ typedef struct {
 const qdot_two_kernels *qdot_two_kernels_get(void);
 const qdot_two_kernels *qdot_two_kernels_at(size_t i);
 
-/* Functions; likewise. Where they are undefined NaN, as libm has it. Each
- * may be called by several threads at once. */
+/* Elementary functions, for the processor at hand; NaN where undefined, as in libm. Each may be
+ * called by several threads at once. */
 typedef struct {
     void (*sincos)(qdot_two x, qdot_two *sine, qdot_two *cosine);
     void (*sinhcosh)(qdot_two x, qdot_two *sine, qdot_two *cosine);
@@ -180,7 +180,7 @@ typedef struct {
     qdot_two (*erfc)(qdot_two x);
 } qdot_two_functions;
 
-/* Those that fit this processor; the first call fills their tables. */
+/* The best functions that this processor can run; the first call fills their tables. */
 const qdot_two_functions *qdot_two_functions_get(void);
 /* Kind i, portable first, of those this processor can run; NULL beyond the last. */
 const qdot_two_functions *qdot_two_functions_at(size_t i);
