@@ -76,7 +76,7 @@ enum { QDOT_GE0 = 1, QDOT_LE0 = 2, QDOT_NE0 = 4 };
 #define QDOT_POS (QDOT_GE0 | QDOT_NE0)
 #define QDOT_NEG (QDOT_LE0 | QDOT_NE0)
 
-/* What an expression holds; a set, in qdot_node.holds. */
+/* What an expression contains; a set, in qdot_node.holds. */
 enum {
     QDOT_HAS_PARAM = 1 << QDOT_PARAM,
     QDOT_HAS_FORMAL = 1 << QDOT_FORMAL,
@@ -98,10 +98,11 @@ typedef struct {
     uint8_t sign; /* QDOT_GE0 ... */
     uint16_t op;  /* by kind, see above */
     uint32_t n;   /* number of args */
-    uint32_t at;  /* where they begin; for NUM and SYM the index in its table */
+    uint32_t at;  /* index of the first arg; for NUM and SYM the index in its table */
     uint32_t holds;
     uint32_t hash;
-    uint32_t touches; /* a signature of its symbols: a bit that is not set rules some out */
+    uint32_t touches; /* a hash set of its symbols: a symbol whose bit is not set does not occur
+                          */
     uint32_t height;  /* of the tree: 0 for a NUM or SYM */
     uint32_t size;    /* operations as a tree, at most 2^32 - 1: ask qdot_expr_size() */
 } qdot_node;
@@ -111,10 +112,10 @@ typedef struct {
 qdot_pool *qdot_pool_new(void); /* NULL: no memory */
 void qdot_pool_free(qdot_pool *pool);
 size_t qdot_pool_count(const qdot_pool *pool); /* nodes so far */
-size_t qdot_pool_bytes(const qdot_pool *pool); /* what they take, long numbers aside */
+size_t qdot_pool_bytes(const qdot_pool *pool); /* their memory, without large numbers */
 
-/* The first failure since the last check, QDOT_OK if none. It is made the thread's last error
- * again and forgotten by the pool, which is then usable as before. */
+/* The first failure since the last check, QDOT_OK if none. It becomes the thread's last error
+ * again, and the pool drops it and is usable as before. */
 QDOT_MUST_CHECK qdot_status qdot_pool_check(qdot_pool *pool);
 
 /* Record a failure in the pool (the thread's last error); returns nil. */
@@ -123,12 +124,12 @@ qdot_expr qdot_pool_fail(qdot_pool *pool);
 /* Whether a failure is pending: for loops that want to stop early. */
 bool qdot_pool_failed(const qdot_pool *pool);
 
-/* From now on at most `work` constructor calls (a node of n args counts 1 + n/16), then
- * QDOT_ELIMIT; UINT64_MAX: no bound. Returns what was left of the bound before, to be put back. */
+/* Allow at most `work` further constructor calls (a node of n args counts 1 + n/16), then
+ * QDOT_ELIMIT; UINT64_MAX: no limit. Returns the rest of the previous limit, for restoring it. */
 uint64_t qdot_pool_budget(qdot_pool *pool, uint64_t work);
 
-/* That a simplification stopped at its work budget: the form is right, there may be a shorter one.
- * _taken: whether one did since the last call. */
+/* Record that a simplification stopped at its work budget: the form is right, but a shorter one
+ * may exist. _taken: whether that happened since its last call. */
 void qdot_pool_unfinished(qdot_pool *pool);
 bool qdot_pool_unfinished_taken(qdot_pool *pool);
 
@@ -188,14 +189,14 @@ typedef struct {
 /* The symbol of a class by its name, made if new. class: CONST, PARAM, FORMAL, COORD,
  * MULTIPLIER, WORDS. */
 qdot_expr qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name);
-/* x is no longer what its name gets: qdot_symbol_get makes another one, of which nothing is known.
- * What is built from x stays as it is; both must not meet in one expression. */
+/* Hide x from its name: qdot_symbol_get will make a new symbol, about which nothing is known.
+ * Expressions with x stay as they are; one expression must not contain both symbols. */
 void qdot_symbol_hide(qdot_pool *pool, qdot_expr x);
-/* x is again what its name gets; another symbol of that name is hidden. */
+/* Give x its name back; another symbol of that name is hidden. */
 void qdot_symbol_show(qdot_pool *pool, qdot_expr x);
-/* Whether a parameter, coordinate, formal argument or multiplier is called so. */
+/* Whether a parameter, coordinate, formal argument or multiplier has that name. */
 bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
-/* The order-th time derivative of a coordinate (order 0: itself; of a jet: counted on). */
+/* The order-th time derivative of a coordinate (order 0: itself) or of a time derivative. */
 qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);
 /* dq or dt, p[q], delta[q]. class: DIFFERENTIAL, MOMENTUM, DELTA. */
 qdot_expr qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate);
@@ -220,8 +221,8 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_ufun_declare(qdot_pool *pool, const char *name,
                                               uint32_t arity, const qdot_expr *formals,
                                               uint32_t *id);
-/* The function `id` with other declared arguments, as many: an argument that meant a symbol of
- * its own means a coordinate from now on. What was built keeps the arguments it was given. */
+/* Declare the function `id` with other arguments, as many: an argument that was a symbol of its
+ * own now means a coordinate. Expressions built before keep their arguments. */
 QDOT_MUST_CHECK qdot_status qdot_ufun_redeclare(qdot_pool *pool, uint32_t id,
                                                 qdot_expr formals);
 const qdot_ufun *qdot_ufun_get(const qdot_pool *pool, uint32_t id);
@@ -246,9 +247,9 @@ qdot_expr qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors); /* 
  * arguments as in the table, else QDOT_ETYPE; outside the domain (log 0): QDOT_EDOMAIN. */
 qdot_expr qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args);
 qdot_expr qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x);
-/* e, as one value that sums and products around it do not take apart: hold(a + b) + c stays
- * a sum of two terms, so that what is meant to be computed once is. Nothing to hold in a number,
- * a symbol or a function: e itself. Of equations for numbers only; no other form has it. */
+/* e as one value that surrounding sums and products do not merge: hold(a + b) + c stays a sum of
+ * two terms, so that a + b is computed once. For a number, a symbol or a function: e itself. Only
+ * in equations for numerical runs. */
 qdot_expr qdot_hold(qdot_pool *pool, qdot_expr e);
 /* By name: false if there is none. */
 bool qdot_fun_find(const char *name, qdot_fun_id *id);

@@ -1,4 +1,4 @@
-/* pool.h -- the pool from inside: what the files of expr/ share and nobody else sees. */
+/* pool.h -- the members of a pool, and functions that only the files of expr/ use. */
 #ifndef QDOT_EXPR_POOL_H
 #define QDOT_EXPR_POOL_H
 
@@ -35,9 +35,9 @@ int qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b);
 qdot_expr qdot_expr_strip(qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_expr_unscale(qdot_pool *pool, qdot_expr e, fmpq_t c);
 
-/* -1 times a SUM: every coefficient turned, so that -(a - b) is b - a. */
+/* -1 times a SUM with every coefficient negated, so that -(a - b) is b - a. */
 qdot_expr qdot_sum_turned(qdot_pool *pool, qdot_expr sum);
-/* Whether e is a factor that no other can change but its like. */
+/* Whether e as a factor combines only with factors of the same base. */
 bool qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e);
 
 /* A difference among the factors of e that can take a minus sign before them: -m*(a - b) is
@@ -51,8 +51,8 @@ qdot_expr qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_ex
 
 /* y = x^n within the limit on digits; x not zero if n < 0. False: refused. */
 bool qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n);
-/* b^e = c base^exponent, e not an integer: all that is exact goes to c, the exponent left is in
- * (0, 1), as a rule 1/q of an integer free of q-th powers; base 1: nothing is left. False:
+/* b^e = c base^exponent, e not an integer: c takes everything rational, the remaining exponent is
+ * in (0, 1), usually 1/q of an integer free of q-th powers; base 1: nothing remains. False:
  * refused. */
 bool qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
                       qdot_expr *base, qdot_expr *exponent);
@@ -60,8 +60,8 @@ bool qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
 /* Sign of a product or sum from its canonical args. */
 uint8_t qdot_sign_of_product(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
 uint8_t qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
-/* Of a sum by the bounds of its terms, in exact numbers (bounds.c): 2 - cos u > 0, cosh v - cos u
- * >= 0, 1 - x > 0 for x declared below 1. 0: nothing is known. */
+/* Sign of a sum from the exact bounds of its terms (bounds.c): 2 - cos u > 0, cosh v - cos u
+ * >= 0, 1 - x > 0 for x declared below 1. 0: unknown. */
 uint8_t qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
 uint8_t qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *args);
 
@@ -69,12 +69,12 @@ uint8_t qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_
 qdot_expr qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n,
                               const qdot_expr *args, uint32_t i);
 
-/* Operations in the node e from those of its children, QDOT_SIZE_LARGE where they are as many. */
+/* Operations in the node e from those of its children, at most QDOT_SIZE_LARGE. */
 uint32_t qdot_size_kept(const qdot_pool *pool, qdot_expr e);
 
 struct qdot_walk;
-/* As qdot_walk_begin, but only into nodes that hold one of `holds` or touch one of `touches`; the
- * root is always there. */
+/* As qdot_walk_begin, but only into nodes with a bit of `holds` or of `touches`; the root is
+ * always included. */
 QDOT_MUST_CHECK qdot_status qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e,
                                                   uint32_t holds, uint32_t touches,
                                                   struct qdot_walk *w);
@@ -87,7 +87,7 @@ qdot_expr qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint
 /* Whether Ctrl-C was pressed; the pool has failed then. */
 bool qdot_pool_interrupted(qdot_pool *pool);
 
-/* Numbers of more digits than the language allows: refuses and returns true. */
+/* Refuse a number with more digits than the language allows, and return true. */
 bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 
 #define QDOT_MAX_BITS 3321929 /* 10^6 decimal digits */

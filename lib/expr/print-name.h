@@ -14,7 +14,7 @@ void qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, 
 /* theta1' as theta1', θ̇₁, \dot{\theta}_{1}. */
 void qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out);
 
-/* The word that LaTeX has for a function, \\arcsin; NULL where it has none. */
+/* The LaTeX command of a function, \\arcsin; NULL if there is none. */
 const char *qdot_print_latex_word(qdot_fun_id id);
 
 /* p/q; raised: as unicode superscripts; bracket 1: a negative number in brackets, 2: a fraction
@@ -22,12 +22,12 @@ const char *qdot_print_latex_word(qdot_fun_id id);
 void qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
                        qdot_text *out);
 
-/* Whether x is printed as a decimal number, 9.81: its denominator has a factor 5, and beside it 2
- * alone; at most 40 digits where that is longer than the fraction. */
+/* Whether x is printed as a decimal number, 9.81: its denominator has a factor 5 and no other
+ * prime factors except 2; at most 40 digits if that is longer than the fraction. */
 bool qdot_print_is_decimal(const fmpq_t x);
 
-/* Whether x is a whole number, a decimal one or has a sign of its own, as ½: a root may stand next
- * to it. */
+/* Whether x is an integer, a decimal number or a single character such as ½: a root may directly
+ * follow it. */
 bool qdot_print_is_compact(const fmpq_t x);
 
 /* The order of a derivative: nothing for 1, else ², ^{2}; bare 1: the number alone, ⁴, 4. */

@@ -5,7 +5,7 @@
 #include "expr/pool.h"
 #include "expr/print-name.h"
 
-/* How tightly the context binds: what a piece must not look like without brackets. */
+/* How tightly the context of a piece binds: decides whether it needs brackets. */
 enum { TOP, TERM, FACTOR, BASE, MAGNITUDE = -1, DENOMINATOR = -2, NUMERATOR = -3 };
 
 /* A piece: a text (or a name), or an order of derivative, or an expression in its context;
@@ -16,10 +16,10 @@ struct piece {
     int context;
     uint32_t order;
     bool raised; /* a unicode superscript */
-    bool turned; /* -1 times the sum e; of a product, its difference turned */
-    bool name;   /* in its style: theta as θ */
-    bool own;    /* the text is the piece's */
-    bool ends;   /* no text of its own: what began at `from` of the output is the text of e */
+    bool turned; /* -1 times the sum e; for a product, with its difference negated */
+    bool name;   /* a name, written in the style: theta as θ */
+    bool own;    /* the piece owns the text */
+    bool ends;   /* a mark, no text: the output from `from` on is the text of e */
     size_t from;
 };
 
@@ -28,16 +28,16 @@ typedef qdot_vec(struct piece) pieces;
 typedef struct {
     const qdot_pool *pool;
     qdot_style style;
-    qdot_expr ascending; /* a LIST: terms by their degree in these; nil: as they stand */
-    qdot_expr below; /* a difference below several entries of a matrix: it keeps its sign */
-    bool below_turned, turning; /* that is the other one; while such an entry is opened */
+    qdot_expr ascending; /* a LIST: order terms by their degree in these; nil: canonical order */
+    qdot_expr below; /* a difference in denominators of several matrix entries: keeps its sign */
+    bool below_turned, turning; /* it is negated; such an entry is being opened */
     qdot_text *out;
     pieces todo; /* a stack */
     pieces next; /* of the node being opened, in reading order */
     qdot_status status;
 } printer;
 
-/* Whether e stands over the difference that keeps its sign. */
+/* Whether e has the difference that keeps its sign as its denominator. */
 static inline bool
 is_over_below(const printer *p, qdot_expr e)
 {
@@ -131,14 +131,14 @@ children(printer *p, qdot_expr e, uint32_t from, uint32_t to, const char *betwee
     }
 }
 
-/* c * e, e without a coefficient of its own (or the number 1); a context below 0: the sign is
- * written already; flip: a difference takes the minus. (print-product.c) */
+/* c * e, e without a coefficient (or the number 1); a context below 0: the sign is already
+ * written; flip: a difference is negated instead of a minus sign. (print-product.c) */
 void qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip);
 /* (print-function.c) */
 void qdot_print_function(printer *p, qdot_expr e, int context);
 void qdot_print_ufun(printer *p, qdot_expr e, int context);
-/* What stands before a base with a superscript; the exponent, its sign turned where it stands
- * below a bar, and what ends it. (print-product.c) */
+/* The text before a base with a superscript; the exponent, negated in a denominator, and the text
+ * after it. (print-product.c) */
 void qdot_print_raise(printer *p);
 void qdot_print_exponent(printer *p, qdot_expr e, bool turned);
 

@@ -3,7 +3,7 @@
  *   plain    parses back to the same expression: 1/2*m*r'^2, diff(x(s, t), s), delta[theta]
  *   unicode  for a terminal: ½ m ṙ², ∂x/∂s, δθ
  *   latex    \frac{1}{2} m \dot{r}^{2}
- *   mathml   presentation MathML, what stands inside <math>: <msup><mi>r</mi><mn>2</mn></msup>
+ *   mathml   presentation MathML, the contents of <math>: <msup><mi>r</mi><mn>2</mn></msup>
  */
 #ifndef QDOT_EXPR_PRINT_H
 #define QDOT_EXPR_PRINT_H
@@ -14,11 +14,11 @@
 QDOT_MUST_CHECK qdot_status qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style,
                                        qdot_text *out);
 
-/* The same of a series in the symbols of the LIST `in`: terms of lowest degree first. */
+/* The same for a series in the symbols of the LIST `in`: terms of lowest degree first. */
 QDOT_MUST_CHECK qdot_status qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in,
                                               qdot_style style, qdot_text *out);
 
-/* The same as a formula within a text: MathML with its <math> round it. */
+/* The same as a formula within a text: MathML inside <math>. */
 QDOT_MUST_CHECK qdot_status qdot_print_formula(const qdot_pool *pool, qdot_expr e,
                                                qdot_style style, qdot_text *out);
 #define QDOT_PRINT_MATH "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"

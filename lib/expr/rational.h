@@ -1,10 +1,10 @@
-/* rational.h -- rationals in place where they are small, as almost all are; FLINT elsewhere.
+/* rational.h -- inline arithmetic of small rationals; large ones by FLINT.
  *
  *     y = x,   y = a b,   y = a + b,   y = y + a b,   gcd(a, b),   sign x,   a <=> b
  *
  * as fmpq_set, fmpq_mul, fmpq_add, fmpq_addmul, fmpq_gcd, fmpq_sgn, fmpq_cmp, fmpq_equal: canonical in,
- * canonical out; y may be a or b. Constructors ask for little else than products with 1 and
- * signs, and a call into a library for each is most of their time.
+ * canonical out; y may be a or b. Constructors mostly need products with 1 and -1,
+ * and would spend most of their time in calls of a library.
  *
  * Tests  tests/expr/test_rational.c
  */
@@ -16,7 +16,7 @@
 
 #include <flint/fmpq.h>
 
-/* Up to 2^30: products of two and their sums are words of FLINT's still. */
+/* Small: up to 2^30, so that products of two and their sums fit into FLINT's small integers. */
 #define QDOT_SMALL (INT64_C(1) << 30)
 
 static inline bool
@@ -89,7 +89,7 @@ qdot_rational_addmul(fmpq *y, const fmpq *a, const fmpq *b)
     _fmpz_demote(&product.den);
 }
 
-/* The largest number that both are whole multiples of; 0 for two zeros. */
+/* The largest number of which both are integer multiples; 0 for two zeros. */
 static inline void
 qdot_rational_gcd(fmpq *y, const fmpq *a, const fmpq *b)
 {
@@ -132,7 +132,7 @@ qdot_rational_equal(const fmpq *a, const fmpq *b)
 {
     if (COEFF_IS_MPZ(a->num) || COEFF_IS_MPZ(a->den))
         return fmpq_equal(a, b);
-    return a->num == b->num && a->den == b->den; /* a large one is written in one way only */
+    return a->num == b->num && a->den == b->den; /* the form of a large one is unique */
 }
 
 /* Whether an integer is k, |k| < 2^62. */

@@ -1,6 +1,6 @@
 /* tensor.h -- arithmetic on values of any kind: scalars, vectors, matrices, lists, equations.
  *
- * Wrong kinds or sizes: QDOT_ETYPE with a message in the words of a user.
+ * Wrong kinds or sizes: QDOT_ETYPE with a message for users.
  */
 #ifndef QDOT_EXPR_TENSOR_H
 #define QDOT_EXPR_TENSOR_H
@@ -21,7 +21,7 @@ qdot_expr qdot_cross(qdot_pool *pool, qdot_expr a, qdot_expr b); /* plane: a1 b2
 qdot_expr qdot_norm(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_transpose(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_trace(qdot_pool *pool, qdot_expr a);
-qdot_expr qdot_det(qdot_pool *pool, qdot_expr a);     /* fraction-free where it can be */
+qdot_expr qdot_det(qdot_pool *pool, qdot_expr a);     /* fraction-free if possible */
 qdot_expr qdot_inverse(qdot_pool *pool, qdot_expr a); /* adjugate / det; det = 0: ESINGULAR */
 /* i-th entry counted from 1; QDOT_EDOMAIN with the range otherwise. */
 qdot_expr qdot_entry(qdot_pool *pool, qdot_expr a, long i);

@@ -16,7 +16,7 @@
 
 enum { QDOT_WALK_FEW = 32 };
 
-/* Points into itself while there are few nodes: not to be copied. */
+/* Must not be copied: with few nodes it points into itself. */
 typedef struct qdot_walk {
     const qdot_pool *pool;
     qdot_expr *at;   /* [n] ascending ids or heights, children before parents; owned */
@@ -34,8 +34,9 @@ QDOT_MUST_CHECK qdot_status qdot_walk_begin(const qdot_pool *pool, qdot_expr e, 
 /* The same from several roots. */
 QDOT_MUST_CHECK qdot_status qdot_walk_begin_n(const qdot_pool *pool, size_t n,
                                               const qdot_expr *roots, qdot_walk *w);
-/* The same, nodes by their heights, those of one height as they are met from the roots: an order
- * that does not depend on when which was made, and in which few wait for the one before. */
+/* The same, nodes by their heights, those of one height in the order in which they are reached
+ * from the roots. This order does not depend on when nodes were made, and neighbours in it rarely
+ * depend on each other. */
 QDOT_MUST_CHECK qdot_status qdot_walk_begin_by_height(const qdot_pool *pool, size_t n,
                                                       const qdot_expr *roots, qdot_walk *w);
 void qdot_walk_end(qdot_walk *w);
@@ -45,20 +46,20 @@ size_t qdot_walk_index(const qdot_walk *w, qdot_expr e);
 uint64_t qdot_walk_get(const qdot_walk *w, qdot_expr e); /* e reachable */
 void qdot_walk_set(qdot_walk *w, qdot_expr e, uint64_t value);
 
-/* Rebuild e from the leaves: `leaf` is asked of every node first and returns its replacement,
- * or nil for "rebuild it from the replaced children". */
+/* Rebuild e from the leaves: `leaf` is called for every node first and returns its replacement,
+ * or nil to rebuild it from the replaced children. */
 qdot_expr qdot_walk_map(qdot_pool *pool, qdot_expr e,
                         qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
                         void *user);
 
-/* Rebuild e from the leaves: every node of a kind, its children replaced, becomes f of it. Nil: f
- * gave nil somewhere, or the pool failed; e itself where there is no memory for the walk. */
+/* Rebuild e from the leaves: every node of a kind, with replaced children, is replaced by f of
+ * it. Nil: f returned nil, or the pool failed; e itself if there is no memory for the walk. */
 qdot_expr qdot_walk_replace(qdot_pool *pool, qdot_expr e, qdot_kind kind,
                             qdot_expr (*f)(qdot_pool *pool, qdot_expr node, void *user),
                             void *user);
 
-/* A node of the walk over the nodes that are its children's values: itself where they are the
- * children. Nil: the pool keeps the failure. */
+/* A node of the walk rebuilt with the values of its children as args; itself if these are
+ * unchanged. Nil: the pool keeps the failure. */
 qdot_expr qdot_walk_rebuild(qdot_pool *pool, const qdot_walk *w, qdot_expr e);
 
 /* Whether x (any node) occurs in e. */
