@@ -1,4 +1,4 @@
-/* dalembert.h -- the equations of motion before anything is differentiated twice.
+/* dalembert.h -- the terms of d'Alembert's principle, without second derivatives.
  *
  * d'Alembert's principle over the scalar functions x, y of (q, t) that make the kinetic
  * energy 1/2 sum w x' y' (a particle: m and each of its components; a body: its centre
@@ -6,7 +6,7 @@
  *
  *     sum w dy/dq_i x'' = Q_i
  *
- * For numbers only: x'' is the series of x, shifted (sim/form/residual.h).
+ * For numerical runs only: the series of x'' is that of x, shifted (sim/form/residual.h).
  *
  * Tests  tests/sim/test_taylor.c: against M q'' = f
  */
@@ -21,16 +21,15 @@ typedef struct {
 } qdot_dalembert_term;
 
 /* The terms [*n], owned by the caller, and Q_i, a VEC (a LIST for one coordinate), which
- * holds everything applied, -dV/dq included. *n is 0 where the principle does not apply
- * as it stands: a stated Lagrangian, potentials with velocities, masses that vary.
+ * contains all applied forces, -dV/dq included. *n is 0 if this form does not apply: a stated
+ * Lagrangian, potentials with velocities, masses that vary.
  * Errors: those of deriving. */
 QDOT_MUST_CHECK qdot_status qdot_mech_dalembert(qdot_scene *s,
                                                 qdot_dalembert_term **terms, size_t *n,
                                                 qdot_expr *Q);
 
-/* V of this scene over places that are already there: sum -w g x of the terms with an axis, their
- * x replaced by places [n], and what else has a potential, as it was declared. Nil: the pool keeps
- * the failure. */
+/* V of this scene with given positions: sum -w g x of the terms with an axis, with x replaced by
+ * places [n], plus the declared potentials. Nil: the pool keeps the failure. */
 qdot_expr qdot_mech_dalembert_potential(qdot_scene *s, size_t n,
                                         const qdot_dalembert_term *terms,
                                         const qdot_expr *places);

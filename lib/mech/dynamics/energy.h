@@ -1,4 +1,4 @@
-/* energy.h -- slopes of L. Internal to mech/. */
+/* energy.h -- derivatives of L. Internal to mech/. */
 #ifndef QDOT_MECH_ENERGY_H
 #define QDOT_MECH_ENERGY_H
 
@@ -7,7 +7,7 @@
 /* dL/dx, x a coordinate, velocity or t, from the parts of L. */
 qdot_expr qdot_lagrangian_slope(qdot_scene *s, qdot_expr x);
 bool qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has);
-/* Whether that is proved zero, x a coordinate or t: entry by entry of M and b where V holds no
+/* Whether dL/dx is proved zero, x a coordinate or t: entry by entry of M and b if V contains no
  * velocities. */
 bool qdot_lagrangian_is_still(qdot_scene *s, qdot_expr x);
 

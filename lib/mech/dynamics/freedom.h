@@ -4,7 +4,7 @@
 
 #include "mech/scene/scene.h"
 
-/* Which constraints are independent of those before them: d->independent. */
+/* Fill d->independent: which constraints are independent of those before them. */
 bool qdot_freedom_independent(qdot_scene *s);
 
 #endif

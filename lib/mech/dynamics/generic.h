@@ -1,11 +1,11 @@
-/* generic.h -- expressions in double at a point, for ranks. Internal to mech/. */
+/* generic.h -- values of expressions at a random point, for ranks. Internal to mech/. */
 #ifndef QDOT_MECH_GENERIC_H
 #define QDOT_MECH_GENERIC_H
 
 #include "expr/expr.h"
 
-/* A point: symbols [m] have values; any other symbol or undefined function gets one of its own
- * from `seed`. */
+/* A point: symbols [m] have values; any other symbol or undefined function gets a random one from
+ * `seed`. */
 typedef struct {
     size_t m;
     const qdot_expr *symbols;
@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_generic_evaluate(const qdot_pool *pool, size_t 
                                                   double *out);
 /* x to 15 digits, exactly; nil: the pool failed. */
 qdot_expr qdot_generic_decimal(qdot_pool *pool, double x);
-/* A number of its own for a symbol: inside its domain, of about size 1. */
+/* The random value of a symbol: inside its domain, of about size 1. */
 double qdot_generic_value(const qdot_pool *pool, qdot_expr symbol, uint64_t seed);
 
 #endif

@@ -6,12 +6,12 @@
 
 /* Terms, sets and Jacobian groups; NULL on failure. */
 qdot_kinematics *qdot_kinematics_get(qdot_scene *s);
-/* k->rest, k->place, made when first asked for: sets are added to k. NULL on failure. */
+/* k->rest, k->place, made when first needed: adds sets to k. NULL on failure. */
 const qdot_groups *qdot_kinematics_rest(qdot_scene *s, qdot_kinematics *k);
 const qdot_groups *qdot_kinematics_place(qdot_scene *s, qdot_kinematics *k);
 uint32_t qdot_kinematics_and(qdot_scene *s, qdot_kinematics *k, uint32_t a, uint32_t b);
 qdot_expr qdot_kinematics_weight(qdot_scene *s, qdot_kinematics *k, uint32_t set);
-/* sum over p of w_p a_p b_p for two grouped functions; people: simplified. */
+/* sum over p of w_p a_p b_p for two grouped functions; people: simplified for printing. */
 qdot_expr qdot_kinematics_pair(qdot_scene *s, qdot_kinematics *k, const qdot_groups *a,
                                const qdot_groups *b, bool people);
 /* The same over one function and the gravity fields: sum w_p g_axis(p) a_p. */

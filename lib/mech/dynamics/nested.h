@@ -11,8 +11,8 @@ typedef struct {
     const uint64_t *bits;      /* [sets * words] */
 } qdot_family;
 
-/* sum [sets]: of the values of each set, held (qdot_hold), made of the sums of sets within
- * it. Work sets^2 words. False on failure. */
+/* sum [sets]: the sum of the values of each set, held (qdot_hold), built from the sums of its
+ * subsets. Work sets^2 words. False on failure. */
 bool qdot_nested_sums(qdot_scene *s, const qdot_family *family, qdot_expr *sum);
 
 #endif

@@ -9,7 +9,7 @@ qdot_expr qdot_link_square(qdot_scene *s, bool damper, size_t k);
 qdot_expr qdot_spring_potential(qdot_scene *s, size_t k);
 /* V without gravity; nil on failure. */
 qdot_expr qdot_potential_but_gravity(qdot_scene *s);
-/* V's terms that hold velocities, as a sum: potentials may. */
+/* The terms of V with velocities (potentials may have them), as a sum. */
 qdot_expr qdot_potential_with_velocities(qdot_scene *s);
 /* V before simplification; nil on failure. */
 qdot_expr qdot_potential_raw(qdot_scene *s);

@@ -1,4 +1,5 @@
-/* quantity.h -- the values of a scene, derived on demand and kept until it changes.
+/* quantity.h -- T, V, L, momenta, forces, equations ... of a scene, derived on demand and kept
+ * until it changes.
  *
  * Each returns nil on failure; the pool keeps the cause (qdot_pool_check). Expressions are
  * simplified for people unless said otherwise. Sign conventions: Lagrange's equations read
@@ -6,7 +7,7 @@
  *     d/dt dT/dq' - dT/dq = Q + sum lambda df/d(q, q' or q'')
  *
  * with f = left - right the constraint. For a stated Lagrangian the left side is
- * d/dt dL/dq' - dL/dq and Q holds only what is declared beside L.
+ * d/dt dL/dq' - dL/dq and Q contains only the forces declared in addition to L.
  */
 #ifndef QDOT_MECH_QUANTITY_H
 #define QDOT_MECH_QUANTITY_H
@@ -48,7 +49,7 @@ qdot_expr qdot_mech_equations(qdot_scene *s);             /* LIST */
 qdot_expr qdot_mech_accel(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST, in order of q */
 /* lambda of constraint k in q, q', t, from the same equations; nil without a failure: constraints
- * repeat one another, the multipliers are not unique. */
+ * are redundant, so the multipliers are not unique. */
 qdot_expr qdot_mech_multiplier(qdot_scene *s, size_t k);
 
 /* --- conservation, counting --- */
@@ -66,17 +67,17 @@ QDOT_MUST_CHECK qdot_status qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cy
 QDOT_MUST_CHECK qdot_status qdot_mech_applied_holds(qdot_scene *s, qdot_expr x, bool *holds);
 /* Whether h is proved conserved: dh/dt = 0 by the equations. */
 QDOT_MUST_CHECK qdot_status qdot_mech_energy_conserved(qdot_scene *s, bool *conserved);
-/* dE/dt of the motion, multipliers as symbols, where no acceleration has to be solved for: E is the
- * energy h, a momentum p_i or nothing, and a function of q and t beside it. Nil without a failure:
- * it is none of these. */
+/* dE/dt along the motion, with multipliers as symbols, if no acceleration has to be solved for: E
+ * is the energy h, a momentum p_i or 0, plus a function of q and t. Nil without a failure: E is
+ * none of these. */
 qdot_expr qdot_mech_rate(qdot_scene *s, qdot_expr E);
 typedef struct {
     size_t coordinates, constraints, independent; /* independent by symbolic rank */
     size_t freedom;                               /* coordinates - independent */
     const bool *is_independent; /* [constraints] of those declared before; borrowed until the
                                    scene changes */
-    const bool *is_hidden; /* [constraints] not independent, and yet more than a repetition: with those
-                              before it leaves a condition on coordinates or velocities that is none
+    const bool *is_hidden; /* [constraints] not independent, but not redundant: with those before
+                              it implies a condition on coordinates or velocities that is none
                               of the constraints (x = t, x' = y: y = 1); likewise */
     bool unmet;           /* no point was found where all constraints hold, whatever the
                              parameters: no proof that there is none */
@@ -85,14 +86,14 @@ typedef struct {
 } qdot_dof;
 QDOT_MUST_CHECK qdot_status qdot_mech_dof(qdot_scene *s, qdot_dof *dof);
 
-/* --- for numbers (sim/): unsimplified for people, cheap to evaluate ---
+/* --- for numerical runs (sim/): not simplified for printing, cheap to evaluate ---
  * M(q, t) q'' = f(q, q', t): M as MAT, f as VEC (LIST when n = 1); n coordinates in declared
- * order. Built M before T, from Jacobians grouped as design idea 2 says, work N^2 for a chain. Without
- * constraints' multipliers. */
+ * order. M is built from grouped Jacobians (scene/cache.h), work N^2 for a chain. Without the
+ * multipliers of constraints. */
 qdot_expr qdot_mech_numeric_mass(qdot_scene *s);
 qdot_expr qdot_mech_numeric_forcing(qdot_scene *s);
-/* h with that M, simplified only where it cannot be had so: of a stated Lagrangian, masses or places
- * that vary with t, potentials with velocities. */
+/* h with that M. Simplified only if M cannot be used: with a stated Lagrangian, masses or
+ * positions that vary with t, potentials with velocities. */
 qdot_expr qdot_mech_numeric_energy(qdot_scene *s);
 
 #endif

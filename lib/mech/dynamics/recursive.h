@@ -4,11 +4,11 @@
 
 #include "mech/scene/cache.h"
 
-/* Whether no mass varies with place, time or velocity, so that the next has an answer. */
+/* Whether no mass varies with position, time or velocity, as qdot_recursive_forcing needs. */
 bool qdot_recursive_applies(const qdot_scene *s, const qdot_kinematics *k);
 /* f [n] of M q'' = f by nested sums; false on failure. */
 bool qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f);
-/* M_ij of T in products that a row and a column share. Nil on failure. */
+/* M_ij of T, built from products that entries of a row or column share. Nil on failure. */
 qdot_expr qdot_recursive_mass(qdot_scene *s, qdot_kinematics *k, size_t i, size_t j);
 
 #endif

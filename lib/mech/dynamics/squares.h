@@ -3,7 +3,7 @@
  *     1/2 v.A v = 1/2 sum D_i (v_i + sum l_ij v_j)^2
  *
  * as a book prints the top: 1/2 A (theta'^2 + sin(theta)^2 phi'^2) + 1/2 C (psi' + cos(theta) phi')^2.
- * Squares whose D_i agree but for what holds coordinates stand together.
+ * Squares whose D_i differ only in factors with coordinates are grouped.
  */
 #ifndef QDOT_MECH_SQUARES_H
 #define QDOT_MECH_SQUARES_H
@@ -14,11 +14,11 @@ typedef struct {
     qdot_expr key, sum; /* 1/2 key sum, no coordinate in the key */
 } qdot_square;
 
-/* A sum of squares in the making; cleared by qdot_squares_clear. */
+/* A sum of squares being built; cleared by qdot_squares_clear. */
 typedef struct {
     qdot_scene *s; /* borrowed */
     qdot_vec(qdot_square) at;
-    qdot_expr rest; /* what is no square */
+    qdot_expr rest; /* the terms that are not squares */
 } qdot_squares;
 
 void qdot_squares_begin(qdot_squares *q, qdot_scene *s);
@@ -27,16 +27,17 @@ void qdot_squares_clear(qdot_squares *q);
 /* Add 1/2 D u^2. */
 QDOT_MUST_CHECK qdot_status qdot_squares_add(qdot_squares *q, qdot_expr D, qdot_expr u);
 
-/* Add 1/2 v.A v, A [n*n] symmetric, 2 <= n <= 3, as squares whose D hold no sum with coordinates;
- * *done false, and nothing added, where there are none such. */
+/* Add 1/2 v.A v, A [n*n] symmetric, 2 <= n <= 3, as squares whose D contain no sum with
+ * coordinates; *done false, and nothing added, if there are none. */
 QDOT_MUST_CHECK qdot_status qdot_squares_complete(qdot_squares *q, size_t n,
                                                   const qdot_expr *A, const qdot_expr *v,
                                                   bool *done);
 
-/* Whether a diagonal entry of A [n*n] holds a sum with coordinates: that of squares may be shorter. */
+/* Whether a diagonal entry of A [n*n] contains a sum with coordinates, so that squares may be
+ * shorter. */
 bool qdot_squares_worth(const qdot_scene *s, size_t n, const qdot_expr *A);
 
-/* The blocks of A [n*n]: block[i] is the least row that row i is coupled to, by way of others. */
+/* The blocks of A [n*n]: block[i] is the least row that row i is coupled to, directly or not. */
 void qdot_squares_blocks(size_t n, const qdot_expr *A, size_t *block);
 
 /* The sum of all that was added. */

@@ -1,4 +1,4 @@
-/* access.h -- what every chapter asks of a scene. Internal to mech/. */
+/* access.h -- helpers for reading a scene, used throughout mech/. Internal to mech/. */
 #ifndef QDOT_MECH_ACCESS_H
 #define QDOT_MECH_ACCESS_H
 
@@ -21,7 +21,7 @@ uint32_t qdot_mech_holds(const qdot_scene *s, qdot_expr e);
 uint32_t qdot_mech_dimension(const qdot_pool *pool, qdot_expr r);
 qdot_expr qdot_mech_component(const qdot_pool *pool, qdot_expr r, uint32_t d);
 qdot_expr qdot_mech_dot(qdot_pool *pool, qdot_expr a, qdot_expr b); /* scalars too */
-/* Simplified with the scene's facts; above a size only what its parts already are. */
+/* e simplified with the scene's facts; above a certain size e is returned as it is. */
 qdot_expr qdot_mech_tidy(qdot_scene *s, qdot_expr e);
 /* The same for a sum of parts that are simplified: tried while it is short. */
 qdot_expr qdot_mech_tidy_whole(qdot_scene *s, qdot_expr e);
@@ -36,14 +36,15 @@ qdot_expr qdot_mech_at_rest(qdot_scene *s, qdot_expr e);
 bool qdot_mech_stated(const qdot_scene *s);
 /* QDOT_EINVAL in the pool unless the scene has T and V. */
 bool qdot_mech_needs_particles(qdot_scene *s, const char *what);
-/* Size of the scene's space: 1, 2, 3; 0 while nothing tells. */
+/* Dimension of the scene's space: 1, 2, 3; 0 while nothing declared determines it. */
 uint32_t qdot_scene_dimension(const qdot_scene *s);
 void qdot_scene_forget_dropped(qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_scene_drop(qdot_scene *s, const char *kind,
                                             const char *name);
 /* A copy that lasts as long as the scene; *copy NULL for NULL. */
 QDOT_MUST_CHECK qdot_status qdot_scene_copy_text(qdot_scene *s, const char *text, char **copy);
-/* Where among the torques the k-th of a kind (QDOT_FORCE beyond the forces, QDOT_TORQUE) is. */
+/* Index among the torques of the k-th of a kind (QDOT_TORQUE, or QDOT_FORCE beyond the forces).
+ *  */
 size_t qdot_scene_torque_at(const qdot_scene *s, qdot_scene_kind kind, size_t k);
 QDOT_MUST_CHECK qdot_status qdot_event_print(const qdot_scene *s, const qdot_event *e,
                                              qdot_text *out);

@@ -1,4 +1,4 @@
-/* body.h -- rigid bodies: what acts on them. Internal to mech/. */
+/* body.h -- spin and velocities of rigid bodies as linear forms in q'. Internal to mech/. */
 #ifndef QDOT_MECH_BODY_H
 #define QDOT_MECH_BODY_H
 

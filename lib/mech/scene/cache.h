@@ -1,4 +1,4 @@
-/* cache.h -- what was derived of a scene, kept until it changes. Internal to mech/.
+/* cache.h -- results derived from a scene, kept until it changes. Internal to mech/.
  *
  * Kinetic energy of everything, particles and bodies alike, is a sum over inertial terms
  *
@@ -9,7 +9,7 @@
  * e_b)_d'.
  *
  * Terms that share a Jacobian entry are grouped before anything is expanded: a group is
- * an expression e and the set of terms p at which it stands, sets are interned, and the
+ * an expression e and the set of terms p that have it; sets are interned, and the
  * weights of an intersection are added once. A chain of N links has N sets.
  */
 #ifndef QDOT_MECH_CACHE_H
@@ -36,7 +36,7 @@ typedef struct {
     size_t words; /* of a set */
     qdot_vec(qdot_inertial) terms;
     qdot_vec(uint64_t) bits;    /* [sets * words]; set 0 is empty */
-    qdot_vec(qdot_expr) weight; /* [sets]: sum of w, nil until asked */
+    qdot_vec(qdot_expr) weight; /* [sets]: sum of w, nil until needed */
     qdot_vec(uint32_t) slots;   /* open hash table of sets, + 1 */
     uint32_t axis_set[3];       /* terms of positions along an axis */
     qdot_groups *dx, *dy;       /* [n + 1]: dx/dq_i, dx/dt; dy == dx where all y = x */
@@ -51,7 +51,7 @@ typedef struct {
     qdot_expr value;
 } qdot_mass_slope;
 
-/* A sum simplified once for all that are alike but for their symbols (qdot_mech_alike). */
+/* A sum simplified once for all that differ from it only in their symbols (qdot_mech_alike). */
 typedef struct {
     qdot_expr pattern, atoms, simple;
 } qdot_pattern;
@@ -79,8 +79,8 @@ struct qdot_derived {
     qdot_expr *lambda; /* [constraints], with accel; nil where they are not unique */
     qdot_expr numeric_mass, numeric_forcing, numeric_energy;
     bool *independent; /* [constraints] */
-    bool *hidden;      /* [constraints] behind those: leaves a condition (qdot_dof.is_hidden) */
-    bool unmet;        /* no point was found where they all hold */
+    bool *hidden;      /* [constraints] leaves a condition (qdot_dof.is_hidden) */
+    bool unmet;        /* no point was found where all constraints hold */
     bool conserved_known, conserved;
     qdot_cyclic_known *cyclic; /* [n] NULL until one is asked for */
 };

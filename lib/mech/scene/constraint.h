@@ -1,4 +1,4 @@
-/* constraint.h -- constraints and what follows of them. Internal to mech/. */
+/* constraint.h -- gradients, reactions and derivatives of constraints. Internal to mech/. */
 #ifndef QDOT_MECH_CONSTRAINT_H
 #define QDOT_MECH_CONSTRAINT_H
 

@@ -1,8 +1,8 @@
-/* scene.h -- what a person declared: coordinates, r(q, t), masses, forces, constraints.
+/* scene.h -- the declarations of a user: coordinates, r(q, t), masses, forces, constraints.
  *
- * A scene owns its arrays and texts and borrows the pool; texts stay as they are till its end, also
- * those of things taken out again. Nothing is derived here; mech/dynamics/quantity.h
- * derives on demand and keeps what it derived until the scene changes (qdot_scene.version).
+ * A scene owns its arrays and texts and borrows the pool; texts stay valid until the scene is
+ * freed, even those of removed things. Nothing is derived here; mech/dynamics/quantity.h derives
+ * on demand and keeps the results until the scene changes (qdot_scene.version).
  * Vectors are VECs of 2 or 3 components; in one dimension plain scalars.
  */
 #ifndef QDOT_MECH_SCENE_H
@@ -20,9 +20,9 @@ void qdot_scene_free(qdot_scene *scene);
 QDOT_MUST_CHECK qdot_status qdot_scene_coordinate(qdot_scene *s, qdot_expr q);
 QDOT_MUST_CHECK qdot_status qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass,
                                                 qdot_expr position);
-/* Plane: angle given, its rotation is made of it; inertia a scalar. Space: no angle, rotation a 3x3
- * MAT; inertia a VEC of three moments or a symmetric MAT; about (nil: the centre of mass) body-fixed:
- * the parallel axis theorem is taken off. Its name is not looked at. */
+/* Plane: angle given, which determines the rotation; inertia a scalar. Space: no angle, rotation
+ * a 3x3 MAT; inertia a VEC of three moments or a symmetric MAT; about (nil: the centre of mass)
+ * body-fixed: the parallel axis theorem is applied. Its name is not checked. */
 QDOT_MUST_CHECK qdot_status qdot_scene_body(qdot_scene *s, const char *name,
                                             const qdot_body *body, qdot_expr about);
 
@@ -51,10 +51,10 @@ qdot_expr qdot_mech_constraint_derivative(qdot_scene *s, size_t i, unsigned orde
  * does not know; a target twice. */
 QDOT_MUST_CHECK qdot_status qdot_scene_event(qdot_scene *s, const qdot_event *event);
 const qdot_event *qdot_scene_find_event(const qdot_scene *s, const char *label);
-/* The first event that does more than be noted: ends a run or sets something; NULL: none. */
+/* The first event that ends a run or sets something, not only recorded; NULL: none. */
 const qdot_event *qdot_scene_acting_event(const qdot_scene *s);
-/* An equation or inequality the engine may use; turned: a < b was written b > a. QDOT_ETYPE: it is
- * neither; QDOT_EINVAL: it can never hold. */
+/* Add an equation or inequality that proofs may use; turned: a < b was written b > a. QDOT_ETYPE:
+ * it is neither; QDOT_EINVAL: it can never hold. */
 QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned);
 /* Take the thing of that label out again. What was declared to act on a removed particle or body
  * goes with it, named in s->dropped. */
@@ -62,26 +62,26 @@ QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
 /* How many of a kind there are, with and without label; the k-th, from 0, taken out. */
 size_t qdot_scene_count(const qdot_scene *s, qdot_scene_kind kind);
 QDOT_MUST_CHECK qdot_status qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k);
-/* Whether the latest of a kind says what one before it says, both without label. QDOT_FORCE: on a
+/* Whether the latest of a kind equals an earlier one, both without label. QDOT_FORCE: on a
  * particle, a body or at a place; QDOT_TORQUE: also those declared with `force`. */
 bool qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind);
 
-/* The arrays of what is declared, one like the other: `size` bytes an item, which may be copied as
- * it is. With `lagrangian` they are the state of a scene: who keeps a copy of all can go back to it,
- * and then counts `version` on. */
+/* The arrays of declarations in a uniform form: `size` bytes an item, which may be copied byte by
+ * byte. With `lagrangian` they are the state of a scene: a copy of all can be put back; then
+ * increment `version`. */
 enum { QDOT_SCENE_PARTS = 15 };
 typedef struct {
     void *at;            /* the pointer to the items */
     size_t *n, *capacity, size;
 } qdot_scene_part;
 qdot_scene_part qdot_scene_part_at(qdot_scene *s, size_t k);
-/* Whether what is derived depends on part k. */
+/* Whether derived results depend on part k. */
 bool qdot_scene_part_counts(size_t k);
 
 /* Rotation matrix Rz(phi) Rx(theta) Rz(psi). */
 qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi);
 
-/* A symbol by another expression, in everything declared. */
+/* Replace a symbol by another expression in all declarations. */
 QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
 
 /* By label; NULL if there is none. */
@@ -90,15 +90,16 @@ const qdot_body *qdot_scene_find_body(const qdot_scene *s, const char *label);
 bool qdot_scene_has_label(const qdot_scene *s, const char *label);
 /* Position of a particle or body; nil and QDOT_ENAME if there is none. */
 qdot_expr qdot_scene_position(const qdot_scene *s, const char *label);
-/* point(body, P): where the body-fixed P is; of a particle: P must be absent. spin(body): scalar
- * in the plane, VEC in inertial axes in space. velocity(body, P): of its material at place P. */
+/* point(body, P): position of the body-fixed P; for a particle P must be absent. spin(body):
+ * scalar in the plane, VEC in inertial axes in space. velocity(body, P): of its material at the
+ * place P. */
 qdot_expr qdot_scene_point(qdot_scene *s, const char *body, qdot_expr P);
 qdot_expr qdot_scene_spin(qdot_scene *s, const char *body);
 qdot_expr qdot_scene_velocity(qdot_scene *s, const char *body, qdot_expr place);
-/* Bodies within which a place moves, by their labels, "a, b": no coordinate but theirs is in it, and
- * d(place)/dt is proved to differ from the velocity of the material there. Nothing is appended for
- * the place of a particle and for one that is fixed in a body. body: only this one is looked at;
- * NULL: all. */
+/* Append the labels, "a, b", of bodies within which a place moves: it contains only their
+ * coordinates, and d(place)/dt is proved to differ from the velocity of the material there.
+ * Nothing is appended for the place of a particle or one fixed in a body. body: test only this
+ * one; NULL: all. */
 QDOT_MUST_CHECK qdot_status qdot_scene_moves_within(qdot_scene *s, qdot_expr place,
                                                     const char *body, qdot_text *out);
 

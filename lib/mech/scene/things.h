@@ -1,4 +1,4 @@
-/* things.h -- what a scene is made of (scene.h declares it).
+/* things.h -- the data of a scene (scene.h has its functions).
  *
  * A scene owns its arrays and texts and borrows the pool.
  */
@@ -8,8 +8,8 @@
 #include "base/memory.h"
 #include "normal/field/facts.h"
 
-/* `undo` compares items byte by byte, so the bytes that alignment leaves over have a name,
- * `unused`, and initialisers make them 0. The compiler refuses such bytes without a name. */
+/* `undo` compares items byte by byte, so padding bytes are members, `unused`, which initialisers
+ * set to 0. The compiler rejects other padding. */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic error "-Wpadded"
 
@@ -46,7 +46,7 @@ typedef struct {
     qdot_expr force; /* vector (or scalar in 1-D) */
     qdot_expr point; /* where it acts: a position */
     char *on;     /* label of the particle or body, NULL for a point */
-    bool material; /* on the material of body `on` that is at `point` just then:
+    bool material; /* acts on the material of body `on` that is at `point` at that time:
                       Q = F . dv/dq', v = velocity(on, point); else Q = F . d(point)/dq */
     char unused[7];
 } qdot_force;
@@ -54,10 +54,10 @@ typedef struct {
 typedef struct {
     char *name;       /* NULL */
     qdot_expr torque; /* scalar; vector for a spatial body */
-    qdot_expr coordinate; /* a generalized force on this coordinate; nil: */
+    qdot_expr coordinate; /* a generalized force on this coordinate; nil: a torque on `body` */
     bool force;           /* it was declared with `force` */
     char unused[3];
-    int body;             /* on this body, through its spin */
+    int body;             /* index of the body that it turns */
 } qdot_torque;
 
 typedef enum { QDOT_HOLONOMIC, QDOT_VELOCITY, QDOT_ACCELERATION } qdot_constraint_kind;
@@ -72,21 +72,21 @@ typedef struct {
     qdot_expr unused;
 } qdot_constraint;
 
-/* A moment of a run: left = right. It is no part of the mechanics. */
+/* An event of a run: left = right. It is no part of the mechanics. */
 typedef struct {
     char *name;
     qdot_expr left, right;
-    int way;   /* left - right goes 1 up, -1 down as t grows, 0 either way */
+    int way;   /* left - right 1: rises, -1: falls as t grows, 0: either */
     bool stop; /* the run ends there */
     char unused[3];
     qdot_vec(qdot_expr) targets, values; /* q, q' or a parameter becomes the value, all at
                                             once */
 } qdot_event;
 
-/* What `assume` said, as it was said. */
+/* A statement `assume`, as it was written. */
 typedef struct {
     qdot_expr relation;
-    bool turned; /* b > a, of the relation a < b */
+    bool turned; /* written as b > a for the relation a < b */
     char unused[3];
 } qdot_assumption;
 
@@ -113,15 +113,15 @@ typedef struct {
     qdot_vec(qdot_expr) conditions; /* its inequalities */
     qdot_vec(qdot_expr) relations;  /* its equations and their derivatives, each 0 */
     qdot_expr lagrangian;           /* stated; nil: T - V */
-    qdot_vec(char *) dropped;       /* what the latest call left out, for a notice: components of
-                                       a constraint that hold identically ("pin, 2"); what acted
-                                       on a removed thing ("spring s1", "a force") */
-    qdot_derived *derived;          /* owned; what was derived for `version` */
-    void *kept;                     /* what a floor above keeps with the scene; NULL: nothing */
+    qdot_vec(char *) dropped;       /* what the latest call dropped, for a notice: components of
+                                       a constraint that hold identically ("pin, 2"); springs,
+                                       forces ... on a removed thing ("spring s1", "a force") */
+    qdot_derived *derived;          /* owned; results derived for `version` */
+    void *kept;                     /* plans kept by sim; NULL: none */
     void (*kept_free)(void *kept);
 } qdot_scene;
 
-/* What may be declared without a label, in the order of `scene`. */
+/* Kinds of declarations that need no label, in the order of `scene`. */
 typedef enum {
     QDOT_GRAVITY,
     QDOT_POTENTIAL,

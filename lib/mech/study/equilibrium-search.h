@@ -1,4 +1,4 @@
-/* equilibrium-search.h -- a search for equilibria as its files see it. Internal to mech/. */
+/* equilibrium-search.h -- data and steps of the search for equilibria. Internal to mech/. */
 #ifndef QDOT_MECH_EQUILIBRIUM_SEARCH_H
 #define QDOT_MECH_EQUILIBRIUM_SEARCH_H
 
@@ -9,7 +9,7 @@
 #include "mech/study/rest.h"
 #include "normal/field/facts.h"
 
-/* What is left to solve, and what is known: LISTs. */
+/* A branch of the search: equations still to solve, solutions and conditions so far; LISTs. */
 typedef struct {
     qdot_expr equations, known, conditions;
 } qdot_rest_branch;
@@ -23,7 +23,7 @@ typedef struct {
     size_t coordinates;           /* of them */
     qdot_vec(qdot_rest_branch) todo;
     qdot_vec(qdot_equilibrium) found;
-    uint64_t work; /* what is left of the budget of exact solution, in operations looked at */
+    uint64_t work; /* rest of the budget of exact solution, in operations */
     bool complete;
 } qdot_rest;
 
@@ -31,7 +31,8 @@ typedef struct {
 qdot_expr qdot_rest_appended(qdot_pool *pool, qdot_expr list, size_t n,
                              const qdot_expr *more);
 
-/* Conditions at what is known: QDOT_FALSE if one fails; else those that say something. */
+/* Conditions with the known values: QDOT_FALSE if one fails; else those that are not always true.
+ *  */
 qdot_expr qdot_rest_conditions_left(const qdot_rest *r, qdot_expr conditions);
 
 /* e with the values of equations u = value put in, all at once. */
@@ -47,11 +48,11 @@ QDOT_MUST_CHECK qdot_status qdot_rest_solve(qdot_rest *r);
 /* The equations at rest, simplified, those that hold identically left out: a LIST.
  * (equilibrium-equations.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_equations(qdot_rest *r, qdot_expr *list);
-/* What holds of a place at which they hold for all times: equations without t. */
+/* The equations without t that hold at a place at which those hold at all times. */
 QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations,
                                                    qdot_expr *list);
 
-/* Places in a family that is listed too, or full turns from one listed before, are left out.
+/* Remove places that belong to a listed family, or differ by full turns from one listed before.
  * (equilibrium-twice.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r, qdot_expr equations);
 
@@ -61,7 +62,7 @@ typedef struct {
     double *at;
     size_t n, starts;
     double reach;    /* starts lay within +-reach where no domain is declared */
-    size_t unproved; /* starts that ended where the equations hold to rounding, and no more is known */
+    size_t unproved; /* starts that ended at an unproved zero within rounding */
 } qdot_places;
 
 /* Zeros of r [unknowns] in the unknowns, every other symbol bound. */

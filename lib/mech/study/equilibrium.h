@@ -1,22 +1,23 @@
-/* equilibrium.h -- where a scene can rest, whether it stays there, and how it swings about it.
+/* equilibrium.h -- the equilibria of a scene and their stability.
  *
  * At rest, q' = q'' = 0, Lagrange's equations and the constraints read
  *
  *     G_i(q, lambda) = 0,   f_k(q) = 0.
  *
- * They are solved one for one unknown at a time, factor by factor, all combinations
- * (normal/solve/solve.h); the multipliers are unknowns like the coordinates. A coordinate that stands
- * in none of them is free and left out. Where they hold the time, the places are those at which they
- * hold for all of it. What cannot be solved exactly is searched for in numbers, when every parameter
- * has a value; each place found so is proved to be one (normal/solve/isolate.h).
+ * They are solved for one unknown after another, factor by factor, in all combinations
+ * (normal/solve/solve.h); the multipliers are unknowns like the coordinates. A coordinate that
+ * occurs in none of them is free and left out. If they depend on time, they must hold at all
+ * times. If exact solution fails, places are searched numerically, provided that every parameter
+ * has a value; each place found so is proved to be an equilibrium (normal/solve/isolate.h).
  *
  * Stability. Linearised about a place, in the constraints' tangent space,
  *
  *     M y'' + Gamma y' + H y = 0
  *
- * (mech/study/linear-motion.h). Said is only what is proved:
+ * (mech/study/linear-motion.h). Every statement is proved:
  *
- *     stable     an energy that is kept or used up (mech/study/lyapunov.h) has a strict minimum there: M and
+ *     stable     an energy that never grows (mech/study/lyapunov.h) has a strict minimum there: M
+ *     and
  *                H positive definite, or one degree of freedom whose force points back on either side;
  *                or all roots of det(M s^2 + Gamma s + H) have negative real parts; or the
  *                equations are linear and the next holds; or nothing can move
@@ -39,10 +40,10 @@
 typedef struct {
     qdot_equilibrium *at; /* [n], owned */
     size_t n;
-    bool complete;        /* these are all, parameters generic */
-    size_t starts;        /* of a search in numbers; 0: there was none */
-    double reach;         /* which began within +-reach where no domain is declared */
-    size_t unproved;      /* starts that ended where the equations hold to rounding, unproved */
+    bool complete;        /* these are all, for generic parameters */
+    size_t starts;        /* of a numerical search; 0: there was none */
+    double reach;         /* starts lay within +-reach if no domain is declared */
+    size_t unproved;      /* starts that ended at an unproved zero within rounding */
 } qdot_equilibria;
 
 /* *out cleared by the caller. QDOT_EUNSET names a parameter if numbers are needed, QDOT_EFAILED

@@ -7,7 +7,7 @@
  * singular d2L/dq'dq': QDOT_ESINGULAR with the coordinate). Momenta are the symbols p[q].
  * Nil on failure; the pool keeps the cause.
  *
- * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1 and 8.3; the sign of R as there turned.
+ * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1 and 8.3, with the opposite sign of R.
  * Tests   tests/mech/test_hamilton.c
  */
 #ifndef QDOT_MECH_HAMILTON_H
@@ -19,7 +19,7 @@ qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
 qdot_expr qdot_hamilton_routhian(qdot_scene *s);
 
 /* Poisson's bracket sum (df/dq dg/dp - df/dp dg/dq) over all coordinates, f and g scalars; velocities
- * in them are replaced by momenta first. Where there are constraints it is not Dirac's bracket.
+ * in them are replaced by momenta first. With constraints it is not Dirac's bracket.
  *
  * Source  Goldstein, Poole, Safko, 9.5. */
 qdot_expr qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g);

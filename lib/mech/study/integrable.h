@@ -1,4 +1,5 @@
-/* integrable.h -- velocity constraints that are holonomic in disguise (Frobenius).
+/* integrable.h -- finds velocity constraints that can be integrated to holonomic ones
+ * (Frobenius).
  *
  * A constraint linear in the velocities is a form w = sum a_i(q, t) dq_i + a_0 dt = 0. It
  * is integrable alone when
@@ -6,12 +7,12 @@
  *     w ^ dw = 0,
  *
  * that is when dw(u, v) = 0 for all u, v with w(u) = w(v) = 0; then there is an
- * integrating factor mu and mu w = dF, so that F(q, t) = const. Beside other constraints
- * w_1 ... w_m (and the differentials of the holonomic ones) u and v are taken from what all
- * of them leave, and forms whose dw does not vanish there are left out, again and again:
- * what stays is integrable.
+ * integrating factor mu and mu w = dF, so that F(q, t) = const. With other constraints
+ * w_1 ... w_m (and the differentials of the holonomic ones) u and v are taken from the common
+ * null space of all; forms whose dw does not vanish there are removed, repeatedly: the remaining
+ * ones are integrable.
  *
- * Factors that are looked for: 1, 1/a_i, and functions of one coordinate z, for which
+ * Integrating factors tried: 1, 1/a_i, and functions of one coordinate z, for which
  * dw = -h'(z) dz ^ w.
  *
  * Source  Frankel, The Geometry of Physics, 3rd ed., sec. 6.1; Neimark & Fufaev, Dynamics
@@ -25,17 +26,17 @@
 #include "normal/prove/decide.h"
 
 typedef struct {
-    /* Of the worst component of dw on what the constraints leave; refuted: it does not
-     * vanish, at a point and with its value there (left; right is 0). */
+    /* For the worst component of dw on the null space of the constraints; refuted: it does not
+     * vanish, with a point and its value there (left; right is 0). */
     qdot_decision decision;
     qdot_expr component;   /* refuted: that component; else nil */
     qdot_expr along[2];    /* refuted: the two coordinates (or t) of the component */
     bool alone;            /* proved: without the help of other constraints */
-    qdot_expr integral;    /* proved: F; nil where none was found */
-    qdot_expr factor;      /* mu, with mu f = dF/dt; nil where the help of others was needed */
+    qdot_expr integral;    /* proved: F; nil if none was found */
+    qdot_expr factor;      /* mu, with mu f = dF/dt; nil if other constraints were needed */
 } qdot_integrability;
 
-/* Of constraint k of the scene. alone: the others are not looked at. Errors: QDOT_EINVAL:
+/* For constraint k of the scene. alone: without the others. Errors: QDOT_EINVAL:
  * it is no velocity constraint or not linear in the velocities; the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_mech_integrable(qdot_scene *s, size_t k, bool alone,
                                                  qdot_integrability *result);

@@ -1,4 +1,4 @@
-/* linear-motion.h -- the motion about a place of rest, to first order. Internal to mech/.
+/* linear-motion.h -- the motion about an equilibrium, to first order. Internal to mech/.
  *
  * With q = q0 + x, x = N y in the tangent space of the holonomic constraints,
  *
@@ -15,21 +15,20 @@ typedef struct {
     size_t n;
     qdot_expr *M, *Gamma, *H; /* [n * n] */
     qdot_expr *N;             /* [coordinates * n] */
-    size_t *which;            /* [n] the coordinate that y_a is */
-    size_t rank;              /* of the constraints' slopes at the place */
-    bool exact;               /* the equations are linear: nothing is left out */
-    bool damped;              /* Gamma has values: else it stands as 0 (|v| v at v = 0) */
+    size_t *which;            /* [n] the coordinate that equals y_a */
+    size_t rank;              /* of the constraints' Jacobian at the equilibrium */
+    bool exact;               /* the equations are linear: nothing is neglected */
+    bool damped;              /* Gamma is defined; else it is set to 0 (|v| v at v = 0) */
 } qdot_linear_motion;
 
-/* About `equations`, which hold where `exists` does (a LIST; nil: everywhere). Owned by the
- * caller. */
+/* About the equilibrium `equations`, which exists under the conditions `exists` (a LIST; nil:
+ * none). Owned by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_linear_motion_about(qdot_scene *s, qdot_expr equations,
                                                      qdot_expr exists,
                                                      qdot_linear_motion *out);
 void qdot_linear_motion_clear(qdot_linear_motion *m);
 
-/* The facts of a scene where it has an equilibrium: the conditions under which that exists are
- * among them. own: to be freed. */
+/* The facts of a scene and the conditions under which an equilibrium exists. own: to be freed. */
 QDOT_MUST_CHECK qdot_status qdot_rest_facts(qdot_scene *s, qdot_expr exists,
                                             qdot_facts *facts, qdot_expr **own);
 

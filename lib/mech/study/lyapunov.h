@@ -1,13 +1,13 @@
-/* lyapunov.h -- whether an energy of a scene never grows. Internal to mech/.
+/* lyapunov.h -- decides whether some energy of a scene never grows. Internal to mech/.
  *
- * With Q_i what is declared beside L and F_i = Q_i at q' = 0, where dF_i/dq_j = dF_j/dq_i there is a
- * potential U near each place, F = -dU/dq, and
+ * Let Q_i be the forces declared in addition to L, and F_i = Q_i at q' = 0. If dF_i/dq_j =
+ * dF_j/dq_i, there is a potential U near each place, F = -dU/dq, and
  *
  *     E = sum q' dL/dq' - L + U,   dE/dt = -dL/dt + sum q'_i (Q_i - F_i):
  *
- * constraints between coordinates alone do no work. E is kept where that is 0, and used up where it is
- * proved never positive. Beside it M decides: E rises with the velocities where M is positive
- * definite, and with the coordinates where its Hessian at rest, H of mech/study/linear-motion.h, is.
+ * constraints between coordinates alone do no work. E is conserved (KEPT) if dE/dt is 0, and
+ * dissipated (USED) if dE/dt is proved never positive. E has a minimum if M is positive definite
+ * (velocities) and so is the Hessian of E at rest (coordinates), H of mech/study/linear-motion.h.
  *
  * Source  Merkin, Introduction to the Theory of Stability, 3 (Lagrange, Dirichlet) and 6 (Kelvin, Chetaev).
  */

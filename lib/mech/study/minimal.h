@@ -1,6 +1,6 @@
-/* minimal.h -- a scene with holonomic constraints in coordinates that need none.
+/* minimal.h -- rewrites a scene with holonomic constraints in minimal coordinates.
  *
- * Constraint after constraint is solved, those before put in:
+ * The constraints are solved one after another, each after substituting the solutions before it:
  *
  *     c x + g = 0, c free of motion       x = -g/c
  *     s ((x - a)^2 + (y - b)^2 - l^2) = 0  x = a + l sin u, y = b - l cos u, u a new angle
@@ -9,9 +9,9 @@
  *                                         z = c - l cos u, two; z, of the three, that which
  *                                         starts nearest to the centre, far from the poles
  *
- * where c, s, l hold no coordinates and a, b, c of a centre and g none of x, y, z. What cannot be solved so,
- * velocity and acceleration constraints, and generalized forces on a coordinate that would
- * go, leave the scene without such a form.
+ * where c, s, l contain no coordinates, and a, b, c of a centre and g none of x, y, z. There is
+ * no such form with other constraints, velocity or acceleration constraints, or a generalized
+ * force on a coordinate that would be eliminated.
  *
  * Tests  tests/script/race.lag
  */
@@ -24,13 +24,13 @@ typedef struct {
     qdot_scene *scene; /* owned; NULL: there is no such form, `reason` says why */
     char reason[160];
     size_t n;          /* coordinates of the scene as given */
-    qdot_expr *given;  /* [n] these, by coordinates of `scene` */
-    size_t fresh;      /* new angles: the last coordinates of `scene` */
-    qdot_expr *angle;  /* [fresh] by the coordinates given */
+    qdot_expr *given;  /* [n] these in terms of the coordinates of `scene` */
+    size_t fresh;      /* number of new angles: the last coordinates of `scene` */
+    qdot_expr *angle;  /* [fresh] in terms of the given coordinates */
 } qdot_minimal;
 
-/* size: what an expression in the coordinates and parameters is at the start, about; NULL:
- * unknown. Errors: the pool's; a scene without that form is none. */
+/* size: about the value of an expression in coordinates and parameters at the start; NULL:
+ * unknown. Errors: the pool's; a scene without that form is no error. */
 QDOT_MUST_CHECK qdot_status qdot_minimal_make(qdot_scene *s,
                                               double (*size)(qdot_expr e, void *user),
                                               void *user, qdot_minimal *minimal);

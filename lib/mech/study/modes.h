@@ -1,4 +1,4 @@
-/* modes.h -- normal modes about a place of rest. */
+/* modes.h -- normal modes about an equilibrium. */
 #ifndef QDOT_MECH_MODES_H
 #define QDOT_MECH_MODES_H
 
@@ -6,11 +6,11 @@
 #include "mech/study/rest.h"
 
 /* (H - w^2 M) a = 0 about `equations`: frequencies w [n]
- * ascending (unordered: pairs of them have no order that is proved, they stand as at one place
- * of the parameters), amplitudes a [n * coordinates], a row each, the first component that is
- * not 0 is 1. Exact where the characteristic polynomial factors into linear and quadratic ones
- * in w^2, else (or at once, if `numbers`) numbers, which need every parameter's value.
- * QDOT_ETYPE with damping or gyroscopic terms, QDOT_EDOMAIN where H is not positive
+ * ascending (unordered: the order of some pairs is not proved; they are ordered as at one set of
+ * parameter values), amplitudes a [n * coordinates], a row each, scaled so that the first
+ * component that is not 0 is 1. Exact if the characteristic polynomial factors into linear and
+ * quadratic ones in w^2, else (or at once, if `numbers`) numbers, which need every parameter's
+ * value. QDOT_ETYPE with damping or gyroscopic terms, QDOT_EDOMAIN where H is not positive
  * semidefinite. */
 typedef struct {
     size_t n;

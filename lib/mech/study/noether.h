@@ -8,15 +8,15 @@
  *
  *     sum xi_i dL/dq_i + xi_i' dL/dq_i' + tau dL/dt = dK/dt,
  *
- * and at which neither what is applied beside V nor the constraints' reactions work,
+ * and along which neither the forces that are not in V nor the constraints' reactions do work,
  * sum (xi_i - tau q_i') (Q_i + R_i) = 0, the quantity
  *
  *     sum p_i xi_i - tau h - K
  *
- * is conserved. That such a K exists is the vanishing of the Euler-Lagrange expression of the
- * left side, linear in a, b, c, tau: its solutions over Q(parameters) are all found
+ * is conserved. Such a K exists if the Euler-Lagrange expression of the left side vanishes; that
+ * is linear in a, b, c, tau, and all its solutions over Q(parameters) are found
  * (normal/solve/null-space.h). Every condition is then proved for each of them by the zero
- * decision; what is not proved is left out.
+ * decision; solutions without proof are dropped.
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 13.7; Olver, Applications of Lie Groups to
  *         Differential Equations, 4.4 (divergence symmetries).

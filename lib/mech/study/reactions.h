@@ -1,18 +1,18 @@
-/* reactions.h -- what the constraints do to each particle and body.
+/* reactions.h -- the forces of the constraints on each particle and body.
  *
- * Constraint f_k acts along its slope: the generalized reaction on q_j is
+ * Constraint f_k acts along its gradient: the generalized reaction on q_j is
  *
  *     R_j = sum_k lambda_k df_k/dq_j   (df/dq', df/dq'' by the constraint's kind).
  *
- * A particle whose position alone depends on some coordinates bears a force of its own:
+ * If some coordinates occur in the position of one particle only, the force on that particle is
  * the one along the directions dr/dq_j with
  *
  *     F . dr/dq_j = R_j   for each of these q_j:   F = J (J^T J)^-1 R,  J = dr/dq,
  *
- * lambda df/dr where the coordinates are Cartesian. A body bears a force at its centre of
- * mass and a torque tau with F . dr/dq_j + tau . dw/dq_j' = R_j, w its spin, where these
- * determine both. Coordinates that several things share keep their R_j as it is: how it is
- * spread over them, r(q) does not tell.
+ * which is lambda df/dr if the coordinates are Cartesian. On a body it is a force at its centre
+ * of mass and a torque tau with F . dr/dq_j + tau . dw/dq_j' = R_j, w its spin, if these
+ * determine both. For coordinates that several things share the answer is R_j itself: r(q) does
+ * not determine how it is distributed over them.
  *
  * Tests  tests/script/reactions.lag, tests/script/mechanism-*.lag
  */

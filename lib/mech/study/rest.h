@@ -1,4 +1,4 @@
-/* rest.h -- a place where a scene can rest. */
+/* rest.h -- an equilibrium of a scene. */
 #ifndef QDOT_MECH_REST_H
 #define QDOT_MECH_REST_H
 

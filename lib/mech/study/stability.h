@@ -1,4 +1,4 @@
-/* stability.h -- whether a scene stays near its places of rest. Internal to mech/. */
+/* stability.h -- stability of equilibria. Internal to mech/. */
 #ifndef QDOT_MECH_STABILITY_H
 #define QDOT_MECH_STABILITY_H
 
@@ -13,14 +13,14 @@ typedef struct {
     void *user;
     qdot_energy_law law;
     bool holonomic;     /* every constraint is */
-    bool timed;         /* the equations hold t */
-    bool velocity_kink; /* |q'|, sign(q') ... stand in them: they have no linear part at rest */
+    bool timed;         /* the equations depend on t */
+    bool velocity_kink; /* they contain |q'|, sign(q') ...: they have no linear part at rest */
     qdot_expr at_rest;  /* the equations at rest, a LIST */
     qdot_stability_numbers *numbers; /* for places in numbers, made when first needed */
 } qdot_judge;
 
-/* What holds of all places of a scene, whose equations at rest are a LIST; then each: e->stability
- * and e->stable_when are set. */
+/* Prepare for a scene, whose equations at rest are a LIST; then judge each equilibrium: sets
+ * e->stability and e->stable_when. */
 QDOT_MUST_CHECK qdot_status qdot_judge_new(qdot_scene *s, qdot_expr at_rest,
                                            qdot_binder bind, void *user,
                                            qdot_judge **out);
