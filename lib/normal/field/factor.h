@@ -18,8 +18,8 @@ typedef struct {
 /* Factor p, not zero; past the bounds only monomials and integers come out. */
 QDOT_MUST_CHECK qdot_status qdot_factor(qdot_field *f, qdot_factors *out,
                                         const fmpz_mpoly_t p);
-/* Factors of one exponent multiplied where the product has no more terms than one of both:
- * (x - 1)*(x + 1) as x^2 - 1. Whether there were any. */
+/* Multiply factors with equal exponents if the product has no more terms than one of them:
+ * (x - 1)*(x + 1) as x^2 - 1. Returns whether there were any. */
 bool qdot_factor_join(qdot_field *f, qdot_factors *factors);
 void qdot_factor_clear(qdot_field *f, qdot_factors *out);
 

@@ -1,10 +1,11 @@
-/* flint.h -- FLINT, Arb and GMP abort where memory ends and do not look at Ctrl-C: here they return.
+/* flint.h -- runs computations with FLINT, Arb and GMP so that they can fail and be interrupted.
  *
- * A guarded computation runs on a thread of its own, with memory functions of our own under FLINT
- * and GMP. Where no memory is left, where it holds more than a bound, or where Ctrl-C was pressed,
- * it is left at once by longjmp, from within the library that asked, to the start of that thread.
- * Everything it allocated, there and by memory.h, is freed (base/scope.h), with all that FLINT and
- * MPFR keep for that thread, and the thread ends. What outlives it: nodes of the pool.
+ * By themselves these libraries abort if memory runs out, and ignore Ctrl-C. A guarded
+ * computation runs on a thread of its own, with our memory functions under FLINT and GMP. If no
+ * memory is left, if it holds more than a bound, or if Ctrl-C was pressed, it is left by longjmp,
+ * from within the library, to the start of that thread. Everything that it allocated, there and
+ * by memory.h, is freed (base/scope.h), with all that FLINT and MPFR keep for that thread, and
+ * the thread ends. Only nodes of the pool remain.
  *
  * So no object of FLINT may pass between a guarded computation and its caller, either way: only
  * expressions, numbers of C, and what memory.h allocated.
@@ -23,14 +24,14 @@
 
 #include "expr/expr.h"
 
-/* Most that one computation may hold, in bytes. */
+/* The most memory of one computation, in bytes. */
 #define QDOT_FLINT_MEMORY ((size_t)2 << 30)
 
-/* Run work(user), guarded; inside another guarded computation simply run it. QDOT_OK: it ended, by
- * itself. QDOT_ENOMEM, QDOT_EINTR; QDOT_ELIMIT past the bound or where FLINT gave up: it was
- * left, *user holds what it held then, nothing in it that was allocated is there any more; the
- * pool has its budget of before. The failure is recorded as the thread's, not the pool's; so is
- * what work itself recorded. */
+/* Run work(user), guarded; inside another guarded computation simply run it. QDOT_OK: it
+ * returned. QDOT_ENOMEM, QDOT_EINTR, QDOT_ELIMIT (past the bound, or FLINT gave up): it was left;
+ * *user is as it was then, but everything allocated in it has been freed; the pool has its
+ * previous budget. The failure, as one recorded by work itself, is the thread's last error, not
+ * the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_flint_run(qdot_pool *pool, void (*work)(void *user),
                                            void *user);
 

@@ -24,8 +24,8 @@ void qdot_ideal_clear(qdot_ideal *ideal, qdot_field *f);
  * relations. */
 void qdot_ideal_reduce(const qdot_ideal *ideal, qdot_field *f, fmpz_t s, fmpz_mpoly_t p);
 
-/* *r modulo relation[n], each the numerator of its value in f; as it is where that would make its
- * denominator 0 or fails. Errors: those of qdot_ideal_make. */
+/* Reduce *r modulo relation[n], each the numerator of its value in f; unchanged if that would
+ * make its denominator 0 or fails. Errors: those of qdot_ideal_make. */
 qdot_status qdot_ideal_reduce_ratio(qdot_field *f, qdot_ratio *r, size_t n,
                                     const qdot_expr *relation);
 

@@ -1,5 +1,4 @@
-/* lattice.h -- base angles: arguments as integer combinations of as few angles as can
- * be.
+/* lattice.h -- base angles: arguments as integer combinations of as few angles as possible.
  *
  * An argument is a linear combination over Q of angle monomials (theta, omega*t, 1 ...)
  * plus a rational multiple of pi. When the directions of the arguments are independent

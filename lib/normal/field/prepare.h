@@ -1,5 +1,5 @@
-/* prepare.h -- expressions made ready for a field: what stands inside functions in
- * normal form.
+/* prepare.h -- prepares expressions for a field: brings the arguments of functions into normal
+ * form.
  *
  * Two arguments that are equal become the same node, so that log(a*b - b*a + x) and
  * log(x) are one generator. Roots, absolute values and logarithms are split along the

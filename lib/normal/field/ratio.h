@@ -12,7 +12,7 @@
 #include "normal/field/map.h"
 
 typedef enum {
-    QDOT_GEN_PLAIN, /* a symbol, a function that is not looked into */
+    QDOT_GEN_PLAIN, /* a symbol, a function without rules */
     QDOT_GEN_ROOT,
     QDOT_GEN_ABS,
     QDOT_GEN_SIN,

@@ -1,5 +1,5 @@
-/* split.h -- a product of factors with what is known of their signs, for roots and
- * logarithms. */
+/* split.h -- splits roots, absolute values and logarithms of products by the known signs of
+ * factors. */
 #ifndef QDOT_NORMAL_SPLIT_H
 #define QDOT_NORMAL_SPLIT_H
 

@@ -1,7 +1,7 @@
-/* together.h -- arguments that hold functions, each by the same base angles.
+/* together.h -- writes the arguments of all functions by the same base angles.
  *
- * By itself cos(2 x) in an argument is normal, and so is cos(x)^2; side by side they are not. So the
- * arguments of all functions are values of one field.
+ * As the only argument cos(2 x) is in normal form, and so is cos(x)^2; together they are not. So
+ * the arguments of all functions become values of one field.
  *
  * Tests   tests/normal/test_decide.c, tests/script/identities-angles.inc
  */

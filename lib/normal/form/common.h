@@ -1,4 +1,4 @@
-/* common.h -- what all terms of a sum share, in front. */
+/* common.h -- takes common factors out of sums. */
 #ifndef QDOT_NORMAL_COMMON_H
 #define QDOT_NORMAL_COMMON_H
 

@@ -1,4 +1,4 @@
-/* form.h -- polynomials of a field said as a person would: the fewest operations.
+/* form.h -- polynomials of a field as expressions with the fewest operations.
  *
  * Every function gives an expression equal to the polynomial by construction.
  */
@@ -7,15 +7,15 @@
 
 #include "normal/field/polynomials.h"
 
-/* Kinds of variables, and what was already said. */
+/* Kinds of variables, and the forms found so far. */
 typedef struct {
     qdot_field *f;
     bool *fast, *trig; /* [gens] */
     qdot_polynomials known;
-    qdot_expr *said; /* [known.n] what was said of each */
+    qdot_expr *said; /* [known.n] the form of each */
     size_t said_capacity;
     int depth, horner; /* of products within products, of powers taken out */
-    bool quotient; /* what is said stands over a denominator */
+    bool quotient; /* the polynomial is a numerator over a denominator */
 } qdot_form;
 
 QDOT_MUST_CHECK qdot_status qdot_form_begin(qdot_form *form, qdot_field *f);
@@ -27,9 +27,9 @@ qdot_expr qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
 /* The forms of a quotient: the shortest of them and of *best (quotient.c). */
 void qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best);
 
-/* Of c r the coefficients of monomials in what moves, each over what is left of the denominator,
- * equal denominators together, and what all share in front: the shortest of these and of *best
- * (denominators.c). */
+/* c r as coefficients of monomials in velocities and accelerations, each over the rest of the
+ * denominator, with equal denominators together and common factors in front: the shorter of this
+ * and *best (denominators.c). */
 void qdot_form_say_apart(qdot_form *form, const qdot_ratio *r, const fmpq_t c,
                          qdot_expr *best);
 
@@ -53,7 +53,7 @@ qdot_expr qdot_form_integer(qdot_pool *pool, const fmpz_t n);
 /* A polynomial in trigonometric variables alone (trig-form.c). */
 qdot_expr qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p);
 
-/* What was said of p before; nil if nothing. Remember e for p; returns e. */
+/* The form of p found before; nil if none. Remember e as the form of p; returns e. */
 qdot_expr qdot_form_recall(const qdot_form *form, const fmpz_mpoly_t p);
 qdot_expr qdot_form_remember(qdot_form *form, const fmpz_mpoly_t p, qdot_expr e);
 

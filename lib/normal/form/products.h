@@ -1,4 +1,4 @@
-/* products.h -- products of an expression, rewritten wherever they stand in it. */
+/* products.h -- rewrites the products in an expression. */
 #ifndef QDOT_NORMAL_PRODUCTS_H
 #define QDOT_NORMAL_PRODUCTS_H
 
@@ -10,8 +10,8 @@ qdot_expr qdot_products_tangents(qdot_pool *pool, qdot_expr e);
 /* (-a - b)*c as -(a + b)*c. */
 qdot_expr qdot_products_signs(qdot_pool *pool, qdot_expr e);
 
-/* sin(2 a) as 2 sin(a) cos(a), and then what terms share in front (common.c), a function to its least
- * power: 1/2*sin(2*a)*x + sin(a)*y = sin(a)*(cos(a)*x + y). Longer than e, it may be. */
+/* sin(2 a) as 2 sin(a) cos(a), then common factors in front (common.c), a function to its least
+ * power: 1/2*sin(2*a)*x + sin(a)*y = sin(a)*(cos(a)*x + y). The result may be longer than e. */
 qdot_expr qdot_products_out(qdot_pool *pool, qdot_expr e);
 
 /* Fractions in front of sums into them, where that is shorter: v^2/4 + x^2 for (v^2 + 4 x^2)/4. */

@@ -14,7 +14,7 @@
 qdot_expr qdot_shortest(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
 /* The same with a budget for each scalar, in operations on terms of polynomials;
- * *spent: whether one was spent, so that there may be a shorter form. */
+ * *spent: whether one was used up, so that there may be a shorter form. */
 enum { QDOT_SHORTEST_WORK = 4000000 };
 qdot_expr qdot_shortest_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts,
                                int64_t work, bool *spent);

@@ -7,11 +7,12 @@
  * zeros above lie in separate sheets, so rational points between all real zeros, taken symbol by symbol,
  * meet every open cell. In each one point decides: balls, and where these hold zero the norm form.
  *
- * So e >= 0 is known on a dense part of the open set g > 0, and by continuity on its closure: all of
- * the set that linear g >= 0 leave. With several symbols a weak condition that is not linear is not used,
- * and nothing is said where the base of a root is neither linear nor known not to be negative (x^2*(x - 1)
- * has a root at 0 too, with none beside it). With one symbol such points are looked at one by one, and
- * so are the zeros of e: e > 0 is decided there.
+ * So e >= 0 is known on a dense part of the open set g > 0, and by continuity on its closure,
+ * which is the whole set of the conditions g >= 0 if these are linear. With several symbols a
+ * weak condition that is not linear is not used, and there is no decision if the base of a root
+ * is neither linear nor known not to be negative (x^2*(x - 1) has a root at 0 too, an isolated
+ * point). With one symbol such points and the zeros of e are tested one by one, so e > 0 is
+ * decided too.
  *
  * Source  A. Strzebonski, "Solving systems of strict polynomial inequalities", J. Symbolic Computation
  *         29 (2000) 471; S. McCallum, "Solving polynomial strict inequalities using cylindrical

@@ -1,7 +1,7 @@
 /* contradiction.h -- do conditions contradict each other, or the declared domains?
  *
- * They do where one of them is proved false under the others: g <= 0 for a condition g > 0, r > 0 or
- * r < 0 for a relation r = 0. What is proved under such conditions says nothing.
+ * They do if one of them is proved false under the others: g <= 0 for a condition g > 0, r > 0 or
+ * r < 0 for a relation r = 0. Proofs under such conditions are worthless.
  *
  * Tests  tests/script/check.lag
  */
@@ -10,7 +10,8 @@
 
 #include "normal/field/facts.h"
 
-/* *found: proved to. Only few and small ones are looked at. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* *found: a contradiction is proved. Only few and small conditions are tried. Errors:
+ * QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_contradiction(qdot_pool *pool, const qdot_facts *facts,
                                                bool *found);
 

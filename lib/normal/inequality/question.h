@@ -1,5 +1,5 @@
-/* question.h -- an inequality and its conditions, made algebraic: what inequality.h says is put in. For
- * inequality.c alone.
+/* question.h -- makes an inequality and its conditions algebraic by the substitutions of
+ * inequality.h. For inequality.c alone.
  */
 #ifndef QDOT_NORMAL_QUESTION_H
 #define QDOT_NORMAL_QUESTION_H
@@ -14,9 +14,9 @@ typedef struct {
     qdot_cells_condition condition[QDOT_QUESTION_CONDITIONS];
     size_t n;
     bool too_much;
-    int64_t *work; /* what is left of the budget of all questions */
-    bool chosen; /* by an if: what no open set holds counts too */
-    bool exact; /* a point where it fails is a point of the question that was asked */
+    int64_t *work; /* rest of the budget of all questions */
+    bool chosen; /* a branch of an if: points that belong to no open set count too */
+    bool exact; /* a counterexample is one of the original question too */
 } qdot_question;
 
 void qdot_question_demand(qdot_question *q, qdot_expr gap, bool weak);

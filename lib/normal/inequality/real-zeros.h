@@ -12,7 +12,7 @@
 #include "num/arb.h"
 
 /* r = c p over x[0 .. k) in the variables symbol[0 .. k), a polynomial in symbol[k], c > 0; p holds no
- * others. 0 where memory ends. */
+ * others. 0 if there is no memory. */
 void qdot_polynomial_over(fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k,
                           const slong *symbol, const fmpq *x, const fmpz_mpoly_ctx_t ctx);
 

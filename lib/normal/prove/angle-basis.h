@@ -1,11 +1,11 @@
-/* angle-basis.h -- angles and logarithms written by the fewest of them.
+/* angle-basis.h -- writes angles and logarithms by as few of them as possible.
  *
- * A field takes atan(x) and asin(x/sqrt(x^2 + 1)) for independent; in a sum the step of angles
- * (zero.h) finds that they cancel, in a product nothing does. So relations
+ * A field treats atan(x) and asin(x/sqrt(x^2 + 1)) as independent; in a sum the step of angles
+ * (zero.h) finds that they cancel, but not in a product. So relations
  *
  *     A = c1 B1 + c2 B2 + ... + q pi,   c, q small fractions,
  *
- * are guessed from values at points, each is proved, and A is written by the B everywhere.
+ * are guessed from values at points, each is proved, and A is replaced everywhere.
  *
  * Tests   tests/script/identities-inverse.inc, tests/normal/test_verdicts.c
  */

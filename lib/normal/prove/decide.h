@@ -6,10 +6,10 @@
  * products of symbols (omega*t) with rational multiples of pi; roots and absolute values,
  * nested ones too, with declared signs and conditions (zero.h, domain.h); algebraic
  * constants (constant.h); inverse functions, log, max, min and powers by rules
- * (rewrite.h); undefined functions of equal arguments (unify.h). A multivariate
- * polynomial normal form (FLINT) modulo s^2 + c^2 = 1, C^2 - S^2 = 1, r^k = b. What is
- * outside counts as an independent generator: a zero found is still a proof; a nonzero is
- * then only decided by refutation.
+ * (rewrite.h); undefined functions of equal arguments (unify.h). The method is a multivariate
+ * polynomial normal form (FLINT) modulo s^2 + c^2 = 1, C^2 - S^2 = 1, r^k = b. Anything else
+ * counts as an independent generator: a zero found is still a proof; that an expression is not
+ * zero is then decided only by refutation.
  *
  * A refutation is a point inside the declared domains at which the ball of left - right (Arb) does not
  * contain 0: never rounding.

@@ -1,14 +1,14 @@
-/* defined.h -- what holds wherever an expression has a value.
+/* defined.h -- conditions that hold wherever an expression is defined.
  *
  * Sides are compared where both are defined. There
  *
  *     b^(p/q): b >= 0 (b > 0 below a bar),   log u: u > 0,   asin u, acos u: -1 <= u <= 1,
  *     acosh u: u >= 1,   atanh u: -1 < u < 1,
  *
- * for every such node that is evaluated whatever the values are: not what stands inside an if. A gap
- * is taken apart: of n/d > 0 the factors of n d without those of known sign; of c (a^2 - x^2) >= 0
- * with c > 0 two gaps, a - x and a + x. A root that stands beside what may be zero and could have been
- * taken out of it says nothing: x^2 (y - 1) under a root is |x| times the root of y - 1.
+ * for every such node that is always evaluated (not inside an if). A condition gap > 0 is split:
+ * for n/d > 0 into the factors of n d without those of known sign; for c (a^2 - x^2) >= 0 with c
+ * > 0 into a - x and a + x. A root whose factor may be zero gives no condition: x^2 (y - 1) under
+ * a root is |x| times the root of y - 1.
  *
  * Tests  tests/normal/test_decide.c, tests/script/identities-inverse.inc
  */

@@ -1,14 +1,13 @@
-/* domain.h -- what is known of signs, put into the symbols themselves.
+/* domain.h -- substitutes symbols of known sign for conditions and declared bounds.
  *
  * A condition g > 0 with g = c x + rest is solved for x: x = (y - rest)/c with a new
  * symbol y > 0 in its place; a declared bound u > 3 likewise, u = 3 + y. What follows
  * from signs alone then shows by itself: abs(u - 3) is abs(y), so y. A relation that is
  * linear in a symbol, a x + b = 0 with a never zero, is solved and x put in everywhere.
  *
- * `implied`: so is what holds wherever e[0] and e[1] have values (defined.h).
+ * `implied`: conditions that hold wherever e[0] and e[1] are defined (defined.h) are used too.
  *
- * The new problem holds on a domain that is not smaller, so what is proved there is
- * proved.
+ * The domain of the new problem is not smaller, so a proof of it proves the original one.
  */
 #ifndef QDOT_NORMAL_DOMAIN_H
 #define QDOT_NORMAL_DOMAIN_H
@@ -18,9 +17,9 @@
 
 typedef qdot_vec(qdot_expr) qdot_exprs;
 
-/* What is left of conditions. */
+/* The conditions that remain. */
 typedef struct {
-    qdot_exprs positive; /* what they say to be > 0 and was not solved; owned by the caller */
+    qdot_exprs positive; /* gaps > 0 that were not solved; owned by the caller */
     bool empty; /* conditions and declared signs contradict each other, no point is left */
 } qdot_domain_rest;
 

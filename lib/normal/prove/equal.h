@@ -39,15 +39,15 @@ qdot_problem_count(const qdot_problem *p)
     return 2 + p->nr + p->np;
 }
 
-/* Begun, always to be finished: what finish returns is the status of the proof. */
+/* Always finish a problem that was begun: finish returns the status of the proof. */
 QDOT_MUST_CHECK qdot_status qdot_problem_begin(qdot_problem *p, qdot_pool *pool, qdot_expr left,
                                                qdot_expr right, const qdot_facts *facts);
 QDOT_MUST_CHECK qdot_status qdot_problem_finish(qdot_problem *p, qdot_status status);
 
-/* Bases of roots that are positive as they stand; once multiplied out that is hard to see. */
+/* Find bases of roots that are obviously positive; after expansion that is hard to see. */
 QDOT_MUST_CHECK qdot_status qdot_problem_note_positive(qdot_problem *p);
 
-/* All of them prepared; QDOT_EFAILED if one has no value (a zero denominator). */
+/* Prepare all expressions; QDOT_EFAILED if one is undefined (a zero denominator). */
 QDOT_MUST_CHECK qdot_status qdot_problem_prepare(qdot_problem *p);
 
 /* Whether the difference is zero in a field of all of them. `signs`: with roots and

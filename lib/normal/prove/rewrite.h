@@ -1,4 +1,4 @@
-/* rewrite.h -- functions by other functions, for proofs only: the result is longer.
+/* rewrite.h -- replaces functions by other functions, for proofs only: the result is longer.
  *
  *     acos v = pi/2 - asin v,   asinh v = log(v + sqrt(v^2 + 1)),
  *     acosh v = log(v + sqrt(v^2 - 1)),   atanh v = log((1 + v)/(1 - v))/2,
@@ -15,7 +15,7 @@
 
 #include "expr/expr.h"
 
-/* e rewritten, children first; nil where that fails. */
+/* e rewritten, children first; nil on failure. */
 qdot_expr qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials);
 
 /* Whether an exponential occurs in e (or would, rewritten). */

@@ -1,4 +1,4 @@
-/* unify.h -- arguments that are equal by the field's rules made the same node.
+/* unify.h -- makes arguments that are equal by the field's rules the same node.
  *
  * f(cos(2*z)) and f(1 - 2*sin(z)^2) are one function at one argument, but different
  * generators of a field that does not look into f. Functions and bases of roots are
@@ -16,7 +16,7 @@
 /* How arguments are proved equal. */
 typedef struct {
     qdot_prover prove;   /* a bounded number of times */
-    qdot_prover harder;  /* where that has not; NULL: nothing */
+    qdot_prover harder;  /* tried if `prove` fails; NULL: none */
     bool only_undefined; /* undefined functions only */
 } qdot_unify_way;
 

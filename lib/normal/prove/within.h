@@ -1,8 +1,8 @@
-/* within.h -- inverse functions of their own functions, within their values:
+/* within.h -- replaces inverse functions of their own functions within their range:
  *
  *     acos(cos(x)) = x for 0 <= x <= pi, likewise asin and atan; atan2(p sin(x), p cos(x)) = x, p > 0,
  *
- * where the declared domain of x lies there.
+ * if the declared domain of x lies in that range.
  *
  * Tests  tests/normal/test_decide.c, tests/script/identities-cases.inc
  */
@@ -11,7 +11,7 @@
 
 #include "expr/expr.h"
 
-/* e with x in their place; nil where that fails. */
+/* e with x in their place; nil on failure. */
 qdot_expr qdot_within_values(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* zero.h -- is a polynomial of a field zero, as a function of what its generators say?
+/* zero.h -- is a polynomial of a field zero as a function of the symbols?
  *
  * The normal form of field.h knows r^k = b for a root, not which of the roots r is, nor
  * relations between the roots. So p can be zero and its normal form not. Four steps:
@@ -33,7 +33,7 @@ typedef struct {
     const qdot_ideal *ideal; /* relations that hold; NULL: none */
     size_t n_positive;
     const qdot_expr *positive; /* expressions in the field that are > 0 */
-    bool sure;                 /* these are on the whole of the declared domain */
+    bool sure;                 /* they are so on the whole declared domain */
     uint8_t *sign;             /* [f->n] of generators */
     /* Of prepared sides that are simpler than p: whether they are equal; set by the caller. */
     qdot_status (*prove)(qdot_pool *pool, qdot_expr left, qdot_expr right, size_t n_positive,
@@ -58,7 +58,7 @@ QDOT_MUST_CHECK qdot_status qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_
 QDOT_MUST_CHECK qdot_status qdot_zero_angles(qdot_zero *z, const fmpz_mpoly_t p,
                                              bool *zero);
 
-/* What is known of the sign of p (range.c): a set of QDOT_GE0 ... */
+/* The known sign of p (range.c): a set of QDOT_GE0 ... */
 uint8_t qdot_zero_sign(qdot_zero *z, const fmpz_mpoly_t p);
 
 /* The signs of a generator from declared domains (range.c). */

@@ -55,9 +55,9 @@ void qdot_sample_end(qdot_sample *s);
 
 /* Choose the k-th point. */
 void qdot_sample_point(qdot_sample *s, int k);
-/* The k-th point at which one atom is where sides may differ though they agree about it: 0, 1, -1, a
- * quarter turn, a declared bound that belongs to it, another atom's value or its negative. False:
- * there are no more. */
+/* The k-th special point, at which sides may differ though they agree around it: one atom is 0,
+ * 1, -1, a quarter turn, a declared bound that belongs to it, another atom's value or its
+ * negative. False: there are no more. */
 bool qdot_sample_edge(qdot_sample *s, int k);
 /* Evaluate there; whether it is a point: conditions surely hold, solved values inside
  * their domains. The values: qdot_ball_get(&s->ball, e). */
@@ -72,7 +72,7 @@ qdot_expr qdot_sample_list(qdot_sample *s);
 /* For the files of samples: the value of a free atom, put in; whether a symbol is the sign before a
  * root that solves a relation. */
 void qdot_sample_set(qdot_sample_atom *a, slong prec);
-/* Where values of an atom are looked for at the point of the moment. */
+/* The range in which a value of an atom is searched at the present point. */
 void qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to);
 /* For qdot_ball_eval. */
 bool qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec);
@@ -95,7 +95,8 @@ qdot_sample_is_solved(size_t n, const qdot_sample_solution *solved, qdot_expr at
  * anyway. False: it cannot be solved. */
 bool qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
                        const qdot_sample_solution *solved, qdot_sample_solution *out);
-/* Find the value of an implicit atom, those it depends on being known. Whether there is one. */
+/* Find the value of an implicit atom; the atoms it depends on are known. Returns whether there is
+ * one. */
 bool qdot_sample_root(qdot_sample *s, qdot_sample_atom *a, slong prec);
 bool qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e);
 

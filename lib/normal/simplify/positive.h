@@ -1,7 +1,7 @@
-/* positive.h -- when is it positive? The shortest condition that says so.
+/* positive.h -- the shortest condition for an expression to be positive.
  *
- * e is taken apart into factors; those whose sign is known (from declared domains, or from
- * conditions that hold already) are left out:
+ * e is factored; factors whose sign is known (from declared domains, or from conditions that hold
+ * already) are dropped:
  *
  *     m*R*(g - R*Omega^2) > 0   is   g > R*Omega^2   for m, R > 0.
  *

@@ -1,4 +1,4 @@
-/* rationalize.h -- square roots out of denominators: 1/(2 - sqrt(2)) is (2 + sqrt(2))/2.
+/* rationalize.h -- removes square roots from denominators: 1/(2 - sqrt(2)) is (2 + sqrt(2))/2.
  *
  * Tests  tests/normal/test_solve.c
  */

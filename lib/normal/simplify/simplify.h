@@ -1,5 +1,5 @@
-/* simplify.h -- the form a person would write: the shortest (form/shortest.h), with absolute values
- * and signs that the conditions of `facts` tell taken out first.
+/* simplify.h -- the form a person would write: the shortest (form/shortest.h), after absolute
+ * values and signs known from the conditions of `facts` are replaced.
  */
 #ifndef QDOT_NORMAL_SIMPLIFY_H
 #define QDOT_NORMAL_SIMPLIFY_H

@@ -1,10 +1,9 @@
-/* antiderivative.h -- integrals that a table knows, and potentials of exact forms.
+/* antiderivative.h -- integrals from a table, and potentials of exact forms.
  *
- * A sum term by term; of a term the powers, exponentials, sines and cosines of something
- * linear in x, their products with powers of x (by parts), and what becomes one of these
- * when one of its parts is the variable: u in f(u) u'. The integral of 1/u is log(u), as
- * people write it, where u > 0. Not a decision: nil says that the
- * table does not know it.
+ * A sum is integrated term by term. A term may be a power, exponential, sine or cosine of
+ * something linear in x, its product with a power of x (by parts), or become one of these by the
+ * substitution of u in f(u) u'. The integral of 1/u is written log(u), for u > 0. This is no
+ * decision: nil means that the table does not have the integral.
  *
  * Tests  tests/normal/test_antiderivative.c: differentiated again, random and by hand
  */

@@ -1,4 +1,4 @@
-/* cramer.h -- small linear systems whose entries are too long to be multiplied out. */
+/* cramer.h -- small linear systems whose entries are too long to be expanded. */
 #ifndef QDOT_NORMAL_CRAMER_H
 #define QDOT_NORMAL_CRAMER_H
 

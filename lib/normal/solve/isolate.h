@@ -23,12 +23,12 @@ typedef struct {
     const qdot_expr *x; /* [n] symbols; borrowed */
     qdot_expr *f;       /* [n + n * n] f, then df_i/dx_j by rows */
     qdot_ball ball;
-    arb_ptr at;         /* [n] the values of x of the moment */
+    arb_ptr at;         /* [n] present values of x */
     arb_ptr y, z;       /* [n] work */
     double *C, *work;   /* [n * n] */
 } qdot_isolate;
 
-/* For f [n] in the symbols x [n], which nothing else may stand beside but pi. Errors:
+/* For f [n] that contain only the symbols x [n] and pi. Errors:
  * QDOT_ENOMEM, QDOT_EINTR, the pool's; then there is nothing to end. */
 QDOT_MUST_CHECK qdot_status qdot_isolate_begin(qdot_isolate *s, qdot_pool *pool, size_t n,
                                                const qdot_expr *f, const qdot_expr *x);

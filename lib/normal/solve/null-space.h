@@ -5,9 +5,9 @@
  *     sum_j c_j E_ij = 0   for every row i, whatever q, q', q'', t and everything else
  *                          but the parameters are.
  *
- * The numerators over a common denominator are taken apart into monomials of a field
- * (field.h), each of which must vanish by itself; the coefficients, polynomials in the
- * parameters, are eliminated exactly.
+ * The numerators over a common denominator are split into monomials of a field (field.h), the
+ * coefficient of each of which must vanish; these, polynomials in the parameters, are eliminated
+ * exactly.
  *
  * Tests  tests/normal/test_null-space.c
  */

@@ -1,18 +1,18 @@
-/* solve.h -- all real x with f(x) = 0, for the equations that mechanics asks.
+/* solve.h -- all real x with f(x) = 0, for the equations that occur in mechanics.
  *
- * f is factored; each factor must be, after taking apart nested functions,
+ * f is factored; each factor must be, after resolving nested functions,
  *
  *     a polynomial in x, or in one function of x, of degree 1 or 2, or in a power of it;
  *     a polynomial in sin u or cos u alone of that kind; a sin u + b cos u = d;
  *     A(cos u) + B(cos u) sin u, whose resolvent A^2 = (1 - cos^2 u) B^2 is of that kind;
- *     a root r, r^q = b(x), that stands linearly: its resolvent, each solution tried;
+ *     linear in a root r, r^q = b(x): its resolvent, each solution tested;
  *
  * with |u(x)| and sign u(x) once for either sign of u.
  *
  * Angles (u rational in x) are given in -pi < x <= pi, else in x's declared domain.
- * Solutions outside that, or where f is not defined, are left out; where it depends on
- * parameters whether a solution is real, it carries that condition. Parameters are
- * generic: nothing is said of values at which a leading coefficient vanishes.
+ * Solutions outside that, or where f is not defined, are dropped; a solution that is real only
+ * for some parameters carries that condition. Parameters are generic: values at which a leading
+ * coefficient vanishes are not considered.
  *
  * Tests  tests/normal/test_solve.c
  */
