@@ -1,5 +1,5 @@
-/* answer.h -- what a session says: one function for each kind of answer, as text or as
- * JSON.
+/* answer.h -- prints the answers of a session: one function for each kind of answer, as text or
+ * as JSON.
  *
  * Text goes to session->out in the session's style; with --json one object a line (kinds
  * and fields as the language reference has them). Doubles are written with 17 digits in
@@ -70,7 +70,7 @@ QDOT_MUST_CHECK qdot_status qdot_answer_in_file(qdot_session *session, const cha
 /* {"kind":"notice"}: `notice: MESSAGE` (printf). */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char *format,
                                                ...) QDOT_PRINTF(2, 3);
-/* The same, unless these very words were said in this session. */
+/* The same, unless this session has already given this notice. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
                                                     const char *format, ...)
     QDOT_PRINTF(2, 3);

@@ -1,4 +1,4 @@
-/* digits.h -- numbers of runs with `digits N`: exact inside, N digits where they are told.
+/* digits.h -- numbers of runs with `digits N`: exact internally, printed with N digits.
  *
  * Tests  tests/script/digits.lag
  */

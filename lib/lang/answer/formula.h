@@ -4,17 +4,16 @@
 
 #include "lang/session/session.h"
 
-#define QDOT_FORMULA_OPERATIONS 10000000u /* what is printed of one expression */
+#define QDOT_FORMULA_OPERATIONS 10000000u /* the largest expression that is printed */
 
 /* Append e. QDOT_ELIMIT, before any work: more than QDOT_FORMULA_OPERATIONS. */
 QDOT_MUST_CHECK qdot_status qdot_formula_print(qdot_session *session, qdot_expr e,
                                                qdot_style style, qdot_text *out);
 
-/* Append what an answer is called, in the style of the session: eom[θ₁], \mathrm{eom}_{\theta}. */
+/* Append the name of an answer in the style of the session: eom[θ₁], \mathrm{eom}_{\theta}. */
 QDOT_MUST_CHECK qdot_status qdot_formula_name(qdot_session *session, const char *name,
                                               qdot_text *out);
-/* Append e in the style of the session, as a formula that stands in a text: MathML within its
- * <math>. */
+/* Append e in the style of the session, as a formula within a text: MathML inside <math>. */
 QDOT_MUST_CHECK qdot_status qdot_formula(qdot_session *session, qdot_expr e,
                                          qdot_text *out);
 /* The same by parts: what begins and ends a formula, and the sign = between two. */

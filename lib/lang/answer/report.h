@@ -1,4 +1,4 @@
-/* report.h -- a run told: what a person needs to know, and the same as JSON. */
+/* report.h -- the report of a run, as text and as JSON. */
 #ifndef QDOT_LANG_REPORT_H
 #define QDOT_LANG_REPORT_H
 

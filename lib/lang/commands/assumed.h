@@ -1,4 +1,5 @@
-/* assumed.h -- what a check may use: the facts of the scene and what stands behind `when`. */
+/* assumed.h -- the assumptions of a check: the facts of the scene and the conditions after
+ * `when`. */
 #ifndef QDOT_LANG_ASSUMED_H
 #define QDOT_LANG_ASSUMED_H
 
@@ -7,16 +8,16 @@
 typedef struct {
     qdot_vec(qdot_expr) relations, conditions; /* scalars that are 0; inequalities */
     qdot_vec(qdot_expr) from, to; /* replacements, made before anything else */
-    bool motion, stated; /* `eom` was said; an equation was that is no constraint */
+    bool motion, stated; /* `eom` was given; an equation was given that is not a constraint */
 } qdot_assumed;
 
 /* Add the facts of the scene to an empty one. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_begin(qdot_session *session, qdot_assumed *f);
 void qdot_assumed_free(qdot_assumed *f);
-/* Read one condition behind `when`: `eom`, the label of a constraint, or a relation. */
+/* Read one condition after `when`: `eom`, the label of a constraint, or a relation. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_read(qdot_cursor *c, qdot_assumed *f);
-/* `eom`: accelerations and multipliers by their solution; what constraints say of q and q' holds
- * beside it. */
+/* `eom`: replace accelerations and multipliers by their solution, and add the constraints on q
+ * and q'. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_motion(qdot_session *session, qdot_assumed *f);
 /* Constraint i and its time derivatives, with or without the one that holds accelerations. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_constraint(qdot_session *session, qdot_assumed *f,

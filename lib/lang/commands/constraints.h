@@ -1,4 +1,4 @@
-/* constraints.h -- what is said of constraints when they are declared and checked.
+/* constraints.h -- notices and checks about constraints.
  *
  * Tests  tests/script/reactions.lag, tests/script/integrable.lag
  */

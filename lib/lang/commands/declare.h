@@ -1,4 +1,4 @@
-/* declare.h -- what several statements need to declare names and give them values. */
+/* declare.h -- helpers of the statements that declare names and give them values. */
 #ifndef QDOT_LANG_DECLARE_H
 #define QDOT_LANG_DECLARE_H
 
@@ -9,8 +9,7 @@
 QDOT_MUST_CHECK qdot_status qdot_declare_name(qdot_cursor *c, const qdot_token *start,
                                               qdot_name *entry);
 
-/* A name is declared that stands as an argument in `function x(NAME)` before: that function is
- * from now on one of the symbol. */
+/* After NAME is declared, an earlier `function x(NAME)` becomes a function of that symbol. */
 QDOT_MUST_CHECK qdot_status qdot_declare_meet_functions(qdot_session *session,
                                                         const char *name,
                                                         qdot_expr symbol);

@@ -1,4 +1,4 @@
-/* figure-file.h -- where a figure goes. */
+/* figure-file.h -- writes a figure to its file or window. */
 #ifndef QDOT_LANG_FIGURE_FILE_H
 #define QDOT_LANG_FIGURE_FILE_H
 

@@ -6,7 +6,7 @@
 
 typedef struct {
     char *name;
-    const qdot_token *behind; /* the token behind its range */
+    const qdot_token *behind; /* the token after its range */
     bool listed;              /* values from a list, else at..last */
     long at, last;
     qdot_vec(qdot_expr) values;
@@ -23,7 +23,7 @@ typedef struct {
     bool open; /* counted in session->loops */
 } qdot_loop;
 
-enum { QDOT_LOOP_PASSES = 10000000 }; /* the most of one index */
+enum { QDOT_LOOP_PASSES = 10000000 }; /* the most passes of one index */
 
 /* Bind the indices to the first pass, then to the next; *more: there is such a pass. A
  * range may depend on the indices before it. After an error or the last pass nothing

@@ -21,7 +21,7 @@ void qdot_operand_clear(qdot_operand *o);
 void qdot_operands_free(qdot_operands *list);
 /* `E1, a.E2, ...` */
 QDOT_MUST_CHECK qdot_status qdot_operands_read(qdot_cursor *c, qdot_operands *list);
-/* The latest run for those that name none; QDOT_EINVAL where there is none. */
+/* Use the latest run for operands that name none; QDOT_EINVAL if there is no run. */
 QDOT_MUST_CHECK qdot_status qdot_operands_find_runs(qdot_session *session,
                                                     qdot_operands *list);
 /* Along its run at times [rows]: values [components * rows], component by component. */

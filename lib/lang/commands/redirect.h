@@ -1,7 +1,7 @@
-/* redirect.h -- `to FILE` behind any statement that answers (`T to "t.txt"`).
+/* redirect.h -- `to FILE` after any statement with an answer (`T to "t.txt"`).
  *
- * Type by ending: .txt and .tex hold what would be printed, .json the objects of --json.
- * table, plot, save and their like read a `to` of their own.
+ * The ending decides the type: .txt and .tex get the printed text, .json the objects of --json.
+ * table, plot, save and the like read their own `to`.
  *
  * Tests  tests/script/to-file.sh
  */
@@ -13,7 +13,7 @@
 typedef struct {
     qdot_session *session;
     const char *path; /* borrowed */
-    FILE *file, *out, *console; /* what is kept; where answers and notices go otherwise */
+    FILE *file, *out, *console; /* collects the answers; the session's previous files */
     bool json;
     char *text;
     size_t length;

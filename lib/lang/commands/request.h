@@ -1,4 +1,4 @@
-/* request.h -- what is asked of a run: the values and the start of the moment. */
+/* request.h -- makes the request of a run from the session's present values and start. */
 #ifndef QDOT_LANG_REQUEST_H
 #define QDOT_LANG_REQUEST_H
 
@@ -13,7 +13,7 @@ typedef struct {
     qdot_run_request request;
 } qdot_request;
 
-/* Fill in the values and the start of the moment. */
+/* Fill in the session's present values and start. */
 QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session, qdot_request *o);
 void qdot_request_free(qdot_request *o);
 

@@ -1,15 +1,15 @@
 /* scene-file.h -- a scene as a script: `scene to "x.lag"`, `save session to "x.lag"`.
  *
- * The statements are made from what is declared now, not from what was typed: positions and values
- * stand there evaluated, in exact numbers, in the plain style. Order: parameters, functions and
+ * The statements are made from the present declarations, not from the typed text: positions and
+ * values are evaluated, in exact numbers, in the plain style. Order: parameters, functions and
  * coordinates as they were declared; assumptions; things with mass, forces, constraints, events;
  * definitions; values of `set`; the start. Read by a fresh program they give the same scene, and
  * written again the same file.
  *
- * A definition is only written in a form that is seen to read back as its value: its value; the text
- * it was defined with; else a comment and a notice say that it is missing.
+ * A definition is written as its value, or as the text it was defined with, whichever is verified
+ * to read back as its value; else a comment and a notice say that it is missing.
  *
- * A file is overwritten only where it begins as these files do.
+ * A file is overwritten only if it begins as these files do.
  *
  * Tests  tests/script/scene-file.lag, tests/script/scene-file.sh
  */
@@ -18,7 +18,7 @@
 
 #include "lang/language/cursor.h"
 
-/* Whether the token is the name of such a file, "NAME.lag". */
+/* Whether the token is the name of a scene file, "NAME.lag". */
 bool qdot_scene_file_is(const qdot_token *token);
 
 /* Append what stands in such a file; whole: with the style and the runs of the session. */

@@ -1,4 +1,4 @@
-/* script.h -- texts and files of statements, carried out.
+/* script.h -- carries out texts and files of statements.
  *
  * Tests  tests/script/, tests/bad/, tests/lang/test_session.c
  */
@@ -18,7 +18,7 @@ int qdot_script_run_file(qdot_session *session, const char *path);
 /* For the prompt: whether the text so far is incomplete (an open bracket, a trailing \). */
 bool qdot_script_is_incomplete(const char *text, size_t length);
 
-/* An error that has been reported already (by an included file) has this place. */
+/* The place of an error that an included file has already reported. */
 #define QDOT_SCRIPT_REPORTED SIZE_MAX
 
 /* Lex and carry out a text, reporting the first error. */

@@ -1,4 +1,4 @@
-/* set.h -- `NAME = VALUE` read, of parameters, coordinates and velocities. */
+/* set.h -- reads `NAME = VALUE` for parameters, coordinates and velocities. */
 #ifndef QDOT_LANG_SET_H
 #define QDOT_LANG_SET_H
 

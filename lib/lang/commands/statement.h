@@ -1,11 +1,9 @@
-/* statement.h -- the statements of the language: one table that parses, completes and
- * helps.
+/* statement.h -- the table of statements of the language, for parsing, completion and help.
  *
- * A statement is a row of statement.def. Its handler gets a cursor behind the statement's word,
+ * A statement is a row of statement.def. Its handler gets a cursor after the statement's word,
  * reads its operands, checks that nothing is left (qdot_cursor_expect_end) and only then
- * acts, so that a statement that fails changes nothing. A trailing `for` and blocks are
- * the matter of script.c: a handler sees each pass as a statement of its own
- * that ends before `for`.
+ * acts, so that a statement that fails changes nothing. script.c handles a trailing `for` and
+ * blocks: a handler sees each pass as a separate statement that ends before `for`.
  *
  * Tests  tests/script/, tests/bad/, tests/lang/test_session.c
  */
@@ -18,7 +16,7 @@ typedef struct {
     const char *word, *group;
     const char *usage, *summary, *example;
     qdot_status (*run)(qdot_cursor *c); /* NULL: not built yet */
-    bool alone; /* a value of the language that as a whole statement says more */
+    bool alone; /* a value of the language that prints more if it is the whole statement */
 } qdot_statement;
 
 /* Row of a word, NULL if there is none; row i, NULL past the end. Rows of a group are

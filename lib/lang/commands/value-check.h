@@ -1,5 +1,5 @@
-/* value-check.h -- values of parameters and functions that cannot be: a negative rest length, what an
- * assumption excludes. What still holds parameters without a value is not decided. */
+/* value-check.h -- checks values of parameters and functions: a rest length must not be negative,
+ * an assumption not false. Expressions with parameters that have no value are not checked. */
 #ifndef QDOT_LANG_VALUE_CHECK_H
 #define QDOT_LANG_VALUE_CHECK_H
 

@@ -1,4 +1,4 @@
-/* warnings.h -- notices for what is allowed and often not what was meant. */
+/* warnings.h -- notices for statements that are allowed but often mistakes. */
 #ifndef QDOT_LANG_WARNINGS_H
 #define QDOT_LANG_WARNINGS_H
 
@@ -19,7 +19,7 @@ QDOT_MUST_CHECK qdot_status qdot_warnings_place(qdot_cursor *c, qdot_expr place,
                                                 const char *body,
                                                 const qdot_token *action,
                                                 const qdot_token *at);
-/* A run for which no `start` was ever said. */
+/* A run without any `start`. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_start(qdot_session *session);
 
 #endif

@@ -1,4 +1,4 @@
-/* algebra.h -- functions that derive, solve and take apart; their rows are in builtin.c. */
+/* algebra.h -- functions that differentiate, rewrite and solve; their rows are in builtin.c. */
 #ifndef QDOT_LANG_ALGEBRA_H
 #define QDOT_LANG_ALGEBRA_H
 

@@ -19,8 +19,8 @@ enum {
     QDOT_BUILTIN_UNBUILT = 1, /* a word of the language that this version does not have */
     QDOT_BUILTIN_LABEL = 2,   /* the first argument is a label: its carrier symbol */
     QDOT_BUILTIN_RUN = 4,     /* arguments may name a run, value(a.theta, 20) */
-    QDOT_BUILTIN_FORM = 8,    /* a form of its own: sum, if */
-    QDOT_BUILTIN_SHORT = 16   /* gives way to whatever else is called so */
+    QDOT_BUILTIN_FORM = 8,    /* special syntax: sum, if */
+    QDOT_BUILTIN_SHORT = 16   /* anything else of this name takes precedence */
 };
 const qdot_builtin *qdot_builtin_find(const char *name);
 const qdot_builtin *qdot_builtin_at(size_t i); /* NULL past the end */

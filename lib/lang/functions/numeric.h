@@ -1,7 +1,7 @@
 /* numeric.h -- numeric(E), numeric(E, digits): the number of an expression.
  *
- * A number is one of a run's kind from then on: with its error, which all that is made of it carries.
- * Where symbols stay, what is known beside them is written as decimals, of 16 digits unless said.
+ * The result is like a number from a run: it has an error, which propagates. If symbols remain,
+ * the constants beside them become decimals, of 16 digits unless given.
  *
  * Tests  tests/script/numeric.lag, tests/bad/numeric-*.lag
  */

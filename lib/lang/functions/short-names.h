@@ -1,7 +1,8 @@
-/* short-names.h -- values of the language that a declaration took by their short name.
+/* short-names.h -- notices for values of the language that a declaration uses by their short
+ * name.
  *
- * `constraint rod: x^2 + y^2 = L^2` without a parameter L holds the Lagrange function; who wrote
- * it hardly meant that. Tests: tests/script/declarations.lag, tests/bad/taken-*.lag.
+ * `constraint rod: x^2 + y^2 = L^2` without a parameter L contains the Lagrange function, which
+ * is hardly intended. Tests: tests/script/declarations.lag, tests/bad/taken-*.lag.
  */
 #ifndef QDOT_LANG_SHORT_NAMES_H
 #define QDOT_LANG_SHORT_NAMES_H

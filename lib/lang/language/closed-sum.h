@@ -3,7 +3,7 @@
  *     sum k^p, p = 0, 1 ... 200          Faulhaber's formula
  *     sum r^(alpha k + beta)             (rho^a - rho^(b+1))/(1 - rho) r^beta, rho = r^alpha
  *
- * and what is linear in such terms, with coefficients free of k. A symbolic rho counts as generic: not 1.
+ * and linear combinations of these with coefficients free of k. A symbolic rho is generic: not 1.
  * Tests: tests/script/long-sums.lag, tests/bad/sum-too-long.lag
  */
 #ifndef QDOT_LANG_CLOSED_SUM_H

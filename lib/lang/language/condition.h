@@ -7,7 +7,7 @@
 
 #include "expr/expr.h"
 
-/* a op b for = == < <= > >=. QDOT_ETYPE: an inequality of what are no numbers. */
+/* a op b for = == < <= > >=. QDOT_ETYPE: an inequality between values that are not numbers. */
 QDOT_MUST_CHECK qdot_status qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a,
                                                     qdot_expr b, qdot_expr *value);
 /* Whether e is a relation, a combination of such, or a truth value. */

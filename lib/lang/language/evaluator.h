@@ -1,7 +1,7 @@
-/* evaluator.h -- inside the evaluator: from tokens to postfix code to values.
+/* evaluator.h -- for the files of the evaluator: from tokens to postfix code to values.
  *
- * What parse.c, evaluate.c, resolve.c, call.c and read.c ask of each other: an index or the body of
- * a function is read and evaluated while an expression is. Statements read through read.h.
+ * parse.c, evaluate.c, resolve.c, call.c and read.c call each other, because an index or the body
+ * of a function is read and evaluated while an expression is. Statements use read.h.
  */
 #ifndef QDOT_LANG_EVALUATOR_H
 #define QDOT_LANG_EVALUATOR_H
@@ -32,7 +32,7 @@ typedef enum {
     QDOT_POSTFIX_VECTOR,    /* n popped */
     QDOT_POSTFIX_LIST,      /* n popped */
     QDOT_POSTFIX_MATRIX,    /* n entries popped, `to` columns */
-    QDOT_POSTFIX_MEMBER,    /* the top is meant along the run `token` */
+    QDOT_POSTFIX_MEMBER,    /* the top refers to the run `token` */
     QDOT_POSTFIX_JUMP,      /* to `to` */
     QDOT_POSTFIX_SUM_BEGIN, /* a b popped; the loop over source token n, body at `to` */
     QDOT_POSTFIX_SUM_NEXT,  /* the body's value popped; round again or go on */
@@ -45,7 +45,7 @@ typedef struct {
     uint8_t op; /* qdot_postfix_kind */
     uint8_t primes;
     uint32_t n, to;
-    const qdot_token *token; /* answerable for it: where the caret goes */
+    const qdot_token *token; /* the token that an error points at */
 } qdot_postfix;
 
 typedef struct {
@@ -62,8 +62,8 @@ typedef enum {
 QDOT_MUST_CHECK qdot_status qdot_parse(qdot_cursor *c, qdot_parse_extent extent,
                                        qdot_postfix_list *program);
 
-/* Run the program; *run (may be NULL: not allowed) the run that the whole is meant along,
- * or NULL. *over (may be NULL): the coordinates its entries go by, or nil. */
+/* Run the program; *run (may be NULL: not allowed) the run that the whole expression refers to,
+ * or NULL. *over (may be NULL): the coordinates that index its entries, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_postfix_list *program,
                                           qdot_expr *value, qdot_expr *over,
                                           const char **run);

@@ -1,10 +1,10 @@
-/* function.h -- functions of the user's: NAME(u, v) = EXPR.
+/* function.h -- functions defined by the user: NAME(u, v) = EXPR.
  *
  * A function is the text of its body. A call reads that text with the arguments in place of the
  * formal names, so `f(u, x) = diff(u, x) + 1` differentiates what it is given. Inside a body a name
  * means, in order: a formal argument; an index of a `for` that ran when the function was defined, with
- * its value of then; what is declared at the time of the call. Names that a loop, a sum or another
- * function binds round the call are not seen.
+ * its value at that time; what is declared at the time of the call. Names bound by a loop, a sum
+ * or another function around the call are hidden.
  *
  * Tests: tests/script/functions.lag, tests/bad/function-*.lag, tests/lang/test_evaluate.c.
  */
@@ -13,7 +13,7 @@
 
 #include "lang/language/cursor.h"
 
-/* Calls within one another, over all functions. */
+/* The deepest nesting of calls, over all functions. */
 enum { QDOT_FUNCTION_DEPTH = 500 };
 
 /* `NAME(names) = EXPR` at the cursor: a definition, not declared yet. The body is parsed for its

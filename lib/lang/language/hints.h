@@ -1,4 +1,5 @@
-/* hints.h -- what a person may have meant: the nearest name, our form of another. */
+/* hints.h -- hints for unknown names: the nearest name, or our form of another system's function.
+ *  */
 #ifndef QDOT_LANG_HINTS_H
 #define QDOT_LANG_HINTS_H
 

@@ -1,4 +1,4 @@
-/* machine.h -- the state of an evaluation: its stack, its sums under way. */
+/* machine.h -- the state of an evaluation: its stack and unfinished sums. */
 #ifndef QDOT_LANG_MACHINE_H
 #define QDOT_LANG_MACHINE_H
 
@@ -7,13 +7,13 @@
 /* A value on the stack. */
 typedef struct {
     qdot_expr value;
-    qdot_expr over;         /* coordinates its entries go by, or nil */
-    const char *run;        /* meant along this run, or NULL */
+    qdot_expr over;         /* coordinates that index its entries, or nil */
+    const char *run;        /* it refers to this run, or NULL */
     const char *label;      /* it is the position of this particle or body, or NULL */
     const qdot_token *sign; /* the + - * / before it, or NULL for the first */
 } qdot_slot;
 
-/* A sum(...) under way. */
+/* An unfinished sum(...). */
 typedef struct {
     const char *index;
     const qdot_token *place; /* where it stands */
@@ -21,7 +21,7 @@ typedef struct {
     long first, k, last;
     uint32_t resume; /* code after it */
     size_t terms;    /* where its terms begin */
-    bool bound;      /* the index is bound just now */
+    bool bound;      /* the index is bound at present */
     qdot_expr symbol; /* what it is bound to for a formula of many terms; nil: to numbers */
 } qdot_sum_frame;
 
@@ -32,11 +32,11 @@ typedef struct {
     const qdot_postfix_list *program;
     qdot_vec(qdot_slot) stack;
     qdot_vec(qdot_sum_frame) frames;
-    qdot_vec(qdot_expr) terms; /* of all sums under way */
+    qdot_vec(qdot_expr) terms; /* of all unfinished sums */
     qdot_vec(qdot_expr) args;  /* scratch */
-    qdot_vec(const char *) labels; /* of the arguments of the call under way */
-    const qdot_token *blame;   /* where the caret goes if this fails */
-    bool belongs;              /* the run that follows as MEMBER has been taken */
+    qdot_vec(const char *) labels; /* of the arguments of the present call */
+    const qdot_token *blame;   /* the token that an error points at */
+    bool belongs;              /* the run of the following MEMBER has been used */
 } qdot_machine;
 
 static inline qdot_slot *

@@ -1,10 +1,10 @@
-/* partial-sum.h -- sums that a loop asks for again with one term more.
+/* partial-sum.h -- keeps sums that a loop evaluates again with one term more.
  *
  *     particle bob[k] ... at (sum(l[j]*sin(theta[j]), j, 1, k), ...) for k = 1..N
  *
- * writes N^2/2 terms, of which N differ. A sum is kept while the outermost loop goes on if its terms
- * depend on nothing but its own index: numbers, parameters and coordinates by their names, elementary
- * functions. One that begins where it began and goes at least as far goes on from it.
+ * has N^2/2 terms, of which N differ. A sum is kept until the outermost loop ends if its terms
+ * depend only on its own index: numbers, parameters and coordinates by their names, elementary
+ * functions. A sum with the same beginning that goes at least as far continues from it.
  *
  * Tests  tests/lang/test_partial-sum.c, tests/script/partial-sums.lag
  */

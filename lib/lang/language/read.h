@@ -1,4 +1,4 @@
-/* read.h -- the readers of statements: an operand of a kind, parsed and evaluated.
+/* read.h -- reads the operands of statements: parsed and evaluated, one function for each kind.
  *
  * A statement is a range of a source's tokens, which it reads through a cursor. An expression is
  * parsed to postfix code by precedence with an explicit stack and evaluated by a loop over that

@@ -1,4 +1,4 @@
-/* bind.h -- from expressions to numbers: the values of `set`, then those that runs gave. */
+/* bind.h -- numbers of expressions, from the values of `set` and the numbers from runs. */
 #ifndef QDOT_LANG_BIND_H
 #define QDOT_LANG_BIND_H
 

@@ -1,4 +1,4 @@
-/* event-time.h -- when the events of a run occurred. */
+/* event-time.h -- times of the events of a run. */
 #ifndef QDOT_LANG_EVENT_TIME_H
 #define QDOT_LANG_EVENT_TIME_H
 

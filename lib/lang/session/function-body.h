@@ -1,5 +1,5 @@
-/* function-body.h -- the text of a function's body, or of the right side of a definition, shared by
- * what uses it. */
+/* function-body.h -- the text of a function's body, or of the right side of a definition, with a
+ * count of its users. */
 #ifndef QDOT_LANG_FUNCTION_BODY_H
 #define QDOT_LANG_FUNCTION_BODY_H
 
@@ -8,8 +8,8 @@
 typedef struct qdot_function_body {
     unsigned uses;
     qdot_source *source;             /* kept alive */
-    const qdot_token *from, *to;     /* its tokens, `to` behind the last */
-    qdot_vec(const char *) captured; /* indices of loops round the definition */
+    const qdot_token *from, *to;     /* its tokens, `to` after the last */
+    qdot_vec(const char *) captured; /* indices of loops around the definition */
 } qdot_function_body;
 
 /* The tokens [from, to) of a source, with one use; NULL: no memory. */

@@ -1,4 +1,4 @@
-/* measured.h -- numbers that runs gave: each stands in expressions as a symbol. */
+/* measured.h -- numbers from runs: a symbol represents each in expressions. */
 #ifndef QDOT_LANG_MEASURED_H
 #define QDOT_LANG_MEASURED_H
 
@@ -7,7 +7,7 @@
 /* A new symbol for a number of a run; nil on failure, which the pool keeps. */
 qdot_expr qdot_measured_new(qdot_session *session, double value, double error);
 qdot_expr qdot_measured_add(qdot_session *session, qdot_measured m);
-/* Whether a number that a run gave stands in e. */
+/* Whether e contains a number from a run. */
 bool qdot_measured_occurs(qdot_session *session, qdot_expr e);
 /* e with the numbers of runs in it as the rationals that they are. */
 qdot_expr qdot_measured_as_rationals(qdot_session *session, qdot_expr e);

@@ -1,4 +1,4 @@
-/* names.h -- what the names of a session mean.
+/* names.h -- the names of a session and their meanings.
  *
  * A name is its canonical text: "theta", "theta[1]", "A[1,2]". Labels are not here (mech/scene/scene.h).
  */
@@ -12,19 +12,19 @@
 typedef enum {
     QDOT_NAME_PARAM,    /* value: the symbol */
     QDOT_NAME_COORD,    /* value: the symbol */
-    QDOT_NAME_UFUN,     /* ufun: its id; value: it at its declared arguments */
+    QDOT_NAME_UFUN,     /* ufun: its id; value: the function of its declared arguments */
     QDOT_NAME_VALUE,    /* value: any value */
     QDOT_NAME_FUNCTION, /* formals: a LIST of symbols; body: its text; value: a LIST of the
                          * values of body->captured */
-    QDOT_NAME_INDEX,    /* value: what a loop or sum binds just now; hides outer names */
-    QDOT_NAME_ARGUMENT  /* value: what a call gives a formal argument; hides outer names */
+    QDOT_NAME_INDEX,    /* value: that of the present pass of a loop or sum; hides outer names */
+    QDOT_NAME_ARGUMENT  /* value: the argument of a call; hides outer names */
 } qdot_name_kind;
 
 typedef struct {
     char *name;
     qdot_name_kind kind;
     qdot_expr value, formals;
-    qdot_expr over; /* of a VALUE: the coordinates (a LIST) its entries go by, or nil */
+    qdot_expr over; /* VALUE: the coordinates (a LIST) that index its entries, or nil */
     uint32_t ufun;
     qdot_function_body *body;   /* of a FUNCTION, a VALUE */
     const char *label; /* of an ARGUMENT: the particle or body whose position it is, or NULL */

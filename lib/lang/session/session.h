@@ -1,7 +1,8 @@
-/* session.h -- one conversation: everything declared, asked and answered.
+/* session.h -- a session: its declarations, values, runs and history.
  *
  * A session reads statements from sources (scripts, -e texts, prompt lines) and writes answers to
- * `out`, errors to `err`. Text goes through lang/answer/answer.h, so that --json and styles are one matter.
+ * `out`, errors to `err`. All output goes through lang/answer/answer.h, which handles --json and
+ * styles.
  */
 #ifndef QDOT_LANG_SESSION_H
 #define QDOT_LANG_SESSION_H
@@ -13,16 +14,16 @@
 #include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
 
-/* A number that a run gave: stands in expressions as a FORMAL symbol. */
+/* A number from a run; a FORMAL symbol represents it in expressions. */
 typedef struct {
     qdot_expr symbol;
     double value, error; /* error NaN: unknown */
     int digits;          /* > 0: of a run with `digits`, whose number is */
     qdot_expr exact;     /* ... this rational */
-    bool plain;          /* no digits were asked for: with --json a number, no string */
+    bool plain;          /* without requested digits: a number with --json, not a string */
 } qdot_measured;
 
-/* a.EXPR within an expression: stands there as a FORMAL symbol. */
+/* a.EXPR within an expression, represented by a FORMAL symbol. */
 typedef struct {
     qdot_expr symbol, value;
     char *run;
@@ -37,11 +38,11 @@ typedef struct {
 } qdot_named_run;
 void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
 
-/* Values met while the sides of a check are made: each must exist where these are compared. */
+/* Subexpressions of the sides of a check: each must be defined where the sides are compared. */
 typedef struct {
     qdot_vec(qdot_expr) value;
-    bool spoiled;      /* by a function that may take it apart (subs) */
-    unsigned branches; /* of ifs under way: what stands there need not exist */
+    bool spoiled;      /* a function that may take its argument apart (subs) was called */
+    unsigned branches; /* open branches of ifs: subexpressions there need not be defined */
 } qdot_passed;
 
 typedef struct qdot_session {
@@ -55,7 +56,7 @@ typedef struct qdot_session {
     bool console_json;
     bool failed;                 /* the latest text or file stopped at an error */
     bool refuted;                /* a check was refuted: exit 1 at the end */
-    size_t verdicts[3];          /* how many checks were so, by qdot_verdict */
+    size_t verdicts[3];          /* number of checks by qdot_verdict */
     qdot_vec(qdot_expr) history; /* %1 is history.at[0] */
     qdot_vec(qdot_expr) history_over; /* coordinates its entries go by; nil, or shorter: none */
     qdot_expr series, series_in; /* the latest series(...) and the LIST of what it is in, or nil */
@@ -63,18 +64,19 @@ typedef struct qdot_session {
     qdot_vec(qdot_member) members;
     qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
-    bool start_exactly; /* the latest `start` said so */
+    bool start_exactly; /* the latest `start` had `exactly` */
     qdot_vec(qdot_named_run) runs;
     qdot_vec(
         char *) including; /* files being read, for include cycles and relative paths */
     size_t figures;        /* NAME-1.svg ... */
-    bool quit;             /* `quit` was said */
-    bool declares;         /* the statement under way declares what stands in a scene */
-    const char *taken;     /* the short name of a value that it read (lang/functions/short-names); NULL */
+    bool quit;             /* after `quit` */
+    bool declares;         /* the present statement declares part of a scene */
+    const char *taken;     /* short name of a value that it read (lang/functions/short-names);
+                              NULL */
     qdot_vec(char *) told; /* notices that are given once */
-    unsigned calls;        /* of functions under way, within one another */
-    bool placed;           /* the error under way names its place in a body */
-    size_t loops;          /* loops under way: what they hold must outlive them */
+    unsigned calls;        /* depth of nested function calls */
+    bool placed;           /* the present error already names its place in a body */
+    size_t loops;          /* open loops: what they refer to must outlive them */
     qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (language/partial-sum) */
     struct qdot_undo *undo; /* NULL: no statement yet */
     void (*undo_free)(struct qdot_undo *undo); /* set with it */

@@ -1,4 +1,5 @@
-/* spelling.h -- the word nearest in spelling: the fewest letters put in, left out, changed, swapped.
+/* spelling.h -- finds the word with the least edit distance: letters inserted, deleted, changed,
+ * swapped.
  *
  * Tests  tests/lang/test_names.c
  */

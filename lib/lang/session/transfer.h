@@ -1,8 +1,7 @@
 /* transfer.h -- expressions moved from one pool to another.
  *
- * A pool never forgets what it knows of a symbol. So `reset scene` starts with a new pool
- * and carries over what is kept: a coordinate declared anew then has no old domain behind
- * it.
+ * A pool never forgets the domain of a symbol. So `reset scene` starts a new pool and transfers
+ * the expressions that are kept: a coordinate declared anew then does not have its old domain.
  */
 #ifndef QDOT_LANG_TRANSFER_H
 #define QDOT_LANG_TRANSFER_H

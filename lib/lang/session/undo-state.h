@@ -1,4 +1,4 @@
-/* undo-state.h -- the state of a session as arrays of items that are copied as they are.
+/* undo-state.h -- the state of a session as arrays of items that are copied byte by byte.
  *
  * Inside of lang/session/undo. A qdot_scene_part says where an array is, in the session or in a copy; runs and
  * names count who uses them. */

@@ -1,14 +1,14 @@
 /* undo.h -- statements taken back, and done again.
  *
  * The session's state is a number of arrays: the scene's, the values of `set` and `start`, the runs,
- * the declared names. A copy of each, as the latest statement left it, is kept; after the next one
- * both are compared, and what differs is the record of that statement. To undo is to put the old
- * items in the place of the new ones. A record is as long as what the statement changed, so any
- * number of them can be kept; no statement is ever carried out again.
+ * the declared names. A copy of each from before a statement is kept and compared afterwards; the
+ * differences are the record of that statement. Undo replaces the new items by the old ones. A
+ * record contains only changes, so any number of them can be kept; no statement is ever carried
+ * out again.
  *
- * What a name meant must not come back with it: a parameter declared anew after `undo` has no old
- * sign. So the symbols of names that go are hidden in the pool, and shown again by `redo`.
- * `reset` starts a new pool; its record is the session before it.
+ * A parameter declared anew after `undo` must not have its old sign. So the symbols of removed
+ * names are hidden in the pool, and shown again by `redo`. `reset` starts a new pool; its record
+ * is the session before it.
  *
  * Tests  tests/lang/test_undo.c, tests/script/undo.lag, tests/script/undo-all.sh
  */

@@ -1,4 +1,4 @@
-/* value-kind.h -- what a constructor made, and what that is called. */
+/* value-kind.h -- checks the result of a constructor, and names kinds of values. */
 #ifndef QDOT_LANG_VALUE_KIND_H
 #define QDOT_LANG_VALUE_KIND_H
 
