@@ -1,11 +1,11 @@
-/* clock.h -- the processor's time.
+/* clock.h -- CPU time.
  */
 #ifndef QDOT_BASE_CLOCK_H
 #define QDOT_BASE_CLOCK_H
 
 #include <time.h>
 
-/* Of this thread, in seconds. */
+/* CPU time of this thread, in seconds. */
 static inline double
 qdot_cpu_now(void)
 {

@@ -19,7 +19,7 @@ void qdot_free(void *block);
 
 /* For tests: the n-th allocation from now (n = 0: the next) and all after it fail; n < 0: none. */
 void qdot_memory_fail_at(long n);
-/* For tests: Ctrl-C is pressed at the n-th allocation from now (n = 0: the next); n < 0: not. */
+/* For tests: simulate Ctrl-C at the n-th allocation from now (n = 0: the next); n < 0: not. */
 void qdot_memory_press_at(long n);
 
 /* Grow *block (items of `size` bytes, *capacity of them) until it holds `wanted` items.

@@ -1,8 +1,9 @@
-/* scope.h -- the blocks that a computation has allocated, to be given back at once when it is left
- * in the middle.
+/* scope.h -- records the blocks that a computation allocates, so that all can be freed if it is
+ * left in the middle.
  *
- * While a scope is a thread's current one, what memory.h allocates is noted in it, what it frees is
- * taken out. A block from before stays outside, however it grows. Used by normal/field/flint.c only.
+ * While a scope is the current one of a thread, memory.h adds the blocks that it allocates and
+ * removes those that it frees. A block from before stays outside, even if it grows. Used by
+ * normal/field/flint.c only.
  */
 #ifndef QDOT_BASE_SCOPE_H
 #define QDOT_BASE_SCOPE_H
@@ -25,7 +26,7 @@ extern _Thread_local qdot_scope *qdot_scope_now;
 
 /* Make *s the current scope, empty. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_scope_begin(qdot_scope *s);
-/* No longer current; its blocks stay, or all are freed. */
+/* End the scope; its blocks stay, or all are freed. */
 void qdot_scope_end(qdot_scope *s);
 void qdot_scope_discard(qdot_scope *s);
 

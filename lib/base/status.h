@@ -43,7 +43,7 @@ typedef enum {
             return try_status_;                                                          \
     } while (0)
 
-/* What no other way of computing helps against: QDOT_ENOMEM, QDOT_EINTR; else QDOT_OK. */
+/* Failures after which no other method should be tried: QDOT_ENOMEM, QDOT_EINTR; else QDOT_OK. */
 static inline qdot_status
 qdot_grave(qdot_status status)
 {

@@ -1,4 +1,4 @@
-/* utf8.h -- the little of UTF-8 that names and carets need. */
+/* utf8.h -- the functions on UTF-8 that names and error messages need. */
 #ifndef QDOT_BASE_UTF8_H
 #define QDOT_BASE_UTF8_H
 
