@@ -1,4 +1,4 @@
-/* bind.c -- tape, then solve: the right-hand side and its Jacobian. */
+/* bind.c -- the right-hand side and its Jacobian: evaluates the tape, then solves for q''. */
 #include "sim/course/bind.h"
 
 #include <math.h>
@@ -106,8 +106,8 @@ load(const qdot_bind *b, double t, const double *y)
     b->in[2 * n] = t;
 }
 
-/* The accelerations of the blocks, from the outputs that begin at `out`; *end: what stands
- * behind those. */
+/* The accelerations of the blocks, from the outputs that begin at `out`; *end: the first output
+ * after these. */
 static qdot_status
 solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
 {
@@ -133,7 +133,7 @@ solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
     return QDOT_OK;
 }
 
-/* The same where only the tree is there: by the beginning of a series. */
+/* The same for a plan with only the tree: from the first orders of a series. */
 static qdot_status
 begin_elsewhere(qdot_bind *b, double *a)
 {
@@ -149,7 +149,7 @@ begin_elsewhere(qdot_bind *b, double *a)
     return QDOT_OK;
 }
 
-/* q'' at what is loaded, into a [n]. */
+/* q'' at the loaded state, into a [n]. */
 static qdot_status
 accelerations(qdot_bind *b, double *a)
 {
@@ -218,8 +218,8 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
 
 /* --- its Jacobian --------------------------------------------------------------------- */
 
-/* Of block k, whose outputs begin with `row` and which is factored: dq''/dz of its
- * coordinates for z the column of slopes,
+/* For block k, which is factored and whose outputs begin with `row`: dq''/dz of its coordinates,
+ * z the column of slopes,
  *
  *     M dq''/dz = df/dz - dM/dz q'',
  *
@@ -393,7 +393,7 @@ qdot_bind_factored(const qdot_bind *b)
            b->reduced_blocks.factored;
 }
 
-/* With constraints. */
+/* Make the evaluator of the constraints. */
 static qdot_status
 make_held(qdot_bind *b, bool shaken)
 {
@@ -413,7 +413,7 @@ make_held(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
-/* What a method or its partner needs for the Jacobian. */
+/* Work space for the Jacobian, if the method or its partner needs it. */
 static qdot_status
 make_slopes(qdot_bind *b)
 {
@@ -428,7 +428,7 @@ make_slopes(qdot_bind *b)
     return b->slopes && b->slopes_work ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* By groups of coordinates. */
+/* Make the binds of the decoupled parts. */
 static qdot_status
 make_parts(qdot_bind *b, bool shaken)
 {
@@ -456,14 +456,14 @@ make_parts(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
-/* The first orders of the series of p in two doubles. */
+/* Make the first orders of the series of p in two doubles. */
 static qdot_status
 make_leading(qdot_bind *b, const qdot_plan *p)
 {
     return b->plan->leading ? qdot_leading_new(p, b->series, &b->leading) : QDOT_OK;
 }
 
-/* With momenta that are kept. */
+/* Make the system of the reduced plan, whose momenta are kept. */
 static qdot_status
 make_reduced(qdot_bind *b, bool shaken)
 {
@@ -485,7 +485,7 @@ make_reduced(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
-/* M q'' = f: for all but a plan of which only the tree is there. */
+/* Work space for M q'' = f, unless the plan has only the tree. */
 static qdot_status
 make_equations(qdot_bind *b, bool shaken)
 {

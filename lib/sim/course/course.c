@@ -1,11 +1,11 @@
-/* course.c -- the loop over pieces: the mode of each, and how one is left for the next. */
+/* course.c -- the loop over pieces: finds the mode of each and passes from one to the next. */
 #include "sim/course/course.h"
 
 #include <string.h>
 
 #include "sim/course/piece.h"
 
-/* Room by the number of functions, which the modes share. */
+/* Allocate arrays for the largest number of functions in any mode. */
 static qdot_status
 make_room(qdot_piece *x)
 {
@@ -47,7 +47,7 @@ changes_state(const qdot_piece *x)
     return false;
 }
 
-/* The state that an event at the end of the run made becomes its last point. */
+/* Make the state set by an event at the end of the run its last point. */
 static qdot_status
 resume(qdot_piece *x)
 {
@@ -55,7 +55,7 @@ resume(qdot_piece *x)
                                   x->options, x->start.t, x->start.y);
 }
 
-/* From y0 [n] at x->start.t. */
+/* Integrate piece after piece from y0 [n] at x->start.t. */
 static qdot_status
 loop(qdot_piece *x, const double *y0)
 {

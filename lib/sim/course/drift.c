@@ -1,4 +1,4 @@
-/* drift.c -- max |c - c0| / max(1, |c0|) along a trajectory, by a tape a quantity. */
+/* drift.c -- max |c - c0| / max(1, |c0|) along a trajectory, with a tape for each quantity. */
 #include "sim/course/drift.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ qdot_drifts_clear(qdot_drifts *d)
     *d = (qdot_drifts){0};
 }
 
-/* Failures that end the whole; any other leaves a quantity out. */
+/* Failures that end the measurement; after any other the quantity is left out. */
 static qdot_status
 fatal(qdot_status status)
 {
@@ -37,8 +37,8 @@ is_switch(const qdot_trajectory *tr, size_t piece, size_t k)
                && !at[piece + 1].jumped);
 }
 
-/* The quantity at points from the first on, as many as there are lanes; c one group. Behind
- * the last it is that of the last. */
+/* The quantity at as many points as there are lanes, from the first on; c one group. Lanes beyond
+ * the last point repeat it. */
 static void
 evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, double *in,
          double *c, double *work)
@@ -94,7 +94,7 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
     return status;
 }
 
-/* What a tape says of a quantity, into the list. */
+/* Measure the drift of a quantity by its tape and append it to the list. */
 static qdot_status
 note(const qdot_tape *tape, const qdot_trajectory *tr, qdot_expr quantity, const char *name,
      qdot_drifts *d)
@@ -120,8 +120,8 @@ lower(const qdot_plan *p, qdot_expr quantity, qdot_tape **tape)
     return qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &e, tape);
 }
 
-/* absent [n]: coordinates that the energy, if it is conserved, was not seen to depend on, and so the
- * only ones that can be cyclic. */
+/* absent [n]: coordinates that the conserved energy does not seem to depend on; only these can be
+ * cyclic. */
 static qdot_status
 measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
                qdot_drifts *d, bool *absent)

@@ -93,7 +93,7 @@ qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
     return find_multipliers(held, tr, qdot_constrained_rows(held), b);
 }
 
-/* lambda at y with component i moved by h, into `out`; NaN where it does not exist. */
+/* lambda at y with component i moved by h, into `out`; NaN if it does not exist. */
 static void
 look(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
      double *out)

@@ -1,13 +1,13 @@
-/* piece-end.c -- what is done where a piece ends. */
+/* piece-end.c -- carries out what ends a piece: an event, a bound or a switch. */
 #include "sim/course/piece.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Of the time of a run: one thing may happen MOST_REPEATS times within a MOMENT; or as often at
- * intervals of the SAME_RATIO, if those to come do not end NEAR. A motion that comes to rest
- * at x is lost to rounding when it moves by less than an ulp of x, which it does for an
- * interval of 1e-8 of its time. */
+/* In fractions of the time of the run. An event or switch accumulates if it occurs more than
+ * MOST_REPEATS times within a MOMENT, or as often at intervals with the SAME_RATIO whose sum ends
+ * NEAR. A motion that comes to rest at x is lost in rounding when it moves by less than an ulp of
+ * x, which it does for an interval of 1e-8 of its time. */
 enum { MOST_REPEATS = 4 };
 #define MOMENT 1e-9
 #define NEAR 1e-6
@@ -73,8 +73,8 @@ change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, d
     return status;
 }
 
-/* Intervals that shrink by one ratio: with the next one at t, how long all that are to come
- * take together; infinite where they do not. */
+/* For intervals that shrink by a constant ratio, with the next end at t: the sum of all following
+ * ones; infinite if they do not shrink so. */
 static double
 remaining(qdot_piece_repeat *r, double t)
 {
@@ -89,8 +89,8 @@ remaining(qdot_piece_repeat *r, double t)
     return r->steady >= MOST_REPEATS ? interval * ratio / (1 - ratio) : INFINITY;
 }
 
-/* Whether a thing happens ever faster: too often within a moment, or at intervals that shrink
- * by one ratio to a time near. *left: to that time. */
+/* Whether occurrences accumulate: too many within a moment, or at intervals that shrink by a
+ * constant ratio towards a near time. *left: the time until then. */
 static qdot_status
 accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *left)
 {
@@ -137,7 +137,7 @@ say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
     qdot_text_clear(&text);
 }
 
-/* A root lies between the doubles around it, where it is not one of them. */
+/* A root that is not a double lies between the doubles around it. */
 static double
 lateness(const qdot_root *root, double t)
 {

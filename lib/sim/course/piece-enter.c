@@ -1,4 +1,4 @@
-/* piece-enter.c -- a mode that a piece enters: what it needs, and what crossing into it asks. */
+/* piece-enter.c -- makes the mode that a piece enters, and checks that it can be entered. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -37,7 +37,7 @@ qdot_piece_enter(qdot_piece *x)
 
 /* --- what is known where a piece starts ---------------------------------------------- */
 
-/* Whether an event has been counted a double or so before the piece ended. */
+/* Whether an event was recorded within about a double of t before the end of the piece. */
 static bool
 just_noted(const qdot_piece *x, size_t event)
 {
@@ -52,8 +52,7 @@ just_noted(const qdot_piece *x, size_t event)
     return false;
 }
 
-/* Events and domains keep their places; a surface's functions are of the one that is on the
- * same place. */
+/* Events and domains keep their indices; the functions of a surface are matched by its index. */
 void
 qdot_piece_carry(qdot_piece *x)
 {
@@ -84,11 +83,11 @@ qdot_piece_carry(qdot_piece *x)
 
 /* --- corners of constraints ---------------------------------------------------------- */
 
-/* Beyond it the constraints of two sides are not the same to a state. */
+/* With a larger residual a state does not keep the constraints of both sides. */
 static const double corner = 1e-6;
 
-/* Where constraints switch, the state that the last piece left must fulfil those of the new
- * side: on a corner the velocity does not, and nothing says what becomes of it. */
+/* If constraints switch, the state at the end of the piece before must keep those of the new
+ * side. At a corner the velocity does not, and the equations do not determine how it changes. */
 static qdot_status
 turns_a_corner(qdot_piece *x, bool *corners)
 {
@@ -139,8 +138,8 @@ level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, doub
     return level;
 }
 
-/* Whether a surface lies between two modes that moves with the state: across time alone
- * T - V may jump. */
+/* Whether a surface between two modes depends on the state; at one that depends on time alone T -
+ * V may jump. */
 static bool
 is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
 {
@@ -154,8 +153,8 @@ is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
     return false;
 }
 
-/* c->reason, where T - V is not the same on both sides of a surface, at (t, y): more than
- * moving the state a little makes of it. */
+/* Set c->reason if T - V jumps across a surface at (t, y) by more than a small change of the
+ * state changes it. */
 static qdot_status
 check_level(qdot_piece *x)
 {

@@ -1,4 +1,4 @@
-/* piece-sides.c -- what the first step of a piece shows of the sides that it goes by. */
+/* piece-sides.c -- checks the sides of a piece by its first step. */
 #include "sim/course/piece.h"
 
 static bool
@@ -7,14 +7,14 @@ is_step(const qdot_piece *x, size_t surface)
     return x->c->stage->switches.surfaces.at[surface].steps;
 }
 
-/* Whether a function of a surface keeps to its side, by the sign behind the start. */
+/* Whether a function of a surface stays on its side, by the sign just after the start. */
 static bool
 keeps(const qdot_piece *x, const qdot_watched *w, int first)
 {
     return first == w->inside || (first == 0 && w->inside == 1 && is_step(x, w->index));
 }
 
-/* The side that a motion is on that does not keep to that at hand. */
+/* The side to which the motion went, if not to the present one. */
 static long
 went_to(const qdot_piece *x, const qdot_watched *w, int first)
 {
@@ -68,7 +68,7 @@ was_crossed(const qdot_piece *x, size_t surface)
     return false;
 }
 
-/* Whether other sides than this of the mode at hand might hold, by function i. */
+/* Whether other sides than those of the present mode might fit, by function i. */
 static bool
 is_open(const qdot_piece *x, size_t i)
 {

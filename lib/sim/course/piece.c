@@ -1,4 +1,4 @@
-/* piece.c -- a piece integrated, every step of it looked at for what happens in it. */
+/* piece.c -- integrates a piece and searches every step for events, bounds and switches. */
 #include "sim/course/piece.h"
 
 #include <float.h>
@@ -68,7 +68,7 @@ note(qdot_piece *x, const qdot_root *root)
     return w->kind == QDOT_WATCH_EVENT ? qdot_vec_push(&x->c->occurrences, o) : QDOT_OK;
 }
 
-/* A domain's bound that the piece starts on and does not leave inwards. */
+/* A bound of a domain on which the piece starts without moving inwards. */
 static const qdot_watched *
 leaves_domain(qdot_piece *x)
 {
@@ -82,8 +82,8 @@ leaves_domain(qdot_piece *x)
     return NULL;
 }
 
-/* Whether what ended the piece before has been answered: an event with `then` that is met
- * again at once, within rounding, in its own direction is a contact that lasts. */
+/* Whether the motion leaves the event that ended the piece before: if an event with `then` occurs
+ * again at once, within rounding, in its own direction, the contact persists. */
 static bool
 leaves_event(qdot_piece *x)
 {
@@ -117,7 +117,7 @@ say_resting(qdot_piece *x, double t)
     return QDOT_OK;
 }
 
-/* Whether the piece goes on by its sides, behind its first step. */
+/* After the first step: whether the piece continues with its sides. */
 static qdot_status
 judge_sides(qdot_piece *x)
 {
@@ -129,7 +129,7 @@ judge_sides(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* A surface on which u stayed 0 until this step, and does no more. */
+/* A surface on which u was 0 until this step. */
 static qdot_status
 leave_zero(qdot_piece *x, double t0)
 {
@@ -147,8 +147,8 @@ leave_zero(qdot_piece *x, double t0)
     return QDOT_OK;
 }
 
-/* How far behind one switch, of its time, another one is at the same time: what rounding
- * makes of one moment that both stand for. */
+/* Switches within this fraction of their time of each other count as simultaneous: rounding
+ * separates them. */
 static const double same_time = 4 * DBL_EPSILON;
 
 static bool
@@ -157,8 +157,8 @@ is_switch(const qdot_piece *x, const qdot_root *root)
     return qdot_piece_mode(x)->watched[root->function].kind == QDOT_WATCH_SURFACE;
 }
 
-/* When the piece ends that the root k of [n] ends: with the last switch of those at its time,
- * if nothing else lies between. */
+/* The end of the piece that root k of [n] ends: the last simultaneous switch, if no other root
+ * lies between. */
 static double
 end_of(const qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
 {
@@ -174,7 +174,7 @@ end_of(const qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
     return t;
 }
 
-/* The roots of the step: noted up to the first that ends the piece. */
+/* Record the roots of the step up to the first that ends the piece. */
 static qdot_status
 take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
 {
@@ -238,7 +238,7 @@ stay_inside(qdot_piece *x, double t0)
             x->t_act = nextafter(x->t_act, -x->direction * INFINITY);
 }
 
-/* Ends an integration that is gone on with otherwise. */
+/* Stop an integration that continues as another piece. */
 static qdot_status
 break_off(qdot_piece *x)
 {
@@ -275,7 +275,7 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
     return QDOT_OK;
 }
 
-/* Without a series: from the ends of the step. */
+/* For methods without series: search the step by its ends. */
 static qdot_status
 look_at_step(qdot_piece *x, double t, const double *y)
 {
@@ -298,7 +298,7 @@ look_at_step(qdot_piece *x, double t, const double *y)
     return QDOT_OK;
 }
 
-/* Where steps are projected that asks as well. */
+/* Check constraints on accelerations; projection, where it is used, does so itself. */
 static qdot_status
 check_accelerations(const qdot_piece *x, double t, const double *y)
 {

@@ -16,7 +16,8 @@ static const struct {
     double rho[ELLIPSES];
 } ellipses[] = {{16, {14, 10, 7}}, {32, {4, 3.2, 2.6}}, {64, {2.2, 1.9, 1.7}}};
 
-/* Of a step: a part in which the formula has a singularity that values do not show. */
+/* In a part this small of a step a singularity of the formula is ignored if the values show none.
+ *  */
 static const double hollow = 0x1p-36;
 
 void
@@ -86,7 +87,7 @@ qdot_polynomial_bounds_sample(qdot_polynomial_bounds *h, int j, const double *in
     }
 }
 
-/* What rounding of the input and of the times at which it is read makes of a coefficient. */
+/* The error of a coefficient from rounding of the input and of the times at which it is read. */
 static double
 noise_of(const qdot_polynomial_bounds *h, size_t k, double a, double b)
 {

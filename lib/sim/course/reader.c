@@ -1,4 +1,4 @@
-/* reader.c -- a state, its accelerations where they are asked for, the tape. */
+/* reader.c -- reads a state, its accelerations if needed, and evaluates the tape. */
 #include "sim/course/reader.h"
 
 #include <string.h>

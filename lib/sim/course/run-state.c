@@ -1,4 +1,4 @@
-/* run-state.c -- why a run ended. */
+/* run-state.c -- records why a run ended or why its error is unknown. */
 #include "sim/course/run-state.h"
 
 qdot_status

@@ -1,13 +1,14 @@
-/* side-search.c -- the sides that a piece goes by, where it starts on surfaces.
+/* side-search.c -- finds the sides of a piece that starts on surfaces.
  *
- * A side is right where the motion by its equations leaves to it: u > 0 behind the start by the
- * equations of side 1, u < 0 by those of -1, u = 0 by those of 0; of a floor k where u goes
- * up from k or stays, k - 1 where it goes down. The first step by a mode shows it. Sides that
- * do not hold are changed to where the motion went; if that comes back to sides that were
- * tried, all combinations of the surfaces in doubt are gone through.
+ * A side is right if the motion with its equations leaves to it: u > 0 after the start with the
+ * equations of side 1, u < 0 with those of -1, u = 0 with those of 0; for a floor side k if u
+ * rises from k or stays, k - 1 if it falls. The first step in a mode shows it. Wrong sides are
+ * replaced by those to which the motion went; if these were tried before, all combinations of the
+ * surfaces in doubt are tried.
  *
- * That a crossing goes on is known. So it is where u holds no velocity and has a slope: that
- * is the same on either side. Else other sides may hold as well, and each is tried.
+ * A crossing has only one continuation. So has a start if u contains no velocity and du/dt is not
+ * 0, because du/dt is then the same on both sides. Otherwise other sides may be right as well,
+ * and each is tried.
  */
 #include "sim/course/piece.h"
 
@@ -35,7 +36,7 @@ describe(const qdot_piece *x, size_t surface, qdot_text *out)
     return qdot_stage_describe(x->c->stage, surface, side, out);
 }
 
-/* c->reason, about a surface. */
+/* Set c->reason to a message about a surface. */
 static void
 say(qdot_piece *x, size_t surface, const char *before, const char *behind)
 {
@@ -67,7 +68,7 @@ say_open(qdot_piece *x, size_t surface)
 
 /* --- the search ---------------------------------------------------------------------- */
 
-/* Whether these sides were tried from here; they are now. */
+/* Whether these sides were tried from here before; marks them as tried. */
 static qdot_status
 was_tried(qdot_piece *x, bool *again)
 {
@@ -82,8 +83,8 @@ was_tried(qdot_piece *x, bool *again)
     return QDOT_OK;
 }
 
-/* x->side becomes the k-th combination of what is in doubt, from the sides tried first;
- * *over: there is none. */
+/* Set x->side to the k-th combination for the surfaces in doubt, beginning with the sides tried
+ * first; *over: there is none. */
 static qdot_status
 combine(qdot_piece *x, size_t k, bool *over)
 {
@@ -120,7 +121,7 @@ next_sides(qdot_piece *x, size_t *k, bool *over)
     return QDOT_OK;
 }
 
-/* By x->side: the whole piece, or its first step. */
+/* Integrate with x->side: the whole piece, or its first step. */
 static qdot_status
 go(qdot_piece *x)
 {
@@ -128,8 +129,8 @@ go(qdot_piece *x)
     return qdot_piece_integrate(x);
 }
 
-/* Whether the motion leaves to `side` of a surface, beside the sides that hold; a mode that
- * cannot be gone by is no answer. */
+/* Whether the motion leaves to `side` of a surface as well as to the sides found; a mode that
+ * cannot be integrated does not count. */
 static qdot_status
 holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
 {
@@ -150,7 +151,7 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
-/* Whether the sides at hand, held [surfaces], are the only ones; c->reason where not. */
+/* Whether the present sides, held [surfaces], are the only right ones; c->reason if not. */
 static qdot_status
 compare(qdot_piece *x, const long *held)
 {
@@ -173,7 +174,7 @@ compare(qdot_piece *x, const long *held)
     return status;
 }
 
-/* By the sides that hold, when they have been compared. */
+/* Compare the sides found with others, then integrate with them. */
 static qdot_status
 go_by(qdot_piece *x)
 {

@@ -7,17 +7,17 @@
 #include "sim/course/stage.h"
 #include "sim/model/term-magnitude.h"
 
-/* Of the size of its terms: what evaluating u may be off by. */
+/* Error of evaluating u, relative to the magnitude of its terms. */
 static const double rounding = 4 * DBL_EPSILON;
 
-/* How far, of max(1, |y|), a state is moved to see whether u moves at all: by two numbers
- * that nothing is made of. */
+/* Relative to max(1, |y|), the two changes of a state that test whether u is constant: arbitrary
+ * numbers that occur in no scene. */
 static const double aside[] = {0x1.3a6e4p-9, -0x1.d19b2p-8};
 
-/* No floor beyond it, where doubles are integers only. */
+/* The largest floor; beyond it all doubles are integers. */
 static const double most_steps = 0x1p53;
 
-/* u and its size for all surfaces at the sides at hand. */
+/* u and the magnitude of its terms for all surfaces, with the present sides. */
 typedef struct {
     const qdot_stage *s;
     size_t m, n; /* surfaces; components of the state */
@@ -100,7 +100,7 @@ is_parameter(const decision *d, size_t i)
     return i < d->n && i % d->s->n >= d->s->n - d->s->n_states;
 }
 
-/* u, noise and flat at these sides. */
+/* Compute u, noise and flat with these sides. */
 static void
 measure(decision *d, const long *side)
 {

@@ -1,4 +1,4 @@
-/* stage.c -- events, domains and surfaces with numbers in place; the modes. */
+/* stage.c -- events, domains and surfaces with parameter values; the modes. */
 #include "sim/course/stage.h"
 
 #include <string.h>
@@ -52,7 +52,7 @@ place_of(const qdot_plan *p, qdot_expr target)
     return k;
 }
 
-/* Whether the constraints at a new value of component k of the state may not hold. */
+/* Whether a new value of component k of the state may break constraints. */
 static qdot_status
 find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_event *e)
 {
@@ -162,7 +162,7 @@ watch_domains(const qdot_stage *s, qdot_mode *m)
     return qdot_pool_check(p->pool);
 }
 
-/* Whether a side is that of the number u. */
+/* Whether `side` is the side of the number u. */
 static bool
 is_side(qdot_pool *pool, qdot_expr u, bool steps, long side)
 {
@@ -174,7 +174,8 @@ is_side(qdot_pool *pool, qdot_expr u, bool steps, long side)
     return qdot_fun1(pool, QDOT_SIGN, u) == k;
 }
 
-/* A surface that does not move in the mode is not watched. Where u stays 0 it must do so. */
+/* A surface whose u is constant in the mode is not watched; where u is 0, it is watched to stay
+ * 0. */
 static qdot_status
 watch_surfaces(const qdot_stage *s, qdot_mode *m)
 {

@@ -1,10 +1,10 @@
-/* watch-exclusion.c -- parts of a step that hold no root, by bounds over discs. */
+/* watch-exclusion.c -- proves by bounds over discs that parts of a step hold no root. */
 #include <float.h>
 #include <math.h>
 
 #include "sim/course/watch-parts.h"
 
-/* Where discs have no bound: whether the function keeps off 0 by its interval. */
+/* If discs give no bound: whether the interval of the function excludes 0. */
 static bool
 keeps_off(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *enclosed)
 {
@@ -39,7 +39,7 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
     return worst;
 }
 
-/* Each term of a series goes from 0 to what it is at the end of the step. */
+/* On the step each term of a series lies between 0 and its value at the end. */
 void
 qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step)
 {

@@ -4,20 +4,21 @@
 #include <float.h>
 #include <math.h>
 
-/* What is small beside the largest coefficient: for a fit, and for the value of a
- * function divided by the time since it was 0. */
+/* Negligible relative to the largest coefficient: for a fit, and for a function divided by the
+ * time since it was 0. */
 static const double resolved = 0x1p-44, resolved_start = 1e-9;
 
 /* --- its polynomial ------------------------------------------------------------------ */
 
-/* How far rounding moves the nodes, of the length of the part. */
+/* Rounding of the nodes, as a fraction of the length of the part. */
 static double
 blur(const qdot_watch_part *p)
 {
     return DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
 }
 
-/* Below which part of its size a function is not told from 0 where it leaves a zero. */
+/* The fraction of its size below which the slope of a function at a zero cannot be told from 0.
+ *  */
 static double
 least_slope(const qdot_watch_part *p)
 {
@@ -30,7 +31,7 @@ qdot_watch_time(const qdot_watch_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
-/* Whether the function is nothing but rounding on the part. */
+/* Whether the function is only rounding on the part. */
 static bool
 vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -86,12 +87,13 @@ qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
 
 /* --- locating a root in doubles of t ------------------------------------------------- */
 
-/* g at t: before the root, or at it and behind. */
+/* g at t, before the root or from the root on. */
 typedef struct {
     double t, g;
 } end;
 
-/* g_i at t, which becomes the end ends[*over]: whether it has gone over to `way` there. */
+/* Evaluate g_i at t, which becomes ends[*over]; *over: whether g_i has changed its sign to `way`.
+ *  */
 static qdot_status
 narrow(qdot_watch *w, size_t i, int way, double t, end *ends, bool *over)
 {
@@ -101,8 +103,8 @@ narrow(qdot_watch *w, size_t i, int way, double t, end *ends, bool *over)
     return QDOT_OK;
 }
 
-/* Between ends [2] that differ in sign, near guess; *found false where they do not: a polynomial
- * beside a jump overshoots. */
+/* Find the root between ends [2] of different signs, near guess; *found false if the signs are
+ * equal, since a polynomial overshoots beside a jump. */
 static qdot_status
 locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
 {
@@ -164,7 +166,7 @@ between(const qdot_watch_part *p, double x0, double x1, int way)
     return x1;
 }
 
-/* The sign of a function behind its zero at the start of the part. */
+/* The sign of a function just after its zero at the start of the part. */
 static int
 leaves_to(const qdot_watch_part *p)
 {
@@ -175,7 +177,7 @@ leaves_to(const qdot_watch_part *p)
     return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, 1));
 }
 
-/* The zero at the start of the part: what became of it. */
+/* Treat the zero at the start of the part: count it as a root if the sign before differs. */
 static qdot_status
 pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 {
@@ -194,8 +196,8 @@ is_start_again(const qdot_watch_part *p, double t)
     return p->from_zero && fabs(t - p->a) <= 0x1p-40 * fabs(p->b - p->a);
 }
 
-/* Whether the part ends on an extremum that is 0, or so near to one that rounding would have
- * it cross twice. */
+/* Whether the part ends on an extremum that is 0, or so near to one that rounding would make two
+ * crossings of it. */
 static bool
 grazes_at_end(const qdot_watch_part *p)
 {
@@ -207,7 +209,7 @@ grazes_at_end(const qdot_watch_part *p)
     return fabs(qdot_chebyshev_at(p->n - 1, d, 1)) <= 0x1p-20 * size;
 }
 
-/* What touched 0 within the part, so near to its end, is the same touch. */
+/* A touch within the part, so near to its end, is the same as the one at the end. */
 static void
 forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {

@@ -1,5 +1,4 @@
-/* watch-values.c -- the functions that are watched: their tape, values, and what rounding
- * makes of them. */
+/* watch-values.c -- the watched functions: their tapes, values and rounding errors. */
 #include "sim/course/watch-parts.h"
 
 #include <float.h>

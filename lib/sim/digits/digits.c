@@ -112,7 +112,7 @@ keep_end(qdot_run *run)
     return status == QDOT_EDOMAIN ? QDOT_OK : status; /* unknown: nil */
 }
 
-/* In doubles through all events and switches: which follow each other, and about where. */
+/* The guide: a run in doubles that finds the sequence of events and switches and their times. */
 static qdot_status
 find_guide(qdot_run *run, const qdot_run_request *request)
 {

@@ -9,7 +9,7 @@
 
 #define RN MPFR_RNDN
 
-/* How far a root may lie from where the guide has it: a part of its piece. */
+/* The largest distance of a root from the guide's, as a fraction of its piece. */
 static const double pad = 0x1p-8;
 
 enum { MOST_TRIES = 2000 };
@@ -253,7 +253,7 @@ beyond_doubles(double t)
     return qdot_hint("a run that ends before t = %.6g", t);
 }
 
-/* What the ends [n] of a piece change: s->course->y becomes the state behind. */
+/* Carry out the changes at the ends [n] of a piece: s->course->y becomes the state after. */
 static qdot_status
 change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n,
        mpfr_srcptr t)
@@ -356,7 +356,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
     return n > 0 ? end_piece(s, k, ends, n) : QDOT_OK;
 }
 
-/* The times of what occurred. */
+/* Find the times of the guide's occurrences. */
 static qdot_status
 time_occurrences(qdot_precise_side *s)
 {

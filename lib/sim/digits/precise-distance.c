@@ -1,4 +1,5 @@
-/* precise-distance.c -- how far both runs of a pair are apart, and what digits buy. */
+/* precise-distance.c -- the distance of the two runs of a pair, and whether more digits reduce
+ * it. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -7,11 +8,11 @@
 
 #define RN MPFR_RNDN
 
-/* log10 of a distance at which two runs have nothing to do with each other. */
+/* log10 of the distance from which two runs count as unrelated. */
 const double qdot_precise_parted = -4;
 
-/* Where in a run the distance is looked at too; without a pattern that a period could
- * share. */
+/* Further times, as fractions of the run, at which the distance is taken; without a pattern that
+ * a period could share. */
 static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
                                 0.7853, 0.8311, 0.8929, 0.9467};
 enum { PLACES = sizeof places / sizeof places[0] };

@@ -12,10 +12,10 @@
 
 #define RN MPFR_RNDN
 
-/* Of a row's length, what counts as a direction of its own. */
+/* The least fraction of a row's length outside the other rows for it to be independent. */
 static const double dependent = 1e-9;
 
-/* Positions or velocities. */
+/* The equations of positions or of velocities. */
 typedef struct {
     const qdot_plan *plan;
     const double *y;   /* [2n] */
@@ -48,7 +48,7 @@ evaluate(level *l)
     return log2;
 }
 
-/* The slopes at y of what is free; whether they determine it. */
+/* The derivatives at y by the free values; whether they determine these. */
 static bool
 take_slopes(level *l, double *in, double *out)
 {
@@ -81,7 +81,7 @@ take_slopes(level *l, double *in, double *out)
     return l->space.rank == unknown;
 }
 
-/* From the doubles on, as long as it comes nearer, and down to a rounding of 1. */
+/* Newton's method from the doubles, as long as it converges, down to a rounding of 1. */
 static qdot_status
 iterate(level *l, mpfr_prec_t bits)
 {

@@ -74,7 +74,7 @@ side_clear(qdot_precise_side *s)
     *s = (qdot_precise_side){.near = SIZE_MAX};
 }
 
-/* What the start breaks in all of its digits: log2 of the largest residual of a tape. */
+/* log2 of the largest residual of a tape at the start, in all digits. */
 static qdot_status
 residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tape, double *log2)
 {
@@ -94,8 +94,8 @@ residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tap
     return QDOT_OK;
 }
 
-/* What the start leaves unnamed is solved for; where that is not determined, or named values had to
- * give way, only doubles are on the constraints. */
+/* Solve for the values that the start does not name; if these are not determined, or named values
+ * had to change, only the doubles are on the constraints. */
 static qdot_status
 settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, int digits)
 {
@@ -117,7 +117,7 @@ settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, int digi
     return qdot_hint("start with every value exact, as x = sin(2), y = -cos(2)");
 }
 
-/* Prepared for `digits`: all that needs the pool. */
+/* Prepare a run with `digits`: everything that needs the pool. */
 static qdot_status
 side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, int orders_more)
 {
@@ -199,7 +199,7 @@ side_thread(void *user)
     return NULL;
 }
 
-/* What ends a run without taking back what was integrated. */
+/* Whether the run so far is kept after this status. */
 static bool
 is_kept(qdot_status status)
 {
@@ -214,8 +214,7 @@ is_there(const qdot_precise_side *s)
     return s->segments.n > 0 && s->segments.at[s->segments.n - 1].run.count > 0;
 }
 
-/* The last step ended outside a domain: back to the last time inside it, to the bits that
- * a double of t has. */
+/* The last step ended outside a domain: go back to the last double of t inside it. */
 static qdot_status
 cut_at_domain(qdot_precise_side *s)
 {

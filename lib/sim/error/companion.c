@@ -8,7 +8,7 @@
 #include "ode/companion.h"
 #include "tape/shake.h"
 
-/* Where it goes to: as far as the run did, or wanted to where events end it. */
+/* The end time of the companion: that of the run, or, if an event ended the run, its limit. */
 static double
 goal(const qdot_run *run)
 {
@@ -86,8 +86,8 @@ count(const qdot_course *c, size_t event)
 
 /* --- the companion ------------------------------------------------------------------- */
 
-/* The start of the companion into y [2n] and, of a run in two doubles, low: moved, but for
- * what has to stay where it is. */
+/* The moved start of the companion into y [2n] and, for a run in two doubles, low; a bound that
+ * the start is on is kept. */
 static qdot_status
 begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, double t0,
              double *y, double *low)
@@ -228,7 +228,7 @@ qdot_run_twin(qdot_run *run)
 
 /* --- the error ----------------------------------------------------------------------- */
 
-/* What it differs in from the run. */
+/* Record how the pieces of the companion differ from those of the run. */
 static qdot_status
 find_doubt(qdot_run *run, const qdot_course *c)
 {
@@ -247,8 +247,8 @@ find_doubt(qdot_run *run, const qdot_course *c)
     return qdot_run_say_doubt(run, "the second run went through other events or switches");
 }
 
-/* A piece ends behind the root that ends it, in all runs alike: what the other system would
- * have done in that time, for each end of a piece added to floor [n]. */
+/* A piece ends just after its root, in all runs alike: add the motion by the other system in that
+ * time to floor [n], for each end of a piece. */
 static qdot_status
 add_delays(const qdot_course *c, double *floor)
 {
@@ -276,8 +276,8 @@ add_delays(const qdot_course *c, double *floor)
     return status;
 }
 
-/* The state y [n] of a companion at the end of the run, or, where an event stopped them, at its own
- * end, at *t. *known: they compare. */
+/* The state y [n] of a companion at the end of the run, or, if an event stopped both, at its own
+ * end *t. *known: the states can be compared. */
 static qdot_status
 end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *known)
 {

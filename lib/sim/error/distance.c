@@ -14,7 +14,7 @@ static const double least_turn = 0.5;
 /* A component that moves by fewer tolerances turns by rounding alone. */
 static const double tolerances = 1000;
 
-/* What is known of a companion's error at best, as a part of the run's. */
+/* The least error assumed for a companion, as a fraction of the run's. */
 static const double least_share = 1.0 / 32;
 
 struct qdot_distance {
@@ -138,7 +138,7 @@ compare(qdot_distance *d, size_t piece, double t, const double *values, double *
     return QDOT_OK;
 }
 
-/* What the companions may be off by at a stored point; 0 where there is nothing. */
+/* The companions' own error at a stored point; 0 if it is unknown. */
 static qdot_status
 at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
 {
@@ -218,7 +218,7 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
     return QDOT_OK;
 }
 
-/* What the companions may be off by near t, which lies behind point k. */
+/* The companions' own error near t, which lies after point k. */
 static qdot_status
 look_around(qdot_distance *d, size_t piece, size_t k, double *own)
 {

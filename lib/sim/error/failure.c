@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Of the run: what is left until a singularity where it is one. */
+/* A singularity is nearer than this fraction of the run. */
 static const double nothing = 1e-6;
 
 qdot_status

@@ -12,7 +12,7 @@ static const double worth_looking = 0.02;
 /* A motion smaller than so many tolerances is rounding. */
 static const double tolerances = 100;
 
-/* Of the run: what has to lie beyond the horizon. */
+/* The least fraction of the run beyond a horizon. */
 static const double least_part = 0.01;
 
 /* Where beyond the horizon expressions are compared. */
@@ -63,7 +63,8 @@ variation(const qdot_trajectory *a, const qdot_trajectory *b, size_t stride)
     return most;
 }
 
-/* Whether it is above x. More points only add to what is below a half. */
+/* Whether the variation is above x. A sample of the points is tried first: more can only raise
+ * it. */
 static bool
 varies_by_more(const qdot_trajectory *tr, double x)
 {

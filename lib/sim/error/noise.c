@@ -9,7 +9,7 @@
 #include "base/interrupt.h"
 #include "sim/model/term-magnitude.h"
 
-/* Of the level of noise: what nearly all of it stays within. */
+/* Nearly all errors stay within this multiple of the noise. */
 static const double levels = 4;
 
 enum { POINTS = 7, ORDER = 3 };

@@ -9,11 +9,11 @@
 #include "num/hermite.h"
 #include "sim/model/constraints.h"
 
-/* Below it, or a hundred tolerances but no more than the second, q is 0. */
+/* q counts as 0 below `dependent`, or below a hundred tolerances, at most `most_dependent`. */
 static const double dependent = 1e-5, most_dependent = 1e-3;
 
-/* A minimum that is less of the points beside it is looked at; one of which so much is left
- * when the sections have closed in on it is none that comes to 0. */
+/* A minimum below `shallow` of the points beside it is examined; if the sections reduce it to no
+ * less than `floor_of_minimum`, it does not go to 0. */
 static const double shallow = 0.75, floor_of_minimum = 0.2;
 
 /* Times what counts as 0: between two minima that are one place, which a run came to in steps as

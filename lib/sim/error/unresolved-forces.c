@@ -86,8 +86,8 @@ sample(search *s, double a, double b, int nodes, bool *finite)
     return QDOT_OK;
 }
 
-/* Whether the polynomials through the values are the functions, but for nothing. What is singular
- * tells nothing. */
+/* Whether the polynomials through the values represent the functions, up to a negligible error.
+ * False if a function is singular. */
 static bool
 is_sure(search *s, double a, double b, int nodes)
 {
@@ -103,7 +103,7 @@ is_sure(search *s, double a, double b, int nodes)
     return true;
 }
 
-/* What the part shows that the step's polynomials do not. */
+/* Add the difference between the part's values and the step's polynomials. */
 static void
 add_beyond(search *s, double a, double b, int nodes)
 {
@@ -126,7 +126,7 @@ add_beyond(search *s, double a, double b, int nodes)
     }
 }
 
-/* The parts of a step whose points do not tell all, left to right. */
+/* Examine the parts of a step whose points do not suffice, from left to right. */
 static qdot_status
 look_at_parts(search *s)
 {

@@ -1,4 +1,4 @@
-/* absent.c -- a function with each coordinate moved. */
+/* absent.c -- evaluates a function with each coordinate moved. */
 #include "sim/model/absent.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "series/lanes.h"
 
-/* Of the function: what a change by a coordinate that stands in it is beyond. */
+/* A larger relative change shows that the function depends on the coordinate. */
 static const double noise = 1e-11;
 
 /* Numbers without a pattern in (0.3, 1.7), where most domains are. */

@@ -15,7 +15,7 @@ gain(qdot_constrained *h, size_t row, double c, size_t from)
         h->gains[row * columns + j] += c * h->slopes[from * columns + j];
 }
 
-/* What the equations gain, q'' and lambda held. */
+/* The derivatives of the equations at constant q'' and lambda. */
 static void
 find_gains(qdot_constrained *h)
 {

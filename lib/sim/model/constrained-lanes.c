@@ -118,7 +118,7 @@ qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken, qdot_constrained_
 
 /* --- one of the levels --------------------------------------------------------------- */
 
-/* What is moved, q or q', what it carries, and where tapes read it. */
+/* The part that is moved (q or q'), its carry, and its place in the inputs of the tapes. */
 typedef struct {
     const level *l;
     double *x, *carry, *loaded; /* [n] */
@@ -147,7 +147,7 @@ factor(qdot_constrained_lanes *h, const level *l)
     h->kernels->factor(size, h->n, h->K);
 }
 
-/* What rounding of x makes of the rows, values below `least` counting as that. */
+/* The effect of rounding of x on the rows; values below `least` count as `least`. */
 static void
 find_sizes(qdot_constrained_lanes *h, const newton *p, double least)
 {
@@ -179,7 +179,7 @@ look(qdot_constrained_lanes *h, const newton *p)
     }
 }
 
-/* The largest residual of a lane over what rounding makes of it; 1: none is above that. */
+/* The largest ratio in a lane of a residual to its rounding; 1: none is above its rounding. */
 static double
 excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
 {
@@ -197,7 +197,8 @@ excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
     return most;
 }
 
-/* Which lanes are done by what is left in iteration k, and which fail. Whether one goes on. */
+/* Decide by the residuals of iteration k which lanes are done and which fail. Returns whether a
+ * lane goes on. */
 static bool
 judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
 {

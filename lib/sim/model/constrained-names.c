@@ -1,4 +1,4 @@
-/* constrained-names.c -- constraints in words: those that depend on each other. */
+/* constrained-names.c -- names of the constraints that depend on each other. */
 #include <string.h>
 
 #include "sim/model/constrained-parts.h"

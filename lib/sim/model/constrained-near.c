@@ -1,4 +1,4 @@
-/* constrained-near.c -- how independent constraints are at a place. */
+/* constrained-near.c -- how near constraints are to being dependent at a state. */
 #include "sim/model/constrained-parts.h"
 #include "sim/model/constrained.h"
 

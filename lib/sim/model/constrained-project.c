@@ -11,14 +11,15 @@
 /* Values below it count as so large where rounding is judged: at rest all are 0. */
 static const double least_size = 0x1p-10;
 
-/* A step that will have left less than this of a bound needs no look at what it left. */
+/* If a step is predicted to leave less than this fraction of a bound, the residual is not
+ * evaluated. */
 static const double sure = 0x1p-6;
 
 enum { most_iterations = 6 };
 
 typedef qdot_constrained_level level;
 
-/* What rounding of x, q or q', makes of the rows, A being there. */
+/* The effect of rounding of x (q or q') on the rows; A is evaluated. */
 void
 qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
 {
@@ -31,7 +32,7 @@ qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
     }
 }
 
-/* M and A at what is loaded, factored. */
+/* Evaluate and factor M and A at the loaded state. */
 qdot_status
 qdot_constrained_factor_metric(qdot_constrained *h, level *l)
 {
@@ -54,14 +55,14 @@ typedef struct {
     double *bound;
 } part;
 
-/* How much of what is left a step of Newton's method leaves, M and A being those of a place
- * near by, as far as that is known. */
+/* The factor by which a step of Newton's method reduces the residual, with M and A of a nearby
+ * state, as far as it is known. */
 typedef struct {
     bool factored;
     double rate; /* INFINITY: it is not */
 } convergence;
 
-/* What the carry adds is a matter of A, once that is there. */
+/* Add the effect of the carry, by A, if A is evaluated. */
 static void
 add_carry(const part *p)
 {
@@ -69,8 +70,8 @@ add_carry(const part *p)
         p->l->residual[k] += qdot_saddle_row(&p->l->saddle, k, p->carry);
 }
 
-/* The largest residual over its bound; INFINITY before there are bounds, and where it is not
- * finite. */
+/* The largest ratio of a residual to its bound; INFINITY if there are no bounds yet, or if it is
+ * not finite. */
 static double
 excess(const part *p)
 {
@@ -88,7 +89,7 @@ excess(const part *p)
     return most;
 }
 
-/* What is left of the rows at what is loaded. The outputs of the tape are the level's rows. */
+/* Evaluate the residuals at the loaded state. The outputs of the tape are the level's rows. */
 static double
 look(qdot_constrained *h, const part *p)
 {
@@ -107,7 +108,7 @@ advance(double *hi, double *lo, double x)
     *hi = s;
 }
 
-/* One step of Newton's method; what is moved is loaded again. */
+/* One step of Newton's method; loads the moved state. */
 static void
 step(const part *p, size_t n, double *moved)
 {
@@ -136,8 +137,8 @@ step(const part *p, size_t n, double *moved)
     *moved = most;
 }
 
-/* Whether what is left is what moving x by rounding of max(1, |x|) makes: where x is 0 the
- * bounds are too, and cannot be met. */
+/* Whether the residuals are within the effect of rounding of max(1, |x|): if x is 0 so are the
+ * bounds, and cannot be met. */
 static bool
 is_rounding(const part *p)
 {
@@ -148,9 +149,9 @@ is_rounding(const part *p)
     return true;
 }
 
-/* M and A stay those of the place where they were factored, `c` says whether they are:
- * Newton's method converges with them as fast as the state was near. What the last step
- * leaves is known by those before it, and not looked at. */
+/* M and A stay those of the state at which they were factored (`c`: whether they are); the nearer
+ * that state, the faster Newton's method converges. The residual after the last step is predicted
+ * from the steps before, not evaluated. */
 static qdot_status
 project(qdot_constrained *h, const part *p, convergence *c, double *moved)
 {

@@ -1,5 +1,4 @@
-/* constrained-put.c -- a state of which some values were set, brought onto the constraints.
- */
+/* constrained-put.c -- brings a state onto the constraints after an event has set some values. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -23,7 +22,7 @@ typedef struct {
     qdot_saddle saddle;
 } part;
 
-/* M and A at what is loaded, a row of the unit matrix for each value set, -f and zeros. */
+/* Fill the system: M and A at the loaded state, a unit row for each value set, -f and zeros. */
 static void
 fill(qdot_constrained *h, part *p)
 {
@@ -51,7 +50,7 @@ fill(qdot_constrained *h, part *p)
         s->x[n + k] = -p->residual[p->level->row[k]];
 }
 
-/* The largest residual over its rounding, and whose it is. */
+/* The largest ratio of a residual to its rounding, and its row. */
 static double
 excess(const part *p, size_t *worst)
 {

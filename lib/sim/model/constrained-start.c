@@ -13,7 +13,7 @@ static const double start_tolerance = 1e-9;
  * that was dependent upon the others only at the start. */
 static const double beside = 1e-3, independent = 1e-7;
 
-/* What repetitions leave of a velocity beside the start. */
+/* The residual of a velocity near the start up to which rows count as redundant. */
 static const double hidden = 1e-9;
 
 enum { tries = 4, iterations = 12 };
@@ -169,8 +169,8 @@ refuse_hidden(place *p, const double *y, size_t row, const char *of)
     return QDOT_EINVAL;
 }
 
-/* A little later no position was found: x = t^2 and x = t^2 + t^3 part, where the start left nothing of
- * that. Rows that could not be met beside independent ones that are. */
+/* No position was found a little later: x = t^2 and x = t^2 + t^3 separate after the start. Names
+ * rows that do not hold although the independent ones do. */
 static qdot_status
 check_parted(place *p, const double *y, double t)
 {
@@ -195,8 +195,8 @@ check_parted(place *p, const double *y, double t)
                                                        : QDOT_OK;
 }
 
-/* Velocities beside those at p->y that the independent rows allow; *worst of the others, and by
- * how much it is broken. Whether there are such. */
+/* Change the velocities at p->y so that the independent rows hold; *worst: the other row that is
+ * broken most, and by how much. Returns whether there are such velocities. */
 static bool
 move_velocities(place *p, size_t *worst, double *by)
 {
@@ -257,8 +257,8 @@ check_hidden(place *p, const double *y, bool later)
                                                                           : "velocities");
 }
 
-/* Rows that repeat others at the start must do so beside it, too: else the rank that is kept
- * is that of a moment. */
+/* Rows that are redundant at the start must be so near it, too: else the rank, which is kept,
+ * would hold at the start only. */
 static qdot_status
 check_place(qdot_constrained *h, double t, const double *y)
 {

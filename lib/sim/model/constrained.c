@@ -1,4 +1,5 @@
-/* constrained.c -- tapes into saddle-point systems, one for each level of differentiation. */
+/* constrained.c -- evaluates tapes into saddle-point systems, one for each level of
+ * differentiation. */
 #include "sim/model/constrained.h"
 
 #include <math.h>
@@ -48,8 +49,7 @@ qdot_constrained_load(qdot_constrained *h, double t, const double *y)
     h->in[2 * h->plan->n] = t;
 }
 
-/* Residuals of positions, of velocities at what is loaded, by row; 0 where a row has none.
- */
+/* Residuals of positions, of velocities at the loaded state, by row; 0 for rows without. */
 void
 qdot_constrained_positions(qdot_constrained *h)
 {
@@ -79,7 +79,7 @@ qdot_constrained_residuals(qdot_constrained *h)
     qdot_constrained_velocities(h);
 }
 
-/* M and A from outputs into a level. Returns what stands behind them. */
+/* Copy M and A from the outputs into a level. Returns the output after them. */
 static const double *
 unpack(qdot_constrained *h, level *l, const double *from)
 {
@@ -160,7 +160,7 @@ dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
     return QDOT_ESINGULAR;
 }
 
-/* Rows that have faded, where some repeat others: one that is held has nothing to hold on to. */
+/* Fail for a row in use that has shrunk to rounding; redundant ones may. */
 static qdot_status
 without_others(const qdot_constraints *c, const qdot_saddle *s, const size_t *row)
 {
@@ -240,7 +240,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     return QDOT_OK;
 }
 
-/* A q'' - gamma of row k, of whose terms the largest is *size. */
+/* A q'' - gamma of row k; *size: its largest term. */
 static double
 left_of(const qdot_constrained *h, size_t k, double *size)
 {
@@ -257,7 +257,7 @@ left_of(const qdot_constrained *h, size_t k, double *size)
     return sum;
 }
 
-/* Of second derivatives, what drift makes of them: by the terms that would damp it. */
+/* The effect of drift on the second derivatives, from the terms that would damp it. */
 static double
 by_drift(qdot_constrained *h)
 {

@@ -82,7 +82,7 @@ add_slopes(builder *b, size_t k)
     return QDOT_OK;
 }
 
-/* e with the rates of parameters that events set, which are 0. */
+/* e with the rates of parameters that events set replaced by 0. */
 static qdot_expr
 without_rates(const qdot_plan *p, qdot_expr e)
 {
@@ -222,7 +222,7 @@ lower_index_1(builder *b)
     return status;
 }
 
-/* The inputs of a series, the newest first; as many as returned. */
+/* The inputs of a series, the newest first; returns their number. */
 static size_t
 series_inputs(const qdot_plan *p, qdot_constraint_kind kind, qdot_expr *inputs)
 {
@@ -299,7 +299,7 @@ lower_motion(builder *b)
     return status;
 }
 
-/* A and gamma, for whoever makes further equations of them. */
+/* A and gamma, for other forms of the equations. */
 static qdot_status
 keep_expressions(builder *b)
 {

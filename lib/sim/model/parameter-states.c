@@ -1,5 +1,5 @@
-/* parameter-states.c -- parameters that events set: found, put into a request, held to what is
- * declared of them. */
+/* parameter-states.c -- finds parameters that events set, adds them to a request, and checks
+ * their values against the declarations. */
 #include "sim/model/parameter-states.h"
 
 #include <math.h>
@@ -201,7 +201,7 @@ typedef struct {
     expressions sides;
 } builder;
 
-/* How a relation is written, as it was said. */
+/* The sign of a relation as it was written. */
 static const char *
 sign_of(int op, bool turned)
 {
@@ -307,7 +307,7 @@ qdot_parameter_conditions_find(const qdot_plan *plan, const qdot_scene *scene,
     return status;
 }
 
-/* What rounding leaves of an equality. */
+/* An equality may be broken by this much, by rounding. */
 static const double equal = 1e-12;
 
 static bool

@@ -1,4 +1,4 @@
-/* power-quotient.c -- factor by factor of every product. */
+/* power-quotient.c -- rewrites the factors of every product. */
 #include "sim/model/power-quotient.h"
 
 #include "expr/walk.h"

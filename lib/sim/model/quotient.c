@@ -1,7 +1,7 @@
 /* quotient.c -- common factors by their exponents, term by term. */
 #include "sim/model/quotient.h"
 
-/* The integer exponent of `base` in a term; 0 where it is no factor of it. */
+/* The integer exponent of `base` in a term; 0 if it is not a factor. */
 static long
 exponent(const qdot_pool *pool, qdot_expr term, qdot_expr base)
 {

@@ -1,4 +1,4 @@
-/* switch.c -- what switches in the equations, found and frozen. */
+/* switch.c -- finds and freezes the functions that switch in the equations. */
 #include "sim/model/switch.h"
 
 #include <stdio.h>
@@ -65,7 +65,8 @@ upright(qdot_pool *pool, qdot_expr u, bool *turned)
 
 static qdot_status collect(qdot_switches *s, qdot_expr e);
 
-/* Behind the surfaces inside it, which may be new: a difference is put in order. */
+/* Add a surface after those inside it, which may be new; a difference is put in canonical order.
+ *  */
 static qdot_status
 add_surface(qdot_switches *s, qdot_expr u, bool steps)
 {
@@ -117,7 +118,7 @@ add_atom(qdot_switches *s, qdot_expr e)
     return QDOT_OK;
 }
 
-/* Everything in e that switches. */
+/* Collect all functions in e that switch. */
 static qdot_status
 collect(qdot_switches *s, qdot_expr e)
 {
@@ -146,7 +147,7 @@ switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
     return found;
 }
 
-/* q' M q' / 2 of a mass matrix with the values put in. */
+/* q' M q' / 2 of a mass matrix with parameter values. */
 static qdot_expr
 kinetic(qdot_scene *scene, qdot_expr mass)
 {
@@ -165,7 +166,7 @@ kinetic(qdot_scene *scene, qdot_expr mass)
     return qdot_mul(pool, QDOT_HALF, sum);
 }
 
-/* s->level: of T, of each declared potential, of a stated Lagrangian, where they switch. */
+/* Make s->level from T, each declared potential and a stated Lagrangian, if they switch. */
 static qdot_status
 find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
            qdot_expr mass)
@@ -189,8 +190,8 @@ find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
-/* Whether a node may be, or become by its slopes or by the values put in, what switches: also a
- * function whose value is set, and a root, which of a square is an absolute value. */
+/* Whether a node may switch, or may after differentiation or substitution of values: also a
+ * function whose value is set, and a root, which is an absolute value if its base is a square. */
 static bool
 may_switch(const qdot_pool *pool, qdot_expr e)
 {
@@ -218,8 +219,8 @@ look_at(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smooth)
     return status;
 }
 
-/* Whether nothing switches, by what the equations are made of: places, and what is applied. M and
- * f need not be derived for that, which of many coordinates takes long. */
+/* Whether nothing switches in the ingredients of the equations: positions and applied forces. So
+ * M and f need not be derived, which takes long for many coordinates. */
 static qdot_status
 see_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
 {
@@ -315,7 +316,7 @@ inner(const freezer *f, qdot_expr e)
     return qdot_walk_map(f->s->pool, e, look_up, (void *)f);
 }
 
-/* The side of u; of a u that does not move its sign or floor as it stands. */
+/* The symbol of the side of u; for a constant u its sign or floor. */
 static qdot_expr
 side_of(const freezer *f, qdot_expr u, bool steps)
 {
@@ -337,7 +338,7 @@ side_of(const freezer *f, qdot_expr u, bool steps)
     return turned ? qdot_neg(pool, u) : u;
 }
 
-/* Of min or max the argument that no other one passes; the first of equal ones. */
+/* The argument that min or max selects; the first of equal ones. */
 static qdot_expr
 chosen(const freezer *f, qdot_expr e, int way)
 {

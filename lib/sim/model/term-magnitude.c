@@ -1,4 +1,4 @@
-/* term-magnitude.c -- the absolute values of the terms, added. */
+/* term-magnitude.c -- adds the absolute values of the terms. */
 #include "sim/model/term-magnitude.h"
 
 qdot_expr

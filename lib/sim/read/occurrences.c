@@ -1,4 +1,4 @@
-/* occurrences.c -- the events of a run, and how far their times are off by its companions. */
+/* occurrences.c -- the events of a run, with the errors of their times from its companions. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -45,7 +45,8 @@ sort_by_event(const qdot_course *c, size_t events, by_event *out)
     return QDOT_OK;
 }
 
-/* The nearest in time to t of at [n], which ascend or descend; NULL of none. */
+/* The occurrence of at [n], ascending or descending in time, that is nearest to t; NULL if n is
+ * 0. */
 static const qdot_occurrence *
 nearest(const qdot_occurrence *const *at, size_t n, double t)
 {

@@ -19,7 +19,7 @@ has_bounds(const qdot_range_scan *s)
     return isfinite(s->bounds.box->lo) && isfinite(s->bounds.box->hi);
 }
 
-/* Up to which size values near a short part are not those of a pole. */
+/* The largest size of values near a short part that do not indicate a pole. */
 static double
 bounded(qdot_range_scan *s, const qdot_range_part *p)
 {
@@ -37,7 +37,7 @@ bounded(qdot_range_scan *s, const qdot_range_part *p)
     return most;
 }
 
-/* In a part that could not be shorter. */
+/* Called for a part that cannot be halved. */
 void
 qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p)
 {
@@ -96,8 +96,8 @@ is_regular(const double *d, int n, double *ratio)
     return n >= LEAST_INCREMENTS && *ratio > 0;
 }
 
-/* What is left of increments of which d[0] is the last: they fall by a ratio each time, or ever more
- * slowly, as those of 1/log do, of which as many are left as there were. */
+/* The sum of the increments after d[0]: they fall by a ratio each time, or ever more slowly, as
+ * those of 1/log, for which as many more are assumed as there were. */
 static double
 left_of(const double *d, int n, double ratio, double before)
 {
@@ -108,7 +108,7 @@ left_of(const double *d, int n, double ratio, double before)
     return d[0] * fmax(late > 0.8 && late > early + 0.01 ? before : 0, ratio / (1 - ratio));
 }
 
-/* What the values tend to towards the part from one side: increments that fall as a power add up
+/* The limit of the values towards the part from one side: increments that fall as a power add up
  * to a limit, others have none. */
 static void
 look_towards(qdot_range_scan *s, const qdot_range_part *p, int side)

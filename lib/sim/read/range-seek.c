@@ -1,11 +1,12 @@
-/* range-seek.c -- extrema as intervals have them: where they are, and what is open of them. */
+/* range-seek.c -- searches extrema by intervals, and bounds the values that were not evaluated.
+ *  */
 #include "base/interrupt.h"
 #include "sim/read/range-parts.h"
 
 enum { NODES = 16, MOST = 256 };
 
-/* Of the largest value: less than that beyond it is not looked for, in the end, and while seeking. Of
- * the same: what counts nothing in a mean. */
+/* Relative to the largest value: smaller excesses are not searched, at the end and while seeking;
+ * and what is negligible in a mean. */
 static const double slack = 0x1p-46, closer = 0x1p-52, nothing = 0x1p-80;
 
 static double
@@ -35,7 +36,7 @@ enclose(qdot_range_scan *s, double a, double b, int nodes)
 
 /* --- seeking ------------------------------------------------------------------------- */
 
-/* A stretch of the step, and what its values are at most; upside down for the least. */
+/* A stretch of the step, and an upper bound of its values; negated when the least is sought. */
 typedef struct {
     double a, b, most;
 } stretch;

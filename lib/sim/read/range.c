@@ -19,17 +19,18 @@
 
 enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, LEAST_PARTS = 64, MOST_PARTS = 8192 };
 
-/* Parts of a step after which intervals are asked where its extrema are, and after which rounding is
- * what there may be. */
+/* Number of parts of a step from which intervals search its extrema, and from which the rest is
+ * possibly rounding. */
 enum { SEEKING = 16, MANY_PARTS = 512 };
 
-/* What the last coefficients are, of the largest, where rounding of times is nothing. */
+/* Size of the last coefficients relative to the largest, if rounding of times is negligible. */
 static const double tight = 0x1p-44;
 
-/* Of the last coefficients of half as many nodes: what still has so much is no polynomial yet. */
+/* If the last coefficients keep this fraction of those with half as many nodes, the fit has not
+ * converged. */
 static const double no_progress = 0.25;
 
-/* A part so short, of its step, or so blurred, is looked at from its sides. */
+/* A part so short, relative to its step, or so blurred is extrapolated from both sides. */
 static const double deep = 0x1p-24, blurred = 0x1p-14;
 
 /* An end of the range where the limit from within is another value. */
@@ -38,7 +39,7 @@ static const double jump = 0x1p-30;
 typedef qdot_range_scan scan;
 typedef qdot_range_part part;
 
-/* What values at its nodes tell of a part. */
+/* The result of the values at the nodes of a part. */
 typedef enum {
     ROUGH,     /* they fit no polynomial */
     UNSURE,    /* one, but something may hide between them */
@@ -56,7 +57,7 @@ value_at(scan *s, double t, double *x)
                         : qdot_fail(QDOT_EDOMAIN, "it is undefined at t = %.15g", t);
 }
 
-/* Values between which it is somewhere, nobody knows where. */
+/* Count values between low and high at unknown times. */
 static void
 meet_roughly(scan *s, double low, double high)
 {
@@ -94,7 +95,7 @@ fit(scan *s, part *p, int nodes, bool *good)
     return QDOT_OK;
 }
 
-/* What the polynomial says of it, of the values at the nodes. */
+/* Judge a part by its polynomial through the values at the nodes. */
 static verdict
 judge_fit(scan *s, const part *p, bool *good)
 {
@@ -377,8 +378,8 @@ result(const scan *s, qdot_range_kind kind, double from, double to)
     }
 }
 
-/* What is open of a result: limits that no value reached lie beyond, parts that stayed rough may
- * not reach. */
+/* The open part of a result: limits may lie beyond the values found, rough parts may not reach
+ * theirs. */
 static double
 open_of(const scan *s, qdot_range_kind kind, double from, double to)
 {
@@ -410,7 +411,7 @@ check_bounds(const scan *s, qdot_range_kind kind)
                      s->pole);
 }
 
-/* What is asked. */
+/* The arguments of qdot_run_range. */
 typedef struct {
     qdot_run *run;
     qdot_range_kind kind;
@@ -456,7 +457,7 @@ check_range(const qdot_run *run, double from, double to)
                      from, to, tr->t[0], tr->t[tr->count - 1]);
 }
 
-/* What evaluating e may be off by: as at the ends of the range. */
+/* The rounding of e, taken at the ends of the range. */
 static qdot_status
 rounding(const question *q, double *error)
 {
@@ -470,7 +471,7 @@ rounding(const question *q, double *error)
     return QDOT_OK;
 }
 
-/* What is stated of x, the value of the run itself, by those of the companions. */
+/* The error stated for x, the value of the run, from those of the companions. */
 static qdot_status
 compare(const question *q, double x, double *distance)
 {

@@ -13,7 +13,7 @@
 #include "sim/error/noise.h"
 #include "sim/run/run.h"
 
-/* Of t, for slopes. */
+/* Step of t, relative, for slopes. */
 static const double slope_over = 0x1p-28;
 
 /* --- asking ------------------------------------------------------------------------- */
@@ -99,8 +99,8 @@ piece_at(const qdot_trajectory *tr, double t)
     return qdot_trajectory_piece_of(tr, qdot_trajectory_locate(tr, t, 0));
 }
 
-/* What `low` beyond t adds to them: by slopes over h, within the piece. The ends of a run
- * belong to its exact limits already. */
+/* Add the change of the values from t to t + low, by slopes over h within the piece. The ends of
+ * a run are its exact limits already. */
 static qdot_status
 go_beyond(const qdot_run *run, qdot_reader *r, double t, double low, size_t m,
           double *moved, double *values)

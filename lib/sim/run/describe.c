@@ -1,4 +1,4 @@
-/* describe.c -- the plan in words. */
+/* describe.c -- prints a plan in words. */
 #include "expr/print.h"
 #include "ode/companion.h"
 #include "ode/taylor.h"
@@ -10,7 +10,7 @@
 #include "sim/model/constraints.h"
 #include "sim/run/run.h"
 
-/* What is integrated. */
+/* The plan that is integrated: the reduced one if there is one. */
 static const qdot_plan *
 moving(const qdot_plan *p)
 {
@@ -104,7 +104,7 @@ say_time(const qdot_plan *p, qdot_text *out)
                      time ? "stands" : "does not stand");
 }
 
-/* With constraints: what there is, how it is solved, what keeps the state on them. */
+/* The constraints, how they are solved, how the state is kept on them. */
 static void
 say_constraints(const qdot_plan *p, qdot_text *out)
 {
@@ -152,7 +152,7 @@ say_blocks(const qdot_plan *p, qdot_text *out)
     }
 }
 
-/* What an expansion to order p is computed by. */
+/* The code that computes an expansion to order p. */
 static qdot_status
 say_code(const qdot_bind *bind, const qdot_ode_series *series, int p, qdot_text *out)
 {
@@ -164,7 +164,7 @@ say_code(const qdot_bind *bind, const qdot_ode_series *series, int p, qdot_text 
     return QDOT_OK;
 }
 
-/* Of Taylor series: the order, the form of the equations, what an order costs. */
+/* Taylor series: the order, the form of the equations, the cost of an order. */
 static qdot_status
 say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
 {
@@ -244,7 +244,7 @@ name_all(const qdot_plan *p, qdot_text *out)
         qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
 }
 
-/* What looks at the steps of the whole. */
+/* The events, bounds and switches that watch the steps. */
 static void
 say_watched(const qdot_stage *s, const qdot_plan *p, qdot_text *out)
 {
@@ -309,7 +309,7 @@ say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Where the equations switch, and what else ends a piece of the run. */
+/* The surfaces at which the equations switch, and other ends of pieces. */
 static qdot_status
 say_switches(const qdot_stage *s, qdot_text *out)
 {
@@ -328,7 +328,7 @@ say_switches(const qdot_stage *s, qdot_text *out)
     return QDOT_OK;
 }
 
-/* What is integrated: coordinates, and parameters that events set. */
+/* The components of the run: coordinates, and parameters that events set. */
 static void
 say_coordinates(const qdot_plan *p, qdot_text *out)
 {

@@ -1,4 +1,4 @@
-/* run.c -- from a request to a run with its report. */
+/* run.c -- carries out a request: integrates, estimates the error, fills the report. */
 #include "sim/form/derived.h"
 #include "sim/run/run.h"
 
@@ -20,7 +20,7 @@
 #include "sim/start/start.h"
 #include "tape/shake.h"
 
-/* The spacing of doubles is 2.2e-16 of their size: no step can be held to less. */
+/* The spacing of doubles is 2.2e-16 of their size: no step can be more accurate. */
 static const double least_tol = 2.3e-16;
 
 static double
@@ -106,7 +106,7 @@ check_tolerance(double tol)
 
 /* --- the start ---------------------------------------------------------------------- */
 
-/* Limits that are one double but not one number: the run would end where it begins. */
+/* Refuse different limits that round to one double: the run would have no length. */
 static qdot_status
 check_length(qdot_run *run, const qdot_run_request *request)
 {
@@ -192,7 +192,7 @@ name_redundant(qdot_run *run, qdot_scene *scene, const qdot_run_request *request
     return QDOT_OK;
 }
 
-/* Onto the constraints. */
+/* Bring the start onto the constraints. */
 static qdot_status
 settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
              const qdot_domains *domains)
@@ -212,7 +212,7 @@ settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
 
 /* --- the run ------------------------------------------------------------------------ */
 
-/* What ends a run without taking back what was integrated. */
+/* Whether the run so far is kept after this status. */
 static bool
 is_kept(qdot_status status)
 {
@@ -220,8 +220,8 @@ is_kept(qdot_status status)
            || status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_EINTR;
 }
 
-/* Where constraints stop being independent: what the run went over, into the notice. That it
- * cannot be found is no failure of the run. */
+/* Add places passed where the constraints depend on each other to the notice. If the search
+ * fails, the run does not. */
 static qdot_status
 say_crossings(qdot_run *run, bool *interrupted)
 {
@@ -268,7 +268,7 @@ say_dependent(const qdot_run *run, qdot_text *reason)
     return found;
 }
 
-/* The reason of a run that the integration gave up. */
+/* Set the reason of a run whose integration failed. */
 static qdot_status
 say_failure(qdot_run *run, qdot_status status)
 {
@@ -319,7 +319,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
 
 /* --- the report --------------------------------------------------------------------- */
 
-/* How many steps each of the parts took that were integrated apart. */
+/* The steps of each part that was integrated apart. */
 static qdot_status
 say_apart(qdot_run *run)
 {
@@ -379,7 +379,7 @@ fill_report(qdot_run *run, double tol)
     qdot_multipliers_report(&run->multipliers, p, r);
 }
 
-/* The states of the run at the times that the companion wants them. */
+/* Show the companion the states of the run at the times that it needs. */
 static qdot_status
 show_states(qdot_run *run, qdot_companion *companion)
 {
@@ -422,7 +422,7 @@ measure_multipliers(qdot_run *run)
     return qdot_multipliers_measure(run->course.binds.at, &run->course.tr, &run->multipliers);
 }
 
-/* What a companion needs beside the run. */
+/* The companions that run beside the run, and their systems. */
 typedef struct {
     qdot_bind *shaken, *twin; /* twin NULL: only one */
     qdot_companion *companion;
@@ -456,7 +456,7 @@ start_companion(qdot_run *run, double tol, beside *b)
     return qdot_companion_start(&request, &b->companion);
 }
 
-/* Why there is no error. */
+/* Record why the error is unknown. */
 static qdot_status
 say_lost(qdot_run *run, const char *reason)
 {
@@ -540,7 +540,7 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
-/* A force that no step saw leaves nothing of the error. */
+/* If a step missed a force, the error is unknown. */
 static qdot_status
 find_hidden(qdot_run *run)
 {
@@ -560,7 +560,7 @@ find_hidden(qdot_run *run)
     return qdot_run_say_doubt(run, text);
 }
 
-/* The run, its error, and what should have been kept. */
+/* Integrate, then find the error and the drift of conserved quantities. */
 static qdot_status
 carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
 {

@@ -1,4 +1,4 @@
-/* nearest-search.c -- onto F = 0, and along it towards the centre. */
+/* nearest-search.c -- searches points on F = 0 and moves along it towards the centre. */
 #include <math.h>
 #include <string.h>
 
@@ -127,7 +127,7 @@ relative(const search *s, const double *at, const double *step)
     return most;
 }
 
-/* Whether every F_k is met; after evaluate(at, true). */
+/* Whether every F_k is 0 within rounding; after evaluate(at, true). */
 static bool
 holds(const search *s, const double *at)
 {
@@ -143,7 +143,7 @@ holds(const search *s, const double *at)
     return true;
 }
 
-/* Newton steps of least length, halved until they help. */
+/* Newton steps of least length, halved until they reduce the residual. */
 static bool
 restore(search *s, double *at)
 {

@@ -146,7 +146,7 @@ print_broken(const level *l, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Fail with `text`, which is let go of. */
+/* Fail with the message `text`, and free it. */
 static qdot_status
 fail(qdot_text *text, qdot_status built)
 {
@@ -186,7 +186,7 @@ refuse(const level *l, const double *residual)
                : status;
 }
 
-/* Of an answer x what another has not, "x = 1, y = 0". */
+/* Append the values of a solution x that differ from another one, "x = 1, y = 0". */
 static void
 print_answer(const level *l, const double *x, const double *other, qdot_text *out)
 {
@@ -298,7 +298,7 @@ can_hold(const level *l, const bool *kept, const qdot_domains *domains,
     return status;
 }
 
-/* No state keeps all of them: leave out one after another what is not to blame. */
+/* No state keeps all constraints: set aside one after another those that do not contradict. */
 static qdot_status
 blame(const level *l, const qdot_domains *domains, const double *start)
 {
@@ -383,7 +383,7 @@ metric(const level *l, const double *y, double *W)
     return status;
 }
 
-/* All moves least. */
+/* Move all values, as little as possible. */
 static qdot_status
 move_all(level *l, const qdot_domains *domains, double *y, double *other,
          qdot_text *notice)
@@ -407,7 +407,7 @@ move_all(level *l, const qdot_domains *domains, double *y, double *other,
     return say_moved(l, y, notice);
 }
 
-/* The start breaks the equations. */
+/* Solve for a start that breaks the equations. */
 static qdot_status
 solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
 {
@@ -440,7 +440,7 @@ worst(const level *l, const double *y)
     return most;
 }
 
-/* What was not named, is in no constraint and may not be 0 has no value. */
+/* Fail for a value that was not named, occurs in no constraint and may not be 0. */
 static qdot_status
 check_left_alone(const level *l, const qdot_domains *domains, const double *y)
 {

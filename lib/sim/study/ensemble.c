@@ -16,7 +16,7 @@
 #include "tape/constant.h"
 #include "tape/shake.h"
 
-/* A system in lanes: one of the two. */
+/* The system in lanes: one of two forms. */
 typedef struct {
     qdot_ensemble_series *series;
     qdot_shifted_lanes *shifted;
@@ -127,15 +127,15 @@ is_indefinite(const qdot_plan *p)
     return false;
 }
 
-/* Equations with momenta kept that lanes can do: none whose velocities may cancel, of which a plan
- * without a start does not know. */
+/* Whether lanes can use the equations with kept momenta: not if velocities are sums that may
+ * cancel, which depends on the start. */
 static bool
 may_be_reduced(const qdot_plan *r)
 {
     return r && r->smooth && !r->subtracts && !is_indefinite(r);
 }
 
-/* The residual form, where a single run takes it too; likewise momenta that are kept. */
+/* Use the residual form, or kept momenta, if a single run does so too. */
 static qdot_status
 choose_form(qdot_ensemble *e)
 {
@@ -311,8 +311,8 @@ make_companions(qdot_ensemble *e, int order)
     return form_new(&e->companions, e, true, order);
 }
 
-/* Velocities that follow from momenta that are kept give way to these. A member without them
- * goes no way. */
+/* Replace velocities that follow from kept momenta by these. A member whose momenta are undefined
+ * does not run. */
 static void
 enter(const qdot_ensemble *e, pass *p)
 {
@@ -334,7 +334,7 @@ enter(const qdot_ensemble *e, pass *p)
     }
 }
 
-/* And back. */
+/* Replace the momenta by velocities again. */
 static void
 come_back(const qdot_ensemble *e, pass *p)
 {
@@ -384,7 +384,7 @@ start(const qdot_ensemble *e, bool shaken, double *whole, double *y)
     return status;
 }
 
-/* Members that cannot start go no way; `reasons` [members], NULL: nobody asks why. */
+/* Members that cannot start do not run; `reasons` [members], NULL: not wanted. */
 static qdot_status
 start_all(const qdot_ensemble *e, pass *p, char **reasons, double *whole)
 {

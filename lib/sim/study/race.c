@@ -1,4 +1,4 @@
-/* race.c -- the lanes, the reference, the way from minimal coordinates back. */
+/* race.c -- runs the formulations and the reference, and converts minimal coordinates back. */
 #include "sim/study/race.h"
 
 #include <math.h>
@@ -97,7 +97,7 @@ one_run(race *r, qdot_scene *scene, const qdot_run_request *request,
     return QDOT_OK;
 }
 
-/* What one lane cannot do the others may. */
+/* A failure of one formulation does not end the race. */
 static bool
 is_its_own(qdot_status status)
 {

@@ -1,4 +1,4 @@
-/* workprecision.c -- the ladder climbed, method by method. */
+/* workprecision.c -- runs every method at every tolerance. */
 #include "sim/study/workprecision.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static const double budget_default = 3e8;
 /* Of a reference in doubles. */
 static const double reference_tol = 1e-15;
 
-/* An error below it is rounding, however little moved. */
+/* A smaller error counts as rounding, even for a motion of small variation. */
 static const double rounding = 1e-14;
 
 /* A method at work. */
@@ -47,7 +47,7 @@ typedef struct {
     double residual;        /* the largest met */
 } worker;
 
-/* What the reference ended in, to twice the precision of a double. */
+/* The end of the reference, in twice the precision of a double. */
 typedef struct {
     size_t n;
     double *high, *low;
@@ -243,7 +243,7 @@ read_start(worker *w, const qdot_run_request *request)
     return QDOT_OK;
 }
 
-/* Where the start is now another side of a surface may be in force. */
+/* The projected start may lie on another side of a surface. */
 static qdot_status
 settle_side(worker *w)
 {
@@ -259,7 +259,7 @@ settle_side(worker *w)
     return QDOT_OK;
 }
 
-/* Onto the constraints. */
+/* Bring the start onto the constraints. */
 static qdot_status
 settle_start(worker *w, qdot_scene *scene, const qdot_run_request *request)
 {
