@@ -1,4 +1,4 @@
-/* apart.c -- from the whole to its parts, and back. */
+/* apart.c -- converts states, options and results between a whole and its parts. */
 #include "ode/apart.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* batch.c -- steps by Taylor series in lanes that go their own ways. */
+/* batch.c -- steps by Taylor series in independent lanes. */
 #include "ode/batch.h"
 
 #include <float.h>
@@ -20,11 +20,10 @@ static const int64_t max_steps = 50000000;
 /* A projection moves by its own rounding, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
-/* The part of the way that a step goes whose series ends. */
+/* The fraction of the way that a first step goes if the upper half of its series is 0. */
 static const double part_of_way = 0.31830988618379067;
 
-/* Groups; what is a number of times or a question is an integer, of a question all bits or
- * none. */
+/* Groups; counts and flags are integers, a flag has all bits set or none. */
 typedef struct {
     _Alignas(64) double t[L], t1[L];
     double direction[L], unit[L], old_unit[L];
@@ -74,7 +73,7 @@ typedef struct {
 
 /* --- members come and go ------------------------------------------------------------ */
 
-/* Lane l stands at a member's start; without one it stays where it is, unheeded. */
+/* Put lane l at a member's start; without a member it stays as it is and is ignored. */
 static void
 take(batch *b, size_t l)
 {
@@ -147,7 +146,7 @@ coefficient(const batch *b, size_t i, int k)
     return b->system->x + (i * b->system->stride + (size_t)k) * L;
 }
 
-/* As `confirms` of taylor.c, of all lanes. */
+/* As `confirms` of taylor.c, for all lanes. */
 static void
 confirm(batch *b)
 {
@@ -167,7 +166,7 @@ confirm(batch *b)
             a->good[l] = 0;
 }
 
-/* Back to where the step began, which then is to be a quarter of it. */
+/* Go back to the start of the step, to try a quarter of it. */
 static void
 reject(batch *b, size_t l)
 {
@@ -181,7 +180,8 @@ reject(batch *b, size_t l)
         leave(b, l, QDOT_BATCH_STUCK);
 }
 
-/* What the series begun tells of the steps tried. Whether some lane must begin anew. */
+/* Accept or reject the steps tried by the series begun at their ends. Returns whether some lane
+ * must begin anew. */
 static bool
 judge(batch *b)
 {
@@ -247,7 +247,8 @@ log_steps(const batch *b, const double *weight, double *upper, double *lower)
     b->kernels->log_steps(&series, 2, p / 2, weight, b->inverse, b->lower, lower);
 }
 
-/* Lane l, whose step the series does not just say: another unit for it, or what can be. */
+/* For lane l, whose step does not follow directly from the series: another unit, or a possible
+ * step. */
 static void
 choose_step(batch *b, size_t l, double step, const double *weight)
 {
@@ -276,7 +277,7 @@ choose_step(batch *b, size_t l, double step, const double *weight)
         try_step(b, l, fabs(a->unit[l]) * qdot_rough_exp2(step));
 }
 
-/* A step for each lane from the series that is there, or another unit for it. */
+/* Choose a step for each lane from its series, or another unit. */
 static void
 choose_steps(batch *b)
 {
@@ -292,7 +293,7 @@ choose_steps(batch *b)
             choose_step(b, l, steps[l], weight);
 }
 
-/* The end of each lane's step, and what will be asked of it. */
+/* The end of each lane's step, and the values that will confirm it. */
 static void
 go(batch *b)
 {

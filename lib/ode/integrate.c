@@ -1,4 +1,4 @@
-/* integrate.c -- as a whole, or part by part. */
+/* integrate.c -- integrates a system as a whole or part by part. */
 #include "ode/integrate.h"
 
 #include <string.h>
@@ -18,7 +18,7 @@ typedef struct {
     qdot_ode_result *result;
 } parts;
 
-/* Part k as far as the whole goes by now. */
+/* Integrate part k as far as the whole goes so far. */
 static qdot_status
 run_part(const parts *p, size_t k, qdot_ode_result *result)
 {

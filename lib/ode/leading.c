@@ -1,4 +1,4 @@
-/* leading.c -- which orders are taken in two doubles, and the sum with them. */
+/* leading.c -- decides which orders are in two doubles, and sums the series with them. */
 #include "ode/leading.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ orders_of_terms(const qdot_ode_leading_step *step, const double *power)
     return m;
 }
 
-/* Whether doubles were right enough at order k. */
+/* Whether doubles were accurate enough at order k. */
 static bool
 agree(const qdot_ode_leading_step *step, int k, double power)
 {
@@ -59,7 +59,7 @@ agree(const qdot_ode_leading_step *step, int k, double power)
     return true;
 }
 
-/* Their number; power: s^k. */
+/* The number of orders in two doubles; power: s^k. */
 static qdot_status
 find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
 {

@@ -1,4 +1,4 @@
-/* precise.c -- steps by Taylor series in MPFR, and what is stored of them. */
+/* precise.c -- steps by Taylor series in MPFR, and the storage of their points. */
 #include "ode/precise.h"
 
 #include <math.h>
@@ -69,12 +69,12 @@ qdot_precise_inside(const qdot_precise_run *run, size_t k)
     return run->inside + k * QDOT_PRECISE_INSIDE * (run->n + 1);
 }
 
-/* After so many points a run is asked how many there will be, and broken off from that many
- * on: far more than memory holds. */
+/* After so many points the total is estimated; a run that would exceed the second number is
+ * stopped: far more than memory holds. */
 enum { looks = 1 << 14 };
 static const double hopeless = 1e10;
 
-/* Room for one point more: allocated a chunk at a time, between steps. */
+/* Make space for one point more, a chunk at a time, between steps. */
 static qdot_status
 reserve(qdot_precise_run *run, double max_bytes)
 {
@@ -277,7 +277,7 @@ confirms_inside(state *s, bool *good)
 
 /* --- the loop ------------------------------------------------------------------------ */
 
-/* Try a step of s->h to s->end. On QDOT_OK and *good it has been taken, and the series is
+/* Try a step of s->h to s->end. On QDOT_OK and *good it has been accepted, and the series is
  * begun at its end. */
 static qdot_status
 try_step(state *s, bool unsure, bool *good)

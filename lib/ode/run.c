@@ -1,4 +1,4 @@
-/* run.c -- how every integration begins. */
+/* run.c -- the common beginning of integrations. */
 #include "ode/run.h"
 
 qdot_status

@@ -18,7 +18,7 @@ handler_off(void)
     gsl_set_error_handler_off();
 }
 
-/* 0 times a finite number is 0, times anything else it is not a number. */
+/* Whether all x are finite: then every 0 x is 0, else NaN. */
 static bool
 all_finite(const double *x, size_t n)
 {
@@ -46,8 +46,8 @@ add_up(qdot_ode_stepper *s, const double *z, double *y)
         y[i] = s->y[i] + (s->carry[i] + s->scale[i] * z[i]);
 }
 
-/* What GSL calls. Any failure but GSL_EBADFUNC makes its multistep methods restore their
- * history; which it was, s->broken knows. */
+/* The functions that GSL calls. After any failure except GSL_EBADFUNC its multistep methods
+ * restore their history; s->broken keeps the original status. */
 static int
 inner_rhs(double t, const double *z, double *zdot, void *user)
 {
@@ -359,7 +359,7 @@ qdot_ode_stepper_project(qdot_ode_stepper *s, double t, double *ratio)
     return QDOT_OK;
 }
 
-/* What is not integrated, at the end of the step, where s->trial has it. */
+/* Derive the components that are not integrated, at the end of the step, in s->trial. */
 static void
 take_followers(qdot_ode_stepper *s)
 {

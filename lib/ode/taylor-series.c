@@ -5,10 +5,11 @@
 #include "ode/companion.h"
 #include "ode/taylor-numbers.h"
 
-/* Companions want orders of their own above that of a run. */
+/* Companions use orders above that of a run. */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
-/* Half of so many orders beyond the narrow ones are a vector more (series/taylor-code.h). */
+/* Half of so many orders beyond those of the first vector need one vector more
+ * (series/taylor-code.h). */
 enum { orders_of_vector = 16 };
 
 /* From order 6 on: z to a tenth, below which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. */
@@ -37,7 +38,7 @@ cost_of(const qdot_ode_series *s, int p)
            code->wider * ((more + orders_of_vector - 1) / orders_of_vector);
 }
 
-/* The order that costs least for a way as long as the radius of convergence. */
+/* The order with the least cost for a time as long as the radius of convergence. */
 static int
 best_order(const qdot_ode_series *series, double tol, bool leading)
 {

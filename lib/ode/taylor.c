@@ -19,14 +19,14 @@ static const uint64_t max_steps_default = 50000000;
 
 enum { ARRAYS = 9 };
 
-/* A step over a place that it should not end upon: how far beyond, and the noise from which
- * on it is taken in any case. */
+/* For a place that a step should not end upon: how far beyond it the step goes, and the noise
+ * from which on it does so in any case. */
 static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
 
 /* A projection moves by its own rounding, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
-/* The defect is one of doubles, in which a stiff force has few digits. */
+/* The defect is computed in doubles, in which a stiff force has few digits. */
 static const double least_held = 1e-14;
 
 /* Tries at one place where f is undefined: a quarter each. */
@@ -106,7 +106,7 @@ aim_step(run *r)
                                  .terms = r->terms};
 }
 
-/* The step tried is taken. */
+/* Accept the step tried. */
 static void
 arrive(run *r)
 {
@@ -120,7 +120,7 @@ arrive(run *r)
     r->step.scale = r->next_scale;
 }
 
-/* Where the state has been changed. */
+/* Continue from a changed state. */
 static void
 take_size(run *r, size_t i)
 {
@@ -147,7 +147,7 @@ log_step(run *r)
     return qdot_smaller(l, reach.lower);
 }
 
-/* The same by whatever coefficients there are: INFINITY where there are none. */
+/* The same from all coefficients: INFINITY if all are 0. */
 static double
 log_step_of_all(run *r)
 {
@@ -187,8 +187,9 @@ begin(run *r, double t, const double *y)
     return QDOT_OK;
 }
 
-/* Over such a place the terms of a series fall and then grow, for the rounding in them does:
- * it is summed up to the least, as an asymptotic one, and worth about that. */
+/* Across such a place the terms of a series first fall and then grow, because their rounding
+ * errors do: it is summed up to its least term, as an asymptotic series, which is about its
+ * error. */
 static void
 cut_series(run *r, double h)
 {
@@ -198,8 +199,8 @@ cut_series(run *r, double h)
     r->held = fmax(r->held, fmin(least_worth, 100 * least));
 }
 
-/* A step that would end just before or upon a place near which the coefficients are worth
- * little goes over it, if that is not far and was not tried in vain, or stays well before. */
+/* A step that would end just before or upon a place near which the coefficients are inaccurate
+ * goes beyond it, if that is not far and was not rejected before, or stays well before it. */
 static void
 keep_off(run *r, double *h, double most)
 {
@@ -267,9 +268,9 @@ step_wanted(run *r, double most, double *h)
 
 /* --- confirmation ------------------------------------------------------------------- */
 
-/* The same of what is not integrated: its polynomial at the end, in r->next, against what
- * it is there, over the step. It is as sensitive to the rounding of the others as it likes:
- * this is to see a series that misled. */
+/* The same for components that are not integrated: their polynomials at the end, in r->next,
+ * against their derived values there. These may be sensitive to rounding of the others, so this
+ * only detects a wrong series. */
 static bool
 followers_agree(const run *r, double h, double share)
 {
@@ -327,7 +328,7 @@ confirms_inside(run *r, double h, bool *good)
     return status;
 }
 
-/* The state at the end of the step tried, brought back to where solutions are. */
+/* Project the state at the end of the step tried. */
 static qdot_status
 project(run *r, double t_end, double *moved)
 {
@@ -346,7 +347,7 @@ project(run *r, double t_end, double *moved)
     return QDOT_OK;
 }
 
-/* What is not integrated, at the end of the step. */
+/* Derive the components that are not integrated, at the end of the step. */
 static void
 take_followers(run *r)
 {
@@ -361,7 +362,7 @@ take_followers(run *r)
     }
 }
 
-/* Machine code for the expansions, once the steps that there are show that many follow. */
+/* Generate machine code for the expansions if the steps so far show that many will follow. */
 static qdot_status
 write_code(run *r, double t)
 {
@@ -370,7 +371,7 @@ write_code(run *r, double t)
     return qdot_ode_written_next(&r->written, steps, steps * (r->t1 - t) / (t - r->t0));
 }
 
-/* The same by the first, before it is taken. */
+/* The same by the first step, before it is taken. */
 static qdot_status
 judge_first(run *r, double most, double *h)
 {
@@ -385,7 +386,7 @@ judge_first(run *r, double most, double *h)
     return step_wanted(r, most, h);
 }
 
-/* The same end, the first orders in two doubles. */
+/* Replace that end by the one with the first orders in two doubles. */
 static qdot_status
 advance_in_two(run *r, double t_end)
 {
@@ -402,8 +403,8 @@ advance_in_two(run *r, double t_end)
     return qdot_ode_leading_advance(&step, r->next, r->next_carry);
 }
 
-/* Try a step of h from t to t_end. On QDOT_OK and *good it has been taken, and the
- * series is begun at its end. Otherwise nothing has changed but the series. */
+/* Try a step of h from t to t_end. On QDOT_OK and *good it has been accepted, and the
+ * series is begun at its end. Otherwise only the series has changed. */
 static qdot_status
 try_step(run *r, double h, double t_end, bool unsure, bool *good)
 {
@@ -566,7 +567,7 @@ loop(run *r)
     return QDOT_OK;
 }
 
-/* The arrays of a run: here, so that all of them are given back. */
+/* Integrate with allocated arrays, which are freed in any case. */
 static void
 list_arrays(run *r, double ***arrays)
 {

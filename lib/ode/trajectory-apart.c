@@ -1,4 +1,4 @@
-/* trajectory-apart.c -- a trajectory of a system in parts: a track for each, put together. */
+/* trajectory-apart.c -- trajectories of systems in parts: a track for each part. */
 #include "base/memory.h"
 #include "ode/apart.h"
 #include "ode/trajectory.h"
@@ -37,7 +37,7 @@ put_together(qdot_trajectory *tr, const qdot_ode_system *system)
     return status;
 }
 
-/* The track of part k, as far as the whole goes by now. */
+/* Integrate the track of part k as far as the whole goes so far. */
 static qdot_status
 run_track(qdot_trajectory *tr, size_t k, const qdot_ode_part *part,
           const qdot_ode_options *options, const double *y0, double *room)

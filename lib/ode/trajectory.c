@@ -1,4 +1,4 @@
-/* trajectory.c -- storing points, finding them, and stepping from them. */
+/* trajectory.c -- stores the points of a run, finds them, and steps from them. */
 #include "ode/trajectory.h"
 
 #include <float.h>
@@ -14,8 +14,8 @@
 
 static const size_t most_bytes = (size_t)2 << 30;
 
-/* After so many points, each time, a run is asked how many there will be: from a thousand times
- * the most that are taken on, it is broken off. */
+/* After each so many points the total is estimated: a run that would need a thousand times the
+ * largest number allowed is stopped. */
 enum { looks = 1 << 18 };
 static const double hopeless = 5e10;
 
@@ -74,7 +74,7 @@ qdot_trajectory_clear(qdot_trajectory *tr)
     *tr = (qdot_trajectory){0};
 }
 
-/* Doubles that arrays begin with: short runs do not grow at every other step. */
+/* Initial size of arrays in doubles, so that short runs need not grow them every few steps. */
 enum { first_room = 512 };
 
 static size_t
@@ -83,7 +83,7 @@ at_least(size_t wanted, size_t least)
     return wanted > least ? wanted : least;
 }
 
-/* For one point more. */
+/* Make space for one point more. */
 static qdot_status
 make_room(qdot_trajectory *tr, double t)
 {
@@ -118,7 +118,7 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
     return QDOT_OK;
 }
 
-/* What the last point is beyond y; NULL: nothing. */
+/* The last point less its y; NULL: 0. */
 static qdot_status
 store_low(qdot_trajectory *tr, const double *low)
 {
@@ -132,7 +132,7 @@ store_low(qdot_trajectory *tr, const double *low)
     return QDOT_OK;
 }
 
-/* A run that has got nowhere in many steps is not carried to the limit of steps. */
+/* Stop a run that has made little progress in many steps before it reaches the limit of steps. */
 static qdot_status
 foresee(const recorder *r, double t)
 {
@@ -160,7 +160,7 @@ record(double t, const double *y, bool *stop, void *user)
     return r->tr->leading ? store_low(r->tr, r->low) : QDOT_OK;
 }
 
-/* The first point of a piece, and of its options what is kept with the run. */
+/* Store the first point of a piece, and the options that are kept with the run. */
 static qdot_status
 store_first(qdot_trajectory *tr, const qdot_ode_options *options, double t0,
             const double *y)
@@ -321,7 +321,7 @@ open_stepper(qdot_trajectory_cursor *c)
     return qdot_ode_stepper_new(c->system, method, c->tr->tol, &c->s);
 }
 
-/* From now on by the system of that piece. */
+/* Use the system of that piece from now on. */
 static qdot_status
 enter(qdot_trajectory_cursor *c, size_t piece)
 {
@@ -351,7 +351,7 @@ enter(qdot_trajectory_cursor *c, size_t piece)
     return open_stepper(c);
 }
 
-/* One a part; read by those of the only piece. */
+/* Open a cursor for each part, with the systems of the only piece. */
 static qdot_status
 open_tracks(qdot_trajectory_cursor *c)
 {
@@ -406,8 +406,8 @@ qdot_trajectory_close(qdot_trajectory_cursor *c)
     qdot_free(c);
 }
 
-/* From the stored point to t in as few steps as the tolerance allows; the last leaves the
- * answer in s->trial without being taken, so that the next query can start here too. */
+/* Step from the stored point to t in as few steps as the tolerance allows; the last one leaves
+ * the state in s->trial without being accepted, so that the next query can start here too. */
 static qdot_status
 walk(qdot_trajectory_cursor *c, double t)
 {
@@ -488,7 +488,7 @@ find_polynomial(qdot_trajectory_cursor *c, bool second)
     return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR ? QDOT_OK : status;
 }
 
-/* By the polynomial; c->good is false afterwards if there is none. */
+/* Read by the polynomial; afterwards c->good is false if there is none. */
 static qdot_status
 read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
 {
@@ -504,7 +504,7 @@ read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* What is not integrated, at the state read. */
+/* Derive the components that are not integrated, at the state read. */
 static qdot_status
 derive(const qdot_trajectory_cursor *c, double t, double *y)
 {

@@ -11,8 +11,8 @@
 #include "ode/stepper.h"
 #include "ode/taylor.h"
 
-/* The error a step aims at, as a part of what it is allowed: few are then rejected, and
- * for an order of 8 the whole run costs a quarter more and errs eight times less. */
+/* The error that a step aims at, as a fraction of its bound: few steps are then rejected, and for
+ * an order of 8 the whole run costs a quarter more and errs eight times less. */
 static const double aim = 0.1;
 
 static const double tol_default = 1e-12;
@@ -41,9 +41,9 @@ typedef struct {
     int crawled;               /* how often in a row steps were nothing beside what is ahead */
 } run;
 
-/* Steps below this part of the way to a place where nothing is determined, and of the longest, so
- * many times one after another, where rounding over what is left of the margin squared is above the
- * tolerance: it makes their error, and the place is never reached. */
+/* A run towards a singular place stops after so many consecutive steps below this fraction of the
+ * way to it and of the longest step, if rounding over the square of the remaining margin is above
+ * the tolerance: rounding then makes their error, and the place is never reached. */
 static const double crawl = 0x1p-8, shrunk = 0x1p-4;
 enum { most_crawled = 4, seldom = 32 };
 
@@ -106,15 +106,15 @@ first_step(run *r, double distance)
     return QDOT_OK;
 }
 
-/* How far it is to t1: exact near the end, where it matters. */
+/* The time left to t1, exact near the end. */
 static double
 remaining(const run *r)
 {
     return r->direction * ((r->t1 - r->t) - r->t_carry);
 }
 
-/* The step to try now. One that would leave a rest too short to be worth a step takes it
- * along or shares it. */
+/* The step to try now. If the rest after it would be too short for a step, the step includes it
+ * or is shortened so that both are equal. */
 static double
 choose(const run *r, bool *last)
 {
@@ -145,7 +145,7 @@ control(run *r, double h, double ratio, bool accepted)
     r->h = accepted ? fmax(h * factor, h < r->h ? fmin(r->h, 5 * h) : 0) : h * factor;
 }
 
-/* f is undefined somewhere within the step tried. */
+/* Handle a step in which f is undefined somewhere. */
 static qdot_status
 undefined(run *r, double h, qdot_status status)
 {
@@ -184,7 +184,8 @@ too_small(run *r)
                      "what double precision can hold");
 }
 
-/* Asked where a step was taken back, and now and then. Ahead lies where the margin, straight on, would be 0. */
+/* Called after a rejected step, and now and then. The place ahead is where the margin,
+ * extrapolated linearly, would be 0. */
 static bool
 crawls(run *r)
 {
@@ -205,7 +206,7 @@ crawls(run *r)
     return r->crawled >= most_crawled;
 }
 
-/* The step tried has the error asked for: take it, unless the caller objects. */
+/* The error of the step tried is small enough: accept it, unless the caller objects. */
 static qdot_status
 take(run *r, double h, double ratio, bool last, bool *stop)
 {
