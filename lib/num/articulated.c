@@ -23,7 +23,8 @@ typedef struct {
     void (*path)(qdot_articulated *a, const qdot_articulated_equations *e);
 } kernels;
 
-/* Of paths in a plane: what is lost, NaN or not positive where a pivot is not. */
+/* For paths in a plane. `eliminate` returns the least ratio of a pivot to its diagonal entry; NaN
+ * or not positive if a pivot is not positive. */
 typedef struct {
     double (*eliminate)(qdot_articulated *a, const double *const *S);
     void (*path)(qdot_articulated *a, const qdot_articulated_equations *e);
@@ -145,7 +146,8 @@ is_plane(const qdot_articulated_tree *t)
     return everywhere;
 }
 
-/* Node n of a path: which of eight pieces, and where in it; the first may have one more. */
+/* Node n of a path: its piece, one of eight, and its index in it; the first pieces may have one
+ * more. */
 static size_t
 slot_on_path(size_t n, size_t nodes)
 {
@@ -240,7 +242,7 @@ make_numbers(qdot_articulated *a)
     return QDOT_OK;
 }
 
-/* `from` [m x m] of node n, added to what is kept of its parent. */
+/* Add `from` [m x m] of node n to the matrix of its parent. */
 static void
 pass_on(const qdot_articulated *a, size_t n, const double *from, double *to)
 {
@@ -344,7 +346,7 @@ qdot_articulated_is_path(const qdot_articulated *a)
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* A node at hand. */
+/* The present node. */
 typedef struct {
     double S[most_unknowns * most]; /* [c x m] */
     double I[most * most], A[most * most], rest[most * most];
@@ -405,7 +407,7 @@ invert(node *v, const size_t m, const size_t c, size_t unknowns, const double *b
     return c;
 }
 
-/* A, B, H and what is left of I, in `rest`; as `invert`. */
+/* A, B, H, and the remaining I in `rest`; returns as `invert`. */
 INLINE size_t
 eliminate(node *v, const size_t m, const size_t c, size_t unknowns, const double *below,
           double *lost)
@@ -464,7 +466,7 @@ put(double *to, size_t slots, size_t at, const double *from, const size_t n)
         to[e * slots + at] = from[e];
 }
 
-/* From the leaves to the roots. */
+/* Factor from the leaves to the roots. */
 INLINE bool
 factor_of(qdot_articulated *a, const size_t m, const size_t c, const double *const *S,
           double *lost, size_t *failed, size_t *unknown)

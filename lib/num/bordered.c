@@ -5,7 +5,7 @@
 
 enum { most = QDOT_BORDERED_MOST };
 
-/* Row k becomes what unknown k is by the others; they lose it. */
+/* Solve row k for unknown k and eliminate it from the other rows. */
 static void
 exchange(size_t all, double (*K)[most], size_t k)
 {
@@ -25,7 +25,7 @@ exchange(size_t all, double (*K)[most], size_t k)
     }
 }
 
-/* S = A D^-1 A^T: what a row has beyond those before it is seen as it is exchanged. */
+/* S = A D^-1 A^T; the elimination shows how independent each row is of those before it. */
 static bool
 invert_schur(size_t m, double (*S)[most], double least)
 {

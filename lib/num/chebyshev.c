@@ -10,7 +10,7 @@ enum { most = QDOT_CHEBYSHEV_MOST, quarters = 4 * most };
 /* Halvings: an interval of this depth is 2^-44 of the whole. */
 enum { deepest = 45 };
 
-/* Of the largest coefficient: below which the last ones tell that a function is fitted. */
+/* The fit is good if the last coefficients are below this fraction of the largest. */
 static const double unfitted = 0x1p-36;
 
 /* cos(m pi / (2 most)) */
@@ -225,7 +225,7 @@ refine(const piece *p)
     return 0.5 * (p->lo + p->hi) + 0.5 * (p->hi - p->lo) * x;
 }
 
-/* What is below rounding of the rest is dropped. */
+/* Drop coefficients below the rounding of the others. */
 static int
 shorten(int n, const double *c)
 {

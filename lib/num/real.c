@@ -1,4 +1,4 @@
-/* real.c -- MPFR in blocks. */
+/* real.c -- arrays of MPFR numbers, sums of products, linear equations. */
 #include "num/real.h"
 
 #include <limits.h>

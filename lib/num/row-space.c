@@ -62,7 +62,7 @@ reflect(const double *v, double beta, size_t n, double *x)
         x[i] -= dot * v[i];
 }
 
-/* The next row: the first that leaves something, or the one that leaves most; m: none. */
+/* The next row: the first with a remainder, or the one with the largest; m: none. */
 static size_t
 next_row(const qdot_row_space *f, size_t k, double tol, bool in_order)
 {

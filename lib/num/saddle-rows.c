@@ -1,9 +1,9 @@
-/* saddle-rows.c -- rows of A that fade, or depend on others. */
+/* saddle-rows.c -- finds rows of A that have shrunk to rounding, or depend on others. */
 #include <math.h>
 
 #include "num/saddle.h"
 
-/* Of a squared norm. */
+/* Fraction of a squared norm. */
 static const double faded = 1e-14;
 
 /* Of a row in a dependency. */
@@ -57,7 +57,8 @@ qdot_saddle_weakest(qdot_saddle *s, double *row, double *column)
         column[i] = s->Q[last * n + i] * s->d[i];
 }
 
-/* Column k on the first `sound` pivots, into s->u; how many take part, and of them in `part`. */
+/* Express column k by the first `sound` pivots, into s->u; returns how many take part and marks
+ * them in `part`. */
 static size_t
 depend(const qdot_saddle *s, size_t k, size_t sound, const double *part, size_t *met)
 {

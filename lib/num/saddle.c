@@ -11,22 +11,23 @@
 #include "num/series.h"
 #include "num/sum.h"
 
-/* Rows are dependent where less than this is left of them when the rank is found; a rank
- * once found is lost where less than the other is left. */
+/* A row is dependent if its remainder is below the first number when the rank is found; the rank
+ * is lost later if a remainder is below the second. */
 static const double dependent = 1e-9, lost = 1e-13;
 
-/* A pattern is trusted where so much is left of the rows, and of the most that was; far
- * beyond that the null space has a look. */
+/* The sparse factors are used if the independence of the rows is above `trusted`, and above
+ * `usual` times its largest value; above `more` times that value the null space checks it. */
 static const double trusted = 1e-3, usual = 0.2, more = 1.25;
 
-/* Of the most mass beside it, what rounding makes of none; of the most that an unknown had,
- * down to where its scale follows. */
+/* A mass below the first fraction of the largest is rounding; the scale of an unknown follows its
+ * mass down to the second fraction of its largest. */
 static const double nothing = 0x1p-92, lightest = 0x1p-14;
 
-/* Of the largest that a row was, which others may stand for, down to where its scale follows. */
+/* The scale of a row that others may replace follows its size down to this fraction of its
+ * largest. */
 static const double shrunk = 0x1p-10;
 
-/* Up to so many unknowns an inverse is made for many right-hand sides. */
+/* For many right-hand sides an inverse is computed up to so many unknowns. */
 enum { most_inverted = 24, lanes = 8 };
 
 static size_t
@@ -170,7 +171,7 @@ add(size_t n, double c, const double *a, double *y)
 
 /* --- factorisation ------------------------------------------------------------------ */
 
-/* 2^-k with x 4^-k (twice) or x 2^-k about 1; 1 for what has no size. */
+/* 2^-k with x 4^-k (twice) or x 2^-k about 1; 1 for x = 0. */
 static double
 scale_of(double x, bool root)
 {
@@ -235,7 +236,7 @@ scale(qdot_saddle *s)
     }
 }
 
-/* The column of most norm below row k, brought to place k. */
+/* Bring the column of largest norm below row k to place k. */
 static double
 bring_forward(qdot_saddle *s, size_t k)
 {
@@ -414,8 +415,8 @@ orthogonalise(qdot_saddle *s)
     }
 }
 
-/* What the pattern's factors find of independence; without a mass somewhere they are of no
- * use, then or later. */
+/* Factor by the pattern and return the independence of the rows; without a mass somewhere the
+ * pattern is not used again. */
 static double
 factor_pattern(qdot_saddle *s)
 {
@@ -425,7 +426,7 @@ factor_pattern(qdot_saddle *s)
     return left;
 }
 
-/* Whether the pattern will do. */
+/* Factor by the pattern; false if that is not possible or not accurate enough. */
 static bool
 factor_directly(qdot_saddle *s)
 {
@@ -521,7 +522,7 @@ multipliers(qdot_saddle *s, double *u, double *mu)
     }
 }
 
-/* By the null space. */
+/* Solve by the null space. */
 static void
 solve(qdot_saddle *s)
 {

@@ -35,7 +35,7 @@ qdot_series_weights_set(qdot_series_weights *w, int p, double term, double fall)
     w->lower_least = half >= 2 ? (term - bias) / half : -INFINITY;
 }
 
-/* log2 of the largest of order k; -inf where there is none, inf where one is no number. */
+/* log2 of the largest coefficient of order k; -inf if all are 0, inf if one is not finite. */
 static double
 log_largest(size_t n, const double *x, size_t stride, const double *scale, int k)
 {
@@ -51,7 +51,7 @@ log_largest(size_t n, const double *x, size_t stride, const double *scale, int k
     return log2(most);
 }
 
-/* `reach` of anything. */
+/* `reach` for any coefficients, also 0 and not finite. */
 static qdot_series_reach
 reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights *w,
              const double *scale)

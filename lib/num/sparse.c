@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "num/sum.h"
 
-/* What rounding leaves of an entry that is nothing. */
+/* A pivot below this fraction of its original entry may be rounding of 0. */
 static const double semidefinite = 1e-12;
 
 void
@@ -31,7 +31,7 @@ qdot_sparse_clear(qdot_sparse *s)
 
 /* --- the order ---------------------------------------------------------------------- */
 
-/* Unknowns not yet eliminated and who is beside whom. */
+/* Unknowns not yet eliminated, with their neighbours. */
 typedef struct {
     size_t n, positive;
     bool *beside;   /* [n x n] */
@@ -66,7 +66,7 @@ next(const graph *g)
     return best;
 }
 
-/* Takes u away; its neighbours, as many as returned, become each other's. */
+/* Eliminate u: its neighbours become neighbours of each other; returns their number. */
 static size_t
 eliminate(graph *g, uint32_t u)
 {
@@ -88,7 +88,7 @@ eliminate(graph *g, uint32_t u)
 
 typedef qdot_vec(uint32_t) numbers;
 
-/* The order, and who is left beside each when it goes: the columns of L, by unknown. */
+/* The order of elimination, and the neighbours of each unknown at that time: the columns of L. */
 static qdot_status
 find_order(qdot_sparse *s, graph *g, numbers *columns)
 {
@@ -240,7 +240,7 @@ qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive, size_t count,
 
 /* --- numbers ------------------------------------------------------------------------ */
 
-/* Row k of L, and its D; *made is what that was made of. */
+/* Row k of L, and its D; *made: the value from which D was computed, for its accuracy. */
 static double
 factor_row(qdot_sparse *s, size_t k, double *made)
 {

@@ -10,7 +10,7 @@
 
 enum { QUARTER = 512, POWERS = 64 }; /* steps of an angle to pi/2; of a power to 2 */
 
-/* Beyond it a multiple of the step is no longer taken off by three doubles. */
+/* For larger arguments three doubles of the step are not enough for the reduction. */
 static const double most_angle = 0x1p40;
 
 /* pi/(2 QUARTER), log(2)/POWERS */
@@ -75,7 +75,7 @@ fill_tables(void)
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-/* Of angles that no motion has. */
+/* For angles too large to occur in a motion. */
 static void
 sincos_beyond(qdot_two x, qdot_two *sine, qdot_two *cosine)
 {
