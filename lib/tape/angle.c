@@ -6,7 +6,7 @@
 
 enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
 
-/* Of a number, in operations; of an order of a series, in products of series. */
+/* Costs: for numbers in operations; for an order of a series in products of series. */
 static const struct {
     long call, addition;
 } number = {20, 6}, of_series = {2, 4};
@@ -187,7 +187,7 @@ common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
     return e;
 }
 
-/* How many units; 0 if that is no small integer. */
+/* x in units; 0 if that is not a small integer. */
 static long
 units(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
 {
@@ -287,7 +287,7 @@ find_sums(qdot_angles *a)
 
 /* --- the choice --------------------------------------------------------------------- */
 
-/* Compose the argument, or call it for itself; what that adds to the cost. */
+/* Compose the argument or give it its own call; returns the added cost. */
 static long
 turn(qdot_angles *a, argument *arg, bool composed)
 {
@@ -332,8 +332,8 @@ holds_base(const qdot_angles *a, const argument *arg, uint32_t b)
     return false;
 }
 
-/* Call for themselves all composed arguments that hold base b (NONE: all), if that is
- * cheaper; whether it was. */
+/* Give all composed arguments that contain base b (NONE: all) their own calls if that is cheaper;
+ * returns whether it was. */
 static bool
 try_without(qdot_angles *a, uint32_t b, bool *changed)
 {

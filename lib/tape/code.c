@@ -1,4 +1,4 @@
-/* code.c -- writing the straight line: value numbering, constants, powers. */
+/* code.c -- writes a tape: value numbering, constants, powers. */
 #include "tape/code.h"
 
 #include <string.h>

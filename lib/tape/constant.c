@@ -276,7 +276,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
     return qdot_fail(QDOT_ETYPE, "a number belongs here, not a vector, matrix or list");
 }
 
-/* Where the ball lies beside `value`: 0 if it holds it. */
+/* The side of `value` on which the ball lies; 0 if the ball contains it. */
 static int
 side_of(const arb_t ball, double value)
 {
@@ -327,7 +327,7 @@ no_value(const qdot_pool *pool, qdot_expr e, const char *why)
     return status;
 }
 
-/* What the ball's middle has beyond `value`. */
+/* The middle of the ball less `value`. */
 static double
 rest_of(const arb_t ball, double value)
 {

@@ -26,8 +26,8 @@ qdot_derivative_work(const qdot_tape *tape)
     return (1 + QDOT_LANES) * tape->places;
 }
 
-/* The values that are there at the beginning; the slopes of the inputs from ... from +
- * count - 1 are the directions, all others 0. */
+/* Set the initial values; the derivatives of the inputs from ... from + count - 1 are the unit
+ * directions, all others 0. */
 static void
 load(const qdot_tape *tape, const double *in, size_t from, size_t count, double *work,
      double *slopes)

@@ -10,7 +10,7 @@
 
 /* --- bounds -------------------------------------------------------------------------- */
 
-/* x y, where 0 times what is beyond all doubles is 0 */
+/* x y, with 0 times infinity = 0 */
 static double
 times(double x, double y)
 {
@@ -110,14 +110,14 @@ qdot_disc_work(const qdot_tape *tape)
     return 2 * tape->places;
 }
 
-/* What moves is rounded. */
+/* Add rounding to a radius that is not 0. */
 static double
 settle(double d, double rd)
 {
     return isnan(d) ? NAN : rd != 0 ? rd + DBL_EPSILON * fabs(d) : 0;
 }
 
-/* The centre and the radius of what an instruction makes. */
+/* The centre and the radius of the result of an instruction. */
 static void
 step(const qdot_instruction *i, double *work, double *radius)
 {
@@ -185,7 +185,7 @@ qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *
     }
 }
 
-/* Places of inputs may be given to others once they are dead. */
+/* Places of inputs may be reused after their last use. */
 qdot_status
 qdot_disc_reads(const qdot_tape *tape, bool *used)
 {

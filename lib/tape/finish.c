@@ -1,5 +1,5 @@
-/* finish.c -- from what was written to what is run: dead values out, multiplications
- * fused into sums, places shared. */
+/* finish.c -- makes a tape of the written code: removes unused values, fuses multiplications into
+ * sums, shares places. */
 #include <string.h>
 
 #include "tape/code.h"
@@ -40,7 +40,7 @@ add_uses(finish *f, qdot_value v, uint32_t change)
         f->uses[args[i]] += change;
 }
 
-/* Uses counted from the outputs down: what is dead has none. */
+/* Count uses from the outputs down: unused values have none. */
 static void
 count_uses(finish *f)
 {
@@ -54,7 +54,7 @@ count_uses(finish *f)
             add_uses(f, (qdot_value)v, 1);
 }
 
-/* Only one of sine and cosine wanted: that one. */
+/* If only one of sine and cosine is used, compute only that. */
 static void
 split_pairs(finish *f)
 {
@@ -109,7 +109,7 @@ fuse(finish *f)
     }
 }
 
-/* last[v] for all that is live. */
+/* last[v], the last use, for all live values. */
 static void
 find_last(finish *f)
 {

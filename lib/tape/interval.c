@@ -9,7 +9,7 @@
 
 /* --- bounds -------------------------------------------------------------------------- */
 
-/* What the library's functions may be off by, of the value. */
+/* Relative error of the library's functions. */
 static const double off = 4 * DBL_EPSILON;
 
 static qdot_interval
@@ -48,14 +48,15 @@ around(qdot_interval a, qdot_interval b)
     return (qdot_interval){fmin(a.lo, b.lo), fmax(a.hi, b.hi)};
 }
 
-/* What of it lies in least ... most: elsewhere there is no value. */
+/* The part of an interval in least ... most: elsewhere the function is undefined. */
 static qdot_interval
 within(qdot_interval a, double least, double most)
 {
     return (qdot_interval){fmin(fmax(a.lo, least), most), fmax(fmin(a.hi, most), least)};
 }
 
-/* Rounded outward; what is beyond all doubles is a number all the same. */
+/* Round outward. A lower bound that overflows becomes the largest double: the exact value is
+ * finite. */
 static qdot_interval
 outward(double lo, double hi)
 {
@@ -107,8 +108,8 @@ of_sum(qdot_interval a, qdot_interval b)
     return outward(a.lo + b.lo, a.hi + b.hi);
 }
 
-/* The least and the largest of f at the corners of a box; corners that have no value are met by
- * others. */
+/* The least and the largest of f at the corners of a box; corners at which f is undefined are
+ * skipped. */
 static qdot_interval
 of_corners(double (*f)(double, double), qdot_interval a, qdot_interval b)
 {
@@ -122,7 +123,7 @@ of_corners(double (*f)(double, double), qdot_interval a, qdot_interval b)
     return outward(lo, hi);
 }
 
-/* 0 times what is beyond all doubles is 0. */
+/* A product with 0 times infinity = 0. */
 static double
 times(double x, double y)
 {

@@ -5,7 +5,7 @@
 
 enum { WIDTH = 5 };
 
-/* Index of the entry of that key, or of the free one where it belongs. */
+/* Index of the entry with that key, or of the free entry for it. */
 static size_t
 find(const uint32_t *entries, size_t size, const uint32_t key[4])
 {

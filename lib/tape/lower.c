@@ -1,5 +1,4 @@
-/* lower.c -- from the DAG to the straight line: sums, products, functions, node by
- * node. */
+/* lower.c -- lowers the DAG to code: sums, products, functions, node by node. */
 #include "expr/rational.h"
 #include "expr/walk.h"
 #include "tape/angle.h"
@@ -19,7 +18,7 @@ typedef struct {
     uint32_t first, last;
 } group;
 
-/* What is known of a node, by its index in the walk. */
+/* Data of a node, by its index in the walk. */
 typedef struct {
     qdot_value bare;    /* the node without its constant factor */
     qdot_expr factor;   /* the constant factor */
@@ -54,7 +53,7 @@ value_of(lowering *l, qdot_expr e)
                                         : (qdot_value)qdot_walk_get(&l->walk, e);
 }
 
-/* A value's sign taken into *minus. */
+/* Move a value's sign into *minus. */
 static qdot_value
 without_sign(lowering *l, qdot_value v, bool *minus)
 {
@@ -321,7 +320,7 @@ fold(lowering *l, qdot_op id, qdot_expr e)
     return v;
 }
 
-/* A value that was held is there with its factor; its sign alone is left to who reads it. */
+/* A held value includes its factor; only its sign is left to its readers. */
 static void
 hold(lowering *l, qdot_expr x, known *k)
 {
@@ -439,7 +438,7 @@ lower_node(lowering *l, size_t i)
     return qdot_fail(QDOT_ETYPE, "a number belongs here, not a vector, matrix or list");
 }
 
-/* The node itself from its parts. */
+/* Lower a node from the values of its children. */
 static qdot_value
 whole(lowering *l, const known *k)
 {
