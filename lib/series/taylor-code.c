@@ -306,12 +306,16 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *b
 }
 
 /* What adding order m takes. Rows as they stand go on beyond half of the orders, where all
- * their lanes are known: what those beyond it make is of no order that is wanted. */
+ * their lanes are known: what those beyond it make is of no order that is wanted. Narrow vectors go
+ * on like that to the end: loops with fewer of them would take longer to be fetched, each for the
+ * few orders that it is for, than the vectors that they save. */
 static qdot_code_phase
 phase_of(const qdot_generator *g, int m)
 {
     int blocks;
 
+    if (g->x.narrow)
+        m = least(m, g->n / 2);
     if (m <= g->n / 2)
         return (qdot_code_phase){.blocks = blocks_of(g, m + 1 - g->lag),
                                  .inserted = (m - g->lag) / g->lanes};
