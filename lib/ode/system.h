@@ -31,7 +31,7 @@ typedef struct {
 
 enum { QDOT_ODE_LEADING_MOST = 12 };
 
-/* `digits` below, unless an order costs little. */
+/* `digits` below, unless all that is solved for is a number. */
 enum { QDOT_ODE_DIGITS = 18 };
 
 /* A system that gives the Taylor coefficients of its solutions. With s = (t' - t)/unit,
@@ -61,12 +61,14 @@ typedef struct {
     bool (*there)(int p, void *user);
     void (*drop)(void *user);
     double written[3]; /* cost, then; zeros: there is none of it here */
-    double wider;      /* and of each 16 orders begun beyond `narrow` */
-    int narrow;
+    double wider;      /* and of each `of_vector` orders begun beyond `narrow` */
+    int narrow, of_vector;
     /* Natural digits that an order is chosen for at least, then: an oscillation that is hardly there
      * bounds the step, and as it has no singularity a higher order is worth more than its radius
-     * says (doc/methods.md). */
+     * says (doc/methods.md). Whether it is chosen by the longest step that lets no oscillation grow
+     * as well (ode/taylor.h). */
     double digits;
+    bool by_stability;
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Then orders 2 ... p. */

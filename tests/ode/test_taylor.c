@@ -386,7 +386,8 @@ static void
 orders_stay_narrow_where_wider_ones_cost(void **state)
 {
     qdot_ode_series series = {
-        .most = 40, .written = {600, 89, 1.2}, .narrow = 18, .digits = QDOT_ODE_DIGITS};
+        .most = 40, .written = {600, 89, 1.2}, .narrow = 18, .of_vector = 16,
+        .digits = QDOT_ODE_DIGITS};
     const int smooth = qdot_ode_taylor_order(&series, 1e-3, false, 0);
 
     (void)state;
@@ -396,7 +397,14 @@ orders_stay_narrow_where_wider_ones_cost(void **state)
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 3), 21);
     series.wider = 1;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), smooth);
+    series.wider = 300;
+    series.of_vector = 8;
+    series.digits = 27;
+    assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 26);
+    series.wider = 1;
     series.digits = 30; /* steps of orders beside it are by a sixth shorter, and more */
+    assert_int_not_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 29);
+    series.by_stability = true;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 29);
     series.written[0] = 0; /* no code */
     series.wider = 1e6;

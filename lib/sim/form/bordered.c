@@ -284,6 +284,7 @@ estimate_written(qdot_bordered *e, const qdot_plan *p)
     /* More vectors are loops of their own, read anew in every step where all of them are more
      * than a processor keeps decoded. */
     e->series.narrow = narrow;
+    e->series.of_vector = 16;
     e->series.wider = loops * instructions > decoded ? 0.3 * instructions : 0;
 }
 
