@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "machine/x86.h"
+#include "num/kinds.h"
 #include "num/series.h"
 #include "sim/form/blocks.h"
 #include "series/taylor.h"
@@ -432,8 +432,8 @@ estimate_written(qdot_direct *e)
 {
     static const struct {
         double order, pair, vector;
-    } costs[] = {{1.8, 0.15, 0}, {1, 0.03, 16}, {1, 0.03, 0}}; /* by qdot_x86_kind */
-    const size_t kind = qdot_x86_kind();
+    } costs[] = {{1.8, 0.15, 0}, {1, 0.03, 16}, {1, 0.03, 0}}; /* by kind */
+    const size_t kind = qdot_kind_is_here(2) ? 2 : qdot_kind_is_here(1);
     const qdot_plan *p = e->plan;
     const double length = (double)qdot_taylor_length(e->taylor);
     double *c = e->series.written, convolutions = qdot_direct_convolutions(e);
