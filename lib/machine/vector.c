@@ -32,13 +32,17 @@ qdot_vector_first_lane(qdot_x86 *x, qdot_x86_rm ones)
 void
 qdot_vector_next_lane(qdot_x86 *x)
 {
-    enum { first_twice = 0x90 }; /* lanes 0, 0, 1, 2 */
+    enum { first_twice = 0x90, first_in_both = 0 }; /* lanes 0, 0, 1, 2; 0, 0 */
 
-    if (x->narrow) {
+    if (x->narrow)
         qdot_x86_emit(x, QDOT_X86_LOAD_ALL, older, 0, qdot_x86_reg(known));
+    if (x->sse2)
+        qdot_x86_move_lanes(x, QDOT_X86_PAIRS, known, known, qdot_x86_reg(known),
+                            first_in_both);
+    else if (x->narrow)
         qdot_x86_move_lanes(x, QDOT_X86_PERMUTE, known, 0, qdot_x86_reg(known), first_twice);
+    if (x->narrow)
         return;
-    }
     qdot_x86_join_masks(x, older, newest);
     qdot_x86_raise_mask(x, newest);
     qdot_x86_join_masks(x, known, newest);
@@ -90,10 +94,24 @@ slide_by_halves(qdot_x86 *x, int to, qdot_x86_rm low, const qdot_x86_rm *high, i
     qdot_x86_move_lanes(x, QDOT_X86_PAIRS, to, from, qdot_x86_reg(spare), second_then_first);
 }
 
+/* Of low (a, b) and high (c, d): (b, c). */
+static void
+slide_by_pairs(qdot_x86 *x, int to, qdot_x86_rm low, const qdot_x86_rm *high, int spare)
+{
+    enum { second_then_first = 1 };
+
+    if (!high)
+        qdot_x86_emit(x, QDOT_X86_XOR_ALL, spare, spare, qdot_x86_reg(spare));
+    qdot_x86_move_lanes(x, QDOT_X86_PAIRS, to, in_register(x, low, to),
+                        high ? *high : qdot_x86_reg(spare), second_then_first);
+}
+
 void
 qdot_vector_slide(qdot_x86 *x, int to, qdot_x86_rm low, const qdot_x86_rm *high, int spare)
 {
-    if (x->narrow) {
+    if (x->sse2) {
+        slide_by_pairs(x, to, low, high, spare);
+    } else if (x->narrow) {
         slide_by_halves(x, to, low, high, spare);
     } else if (high) {
         qdot_x86_move_lanes(x, QDOT_X86_ALIGN, to, in_register(x, *high, spare), low, 1);

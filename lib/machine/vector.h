@@ -1,9 +1,9 @@
 /* vector.h -- vectors of x86.h whose lanes are orders, one after another: the operations that
- * AVX-512 and AVX2 do not do by the same instructions.
+ * AVX-512, AVX2 and SSE2 do not do by the same instructions.
  *
  * An order enters a vector lane by lane: `newest` is the lane of the order at hand, `older` are
- * those below it, `known` both. AVX-512 has these sets in mask registers, AVX2 in two vectors,
- * for which registers 4 and 5 are reserved.
+ * those below it, `known` both. AVX-512 has these sets in mask registers, the others in two
+ * vectors, for which registers 4 and 5 are reserved.
  *
  * Tests   tests/machine/test_vector.c, tests/series/test_taylor-code.c
  */
@@ -12,7 +12,7 @@
 
 #include "machine/x86.h"
 
-/* The first registers that are free for what the code is about, with either kind. */
+/* The first registers that are free for what the code is about: with AVX-512, with the others. */
 enum { QDOT_VECTOR_FREE = 4, QDOT_VECTOR_FREE_NARROW = 6 };
 
 typedef enum { QDOT_VECTOR_ALL, QDOT_VECTOR_OLDER, QDOT_VECTOR_KNOWN } qdot_vector_lanes;
@@ -23,7 +23,8 @@ void qdot_vector_begin(qdot_x86 *x);
 void qdot_vector_first_lane(qdot_x86 *x, qdot_x86_rm ones);
 void qdot_vector_next_lane(qdot_x86 *x);
 
-/* The newest lane of reg = a double in memory. AVX-512 only: AVX2 reads such vectors from memory. */
+/* The newest lane of reg = a double in memory. AVX-512 only: the others read such vectors from
+ * memory. */
 void qdot_vector_insert(qdot_x86 *x, int reg, qdot_x86_rm one);
 /* to += factor * rm, in these lanes; rm is in memory if that is not all. `spare` is overwritten. */
 void qdot_vector_add_product(qdot_x86 *x, int to, int factor, qdot_x86_rm rm,

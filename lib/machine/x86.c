@@ -116,11 +116,116 @@ encode(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int fi
     return operands(x, at, reg, rm, whole ? 64 : 8);
 }
 
-void
-qdot_x86_emit(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+static void
+write_bytes(qdot_x86 *x, size_t n, const unsigned char *bytes)
 {
     unsigned char *from = room(x);
 
+    memcpy(from, bytes, n);
+    written(x, from, from + n);
+}
+
+/* --- SSE2: reg <- f(reg, rm) ------------------------------------------------------------ */
+
+static void
+two_operands(qdot_x86 *x, qdot_x86_name name, int reg, qdot_x86_rm rm)
+{
+    static const unsigned char prefixes[] = {0, 0x66, 0xf3, 0xf2};
+    const unsigned high = (unsigned)(reg >> 3) << 2 | (unsigned)rm.reg >> 3;
+    unsigned char *start = room(x), *at = start;
+
+    *at++ = prefixes[instructions[name].prefix];
+    if (high)
+        *at++ = (unsigned char)(0x40 | high);
+    *at++ = 0x0f;
+    *at++ = instructions[name].opcode;
+    written(x, start, operands(x, at, reg, rm, 1));
+}
+
+/* All of a register, or as much of what is in memory as the instruction reads. */
+static void
+load(qdot_x86 *x, qdot_x86_name like, int reg, qdot_x86_rm rm)
+{
+    const bool wide = instructions[like].wide || !rm.memory;
+
+    two_operands(x, wide ? QDOT_X86_LOAD_ALL : QDOT_X86_LOAD, reg, rm);
+}
+
+/* What is no sum of a product. Whole vectors in memory need not be aligned. */
+static void
+from_two(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+{
+    if (rm.memory ? instructions[name].wide : rm.reg == reg && reg != first) {
+        load(x, name, QDOT_X86_SCRATCH, rm);
+        rm = qdot_x86_reg(QDOT_X86_SCRATCH);
+    }
+    if (reg != first)
+        load(x, name, reg, qdot_x86_reg(first));
+    two_operands(x, name, reg, rm);
+}
+
+/* What AVX2 rounds once: the bits of its opcodes say what is multiplied and what is negative. */
+static void
+product_then_sum(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+{
+    const unsigned opcode = instructions[name].opcode;
+    const bool over = opcode >> 4 == 0xa, product = opcode & 4, other = opcode & 2;
+    const bool wide = instructions[name].wide;
+    const qdot_x86_name sub = wide ? QDOT_X86_SUB_ALL : QDOT_X86_SUB;
+    const qdot_x86_rm scratch = qdot_x86_reg(QDOT_X86_SCRATCH),
+                      term = over ? rm : scratch;
+
+    if (!over)
+        load(x, name, QDOT_X86_SCRATCH, rm);
+    two_operands(x, wide ? QDOT_X86_MUL_ALL : QDOT_X86_MUL, over ? reg : QDOT_X86_SCRATCH,
+                 qdot_x86_reg(first));
+    if (product != other && over == other) {
+        two_operands(x, sub, reg, term);
+        return;
+    }
+    if (product == other) {
+        two_operands(x, wide ? QDOT_X86_ADD_ALL : QDOT_X86_ADD, reg, term);
+        if (!product)
+            return;
+        two_operands(x, QDOT_X86_XOR_ALL, QDOT_X86_SCRATCH, scratch);
+    } else if (over) {
+        load(x, name, QDOT_X86_SCRATCH, rm);
+    }
+    two_operands(x, sub, QDOT_X86_SCRATCH, qdot_x86_reg(reg));
+    load(x, name, reg, scratch);
+}
+
+static void
+emit_sse2(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+{
+    switch (name) {
+    case QDOT_X86_LOAD:
+    case QDOT_X86_LOAD_ALL: load(x, name, reg, rm); break;
+    case QDOT_X86_STORE:
+    case QDOT_X86_STORE_ALL:
+    case QDOT_X86_ROOT: two_operands(x, name, reg, rm); break;
+    case QDOT_X86_SPREAD:
+        load(x, QDOT_X86_LOAD, reg, rm);
+        qdot_x86_move_lanes(x, QDOT_X86_PAIRS, reg, reg, qdot_x86_reg(reg), 0);
+        break;
+    default:
+        (instructions[name].map == 2 ? product_then_sum : from_two)(x, name, reg, first,
+                                                                    rm);
+    }
+}
+
+/* --- any ------------------------------------------------------------------------------ */
+
+void
+qdot_x86_emit(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+{
+    unsigned char *from;
+
+    if (x->sse2) {
+        emit_sse2(x, name, reg, first, rm);
+        return;
+    }
+    from = room(x);
     written(x, from, encode(x, from, name, reg, first, rm));
 }
 
@@ -128,11 +233,10 @@ void
 qdot_x86_move_lanes(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm,
                     int how)
 {
-    unsigned char *start = room(x);
-    unsigned char *at = encode(x, start, name, reg, first, rm);
+    const unsigned char byte = (unsigned char)how;
 
-    *at++ = (unsigned char)how;
-    written(x, start, at);
+    qdot_x86_emit(x, name, reg, first, rm);
+    write_bytes(x, 1, &byte);
 }
 
 void
@@ -147,15 +251,6 @@ qdot_x86_set_mask(qdot_x86 *x, int m, unsigned lanes)
     *at++ = 0x92;
     *at++ = (unsigned char)(0xc0 | (unsigned)m << 3);
     written(x, from, at);
-}
-
-static void
-write_bytes(qdot_x86 *x, size_t n, const unsigned char *bytes)
-{
-    unsigned char *from = room(x);
-
-    memcpy(from, bytes, n);
-    written(x, from, from + n);
 }
 
 void
@@ -272,9 +367,11 @@ qdot_x86_leave(qdot_x86 *x)
 void
 qdot_x86_return(qdot_x86 *x)
 {
-    static const unsigned char bytes[] = {0xc5, 0xf8, 0x77 /* vzeroupper */, 0xc3 /* ret */};
+    static const unsigned char vzeroupper[] = {0xc5, 0xf8, 0x77};
 
-    write_bytes(x, sizeof bytes, bytes);
+    if (!x->sse2)
+        write_bytes(x, sizeof vzeroupper, vzeroupper);
+    qdot_x86_leave(x);
 }
 
 void
@@ -315,12 +412,20 @@ qdot_x86_unframe(qdot_x86 *x)
     write_bytes(x, sizeof bytes, bytes);
 }
 
+bool
+qdot_x86_is_here(void)
+{
+#if defined __x86_64__ && defined __GNUC__ && defined __LP64__
+    return true;
+#else
+    return false;
+#endif
+}
+
 size_t
 qdot_x86_kind(void)
 {
-#if defined __x86_64__ && defined __GNUC__ && defined __LP64__
+    if (!qdot_x86_is_here())
+        return 0;
     return qdot_kind_is_here(2) ? 2 : qdot_kind_is_here(1);
-#else
-    return 0;
-#endif
 }

@@ -1,15 +1,16 @@
-/* x86.h -- instructions of x86-64 with AVX-512 or with AVX2 and FMA, as bytes: the few that sums
- * of products need.
+/* x86.h -- instructions of x86-64 with AVX-512, with AVX2 and FMA or with neither, as bytes: the
+ * few that sums of products need.
  *
  * Every instruction is of the form
  *
  *     reg <- f(reg, first, rm),   rm a register or a place in memory
  *
  * with vector registers 0 ... 31 (AVX2: 0 ... 15), whose lowest double a scalar instruction
- * means. A store has what it stores in `reg` and its place in `rm`. The two kinds differ in the
- * number and the width of registers, and in how lanes are masked; what is written for either by
- * the same calls does the same. Writing never fails at once: a buffer that could not grow says so
- * at the end.
+ * means. A store has what it stores in `reg` and its place in `rm`. The kinds differ in the
+ * number and the width of registers, and in how lanes are masked; what is written for any by
+ * the same calls does the same. SSE2, which every x86-64 has, writes over `reg` and rounds a product
+ * before it is added: up to four instructions stand for one, and register 15 is theirs. Writing
+ * never fails at once: a buffer that could not grow says so at the end.
  *
  * Source  Intel 64 and IA-32 Architectures Software Developer's Manual 2, 2.3 (VEX), 2.7 (EVEX).
  * Tests   tests/machine/test_x86.c
@@ -55,6 +56,8 @@
     X(HALVES, 3, 1, 0x06, true)       /* AVX2: reg = halves of first and rm, of 0 */      \
     X(PAIRS, 1, 1, 0xc6, true)        /* reg = of each pair of lanes one of first, then rm */
 
+enum { QDOT_X86_SCRATCH = 15 }; /* of SSE2 */
+
 typedef enum {
 #define X(ID, map, prefix, opcode, wide) QDOT_X86_##ID,
     QDOT_X86_INSTRUCTIONS(X)
@@ -96,28 +99,30 @@ typedef struct {
     bool zeroing; /* what it leaves out becomes 0, else stays */
     bool far;     /* every offset takes four bytes: like instructions are equally long */
     bool narrow;  /* by AVX2 and FMA: whole vectors are of 4 doubles, no masks */
+    bool sse2;    /* narrow, and by neither: of 2 doubles */
 } qdot_x86;
 
-/* What the code of this processor has (num/kinds.h): 2 AVX-512, 1 AVX2 and FMA, 0 nothing that is
- * written here. */
+/* Whether code of any kind runs here at all; then what that of this processor has (num/kinds.h): 2
+ * AVX-512, 1 AVX2 and FMA, 0 SSE2. */
+bool qdot_x86_is_here(void);
 size_t qdot_x86_kind(void);
 /* Nothing is written yet, for a kind. Its vectors, in doubles, and their registers. */
 static inline qdot_x86
 qdot_x86_of(size_t kind)
 {
-    return (qdot_x86){.narrow = kind < 2};
+    return (qdot_x86){.narrow = kind < 2, .sse2 = kind < 1};
 }
 
 static inline int
 qdot_x86_lanes(const qdot_x86 *x)
 {
-    return x->narrow ? 4 : 8;
+    return x->sse2 ? 2 : x->narrow ? 4 : 8;
 }
 
 static inline int
 qdot_x86_registers(const qdot_x86 *x)
 {
-    return x->narrow ? 16 : 32;
+    return x->sse2 ? QDOT_X86_SCRATCH : x->narrow ? 16 : 32;
 }
 
 static inline qdot_x86_rm

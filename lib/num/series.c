@@ -69,33 +69,56 @@ reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights
     return r;
 }
 
-#define LANES 4
+/* What a product p = a b, rounded, lacks: of halves of 26 bits by sums that are exact, whether or
+ * not the machine fuses (Dekker, Numer. Math. 18 (1971) 224). */
+typedef double four_doubles __attribute__((vector_size(32), aligned(8)));
+
+static inline __attribute__((always_inline)) four_doubles
+upper_half(four_doubles a)
+{
+    typedef int64_t bits __attribute__((vector_size(32), aligned(8)));
+
+    return (four_doubles)(((bits)a + (1 << 26)) & ~(int64_t)((1 << 27) - 1));
+}
+
+static inline __attribute__((always_inline)) four_doubles
+rest_of_product(four_doubles a, four_doubles b, four_doubles p)
+{
+    const four_doubles a1 = upper_half(a), a2 = a - a1, b1 = upper_half(b), b2 = b - b1;
+
+    return ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2;
+}
+
+/* Of integers without a sign VECTOR_LARGER compares the halves by themselves: the lower one is then
+ * that of any, 2^-20 of the number. */
+#define LANES 2
 #define NAME(x) portable_##x
 #define LABEL "portable"
 #define MA(a, b, c) QDOT_MA(a, b, c)
 #define VECTOR_MA(a, b, c) QDOT_VECTOR_MA(portable_vector, a, b, c)
-#define VECTOR_LARGER(a, b) PORTABLE_PICK(portable_integers, (a) > (b), a, b)
-#define VECTOR_LESS(a, b) PORTABLE_PICK(portable_vector, (a) < (b), a, b)
-#define FOUR_MORE(a, b) PORTABLE_PICK(portable_four, (a) > (b), a, b)
-#define FOUR_FMA(a, b, c)                                                                \
-    ((portable_four){fma((a)[0], (b)[0], (c)[0]), fma((a)[1], (b)[1], (c)[1]),           \
-                     fma((a)[2], (b)[2], (c)[2]), fma((a)[3], (b)[3], (c)[3])})
-#define LANE_SUM(a) (((a)[0] + (a)[1]) + ((a)[2] + (a)[3]))
+#define VECTOR_LARGER(a, b)                                                              \
+    ((portable_integers)PORTABLE_PICK(portable_halves, (portable_halves)(a),             \
+                                      (portable_halves)(b), >))
+#define VECTOR_LESS(a, b) ((portable_vector)PORTABLE_PICK(portable_integers, a, b, <))
+#define FOUR_MORE(a, b) ((portable_four)PORTABLE_PICK(portable_wide, a, b, >))
+#define FOUR_REST(a, b, p) rest_of_product(a, b, p)
 #define FOUR_SUMS(a, b, c, d)                                                            \
-    ((portable_four){LANE_SUM(a), LANE_SUM(b), LANE_SUM(c), LANE_SUM(d)})
-/* a where `is`, else b */
-#define PORTABLE_PICK(type, is, a, b)                                                    \
-    ((type)(((portable_integers)(a) & (portable_integers)(is))                           \
-            | ((portable_integers)(b) & ~(portable_integers)(is))))
+    ((portable_four){(a)[0] + (a)[1], (b)[0] + (b)[1], (c)[0] + (c)[1], (d)[0] + (d)[1]})
+/* a where it compares so, else b */
+#define PORTABLE_PICK(bits, a, b, compared)                                              \
+    (((bits)(a) & (bits)((a)compared(b))) | ((bits)(b) & ~(bits)((a)compared(b))))
+typedef int32_t portable_halves __attribute__((vector_size(16), aligned(8)));
+typedef int64_t portable_wide __attribute__((vector_size(32), aligned(8)));
 #include "num/series.def"
 #undef NAME
 #undef LABEL
+#undef LANES
 #undef MA
 #undef VECTOR_MA
 #undef VECTOR_LARGER
 #undef VECTOR_LESS
 #undef FOUR_MORE
-#undef FOUR_FMA
+#undef FOUR_REST
 #undef FOUR_SUMS
 
 #ifdef QDOT_X86_KINDS
@@ -106,14 +129,15 @@ reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights
 QDOT_KIND_AVX2
 #define NAME(x) avx2_##x
 #define LABEL "avx2"
+#define LANES 4
 #define VECTOR_MA(a, b, c)                                                               \
     ((avx2_vector)_mm256_fmadd_pd((__m256d)(a), (__m256d)(b), (__m256d)(c)))
 #define VECTOR_LARGER(a, b)                                                              \
     ((avx2_integers)_mm256_blendv_pd((__m256d)(b), (__m256d)(a), (__m256d)((a) > (b))))
 #define VECTOR_LESS(a, b) ((avx2_vector)_mm256_min_pd((__m256d)(a), (__m256d)(b)))
 #define FOUR_MORE(a, b) ((NAME(four))_mm256_max_pd((__m256d)(a), (__m256d)(b)))
-#define FOUR_FMA(a, b, c)                                                                \
-    ((NAME(four))_mm256_fmadd_pd((__m256d)(a), (__m256d)(b), (__m256d)(c)))
+#define FOUR_REST(a, b, p)                                                               \
+    ((NAME(four))_mm256_fmsub_pd((__m256d)(a), (__m256d)(b), (__m256d)(p)))
 #define FOUR_SUMS(a, b, c, d)                                                            \
     ((NAME(four))fours_summed((__m256d)(a), (__m256d)(b), (__m256d)(c), (__m256d)(d)))
 

@@ -31,18 +31,20 @@ typedef struct {
 
 enum { QDOT_ODE_LEADING_MOST = 12 };
 
-/* `digits` of code, unless an order costs little. */
+/* `digits` of code, unless all that is solved for is a number. */
 enum { QDOT_ODE_DIGITS = 18 };
 
 /* Expansions as machine code. */
 typedef struct {
     double cost[3]; /* as that of the series, with it; zeros: there is none */
-    double wider;   /* and of each 16 orders begun beyond `narrow` */
-    int narrow;
+    double wider;   /* and of each `of_vector` orders begun beyond `narrow` */
+    int narrow, of_vector;
     /* Natural digits that an order is chosen for at least: an oscillation that is hardly there
      * bounds the step, and as it has no singularity a higher order is worth more than its radius
-     * says (doc/methods.md). */
+     * says (doc/methods.md). Whether it is chosen by the longest step that lets no oscillation grow
+     * as well (ode/taylor.h). */
     double digits;
+    bool by_stability;
     double worth; /* writing it takes as long as worth/p expansions save by it */
     /* Write it for expansions to order p, before a `begin`; NULL: none can be. */
     qdot_status (*write)(int p, void *user);

@@ -8,10 +8,6 @@
 /* Companions use orders above that of a run. */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
-/* Half of so many orders beyond those of the first vector need one vector more
- * (series/taylor-code.h). */
-enum { orders_of_vector = 16 };
-
 /* From order 6 on: z to a tenth, below which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. */
 static const unsigned char stable[] = {
     5,   17,  33,  12,  14,  19,  33,  50,  26,  28,  35,  49,  65,  42,  45,
@@ -35,7 +31,7 @@ cost_of(const qdot_ode_series *s, int p)
     const int more = written && p > code->narrow ? p - code->narrow : 0;
 
     return c[0] + c[1] * p + c[2] * p * p +
-           code->wider * ((more + orders_of_vector - 1) / orders_of_vector);
+           (code->wider > 0 ? code->wider * ((more + code->of_vector - 1) / code->of_vector) : 0);
 }
 
 /* The order with the least cost for a time as long as the radius of convergence. */
@@ -45,7 +41,7 @@ best_order(const qdot_ode_series *series, double tol, bool leading)
     double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
     const qdot_ode_code *code = &series->code;
     const bool more_digits = code->cost[0] > 0 && L < code->digits;
-    const bool cheap = more_digits && code->digits > QDOT_ODE_DIGITS;
+    const bool by_stability = more_digits && code->by_stability;
     int best = least_order;
 
     if (more_digits)
@@ -53,7 +49,7 @@ best_order(const qdot_ode_series *series, double tol, bool leading)
     for (int p = least_order; p <= series->most - of_companions; p++) {
         double cost = cost_of(series, p) * exp(L / p);
 
-        if (cheap)
+        if (by_stability)
             cost *= p / qdot_ode_taylor_stable(p);
         if (cost < least) {
             least = cost;

@@ -69,8 +69,8 @@ int qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leadin
 
 /* How long, in radians, steps of order p may be that let no oscillation grow: z to a tenth,
  * up to which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. From p to p + 1 that may halve. Where an
- * order costs little and is for an oscillation that is hardly there (code.digits) what it
- * costs is weighed by that too. */
+ * order is for an oscillation that is hardly there (code.digits) what it costs may be weighed by
+ * that too (code.by_stability). */
 double qdot_ode_taylor_stable(int p);
 
 /* The least of the terms of order 5 ... p at s, two in a row, relative by scale [n], and the

@@ -6,7 +6,8 @@ enum {
     many_vectors = 40,
     temporary = 0,
     spare = 1,
-    spread_first = 2
+    spread_first = 2,
+    own_spreads = 2
 };
 
 /* Parts of adding an order: what is there before rows have it, and after. */
@@ -42,21 +43,33 @@ insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
         qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(g, v, b));
 }
 
+/* None holds anything. Narrow vectors wait for what is loaded: while they are at work the registers
+ * of single numbers, none of which is held by then, are for this, too. */
+static void
+begin_spreads(qdot_generator *g)
+{
+    g->spreads = own_spreads + (g->x.narrow ? g->behind_scalars - g->first_scalar : 0);
+    for (int i = 0; i < g->spreads; i++)
+        g->spread[i] = QDOT_CODE_NONE;
+}
+
 /* The register with coefficient m of a row in every lane. */
 static int
 spread(qdot_generator *g, uint32_t row, int m)
 {
-    int i;
+    int i = 0, reg;
 
-    for (i = 0; i < 2; i++)
-        if (g->spread[i] == row)
-            return spread_first + i;
-    i = g->next_spread;
-    g->next_spread = 1 - i;
+    while (i < g->spreads && g->spread[i] != row)
+        i++;
+    if (i == g->spreads)
+        i = g->next_spread;
+    reg = i < own_spreads ? spread_first + i : g->first_scalar + i - own_spreads;
+    if (g->spread[i] == row)
+        return reg;
+    g->next_spread = (i + 1) % g->spreads;
     g->spread[i] = row;
-    qdot_x86_emit(&g->x, QDOT_X86_SPREAD, spread_first + i, 0,
-                  qdot_code_coefficient(g, row, m));
-    return spread_first + i;
+    qdot_x86_emit(&g->x, QDOT_X86_SPREAD, reg, 0, qdot_code_coefficient(g, row, m));
+    return reg;
 }
 
 /* to += coefficient m of a row times block b of another, in these lanes. */
@@ -137,7 +150,7 @@ add_order(qdot_generator *g, const qdot_code_phase *p, const qdot_code_sum *s, i
 void
 qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m)
 {
-    g->spread[0] = g->spread[1] = QDOT_CODE_NONE;
+    begin_spreads(g);
     for (size_t i = 0; i < g->sums.n; i++)
         add_order(g, p, g->sums.at + i, m, BEFORE);
     for (size_t i = 0; p->inserted >= 0 && !g->as_they_stand && i < g->rows.n; i++)

@@ -80,7 +80,14 @@ find_moving_unknowns(qdot_generator *g)
 
 _Static_assert((int)QDOT_CODE_EXACT >= (int)QDOT_TAYLOR_EXACT, "the first loop is exact");
 
-static const qdot_code_vector in_memory = {.reg = {-1, -1, -1, -1, -1, -1}};
+static qdot_code_vector
+in_memory(void)
+{
+    qdot_code_vector v = {.at = 0};
+
+    memset(v.reg, -1, sizeof v.reg);
+    return v;
+}
 
 static qdot_status
 vector_for(qdot_generator *g, uint32_t row)
@@ -89,13 +96,13 @@ vector_for(qdot_generator *g, uint32_t row)
         return QDOT_OK;
     g->row_vector[row] = (uint32_t)g->rows.n;
     QDOT_TRY(qdot_vec_push(&g->row_of, row));
-    return qdot_vec_push(&g->rows, in_memory);
+    return qdot_vec_push(&g->rows, in_memory());
 }
 
 static qdot_status
 add_sum(qdot_generator *g, uint32_t x, uint32_t y, bool further)
 {
-    const qdot_code_sum sum = {x, y, further, in_memory};
+    const qdot_code_sum sum = {x, y, further, in_memory()};
 
     QDOT_TRY(vector_for(g, x));
     QDOT_TRY(vector_for(g, y));
@@ -161,7 +168,8 @@ choose_layout(qdot_generator *g)
     g->lag = few && !narrow ? 2 : 1;
     g->reread = narrow && !few;
     g->first_scalar = narrow ? QDOT_VECTOR_FREE_NARROW : QDOT_VECTOR_FREE;
-    g->behind_scalars = g->first_scalar + (narrow && few ? few_scalars : scalars);
+    g->behind_scalars = least(g->first_scalar + (narrow && few ? few_scalars : scalars),
+                              qdot_x86_registers(&g->x));
     g->blocks = blocks_of(g, most(g->n / 2 + 1 - g->lag, 1));
     g->as_they_stand = qdot_code_rows_as_they_stand(g);
 }
@@ -298,12 +306,16 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *b
 }
 
 /* What adding order m takes. Rows as they stand go on beyond half of the orders, where all
- * their lanes are known: what those beyond it make is of no order that is wanted. */
+ * their lanes are known: what those beyond it make is of no order that is wanted. Narrow vectors go
+ * on like that to the end: loops with fewer of them would take longer to be fetched, each for the
+ * few orders that it is for, than the vectors that they save. */
 static qdot_code_phase
 phase_of(const qdot_generator *g, int m)
 {
     int blocks;
 
+    if (g->x.narrow)
+        m = least(m, g->n / 2);
     if (m <= g->n / 2)
         return (qdot_code_phase){.blocks = blocks_of(g, m + 1 - g->lag),
                                  .inserted = (m - g->lag) / g->lanes};
@@ -468,8 +480,8 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code *
 
     *code = NULL;
     *why = NULL;
-    if (qdot_x86_kind() == 0) {
-        *why = "machine code needs AVX2";
+    if (!qdot_x86_is_here()) {
+        *why = "machine code is for x86-64";
         return QDOT_OK;
     }
     if (!reaches_all(t)) {

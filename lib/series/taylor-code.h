@@ -26,8 +26,8 @@
  * Order 0 is a second function: sums, products, quotients and roots as they stand, a call for each
  * elementary function.
  *
- * It needs AVX-512, or AVX2 and FMA, and a system that lets a program run what it wrote. Where it runs the
- * last bits of coefficients are other ones than those of taylor-order.def.
+ * It needs an x86-64, of any kind, and a system that lets a program run what it wrote. Where it
+ * runs the last bits of coefficients are other ones than those of taylor-order.def.
  *
  * Source  van der Hoeven, J. Symbolic Comput. 34 (2002) 479, 4.1, for the order of the sum.
  * Tests   tests/series/test_taylor-code.c

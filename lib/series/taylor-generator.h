@@ -18,7 +18,7 @@ enum {
     /* Of any kind of processor: the widest vectors; vectors of a row, or of the sums that one
      * product has still to come; registers. */
     QDOT_CODE_LANES = 8,
-    QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + 3) / 4,
+    QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + 1) / 2,
     QDOT_CODE_REGISTERS = 32,
     /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, the two factors of
      * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); a lane whose bits are
@@ -96,8 +96,8 @@ typedef struct {
     /* Those for single numbers by their last use: behind a register the next, the least
      * recently used behind the last of all, which is `latest`. */
     int behind[QDOT_CODE_REGISTERS], ahead[QDOT_CODE_REGISTERS], latest;
-    uint32_t spread[2]; /* rows whose coefficient fills a register */
-    int next_spread;
+    uint32_t spread[QDOT_CODE_REGISTERS]; /* [spreads] rows whose coefficient fills a register */
+    int spreads, next_spread;
 } qdot_generator;
 
 #define QDOT_CODE_NONE UINT32_MAX

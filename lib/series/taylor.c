@@ -194,13 +194,15 @@ qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
 bool
 qdot_taylor_may_be_code(void)
 {
-    return qdot_x86_kind() > 0;
+    return qdot_x86_is_here();
 }
 
 const char *
 qdot_taylor_code_kind(void)
 {
-    return qdot_x86_kind() > 1 ? "AVX-512" : "AVX2";
+    static const char *const names[] = {"SSE2", "AVX2", "AVX-512"};
+
+    return names[qdot_x86_kind()];
 }
 
 bool

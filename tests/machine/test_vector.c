@@ -49,7 +49,7 @@ static void
 lanes_slide(void **state)
 {
     (void)state;
-    if (qdot_x86_kind() == 0)
+    if (!qdot_x86_is_here())
         skip();
     for (int how = 0; how < 8; how++) {
         const bool low_in_memory = how & 1, high_in_memory = how & 2, last = how & 4;
@@ -75,7 +75,7 @@ static void
 lanes_come_to_be_known(void **state)
 {
     (void)state;
-    if (qdot_x86_kind() == 0)
+    if (!qdot_x86_is_here())
         skip();
     for (int newest = 0; newest < LANES; newest++)
         for (qdot_vector_lanes lanes = QDOT_VECTOR_ALL; lanes <= QDOT_VECTOR_KNOWN; lanes++) {

@@ -192,6 +192,77 @@ narrow_instructions_have_theirs(void **state)
     qdot_free(x.bytes.at);
 }
 
+/* By SSE2 one stands for up to four that write over what they read. */
+static void
+instructions_of_two_operands_have_theirs(void **state)
+{
+    static const unsigned char bytes[] = {
+        0xf2, 0x0f, 0x10, 0x67, 0x18,                /* movsd 0x18(%rdi),%xmm4 */
+        0xf2, 0x44, 0x0f, 0x11, 0x8e, 0, 0x10, 0, 0, /* movsd %xmm9,0x1000(%rsi) */
+        0x66, 0x41, 0x0f, 0x10, 0xdc,                /* movupd %xmm12,%xmm3 */
+        0xf2, 0x41, 0x0f, 0x58, 0x68, 0x08,          /* addsd 0x8(%r8),%xmm5 */
+        0x66, 0x0f, 0x10, 0xee,                      /* movupd %xmm6,%xmm5 */
+        0xf2, 0x0f, 0x59, 0xef,                      /* mulsd %xmm7,%xmm5 */
+        0x66, 0x44, 0x0f, 0x10, 0xfe,                /* movupd %xmm6,%xmm15 */
+        0x66, 0x0f, 0x10, 0xf5,                      /* movupd %xmm5,%xmm6 */
+        0xf2, 0x41, 0x0f, 0x5c, 0xf7,                /* subsd %xmm15,%xmm6 */
+        0xf2, 0x45, 0x0f, 0x10, 0x78, 0xf8,          /* movsd -0x8(%r8),%xmm15 */
+        0xf2, 0x44, 0x0f, 0x59, 0xff,                /* mulsd %xmm7,%xmm15 */
+        0xf2, 0x45, 0x0f, 0x58, 0xe7,                /* addsd %xmm15,%xmm12 */
+        0x66, 0x45, 0x0f, 0x10, 0xf8,                /* movupd %xmm8,%xmm15 */
+        0xf2, 0x44, 0x0f, 0x59, 0xff,                /* mulsd %xmm7,%xmm15 */
+        0xf2, 0x45, 0x0f, 0x5c, 0xfc,                /* subsd %xmm12,%xmm15 */
+        0x66, 0x45, 0x0f, 0x10, 0xe7,                /* movupd %xmm15,%xmm12 */
+        0xf2, 0x0f, 0x59, 0xdc,                      /* mulsd %xmm4,%xmm3 */
+        0x66, 0x44, 0x0f, 0x10, 0xfd,                /* movupd %xmm5,%xmm15 */
+        0xf2, 0x44, 0x0f, 0x5c, 0xfb,                /* subsd %xmm3,%xmm15 */
+        0x66, 0x41, 0x0f, 0x10, 0xdf,                /* movupd %xmm15,%xmm3 */
+        0xf2, 0x0f, 0x59, 0xdc,                      /* mulsd %xmm4,%xmm3 */
+        0xf2, 0x0f, 0x5c, 0xdd,                      /* subsd %xmm5,%xmm3 */
+        0x66, 0x45, 0x0f, 0x10, 0xf8,                /* movupd %xmm8,%xmm15 */
+        0xf2, 0x44, 0x0f, 0x59, 0xff,                /* mulsd %xmm7,%xmm15 */
+        0xf2, 0x45, 0x0f, 0x58, 0xe7,                /* addsd %xmm15,%xmm12 */
+        0x66, 0x45, 0x0f, 0xef, 0xff,                /* pxor %xmm15,%xmm15 */
+        0xf2, 0x45, 0x0f, 0x5c, 0xfc,                /* subsd %xmm12,%xmm15 */
+        0x66, 0x45, 0x0f, 0x10, 0xe7,                /* movupd %xmm15,%xmm12 */
+        0x66, 0x44, 0x0f, 0x10, 0x7a, 0x28,          /* movupd 0x28(%rdx),%xmm15 */
+        0x66, 0x44, 0x0f, 0x59, 0xfb,                /* mulpd %xmm3,%xmm15 */
+        0x66, 0x41, 0x0f, 0x5c, 0xc7,                /* subpd %xmm15,%xmm0 */
+        0xf2, 0x41, 0x0f, 0x51, 0xf6,                /* sqrtsd %xmm14,%xmm6 */
+        0xf2, 0x44, 0x0f, 0x10, 0x5b, 0x30,          /* movsd 0x30(%rbx),%xmm11 */
+        0x66, 0x45, 0x0f, 0xc6, 0xdb, 0,             /* shufpd $0,%xmm11,%xmm11 */
+        0x66, 0x44, 0x0f, 0x10, 0x7f, 0x28,          /* movupd 0x28(%rdi),%xmm15 */
+        0x66, 0x0f, 0x10, 0xcd,                      /* movupd %xmm5,%xmm1 */
+        0x66, 0x41, 0x0f, 0xdb, 0xcf,                /* pand %xmm15,%xmm1 */
+        0x66, 0x41, 0x0f, 0xc6, 0xc1, 0x01,          /* shufpd $1,%xmm9,%xmm0 */
+        0xc3                                         /* ret */
+    };
+    const qdot_x86_base di = QDOT_X86_RDI, r8 = QDOT_X86_R8;
+    qdot_x86 x = qdot_x86_of(0);
+
+    (void)state;
+    qdot_x86_emit(&x, QDOT_X86_LOAD, 4, 0, qdot_x86_at(di, 0x18));
+    qdot_x86_emit(&x, QDOT_X86_STORE, 9, 0, qdot_x86_at(QDOT_X86_RSI, 0x1000));
+    qdot_x86_emit(&x, QDOT_X86_LOAD, 3, 12, qdot_x86_reg(12));
+    qdot_x86_emit(&x, QDOT_X86_ADD, 5, 5, qdot_x86_at(r8, 8));
+    qdot_x86_emit(&x, QDOT_X86_MUL, 5, 6, qdot_x86_reg(7));
+    qdot_x86_emit(&x, QDOT_X86_SUB, 6, 5, qdot_x86_reg(6));
+    qdot_x86_emit(&x, QDOT_X86_MADD, 12, 7, qdot_x86_at(r8, -8));
+    qdot_x86_emit(&x, QDOT_X86_MSUB, 12, 7, qdot_x86_reg(8));
+    qdot_x86_emit(&x, QDOT_X86_NMADD_OVER, 3, 4, qdot_x86_reg(5));
+    qdot_x86_emit(&x, QDOT_X86_MSUB_OVER, 3, 4, qdot_x86_reg(5));
+    qdot_x86_emit(&x, QDOT_X86_NMSUB, 12, 7, qdot_x86_reg(8));
+    qdot_x86_emit(&x, QDOT_X86_NMADD_ALL, 0, 3, qdot_x86_at(QDOT_X86_RDX, 0x28));
+    qdot_x86_emit(&x, QDOT_X86_ROOT, 6, 14, qdot_x86_reg(14));
+    qdot_x86_emit(&x, QDOT_X86_SPREAD, 11, 0, qdot_x86_at(QDOT_X86_RBX, 0x30));
+    qdot_x86_emit(&x, QDOT_X86_AND_ALL, 1, 5, qdot_x86_at(di, 0x28));
+    qdot_x86_move_lanes(&x, QDOT_X86_PAIRS, 0, 0, qdot_x86_reg(9), 1);
+    qdot_x86_return(&x);
+    assert_int_equal(x.bytes.n, sizeof bytes);
+    assert_memory_equal(x.bytes.at, bytes, sizeof bytes);
+    qdot_free(x.bytes.at);
+}
+
 static void
 sequences_have_theirs(void **state)
 {
@@ -260,6 +331,7 @@ main(void)
         cmocka_unit_test(loops_have_theirs),
         cmocka_unit_test(vectors_of_both_widths_have_theirs),
         cmocka_unit_test(narrow_instructions_have_theirs),
+        cmocka_unit_test(instructions_of_two_operands_have_theirs),
         cmocka_unit_test(sequences_have_theirs),
         cmocka_unit_test(calls_have_theirs),
     };

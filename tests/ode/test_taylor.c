@@ -387,7 +387,10 @@ orders_stay_narrow_where_wider_ones_cost(void **state)
 {
     qdot_ode_series series = {
         .most = 40,
-        .code = {.cost = {600, 89, 1.2}, .narrow = 18, .digits = QDOT_ODE_DIGITS}};
+        .code = {.cost = {600, 89, 1.2},
+                 .narrow = 18,
+                 .of_vector = 16,
+                 .digits = QDOT_ODE_DIGITS}};
     const int smooth = qdot_ode_taylor_order(&series, 1e-3, false, 0);
 
     (void)state;
@@ -397,7 +400,14 @@ orders_stay_narrow_where_wider_ones_cost(void **state)
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 3), 21);
     series.code.wider = 1;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), smooth);
+    series.code.wider = 300;
+    series.code.of_vector = 8;
+    series.code.digits = 27;
+    assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 26);
+    series.code.wider = 1;
     series.code.digits = 30; /* steps of orders beside it are by a sixth shorter, and more */
+    assert_int_not_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 29);
+    series.code.by_stability = true;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 29);
     series.code.cost[0] = 0; /* no code */
     series.code.wider = 1e6;

@@ -1,7 +1,7 @@
 # The reference cases, at tolerances from loose to what a double can hold: the true error of the
 # end state is at most 3 times the stated one, and the stated one at most 100 times the true one
-# where that is above 1e-14; at 1e-15 it is what rounding makes of the scene. With `digits 30`
-# the quick ones have 28.
+# where that is above 1e-14 and the stated one above what rounding makes of the scene (below, the true one
+# may be 0 by chance); at 1e-15 it is what rounding makes of it. With `digits 30` the quick ones have 28.
 scene()
 {
     sed -n "/^### $1\$/,/^### /p" cases.inc | sed '/^###/d'

@@ -1,6 +1,6 @@
 /* test_taylor-code.c -- machine code against the kernels: every recurrence, every order.
  *
- * For each kind of code that this processor runs, and without any: then the first of these tests
+ * For each kind of code that this processor runs. Where there is none the first of these tests
  * says so and the others compare the kernels with themselves.
  */
 #include <math.h>
@@ -168,7 +168,7 @@ there_is_code_or_a_reason(void **state)
     if (qdot_taylor_code_bytes(t, &why) == 0)
         print_message("no machine code: %s\n", why);
     assert_true((qdot_taylor_code_bytes(t, &why) > 0) == (why == NULL));
-    assert_true((qdot_x86_kind() == 0) == (why && strstr(why, "AVX2")));
+    assert_true(qdot_x86_is_here() != (why && strstr(why, "x86-64")));
     qdot_taylor_free(t);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);

@@ -192,6 +192,7 @@ estimate_written(qdot_bordered *e, const qdot_plan *p)
     /* More vectors are loops of their own, read anew in every step where all of them are more
      * than a processor keeps decoded. */
     code->narrow = narrow;
+    code->of_vector = 16;
     code->wider = loops * instructions > decoded ? 0.3 * instructions : 0;
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "num/kinds.h"
 #include "num/series.h"
 #include "sim/form/blocks.h"
 #include "sim/form/expansion.h"
@@ -383,11 +384,15 @@ estimate_cost(qdot_direct *e)
 }
 
 /* The same of machine code (doc/methods.md). What every step takes is known better here, for
- * it decides: an order costs little. AVX2 takes up to 1.3 of the time of AVX-512, for each of these
- * about the same: the orders that suit it do not differ by more than the time does with one. */
+ * it decides. By AVX-512 an order costs little; by AVX2 the orders of a further vector cost as much as the
+ * instructions that it is read by; by SSE2 all vectors do. */
 static void
 estimate_written(qdot_direct *e)
 {
+    static const struct {
+        double order, pair, vector;
+    } costs[] = {{1.8, 0.15, 0}, {1, 0.03, 16}, {1, 0.03, 0}}; /* by kind */
+    const size_t kind = qdot_kind_is_here(2) ? 2 : qdot_kind_is_here(1);
     const qdot_plan *p = e->plan;
     const double length = (double)qdot_taylor_length(e->x.taylor);
     qdot_ode_code *code = &e->series.code;
@@ -400,9 +405,13 @@ estimate_written(qdot_direct *e)
     if (!qdot_taylor_may_be_code())
         return;
     code->digits = e->diagonal ? 24 : QDOT_ODE_DIGITS;
+    code->by_stability = e->diagonal && kind > 1;
     c[0] = 160 + 20 * (double)qdot_tape_calls(p->tape) + 3 * length + 10 * (double)p->n;
-    c[1] = 3 + 0.4 * length + 0.6 * convolutions;
-    c[2] = 0.03 * convolutions;
+    c[1] = costs[kind].order * (3 + 0.4 * length + 0.6 * convolutions);
+    c[2] = costs[kind].pair * convolutions;
+    code->wider = costs[kind].vector * convolutions;
+    code->narrow = 10;
+    code->of_vector = 8;
     for (size_t b = 0; b < p->structure.blocks; b++) {
         const double n = (double)p->blocks[b].n;
 

@@ -256,6 +256,7 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
     series->cost[0] += 200 + qdot_constrained_cost(plan);
     series->code.worth = 500;
     series->code.digits = QDOT_ODE_DIGITS;
+    series->code.by_stability = false;
     *eliminated = e;
     return QDOT_OK;
 }
