@@ -111,8 +111,7 @@ long_formulas_are_broken(void **state)
           "    − delta\u202Fepsilon\n");
     draws(I("aaaaaaa") TIMES I("bbbbbbb") TIMES I("ccccccc") TIMES I("ddddddd"), 20,
           "aaaaaaa\u202Fbbbbbbb\n"
-          "    ·ccccccc\n"
-          "    ·ddddddd\n");
+          "    ·ccccccc\u202Fddddddd\n");
     draws(I("x") O("=") OVER(I("aaaaaaaa") O("+") I("bbbbbbbb"), I("c")) O("+") I("d"), 20,
           "x = (aaaaaaaa\n"
           "    + bbbbbbbb)/c\n"
