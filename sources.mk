@@ -9,6 +9,7 @@ library_sources = \
 	lib/base/memory.c \
 	lib/base/scope.c \
 	lib/base/status.c \
+	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
 	lib/expr/bounds.c \
@@ -287,9 +288,12 @@ library_sources = \
 	lib/series/taylor-wide.c \
 	lib/series/taylor.c \
 	lib/series/two.c \
+	lib/show/box.c \
 	lib/show/csv.c \
+	lib/show/draw.c \
 	lib/show/figure.c \
 	lib/show/gnuplot.c \
+	lib/show/layout.c \
 	lib/show/sink.c \
 	lib/show/table.c \
 	lib/sim/course/bind.c \
@@ -404,6 +408,7 @@ library_headers = \
 	lib/base/memory.h \
 	lib/base/scope.h \
 	lib/base/status.h \
+	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
 	lib/expr/calculus.h \
@@ -636,7 +641,10 @@ library_headers = \
 	lib/series/taylor.h \
 	lib/series/two.def \
 	lib/series/two.h \
+	lib/show/box.h \
+	lib/show/draw.h \
 	lib/show/gnuplot.h \
+	lib/show/layout.h \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/sim/course/bind.h \
@@ -815,6 +823,7 @@ unit_tests = \
 	tests/series/test_two \
 	tests/show/test_csv \
 	tests/show/test_figure \
+	tests/show/test_layout \
 	tests/show/test_table \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \

@@ -38,7 +38,10 @@ qdot_utf8_columns(const char *text, size_t bytes)
 {
     size_t columns = 0;
 
-    for (size_t i = 0; i < bytes; i++)
-        columns += ((unsigned char)text[i] & 0xC0) != 0x80;
+    for (size_t i = 0, n; i < bytes; i += n > 0 ? n : 1) {
+        const uint32_t c = qdot_utf8_decode(text + i, &n);
+
+        columns += !((c >= 0x300 && c < 0x370) || (c >= 0x20D0 && c < 0x2100));
+    }
     return columns;
 }

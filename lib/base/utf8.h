@@ -11,7 +11,8 @@ size_t qdot_utf8_length(const char *text);
 /* Its code point; *length as above. 0 if it is not well-formed. */
 uint32_t qdot_utf8_decode(const char *text, size_t *length);
 
-/* Columns that the first `bytes` bytes take on a terminal: one a code point. */
+/* Columns that the first `bytes` bytes take on a terminal: one a code point, none for a mark that
+ * stands over the letter before it. */
 size_t qdot_utf8_columns(const char *text, size_t bytes);
 
 #endif

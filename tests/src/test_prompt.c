@@ -286,6 +286,31 @@ history_is_kept_across_sessions(void **state)
     leave_by_ctrl_d();
 }
 
+/* Line ends are those of the terminal. */
+static void
+formulas_are_drawn_to_the_width_of_the_terminal(void **state)
+{
+    (void)state;
+    setenv("LC_ALL", "C.UTF-8", 1);
+    start("-q");
+    expect("qdot> ");
+    type("param a, b, c\r");
+    expect("qdot> ");
+    type("(a + b)/c\r");
+    expect("a + b\r\n");
+    expect("─────\r\n");
+    expect("  c\r\n");
+    type("style flat\r");
+    expect("qdot> ");
+    type("1/(b + a)\r");
+    expect("1/(a + b)\r\n");
+    type("style unicode; expand((a + b + c)^60)\r");
+    expect("... 20 of ");
+    expect("to \"all.txt\"` writes all of it");
+    leave_by_ctrl_d();
+    setenv("LC_ALL", "C", 1);
+}
+
 int
 main(void)
 {
@@ -297,6 +322,7 @@ main(void)
         cmocka_unit_test(ctrl_c_stops_a_computation_and_keeps_the_session),
         cmocka_unit_test(tab_completes_words_and_names),
         cmocka_unit_test(history_is_kept_across_sessions),
+        cmocka_unit_test(formulas_are_drawn_to_the_width_of_the_terminal),
     };
 
     return cmocka_run_group_tests(tests, enter, leave);

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/terminal.h"
 #include "expr/walk.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/number-text.h"
@@ -13,6 +14,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/value-kind.h"
 #include "lang/source/source.h"
+#include "show/layout.h"
 #include "show/sink.h"
 
 /* Write a finished text and let go of it. */
@@ -46,6 +48,66 @@ end_formula(qdot_session *session, qdot_status status, qdot_text *line)
     qdot_formula_bracket(session, false, line);
     qdot_text_char(line, '\n');
     return end_line(session, status, line);
+}
+
+/* --- formulas laid out ---------------------------------------------------------------- */
+
+/* A formula that is written as MathML, to be laid out on a terminal; or in a line as it stands. */
+typedef struct {
+    bool laid_out;
+    size_t columns, rows;
+    qdot_style style; /* of the session, which has another one meanwhile */
+} sheet;
+
+static sheet
+begin_sheet(qdot_session *session, qdot_text *line)
+{
+    sheet s = {.style = session->style};
+
+    s.laid_out = session->style == QDOT_UNICODE && !session->flat && !session->json &&
+                 qdot_terminal_size(session->out, &s.columns, &s.rows);
+    if (s.laid_out)
+        session->style = QDOT_MATHML;
+    else
+        qdot_formula_bracket(session, true, line);
+    return s;
+}
+
+/* What is higher than the terminal: its first half, how much it is, and how all of it is seen. */
+static void
+cut(const qdot_session *session, const sheet *s, const qdot_layout_size *size, qdot_text *text)
+{
+    const size_t shown = s->rows / 2;
+    size_t at = 0;
+
+    if (size->lines < s->rows || qdot_text_status(text) != QDOT_OK)
+        return;
+    for (size_t i = 0; i < shown; i++)
+        at += strcspn(text->at + at, "\n") + 1;
+    qdot_text_truncate(text, at);
+    qdot_text_format(text,
+                     "... %zu of %zu lines; `%%%zu to \"all.txt\"` writes all of it, `style flat` "
+                     "shows it\n",
+                     shown, size->lines, session->history.n + 1);
+}
+
+static qdot_status
+end_sheet(qdot_session *session, const sheet *s, qdot_status status, qdot_text *line)
+{
+    qdot_layout_size size = {0};
+    qdot_text drawn = {0};
+
+    session->style = s->style;
+    if (!s->laid_out)
+        return end_formula(session, status, line);
+    if (status == QDOT_OK)
+        status = qdot_text_status(line);
+    if (status == QDOT_OK)
+        status = qdot_layout(qdot_text_str(line), s->columns, &drawn, &size);
+    if (status == QDOT_OK)
+        cut(session, s, &size, &drawn);
+    qdot_text_clear(line);
+    return end_line(session, status, &drawn);
 }
 
 /* Append `before`, then the text as a JSON string. */
@@ -85,6 +147,7 @@ static qdot_status
 expr_text(qdot_session *session, const char *name, qdot_expr value)
 {
     qdot_text line = {0}, plain = {0}, shown = {0};
+    const sheet s = begin_sheet(session, &line);
     qdot_status status = qdot_formula_print(session, value, session->style, &shown);
     bool bare = name == NULL || strlen(name) > 200;
     bool relation = qdot_value_kind_is_equation(session->pool, value) ||
@@ -94,7 +157,6 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
         status = qdot_formula_print(session, value, QDOT_PLAIN, &plain);
     if (!bare && relation)
         bare = strpbrk(name, "=<>") != NULL;
-    qdot_formula_bracket(session, true, &line);
     if (status == QDOT_OK && !bare && !same_but_spaces(name, qdot_text_str(&plain))) {
         status = qdot_formula_name(session, name, &line);
         if (!relation && value != QDOT_TRUE && value != QDOT_FALSE)
@@ -107,7 +169,7 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
         line.failed = true;
     qdot_text_clear(&shown);
     qdot_text_clear(&plain);
-    return end_formula(session, status, &line);
+    return end_sheet(session, &s, status, &line);
 }
 
 static qdot_status
@@ -146,15 +208,16 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
 {
     qdot_text line = {0};
     qdot_status status;
+    sheet s;
 
     if (session->json)
         return expr_json(session, name, value);
-    qdot_formula_bracket(session, true, &line);
+    s = begin_sheet(session, &line);
     status = qdot_print(session->pool, symbol, session->style, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
     if (status == QDOT_OK)
         status = qdot_formula_print(session, value, session->style, &line);
-    return end_formula(session, status, &line);
+    return end_sheet(session, &s, status, &line);
 }
 
 /* 1.25 ± 3e-13, marked up where the style is. */

@@ -188,6 +188,7 @@ put_settings(const qdot_session *s, qdot_text *out)
                                          [QDOT_MATHML] = "mathml"};
 
     qdot_text_format(out, "style %s\n", styles[s->style]);
+    qdot_text_add(out, s->flat ? "style flat\n" : "");
     qdot_text_add(out, s->timing ? "timing on\n" : "");
     put_runs(s, out);
 }

@@ -53,14 +53,20 @@ qdot_settings_style(qdot_cursor *c)
         {"plain", QDOT_PLAIN}, {"unicode", QDOT_UNICODE}, {"latex", QDOT_LATEX},
                {"mathml", QDOT_MATHML}};
 
+    if (qdot_cursor_accept_word(c, "flat")) {
+        QDOT_TRY(qdot_cursor_expect_end(c));
+        c->session->flat = true;
+        return QDOT_OK;
+    }
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
         if (!qdot_cursor_accept_word(c, styles[i].word))
             continue;
         QDOT_TRY(qdot_cursor_expect_end(c));
         c->session->style = styles[i].style;
+        c->session->flat = false;
         return QDOT_OK;
     }
-    return qdot_cursor_expected(c, "`plain`, `unicode`, `latex` or `mathml`");
+    return qdot_cursor_expected(c, "`plain`, `unicode`, `flat`, `latex` or `mathml`");
 }
 
 qdot_status

@@ -51,6 +51,7 @@ typedef struct qdot_session {
     qdot_names *names;
     FILE *out, *err;
     qdot_style style;
+    bool flat; /* formulas stand in one line on a terminal too */
     bool json, timing, interactive;
     FILE *console; /* where notices go; NULL: with the answers */
     bool console_json;

@@ -34,6 +34,7 @@ qdot_undo_single_of(const qdot_session *s)
                     .series = s->series,
                     .series_in = s->series_in,
                     .style = s->style,
+                    .flat = s->flat,
                     .timing = s->timing,
                     .start_exactly = s->start_exactly};
 }

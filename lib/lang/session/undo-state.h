@@ -23,7 +23,7 @@ enum { /* behind those of the scene */
 typedef struct {
     qdot_expr lagrangian, series, series_in;
     qdot_style style;
-    bool timing, start_exactly;
+    bool flat, timing, start_exactly;
 } qdot_undo_single;
 
 typedef struct {

@@ -52,6 +52,7 @@ static bool
 same_single(const qdot_undo_single *a, const qdot_undo_single *b)
 {
     return a->lagrangian == b->lagrangian && a->style == b->style &&
+           a->flat == b->flat &&
            a->timing == b->timing && a->start_exactly == b->start_exactly;
 }
 
@@ -516,6 +517,7 @@ apply(qdot_session *s, record *r, int to)
     s->series = u->now.single.series;
     s->series_in = u->now.single.series_in;
     s->style = u->now.single.style;
+    s->flat = u->now.single.flat;
     s->timing = u->now.single.timing;
     s->start_exactly = u->now.single.start_exactly;
     s->scene->version += counts;

@@ -1,0 +1,72 @@
+/* box.h -- a formula as boxes: what stands beside, above and below what, and how large it is.
+ *
+ * Boxes are numbered, those within a box before it. A box has columns, and rows above and below
+ * its baseline row. Internal to show/.
+ *
+ * Tests  tests/show/test_layout.c
+ */
+#ifndef QDOT_SHOW_BOX_H
+#define QDOT_SHOW_BOX_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+
+typedef enum {
+    QDOT_BOX_TEXT,
+    QDOT_BOX_ROW,      /* one behind the other */
+    QDOT_BOX_FRACTION, /* above, below */
+    QDOT_BOX_ROOT,
+    QDOT_BOX_SUPER, /* what, its superscript */
+    QDOT_BOX_SUB,   /* what, its subscript */
+    QDOT_BOX_TABLE  /* cells row by row */
+} qdot_box_kind;
+
+/* What a text is in its row. */
+typedef enum {
+    QDOT_BOX_NAME, /* a number, a name */
+    QDOT_BOX_RELATION,
+    QDOT_BOX_SIGN, /* + - of two terms, and, or */
+    QDOT_BOX_TIMES,
+    QDOT_BOX_COMMA,
+    QDOT_BOX_OPENING, /* brackets, as high as their row */
+    QDOT_BOX_CLOSING
+} qdot_box_role;
+
+typedef struct {
+    uint8_t kind, role;
+    uint32_t first, count;         /* of the children; of a text its bytes */
+    uint32_t columns, above, below;
+    uint32_t across;               /* cells of a row of a table */
+} qdot_box;
+
+typedef struct {
+    qdot_vec(qdot_box) box;
+    qdot_vec(uint32_t) children;
+    qdot_text text;
+} qdot_boxes;
+
+/* The boxes of a formula, the last of which is all of it. Clear them in any case. Errors:
+ * QDOT_EINVAL, QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_boxes_read(const char *mathml, qdot_boxes *boxes);
+void qdot_boxes_clear(qdot_boxes *boxes);
+
+/* Columns of a root's sign, beside what stands under it. */
+static inline uint32_t
+qdot_box_root_sign(const qdot_box *under)
+{
+    return under->above + under->below == 0 ? 1 : under->above + under->below + 3;
+}
+
+/* Rows of a box. */
+static inline uint32_t
+qdot_box_height(const qdot_box *b)
+{
+    return b->above + 1 + b->below;
+}
+
+enum { QDOT_BOX_GAP = 2 }; /* columns between those of a table */
+
+#endif

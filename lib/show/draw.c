@@ -1,0 +1,265 @@
+/* draw.c -- boxes drawn into a grid of characters, by a stack. */
+#include "show/draw.h"
+
+#include <string.h>
+
+#include "base/utf8.h"
+
+/* A character and the mark over it; 0: a space, none. */
+typedef struct {
+    uint32_t c, mark;
+} cell;
+
+/* What is to be drawn: a box by its left end and its baseline. */
+typedef struct {
+    uint32_t box;
+    size_t x, y;
+} task;
+
+typedef struct {
+    const qdot_boxes *boxes;
+    cell *grid; /* [rows x columns] */
+    size_t columns, rows;
+    qdot_vec(task) todo;
+    qdot_status status;
+} canvas;
+
+static void
+put(canvas *c, size_t x, size_t y, uint32_t character)
+{
+    if (x < c->columns && y < c->rows)
+        c->grid[y * c->columns + x].c = character;
+}
+
+static void
+later(canvas *c, uint32_t box, size_t x, size_t y)
+{
+    const task t = {box, x, y};
+
+    if (c->status == QDOT_OK)
+        c->status = qdot_vec_push(&c->todo, t);
+}
+
+static const qdot_box *
+box_at(const canvas *c, uint32_t i)
+{
+    return c->boxes->box.at + i;
+}
+
+static void
+draw_text(canvas *c, const char *text, size_t bytes, size_t x, size_t y)
+{
+    for (size_t i = 0, n; i < bytes; i += n > 0 ? n : 1) {
+        const uint32_t character = qdot_utf8_decode(text + i, &n);
+
+        if (qdot_utf8_columns(text + i, n) > 0)
+            put(c, x++, y, character);
+        else if (x > 0 && x - 1 < c->columns && y < c->rows)
+            c->grid[y * c->columns + x - 1].mark = character;
+    }
+}
+
+/* A bracket as high as its row: its upper end, what goes on, its lower end, its middle. */
+static void
+draw_bracket(canvas *c, const qdot_box *b, size_t x, size_t y)
+{
+    static const struct {
+        const char *sign;
+        uint32_t top, on, bottom, middle;
+    } tall[] = {{"(", 0x239B, 0x239C, 0x239D, 0x239C}, {")", 0x239E, 0x239F, 0x23A0, 0x239F},
+                {"[", 0x23A1, 0x23A2, 0x23A3, 0x23A2}, {"]", 0x23A4, 0x23A5, 0x23A6, 0x23A5},
+                {"{", 0x23A7, 0x23AA, 0x23A9, 0x23A8}, {"|", 0x2502, 0x2502, 0x2502, 0x2502},
+                {"⌊", 0x23A2, 0x23A2, 0x23A3, 0x23A2}, {"⌋", 0x23A5, 0x23A5, 0x23A6, 0x23A5}};
+    const char *text = c->boxes->text.at + b->first;
+    const size_t height = qdot_box_height(b), first = y - b->above;
+
+    for (size_t i = 0; i < sizeof tall / sizeof *tall; i++) {
+        if (strlen(tall[i].sign) != b->count || memcmp(tall[i].sign, text, b->count) != 0)
+            continue;
+        for (size_t r = 0; r < height; r++)
+            put(c, x, first + r,
+                r == 0            ? tall[i].top
+                : r + 1 == height ? tall[i].bottom
+                : r == height / 2 ? tall[i].middle
+                                  : tall[i].on);
+    }
+}
+
+static void
+draw_fraction(canvas *c, const qdot_box *b, size_t x, size_t y)
+{
+    const uint32_t *of = c->boxes->children.at + b->first;
+    const qdot_box *up = box_at(c, of[0]), *down = box_at(c, of[1]);
+
+    for (size_t i = 0; i < b->columns; i++)
+        put(c, x + i, y, 0x2500);
+    later(c, of[0], x + (b->columns - up->columns) / 2, y - up->below - 1);
+    later(c, of[1], x + (b->columns - down->columns) / 2, y + down->above + 1);
+}
+
+static void
+draw_root(canvas *c, const qdot_box *b, size_t x, size_t y)
+{
+    const uint32_t of = c->boxes->children.at[b->first];
+    const qdot_box *under = box_at(c, of);
+    const size_t sign = qdot_box_root_sign(under), height = qdot_box_height(under);
+
+    for (size_t i = height > 1 ? sign - 1 : sign; i < b->columns; i++)
+        put(c, x + i, y - under->above - 1, '_');
+    if (height == 1) {
+        put(c, x, y, 0x221A);
+    } else {
+        put(c, x, y + under->below, 0x2572);
+        for (size_t r = 0; r < height; r++)
+            put(c, x + 1 + r, y + under->below - r, 0x2571);
+    }
+    later(c, of, x + sign, y);
+}
+
+static void
+draw_script(canvas *c, const qdot_box *b, size_t x, size_t y)
+{
+    const uint32_t *of = c->boxes->children.at + b->first;
+    const qdot_box *base = box_at(c, of[0]), *script = box_at(c, of[1]);
+
+    later(c, of[0], x, y);
+    later(c, of[1], x + base->columns,
+          b->kind == QDOT_BOX_SUB ? y + base->below + 1 + script->above
+                                  : y - base->above - (base->above == 0) - script->below);
+}
+
+static void
+draw_table(canvas *c, const qdot_box *b, size_t x, size_t y)
+{
+    const uint32_t *of = c->boxes->children.at + b->first;
+    const uint32_t rows = b->count / b->across;
+
+    for (uint32_t j = 0; j < b->across; j++) {
+        size_t at = y - b->above, widest = 0;
+
+        for (uint32_t i = 0; i < rows; i++)
+            if (box_at(c, of[i * b->across + j])->columns > widest)
+                widest = box_at(c, of[i * b->across + j])->columns;
+        for (uint32_t i = 0; i < rows; i++) {
+            const qdot_box *own = box_at(c, of[i * b->across + j]);
+            uint32_t above = 0, below = 0;
+
+            for (uint32_t k = 0; k < b->across; k++) {
+                const qdot_box *other = box_at(c, of[i * b->across + k]);
+
+                above = other->above > above ? other->above : above;
+                below = other->below > below ? other->below : below;
+            }
+            at += above + (i > 0 && above > 0);
+            later(c, of[i * b->across + j], x + (widest - own->columns) / 2, at);
+            at += below + 1;
+        }
+        x += widest + QDOT_BOX_GAP;
+    }
+}
+
+static void
+draw_row(canvas *c, const qdot_box *b, size_t x, size_t y)
+{
+    for (uint32_t k = 0; k < b->count; k++) {
+        const uint32_t child = c->boxes->children.at[b->first + k];
+
+        later(c, child, x, y);
+        x += box_at(c, child)->columns;
+    }
+}
+
+static void
+draw(canvas *c, task t)
+{
+    const qdot_box *b = box_at(c, t.box);
+
+    switch (b->kind) {
+    case QDOT_BOX_TEXT:
+        if (b->above + b->below > 0)
+            draw_bracket(c, b, t.x, t.y);
+        else
+            draw_text(c, c->boxes->text.at + b->first, b->count, t.x, t.y);
+        break;
+    case QDOT_BOX_ROW: draw_row(c, b, t.x, t.y); break;
+    case QDOT_BOX_FRACTION: draw_fraction(c, b, t.x, t.y); break;
+    case QDOT_BOX_ROOT: draw_root(c, b, t.x, t.y); break;
+    case QDOT_BOX_TABLE: draw_table(c, b, t.x, t.y); break;
+    default: draw_script(c, b, t.x, t.y);
+    }
+}
+
+static void
+add_character(qdot_text *out, uint32_t c)
+{
+    if (c < 0x80) {
+        qdot_text_char(out, (char)(c != 0 ? c : ' '));
+        return;
+    }
+    if (c < 0x800) {
+        qdot_text_char(out, (char)(0xC0 | c >> 6));
+    } else if (c < 0x10000) {
+        qdot_text_char(out, (char)(0xE0 | c >> 12));
+        qdot_text_char(out, (char)(0x80 | (c >> 6 & 0x3F)));
+    } else {
+        qdot_text_char(out, (char)(0xF0 | c >> 18));
+        qdot_text_char(out, (char)(0x80 | (c >> 12 & 0x3F)));
+        qdot_text_char(out, (char)(0x80 | (c >> 6 & 0x3F)));
+    }
+    qdot_text_char(out, (char)(0x80 | (c & 0x3F)));
+}
+
+/* Lines without the spaces at their ends. */
+static void
+write_grid(const canvas *c, qdot_text *out)
+{
+    for (size_t y = 0; y < c->rows; y++) {
+        const cell *row = c->grid + y * c->columns;
+        size_t n = c->columns;
+
+        while (n > 0 && (row[n - 1].c == 0 || row[n - 1].c == ' '))
+            n--;
+        for (size_t x = 0; x < n; x++) {
+            add_character(out, row[x].c);
+            if (row[x].mark != 0)
+                add_character(out, row[x].mark);
+        }
+        qdot_text_char(out, '\n');
+    }
+}
+
+qdot_status
+qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, qdot_text *out,
+               size_t *lines)
+{
+    canvas c = {.boxes = boxes};
+    size_t above = 0, below = 0;
+    qdot_status status;
+
+    for (size_t i = 0; i < n; i++) {
+        const qdot_box *b = boxes->box.at + items[i].box;
+
+        if (items[i].x + b->columns > c.columns)
+            c.columns = items[i].x + b->columns;
+        above = b->above > above ? b->above : above;
+        below = b->below > below ? b->below : below;
+    }
+    c.rows = above + 1 + below;
+    if (c.columns > SIZE_MAX / sizeof *c.grid / c.rows)
+        return qdot_fail(QDOT_ELIMIT, "the formula is too large to be laid out");
+    c.grid = qdot_calloc(c.rows * c.columns + 1, sizeof *c.grid);
+    if (!c.grid)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        later(&c, items[i].box, items[i].x, above);
+        while (c.status == QDOT_OK && c.todo.n > 0)
+            draw(&c, c.todo.at[--c.todo.n]);
+    }
+    if (c.status == QDOT_OK)
+        write_grid(&c, out);
+    *lines += c.rows;
+    status = c.status;
+    qdot_free(c.grid);
+    qdot_free(c.todo.at);
+    return status != QDOT_OK ? status : qdot_text_status(out);
+}

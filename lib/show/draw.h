@@ -1,0 +1,21 @@
+/* draw.h -- boxes drawn into lines of characters. Internal to show/.
+ *
+ * Tests  tests/show/test_layout.c
+ */
+#ifndef QDOT_SHOW_DRAW_H
+#define QDOT_SHOW_DRAW_H
+
+#include "show/box.h"
+
+/* A box and the column that it begins at. */
+typedef struct {
+    uint32_t box;
+    size_t x;
+} qdot_draw_item;
+
+/* Append boxes [n] beside each other on one baseline, as many lines as they are high; *lines grows
+ * by these. Errors: QDOT_ENOMEM, QDOT_ELIMIT. */
+QDOT_MUST_CHECK qdot_status qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items,
+                                           size_t n, qdot_text *out, size_t *lines);
+
+#endif

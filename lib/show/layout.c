@@ -1,0 +1,310 @@
+/* layout.c -- a formula as a sequence of boxes, and where its lines are broken. */
+#include "show/layout.h"
+
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/utf8.h"
+#include "show/draw.h"
+
+/* A line is rather broken earlier, by these parts of its length, than one bracket deeper, between
+ * factors, before a sign and not a relation. */
+static const double deeper = 0.35, between_factors = 0.55, before_sign = 0.15;
+
+/* Of lines that follow, where no relation gives one; the least that is left for what stands there. */
+enum { usual_indent = 4, least_room = 16 };
+
+/* A box that is not broken, in so many brackets. */
+typedef struct {
+    uint32_t box, depth;
+} item;
+
+typedef struct {
+    qdot_boxes boxes;
+    size_t width, indent;
+    qdot_vec(item) todo;  /* a stack */
+    qdot_vec(item) items; /* in reading order */
+    qdot_vec(qdot_draw_item) line;
+    qdot_status status;
+} layout;
+
+static const qdot_box *
+box_of(const layout *l, uint32_t box)
+{
+    return l->boxes.box.at + box;
+}
+
+/* --- parts of what is too wide ---------------------------------------------------------------- */
+
+/* What is pushed last stands first. */
+static void
+push(layout *l, uint32_t box, uint32_t depth)
+{
+    const item x = {box, depth};
+
+    if (l->status == QDOT_OK)
+        l->status = qdot_vec_push(&l->todo, x);
+}
+
+static void
+push_text(layout *l, const char *text, qdot_box_role role, uint32_t depth)
+{
+    qdot_box x = {.kind = QDOT_BOX_TEXT, .role = (uint8_t)role};
+
+    x.first = (uint32_t)l->boxes.text.n;
+    x.count = (uint32_t)strlen(text);
+    x.columns = (uint32_t)qdot_utf8_columns(text, x.count);
+    qdot_text_add(&l->boxes.text, text);
+    if (l->status == QDOT_OK)
+        l->status = qdot_text_status(&l->boxes.text);
+    if (l->status == QDOT_OK)
+        l->status = qdot_vec_push(&l->boxes.box, x);
+    if (l->status == QDOT_OK)
+        push(l, (uint32_t)(l->boxes.box.n - 1), depth);
+}
+
+/* In brackets, unless it is a name. */
+static void
+push_bracketed(layout *l, uint32_t box, uint32_t depth)
+{
+    const bool name = box_of(l, box)->kind == QDOT_BOX_TEXT;
+
+    if (!name)
+        push_text(l, ")", QDOT_BOX_CLOSING, depth);
+    push(l, box, depth + !name);
+    if (!name)
+        push_text(l, "(", QDOT_BOX_OPENING, depth);
+}
+
+/* Its brackets are those of a line. */
+static void
+push_row(layout *l, const qdot_box *row, uint32_t depth)
+{
+    uint32_t inside = 0;
+
+    for (uint32_t k = row->count; k-- > 0;) {
+        const uint32_t child = l->boxes.children.at[row->first + k];
+        qdot_box *x = l->boxes.box.at + child;
+        const bool bracket = x->kind == QDOT_BOX_TEXT &&
+                             (x->role == QDOT_BOX_OPENING || x->role == QDOT_BOX_CLOSING);
+
+        if (bracket) {
+            x->above = x->below = 0;
+            inside = x->role == QDOT_BOX_CLOSING;
+        }
+        push(l, child, depth + (bracket ? 0 : inside));
+    }
+}
+
+static void
+push_table(layout *l, const qdot_box *table, uint32_t depth)
+{
+    for (uint32_t k = table->count; k-- > 0;) {
+        push(l, l->boxes.children.at[table->first + k], depth);
+        if (k > 0)
+            push_text(l, k % table->across > 0 ? ", " : "; ", QDOT_BOX_COMMA, depth);
+    }
+}
+
+static void
+push_parts(layout *l, qdot_box x, uint32_t depth)
+{
+    const uint32_t *of = l->boxes.children.at + x.first;
+
+    switch (x.kind) {
+    case QDOT_BOX_ROW: push_row(l, &x, depth); break;
+    case QDOT_BOX_TABLE: push_table(l, &x, depth); break;
+    case QDOT_BOX_ROOT:
+        push_bracketed(l, of[0], depth);
+        push_text(l, "√", QDOT_BOX_NAME, depth);
+        break;
+    default:
+        push_bracketed(l, of[1], depth);
+        push_text(l, x.kind == QDOT_BOX_FRACTION ? "/" : x.kind == QDOT_BOX_SUB ? "_" : "^",
+                  QDOT_BOX_NAME, depth);
+        push_bracketed(l, of[0], depth);
+    }
+}
+
+/* Of lines that follow: behind the first relation, where there is one not far from the left. */
+static size_t
+indent_of(const layout *l)
+{
+    const qdot_box *all = box_of(l, (uint32_t)(l->boxes.box.n - 1));
+    size_t columns = 0;
+
+    for (uint32_t k = 0; k < all->count; k++) {
+        const qdot_box *b = box_of(l, l->boxes.children.at[all->first + k]);
+
+        columns += b->columns;
+        if (columns > l->width / 3)
+            break;
+        if (b->kind == QDOT_BOX_TEXT &&
+            (b->role == QDOT_BOX_RELATION || b->role == QDOT_BOX_COMMA))
+            return columns;
+    }
+    return usual_indent;
+}
+
+/* Whether a box loses more than a line where it is broken: a fraction, a root, a matrix. */
+static bool
+is_drawn(const layout *l, const qdot_box *b)
+{
+    bool table = false;
+
+    for (uint32_t k = 0; b->kind == QDOT_BOX_ROW && k < b->count; k++)
+        table = table || box_of(l, l->boxes.children.at[b->first + k])->kind == QDOT_BOX_TABLE;
+    return b->kind != QDOT_BOX_ROW || table;
+}
+
+/* The formula as boxes that fit into a line. What is drawn may have all of it but the usual
+ * indent. */
+static qdot_status
+take_apart(layout *l)
+{
+    const uint32_t all = (uint32_t)(l->boxes.box.n - 1);
+
+    l->indent = indent_of(l);
+
+    push_row(l, box_of(l, all), 0);
+    while (l->status == QDOT_OK && l->todo.n > 0) {
+        const item x = l->todo.at[--l->todo.n];
+        const qdot_box *b = box_of(l, x.box);
+
+        if (b->kind == QDOT_BOX_TEXT || b->columns <= l->width - l->indent) {
+            l->status = qdot_vec_push(&l->items, x);
+        } else if (is_drawn(l, b) && b->columns <= l->width - usual_indent) {
+            l->indent = usual_indent;
+            l->status = qdot_vec_push(&l->items, x);
+        } else {
+            push_parts(l, *b, x.depth);
+        }
+        if (l->status == QDOT_OK)
+            l->status = qdot_interrupt_check();
+    }
+    return l->status;
+}
+
+/* --- lines ------------------------------------------------------------------------------------ */
+
+static qdot_box_role
+role_of(const layout *l, size_t i)
+{
+    const qdot_box *b = box_of(l, l->items.at[i].box);
+
+    return b->kind == QDOT_BOX_TEXT ? (qdot_box_role)b->role : QDOT_BOX_NAME;
+}
+
+/* Whether a line may begin with item i. */
+static bool
+may_begin(const layout *l, size_t i)
+{
+    switch (role_of(l, i)) {
+    case QDOT_BOX_RELATION:
+    case QDOT_BOX_SIGN:
+    case QDOT_BOX_TIMES: return true;
+    default: return i > 0 && role_of(l, i - 1) == QDOT_BOX_COMMA;
+    }
+}
+
+/* What a break before item i loses, as a part of the line. */
+static double
+loss(const layout *l, size_t i)
+{
+    const qdot_box_role role = role_of(l, i);
+
+    return deeper * l->items.at[i].depth + (role == QDOT_BOX_RELATION ? 0
+                                            : role == QDOT_BOX_SIGN   ? before_sign
+                                                                      : between_factors);
+}
+
+/* Where the line that begins with item `from` in column x ends: the number of its last item and
+ * one. */
+static size_t
+end_of_line(const layout *l, size_t from, size_t x)
+{
+    const double room = (double)l->width - (double)x;
+    size_t columns = 0, best = 0, i = from;
+    double least = 0;
+
+    for (; i < l->items.n; i++) {
+        if (i > from && x + columns > l->indent && may_begin(l, i)) {
+            const double lost = 1 - (double)columns / room + loss(l, i);
+
+            if (best == 0 || lost <= least) {
+                best = i;
+                least = lost;
+            }
+        }
+        columns += box_of(l, l->items.at[i].box)->columns;
+        if (columns > l->width - x && best > 0)
+            return best;
+    }
+    return l->items.n;
+}
+
+/* A sign that begins a line has no space before it; a product is seen there. */
+static qdot_status
+trim_first(layout *l, size_t i)
+{
+    const qdot_box *b = box_of(l, l->items.at[i].box);
+    const uint32_t depth = l->items.at[i].depth;
+    const qdot_box_role role = role_of(l, i);
+    qdot_text rest = {0};
+
+    if (role == QDOT_BOX_TIMES)
+        qdot_text_add(&rest, "·");
+    else if (b->kind == QDOT_BOX_TEXT && l->boxes.text.at[b->first] == ' ')
+        qdot_text_add_n(&rest, l->boxes.text.at + b->first + 1, b->count - 1);
+    else
+        return QDOT_OK;
+    l->status = qdot_text_status(&rest);
+    if (l->status == QDOT_OK)
+        push_text(l, rest.at, role, depth);
+    qdot_text_clear(&rest);
+    if (l->status == QDOT_OK)
+        l->items.at[i] = l->todo.at[--l->todo.n];
+    return l->status;
+}
+
+static qdot_status
+write_lines(layout *l, qdot_text *out, qdot_layout_size *size)
+{
+    for (size_t from = 0, end; from < l->items.n; from = end) {
+        size_t x = from > 0 ? l->indent : 0;
+
+        if (from > 0)
+            QDOT_TRY(trim_first(l, from));
+        end = end_of_line(l, from, x);
+        l->line.n = 0;
+        for (size_t i = from; i < end; i++) {
+            const qdot_draw_item at = {l->items.at[i].box, x};
+
+            QDOT_TRY(qdot_vec_push(&l->line, at));
+            x += box_of(l, at.box)->columns;
+        }
+        if (x > size->columns)
+            size->columns = x;
+        QDOT_TRY(qdot_draw_line(&l->boxes, l->line.at, l->line.n, out, &size->lines));
+        QDOT_TRY(qdot_interrupt_check());
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_layout(const char *mathml, size_t width, qdot_text *out, qdot_layout_size *size)
+{
+    layout l = {.width = width < least_room ? least_room : width};
+    qdot_layout_size own = {0};
+    qdot_status status = qdot_boxes_read(mathml, &l.boxes);
+
+    if (status == QDOT_OK)
+        status = take_apart(&l);
+    if (status == QDOT_OK)
+        status = write_lines(&l, out, size ? size : &own);
+    qdot_boxes_clear(&l.boxes);
+    qdot_free(l.todo.at);
+    qdot_free(l.items.at);
+    qdot_free(l.line.at);
+    return status;
+}
