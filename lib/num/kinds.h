@@ -34,20 +34,7 @@ void qdot_kind_limit(size_t kind);
 size_t qdot_kind_most(void);
 
 /* Whether the processor at hand is of a kind, and that is within the limit. */
-static inline bool
-qdot_kind_is_here(size_t kind)
-{
-    if (kind > qdot_kind_most())
-        return false;
-    switch (kind) {
-    case 0: return true;
-#ifdef QDOT_X86_KINDS
-    case 1: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    case 2: return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
-#endif
-    default: return false;
-    }
-}
+bool qdot_kind_is_here(size_t kind);
 
 /* a b + c for portable kernels, of numbers and of vectors: fused where the machine that is compiled
  * for always does that in one instruction (ARM64), and two roundings elsewhere. */
