@@ -11,7 +11,7 @@ struct slot {
 };
 
 struct qdot_printed {
-    struct slot slot[SLOTS];
+    struct slot *slot; /* [SLOTS], 64 kB; NULL: nothing was kept yet */
     qdot_text text;
 };
 
@@ -27,6 +27,7 @@ qdot_printed_free(qdot_printed *printed)
     if (printed == NULL)
         return;
     qdot_text_clear(&printed->text);
+    qdot_free(printed->slot);
     qdot_free(printed);
 }
 
@@ -34,7 +35,7 @@ void
 qdot_printed_forget(qdot_printed *printed)
 {
     qdot_text_truncate(&printed->text, 0);
-    for (size_t i = 0; i < SLOTS; i++)
+    for (size_t i = 0; printed->slot != NULL && i < SLOTS; i++)
         printed->slot[i].e = QDOT_NIL;
 }
 
@@ -47,9 +48,9 @@ place(qdot_expr e, uint32_t how)
 bool
 qdot_printed_copy(const qdot_printed *printed, qdot_expr e, uint32_t how, qdot_text *out)
 {
-    const struct slot *s = &printed->slot[place(e, how)];
+    const struct slot *s = printed->slot == NULL ? NULL : &printed->slot[place(e, how)];
 
-    if (s->e != e || s->how != how)
+    if (s == NULL || s->e != e || s->how != how)
         return false;
     qdot_text_add_n(out, printed->text.at + s->at, s->n);
     return true;
@@ -63,6 +64,10 @@ qdot_printed_keep(qdot_printed *p, qdot_expr e, uint32_t how, const qdot_text *o
     QDOT_TRY(qdot_text_status(out));
     if (n < SHORTEST || n > LONGEST)
         return QDOT_OK;
+    if (p->slot == NULL)
+        p->slot = qdot_calloc(SLOTS, sizeof *p->slot);
+    if (p->slot == NULL)
+        return QDOT_ENOMEM;
     if (p->text.n + n > MOST)
         qdot_printed_forget(p);
     qdot_text_add_n(&p->text, out->at + from, n);

@@ -294,6 +294,18 @@ qdot_x86_repeat(qdot_x86 *x, int times)
     return x->bytes.n;
 }
 
+size_t
+qdot_x86_repeat_as(qdot_x86 *x, qdot_x86_rm times)
+{
+    unsigned char *start = room(x), *at = start;
+
+    *at++ = 0x8b; /* mov ecx, times */
+    *at++ = (unsigned char)(0x88 | times.reg);
+    at = little_endian(at, (uint32_t)times.offset);
+    written(x, start, at);
+    return x->bytes.n;
+}
+
 void
 qdot_x86_again(qdot_x86 *x, size_t from)
 {

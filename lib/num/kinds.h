@@ -33,21 +33,8 @@
 void qdot_kind_limit(size_t kind);
 size_t qdot_kind_most(void);
 
-/* Whether this processor can run a kind that is within the limit. */
-static inline bool
-qdot_kind_is_here(size_t kind)
-{
-    if (kind > qdot_kind_most())
-        return false;
-    switch (kind) {
-    case 0: return true;
-#ifdef QDOT_X86_KINDS
-    case 1: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    case 2: return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
-#endif
-    default: return false;
-    }
-}
+/* Whether the processor at hand is of a kind, and that is within the limit. */
+bool qdot_kind_is_here(size_t kind);
 
 /* a b + c for portable kernels, for numbers and for vectors: fused if the target always has an
  * instruction for it (ARM64), else with two roundings. */

@@ -2,6 +2,7 @@
 #include "series/taylor-code.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
 #include "series/taylor-generator.h"
@@ -41,10 +42,81 @@ most(int a, int b)
     return a > b ? a : b;
 }
 
-static int
-blocks_of(const qdot_generator *g, int n)
+static qdot_taylor_loops
+loops_of(const qdot_generator *g)
 {
-    return (n + g->lanes - 1) / g->lanes;
+    return (qdot_taylor_loops){g->lanes, g->lag, g->as_they_stand, g->x.narrow};
+}
+
+static int
+blocks_of(const qdot_taylor_loops *l, int n)
+{
+    return (n + l->lanes - 1) / l->lanes;
+}
+
+/* Vectors of a sum at most, of an expansion to order n. */
+static int
+most_blocks(const qdot_taylor_loops *l, int n)
+{
+    return blocks_of(l, most(n / 2 + 1 - l->lag, 1));
+}
+
+/* What adding order m takes. Rows as they stand go on beyond half of the orders, where all
+ * their lanes are known: what those beyond it make is of no order that is wanted. Narrow vectors go
+ * on like that to the end: loops with fewer of them would take longer to be fetched, each for the
+ * few orders that it is for, than the vectors that they save. */
+static qdot_code_phase
+phase_of(const qdot_taylor_loops *l, int n, int m)
+{
+    const int all = most_blocks(l, n);
+    int blocks;
+
+    if (l->narrow)
+        m = least(m, n / 2);
+    if (m <= n / 2)
+        return (qdot_code_phase){.blocks = blocks_of(l, m + 1 - l->lag),
+                                 .inserted = (m - l->lag) / l->lanes};
+    blocks = least(all, blocks_of(l, n - m + 2 - l->lag));
+    return (qdot_code_phase){.blocks = blocks,
+                             .inserted = l->as_they_stand && blocks == all ? blocks - 1 : -1};
+}
+
+static bool
+is_same_phase(const qdot_code_phase *a, const qdot_code_phase *b)
+{
+    return a->blocks == b->blocks && a->inserted == b->inserted;
+}
+
+/* The loops of an expansion to order n, QDOT_CODE_PHASES at most. */
+static int
+find_phases(const qdot_taylor_loops *l, int n, qdot_code_phase *phases)
+{
+    int count = 0;
+
+    for (int m = l->lag; m <= n - l->lag; m++) {
+        const qdot_code_phase p = phase_of(l, n, m);
+
+        if (count == 0 || !is_same_phase(&p, phases + count - 1))
+            phases[count++] = p;
+        phases[count - 1].orders++;
+    }
+    return count;
+}
+
+/* Whether the code of either order differs by nothing but how often loops are run. */
+static bool
+is_same_code(const qdot_taylor_loops *l, int n, int other)
+{
+    qdot_code_phase of[2][QDOT_CODE_PHASES];
+    const int count = find_phases(l, n, of[0]);
+
+    if (count == 0 || count != find_phases(l, other, of[1]) ||
+        (n >= QDOT_TAYLOR_EXACT_FROM) != (other >= QDOT_TAYLOR_EXACT_FROM))
+        return false;
+    for (int i = 0; i < count; i++)
+        if (!is_same_phase(of[0] + i, of[1] + i))
+            return false;
+    return true;
 }
 
 /* --- what there is ------------------------------------------------------------------ */
@@ -163,6 +235,7 @@ static void
 choose_layout(qdot_generator *g)
 {
     const bool narrow = g->x.narrow, few = g->sums.n < few_sums;
+    qdot_taylor_loops loops;
 
     g->lanes = qdot_x86_lanes(&g->x);
     g->lag = few && !narrow ? 2 : 1;
@@ -170,8 +243,9 @@ choose_layout(qdot_generator *g)
     g->first_scalar = narrow ? QDOT_VECTOR_FREE_NARROW : QDOT_VECTOR_FREE;
     g->behind_scalars = least(g->first_scalar + (narrow && few ? few_scalars : scalars),
                               qdot_x86_registers(&g->x));
-    g->blocks = blocks_of(g, most(g->n / 2 + 1 - g->lag, 1));
     g->as_they_stand = qdot_code_rows_as_they_stand(g);
+    loops = loops_of(g);
+    g->blocks = most_blocks(&loops, g->n);
 }
 
 /* Registers from the last one down, first for what every order needs; places in memory for
@@ -280,12 +354,12 @@ emit_body(qdot_generator *g, const qdot_code_phase *p)
 /* Orders k = m + lag for the m of a phase. What waits for what is known from an order to the
  * next: it is written twice, and the second stays. */
 static void
-emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *before)
+emit_phase(qdot_generator *g, const qdot_code_phase *p, int number)
 {
     size_t from;
 
     qdot_code_begin_phase(g, p);
-    look_back(g, before->orders > 0 ? 1 : 2 * g->lag);
+    look_back(g, number > 0 ? 1 : 2 * g->lag);
     g->k = QDOT_CODE_ANY;
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted >= 0 &&
                p->inserted * g->lanes < QDOT_CODE_LANES;
@@ -297,7 +371,7 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *b
         g->x.bytes.n = from;
     }
     forget(g);
-    from = qdot_x86_repeat(&g->x, p->orders);
+    from = qdot_x86_repeat_as(&g->x, qdot_code_work(QDOT_CODE_COUNTS + (size_t)number));
     emit_body(g, p);
     qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_R8, 8);
     qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_R9, 8);
@@ -305,47 +379,13 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, const qdot_code_phase *b
     qdot_x86_again(&g->x, from);
 }
 
-/* What adding order m takes. Rows as they stand go on beyond half of the orders, where all
- * their lanes are known: what those beyond it make is of no order that is wanted. Narrow vectors go
- * on like that to the end: loops with fewer of them would take longer to be fetched, each for the
- * few orders that it is for, than the vectors that they save. */
-static qdot_code_phase
-phase_of(const qdot_generator *g, int m)
-{
-    int blocks;
-
-    if (g->x.narrow)
-        m = least(m, g->n / 2);
-    if (m <= g->n / 2)
-        return (qdot_code_phase){.blocks = blocks_of(g, m + 1 - g->lag),
-                                 .inserted = (m - g->lag) / g->lanes};
-    blocks = least(g->blocks, blocks_of(g, g->n - m + 2 - g->lag));
-    return (qdot_code_phase){.blocks = blocks,
-                             .inserted = g->as_they_stand && blocks == g->blocks ? blocks - 1
-                                                                                 : -1};
-}
-
-static void
-emit_phases(qdot_generator *g)
-{
-    qdot_code_phase now = {0}, before = {0};
-
-    for (int m = g->lag; m <= g->n - g->lag && g->x.bytes.n <= most_bytes; m++) {
-        const qdot_code_phase p = phase_of(g, m), next = phase_of(g, m + 1);
-
-        now = (qdot_code_phase){p.blocks, p.inserted, now.orders + 1};
-        if (m < g->n - g->lag && next.blocks == p.blocks && next.inserted == p.inserted)
-            continue;
-        emit_phase(g, &now, &before);
-        before = now;
-        now.orders = 0;
-    }
-}
-
 static void
 emit_all(qdot_generator *g)
 {
     const int singly = 2 * g->lag - 1;
+    const qdot_taylor_loops loops = loops_of(g);
+    qdot_code_phase phases[QDOT_CODE_PHASES];
+    int count;
 
     begin_registers(g);
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
@@ -357,7 +397,9 @@ emit_all(qdot_generator *g)
     }
     qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_RDI, 8 * (singly + 1));
     qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_RDX, 8 * (singly + 1));
-    emit_phases(g);
+    count = find_phases(&loops, g->n, phases);
+    for (int i = 0; i < count && g->x.bytes.n <= most_bytes; i++)
+        emit_phase(g, phases + i, i);
     qdot_x86_return(&g->x);
 }
 
@@ -369,9 +411,12 @@ beyond(int n)
 }
 
 static qdot_status
-make_work(qdot_taylor_code *c, size_t doubles)
+make_work(qdot_taylor_code *c)
 {
-    c->allocated = qdot_calloc(doubles + QDOT_CODE_LANES, sizeof(double));
+    qdot_code_phase phases[QDOT_CODE_PHASES];
+    const int count = find_phases(&c->text->loops, c->to, phases);
+
+    c->allocated = qdot_calloc(c->text->doubles + QDOT_CODE_LANES, sizeof(double));
     if (!c->allocated)
         return QDOT_ENOMEM;
     c->work = c->allocated;
@@ -388,6 +433,9 @@ make_work(qdot_taylor_code *c, size_t doubles)
     }
     c->work[QDOT_CODE_INVERSES] = -1;
     memset(c->work + QDOT_CODE_ONES, 0xff, sizeof *c->work);
+    for (int i = 0; i < count; i++)
+        memcpy(c->work + QDOT_CODE_COUNTS + i, &(uint32_t){(uint32_t)phases[i].orders},
+               sizeof(uint32_t));
     return QDOT_OK;
 }
 
@@ -439,6 +487,12 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     emit_all(g);
     text->begin = g->x.bytes.n;
     qdot_code_zero(g);
+    text->loops = loops_of(g);
+    text->from = text->to = g->n;
+    while (text->from > 1 && is_same_code(&text->loops, g->n, text->from - 1))
+        text->from--;
+    while (text->to < QDOT_SERIES_MOST && is_same_code(&text->loops, g->n, text->to + 1))
+        text->to++;
     QDOT_TRY(g->x.status);
     if (g->x.bytes.n > most_bytes)
         *why = "machine code for them would be too long";
@@ -471,6 +525,27 @@ write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **wh
     return status;
 }
 
+/* One that is kept, or (but not if `kept`) is written now. A run and its companions want the same at
+ * once: one writes, the others wait for it. */
+static qdot_status
+find_text(const qdot_taylor *t, int to, bool kept, qdot_taylor_text **text, const char **why)
+{
+    static pthread_mutex_t writing = PTHREAD_MUTEX_INITIALIZER;
+    qdot_status status;
+
+    if (!kept)
+        pthread_mutex_lock(&writing);
+    status = qdot_taylor_text_take(t, to, text);
+    if (status == QDOT_OK && !(*text)->memory && !kept) {
+        status = write_text(t, to, *text, why);
+        if (status == QDOT_OK && !*why)
+            qdot_taylor_text_keep(*text);
+    }
+    if (!kept)
+        pthread_mutex_unlock(&writing);
+    return status;
+}
+
 qdot_status
 qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code **code,
                      const char **why)
@@ -492,14 +567,9 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code *
     if (!c)
         return QDOT_ENOMEM;
     c->to = to;
-    status = qdot_taylor_text_take(t, to, &c->text);
-    if (status == QDOT_OK && !c->text->memory && !kept) {
-        status = write_text(t, to, c->text, why);
-        if (status == QDOT_OK && !*why)
-            qdot_taylor_text_keep(c->text);
-    }
+    status = find_text(t, to, kept, &c->text, why);
     if (status == QDOT_OK && c->text->memory)
-        status = make_work(c, c->text->doubles);
+        status = make_work(c);
     if (status != QDOT_OK || !c->text->memory) {
         qdot_taylor_code_free(c);
         return status;

@@ -22,7 +22,7 @@ enum {
     QDOT_CODE_REGISTERS = 32,
     /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, the two factors of
      * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); a lane whose bits are
-     * all 1; then slots. */
+     * all 1; counts of loops; then slots. */
     QDOT_CODE_TABLE = QDOT_SERIES_MOST + 8,
     QDOT_CODE_INVERSES = 0,
     QDOT_CODE_ORDERS = QDOT_CODE_TABLE,
@@ -32,7 +32,10 @@ enum {
     QDOT_CODE_TWICE_LOW = 5 * QDOT_CODE_TABLE,
     QDOT_CODE_PAIRS = 6 * QDOT_CODE_TABLE,
     QDOT_CODE_ONES = 7 * QDOT_CODE_TABLE,
-    QDOT_CODE_SLOTS = QDOT_CODE_ONES + QDOT_CODE_LANES,
+    /* 32 bits in each double: how often a loop is run. */
+    QDOT_CODE_COUNTS = QDOT_CODE_ONES + QDOT_CODE_LANES,
+    QDOT_CODE_PHASES = (2 * QDOT_CODE_BLOCKS + 7) / 8 * 8,
+    QDOT_CODE_SLOTS = QDOT_CODE_COUNTS + QDOT_CODE_PHASES,
     /* What is written for several orders is written as of this one, and those beside it; a
      * multiple of 4. */
     QDOT_CODE_ANY = 1000,

@@ -31,7 +31,7 @@ static atomic_uint next_place;
 
 /* --- keys --------------------------------------------------------------------------- */
 
-enum { OF_ALL = 10, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
+enum { OF_ALL = 9, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
 
 static uint32_t
 row(const qdot_taylor *t, const double *x)
@@ -88,13 +88,12 @@ put_block(const qdot_taylor *t, const qdot_taylor_block *b, uint32_t *to)
 }
 
 static void
-put_all(const qdot_taylor *t, int orders, uint32_t *to)
+put_all(const qdot_taylor *t, uint32_t *to)
 {
-    const uint32_t words[OF_ALL] = {(uint32_t)orders,     (uint32_t)t->rows,
-                                    (uint32_t)t->stride,  (uint32_t)t->moving,
-                                    (uint32_t)t->still,   (uint32_t)t->length,
-                                    (uint32_t)t->n_links, (uint32_t)t->n_blocks,
-                                    (uint32_t)t->outputs, (uint32_t)qdot_x86_kind()};
+    const uint32_t words[OF_ALL] = {
+        (uint32_t)t->rows,    (uint32_t)t->stride,  (uint32_t)t->moving,
+        (uint32_t)t->still,   (uint32_t)t->length,  (uint32_t)t->n_links,
+        (uint32_t)t->n_blocks, (uint32_t)t->outputs, (uint32_t)qdot_x86_kind()};
 
     memcpy(to, words, sizeof words);
     to += OF_ALL;
@@ -122,9 +121,9 @@ qdot_taylor_text_give(qdot_taylor_text *text)
     qdot_free(text);
 }
 
-/* What is kept under a key, used once more; NULL. */
+/* What is kept under a key and serves that order, used once more; NULL. */
 static qdot_taylor_text *
-find(const uint32_t *key, size_t length)
+find(const uint32_t *key, size_t length, int order)
 {
     for (size_t i = 0; i < kept; i++) {
         qdot_taylor_text *text = atomic_exchange(shelf + i, NULL), *none = NULL;
@@ -132,8 +131,8 @@ find(const uint32_t *key, size_t length)
 
         if (!text)
             continue;
-        found =
-            text->length == length && memcmp(text->key, key, length * sizeof *key) == 0;
+        found = text->from <= order && order <= text->to && text->length == length &&
+                memcmp(text->key, key, length * sizeof *key) == 0;
         if (found)
             atomic_fetch_add(&text->users, 1);
         if (!atomic_compare_exchange_strong(shelf + i, &none, text))
@@ -145,7 +144,7 @@ find(const uint32_t *key, size_t length)
 }
 
 qdot_status
-qdot_taylor_text_take(const qdot_taylor *t, int to, qdot_taylor_text **text)
+qdot_taylor_text_take(const qdot_taylor *t, int order, qdot_taylor_text **text)
 {
     const size_t length = length_of_key(t);
     qdot_taylor_text *empty = qdot_calloc(1, sizeof *empty);
@@ -160,8 +159,8 @@ qdot_taylor_text_take(const qdot_taylor *t, int to, qdot_taylor_text **text)
         qdot_taylor_text_give(empty);
         return QDOT_ENOMEM;
     }
-    put_all(t, to, empty->key);
-    *text = find(empty->key, length);
+    put_all(t, empty->key);
+    *text = find(empty->key, length, order);
     if (*text)
         qdot_taylor_text_give(empty);
     else

@@ -1,9 +1,11 @@
 /* taylor-text.h -- machine code of a Taylor program as memory: written once, run by all programs
  * of the same shape. Internal to series/.
  *
- * Code depends on the operations of a program, on what they read and write, and on its order, not
- * on any number (taylor-code.h). Runs of a scene, of a sweep, and pieces between events want the
- * same again and again: the last few that were written are kept. Any thread may take and give.
+ * Code depends on the operations of a program and on what they read and write, not on any number
+ * (taylor-code.h), nor on the order but by how many vectors a sum has: how often each loop is run
+ * stands in the work space. Runs of a scene, their companions, runs of a sweep, and pieces between
+ * events want the same again and again: the last few that were written are kept. Any thread may take
+ * and give.
  *
  * Tests  tests/series/test_taylor-code.c
  */
@@ -14,20 +16,28 @@
 
 #include "series/taylor-steps.h"
 
+/* What divides the orders of an expansion among loops (taylor-code.c). */
+typedef struct {
+    int lanes, lag;
+    bool as_they_stand, narrow;
+} qdot_taylor_loops;
+
 typedef struct {
     uint32_t *key; /* [length] */
     size_t length;
     void *memory;
     size_t size, used; /* bytes: of the memory, of the code */
     size_t begin;      /* where the function of order 0 is in it */
+    qdot_taylor_loops loops;
+    int from, to; /* expansions to these orders and those between have the same loops */
     size_t doubles;    /* of work space that it wants */
     uint32_t *blocks;  /* [blocks] where there it has their matrices */
     atomic_uint users;
 } qdot_taylor_text;
 
-/* Of orders 1 ... to of a program: one that is kept, its `memory` there, to be read only, or an
+/* Of orders 1 ... order of a program: one that is kept, its `memory` there, to be read only, or an
  * empty one that has the key alone. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_text_take(const qdot_taylor *t, int to,
+QDOT_MUST_CHECK qdot_status qdot_taylor_text_take(const qdot_taylor *t, int order,
                                                   qdot_taylor_text **text);
 /* Fill an empty one. Memory is written or run, never both. False: the system does not let it
  * be run. */

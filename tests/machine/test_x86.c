@@ -103,6 +103,7 @@ loops_have_theirs(void **state)
     static const unsigned char bytes[] = {
         0x4c, 0x8d, 0x87, 0x20, 0,    0,    0,    /* lea 0x20(%rdi),%r8 */
         0x4d, 0x8d, 0x89, 8,    0,    0,    0,    /* lea 8(%r9),%r9 */
+        0x8b, 0x8a, 0x40, 1,    0,    0,          /* mov 0x140(%rdx),%ecx */
         0xb9, 7,    0,    0,    0,                /* mov $7,%ecx */
         0xc5, 0xec, 0x45, 0xd1,                   /* korw %k1,%k2,%k2 */
         0xc4, 0xe3, 0xf9, 0x32, 0xc9, 1,          /* kshiftlw $1,%k1,%k1 */
@@ -115,6 +116,7 @@ loops_have_theirs(void **state)
     (void)state;
     qdot_x86_address(&x, QDOT_X86_R8, QDOT_X86_RDI, 0x20);
     qdot_x86_address(&x, QDOT_X86_R9, QDOT_X86_R9, 8);
+    qdot_x86_repeat_as(&x, qdot_x86_at(QDOT_X86_RDX, 0x140));
     from = qdot_x86_repeat(&x, 7);
     qdot_x86_join_masks(&x, 2, 1);
     qdot_x86_raise_mask(&x, 1);

@@ -377,6 +377,41 @@ kept_code_agrees(void **state)
     qdot_pool_free(pool);
 }
 
+/* What was written for one order serves those whose loops are the same, the others not. */
+static void
+orders_share_code(void **state)
+{
+    enum { WRITTEN = 37, BESIDE = 36, FAR = 12 };
+    scene f;
+    qdot_expr out[2];
+    qdot_tape *tape;
+    qdot_taylor *of[3];
+
+    (void)state;
+    begin(&f);
+    out[0] = qdot_fun1(f.pool, QDOT_SIN, qdot_mul(f.pool, f.in[Q], f.in[V]));
+    out[1] = qdot_mul(f.pool, out[0], f.within);
+    assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, 2, out, &tape), QDOT_OK);
+    of[0] = linked(tape, WRITTEN, true);
+    for (int to = BESIDE; to > 0; to -= BESIDE - FAR) {
+        qdot_taylor *other = linked(tape, to, false);
+
+        assert_int_equal(qdot_taylor_take_kept(other, to), to == BESIDE && qdot_x86_kind() > 0);
+        qdot_taylor_free(other);
+    }
+    qdot_taylor_free(of[0]);
+    for (int to = MOST; to > 0; to--) {
+        for (int l = 0; l < 3; l++)
+            of[l] = linked(tape, to, l == 0);
+        expand(of, to, 2);
+        compare(of, to, "from the highest order down");
+        for (int l = 0; l < 3; l++)
+            qdot_taylor_free(of[l]);
+    }
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
 /* --- unknowns ----------------------------------------------------------------------- */
 
 enum { UNKNOWNS = 5, SOLVED = 3 };
@@ -583,6 +618,7 @@ main(void)
         cmocka_unit_test(outputs_are_there),
         cmocka_unit_test(long_programs_agree),
         cmocka_unit_test(kept_code_agrees),
+        cmocka_unit_test(orders_share_code),
         cmocka_unit_test(unknowns_agree),
     };
 

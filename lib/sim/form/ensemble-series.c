@@ -322,11 +322,60 @@ make_solver(qdot_ensemble_series *e, size_t b)
     return s->A && s->inverse && s->x ? QDOT_OK : QDOT_ENOMEM;
 }
 
+/* Nanoseconds for all lanes, as measured with AVX-512; only their ratios matter. */
+static void
+estimate(const qdot_plan *plan, const qdot_motion *motion, double *c)
+{
+    const double convolutions = motion->program.convolutions;
+    const double length = (double)(motion->program.length - motion->program.still);
+
+    c[0] = 300 + 100 * (double)qdot_tape_calls(plan->tape) + 5 * length + 20 * (double)plan->n;
+    c[1] = 2 * length + 3 * convolutions + 10 * (double)plan->n;
+    c[2] = 0.1 * convolutions;
+    for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
+        const double m = (double)(motion->blocks.at[b + 1] - motion->blocks.at[b]);
+
+        c[0] += m * m * m / 6;
+        c[1] += 5 * m + m * m;
+    }
+}
+
+/* The same of machine code: five scenes at orders 8 to 26, to 8 %. */
+static void
+estimate_written(const qdot_plan *plan, const qdot_motion *motion, double *c)
+{
+    const double n = (double)plan->n;
+
+    c[0] = 60 + 60 * n + 60 * (double)qdot_tape_calls(plan->tape);
+    c[1] = 10 * n;
+    c[2] = 0.123 * motion->program.convolutions;
+    for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
+        const double m = (double)(motion->blocks.at[b + 1] - motion->blocks.at[b]);
+
+        c[0] += m * m * m / 6;
+    }
+}
+
+static int
+best_order(const qdot_plan *plan, const qdot_motion *motion, double tol)
+{
+    qdot_ode_series series = {.most = most_order - 4};
+
+    estimate(plan, motion, series.cost);
+    if (qdot_lanes_may_be_code())
+        estimate_written(plan, motion, series.code.cost);
+    /* A few orders beyond the least cost hardly more, and where no pole is near, as of a stiff
+     * spring, steps gain more by an order than its model has them gain. */
+    return qdot_ode_taylor_order(&series, pow(tol, 1.15), false, 0);
+}
+
 static qdot_status
-make(qdot_ensemble_series *e, bool shaken, int most)
+make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
 {
     QDOT_TRY(qdot_motion_of_members(e->plan, &e->motion));
-    QDOT_TRY(qdot_lanes_of_motion(&e->motion, shaken, most, &e->lanes));
+    if (*order == 0)
+        *order = best_order(e->plan, &e->motion, tol);
+    QDOT_TRY(qdot_lanes_of_motion(&e->motion, shaken, *order, &e->lanes));
     if (e->plan->constraints)
         QDOT_TRY(qdot_constrained_lanes_new(e->plan, shaken, &e->held));
     e->stride = qdot_lanes_stride(e->lanes);
@@ -341,11 +390,11 @@ make(qdot_ensemble_series *e, bool shaken, int most)
         return QDOT_ENOMEM;
     for (size_t b = 0; b < e->blocks; b++)
         QDOT_TRY(make_solver(e, b));
-    return write_code(e, most);
+    return write_code(e, *order);
 }
 
 qdot_status
-qdot_ensemble_series_new(const qdot_plan *plan, bool shaken, int most,
+qdot_ensemble_series_new(const qdot_plan *plan, bool shaken, double tol, int *order,
                          qdot_ensemble_series **series)
 {
     qdot_ensemble_series *e = qdot_calloc(1, sizeof *e);
@@ -358,7 +407,7 @@ qdot_ensemble_series_new(const qdot_plan *plan, bool shaken, int most,
     e->numbers = plan->n_states;
     e->n = plan->n - e->numbers;
     e->kernels = qdot_batch_kernels_get();
-    status = make(e, shaken, most);
+    status = make(e, shaken, tol, order);
     if (status != QDOT_OK) {
         qdot_ensemble_series_free(e);
         return status;
@@ -419,55 +468,4 @@ qdot_ensemble_series_system(qdot_ensemble_series *e)
                             .extend = extend,
                             .project = e->held ? project : NULL,
                             .user = e};
-}
-
-/* Nanoseconds for all lanes, as measured with AVX-512; only their ratios matter. */
-static void
-estimate(const qdot_plan *plan, const qdot_motion *motion, double *c)
-{
-    const double convolutions = motion->program.convolutions;
-    const double length = (double)(motion->program.length - motion->program.still);
-
-    c[0] = 300 + 100 * (double)qdot_tape_calls(plan->tape) + 5 * length + 20 * (double)plan->n;
-    c[1] = 2 * length + 3 * convolutions + 10 * (double)plan->n;
-    c[2] = 0.1 * convolutions;
-    for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
-        const double m = (double)(motion->blocks.at[b + 1] - motion->blocks.at[b]);
-
-        c[0] += m * m * m / 6;
-        c[1] += 5 * m + m * m;
-    }
-}
-
-/* The same of machine code: five scenes at orders 8 to 26, to 8 %. */
-static void
-estimate_written(const qdot_plan *plan, const qdot_motion *motion, double *c)
-{
-    const double n = (double)plan->n;
-
-    c[0] = 60 + 60 * n + 60 * (double)qdot_tape_calls(plan->tape);
-    c[1] = 10 * n;
-    c[2] = 0.123 * motion->program.convolutions;
-    for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
-        const double m = (double)(motion->blocks.at[b + 1] - motion->blocks.at[b]);
-
-        c[0] += m * m * m / 6;
-    }
-}
-
-qdot_status
-qdot_ensemble_series_order(const qdot_plan *plan, double tol, int *order)
-{
-    qdot_ode_series series = {.most = most_order - 4};
-    qdot_motion motion;
-
-    QDOT_TRY(qdot_motion_of_members(plan, &motion));
-    estimate(plan, &motion, series.cost);
-    if (qdot_lanes_may_be_code())
-        estimate_written(plan, &motion, series.code.cost);
-    qdot_motion_clear(&motion);
-    /* A few orders beyond the least cost hardly more, and where no pole is near, as of a stiff
-     * spring, steps gain more by an order than its model has them gain. */
-    *order = qdot_ode_taylor_order(&series, pow(tol, 1.15), false, 0);
-    return QDOT_OK;
 }

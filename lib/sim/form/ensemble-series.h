@@ -20,17 +20,15 @@
 
 typedef struct qdot_ensemble_series qdot_ensemble_series; /* one a thread */
 
-/* M q'' = f with constraints, for series to order `most`; shaken as for qdot_bind_new. Plan
- * borrowed. Errors: QDOT_ENOTBUILT (equations that switch), QDOT_ENOMEM. */
+/* M q'' = f with constraints, for series to *order, or if that is 0 to the one that costs least
+ * under tol, which is put there; shaken as for qdot_bind_new. Plan borrowed. Errors: QDOT_ENOTBUILT
+ * (equations that switch), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_series_new(const qdot_plan *plan, bool shaken,
-                                                     int most, qdot_ensemble_series **series);
+                                                     double tol, int *order,
+                                                     qdot_ensemble_series **series);
 void qdot_ensemble_series_free(qdot_ensemble_series *series);
 
 /* Its callbacks; `series` is their user. */
 qdot_ode_batch qdot_ensemble_series_system(qdot_ensemble_series *series);
-
-/* The order for a run under tol, by what an expansion of the lanes costs. */
-QDOT_MUST_CHECK qdot_status qdot_ensemble_series_order(const qdot_plan *plan, double tol,
-                                                       int *order);
 
 #endif

@@ -56,12 +56,6 @@ struct qdot_shifted_lanes {
     qdot_lanes_row *differences; /* [functions] */
 };
 
-bool
-qdot_shifted_lanes_applies(const qdot_plan *plan)
-{
-    return plan->residual && !plan->residual->forces && !plan->indefinite;
-}
-
 /* --- one order ---------------------------------------------------------------------- */
 
 #define BATCH_BODY "sim/form/shifted-lanes.def"
@@ -507,21 +501,53 @@ make(qdot_shifted_lanes *s, bool shaken, int most)
     return write_code(s, most);
 }
 
+/* Nanoseconds for all lanes, as measured with AVX-512; only their ratios matter. */
+static qdot_status
+choose_order(const qdot_plan *plan, double tol, int *order)
+{
+    const qdot_residual *r = plan->residual;
+    qdot_ode_series series = {.most = most_order - 4};
+    double *c = series.cost, length, convolutions, n = (double)plan->n;
+    qdot_taylor *taylor;
+
+    QDOT_TRY(qdot_taylor_new(r->places, 0, &taylor));
+    length = (double)qdot_taylor_length(taylor);
+    convolutions = qdot_taylor_convolutions(taylor) + (double)r->n_slopes;
+    qdot_taylor_free(taylor);
+    c[0] = 300 + 100 * (double)qdot_tape_calls(r->places) + 5 * length + 20 * n +
+           2 * (double)qdot_tape_operations(r->masses) + n * n * n / 3;
+    c[1] = 4 * length + 3 * convolutions + 15 * n + n * n +
+           8.0 * (double)(r->functions + r->n_weights);
+    c[2] = 0.1 * convolutions;
+    if (qdot_lanes_may_be_code() && n <= most_solved) {
+        double *w = series.code.cost;
+
+        w[0] = c[0] + 500 + 100 * n;
+        w[1] = 0.2 * c[1];
+        w[2] = 0.2 * convolutions;
+    }
+    *order = qdot_ode_taylor_order(&series, tol, false, 0);
+    return QDOT_OK;
+}
+
 qdot_status
-qdot_shifted_lanes_new(const qdot_plan *plan, bool shaken, int most,
+qdot_shifted_lanes_new(const qdot_plan *plan, bool shaken, double tol, int *order,
                        qdot_shifted_lanes **lanes)
 {
-    qdot_shifted_lanes *s = qdot_calloc(1, sizeof *s);
+    qdot_shifted_lanes *s;
     qdot_status status;
 
     *lanes = NULL;
+    if (*order == 0)
+        QDOT_TRY(choose_order(plan, tol, order));
+    s = qdot_calloc(1, sizeof *s);
     if (!s)
         return QDOT_ENOMEM;
     s->plan = plan;
     s->residual = plan->residual;
     s->kernels = qdot_batch_kernels_get();
     s->orders = kinds[qdot_batch_kind()];
-    status = make(s, shaken, most);
+    status = make(s, shaken, *order);
     if (status != QDOT_OK) {
         qdot_shifted_lanes_free(s);
         return status;
@@ -572,33 +598,4 @@ qdot_shifted_lanes_system(qdot_shifted_lanes *s)
                             .begin = begin,
                             .extend = extend,
                             .user = s};
-}
-
-/* Nanoseconds for all lanes, as measured with AVX-512; only their ratios matter. */
-qdot_status
-qdot_shifted_lanes_order(const qdot_plan *plan, double tol, int *order)
-{
-    const qdot_residual *r = plan->residual;
-    qdot_ode_series series = {.most = most_order - 4};
-    double *c = series.cost, length, convolutions, n = (double)plan->n;
-    qdot_taylor *taylor;
-
-    QDOT_TRY(qdot_taylor_new(r->places, 0, &taylor));
-    length = (double)qdot_taylor_length(taylor);
-    convolutions = qdot_taylor_convolutions(taylor) + (double)r->n_slopes;
-    qdot_taylor_free(taylor);
-    c[0] = 300 + 100 * (double)qdot_tape_calls(r->places) + 5 * length + 20 * n +
-           2 * (double)qdot_tape_operations(r->masses) + n * n * n / 3;
-    c[1] = 4 * length + 3 * convolutions + 15 * n + n * n +
-           8.0 * (double)(r->functions + r->n_weights);
-    c[2] = 0.1 * convolutions;
-    if (qdot_lanes_may_be_code() && n <= most_solved) {
-        double *w = series.code.cost;
-
-        w[0] = c[0] + 500 + 100 * n;
-        w[1] = 0.2 * c[1];
-        w[2] = 0.2 * convolutions;
-    }
-    *order = qdot_ode_taylor_order(&series, tol, false, 0);
-    return QDOT_OK;
 }

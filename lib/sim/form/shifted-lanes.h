@@ -13,19 +13,13 @@
 
 typedef struct qdot_shifted_lanes qdot_shifted_lanes;
 
-/* Whether the plan has the form and no forces that hold velocities. */
-bool qdot_shifted_lanes_applies(const qdot_plan *plan);
-
-/* For series to order `most`; shaken as for qdot_bind_new. Plan borrowed. */
-QDOT_MUST_CHECK qdot_status qdot_shifted_lanes_new(const qdot_plan *plan, bool shaken,
-                                                   int most, qdot_shifted_lanes **lanes);
+/* Of a plan for lanes that has a residual; borrowed. For series to *order, or if that is 0 to the
+ * one that costs least under tol, which is put there; shaken as for qdot_bind_new. */
+QDOT_MUST_CHECK qdot_status qdot_shifted_lanes_new(const qdot_plan *plan, bool shaken, double tol,
+                                                   int *order, qdot_shifted_lanes **lanes);
 void qdot_shifted_lanes_free(qdot_shifted_lanes *lanes);
 
 /* Its callbacks; `lanes` is their user. */
 qdot_ode_batch qdot_shifted_lanes_system(qdot_shifted_lanes *lanes);
-
-/* The order for a run under tol, by what an expansion of the lanes costs. */
-QDOT_MUST_CHECK qdot_status qdot_shifted_lanes_order(const qdot_plan *plan, double tol,
-                                                     int *order);
 
 #endif

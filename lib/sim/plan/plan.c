@@ -144,15 +144,18 @@ derive(qdot_plan *p, qdot_scene *scene)
 /* --- Taylor series ------------------------------------------------------------------ */
 
 /* Whether d'Alembert's form is cheaper: numbers of many digits spend all on convolutions; eight
- * members at once take what kernels do, also as machine code. */
+ * members at once take what kernels do, also as machine code, and know no forces that hold
+ * velocities there. */
 static bool
-is_cheaper(const qdot_plan *p, const qdot_residual_series *series,
+is_cheaper(const qdot_plan *p, const qdot_residual *residual, const qdot_residual_series *series,
            const qdot_run_request *request)
 {
     const double cost = qdot_plan_cost(qdot_residual_series_get(series));
 
     if (request->digits > 0)
         return p->convolutions_residual < p->convolutions_derived;
+    if (request->lanes && (residual->forces || p->indefinite))
+        return false;
     return cost < (request->lanes ? p->cost_of_kernels : p->cost);
 }
 
@@ -177,7 +180,7 @@ choose_form(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         status = qdot_residual_series_new(p, residual, false, &series);
     if (series) {
         p->convolutions_residual = qdot_residual_series_convolutions(series);
-        cheaper = is_cheaper(p, series, request);
+        cheaper = is_cheaper(p, residual, series, request);
     }
     if (cheaper) {
         p->cost = qdot_plan_cost(qdot_residual_series_get(series));
@@ -249,15 +252,48 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (!hindrance)
         hindrance = qdot_program_hindrance(p->constraints->positions);
     QDOT_TRY(check_series(p, hindrance));
-    if (p->smooth)
+    if (p->smooth && !request->lanes)
         QDOT_TRY(find_cost(p));
     /* methods that keep the past have no use for a state moved off it */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
-    if (request->digits > 0)
+    if (request->digits > 0 || request->lanes)
         return QDOT_OK;
     QDOT_TRY(qdot_eliminated_find(p, request->tol));
     return qdot_bordered_find(p, request->tol);
+}
+
+/* --- ensembles ---------------------------------------------------------------------- */
+
+/* Whether coordinates couple whose M may be of any sign. */
+static bool
+is_indefinite(const qdot_plan *p)
+{
+    bool coupled = false;
+
+    for (size_t b = 0; b < p->structure.blocks; b++)
+        coupled |= p->blocks[b].n > 1;
+    return coupled && p->indefinite;
+}
+
+/* Momenta that are kept, where lanes can do that: with none whose velocities may cancel, of which a
+ * plan without a start does not know; else M q'' = f. */
+static qdot_status
+choose_in_lanes(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+{
+    if (p->residual)
+        return QDOT_OK;
+    if (p->n_states == 0)
+        QDOT_TRY(qdot_routh_reduce(p, scene, request));
+    if (p->reduced && !p->reduced->subtracts && !is_indefinite(p->reduced))
+        return QDOT_OK;
+    qdot_plan_free(p->reduced);
+    p->reduced = NULL;
+    if (is_indefinite(p))
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: ensembles of a stated Lagrangian whose coordinates "
+                         "couple");
+    return qdot_plan_lower_for_series(p);
 }
 
 static qdot_status
@@ -280,6 +316,8 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         QDOT_TRY(choose_form(p, scene, request));
     if (request->digits > 0)
         return find_canonical(p, scene);
+    if (request->lanes)
+        return choose_in_lanes(p, scene, request);
     if (qdot_plan_needs_jacobian(p))
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));

@@ -23,10 +23,8 @@ typedef struct {
 } form;
 
 struct qdot_ensemble {
-    qdot_plan *plan;           /* parameters that vary are further coordinates of it */
-    const qdot_plan *reduced;  /* the one with reduced equations; NULL: as it stands */
-    bool residual;             /* or d'Alembert's residual, where that is shorter */
-    qdot_ensemble_momenta *momenta; /* of the reduced one */
+    qdot_plan *plan;                /* parameters that vary are further coordinates of it */
+    qdot_ensemble_momenta *momenta; /* of a plan that is reduced */
     size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
     char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
     size_t n_reasons;
@@ -46,15 +44,16 @@ form_free(form *f)
 static const qdot_plan *
 equations(const qdot_ensemble *e)
 {
-    return e->reduced ? e->reduced : e->plan;
+    return e->plan->reduced ? e->plan->reduced : e->plan;
 }
 
+/* *order as qdot_ensemble_series_new has it. */
 static qdot_status
-form_new(form *f, const qdot_ensemble *e, bool shaken, int order)
+form_new(form *f, const qdot_ensemble *e, bool shaken, int *order)
 {
-    if (e->residual)
-        return qdot_shifted_lanes_new(e->plan, shaken, order, &f->shifted);
-    return qdot_ensemble_series_new(equations(e), shaken, order, &f->series);
+    if (e->plan->residual)
+        return qdot_shifted_lanes_new(e->plan, shaken, e->tol, order, &f->shifted);
+    return qdot_ensemble_series_new(equations(e), shaken, e->tol, order, &f->series);
 }
 
 static void
@@ -117,46 +116,6 @@ check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
     return QDOT_OK;
 }
 
-/* Whether coordinates couple whose M may be of any sign. */
-static bool
-is_indefinite(const qdot_plan *p)
-{
-    for (size_t b = 0; b < p->structure.blocks; b++)
-        if (p->blocks[b].n > 1 && p->indefinite)
-            return true;
-    return false;
-}
-
-/* Whether lanes can use the equations with kept momenta: not if velocities are sums that may
- * cancel, which depends on the start. */
-static bool
-may_be_reduced(const qdot_plan *r)
-{
-    return r && r->smooth && !r->subtracts && !is_indefinite(r);
-}
-
-/* Use the residual form, or kept momenta, if a single run does so too. */
-static qdot_status
-choose_form(qdot_ensemble *e)
-{
-    qdot_plan *p = e->plan;
-
-    if (p->constraints)
-        return QDOT_OK;
-    e->residual = e->varied == 0 && qdot_shifted_lanes_applies(p);
-    if (e->residual)
-        return QDOT_OK;
-    if (e->varied == 0 && may_be_reduced(p->reduced)) {
-        e->reduced = p->reduced;
-        return qdot_ensemble_momenta_new(p->reduced, &e->momenta);
-    }
-    if (is_indefinite(p))
-        return qdot_fail(QDOT_ENOTBUILT,
-                         "not built yet: ensembles of a stated Lagrangian whose coordinates "
-                         "couple");
-    return qdot_plan_lower_for_series(p);
-}
-
 static qdot_status
 make_plan(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
           const qdot_expr *varied)
@@ -183,12 +142,9 @@ make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
     QDOT_TRY(qdot_constant_split(pool, request->t0, &e->t0, &side, &low));
     QDOT_TRY(qdot_constant_split(pool, request->t1, &e->t1, &e->t1_side, &e->t1_low));
     QDOT_TRY(make_plan(e, scene, request, varied));
-    QDOT_TRY(choose_form(e));
-    if (e->residual)
-        QDOT_TRY(qdot_shifted_lanes_order(e->plan, e->tol, &e->order));
-    else
-        QDOT_TRY(qdot_ensemble_series_order(equations(e), e->tol, &e->order));
-    return form_new(&e->members, e, false, e->order);
+    if (e->plan->reduced)
+        QDOT_TRY(qdot_ensemble_momenta_new(e->plan->reduced, &e->momenta));
+    return form_new(&e->members, e, false, &e->order);
 }
 
 qdot_status
@@ -246,7 +202,7 @@ width(const qdot_ensemble *e)
 static size_t
 n_kept(const qdot_ensemble *e)
 {
-    return e->reduced ? e->reduced->n_kept : 0;
+    return equations(e)->n_kept;
 }
 
 /* x [n], or their neighbours where they are to be moved; the first is number `at` of its kind. */
@@ -308,7 +264,7 @@ make_companions(qdot_ensemble *e, int order)
 {
     if (e->companions.series || e->companions.shifted)
         return QDOT_OK;
-    return form_new(&e->companions, e, true, order);
+    return form_new(&e->companions, e, true, &order);
 }
 
 /* Replace velocities that follow from kept momenta by these. A member whose momenta are undefined
@@ -318,14 +274,14 @@ enter(const qdot_ensemble *e, pass *p)
 {
     const size_t n = e->n, kept = n_kept(e);
 
-    for (size_t m = 0; e->reduced && m < p->run.members; m++) {
+    for (size_t m = 0; e->momenta && m < p->run.members; m++) {
         double *y = p->run.y + m * width(e);
         const bool finite = qdot_ensemble_momenta_enter(e->momenta, e->t0, y, p->momenta);
 
         if (!finite)
             p->t1[m] = e->t0;
         for (size_t c = 0; c < kept; c++) {
-            double *v = y + n + e->reduced->kept[c];
+            double *v = y + n + equations(e)->kept[c];
 
             p->replaced[m * kept + c] = *v;
             if (finite)
@@ -340,12 +296,12 @@ come_back(const qdot_ensemble *e, pass *p)
 {
     const size_t n = e->n, kept = n_kept(e);
 
-    for (size_t m = 0; e->reduced && m < p->run.members; m++) {
+    for (size_t m = 0; e->momenta && m < p->run.members; m++) {
         qdot_batch_result *r = p->run.results + m;
         double *y = p->run.y + m * width(e);
 
         for (size_t c = 0; c < kept; c++) {
-            double *v = y + n + e->reduced->kept[c];
+            double *v = y + n + equations(e)->kept[c];
 
             p->momenta[c] = *v;
             *v = p->replaced[m * kept + c];
