@@ -265,6 +265,8 @@ library_sources = \
 	lib/ode/whole.c \
 	lib/ode/written.c \
 	lib/series/lanes-code-run.c \
+	lib/series/lanes-fold.c \
+	lib/series/lanes-motion.c \
 	lib/series/lanes-steps.c \
 	lib/series/lanes-sums.c \
 	lib/series/lanes-writer.c \
@@ -280,6 +282,7 @@ library_sources = \
 	lib/series/taylor-code-zero.c \
 	lib/series/taylor-code.c \
 	lib/series/taylor-correct.c \
+	lib/series/taylor-motion.c \
 	lib/series/taylor-near.c \
 	lib/series/taylor-order-fma.c \
 	lib/series/taylor-order.c \
@@ -341,14 +344,13 @@ library_sources = \
 	lib/sim/form/leading.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
+	lib/sim/form/motion-series.c \
 	lib/sim/form/precise-bind.c \
 	lib/sim/form/residual-energy.c \
 	lib/sim/form/residual-series.c \
 	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
-	lib/sim/form/residual-vectors.c \
 	lib/sim/form/residual.c \
-	lib/sim/form/shifted-lanes.c \
 	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
@@ -619,6 +621,7 @@ library_headers = \
 	lib/ode/whole.h \
 	lib/ode/written.h \
 	lib/series/lanes-code.h \
+	lib/series/lanes-motion.h \
 	lib/series/lanes-writer.h \
 	lib/series/lanes.def \
 	lib/series/lanes.h \
@@ -632,6 +635,7 @@ library_headers = \
 	lib/series/taylor-code-sum.h \
 	lib/series/taylor-code.h \
 	lib/series/taylor-generator.h \
+	lib/series/taylor-motion.h \
 	lib/series/taylor-order.def \
 	lib/series/taylor-order.h \
 	lib/series/taylor-steps.h \
@@ -686,15 +690,13 @@ library_headers = \
 	lib/sim/form/leading.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
+	lib/sim/form/motion-series.h \
 	lib/sim/form/precise-bind.h \
 	lib/sim/form/residual-energy.h \
 	lib/sim/form/residual-series.h \
 	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
-	lib/sim/form/residual-vectors.h \
 	lib/sim/form/residual.h \
-	lib/sim/form/shifted-lanes.def \
-	lib/sim/form/shifted-lanes.h \
 	lib/sim/model/absent.h \
 	lib/sim/model/constrained-lanes.h \
 	lib/sim/model/constrained-parts.h \
@@ -812,6 +814,7 @@ unit_tests = \
 	tests/ode/test_trajectory \
 	tests/ode/test_written \
 	tests/series/test_lanes-code \
+	tests/series/test_lanes-motion \
 	tests/series/test_lanes \
 	tests/series/test_motion \
 	tests/series/test_near \

@@ -22,11 +22,11 @@ typedef void kernel(double *coefficients, const double *scalars, double *work);
 struct qdot_lanes_code {
     qdot_taylor_text *text;
     size_t entry;
-    bool narrow;
+    bool halves; /* it is run for each half of a group */
+    size_t group;
     double *coefficients; /* borrowed */
     double *scalars;
     double *allocated, *work;
-    size_t before_rows, stride; /* groups */
 };
 
 /* --- loops -------------------------------------------------------------------------- */
@@ -35,13 +35,12 @@ struct qdot_lanes_code {
 static void
 aim(qdot_lanes_writer *w, bool further, int k)
 {
-    static const struct {
+    const struct {
         qdot_x86_base to, from;
         int bytes, part;
-    } rows[] = {{QDOT_X86_R9, QDOT_X86_RDI, QDOT_WRITER_GROUP, 1},
-                {QDOT_X86_R10, QDOT_X86_RDX, QDOT_WRITER_GROUP, 1},
+    } rows[] = {{QDOT_X86_R9, QDOT_X86_RDI, w->bytes, 1},
                 {QDOT_X86_RBX, QDOT_X86_RSI, sizeof(double), 1},
-                {QDOT_X86_RBP, QDOT_X86_RDI, QDOT_WRITER_GROUP, 2}};
+                {QDOT_X86_RBP, QDOT_X86_RDI, w->bytes, 2}};
     const int32_t dot = (int32_t)qdot_writer_term(w, w->dot);
     const int32_t pair = (int32_t)qdot_writer_term(w, w->pair);
     const int32_t half = (int32_t)qdot_writer_term(w, w->half);
@@ -117,22 +116,22 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
 /* --- all of it ---------------------------------------------------------------------- */
 
 static void
-find_moving(qdot_lanes_writer *w)
+find_rows(qdot_lanes_writer *w)
 {
     const qdot_program *t = w->t;
 
-    for (size_t i = 0; i < qdot_writer_rows(w); i++)
-        w->moving[i] = i < t->moving || i >= t->rows.n ||
-                       t->rows.at[i].source == QDOT_ROW_UNKNOWN;
-    for (size_t i = 0; i < t->moving; i++)
-        w->kept[i] = true;
+    for (size_t i = 0; i < t->rows.n; i++)
+        w->rows[i] = (qdot_writer_row){.moving = i < t->moving ||
+                                                 t->rows.at[i].source == QDOT_ROW_UNKNOWN,
+                                       .kept = i < t->moving,
+                                       .step = SIZE_MAX};
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_program_step *s = t->steps.at + i;
         const qdot_program_row rows[] = {s->to, s->second, s->third, s->d};
 
         for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
             if (rows[r] != QDOT_NO_ROW)
-                w->moving[rows[r]] = true;
+                w->rows[rows[r]].moving = true;
     }
 }
 
@@ -173,15 +172,14 @@ write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *us
 static qdot_status
 make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
 {
-    const size_t groups = qdot_writer_groups(w) + w->further * w->stride;
     const size_t tables = (size_t)QDOT_WRITER_MOST_TABLES * QDOT_WRITER_TABLE;
 
-    c->coefficients = qdot_lanes_input(w->lanes, 0);
-    c->narrow = w->x.narrow;
-    c->before_rows = qdot_writer_groups(w);
-    c->stride = w->stride;
+    c->coefficients = w->at.coefficients;
+    c->group = w->at.group;
+    c->halves = w->x.narrow && c->group > 1;
     c->scalars = qdot_calloc(tables + w->scalars.n, sizeof *c->scalars);
-    c->allocated = qdot_calloc((groups + 1) * QDOT_LANES, sizeof *c->allocated);
+    c->allocated =
+        qdot_calloc((qdot_writer_groups(w) + 1) * c->group, sizeof *c->allocated);
     if (!c->scalars || !c->allocated)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < w->tables.n; i++)
@@ -190,7 +188,7 @@ make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
     if (w->scalars.n > 0)
         memcpy(c->scalars + tables, w->scalars.at, w->scalars.n * sizeof *c->scalars);
     c->work = c->allocated;
-    while ((uintptr_t)c->work % QDOT_WRITER_GROUP != 0)
+    while ((uintptr_t)c->work % (size_t)w->bytes != 0)
         c->work++;
     return QDOT_OK;
 }
@@ -203,19 +201,13 @@ make(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code 
     qdot_status status = QDOT_ENOMEM;
     bool runs = false;
 
-    w->moving = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->moving);
-    w->kept = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->kept);
-    w->absent = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->absent);
-    w->wanted = qdot_calloc(qdot_writer_rows(w) + 1, sizeof *w->wanted);
-    w->idle = qdot_calloc(w->t->length + 1, sizeof *w->idle);
-    w->lacks = qdot_calloc(w->t->length + 1, sizeof *w->lacks);
-    w->rests = qdot_calloc(QDOT_WRITER_RESTS * w->t->length + 1, sizeof *w->rests);
+    w->rows = qdot_calloc(w->t->rows.n + 1, sizeof *w->rows);
+    w->steps = qdot_calloc(w->t->length + 1, sizeof *w->steps);
     if (c)
         c->text = qdot_calloc(1, sizeof *c->text);
-    if (c && c->text && w->moving && w->kept && w->absent && w->wanted && w->idle && w->lacks &&
-        w->rests) {
+    if (c && c->text && w->rows && w->steps) {
         atomic_init(&c->text->users, 1);
-        find_moving(w);
+        find_rows(w);
         write_all(w, true, write, user, &c->entry);
         write_all(w, false, write, user, &c->entry);
         status = w->status != QDOT_OK ? w->status : w->x.status;
@@ -239,15 +231,15 @@ qdot_lanes_may_be_code(void)
 }
 
 qdot_status
-qdot_lanes_code_new(qdot_lanes *lanes, size_t rows, size_t numbers,
-                    qdot_lanes_write *write, void *user, qdot_lanes_code **code)
+qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers, qdot_lanes_write *write,
+                    void *user, qdot_lanes_code **code)
 {
-    const size_t kind = qdot_x86_kind();
+    /* of one double by instructions that both kinds have */
+    const size_t kind = at->group > 1 || qdot_x86_kind() == 0 ? qdot_x86_kind() : 1;
     qdot_lanes_writer w = {.x = qdot_x86_of(kind),
-                           .lanes = lanes,
-                           .t = qdot_lanes_program(lanes),
-                           .stride = qdot_lanes_stride(lanes),
-                           .further = rows,
+                           .at = *at,
+                           .t = at->program,
+                           .bytes = (int32_t)(at->group * sizeof(double)),
                            .numbers = numbers};
     qdot_status status;
 
@@ -261,13 +253,8 @@ qdot_lanes_code_new(qdot_lanes *lanes, size_t rows, size_t numbers,
     w.windows = kind > 1;
     w.first_free = w.moment + 1 + (w.windows ? 2 * w.block : 0);
     status = make(&w, write, user, code);
-    qdot_free(w.moving);
-    qdot_free(w.kept);
-    qdot_free(w.absent);
-    qdot_free(w.wanted);
-    qdot_free(w.idle);
-    qdot_free(w.lacks);
-    qdot_free(w.rests);
+    qdot_free(w.rows);
+    qdot_free(w.steps);
     qdot_free(w.scalars.at);
     qdot_free(w.tables.at);
     qdot_free(w.ahead.at);
@@ -294,18 +281,18 @@ qdot_lanes_code_run(const qdot_lanes_code *c)
 
     memcpy(&code, &first, sizeof code);
     code(c->coefficients, c->scalars, c->work);
-    if (c->narrow)
-        code(c->coefficients + QDOT_LANES / 2, c->scalars, c->work + QDOT_LANES / 2);
+    if (c->halves)
+        code(c->coefficients + c->group / 2, c->scalars, c->work + c->group / 2);
 }
 
 double *
 qdot_lanes_code_number(const qdot_lanes_code *c, size_t i)
 {
-    return c->work + i * QDOT_LANES;
+    return c->work + i * c->group;
 }
 
-double *
-qdot_lanes_code_row(const qdot_lanes_code *c, size_t i)
+size_t
+qdot_lanes_code_size(const qdot_lanes_code *c)
 {
-    return c->work + (c->before_rows + i * c->stride) * QDOT_LANES;
+    return c->text->used;
 }

@@ -19,8 +19,8 @@
  * Rows that no sum reads have a place for order 0 and one for the order at hand only.
  *
  * With AVX-512 a group is one vector. With AVX2 it is two, and the same code, in their
- * encoding, is run for each half. Without either there is none: kernels of lanes.h run. The
- * last bits of coefficients may be other ones than theirs.
+ * encoding, is run for each half. A group may also be one double: a single run. Without either
+ * there is no code: kernels run. The last bits of coefficients may be other ones than theirs.
  *
  * Tests  tests/series/test_lanes-code.c
  */
@@ -32,7 +32,7 @@
 typedef struct qdot_lanes_code qdot_lanes_code;
 typedef struct qdot_lanes_writer qdot_lanes_writer;
 
-/* A row: of the program by its number (_row, qdot_lanes_code_input), or one of the caller's. */
+/* A row of the program by its number, or one of the caller's numbers. */
 typedef uint32_t qdot_lanes_row;
 
 /* A coefficient. */
@@ -59,25 +59,24 @@ typedef void qdot_lanes_write_order(qdot_lanes_writer *writer, int k, void *user
 /* A number that depends on the order. */
 typedef double qdot_lanes_by_order(int k);
 
-/* Of the program of `lanes`, borrowed. `rows` further rows to all its orders and `numbers` ones
- * of order 0 are the caller's. *code NULL: the processor or the system has no way, or it would
- * be too long. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_lanes_code_new(qdot_lanes *lanes, size_t rows,
-                                                size_t numbers, qdot_lanes_write *write,
-                                                void *user, qdot_lanes_code **code);
+/* Of the program whose coefficients are `at`, both borrowed; `numbers` further ones are the
+ * caller's. *code NULL: the processor or the system has no way, or it would be too long. Errors:
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers,
+                                                qdot_lanes_write *write, void *user,
+                                                qdot_lanes_code **code);
 /* Whether there can be any. */
 bool qdot_lanes_may_be_code(void);
 void qdot_lanes_code_free(qdot_lanes_code *code);
 void qdot_lanes_code_run(const qdot_lanes_code *code);
 
-/* Their places, for the caller to fill before and read after: [a group]. */
+/* Bytes. */
+size_t qdot_lanes_code_size(const qdot_lanes_code *code);
+/* The place of a number, for the caller to fill before: [a group]. */
 double *qdot_lanes_code_number(const qdot_lanes_code *code, size_t i);
-double *qdot_lanes_code_row(const qdot_lanes_code *code, size_t i);
 
 /* --- writing ------------------------------------------------------------------------ */
 
-qdot_lanes_row qdot_lanes_row_of(const qdot_lanes_writer *w, const double *output);
-qdot_lanes_row qdot_lanes_further_row(const qdot_lanes_writer *w, size_t i);
 qdot_lanes_at qdot_lanes_number(const qdot_lanes_writer *w, size_t i);
 /* A row of the program is read to all orders after the run. */
 void qdot_lanes_keep(qdot_lanes_writer *w, qdot_lanes_row row);
@@ -95,16 +94,17 @@ void qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int t
 
 /* Order k = 1, 2, ... of all steps, orders below being there and k of the inputs. */
 void qdot_lanes_steps(qdot_lanes_writer *w, int k);
-/* The same of a motion, coefficients k of unknowns [n] being left out; of what is `newest` rows of
- * equations [n] alone are there then. */
-void qdot_lanes_steps_but(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *unknown,
-                          const qdot_lanes_row *equations);
-/* The same, coefficients k of some inputs being 0, whatever they have, of `wanted` rows alone;
- * and once more, of all, with those that they have by then. */
-void qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n,
-                              const qdot_lanes_row *inputs, size_t n_wanted,
-                              const qdot_lanes_row *wanted);
-void qdot_lanes_steps_with(qdot_lanes_writer *w, int k);
+/* Stage k of a motion: every step at order k + its lead, newest coefficients of the unknowns being
+ * 0; of what holds them rows of the equations alone are there then. */
+void qdot_lanes_steps_without(qdot_lanes_writer *w, const qdot_motion *motion, int k);
+/* And once more, when those are there: what later orders read of it. */
+void qdot_lanes_steps_with(qdot_lanes_writer *w);
+/* The caller's first numbers are what steps multiply by for the rate of a row, or (`twice`) the rate
+ * of a rate, at an order that is so much above the stage's: (k + 1)/unit, (k + 1)(k + 2)/unit^2,
+ * to be stored before every stage where it is wanted. */
+enum { QDOT_LANES_LEADS = 3, QDOT_LANES_RATES = 2 * QDOT_LANES_LEADS };
+qdot_lanes_at qdot_lanes_rate(const qdot_lanes_writer *w, bool twice, int lead);
+bool qdot_lanes_wants_rate(const qdot_lanes_writer *w, bool twice, int lead);
 
 /* The sum over pairs of sum_{j=1..k-1} x_j y_{k-j}. For the same sums in the same order
  * behind the steps of every order, k being theirs or always as many orders below. */
@@ -119,9 +119,6 @@ void qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                     qdot_lanes_at a);
 void qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                             qdot_lanes_at a, qdot_lanes_at b);
-/* sum + factor a, whose register is given back. */
-void qdot_lanes_add_scaled(qdot_lanes_writer *w, qdot_lanes_sum *sum,
-                           qdot_lanes_sum factor, qdot_lanes_at a);
 /* a - sum */
 void qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);

@@ -1,6 +1,4 @@
 /* lanes-steps.c -- the recurrences in lanes as code: an order of a step, in two parts. */
-#include <string.h>
-
 #include "series/lanes-writer.h"
 
 /* What a step is made of, by rows. */
@@ -48,9 +46,42 @@ store(const step *s, qdot_lanes_sum sum, qdot_program_row to)
     qdot_lanes_writer *w = s->w;
 
     if (w->without && sum == QDOT_LANES_NOTHING)
-        w->absent[to] = true;
+        w->rows[to].absent = true;
     else
         qdot_lanes_store(w, sum, at(to, s->k));
+}
+
+/* sum +- what a term has at this order */
+static void
+add_term(const step *s, qdot_lanes_sum *sum, bool minus, qdot_writer_addend t)
+{
+    minus ^= t.minus;
+    if (t.rates == 0)
+        qdot_lanes_add(s->w, sum, minus, at(t.row, s->k));
+    else {
+        s->w->rates |= 1U << ((t.rates > 1) * QDOT_LANES_LEADS + s->s->lead);
+        qdot_lanes_add_product(s->w, sum, minus,
+                               qdot_lanes_rate(s->w, t.rates > 1, s->s->lead),
+                               at(t.row, s->k + t.rates));
+    }
+}
+
+static void
+add_row(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row row)
+{
+    add_term(s, sum, minus, qdot_writer_expand(s->w, row));
+}
+
+/* to = x'/unit */
+static void
+rate(const step *s)
+{
+    qdot_writer_addend t = qdot_writer_expand(s->w, s->s->x);
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    t.rates++;
+    add_term(s, &sum, false, t);
+    store(s, sum, s->s->to);
 }
 
 /* sum + +-x_0 y_k */
@@ -96,7 +127,15 @@ before(const step *s, qdot_lanes_sum *sums)
     case QDOT_T_MUL:
     case QDOT_T_MADD:
     case QDOT_T_MSUB:
-    case QDOT_T_NMADD: sums[0] = dot(s, i->x, i->y); break;
+    case QDOT_T_NMADD: {
+        qdot_lanes_pair pairs[QDOT_WRITER_PAIRS];
+        size_t n = 0;
+
+        for (const qdot_program_step *p = i; p; p = qdot_writer_within(s->w, p))
+            pairs[n++] = (qdot_lanes_pair){p->x, p->y};
+        sums[0] = qdot_lanes_dots(s->w, n, pairs, s->k);
+        break;
+    }
     case QDOT_T_SQUARE: sums[0] = square(s, i->x); break;
     case QDOT_T_DIV: sums[0] = dot(s, i->y, i->to); break;
     case QDOT_T_SQRT: sums[0] = square(s, i->to); break;
@@ -129,12 +168,7 @@ before(const step *s, qdot_lanes_sum *sums)
 static bool
 is_passing(const qdot_lanes_writer *w, const qdot_program_step *s)
 {
-    if (!s->newest || s->kept)
-        return false;
-    for (size_t i = 0; i < w->equations.n; i++)
-        if (w->equations.rows[i] == s->to)
-            return false;
-    return true;
+    return s->newest && !s->kept && !w->rows[s->to].equation;
 }
 
 /* Nothing reads the row, of a step before this one, any more. */
@@ -159,17 +193,17 @@ linear(const step *s)
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
     switch (i->op) {
-    case QDOT_T_NEG: qdot_lanes_add(s->w, &sum, true, at(i->x, s->k)); break;
+    case QDOT_T_NEG: add_row(s, &sum, true, i->x); break;
     case QDOT_T_ADD:
     case QDOT_T_SUB:
-        qdot_lanes_add(s->w, &sum, false, at(i->x, s->k));
-        qdot_lanes_add(s->w, &sum, i->op == QDOT_T_SUB, at(i->y, s->k));
+        add_row(s, &sum, false, i->x);
+        add_row(s, &sum, i->op == QDOT_T_SUB, i->y);
         break;
     default:
-        if (i->op == QDOT_T_SCALEADD && w->absent[i->y] && is_last_reader(s, i->z))
+        if (i->op == QDOT_T_SCALEADD && w->rows[i->y].absent && is_last_reader(s, i->z))
             sum = qdot_lanes_continue_last(w, at(i->z, s->k));
         else if (i->op != QDOT_T_SCALE)
-            qdot_lanes_add(s->w, &sum, i->op == QDOT_T_SCALESUB, at(i->z, s->k));
+            add_row(s, &sum, i->op == QDOT_T_SCALESUB, i->z);
         with_newest(s, &sum, i->op == QDOT_T_SCALEOFF, i->x, i->y);
     }
     store(s, sum, i->to);
@@ -179,16 +213,20 @@ linear(const step *s)
 static void
 product(const step *s, qdot_lanes_sum sum)
 {
-    const qdot_program_step *i = s->s;
-    const bool minus = i->op == QDOT_T_NMADD;
+    const qdot_program_step *last = s->s;
+    const bool minus = s->s->op == QDOT_T_NMADD;
 
+    for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
+        last = p;
     if (minus)
-        qdot_lanes_take_from(s->w, &sum, at(i->z, s->k));
-    else if (i->op != QDOT_T_MUL)
-        qdot_lanes_add(s->w, &sum, i->op == QDOT_T_MSUB, at(i->z, s->k));
-    with_newest(s, &sum, minus, i->x, i->y);
-    with_newest(s, &sum, minus, i->y, i->x);
-    store(s, sum, i->to);
+        qdot_lanes_negate(s->w, &sum);
+    if (last->op != QDOT_T_MUL)
+        add_row(s, &sum, last->op == QDOT_T_MSUB, last->z);
+    for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
+        with_newest(s, &sum, minus, p->x, p->y);
+    for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
+        with_newest(s, &sum, minus, p->y, p->x);
+    store(s, sum, s->s->to);
 }
 
 /* +-(sum + 2 x_0 x_k) */
@@ -329,6 +367,7 @@ after(const step *s, qdot_lanes_sum *sums)
         finish_square(s, sums[1], true, i->to, i->second);
         break;
     case QDOT_T_ATAN2: arctangent(s, sums); break;
+    case QDOT_T_RATE: rate(s); break;
     default: linear(s); break;
     }
 }
@@ -348,51 +387,14 @@ qdot_lanes_steps(qdot_lanes_writer *w, int k)
     }
 }
 
-void
-qdot_lanes_steps_but(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *unknown,
-                     const qdot_lanes_row *equations)
-{
-    memset(w->absent, 0, qdot_writer_rows(w) * sizeof *w->absent);
-    for (size_t i = 0; i < n; i++)
-        w->absent[unknown[i]] = true;
-    w->without = true;
-    w->equations.n = n;
-    w->equations.rows = equations;
-    qdot_lanes_steps(w, k);
-    for (size_t i = w->t->still; i < w->t->length; i++)
-        if (is_passing(w, w->t->steps.at + i))
-            qdot_lanes_unread(w, at(w->t->steps.at[i].to, k));
-    w->without = false;
-    w->equations.n = 0;
-}
-
-/* Marks the rows that those wanted are made of, and the steps that make any. */
-static void
-find_wanted(qdot_lanes_writer *w, size_t n, const qdot_lanes_row *rows)
-{
-    memset(w->wanted, 0, qdot_writer_rows(w) * sizeof *w->wanted);
-    for (size_t i = 0; i < n; i++)
-        w->wanted[rows[i]] = true;
-    for (size_t i = w->t->length; i-- > w->t->still;) {
-        const qdot_program_step *s = w->t->steps.at + i;
-        const qdot_program_row made[] = {s->to, s->second, s->third, s->d};
-        const qdot_program_row of[] = {s->x, s->y, s->z};
-
-        w->idle[i] = true;
-        for (size_t r = 0; r < sizeof made / sizeof *made; r++)
-            if (made[r] != QDOT_NO_ROW && w->wanted[made[r]])
-                w->idle[i] = false;
-        for (size_t r = 0; r < sizeof of / sizeof *of && !w->idle[i]; r++)
-            w->wanted[of[r]] = true;
-    }
-}
+/* --- of a motion, twice --------------------------------------------------------------- */
 
 /* Nothing but x, which was left out, is newest in it: that is all there is to add. */
 static bool
 lacks_argument(const step *s)
 {
     return (s->s->op == QDOT_T_SINCOS || s->s->op == QDOT_T_SINHCOSH) &&
-           !s->w->idle[s->i] && s->w->absent[s->s->x];
+           s->s->newest & QDOT_X_NEWEST && s->w->rows[s->s->x].absent;
 }
 
 static void
@@ -411,46 +413,73 @@ add_argument(const step *s)
     }
 }
 
+static void
+leave_out(qdot_lanes_writer *w, const qdot_motion_unknown *u)
+{
+    const qdot_program_row rows[] = {u->row, u->once, u->twice};
+
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
+        if (rows[r] != QDOT_NO_ROW)
+            w->rows[rows[r]].absent = true;
+}
+
+static void
+write_without(const step *s)
+{
+    qdot_writer_step *info = s->w->steps + s->i;
+    qdot_lanes_sum sums[QDOT_WRITER_RESTS];
+
+    before(s, sums);
+    info->lacks = lacks_argument(s);
+    for (int r = 0; r < QDOT_WRITER_RESTS && s->s->kept; r++)
+        qdot_writer_keep(s->w, s->i, r, sums[r], !info->lacks);
+    after(s, sums);
+}
+
 void
-qdot_lanes_steps_without(qdot_lanes_writer *w, int k, size_t n, const qdot_lanes_row *inputs,
-                         size_t n_wanted, const qdot_lanes_row *wanted)
+qdot_lanes_steps_without(qdot_lanes_writer *w, const qdot_motion *m, int k)
 {
     qdot_writer_begin(w, k);
+    if (w->motion != m)
+        qdot_writer_fold(w, m);
+    for (size_t r = 0; r < w->t->rows.n; r++)
+        w->rows[r].absent = false;
+    for (size_t i = 0; i < m->solved.n; i++)
+        leave_out(w, m->unknowns.at + m->solved.at[i]);
     w->without = true;
-    for (size_t i = 0; i < n; i++)
-        w->absent[inputs[i]] = true;
-    find_wanted(w, n_wanted, wanted);
     for (size_t i = w->t->still; i < w->t->length; i++) {
-        const step s = {w, w->t->steps.at + i, i, k};
-        qdot_lanes_sum sums[QDOT_WRITER_RESTS];
+        const step s = {w, w->t->steps.at + i, i, k + w->t->steps.at[i].lead};
 
-        before(&s, sums);
-        w->lacks[i] = lacks_argument(&s);
-        for (int r = 0; r < QDOT_WRITER_RESTS; r++)
-            qdot_writer_keep(w, i, r, sums[r], !w->lacks[i]);
-        if (w->idle[i])
-            for (int r = 0; r < QDOT_WRITER_RESTS; r++)
-                qdot_writer_drop(w, sums[r]);
-        else
-            after(&s, sums);
+        if (!w->steps[i].folded && !(s.s->newest && w->steps[i].idle))
+            write_without(&s);
+    }
+    w->without = false;
+    for (size_t i = w->t->still; i < w->t->length; i++) {
+        const qdot_program_step *s = w->t->steps.at + i;
+
+        if (s->newest && !w->steps[i].lacks && !w->rows[s->to].equation)
+            qdot_lanes_unread(w, at(s->to, k + s->lead));
     }
 }
 
 void
-qdot_lanes_steps_with(qdot_lanes_writer *w, int k)
+qdot_lanes_steps_with(qdot_lanes_writer *w)
 {
-    w->without = false;
-    for (size_t i = 0; i < qdot_writer_rows(w); i++)
-        w->absent[i] = false;
+    for (size_t r = 0; r < w->t->rows.n; r++)
+        w->rows[r].absent = false;
     for (size_t i = w->t->still; i < w->t->length; i++) {
-        const step s = {w, w->t->steps.at + i, i, k};
+        const step s = {w, w->t->steps.at + i, i, w->k + w->t->steps.at[i].lead};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];
 
-        if (w->lacks[i]) {
+        if (w->steps[i].folded || !s.s->newest || !s.s->kept)
+            continue;
+        if (w->steps[i].lacks) {
             add_argument(&s);
             continue;
         }
-        for (int r = 0; r < QDOT_WRITER_RESTS; r++)
+        if (w->steps[i].idle)
+            before(&s, sums);
+        for (int r = 0; r < QDOT_WRITER_RESTS && !w->steps[i].idle; r++)
             sums[r] = qdot_writer_kept(w, i, r);
         after(&s, sums);
     }

@@ -27,7 +27,7 @@ other(const qdot_lanes_writer *w, bool window, int p, int i, int j)
     const int B = w->block;
 
     return window ? qdot_x86_reg(w->moment + 1 + p * B + ((i - j) % B + B) % B)
-                  : qdot_x86_at(other_base[p], (i - j) * (int32_t)QDOT_WRITER_GROUP);
+                  : qdot_x86_at(other_base[p], (i - j) * w->bytes);
 }
 
 /* Term j of rax and r8; and of rax and r13: of the orders that have coefficients below the
@@ -38,7 +38,7 @@ emit_term(qdot_lanes_writer *w, bool window, int products, int j)
     const int last = w->block - 1;
 
     qdot_writer_emit(w, QDOT_X86_LOAD_ALL, w->moment, 0,
-                     qdot_x86_at(QDOT_X86_RAX, j * (int32_t)QDOT_WRITER_GROUP));
+                     qdot_x86_at(QDOT_X86_RAX, j * w->bytes));
     for (int p = 0; window && j > last && p < products; p++)
         qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, true, p, last, j).reg, 0,
                          other(w, false, p, last, j));
@@ -48,11 +48,17 @@ emit_term(qdot_lanes_writer *w, bool window, int products, int j)
                              other(w, window, p, i, j));
 }
 
+static int
+smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
 void
 qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at)
 {
     w->x.far = w->x.narrow; /* else all their offsets take one byte */
-    for (int n = (int)w->stride - 1; n > 0; n--) {
+    for (int n = smaller((int)w->at.stride - 1, QDOT_SERIES_MOST + 1); n > 0; n--) {
         at[n] = w->x.bytes.n;
         emit_term(w, window, products, n);
     }
@@ -100,8 +106,14 @@ call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
     if (w->counting)
         return;
     if (any)
-        enter_in_loop(w, z ? QDOT_X86_R14 : square ? QDOT_X86_R15 : QDOT_X86_R11,
-                      z ? w->pair : square ? w->half : w->dot, w->any - K);
+        enter_in_loop(w,
+                      z        ? QDOT_X86_R14
+                      : square ? QDOT_X86_R15
+                               : QDOT_X86_R11,
+                      z        ? w->pair
+                      : square ? w->half
+                               : w->dot,
+                      square ? (w->any - 1) / 2 - n : w->any - K);
     else
         qdot_x86_enter(&w->x, z ? w->pair[n] : square ? w->half[n] : w->dot[n]);
 }
@@ -176,16 +188,10 @@ take_ahead(qdot_lanes_writer *w, size_t sum)
     return value;
 }
 
-static int
-smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 static bool
 both_move(const qdot_lanes_writer *w, const qdot_lanes_pair *pair)
 {
-    return w->moving[pair->x] && w->moving[pair->y];
+    return w->rows[pair->x].moving && w->rows[pair->y].moving;
 }
 
 /* Terms of order k that hold coefficients of its block, the newest last. */
@@ -264,7 +270,7 @@ qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k)
     qdot_lanes_sum sum;
 
     qdot_lanes_keep(w, x);
-    if (!w->moving[x])
+    if (!w->rows[x].moving)
         return QDOT_LANES_NOTHING;
     if (w->phase > 0) {
         sum = take_ahead(w, number);
@@ -296,7 +302,7 @@ rest(const qdot_lanes_writer *w, size_t step, int i)
 void
 qdot_writer_keep(qdot_lanes_writer *w, size_t step, int i, qdot_lanes_sum sum, bool stored)
 {
-    w->rests[QDOT_WRITER_RESTS * step + (size_t)i] = sum != QDOT_LANES_NOTHING;
+    w->steps[step].rests[i] = sum != QDOT_LANES_NOTHING;
     if (stored && sum != QDOT_LANES_NOTHING)
         qdot_writer_put(w, sum, rest(w, step, i));
 }

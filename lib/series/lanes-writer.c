@@ -5,16 +5,17 @@
 
 /* --- places ------------------------------------------------------------------------- */
 
-size_t
-qdot_writer_rows(const qdot_lanes_writer *w)
-{
-    return w->t->rows.n + w->further;
-}
-
 static bool
 is_row(const qdot_lanes_writer *w, qdot_lanes_row row)
 {
-    return row < qdot_writer_rows(w);
+    return row < w->t->rows.n;
+}
+
+/* The order at hand of a row of the program. */
+static bool
+is_newest(const qdot_lanes_writer *w, qdot_lanes_at a)
+{
+    return a.order == w->k + w->t->rows.at[a.row].lead;
 }
 
 /* A coefficient of a row is 0 and nothing writes it, or left out. */
@@ -22,13 +23,13 @@ static bool
 vanishes(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
     return is_row(w, a.row) && a.order > 0 &&
-           (!w->moving[a.row] || (w->absent[a.row] && a.order == w->k));
+           (!w->rows[a.row].moving || (w->rows[a.row].absent && is_newest(w, a)));
 }
 
 void
 qdot_lanes_keep(qdot_lanes_writer *w, qdot_lanes_row row)
 {
-    w->kept[row] = true;
+    w->rows[row].kept = true;
 }
 
 size_t
@@ -39,25 +40,22 @@ qdot_writer_groups(const qdot_lanes_writer *w)
 }
 
 static qdot_x86_rm
-groups_from(qdot_x86_base base, size_t groups)
+groups_from(const qdot_lanes_writer *w, qdot_x86_base base, size_t groups)
 {
-    return qdot_x86_at(base, (int32_t)(groups * QDOT_WRITER_GROUP));
+    return qdot_x86_at(base, (int32_t)groups * w->bytes);
 }
 
-/* `groups` of one of the two arrays, at an order. */
+/* `groups` of the program's coefficients, at an order. */
 static qdot_x86_rm
-of_order(const qdot_lanes_writer *w, bool of_program, size_t groups, int order)
+of_order(const qdot_lanes_writer *w, size_t groups, int order)
 {
     const int any = w->any, half = any / 2;
 
     if (order > half + half / 2)
-        return qdot_x86_at(of_program ? QDOT_X86_R9 : QDOT_X86_R10,
-                           (int32_t)((ptrdiff_t)groups + order - any) *
-                               (int32_t)QDOT_WRITER_GROUP);
-    if (order > half / 2) /* squares: of the program alone */
-        return qdot_x86_at(QDOT_X86_RBP, (int32_t)((ptrdiff_t)groups + order - half) *
-                                             (int32_t)QDOT_WRITER_GROUP);
-    return groups_from(of_program ? QDOT_X86_RDI : QDOT_X86_RDX, groups + (size_t)order);
+        return groups_from(w, QDOT_X86_R9, groups + (size_t)order - (size_t)any);
+    if (order > half / 2) /* squares */
+        return groups_from(w, QDOT_X86_RBP, groups + (size_t)order - (size_t)half);
+    return groups_from(w, QDOT_X86_RDI, groups + (size_t)order);
 }
 
 qdot_x86_rm
@@ -79,31 +77,14 @@ qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a)
                                (QDOT_WRITER_MOST_TABLES * QDOT_WRITER_TABLE +
                                 (int32_t)(a.row - QDOT_WRITER_SCALARS)));
     if (a.row >= QDOT_WRITER_INVERSES)
-        return groups_from(QDOT_X86_RDI,
-                           w->t->rows.n * w->stride + a.row - QDOT_WRITER_INVERSES);
+        return groups_from(w, QDOT_X86_RDI,
+                           w->t->rows.n * w->at.stride + a.row - QDOT_WRITER_INVERSES);
     if (a.row >= QDOT_WRITER_NUMBERS)
-        return groups_from(QDOT_X86_RDX, a.row - QDOT_WRITER_NUMBERS);
-    if (a.order > 0 && a.order != w->k)
-        w->kept[a.row] = true;
-    order = a.order > 0 && !w->kept[a.row] ? 1 : a.order;
-    if (a.row < w->t->rows.n)
-        return of_order(w, true, a.row * w->stride, order);
-    return of_order(w, false,
-                    qdot_writer_groups(w) + (a.row - w->t->rows.n) * w->stride, order);
-}
-
-qdot_lanes_row
-qdot_lanes_row_of(const qdot_lanes_writer *w, const double *output)
-{
-    const size_t groups = (size_t)(output - qdot_lanes_input(w->lanes, 0)) / QDOT_LANES;
-
-    return (qdot_lanes_row)(groups / w->stride);
-}
-
-qdot_lanes_row
-qdot_lanes_further_row(const qdot_lanes_writer *w, size_t i)
-{
-    return (qdot_lanes_row)(w->t->rows.n + i);
+        return groups_from(w, QDOT_X86_RDX, a.row - QDOT_WRITER_NUMBERS);
+    if (a.order > 0 && !is_newest(w, a))
+        w->rows[a.row].kept = true;
+    order = a.order > 0 && !w->rows[a.row].kept ? 1 : a.order;
+    return of_order(w, a.row * w->at.stride, order);
 }
 
 qdot_lanes_at
@@ -111,6 +92,18 @@ qdot_lanes_number(const qdot_lanes_writer *w, size_t i)
 {
     (void)w;
     return (qdot_lanes_at){QDOT_WRITER_NUMBERS + (qdot_lanes_row)i, 0};
+}
+
+qdot_lanes_at
+qdot_lanes_rate(const qdot_lanes_writer *w, bool twice, int lead)
+{
+    return qdot_lanes_number(w, (size_t)(twice * QDOT_LANES_LEADS + lead));
+}
+
+bool
+qdot_lanes_wants_rate(const qdot_lanes_writer *w, bool twice, int lead)
+{
+    return w->rates >> (twice * QDOT_LANES_LEADS + lead) & 1;
 }
 
 qdot_lanes_at
@@ -142,12 +135,29 @@ qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k)
 
 /* --- registers ---------------------------------------------------------------------- */
 
+/* That of one double. */
+static qdot_x86_name
+of_one(qdot_x86_name name, qdot_x86_rm rm)
+{
+    switch (name) {
+    case QDOT_X86_LOAD_ALL: return rm.memory ? QDOT_X86_LOAD : name;
+    case QDOT_X86_SPREAD: return QDOT_X86_LOAD;
+    case QDOT_X86_STORE_ALL: return QDOT_X86_STORE;
+    case QDOT_X86_ADD_ALL: return QDOT_X86_ADD;
+    case QDOT_X86_SUB_ALL: return QDOT_X86_SUB;
+    case QDOT_X86_MUL_ALL: return QDOT_X86_MUL;
+    case QDOT_X86_MADD_ALL: return QDOT_X86_MADD;
+    case QDOT_X86_NMADD_ALL: return QDOT_X86_NMADD;
+    default: return name;
+    }
+}
+
 void
 qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int first,
                  qdot_x86_rm rm)
 {
     if (!w->counting)
-        qdot_x86_emit(&w->x, name, reg, first, rm);
+        qdot_x86_emit(&w->x, w->at.group == 1 ? of_one(name, rm) : name, reg, first, rm);
 }
 
 static void
@@ -168,8 +178,13 @@ settle(qdot_lanes_writer *w, int reg)
 void
 qdot_writer_settle(qdot_lanes_writer *w)
 {
-    for (int r = 0; r < w->registers; r++)
+    for (int r = 0; r < w->registers; r++) {
+        qdot_writer_register *reg = w->reg + r;
+
+        if (reg->ahead && is_row(w, reg->at.row) && !w->rows[reg->at.row].kept)
+            reg->holds = reg->ahead = false;
         settle(w, r);
+    }
 }
 
 static void
@@ -349,7 +364,7 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
         a = b;
         b = other;
     }
-    passing = is_row(w, a.row) && a.order != w->k && holder(w, a) < 0;
+    passing = is_row(w, a.row) && !is_newest(w, a) && holder(w, a) < 0;
     reg = load(w, a);
     rm = operand(w, b);
     if (passing)
@@ -363,21 +378,6 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
         qdot_writer_clear(w, *sum);
     }
     qdot_writer_emit(w, minus ? QDOT_X86_NMADD_ALL : QDOT_X86_MADD_ALL, *sum, reg, rm);
-}
-
-void
-qdot_lanes_add_scaled(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_sum factor,
-                      qdot_lanes_at a)
-{
-    if (factor == QDOT_LANES_NOTHING)
-        return;
-    if (*sum == QDOT_LANES_NOTHING) {
-        *sum = factor;
-        qdot_lanes_scale(w, sum, a);
-        return;
-    }
-    qdot_writer_emit(w, QDOT_X86_MADD_ALL, *sum, factor, operand(w, a));
-    w->reg[factor].taken = false;
 }
 
 void
@@ -445,7 +445,7 @@ qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to)
     qdot_lanes_unread(w, to);
     (void)qdot_writer_place(w, to); /* that it is there */
     if (is_row(w, to.row))
-        w->absent[to.row] = false;
+        w->rows[to.row].absent = false;
     w->reg[sum].taken = false;
     w->reg[sum].holds = w->reg[sum].ahead = true;
     w->reg[sum].at = to;

@@ -3,9 +3,9 @@
  *
  * The code is run with three addresses: of the program's coefficients (rdi), of scalars (rsi),
  * of work space (rdx): numbers, what the steps keep for a second time, what a sum has for
- * later orders of its block, further rows. In loops r9, rbx and r10 are these moved on to the
- * first order of the block at hand, rbp the first to half of it; r11, r14 and r15 where the
- * terms of sums, of pairs of them and of squares begin.
+ * later orders of its block. In loops r9 and rbx are the first two moved on to the first order
+ * of the block at hand, rbp the first to half of it; r11, r14 and r15 where the terms of sums,
+ * of pairs of them and of squares begin.
  */
 #ifndef QDOT_SERIES_LANES_WRITER_H
 #define QDOT_SERIES_LANES_WRITER_H
@@ -17,11 +17,11 @@
 enum {
     QDOT_WRITER_REGISTERS = 32,
     QDOT_WRITER_RESTS = 2,
-    QDOT_WRITER_MOST_TABLES = 12,
-    QDOT_WRITER_GROUP = QDOT_LANES * sizeof(double)
+    QDOT_WRITER_PAIRS = 32, /* of one sum */
+    QDOT_WRITER_MOST_TABLES = 16
 };
 
-/* What a row's number begins with that is none of the program or a further one. */
+/* What a row's number begins with that is none of the program. */
 enum {
     QDOT_WRITER_NUMBERS = 1 << 24,
     QDOT_WRITER_INVERSES = 2 << 24,
@@ -41,25 +41,46 @@ typedef struct {
     unsigned used; /* when */
 } qdot_writer_register;
 
+typedef struct {
+    bool moving; /* it has more than order 0 */
+    bool kept;   /* it is wanted to all orders */
+    bool absent; /* its newest coefficient is left out, or 0 for it */
+    bool wanted; /* an equation is made of it */
+    bool equation;
+    size_t step; /* that makes it; SIZE_MAX: none */
+    int readers; /* steps that read it, */
+    int linear;  /* and of these those that only add it, or take its rate; */
+    bool rated;  /* some take its rate */
+} qdot_writer_row;
+
+typedef struct {
+    bool folded; /* its readers carry it out */
+    bool idle;   /* no equation is made of it */
+    bool lacks;  /* it lacked its argument, and nothing else */
+    int pairs;   /* products whose sum it is, with those that it carries out for others */
+    bool rests[QDOT_WRITER_RESTS]; /* there is one at the order at hand */
+} qdot_writer_step;
+
+/* +- a row, its rate or the rate of that. */
+typedef struct {
+    bool minus;
+    int rates;
+    qdot_program_row row;
+} qdot_writer_addend;
+
 struct qdot_lanes_writer {
     qdot_x86 x;
-    qdot_lanes *lanes;
+    qdot_lanes_rows at;
     const qdot_program *t;
-    size_t stride, further, numbers;
+    const qdot_motion *motion; /* whose steps are written; NULL: those of a tape */
+    int32_t bytes;             /* of a group */
+    size_t numbers;
     bool counting; /* the first time: nothing is written */
-    bool *moving;  /* [rows + further] it has more than order 0 */
-    bool *kept;    /* likewise: it is wanted to all orders */
-    bool *absent;  /* likewise: its coefficient of the order at hand is left out, or 0 for it */
-    bool without;  /* some may be */
-    struct {
-        size_t n;
-        const qdot_lanes_row *rows;
-    } equations; /* what is read of an order while unknowns are left out; borrowed */
-    bool *wanted;  /* likewise: something that is wanted then is made of it */
-    bool *idle;    /* [length] the step makes none of that */
-    bool *lacks;   /* [length] it lacked its argument, and nothing else */
-    bool *rests;   /* [length x QDOT_WRITER_RESTS] there is one at the order at hand */
-    int k;         /* the order at hand */
+    qdot_writer_row *rows;   /* [rows] */
+    qdot_writer_step *steps; /* [length] */
+    bool without;            /* newest coefficients may be left out */
+    int k;                   /* the order at hand: its rows are at k + their lead */
+    unsigned rates;          /* a bit each: which of _rate are read */
     qdot_vec(double) scalars;
     qdot_vec(qdot_lanes_by_order *) tables;
     int registers, chains, moment, first_free; /* (lanes-code.c) */
@@ -91,19 +112,25 @@ void qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int fir
 qdot_x86_rm qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
 /* A register that is free, taken; 0 in one. */
 int qdot_writer_take(qdot_lanes_writer *w);
-/* What registers have for the places of results is stored there. */
+/* What registers have for the places of results is stored there, where orders to come read it. */
 void qdot_writer_settle(qdot_lanes_writer *w);
 /* They hold nothing below register `end`; what they are ahead of is stored. */
 void qdot_writer_leave(qdot_lanes_writer *w, int end);
 /* What some register has is stored; no other holds what was there. */
 void qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to);
 void qdot_writer_clear(qdot_lanes_writer *w, int reg);
-/* Rows, of the program and further ones; groups of work space before these. */
-size_t qdot_writer_rows(const qdot_lanes_writer *w);
+/* Groups of work space. */
 size_t qdot_writer_groups(const qdot_lanes_writer *w);
 /* The sequence of terms of one product or two; at [stride] where they begin. With windows every
  * coefficient of the other factors is loaded once, else once for each order. */
 void qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at);
+
+/* Of the steps of a motion those that their readers carry out (lanes-fold.c); what a row is, then;
+ * the product that another one is added to, NULL: none. */
+void qdot_writer_fold(qdot_lanes_writer *w, const qdot_motion *motion);
+qdot_writer_addend qdot_writer_expand(const qdot_lanes_writer *w, qdot_program_row row);
+const qdot_program_step *qdot_writer_within(const qdot_lanes_writer *w,
+                                            const qdot_program_step *product);
 
 /* Order k begins. */
 static inline void
@@ -139,7 +166,7 @@ qdot_lanes_sum qdot_writer_kept(qdot_lanes_writer *w, size_t step, int i);
 static inline bool
 qdot_writer_is_kept(const qdot_lanes_writer *w, size_t step, int i)
 {
-    return w->rests[QDOT_WRITER_RESTS * step + (size_t)i];
+    return w->steps[step].rests[i];
 }
 
 static inline void

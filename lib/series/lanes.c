@@ -261,10 +261,10 @@ qdot_lanes_of_motion(const qdot_motion *motion, bool shaken, int most, qdot_lane
     return QDOT_OK;
 }
 
-const qdot_program *
-qdot_lanes_program(const qdot_lanes *t)
+qdot_lanes_rows
+qdot_lanes_get_rows(qdot_lanes *t)
 {
-    return t->program;
+    return (qdot_lanes_rows){t->program, t->coefficients, t->stride, QDOT_LANES};
 }
 
 double *

@@ -43,8 +43,15 @@ void qdot_lanes_draw(qdot_lanes *lanes, const double *t);
 void qdot_lanes_order(qdot_lanes *lanes, int k);
 void qdot_lanes_correct(qdot_lanes *lanes, int k, size_t n, const double *newest);
 
-/* What it carries out: row r stands r strides behind the first input. */
-const qdot_program *qdot_lanes_program(const qdot_lanes *lanes);
+/* Coefficients of a program in groups: row r stands r strides, in groups, behind the first. Behind
+ * all of them a group for each step, the inverse of what all its orders divide by. */
+typedef struct {
+    const qdot_program *program;
+    double *coefficients;
+    size_t stride, group; /* doubles of one */
+} qdot_lanes_rows;
+
+qdot_lanes_rows qdot_lanes_get_rows(qdot_lanes *lanes);
 
 /* --- motions ------------------------------------------------------------------------- */
 

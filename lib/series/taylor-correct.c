@@ -12,12 +12,16 @@ struct qdot_taylor_change {
     double a, b, c;
     const qdot_taylor_step *step;
     bool second; /* of two rows of the step */
+    bool rate;   /* its slope is the step's c times the order */
+    bool varies; /* slopes are made of rows that move */
+    int lead;
 };
 
 /* A row that holds j x_j: its change is k note[x], and nothing is made of it. */
 struct qdot_taylor_scaled_change {
     double *row;
     uint32_t x;
+    int lead;
 };
 
 struct qdot_taylor_changes {
@@ -27,6 +31,8 @@ struct qdot_taylor_changes {
     struct qdot_taylor_scaled_change *scaled;
     size_t n_changes, n_scaled;
     bool stale; /* order 0 is a new one */
+    bool begun; /* slopes that do not vary are there */
+    bool changes_zero; /* a slope is made of numbers of order 0 that change */
 };
 
 void
@@ -42,9 +48,9 @@ qdot_taylor_changes_free(qdot_taylor *t)
 }
 
 void
-qdot_taylor_changes_stale(qdot_taylor *t)
+qdot_taylor_changes_stale(qdot_taylor *t, int k)
 {
-    if (t->changes)
+    if (t->changes && (k <= 0 || (k == 1 && t->changes->changes_zero)))
         t->changes->stale = true;
 }
 
@@ -116,16 +122,19 @@ add_change(qdot_taylor *t, const qdot_taylor_step *s, bool second)
                                     .y = (uint32_t)number(t, s->y),
                                     .z = (uint32_t)number(t, s->z),
                                     .step = s,
-                                    .second = second};
+                                    .second = second,
+                                    .rate = s->op == QDOT_T_RATE,
+                                    .varies = s->op > QDOT_T_SUB && s->op != QDOT_T_RATE,
+                                    .lead = s->lead};
 }
 
 static void
-add_scaled(qdot_taylor *t, double *row, const double *x)
+add_scaled(qdot_taylor *t, const qdot_taylor_step *s, double *row, const double *x)
 {
     struct qdot_taylor_changes *c = t->changes;
 
     c->scaled[c->n_scaled++] =
-        (struct qdot_taylor_scaled_change){row, (uint32_t)number(t, x)};
+        (struct qdot_taylor_scaled_change){row, (uint32_t)number(t, x), s->lead};
 }
 
 /* What changes by one step, a second row after the first. */
@@ -138,13 +147,42 @@ list(qdot_taylor *t, const qdot_taylor_step *s)
     case QDOT_T_SINHCOSH:
     case QDOT_T_TANH: add_change(t, s, true); break;
     case QDOT_T_ATAN2:
-        add_scaled(t, s->second, s->x);
-        add_scaled(t, s->third, s->y);
+        add_scaled(t, s, s->second, s->x);
+        add_scaled(t, s, s->third, s->y);
         break;
     }
     if (s->d)
-        add_scaled(t, s->d,
+        add_scaled(t, s, s->d,
                    s->op == QDOT_T_RATIO || s->op == QDOT_T_ATAN2 ? s->to : s->x);
+}
+
+static qdot_status
+make_changes(qdot_taylor *t, size_t n)
+{
+    struct qdot_taylor_changes *c = qdot_calloc(1, sizeof *c);
+
+    qdot_taylor_changes_free(t);
+    t->changes = c;
+    if (!c)
+        return QDOT_ENOMEM;
+    c->n = n;
+    c->stale = true;
+    c->note = qdot_calloc(t->rows + 1, sizeof *c->note);
+    c->changes = qdot_calloc(2 * t->length + 1, sizeof *c->changes);
+    c->scaled = qdot_calloc(3 * t->length + 1, sizeof *c->scaled);
+    return c->note && c->changes && c->scaled ? QDOT_OK : QDOT_ENOMEM;
+}
+
+qdot_status
+qdot_taylor_follow_motion(qdot_taylor *t)
+{
+    QDOT_TRY(make_changes(t, 0));
+    for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++)
+        if (s->kept) {
+            list(t, s);
+            t->changes->changes_zero |= s->lead == 0 && looks_back(s);
+        }
+    return QDOT_OK;
 }
 
 qdot_status
@@ -152,18 +190,9 @@ qdot_taylor_affine(qdot_taylor *t, size_t n, const bool *kept)
 {
     bool *changes = qdot_calloc(t->rows + 1, sizeof *changes);
     bool *read = qdot_calloc(t->rows + 1, sizeof *read);
-    struct qdot_taylor_changes *c = qdot_calloc(1, sizeof *c);
+    const qdot_status status = make_changes(t, n);
 
-    qdot_taylor_changes_free(t);
-    t->changes = c;
-    if (c) {
-        c->n = n;
-        c->stale = true;
-        c->note = qdot_calloc(t->rows + 1, sizeof *c->note);
-        c->changes = qdot_calloc(2 * t->length + 1, sizeof *c->changes);
-        c->scaled = qdot_calloc(3 * t->length + 1, sizeof *c->scaled);
-    }
-    if (!changes || !read || !c || !c->note || !c->changes || !c->scaled) {
+    if (!changes || !read || status != QDOT_OK) {
         qdot_free(changes);
         qdot_free(read);
         return QDOT_ENOMEM;
@@ -205,33 +234,51 @@ differentiate(struct qdot_taylor_change *change)
 #define NOTHING (slopes){0}
 #include "series/linear.def"
     by = change->second ? NEWEST_second : NEWEST_to;
-    change->a = by[0];
-    change->b = by[1];
-    change->c = by[2];
+    change->a = i->newest & QDOT_X_NEWEST ? by[0] : 0;
+    change->b = i->newest & QDOT_Y_NEWEST ? by[1] : 0;
+    change->c = i->newest & QDOT_Z_NEWEST ? by[2] : 0;
 }
 
 void
-qdot_taylor_correct(qdot_taylor *t, int k, const double *newest)
+qdot_taylor_change_row(qdot_taylor *t, double *row, int k, double by)
+{
+    t->changes->note[number(t, row)] = by;
+    row[k] += by;
+}
+
+void
+qdot_taylor_follow(qdot_taylor *t, int k)
 {
     struct qdot_taylor_changes *all = t->changes;
     double *note = all->note;
 
     if (all->stale) {
         for (size_t i = 0; i < all->n_changes; i++)
-            differentiate(all->changes + i);
+            if (all->changes[i].varies || !all->begun)
+                differentiate(all->changes + i);
         all->stale = false;
-    }
-    for (size_t i = 0; i < all->n; i++) {
-        note[i] = newest[i];
-        t->coefficients[i * t->stride + (size_t)k] += newest[i];
+        all->begun = true;
     }
     for (size_t i = 0; i < all->n_changes; i++) {
         const struct qdot_taylor_change *c = all->changes + i;
-        const double d = c->a * note[c->x] + c->b * note[c->y] + c->c * note[c->z];
+        const double d = c->rate
+                             ? (k + c->lead + 1) * c->step->c * note[c->x]
+                             : c->a * note[c->x] + c->b * note[c->y] + c->c * note[c->z];
 
         note[c->to] = d;
-        c->row[k] += d;
+        c->row[k + c->lead] += d;
     }
-    for (size_t i = 0; i < all->n_scaled; i++)
-        all->scaled[i].row[k] += k * note[all->scaled[i].x];
+    for (size_t i = 0; i < all->n_scaled; i++) {
+        const int order = k + all->scaled[i].lead;
+
+        all->scaled[i].row[order] += order * note[all->scaled[i].x];
+    }
+}
+
+void
+qdot_taylor_correct(qdot_taylor *t, int k, const double *newest)
+{
+    for (size_t i = 0; i < t->changes->n; i++)
+        qdot_taylor_change_row(t, qdot_taylor_input(t, i), k, newest[i]);
+    qdot_taylor_follow(t, k);
 }

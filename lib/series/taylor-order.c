@@ -54,6 +54,7 @@ qdot_taylor_value(qdot_taylor_step *i)
         e = cosh(a);
         break;
     case QDOT_ZERO_POWER: d = pow(b, c); break;
+    case QDOT_ZERO_RATE: d = i->c * i->x[1]; break;
     }
     i->to[0] = d;
     switch (i->op) {
@@ -114,7 +115,24 @@ qdot_taylor_order(qdot_taylor *t, int k)
         qdot_taylor_code_begin(t->code, t);
     else
         order_zero(t);
-    qdot_taylor_changes_stale(t);
+    qdot_taylor_changes_stale(t, 0);
+}
+
+void
+qdot_taylor_order_leading(qdot_taylor *t, int k)
+{
+    qdot_taylor_function *const(*const function)[QDOT_T_COUNT] = functions();
+    qdot_taylor_step *s = t->steps, *const end = s + t->length;
+
+    for (s += k > -t->motion->program.lead ? t->still : 0; s < end; s++) {
+        const int order = s < t->steps + t->still ? 0 : k + s->lead;
+
+        if (order > 0)
+            function[order][s->op](s, t->kernels);
+        else if (order == 0)
+            qdot_taylor_value(s);
+    }
+    qdot_taylor_changes_stale(t, k);
 }
 
 /* Of inputs that are integrals, what order 0 gives; and the unit for the others. */

@@ -4,17 +4,20 @@
 #define QDOT_SERIES_TAYLOR_STEPS_H
 
 #include "num/series.h"
-#include "series/program.h"
+#include "series/motion.h"
 
 typedef struct qdot_taylor qdot_taylor; /* taylor.h */
 
 /* Rows of coefficients, by order. */
 typedef struct {
     uint16_t op, zero; /* as qdot_program_step */
-    int sign;
+    signed char sign, lead;
+    unsigned char newest;
+    bool kept;
     double *to, *second, *third, *d;
     const double *x, *y, *z;
-    double c; /* the inverse of what every order divides by; the unit of a LINK */
+    double
+        c; /* the inverse of what every order divides by, of RATE that of the unit; of LINK it */
 } qdot_taylor_step;
 
 /* A constant between two doubles. */
@@ -41,6 +44,8 @@ typedef struct {
 } qdot_taylor_block;
 
 struct qdot_taylor {
+    const qdot_motion *motion; /* it is of, borrowed; NULL: of a tape */
+    double unit;               /* of that */
     const qdot_series_kernels *kernels;
     size_t stride, inputs, outputs, rows;
     size_t moving; /* of the inputs the first, which are no numbers */
@@ -65,6 +70,16 @@ struct qdot_taylor {
     bool refused;                  /* none is to be written */
 };
 
+/* By `most` orders, with room for `unknowns` rows and for `more` doubles behind all of them. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_settle(qdot_taylor *t, const qdot_program *p,
+                                               int most, size_t unknowns, size_t more,
+                                               bool shaken);
+static inline double *
+qdot_taylor_place(const qdot_taylor *t, qdot_program_row r)
+{
+    return r == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)r * t->stride;
+}
+
 /* Order 0 of a step. */
 void qdot_taylor_value(qdot_taylor_step *step);
 
@@ -75,7 +90,14 @@ qdot_taylor_row(const qdot_taylor *t, const double *row)
 }
 
 void qdot_taylor_changes_free(qdot_taylor *t);
-/* Order 0 has been evaluated. */
-void qdot_taylor_changes_stale(qdot_taylor *t);
+/* Order k is being evaluated. */
+void qdot_taylor_changes_stale(qdot_taylor *t, int k);
+/* All steps of a motion, each at order k + its lead. */
+void qdot_taylor_order_leading(qdot_taylor *t, int k);
+/* The steps of a motion that are kept are to follow changes. A row's order k becomes by so much
+ * another; then what those steps make of all that. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_follow_motion(qdot_taylor *t);
+void qdot_taylor_change_row(qdot_taylor *t, double *row, int k, double by);
+void qdot_taylor_follow(qdot_taylor *t, int k);
 
 #endif

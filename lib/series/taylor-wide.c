@@ -27,13 +27,11 @@ typedef struct {
 /* Coefficients by order, then lane. */
 typedef struct {
     void (*order)(const qdot_taylor_wide *w, int k);
-    void (*correct)(const qdot_taylor_wide *w, int k, const double *newest, double divisor);
-    void (*dots)(const qdot_wide_sum *sum, double *out);
+    void (*correct)(const qdot_taylor_wide *w, int k, const double *newest,
+                    double divisor);
     void (*rest)(const qdot_wide_sum *sum, double scale, const double *from, double *out);
-    void (*rows)(const double *X, size_t width, int last, double per_unit, double *const *q,
-                 double *const *v);
-    void (*multiply)(const qdot_wide_columns *columns, const double *in, double factor,
-                     double *out);
+    void (*rows)(const double *X, size_t width, int last, double per_unit,
+                 double *const *q, double *const *v);
 } kernels;
 
 struct qdot_taylor_wide {
@@ -477,23 +475,10 @@ qdot_taylor_wide_rows(const qdot_taylor_wide *w, int last, double per_unit, doub
 }
 
 void
-qdot_taylor_wide_dots(const qdot_taylor_wide *w, const qdot_wide_sum *sum, double *out)
-{
-    w->kernels->dots(sum, out);
-}
-
-void
 qdot_taylor_wide_rest(const qdot_taylor_wide *w, const qdot_wide_sum *sum, double scale,
                       const double *from, double *out)
 {
     w->kernels->rest(sum, scale, from, out);
-}
-
-void
-qdot_taylor_wide_multiply(const qdot_taylor_wide *w, const qdot_wide_columns *columns,
-                          const double *in, double factor, double *out)
-{
-    w->kernels->multiply(columns, in, factor, out);
 }
 
 double

@@ -26,13 +26,6 @@ typedef struct {
     const double *x, *y;
 } qdot_wide_pair;
 
-/* Eight rows of a matrix: of column c its entries weight[8 c ...] times in[lane[c]]. */
-typedef struct {
-    size_t n;
-    const uint32_t *lane;
-    const double *weight;
-} qdot_wide_columns;
-
 /* Of a program, borrowed, whose inputs from n on have no coefficients beyond order 1 and are
  * not corrected. lane [n]: which of `lanes` lanes those before are, in what order steps alike
  * follow; NULL: the first n, in their order. *wide NULL: too few steps are alike. Errors: QDOT_ENOMEM. */
@@ -72,14 +65,9 @@ typedef struct {
     size_t n, x_stride, y_stride;
 } qdot_wide_sum;
 
-/* out [8] = the sum; and that taken from scale times from [8]; from NULL: from 0. */
-void qdot_taylor_wide_dots(const qdot_taylor_wide *wide, const qdot_wide_sum *sum, double *out);
-void qdot_taylor_wide_rest(const qdot_taylor_wide *wide, const qdot_wide_sum *sum, double scale,
-                           const double *from, double *out);
-/* out [8] = factor times the product. */
-void qdot_taylor_wide_multiply(const qdot_taylor_wide *wide,
-                               const qdot_wide_columns *columns, const double *in,
-                               double factor, double *out);
+/* out [8] = scale times from [8] less the sum; from NULL: 0. */
+void qdot_taylor_wide_rest(const qdot_taylor_wide *wide, const qdot_wide_sum *sum,
+                           double scale, const double *from, double *out);
 
 /* Vectors of a convolution that an order takes, and groups. */
 double qdot_taylor_wide_convolutions(const qdot_taylor_wide *wide);

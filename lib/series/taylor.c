@@ -1,6 +1,7 @@
 /* taylor.c -- a series program in doubles: its rows, and what it links. */
 #include "series/taylor.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -13,14 +14,8 @@
 
 enum { LINE = 8 }; /* doubles of a line of the cache */
 
-static double *
-place(const qdot_taylor *t, qdot_program_row r)
-{
-    return r == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)r * t->stride;
-}
-
 static qdot_status
-allocate(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns)
+allocate(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns, size_t more)
 {
     /* an odd number of cache lines apart, so that rows do not share a few sets */
     t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
@@ -33,7 +28,8 @@ allocate(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns)
     t->still = p->still;
     t->convolutions = p->convolutions;
     t->moving = p->moving;
-    t->allocated = qdot_calloc(t->rows * t->stride + LINE, sizeof *t->coefficients);
+    t->allocated =
+        qdot_calloc(t->rows * t->stride + more + LINE, sizeof *t->coefficients);
     t->output = qdot_calloc(t->outputs + 1, sizeof *t->output);
     t->constant = qdot_calloc(t->outputs + 1, sizeof *t->constant);
     t->steps = qdot_calloc(p->steps.n, sizeof *t->steps);
@@ -46,9 +42,9 @@ allocate(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns)
     return QDOT_OK;
 }
 
-/* Numbers get to their rows; which of them are drawn. */
+/* Numbers get to their rows; which of them are drawn. Shaken, they are their other neighbours. */
 static void
-set_constants(qdot_taylor *t, const qdot_program *p)
+set_constants(qdot_taylor *t, const qdot_program *p, bool shaken)
 {
     for (size_t r = 0; r < t->spare; r++) {
         const qdot_program_row_info *row = p->rows.at + r;
@@ -60,38 +56,41 @@ set_constants(qdot_taylor *t, const qdot_program *p)
             const qdot_program_constant *c = p->constants.at + row->at;
             const double far = qdot_shake_double(c->value, c->side);
 
-            *to = c->value;
-            if (c->low != 0)
+            *to = shaken ? far : c->value;
+            if (c->low != 0 && !shaken)
                 t->drawn[t->n_drawn++] = (struct qdot_taylor_drawn){
                     to, c->value, far, c->low / (far - c->value)};
         }
     }
 }
 
-/* Rows get their places, steps their pointers. */
-static qdot_status
-settle(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns)
+qdot_status
+qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns,
+                   size_t more, bool shaken)
 {
-    QDOT_TRY(allocate(t, p, most, unknowns));
-    set_constants(t, p);
+    QDOT_TRY(allocate(t, p, most, unknowns, more));
+    set_constants(t, p, shaken);
     for (size_t i = 0; i < p->steps.n; i++) {
         const qdot_program_step *s = p->steps.at + i;
 
         t->steps[i] = (qdot_taylor_step){.op = s->op,
                                          .zero = s->zero,
-                                         .sign = s->sign,
-                                         .to = place(t, s->to),
-                                         .second = place(t, s->second),
-                                         .third = place(t, s->third),
-                                         .d = place(t, s->d),
-                                         .x = place(t, s->x),
-                                         .y = place(t, s->y),
-                                         .z = place(t, s->z)};
+                                         .sign = (signed char)s->sign,
+                                         .lead = s->lead,
+                                         .newest = t->motion ? s->newest : UCHAR_MAX,
+                                         .kept = s->kept,
+                                         .to = qdot_taylor_place(t, s->to),
+                                         .second = qdot_taylor_place(t, s->second),
+                                         .third = qdot_taylor_place(t, s->third),
+                                         .d = qdot_taylor_place(t, s->d),
+                                         .x = qdot_taylor_place(t, s->x),
+                                         .y = qdot_taylor_place(t, s->y),
+                                         .z = qdot_taylor_place(t, s->z)};
     }
     for (size_t i = 0; i < t->outputs; i++) {
         const qdot_program_row r = p->outputs.at[i];
 
-        t->output[i] = place(t, r);
+        t->output[i] = qdot_taylor_place(t, r);
         t->constant[i] = p->rows.at[r].still;
     }
     t->kernels = qdot_series_kernels_get();
@@ -111,7 +110,7 @@ make(const qdot_tape *tape, int most, size_t moving, size_t unknowns,
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
     QDOT_TRY(qdot_program_init(tape, moving, false, &program));
     t = qdot_calloc(1, sizeof *t);
-    status = t ? settle(t, &program, most, unknowns) : QDOT_ENOMEM;
+    status = t ? qdot_taylor_settle(t, &program, most, unknowns, 0, false) : QDOT_ENOMEM;
     qdot_program_clear(&program);
     if (status != QDOT_OK) {
         qdot_taylor_free(t);

@@ -1,5 +1,5 @@
-/* test_lanes-code.c -- machine code in lanes against the kernels: every recurrence, every
- * number of orders, every kind of processor that is here and has code.
+/* test_lanes-code.c -- machine code in lanes, and of one lane, against the kernels: every recurrence,
+ * every number of orders, every kind of processor that is here and has code.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -87,52 +88,19 @@ coefficient(size_t i, size_t l, int k)
     return i == 3 ? 0 : k < 4 ? 0.3 / k - 0.1 * (double)i + more : more * pow(0.5, k);
 }
 
-/* What is written: the steps, at once or in two parts; two sums of products of outputs. */
+/* What is written: the steps; lanes, or one of them. */
 typedef struct {
     const scene *scene;
     qdot_lanes *lanes;
-    bool parts;
+    qdot_lanes_rows one; /* that one's rows */
     int from, late, loop, to;
 } plan;
 
-static double
-half(int k)
-{
-    return 0.5 * k;
-}
-
-static qdot_lanes_row
-output(const qdot_lanes_writer *w, const plan *p, size_t i)
-{
-    return qdot_lanes_row_of(w, qdot_lanes_output(p->lanes, i));
-}
-
-/* Row 0: all of sum_{j=1..k-1} a_j b_{k-j} + b_j b_{k-j}, times k/2, less 3 and number 0. */
 static void
 order(qdot_lanes_writer *w, int k, void *user)
 {
-    const plan *p = user;
-    const qdot_lanes_pair pairs[] = {{output(w, p, 0), output(w, p, 2)},
-                                     {output(w, p, 2), output(w, p, 2)}};
-    qdot_lanes_sum sum, other = QDOT_LANES_NOTHING;
-
-    if (p->parts) {
-        const qdot_lanes_row in[] = {qdot_lanes_row_of(w, qdot_lanes_input(p->lanes, 0)),
-                                     qdot_lanes_row_of(w, qdot_lanes_input(p->lanes, 1))};
-        const qdot_lanes_row wanted[] = {output(w, p, 0), output(w, p, 13)};
-
-        qdot_lanes_steps_without(w, k, 2, in, 2, wanted);
-        qdot_lanes_steps_with(w, k);
-    } else {
-        qdot_lanes_steps(w, k);
-    }
-    sum = qdot_lanes_dots(w, 2, pairs, k);
-    qdot_lanes_scale(w, &sum, qdot_lanes_scalar_of(w, half, k));
-    qdot_lanes_negate(w, &sum);
-    qdot_lanes_add(w, &sum, false, qdot_lanes_scalar(w, 3));
-    qdot_lanes_add(w, &other, true, qdot_lanes_number(w, 0));
-    qdot_lanes_add_scaled(w, &sum, other, qdot_lanes_scalar(w, 1));
-    qdot_lanes_store(w, sum, (qdot_lanes_at){qdot_lanes_further_row(w, 0), k});
+    (void)user;
+    qdot_lanes_steps(w, k);
 }
 
 static void
@@ -141,9 +109,8 @@ write_orders(qdot_lanes_writer *w, void *user)
     plan *p = user;
 
     for (size_t i = 0; i < p->scene->n; i++)
-        qdot_lanes_keep(w, output(w, p, i));
-    qdot_lanes_keep(w, qdot_lanes_further_row(w, 0));
-    qdot_lanes_orders(w, p->from, p->late, p->loop, p->to, order, user);
+        qdot_lanes_keep(w, qdot_lanes_get_rows(p->lanes).program->outputs.at[i]);
+    qdot_lanes_orders(w, p->from, p->late, p->loop, p->to, order, p);
 }
 
 /* Inputs, moved by a little, and orders below `from` by the kernels. */
@@ -174,32 +141,63 @@ agree(double seen, double want, double *size, const char *what, size_t i, size_t
                  i, l, k, p->to, p->late, seen, want);
 }
 
-static double
-sum_of_products(const qdot_lanes *lanes, size_t l, int k)
+/* Coefficients up to order `from` of lane l, as rows of one double. */
+static void
+take_lane(const qdot_lanes_rows *from, qdot_lanes_rows *to, size_t l)
 {
-    const double *a = qdot_lanes_output(lanes, 0), *b = qdot_lanes_output(lanes, 2);
-    double sum = 0;
+    const size_t doubles = from->program->rows.n * from->stride + from->program->length;
 
-    for (size_t j = 1; j < (size_t)k; j++)
-        sum += (a[j * L + l] + b[j * L + l]) * b[((size_t)k - j) * L + l];
-    return 3 - 0.5 * k * sum - (double)l;
+    *to = *from;
+    to->group = 1;
+    to->coefficients = calloc(doubles, sizeof *to->coefficients);
+    assert_non_null(to->coefficients);
+    for (size_t i = 0; i < doubles; i++)
+        to->coefficients[i] = from->coefficients[i * L + l];
 }
 
 static void
-compare(const plan *p, const qdot_lanes_code *code, const qdot_lanes *kernels)
+compare(const plan *p, const qdot_lanes *kernels)
 {
-    for (size_t l = 0; l < L; l++) {
-        double size = 1;
+    for (size_t l = 0; l < L; l++)
+        for (size_t i = 0; i < p->scene->n; i++) {
+            double size = 1;
 
-        for (size_t i = 0; i < p->scene->n; i++, size = 1)
             for (int k = 0; k <= p->to; k++)
                 agree(qdot_lanes_output(p->lanes, i)[(size_t)k * L + l],
                       qdot_lanes_output(kernels, i)[(size_t)k * L + l], &size, "output",
                       i, l, k, p);
-        for (int k = p->from; k <= p->to; k++)
-            agree(qdot_lanes_code_row(code, 0)[(size_t)k * L + l],
-                  sum_of_products(kernels, l, k), &size, "sum", 0, l, k, p);
+        }
+}
+
+static void
+compare_one(const plan *p, const qdot_lanes *kernels, size_t l)
+{
+    for (size_t i = 0; i < p->scene->n; i++) {
+        const double *row =
+            p->one.coefficients + p->one.program->outputs.at[i] * p->one.stride;
+        double size = 1;
+
+        for (int k = 0; k <= p->to; k++)
+            agree(row[k], qdot_lanes_output(kernels, i)[(size_t)k * L + l], &size,
+                  "output", i, l, k, p);
     }
+}
+
+/* Lane 3 alone. */
+static void
+one_agrees(plan *p, const qdot_lanes *kernels)
+{
+    const qdot_lanes_rows rows = qdot_lanes_get_rows(p->lanes);
+    qdot_lanes_code *code;
+
+    fill(p->lanes, p, 0.01);
+    take_lane(&rows, &p->one, 3);
+    assert_int_equal(qdot_lanes_code_new(&p->one, 0, write_orders, p, &code), QDOT_OK);
+    assert_non_null(code);
+    qdot_lanes_code_run(code);
+    compare_one(p, kernels, 3);
+    qdot_lanes_code_free(code);
+    free(p->one.coefficients);
 }
 
 static void
@@ -207,24 +205,24 @@ code_agrees_with_kernels(const scene *f, const qdot_tape *tape, plan p)
 {
     qdot_lanes *kernels;
     qdot_lanes_code *code;
+    qdot_lanes_rows rows;
 
     p.scene = f;
     assert_int_equal(qdot_lanes_new_moving(tape, MOST + 2, MOVING, &p.lanes), QDOT_OK);
     assert_int_equal(qdot_lanes_new_moving(tape, MOST + 2, MOVING, &kernels), QDOT_OK);
-    assert_int_equal(qdot_lanes_code_new(p.lanes, 1, 1, write_orders, &p, &code),
-                     QDOT_OK);
+    rows = qdot_lanes_get_rows(p.lanes);
+    assert_int_equal(qdot_lanes_code_new(&rows, 0, write_orders, &p, &code), QDOT_OK);
     assert_true((code != NULL) == qdot_lanes_may_be_code());
     if (code) {
-        for (size_t l = 0; l < L; l++)
-            qdot_lanes_code_number(code, 0)[l] = (double)l;
         for (int again = 0; again < 2; again++) { /* nothing is left of the first time */
             fill(p.lanes, &p, 0.01 * again);
             fill(kernels, &p, 0.01 * again);
             for (int k = p.from; k <= p.to; k++)
                 qdot_lanes_order(kernels, k);
             qdot_lanes_code_run(code);
-            compare(&p, code, kernels);
+            compare(&p, kernels);
         }
+        one_agrees(&p, kernels);
     }
     qdot_lanes_code_free(code);
     qdot_lanes_free(p.lanes);
@@ -245,14 +243,12 @@ every_order_agrees_with_the_kernels(void **state)
         if (kind == 0)
             assert_false(qdot_lanes_may_be_code());
         for (int to = 1; to <= MOST; to += to < 9 ? 1 : 5)
-            for (int parts = 0; parts < 2; parts++)
-                for (int late = 0; late <= 2; late++)
-                    code_agrees_with_kernels(&f, tape,
-                                             (plan){.parts = parts,
-                                                    .from = 1 + 2 * parts,
-                                                    .late = late,
-                                                    .loop = 4 * late,
-                                                    .to = to + 2 * parts});
+            for (int late = 0; late <= 2; late++)
+                code_agrees_with_kernels(&f, tape,
+                                         (plan){.from = 1 + late,
+                                                .late = late,
+                                                .loop = 4 * late,
+                                                .to = to + late});
     }
     qdot_kind_limit(2);
     qdot_tape_free(tape);

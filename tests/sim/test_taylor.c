@@ -4,10 +4,15 @@
 
 #include <math.h>
 
+#include "series/lanes-code.h"
 #include "sim/form/direct.h"
+#include "sim/form/motion-of-residual.h"
+#include "sim/form/motion-series.h"
 #include "sim/form/residual.h"
 #include "sim/form/residual-series.h"
 #include "sim/plan/plan.h"
+
+enum { P = 24 };
 
 /* A run of the scene by a method under a tolerance; the caller frees it. */
 static qdot_run *
@@ -45,33 +50,17 @@ agrees_with_rk8pd(fixture *f, double bound)
     qdot_run_free(rk8pd);
 }
 
-/* Expand both forms about one state and compare every coefficient. */
+/* About one state every coefficient of `b` is that of `a`, which is expanded. */
 static void
-forms_agree(fixture *f, const double *y, double t)
+series_agree(const qdot_ode_series *a, const qdot_ode_series *b, size_t n,
+             const double *y, double t, int p)
 {
-    enum { P = 24 };
-    qdot_residual *residual;
-    qdot_direct *direct;
-    qdot_residual_series *series;
-    qdot_plan *plan;
-    const qdot_ode_series *a, *b;
-
-    f->request.method = "taylor";
-    must(qdot_plan_new(f->scene, &f->request, &plan));
-    must(qdot_direct_new(plan, false, &direct));
-    must(qdot_residual_new(f->scene, plan, &residual));
-    assert_non_null(residual);
-    must(qdot_residual_series_new(plan, residual, false, &series));
-    a = qdot_direct_series(direct);
-    b = qdot_residual_series_get(series);
-    must(a->begin(t, y, 0.125, a->user));
-    must(a->extend(P, a->user));
     must(b->begin(t, y, 0.125, b->user));
-    must(b->extend(P, b->user));
-    for (size_t i = 0; i < 2 * plan->n; i++) {
+    must(b->extend(p, b->user));
+    for (size_t i = 0; i < n; i++) {
         double size = 0;
 
-        for (int k = 0; k <= P; k++) {
+        for (int k = 0; k <= p; k++) {
             double x = a->x[i * a->stride + (size_t)k],
                    z = b->x[i * b->stride + (size_t)k];
 
@@ -80,6 +69,61 @@ forms_agree(fixture *f, const double *y, double t)
                 fail_msg("component %zu, order %d: %.17g and %.17g", i, k, x, z);
         }
     }
+}
+
+/* The program of the residual, by kernels and as machine code. */
+static void
+stages_agree(const qdot_plan *plan, const qdot_residual *residual,
+             const qdot_ode_series *a, const double *y, double t)
+{
+    qdot_motion motion;
+    qdot_motion_series *stages;
+    const qdot_ode_series *b;
+    const char *why;
+
+    must(qdot_motion_of_residual(plan, residual, &motion));
+    must(qdot_motion_series_new(plan, &motion, residual->masses, false, &stages));
+    b = qdot_motion_series_get(stages);
+    series_agree(a, b, 2 * plan->n, y, t, P);
+    assert_int_equal(qdot_motion_series_code(stages, &why), 0);
+    assert_non_null(why);
+    assert_true((b->code.write != NULL) == qdot_lanes_may_be_code());
+    if (b->code.write) {
+        must(b->code.write(P, b->code.user));
+        assert_true(b->code.there(P, b->code.user));
+        assert_false(b->code.there(P - 1, b->code.user));
+        assert_true(qdot_motion_series_code(stages, &why) > 0);
+        series_agree(a, b, 2 * plan->n, y, t, P);
+        series_agree(a, b, 2 * plan->n, y, t, P - 1); /* kernels */
+        b->code.drop(b->code.user);
+        assert_false(b->code.there(P, b->code.user));
+        series_agree(a, b, 2 * plan->n, y, t, P);
+    }
+    qdot_motion_series_free(stages);
+    qdot_motion_clear(&motion);
+}
+
+/* Both forms. */
+static void
+forms_agree(fixture *f, const double *y, double t)
+{
+    qdot_residual *residual;
+    qdot_direct *direct;
+    qdot_residual_series *series;
+    qdot_plan *plan;
+    const qdot_ode_series *a;
+
+    f->request.method = "taylor";
+    must(qdot_plan_new(f->scene, &f->request, &plan));
+    must(qdot_direct_new(plan, false, &direct));
+    must(qdot_residual_new(f->scene, plan, &residual));
+    assert_non_null(residual);
+    must(qdot_residual_series_new(plan, residual, false, &series));
+    a = qdot_direct_series(direct);
+    must(a->begin(t, y, 0.125, a->user));
+    must(a->extend(P, a->user));
+    series_agree(a, qdot_residual_series_get(series), 2 * plan->n, y, t, P);
+    stages_agree(plan, residual, a, y, t);
     qdot_direct_free(direct);
     qdot_residual_series_free(series);
     qdot_residual_free(residual);

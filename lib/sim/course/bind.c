@@ -364,15 +364,18 @@ void
 qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
 {
     const char *why = "machine code is made where equations are taken as M q'' = f";
+    bool path;
     const size_t bytes = b->direct       ? qdot_direct_code(b->direct, &why)
+                         : b->residual   ? qdot_residual_series_code(b->residual, &why)
                          : b->bordered   ? qdot_bordered_code(b->bordered, &why)
                          : b->eliminated ? qdot_eliminated_code(b->eliminated, &why)
                                          : 0;
 
-    if (b->residual && qdot_residual_series_is_wide(b->residual))
+    if (b->residual && qdot_residual_series_tree_size(b->residual, &path) > 0)
         qdot_text_add(to, "kernels, like steps as vectors");
     else if (bytes > 0)
-        qdot_text_format(to, "machine code for %s, %.1f kB", qdot_taylor_code_kind(),
+        qdot_text_format(to, "machine code for %s, %.1f kB",
+                         b->residual ? "AVX2" : qdot_taylor_code_kind(),
                          1e-3 * (double)bytes);
     else
         qdot_text_format(to, "kernels; %s", why);

@@ -6,22 +6,19 @@
 
 #include "base/memory.h"
 #include "ode/taylor.h"
-#include "series/lanes-code.h"
+#include "series/lanes-motion.h"
 #include "sim/form/motion-of-equations.h"
+#include "sim/form/motion-of-residual.h"
 #include "sim/model/constrained-lanes.h"
+#include "tape/shake.h"
 
 enum { L = QDOT_LANES, most_order = 44 };
-
-/* Numbers of the code: units of time, their squares, what an order of q'' is multiplied by, then
- * the inverses, negated. A larger block than this has none. */
-enum { UNIT, UNIT_SQUARE, ONCE, TWICE, INVERSES, most_solved = 16 };
 
 /* Unknowns that K couples. */
 typedef struct {
     size_t first, n, positive; /* of these the first are of coordinates, others of constraints */
     double *A, *inverse;       /* [n x n groups] K, factored; its inverse */
     double *x;                 /* [n groups] */
-    size_t number;             /* of the code's, the first of its inverse */
 } solver;
 
 struct qdot_ensemble_series {
@@ -35,11 +32,12 @@ struct qdot_ensemble_series {
     double *q, *v, *t;            /* rows of the inputs; behind t numbers: parameters, momenta */
     solver *solvers;              /* [blocks] */
     size_t blocks;
-    double *by;             /* [solved groups] */
-    qdot_lanes_row *solved; /* [solved] rows of the unknowns */
+    double *by; /* [solved groups] */
     double unit[L];
-    int to;                /* order of q'' that */
-    qdot_lanes_code *code; /* goes to; NULL: kernels run */
+    bool shaken;
+    qdot_tape *shaken_masses; /* of a residual; NULL: its own */
+    double *in, *out, *work;  /* groups */
+    qdot_lanes_motion *code;  /* NULL: kernels run */
 };
 
 /* --- one stage ----------------------------------------------------------------------- */
@@ -51,12 +49,51 @@ is_pair(const solver *s)
     return s->n == 2 && s->positive == 2;
 }
 
+static bool
+is_by_residual(const qdot_plan *p)
+{
+    return p->residual && p->residual->masses && !p->constraints && !p->indefinite;
+}
+
+/* The lower triangle of K of block b, of which no row of the program has any; *at behind it. */
+static void
+take_masses(const qdot_ensemble_series *e, size_t b, const double **at)
+{
+    const qdot_plan_block *block = e->plan->blocks + b;
+    const size_t n = block->n;
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double *to = e->solvers[b].A + (i * n + j) * L;
+
+            for (size_t l = 0; l < L; l++)
+                to[l] = !block->constant ? *(*at)++
+                        : e->shaken      ? qdot_shake_double(block->M[i * n + j],
+                                                             block->side[i * n + j])
+                                         : block->M[i * n + j];
+        }
+}
+
+static void
+evaluate_masses(const qdot_ensemble_series *e, const double *t, const double *y)
+{
+    const double *at = e->out;
+
+    memcpy(e->in, y, 2 * e->n * L * sizeof *y);
+    memcpy(e->in + 2 * e->n * L, t, L * sizeof *t);
+    qdot_lanes_eval_near(e->shaken ? e->shaken_masses : e->plan->residual->masses, e->in,
+                         e->out, e->work);
+    for (size_t b = 0; b < e->blocks; b++)
+        take_masses(e, b, &at);
+}
+
 static void
 factor(const qdot_ensemble_series *e, const solver *s)
 {
     const qdot_motion *m = &e->motion;
 
-    memset(s->A, 0, s->n * s->n * L * sizeof *s->A);
+    if (!e->out)
+        memset(s->A, 0, s->n * s->n * L * sizeof *s->A);
     for (size_t k = 0; k < m->entries.n; k++) {
         const qdot_motion_entry *x = m->entries.at + k;
         const size_t i = x->i - s->first, j = x->j - s->first; /* below 0: beyond n */
@@ -124,28 +161,10 @@ begin(const double *t, const double *y, const double *unit, void *user)
     memcpy(e->t + L, unit, L * sizeof *unit);
     qdot_lanes_set_unit(e->lanes, unit);
     qdot_lanes_draw(e->lanes, t);
+    if (e->out)
+        evaluate_masses(e, t, y);
     for (int k = qdot_motion_first(&e->motion); k <= 0; k++)
         stage(e, k);
-}
-
-static void
-run_code(qdot_ensemble_series *e)
-{
-    double *unit = qdot_lanes_code_number(e->code, UNIT);
-    double *square = qdot_lanes_code_number(e->code, UNIT_SQUARE);
-
-    for (size_t l = 0; l < L; l++) {
-        unit[l] = e->unit[l];
-        square[l] = e->unit[l] * e->unit[l];
-    }
-    for (size_t b = 0; b < e->blocks; b++) {
-        const solver *s = e->solvers + b;
-        double *minus = qdot_lanes_code_number(e->code, s->number);
-
-        for (size_t i = 0; i < s->n * s->n * L; i++)
-            minus[i] = -s->inverse[i];
-    }
-    qdot_lanes_code_run(e->code);
 }
 
 static void
@@ -157,8 +176,11 @@ extend(int p, void *user)
         if (!is_pair(e->solvers + b))
             e->kernels->invert(e->solvers[b].n, e->solvers[b].positive, e->solvers[b].A,
                                e->solvers[b].inverse);
-    if (e->code && p == e->to + 1) {
-        run_code(e);
+    if (e->code && p == qdot_lanes_motion_orders(e->code) + 1) {
+        for (size_t b = 0; b < e->blocks; b++)
+            qdot_lanes_motion_set(e->code, b, e->solvers[b].inverse, e->solvers[b].n,
+                                  NULL);
+        qdot_lanes_motion_run(e->code, e->unit);
         return;
     }
     for (int k = 1; k < p; k++)
@@ -169,138 +191,6 @@ static void
 project(const double *t, double *y, double *carry, double *moved, void *user)
 {
     qdot_constrained_lanes_project(((qdot_ensemble_series *)user)->held, t, y, carry, moved);
-}
-
-/* --- the same as machine code ------------------------------------------------------- */
-
-/* 1/(k + 1), 1/((k + 1)(k + 2)); and in low orders what these are beyond their doubles, for
- * which a division is exact but for the last bit (series/taylor.h). */
-static double
-once(int k)
-{
-    return 1.0 / (k + 1);
-}
-
-static double
-twice(int k)
-{
-    return 1.0 / ((k + 1) * (k + 2));
-}
-
-static double
-beyond(double inverse, int k, int divisor)
-{
-    return k <= QDOT_TAYLOR_EXACT ? fma(-inverse, divisor, 1) / divisor : 0;
-}
-
-static double
-once_beyond(int k)
-{
-    return beyond(once(k), k, k + 1);
-}
-
-static double
-twice_beyond(int k)
-{
-    return beyond(twice(k), k, (k + 1) * (k + 2));
-}
-
-/* factor = unit^n/divisor, and to = factor a */
-static void
-write_factor(qdot_lanes_writer *w, size_t unit, qdot_lanes_by_order *inverse, int k,
-             size_t factor)
-{
-    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
-
-    qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
-                           qdot_lanes_scalar_of(w, inverse, k));
-    qdot_lanes_store(w, sum, qdot_lanes_number(w, factor));
-}
-
-static void
-write_integral(qdot_lanes_writer *w, const qdot_ensemble_series *e, qdot_lanes_at a, size_t unit,
-               qdot_lanes_by_order *more, size_t factor, qdot_lanes_at to)
-{
-    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
-
-    /* orders of the loop are beyond these */
-    if (e->to >= QDOT_TAYLOR_EXACT_FROM && a.order <= QDOT_TAYLOR_EXACT) {
-        qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
-                               qdot_lanes_scalar_of(w, more, a.order));
-        qdot_lanes_scale(w, &sum, a);
-    }
-    qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, factor), a);
-    qdot_lanes_store(w, sum, to);
-}
-
-/* A block's unknowns, -K^-1 E. */
-static void
-write_block(qdot_lanes_writer *w, const qdot_ensemble_series *e, const solver *s, int k)
-{
-    for (size_t i = 0; i < s->n; i++) {
-        qdot_lanes_sum a = QDOT_LANES_NOTHING;
-
-        for (size_t j = 0; j < s->n; j++)
-            qdot_lanes_add_product(
-                w, &a, false, (qdot_lanes_at){e->motion.equations.at[s->first + j], k},
-                qdot_lanes_number(w, s->number + i * s->n + j));
-        qdot_lanes_store(w, a, (qdot_lanes_at){e->solved[s->first + i], k});
-    }
-}
-
-/* Order k of the unknowns, and of what they integrate to. */
-static void
-write_order(qdot_lanes_writer *w, int k, void *user)
-{
-    const qdot_ensemble_series *e = user;
-    const qdot_motion *m = &e->motion;
-
-    qdot_lanes_steps_but(w, k, m->solved.n, e->solved, m->equations.at);
-    write_factor(w, UNIT, once, k, ONCE);
-    write_factor(w, UNIT_SQUARE, twice, k, TWICE);
-    for (size_t b = 0; b < e->blocks; b++)
-        write_block(w, e, e->solvers + b, k);
-    for (size_t i = 0; i < m->equations.n; i++)
-        qdot_lanes_unread(w, (qdot_lanes_at){m->equations.at[i], k});
-    for (size_t i = 0; i < m->unknowns.n; i++) {
-        const qdot_motion_unknown *u = m->unknowns.at + i;
-        const qdot_lanes_at a = {u->value != QDOT_NO_ROW ? u->value : u->row, k};
-
-        if (u->twice != QDOT_NO_ROW)
-            write_integral(w, e, a, UNIT_SQUARE, twice_beyond, TWICE,
-                           (qdot_lanes_at){u->twice, k + 2});
-        if (u->once != QDOT_NO_ROW)
-            write_integral(w, e, a, UNIT, once_beyond, ONCE, (qdot_lanes_at){u->once, k + 1});
-    }
-}
-
-static void
-write_expansion(qdot_lanes_writer *w, void *user)
-{
-    const qdot_ensemble_series *e = user;
-
-    qdot_lanes_orders(w, 1, 0, e->to >= QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT + 1 : 1, e->to,
-                      write_order, user);
-}
-
-static qdot_status
-write_code(qdot_ensemble_series *e, int most)
-{
-    const qdot_motion *m = &e->motion;
-    size_t numbers = INVERSES;
-
-    e->to = most - 1;
-    for (size_t b = 0; b < e->blocks; b++) {
-        solver *s = e->solvers + b;
-
-        s->number = numbers;
-        numbers += s->n * s->n;
-        if (s->n > most_solved)
-            return QDOT_OK;
-    }
-    for (size_t i = 0; i < m->solved.n; i++)
-        e->solved[i] = m->unknowns.at[m->solved.at[i]].row;
-    return qdot_lanes_code_new(e->lanes, 0, numbers, write_expansion, e, &e->code);
 }
 
 /* --- building ------------------------------------------------------------------------ */
@@ -322,6 +212,13 @@ make_solver(qdot_ensemble_series *e, size_t b)
     return s->A && s->inverse && s->x ? QDOT_OK : QDOT_ENOMEM;
 }
 
+static double
+calls(const qdot_plan *p)
+{
+    return (double)qdot_tape_calls(
+        is_by_residual(p) ? p->residual->places : p->tape);
+}
+
 /* Nanoseconds for all lanes, as measured with AVX-512; only their ratios matter. */
 static void
 estimate(const qdot_plan *plan, const qdot_motion *motion, double *c)
@@ -329,7 +226,7 @@ estimate(const qdot_plan *plan, const qdot_motion *motion, double *c)
     const double convolutions = motion->program.convolutions;
     const double length = (double)(motion->program.length - motion->program.still);
 
-    c[0] = 300 + 100 * (double)qdot_tape_calls(plan->tape) + 5 * length + 20 * (double)plan->n;
+    c[0] = 300 + 100 * calls(plan) + 5 * length + 20 * (double)plan->n;
     c[1] = 2 * length + 3 * convolutions + 10 * (double)plan->n;
     c[2] = 0.1 * convolutions;
     for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
@@ -346,7 +243,7 @@ estimate_written(const qdot_plan *plan, const qdot_motion *motion, double *c)
 {
     const double n = (double)plan->n;
 
-    c[0] = 60 + 60 * n + 60 * (double)qdot_tape_calls(plan->tape);
+    c[0] = 60 + 60 * n + 60 * calls(plan);
     c[1] = 10 * n;
     c[2] = 0.123 * motion->program.convolutions;
     for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
@@ -370,12 +267,38 @@ best_order(const qdot_plan *plan, const qdot_motion *motion, double tol)
 }
 
 static qdot_status
+make_motion(const qdot_plan *plan, qdot_motion *motion)
+{
+    return is_by_residual(plan)
+               ? qdot_motion_of_residual(plan, plan->residual, motion)
+               : qdot_motion_of_members(plan, motion);
+}
+
+static qdot_status
+make_masses(qdot_ensemble_series *e)
+{
+    const qdot_tape *masses = e->plan->residual->masses;
+
+    e->in = qdot_calloc((2 * e->n + 1) * L, sizeof *e->in);
+    e->out = qdot_calloc(qdot_tape_outputs(masses) * L + 1, sizeof *e->out);
+    e->work = qdot_calloc(qdot_tape_work(masses) * L + 1, sizeof *e->work);
+    if (!e->in || !e->out || !e->work)
+        return QDOT_ENOMEM;
+    return e->shaken ? qdot_tape_shake(masses, &e->shaken_masses) : QDOT_OK;
+}
+
+static qdot_status
 make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
 {
-    QDOT_TRY(qdot_motion_of_members(e->plan, &e->motion));
+    qdot_lanes_rows rows;
+
+    e->shaken = shaken;
+    QDOT_TRY(make_motion(e->plan, &e->motion));
     if (*order == 0)
         *order = best_order(e->plan, &e->motion, tol);
     QDOT_TRY(qdot_lanes_of_motion(&e->motion, shaken, *order, &e->lanes));
+    if (is_by_residual(e->plan))
+        QDOT_TRY(make_masses(e));
     if (e->plan->constraints)
         QDOT_TRY(qdot_constrained_lanes_new(e->plan, shaken, &e->held));
     e->stride = qdot_lanes_stride(e->lanes);
@@ -385,12 +308,12 @@ make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
     e->blocks = e->motion.blocks.n > 0 ? e->motion.blocks.n - 1 : 0;
     e->solvers = qdot_calloc(e->blocks + 1, sizeof *e->solvers);
     e->by = qdot_calloc(e->motion.solved.n * L + 1, sizeof *e->by);
-    e->solved = qdot_calloc(e->motion.solved.n + 1, sizeof *e->solved);
-    if (!e->solvers || !e->by || !e->solved)
+    if (!e->solvers || !e->by)
         return QDOT_ENOMEM;
     for (size_t b = 0; b < e->blocks; b++)
         QDOT_TRY(make_solver(e, b));
-    return write_code(e, *order);
+    rows = qdot_lanes_get_rows(e->lanes);
+    return qdot_lanes_motion_new(&rows, &e->motion, *order - 1, 0, &e->code);
 }
 
 qdot_status
@@ -426,13 +349,16 @@ qdot_ensemble_series_free(qdot_ensemble_series *e)
         qdot_free(e->solvers[b].inverse);
         qdot_free(e->solvers[b].x);
     }
-    qdot_lanes_code_free(e->code);
+    qdot_lanes_motion_free(e->code);
     qdot_constrained_lanes_free(e->held);
     qdot_lanes_free(e->lanes);
     qdot_motion_clear(&e->motion);
     qdot_free(e->solvers);
     qdot_free(e->by);
-    qdot_free(e->solved);
+    qdot_tape_free(e->shaken_masses);
+    qdot_free(e->in);
+    qdot_free(e->out);
+    qdot_free(e->work);
     qdot_free(e);
 }
 

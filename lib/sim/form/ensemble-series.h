@@ -20,8 +20,9 @@
 
 typedef struct qdot_ensemble_series qdot_ensemble_series; /* one a thread */
 
-/* M q'' = f with constraints, for series to *order, or if that is 0 to the one that costs least
- * under tol, which is put there; shaken as for qdot_bind_new. Plan borrowed. Errors: QDOT_ENOTBUILT
+/* A plan with a residual by it, others by M q'' = f with constraints: for series to *order, or if that
+ * is 0 to the one that costs least under tol, which is put there; shaken as for qdot_bind_new. Plan
+ * borrowed. Errors: QDOT_ENOTBUILT
  * (equations that switch), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_series_new(const qdot_plan *plan, bool shaken,
                                                      double tol, int *order,

@@ -202,7 +202,7 @@ make(qdot_leading *l)
     const size_t n = l->plan->n;
 
     if (l->plan->residual) {
-        QDOT_TRY(qdot_motion_of_residual(l->plan, &l->motion));
+        QDOT_TRY(qdot_motion_of_residual(l->plan, l->plan->residual, &l->motion));
         QDOT_TRY(make_masses(l));
     } else {
         QDOT_TRY(qdot_motion_of_equations(l->plan, &l->motion));

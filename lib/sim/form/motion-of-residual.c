@@ -129,10 +129,11 @@ build(builder *b)
 }
 
 qdot_status
-qdot_motion_of_residual(const qdot_plan *plan, qdot_motion *motion)
+qdot_motion_of_residual(const qdot_plan *plan, const qdot_residual *residual,
+                        qdot_motion *motion)
 {
     const size_t inputs = 2 * plan->n + 1;
-    builder b = {.plan = plan, .residual = plan->residual, .motion = motion};
+    builder b = {.plan = plan, .residual = residual, .motion = motion};
     qdot_status status;
 
     *motion = (qdot_motion){0};

@@ -13,9 +13,10 @@
 #include "series/motion.h"
 #include "sim/form/residual.h"
 
-/* Of a plan with a residual, not kept. Inputs are q, q', t; a block of coordinates is one of
+/* Of a plan and its residual, not kept. Inputs are q, q', t; a block of coordinates is one of
  * the motion. Errors: those of series; QDOT_ENOMEM; the motion is then empty. */
 QDOT_MUST_CHECK qdot_status qdot_motion_of_residual(const qdot_plan *plan,
+                                                    const qdot_residual *residual,
                                                     qdot_motion *motion);
 
 #endif

@@ -358,8 +358,9 @@ make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
 {
     const qdot_plan *p = e->plan;
 
-    QDOT_TRY(p->canonical  ? qdot_precise_new(p->pool, p->canonical->momenta, 0, bits, &e->momenta)
-             : p->residual ? qdot_motion_of_residual(p, &e->own)
+    QDOT_TRY(p->canonical
+                 ? qdot_precise_new(p->pool, p->canonical->momenta, 0, bits, &e->momenta)
+             : p->residual ? qdot_motion_of_residual(p, p->residual, &e->own)
                            : qdot_motion_of_equations(p, &e->own));
     e->late = p->canonical != NULL;
     e->motion = p->canonical ? &p->canonical->motion : &e->own;

@@ -1,5 +1,6 @@
 /* residual-series.h -- Taylor coefficients of the motion from d'Alembert's residual
- * (residual.h).
+ * (residual.h): along its tree (residual-sweeps.h), or by the program of the motion
+ * (motion-series.h), whichever is estimated to cost less.
  *
  * Tests  tests/sim/test_taylor.c, test_residual-sweeps.c
  */
@@ -24,8 +25,8 @@ const qdot_ode_series *qdot_residual_series_get(const qdot_residual_series *seri
 
 /* Convolutions an order; how often M was factored. */
 double qdot_residual_series_convolutions(const qdot_residual_series *series);
-/* Whether like steps are taken as vectors (sim/form/residual-vectors.h, residual-sweeps.h). */
-bool qdot_residual_series_is_wide(const qdot_residual_series *series);
+/* Bytes of machine code; 0: kernels run, *why says for what reason. */
+size_t qdot_residual_series_code(const qdot_residual_series *series, const char **why);
 /* Nodes of the tree that M is eliminated along; 0: it is not. Whether they are one path. */
 size_t qdot_residual_series_tree_size(const qdot_residual_series *series, bool *path);
 size_t qdot_residual_series_factored(const qdot_residual_series *series);

@@ -147,14 +147,14 @@ derive(qdot_plan *p, qdot_scene *scene)
  * members at once take what kernels do, also as machine code, and know no forces that hold
  * velocities there. */
 static bool
-is_cheaper(const qdot_plan *p, const qdot_residual *residual, const qdot_residual_series *series,
+is_cheaper(const qdot_plan *p, const qdot_residual_series *series,
            const qdot_run_request *request)
 {
     const double cost = qdot_plan_cost(qdot_residual_series_get(series));
 
     if (request->digits > 0)
         return p->convolutions_residual < p->convolutions_derived;
-    if (request->lanes && (residual->forces || p->indefinite))
+    if (request->lanes && p->indefinite)
         return false;
     return cost < (request->lanes ? p->cost_of_kernels : p->cost);
 }
@@ -180,7 +180,7 @@ choose_form(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         status = qdot_residual_series_new(p, residual, false, &series);
     if (series) {
         p->convolutions_residual = qdot_residual_series_convolutions(series);
-        cheaper = is_cheaper(p, residual, series, request);
+        cheaper = is_cheaper(p, series, request);
     }
     if (cheaper) {
         p->cost = qdot_plan_cost(qdot_residual_series_get(series));
@@ -277,18 +277,18 @@ is_indefinite(const qdot_plan *p)
 }
 
 /* Momenta that are kept, where lanes can do that: with none whose velocities may cancel, of which a
- * plan without a start does not know; else M q'' = f. */
+ * plan without a start does not know; else d'Alembert's residual, or M q'' = f. */
 static qdot_status
 choose_in_lanes(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
-    if (p->residual)
-        return QDOT_OK;
     if (p->n_states == 0)
         QDOT_TRY(qdot_routh_reduce(p, scene, request));
     if (p->reduced && !p->reduced->subtracts && !is_indefinite(p->reduced))
         return QDOT_OK;
     qdot_plan_free(p->reduced);
     p->reduced = NULL;
+    if (p->residual)
+        return QDOT_OK;
     if (is_indefinite(p))
         return qdot_fail(QDOT_ENOTBUILT,
                          "not built yet: ensembles of a stated Lagrangian whose coordinates "

@@ -8,7 +8,6 @@
 #include "base/memory.h"
 #include "ode/companion.h"
 #include "sim/form/ensemble-series.h"
-#include "sim/form/shifted-lanes.h"
 #include "sim/model/constrained.h"
 #include "sim/model/parameter-states.h"
 #include "sim/plan/plan.h"
@@ -16,44 +15,23 @@
 #include "tape/constant.h"
 #include "tape/shake.h"
 
-/* The system in lanes: one of two forms. */
-typedef struct {
-    qdot_ensemble_series *series;
-    qdot_shifted_lanes *shifted;
-} form;
-
 struct qdot_ensemble {
     qdot_plan *plan;                /* parameters that vary are further coordinates of it */
     qdot_ensemble_momenta *momenta; /* of a plan that is reduced */
     size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
     char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
     size_t n_reasons;
-    form members, companions; /* companions: made when first asked for */
+    qdot_ensemble_series *members,
+        *companions; /* companions: made when first asked for */
     double t0, t1, t1_low, tol;
     int t1_side;
     int order;
 };
 
-static void
-form_free(form *f)
-{
-    qdot_ensemble_series_free(f->series);
-    qdot_shifted_lanes_free(f->shifted);
-}
-
 static const qdot_plan *
 equations(const qdot_ensemble *e)
 {
     return e->plan->reduced ? e->plan->reduced : e->plan;
-}
-
-/* *order as qdot_ensemble_series_new has it. */
-static qdot_status
-form_new(form *f, const qdot_ensemble *e, bool shaken, int *order)
-{
-    if (e->plan->residual)
-        return qdot_shifted_lanes_new(e->plan, shaken, e->tol, order, &f->shifted);
-    return qdot_ensemble_series_new(equations(e), shaken, e->tol, order, &f->series);
 }
 
 static void
@@ -72,8 +50,8 @@ qdot_ensemble_free(qdot_ensemble *e)
     if (!e)
         return;
     forget_reasons(e);
-    form_free(&e->members);
-    form_free(&e->companions);
+    qdot_ensemble_series_free(e->members);
+    qdot_ensemble_series_free(e->companions);
     qdot_ensemble_momenta_free(e->momenta);
     qdot_plan_free(e->plan);
     qdot_free(e);
@@ -144,7 +122,7 @@ make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
     QDOT_TRY(make_plan(e, scene, request, varied));
     if (e->plan->reduced)
         QDOT_TRY(qdot_ensemble_momenta_new(e->plan->reduced, &e->momenta));
-    return form_new(&e->members, e, false, &e->order);
+    return qdot_ensemble_series_new(equations(e), false, e->tol, &e->order, &e->members);
 }
 
 qdot_status
@@ -175,7 +153,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* One pass over all members, the runs themselves or their companions. */
 typedef struct {
-    form system;
+    qdot_ensemble_series *series; /* borrowed */
     bool is_companion;
     qdot_batch_run run;
     double *memory;
@@ -250,8 +228,7 @@ static void *
 pass_run(void *user)
 {
     pass *p = user;
-    qdot_ode_batch system = p->system.series ? qdot_ensemble_series_system(p->system.series)
-                                             : qdot_shifted_lanes_system(p->system.shifted);
+    qdot_ode_batch system = qdot_ensemble_series_system(p->series);
 
     p->status = qdot_ode_batch_run(&system, &p->run);
     if (p->status != QDOT_OK)
@@ -262,9 +239,9 @@ pass_run(void *user)
 static qdot_status
 make_companions(qdot_ensemble *e, int order)
 {
-    if (e->companions.series || e->companions.shifted)
+    if (e->companions)
         return QDOT_OK;
-    return form_new(&e->companions, e, true, &order);
+    return qdot_ensemble_series_new(equations(e), true, e->tol, &order, &e->companions);
 }
 
 /* Replace velocities that follow from kept momenta by these. A member whose momenta are undefined
@@ -458,7 +435,7 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
 {
     const qdot_ode_method *taylor = qdot_ode_method_find("taylor");
     int more = e->order + QDOT_COMPANION_ORDERS;
-    pass runs = {.system = e->members, .run = {.order = e->order, .tol = e->tol}};
+    pass runs = {.series = e->members, .run = {.order = e->order, .tol = e->tol}};
     pass companions = {
         .is_companion = true,
         .run = {.order = more,
@@ -472,7 +449,7 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
         status = pass_init(&companions, e, members, qdot_shake_double(e->t1, e->t1_side), y,
                            parameters);
     if (status == QDOT_OK && errors) {
-        companions.system = e->companions;
+        companions.series = e->companions;
         enter(e, &companions);
     }
     if (status == QDOT_OK)

@@ -1,0 +1,160 @@
+/* lanes-fold.c -- steps of a motion that their readers carry out: a sign, a rate or the rate of a
+ * rate, a product that another one is added to. */
+#include "series/lanes-writer.h"
+
+/* What makes a row; NULL: no step that moves. */
+static const qdot_program_step *
+maker(const qdot_lanes_writer *w, qdot_program_row row)
+{
+    const size_t i = w->rows[row].step;
+
+    return i == SIZE_MAX ? NULL : w->t->steps.at + i;
+}
+
+static bool
+is_folded(const qdot_lanes_writer *w, qdot_program_row row)
+{
+    return maker(w, row) && w->steps[w->rows[row].step].folded;
+}
+
+qdot_writer_addend
+qdot_writer_expand(const qdot_lanes_writer *w, qdot_program_row row)
+{
+    qdot_writer_addend t = {.row = row};
+
+    while (is_folded(w, t.row)) {
+        const qdot_program_step *s = maker(w, t.row);
+
+        t.minus ^= s->op == QDOT_T_NEG;
+        t.rates += s->op == QDOT_T_RATE;
+        t.row = s->x;
+    }
+    return t;
+}
+
+static bool
+is_product(int op)
+{
+    return op == QDOT_T_MUL || op == QDOT_T_MADD || op == QDOT_T_MSUB;
+}
+
+const qdot_program_step *
+qdot_writer_within(const qdot_lanes_writer *w, const qdot_program_step *product)
+{
+    const qdot_program_step *z = product->op == QDOT_T_MADD ? maker(w, product->z) : NULL;
+
+    return z && is_product(z->op) && is_folded(w, product->z) ? z : NULL;
+}
+
+/* A step adds z, or the row that it has alone; takes no part in it else. */
+static bool
+only_adds(const qdot_program_step *s, qdot_program_row row)
+{
+    switch (s->op) {
+    case QDOT_T_NEG:
+    case QDOT_T_ADD:
+    case QDOT_T_SUB:
+    case QDOT_T_RATE: return true;
+    case QDOT_T_SCALEADD:
+    case QDOT_T_SCALESUB:
+    case QDOT_T_SCALEOFF:
+    case QDOT_T_MADD:
+    case QDOT_T_MSUB:
+    case QDOT_T_NMADD: return s->x != row && s->y != row;
+    default: return false;
+    }
+}
+
+static void
+find_readers(qdot_lanes_writer *w)
+{
+    for (size_t i = w->t->still; i < w->t->length; i++) {
+        const qdot_program_step *s = w->t->steps.at + i;
+        const qdot_program_row rows[] = {s->x, s->y, s->z};
+
+        w->rows[s->to].step = i;
+        for (int r = 0; r < 3; r++) {
+            if ((r > 0 && rows[r] == rows[0]) || (r > 1 && rows[r] == rows[1]))
+                continue;
+            w->rows[rows[r]].readers++;
+            w->rows[rows[r]].linear += only_adds(s, rows[r]);
+            w->rows[rows[r]].rated |= s->op == QDOT_T_RATE;
+        }
+    }
+}
+
+/* Rows that an equation or an unknown is made of have to be there. */
+static void
+find_fixed(qdot_lanes_writer *w, const qdot_motion *m)
+{
+    for (size_t i = 0; i < m->equations.n; i++)
+        w->rows[m->equations.at[i]].equation = w->rows[m->equations.at[i]].wanted = true;
+    for (size_t i = 0; i < m->unknowns.n; i++)
+        if (m->unknowns.at[i].value != QDOT_NO_ROW)
+            w->rows[m->unknowns.at[i].value].equation = true;
+}
+
+static void
+fold_sign_or_rate(qdot_lanes_writer *w, size_t i)
+{
+    const qdot_program_step *s = w->t->steps.at + i;
+    const qdot_writer_row *to = w->rows + s->to;
+    const int rates = qdot_writer_expand(w, s->x).rates + (s->op == QDOT_T_RATE);
+
+    if (to->linear == to->readers && rates <= (to->rated ? 1 : 2) &&
+        (s->op == QDOT_T_RATE || rates == 0))
+        w->steps[i].folded = true;
+}
+
+/* Into step i the sum that it adds its product to. */
+static void
+fold_product(qdot_lanes_writer *w, size_t i)
+{
+    const qdot_program_step *s = w->t->steps.at + i, *z = maker(w, s->z);
+    int inner;
+
+    w->steps[i].pairs = 1;
+    if (s->op != QDOT_T_MADD || !z || !is_product(z->op) || z->lead != s->lead ||
+        w->rows[s->z].readers != 1 || w->rows[s->z].linear != 1 || w->rows[s->z].equation)
+        return;
+    inner = w->steps[w->rows[s->z].step].pairs;
+    if (inner >= QDOT_WRITER_PAIRS)
+        return;
+    w->steps[w->rows[s->z].step].folded = true;
+    w->steps[i].pairs += inner;
+}
+
+/* Marks the rows that equations are made of, and the steps that make none. */
+static void
+find_wanted(qdot_lanes_writer *w)
+{
+    for (size_t i = w->t->length; i-- > w->t->still;) {
+        const qdot_program_step *s = w->t->steps.at + i;
+        const qdot_program_row made[] = {s->to, s->second, s->third, s->d};
+
+        w->steps[i].idle = true;
+        for (size_t r = 0; r < sizeof made / sizeof *made; r++)
+            if (made[r] != QDOT_NO_ROW && w->rows[made[r]].wanted)
+                w->steps[i].idle = false;
+        if (!w->steps[i].idle)
+            w->rows[s->x].wanted = w->rows[s->y].wanted = w->rows[s->z].wanted = true;
+    }
+}
+
+void
+qdot_writer_fold(qdot_lanes_writer *w, const qdot_motion *m)
+{
+    w->motion = m;
+    find_readers(w);
+    find_fixed(w, m);
+    find_wanted(w);
+    for (size_t i = w->t->still; i < w->t->length; i++) {
+        const qdot_program_step *s = w->t->steps.at + i;
+
+        if (is_product(s->op))
+            fold_product(w, i);
+        else if ((s->op == QDOT_T_NEG || s->op == QDOT_T_RATE) &&
+                 !w->rows[s->to].equation)
+            fold_sign_or_rate(w, i);
+    }
+}

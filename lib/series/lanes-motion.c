@@ -1,0 +1,329 @@
+/* lanes-motion.c -- what a stage of a motion is written as. */
+#include "series/lanes-motion.h"
+
+#include <math.h>
+
+/* Numbers behind those of rates; then of each block the inverse and the factor; then unknowns that no
+ * row holds. */
+enum {
+    UNIT = QDOT_LANES_RATES,
+    UNIT_SQUARE,
+    PER_UNIT,
+    PER_UNIT_SQUARE,
+    ONCE,
+    TWICE,
+    INVERSES
+};
+
+struct qdot_lanes_motion {
+    const qdot_motion *motion;
+    qdot_lanes_code *code;
+    size_t *inverse; /* [blocks] the first number of each; of the factor n n further on */
+    size_t unknown;  /* the first number of the unknowns */
+    size_t group;
+    int to, factored;
+};
+
+/* --- numbers by order ------------------------------------------------------------------ */
+
+/* 1/(k + 1), 1/((k + 1)(k + 2)); and in low orders what these are beyond their doubles, for
+ * which a division is exact but for the last bit (series/program.h). */
+static double
+once(int k)
+{
+    return 1.0 / (k + 1);
+}
+
+static double
+twice(int k)
+{
+    return 1.0 / ((k + 1) * (k + 2));
+}
+
+static double
+beyond(double inverse, int k, int divisor)
+{
+    return k <= QDOT_TAYLOR_EXACT ? fma(-inverse, divisor, 1) / divisor : 0;
+}
+
+static double
+once_beyond(int k)
+{
+    return beyond(once(k), k, k + 1);
+}
+
+static double
+twice_beyond(int k)
+{
+    return beyond(twice(k), k, (k + 1) * (k + 2));
+}
+
+static double
+rate(int k)
+{
+    return k + 1;
+}
+
+static double
+rate_of_rate(int k)
+{
+    return (double)(k + 1) * (k + 2);
+}
+
+/* to = number f(k) */
+static void
+write_factor(qdot_lanes_writer *w, size_t number, qdot_lanes_by_order *f, int k,
+             qdot_lanes_at to)
+{
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, number),
+                           qdot_lanes_scalar_of(w, f, k));
+    qdot_lanes_store(w, sum, to);
+}
+
+/* --- a stage --------------------------------------------------------------------------- */
+
+static void
+write_rates(qdot_lanes_writer *w, int k)
+{
+    for (int lead = 0; lead < QDOT_LANES_LEADS; lead++) {
+        if (qdot_lanes_wants_rate(w, false, lead))
+            write_factor(w, PER_UNIT, rate, k + lead, qdot_lanes_rate(w, false, lead));
+        if (qdot_lanes_wants_rate(w, true, lead))
+            write_factor(w, PER_UNIT_SQUARE, rate_of_rate, k + lead,
+                         qdot_lanes_rate(w, true, lead));
+    }
+}
+
+/* Unknown i of those solved for, at order k. */
+static qdot_lanes_at
+unknown(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t i, int k)
+{
+    const qdot_program_row row = c->motion->unknowns.at[c->motion->solved.at[i]].row;
+
+    return row != QDOT_NO_ROW ? (qdot_lanes_at){row, k}
+                              : qdot_lanes_number(w, c->unknown + i);
+}
+
+/* The same by the factor, whose diagonal is inverted: -L y = E, L^T a = y. */
+static void
+write_solution(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
+{
+    const qdot_motion *m = c->motion;
+    const size_t first = m->blocks.at[b], n = m->blocks.at[b + 1] - first;
+    const size_t L = c->inverse[b] + n * n;
+
+    for (size_t i = 0; i < n; i++) {
+        qdot_lanes_sum y = QDOT_LANES_NOTHING;
+
+        qdot_lanes_add(w, &y, true, (qdot_lanes_at){m->equations.at[first + i], k});
+        for (size_t j = 0; j < i; j++)
+            qdot_lanes_add_product(w, &y, true, unknown(w, c, first + j, k),
+                                   qdot_lanes_number(w, L + i * n + j));
+        qdot_lanes_scale(w, &y, qdot_lanes_number(w, L + i * n + i));
+        qdot_lanes_store(w, y, unknown(w, c, first + i, k));
+    }
+    for (size_t i = n; i-- > 0;) {
+        qdot_lanes_sum a = QDOT_LANES_NOTHING;
+
+        qdot_lanes_add(w, &a, false, unknown(w, c, first + i, k));
+        for (size_t j = i + 1; j < n; j++)
+            qdot_lanes_add_product(w, &a, true, unknown(w, c, first + j, k),
+                                   qdot_lanes_number(w, L + j * n + i));
+        qdot_lanes_scale(w, &a, qdot_lanes_number(w, L + i * n + i));
+        qdot_lanes_store(w, a, unknown(w, c, first + i, k));
+    }
+}
+
+/* A block's unknowns, -K^-1 E. */
+static void
+write_block(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
+{
+    const qdot_motion *m = c->motion;
+    const size_t first = m->blocks.at[b], n = m->blocks.at[b + 1] - first;
+
+    if (k <= c->factored && n > 1) {
+        write_solution(w, c, b, k);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        qdot_lanes_sum a = QDOT_LANES_NOTHING;
+
+        for (size_t j = 0; j < n; j++)
+            qdot_lanes_add_product(w, &a, false,
+                                   (qdot_lanes_at){m->equations.at[first + j], k},
+                                   qdot_lanes_number(w, c->inverse[b] + i * n + j));
+        qdot_lanes_store(w, a, unknown(w, c, first + i, k));
+    }
+}
+
+static void
+write_integral(qdot_lanes_writer *w, const qdot_lanes_motion *c, int k, qdot_lanes_at a,
+               size_t unit, qdot_lanes_by_order *more, size_t factor, qdot_lanes_at to)
+{
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    /* orders of the loop are beyond these */
+    if (c->to >= QDOT_TAYLOR_EXACT_FROM && k <= QDOT_TAYLOR_EXACT) {
+        qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
+                               qdot_lanes_scalar_of(w, more, k));
+        qdot_lanes_scale(w, &sum, a);
+    }
+    qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, factor), a);
+    qdot_lanes_store(w, sum, to);
+}
+
+/* What order k of an unknown integrates to. */
+static void
+write_integrals(qdot_lanes_writer *w, const qdot_lanes_motion *c,
+                const qdot_motion_unknown *u, qdot_lanes_at a, int k)
+{
+    if (u->twice != QDOT_NO_ROW)
+        write_integral(w, c, k, a, UNIT_SQUARE, twice_beyond, TWICE,
+                       (qdot_lanes_at){u->twice, k + 2});
+    if (u->once != QDOT_NO_ROW)
+        write_integral(w, c, k, a, UNIT, once_beyond, ONCE,
+                       (qdot_lanes_at){u->once, k + 1});
+}
+
+/* Steps that lead most are at order m. */
+static void
+write_stage(qdot_lanes_writer *w, int m, void *user)
+{
+    const qdot_lanes_motion *c = user;
+    const qdot_motion *motion = c->motion;
+    const int k = m - motion->program.lead;
+
+    write_rates(w, k);
+    qdot_lanes_steps_without(w, motion, k);
+    write_factor(w, UNIT, once, k, qdot_lanes_number(w, ONCE));
+    write_factor(w, UNIT_SQUARE, twice, k, qdot_lanes_number(w, TWICE));
+    for (size_t b = 0; b + 1 < motion->blocks.n; b++)
+        write_block(w, c, b, k);
+    for (size_t i = 0; i < motion->equations.n; i++)
+        qdot_lanes_unread(w, (qdot_lanes_at){motion->equations.at[i], k});
+    for (size_t i = 0, solved = 0; i < motion->unknowns.n; i++) {
+        const qdot_motion_unknown *u = motion->unknowns.at + i;
+
+        write_integrals(w, c, u,
+                        u->value != QDOT_NO_ROW ? (qdot_lanes_at){u->value, k}
+                                                : unknown(w, c, solved++, k),
+                        k);
+    }
+    for (size_t i = 0; i < motion->solved.n; i++)
+        qdot_lanes_unread(w, qdot_lanes_number(w, c->unknown + i));
+    qdot_lanes_steps_with(w);
+}
+
+static void
+write_stages(qdot_lanes_writer *w, void *user)
+{
+    const qdot_lanes_motion *c = user;
+    const int lead = c->motion->program.lead;
+    const int exact = c->to >= QDOT_TAYLOR_EXACT_FROM ? QDOT_TAYLOR_EXACT : 0;
+    const int loop = (c->factored > exact ? c->factored : exact) + 1;
+
+    qdot_lanes_orders(w, 1 + lead, lead, loop + lead, c->to + lead, write_stage, user);
+}
+
+/* --- building -------------------------------------------------------------------------- */
+
+static qdot_status
+make(qdot_lanes_motion *c, const qdot_lanes_rows *rows, qdot_lanes_motion **code)
+{
+    const qdot_motion *m = c->motion;
+    size_t numbers = INVERSES;
+
+    c->inverse = qdot_calloc(m->blocks.n + 1, sizeof *c->inverse);
+    if (!c->inverse)
+        return QDOT_ENOMEM;
+    for (size_t b = 0; b + 1 < m->blocks.n; b++) {
+        const size_t n = m->blocks.at[b + 1] - m->blocks.at[b];
+
+        if (n > QDOT_LANES_SOLVED)
+            return QDOT_OK;
+        c->inverse[b] = numbers;
+        numbers += (c->factored > 0 ? 2 : 1) * n * n;
+    }
+    c->unknown = numbers;
+    if (m->program.lead < QDOT_LANES_LEADS)
+        QDOT_TRY(
+            qdot_lanes_code_new(rows, numbers + m->solved.n, write_stages, c, &c->code));
+    if (c->code)
+        *code = c;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_lanes_motion_new(const qdot_lanes_rows *rows, const qdot_motion *motion, int to,
+                      int factored, qdot_lanes_motion **code)
+{
+    qdot_lanes_motion *c = qdot_calloc(1, sizeof *c);
+    qdot_status status;
+
+    *code = NULL;
+    if (!c)
+        return QDOT_ENOMEM;
+    *c = (qdot_lanes_motion){
+        .motion = motion, .group = rows->group, .to = to, .factored = factored};
+    status = make(c, rows, code);
+    if (!*code)
+        qdot_lanes_motion_free(c);
+    return status;
+}
+
+void
+qdot_lanes_motion_free(qdot_lanes_motion *c)
+{
+    if (!c)
+        return;
+    qdot_lanes_code_free(c->code);
+    qdot_free(c->inverse);
+    qdot_free(c);
+}
+
+void
+qdot_lanes_motion_set(qdot_lanes_motion *c, size_t b, const double *inverse,
+                      size_t length, const double *L)
+{
+    const size_t n = c->motion->blocks.at[b + 1] - c->motion->blocks.at[b];
+    double *minus = qdot_lanes_code_number(c->code, c->inverse[b]);
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n * c->group; j++)
+            *minus++ = -inverse[i * length * c->group + j];
+    for (size_t i = 0; i < n && L; i++, minus += n * c->group)
+        for (size_t j = 0; j <= i; j++)
+            for (size_t l = 0; l < c->group; l++) {
+                const double x = L[(i * n + j) * c->group + l];
+
+                minus[j * c->group + l] = i == j ? 1 / x : x;
+            }
+}
+
+void
+qdot_lanes_motion_run(qdot_lanes_motion *c, const double *unit)
+{
+    double *number = qdot_lanes_code_number(c->code, 0);
+
+    for (size_t l = 0; l < c->group; l++) {
+        number[UNIT * c->group + l] = unit[l];
+        number[UNIT_SQUARE * c->group + l] = unit[l] * unit[l];
+        number[PER_UNIT * c->group + l] = 1 / unit[l];
+        number[PER_UNIT_SQUARE * c->group + l] = 1 / (unit[l] * unit[l]);
+    }
+    qdot_lanes_code_run(c->code);
+}
+
+size_t
+qdot_lanes_motion_size(const qdot_lanes_motion *c)
+{
+    return qdot_lanes_code_size(c->code);
+}
+
+int
+qdot_lanes_motion_orders(const qdot_lanes_motion *c)
+{
+    return c->to;
+}
