@@ -99,7 +99,8 @@ typedef struct {
     /* Those for single numbers by their last use: behind a register the next, the least
      * recently used behind the last of all, which is `latest`. */
     int behind[QDOT_CODE_REGISTERS], ahead[QDOT_CODE_REGISTERS], latest;
-    uint32_t spread[QDOT_CODE_REGISTERS]; /* [spreads] rows whose coefficient fills a register */
+    /* [spreads] Rows whose coefficient fills a register. */
+    uint32_t spread[QDOT_CODE_REGISTERS];
     int spreads, next_spread;
 } qdot_generator;
 
