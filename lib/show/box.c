@@ -514,10 +514,10 @@ static qdot_status
 read_tag(reader *r, const char **at)
 {
     const bool ends = (*at)[1] == '/';
-    const char *name = *at + 1 + ends, *end = strchr(name, '>');
+    const char *name = *at + 1 + ends, *end = name + strcspn(name, ">");
     const tag t = tag_at(name);
 
-    if (!end || t == TAGS || (ends && (r->open.n == 0 || r->open.at[r->open.n - 1].tag != t)))
+    if (*end == '\0' || t == TAGS || (ends && (r->open.n == 0 || r->open.at[r->open.n - 1].tag != t)))
         return malformed();
     *at = end + 1;
     if (!ends)
