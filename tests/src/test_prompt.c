@@ -304,7 +304,7 @@ formulas_are_drawn_to_the_width_of_the_terminal(void **state)
     expect("qdot> ");
     type("1/(b + a)\r");
     expect("1/(a + b)\r\n");
-    type("style unicode; expand((a + b + c)^60)\r");
+    type("style unicode; expand((a + b + c)^30)\r");
     expect("... 20 of ");
     expect("to \"all.txt\"` writes all of it");
     leave_by_ctrl_d();
