@@ -44,12 +44,15 @@ library_sources = \
 	lib/lang/commands/check.c \
 	lib/lang/commands/complete.c \
 	lib/lang/commands/constraints.c \
+	lib/lang/commands/data-file.c \
 	lib/lang/commands/declare-function.c \
 	lib/lang/commands/declare.c \
 	lib/lang/commands/derive.c \
 	lib/lang/commands/digits-table.c \
 	lib/lang/commands/equilibria.c \
 	lib/lang/commands/event.c \
+	lib/lang/commands/export-scene.c \
+	lib/lang/commands/export.c \
 	lib/lang/commands/figure-file.c \
 	lib/lang/commands/help.c \
 	lib/lang/commands/loop.c \
@@ -293,9 +296,18 @@ library_sources = \
 	lib/series/two.c \
 	lib/show/box.c \
 	lib/show/csv.c \
+	lib/show/data.c \
 	lib/show/draw.c \
+	lib/show/export-c.c \
+	lib/show/export-code.c \
+	lib/show/export-julia.c \
+	lib/show/export-matlab.c \
+	lib/show/export-python.c \
+	lib/show/export.c \
 	lib/show/figure.c \
+	lib/show/formula-page.c \
 	lib/show/gnuplot.c \
+	lib/show/hdf5.c \
 	lib/show/layout.c \
 	lib/show/sink.c \
 	lib/show/table.c \
@@ -429,11 +441,14 @@ library_headers = \
 	lib/lang/answer/formula.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/commands/ask.h \
 	lib/lang/commands/assumed.h \
 	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
+	lib/lang/commands/data-file.h \
 	lib/lang/commands/declare.h \
 	lib/lang/commands/digits-table.h \
+	lib/lang/commands/export-scene.h \
 	lib/lang/commands/figure-file.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
@@ -646,7 +661,12 @@ library_headers = \
 	lib/series/two.def \
 	lib/series/two.h \
 	lib/show/box.h \
+	lib/show/data.h \
 	lib/show/draw.h \
+	lib/show/export-language.h \
+	lib/show/export-parts.h \
+	lib/show/export.h \
+	lib/show/formula-page.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
 	lib/show/show.h \
@@ -825,7 +845,10 @@ unit_tests = \
 	tests/series/test_taylor \
 	tests/series/test_two \
 	tests/show/test_csv \
+	tests/show/test_data \
+	tests/show/test_export \
 	tests/show/test_figure \
+	tests/show/test_formula_page \
 	tests/show/test_layout \
 	tests/show/test_table \
 	tests/sim/test_bordered \
@@ -873,6 +896,7 @@ script_tests = \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
 	tests/script/coordinates.lag \
+	tests/script/data-files.sh \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
 	tests/script/derive-styles.lag \
@@ -896,6 +920,7 @@ script_tests = \
 	tests/script/event-roots.lag \
 	tests/script/event-time-errors.sh \
 	tests/script/events.lag \
+	tests/script/export.sh \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
@@ -905,6 +930,7 @@ script_tests = \
 	tests/script/force-material.lag \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
+	tests/script/formula-file.sh \
 	tests/script/function-calculus.lag \
 	tests/script/functions.lag \
 	tests/script/geometry.lag \
@@ -1225,6 +1251,7 @@ script_tests = \
 	examples/dry-friction.lag \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
+	examples/export.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
 	examples/four-bar.lag \
@@ -1271,6 +1298,7 @@ meta_tests = \
 	tests/meta/bootstrap.test \
 	tests/meta/circles.test \
 	tests/meta/embed.test \
+	tests/meta/exports.test \
 	tests/meta/floors.test \
 	tests/meta/late.test \
 	tests/meta/manual.test \
@@ -1505,6 +1533,7 @@ test_files = \
 	tests/examples/dry-friction.out \
 	tests/examples/elastic-pendulum.out \
 	tests/examples/equilibria.out \
+	tests/examples/export.out \
 	tests/examples/flexing-wire.out \
 	tests/examples/foucault.out \
 	tests/examples/four-bar.out \
@@ -1620,6 +1649,7 @@ test_files = \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
 	tests/script/coordinates.out \
+	tests/script/data-files.out \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
 	tests/script/derive-styles.out \
@@ -1647,6 +1677,7 @@ test_files = \
 	tests/script/event-roots.out \
 	tests/script/event-time-errors.out \
 	tests/script/events.out \
+	tests/script/export.out \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/far-away.out \
@@ -1656,6 +1687,7 @@ test_files = \
 	tests/script/force-material.out \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
+	tests/script/formula-file.out \
 	tests/script/function-calculus.out \
 	tests/script/functions.out \
 	tests/script/geometry.out \

@@ -195,9 +195,16 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
 qdot_status
 qdot_answer_expr(qdot_session *session, const char *name, qdot_expr value)
 {
-    if (qdot_expr_is_class(session->pool, value, QDOT_WORDS))
-        return qdot_answer_text(session, name,
-                                qdot_expr_symbol(session->pool, value)->name);
+    if (qdot_expr_is_class(session->pool, value, QDOT_WORDS)) {
+        const char *words = qdot_expr_symbol(session->pool, value)->name;
+        qdot_text line = {0};
+
+        if (!session->marked || session->style != QDOT_LATEX)
+            return qdot_answer_text(session, name, words);
+        qdot_formula_bracket(session, true, &line); /* of latex(...) */
+        qdot_text_add(&line, words);
+        return end_formula(session, QDOT_OK, &line);
+    }
     return session->json ? expr_json(session, name, value)
                          : expr_text(session, name, value);
 }

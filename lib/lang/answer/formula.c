@@ -288,6 +288,8 @@ qdot_formula_bracket(const qdot_session *session, bool open, qdot_text *out)
     if (session->style == QDOT_MATHML)
         qdot_text_add(out, open ? "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
                                 : "</math>");
+    else if (session->style == QDOT_LATEX && session->marked)
+        qdot_text_add(out, open ? "\\(" : "\\)");
 }
 
 qdot_status

@@ -175,9 +175,9 @@ tell(qdot_session *session, const cells *t, const char *path)
     qdot_status status;
 
     if (path != NULL && !csv && (dot == NULL || strcmp(dot, ".txt") != 0)) {
-        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: a table in a file `%s`",
-                        dot != NULL ? dot : "");
-        return qdot_hint("`.csv` and `.txt` are built");
+        (void)qdot_fail(QDOT_EINVAL, "numbers of a run with `digits` are written as text: .csv or "
+                                     ".txt, not `%.200s`", path);
+        return qdot_hint("as in \"run.csv\"");
     }
     if (path == NULL && session->json)
         return answer_json(session, t);

@@ -10,12 +10,19 @@
 
 #include "lang/answer/answer.h"
 #include "lang/commands/scene-file.h"
+#include "show/formula-page.h"
 #include "show/sink.h"
 
-static const struct {
+struct qdot_redirect_type {
     const char *ending;
-    bool json;
-} endings[] = {{".txt", false}, {".tex", false}, {".json", true}};
+    enum { AS_PRINTED, JSON, PAGE } kind;
+    qdot_style style; /* of the formulas of a page */
+};
+
+static const struct qdot_redirect_type endings[] = {{".txt", AS_PRINTED, QDOT_PLAIN},
+                                                    {".tex", PAGE, QDOT_LATEX},
+                                                    {".html", PAGE, QDOT_MATHML},
+                                                    {".json", JSON, QDOT_PLAIN}};
 
 /* Statements of other groups that answer; those not here read a `to` of their own, or
  * have nothing to say. */
@@ -49,16 +56,28 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
     return end - 2;
 }
 
-/* Endings that figures and tables, or answers of a later version, have. */
-static bool
-is_of_the_language(const char *ending)
+/* Endings of figures and of columns of numbers, which a formula cannot be. */
+static qdot_status
+refuse(const char *path, const char *ending)
 {
-    static const char *const words[] = {".svg", ".png", ".pdf", ".html", ".csv", ".h5"};
+    static const char *const figures[] = {".svg", ".png", ".pdf", ".gif"};
+    static const char *const data[] = {".csv", ".h5"};
 
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(ending, words[i]) == 0)
-            return true;
-    return false;
+    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
+        if (strcmp(ending, figures[i]) == 0) {
+            (void)qdot_fail(QDOT_EINVAL, "`%.200s`: a `%s` file is for figures", path, ending);
+            return qdot_hint("formulas: \"x.tex\" (LaTeX) or \"x.html\" (MathML); figures: "
+                             "`plot ... to \"x%s\"`", ending);
+        }
+    for (size_t i = 0; i < sizeof data / sizeof *data; i++)
+        if (strcmp(ending, data[i]) == 0) {
+            (void)qdot_fail(QDOT_EINVAL, "`%.200s`: a `%s` file is for columns of numbers", path,
+                            ending);
+            return qdot_hint("answers: .tex, .html, .txt, .json; numbers: `table ... every 0.1 to "
+                             "\"x%s\"`, `save to \"x%s\"`", ending, ending);
+        }
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file ends in what it is to be", path);
+    return qdot_hint("as in \"a.tex\", \"a.html\", \"a.txt\", \"a.json\"");
 }
 
 qdot_status
@@ -81,36 +100,52 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
             session->console = r->out;
             session->console_json = r->json;
         }
+        r->type = &endings[i];
+        r->style = session->style;
         session->out = r->file;
-        session->json = endings[i].json;
+        session->json = r->type->kind == JSON;
+        session->marked = r->type->kind == PAGE;
+        if (session->marked)
+            session->style = r->type->style;
         return QDOT_OK;
     }
-    if (!is_of_the_language(ending)) {
-        (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file ends in what it is to be",
-                        path);
-        return qdot_hint("as in \"a.txt\", \"a.tex\", \"a.json\"");
-    }
-    (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: this answer in a file `%s`", ending);
-    return qdot_hint(
-        "`.txt`, `.tex` and `.json` are built; figures and tables: `help plot`, "
-        "`help table`");
+    return refuse(path, ending);
+}
+
+/* What was answered, as a page. */
+static qdot_status
+make_page(qdot_redirect *r, qdot_text *page)
+{
+    const char *name = strrchr(r->path, '/');
+
+    return r->type->style == QDOT_LATEX
+               ? qdot_page_latex(r->text, page)
+               : qdot_page_html(name == NULL ? r->path : name + 1, r->text, page);
 }
 
 qdot_status
 qdot_redirect_end(qdot_redirect *r, qdot_status status)
 {
     qdot_session *session = r->session;
-    bool complete = fclose(r->file) == 0;
+    bool complete = fclose(r->file) == 0, paged = r->type->kind == PAGE;
+    qdot_text page = {0};
 
     session->out = r->out;
     session->json = r->json;
     session->console = r->console;
+    if (paged)
+        session->style = r->style;
+    session->marked = false;
     if (status == QDOT_OK && !complete)
         status = qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", r->path);
+    if (status == QDOT_OK && paged)
+        status = make_page(r, &page);
     if (status == QDOT_OK)
-        status = qdot_sink_write(r->path, r->text, r->length);
+        status = paged ? qdot_sink_write(r->path, qdot_text_str(&page), page.n)
+                       : qdot_sink_write(r->path, r->text, r->length);
     if (status == QDOT_OK)
         status = qdot_answer_file(session, r->path);
+    qdot_text_clear(&page);
     free(r->text); /* from open_memstream */
     return status;
 }

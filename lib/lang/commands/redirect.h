@@ -1,9 +1,10 @@
 /* redirect.h -- `to FILE` after any statement with an answer (`T to "t.txt"`).
  *
- * The ending decides the type: .txt and .tex get the printed text, .json the objects of --json.
- * table, plot, save and the like read their own `to`.
+ * The ending decides the type: .txt gets the printed text, .json the objects of --json, .tex a
+ * fragment of LaTeX and .html a page with MathML (show/formula-page.h). table, plot, save and the
+ * like read their own `to`.
  *
- * Tests  tests/script/to-file.sh
+ * Tests  tests/script/to-file.sh, tests/script/formula-file.sh
  */
 #ifndef QDOT_LANG_REDIRECT_H
 #define QDOT_LANG_REDIRECT_H
@@ -15,6 +16,8 @@ typedef struct {
     const char *path; /* borrowed */
     FILE *file, *out, *console; /* collects the answers; the session's previous files */
     bool json;
+    qdot_style style; /* of the session before */
+    const struct qdot_redirect_type *type;
     char *text;
     size_t length;
 } qdot_redirect;
@@ -23,7 +26,7 @@ typedef struct {
  * expression. */
 const qdot_token *qdot_redirect_find(const qdot_statement *row, const qdot_token *first);
 
-/* From here on answers are kept. QDOT_ENOTBUILT: not to a file of this ending. */
+/* From here on answers are kept. QDOT_EINVAL: not to a file of this ending. */
 QDOT_MUST_CHECK qdot_status qdot_redirect_begin(qdot_redirect *r, qdot_session *session,
                                                 const char *path);
 

@@ -4,6 +4,7 @@
 
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
+#include "lang/commands/data-file.h"
 #include "lang/commands/digits-table.h"
 #include "lang/commands/figure-file.h"
 #include "lang/commands/scene-file.h"
@@ -88,54 +89,25 @@ fill_grid(grid *g, const qdot_operands *list, size_t rows, const double *times)
     return QDOT_OK;
 }
 
-static const char *
-ending(const char *path)
+/* The run that all operands are along; NULL: several. */
+static qdot_run *
+only_run(const qdot_operands *list)
 {
-    const char *dot = strrchr(path, '.');
-
-    return dot == NULL || strchr(dot, '/') != NULL ? "" : dot;
+    for (size_t i = 0; i < list->n; i++)
+        if (list->at[i].run != list->at[0].run || list->at[i].mixed)
+            return NULL;
+    return list->at[0].run;
 }
 
+/* To a file by its ending; path NULL: as an answer. run: that of all columns, or NULL. */
 static qdot_status
-write_text(const char *path, const grid *g)
-{
-    qdot_text text = {0};
-    qdot_status status = qdot_table_text(g->n, g->columns, g->rows, 12, &text);
-    FILE *file = NULL;
-
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK) {
-        file = fopen(path, "w");
-        if (file == NULL || fwrite(qdot_text_str(&text), 1, text.n, file) != text.n)
-            status = qdot_fail(QDOT_EIO, "`%s` cannot be written", path);
-    }
-    if (file != NULL && fclose(file) != 0 && status == QDOT_OK)
-        status = qdot_fail(QDOT_EIO, "`%s` cannot be written", path);
-    qdot_text_clear(&text);
-    return status;
-}
-
-/* To a file by its ending; path NULL: as an answer. */
-static qdot_status
-write_grid(qdot_session *session, const grid *g, const char *path)
+write_grid(qdot_session *session, const grid *g, qdot_run *run, const char *path)
 {
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
-    if (path != NULL && strcmp(ending(path), ".csv") == 0) {
-        QDOT_TRY(qdot_table_csv(g->n, g->columns, g->rows, path));
-        return qdot_answer_file(session, path);
-    }
-    if (path != NULL && strcmp(ending(path), ".txt") == 0) {
-        QDOT_TRY(write_text(path, g));
-        return qdot_answer_file(session, path);
-    }
-    if (path != NULL) {
-        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: a table in a file `%s`",
-                        ending(path));
-        return qdot_hint("`.csv` and `.txt` are built");
-    }
+    if (path != NULL)
+        return qdot_data_file_write(session, run, g->n, g->columns, g->rows, path);
     if (!session->json) {
         status = qdot_table_text(g->n, g->columns, g->rows, 10, &text);
         return qdot_answer_written(session, "table", status, &text);
@@ -215,7 +187,11 @@ read_table(qdot_cursor *c, qdot_operands *list, qdot_expr *step, const char **pa
             every = true;
             QDOT_TRY(qdot_read_scalar(c, step));
         } else if (qdot_cursor_accept_word(c, "to")) {
+            const qdot_token *at = c->at;
+
             QDOT_TRY(qdot_figure_file_read(c, path));
+            c->error_at = at->start;
+            QDOT_TRY(qdot_data_file_check(*path));
         } else {
             return qdot_cursor_expected(c, "`every` or `to`");
         }
@@ -266,7 +242,7 @@ qdot_table_statement(qdot_cursor *c)
     if (status == QDOT_OK)
         status = fill_grid(&g, &list, rows, times);
     if (status == QDOT_OK)
-        status = write_grid(c->session, &g, path);
+        status = write_grid(c->session, &g, only_run(&list), path);
     free_grid(&g);
     qdot_free(times);
     qdot_operands_free(&list);
@@ -312,7 +288,7 @@ whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
 qdot_status
 qdot_table_save(qdot_cursor *c)
 {
-    const qdot_token *start = c->at;
+    const qdot_token *start = c->at, *file;
     const char *name = NULL, *path = NULL;
     qdot_operands list = {0};
     qdot_named_run *named;
@@ -329,8 +305,11 @@ qdot_table_save(qdot_cursor *c)
         (qdot_scene_file_is(c->at) ||
          qdot_runs_find(c->session, name, &named) != QDOT_OK))
         return qdot_scene_file_write(c, true);
+    file = c->at;
     QDOT_TRY(qdot_figure_file_read(c, &path));
     QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = file->start;
+    QDOT_TRY(qdot_data_file_check(path));
     c->error_at = start->start;
     QDOT_TRY(qdot_runs_find(c->session, name, &named));
     times = qdot_run_times(named->run, &rows);
@@ -338,7 +317,7 @@ qdot_table_save(qdot_cursor *c)
     if (status == QDOT_OK)
         status = fill_grid(&g, &list, rows, times);
     if (status == QDOT_OK)
-        status = write_grid(c->session, &g, path);
+        status = write_grid(c->session, &g, named->run, path);
     free_grid(&g);
     qdot_operands_free(&list);
     return status;

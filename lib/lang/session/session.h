@@ -52,6 +52,7 @@ typedef struct qdot_session {
     FILE *out, *err;
     qdot_style style;
     bool flat; /* formulas stand in one line on a terminal too */
+    bool marked; /* formulas of LaTeX in answers stand between \( and \) */
     bool json, timing, interactive;
     FILE *console; /* where notices go; NULL: with the answers */
     bool console_json;

@@ -1,0 +1,70 @@
+/* export-language.h -- what the writer of exports knows of a language. Internal to show/.
+ *
+ * A template is the source text of an export with $words$ to be replaced. A line that begins with
+ * `?x ` is left out unless the system has x, one that begins with `!x ` if it has:
+ *
+ *     c constraints   p constraints without accelerations   e events, d events that set something
+ *     k parameters   h conditions (if)   f erf or erfc   g operations that may be undefined
+ */
+#ifndef QDOT_SHOW_EXPORT_LANGUAGE_H
+#define QDOT_SHOW_EXPORT_LANGUAGE_H
+
+#include "base/text.h"
+#include "show/export-parts.h"
+#include "tape/instruction.h"
+
+typedef struct {
+    const char *comment; /* begins a line of comment */
+    bool exact_name;     /* the file's name must be a name of the language */
+    const char *reserved; /* words that are no names, a blank before and after each */
+    const char *nan;     /* what stands for no value */
+
+    /* printf: a named number, a named truth value (name, value). */
+    const char *number, *truth;
+    /* printf: element %zu of y, q'', lambda; a parameter by its name. */
+    const char *state, *acceleration, *multiplier, *parameter;
+    /* printf: an element of an array (array, index), (array, row, column); entry NULL: rows are one
+     * behind the other. */
+    const char *element, *entry;
+    size_t first; /* index of the first element of an array */
+    const char *vector_shape, *matrix_shape; /* printf: rows, rows and columns of an array */
+    const char *result; /* printf: the value of a function that is one number */
+    const char *separator; /* between elements of a list in brackets */
+
+    /* printf: a declared parameter (name, value, plain name). */
+    const char *declared;
+    /* printf: an argument of an expression (name), with a value (name, value). */
+    const char *argument, *argument_value, *no_argument;
+    /* What stands before (printf: index) and after the statements of an event that sets something. */
+    const char *effect_begin, *effect_end;
+
+    /* Operations as text that stands for itself within others: &a &b &c are operands inside
+     * brackets, #a #b #c any operands. NULL: + - * / and what is made of them. */
+    const char *operation[QDOT_OP_COUNT];
+
+    const char *system, *value, *values; /* templates: a motion, an expression, several */
+} qdot_export_syntax;
+
+extern const qdot_export_syntax qdot_export_c, qdot_export_python, qdot_export_julia,
+    qdot_export_matlab;
+
+/* The statements that compute a function. `words` [inputs] name the inputs of the tape, `sources`
+ * say where they come from (NULL: they are there). targets, if not NULL, [outputs]: the statements
+ * (printf of the value) that use the outputs, instead of the blocks. Each line begins with `indent`.
+ * temporary: what the names of intermediate values begin with. */
+typedef struct {
+    const qdot_export_syntax *syntax;
+    const char *const *words, *const *sources;
+    const char *indent, *temporary;
+    const char *const *targets;
+} qdot_export_frame;
+
+/* Errors: QDOT_EINVAL (a constant is not finite), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_export_code(const qdot_export_frame *frame,
+                                             const qdot_export_function *function,
+                                             qdot_text *out);
+
+/* Append the shortest decimal that reads back as x, with a point. */
+void qdot_export_number(double x, qdot_text *out);
+
+#endif

@@ -1,0 +1,73 @@
+/* export-parts.h -- a motion or an expression described for the writers of source text (export.h).
+ *
+ * Every tape of a motion has the same inputs, in this order:
+ *
+ *     t, q [n], q' [n], q'' [n], lambda [m], parameters [k]
+ */
+#ifndef QDOT_SHOW_EXPORT_PARTS_H
+#define QDOT_SHOW_EXPORT_PARTS_H
+
+#include "tape/tape.h"
+
+typedef enum {
+    QDOT_EXPORT_C,
+    QDOT_EXPORT_PYTHON,
+    QDOT_EXPORT_JULIA,
+    QDOT_EXPORT_MATLAB
+} qdot_export_language;
+
+/* A name of the scene and, of a parameter, its value (NaN: none). */
+typedef struct {
+    const char *name; /* plain: "theta[1]" */
+    double value;
+} qdot_export_name;
+
+/* Consecutive outputs of a tape as an array. */
+typedef struct {
+    const char *array; /* "M"; NULL: one number, the value of the function */
+    size_t rows, columns; /* columns 0: a vector */
+} qdot_export_block;
+
+typedef struct {
+    const qdot_tape *tape; /* NULL: nothing to compute */
+    size_t blocks;
+    qdot_export_block block[4];
+} qdot_export_function;
+
+/* What an event does: its targets are y [0 ... 2n - 1], then parameters [2n ...]; one output of the
+ * tape for each. */
+typedef struct {
+    const char *name;
+    int way; /* 1: rising, -1: falling, 0: either */
+    bool stop;
+    size_t n_targets;
+    const size_t *targets;
+    const qdot_tape *effect; /* NULL: without targets */
+} qdot_export_event;
+
+typedef struct {
+    const char *file;   /* the name of the file without folder and ending */
+    const char *origin; /* the scene in words: lines of a comment */
+    size_t n, m, k;     /* coordinates, rows of constraints, parameters */
+    const qdot_export_name *q, *lambda, *parameters;
+    const double *start; /* [2n] */
+    double t0, t1, tol;
+    qdot_export_function equations; /* M, f; with constraints A, gamma */
+    qdot_export_function slopes;    /* d(residuals)/dy [(n + m) x 2n]; residuals: f + A^T lambda - M q'',
+                                       gamma - A q'' */
+    qdot_export_function energy;    /* one number */
+    qdot_export_function positions; /* constraints that hold no derivative: f, and df/dt */
+    qdot_export_function events;    /* left - right of each */
+    size_t n_events;
+    const qdot_export_event *event;
+} qdot_export_system;
+
+/* One value, or several, as a function of its symbols. */
+typedef struct {
+    const char *file, *origin;
+    size_t k;
+    const qdot_export_name *arguments; /* [k] the inputs of the tape; those with a value last */
+    qdot_export_function value;        /* one block */
+} qdot_export_expression;
+
+#endif

@@ -1,0 +1,619 @@
+/* export.c -- names and templates: a whole file of source text. */
+#include "show/export.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "show/export-language.h"
+
+static const qdot_export_syntax *const languages[] = {
+    [QDOT_EXPORT_C] = &qdot_export_c,
+    [QDOT_EXPORT_PYTHON] = &qdot_export_python,
+    [QDOT_EXPORT_JULIA] = &qdot_export_julia,
+    [QDOT_EXPORT_MATLAB] = &qdot_export_matlab,
+};
+
+typedef struct {
+    const qdot_export_syntax *syntax;
+    const qdot_export_system *system;    /* or */
+    const qdot_export_expression *value; /* the other is NULL */
+    size_t inputs;
+    char **words;   /* [inputs] names in the language */
+    char **sources; /* [inputs] where they come from; NULL: arguments */
+    char *name;     /* of the function or the group of functions */
+    char temporary[16];
+    qdot_text *out;
+} writer;
+
+/* --- names ------------------------------------------------------------------------------ */
+
+/* theta[1]'' is theta_1_ddot: letters, digits and _. */
+static void
+as_word(const char *name, qdot_text *out)
+{
+    size_t primes = 0;
+
+    for (; *name != '\0'; name++) {
+        if (isalnum((unsigned char)*name) || *name == '_')
+            qdot_text_char(out, *name);
+        else if (*name == '[' || *name == ',')
+            qdot_text_char(out, '_');
+        primes += *name == '\'';
+    }
+    if (primes > 0)
+        qdot_text_format(out, "_%.*sdot", (int)primes - 1, "dddddddd");
+}
+
+static bool
+is_reserved(const qdot_export_syntax *s, const char *word)
+{
+    char between[80];
+
+    if (strlen(word) > sizeof between - 3)
+        return false;
+    snprintf(between, sizeof between, " %s ", word);
+    return strstr(s->reserved, between) != NULL;
+}
+
+static bool
+is_taken(const writer *w, size_t n, const char *word)
+{
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(w->words[i], word) == 0)
+            return true;
+    return is_reserved(w->syntax, word);
+}
+
+/* Name input i by what it is called, with _ behind it while that is taken. */
+static qdot_status
+add_word(writer *w, size_t i, const char *name)
+{
+    qdot_text word = {0};
+    qdot_status status;
+
+    as_word(name, &word);
+    while (is_taken(w, i, qdot_text_str(&word)) && !word.failed)
+        qdot_text_char(&word, '_');
+    status = qdot_text_status(&word);
+    if (status == QDOT_OK && (w->words[i] = qdot_strdup(word.at)) == NULL)
+        status = QDOT_ENOMEM;
+    qdot_text_clear(&word);
+    return status;
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+static qdot_status
+add_element(writer *w, size_t i, const char *name, const char *primes, const char *format,
+            size_t k)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    qdot_text_format(&text, "%s%s", name, primes);
+    status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = add_word(w, i, text.at);
+    qdot_text_truncate(&text, 0);
+    qdot_text_format(&text, format, k + w->syntax->first);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK && (w->sources[i] = qdot_strdup(text.at)) == NULL)
+        status = QDOT_ENOMEM;
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+add_parameter(writer *w, size_t i, const char *name)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    QDOT_TRY(add_word(w, i, name));
+    qdot_text_format(&text, w->syntax->parameter, w->words[i]);
+    status = qdot_text_status(&text);
+    if (status == QDOT_OK && (w->sources[i] = qdot_strdup(text.at)) == NULL)
+        status = QDOT_ENOMEM;
+    qdot_text_clear(&text);
+    return status;
+}
+#pragma GCC diagnostic pop
+
+/* The words of a system's inputs: t, q, q', q'', lambda, parameters. */
+static qdot_status
+name_system(writer *w)
+{
+    const qdot_export_system *x = w->system;
+    const size_t n = x->n;
+
+    if ((w->words[0] = qdot_strdup("t")) == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(add_element(w, 1 + i, x->q[i].name, "", w->syntax->state, i));
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(add_element(w, 1 + n + i, x->q[i].name, "'", w->syntax->state, n + i));
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(add_element(w, 1 + 2 * n + i, x->q[i].name, "''", w->syntax->acceleration, i));
+    for (size_t i = 0; i < x->m; i++)
+        QDOT_TRY(add_element(w, 1 + 3 * n + i, x->lambda[i].name, "", w->syntax->multiplier, i));
+    for (size_t i = 0; i < x->k; i++)
+        QDOT_TRY(add_parameter(w, 1 + 3 * n + x->m + i, x->parameters[i].name));
+    return QDOT_OK;
+}
+
+static qdot_status
+name_value(writer *w)
+{
+    for (size_t i = 0; i < w->value->k; i++)
+        QDOT_TRY(add_word(w, i, w->value->arguments[i].name));
+    return QDOT_OK;
+}
+
+/* What the names of intermediate values begin with: no name of the scene does, before a digit. */
+static void
+choose_temporary(writer *w)
+{
+    static const char *const tries[] = {"w", "u", "z", "w_", "temporary_"};
+
+    for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
+        size_t n = strlen(tries[k]);
+        bool free_ = true;
+
+        for (size_t i = 0; i < w->inputs; i++)
+            free_ &= strncmp(w->words[i], tries[k], n) != 0 ||
+                     !isdigit((unsigned char)w->words[i][n]);
+        snprintf(w->temporary, sizeof w->temporary, "%s", tries[k]);
+        if (free_)
+            return;
+    }
+}
+
+/* The name of the functions, from that of the file. */
+static qdot_status
+choose_name(writer *w, const char *file)
+{
+    qdot_text name = {0};
+    bool changed = isdigit((unsigned char)*file) || *file == '_' || *file == '\0';
+    qdot_status status;
+
+    qdot_text_add(&name, changed ? "f_" : "");
+    for (const char *c = file; *c != '\0'; c++) {
+        bool fits = isalnum((unsigned char)*c) || *c == '_';
+
+        qdot_text_char(&name, fits ? *c : '_');
+        changed |= !fits;
+    }
+    /* a motion in C has names that only begin with it */
+    if ((w->system == NULL || w->syntax != &qdot_export_c) &&
+        is_reserved(w->syntax, qdot_text_str(&name))) {
+        qdot_text_char(&name, '_');
+        changed = true;
+    }
+    status = qdot_text_status(&name);
+    if (status == QDOT_OK && changed && w->syntax->exact_name) {
+        (void)qdot_fail(QDOT_EINVAL, "`%.100s` is no name of a function, which the file of a function "
+                                     "of Matlab has to bear", file);
+        status = qdot_hint("letters, digits and _, as in \"%.100s.m\"", name.at);
+    }
+    if (status == QDOT_OK && (w->name = qdot_strdup(name.at)) == NULL)
+        status = QDOT_ENOMEM;
+    qdot_text_clear(&name);
+    return status;
+}
+
+/* --- parts of a template ------------------------------------------------------------------ */
+
+static qdot_status
+code(writer *w, const qdot_export_function *f, const char *indent, const char *const *targets)
+{
+    const qdot_export_frame frame = {.syntax = w->syntax,
+                                     .words = (const char *const *)w->words,
+                                     .sources = (const char *const *)w->sources,
+                                     .indent = indent,
+                                     .temporary = w->temporary,
+                                     .targets = targets};
+
+    return f->tape == NULL ? QDOT_OK : qdot_export_code(&frame, f, w->out);
+}
+
+static void
+number(const writer *w, double x)
+{
+    if (isnan(x))
+        qdot_text_add(w->out, w->syntax->nan);
+    else
+        qdot_export_number(x, w->out);
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+static qdot_status
+declare_parameters(writer *w, const char *indent)
+{
+    const size_t at = w->inputs - w->system->k;
+
+    for (size_t i = 0; i < w->system->k; i++) {
+        qdot_text value = {0}, *out = w->out;
+
+        w->out = &value;
+        number(w, w->system->parameters[i].value);
+        w->out = out;
+        qdot_text_add(out, indent);
+        qdot_text_format(out, w->syntax->declared, w->words[at + i], qdot_text_str(&value),
+                         w->system->parameters[i].name);
+        qdot_text_char(out, '\n');
+        out->failed |= value.failed;
+        qdot_text_clear(&value);
+    }
+    return QDOT_OK;
+}
+
+/* "double a, b;", the members of a struct. */
+static qdot_status
+fields(writer *w, const char *indent)
+{
+    for (size_t i = w->inputs - w->system->k; i < w->inputs; i++)
+        qdot_text_format(w->out, "%sdouble %s;\n", indent, w->words[i]);
+    return QDOT_OK;
+}
+
+/* `target = %s` for each target of an event. */
+static qdot_status
+event_effect(writer *w, size_t k, const char *indent)
+{
+    const qdot_export_event *e = &w->system->event[k];
+    const size_t n = w->system->n, own = w->inputs - w->system->k;
+    const qdot_export_function f = {.tape = e->effect};
+    char **targets;
+    qdot_text deep = {0};
+    qdot_status status = QDOT_OK;
+
+    if (e->effect == NULL)
+        return QDOT_OK;
+    qdot_text_add(w->out, indent);
+    qdot_text_format(w->out, w->syntax->effect_begin, k + w->syntax->first);
+    qdot_text_format(&deep, "%s    ", indent);
+    if ((targets = qdot_calloc(e->n_targets, sizeof *targets)) == NULL)
+        status = QDOT_ENOMEM;
+    for (size_t i = 0; i < e->n_targets && status == QDOT_OK; i++) {
+        size_t to = e->targets[i];
+        qdot_text line = {0};
+
+        qdot_text_format(&line, "%s = %%s%s", w->sources[to < 2 * n ? 1 + to : own + to - 2 * n],
+                         strchr(w->syntax->number, ';') != NULL ? ";" : "");
+        status = qdot_text_status(&line);
+        targets[i] = line.at;
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&deep);
+    if (status == QDOT_OK)
+        status = code(w, &f, deep.at, (const char *const *)targets);
+    if (*w->syntax->effect_end != '\0')
+        qdot_text_format(w->out, "%s%s", indent, w->syntax->effect_end);
+    for (size_t i = 0; targets != NULL && i < e->n_targets; i++)
+        qdot_text_clear(&(qdot_text){.at = targets[i]});
+    qdot_free(targets);
+    qdot_text_clear(&deep);
+    return status;
+}
+
+static qdot_status
+effects(writer *w, const char *indent)
+{
+    for (size_t k = 0; k < w->system->n_events; k++)
+        QDOT_TRY(event_effect(w, k, indent));
+    return QDOT_OK;
+}
+
+static qdot_status
+arguments(writer *w, bool more)
+{
+    if (w->value->k == 0 && !more)
+        qdot_text_add(w->out, w->syntax->no_argument);
+    for (size_t i = 0; i < w->value->k; i++) {
+        double x = w->value->arguments[i].value;
+
+        qdot_text_add(w->out, i > 0 ? ", " : "");
+        if (isnan(x)) {
+            qdot_text_format(w->out, w->syntax->argument, w->words[i]);
+        } else {
+            qdot_text value = {0};
+
+            qdot_export_number(x, &value);
+            qdot_text_format(w->out, w->syntax->argument_value, w->words[i],
+                             qdot_text_str(&value));
+            w->out->failed |= value.failed;
+            qdot_text_clear(&value);
+        }
+    }
+    qdot_text_add(w->out, more && w->value->k > 0 ? ", " : "");
+    return QDOT_OK;
+}
+#pragma GCC diagnostic pop
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+static void
+shape(writer *w)
+{
+    const qdot_export_block *b = &w->value->value.block[0];
+
+    if (b->columns == 0)
+        qdot_text_format(w->out, w->syntax->vector_shape, b->rows);
+    else
+        qdot_text_format(w->out, w->syntax->matrix_shape, b->rows, b->columns);
+}
+#pragma GCC diagnostic pop
+
+/* The lines of the scene, as comments. */
+static qdot_status
+comments(writer *w, const char *text)
+{
+    while (*text != '\0') {
+        size_t n = strcspn(text, "\n");
+
+        qdot_text_add(w->out, w->syntax->comment);
+        qdot_text_add(w->out, n > 0 ? " " : "");
+        qdot_text_add_n(w->out, text, n);
+        qdot_text_char(w->out, '\n');
+        text += n + (text[n] == '\n');
+    }
+    return QDOT_OK;
+}
+
+/* "theta", "x" between quotes, separated. */
+static qdot_status
+names(writer *w, size_t n, const qdot_export_name *list)
+{
+    for (size_t i = 0; i < n; i++)
+        qdot_text_format(w->out, "%s\"%s\"", i > 0 ? w->syntax->separator : "", list[i].name);
+    return QDOT_OK;
+}
+
+static qdot_status
+start(writer *w)
+{
+    for (size_t i = 0; i < 2 * w->system->n; i++) {
+        qdot_text_add(w->out, i > 0 ? w->syntax->separator : "");
+        number(w, w->system->start[i]);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+events(writer *w, char what)
+{
+    for (size_t i = 0; i < w->system->n_events; i++) {
+        const qdot_export_event *e = &w->system->event[i];
+
+        qdot_text_add(w->out, i > 0 ? w->syntax->separator : "");
+        if (what == 'n')
+            qdot_text_format(w->out, "\"%s\"", e->name);
+        else
+            qdot_text_format(w->out, "%d", what == 'w' ? e->way : e->stop);
+    }
+    return QDOT_OK;
+}
+
+/* A word of a template that both kinds of files have; *known: it is one. */
+static qdot_status
+common_word(writer *w, const char *word, const char *indent, bool *known)
+{
+    *known = true;
+    if (strcmp(word, "name") == 0)
+        qdot_text_add(w->out, w->name);
+    else if (strcmp(word, "file") == 0)
+        qdot_text_add(w->out, w->system != NULL ? w->system->file : w->value->file);
+    else if (strcmp(word, "origin") == 0)
+        return comments(w, w->system != NULL ? w->system->origin : w->value->origin);
+    else if (w->system == NULL && strncmp(word, "arguments", 9) == 0)
+        return arguments(w, word[9] == ',');
+    else if (w->system == NULL && strcmp(word, "code") == 0)
+        return code(w, &w->value->value, indent, NULL);
+    else if (w->system == NULL && strcmp(word, "shape") == 0)
+        shape(w);
+    else if (w->system == NULL && strcmp(word, "size") == 0)
+        qdot_text_format(w->out, "%zu", qdot_tape_outputs(w->value->value.tape));
+    else
+        *known = false;
+    return QDOT_OK;
+}
+
+static qdot_status
+system_word(writer *w, const char *word, const char *indent)
+{
+    const qdot_export_system *x = w->system;
+    const struct {
+        const char *word;
+        const qdot_export_function *function;
+    } functions[] = {{"equations", &x->equations}, {"slopes", &x->slopes},
+                     {"energy", &x->energy}, {"constraints", &x->positions},
+                     {"events", &x->events}};
+    const struct {
+        const char *word;
+        size_t count;
+    } counts[] = {{"n", x->n}, {"2n", 2 * x->n}, {"m", x->m}, {"r", x->n + x->m},
+                  {"e", x->n_events}, {"f", x->positions.block[0].rows},
+                  {"g", x->positions.block[1].rows}};
+
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+        if (strcmp(functions[i].word, word) == 0)
+            return code(w, functions[i].function, indent, NULL);
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+        if (strcmp(counts[i].word, word) == 0) {
+            qdot_text_format(w->out, "%zu", counts[i].count);
+            return QDOT_OK;
+        }
+    if (strcmp(word, "t0") == 0 || strcmp(word, "t1") == 0 || strcmp(word, "tol") == 0) {
+        number(w, strcmp(word, "tol") == 0 ? x->tol : word[1] == '0' ? x->t0 : x->t1);
+        return QDOT_OK;
+    }
+    return strcmp(word, "fields") == 0        ? fields(w, indent)
+           : strcmp(word, "parameters") == 0  ? declare_parameters(w, indent)
+           : strcmp(word, "start") == 0       ? start(w)
+           : strcmp(word, "coordinates") == 0 ? names(w, x->n, x->q)
+           : strcmp(word, "multipliers") == 0 ? names(w, x->m, x->lambda)
+           : strcmp(word, "effects") == 0     ? effects(w, indent)
+           : strcmp(word, "event names") == 0 ? events(w, 'n')
+           : strcmp(word, "event ways") == 0  ? events(w, 'w')
+                                              : events(w, 's');
+}
+
+/* --- templates ---------------------------------------------------------------------------- */
+
+static bool
+uses(const qdot_tape *tape, qdot_op first, qdot_op last)
+{
+    for (size_t i = 0; tape != NULL && i < tape->length; i++)
+        if (tape->code[i].op >= first && tape->code[i].op <= last)
+            return true;
+    return false;
+}
+
+static bool
+any_uses(const writer *w, qdot_op first, qdot_op last)
+{
+    const qdot_export_system *x = w->system;
+
+    if (x == NULL)
+        return uses(w->value->value.tape, first, last);
+    for (size_t i = 0; i < x->n_events; i++)
+        if (uses(x->event[i].effect, first, last))
+            return true;
+    return uses(x->equations.tape, first, last) || uses(x->slopes.tape, first, last) ||
+           uses(x->energy.tape, first, last) || uses(x->positions.tape, first, last) ||
+           uses(x->events.tape, first, last);
+}
+
+static bool
+has_effects(const qdot_export_system *x)
+{
+    for (size_t i = 0; i < x->n_events; i++)
+        if (x->event[i].effect != NULL)
+            return true;
+    return false;
+}
+
+static bool
+has(const writer *w, char what)
+{
+    const qdot_export_system *x = w->system;
+
+    switch (what) {
+    case 'c': return x->m > 0;
+    case 'p': return x->positions.tape != NULL;
+    case 'e': return x->n_events > 0;
+    case 'd': return has_effects(x);
+    case 'k': return x->k > 0;
+    case 'j': return x->slopes.tape != NULL;
+    case 'h': return any_uses(w, QDOT_OP_SELECT, QDOT_OP_SELECT);
+    case 'f': return any_uses(w, QDOT_OP_ERF, QDOT_OP_ERFC);
+    default:
+        return any_uses(w, QDOT_OP_SQRT, QDOT_OP_POW) || any_uses(w, QDOT_OP_ASIN, QDOT_OP_ACOS) ||
+               any_uses(w, QDOT_OP_ACOSH, QDOT_OP_ATANH) || any_uses(w, QDOT_OP_LOG, QDOT_OP_LOG);
+    }
+}
+
+/* One line; a word alone in its line writes lines of its own, with its indent. */
+static qdot_status
+write_line(writer *w, const char *line, size_t n)
+{
+    const char *const end = line + n;
+    char word[32], indent[32];
+    size_t blanks = strspn(line, " ");
+    bool lines = blanks < n && line[blanks] == '$' && n > blanks + 1 && end[-1] == '$' &&
+                 memchr(line + blanks + 1, '$', n - blanks - 2) == NULL;
+
+    snprintf(indent, sizeof indent, "%.*s", (int)blanks, line);
+    if (lines)
+        line += blanks;
+    while (line < end) {
+        const char *at = memchr(line, '$', (size_t)(end - line));
+        const char *close = at == NULL ? NULL : memchr(at + 1, '$', (size_t)(end - at - 1));
+        bool known;
+
+        if (close == NULL) {
+            qdot_text_add_n(w->out, line, (size_t)(end - line));
+            break;
+        }
+        qdot_text_add_n(w->out, line, (size_t)(at - line));
+        snprintf(word, sizeof word, "%.*s", (int)(close - at - 1), at + 1);
+        QDOT_TRY(common_word(w, word, indent, &known));
+        if (!known)
+            QDOT_TRY(system_word(w, word, indent));
+        line = close + 1;
+    }
+    qdot_text_add(w->out, lines ? "" : "\n");
+    return qdot_text_status(w->out);
+}
+
+static qdot_status
+write_template(writer *w, const char *text)
+{
+    while (*text != '\0') {
+        size_t n = strcspn(text, "\n");
+        const char *line = text;
+        bool wanted = true;
+
+        text += n + 1;
+        while ((line[0] == '?' || line[0] == '!') && line[2] == ' ') {
+            wanted &= has(w, line[1]) == (line[0] == '?');
+            line += 3;
+            n -= 3;
+        }
+        if (wanted)
+            QDOT_TRY(write_line(w, line, n));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+write_file(writer *w, const char *file, const char *text)
+{
+    qdot_status status = choose_name(w, file);
+
+    w->words = qdot_calloc(w->inputs + 1, sizeof *w->words);
+    w->sources = qdot_calloc(w->inputs + 1, sizeof *w->sources);
+    if (w->words == NULL || w->sources == NULL)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = w->system != NULL ? name_system(w) : name_value(w);
+    if (status == QDOT_OK) {
+        choose_temporary(w);
+        status = write_template(w, text);
+    }
+    for (size_t i = 0; w->words != NULL && w->sources != NULL && i < w->inputs; i++) {
+        qdot_free(w->words[i]);
+        qdot_free(w->sources[i]);
+    }
+    qdot_free(w->words);
+    qdot_free(w->sources);
+    qdot_free(w->name);
+    return status;
+}
+
+qdot_status
+qdot_export_system_write(const qdot_export_system *system, qdot_export_language language,
+                         qdot_text *out)
+{
+    writer w = {.syntax = languages[language],
+                .system = system,
+                .inputs = 1 + 3 * system->n + system->m + system->k,
+                .out = out};
+
+    return write_file(&w, system->file, w.syntax->system);
+}
+
+qdot_status
+qdot_export_expression_write(const qdot_export_expression *e, qdot_export_language language,
+                             qdot_text *out)
+{
+    writer w = {.syntax = languages[language], .value = e, .inputs = e->k, .out = out};
+
+    return write_file(&w, e->file,
+                      e->value.block[0].array == NULL ? w.syntax->value : w.syntax->values);
+}

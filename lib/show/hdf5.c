@@ -1,0 +1,361 @@
+/* hdf5.c -- columns in the format of HDF5, written directly.
+ *
+ * The file is a superblock of version 2, then object headers of version 2 with their messages: the
+ * root group, the group of parameters and a data set for each column, whose numbers follow in one
+ * block. Linking the library instead would load 4 MB at each start of the program.
+ *
+ * Source  The HDF Group, HDF5 File Format Specification 3.0, II.A, IV.A; the checksum is lookup3 by
+ *         B. Jenkins (2006).
+ */
+#include <stdint.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "show/data.h"
+#include "show/sink.h"
+
+enum {
+    SUPERBLOCK = 48,
+    LINK_INFO = 2,
+    GROUP_INFO = 10,
+    LINK = 6,
+    DATASPACE = 1,
+    DATATYPE = 3,
+    FILL = 5,
+    LAYOUT = 8,
+    ATTRIBUTE = 12,
+    MOST_TEXT = 60000 /* a message has at most 65535 bytes */
+};
+
+#define NOWHERE UINT64_MAX
+
+/* --- bytes ------------------------------------------------------------------------------ */
+
+static void
+bytes(qdot_text *out, uint64_t x, int n)
+{
+    for (int i = 0; i < n; i++)
+        qdot_text_char(out, (char)(x >> 8 * i & 0xff));
+}
+
+static void
+real(qdot_text *out, double x)
+{
+    uint64_t bits;
+
+    memcpy(&bits, &x, sizeof bits);
+    bytes(out, bits, 8);
+}
+
+static uint32_t
+turn(uint32_t x, int k)
+{
+    return x << k | x >> (32 - k);
+}
+
+static uint32_t
+word(const unsigned char *key, size_t n)
+{
+    uint32_t x = 0;
+
+    for (size_t i = 0; i < 4 && i < n; i++)
+        x |= (uint32_t)key[i] << 8 * i;
+    return x;
+}
+
+/* lookup3 of n bytes, from 0. */
+static uint32_t
+checksum(const char *text, size_t n)
+{
+    const unsigned char *key = (const unsigned char *)text;
+    uint32_t a = 0xdeadbeef + (uint32_t)n, b = a, c = a;
+
+    for (; n > 12; n -= 12, key += 12) {
+        a += word(key, 4);
+        b += word(key + 4, 4);
+        c += word(key + 8, 4);
+        a -= c, a ^= turn(c, 4), c += b;
+        b -= a, b ^= turn(a, 6), a += c;
+        c -= b, c ^= turn(b, 8), b += a;
+        a -= c, a ^= turn(c, 16), c += b;
+        b -= a, b ^= turn(a, 19), a += c;
+        c -= b, c ^= turn(b, 4), b += a;
+    }
+    if (n == 0)
+        return c;
+    a += word(key, n);
+    b += n > 4 ? word(key + 4, n - 4) : 0;
+    c += n > 8 ? word(key + 8, n - 8) : 0;
+    c ^= b, c -= turn(b, 14);
+    a ^= c, a -= turn(c, 11);
+    b ^= a, b -= turn(a, 25);
+    c ^= b, c -= turn(b, 16);
+    a ^= c, a -= turn(c, 4);
+    b ^= a, b -= turn(a, 14);
+    c ^= b, c -= turn(b, 24);
+    return c;
+}
+
+/* --- messages --------------------------------------------------------------------------- */
+
+static void
+message(qdot_text *header, int type, size_t size)
+{
+    bytes(header, (uint64_t)type, 1);
+    bytes(header, size, 2);
+    bytes(header, 0, 1);
+}
+
+/* A double of IEEE 754, least byte first: 20 bytes. */
+static void
+real_type(qdot_text *out)
+{
+    bytes(out, 0x11, 1);
+    bytes(out, 0x003f20, 3);
+    bytes(out, 8, 4);
+    bytes(out, 0, 2);
+    bytes(out, 64, 2);
+    bytes(out, 52, 1);
+    bytes(out, 11, 1);
+    bytes(out, 0, 1);
+    bytes(out, 52, 1);
+    bytes(out, 1023, 4);
+}
+
+/* A text of so many bytes in UTF-8, its NUL with it: 8 bytes. */
+static void
+text_type(qdot_text *out, size_t size)
+{
+    bytes(out, 0x13, 1);
+    bytes(out, 0x10, 3);
+    bytes(out, size, 4);
+}
+
+/* One fact as an attribute. */
+static void
+attribute(qdot_text *header, const qdot_data_fact *fact)
+{
+    size_t name = strlen(fact->name) + 1, length = fact->text == NULL ? 0 : strlen(fact->text);
+    bool number = fact->text == NULL;
+    size_t type = number ? 20 : 8, size;
+
+    length = length > MOST_TEXT ? MOST_TEXT : length;
+    size = number ? 8 : length + 1;
+    message(header, ATTRIBUTE, 9 + name + type + 4 + size);
+    bytes(header, 3, 1);
+    bytes(header, 0, 1);
+    bytes(header, name, 2);
+    bytes(header, type, 2);
+    bytes(header, 4, 2);
+    bytes(header, 1, 1);
+    qdot_text_add_n(header, fact->name, name);
+    if (number)
+        real_type(header);
+    else
+        text_type(header, size);
+    bytes(header, 2, 4); /* a dataspace of version 2, a scalar */
+    if (number) {
+        real(header, fact->number);
+    } else {
+        qdot_text_add_n(header, fact->text, length);
+        bytes(header, 0, 1);
+    }
+}
+
+static void
+link_to(qdot_text *header, const char *name, uint64_t address)
+{
+    size_t n = strlen(name);
+
+    message(header, LINK, 13 + n);
+    bytes(header, 1, 1);
+    bytes(header, 0x11, 1); /* a hard link, its character set stated, lengths of 2 bytes */
+    bytes(header, 1, 1);
+    bytes(header, n, 2);
+    qdot_text_add_n(header, name, n);
+    bytes(header, address, 8);
+}
+
+static void
+group(qdot_text *header)
+{
+    message(header, LINK_INFO, 18);
+    bytes(header, 0, 2);
+    bytes(header, NOWHERE, 8);
+    bytes(header, NOWHERE, 8);
+    message(header, GROUP_INFO, 2);
+    bytes(header, 0, 2);
+}
+
+static void
+data_set(qdot_text *header, size_t rows, uint64_t address)
+{
+    message(header, DATASPACE, 12);
+    bytes(header, 0x01000102, 4); /* version 2, one dimension, fixed, simple */
+    bytes(header, rows, 8);
+    message(header, DATATYPE, 20);
+    real_type(header);
+    message(header, FILL, 2);
+    bytes(header, 0x0a03, 2);
+    message(header, LAYOUT, 18);
+    bytes(header, 0x0103, 2); /* version 3, one block */
+    bytes(header, rows > 0 ? address : NOWHERE, 8);
+    bytes(header, rows * sizeof(double), 8);
+}
+
+/* The messages as an object header. */
+static void
+object(qdot_text *out, const qdot_text *messages)
+{
+    size_t from = out->n;
+
+    qdot_text_add(out, "OHDR");
+    bytes(out, 2, 1);
+    bytes(out, 2, 1); /* a size of 4 bytes, no times */
+    bytes(out, messages->n, 4);
+    qdot_text_add_n(out, qdot_text_str(messages), messages->n);
+    if (!out->failed)
+        bytes(out, checksum(out->at + from, out->n - from), 4);
+}
+
+enum { OBJECT = 14 }; /* bytes of a header beside its messages */
+
+/* --- the file --------------------------------------------------------------------------- */
+
+/* The label without what a name may not have; one met before gets its column's number. */
+static void
+column_name(const qdot_data *data, size_t j, qdot_text *out)
+{
+    const char *label = data->column[j].label;
+
+    for (const char *c = label; *c != '\0'; c++)
+        if (*c == '/')
+            qdot_text_add(out, "\u2215");
+        else
+            qdot_text_char(out, *c);
+    for (size_t i = 0; i < j; i++)
+        if (strcmp(data->column[i].label, label) == 0 || strcmp(label, "parameters") == 0) {
+            qdot_text_format(out, " (%zu)", j + 1);
+            break;
+        }
+}
+
+/* Where the headers and the numbers are. */
+typedef struct {
+    uint64_t parameters, columns, step, numbers, end; /* step: of one column's header */
+} places;
+
+/* The messages of the root: facts, links to the parameters and to the columns. */
+static void
+root(const qdot_data *data, const places *at, qdot_text *messages)
+{
+    qdot_text name = {0};
+
+    group(messages);
+    for (size_t i = 0; i < data->n_facts; i++)
+        attribute(messages, &data->facts[i]);
+    link_to(messages, "parameters", at->parameters);
+    for (size_t j = 0; j < data->columns; j++) {
+        column_name(data, j, &name);
+        link_to(messages, qdot_text_str(&name), at->columns + j * at->step);
+        qdot_text_truncate(&name, 0);
+    }
+    messages->failed |= name.failed;
+    qdot_text_clear(&name);
+}
+
+static void
+superblock(uint64_t end, qdot_text *out)
+{
+    qdot_text_add_n(out, "\211HDF\r\n\032\n", 8);
+    bytes(out, 0x080802, 4); /* version 2, addresses and lengths of 8 bytes */
+    bytes(out, 0, 8);
+    bytes(out, NOWHERE, 8);
+    bytes(out, end, 8);
+    bytes(out, SUPERBLOCK, 8);
+    if (!out->failed)
+        bytes(out, checksum(out->at, out->n), 4);
+}
+
+/* All headers; the size of each does not depend on the addresses in it. */
+static qdot_status
+headers(const qdot_data *data, qdot_text *out)
+{
+    const uint64_t column = data->rows * sizeof(double);
+    qdot_text messages = {0}, parameters = {0};
+    places at = {0};
+    bool failed;
+
+    group(&parameters);
+    for (size_t i = 0; i < data->n_parameters; i++)
+        attribute(&parameters, &data->parameters[i]);
+    data_set(&messages, data->rows, 0);
+    at.step = OBJECT + messages.n;
+    qdot_text_truncate(&messages, 0);
+    root(data, &at, &messages);
+    at.parameters = SUPERBLOCK + OBJECT + messages.n;
+    at.columns = at.parameters + OBJECT + parameters.n;
+    at.numbers = at.columns + data->columns * at.step;
+    at.end = at.numbers + data->columns * column;
+    qdot_text_truncate(&messages, 0);
+    superblock(at.end, out);
+    root(data, &at, &messages);
+    object(out, &messages);
+    object(out, &parameters);
+    failed = messages.failed || parameters.failed;
+    for (size_t j = 0; j < data->columns; j++) {
+        qdot_text_truncate(&messages, 0);
+        data_set(&messages, data->rows, at.numbers + j * column);
+        object(out, &messages);
+        failed |= messages.failed;
+    }
+    out->failed |= failed;
+    qdot_text_clear(&messages);
+    qdot_text_clear(&parameters);
+    return qdot_text_status(out);
+}
+
+static qdot_status
+put_numbers(const qdot_data *data, qdot_sink *sink, qdot_text *text)
+{
+    enum { CHUNK = 8192 };
+
+    for (size_t j = 0; j < data->columns; j++)
+        for (size_t i = 0; i < data->rows; i++) {
+            real(text, data->column[j].at[i]);
+            if (i % CHUNK != CHUNK - 1 && i + 1 < data->rows)
+                continue;
+            QDOT_TRY(qdot_text_status(text));
+            QDOT_TRY(qdot_interrupt_check());
+            QDOT_TRY(qdot_sink_put(sink, text->at, text->n));
+            qdot_text_truncate(text, 0);
+        }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_data_hdf5(const qdot_data *data, const char *path)
+{
+    qdot_text text = {0};
+    qdot_sink sink;
+    qdot_status status;
+
+    if (data->columns == 0)
+        return qdot_fail(QDOT_EINVAL, "a table needs a column");
+    status = headers(data, &text);
+    if (status == QDOT_OK)
+        status = qdot_sink_open(&sink, path);
+    if (status == QDOT_OK) {
+        status = qdot_sink_put(&sink, text.at, text.n);
+        qdot_text_truncate(&text, 0);
+        if (status == QDOT_OK)
+            status = put_numbers(data, &sink, &text);
+        if (status == QDOT_OK)
+            status = qdot_sink_close(&sink);
+        else
+            qdot_sink_abandon(&sink);
+    }
+    qdot_text_clear(&text);
+    return status;
+}

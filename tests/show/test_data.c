@@ -1,0 +1,151 @@
+/* test_data.c -- columns as JSON, HTML and HDF5: what stands in the files, and failures. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "show/data.h"
+
+static const double t[3] = {0, 0.5, 1}, x[3] = {2.385, NAN, -1e-300};
+static const qdot_column columns[3] = {{"t", t}, {"a/b < c", x}, {"t", x}};
+static const qdot_data_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
+                            parameters[1] = {{"m[1]", NULL, 2.5}};
+static const qdot_data data = {"a table", 3, 3, columns, 2, 1, facts, parameters};
+
+static const char path[] = "test_data.out"; /* in the folder of the run */
+
+/* The file's bytes, to be freed; *n of them. */
+static char *
+read_back(size_t *n)
+{
+    FILE *file = fopen(path, "rb");
+    char *bytes = calloc(1, 100000);
+
+    assert_non_null(file);
+    assert_non_null(bytes);
+    *n = fread(bytes, 1, 99999, file);
+    fclose(file);
+    return bytes;
+}
+
+static void
+json_has_facts_and_rows(void **state)
+{
+    size_t n;
+    char *text;
+
+    (void)state;
+    assert_int_equal(qdot_data_json(&data, path), QDOT_OK);
+    text = read_back(&n);
+    assert_string_equal(text, "{\"program\":\"q & \\\"p\\\"\",\"tol\":0.25,\n"
+                              "\"parameters\":{\"m[1]\":2.5},\n"
+                              "\"columns\":[\"t\",\"a/b < c\",\"t\"],\n\"rows\":[\n"
+                              "[0,2.3849999999999998,2.3849999999999998],\n"
+                              "[0.5,null,null],\n"
+                              "[1,-1e-300,-1e-300]]}\n");
+    free(text);
+}
+
+static void
+html_is_escaped(void **state)
+{
+    size_t n;
+    char *text;
+
+    (void)state;
+    assert_int_equal(qdot_data_html(&data, 4, path), QDOT_OK);
+    text = read_back(&n);
+    assert_non_null(strstr(text, "<dt>program</dt><dd>q &amp; \"p\"</dd>"));
+    assert_non_null(strstr(text, "<th>t</th><th>a/b &lt; c</th><th>t</th>"));
+    assert_non_null(strstr(text, "<tr><td>0</td><td>2.385</td><td>2.385</td></tr>"));
+    free(text);
+}
+
+static uint64_t
+number(const char *at, int bytes)
+{
+    uint64_t sum = 0;
+
+    for (int i = bytes; i-- > 0;)
+        sum = sum << 8 | (unsigned char)at[i];
+    return sum;
+}
+
+static void
+hdf5_ends_where_it_says(void **state)
+{
+    const char name[] = "a\u2215b < c";
+    size_t n;
+    char *bytes;
+    double last;
+
+    (void)state;
+    assert_int_equal(qdot_data_hdf5(&data, path), QDOT_OK);
+    bytes = read_back(&n);
+    assert_memory_equal(bytes, "\211HDF\r\n\032\n\2\10\10", 11);
+    assert_int_equal(number(bytes + 28, 8), n);
+    assert_int_equal(number(bytes + 36, 8), 48);
+    assert_memory_equal(bytes + 48, "OHDR", 4);
+    assert_non_null(memmem(bytes, n, name, sizeof name - 1));
+    assert_non_null(memmem(bytes, n, "t (3)", 5));
+    memcpy(&last, bytes + n - 8, 8);
+    assert_true(last == -1e-300);
+    free(bytes);
+}
+
+static void
+failing_memory_is_told(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++)
+        for (long n = 0;; n++) {
+            qdot_status status;
+
+            qdot_memory_fail_at(n);
+            status = kind == 0   ? qdot_data_json(&data, path)
+                     : kind == 1 ? qdot_data_html(&data, 4, path)
+                                 : qdot_data_hdf5(&data, path);
+            qdot_memory_fail_at(-1);
+            if (status == QDOT_OK) {
+                assert_true(n > 0);
+                break;
+            }
+            assert_int_equal(status, QDOT_ENOMEM);
+        }
+}
+
+static void
+files_that_cannot_be_written_are_told(void **state)
+{
+    const qdot_data empty = {.title = ""};
+
+    (void)state;
+    assert_int_equal(qdot_data_hdf5(&data, "/nowhere/x.h5"), QDOT_EIO);
+    assert_int_equal(qdot_data_json(&data, "/nowhere/x.json"), QDOT_EIO);
+    assert_int_equal(qdot_data_hdf5(&empty, path), QDOT_EINVAL);
+    assert_int_equal(qdot_data_html(&empty, 4, path), QDOT_EINVAL);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(json_has_facts_and_rows),
+        cmocka_unit_test(html_is_escaped),
+        cmocka_unit_test(hdf5_ends_where_it_says),
+        cmocka_unit_test(failing_memory_is_told),
+        cmocka_unit_test(files_that_cannot_be_written_are_told),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+
+    unlink(path);
+    return failed;
+}
