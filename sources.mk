@@ -1270,6 +1270,7 @@ script_tests = \
 meta_tests = \
 	tests/meta/bootstrap.test \
 	tests/meta/circles.test \
+	tests/meta/editors.test \
 	tests/meta/embed.test \
 	tests/meta/floors.test \
 	tests/meta/late.test \
@@ -1823,7 +1824,100 @@ other_files = \
 	doc/methods.md \
 	examples/embed.c \
 	examples/embed.py \
+	share/_qdot \
+	share/emacs/qdot-mode.el \
+	share/qdot.bash \
+	share/qdot.desktop \
+	share/qdot.svg \
+	share/qdot.xml \
+	share/vim/ftdetect/qdot.vim \
+	share/vim/ftplugin/qdot.vim \
+	share/vim/syntax/qdot.vim \
 	README.md
+
+example_files = \
+	examples/acceleration-constraint.lag \
+	examples/bead-on-wire.lag \
+	examples/bicycle.lag \
+	examples/bouncing-ball.lag \
+	examples/bouncing-ball.svg \
+	examples/bowling-ball.lag \
+	examples/bricard.lag \
+	examples/car-axis.lag \
+	examples/chain.lag \
+	examples/chain.svg \
+	examples/chaplygin-sleigh.lag \
+	examples/conserved.lag \
+	examples/consistent-start.lag \
+	examples/curvature.lag \
+	examples/cylindrical.lag \
+	examples/damped-oscillator.lag \
+	examples/damped-oscillator.svg \
+	examples/degrees-of-freedom.lag \
+	examples/digits.lag \
+	examples/double-pendulum-cartesian.lag \
+	examples/double-pendulum.lag \
+	examples/double-pendulum.svg \
+	examples/dry-friction.lag \
+	examples/dry-friction.svg \
+	examples/effective-potential.svg \
+	examples/elastic-pendulum.lag \
+	examples/elastic-pendulum.svg \
+	examples/embed.c \
+	examples/embed.py \
+	examples/equilibria.lag \
+	examples/flexing-wire.lag \
+	examples/flexing-wire.svg \
+	examples/foucault.lag \
+	examples/foucault.svg \
+	examples/four-bar.lag \
+	examples/generalized-momenta.lag \
+	examples/geometry.lag \
+	examples/half-pipe.lag \
+	examples/hamiltonian.lag \
+	examples/heavy-top.lag \
+	examples/heavy-top.svg \
+	examples/henon-heiles.svg \
+	examples/holonomic-in-disguise.lag \
+	examples/horizon.lag \
+	examples/kepler.lag \
+	examples/kepler.svg \
+	examples/kinetic-energy.lag \
+	examples/knife-edge.lag \
+	examples/line-element.lag \
+	examples/magnetic-field.lag \
+	examples/metrics.lag \
+	examples/modes.lag \
+	examples/moving-constraint.lag \
+	examples/n-four-bar.lag \
+	examples/peaucellier.lag \
+	examples/pendulum-cartesian.lag \
+	examples/pendulum-period.lag \
+	examples/pendulum.lag \
+	examples/pendulum.svg \
+	examples/polar.lag \
+	examples/pumped-swing.lag \
+	examples/pumped-swing.svg \
+	examples/race-1.svg \
+	examples/race.lag \
+	examples/rolling-disk.lag \
+	examples/rolling-wheel.lag \
+	examples/rotating-hoop.lag \
+	examples/rotating-hoop.svg \
+	examples/routh.lag \
+	examples/slider-crank.lag \
+	examples/spherical-pendulum.lag \
+	examples/spherical-pendulum.svg \
+	examples/spherical.lag \
+	examples/squeezer.lag \
+	examples/stated-lagrangian.lag \
+	examples/static-equilibrium.lag \
+	examples/swinging-atwood.lag \
+	examples/swinging-atwood.svg \
+	examples/undo.lag \
+	examples/vector-operators.lag \
+	examples/velocity.lag \
+	examples/virtual-work.lag
 
 info_TEXINFOS = \
 	doc/qdot.texi
