@@ -26,10 +26,11 @@ syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff div
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor
 syntax keyword qdotFunction geodesic gradient if inverse laplacian latex lhs log max mean
 syntax keyword qdotFunction metric min mod norm numeric point poisson residual rhs ricci
-syntax keyword qdotFunction riemann scalar_curvature scale_factors sec series sign
-syntax keyword qdotFunction simplify sin sinh size solve speed2 spin sqrt stability subs
-syntax keyword qdotFunction sum tan tanh trace transpose value velocity volume_element
-syntax keyword qdotValue L Q T V accel conserved cyclic delta dof ds2 energy eom
+syntax keyword qdotFunction riemann routhian scalar_curvature scale_factors sec series
+syntax keyword qdotFunction sign simplify sin sinh size solve speed2 spin sqrt stability
+syntax keyword qdotFunction subs sum tan tanh trace transpose value velocity
+syntax keyword qdotFunction volume_element
+syntax keyword qdotValue H L Q T V accel conserved cyclic delta dof ds2 energy eom
 syntax keyword qdotValue equilibria forces hamiltonian kinetic lagrange_function lambda
 syntax keyword qdotValue mass_matrix modes momenta p potential_energy reactions routhian
 syntax keyword qdotValue speed2 stable stable_to_first_order undecided unstable
