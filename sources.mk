@@ -497,7 +497,7 @@ library_headers = \
 	lib/lang/source/lex.h \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
-	lib/machine/vector.h \
+	lib/machine/asm.h \
 	lib/machine/x86.h \
 	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
