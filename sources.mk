@@ -39,6 +39,9 @@ library_sources = \
 	lib/lang/answer/formula.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/commands/animate.c \
+	lib/lang/commands/animated-facts.c \
+	lib/lang/commands/animated.c \
 	lib/lang/commands/ask.c \
 	lib/lang/commands/assumed.c \
 	lib/lang/commands/check.c \
@@ -68,6 +71,7 @@ library_sources = \
 	lib/lang/commands/script.c \
 	lib/lang/commands/set.c \
 	lib/lang/commands/settings.c \
+	lib/lang/commands/solid.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/table.c \
 	lib/lang/commands/undo.c \
@@ -164,6 +168,7 @@ library_sources = \
 	lib/mech/study/modes.c \
 	lib/mech/study/noether.c \
 	lib/mech/study/reactions.c \
+	lib/mech/study/rods.c \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-numbers.c \
 	lib/mech/study/stability.c \
@@ -291,6 +296,8 @@ library_sources = \
 	lib/series/taylor-wide.c \
 	lib/series/taylor.c \
 	lib/series/two.c \
+	lib/show/animation-gif.c \
+	lib/show/animation.c \
 	lib/show/box.c \
 	lib/show/csv.c \
 	lib/show/draw.c \
@@ -430,6 +437,7 @@ library_headers = \
 	lib/lang/answer/formula.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/commands/animated.h \
 	lib/lang/commands/assumed.h \
 	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
@@ -444,6 +452,7 @@ library_headers = \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
 	lib/lang/commands/set.h \
+	lib/lang/commands/solid.h \
 	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
 	lib/lang/commands/value-check.h \
@@ -523,6 +532,7 @@ library_headers = \
 	lib/mech/study/noether.h \
 	lib/mech/study/reactions.h \
 	lib/mech/study/rest.h \
+	lib/mech/study/rods.h \
 	lib/mech/study/stability.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
@@ -646,6 +656,7 @@ library_headers = \
 	lib/series/taylor.h \
 	lib/series/two.def \
 	lib/series/two.h \
+	lib/show/animation.h \
 	lib/show/box.h \
 	lib/show/draw.h \
 	lib/show/gnuplot.h \
@@ -743,6 +754,10 @@ library_headers = \
 	lib/tape/shake.h \
 	lib/tape/tape.h
 
+library_texts = \
+	lib/show/player.css \
+	lib/show/player.js
+
 program_sources = \
 	src/main.c \
 	src/prompt.c \
@@ -773,6 +788,7 @@ unit_tests = \
 	tests/lang/test_partial-sum \
 	tests/lang/test_read \
 	tests/lang/test_session \
+	tests/lang/test_solid \
 	tests/lang/test_styles \
 	tests/lang/test_undo \
 	tests/machine/test_vector \
@@ -782,6 +798,7 @@ unit_tests = \
 	tests/mech/test_hamilton \
 	tests/mech/test_noether \
 	tests/mech/test_numeric \
+	tests/mech/test_rods \
 	tests/mech/test_scene \
 	tests/mech/test_scenes \
 	tests/mech/test_stability \
@@ -826,6 +843,7 @@ unit_tests = \
 	tests/series/test_taylor-wide \
 	tests/series/test_taylor \
 	tests/series/test_two \
+	tests/show/test_animation \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_layout \
@@ -862,6 +880,7 @@ script_tests = \
 	tests/script/accel-long.lag \
 	tests/script/accel-one-root-in-many-parts.lag \
 	tests/script/accel-said-again.lag \
+	tests/script/animate.sh \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
@@ -1001,6 +1020,7 @@ script_tests = \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
+	tests/bad/animate.sh \
 	tests/bad/as-number.lag \
 	tests/bad/assumed-equation.lag \
 	tests/bad/assumed-function.lag \
@@ -1300,6 +1320,7 @@ meta_tests = \
 
 test_files = \
 	tests/bad/acceleration-position.out \
+	tests/bad/animate.out \
 	tests/bad/as-number.out \
 	tests/bad/assumed-equation.out \
 	tests/bad/assumed-function.out \
@@ -1626,6 +1647,7 @@ test_files = \
 	tests/script/accel-long.out \
 	tests/script/accel-one-root-in-many-parts.out \
 	tests/script/accel-said-again.out \
+	tests/script/animate.out \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
