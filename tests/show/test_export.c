@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "show/export-language.h"
+#include "show/export.h"
 
 static const qdot_export_syntax *const languages[] = {&qdot_export_c, &qdot_export_python,
                                                       &qdot_export_julia, &qdot_export_matlab};
