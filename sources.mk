@@ -39,6 +39,9 @@ library_sources = \
 	lib/lang/answer/formula.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/commands/animate.c \
+	lib/lang/commands/animated-facts.c \
+	lib/lang/commands/animated.c \
 	lib/lang/commands/ask.c \
 	lib/lang/commands/assumed.c \
 	lib/lang/commands/check.c \
@@ -60,6 +63,7 @@ library_sources = \
 	lib/lang/commands/race.c \
 	lib/lang/commands/redirect.c \
 	lib/lang/commands/remove.c \
+	lib/lang/commands/report-page.c \
 	lib/lang/commands/request.c \
 	lib/lang/commands/reset.c \
 	lib/lang/commands/run.c \
@@ -68,6 +72,7 @@ library_sources = \
 	lib/lang/commands/script.c \
 	lib/lang/commands/set.c \
 	lib/lang/commands/settings.c \
+	lib/lang/commands/solid.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/table.c \
 	lib/lang/commands/undo.c \
@@ -164,6 +169,7 @@ library_sources = \
 	lib/mech/study/modes.c \
 	lib/mech/study/noether.c \
 	lib/mech/study/reactions.c \
+	lib/mech/study/rods.c \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-numbers.c \
 	lib/mech/study/stability.c \
@@ -291,12 +297,16 @@ library_sources = \
 	lib/series/taylor-wide.c \
 	lib/series/taylor.c \
 	lib/series/two.c \
+	lib/show/animation-gif.c \
+	lib/show/animation.c \
 	lib/show/box.c \
 	lib/show/csv.c \
 	lib/show/draw.c \
 	lib/show/figure.c \
 	lib/show/gnuplot.c \
 	lib/show/layout.c \
+	lib/show/page.c \
+	lib/show/pdf.c \
 	lib/show/sink.c \
 	lib/show/table.c \
 	lib/sim/course/bind.c \
@@ -336,12 +346,13 @@ library_sources = \
 	lib/sim/form/canonical.c \
 	lib/sim/form/constrained-series.c \
 	lib/sim/form/derived.c \
-	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/ensemble-series.c \
 	lib/sim/form/expansion.c \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
+	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-cost.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
@@ -429,6 +440,7 @@ library_headers = \
 	lib/lang/answer/formula.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/commands/animated.h \
 	lib/lang/commands/assumed.h \
 	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
@@ -443,6 +455,7 @@ library_headers = \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
 	lib/lang/commands/set.h \
+	lib/lang/commands/solid.h \
 	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
 	lib/lang/commands/value-check.h \
@@ -522,6 +535,7 @@ library_headers = \
 	lib/mech/study/noether.h \
 	lib/mech/study/reactions.h \
 	lib/mech/study/rest.h \
+	lib/mech/study/rods.h \
 	lib/mech/study/stability.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
@@ -645,10 +659,13 @@ library_headers = \
 	lib/series/taylor.h \
 	lib/series/two.def \
 	lib/series/two.h \
+	lib/show/animation.h \
 	lib/show/box.h \
 	lib/show/draw.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
+	lib/show/page.h \
+	lib/show/pdf.h \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/sim/course/bind.h \
@@ -682,12 +699,13 @@ library_headers = \
 	lib/sim/form/canonical.h \
 	lib/sim/form/constrained-series.h \
 	lib/sim/form/derived.h \
-	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/ensemble-series.h \
 	lib/sim/form/expansion.h \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
+	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-cost.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
@@ -741,6 +759,11 @@ library_headers = \
 	lib/tape/shake.h \
 	lib/tape/tape.h
 
+library_texts = \
+	lib/show/page.css \
+	lib/show/player.css \
+	lib/show/player.js
+
 program_sources = \
 	src/main.c \
 	src/prompt.c \
@@ -771,6 +794,7 @@ unit_tests = \
 	tests/lang/test_partial-sum \
 	tests/lang/test_read \
 	tests/lang/test_session \
+	tests/lang/test_solid \
 	tests/lang/test_styles \
 	tests/lang/test_undo \
 	tests/machine/test_vector \
@@ -780,6 +804,7 @@ unit_tests = \
 	tests/mech/test_hamilton \
 	tests/mech/test_noether \
 	tests/mech/test_numeric \
+	tests/mech/test_rods \
 	tests/mech/test_scene \
 	tests/mech/test_scenes \
 	tests/mech/test_stability \
@@ -824,9 +849,11 @@ unit_tests = \
 	tests/series/test_taylor-wide \
 	tests/series/test_taylor \
 	tests/series/test_two \
+	tests/show/test_animation \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_layout \
+	tests/show/test_page \
 	tests/show/test_table \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
@@ -860,6 +887,7 @@ script_tests = \
 	tests/script/accel-long.lag \
 	tests/script/accel-one-root-in-many-parts.lag \
 	tests/script/accel-said-again.lag \
+	tests/script/animate.sh \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
@@ -970,6 +998,7 @@ script_tests = \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
+	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
@@ -999,6 +1028,7 @@ script_tests = \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
+	tests/bad/animate.sh \
 	tests/bad/as-number.lag \
 	tests/bad/assumed-equation.lag \
 	tests/bad/assumed-function.lag \
@@ -1136,6 +1166,7 @@ script_tests = \
 	tests/bad/remove-beyond.lag \
 	tests/bad/remove-none.lag \
 	tests/bad/remove-which.lag \
+	tests/bad/report.sh \
 	tests/bad/reserved.lag \
 	tests/bad/reset-in-loop.lag \
 	tests/bad/rest-negative-param.lag \
@@ -1298,6 +1329,7 @@ meta_tests = \
 
 test_files = \
 	tests/bad/acceleration-position.out \
+	tests/bad/animate.out \
 	tests/bad/as-number.out \
 	tests/bad/assumed-equation.out \
 	tests/bad/assumed-function.out \
@@ -1435,6 +1467,7 @@ test_files = \
 	tests/bad/remove-beyond.out \
 	tests/bad/remove-none.out \
 	tests/bad/remove-which.out \
+	tests/bad/report.out \
 	tests/bad/reserved.out \
 	tests/bad/reset-in-loop.out \
 	tests/bad/rest-negative-param.out \
@@ -1624,6 +1657,7 @@ test_files = \
 	tests/script/accel-long.out \
 	tests/script/accel-one-root-in-many-parts.out \
 	tests/script/accel-said-again.out \
+	tests/script/animate.out \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
@@ -1757,6 +1791,7 @@ test_files = \
 	tests/script/ranges.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
+	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/rests.out \
 	tests/script/routh.out \
