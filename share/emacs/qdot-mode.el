@@ -18,7 +18,7 @@
 ;; program itself lists.
 ;; words
 (defconst qdot-statements
-  '("animate" "assume" "body" "check" "constraint" "coord" "cyclic" "damper" "derive"
+  '("abbreviate" "assume" "body" "check" "constraint" "coord" "cyclic" "damper" "derive"
     "dissipation" "dof" "equilibria" "event" "events" "force" "forces" "function"
     "gravity" "help" "include" "lagrangian" "modes" "param" "particle" "plan" "plot"
     "potential" "print" "quit" "race" "reactions" "redo" "remove" "reset" "run" "save"

@@ -15,10 +15,10 @@ syntax keyword qdotOperator and or not
 syntax match qdotComment /#.*$/ contains=@Spell,qdotTodo
 syntax keyword qdotTodo TODO FIXME contained
 " words
-syntax keyword qdotWord contained animate assume body check constraint coord cyclic damper
-syntax keyword qdotWord contained derive dissipation dof equilibria event events force
-syntax keyword qdotWord contained forces function gravity help include lagrangian modes
-syntax keyword qdotWord contained param particle plan plot potential print quit race
+syntax keyword qdotWord contained abbreviate assume body check constraint coord cyclic
+syntax keyword qdotWord contained damper derive dissipation dof equilibria event events
+syntax keyword qdotWord contained force forces function gravity help include lagrangian
+syntax keyword qdotWord contained modes param particle plan plot potential print quit race
 syntax keyword qdotWord contained reactions redo remove reset run save scene set show
 syntax keyword qdotWord contained spring start style table timing torque undo vars
 syntax keyword qdotWord contained workprecision
