@@ -350,12 +350,13 @@ library_sources = \
 	lib/sim/form/canonical.c \
 	lib/sim/form/constrained-series.c \
 	lib/sim/form/derived.c \
-	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/ensemble-series.c \
 	lib/sim/form/expansion.c \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
+	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-cost.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
@@ -708,12 +709,13 @@ library_headers = \
 	lib/sim/form/canonical.h \
 	lib/sim/form/constrained-series.h \
 	lib/sim/form/derived.h \
-	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/ensemble-series.h \
 	lib/sim/form/expansion.h \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
+	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-cost.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
