@@ -320,6 +320,19 @@ qdot_x86_again(qdot_x86 *x, size_t from)
 }
 
 void
+qdot_x86_return_if_none(qdot_x86 *x)
+{
+    static const unsigned char test[] = {0x85, 0xc9, 0x75, 0}; /* test ecx, ecx; jnz behind */
+    size_t behind;
+
+    write_bytes(x, sizeof test, test);
+    behind = x->bytes.n;
+    qdot_x86_return(x);
+    if (x->bytes.n > behind)
+        x->bytes.at[behind - 1] = (unsigned char)(x->bytes.n - behind);
+}
+
+void
 qdot_x86_enter(qdot_x86 *x, size_t place)
 {
     unsigned char *start = room(x), *at = start;

@@ -152,6 +152,8 @@ void qdot_x86_address(qdot_x86 *x, qdot_x86_base to, qdot_x86_base from, int32_t
  * another. _repeat_as: as often as the 32 bits at that place say, when it is run. */
 size_t qdot_x86_repeat(qdot_x86 *x, int times);
 size_t qdot_x86_repeat_as(qdot_x86 *x, qdot_x86_rm times);
+/* Right behind _repeat_as: return if that number is 0. The loop begins behind it. */
+void qdot_x86_return_if_none(qdot_x86 *x);
 void qdot_x86_again(qdot_x86 *x, size_t from);
 /* What begins at that place, or at an address, is run up to its end, _leave. A place as an
  * address. Registers that a caller wants back (rbx, rbp, r12 ... r15) are kept and restored,

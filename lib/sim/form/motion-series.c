@@ -149,11 +149,12 @@ drop_code(void *user)
 }
 
 static qdot_status
-write_code(int p, void *user)
+write_code(int p, int most, void *user)
 {
     qdot_motion_series *s = user;
     const qdot_lanes_rows rows = qdot_taylor_get_rows(s->at.taylor);
 
+    (void)most; /* it is written for each order */
     if (is_code(p, s))
         return QDOT_OK;
     drop_code(s);
@@ -163,8 +164,9 @@ write_code(int p, void *user)
 
 /* None is kept from earlier runs. */
 static bool
-take_code(int p, void *user)
+take_code(int p, int most, void *user)
 {
+    (void)most;
     (void)p;
     (void)user;
     return false;
