@@ -18,11 +18,12 @@
 ;; program itself lists.
 ;; words
 (defconst qdot-statements
-  '("assume" "body" "check" "constraint" "coord" "cyclic" "damper" "derive" "dissipation"
-    "dof" "equilibria" "event" "events" "force" "forces" "function" "gravity" "help"
-    "include" "lagrangian" "modes" "param" "particle" "plan" "plot" "potential" "print"
-    "quit" "race" "reactions" "redo" "remove" "reset" "run" "save" "scene" "set" "show"
-    "spring" "start" "style" "table" "timing" "torque" "undo" "vars" "workprecision")
+  '("animate" "assume" "body" "check" "constraint" "coord" "cyclic" "damper" "derive"
+    "dissipation" "dof" "equilibria" "event" "events" "force" "forces" "function"
+    "gravity" "help" "include" "lagrangian" "modes" "param" "particle" "plan" "plot"
+    "potential" "print" "quit" "race" "reactions" "redo" "remove" "reset" "run" "save"
+    "scene" "set" "show" "spring" "start" "style" "table" "timing" "torque" "undo" "vars"
+    "workprecision")
   "Words at the beginning of a statement.")
 (defconst qdot-functions
   '("N" "abs" "acos" "acosh" "asin" "asinh" "atan" "atan2" "atanh" "christoffel"
@@ -30,12 +31,12 @@
     "dot" "drift" "ds2" "eigenvalues" "erf" "erfc" "exp" "expand" "factor" "floor"
     "geodesic" "gradient" "if" "inverse" "laplacian" "latex" "lhs" "log" "max" "mean"
     "metric" "min" "mod" "norm" "numeric" "point" "poisson" "residual" "rhs" "ricci"
-    "riemann" "scalar_curvature" "scale_factors" "sec" "series" "sign" "simplify" "sin"
-    "sinh" "size" "solve" "speed2" "spin" "sqrt" "stability" "subs" "sum" "tan" "tanh"
-    "trace" "transpose" "value" "velocity" "volume_element")
+    "riemann" "routhian" "scalar_curvature" "scale_factors" "sec" "series" "sign"
+    "simplify" "sin" "sinh" "size" "solve" "speed2" "spin" "sqrt" "stability" "subs" "sum"
+    "tan" "tanh" "trace" "transpose" "value" "velocity" "volume_element")
   "The functions of the language.")
 (defconst qdot-values
-  '("L" "Q" "T" "V" "accel" "conserved" "cyclic" "delta" "dof" "ds2" "energy" "eom"
+  '("H" "L" "Q" "T" "V" "accel" "conserved" "cyclic" "delta" "dof" "ds2" "energy" "eom"
     "equilibria" "forces" "hamiltonian" "kinetic" "lagrange_function" "lambda"
     "mass_matrix" "modes" "momenta" "p" "potential_energy" "reactions" "routhian" "speed2"
     "stable" "stable_to_first_order" "undecided" "unstable" "virtual_work")

@@ -15,21 +15,23 @@ syntax keyword qdotOperator and or not
 syntax match qdotComment /#.*$/ contains=@Spell,qdotTodo
 syntax keyword qdotTodo TODO FIXME contained
 " words
-syntax keyword qdotWord contained assume body check constraint coord cyclic damper derive
-syntax keyword qdotWord contained dissipation dof equilibria event events force forces
-syntax keyword qdotWord contained function gravity help include lagrangian modes param
-syntax keyword qdotWord contained particle plan plot potential print quit race reactions
-syntax keyword qdotWord contained redo remove reset run save scene set show spring start
-syntax keyword qdotWord contained style table timing torque undo vars workprecision
+syntax keyword qdotWord contained animate assume body check constraint coord cyclic damper
+syntax keyword qdotWord contained derive dissipation dof equilibria event events force
+syntax keyword qdotWord contained forces function gravity help include lagrangian modes
+syntax keyword qdotWord contained param particle plan plot potential print quit race
+syntax keyword qdotWord contained reactions redo remove reset run save scene set show
+syntax keyword qdotWord contained spring start style table timing torque undo vars
+syntax keyword qdotWord contained workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor
 syntax keyword qdotFunction geodesic gradient if inverse laplacian latex lhs log max mean
 syntax keyword qdotFunction metric min mod norm numeric point poisson residual rhs ricci
-syntax keyword qdotFunction riemann scalar_curvature scale_factors sec series sign
-syntax keyword qdotFunction simplify sin sinh size solve speed2 spin sqrt stability subs
-syntax keyword qdotFunction sum tan tanh trace transpose value velocity volume_element
-syntax keyword qdotValue L Q T V accel conserved cyclic delta dof ds2 energy eom
+syntax keyword qdotFunction riemann routhian scalar_curvature scale_factors sec series
+syntax keyword qdotFunction sign simplify sin sinh size solve speed2 spin sqrt stability
+syntax keyword qdotFunction subs sum tan tanh trace transpose value velocity
+syntax keyword qdotFunction volume_element
+syntax keyword qdotValue H L Q T V accel conserved cyclic delta dof ds2 energy eom
 syntax keyword qdotValue equilibria forces hamiltonian kinetic lagrange_function lambda
 syntax keyword qdotValue mass_matrix modes momenta p potential_energy reactions routhian
 syntax keyword qdotValue speed2 stable stable_to_first_order undecided unstable
