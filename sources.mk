@@ -67,6 +67,7 @@ library_sources = \
 	lib/lang/commands/redirect.c \
 	lib/lang/commands/remove.c \
 	lib/lang/commands/report-page.c \
+	lib/lang/commands/report-work.c \
 	lib/lang/commands/request.c \
 	lib/lang/commands/reset.c \
 	lib/lang/commands/run.c \
@@ -461,6 +462,7 @@ library_headers = \
 	lib/lang/commands/operands.h \
 	lib/lang/commands/pairs.h \
 	lib/lang/commands/redirect.h \
+	lib/lang/commands/report-work.h \
 	lib/lang/commands/request.h \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
