@@ -1,4 +1,6 @@
 /* ask.c -- values asked for: expressions, print, show, vars, and the parts of a scene. */
+#include "lang/commands/ask.h"
+
 #include <inttypes.h>
 #include <string.h>
 

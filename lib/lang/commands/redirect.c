@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/scene-file.h"
 #include "show/formula-page.h"
@@ -62,6 +63,7 @@ refuse(const char *path, const char *ending)
 {
     static const char *const figures[] = {".svg", ".png", ".pdf", ".gif"};
     static const char *const data[] = {".csv", ".h5"};
+    qdot_spelling nearest;
 
     for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
         if (strcmp(ending, figures[i]) == 0) {
@@ -77,7 +79,12 @@ refuse(const char *path, const char *ending)
                              "\"x%s\"`, `save to \"x%s\"`", ending, ending);
         }
     (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file ends in what it is to be", path);
-    return qdot_hint("as in \"a.tex\", \"a.html\", \"a.txt\", \"a.json\"");
+    qdot_spelling_begin(&nearest, ending);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        qdot_spelling_offer(&nearest, endings[i].ending);
+    return nearest.best != NULL && ending[0] != '\0'
+               ? qdot_hint("did you mean `%s`?", nearest.best)
+               : qdot_hint("as in \"a.tex\", \"a.html\", \"a.txt\", \"a.json\"");
 }
 
 qdot_status
