@@ -7,6 +7,7 @@ library_sources = \
 	lib/api/values.c \
 	lib/base/interrupt.c \
 	lib/base/memory.c \
+	lib/base/progress.c \
 	lib/base/scope.c \
 	lib/base/status.c \
 	lib/base/terminal.c \
@@ -66,11 +67,13 @@ library_sources = \
 	lib/lang/commands/scene-file.c \
 	lib/lang/commands/script-file.c \
 	lib/lang/commands/script.c \
+	lib/lang/commands/search.c \
 	lib/lang/commands/set.c \
 	lib/lang/commands/settings.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/table.c \
 	lib/lang/commands/undo.c \
+	lib/lang/commands/usage.c \
 	lib/lang/commands/value-check.c \
 	lib/lang/commands/warnings.c \
 	lib/lang/commands/workprecision.c \
@@ -408,6 +411,7 @@ library_headers = \
 	lib/base/clock.h \
 	lib/base/interrupt.h \
 	lib/base/memory.h \
+	lib/base/progress.h \
 	lib/base/scope.h \
 	lib/base/status.h \
 	lib/base/terminal.h \
@@ -442,9 +446,11 @@ library_headers = \
 	lib/lang/commands/request.h \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
+	lib/lang/commands/search.h \
 	lib/lang/commands/set.h \
 	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
+	lib/lang/commands/usage.h \
 	lib/lang/commands/value-check.h \
 	lib/lang/commands/warnings.h \
 	lib/lang/functions/algebra.h \
@@ -742,15 +748,26 @@ library_headers = \
 	lib/tape/tape.h
 
 program_sources = \
+	src/completion.c \
+	src/completion.h \
+	src/history.c \
+	src/history.h \
 	src/main.c \
+	src/pager.c \
+	src/pager.h \
+	src/progress-line.c \
+	src/progress-line.h \
 	src/prompt.c \
 	src/prompt.h \
 	src/signals.c \
-	src/signals.h
+	src/signals.h \
+	src/startup.c \
+	src/startup.h
 
 unit_tests = \
 	tests/api/test_api \
 	tests/base/test_memory \
+	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
 	tests/expr/test_calculus \
@@ -764,6 +781,7 @@ unit_tests = \
 	tests/expr/test_sum \
 	tests/expr/test_tensor \
 	tests/expr/test_walk \
+	tests/lang/test_complete \
 	tests/lang/test_evaluate \
 	tests/lang/test_lex \
 	tests/lang/test_names \
@@ -911,6 +929,7 @@ script_tests = \
 	tests/script/hamilton.lag \
 	tests/script/hanging-chain.lag \
 	tests/script/help-examples.lag \
+	tests/script/help-search.lag \
 	tests/script/help.lag \
 	tests/script/hidden-forces.lag \
 	tests/script/history.lag \
@@ -1063,6 +1082,7 @@ script_tests = \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
 	tests/bad/hamiltonian-singular.lag \
+	tests/bad/help-search.lag \
 	tests/bad/help-unknown.lag \
 	tests/bad/hints.sh \
 	tests/bad/history.lag \
@@ -1345,6 +1365,7 @@ test_files = \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
 	tests/bad/hamiltonian-singular.out \
+	tests/bad/help-search.out \
 	tests/bad/help-unknown.out \
 	tests/bad/hints.out \
 	tests/bad/history.out \
@@ -1662,6 +1683,7 @@ test_files = \
 	tests/script/hamilton.out \
 	tests/script/hanging-chain.out \
 	tests/script/help-examples.out \
+	tests/script/help-search.out \
 	tests/script/help.out \
 	tests/script/hidden-forces.out \
 	tests/script/history.out \

@@ -1,6 +1,7 @@
 /* race.c -- the statement `race`: a table, and a figure of error against time. */
 #include <math.h>
 
+#include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
 #include "lang/commands/figure-file.h"
@@ -32,6 +33,8 @@ print_lane(const qdot_race_lane *lane, qdot_text *out)
     for (int k = 0; k < QDOT_RACE_TOLERANCES; k++) {
         const qdot_race_entry *e = &lane->entry[k];
 
+        if (e->method == NULL)
+            continue;
         qdot_text_format(out, "\n%-20s  %-7s  %5.0e", lane->name, e->method, e->tol);
         print_bound(e->error, 9, out);
         print_bound(e->energy, 9, out);
@@ -76,6 +79,8 @@ answer_rows(qdot_session *session, const qdot_race *race)
             qdot_text cells = {0};
             qdot_status status;
 
+            if (e->method == NULL)
+                continue;
             qdot_text_json(&cells, race->lane[i].name);
             qdot_text_char(&cells, ',');
             qdot_text_json(&cells, e->method != NULL ? e->method : "");
@@ -146,7 +151,8 @@ answer(qdot_session *session, const qdot_race *race, const char *path)
     if (status == QDOT_OK && session->json)
         status = answer_rows(session, race);
     qdot_text_clear(&text);
-    if (status == QDOT_OK)
+    /* who stopped it does not wait for a figure unless it was asked for */
+    if (status == QDOT_OK && (!race->interrupted || path != NULL))
         status = draw(session, race, path);
     return status;
 }
@@ -203,7 +209,11 @@ qdot_race_statement(qdot_cursor *c)
     if (status == QDOT_OK) {
         status = qdot_race_hold(c->session->scene, &order.request, &race);
         if (status == QDOT_OK) {
+            if (race.interrupted)
+                qdot_interrupt_clear(); /* heard: the rows so far are told */
             status = answer(c->session, &race, path);
+            if (status == QDOT_OK && race.interrupted)
+                status = qdot_fail(QDOT_EINTR, "interrupted: the race has the rows above");
             qdot_race_clear(&race);
         }
     }

@@ -17,11 +17,10 @@ static const struct {
     bool json;
 } endings[] = {{".txt", false}, {".tex", false}, {".json", true}};
 
-/* Statements of other groups that answer; those not here read a `to` of their own, or
- * have nothing to say. */
-static bool
-answers(const qdot_statement *row)
+bool
+qdot_redirect_answers(const qdot_statement *row)
 {
+    /* of other groups; those not here read a `to` of their own, or have nothing to say */
     static const char *const words[] = {"run",  "plan", "events", "help",
                                         "show", "vars", "print"};
 
@@ -38,7 +37,7 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
 {
     const qdot_token *end = first;
 
-    if (!answers(row))
+    if (!qdot_redirect_answers(row))
         return NULL;
     while (end->kind != QDOT_TOKEN_END)
         end++;

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
 #include "lang/commands/figure-file.h"
@@ -240,6 +241,8 @@ tell(qdot_session *session, const qdot_workprecision *w, const char *path)
                                     w->unfit[i].method, w->unfit[i].reason));
     if (path == NULL) {
         QDOT_TRY(answer_table(session, w));
+        if (w->interrupted)
+            return QDOT_OK; /* who stopped it does not wait for a figure */
         return any_done(w) ? figure(session, w, NULL)
                            : qdot_fail(QDOT_EFAILED, "no method came to the end");
     }
@@ -299,8 +302,12 @@ qdot_workprecision_statement(qdot_cursor *c)
     }
     if (status == QDOT_OK)
         status = qdot_workprecision_measure(session->scene, &order.request, &w);
+    if (w.interrupted)
+        qdot_interrupt_clear(); /* heard: the rows so far are told */
     if (status == QDOT_OK)
         status = tell(session, &w, path);
+    if (status == QDOT_OK && w.interrupted)
+        status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu rows", w.n);
     qdot_workprecision_clear(&w);
     qdot_request_free(&order);
     return status;
