@@ -494,7 +494,7 @@ library_headers = \
 	lib/lang/source/lex.h \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
-	lib/machine/vector.h \
+	lib/machine/asm.h \
 	lib/machine/x86.h \
 	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
@@ -992,6 +992,7 @@ script_tests = \
 	tests/script/reset.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
+	tests/script/routhian-named.lag \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
 	tests/script/scene-file.sh \
@@ -1100,6 +1101,7 @@ script_tests = \
 	tests/bad/lambda-component.lag \
 	tests/bad/lambda-unknown.lag \
 	tests/bad/laplacian-oblique.lag \
+	tests/bad/later.sh \
 	tests/bad/log-zero.lag \
 	tests/bad/lone-point.lag \
 	tests/bad/loop-half.lag \
@@ -1161,6 +1163,7 @@ script_tests = \
 	tests/bad/rest-negative-value.lag \
 	tests/bad/rest-negative-with.lag \
 	tests/bad/rest-negative.lag \
+	tests/bad/routhian.lag \
 	tests/bad/run-hopeless-digits.lag \
 	tests/bad/run-hopeless.lag \
 	tests/bad/same-label.lag \
@@ -1225,26 +1228,33 @@ script_tests = \
 	tests/bad/write-nowhere.lag \
 	tests/bad/wrong-arguments.lag \
 	examples/acceleration-constraint.lag \
+	examples/bead-on-helix.lag \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
 	examples/bouncing-ball.lag \
 	examples/bowling-ball.lag \
+	examples/brachistochrone-bead.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
+	examples/cart-pendulum.lag \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
 	examples/conserved.lag \
 	examples/consistent-start.lag \
+	examples/coupled-oscillators.lag \
 	examples/curvature.lag \
 	examples/cylindrical.lag \
 	examples/damped-oscillator.lag \
 	examples/degrees-of-freedom.lag \
 	examples/digits.lag \
+	examples/dipole-field.lag \
 	examples/double-pendulum-cartesian.lag \
 	examples/double-pendulum.lag \
+	examples/driven-pendulum.lag \
 	examples/dry-friction.lag \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
+	examples/figure-eight.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
 	examples/four-bar.lag \
@@ -1253,11 +1263,14 @@ script_tests = \
 	examples/half-pipe.lag \
 	examples/hamiltonian.lag \
 	examples/heavy-top.lag \
+	examples/henon-heiles.lag \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
+	examples/kapitza.lag \
 	examples/kepler.lag \
 	examples/kinetic-energy.lag \
 	examples/knife-edge.lag \
+	examples/lagrange-points.lag \
 	examples/line-element.lag \
 	examples/magnetic-field.lag \
 	examples/metrics.lag \
@@ -1273,6 +1286,7 @@ script_tests = \
 	examples/race.lag \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
+	examples/rotating-body.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
 	examples/slider-crank.lag \
@@ -1282,14 +1296,18 @@ script_tests = \
 	examples/stated-lagrangian.lag \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
+	examples/toda-chain.lag \
+	examples/torus-geodesic.lag \
 	examples/undo.lag \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
-	examples/virtual-work.lag
+	examples/virtual-work.lag \
+	examples/wilberforce.lag
 
 meta_tests = \
 	tests/meta/bootstrap.test \
 	tests/meta/circles.test \
+	tests/meta/editors.test \
 	tests/meta/embed.test \
 	tests/meta/floors.test \
 	tests/meta/late.test \
@@ -1383,6 +1401,7 @@ test_files = \
 	tests/bad/lambda-component.out \
 	tests/bad/lambda-unknown.out \
 	tests/bad/laplacian-oblique.out \
+	tests/bad/later.out \
 	tests/bad/log-zero.out \
 	tests/bad/lone-point.out \
 	tests/bad/loop-half.out \
@@ -1444,6 +1463,7 @@ test_files = \
 	tests/bad/rest-negative-value.out \
 	tests/bad/rest-negative-with.out \
 	tests/bad/rest-negative.out \
+	tests/bad/routhian.out \
 	tests/bad/run-hopeless-digits.out \
 	tests/bad/run-hopeless.out \
 	tests/bad/same-label.out \
@@ -1762,6 +1782,7 @@ test_files = \
 	tests/script/reset.out \
 	tests/script/rests.out \
 	tests/script/routh.out \
+	tests/script/routhian-named.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
 	tests/script/scene-file.out \
@@ -1845,7 +1866,114 @@ other_files = \
 	doc/methods.md \
 	examples/embed.c \
 	examples/embed.py \
+	share/_qdot \
+	share/emacs/qdot-mode.el \
+	share/qdot.bash \
+	share/qdot.desktop \
+	share/qdot.svg \
+	share/qdot.xml \
+	share/vim/ftdetect/qdot.vim \
+	share/vim/ftplugin/qdot.vim \
+	share/vim/syntax/qdot.vim \
 	README.md
+
+example_files = \
+	examples/acceleration-constraint.lag \
+	examples/bead-on-helix.lag \
+	examples/bead-on-wire.lag \
+	examples/bicycle.lag \
+	examples/bouncing-ball.lag \
+	examples/bouncing-ball.svg \
+	examples/bowling-ball.lag \
+	examples/brachistochrone-bead.lag \
+	examples/bricard.lag \
+	examples/car-axis.lag \
+	examples/cart-pendulum.lag \
+	examples/chain.lag \
+	examples/chain.svg \
+	examples/chaplygin-sleigh.lag \
+	examples/conserved.lag \
+	examples/consistent-start.lag \
+	examples/coupled-oscillators.lag \
+	examples/curvature.lag \
+	examples/cylindrical.lag \
+	examples/damped-oscillator.lag \
+	examples/damped-oscillator.svg \
+	examples/degrees-of-freedom.lag \
+	examples/digits.lag \
+	examples/dipole-field.lag \
+	examples/double-pendulum-cartesian.lag \
+	examples/double-pendulum.lag \
+	examples/double-pendulum.svg \
+	examples/driven-pendulum.lag \
+	examples/dry-friction.lag \
+	examples/dry-friction.svg \
+	examples/effective-potential.svg \
+	examples/elastic-pendulum.lag \
+	examples/elastic-pendulum.svg \
+	examples/embed.c \
+	examples/embed.py \
+	examples/equilibria.lag \
+	examples/figure-eight.lag \
+	examples/flexing-wire.lag \
+	examples/flexing-wire.svg \
+	examples/foucault.lag \
+	examples/foucault.svg \
+	examples/four-bar.lag \
+	examples/generalized-momenta.lag \
+	examples/geometry.lag \
+	examples/half-pipe.lag \
+	examples/hamiltonian.lag \
+	examples/heavy-top.lag \
+	examples/heavy-top.svg \
+	examples/henon-heiles.lag \
+	examples/henon-heiles.svg \
+	examples/holonomic-in-disguise.lag \
+	examples/horizon.lag \
+	examples/kapitza.lag \
+	examples/kepler.lag \
+	examples/kepler.svg \
+	examples/kinetic-energy.lag \
+	examples/knife-edge.lag \
+	examples/lagrange-points.lag \
+	examples/line-element.lag \
+	examples/magnetic-field.lag \
+	examples/metrics.lag \
+	examples/modes.lag \
+	examples/moving-constraint.lag \
+	examples/n-four-bar.lag \
+	examples/peaucellier.lag \
+	examples/pendulum-cartesian.lag \
+	examples/pendulum-period.lag \
+	examples/pendulum.lag \
+	examples/pendulum.svg \
+	examples/polar.lag \
+	examples/pumped-swing.lag \
+	examples/pumped-swing.svg \
+	examples/race-1.svg \
+	examples/race.lag \
+	examples/rolling-disk.lag \
+	examples/rolling-wheel.lag \
+	examples/rotating-body.lag \
+	examples/rotating-hoop.lag \
+	examples/rotating-hoop.svg \
+	examples/routh.lag \
+	examples/slider-crank.lag \
+	examples/spherical-pendulum.lag \
+	examples/spherical-pendulum.svg \
+	examples/spherical.lag \
+	examples/squeezer.lag \
+	examples/stated-lagrangian.lag \
+	examples/static-equilibrium.lag \
+	examples/swinging-atwood.lag \
+	examples/swinging-atwood.svg \
+	examples/toda-chain.lag \
+	examples/torus-geodesic.lag \
+	examples/undo.lag \
+	examples/vector-operators.lag \
+	examples/velocity.lag \
+	examples/virtual-work.lag \
+	examples/wilberforce.lag
 
 info_TEXINFOS = \
 	doc/qdot.texi

@@ -8,7 +8,7 @@
 #include "tape/shake.h"
 #include "series/taylor-code.h"
 #include "series/taylor-steps.h"
-#include "machine/x86.h"
+#include "machine/asm.h"
 
 /* --- building ----------------------------------------------------------------------- */
 
@@ -193,7 +193,7 @@ qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
 bool
 qdot_taylor_may_be_code(void)
 {
-    return qdot_x86_is_here();
+    return qdot_asm_is_here();
 }
 
 const char *
@@ -201,7 +201,7 @@ qdot_taylor_code_kind(void)
 {
     static const char *const names[] = {"SSE2", "AVX2", "AVX-512"};
 
-    return names[qdot_x86_kind()];
+    return names[qdot_asm_kind()];
 }
 
 bool

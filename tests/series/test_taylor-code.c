@@ -17,7 +17,7 @@
 #include "num/kinds.h"
 #include "num/series.h"
 #include "series/taylor.h"
-#include "machine/x86.h"
+#include "machine/asm.h"
 
 /* Inputs of q'' = e(q, p, q', p', t, m): two coordinates, their velocities, the time, a
  * number. */
@@ -168,7 +168,7 @@ there_is_code_or_a_reason(void **state)
     if (qdot_taylor_code_bytes(t, &why) == 0)
         print_message("no machine code: %s\n", why);
     assert_true((qdot_taylor_code_bytes(t, &why) > 0) == (why == NULL));
-    assert_true(qdot_x86_is_here() != (why && strstr(why, "x86-64")));
+    assert_true(qdot_asm_is_here() != (why && strstr(why, "x86-64")));
     qdot_taylor_free(t);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
@@ -624,7 +624,7 @@ main(void)
 
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
 
-    for (size_t kind = qdot_x86_kind(); kind > 0; kind--) {
+    for (size_t kind = qdot_asm_kind(); kind > 0; kind--) {
         qdot_kind_limit(kind - 1);
         failed += cmocka_run_group_tests(tests, NULL, NULL);
     }
