@@ -40,6 +40,9 @@ library_sources = \
 	lib/lang/answer/formula.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/commands/animate.c \
+	lib/lang/commands/animated-facts.c \
+	lib/lang/commands/animated.c \
 	lib/lang/commands/ask.c \
 	lib/lang/commands/assumed.c \
 	lib/lang/commands/check.c \
@@ -70,6 +73,7 @@ library_sources = \
 	lib/lang/commands/search.c \
 	lib/lang/commands/set.c \
 	lib/lang/commands/settings.c \
+	lib/lang/commands/solid.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/table.c \
 	lib/lang/commands/undo.c \
@@ -167,6 +171,7 @@ library_sources = \
 	lib/mech/study/modes.c \
 	lib/mech/study/noether.c \
 	lib/mech/study/reactions.c \
+	lib/mech/study/rods.c \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-numbers.c \
 	lib/mech/study/stability.c \
@@ -294,6 +299,8 @@ library_sources = \
 	lib/series/taylor-wide.c \
 	lib/series/taylor.c \
 	lib/series/two.c \
+	lib/show/animation-gif.c \
+	lib/show/animation.c \
 	lib/show/box.c \
 	lib/show/csv.c \
 	lib/show/draw.c \
@@ -339,12 +346,13 @@ library_sources = \
 	lib/sim/form/canonical.c \
 	lib/sim/form/constrained-series.c \
 	lib/sim/form/derived.c \
-	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/ensemble-series.c \
 	lib/sim/form/expansion.c \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
+	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-cost.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
@@ -433,6 +441,7 @@ library_headers = \
 	lib/lang/answer/formula.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/commands/animated.h \
 	lib/lang/commands/assumed.h \
 	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
@@ -448,6 +457,7 @@ library_headers = \
 	lib/lang/commands/script.h \
 	lib/lang/commands/search.h \
 	lib/lang/commands/set.h \
+	lib/lang/commands/solid.h \
 	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
 	lib/lang/commands/usage.h \
@@ -528,6 +538,7 @@ library_headers = \
 	lib/mech/study/noether.h \
 	lib/mech/study/reactions.h \
 	lib/mech/study/rest.h \
+	lib/mech/study/rods.h \
 	lib/mech/study/stability.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
@@ -651,6 +662,7 @@ library_headers = \
 	lib/series/taylor.h \
 	lib/series/two.def \
 	lib/series/two.h \
+	lib/show/animation.h \
 	lib/show/box.h \
 	lib/show/draw.h \
 	lib/show/gnuplot.h \
@@ -688,12 +700,13 @@ library_headers = \
 	lib/sim/form/canonical.h \
 	lib/sim/form/constrained-series.h \
 	lib/sim/form/derived.h \
-	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/ensemble-series.h \
 	lib/sim/form/expansion.h \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
+	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-cost.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
@@ -747,6 +760,10 @@ library_headers = \
 	lib/tape/shake.h \
 	lib/tape/tape.h
 
+library_texts = \
+	lib/show/player.css \
+	lib/show/player.js
+
 program_sources = \
 	src/completion.c \
 	src/completion.h \
@@ -789,6 +806,7 @@ unit_tests = \
 	tests/lang/test_partial-sum \
 	tests/lang/test_read \
 	tests/lang/test_session \
+	tests/lang/test_solid \
 	tests/lang/test_styles \
 	tests/lang/test_undo \
 	tests/machine/test_vector \
@@ -798,6 +816,7 @@ unit_tests = \
 	tests/mech/test_hamilton \
 	tests/mech/test_noether \
 	tests/mech/test_numeric \
+	tests/mech/test_rods \
 	tests/mech/test_scene \
 	tests/mech/test_scenes \
 	tests/mech/test_stability \
@@ -842,6 +861,7 @@ unit_tests = \
 	tests/series/test_taylor-wide \
 	tests/series/test_taylor \
 	tests/series/test_two \
+	tests/show/test_animation \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_layout \
@@ -878,6 +898,7 @@ script_tests = \
 	tests/script/accel-long.lag \
 	tests/script/accel-one-root-in-many-parts.lag \
 	tests/script/accel-said-again.lag \
+	tests/script/animate.sh \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
@@ -1018,6 +1039,7 @@ script_tests = \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
+	tests/bad/animate.sh \
 	tests/bad/as-number.lag \
 	tests/bad/assumed-equation.lag \
 	tests/bad/assumed-function.lag \
@@ -1318,6 +1340,7 @@ meta_tests = \
 
 test_files = \
 	tests/bad/acceleration-position.out \
+	tests/bad/animate.out \
 	tests/bad/as-number.out \
 	tests/bad/assumed-equation.out \
 	tests/bad/assumed-function.out \
@@ -1645,6 +1668,7 @@ test_files = \
 	tests/script/accel-long.out \
 	tests/script/accel-one-root-in-many-parts.out \
 	tests/script/accel-said-again.out \
+	tests/script/animate.out \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \

@@ -7,7 +7,6 @@
 #include "sim/form/bordered.h"
 #include "sim/form/canonical.h"
 #include "sim/form/constrained-series.h"
-#include "sim/form/direct.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/residual.h"
 #include "sim/form/residual-series.h"

@@ -15,12 +15,13 @@ syntax keyword qdotOperator and or not
 syntax match qdotComment /#.*$/ contains=@Spell,qdotTodo
 syntax keyword qdotTodo TODO FIXME contained
 " words
-syntax keyword qdotWord contained assume body check constraint coord cyclic damper derive
-syntax keyword qdotWord contained dissipation dof equilibria event events force forces
-syntax keyword qdotWord contained function gravity help include lagrangian modes param
-syntax keyword qdotWord contained particle plan plot potential print quit race reactions
-syntax keyword qdotWord contained redo remove reset run save scene set show spring start
-syntax keyword qdotWord contained style table timing torque undo vars workprecision
+syntax keyword qdotWord contained animate assume body check constraint coord cyclic damper
+syntax keyword qdotWord contained derive dissipation dof equilibria event events force
+syntax keyword qdotWord contained forces function gravity help include lagrangian modes
+syntax keyword qdotWord contained param particle plan plot potential print quit race
+syntax keyword qdotWord contained reactions redo remove reset run save scene set show
+syntax keyword qdotWord contained spring start style table timing torque undo vars
+syntax keyword qdotWord contained workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor
