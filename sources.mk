@@ -64,6 +64,7 @@ library_sources = \
 	lib/lang/commands/race.c \
 	lib/lang/commands/redirect.c \
 	lib/lang/commands/remove.c \
+	lib/lang/commands/report-page.c \
 	lib/lang/commands/request.c \
 	lib/lang/commands/reset.c \
 	lib/lang/commands/run.c \
@@ -307,6 +308,8 @@ library_sources = \
 	lib/show/figure.c \
 	lib/show/gnuplot.c \
 	lib/show/layout.c \
+	lib/show/page.c \
+	lib/show/pdf.c \
 	lib/show/sink.c \
 	lib/show/table.c \
 	lib/sim/course/bind.c \
@@ -667,6 +670,8 @@ library_headers = \
 	lib/show/draw.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
+	lib/show/page.h \
+	lib/show/pdf.h \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/sim/course/bind.h \
@@ -761,6 +766,7 @@ library_headers = \
 	lib/tape/tape.h
 
 library_texts = \
+	lib/show/page.css \
 	lib/show/player.css \
 	lib/show/player.js
 
@@ -865,6 +871,7 @@ unit_tests = \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_layout \
+	tests/show/test_page \
 	tests/show/test_table \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
@@ -1010,6 +1017,7 @@ script_tests = \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
+	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
@@ -1178,6 +1186,7 @@ script_tests = \
 	tests/bad/remove-beyond.lag \
 	tests/bad/remove-none.lag \
 	tests/bad/remove-which.lag \
+	tests/bad/report.sh \
 	tests/bad/reserved.lag \
 	tests/bad/reset-in-loop.lag \
 	tests/bad/rest-negative-param.lag \
@@ -1479,6 +1488,7 @@ test_files = \
 	tests/bad/remove-beyond.out \
 	tests/bad/remove-none.out \
 	tests/bad/remove-which.out \
+	tests/bad/report.out \
 	tests/bad/reserved.out \
 	tests/bad/reset-in-loop.out \
 	tests/bad/rest-negative-param.out \
@@ -1803,6 +1813,7 @@ test_files = \
 	tests/script/ranges.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
+	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/rests.out \
 	tests/script/routh.out \
