@@ -208,7 +208,7 @@ compile_list(compiler *c, int from, int comma)
         c->u->node[fork].forgets |= (uint64_t)1 << k;
 }
 
-/* Words a|b|c at i; returns what is behind them. */
+/* Words or holes a|b|c at i; returns what is behind them. */
 static int
 compile_words(compiler *c, int i, int to)
 {
@@ -219,8 +219,11 @@ compile_words(compiler *c, int i, int to)
     if (end > i + 1) {
         compile_cut(c, i, end, TIGHT, NULL);
     } else {
-        (void)emit(c, QDOT_USAGE_WORD, c->piece[i].text);
-        strcpy(c->before, c->piece[i].text);
+        const bool word = c->piece[i].kind == WORD;
+
+        (void)emit(c, word ? QDOT_USAGE_WORD : QDOT_USAGE_HOLE, c->piece[i].text);
+        if (word)
+            strcpy(c->before, c->piece[i].text);
     }
     return end;
 }
@@ -248,7 +251,8 @@ compile_sequence(compiler *c, int i, int to)
         if (comma > i) {
             compile_list(c, i, comma);
             i = comma + 2;
-        } else if (p->kind == WORD) {
+        } else if (p->kind == WORD ||
+                   (p->kind == HOLE && i + 1 < to && c->piece[i + 1].kind == TIGHT)) {
             i = compile_words(c, i, to);
         } else if (p->kind == OPEN) {
             i = compile_options(c, i, to);

@@ -5,7 +5,7 @@
  *     word          a word of the language               tol, method
  *     HOLE          what a person writes                 EXPR, T0..T1, "FILE", F(ARGUMENTS)
  *     [ ... ]       may be left out; several, one directly after the other, come in any order
- *     a|b|c         one of these words
+ *     a|b|c         one of these words or holes
  *     A ... | B     alternatives, within [ ] or of the whole. An alternative that does not begin
  *                   with the statement's word replaces the usage from the last word before the
  *                   first bar: `force F on PARTICLE | at POINT`
