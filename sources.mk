@@ -51,11 +51,14 @@ library_sources = \
 	lib/lang/commands/equilibria.c \
 	lib/lang/commands/event.c \
 	lib/lang/commands/figure-file.c \
+	lib/lang/commands/figure-option.c \
 	lib/lang/commands/help.c \
 	lib/lang/commands/loop.c \
 	lib/lang/commands/objects.c \
 	lib/lang/commands/operands.c \
 	lib/lang/commands/pairs.c \
+	lib/lang/commands/plot-over.c \
+	lib/lang/commands/plot-run.c \
 	lib/lang/commands/plot.c \
 	lib/lang/commands/race.c \
 	lib/lang/commands/redirect.c \
@@ -294,11 +297,17 @@ library_sources = \
 	lib/show/box.c \
 	lib/show/csv.c \
 	lib/show/draw.c \
+	lib/show/figure-axis.c \
+	lib/show/figure-label.c \
+	lib/show/figure-layout.c \
+	lib/show/figure-script.c \
 	lib/show/figure.c \
 	lib/show/gnuplot.c \
 	lib/show/layout.c \
 	lib/show/sink.c \
+	lib/show/sketch.c \
 	lib/show/table.c \
+	lib/show/trace.c \
 	lib/sim/course/bind.c \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
@@ -435,9 +444,11 @@ library_headers = \
 	lib/lang/commands/declare.h \
 	lib/lang/commands/digits-table.h \
 	lib/lang/commands/figure-file.h \
+	lib/lang/commands/figure-option.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
 	lib/lang/commands/pairs.h \
+	lib/lang/commands/plot-parts.h \
 	lib/lang/commands/redirect.h \
 	lib/lang/commands/request.h \
 	lib/lang/commands/scene-file.h \
@@ -647,10 +658,13 @@ library_headers = \
 	lib/series/two.h \
 	lib/show/box.h \
 	lib/show/draw.h \
+	lib/show/figure-parts.h \
+	lib/show/figure.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
 	lib/show/show.h \
 	lib/show/sink.h \
+	lib/show/trace.h \
 	lib/sim/course/bind.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
@@ -828,6 +842,7 @@ unit_tests = \
 	tests/show/test_figure \
 	tests/show/test_layout \
 	tests/show/test_table \
+	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
 	tests/sim/test_ensemble-constraints \
@@ -899,6 +914,7 @@ script_tests = \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
+	tests/script/figures.sh \
 	tests/script/flat-places.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
@@ -1051,6 +1067,7 @@ script_tests = \
 	tests/bad/entry-range.lag \
 	tests/bad/equilibria-unset.lag \
 	tests/bad/family-and-vector.lag \
+	tests/bad/figure-options.sh \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
 	tests/bad/function-body.lag \
@@ -1333,6 +1350,7 @@ test_files = \
 	tests/bad/entry-range.out \
 	tests/bad/equilibria-unset.out \
 	tests/bad/family-and-vector.out \
+	tests/bad/figure-options.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
 	tests/bad/function-body.out \
@@ -1650,6 +1668,7 @@ test_files = \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/far-away.out \
+	tests/script/figures.out \
 	tests/script/flat-places.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \

@@ -1,65 +1,43 @@
-/* figure.c -- curves as a gnuplot script, and its image as a file. */
-#include "show/show.h"
+/* figure.c -- kinds of images; a figure drawn into its file, or a window. */
+#include "show/figure.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-#include "base/interrupt.h"
-#include "base/utf8.h"
+#include "show/figure-parts.h"
 #include "show/gnuplot.h"
 #include "show/sink.h"
-
-enum { EXACT = 17, BLOCK = 4096 };
 
 /* --- kinds of image ----------------------------------------------------------------- */
 
 /* A terminal is chosen at gnuplot's side, because which ones it has differs. */
-typedef struct {
-    const char *ending, *terminal;
-} kind;
-
-static const kind kinds[] = {
-    {".svg", "set terminal svg size 800,500 noenhanced font 'sans-serif,15' "
-             "background '#ffffff' linewidth 1.2\n"},
-    {".png",
-     "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {\n"
-     "set terminal pngcairo size 1200,750 noenhanced font 'sans,15' linewidth 1.8\n"
-     "} else {\n"
-     "set terminal png size 1200,750 noenhanced linewidth 2\n"
-     "}\n"},
-    {".pdf",
-     "set terminal pdfcairo size 16cm,10cm noenhanced font 'sans,11' linewidth 1.5\n"},
+static const qdot_figure_kind kinds[] = {
+    {".svg", 96 / 2.54, 1.2, 96. / 72, 1.6,
+     "set terminal svg enhanced background '#ffffff'", ""},
+    {".png", 200 / 2.54, 2.6, 200. / 96, 1.4,
+     "png = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0 ? 'pngcairo' : 'png'\n"
+     "set terminal @png enhanced",
+     ""},
+    {".pdf", 1, 1.5, 0.75, 1.4, "set terminal pdfcairo enhanced fontscale 1", "cm"},
 };
 
 static const char window_terminal[] = "if (strstrt(GPVAL_TERMINALS, 'qt') > 0) {\n"
-                                      "set terminal qt noenhanced\n"
+                                      "set terminal qt enhanced\n"
                                       "} else {\n"
                                       "if (strstrt(GPVAL_TERMINALS, 'wxt') > 0) {\n"
-                                      "set terminal wxt noenhanced\n"
+                                      "set terminal wxt enhanced\n"
                                       "} else {\n"
                                       "if (strstrt(GPVAL_TERMINALS, 'x11') > 0) {\n"
-                                      "set terminal x11 noenhanced\n"
+                                      "set terminal x11 enhanced\n"
                                       "} else {\n"
                                       "exit error 'this gnuplot cannot open a window'\n"
                                       "}\n"
                                       "}\n"
                                       "}\n";
 
-static const char look[] = "set encoding utf8\n"
-                           "set datafile missing 'NaN'\n"
-                           "set border 3 linecolor '#404040'\n"
-                           "set tics nomirror out textcolor '#202020'\n"
-                           "set grid linetype 1 linecolor '#e0e0e0' linewidth 0.7\n"
-                           "set samples 2\n";
+enum { KINDS = sizeof kinds / sizeof *kinds };
 
-/* Okabe and Ito's palette: told apart by eyes that do not see all colours. */
-static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                      "#56b4e9", "#e69f00", "#000000", "#8a6d00"};
-
-enum { KINDS = sizeof kinds / sizeof *kinds, COLOURS = sizeof colours / sizeof *colours };
-
-static const kind *
+static const qdot_figure_kind *
 kind_of(const char *path)
 {
     const char *slash = strrchr(path, '/'), *dot;
@@ -71,198 +49,108 @@ kind_of(const char *path)
     return NULL;
 }
 
-/* --- the script --------------------------------------------------------------------- */
-
-/* Between double quotes gnuplot reads \042 as the character of that octal code, so
- * every character that could mean something to it (quotes, backslash, backquote ...)
- * is written so; digits too, which it would take into the code before them. A line
- * break would end the command: it becomes a blank, as other control characters do. */
 static void
-add_quoted(qdot_text *script, const char *text)
+add_terminal(const qdot_figure_drawing *d)
 {
-    qdot_text_char(script, '"');
-    for (const char *c = text != NULL ? text : ""; *c != '\0';) {
-        size_t n = qdot_utf8_length(c);
+    qdot_text *s = d->script;
 
-        if (n == 0)
-            qdot_text_add(script, "\xEF\xBF\xBD");
-        else if (n > 1 || isalpha((unsigned char)*c))
-            qdot_text_add_n(script, c, n);
-        else if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            qdot_text_char(script, ' ');
-        else
-            qdot_text_format(script, "\\%03o", (unsigned char)*c);
-        c += n > 0 ? n : 1;
-    }
-    qdot_text_char(script, '"');
-}
-
-static bool
-shows(const qdot_figure *figure, double x, double y)
-{
-    return isfinite(x) && isfinite(y) && (!figure->log_x || x > 0) &&
-           (!figure->log_y || y > 0);
-}
-
-/* What of the figure can be shown. */
-typedef struct {
-    size_t points;
-    double x_least, x_most, y_least, y_most;
-} extent;
-
-/* The points of curve i as the data block $c<i>. A point that can't be shown breaks
- * the line. */
-static qdot_status
-add_points(qdot_text *script, const qdot_figure *figure, size_t i, extent *seen)
-{
-    qdot_text_format(script, "$c%zu << END\n", i);
-    for (size_t k = 0; k < figure->rows[i]; k++) {
-        double x = figure->x[i].at[k], y = figure->y[i].at[k];
-
-        if (shows(figure, x, y)) {
-            bool first = seen->points++ == 0;
-
-            seen->x_least = first ? x : fmin(seen->x_least, x);
-            seen->x_most = first ? x : fmax(seen->x_most, x);
-            seen->y_least = first ? y : fmin(seen->y_least, y);
-            seen->y_most = first ? y : fmax(seen->y_most, y);
-            qdot_text_double(script, x, EXACT);
-            qdot_text_char(script, ' ');
-            qdot_text_double(script, y, EXACT);
-        }
-        qdot_text_char(script, '\n');
-        if (k % BLOCK == BLOCK - 1)
-            QDOT_TRY(qdot_interrupt_check());
-    }
-    qdot_text_add(script, "END\n");
-    return qdot_text_status(script);
-}
-
-/* 1, 2 or 5 times a power of ten, so that `span` takes between 4 and 10 steps; 0 for
- * no span. */
-static double
-nice_step(double span)
-{
-    double ten = pow(10, floor(log10(span / 4))), times = span / 4 / ten;
-
-    return !isfinite(ten) || ten == 0 ? 0
-           : times < 2                ? ten
-           : times < 5                ? 2 * ten
-                                      : 5 * ten;
-}
-
-/* Powers of ten as tics of a long logarithmic axis, of which at most nine are labelled: where not
- * every one is, gnuplot's own marks between them stand on the right half only. */
-static void
-add_log_axis(qdot_text *script, char axis, double least, double most)
-{
-    const double decades = log10(most / least);
-
-    qdot_text_format(script, "set logscale %c\nset format %c '%%.0e'\n", axis, axis);
-    if (!(decades > 5))
+    if (d->kind == NULL) {
+        qdot_text_add(s, window_terminal);
         return;
-    qdot_text_format(script, "set %ctics 1e%d\n", axis, (int)ceil(decades / 8));
-    if (decades > 8)
-        qdot_text_format(script, "unset m%ctics\n", axis);
-}
-
-static void
-add_axes(qdot_text *script, const qdot_figure *figure, const extent *seen)
-{
-    double step =
-        nice_step(fmax(seen->x_most - seen->x_least, seen->y_most - seen->y_least));
-
-    if (figure->title != NULL && figure->title[0] != '\0') {
-        qdot_text_add(script, "set title ");
-        add_quoted(script, figure->title);
-        qdot_text_char(script, '\n');
     }
-    qdot_text_add(script, "set xlabel ");
-    add_quoted(script, figure->x_label);
-    qdot_text_add(script, "\nset ylabel ");
-    add_quoted(script, figure->y_label);
-    qdot_text_char(script, '\n');
-    if (figure->equal_axes) {
-        qdot_text_add(script, "set size ratio -1\n");
-        for (const char *axis = "xy"; *axis != '\0' && step > 0; axis++) {
-            qdot_text_format(script, "set %ctics ", *axis);
-            qdot_text_double(script, step, EXACT);
-            qdot_text_char(script, '\n');
-        }
-    } else {
-        qdot_text_add(script, "set autoscale xfix\n");
-    }
-    if (figure->log_x)
-        add_log_axis(script, 'x', seen->x_least, seen->x_most);
-    if (figure->log_y)
-        add_log_axis(script, 'y', seen->y_least, seen->y_most);
-    qdot_text_add(script, figure->curves > 1 ? "set key outside right top Left reverse\n"
-                                             : "unset key\n");
-}
-
-static void
-add_curves(qdot_text *script, const qdot_figure *figure)
-{
-    qdot_text_add(script, "plot ");
-    for (size_t i = 0; i < figure->curves; i++) {
-        bool point = figure->rows[i] == 1;
-
-        qdot_text_format(
-            script, "%s$c%zu using 1:2 with %s linecolor rgb '%s'%s", i == 0 ? "" : ", ",
-            i,
-            point           ? "points pointtype 7"
-            : figure->marks ? "linespoints pointtype 7 pointsize 0.6 linewidth 1.4"
-                            : "lines linewidth 1.4",
-            colours[i % COLOURS],
-            !point && i / COLOURS % 2 == 1 ? " dashtype 2" : "");
-        qdot_text_add(script, " title ");
-        add_quoted(script, figure->y[i].label);
-    }
-    qdot_text_char(script, '\n');
-}
-
-static qdot_status
-write_script(qdot_text *script, const qdot_figure *figure, const char *terminal)
-{
-    extent seen = {0};
-
-    qdot_text_add(script, terminal);
-    qdot_text_add(script, look);
-    for (size_t i = 0; i < figure->curves; i++)
-        QDOT_TRY(add_points(script, figure, i, &seen));
-    if (seen.points == 0)
-        return qdot_fail(QDOT_EDOMAIN, "no point of the plot is finite%s",
-                         figure->log_x || figure->log_y ? " and positive" : "");
-    add_axes(script, figure, &seen);
-    add_curves(script, figure);
-    return qdot_text_status(script);
+    qdot_text_add(s, d->kind->before);
+    qdot_text_add(s, " size ");
+    qdot_text_double(s, d->kind->dots > 1 ? round(d->width * d->kind->dots) : d->width, 6);
+    qdot_text_add(s, d->kind->behind);
+    qdot_text_char(s, ',');
+    qdot_text_double(s, d->kind->dots > 1 ? round(d->height * d->kind->dots) : d->height, 6);
+    qdot_text_format(s, "%s font 'sans%s,", d->kind->behind,
+                     strcmp(d->kind->ending, ".svg") == 0 ? "-serif" : "");
+    qdot_text_double(s, d->points * d->kind->point, 4);
+    qdot_text_add(s, "' linewidth ");
+    qdot_text_double(s, d->kind->line, 4);
+    qdot_text_char(s, '\n');
 }
 
 /* --- the figure --------------------------------------------------------------------- */
 
+/* path with another ending */
+static void
+add_sibling(qdot_text *out, const char *path, const char *ending)
+{
+    qdot_text_add_n(out, path, (size_t)(strrchr(path, '.') - path));
+    qdot_text_add(out, ending);
+}
+
+static const char *
+base_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    return slash != NULL ? slash + 1 : path;
+}
+
+/* NAME.gp and NAME.dat beside NAME.svg; `gnuplot NAME.gp` in their folder draws it. */
+static qdot_status
+leave_script(const qdot_figure_drawing *like, const char *path)
+{
+    qdot_text script = {0}, data = {0}, script_path = {0}, data_path = {0};
+    qdot_figure_drawing d = *like;
+    qdot_status status;
+
+    add_sibling(&script_path, path, ".gp");
+    add_sibling(&data_path, path, ".dat");
+    status = qdot_text_status(&data_path);
+    if (status == QDOT_OK)
+        status = qdot_figure_add_data(d.figure, &data);
+    if (status == QDOT_OK) {
+        d.script = &script;
+        d.data = base_of(data_path.at);
+        add_terminal(&d);
+        qdot_text_add(&script, "set output ");
+        qdot_figure_add_quoted(&script, base_of(path));
+        qdot_text_char(&script, '\n');
+        status = qdot_figure_add_script(&d);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&script_path);
+    if (status == QDOT_OK)
+        status = qdot_sink_write(data_path.at, data.at, data.n);
+    if (status == QDOT_OK)
+        status = qdot_sink_write(script_path.at, script.at, script.n);
+    qdot_text_clear(&script);
+    qdot_text_clear(&data);
+    qdot_text_clear(&script_path);
+    qdot_text_clear(&data_path);
+    return status;
+}
+
 qdot_status
 qdot_figure_write(const qdot_figure *figure, const char *path)
 {
-    const char *terminal = window_terminal;
     qdot_text script = {0}, image = {0};
+    qdot_figure_drawing d = {.figure = figure, .script = &script};
     qdot_status status;
 
-    if (figure->curves == 0)
-        return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
+    for (size_t i = 0; i < figure->n; i++)
+        if (figure->panels[i].n == 0)
+            return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
     if (path != NULL) {
-        const kind *k = kind_of(path);
-
-        if (k == NULL) {
+        d.kind = kind_of(path);
+        if (d.kind == NULL) {
             qdot_fail(QDOT_EINVAL, "`%.200s` does not say what figure it is to be", path);
             return qdot_hint("end its name in .svg, .png or .pdf");
         }
-        terminal = k->terminal;
     }
-    status = write_script(&script, figure, terminal);
+    QDOT_TRY(qdot_figure_size(figure, &d.width, &d.height, &d.points));
+    add_terminal(&d);
+    status = qdot_figure_add_script(&d);
     if (status == QDOT_OK)
         status = qdot_gnuplot_run(&script, path != NULL ? &image : NULL);
     if (status == QDOT_OK && path != NULL)
         status = qdot_sink_write(path, image.at, image.n);
+    if (status == QDOT_OK && path != NULL && figure->keep)
+        status = leave_script(&d, path);
     qdot_text_clear(&script);
     qdot_text_clear(&image);
     return status;
