@@ -39,6 +39,9 @@ library_sources = \
 	lib/lang/answer/formula.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/commands/animate.c \
+	lib/lang/commands/animated-facts.c \
+	lib/lang/commands/animated.c \
 	lib/lang/commands/ask.c \
 	lib/lang/commands/assumed.c \
 	lib/lang/commands/check.c \
@@ -71,6 +74,7 @@ library_sources = \
 	lib/lang/commands/script.c \
 	lib/lang/commands/set.c \
 	lib/lang/commands/settings.c \
+	lib/lang/commands/solid.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/table.c \
 	lib/lang/commands/undo.c \
@@ -167,6 +171,7 @@ library_sources = \
 	lib/mech/study/modes.c \
 	lib/mech/study/noether.c \
 	lib/mech/study/reactions.c \
+	lib/mech/study/rods.c \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-numbers.c \
 	lib/mech/study/stability.c \
@@ -294,6 +299,8 @@ library_sources = \
 	lib/series/taylor-wide.c \
 	lib/series/taylor.c \
 	lib/series/two.c \
+	lib/show/animation-gif.c \
+	lib/show/animation.c \
 	lib/show/box.c \
 	lib/show/csv.c \
 	lib/show/draw.c \
@@ -345,12 +352,13 @@ library_sources = \
 	lib/sim/form/canonical.c \
 	lib/sim/form/constrained-series.c \
 	lib/sim/form/derived.c \
-	lib/sim/form/direct.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/ensemble-series.c \
 	lib/sim/form/expansion.c \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
+	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-cost.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
@@ -438,6 +446,7 @@ library_headers = \
 	lib/lang/answer/formula.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/commands/animated.h \
 	lib/lang/commands/assumed.h \
 	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
@@ -454,6 +463,7 @@ library_headers = \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
 	lib/lang/commands/set.h \
+	lib/lang/commands/solid.h \
 	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
 	lib/lang/commands/value-check.h \
@@ -499,7 +509,7 @@ library_headers = \
 	lib/lang/source/lex.h \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
-	lib/machine/vector.h \
+	lib/machine/asm.h \
 	lib/machine/x86.h \
 	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
@@ -533,6 +543,7 @@ library_headers = \
 	lib/mech/study/noether.h \
 	lib/mech/study/reactions.h \
 	lib/mech/study/rest.h \
+	lib/mech/study/rods.h \
 	lib/mech/study/stability.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
@@ -656,6 +667,7 @@ library_headers = \
 	lib/series/taylor.h \
 	lib/series/two.def \
 	lib/series/two.h \
+	lib/show/animation.h \
 	lib/show/box.h \
 	lib/show/draw.h \
 	lib/show/figure-parts.h \
@@ -696,12 +708,13 @@ library_headers = \
 	lib/sim/form/canonical.h \
 	lib/sim/form/constrained-series.h \
 	lib/sim/form/derived.h \
-	lib/sim/form/direct.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/ensemble-series.h \
 	lib/sim/form/expansion.h \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
+	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-cost.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
@@ -755,6 +768,10 @@ library_headers = \
 	lib/tape/shake.h \
 	lib/tape/tape.h
 
+library_texts = \
+	lib/show/player.css \
+	lib/show/player.js
+
 program_sources = \
 	src/main.c \
 	src/prompt.c \
@@ -785,6 +802,7 @@ unit_tests = \
 	tests/lang/test_partial-sum \
 	tests/lang/test_read \
 	tests/lang/test_session \
+	tests/lang/test_solid \
 	tests/lang/test_styles \
 	tests/lang/test_undo \
 	tests/machine/test_vector \
@@ -794,6 +812,7 @@ unit_tests = \
 	tests/mech/test_hamilton \
 	tests/mech/test_noether \
 	tests/mech/test_numeric \
+	tests/mech/test_rods \
 	tests/mech/test_scene \
 	tests/mech/test_scenes \
 	tests/mech/test_stability \
@@ -838,6 +857,7 @@ unit_tests = \
 	tests/series/test_taylor-wide \
 	tests/series/test_taylor \
 	tests/series/test_two \
+	tests/show/test_animation \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_layout \
@@ -875,6 +895,7 @@ script_tests = \
 	tests/script/accel-long.lag \
 	tests/script/accel-one-root-in-many-parts.lag \
 	tests/script/accel-said-again.lag \
+	tests/script/animate.sh \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
@@ -989,6 +1010,7 @@ script_tests = \
 	tests/script/reset.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
+	tests/script/routhian-named.lag \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
 	tests/script/scene-file.sh \
@@ -1014,6 +1036,7 @@ script_tests = \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
+	tests/bad/animate.sh \
 	tests/bad/as-number.lag \
 	tests/bad/assumed-equation.lag \
 	tests/bad/assumed-function.lag \
@@ -1097,6 +1120,7 @@ script_tests = \
 	tests/bad/lambda-component.lag \
 	tests/bad/lambda-unknown.lag \
 	tests/bad/laplacian-oblique.lag \
+	tests/bad/later.sh \
 	tests/bad/log-zero.lag \
 	tests/bad/lone-point.lag \
 	tests/bad/loop-half.lag \
@@ -1158,6 +1182,7 @@ script_tests = \
 	tests/bad/rest-negative-value.lag \
 	tests/bad/rest-negative-with.lag \
 	tests/bad/rest-negative.lag \
+	tests/bad/routhian.lag \
 	tests/bad/run-hopeless-digits.lag \
 	tests/bad/run-hopeless.lag \
 	tests/bad/same-label.lag \
@@ -1222,26 +1247,33 @@ script_tests = \
 	tests/bad/write-nowhere.lag \
 	tests/bad/wrong-arguments.lag \
 	examples/acceleration-constraint.lag \
+	examples/bead-on-helix.lag \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
 	examples/bouncing-ball.lag \
 	examples/bowling-ball.lag \
+	examples/brachistochrone-bead.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
+	examples/cart-pendulum.lag \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
 	examples/conserved.lag \
 	examples/consistent-start.lag \
+	examples/coupled-oscillators.lag \
 	examples/curvature.lag \
 	examples/cylindrical.lag \
 	examples/damped-oscillator.lag \
 	examples/degrees-of-freedom.lag \
 	examples/digits.lag \
+	examples/dipole-field.lag \
 	examples/double-pendulum-cartesian.lag \
 	examples/double-pendulum.lag \
+	examples/driven-pendulum.lag \
 	examples/dry-friction.lag \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
+	examples/figure-eight.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
 	examples/four-bar.lag \
@@ -1250,11 +1282,14 @@ script_tests = \
 	examples/half-pipe.lag \
 	examples/hamiltonian.lag \
 	examples/heavy-top.lag \
+	examples/henon-heiles.lag \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
+	examples/kapitza.lag \
 	examples/kepler.lag \
 	examples/kinetic-energy.lag \
 	examples/knife-edge.lag \
+	examples/lagrange-points.lag \
 	examples/line-element.lag \
 	examples/magnetic-field.lag \
 	examples/metrics.lag \
@@ -1270,6 +1305,7 @@ script_tests = \
 	examples/race.lag \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
+	examples/rotating-body.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
 	examples/slider-crank.lag \
@@ -1279,14 +1315,18 @@ script_tests = \
 	examples/stated-lagrangian.lag \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
+	examples/toda-chain.lag \
+	examples/torus-geodesic.lag \
 	examples/undo.lag \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
-	examples/virtual-work.lag
+	examples/virtual-work.lag \
+	examples/wilberforce.lag
 
 meta_tests = \
 	tests/meta/bootstrap.test \
 	tests/meta/circles.test \
+	tests/meta/editors.test \
 	tests/meta/embed.test \
 	tests/meta/floors.test \
 	tests/meta/late.test \
@@ -1297,6 +1337,7 @@ meta_tests = \
 
 test_files = \
 	tests/bad/acceleration-position.out \
+	tests/bad/animate.out \
 	tests/bad/as-number.out \
 	tests/bad/assumed-equation.out \
 	tests/bad/assumed-function.out \
@@ -1380,6 +1421,7 @@ test_files = \
 	tests/bad/lambda-component.out \
 	tests/bad/lambda-unknown.out \
 	tests/bad/laplacian-oblique.out \
+	tests/bad/later.out \
 	tests/bad/log-zero.out \
 	tests/bad/lone-point.out \
 	tests/bad/loop-half.out \
@@ -1441,6 +1483,7 @@ test_files = \
 	tests/bad/rest-negative-value.out \
 	tests/bad/rest-negative-with.out \
 	tests/bad/rest-negative.out \
+	tests/bad/routhian.out \
 	tests/bad/run-hopeless-digits.out \
 	tests/bad/run-hopeless.out \
 	tests/bad/same-label.out \
@@ -1622,6 +1665,7 @@ test_files = \
 	tests/script/accel-long.out \
 	tests/script/accel-one-root-in-many-parts.out \
 	tests/script/accel-said-again.out \
+	tests/script/animate.out \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
@@ -1759,6 +1803,7 @@ test_files = \
 	tests/script/reset.out \
 	tests/script/rests.out \
 	tests/script/routh.out \
+	tests/script/routhian-named.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
 	tests/script/scene-file.out \
@@ -1842,7 +1887,114 @@ other_files = \
 	doc/methods.md \
 	examples/embed.c \
 	examples/embed.py \
+	share/_qdot \
+	share/emacs/qdot-mode.el \
+	share/qdot.bash \
+	share/qdot.desktop \
+	share/qdot.svg \
+	share/qdot.xml \
+	share/vim/ftdetect/qdot.vim \
+	share/vim/ftplugin/qdot.vim \
+	share/vim/syntax/qdot.vim \
 	README.md
+
+example_files = \
+	examples/acceleration-constraint.lag \
+	examples/bead-on-helix.lag \
+	examples/bead-on-wire.lag \
+	examples/bicycle.lag \
+	examples/bouncing-ball.lag \
+	examples/bouncing-ball.svg \
+	examples/bowling-ball.lag \
+	examples/brachistochrone-bead.lag \
+	examples/bricard.lag \
+	examples/car-axis.lag \
+	examples/cart-pendulum.lag \
+	examples/chain.lag \
+	examples/chain.svg \
+	examples/chaplygin-sleigh.lag \
+	examples/conserved.lag \
+	examples/consistent-start.lag \
+	examples/coupled-oscillators.lag \
+	examples/curvature.lag \
+	examples/cylindrical.lag \
+	examples/damped-oscillator.lag \
+	examples/damped-oscillator.svg \
+	examples/degrees-of-freedom.lag \
+	examples/digits.lag \
+	examples/dipole-field.lag \
+	examples/double-pendulum-cartesian.lag \
+	examples/double-pendulum.lag \
+	examples/double-pendulum.svg \
+	examples/driven-pendulum.lag \
+	examples/dry-friction.lag \
+	examples/dry-friction.svg \
+	examples/effective-potential.svg \
+	examples/elastic-pendulum.lag \
+	examples/elastic-pendulum.svg \
+	examples/embed.c \
+	examples/embed.py \
+	examples/equilibria.lag \
+	examples/figure-eight.lag \
+	examples/flexing-wire.lag \
+	examples/flexing-wire.svg \
+	examples/foucault.lag \
+	examples/foucault.svg \
+	examples/four-bar.lag \
+	examples/generalized-momenta.lag \
+	examples/geometry.lag \
+	examples/half-pipe.lag \
+	examples/hamiltonian.lag \
+	examples/heavy-top.lag \
+	examples/heavy-top.svg \
+	examples/henon-heiles.lag \
+	examples/henon-heiles.svg \
+	examples/holonomic-in-disguise.lag \
+	examples/horizon.lag \
+	examples/kapitza.lag \
+	examples/kepler.lag \
+	examples/kepler.svg \
+	examples/kinetic-energy.lag \
+	examples/knife-edge.lag \
+	examples/lagrange-points.lag \
+	examples/line-element.lag \
+	examples/magnetic-field.lag \
+	examples/metrics.lag \
+	examples/modes.lag \
+	examples/moving-constraint.lag \
+	examples/n-four-bar.lag \
+	examples/peaucellier.lag \
+	examples/pendulum-cartesian.lag \
+	examples/pendulum-period.lag \
+	examples/pendulum.lag \
+	examples/pendulum.svg \
+	examples/polar.lag \
+	examples/pumped-swing.lag \
+	examples/pumped-swing.svg \
+	examples/race.lag \
+	examples/race.svg \
+	examples/rolling-disk.lag \
+	examples/rolling-wheel.lag \
+	examples/rotating-body.lag \
+	examples/rotating-hoop.lag \
+	examples/rotating-hoop.svg \
+	examples/routh.lag \
+	examples/slider-crank.lag \
+	examples/spherical-pendulum.lag \
+	examples/spherical-pendulum.svg \
+	examples/spherical.lag \
+	examples/squeezer.lag \
+	examples/stated-lagrangian.lag \
+	examples/static-equilibrium.lag \
+	examples/swinging-atwood.lag \
+	examples/swinging-atwood.svg \
+	examples/toda-chain.lag \
+	examples/torus-geodesic.lag \
+	examples/undo.lag \
+	examples/vector-operators.lag \
+	examples/velocity.lag \
+	examples/virtual-work.lag \
+	examples/wilberforce.lag
 
 info_TEXINFOS = \
 	doc/qdot.texi

@@ -5,32 +5,76 @@
 
 #include "num/kinds.h"
 
+/* Opcode map, opcode. Of one number a fused operation has the opcode behind it. */
 static const struct {
-    unsigned char map, prefix, opcode;
-    bool wide;
+    unsigned char map, opcode;
 } instructions[QDOT_X86_COUNT] = {
-#define X(ID, map, prefix, opcode, wide) [QDOT_X86_##ID] = {map, prefix, opcode, wide},
-    QDOT_X86_INSTRUCTIONS(X)
-#undef X
+    [QDOT_ASM_LOAD] = {1, 0x10},   [QDOT_ASM_STORE] = {1, 0x11},
+    [QDOT_ASM_ADD] = {1, 0x58},    [QDOT_ASM_SUB] = {1, 0x5c},
+    [QDOT_ASM_MUL] = {1, 0x59},    [QDOT_ASM_DIV] = {1, 0x5e},
+    [QDOT_ASM_ROOT] = {1, 0x51},   [QDOT_ASM_SPREAD] = {2, 0x19},
+    [QDOT_ASM_MADD] = {2, 0xb8},   [QDOT_ASM_MADD_OVER] = {2, 0xa8},
+    [QDOT_ASM_MSUB] = {2, 0xba},   [QDOT_ASM_MSUB_OVER] = {2, 0xaa},
+    [QDOT_ASM_NMADD] = {2, 0xbc},  [QDOT_ASM_NMADD_OVER] = {2, 0xac},
+    [QDOT_ASM_NMSUB] = {2, 0xbe},  [QDOT_ASM_NMSUB_OVER] = {2, 0xae},
+    [QDOT_X86_XOR] = {1, 0xef},    [QDOT_X86_AND] = {1, 0xdb},
+    [QDOT_X86_ALIGN] = {3, 0x03},  [QDOT_X86_PERMUTE] = {3, 0x01},
+    [QDOT_X86_HALVES] = {3, 0x06}, [QDOT_X86_PAIRS] = {1, 0xc6},
 };
+
+enum { RAX, RCX, RDX, RBX, RSP, RBP, RSI, RDI, R8, R9, R10, R11, R12, R13, R14, R15 };
+
+/* RCX counts loops. R12 is no address of an operand: it would take a byte more. */
+static const unsigned char general[QDOT_ASM_BASES] = {
+    [QDOT_ASM_ROWS] = RDI,          [QDOT_ASM_CONSTANTS] = RSI,
+    [QDOT_ASM_WORK] = RDX,          [QDOT_ASM_ROWS_NOW] = R9,
+    [QDOT_ASM_CONSTANTS_NOW] = RBX, [QDOT_ASM_WORK_NOW] = R10,
+    [QDOT_ASM_ROWS_HALF] = RBP,     [QDOT_ASM_FACTOR] = RAX,
+    [QDOT_ASM_PARTNER] = R8,        [QDOT_ASM_SECOND_PARTNER] = R13,
+    [QDOT_ASM_TERMS] = R11,         [QDOT_ASM_TERMS_OF_PAIRS] = R14,
+    [QDOT_ASM_TERMS_LEFT] = R12,    [QDOT_ASM_TERMS_OF_SQUARES] = R15,
+};
+
+static const unsigned char saved[] = {RBX, RBP, R12, R13, R14, R15};
+
+enum { scratch = 15 }; /* of SSE2 */
+
+static bool
+is_fused(int name)
+{
+    return name >= QDOT_ASM_MADD && name <= QDOT_ASM_NMSUB_OVER;
+}
+
+/* The mandatory prefix: 1 is 66, 3 is F2. */
+static unsigned
+mandatory(int name, bool wide)
+{
+    return wide || instructions[name].map > 1 ? 1 : 3;
+}
+
+static unsigned char
+opcode(int name, bool wide)
+{
+    return (unsigned char)(instructions[name].opcode + (is_fused(name) && !wide));
+}
 
 /* No instruction is longer. */
 enum { longest = 16 };
 
 /* Room for one more. After a failure they are all written to the same place. */
 static unsigned char *
-room(qdot_x86 *x)
+room(qdot_asm *m)
 {
-    if (x->status == QDOT_OK && x->bytes.n + longest > x->bytes.capacity)
-        x->status = qdot_grow(&x->bytes.at, &x->bytes.capacity, x->bytes.n + longest, 1);
-    return x->status == QDOT_OK ? x->bytes.at + x->bytes.n : x->nowhere;
+    if (m->status == QDOT_OK && m->bytes.n + longest > m->bytes.capacity)
+        m->status = qdot_grow(&m->bytes.at, &m->bytes.capacity, m->bytes.n + longest, 1);
+    return m->status == QDOT_OK ? m->bytes.at + m->bytes.n : m->nowhere;
 }
 
 static void
-written(qdot_x86 *x, const unsigned char *from, const unsigned char *to)
+written(qdot_asm *m, const unsigned char *from, const unsigned char *to)
 {
-    if (x->status == QDOT_OK)
-        x->bytes.n += (size_t)(to - from);
+    if (m->status == QDOT_OK)
+        m->bytes.n += (size_t)(to - from);
 }
 
 static unsigned char *
@@ -41,6 +85,55 @@ little_endian(unsigned char *at, uint32_t value)
     return at;
 }
 
+static void
+write_bytes(qdot_asm *m, size_t n, const unsigned char *bytes)
+{
+    unsigned char *from = room(m);
+
+    memcpy(from, bytes, n);
+    written(m, from, from + n);
+}
+
+#define BYTES(m, ...)                                                                    \
+    write_bytes(m, sizeof(const unsigned char[]){__VA_ARGS__},                           \
+                (const unsigned char[]){__VA_ARGS__})
+
+static void
+write_number(qdot_asm *m, uint32_t value)
+{
+    unsigned char bytes[4];
+
+    little_endian(bytes, value);
+    write_bytes(m, sizeof bytes, bytes);
+}
+
+/* A place in the code, seen from behind this number. */
+static void
+write_place(qdot_asm *m, size_t place)
+{
+    write_number(m, (uint32_t)(place - (m->bytes.n + 4)));
+}
+
+/* A byte with the number of a register in its low bits; in the three above them. */
+static unsigned char
+low(unsigned byte, int reg)
+{
+    return (unsigned char)(byte | (reg & 7));
+}
+
+static unsigned char
+middle(unsigned byte, int reg)
+{
+    return (unsigned char)(byte | (reg & 7) << 3);
+}
+
+/* The prefix that has the fourth bit of registers. */
+static unsigned char
+high(unsigned byte, int reg, int base)
+{
+    return (unsigned char)(byte | reg >> 3 << 2 | base >> 3);
+}
+
 /* Bit `at` of a register's number, at place `to` of a byte, inverted as EVEX has it. */
 static unsigned
 inverted(int reg, int at, int to)
@@ -49,383 +142,327 @@ inverted(int reg, int at, int to)
 }
 
 static unsigned char *
-prefix(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int first,
-       qdot_x86_rm rm)
+prefix(const qdot_asm *m, unsigned char *at, int name, bool wide, int reg, int first,
+       qdot_operand b)
 {
-    const unsigned sixteens = rm.memory ? 1 : inverted(rm.reg, 4, 0);
-    const unsigned length = instructions[name].wide ? 2 : 0;
+    const unsigned sixteens = b.memory ? 1 : inverted(b.reg, 4, 0);
+    const unsigned length = wide ? 2 : 0;
 
     *at++ = 0x62;
-    *at++ = (unsigned char)(inverted(reg, 3, 7) | sixteens << 6 | inverted(rm.reg, 3, 5)
-                            | inverted(reg, 4, 4) | instructions[name].map);
-    *at++ = (unsigned char)(0x84 | (unsigned)(~first & 15) << 3
-                            | instructions[name].prefix);
-    *at++ = (unsigned char)((unsigned)x->zeroing << 7 | length << 5
-                            | (unsigned)rm.spread << 4 | inverted(first, 4, 3)
-                            | (unsigned)x->mask);
+    *at++ = (unsigned char)(inverted(reg, 3, 7) | sixteens << 6 | inverted(b.reg, 3, 5) |
+                            inverted(reg, 4, 4) | instructions[name].map);
+    *at++ = (unsigned char)(0x84 | (unsigned)(~first & 15) << 3 | mandatory(name, wide));
+    *at++ = (unsigned char)((unsigned)m->zeroing << 7 | length << 5 |
+                            (unsigned)b.spread << 4 | inverted(first, 4, 3) |
+                            (unsigned)m->mask);
     return at;
 }
 
 /* VEX, by which no lane is masked; a broadcast alone is of the other width there. */
 static unsigned char *
-narrow_prefix(unsigned char *at, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+narrow_prefix(unsigned char *at, int name, bool wide, int reg, int first, qdot_operand b)
 {
-    const unsigned doubles = name != QDOT_X86_SPREAD && name != QDOT_X86_HALVES;
-    const unsigned length = instructions[name].wide;
+    const unsigned doubles = name != QDOT_ASM_SPREAD && name != QDOT_X86_HALVES;
 
     *at++ = 0xc4;
-    *at++ = (unsigned char)(inverted(reg, 3, 7) | 1u << 6 | inverted(rm.reg, 3, 5)
-                            | instructions[name].map);
-    *at++ = (unsigned char)(doubles << 7 | (unsigned)(~first & 15) << 3 | length << 2
-                            | instructions[name].prefix);
+    *at++ = (unsigned char)(inverted(reg, 3, 7) | 1u << 6 | inverted(b.reg, 3, 5) |
+                            instructions[name].map);
+    *at++ = (unsigned char)(doubles << 7 | (unsigned)(~first & 15) << 3 |
+                            (unsigned)wide << 2 | mandatory(name, wide));
     return at;
 }
 
 /* Offsets that are a multiple of what is read take a byte, if that multiple does. */
 static unsigned char *
-operands(const qdot_x86 *x, unsigned char *at, int reg, qdot_x86_rm rm, int size)
+operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int size)
 {
-    const unsigned low = (unsigned)(reg & 7) << 3 | (unsigned)(rm.reg & 7);
+    const unsigned char form = low(middle(0, reg), b.reg);
 
-    if (!rm.memory) {
-        *at++ = (unsigned char)(0xc0 | low);
-    } else if (!x->far && rm.offset % size == 0 && rm.offset / size >= -128
-               && rm.offset / size < 128) {
-        *at++ = (unsigned char)(0x40 | low);
-        *at++ = (unsigned char)(rm.offset / size);
+    if (!b.memory) {
+        *at++ = 0xc0 | form;
+    } else if (!m->far && b.offset % size == 0 && b.offset / size >= -128 &&
+               b.offset / size < 128) {
+        *at++ = 0x40 | form;
+        *at++ = (unsigned char)(b.offset / size);
     } else {
-        *at++ = (unsigned char)(0x80 | low);
-        at = little_endian(at, (uint32_t)rm.offset);
+        *at++ = 0x80 | form;
+        at = little_endian(at, (uint32_t)b.offset);
     }
     return at;
 }
 
-static unsigned char *
-encode(const qdot_x86 *x, unsigned char *at, qdot_x86_name name, int reg, int first,
-       qdot_x86_rm rm)
+/* By AVX-512, or (`narrow`) by AVX2. */
+static void
+three_operands(qdot_asm *m, bool narrow, int name, bool wide, int reg, int first,
+               qdot_operand b)
 {
-    const bool whole = instructions[name].wide && name != QDOT_X86_SPREAD && !rm.spread;
+    const bool whole = wide && name != QDOT_ASM_SPREAD && !b.spread;
+    unsigned char *start = room(m), *at = start;
 
-    if (x->narrow) {
-        at = narrow_prefix(at, name, reg, first, rm);
-        *at++ = instructions[name].opcode;
-        return operands(x, at, reg, rm, 1);
-    }
-    at = prefix(x, at, name, reg, first, rm);
-    *at++ = instructions[name].opcode;
-    return operands(x, at, reg, rm, whole ? 64 : 8);
+    at = narrow ? narrow_prefix(at, name, wide, reg, first, b)
+                : prefix(m, at, name, wide, reg, first, b);
+    *at++ = opcode(name, wide);
+    written(m, start, operands(m, at, reg, b, narrow ? 1 : whole ? 64 : 8));
 }
 
-static void
-write_bytes(qdot_x86 *x, size_t n, const unsigned char *bytes)
-{
-    unsigned char *from = room(x);
-
-    memcpy(from, bytes, n);
-    written(x, from, from + n);
-}
-
-/* --- SSE2: reg <- f(reg, rm) ------------------------------------------------------------ */
+/* --- SSE2: reg <- f(reg, b) ------------------------------------------------------------- */
 
 static void
-two_operands(qdot_x86 *x, qdot_x86_name name, int reg, qdot_x86_rm rm)
+two_operands(qdot_asm *m, int name, bool wide, int reg, qdot_operand b)
 {
-    static const unsigned char prefixes[] = {0, 0x66, 0xf3, 0xf2};
-    const unsigned high = (unsigned)(reg >> 3) << 2 | (unsigned)rm.reg >> 3;
-    unsigned char *start = room(x), *at = start;
+    const unsigned char registers = high(0x40, reg, b.reg);
+    unsigned char *start = room(m), *at = start;
 
-    *at++ = prefixes[instructions[name].prefix];
-    if (high)
-        *at++ = (unsigned char)(0x40 | high);
+    *at++ = wide ? 0x66 : 0xf2;
+    if (registers != 0x40)
+        *at++ = registers;
     *at++ = 0x0f;
-    *at++ = instructions[name].opcode;
-    written(x, start, operands(x, at, reg, rm, 1));
+    *at++ = opcode(name, wide);
+    written(m, start, operands(m, at, reg, b, 1));
 }
 
 /* All of a register, or as much of what is in memory as the instruction reads. */
 static void
-load(qdot_x86 *x, qdot_x86_name like, int reg, qdot_x86_rm rm)
+load(qdot_asm *m, bool wide, int reg, qdot_operand b)
 {
-    const bool wide = instructions[like].wide || !rm.memory;
-
-    two_operands(x, wide ? QDOT_X86_LOAD_ALL : QDOT_X86_LOAD, reg, rm);
+    two_operands(m, QDOT_ASM_LOAD, wide || !b.memory, reg, b);
 }
 
 /* What is no sum of a product. Whole vectors in memory need not be aligned. */
 static void
-from_two(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+from_two(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
-    if (rm.memory ? instructions[name].wide : rm.reg == reg && reg != first) {
-        load(x, name, QDOT_X86_SCRATCH, rm);
-        rm = qdot_x86_reg(QDOT_X86_SCRATCH);
+    if (b.memory ? wide : b.reg == reg && reg != first) {
+        load(m, wide, scratch, b);
+        b = qdot_asm_in(scratch);
     }
     if (reg != first)
-        load(x, name, reg, qdot_x86_reg(first));
-    two_operands(x, name, reg, rm);
+        load(m, wide, reg, qdot_asm_in(first));
+    two_operands(m, name, wide, reg, b);
 }
 
-/* What AVX2 rounds once: the bits of its opcodes say what is multiplied and what is negative. */
+/* What AVX2 rounds once. */
 static void
-product_then_sum(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+product_then_sum(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
-    const unsigned opcode = instructions[name].opcode;
-    const bool over = opcode >> 4 == 0xa, product = opcode & 4, other = opcode & 2;
-    const bool wide = instructions[name].wide;
-    const qdot_x86_name sub = wide ? QDOT_X86_SUB_ALL : QDOT_X86_SUB;
-    const qdot_x86_rm scratch = qdot_x86_reg(QDOT_X86_SCRATCH),
-                      term = over ? rm : scratch;
+    const unsigned which = (unsigned)(name - QDOT_ASM_MADD);
+    const bool over = which & 4, product = which & 2,
+               other = which & 1; /* negative ones */
+    const qdot_operand in_scratch = qdot_asm_in(scratch), term = over ? b : in_scratch;
 
     if (!over)
-        load(x, name, QDOT_X86_SCRATCH, rm);
-    two_operands(x, wide ? QDOT_X86_MUL_ALL : QDOT_X86_MUL, over ? reg : QDOT_X86_SCRATCH,
-                 qdot_x86_reg(first));
+        load(m, wide, scratch, b);
+    two_operands(m, QDOT_ASM_MUL, wide, over ? reg : scratch, qdot_asm_in(first));
     if (product != other && over == other) {
-        two_operands(x, sub, reg, term);
+        two_operands(m, QDOT_ASM_SUB, wide, reg, term);
         return;
     }
     if (product == other) {
-        two_operands(x, wide ? QDOT_X86_ADD_ALL : QDOT_X86_ADD, reg, term);
+        two_operands(m, QDOT_ASM_ADD, wide, reg, term);
         if (!product)
             return;
-        two_operands(x, QDOT_X86_XOR_ALL, QDOT_X86_SCRATCH, scratch);
+        two_operands(m, QDOT_X86_XOR, true, scratch, in_scratch);
     } else if (over) {
-        load(x, name, QDOT_X86_SCRATCH, rm);
+        load(m, wide, scratch, b);
     }
-    two_operands(x, sub, QDOT_X86_SCRATCH, qdot_x86_reg(reg));
-    load(x, name, reg, scratch);
+    two_operands(m, QDOT_ASM_SUB, wide, scratch, qdot_asm_in(reg));
+    load(m, wide, reg, in_scratch);
 }
 
 static void
-emit_sse2(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+by_sse2(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
     switch (name) {
-    case QDOT_X86_LOAD:
-    case QDOT_X86_LOAD_ALL: load(x, name, reg, rm); break;
-    case QDOT_X86_STORE:
-    case QDOT_X86_STORE_ALL:
-    case QDOT_X86_ROOT: two_operands(x, name, reg, rm); break;
-    case QDOT_X86_SPREAD:
-        load(x, QDOT_X86_LOAD, reg, rm);
-        qdot_x86_move_lanes(x, QDOT_X86_PAIRS, reg, reg, qdot_x86_reg(reg), 0);
+    case QDOT_ASM_LOAD: load(m, wide, reg, b); break;
+    case QDOT_ASM_STORE:
+    case QDOT_ASM_ROOT: two_operands(m, name, wide, reg, b); break;
+    case QDOT_ASM_SPREAD:
+        load(m, false, reg, b);
+        qdot_x86_move_lanes(m, QDOT_X86_PAIRS, reg, reg, qdot_asm_in(reg), 0);
         break;
-    default:
-        (instructions[name].map == 2 ? product_then_sum : from_two)(x, name, reg, first,
-                                                                    rm);
+    default: (is_fused(name) ? product_then_sum : from_two)(m, name, wide, reg, first, b);
     }
 }
 
-/* --- any ------------------------------------------------------------------------------ */
+/* --- any kind ------------------------------------------------------------------------- */
 
 void
-qdot_x86_emit(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm)
+qdot_x86_emit(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
-    unsigned char *from;
+    if (b.memory)
+        b.reg = general[b.reg];
+    if (m->kind == 0)
+        by_sse2(m, name, wide, reg, first, b);
+    else
+        three_operands(m, m->kind == 1, name, wide, reg, first, b);
+}
 
-    if (x->sse2) {
-        emit_sse2(x, name, reg, first, rm);
-        return;
-    }
-    from = room(x);
-    written(x, from, encode(x, from, name, reg, first, rm));
+/* One number has no lanes to spread to; a register is copied whole, for nothing of it is waited
+ * for then. */
+void
+qdot_asm_do(qdot_asm *m, qdot_asm_operation op, qdot_asm_width width, int reg, int first,
+            qdot_operand b)
+{
+    const bool one = width == QDOT_ASM_ONE;
+
+    if (op == QDOT_ASM_SPREAD && one)
+        op = QDOT_ASM_LOAD;
+    qdot_x86_emit(m, op, !one || (op == QDOT_ASM_LOAD && !b.memory), reg, first, b);
+}
+
+/* Of one with itself, which takes no time; the shorter form clears lanes beyond its own. */
+void
+qdot_asm_clear(qdot_asm *m, int reg)
+{
+    const qdot_operand itself = qdot_asm_in(reg);
+
+    if (m->kind > 1 && reg < 16)
+        three_operands(m, true, QDOT_X86_XOR, true, reg, reg, itself);
+    else
+        qdot_x86_emit(m, QDOT_X86_XOR, true, reg, reg, itself);
 }
 
 void
-qdot_x86_move_lanes(qdot_x86 *x, qdot_x86_name name, int reg, int first, qdot_x86_rm rm,
-                    int how)
+qdot_x86_move_lanes(qdot_asm *m, int name, int reg, int first, qdot_operand b, int how)
 {
-    const unsigned char byte = (unsigned char)how;
-
-    qdot_x86_emit(x, name, reg, first, rm);
-    write_bytes(x, 1, &byte);
+    qdot_x86_emit(m, name, true, reg, first, b);
+    BYTES(m, (unsigned char)how);
 }
 
 void
-qdot_x86_set_mask(qdot_x86 *x, int m, unsigned lanes)
+qdot_x86_set_mask(qdot_asm *m, int r, unsigned lanes)
 {
-    unsigned char *from = room(x), *at = from;
-
-    *at++ = 0xb8; /* mov eax, lanes */
-    at = little_endian(at, lanes);
-    *at++ = 0xc5; /* kmovw m, eax */
-    *at++ = 0xf8;
-    *at++ = 0x92;
-    *at++ = (unsigned char)(0xc0 | (unsigned)m << 3);
-    written(x, from, at);
+    BYTES(m, 0xb8); /* mov eax, lanes */
+    write_number(m, lanes);
+    BYTES(m, 0xc5, 0xf8, 0x92, middle(0xc0, r)); /* kmovw r, eax */
 }
 
 void
-qdot_x86_join_masks(qdot_x86 *x, int m, int more)
+qdot_x86_join_masks(qdot_asm *m, int r, int more)
 {
-    const unsigned char korw[] = {0xc5, (unsigned char)(0xc4 | (unsigned)(~m & 15) << 3), 0x45,
-                                  (unsigned char)(0xc0 | (unsigned)m << 3 | (unsigned)more)};
-
-    write_bytes(x, sizeof korw, korw);
+    BYTES(m, 0xc5, 0xc4 | (~r & 15) << 3, 0x45, middle(low(0xc0, more), r)); /* korw */
 }
 
 void
-qdot_x86_raise_mask(qdot_x86 *x, int m)
+qdot_x86_raise_mask(qdot_asm *m, int r)
 {
-    const unsigned char kshiftlw[] = {
-        0xc4, 0xe3, 0xf9, 0x32, (unsigned char)(0xc0 | (unsigned)m << 3 | (unsigned)m), 1};
+    BYTES(m, 0xc4, 0xe3, 0xf9, 0x32, middle(low(0xc0, r), r), 1); /* kshiftlw */
+}
 
-    write_bytes(x, sizeof kshiftlw, kshiftlw);
+/* --- addresses, loops, calls ------------------------------------------------------------ */
+
+void
+qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset)
+{
+    const int reg = general[to], base = general[from];
+
+    BYTES(m, high(0x48, reg, base), 0x8d, low(middle(0x80, reg), base)); /* lea */
+    write_number(m, (uint32_t)offset);
 }
 
 void
-qdot_x86_address(qdot_x86 *x, qdot_x86_base to, qdot_x86_base from, int32_t offset)
+qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place)
 {
-    unsigned char *start = room(x), *at = start;
-
-    *at++ = (unsigned char)(0x48 | (unsigned)(to >> 3) << 2 | (unsigned)(from >> 3));
-    *at++ = 0x8d; /* lea */
-    *at++ = (unsigned char)(0x80 | (unsigned)(to & 7) << 3 | (unsigned)(from & 7));
-    at = little_endian(at, (uint32_t)offset);
-    written(x, start, at);
+    BYTES(m, high(0x48, general[to], 0), 0x8d,
+          middle(0x05, general[to])); /* lea [rip + ...] */
+    write_place(m, place);
 }
 
 size_t
-qdot_x86_repeat(qdot_x86 *x, int times)
+qdot_asm_repeat(qdot_asm *m, int times)
 {
-    unsigned char *start = room(x), *at = start;
-
-    *at++ = 0xb9; /* mov ecx, times */
-    at = little_endian(at, (uint32_t)times);
-    written(x, start, at);
-    return x->bytes.n;
+    BYTES(m, 0xb9); /* mov ecx, times */
+    write_number(m, (uint32_t)times);
+    return m->bytes.n;
 }
 
 size_t
-qdot_x86_repeat_as(qdot_x86 *x, qdot_x86_rm times)
+qdot_asm_repeat_as(qdot_asm *m, qdot_operand times)
 {
-    unsigned char *start = room(x), *at = start;
-
-    *at++ = 0x8b; /* mov ecx, times */
-    *at++ = (unsigned char)(0x88 | times.reg);
-    at = little_endian(at, (uint32_t)times.offset);
-    written(x, start, at);
-    return x->bytes.n;
+    BYTES(m, 0x8b, low(0x88, general[times.reg])); /* mov ecx, times */
+    write_number(m, (uint32_t)times.offset);
+    return m->bytes.n;
 }
 
 void
-qdot_x86_again(qdot_x86 *x, size_t from)
+qdot_asm_again(qdot_asm *m, size_t from)
 {
-    unsigned char *start = room(x), *at = start;
-
-    *at++ = 0xff; /* dec ecx */
-    *at++ = 0xc9;
-    *at++ = 0x0f; /* jnz from */
-    *at++ = 0x85;
-    at = little_endian(at, (uint32_t)(from - (x->bytes.n + 8)));
-    written(x, start, at);
+    BYTES(m, 0xff, 0xc9, 0x0f, 0x85); /* dec ecx; jnz from */
+    write_place(m, from);
 }
 
 void
-qdot_x86_enter(qdot_x86 *x, size_t place)
+qdot_asm_enter(qdot_asm *m, size_t place)
 {
-    unsigned char *start = room(x), *at = start;
-
-    *at++ = 0xe8;
-    at = little_endian(at, (uint32_t)(place - (x->bytes.n + 5)));
-    written(x, start, at);
+    BYTES(m, 0xe8);
+    write_place(m, place);
 }
 
 void
-qdot_x86_enter_at(qdot_x86 *x, qdot_x86_base at)
+qdot_asm_enter_at(qdot_asm *m, qdot_asm_base at)
 {
-    const unsigned char call[] = {(unsigned char)(0x40 | (unsigned)at >> 3), 0xff,
-                                  (unsigned char)(0xd0 | ((unsigned)at & 7))};
-
-    write_bytes(x, sizeof call, call);
+    BYTES(m, high(0x40, 0, general[at]), 0xff, low(0xd0, general[at]));
 }
 
 void
-qdot_x86_place(qdot_x86 *x, qdot_x86_base to, size_t place)
+qdot_asm_save(qdot_asm *m)
 {
-    unsigned char *start = room(x), *at = start;
-
-    *at++ = (unsigned char)(0x48 | (unsigned)to >> 3 << 2);
-    *at++ = 0x8d; /* lea to, [rip + ...] */
-    *at++ = (unsigned char)(0x05 | ((unsigned)to & 7) << 3);
-    at = little_endian(at, (uint32_t)(place - (x->bytes.n + 7)));
-    written(x, start, at);
+    for (size_t i = 0; i < sizeof saved; i++)
+        BYTES(m, high(0x40, 0, saved[i]), low(0x50, saved[i])); /* push */
 }
 
 void
-qdot_x86_push(qdot_x86 *x, qdot_x86_base reg)
+qdot_asm_restore(qdot_asm *m)
 {
-    const unsigned char push[] = {(unsigned char)(0x40 | (unsigned)reg >> 3),
-                                  (unsigned char)(0x50 | ((unsigned)reg & 7))};
-
-    write_bytes(x, sizeof push, push);
+    for (size_t i = sizeof saved; i-- > 0;)
+        BYTES(m, high(0x40, 0, saved[i]), low(0x58, saved[i])); /* pop */
 }
 
 void
-qdot_x86_pop(qdot_x86 *x, qdot_x86_base reg)
+qdot_asm_leave(qdot_asm *m)
 {
-    const unsigned char pop[] = {(unsigned char)(0x40 | (unsigned)reg >> 3),
-                                 (unsigned char)(0x58 | ((unsigned)reg & 7))};
-
-    write_bytes(x, sizeof pop, pop);
+    BYTES(m, 0xc3);
 }
 
 void
-qdot_x86_leave(qdot_x86 *x)
+qdot_asm_return(qdot_asm *m)
 {
-    static const unsigned char ret = 0xc3;
-
-    write_bytes(x, 1, &ret);
+    if (m->kind > 0)
+        BYTES(m, 0xc5, 0xf8, 0x77); /* vzeroupper */
+    qdot_asm_leave(m);
 }
 
 void
-qdot_x86_return(qdot_x86 *x)
-{
-    static const unsigned char vzeroupper[] = {0xc5, 0xf8, 0x77};
-
-    if (!x->sse2)
-        write_bytes(x, sizeof vzeroupper, vzeroupper);
-    qdot_x86_leave(x);
-}
-
-void
-qdot_x86_frame(qdot_x86 *x)
+qdot_asm_frame(qdot_asm *m)
 {
     /* push rdi, rsi, rdx: with the way back these are 32 bytes, as calls want it */
-    static const unsigned char bytes[] = {0x57, 0x56, 0x52};
-
-    write_bytes(x, sizeof bytes, bytes);
+    BYTES(m, 0x57, 0x56, 0x52);
 }
 
 void
-qdot_x86_call(qdot_x86 *x, void (*function)(void))
+qdot_asm_call(qdot_asm *m, void (*function)(void))
 {
-    static const unsigned char call_rax[] = {0xff, 0xd0};
-    static const unsigned char restore[] = {
-        0x48, 0x8b, 0x7c, 0x24, 0x10, /* mov rdi, [rsp + 16] */
-        0x48, 0x8b, 0x74, 0x24, 0x08, /* mov rsi, [rsp + 8] */
-        0x48, 0x8b, 0x14, 0x24        /* mov rdx, [rsp] */
-    };
     const uint64_t address = (uint64_t)(uintptr_t)function;
-    unsigned char *start = room(x), *at = start;
 
-    *at++ = 0x48; /* mov rax, address */
-    *at++ = 0xb8;
-    at = little_endian(at, (uint32_t)address);
-    at = little_endian(at, (uint32_t)(address >> 32));
-    written(x, start, at);
-    write_bytes(x, sizeof call_rax, call_rax);
-    write_bytes(x, sizeof restore, restore);
+    BYTES(m, 0x48, 0xb8); /* mov rax, address */
+    write_number(m, (uint32_t)address);
+    write_number(m, (uint32_t)(address >> 32));
+    BYTES(m, 0xff, 0xd0);                   /* call rax */
+    BYTES(m, 0x48, 0x8b, 0x7c, 0x24, 0x10); /* mov rdi, [rsp + 16] */
+    BYTES(m, 0x48, 0x8b, 0x74, 0x24, 0x08); /* mov rsi, [rsp + 8] */
+    BYTES(m, 0x48, 0x8b, 0x14, 0x24);       /* mov rdx, [rsp] */
 }
 
 void
-qdot_x86_unframe(qdot_x86 *x)
+qdot_asm_unframe(qdot_asm *m)
 {
-    static const unsigned char bytes[] = {0x48, 0x83, 0xc4, 0x18}; /* add rsp, 24 */
-
-    write_bytes(x, sizeof bytes, bytes);
+    BYTES(m, 0x48, 0x83, 0xc4, 0x18); /* add rsp, 24 */
 }
+
+/* --- kinds ---------------------------------------------------------------------------- */
 
 bool
-qdot_x86_is_here(void)
+qdot_asm_is_here(void)
 {
 #if defined __x86_64__ && defined __GNUC__ && defined __LP64__
     return true;
@@ -435,9 +472,37 @@ qdot_x86_is_here(void)
 }
 
 size_t
-qdot_x86_kind(void)
+qdot_asm_kind(void)
 {
-    if (!qdot_x86_is_here())
+    if (!qdot_asm_is_here())
         return 0;
     return qdot_kind_is_here(2) ? 2 : qdot_kind_is_here(1);
+}
+
+int
+qdot_asm_lanes(const qdot_asm *m)
+{
+    static const int lanes[] = {2, 4, 8};
+
+    return lanes[m->kind];
+}
+
+int
+qdot_asm_registers(const qdot_asm *m)
+{
+    static const int registers[] = {scratch, 16, QDOT_ASM_REGISTERS};
+
+    return registers[m->kind];
+}
+
+int
+qdot_asm_fresh(qdot_asm *m, int from, int end)
+{
+    int best = -1;
+
+    for (int r = from; r < end; r++)
+        if (!m->taken[r] && (best < 0 || m->used[r] < m->used[best]))
+            best = r;
+    qdot_asm_use(m, best);
+    return best;
 }

@@ -36,27 +36,30 @@ static void
 aim(qdot_lanes_writer *w, bool further, int k)
 {
     const struct {
-        qdot_x86_base to, from;
-        int bytes, part;
-    } rows[] = {{QDOT_X86_R9, QDOT_X86_RDI, w->bytes, 1},
-                {QDOT_X86_RBX, QDOT_X86_RSI, sizeof(double), 1},
-                {QDOT_X86_RBP, QDOT_X86_RDI, w->bytes, 2}};
-    const int32_t dot = (int32_t)qdot_writer_term(w, w->dot);
-    const int32_t pair = (int32_t)qdot_writer_term(w, w->pair);
-    const int32_t half = (int32_t)qdot_writer_term(w, w->half);
+        qdot_asm_base now, from;
+        int bytes, orders;
+    } rows[] = {{QDOT_ASM_ROWS_NOW, QDOT_ASM_ROWS, w->bytes, 1},
+                {QDOT_ASM_CONSTANTS_NOW, QDOT_ASM_CONSTANTS, sizeof(double), 1},
+                {QDOT_ASM_ROWS_HALF, QDOT_ASM_ROWS, w->bytes, 2}};
+    const struct {
+        qdot_asm_base now;
+        const size_t *terms;
+        int orders;
+    } sums[] = {{QDOT_ASM_TERMS, w->dot, 1},
+                {QDOT_ASM_TERMS_OF_PAIRS, w->pair, 1},
+                {QDOT_ASM_TERMS_OF_SQUARES, w->half, 2}};
 
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        qdot_x86_address(&w->x, rows[i].to, further ? rows[i].to : rows[i].from,
-                         k / rows[i].part * rows[i].bytes);
-    if (further) {
-        qdot_x86_address(&w->x, QDOT_X86_R11, QDOT_X86_R11, -k * dot);
-        qdot_x86_address(&w->x, QDOT_X86_R14, QDOT_X86_R14, -k * pair);
-        qdot_x86_address(&w->x, QDOT_X86_R15, QDOT_X86_R15, -k / 2 * half);
-    } else {
-        qdot_x86_place(&w->x, QDOT_X86_R11, w->dot[k - 1]);
-        qdot_x86_place(&w->x, QDOT_X86_R14, w->pair[k - 1]);
-        qdot_x86_place(&w->x, QDOT_X86_R15, w->half[(k - 1) / 2]);
-    }
+        qdot_asm_set(&w->m, rows[i].now, further ? rows[i].now : rows[i].from,
+                     k / rows[i].orders * rows[i].bytes);
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++)
+        if (further)
+            qdot_asm_set(&w->m, sums[i].now, sums[i].now,
+                         -k / sums[i].orders *
+                             (int32_t)qdot_writer_term(w, sums[i].terms));
+        else
+            qdot_asm_set_code(&w->m, sums[i].now,
+                              sums[i].terms[(k - 1) / sums[i].orders]);
 }
 
 /* An order of a block from `first` on, or of one so many blocks before it. */
@@ -101,7 +104,7 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
     qdot_writer_leave(w, w->registers);
     if (!w->counting) {
         aim(w, false, first);
-        start = qdot_x86_repeat(&w->x, blocks);
+        start = qdot_asm_repeat(&w->m, blocks);
     }
     w->any = QDOT_WRITER_ANY + first % w->block;
     for (int i = 0; i < w->block; i++)
@@ -109,7 +112,7 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
     qdot_writer_leave(w, w->registers);
     if (!w->counting) {
         aim(w, true, w->block);
-        qdot_x86_again(&w->x, start);
+        qdot_asm_again(&w->m, start);
     }
 }
 
@@ -140,33 +143,29 @@ static void
 write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *user,
           size_t *entry)
 {
-    static const qdot_x86_base restored[] = {QDOT_X86_RBX, QDOT_X86_RBP, QDOT_X86_R12, QDOT_X86_R13,
-                                             QDOT_X86_R14, QDOT_X86_R15};
-    const size_t n = sizeof restored / sizeof *restored;
-
     w->counting = counting;
     w->k = 0;
-    w->clock = 0;
     w->any = QDOT_WRITER_ANY;
     w->phase = 0;
     if (w->ahead.n > 0)
         memset(w->ahead.at, 0, w->ahead.n * sizeof *w->ahead.at);
     memset(w->reg, 0, sizeof w->reg);
+    memset(w->m.used, 0, sizeof w->m.used);
+    memset(w->m.taken, 0, sizeof w->m.taken);
+    w->m.taken[w->moment] = true;
     if (!counting) {
         qdot_writer_terms(w, w->windows, 1, w->dot);
         qdot_writer_terms(w, w->windows, 2, w->pair);
         qdot_writer_terms(w, false, 1, w->half);
     }
-    *entry = w->x.bytes.n;
-    for (size_t i = 0; i < n; i++)
-        qdot_x86_push(&w->x, restored[i]);
+    *entry = w->m.bytes.n;
+    qdot_asm_save(&w->m);
     write(w, user);
     qdot_writer_leave(w, w->registers);
-    for (size_t i = n; i-- > 0;)
-        qdot_x86_pop(&w->x, restored[i]);
-    qdot_x86_return(&w->x);
+    qdot_asm_restore(&w->m);
+    qdot_asm_return(&w->m);
     if (counting)
-        w->x.bytes.n = 0;
+        w->m.bytes.n = 0;
 }
 
 static qdot_status
@@ -176,7 +175,7 @@ make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
 
     c->coefficients = w->at.coefficients;
     c->group = w->at.group;
-    c->halves = w->x.narrow && c->group > 1;
+    c->halves = c->group > (size_t)qdot_asm_lanes(&w->m);
     c->scalars = qdot_calloc(tables + w->scalars.n, sizeof *c->scalars);
     c->allocated =
         qdot_calloc((qdot_writer_groups(w) + 1) * c->group, sizeof *c->allocated);
@@ -210,10 +209,10 @@ make(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code 
         find_rows(w);
         write_all(w, true, write, user, &c->entry);
         write_all(w, false, write, user, &c->entry);
-        status = w->status != QDOT_OK ? w->status : w->x.status;
+        status = w->status != QDOT_OK ? w->status : w->m.status;
     }
-    if (status == QDOT_OK && w->x.bytes.n <= most_bytes) {
-        runs = qdot_taylor_text_fill(c->text, w->x.bytes.at, w->x.bytes.n);
+    if (status == QDOT_OK && w->m.bytes.n <= most_bytes) {
+        runs = qdot_taylor_text_fill(c->text, w->m.bytes.at, w->m.bytes.n);
         status = make_memory(c, w);
     }
     if (status == QDOT_OK && runs) {
@@ -227,7 +226,7 @@ make(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code 
 bool
 qdot_lanes_may_be_code(void)
 {
-    return qdot_x86_kind() > 0;
+    return qdot_asm_kind() > 0;
 }
 
 qdot_status
@@ -235,8 +234,8 @@ qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers, qdot_lanes_write 
                     void *user, qdot_lanes_code **code)
 {
     /* of one double by instructions that both kinds have */
-    const size_t kind = at->group > 1 || qdot_x86_kind() == 0 ? qdot_x86_kind() : 1;
-    qdot_lanes_writer w = {.x = qdot_x86_of(kind),
+    const size_t kind = at->group > 1 || qdot_asm_kind() == 0 ? qdot_asm_kind() : 1;
+    qdot_lanes_writer w = {.m = {.kind = kind},
                            .at = *at,
                            .t = at->program,
                            .bytes = (int32_t)(at->group * sizeof(double)),
@@ -246,11 +245,11 @@ qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers, qdot_lanes_write 
     *code = NULL;
     if (kind == 0)
         return QDOT_OK;
-    w.registers = qdot_x86_registers(&w.x);
+    w.registers = qdot_asm_registers(&w.m);
     w.block = block;
     w.chains = chains;
     w.moment = w.chains;
-    w.windows = kind > 1;
+    w.windows = w.registers == QDOT_ASM_REGISTERS;
     w.first_free = w.moment + 1 + (w.windows ? 2 * w.block : 0);
     status = make(&w, write, user, code);
     qdot_free(w.rows);
@@ -258,7 +257,7 @@ qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers, qdot_lanes_write 
     qdot_free(w.scalars.at);
     qdot_free(w.tables.at);
     qdot_free(w.ahead.at);
-    qdot_free(w.x.bytes.at);
+    qdot_free(w.m.bytes.at);
     return status;
 }
 

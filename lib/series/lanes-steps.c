@@ -287,11 +287,11 @@ power(const step *s, qdot_lanes_sum *sums)
     qdot_lanes_scale(s->w, &sum, inverse_of_order(s));
     qdot_lanes_add(s->w, &more, false, at(i->z, 0));
     qdot_lanes_add(s->w, &more, false, qdot_lanes_scalar(s->w, 1));
-    qdot_writer_join(s->w, QDOT_X86_MUL_ALL, &sum, more);
-    qdot_writer_join(s->w, QDOT_X86_SUB_ALL, &sum, sums[1]);
+    qdot_writer_join(s->w, QDOT_ASM_MUL, &sum, more);
+    qdot_writer_join(s->w, QDOT_ASM_SUB, &sum, sums[1]);
     qdot_lanes_add_product(s->w, &end, false, at(i->z, 0), at(i->to, 0));
     qdot_lanes_scale(s->w, &end, at(i->x, s->k));
-    qdot_writer_join(s->w, QDOT_X86_ADD_ALL, &sum, end);
+    qdot_writer_join(s->w, QDOT_ASM_ADD, &sum, end);
     qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
     store(s, sum, i->to);
 }
@@ -324,7 +324,7 @@ arctangent(const step *s, qdot_lanes_sum *sums)
     const qdot_program_step *i = s->s;
     qdot_lanes_sum sum = sums[0];
 
-    qdot_writer_join(s->w, QDOT_X86_SUB_ALL, &sum, sums[1]);
+    qdot_writer_join(s->w, QDOT_ASM_SUB, &sum, sums[1]);
     weighted(s, i->x, i->second);
     weighted(s, i->y, i->third);
     with_newest(s, &sum, false, i->y, i->second);

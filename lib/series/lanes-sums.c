@@ -17,34 +17,34 @@ chain(const qdot_lanes_writer *w, int products, int product, int i, int c)
     return (product * w->block + i) * n + c % n;
 }
 
-static const qdot_x86_base other_base[] = {QDOT_X86_R8, QDOT_X86_R13};
+static const qdot_asm_base other_base[] = {QDOT_ASM_PARTNER, QDOT_ASM_SECOND_PARTNER};
 
 /* What coefficient K + i - j of other factor p is multiplied from: a register that has it from
  * the terms before on, or its place. */
-static qdot_x86_rm
+static qdot_operand
 other(const qdot_lanes_writer *w, bool window, int p, int i, int j)
 {
     const int B = w->block;
 
-    return window ? qdot_x86_reg(w->moment + 1 + p * B + ((i - j) % B + B) % B)
-                  : qdot_x86_at(other_base[p], (i - j) * w->bytes);
+    return window ? qdot_asm_in(w->moment + 1 + p * B + ((i - j) % B + B) % B)
+                  : qdot_asm_at(other_base[p], (i - j) * w->bytes);
 }
 
-/* Term j of rax and r8; and of rax and r13: of the orders that have coefficients below the
+/* Term j of a factor and its partner; and of a second one: of the orders that have coefficients below the
  * block's first alone in it. */
 static void
 emit_term(qdot_lanes_writer *w, bool window, int products, int j)
 {
     const int last = w->block - 1;
 
-    qdot_writer_emit(w, QDOT_X86_LOAD_ALL, w->moment, 0,
-                     qdot_x86_at(QDOT_X86_RAX, j * w->bytes));
+    qdot_writer_emit(w, QDOT_ASM_LOAD, w->moment, 0,
+                     qdot_asm_at(QDOT_ASM_FACTOR, j * w->bytes));
     for (int p = 0; window && j > last && p < products; p++)
-        qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, true, p, last, j).reg, 0,
+        qdot_writer_emit(w, QDOT_ASM_LOAD, other(w, true, p, last, j).reg, 0,
                          other(w, false, p, last, j));
     for (int i = 0; i <= last && i < j; i++)
         for (int p = 0; p < products; p++)
-            qdot_writer_emit(w, QDOT_X86_MADD_ALL, chain(w, products, p, i, j), w->moment,
+            qdot_writer_emit(w, QDOT_ASM_MADD, chain(w, products, p, i, j), w->moment,
                              other(w, window, p, i, j));
 }
 
@@ -57,32 +57,32 @@ smaller(int a, int b)
 void
 qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at)
 {
-    w->x.far = w->x.narrow; /* else all their offsets take one byte */
+    w->m.far = !w->windows; /* else all their offsets take one byte */
     for (int n = smaller((int)w->at.stride - 1, QDOT_SERIES_MOST + 1); n > 0; n--) {
-        at[n] = w->x.bytes.n;
+        at[n] = w->m.bytes.n;
         emit_term(w, window, products, n);
     }
-    w->x.far = false;
-    qdot_x86_leave(&w->x);
+    w->m.far = false;
+    qdot_asm_leave(&w->m);
 }
 
 static void
-address(qdot_lanes_writer *w, qdot_x86_base to, qdot_lanes_row row, int order)
+address(qdot_lanes_writer *w, qdot_asm_base to, qdot_lanes_row row, int order)
 {
-    const qdot_x86_rm rm = qdot_writer_place(w, (qdot_lanes_at){row, order});
+    const qdot_operand rm = qdot_writer_place(w, (qdot_lanes_at){row, order});
 
     if (!w->counting)
-        qdot_x86_address(&w->x, to, (qdot_x86_base)rm.reg, rm.offset);
+        qdot_asm_set(&w->m, to, (qdot_asm_base)rm.reg, rm.offset);
 }
 
 /* Where a register says, or at so many terms less: sums of a lower order than the steps. */
 static void
-enter_in_loop(qdot_lanes_writer *w, qdot_x86_base at, const size_t *terms, int less)
+enter_in_loop(qdot_lanes_writer *w, qdot_asm_base at, const size_t *terms, int less)
 {
     if (less > 0)
-        qdot_x86_address(&w->x, QDOT_X86_R12, at,
-                         less * (int32_t)qdot_writer_term(w, terms));
-    qdot_x86_enter_at(&w->x, less > 0 ? QDOT_X86_R12 : at);
+        qdot_asm_set(&w->m, QDOT_ASM_TERMS_LEFT, at,
+                     less * (int32_t)qdot_writer_term(w, terms));
+    qdot_asm_enter_at(&w->m, less > 0 ? QDOT_ASM_TERMS_LEFT : at);
 }
 
 /* Terms n, n - 1, ..., 1 of a block from order K on are added; z of two products only. */
@@ -95,27 +95,27 @@ call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
     const bool window = w->windows && !square;
 
     qdot_lanes_keep(w, x);
-    address(w, QDOT_X86_RAX, x, 0);
+    address(w, QDOT_ASM_FACTOR, x, 0);
     for (int i = 0; i < (z ? 2 : 1); i++) {
         qdot_lanes_keep(w, others[i]);
         address(w, other_base[i], others[i], K);
         for (int c = 0; window && c < n && c < w->block - 1; c++)
-            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, other(w, true, i, c, n).reg, 0,
+            qdot_writer_emit(w, QDOT_ASM_LOAD, other(w, true, i, c, n).reg, 0,
                              qdot_writer_place(w, (qdot_lanes_at){others[i], K - n + c}));
     }
     if (w->counting)
         return;
     if (any)
         enter_in_loop(w,
-                      z        ? QDOT_X86_R14
-                      : square ? QDOT_X86_R15
-                               : QDOT_X86_R11,
+                      z        ? QDOT_ASM_TERMS_OF_PAIRS
+                      : square ? QDOT_ASM_TERMS_OF_SQUARES
+                               : QDOT_ASM_TERMS,
                       z        ? w->pair
                       : square ? w->half
                                : w->dot,
                       square ? (w->any - 1) / 2 - n : w->any - K);
     else
-        qdot_x86_enter(&w->x, z ? w->pair[n] : square ? w->half[n] : w->dot[n]);
+        qdot_asm_enter(&w->m, z ? w->pair[n] : square ? w->half[n] : w->dot[n]);
 }
 
 static void
@@ -134,8 +134,7 @@ add_up(qdot_lanes_writer *w, int products, int product, int i)
 
     for (int half = n / 2; half > 0; half /= 2)
         for (int c = 0; c < half; c++)
-            qdot_writer_emit(w, QDOT_X86_ADD_ALL, to + c, to + c,
-                             qdot_x86_reg(to + c + half));
+            qdot_writer_emit(w, QDOT_ASM_ADD, to + c, to + c, qdot_asm_in(to + c + half));
     return to;
 }
 
@@ -168,8 +167,8 @@ share_out(qdot_lanes_writer *w, size_t sum, int products, int product, int n)
 
     if (n > 0) {
         first = qdot_writer_take(w);
-        qdot_writer_emit(w, QDOT_X86_LOAD_ALL, first, 0,
-                         qdot_x86_reg(add_up(w, products, product, 0)));
+        qdot_writer_emit(w, QDOT_ASM_LOAD, first, 0,
+                         qdot_asm_in(add_up(w, products, product, 0)));
     }
     for (int i = 1; i < w->block && i < n; i++)
         qdot_writer_put(w, add_up(w, products, product, i), ahead(w, sum, i));

@@ -39,26 +39,26 @@ qdot_writer_groups(const qdot_lanes_writer *w)
            w->sums * (size_t)(w->block - 1);
 }
 
-static qdot_x86_rm
-groups_from(const qdot_lanes_writer *w, qdot_x86_base base, size_t groups)
+static qdot_operand
+groups_from(const qdot_lanes_writer *w, qdot_asm_base base, size_t groups)
 {
-    return qdot_x86_at(base, (int32_t)groups * w->bytes);
+    return qdot_asm_at(base, (int32_t)groups * w->bytes);
 }
 
 /* `groups` of the program's coefficients, at an order. */
-static qdot_x86_rm
+static qdot_operand
 of_order(const qdot_lanes_writer *w, size_t groups, int order)
 {
     const int any = w->any, half = any / 2;
 
     if (order > half + half / 2)
-        return groups_from(w, QDOT_X86_R9, groups + (size_t)order - (size_t)any);
+        return groups_from(w, QDOT_ASM_ROWS_NOW, groups + (size_t)order - (size_t)any);
     if (order > half / 2) /* squares */
-        return groups_from(w, QDOT_X86_RBP, groups + (size_t)order - (size_t)half);
-    return groups_from(w, QDOT_X86_RDI, groups + (size_t)order);
+        return groups_from(w, QDOT_ASM_ROWS_HALF, groups + (size_t)order - (size_t)half);
+    return groups_from(w, QDOT_ASM_ROWS, groups + (size_t)order);
 }
 
-qdot_x86_rm
+qdot_operand
 qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a)
 {
     int order;
@@ -67,20 +67,20 @@ qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a)
         const int32_t table = (int32_t)(a.row - QDOT_WRITER_TABLES) * QDOT_WRITER_TABLE;
         const bool any = a.order > QDOT_WRITER_ANY / 2;
 
-        return qdot_x86_at(any ? QDOT_X86_RBX : QDOT_X86_RSI,
+        return qdot_asm_at(any ? QDOT_ASM_CONSTANTS_NOW : QDOT_ASM_CONSTANTS,
                            (int32_t)sizeof(double) *
                                (table + a.order - (any ? w->any : 0)));
     }
     if (a.row >= QDOT_WRITER_SCALARS)
-        return qdot_x86_at(QDOT_X86_RSI,
+        return qdot_asm_at(QDOT_ASM_CONSTANTS,
                            (int32_t)sizeof(double) *
                                (QDOT_WRITER_MOST_TABLES * QDOT_WRITER_TABLE +
                                 (int32_t)(a.row - QDOT_WRITER_SCALARS)));
     if (a.row >= QDOT_WRITER_INVERSES)
-        return groups_from(w, QDOT_X86_RDI,
+        return groups_from(w, QDOT_ASM_ROWS,
                            w->t->rows.n * w->at.stride + a.row - QDOT_WRITER_INVERSES);
     if (a.row >= QDOT_WRITER_NUMBERS)
-        return groups_from(w, QDOT_X86_RDX, a.row - QDOT_WRITER_NUMBERS);
+        return groups_from(w, QDOT_ASM_WORK, a.row - QDOT_WRITER_NUMBERS);
     if (a.order > 0 && !is_newest(w, a))
         w->rows[a.row].kept = true;
     order = a.order > 0 && !w->rows[a.row].kept ? 1 : a.order;
@@ -135,43 +135,20 @@ qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k)
 
 /* --- registers ---------------------------------------------------------------------- */
 
-/* That of one double. */
-static qdot_x86_name
-of_one(qdot_x86_name name, qdot_x86_rm rm)
-{
-    switch (name) {
-    case QDOT_X86_LOAD_ALL: return rm.memory ? QDOT_X86_LOAD : name;
-    case QDOT_X86_SPREAD: return QDOT_X86_LOAD;
-    case QDOT_X86_STORE_ALL: return QDOT_X86_STORE;
-    case QDOT_X86_ADD_ALL: return QDOT_X86_ADD;
-    case QDOT_X86_SUB_ALL: return QDOT_X86_SUB;
-    case QDOT_X86_MUL_ALL: return QDOT_X86_MUL;
-    case QDOT_X86_MADD_ALL: return QDOT_X86_MADD;
-    case QDOT_X86_NMADD_ALL: return QDOT_X86_NMADD;
-    default: return name;
-    }
-}
-
 void
-qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int first,
-                 qdot_x86_rm rm)
+qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, int first,
+                 qdot_operand rm)
 {
     if (!w->counting)
-        qdot_x86_emit(&w->x, w->at.group == 1 ? of_one(name, rm) : name, reg, first, rm);
-}
-
-static void
-use(qdot_lanes_writer *w, int reg)
-{
-    w->reg[reg].used = ++w->clock;
+        qdot_asm_do(&w->m, name, w->at.group == 1 ? QDOT_ASM_ONE : QDOT_ASM_ALL, reg,
+                    first, rm);
 }
 
 static void
 settle(qdot_lanes_writer *w, int reg)
 {
     if (w->reg[reg].ahead)
-        qdot_writer_emit(w, QDOT_X86_STORE_ALL, reg, 0,
-                         qdot_writer_place(w, w->reg[reg].at));
+        qdot_writer_emit(w, QDOT_ASM_STORE, reg, 0, qdot_writer_place(w, w->reg[reg].at));
     w->reg[reg].ahead = false;
 }
 
@@ -205,15 +182,10 @@ qdot_writer_leave(qdot_lanes_writer *w, int end)
 static int
 fresh(qdot_lanes_writer *w, int lowest)
 {
-    int best = -1;
+    const int reg = qdot_asm_fresh(&w->m, lowest, w->registers);
 
-    for (int r = lowest; r < w->registers; r++)
-        if (r != w->moment && !w->reg[r].taken &&
-            (best < 0 || w->reg[r].used < w->reg[best].used))
-            best = r;
-    leave(w, best);
-    use(w, best);
-    return best;
+    leave(w, reg);
+    return reg;
 }
 
 /* Sequences of terms are called by the first order of a block alone. */
@@ -228,7 +200,7 @@ qdot_writer_take(qdot_lanes_writer *w)
 {
     const int reg = fresh(w, first_taken(w));
 
-    w->reg[reg].taken = true;
+    w->m.taken[reg] = true;
     return reg;
 }
 
@@ -244,8 +216,7 @@ holder(const qdot_lanes_writer *w, qdot_lanes_at a)
 static void
 fetch(qdot_lanes_writer *w, int reg, qdot_lanes_at a)
 {
-    qdot_writer_emit(w,
-                     a.row >= QDOT_WRITER_SCALARS ? QDOT_X86_SPREAD : QDOT_X86_LOAD_ALL,
+    qdot_writer_emit(w, a.row >= QDOT_WRITER_SCALARS ? QDOT_ASM_SPREAD : QDOT_ASM_LOAD,
                      reg, 0, qdot_writer_place(w, a));
 }
 
@@ -255,7 +226,7 @@ load(qdot_lanes_writer *w, qdot_lanes_at a)
     int reg = holder(w, a);
 
     if (reg >= 0) {
-        use(w, reg);
+        qdot_asm_use(&w->m, reg);
         return reg;
     }
     reg = fresh(w, 0);
@@ -266,23 +237,19 @@ load(qdot_lanes_writer *w, qdot_lanes_at a)
 }
 
 /* A register that holds it, or its place. */
-static qdot_x86_rm
+static qdot_operand
 operand(qdot_lanes_writer *w, qdot_lanes_at a)
 {
     if (a.row < QDOT_WRITER_SCALARS && holder(w, a) < 0)
         return qdot_writer_place(w, a);
-    return qdot_x86_reg(load(w, a));
+    return qdot_asm_in(load(w, a));
 }
 
-/* 0, whatever the width: of one with itself, which takes no time. */
 void
 qdot_writer_clear(qdot_lanes_writer *w, int reg)
 {
-    const bool narrow = w->x.narrow;
-
-    w->x.narrow = narrow || reg < 16;
-    qdot_writer_emit(w, QDOT_X86_XOR_ALL, reg, reg, qdot_x86_reg(reg));
-    w->x.narrow = narrow;
+    if (!w->counting)
+        qdot_asm_clear(&w->m, reg);
 }
 
 /* --- sums --------------------------------------------------------------------------- */
@@ -295,16 +262,16 @@ qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a)
 
     if (held < first_taken(w) || w->reg[held].ahead) {
         if (held >= 0)
-            use(w, held);
+            qdot_asm_use(&w->m, held);
         reg = fresh(w, first_taken(w));
         if (held >= 0)
-            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, reg, 0, qdot_x86_reg(held));
+            qdot_writer_emit(w, QDOT_ASM_LOAD, reg, 0, qdot_asm_in(held));
         else
             fetch(w, reg, a);
     }
     w->reg[reg].holds = false;
-    w->reg[reg].taken = true;
-    use(w, reg);
+    w->m.taken[reg] = true;
+    qdot_asm_use(&w->m, reg);
     return reg;
 }
 
@@ -321,7 +288,7 @@ qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a)
 void
 qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus, qdot_lanes_at a)
 {
-    qdot_x86_rm rm;
+    qdot_operand rm;
 
     if (vanishes(w, a))
         return;
@@ -329,12 +296,12 @@ qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus, qdot_lanes
     if (*sum == QDOT_LANES_NOTHING) {
         *sum = qdot_writer_take(w);
         if (!minus) {
-            qdot_writer_emit(w, QDOT_X86_LOAD_ALL, *sum, 0, rm);
+            qdot_writer_emit(w, QDOT_ASM_LOAD, *sum, 0, rm);
             return;
         }
         qdot_writer_clear(w, *sum);
     }
-    qdot_writer_emit(w, minus ? QDOT_X86_SUB_ALL : QDOT_X86_ADD_ALL, *sum, *sum, rm);
+    qdot_writer_emit(w, minus ? QDOT_ASM_SUB : QDOT_ASM_ADD, *sum, *sum, rm);
 }
 
 void
@@ -345,7 +312,7 @@ qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
     else if (vanishes(w, a))
         qdot_lanes_negate(w, sum);
     else
-        qdot_writer_emit(w, QDOT_X86_SUB_ALL, *sum, load(w, a), qdot_x86_reg(*sum));
+        qdot_writer_emit(w, QDOT_ASM_SUB, *sum, load(w, a), qdot_asm_in(*sum));
 }
 
 void
@@ -354,7 +321,7 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
 {
     bool passing;
     int reg;
-    qdot_x86_rm rm;
+    qdot_operand rm;
 
     if (vanishes(w, a) || vanishes(w, b))
         return;
@@ -368,16 +335,16 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
     reg = load(w, a);
     rm = operand(w, b);
     if (passing)
-        w->reg[reg].used = 0;
+        w->m.used[reg] = 0;
     if (*sum == QDOT_LANES_NOTHING) {
         *sum = qdot_writer_take(w);
         if (!minus) {
-            qdot_writer_emit(w, QDOT_X86_MUL_ALL, *sum, reg, rm);
+            qdot_writer_emit(w, QDOT_ASM_MUL, *sum, reg, rm);
             return;
         }
         qdot_writer_clear(w, *sum);
     }
-    qdot_writer_emit(w, minus ? QDOT_X86_NMADD_ALL : QDOT_X86_MADD_ALL, *sum, reg, rm);
+    qdot_writer_emit(w, minus ? QDOT_ASM_NMADD : QDOT_ASM_MADD, *sum, reg, rm);
 }
 
 void
@@ -386,11 +353,11 @@ qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
     if (*sum == QDOT_LANES_NOTHING)
         return;
     if (vanishes(w, a)) {
-        w->reg[*sum].taken = false;
+        w->m.taken[*sum] = false;
         *sum = QDOT_LANES_NOTHING;
         return;
     }
-    qdot_writer_emit(w, QDOT_X86_MUL_ALL, *sum, *sum, operand(w, a));
+    qdot_writer_emit(w, QDOT_ASM_MUL, *sum, *sum, operand(w, a));
 }
 
 void
@@ -399,22 +366,22 @@ qdot_lanes_negate(qdot_lanes_writer *w, qdot_lanes_sum *sum)
     if (*sum == QDOT_LANES_NOTHING)
         return;
     qdot_writer_clear(w, w->moment);
-    qdot_writer_emit(w, QDOT_X86_SUB_ALL, *sum, w->moment, qdot_x86_reg(*sum));
+    qdot_writer_emit(w, QDOT_ASM_SUB, *sum, w->moment, qdot_asm_in(*sum));
 }
 
 void
-qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
+qdot_writer_join(qdot_lanes_writer *w, qdot_asm_operation op, qdot_lanes_sum *sum,
                  qdot_lanes_sum other)
 {
     if (other == QDOT_LANES_NOTHING)
         return;
-    w->reg[other].taken = false;
+    w->m.taken[other] = false;
     if (*sum != QDOT_LANES_NOTHING) {
-        qdot_writer_emit(w, op, *sum, *sum, qdot_x86_reg(other));
-    } else if (op != QDOT_X86_MUL_ALL) {
+        qdot_writer_emit(w, op, *sum, *sum, qdot_asm_in(other));
+    } else if (op != QDOT_ASM_MUL) {
         *sum = other;
-        w->reg[other].taken = true;
-        if (op == QDOT_X86_SUB_ALL)
+        w->m.taken[other] = true;
+        if (op == QDOT_ASM_SUB)
             qdot_lanes_negate(w, sum);
     }
 }
@@ -424,15 +391,17 @@ qdot_lanes_unread(qdot_lanes_writer *w, qdot_lanes_at a)
 {
     const int reg = holder(w, a);
 
-    if (reg >= 0)
-        w->reg[reg] = (qdot_writer_register){.taken = w->reg[reg].taken};
+    if (reg < 0)
+        return;
+    w->reg[reg] = (qdot_writer_register){0};
+    w->m.used[reg] = 0;
 }
 
 void
 qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to)
 {
     qdot_lanes_unread(w, to);
-    qdot_writer_emit(w, QDOT_X86_STORE_ALL, reg, 0, qdot_writer_place(w, to));
+    qdot_writer_emit(w, QDOT_ASM_STORE, reg, 0, qdot_writer_place(w, to));
 }
 
 void
@@ -446,8 +415,8 @@ qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to)
     (void)qdot_writer_place(w, to); /* that it is there */
     if (is_row(w, to.row))
         w->rows[to.row].absent = false;
-    w->reg[sum].taken = false;
+    w->m.taken[sum] = false;
     w->reg[sum].holds = w->reg[sum].ahead = true;
     w->reg[sum].at = to;
-    use(w, sum);
+    qdot_asm_use(&w->m, sum);
 }

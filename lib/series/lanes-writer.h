@@ -1,21 +1,19 @@
 /* lanes-writer.h -- the writer of lanes-code.h from inside: rows, registers. Internal to
  * series/.
  *
- * The code is run with three addresses: of the program's coefficients (rdi), of scalars (rsi),
- * of work space (rdx): numbers, what the steps keep for a second time, what a sum has for
- * later orders of its block. In loops r9 and rbx are the first two moved on to the first order
- * of the block at hand, rbp the first to half of it; r11, r14 and r15 where the terms of sums,
- * of pairs of them and of squares begin.
+ * The code is run with three addresses: of the program's coefficients, of scalars, of work
+ * space: numbers, what the steps keep for a second time, what a sum has for later orders of its
+ * block. In loops the first two are also there moved on to the first order of the block at hand,
+ * the first to half of it; and where the terms of sums, of pairs of them and of squares begin.
  */
 #ifndef QDOT_SERIES_LANES_WRITER_H
 #define QDOT_SERIES_LANES_WRITER_H
 
 #include "num/series.h"
 #include "series/lanes-code.h"
-#include "machine/x86.h"
+#include "machine/asm.h"
 
 enum {
-    QDOT_WRITER_REGISTERS = 32,
     QDOT_WRITER_RESTS = 2,
     QDOT_WRITER_PAIRS = 32, /* of one sum */
     QDOT_WRITER_MOST_TABLES = 16
@@ -35,10 +33,9 @@ enum {
 
 /* What a register holds. */
 typedef struct {
-    bool holds, taken;
+    bool holds;
     bool ahead; /* of memory, which has it only when it is left */
     qdot_lanes_at at;
-    unsigned used; /* when */
 } qdot_writer_register;
 
 typedef struct {
@@ -69,7 +66,7 @@ typedef struct {
 } qdot_writer_addend;
 
 struct qdot_lanes_writer {
-    qdot_x86 x;
+    qdot_asm m;
     qdot_lanes_rows at;
     const qdot_program *t;
     const qdot_motion *motion; /* whose steps are written; NULL: those of a tape */
@@ -87,8 +84,7 @@ struct qdot_lanes_writer {
     /* Orders whose sums are made together; how far that at hand is in such a block; the
      * loop's first, as written. */
     int block, phase, any;
-    qdot_writer_register reg[QDOT_WRITER_REGISTERS];
-    unsigned clock;
+    qdot_writer_register reg[QDOT_ASM_REGISTERS];
     /* Where n terms begin, of one product, of two with a factor in common, of a square;
      * whether those of the former keep factors in registers. */
     size_t dot[QDOT_SERIES_MOST + 2], pair[QDOT_SERIES_MOST + 2], half[QDOT_SERIES_MOST + 2];
@@ -107,9 +103,9 @@ qdot_writer_inverse(size_t step)
 }
 
 /* An instruction, but when rows are only looked at; what it reads or writes. */
-void qdot_writer_emit(qdot_lanes_writer *w, qdot_x86_name name, int reg, int first,
-                      qdot_x86_rm rm);
-qdot_x86_rm qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
+void qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, int first,
+                      qdot_operand rm);
+qdot_operand qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
 /* A register that is free, taken; 0 in one. */
 int qdot_writer_take(qdot_lanes_writer *w);
 /* What registers have for the places of results is stored there, where orders to come read it. */
@@ -154,7 +150,7 @@ void qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
 qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k);
 
 /* sum = sum op other, whose register is given back. */
-void qdot_writer_join(qdot_lanes_writer *w, qdot_x86_name op, qdot_lanes_sum *sum,
+void qdot_writer_join(qdot_lanes_writer *w, qdot_asm_operation op, qdot_lanes_sum *sum,
                       qdot_lanes_sum other);
 
 /* For the second time that a step is made: whether there is a sum, and if `stored` it; the sum
@@ -173,7 +169,7 @@ static inline void
 qdot_writer_drop(qdot_lanes_writer *w, qdot_lanes_sum sum)
 {
     if (sum != QDOT_LANES_NOTHING)
-        w->reg[sum].taken = false;
+        w->m.taken[sum] = false;
 }
 
 #endif

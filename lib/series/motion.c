@@ -213,5 +213,6 @@ qdot_motion_clear(qdot_motion *m)
     qdot_free(m->equations.at);
     qdot_free(m->blocks.at);
     qdot_free(m->entries.at);
+    qdot_free(m->right.at);
     *m = (qdot_motion){0};
 }

@@ -19,7 +19,11 @@
  *     u_k of what is given by a row; K d = -E_k for the others, u_k += d, integrals too
  *     the steps that are `newest` take on what that changes (linear.def)
  *
- * K = dE_k/du_k is the same at every order. A form of the equations of motion is what fills this:
+ * K = dE_k/du_k is the same at every order. Equations are explicit if they are
+ *
+ *     E_i = sum_j K_ij u_j - right_i
+ *
+ * with all orders of these rows: whoever wishes may sum that without the steps that write it. A form of the equations of motion is what fills this:
  * where accelerations stand in E themselves no step is `newest`; where they are rates of
  * rates of places (d'Alembert), or of constraints, these lead by 2.
  *
@@ -50,6 +54,8 @@ typedef struct {
     qdot_vec(uint32_t) blocks;            /* block: where each begins, and the end of the last */
     qdot_vec(qdot_motion_entry) entries;  /* K, its other entries 0; none: it follows from steps
                                              that are `newest` (_column of an executor) */
+    qdot_vec(qdot_program_row) right;     /* explicit equations, else none: */
+    size_t written;                       /* of steps the last, which write them */
 } qdot_motion;
 
 /* Once the program has ended: the leads of steps and rows, which steps are `newest`, and which of
@@ -69,6 +75,13 @@ QDOT_MUST_CHECK qdot_status qdot_motion_give(qdot_motion *motion, qdot_program_r
 QDOT_MUST_CHECK qdot_status qdot_motion_solve(qdot_motion *motion, qdot_motion_unknown u,
                                               qdot_program_row equation);
 QDOT_MUST_CHECK qdot_status qdot_motion_end_block(qdot_motion *motion);
+
+/* Whether all of its equations are explicit; also if there are none. */
+static inline bool
+qdot_motion_is_explicit(const qdot_motion *m)
+{
+    return m->right.n == m->solved.n;
+}
 
 /* The first stage: order 0 of what leads most. */
 static inline int

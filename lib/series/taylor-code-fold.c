@@ -132,12 +132,12 @@ qdot_code_fold(qdot_generator *g)
 }
 
 /* a b, for all orders from the first one that asks for it on. */
-qdot_x86_rm
-qdot_code_composed(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm b)
+qdot_operand
+qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b)
 {
     enum { scratch = 0 };
     qdot_code_composition new = {a, b};
-    qdot_x86_rm to;
+    qdot_operand to;
 
     for (size_t i = 0; i < g->compositions.n; i++) {
         const qdot_code_composition *c = g->compositions.at + i;
@@ -148,11 +148,11 @@ qdot_code_composed(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm b)
     }
     to = qdot_code_work(g->fold_slots + g->compositions.n);
     if (qdot_vec_push(&g->compositions, new) != QDOT_OK) {
-        g->x.status = QDOT_ENOMEM;
+        g->m.status = QDOT_ENOMEM;
         return to;
     }
-    qdot_x86_emit(&g->x, QDOT_X86_LOAD, scratch, 0, a);
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, scratch, scratch, b);
-    qdot_x86_emit(&g->x, QDOT_X86_STORE, scratch, 0, to);
+    do_one(g, QDOT_ASM_LOAD, scratch, 0, a);
+    do_one(g, QDOT_ASM_MUL, scratch, scratch, b);
+    do_one(g, QDOT_ASM_STORE, scratch, 0, to);
     return to;
 }

@@ -1,13 +1,13 @@
 /* taylor-code-order.c -- the recurrences as code: an order of a step. */
 #include "series/taylor-code-sum.h"
 
-static qdot_x86_rm
+static qdot_operand
 inverse(const qdot_generator *g)
 {
     return qdot_code_entry(QDOT_CODE_INVERSES, g->k);
 }
 
-static qdot_x86_rm
+static qdot_operand
 slot(const qdot_generator *g, const qdot_taylor_step *s, size_t i)
 {
     return qdot_code_work(g->step_slots[s - g->t->steps] + i);
@@ -15,17 +15,17 @@ slot(const qdot_generator *g, const qdot_taylor_step *s, size_t i)
 
 /* slot <- a b */
 static void
-keep(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm b, qdot_x86_rm to)
+keep(qdot_generator *g, qdot_operand a, qdot_operand b, qdot_operand to)
 {
     const int reg = fresh(g);
 
-    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, a);
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, reg, reg, b);
-    qdot_x86_emit(&g->x, QDOT_X86_STORE, reg, 0, to);
+    do_one(g, QDOT_ASM_LOAD, reg, 0, a);
+    do_one(g, QDOT_ASM_MUL, reg, reg, b);
+    do_one(g, QDOT_ASM_STORE, reg, 0, to);
 }
 
 static void
-keep_twice(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm to)
+keep_twice(qdot_generator *g, qdot_operand a, qdot_operand to)
 {
     keep(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2), to);
 }
@@ -77,7 +77,7 @@ square_one(qdot_generator *g, const qdot_taylor_step *s)
 static void
 quotient(qdot_generator *g, const qdot_taylor_step *s)
 {
-    const qdot_x86_rm c = qdot_code_c(g, s);
+    const qdot_operand c = qdot_code_c(g, s);
     sum sum = {.v = {.reg = -1}};
 
     add_past(g, &sum, true, &c, s, 0);
@@ -104,7 +104,7 @@ quotient_one(qdot_generator *g, const qdot_taylor_step *s)
 static void
 root(qdot_generator *g, const qdot_taylor_step *s)
 {
-    const qdot_x86_rm c = qdot_code_c(g, s);
+    const qdot_operand c = qdot_code_c(g, s);
     sum sum = {.v = {.reg = -1}};
 
     add_past(g, &sum, true, &c, s, 0);
@@ -131,14 +131,14 @@ weighted(qdot_generator *g, const double *x, const double *to)
 }
 
 /* d_1/k, for a product with d over k; k > 1. */
-static qdot_x86_rm
+static qdot_operand
 first_over_order(qdot_generator *g, const qdot_taylor_step *s)
 {
     const int reg = fresh(g);
 
-    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, at(g, s->d, 1));
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, reg, reg, inverse(g));
-    return qdot_x86_reg(reg);
+    do_one(g, QDOT_ASM_LOAD, reg, 0, at(g, s->d, 1));
+    do_one(g, QDOT_ASM_MUL, reg, reg, inverse(g));
+    return qdot_asm_in(reg);
 }
 
 /* y of y' = x' u: product i of a step is that of d and u. */
@@ -146,7 +146,7 @@ static void
 integrated(qdot_generator *g, const qdot_taylor_step *s, int i, bool minus,
            const double *u, const double *to)
 {
-    const qdot_x86_rm over = inverse(g);
+    const qdot_operand over = inverse(g);
     sum sum = {.v = {.reg = -1}};
 
     if (g->lag > 1) {
@@ -207,13 +207,13 @@ power_zero(qdot_generator *g, const qdot_taylor_step *s)
 {
     const int a = fresh(g), b = fresh(g);
 
-    qdot_x86_emit(&g->x, QDOT_X86_LOAD, a, 0, at(g, s->z, 0));
-    qdot_x86_emit(&g->x, QDOT_X86_ADD, b, a, qdot_code_work(QDOT_CODE_ORDERS + 1));
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, b, b, qdot_code_c(g, s));
-    qdot_x86_emit(&g->x, QDOT_X86_STORE, b, 0, slot(g, s, 0));
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, a, a, at(g, s->to, 0));
-    qdot_x86_emit(&g->x, QDOT_X86_MUL, a, a, qdot_code_c(g, s));
-    qdot_x86_emit(&g->x, QDOT_X86_STORE, a, 0, slot(g, s, 1));
+    do_one(g, QDOT_ASM_LOAD, a, 0, at(g, s->z, 0));
+    do_one(g, QDOT_ASM_ADD, b, a, qdot_code_work(QDOT_CODE_ORDERS + 1));
+    do_one(g, QDOT_ASM_MUL, b, b, qdot_code_c(g, s));
+    do_one(g, QDOT_ASM_STORE, b, 0, slot(g, s, 0));
+    do_one(g, QDOT_ASM_MUL, a, a, at(g, s->to, 0));
+    do_one(g, QDOT_ASM_MUL, a, a, qdot_code_c(g, s));
+    do_one(g, QDOT_ASM_STORE, a, 0, slot(g, s, 1));
 }
 
 static void
@@ -238,7 +238,7 @@ finish_weighted(qdot_generator *g, value d, const qdot_taylor_step *s)
 static void
 ratio(qdot_generator *g, const qdot_taylor_step *s)
 {
-    const qdot_x86_rm k = qdot_code_entry(QDOT_CODE_ORDERS, g->k);
+    const qdot_operand k = qdot_code_entry(QDOT_CODE_ORDERS, g->k);
     sum d = past(g, s, 0);
 
     scale_sum(g, &d, qdot_code_c(g, s));

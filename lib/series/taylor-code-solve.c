@@ -2,13 +2,13 @@
 #include "series/taylor-code-sum.h"
 
 /* L, then M_0^-1. */
-static qdot_x86_rm
+static qdot_operand
 factor_at(const qdot_generator *g, size_t block, size_t i, size_t j)
 {
     return qdot_code_work(g->block_slots[block] + i * g->t->blocks[block].n + j);
 }
 
-static qdot_x86_rm
+static qdot_operand
 inverse_at(const qdot_generator *g, size_t block, size_t i, size_t j)
 {
     return factor_at(g, block, g->t->blocks[block].n + i, j);
@@ -62,7 +62,7 @@ divide(qdot_generator *g, size_t block, size_t i, sum *s)
 {
     s->v = total(g, s);
     s->n = 0;
-    scale_by(g, QDOT_X86_DIV, &s->v, factor_at(g, block, i, i));
+    scale_by(g, QDOT_ASM_DIV, &s->v, factor_at(g, block, i, i));
 }
 
 /* r becomes L^-1 r, then a = L^-T r. */

@@ -22,28 +22,17 @@ enum {
 static inline int
 touch(qdot_generator *g, int reg)
 {
-    const int first = g->behind[g->latest];
-
-    if (reg == g->latest || reg < g->first_scalar || reg >= g->behind_scalars)
-        return reg;
-    if (reg != first) { /* the ring is opened for it */
-        g->behind[g->ahead[reg]] = g->behind[reg];
-        g->ahead[g->behind[reg]] = g->ahead[reg];
-        g->behind[reg] = first;
-        g->ahead[reg] = g->latest;
-        g->ahead[first] = g->behind[g->latest] = reg;
-    }
-    g->latest = reg;
+    qdot_asm_use(&g->m, reg);
     return reg;
 }
 
 static inline int
 fresh(qdot_generator *g)
 {
-    const int reg = g->behind[g->latest];
+    const int reg = qdot_asm_fresh(&g->m, g->first_scalar, g->behind_scalars);
 
     g->held[reg] = QDOT_CODE_NONE;
-    return touch(g, reg);
+    return reg;
 }
 
 static inline void
@@ -64,7 +53,7 @@ coefficient(qdot_generator *g, uint32_t row, int k)
     if (g->held[reg] == row && g->held_order[reg] == k)
         return touch(g, reg);
     reg = fresh(g);
-    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, qdot_code_coefficient(g, row, k));
+    do_one(g, QDOT_ASM_LOAD, reg, 0, qdot_code_coefficient(g, row, k));
     hold(g, reg, row, k);
     return reg;
 }
@@ -81,7 +70,7 @@ typedef struct {
 /* +- factor times coefficient k of a row, or times a sum; without a factor: as it is. */
 typedef struct {
     bool minus, plain;
-    qdot_x86_rm factor;
+    qdot_operand factor;
     uint32_t row; /* QDOT_CODE_NONE: */
     int k;
     uint32_t past; /* the number of the sum */
@@ -93,14 +82,14 @@ typedef struct {
     term terms[QDOT_CODE_TERMS];
 } sum;
 
-static inline qdot_x86_rm
+static inline qdot_operand
 at(const qdot_generator *g, const double *row, int k)
 {
     return qdot_code_coefficient(g, qdot_code_row(g, row), k);
 }
 
 static inline void
-times(qdot_generator *g, sum *s, bool minus, qdot_x86_rm factor, const double *x, int k)
+times(qdot_generator *g, sum *s, bool minus, qdot_operand factor, const double *x, int k)
 {
     const uint32_t row = qdot_code_row(g, x);
 
@@ -116,37 +105,32 @@ add_value(qdot_generator *g, value *v, bool minus, int b)
     touch(g, a);
     v->reg = fresh(g);
     if (v->negative && !minus)
-        qdot_x86_emit(&g->x, QDOT_X86_SUB, v->reg, b, qdot_x86_reg(a));
+        do_one(g, QDOT_ASM_SUB, v->reg, b, qdot_asm_in(a));
     else if (v->negative != minus)
-        qdot_x86_emit(&g->x, QDOT_X86_SUB, v->reg, a, qdot_x86_reg(b));
+        do_one(g, QDOT_ASM_SUB, v->reg, a, qdot_asm_in(b));
     else
-        qdot_x86_emit(&g->x, QDOT_X86_ADD, v->reg, a, qdot_x86_reg(b));
+        do_one(g, QDOT_ASM_ADD, v->reg, a, qdot_asm_in(b));
     v->negative = v->negative && minus;
     v->own = true;
 }
 
 static inline void
-add_product(qdot_generator *g, value *v, bool minus, qdot_x86_rm factor, int b)
+add_product(qdot_generator *g, value *v, bool minus, qdot_operand factor, int b)
 {
-    static const qdot_x86_name in_place[2][2] = {{QDOT_X86_MADD, QDOT_X86_NMADD},
-                                                 {QDOT_X86_MSUB, QDOT_X86_NMSUB}};
-    static const qdot_x86_name over[2][2] = {{QDOT_X86_MADD_OVER, QDOT_X86_NMADD_OVER},
-                                             {QDOT_X86_MSUB_OVER, QDOT_X86_NMSUB_OVER}};
     const int a = v->reg;
 
     if (a < 0) {
         v->reg = fresh(g);
-        qdot_x86_emit(&g->x, QDOT_X86_MUL, v->reg, b, factor);
+        do_one(g, QDOT_ASM_MUL, v->reg, b, factor);
         v->negative = minus;
     } else if (v->own) {
-        qdot_x86_emit(&g->x, in_place[v->negative][minus], touch(g, a), b, factor);
+        do_one(g, qdot_asm_fused(false, minus, v->negative), touch(g, a), b, factor);
         v->negative = false;
     } else {
         touch(g, a);
         v->reg = fresh(g);
-        qdot_x86_emit(&g->x, factor.memory ? QDOT_X86_LOAD : QDOT_X86_LOAD_ALL, v->reg, 0,
-                      factor);
-        qdot_x86_emit(&g->x, over[v->negative][minus], v->reg, b, qdot_x86_reg(a));
+        do_one(g, QDOT_ASM_LOAD, v->reg, 0, factor);
+        do_one(g, qdot_asm_fused(true, minus, v->negative), v->reg, b, qdot_asm_in(a));
         v->negative = false;
     }
     v->own = true;
@@ -211,7 +195,7 @@ past_register(qdot_generator *g, uint32_t n)
     int reg = v->reg[0];
 
     if (reg < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg = fresh(g), 0, qdot_code_work(v->at));
+        do_one(g, QDOT_ASM_LOAD, reg = fresh(g), 0, qdot_code_work(v->at));
     return reg;
 }
 
@@ -221,8 +205,8 @@ less(qdot_generator *g, const term *t, int when)
 {
     const int b = coefficient(g, t->row, t->k), reg = fresh(g);
 
-    qdot_x86_emit(&g->x, QDOT_X86_LOAD, reg, 0, t->factor);
-    qdot_x86_emit(&g->x, QDOT_X86_NMADD_OVER, reg, b, qdot_code_work(QDOT_CODE_ORDERS));
+    do_one(g, QDOT_ASM_LOAD, reg, 0, t->factor);
+    do_one(g, QDOT_ASM_NMADD_OVER, reg, b, qdot_code_work(QDOT_CODE_ORDERS));
     return (value){.reg = reg, .own = true, .ready = when + latency};
 }
 
@@ -296,7 +280,7 @@ total(qdot_generator *g, sum *s)
 
 /* MUL or DIV, by `factor`. */
 static inline void
-scale_by(qdot_generator *g, qdot_x86_name name, value *v, qdot_x86_rm factor)
+scale_by(qdot_generator *g, qdot_asm_operation name, value *v, qdot_operand factor)
 {
     const int a = v->reg;
 
@@ -304,20 +288,20 @@ scale_by(qdot_generator *g, qdot_x86_name name, value *v, qdot_x86_rm factor)
         return;
     touch(g, a);
     v->reg = fresh(g);
-    qdot_x86_emit(&g->x, name, v->reg, a, factor);
+    do_one(g, name, v->reg, a, factor);
     v->own = true;
-    v->ready += name == QDOT_X86_DIV ? latency_of_division : latency;
+    v->ready += name == QDOT_ASM_DIV ? latency_of_division : latency;
 }
 
 static inline void
-scale(qdot_generator *g, value *v, qdot_x86_rm factor)
+scale(qdot_generator *g, value *v, qdot_operand factor)
 {
-    scale_by(g, QDOT_X86_MUL, v, factor);
+    scale_by(g, QDOT_ASM_MUL, v, factor);
 }
 
 /* The sum so far, times a factor. */
 static inline void
-scale_sum(qdot_generator *g, sum *s, qdot_x86_rm factor)
+scale_sum(qdot_generator *g, sum *s, qdot_operand factor)
 {
     s->v = total(g, s);
     s->n = 0;
@@ -333,11 +317,11 @@ finish(qdot_generator *g, value v, const double *to, int k)
     if (v.reg < 0) {
         v.reg = fresh(g);
         v.own = true;
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD, v.reg, 0, qdot_code_work(QDOT_CODE_ORDERS));
+        do_one(g, QDOT_ASM_LOAD, v.reg, 0, qdot_code_work(QDOT_CODE_ORDERS));
     }
     if (v.negative)
         scale(g, &v, qdot_code_work(QDOT_CODE_INVERSES));
-    qdot_x86_emit(&g->x, QDOT_X86_STORE, v.reg, 0, qdot_code_coefficient(g, row, k));
+    do_one(g, QDOT_ASM_STORE, v.reg, 0, qdot_code_coefficient(g, row, k));
     *qdot_code_ready(g, row, k) = v.ready;
     if (v.own)
         hold(g, v.reg, row, k);
@@ -353,7 +337,7 @@ finish_sum(qdot_generator *g, sum *s, const double *to)
 
 /* +- sum number n, of the terms with orders from `lag` on, times a factor; NULL: none. */
 static inline void
-add_past_of(qdot_generator *g, sum *s, bool minus, const qdot_x86_rm *factor, uint32_t n)
+add_past_of(qdot_generator *g, sum *s, bool minus, const qdot_operand *factor, uint32_t n)
 {
     term t = {.minus = minus, .plain = !factor, .row = QDOT_CODE_NONE, .past = n};
 
@@ -366,7 +350,7 @@ add_past_of(qdot_generator *g, sum *s, bool minus, const qdot_x86_rm *factor, ui
 
 /* Product i of a step but for the terms with orders below `lag`. */
 static inline void
-add_past(qdot_generator *g, sum *sum, bool minus, const qdot_x86_rm *factor,
+add_past(qdot_generator *g, sum *sum, bool minus, const qdot_operand *factor,
          const qdot_taylor_step *s, int i)
 {
     add_past_of(g, sum, minus, factor,
@@ -392,7 +376,7 @@ negate(sum *s)
 
 /* Of one with orders 1 and k - 1, where the vectors do not have it: x_1 and y. */
 static inline void
-late(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y)
+late(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y)
 {
     if (g->lag > 1)
         times(g, s, minus, x1, y, g->k - 1);
@@ -400,8 +384,8 @@ late(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y)
 
 /* Both, x_1 and y_1 given where they are found, perhaps with a factor. */
 static inline void
-lately(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y,
-       qdot_x86_rm y1, const double *x)
+lately(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y,
+       qdot_operand y1, const double *x)
 {
     if (!g->moving[qdot_code_row(g, x)] || !g->moving[qdot_code_row(g, y)])
         return;
@@ -413,11 +397,12 @@ lately(qdot_generator *g, sum *s, bool minus, qdot_x86_rm x1, const double *y,
 /* --- sums within sums --------------------------------------------------------------- */
 
 static inline void add_terms(qdot_generator *g, sum *sum, bool minus,
-                             const qdot_x86_rm *scale, const qdot_taylor_step *s);
+                             const qdot_operand *scale, const qdot_taylor_step *s);
 
 /* +- coefficient k of a row times a factor (NULL: none), or what is folded into it. */
 static inline void
-add_scaled(qdot_generator *g, sum *s, bool minus, const qdot_x86_rm *scale, const double *x)
+add_scaled(qdot_generator *g, sum *s, bool minus, const qdot_operand *scale,
+           const double *x)
 {
     const uint32_t row = qdot_code_row(g, x);
     term t = {.minus = minus, .plain = !scale, .row = row, .k = g->k};
@@ -439,15 +424,15 @@ add(qdot_generator *g, sum *s, bool minus, const double *x)
     add_scaled(g, s, minus, NULL, x);
 }
 
-static inline qdot_x86_rm
-composed(qdot_generator *g, const qdot_x86_rm *scale, qdot_x86_rm factor)
+static inline qdot_operand
+composed(qdot_generator *g, const qdot_operand *scale, qdot_operand factor)
 {
     return scale ? qdot_code_composed(g, *scale, factor) : factor;
 }
 
 /* Those of a product. */
 static inline void
-add_product_terms(qdot_generator *g, sum *sum, bool minus, const qdot_x86_rm *scale,
+add_product_terms(qdot_generator *g, sum *sum, bool minus, const qdot_operand *scale,
                   const qdot_taylor_step *s)
 {
     const bool x = g->moving[qdot_code_row(g, s->x)], y = g->moving[qdot_code_row(g, s->y)];
@@ -467,10 +452,10 @@ add_product_terms(qdot_generator *g, sum *sum, bool minus, const qdot_x86_rm *sc
 /* +- a sum or a product times a factor (NULL: none). What is folded stands at most a few
  * deep (taylor-code-fold.c). */
 static inline void
-add_terms(qdot_generator *g, sum *sum, bool minus, const qdot_x86_rm *scale,
+add_terms(qdot_generator *g, sum *sum, bool minus, const qdot_operand *scale,
           const qdot_taylor_step *s)
 {
-    qdot_x86_rm factor;
+    qdot_operand factor;
 
     switch (s->op) {
     case QDOT_T_NEG: add_scaled(g, sum, !minus, scale, s->x); return;

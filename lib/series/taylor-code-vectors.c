@@ -20,13 +20,14 @@ typedef enum { BEFORE, AFTER } part;
 bool
 qdot_code_rows_as_they_stand(const qdot_generator *g)
 {
-    return g->x.narrow || (g->lag == 1 && g->sums.n + g->rows.n > many_vectors);
+    return qdot_code_is_narrow(g->lanes) ||
+           (g->lag == 1 && g->sums.n + g->rows.n > many_vectors);
 }
 
-static qdot_x86_rm
+static qdot_operand
 block_at(const qdot_generator *g, const qdot_code_vector *v, int b)
 {
-    return v->reg[b] >= 0 ? qdot_x86_reg(v->reg[b])
+    return v->reg[b] >= 0 ? qdot_asm_in(v->reg[b])
                           : qdot_code_work(v->at + (size_t)(g->lanes * b));
 }
 
@@ -37,10 +38,10 @@ insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
     const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
     if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, reg, 0, block_at(g, v, b));
-    qdot_vector_insert(&g->x, reg, qdot_code_coefficient(g, row, m));
+        do_all(g, QDOT_ASM_LOAD, reg, 0, block_at(g, v, b));
+    qdot_asm_insert(&g->m, reg, qdot_code_coefficient(g, row, m));
     if (v->reg[b] < 0)
-        qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(g, v, b));
+        do_all(g, QDOT_ASM_STORE, reg, 0, block_at(g, v, b));
 }
 
 /* None holds anything. Narrow vectors wait for what is loaded: while they are at work the registers
@@ -48,7 +49,9 @@ insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
 static void
 begin_spreads(qdot_generator *g)
 {
-    g->spreads = own_spreads + (g->x.narrow ? g->behind_scalars - g->first_scalar : 0);
+    g->spreads = own_spreads;
+    if (qdot_code_is_narrow(g->lanes))
+        g->spreads += g->behind_scalars - g->first_scalar;
     for (int i = 0; i < g->spreads; i++)
         g->spread[i] = QDOT_CODE_NONE;
 }
@@ -68,30 +71,30 @@ spread(qdot_generator *g, uint32_t row, int m)
         return reg;
     g->next_spread = (i + 1) % g->spreads;
     g->spread[i] = row;
-    qdot_x86_emit(&g->x, QDOT_X86_SPREAD, reg, 0, qdot_code_coefficient(g, row, m));
+    do_all(g, QDOT_ASM_SPREAD, reg, 0, qdot_code_coefficient(g, row, m));
     return reg;
 }
 
 /* to += coefficient m of a row times block b of another, in these lanes. */
 static void
 multiply(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
-         qdot_vector_lanes lanes)
+         qdot_asm_lane_set lanes)
 {
     const qdot_code_vector *v = &g->rows.at[g->row_vector[other]];
 
     if (v->reg[b] >= 0) {
-        qdot_x86_rm one = qdot_code_coefficient(g, row, m);
+        qdot_operand one = qdot_code_coefficient(g, row, m);
 
         one.spread = true;
-        qdot_x86_emit(&g->x, QDOT_X86_MADD_ALL, to, v->reg[b], one);
+        do_all(g, QDOT_ASM_MADD, to, v->reg[b], one);
     } else {
         const int one = spread(g, row, m);
 
-        qdot_vector_add_product(&g->x, to, one,
-                                g->as_they_stand
-                                    ? qdot_code_coefficient(g, other, g->lag + g->lanes * b)
-                                    : block_at(g, v, b),
-                                lanes, spare);
+        qdot_asm_add_product(&g->m, to, one,
+                             g->as_they_stand
+                                 ? qdot_code_coefficient(g, other, g->lag + g->lanes * b)
+                                 : block_at(g, v, b),
+                             lanes, spare);
     }
 }
 
@@ -100,13 +103,13 @@ static void
 move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
 {
     const bool last = b + 1 == blocks;
-    const qdot_x86_rm high = last ? (qdot_x86_rm){0} : block_at(g, v, b + 1);
+    const qdot_operand high = last ? (qdot_operand){0} : block_at(g, v, b + 1);
 
     if (g->reread)
-        qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0,
-                      qdot_code_work(v->at + (size_t)(g->lanes * b + 1)));
+        do_all(g, QDOT_ASM_LOAD, to, 0,
+               qdot_code_work(v->at + (size_t)(g->lanes * b + 1)));
     else
-        qdot_vector_slide(&g->x, to, block_at(g, v, b), last ? NULL : &high, spare);
+        qdot_asm_slide(&g->m, to, block_at(g, v, b), last ? NULL : &high, spare);
 }
 
 /* Whether rows have order m by the time that block b of a sum is added to at all. */
@@ -135,15 +138,16 @@ add_order(qdot_generator *g, const qdot_code_phase *p, const qdot_code_sum *s, i
         if (!s->further && (whole || now == BEFORE))
             move_on(g, v, b, p->blocks, to);
         else if (v->reg[b] < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_LOAD_ALL, to, 0, block_at(g, v, b));
+            do_all(g, QDOT_ASM_LOAD, to, 0, block_at(g, v, b));
         if (whole || now == BEFORE)
             multiply(g, to, other, m, last, b,
-                     entered && whole ? QDOT_VECTOR_OLDER : QDOT_VECTOR_ALL);
+                     entered && whole ? QDOT_ASM_OLDER_LANES : QDOT_ASM_ALL_LANES);
         if (whole || now == AFTER)
             multiply(g, to, last, m, other, b,
-                     entered && g->as_they_stand ? QDOT_VECTOR_KNOWN : QDOT_VECTOR_ALL);
+                     entered && g->as_they_stand ? QDOT_ASM_KNOWN_LANES
+                                                 : QDOT_ASM_ALL_LANES);
         if (v->reg[b] < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, to, 0, block_at(g, v, b));
+            do_all(g, QDOT_ASM_STORE, to, 0, block_at(g, v, b));
     }
 }
 
@@ -166,9 +170,9 @@ clear(qdot_generator *g, const qdot_code_vector *v)
     for (int b = 0; b < g->blocks; b++) {
         const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
-        qdot_x86_emit(&g->x, QDOT_X86_XOR_ALL, reg, reg, qdot_x86_reg(reg));
+        qdot_asm_clear(&g->m, reg);
         if (v->reg[b] < 0)
-            qdot_x86_emit(&g->x, QDOT_X86_STORE_ALL, reg, 0, block_at(g, v, b));
+            do_all(g, QDOT_ASM_STORE, reg, 0, block_at(g, v, b));
     }
 }
 
@@ -180,19 +184,19 @@ qdot_code_begin_vectors(qdot_generator *g)
             clear(g, &g->sums.at[i].v);
     for (size_t i = 0; !g->as_they_stand && i < g->rows.n; i++)
         clear(g, g->rows.at + i);
-    qdot_vector_begin(&g->x);
+    qdot_asm_begin_lanes(&g->m);
 }
 
 void
 qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p)
 {
     if (p->inserted >= 0)
-        qdot_vector_first_lane(&g->x, qdot_code_work(QDOT_CODE_ONES));
+        qdot_asm_first_lane(&g->m, qdot_code_work(QDOT_CODE_ONES));
 }
 
 void
 qdot_code_next_lane(qdot_generator *g, const qdot_code_phase *p)
 {
     if (p->inserted >= 0)
-        qdot_vector_next_lane(&g->x);
+        qdot_asm_next_lane(&g->m);
 }

@@ -45,7 +45,7 @@ most(int a, int b)
 static qdot_taylor_loops
 loops_of(const qdot_generator *g)
 {
-    return (qdot_taylor_loops){g->lanes, g->lag, g->as_they_stand, g->x.narrow};
+    return (qdot_taylor_loops){g->lanes, g->lag, g->as_they_stand};
 }
 
 static int
@@ -71,7 +71,7 @@ phase_of(const qdot_taylor_loops *l, int n, int m)
     const int all = most_blocks(l, n);
     int blocks;
 
-    if (l->narrow)
+    if (qdot_code_is_narrow(l->lanes))
         m = least(m, n / 2);
     if (m <= n / 2)
         return (qdot_code_phase){.blocks = blocks_of(l, m + 1 - l->lag),
@@ -234,15 +234,16 @@ find_unknown_sums(qdot_generator *g)
 static void
 choose_layout(qdot_generator *g)
 {
-    const bool narrow = g->x.narrow, few = g->sums.n < few_sums;
+    const int lanes = qdot_asm_lanes(&g->m);
+    const bool narrow = qdot_code_is_narrow(lanes), few = g->sums.n < few_sums;
     qdot_taylor_loops loops;
 
-    g->lanes = qdot_x86_lanes(&g->x);
+    g->lanes = lanes;
     g->lag = few && !narrow ? 2 : 1;
     g->reread = narrow && !few;
-    g->first_scalar = narrow ? QDOT_VECTOR_FREE_NARROW : QDOT_VECTOR_FREE;
+    g->first_scalar = qdot_asm_first_free(&g->m);
     g->behind_scalars = least(g->first_scalar + (narrow && few ? few_scalars : scalars),
-                              qdot_x86_registers(&g->x));
+                              qdot_asm_registers(&g->m));
     g->as_they_stand = qdot_code_rows_as_they_stand(g);
     loops = loops_of(g);
     g->blocks = most_blocks(&loops, g->n);
@@ -255,7 +256,7 @@ give_places(qdot_generator *g)
 {
     const int lowest = g->behind_scalars;
     size_t at = QDOT_CODE_SLOTS + (g->n_slots + 7) / 8 * 8;
-    int reg = qdot_x86_registers(&g->x);
+    int reg = qdot_asm_registers(&g->m);
 
     for (int b = 0; b < g->blocks; b++) {
         for (size_t i = 0; i < g->sums.n && reg > lowest; i++)
@@ -309,25 +310,10 @@ emit_order(qdot_generator *g)
         qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
 }
 
-/* None holds anything; those for single numbers make a ring. */
-static void
-begin_registers(qdot_generator *g)
+void
+qdot_code_forget(qdot_generator *g)
 {
-    const int first = g->first_scalar, last = g->behind_scalars - 1;
-
-    for (int i = 0; i < QDOT_CODE_REGISTERS; i++) {
-        g->held[i] = QDOT_CODE_NONE;
-        g->behind[i] = i < last ? i + 1 : first;
-        g->ahead[i] = i > first ? i - 1 : last;
-    }
-    g->latest = last;
-}
-
-/* No register is known to hold a coefficient. */
-static void
-forget(qdot_generator *g)
-{
-    for (int i = 0; i < QDOT_CODE_REGISTERS; i++)
+    for (int i = 0; i < QDOT_ASM_REGISTERS; i++)
         g->held[i] = QDOT_CODE_NONE;
 }
 
@@ -364,19 +350,19 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, int number)
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM && p->inserted >= 0 &&
                p->inserted * g->lanes < QDOT_CODE_LANES;
     for (int i = 0; i < 2; i++) {
-        from = g->x.bytes.n;
-        forget(g);
+        from = g->m.bytes.n;
+        qdot_code_forget(g);
         emit_body(g, p);
         look_back(g, 1);
-        g->x.bytes.n = from;
+        g->m.bytes.n = from;
     }
-    forget(g);
-    from = qdot_x86_repeat_as(&g->x, qdot_code_work(QDOT_CODE_COUNTS + (size_t)number));
+    qdot_code_forget(g);
+    from = qdot_asm_repeat_as(&g->m, qdot_code_work(QDOT_CODE_COUNTS + (size_t)number));
     emit_body(g, p);
-    qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_R8, 8);
-    qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_R9, 8);
+    qdot_asm_set(&g->m, QDOT_ASM_ROWS_NOW, QDOT_ASM_ROWS_NOW, 8);
+    qdot_asm_set(&g->m, QDOT_ASM_WORK_NOW, QDOT_ASM_WORK_NOW, 8);
     qdot_code_next_lane(g, p);
-    qdot_x86_again(&g->x, from);
+    qdot_asm_again(&g->m, from);
 }
 
 static void
@@ -387,7 +373,7 @@ emit_all(qdot_generator *g)
     qdot_code_phase phases[QDOT_CODE_PHASES];
     int count;
 
-    begin_registers(g);
+    qdot_code_forget(g);
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
     qdot_code_begin_vectors(g);
     for (g->k = 1; g->k <= least(g->n, singly); g->k++) {
@@ -395,12 +381,12 @@ emit_all(qdot_generator *g)
             emit_once(g, g->k == 2);
         emit_order(g);
     }
-    qdot_x86_address(&g->x, QDOT_X86_R8, QDOT_X86_RDI, 8 * (singly + 1));
-    qdot_x86_address(&g->x, QDOT_X86_R9, QDOT_X86_RDX, 8 * (singly + 1));
+    qdot_asm_set(&g->m, QDOT_ASM_ROWS_NOW, QDOT_ASM_ROWS, 8 * (singly + 1));
+    qdot_asm_set(&g->m, QDOT_ASM_WORK_NOW, QDOT_ASM_WORK, 8 * (singly + 1));
     count = find_phases(&loops, g->n, phases);
-    for (int i = 0; i < count && g->x.bytes.n <= most_bytes; i++)
+    for (int i = 0; i < count && g->m.bytes.n <= most_bytes; i++)
         emit_phase(g, phases + i, i);
-    qdot_x86_return(&g->x);
+    qdot_asm_return(&g->m);
 }
 
 /* 1/n less its double. */
@@ -483,9 +469,9 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     choose_layout(g);
     QDOT_TRY(qdot_code_fold(g));
     text->doubles = give_places(g);
-    QDOT_TRY(qdot_grow(&g->x.bytes.at, &g->x.bytes.capacity, 16384, 1));
+    QDOT_TRY(qdot_grow(&g->m.bytes.at, &g->m.bytes.capacity, 16384, 1));
     emit_all(g);
-    text->begin = g->x.bytes.n;
+    text->begin = g->m.bytes.n;
     qdot_code_zero(g);
     text->loops = loops_of(g);
     text->from = text->to = g->n;
@@ -493,10 +479,10 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
         text->from--;
     while (text->to < QDOT_SERIES_MOST && is_same_code(&text->loops, g->n, text->to + 1))
         text->to++;
-    QDOT_TRY(g->x.status);
-    if (g->x.bytes.n > most_bytes)
+    QDOT_TRY(g->m.status);
+    if (g->m.bytes.n > most_bytes)
         *why = "machine code for them would be too long";
-    else if (!qdot_taylor_text_fill(text, g->x.bytes.at, g->x.bytes.n))
+    else if (!qdot_taylor_text_fill(text, g->m.bytes.at, g->m.bytes.n))
         *why = "the system runs no code made at run time";
     return QDOT_OK;
 }
@@ -504,7 +490,7 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
 static qdot_status
 write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **why)
 {
-    qdot_generator g = {.x = qdot_x86_of(qdot_x86_kind()), .t = t, .n = to};
+    qdot_generator g = {.m = {.kind = qdot_asm_kind()}, .t = t, .n = to};
     qdot_status status = generate(&g, text, why);
 
     text->blocks = g.block_slots;
@@ -521,7 +507,7 @@ write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **wh
     qdot_free(g.rows.at);
     qdot_free(g.row_of.at);
     qdot_free(g.sums.at);
-    qdot_free(g.x.bytes.at);
+    qdot_free(g.m.bytes.at);
     return status;
 }
 
@@ -555,7 +541,7 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code *
 
     *code = NULL;
     *why = NULL;
-    if (!qdot_x86_is_here()) {
+    if (!qdot_asm_is_here()) {
         *why = "machine code is for x86-64";
         return QDOT_OK;
     }

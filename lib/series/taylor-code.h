@@ -20,7 +20,7 @@
  * known last is added last; when it is known is guessed from the order before, written for
  * that alone.
  *
- * Unknowns (qdot_taylor_solve) are solved for at the end of every order, by the matrices
+ * Unknowns (taylor-motion.h) are solved for at the end of every order, by the matrices
  * that are there when the code is run.
  *
  * Order 0 is a second function: sums, products, quotients and roots as they stand, a call for each

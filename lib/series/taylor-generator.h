@@ -1,10 +1,10 @@
 /* taylor-generator.h -- what the files that write a Taylor program as machine code share
  * (taylor-code.h). Internal to series/.
  *
- * The code is run with three addresses: of the rows of coefficients (rdi), of the steps
- * (rsi), of work space (rdx) that begins with tables by order and holds one number here and
- * there (slots) and the vectors that have no register. Orders beyond the first three are a
- * few loops; in them r8 and r9 are the first and the last moved on to the order at hand.
+ * The code is run with three addresses: of the rows of coefficients, of the steps, of work
+ * space that begins with tables by order and holds one number here and there (slots) and the
+ * vectors that have no register. Orders beyond the first three are a few loops; in them the
+ * first and the last are also there moved on to the order at hand.
  */
 #ifndef QDOT_SERIES_TAYLOR_GENERATOR_H
 #define QDOT_SERIES_TAYLOR_GENERATOR_H
@@ -12,14 +12,13 @@
 #include <stddef.h>
 
 #include "series/taylor-steps.h"
-#include "machine/vector.h"
+#include "machine/asm.h"
 
 enum {
     /* Of any kind of processor: the widest vectors; vectors of a row, or of the sums that one
      * product has still to come; registers. */
     QDOT_CODE_LANES = 8,
     QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + 1) / 2,
-    QDOT_CODE_REGISTERS = 32,
     /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, the two factors of
      * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); a lane whose bits are
      * all 1; counts of loops; then slots. */
@@ -61,11 +60,11 @@ typedef struct {
 
 /* A factor that is a product of two. */
 typedef struct {
-    qdot_x86_rm a, b;
+    qdot_operand a, b;
 } qdot_code_composition;
 
 typedef struct {
-    qdot_x86 x;
+    qdot_asm m;
     const qdot_taylor *t;
     int lanes;              /* of a vector */
     int first_scalar, behind_scalars; /* registers of single numbers; below: for a moment */
@@ -92,19 +91,36 @@ typedef struct {
     qdot_vec(qdot_code_composition) compositions; /* in slots of their own, */
     size_t fold_slots;                            /* from this one on */
 
-    /* Registers that hold a coefficient, least recently used first to go. */
+    /* Registers that hold a coefficient. */
     unsigned char *where; /* [rows x 4] the register that may hold them, likewise */
-    uint32_t held[QDOT_CODE_REGISTERS]; /* the row; QDOT_CODE_NONE */
-    int held_order[QDOT_CODE_REGISTERS];
-    /* Those for single numbers by their last use: behind a register the next, the least
-     * recently used behind the last of all, which is `latest`. */
-    int behind[QDOT_CODE_REGISTERS], ahead[QDOT_CODE_REGISTERS], latest;
+    uint32_t held[QDOT_ASM_REGISTERS]; /* the row; QDOT_CODE_NONE */
+    int held_order[QDOT_ASM_REGISTERS];
     /* [spreads] Rows whose coefficient fills a register. */
-    uint32_t spread[QDOT_CODE_REGISTERS];
+    uint32_t spread[QDOT_ASM_REGISTERS];
     int spreads, next_spread;
 } qdot_generator;
 
 #define QDOT_CODE_NONE UINT32_MAX
+
+/* Whether vectors, and registers, are fewer than those of AVX-512. */
+static inline bool
+qdot_code_is_narrow(int lanes)
+{
+    return lanes < QDOT_CODE_LANES;
+}
+
+/* An operation on single numbers, on vectors. */
+static inline void
+do_one(qdot_generator *g, qdot_asm_operation op, int reg, int first, qdot_operand b)
+{
+    qdot_asm_do(&g->m, op, QDOT_ASM_ONE, reg, first, b);
+}
+
+static inline void
+do_all(qdot_generator *g, qdot_asm_operation op, int reg, int first, qdot_operand b)
+{
+    qdot_asm_do(&g->m, op, QDOT_ASM_ALL, reg, first, b);
+}
 
 /* Orders that are added to vectors by the same instructions. */
 typedef struct {
@@ -137,6 +153,9 @@ typedef struct {
 /* By qdot_recurrence. */
 extern const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT];
 
+/* No register is known to hold a coefficient. */
+void qdot_code_forget(qdot_generator *g);
+
 /* Order 0 of all steps, and of links; a function of its own. */
 void qdot_code_zero(qdot_generator *g);
 
@@ -144,7 +163,7 @@ void qdot_code_zero(qdot_generator *g);
  * without waits of their own. Sums of products being known. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_code_fold(qdot_generator *g);
 /* Where the product of two factors stands that no order changes. */
-qdot_x86_rm qdot_code_composed(qdot_generator *g, qdot_x86_rm a, qdot_x86_rm b);
+qdot_operand qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b);
 
 /* Order g->k of unknowns. */
 void qdot_code_solve(qdot_generator *g, size_t block);
@@ -165,36 +184,37 @@ qdot_code_row(const qdot_generator *g, const double *row)
     return qdot_taylor_row(g->t, row);
 }
 
-static inline qdot_x86_rm
+static inline qdot_operand
 qdot_code_coefficient(const qdot_generator *g, uint32_t row, int k)
 {
     const int32_t at = (int32_t)(8 * (row * g->t->stride));
 
     if (k > QDOT_CODE_ANY / 2)
-        return qdot_x86_at(QDOT_X86_R8, at + 8 * (k - QDOT_CODE_ANY));
-    return qdot_x86_at(QDOT_X86_RDI, at + 8 * k);
+        return qdot_asm_at(QDOT_ASM_ROWS_NOW, at + 8 * (k - QDOT_CODE_ANY));
+    return qdot_asm_at(QDOT_ASM_ROWS, at + 8 * k);
 }
 
-static inline qdot_x86_rm
+static inline qdot_operand
 qdot_code_c(const qdot_generator *g, const qdot_taylor_step *s)
 {
-    return qdot_x86_at(QDOT_X86_RSI,
-                       (int32_t)((size_t)(s - g->t->steps) * sizeof *s
-                                 + offsetof(qdot_taylor_step, c)));
+    return qdot_asm_at(
+        QDOT_ASM_CONSTANTS,
+        (int32_t)((size_t)(s - g->t->steps) * sizeof *s + offsetof(qdot_taylor_step, c)));
 }
 
-static inline qdot_x86_rm
+static inline qdot_operand
 qdot_code_work(size_t i)
 {
-    return qdot_x86_at(QDOT_X86_RDX, (int32_t)(8 * i));
+    return qdot_asm_at(QDOT_ASM_WORK, (int32_t)(8 * i));
 }
 
 /* Of a table what it has for order k. */
-static inline qdot_x86_rm
+static inline qdot_operand
 qdot_code_entry(size_t table, int k)
 {
     if (k > QDOT_CODE_ANY / 2)
-        return qdot_x86_at(QDOT_X86_R9, (int32_t)(8 * table) + 8 * (k - QDOT_CODE_ANY));
+        return qdot_asm_at(QDOT_ASM_WORK_NOW,
+                           (int32_t)(8 * table) + 8 * (k - QDOT_CODE_ANY));
     return qdot_code_work(table + (size_t)k);
 }
 

@@ -155,6 +155,20 @@ qdot_taylor_begin_links(qdot_taylor *t, double unit)
 }
 
 void
+qdot_taylor_order_links(qdot_taylor *t, int k)
+{
+    qdot_taylor_function *function;
+
+    if (k == 0) {
+        qdot_taylor_begin_links(t, t->unit);
+        return;
+    }
+    function = functions()[k][QDOT_T_LINK];
+    for (size_t l = 0; l < t->n_links; l++)
+        function(t->steps + t->length + l, t->kernels);
+}
+
+void
 qdot_taylor_begin(qdot_taylor *t, double unit)
 {
     if (t->code && t->n_blocks == 0) {

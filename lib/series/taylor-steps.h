@@ -26,7 +26,7 @@ struct qdot_taylor_drawn {
     double near, far, chance; /* of the far one */
 };
 
-/* Unknowns, solved for at every order (qdot_taylor_solve). */
+/* Unknowns of explicit equations, solved for at every order (taylor-motion.h). */
 typedef struct {
     uint32_t i; /* in row i M times a */
     const double *M, *a;
@@ -70,10 +70,12 @@ struct qdot_taylor {
     bool refused;                  /* none is to be written */
 };
 
-/* By `most` orders, with room for `unknowns` rows and for `more` doubles behind all of them. */
+/* By `most` orders, with room for `spare` rows and for `more` doubles behind all of them. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_settle(qdot_taylor *t, const qdot_program *p,
-                                               int most, size_t unknowns, size_t more,
+                                               int most, size_t spare, size_t more,
                                                bool shaken);
+/* Blocks of the motion's explicit equations. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_solve_motion(qdot_taylor *t, int solved);
 static inline double *
 qdot_taylor_place(const qdot_taylor *t, qdot_program_row r)
 {
@@ -92,6 +94,8 @@ qdot_taylor_row(const qdot_taylor *t, const double *row)
 void qdot_taylor_changes_free(qdot_taylor *t);
 /* Order k is being evaluated. */
 void qdot_taylor_changes_stale(qdot_taylor *t, int k);
+/* Of what is linked that order which follows from order k. */
+void qdot_taylor_order_links(qdot_taylor *t, int k);
 /* All steps of a motion, each at order k + its lead. */
 void qdot_taylor_order_leading(qdot_taylor *t, int k);
 /* The steps of a motion that are kept are to follow changes. A row's order k becomes by so much

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "machine/x86.h"
+#include "machine/asm.h"
 
 #if defined __x86_64__ && defined __LP64__ && (defined __unix__ || defined __APPLE__)
 #define CAN_RUN
@@ -91,9 +91,9 @@ static void
 put_all(const qdot_taylor *t, uint32_t *to)
 {
     const uint32_t words[OF_ALL] = {
-        (uint32_t)t->rows,    (uint32_t)t->stride,  (uint32_t)t->moving,
-        (uint32_t)t->still,   (uint32_t)t->length,  (uint32_t)t->n_links,
-        (uint32_t)t->n_blocks, (uint32_t)t->outputs, (uint32_t)qdot_x86_kind()};
+        (uint32_t)t->rows,     (uint32_t)t->stride,  (uint32_t)t->moving,
+        (uint32_t)t->still,    (uint32_t)t->length,  (uint32_t)t->n_links,
+        (uint32_t)t->n_blocks, (uint32_t)t->outputs, (uint32_t)qdot_asm_kind()};
 
     memcpy(to, words, sizeof words);
     to += OF_ALL;

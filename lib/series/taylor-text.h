@@ -19,7 +19,7 @@
 /* What divides the orders of an expansion among loops (taylor-code.c). */
 typedef struct {
     int lanes, lag;
-    bool as_they_stand, narrow;
+    bool as_they_stand;
 } qdot_taylor_loops;
 
 typedef struct {

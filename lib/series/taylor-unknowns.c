@@ -1,75 +1,105 @@
-/* taylor-unknowns.c -- rows that a program solves for at every order. */
+/* taylor-unknowns.c -- unknowns of explicit equations: couplings of a motion, block by block. */
+#include <string.h>
+
 #include "base/memory.h"
+#include "series/taylor-motion.h"
 #include "series/taylor-steps.h"
-#include "series/taylor.h"
 
-static double *
-spare_row(qdot_taylor *t)
+/* Empty, for n unknowns with up to `count` couplings. */
+static qdot_status
+add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor_block **block)
 {
-    return t->coefficients + t->spare++ * t->stride;
-}
-
-qdot_status
-qdot_taylor_solve_entries(qdot_taylor *t, const qdot_taylor_equations *equations,
-                          double *const **a, double **matrices)
-{
-    const size_t n = equations->n;
     size_t capacity = t->n_blocks;
     qdot_taylor_block *b;
 
-    if (t->spare + 2 * n > t->rows)
-        return qdot_fail(QDOT_EINVAL, "there is no room for %zu unknowns", n);
     QDOT_TRY(qdot_grow(&t->blocks, &capacity, capacity + 1, sizeof *t->blocks));
-    b = t->blocks + t->n_blocks++;
-    *b = (qdot_taylor_block){.n = n, .solved = equations->solved};
+    *block = b = t->blocks + t->n_blocks++;
+    *b = (qdot_taylor_block){.n = n, .solved = solved};
     b->f = qdot_calloc(n, sizeof *b->f);
     b->a = qdot_calloc(2 * n, sizeof *b->a);
-    b->couplings = qdot_calloc(equations->count + 1, sizeof *b->couplings);
+    b->couplings = qdot_calloc(count + 1, sizeof *b->couplings);
     b->matrices = qdot_calloc(2 * n * n, sizeof *b->matrices);
     if (!b->f || !b->a || !b->couplings || !b->matrices)
         return QDOT_ENOMEM;
     b->r = b->a + n;
-    for (size_t i = 0; i < 2 * n; i++)
-        b->a[i] = spare_row(t);
-    for (size_t i = 0; i < n; i++)
-        b->f[i] = t->output[equations->f[i]];
-    for (size_t k = 0; k < equations->count; k++) {
-        const qdot_taylor_entry *e = equations->entries + k;
-
-        if (!t->constant[e->output])
-            b->couplings[b->n_couplings++] =
-                (qdot_taylor_coupling){(uint32_t)e->i, t->output[e->output], b->a[e->j]};
-    }
-    *a = b->a;
-    *matrices = b->matrices;
     return QDOT_OK;
 }
 
-/* Rows of the lower triangle, and of what it stands for above. */
+/* Entry (i, j) of K times unknown j, if it moves. */
 static void
-whole_matrix(size_t n, const size_t *M, qdot_taylor_entry *to)
+count_coupling(const qdot_motion *m, const qdot_motion_entry *e, size_t *rows)
 {
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) {
-            const size_t low = i < j ? i : j, high = i < j ? j : i;
+    if (m->program.rows.at[e->at].still)
+        return;
+    rows[e->i]++;
+    if (e->i != e->j)
+        rows[e->j]++;
+}
 
-            *to++ = (qdot_taylor_entry){i, j, M[high * (high + 1) / 2 + low]};
-        }
+static void
+couple(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry *e, size_t *next)
+{
+    const qdot_motion *m = t->motion;
+    const double *M = qdot_taylor_place(t, e->at);
+
+    if (m->program.rows.at[e->at].still)
+        return;
+    b->couplings[next[e->i]++] = (qdot_taylor_coupling){e->i, M, b->a[e->j]};
+    if (e->i != e->j)
+        b->couplings[next[e->j]++] = (qdot_taylor_coupling){e->j, M, b->a[e->i]};
+}
+
+/* Entries of a motion are those of its first block, then of the next: *entry is where those of
+ * block k begin, then where they end. rows [solved + 1] is scratch. */
+static qdot_status
+solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
+{
+    const qdot_motion *m = t->motion;
+    const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1];
+    const size_t n = end - first, from = *entry;
+    size_t count = 0;
+    qdot_taylor_block *b;
+
+    memset(rows, 0, (m->solved.n + 1) * sizeof *rows);
+    while (*entry < m->entries.n && m->entries.at[*entry].i < end) {
+        qdot_motion_entry e = m->entries.at[(*entry)++];
+
+        e.i -= first;
+        e.j -= first;
+        count_coupling(m, &e, rows);
+    }
+    for (size_t i = 0; i < n; i++) { /* how many become where they begin */
+        const size_t of_row = rows[i];
+
+        rows[i] = count;
+        count += of_row;
+    }
+    QDOT_TRY(add_block(t, n, count, solved, &b));
+    b->n_couplings = count;
+    for (size_t i = 0; i < n; i++) {
+        b->f[i] = qdot_taylor_place(t, m->right.at[first + i]);
+        b->a[i] = qdot_taylor_place(t, m->unknowns.at[m->solved.at[first + i]].row);
+        b->r[i] = t->coefficients + t->spare++ * t->stride;
+    }
+    for (size_t i = from; i < *entry; i++) {
+        qdot_motion_entry e = m->entries.at[i];
+
+        e.i -= first;
+        e.j -= first;
+        couple(t, b, &e, rows);
+    }
+    return QDOT_OK;
 }
 
 qdot_status
-qdot_taylor_solve(qdot_taylor *t, size_t n, const size_t *f, const size_t *M, int solved,
-                  double *const **a, double **matrices)
+qdot_taylor_solve_motion(qdot_taylor *t, int solved)
 {
-    qdot_taylor_entry *entries = qdot_calloc(n * n, sizeof *entries);
-    qdot_status status;
+    const qdot_motion *m = t->motion;
+    size_t *rows = qdot_calloc(m->solved.n + 1, sizeof *rows), entry = 0;
+    qdot_status status = rows ? QDOT_OK : QDOT_ENOMEM;
 
-    if (!entries)
-        return QDOT_ENOMEM;
-    if (M)
-        whole_matrix(n, M, entries);
-    status = qdot_taylor_solve_entries(
-        t, &(qdot_taylor_equations){n, f, M ? n * n : 0, entries, solved}, a, matrices);
-    qdot_free(entries);
+    for (size_t k = 0; k + 1 < m->blocks.n && status == QDOT_OK; k++)
+        status = solve_block(t, k, solved, &entry, rows);
+    qdot_free(rows);
     return status;
 }

@@ -8,20 +8,20 @@
 #include "tape/shake.h"
 #include "series/taylor-code.h"
 #include "series/taylor-steps.h"
-#include "machine/x86.h"
+#include "machine/asm.h"
 
 /* --- building ----------------------------------------------------------------------- */
 
 enum { LINE = 8 }; /* doubles of a line of the cache */
 
 static qdot_status
-allocate(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns, size_t more)
+allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, size_t more)
 {
     /* an odd number of cache lines apart, so that rows do not share a few sets */
     t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
     t->per_row = ((uint64_t)1 << 32) / t->stride + 1;
     t->spare = p->rows.n;
-    t->rows = t->spare + 2 * unknowns;
+    t->rows = t->spare + spare;
     t->inputs = p->inputs;
     t->outputs = p->outputs.n;
     t->length = p->length;
@@ -65,10 +65,10 @@ set_constants(qdot_taylor *t, const qdot_program *p, bool shaken)
 }
 
 qdot_status
-qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t unknowns,
+qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare,
                    size_t more, bool shaken)
 {
-    QDOT_TRY(allocate(t, p, most, unknowns, more));
+    QDOT_TRY(allocate(t, p, most, spare, more));
     set_constants(t, p, shaken);
     for (size_t i = 0; i < p->steps.n; i++) {
         const qdot_program_step *s = p->steps.at + i;
@@ -98,8 +98,7 @@ qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t unkno
 }
 
 static qdot_status
-make(const qdot_tape *tape, int most, size_t moving, size_t unknowns,
-     qdot_taylor **taylor)
+make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
 {
     qdot_program program;
     qdot_taylor *t;
@@ -110,7 +109,7 @@ make(const qdot_tape *tape, int most, size_t moving, size_t unknowns,
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
     QDOT_TRY(qdot_program_init(tape, moving, false, &program));
     t = qdot_calloc(1, sizeof *t);
-    status = t ? qdot_taylor_settle(t, &program, most, unknowns, 0, false) : QDOT_ENOMEM;
+    status = t ? qdot_taylor_settle(t, &program, most, 0, 0, false) : QDOT_ENOMEM;
     qdot_program_clear(&program);
     if (status != QDOT_OK) {
         qdot_taylor_free(t);
@@ -123,19 +122,19 @@ make(const qdot_tape *tape, int most, size_t moving, size_t unknowns,
 qdot_status
 qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
 {
-    return make(tape, most, tape->inputs, 0, taylor);
+    return make(tape, most, tape->inputs, taylor);
 }
 
 qdot_status
 qdot_taylor_new_moving(const qdot_tape *tape, bool shaken, int most, size_t moving,
-                       size_t unknowns, qdot_taylor **taylor)
+                       qdot_taylor **taylor)
 {
     qdot_tape *copy = NULL;
     qdot_status status;
 
     if (shaken)
         QDOT_TRY(qdot_tape_shake(tape, &copy));
-    status = make(copy ? copy : tape, most, moving, unknowns, taylor);
+    status = make(copy ? copy : tape, most, moving, taylor);
     qdot_tape_free(copy);
     return status;
 }
@@ -143,7 +142,7 @@ qdot_taylor_new_moving(const qdot_tape *tape, bool shaken, int most, size_t movi
 qdot_status
 qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken, int most, qdot_taylor **taylor)
 {
-    return qdot_taylor_new_moving(tape, shaken, most, tape->inputs, 0, taylor);
+    return qdot_taylor_new_moving(tape, shaken, most, tape->inputs, taylor);
 }
 
 static void
@@ -193,7 +192,7 @@ qdot_taylor_link(qdot_taylor *t, size_t i, size_t twice, const double *from)
 bool
 qdot_taylor_may_be_code(void)
 {
-    return qdot_x86_is_here();
+    return qdot_asm_is_here();
 }
 
 const char *
@@ -201,7 +200,7 @@ qdot_taylor_code_kind(void)
 {
     static const char *const names[] = {"SSE2", "AVX2", "AVX-512"};
 
-    return names[qdot_x86_kind()];
+    return names[qdot_asm_kind()];
 }
 
 bool

@@ -27,11 +27,10 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_new(const qdot_tape *tape, int most,
 QDOT_MUST_CHECK qdot_status qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken,
                                                    int most, qdot_taylor **taylor);
 /* The same where the inputs from `moving` on are numbers: they have no coefficients but of
- * order 0, and what is made of them alone is computed there only. There is room to solve for
- * `unknowns` rows. */
+ * order 0, and what is made of them alone is computed there only. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_new_moving(const qdot_tape *tape, bool shaken,
                                                    int most, size_t moving,
-                                                   size_t unknowns, qdot_taylor **taylor);
+                                                   qdot_taylor **taylor);
 void qdot_taylor_free(qdot_taylor *taylor);
 
 /* Coefficients by order of input i, to be written by the caller before each order. The
@@ -64,40 +63,6 @@ void qdot_taylor_order(qdot_taylor *taylor, int k);
  * input i; its order k + 2 is there with k + 1 of that, an order before it is wanted. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size_t twice,
                                              const double *from);
-
-/* n further rows a, the unknowns of
- *
- *     sum_j M_ij a_j = f_i,   so   M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j},
- *
- * M [n(n+1)/2] the lower triangle by rows (NULL: only numbers) and f [n] being outputs by
- * their numbers. *a [n] are the rows, whose order 0 is the caller's to solve for; so are
- * all others where an expansion is not machine code, and code is all that this is for.
- * *matrices [2 n n] is to be filled before each expansion: the Cholesky factor of M_0 by
- * rows, by which orders up to `solved` are found; M_0^-1 by rows, by which the others. Both are the program's. Before anything is linked. Errors: QDOT_EINVAL
- * (no room for so many), QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_solve(qdot_taylor *taylor, size_t n,
-                                              const size_t *f, const size_t *M,
-                                              int solved, double *const **a,
-                                              double **matrices);
-
-/* Entry (i, j) of a matrix: an output by its number. */
-typedef struct {
-    size_t i, j, output;
-} qdot_taylor_entry;
-
-typedef struct {
-    size_t n;
-    const size_t *f; /* [n] outputs */
-    size_t count;
-    const qdot_taylor_entry *entries; /* [count] */
-    int solved;
-} qdot_taylor_equations;
-
-/* The same for any M: entries [count] by rows i ascending, those left out being numbers that
- * never change. By M_0^-1 alone where `solved` is 0 or less; else M is as above. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_solve_entries(qdot_taylor *taylor,
-                                                      const qdot_taylor_equations *equations,
-                                                      double *const **a, double **matrices);
 
 /* Order 0 of all that is computed, and what is linked. Then orders `from` to `to`, each
  * followed by what is linked to it in the order in which it was; `to` below the program's

@@ -104,9 +104,11 @@ choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
     const qdot_panel *panel = &d->figure->panels[i];
     const bool space = qdot_figure_is_space(panel);
     qdot_figure_view v;
+    double of_path; /* between the tics of a path, whose shorter axis has some too */
     int power = 0;
 
     QDOT_TRY(qdot_figure_get_view(d->figure, i, &v));
+    of_path = fmin(fmax(fmin(v.length[0], v.length[1]) / 3, 1.3), space ? 2.5 : 2.0);
     for (int k = 0; k < 3; k++) {
         int own = qdot_figure_power(v.least[k], v.most[k]);
 
@@ -114,7 +116,7 @@ choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
             power = own;
     }
     for (int k = 0; k < 3; k++) {
-        double steps = panel->equal ? v.length[k] / (space ? 2.5 : 2.0)
+        double steps = panel->equal ? v.length[k] / of_path
                                     : fmin(fmax(v.length[k] / apart[k], 2), 12);
 
         axes[k] = qdot_figure_axis_of(v.least[k], v.most[k], v.log[k], steps,
@@ -170,7 +172,7 @@ add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
         qdot_text_add(d->script, "set key at graph 1, graph ");
         qdot_text_double(d->script, 1 + 0.15 / fmax(high, 0.1), 6);
         qdot_text_format(d->script,
-                         " right bottom horizontal maxrows %zu Left reverse samplen 2.5\n",
+                         " right bottom vertical maxrows %zu Left reverse samplen 2.5\n",
                          rows);
     }
 }

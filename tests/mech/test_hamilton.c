@@ -93,7 +93,7 @@ routhian_of_the_spherical_pendulum_body(kit *k)
     particle(k, "bob", "m",
              "(l*sin(theta)*cos(phi), l*sin(theta)*sin(phi), -l*cos(theta))");
     gravity(k, "(0, 0, -g)");
-    R = qdot_hamilton_routhian(k->scene);
+    R = qdot_hamilton_routhian(k->scene, 0, NULL);
     want = qdot_sub(k->pool, E(k, "m*l^2*theta'^2/2 + m*g*l*cos(theta)"),
                     qdot_div(k->pool, qdot_pow_int(k->pool, P(k, "phi"), 2),
                              E(k, "2*m*l^2*sin(theta)^2")));
@@ -101,11 +101,32 @@ routhian_of_the_spherical_pendulum_body(kit *k)
 }
 TEST(routhian_of_the_spherical_pendulum)
 
+/* Over all coordinates it is -H. */
+static void
+routhian_over_named_coordinates_body(kit *k)
+{
+    qdot_expr q[2], R;
+
+    coords(k, "r theta");
+    particle(k, "bob", "m", "(r*cos(theta), r*sin(theta))");
+    assert_int_equal(qdot_scene_potential(k->scene, E(k, "k*r^2/2")), QDOT_OK);
+    q[0] = E(k, "r");
+    q[1] = E(k, "theta");
+    R = qdot_hamilton_routhian(k->scene, 1, q);
+    same_at(k, R,
+            qdot_sub(k->pool, E(k, "m*r^2*theta'^2/2 - k*r^2/2"),
+                     qdot_div(k->pool, qdot_pow_int(k->pool, P(k, "r"), 2), E(k, "2*m"))),
+            __LINE__);
+    R = qdot_hamilton_routhian(k->scene, 2, q);
+    same_at(k, R, qdot_neg(k->pool, qdot_hamilton_hamiltonian(k->scene)), __LINE__);
+}
+TEST(routhian_over_named_coordinates)
+
 static void
 without_a_cyclic_coordinate_it_is_L_body(kit *k)
 {
     double_pendulum(k);
-    same_at(k, qdot_hamilton_routhian(k->scene), qdot_mech_lagrangian(k->scene),
+    same_at(k, qdot_hamilton_routhian(k->scene, 0, NULL), qdot_mech_lagrangian(k->scene),
             __LINE__);
 }
 TEST(without_a_cyclic_coordinate_it_is_L)
@@ -131,6 +152,7 @@ main(void)
         cmocka_unit_test(hamiltons_equations_hold),
         cmocka_unit_test(magnetic_momentum_is_taken_off),
         cmocka_unit_test(routhian_of_the_spherical_pendulum),
+        cmocka_unit_test(routhian_over_named_coordinates),
         cmocka_unit_test(without_a_cyclic_coordinate_it_is_L),
         cmocka_unit_test(what_has_no_transform_is_refused),
     };

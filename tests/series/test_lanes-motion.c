@@ -98,7 +98,7 @@ begin_one(const qdot_motion *m, size_t l)
 {
     qdot_taylor *t;
 
-    assert_int_equal(qdot_taylor_of_motion(m, false, MOST, &t), QDOT_OK);
+    assert_int_equal(qdot_taylor_of_motion(m, false, MOST, 0, &t), QDOT_OK);
     qdot_taylor_set_unit(t, unit_of(l));
     qdot_taylor_input(t, THETA)[0] = start(l);
     qdot_taylor_input(t, THETA)[1] = -0.3 * unit_of(l);

@@ -16,8 +16,8 @@
 #include "expr/calculus.h"
 #include "num/kinds.h"
 #include "num/series.h"
-#include "series/taylor.h"
-#include "machine/x86.h"
+#include "series/taylor-motion.h"
+#include "machine/asm.h"
 
 /* Inputs of q'' = e(q, p, q', p', t, m): two coordinates, their velocities, the time, a
  * number. */
@@ -60,7 +60,7 @@ linked(const qdot_tape *tape, int to, bool code)
 {
     qdot_taylor *t;
 
-    assert_int_equal(qdot_taylor_new_moving(tape, false, QDOT_SERIES_MOST, MOVING, 0, &t),
+    assert_int_equal(qdot_taylor_new_moving(tape, false, QDOT_SERIES_MOST, MOVING, &t),
                      QDOT_OK);
     assert_int_equal(qdot_taylor_link(t, V, Q, qdot_taylor_output(t, 0)), QDOT_OK);
     assert_int_equal(qdot_taylor_link(t, W, SIZE_MAX, qdot_taylor_output(t, 1)), QDOT_OK);
@@ -168,7 +168,7 @@ there_is_code_or_a_reason(void **state)
     if (qdot_taylor_code_bytes(t, &why) == 0)
         print_message("no machine code: %s\n", why);
     assert_true((qdot_taylor_code_bytes(t, &why) > 0) == (why == NULL));
-    assert_true(qdot_x86_is_here() != (why && strstr(why, "x86-64")));
+    assert_true(qdot_asm_is_here() != (why && strstr(why, "x86-64")));
     qdot_taylor_free(t);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
@@ -422,8 +422,17 @@ typedef struct {
     size_t n;
     bool constant; /* M has numbers only */
     double M[UNKNOWNS][UNKNOWNS], L[UNKNOWNS][UNKNOWNS]; /* M_0 and its factor */
-    double *const *a, *matrices;
+    double *matrices;
+    qdot_motion motion;
+    qdot_program_row f[UNKNOWNS + UNKNOWNS * (UNKNOWNS + 1) / 2]; /* outputs: f, then M by rows */
 } equations;
+
+/* Row of unknown i, order by order. */
+static double *
+unknown(const equations *e, size_t i)
+{
+    return (double *)qdot_taylor_series(e->t, e->motion.unknowns.at[i].row);
+}
 
 static size_t
 entry(const equations *e, size_t i, size_t j)
@@ -432,26 +441,53 @@ entry(const equations *e, size_t i, size_t j)
 }
 
 static void
+make_motion(equations *e, const qdot_tape *tape)
+{
+    qdot_motion *m = &e->motion;
+    qdot_program_row in[INPUTS], a[UNKNOWNS];
+    qdot_program_builder *b;
+
+    assert_int_equal(qdot_program_begin(INPUTS, MOVING, false, &m->program, &b), QDOT_OK);
+    for (qdot_program_row i = 0; i < INPUTS; i++)
+        in[i] = i;
+    qdot_program_append(b, tape, in, e->f);
+    for (size_t i = 0; i < e->n + e->n * (e->n + 1) / 2; i++)
+        assert_int_equal(qdot_vec_push(&m->program.outputs, e->f[i]), QDOT_OK);
+    for (size_t i = 0; i < e->n; i++)
+        a[i] = qdot_program_unknown(b);
+    for (uint32_t i = 0; i < e->n && !e->constant; i++)
+        for (uint32_t j = 0; j <= i; j++)
+            assert_int_equal(
+                qdot_vec_push(&m->entries, ((qdot_motion_entry){i, j, e->f[entry(e, i, j)]})),
+                QDOT_OK);
+    for (size_t i = 0; i < e->n; i++) {
+        const qdot_motion_unknown u = {
+            .row = a[i],
+            .once = i == 0 ? V : i + 1 == e->n ? W : QDOT_NO_ROW,
+            .twice = i == 0 ? Q : QDOT_NO_ROW};
+
+        /* what writes the equation is left out in any case */
+        m->written++;
+        assert_int_equal(qdot_vec_push(&m->right, e->f[i]), QDOT_OK);
+        assert_int_equal(
+            qdot_motion_solve(m, u, qdot_program_operation(b, QDOT_OP_NEG, a[i], 0, 0)), QDOT_OK);
+    }
+    assert_int_equal(qdot_motion_end_block(m), QDOT_OK);
+    if (e->n == 1)
+        assert_int_equal(qdot_motion_give(m, a[0], W, QDOT_NO_ROW), QDOT_OK);
+    assert_int_equal(qdot_motion_give(m, W, P, QDOT_NO_ROW), QDOT_OK);
+    assert_int_equal(qdot_motion_complete(m, b, QDOT_OK), QDOT_OK);
+}
+
+static void
 make_equations(equations *e, const qdot_tape *tape, size_t n, bool constant, int to,
                bool code)
 {
-    size_t outputs[UNKNOWNS + UNKNOWNS * (UNKNOWNS + 1) / 2];
-
-    for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++)
-        outputs[i] = i;
     *e = (equations){.n = n, .constant = constant};
+    make_motion(e, tape);
     assert_int_equal(
-        qdot_taylor_new_moving(tape, false, QDOT_SERIES_MOST, MOVING, n, &e->t), QDOT_OK);
-    assert_int_equal(qdot_taylor_solve(e->t, n, outputs, constant ? NULL : outputs + n,
-                                       SOLVED, &e->a, &e->matrices),
-                     QDOT_OK);
-    assert_int_equal(qdot_taylor_solve(e->t, 1, outputs, NULL, SOLVED, &e->a,
-                                       &e->matrices),
-                     QDOT_EINVAL);
-    assert_int_equal(qdot_taylor_link(e->t, V, Q, e->a[0]), QDOT_OK);
-    assert_int_equal(qdot_taylor_link(e->t, W, SIZE_MAX, e->a[n - 1]), QDOT_OK);
-    assert_int_equal(qdot_taylor_link(e->t, P, SIZE_MAX, qdot_taylor_input(e->t, W)),
-                     QDOT_OK);
+        qdot_taylor_of_motion(&e->motion, false, QDOT_SERIES_MOST - 1, SOLVED, &e->t), QDOT_OK);
+    e->matrices = qdot_taylor_matrices(e->t, 0);
     if (code)
         assert_int_equal(qdot_taylor_prepare(e->t, to), QDOT_OK);
 }
@@ -506,11 +542,11 @@ solve_order(const equations *e, int k)
         x[i] = qdot_taylor_output(e->t, i)[k];
         for (size_t j = 0; j < e->n && !e->constant; j++)
             for (int m = 1; m <= k; m++)
-                x[i] -= qdot_taylor_output(e->t, entry(e, i, j))[m] * e->a[j][k - m];
+                x[i] -= qdot_taylor_output(e->t, entry(e, i, j))[m] * unknown(e, j)[k - m];
     }
     solve_zero(e, x);
     for (size_t i = 0; i < e->n; i++)
-        e->a[i][k] = x[i];
+        unknown(e, i)[k] = x[i];
 }
 
 static void
@@ -537,8 +573,8 @@ expand_equations(equations *e, int to, double unit, double moved, bool code)
 
         qdot_taylor_order(e->t, k);
         solve_order(e, k);
-        v[k + 1] = unit / (k + 1) * e->a[0][k];
-        w[k + 1] = unit / (k + 1) * e->a[e->n - 1][k];
+        v[k + 1] = unit / (k + 1) * unknown(e, 0)[k];
+        w[k + 1] = unit / (k + 1) * unknown(e, e->n - 1)[k];
         qdot_taylor_input(e->t, Q)[k + 2] = unit / (k + 2) * v[k + 1];
         qdot_taylor_input(e->t, P)[k + 1] = unit / (k + 1) * w[k];
     }
@@ -599,8 +635,10 @@ unknowns_agree(void **state)
                                          qdot_taylor_code_bytes(of[l], &why) > 0);
                     compare(of, to, constant ? "constant unknowns" : "unknowns");
                 }
-                for (int l = 0; l < 3; l++)
+                for (int l = 0; l < 3; l++) {
                     qdot_taylor_free(of[l]);
+                    qdot_motion_clear(&e[l].motion);
+                }
             }
         qdot_tape_free(tape);
     }
@@ -624,7 +662,7 @@ main(void)
 
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
 
-    for (size_t kind = qdot_x86_kind(); kind > 0; kind--) {
+    for (size_t kind = qdot_asm_kind(); kind > 0; kind--) {
         qdot_kind_limit(kind - 1);
         failed += cmocka_run_group_tests(tests, NULL, NULL);
     }

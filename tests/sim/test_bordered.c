@@ -6,6 +6,7 @@
 #include "sim/course/bind.h"
 #include "sim/form/bordered.h"
 #include "sim/form/constrained-series.h"
+#include "sim/form/derived.h"
 #include "sim/model/power-quotient.h"
 #include "sim/model/rates.h"
 #include "sim/plan/plan.h"
@@ -131,6 +132,8 @@ static void
 both_begin(both *b, fixture *f)
 {
     must(qdot_plan_new(f->scene, &f->request, &b->plan));
+    if (!b->plan->motion) /* another form is taken */
+        must(qdot_plan_make_motion(b->plan));
     must(qdot_constrained_series_new(b->plan, false, &b->whole));
     b->series[1] = qdot_constrained_series_get(b->whole);
     must(qdot_bordered_new(b->plan, false, b->series[1], &b->bordered));

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "sim/form/canonical.h"
-#include "sim/form/direct.h"
+#include "sim/form/motion-series.h"
 #include "sim/form/leading.h"
 #include "sim/form/precise-bind.h"
 #include "sim/form/residual.h"
@@ -105,7 +105,7 @@ agree(fixture *f, const double *y, double t)
 {
     place at = {.y = y, .t = t};
     qdot_precise_bind *derived, *shifted;
-    qdot_direct *direct;
+    qdot_motion_series *direct;
     const qdot_ode_series *series;
 
     f->request.method = "taylor";
@@ -118,8 +118,8 @@ agree(fixture *f, const double *y, double t)
     at.plan->residual = at.residual;
     shifted = expand_precise(&at);
     precise_agree(derived, shifted);
-    must(qdot_direct_new(at.plan, false, &direct));
-    series = qdot_direct_series(direct);
+    must(qdot_motion_series_new(at.plan, false, &direct));
+    series = qdot_motion_series_get(direct);
     must(series->begin(t, y, 0.125, series->user));
     must(series->extend(QDOT_ODE_LEADING_MOST + 1, series->user));
     leading_agrees(&at, series, derived);
@@ -128,7 +128,7 @@ agree(fixture *f, const double *y, double t)
     qdot_residual_free(at.residual);
     qdot_precise_bind_free(derived);
     qdot_precise_bind_free(shifted);
-    qdot_direct_free(direct);
+    qdot_motion_series_free(direct);
     qdot_plan_free(at.plan);
 }
 

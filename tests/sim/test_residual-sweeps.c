@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "sim/form/direct.h"
+#include "sim/form/motion-series.h"
 #include "sim/form/residual-sweeps.h"
 #include "sim/plan/plan.h"
 
@@ -71,7 +71,7 @@ orders_agree(const found *at)
     double *y = qdot_calloc(2 * n, sizeof *y), *first = qdot_calloc(n, sizeof *first);
     double *w = qdot_calloc(at->residual->n_weights, sizeof *w), *q, lost;
     qdot_residual_sweeps *tree;
-    qdot_direct *direct;
+    qdot_motion_series *direct;
     qdot_taylor *places;
     const qdot_ode_series *a;
     size_t stride;
@@ -82,8 +82,8 @@ orders_agree(const found *at)
         first[i] = unit * y[n + i];
     for (size_t k = 0; k < at->residual->n_weights; k++)
         w[k] = at->residual->weights[k].w;
-    must(qdot_direct_new(p, false, &direct));
-    a = qdot_direct_series(direct);
+    must(qdot_motion_series_new(p, false, &direct));
+    a = qdot_motion_series_get(direct);
     must(a->begin(0, y, unit, a->user));
     must(a->extend(P, a->user));
     must(qdot_taylor_new(at->residual->places, 30, &places));
@@ -102,7 +102,7 @@ orders_agree(const found *at)
     qdot_residual_sweeps_rows(tree, P, 1 / unit, q, qdot_taylor_input(places, n), stride);
     compare(a, n, q, stride, P);
     qdot_residual_sweeps_free(tree);
-    qdot_direct_free(direct);
+    qdot_motion_series_free(direct);
     qdot_taylor_free(places);
     qdot_free(w);
     qdot_free(first);

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "sim/course/bind.h"
-#include "sim/form/direct.h"
+#include "sim/form/motion-series.h"
 #include "sim/model/momenta.h"
 #include "sim/plan/plan.h"
 #include "sim/plan/routh.h"
@@ -126,16 +126,16 @@ series_agree(const qdot_plan *plan, const double *y, double t)
     const qdot_ode_series *a, *b;
     const qdot_ode_following *following;
     qdot_ode_system system;
-    qdot_direct *direct;
+    qdot_motion_series *direct;
     qdot_bind *bind;
 
-    must(qdot_direct_new(plan, false, &direct));
+    must(qdot_motion_series_new(plan, false, &direct));
     must(qdot_bind_new(plan, false, &bind));
     system = qdot_bind_system(bind);
     following = system.following;
     assert_non_null(following);
     must(following->enter(t, y, NULL, following->user));
-    a = qdot_direct_series(direct);
+    a = qdot_motion_series_get(direct);
     b = system.series;
     must(a->begin(t, y, 0.125, a->user));
     must(a->extend(P, a->user));
@@ -153,7 +153,7 @@ series_agree(const qdot_plan *plan, const double *y, double t)
                 fail_msg("component %zu, order %d: %.17g and %.17g", i, k, x, z);
         }
     }
-    qdot_direct_free(direct);
+    qdot_motion_series_free(direct);
     qdot_bind_free(bind);
 }
 

@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "series/lanes-code.h"
-#include "sim/form/direct.h"
 #include "sim/form/motion-of-residual.h"
 #include "sim/form/motion-series.h"
 #include "sim/form/residual.h"
@@ -82,7 +81,7 @@ stages_agree(const qdot_plan *plan, const qdot_residual *residual,
     const char *why;
 
     must(qdot_motion_of_residual(plan, residual, &motion));
-    must(qdot_motion_series_new(plan, &motion, residual->masses, false, &stages));
+    must(qdot_motion_series_of_residual(plan, &motion, residual->masses, false, &stages));
     b = qdot_motion_series_get(stages);
     series_agree(a, b, 2 * plan->n, y, t, P);
     assert_int_equal(qdot_motion_series_code(stages, &why), 0);
@@ -108,23 +107,23 @@ static void
 forms_agree(fixture *f, const double *y, double t)
 {
     qdot_residual *residual;
-    qdot_direct *direct;
+    qdot_motion_series *direct;
     qdot_residual_series *series;
     qdot_plan *plan;
     const qdot_ode_series *a;
 
     f->request.method = "taylor";
     must(qdot_plan_new(f->scene, &f->request, &plan));
-    must(qdot_direct_new(plan, false, &direct));
+    must(qdot_motion_series_new(plan, false, &direct));
     must(qdot_residual_new(f->scene, plan, &residual));
     assert_non_null(residual);
     must(qdot_residual_series_new(plan, residual, false, &series));
-    a = qdot_direct_series(direct);
+    a = qdot_motion_series_get(direct);
     must(a->begin(t, y, 0.125, a->user));
     must(a->extend(P, a->user));
     series_agree(a, qdot_residual_series_get(series), 2 * plan->n, y, t, P);
     stages_agree(plan, residual, a, y, t);
-    qdot_direct_free(direct);
+    qdot_motion_series_free(direct);
     qdot_residual_series_free(series);
     qdot_residual_free(residual);
     qdot_plan_free(plan);

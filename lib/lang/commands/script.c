@@ -13,6 +13,7 @@
 #include "lang/answer/answer.h"
 #include "lang/commands/loop.h"
 #include "lang/commands/redirect.h"
+#include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
@@ -73,6 +74,18 @@ is_definition(const qdot_token *name, bool word)
     return qdot_token_is(next, "=");
 }
 
+/* Whether the token begins an operand, written as a word or a number. */
+static bool
+begins_operand(const qdot_token *token)
+{
+    static const char *const words[] = {"and", "or", "to", "when", "within", "for", "at"};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (qdot_token_is_word(token, words[i]))
+            return false;
+    return token->kind == QDOT_TOKEN_NAME || token->kind == QDOT_TOKEN_NUMBER;
+}
+
 /* Whether the statement's word is meant as a name here: `run*2`, a user's own `scene`. */
 static bool
 is_used_as_name(const qdot_session *session, const qdot_token *name,
@@ -84,6 +97,9 @@ is_used_as_name(const qdot_session *session, const qdot_token *name,
     bool declared = qdot_names_find(session->names, name->text) != NULL ||
                     qdot_names_is_family(session->names, name->text);
 
+    /* `hamiltonian` is a value; with an operand behind it, a statement */
+    if (!row->alone && qdot_quantity_find(row->word) != NULL)
+        return declared || !begins_operand(next);
     if (row->alone)
         return (next->kind != QDOT_TOKEN_END && !qdot_token_is_word(next, "at") &&
                 !(qdot_token_is_word(next, "to") && next[1].kind != QDOT_TOKEN_OPERATOR)) ||

@@ -239,6 +239,20 @@ call_poisson(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *valu
 #undef OF_PLACE
 #undef OF_FIELD
 
+static qdot_status
+call_routhian(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        if (!qdot_expr_is_coordinate(s->pool, args[i]))
+            return qdot_fail(QDOT_ETYPE, "routhian( ) takes coordinates");
+        for (uint32_t j = 0; j < i; j++)
+            if (args[j] == args[i])
+                return qdot_fail(QDOT_EINVAL, "`%.200s` stands twice",
+                                 qdot_expr_symbol(s->pool, args[i])->name);
+    }
+    return qdot_value_kind_give(s->pool, qdot_hamilton_routhian(s->scene, n, args), value);
+}
+
 static qdot_expr
 over_place(qdot_session *s, uint32_t n, const qdot_expr *args)
 {
@@ -332,6 +346,10 @@ call_form(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     {                                                                                    \
 #word, least, most, qdot_algebra_##word, usage, summary, example, 0, NULL        \
     }
+#define UNBUILT(least, most, word, usage, summary, example)                              \
+    {                                                                                    \
+        word, least, most, NULL, usage, summary, example, QDOT_BUILTIN_UNBUILT, NULL     \
+    }
 #define ELEMENTARY(word, ID, usage, summary, example)                                    \
     {                                                                                    \
 #word, ID##_LEAST, ID##_MOST, call_##ID, usage, summary, example, 0, NULL        \
@@ -407,6 +425,12 @@ static const qdot_builtin rows[] = {
     ALGEBRA(3, -1, series, QDOT_SERIES,
             "Taylor series about x = a, y = b: terms up to total degree n",
             "series(cos(t), t = 0, 4)"),
+    UNBUILT(2, 4, "integral", "integral(e, x) or integral(e, x, a, b)", "antiderivative, integral",
+            "integral(t^2, t)"),
+    UNBUILT(2, 2, "limit", "limit(e, x = a)", "limit of e as x tends to a",
+            "limit(sin(t)/t, t = 0)"),
+    UNBUILT(2, -1, "euler_lagrange", "euler_lagrange(L, y, x, t)",
+            "equations of a density in undefined functions", "euler_lagrange(L, y, x, t)"),
     ROW(1, 1, size, "size(e)", "number of operations in e", "size(t^2 + 1)"),
     ROW(1, 1, latex, "latex(e)", "e as a text in LaTeX; of a list one each",
         "latex(t^2)"),
@@ -461,6 +485,9 @@ static const qdot_builtin rows[] = {
     ROW(2, 2, poisson, "poisson(f, g)",
         "Poisson's bracket over the scene's coordinates q and momenta p[q]",
         "poisson(r, p[r])"),
+    ROW(1, -1, routhian, "routhian(phi, ...)",
+        "Routh's function L - sum p q' over these coordinates, their velocities replaced",
+        "routhian(phi)"),
     {"stability", 1, 1, call_stability, "stability(equilibria[k])",
      "what is proved of it: stable, unstable, stable_to_first_order, undecided; while "
      "parameters are free if(CONDITION, stable, undecided)",

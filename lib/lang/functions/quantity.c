@@ -49,6 +49,12 @@ coordinate(qdot_session *s, const char *name, qdot_expr index)
 
 /* --- energies, and what else is one expression of the scene --------------------------- */
 
+static qdot_expr
+cyclic_routhian(qdot_scene *s)
+{
+    return qdot_hamilton_routhian(s, 0, NULL);
+}
+
 /* The value of `call`, of a scene that has what `need` says. */
 #define OF_SCENE(word, need, call)                                                       \
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
@@ -62,7 +68,7 @@ OF_SCENE(T, need_motion, qdot_mech_kinetic)
 OF_SCENE(L, need_motion, qdot_mech_lagrangian)
 OF_SCENE(energy, need_motion, qdot_mech_energy)
 OF_SCENE(hamiltonian, need_coordinates, qdot_hamilton_hamiltonian)
-OF_SCENE(routhian, need_coordinates, qdot_hamilton_routhian)
+OF_SCENE(routhian, need_coordinates, cyclic_routhian)
 OF_SCENE(virtual_work, need_coordinates, qdot_mech_virtual_work)
 OF_SCENE(conserved, need_coordinates, qdot_noether_conserved)
 #undef OF_SCENE
@@ -418,8 +424,11 @@ static const qdot_quantity rows[] = {
     {"hamiltonian", 0, 0, get_hamiltonian, "hamiltonian",
      "Hamilton's function H(q, p, t); beside it p[theta] is the independent momentum",
      "diff(hamiltonian, p[theta])", false, NULL},
-    {"routhian", 0, 0, get_routhian, "routhian",
-     "Routh's function L - sum p q', the cyclic velocities replaced by their momenta",
+    {"H", 0, 0, get_hamiltonian, "H", "Hamilton's function (also `hamiltonian`)", "H", false,
+     NULL},
+    {"routhian", 0, 0, get_routhian, "routhian or routhian(phi)",
+     "Routh's function L - sum p q', the velocities of cyclic coordinates, or of those named, "
+     "replaced by their momenta",
      "routhian", false, NULL},
     {"reactions", 0, 0, get_reactions, "reactions",
      "forces of the constraints on each particle and body, by their multipliers",

@@ -396,7 +396,7 @@ is_canonical(const qdot_session *s, const qdot_token *t)
     if (t->kind == QDOT_TOKEN_NAME) {
         entry = qdot_names_find(s->names, t->text);
         if (entry == NULL)
-            return strcmp(t->text, "hamiltonian") == 0 ||
+            return strcmp(t->text, "hamiltonian") == 0 || strcmp(t->text, "H") == 0 ||
                    strcmp(t->text, "routhian") == 0 || strcmp(t->text, "poisson") == 0;
         e = entry->value;
     } else if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "%") == 0) {

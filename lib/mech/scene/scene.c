@@ -99,6 +99,15 @@ need_free_of(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
     return QDOT_OK;
 }
 
+/* Friction by multipliers: a word of the language that comes later. */
+static qdot_status
+need_known_friction(qdot_scene *s, qdot_expr e, const char *what)
+{
+    if (!(qdot_mech_holds(s, e) & QDOT_HAS_MULTIPLIER))
+        return QDOT_OK;
+    return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s that holds multipliers", what);
+}
+
 static qdot_status
 need_scalar(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
 {
@@ -215,7 +224,9 @@ need_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
     case QDOT_POTENTIAL:
         QDOT_TRY(need_no_lagrangian(s, "a potential"));
         return need_scalar(s, e, "a potential", NO_ACCELERATION);
-    default: return need_scalar(s, e, "a dissipation function", NO_ACCELERATION);
+    default:
+        QDOT_TRY(need_known_friction(s, e, "a dissipation function"));
+        return need_scalar(s, e, "a dissipation function", NO_ACCELERATION);
     }
 }
 
@@ -332,6 +343,7 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
 
     qdot_scene_forget_dropped(s);
     QDOT_TRY(need_new_label(s, force->name));
+    QDOT_TRY(need_known_friction(s, force->force, "a force"));
     QDOT_TRY(need_vector(s, force->force, "a force", NO_ACCELERATION));
     QDOT_TRY(need_vector(s, force->point, "the point of a force", NO_VELOCITY));
     if (qdot_mech_dimension(s->pool, force->force) !=

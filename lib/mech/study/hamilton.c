@@ -239,33 +239,40 @@ qdot_hamilton_hamiltonian(qdot_scene *s)
     return transform(s, (uint32_t)s->coordinates.n, s->coordinates.at);
 }
 
+/* R over the coordinates q [n], in the shorter of two forms. */
+static qdot_expr
+routhian(qdot_scene *s, uint32_t n, const qdot_expr *q)
+{
+    const qdot_facts facts = qdot_scene_facts(s);
+    qdot_expr result = transform(s, n, q), shorter;
+
+    if (result == QDOT_NIL)
+        return QDOT_NIL;
+    result = qdot_neg(s->pool, result);
+    shorter = qdot_simplify(s->pool, result, &facts);
+    return qdot_expr_size(s->pool, shorter) < qdot_expr_size(s->pool, result) ? shorter
+                                                                              : result;
+}
+
 qdot_expr
-qdot_hamilton_routhian(qdot_scene *s)
+qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
     qdot_cyclic *list;
-    size_t n;
-    qdot_expr *q, result = QDOT_NIL;
+    size_t found;
+    qdot_expr *cyclic, result = QDOT_NIL;
 
-    if (qdot_mech_cyclic(s, &list, &n) != QDOT_OK)
+    if (n > 0)
+        return routhian(s, n, q);
+    if (qdot_mech_cyclic(s, &list, &found) != QDOT_OK)
         return qdot_pool_fail(s->pool);
-    q = qdot_calloc(n + 1, sizeof *q);
-    if (q == NULL) {
+    cyclic = qdot_calloc(found + 1, sizeof *cyclic);
+    if (cyclic == NULL)
         qdot_pool_fail(s->pool);
-    } else {
-        for (size_t i = 0; i < n; i++)
-            q[i] = list[i].coordinate;
-        result = n == 0 ? qdot_mech_lagrangian(s) : transform(s, (uint32_t)n, q);
-        if (n > 0 && result != QDOT_NIL) {
-            qdot_facts facts = qdot_scene_facts(s);
-            qdot_expr shorter;
-
-            result = qdot_neg(s->pool, result);
-            shorter = qdot_simplify(s->pool, result, &facts);
-            if (qdot_expr_size(s->pool, shorter) < qdot_expr_size(s->pool, result))
-                result = shorter;
-        }
-    }
-    qdot_free(q);
+    for (size_t i = 0; cyclic != NULL && i < found; i++)
+        cyclic[i] = list[i].coordinate;
+    if (cyclic != NULL)
+        result = found == 0 ? qdot_mech_lagrangian(s) : routhian(s, (uint32_t)found, cyclic);
+    qdot_free(cyclic);
     qdot_free(list);
     return result;
 }

@@ -1,7 +1,7 @@
 /* hamilton.h -- Legendre transforms of the Lagrangian: Hamilton's function and Routh's.
  *
  *     H(q, p, t) = sum p_i q_i' - L,            all velocities replaced by momenta
- *     R          = L - sum_c p_c q_c',          those of the cyclic coordinates c only
+ *     R          = L - sum_c p_c q_c',          those of some coordinates c only
  *
  * The velocities solve p_c = dL/dq_c', which must be linear in them (QDOT_EDOMAIN otherwise; a
  * singular d2L/dq'dq': QDOT_ESINGULAR with the coordinate). Momenta are the symbols p[q].
@@ -16,7 +16,8 @@
 #include "mech/scene/things.h"
 
 qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
-qdot_expr qdot_hamilton_routhian(qdot_scene *s);
+/* Over the coordinates q [n], each once; n = 0: over the cyclic ones. */
+qdot_expr qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q);
 
 /* Poisson's bracket sum (df/dq dg/dp - df/dp dg/dq) over all coordinates, f and g scalars; velocities
  * in them are replaced by momenta first. With constraints it is not Dirac's bracket.

@@ -8,7 +8,7 @@
 #include "sim/form/blocks.h"
 #include "sim/form/bordered.h"
 #include "sim/form/constrained-series.h"
-#include "sim/form/direct.h"
+#include "sim/form/motion-series.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/leading.h"
 #include "sim/form/residual-series.h"
@@ -22,7 +22,7 @@ struct qdot_bind {
     qdot_tape *tape; /* a shaken copy; else NULL */
     qdot_blocks blocks;
     qdot_constrained *held;            /* of a plan with constraints: in place of the blocks */
-    qdot_direct *direct;        /* where the equations are smooth, one of the two: */
+    qdot_motion_series *direct; /* where the equations are smooth, one of the two: */
     qdot_residual_series *residual;
     qdot_constrained_series *tied;            /* or, of a plan with constraints: */
     qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
@@ -69,7 +69,7 @@ qdot_bind_free(qdot_bind *b)
         return;
     qdot_blocks_clear(&b->blocks);
     qdot_constrained_free(b->held);
-    qdot_direct_free(b->direct);
+    qdot_motion_series_free(b->direct);
     qdot_residual_series_free(b->residual);
     qdot_residual_series_free(b->elsewhere);
     qdot_eliminated_free(b->eliminated);
@@ -113,19 +113,19 @@ solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
 {
     for (size_t k = 0; k < blocks->plan->structure.blocks; k++) {
         const qdot_plan_block *block = blocks->plan->blocks + k;
-        const double *x = blocks->at[k].x;
+        double *x = blocks->at[k].x;
 
         if (block->n == 1) {
             a[block->index[0]] = *out++;
             continue;
         }
-        memcpy(blocks->at[k].x, out, block->n * sizeof *out);
+        memcpy(x, out, block->n * sizeof *out);
         out += block->n;
         if (!block->constant) {
             out = qdot_blocks_unpack(blocks, k, out);
             QDOT_TRY(qdot_blocks_factor(blocks, k));
         }
-        qdot_blocks_solve(blocks, k);
+        qdot_blocks_solve(blocks, k, x);
         for (size_t i = 0; i < block->n; i++)
             a[block->index[i]] = x[i];
     }
@@ -243,7 +243,7 @@ block_column(const qdot_bind *b, size_t k, size_t row, size_t column)
             if (j < i)
                 x[j] -= *slope * a[block->index[i]];
         }
-    qdot_blocks_solve(&b->blocks, k);
+    qdot_blocks_solve(&b->blocks, k, x);
 }
 
 static qdot_status
@@ -365,7 +365,7 @@ qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
 {
     const char *why = "machine code is made where equations are taken as M q'' = f";
     bool path;
-    const size_t bytes = b->direct       ? qdot_direct_code(b->direct, &why)
+    const size_t bytes = b->direct       ? qdot_motion_series_code(b->direct, &why)
                          : b->residual   ? qdot_residual_series_code(b->residual, &why)
                          : b->bordered   ? qdot_bordered_code(b->bordered, &why)
                          : b->eliminated ? qdot_eliminated_code(b->eliminated, &why)
@@ -391,7 +391,7 @@ qdot_bind_factored(const qdot_bind *b)
     return parts + b->blocks.factored +
            (b->held ? qdot_constrained_factored(b->held) : 0) +
            (b->tied ? qdot_constrained_series_factored(b->tied) : 0) +
-           (b->direct ? qdot_direct_factored(b->direct) : 0) +
+           (b->direct ? qdot_motion_series_factored(b->direct) : 0) +
            (b->residual ? qdot_residual_series_factored(b->residual) : 0) +
            b->reduced_blocks.factored;
 }
@@ -478,9 +478,9 @@ make_reduced(qdot_bind *b, bool shaken)
     QDOT_TRY(qdot_momenta_new(r, reduced_equations(b), &b->momenta));
     if (!r->smooth)
         return QDOT_OK;
-    QDOT_TRY(qdot_direct_new(r, shaken, &b->direct));
-    qdot_direct_keep(b->direct, qdot_momenta_hi(b->momenta), qdot_momenta_lo(b->momenta));
-    b->series = qdot_direct_series(b->direct);
+    QDOT_TRY(qdot_motion_series_new(r, shaken, &b->direct));
+    qdot_motion_series_keep(b->direct, qdot_momenta_hi(b->momenta), qdot_momenta_lo(b->momenta));
+    b->series = qdot_motion_series_get(b->direct);
     QDOT_TRY(make_leading(b, r));
     if (b->leading)
         qdot_leading_keep(b->leading, qdot_momenta_hi(b->momenta),
@@ -528,8 +528,8 @@ make(qdot_bind *b, bool shaken)
         QDOT_TRY(qdot_residual_series_new(p, p->residual, shaken, &b->residual));
         b->series = qdot_residual_series_get(b->residual);
     } else {
-        QDOT_TRY(qdot_direct_new(p, shaken, &b->direct));
-        b->series = qdot_direct_series(b->direct);
+        QDOT_TRY(qdot_motion_series_new(p, shaken, &b->direct));
+        b->series = qdot_motion_series_get(b->direct);
     }
     return make_leading(b, p);
 }

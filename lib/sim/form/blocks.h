@@ -1,4 +1,4 @@
-/* blocks.h -- the blocks of M, factored and solved with numbers. */
+/* blocks.h -- the blocks of M, factored and solved with numbers; or M bordered by constraints. */
 #ifndef QDOT_SIM_BLOCKS_H
 #define QDOT_SIM_BLOCKS_H
 
@@ -6,9 +6,11 @@
 #include "sim/model/equations.h"
 
 typedef struct {
-    double *a;      /* [n x n] M, then its factors */
-    double *x;      /* [n] right-hand side, then solution */
-    qdot_ldlt ldlt; /* of a plan that is indefinite */
+    size_t n;        /* unknowns: q'' of the block; with constraints of all, then multipliers */
+    bool constant;   /* factored once */
+    double *a;       /* [n x n] M, then its factors; bordered: [M A^T; A 0] */
+    double *x;       /* [n] for whoever solves; scratch of _invert */
+    qdot_ldlt ldlt;  /* of a plan that is indefinite */
     size_t m;        /* n, filled up to full vectors */
     double *inverse; /* [m x n], once asked for; else NULL */
     double *lower;   /* [m x n] its scratch; then the product of [m] */
@@ -16,34 +18,38 @@ typedef struct {
 
 typedef struct {
     const qdot_plan *plan;
-    qdot_solver *at; /* [plan->structure.blocks] */
+    qdot_solver *at; /* [n] */
+    size_t n;        /* plan->structure.blocks; with constraints 1 */
+    bool diagonal;   /* then: M is */
     size_t factored; /* how often */
 } qdot_blocks;
 
-/* For this plan, borrowed; constant blocks factored. `shaken` as for qdot_bind_new.
- * Errors: QDOT_ESINGULAR, QDOT_ENOMEM; clear it in any case. */
+/* For this plan, borrowed; constant blocks factored. With constraints, up to QDOT_BORDERED_MOST
+ * unknowns. `shaken` as for qdot_bind_new. Errors: QDOT_ESINGULAR, QDOT_ENOMEM; clear it in any
+ * case. */
 QDOT_MUST_CHECK qdot_status qdot_blocks_init(qdot_blocks *b, const qdot_plan *plan,
                                              bool shaken);
 void qdot_blocks_clear(qdot_blocks *b);
 
-/* Factor block k, whose lower triangle stands in its `a`. Errors: QDOT_ESINGULAR names
- * the coordinate. */
+/* Factor block k, whose lower triangle stands in its `a`. Errors: QDOT_ESINGULAR names the
+ * coordinate; QDOT_EDOMAIN: a row of A has less than a third of its length left beyond the
+ * others. */
 QDOT_MUST_CHECK qdot_status qdot_blocks_factor(qdot_blocks *b, size_t k);
 
-/* Solve with block k, factored, for its `x`. */
-void qdot_blocks_solve(const qdot_blocks *b, size_t k);
+/* Solve with block k, factored: x [n] is the right-hand side, then the solution. */
+void qdot_blocks_solve(const qdot_blocks *b, size_t k, double *x);
 
 /* Orders of a series up to this one are solved for: an error of the inverse is the same at all
  * orders of a step, and would make the energy drift as t. */
 enum { QDOT_BLOCKS_SOLVED = 3 };
 
 /* For many right-hand sides: the inverse of block k, factored, as L^-T L^-1, and its
- * product with `x`. Its error is of the size of _solve's, not as reliably: for the
- * orders of a series beyond that. An indefinite block is solved. _invert overwrites
- * `x`. */
+ * product with x [n]. Its error is of the size of _solve's, not as reliably: for the
+ * orders of a series beyond that. An indefinite block is solved; of a bordered one there is no more
+ * than the inverse. _invert overwrites the block's x. */
 QDOT_MUST_CHECK qdot_status qdot_blocks_prepare(qdot_blocks *b, size_t k);
 void qdot_blocks_invert(qdot_blocks *b, size_t k);
-void qdot_blocks_apply(const qdot_blocks *b, size_t k);
+void qdot_blocks_apply(const qdot_blocks *b, size_t k, double *x);
 
 /* A lower triangle by rows into block k; returns what stands behind it. */
 const double *qdot_blocks_unpack(const qdot_blocks *b, size_t k, const double *from);

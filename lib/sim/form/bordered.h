@@ -4,8 +4,8 @@
  *     [ A_0    0   ] [ -l_k ] = [ gamma_k ] - sum  [ A_j    0   ] [ -l_{k-j} ]
  *                                            j=1
  *
- * is one more set of unknowns of the program of f, M, A and gamma (series/taylor.h), so that a
- * whole expansion is a single call. Constraints are differentiated here, which takes more
+ * is one more block of the program of M q'' = f (motion-of-equations.h), so that a whole expansion
+ * is a single call (motion-series.h). Constraints are differentiated here, which takes more
  * convolutions than their own coefficients (sim/form/constrained-series.h), and the inverse is
  * found without a correction: it is for tolerances from QDOT_ELIMINATED_TOL on, as the form
  * of eliminated.h is, and for n + m up to QDOT_BORDERED_MOST.
@@ -24,8 +24,8 @@
 
 typedef struct qdot_bordered qdot_bordered;
 
-/* Where a plan with constraints, complete but for it, takes this form at a tolerance, its
- * program plan->bordered; else NULL there. Errors: those of lowering. */
+/* Where a plan with constraints, complete but for it, takes this form at a tolerance, its tape
+ * plan->bordered and its program plan->motion; else NULL there. Errors: those of lowering. */
 QDOT_MUST_CHECK qdot_status qdot_bordered_find(qdot_plan *plan, double tol);
 
 /* Of such a plan and its other series, both borrowed. `shaken` as for qdot_bind_new. */
@@ -36,9 +36,6 @@ void qdot_bordered_free(qdot_bordered *bordered);
 
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_bordered_series(const qdot_bordered *bordered);
-
-/* Convolutions an order. */
-double qdot_bordered_convolutions(const qdot_bordered *bordered);
 
 /* How long the code is, in bytes; 0: there is none, *why says for what reason. */
 size_t qdot_bordered_code(const qdot_bordered *bordered, const char **why);

@@ -2,12 +2,23 @@
 #include "sim/form/derived.h"
 
 #include "sim/form/canonical.h"
-#include "sim/form/direct.h"
+#include "base/memory.h"
+#include "sim/form/motion-of-equations.h"
+#include "sim/form/motion-series.h"
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"
 
 /* Forms are compared at one tolerance: a plan is kept for runs under any. */
 static const double middle_tol = 1e-9;
+
+static void
+free_motion(qdot_plan *plan)
+{
+    if (plan->motion)
+        qdot_motion_clear(plan->motion);
+    qdot_free(plan->motion);
+    plan->motion = NULL;
+}
 
 double
 qdot_plan_cost(const qdot_ode_series *series)
@@ -16,18 +27,27 @@ qdot_plan_cost(const qdot_ode_series *series)
 }
 
 qdot_status
+qdot_plan_make_motion(qdot_plan *plan)
+{
+    free_motion(plan);
+    plan->motion = qdot_calloc(1, sizeof *plan->motion);
+    return plan->motion ? qdot_motion_of_equations(plan, plan->motion) : QDOT_ENOMEM;
+}
+
+qdot_status
 qdot_plan_measure(qdot_plan *plan)
 {
     qdot_ode_series series;
-    qdot_direct *direct;
+    qdot_motion_series *derived;
 
-    QDOT_TRY(qdot_direct_new(plan, false, &direct));
-    plan->convolutions_derived = qdot_direct_convolutions(direct);
-    series = *qdot_direct_series(direct);
+    QDOT_TRY(qdot_plan_make_motion(plan));
+    QDOT_TRY(qdot_motion_series_new(plan, false, &derived));
+    plan->convolutions_derived = qdot_motion_series_convolutions(derived);
+    series = *qdot_motion_series_get(derived);
     plan->cost = qdot_plan_cost(&series);
     series.code.cost[0] = 0;
     plan->cost_of_kernels = qdot_plan_cost(&series);
-    qdot_direct_free(direct);
+    qdot_motion_series_free(derived);
     return QDOT_OK;
 }
 
@@ -63,6 +83,7 @@ qdot_plan_free(qdot_plan *p)
     qdot_free(p->kept);
     qdot_tape_free(p->momenta);
     qdot_tape_free(p->bordered);
+    free_motion(p);
     qdot_free(p);
 }
 

@@ -11,7 +11,9 @@
 /* What steps cost at a middling tolerance, as machine code where there is to be some
  * (qdot_ode_taylor_cost). */
 double qdot_plan_cost(const qdot_ode_series *series);
-/* The convolutions and that cost of the derived form of a plan with a tape, as it will run and by
+/* plan->motion, of a plan that is complete but for it. Errors: those of qdot_motion_of_equations. */
+QDOT_MUST_CHECK qdot_status qdot_plan_make_motion(qdot_plan *plan);
+/* That, the convolutions and that cost of the derived form of a plan with a tape, as it will run and by
  * kernels, put into it. */
 QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
 

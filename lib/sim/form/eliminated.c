@@ -9,7 +9,7 @@
 #include "ode/taylor.h"
 #include "sim/form/constrained-series.h"
 #include "sim/form/derived.h"
-#include "sim/form/direct.h"
+#include "sim/form/motion-series.h"
 #include "sim/form/guarded.h"
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
@@ -211,7 +211,7 @@ fill(qdot_plan *r, const qdot_plan *p, bool *there)
 
 struct qdot_eliminated {
     size_t n, m;
-    qdot_direct *direct;
+    qdot_motion_series *direct;
     qdot_guarded guarded;
 };
 
@@ -221,8 +221,8 @@ independent(const void *user)
     const qdot_eliminated *e = user;
 
     for (size_t k = 0; k < e->m; k++) {
-        const double d = qdot_direct_output(e->direct, e->n + k)[0];
-        const double S = qdot_direct_output(e->direct, e->n + e->m + k)[0];
+        const double d = qdot_motion_series_output(e->direct, e->n + k)[0];
+        const double S = qdot_motion_series_output(e->direct, e->n + e->m + k)[0];
 
         if (!(d > least_sine * S))
             return false;
@@ -243,13 +243,13 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
         return QDOT_ENOMEM;
     e->n = plan->n;
     e->m = plan->constraints->m;
-    status = qdot_direct_new(plan->eliminated, shaken, &e->direct);
+    status = qdot_motion_series_new(plan->eliminated, shaken, &e->direct);
     if (status != QDOT_OK) {
         qdot_eliminated_free(e);
         return status;
     }
     series = &e->guarded.series;
-    qdot_guarded_init(&e->guarded, qdot_direct_series(e->direct), other, false);
+    qdot_guarded_init(&e->guarded, qdot_motion_series_get(e->direct), other, false);
     e->guarded.fits = independent;
     e->guarded.form = e;
     memcpy(series->cost, e->guarded.own->cost, sizeof series->cost);
@@ -266,14 +266,14 @@ qdot_eliminated_free(qdot_eliminated *e)
 {
     if (!e)
         return;
-    qdot_direct_free(e->direct);
+    qdot_motion_series_free(e->direct);
     qdot_free(e);
 }
 
 size_t
 qdot_eliminated_code(const qdot_eliminated *e, const char **why)
 {
-    return qdot_direct_code(e->direct, why);
+    return qdot_motion_series_code(e->direct, why);
 }
 
 const qdot_ode_series *

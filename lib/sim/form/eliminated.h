@@ -5,7 +5,7 @@
  *
  *     S = A M^-1 A^T,   S lambda = gamma - A M^-1 f,   q'' = M^-1 (f + A^T lambda)
  *
- * so that the motion has the direct series of an unconstrained one (sim/form/direct.h) and no
+ * so that the motion has the series of an unconstrained one (sim/form/motion-series.h) and no
  * matrix is solved at any order. It takes more convolutions than constraints by their own
  * coefficients (sim/form/constrained-series.h) and its rounding is that of an elimination without
  * a correction: it is for tolerances from QDOT_ELIMINATED_TOL on, where it is cheaper.

@@ -104,15 +104,14 @@ missing(qdot_leading *l, int k)
     for (size_t at = 0; at + 1 < m->blocks.n; at++, b++) {
         const uint32_t first = m->blocks.at[at];
         const size_t n = block_of(l, &b)->n;
-        double *x = l->solvers.at[b].x;
+        double *x = l->by + first;
 
         for (size_t i = 0; i < n; i++)
             x[i] = -qdot_tape_two_row(l->two, m->equations.at[first + i])[k].hi;
         if (n == 1)
             x[0] /= l->solvers.at[b].a[0];
         else
-            qdot_blocks_solve(&l->solvers, b);
-        memcpy(l->by + first, x, n * sizeof *x);
+            qdot_blocks_solve(&l->solvers, b, x);
     }
     for (size_t i = 0; i < m->solved.n; i++) {
         most = fmax(most, fabs(l->by[i]));

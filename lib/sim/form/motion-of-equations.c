@@ -8,6 +8,7 @@
 /* Unknowns by number: q'' of the coordinates, then those of the constraints. */
 typedef struct {
     const qdot_plan *plan;
+    const qdot_tape *tape; /* of it, or with the rest of constraints for machine code */
     size_t n; /* coordinates that move; those of the plan behind them are numbers */
     qdot_motion *motion;
     qdot_program_builder *program;
@@ -83,6 +84,7 @@ solve_for(builder *b, size_t i)
     }
     if (b->E[i] == QDOT_NO_ROW)
         b->E[i] = qdot_program_operation(b->program, QDOT_OP_NEG, b->right[i], 0, 0);
+    QDOT_TRY(qdot_vec_push(&b->motion->right, b->right[i]));
     return qdot_motion_solve(b->motion, u, b->E[i]);
 }
 
@@ -189,9 +191,10 @@ input(const builder *b, size_t i)
 static qdot_status
 build(builder *b)
 {
-    const qdot_tape *tape = b->plan->tape;
+    const qdot_tape *tape = b->tape;
     const size_t outputs = qdot_tape_outputs(tape), inputs = qdot_tape_inputs(tape);
     const size_t size = b->plan->n + (b->plan->constraints ? b->plan->constraints->m : 0);
+    size_t steps;
 
     b->outputs = qdot_calloc(inputs + outputs + 1, sizeof *b->outputs);
     b->unknown = qdot_calloc(3 * size + 1, sizeof *b->unknown);
@@ -206,14 +209,18 @@ build(builder *b)
     qdot_program_append(b->program, tape, b->outputs + outputs, b->outputs);
     for (size_t i = 0; i < outputs; i++)
         QDOT_TRY(qdot_vec_push(&b->motion->program.outputs, b->outputs[i]));
-    return b->plan->constraints ? add_constrained(b) : add_blocks(b);
+    steps = b->motion->program.steps.n;
+    QDOT_TRY(b->plan->constraints ? add_constrained(b) : add_blocks(b));
+    b->motion->written = b->motion->program.steps.n - steps;
+    return QDOT_OK;
 }
 
 static qdot_status
 make(const qdot_plan *plan, size_t n, qdot_motion *motion)
 {
-    const size_t inputs = qdot_tape_inputs(plan->tape) - (plan->n - n);
-    builder b = {.plan = plan, .n = n, .motion = motion};
+    const qdot_tape *tape = plan->bordered ? plan->bordered : plan->tape;
+    const size_t inputs = qdot_tape_inputs(tape) - (plan->n - n);
+    builder b = {.plan = plan, .tape = tape, .n = n, .motion = motion};
     qdot_status status;
 
     *motion = (qdot_motion){0};

@@ -4,8 +4,11 @@
  *     any other          E_i = sum_j M_ij a_j - f_i
  *     with constraints   E_i = sum_j M_ij a_j - sum_c A_ci lambda_c - f_i,
  *                        E_c = sum_j A_cj a_j - gamma_c,
- *                        all in one block; the unknowns are q'' and -lambda
+ *                        all in one block; the unknowns are q'' and -lambda; of the tape
+ *                        plan->bordered where there is one
  *     momenta kept       q' is an output (sim/plan/routh.h)
+ *
+ * The equations are explicit (series/motion.h).
  *
  * Tests  tests/sim/test_motion.c
  */

@@ -8,97 +8,166 @@
 #include "series/taylor-motion.h"
 #include "sim/form/blocks.h"
 #include "sim/form/expansion.h"
+#include "sim/form/momentum-rows.h"
+#include "sim/form/motion-cost.h"
 #include "tape/shake.h"
 
-enum { most_order = 44 };
+enum { most_order = 47, highest = most_order - 3 };
+
+/* Unknowns of a larger block are not solved for by machine code, number by number. */
+enum { most_coded = 6 };
+
+/* An entry of K: where its value goes. */
+typedef struct {
+    double *to;
+    const double *from;
+} entry;
 
 struct qdot_motion_series {
     const qdot_plan *plan;
     const qdot_motion *motion;
-    const qdot_tape *masses;
-    qdot_tape *shaken;       /* these, shaken; NULL: as they are */
-    qdot_expansion at;       /* its program */
-    qdot_lanes_motion *code; /* NULL: kernels run */
-    const char *why;         /* for this reason */
+    qdot_expansion at; /* its program */
     qdot_blocks solvers;
+    size_t blocks;  /* of the motion, */
+    size_t *block;  /* [blocks] by their number in `solvers` */
+    entry *entries; /* [n_entries] those that move; none: K is of `masses` */
+    size_t n_entries;
+    const qdot_tape *masses; /* NULL: K is of the entries */
+    qdot_tape *shaken;       /* these, shaken; NULL: as they are */
+    double *in, *out, *work; /* of `masses` */
+    double *by;              /* [solved] order k of what is solved for */
+    qdot_momentum_rows momenta;
+    qdot_lanes_motion *code; /* by lanes; NULL: none */
+    const char *why; /* there is no code for this reason; NULL: the program knows */
+    bool begun;      /* once at least */
     qdot_ode_series series;
     double unit;
-    const double **E;        /* [n] series of the equations, block by block */
-    double *by;              /* [n] order k of what is solved for */
-    double *in, *out, *work; /* of `masses` */
 };
 
 /* --- stages ---------------------------------------------------------------------------- */
 
-/* Order k of the unknowns. */
-static void
-stage(qdot_motion_series *s, int k)
+static qdot_status
+factor(qdot_motion_series *s)
 {
-    const double *const *E = s->E;
+    for (size_t k = 0; k < s->blocks; k++) {
+        const qdot_solver *at = s->solvers.at + s->block[k];
+
+        if (at->n > 1 && !at->constant)
+            QDOT_TRY(qdot_blocks_factor(&s->solvers, s->block[k]));
+    }
+    return QDOT_OK;
+}
+
+/* K of a residual, at y. */
+static void
+evaluate_masses(qdot_motion_series *s, double t, const double *y)
+{
+    const double *out = s->out;
+
+    memcpy(s->in, y, 2 * s->plan->n * sizeof *y);
+    s->in[2 * s->plan->n] = t;
+    qdot_tape_eval(s->shaken ? s->shaken : s->masses, s->in, s->out, s->work);
+    for (size_t b = 0; b < s->solvers.n; b++)
+        if (!s->solvers.at[b].constant)
+            out = qdot_blocks_unpack(&s->solvers, b, out);
+}
+
+/* Order k of what is solved for, in place of K times it. */
+static void
+solve(qdot_motion_series *s, int k)
+{
     double *by = s->by;
 
-    qdot_taylor_stage(s->at.taylor, k);
-    if (k < 0)
-        return;
-    for (size_t b = 0; b < s->plan->structure.blocks; b++) {
-        const qdot_solver *at = s->solvers.at + b;
-        const size_t n = s->plan->blocks[b].n;
+    for (size_t b = 0; b < s->blocks; b++) {
+        const qdot_solver *at = s->solvers.at + s->block[b];
 
-        for (size_t i = 0; i < n; i++)
-            at->x[i] = -E[i][k];
-        if (n == 1)
-            at->x[0] /= at->a[0];
+        if (at->n == 1)
+            by[0] /= at->a[0];
         else if (k <= QDOT_BLOCKS_SOLVED)
-            qdot_blocks_solve(&s->solvers, b);
+            qdot_blocks_solve(&s->solvers, s->block[b], by);
         else
-            qdot_blocks_apply(&s->solvers, b);
-        memcpy(by, at->x, n * sizeof *by);
-        by += n;
-        E += n;
+            qdot_blocks_apply(&s->solvers, s->block[b], by);
+        by += at->n;
     }
-    qdot_taylor_change(s->at.taylor, k, s->by);
 }
 
 static qdot_status
-factor(qdot_motion_series *s, double t, const double *y)
+stage(qdot_motion_series *s, int k)
 {
-    const qdot_plan *p = s->plan;
-    const double *out = s->out;
+    qdot_taylor *taylor = s->at.taylor;
 
-    memcpy(s->in, y, 2 * p->n * sizeof *y);
-    s->in[2 * p->n] = t;
-    qdot_tape_eval(s->shaken ? s->shaken : s->masses, s->in, s->out, s->work);
-    for (size_t b = 0; b < p->structure.blocks; b++) {
-        if (p->blocks[b].constant)
-            continue;
-        out = qdot_blocks_unpack(&s->solvers, b, out);
-        if (p->blocks[b].n > 1)
-            QDOT_TRY(qdot_blocks_factor(&s->solvers, b));
+    qdot_taylor_stage(taylor, k);
+    if (k < 0)
+        return QDOT_OK;
+    if (k == 0 && !s->masses) {
+        for (size_t i = 0; i < s->n_entries; i++)
+            *s->entries[i].to = *s->entries[i].from;
+        QDOT_TRY(factor(s));
     }
+    qdot_taylor_missing(taylor, k, s->by);
+    solve(s, k);
+    qdot_taylor_change(taylor, k, s->by);
     return QDOT_OK;
+}
+
+/* Whether all is given by rows: a whole expansion is the program's. */
+static bool
+is_given(const qdot_motion_series *s)
+{
+    return s->motion->solved.n == 0;
+}
+
+static qdot_status
+check(const qdot_motion_series *s)
+{
+    for (size_t i = 0; i < s->plan->n; i++)
+        if (!isfinite(s->at.v[i * s->at.stride + 1]))
+            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
+                             s->plan->names[i]);
+    return s->plan->n_kept > 0 ? qdot_momentum_rows_check(&s->momenta) : QDOT_OK;
+}
+
+static qdot_status
+expand_zero(qdot_motion_series *s, double t, const double *y)
+{
+    if (is_given(s)) {
+        qdot_taylor_begin(s->at.taylor, s->unit);
+    } else {
+        if (s->masses) {
+            evaluate_masses(s, t, y);
+            QDOT_TRY(factor(s));
+        }
+        for (int k = qdot_motion_first(s->motion); k <= 0; k++)
+            QDOT_TRY(stage(s, k));
+    }
+    if (s->plan->n_kept > 0)
+        qdot_momentum_rows_show(&s->momenta, 1);
+    return check(s);
 }
 
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
     qdot_motion_series *s = user;
-    const size_t n = s->plan->n;
+    qdot_status status;
 
     s->unit = unit;
     qdot_taylor_set_unit(s->at.taylor, unit);
     qdot_expansion_begin(&s->at, t, y, unit);
-    QDOT_TRY(factor(s, t, y));
-    for (int k = qdot_motion_first(s->motion); k <= 0; k++)
-        stage(s, k);
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(s->at.v[i * s->at.stride + 1]))
-            return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
-                             s->plan->names[i]);
-    return QDOT_OK;
+    if (s->plan->n_kept > 0)
+        qdot_momentum_rows_draw(&s->momenta, t);
+    status = expand_zero(s, t, y);
+    if (status == QDOT_EDOMAIN && !s->begun && s->plan->constraints)
+        qdot_taylor_refuse_code(s->at.taylor,
+                                "constraints depend on each other at the start");
+    s->begun = true;
+    return status;
 }
 
+/* --- orders ---------------------------------------------------------------------------- */
+
 static bool
-is_code(int p, void *user)
+is_code_of_lanes(int p, void *user)
 {
     const qdot_motion_series *s = user;
 
@@ -106,12 +175,12 @@ is_code(int p, void *user)
 }
 
 static void
-run_code(const qdot_motion_series *s)
+run_lanes(const qdot_motion_series *s)
 {
-    for (size_t b = 0; b < s->plan->structure.blocks; b++) {
-        const qdot_solver *at = s->solvers.at + b;
+    for (size_t b = 0; b < s->blocks; b++) {
+        const qdot_solver *at = s->solvers.at + s->block[b];
 
-        if (s->plan->blocks[b].n > 1)
+        if (at->n > 1)
             qdot_lanes_motion_set(s->code, b, at->inverse, at->m, at->a);
         else
             qdot_lanes_motion_set(s->code, b, (double[]){1 / at->a[0]}, 1, NULL);
@@ -120,57 +189,47 @@ run_code(const qdot_motion_series *s)
     qdot_lanes_motion_run(s->code, &s->unit);
 }
 
+/* The matrices of what the program solves for. */
+static void
+hand_over(const qdot_motion_series *s)
+{
+    for (size_t b = 0; b < s->blocks; b++) {
+        const qdot_solver *at = s->solvers.at + s->block[b];
+        const size_t n = at->n;
+        double *to = qdot_taylor_matrices(s->at.taylor, b);
+
+        for (size_t i = 0; i < n; i++) {
+            memcpy(to + i * n, at->a + i * n, (i + 1) * sizeof *to);
+            memcpy(to + (n + i) * n, at->inverse + i * at->m, n * sizeof *to);
+        }
+    }
+}
+
 static qdot_status
 extend(int p, void *user)
 {
     qdot_motion_series *s = user;
+    const bool as_code = qdot_taylor_is_code(s->at.taylor, p - 1);
 
-    for (size_t b = 0; b < s->plan->structure.blocks; b++)
-        if (s->plan->blocks[b].n > 1 && !s->plan->blocks[b].constant)
-            qdot_blocks_invert(&s->solvers, b);
-    if (is_code(p, s)) {
-        run_code(s);
-        return QDOT_OK;
+    for (size_t b = 0; b < s->blocks; b++) {
+        const qdot_solver *at = s->solvers.at + s->block[b];
+
+        if (at->n > 1 && !at->constant)
+            qdot_blocks_invert(&s->solvers, s->block[b]);
     }
-    for (int k = 1; k < p; k++)
-        stage(s, k);
+    if (as_code)
+        hand_over(s);
+    if (as_code || is_given(s))
+        qdot_taylor_extend(s->at.taylor, 1, p - 1);
+    else if (is_code_of_lanes(p, s))
+        run_lanes(s);
+    else
+        for (int k = 1; k < p; k++)
+            QDOT_TRY(stage(s, k));
+    if (s->plan->n_kept > 0)
+        qdot_momentum_rows_show(&s->momenta, p);
     return QDOT_OK;
 }
-
-/* --- machine code ---------------------------------------------------------------------- */
-
-static void
-drop_code(void *user)
-{
-    qdot_motion_series *s = user;
-
-    qdot_lanes_motion_free(s->code);
-    s->code = NULL;
-}
-
-static qdot_status
-write_code(int p, void *user)
-{
-    qdot_motion_series *s = user;
-    const qdot_lanes_rows rows = qdot_taylor_get_rows(s->at.taylor);
-
-    if (is_code(p, s))
-        return QDOT_OK;
-    drop_code(s);
-    s->why = "blocks are large, or the system does not run what was written";
-    return qdot_lanes_motion_new(&rows, s->motion, p - 1, QDOT_BLOCKS_SOLVED, &s->code);
-}
-
-/* None is kept from earlier runs. */
-static bool
-take_code(int p, void *user)
-{
-    (void)p;
-    (void)user;
-    return false;
-}
-
-/* --- building -------------------------------------------------------------------------- */
 
 /* Orders of what leads least end two below that of q. */
 static double
@@ -179,82 +238,172 @@ near(int p, double step, void *user)
     return qdot_taylor_near(((const qdot_motion_series *)user)->at.taylor, p - 2, step);
 }
 
-/* Nanoseconds: nineteen scenes at orders 8 to 30, of 2 to 16 coordinates, to 20 %. */
+/* --- machine code by lanes -------------------------------------------------------------- */
+
 static void
-estimate_cost(qdot_motion_series *s)
+drop_lanes(void *user)
+{
+    qdot_motion_series *s = user;
+
+    qdot_lanes_motion_free(s->code);
+    s->code = NULL;
+}
+
+static qdot_status
+write_lanes(int p, void *user)
+{
+    qdot_motion_series *s = user;
+    const qdot_lanes_rows rows = qdot_taylor_get_rows(s->at.taylor);
+
+    if (is_code_of_lanes(p, s))
+        return QDOT_OK;
+    drop_lanes(s);
+    s->why = "blocks are large, or the system does not run what was written";
+    return qdot_lanes_motion_new(&rows, s->motion, p - 1, QDOT_BLOCKS_SOLVED, &s->code);
+}
+
+/* None is kept from earlier runs. */
+static bool
+take_lanes(int p, void *user)
+{
+    (void)p;
+    (void)user;
+    return false;
+}
+
+/* --- building -------------------------------------------------------------------------- */
+
+/* Which blocks are solved for; their constant inverses. */
+static qdot_status
+make_solvers(qdot_motion_series *s, bool shaken)
+{
+    const qdot_motion *m = s->motion;
+
+    QDOT_TRY(qdot_blocks_init(&s->solvers, s->plan, shaken));
+    s->blocks = m->blocks.n > 0 ? m->blocks.n - 1 : 0;
+    s->block = qdot_calloc(s->blocks + 1, sizeof *s->block);
+    if (!s->block)
+        return QDOT_ENOMEM;
+    for (size_t b = 0, k = 0; b < s->blocks; b++, k++) {
+        while (!s->masses && s->solvers.at[k].n == 1) /* given */
+            k++;
+        s->block[b] = k;
+        QDOT_TRY(qdot_blocks_prepare(&s->solvers, k));
+        if (s->solvers.at[k].n > 1 && s->solvers.at[k].constant)
+            qdot_blocks_invert(&s->solvers, k);
+    }
+    return QDOT_OK;
+}
+
+/* Lower triangles: where entries of blocks that are not constant come from. */
+static qdot_status
+make_entries(qdot_motion_series *s)
+{
+    const qdot_motion *m = s->motion;
+    size_t k = 0;
+
+    s->entries = qdot_calloc(m->entries.n + 1, sizeof *s->entries);
+    if (!s->entries)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < m->entries.n; i++) {
+        const qdot_motion_entry *x = m->entries.at + i;
+        const uint32_t row = x->i > x->j ? x->i : x->j,
+                       column = x->i > x->j ? x->j : x->i;
+        const qdot_solver *at;
+
+        while (x->i >= m->blocks.at[k + 1])
+            k++;
+        at = s->solvers.at + s->block[k];
+        if (!at->constant)
+            s->entries[s->n_entries++] = (entry){at->a + (row - m->blocks.at[k]) * at->n +
+                                                     (column - m->blocks.at[k]),
+                                                 qdot_taylor_series(s->at.taylor, x->at)};
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+make_masses(qdot_motion_series *s, bool shaken)
+{
+    if (shaken)
+        QDOT_TRY(qdot_tape_shake(s->masses, &s->shaken));
+    s->in = qdot_calloc(2 * s->plan->n + 1, sizeof *s->in);
+    s->out = qdot_calloc(qdot_tape_outputs(s->masses) + 1, sizeof *s->out);
+    s->work = qdot_calloc(qdot_tape_work(s->masses) + 1, sizeof *s->work);
+    return s->in && s->out && s->work ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* Whether blocks are definite and have up to `most` unknowns. */
+static bool
+may_be_code(const qdot_motion_series *s, size_t most)
+{
+    for (size_t b = 0; b < s->blocks; b++)
+        if (s->solvers.at[s->block[b]].n > most)
+            return false;
+    return s->blocks == 0 || !s->plan->indefinite;
+}
+
+static void
+choose_code(qdot_motion_series *s)
 {
     const qdot_plan *p = s->plan;
-    double *c = s->series.cost, *w = s->series.code.cost, squares = 0, cubes = 0;
-    const double length = (double)qdot_taylor_length(s->at.taylor);
-    const double convolutions = qdot_taylor_convolutions(s->at.taylor);
+    const qdot_motion_work work = {s->at.taylor, &s->solvers,
+                                   s->masses     ? s->masses
+                                   : p->bordered ? p->bordered
+                                                 : p->tape};
 
-    for (size_t b = 0; b < p->structure.blocks; b++) {
-        const double n = (double)p->blocks[b].n;
-
-        squares += n > 1 ? n * n : 0;
-        cubes += n > 1 ? n * n * n : 0;
+    if (s->masses) {
+        s->why = "machine code is not asked for";
+        s->series.code = (qdot_ode_code){
+            .take = take_lanes, .there = is_code_of_lanes, .drop = drop_lanes, .user = s};
+        if (qdot_lanes_may_be_code() && may_be_code(s, QDOT_LANES_SOLVED))
+            s->series.code.write = write_lanes;
+        qdot_motion_cost_implicit(&work, &s->series);
+    } else if (p->constraints) {
+        s->series.code = qdot_expansion_code(s->at.taylor);
+        qdot_motion_cost_bordered(&work, &s->series);
+    } else {
+        s->why = "machine code solves for few unknowns, with M definite";
+        if (may_be_code(s, most_coded)) {
+            s->series.code = qdot_expansion_code(s->at.taylor);
+            s->why = "machine code is not asked for";
+        }
+        qdot_motion_cost_explicit(&work, &s->series);
     }
-    c[0] = 180 + 60 * (double)qdot_tape_calls(s->masses) +
-           1.1 * (double)qdot_tape_operations(s->masses) + 11 * length + 0.5 * cubes;
-    c[1] = 190 + 3.2 * length + 2.7 * squares;
-    c[2] = 0.17 * convolutions;
-    if (!s->series.code.write)
-        return;
-    w[0] = c[0];
-    w[1] = 15 + 0.4 * length + 1.4 * squares;
-    w[2] = 0.15 * convolutions;
 }
 
 static qdot_status
 make(qdot_motion_series *s, bool shaken)
 {
     const qdot_plan *p = s->plan;
-    const size_t n = p->n;
-    bool small = qdot_lanes_may_be_code() && !p->indefinite;
+    const bool has_factor = !p->constraints;
 
-    QDOT_TRY(qdot_taylor_of_motion(s->motion, shaken, most_order, &s->at.taylor));
-    if (shaken)
-        QDOT_TRY(qdot_tape_shake(s->masses, &s->shaken));
-    s->at = qdot_expansion_of(s->at.taylor, n);
-    s->E = qdot_calloc(n, sizeof *s->E);
-    s->by = qdot_calloc(n, sizeof *s->by);
-    s->in = qdot_calloc(2 * n + 1, sizeof *s->in);
-    s->out = qdot_calloc(qdot_tape_outputs(s->masses) + 1, sizeof *s->out);
-    s->work = qdot_calloc(qdot_tape_work(s->masses) + 1, sizeof *s->work);
-    if (!s->E || !s->by || !s->in || !s->out || !s->work)
+    QDOT_TRY(qdot_taylor_of_motion(s->motion, shaken, most_order,
+                                   has_factor ? QDOT_BLOCKS_SOLVED : 0, &s->at.taylor));
+    s->at = qdot_expansion_of(s->at.taylor, p->n);
+    QDOT_TRY(qdot_momentum_rows_init(&s->momenta, p, s->at, shaken));
+    s->by = qdot_calloc(s->motion->solved.n + 1, sizeof *s->by);
+    if (!s->by)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        s->E[i] = qdot_taylor_series(s->at.taylor, s->motion->equations.at[i]);
-    QDOT_TRY(qdot_blocks_init(&s->solvers, p, shaken));
-    for (size_t b = 0; b < p->structure.blocks; b++)
-        if (p->blocks[b].n > 1) {
-            QDOT_TRY(qdot_blocks_prepare(&s->solvers, b));
-            if (p->blocks[b].constant)
-                qdot_blocks_invert(&s->solvers, b);
-            small = small && p->blocks[b].n <= QDOT_LANES_SOLVED;
-        }
+    QDOT_TRY(make_solvers(s, shaken));
+    QDOT_TRY(s->masses ? make_masses(s, shaken) : make_entries(s));
     s->series = (qdot_ode_series){
-        .most = most_order - 4,
+        .most = highest,
         .x = s->at.q,
         .stride = s->at.stride,
-        .checked = n,
-        .code = {.worth = 1500,
-                 .write = small ? write_code : NULL,
-                 .take = take_code,
-                 .there = is_code,
-                 .drop = drop_code,
-                 .user = s},
+        .checked = p->n,
         .begin = begin,
         .extend = extend,
         .near = qdot_taylor_has_exponentials(s->at.taylor) ? near : NULL,
         .user = s};
-    estimate_cost(s);
+    choose_code(s);
     return QDOT_OK;
 }
 
 qdot_status
-qdot_motion_series_new(const qdot_plan *plan, const qdot_motion *motion,
-                       const qdot_tape *masses, bool shaken, qdot_motion_series **series)
+qdot_motion_series_of_residual(const qdot_plan *plan, const qdot_motion *motion,
+                               const qdot_tape *masses, bool shaken,
+                               qdot_motion_series **series)
 {
     qdot_motion_series *s = qdot_calloc(1, sizeof *s);
     qdot_status status;
@@ -265,7 +414,6 @@ qdot_motion_series_new(const qdot_plan *plan, const qdot_motion *motion,
     s->plan = plan;
     s->motion = motion;
     s->masses = masses;
-    s->why = "machine code is not asked for";
     status = make(s, shaken);
     if (status != QDOT_OK) {
         qdot_motion_series_free(s);
@@ -273,6 +421,12 @@ qdot_motion_series_new(const qdot_plan *plan, const qdot_motion *motion,
     }
     *series = s;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_motion_series_new(const qdot_plan *plan, bool shaken, qdot_motion_series **series)
+{
+    return qdot_motion_series_of_residual(plan, plan->motion, NULL, shaken, series);
 }
 
 void
@@ -283,9 +437,10 @@ qdot_motion_series_free(qdot_motion_series *s)
     qdot_lanes_motion_free(s->code);
     qdot_taylor_free(s->at.taylor);
     qdot_tape_free(s->shaken);
-    if (s->solvers.plan)
-        qdot_blocks_clear(&s->solvers);
-    qdot_free(s->E);
+    qdot_momentum_rows_clear(&s->momenta);
+    qdot_blocks_clear(&s->solvers);
+    qdot_free(s->block);
+    qdot_free(s->entries);
     qdot_free(s->by);
     qdot_free(s->in);
     qdot_free(s->out);
@@ -293,10 +448,29 @@ qdot_motion_series_free(qdot_motion_series *s)
     qdot_free(s);
 }
 
+void
+qdot_motion_series_keep(qdot_motion_series *s, const double *hi, const double *lo)
+{
+    s->momenta.hi = hi;
+    s->momenta.lo = lo;
+}
+
 const qdot_ode_series *
 qdot_motion_series_get(const qdot_motion_series *s)
 {
     return &s->series;
+}
+
+const double *
+qdot_motion_series_output(const qdot_motion_series *s, size_t i)
+{
+    return qdot_taylor_output(s->at.taylor, i);
+}
+
+double
+qdot_motion_series_convolutions(const qdot_motion_series *s)
+{
+    return qdot_taylor_convolutions(s->at.taylor);
 }
 
 size_t
@@ -308,6 +482,14 @@ qdot_motion_series_factored(const qdot_motion_series *s)
 size_t
 qdot_motion_series_code(const qdot_motion_series *s, const char **why)
 {
-    *why = s->code ? NULL : s->why;
-    return s->code ? qdot_lanes_motion_size(s->code) : 0;
+    size_t bytes;
+
+    if (s->masses) {
+        *why = s->code ? NULL : s->why;
+        return s->code ? qdot_lanes_motion_size(s->code) : 0;
+    }
+    bytes = qdot_taylor_code_bytes(s->at.taylor, why);
+    if (bytes == 0 && !*why)
+        *why = s->why;
+    return bytes;
 }

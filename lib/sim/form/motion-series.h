@@ -1,10 +1,13 @@
 /* motion-series.h -- Taylor coefficients of a single run from the program of its motion
  * (series/motion.h), stage by stage: by kernels, or as machine code.
  *
- * K is M, block by block, and factored with it where a series begins. Orders of q'' up to
- * QDOT_BLOCKS_SOLVED are solved for by that factor, those beyond by the inverse.
+ *     explicit equations   M q'' = f, also bordered by constraints: K is of rows of the program
+ *     d'Alembert's         K is M, from a tape of its own
  *
- * Tests  tests/sim/test_taylor.c
+ * K is factored where a series begins. Orders of the unknowns up to QDOT_BLOCKS_SOLVED are solved for
+ * by that factor, those beyond by the inverse; with constraints all by the inverse (num/bordered.h).
+ *
+ * Tests  tests/sim/test_taylor.c, test_motion.c, test_bordered.c
  */
 #ifndef QDOT_SIM_MOTION_SERIES_H
 #define QDOT_SIM_MOTION_SERIES_H
@@ -15,19 +18,31 @@
 
 typedef struct qdot_motion_series qdot_motion_series;
 
-/* Of a motion whose inputs are q, q', t and whose unknowns are q'' of all coordinates of the plan,
- * block by block, and of M, as lower triangles of the blocks that are not constant, from the same
- * inputs; all borrowed. `shaken` as for qdot_bind_new. Errors: QDOT_ESINGULAR, QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_motion_series_new(const qdot_plan *plan,
-                                                   const qdot_motion *motion,
-                                                   const qdot_tape *masses, bool shaken,
+/* Of a plan's M q'' = f, plan->motion. `shaken` as for qdot_bind_new. Errors: QDOT_ESINGULAR,
+ * QDOT_ENOMEM; where an expansion begins QDOT_EDOMAIN, also of constraints that depend on each
+ * other: if they do so at the first state no code is written. */
+QDOT_MUST_CHECK qdot_status qdot_motion_series_new(const qdot_plan *plan, bool shaken,
                                                    qdot_motion_series **series);
+/* Of a motion that is not explicit, whose inputs are q, q', t and whose unknowns are q'' of all
+ * coordinates of the plan, block by block, and of M, as lower triangles of the blocks that are not
+ * constant, from the same inputs; all borrowed. */
+QDOT_MUST_CHECK qdot_status qdot_motion_series_of_residual(const qdot_plan *plan,
+                                                           const qdot_motion *motion,
+                                                           const qdot_tape *masses, bool shaken,
+                                                           qdot_motion_series **series);
 void qdot_motion_series_free(qdot_motion_series *series);
+
+/* Of a reduced plan (sim/plan/routh.h): the momenta hi + lo [n_kept], borrowed and read wherever
+ * an expansion begins. */
+void qdot_motion_series_keep(qdot_motion_series *series, const double *hi, const double *lo);
 
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_motion_series_get(const qdot_motion_series *series);
 
-/* How often M was factored; bytes of machine code, 0: there is none, *why says so. */
+/* Coefficients of output i of the program. Convolutions an order. */
+const double *qdot_motion_series_output(const qdot_motion_series *series, size_t i);
+double qdot_motion_series_convolutions(const qdot_motion_series *series);
+/* How often K was factored; bytes of machine code, 0: there is none, *why says so. */
 size_t qdot_motion_series_factored(const qdot_motion_series *series);
 size_t qdot_motion_series_code(const qdot_motion_series *series, const char **why);
 

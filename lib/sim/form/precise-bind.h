@@ -2,7 +2,7 @@
  *
  *     M(q, t) q'' = f(q, q', t),   order k:  M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}
  *
- * block by block as direct.h has it, M_0 factored once a step by elimination with pivots.
+ * block by block as motion-series.h has it, M_0 factored once a step by elimination with pivots.
  * With constraints the same of [M A^T; A 0] (q'', -lambda) = (f, gamma): nothing is projected,
  * since the guard digits that the drift eats are among those that are measured.
  *

@@ -159,7 +159,7 @@ near(int p, double step, void *user)
 
 /* --- building --------------------------------------------------------------------------- */
 
-/* Vectors take so much more than counts of their work say, beside direct.c's orders. */
+/* Vectors take so much more than counts of their work say, beside the orders of kernels. */
 static const double vectors = 1.8;
 
 /* Nanoseconds, as measured on a machine of 2023; only their ratios matter. Applied forces with
@@ -275,7 +275,8 @@ make(qdot_residual_series *s, bool shaken)
     if (!masses)
         return QDOT_OK;
     QDOT_TRY(qdot_motion_of_residual(s->plan, s->residual, &s->motion));
-    QDOT_TRY(qdot_motion_series_new(s->plan, &s->motion, masses, shaken, &s->stages));
+    QDOT_TRY(qdot_motion_series_of_residual(s->plan, &s->motion, masses, shaken,
+                                            &s->stages));
     stages = qdot_motion_series_get(s->stages);
     if (!s->tree || qdot_plan_cost(stages) <= cost_of_tree(s)) {
         s->series = *stages;

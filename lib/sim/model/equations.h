@@ -17,6 +17,7 @@
 
 #include "num/structure.h"
 #include "ode/method.h"
+#include "series/motion.h"
 #include "sim/model/request.h"
 #include "tape/tape.h"
 
@@ -65,6 +66,10 @@ struct qdot_plan {
     /* From q, q', t. Block by block: one coordinate, q''; a constant block, f; else f
      * and the lower triangle of M by rows. */
     qdot_tape *tape;
+
+    /* M q'' = f as a program (sim/form/motion-of-equations.h), if it is smooth; with constraints
+     * that of `bordered`. */
+    qdot_motion *motion;
 
     bool leading; /* first orders in two doubles are wanted (sim/form/leading.h) */
     bool smooth; /* the equations have Taylor series: for the method or its companion */

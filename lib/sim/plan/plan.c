@@ -7,7 +7,6 @@
 #include "sim/form/bordered.h"
 #include "sim/form/canonical.h"
 #include "sim/form/constrained-series.h"
-#include "sim/form/direct.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/residual.h"
 #include "sim/form/residual-series.h"
@@ -25,7 +24,8 @@
 static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
-static const char *const later_methods[] = {"radau", "gauss"};
+static const char *const later_methods[] = {"radau", "gauss4", "gauss6", "gauss8", "gauss12",
+                                            "verlet", "composition8", "variational"};
 
 /* --- the scene ---------------------------------------------------------------------- */
 

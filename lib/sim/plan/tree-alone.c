@@ -45,7 +45,7 @@ find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
 }
 
 /* A lower bound of the cost of the series of M q'' = f if M has `entries` entries off the diagonal.
- * It follows estimate_cost of sim/form/direct.c, but needs no tape. */
+ * It follows qdot_motion_cost_explicit, but needs no tape. */
 static double
 least_cost(size_t n, size_t entries)
 {

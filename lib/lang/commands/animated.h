@@ -1,0 +1,33 @@
+/* animated.h -- a run of the scene as a moving picture. */
+#ifndef QDOT_LANG_ANIMATED_H
+#define QDOT_LANG_ANIMATED_H
+
+#include "lang/session/session.h"
+#include "show/animation.h"
+
+/* What part of a run is drawn, and how. */
+typedef struct {
+    double from, to;   /* times; NaN: where the run begins, ends */
+    const char *title; /* borrowed; NULL: none */
+    double
+        trail; /* length of the trails in units of t; NaN: four seconds of the picture */
+    double speed; /* units of t in a second; NaN: 1, or what makes the picture last about
+                          20 s where that would be shorter than 4 s or longer than 60 s */
+} qdot_animated_options;
+
+/* Particles, bodies, rods (mech/study/rods.h), springs and dampers of the scene along the run,
+ * its states, T, V and T + V, and lines that tell of its error. Between 1201 and 20001 frames: 60 in a second
+ * and four in a step of the run where that is not more; a notice tells if there is less than one a
+ * step. *a is the caller's, to be cleared in any case. QDOT_EINVAL: the scene has nothing to draw,
+ * or has other coordinates than the run; QDOT_EDOMAIN: times outside the run. */
+QDOT_MUST_CHECK qdot_status qdot_animated_make(qdot_session *session,
+                                               const qdot_named_run *run,
+                                               const qdot_animated_options *options,
+                                               qdot_animation *a);
+
+/* The lines about the run alone. */
+QDOT_MUST_CHECK qdot_status qdot_animated_facts(qdot_session *session,
+                                                const qdot_named_run *run,
+                                                qdot_animation *a);
+
+#endif

@@ -1,0 +1,193 @@
+/* asm.h -- machine code for series: numbers and vectors of them in registers or in memory,
+ * and some twenty operations on them. Writers above name neither a register nor an instruction
+ * of a processor: memory is addressed by what it holds, registers are numbers that they divide
+ * among themselves.
+ *
+ * Operations are of the form
+ *
+ *     reg <- f(reg, first, b),   b a register or a place in memory,
+ *
+ * of ONE number or of ALL lanes of a vector. There are three kinds of code (num/kinds.h): AVX-512
+ * (vectors of 8 doubles, 32 registers), AVX2 and FMA (4, 16), and the SSE2 that every x86-64 has (2,
+ * 15; it rounds a product before it is added). The same calls do the same in each, but for these
+ * roundings. Code of any kind can be written on any processor. Writing never fails at once: a buffer
+ * that could not grow says so at the end (`status`).
+ *
+ * Tests   tests/machine/test_x86.c, test_vector.c
+ */
+#ifndef QDOT_ASM_MACHINE_H
+#define QDOT_ASM_MACHINE_H
+
+#include <stdint.h>
+
+#include "base/memory.h"
+
+enum { QDOT_ASM_REGISTERS = 32 }; /* of any kind */
+
+typedef enum {
+    QDOT_ASM_LOAD,  /* reg = b */
+    QDOT_ASM_STORE, /* b = reg */
+    QDOT_ASM_ADD,   /* reg = first + b */
+    QDOT_ASM_SUB,
+    QDOT_ASM_MUL,
+    QDOT_ASM_DIV,
+    QDOT_ASM_ROOT,      /* reg = sqrt(b) */
+    QDOT_ASM_MADD,      /* reg = first b + reg */
+    QDOT_ASM_MSUB,      /* reg = first b - reg */
+    QDOT_ASM_NMADD,     /* reg = reg - first b */
+    QDOT_ASM_NMSUB,     /* reg = -first b - reg */
+    QDOT_ASM_MADD_OVER, /* reg = first reg + b, and so on */
+    QDOT_ASM_MSUB_OVER,
+    QDOT_ASM_NMADD_OVER,
+    QDOT_ASM_NMSUB_OVER,
+    QDOT_ASM_SPREAD, /* reg = the double b in every lane */
+    QDOT_ASM_OPERATIONS
+} qdot_asm_operation;
+
+typedef enum { QDOT_ASM_ONE, QDOT_ASM_ALL } qdot_asm_width;
+
+/* One of MADD ... NMSUB_OVER: over: reg is multiplied; whether the product, and what is added to
+ * it, change their sign. */
+static inline qdot_asm_operation
+qdot_asm_fused(bool over, bool minus_product, bool minus_other)
+{
+    return (qdot_asm_operation)(QDOT_ASM_MADD + 4 * over + 2 * minus_product +
+                                minus_other);
+}
+
+/* What holds an address. The code is a function of the first three; a function that it calls gets
+ * its first arguments there. Those after WORK_NOW belong to the caller of the code (_save). */
+typedef enum {
+    QDOT_ASM_ROWS,      /* coefficients, row by row, each by order */
+    QDOT_ASM_CONSTANTS, /* numbers that no order changes */
+    QDOT_ASM_WORK,
+    QDOT_ASM_ROWS_NOW, /* the same, moved on to the order at hand */
+    QDOT_ASM_WORK_NOW,
+    QDOT_ASM_FACTOR, /* of a sum of products: one row, and those that it is multiplied by */
+    QDOT_ASM_PARTNER,
+    QDOT_ASM_TERMS,     /* where the terms of a sum begin in the code; */
+    QDOT_ASM_ROWS_HALF, /* at half of the order at hand */
+    QDOT_ASM_CONSTANTS_NOW,
+    QDOT_ASM_SECOND_PARTNER,
+    QDOT_ASM_TERMS_OF_PAIRS, /* of two sums at once; of a square */
+    QDOT_ASM_TERMS_OF_SQUARES,
+    QDOT_ASM_TERMS_LEFT, /* where fewer of them begin; never where an operand is */
+    QDOT_ASM_BASES
+} qdot_asm_base;
+
+/* A register, or a place in memory; one double there may stand for every lane (AVX-512 only). */
+typedef struct {
+    bool memory, spread;
+    int reg; /* or a qdot_asm_base */
+    int32_t offset;
+} qdot_operand;
+
+typedef struct {
+    qdot_vec(unsigned char) bytes;
+    qdot_status status;
+    size_t kind;  /* 0 SSE2, 1 AVX2 and FMA, 2 AVX-512 */
+    bool far;     /* every offset takes four bytes: like operations are equally long */
+    int mask;     /* of AVX-512, of what follows; 0: none */
+    bool zeroing; /* what it leaves out becomes 0, else stays */
+    unsigned char nowhere[16]; /* what is written after a failure */
+    /* Of registers: when they were used last, and whether they cannot be had. */
+    unsigned clock, used[QDOT_ASM_REGISTERS];
+    bool taken[QDOT_ASM_REGISTERS];
+} qdot_asm;
+
+/* Whether code runs here at all; the best kind that this processor has, within the limit of
+ * num/kinds.h. */
+bool qdot_asm_is_here(void);
+size_t qdot_asm_kind(void);
+/* Doubles in a vector; registers, 0 ... */
+int qdot_asm_lanes(const qdot_asm *m);
+int qdot_asm_registers(const qdot_asm *m);
+
+static inline qdot_operand
+qdot_asm_in(int reg)
+{
+    return (qdot_operand){.reg = reg};
+}
+
+/* offset: in bytes. */
+static inline qdot_operand
+qdot_asm_at(qdot_asm_base base, int32_t offset)
+{
+    return (qdot_operand){.memory = true, .reg = base, .offset = offset};
+}
+
+/* --- operations ----------------------------------------------------------------------- */
+
+void qdot_asm_do(qdot_asm *m, qdot_asm_operation op, qdot_asm_width width, int reg,
+                 int first, qdot_operand b);
+/* All lanes of reg = 0. */
+void qdot_asm_clear(qdot_asm *m, int reg);
+
+/* --- vectors whose lanes are orders, one after another (vector.c) --------------------- *
+ *
+ * An order enters a vector lane by lane: `newest` is the lane of the order at hand, `older` are
+ * those below it, `known` both. AVX-512 has these sets in mask registers, the others in two
+ * vectors. */
+
+/* The first register that is free for what the code is about, where lanes enter. */
+int qdot_asm_first_free(const qdot_asm *m);
+
+typedef enum {
+    QDOT_ASM_ALL_LANES,
+    QDOT_ASM_OLDER_LANES,
+    QDOT_ASM_KNOWN_LANES
+} qdot_asm_lane_set;
+
+/* Before anything else here. The newest lane becomes the first; `ones` is a double in memory whose
+ * bits are all 1. The newest becomes the next; behind the last there is none. */
+void qdot_asm_begin_lanes(qdot_asm *m);
+void qdot_asm_first_lane(qdot_asm *m, qdot_operand ones);
+void qdot_asm_next_lane(qdot_asm *m);
+/* The newest lane of reg = a double in memory. AVX-512 only: the others read such vectors from
+ * memory. */
+void qdot_asm_insert(qdot_asm *m, int reg, qdot_operand one);
+/* to += factor * b, in these lanes; b is in memory if that is not all. `spare` is overwritten. */
+void qdot_asm_add_product(qdot_asm *m, int to, int factor, qdot_operand b,
+                          qdot_asm_lane_set lanes, int spare);
+/* to = the lanes of low from the second on, then the first of high, NULL: then 0. `to` may be the
+ * register of low, `spare` is overwritten. */
+void qdot_asm_slide(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high,
+                    int spare);
+
+/* --- addresses, loops, calls ---------------------------------------------------------- */
+
+/* to = from + offset; the address of a place in the code. */
+void qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset);
+void qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place);
+/* What stands between the two is run `times`, at least once; returns its place. Not one in
+ * another. _repeat_as: as often as the 32 bits at that place say, when it is run. */
+size_t qdot_asm_repeat(qdot_asm *m, int times);
+size_t qdot_asm_repeat_as(qdot_asm *m, qdot_operand times);
+void qdot_asm_again(qdot_asm *m, size_t from);
+/* What begins at that place, or at an address, is run up to its end, _leave. */
+void qdot_asm_enter(qdot_asm *m, size_t place);
+void qdot_asm_enter_at(qdot_asm *m, qdot_asm_base at);
+void qdot_asm_leave(qdot_asm *m);
+/* The end of the code. */
+void qdot_asm_return(qdot_asm *m);
+/* A C function is called; what the code was run with is there again after it, registers are not.
+ * Between _frame and _unframe, the latter before the return. */
+void qdot_asm_frame(qdot_asm *m);
+void qdot_asm_call(qdot_asm *m, void (*function)(void));
+void qdot_asm_unframe(qdot_asm *m);
+/* Addresses that belong to the caller are kept, and put back before the return. */
+void qdot_asm_save(qdot_asm *m);
+void qdot_asm_restore(qdot_asm *m);
+
+/* --- which register ------------------------------------------------------------------- */
+
+static inline void
+qdot_asm_use(qdot_asm *m, int reg)
+{
+    m->used[reg] = ++m->clock;
+}
+
+/* The least recently used of from ... end - 1 that is not taken; it is used now. */
+int qdot_asm_fresh(qdot_asm *m, int from, int end);
+
+#endif

@@ -1,0 +1,109 @@
+/* animation.h -- a run as a moving picture: its data, and the page that shows them.
+ *
+ * Knows columns of numbers at equal times and what is drawn with them, not scenes. A column may
+ * hold the same number everywhere. NaN: unknown there, nothing is drawn.
+ *
+ * The page is one file: the data as JSON, the style (lib/show/player.css) and the program that
+ * draws them (lib/show/player.js). A column becomes 16-bit numbers a + b u, u = 0 .. 65534
+ * (65535: unknown), in base64: 1/65534 of its range, less than a screen or printer shows.
+ *
+ * Tests  tests/show/test_animation.c, tests/script/animate.sh
+ */
+#ifndef QDOT_SHOW_ANIMATION_H
+#define QDOT_SHOW_ANIMATION_H
+
+#include "base/memory.h"
+#include "base/text.h"
+
+enum { QDOT_ANIMATION_ARMS = 8 };
+
+typedef struct {
+    size_t at[3]; /* columns of x, y and, in space, z */
+} qdot_animation_point;
+
+typedef struct {
+    const char *name;
+    size_t point;
+    double size; /* of the dot; 1 for the heaviest particle */
+} qdot_animation_particle;
+
+typedef enum {
+    QDOT_ANIMATION_ROD,
+    QDOT_ANIMATION_SPRING,
+    QDOT_ANIMATION_DAMPER
+} qdot_animation_kind;
+
+typedef struct {
+    qdot_animation_kind kind;
+    size_t ends[2]; /* points */
+} qdot_animation_link;
+
+/* The solid of uniform density with its mass and moments: in the plane a disc or, where something
+ * is fastened to it, a rectangle with its length that way; in space an ellipsoid. */
+typedef struct {
+    const char *name;
+    size_t point; /* its centre */
+    size_t axes
+        [6];   /* columns of the first column of its rotation (plane), of the first two */
+    bool disc; /* plane: of radius half[0] */
+    double half[3];      /* half the length of its sides; half axes of the ellipsoid */
+    double turn[2];      /* rectangle: direction of its length in the body */
+    double principal[9]; /* space: its principal axes in the body, one after another */
+    size_t arms[QDOT_ANIMATION_ARMS]; /* points that an arm from the centre leads to */
+    size_t n_arms;
+} qdot_animation_body;
+
+typedef struct {
+    char *name, *rate; /* owned */
+    size_t q, v;       /* columns */
+} qdot_animation_state;
+
+typedef struct {
+    const char *name;
+    size_t column;
+} qdot_animation_energy;
+
+typedef struct {
+    const char *name;
+    char *text; /* owned */
+} qdot_animation_fact;
+
+typedef struct {
+    char *title;        /* owned; NULL: none */
+    unsigned dimension; /* 2 or 3 */
+    double up[3];       /* of the picture in space, a unit vector */
+    double t0, t1;      /* times of the first and last frame */
+    size_t frames;      /* 2 or more */
+    double speed;       /* units of t in a second */
+    double trail;       /* length of the trails, in units of t */
+    size_t columns;
+    double *values; /* [columns * frames], column by column; owned */
+    qdot_vec(qdot_animation_point) points;
+    qdot_vec(qdot_animation_particle) particles;
+    qdot_vec(qdot_animation_link) links;
+    qdot_vec(qdot_animation_body) bodies;
+    qdot_vec(qdot_animation_state) states;    /* for the phase portrait */
+    qdot_vec(qdot_animation_energy) energies; /* against t */
+    qdot_vec(qdot_animation_fact) facts;      /* lines below the picture */
+} qdot_animation;
+
+void qdot_animation_clear(qdot_animation *a);
+
+/* Append the whole page. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_animation_page(const qdot_animation *a, qdot_text *out);
+
+/* As an animated GIF through gnuplot: at most 400 pictures, 25 a second where that is enough; a scene
+ * in space as the page shows it first. Errors: QDOT_EIO: gnuplot is missing, cannot write GIF files or fails;
+ * QDOT_EDOMAIN: no place is finite. */
+QDOT_MUST_CHECK qdot_status qdot_animation_gif(const qdot_animation *a, const char *path);
+
+/* Its parts, for a page with more on it: what stands in <head> (once), the animation (a
+ * <section>), and what stands behind the last section. */
+void qdot_animation_head(qdot_text *out);
+void qdot_animation_section(const qdot_animation *a, qdot_text *out);
+void qdot_animation_foot(qdot_text *out);
+
+/* `text` as text of a page: & < > " as entities. */
+void qdot_animation_escape(qdot_text *out, const char *text);
+
+#endif

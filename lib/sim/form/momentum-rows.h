@@ -1,0 +1,40 @@
+/* momentum-rows.h -- momenta that are kept, in the series of a reduced plan (sim/plan/routh.h).
+ *
+ * Momenta are inputs of its program, numbers behind t; the velocities that follow from them are the
+ * last of its outputs.
+ *
+ * Tests  tests/sim/test_routh.c
+ */
+#ifndef QDOT_SIM_MOMENTUM_ROWS_H
+#define QDOT_SIM_MOMENTUM_ROWS_H
+
+#include "sim/form/expansion.h"
+#include "sim/model/equations.h"
+
+typedef struct qdot_momentum qdot_momentum;
+
+typedef struct {
+    const qdot_plan *plan;
+    qdot_expansion at;
+    const double *hi, *lo; /* [n_kept] the momenta, borrowed; NULL: 0 */
+    qdot_momentum *drawn;  /* [n_kept] as they were drawn last */
+    const double **rates;  /* [n_kept] series of the velocities that follow */
+    bool shaken;           /* of the momenta hi alone */
+} qdot_momentum_rows;
+
+/* Of a plan, borrowed, whose program is there. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_momentum_rows_init(qdot_momentum_rows *m,
+                                                    const qdot_plan *plan,
+                                                    qdot_expansion at, bool shaken);
+void qdot_momentum_rows_clear(qdot_momentum_rows *m);
+
+/* What the momenta are from t on: each of the two doubles about hi + lo, by chance. */
+void qdot_momentum_rows_draw(qdot_momentum_rows *m, double t);
+
+/* Coefficients below p of velocities that follow from momenta, where others read them. */
+void qdot_momentum_rows_show(const qdot_momentum_rows *m, int p);
+
+/* QDOT_EDOMAIN names a velocity that is not finite. */
+QDOT_MUST_CHECK qdot_status qdot_momentum_rows_check(const qdot_momentum_rows *m);
+
+#endif

@@ -1,0 +1,2 @@
+" Scripts of qdot end in .lag.
+autocmd BufNewFile,BufRead *.lag setfiletype qdot

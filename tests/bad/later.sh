@@ -1,0 +1,21 @@
+# Words of the language that come later say so, each at its place.
+scene='coord x, y; param mu, k; particle b mass 1 at (x, y); constraint floor: y = 0'
+while read -r line; do
+    qdot -q -e "$scene" -e "$line" 2>&1 | sed -n '1p;2p'
+done <<'EOF'
+integral(x^2, x)
+limit(sin(x)/x, x = 0)
+euler_lagrange(x, x, x, t)
+hamiltonian p[x]^2/2
+force (-mu*abs(lambda[floor])*sign(x'), 0) on b
+dissipation lambda[floor]*x'^2
+run 0..1 method gauss4
+longtime 0..10
+sweep mu = 0..1 count 3 run 0..1 : x
+poincare x = 0 rising : y
+lyapunov 0..10
+sensitivity value(x, 1) of mu
+find x = 0..1 such that value(x, 1) = 0
+fit mu to "data.csv" : t, x
+continue equilibria in mu = 0..1
+EOF
