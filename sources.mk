@@ -66,6 +66,7 @@ library_sources = \
 	lib/lang/commands/race.c \
 	lib/lang/commands/redirect.c \
 	lib/lang/commands/remove.c \
+	lib/lang/commands/report-page.c \
 	lib/lang/commands/request.c \
 	lib/lang/commands/reset.c \
 	lib/lang/commands/run.c \
@@ -311,6 +312,8 @@ library_sources = \
 	lib/show/figure.c \
 	lib/show/gnuplot.c \
 	lib/show/layout.c \
+	lib/show/page.c \
+	lib/show/pdf.c \
 	lib/show/sink.c \
 	lib/show/sketch.c \
 	lib/show/table.c \
@@ -674,6 +677,8 @@ library_headers = \
 	lib/show/figure.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
+	lib/show/page.h \
+	lib/show/pdf.h \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/show/trace.h \
@@ -769,6 +774,7 @@ library_headers = \
 	lib/tape/tape.h
 
 library_texts = \
+	lib/show/page.css \
 	lib/show/player.css \
 	lib/show/player.js
 
@@ -861,6 +867,7 @@ unit_tests = \
 	tests/show/test_csv \
 	tests/show/test_figure \
 	tests/show/test_layout \
+	tests/show/test_page \
 	tests/show/test_table \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
@@ -1007,6 +1014,7 @@ script_tests = \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
+	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
@@ -1175,6 +1183,7 @@ script_tests = \
 	tests/bad/remove-beyond.lag \
 	tests/bad/remove-none.lag \
 	tests/bad/remove-which.lag \
+	tests/bad/report.sh \
 	tests/bad/reserved.lag \
 	tests/bad/reset-in-loop.lag \
 	tests/bad/rest-negative-param.lag \
@@ -1476,6 +1485,7 @@ test_files = \
 	tests/bad/remove-beyond.out \
 	tests/bad/remove-none.out \
 	tests/bad/remove-which.out \
+	tests/bad/report.out \
 	tests/bad/reserved.out \
 	tests/bad/reset-in-loop.out \
 	tests/bad/rest-negative-param.out \
@@ -1800,6 +1810,7 @@ test_files = \
 	tests/script/ranges.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
+	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/rests.out \
 	tests/script/routh.out \

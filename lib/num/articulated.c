@@ -23,17 +23,16 @@ typedef struct {
     void (*path)(qdot_articulated *a, const qdot_articulated_equations *e);
 } kernels;
 
-/* For paths in a plane. `eliminate` returns the least ratio of a pivot to its diagonal entry; NaN
+/* For short paths in a plane. `eliminate` returns the least ratio of a pivot to its diagonal entry; NaN
  * or not positive if a pivot is not positive. */
 typedef struct {
     double (*eliminate)(qdot_articulated *a, const double *const *S);
-    void (*path)(qdot_articulated *a, const qdot_articulated_equations *e);
+    void (*path)(const qdot_articulated *a, const qdot_articulated_equations *e);
 } plane_kernels;
 
 struct qdot_articulated {
     size_t nodes, m, c, slots;
-    size_t longer;              /* pieces that have a node in the last slots */
-    const plane_kernels *plane; /* NULL: it is no path of links in a plane */
+    const plane_kernels *plane; /* NULL: it is no short path of links in a plane */
     const kernels *kernels; /* NULL: there are none */
     bool path;
     size_t *slot;     /* [nodes] */
@@ -48,9 +47,9 @@ struct qdot_articulated {
     double *d, *Z, *x, *w;           /* of a solution: [m], [c] */
     double *up, *down;               /* [3 x m x m] of 8: what 1, 2, 4 pieces make */
     /* In a plane, too (articulated-plane.def): */
-    double *W, *Below;       /* [4] weight and below by slots */
-    double *t, *tn, *wt, *p; /* [2] t, that of the next, w; x of a solution */
-    double *k, *own, *ratio, *left; /* k' and k, w.t'; H (r - S.Z) */
+    double *W, *Below;    /* [4] weight and below by slots */
+    double *t, *tn, *wt;  /* [2] t, that of the next, w */
+    double *own, *ratio;  /* k, w.t' */
 };
 
 #define SHAPES(X) X(1, 1) X(2, 1) X(3, 1) X(3, 2)
@@ -135,11 +134,11 @@ is_path(const qdot_articulated_tree *t)
     return true;
 }
 
-/* Two components, an unknown at every node. */
+/* A node a piece, each with two components and an unknown. */
 static bool
 is_plane(const qdot_articulated_tree *t)
 {
-    bool everywhere = t->m == 2 && t->c == 1;
+    bool everywhere = t->nodes <= pieces && t->m == 2 && t->c == 1;
 
     for (size_t n = 0; n < t->nodes; n++)
         everywhere = everywhere && t->unknowns[n] == 1;
@@ -190,11 +189,8 @@ make_plane(qdot_articulated *a, double *at)
     a->t = take(&at, 2 * a->slots);
     a->tn = take(&at, 2 * a->slots);
     a->wt = take(&at, 2 * a->slots);
-    a->p = take(&at, 2 * a->slots);
-    a->k = take(&at, a->slots);
     a->own = take(&at, a->slots);
     a->ratio = take(&at, a->slots);
-    a->left = take(&at, a->slots);
     for (size_t n = 0; n < a->nodes; n++)
         for (size_t e = 0; e < 4; e++) {
             a->W[e * a->slots + a->slot[n]] = a->weight[n * 4 + e];
@@ -208,7 +204,7 @@ make_numbers(qdot_articulated *a)
     const size_t m = a->m, c = a->c, square = m * m * a->slots;
     const size_t all =
         (1 + 5 * m * m + m * c + c * c + 3 * m + c) * a->slots + 6 * m * m * pieces +
-        (a->plane ? 20 * a->slots : 0);
+        (a->plane ? 16 * a->slots : 0);
     double *at;
 
     a->numbers = qdot_calloc(all + pieces, sizeof *a->numbers);
@@ -298,7 +294,6 @@ qdot_articulated_new(const qdot_articulated_tree *t, qdot_articulated **articula
     a->slots = (t->nodes + pieces - 1) / pieces * pieces;
     a->kernels = kernels_of(t->m, t->c);
     a->path = a->kernels && is_path(t);
-    a->longer = t->nodes - pieces * ((t->nodes - 1) / pieces);
     a->plane = a->path && is_plane(t) ? plane_kernels_here() : NULL;
     status = make(a, t);
     if (status != QDOT_OK) {

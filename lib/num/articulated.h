@@ -18,7 +18,7 @@
  * towards the roots for Z and one back for x. A tree that is one path is cut into eight pieces,
  * the lanes of vectors: the products of the A along each piece are computed with the factors, so
  * that a sweep of N nodes takes N/8 products one after another and three more between the pieces.
- * Links in a plane pass on single numbers (articulated-plane.def). Other trees are treated node
+ * Up to eight links in a plane pass on single numbers (articulated-plane.def). Other trees are treated node
  * by node.
  *
  * Arrays hold components one after another, slots (places of nodes in vectors) within each.

@@ -563,6 +563,7 @@ function Animation(section) {
   }
   new ResizeObserver(draw).observe(stage);
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  window.matchMedia("print").addEventListener("change", draw);
   window.addEventListener("beforeprint", draw);
   window.addEventListener("afterprint", draw);
   section.qdot = { seek: t => seek((t - data.t0) / ((data.t1 - data.t0) || 1) * (frames - 1)),

@@ -123,7 +123,7 @@ qdot_status
 qdot_animate_statement(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
-    options o = {.drawn = {NAN, NAN, NULL, NAN, NAN}};
+    options o = {.drawn = {NAN, NAN, NULL, NAN, NAN, false}};
     qdot_named_run *run;
     qdot_animation a;
     qdot_status status;

@@ -311,9 +311,8 @@ kinetic(qdot_scene *s)
     return qdot_mul(pool, QDOT_HALF, twice);
 }
 
-/* T, V and their sum; where V holds velocities, as of a magnetic field, T and the energy h. */
 static qdot_status
-add_energies(builder *b)
+add_parts(builder *b)
 {
     qdot_scene *s = b->scene;
     qdot_expr T = kinetic(s), V = qdot_mech_potential(s);
@@ -335,6 +334,19 @@ add_energies(builder *b)
     return QDOT_OK;
 }
 
+/* T, V and their sum; where V holds velocities, as of a magnetic field, T and the energy h; of a
+ * stated Lagrangian h alone. */
+static qdot_status
+add_energies(builder *b)
+{
+    qdot_scene *s = b->scene;
+    qdot_animation_energy h = {"h", 0};
+
+    if (s->lagrangian == QDOT_NIL)
+        return add_parts(b);
+    QDOT_TRY(column(b, qdot_mech_numeric_energy(s), &h.column));
+    return qdot_vec_push(&b->a->energies, h);
+}
 /* --- times -------------------------------------------------------------------------- */
 
 static qdot_status
@@ -419,7 +431,7 @@ read_values(builder *b)
 /* --- the whole ---------------------------------------------------------------------- */
 
 static qdot_status
-check_scene(builder *b)
+check_scene(builder *b, bool bare)
 {
     const qdot_run_report *r = qdot_run_get_report(b->run);
     const qdot_scene *s = b->scene;
@@ -431,7 +443,7 @@ check_scene(builder *b)
         (void)qdot_fail(QDOT_EINVAL, "the scene has other coordinates than the run");
         return qdot_hint("the scene as it is now is drawn: `run` it again");
     }
-    if (s->particles.n + s->bodies.n > 0)
+    if (bare || s->particles.n + s->bodies.n > 0)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "the scene has no particle and no body to draw");
     return s->lagrangian != QDOT_NIL ? qdot_hint("a stated Lagrangian does not say where "
@@ -439,34 +451,49 @@ check_scene(builder *b)
                                      : qdot_hint("particle bob mass m at (x, y)");
 }
 
+/* Everything that is drawn. */
 static qdot_status
-build(builder *b, const qdot_animated_options *o)
+add_things(builder *b)
 {
-    const double *x;
-    qdot_expr r;
+    const qdot_scene *s = b->scene;
+    qdot_expr r =
+        s->particles.n > 0 ? s->particles.at[0].position : s->bodies.at[0].position;
 
-    QDOT_TRY(check_scene(b));
-    QDOT_TRY(set_span(b, o));
-    r = b->scene->particles.n > 0 ? b->scene->particles.at[0].position
-                                  : b->scene->bodies.at[0].position;
-    b->a->dimension = dimension(b->scene->pool, r) == 3 ? 3 : 2;
-    b->upright = b->scene->gravities.n > 0;
-    if (o->title != NULL && (b->a->title = qdot_strdup(o->title)) == NULL)
-        return QDOT_ENOMEM;
+    b->a->dimension = dimension(s->pool, r) == 3 ? 3 : 2;
+    b->upright = s->gravities.n > 0;
     QDOT_TRY(add_particles(b));
     QDOT_TRY(add_links(b));
     QDOT_TRY(add_bodies(b));
-    if (b->a->dimension == 3)
-        QDOT_TRY(want_gravity(b));
-    QDOT_TRY(add_states(b));
-    QDOT_TRY(add_energies(b));
-    QDOT_TRY(set_frames(b, o));
-    QDOT_TRY(read_values(b));
-    x = b->first;
+    return b->a->dimension == 3 ? want_gravity(b) : QDOT_OK;
+}
+
+/* In the order of add_things. */
+static void
+use_first(builder *b)
+{
+    const double *x = b->first;
+
     use_masses(b, &x);
     use_bodies(b, &x);
     if (b->a->dimension == 3)
         use_gravity(b, x);
+}
+
+static qdot_status
+build(builder *b, const qdot_animated_options *o)
+{
+    QDOT_TRY(check_scene(b, o->bare));
+    QDOT_TRY(set_span(b, o));
+    b->a->dimension = 2;
+    if (o->title != NULL && (b->a->title = qdot_strdup(o->title)) == NULL)
+        return QDOT_ENOMEM;
+    if (!o->bare)
+        QDOT_TRY(add_things(b));
+    QDOT_TRY(add_states(b));
+    QDOT_TRY(add_energies(b));
+    QDOT_TRY(set_frames(b, o));
+    QDOT_TRY(read_values(b));
+    use_first(b);
     return QDOT_OK;
 }
 

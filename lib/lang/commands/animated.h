@@ -13,6 +13,7 @@ typedef struct {
         trail; /* length of the trails in units of t; NaN: four seconds of the picture */
     double speed; /* units of t in a second; NaN: 1, or what makes the picture last about
                           20 s where that would be shorter than 4 s or longer than 60 s */
+    bool bare;         /* only states and energies: nothing is drawn */
 } qdot_animated_options;
 
 /* Particles, bodies, rods (mech/study/rods.h), springs and dampers of the scene along the run,

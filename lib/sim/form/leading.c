@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "series/two.h"
 #include "sim/form/blocks.h"
-#include "sim/form/motion-of-equations.h"
 #include "sim/form/motion-of-residual.h"
 
 /* Corrections at most; one that is no larger than this leaves nothing for another. */
@@ -19,7 +18,8 @@ _Static_assert((int)QDOT_ODE_LEADING_MOST <= (int)QDOT_TWO_MOST, "orders that ar
 struct qdot_leading {
     const qdot_plan *plan;
     const qdot_ode_series *series;
-    qdot_motion motion;
+    const qdot_motion *motion; /* of the plan, or: */
+    qdot_motion residual;
     qdot_tape_two *two;
     qdot_ode_leading leading;
     qdot_blocks solvers;
@@ -46,7 +46,7 @@ block_of(const qdot_leading *l, size_t *b)
 static void
 take_entries(const qdot_leading *l, size_t k, size_t b)
 {
-    const qdot_motion *m = &l->motion;
+    const qdot_motion *m = l->motion;
     const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1], n = end - first;
     double *to = l->solvers.at[b].a;
 
@@ -64,7 +64,7 @@ factor(qdot_leading *l, const double *masses)
 {
     size_t b = 0;
 
-    for (size_t k = 0; k + 1 < l->motion.blocks.n; k++, b++) {
+    for (size_t k = 0; k + 1 < l->motion->blocks.n; k++, b++) {
         const qdot_plan_block *block = block_of(l, &b);
 
         if (block->constant)
@@ -97,7 +97,7 @@ factor_residual(qdot_leading *l, const qdot_ode_place *at)
 static double
 missing(qdot_leading *l, int k)
 {
-    const qdot_motion *m = &l->motion;
+    const qdot_motion *m = l->motion;
     double most = 0, size = 0;
     size_t b = 0;
 
@@ -124,7 +124,7 @@ missing(qdot_leading *l, int k)
 static void
 guess(qdot_leading *l, int k)
 {
-    const qdot_motion *m = &l->motion;
+    const qdot_motion *m = l->motion;
 
     for (size_t i = 0; i < m->solved.n; i++) {
         const size_t v = m->unknowns.at[m->solved.at[i]].once;
@@ -149,7 +149,7 @@ begin(const qdot_ode_place *at, double unit, void *user)
     l->t[1] = (qdot_two){unit, 0};
     for (size_t c = 0; c < l->plan->n_kept; c++)
         l->t[(c + 1) * l->stride] = (qdot_two){l->hi[c], l->lo[c]};
-    for (int k = qdot_motion_first(&l->motion); k < 0; k++)
+    for (int k = qdot_motion_first(l->motion); k < 0; k++)
         qdot_tape_two_stage(l->two, k, NULL);
     return l->plan->residual ? factor_residual(l, at) : QDOT_OK;
 }
@@ -165,7 +165,7 @@ next(int k, void *user)
     qdot_tape_two_stage(l->two, k - 1, l->newest);
     if (k == 1 && !l->plan->residual)
         QDOT_TRY(factor(l, NULL));
-    for (int tries = 0; tries < most_corrections && l->motion.solved.n > 0; tries++) {
+    for (int tries = 0; tries < most_corrections && l->motion->solved.n > 0; tries++) {
         const double share = missing(l, k - 1);
 
         qdot_tape_two_change(l->two, k - 1, l->by);
@@ -201,19 +201,20 @@ make(qdot_leading *l)
     const size_t n = l->plan->n;
 
     if (l->plan->residual) {
-        QDOT_TRY(qdot_motion_of_residual(l->plan, l->plan->residual, &l->motion));
+        QDOT_TRY(qdot_motion_of_residual(l->plan, l->plan->residual, &l->residual));
+        l->motion = &l->residual;
         QDOT_TRY(make_masses(l));
     } else {
-        QDOT_TRY(qdot_motion_of_equations(l->plan, &l->motion));
+        l->motion = l->plan->motion;
     }
-    QDOT_TRY(qdot_tape_two_of_motion(&l->motion, &l->two));
+    QDOT_TRY(qdot_tape_two_of_motion(l->motion, &l->two));
     QDOT_TRY(qdot_blocks_init(&l->solvers, l->plan, false));
     l->stride = qdot_tape_two_stride(l->two);
     l->q = qdot_tape_two_input(l->two, 0);
     l->v = qdot_tape_two_input(l->two, n);
     l->t = qdot_tape_two_input(l->two, 2 * n);
-    l->newest = qdot_calloc(l->motion.solved.n + 1, sizeof *l->newest);
-    l->by = qdot_calloc(l->motion.solved.n + 1, sizeof *l->by);
+    l->newest = qdot_calloc(l->motion->solved.n + 1, sizeof *l->newest);
+    l->by = qdot_calloc(l->motion->solved.n + 1, sizeof *l->by);
     if (!l->newest || !l->by)
         return QDOT_ENOMEM;
     l->leading =
@@ -248,7 +249,7 @@ qdot_leading_free(qdot_leading *l)
         return;
     qdot_blocks_clear(&l->solvers);
     qdot_tape_two_free(l->two);
-    qdot_motion_clear(&l->motion);
+    qdot_motion_clear(&l->residual);
     qdot_free(l->newest);
     qdot_free(l->by);
     qdot_free(l->in);

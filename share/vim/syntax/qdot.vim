@@ -19,8 +19,8 @@ syntax keyword qdotWord contained animate assume body check constraint coord cyc
 syntax keyword qdotWord contained derive dissipation dof equilibria event events force
 syntax keyword qdotWord contained forces function gravity help include lagrangian modes
 syntax keyword qdotWord contained param particle plan plot potential print quit race
-syntax keyword qdotWord contained reactions redo remove reset run save scene set show
-syntax keyword qdotWord contained spring start style table timing torque undo vars
+syntax keyword qdotWord contained reactions redo remove report reset run save scene set
+syntax keyword qdotWord contained show spring start style table timing torque undo vars
 syntax keyword qdotWord contained workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence

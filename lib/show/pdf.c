@@ -1,0 +1,198 @@
+/* pdf.c -- a page printed by a browser without a window. */
+#include "show/pdf.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/interrupt.h"
+#include "base/text.h"
+#include "show/sink.h"
+
+extern char **environ;
+
+enum { SECONDS = 60, A_SECOND = 20 };
+
+static int
+remove_one(const char *path, const struct stat *info, int kind, struct FTW *place)
+{
+    (void)info;
+    (void)kind;
+    (void)place;
+    return remove(path);
+}
+
+/* A folder of our own in TMPDIR. */
+static qdot_status
+make_folder(qdot_text *folder)
+{
+    const char *parent = getenv("TMPDIR");
+
+    qdot_text_format(folder, "%s/qdot-XXXXXX",
+                     parent != NULL && parent[0] != '\0' ? parent : P_tmpdir);
+    QDOT_TRY(qdot_text_status(folder));
+    if (mkdtemp(folder->at) != NULL)
+        return QDOT_OK;
+    return qdot_fail(QDOT_EIO, "cannot make a folder for temporary files: %s",
+                     strerror(errno));
+}
+
+/* Start the first browser that there is, silent, with SIGINT as usual. */
+static qdot_status
+start(char *const arguments[], pid_t *child)
+{
+    static const char *const names[] = {"chromium", "chromium-browser", "google-chrome",
+                                        "chrome"};
+    posix_spawn_file_actions_t actions;
+    int failed = posix_spawn_file_actions_init(&actions);
+
+    if (failed == 0) {
+        failed = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+        for (int fd = 1; fd <= 2 && failed == 0; fd++)
+            failed =
+                posix_spawn_file_actions_addopen(&actions, fd, "/dev/null", O_WRONLY, 0);
+        for (size_t i = 0;
+             i < sizeof names / sizeof *names && (i == 0 || failed == ENOENT); i++)
+            if (failed == 0 || failed == ENOENT)
+                failed =
+                    posix_spawnp(child, names[i], &actions, NULL, arguments, environ);
+        posix_spawn_file_actions_destroy(&actions);
+    }
+    if (failed == 0)
+        return QDOT_OK;
+    if (failed == ENOENT) {
+        (void)qdot_fail(QDOT_EIO,
+                        "a report becomes a PDF by Chromium, which is not installed");
+        return qdot_hint(
+            "`report to \"x.html\"`, which any browser prints; apt install chromium");
+    }
+    return qdot_fail(QDOT_EIO, "cannot start Chromium: %s", strerror(failed));
+}
+
+/* Wait for it, up to a minute or Ctrl-C. */
+static qdot_status
+wait_for(pid_t child)
+{
+    const struct timespec nap = {0, 1000000000L / A_SECOND};
+    int status = 0;
+
+    for (int k = 0; k < SECONDS * A_SECOND; k++) {
+        pid_t done = waitpid(child, &status, WNOHANG);
+        qdot_status pressed = qdot_interrupt_check();
+
+        if (done == child && pressed == QDOT_OK)
+            return status == 0
+                       ? QDOT_OK
+                       : qdot_fail(QDOT_EIO, "Chromium failed to print the report");
+        if (done == child || (done < 0 && errno != EINTR))
+            return pressed != QDOT_OK ? pressed
+                                      : qdot_fail(QDOT_EIO, "lost sight of Chromium");
+        if (pressed != QDOT_OK) {
+            kill(child, SIGTERM);
+            waitpid(child, &status, 0);
+            return pressed;
+        }
+        nanosleep(&nap, NULL);
+    }
+    kill(child, SIGTERM);
+    waitpid(child, &status, 0);
+    return qdot_fail(QDOT_EIO, "Chromium did not print the report within %d s", SECONDS);
+}
+
+/* The file that the browser wrote becomes the report. */
+static qdot_status
+copy(const char *from, const char *path)
+{
+    FILE *file = fopen(from, "rbe");
+    qdot_text bytes = {0};
+    char block[1 << 14];
+    qdot_status status;
+
+    if (file == NULL)
+        return qdot_fail(QDOT_EIO, "Chromium wrote no report: %s", strerror(errno));
+    for (size_t n; (n = fread(block, 1, sizeof block, file)) > 0;)
+        qdot_text_add_n(&bytes, block, n);
+    status = ferror(file) ? qdot_fail(QDOT_EIO, "cannot read what Chromium wrote")
+                          : qdot_text_status(&bytes);
+    fclose(file);
+    if (status == QDOT_OK)
+        status = qdot_sink_write(path, qdot_text_str(&bytes), bytes.n);
+    qdot_text_clear(&bytes);
+    return status;
+}
+
+static qdot_status
+print_in(const char *folder, const char *path)
+{
+    qdot_text profile = {0}, output = {0}, page = {0};
+    char options[][48] = {"chromium",
+                          "--headless",
+                          "--disable-gpu",
+                          "--no-first-run",
+                          "--disable-sync",
+                          "--disable-component-update",
+                          "--disable-quic",
+                          "--no-pdf-header-footer",
+                          "--disable-background-networking",
+                          "--virtual-time-budget=2000",
+                          "--no-sandbox"};
+    enum { OPTIONS = sizeof options / sizeof *options };
+    char *arguments[OPTIONS + 4];
+    size_t n = OPTIONS - (geteuid() != 0); /* as root it has no sandbox */
+    qdot_status status;
+    pid_t child;
+
+    qdot_text_format(&profile, "--user-data-dir=%s/profile", folder);
+    qdot_text_format(&output, "--print-to-pdf=%s/report.pdf", folder);
+    qdot_text_format(&page, "file://%s/report.html", folder);
+    status = profile.failed || output.failed || page.failed ? QDOT_ENOMEM : QDOT_OK;
+    for (size_t i = 0; i < n; i++)
+        arguments[i] = options[i];
+    arguments[n++] = profile.at;
+    arguments[n++] = output.at;
+    arguments[n++] = page.at;
+    arguments[n] = NULL;
+    if (status == QDOT_OK)
+        status = start(arguments, &child);
+    if (status == QDOT_OK)
+        status = wait_for(child);
+    if (status == QDOT_OK)
+        status = copy(strchr(output.at, '=') + 1, path);
+    qdot_text_clear(&profile);
+    qdot_text_clear(&output);
+    qdot_text_clear(&page);
+    return status;
+}
+
+qdot_status
+qdot_pdf_print(const char *page, size_t length, const char *path)
+{
+    qdot_text folder = {0}, file = {0};
+    qdot_status status = make_folder(&folder);
+    qdot_error first;
+
+    if (status != QDOT_OK) {
+        qdot_text_clear(&folder);
+        return status;
+    }
+    qdot_text_format(&file, "%s/report.html", folder.at);
+    status = qdot_text_status(&file);
+    if (status == QDOT_OK)
+        status = qdot_sink_write(file.at, page, length);
+    if (status == QDOT_OK)
+        status = print_in(folder.at, path);
+    first = *qdot_last_error();
+    (void)nftw(folder.at, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+    qdot_text_clear(&folder);
+    qdot_text_clear(&file);
+    return status == QDOT_OK ? QDOT_OK : qdot_fail_again(&first);
+}

@@ -1,0 +1,97 @@
+/* test_page.c -- answers as parts of a page: formulas divided, texts escaped, curves drawn. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "show/page.h"
+
+static void
+becomes(const char *lines, const char *want)
+{
+    qdot_text out = {0};
+
+    qdot_page_lines(&out, lines);
+    assert_int_equal(qdot_text_status(&out), QDOT_OK);
+    assert_string_equal(qdot_text_str(&out), want);
+    qdot_text_clear(&out);
+}
+
+static void
+lines_by_their_kind(void **state)
+{
+    (void)state;
+    becomes("12. A < B\n\n    x & y\nnone",
+            "<h3>12. A &lt; B</h3>\n"
+            "<p class=\"formula\">x &amp; y</p>\n<p>none</p>\n");
+    becomes("", "");
+    becomes("1.5 is no heading\n", "<p>1.5 is no heading</p>\n");
+}
+
+/* Before + and = at the top level; not within brackets, and no sign is cut off. */
+static void
+formula_is_divided(void **state)
+{
+    (void)state;
+    becomes("  <math xmlns=\"x\"><mi>a</mi><mo>=</mo><mo>\u2212</mo><mi>b</mi><mo>+</mo>"
+            "<mrow><mi>c</mi><mo>+</mo><mi>d</mi></mrow></math>, stable\n",
+            "<p class=\"formula\"><math><mi>a</mi></math> <math><mo form=\"infix\">=</mo>"
+            "<mo>\u2212</mo><mi>b</mi></math> <math><mo form=\"infix\">+</mo>"
+            "<mrow><mi>c</mi><mo>+</mo><mi>d</mi></mrow></math>, stable</p>\n");
+    becomes("  <math><mo>\u2212</mo><mi>b</mi></math>\n",
+            "<p class=\"formula\"><math><mo>\u2212</mo><mi>b</mi></math></p>\n");
+}
+
+/* MathML that does not end, or ends on another line, is text. */
+static void
+broken_formula_is_text(void **state)
+{
+    (void)state;
+    becomes("a <math><mi>b\nc</math>",
+            "<p>a &lt;math&gt;&lt;mi&gt;b</p>\n<p>c&lt;/math&gt;</p>\n");
+}
+
+/* The ends of the curve are where its axes say; what is not finite breaks it. */
+static void
+curve_has_its_ends(void **state)
+{
+    static double y[5001];
+    qdot_text out = {0};
+    const char *curve, *last = NULL;
+
+    (void)state;
+    for (int k = 0; k < 5001; k++)
+        y[k] = k;
+    y[0] = 0;
+    qdot_page_curve(&out, "a<b", 0, 10, y, 5001);
+    assert_non_null(strstr(out.at, "a&lt;b against t"));
+    curve = strstr(out.at, "class=\"curve\" d=\"M64.0 ");
+    assert_non_null(curve);
+    for (const char *at = curve; (at = strchr(at, 'L')) != NULL; at++)
+        last = at;
+    assert_true(strncmp(last, "L628.0 ", 7) == 0);
+    qdot_text_clear(&out);
+    for (int k = 0; k < 5001; k++)
+        y[k] = NAN;
+    qdot_page_curve(&out, "none", 0, 10, y, 5001);
+    assert_int_equal(out.n, 0);
+    qdot_text_clear(&out);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_by_their_kind),
+        cmocka_unit_test(formula_is_divided),
+        cmocka_unit_test(broken_formula_is_text),
+        cmocka_unit_test(curve_has_its_ends),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
