@@ -306,10 +306,10 @@ library_sources = \
 	lib/show/csv.c \
 	lib/show/draw.c \
 	lib/show/figure-axis.c \
+	lib/show/figure-image.c \
 	lib/show/figure-label.c \
 	lib/show/figure-layout.c \
 	lib/show/figure-script.c \
-	lib/show/figure.c \
 	lib/show/gnuplot.c \
 	lib/show/layout.c \
 	lib/show/page.c \

@@ -108,7 +108,7 @@ choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
     int power = 0;
 
     QDOT_TRY(qdot_figure_get_view(d->figure, i, &v));
-    of_path = fmin(fmax(fmin(v.length[0], v.length[1]) / 3, 1.3), space ? 2.5 : 2.0);
+    of_path = fmin(fmax(fmin(v.length[0], v.length[1]) / 2.4, 1.5), space ? 2.5 : 2.0);
     for (int k = 0; k < 3; k++) {
         int own = qdot_figure_power(v.least[k], v.most[k]);
 

@@ -1,4 +1,4 @@
-/* figure.c -- kinds of images; a figure drawn into its file, or a window. */
+/* figure-image.c -- kinds of images; a figure drawn into its file, or a window. */
 #include "show/figure.h"
 
 #include <math.h>
