@@ -8,10 +8,12 @@ library_sources = \
 	lib/base/interrupt.c \
 	lib/base/memory.c \
 	lib/base/scope.c \
+	lib/base/spelling.c \
 	lib/base/status.c \
 	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
+	lib/expr/abbreviate.c \
 	lib/expr/bounds.c \
 	lib/expr/calculus.c \
 	lib/expr/construct.c \
@@ -39,6 +41,7 @@ library_sources = \
 	lib/lang/answer/formula.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/commands/abbreviate.c \
 	lib/lang/commands/animate.c \
 	lib/lang/commands/animated-facts.c \
 	lib/lang/commands/animated.c \
@@ -67,6 +70,7 @@ library_sources = \
 	lib/lang/commands/redirect.c \
 	lib/lang/commands/remove.c \
 	lib/lang/commands/report-page.c \
+	lib/lang/commands/report-work.c \
 	lib/lang/commands/request.c \
 	lib/lang/commands/reset.c \
 	lib/lang/commands/run.c \
@@ -96,6 +100,8 @@ library_sources = \
 	lib/lang/language/condition.c \
 	lib/lang/language/cursor.c \
 	lib/lang/language/evaluate.c \
+	lib/lang/language/foreign-words.c \
+	lib/lang/language/foreign.c \
 	lib/lang/language/formals.c \
 	lib/lang/language/forms.c \
 	lib/lang/language/function.c \
@@ -103,6 +109,7 @@ library_sources = \
 	lib/lang/language/machine.c \
 	lib/lang/language/parse.c \
 	lib/lang/language/partial-sum.c \
+	lib/lang/language/pattern.c \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
@@ -117,13 +124,14 @@ library_sources = \
 	lib/lang/session/range.c \
 	lib/lang/session/runs.c \
 	lib/lang/session/session.c \
-	lib/lang/session/spelling.c \
 	lib/lang/session/transfer.c \
 	lib/lang/session/undo-state.c \
 	lib/lang/session/undo.c \
 	lib/lang/session/value-kind.c \
+	lib/lang/source/latex-line.c \
 	lib/lang/source/letters.c \
 	lib/lang/source/lex.c \
+	lib/lang/source/refuse.c \
 	lib/lang/source/source.c \
 	lib/machine/vector.c \
 	lib/machine/x86.c \
@@ -429,10 +437,12 @@ library_headers = \
 	lib/base/interrupt.h \
 	lib/base/memory.h \
 	lib/base/scope.h \
+	lib/base/spelling.h \
 	lib/base/status.h \
 	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
+	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
 	lib/expr/expr.h \
 	lib/expr/function.def \
@@ -450,6 +460,7 @@ library_headers = \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
 	lib/lang/commands/animated.h \
+	lib/lang/commands/ask.h \
 	lib/lang/commands/assumed.h \
 	lib/lang/commands/complete.h \
 	lib/lang/commands/constraints.h \
@@ -462,6 +473,7 @@ library_headers = \
 	lib/lang/commands/pairs.h \
 	lib/lang/commands/plot-parts.h \
 	lib/lang/commands/redirect.h \
+	lib/lang/commands/report-work.h \
 	lib/lang/commands/request.h \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
@@ -484,12 +496,16 @@ library_headers = \
 	lib/lang/language/condition.h \
 	lib/lang/language/cursor.h \
 	lib/lang/language/evaluator.h \
+	lib/lang/language/foreign-words.h \
+	lib/lang/language/foreign.def \
+	lib/lang/language/foreign.h \
 	lib/lang/language/formals.h \
 	lib/lang/language/forms.h \
 	lib/lang/language/function.h \
 	lib/lang/language/hints.h \
 	lib/lang/language/machine.h \
 	lib/lang/language/partial-sum.h \
+	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
 	lib/lang/session/along.h \
@@ -503,13 +519,14 @@ library_headers = \
 	lib/lang/session/range.h \
 	lib/lang/session/runs.h \
 	lib/lang/session/session.h \
-	lib/lang/session/spelling.h \
 	lib/lang/session/transfer.h \
 	lib/lang/session/undo-state.h \
 	lib/lang/session/undo.h \
 	lib/lang/session/value-kind.h \
+	lib/lang/source/latex-line.h \
 	lib/lang/source/letters.h \
 	lib/lang/source/lex.h \
+	lib/lang/source/refuse.h \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
 	lib/machine/asm.h \
@@ -790,6 +807,7 @@ unit_tests = \
 	tests/base/test_memory \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/expr/test_abbreviate \
 	tests/expr/test_calculus \
 	tests/expr/test_expand \
 	tests/expr/test_function \
@@ -802,6 +820,7 @@ unit_tests = \
 	tests/expr/test_tensor \
 	tests/expr/test_walk \
 	tests/lang/test_evaluate \
+	tests/lang/test_hints \
 	tests/lang/test_lex \
 	tests/lang/test_names \
 	tests/lang/test_numeric \
@@ -898,6 +917,7 @@ unit_tests = \
 	tests/tape/test_tape
 
 script_tests = \
+	tests/script/abbreviate.lag \
 	tests/script/accel-large-coefficients.lag \
 	tests/script/accel-long.lag \
 	tests/script/accel-one-root-in-many-parts.lag \
@@ -1249,6 +1269,7 @@ script_tests = \
 	tests/bad/unknown-function.lag \
 	tests/bad/unknown-label.lag \
 	tests/bad/unknown-name.lag \
+	tests/bad/unset-many.lag \
 	tests/bad/unset.lag \
 	tests/bad/vector-functions.sh \
 	tests/bad/vector-mass.lag \
@@ -1551,6 +1572,7 @@ test_files = \
 	tests/bad/unknown-function.out \
 	tests/bad/unknown-label.out \
 	tests/bad/unknown-name.out \
+	tests/bad/unset-many.out \
 	tests/bad/unset.out \
 	tests/bad/vector-functions.out \
 	tests/bad/vector-mass.out \
@@ -1661,6 +1683,7 @@ test_files = \
 	tests/fuzz/corpus/roundtrip/offset-roots.txt \
 	tests/fuzz/corpus/roundtrip/text.txt \
 	tests/fuzz/fuzz.h \
+	tests/lang/hints.def \
 	tests/lang/reading.h \
 	tests/lang/talk.h \
 	tests/mech/kit.h \
@@ -1671,6 +1694,7 @@ test_files = \
 	tests/normal/text.h \
 	tests/num/kit.h \
 	tests/ode/problems.h \
+	tests/script/abbreviate.out \
 	tests/script/accel-large-coefficients.out \
 	tests/script/accel-long.out \
 	tests/script/accel-one-root-in-many-parts.out \

@@ -163,6 +163,8 @@ void qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place);
  * another. _repeat_as: as often as the 32 bits at that place say, when it is run. */
 size_t qdot_asm_repeat(qdot_asm *m, int times);
 size_t qdot_asm_repeat_as(qdot_asm *m, qdot_operand times);
+/* Right behind _repeat_as: return if that number is 0. The loop begins behind it. */
+void qdot_asm_return_if_none(qdot_asm *m);
 void qdot_asm_again(qdot_asm *m, size_t from);
 /* What begins at that place, or at an address, is run up to its end, _leave. */
 void qdot_asm_enter(qdot_asm *m, size_t place);

@@ -392,6 +392,18 @@ qdot_asm_again(qdot_asm *m, size_t from)
 }
 
 void
+qdot_asm_return_if_none(qdot_asm *m)
+{
+    size_t behind;
+
+    BYTES(m, 0x85, 0xc9, 0x75, 0); /* test ecx, ecx; jnz behind */
+    behind = m->bytes.n;
+    qdot_asm_return(m);
+    if (m->bytes.n > behind)
+        m->bytes.at[behind - 1] = (unsigned char)(m->bytes.n - behind);
+}
+
+void
 qdot_asm_enter(qdot_asm *m, size_t place)
 {
     BYTES(m, 0xe8);

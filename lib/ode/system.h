@@ -46,11 +46,12 @@ typedef struct {
     double digits;
     bool by_stability;
     double worth; /* writing it takes as long as worth/p expansions save by it */
-    /* Write it for expansions to order p, before a `begin`; NULL: none can be. */
-    qdot_status (*write)(int p, void *user);
-    /* Take code that an earlier run left, if there is some to order p and nothing else is in use;
-     * asked for once. Whether expansions to order p are code. Go back to kernels. */
-    bool (*take)(int p, void *user);
+    /* Write it for expansions to order p, before a `begin`, so that others of the same shape, to orders
+     * up to `most`, can share it; NULL: none can be. */
+    qdot_status (*write)(int p, int most, void *user);
+    /* Take such code that an earlier run left, if there is some and nothing else is in use; asked for
+     * once. Whether expansions to order p are code. Go back to kernels. */
+    bool (*take)(int p, int most, void *user);
     bool (*there)(int p, void *user);
     void (*drop)(void *user);
     void *user; /* borrowed */

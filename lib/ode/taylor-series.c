@@ -67,6 +67,19 @@ qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, i
     return best < series->most ? best : series->most;
 }
 
+int
+qdot_ode_taylor_highest(const qdot_ode_system *system, double tol, bool leading, int more)
+{
+    const qdot_ode_method *method = qdot_ode_method_find("taylor");
+    const int own = qdot_ode_taylor_order(system->series, tol, leading, more);
+    int theirs;
+
+    if (more == 0)
+        tol = qdot_companion_tolerance(system, method, tol);
+    theirs = qdot_ode_taylor_order(system->series, tol, leading, QDOT_COMPANION_ORDERS);
+    return own > theirs ? own : theirs;
+}
+
 double
 qdot_ode_taylor_cost(const qdot_ode_series *series, double tol)
 {

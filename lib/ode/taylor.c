@@ -44,6 +44,7 @@ typedef struct {
     double held; /* tol, or what the coefficients are worth if that is more */
     uint64_t max_steps;
     int p;
+    int highest;   /* the highest order among the run and its companions */
     int cut;       /* the order that the step at hand is summed to: p, or less */
     double log_wanted, log_aim, log_term; /* log2 of what a step should err, of what it
                                              may at the point at hand, of a term */
@@ -551,7 +552,7 @@ loop(run *r)
     if (r->options->h_first > 0)
         r->unit = qdot_step_unit(r->options->h_first);
     r->first_unit = r->direction * fabs(r->unit);
-    r->written = qdot_ode_written_begin(r->series, r->p);
+    r->written = qdot_ode_written_begin(r->series, r->p, r->highest);
     set_unit(r, r->first_unit);
     status = begin(r, r->t, r->y);
     if (qdot_ode_may_be_undefined(status)) {
@@ -635,6 +636,8 @@ prepare(run *r, double t0, double t1, const double *y)
     r->log_term = qdot_step_term(r->log_wanted);
     r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->leading,
                                  r->options->order_more);
+    r->highest = qdot_ode_taylor_highest(r->system, r->tol, r->options->leading,
+                                         r->options->order_more);
     qdot_series_weights_set(&r->weights, r->p, r->log_term,
                             qdot_step_fall(r->log_wanted, r->p));
     return r->series->prepare ? r->series->prepare(r->p, r->series->user) : QDOT_OK;

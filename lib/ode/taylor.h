@@ -67,6 +67,10 @@ double qdot_ode_taylor_cost(const qdot_ode_series *series, double tol);
 int qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading,
                           int more);
 
+/* The highest order among a run under tol and its companions (ode/companion.h), of which this is the
+ * run (more = 0) or one with so many orders on top. Machine code is written for all of them at once. */
+int qdot_ode_taylor_highest(const qdot_ode_system *system, double tol, bool leading, int more);
+
 /* How long, in radians, steps of order p may be that let no oscillation grow: z to a tenth,
  * up to which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. From p to p + 1 that may halve. Where an
  * order is for an oscillation that is hardly there (code.digits) what it costs may be weighed by

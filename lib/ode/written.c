@@ -18,15 +18,22 @@ pays(const qdot_ode_written *w, double steps, double left)
 }
 
 qdot_ode_written
-qdot_ode_written_begin(const qdot_ode_series *series, int p)
+qdot_ode_written_begin(const qdot_ode_series *series, int p, int most)
 {
     const qdot_ode_code *code = &series->code;
-    qdot_ode_written w = {.code = code, .p = p};
+    qdot_ode_written w = {.code = code, .p = p, .most = most};
 
     w.done = !code->write || code->there(p, code->user);
     w.first = !w.done;
-    w.on_trial = w.first && code->take(p, code->user);
+    w.on_trial = w.first && code->take(p, w.most, code->user);
     return w;
+}
+
+qdot_status
+qdot_ode_written_now(qdot_ode_written *w)
+{
+    w->done = true;
+    return w->code->write(w->p, w->most, w->code->user);
 }
 
 qdot_status
@@ -39,7 +46,7 @@ qdot_ode_written_first(qdot_ode_written *w, double left, bool *again)
     w->done = wanted;
     *again = false;
     if (wanted && !there) {
-        QDOT_TRY(c->write(w->p, c->user));
+        QDOT_TRY(qdot_ode_written_now(w));
         *again = c->there(w->p, c->user);
     } else if (there && !wanted) {
         c->drop(c->user);
@@ -53,6 +60,5 @@ qdot_ode_written_next(qdot_ode_written *w, double steps, double left)
 {
     if (w->done || !pays(w, steps, left))
         return QDOT_OK;
-    w->done = true;
-    return w->code->write(w->p, w->code->user);
+    return qdot_ode_written_now(w);
 }

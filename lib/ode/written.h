@@ -18,13 +18,17 @@
 typedef struct {
     const qdot_ode_code *code; /* borrowed */
     int p;
+    int most;      /* the highest order among this run and its companions, which share code */
     bool done;     /* the decision is made */
     bool on_trial; /* code of an earlier run is used until the first step is known */
     bool first;    /* no decision by the first step has been made yet */
 } qdot_ode_written;
 
-/* Begin a run whose expansions have order p. */
-qdot_ode_written qdot_ode_written_begin(const qdot_ode_series *series, int p);
+/* Begin a run whose expansions have order p; `most`: as in qdot_ode_written. */
+qdot_ode_written qdot_ode_written_begin(const qdot_ode_series *series, int p, int most);
+
+/* Generate the code now, whatever it costs. */
+QDOT_MUST_CHECK qdot_status qdot_ode_written_now(qdot_ode_written *written);
 
 /* Decide by the first step, which will be 1/(1 + left) of the span. *again: expand it once more,
  * from the unit of time that the run began with. */

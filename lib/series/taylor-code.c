@@ -103,7 +103,8 @@ find_phases(const qdot_taylor_loops *l, int n, qdot_code_phase *phases)
     return count;
 }
 
-/* Whether the code of either order differs by nothing but how often loops are run. */
+/* Whether the code of either order differs by nothing but how often loops are run; that of narrow
+ * vectors has all loops of lower orders. */
 static bool
 is_same_code(const qdot_taylor_loops *l, int n, int other)
 {
@@ -358,6 +359,10 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, int number)
     }
     qdot_code_forget(g);
     from = qdot_asm_repeat_as(&g->m, qdot_code_work(QDOT_CODE_COUNTS + (size_t)number));
+    if (g->m.kind < 2) { /* a lower order has no more loops */
+        qdot_asm_return_if_none(&g->m);
+        from = g->m.bytes.n;
+    }
     emit_body(g, p);
     qdot_asm_set(&g->m, QDOT_ASM_ROWS_NOW, QDOT_ASM_ROWS_NOW, 8);
     qdot_asm_set(&g->m, QDOT_ASM_WORK_NOW, QDOT_ASM_WORK_NOW, 8);
@@ -475,7 +480,8 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     qdot_code_zero(g);
     text->loops = loops_of(g);
     text->from = text->to = g->n;
-    while (text->from > 1 && is_same_code(&text->loops, g->n, text->from - 1))
+    text->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
+    while (text->from > 1 && (g->m.kind < 2 || is_same_code(&text->loops, g->n, text->from - 1)))
         text->from--;
     while (text->to < QDOT_SERIES_MOST && is_same_code(&text->loops, g->n, text->to + 1))
         text->to++;
@@ -488,9 +494,9 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
 }
 
 static qdot_status
-write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **why)
+write_text(const qdot_taylor *t, int n, qdot_taylor_text *text, const char **why)
 {
-    qdot_generator g = {.m = {.kind = qdot_asm_kind()}, .t = t, .n = to};
+    qdot_generator g = {.m = {.kind = qdot_asm_kind()}, .t = t, .n = n};
     qdot_status status = generate(&g, text, why);
 
     text->blocks = g.block_slots;
@@ -514,16 +520,17 @@ write_text(const qdot_taylor *t, int to, qdot_taylor_text *text, const char **wh
 /* One that is kept, or (but not if `kept`) is written now. A run and its companions want the same at
  * once: one writes, the others wait for it. */
 static qdot_status
-find_text(const qdot_taylor *t, int to, bool kept, qdot_taylor_text **text, const char **why)
+find_text(const qdot_taylor *t, qdot_taylor_orders orders, bool kept, qdot_taylor_text **text,
+          const char **why)
 {
     static pthread_mutex_t writing = PTHREAD_MUTEX_INITIALIZER;
     qdot_status status;
 
     if (!kept)
         pthread_mutex_lock(&writing);
-    status = qdot_taylor_text_take(t, to, text);
+    status = qdot_taylor_text_take(t, orders, text);
     if (status == QDOT_OK && !(*text)->memory && !kept) {
-        status = write_text(t, to, *text, why);
+        status = write_text(t, orders.most, *text, why);
         if (status == QDOT_OK && !*why)
             qdot_taylor_text_keep(*text);
     }
@@ -533,9 +540,10 @@ find_text(const qdot_taylor *t, int to, bool kept, qdot_taylor_text **text, cons
 }
 
 qdot_status
-qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code **code,
-                     const char **why)
+qdot_taylor_code_new(const qdot_taylor *t, int to, int highest, bool kept,
+                     qdot_taylor_code **code, const char **why)
 {
+    qdot_taylor_orders orders = {to, to};
     qdot_taylor_code *c;
     qdot_status status;
 
@@ -553,7 +561,16 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept, qdot_taylor_code *
     if (!c)
         return QDOT_ENOMEM;
     c->to = to;
-    status = find_text(t, to, kept, &c->text, why);
+    if (qdot_asm_kind() < 2)
+        orders.most = least(most(to, highest), QDOT_SERIES_MOST);
+    status = find_text(t, orders, kept, &c->text, why);
+    if (status == QDOT_OK && *why && orders.most > to) { /* too long for the higher ones */
+        qdot_taylor_text_give(c->text);
+        c->text = NULL;
+        *why = NULL;
+        orders.most = to;
+        status = find_text(t, orders, kept, &c->text, why);
+    }
     if (status == QDOT_OK && c->text->memory)
         status = make_work(c);
     if (status != QDOT_OK || !c->text->memory) {
@@ -588,7 +605,7 @@ qdot_taylor_code_unit(qdot_taylor_code *c, double unit)
         w[QDOT_CODE_ONCE + k] = unit * w[QDOT_CODE_INVERSES + k + 1];
         w[QDOT_CODE_TWICE + k] = unit * unit * w[QDOT_CODE_PAIRS + k];
     }
-    for (size_t k = 0; k <= QDOT_CODE_EXACT; k++) {
+    for (size_t k = 0; k <= QDOT_CODE_EXACT && c->to >= QDOT_TAYLOR_EXACT_FROM; k++) {
         w[QDOT_CODE_ONCE_LOW + k] = unit * c->once_low[k];
         w[QDOT_CODE_TWICE_LOW + k] = unit * unit * c->twice_low[k];
     }

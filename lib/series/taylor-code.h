@@ -39,11 +39,12 @@
 
 typedef struct qdot_taylor_code qdot_taylor_code;
 
-/* Of orders 1 ... to of a program and its links. *code NULL, and *why says it, where there is
+/* Of orders 1 ... to of a program and its links, shared with others to orders up to `most` at least if
+ * vectors are narrow: the loops of a lower order are the first of a higher one. *code NULL, and *why says it, where there is
  * none: the processor or the system has no way, or it would be too long. With `kept` none is
  * written: it is there (taylor-text.h) or *code is NULL, *why too. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_code_new(const qdot_taylor *t, int to, bool kept,
-                                                 qdot_taylor_code **code,
+QDOT_MUST_CHECK qdot_status qdot_taylor_code_new(const qdot_taylor *t, int to, int most,
+                                                 bool kept, qdot_taylor_code **code,
                                                  const char **why);
 void qdot_taylor_code_free(qdot_taylor_code *code);
 

@@ -121,9 +121,9 @@ qdot_taylor_text_give(qdot_taylor_text *text)
     qdot_free(text);
 }
 
-/* What is kept under a key and serves that order, used once more; NULL. */
+/* What is kept under a key and serves these orders, used once more; NULL. */
 static qdot_taylor_text *
-find(const uint32_t *key, size_t length, int order)
+find(const uint32_t *key, size_t length, qdot_taylor_orders orders)
 {
     for (size_t i = 0; i < kept; i++) {
         qdot_taylor_text *text = atomic_exchange(shelf + i, NULL), *none = NULL;
@@ -131,7 +131,8 @@ find(const uint32_t *key, size_t length, int order)
 
         if (!text)
             continue;
-        found = text->from <= order && order <= text->to && text->length == length &&
+        found = text->from <= orders.to && orders.most <= text->to &&
+                text->exact == (orders.most >= QDOT_TAYLOR_EXACT_FROM) && text->length == length &&
                 memcmp(text->key, key, length * sizeof *key) == 0;
         if (found)
             atomic_fetch_add(&text->users, 1);
@@ -144,7 +145,7 @@ find(const uint32_t *key, size_t length, int order)
 }
 
 qdot_status
-qdot_taylor_text_take(const qdot_taylor *t, int order, qdot_taylor_text **text)
+qdot_taylor_text_take(const qdot_taylor *t, qdot_taylor_orders orders, qdot_taylor_text **text)
 {
     const size_t length = length_of_key(t);
     qdot_taylor_text *empty = qdot_calloc(1, sizeof *empty);
@@ -160,7 +161,7 @@ qdot_taylor_text_take(const qdot_taylor *t, int order, qdot_taylor_text **text)
         return QDOT_ENOMEM;
     }
     put_all(t, empty->key);
-    *text = find(empty->key, length, order);
+    *text = find(empty->key, length, orders);
     if (*text)
         qdot_taylor_text_give(empty);
     else

@@ -3,7 +3,8 @@
  *
  * Code depends on the operations of a program and on what they read and write, not on any number
  * (taylor-code.h), nor on the order but by how many vectors a sum has: how often each loop is run
- * stands in the work space. Runs of a scene, their companions, runs of a sweep, and pieces between
+ * stands in the work space. Loops of narrow vectors are those of any lower order too, which leaves
+ * before the first that it has not. Runs of a scene, their companions, runs of a sweep, and pieces between
  * events want the same again and again: the last few that were written are kept. Any thread may take
  * and give.
  *
@@ -22,6 +23,11 @@ typedef struct {
     bool as_they_stand;
 } qdot_taylor_loops;
 
+/* Orders 1 ... to are wanted, by code that serves orders up to `most` as well. */
+typedef struct {
+    int to, most;
+} qdot_taylor_orders;
+
 typedef struct {
     uint32_t *key; /* [length] */
     size_t length;
@@ -29,15 +35,17 @@ typedef struct {
     size_t size, used; /* bytes: of the memory, of the code */
     size_t begin;      /* where the function of order 0 is in it */
     qdot_taylor_loops loops;
-    int from, to; /* expansions to these orders and those between have the same loops */
+    int from, to; /* it carries out expansions to these orders and those between */
+    bool exact;   /* links have factors of two doubles at low orders */
     size_t doubles;    /* of work space that it wants */
     uint32_t *blocks;  /* [blocks] where there it has their matrices */
     atomic_uint users;
 } qdot_taylor_text;
 
-/* Of orders 1 ... order of a program: one that is kept, its `memory` there, to be read only, or an
+/* Of these orders of a program: one that is kept, its `memory` there, to be read only, or an
  * empty one that has the key alone. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_text_take(const qdot_taylor *t, int order,
+QDOT_MUST_CHECK qdot_status qdot_taylor_text_take(const qdot_taylor *t,
+                                                  qdot_taylor_orders orders,
                                                   qdot_taylor_text **text);
 /* Fill an empty one. Memory is written or run, never both. False: the system does not let it
  * be run. */

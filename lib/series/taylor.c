@@ -210,25 +210,25 @@ qdot_taylor_is_code(const qdot_taylor *t, int to)
 }
 
 qdot_status
-qdot_taylor_prepare(qdot_taylor *t, int to)
+qdot_taylor_prepare(qdot_taylor *t, int to, int most)
 {
     if (to < 1 || to > QDOT_SERIES_MOST)
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", to);
     if (t->refused || qdot_taylor_is_code(t, to))
         return QDOT_OK;
     qdot_taylor_drop_code(t);
-    return qdot_taylor_code_new(t, to, false, &t->code, &t->no_code);
+    return qdot_taylor_code_new(t, to, most, false, &t->code, &t->no_code);
 }
 
 bool
-qdot_taylor_take_kept(qdot_taylor *t, int to)
+qdot_taylor_take_kept(qdot_taylor *t, int to, int most)
 {
     const char *why;
 
     if (t->refused || t->asked || t->code || to < 1 || to > QDOT_SERIES_MOST)
         return false;
     t->asked = true;
-    return qdot_taylor_code_new(t, to, true, &t->code, &why) == QDOT_OK && t->code;
+    return qdot_taylor_code_new(t, to, most, true, &t->code, &why) == QDOT_OK && t->code;
 }
 
 void

@@ -75,11 +75,12 @@ void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
 /* Orders 1 ... to are going to be evaluated again and again, by qdot_taylor_begin and then
  * qdot_taylor_extend(1, to): as machine code, where that can be made (taylor-code.h). All
  * links are there by now. Whatever else is evaluated is so by the kernels, as everything is
- * without this call. Errors: QDOT_EINVAL (to), QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to);
+ * without this call. The code is shared with programs of the same shape, to orders up to `most` at
+ * least if vectors are narrow (below `to`: as `to`). Errors: QDOT_EINVAL (to), QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to, int most);
 /* The same where such code lies there from before, and nothing is to be written; asked for
  * once, beside other code never. False: nothing has changed. */
-bool qdot_taylor_take_kept(qdot_taylor *taylor, int to);
+bool qdot_taylor_take_kept(qdot_taylor *taylor, int to, int most);
 /* All is evaluated by the kernels again. */
 void qdot_taylor_drop_code(qdot_taylor *taylor);
 /* The same, and no code is written from now on, for this reason; borrowed. */

@@ -284,3 +284,104 @@ qdot_page_curve(qdot_text *out, const char *name, double t0, double t1, const do
     qdot_animation_escape(out, name);
     qdot_text_add(out, " against t</figcaption>\n</figure>\n");
 }
+
+/* --- error against time ------------------------------------------------------------- */
+
+enum { TALL = 330, COLOURS = 8 };
+
+/* Of what is above 0: powers of ten around the range; false: nothing is. */
+static bool
+decades(const qdot_page_points *list, size_t n, bool of_y, double *lo, double *hi)
+{
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < list[i].n; k++) {
+            double x = list[i].x[k], y = list[i].y[k];
+
+            if (!(x > 0 && y > 0 && isfinite(x) && isfinite(y)))
+                continue;
+            *lo = fmin(*lo, floor(log10(of_y ? y : x)));
+            *hi = fmax(*hi, ceil(log10(of_y ? y : x)));
+        }
+    if (*lo == *hi)
+        (*hi)++;
+    return *lo < *hi;
+}
+
+static void
+add_decades(qdot_text *out, const frame *f)
+{
+    const double dx = ceil((f->t1 - f->t0) / 7), dy = ceil((f->hi - f->lo) / 8);
+
+    for (double k = f->t0; k <= f->t1; k += dx)
+        qdot_text_format(
+            out,
+            "<path class=\"grid\" d=\"M%.1f %d V%d\"/><text x=\"%.1f\" y=\"%d\" "
+            "text-anchor=\"middle\">1e%.0f</text>",
+            across(f, k), TOP, TALL - 2 * BOTTOM, across(f, k), TALL - 2 * BOTTOM + 17,
+            k);
+    for (double k = f->lo; k <= f->hi; k += dy) {
+        double y =
+            TALL - 2 * BOTTOM - (k - f->lo) / (f->hi - f->lo) * (TALL - TOP - 2 * BOTTOM);
+
+        qdot_text_format(
+            out,
+            "<path class=\"grid\" d=\"M%d %.1f H%d\"/><text x=\"%d\" y=\"%.1f\" "
+            "text-anchor=\"end\">1e%.0f</text>",
+            LEFT, y, WIDE - RIGHT, LEFT - 6, y + 4, k);
+    }
+}
+
+static void
+add_log_curve(qdot_text *out, const frame *f, const qdot_page_points *p, size_t i,
+              size_t n)
+{
+    const size_t key = LEFT + i * (WIDE - LEFT - RIGHT) / n;
+    bool open = false;
+
+    qdot_text_format(out, "<g class=\"k%zu\"><path class=\"marked\" d=\"", i % COLOURS);
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t k = 0; k < p->n; k++) {
+            double x, y;
+
+            if (!(p->x[k] > 0 && p->y[k] > 0 && isfinite(p->x[k]) && isfinite(p->y[k])))
+                continue;
+            x = across(f, log10(p->x[k]));
+            y = TALL - 2 * BOTTOM -
+                (log10(p->y[k]) - f->lo) / (f->hi - f->lo) * (TALL - TOP - 2 * BOTTOM);
+            if (pass == 0)
+                qdot_text_format(out, "%s%.1f %.1f", open ? "L" : "M", x, y);
+            else
+                qdot_text_format(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\"/>", x, y);
+            open = true;
+        }
+        qdot_text_add(out, pass == 0 ? "\"/>" : "");
+    }
+    qdot_text_format(out,
+                     "<circle cx=\"%zu\" cy=\"%d\" r=\"3\"/><text x=\"%zu\" y=\"%d\">",
+                     key, TALL - 8, key + 8, TALL - 4);
+    qdot_animation_escape(out, p->label);
+    qdot_text_add(out, "</text></g>\n");
+}
+
+void
+qdot_page_log_log(qdot_text *out, const char *caption, size_t n,
+                  const qdot_page_points *list)
+{
+    frame f;
+
+    if (!decades(list, n, false, &f.t0, &f.t1) || !decades(list, n, true, &f.lo, &f.hi))
+        return;
+    qdot_text_format(out,
+                     "<figure>\n<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"",
+                     WIDE, TALL);
+    qdot_animation_escape(out, caption);
+    qdot_text_add(out, "\">");
+    add_decades(out, &f);
+    for (size_t i = 0; i < n; i++)
+        add_log_curve(out, &f, &list[i], i, n);
+    qdot_text_add(out, "</svg>\n<figcaption>");
+    qdot_animation_escape(out, caption);
+    qdot_text_add(out, "</figcaption>\n</figure>\n");
+}

@@ -23,4 +23,16 @@ void qdot_page_verbatim(qdot_text *out, const char *text);
 void qdot_page_curve(qdot_text *out, const char *name, double t0, double t1,
                      const double *y, size_t n);
 
+/* A curve of a figure: points x [n], y [n]. */
+typedef struct {
+    const char *label;
+    size_t n;
+    const double *x, *y; /* borrowed */
+} qdot_page_points;
+
+/* Append a figure of curves [n] with logarithmic axes, a mark at every point; a point that is not above 0 is
+ * left out. */
+void qdot_page_log_log(qdot_text *out, const char *caption, size_t n,
+                       const qdot_page_points *list);
+
 #endif

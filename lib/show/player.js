@@ -448,7 +448,8 @@ function Animation(section) {
   }
   function drawParticle(g, particle, i) {
     const at = project(where(particle.point, frame));
-    const size = Math.max(4, Math.min(scene.w, scene.h) * 0.02 * particle.size);
+    const few = Math.min(1, Math.sqrt(8 / data.particles.length));
+    const size = Math.max(2.5, Math.min(scene.w, scene.h) * 0.02 * particle.size * few);
     g.fillStyle = colourOf(i); g.strokeStyle = colours.paper; g.lineWidth = 1.5;
     g.beginPath(); g.arc(at[0], at[1], size, 0, 7); g.fill(); g.stroke();
     if (data.particles.length <= 12) {

@@ -49,6 +49,21 @@ qdot_constant_is(const qdot_pool *pool, qdot_expr e)
     return (qdot_expr_node(pool, e)->holds & ~(QDOT_HAS_FUN | 1u << QDOT_CONST)) == 0;
 }
 
+/* The application's function at its declared arguments, whatever it is applied to here. */
+static void
+add_function(const qdot_pool *pool, qdot_expr e, qdot_text *text)
+{
+    const qdot_ufun *f = qdot_ufun_get(pool, qdot_expr_node(pool, e)->op);
+
+    qdot_text_add(text, f->name);
+    for (uint32_t i = 0; i < f->arity; i++) {
+        qdot_text_add(text, i ? ", " : "(");
+        if (qdot_print(pool, qdot_expr_arg(pool, f->formals, i), QDOT_PLAIN, text) != QDOT_OK)
+            break;
+    }
+    qdot_text_char(text, ')');
+}
+
 qdot_status
 qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
 {
@@ -60,7 +75,6 @@ qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
     };
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
     qdot_text text = {0};
-    const qdot_ufun *f;
 
     if (s) {
         const char *kind = what[s->class];
@@ -72,19 +86,77 @@ qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
             qdot_hint("set %s = ...", s->name);
         return QDOT_EUNSET;
     }
-    /* An application: at its declared arguments, whatever it is applied to here. */
-    f = qdot_ufun_get(pool, qdot_expr_node(pool, e)->op);
-    qdot_text_add(&text, f->name);
-    for (uint32_t i = 0; i < f->arity; i++) {
-        qdot_text_add(&text, i ? ", " : "(");
-        if (qdot_print(pool, qdot_expr_arg(pool, f->formals, i), QDOT_PLAIN, &text)
-            != QDOT_OK)
-            break;
-    }
-    qdot_text_char(&text, ')');
+    add_function(pool, e, &text);
     qdot_fail(QDOT_EUNSET, "function %.200s has no value", qdot_text_str(&text));
     qdot_hint("set %.180s = ...", qdot_text_str(&text));
     qdot_text_clear(&text);
+    return QDOT_EUNSET;
+}
+
+/* Whether `set` can give it a value. */
+static bool
+is_settable(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_UFUN || qdot_expr_is_class(pool, e, QDOT_PARAM) ||
+           qdot_expr_is_class(pool, e, QDOT_MOMENTUM);
+}
+
+/* One function at different arguments. */
+static bool
+is_same_function(const qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    return qdot_expr_kind(pool, a) == QDOT_UFUN && qdot_expr_kind(pool, b) == QDOT_UFUN &&
+           qdot_expr_node(pool, a)->op == qdot_expr_node(pool, b)->op;
+}
+
+qdot_status
+qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e)
+{
+    enum { MOST = 160 }; /* bytes of names that are shown */
+    qdot_text names = {0}, values = {0}, one = {0};
+    qdot_expr first = QDOT_NIL;
+    size_t settable = 0, left = 0;
+    bool applied = false;
+
+    if (n == 0)
+        return QDOT_OK;
+    for (size_t i = 0; i < n; i++)
+        applied = applied || qdot_expr_kind(pool, e[i]) == QDOT_UFUN;
+    for (size_t i = 0; i < n; i++) /* arguments follow from the function's definition */
+        if (!is_settable(pool, e[i]) &&
+            !(applied && qdot_expr_is_class(pool, e[i], QDOT_FORMAL)))
+            return qdot_constant_unset(pool, e[i]);
+    for (size_t i = 0; i < n; i++) {
+        if (!is_settable(pool, e[i]))
+            continue;
+        if (i > 0 && is_same_function(pool, e[i - 1], e[i]))
+            continue;
+        qdot_text_truncate(&one, 0);
+        if (qdot_expr_kind(pool, e[i]) == QDOT_UFUN)
+            add_function(pool, e[i], &one);
+        else
+            qdot_text_add(&one, qdot_expr_symbol(pool, e[i])->name);
+        if (values.n > MOST) {
+            left++;
+            continue;
+        }
+        qdot_text_format(&names, "%s%s", settable > 0 ? ", " : "", qdot_text_str(&one));
+        if (settable == 0)
+            first = e[i];
+        qdot_text_format(&values, "%s%s = ...", settable > 0 ? ", " : "", qdot_text_str(&one));
+        settable++;
+    }
+    if (left > 0)
+        qdot_text_format(&names, " and %zu more", left);
+    if (settable < 2)
+        (void)qdot_constant_unset(pool, first);
+    else
+        (void)qdot_fail(QDOT_EUNSET, "%s have no value", qdot_text_str(&names));
+    if (settable > 1)
+        (void)qdot_hint("set %s", qdot_text_str(&values));
+    qdot_text_clear(&names);
+    qdot_text_clear(&values);
+    qdot_text_clear(&one);
     return QDOT_EUNSET;
 }
 
@@ -211,6 +283,26 @@ ball_of(const evaluation *v, qdot_expr e)
     return v->ball + qdot_walk_index(&v->walk, e);
 }
 
+/* What has no value in all of the expression. */
+static qdot_status
+refuse_unset(const evaluation *v)
+{
+    qdot_vec(qdot_expr) unset = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < v->walk.n && status == QDOT_OK; i++) {
+        qdot_expr e = v->walk.at[i];
+        qdot_kind kind = qdot_expr_kind(v->pool, e);
+
+        if (kind == QDOT_UFUN || (kind == QDOT_SYM && !qdot_constant_is(v->pool, e)))
+            status = qdot_vec_push(&unset, e);
+    }
+    if (status == QDOT_OK)
+        status = qdot_constant_unset_all(v->pool, unset.n, unset.at);
+    qdot_free(unset.at);
+    return status;
+}
+
 static qdot_status
 evaluate_node(evaluation *v, size_t i, slong bits)
 {
@@ -234,7 +326,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
         else if (e == QDOT_TRUE || e == QDOT_FALSE)
             arb_set_si(y, e == QDOT_TRUE);
         else
-            return qdot_constant_unset(pool, e);
+            return refuse_unset(v);
         return QDOT_OK;
     case QDOT_SUM:
         arb_set(y, v->args[0]);
@@ -267,7 +359,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
         logic(y, (qdot_logic_op)node->op, n, v->args);
         return QDOT_OK;
     case QDOT_UFUN:
-        return qdot_constant_unset(pool, e);
+        return refuse_unset(v);
     case QDOT_VEC:
     case QDOT_MAT:
     case QDOT_LIST:

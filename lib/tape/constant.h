@@ -34,5 +34,8 @@ qdot_expr qdot_constant_of_real(qdot_pool *pool, mpfr_srcptr x);
 
 /* Fail with QDOT_EUNSET for the symbol or application `e` that has no value. */
 qdot_status qdot_constant_unset(const qdot_pool *pool, qdot_expr e);
+/* The same for all parameters, momenta and applications among e [n] at once; for the first where it
+ * is something else. QDOT_OK: n is 0. */
+qdot_status qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e);
 
 #endif

@@ -414,7 +414,7 @@ lower_node(lowering *l, size_t i)
     case QDOT_NUM:
         return QDOT_OK;
     case QDOT_SYM:
-    case QDOT_UFUN:
+    case QDOT_UFUN: /* refused at the start */
         return qdot_constant_unset(l->pool, e);
     case QDOT_SUM:
         return lower_sum(l, e, k);
@@ -451,13 +451,31 @@ whole(lowering *l, const known *k)
     return minus ? op(l, QDOT_OP_NEG, v, 0) : v;
 }
 
+/* Symbols and functions that are no inputs, all at once. */
+static qdot_status
+refuse_unset(lowering *l)
+{
+    qdot_vec(qdot_expr) unset = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < l->walk.n && status == QDOT_OK; i++) {
+        qdot_expr e = l->walk.at[i];
+        qdot_kind kind = qdot_expr_kind(l->pool, e);
+
+        if ((kind == QDOT_SYM || kind == QDOT_UFUN) && !(qdot_walk_get(&l->walk, e) >> 32) &&
+            !qdot_constant_is(l->pool, e))
+            status = qdot_vec_push(&unset, e);
+    }
+    if (status == QDOT_OK)
+        status = qdot_constant_unset_all(l->pool, unset.n, unset.at);
+    qdot_free(unset.at);
+    return status;
+}
+
 static qdot_status
 lower_all(lowering *l, size_t n, const qdot_expr *inputs)
 {
     count_negatives(l);
-    for (size_t i = 0; i < l->walk.n; i++) /* before what they are applied to */
-        if (qdot_expr_kind(l->pool, l->walk.at[i]) == QDOT_UFUN)
-            return qdot_constant_unset(l->pool, l->walk.at[i]);
     for (size_t i = 0; i < n; i++) {
         size_t at = qdot_walk_index(&l->walk, inputs[i]);
 
@@ -467,6 +485,7 @@ lower_all(lowering *l, size_t n, const qdot_expr *inputs)
             qdot_walk_set(&l->walk, inputs[i], (1ull << 32) | i);
         }
     }
+    QDOT_TRY(refuse_unset(l));
     for (size_t i = 0; i < l->walk.n; i++) {
         qdot_expr e = l->walk.at[i];
 

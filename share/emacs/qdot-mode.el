@@ -18,8 +18,8 @@
 ;; program itself lists.
 ;; words
 (defconst qdot-statements
-  '("animate" "assume" "body" "check" "constraint" "coord" "cyclic" "damper" "derive"
-    "dissipation" "dof" "equilibria" "event" "events" "force" "forces" "function"
+  '("abbreviate" "animate" "assume" "body" "check" "constraint" "coord" "cyclic" "damper"
+    "derive" "dissipation" "dof" "equilibria" "event" "events" "force" "forces" "function"
     "gravity" "help" "include" "lagrangian" "modes" "param" "particle" "plan" "plot"
     "potential" "print" "quit" "race" "reactions" "redo" "remove" "report" "reset" "run"
     "save" "scene" "set" "show" "spring" "start" "style" "table" "timing" "torque" "undo"

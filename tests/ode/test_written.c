@@ -5,31 +5,35 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "ode/companion.h"
+#include "ode/taylor.h"
 #include "ode/written.h"
 
 /* Code that is there, code that lies there from before; calls. */
 typedef struct {
     bool there, kept, refused;
-    int written, taken, dropped;
+    int written, taken, dropped, most;
 } counts;
 
 static qdot_status
-write_it(int p, void *user)
+write_it(int p, int most, void *user)
 {
     counts *c = user;
 
     (void)p;
     c->written++;
+    c->most = most;
     c->there = !c->refused;
     return QDOT_OK;
 }
 
 static bool
-take_it(int p, void *user)
+take_it(int p, int most, void *user)
 {
     counts *c = user;
 
     (void)p;
+    c->most = most;
     c->taken++;
     c->there = c->kept;
     return c->kept;
@@ -67,7 +71,7 @@ static void
 after_first(counts *c, double left, bool there, bool again)
 {
     const qdot_ode_series series = series_of(c);
-    qdot_ode_written w = qdot_ode_written_begin(&series, 20);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20);
     bool said;
 
     assert_true(w.first);
@@ -99,7 +103,7 @@ later_steps_say_it_too(void **state)
 {
     counts c = {0};
     const qdot_ode_series series = series_of(&c);
-    qdot_ode_written w = qdot_ode_written_begin(&series, 20);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20);
     bool again;
 
     (void)state;
@@ -122,18 +126,50 @@ what_cannot_be_written_is_not_expanded_again(void **state)
     assert_int_equal(c.written, 1);
 }
 
+/* A run and its companions ask for code up to the same order, at most the highest that there is. */
+static void
+companions_share_it(void **state)
+{
+    (void)state;
+    for (int most = 0; most < 48; most += 12) {
+        counts c = {0};
+        qdot_ode_series series = series_of(&c);
+        const qdot_ode_system system = {.n = 1, .series = &series};
+        const double tol = 1e-10;
+        const double theirs = qdot_companion_tolerance(&system, qdot_ode_method_find("taylor"), tol);
+        int highest;
+        qdot_ode_written w;
+        bool again;
+
+        series.most = 48 - most / 2;
+        series.cost[0] = most;
+        series.cost[1] = series.cost[2] = 1;
+        highest = qdot_ode_taylor_highest(&system, tol, false, 0);
+        assert_true(highest >= qdot_ode_taylor_order(&series, tol, false, 0));
+        for (int more = 1; more <= QDOT_COMPANION_ORDERS; more++) {
+            assert_int_equal(qdot_ode_taylor_highest(&system, theirs, false, more), highest);
+            assert_true(highest >= qdot_ode_taylor_order(&series, theirs, false, more));
+        }
+        w = qdot_ode_written_begin(&series, 20, highest);
+        assert_int_equal(c.most, highest);
+        c.most = 0;
+        assert_int_equal(qdot_ode_written_first(&w, 1000, &again), QDOT_OK);
+        assert_int_equal(c.most, highest);
+    }
+}
+
 static void
 where_it_is_or_cannot_be_nothing_is_asked(void **state)
 {
     counts c = {.there = true};
     qdot_ode_series series = series_of(&c);
-    qdot_ode_written w = qdot_ode_written_begin(&series, 20);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20);
 
     (void)state;
     assert_false(w.first);
     assert_int_equal(qdot_ode_written_next(&w, 10, 1e9), QDOT_OK);
     series = (qdot_ode_series){.most = 20};
-    w = qdot_ode_written_begin(&series, 20);
+    w = qdot_ode_written_begin(&series, 20, 20);
     assert_false(w.first);
     assert_int_equal(qdot_ode_written_next(&w, 10, 1e9), QDOT_OK);
     assert_int_equal(c.taken + c.written + c.dropped, 0);
@@ -145,6 +181,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_lay_there_changes_nothing),
         cmocka_unit_test(later_steps_say_it_too),
+        cmocka_unit_test(companions_share_it),
         cmocka_unit_test(what_cannot_be_written_is_not_expanded_again),
         cmocka_unit_test(where_it_is_or_cannot_be_nothing_is_asked),
     };

@@ -55,6 +55,7 @@ start(qdot_taylor *t, double unit, double moved)
     qdot_taylor_input(t, T)[1] = unit;
 }
 
+/* With code, shared with orders up to 3 more. */
 static qdot_taylor *
 linked(const qdot_tape *tape, int to, bool code)
 {
@@ -66,7 +67,7 @@ linked(const qdot_tape *tape, int to, bool code)
     assert_int_equal(qdot_taylor_link(t, W, SIZE_MAX, qdot_taylor_output(t, 1)), QDOT_OK);
     assert_int_equal(qdot_taylor_link(t, P, SIZE_MAX, qdot_taylor_input(t, W)), QDOT_OK);
     if (code)
-        assert_int_equal(qdot_taylor_prepare(t, to), QDOT_OK);
+        assert_int_equal(qdot_taylor_prepare(t, to, to + to % 4), QDOT_OK);
     return t;
 }
 
@@ -163,8 +164,8 @@ there_is_code_or_a_reason(void **state)
     t = linked(tape, 20, false);
     assert_int_equal(qdot_taylor_code_bytes(t, &why), 0);
     assert_null(why);
-    assert_int_equal(qdot_taylor_prepare(t, 0), QDOT_EINVAL);
-    assert_int_equal(qdot_taylor_prepare(t, 20), QDOT_OK);
+    assert_int_equal(qdot_taylor_prepare(t, 0, 0), QDOT_EINVAL);
+    assert_int_equal(qdot_taylor_prepare(t, 20, 20), QDOT_OK);
     if (qdot_taylor_code_bytes(t, &why) == 0)
         print_message("no machine code: %s\n", why);
     assert_true((qdot_taylor_code_bytes(t, &why) > 0) == (why == NULL));
@@ -396,7 +397,8 @@ orders_share_code(void **state)
     for (int to = BESIDE; to > 0; to -= BESIDE - FAR) {
         qdot_taylor *other = linked(tape, to, false);
 
-        assert_int_equal(qdot_taylor_take_kept(other, to), to == BESIDE && qdot_taylor_may_be_code());
+        assert_int_equal(qdot_taylor_take_kept(other, to, to),
+                         to == BESIDE && qdot_taylor_may_be_code());
         qdot_taylor_free(other);
     }
     qdot_taylor_free(of[0]);
@@ -405,6 +407,43 @@ orders_share_code(void **state)
             of[l] = linked(tape, to, l == 0);
         expand(of, to, 2);
         compare(of, to, "from the highest order down");
+        for (int l = 0; l < 3; l++)
+            qdot_taylor_free(of[l]);
+    }
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
+/* Code of narrow vectors serves lower orders, if it was written for a family of orders that has them,
+ * and gives the bits of the code that was written for such an order alone. */
+static void
+lower_orders_share_code(void **state)
+{
+    const bool shared = qdot_taylor_may_be_code() && qdot_asm_kind() < 2;
+    scene f;
+    qdot_expr out[2];
+    qdot_tape *tape;
+
+    (void)state;
+    begin(&f);
+    out[0] = qdot_fun1(f.pool, QDOT_COS, qdot_mul(f.pool, f.in[Q], f.in[W]));
+    out[1] = qdot_mul(f.pool, out[0], f.above);
+    assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, 2, out, &tape), QDOT_OK);
+    for (int to = 1; to < QDOT_TAYLOR_EXACT_FROM - 1; to++) {
+        qdot_taylor *of[] = {linked(tape, to, false), linked(tape, to, false),
+                             linked(tape, to, false)};
+
+        assert_int_equal(qdot_taylor_prepare(of[0], to, to), QDOT_OK);
+        assert_int_equal(qdot_taylor_prepare(of[2], QDOT_TAYLOR_EXACT_FROM - 1, 0), QDOT_OK);
+        if (shared)
+            assert_true(qdot_taylor_take_kept(of[1], to, QDOT_TAYLOR_EXACT_FROM - 1));
+        else
+            assert_int_equal(qdot_taylor_prepare(of[1], to, to), QDOT_OK);
+        qdot_taylor_drop_code(of[2]);
+        expand(of, to, 2);
+        for (size_t i = 0; i < INPUTS + 2; i++)
+            for (int k = 0; k <= to; k++)
+                assert_true(row_of(of[0], i)[k] == row_of(of[1], i)[k]);
         for (int l = 0; l < 3; l++)
             qdot_taylor_free(of[l]);
     }
@@ -489,7 +528,7 @@ make_equations(equations *e, const qdot_tape *tape, size_t n, bool constant, int
         qdot_taylor_of_motion(&e->motion, false, QDOT_SERIES_MOST - 1, SOLVED, &e->t), QDOT_OK);
     e->matrices = qdot_taylor_matrices(e->t, 0);
     if (code)
-        assert_int_equal(qdot_taylor_prepare(e->t, to), QDOT_OK);
+        assert_int_equal(qdot_taylor_prepare(e->t, to, to + 2), QDOT_OK);
 }
 
 /* x becomes M_0^-1 x. */
@@ -657,6 +696,7 @@ main(void)
         cmocka_unit_test(long_programs_agree),
         cmocka_unit_test(kept_code_agrees),
         cmocka_unit_test(orders_share_code),
+        cmocka_unit_test(lower_orders_share_code),
         cmocka_unit_test(unknowns_agree),
     };
 

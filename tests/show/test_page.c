@@ -43,6 +43,9 @@ formula_is_divided(void **state)
             "<p class=\"formula\"><math><mi>a</mi></math> <math><mo form=\"infix\">=</mo>"
             "<mo>\u2212</mo><mi>b</mi></math> <math><mo form=\"infix\">+</mo>"
             "<mrow><mi>c</mi><mo>+</mo><mi>d</mi></mrow></math>, stable</p>\n");
+    becomes("  <math><mi>a</mi><mrow><mi>c</mi><mo>+</mo><mi>d</mi></mrow></math>\n",
+            "<p class=\"formula\"><math><mi>a</mi>"
+            "<mrow><mi>c</mi><mo>+</mo><mi>d</mi></mrow></math></p>\n");
     becomes("  <math><mo>\u2212</mo><mi>b</mi></math>\n",
             "<p class=\"formula\"><math><mo>\u2212</mo><mi>b</mi></math></p>\n");
 }

@@ -153,7 +153,7 @@ write_code(const both *b)
 {
     const qdot_ode_code *code = &b->series[0]->code;
 
-    return code->write(order, code->user);
+    return code->write(order, order, code->user);
 }
 
 static void

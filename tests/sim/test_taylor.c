@@ -88,7 +88,7 @@ stages_agree(const qdot_plan *plan, const qdot_residual *residual,
     assert_non_null(why);
     assert_true((b->code.write != NULL) == qdot_lanes_may_be_code());
     if (b->code.write) {
-        must(b->code.write(P, b->code.user));
+        must(b->code.write(P, P, b->code.user));
         assert_true(b->code.there(P, b->code.user));
         assert_false(b->code.there(P - 1, b->code.user));
         assert_true(qdot_motion_series_code(stages, &why) > 0);

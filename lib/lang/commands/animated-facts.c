@@ -5,6 +5,8 @@
 #include "lang/answer/number-text.h"
 #include "lang/commands/animated.h"
 
+enum { MOST_VALUES = 24 };
+
 static qdot_status
 add(qdot_animation *a, const char *name, qdot_text *text)
 {
@@ -29,6 +31,7 @@ add_values(qdot_session *session, const qdot_named_run *run, qdot_animation *a)
                         qdot_mech_numeric_forcing(session->scene)};
     qdot_expr atoms = qdot_expr_atoms(pool, qdot_list(pool, 2, held), false);
     qdot_text text = {0};
+    size_t shown = 0;
 
     QDOT_TRY(qdot_pool_check(pool));
     for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
@@ -37,6 +40,8 @@ add_values(qdot_session *session, const qdot_named_run *run, qdot_animation *a)
         double value;
 
         if (!qdot_expr_is_class(pool, x, QDOT_PARAM))
+            continue;
+        if (shown++ >= MOST_VALUES)
             continue;
         status = qdot_run_values(run->run, 1, &x, 1, &r->t0, &value, NULL);
         qdot_text_add(&text, text.n > 0 ? ", " : "");
@@ -49,6 +54,8 @@ add_values(qdot_session *session, const qdot_named_run *run, qdot_animation *a)
         qdot_text_add(&text, " = ");
         qdot_number_text(&text, value, 0);
     }
+    if (shown > MOST_VALUES)
+        qdot_text_format(&text, " and %zu more", shown - MOST_VALUES);
     return add(a, "with", &text);
 }
 

@@ -1,4 +1,6 @@
 /* ask.c -- values asked for: expressions, print, show, vars, and the parts of a scene. */
+#include "lang/commands/ask.h"
+
 #include <inttypes.h>
 #include <string.h>
 
@@ -120,6 +122,16 @@ answer_list(qdot_session *session, const char *name, qdot_expr list)
 }
 
 qdot_status
+qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value)
+{
+    if (qdot_measured_occurs(session, value))
+        return answer_measured(session, name, value);
+    if (qdot_expr_kind(session->pool, value) == QDOT_LIST)
+        return answer_list(session, name, value);
+    return qdot_answer_expr(session, name, value);
+}
+
+qdot_status
 qdot_ask_expression(qdot_cursor *c)
 {
     qdot_session *session = c->session;
@@ -139,12 +151,8 @@ qdot_ask_expression(qdot_cursor *c)
     status = qdot_text_status(&name);
     if (status == QDOT_OK)
         status = qdot_session_remember(session, value, over);
-    if (status == QDOT_OK && qdot_measured_occurs(session, value))
-        status = answer_measured(session, qdot_text_str(&name), value);
-    else if (status == QDOT_OK && qdot_expr_kind(session->pool, value) == QDOT_LIST)
-        status = answer_list(session, qdot_text_str(&name), value);
-    else if (status == QDOT_OK)
-        status = qdot_answer_expr(session, qdot_text_str(&name), value);
+    if (status == QDOT_OK)
+        status = qdot_ask_answer(session, qdot_text_str(&name), value);
     qdot_text_clear(&name);
     return status;
 }

@@ -10,6 +10,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/commands/statement.h"
+#include "lang/language/hints.h"
 #include "lang/language/read.h"
 #include "mech/study/integrable.h"
 #include "mech/study/reactions.h"
@@ -222,7 +223,7 @@ qdot_constraints_check_integrable(qdot_cursor *c, bool not)
     qdot_session *session = c->session;
     const qdot_token *start = c->at;
     qdot_scene *scene = session->scene;
-    const char *label;
+    const char *label, *nearest;
     bool found = false;
 
     QDOT_TRY(qdot_read_name(c, &label));
@@ -245,6 +246,9 @@ qdot_constraints_check_integrable(qdot_cursor *c, bool not)
     if (found)
         return QDOT_OK;
     (void)qdot_fail(QDOT_ENAME, "no constraint is labelled `%s`", label);
+    nearest = qdot_hints_nearest(session, label);
+    if (nearest != NULL && qdot_scene_has_label(scene, nearest))
+        return qdot_hint("did you mean `%s`?", nearest);
     return qdot_hint("constraint %s: ... labels one", label);
 }
 

@@ -1,10 +1,12 @@
 /* help.c -- the tables, told: statements, functions, values. */
 #include <string.h>
 
+#include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/language/hints.h"
 #include "lang/language/read.h"
 #include "ode/method.h"
 
@@ -162,11 +164,26 @@ look_up(qdot_text *text, const char *word)
     return text->n > 0;
 }
 
+/* The statement, function or value whose word is nearest; NULL if none is near. */
+static const char *
+nearest_word(qdot_session *session, const char *word)
+{
+    const char *other = qdot_hints_nearest(session, word);
+    qdot_spelling near;
+
+    qdot_spelling_begin(&near, word);
+    for (size_t i = 0; qdot_statement_at(i) != NULL; i++)
+        qdot_spelling_offer(&near, qdot_statement_at(i)->word);
+    if (other != NULL)
+        qdot_spelling_offer(&near, other);
+    return near.best;
+}
+
 qdot_status
 qdot_help(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
-    const char *word = "help";
+    const char *word = "help", *near;
     qdot_text text = {0};
 
     if (c->at->kind == QDOT_TOKEN_NAME)
@@ -181,7 +198,10 @@ qdot_help(qdot_cursor *c)
         overview(&text);
     } else if (!look_up(&text, word)) {
         (void)qdot_fail(QDOT_ENAME, "there is no help on `%.100s`", word);
-        return qdot_hint("`help` lists every word; `show NAME` tells of your own names");
+        near = nearest_word(c->session, word);
+        return near != NULL
+                   ? qdot_hint("did you mean `%s`?", near)
+                   : qdot_hint("`help` lists every word; `show NAME` tells of your own names");
     }
     return qdot_answer_written(c->session, "help", QDOT_OK, &text);
 }

@@ -9,6 +9,7 @@
 #include "lang/commands/statement.h"
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"
+#include "lang/language/hints.h"
 #include "lang/language/read.h"
 
 /* --- operands ----------------------------------------------------------------------- */
@@ -347,7 +348,7 @@ read_target(qdot_cursor *c, bool label_first, qdot_expr *coordinate, const char 
 {
     const qdot_token *start = c->at;
     const qdot_name *known;
-    const char *name;
+    const char *name, *nearest;
     bool labelled;
 
     *coordinate = QDOT_NIL;
@@ -366,7 +367,9 @@ read_target(qdot_cursor *c, bool label_first, qdot_expr *coordinate, const char 
     }
     c->error_at = start->start;
     (void)qdot_fail(QDOT_ENAME, "there is no coordinate, particle or body `%s`", name);
-    return qdot_hint("declare it first");
+    nearest = qdot_hints_nearest(c->session, name);
+    return nearest != NULL ? qdot_hint("did you mean `%s`?", nearest)
+                           : qdot_hint("declare it first");
 }
 
 /* The body of a place that is written point(BODY, P), and nothing else; NULL: it is not. */

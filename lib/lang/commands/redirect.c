@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/scene-file.h"
 #include "show/sink.h"
@@ -66,6 +67,7 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
 {
     const char *dot = strrchr(path, '.');
     const char *ending = dot == NULL || strchr(dot, '/') != NULL ? "" : dot;
+    qdot_spelling nearest;
 
     *r = (qdot_redirect){.session = session, .path = path};
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
@@ -88,7 +90,12 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
     if (!is_of_the_language(ending)) {
         (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file ends in what it is to be",
                         path);
-        return qdot_hint("as in \"a.txt\", \"a.tex\", \"a.json\"");
+        qdot_spelling_begin(&nearest, ending);
+        for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+            qdot_spelling_offer(&nearest, endings[i].ending);
+        return nearest.best != NULL && ending[0] != '\0'
+                   ? qdot_hint("did you mean `%s`?", nearest.best)
+                   : qdot_hint("as in \"a.txt\", \"a.tex\", \"a.json\"");
     }
     (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: this answer in a file `%s`", ending);
     return qdot_hint(

@@ -1,9 +1,11 @@
 /* remove.c -- things taken out of the scene again, by label or by kind and number. */
 #include <string.h>
 
+#include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
+#include "lang/session/labels.h"
 
 /* A notice of what was removed because it acted on a removed thing. */
 static qdot_status
@@ -95,6 +97,22 @@ remove_kind(qdot_cursor *c, const qdot_token *start, size_t row)
     return qdot_scene_remove_at(scene, kinds[row].kind, (size_t)k - 1);
 }
 
+/* The failure, with the nearest of the labels and kinds. */
+static qdot_status
+nothing_is_labelled(qdot_cursor *c, const char *label)
+{
+    qdot_words words = {0};
+    const char *nearest;
+
+    qdot_labels_add(c->session->scene, &words);
+    for (size_t i = 0; i < KINDS; i++)
+        (void)qdot_vec_push(&words, kinds[i].word); /* a hint less without memory */
+    nearest = qdot_spelling_nearest(label, words.n, words.at);
+    qdot_free(words.at);
+    (void)qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
+    return nearest != NULL ? qdot_hint("did you mean `%s`?", nearest) : QDOT_ENAME;
+}
+
 qdot_status
 qdot_remove(qdot_cursor *c)
 {
@@ -108,6 +126,8 @@ qdot_remove(qdot_cursor *c)
             return remove_kind(c, start, i);
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
+    if (!qdot_scene_has_label(c->session->scene, label))
+        return nothing_is_labelled(c, label);
     QDOT_TRY(qdot_scene_remove(c->session->scene, label));
     return tell_removed(c->session, label);
 }

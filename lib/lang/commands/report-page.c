@@ -9,6 +9,7 @@
 #include "lang/answer/report.h"
 #include "lang/commands/animated.h"
 #include "lang/commands/figure-file.h"
+#include "lang/commands/report-work.h"
 #include "lang/commands/scene-file.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
@@ -24,6 +25,7 @@ typedef struct {
     qdot_cursor *c;
     qdot_session *session;
     const qdot_named_run *run; /* NULL: none was made */
+    bool work;                 /* with work and precision */
     qdot_text page;
 } page;
 
@@ -261,6 +263,11 @@ write_sections(page *p)
     QDOT_TRY(add_answer(p, "Equilibria", qdot_equilibria_all));
     if (p->run != NULL) {
         QDOT_TRY(add_motion(p));
+        if (p->work) {
+            heading(p, "Work and precision");
+            QDOT_TRY(
+                qdot_report_work(p->session, qdot_run_get_report(p->run->run), &p->page));
+        }
     } else {
         heading(p, "Run");
         qdot_text_add(&p->page, "<p>No run was made.</p>\n");
@@ -272,17 +279,21 @@ write_sections(page *p)
 
 typedef struct {
     const char *run, *title, *path;
+    bool work;
 } options;
 
 static qdot_status
 read_options(qdot_cursor *c, options *o)
 {
     if (c->at->kind == QDOT_TOKEN_NAME && !qdot_cursor_is_word(c, "to") &&
-        !qdot_cursor_is_word(c, "title"))
+        !qdot_cursor_is_word(c, "title") && !qdot_cursor_is_word(c, "workprecision"))
         QDOT_TRY(qdot_read_name(c, &o->run));
     while (!qdot_cursor_is_end(c)) {
         if (qdot_cursor_accept_word(c, "to")) {
             QDOT_TRY(qdot_figure_file_read(c, &o->path));
+        } else if (qdot_cursor_accept_word(c, "workprecision")) {
+            QDOT_TRY(qdot_cursor_once(c, "workprecision", o->work));
+            o->work = true;
         } else if (qdot_cursor_accept_word(c, "title")) {
             QDOT_TRY(qdot_cursor_once(c, "title", o->title != NULL));
             if (c->at->kind != QDOT_TOKEN_STRING) {
@@ -291,7 +302,8 @@ read_options(qdot_cursor *c, options *o)
             }
             QDOT_TRY(qdot_read_string(c, &o->title));
         } else {
-            return qdot_cursor_expected(c, "`title`, `to` or the end of the statement");
+            return qdot_cursor_expected(
+                c, "`title`, `workprecision`, `to` or the end of the statement");
         }
     }
     return o->path != NULL
@@ -376,6 +388,13 @@ qdot_report_page(qdot_cursor *c)
         return qdot_hint("coord theta");
     }
     QDOT_TRY(find_run(&p, o.run));
+    p.work = o.work;
+    if (p.work && (p.run == NULL || strstr(p.run->text, " with ") != NULL))
+        return qdot_fail(QDOT_EINVAL,
+                         p.run == NULL
+                             ? "`workprecision` measures the time of a run: there is none"
+                             : "`workprecision` measures with the values of `set`: not "
+                               "a run with values of its own");
     status = make_page(&p, o.title);
     if (status == QDOT_OK && pdf) {
         status = qdot_pdf_print(qdot_text_str(&p.page), p.page.n, o.path);

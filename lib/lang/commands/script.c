@@ -15,6 +15,7 @@
 #include "lang/commands/redirect.h"
 #include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
+#include "lang/language/foreign.h"
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
 
@@ -112,22 +113,31 @@ is_used_as_name(const qdot_session *session, const qdot_token *name,
             ((qdot_token_is(next, "(") || qdot_token_is(next, "[")) && next->glued));
 }
 
-/* `partcle bob mass m`: two names side by side, the first of them unknown. */
-static qdot_status
-unknown_word(qdot_cursor *c)
+/* The statement whose word is nearest in spelling; NULL if none is near. */
+static const qdot_statement *
+nearest_statement(const qdot_session *session, const char *name)
 {
     const char *words[128], *near;
     size_t n = 0;
 
     for (; n < 128 && qdot_statement_at(n) != NULL; n++)
         words[n] = qdot_statement_at(n)->word;
-    near = qdot_names_nearest(c->session->names, c->at->text, n, words);
+    near = qdot_names_nearest(session->names, name, n, words);
+    return near != NULL ? qdot_statement_find(near) : NULL;
+}
+
+/* `partcle bob mass m`: two names side by side, the first of them unknown. */
+static qdot_status
+unknown_word(qdot_cursor *c)
+{
+    const qdot_statement *near = nearest_statement(c->session, c->at->text);
+
     c->error_at = c->at->start;
     (void)qdot_fail(QDOT_ESYNTAX, "no statement begins with `%s`", c->at->text);
     if (qdot_token_is_word(c->at, "for"))
         return qdot_hint("it ends one: print k^2 for k = 1..3");
-    return near != NULL && qdot_statement_find(near) != NULL
-               ? qdot_hint("did you mean `%s`?", near)
+    return near != NULL
+               ? qdot_hint("did you mean `%s`?", near->word)
                : qdot_hint("`help` lists the statements; a product is written with *");
 }
 
@@ -351,6 +361,40 @@ tell_time(const engine *x, clock_t since)
     qdot_text_clear(&text);
 }
 
+/* The statement [i, end) failed: the hint of its form, if that is known. */
+static qdot_status
+lead(engine *x, size_t i, size_t end, qdot_status status)
+{
+    qdot_cursor c = {.session = x->session, .source = x->source, .error_at = x->error_at};
+
+    if (x->error_at == QDOT_SCRIPT_REPORTED || x->session->placed)
+        return status;
+    if (status == QDOT_ENAME && x->error_at == x->tokens[i].start &&
+        qdot_last_error()->hint[0] == '\0') { /* `runn 0..10` */
+        const qdot_statement *near = nearest_statement(x->session, x->tokens[i].text);
+
+        if (near != NULL)
+            (void)qdot_hint("did you mean `%s`?", near->word);
+    }
+    (void)qdot_foreign_hint(&c, x->tokens + i, x->tokens + end);
+    x->error_at = c.error_at;
+    return status;
+}
+
+/* A notice, if the statement [i, end) that was carried out is seldom meant so. */
+static qdot_status
+tell_seldom_meant(engine *x, size_t i, size_t end)
+{
+    const qdot_cursor c = {.session = x->session, .source = x->source};
+    qdot_text text = {0};
+    const char *notice = qdot_foreign_notice(&c, x->tokens + i, x->tokens + end, &text);
+    qdot_status status =
+        notice != NULL ? qdot_answer_notice(x->session, "%s", notice) : QDOT_OK;
+
+    qdot_text_clear(&text);
+    return status;
+}
+
 /* The simple statement at i, each pass of its `for`; *next: the token behind it. */
 static qdot_status
 simple(engine *x, size_t i, size_t *next)
@@ -358,9 +402,14 @@ simple(engine *x, size_t i, size_t *next)
     size_t end = statement_end(x, i);
     clock_t since = clock();
     bool timed = x->session->timing && x->frames.n == 0;
+    qdot_status status;
 
     *next = find_end(x, end);
-    QDOT_TRY(x->tokens[end].kind == QDOT_TOKEN_END ? statement(x, i) : repeat(x, i, end));
+    x->session->placed = false;
+    status = x->tokens[end].kind == QDOT_TOKEN_END ? statement(x, i) : repeat(x, i, end);
+    if (status != QDOT_OK)
+        return lead(x, i, *next, status);
+    QDOT_TRY(tell_seldom_meant(x, i, *next));
     if (timed && x->session->timing)
         tell_time(x, since);
     return QDOT_OK;
@@ -400,8 +449,14 @@ enter(engine *x, size_t i, size_t *next)
 
     x->error_at = c.at->start;
     QDOT_TRY(qdot_interrupt_check());
-    if (!qdot_cursor_accept_word(&c, "for"))
-        return qdot_cursor_expected(&c, "`for` behind the block");
+    if (!qdot_cursor_accept_word(&c, "for")) {
+        const qdot_token *first = &x->tokens[f.body];
+
+        (void)qdot_cursor_expected(&c, "`for` behind the block");
+        if (first->kind != QDOT_TOKEN_NAME || qdot_statement_find(first->text) == NULL)
+            return qdot_hint("a list is written [a, b], a vector (a, b)");
+        return QDOT_ESYNTAX;
+    }
     f.resume = find_end(x, f.close + 1);
     status = qdot_loop_begin(&f.loop, &c, &more);
     if (status != QDOT_OK) {

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/spelling.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
-#include "lang/session/spelling.h"
 
 bool
 qdot_cursor_is_op(const qdot_cursor *c, const char *op)
@@ -123,21 +123,62 @@ hint_foreign(const qdot_token *t)
     return QDOT_ESYNTAX;
 }
 
+/* The token with which the operand begins that ends with `last`: of brackets the opening one, with
+ * the name before it. */
+static const qdot_token *
+operand_start(const qdot_cursor *c, const qdot_token *last)
+{
+    const qdot_token *t = last, *first = c->source->tokens.at;
+    long depth = 0;
+
+    while (t > first && qdot_token_is(t, "'"))
+        t--;
+    for (; t > first; t--) {
+        depth += qdot_token_bracket(t);
+        if (depth >= 0)
+            break;
+    }
+    if (qdot_token_bracket(t) > 0 && t > first && t->glued && t[-1].kind == QDOT_TOKEN_NAME)
+        t--;
+    return t;
+}
+
+/* The byte behind the operand that begins with `t`. */
+static size_t
+operand_end(const qdot_cursor *c, const qdot_token *t)
+{
+    const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1;
+    long depth = 0;
+
+    if (t->kind == QDOT_TOKEN_NAME && t[1].glued && qdot_token_bracket(t + 1) > 0)
+        t++;
+    for (; t < last; t++) {
+        depth += qdot_token_bracket(t);
+        if (depth <= 0)
+            break;
+    }
+    while (t < last && t[1].glued && qdot_token_is(t + 1, "'"))
+        t++;
+    return t->start + t->length;
+}
+
 /* A product without its sign, between `before` and the next token. */
 static qdot_status
 missing_times(qdot_cursor *c, const qdot_token *before)
 {
-    const qdot_token *t = c->at;
+    const qdot_token *t = c->at, *from;
+    size_t to;
+    int left;
 
     c->error_at = t->glued ? t->start : before->start + before->length;
     qdot_fail(QDOT_ESYNTAX, "a `*` is missing");
-    if (before->kind == QDOT_TOKEN_OPERATOR ||
-        strlen(before->text) + strlen(t->text) > 80)
+    from = operand_start(c, before);
+    to = operand_end(c, t);
+    if (to - from->start > 100)
         return qdot_hint("a product is written with `*`");
-    return qdot_hint("write %s*%s%s", before->text, t->text,
-                     t->kind != QDOT_TOKEN_OPERATOR ? ""
-                     : t->text[0] == '('            ? "...)"
-                                                    : "(...)");
+    left = (int)(before->start + before->length - from->start);
+    return qdot_hint("write %.*s*%.*s", left, c->source->text + from->start,
+                     (int)(to - t->start), c->source->text + t->start);
 }
 
 static qdot_status

@@ -6,6 +6,7 @@
 
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/language/foreign-words.h"
 #include "lang/session/labels.h"
 
 /* --- the nearest of everything known ------------------------------------------------ */
@@ -29,64 +30,10 @@ qdot_hints_nearest(qdot_session *session, const char *name)
 
 /* --- other systems' forms ----------------------------------------------------------- */
 
-static const struct {
-    const char *theirs, *ours;
-} aliases[] = {
-    {"ln", "log"},
-    {"arcsin", "asin"},
-    {"arccos", "acos"},
-    {"arctan", "atan"},
-    {"arctan2", "atan2"},
-    {"arcsinh", "asinh"},
-    {"arsinh", "asinh"},
-    {"arccosh", "acosh"},
-    {"arcosh", "acosh"},
-    {"arctanh", "atanh"},
-    {"artanh", "atanh"},
-    {"tg", "tan"},
-    {"ctg", "cot"},
-    {"sh", "sinh"},
-    {"ch", "cosh"},
-    {"sgn", "sign"},
-    {"signum", "sign"},
-    {"fabs", "abs"},
-    {"D", "diff"},
-    {"derivative", "diff"},
-    {"Derivative", "diff"},
-    {"Dt", "ddt"},
-    {"dot_t", "ddt"},
-    {"ReplaceAll", "subs"},
-    {"Integrate", NULL},
-    {"FullSimplify", "simplify"},
-    {"trigsimp", "simplify"},
-    {"determinant", "det"},
-    {"inv", "inverse"},
-    {"Tr", "trace"},
-};
-
-/* Our function for a name of another system, Sin and SIN too; NULL if there is none. */
-static const char *
-our_function(const char *name)
-{
-    char low[32];
-    size_t n = strlen(name);
-    const qdot_builtin *row;
-
-    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
-        if (strcmp(name, aliases[i].theirs) == 0)
-            return aliases[i].ours;
-    if (n >= sizeof low)
-        return NULL;
-    for (size_t i = 0; i <= n; i++)
-        low[i] = (char)(name[i] >= 'A' && name[i] <= 'Z' ? name[i] - 'A' + 'a' : name[i]);
-    row = qdot_builtin_find(low);
-    return row != NULL ? row->name : NULL;
-}
-
 bool
 qdot_hints_is_foreign(const qdot_session *session, const char *name)
 {
-    return !qdot_cursor_knows(session, name) && our_function(name) != NULL;
+    return !qdot_cursor_knows(session, name) && qdot_foreign_word(name) != NULL;
 }
 
 /* The text inside the bracket that `open` opens, "..." where it is long. */
@@ -149,7 +96,7 @@ qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
 
     qdot_fail(QDOT_ENAME, "unknown name `%.200s`", member != NULL ? member : name);
     if (qdot_token_is(token + 1, "[") && token[1].glued) {
-        ours = our_function(name);
+        ours = qdot_foreign_word(name);
         if (ours != NULL) {
             bracket_text(c, token + 1, text, sizeof text);
             return qdot_hint("write %s(%s)", ours, text);
@@ -173,7 +120,7 @@ qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
 qdot_status
 qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
 {
-    const char *name = token->text, *ours = our_function(name), *nearest;
+    const char *name = token->text, *ours = qdot_foreign_word(name), *nearest;
     char text[100];
 
     qdot_fail(QDOT_ENAME, "unknown function `%.200s`", name);

@@ -1,7 +1,7 @@
 /* labels.c -- the labels of a scene's things with mass, springs, dampers and constraints. */
 #include "lang/session/labels.h"
 
-#include "lang/session/spelling.h"
+#include "base/spelling.h"
 
 static void
 add(qdot_words *list, const char *word)

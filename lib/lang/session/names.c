@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "lang/session/spelling.h"
+#include "base/spelling.h"
 
 typedef struct entry {
     qdot_name name; /* first: who keeps a name keeps its entry */

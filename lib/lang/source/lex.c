@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "base/utf8.h"
 #include "lang/source/letters.h"
+#include "lang/source/refuse.h"
 
 typedef struct {
     qdot_source *source;
@@ -72,15 +73,6 @@ static const struct {
     {"⅚", "5/6"}, {"⅛", "1/8"}, {"⅜", "3/8"}, {"⅝", "5/8"}, {"⅞", "7/8"},
 };
 
-/* Signs of print that are not read, and what to write for them. */
-static const struct {
-    const char *text, *ours;
-} foreign[] = {
-    {"∂", "diff(e, x)"}, {"∑", "sum(e, k, a, b)"}, {"–", "-"}, {"—", "-"}, {"÷", "/"},
-    {"∧", "and"}, {"∨", "or"}, {"¬", "not"}, {"“", "\""}, {"”", "\""}, {"⟨", "("},
-    {"∇", "gradient(f, R)"},
-};
-
 static bool
 is_digit(char c)
 {
@@ -138,7 +130,7 @@ close_bracket(lexer *x, const char *text)
     const qdot_token *opened;
 
     if (x->open.n == 0)
-        return qdot_fail(QDOT_ESYNTAX, "`%s` closes nothing", text);
+        return qdot_refuse_close(x->source->text, x->i);
     opened = &x->tokens.at[x->open.at[x->open.n - 1]];
     if (strchr(pairs, opened->text[0])[1] != text[0]) {
         char closer = strchr(pairs, opened->text[0])[1];
@@ -387,7 +379,7 @@ lex_string(lexer *x, qdot_text *buffer)
     qdot_text_truncate(buffer, 0);
     while (text[i] != '"') {
         if (i >= x->source->length || text[i] == '\n')
-            return qdot_fail(QDOT_ESYNTAX, "the text has no closing quote");
+            return qdot_refuse_text(text, x->i);
         if (text[i] == '\\' && (text[i + 1] == '"' || text[i + 1] == '\\'))
             i++;
         if ((unsigned char)text[i] < 0x20 && text[i] != '\t') {
@@ -403,40 +395,6 @@ lex_string(lexer *x, qdot_text *buffer)
     QDOT_TRY(push(x, QDOT_TOKEN_STRING, copy, x->i, i + 1));
     x->i = i + 1;
     return QDOT_OK;
-}
-
-/* Nothing of the language begins here: say what it is. */
-static qdot_status
-refuse(const lexer *x)
-{
-    const char *text = x->source->text + x->i;
-    size_t length;
-    uint32_t c = qdot_utf8_decode(text, &length);
-    int digit = qdot_letters_superscript(c);
-
-    if (c < 0x20 || c == 0x7F)
-        return qdot_fail(QDOT_ESYNTAX, "a control character: this is not text");
-    if (digit >= 0) {
-        qdot_fail(QDOT_ESYNTAX, "a raised digit has no meaning here");
-        return qdot_hint("write ^%d", digit);
-    }
-    if (c == 0x307 || c == 0x308) {
-        qdot_fail(QDOT_ESYNTAX, "a dot over a letter has no meaning here");
-        return qdot_hint("write %s after the name", c == 0x307 ? "'" : "''");
-    }
-    if (c == ';')
-        return qdot_fail(QDOT_ESYNTAX, "`;` has no meaning here");
-    if (c == '_') {
-        qdot_fail(QDOT_ESYNTAX, "a name begins with a letter");
-        return QDOT_ESYNTAX;
-    }
-    if (c < 0x80)
-        return qdot_fail(QDOT_ESYNTAX, "`%c` has no meaning here", (char)c);
-    qdot_fail(QDOT_ESYNTAX, "`%.*s` has no meaning here", (int)length, text);
-    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
-        if (strncmp(text, foreign[i].text, length) == 0 && foreign[i].text[length] == '\0')
-            return qdot_hint("write %s", foreign[i].ours);
-    return qdot_hint("letters of names are Latin or Greek");
 }
 
 /* Comments, blanks, ends of lines: true if something was stepped over. */
@@ -468,8 +426,7 @@ lex_blank(lexer *x, bool *found)
         while (text[i] == ' ' || text[i] == '\t' || text[i] == '\r')
             i++;
         if (text[i] != '\n' && i < x->source->length) {
-            qdot_fail(QDOT_ESYNTAX, "`\\` goes at the end of a line");
-            return qdot_hint("names are written without it: theta, or θ");
+            return qdot_refuse_backslash(text, x->i);
         }
         x->i = i < x->source->length ? i + 1 : i;
     } else if (c == '\n') {
@@ -520,7 +477,7 @@ lex_token(lexer *x, qdot_text *buffer)
         QDOT_TRY(lex_fraction(x, &found));
     if (!found)
         QDOT_TRY(lex_raised(x, &found));
-    return found ? QDOT_OK : refuse(x);
+    return found ? QDOT_OK : qdot_refuse(x->source->text, x->i);
 }
 
 /* Where a line begins: step over prompts that were pasted with it. */
@@ -566,7 +523,7 @@ lex_all(lexer *x, qdot_text *buffer)
         const qdot_token *opened = &x->tokens.at[x->open.at[x->open.n - 1]];
 
         x->i = opened->start;
-        return qdot_fail(QDOT_ESYNTAX, "`%s` is never closed", opened->text);
+        return qdot_refuse_open(x->source->text, x->i);
     }
     /* the last token is an END, whatever there was */
     if (!last_is_kind(x, QDOT_TOKEN_END))

@@ -2,15 +2,15 @@
 #include "sim/form/expansion.h"
 
 static qdot_status
-write_code(int p, void *user)
+write_code(int p, int most, void *user)
 {
-    return qdot_taylor_prepare(user, p - 1);
+    return qdot_taylor_prepare(user, p - 1, most - 1);
 }
 
 static bool
-take_code(int p, void *user)
+take_code(int p, int most, void *user)
 {
-    return qdot_taylor_take_kept(user, p - 1);
+    return qdot_taylor_take_kept(user, p - 1, most - 1);
 }
 
 static bool

@@ -250,11 +250,12 @@ drop_lanes(void *user)
 }
 
 static qdot_status
-write_lanes(int p, void *user)
+write_lanes(int p, int most, void *user)
 {
     qdot_motion_series *s = user;
     const qdot_lanes_rows rows = qdot_taylor_get_rows(s->at.taylor);
 
+    (void)most; /* it is written for each order */
     if (is_code_of_lanes(p, s))
         return QDOT_OK;
     drop_lanes(s);
@@ -264,8 +265,9 @@ write_lanes(int p, void *user)
 
 /* None is kept from earlier runs. */
 static bool
-take_lanes(int p, void *user)
+take_lanes(int p, int most, void *user)
 {
+    (void)most;
     (void)p;
     (void)user;
     return false;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/spelling.h"
 #include "ode/leading.h"
 #include "sim/form/bordered.h"
 #include "sim/form/canonical.h"
@@ -48,6 +49,7 @@ static qdot_status
 find_method(qdot_plan *p, const char *name)
 {
     qdot_text names = {0};
+    qdot_spelling nearest;
 
     p->chosen = !name || strcmp(name, "auto") == 0;
     p->method = qdot_ode_method_find(p->chosen ? default_method : name);
@@ -56,10 +58,16 @@ find_method(qdot_plan *p, const char *name)
     for (size_t i = 0; i < sizeof later_methods / sizeof *later_methods; i++)
         if (strcmp(name, later_methods[i]) == 0)
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: method %s", name);
-    for (size_t i = 0; i < qdot_ode_method_count(); i++)
+    qdot_spelling_begin(&nearest, name);
+    for (size_t i = 0; i < qdot_ode_method_count(); i++) {
         qdot_text_format(&names, ", %s", qdot_ode_method_at(i)->name);
+        qdot_spelling_offer(&nearest, qdot_ode_method_at(i)->name);
+    }
     qdot_fail(QDOT_ENAME, "there is no method %.100s", name);
-    qdot_hint("auto%s", qdot_text_str(&names));
+    if (nearest.best != NULL)
+        qdot_hint("did you mean `%s`?", nearest.best);
+    else
+        qdot_hint("auto%s", qdot_text_str(&names));
     qdot_text_clear(&names);
     return QDOT_ENAME;
 }

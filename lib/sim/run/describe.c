@@ -2,6 +2,7 @@
 #include "expr/print.h"
 #include "ode/companion.h"
 #include "ode/taylor.h"
+#include "ode/written.h"
 #include "sim/course/bind.h"
 #include "sim/course/stage.h"
 #include "sim/form/derived.h"
@@ -152,14 +153,21 @@ say_blocks(const qdot_plan *p, qdot_text *out)
     }
 }
 
-/* The code that computes an expansion to order p. */
+/* The code that computes an expansion to order p in a run under tol. */
 static qdot_status
-say_code(const qdot_bind *bind, const qdot_ode_series *series, int p, qdot_text *out)
+say_code(qdot_bind *bind, double tol, int p, qdot_text *out)
 {
+    const qdot_ode_system system = qdot_bind_system(bind);
+    const qdot_ode_series *series = system.series;
+
     if (series->prepare)
         QDOT_TRY(series->prepare(p, series->user));
-    if (series->code.write)
-        QDOT_TRY(series->code.write(p, series->code.user));
+    if (series->code.write) {
+        qdot_ode_written written = qdot_ode_written_begin(
+            series, p, qdot_ode_taylor_highest(&system, tol, system.leading, 0));
+
+        QDOT_TRY(qdot_ode_written_now(&written));
+    }
     qdot_bind_tell_code(bind, out);
     return QDOT_OK;
 }
@@ -181,7 +189,7 @@ say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
     qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n", order, tol);
 
     qdot_text_add(out, "recurrences: ");
-    status = say_code(bind, system.series, order, out);
+    status = say_code(bind, tol, order, out);
     qdot_text_char(out, '\n');
     if (system.leading)
         qdot_text_add(out, "rounding: state, parameters and the first orders as sums of two "
@@ -293,7 +301,7 @@ say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
             order = qdot_ode_taylor_order(system.series, tol, system.leading, 0);
             qdot_text_format(out, ": order %d, %g convolutions an order; ", order,
                              r->convolutions_derived);
-            status = say_code(bind, system.series, order, out);
+            status = say_code(bind, tol, order, out);
             if (system.leading)
                 qdot_text_add(out, "; first orders as sums of two doubles");
             qdot_bind_free(bind);

@@ -15,13 +15,13 @@ syntax keyword qdotOperator and or not
 syntax match qdotComment /#.*$/ contains=@Spell,qdotTodo
 syntax keyword qdotTodo TODO FIXME contained
 " words
-syntax keyword qdotWord contained animate assume body check constraint coord cyclic damper
-syntax keyword qdotWord contained derive dissipation dof equilibria event events force
-syntax keyword qdotWord contained forces function gravity help include lagrangian modes
-syntax keyword qdotWord contained param particle plan plot potential print quit race
-syntax keyword qdotWord contained reactions redo remove report reset run save scene set
-syntax keyword qdotWord contained show spring start style table timing torque undo vars
-syntax keyword qdotWord contained workprecision
+syntax keyword qdotWord contained abbreviate animate assume body check constraint coord
+syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibria event
+syntax keyword qdotWord contained events force forces function gravity help include
+syntax keyword qdotWord contained lagrangian modes param particle plan plot potential
+syntax keyword qdotWord contained print quit race reactions redo remove report reset run
+syntax keyword qdotWord contained save scene set show spring start style table timing
+syntax keyword qdotWord contained torque undo vars workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor

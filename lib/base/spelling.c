@@ -1,5 +1,5 @@
 /* spelling.c -- the word nearest in spelling. */
-#include "lang/session/spelling.h"
+#include "base/spelling.h"
 
 #include <string.h>
 

@@ -3,8 +3,8 @@
  *
  * Tests  tests/lang/test_names.c
  */
-#ifndef QDOT_LANG_SPELLING_H
-#define QDOT_LANG_SPELLING_H
+#ifndef QDOT_BASE_SPELLING_H
+#define QDOT_BASE_SPELLING_H
 
 #include <stddef.h>
 

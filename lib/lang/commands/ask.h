@@ -1,0 +1,12 @@
+/* ask.h -- a value that was asked for, as the statement of an expression answers it. */
+#ifndef QDOT_LANG_ASK_H
+#define QDOT_LANG_ASK_H
+
+#include "lang/session/session.h"
+
+/* `name = value`; of a list each member, `eom[theta]`, `solve(...)[1]`; numbers of runs with their
+ * errors. */
+QDOT_MUST_CHECK qdot_status qdot_ask_answer(qdot_session *session, const char *name,
+                                            qdot_expr value);
+
+#endif

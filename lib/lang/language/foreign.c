@@ -1,0 +1,141 @@
+/* foreign.c -- forms of other systems and of beginners, each with our line. */
+#include "lang/language/foreign.h"
+
+#include <string.h>
+
+#include "lang/language/pattern.h"
+
+enum { LONGEST = 400 }; /* tokens of a statement that are looked at */
+
+typedef enum { WHOLE, BEGIN, PART } extent;
+
+typedef struct {
+    extent extent;
+    bool say; /* the hint as it stands, not "write LINE" */
+    const char *pattern, *message, *line;
+} form;
+
+#define FORM(extent, pattern, message, line) {extent, false, pattern, message, line},
+#define SAY(extent, pattern, message, hint) {extent, true, pattern, message, hint},
+#define NOTE(pattern, notice)
+static const form forms[] = {
+#include "lang/language/foreign.def"
+};
+#undef FORM
+#undef SAY
+#undef NOTE
+
+#define FORM(extent, pattern, message, line)
+#define SAY(extent, pattern, message, hint)
+#define NOTE(pattern, notice) {pattern, notice},
+static const struct {
+    const char *pattern, *notice;
+} notes[] = {
+#include "lang/language/foreign.def"
+};
+#undef NOTE
+
+/* Whether what matched holds the byte `at`, or ends where it is. A single word must be the error
+ * itself, as an unknown name, unless it begins the statement. */
+static bool
+holds(const qdot_match *m, extent extent, size_t at)
+{
+    if (extent == PART && m->to == m->from + 1)
+        return at == m->from->start && qdot_last_error()->status == QDOT_ENAME;
+    return m->to > m->from && at >= m->from->start &&
+           at <= m->to[-1].start + m->to[-1].length;
+}
+
+/* Where the form stands in the statement, so that it holds the place of the error. */
+static bool
+find(const qdot_cursor *c, const form *f, const qdot_token *from, const qdot_token *to,
+     qdot_match *m)
+{
+    if (f->extent != PART)
+        return qdot_pattern_matches(c->session, f->pattern, from, to, f->extent == WHOLE,
+                                    m) &&
+               (f->extent == WHOLE || holds(m, f->extent, c->error_at));
+    for (const qdot_token *k = from; k < to && k->start <= c->error_at; k++)
+        if (qdot_pattern_matches(c->session, f->pattern, k, to, false, m) &&
+            holds(m, f->extent, c->error_at))
+            return true;
+    return false;
+}
+
+/* A single letter is often a slip of one that is declared: that hint stays. */
+static bool
+is_doubtful(const qdot_match *m)
+{
+    return m->to == m->from + 1 && m->from->length == 1 &&
+           strstr(qdot_last_error()->hint, "did you mean") != NULL;
+}
+
+/* Whether the line is what stands there already. */
+static bool
+is_same(const qdot_cursor *c, const qdot_match *m, const qdot_text *line)
+{
+    const qdot_token *last = m->to - 1;
+
+    return line->n == last->start + last->length - m->from->start &&
+           strncmp(qdot_text_str(line), c->source->text + m->from->start, line->n) == 0;
+}
+
+/* The error as the form has it; false: it has no better line. */
+static bool
+tell(qdot_cursor *c, const form *f, const qdot_match *m)
+{
+    const qdot_error error = *qdot_last_error();
+    qdot_text message = {0}, line = {0};
+    bool fits;
+
+    if (f->message != NULL)
+        qdot_pattern_write(c, f->message, m, &message);
+    else if (strcmp(error.message, "a `*` is missing") == 0)
+        qdot_text_add(&message, "this is no form of the language");
+    else
+        qdot_text_add(&message, error.message);
+    qdot_pattern_write(c, f->line, m, &line);
+    fits = line.n < sizeof error.hint - 8 && !line.failed && !message.failed &&
+           !is_same(c, m, &line);
+    if (fits) {
+        (void)qdot_fail(error.status, "%s", qdot_text_str(&message));
+        (void)qdot_hint("%s%s", f->say ? "" : "write ", qdot_text_str(&line));
+        if (f->message != NULL || m->place != m->from)
+            c->error_at = m->place->start;
+    }
+    qdot_text_clear(&message);
+    qdot_text_clear(&line);
+    return fits;
+}
+
+qdot_status
+qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
+{
+    const qdot_status status = qdot_last_error()->status;
+    qdot_match m;
+
+    if (status != QDOT_ESYNTAX && status != QDOT_ENAME && status != QDOT_ETYPE &&
+        status != QDOT_EINVAL && status != QDOT_EUNSET)
+        return status;
+    if (to - from > LONGEST)
+        to = from + LONGEST;
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (find(c, &forms[i], from, to, &m) && !is_doubtful(&m) &&
+            tell(c, &forms[i], &m))
+            break;
+    return status;
+}
+
+const char *
+qdot_foreign_notice(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
+                    qdot_text *text)
+{
+    qdot_match m;
+
+    for (size_t i = 0; i < sizeof notes / sizeof *notes && to - from <= LONGEST; i++)
+        if (qdot_pattern_matches(c->session, notes[i].pattern, from, to, true, &m)) {
+            qdot_pattern_write(c, notes[i].notice, &m, text);
+            return qdot_text_str(text);
+        }
+    return NULL;
+}

@@ -1,0 +1,32 @@
+/* pattern.h -- forms of statements with placeholders, and lines made from what these held.
+ *
+ * foreign.def says what a pattern and a line are made of.
+ */
+#ifndef QDOT_LANG_PATTERN_H
+#define QDOT_LANG_PATTERN_H
+
+#include "lang/language/cursor.h"
+
+enum { QDOT_PATTERN_HELD = 9 };
+
+typedef struct {
+    const qdot_token *from, *to; /* what matched; `to` is behind its last token */
+    const qdot_token *place;     /* where the caret belongs */
+    size_t n;                    /* placeholders */
+    struct {
+        char kind; /* its letter; '(' for one of several tokens */
+        const qdot_token *from, *to;
+    } held[QDOT_PATTERN_HELD];
+} qdot_match;
+
+/* Whether the tokens from `from` on match; `whole`: all up to `to`, else those before it. A
+ * pattern's first word must not be a declared name. */
+bool qdot_pattern_matches(const qdot_session *session, const char *pattern,
+                          const qdot_token *from, const qdot_token *to, bool whole,
+                          qdot_match *m);
+
+/* A line with the placeholders' texts, as they stand in the source. */
+void qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_match *m,
+                        qdot_text *out);
+
+#endif

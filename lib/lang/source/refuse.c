@@ -1,0 +1,287 @@
+/* refuse.c -- what to say of bytes with which nothing of the language begins. */
+#include "lang/source/refuse.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "base/utf8.h"
+#include "lang/source/latex-line.h"
+#include "lang/source/letters.h"
+
+enum { SHOWN = 120 }; /* bytes of a line in a hint */
+
+/* Signs of print that are not read, and what to write for them. */
+static const struct {
+    const char *text, *ours;
+} foreign[] = {
+    {"∑", "sum(e, k, a, b)"},
+    {"–", "-"},
+    {"—", "-"},
+    {"÷", "/"},
+    {"∧", "and"},
+    {"∨", "or"},
+    {"¬", "not"},
+    {"⟨", "("},
+    {"∇", "gradient(f, R)"},
+    {"→", "="},
+    {"≈", "="},
+    {"≡", "="},
+    {"$", "the formula without `$`"},
+    {"~", "not (a = b)"},
+    {"`", "a text in double quotes: \"text\""},
+};
+
+/* The line that holds the byte: [*from, *to), without blanks at its ends. */
+static void
+line_of(const char *text, size_t at, size_t *from, size_t *to)
+{
+    *from = *to = at;
+    while (*from > 0 && text[*from - 1] != '\n' && text[*from - 1] != ';')
+        --*from;
+    while (strchr(" \t", text[*from]) != NULL && *from < at)
+        ++*from;
+    *to = at + strcspn(text + at, "\n\r#");
+    while (*to > at && strchr(" \t;", text[*to - 1]) != NULL)
+        --*to;
+}
+
+/* The length of [*from, to) without blanks at its ends. */
+static int
+trimmed(const char *text, size_t *from, size_t to)
+{
+    while (*from < to && text[*from] == ' ')
+        ++*from;
+    while (to > *from && text[to - 1] == ' ')
+        to--;
+    return (int)(to - *from);
+}
+
+/* “text”: the line with our quotes. */
+static qdot_status
+refuse_quotes(const char *text, size_t at)
+{
+    qdot_text line = {0};
+    size_t from, to;
+
+    line_of(text, at, &from, &to);
+    for (size_t i = from; i < to; i++)
+        if (strncmp(text + i, "“", 3) == 0 || strncmp(text + i, "”", 3) == 0) {
+            qdot_text_char(&line, '"');
+            i += 2;
+        } else {
+            qdot_text_char(&line, text[i]);
+        }
+    qdot_fail(QDOT_ESYNTAX, "`%.3s` is no quote of the language", text + at);
+    qdot_hint("write %s", line.n <= SHOWN ? qdot_text_str(&line) : "\"");
+    qdot_text_clear(&line);
+    return QDOT_ESYNTAX;
+}
+
+/* Whether the byte is one of a name, with its primes. */
+static bool
+is_of_name(char c)
+{
+    return c != '\0' && (qdot_letters_latin((unsigned char)c) || (c & 0x80) != 0 ||
+                         strchr("_'0123456789", c) != NULL);
+}
+
+/* Bytes of the name that begins at `at`. */
+static size_t
+name_length(const char *text, size_t at)
+{
+    size_t n = 0;
+
+    while (is_of_name(text[at + n]) && strncmp(text + at + n, "∂", 3) != 0)
+        n++;
+    return n;
+}
+
+/* ∂T/∂x, a partial derivative. */
+static qdot_status
+refuse_partial(const char *text, size_t at)
+{
+    const size_t of = at + strlen("∂"), n = name_length(text, of);
+    const size_t by = of + n + strlen("/∂");
+
+    qdot_fail(QDOT_ESYNTAX, "`∂` has no meaning here");
+    if (n == 0 || strncmp(text + of + n, "/∂", by - of - n) != 0)
+        return qdot_hint("write diff(e, x)");
+    return qdot_hint("write diff(%.*s, %.*s)", (int)n, text + of,
+                     (int)name_length(text, by), text + by);
+}
+
+/* f = @(x) x^2, a function; theta@5, a value at a time. */
+static qdot_status
+refuse_at(const char *text, size_t at)
+{
+    const size_t close = at + strcspn(text + at, ")\n");
+    size_t from, to, name, body = close + 1;
+    int n;
+
+    line_of(text, at, &from, &to);
+    qdot_fail(QDOT_ESYNTAX, "`@` has no meaning here");
+    if (to - from > SHOWN)
+        return QDOT_ESYNTAX;
+    name = name_length(text, from);
+    if (text[at + 1] == '(' && name > 0 && close < to) {
+        n = trimmed(text, &body, to);
+        return qdot_hint("write %.*s%.*s = %.*s", (int)name, text + from,
+                         (int)(close - at), text + at + 1, n, text + body);
+    }
+    for (name = at; name > 0 && is_of_name(text[name - 1]);)
+        name--;
+    return qdot_hint("write value(%.*s, %.*s)", (int)(at - name), text + name,
+                     (int)(to - at - 1), text + at + 1);
+}
+
+/* 30°, an angle in degrees. */
+static qdot_status
+refuse_degrees(const char *text, size_t at)
+{
+    size_t from = at;
+
+    while (from > 0 && strchr("0123456789.", text[from - 1]) != NULL)
+        from--;
+    qdot_fail(QDOT_ESYNTAX, "an angle is in radians");
+    return qdot_hint("write %.*s*pi/180", (int)(at - from), text + from);
+}
+
+/* ?word, or A ? B : C. */
+static qdot_status
+refuse_question(const char *text, size_t at)
+{
+    size_t from, to, after = at + 1, other;
+    const char *colon;
+    int n[3];
+
+    line_of(text, at, &from, &to);
+    qdot_fail(QDOT_ESYNTAX, "`?` has no meaning here");
+    if (from == at && to == at + 1)
+        return qdot_hint("write help");
+    if (to - from > SHOWN)
+        return QDOT_ESYNTAX;
+    if (from == at)
+        return qdot_hint("write help %.*s", (int)(to - at - 1), text + at + 1);
+    colon = memchr(text + at, ':', to - at);
+    if (colon == NULL)
+        return qdot_hint("`help` tells what there is; a choice is if(CONDITION, A, B)");
+    other = (size_t)(colon - text) + 1;
+    n[0] = trimmed(text, &from, at);
+    n[1] = trimmed(text, &after, other - 1);
+    n[2] = trimmed(text, &other, to);
+    return qdot_hint("write if(%.*s, %.*s, %.*s)", n[0], text + from, n[1], text + after,
+                     n[2], text + other);
+}
+
+qdot_status
+qdot_refuse_backslash(const char *text, size_t at)
+{
+    qdot_text line = {0};
+    size_t from, to;
+
+    line_of(text, at, &from, &to);
+    qdot_fail(QDOT_ESYNTAX, "`\\` goes at the end of a line");
+    qdot_latex_line(text + from, text + to, &line);
+    if (line.n > 0 && line.n <= SHOWN)
+        qdot_hint("write %s", qdot_text_str(&line));
+    else
+        qdot_hint("names are written without it: theta, or θ");
+    qdot_text_clear(&line);
+    return QDOT_ESYNTAX;
+}
+
+qdot_status
+qdot_refuse_open(const char *text, size_t open)
+{
+    size_t from, to;
+    const char closer = text[open] == '(' ? ')' : text[open] == '[' ? ']' : '}';
+    char missing[8];
+    size_t n = 0;
+
+    line_of(text, open, &from, &to);
+    for (size_t i = to; i-- > open && n + 1 < sizeof missing;) /* those open at its end */
+        if (strchr("([{", text[i]) != NULL) {
+            size_t depth = 1;
+
+            for (size_t k = i + 1; k < to && depth > 0; k++)
+                depth +=
+                    (strchr("([{", text[k]) != NULL) - (strchr(")]}", text[k]) != NULL);
+            if (depth > 0)
+                missing[n++] = text[i] == '(' ? ')' : text[i] == '[' ? ']' : '}';
+        }
+    missing[n] = '\0';
+    qdot_fail(QDOT_ESYNTAX, "`%c` is never closed", text[open]);
+    if (n == 0 || to - from > SHOWN || closer == '}')
+        return qdot_hint("a `%c` is missing", closer);
+    return qdot_hint("write %.*s%s", (int)(to - from), text + from, missing);
+}
+
+qdot_status
+qdot_refuse_close(const char *text, size_t close)
+{
+    size_t from, to;
+
+    line_of(text, close, &from, &to);
+    qdot_fail(QDOT_ESYNTAX, "`%c` closes nothing", text[close]);
+    if (to - from > SHOWN || close == from)
+        return QDOT_ESYNTAX;
+    return qdot_hint("write %.*s%.*s", (int)(close - from), text + from,
+                     (int)(to - close - 1), text + close + 1);
+}
+
+qdot_status
+qdot_refuse_text(const char *text, size_t open)
+{
+    size_t from, to;
+
+    line_of(text, open, &from, &to);
+    qdot_fail(QDOT_ESYNTAX, "the text has no closing quote");
+    if (to - open > SHOWN)
+        return QDOT_ESYNTAX;
+    return qdot_hint("write %.*s\"", (int)(to - open), text + open);
+}
+
+qdot_status
+qdot_refuse(const char *text, size_t at)
+{
+    const char *here = text + at;
+    size_t length;
+    uint32_t c = qdot_utf8_decode(here, &length);
+    int digit = qdot_letters_superscript(c);
+
+    if (c < 0x20 || c == 0x7F)
+        return qdot_fail(QDOT_ESYNTAX, "a control character: this is not text");
+    if (digit >= 0) {
+        qdot_fail(QDOT_ESYNTAX, "a raised digit has no meaning here");
+        return qdot_hint("write ^%d", digit);
+    }
+    if (c == 0x307 || c == 0x308) {
+        qdot_fail(QDOT_ESYNTAX, "a dot over a letter has no meaning here");
+        return qdot_hint("write %s after the name", c == 0x307 ? "'" : "''");
+    }
+    if (c == 0x201C || c == 0x201D)
+        return refuse_quotes(text, at);
+    if (c == 0xB0)
+        return refuse_degrees(text, at);
+    if (c == '?')
+        return refuse_question(text, at);
+    if (c == '@')
+        return refuse_at(text, at);
+    if (c == 0x2202)
+        return refuse_partial(text, at);
+    if (c == 0x221E) {
+        qdot_fail(QDOT_ESYNTAX, "there is no infinity");
+        return qdot_hint("a run ends at a time, as in run 0..1000");
+    }
+    if (c == '_') {
+        qdot_fail(QDOT_ESYNTAX, "a name begins with a letter");
+        return QDOT_ESYNTAX;
+    }
+    qdot_fail(QDOT_ESYNTAX, "`%.*s` has no meaning here", (int)length, here);
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
+        if (strncmp(here, foreign[i].text, length) == 0 &&
+            foreign[i].text[length] == '\0')
+            return qdot_hint("write %s", foreign[i].ours);
+    return c < 0x80 ? QDOT_ESYNTAX : qdot_hint("letters of names are Latin or Greek");
+}
