@@ -558,8 +558,7 @@ loop(run *r)
     status = begin(r, r->t, r->y);
     if (qdot_ode_may_be_undefined(status)) {
         r->undefined = *qdot_last_error();
-        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
-                         r->undefined.message);
+        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t, r->undefined.message);
     }
     QDOT_TRY(status);
     while (r->t != r->t1 && r->result->outcome != QDOT_ODE_STOPPED) {
