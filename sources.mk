@@ -57,11 +57,14 @@ library_sources = \
 	lib/lang/commands/equilibria.c \
 	lib/lang/commands/event.c \
 	lib/lang/commands/figure-file.c \
+	lib/lang/commands/figure-option.c \
 	lib/lang/commands/help.c \
 	lib/lang/commands/loop.c \
 	lib/lang/commands/objects.c \
 	lib/lang/commands/operands.c \
 	lib/lang/commands/pairs.c \
+	lib/lang/commands/plot-over.c \
+	lib/lang/commands/plot-run.c \
 	lib/lang/commands/plot.c \
 	lib/lang/commands/race.c \
 	lib/lang/commands/redirect.c \
@@ -310,13 +313,19 @@ library_sources = \
 	lib/show/box.c \
 	lib/show/csv.c \
 	lib/show/draw.c \
-	lib/show/figure.c \
+	lib/show/figure-axis.c \
+	lib/show/figure-image.c \
+	lib/show/figure-label.c \
+	lib/show/figure-layout.c \
+	lib/show/figure-script.c \
 	lib/show/gnuplot.c \
 	lib/show/layout.c \
 	lib/show/page.c \
 	lib/show/pdf.c \
 	lib/show/sink.c \
+	lib/show/sketch.c \
 	lib/show/table.c \
+	lib/show/trace.c \
 	lib/sim/course/bind.c \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
@@ -458,9 +467,11 @@ library_headers = \
 	lib/lang/commands/declare.h \
 	lib/lang/commands/digits-table.h \
 	lib/lang/commands/figure-file.h \
+	lib/lang/commands/figure-option.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
 	lib/lang/commands/pairs.h \
+	lib/lang/commands/plot-parts.h \
 	lib/lang/commands/redirect.h \
 	lib/lang/commands/report-work.h \
 	lib/lang/commands/request.h \
@@ -679,12 +690,15 @@ library_headers = \
 	lib/show/animation.h \
 	lib/show/box.h \
 	lib/show/draw.h \
+	lib/show/figure-parts.h \
+	lib/show/figure.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
 	lib/show/page.h \
 	lib/show/pdf.h \
 	lib/show/show.h \
 	lib/show/sink.h \
+	lib/show/trace.h \
 	lib/sim/course/bind.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
@@ -874,6 +888,7 @@ unit_tests = \
 	tests/show/test_layout \
 	tests/show/test_page \
 	tests/show/test_table \
+	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
 	tests/sim/test_ensemble-constraints \
@@ -947,6 +962,7 @@ script_tests = \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
+	tests/script/figures.sh \
 	tests/script/flat-places.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
@@ -1102,6 +1118,7 @@ script_tests = \
 	tests/bad/entry-range.lag \
 	tests/bad/equilibria-unset.lag \
 	tests/bad/family-and-vector.lag \
+	tests/bad/figure-options.sh \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
 	tests/bad/function-body.lag \
@@ -1404,6 +1421,7 @@ test_files = \
 	tests/bad/entry-range.out \
 	tests/bad/equilibria-unset.out \
 	tests/bad/family-and-vector.out \
+	tests/bad/figure-options.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
 	tests/bad/function-body.out \
@@ -1728,6 +1746,7 @@ test_files = \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/far-away.out \
+	tests/script/figures.out \
 	tests/script/flat-places.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
@@ -1987,8 +2006,8 @@ example_files = \
 	examples/polar.lag \
 	examples/pumped-swing.lag \
 	examples/pumped-swing.svg \
-	examples/race-1.svg \
 	examples/race.lag \
+	examples/race.svg \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \

@@ -89,8 +89,6 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
     if (session->including.n >= INCLUDE_LIMIT)
         return qdot_fail(QDOT_ELIMIT, "more than %d scripts include one another",
                          INCLUDE_LIMIT);
-    if (session->including.n == 0)
-        session->figures = 0;
     own = qdot_strdup(path);
     if (own == NULL)
         return QDOT_ENOMEM;

@@ -69,7 +69,6 @@ typedef struct qdot_session {
     qdot_vec(qdot_named_run) runs;
     qdot_vec(
         char *) including; /* files being read, for include cycles and relative paths */
-    size_t figures;        /* NAME-1.svg ... */
     bool quit;             /* after `quit` */
     bool declares;         /* the present statement declares part of a scene */
     const char *taken;     /* short name of a value that it read (lang/functions/short-names);
