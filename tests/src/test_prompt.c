@@ -339,8 +339,7 @@ the_prompt_counts_values(void **state)
     expect("qdot 4> ");
     type("qdot 2> print \"third\", %3\r");
     expect("third m^3");
-    type(CTRL_D);
-    assert_int_equal(finish(), 0);
+    leave_by_ctrl_d();
 }
 
 static void

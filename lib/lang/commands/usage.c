@@ -78,7 +78,9 @@ next_piece(compiler *c, const char *at, bool blank)
     } else if (*at == '[' || *at == ']') {
         add_piece(c, *at == '[' ? OPEN : CLOSE, at, 1);
     } else if (*at == '|') {
-        add_piece(c, blank ? BAR : TIGHT, at, 1);
+        const bool sign = c->n > 0 && c->piece[c->n - 1].kind == OPEN;
+
+        add_piece(c, sign ? SIGN : blank ? BAR : TIGHT, at, 1);
     } else {
         end += at[0] == '=' && at[1] == '=';
         add_piece(c, SIGN, at, (size_t)(end - at));
@@ -247,10 +249,18 @@ compile_sequence(compiler *c, int i, int to)
     while (i < to && !c->failed) {
         const piece *p = &c->piece[i];
         const int comma = p->kind == HOLE ? end_of_list(c, i, to) : i;
+        int fork;
 
         if (comma > i) {
             compile_list(c, i, comma);
             i = comma + 2;
+        } else if (p->kind == WORD && i + 1 < to && c->piece[i + 1].kind == MORE &&
+                   strcmp(p->text, c->word) == 0) { /* the statement begins again */
+            (void)emit(c, QDOT_USAGE_WORD, p->text);
+            fork = emit(c, QDOT_USAGE_FORK, "");
+            c->u->node[fork].next = 1;
+            c->u->node[fork].forgets = UINT64_MAX;
+            i += 2;
         } else if (p->kind == WORD ||
                    (p->kind == HOLE && i + 1 < to && c->piece[i + 1].kind == TIGHT)) {
             i = compile_words(c, i, to);
@@ -260,8 +270,7 @@ compile_sequence(compiler *c, int i, int to)
             (void)emit(c, QDOT_USAGE_SIGN, p->text);
             i++;
         } else if (p->kind == MORE) { /* as much as one likes */
-            const int fork = emit(c, QDOT_USAGE_FORK, "");
-
+            fork = emit(c, QDOT_USAGE_FORK, "");
             (void)emit(c, QDOT_USAGE_HOLE, p->text);
             c->u->node[emit(c, QDOT_USAGE_FORK, "")].next = fork;
             c->u->node[fork].other = c->u->n;
@@ -391,7 +400,7 @@ static bool
 continues(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
 {
     if (token->kind == QDOT_TOKEN_END || qdot_token_is(token, ",") ||
-        qdot_token_is(token, ":"))
+        qdot_token_is(token, ":") || qdot_token_is(token, "|"))
         return false;
     if (qdot_token_is(token, "=") && u->node[hole->next].kind == QDOT_USAGE_SIGN)
         return false; /* NAME = VALUE */

@@ -10,6 +10,7 @@
  *                   with the statement's word replaces the usage from the last word before the
  *                   first bar: `force F on PARTICLE | at POINT`
  *     X, Y, ...     a list, of X and Y in any order
+ *     [| run ...]   the sign, behind which the statement begins again
  *     , : = < > ==  themselves; around `==` the two sides are read as one expression
  *
  * Every statement may go on with `for NAME = A..B`, and one that answers with `to "FILE"`.
