@@ -556,6 +556,7 @@ long_work_says_how_far_it_is(void **state)
     expect(" steps/s, ");
     expect(" left");
     type(CTRL_C);
+    expect("\rrun1: "); /* where the line of progress began, which is taken away first */
     expect("interrupted");
     ready();
     type("run 0..10\r");
